@@ -1,0 +1,62 @@
+/* bsdf.h -- how one surface point scatters light: the one door to all surface models.
+ *
+ * Frame    local: +z is the shading normal on the side of wo's surface (wo.z > 0 always holds
+ *          for surfaces that do not transmit). wo points to the eye, wi to the light; both
+ *          leave the surface. Unit vectors.
+ * Units    eval in sr^-1 WITHOUT the cosine; pdf in sr^-1; weight without unit.
+ * Threads  plain values.
+ *
+ * Each model is one file in shaders/, its user page on top; bsdf.c is the table of contents.
+ */
+#pragma once
+#include "panel/panel.h"
+#include "shaders/metallic_roughness.h"
+#include "shaders/dielectric.h"
+#include "spectrum/wavelengths.h"
+
+typedef enum BsdfKind {
+    BSDF_BLACK,              /* absorbs everything (unlit materials, backs of displays) */
+    BSDF_METALLIC_ROUGHNESS, /* glTF's model with specular, clear coat, thin transmission */
+    BSDF_THIN_WINDOW,        /* a smooth slab: reflects, and lets light pass straight */
+    BSDF_DIELECTRIC,         /* the boundary of a solid: reflects and refracts */
+    BSDF_DISPLAY             /* a measured panel: mirror, haze, floor */
+} BsdfKind;
+
+typedef struct Bsdf {
+    BsdfKind kind;
+    union {
+        MetallicRoughness metallic_roughness;
+        ThinWindow        thin_window;
+        Dielectric        dielectric;
+        struct {
+            const Panel       *panel;
+            const Wavelengths *wavelengths;
+        } display; /* frame: the display's (+x right, +y up), +z the normal */
+    };
+} Bsdf;
+
+typedef struct BsdfSample {
+    Vec3     wi;
+    Spectrum weight;   /* eval * |cos wi| / pdf */
+    float    pdf;      /* sr^-1 of eval's part; probability of the choice when is_delta */
+    bool     is_delta; /* light sampling can never produce this direction */
+    bool     passes;   /* went straight through (wi = -wo): shadow rays pass here too, so it is
+                          no scattering event for multiple importance sampling */
+} BsdfSample;
+
+/* BSDF without its delta parts; *pdf: with which density bsdf_sample would choose wi through
+ * its non-delta parts (including the probability of choosing them). */
+Spectrum bsdf_eval(const Bsdf *bsdf, Vec3 wo, Vec3 wi, float *pdf);
+
+/* False: absorbed. u in [0,1)^3. */
+bool bsdf_sample(const Bsdf *bsdf, Vec3 wo, const float u[3], BsdfSample *sample);
+
+/* What share of the light passes straight through from -wo to wo (thin windows); else 0. */
+Spectrum bsdf_pass(const Bsdf *bsdf, Vec3 wo);
+
+/* Has any part that light sampling can hit? (false: only delta parts, or black) */
+bool bsdf_scatters(const Bsdf *bsdf);
+
+/* Directional-hemispherical reflectance plus transmittance, estimated: for the albedo layer
+ * and for roulette, not for transport. */
+Spectrum bsdf_albedo(const Bsdf *bsdf, Vec3 wo);

@@ -1,0 +1,66 @@
+#include "base/arena.h"
+
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+
+static void exit_when_full(size_t bytes_wanted, size_t bytes_left)
+{
+    fprintf(stderr, "parhelion: out of memory: %zu bytes wanted, %zu left\n", bytes_wanted,
+            bytes_left);
+    exit(3);
+}
+
+Arena arena_reserve(size_t bytes)
+{
+    size_t page = 1u << 16;
+    size_t size = (bytes + page - 1) / page * page;
+    char  *memory = mmap(NULL, size, PROT_READ | PROT_WRITE,
+                         MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (memory == MAP_FAILED) exit_when_full(size, 0);
+    return (Arena){.next = memory, .end = memory + size, .on_full = exit_when_full,
+                   .begin = memory};
+}
+
+void arena_release(Arena *arena)
+{
+    if (arena->begin) munmap(arena->begin, (size_t)(arena->end - arena->begin));
+    *arena = (Arena){0};
+}
+
+void *arena_alloc(Arena *arena, size_t size, size_t align, size_t count)
+{
+    size_t left = (size_t)(arena->end - arena->next);
+    size_t pad = (size_t)(-(uintptr_t)arena->next) & (align - 1);
+    size_t bytes;
+    if (__builtin_mul_overflow(size, count, &bytes) || pad > left || bytes > left - pad) {
+        arena->on_full(__builtin_mul_overflow(size, count, &bytes) ? SIZE_MAX : bytes, left);
+        abort(); /* on_full must not return */
+    }
+    char *memory = arena->next + pad;
+    arena->next = memory + bytes;
+    return bytes ? memset(memory, 0, bytes) : memory;
+}
+
+char *arena_string(Arena *arena, const char *text, size_t length)
+{
+    char *copy = ARENA_NEW(arena, char, length + 1);
+    memcpy(copy, text, length);
+    return copy;
+}
+
+char *arena_format(Arena *arena, const char *format, ...)
+{
+    va_list args, again;
+    va_start(args, format);
+    va_copy(again, args);
+    int   length = vsnprintf(NULL, 0, format, args);
+    char *text = ARENA_NEW(arena, char, length + 1);
+    vsnprintf(text, (size_t)length + 1, format, again);
+    va_end(again);
+    va_end(args);
+    return text;
+}

@@ -1,0 +1,46 @@
+/* arena.h -- hands out zeroed memory that is released all at once.
+ *
+ * Memory   arena_reserve maps address space; pages cost nothing until they are touched.
+ * Threads  one arena belongs to one thread at a time.
+ * Fails    running out is one exit path: on_full is called and must not return.
+ *
+ * A function that keeps memory takes an `Arena *`; one that needs only scratch takes an
+ * `Arena` by value: the copy is dropped at return, and the memory is back.  Scratch that was
+ * used before is zeroed again by arena_alloc.
+ */
+#pragma once
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct Arena {
+    char *next;
+    char *end;
+    void (*on_full)(size_t bytes_wanted, size_t bytes_left); /* must not return */
+    char *begin;
+} Arena;
+
+/* An arena over `bytes` of fresh address space (rounded up to pages). */
+Arena arena_reserve(size_t bytes);
+
+/* Gives the address space back; everything from the arena is gone. */
+void arena_release(Arena *arena);
+
+/* count * size zeroed bytes; align is a power of two. Never NULL; count 0 is fine. */
+void *arena_alloc(Arena *arena, size_t size, size_t align, size_t count);
+
+/* A copy of a string of `length` bytes, terminated. */
+char *arena_string(Arena *arena, const char *text, size_t length);
+
+/* printf into the arena. */
+char *arena_format(Arena *arena, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+#ifdef __cplusplus
+}
+#endif
+
+#define ARENA_NEW(arena, Type, count) \
+    ((Type *)arena_alloc((arena), sizeof(Type), _Alignof(Type), (size_t)(count)))

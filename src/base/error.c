@@ -1,0 +1,65 @@
+#include "base/error.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static void copy_text(char *to, size_t size, const char *from)
+{
+    snprintf(to, size, "%s", from ? from : "");
+}
+
+bool error_set(Error *err, ErrorCode code, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    err->code = code;
+    err->file[0] = err->path[0] = '\0';
+    vsnprintf(err->text, sizeof err->text, format, args);
+    va_end(args);
+    return false;
+}
+
+bool error_at(Error *err, ErrorCode code, const char *file, const char *path,
+              const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    err->code = code;
+    copy_text(err->file, sizeof err->file, file);
+    copy_text(err->path, sizeof err->path, path);
+    vsnprintf(err->text, sizeof err->text, format, args);
+    va_end(args);
+    return false;
+}
+
+bool error_prefix(Error *err, const char *format, ...)
+{
+    char context[sizeof err->text];
+    char whole[2 * sizeof err->text + 4];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(context, sizeof context, format, args);
+    va_end(args);
+    snprintf(whole, sizeof whole, "%s: %s", context, err->text);
+    whole[sizeof err->text - 1] = '\0';
+    memcpy(err->text, whole, sizeof err->text);
+    return false;
+}
+
+bool error_in_file(Error *err, const char *file)
+{
+    if (!err->file[0]) copy_text(err->file, sizeof err->file, file);
+    return false;
+}
+
+void error_line(const Error *err, char *buffer, int size)
+{
+    snprintf(buffer, (size_t)size, "%s%s%s%s%s", err->file, err->file[0] ? ": " : "",
+             err->path, err->path[0] ? ": " : "", err->text);
+}
+
+int error_exit_status(ErrorCode code)
+{
+    return code == ERROR_LIBRARY || code == ERROR_MEMORY ? 3 : (int)code;
+}

@@ -1,0 +1,57 @@
+/* error.h -- carries one failure, with its context, back to the command line.
+ *
+ * A function that can fail returns bool and takes `Error *err` last. On false, *err is
+ * filled and every output argument is left untouched. The caller owns the Error; threads
+ * never share one.
+ */
+#pragma once
+#include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What failed, in the words of the command line's exit status. */
+typedef enum ErrorCode {
+    ERROR_NONE = 0,
+    ERROR_DIFFERENT = 1,     /* done, and the answer is no */
+    ERROR_USAGE = 2,         /* the command line is wrong */
+    ERROR_INPUT = 3,         /* missing, malformed or not supported input */
+    ERROR_OUTPUT = 4,        /* an output cannot be written */
+    ERROR_LIBRARY = 5,       /* a library refused for a reason of its own: exit status 3 */
+    ERROR_MEMORY = 6,        /* out of memory: exit status 3 */
+    ERROR_INTERRUPTED = 130, /* INT */
+    ERROR_TERMINATED = 143   /* TERM */
+} ErrorCode;
+
+typedef struct Error {
+    ErrorCode code;
+    char file[512]; /* the file in question as the user named it, or "" */
+    char path[256]; /* the place inside it ("/materials/3", "line 12"), or "" */
+    char text[1024]; /* what was found and what was wanted; outermost context first */
+} Error;
+
+/* Fills *err (file and path empty). Always returns false, so `return error_set(...)`. */
+bool error_set(Error *err, ErrorCode code, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* As error_set, naming the file and the place inside it (NULL or "" = none). */
+bool error_at(Error *err, ErrorCode code, const char *file, const char *path,
+              const char *format, ...) __attribute__((format(printf, 5, 6)));
+
+/* Puts "context: " in front of the text; keeps the rest; returns false. */
+bool error_prefix(Error *err, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* Names the file unless one is named already; returns false. */
+bool error_in_file(Error *err, const char *file);
+
+/* The whole failure as one line, "FILE: PATH: text". buffer holds at least size chars. */
+void error_line(const Error *err, char *buffer, int size);
+
+/* The process's exit status for a code (cli.md's table). */
+int error_exit_status(ErrorCode code);
+
+#ifdef __cplusplus
+}
+#endif

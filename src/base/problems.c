@@ -1,0 +1,56 @@
+#include "base/problems.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+Problems problems_start(Arena *arena)
+{
+    return (Problems){.arena = arena};
+}
+
+static void append(Problems *problems, Severity severity, const char *file, const char *path,
+                   const char *message)
+{
+    Arena *arena = problems->arena;
+    if (problems->count == problems->capacity) {
+        int      capacity = problems->capacity ? 2 * problems->capacity : 16;
+        Problem *list = ARENA_NEW(arena, Problem, capacity);
+        if (problems->count) memcpy(list, problems->list, sizeof *list * (size_t)problems->count);
+        problems->list = list;
+        problems->capacity = capacity;
+    }
+    problems->list[problems->count++] = (Problem){
+        arena_string(arena, file ? file : "", file ? strlen(file) : 0),
+        arena_string(arena, path ? path : "", path ? strlen(path) : 0),
+        arena_string(arena, message, strlen(message)), severity};
+    problems->error_count += severity == SEVERITY_ERROR;
+}
+
+void problems_add(Problems *problems, Severity severity, const char *file, const char *path,
+                  const char *format, ...)
+{
+    char message[1024];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(message, sizeof message, format, args);
+    va_end(args);
+    append(problems, severity, file, path, message);
+}
+
+void problems_add_error(Problems *problems, const Error *error)
+{
+    append(problems, SEVERITY_ERROR, error->file, error->path, error->text);
+}
+
+bool problems_verdict(const Problems *problems, Error *err)
+{
+    if (!problems->error_count) return true;
+    const Problem *first = problems->list;
+    while (first->severity != SEVERITY_ERROR) first++;
+    if (problems->error_count == 1)
+        return error_at(err, ERROR_INPUT, first->file, first->path, "%s", first->message);
+    return error_at(err, ERROR_INPUT, first->file, first->path,
+                    "%s (and %d more: see `parhelion check`)", first->message,
+                    problems->error_count - 1);
+}

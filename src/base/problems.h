@@ -1,0 +1,33 @@
+/* problems.h -- collects everything that is wrong with the user's files, not just the first.
+ *
+ * Memory   the list grows in its arena. Threads: one thread at a time.
+ */
+#pragma once
+#include "base/arena.h"
+#include "base/error.h"
+
+typedef enum Severity { SEVERITY_WARNING, SEVERITY_ERROR } Severity;
+
+typedef struct Problem {
+    const char *file, *path, *message; /* path: JSON pointer or line, "" if none */
+    Severity    severity;
+} Problem;
+
+typedef struct Problems {
+    Arena   *arena;
+    Problem *list;
+    int      count, capacity;
+    int      error_count;
+} Problems;
+
+Problems problems_start(Arena *arena);
+
+/* Adds one; texts are copied. */
+void problems_add(Problems *problems, Severity severity, const char *file, const char *path,
+                  const char *format, ...) __attribute__((format(printf, 5, 6)));
+
+/* An Error as an entry. */
+void problems_add_error(Problems *problems, const Error *error);
+
+/* False when there is an error in the list: *err is the first one, and says how many more. */
+bool problems_verdict(const Problems *problems, Error *err);

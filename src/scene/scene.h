@@ -1,0 +1,198 @@
+/* scene.h -- what the user described, as plain arrays with ids.
+ *
+ * Filled by scene_load, checked once, then const. Elements refer to each other by id; NO_ID
+ * is "none". Everything is in world space (metres, +Y up): node trees are flattened, skins and
+ * morph targets are at rest pose.
+ *
+ * Memory   everything lives in the arena given to scene_load, and dies with it; the panels are
+ *          closed by scene_close.
+ * Threads  const after loading.
+ */
+#pragma once
+#include <stdint.h>
+
+#include "base/arena.h"
+#include "base/error.h"
+#include "base/problems.h"
+#include "base/vec.h"
+#include "image/texture.h"
+#include "panel/panel.h"
+#include "spectrum/curve.h"
+
+#define NO_ID (-1)
+#define SCENE_UV_SETS 2 /* per vertex in Vertex; a primitive's further sets are mapped to these */
+
+/* 64 bytes: a cache line. The triangles' vertex buffer is shared with the ray tracer. */
+typedef struct Vertex {
+    float    position[3]; /* m, world */
+    float    normal[3];   /* unit, world; outside kept outside under mirroring */
+    float    tangent[4];  /* unit, world; w = +-1: bitangent = w * cross(normal, tangent) */
+    float    uv[SCENE_UV_SETS][2];
+    uint16_t color[4];    /* COLOR_0 linear, 65535 = 1; white where the file has none */
+} Vertex;
+
+typedef struct Triangle {
+    uint32_t vertex[3]; /* counter-clockwise seen from the front (mirrored nodes included) */
+    uint32_t part_id;
+} Triangle;
+
+/* One glTF primitive of one node. */
+typedef struct Part {
+    const char *name;     /* the node's name, else the mesh's, else "node N" */
+    int      material_id; /* always valid: glTF's default material has an id too */
+    uint32_t first_triangle, triangle_count;
+    bool     has_tangents; /* else derived from the uv set of the normal map */
+} Part;
+
+/* A texture of a material: which one, with which coordinates. */
+typedef struct TextureSlot {
+    int   texture_id;    /* NO_ID: none */
+    int   uv_set;        /* index into Vertex.uv: 0 or 1 */
+    float uv_from_uv[6]; /* KHR_texture_transform: u' = a u + b v + c, v' = d u + e v + f */
+} TextureSlot;
+
+typedef enum AlphaMode { ALPHA_OPAQUE, ALPHA_MASK, ALPHA_BLEND } AlphaMode;
+
+typedef struct Material {
+    const char *name; /* "material N" where the file has none */
+    float base_color[4];
+    TextureSlot base_color_texture;
+    float metallic, roughness; /* roughness: glTF's; GGX alpha is its square */
+    TextureSlot metallic_roughness_texture; /* G roughness, B metallic */
+    TextureSlot normal_texture;
+    float normal_scale;
+    float emissive_cd_m2[3]; /* factor * KHR_materials_emissive_strength, linear Rec.709 */
+    TextureSlot emissive_texture;
+    AlphaMode alpha_mode;
+    float alpha_cutoff;
+    bool  double_sided; /* decides only whether the back emits */
+    bool  unlit;        /* shows base colour as cd/m2, scatters nothing */
+    float ior;
+    float specular;
+    TextureSlot specular_texture; /* A */
+    float specular_color[3];
+    TextureSlot specular_color_texture;
+    float transmission;
+    TextureSlot transmission_texture; /* R */
+    float clearcoat;
+    TextureSlot clearcoat_texture; /* R */
+    float clearcoat_roughness;
+    TextureSlot clearcoat_roughness_texture; /* G */
+    TextureSlot clearcoat_normal_texture;
+    float clearcoat_normal_scale;
+    bool  is_solid;            /* KHR_materials_volume with thickness > 0: refracts */
+    float attenuation_color[3]; /* after attenuation_distance_m (infinite: none) */
+    float attenuation_distance_m;
+    int   display_id;          /* NO_ID unless PARHELION_display */
+    int   base_color_curve_id, specular_curve_id, transmission_curve_id, emission_curve_id;
+    bool  is_emitter;          /* some of its surface may emit */
+    bool  lets_light_through;  /* alpha below 1 or a thin window: shadow rays must ask */
+} Material;
+
+typedef struct Display {
+    const char *name;       /* the material's */
+    const char *panel_path; /* resolved path */
+    const Panel *panel;
+    int   material_id;
+    TextureSlot content;    /* NO_ID: full white is shown, said in a warning */
+    float level;            /* multiplies all emission, >= 0 */
+} Display;
+
+typedef enum LightKind { LIGHT_POINT, LIGHT_SPOT, LIGHT_DIRECTIONAL } LightKind;
+
+/* KHR_lights_punctual. */
+typedef struct PunctualLight {
+    const char *name;
+    LightKind kind;
+    Vec3  position;     /* m, world */
+    Vec3  direction;    /* unit: where the light goes to (the node's -Z) */
+    float intensity[3]; /* linear Rec.709: cd (point, spot) or lx facing it (directional) */
+    float cos_inner, cos_outer; /* spot */
+} PunctualLight;
+
+typedef struct SceneCamera {
+    const char *node_name, *camera_name; /* "" where the file has none */
+    bool  is_perspective;
+    float yfov;          /* radians, full vertical angle (perspective) */
+    float ymag;          /* m, half the height (orthographic) */
+    float aspect;        /* width / height, 0 where the file has none */
+    float znear, zfar;   /* m; zfar may be infinite; recorded, not used for clipping */
+    Transform world_from_camera; /* unit axes; looks along -Z, +Y up */
+} SceneCamera;
+
+typedef enum EnvironmentKind {
+    ENVIRONMENT_NONE, ENVIRONMENT_CONSTANT, ENVIRONMENT_HDRI,
+    ENVIRONMENT_CIE, ENVIRONMENT_PEREZ, ENVIRONMENT_SKY /* parsed and checked; not lit yet */
+} EnvironmentKind;
+
+/* PARHELION_environment. Angles in radians here. */
+typedef struct Environment {
+    EnvironmentKind kind;
+    float luminance_cd_m2;       /* constant */
+    float color[3];              /* constant: linear Rec.709, scaled so that its luminance is 1 */
+    const char *hdri_path;       /* hdri: resolved path */
+    Image hdri;                  /* RGBA32F; cd/m2 after scale */
+    float hdri_rotation;
+    float hdri_scale;
+    float horizontal_illuminance_lx; /* hdri: wanted instead of scale; 0 = use scale */
+    bool  has_sun;
+    float sun_azimuth;           /* from north over east */
+    float sun_elevation;
+    float sun_illuminance_lx;    /* direct normal */
+    float sun_angular_radius;    /* radians; default 0.26645 degrees */
+    float heading;               /* compass heading of `forward` */
+    Vec3  forward;               /* scene vector, default (0,0,-1) */
+} Environment;
+
+typedef struct Scene {
+    Vertex   *vertices;
+    uint32_t  vertex_count;
+    Triangle *triangles; /* opaque ones first: [0, opaque_count) need no asking */
+    uint32_t  triangle_count, opaque_count;
+    Part     *parts;
+    int       part_count;
+    Material *materials;
+    int       material_count;
+    Texture  *textures;
+    int       texture_count;
+    Display  *displays;
+    int       display_count;
+    PunctualLight *lights;
+    int       light_count;
+    SceneCamera *cameras; /* in scene order of their nodes */
+    int       camera_count;
+    Curve    *curves;
+    int       curve_count;
+    Environment environment;
+    Vec3      bounds_min, bounds_max; /* of all triangles; min > max when there are none */
+    const char **inputs; /* every file that was read, for hashes in the frame */
+    uint64_t  *input_hashes; /* XXH3 64 of each */
+    int       input_count;
+    const char **extensions; /* every extensionsUsed, sorted, once each */
+    int       extension_count;
+} Scene;
+
+/* Which files make the scene, and what the command line overrides. */
+typedef struct SceneOverride {
+    const char *material; /* a material's name */
+    const char *value;    /* a path, or a number's text */
+} SceneOverride;
+
+typedef struct SceneOptions {
+    const char *const *paths; /* .gltf or .glb; the first holds the dashboard */
+    int path_count;
+    const SceneOverride *contents; /* --content MATERIAL=IMAGE */
+    int content_count;
+    const SceneOverride *panels; /* --panel MATERIAL=FILE.panel */
+    int panel_count;
+    const SceneOverride *levels; /* --display-level MATERIAL=PERCENT */
+    int level_count;
+} SceneOptions;
+
+/* Loads and checks everything; every fault and every warning goes to *problems, with file and
+ * JSON path. False (and *err = the first error) when there is an error. */
+bool scene_load(const SceneOptions *options, Arena *arena, Problems *problems, Scene **out,
+                Error *err);
+
+/* Closes the panels. NULL is fine. */
+void scene_close(Scene *scene);

@@ -1,0 +1,25 @@
+/* curve.h -- a measured spectrum over wavelength, ready for lookup.
+ *
+ * Unit     the quantity's own. Range 360..830 nm in steps of 1 nm, linear between; outside the
+ *          measured range the end value holds.
+ */
+#pragma once
+#include "base/error.h"
+#include "spectrum/wavelengths.h"
+
+#define CURVE_FIRST_NM 360
+#define CURVE_LAST_NM 830
+#define CURVE_COUNT (CURVE_LAST_NM - CURVE_FIRST_NM + 1)
+
+typedef struct Curve {
+    float value[CURVE_COUNT];
+} Curve;
+
+/* Linear interpolation of count measured points; nm rises strictly, count >= 1. */
+void curve_from_points(const double *nm, const double *value, int count, Curve *out);
+
+/* Reads a CSV of `nm,value` rows (header line and # comments allowed). */
+bool curve_read(const char *path, Curve *out, Error *err);
+
+/* Value of every lane's wavelength. */
+Spectrum curve_lookup(const Curve *curve, const Wavelengths *wavelengths);

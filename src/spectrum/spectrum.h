@@ -1,0 +1,98 @@
+/* spectrum.h -- 16 numbers of one quantity, one per wavelength of a path.
+ *
+ * A Spectrum is a compiler vector; +, -, *, / work lane by lane, also with itself. C has no
+ * scalar broadcast and no ?: for vectors: spectrum_all and spectrum_select cover both.
+ * Which wavelength a lane stands for is told by a Wavelengths (wavelengths.h).
+ * The unit is the quantity's own: radiance in W m^-2 sr^-1 nm^-1, reflectance without unit.
+ */
+#pragma once
+#include <stdbool.h>
+
+#include "base/mathf.h"
+
+#define SPECTRUM_LANES 16
+
+typedef float Spectrum __attribute__((vector_size(SPECTRUM_LANES * 4), aligned(64)));
+typedef int   SpectrumMask __attribute__((vector_size(SPECTRUM_LANES * 4), aligned(64)));
+
+static inline Spectrum spectrum_all(float value)
+{
+    return (Spectrum){value, value, value, value, value, value, value, value,
+                      value, value, value, value, value, value, value, value};
+}
+
+/* a where mask is set (the result of a comparison of Spectra), b elsewhere. */
+static inline Spectrum spectrum_select(SpectrumMask mask, Spectrum a, Spectrum b)
+{
+    return (Spectrum)(((SpectrumMask)a & mask) | ((SpectrumMask)b & ~mask));
+}
+
+static inline Spectrum spectrum_max(Spectrum a, Spectrum b)
+{
+    return spectrum_select(a > b, a, b);
+}
+
+static inline Spectrum spectrum_min(Spectrum a, Spectrum b)
+{
+    return spectrum_select(a < b, a, b);
+}
+
+static inline Spectrum spectrum_clamp(Spectrum a, float low, float high)
+{
+    return spectrum_min(spectrum_max(a, spectrum_all(low)), spectrum_all(high));
+}
+
+/* Sum over the lanes, in a fixed order (the same bits for every instruction set). */
+static inline float spectrum_sum(Spectrum a)
+{
+    float half[8], quarter[4];
+    for (int i = 0; i < 8; i++) half[i] = a[i] + a[i + 8];
+    for (int i = 0; i < 4; i++) quarter[i] = half[i] + half[i + 4];
+    return (quarter[0] + quarter[2]) + (quarter[1] + quarter[3]);
+}
+
+static inline float spectrum_mean(Spectrum a)
+{
+    return spectrum_sum(a) * (1.0f / SPECTRUM_LANES);
+}
+
+static inline float spectrum_max_lane(Spectrum a)
+{
+    float most = a[0];
+    for (int i = 1; i < SPECTRUM_LANES; i++) most = a[i] > most ? a[i] : most;
+    return most;
+}
+
+/* No lane NaN or infinite. */
+static inline bool spectrum_is_finite(Spectrum a)
+{
+    return isfinite(spectrum_sum(a * spectrum_all(0)));
+}
+
+static inline bool spectrum_is_zero(Spectrum a)
+{
+    return spectrum_max_lane(a) <= 0;
+}
+
+/* All lanes hold the same bits: nothing so far depended on wavelength. */
+static inline bool spectrum_is_grey(Spectrum a)
+{
+    SpectrumMask same = a == spectrum_all(a[0]);
+    int all = -1;
+    for (int i = 0; i < SPECTRUM_LANES; i++) all &= same[i];
+    return all != 0;
+}
+
+static inline Spectrum spectrum_sqrt(Spectrum a)
+{
+    Spectrum root;
+    for (int i = 0; i < SPECTRUM_LANES; i++) root[i] = safe_sqrtf(a[i]);
+    return root;
+}
+
+static inline Spectrum spectrum_exp(Spectrum a)
+{
+    Spectrum power;
+    for (int i = 0; i < SPECTRUM_LANES; i++) power[i] = exp_f(a[i]);
+    return power;
+}
