@@ -1,0 +1,32 @@
+/* bvh.h -- where a ray hits: the only door to Embree (3 or 4).
+ *
+ * Memory   owns Embree's device and scene; vertices and triangles stay the Scene's, which must
+ *          outlive the Bvh. bvh_destroy(NULL) is fine.
+ * Threads  const after bvh_create: any number of threads may ask.
+ * Rays     a ray that is not finite, or has no direction, hits nothing and is counted by the
+ *          caller as a lost sample; it never reaches Embree (whose Debian build would abort).
+ */
+#pragma once
+#include "base/error.h"
+#include "bvh/ray.h"
+#include "scene/scene.h"
+
+typedef struct Bvh Bvh;
+
+/* threads: for building, at least 1. isa: NULL (the best there is), "sse2", "sse4.2", "avx",
+ * "avx2" or "avx512". */
+bool bvh_create(const Scene *scene, int threads, const char *isa, Bvh **out, Error *err);
+void bvh_destroy(Bvh *bvh);
+
+/* The nearest hit in [t_min, t_max]; false: none. Both sides of a triangle are hit. */
+bool bvh_intersect(const Bvh *bvh, Ray ray, Hit *hit);
+
+/* Asked of every triangle that may let light through (Scene.triangles from opaque_count on)
+ * that a shadow ray meets, in no order. True: go on behind it. */
+typedef bool BvhPasses(void *user, const Hit *hit);
+
+/* Is there anything in (t_min, t_max) that stops the light? */
+bool bvh_occluded(const Bvh *bvh, Ray ray, BvhPasses *passes, void *user);
+
+/* The name and version of the library in use, e.g. "Embree 3.13.5". */
+const char *bvh_library(void);

@@ -1,0 +1,50 @@
+/* light.h -- everything that emits: choose a point of light and tell its pdf.
+ *
+ * Lights come in four sets, each sampled by its own rule: the sun (its disc), the environment
+ * (constant or HDRI), emitters (emissive triangles and displays, by power), and punctual
+ * lights (by intensity). Near the eye every set is sampled at every hit; deeper in a path one
+ * set is chosen at random (LightChoice).
+ *
+ * Units    radiance in W m^-2 sr^-1 nm^-1 per lane; for delta lights `radiance` is the
+ *          irradiance on a plane that faces the light. pdf in sr^-1.
+ * Memory   lights_build takes everything from the arena.
+ * Threads  const after lights_build.
+ */
+#pragma once
+#include "base/sampler.h"
+#include "scene/scene.h"
+#include "spectrum/wavelengths.h"
+
+typedef enum LightSet { LIGHTS_SUN, LIGHTS_SKY, LIGHTS_EMITTERS, LIGHTS_PUNCTUAL, LIGHT_SETS } LightSet;
+
+typedef struct Lights Lights;
+
+/* The scene must outlive the lights. Fails on an environment that cannot be lit yet. */
+bool lights_build(const Scene *scene, Arena *arena, Lights **out, Error *err);
+
+/* Has this set anything that emits? */
+bool lights_has(const Lights *lights, LightSet set);
+
+typedef struct LightSample {
+    Vec3     wi;       /* unit, from the surface to the light */
+    float    distance; /* m, to the light; INFINITY for sun, sky and directional lights */
+    Spectrum radiance;
+    float    pdf;      /* sr^-1; 1 for delta lights */
+    bool     is_delta; /* a BSDF sample can never hit it */
+} LightSample;
+
+/* One sample of one set as seen from `position`, whose shading normal is ns. u in [0,1)^3.
+ * False: nothing comes from there. */
+bool lights_sample(const Lights *lights, LightSet set, Vec3 position, Vec3 ns,
+                   const Wavelengths *wavelengths, const float u[3], LightSample *sample);
+
+/* Radiance of sun plus sky from a direction, and each one's sampling pdf as above.
+ * radiance[0] the sun's, radiance[1] the sky's; likewise pdf. */
+void lights_distant(const Lights *lights, Vec3 direction, Vec3 ns, const Wavelengths *wavelengths,
+                    Spectrum radiance[2], float pdf[2]);
+
+/* pdf with which LIGHTS_EMITTERS chooses the point hit by (direction, t) on `triangle`. */
+float lights_emitter_pdf(const Lights *lights, uint32_t triangle, Vec3 direction, float t);
+
+/* Mean luminance of the environment over the sphere, cd m^-2 (for automatic framing). */
+float lights_sky_luminance(const Lights *lights);

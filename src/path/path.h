@@ -1,0 +1,56 @@
+/* path.h -- light along one ray: the loop that everyone reads first.
+ *
+ * Units    spectral radiance in W m^-2 sr^-1 nm^-1 inside; the result is CIE XYZ in cd m^-2.
+ * Threads  const context; one PathStatistics a thread.
+ */
+#pragma once
+#include "base/sampler.h"
+#include "bvh/bvh.h"
+#include "light/light.h"
+#include "path/surface.h"
+
+/* Which estimators reach the light; all three agree in the mean (a test). */
+typedef enum PathStrategy { PATH_MIS, PATH_LIGHTS_ONLY, PATH_BSDF_ONLY } PathStrategy;
+
+typedef struct PathContext {
+    const Scene         *scene;
+    const Bvh           *bvh;
+    const Lights        *lights;
+    const SurfaceTables *tables;
+    int                  max_bounces; /* 0: emission only, 1: plus direct light */
+    PathStrategy         strategy;
+} PathContext;
+
+/* Counts of one thread; add them up. */
+typedef struct PathStatistics {
+    uint64_t samples;
+    uint64_t camera_rays, bounce_rays, shadow_rays;
+} PathStatistics;
+
+/* What one path found. */
+typedef struct PathResult {
+    float    xyz[3];    /* cd m^-2, along the ray against its direction */
+    bool     hit;       /* the ray met a surface (windows passed and holes do not count): */
+    Hit      first;     /* t counted from the ray's origin */
+    Vec3     direction; /* of the ray there */
+} PathResult;
+
+/* Radiance along `ray` at the given wavelengths, as tristimulus values. */
+void path_trace(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
+                Sampler *sampler, PathResult *out, PathStatistics *statistics);
+
+/* What the layers show of the first surface of a path. */
+typedef struct PathFeatures {
+    float depth;       /* m along the ray */
+    Vec3  position;    /* m, world */
+    Vec3  normal;      /* unit, world, shading */
+    float albedo[3];   /* linear Rec.709 */
+    float uv[2];
+    int   part_id;
+    int   display_id;  /* NO_ID off displays; else: */
+    float emitted[3], white[3], black[3]; /* XYZ, cd m^-2: sent; for full white; for black */
+    float theta, phi;  /* radians, display frame, phi in [0, 2 pi) */
+} PathFeatures;
+
+void path_features(const PathContext *context, const PathResult *result,
+                   const Wavelengths *wavelengths, PathFeatures *out);

@@ -1,0 +1,34 @@
+/* surface.h -- a hit becomes a surface: where it is, how it scatters, what it emits.
+ *
+ * The only place where textures and materials of the scene turn into a Bsdf.
+ * Threads  const tables.
+ */
+#pragma once
+#include "bvh/ray.h"
+#include "light/emission.h"
+#include "scene/scene.h"
+#include "shaders/bsdf.h"
+
+typedef struct SurfaceTables SurfaceTables; /* energy tables of the scene's indices of refraction */
+
+/* Everything comes from the arena. */
+const SurfaceTables *surface_tables_build(const Scene *scene, Arena *arena);
+
+typedef struct Surface {
+    Vec3  position;    /* m, world */
+    Vec3  ng;          /* unit geometric normal of the front */
+    Frame frame;       /* shading frame; for all but solids turned to wo's side */
+    int   part_id, material_id;
+    float alpha;       /* 1: all there; below: light passes this point as if it were a hole */
+    bool  emits;
+    TrianglePoint point;
+    Bsdf  bsdf;
+} Surface;
+
+/* wo: unit, world, from the hit to where the ray came from. Wavelengths must outlive *out. */
+void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit, Vec3 wo,
+                const Wavelengths *wavelengths, Surface *out);
+
+/* What share of light passes the triangle straight on, per lane: holes and thin windows. */
+Spectrum surface_pass(const Scene *scene, const Hit *hit, Vec3 direction,
+                      const Wavelengths *wavelengths);
