@@ -1,0 +1,19 @@
+/* parallel.h -- does many small pieces of work with several threads.
+ *
+ * The workers take items off one atomic counter, so that a slow item holds nobody up. The
+ * calling thread is worker 0 and works too; when the system refuses more threads the work is
+ * done with fewer. No thread keeps state between two calls.
+ *
+ * Fails    never.
+ */
+#pragma once
+
+/* item: 0 .. item_count - 1, each exactly once, begun in rising order. worker: 0 ..
+ * thread_count - 1, one thread at a time each: an index for scratch memory. */
+typedef void ParallelWork(void *context, int item, int worker);
+
+/* Returns when every item is done. thread_count at least 1. */
+void parallel_for(int thread_count, int item_count, ParallelWork *work, void *context);
+
+/* How many threads the scheduler lets this process have (its affinity), at least 1. */
+int parallel_default_threads(void);

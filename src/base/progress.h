@@ -1,0 +1,40 @@
+/* progress.h -- tells a waiting person how far long work has come.
+ *
+ * On a terminal a bar with percent, rate, elapsed and remaining time; in a pipe a plain line
+ * now and then; or one JSON object a line; or nothing. Always on stderr: results own stdout.
+ * Colour only on a terminal and without NO_COLOR.
+ *
+ * Threads  one thread at a time. Fails: never.
+ */
+#pragma once
+#include <stdbool.h>
+
+typedef enum ProgressMode {
+    PROGRESS_AUTO, /* a bar on a terminal, plain lines otherwise */
+    PROGRESS_BAR, PROGRESS_PLAIN, PROGRESS_JSON, PROGRESS_NONE
+} ProgressMode;
+
+typedef struct Progress {
+    ProgressMode mode;   /* never PROGRESS_AUTO once started */
+    const char  *what;   /* "render": a verb or a file's name */
+    const char  *unit;   /* what is counted, for the rate: "samples" */
+    double       total;  /* how much there is to do; may be changed between updates */
+    double       begun_s, shown_s; /* seconds of the monotonic clock */
+    double       interval_s;       /* wanted between two lines */
+    bool         has_colour;
+} Progress;
+
+/* what and unit must outlive the Progress. */
+Progress progress_start(ProgressMode mode, const char *what, const char *unit, double total);
+
+/* Shows how much is done when the last line is old enough; cheap otherwise. */
+void progress_update(Progress *progress, double done);
+
+/* The last line: always shown, unless nothing ever is. */
+void progress_end(Progress *progress, double done);
+
+/* Clears a bar so that another line can be printed to stderr. */
+void progress_clear(const Progress *progress);
+
+/* Seconds of the monotonic clock. */
+double monotonic_seconds(void);

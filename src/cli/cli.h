@@ -1,0 +1,117 @@
+/* cli.h -- a sub-command's options from one table: parsing, help and error texts agree.
+ *
+ * A command fills a table of Option on its stack, every row pointing at the variable that takes
+ * the value; what the user leaves out keeps the value it had. Values follow their option as
+ * the next argument or after '='; names are never abbreviated. After `--` everything is an
+ * argument. Every command also has --json, --quiet, --progress, --threads and --help.
+ *
+ *     double level = 1;
+ *     const Option options[] = {
+ *         {"--level", OPTION_NUMBER, "PERCENT", "how bright", &level, .low = 0, .high = 100},
+ *     };
+ *     const CliCommand command = {"panel info", "what a panel file holds", "X.panel",
+ *         "parhelion panel info assets/panels/ips_cluster.panel", options, 1, 1, 1};
+ *     if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
+ *     if (cli.help_shown) return true;
+ *
+ * Streams  answers go to stdout, everything else to stderr.
+ * Fails    ERROR_USAGE with a text that holds the option, the value found and what is wanted.
+ */
+#pragma once
+#include <jansson.h>
+#include <stdbool.h>
+
+#include "base/arena.h"
+#include "base/error.h"
+#include "base/problems.h"
+#include "base/progress.h"
+
+typedef enum OptionKind {
+    OPTION_FLAG,    /* bool: no value */
+    OPTION_TEXT,    /* const char * */
+    OPTION_NUMBER,  /* double in [low, high] */
+    OPTION_INTEGER, /* long in [low, high] */
+    OPTION_NUMBERS, /* double[count]: exactly count numbers with commas, each in [low, high] */
+    OPTION_SIZE,    /* int[2]: WxH, each in [1, 65536] */
+    OPTION_CHOICE,  /* int: index of the value among the names in `value`, "a|b|c" */
+    OPTION_TEXTS    /* CliTexts: may be given many times */
+} OptionKind;
+
+/* Every value of an OPTION_TEXTS, in the order given. */
+typedef struct CliTexts {
+    const char **list;
+    int          count, capacity;
+} CliTexts;
+
+typedef struct Option {
+    const char *name;  /* as typed: "--size", "-o" */
+    OptionKind  kind;
+    const char *value; /* what stands for the value in the help: "WxH"; NULL for a flag */
+    const char *help;  /* one line, with the unit and the default */
+    void       *out;   /* the type that belongs to the kind */
+    double      low, high; /* limits of numbers; both 0: none */
+    int         count; /* OPTION_NUMBERS: how many, at most 8 */
+    bool       *given; /* set when the option was there; NULL: not asked */
+} Option;
+
+typedef struct CliCommand {
+    const char   *name;    /* "render", "panel fit" */
+    const char   *summary; /* one line, lower case, no full stop */
+    const char   *usage;   /* arguments: "SCENE.gltf [LIGHTS.gltf ...] -o FRAME.exr" */
+    const char   *example; /* a whole command line that works on the shipped files */
+    const Option *options;
+    int           option_count;
+    int           min_arguments, max_arguments; /* max -1: any number */
+} CliCommand;
+
+/* What cli_parse found besides the values. */
+typedef struct Cli {
+    bool         help_shown; /* --help was there and is printed: nothing else to do */
+    bool         json, quiet;
+    ProgressMode progress;   /* PROGRESS_NONE when quiet */
+    int          threads;    /* at least 1 */
+    const char **arguments;  /* what is not an option */
+    int          argument_count;
+} Cli;
+
+/* argv[0] is the command's own name and skipped. Lists come from the arena; texts stay argv's. */
+bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, Cli *out,
+               Error *err);
+
+/* ---- values inside texts --------------------------------------------------------------- */
+
+/* `count` finite numbers with commas and nothing else; false when it is something else. */
+bool cli_numbers(const char *text, int count, double *out);
+
+/* "NAME=VALUE" cut at the last '=': *name comes from the arena, *value points into text. */
+bool cli_name_value(const char *option, const char *text, Arena *arena, const char **name,
+                    const char **value, Error *err);
+
+/* The word of the list that is nearest to `word` by edits, NULL when none is close. */
+const char *cli_nearest(const char *word, const char *const *words, int count);
+
+/* ---- what leaves the program ------------------------------------------------------------ */
+
+/* Prints the document to stdout with a newline, and releases it. False: stdout is full. */
+bool cli_print_json(json_t *document, Error *err);
+
+/* `parhelion: FILE: what is wrong (where) — what to do`: one line in buffer, no newline. */
+void cli_error_line(const Error *error, char *buffer, int size);
+
+/* The line on stderr, and with json also the error document on stdout. */
+void cli_report_error(const Error *error, bool json);
+
+/* Every warning of the list, once each, as one line on stderr: `parhelion: warning: ...`. */
+void cli_print_warnings(const Problems *problems);
+
+/* The same warnings as a JSON list of {"file","path","severity","message"}. */
+json_t *cli_json_problems(const Problems *problems, Severity severity);
+
+/* ---- the commands: one row each in main.c ----------------------------------------------- */
+
+/* argv[0] is the command's name. True: exit status 0; else the status of err->code. */
+bool cmd_render(int argc, char **argv, Error *err);
+bool cmd_develop(int argc, char **argv, Error *err);
+bool cmd_panel(int argc, char **argv, Error *err);
+bool cmd_check(int argc, char **argv, Error *err);
+bool cmd_measure(int argc, char **argv, Error *err);
