@@ -8,11 +8,14 @@
  */
 #pragma once
 
+#define PARALLEL_THREADS_MAX 1024
+
 /* item: 0 .. item_count - 1, each exactly once, begun in rising order. worker: 0 ..
  * thread_count - 1, one thread at a time each: an index for scratch memory. */
 typedef void ParallelWork(void *context, int item, int worker);
 
-/* Returns when every item is done. thread_count at least 1. */
+/* Returns when every item is done. thread_count at least 1;
+ * more than PARALLEL_THREADS_MAX count as that many. */
 void parallel_for(int thread_count, int item_count, ParallelWork *work, void *context);
 
 /* How many threads the scheduler lets this process have (its affinity), at least 1. */

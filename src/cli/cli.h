@@ -83,7 +83,7 @@ bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, C
 /* `count` finite numbers with commas and nothing else; false when it is something else. */
 bool cli_numbers(const char *text, int count, double *out);
 
-/* "NAME=VALUE" cut at the last '=': *name comes from the arena, *value points into text. */
+/* "NAME=VALUE" cut at the first '=': *name comes from the arena, *value points into text. */
 bool cli_name_value(const char *option, const char *text, Arena *arena, const char **name,
                     const char **value, Error *err);
 
@@ -94,6 +94,9 @@ const char *cli_nearest(const char *word, const char *const *words, int count);
 
 /* Prints the document to stdout with a newline, and releases it. False: stdout is full. */
 bool cli_print_json(json_t *document, Error *err);
+
+/* A text as JSON, whatever its bytes: those that are not UTF-8 become '?'. */
+json_t *cli_json_text(const char *text);
 
 /* `parhelion: FILE: what is wrong (where) — what to do`: one line in buffer, no newline. */
 void cli_error_line(const Error *error, char *buffer, int size);

@@ -1,0 +1,58 @@
+#include "base/parallel.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
+
+typedef struct Job {
+    atomic_int    next; /* the first item nobody has taken */
+    int           item_count;
+    ParallelWork *work;
+    void         *context;
+} Job;
+
+typedef struct Worker {
+    Job      *job;
+    int       index;
+    pthread_t thread;
+} Worker;
+
+static void take_items(Job *job, int worker)
+{
+    for (;;) {
+        int item = atomic_fetch_add(&job->next, 1);
+        if (item >= job->item_count) return;
+        job->work(job->context, item, worker);
+    }
+}
+
+static void *run_worker(void *argument)
+{
+    Worker *worker = argument;
+    take_items(worker->job, worker->index);
+    return NULL;
+}
+
+void parallel_for(int thread_count, int item_count, ParallelWork *work, void *context)
+{
+    Job    job = {.item_count = item_count, .work = work, .context = context};
+    Worker workers[PARALLEL_THREADS_MAX];
+    int    started = 1; /* the calling thread is worker 0 */
+    if (thread_count > PARALLEL_THREADS_MAX) thread_count = PARALLEL_THREADS_MAX;
+    if (thread_count > item_count) thread_count = item_count;
+    for (; started < thread_count; started++) {
+        Worker *worker = &workers[started];
+        *worker = (Worker){.job = &job, .index = started};
+        if (pthread_create(&worker->thread, NULL, run_worker, worker)) break;
+    }
+    take_items(&job, 0);
+    for (int i = 1; i < started; i++) pthread_join(workers[i].thread, NULL);
+}
+
+int parallel_default_threads(void)
+{
+    cpu_set_t allowed;
+    if (sched_getaffinity(0, sizeof allowed, &allowed)) return 1;
+    int count = CPU_COUNT(&allowed);
+    return count < 1 ? 1 : count > PARALLEL_THREADS_MAX ? PARALLEL_THREADS_MAX : count;
+}

@@ -1,0 +1,132 @@
+#include "base/progress.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#define BAR_CELLS 24
+
+double monotonic_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+Progress progress_start(ProgressMode mode, const char *what, const char *unit, double total)
+{
+    static const double intervals_s[] = {
+        [PROGRESS_BAR] = 0.1, [PROGRESS_PLAIN] = 10, [PROGRESS_JSON] = 1, [PROGRESS_NONE] = 0};
+    bool        is_terminal = isatty(STDERR_FILENO);
+    const char *no_colour = getenv("NO_COLOR");
+    if (mode == PROGRESS_AUTO) mode = is_terminal ? PROGRESS_BAR : PROGRESS_PLAIN;
+    double now = monotonic_seconds();
+    return (Progress){.mode = mode, .what = what, .unit = unit, .total = total, .begun_s = now,
+                      .shown_s = now, .interval_s = intervals_s[mode],
+                      .has_colour = is_terminal && !(no_colour && *no_colour)};
+}
+
+/* 0:07, 12:30, 1:02:03; "?" when nobody can tell. */
+static void print_time(char *buffer, size_t size, double seconds)
+{
+    if (!(seconds < 360000)) {
+        snprintf(buffer, size, "?");
+        return;
+    }
+    int whole = (int)(seconds + 0.5);
+    if (whole >= 3600)
+        snprintf(buffer, size, "%d:%02d:%02d", whole / 3600, whole / 60 % 60, whole % 60);
+    else
+        snprintf(buffer, size, "%d:%02d", whole / 60, whole % 60);
+}
+
+/* 950, 12.3 k, 4.56 M */
+static void print_rate(char *buffer, size_t size, double rate)
+{
+    static const char *const prefixes[] = {"", "k", "M", "G"};
+    int step = 0;
+    while (rate >= 1000 && step < 3) {
+        rate /= 1000;
+        step++;
+    }
+    snprintf(buffer, size, "%.3g %s", rate, prefixes[step]);
+}
+
+typedef struct Figures {
+    double fraction, rate, elapsed_s, remaining_s;
+} Figures;
+
+static Figures figures(const Progress *progress, double done, double now)
+{
+    double elapsed = now - progress->begun_s;
+    double rate = elapsed > 0 ? done / elapsed : 0;
+    double left = progress->total > done ? progress->total - done : 0;
+    return (Figures){.fraction = progress->total > 0 ? fmin(1, done / progress->total) : 1,
+                     .rate = rate, .elapsed_s = elapsed,
+                     .remaining_s = left == 0 ? 0 : rate > 0 ? left / rate : INFINITY};
+}
+
+static void show_json(const Progress *progress, double done, const Figures *f)
+{
+    char remaining[32] = "null";
+    if (isfinite(f->remaining_s)) snprintf(remaining, sizeof remaining, "%.1f", f->remaining_s);
+    fprintf(stderr,
+            "{\"progress\":{\"what\":\"%s\",\"unit\":\"%s\",\"done\":%.0f,\"total\":%.0f,"
+            "\"fraction\":%.4f,\"per_s\":%.6g,\"elapsed_s\":%.1f,\"remaining_s\":%s}}\n",
+            progress->what, progress->unit, done, progress->total, f->fraction, f->rate,
+            f->elapsed_s, remaining);
+}
+
+static void show_text(const Progress *progress, const Figures *f)
+{
+    char rate[32], elapsed[32], remaining[32], bar[BAR_CELLS + 1];
+    print_rate(rate, sizeof rate, f->rate);
+    print_time(elapsed, sizeof elapsed, f->elapsed_s);
+    print_time(remaining, sizeof remaining, f->remaining_s);
+    if (progress->mode == PROGRESS_PLAIN) {
+        fprintf(stderr, "parhelion: %s %.0f%%, %s%s/s, %s elapsed, %s left\n", progress->what,
+                floor(100 * f->fraction), rate, progress->unit, elapsed, remaining);
+        return;
+    }
+    int full = (int)(BAR_CELLS * f->fraction);
+    memset(bar, '.', BAR_CELLS);
+    memset(bar, '#', (size_t)full);
+    bar[BAR_CELLS] = '\0';
+    const char *on = progress->has_colour ? "\033[36m" : "";
+    const char *off = progress->has_colour ? "\033[0m" : "";
+    fprintf(stderr, "\r%s %3.0f%% [%s%s%s] %s%s/s  %s elapsed  %s left\033[K", progress->what,
+            floor(100 * f->fraction), on, bar, off, rate, progress->unit, elapsed, remaining);
+    fflush(stderr);
+}
+
+static void show(Progress *progress, double done, double now)
+{
+    Figures f = figures(progress, done, now);
+    progress->shown_s = now;
+    if (progress->mode == PROGRESS_JSON)
+        show_json(progress, done, &f);
+    else
+        show_text(progress, &f);
+}
+
+void progress_update(Progress *progress, double done)
+{
+    if (progress->mode == PROGRESS_NONE) return;
+    double now = monotonic_seconds();
+    if (now - progress->shown_s >= progress->interval_s) show(progress, done, now);
+}
+
+void progress_end(Progress *progress, double done)
+{
+    if (progress->mode == PROGRESS_NONE) return;
+    show(progress, done, monotonic_seconds());
+    if (progress->mode == PROGRESS_BAR) fprintf(stderr, "\n");
+}
+
+void progress_clear(const Progress *progress)
+{
+    if (progress->mode == PROGRESS_BAR) fprintf(stderr, "\r\033[K");
+}

@@ -1,0 +1,87 @@
+/* parhelion: physically correct frames of dashboards with measured displays.
+ * One table of sub-commands; the exit status is the code of the error. */
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/cli.h"
+
+typedef struct Command {
+    const char *name;
+    const char *summary;
+    bool (*run)(int argc, char **argv, Error *err);
+} Command;
+
+static const Command commands[] = {
+    {"render", "render a scene to a linear, photometric EXR", cmd_render},
+};
+
+#define COMMAND_COUNT (int)(sizeof commands / sizeof *commands)
+
+/* The instruction set this program is built for; Embree chooses its own at run time. */
+static const char *instruction_set(void)
+{
+#if defined(__AVX512F__)
+    return "x86-64 with AVX-512";
+#elif defined(__AVX2__)
+    return "x86-64 with AVX2";
+#elif defined(__x86_64__)
+    return "x86-64";
+#elif defined(__aarch64__)
+    return "AArch64";
+#else
+    return "portable C";
+#endif
+}
+
+static void print_version(void)
+{
+    printf("parhelion %s\ninstruction set %s\n%s", PARHELION_VERSION, instruction_set(),
+           LIBRARY_VERSIONS);
+}
+
+static void print_help(FILE *out)
+{
+    fprintf(out, "parhelion: physically correct frames of dashboards with measured displays\n\n"
+                 "usage: parhelion COMMAND ... | --help | --version\n\n");
+    for (int i = 0; i < COMMAND_COUNT; i++)
+        fprintf(out, "  %-10s %s\n", commands[i].name, commands[i].summary);
+    fprintf(out, "\nparhelion COMMAND --help tells the options of each, with an example.\n");
+}
+
+static bool unknown_command(const char *name, Error *err)
+{
+    const char *names[COMMAND_COUNT];
+    for (int i = 0; i < COMMAND_COUNT; i++) names[i] = commands[i].name;
+    const char *nearest = cli_nearest(name, names, COMMAND_COUNT);
+    return error_set(err, ERROR_USAGE, "unknown command %s — %s%s%sparhelion --help lists them",
+                     name, nearest ? "did you mean " : "", nearest ? nearest : "",
+                     nearest ? "? " : "");
+}
+
+static bool run_command(int argc, char **argv, Error *err)
+{
+    for (int i = 0; i < COMMAND_COUNT; i++)
+        if (!strcmp(argv[1], commands[i].name)) return commands[i].run(argc - 1, argv + 1, err);
+    return unknown_command(argv[1], err);
+}
+
+static bool asks_for_json(int argc, char **argv)
+{
+    for (int i = 1; i < argc && strcmp(argv[i], "--"); i++)
+        if (!strcmp(argv[i], "--json")) return true;
+    return false;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc < 2) {
+        print_help(stderr);
+        return error_exit_status(ERROR_USAGE);
+    }
+    if (!strcmp(argv[1], "--version")) return print_version(), 0;
+    if (!strcmp(argv[1], "--help")) return print_help(stdout), 0;
+    Error err = {0};
+    if (run_command(argc, argv, &err)) return 0;
+    if (err.text[0]) cli_report_error(&err, asks_for_json(argc, argv));
+    return error_exit_status(err.code);
+}
