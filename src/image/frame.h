@@ -1,0 +1,78 @@
+/* frame.h -- a frame: named float channels over a data window, with what made it written beside.
+ *
+ * Units    R, G, B linear Rec.709/D65 in cd m^-2; the other channels as the table says.
+ * Layout   planar, row 0 at the top; windows are half-open, the display window starts at 0, 0
+ *          in frames that this program writes.
+ * Memory   names, values and attributes come from the arena that is passed in.
+ * Threads  plain data; one thread builds it.
+ * Fails    reading and writing do, with the file's name; a write that fails leaves nothing.
+ *
+ * Channels (a layer is what stands before the last dot):
+ *   R G B                                 cd m^-2, negative values kept
+ *   xyz.{X,Y,Z}                           CIE XYZ, Y in cd m^-2
+ *   depth.Z                               m along the ray
+ *   position.{X,Y,Z}  normal.{X,Y,Z}      world, m and unit
+ *   albedo.{R,G,B}                        linear Rec.709
+ *   id.part  id.display                   whole numbers, -1 none
+ *   uv.{U,V}
+ *   variance.{R,G,B}                      variance of the pixel's mean, (cd m^-2)^2
+ *   samples.N                             whole number
+ *   light.NAME.{R,G,B}                    cd m^-2
+ *   display.{emitted,reflected,white,black}.{R,G,B}   cd m^-2, NaN off displays
+ *   display.theta  display.phi            degrees, NaN off displays
+ *   display.contrast                      (white + reflected) / (black + reflected), NaN off
+ * Attributes that give the numbers of id.* their names (strings):
+ *   "parhelion:part.N"     name of part N
+ *   "parhelion:display.N"  name of display N (its material)
+ */
+#pragma once
+#include "base/arena.h"
+#include "openexr/exr_file.h"
+
+/* What an OpenEXR file holds; `Frame` is an orthonormal frame (base/vec.h). */
+typedef ExrPicture FrameImage;
+
+/* An empty frame of width x height pixels whose data window is `data`, with room for
+ * channel_count channels and attribute_count attributes. It carries the chromaticities of
+ * Rec.709 and whiteLuminance 1 already (they take no room of the caller's). */
+FrameImage frame_create(int width, int height, ExrWindow data, int channel_count,
+                        int attribute_count, Arena *arena);
+
+/* Pixels in the data window. */
+static inline size_t frame_pixel_count(const FrameImage *frame)
+{
+    return (size_t)(frame->data.x1 - frame->data.x0) * (size_t)(frame->data.y1 - frame->data.y0);
+}
+
+/* Adds a channel and returns its zeroed values, one for each pixel of the data window. The
+ * name is copied; it must be new, and there must be room. */
+float *frame_add_channel(FrameImage *frame, const char *name, bool is_whole, Arena *arena);
+
+/* Adds an attribute or replaces the one of that name. */
+void frame_set_string(FrameImage *frame, const char *name, const char *text, Arena *arena);
+void frame_set_number(FrameImage *frame, const char *name, double value, Arena *arena);
+void frame_set_whole(FrameImage *frame, const char *name, int value, Arena *arena);
+
+/* A kind of its own, as the OpenEXR standard wants it for a few names ("worldToCamera"
+ * EXR_MATRIX44, "expTime" EXR_FLOAT ...). values: as many as the kind has. */
+void frame_set_values(FrameImage *frame, const char *name, ExrKind kind, const double *values,
+                      Arena *arena);
+
+/* NULL when there is none. */
+const float        *frame_channel(const FrameImage *frame, const char *name);
+const ExrAttribute *frame_attribute(const FrameImage *frame, const char *name);
+const char         *frame_string(const FrameImage *frame, const char *name);
+
+/* The R, G, B channels of a layer ("" is the frame itself); false when one is missing. */
+bool frame_rgb(const FrameImage *frame, const char *layer, const float *rgb[3]);
+
+/* The number that names a display (or "part") in id.*, -1 when there is none such. what is
+ * "display" or "part". */
+int frame_id_of(const FrameImage *frame, const char *what, const char *name);
+
+/* OpenEXR, ZIP, the same bytes for the same frame; written under a temporary name beside
+ * `path`, flushed to the disk, then renamed: after a failure nothing is left. */
+bool frame_write(const char *path, const FrameImage *frame, Error *err);
+
+/* Any flat OpenEXR file; a data window that is not inside the display window is kept as it is. */
+bool frame_read(const char *path, Arena *arena, FrameImage *out, Error *err);
