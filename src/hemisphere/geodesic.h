@@ -1,0 +1,93 @@
+/* geodesic.h -- the hemisphere cut into spherical triangles: the upper half of an octahedron.
+ *
+ * Level 0 is 4 octants, level i has 4^(i+1) triangles: every triangle (a, b, c) splits at the
+ * normalised midpoints of its edges. Child 0 is the central one with corners (bc, ca, ab), each
+ * opposite the father's corner of the same place; child k = 1..3 keeps the father's corner k-1
+ * in its place k-1. Triangle n of a level has the children 4n .. 4n+3 of the next, so that the
+ * base-4 digits of a leaf's id are its path from the octant.
+ *
+ * Octant    bit 0: x < 0, bit 1: y < 0; its corners are the x, y and z axis in this order. All
+ *           octants are mirror images of octant 0, and so is the numbering inside them: a
+ *           function that is symmetric in y needs octants 0 and 1 only (the lower half of ids).
+ * Frame     +z is the pole. Directions need not be normalised unless said; z < 0 counts as 0.
+ * Units     areas in sr.
+ * Threads   a Geodesic is constant after geodesic_create.
+ *
+ * How a direction finds its leaf: write d = u a + v b + w c in the corners of a triangle. The
+ * three great circles through the midpoints are u = v + w, v = w + u and w = u + v, because
+ * d = (v+w-u)/2 (b+c) + ... ; and the coordinates in the child follow without leaving these
+ * numbers: the midpoint of (b, c) is (b+c)/|b+c| with |b+c| = 2 cos(bc/2). So one level costs
+ * three comparisons and three products, and the last (u, v, w) are the barycentric coordinates
+ * of the leaf's (gnomonic) plane, which interpolation wants.
+ */
+#pragma once
+#include <stdint.h>
+
+#include "base/arena.h"
+#include "base/vec.h"
+
+#define GEODESIC_MAX_LEVEL 10
+
+/* One triangle of octant 0 that has children. */
+typedef struct GeodesicNode {
+    float half_edge_cos[3]; /* cos of half the edge opposite corner 0, 1, 2 */
+    float area_ratio[3];    /* area of child 1, 2, 3 over the area of child 0 */
+} GeodesicNode;
+
+/* What depends on the level only: built once, shared by every tree of this level or less. */
+typedef struct Geodesic {
+    int                 level;                          /* of the finest triangles */
+    const GeodesicNode *nodes[GEODESIC_MAX_LEVEL + 1];  /* per level < level: 4^level of them */
+    const float        *areas[GEODESIC_MAX_LEVEL + 1];  /* per level: 4^level areas, sr */
+} Geodesic;
+
+/* Where a direction lies: the triangle and the coordinates in its corners. */
+typedef struct GeodesicPoint {
+    uint32_t id;       /* triangle of the level asked for, all octants */
+    float    weight[3]; /* barycentric in the plane of the three unit corners; sum to 1 */
+} GeodesicPoint;
+
+typedef struct GeodesicTriangle {
+    Vec3 corner[3]; /* unit vectors, in the order that children count on */
+} GeodesicTriangle;
+
+/* Triangles of a level: 4^(level+1). */
+static inline uint32_t geodesic_count(int level)
+{
+    return 4u << 2 * level;
+}
+
+/* level: 0..GEODESIC_MAX_LEVEL. About 32 bytes for every triangle of octant 0. */
+const Geodesic *geodesic_create(int level, Arena *arena);
+
+/* HOT. The triangle of `level` (at most geodesic->level) that holds the direction. Corners and
+ * edges belong to one of their triangles, always the same. */
+GeodesicPoint geodesic_find(const Geodesic *geodesic, int level, Vec3 direction);
+
+/* Corners of triangle `id` of `level`; needs no table. */
+GeodesicTriangle geodesic_triangle(int level, uint32_t id);
+
+/* The direction that stands for a triangle: the normalised sum of its corners. */
+Vec3 geodesic_center(int level, uint32_t id);
+
+/* Exact spherical area, sr, in double precision (sums over a level to 2 pi within 1e-9). */
+double geodesic_area(int level, uint32_t id);
+
+/* Spherical area of any triangle of unit corners smaller than a hemisphere, sr. */
+double geodesic_triangle_area(const GeodesicTriangle *triangle);
+
+/* HOT. The triangle across the edge opposite `corner` (0..2) inside the same octant, or
+ * GEODESIC_NONE at the octant's border. There lies the mirror image of the triangle itself:
+ * corner 0: id with octant bit 0 flipped; corner 1: bit 1; corner 2: the horizon, nothing.
+ * Inside an octant the neighbour calls the shared edge by the same corner number, and the two
+ * corners on the edge have changed numbers. */
+uint32_t geodesic_neighbour(int level, uint32_t id, int corner);
+#define GEODESIC_NONE UINT32_MAX
+
+/* HOT. Uniform over the spherical triangle: u in [0,1)^2 to a unit vector, exactly (Arvo 1995,
+ * "Stratified Sampling of Spherical Triangles", in a form without trigonometric functions of
+ * the corners' angles that stays accurate for small triangles). area: of the triangle, sr. */
+Vec3 geodesic_sample_triangle(const GeodesicTriangle *triangle, float area, float u0, float u1);
+
+/* The inverse of geodesic_sample_triangle for a direction inside the triangle. */
+Vec2 geodesic_invert_triangle(const GeodesicTriangle *triangle, float area, Vec3 direction);

@@ -1,0 +1,95 @@
+/* tree.h -- a vector-valued function on the hemisphere as a compressed Haar tree.
+ *
+ * tree_build transforms leaf values (haar.h), keeps the details that matter most, and writes
+ * them as one blob: little-endian, offsets instead of pointers, to be stored in a file, mapped
+ * and queried in place (tree_query.h). A row is the detail of one child: `components` numbers.
+ *
+ * Blob      TreeHeader | octant means, float32 | scales, float32 (16-bit rows only) | TreeNode[]
+ *           in order of levels | rows. Must lie at an address that is a multiple of 8.
+ * Errors    the report compares with the source after everything, quantisation included.
+ * Threads   a Tree is constant.
+ */
+#pragma once
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/arena.h"
+#include "base/error.h"
+#include "hemisphere/haar.h"
+
+#define TREE_MAX_COMPONENTS 256
+
+typedef enum TreeRowFormat {
+    TREE_ROWS_FLOAT = 0, /* float32 */
+    TREE_ROWS_INT16 = 1  /* 16 bits times a scale for every level and component */
+} TreeRowFormat;
+
+/* How to compress. Exactly one of keep_share and max_error is above 0. */
+typedef struct TreeOptions {
+    HaarShape     shape;
+    float         keep_share; /* stored rows (octant means included) over leaves, (0, 1] */
+    float         max_error;  /* bound on |component_scale * (tree - source)| at every leaf */
+    const float  *component_scale; /* what a component's error is worth; NULL: all 1 */
+    TreeRowFormat rows;
+} TreeOptions;
+
+/* What came out. Errors are weighted by component_scale, over leaves. */
+typedef struct TreeReport {
+    uint32_t leaves;      /* leaves of the source */
+    uint32_t stored_rows; /* octant means and details */
+    uint32_t nodes;
+    size_t   bytes;        /* of the blob */
+    size_t   source_bytes; /* leaves * components * 4 */
+    float    max_error;
+    float    rms_error;      /* area-weighted over the sphere's part, mean over components */
+    float    relative_l2;    /* rms_error over the rms of the source */
+} TreeReport;
+
+typedef struct TreeHeader {
+    uint32_t magic, version;
+    uint64_t size; /* bytes of the whole blob */
+    uint8_t  level, octants, weights, rows;
+    uint32_t components;
+    uint32_t node_count, row_count; /* row_count: details only */
+    uint32_t means_offset, scales_offset, nodes_offset; /* bytes from the blob's start */
+    uint32_t reserved; /* 0 */
+    uint64_t rows_offset;
+} TreeHeader;
+
+/* A triangle with details at or below it. The lowest 4 bits of children: which children have
+ * a node; those nodes follow each other from index children >> 4. The lowest 3 bits of rows:
+ * which of the children 1..3 have a row; from row index rows >> 3 on. Octant q is node q. */
+typedef struct TreeNode {
+    uint32_t children;
+    uint32_t rows;
+} TreeNode;
+
+/* A checked blob, ready for queries. Plain views into the blob and the geodesic. */
+typedef struct Tree {
+    const Geodesic *geodesic;
+    const TreeNode *nodes;
+    const float    *means;  /* octants x components */
+    const float    *scales; /* level x components, 16-bit rows only; else NULL */
+    const void     *rows;   /* row_count x components */
+    int             level, octants, components;
+    HaarWeights     weights;
+    TreeRowFormat   format;
+    uint32_t        row_count, node_count;
+} Tree;
+
+/* leaves: haar_leaf_count x components floats, finite. The blob is allocated from `arena`,
+ * aligned to 16 bytes. Fails (ERROR_INPUT) on values that are not finite, on options out of
+ * range, and when 16-bit rows cannot hold max_error. report may be NULL. */
+bool tree_build(const TreeOptions *options, const float *leaves, Arena *arena,
+                const void **blob, TreeReport *report, Error *err);
+
+/* Bytes of a blob that tree_build made. */
+size_t tree_size(const void *blob);
+
+/* Checks every count, offset, index and finite number of a blob from anywhere, so that no query
+ * can leave its `size` bytes, and makes the view. geodesic->level must be at least the tree's.
+ * Fails (ERROR_INPUT) naming what is wrong. */
+bool tree_open(const void *blob, size_t size, const Geodesic *geodesic, Tree *out, Error *err);
+
+/* Inverts the whole tree: haar_leaf_count x components floats. */
+void tree_expand(const Tree *tree, float *leaves, Arena scratch);

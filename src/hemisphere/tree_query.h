@@ -1,0 +1,49 @@
+/* tree_query.h -- a compressed tree's value at one direction, without inverting the tree.
+ *
+ * HOT: no allocation, no lock, no libm. A query walks from the octant to the leaf once; cost
+ * grows with the level, not with the size of the tree. The walk (which rows, with what factor)
+ * and the sum over components are two functions, so that a caller that needs several ranges of
+ * components, or trees of equal structure, walks once.
+ *
+ * Frame     as geodesic.h; z < 0 counts as 0. Trees of 2 octants fold y to |y|.
+ * Threads   any number, on a constant Tree.
+ */
+#pragma once
+#include "hemisphere/tree.h"
+
+/* At most: 4 levels' worth of every leaf around two corners, mirrored over two planes. */
+#define TREE_MAX_TAPS 640
+
+/* A value as a weighted sum of a tree's octant means and rows. */
+typedef struct TreeTaps {
+    int      count;
+    float    mean_weight[4]; /* of the octant means */
+    uint32_t row[TREE_MAX_TAPS];
+    float    weight[TREE_MAX_TAPS];
+    uint8_t  level[TREE_MAX_TAPS]; /* of the row's father, for the scales */
+} TreeTaps;
+
+/* The mean over the triangle of `level` around the direction (level of detail); level =
+ * tree->level is the leaf's value. With area weights it is the exact mean of the tree. */
+void tree_walk_mean(const Tree *tree, int level, Vec3 direction, TreeTaps *taps);
+
+/* The same for a triangle's id (of 2-octant trees: ids of octants 2, 3 are folded). */
+void tree_walk_triangle(const Tree *tree, int level, uint32_t id, TreeTaps *taps);
+
+/* Continuous interpolation of the leaves: a leaf's centre keeps the leaf's value, each corner
+ * takes the area mean of the leaves around it, linear in between (over the three triangles
+ * between centre and corners, in barycentric coordinates). Reproduces constants. */
+void tree_walk_interpolated(const Tree *tree, Vec3 direction, TreeTaps *taps);
+
+/* out[i] = component first + i, 0 <= i < count. */
+void tree_sum(const Tree *tree, const TreeTaps *taps, int first, int count, float *out);
+
+/* Walk and sum of all components. */
+void tree_mean(const Tree *tree, int level, Vec3 direction, float *out);
+void tree_interpolate(const Tree *tree, Vec3 direction, float *out);
+
+/* The leaf's value. */
+static inline void tree_value(const Tree *tree, Vec3 direction, float *out)
+{
+    tree_mean(tree, tree->level, direction, out);
+}
