@@ -1,21 +1,34 @@
 /* film.h -- adds samples up exactly into a linear image and its layers.
  *
  * Units    CIE XYZ with Y in cd m^-2; row 0 at the top; the crop is half-open.
- * Exact    sums are 128-bit fixed point: any order of adding gives the same bits.
- * Memory   everything comes from `arena`; nothing to free.
+ * Exact    every sum is 128-bit fixed point: any order of adding gives the same bits.
+ *            XYZ and layers: steps of 2^-48 (3.6e-15), one sample at most 2^47 (1.4e14), so
+ *            that 2^31 samples stay below 2^126 steps. A float above 2^-25 (3e-8 cd m^-2) is
+ *            taken as it is; a smaller one is rounded to a step.
+ *            Squares for the variance have two windows, each relative to 2^-31 or better for
+ *            luminances above 1e-5 cd m^-2: steps of 2^-69 for squares below 2^26 (8192 cd
+ *            m^-2), steps of 2^-5 above.
+ *          A pixel takes at most FILM_SAMPLES_MAX samples; an assertion guards it.
+ * Memory   everything comes from `arena`; nothing to free. 192 bytes a pixel, and 48 for each
+ *          three-component layer.
  * Threads  tiles of different pixels may be filled at the same time; one pixel belongs to one
- *          thread at a time.
- * Fails    never; a sample that is not finite is counted and dropped.
+ *          thread at a time. Reading needs all writers to be done.
+ * Fails    never; a sample that is not finite or beyond 2^47 is counted and dropped.
  */
 #pragma once
 #include <stdbool.h>
 #include <stdint.h>
 
 #include "base/arena.h"
+#include "image/frame.h"
+
+#define FILM_SAMPLES_MAX 0x7fffffffu
+#define FILM_DROPPED_KEPT 8
 
 /* What one sample of one pixel saw. Everything that belongs to a display is of the FIRST
  * surface the camera ray met (windows passed straight through do not count). */
 typedef struct FilmSample {
+    uint32_t sample_index; /* of the pixel; only settles which id is shown, and the replay hint */
     float xyz[3];          /* cd m^-2 */
     bool  hit;             /* the camera ray met a surface; else depth .. uv are unset */
     float depth;           /* m, along the ray */
@@ -36,18 +49,71 @@ typedef enum FilmLayer {
     LAYER_SAMPLES = 1 << 8, LAYER_DISPLAY_EMITTED = 1 << 9, LAYER_DISPLAY_REFLECTED = 1 << 10,
     LAYER_DISPLAY_WHITE = 1 << 11, LAYER_DISPLAY_BLACK = 1 << 12, LAYER_DISPLAY_ANGLES = 1 << 13,
     LAYER_DISPLAY_CONTRAST = 1 << 14,
-    LAYER_ALL = (1 << 15) - 1
-} FilmLayer;
+    LAYER_ALL = (1 << 15) - 1,
+    LAYER_FEATURES = LAYER_ALL & ~(LAYER_XYZ | LAYER_VARIANCE | LAYER_SAMPLES)
+} FilmLayer; /* LAYER_FEATURES: those that need the members from `hit` on */
 
 typedef struct FilmRect {
     int x0, y0, x1, y1; /* half-open, pixels of the whole frame */
 } FilmRect;
 
-typedef struct Film Film; /* opaque: the accumulators are private to film.c */
+typedef struct Film Film; /* opaque: the accumulators are private to src/film */
 
-/* width, height: the whole frame, at least 1; crop: the part that is kept; layers: a set of
- * FilmLayer bits. */
+/* width, height: the whole frame, at least 1; crop: the part that is kept, not empty and
+ * inside the frame; layers: a set of FilmLayer bits. */
 Film *film_create(int width, int height, FilmRect crop, unsigned layers, Arena *arena);
 
-/* x, y: pixel inside the crop. */
+/* Bytes that film_create will take. */
+size_t film_bytes(FilmRect crop, unsigned layers);
+
+/* x, y: pixel inside the crop. Members that no layer asks for need not be set, but display_id
+ * is always looked at when hit is true. */
 void film_add_sample(Film *film, int x, int y, const FilmSample *sample);
+
+/* ---- what is in it ----------------------------------------------------------------------- */
+
+/* One pixel as it stands. */
+typedef struct FilmPixel {
+    uint32_t samples;         /* kept ones */
+    double   mean_xyz[3];     /* cd m^-2; 0 without samples */
+    double   variance_rgb[3]; /* of the mean, (cd m^-2)^2; NaN below two samples */
+    int      display_id;      /* of the lowest sample index that saw a display; -1: none did */
+} FilmPixel;
+
+FilmPixel film_pixel(const Film *film, int x, int y);
+
+/* How sure the frame is: the mean over pixels of sigma / max(Y, Y_low). sigma is the standard
+ * error of the pixel's luminance, taken as 0.21 sigma_R + 0.72 sigma_G + 0.07 sigma_B (the
+ * upper bound, reached when the three rise and fall together, as luminance noise does); Y_low
+ * is a hundredth of the geometric mean of the pixels' luminances above zero, so that black
+ * corners do not count for more than they show. A pixel of fewer than two samples counts 1. */
+typedef struct FilmError {
+    double frame;
+    double displays; /* over the pixels that show a display; NaN where none does */
+} FilmError;
+
+FilmError film_relative_error(const Film *film);
+
+/* Samples that were dropped, and where the first of them (by sample, then row, then column)
+ * stood: enough to replay them. */
+typedef struct FilmDropped {
+    uint64_t count;
+    int      kept; /* entries below */
+    struct {
+        uint32_t sample_index;
+        int      x, y;
+    } first[FILM_DROPPED_KEPT];
+} FilmDropped;
+
+FilmDropped film_dropped(const Film *film);
+
+/* The frame as frame.h describes it, with R, G, B and the layers asked for. Rules:
+ *   depth, position, normal, albedo, uv   mean over the samples that hit something (a mean of
+ *       unit normals is shorter than one across an edge); NaN where none did. A sample whose
+ *       features are not finite counts as a miss here, not for the light;
+ *   id.part, id.display   of the lowest sample index that hit a part, or saw a display; -1;
+ *   display.*   over the samples that saw a display, NaN where none did: emitted, white and
+ *       black are means, reflected is the mean of (sample - emitted), so the pixel's mean minus
+ *       emitted wherever the whole pixel is display; theta and phi are those of the mean
+ *       direction; contrast is the ratio of mean luminances. */
+FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena);

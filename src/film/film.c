@@ -1,0 +1,303 @@
+#include "film/film.h"
+
+#include <assert.h>
+#include <math.h>
+
+#include "base/mathf.h"
+#include "film/pixels.h"
+#include "spectrum/spectral_table.h"
+
+/* ---- layout ------------------------------------------------------------------------------ */
+
+static const struct {
+    unsigned users;
+    int      size;
+} layer_sums[SUMS_COUNT] = {
+    [SUMS_DEPTH] = {LAYER_DEPTH, 1},
+    [SUMS_POSITION] = {LAYER_POSITION, 3},
+    [SUMS_NORMAL] = {LAYER_NORMAL, 3},
+    [SUMS_ALBEDO] = {LAYER_ALBEDO, 3},
+    [SUMS_UV] = {LAYER_UV, 2},
+    [SUMS_EMITTED] = {LAYER_DISPLAY_EMITTED, 3},
+    [SUMS_REFLECTED] = {LAYER_DISPLAY_REFLECTED | LAYER_DISPLAY_CONTRAST, 3},
+    [SUMS_WHITE] = {LAYER_DISPLAY_WHITE | LAYER_DISPLAY_CONTRAST, 3},
+    [SUMS_BLACK] = {LAYER_DISPLAY_BLACK | LAYER_DISPLAY_CONTRAST, 3},
+    [SUMS_DIRECTION] = {LAYER_DISPLAY_ANGLES, 3},
+};
+
+unsigned layer_sums_users(LayerSums sums)
+{
+    return layer_sums[sums].users;
+}
+
+int layer_sums_size(LayerSums sums)
+{
+    return layer_sums[sums].size;
+}
+
+static size_t pixel_bytes(unsigned layers)
+{
+    size_t numbers = 0;
+    for (int i = 0; i < SUMS_COUNT; i++)
+        if (layers & layer_sums[i].users) numbers += (size_t)layer_sums[i].size;
+    return sizeof(PixelSums) + numbers * sizeof(Fixed);
+}
+
+static size_t pixel_count(FilmRect crop)
+{
+    return (size_t)(crop.x1 - crop.x0) * (size_t)(crop.y1 - crop.y0);
+}
+
+size_t film_bytes(FilmRect crop, unsigned layers)
+{
+    return sizeof(Film) + pixel_count(crop) * pixel_bytes(layers);
+}
+
+Film *film_create(int width, int height, FilmRect crop, unsigned layers, Arena *arena)
+{
+    assert(crop.x0 >= 0 && crop.x0 < crop.x1 && crop.x1 <= width);
+    assert(crop.y0 >= 0 && crop.y0 < crop.y1 && crop.y1 <= height);
+    Film *film = ARENA_NEW(arena, Film, 1);
+    film->width = width;
+    film->height = height;
+    film->crop = crop;
+    film->layers = layers;
+    film->stride = pixel_bytes(layers);
+    int next = 0;
+    for (int i = 0; i < SUMS_COUNT; i++) {
+        bool is_kept = (layers & layer_sums[i].users) != 0;
+        film->first[i] = is_kept ? next : -1;
+        if (is_kept) next += layer_sums[i].size;
+    }
+    film->pixels = arena_alloc(arena, film->stride, _Alignof(PixelSums), pixel_count(crop));
+    pthread_mutex_init(&film->lock, NULL);
+    for (int y = crop.y0; y < crop.y1; y++)
+        for (int x = crop.x0; x < crop.x1; x++) {
+            PixelSums *sums = film_sums(film, x, y);
+            sums->part_sample = sums->display_sample = NO_SAMPLE;
+            sums->part_id = sums->display_id = -1;
+        }
+    return film;
+}
+
+/* ---- adding ------------------------------------------------------------------------------ */
+
+/* Nearest step; scaled: the value in steps. Halves go away from zero. */
+static inline Fixed fixed_from_scaled(double scaled)
+{
+    double moved = scaled + (scaled < 0 ? -0.5 : 0.5);
+    return fabs(moved) < 0x1p62 ? (Fixed)(int64_t)moved : (Fixed)moved;
+}
+
+static inline Fixed fixed_from_float(float value)
+{
+    return fixed_from_scaled((double)value * 0x1p48);
+}
+
+/* Also false for NaN. */
+static bool in_range(const float *values, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (!(fabsf(values[i]) <= VALUE_LIMIT)) return false;
+    return true;
+}
+
+static bool comes_before(uint32_t sample, int x, int y, const FilmDropped *dropped, int other)
+{
+    if (sample != dropped->first[other].sample_index)
+        return sample < dropped->first[other].sample_index;
+    if (y != dropped->first[other].y) return y < dropped->first[other].y;
+    return x < dropped->first[other].x;
+}
+
+/* Keeps the smallest few, sorted, whatever the order they come in. */
+static void drop_sample(Film *film, int x, int y, uint32_t sample)
+{
+    pthread_mutex_lock(&film->lock);
+    FilmDropped *dropped = &film->dropped;
+    int          place = dropped->kept;
+    dropped->count++;
+    while (place > 0 && comes_before(sample, x, y, dropped, place - 1)) place--;
+    if (place < FILM_DROPPED_KEPT) {
+        if (dropped->kept < FILM_DROPPED_KEPT) dropped->kept++;
+        for (int i = dropped->kept - 1; i > place; i--) dropped->first[i] = dropped->first[i - 1];
+        dropped->first[place].sample_index = sample;
+        dropped->first[place].x = x;
+        dropped->first[place].y = y;
+    }
+    pthread_mutex_unlock(&film->lock);
+}
+
+/* The sums the variance needs: squares of linear Rec.709, made in double precision. */
+static void add_squares(PixelSums *sums, const float xyz[3])
+{
+    for (int i = 0; i < 3; i++) {
+        const float *row = rgb_from_xyz_matrix + 3 * i;
+        double       value = (double)row[0] * (double)xyz[0] + (double)row[1] * (double)xyz[1] +
+                       (double)row[2] * (double)xyz[2];
+        double square = value * value;
+        if (square < SQUARE_SPLIT)
+            sums->squares[i][0] += fixed_from_scaled(square * 0x1p69);
+        else
+            sums->squares[i][1] += fixed_from_scaled(square * 0x1p5);
+    }
+}
+
+static void add_layer(const Film *film, PixelSums *sums, LayerSums layer, const float *values)
+{
+    int first = film->first[layer];
+    if (first < 0) return;
+    for (int i = 0; i < layer_sums[layer].size; i++)
+        sums->layers[first + i] += fixed_from_float(values[i]);
+}
+
+static bool display_in_range(const Film *film, const FilmSample *sample)
+{
+    return (film->first[SUMS_EMITTED] < 0 || in_range(sample->emitted, 3)) &&
+           (film->first[SUMS_REFLECTED] < 0 || in_range(sample->emitted, 3)) &&
+           (film->first[SUMS_WHITE] < 0 || in_range(sample->white, 3)) &&
+           (film->first[SUMS_BLACK] < 0 || in_range(sample->black, 3)) &&
+           (film->first[SUMS_DIRECTION] < 0 ||
+            (fabsf(sample->theta) <= 4 && fabsf(sample->phi) <= 8));
+}
+
+static void add_display(const Film *film, PixelSums *sums, const FilmSample *sample)
+{
+    if (!display_in_range(film, sample)) return;
+    sums->display_hits++;
+    if (sample->sample_index < sums->display_sample) {
+        sums->display_sample = sample->sample_index;
+        sums->display_id = sample->display_id;
+    }
+    add_layer(film, sums, SUMS_EMITTED, sample->emitted);
+    add_layer(film, sums, SUMS_WHITE, sample->white);
+    add_layer(film, sums, SUMS_BLACK, sample->black);
+    if (film->first[SUMS_REFLECTED] >= 0)
+        for (int i = 0; i < 3; i++)
+            sums->layers[film->first[SUMS_REFLECTED] + i] +=
+                fixed_from_float(sample->xyz[i]) - fixed_from_float(sample->emitted[i]);
+    if (film->first[SUMS_DIRECTION] >= 0) {
+        const float turns = 0.159154943f; /* 1 / (2 pi) */
+        float sin_theta, cos_theta, sin_phi, cos_phi;
+        sincos_turns(sample->theta * turns, &sin_theta, &cos_theta);
+        sincos_turns(sample->phi * turns, &sin_phi, &cos_phi);
+        float direction[3] = {sin_theta * cos_phi, sin_theta * sin_phi, cos_theta};
+        add_layer(film, sums, SUMS_DIRECTION, direction);
+    }
+}
+
+static bool features_in_range(const Film *film, const FilmSample *sample)
+{
+    return (film->first[SUMS_DEPTH] < 0 || in_range(&sample->depth, 1)) &&
+           (film->first[SUMS_POSITION] < 0 || in_range(sample->position, 3)) &&
+           (film->first[SUMS_NORMAL] < 0 || in_range(sample->normal, 3)) &&
+           (film->first[SUMS_ALBEDO] < 0 || in_range(sample->albedo, 3)) &&
+           (film->first[SUMS_UV] < 0 || in_range(sample->uv, 2));
+}
+
+static void add_features(const Film *film, PixelSums *sums, const FilmSample *sample)
+{
+    if (sample->display_id >= 0) add_display(film, sums, sample);
+    if (!features_in_range(film, sample)) return;
+    sums->hits++;
+    if (sample->sample_index < sums->part_sample) {
+        sums->part_sample = sample->sample_index;
+        sums->part_id = sample->part_id;
+    }
+    add_layer(film, sums, SUMS_DEPTH, &sample->depth);
+    add_layer(film, sums, SUMS_POSITION, sample->position);
+    add_layer(film, sums, SUMS_NORMAL, sample->normal);
+    add_layer(film, sums, SUMS_ALBEDO, sample->albedo);
+    add_layer(film, sums, SUMS_UV, sample->uv);
+}
+
+void film_add_sample(Film *film, int x, int y, const FilmSample *sample)
+{
+    if (!in_range(sample->xyz, 3)) {
+        drop_sample(film, x, y, sample->sample_index);
+        return;
+    }
+    PixelSums *sums = film_sums(film, x, y);
+    assert(sums->samples < FILM_SAMPLES_MAX);
+    sums->samples++;
+    for (int i = 0; i < 3; i++) sums->xyz[i] += fixed_from_float(sample->xyz[i]);
+    add_squares(sums, sample->xyz);
+    if (sample->hit) add_features(film, sums, sample);
+}
+
+FilmDropped film_dropped(const Film *film)
+{
+    return film->dropped;
+}
+
+/* ---- reading ----------------------------------------------------------------------------- */
+
+/* (sum of squares - (sum)^2 / n) / (n - 1) / n for each of R, G, B. */
+void pixel_variance(const PixelSums *sums, double variance[3])
+{
+    double n = (double)sums->samples, xyz[3];
+    for (int i = 0; i < 3; i++) xyz[i] = double_from_fixed(sums->xyz[i], FIXED_BITS);
+    for (int i = 0; i < 3; i++) {
+        const float *row = rgb_from_xyz_matrix + 3 * i;
+        double       sum = (double)row[0] * xyz[0] + (double)row[1] * xyz[1] +
+                     (double)row[2] * xyz[2];
+        double squares = double_from_fixed(sums->squares[i][0], SQUARE_LOW_BITS) +
+                         double_from_fixed(sums->squares[i][1], SQUARE_HIGH_BITS);
+        double spread = squares - sum * sum / n;
+        variance[i] = n < 2 ? (double)NAN : spread > 0 ? spread / (n - 1) / n : 0;
+    }
+}
+
+FilmPixel film_pixel(const Film *film, int x, int y)
+{
+    const PixelSums *sums = film_sums(film, x, y);
+    FilmPixel        pixel = {.samples = sums->samples, .display_id = sums->display_id};
+    for (int i = 0; i < 3 && sums->samples; i++)
+        pixel.mean_xyz[i] = double_from_fixed(sums->xyz[i], FIXED_BITS) / (double)sums->samples;
+    pixel_variance(sums, pixel.variance_rgb);
+    return pixel;
+}
+
+/* A hundredth of the geometric mean of the luminances above zero, cd m^-2. */
+static double lowest_luminance(const Film *film)
+{
+    double  log_sum = 0;
+    int64_t count = 0;
+    for (int y = film->crop.y0; y < film->crop.y1; y++)
+        for (int x = film->crop.x0; x < film->crop.x1; x++) {
+            const PixelSums *sums = film_sums(film, x, y);
+            if (sums->xyz[1] <= 0) continue;
+            double mean = double_from_fixed(sums->xyz[1], FIXED_BITS) / (double)sums->samples;
+            log_sum += (double)log_f((float)mean);
+            count++;
+        }
+    return count ? 0.01 * (double)exp_f((float)(log_sum / (double)count)) : 0;
+}
+
+static double pixel_error(const FilmPixel *pixel, double lowest)
+{
+    if (pixel->samples < 2) return 1;
+    double sigma = 0.2126 * sqrt(pixel->variance_rgb[0]) + 0.7152 * sqrt(pixel->variance_rgb[1]) +
+                   0.0722 * sqrt(pixel->variance_rgb[2]);
+    double luminance = pixel->mean_xyz[1] > lowest ? pixel->mean_xyz[1] : lowest;
+    return luminance > 0 ? sigma / luminance : 0;
+}
+
+FilmError film_relative_error(const Film *film)
+{
+    double  lowest = lowest_luminance(film), sum = 0, display_sum = 0;
+    int64_t count = 0, display_count = 0;
+    for (int y = film->crop.y0; y < film->crop.y1; y++)
+        for (int x = film->crop.x0; x < film->crop.x1; x++) {
+            FilmPixel pixel = film_pixel(film, x, y);
+            double    error = pixel_error(&pixel, lowest);
+            sum += error;
+            count++;
+            if (pixel.display_id < 0) continue;
+            display_sum += error;
+            display_count++;
+        }
+    return (FilmError){.frame = sum / (double)count,
+                       .displays = display_count ? display_sum / (double)display_count
+                                                 : (double)NAN};
+}

@@ -1,0 +1,219 @@
+/* The film as a frame: means of the sums, one channel after the other. */
+#include <math.h>
+
+#include "base/mathf.h"
+#include "base/units.h"
+#include "film/pixels.h"
+#include "spectrum/photometry.h"
+
+#define CHANNELS_MAX 64
+
+/* One pass over the pixels fills the channels of one layer. */
+typedef struct Filling {
+    const Film *film;
+    FrameImage *frame;
+    Arena      *arena;
+} Filling;
+
+/* Channels of one layer: up to three planes of floats. */
+typedef struct Planes {
+    float *of[3];
+} Planes;
+
+static Planes add_planes(const Filling *to, const char *layer, const char *letters)
+{
+    Planes planes = {{NULL}};
+    for (int i = 0; letters[i] && i < 3; i++) {
+        const char *name = *layer ? arena_format(to->arena, "%s.%c", layer, letters[i])
+                                  : arena_format(to->arena, "%c", letters[i]);
+        planes.of[i] = frame_add_channel(to->frame, name, false, to->arena);
+    }
+    return planes;
+}
+
+typedef void PixelReader(const Film *film, const PixelSums *sums, float values[3]);
+
+static void fill(const Filling *to, Planes planes, PixelReader *read)
+{
+    const Film *film = to->film;
+    size_t      index = 0;
+    for (int y = film->crop.y0; y < film->crop.y1; y++)
+        for (int x = film->crop.x0; x < film->crop.x1; x++, index++) {
+            float values[3];
+            read(film, film_sums(film, x, y), values);
+            for (int i = 0; i < 3; i++)
+                if (planes.of[i]) planes.of[i][index] = values[i];
+        }
+}
+
+/* Mean over `count` samples; NaN over none. */
+static void mean_of(const Fixed *sums, int size, uint32_t count, float *out)
+{
+    for (int i = 0; i < size; i++)
+        out[i] = count ? (float)(double_from_fixed(sums[i], FIXED_BITS) / (double)count) : NAN;
+}
+
+static void mean_layer(const Film *film, const PixelSums *sums, LayerSums layer, float *out)
+{
+    uint32_t count = layer >= SUMS_FIRST_DISPLAY ? sums->display_hits : sums->hits;
+    mean_of(sums->layers + film->first[layer], layer_sums_size(layer), count, out);
+}
+
+static void mean_layer_rgb(const Film *film, const PixelSums *sums, LayerSums layer, float *out)
+{
+    float xyz[3];
+    mean_layer(film, sums, layer, xyz);
+    rgb_from_xyz(xyz, out);
+}
+
+/* ---- one reader a layer ------------------------------------------------------------------ */
+
+static void read_xyz(const Film *film, const PixelSums *sums, float v[3])
+{
+    (void)film;
+    mean_of(sums->xyz, 3, sums->samples, v);
+    if (!sums->samples) v[0] = v[1] = v[2] = 0;
+}
+
+static void read_rgb(const Film *film, const PixelSums *sums, float v[3])
+{
+    float xyz[3];
+    read_xyz(film, sums, xyz);
+    rgb_from_xyz(xyz, v);
+}
+
+static void read_depth(const Film *film, const PixelSums *sums, float v[3])
+{
+    mean_layer(film, sums, SUMS_DEPTH, v);
+}
+
+static void read_position(const Film *film, const PixelSums *sums, float v[3])
+{
+    mean_layer(film, sums, SUMS_POSITION, v);
+}
+
+static void read_normal(const Film *film, const PixelSums *sums, float v[3])
+{
+    mean_layer(film, sums, SUMS_NORMAL, v);
+}
+
+static void read_albedo(const Film *film, const PixelSums *sums, float v[3])
+{
+    mean_layer(film, sums, SUMS_ALBEDO, v);
+}
+
+static void read_uv(const Film *film, const PixelSums *sums, float v[3])
+{
+    mean_layer(film, sums, SUMS_UV, v);
+}
+
+static void read_emitted(const Film *film, const PixelSums *sums, float v[3])
+{
+    mean_layer_rgb(film, sums, SUMS_EMITTED, v);
+}
+
+static void read_reflected(const Film *film, const PixelSums *sums, float v[3])
+{
+    mean_layer_rgb(film, sums, SUMS_REFLECTED, v);
+}
+
+static void read_white(const Film *film, const PixelSums *sums, float v[3])
+{
+    mean_layer_rgb(film, sums, SUMS_WHITE, v);
+}
+
+static void read_black(const Film *film, const PixelSums *sums, float v[3])
+{
+    mean_layer_rgb(film, sums, SUMS_BLACK, v);
+}
+
+/* theta and phi of the mean direction, degrees; phi in [0, 360). */
+static void read_angles(const Film *film, const PixelSums *sums, float v[3])
+{
+    float d[3];
+    mean_layer(film, sums, SUMS_DIRECTION, d);
+    float across = sqrtf(d[0] * d[0] + d[1] * d[1]);
+    float phi = (float)degrees_from_radians((double)atan2_f(d[1], d[0]));
+    v[0] = isnan(d[0]) ? NAN : (float)degrees_from_radians((double)atan2_f(across, d[2]));
+    v[1] = isnan(d[0]) ? NAN : phi < 0 ? phi + 360 : phi;
+}
+
+static void read_contrast(const Film *film, const PixelSums *sums, float v[3])
+{
+    float white[3], black[3], reflected[3];
+    mean_layer(film, sums, SUMS_WHITE, white);
+    mean_layer(film, sums, SUMS_BLACK, black);
+    mean_layer(film, sums, SUMS_REFLECTED, reflected);
+    v[0] = (white[1] + reflected[1]) / (black[1] + reflected[1]);
+}
+
+static void read_variance(const Film *film, const PixelSums *sums, float v[3])
+{
+    (void)film;
+    double variance[3];
+    pixel_variance(sums, variance);
+    for (int i = 0; i < 3; i++) v[i] = (float)variance[i];
+}
+
+static void read_samples(const Film *film, const PixelSums *sums, float v[3])
+{
+    (void)film;
+    v[0] = (float)sums->samples;
+}
+
+static void read_ids(const Film *film, const PixelSums *sums, float v[3])
+{
+    (void)film;
+    v[0] = (float)sums->part_id;
+    v[1] = (float)sums->display_id;
+}
+
+/* ---- the frame --------------------------------------------------------------------------- */
+
+static const struct {
+    unsigned     layer;
+    const char  *name, *letters;
+    PixelReader *read;
+} layer_channels[] = {
+    {LAYER_XYZ, "xyz", "XYZ", read_xyz},
+    {LAYER_DEPTH, "depth", "Z", read_depth},
+    {LAYER_POSITION, "position", "XYZ", read_position},
+    {LAYER_NORMAL, "normal", "XYZ", read_normal},
+    {LAYER_ALBEDO, "albedo", "RGB", read_albedo},
+    {LAYER_UV, "uv", "UV", read_uv},
+    {LAYER_VARIANCE, "variance", "RGB", read_variance},
+    {LAYER_DISPLAY_EMITTED, "display.emitted", "RGB", read_emitted},
+    {LAYER_DISPLAY_REFLECTED, "display.reflected", "RGB", read_reflected},
+    {LAYER_DISPLAY_WHITE, "display.white", "RGB", read_white},
+    {LAYER_DISPLAY_BLACK, "display.black", "RGB", read_black},
+};
+
+static Planes add_named(const Filling *to, const char *first, const char *second, bool is_whole)
+{
+    Planes planes = {{NULL}};
+    planes.of[0] = frame_add_channel(to->frame, first, is_whole, to->arena);
+    if (second) planes.of[1] = frame_add_channel(to->frame, second, is_whole, to->arena);
+    return planes;
+}
+
+FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena)
+{
+    ExrWindow  data = {film->crop.x0, film->crop.y0, film->crop.x1, film->crop.y1};
+    FrameImage frame = frame_create(film->width, film->height, data, CHANNELS_MAX,
+                                    attribute_room, arena);
+    Filling    to = {film, &frame, arena};
+    fill(&to, add_planes(&to, "", "RGB"), read_rgb);
+    for (size_t i = 0; i < sizeof layer_channels / sizeof *layer_channels; i++)
+        if (film->layers & layer_channels[i].layer)
+            fill(&to, add_planes(&to, layer_channels[i].name, layer_channels[i].letters),
+                 layer_channels[i].read);
+    if (film->layers & LAYER_SAMPLES)
+        fill(&to, add_named(&to, "samples.N", NULL, true), read_samples);
+    if (film->layers & LAYER_ID)
+        fill(&to, add_named(&to, "id.part", "id.display", true), read_ids);
+    if (film->layers & LAYER_DISPLAY_ANGLES)
+        fill(&to, add_named(&to, "display.theta", "display.phi", false), read_angles);
+    if (film->layers & LAYER_DISPLAY_CONTRAST)
+        fill(&to, add_named(&to, "display.contrast", NULL, false), read_contrast);
+    return frame;
+}

@@ -1,0 +1,69 @@
+/* pixels.h -- how the film keeps a pixel; private to src/film.
+ *
+ * A pixel is a fixed part and then the sums of the layers that are kept, in the order of
+ * LayerSums. All sums are two's complement integers that count steps: see film.h for ranges.
+ */
+#pragma once
+#include <pthread.h>
+
+#include "film/film.h"
+
+__extension__ typedef __int128 Fixed;
+
+#define FIXED_BITS 48          /* a step is 2^-48: XYZ and layers */
+#define SQUARE_LOW_BITS 69     /* squares below SQUARE_SPLIT */
+#define SQUARE_HIGH_BITS 5     /* the others */
+#define SQUARE_SPLIT 0x1p26
+#define VALUE_LIMIT 0x1p47f
+#define NO_SAMPLE 0xffffffffu
+
+/* Layers with sums of their own. */
+typedef enum LayerSums {
+    SUMS_DEPTH, SUMS_POSITION, SUMS_NORMAL, SUMS_ALBEDO, SUMS_UV,
+    SUMS_EMITTED, SUMS_REFLECTED, SUMS_WHITE, SUMS_BLACK, SUMS_DIRECTION, /* display */
+    SUMS_COUNT
+} LayerSums;
+
+#define SUMS_FIRST_DISPLAY SUMS_EMITTED
+
+typedef struct PixelSums {
+    Fixed    xyz[3];
+    Fixed    squares[3][2]; /* of linear Rec.709 R, G, B: [0] small, [1] large squares */
+    uint32_t samples, hits, display_hits;
+    uint32_t part_sample;    /* lowest sample index that hit; NO_SAMPLE: none */
+    int32_t  part_id;
+    uint32_t display_sample; /* lowest sample index that saw a display */
+    int32_t  display_id;
+    uint32_t unused;
+    Fixed    layers[];
+} PixelSums;
+
+struct Film {
+    int      width, height;
+    FilmRect crop;
+    unsigned layers;
+    int      first[SUMS_COUNT]; /* index into PixelSums.layers, -1: not kept */
+    size_t   stride;            /* bytes a pixel */
+    char    *pixels;
+    pthread_mutex_t lock;       /* guards dropped: taken only when a sample is lost */
+    FilmDropped     dropped;
+};
+
+/* Which of FilmLayer need these sums, and how many numbers they are. */
+unsigned layer_sums_users(LayerSums sums);
+int      layer_sums_size(LayerSums sums);
+
+/* Unbiased variance of the mean of linear Rec.709 R, G, B, (cd m^-2)^2; NaN below 2 samples. */
+void pixel_variance(const PixelSums *sums, double variance[3]);
+
+static inline PixelSums *film_sums(const Film *film, int x, int y)
+{
+    size_t index = (size_t)(y - film->crop.y0) * (size_t)(film->crop.x1 - film->crop.x0) +
+                   (size_t)(x - film->crop.x0);
+    return (PixelSums *)(void *)(film->pixels + index * film->stride);
+}
+
+static inline double double_from_fixed(Fixed value, int bits)
+{
+    return (double)value * (1.0 / (double)(1ull << bits / 2) / (double)(1ull << (bits - bits / 2)));
+}
