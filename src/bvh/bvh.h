@@ -28,5 +28,14 @@ typedef bool BvhPasses(void *user, const Hit *hit);
 /* Is there anything in (t_min, t_max) that stops the light? */
 bool bvh_occluded(const Bvh *bvh, Ray ray, BvhPasses *passes, void *user);
 
+/* For measuring: every ray asked from now on is kept until the recorder is full, with whether
+ * it was a shadow ray. One thread only. NULL: stop. */
+typedef struct BvhRecorder {
+    Ray    *rays;
+    bool   *is_shadow;
+    size_t  count, capacity;
+} BvhRecorder;
+void bvh_record(Bvh *bvh, BvhRecorder *recorder);
+
 /* The name and version of the library in use, e.g. "Embree 3.13.5". */
 const char *bvh_library(void);

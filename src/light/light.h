@@ -2,8 +2,7 @@
  *
  * Lights come in four sets, each sampled by its own rule: the sun (its disc), the environment
  * (constant or HDRI), emitters (emissive triangles and displays, by power), and punctual
- * lights (by intensity). Near the eye every set is sampled at every hit; deeper in a path one
- * set is chosen at random (LightChoice).
+ * lights (by intensity). Which sets a hit samples is the path's business (path.c).
  *
  * Units    radiance in W m^-2 sr^-1 nm^-1 per lane; for delta lights `radiance` is the
  *          irradiance on a plane that faces the light. pdf in sr^-1.
@@ -43,8 +42,10 @@ bool lights_sample(const Lights *lights, LightSet set, Vec3 position, Vec3 ns,
 void lights_distant(const Lights *lights, Vec3 direction, Vec3 ns, const Wavelengths *wavelengths,
                     Spectrum radiance[2], float pdf[2]);
 
-/* pdf with which LIGHTS_EMITTERS chooses the point hit by (direction, t) on `triangle`. */
-float lights_emitter_pdf(const Lights *lights, uint32_t triangle, Vec3 direction, float t);
+/* pdf, sr^-1, with which LIGHTS_EMITTERS chooses the point of `triangle` that lies at distance
+ * t (m, from the point that is lit) along `direction`; ng: the triangle's normal. */
+float lights_emitter_pdf(const Lights *lights, uint32_t triangle, Vec3 direction, Vec3 ng,
+                         float t);
 
-/* Mean luminance of the environment over the sphere, cd m^-2 (for automatic framing). */
-float lights_sky_luminance(const Lights *lights);
+/* Pixels of the environment picture that had a negative or non-finite value, counted as 0. */
+long lights_refused_pixels(const Lights *lights);

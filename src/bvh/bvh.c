@@ -1,0 +1,184 @@
+#include "bvh/bvh.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "bvh/embree_version.h"
+
+/* Two geometries: opaque triangles, which nobody asks about, and the others, whose shadow rays
+ * are put to BvhPasses. Scene.triangles holds them in this order. */
+enum { GEOMETRY_OPAQUE, GEOMETRY_ASKED, GEOMETRY_COUNT };
+
+struct Bvh {
+    RTCDevice device;
+    RTCScene  scene;
+    uint32_t  first_triangle[GEOMETRY_COUNT];
+    BvhRecorder *recorder;
+};
+
+/* A query's context, with who is to be asked behind Embree's own part. */
+typedef struct ShadowContext {
+    EmbreeContext embree;
+    BvhPasses    *passes;
+    void         *user;
+    const Bvh    *bvh;
+} ShadowContext;
+
+/* The only place that fills a ray; every member is set, because one that is forgotten means
+ * silently no hit. */
+static struct RTCRay embree_ray(Ray ray)
+{
+    return (struct RTCRay){.org_x = ray.origin.x, .org_y = ray.origin.y, .org_z = ray.origin.z,
+                           .dir_x = ray.direction.x, .dir_y = ray.direction.y,
+                           .dir_z = ray.direction.z, .tnear = ray.t_min, .tfar = ray.t_max,
+                           .time = 0, .mask = ~0u, .id = 0, .flags = 0};
+}
+
+/* Debian 12's Embree aborts on what is refused here; later ones would miss in silence. */
+static bool ray_is_valid(Ray ray)
+{
+    return vec3_is_finite(ray.origin) && vec3_is_finite(ray.direction) && ray.t_min >= 0 &&
+           ray.t_max >= ray.t_min && vec3_dot(ray.direction, ray.direction) > 0;
+}
+
+static void record(BvhRecorder *recorder, Ray ray, bool is_shadow)
+{
+    if (recorder->count == recorder->capacity) return;
+    recorder->is_shadow[recorder->count] = is_shadow;
+    recorder->rays[recorder->count++] = ray;
+}
+
+bool bvh_intersect(const Bvh *bvh, Ray ray, Hit *hit)
+{
+    if (!ray_is_valid(ray)) return false;
+    if (bvh->recorder) record(bvh->recorder, ray, false);
+    struct RTCRayHit rayhit = {.ray = embree_ray(ray),
+                               .hit = {.geomID = RTC_INVALID_GEOMETRY_ID,
+                                       .primID = RTC_INVALID_GEOMETRY_ID,
+                                       .instID = {RTC_INVALID_GEOMETRY_ID}}};
+    EmbreeContext context;
+    embree_context_init(&context);
+    embree_intersect(bvh->scene, &context, &rayhit);
+    if (rayhit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+    *hit = (Hit){rayhit.ray.tfar, rayhit.hit.u, rayhit.hit.v,
+                 bvh->first_triangle[rayhit.hit.geomID] + rayhit.hit.primID};
+    return true;
+}
+
+bool bvh_occluded(const Bvh *bvh, Ray ray, BvhPasses *passes, void *user)
+{
+    if (!ray_is_valid(ray)) return true;
+    if (bvh->recorder) record(bvh->recorder, ray, true);
+    struct RTCRay query = embree_ray(ray);
+    ShadowContext context = {.passes = passes, .user = user, .bvh = bvh};
+    embree_context_init(&context.embree);
+    embree_occluded(bvh->scene, &context.embree, &query);
+    return query.tfar < 0; /* Embree marks an occluded ray by tfar = -infinity */
+}
+
+/* Called by Embree for every asked triangle along a shadow ray (always one ray at a time). */
+static void ask_passes(const struct RTCFilterFunctionNArguments *args)
+{
+    const ShadowContext *context = (const ShadowContext *)args->context;
+    if (!args->valid[0] || !context->passes) return;
+    Hit hit = {RTCRayN_tfar(args->ray, 1, 0), RTCHitN_u(args->hit, 1, 0),
+               RTCHitN_v(args->hit, 1, 0),
+               context->bvh->first_triangle[GEOMETRY_ASKED] + RTCHitN_primID(args->hit, 1, 0)};
+    if (context->passes(context->user, &hit)) args->valid[0] = 0;
+}
+
+/* ---- building --------------------------------------------------------------------------- */
+
+static void keep_first_message(void *user, enum RTCError code, const char *text)
+{
+    Error *err = user;
+    if (err->code == ERROR_NONE)
+        error_set(err, code == RTC_ERROR_OUT_OF_MEMORY ? ERROR_MEMORY : ERROR_LIBRARY,
+                  "ray tracing: %s", text ? text : "unknown error");
+}
+
+static void attach_triangles(Bvh *bvh, const Scene *scene, int geometry_id, uint32_t first,
+                             uint32_t count)
+{
+    bvh->first_triangle[geometry_id] = first;
+    if (!count) return;
+    RTCGeometry geometry = rtcNewGeometry(bvh->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               scene->vertices, 0, sizeof(Vertex), scene->vertex_count);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               scene->triangles, first * sizeof(Triangle), sizeof(Triangle),
+                               count);
+    rtcSetGeometryMask(geometry, ~0u); /* the default differs between Embree 3 and 4 */
+    if (geometry_id == GEOMETRY_ASKED)
+        rtcSetGeometryOccludedFilterFunction(geometry, ask_passes);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(bvh->scene, geometry, (unsigned)geometry_id);
+    rtcReleaseGeometry(geometry);
+}
+
+static bool check_device(RTCDevice device, Error *err)
+{
+    if (!rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_TRIANGLE_GEOMETRY_SUPPORTED) ||
+        !rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED))
+        return error_set(err, ERROR_LIBRARY, "this build of %s lacks triangles or filter "
+                         "functions: install Debian's package", bvh_library());
+    return true;
+}
+
+static void build_scene(Bvh *bvh, const Scene *scene)
+{
+    bvh->scene = rtcNewScene(bvh->device);
+    rtcSetSceneFlags(bvh->scene, RTC_SCENE_FLAG_ROBUST);
+    /* Not HIGH: its spatial splits would ask BvhPasses twice about one triangle. */
+    rtcSetSceneBuildQuality(bvh->scene, RTC_BUILD_QUALITY_MEDIUM);
+    attach_triangles(bvh, scene, GEOMETRY_OPAQUE, 0, scene->opaque_count);
+    attach_triangles(bvh, scene, GEOMETRY_ASKED, scene->opaque_count,
+                     scene->triangle_count - scene->opaque_count);
+    rtcCommitScene(bvh->scene);
+}
+
+bool bvh_create(const Scene *scene, int threads, const char *isa, Bvh **out, Error *err)
+{
+    char config[96];
+    Error first = {0};
+    snprintf(config, sizeof config, "threads=%d,set_affinity=0%s%s", threads, isa ? ",isa=" : "",
+             isa ? isa : "");
+    Bvh *bvh = calloc(1, sizeof *bvh);
+    if (!bvh) return error_set(err, ERROR_MEMORY, "out of memory for the ray tracer");
+    bvh->device = rtcNewDevice(config);
+    if (!bvh->device) {
+        free(bvh);
+        return error_set(err, ERROR_LIBRARY, "ray tracing: no device for \"%s\"", config);
+    }
+    rtcSetDeviceErrorFunction(bvh->device, keep_first_message, &first);
+    if (check_device(bvh->device, &first)) build_scene(bvh, scene);
+    rtcSetDeviceErrorFunction(bvh->device, NULL, NULL);
+    if (first.code != ERROR_NONE) {
+        bvh_destroy(bvh);
+        *err = first;
+        return false;
+    }
+    *out = bvh;
+    return true;
+}
+
+void bvh_destroy(Bvh *bvh)
+{
+    if (!bvh) return;
+    if (bvh->scene) rtcReleaseScene(bvh->scene);
+    if (bvh->device) rtcReleaseDevice(bvh->device);
+    free(bvh);
+}
+
+void bvh_record(Bvh *bvh, BvhRecorder *recorder)
+{
+    bvh->recorder = recorder;
+}
+
+#define TEXT_OF(x) #x
+#define VERSION_TEXT(a, b, c) TEXT_OF(a) "." TEXT_OF(b) "." TEXT_OF(c)
+
+const char *bvh_library(void)
+{
+    return "Embree " VERSION_TEXT(RTC_VERSION_MAJOR, RTC_VERSION_MINOR, RTC_VERSION_PATCH);
+}

@@ -1,0 +1,215 @@
+#include "light/light.h"
+
+#include "base/alias.h"
+#include "base/units.h"
+#include "light/emission.h"
+#include "light/emitters.h"
+#include "light/sky.h"
+
+/* Of many punctual lights this many are drawn by intensity, and one of them is then chosen by
+ * what it gives at the point (resampled importance sampling, Talbot et al. 2005). */
+#define PUNCTUAL_CANDIDATES 8
+
+struct Lights {
+    const Scene *scene;
+    Sky          sky;
+    Emitters     emitters;
+    AliasTable   punctual; /* by intensity; count 0: none */
+};
+
+static float luminance_of(const float rgb[3])
+{
+    return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+}
+
+/* A far light's lux and a near light's candela meet at the scene's own size. */
+static AliasTable weigh_punctual(const Scene *scene, Arena *arena)
+{
+    double *weights = ARENA_NEW(arena, double, scene->light_count + 1), total = 0;
+    Vec3    size = vec3_sub(scene->bounds_max, scene->bounds_min);
+    double  radius2 = fmax(0.25 * (double)vec3_dot(size, size), 1e-12);
+    for (int i = 0; i < scene->light_count; i++) {
+        const PunctualLight *light = &scene->lights[i];
+        weights[i] = (double)luminance_of(light->intensity) *
+                     (light->kind == LIGHT_DIRECTIONAL ? radius2 : 1.0);
+        total += weights[i];
+    }
+    return total > 0 ? alias_build(weights, scene->light_count, arena) : (AliasTable){0};
+}
+
+bool lights_build(const Scene *scene, Arena *arena, Lights **out, Error *err)
+{
+    Sky sky;
+    if (!sky_build(&scene->environment, arena, &sky, err)) return false;
+    Lights *lights = ARENA_NEW(arena, Lights, 1);
+    *lights = (Lights){.scene = scene, .sky = sky, .emitters = emitters_build(scene, arena),
+                       .punctual = weigh_punctual(scene, arena)};
+    *out = lights;
+    return true;
+}
+
+bool lights_has(const Lights *lights, LightSet set)
+{
+    switch (set) {
+    case LIGHTS_SUN: return lights->sky.has_sun;
+    case LIGHTS_SKY: return lights->sky.kind != ENVIRONMENT_NONE;
+    case LIGHTS_EMITTERS: return lights->emitters.count > 0;
+    case LIGHTS_PUNCTUAL: return lights->punctual.count > 0;
+    case LIGHT_SETS: break;
+    }
+    return false;
+}
+
+/* ---- punctual lights -------------------------------------------------------------------- */
+
+/* KHR_lights_punctual's recommended cone: 1 inside the inner angle, 0 outside the outer, the
+ * square of the linear ramp of the cosine between. */
+static float spot_falloff(const PunctualLight *light, Vec3 from_light)
+{
+    if (light->kind != LIGHT_SPOT) return 1;
+    float range = fmaxf(light->cos_inner - light->cos_outer, 1e-6f);
+    float ramp =
+        clampf((vec3_dot(light->direction, from_light) - light->cos_outer) / range, 0, 1);
+    return ramp * ramp;
+}
+
+/* Where the light is as seen from position, and its illuminance (lx per unit of its colour's
+ * intensity) on a plane that faces it. */
+static float punctual_geometry(const PunctualLight *light, Vec3 position, Vec3 *wi,
+                               float *distance)
+{
+    if (light->kind == LIGHT_DIRECTIONAL) {
+        *wi = vec3_neg(light->direction);
+        *distance = INFINITY;
+        return 1;
+    }
+    Vec3  to_light = vec3_sub(light->position, position);
+    float d2 = vec3_dot(to_light, to_light);
+    *distance = sqrtf(d2);
+    *wi = vec3_normalize(to_light);
+    return d2 > 0 ? spot_falloff(light, vec3_neg(*wi)) / d2 : 0;
+}
+
+/* Chooses one light; *prob_inverse makes the estimate unbiased. All are candidates when there
+ * are few; each candidate then counts once and prob is its share of the sum. */
+static int choose_punctual(const Lights *lights, Vec3 position, const float u[3],
+                           float *prob_inverse)
+{
+    int   total = lights->punctual.count, chosen = NO_ID;
+    bool  all = total <= PUNCTUAL_CANDIDATES;
+    int   candidates = all ? total : PUNCTUAL_CANDIDATES;
+    float sum = 0, chosen_weight = 0, pick = u[0];
+    for (int i = 0; i < candidates; i++) {
+        float shifted = u[1] + (float)i / (float)candidates;
+        int   id = all ? i : alias_sample(&lights->punctual, shifted - floorf(shifted));
+        const PunctualLight *light = &lights->scene->lights[id];
+        Vec3  wi;
+        float distance, target = luminance_of(light->intensity) *
+                                 punctual_geometry(light, position, &wi, &distance);
+        float weight = all ? target : target / (lights->punctual.prob[id] * (float)candidates);
+        if (!(weight > 0)) continue;
+        sum += weight;
+        if (pick * sum < weight) { /* takes the newcomer with probability weight / sum */
+            pick = pick * sum / weight;
+            chosen = id;
+            chosen_weight = target;
+        } else {
+            pick = (pick * sum - weight) / (sum - weight);
+        }
+        pick = clampf(pick, 0, 0x1.fffffep-1f);
+    }
+    *prob_inverse = chosen == NO_ID ? 0 : sum / chosen_weight;
+    return chosen;
+}
+
+static bool sample_punctual(const Lights *lights, Vec3 position, const Wavelengths *wavelengths,
+                            const float u[3], LightSample *sample)
+{
+    float prob_inverse;
+    int   id = choose_punctual(lights, position, u, &prob_inverse);
+    if (id == NO_ID) return false;
+    const PunctualLight *light = &lights->scene->lights[id];
+    float lux = punctual_geometry(light, position, &sample->wi, &sample->distance);
+    sample->radiance = spectrum_from_rgb_emission(wavelengths, light->intensity) *
+                       spectrum_all(lux * prob_inverse);
+    sample->pdf = 1;
+    sample->is_delta = true;
+    return true;
+}
+
+/* ---- all sets --------------------------------------------------------------------------- */
+
+static bool sample_emitters(const Lights *lights, Vec3 position, const Wavelengths *wavelengths,
+                            const float u[3], LightSample *sample)
+{
+    TrianglePoint point;
+    float    pdf_area;
+    uint32_t triangle = emitters_sample(&lights->emitters, lights->scene, u, &point, &pdf_area);
+    Vec3     to_light = vec3_sub(point.position, position);
+    float    d2 = vec3_dot(to_light, to_light);
+    sample->wi = vec3_normalize(to_light);
+    sample->distance = sqrtf(d2);
+    float cosine = fabsf(vec3_dot(point.ng, sample->wi));
+    if (!(d2 > 0) || !(cosine > 1e-6f)) return false;
+    sample->pdf = pdf_area * d2 / cosine;
+    sample->radiance = triangle_emission(lights->scene, triangle, &point, vec3_neg(sample->wi),
+                                         wavelengths);
+    sample->is_delta = false;
+    return sample->pdf > 0 && !spectrum_is_zero(sample->radiance);
+}
+
+static bool sample_sun(const Lights *lights, const Wavelengths *wavelengths, const float u[3],
+                       LightSample *sample)
+{
+    Vec3 wi = sun_sample(&lights->sky, u[0], u[1]);
+    *sample = (LightSample){.wi = wi, .distance = INFINITY,
+                            .radiance = sun_radiance(&lights->sky, wi, wavelengths),
+                            .pdf = sun_pdf(&lights->sky, wi)};
+    return sample->pdf > 0;
+}
+
+static bool sample_sky(const Lights *lights, Vec3 ns, const Wavelengths *wavelengths,
+                       const float u[3], LightSample *sample)
+{
+    Vec3 wi;
+    if (!sky_sample(&lights->sky, ns, u[0], u[1], &wi)) return false;
+    *sample = (LightSample){.wi = wi, .distance = INFINITY,
+                            .radiance = sky_radiance(&lights->sky, wi, wavelengths),
+                            .pdf = sky_pdf(&lights->sky, wi, ns)};
+    return sample->pdf > 0;
+}
+
+bool lights_sample(const Lights *lights, LightSet set, Vec3 position, Vec3 ns,
+                   const Wavelengths *wavelengths, const float u[3], LightSample *sample)
+{
+    switch (set) {
+    case LIGHTS_SUN: return sample_sun(lights, wavelengths, u, sample);
+    case LIGHTS_SKY: return sample_sky(lights, ns, wavelengths, u, sample);
+    case LIGHTS_EMITTERS: return sample_emitters(lights, position, wavelengths, u, sample);
+    case LIGHTS_PUNCTUAL: return sample_punctual(lights, position, wavelengths, u, sample);
+    case LIGHT_SETS: break;
+    }
+    return false;
+}
+
+void lights_distant(const Lights *lights, Vec3 direction, Vec3 ns,
+                    const Wavelengths *wavelengths, Spectrum radiance[2], float pdf[2])
+{
+    radiance[LIGHTS_SUN] = sun_radiance(&lights->sky, direction, wavelengths);
+    radiance[LIGHTS_SKY] = sky_radiance(&lights->sky, direction, wavelengths);
+    pdf[LIGHTS_SUN] = sun_pdf(&lights->sky, direction);
+    pdf[LIGHTS_SKY] = sky_pdf(&lights->sky, direction, ns);
+}
+
+float lights_emitter_pdf(const Lights *lights, uint32_t triangle, Vec3 direction, Vec3 ng,
+                         float t)
+{
+    float cosine = fabsf(vec3_dot(ng, direction));
+    float pdf_area = emitters_pdf_area(&lights->emitters, lights->scene, triangle);
+    return cosine > 1e-6f ? pdf_area * t * t / cosine : 0;
+}
+
+long lights_refused_pixels(const Lights *lights)
+{
+    return lights->sky.refused_pixels;
+}
