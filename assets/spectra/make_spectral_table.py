@@ -141,8 +141,9 @@ def main():
 
 
 def row(x, y, z, red, green, blue, *sources):
-    texts = [f"{v:.7g}" for v in (x, y, z)]
-    texts += [f"{v:.7f}" for v in (red, green, abs(1 - round(red, 7) - round(green, 7)))]
+    texts = [f"{v:.6g}" for v in (x, y, z)]
+    texts += [f"{v:.6f}".rstrip("0").rstrip(".") for v in
+              (red, green, abs(1 - round(red, 6) - round(green, 6)))]
     texts += [f"{v:.6g}" for v in sources]
     return "    {" + ", ".join(texts) + "},\n"
 
