@@ -9,10 +9,10 @@
  * Each model is one file in shaders/, its user page on top; bsdf.c is the table of contents.
  */
 #pragma once
-#include "panel/panel.h"
-#include "shaders/metallic_roughness.h"
+#include "shaders/bsdf_sample.h"
 #include "shaders/dielectric.h"
-#include "spectrum/wavelengths.h"
+#include "shaders/display.h"
+#include "shaders/metallic_roughness.h"
 
 typedef enum BsdfKind {
     BSDF_BLACK,              /* absorbs everything (unlit materials, backs of displays) */
@@ -28,21 +28,9 @@ typedef struct Bsdf {
         MetallicRoughness metallic_roughness;
         ThinWindow        thin_window;
         Dielectric        dielectric;
-        struct {
-            const Panel       *panel;
-            const Wavelengths *wavelengths;
-        } display; /* frame: the display's (+x right, +y up), +z the normal */
+        DisplaySurface    display; /* frame: the display's (+x right, +y up), +z the normal */
     };
 } Bsdf;
-
-typedef struct BsdfSample {
-    Vec3     wi;
-    Spectrum weight;   /* eval * |cos wi| / pdf */
-    float    pdf;      /* sr^-1 of eval's part; probability of the choice when is_delta */
-    bool     is_delta; /* light sampling can never produce this direction */
-    bool     passes;   /* went straight through (wi = -wo): shadow rays pass here too, so it is
-                          no scattering event for multiple importance sampling */
-} BsdfSample;
 
 /* BSDF without its delta parts; *pdf: with which density bsdf_sample would choose wi through
  * its non-delta parts (including the probability of choosing them). */

@@ -1,4 +1,28 @@
+/* dielectric.h -- clear glass: a thin window, and the boundary of a solid.
+ *
+ * The user page is on top of dielectric.c. Frame and units: bsdf.h.
+ */
 #pragma once
-#include "spectrum/spectrum.h"
-typedef struct ThinWindow { Spectrum tint; } ThinWindow;
-typedef struct Dielectric { float ior; } Dielectric;
+#include "shaders/bsdf_sample.h"
+
+/* A smooth pane with two parallel faces: a mirror image, and light straight through. */
+typedef struct ThinWindow {
+    Spectrum tint; /* [0, 1]: what the pane's body lets through, at this angle */
+    float    ior;  /* 1 or more */
+} ThinWindow;
+
+Spectrum thin_window_reflectance(const ThinWindow *window, float cosine);
+Spectrum thin_window_transmittance(const ThinWindow *window, float cosine); /* tint included */
+bool     thin_window_sample(const ThinWindow *window, Vec3 wo, const float u[3],
+                            BsdfSample *sample);
+
+/* Where a solid ends. The frame's +z is the outside: wo.z < 0 is an eye inside the solid. */
+typedef struct Dielectric {
+    Spectrum tint;  /* [0, 1]: of transmitted light, at each crossing */
+    float    ior;   /* of the solid against its surroundings, > 0 */
+    float    alpha; /* GGX, [0, 1]; below SMOOTH_ALPHA smooth */
+} Dielectric;
+
+Spectrum dielectric_eval(const Dielectric *d, Vec3 wo, Vec3 wi, float *pdf);
+bool     dielectric_sample(const Dielectric *d, Vec3 wo, const float u[3], BsdfSample *sample);
+bool     dielectric_scatters(const Dielectric *d);

@@ -1,0 +1,59 @@
+/* fresnel.h -- how much a smooth boundary reflects.
+ *
+ * Reflectances are shares of the light, in [0, 1]; cosines are of the angle to the normal.
+ * Sources  Born and Wolf, "Principles of Optics", 1.5.2; Schlick 1994 for metals.
+ * Threads  pure functions.
+ */
+#pragma once
+#include "spectrum/spectrum.h"
+
+/* Reflectance of light polarised across (s) and along (p) the plane of incidence. */
+typedef struct Fresnel {
+    float s, p;
+} Fresnel;
+
+/* eta: index behind the boundary over the index in front of it, > 0. cosine: in front, [0, 1].
+ * *cosine_behind: of the refracted direction, 0 under total reflection; may be NULL. */
+static inline Fresnel fresnel_dielectric(float cosine, float eta, float *cosine_behind)
+{
+    float sine2 = (1 - cosine * cosine) / (eta * eta);
+    float behind = sine2 < 1 ? sqrtf(1 - sine2) : 0.0f;
+    if (cosine_behind) *cosine_behind = behind;
+    if (!(sine2 < 1) || !(cosine > 0)) return (Fresnel){1, 1};
+    float s = (cosine - eta * behind) / (cosine + eta * behind);
+    float p = (eta * cosine - behind) / (eta * cosine + behind);
+    return (Fresnel){s * s, p * p};
+}
+
+/* Light without polarisation. */
+static inline float fresnel_mean(Fresnel face)
+{
+    return 0.5f * (face.s + face.p);
+}
+
+/* Reflectance at normal incidence. */
+static inline float fresnel_normal(float eta)
+{
+    float r = (eta - 1) / (eta + 1);
+    return r * r;
+}
+
+/* A pane with two equal faces, all reflections between them added up without interference:
+ * R = 2r / (1 + r) for each polarisation; what is not reflected is transmitted. */
+static inline float fresnel_slab(Fresnel face)
+{
+    return face.s / (1 + face.s) + face.p / (1 + face.p);
+}
+
+/* (1 - cosine)^5 */
+static inline float schlick_weight(float cosine)
+{
+    float m = clampf(1 - cosine, 0, 1), m2 = m * m;
+    return m2 * m2 * m;
+}
+
+/* Metals: f0 + (1 - f0)(1 - cosine)^5 per lane. */
+static inline Spectrum fresnel_schlick(Spectrum f0, float cosine)
+{
+    return f0 + (spectrum_all(1) - f0) * spectrum_all(schlick_weight(cosine));
+}

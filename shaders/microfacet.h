@@ -1,0 +1,41 @@
+/* microfacet.h -- GGX: how a rough boundary's facets are turned, hidden and chosen.
+ *
+ * Local frame with +z the normal; directions leave the surface. Isotropic roughness `alpha`
+ * (root mean square slope times sqrt 2), in [SMOOTH_ALPHA, 1].
+ * Sources  Walter et al. 2007 (D, refraction); Heitz 2014 (height-correlated G2), Heitz 2018
+ *          and Dupuy & Benyoub 2023 (visible normals as a spherical cap); Eto & Tokuyoshi 2023
+ *          (the cap bounded to what reflects upwards).
+ * Threads  pure functions.
+ */
+#pragma once
+#include "base/vec.h"
+#include "spectrum/spectrum.h"
+
+/* Below this alpha a boundary is a perfect mirror: its lobe would be narrower than a tenth of
+ * the Sun's disc. glTF roughness 0.0316. */
+#define SMOOTH_ALPHA 1e-3f
+
+static inline bool is_smooth(float alpha)
+{
+    return alpha < SMOOTH_ALPHA;
+}
+
+/* Normals per solid angle and projected area, sr^-1. */
+float ggx_density(Vec3 normal, float alpha);
+
+/* Smith's Lambda of a direction, z not 0. */
+float ggx_lambda(Vec3 direction, float alpha);
+
+/* D G2 / (4 |wo.z| |wi.z|): a mirror-like lobe of reflectance 1, sr^-1. wo, wi and half on
+ * the same side, half = normalised wo + wi. */
+float ggx_reflection(Vec3 wo, Vec3 wi, Vec3 half, float alpha);
+
+/* A visible facet normal for wo, wo.z > 0; u in [0,1)^2. Its density is
+ * ggx_visible_pdf(wo, normal) = G1(wo) D(normal) max(0, wo.normal) / wo.z. */
+Vec3  ggx_sample_visible(Vec3 wo, float alpha, float u0, float u1);
+float ggx_visible_pdf(Vec3 wo, Vec3 normal, float alpha);
+
+/* A mirror-like direction about a visible facet; few fall below the horizon (then z <= 0, and
+ * the light is lost). The pdf of wi, sr^-1, holds for every wi, half as above. */
+Vec3  ggx_sample_reflection(Vec3 wo, float alpha, float u0, float u1);
+float ggx_reflection_pdf(Vec3 wo, Vec3 half, float alpha);
