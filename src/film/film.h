@@ -50,6 +50,7 @@ typedef enum FilmLayer {
     LAYER_DISPLAY_WHITE = 1 << 11, LAYER_DISPLAY_BLACK = 1 << 12, LAYER_DISPLAY_ANGLES = 1 << 13,
     LAYER_DISPLAY_CONTRAST = 1 << 14,
     LAYER_ALL = (1 << 15) - 1,
+    LAYER_DISPLAYS = LAYER_ALL & ~(LAYER_DISPLAY_EMITTED - 1),
     LAYER_FEATURES = LAYER_ALL & ~(LAYER_XYZ | LAYER_VARIANCE | LAYER_SAMPLES)
 } FilmLayer; /* LAYER_FEATURES: those that need the members from `hit` on */
 
@@ -112,6 +113,7 @@ FilmDropped film_dropped(const Film *film);
  *       unit normals is shorter than one across an edge); NaN where none did. A sample whose
  *       features are not finite counts as a miss here, not for the light;
  *   id.part, id.display   of the lowest sample index that hit a part, or saw a display; -1;
+ *       id.display comes with every layer of displays;
  *   display.*   over the samples that saw a display, NaN where none did: emitted, white and
  *       black are means, reflected is the mean of (sample - emitted), so the pixel's mean minus
  *       emitted wherever the whole pixel is display; theta and phi are those of the mean

@@ -161,11 +161,16 @@ static void read_samples(const Film *film, const PixelSums *sums, float v[3])
     v[0] = (float)sums->samples;
 }
 
-static void read_ids(const Film *film, const PixelSums *sums, float v[3])
+static void read_display_id(const Film *film, const PixelSums *sums, float v[3])
+{
+    (void)film;
+    v[0] = (float)sums->display_id;
+}
+
+static void read_part_id(const Film *film, const PixelSums *sums, float v[3])
 {
     (void)film;
     v[0] = (float)sums->part_id;
-    v[1] = (float)sums->display_id;
 }
 
 /* ---- the frame --------------------------------------------------------------------------- */
@@ -210,7 +215,9 @@ FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena)
     if (film->layers & LAYER_SAMPLES)
         fill(&to, add_named(&to, "samples.N", NULL, true), read_samples);
     if (film->layers & LAYER_ID)
-        fill(&to, add_named(&to, "id.part", "id.display", true), read_ids);
+        fill(&to, add_named(&to, "id.part", NULL, true), read_part_id);
+    if (film->layers & (LAYER_ID | LAYER_DISPLAYS))
+        fill(&to, add_named(&to, "id.display", NULL, true), read_display_id);
     if (film->layers & LAYER_DISPLAY_ANGLES)
         fill(&to, add_named(&to, "display.theta", "display.phi", false), read_angles);
     if (film->layers & LAYER_DISPLAY_CONTRAST)

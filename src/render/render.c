@@ -1,0 +1,192 @@
+#include "render/render.h"
+
+#include <math.h>
+#include <stdatomic.h>
+
+#include "base/parallel.h"
+#include "bvh/bvh.h"
+#include "light/light.h"
+#include "render/signals.h"
+#include "render/tile.h"
+
+#define TILE_SIDE 16                /* pixels: a few milliseconds of work */
+#define PASS_PATHS ((size_t)1 << 22) /* of one pass at most, where a pixel gets more than one */
+#define PASS_SAMPLES_MAX 64u
+
+/* ---- tiles and passes -------------------------------------------------------------------- */
+
+static int tiles_across(FilmRect crop)
+{
+    return (crop.x1 - crop.x0 + TILE_SIDE - 1) / TILE_SIDE;
+}
+
+int render_tile_count(FilmRect crop)
+{
+    return tiles_across(crop) * ((crop.y1 - crop.y0 + TILE_SIDE - 1) / TILE_SIDE);
+}
+
+FilmRect render_tile(FilmRect crop, int index)
+{
+    int x0 = crop.x0 + index % tiles_across(crop) * TILE_SIDE;
+    int y0 = crop.y0 + index / tiles_across(crop) * TILE_SIDE;
+    return (FilmRect){x0, y0, x0 + TILE_SIDE < crop.x1 ? x0 + TILE_SIDE : crop.x1,
+                      y0 + TILE_SIDE < crop.y1 ? y0 + TILE_SIDE : crop.y1};
+}
+
+static size_t pixel_count(FilmRect crop)
+{
+    return (size_t)(crop.x1 - crop.x0) * (size_t)(crop.y1 - crop.y0);
+}
+
+uint32_t render_pass_samples(uint32_t done, size_t pixels)
+{
+    size_t   fits = PASS_PATHS / pixels;
+    uint32_t most = fits < 1 ? 1 : fits > PASS_SAMPLES_MAX ? PASS_SAMPLES_MAX : (uint32_t)fits;
+    return done < 1 ? 1 : done < most ? done : most;
+}
+
+/* ---- one pass ---------------------------------------------------------------------------- */
+
+/* One worker's counts, alone on their cache lines. */
+typedef struct WorkerCounts {
+    _Alignas(128) PathStatistics statistics;
+} WorkerCounts;
+
+typedef struct Pass {
+    const TileJob *job;
+    FilmRect       crop;
+    WorkerCounts  *counts;      /* one a worker */
+    atomic_ullong  paths_done;  /* of all passes */
+    Progress      *progress;    /* worker 0's */
+} Pass;
+
+static void render_one_tile(void *context, int item, int worker)
+{
+    Pass    *pass = context;
+    FilmRect rect = render_tile(pass->crop, item);
+    tile_render(pass->job, rect, &pass->counts[worker].statistics);
+    uint64_t paths = pixel_count(rect) *
+                     (uint64_t)(pass->job->end_sample - pass->job->first_sample);
+    uint64_t done = atomic_fetch_add(&pass->paths_done, paths) + paths;
+    if (worker == 0) progress_update(pass->progress, (double)done);
+}
+
+static PathStatistics add_counts(const WorkerCounts *counts, int threads)
+{
+    PathStatistics sum = {0};
+    for (int i = 0; i < threads; i++) {
+        sum.samples += counts[i].statistics.samples;
+        sum.camera_rays += counts[i].statistics.camera_rays;
+        sum.bounce_rays += counts[i].statistics.bounce_rays;
+        sum.shadow_rays += counts[i].statistics.shadow_rays;
+    }
+    return sum;
+}
+
+/* ---- all passes -------------------------------------------------------------------------- */
+
+/* What the passes need and change. */
+typedef struct Run {
+    const RenderOptions *options;
+    TileJob       job;
+    WorkerCounts *counts;
+    Progress      progress;
+    RenderResult  result;
+} Run;
+
+/* Enough samples and little enough noise? Also tells the progress how long it may take: the
+ * error falls with the square root of the samples. */
+static bool noise_reached(Run *run)
+{
+    const RenderOptions *options = run->options;
+    if (!(options->noise > 0)) return false;
+    run->result.error = film_relative_error(run->result.film);
+    double error = options->noise_of_displays ? run->result.error.displays
+                                              : run->result.error.frame;
+    double ratio = error / options->noise;
+    double wanted = fmax((double)run->result.samples * ratio * ratio, RENDER_LEAST_SAMPLES);
+    double most = (double)(options->end_sample - options->first_sample);
+    if (isfinite(wanted))
+        run->progress.total = fmin(wanted, most) * (double)pixel_count(options->crop);
+    return run->result.samples >= RENDER_LEAST_SAMPLES && error <= options->noise;
+}
+
+static void finish_result(Run *run)
+{
+    const RenderOptions *options = run->options;
+    run->result.seconds = monotonic_seconds() - run->progress.begun_s;
+    run->result.statistics = add_counts(run->counts, options->threads);
+}
+
+static void take_snapshot(Run *run)
+{
+    const RenderOptions *options = run->options;
+    if (!options->snapshot || !signals_take_snapshot()) return;
+    finish_result(run);
+    run->result.error = film_relative_error(run->result.film);
+    progress_clear(&run->progress);
+    options->snapshot(options->snapshot_user, &run->result);
+}
+
+static void run_passes(Run *run)
+{
+    const RenderOptions *options = run->options;
+    uint32_t total = options->end_sample - options->first_sample;
+    size_t   pixels = pixel_count(options->crop);
+    Pass     pass = {.job = &run->job, .crop = options->crop, .counts = run->counts,
+                     .progress = &run->progress};
+    while (!run->result.complete && !run->result.stopped_by) {
+        uint32_t done = run->result.samples, samples = render_pass_samples(done, pixels);
+        if (samples > total - done) samples = total - done;
+        run->job.first_sample = options->first_sample + done;
+        run->job.end_sample = run->job.first_sample + samples;
+        parallel_for(options->threads, render_tile_count(options->crop), render_one_tile, &pass);
+        run->result.samples = done + samples;
+        run->result.complete = noise_reached(run) || run->result.samples == total;
+        run->result.stopped_by = signals_stop_requested();
+        take_snapshot(run);
+    }
+    progress_end(&run->progress, (double)atomic_load(&pass.paths_done));
+    finish_result(run);
+    run->result.error = film_relative_error(run->result.film);
+}
+
+static void render_film(const PathContext *context, const SceneCamera *scene_camera,
+                        const RenderOptions *options, Arena *arena, RenderResult *out)
+{
+    Camera camera = camera_from_scene(scene_camera, options->width, options->height);
+    Run    run = {.options = options, .result = *out};
+    run.result.film = film_create(options->width, options->height, options->crop,
+                                  options->layers, arena);
+    run.job = (TileJob){
+        .context = context,
+        .camera = &camera,
+        .film = run.result.film,
+        .with_features = (options->layers & LAYER_FEATURES) || options->noise_of_displays,
+        .seed = options->seed};
+    run.counts = ARENA_NEW(arena, WorkerCounts, options->threads);
+    run.progress = progress_start(options->progress, "render", "samples",
+                                  (double)pixel_count(options->crop) *
+                                      (double)(options->end_sample - options->first_sample));
+    signals_watch();
+    run_passes(&run);
+    *out = run.result;
+}
+
+bool render_scene(const Scene *scene, const SceneCamera *camera, const RenderOptions *options,
+                  Arena *arena, RenderResult *out, Error *err)
+{
+    double  begun_s = monotonic_seconds();
+    Lights *lights;
+    Bvh    *bvh;
+    if (!lights_build(scene, arena, &lights, err)) return false;
+    if (!bvh_create(scene, options->threads, NULL, &bvh, err)) return false;
+    PathContext context = {.scene = scene, .bvh = bvh, .lights = lights,
+                           .tables = surface_tables_build(scene, arena),
+                           .max_bounces = options->max_bounces, .strategy = PATH_MIS};
+    RenderResult result = {.build_seconds = monotonic_seconds() - begun_s};
+    render_film(&context, camera, options, arena, &result);
+    bvh_destroy(bvh);
+    *out = result;
+    return true;
+}

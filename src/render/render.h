@@ -1,0 +1,59 @@
+/* render.h -- makes a film of a scene: passes, tiles, threads, stopping rule.
+ *
+ * A pass adds a few samples to every pixel: 1, 1, 2, 4 ... up to a number that depends on the
+ * count of pixels alone. Only between passes is anything decided (stop, snapshot, noise), so
+ * that all pixels have the same number of samples, and the frame is the same for any number
+ * of threads.
+ *
+ * Memory   film and lights come from the arena; Embree's memory is gone on return.
+ * Threads  starts `threads` of its own for every pass.
+ * Signals  from the first pass to the end of the process INT and TERM stop after the pass in
+ *          hand, and USR1 asks for a snapshot (signals.h).
+ */
+#pragma once
+#include "base/progress.h"
+#include "camera/camera.h"
+#include "film/film.h"
+#include "path/path.h"
+
+typedef struct RenderResult RenderResult;
+
+typedef struct RenderOptions {
+    int      width, height;    /* pixels of the whole frame */
+    FilmRect crop;             /* what is rendered of it */
+    uint32_t seed;
+    uint32_t first_sample, end_sample; /* half-open; the end is the most that is done */
+    double   noise;            /* stop when the relative error is below; 0: never. Not before
+                                  every pixel has RENDER_LEAST_SAMPLES */
+    bool     noise_of_displays; /* the error over display pixels decides, else the frame's */
+    int      max_bounces;      /* 0: emission only, 1: plus direct light */
+    unsigned layers;           /* FilmLayer bits */
+    int      threads;          /* at least 1 */
+    ProgressMode progress;
+    void   (*snapshot)(void *user, const RenderResult *so_far); /* NULL: none */
+    void    *snapshot_user;
+} RenderOptions;
+
+#define RENDER_LEAST_SAMPLES 16
+
+struct RenderResult {
+    Film          *film;
+    uint32_t       samples;    /* a pixel */
+    double         seconds;    /* of rendering alone */
+    double         build_seconds; /* of the ray tracer's and the lights' structures */
+    PathStatistics statistics;
+    FilmError      error;
+    bool           complete;   /* all samples, or the wanted noise */
+    int            stopped_by; /* SIGINT, SIGTERM or 0 */
+};
+
+/* scene and camera must outlive the film only for what the caller does with them. */
+bool render_scene(const Scene *scene, const SceneCamera *camera, const RenderOptions *options,
+                  Arena *arena, RenderResult *out, Error *err);
+
+/* Samples a pixel of the pass that begins after `done` samples, for so many pixels. */
+uint32_t render_pass_samples(uint32_t done, size_t pixels);
+
+/* Tiles of a crop, row by row; index counts from 0. */
+int      render_tile_count(FilmRect crop);
+FilmRect render_tile(FilmRect crop, int index);
