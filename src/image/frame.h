@@ -1,4 +1,4 @@
-/* frame.h -- a frame: named float channels over a data window, with what made it written beside.
+/* frame.h -- a frame: named float channels over a data window, and a note of what made it.
  *
  * Units    R, G, B linear Rec.709/D65 in cd m^-2; the other channels as the table says.
  * Layout   planar, row 0 at the top; windows are half-open, the display window starts at 0, 0
@@ -32,20 +32,21 @@
 /* What an OpenEXR file holds; `Frame` is an orthonormal frame (base/vec.h). */
 typedef ExrPicture FrameImage;
 
-/* An empty frame of width x height pixels whose data window is `data`, with room for
- * channel_count channels and attribute_count attributes. It carries the chromaticities of
- * Rec.709 and whiteLuminance 1 already (they take no room of the caller's). */
-FrameImage frame_create(int width, int height, ExrWindow data, int channel_count,
-                        int attribute_count, Arena *arena);
+/* An empty frame of width x height pixels whose data window is `data`, with room for some
+ * channels and attributes; more may be added than said. It carries the chromaticities of
+ * Rec.709 and whiteLuminance 1 already. */
+FrameImage frame_create(int width, int height, ExrWindow data, int channel_room,
+                        int attribute_room, Arena *arena);
 
 /* Pixels in the data window. */
 static inline size_t frame_pixel_count(const FrameImage *frame)
 {
-    return (size_t)(frame->data.x1 - frame->data.x0) * (size_t)(frame->data.y1 - frame->data.y0);
+    return (size_t)(frame->data.x1 - frame->data.x0) *
+           (size_t)(frame->data.y1 - frame->data.y0);
 }
 
 /* Adds a channel and returns its zeroed values, one for each pixel of the data window. The
- * name is copied; it must be new, and there must be room. */
+ * name is copied; it must be new. */
 float *frame_add_channel(FrameImage *frame, const char *name, bool is_whole, Arena *arena);
 
 /* Adds an attribute or replaces the one of that name. */
@@ -74,5 +75,9 @@ int frame_id_of(const FrameImage *frame, const char *what, const char *name);
  * `path`, flushed to the disk, then renamed: after a failure nothing is left. */
 bool frame_write(const char *path, const FrameImage *frame, Error *err);
 
-/* Any flat OpenEXR file; a data window that is not inside the display window is kept as it is. */
+/* Any flat OpenEXR file; a data window that reaches out of the display window is kept so. */
 bool frame_read(const char *path, Arena *arena, FrameImage *out, Error *err);
+
+/* The same for a file that lies in memory; `name` is for messages. */
+bool frame_read_memory(const void *bytes, size_t size, const char *name, Arena *arena,
+                       FrameImage *out, Error *err);

@@ -1,18 +1,17 @@
 #include "image/image.h"
 
-#include <errno.h>
-#include <math.h>
-#include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
+#include "base/file.h"
+#include "image/colour.h"
+#include "openexr/exr_file.h"
 #include "openimageio/image_file.h"
 
 enum {
-    MAX_SIDE = 65536,           /* texels along one side */
-    MAX_PIXELS = 1 << 28,       /* 16384 x 16384 */
-    MAX_FILE_BYTES = 1 << 30
+    MAX_SIDE = 65536,     /* texels along one side */
+    MAX_PIXELS = 1 << 28, /* 16384 x 16384 */
 };
+#define MAX_FILE_BYTES ((size_t)1 << 30)
 
 /* A format is told by its first bytes; the name's ending decides only where there are none. */
 typedef struct Signature {
@@ -62,8 +61,8 @@ static size_t format_bytes(ImageFormat format)
 }
 
 /* Refuses a picture before any pixel is decoded: a small file can announce a huge one. */
-static bool check_size(int width, int height, size_t pixel_bytes, const Arena *arena,
-                       Error *err)
+static bool check_size(int width, int height, size_t pixel_bytes, size_t more_bytes,
+                       const Arena *arena, Error *err)
 {
     if (width < 1 || height < 1)
         return error_set(err, ERROR_INPUT, "%d x %d pixels, at least 1 x 1 wanted", width,
@@ -74,10 +73,11 @@ static bool check_size(int width, int height, size_t pixel_bytes, const Arena *a
                          "%d x %d pixels; at most %d along a side and %d in all are supported",
                          width, height, MAX_SIDE, MAX_PIXELS);
     }
-    size_t left = (size_t)(arena->end - arena->next);
-    if (pixels * pixel_bytes > left) {
+    size_t left = (size_t)(arena->end - arena->next), margin = 1 << 16;
+    size_t wanted = pixels * pixel_bytes + more_bytes + margin;
+    if (wanted > left) {
         return error_set(err, ERROR_MEMORY, "%d x %d pixels need %zu MB, %zu MB are left",
-                         width, height, pixels * pixel_bytes >> 20, left >> 20);
+                         width, height, wanted >> 20, left >> 20);
     }
     return true;
 }
@@ -128,7 +128,7 @@ static bool decode_pixels(ImageDecoder *decoder, Arena *arena, Image *out, Error
     Image  image = {info.width, info.height, FORMATS[info.type], NULL};
     size_t bytes = format_bytes(image.format), value = bytes / 4;
     size_t raw_bytes = info.channels == 4 ? 0 : value * (size_t)info.channels;
-    if (!check_size(info.width, info.height, bytes + raw_bytes, arena, err)) return false;
+    if (!check_size(info.width, info.height, bytes + raw_bytes, 0, arena, err)) return false;
 
     size_t count = (size_t)info.width * (size_t)info.height;
     Arena  kept = *arena;
@@ -144,8 +144,8 @@ static bool decode_pixels(ImageDecoder *decoder, Arena *arena, Image *out, Error
     return true;
 }
 
-static bool decode(const char *format, const void *bytes, size_t size, const char *name,
-                   Arena *arena, Image *out, Error *err)
+static bool decode_other(const char *format, const void *bytes, size_t size, const char *name,
+                         Arena *arena, Image *out, Error *err)
 {
     ImageDecoder *decoder;
     if (!image_decoder_create(format, name, bytes, size, &decoder, err)) return false;
@@ -153,6 +153,122 @@ static bool decode(const char *format, const void *bytes, size_t size, const cha
     image_decoder_destroy(decoder);
     return ok;
 }
+
+/* ---- OpenEXR ------------------------------------------------------------------------- */
+
+enum { RED, GREEN, BLUE, ALPHA };
+
+/* The pixels of a file's data window that a picture of its display window shows. */
+typedef struct ExrPlanes {
+    const ExrPicture *picture;
+    float            *rgba[4]; /* alpha may be NULL; a grey picture has one plane thrice */
+} ExrPlanes;
+
+static int channel_index(const ExrPicture *picture, const char *name)
+{
+    for (int i = 0; i < picture->channel_count; i++)
+        if (!strcmp(picture->channels[i].name, name)) return i;
+    return -1;
+}
+
+/* Asks the reader for R, G, B (or Y) and A only. */
+static bool read_planes(ExrReader *reader, Arena *arena, ExrPlanes *out, Error *err)
+{
+    static const char *const NAMES[4] = {"R", "G", "B", "A"};
+    const ExrPicture *picture = exr_reader_picture(reader);
+    size_t count = (size_t)(picture->data.x1 - picture->data.x0) *
+                   (size_t)(picture->data.y1 - picture->data.y0);
+    float **planes = ARENA_NEW(arena, float *, picture->channel_count);
+    bool    grey = channel_index(picture, "R") < 0 && channel_index(picture, "Y") >= 0;
+    out->picture = picture;
+    for (int c = 0; c < 4; c++) {
+        int i = channel_index(picture, grey && c != ALPHA ? "Y" : NAMES[c]);
+        out->rgba[c] = NULL;
+        if (i < 0 && c == ALPHA) continue;
+        if (i < 0)
+            return error_set(err, ERROR_INPUT, "no channel %s; R, G, B or Y are wanted",
+                             NAMES[c]);
+        if (!planes[i]) planes[i] = ARENA_NEW(arena, float, count);
+        out->rgba[c] = planes[i];
+    }
+    return exr_reader_read(reader, planes, err);
+}
+
+/* OpenEXR's colours are multiplied by alpha; where alpha is 0 they glow and stay. */
+static void straighten(float rgba[4])
+{
+    if (!(rgba[ALPHA] > 0) || rgba[ALPHA] == 1) return;
+    for (int c = 0; c < 3; c++) rgba[c] /= rgba[ALPHA];
+}
+
+/* to_rec709 may be NULL. What the data window does not reach is black. */
+static void place_pixels(const ExrPlanes *from, const ColourMatrix *to_rec709, float *rgba)
+{
+    const ExrWindow data = from->picture->data, display = from->picture->display;
+    for (int y = display.y0; y < display.y1; y++) {
+        for (int x = display.x0; x < display.x1; x++, rgba += 4) {
+            rgba[ALPHA] = 1;
+            if (x < data.x0 || x >= data.x1 || y < data.y0 || y >= data.y1) continue;
+            size_t at = (size_t)(y - data.y0) * (size_t)(data.x1 - data.x0) +
+                        (size_t)(x - data.x0);
+            for (int c = 0; c < 4; c++)
+                if (from->rgba[c]) rgba[c] = from->rgba[c][at];
+            straighten(rgba);
+            if (to_rec709) colour_apply(to_rec709, rgba, rgba);
+        }
+    }
+}
+
+/* False when the file's colours are Rec.709 already, as they are when it says nothing. */
+static bool needs_rec709(const ExrPicture *picture, ColourMatrix *matrix)
+{
+    for (int i = 0; i < picture->attribute_count; i++) {
+        const ExrAttribute *a = &picture->attributes[i];
+        if (a->kind != EXR_CHROMATICITIES || strcmp(a->name, "chromaticities") != 0) continue;
+        if (!chromaticities_are_usable(a->values) || chromaticities_are_rec709(a->values))
+            return false;
+        *matrix = rec709_from_primaries(a->values);
+        return true;
+    }
+    return false;
+}
+
+static bool decode_exr(ExrReader *reader, Arena *arena, Image *out, Error *err)
+{
+    const ExrPicture *picture = exr_reader_picture(reader);
+    ExrWindow w = picture->display, d = picture->data;
+    size_t    planes = (size_t)(d.x1 - d.x0) * (size_t)(d.y1 - d.y0) * 4 * sizeof(float);
+    Image     image = {w.x1 - w.x0, w.y1 - w.y0, IMAGE_RGBA32F, NULL};
+    if (!check_size(image.width, image.height, 4 * sizeof(float), planes, arena, err))
+        return false;
+
+    Arena        kept = *arena;
+    size_t       count = (size_t)image.width * (size_t)image.height;
+    float       *pixels = ARENA_NEW(&kept, float, count * 4);
+    Arena        scratch = kept;
+    ExrPlanes    from;
+    ColourMatrix matrix;
+    if (!read_planes(reader, &scratch, &from, err)) return false;
+    place_pixels(&from, needs_rec709(picture, &matrix) ? &matrix : NULL, pixels);
+    *arena = kept;
+    image.pixels = pixels;
+    *out = image;
+    return true;
+}
+
+static bool decode(const char *format, const void *bytes, size_t size, const char *name,
+                   Arena *arena, Image *out, Error *err)
+{
+    ExrReader *reader;
+    if (strcmp(format, "openexr") != 0)
+        return decode_other(format, bytes, size, name, arena, out, err);
+    if (!exr_reader_create(bytes, size, &reader, err)) return false;
+    bool ok = decode_exr(reader, arena, out, err);
+    exr_reader_destroy(reader);
+    return ok;
+}
+
+/* ---- any picture ---------------------------------------------------------------------- */
 
 bool image_read_memory(const void *bytes, size_t size, const char *name, Arena *arena,
                        Image *out, Error *err)
@@ -171,31 +287,12 @@ bool image_read_memory(const void *bytes, size_t size, const char *name, Arena *
     return ok || error_in_file(err, name);
 }
 
-static bool read_file(const char *path, unsigned char *bytes, size_t size, Error *err)
-{
-    FILE *file = fopen(path, "rb");
-    if (!file) return error_set(err, ERROR_INPUT, "cannot be opened: %s", strerror(errno));
-    bool ok = fread(bytes, 1, size, file) == size;
-    if (!ok) error_set(err, ERROR_INPUT, "cannot be read: %s", strerror(errno));
-    fclose(file);
-    return ok;
-}
-
 bool image_read(const char *path, Arena *arena, Image *out, Error *err)
 {
-    struct stat status;
-    if (stat(path, &status) != 0)
-        return error_at(err, ERROR_INPUT, path, "", "cannot be opened: %s", strerror(errno));
-    if (!S_ISREG(status.st_mode))
-        return error_at(err, ERROR_INPUT, path, "", "not a regular file");
-    if (status.st_size > MAX_FILE_BYTES)
-        return error_at(err, ERROR_INPUT, path, "", "%lld bytes, at most %d are supported",
-                        (long long)status.st_size, MAX_FILE_BYTES);
-    size_t size = (size_t)status.st_size;
-    Arena  file = arena_reserve(size + 1);
-    unsigned char *bytes = ARENA_NEW(&file, unsigned char, size);
-    bool ok = (read_file(path, bytes, size, err) || error_in_file(err, path)) &&
-              image_read_memory(bytes, size, path, arena, out, err);
+    Arena     file = arena_reserve(MAX_FILE_BYTES + 4096);
+    FileBytes bytes;
+    bool      ok = file_read(path, MAX_FILE_BYTES, &file, &bytes, err) &&
+              image_read_memory(bytes.data, bytes.size, path, arena, out, err);
     arena_release(&file);
     return ok;
 }

@@ -1,4 +1,4 @@
-/* exr_file.h -- pictures with named channels, windows and attributes, to and from OpenEXR bytes.
+/* exr_file.h -- pictures with named channels, windows and attributes, as OpenEXR bytes.
  * The only C view of OpenEXR in this program.
  *
  * Layout   planar: a channel is one array over the data window, row 0 at the top.
@@ -48,6 +48,7 @@ typedef struct ExrPicture {
     ExrChannel   *channels;
     int           attribute_count;
     ExrAttribute *attributes; /* files keep them sorted by name; other kinds are left out */
+    int           channel_room, attribute_room; /* what the lists hold; not looked at here */
 } ExrPicture;
 
 /* Whole-file limits, refused before memory is taken for pixels. */
@@ -56,15 +57,15 @@ enum { EXR_MAX_SIDE = 65536, EXR_MAX_PIXELS = 1 << 28, EXR_MAX_CHANNELS = 1024 }
 typedef struct ExrReader ExrReader; /* owns C++ objects */
 
 /* The first part of a file that lies in memory. bytes must outlive the reader. Deep pictures
- * are refused. */
+ * and channels that are sampled more coarsely than the pixels are refused. */
 bool exr_reader_create(const void *bytes, size_t size, ExrReader **out, Error *err);
 
 /* Channels without values; lives as long as the reader. */
 const ExrPicture *exr_reader_picture(const ExrReader *reader);
 
 /* planes: one array of (data window) floats for each channel, in the picture's order; NULL
- * skips a channel. Half, float and unsigned become float; a channel sampled more coarsely is
- * spread over the pixels that it stands for. A file cut off or damaged is refused. */
+ * skips a channel. Half, float and unsigned become float. A file cut off or damaged is
+ * refused. */
 bool exr_reader_read(ExrReader *reader, float *const *planes, Error *err);
 
 void exr_reader_destroy(ExrReader *reader); /* NULL is fine */
