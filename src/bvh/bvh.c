@@ -81,9 +81,10 @@ static void ask_passes(const struct RTCFilterFunctionNArguments *args)
 {
     const ShadowContext *context = (const ShadowContext *)args->context;
     if (!args->valid[0] || !context->passes) return;
-    Hit hit = {RTCRayN_tfar(args->ray, 1, 0), RTCHitN_u(args->hit, 1, 0),
-               RTCHitN_v(args->hit, 1, 0),
-               context->bvh->first_triangle[GEOMETRY_ASKED] + RTCHitN_primID(args->hit, 1, 0)};
+    const struct RTCRay *ray = (const struct RTCRay *)args->ray; /* N = 1: the plain structs */
+    const struct RTCHit *met = (const struct RTCHit *)args->hit;
+    Hit hit = {ray->tfar, met->u, met->v,
+               context->bvh->first_triangle[GEOMETRY_ASKED] + met->primID};
     if (context->passes(context->user, &hit)) args->valid[0] = 0;
 }
 

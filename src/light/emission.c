@@ -1,5 +1,7 @@
 #include "light/emission.h"
 
+#include "spectrum/photometry.h"
+
 #include "base/units.h"
 
 static Vec3 vertex_position(const Scene *scene, const Triangle *t, int corner)
@@ -34,7 +36,7 @@ TrianglePoint triangle_point(const Scene *scene, uint32_t triangle, float u, flo
     return point;
 }
 
-Vec2 slot_uv(const TextureSlot *slot, const float uv[SCENE_UV_SETS][2])
+Vec2 slot_uv(const TextureSlot *slot, const float uv[][2])
 {
     const float *m = slot->uv_from_uv, *p = uv[slot->uv_set];
     return (Vec2){m[0] * p[0] + m[1] * p[1] + m[2], m[3] * p[0] + m[4] * p[1] + m[5]};
@@ -48,7 +50,7 @@ static Vec3 direction_of_u(const Scene *scene, const TextureSlot *slot, uint32_t
     Vec2 uv[3];
     Vec3 p[3];
     for (int i = 0; i < 3; i++) {
-        uv[i] = slot_uv(slot, scene->vertices[t->vertex[i]].uv);
+        uv[i] = slot_uv(slot, (const float(*)[2])scene->vertices[t->vertex[i]].uv);
         p[i] = vertex_position(scene, t, i);
     }
     float du1 = uv[1].x - uv[0].x, dv1 = uv[1].y - uv[0].y;
@@ -112,7 +114,7 @@ static Spectrum material_emission(const Scene *scene, const Material *material,
     emitted_rgb(scene, material, point, rgb);
     if (material->emission_curve_id == NO_ID)
         return spectrum_from_rgb_emission(wavelengths, rgb);
-    float luminance = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+    float luminance = luminance_from_rgb(rgb);
     return curve_lookup(&scene->curves[material->emission_curve_id], wavelengths) *
            spectrum_all(luminance);
 }

@@ -18,7 +18,7 @@ typedef struct TrianglePoint {
 TrianglePoint triangle_point(const Scene *scene, uint32_t triangle, float u, float v);
 
 /* Texture coordinates of a slot. */
-Vec2 slot_uv(const TextureSlot *slot, const float uv[SCENE_UV_SETS][2]);
+Vec2 slot_uv(const TextureSlot *slot, const float uv[][2]);
 
 /* The display's frame at a point (physics: the display's frame): +z the shading normal, +x the
  * direction of growing U of its content, +y up. */

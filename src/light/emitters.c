@@ -1,5 +1,7 @@
 #include "light/emitters.h"
 
+#include "spectrum/photometry.h"
+
 #define POINTS_A_TRIANGLE 32
 #define FLOOR_SHARE 0.02 /* of the part's brightest point, so that no lit texel is impossible */
 
@@ -13,7 +15,7 @@ static float luminance_at(const Scene *scene, const Material *material,
         return panel_mean_luminance(display->panel, rgb) * display->level;
     }
     emitted_rgb(scene, material, point, rgb);
-    return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+    return luminance_from_rgb(rgb);
 }
 
 static double triangle_area(const Scene *scene, uint32_t triangle)

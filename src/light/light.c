@@ -5,6 +5,7 @@
 #include "light/emission.h"
 #include "light/emitters.h"
 #include "light/sky.h"
+#include "spectrum/photometry.h"
 
 /* Of many punctual lights this many are drawn by intensity, and one of them is then chosen by
  * what it gives at the point (resampled importance sampling, Talbot et al. 2005). */
@@ -17,11 +18,6 @@ struct Lights {
     AliasTable   punctual; /* by intensity; count 0: none */
 };
 
-static float luminance_of(const float rgb[3])
-{
-    return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
-}
-
 /* A far light's lux and a near light's candela meet at the scene's own size. */
 static AliasTable weigh_punctual(const Scene *scene, Arena *arena)
 {
@@ -30,7 +26,7 @@ static AliasTable weigh_punctual(const Scene *scene, Arena *arena)
     double  radius2 = fmax(0.25 * (double)vec3_dot(size, size), 1e-12);
     for (int i = 0; i < scene->light_count; i++) {
         const PunctualLight *light = &scene->lights[i];
-        weights[i] = (double)luminance_of(light->intensity) *
+        weights[i] = (double)luminance_from_rgb(light->intensity) *
                      (light->kind == LIGHT_DIRECTIONAL ? radius2 : 1.0);
         total += weights[i];
     }
@@ -104,7 +100,7 @@ static int choose_punctual(const Lights *lights, Vec3 position, const float u[3]
         int   id = all ? i : alias_sample(&lights->punctual, shifted - floorf(shifted));
         const PunctualLight *light = &lights->scene->lights[id];
         Vec3  wi;
-        float distance, target = luminance_of(light->intensity) *
+        float distance, target = luminance_from_rgb(light->intensity) *
                                  punctual_geometry(light, position, &wi, &distance);
         float weight = all ? target : target / (lights->punctual.prob[id] * (float)candidates);
         if (!(weight > 0)) continue;

@@ -33,11 +33,6 @@ static Vec2 picture_from_direction(const Sky *sky, Vec3 d)
                   acos_f(d.y) * INV_PI_F * (float)sky->height};
 }
 
-static float luminance_of(const float rgb[3])
-{
-    return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
-}
-
 /* The share of a cell in the bilinear picture: each axis takes 1/8, 6/8, 1/8 of its row. */
 static double cell_luminance(const Sky *sky, int x, int y)
 {
@@ -45,7 +40,7 @@ static double cell_luminance(const Sky *sky, int x, int y)
     double sum = 0;
     for (int j = -1; j <= 1; j++)
         for (int i = -1; i <= 1; i++)
-            sum += share[i + 1] * share[j + 1] * (double)luminance_of(pixel(sky, x + i, y + j));
+            sum += share[i + 1] * share[j + 1] * (double)luminance_from_rgb(pixel(sky, x + i, y + j));
     return sum;
 }
 
@@ -146,6 +141,15 @@ static Vec3 direction_of(float scene_azimuth, float elevation)
                 (float)(-c * cos((double)scene_azimuth)));
 }
 
+/* A black body scaled to a luminance of 1 cd m^-2. */
+static void black_body_curve(double kelvin, Curve *out)
+{
+    for (int i = 0; i < CURVE_COUNT; i++)
+        out->value[i] = (float)black_body_radiance(CURVE_FIRST_NM + i, kelvin);
+    float scale = (float)(1 / luminance_cd_m2(out->value, CURVE_COUNT, CURVE_FIRST_NM, 1));
+    for (int i = 0; i < CURVE_COUNT; i++) out->value[i] *= scale;
+}
+
 static void build_sun(const Environment *environment, float turn, Sky *sky)
 {
     double radius = (double)environment->sun_angular_radius;
@@ -212,7 +216,7 @@ bool sky_build(const Environment *environment, Arena *arena, Sky *out, Error *er
                          "version: use \"constant\" or \"hdri\"", kind_name(sky.kind));
     for (int i = 0; i < 3; i++)
         sky.constant_rgb[i] = environment->luminance_cd_m2 * environment->color[i];
-    if (sky.kind == ENVIRONMENT_CONSTANT && !(luminance_of(sky.constant_rgb) > 0))
+    if (sky.kind == ENVIRONMENT_CONSTANT && !(luminance_from_rgb(sky.constant_rgb) > 0))
         sky.kind = ENVIRONMENT_NONE;
     if (sky.kind == ENVIRONMENT_HDRI && !build_picture(environment, turn, arena, &sky, err))
         return false;

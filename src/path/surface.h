@@ -30,5 +30,5 @@ void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
                 const Wavelengths *wavelengths, Surface *out);
 
 /* What share of light passes the triangle straight on, per lane: holes and thin windows. */
-Spectrum surface_pass(const Scene *scene, const Hit *hit, Vec3 direction,
-                      const Wavelengths *wavelengths);
+Spectrum surface_pass(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
+                      Vec3 direction, const Wavelengths *wavelengths);

@@ -19,3 +19,7 @@ typedef struct TileJob {
 
 /* rect: inside the film's crop, pixels of the whole frame. Adds to *statistics. */
 void tile_render(const TileJob *job, FilmRect rect, PathStatistics *statistics);
+
+/* One sample of one pixel, without the film: what `render --replay` shows. */
+void tile_sample(const TileJob *job, int x, int y, uint32_t index, FilmSample *out,
+                 PathStatistics *statistics);

@@ -1,0 +1,52 @@
+#include "base/units.h"
+#include "path/path.h"
+#include "spectrum/photometry.h"
+
+/* Reflectance under D65 as linear Rec.709: the mean over paths is exact. */
+static void albedo_rgb(Spectrum albedo, const Wavelengths *wavelengths, float rgb[3])
+{
+    float xyz[3] = {0};
+    spectrum_add_xyz(wavelengths, albedo * wavelengths->d65, xyz);
+    rgb_from_xyz(xyz, rgb);
+}
+
+static void scaled_emission(const Display *display, Vec3 direction, const float codes[3],
+                            float xyz[3])
+{
+    panel_emission_xyz(display->panel, direction, codes, xyz);
+    for (int i = 0; i < 3; i++) xyz[i] *= display->level;
+}
+
+static void display_features(const Scene *scene, const Display *display, const Surface *surface,
+                             Vec3 wo, PathFeatures *out)
+{
+    static const float white[3] = {255, 255, 255}, black[3] = {0, 0, 0};
+    float codes[3];
+    Vec3  local = frame_to_local(&surface->frame, wo);
+    float phi = atan2_f(local.y, local.x);
+    display_codes(scene, display, &surface->point, codes);
+    scaled_emission(display, local, codes, out->emitted);
+    scaled_emission(display, local, white, out->white);
+    scaled_emission(display, local, black, out->black);
+    out->theta = acos_f(local.z);
+    out->phi = phi < 0 ? phi + 2 * PI_F : phi;
+}
+
+void path_features(const PathContext *context, const PathResult *result,
+                   const Wavelengths *wavelengths, PathFeatures *out)
+{
+    const Scene *scene = context->scene;
+    Surface surface;
+    Vec3    wo = vec3_neg(result->direction);
+    surface_at(scene, context->tables, &result->first, wo, wavelengths, &surface);
+    *out = (PathFeatures){.depth = result->first.t, .position = surface.position,
+                          .normal = surface.frame.z, .part_id = surface.part_id,
+                          .uv = {surface.point.uv[0][0], surface.point.uv[0][1]},
+                          .display_id = NO_ID};
+    albedo_rgb(bsdf_albedo(&surface.bsdf, frame_to_local(&surface.frame, wo)), wavelengths,
+               out->albedo);
+    int display_id = scene->materials[surface.material_id].display_id;
+    if (display_id == NO_ID || vec3_dot(wo, surface.ng) <= 0) return;
+    out->display_id = display_id;
+    display_features(scene, &scene->displays[display_id], &surface, wo, out);
+}

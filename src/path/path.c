@@ -1,0 +1,315 @@
+#include "path/path.h"
+
+#include "base/units.h"
+#include "spectrum/photometry.h"
+
+/* Up to this bounce every set of lights is sampled at every vertex; later ones draw one set. */
+#define ALL_SETS_BOUNCES 2
+#define ROULETTE_FIRST_BOUNCE 3
+#define PASSES_MAX 512 /* windows and holes along one path: more is a closed loop of rounding */
+
+/* One path on its way. */
+typedef struct Walk {
+    const PathContext *context;
+    const Wavelengths *wavelengths;
+    Sampler           *sampler;
+    PathStatistics    *statistics;
+    Ray      ray;
+    Spectrum throughput; /* what the path so far lets through, per lane */
+    Spectrum radiance;   /* found so far */
+    float    xyz[3];     /* found so far, of displays whose measured XYZ arrives unchanged */
+    float    straight;   /* m since the last scattering vertex (windows do not scatter) */
+    Vec3     last_ns;    /* of that vertex */
+    float    last_pdf;   /* with which it chose the direction, sr^-1 */
+    bool     last_is_delta; /* no light sample could have found what comes now */
+    int      bounce;     /* scattering vertices so far */
+    int      medium_id;  /* material of the solid that the ray is in; NO_ID: air */
+} Walk;
+
+/* ---- weights ---------------------------------------------------------------------------- */
+
+/* With which probability a vertex at `bounce` samples this set of lights. */
+static float set_probability(const Lights *lights, LightSet set, int bounce)
+{
+    if (!lights_has(lights, set)) return 0;
+    if (bounce < ALL_SETS_BOUNCES) return 1;
+    int sets = 0;
+    for (int i = 0; i < LIGHT_SETS; i++) sets += lights_has(lights, (LightSet)i);
+    return 1 / (float)sets;
+}
+
+/* The power heuristic (Veach 1997, 9.2.4) for two strategies. */
+static float mis_weight(float pdf, float other)
+{
+    float ratio = other / pdf;
+    return 1 / (1 + ratio * ratio);
+}
+
+/* How much of emitted light that the last vertex met by chance is counted: the rest belongs to
+ * its light samples, which find the same light with density light_pdf. */
+static float emission_weight(const Walk *walk, LightSet set, float light_pdf)
+{
+    const PathContext *context = walk->context;
+    if (walk->last_is_delta || context->strategy == PATH_BSDF_ONLY) return 1;
+    if (context->strategy == PATH_LIGHTS_ONLY) return 0;
+    float prob = set_probability(context->lights, set, walk->bounce - 1);
+    return mis_weight(walk->last_pdf, prob * light_pdf);
+}
+
+/* ---- emitted light ---------------------------------------------------------------------- */
+
+static void add_distant(Walk *walk)
+{
+    Spectrum radiance[2];
+    float    pdf[2];
+    lights_distant(walk->context->lights, walk->ray.direction, walk->last_ns, walk->wavelengths,
+                   radiance, pdf);
+    for (int set = LIGHTS_SUN; set <= LIGHTS_SKY; set++) {
+        float weight = emission_weight(walk, (LightSet)set, pdf[set]);
+        walk->radiance += walk->throughput * radiance[set] * spectrum_all(weight);
+    }
+}
+
+/* A display seen along a path on which nothing depended on wavelength: its measured XYZ. */
+static void add_display_xyz(Walk *walk, const Surface *surface, Vec3 wo, float weight)
+{
+    const Scene   *scene = walk->context->scene;
+    const Display *display = &scene->displays[scene->materials[surface->material_id].display_id];
+    float codes[3], xyz[3];
+    Vec3  local = frame_to_local(&surface->frame, wo);
+    display_codes(scene, display, &surface->point, codes);
+    panel_emission_xyz(display->panel, local, codes, xyz);
+    for (int i = 0; i < 3; i++)
+        walk->xyz[i] += walk->throughput[0] * weight * display->level * xyz[i];
+}
+
+static void add_emitted(Walk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
+{
+    if (!surface->emits) return;
+    const Scene *scene = walk->context->scene;
+    float pdf = lights_emitter_pdf(walk->context->lights, hit->triangle, walk->ray.direction,
+                                   surface->ng, walk->straight);
+    float weight = emission_weight(walk, LIGHTS_EMITTERS, pdf);
+    if (!(weight > 0)) return;
+    if (scene->materials[surface->material_id].display_id != NO_ID &&
+        spectrum_is_grey(walk->throughput)) {
+        add_display_xyz(walk, surface, wo, weight);
+        return;
+    }
+    walk->radiance += walk->throughput * spectrum_all(weight) *
+                      triangle_emission(scene, hit->triangle, &surface->point, wo,
+                                        walk->wavelengths);
+}
+
+/* ---- light samples ---------------------------------------------------------------------- */
+
+typedef struct ShadowQuestion {
+    const Walk *walk;
+    Vec3     direction;
+    Spectrum passed;
+} ShadowQuestion;
+
+static bool passes(void *user, const Hit *hit)
+{
+    ShadowQuestion *question = user;
+    const PathContext *context = question->walk->context;
+    question->passed *= surface_pass(context->scene, context->tables, hit, question->direction,
+                                     question->walk->wavelengths);
+    return !spectrum_is_zero(question->passed);
+}
+
+/* Share of light that arrives at the surface from `distance` away along wi. */
+static Spectrum visibility(Walk *walk, const Surface *surface, Vec3 wi, float distance)
+{
+    Vec3  origin = ray_offset_origin(surface->position, surface->ng, wi);
+    Vec3  moved = vec3_sub(origin, surface->position);
+    float end = distance * (1 - 1e-4f) - 4 * vec3_length(moved);
+    ShadowQuestion question = {walk, wi, spectrum_all(1)};
+    walk->statistics->shadow_rays++;
+    bool blocked = bvh_occluded(walk->context->bvh, (Ray){origin, wi, 0, fmaxf(end, 0)}, passes,
+                                &question);
+    return blocked ? spectrum_all(0) : question.passed;
+}
+
+/* A direction must lie on the same side of the triangle as of the shading normal's plane, or
+ * light would leak through the surface. */
+static bool sides_agree(const Surface *surface, Vec3 local_wi, Vec3 wi, Vec3 local_wo, Vec3 wo)
+{
+    return (local_wi.z * local_wo.z > 0) ==
+           (vec3_dot(wi, surface->ng) * vec3_dot(wo, surface->ng) > 0);
+}
+
+static void add_light_sample(Walk *walk, const Surface *surface, Vec3 wo, LightSet set,
+                             float set_prob)
+{
+    const PathContext *context = walk->context;
+    LightSample light;
+    Vec2  u01 = sampler_2d(walk->sampler), u2 = sampler_2d(walk->sampler);
+    float u[3] = {u01.x, u01.y, u2.x};
+    if (!lights_sample(context->lights, set, surface->position, surface->frame.z,
+                       walk->wavelengths, u, &light))
+        return;
+    if (!light.is_delta && context->strategy == PATH_BSDF_ONLY) return;
+    Vec3 local_wi = frame_to_local(&surface->frame, light.wi);
+    Vec3 local_wo = frame_to_local(&surface->frame, wo);
+    if (!sides_agree(surface, local_wi, light.wi, local_wo, wo)) return;
+    float    bsdf_pdf;
+    Spectrum f = bsdf_eval(&surface->bsdf, local_wo, local_wi, &bsdf_pdf);
+    Spectrum share = walk->throughput * f * light.radiance *
+                     spectrum_all(fabsf(local_wi.z) / (light.pdf * set_prob));
+    if (spectrum_is_zero(share)) return;
+    if (!light.is_delta && context->strategy == PATH_MIS)
+        share *= spectrum_all(mis_weight(light.pdf * set_prob, bsdf_pdf));
+    walk->radiance += share * visibility(walk, surface, light.wi, light.distance);
+}
+
+/* Draws one of the sets that have lights, each with the same probability. */
+static LightSet draw_set(const Lights *lights, float u)
+{
+    LightSet present[LIGHT_SETS];
+    int count = 0;
+    for (int set = 0; set < LIGHT_SETS; set++)
+        if (lights_has(lights, (LightSet)set)) present[count++] = (LightSet)set;
+    return count ? present[(int)(u * (float)count)] : LIGHT_SETS;
+}
+
+static void add_light_samples(Walk *walk, const Surface *surface, Vec3 wo)
+{
+    const Lights *lights = walk->context->lights;
+    if (!bsdf_scatters(&surface->bsdf)) return;
+    if (walk->bounce < ALL_SETS_BOUNCES) {
+        for (int set = 0; set < LIGHT_SETS; set++)
+            if (lights_has(lights, (LightSet)set))
+                add_light_sample(walk, surface, wo, (LightSet)set, 1);
+        return;
+    }
+    LightSet set = draw_set(lights, sampler_1d(walk->sampler));
+    if (set != LIGHT_SETS)
+        add_light_sample(walk, surface, wo, set, set_probability(lights, set, walk->bounce));
+}
+
+/* ---- the walk --------------------------------------------------------------------------- */
+
+/* Goes straight on behind the surface: a hole or a window. */
+static void go_on_behind(Walk *walk, const Surface *surface)
+{
+    Vec3 direction = walk->ray.direction;
+    walk->ray = (Ray){ray_offset_origin(surface->position, surface->ng, direction), direction,
+                      0, INFINITY};
+}
+
+/* Beer's law inside a solid: the material's colour is what is left after its distance. */
+static void absorb(Walk *walk, float distance)
+{
+    const Material *m = &walk->context->scene->materials[walk->medium_id];
+    if (!isfinite(m->attenuation_distance_m)) return;
+    Spectrum left = spectrum_from_rgb(walk->wavelengths, m->attenuation_color);
+    for (int i = 0; i < SPECTRUM_LANES; i++)
+        walk->throughput[i] *= pow_f(left[i], distance / m->attenuation_distance_m);
+}
+
+/* Ends dim paths; what survives is made stronger, so that the mean stays (Arvo and Kirk 1990). */
+static bool roulette(Walk *walk)
+{
+    if (walk->bounce < ROULETTE_FIRST_BOUNCE) return true;
+    float survival = fminf(spectrum_max_lane(walk->throughput), 0.95f);
+    if (sampler_1d(walk->sampler) >= survival) return false;
+    walk->throughput *= spectrum_all(1 / survival);
+    return true;
+}
+
+typedef enum Step { STEP_ENDED, STEP_PASSED, STEP_SCATTERED } Step;
+
+/* Turns the path into direction next->wi (local) at a scattering vertex. */
+static Step turn(Walk *walk, const Surface *surface, Vec3 wo, const BsdfSample *next)
+{
+    Vec3 wi = frame_to_world(&surface->frame, next->wi);
+    Vec3 local_wo = frame_to_local(&surface->frame, wo);
+    if (!sides_agree(surface, next->wi, wi, local_wo, wo)) return STEP_ENDED;
+    if (surface->bsdf.kind == BSDF_DIELECTRIC && next->wi.z * local_wo.z < 0)
+        walk->medium_id = next->wi.z < 0 ? surface->material_id : NO_ID;
+    walk->last_ns = surface->frame.z;
+    walk->last_pdf = next->pdf;
+    walk->last_is_delta = next->is_delta;
+    walk->straight = 0;
+    walk->bounce++;
+    walk->ray = (Ray){ray_offset_origin(surface->position, surface->ng, wi), vec3_normalize(wi),
+                      0, INFINITY};
+    return roulette(walk) ? STEP_SCATTERED : STEP_ENDED;
+}
+
+/* Chooses where the path goes from the surface. Windows can be passed after the last bounce. */
+static Step scatter(Walk *walk, const Surface *surface, Vec3 wo)
+{
+    Vec2  u01 = sampler_2d(walk->sampler), u2 = sampler_2d(walk->sampler);
+    float u[3] = {u01.x, u01.y, u2.x};
+    BsdfSample next;
+    if (!bsdf_sample(&surface->bsdf, frame_to_local(&surface->frame, wo), u, &next))
+        return STEP_ENDED;
+    walk->throughput *= next.weight;
+    if (spectrum_is_zero(walk->throughput)) return STEP_ENDED;
+    if (next.passes) {
+        go_on_behind(walk, surface);
+        return STEP_PASSED;
+    }
+    if (walk->bounce >= walk->context->max_bounces) return STEP_ENDED;
+    return turn(walk, surface, wo, &next);
+}
+
+static bool next_hit(Walk *walk, Hit *hit)
+{
+    *(walk->bounce ? &walk->statistics->bounce_rays : &walk->statistics->camera_rays) += 1;
+    if (!bvh_intersect(walk->context->bvh, walk->ray, hit)) return false;
+    walk->straight += hit->t;
+    if (walk->medium_id != NO_ID) absorb(walk, hit->t);
+    return true;
+}
+
+static void keep_first(const Hit *hit, float distance, Vec3 wo, PathResult *out)
+{
+    if (out->hit) return;
+    out->hit = true;
+    out->first = *hit;
+    out->first.t = distance;
+    out->direction = vec3_neg(wo);
+}
+
+/* The loop: what is hit, what it emits, what the lights send it, where the path goes on. */
+static void walk_path(Walk *walk, PathResult *out)
+{
+    const PathContext *context = walk->context;
+    for (int steps = 0; steps < PASSES_MAX + context->max_bounces; steps++) {
+        Hit     hit;
+        Surface surface;
+        if (!next_hit(walk, &hit)) {
+            add_distant(walk);
+            return;
+        }
+        Vec3  wo = vec3_neg(walk->ray.direction);
+        float distance = walk->straight;
+        surface_at(context->scene, context->tables, &hit, wo, walk->wavelengths, &surface);
+        if (surface.alpha < 1 && sampler_1d(walk->sampler) >= surface.alpha) {
+            go_on_behind(walk, &surface);
+            continue;
+        }
+        add_emitted(walk, &surface, &hit, wo);
+        if (walk->bounce < context->max_bounces) add_light_samples(walk, &surface, wo);
+        Step step = scatter(walk, &surface, wo);
+        if (step != STEP_PASSED) keep_first(&hit, distance, wo, out);
+        if (step == STEP_ENDED) return;
+    }
+}
+
+void path_trace(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
+                Sampler *sampler, PathResult *out, PathStatistics *statistics)
+{
+    Walk walk = {.context = context, .wavelengths = wavelengths, .sampler = sampler,
+                 .statistics = statistics, .ray = ray, .throughput = spectrum_all(1),
+                 .radiance = spectrum_all(0), .last_ns = ray.direction, .last_is_delta = true,
+                 .medium_id = NO_ID};
+    *out = (PathResult){.hit = false};
+    statistics->samples++;
+    walk_path(&walk, out);
+    spectrum_add_xyz(wavelengths, walk.radiance, walk.xyz);
+    for (int i = 0; i < 3; i++) out->xyz[i] = walk.xyz[i];
+}

@@ -1,0 +1,268 @@
+#include "path/surface.h"
+
+#include "shaders/microfacet.h"
+
+#define COAT_IOR 1.5f
+/* A shading normal is bent until the eye is above its plane by this much. */
+#define LOWEST_COSINE 1e-3f
+
+struct SurfaceTables {
+    const EnergyTable **of_material; /* of each material's index of refraction */
+    const EnergyTable  *of_coat;
+};
+
+const SurfaceTables *surface_tables_build(const Scene *scene, Arena *arena)
+{
+    SurfaceTables *tables = ARENA_NEW(arena, SurfaceTables, 1);
+    tables->of_material = ARENA_NEW(arena, const EnergyTable *, scene->material_count + 1);
+    tables->of_coat = energy_table_build(COAT_IOR, arena);
+    for (int i = 0; i < scene->material_count; i++) {
+        float ior = scene->materials[i].ior;
+        const EnergyTable *table = ior == COAT_IOR ? tables->of_coat : NULL;
+        for (int j = 0; j < i && !table; j++)
+            if (scene->materials[j].ior == ior) table = tables->of_material[j];
+        tables->of_material[i] = table ? table : energy_table_build(ior, arena);
+    }
+    return tables;
+}
+
+/* ---- textures --------------------------------------------------------------------------- */
+
+static bool read_data(const Scene *scene, const TextureSlot *slot, const TrianglePoint *point,
+                      float texel[4])
+{
+    if (slot->texture_id == NO_ID) return false;
+    Vec2 uv = slot_uv(slot, point->uv);
+    texture_data(&scene->textures[slot->texture_id], uv.x, uv.y, texel);
+    return true;
+}
+
+static bool read_colour(const Scene *scene, const TextureSlot *slot, const TrianglePoint *point,
+                        float texel[4])
+{
+    if (slot->texture_id == NO_ID) return false;
+    Vec2 uv = slot_uv(slot, point->uv);
+    texture_colour(&scene->textures[slot->texture_id], uv.x, uv.y, texel);
+    return true;
+}
+
+/* factor times one channel of the slot's texture. */
+static float scaled(const Scene *scene, float factor, const TextureSlot *slot,
+                    const TrianglePoint *point, int channel)
+{
+    float texel[4];
+    if (factor == 0 || !read_data(scene, slot, point, texel)) return factor;
+    return factor * texel[channel];
+}
+
+/* Colour as a spectrum; a measured curve stands in for the factor. */
+static Spectrum colour_spectrum(const Scene *scene, int curve_id, const float factor[3],
+                                const float texel[3], const Wavelengths *wavelengths)
+{
+    float rgb[3];
+    for (int i = 0; i < 3; i++) rgb[i] = (curve_id == NO_ID ? factor[i] : 1) * texel[i];
+    Spectrum spectrum = spectrum_from_rgb(wavelengths, rgb);
+    return curve_id == NO_ID ? spectrum
+                             : spectrum * curve_lookup(&scene->curves[curve_id], wavelengths);
+}
+
+/* Vertex colour times texture, straight alpha in [3]; the factor is left out. */
+static void base_texel(const Scene *scene, const Material *m, const Hit *hit,
+                       const TrianglePoint *point, float texel[4])
+{
+    const Triangle *t = &scene->triangles[hit->triangle];
+    const float weight[3] = {1 - hit->u - hit->v, hit->u, hit->v};
+    if (!read_colour(scene, &m->base_color_texture, point, texel))
+        texel[0] = texel[1] = texel[2] = texel[3] = 1;
+    for (int i = 0; i < 4; i++) {
+        float colour = 0;
+        for (int k = 0; k < 3; k++)
+            colour += weight[k] * (float)scene->vertices[t->vertex[k]].color[i];
+        texel[i] *= colour * (1.0f / 65535);
+    }
+}
+
+static float alpha_of(const Material *m, float texel_alpha)
+{
+    float alpha = m->base_color[3] * texel_alpha;
+    switch (m->alpha_mode) {
+    case ALPHA_OPAQUE: return 1;
+    case ALPHA_MASK: return alpha >= m->alpha_cutoff ? 1 : 0;
+    case ALPHA_BLEND: return clampf(alpha, 0, 1);
+    }
+    return 1;
+}
+
+/* ---- shading normals -------------------------------------------------------------------- */
+
+/* The normal that a normal map gives, in the tangent frame of the vertices. */
+static Vec3 mapped_normal(const Scene *scene, const TextureSlot *slot, float scale,
+                          const Hit *hit, const TrianglePoint *point)
+{
+    float texel[4], tangent[4] = {0};
+    if (!read_data(scene, slot, point, texel)) return point->ns;
+    const Triangle *t = &scene->triangles[hit->triangle];
+    const float weight[3] = {1 - hit->u - hit->v, hit->u, hit->v};
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 4; i++)
+            tangent[i] += weight[k] * scene->vertices[t->vertex[k]].tangent[i];
+    Vec3 n = point->ns, along = vec3(tangent[0], tangent[1], tangent[2]);
+    along = vec3_normalize(vec3_along(along, n, -vec3_dot(along, n)));
+    if (!(vec3_dot(along, along) > 0.5f)) return n;
+    Vec3 across = vec3_scale(vec3_cross(n, along), tangent[3] < 0 ? -1.0f : 1.0f);
+    Vec3 bent = vec3_along(vec3_scale(along, scale * (2 * texel[0] - 1)), across,
+                           scale * (2 * texel[1] - 1));
+    bent = vec3_normalize(vec3_along(bent, n, 2 * texel[2] - 1));
+    return vec3_dot(bent, bent) > 0.5f ? bent : n;
+}
+
+/* Turned to the side of ng's half-space that `side` is in, and bent until `above` is above it. */
+static Vec3 oriented_normal(Vec3 ns, Vec3 side, Vec3 above)
+{
+    if (vec3_dot(ns, side) < 0) ns = vec3_neg(ns);
+    float cosine = vec3_dot(ns, above);
+    return cosine >= LOWEST_COSINE
+               ? ns
+               : vec3_normalize(vec3_along(ns, above, LOWEST_COSINE * 2 - cosine));
+}
+
+/* ---- models ----------------------------------------------------------------------------- */
+
+typedef struct Site {
+    const Scene         *scene;
+    const SurfaceTables *tables;
+    const Material      *material;
+    const Hit           *hit;
+    const Wavelengths   *wavelengths;
+    Spectrum             base_color;
+    float                transmission, metallic, alpha; /* alpha: GGX */
+} Site;
+
+static void read_site(Site *site, const TrianglePoint *point, const float texel[4])
+{
+    const Material *m = site->material;
+    const Scene    *scene = site->scene;
+    float roughness = scaled(scene, m->roughness, &m->metallic_roughness_texture, point, 1);
+    site->metallic = scaled(scene, m->metallic, &m->metallic_roughness_texture, point, 2);
+    site->transmission = scaled(scene, m->transmission, &m->transmission_texture, point, 0);
+    site->alpha = roughness * roughness;
+    site->base_color = spectrum_clamp(colour_spectrum(scene, m->base_color_curve_id,
+                                                      m->base_color, texel, site->wavelengths),
+                                      0, 1);
+}
+
+static Spectrum tint_of(const Site *site)
+{
+    int curve = site->material->transmission_curve_id;
+    return curve == NO_ID ? site->base_color
+                          : curve_lookup(&site->scene->curves[curve], site->wavelengths);
+}
+
+static void set_coat(const Site *site, const Surface *surface, MetallicRoughness *model)
+{
+    const Material *m = site->material;
+    const TrianglePoint *point = &surface->point;
+    model->clearcoat = scaled(site->scene, m->clearcoat, &m->clearcoat_texture, point, 0);
+    if (!(model->clearcoat > 0)) return;
+    float roughness = scaled(site->scene, m->clearcoat_roughness,
+                             &m->clearcoat_roughness_texture, point, 1);
+    Vec3 normal = mapped_normal(site->scene, &m->clearcoat_normal_texture,
+                                m->clearcoat_normal_scale, site->hit, point);
+    if (vec3_dot(normal, surface->frame.z) < 0) normal = vec3_neg(normal);
+    model->clearcoat_alpha = roughness * roughness;
+    model->clearcoat_energy = site->tables->of_coat;
+    model->clearcoat_normal = frame_to_local(&surface->frame, normal);
+    if (model->clearcoat_normal.z < LOWEST_COSINE) model->clearcoat_normal = vec3(0, 0, 1);
+}
+
+static void set_metallic_roughness(const Site *site, Surface *surface)
+{
+    static const float white[3] = {1, 1, 1};
+    const Material *m = site->material;
+    const TrianglePoint *point = &surface->point;
+    float texel[4];
+    bool  coloured = read_colour(site->scene, &m->specular_color_texture, point, texel);
+    surface->bsdf.kind = BSDF_METALLIC_ROUGHNESS;
+    MetallicRoughness *model = &surface->bsdf.metallic_roughness;
+    *model = metallic_roughness_default(site->tables->of_material[surface->material_id]);
+    model->base_color = site->base_color;
+    model->metallic = site->metallic;
+    model->alpha = site->alpha;
+    model->transmission = site->transmission;
+    model->specular = scaled(site->scene, m->specular, &m->specular_texture, point, 3);
+    model->specular_color = colour_spectrum(site->scene, m->specular_curve_id,
+                                            m->specular_color, coloured ? texel : white,
+                                            site->wavelengths);
+    set_coat(site, surface, model);
+}
+
+static void set_bsdf(const Site *site, Surface *surface)
+{
+    const Material *m = site->material;
+    Bsdf *bsdf = &surface->bsdf;
+    if (m->is_solid && m->transmission > 0) {
+        bsdf->kind = BSDF_DIELECTRIC;
+        bsdf->dielectric = (Dielectric){tint_of(site), m->ior, site->alpha};
+    } else if (site->transmission >= 1 && site->metallic <= 0 && is_smooth(site->alpha) &&
+               m->clearcoat <= 0) {
+        bsdf->kind = BSDF_THIN_WINDOW;
+        bsdf->thin_window = (ThinWindow){tint_of(site), m->ior};
+    } else {
+        set_metallic_roughness(site, surface);
+    }
+}
+
+static void set_display(const Site *site, Vec3 wo, Surface *surface)
+{
+    const Display *display = &site->scene->displays[site->material->display_id];
+    if (vec3_dot(wo, surface->ng) <= 0) {
+        surface->bsdf.kind = BSDF_BLACK; /* the back of a display */
+        return;
+    }
+    TrianglePoint turned = surface->point;
+    turned.ns = surface->frame.z;
+    surface->frame = display_frame(site->scene, display, site->hit->triangle, &turned);
+    surface->bsdf.kind = BSDF_DISPLAY;
+    surface->bsdf.display = (DisplaySurface){display->panel, site->wavelengths};
+}
+
+void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit, Vec3 wo,
+                const Wavelengths *wavelengths, Surface *out)
+{
+    int part_id = (int)scene->triangles[hit->triangle].part_id;
+    const Material *m = &scene->materials[scene->parts[part_id].material_id];
+    float texel[4];
+    out->point = triangle_point(scene, hit->triangle, hit->u, hit->v);
+    out->position = out->point.position;
+    out->ng = out->point.ng;
+    out->part_id = part_id;
+    out->material_id = scene->parts[part_id].material_id;
+    out->emits = m->is_emitter;
+    base_texel(scene, m, hit, &out->point, texel);
+    out->alpha = alpha_of(m, texel[3]);
+    Vec3 side = vec3_dot(out->ng, wo) < 0 && !m->is_solid ? vec3_neg(out->ng) : out->ng;
+    Vec3 eye = vec3_dot(side, wo) < 0 ? vec3_neg(wo) : wo;
+    Vec3 ns = mapped_normal(scene, &m->normal_texture, m->normal_scale, hit, &out->point);
+    out->frame = frame_from_z(oriented_normal(ns, side, eye));
+    Site site = {.scene = scene, .tables = tables, .material = m, .hit = hit,
+                 .wavelengths = wavelengths};
+    if (m->display_id != NO_ID) {
+        set_display(&site, wo, out);
+    } else if (m->unlit) {
+        out->bsdf.kind = BSDF_BLACK;
+    } else {
+        read_site(&site, &out->point, texel);
+        set_bsdf(&site, out);
+    }
+}
+
+Spectrum surface_pass(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
+                      Vec3 direction, const Wavelengths *wavelengths)
+{
+    Surface surface;
+    Vec3    wo = vec3_neg(direction);
+    surface_at(scene, tables, hit, wo, wavelengths, &surface);
+    if (surface.alpha <= 0) return spectrum_all(1);
+    Spectrum through = bsdf_pass(&surface.bsdf, frame_to_local(&surface.frame, wo));
+    return spectrum_all(1 - surface.alpha) + spectrum_all(surface.alpha) * through;
+}
