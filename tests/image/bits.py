@@ -1,0 +1,97 @@
+"""bits.py [--small] PARHELION -- a frame's pixels have the same bits with 1, 2 and 5 threads,
+and a crop has those of the whole. --small: one render with 2 threads of the small scene, for
+the thread sanitizer.
+"""
+import hashlib
+import os
+import subprocess
+import sys
+import tempfile
+
+from exr import Frame
+from gltf import Scene, png
+
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
+from report import Report  # noqa: E402
+
+
+def write_scene(path):
+    """A little of everything that a path can meet."""
+    scene = Scene()
+    scene.box_inside(scene.lambert(0.7), [-2, 0, -2], [2, 2.5, 2])
+    scene.facing_quad(scene.emitter(500), [0, 2.49, 0], [0, -1, 0], 0.8)
+    scene.sphere(scene.metal(0.8, 0.3), [-0.7, 0.5, -0.8], 0.5)
+    scene.sphere(scene.metal(0.9), [0.7, 0.5, -0.8], 0.5, rings=12)
+    scene.facing_quad(scene.window(1.52, (0.9, 1, 0.9)), [0, 1, 0.5], [0.3, 0, 1], 1.5)
+    picture = scene.image("image/png", png(2, 2, [[255, 0, 0, 0, 255, 0],
+                                                  [0, 0, 255, 255, 255, 255]]))
+    scene.quad(scene.material(pbrMetallicRoughness={
+        "baseColorTexture": {"index": picture}, "roughnessFactor": 0.4, "metallicFactor": 0}),
+        [-1, 0.5, -1.9], [2, 0, 0], [0, 1.5, 0])
+    scene.light("spot", 200, [1, 2.2, 1], [-1, -2, -1])
+    scene.view("eye", [0, 1.2, 1.9], [0, -0.1, -1], 60)
+    scene.write(path)
+
+
+def render(program, scenes, out, options):
+    done = subprocess.run([program, "render", *scenes, "-o", out, "--layers", "all", "--quiet",
+                           *options], capture_output=True, text=True)
+    if done.returncode != 0:
+        print(done.stdout + done.stderr)
+        return None
+    return Frame(out)
+
+
+def digest(frame, box):
+    """SHA-256 over every channel's values inside the box."""
+    total = hashlib.sha256()
+    pixels = frame.pixels(box)
+    for name in sorted(frame.channels):
+        channel = frame.channels[name]
+        total.update(name.encode())
+        total.update(type(channel)(channel.typecode, [channel[i] for i in pixels]).tobytes())
+    return total.hexdigest()
+
+
+def compare(report, program, scenes, folder, options):
+    """Threads against each other, then a crop against the whole."""
+    name, out = os.path.basename(scenes[0]), os.path.join(folder, "frame.exr")
+    frames = {threads: render(program, scenes, out, [*options, "--threads", str(threads)])
+              for threads in (1, 2, 5)}
+    if not report.claim(None not in frames.values(), f"{name}: not rendered"):
+        return
+    whole = frames[1]
+    for threads in (2, 5):
+        report.claim(digest(frames[threads], whole.box) == digest(whole, whole.box),
+                     f"{name}: {threads} threads give other bits than one")
+    x1, y1 = whole.width - 7, whole.height - 3
+    crop = render(program, scenes, out, [*options, "--crop", f"13,5,{x1},{y1}"])
+    if report.claim(crop is not None and crop.box == (13, 5, x1, y1), f"{name}: crop's window"):
+        report.claim(digest(crop, crop.box) == digest(whole, crop.box),
+                     f"{name}: the crop has other bits than the whole")
+    seed = render(program, scenes, out, [*options, "--seed", "2"])
+    report.claim(seed is not None and digest(seed, None) != digest(whole, None),
+                 f"{name}: another seed gives the same bits")
+    print(f"{name}: {digest(whole, whole.box)}")
+
+
+def main():
+    report, program = Report(), os.path.abspath(sys.argv[-1])
+    with tempfile.TemporaryDirectory() as folder:
+        small = os.path.join(folder, "small.gltf")
+        write_scene(small)
+        if "--small" in sys.argv:
+            frame = render(program, [small], os.path.join(folder, "frame.exr"),
+                           ["--size", "32x32", "--spp", "2", "--threads", "2"])
+            report.claim(frame is not None, "two threads at once")
+        else:
+            compare(report, program, [small], folder, ["--size", "96x64", "--spp", "8"])
+            dashboard = [os.path.join(ROOT, "scenes", name)
+                         for name in ("car_dashboard.gltf", "noon.gltf")]
+            compare(report, program, dashboard, folder, ["--size", "96x54", "--spp", "4"])
+    report.finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,32 @@
+#!/bin/sh
+# run.sh -- every test that fits into a quarter of an hour; tests/long.sh has the rest.
+# Installs what is missing, builds, and ends with one line: "N passed, N failed".
+cd "$(dirname "$0")/.." || exit 1
+sh third_party/install.sh --tests || exit 1
+. tests/steps.sh
+
+run 'headers compile alone' headers sh tests/structure/headers.sh
+run 'folders include what they may' layers python3 tests/structure/layers.py
+run 'sizes and contents of the sources' source python3 tests/structure/source.py
+run 'the README names what is there' readme python3 tests/structure/readme.py
+run 'scenes hold to their schemas' schemas python3 tests/structure/schemas.py
+
+if run_one 'release build, warnings are errors' build-release build release; then
+    run 'libraries keep no state' globals sh tests/structure/globals.sh .build/release
+    run_units 'unit tests' unit .build/release
+    run 'the command line' cli sh tests/hostile/cli.sh .build/release/parhelion
+    run 'closed forms in frames' image python3 tests/image/run.py .build/release/parhelion
+    run 'same bits, any threads' bits python3 tests/image/bits.py .build/release/parhelion
+fi
+if run_one 'build with address sanitizer' build-asan build asan; then
+    export UBSAN_OPTIONS=print_stacktrace=1
+    run_units 'unit tests, address sanitizer' unit-asan .build/asan
+    run 'malformed and foreign models' hostile \
+        python3 tests/hostile/run.py .build/asan/parhelion
+fi
+if run_one 'build with thread sanitizer' build-tsan build tsan parhelion; then
+    export TSAN_OPTIONS=ignore_noninstrumented_modules=1
+    run 'two threads, thread sanitizer' tsan \
+        python3 tests/image/bits.py --small .build/tsan/parhelion
+fi
+finish

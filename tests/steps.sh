@@ -1,0 +1,91 @@
+# steps.sh -- what run.sh and long.sh share: steps, each with a line of its own, and the count.
+# Sourced from the project's root.
+# shellcheck shell=sh
+logs=.build/logs
+total_passed=0 total_failed=0 total_skipped=0
+mkdir -p $logs
+
+# counts FILE: "PASSED FAILED SKIPPED" from the last line "N passed, N failed[, N skipped]"
+counts()
+{
+    sed -n 's/^\([0-9]*\) passed, \([0-9]*\) failed\(, \([0-9]*\) skipped\)\{0,1\}$/\1 \2 \4/p' \
+        "$1" | tail -n 1
+}
+
+# unit_counts FILE: the same from the output of cmocka under ctest
+unit_counts()
+{
+    awk '/\[  PASSED  \]/ { passed += number() }
+         /\[  FAILED  \] [0-9]+ test/ { failed += number() }
+         /\[  SKIPPED \] [0-9]+ test/ { skipped += number() }
+         function number(  line) { line = $0; sub(/.*\] /, "", line); return line + 0 }
+         END { print passed + 0, failed + 0, skipped + 0 }' "$1"
+}
+
+# report NAME STATUS SECONDS PASSED FAILED SKIPPED: prints the step's line and adds it up.
+# A step that fails without having counted a failure counts as one.
+report()
+{
+    failed=$5
+    [ "$2" = 0 ] || [ "$failed" != 0 ] || failed=1
+    total_passed=$((total_passed + $4))
+    total_failed=$((total_failed + failed))
+    total_skipped=$((total_skipped + ${6:-0}))
+    line=$(printf '%-34s %5d passed %4d failed' "$1" "$4" "$failed")
+    [ "${6:-0}" = 0 ] || line="$line $6 skipped"
+    echo "$line  ($3 s)"
+    [ "$failed" = 0 ] || { grep -h '^FAILED\|\[  FAILED  \]\|error:\|ERROR:\|WARNING: Thread' \
+        "$log" | head -n 12 | sed 's/^/    /'; echo "    the whole log: $log"; }
+    grep -h '^skipped' "$log" | head -n 5 | sed 's/^/    /' || true
+}
+
+# run NAME LOG COMMAND...: a step that counts its own claims
+run()
+{
+    name=$1 log=$logs/$2.log start=$(date +%s)
+    shift 2
+    "$@" >"$log" 2>&1
+    status=$?
+    # shellcheck disable=SC2046
+    set -- $(counts "$log")
+    report "$name" $status $(($(date +%s) - start)) "${1:-0}" "${2:-0}" "${3:-0}"
+    return $status
+}
+
+# run_one NAME LOG COMMAND...: a step that is one claim
+run_one()
+{
+    name=$1 log=$logs/$2.log start=$(date +%s)
+    shift 2
+    if "$@" >"$log" 2>&1; then
+        report "$name" 0 $(($(date +%s) - start)) 1 0
+    else
+        report "$name" 1 $(($(date +%s) - start)) 0 1
+        return 1
+    fi
+}
+
+# run_units NAME LOG BUILD_DIR: cmocka's cases
+run_units()
+{
+    name=$1 log=$logs/$2.log start=$(date +%s)
+    ctest --test-dir "$3" -j "$(nproc)" -V --timeout 300 >"$log" 2>&1
+    status=$?
+    # shellcheck disable=SC2046
+    set -- $(unit_counts "$log")
+    report "$name" $status $(($(date +%s) - start)) "$1" "$2" "$3"
+    return $status
+}
+
+# build PRESET [TARGET]: a warning is an error
+build()
+{
+    cmake --preset "$1" -DPARHELION_WERROR=ON && cmake --build ".build/$1" --target "${2:-all}"
+}
+
+finish()
+{
+    [ $total_skipped = 0 ] || echo "$total_skipped skipped: see the lines above"
+    echo "$total_passed passed, $total_failed failed"
+    [ $total_failed = 0 ] || exit 1
+}
