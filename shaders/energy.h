@@ -2,7 +2,7 @@
  *
  * For the GGX boundary of one index of refraction: the directional albedo with reflectance 1
  * (`all`), and with the exact Fresnel curve's shape s = (F - F0) / (1 - F0) (`shape`). A
- * boundary whose reflectance is F0 + (F90 - F0) s then returns F0 (all - shape) + F90 shape.
+ * boundary whose reflectance is F0 + (F90 - F0) s then returns F0 all + (F90 - F0) shape.
  *
  * Memory   about 16 KiB in the caller's arena. Building takes some tens of milliseconds.
  * Threads  const once built.

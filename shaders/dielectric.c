@@ -1,0 +1,174 @@
+/* thin_window and dielectric -- clear glass and clear plastic.
+ *
+ * thin_window: windscreens, side windows, instrument covers: a smooth pane modelled without
+ * thickness. Light passes straight (shadow rays pass too), and a mirror image shows on it.
+ *   ior    1 and up, glTF's default 1.5; window glass 1.52
+ *   tint   0..1 a wavelength; green-tinted laminated glass about 0.85 at 550 nm
+ * Per polarisation R = 2r/(1+r) and T = (1-r)/(1+r) with r one face's exact Fresnel
+ * reflectance, both averaged over the polarisations: all reflections between the faces are in
+ * it, interference is not. The tint multiplies T once and does not act on R.
+ *
+ * dielectric: lenses, light guides, thick covers, bottles: the boundary of a closed solid.
+ *   ior    above 0, inside against outside; acrylic 1.49, polycarbonate 1.585, water 1.33
+ *   tint   0..1 a wavelength, of transmitted light at each crossing; default 1
+ *   alpha  0..1 GGX; below 0.001 smooth; frosted covers about 0.1 to 0.3
+ * Exact unpolarised Fresnel reflectance; rough boundaries after Walter et al. 2007 with
+ * height-correlated shadowing. Radiance grows by (n_eye side / n_light side)^2 on crossing
+ * (light is squeezed into a narrower cone); a path in and out of a solid has 1 in all.
+ *
+ * Not modelled: dispersion, polarisation carried from one surface to the next, interference
+ * coatings, light that rough facets pass to one another (a rough solid loses up to a third at
+ * alpha 1).
+ */
+#include "shaders/dielectric.h"
+
+#include "shaders/fresnel.h"
+#include "shaders/microfacet.h"
+
+static Fresnel window_face(const ThinWindow *window, float cosine)
+{
+    return fresnel_dielectric(clampf(cosine, 0, 1), window->ior, NULL);
+}
+
+Spectrum thin_window_reflectance(const ThinWindow *window, float cosine)
+{
+    return spectrum_all(fresnel_slab(window_face(window, cosine)));
+}
+
+Spectrum thin_window_transmittance(const ThinWindow *window, float cosine)
+{
+    return window->tint * spectrum_all(1 - fresnel_slab(window_face(window, cosine)));
+}
+
+bool thin_window_sample(const ThinWindow *window, Vec3 wo, const float u[3], BsdfSample *sample)
+{
+    float cosine = fabsf(wo.z);
+    float reflected = fresnel_slab(window_face(window, cosine));
+    float through = (1 - reflected) * spectrum_mean(window->tint);
+    if (!(reflected + through > 0)) return false;
+    float prob = reflected / (reflected + through);
+    if (u[2] < prob) {
+        *sample = (BsdfSample){.wi = vec3(-wo.x, -wo.y, wo.z), .pdf = prob, .is_delta = true,
+                               .weight = spectrum_all(reflected / prob)};
+        return true;
+    }
+    if (!(through > 0)) return false;
+    *sample = (BsdfSample){.wi = vec3_neg(wo), .pdf = 1 - prob, .is_delta = true, .passes = true,
+                           .weight = window->tint * spectrum_all((1 - reflected) / (1 - prob))};
+    return true;
+}
+
+/* Directions as seen from wo's side: z > 0 is that side; eta is the other side's index over
+ * this side's. */
+typedef struct Side {
+    Vec3  wo, wi;
+    float eta;
+    bool  turned;
+} Side;
+
+static Side side_of(const Dielectric *d, Vec3 wo, Vec3 wi)
+{
+    if (wo.z > 0) return (Side){wo, wi, d->ior, false};
+    return (Side){vec3(wo.x, wo.y, -wo.z), vec3(wi.x, wi.y, -wi.z), 1 / d->ior, true};
+}
+
+static float face_reflectance(float cosine, float eta, float *behind)
+{
+    return fresnel_mean(fresnel_dielectric(cosine, eta, behind));
+}
+
+/* What the mean light of the boundary's transmitted part is worth in choosing it. */
+static float reflect_prob(const Dielectric *d, float reflectance)
+{
+    float through = (1 - reflectance) * spectrum_mean(d->tint);
+    return reflectance + through > 0 ? reflectance / (reflectance + through) : 0;
+}
+
+static Spectrum eval_reflected(const Dielectric *d, const Side *s, float *pdf)
+{
+    Vec3  half = vec3_normalize(vec3_add(s->wo, s->wi));
+    float cosine = vec3_dot(s->wo, half);
+    float f = face_reflectance(cosine, s->eta, NULL);
+    *pdf = reflect_prob(d, f) * ggx_visible_pdf(s->wo, half, d->alpha) / (4 * cosine);
+    return spectrum_all(f * ggx_reflection(s->wo, s->wi, half, d->alpha));
+}
+
+/* Walter 2007, equations 16, 17 and 21 for wo + eta wi along the facet's normal, with the
+ * factor 1/eta^2 of radiance: f = |wi.h| |wo.h| T G D / (|wo.z| |wi.z| (wo.h + eta wi.h)^2). */
+static Spectrum eval_transmitted(const Dielectric *d, const Side *s, float *pdf)
+{
+    Vec3 half = vec3_normalize(vec3_along(s->wo, s->wi, s->eta));
+    if (half.z < 0) half = vec3_neg(half);
+    float out = vec3_dot(s->wo, half), in = vec3_dot(s->wi, half);
+    *pdf = 0;
+    if (!(out > 0 && in < 0)) return spectrum_all(0);
+    float f = face_reflectance(out, s->eta, NULL);
+    float root = out + s->eta * in;
+    float spread = -in / (root * root);
+    if (!(spread <= 3e38f)) return spectrum_all(0);
+    *pdf = (1 - reflect_prob(d, f)) * ggx_visible_pdf(s->wo, half, d->alpha) * s->eta * s->eta *
+           spread;
+    /* ggx_reflection is D G2 / (4 zo zi). */
+    float lobe = 4 * ggx_reflection(s->wo, s->wi, half, d->alpha);
+    return d->tint * spectrum_all((1 - f) * lobe * out * spread);
+}
+
+Spectrum dielectric_eval(const Dielectric *d, Vec3 wo, Vec3 wi, float *pdf)
+{
+    *pdf = 0;
+    if (is_smooth(d->alpha) || wo.z == 0 || wi.z == 0) return spectrum_all(0);
+    Side s = side_of(d, wo, wi);
+    return s.wi.z > 0 ? eval_reflected(d, &s, pdf) : eval_transmitted(d, &s, pdf);
+}
+
+/* Refracted direction for a facet normal half on wo's side (Walter 2007, equation 40). */
+static Vec3 refract(Vec3 wo, Vec3 half, float eta, float cosine, float behind)
+{
+    return vec3_sub(vec3_scale(half, cosine / eta - behind), vec3_scale(wo, 1 / eta));
+}
+
+static Vec3 turn_back(const Side *s, Vec3 wi)
+{
+    return s->turned ? vec3(wi.x, wi.y, -wi.z) : wi;
+}
+
+static void smooth_part(const Dielectric *d, const Side *s, bool reflects, float f, float prob,
+                        BsdfSample *sample)
+{
+    float share = reflects ? f / prob : (1 - f) / (prob * s->eta * s->eta);
+    *sample = (BsdfSample){.wi = turn_back(s, s->wi), .pdf = prob, .is_delta = true,
+                           .weight = spectrum_all(share)};
+    if (!reflects) sample->weight *= d->tint;
+}
+
+bool dielectric_sample(const Dielectric *d, Vec3 wo, const float u[3], BsdfSample *sample)
+{
+    if (wo.z == 0) return false;
+    Side  s = side_of(d, wo, wo);
+    bool  smooth = is_smooth(d->alpha);
+    Vec3  half = smooth ? vec3(0, 0, 1) : ggx_sample_visible(s.wo, d->alpha, u[0], u[1]);
+    float cosine = vec3_dot(s.wo, half), behind;
+    if (!(cosine > 0)) return false;
+    float f = face_reflectance(cosine, s.eta, &behind);
+    float prob = reflect_prob(d, f);
+    bool  reflects = u[2] < prob;
+    if (!reflects && !(f < 1 && prob < 1)) return false;
+    s.wi = reflects ? vec3_sub(vec3_scale(half, 2 * cosine), s.wo) :
+                      vec3_normalize(refract(s.wo, half, s.eta, cosine, behind));
+    if (!(reflects ? s.wi.z > 0 : s.wi.z < 0)) return false;
+    if (smooth) {
+        smooth_part(d, &s, reflects, f, reflects ? prob : 1 - prob, sample);
+        return true;
+    }
+    float    pdf;
+    Spectrum value = reflects ? eval_reflected(d, &s, &pdf) : eval_transmitted(d, &s, &pdf);
+    if (!(pdf > 0)) return false;
+    *sample = (BsdfSample){.wi = turn_back(&s, s.wi), .pdf = pdf,
+                           .weight = value * spectrum_all(fabsf(s.wi.z) / pdf)};
+    return true;
+}
+
+bool dielectric_scatters(const Dielectric *d)
+{
+    return !is_smooth(d->alpha);
+}

@@ -1,0 +1,73 @@
+/* display -- the reflection of a measured display panel.
+ *
+ * Instrument clusters, centre displays, cockpit displays: what sun, sky and cabin add to the
+ * picture. Its parameters are the .panel file's; there is nothing to set here.
+ *
+ *   mirror  unscattered part of gloss glass, R(theta, lambda): a perfect mirror image
+ *   haze    scattered part around the mirror direction, from the panel's tables, with the
+ *           Lambert-like floor below it
+ *
+ * Typical: bare gloss glass mirrors 4.5 % at normal incidence, with an anti-reflection coating
+ * 0.3 to 1 %; an anti-glare surface scatters some 3 to 5 % into haze a few degrees wide.
+ *
+ * The tables, their interpolation and their sampling are src/panel's. A panel without
+ * reflection data reflects nothing. Not modelled: polarisation, anisotropic sparkle, the change
+ * of haze with the display's content.
+ */
+#include "shaders/display.h"
+
+/* The chance of taking the mirror: its share of all reflected light. */
+static float mirror_prob(const DisplaySurface *display, Vec3 wo, Spectrum *mirror)
+{
+    *mirror = panel_mirror(display->panel, wo.z, display->wavelengths);
+    float mean = spectrum_mean(*mirror);
+    float haze = panel_haze_albedo(display->panel, wo.z);
+    return mean + haze > 0 ? mean / (mean + haze) : 0;
+}
+
+static bool reflects(const DisplaySurface *display, Vec3 wo)
+{
+    return wo.z > 0 && panel_reflects(display->panel);
+}
+
+Spectrum display_eval(const DisplaySurface *display, Vec3 wo, Vec3 wi, float *pdf)
+{
+    *pdf = 0;
+    if (!reflects(display, wo) || !(wi.z > 0)) return spectrum_all(0);
+    Spectrum mirror;
+    float    prob = mirror_prob(display, wo, &mirror);
+    *pdf = (1 - prob) * panel_pdf(display->panel, wo, wi);
+    return panel_brdf(display->panel, wo, wi, display->wavelengths);
+}
+
+bool display_sample(const DisplaySurface *display, Vec3 wo, const float u[3], BsdfSample *sample)
+{
+    if (!reflects(display, wo)) return false;
+    Spectrum mirror;
+    float    prob = mirror_prob(display, wo, &mirror);
+    if (u[2] < prob) {
+        *sample = (BsdfSample){.wi = vec3(-wo.x, -wo.y, wo.z), .pdf = prob, .is_delta = true,
+                               .weight = mirror / spectrum_all(prob)};
+        return true;
+    }
+    float rest[3] = {u[0], u[1], clampf((u[2] - prob) / (1 - prob), 0, 0x1.fffffep-1f)};
+    Vec3  wi;
+    if (!panel_sample(display->panel, wo, rest, &wi) || !(wi.z > 0)) return false;
+    float pdf = (1 - prob) * panel_pdf(display->panel, wo, wi);
+    if (!(pdf > 0)) return false;
+    Spectrum f = panel_brdf(display->panel, wo, wi, display->wavelengths);
+    *sample = (BsdfSample){.wi = wi, .weight = f * spectrum_all(wi.z / pdf), .pdf = pdf};
+    return true;
+}
+
+bool display_scatters(const DisplaySurface *display)
+{
+    return panel_reflects(display->panel);
+}
+
+Spectrum display_albedo(const DisplaySurface *display, Vec3 wo)
+{
+    if (!reflects(display, wo)) return spectrum_all(0);
+    return panel_mirror(display->panel, wo.z, display->wavelengths) +
+           spectrum_all(panel_haze_albedo(display->panel, wo.z));
+}

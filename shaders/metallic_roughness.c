@@ -1,0 +1,370 @@
+/* metallic_roughness -- glTF 2.0's surface with specular, ior, clear coat, thin transmission.
+ *
+ * On a dashboard it is nearly everything: moulded plastic, leather, soft paint, woven cloth,
+ * satin and bright chrome, piano lacquer, tinted thin covers.
+ *
+ *   base_color        0..1 a wavelength, default 1   albedo; of a metal its mirror reflectance
+ *   metallic          0..1, default 1                0 plastic, 1 metal
+ *   alpha             0..1, default 1                glTF's roughness squared; a perfect mirror
+ *                                                    below 0.001
+ *   energy->ior       1..2.5, glTF's default 1.5     of the non-metal; 0: reflects everything
+ *   specular          0..1, default 1                weakens the non-metal's reflection
+ *   specular_color    0 and up, default 1            tints it at normal incidence
+ *   transmission      0..1, default 0                share of the non-metal that is a thin pane
+ *   clearcoat, clearcoat_alpha, clearcoat_normal     a lacquer of index 1.5; default none
+ *
+ * Typical: matt dashboard plastic base 0.04, alpha 0.3; glossy black base 0.02, alpha 0.01;
+ * leather base 0.1, alpha 0.25; satin aluminium metallic 1, base 0.9, alpha 0.1; piano
+ * lacquer base 0.02 under a smooth clear coat.
+ *
+ * Model. Facets are GGX with height-correlated shadowing (Walter 2007, Heitz 2014), sampled by
+ * visible normals. Non-metals reflect by the exact Fresnel curve, scaled so that its ends are
+ * F0 = min(F0(ior) specular_color, 1) specular and F90 = specular. What the boundary does not
+ * send back goes into a Lambert base, coupled symmetrically (Kelemen and Szirmay-Kalos 2001),
+ * so a white plastic returns exactly what it gets. Metals use Schlick's curve a wavelength and
+ * get back what facets send to other facets (Kulla and Conty 2017). The transmissive share is a
+ * pane with two faces, R = 2F/(1+F); smooth panes pass light straight on. The coat lies over
+ * everything and takes its albedo off the base on the way in and out. All of it is reciprocal.
+ *
+ * Not modelled: polarisation, anisotropic brushing, sheen of velvet, subsurface spread, light
+ * that a coat's inside sends back down, coloured absorption along a slanted path in the coat,
+ * the exact conductor curve (Schlick is within some per cent of it).
+ */
+#include "shaders/metallic_roughness.h"
+
+#include "base/units.h"
+#include "shaders/fresnel.h"
+#include "shaders/microfacet.h"
+
+#define COAT_IOR 1.5f
+
+/* The non-metal's reflectance is f0 + rise * shape(angle). */
+typedef struct Boundary {
+    Spectrum f0, rise;
+} Boundary;
+
+/* Probabilities of the choices for one wo; they sum to one unless all are 0. */
+typedef struct Choices {
+    float coat, mirror, diffuse, through;
+} Choices;
+
+MetallicRoughness metallic_roughness_default(const EnergyTable *energy)
+{
+    return (MetallicRoughness){.base_color = spectrum_all(1),
+                               .specular_color = spectrum_all(1),
+                               .metallic = 1,
+                               .alpha = 1,
+                               .specular = 1,
+                               .clearcoat_normal = {0, 0, 1},
+                               .energy = energy};
+}
+
+static float normal_reflectance(float ior)
+{
+    return ior >= 1 ? fresnel_normal(ior) : 1.0f;
+}
+
+static Boundary boundary_of(const MetallicRoughness *m)
+{
+    Spectrum tinted = m->specular_color * spectrum_all(normal_reflectance(m->energy->ior));
+    Boundary b;
+    b.f0 = spectrum_min(tinted, spectrum_all(1)) * spectrum_all(m->specular);
+    b.rise = spectrum_all(m->specular) - b.f0;
+    return b;
+}
+
+/* Exact curve's rise from 0 at normal incidence to 1 at grazing. */
+static float fresnel_shape(float ior, float cosine)
+{
+    if (!(ior > 1)) return 0;
+    float f0 = fresnel_normal(ior);
+    return (fresnel_mean(fresnel_dielectric(cosine, ior, NULL)) - f0) / (1 - f0);
+}
+
+static Spectrum boundary_reflectance(const MetallicRoughness *m, const Boundary *b, float cosine)
+{
+    return b->f0 + b->rise * spectrum_all(fresnel_shape(m->energy->ior, cosine));
+}
+
+static Spectrum pane_reflectance(Spectrum face)
+{
+    return (face + face) / (spectrum_all(1) + face);
+}
+
+/* Share of the base's light that a boundary lets pass, for an energy of the table. */
+static Spectrum let_in(const Boundary *b, Energy e)
+{
+    return spectrum_all(1) - b->f0 * spectrum_all(e.all) - b->rise * spectrum_all(e.shape);
+}
+
+/* Reflectance of a facet met at `cosine`, all three materials of the base mixed. */
+static Spectrum facet_reflectance(const MetallicRoughness *m, const Boundary *b, float cosine)
+{
+    Spectrum sum = spectrum_all(0);
+    if (m->metallic < 1) {
+        Spectrum face = boundary_reflectance(m, b, cosine);
+        Spectrum mixed = face;
+        if (m->transmission > 0)
+            mixed += (pane_reflectance(face) - face) * spectrum_all(m->transmission);
+        sum = mixed * spectrum_all(1 - m->metallic);
+    }
+    if (m->metallic > 0)
+        sum += fresnel_schlick(m->base_color, cosine) * spectrum_all(m->metallic);
+    return sum;
+}
+
+/* What the pane's share lets through a facet met at `cosine`. */
+static Spectrum pane_transmittance(const MetallicRoughness *m, const Boundary *b, float cosine)
+{
+    Spectrum face = boundary_reflectance(m, b, cosine);
+    return (spectrum_all(1) - pane_reflectance(face)) * m->base_color *
+           spectrum_all((1 - m->metallic) * m->transmission);
+}
+
+/* Lambert under the boundary: base / pi * in(wo) in(wi) / mean of in (Kelemen 2001). */
+static Spectrum diffuse_eval(const MetallicRoughness *m, const Boundary *b, Energy out, Energy in)
+{
+    float share = (1 - m->metallic) * (1 - m->transmission);
+    if (!(share > 0)) return spectrum_all(0);
+    Spectrum mean = let_in(b, energy_average(m->energy, m->alpha));
+    return m->base_color * let_in(b, out) * let_in(b, in) * spectrum_all(share * INV_PI_F) /
+           spectrum_max(mean, spectrum_all(1e-3f));
+}
+
+/* What facets of metal send to one another and then out (Kulla and Conty 2017): the missing
+ * albedo on both sides, times the mean reflectance of all further bounces. The mean of
+ * Schlick's curve over the hemisphere is f0 + (1 - f0) / 21. */
+static Spectrum metal_rebound(const MetallicRoughness *m, Energy out, Energy in)
+{
+    float mean = energy_average(m->energy, m->alpha).all;
+    float missing = 1 - mean;
+    if (!(m->metallic > 0 && missing > 1e-4f)) return spectrum_all(0);
+    Spectrum one = spectrum_all(1);
+    Spectrum f = m->base_color + (one - m->base_color) * spectrum_all(1.0f / 21);
+    Spectrum bounces = f * f * spectrum_all(mean) / (one - f * spectrum_all(missing));
+    float shape = (1 - out.all) * (1 - in.all) / missing * INV_PI_F;
+    return bounces * spectrum_all(m->metallic * shape);
+}
+
+static float coat_cosine(const MetallicRoughness *m, Vec3 w)
+{
+    return fabsf(vec3_dot(m->clearcoat_normal, w));
+}
+
+/* The coat's albedo for a direction, times its share. */
+static float coat_albedo(const MetallicRoughness *m, Vec3 w)
+{
+    if (!(m->clearcoat > 0)) return 0;
+    float  f0 = fresnel_normal(COAT_IOR);
+    Energy e = energy_directional(m->clearcoat_energy, coat_cosine(m, w), m->clearcoat_alpha);
+    return m->clearcoat * (f0 * e.all + (1 - f0) * e.shape);
+}
+
+/* With a tilted normal the coat's own cosines differ from the surface's: dividing by the larger
+ * of each pair keeps it reciprocal and below its untilted albedo. */
+static float coat_tilt(const MetallicRoughness *m, Vec3 wo, Vec3 wi)
+{
+    float out = vec3_dot(m->clearcoat_normal, wo), in = vec3_dot(m->clearcoat_normal, wi);
+    if (!(out > 0 && in > 0 && wo.z > 0 && wi.z > 0)) return 0;
+    return (out > wo.z ? 1 : out / wo.z) * (in > wi.z ? 1 : in / wi.z);
+}
+
+static float coat_facet(float cosine)
+{
+    return fresnel_mean(fresnel_dielectric(cosine, COAT_IOR, NULL));
+}
+
+/* Into and out of the coat's own frame. */
+static Frame coat_frame(const MetallicRoughness *m)
+{
+    return frame_from_z(m->clearcoat_normal);
+}
+
+/* Rough coat: *pdf of choosing wi by it. */
+static float coat_eval(const MetallicRoughness *m, Vec3 wo, Vec3 wi, float *pdf)
+{
+    *pdf = 0;
+    float tilt = coat_tilt(m, wo, wi);
+    if (!(tilt > 0)) return 0;
+    Frame frame = coat_frame(m);
+    Vec3  out = frame_to_local(&frame, wo), in = frame_to_local(&frame, wi);
+    Vec3  half = vec3_normalize(vec3_add(out, in));
+    *pdf = ggx_reflection_pdf(out, half, m->clearcoat_alpha);
+    return m->clearcoat * tilt * coat_facet(vec3_dot(out, half)) *
+           ggx_reflection(out, in, half, m->clearcoat_alpha);
+}
+
+/* Probabilities follow the lanes' mean albedo of each part, so that none is ever starved. */
+static Choices choose(const MetallicRoughness *m, Vec3 wo)
+{
+    Energy   e = energy_directional(m->energy, wo.z, m->alpha);
+    Boundary b = boundary_of(m);
+    float base = spectrum_mean(m->base_color);
+    float f0 = spectrum_mean(b.f0);
+    float face = f0 * e.all + (m->specular - f0) * e.shape;
+    float pane = 2 * face / (1 + face);
+    float metal = base * e.all + (1 - base) * e.shape;
+    float clear = (1 - m->metallic) * m->transmission, solid = 1 - m->metallic - clear;
+    float coat = vec3_dot(m->clearcoat_normal, wo) > 0 ? coat_albedo(m, wo) : 0;
+    float under = 1 - coat;
+    Choices c = {
+        .coat = coat,
+        .mirror = under * (solid * face + clear * pane + m->metallic * metal),
+        .diffuse = under * base * (solid * (1 - face) + m->metallic * base * (1 - e.all)),
+        .through = under * base * clear * (1 - pane),
+    };
+    float sum = c.coat + c.mirror + c.diffuse + c.through;
+    float scale = sum > 0 ? 1 / sum : 0;
+    return (Choices){c.coat * scale, c.mirror * scale, c.diffuse * scale, c.through * scale};
+}
+
+/* The base seen from above: rough mirror, Lambert, rebound; and its part of the pdf. */
+static Spectrum base_above(const MetallicRoughness *m, Vec3 wo, Vec3 wi, Choices c, float *pdf)
+{
+    Boundary b = boundary_of(m);
+    Energy   out = energy_directional(m->energy, wo.z, m->alpha);
+    Energy   in = energy_directional(m->energy, wi.z, m->alpha);
+    Spectrum sum = diffuse_eval(m, &b, out, in) + metal_rebound(m, out, in);
+    *pdf = c.diffuse * wi.z * INV_PI_F;
+    if (!is_smooth(m->alpha)) {
+        Vec3  half = vec3_normalize(vec3_add(wo, wi));
+        float lobe = ggx_reflection(wo, wi, half, m->alpha);
+        sum += facet_reflectance(m, &b, vec3_dot(wo, half)) * spectrum_all(lobe);
+        *pdf += c.mirror * ggx_reflection_pdf(wo, half, m->alpha);
+    }
+    return sum;
+}
+
+/* A rough pane sends on what a mirror would send back, turned over to the other side. */
+static Spectrum base_below(const MetallicRoughness *m, Vec3 wo, Vec3 wi, Choices c, float *pdf)
+{
+    *pdf = 0;
+    if (is_smooth(m->alpha) || !(m->transmission > 0)) return spectrum_all(0);
+    Vec3     up = vec3(wi.x, wi.y, -wi.z);
+    Vec3     half = vec3_normalize(vec3_add(wo, up));
+    Boundary b = boundary_of(m);
+    *pdf = c.through * ggx_reflection_pdf(wo, half, m->alpha);
+    return pane_transmittance(m, &b, vec3_dot(wo, half)) *
+           spectrum_all(ggx_reflection(wo, up, half, m->alpha));
+}
+
+static Spectrum eval_chosen(const MetallicRoughness *m, Vec3 wo, Vec3 wi, Choices c, float *pdf)
+{
+    Spectrum f = wi.z > 0 ? base_above(m, wo, wi, c, pdf) : base_below(m, wo, wi, c, pdf);
+    if (!(m->clearcoat > 0)) return f;
+    f *= spectrum_all((1 - coat_albedo(m, wo)) * (1 - coat_albedo(m, wi)));
+    if (!is_smooth(m->clearcoat_alpha)) {
+        float coat_pdf;
+        f += spectrum_all(coat_eval(m, wo, wi, &coat_pdf));
+        *pdf += c.coat * coat_pdf;
+    }
+    return f;
+}
+
+Spectrum metallic_roughness_eval(const MetallicRoughness *m, Vec3 wo, Vec3 wi, float *pdf)
+{
+    *pdf = 0;
+    if (!(wo.z > 0) || wi.z == 0) return spectrum_all(0);
+    return eval_chosen(m, wo, wi, choose(m, wo), pdf);
+}
+
+static bool sample_smooth(BsdfSample *sample, Vec3 wi, Spectrum value, float prob)
+{
+    *sample = (BsdfSample){.wi = wi, .weight = value / spectrum_all(prob), .pdf = prob,
+                           .is_delta = true};
+    return true;
+}
+
+/* The smooth coat's mirror image, about the coat's own normal. */
+static bool sample_smooth_coat(const MetallicRoughness *m, Vec3 wo, float prob,
+                               BsdfSample *sample)
+{
+    float cosine = vec3_dot(m->clearcoat_normal, wo);
+    Vec3  wi = vec3_sub(vec3_scale(m->clearcoat_normal, 2 * cosine), wo);
+    float value = m->clearcoat * coat_facet(cosine) * coat_tilt(m, wo, wi);
+    if (!(value > 0)) return false;
+    /* Tilted cosines: the lobe is per cosine to the coat, the surface's cosine carries it. */
+    return sample_smooth(sample, wi, spectrum_all(value * wi.z / cosine), prob);
+}
+
+static bool sample_smooth_base(const MetallicRoughness *m, Vec3 wo, float prob,
+                               BsdfSample *sample)
+{
+    Boundary b = boundary_of(m);
+    Vec3     wi = vec3(-wo.x, -wo.y, wo.z);
+    float    coat = (1 - coat_albedo(m, wo)) * (1 - coat_albedo(m, wi));
+    return sample_smooth(sample, wi, facet_reflectance(m, &b, wo.z) * spectrum_all(coat), prob);
+}
+
+Spectrum metallic_roughness_pass(const MetallicRoughness *m, Vec3 wo)
+{
+    if (!is_smooth(m->alpha) || !(m->transmission > 0) || !(wo.z > 0)) return spectrum_all(0);
+    Boundary b = boundary_of(m);
+    float    coat = 1 - coat_albedo(m, wo);
+    return pane_transmittance(m, &b, wo.z) * spectrum_all(coat * coat);
+}
+
+/* A direction by the rough coat, the rough mirror, the Lambert base or the rough pane. */
+static Vec3 sample_rough(const MetallicRoughness *m, Vec3 wo, Choices c, const float u[3])
+{
+    if (u[2] < c.coat) {
+        Frame frame = coat_frame(m);
+        Vec3  out = frame_to_local(&frame, wo);
+        return frame_to_world(&frame, ggx_sample_reflection(out, m->clearcoat_alpha, u[0], u[1]));
+    }
+    if (u[2] < c.coat + c.mirror) return ggx_sample_reflection(wo, m->alpha, u[0], u[1]);
+    if (u[2] < c.coat + c.mirror + c.diffuse) {
+        float sine, cosine, radius = sqrtf(u[1]);
+        sincos_turns(u[0], &sine, &cosine);
+        return vec3(radius * cosine, radius * sine, safe_sqrtf(1 - u[1]));
+    }
+    Vec3 up = ggx_sample_reflection(wo, m->alpha, u[0], u[1]);
+    return vec3(up.x, up.y, -up.z);
+}
+
+bool metallic_roughness_sample(const MetallicRoughness *m, Vec3 wo, const float u[3],
+                               BsdfSample *sample)
+{
+    if (!(wo.z > 0)) return false;
+    Choices c = choose(m, wo);
+    if (u[2] >= c.coat + c.mirror + c.diffuse + c.through) return false;
+    bool by_coat = u[2] < c.coat;
+    bool by_mirror = !by_coat && u[2] < c.coat + c.mirror;
+    bool by_pane = u[2] >= c.coat + c.mirror + c.diffuse;
+    if (by_coat && is_smooth(m->clearcoat_alpha)) return sample_smooth_coat(m, wo, c.coat, sample);
+    if (by_mirror && is_smooth(m->alpha)) return sample_smooth_base(m, wo, c.mirror, sample);
+    if (by_pane && is_smooth(m->alpha)) {
+        sample_smooth(sample, vec3_neg(wo), metallic_roughness_pass(m, wo), c.through);
+        return sample->passes = true;
+    }
+    Vec3 wi = sample_rough(m, wo, c, u);
+    if (!(by_pane ? wi.z < 0 : wi.z > 0)) return false;
+    float    pdf;
+    Spectrum f = eval_chosen(m, wo, wi, c, &pdf);
+    if (!(pdf > 0)) return false;
+    *sample = (BsdfSample){.wi = wi, .weight = f * spectrum_all(fabsf(wi.z) / pdf), .pdf = pdf};
+    return true;
+}
+
+bool metallic_roughness_scatters(const MetallicRoughness *m)
+{
+    bool has_base = (1 - m->metallic) * (1 - m->transmission) > 0;
+    bool has_coat = m->clearcoat > 0 && !is_smooth(m->clearcoat_alpha);
+    return has_base || has_coat || !is_smooth(m->alpha);
+}
+
+Spectrum metallic_roughness_albedo(const MetallicRoughness *m, Vec3 wo)
+{
+    if (!(wo.z > 0)) return spectrum_all(0);
+    Energy   e = energy_directional(m->energy, wo.z, m->alpha);
+    Boundary b = boundary_of(m);
+    Spectrum one = spectrum_all(1), in = let_in(&b, e), base = m->base_color;
+    Spectrum pane = pane_reflectance(one - in);
+    Spectrum clear = pane + (one - pane) * base;
+    Spectrum solid = (one - in) + in * base;
+    Spectrum metal = base + (one - base) * spectrum_all(e.shape);
+    Spectrum dielectric = solid + (clear - solid) * spectrum_all(m->transmission);
+    Spectrum mixed = dielectric + (metal - dielectric) * spectrum_all(m->metallic);
+    float    coat = coat_albedo(m, wo);
+    return spectrum_all(coat) + mixed * spectrum_all(1 - coat);
+}
