@@ -43,8 +43,7 @@ static void print_time(char *buffer, size_t size, double seconds)
         snprintf(buffer, size, "%d:%02d", whole / 60, whole % 60);
 }
 
-/* 950, 12.3 k, 4.56 M */
-static void print_rate(char *buffer, size_t size, double rate)
+void rate_text(double rate, char *buffer, int size)
 {
     static const char *const prefixes[] = {"", "k", "M", "G"};
     int step = 0;
@@ -52,7 +51,7 @@ static void print_rate(char *buffer, size_t size, double rate)
         rate /= 1000;
         step++;
     }
-    snprintf(buffer, size, "%.3g %s", rate, prefixes[step]);
+    snprintf(buffer, (size_t)size, "%.3g %s", rate, prefixes[step]);
 }
 
 typedef struct Figures {
@@ -83,7 +82,7 @@ static void show_json(const Progress *progress, double done, const Figures *f)
 static void show_text(const Progress *progress, const Figures *f)
 {
     char rate[32], elapsed[32], remaining[32], bar[BAR_CELLS + 1];
-    print_rate(rate, sizeof rate, f->rate);
+    rate_text(f->rate, rate, (int)sizeof rate);
     print_time(elapsed, sizeof elapsed, f->elapsed_s);
     print_time(remaining, sizeof remaining, f->remaining_s);
     if (progress->mode == PROGRESS_PLAIN) {

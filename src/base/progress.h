@@ -38,3 +38,6 @@ void progress_clear(const Progress *progress);
 
 /* Seconds of the monotonic clock. */
 double monotonic_seconds(void);
+
+/* A rate with three digits, ready for its unit: "950 ", "12.3 k", "4.56 M". */
+void rate_text(double rate, char *buffer, int size);

@@ -35,7 +35,7 @@ static const char *instruction_set(void)
 
 static void print_version(void)
 {
-    printf("parhelion %s\ninstruction set %s\n%s", PARHELION_VERSION, instruction_set(),
+    printf("parhelion %s\ninstruction set: %s\nlibraries: %s\n", PARHELION_VERSION, instruction_set(),
            LIBRARY_VERSIONS);
 }
 

@@ -1,0 +1,155 @@
+/* parhelion render: load, render, write, develop, answer. */
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "cli/render_command.h"
+
+/* Everything of one run of the command. */
+typedef struct Work {
+    RenderRequest request;
+    Arena        *arena;
+    Problems      problems;
+    Scene        *scene;
+    SceneCamera   camera;
+} Work;
+
+/* ---- before ------------------------------------------------------------------------------ */
+
+/* Hours of rendering must not end at a folder that cannot be written. */
+static bool check_writable(const char *path, Arena scratch, Error *err)
+{
+    const char *probe = file_temporary_name(path, &scratch);
+    int         file = open(probe, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    if (file < 0)
+        return error_at(err, ERROR_OUTPUT, path, NULL, "cannot be written: %s", strerror(errno));
+    close(file);
+    unlink(probe);
+    return true;
+}
+
+static size_t memory_bytes(void)
+{
+    return (size_t)sysconf(_SC_PHYS_PAGES) * (size_t)sysconf(_SC_PAGESIZE);
+}
+
+/* Frames that OpenEXR's reader would refuse, and films that no memory of this machine holds. */
+static bool check_memory(const RenderOptions *options, Error *err)
+{
+    FilmRect crop = options->crop;
+    double   pixels = (double)(crop.x1 - crop.x0) * (double)(crop.y1 - crop.y0);
+    double   memory = (double)memory_bytes();
+    if (pixels > EXR_MAX_PIXELS)
+        return error_set(err, ERROR_USAGE,
+                         "--size %dx%d: %.0f pixels, at most %d — use --crop and several frames",
+                         options->width, options->height, pixels, EXR_MAX_PIXELS);
+    double wanted = (double)film_bytes(crop, options->layers);
+    if (wanted < memory) return true;
+    return error_set(err, ERROR_MEMORY,
+                     "the film of %.0f pixels needs %.1f GB, this machine has %.1f GB — use "
+                     "--crop or fewer --layers",
+                     pixels, wanted / 1e9, memory / 1e9);
+}
+
+static bool check_outputs(const RenderRequest *request, Arena scratch, Error *err)
+{
+    if (request->output && !check_writable(request->output, scratch, err)) return false;
+    return !request->png || check_writable(request->png, scratch, err);
+}
+
+static bool load(Work *work, Error *err)
+{
+    RenderRequest *request = &work->request;
+    work->problems = problems_start(work->arena);
+    bool loaded = scene_load(&request->scene, work->arena, &work->problems, &work->scene, err) &&
+                  render_change_environment(&request->environment, work->scene, work->arena,
+                                            err) &&
+                  render_choose_camera(work->scene, request->camera, &work->problems,
+                                       &work->camera, err);
+    cli_print_warnings(&work->problems);
+    return loaded;
+}
+
+/* ---- after ------------------------------------------------------------------------------- */
+
+static bool write_frame(const Work *work, const RenderResult *result, Error *err)
+{
+    Arena      scratch = *work->arena;
+    FrameImage frame = render_make_frame(&work->request, work->scene, &work->camera, result,
+                                         &scratch);
+    return frame_write(work->request.output, &frame, err);
+}
+
+static void write_snapshot(void *user, const RenderResult *so_far)
+{
+    const Work *work = user;
+    Error       err;
+    if (write_frame(work, so_far, &err))
+        fprintf(stderr, "parhelion: %s: snapshot after %u samples a pixel\n",
+                work->request.output, so_far->samples);
+    else
+        cli_report_error(&err, false);
+}
+
+static void warn_of_dropped(const Work *work, const RenderResult *result)
+{
+    FilmDropped dropped = film_dropped(result->film);
+    if (!dropped.count) return;
+    fprintf(stderr, "parhelion: warning: %llu samples were not finite and are left out; to see "
+                    "the first again:\n  %s --replay %d,%d,%u\n",
+            (unsigned long long)dropped.count, work->request.command_line, dropped.first[0].x,
+            dropped.first[0].y, dropped.first[0].sample_index);
+}
+
+/* The partial frame is written and the answer given: only the line and the status are left. */
+static bool report_interruption(const Work *work, const RenderResult *result, Error *err)
+{
+    const RenderOptions *options = &work->request.render;
+    bool by_int = result->stopped_by == SIGINT;
+    error_at(err, by_int ? ERROR_INTERRUPTED : ERROR_TERMINATED, work->request.output, NULL,
+             "stopped by %s after %u of %u samples a pixel; the frame is marked incomplete — run "
+             "the same command again for the whole",
+             by_int ? "INT" : "TERM", result->samples,
+             options->end_sample - options->first_sample);
+    cli_report_error(err, false);
+    err->text[0] = '\0';
+    return false;
+}
+
+static bool hand_over(Work *work, const RenderResult *result, Error *err)
+{
+    warn_of_dropped(work, result);
+    if (work->request.replays)
+        return render_print_replay(&work->request, work->scene, result, work->arena, err);
+    if (!write_frame(work, result, err)) return false;
+    if (!render_print_answer(&work->request, result, &work->problems, err)) return false;
+    return result->complete || report_interruption(work, result, err);
+}
+
+static bool run(Work *work, Error *err)
+{
+    RenderOptions *options = &work->request.render;
+    RenderResult   result;
+    options->snapshot = work->request.replays ? NULL : write_snapshot;
+    options->snapshot_user = work;
+    if (!check_memory(options, err) || !check_outputs(&work->request, *work->arena, err) ||
+        !load(work, err))
+        return false;
+    return render_scene(work->scene, &work->camera, options, work->arena, &result, err) &&
+           hand_over(work, &result, err);
+}
+
+bool cmd_render(int argc, char **argv, Error *err)
+{
+    Arena arena = arena_reserve(2 * memory_bytes()); /* address space: what is touched counts */
+    Work  work = {.arena = &arena};
+    bool  done = render_request_parse(argc, argv, &arena, &work.request, err) &&
+                (work.request.cli.help_shown || run(&work, err));
+    scene_close(work.scene);
+    arena_release(&arena);
+    return done;
+}

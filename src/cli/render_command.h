@@ -1,0 +1,58 @@
+/* render_command.h -- the parts of `parhelion render`; private to src/cli.
+ *
+ * What the user typed becomes a RenderRequest; the scene is loaded and changed by it; what
+ * comes out is written as a frame with everything that is needed to make it again.
+ * Memory   everything lives in the command's arena.
+ */
+#pragma once
+#include "cli/cli.h"
+#include "image/frame.h"
+#include "render/render.h"
+#include "scene/scene.h"
+
+/* What the command line changes about the surroundings. */
+typedef struct EnvironmentChange {
+    const char *environment; /* "constant:CD_M2", "hdri:FILE"; NULL: the scene's own */
+    const char *sun;         /* "off", "AZ,EL", "AZ,EL,LUX"; NULL: the scene's own */
+    bool   has_hdri_lux, has_forward, has_heading;
+    double hdri_lux;         /* lx on a horizontal plane */
+    double forward[3];       /* scene vector */
+    double heading_deg;
+} EnvironmentChange;
+
+typedef struct RenderRequest {
+    Cli           cli;
+    SceneOptions  scene;
+    const char   *output; /* NULL only when replaying */
+    const char   *png;    /* NULL: none */
+    const char   *camera; /* NULL: the first */
+    EnvironmentChange environment;
+    RenderOptions render;
+    bool          replays; /* one sample of one pixel, printed */
+    const char   *command_line;
+} RenderRequest;
+
+bool render_request_parse(int argc, char **argv, Arena *arena, RenderRequest *out, Error *err);
+
+/* Overrides single members of the scene's environment; a picture that is read joins the
+ * scene's inputs. */
+bool render_change_environment(const EnvironmentChange *change, Scene *scene, Arena *arena,
+                               Error *err);
+
+/* By a node's name, then a camera's, then an index; NULL: the first. A scene without a camera
+ * is framed whole, and a warning says so. */
+bool render_choose_camera(const Scene *scene, const char *wanted, Problems *problems,
+                          SceneCamera *out, Error *err);
+
+/* The film as it stands, with its metadata. */
+FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
+                             const SceneCamera *camera, const RenderResult *result,
+                             Arena *arena);
+
+/* The command's answer on stdout. */
+bool render_print_answer(const RenderRequest *request, const RenderResult *result,
+                         const Problems *problems, Error *err);
+
+/* The value of the one sample that was replayed, on stdout. */
+bool render_print_replay(const RenderRequest *request, const Scene *scene,
+                         const RenderResult *result, Arena *arena, Error *err);
