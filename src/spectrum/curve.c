@@ -1,0 +1,121 @@
+#include "spectrum/curve.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MAX_POINTS 4096 /* 0.1 nm over the visible range */
+
+void curve_from_points(const double *nm, const double *value, int count, Curve *out)
+{
+    int next = 0; /* first point at or above the nanometre */
+    for (int i = 0; i < CURVE_COUNT; i++) {
+        double here = CURVE_FIRST_NM + i;
+        while (next < count && nm[next] < here) next++;
+        if (next == 0)
+            out->value[i] = (float)value[0];
+        else if (next == count)
+            out->value[i] = (float)value[count - 1];
+        else {
+            double t = (here - nm[next - 1]) / (nm[next] - nm[next - 1]);
+            out->value[i] = (float)(value[next - 1] + t * (value[next] - value[next - 1]));
+        }
+    }
+}
+
+typedef struct Points {
+    double nm[MAX_POINTS], value[MAX_POINTS];
+    int    count;
+} Points;
+
+/* Nothing but white space from here on? */
+static bool is_blank(const char *text)
+{
+    while (*text == ' ' || *text == '\t' || *text == '\r' || *text == '\n') text++;
+    return *text == '\0';
+}
+
+/* Two numbers, with a comma, semicolon or white space between. */
+static bool parse_row(const char *line, double *nm, double *value)
+{
+    char *end, *last;
+    *nm = strtod(line, &end);
+    if (end == line) return false;
+    while (*end == ' ' || *end == '\t') end++;
+    if (*end == ',' || *end == ';') end++;
+    *value = strtod(end, &last);
+    return last != end && is_blank(last);
+}
+
+static bool add_row(Points *points, const char *path, const char *place, double nm,
+                    double value, Error *err)
+{
+    int n = points->count;
+    if (!isfinite(nm) || !isfinite(value) || !(nm > 0))
+        return error_at(err, ERROR_INPUT, path, place,
+                        "wavelength %g nm with value %g: wanted finite numbers, nm above 0", nm,
+                        value);
+    if (n && !(nm > points->nm[n - 1]))
+        return error_at(err, ERROR_INPUT, path, place,
+                        "wavelength %g nm after %g nm: wanted rising wavelengths", nm,
+                        points->nm[n - 1]);
+    if (n == MAX_POINTS)
+        return error_at(err, ERROR_INPUT, path, place, "more than %d rows", MAX_POINTS);
+    points->nm[n] = nm;
+    points->value[n] = value;
+    points->count++;
+    return true;
+}
+
+/* One line may be a header: the first that is neither blank nor a comment. */
+static bool read_points(FILE *file, const char *path, Points *points, Error *err)
+{
+    char line[512], place[32];
+    bool may_be_header = true;
+    for (int number = 1; fgets(line, sizeof line, file); number++) {
+        double nm, value;
+        if (line[0] == '#' || is_blank(line)) continue;
+        snprintf(place, sizeof place, "line %d", number);
+        if (parse_row(line, &nm, &value)) {
+            if (!add_row(points, path, place, nm, value, err)) return false;
+        } else if (!may_be_header) {
+            line[strcspn(line, "\r\n")] = '\0';
+            return error_at(err, ERROR_INPUT, path, place,
+                            "found \"%.60s\", wanted two numbers: nm,value", line);
+        }
+        may_be_header = false;
+    }
+    if (ferror(file))
+        return error_at(err, ERROR_INPUT, path, NULL, "cannot be read: %s", strerror(errno));
+    if (!points->count)
+        return error_at(err, ERROR_INPUT, path, NULL, "no rows of nm,value");
+    return true;
+}
+
+bool curve_read(const char *path, Curve *out, Error *err)
+{
+    FILE *file = fopen(path, "r");
+    if (!file)
+        return error_at(err, ERROR_INPUT, path, NULL, "cannot be opened: %s", strerror(errno));
+    Points *points = calloc(1, sizeof *points);
+    bool    ok = points ? read_points(file, path, points, err) :
+                          error_at(err, ERROR_MEMORY, path, NULL, "no memory to read it");
+    if (ok) curve_from_points(points->nm, points->value, points->count, out);
+    free(points);
+    fclose(file);
+    return ok;
+}
+
+Spectrum curve_lookup(const Curve *curve, const Wavelengths *wavelengths)
+{
+    Spectrum value;
+    for (int i = 0; i < SPECTRUM_LANES; i++) {
+        float place = wavelengths->nm[i] - CURVE_FIRST_NM;
+        int   cell = (int)place;
+        if (cell > CURVE_COUNT - 2) cell = CURVE_COUNT - 2;
+        float low = curve->value[cell], high = curve->value[cell + 1];
+        value[i] = low + (high - low) * (place - (float)cell);
+    }
+    return value;
+}

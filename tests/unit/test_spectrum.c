@@ -1,0 +1,411 @@
+/* Colour from spectra: one observer, one normalisation, no bias from sampling wavelengths. */
+#include "check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/units.h"
+#include "spectrum/curve.h"
+#include "spectrum/photometry.h"
+#include "spectrum/wavelengths.h"
+
+#define OFFSETS 20000
+
+static Spectrum curve_of_d65(const Wavelengths *w)
+{
+    return w->d65;
+}
+
+/* Mean estimate of XYZ over many offsets. */
+static void estimate_xyz(Spectrum (*radiance)(const Wavelengths *), double xyz[3])
+{
+    xyz[0] = xyz[1] = xyz[2] = 0;
+    for (int i = 0; i < OFFSETS; i++) {
+        Wavelengths w;
+        float       one[3] = {0, 0, 0};
+        wavelengths_sample(((float)i + 0.5f) / OFFSETS, &w);
+        spectrum_add_xyz(&w, radiance(&w), one);
+        for (int c = 0; c < 3; c++) xyz[c] += (double)one[c] / OFFSETS;
+    }
+}
+
+static void equal_energy_has_its_luminance(void **state)
+{
+    (void)state;
+    float one[SPECTRAL_COUNT];
+    for (int i = 0; i < SPECTRAL_COUNT; i++) one[i] = 1;
+    assert_close(luminance_cd_m2(one, SPECTRAL_COUNT, 360, 1), 683.002 * 106.8569, 1e-6);
+    assert_close(luminance_cd_m2(one, 95, 360, 5), 683.002 * 106.8569, 1e-6);
+    assert_close(luminance_cd_m2(one, 48, 360, 10), 683.002 * 106.8569, 1e-6);
+    float three[6] = {1, 1, 1, 1, 1, 1};
+    assert_close(luminance_cd_m2(three, 6, 554.5, 0.2), 683.002, 2e-4);
+}
+
+static void equal_energy_is_white_of_e(void **state)
+{
+    (void)state;
+    float  one[SPECTRAL_COUNT];
+    double xyz[3];
+    for (int i = 0; i < SPECTRAL_COUNT; i++) one[i] = 1;
+    xyz_from_radiance(one, SPECTRAL_COUNT, 360, 1, xyz);
+    assert_close(xyz[0], 683.002 * 106.86546949, 2e-6);
+    assert_close(xyz[2], 683.002 * 106.89225128, 4e-6);
+}
+
+static void nothing_is_seen_outside_360_to_830(void **state)
+{
+    (void)state;
+    float one[200];
+    for (int i = 0; i < 200; i++) one[i] = 1;
+    assert_near(luminance_cd_m2(one, 200, 150, 1), 0, 0);
+    assert_near(luminance_cd_m2(one, 200, 900, 1), 0, 0);
+    assert_near(luminance_cd_m2(one, 1, 555, 1), 0, 0); /* a single point has no width */
+}
+
+static void a_black_body_radiates_sigma_t4(void **state)
+{
+    (void)state;
+    for (double kelvin = 1000; kelvin < 12000; kelvin *= 1.7) {
+        double sum = 0; /* in ln(lambda): 10 nm to 1 mm */
+        for (int i = 0; i < 20000; i++) {
+            double nm = exp(log(10.0) + (i + 0.5) / 20000 * log(1e5));
+            sum += black_body_radiance(nm, kelvin) * nm * log(1e5) / 20000;
+        }
+        assert_close(sum, STEFAN_BOLTZMANN * pow(kelvin, 4) / PI, 1e-4);
+    }
+}
+
+static void illuminant_a_is_a_black_body_of_2856_kelvin(void **state)
+{
+    (void)state;
+    double ratio = (double)spectral_row(560).illuminant_a / black_body_radiance(560, 2855.5);
+    for (int nm = 380; nm <= 780; nm += 40)
+        assert_close(spectral_row(nm).illuminant_a, ratio * black_body_radiance(nm, 2855.5), 2e-4);
+}
+
+static void d65_has_its_chromaticity(void **state)
+{
+    (void)state;
+    float d65[SPECTRAL_COUNT], xyz[3], xy[2], uv[2];
+    double sum[3];
+    for (int i = 0; i < SPECTRAL_COUNT; i++) d65[i] = spectral_table[i].d65;
+    xyz_from_radiance(d65, SPECTRAL_COUNT, 360, 1, sum);
+    for (int c = 0; c < 3; c++) xyz[c] = (float)sum[c];
+    assert_close(sum[1], 1, 1e-5);
+    assert_close(sum[0], 0.950471, 2e-5);
+    assert_close(sum[2], 1.088828, 2e-5);
+    xy_from_xyz(xyz, xy);
+    assert_near(xy[0], 0.312727, 3e-6);
+    assert_near(xy[1], 0.329023, 3e-6);
+    uv_from_xyz(xyz, uv);
+    assert_near(uv[0], 4 * 0.312727 / (-2 * 0.312727 + 12 * 0.329023 + 3), 1e-5);
+    assert_near(uv[1], 9 * 0.329023 / (-2 * 0.312727 + 12 * 0.329023 + 3), 1e-5);
+}
+
+static void wavelengths_cover_the_range_once(void **state)
+{
+    (void)state;
+    double integral = 0;
+    for (int i = 0; i < 47000; i++) integral += (double)wavelengths_pdf(360.005f + 0.01f * (float)i) * 0.01;
+    assert_close(integral, 1, 1e-4);
+    for (int i = 0; i < 1000; i++) {
+        Wavelengths w;
+        wavelengths_sample((float)i / 1000, &w);
+        for (int k = 0; k < SPECTRUM_LANES; k++) {
+            assert_true(w.nm[k] >= 360 && w.nm[k] <= 830);
+            if (k) assert_true(w.nm[k] > w.nm[k - 1]);
+            assert_true(w.xyz[1][k] >= 0 && isfinite(w.xyz[1][k]));
+        }
+    }
+}
+
+static void wavelengths_follow_their_density(void **state)
+{
+    (void)state;
+    double histogram[47] = {0}, expected[47] = {0};
+    for (int i = 0; i < OFFSETS; i++) {
+        Wavelengths w;
+        wavelengths_sample(((float)i + 0.5f) / OFFSETS, &w);
+        for (int k = 0; k < SPECTRUM_LANES; k++) histogram[(int)((w.nm[k] - 360) / 10.0001f)]++;
+    }
+    for (int nm = 360; nm < 830; nm++) expected[(nm - 360) / 10] += (double)wavelengths_pdf((float)nm + 0.5f);
+    for (int b = 0; b < 47; b++)
+        assert_near(histogram[b] / (OFFSETS * 16.0), expected[b], 2e-4);
+}
+
+static float spike_nm, spike_width_nm;
+
+static Spectrum spike(const Wavelengths *w)
+{
+    Spectrum s = spectrum_all(0);
+    for (int k = 0; k < SPECTRUM_LANES; k++) {
+        float t = 1 - fabsf(w->nm[k] - spike_nm) / spike_width_nm;
+        s[k] = t > 0 ? t : 0;
+    }
+    return s;
+}
+
+static void spiky_spectra_are_integrated_without_bias(void **state)
+{
+    (void)state;
+    spike_width_nm = 2;
+    for (spike_nm = 380; spike_nm < 720; spike_nm += 17.3f) {
+        double xyz[3], sum[3] = {0, 0, 0};
+        estimate_xyz(spike, xyz);
+        for (int i = 0; i < 4000; i++) {
+            double nm = (double)spike_nm - 2 + (i + 0.5) / 1000;
+            double t = 1 - fabs(nm - (double)spike_nm) / 2;
+            SpectralRow row = spectral_row(nm);
+            sum[0] += t * (double)row.x * 683.002e-3;
+            sum[1] += t * (double)row.y * 683.002e-3;
+            sum[2] += t * (double)row.z * 683.002e-3;
+        }
+        for (int c = 0; c < 3; c++) assert_near(xyz[c], sum[c], 1e-2 * (sum[1] + sum[c]) + 1e-3);
+    }
+}
+
+static void one_offset_already_sees_the_luminance_of_daylight(void **state)
+{
+    (void)state;
+    double squares = 0, xyz[3];
+    estimate_xyz(curve_of_d65, xyz);
+    assert_close(xyz[0], d65_white_xyz[0], 2e-5);
+    assert_close(xyz[1], 1, 2e-5);
+    assert_close(xyz[2], d65_white_xyz[2], 2e-5);
+    for (int i = 0; i < 1000; i++) {
+        Wavelengths w;
+        float       one[3] = {0, 0, 0};
+        wavelengths_sample((float)i / 1000, &w);
+        spectrum_add_xyz(&w, w.d65, one);
+        squares += ((double)one[1] - 1) * ((double)one[1] - 1) / 1000;
+    }
+    assert_true(sqrt(squares) < 0.02);
+}
+
+static void rgb_reflectances_sum_to_one_and_stay_within_it(void **state)
+{
+    (void)state;
+    for (int i = 0; i < SPECTRAL_COUNT; i++) {
+        const SpectralRow *row = &spectral_table[i];
+        assert_near((double)row->red + (double)row->green + (double)row->blue, 1, 2e-7);
+        assert_true(row->red >= 0 && row->green >= 0 && row->blue >= 0);
+        assert_true(row->red <= 1 && row->green <= 1 && row->blue <= 1);
+    }
+}
+
+static float wanted_rgb[3];
+
+static Spectrum emission_of_wanted(const Wavelengths *w)
+{
+    return spectrum_from_rgb_emission(w, wanted_rgb);
+}
+
+static void rgb_survives_the_way_through_spectra(void **state)
+{
+    (void)state;
+    srand(7);
+    for (int i = 0; i < 24; i++) {
+        double xyz[3];
+        float  back[3], seen[3];
+        for (int c = 0; c < 3; c++)
+            wanted_rgb[c] = i < 8 ? (float)(i >> c & 1) : (float)rand() / (float)RAND_MAX;
+        estimate_xyz(emission_of_wanted, xyz);
+        for (int c = 0; c < 3; c++) seen[c] = (float)xyz[c];
+        rgb_from_xyz(seen, back);
+        for (int c = 0; c < 3; c++) assert_near(back[c], wanted_rgb[c], 1e-4);
+        assert_near(luminance_from_rgb(wanted_rgb), xyz[1], 1e-4);
+    }
+}
+
+static void rec709_primaries_are_where_the_standard_has_them(void **state)
+{
+    (void)state;
+    const float xy[3][2] = {{0.64f, 0.33f}, {0.30f, 0.60f}, {0.15f, 0.06f}};
+    for (int p = 0; p < 3; p++) {
+        float rgb[3] = {p == 0, p == 1, p == 2}, xyz[3], seen[2], back[3];
+        xyz_from_rgb(rgb, xyz);
+        xy_from_xyz(xyz, seen);
+        assert_near(seen[0], xy[p][0], 1e-6);
+        assert_near(seen[1], xy[p][1], 1e-6);
+        rgb_from_xyz(xyz, back);
+        for (int c = 0; c < 3; c++) assert_near(back[c], rgb[c], 1e-6);
+        float xyY[3] = {seen[0], seen[1], xyz[1]}, again[3];
+        xyz_from_xyY(xyY, again);
+        for (int c = 0; c < 3; c++) assert_near(again[c], xyz[c], 1e-6);
+    }
+    float white[3] = {1, 1, 1}, xyz[3];
+    xyz_from_rgb(white, xyz);
+    for (int c = 0; c < 3; c++) assert_near(xyz[c], d65_white_xyz[c], 1e-6);
+    assert_near(luminance_from_rgb((float[]){1, 0, 0}), 0.2126, 2e-4);
+    assert_near(luminance_from_rgb((float[]){0, 1, 0}), 0.7152, 2e-4);
+}
+
+static void black_has_the_chromaticity_of_d65(void **state)
+{
+    (void)state;
+    float xy[2], uv[2];
+    xy_from_xyz((float[]){0, 0, 0}, xy);
+    uv_from_xyz((float[]){0, 0, 0}, uv);
+    assert_near(xy[0], 0.312727, 1e-5);
+    assert_near(uv[0], 0.197833, 2e-5);
+}
+
+static void the_observer_is_the_published_table(void **state)
+{
+    (void)state;
+    FILE *file = fopen(SHARED_DATA_DIR "/spectra/cie1931_2deg_cmf_1nm.csv", "r");
+    if (!file) skip();
+    char line[256];
+    int  rows = 0;
+    while (fgets(line, sizeof line, file)) {
+        double v[4];
+        if (sscanf(line, "%lf,%lf,%lf,%lf", v, v + 1, v + 2, v + 3) != 4) continue;
+        SpectralRow row = spectral_row(v[0]);
+        assert_near(row.x, v[1], 5e-6 * v[1] + 1e-12);
+        assert_near(row.y, v[2], 5e-6 * v[2] + 1e-12);
+        assert_near(row.z, v[3], 5e-6 * v[3] + 1e-12);
+        rows++;
+    }
+    fclose(file);
+    assert_int_equal(rows, SPECTRAL_COUNT);
+}
+
+static void a_curve_passes_through_its_points_and_holds_its_ends(void **state)
+{
+    (void)state;
+    double nm[4] = {400, 500.5, 600, 700}, value[4] = {0.1, 0.5, 0.2, 0.9};
+    static Curve curve;
+    curve_from_points(nm, value, 4, &curve);
+    assert_close(curve.value[0], 0.1, 1e-6);
+    assert_close(curve.value[CURVE_COUNT - 1], 0.9, 1e-6);
+    assert_close(curve.value[600 - 360], 0.2, 1e-6);
+    assert_close(curve.value[650 - 360], 0.55, 1e-6);
+    assert_close(curve.value[500 - 360], 0.1 + 0.4 * 100 / 100.5, 1e-6);
+    for (int i = 0; i < 50; i++) {
+        Wavelengths w;
+        wavelengths_sample((float)i / 50, &w);
+        Spectrum looked_up = curve_lookup(&curve, &w);
+        for (int k = 0; k < SPECTRUM_LANES; k++) {
+            int   cell = (int)w.nm[k] - 360;
+            float t = w.nm[k] - (float)(cell + 360);
+            float next = cell + 1 < CURVE_COUNT ? curve.value[cell + 1] : 0;
+            assert_near(looked_up[k], curve.value[cell] * (1 - t) + next * t, 1e-5);
+        }
+    }
+}
+
+/* Writes a temporary file; the caller removes it. */
+static void write_text(char path[64], const char *text)
+{
+    snprintf(path, 64, "/tmp/parhelion_curve_XXXXXX");
+    int fd = mkstemp(path);
+    assert_true(fd >= 0);
+    FILE *file = fdopen(fd, "w");
+    fputs(text, file);
+    fclose(file);
+}
+
+static void a_curve_file_may_have_comments_and_a_header(void **state)
+{
+    (void)state;
+    static Curve curve;
+    Error        err;
+    char         path[64];
+    write_text(path, "# glass\nnm,transmittance\n\n400,0.5\r\n500 ; 0.75\n600\t0.25");
+    assert_true(curve_read(path, &curve, &err));
+    remove(path);
+    assert_close(curve.value[0], 0.5, 1e-6);
+    assert_close(curve.value[450 - 360], 0.625, 1e-6);
+    assert_close(curve.value[CURVE_COUNT - 1], 0.25, 1e-6);
+}
+
+static void a_bad_curve_file_is_refused_with_its_line(void **state)
+{
+    (void)state;
+    const struct {
+        const char *text, *message;
+    } cases[] = {
+        {"", "no rows of nm,value"},
+        {"nm,value\n", "no rows of nm,value"},
+        {"nm,value\n400,1\n400,2\n", "line 3: wavelength 400 nm after 400 nm: wanted rising"},
+        {"nm,value\nfour,1\n", "line 2: found \"four,1\", wanted two numbers: nm,value"},
+        {"400,1\n500\n", "line 2: found \"500\", wanted two numbers"},
+        {"400,nan\n", "line 1: wavelength 400 nm with value nan: wanted finite numbers"},
+        {"-5,1\n", "line 1: wavelength -5 nm with value 1: wanted finite numbers, nm above 0"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        static Curve curve;
+        Error        err;
+        char         path[64], line[2048];
+        write_text(path, cases[i].text);
+        assert_false(curve_read(path, &curve, &err));
+        remove(path);
+        error_line(&err, line, sizeof line);
+        if (!strstr(line, cases[i].message) || strncmp(line, path, strlen(path)) != 0)
+            fail_msg("\"%s\" does not name the file and say \"%s\"", line, cases[i].message);
+        assert_int_equal(err.code, ERROR_INPUT);
+    }
+    Error err;
+    assert_false(curve_read("/nowhere/glass.csv", &(Curve){0}, &err));
+    assert_non_null(strstr(err.text, "cannot be opened: No such file"));
+}
+
+static void lane_operations_agree_with_loops(void **state)
+{
+    (void)state;
+    Spectrum a, b;
+    float    sum = 0, most = -1e9f;
+    for (int i = 0; i < SPECTRUM_LANES; i++) {
+        a[i] = (float)((i * 7) % 16) - 5.5f;
+        b[i] = (float)((i * 5) % 16) - 4.25f;
+        sum += a[i];
+        most = a[i] > most ? a[i] : most;
+    }
+    Spectrum high = spectrum_max(a, b), low = spectrum_min(a, b), held = spectrum_clamp(a, -1, 2);
+    Spectrum root = spectrum_sqrt(high);
+    for (int i = 0; i < SPECTRUM_LANES; i++) {
+        assert_true(high[i] == (a[i] > b[i] ? a[i] : b[i]));
+        assert_true(low[i] == (a[i] > b[i] ? b[i] : a[i]));
+        assert_true(held[i] == (a[i] < -1 ? -1 : a[i] > 2 ? 2 : a[i]));
+        assert_near(root[i], high[i] > 0 ? sqrt((double)high[i]) : 0, 1e-6);
+    }
+    assert_near(spectrum_sum(a), sum, 1e-5);
+    assert_near(spectrum_mean(a), sum / 16, 1e-6);
+    assert_true(spectrum_max_lane(a) == most);
+    assert_true(spectrum_is_finite(a) && !spectrum_is_grey(a) && spectrum_is_grey(spectrum_all(3)));
+    for (int i = 0; i < SPECTRUM_LANES; i++) {
+        Spectrum bad = a;
+        bad[i] = i & 1 ? NAN : INFINITY;
+        assert_false(spectrum_is_finite(bad));
+        Spectrum other = spectrum_all(1);
+        other[i] = 1 + 0x1p-23f;
+        assert_false(spectrum_is_grey(other));
+    }
+    assert_true(spectrum_is_zero(spectrum_all(0)) && !spectrum_is_zero(spectrum_all(1e-30f)));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(equal_energy_has_its_luminance),
+        cmocka_unit_test(equal_energy_is_white_of_e),
+        cmocka_unit_test(nothing_is_seen_outside_360_to_830),
+        cmocka_unit_test(a_black_body_radiates_sigma_t4),
+        cmocka_unit_test(illuminant_a_is_a_black_body_of_2856_kelvin),
+        cmocka_unit_test(d65_has_its_chromaticity),
+        cmocka_unit_test(wavelengths_cover_the_range_once),
+        cmocka_unit_test(wavelengths_follow_their_density),
+        cmocka_unit_test(spiky_spectra_are_integrated_without_bias),
+        cmocka_unit_test(one_offset_already_sees_the_luminance_of_daylight),
+        cmocka_unit_test(rgb_reflectances_sum_to_one_and_stay_within_it),
+        cmocka_unit_test(rgb_survives_the_way_through_spectra),
+        cmocka_unit_test(rec709_primaries_are_where_the_standard_has_them),
+        cmocka_unit_test(black_has_the_chromaticity_of_d65),
+        cmocka_unit_test(the_observer_is_the_published_table),
+        cmocka_unit_test(a_curve_passes_through_its_points_and_holds_its_ends),
+        cmocka_unit_test(a_curve_file_may_have_comments_and_a_header),
+        cmocka_unit_test(a_bad_curve_file_is_refused_with_its_line),
+        cmocka_unit_test(lane_operations_agree_with_loops),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
