@@ -14,7 +14,7 @@ run 'scenes hold to their schemas' schemas python3 tests/structure/schemas.py
 if run_one 'release build, warnings are errors' build-release build release; then
     run 'libraries keep no state' globals sh tests/structure/globals.sh .build/release
     run_units 'unit tests' unit .build/release
-    run 'the command line' cli sh tests/hostile/cli.sh .build/release/parhelion
+    run 'the command line' cli python3 tests/hostile/cli.py .build/release/parhelion
     run 'closed forms in frames' image python3 tests/image/run.py .build/release/parhelion
     run 'same bits, any threads' bits python3 tests/image/bits.py .build/release/parhelion
 fi

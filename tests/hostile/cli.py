@@ -1,0 +1,189 @@
+"""cli.py PARHELION -- what scripts rely on: exit statuses, one clear line for an error, answers
+on stdout, nothing half-written, and signals that leave a frame behind.
+"""
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+from mutate import sound_scene
+
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
+sys.path.insert(0, os.path.join(ROOT, "tests", "image"))
+from exr import Frame  # noqa: E402
+from report import Report  # noqa: E402
+
+COMMANDS = ("render", "develop", "check", "measure", "panel fit", "panel info", "panel eval",
+            "panel simulate")
+
+
+class Program:
+    def __init__(self, path, folder):
+        self.path, self.folder = path, folder
+
+    def file(self, name):
+        return os.path.join(self.folder, name)
+
+    def run(self, *arguments, **more):
+        return subprocess.run([self.path, *arguments], capture_output=True, text=True,
+                              timeout=120, **more)
+
+    def render(self, *options, out="frame.exr"):
+        return self.run("render", self.file("scene.gltf"), "-o", self.file(out), "--size",
+                        "32x24", "--spp", "2", *options)
+
+
+def one_line(done, *words):
+    """stderr is one line of ours that holds the words."""
+    lines = done.stderr.splitlines()
+    return len(lines) == 1 and lines[0].startswith("parhelion: ") \
+        and all(word in lines[0] for word in words)
+
+
+def claim_status(report, done, status, *words):
+    arguments = " ".join(os.path.basename(word) for word in done.args)
+    report.claim(done.returncode == status and one_line(done, *words),
+                 f"{arguments}: status {done.returncode} instead of {status}, or not one line "
+                 f"with {words}: {done.stderr.strip()[:300]}")
+
+
+def check_usage(report, program):
+    claim_status(report, program.run("rendr"), 2, "rendr", "render")
+    claim_status(report, program.run("render"), 2)
+    claim_status(report, program.render("--sp", "4"), 2, "--sp")
+    claim_status(report, program.render("--size", "0x9"), 2, "--size", "0x9")
+    claim_status(report, program.render("--spp", "many"), 2, "--spp", "many")
+    claim_status(report, program.render("--crop", "9,9,3,3"), 2, "--crop")
+    done = program.run()
+    report.claim(done.returncode == 2 and done.stderr, "no arguments: not a usage error")
+
+
+def check_help(report, program):
+    overview = program.run("--help")
+    report.claim(overview.returncode == 0 and "render" in overview.stdout, "--help")
+    for command in COMMANDS:
+        done = program.run(*command.split(), "--help")
+        report.claim(done.returncode == 0 and f"parhelion {command} " in done.stdout
+                     and not done.stderr, f"{command} --help has no example")
+    version = program.run("--version")
+    report.claim(version.returncode == 0 and re.search(r"[Ee]mbree \d", version.stdout)
+                 and "OpenEXR" in version.stdout, "--version does not name its libraries")
+
+
+def check_inputs(report, program):
+    claim_status(report, program.run("check", program.file("absent.gltf")), 3, "absent.gltf")
+    claim_status(report, program.run("render", program.file("absent.gltf"), "-o",
+                                     program.file("x.exr")), 3, "absent.gltf")
+    report.claim(not os.path.exists(program.file("x.exr")), "a failed render left a file")
+    claim_status(report, program.render("--camera", "nobody"), 3, "nobody", "eye")
+    claim_status(report, program.run("panel", "info", program.file("scene.gltf")), 3,
+                 "scene.gltf")
+    claim_status(report, program.run("develop", program.file("scene.gltf"), "-o",
+                                     program.file("x.png")), 3, "scene.gltf")
+    done = program.run("check", "--json", program.file("absent.gltf"))
+    document = json.loads(done.stdout or "{}")
+    error = document.get("error", {})
+    report.claim(error.get("status") == 3 or document.get("ok") is False,
+                 f"check --json of an absent file says {done.stdout[:200]}")
+
+
+def check_outputs(report, program):
+    done = program.run("render", program.file("scene.gltf"), "-o",
+                       program.file("no/such/frame.exr"), "--size", "8x8", "--spp", "1")
+    claim_status(report, done, 4, "frame.exr")
+    os.mkdir(program.file("folder.exr"))
+    claim_status(report, program.render("--quiet", out="folder.exr"), 4, "folder.exr")
+    left = [name for name in os.listdir(program.folder) if name.startswith("folder.exr.")]
+    report.claim(not left, f"a failed render left {left}")
+
+
+def check_answers(report, program):
+    done = program.render("--json", "--quiet")
+    answer = json.loads(done.stdout)
+    wanted = {"output", "size", "samples", "seconds", "rays", "relative_error", "complete",
+              "warnings", "samples_per_s", "rays_per_s", "peak_memory_bytes",
+              "nonfinite_samples"}
+    report.claim(done.returncode == 0 and wanted <= set(answer),
+                 f"render --json lacks {wanted - set(answer)}")
+    report.claim(answer["complete"] is True and answer["size"] == [32, 24]
+                 and answer["samples"] == 2, f"render --json says {answer}")
+    report.claim(not done.stderr, f"--quiet prints {done.stderr!r}")
+    plain = program.render()
+    report.claim(not re.search(r"[\x00-\x09\x0b-\x1f]", plain.stderr),
+                 "progress into a pipe holds control characters")
+    done = program.run("check", "--json", program.file("scene.gltf"))
+    answer = json.loads(done.stdout)
+    report.claim(done.returncode == 0 and answer["ok"] is True and answer["triangles"] == 6
+                 and len(answer["lights"]) >= 1, f"check --json says {done.stdout[:300]}")
+    done = program.run("measure", program.file("frame.exr"), "--region", "0,0,32,24", "--json")
+    report.claim(done.returncode == 0 and isinstance(json.loads(done.stdout), dict),
+                 f"measure --json says {done.stdout[:300]} {done.stderr}")
+
+
+def check_pictures(report, program):
+    program.render("--png", program.file("with.png"))
+    report.claim(is_png(program.file("with.png"), 32, 24), "render --png makes no PNG")
+    for options in ([], ["--exposure", "0"], ["--exposure", "white:500"],
+                    ["--false-colour", "luminance"]):
+        out = program.file("developed.png")
+        done = program.run("develop", program.file("frame.exr"), "-o", out, *options)
+        report.claim(done.returncode == 0 and is_png(out),
+                     f"develop {options} fails: {done.stderr.strip()}")
+        if os.path.exists(out):
+            os.remove(out)
+
+
+def is_png(path, width=None, height=None):
+    if not os.path.exists(path):
+        return False
+    with open(path, "rb") as file:
+        head = file.read(24)
+    size = int.from_bytes(head[16:20], "big"), int.from_bytes(head[20:24], "big")
+    return head[:8] == b"\x89PNG\r\n\x1a\n" and width in (None, size[0]) \
+        and height in (None, size[1])
+
+
+def check_signal(report, program, number, status):
+    """A long render that is interrupted leaves a frame that says so."""
+    out = program.file(f"signal{status}.exr")
+    running = subprocess.Popen(
+        [program.path, "render", program.file("scene.gltf"), "-o", out, "--size", "200x150",
+         "--spp", "100000"], stderr=subprocess.PIPE, stdout=subprocess.PIPE)
+    time.sleep(1.5)
+    running.send_signal(number)
+    try:
+        err = running.communicate(timeout=60)[1].decode()
+    except subprocess.TimeoutExpired:
+        running.kill()
+        err = "still running"
+    report.claim(running.returncode == status,
+                 f"{number.name}: status {running.returncode} instead of {status}: {err[-300:]}")
+    is_partial = os.path.exists(out) and any(
+        "complete" in name and value[:1] in (b"\0", b"f", b"n")
+        for name, value in Frame(out).attributes.items())
+    report.claim(is_partial, f"{number.name}: no frame that is marked incomplete")
+
+
+def main():
+    report = Report()
+    with tempfile.TemporaryDirectory() as folder:
+        program = Program(os.path.abspath(sys.argv[-1]), folder)
+        sound_scene().write(program.file("scene.gltf"))
+        for check in (check_usage, check_help, check_inputs, check_outputs, check_answers,
+                      check_pictures):
+            try:
+                check(report, program)
+            except (ValueError, KeyError, OSError, subprocess.TimeoutExpired) as error:
+                report.claim(False, f"{check.__name__}: {type(error).__name__}: {error}")
+        check_signal(report, program, signal.SIGINT, 130)
+        check_signal(report, program, signal.SIGTERM, 143)
+    report.finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

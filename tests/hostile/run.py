@@ -1,0 +1,179 @@
+"""run.py [--all] PARHELION -- models that are broken, foreign or strange: no crash, no hang, no
+report of a sanitizer; what is valid loads and renders, what is not is refused in one clear line
+or reported by `check`. Made for the build with the address sanitizer. --all: more mutations.
+"""
+import concurrent.futures
+import glob
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+import mutate
+
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+DATA = os.path.join(ROOT, "..", "shared", "data", "gltf")
+sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
+from report import Report  # noqa: E402
+
+TIMEOUT_S = 120
+SANITIZERS = ("AddressSanitizer", "runtime error:", "LeakSanitizer", "ThreadSanitizer")
+
+# The validator looks at things that make no difference to a picture: animations, names,
+# properties that nobody reads. A model with no other fault may be taken without a word.
+HARMLESS = (
+    "ANIMATION", "ACCESSOR_MIN_MISMATCH", "ACCESSOR_MAX_MISMATCH", "ACCESSOR_ELEMENT_OUT_OF",
+    "EMPTY_ENTITY", "UNEXPECTED_EXTENSION_OBJECT", "UNDECLARED_EXTENSION", "DUPLICATE_ELEMENTS",
+    "BUFFER_VIEW_TARGET_OVERRIDE", "MESH_PRIMITIVE_INVALID_ATTRIBUTE", "NON_REQUIRED_EXTENSION",
+    "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_UNSIGNED_INT", "ACCESSOR_NORMALIZED_INVALID",
+    "ACCESSOR_INDEX_PRIMITIVE_RESTART", "UNUSED_EXTENSION_REQUIRED", "MESH_PRIMITIVE_INDEXED_",
+    "IMAGE_MIME_TYPE_INVALID")
+# Objects of which the same holds, whatever is wrong with them.
+UNREAD = ("/animations", "/extensions/KHR_materials_variants", "KHR_materials_variants",
+          "KHR_animation_pointer", "KHR_materials_anisotropy", "KHR_materials_iridescence")
+
+# Models of other collections that must be refused, and a word that the refusal must hold.
+REFUSED = {
+    "tinygltf/models/BoundsChecking/invalid-buffer-index.gltf": "buffer",
+    "tinygltf/models/BoundsChecking/invalid-buffer-view-index.gltf": "buffer",
+    "tinygltf/models/BoundsChecking/invalid-primitive-indices.gltf": "ind",
+    "tinygltf/models/BoundsChecking/integer-out-of-bounds.gltf": "",
+    "assimp/IncorrectVertexArrays/Cube.gltf": "",
+    "assimp/BoxTextured-glTF-pbrSpecularGlossiness/BoxTextured.gltf": None,
+    "compressed/pirate_meshopt.glb": "meshopt",
+}
+
+
+def run(program, *arguments):
+    """(status, stdout, stderr); status "hang" after TIMEOUT_S."""
+    try:
+        done = subprocess.run([program, *arguments], capture_output=True, timeout=TIMEOUT_S)
+    except subprocess.TimeoutExpired:
+        return "hang", "", ""
+    return done.returncode, done.stdout.decode("utf-8", "replace"), \
+        done.stderr.decode("utf-8", "replace")
+
+
+def is_sound(outcome):
+    status, out, err = outcome
+    return status in (0, 3) and not any(word in err + out for word in SANITIZERS)
+
+
+def try_model(program, path, folder):
+    """What `check` and a tiny render make of one model."""
+    check = run(program, "check", "--json", path)
+    frame = os.path.join(folder, f"{abs(hash(path))}.exr")
+    render = run(program, "render", path, "-o", frame, "--size", "16x9", "--spp", "1",
+                 "--max-bounces", "4", "--threads", "1", "--quiet")
+    if os.path.exists(frame):
+        os.remove(frame)
+    return check, render
+
+
+def problems_of(check):
+    try:
+        return json.loads(check[1]).get("problems", [])
+    except ValueError:
+        return []
+
+
+def claim_sound(report, name, check, render):
+    """No crash, whatever the file is. False when there is nothing more to ask."""
+    tail = (render[2] if is_sound(check) else check[2]).strip().splitlines()[:3]
+    return report.claim(is_sound(check) and is_sound(render),
+                        f"{name}: check ends with {check[0]}, render with {render[0]} {tail}")
+
+
+def claim_refusal(report, name, check, render):
+    """One line that names the file, and in `check` at least one error with a text."""
+    base = os.path.basename(name)
+    lines = [line for line in render[2].splitlines() if "warning:" not in line]
+    report.claim(render[0] == 3 and len(lines) == 1 and base in lines[0],
+                 f"{name}: refusal is not one line with the file's name: {lines[:3]}")
+    errors = [p for p in problems_of(check) if p.get("severity") == "error" and p.get("message")]
+    report.claim(bool(errors), f"{name}: refused, but `check` names no error: {check[1][:200]}")
+
+
+def claim_loads(report, name, check, render):
+    holds = check[0] == 0 and render[0] == 0
+    errors = [p for p in problems_of(check) if p.get("severity") == "error"]
+    report.claim(holds, f"{name}: is valid but refused: {errors[:2]} {render[2].strip()[:200]}")
+
+
+def faults_in(path):
+    """The validator's errors that matter; None when it has no report."""
+    try:
+        with open(path + ".report.json", encoding="utf-8") as file:
+            messages = json.load(file)["issues"]["messages"]
+    except OSError:
+        return None
+    errors = [m for m in messages if m["severity"] == 0]
+    matter = [m for m in errors if not m["code"].startswith(HARMLESS)
+              and not any(word in m.get("pointer", "") for word in UNREAD)]
+    return {"valid": not errors, "matter": matter}
+
+
+def names_extension(check):
+    """A valid model may need an extension that we do not have; then it must say which."""
+    return any("extension" in p.get("message", "").lower() for p in problems_of(check))
+
+
+def judge(report, path, outcome):
+    name = os.path.relpath(path, DATA)
+    check, render = outcome
+    if not claim_sound(report, name, check, render):
+        return
+    faults = faults_in(path)
+    if check[0] == 3:
+        claim_refusal(report, name, check, render)
+    if name in REFUSED and REFUSED[name] is not None:
+        text = " ".join(p.get("message", "") for p in problems_of(check))
+        report.claim(check[0] == 3 and REFUSED[name] in text, f"{name}: not refused: {text}")
+    elif faults and faults["valid"]:
+        if check[0] != 3 or not names_extension(check):
+            claim_loads(report, name, check, render)
+    elif faults and faults["matter"]:
+        first = faults["matter"][0]
+        report.claim(check[0] == 3 or problems_of(check),
+                     f"{name}: taken without a word, though {first.get('pointer')}: "
+                     f"{first['message']}")
+    elif faults is None and "assimp" not in name and name not in REFUSED:
+        report.claim(check[0] in (0, 3), name)
+
+
+def models():
+    return sorted(path for ending in ("gltf", "glb")
+                  for path in glob.glob(os.path.join(DATA, "**", "*." + ending), recursive=True))
+
+
+def run_all(program, paths, folder):
+    """Outcomes in the order of paths, several at a time."""
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        return list(pool.map(lambda path: try_model(program, path, folder), paths))
+
+
+def check_mutations(report, program, folder, count):
+    """Files of our own that are cut, twisted or absurd: each is taken or refused, soundly."""
+    paths = mutate.write_all(folder, count)
+    for path, (check, render) in zip(paths, run_all(program, paths, folder)):
+        name = os.path.basename(path)
+        if claim_sound(report, name, check, render) and check[0] == 3:
+            claim_refusal(report, name, check, render)
+
+
+def main():
+    report, program = Report(), os.path.abspath(sys.argv[-1])
+    with tempfile.TemporaryDirectory() as folder:
+        check_mutations(report, program, folder, 4000 if "--all" in sys.argv else 120)
+        if os.path.isdir(DATA):
+            paths = models()
+            for path, outcome in zip(paths, run_all(program, paths, folder)):
+                judge(report, path, outcome)
+        else:
+            report.skip("foreign models: the shared data is not beside the checkout")
+    report.finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
