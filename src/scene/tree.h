@@ -1,0 +1,38 @@
+/* tree.h -- reads values out of a glTF document, each with its default.
+ *
+ * The readers take a missing value or one of a wrong kind for the default: whatever is wrong
+ * has been reported before by the check (schema.h), and a document with errors is not built.
+ *
+ * Threads  const data.
+ */
+#pragma once
+#include "base/vec.h"
+#include "tinygltf/gltf_json.h"
+
+/* NULL where there is none; `object` may be NULL or no object. */
+const GltfValue *tree_member(const GltfValue *object, const char *name);
+
+/* Item of an array, NULL when it is out of range or `array` is none. */
+const GltfValue *tree_item(const GltfValue *array, int index);
+
+/* The item with this index in a collection of the document's root ("nodes", "meshes" ...). */
+const GltfValue *tree_element(const GltfValue *root, const char *collection, int index);
+
+/* `object`'s extension, NULL where it has none. */
+const GltfValue *tree_extension(const GltfValue *object, const char *name);
+
+/* How many items the member has; 0 unless it is an array or object. */
+int tree_count(const GltfValue *object, const char *name);
+
+bool        tree_is_integer(const GltfValue *value); /* a number without fraction, |n| < 2^53 */
+double      tree_number(const GltfValue *object, const char *name, double fallback);
+float       tree_float(const GltfValue *object, const char *name, float fallback);
+int         tree_int(const GltfValue *object, const char *name, int fallback);
+bool        tree_boolean(const GltfValue *object, const char *name, bool fallback);
+const char *tree_text(const GltfValue *object, const char *name, const char *fallback);
+
+/* Exactly `count` numbers into `out`; false (and out as it was) unless they are there. */
+bool tree_floats(const GltfValue *object, const char *name, int count, float *out);
+
+/* The value's JSON pointer (RFC 6901), "" of the whole document. */
+void tree_pointer(const GltfValue *value, char *buffer, size_t size);
