@@ -1,0 +1,19 @@
+#!/bin/sh
+# run.sh [RUNS] -- how fast it is: one line a work with its unit, median and spread (smallest
+# to largest) of RUNS runs, 5 if not said. Compare two commits on the same quiet machine only.
+set -eu
+cd "$(dirname "$0")/../.."
+runs=${1:-5}
+out=.build/bench
+mkdir -p $out
+{
+    sh third_party/install.sh --tests
+    cmake --preset release && cmake --build .build/release
+} >$out/build.log 2>&1 || { tail $out/build.log; exit 1; }
+[ -e $out/box.gltf ] || python3 tests/bench/box.py $out/box.gltf
+
+echo "commit $(git rev-parse --short HEAD 2>/dev/null || echo unknown), $(nproc) processors"
+python3 tests/bench/frames.py "$runs" .build/release/parhelion
+for bench in .build/release/bench_*; do
+    [ ! -x "$bench" ] || "$bench" "$runs"
+done
