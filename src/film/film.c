@@ -137,9 +137,9 @@ static void add_squares(PixelSums *sums, const float xyz[3])
                        (double)row[2] * (double)xyz[2];
         double square = value * value;
         if (square < SQUARE_SPLIT)
-            sums->squares[i][0] += fixed_from_scaled(square * 0x1p69);
+            sums->squares[i][0] += fixed_from_scaled(square * 0x1p61);
         else
-            sums->squares[i][1] += fixed_from_scaled(square * 0x1p5);
+            sums->squares[i][1] += fixed_from_scaled(square * 0x1p-5);
     }
 }
 

@@ -5,9 +5,10 @@
  *            XYZ and layers: steps of 2^-48 (3.6e-15), one sample at most 2^47 (1.4e14), so
  *            that 2^31 samples stay below 2^126 steps. A float above 2^-25 (3e-8 cd m^-2) is
  *            taken as it is; a smaller one is rounded to a step.
- *            Squares for the variance have two windows, each relative to 2^-31 or better for
- *            luminances above 1e-5 cd m^-2: steps of 2^-69 for squares below 2^26 (8192 cd
- *            m^-2), steps of 2^-5 above.
+ *            Squares for the variance have two windows: steps of 2^-61 for squares below 2^34
+ *            (131072 cd m^-2), steps of 2^5 above; a square of RGB is below 2^99, so 2^31 of
+ *            them stay below 2^126 steps in either. Relative to the square a step is 2^-29 or
+ *            less for 1e-5 cd m^-2 and more.
  *          A pixel takes at most FILM_SAMPLES_MAX samples; an assertion guards it.
  * Memory   everything comes from `arena`; nothing to free. 192 bytes a pixel, and 48 for each
  *          three-component layer.

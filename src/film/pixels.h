@@ -4,6 +4,7 @@
  * LayerSums. All sums are two's complement integers that count steps: see film.h for ranges.
  */
 #pragma once
+#include <math.h>
 #include <pthread.h>
 
 #include "film/film.h"
@@ -11,9 +12,9 @@
 __extension__ typedef __int128 Fixed;
 
 #define FIXED_BITS 48          /* a step is 2^-48: XYZ and layers */
-#define SQUARE_LOW_BITS 69     /* squares below SQUARE_SPLIT */
-#define SQUARE_HIGH_BITS 5     /* the others */
-#define SQUARE_SPLIT 0x1p26
+#define SQUARE_LOW_BITS 61     /* a step is 2^-61: squares below SQUARE_SPLIT */
+#define SQUARE_HIGH_BITS (-5)  /* a step is 2^5: the others */
+#define SQUARE_SPLIT 0x1p34
 #define VALUE_LIMIT 0x1p47f
 #define NO_SAMPLE 0xffffffffu
 
@@ -63,7 +64,8 @@ static inline PixelSums *film_sums(const Film *film, int x, int y)
     return (PixelSums *)(void *)(film->pixels + index * film->stride);
 }
 
+/* bits: a step is 2^-bits. */
 static inline double double_from_fixed(Fixed value, int bits)
 {
-    return (double)value * (1.0 / (double)(1ull << bits / 2) / (double)(1ull << (bits - bits / 2)));
+    return ldexp((double)value, -bits);
 }

@@ -1,0 +1,460 @@
+/* The film: exact sums, variance, layers. */
+#include "check.h"
+
+#include <string.h>
+
+#include "base/sampler.h"
+#include "base/units.h"
+#include "film/pixels.h"
+#include "spectrum/photometry.h"
+
+#define WIDTH 3
+#define HEIGHT 2
+
+static const FilmRect whole = {0, 0, WIDTH, HEIGHT};
+
+static float random_unit(uint32_t *state)
+{
+    *state = hash_u32(*state + 0x9e3779b9u);
+    return unit_float(*state);
+}
+
+/* Samples over 18 powers of ten, negative ones too, with every layer set. */
+static FilmSample random_sample(uint32_t *state, uint32_t index)
+{
+    FilmSample s = {.sample_index = index, .hit = random_unit(state) < 0.9f};
+    for (int i = 0; i < 3; i++) {
+        s.xyz[i] = powf(10, -6 + 18 * random_unit(state)) * (random_unit(state) < 0.1f ? -1 : 1);
+        s.position[i] = 100 * random_unit(state) - 50;
+        s.normal[i] = 2 * random_unit(state) - 1;
+        s.albedo[i] = random_unit(state);
+        s.emitted[i] = 500 * random_unit(state);
+        s.white[i] = 900 * random_unit(state);
+        s.black[i] = random_unit(state);
+    }
+    s.depth = 10 * random_unit(state);
+    s.uv[0] = random_unit(state);
+    s.uv[1] = random_unit(state);
+    s.part_id = (int)(random_unit(state) * 5);
+    s.display_id = random_unit(state) < 0.5f ? (int)(random_unit(state) * 3) : -1;
+    s.theta = random_unit(state);
+    s.phi = 6 * random_unit(state);
+    return s;
+}
+
+/* A film of one colour for one pixel. */
+static void add_grey(Film *film, int x, int y, uint32_t index, float luminance)
+{
+    FilmSample s = {.sample_index = index, .display_id = -1};
+    for (int i = 0; i < 3; i++) s.xyz[i] = luminance;
+    film_add_sample(film, x, y, &s);
+}
+
+static void assert_same_frames(const FrameImage *a, const FrameImage *b)
+{
+    assert_int_equal(a->channel_count, b->channel_count);
+    for (int i = 0; i < a->channel_count; i++) {
+        assert_string_equal(a->channels[i].name, b->channels[i].name);
+        assert_memory_equal(a->channels[i].values, b->channels[i].values,
+                            frame_pixel_count(a) * sizeof(float));
+    }
+}
+
+/* ---- exactness --------------------------------------------------------------------------- */
+
+static void any_order_of_adding_gives_the_same_bits(void **state)
+{
+    (void)state;
+    enum { COUNT = 500 };
+    Arena      arena = arena_reserve(1 << 24);
+    FilmSample samples[COUNT];
+    uint32_t   random = 1;
+    for (uint32_t i = 0; i < COUNT; i++) samples[i] = random_sample(&random, i);
+    Film *rising = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
+    for (int i = 0; i < COUNT; i++) film_add_sample(rising, 1, 1, &samples[i]);
+    FrameImage expected = film_to_frame(rising, 0, &arena);
+    for (int order = 0; order < 20; order++) {
+        for (int i = COUNT - 1; i > 0; i--) {
+            int        other = (int)(random_unit(&random) * (float)(i + 1));
+            FilmSample kept = samples[i];
+            samples[i] = samples[other];
+            samples[other] = kept;
+        }
+        Film *shuffled = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
+        for (int i = 0; i < COUNT; i++) film_add_sample(shuffled, 1, 1, &samples[i]);
+        FrameImage found = film_to_frame(shuffled, 0, &arena);
+        assert_same_frames(&expected, &found);
+    }
+    arena_release(&arena);
+}
+
+static void the_mean_is_that_of_long_doubles(void **state)
+{
+    (void)state;
+    static const float scales[] = {1e-6f, 1e-2f, 1, 1e4f, 1e12f};
+    Arena    arena = arena_reserve(1 << 22);
+    uint32_t random = 7;
+    for (size_t k = 0; k < sizeof scales / sizeof *scales; k++) {
+        Film       *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
+        long double sum[3] = {0};
+        int         count = 20000;
+        for (int n = 0; n < count; n++) {
+            FilmSample s = {.display_id = -1};
+            for (int i = 0; i < 3; i++) {
+                s.xyz[i] = scales[k] * (0.1f + random_unit(&random));
+                sum[i] += (long double)s.xyz[i];
+            }
+            film_add_sample(film, 0, 0, &s);
+        }
+        FilmPixel pixel = film_pixel(film, 0, 0);
+        for (int i = 0; i < 3; i++)
+            assert_close(pixel.mean_xyz[i], (double)(sum[i] / count), 1e-12);
+    }
+    arena_release(&arena);
+}
+
+static void a_millionth_candela_survives_beside_a_tera_candela(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 20);
+    Film *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
+    add_grey(film, 0, 0, 0, 1e12f);
+    add_grey(film, 0, 0, 1, 1e-6f);
+    add_grey(film, 0, 0, 2, -1e12f);
+    assert_close(film_pixel(film, 0, 0).mean_xyz[1], (double)1e-6f / 3, 1e-12);
+    arena_release(&arena);
+}
+
+/* The worst sample's steps, times the most samples a pixel takes, fit 128 bits: white, and the
+ * colours that have the largest R, G and B; just below the split of the squares, too. */
+static void the_largest_sums_do_not_overflow(void **state)
+{
+    (void)state;
+    static const float worst[][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, 1}, {1, -1, 1}};
+    static const float sizes[] = {0x1p47f, 0x1.3p16f, 0x1.ep16f};
+    Arena arena = arena_reserve(1 << 22);
+    for (size_t k = 0; k < sizeof worst / sizeof *worst * 3; k++) {
+        Film      *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
+        FilmSample s = {.display_id = -1};
+        for (int i = 0; i < 3; i++) s.xyz[i] = sizes[k % 3] * worst[k / 3][i];
+        film_add_sample(film, 0, 0, &s);
+        const PixelSums *sums = film_sums(film, 0, 0);
+        for (int i = 0; i < 3; i++) {
+            Fixed product;
+            assert_false(__builtin_mul_overflow(sums->xyz[i], (Fixed)FILM_SAMPLES_MAX, &product));
+            for (int j = 0; j < 2; j++)
+                assert_false(__builtin_mul_overflow(sums->squares[i][j], (Fixed)FILM_SAMPLES_MAX,
+                                                    &product));
+        }
+    }
+    arena_release(&arena);
+}
+
+static void losses_are_counted_and_the_smallest_kept_in_any_order(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 20);
+    Film *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
+    static const float bad[] = {NAN, INFINITY, -INFINITY, 0x1.8p47f};
+    for (int i = 0; i < 40; i++) {
+        uint32_t index = (uint32_t)(i * 23 % 40);
+        add_grey(film, (int)index % WIDTH, (int)index % HEIGHT, index, bad[i % 4]);
+    }
+    add_grey(film, 0, 0, 3, 5);
+    FilmDropped dropped = film_dropped(film);
+    assert_int_equal(dropped.count, 40);
+    assert_int_equal(dropped.kept, FILM_DROPPED_KEPT);
+    for (int i = 0; i < dropped.kept; i++) {
+        assert_int_equal(dropped.first[i].sample_index, i);
+        assert_int_equal(dropped.first[i].x, i % WIDTH);
+        assert_int_equal(dropped.first[i].y, i % HEIGHT);
+    }
+    assert_close(film_pixel(film, 0, 0).mean_xyz[1], 5, 1e-15);
+    assert_int_equal(film_pixel(film, 0, 0).samples, 1);
+    arena_release(&arena);
+}
+
+/* ---- variance and error ------------------------------------------------------------------ */
+
+/* n samples, half of them a, half b: the variance of the mean is (a-b)^2 / 4 / (n-1). */
+static void variance_has_its_closed_form_at_every_scale(void **state)
+{
+    (void)state;
+    static const float scales[] = {1e-5f, 1, 1e4f, 1e9f, 1e13f};
+    Arena arena = arena_reserve(1 << 20);
+    for (size_t k = 0; k < sizeof scales / sizeof *scales; k++) {
+        Film *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
+        float low = scales[k], high = 3 * scales[k], xyz[3] = {1, 1, 1}, rgb[3];
+        int   n = 1000;
+        for (int i = 0; i < n; i++) add_grey(film, 0, 0, (uint32_t)i, i % 2 ? low : high);
+        FilmPixel pixel = film_pixel(film, 0, 0);
+        rgb_from_xyz(xyz, rgb);
+        for (int i = 0; i < 3; i++) {
+            double range = ((double)high - (double)low) * (double)rgb[i];
+            assert_close(pixel.variance_rgb[i], range * range / 4 / (n - 1), 1e-5);
+        }
+    }
+    arena_release(&arena);
+}
+
+static void variance_spans_both_windows_of_squares(void **state)
+{
+    (void)state;
+    Arena  arena = arena_reserve(1 << 20);
+    Film  *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
+    float  values[] = {1, 100, 8000, 200000, 1e6f};
+    double sum = 0, squares = 0;
+    float  xyz[3] = {1, 1, 1}, rgb[3];
+    rgb_from_xyz(xyz, rgb);
+    for (int i = 0; i < 5; i++) {
+        double green = (double)values[i] * (double)rgb[1];
+        add_grey(film, 0, 0, (uint32_t)i, values[i]);
+        sum += green;
+        squares += green * green;
+    }
+    assert_close(film_pixel(film, 0, 0).variance_rgb[1], (squares - sum * sum / 5) / 4 / 5, 1e-6);
+    arena_release(&arena);
+}
+
+static void variance_needs_two_samples(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 20);
+    Film *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
+    assert_true(isnan(film_pixel(film, 0, 0).variance_rgb[0]));
+    add_grey(film, 0, 0, 0, 1);
+    assert_true(isnan(film_pixel(film, 0, 0).variance_rgb[0]));
+    add_grey(film, 0, 0, 1, 1);
+    assert_near(film_pixel(film, 0, 0).variance_rgb[0], 0, 1e-15);
+    arena_release(&arena);
+}
+
+static void relative_error_is_the_mean_of_sigma_over_luminance(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 20);
+    Film *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
+    assert_close(film_relative_error(film).frame, 1, 1e-15);
+    int n = 101 * 2;
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++)
+            for (int i = 0; i < n; i++)
+                add_grey(film, x, y, (uint32_t)i, (i % 2 ? 1.0f : 3.0f) * (float)(1 + x));
+    /* grey XYZ (1,1,1) has RGB (1.205, 0.948, 0.909): sigma adds up to Y's own. */
+    assert_close(film_relative_error(film).frame, 0.5 / sqrt(n - 1), 1e-3);
+    assert_true(isnan(film_relative_error(film).displays));
+    arena_release(&arena);
+}
+
+static void relative_error_of_displays_counts_their_pixels_only(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 20);
+    Film *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
+    for (uint32_t i = 0; i < 100; i++)
+        for (int y = 0; y < HEIGHT; y++)
+            for (int x = 0; x < WIDTH; x++) {
+                float      value = x == 0 ? 7 : i % 2 ? 1 : 3;
+                FilmSample s = {.sample_index = i, .xyz = {value, value, value}, .hit = true,
+                                .display_id = x == 0 ? 4 : -1};
+                film_add_sample(film, x, y, &s);
+            }
+    FilmError error = film_relative_error(film);
+    assert_near(error.displays, 0, 1e-6);
+    assert_close(error.frame, 2.0 / 3 * 0.5 / sqrt(99), 1e-3);
+    assert_int_equal(film_pixel(film, 0, 1).display_id, 4);
+    assert_int_equal(film_pixel(film, 1, 1).display_id, -1);
+    arena_release(&arena);
+}
+
+/* ---- layers ------------------------------------------------------------------------------ */
+
+static double at(const FrameImage *frame, const char *channel, int index)
+{
+    const float *values = frame_channel(frame, channel);
+    if (!values) fail_msg("no channel %s", channel);
+    return (double)values[index];
+}
+
+static FilmSample display_sample(uint32_t index, float theta, float phi)
+{
+    return (FilmSample){.sample_index = index, .xyz = {110, 120, 130}, .hit = true, .depth = 2,
+                        .normal = {0, 0, 1}, .albedo = {0.5f, 0.5f, 0.5f}, .part_id = 3,
+                        .display_id = 1, .emitted = {100, 100, 100}, .white = {380, 380, 380},
+                        .black = {0, 0, 0}, .theta = theta, .phi = phi};
+}
+
+static void a_frame_has_the_channels_asked_for_and_no_others(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(1 << 22);
+    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH | LAYER_ID, &arena);
+    FrameImage frame = film_to_frame(film, 0, &arena);
+    assert_int_equal(frame.channel_count, 6);
+    assert_non_null(frame_channel(&frame, "depth.Z"));
+    assert_non_null(frame_channel(&frame, "id.part"));
+    assert_non_null(frame_channel(&frame, "id.display"));
+    assert_null(frame_channel(&frame, "xyz.X"));
+    film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
+    frame = film_to_frame(film, 0, &arena);
+    assert_int_equal(frame.channel_count, 3 + 3 + 1 + 3 + 3 + 3 + 2 + 2 + 3 + 1 + 4 * 3 + 2 + 1);
+    arena_release(&arena);
+}
+
+static void layers_are_means_over_the_samples_that_hit(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(1 << 22);
+    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
+    FilmSample near_hit = {.sample_index = 5, .hit = true, .depth = 1, .position = {1, 2, 3},
+                           .normal = {0, 1, 0}, .albedo = {1, 0, 0}, .uv = {0.25f, 0},
+                           .part_id = 7, .display_id = -1};
+    FilmSample far_hit = {.sample_index = 2, .hit = true, .depth = 3, .position = {3, 2, 1},
+                          .normal = {1, 0, 0}, .albedo = {0, 1, 0}, .uv = {0.75f, 1},
+                          .part_id = 9, .display_id = -1};
+    FilmSample miss = {.sample_index = 0, .xyz = {3, 3, 3}, .part_id = -1, .display_id = -1};
+    film_add_sample(film, 1, 0, &near_hit);
+    film_add_sample(film, 1, 0, &far_hit);
+    film_add_sample(film, 1, 0, &miss);
+    FrameImage frame = film_to_frame(film, 0, &arena);
+    assert_close(at(&frame, "depth.Z", 1), 2, 1e-7);
+    assert_close(at(&frame, "position.X", 1), 2, 1e-7);
+    assert_close(at(&frame, "normal.Y", 1), 0.5, 1e-7);
+    assert_close(at(&frame, "albedo.G", 1), 0.5, 1e-7);
+    assert_close(at(&frame, "uv.U", 1), 0.5, 1e-7);
+    assert_close(at(&frame, "xyz.Y", 1), 1, 1e-7);
+    assert_true(at(&frame, "id.part", 1) == 9);
+    assert_true(at(&frame, "samples.N", 1) == 3);
+    assert_true(isnan(at(&frame, "depth.Z", 0)));
+    assert_true(isnan(at(&frame, "display.contrast", 1)));
+    assert_true(isnan(at(&frame, "display.theta", 1)));
+    assert_true(at(&frame, "id.part", 0) == -1);
+    assert_true(at(&frame, "id.display", 1) == -1);
+    assert_true(at(&frame, "R", 0) == 0);
+    arena_release(&arena);
+}
+
+static void features_that_are_not_finite_leave_the_light_alone(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(1 << 22);
+    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
+    FilmSample s = {.xyz = {4, 4, 4}, .hit = true, .depth = NAN, .part_id = 1, .display_id = -1};
+    film_add_sample(film, 0, 0, &s);
+    FrameImage frame = film_to_frame(film, 0, &arena);
+    assert_close(at(&frame, "xyz.Y", 0), 4, 1e-7);
+    assert_true(isnan(at(&frame, "depth.Z", 0)));
+    assert_true(at(&frame, "id.part", 0) == -1);
+    assert_int_equal(film_dropped(film).count, 0);
+    arena_release(&arena);
+}
+
+static void contrast_is_the_ratio_of_mean_luminances_with_the_reflection(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(1 << 22);
+    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
+    FilmSample s = display_sample(0, 0.5f, 1);
+    film_add_sample(film, 0, 0, &s);
+    s.xyz[1] = 100; /* the mean reflects 10 in Y */
+    s.sample_index = 1;
+    film_add_sample(film, 0, 0, &s);
+    FrameImage frame = film_to_frame(film, 0, &arena);
+    float      rgb[3], xyz[3];
+    assert_close(at(&frame, "display.contrast", 0), (380 + 10) / (0 + 10), 1e-6);
+    const char *const names[] = {"display.reflected.R", "display.reflected.G",
+                                 "display.reflected.B"};
+    for (int i = 0; i < 3; i++) rgb[i] = (float)at(&frame, names[i], 0);
+    xyz_from_rgb(rgb, xyz);
+    assert_close(xyz[0], 10, 1e-5);
+    assert_close(xyz[1], 10, 1e-5);
+    assert_close(xyz[2], 30, 1e-5);
+    assert_close(at(&frame, "display.theta", 0), degrees_from_radians(0.5), 1e-5);
+    assert_close(at(&frame, "display.phi", 0), degrees_from_radians(1), 1e-5);
+    assert_true(at(&frame, "id.display", 0) == 1);
+    arena_release(&arena);
+}
+
+static void phi_is_averaged_as_a_direction(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(1 << 22);
+    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_DISPLAY_ANGLES, &arena);
+    float      turn = (float)(2 * PI);
+    FilmSample before = display_sample(0, 0.3f, turn - 0.02f);
+    FilmSample after = display_sample(1, 0.3f, 0.04f);
+    film_add_sample(film, 0, 0, &before);
+    film_add_sample(film, 0, 0, &after);
+    FrameImage frame = film_to_frame(film, 0, &arena);
+    assert_close(at(&frame, "display.phi", 0), degrees_from_radians(0.01), 1e-3);
+    arena_release(&arena);
+}
+
+static void a_pixel_half_on_a_display_reports_the_display_half(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(1 << 22);
+    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
+    FilmSample on = display_sample(1, 0.1f, 0), off = {.xyz = {9, 9, 9}, .hit = true,
+                                                       .depth = 4, .display_id = -1};
+    film_add_sample(film, 0, 0, &on);
+    film_add_sample(film, 0, 0, &off);
+    FrameImage frame = film_to_frame(film, 0, &arena);
+    assert_close(at(&frame, "display.contrast", 0), (380.0 + 20) / 20, 1e-6);
+    assert_close(at(&frame, "depth.Z", 0), 3, 1e-6);
+    arena_release(&arena);
+}
+
+static void a_crop_is_the_data_window(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(1 << 22);
+    FilmRect   crop = {1, 1, 3, 2};
+    Film      *film = film_create(WIDTH, HEIGHT, crop, LAYER_XYZ, &arena);
+    add_grey(film, 2, 1, 0, 8);
+    FrameImage frame = film_to_frame(film, 0, &arena);
+    assert_int_equal(frame.data.x0, 1);
+    assert_int_equal(frame.data.y1, 2);
+    assert_int_equal(frame.display.x1, WIDTH);
+    assert_int_equal(frame.display.y1, HEIGHT);
+    assert_int_equal(frame_pixel_count(&frame), 2);
+    assert_close(at(&frame, "xyz.X", 1), 8, 1e-7);
+    arena_release(&arena);
+}
+
+static void film_bytes_is_what_a_film_takes(void **state)
+{
+    (void)state;
+    for (unsigned layers = 0; layers <= LAYER_ALL; layers += 97) {
+        Arena arena = arena_reserve(1 << 20);
+        film_create(WIDTH, HEIGHT, whole, layers, &arena);
+        assert_in_range(arena.next - arena.begin, film_bytes(whole, layers),
+                        film_bytes(whole, layers) + 32);
+        arena_release(&arena);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(any_order_of_adding_gives_the_same_bits),
+        cmocka_unit_test(the_mean_is_that_of_long_doubles),
+        cmocka_unit_test(a_millionth_candela_survives_beside_a_tera_candela),
+        cmocka_unit_test(the_largest_sums_do_not_overflow),
+        cmocka_unit_test(losses_are_counted_and_the_smallest_kept_in_any_order),
+        cmocka_unit_test(variance_has_its_closed_form_at_every_scale),
+        cmocka_unit_test(variance_spans_both_windows_of_squares),
+        cmocka_unit_test(variance_needs_two_samples),
+        cmocka_unit_test(relative_error_is_the_mean_of_sigma_over_luminance),
+        cmocka_unit_test(relative_error_of_displays_counts_their_pixels_only),
+        cmocka_unit_test(a_frame_has_the_channels_asked_for_and_no_others),
+        cmocka_unit_test(layers_are_means_over_the_samples_that_hit),
+        cmocka_unit_test(features_that_are_not_finite_leave_the_light_alone),
+        cmocka_unit_test(contrast_is_the_ratio_of_mean_luminances_with_the_reflection),
+        cmocka_unit_test(phi_is_averaged_as_a_direction),
+        cmocka_unit_test(a_pixel_half_on_a_display_reports_the_display_half),
+        cmocka_unit_test(a_crop_is_the_data_window),
+        cmocka_unit_test(film_bytes_is_what_a_film_takes),
+    };
+    return cmocka_run_group_tests_name("film", tests, NULL, NULL);
+}
