@@ -9,7 +9,7 @@ import os
 import sys
 
 SIZE = (6.0, 3.0, 5.0)  # m
-CELLS = 288             # squares along each side of a wall
+CELLS = 294             # squares along each side of a wall
 BUMP = 0.01             # m
 WINDOW = (0.3, 0.7, 0.35, 0.85)  # part of the wall at -Z: u from, u to, v from, v to
 
