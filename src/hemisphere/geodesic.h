@@ -60,6 +60,45 @@ static inline uint32_t geodesic_count(int level)
 /* level: 0..GEODESIC_MAX_LEVEL. About 32 bytes for every triangle of octant 0. */
 const Geodesic *geodesic_create(int level, Arena *arena);
 
+/* HOT. One descent, level by level, for queries that stop early or do more on the way. */
+typedef struct GeodesicWalk {
+    uint32_t octant;
+    uint32_t place;    /* of the triangle inside its octant, 0 .. 4^level - 1 */
+    float    weight[3]; /* direction = sum of weight * corner, up to a common factor */
+} GeodesicWalk;
+
+/* The octant of a direction. */
+static inline GeodesicWalk geodesic_walk_start(Vec3 d)
+{
+    return (GeodesicWalk){.octant = (d.x < 0 ? 1u : 0u) | (d.y < 0 ? 2u : 0u),
+                          .weight = {fabsf(d.x), fabsf(d.y), d.z > 0 ? d.z : 0.0f}};
+}
+
+/* From a triangle of `level` to its child; returns which one, 0..3. */
+static inline uint32_t geodesic_walk_down(const Geodesic *geodesic, int level,
+                                          GeodesicWalk *walk)
+{
+    const float *k = geodesic->nodes[level][walk->place].half_edge_cos;
+    float        u = walk->weight[0], v = walk->weight[1], w = walk->weight[2];
+    float        half = 0.5f * (u + v + w);
+    float        p = half - u, q = half - v, r = half - w; /* of bc, ca, ab; one below 0 at most */
+    uint32_t     child = p < 0 ? 1 : q < 0 ? 2 : r < 0 ? 3 : 0;
+    walk->weight[0] = child == 0 ? p * k[0] : child == 1 ? -p : u * k[4 - child];
+    walk->weight[1] = child == 0 ? q * k[1] : child == 2 ? -q : v * k[3 - child];
+    walk->weight[2] = child == 0 ? r * k[2] : child == 3 ? -r : w * k[2 - child];
+    walk->place = 4 * walk->place + child;
+    return child;
+}
+
+/* Id and normalised weights after `level` steps down. */
+static inline GeodesicPoint geodesic_walk_point(const GeodesicWalk *walk, int level)
+{
+    float u = walk->weight[0], v = walk->weight[1], w = walk->weight[2];
+    float sum = u + v + w, scale = sum > 0 ? 1 / sum : 0.0f;
+    return (GeodesicPoint){walk->octant << 2 * level | walk->place,
+                           {u * scale, v * scale, w * scale}};
+}
+
 /* HOT. The triangle of `level` (at most geodesic->level) that holds the direction. Corners and
  * edges belong to one of their triangles, always the same. */
 GeodesicPoint geodesic_find(const Geodesic *geodesic, int level, Vec3 direction);
@@ -72,6 +111,9 @@ Vec3 geodesic_center(int level, uint32_t id);
 
 /* Exact spherical area, sr, in double precision (sums over a level to 2 pi within 1e-9). */
 double geodesic_area(int level, uint32_t id);
+
+/* Exact areas of all 4^level triangles of octant 0, in order of id. */
+void geodesic_areas(int level, double *areas);
 
 /* Spherical area of any triangle of unit corners smaller than a hemisphere, sr. */
 double geodesic_triangle_area(const GeodesicTriangle *triangle);

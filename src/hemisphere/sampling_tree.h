@@ -26,6 +26,9 @@ typedef struct SamplingOptions {
                             density positive everywhere; 0: only where the integral is */
 } SamplingOptions;
 
+#define SAMPLING_MAGIC 0x504d4153u /* "SAMP" */
+#define SAMPLING_VERSION 1u
+
 typedef struct SamplingHeader {
     uint32_t magic, version;
     uint64_t size;
@@ -35,7 +38,9 @@ typedef struct SamplingHeader {
     uint32_t reserved_too;
 } SamplingHeader;
 
-/* Four triangles to choose from: the octants, or the children of one triangle. */
+/* Four triangles to choose from: the octants (node 0), or the children of one triangle. Nodes
+ * and cells are numbered as a walk in depth meets them; with 2 stored octants children 2, 3 of
+ * node 0 are children 0, 1 again. */
 typedef struct SamplingNode {
     float    pair;      /* probability of children 0, 1 against 2, 3: u0 < pair */
     float    inside[2]; /* probability of the first of each pair: u1 < inside */
@@ -47,7 +52,7 @@ typedef struct SamplingTree {
     const Geodesic     *geodesic;
     const SamplingNode *nodes;   /* node 0 chooses the octant */
     const float        *density; /* per cell, sr^-1, over all 4 octants */
-    int                 octants;
+    int                 level, octants;
     uint32_t            node_count, cell_count;
 } SamplingTree;
 

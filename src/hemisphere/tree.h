@@ -18,6 +18,8 @@
 #include "hemisphere/haar.h"
 
 #define TREE_MAX_COMPONENTS 256
+#define TREE_MAGIC 0x52414148u /* "HAAR" */
+#define TREE_VERSION 1u
 
 typedef enum TreeRowFormat {
     TREE_ROWS_FLOAT = 0, /* float32 */

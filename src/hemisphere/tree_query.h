@@ -11,8 +11,8 @@
 #pragma once
 #include "hemisphere/tree.h"
 
-/* At most: 4 levels' worth of every leaf around two corners, mirrored over two planes. */
-#define TREE_MAX_TAPS 640
+/* Three rows for each of the at most 13 triangles of a level around a leaf's two corners. */
+#define TREE_MAX_TAPS (3 * 13 * GEODESIC_MAX_LEVEL)
 
 /* A value as a weighted sum of a tree's octant means and rows. */
 typedef struct TreeTaps {

@@ -1,0 +1,188 @@
+#include "hemisphere/tree.h"
+
+#include <math.h>
+#include <string.h>
+
+_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "blobs are little-endian in place");
+_Static_assert(sizeof(TreeHeader) == 56 && sizeof(TreeNode) == 8, "the blob's layout");
+
+size_t tree_size(const void *blob)
+{
+    return ((const TreeHeader *)blob)->size;
+}
+
+static bool refuse(Error *err, const char *what, double found, double wanted)
+{
+    return error_set(err, ERROR_INPUT, "tree: %s is %.9g, wanted %.9g", what, found, wanted);
+}
+
+static bool check_header(const TreeHeader *h, size_t size, Error *err)
+{
+    if (h->magic != TREE_MAGIC) return refuse(err, "magic number", h->magic, TREE_MAGIC);
+    if (h->version != TREE_VERSION) return refuse(err, "version", h->version, TREE_VERSION);
+    if (h->size > size)
+        return error_set(err, ERROR_INPUT, "tree: %zu bytes are there, wanted %llu", size,
+                         (unsigned long long)h->size);
+    if (h->level > GEODESIC_MAX_LEVEL) return refuse(err, "level", h->level, GEODESIC_MAX_LEVEL);
+    if (h->octants != 2 && h->octants != 4) return refuse(err, "octant count", h->octants, 4);
+    if (h->weights > HAAR_AREA) return refuse(err, "weight kind", h->weights, HAAR_AREA);
+    if (h->rows > TREE_ROWS_INT16) return refuse(err, "row format", h->rows, TREE_ROWS_INT16);
+    if (h->components < 1 || h->components > TREE_MAX_COMPONENTS)
+        return refuse(err, "component count", h->components, TREE_MAX_COMPONENTS);
+    if (h->reserved != 0) return refuse(err, "reserved word", h->reserved, 0);
+    return true;
+}
+
+/* The header's offsets are a function of its counts; anything else is no tree of ours. Counts
+ * are limited by the leaves, so that no sum of sizes can overflow. */
+static bool check_offsets(const TreeHeader *h, Error *err)
+{
+    uint64_t leaves = (uint64_t)h->octants << 2 * h->level;
+    if (h->node_count < h->octants || h->node_count > 2 * leaves)
+        return refuse(err, "node count", h->node_count, h->octants);
+    if (h->row_count >= leaves) return refuse(err, "row count", h->row_count, (double)leaves);
+    bool     small = h->rows == TREE_ROWS_INT16;
+    uint64_t scales = sizeof(TreeHeader) + 4ull * h->octants * h->components;
+    uint64_t nodes = (scales + (small ? 4ull * h->level * h->components : 0) + 7) / 8 * 8;
+    uint64_t rows = nodes + sizeof(TreeNode) * (uint64_t)h->node_count;
+    uint64_t size = (rows + (small ? 2ull : 4ull) * h->components * h->row_count + 7) / 8 * 8;
+    if (h->means_offset != sizeof(TreeHeader))
+        return refuse(err, "offset of the means", h->means_offset, sizeof(TreeHeader));
+    if (h->scales_offset != scales)
+        return refuse(err, "offset of the scales", h->scales_offset, (double)scales);
+    if (h->nodes_offset != nodes)
+        return refuse(err, "offset of the nodes", h->nodes_offset, (double)nodes);
+    if (h->rows_offset != rows)
+        return refuse(err, "offset of the rows", (double)h->rows_offset, (double)rows);
+    if (h->size != size) return refuse(err, "size", (double)h->size, (double)size);
+    return true;
+}
+
+/* Nodes stand level by level, children and rows in order: each index must continue the last. */
+static bool check_nodes(const Tree *tree, Error *err)
+{
+    uint32_t next_node = (uint32_t)tree->octants, next_row = 0, level_end = next_node;
+    int      level = 0;
+    for (uint32_t i = 0; i < tree->node_count; i++) {
+        TreeNode node = tree->nodes[i];
+        if (i == level_end) {
+            level_end = next_node;
+            level++;
+        }
+        if (node.children >> 4 != next_node || node.rows >> 3 != next_row)
+            return error_set(err, ERROR_INPUT, "tree: node %u points to node %u and row %u, "
+                             "wanted %u and %u", i, node.children >> 4, node.rows >> 3,
+                             next_node, next_row);
+        next_node += (uint32_t)__builtin_popcount(node.children & 15);
+        next_row += (uint32_t)__builtin_popcount(node.rows & 7);
+        if (next_node > tree->node_count || next_row > tree->row_count)
+            return error_set(err, ERROR_INPUT, "tree: node %u leads to node %u of %u and row %u "
+                             "of %u", i, next_node, tree->node_count, next_row,
+                             tree->row_count);
+        if (level >= tree->level && (node.children & 15 || node.rows & 7))
+            return error_set(err, ERROR_INPUT, "tree: node %u has children below the leaves' "
+                             "level %d", i, tree->level);
+    }
+    if (next_node != tree->node_count) return refuse(err, "node count", tree->node_count, next_node);
+    if (next_row != tree->row_count) return refuse(err, "row count", tree->row_count, next_row);
+    return true;
+}
+
+static bool check_finite(const float *values, size_t count, const char *what, Error *err)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(values[i]))
+            return error_set(err, ERROR_INPUT, "tree: %s %zu is %g, wanted a finite number",
+                             what, i, (double)values[i]);
+    return true;
+}
+
+static bool check_values(const Tree *tree, Error *err)
+{
+    size_t components = (size_t)tree->components;
+    if (!check_finite(tree->means, components * (size_t)tree->octants, "mean", err)) return false;
+    if (tree->format == TREE_ROWS_INT16)
+        return check_finite(tree->scales, components * (size_t)tree->level, "scale", err);
+    return check_finite(tree->rows, components * tree->row_count, "detail", err);
+}
+
+static Tree view(const char *blob, const Geodesic *geodesic)
+{
+    const TreeHeader *h = (const TreeHeader *)(const void *)blob;
+    bool              small = h->rows == TREE_ROWS_INT16;
+    return (Tree){.geodesic = geodesic,
+                  .nodes = (const TreeNode *)(const void *)(blob + h->nodes_offset),
+                  .means = (const float *)(const void *)(blob + h->means_offset),
+                  .scales = small ? (const float *)(const void *)(blob + h->scales_offset) : NULL,
+                  .rows = blob + h->rows_offset,
+                  .level = h->level,
+                  .octants = h->octants,
+                  .components = (int)h->components,
+                  .weights = (HaarWeights)h->weights,
+                  .format = (TreeRowFormat)h->rows,
+                  .row_count = h->row_count,
+                  .node_count = h->node_count};
+}
+
+bool tree_open(const void *blob, size_t size, const Geodesic *geodesic, Tree *out, Error *err)
+{
+    if ((uintptr_t)blob % 8 != 0)
+        return error_set(err, ERROR_INPUT, "tree: stands at an address that is no multiple of 8");
+    if (size < sizeof(TreeHeader))
+        return refuse(err, "number of bytes", (double)size, sizeof(TreeHeader));
+    const TreeHeader *header = blob;
+    if (!check_header(header, size, err) || !check_offsets(header, err)) return false;
+    if (geodesic->level < header->level)
+        return refuse(err, "level of the geodesic", geodesic->level, header->level);
+    Tree tree = view(blob, geodesic);
+    if (!check_nodes(&tree, err) || !check_values(&tree, err)) return false;
+    *out = tree;
+    return true;
+}
+
+/* ---- inversion ---------------------------------------------------------------------------- */
+
+static void place_row(const Tree *tree, uint32_t row, int level, float *to)
+{
+    size_t components = (size_t)tree->components;
+    if (tree->format == TREE_ROWS_FLOAT) {
+        memcpy(to, (const float *)tree->rows + row * components, components * sizeof(float));
+        return;
+    }
+    const int16_t *from = (const int16_t *)tree->rows + row * components;
+    const float   *scale = tree->scales + (size_t)level * components;
+    for (size_t c = 0; c < components; c++) to[c] = scale[c] * (float)from[c];
+}
+
+/* Details to their places in haar.h's layout. ids: of each node's triangle on its level. */
+static void place_rows(const Tree *tree, float *leaves, uint32_t *ids)
+{
+    uint32_t level_end = (uint32_t)tree->octants, next = level_end, row = 0;
+    int      level = 0;
+    for (uint32_t i = 0; i < tree->node_count; i++) {
+        if (i < (uint32_t)tree->octants) ids[i] = i;
+        if (i == level_end) {
+            level_end = next;
+            level++;
+        }
+        for (uint32_t k = 0; k < 4; k++) {
+            uint32_t child = 4 * ids[i] + k;
+            if (tree->nodes[i].children >> k & 1) ids[next++] = child;
+            if (k == 0 || !(tree->nodes[i].rows >> (k - 1) & 1)) continue;
+            size_t place = (size_t)child << 2 * (tree->level - level - 1);
+            place_row(tree, row++, level, leaves + place * (size_t)tree->components);
+        }
+    }
+}
+
+void tree_expand(const Tree *tree, float *leaves, Arena scratch)
+{
+    HaarShape shape = {tree->level, tree->octants, tree->components, tree->weights};
+    size_t    components = (size_t)tree->components;
+    memset(leaves, 0, haar_leaf_count(&shape) * components * sizeof(float));
+    for (size_t q = 0; q < (size_t)tree->octants; q++)
+        memcpy(leaves + (q << 2 * tree->level) * components, tree->means + q * components,
+               components * sizeof(float));
+    place_rows(tree, leaves, ARENA_NEW(&scratch, uint32_t, tree->node_count));
+    haar_inverse(&shape, leaves, scratch);
+}
