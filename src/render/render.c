@@ -53,6 +53,7 @@ typedef struct WorkerCounts {
 } WorkerCounts;
 
 typedef struct Pass {
+    const Kernel  *kernel;
     const TileJob *job;
     FilmRect       crop;
     WorkerCounts  *counts;      /* one a worker */
@@ -64,7 +65,7 @@ static void render_one_tile(void *context, int item, int worker)
 {
     Pass    *pass = context;
     FilmRect rect = render_tile(pass->crop, item);
-    tile_render(pass->job, rect, &pass->counts[worker].statistics);
+    pass->kernel->render(pass->job, rect, &pass->counts[worker].statistics);
     uint64_t paths = pixel_count(rect) *
                      (uint64_t)(pass->job->end_sample - pass->job->first_sample);
     uint64_t done = atomic_fetch_add(&pass->paths_done, paths) + paths;
@@ -133,8 +134,8 @@ static void run_passes(Run *run)
     const RenderOptions *options = run->options;
     uint32_t total = options->end_sample - options->first_sample;
     size_t   pixels = pixel_count(options->crop);
-    Pass     pass = {.job = &run->job, .crop = options->crop, .counts = run->counts,
-                     .progress = &run->progress};
+    Pass     pass = {.kernel = run->result.kernel, .job = &run->job, .crop = options->crop,
+                     .counts = run->counts, .progress = &run->progress};
     while (!run->result.complete && !run->result.stopped_by) {
         uint32_t done = run->result.samples, samples = render_pass_samples(done, pixels);
         if (samples > total - done) samples = total - done;
@@ -179,12 +180,14 @@ bool render_scene(const Scene *scene, const SceneCamera *camera, const RenderOpt
     double  begun_s = monotonic_seconds();
     Lights *lights;
     Bvh    *bvh;
+    const Kernel *kernel;
+    if (!kernel_choose(options->isa, &kernel, err)) return false;
     if (!lights_build(scene, arena, &lights, err)) return false;
-    if (!bvh_create(scene, options->threads, NULL, &bvh, err)) return false;
+    if (!bvh_create(scene, options->threads, options->isa, &bvh, err)) return false;
     PathContext context = {.scene = scene, .bvh = bvh, .lights = lights,
                            .tables = surface_tables_build(scene, arena),
                            .max_bounces = options->max_bounces, .strategy = PATH_MIS};
-    RenderResult result = {.build_seconds = monotonic_seconds() - begun_s};
+    RenderResult result = {.kernel = kernel, .build_seconds = monotonic_seconds() - begun_s};
     render_film(&context, camera, options, arena, &result);
     bvh_destroy(bvh);
     *out = result;

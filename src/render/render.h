@@ -15,6 +15,7 @@
 #include "camera/camera.h"
 #include "film/film.h"
 #include "path/path.h"
+#include "render/kernel.h"
 
 typedef struct RenderResult RenderResult;
 
@@ -29,6 +30,7 @@ typedef struct RenderOptions {
     int      max_bounces;      /* 0: emission only, 1: plus direct light */
     unsigned layers;           /* FilmLayer bits */
     int      threads;          /* at least 1 */
+    const char *isa;           /* kernel.h's names; NULL: the best there is */
     ProgressMode progress;
     void   (*snapshot)(void *user, const RenderResult *so_far); /* NULL: none */
     void    *snapshot_user;
@@ -38,6 +40,7 @@ typedef struct RenderOptions {
 
 struct RenderResult {
     Film          *film;
+    const Kernel  *kernel;     /* the one that was used */
     uint32_t       samples;    /* a pixel */
     double         seconds;    /* of rendering alone */
     double         build_seconds; /* of the ray tracer's and the lights' structures */

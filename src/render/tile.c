@@ -1,4 +1,4 @@
-#include "render/tile.h"
+#include "render/kernel.h"
 
 static void copy3(float to[3], const float from[3])
 {
@@ -33,8 +33,8 @@ static void add_features(const TileJob *job, const PathResult *result,
     sample->phi = features.phi;
 }
 
-void tile_sample(const TileJob *job, int x, int y, uint32_t index, FilmSample *out,
-                 PathStatistics *statistics)
+static void tile_sample(const TileJob *job, int x, int y, uint32_t index, FilmSample *out,
+                        PathStatistics *statistics)
 {
     Sampler sampler = sampler_start(job->seed, x, y, index);
     Vec2    at = sampler_2d(&sampler); /* the filter is a box of one pixel */
@@ -48,7 +48,7 @@ void tile_sample(const TileJob *job, int x, int y, uint32_t index, FilmSample *o
     if (job->with_features && result.hit) add_features(job, &result, &wavelengths, out);
 }
 
-void tile_render(const TileJob *job, FilmRect rect, PathStatistics *statistics)
+static void tile_render(const TileJob *job, FilmRect rect, PathStatistics *statistics)
 {
     for (int y = rect.y0; y < rect.y1; y++)
         for (int x = rect.x0; x < rect.x1; x++)
@@ -58,3 +58,19 @@ void tile_render(const TileJob *job, FilmRect rect, PathStatistics *statistics)
                 film_add_sample(job->film, x, y, &sample);
             }
 }
+
+/* The build compiles this file once for each instruction set, each under its own name. */
+#ifndef KERNEL_NAME
+#define KERNEL_NAME kernel_base
+#endif
+#if defined(__AVX512F__)
+#define KERNEL_ISA "avx512"
+#elif defined(__AVX2__)
+#define KERNEL_ISA "avx2"
+#elif defined(__x86_64__)
+#define KERNEL_ISA "sse2"
+#else
+#define KERNEL_ISA "native"
+#endif
+extern const Kernel KERNEL_NAME;
+const Kernel KERNEL_NAME = {KERNEL_ISA, tile_render};
