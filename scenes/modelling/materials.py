@@ -1,0 +1,87 @@
+"""The car's materials as glTF metallic-roughness, with physically plausible values.
+
+Colours are linear Rec.709 reflectances. TILE says how many metres one tile of a material's
+textures covers.
+"""
+TILE = {
+    "leather black": 0.12, "leather cognac": 0.12, "leather wheel": 0.12, "seat leather": 0.10,
+    "plastic grained": 0.10, "pillar fabric": 0.05, "alcantara grey": 0.20, "walnut open pore": 0.26,
+    "carpet": 0.10, "asphalt": 1.4, "grass": 3.0, "foliage": 3.0, "facade plaster": 12.0,
+    "facade brick": 12.0, "facade office": 14.0, "hills": 160.0, "paving": 2.4,
+}
+
+
+def surface(color, roughness, metallic=0.0, **extra):
+    """One entry: base colour, roughness, metallic; extra keys are told apart in finish.py."""
+    return dict(color=tuple(color), roughness=roughness, metallic=metallic, **extra)
+
+
+def grey(value, roughness, metallic=0.0, **extra):
+    return surface((value, value, value), roughness, metallic, **extra)
+
+
+MATERIALS = {
+    # cabin, soft
+    "leather black": surface((0.040, 0.040, 0.042), 0.55, normal=("leather_normal", 0.8), ior=1.5),
+    "leather cognac": surface((0.230, 0.095, 0.038), 0.52, normal=("leather_normal", 0.8), ior=1.5),
+    "leather wheel": surface((0.036, 0.036, 0.038), 0.50, normal=("leather_normal", 0.45), ior=1.5),
+    "seat leather": surface((0.215, 0.090, 0.037), 0.55, normal=("perforated_normal", 0.8), ior=1.5),
+    "thread": surface((0.48, 0.36, 0.25), 0.75),
+    "thread dark": surface((0.16, 0.15, 0.145), 0.75),
+    "pillar fabric": surface((1, 1, 1), 0.95, texture="fabric_color", normal=("fabric_normal", 0.7)),
+    "alcantara grey": surface((1, 1, 1), 1.0, texture="suede_color"),
+    "carpet": surface((0.030, 0.030, 0.032), 1.0, normal=("fabric_normal", 1.0)),
+    # cabin, hard
+    "plastic grained": surface((0.045, 0.045, 0.047), 0.58, normal=("leather_normal", 0.5), ior=1.5),
+    "plastic dark": surface((0.028, 0.028, 0.030), 0.42, ior=1.5),
+    "gap": grey(0.010, 0.9),
+    "piano black": grey(0.012, 0.30, clearcoat=(1.0, 0.03)),
+    "cover glass": grey(0.008, 0.06, ior=1.52),
+    "walnut open pore": surface((1, 1, 1), 0.42, texture="wood_color", normal=("wood_normal", 0.6)),
+    "satin chrome": surface((0.70, 0.70, 0.71), 0.25, 1.0),
+    "bright chrome": surface((0.74, 0.74, 0.75), 0.08, 1.0),
+    "brushed aluminium": surface((0.78, 0.785, 0.79), 0.32, 1.0),
+    "button": surface((0.034, 0.034, 0.036), 0.45),
+    "symbol white": grey(0.72, 0.6),
+    "symbol red": surface((0.55, 0.03, 0.02), 0.5),
+    "mirror silver": grey(0.90, 0.02, 1.0),
+    # glass and body
+    "windscreen glass": surface((0.86, 0.885, 0.875), 0.0, glass=True, ior=1.52),
+    "side glass": surface((0.82, 0.85, 0.84), 0.0, glass=True, ior=1.52),
+    "frit": grey(0.012, 0.6),
+    "rubber": grey(0.022, 0.75),
+    "car paint": surface((0.030, 0.075, 0.180), 0.35, 0.55, clearcoat=(1.0, 0.02)),
+    "tail lamp": surface((0.30, 0.012, 0.010), 0.12, clearcoat=(1.0, 0.03)),
+    "paint other": surface((0.42, 0.43, 0.44), 0.35, 0.4, clearcoat=(1.0, 0.03)),
+    "paint red": surface((0.24, 0.022, 0.018), 0.4, 0.0, clearcoat=(1.0, 0.03)),
+    "dark glass": grey(0.010, 0.03, ior=1.52),
+    # outside
+    "asphalt": surface((1, 1, 1), 0.88, texture="asphalt_color", normal=("asphalt_normal", 1.0)),
+    "paving": surface((0.27, 0.265, 0.25), 0.9, normal=("asphalt_normal", 0.8)),
+    "kerb": grey(0.30, 0.85),
+    "road marking": grey(0.62, 0.7),
+    "grass": surface((1, 1, 1), 1.0, texture="grass_color"),
+    "foliage": surface((1, 1, 1), 0.9, texture="leaf_color"),
+    "foliage light": surface((1.0, 0.82, 0.40), 0.9, texture="leaf_color"),
+    "bark": surface((0.075, 0.056, 0.040), 0.95),
+    "facade plaster": surface((1, 1, 1), 0.85, texture="facade_plaster"),
+    "facade brick": surface((1, 1, 1), 0.85, texture="facade_brick"),
+    "facade office": surface((1, 1, 1), 0.6, texture="facade_office"),
+    "roof tile": surface((0.155, 0.060, 0.040), 0.85),
+    "roof grey": surface((0.16, 0.16, 0.17), 0.85),
+    "galvanised steel": surface((0.50, 0.51, 0.52), 0.45, 1.0),
+    "pole": grey(0.20, 0.5),
+    "hills": surface((0.105, 0.150, 0.110), 1.0),
+    "hills far": surface((0.190, 0.235, 0.270), 1.0),
+    "sign blue": surface((0.010, 0.060, 0.300), 0.5),
+    # what the displays show: finish.py adds PARHELION_display
+    "cluster": grey(0.0, 0.25, display=("ips_cluster.panel", "cluster.png", 450.0)),
+    "centre": grey(0.0, 0.10, display=("oled_centre.panel", "centre.png", 600.0)),
+    # lights of the night scene: (linear colour, strength in cd/m2)
+    "lamp head": grey(0.1, 0.5, emission=((1.0, 0.86, 0.66), 60000.0)),
+    "lit window": grey(0.1, 0.5, emission=((1.0, 0.74, 0.42), 45.0)),
+    "lit window cool": grey(0.1, 0.5, emission=((0.85, 0.93, 1.0), 30.0)),
+    "tail lamp lit": grey(0.1, 0.5, emission=((1.0, 0.02, 0.01), 900.0)),
+    "ambient line": grey(0.1, 0.5, emission=((0.25, 0.62, 1.0), 14.0)),
+    "traffic green": grey(0.1, 0.5, emission=((0.05, 1.0, 0.45), 2500.0)),
+}
