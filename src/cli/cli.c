@@ -101,14 +101,25 @@ static bool bad_value(const Parser *in, const Option *option, const char *text,
                      option->value);
 }
 
+/* "2147483647", "0.5", "1e-06": whole numbers in full. */
+static void print_number(char buffer[32], double value)
+{
+    bool is_whole = value == floor(value) && fabs(value) < 1e15;
+    snprintf(buffer, 32, is_whole ? "%.0f" : "%.9g", value);
+}
+
 static bool inside_limits(const Parser *in, const Option *option, double value)
 {
+    char found[32], low[32], high[32];
     if (!has_limits(option) || (value >= option->low && value <= option->high)) return true;
+    print_number(found, value);
+    print_number(low, option->low);
+    print_number(high, option->high);
     if (isinf(option->high))
-        return error_set(in->err, ERROR_USAGE, "%s: %.9g is out of range, wanted at least %.9g",
-                         option->name, value, option->low);
-    return error_set(in->err, ERROR_USAGE, "%s: %.9g is out of range, wanted %.9g to %.9g",
-                     option->name, value, option->low, option->high);
+        return error_set(in->err, ERROR_USAGE, "%s: %s is out of range, wanted at least %s",
+                         option->name, found, low);
+    return error_set(in->err, ERROR_USAGE, "%s: %s is out of range, wanted %s to %s",
+                     option->name, found, low, high);
 }
 
 static bool read_numbers(const Parser *in, const Option *option, const char *text, int count)
@@ -217,7 +228,7 @@ static bool unknown_option(const Parser *in, const char *name, size_t length)
     snprintf(word, sizeof word, "%.*s", (int)length, name);
     const char *nearest = cli_nearest(word, names, count);
     return error_set(in->err, ERROR_USAGE,
-                     "unknown option %.*s — %s%s%sparhelion %s --help lists what there is",
+                     "unknown option %.*s — %s%s%s`parhelion %s --help` lists what there is",
                      (int)length, name, nearest ? "did you mean " : "", nearest ? nearest : "",
                      nearest ? "? " : "", in->command->name);
 }

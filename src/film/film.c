@@ -258,7 +258,7 @@ FilmPixel film_pixel(const Film *film, int x, int y)
     return pixel;
 }
 
-/* A hundredth of the geometric mean of the luminances above zero, cd m^-2. */
+/* Half the geometric mean of the luminances above zero, cd m^-2. */
 static double lowest_luminance(const Film *film)
 {
     double  log_sum = 0;
@@ -271,7 +271,7 @@ static double lowest_luminance(const Film *film)
             log_sum += (double)log_f((float)mean);
             count++;
         }
-    return count ? 0.01 * (double)exp_f((float)(log_sum / (double)count)) : 0;
+    return count ? 0.5 * (double)exp_f((float)(log_sum / (double)count)) : 0;
 }
 
 static double pixel_error(const FilmPixel *pixel, double lowest)

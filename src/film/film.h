@@ -86,9 +86,12 @@ FilmPixel film_pixel(const Film *film, int x, int y);
 
 /* How sure the frame is: the mean over pixels of sigma / max(Y, Y_low). sigma is the standard
  * error of the pixel's luminance, taken as 0.21 sigma_R + 0.72 sigma_G + 0.07 sigma_B (the
- * upper bound, reached when the three rise and fall together, as luminance noise does); Y_low
- * is a hundredth of the geometric mean of the pixels' luminances above zero, so that black
- * corners do not count for more than they show. A pixel of fewer than two samples counts 1. */
+ * upper bound, reached when the three rise and fall together, as luminance noise does). Y_low
+ * is half the frame's key, the geometric mean of the luminances above zero (Reinhard et al.
+ * 2002): the noise of deep shadows is judged against what an eye adapted to the frame sees, the
+ * same as the 0.01 in the usual relMSE when the key is exposed to 0.18; a sun in view does not
+ * move it. A pixel of fewer than two samples counts 1. sigma comes from the samples' spread as
+ * if they were independent: scrambled Sobol points do better, so the true error is lower. */
 typedef struct FilmError {
     double frame;
     double displays; /* over the pixels that show a display; NaN where none does */

@@ -246,6 +246,20 @@ static void relative_error_is_the_mean_of_sigma_over_luminance(void **state)
     arena_release(&arena);
 }
 
+/* Five pixels of 100 without noise and one of 1 with sigma 0.1: judged against half the key. */
+static void relative_error_judges_shadows_against_half_the_key(void **state)
+{
+    (void)state;
+    Arena  arena = arena_reserve(1 << 20);
+    Film  *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
+    double key = pow(100, 5.0 / 6);
+    for (uint32_t i = 0; i < 26; i++)
+        for (int p = 0; p < WIDTH * HEIGHT; p++)
+            add_grey(film, p % WIDTH, p / WIDTH, i, p ? 100 : i % 2 ? 0.5f : 1.5f);
+    assert_close(film_relative_error(film).frame, 0.1 / (key / 2) / 6, 1e-3);
+    arena_release(&arena);
+}
+
 static void relative_error_of_displays_counts_their_pixels_only(void **state)
 {
     (void)state;
@@ -446,6 +460,7 @@ int main(void)
         cmocka_unit_test(variance_spans_both_windows_of_squares),
         cmocka_unit_test(variance_needs_two_samples),
         cmocka_unit_test(relative_error_is_the_mean_of_sigma_over_luminance),
+        cmocka_unit_test(relative_error_judges_shadows_against_half_the_key),
         cmocka_unit_test(relative_error_of_displays_counts_their_pixels_only),
         cmocka_unit_test(a_frame_has_the_channels_asked_for_and_no_others),
         cmocka_unit_test(layers_are_means_over_the_samples_that_hit),
