@@ -1,0 +1,145 @@
+#include "image/develop.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/exposure.h"
+#include "image/layer_view.h"
+#include "opencolorio/view_transform.h"
+
+/* assets/ocio/parhelion.ocio, embedded by the build. */
+extern const char OWN_OCIO_CONFIG[];
+
+#define LINEAR_MAX 1e6f /* of what goes into a view; any view shows it as white */
+
+/* Linear light times scale, interleaved; NaN becomes black and infinity the most there is. */
+static Picture exposed(const LayerView *view, float scale, long *nonfinite, Arena *arena)
+{
+    Picture picture = picture_create(view->width, view->height, arena);
+    size_t  count = (size_t)view->width * (size_t)view->height;
+    for (size_t i = 0; i < count; i++) {
+        bool finite = true;
+        for (int c = 0; c < 3; c++) {
+            float value = view->planes[c][i] * scale;
+            finite = finite && isfinite(view->planes[c][i]);
+            if (isnan(value)) value = 0;
+            if (value > LINEAR_MAX) value = LINEAR_MAX;
+            if (value < -LINEAR_MAX) value = -LINEAR_MAX;
+            picture.rgb[3 * i + (size_t)c] = value;
+        }
+        *nonfinite += !finite;
+    }
+    return picture;
+}
+
+/* Pixels that the crop left out are not accidents. */
+static long pixels_outside_data(const FrameImage *frame)
+{
+    const ExrWindow w = frame->display, d = frame->data;
+    int x0 = d.x0 > w.x0 ? d.x0 : w.x0, x1 = d.x1 < w.x1 ? d.x1 : w.x1;
+    int y0 = d.y0 > w.y0 ? d.y0 : w.y0, y1 = d.y1 < w.y1 ? d.y1 : w.y1;
+    long inside = x1 > x0 && y1 > y0 ? (long)(x1 - x0) * (y1 - y0) : 0;
+    return (long)(w.x1 - w.x0) * (w.y1 - w.y0) - inside;
+}
+
+static const char *chosen_config(const DevelopOptions *options)
+{
+    const char *from_environment = getenv("OCIO");
+    if (options->config) return options->config;
+    return from_environment && from_environment[0] ? from_environment : NULL;
+}
+
+static bool apply_view(Picture *picture, const DevelopOptions *options, DevelopReport *report,
+                       Error *err)
+{
+    ViewTransform    *transform;
+    const ViewRequest request = {chosen_config(options), OWN_OCIO_CONFIG, options->display,
+                                 options->view};
+    if (!view_transform_create(&request, &transform, err)) return false;
+    snprintf(report->config, sizeof report->config, "%s", view_transform_config(transform));
+    snprintf(report->display, sizeof report->display, "%s", view_transform_display(transform));
+    snprintf(report->view, sizeof report->view, "%s", view_transform_view(transform));
+    size_t count = (size_t)picture->width * (size_t)picture->height;
+    bool   ok = view_transform_apply(transform, picture->rgb, count, err);
+    view_transform_destroy(transform);
+    return ok;
+}
+
+static bool develop_light(const FrameImage *frame, const LayerView *view,
+                          const DevelopOptions *options, Arena *arena, Picture *out,
+                          DevelopReport *report, Error *err)
+{
+    ExposureRequest request;
+    const char     *exposure = options->exposure ? options->exposure : "auto";
+    if (!exposure_parse(exposure, &request, err)) return false;
+    size_t count = (size_t)view->width * (size_t)view->height;
+    Arena  scratch = *arena;
+    float *luminance = layer_view_luminance(view, &scratch);
+    report->grey_cd_m2 = exposure_grey(request, luminance, count, scratch);
+    report->ev = exposure_ev_of_grey(report->grey_cd_m2);
+    report->is_developed = true;
+    float scale = (float)(MIDDLE_GREY / report->grey_cd_m2);
+    *out = exposed(view, scale, &report->nonfinite_pixels, arena);
+    report->nonfinite_pixels -= pixels_outside_data(frame);
+    return apply_view(out, options, report, err);
+}
+
+static long count_nonfinite(const LayerView *view)
+{
+    long   count = 0;
+    size_t pixels = (size_t)view->width * (size_t)view->height;
+    for (size_t i = 0; i < pixels; i++) count += !isfinite(view->planes[0][i]);
+    return count;
+}
+
+bool develop_picture(const FrameImage *frame, const DevelopOptions *options, Arena *arena,
+                     Picture *out, DevelopReport *report, Error *err)
+{
+    LayerView     view;
+    DevelopReport made = {0};
+    Picture       picture;
+    if (!layer_view_find(frame, options->layer, arena, &view, err)) return false;
+    if (options->false_colour) {
+        if (view.show != SHOW_LIGHT)
+            return error_set(err, ERROR_USAGE,
+                             "layer \"%s\" is not light, it has no luminance to show in false "
+                             "colours", options->layer);
+        view = (LayerView){.show = SHOW_NUMBER, .width = view.width, .height = view.height,
+                           .planes = {layer_view_luminance(&view, arena)}, .unit = "cd/m^2",
+                           .is_log = true};
+    }
+    if (view.show == SHOW_LIGHT) {
+        if (!develop_light(frame, &view, options, arena, &picture, &made, err)) return false;
+    } else {
+        made.nonfinite_pixels = count_nonfinite(&view) - pixels_outside_data(frame);
+        picture = layer_view_picture(&view, arena, made.scale);
+    }
+    *out = picture;
+    if (report) *report = made;
+    return true;
+}
+
+static const char *description(const DevelopReport *report, Arena *arena)
+{
+    if (!report->is_developed) return report->scale[0] ? report->scale : NULL;
+    return arena_format(arena, "middle grey %.6g cd/m2 (EV %.3f), display %s, view %s, %s",
+                        report->grey_cd_m2, report->ev, report->display, report->view,
+                        report->config);
+}
+
+bool develop_frame(const FrameImage *frame, const DevelopOptions *options, const char *path,
+                   Arena scratch, DevelopReport *report, Error *err)
+{
+    DevelopReport made;
+    Picture       picture;
+    int           bits = options->bits ? options->bits : 8;
+    if (!picture_check_name(path, bits, err)) return false;
+    if (!develop_picture(frame, options, &scratch, &picture, &made, err)) return false;
+    PictureFile file = {bits, !made.is_developed || !strcmp(made.display, "sRGB"),
+                        description(&made, &scratch)};
+    if (!picture_write(path, &picture, file, scratch, err)) return false;
+    if (report) *report = made;
+    return true;
+}

@@ -1,0 +1,39 @@
+/* develop.h -- makes a picture that people can look at from a frame.
+ *
+ * Units    frames in cd m^-2 (frame.h); pictures in code values.
+ * Memory   pictures come from the arena; scratch arenas are passed by value.
+ * Threads  one thread; frames are only read.
+ * Fails    when a layer, display, view or configuration does not exist (the text lists those
+ *          that do), and when the output cannot be written.
+ */
+#pragma once
+#include "image/frame.h"
+#include "image/picture.h"
+
+/* {0} is the default. */
+typedef struct DevelopOptions {
+    const char *exposure; /* NULL "auto"; see exposure.h */
+    const char *config;   /* OpenColorIO: a file, else $OCIO, else the project's own */
+    const char *display, *view; /* NULL: the configuration's defaults */
+    const char *layer;    /* NULL: R, G, B of the frame itself */
+    bool        false_colour; /* luminance on a logarithmic scale */
+    int         bits;     /* 0 or 8, or 16 */
+} DevelopOptions;
+
+typedef struct DevelopReport {
+    bool   is_developed;  /* by a view transform; false for data shown as it is */
+    double grey_cd_m2;    /* what became middle grey; 0 when not developed */
+    double ev;            /* the same as an exposure value */
+    char   config[1024], display[128], view[128]; /* "" when not developed */
+    long   nonfinite_pixels; /* NaN shown black (grey in false colour), infinity white */
+    char   scale[160];    /* of false colours: "0.1 to 1000 cd/m^2, logarithmic", else "" */
+} DevelopReport;
+
+/* The whole display window; what the data window does not cover is black. */
+bool develop_picture(const FrameImage *frame, const DevelopOptions *options, Arena *arena,
+                     Picture *out, DevelopReport *report, Error *err);
+
+/* The same, written as PNG, JPEG or TIFF by the ending of `path`; how it was made stands in
+ * the file's description. report may be NULL. */
+bool develop_frame(const FrameImage *frame, const DevelopOptions *options, const char *path,
+                   Arena scratch, DevelopReport *report, Error *err);

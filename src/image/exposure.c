@@ -1,0 +1,109 @@
+#include "image/exposure.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mathf.h"
+
+#define KEY_LOW 0.05
+#define KEY_HIGH 0.60
+#define KEY_SHOWN_AT 0.12
+#define GUARD_PERCENTILE 0.99
+#define GUARD_RATIO 16.0
+#define GUARD_NIGHT_CD_M2 300.0
+
+double exposure_grey_of_ev(double ev)
+{
+    return EXPOSURE_METER_CD_M2 * exp2(ev);
+}
+
+double exposure_ev_of_grey(double grey_cd_m2)
+{
+    return log2(grey_cd_m2 / EXPOSURE_METER_CD_M2);
+}
+
+static bool parse_number(const char *text, double *out)
+{
+    char *end;
+    *out = strtod(text, &end);
+    return end != text && !*end && isfinite(*out);
+}
+
+bool exposure_parse(const char *text, ExposureRequest *out, Error *err)
+{
+    ExposureRequest request = {EXPOSURE_AUTO, 0};
+    bool ok = !strcmp(text, "auto");
+    if (!strncmp(text, "white:", 6)) {
+        request.kind = EXPOSURE_WHITE;
+        ok = parse_number(text + 6, &request.value) && request.value > 0;
+    } else if (!ok) {
+        request.kind = EXPOSURE_EV;
+        ok = parse_number(text, &request.value) && fabs(request.value) <= 60;
+    }
+    if (!ok)
+        return error_set(err, ERROR_USAGE,
+                         "--exposure %s: wanted auto, an exposure value (-60 to 60), or "
+                         "white:CD_M2 with a luminance above 0", text);
+    *out = request;
+    return true;
+}
+
+/* Luminances sorted into bins of 1/64 stop, with the sum of the logarithms in each. */
+enum { BINS_A_STOP = 64, STOPS = 64, BIN_COUNT = BINS_A_STOP * STOPS };
+
+typedef struct Histogram {
+    double count[BIN_COUNT], log_sum[BIN_COUNT];
+    double total;
+} Histogram;
+
+static Histogram *histogram_of(const float *luminance, size_t count, Arena *arena)
+{
+    Histogram *h = ARENA_NEW(arena, Histogram, 1);
+    for (size_t i = 0; i < count; i++) {
+        if (!(luminance[i] > 0) || !isfinite(luminance[i])) continue;
+        float stops = log_f(luminance[i]) * 1.44269504f;
+        float at = clampf((stops + STOPS / 2) * BINS_A_STOP, 0, BIN_COUNT - 1);
+        h->count[(int)at]++;
+        h->log_sum[(int)at] += (double)stops;
+        h->total++;
+    }
+    return h;
+}
+
+/* Mean of log2 over the ranks between two fractions; a bin that is cut counts in part. */
+static double mean_log2(const Histogram *h, double low, double high)
+{
+    double from = low * h->total, to = high * h->total, before = 0, sum = 0, weight = 0;
+    for (int i = 0; i < BIN_COUNT; i++) {
+        double after = before + h->count[i];
+        double part = fmin(after, to) - fmax(before, from);
+        if (part > 0) {
+            sum += h->log_sum[i] * part / h->count[i];
+            weight += part;
+        }
+        before = after;
+    }
+    return sum / weight;
+}
+
+double exposure_auto_grey(const float *luminance_cd_m2, size_t count, Arena scratch)
+{
+    const Histogram *h = histogram_of(luminance_cd_m2, count, &scratch);
+    if (h->total == 0) return 1;
+    double key = exp2(mean_log2(h, KEY_LOW, KEY_HIGH));
+    double bright = exp2(mean_log2(h, GUARD_PERCENTILE - 0.005, GUARD_PERCENTILE + 0.005));
+    double ratio = GUARD_RATIO * fmax(1, sqrt(bright / GUARD_NIGHT_CD_M2));
+    return fmax(key * (MIDDLE_GREY / KEY_SHOWN_AT), bright / ratio);
+}
+
+double exposure_grey(ExposureRequest request, const float *luminance_cd_m2, size_t count,
+                     Arena scratch)
+{
+    switch (request.kind) {
+    case EXPOSURE_EV: return exposure_grey_of_ev(request.value);
+    case EXPOSURE_WHITE: return request.value * MIDDLE_GREY;
+    case EXPOSURE_AUTO: break;
+    }
+    return exposure_auto_grey(luminance_cd_m2, count, scratch);
+}

@@ -1,0 +1,47 @@
+/* exposure.h -- how much light becomes middle grey.
+ *
+ * Units    luminance in cd m^-2; EV is the photographic exposure value at ISO 100.
+ * Threads  pure functions.
+ */
+#pragma once
+#include <stddef.h>
+
+#include "base/arena.h"
+#include "base/error.h"
+
+#define MIDDLE_GREY 0.18
+
+/* ISO 2720's reflected-light meters with K = 12.5: EV e calls L = 2^e K / 100 an average
+ * scene, which becomes middle grey. */
+#define EXPOSURE_METER_CD_M2 0.125
+
+/* Middle grey of EV `ev`, cd m^-2, and back. */
+double exposure_grey_of_ev(double ev);
+double exposure_ev_of_grey(double grey_cd_m2);
+
+typedef enum ExposureKind { EXPOSURE_AUTO, EXPOSURE_EV, EXPOSURE_WHITE } ExposureKind;
+
+typedef struct ExposureRequest {
+    ExposureKind kind;
+    double       value; /* EV, or the luminance that becomes the display's white (1.0) */
+} ExposureRequest;
+
+/* "auto", a number of EV, or "white:CD_M2". */
+bool exposure_parse(const char *text, ExposureRequest *out, Error *err);
+
+/* The luminance that becomes middle grey by `auto`, made for a cabin with the day outside:
+ *
+ *   key   the geometric mean of the darker pixels: those between the 5th and the 60th
+ *         percentile of all that are above zero. The view through the windows is brighter
+ *         than the cabin by orders of magnitude and has no say.
+ *   shown at 0.12 rather than 0.18 (trim is dark, and shall look it): grey = key * 0.18/0.12.
+ *   guard at night the key is close to nothing and the displays would burn out: grey is at
+ *         least p99 / G with G = 16 max(1, sqrt(p99 / 300 cd/m2)); the 99th percentile stays
+ *         within four stops above middle grey at night, six to seven by day.
+ *
+ * Not finite and not positive values do not count; without any other the answer is 1. */
+double exposure_auto_grey(const float *luminance_cd_m2, size_t count, Arena scratch);
+
+/* What a request makes middle grey, cd m^-2. */
+double exposure_grey(ExposureRequest request, const float *luminance_cd_m2, size_t count,
+                     Arena scratch);

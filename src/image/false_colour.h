@@ -1,0 +1,33 @@
+/* false_colour.h -- shows numbers as colours, with the scale drawn beside the picture.
+ *
+ * Units    the numbers' own; their unit stands above the scale.
+ * Memory   pictures come from the arena that is passed in.
+ * Threads  pure functions.
+ */
+#pragma once
+#include "image/picture.h"
+
+/* The colour for t in [0, 1] as sRGB codes: lightness rises steadily from dark blue over red
+ * to pale yellow, so that order can be seen even without colour vision. A path in OKLCh
+ * (Ottosson 2020, "A perceptual color space for image processing"): lightness and hue run
+ * straight, chroma is what sRGB can show of 0.2. */
+void false_colour_of(float t, float srgb[3]);
+
+typedef struct ScaleRange {
+    float low, high; /* low < high; both above 0 when logarithmic */
+    bool  is_log;
+} ScaleRange;
+
+/* A range with round ends that holds nearly all the finite values: logarithmic from the 1st
+ * to the 99.9th percentile of those above zero (two to six decades), linear from the least to
+ * the 99.9th. */
+ScaleRange scale_range_of(const float *values, size_t count, bool is_log, Arena scratch);
+
+/* Where a value stands on the scale, 0 .. 1 and cut off there. */
+float scale_position(ScaleRange range, float value);
+
+/* values: width x height, row 0 at the top; what is not a number (NaN) stays dark grey. The
+ * picture is wider than the values by the scale at its right. unit: as lettering.h can write
+ * it, "cd/m^2". */
+Picture false_colour_picture(const float *values, int width, int height, ScaleRange range,
+                             const char *unit, Arena *arena);

@@ -1,0 +1,38 @@
+/* picture.h -- a finished picture of code values, and its way into a file.
+ *
+ * Units    code values of some display, 0 .. 1; what lies outside is cut off when written.
+ * Layout   row 0 at the top, R, G, B interleaved.
+ * Memory   pixels come from the arena that is passed in.
+ * Threads  plain data.
+ */
+#pragma once
+#include "base/arena.h"
+#include "base/error.h"
+
+typedef struct Picture {
+    int    width, height;
+    float *rgb; /* width * height * 3 */
+} Picture;
+
+/* Black. */
+Picture picture_create(int width, int height, Arena *arena);
+
+static inline float *picture_pixel(const Picture *picture, int x, int y)
+{
+    return picture->rgb + ((size_t)y * (size_t)picture->width + (size_t)x) * 3;
+}
+
+typedef struct PictureFile {
+    int         bits;        /* 8 or 16; JPEG has 8 */
+    bool        is_srgb;     /* says so in the file */
+    const char *description; /* goes into the file; NULL: none */
+} PictureFile;
+
+/* PNG, JPEG or TIFF by the name's ending. The same picture gives the same bytes; nothing is
+ * left after a failure. Codes are rounded to the nearest, without dither. */
+bool picture_write(const char *path, const Picture *picture, PictureFile file, Arena scratch,
+                   Error *err);
+
+/* False, with the endings that are supported, when picture_write would refuse the name or the
+ * bits: to be asked before long work. */
+bool picture_check_name(const char *path, int bits, Error *err);
