@@ -136,11 +136,7 @@ static OIIO::ImageSpec output_spec(const ImageToEncode *image)
         spec.attribute("jpeg:subsampling", "4:4:4");
     }
     if (image->description) spec.attribute("ImageDescription", image->description);
-    if (image->icc_profile) {
-        spec.attribute("ICCProfile",
-                       OIIO::TypeDesc(OIIO::TypeDesc::UINT8, (int)image->icc_profile_size),
-                       image->icc_profile);
-    }
+    if (image->is_srgb) spec.attribute("oiio:ColorSpace", "sRGB");
     return spec;
 }
 

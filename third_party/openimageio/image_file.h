@@ -43,9 +43,8 @@ typedef struct ImageToEncode {
     int         channels; /* 1 grey, 3 RGB, 4 RGB and straight alpha */
     PixelType   type;
     const void *pixels;
-    int         jpeg_quality;       /* 1 .. 100, for "jpeg" */
-    const void *icc_profile;        /* or NULL */
-    size_t      icc_profile_size;
+    int         jpeg_quality;       /* 1 .. 100 for "jpeg", else 0 */
+    bool        is_srgb;            /* the file says that its codes are sRGB */
     const char *description;        /* a text that goes into the file, or NULL */
 } ImageToEncode;
 
