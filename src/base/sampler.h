@@ -14,8 +14,8 @@
 
 typedef struct Sampler {
     uint32_t pixel_hash;
-    uint32_t index;     /* sample index */
-    uint32_t dimension; /* pairs handed out so far */
+    uint32_t index_reversed; /* sample index, lowest bit first */
+    uint32_t dimension;      /* pairs handed out so far */
 } Sampler;
 
 /* A good 32-bit mixer (full avalanche; constants of Wellons' "lowbias32"). */
@@ -41,29 +41,29 @@ static inline uint32_t reverse_bits(uint32_t x)
     return (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
 }
 
-/* Owen scrambling by a hash that lets bits flow upwards only (Laine and Karras 2011, with
- * the better constants of Vegdahl's "Building a better LK hash"). */
-static inline uint32_t owen_scramble(uint32_t x, uint32_t seed)
+/* Owen scrambling of bits in reversed order (lowest first): a hash whose bits flow upwards only
+ * (Laine and Karras 2011, with the better constants of Vegdahl's "Building a better LK hash"). */
+static inline uint32_t owen_scramble_reversed(uint32_t x, uint32_t seed)
 {
-    x = reverse_bits(x);
     x ^= x * 0x3d20adeau;
     x += seed;
     x *= (seed >> 16) | 1;
     x ^= x * 0x05526c56u;
     x ^= x * 0x53a22864u;
-    return reverse_bits(x);
+    return x;
 }
 
-/* The second Sobol dimension, by Pascal's matrix modulo 2, eight steps of shifts. */
-static inline uint32_t sobol_second(uint32_t index)
+/* The second Sobol dimension with its bits reversed, by Pascal's matrix modulo 2 in five steps
+ * of shifts: x'_i = sum over j of binomial(j, i) x_j. (The first is the index itself.) */
+static inline uint32_t sobol_second_reversed(uint32_t index)
 {
-    uint32_t x = index; /* x'_i = sum over j of binomial(j, i) x_j mod 2 */
+    uint32_t x = index;
     x ^= (x & 0xffff0000u) >> 16;
     x ^= (x & 0xff00ff00u) >> 8;
     x ^= (x & 0xf0f0f0f0u) >> 4;
     x ^= (x & 0xccccccccu) >> 2;
     x ^= (x & 0xaaaaaaaau) >> 1;
-    return reverse_bits(x);
+    return x;
 }
 
 /* 32 random bits as a float in [0, 1), 24 bits of it. */
@@ -76,17 +76,19 @@ static inline float unit_float(uint32_t bits)
 static inline Sampler sampler_start(uint32_t seed, int x, int y, uint32_t index)
 {
     uint32_t hash = hash_combine(hash_combine(hash_u32(seed), (uint32_t)x), (uint32_t)y);
-    return (Sampler){.pixel_hash = hash, .index = index, .dimension = 0};
+    return (Sampler){.pixel_hash = hash, .index_reversed = reverse_bits(index)};
 }
 
 /* Two numbers in [0, 1), well spread over the samples of the pixel. */
 static inline Vec2 sampler_2d(Sampler *sampler)
 {
     uint32_t seed = hash_combine(sampler->pixel_hash, sampler->dimension++);
-    uint32_t index = owen_scramble(sampler->index, seed); /* blocks of 2^k stay blocks */
-    uint32_t a = owen_scramble(reverse_bits(index), hash_u32(seed ^ 0xa511e9b3u));
-    uint32_t b = owen_scramble(sobol_second(index), hash_u32(seed ^ 0x63d83595u));
-    return (Vec2){unit_float(a), unit_float(b)};
+    /* The order is shuffled so that blocks of 2^k samples stay blocks. */
+    uint32_t index = reverse_bits(owen_scramble_reversed(sampler->index_reversed, seed));
+    uint32_t a = owen_scramble_reversed(index, seed * 0x9e3779b1u + 0xa511e9b3u);
+    uint32_t b = owen_scramble_reversed(sobol_second_reversed(index),
+                                        seed * 0x85ebca77u + 0x63d83595u);
+    return (Vec2){unit_float(reverse_bits(a)), unit_float(reverse_bits(b))};
 }
 
 /* One number in [0, 1). */
