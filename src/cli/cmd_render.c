@@ -61,6 +61,19 @@ static bool check_outputs(const RenderRequest *request, Arena scratch, Error *er
     return !request->png || check_writable(request->png, scratch, err);
 }
 
+/* A view that does not exist is found now, on a frame of one pixel. */
+static bool check_look(const RenderRequest *request, Arena scratch, Error *err)
+{
+    if (!request->png) return true;
+    FrameImage    frame = frame_create(1, 1, (ExrWindow){0, 0, 1, 1}, 3, 0, &scratch);
+    Picture       picture;
+    DevelopReport report;
+    for (const char *name = "RGB"; *name; name++)
+        frame_add_channel(&frame, arena_format(&scratch, "%c", *name), false, &scratch)[0] = 1;
+    return picture_check_name(request->png, request->look.bits, err) &&
+           develop_picture(&frame, &request->look, &scratch, &picture, &report, err);
+}
+
 static bool load(Work *work, Error *err)
 {
     RenderRequest *request = &work->request;
@@ -120,12 +133,27 @@ static bool report_interruption(const Work *work, const RenderResult *result, Er
     return false;
 }
 
+static bool develop(const Work *work, const RenderResult *result, Error *err)
+{
+    Arena         scratch = *work->arena;
+    DevelopReport report;
+    FrameImage    frame = render_make_frame(&work->request, work->scene, &work->camera, result,
+                                            &scratch);
+    if (!develop_frame(&frame, &work->request.look, work->request.png, scratch, &report, err))
+        return false;
+    if (work->request.cli.json || !report.is_developed) return true;
+    printf("%s: %s, %s, middle grey %.4g cd/m2, %s\n", work->request.png, report.display,
+           report.view, report.grey_cd_m2, report.config);
+    return true;
+}
+
 static bool hand_over(Work *work, const RenderResult *result, Error *err)
 {
     warn_of_dropped(work, result);
     if (work->request.replays)
         return render_print_replay(&work->request, work->scene, result, work->arena, err);
     if (!write_frame(work, result, err)) return false;
+    if (work->request.png && !develop(work, result, err)) return false;
     if (!render_print_answer(&work->request, result, &work->problems, err)) return false;
     return result->complete || report_interruption(work, result, err);
 }
@@ -137,7 +165,7 @@ static bool run(Work *work, Error *err)
     options->snapshot = work->request.replays ? NULL : write_snapshot;
     options->snapshot_user = work;
     if (!check_memory(options, err) || !check_outputs(&work->request, *work->arena, err) ||
-        !load(work, err))
+        !check_look(&work->request, *work->arena, err) || !load(work, err))
         return false;
     return render_scene(work->scene, &work->camera, options, work->arena, &result, err) &&
            hand_over(work, &result, err);

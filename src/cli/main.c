@@ -3,7 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "bvh/bvh.h"
 #include "cli/cli.h"
+#include "render/kernel.h"
 
 typedef struct Command {
     const char *name;
@@ -17,26 +19,13 @@ static const Command commands[] = {
 
 #define COMMAND_COUNT (int)(sizeof commands / sizeof *commands)
 
-/* The instruction set this program is built for; Embree chooses its own at run time. */
-static const char *instruction_set(void)
-{
-#if defined(__AVX512F__)
-    return "x86-64 with AVX-512";
-#elif defined(__AVX2__)
-    return "x86-64 with AVX2";
-#elif defined(__x86_64__)
-    return "x86-64";
-#elif defined(__aarch64__)
-    return "AArch64";
-#else
-    return "portable C";
-#endif
-}
-
 static void print_version(void)
 {
-    printf("parhelion %s\ninstruction set: %s\nlibraries: %s\n", PARHELION_VERSION, instruction_set(),
-           LIBRARY_VERSIONS);
+    const Kernel *kernel;
+    Error         err;
+    bool          chosen = kernel_choose(NULL, &kernel, &err);
+    printf("parhelion %s\ninstruction set: %s\nlibraries: %s, %s\n", PARHELION_VERSION,
+           chosen ? kernel->isa : "none", bvh_library(), LIBRARY_VERSIONS);
 }
 
 static void print_help(FILE *out)

@@ -79,6 +79,7 @@ static void set_sampling(FrameImage *frame, const RenderRequest *request,
                      arena_format(arena, "%u:%u", options->first_sample,
                                   options->first_sample + result->samples),
                      arena);
+    frame_set_string(frame, "parhelion:isa", result->kernel->isa, arena);
     frame_set_string(frame, "parhelion:seed", arena_format(arena, "%u", options->seed), arena);
     frame_set_whole(frame, "parhelion:maxBounces", options->max_bounces, arena);
     frame_set_whole(frame, "parhelion:unbiased", 1, arena);
@@ -146,6 +147,7 @@ static json_t *answer_document(const RenderRequest *request, const RenderResult 
         json_number_or_null(result->error.frame), "relative_error_displays",
         json_number_or_null(result->error.displays), "complete", result->complete, "warnings",
         cli_json_problems(problems, SEVERITY_WARNING));
+    json_object_set_new(answer, "isa", json_string(result->kernel->isa));
     json_object_set_new(answer, "rays_by_class",
                         json_pack("{s:I, s:I, s:I}", "camera", (json_int_t)counts->camera_rays,
                                   "bounce", (json_int_t)counts->bounce_rays, "shadow",

@@ -6,7 +6,7 @@
  */
 #pragma once
 #include "cli/cli.h"
-#include "image/frame.h"
+#include "image/develop.h"
 #include "render/render.h"
 #include "scene/scene.h"
 
@@ -25,6 +25,7 @@ typedef struct RenderRequest {
     SceneOptions  scene;
     const char   *output; /* NULL only when replaying */
     const char   *png;    /* NULL: none */
+    DevelopOptions look;  /* of the png */
     const char   *camera; /* NULL: the first */
     EnvironmentChange environment;
     RenderOptions render;

@@ -13,7 +13,7 @@
 /* Values as typed, before they are checked against each other. */
 typedef struct Typed {
     const char *samples, *noise, *layers;
-    int         size[2];
+    int         size[2], false_colour;
     long        spp, max_bounces, seed;
     double      crop[4], replay[3];
     CliTexts    contents, panels, levels;
@@ -175,6 +175,10 @@ static bool check_scene(const Typed *typed, Arena *arena, RenderRequest *request
 
 static bool check_outputs(const RenderRequest *request, Error *err)
 {
+    const DevelopOptions *look = &request->look;
+    if (!request->png && (look->exposure || look->config || look->display || look->view ||
+                          look->false_colour))
+        return error_set(err, ERROR_USAGE, "a look is asked for, but no picture — add --png FILE");
     if (request->replays) return true;
     if (!request->output)
         return error_set(err, ERROR_USAGE, "no output — add -o FRAME.exr");
@@ -233,6 +237,14 @@ static bool parse_line(int argc, char **argv, Arena *arena, Typed *typed, Render
         {"-o", OPTION_TEXT, "FRAME.exr", "the frame that is written", &request->output},
         {"--png", OPTION_TEXT, "FILE", "develop the frame as well (PNG, JPEG, TIFF by ending)",
          &request->png},
+        {"--exposure", OPTION_TEXT, "auto|EV|white:CD_M2", "of the picture (default auto)",
+         &request->look.exposure},
+        {"--config", OPTION_TEXT, "FILE", "OpenColorIO configuration (default $OCIO, else own)",
+         &request->look.config},
+        {"--display", OPTION_TEXT, "NAME", "the configuration's display", &request->look.display},
+        {"--view", OPTION_TEXT, "NAME", "the configuration's view", &request->look.view},
+        {"--false-colour", OPTION_CHOICE, "luminance", "show luminance on a scale of colours",
+         &typed->false_colour, .given = &request->look.false_colour},
         {"--camera", OPTION_TEXT, "NAME|INDEX", "node's or camera's name, or place (default 0)",
          &request->camera},
         {"--size", OPTION_SIZE, "WxH", "pixels of the whole frame (default 1280x720)",
@@ -268,6 +280,8 @@ static bool parse_line(int argc, char **argv, Arena *arena, Typed *typed, Render
          &typed->panels},
         {"--display-level", OPTION_TEXTS, "MATERIAL=PERCENT", "how bright a display is set",
          &typed->levels},
+        {"--isa", OPTION_TEXT, "NAME", "sse2, avx2, avx512 (default: the processor's best)",
+         &request->render.isa},
         {"--replay", OPTION_NUMBERS, "X,Y,SAMPLE", "one sample of one pixel, printed",
          typed->replay, .count = 3, .given = &typed->has_replay},
     };

@@ -43,7 +43,7 @@ static void tile_sample(const TileJob *job, int x, int y, uint32_t index, FilmSa
     wavelengths_sample(sampler_1d(&sampler), &wavelengths);
     Ray ray = camera_ray(job->camera, (float)x + at.x, (float)y + at.y);
     path_trace(job->context, ray, &wavelengths, &sampler, &result, statistics);
-    *out = (FilmSample){.part_id = -1, .display_id = -1};
+    *out = (FilmSample){.sample_index = index, .part_id = -1, .display_id = -1};
     copy3(out->xyz, result.xyz);
     if (job->with_features && result.hit) add_features(job, &result, &wavelengths, out);
 }
