@@ -4,8 +4,8 @@
 #include "shaders/microfacet.h"
 
 /* Points of the midpoint rule over the unit square of facets; half the turn is enough. */
-#define TURNS 24
-#define HEIGHTS 48
+#define TURNS 16
+#define HEIGHTS 40
 
 /* Exact reflectance's rise from normal incidence (0) to grazing (1). */
 static float fresnel_shape(float ior, float cosine)
@@ -56,17 +56,22 @@ static Energy average_of(const Energy *row)
     return (Energy){(float)all, (float)shape};
 }
 
+/* Row 0 stands for every smooth boundary: it has no facets that hide one another. */
+static float alpha_of_row(int row)
+{
+    float octave = (float)(1 << row / ENERGY_PER_OCTAVE) * 0x1p-10f;
+    return octave * (1 + (float)(row % ENERGY_PER_OCTAVE) / ENERGY_PER_OCTAVE);
+}
+
 const EnergyTable *energy_table_build(float ior, Arena *arena)
 {
     EnergyTable *table = ARENA_NEW(arena, EnergyTable, 1);
     table->ior = ior;
     for (int a = 0; a < ENERGY_ALPHAS; a++) {
-        float root = (float)a / (ENERGY_ALPHAS - 1);
-        float alpha = root * root > 1e-4f ? root * root : 1e-4f;
         for (int c = 0; c < ENERGY_COSINES; c++) {
             float t = (float)c / (ENERGY_COSINES - 1);
             float cosine = c > 0 ? t * t : 1e-5f;
-            table->directional[a][c] = a > 0 ? integrate(ior, cosine, alpha) :
+            table->directional[a][c] = a > 0 ? integrate(ior, cosine, alpha_of_row(a)) :
                                        (Energy){1, fresnel_shape(ior, cosine)};
         }
         table->average[a] = average_of(table->directional[a]);
@@ -74,29 +79,42 @@ const EnergyTable *energy_table_build(float ior, Arena *arena)
     return table;
 }
 
-/* Cell and place in it of a value in [0, 1] on an axis of `count` knots, even in its root. */
-static int find_knot(float value, int count, float *t)
+/* A place between two neighbours of an axis. */
+typedef struct Knot {
+    int   low;
+    float t;
+} Knot;
+
+static Knot knot_at(float place, int count)
 {
-    float place = safe_sqrtf(value) * (float)(count - 1);
-    int   cell = (int)place;
-    if (cell > count - 2) cell = count - 2;
-    *t = clampf(place - (float)cell, 0, 1);
-    return cell;
+    int low = (int)place;
+    if (low > count - 2) low = count - 2;
+    return (Knot){low, clampf(place - (float)low, 0, 1)};
+}
+
+static Knot cosine_knot(float cosine)
+{
+    return knot_at(safe_sqrtf(cosine) * (ENERGY_COSINES - 1), ENERGY_COSINES);
+}
+
+/* A float's bits count octaves by themselves, and run evenly within one. */
+static Knot alpha_knot(float alpha)
+{
+    if (is_smooth(alpha)) return (Knot){0, 0};
+    float octaves = (float)(bits_from_float(alpha) - bits_from_float(0x1p-10f)) * 0x1p-23f;
+    return knot_at(octaves * ENERGY_PER_OCTAVE, ENERGY_ALPHAS);
 }
 
 Energy energy_directional(const EnergyTable *table, float cosine, float alpha)
 {
-    float ta, tc;
-    int   a = find_knot(alpha, ENERGY_ALPHAS, &ta);
-    int   c = find_knot(cosine, ENERGY_COSINES, &tc);
-    const Energy *low = table->directional[a], *high = table->directional[a + 1];
-    return energy_mix(energy_mix(low[c], low[c + 1], tc), energy_mix(high[c], high[c + 1], tc),
-                      ta);
+    Knot a = alpha_knot(alpha), c = cosine_knot(cosine);
+    const Energy *below = table->directional[a.low] + c.low, *above = below + ENERGY_COSINES;
+    return energy_mix(energy_mix(below[0], below[1], c.t), energy_mix(above[0], above[1], c.t),
+                      a.t);
 }
 
 Energy energy_average(const EnergyTable *table, float alpha)
 {
-    float t;
-    int   a = find_knot(alpha, ENERGY_ALPHAS, &t);
-    return energy_mix(table->average[a], table->average[a + 1], t);
+    Knot a = alpha_knot(alpha);
+    return energy_mix(table->average[a.low], table->average[a.low + 1], a.t);
 }

@@ -138,7 +138,7 @@ static Spectrum metal_rebound(const MetallicRoughness *m, Energy out, Energy in)
 {
     float mean = energy_average(m->energy, m->alpha).all;
     float missing = 1 - mean;
-    if (!(m->metallic > 0 && missing > 1e-4f)) return spectrum_all(0);
+    if (!(m->metallic > 0 && missing > 1e-6f)) return spectrum_all(0);
     Spectrum one = spectrum_all(1);
     Spectrum f = m->base_color + (one - m->base_color) * spectrum_all(1.0f / 21);
     Spectrum bounces = f * f * spectrum_all(mean) / (one - f * spectrum_all(missing));
@@ -360,7 +360,7 @@ Spectrum metallic_roughness_albedo(const MetallicRoughness *m, Vec3 wo)
     Boundary b = boundary_of(m);
     Spectrum one = spectrum_all(1), in = let_in(&b, e), base = m->base_color;
     Spectrum pane = pane_reflectance(one - in);
-    Spectrum clear = pane + (one - pane) * base;
+    Spectrum clear = (pane + (one - pane) * base) * spectrum_all(e.all);
     Spectrum solid = (one - in) + in * base;
     Spectrum metal = base + (one - base) * spectrum_all(e.shape);
     Spectrum dielectric = solid + (clear - solid) * spectrum_all(m->transmission);

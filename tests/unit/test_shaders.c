@@ -1,0 +1,543 @@
+/* Laws that every surface model obeys, over one table of models. A new model is added to
+ * make_models and inherits them all. */
+#include "check.h"
+
+#include <string.h>
+
+#include "base/arena.h"
+#include "base/sampler.h"
+#include "base/units.h"
+#include "shaders/bsdf.h"
+#include "shaders/microfacet.h"
+
+#define MAX_MODELS 64
+
+typedef struct Model {
+    const char *name;
+    Bsdf        bsdf;
+    bool        lossless;  /* sends back all it gets, within the tables' error */
+    bool        both_sides; /* the eye may be below */
+    float       width;     /* of its narrowest lobe, radians: where to look closely */
+} Model;
+
+static Model models[MAX_MODELS];
+static int   model_count;
+static Arena arena;
+static const EnergyTable *glass, *diamond, *perfect, *nothing;
+
+static Spectrum ramp(float from, float to)
+{
+    Spectrum s;
+    for (int i = 0; i < SPECTRUM_LANES; i++) s[i] = from + (to - from) * (float)i / 15;
+    return s;
+}
+
+static MetallicRoughness *add_model(const char *name, float metallic, float alpha, bool lossless)
+{
+    Model *model = &models[model_count++];
+    assert_true(model_count <= MAX_MODELS);
+    *model = (Model){.name = name, .bsdf.kind = BSDF_METALLIC_ROUGHNESS, .lossless = lossless,
+                     .width = alpha < SMOOTH_ALPHA ? 1 : alpha};
+    MetallicRoughness *m = &model->bsdf.metallic_roughness;
+    *m = metallic_roughness_default(glass);
+    m->metallic = metallic;
+    m->alpha = alpha;
+    m->clearcoat_energy = glass;
+    return m;
+}
+
+static void add_plastics(void)
+{
+    add_model("white plastic, alpha 1", 0, 1, true);
+    add_model("white plastic, alpha 0.3", 0, 0.3f, true);
+    add_model("white plastic, alpha 0.05", 0, 0.05f, true);
+    add_model("white plastic, alpha 0.01", 0, 0.01f, true);
+    add_model("white smooth plastic", 0, 0, true);
+    add_model("dark plastic", 0, 0.1f, false)->base_color = ramp(0.01f, 0.3f);
+    add_model("white, no mirror", 0, 0.2f, true)->specular = 0;
+    add_model("white, index 1", 0, 0.2f, true)->energy = nothing;
+    add_model("white, index 2.4", 0, 0.2f, true)->energy = diamond;
+    add_model("white, index 0", 0, 0.4f, false)->energy = perfect;
+    MetallicRoughness *m = add_model("coloured mirror on plastic", 0, 0.15f, false);
+    m->specular_color = ramp(0.1f, 40);
+    m->specular = 0.7f;
+    m->base_color = ramp(0.9f, 0.1f);
+}
+
+static void add_metals(void)
+{
+    add_model("white metal, alpha 1", 1, 1, true);
+    add_model("white metal, alpha 0.5", 1, 0.5f, true);
+    add_model("white metal, alpha 0.1", 1, 0.1f, true);
+    add_model("white metal, alpha 0.02", 1, 0.02f, true);
+    add_model("white metal, alpha 0.002", 1, 0.002f, true);
+    add_model("smooth gold", 1, 0, false)->base_color = ramp(0.3f, 0.97f);
+    add_model("rough gold", 1, 0.4f, false)->base_color = ramp(0.3f, 0.97f);
+    add_model("black metal", 1, 0.2f, false)->base_color = spectrum_all(0);
+    add_model("half metal", 0.5f, 0.2f, true);
+}
+
+static void add_panes(void)
+{
+    add_model("smooth clear sheet", 0, 0, true)->transmission = 1;
+    add_model("smooth half clear sheet", 0, 0, true)->transmission = 0.5f;
+    add_model("frosted sheet", 0, 0.3f, false)->transmission = 1;
+    MetallicRoughness *m = add_model("coloured frosted sheet", 0.2f, 0.1f, false);
+    m->transmission = 0.6f;
+    m->base_color = ramp(0.2f, 0.9f);
+    m->clearcoat = 0.5f;
+    m->clearcoat_alpha = 0.05f;
+}
+
+static void add_lacquers(void)
+{
+    MetallicRoughness *m = add_model("piano lacquer", 0, 0.5f, false);
+    m->base_color = ramp(0.01f, 0.03f);
+    m->clearcoat = 1;
+    m = add_model("white under smooth lacquer", 0, 0.3f, false);
+    m->clearcoat = 1;
+    m = add_model("white under rough lacquer", 0, 0.3f, false);
+    m->clearcoat = 0.8f;
+    m->clearcoat_alpha = 0.1f;
+    models[model_count - 1].width = 0.1f;
+    m = add_model("chrome under tilted lacquer", 1, 0.2f, false);
+    m->clearcoat = 1;
+    m->clearcoat_alpha = 0.2f;
+    m->clearcoat_normal = vec3_normalize(vec3(0.3f, -0.2f, 1));
+    m = add_model("plastic under tilted smooth lacquer", 0, 0.2f, false);
+    m->clearcoat = 1;
+    m->clearcoat_normal = vec3_normalize(vec3(-0.4f, 0.1f, 1));
+}
+
+static void add_dielectric(const char *name, float ior, float alpha)
+{
+    models[model_count++] = (Model){.name = name, .bsdf.kind = BSDF_DIELECTRIC,
+        .bsdf.dielectric = {spectrum_all(1), ior, alpha}, .both_sides = true,
+        .lossless = alpha < 0.06f, .width = alpha < SMOOTH_ALPHA ? 1 : 0.5f * alpha};
+}
+
+static void add_glass(void)
+{
+    models[model_count++] = (Model){.name = "windscreen", .bsdf.kind = BSDF_THIN_WINDOW,
+        .bsdf.thin_window = {ramp(0.6f, 0.9f), 1.52f}, .both_sides = true, .width = 1};
+    models[model_count++] = (Model){.name = "clear window", .bsdf.kind = BSDF_THIN_WINDOW,
+        .bsdf.thin_window = {spectrum_all(1), 1.52f}, .both_sides = true, .lossless = true,
+        .width = 1};
+    add_dielectric("smooth glass", 1.5f, 0);
+    add_dielectric("nearly smooth glass", 1.5f, 0.02f);
+    add_dielectric("frosted glass", 1.5f, 0.3f);
+    add_dielectric("very rough water", 1.33f, 0.8f);
+    add_dielectric("bubble", 0.75f, 0.1f);
+    models[model_count++] = (Model){.name = "black", .bsdf.kind = BSDF_BLACK, .width = 1};
+}
+
+static int make_models(void **state)
+{
+    (void)state;
+    arena = arena_reserve(1 << 20);
+    glass = energy_table_build(1.5f, &arena);
+    diamond = energy_table_build(2.4f, &arena);
+    perfect = energy_table_build(0, &arena);
+    nothing = energy_table_build(1, &arena);
+    add_plastics();
+    add_metals();
+    add_panes();
+    add_lacquers();
+    add_glass();
+    return 0;
+}
+
+static int drop_models(void **state)
+{
+    (void)state;
+    arena_release(&arena);
+    return 0;
+}
+
+#define EYE_COUNT 6
+
+static Vec3 eye(int i)
+{
+    const float cosines[EYE_COUNT] = {1, 0.8f, 0.5f, 0.2f, 0.05f, 0.01f};
+    float c = cosines[i], s = safe_sqrtf(1 - c * c), sine, cosine;
+    sincos_turns(0.17f * (float)i, &sine, &cosine);
+    return vec3(s * cosine, s * sine, c);
+}
+
+/* Calls `law` for every model and eye, on the far side too where there is one. */
+static void for_all(void (*law)(const Model *, Vec3))
+{
+    for (int m = 0; m < model_count; m++)
+        for (int i = 0; i < EYE_COUNT; i++) {
+            Vec3 wo = eye(i);
+            law(&models[m], wo);
+            if (models[m].both_sides) law(&models[m], vec3(wo.x, wo.y, -wo.z));
+        }
+}
+
+static void draw(Sampler *sampler, float u[3])
+{
+    Vec2 a = sampler_2d(sampler);
+    u[0] = a.x;
+    u[1] = a.y;
+    u[2] = sampler_1d(sampler);
+}
+
+/* ---- sampling matches its density ---------------------------------------------------- */
+
+#define RINGS 12
+#define SECTORS 12
+#define CELLS (2 * RINGS * SECTORS)
+#define SAMPLES 30000
+
+/* Polar coordinates around the direction where a lobe is expected, rings closing in on it. */
+typedef struct Chart {
+    Frame frame;
+    float width;
+} Chart;
+
+static Chart chart_for(const Model *model, Vec3 wo, bool same_side)
+{
+    Vec3 centre = vec3(-wo.x, -wo.y, same_side ? wo.z : -wo.z);
+    if (model->bsdf.kind == BSDF_DIELECTRIC && !same_side) {
+        float eta = wo.z > 0 ? model->bsdf.dielectric.ior : 1 / model->bsdf.dielectric.ior;
+        float x = -wo.x / eta, y = -wo.y / eta, z = safe_sqrtf(1 - x * x - y * y);
+        centre = vec3_normalize(vec3(x, y, wo.z > 0 ? -z : z));
+    }
+    return (Chart){frame_from_z(centre), model->width * fabsf(wo.z)}; /* lobes grow slender */
+}
+
+/* Ring coordinate in [0, 1] of the angle to the centre: even in log(1 + (angle/width)^2). */
+static double ring_of(const Chart *chart, double angle)
+{
+    double w = (double)chart->width;
+    return log1p(angle * angle / (w * w)) / log1p(PI * PI / (w * w));
+}
+
+static double angle_of(const Chart *chart, double ring)
+{
+    double w = (double)chart->width;
+    return w * sqrt(expm1(ring * log1p(PI * PI / (w * w))));
+}
+
+static int cell_of(const Chart *chart, Vec3 wi)
+{
+    Vec3   local = frame_to_local(&chart->frame, wi);
+    double side = sqrt((double)local.x * (double)local.x + (double)local.y * (double)local.y);
+    double ring = ring_of(chart, atan2(side, (double)local.z)) * RINGS;
+    double turn = (atan2((double)local.y, (double)local.x) / (2 * PI) + 0.5) * SECTORS;
+    int    r = ring < RINGS ? (int)ring : RINGS - 1, s = turn < SECTORS ? (int)turn : SECTORS - 1;
+    return r * SECTORS + s;
+}
+
+/* Integral of the pdf over one cell of the chart, on one side of the surface. */
+static double integrate_cell(const Model *model, Vec3 wo, const Chart *chart, int cell,
+                             bool same_side)
+{
+    double sum = 0;
+    int    ring = cell / SECTORS, sector = cell % SECTORS;
+    int    turns = model->width < 0.03f ? 72 : 36;
+    int    fine = fabsf(wo.z) < 0.1f || model->width < 0.03f ? 40 : 16; /* the horizon cuts narrow lobes */
+    double before = angle_of(chart, (double)ring / RINGS);
+    for (int i = 0; i < fine; i++) {
+        double after = angle_of(chart, (ring + (i + 1.0) / fine) / RINGS);
+        double angle = 0.5 * (before + after);
+        double area = (cos(before) - cos(after)) * 2 * PI / SECTORS / turns;
+        before = after;
+        for (int k = 0; k < turns; k++) {
+            double turn = ((sector + (k + 0.5) / turns) / SECTORS - 0.5) * 2 * PI;
+            Vec3   local = vec3((float)(sin(angle) * cos(turn)), (float)(sin(angle) * sin(turn)),
+                                (float)cos(angle));
+            Vec3   wi = frame_to_world(&chart->frame, local);
+            if ((wi.z * wo.z > 0) != same_side) continue;
+            float pdf;
+            bsdf_eval(&model->bsdf, wo, wi, &pdf);
+            sum += (double)pdf * area;
+        }
+    }
+    return sum;
+}
+
+/* Standard normal deviate of a chi-square sum (Wilson and Hilferty 1931). */
+static double deviate(double chi2, int degrees)
+{
+    double v = 2.0 / (9.0 * degrees);
+    return (cbrt(chi2 / degrees) - (1 - v)) / sqrt(v);
+}
+
+/* Cells of fewer than 8 expected samples are put together. The quadrature's own error (the
+ * horizon cuts through cells) counts as 2 % of a cell. */
+static double chi_square(const double *expected, const double *found, int count, int *degrees)
+{
+    double chi2 = 0, e = 0, f = 0;
+    *degrees = -1;
+    for (int i = 0; i < count; i++) {
+        e += expected[i];
+        f += found[i];
+        if (e < 8 && i < count - 1) continue;
+        if (e < 8 && f < 30) break;
+        double spread = e + 4e-4 * e * e + 1e-9;
+        chi2 += (f - e) * (f - e) / spread;
+        *degrees += 1;
+        e = f = 0;
+    }
+    return chi2;
+}
+
+static void samples_follow_pdf(const Model *model, Vec3 wo)
+{
+    if (fabsf(wo.z) < 0.1f && model->width < 0.03f) return; /* a needle no chart resolves */
+    static double expected[CELLS], found[CELLS + 1];
+    memset(found, 0, sizeof found);
+    Chart  charts[2] = {chart_for(model, wo, true), chart_for(model, wo, false)};
+    double total = 0;
+    for (int i = 0; i < CELLS; i++) {
+        bool same = i < CELLS / 2;
+        double part = integrate_cell(model, wo, &charts[!same], i % (CELLS / 2), same);
+        total += part;
+        expected[i] = part * SAMPLES;
+    }
+    if (!(total <= 1.01)) fail_msg("%s, cos %g: pdf integrates to %g", model->name, (double)wo.z, total);
+    for (uint32_t i = 0; i < SAMPLES; i++) {
+        Sampler    sampler = sampler_start(11, (int)(i * 7919u), (int)(wo.z * 1000), i);
+        BsdfSample sample;
+        float      u[3];
+        draw(&sampler, u);
+        bool whole = !bsdf_sample(&model->bsdf, wo, u, &sample) || sample.is_delta;
+        bool same = !whole && sample.wi.z * wo.z > 0;
+        int  cell = whole ? CELLS : (same ? 0 : CELLS / 2) + cell_of(&charts[!same], sample.wi);
+        found[cell]++;
+    }
+    int    degrees;
+    double chi2 = chi_square(expected, found, CELLS, &degrees);
+    /* what is left are the delta parts and lost light */
+    if (!(fabs(found[CELLS] / SAMPLES - (1 - total)) < 0.01))
+        fail_msg("%s, cos %g: %g of the samples are lost, the pdf leaves %g", model->name,
+                 (double)wo.z, found[CELLS] / SAMPLES, 1 - total);
+    if (degrees > 0 && !(deviate(chi2, degrees) < 4.5))
+        fail_msg("%s, cos %g: chi-square %g with %d degrees (pdf integrates to %g)", model->name,
+                 (double)wo.z, chi2, degrees, total);
+}
+
+static void samples_are_distributed_as_their_pdf_says(void **state)
+{
+    (void)state;
+    for_all(samples_follow_pdf);
+}
+
+/* ---- a sample agrees with eval ------------------------------------------------------- */
+
+static void sample_agrees(const Model *model, Vec3 wo)
+{
+    bool scatters = bsdf_scatters(&model->bsdf);
+    for (uint32_t i = 0; i < 400; i++) {
+        Sampler    sampler = sampler_start(3, 1, 2, i);
+        BsdfSample s;
+        float      u[3], pdf;
+        draw(&sampler, u);
+        if (!bsdf_sample(&model->bsdf, wo, u, &s)) continue;
+        assert_close(vec3_length(s.wi), 1, 1e-5);
+        assert_true(s.pdf > 0 && spectrum_is_finite(s.weight));
+        for (int k = 0; k < SPECTRUM_LANES; k++) assert_true(s.weight[k] >= 0);
+        if (s.is_delta) {
+            assert_true(s.pdf <= 1);
+            if (s.passes) assert_near(vec3_length(vec3_add(s.wi, wo)), 0, 1e-6);
+            continue;
+        }
+        assert_true(scatters && !s.passes);
+        Spectrum f = bsdf_eval(&model->bsdf, wo, s.wi, &pdf);
+        assert_close(pdf, s.pdf, 2e-3);
+        for (int k = 0; k < SPECTRUM_LANES; k++) {
+            double cosine = fabs((double)s.wi.z);
+            assert_near(s.weight[k], (double)f[k] * cosine / (double)pdf,
+                        4e-3 * (double)s.weight[k] + 1e-6);
+        }
+    }
+}
+
+static void weight_is_eval_times_cosine_over_pdf(void **state)
+{
+    (void)state;
+    for_all(sample_agrees);
+}
+
+static void what_does_not_scatter_evaluates_to_nothing(void **state)
+{
+    (void)state;
+    for (int m = 0; m < model_count; m++) {
+        if (bsdf_scatters(&models[m].bsdf)) continue;
+        for (int i = 0; i < EYE_COUNT; i++)
+            for (int k = 0; k < EYE_COUNT; k++) {
+                float pdf = -1;
+                Vec3  wi = eye(k);
+                for (int side = 0; side < 2; side++, wi.z = -wi.z) {
+                    Spectrum f = bsdf_eval(&models[m].bsdf, eye(i), wi, &pdf);
+                    assert_true(spectrum_is_zero(f));
+                    assert_true(pdf == 0);
+                }
+            }
+    }
+}
+
+/* ---- energy -------------------------------------------------------------------------- */
+
+/* Light sent to wo under a uniform surround of 1. Refracted radiance is counted as flux. */
+static Spectrum furnace(const Model *model, Vec3 wo, uint32_t count)
+{
+    Spectrum sum = spectrum_all(0);
+    for (uint32_t i = 0; i < count; i++) {
+        Sampler    sampler = sampler_start(5, 8, 13, i);
+        BsdfSample s;
+        float      u[3];
+        draw(&sampler, u);
+        if (!bsdf_sample(&model->bsdf, wo, u, &s)) continue;
+        float ior = model->bsdf.kind == BSDF_DIELECTRIC ? model->bsdf.dielectric.ior : 1;
+        float squeeze = s.wi.z * wo.z > 0 ? 1 : wo.z > 0 ? ior * ior : 1 / (ior * ior);
+        sum += s.weight * spectrum_all(squeeze);
+    }
+    return sum / spectrum_all((float)count);
+}
+
+static void energy_holds(const Model *model, Vec3 wo)
+{
+    Spectrum sent = furnace(model, wo, 16384);
+    for (int k = 0; k < SPECTRUM_LANES; k += 5) {
+        if (!(sent[k] <= 1.004f))
+            fail_msg("%s, cos %g: sends back %g", model->name, (double)wo.z, (double)sent[k]);
+        if (model->lossless && !(sent[k] >= (model->both_sides ? 0.9f : 0.98f)))
+            fail_msg("%s, cos %g: loses light, %g", model->name, (double)wo.z, (double)sent[k]);
+    }
+}
+
+static void no_surface_sends_back_more_than_it_gets(void **state)
+{
+    (void)state;
+    for_all(energy_holds);
+}
+
+static void albedo_is_near(const Model *model, Vec3 wo)
+{
+    bool tilted = strstr(model->name, "tilted") != NULL; /* loses light, by how much is not told */
+    if (model->bsdf.kind == BSDF_DIELECTRIC || tilted) return;
+    Spectrum sent = furnace(model, wo, 4096), told = bsdf_albedo(&model->bsdf, wo);
+    for (int k = 0; k < SPECTRUM_LANES; k += 5)
+        if (!(fabsf(sent[k] - told[k]) < 0.12f))
+            fail_msg("%s, cos %g: albedo %g, furnace %g", model->name, (double)wo.z,
+                     (double)told[k], (double)sent[k]);
+}
+
+static void albedo_is_a_fair_estimate(void **state)
+{
+    (void)state;
+    for_all(albedo_is_near);
+}
+
+/* ---- reciprocity --------------------------------------------------------------------- */
+
+static Vec3 random_direction(Sampler *sampler)
+{
+    Vec2  u = sampler_2d(sampler);
+    float z = 2 * u.x - 1, r = safe_sqrtf(1 - z * z), sine, cosine;
+    sincos_turns(u.y, &sine, &cosine);
+    return vec3(r * cosine, r * sine, z);
+}
+
+static Vec3 turned_over(Vec3 w)
+{
+    return vec3(w.x, w.y, -w.z);
+}
+
+/* f(wo, wi) against f(wi, wo). Frames of one-sided models are always turned to the eye; a
+ * solid's transmitted radiance scales with the square of the index on the light's side. */
+static void check_reciprocity(const Model *model, Vec3 wo, Vec3 wi)
+{
+    bool  is_solid = model->bsdf.kind == BSDF_DIELECTRIC;
+    bool  crosses = wo.z * wi.z < 0, turn = crosses && !is_solid;
+    float pdf, ior = crosses && is_solid ? model->bsdf.dielectric.ior : 1;
+    float scale = wo.z > 0 ? ior * ior : 1 / (ior * ior);
+    double tolerance = is_solid || model->width < 0.05f ? 1e-3 : 1e-4;
+    /* wider where rounding of half is seen: narrow lobes, and next to total reflection */
+    if (turn && model->bsdf.metallic_roughness.clearcoat > 0) return; /* its coat is on one side */
+    Spectrum a = bsdf_eval(&model->bsdf, wo, wi, &pdf);
+    Spectrum b = bsdf_eval(&model->bsdf, turn ? turned_over(wi) : wi, turn ? turned_over(wo) : wo,
+                           &pdf);
+    for (int k = 0; k < SPECTRUM_LANES; k += 3) {
+        double forth = (double)(a[k] * scale), back = (double)b[k];
+        if (!(fabs(forth - back) <= tolerance * (forth + back) + 1e-6))
+            fail_msg("%s: f(%g,%g,%g / %g,%g,%g) is %g and %g back", model->name, (double)wo.x,
+                     (double)wo.y, (double)wo.z, (double)wi.x, (double)wi.y, (double)wi.z, forth,
+                     back);
+    }
+}
+
+static void light_goes_back_the_way_it_came(void **state)
+{
+    (void)state;
+    for (int m = 0; m < model_count; m++)
+        for (uint32_t i = 0; i < 2000; i++) {
+            Sampler sampler = sampler_start(17, m, 0, i);
+            Vec3    wo = random_direction(&sampler), wi = random_direction(&sampler);
+            if (!models[m].both_sides) wo.z = fabsf(wo.z);
+            if (fabsf(wo.z) < 1e-3f || fabsf(wi.z) < 1e-3f) continue;
+            check_reciprocity(&models[m], wo, wi);
+        }
+}
+
+/* ---- smooth parts --------------------------------------------------------------------- */
+
+static void what_passes_a_pane_is_what_shadow_rays_see(void **state)
+{
+    (void)state;
+    int panes = 0;
+    for (int m = 0; m < model_count; m++)
+        for (int i = 0; i < EYE_COUNT; i++) {
+            Vec3     wo = eye(i);
+            Spectrum pass = bsdf_pass(&models[m].bsdf, wo);
+            Spectrum sampled = spectrum_all(0);
+            for (int k = 0; k < 4000; k++) {
+                float      u[3] = {0.5f, 0.5f, ((float)k + 0.5f) / 4000};
+                BsdfSample s;
+                if (bsdf_sample(&models[m].bsdf, wo, u, &s) && s.passes) {
+                    sampled = s.weight * spectrum_all(s.pdf);
+                    break;
+                }
+            }
+            panes += !spectrum_is_zero(pass);
+            for (int k = 0; k < SPECTRUM_LANES; k++)
+                assert_near(sampled[k], pass[k], 1e-5 * (double)pass[k] + 2e-4);
+        }
+    assert_true(panes >= 4 * EYE_COUNT);
+}
+
+/* Roughness just above and just below the threshold must look alike. */
+static void a_narrow_lobe_sends_what_a_mirror_sends(void **state)
+{
+    (void)state;
+    for (int metallic = 0; metallic < 2; metallic++)
+        for (int i = 0; i < 4; i++) {
+            Model mirror = {.bsdf.kind = BSDF_METALLIC_ROUGHNESS}, narrow;
+            mirror.bsdf.metallic_roughness = metallic_roughness_default(glass);
+            mirror.bsdf.metallic_roughness.metallic = (float)metallic;
+            mirror.bsdf.metallic_roughness.alpha = 0;
+            mirror.bsdf.metallic_roughness.base_color = ramp(0, 0.5f);
+            narrow = mirror;
+            narrow.bsdf.metallic_roughness.alpha = 0.0011f;
+            Spectrum a = furnace(&mirror, eye(i), 8192), b = furnace(&narrow, eye(i), 8192);
+            for (int k = 0; k < SPECTRUM_LANES; k++) assert_near(a[k], b[k], 4e-3);
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(weight_is_eval_times_cosine_over_pdf),
+        cmocka_unit_test(what_does_not_scatter_evaluates_to_nothing),
+        cmocka_unit_test(no_surface_sends_back_more_than_it_gets),
+        cmocka_unit_test(albedo_is_a_fair_estimate),
+        cmocka_unit_test(light_goes_back_the_way_it_came),
+        cmocka_unit_test(what_passes_a_pane_is_what_shadow_rays_see),
+        cmocka_unit_test(a_narrow_lobe_sends_what_a_mirror_sends),
+        cmocka_unit_test(samples_are_distributed_as_their_pdf_says),
+    };
+    return cmocka_run_group_tests(tests, make_models, drop_models);
+}
