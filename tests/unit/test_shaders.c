@@ -113,7 +113,7 @@ static void add_dielectric(const char *name, float ior, float alpha)
 {
     models[model_count++] = (Model){.name = name, .bsdf.kind = BSDF_DIELECTRIC,
         .bsdf.dielectric = {spectrum_all(1), ior, alpha}, .both_sides = true,
-        .lossless = alpha < 0.06f, .width = alpha < SMOOTH_ALPHA ? 1 : 0.5f * alpha};
+        .lossless = alpha < 0.06f, .width = alpha < SMOOTH_ALPHA ? 1 : 0.5f * alpha * fabsf(ior - 1)};
 }
 
 static void add_glass(void)
