@@ -101,10 +101,10 @@ def check_case(report, renderer, case):
 
 
 def check_weighted(report, renderer, case):
-    """A sum over several cameras, each with its weight."""
+    """A sum over several cameras, each with its size and weight."""
     parts, expected = case.weighted
     total = variance = 0
-    for camera, weight in parts:
+    for camera, case.size, weight in parts:
         frame = renderer.render(case, camera, case.samples)
         if frame is None:
             report.claim(False, f"{case.name}, {camera}: not rendered")
