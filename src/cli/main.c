@@ -15,6 +15,8 @@ typedef struct Command {
 
 static const Command commands[] = {
     {"render", "render a scene to a linear, photometric EXR", cmd_render},
+    {"develop", "make a picture of a frame", cmd_develop},
+    {"measure", "luminance, colour and contrast of a part of a frame", cmd_measure},
 };
 
 #define COMMAND_COUNT (int)(sizeof commands / sizeof *commands)

@@ -100,12 +100,13 @@ bool develop_picture(const FrameImage *frame, const DevelopOptions *options, Are
     LayerView     view;
     DevelopReport made = {0};
     Picture       picture;
-    if (!layer_view_find(frame, options->layer, arena, &view, err)) return false;
+    if (!layer_view_find(frame, options->layer, arena, &view, err))
+        return error_in_file(err, options->frame_name);
     if (options->false_colour) {
         if (view.show != SHOW_LIGHT)
-            return error_set(err, ERROR_USAGE,
-                             "layer \"%s\" is not light, it has no luminance to show in false "
-                             "colours", options->layer);
+            return error_at(err, ERROR_USAGE, options->frame_name, "",
+                            "layer \"%s\" is not light, it has no luminance to show in false "
+                            "colours", options->layer);
         view = (LayerView){.show = SHOW_NUMBER, .width = view.width, .height = view.height,
                            .planes = {layer_view_luminance(&view, arena)}, .unit = "cd/m^2",
                            .is_log = true};
@@ -116,6 +117,8 @@ bool develop_picture(const FrameImage *frame, const DevelopOptions *options, Are
         made.nonfinite_pixels = count_nonfinite(&view) - pixels_outside_data(frame);
         picture = layer_view_picture(&view, arena, made.scale);
     }
+    made.width = picture.width;
+    made.height = picture.height;
     *out = picture;
     if (report) *report = made;
     return true;

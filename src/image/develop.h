@@ -18,9 +18,11 @@ typedef struct DevelopOptions {
     const char *layer;    /* NULL: R, G, B of the frame itself */
     bool        false_colour; /* luminance on a logarithmic scale */
     int         bits;     /* 0 or 8, or 16 */
+    const char *frame_name; /* for messages about its layers; may be NULL */
 } DevelopOptions;
 
 typedef struct DevelopReport {
+    int    width, height; /* of the picture */
     bool   is_developed;  /* by a view transform; false for data shown as it is */
     double grey_cd_m2;    /* what became middle grey; 0 when not developed */
     double ev;            /* the same as an exposure value */

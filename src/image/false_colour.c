@@ -42,8 +42,8 @@ static float srgb_from_linear(float v)
 
 void false_colour_of(float t, float srgb[3])
 {
-    float lightness = 0.13f + 0.84f * t, sine, cosine, rgb[3];
-    sincos_turns((262 + 203 * t) / 360, &sine, &cosine); /* blue .. red .. yellow */
+    float lightness = 0.17f + 0.80f * t, sine, cosine, rgb[3];
+    sincos_turns((200 + 265 * t) / 360, &sine, &cosine); /* teal, blue .. red .. yellow */
     for (float chroma = 0.20f; chroma > 0; chroma -= 0.002f) {
         linear_from_oklab(lightness, chroma * cosine, chroma * sine, rgb);
         if (is_inside(rgb)) break;
@@ -76,7 +76,7 @@ static ScaleRange log_range(const float *sorted, size_t count)
 {
     if (count == 0) return (ScaleRange){0.1f, 1000, true};
     float high = round_number(sorted[(size_t)((double)(count - 1) * 0.999)], true);
-    float low = round_number(sorted[(size_t)((double)(count - 1) * 0.01)], false);
+    float low = round_number(sorted[(size_t)((double)(count - 1) * 0.05)], false);
     if (low > high / 100) low = high / 100;
     if (low < high / 1e6f) low = high / 1e6f;
     return (ScaleRange){low, high, true};

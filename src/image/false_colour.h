@@ -7,10 +7,10 @@
 #pragma once
 #include "image/picture.h"
 
-/* The colour for t in [0, 1] as sRGB codes: lightness rises steadily from dark blue over red
- * to pale yellow, so that order can be seen even without colour vision. A path in OKLCh
- * (Ottosson 2020, "A perceptual color space for image processing"): lightness and hue run
- * straight, chroma is what sRGB can show of 0.2. */
+/* The colour for t in [0, 1] as sRGB codes: lightness rises steadily from dark teal over blue,
+ * purple and red to pale yellow, so that order can be seen even without colour vision. A path
+ * in OKLCh (Ottosson 2020, "A perceptual color space for image processing"): lightness and hue
+ * run straight, chroma is what sRGB can show of 0.2. */
 void false_colour_of(float t, float srgb[3]);
 
 typedef struct ScaleRange {
@@ -18,7 +18,7 @@ typedef struct ScaleRange {
     bool  is_log;
 } ScaleRange;
 
-/* A range with round ends that holds nearly all the finite values: logarithmic from the 1st
+/* A range with round ends that holds nearly all the finite values: logarithmic from the 5th
  * to the 99.9th percentile of those above zero (two to six decades), linear from the least to
  * the 99.9th. */
 ScaleRange scale_range_of(const float *values, size_t count, bool is_log, Arena scratch);

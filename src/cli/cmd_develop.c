@@ -1,0 +1,106 @@
+/* parhelion develop: from a frame to a picture that people look at. */
+#include <stdio.h>
+
+#include "cli/cli.h"
+#include "image/develop.h"
+#include "image/exposure.h"
+
+#define MEMORY_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
+
+typedef struct Typed {
+    const char    *frame, *output;
+    DevelopOptions options;
+    Cli            cli;
+} Typed;
+
+static bool parse(int argc, char **argv, Arena *arena, Typed *out, Error *err)
+{
+    DevelopOptions *o = &out->options;
+    int  kind = -1;
+    long bits = 8;
+    const Option options[] = {
+        {"-o", OPTION_TEXT, "FILE", "the picture: .png, .jpg or .tif", .out = &out->output},
+        {"--exposure", OPTION_TEXT, "auto|EV|white:CD_M2",
+         "auto (default: the cabin looks well), an exposure value at ISO 100 (15: full sun; "
+         "one more is half as bright), or the luminance that becomes white", .out = &o->exposure},
+        {"--display", OPTION_TEXT, "NAME", "sRGB (default), Display P3, Rec.1886",
+         .out = &o->display},
+        {"--view", OPTION_TEXT, "NAME", "photographic (default), ACES SDR, untonemapped, raw",
+         .out = &o->view},
+        {"--config", OPTION_TEXT, "FILE",
+         "OpenColorIO configuration; else $OCIO, else the program's own", .out = &o->config},
+        {"--false-colour", OPTION_CHOICE, "luminance", "luminance as colours, with the scale",
+         .out = &kind},
+        {"--layer", OPTION_TEXT, "NAME",
+         "another layer or channel: normal, depth.Z, display.emitted ...", .out = &o->layer},
+        {"--bits", OPTION_INTEGER, "8|16", "of a PNG or TIFF (default 8)", .out = &bits,
+         .low = 8, .high = 16},
+    };
+    const CliCommand command = {
+        "develop", "make a picture of a frame", "FRAME.exr -o FRAME.png",
+        "parhelion develop frame.exr -o frame.png --view \"ACES SDR\" --exposure 12",
+        options, sizeof options / sizeof *options, 1, 1};
+    if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
+    if (out->cli.help_shown) return true;
+    out->frame = out->cli.arguments[0];
+    o->frame_name = out->frame;
+    o->false_colour = kind == 0;
+    o->bits = (int)bits;
+    if (!out->output)
+        return error_set(err, ERROR_USAGE, "no output is named — add -o FRAME.png");
+    ExposureRequest unused;
+    return picture_check_name(out->output, o->bits, err) &&
+           (!o->exposure || exposure_parse(o->exposure, &unused, err));
+}
+
+static bool print_json(const Typed *typed, const DevelopReport *r, Error *err)
+{
+    json_t *answer = json_pack("{s:o, s:[i,i], s:I}", "output", cli_json_text(typed->output),
+                               "size", r->width, r->height, "nonfinite_pixels",
+                               (json_int_t)r->nonfinite_pixels);
+    if (r->is_developed) {
+        json_object_set_new(answer, "config", cli_json_text(r->config));
+        json_object_set_new(answer, "display", cli_json_text(r->display));
+        json_object_set_new(answer, "view", cli_json_text(r->view));
+        json_object_set_new(answer, "exposure_ev", json_real(r->ev));
+        json_object_set_new(answer, "middle_grey_cd_m2", json_real(r->grey_cd_m2));
+    } else if (r->scale[0]) {
+        json_object_set_new(answer, "scale", cli_json_text(r->scale));
+    }
+    return cli_print_json(answer, err);
+}
+
+static void print_text(const Typed *typed, const DevelopReport *r)
+{
+    if (r->is_developed)
+        printf("%s: %s, %s, middle grey %.4g cd/m2 (EV %.2f), %s\n", typed->output, r->display,
+               r->view, r->grey_cd_m2, r->ev, r->config);
+    else
+        printf("%s%s%s\n", typed->output, r->scale[0] ? ": " : "", r->scale);
+}
+
+static bool develop(Typed *typed, Arena *arena, Error *err)
+{
+    FrameImage    frame;
+    DevelopReport report;
+    if (!frame_read(typed->frame, arena, &frame, err)) return false;
+    if (!develop_frame(&frame, &typed->options, typed->output, *arena, &report, err))
+        return false;
+    if (report.is_developed && report.nonfinite_pixels > 0)
+        fprintf(stderr,
+                "parhelion: warning: %s: %ld pixels are not finite: NaN is shown black, "
+                "infinity white\n", typed->frame, report.nonfinite_pixels);
+    if (typed->cli.json) return print_json(typed, &report, err);
+    print_text(typed, &report);
+    return true;
+}
+
+bool cmd_develop(int argc, char **argv, Error *err)
+{
+    Arena arena = arena_reserve(MEMORY_BYTES);
+    Typed typed = {0};
+    bool  ok = parse(argc, argv, &arena, &typed, err) &&
+              (typed.cli.help_shown || develop(&typed, &arena, err));
+    arena_release(&arena);
+    return ok;
+}

@@ -1,0 +1,151 @@
+/* parhelion measure: figures of a part of a frame, with their 95 % intervals. */
+#include <math.h>
+#include <stdio.h>
+
+#include "cli/cli.h"
+#include "image/measure.h"
+
+#define MEMORY_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
+
+typedef struct Typed {
+    MeasureRequest request;
+    Cli            cli;
+} Typed;
+
+static bool parse(int argc, char **argv, Arena *arena, Typed *out, Error *err)
+{
+    MeasureRequest *r = &out->request;
+    double region[4];
+    const Option options[] = {
+        {"--region", OPTION_NUMBERS, "X0,Y0,X1,Y1",
+         "pixels, half-open, the origin at the top left (default: all)", .out = region,
+         .low = -65536, .high = 65536, .count = 4, .given = &r->has_region},
+        {"--display", OPTION_TEXT, "NAME",
+         "only pixels that show this display (its material's name)", .out = &r->display},
+    };
+    const CliCommand command = {
+        "measure", "luminance, colour and contrast of a part of a frame, with 95 % intervals",
+        "FRAME.exr [--region X0,Y0,X1,Y1] [--display NAME]",
+        "parhelion measure frame.exr --display cluster --json",
+        options, sizeof options / sizeof *options, 1, 1};
+    if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
+    if (out->cli.help_shown) return true;
+    for (int i = 0; i < 4 && r->has_region; i++)
+        if (region[i] != floor(region[i]))
+            return error_set(err, ERROR_USAGE, "--region: %g is no whole number of pixels",
+                             region[i]);
+    if (r->has_region)
+        r->region = (ExrWindow){(int)region[0], (int)region[1], (int)region[2], (int)region[3]};
+    r->frame_name = out->cli.arguments[0];
+    return true;
+}
+
+/* ---- as text ----------------------------------------------------------------------------- */
+
+static void print_figure(const char *name, Measured figure, const char *unit)
+{
+    if (isnan(figure.half_width)) printf("%-12s %.6g%s\n", name, figure.value, unit);
+    else printf("%-12s %.6g +- %.2g%s\n", name, figure.value, figure.half_width, unit);
+}
+
+static void print_text(const Measurement *m)
+{
+    printf("%-12s %ld\n", "pixels", m->pixels);
+    if (m->nonfinite) printf("%-12s %ld\n", "left out", m->nonfinite);
+    print_figure("luminance", m->luminance, " cd/m2");
+    printf("%-12s %.6g to %.6g cd/m2\n", "  of pixels", m->least, m->greatest);
+    print_figure("x", m->x, "");
+    print_figure("y", m->y, "");
+    print_figure("u'", m->u, "");
+    print_figure("v'", m->v, "");
+    if (m->has_contrast) {
+        print_figure("contrast", m->contrast, " : 1");
+        printf("  white %.6g, black %.6g, reflected %.6g cd/m2\n", m->white, m->black,
+               m->reflected);
+    } else {
+        printf("%-12s missing: no pixel of a display, or no layers of it (--layers display)\n",
+               "contrast");
+    }
+    if (!m->has_variance)
+        printf("%-12s missing: no layer variance (--layers variance)\n", "intervals");
+}
+
+/* ---- as JSON ----------------------------------------------------------------------------- */
+
+static json_t *interval(Measured figure)
+{
+    if (isnan(figure.half_width) || isnan(figure.value)) return json_null();
+    return json_pack("[f,f]", figure.value - figure.half_width,
+                     figure.value + figure.half_width);
+}
+
+/* JSON has no NaN. */
+static json_t *number(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+static void set_pair(json_t *answer, const char *key, json_t *first, json_t *second)
+{
+    json_object_set_new(answer, key, json_pack("[o,o]", first, second));
+}
+
+static json_t *missing(const Measurement *m)
+{
+    json_t *list = json_array();
+    if (!m->has_variance) json_array_append_new(list, json_string("variance"));
+    if (!m->has_contrast) json_array_append_new(list, json_string("display"));
+    return list;
+}
+
+static json_t *json_contrast(const Measurement *m)
+{
+    if (!m->has_contrast) return json_null();
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:I}", "value", number(m->contrast.value),
+                     "interval", interval(m->contrast), "white_cd_m2", number(m->white),
+                     "black_cd_m2", number(m->black), "reflected_cd_m2", number(m->reflected),
+                     "pixels", (json_int_t)m->display_pixels);
+}
+
+static bool print_json(const Typed *typed, const Measurement *m, Error *err)
+{
+    const MeasureRequest *r = &typed->request;
+    json_t *answer = json_pack(
+        "{s:o, s:I, s:I, s:[o,o,o], s:o, s:o, s:o, s:o}", "frame", cli_json_text(r->frame_name),
+        "pixels", (json_int_t)m->pixels, "nonfinite_pixels", (json_int_t)m->nonfinite, "XYZ",
+        number(m->xyz[0]), number(m->xyz[1]), number(m->xyz[2]), "luminance_cd_m2",
+        number(m->luminance.value), "luminance_interval", interval(m->luminance),
+        "luminance_min_cd_m2", number(m->least), "luminance_max_cd_m2", number(m->greatest));
+    set_pair(answer, "xy", number(m->x.value), number(m->y.value));
+    set_pair(answer, "xy_interval", interval(m->x), interval(m->y));
+    set_pair(answer, "uv", number(m->u.value), number(m->v.value));
+    set_pair(answer, "uv_interval", interval(m->u), interval(m->v));
+    json_object_set_new(answer, "contrast", json_contrast(m));
+    json_object_set_new(answer, "missing_layers", missing(m));
+    if (r->display) json_object_set_new(answer, "display", cli_json_text(r->display));
+    if (r->has_region)
+        json_object_set_new(answer, "region", json_pack("[i,i,i,i]", r->region.x0, r->region.y0,
+                                                        r->region.x1, r->region.y1));
+    return cli_print_json(answer, err);
+}
+
+static bool measure(const Typed *typed, Arena *arena, Error *err)
+{
+    FrameImage  frame;
+    Measurement measured;
+    if (!frame_read(typed->request.frame_name, arena, &frame, err)) return false;
+    if (!measure_frame(&frame, &typed->request, *arena, &measured, err)) return false;
+    if (typed->cli.json) return print_json(typed, &measured, err);
+    print_text(&measured);
+    return true;
+}
+
+bool cmd_measure(int argc, char **argv, Error *err)
+{
+    Arena arena = arena_reserve(MEMORY_BYTES);
+    Typed typed = {0};
+    bool  ok = parse(argc, argv, &arena, &typed, err) &&
+              (typed.cli.help_shown || measure(&typed, &arena, err));
+    arena_release(&arena);
+    return ok;
+}

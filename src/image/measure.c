@@ -1,0 +1,254 @@
+#include "image/measure.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "image/layer_view.h"
+#include "spectrum/photometry.h"
+
+#define SIGMAS_95 1.959964 /* of the normal distribution */
+
+/* What is summed over the pixels. */
+typedef struct Sums {
+    double rgb[3], variance[3]; /* of the channels */
+    double luminance_variance;
+    double white, black, reflected, reflected_variance;
+    long   pixels, display_pixels, nonfinite;
+    double least, greatest;
+} Sums;
+
+/* The planes that are looked at; has_... tells which the frame has. */
+typedef struct Planes {
+    LayerView    light, variance, white, black, reflected;
+    const float *display_id; /* NULL: every pixel is wanted */
+    bool has_variance, has_display;
+} Planes;
+
+static double luminance_at(const LayerView *view, size_t i)
+{
+    float rgb[3] = {view->planes[0][i], view->planes[1][i], view->planes[2][i]}, xyz[3];
+    xyz_from_rgb(rgb, xyz);
+    return (double)xyz[1];
+}
+
+/* ---- what the frame has -------------------------------------------------------------- */
+
+/* Three planes of a layer as they are, without a change of colour space. */
+static bool raw_layer(const FrameImage *frame, const char *layer, Arena *arena, LayerView *out)
+{
+    const float *rgb[3];
+    LayerView    views[3];
+    char         name[128];
+    Error        unused;
+    if (!frame_rgb(frame, layer, rgb)) return false;
+    for (int c = 0; c < 3; c++) {
+        snprintf(name, sizeof name, "%s.%c", layer, "RGB"[c]);
+        if (!layer_view_find(frame, name, arena, &views[c], &unused)) return false;
+    }
+    *out = views[0];
+    for (int c = 1; c < 3; c++) out->planes[c] = views[c].planes[0];
+    return true;
+}
+
+static const char *display_names(const FrameImage *frame, Arena *arena)
+{
+    const char *names = "";
+    for (int i = 0; i < frame->attribute_count; i++) {
+        const ExrAttribute *a = &frame->attributes[i];
+        if (a->kind == EXR_STRING && !strncmp(a->name, "parhelion:display.", 18))
+            names = arena_format(arena, "%s%s%s", names, names[0] ? ", " : "", a->text);
+    }
+    return names[0] ? names : "none";
+}
+
+static bool find_display(const FrameImage *frame, const char *display, Arena *arena, int *id,
+                         const float **plane, Error *err)
+{
+    LayerView view;
+    *id = frame_id_of(frame, "display", display);
+    if (*id < 0)
+        return error_set(err, ERROR_USAGE, "has no display \"%s\"; its displays: %s", display,
+                         display_names(frame, arena));
+    if (!frame_channel(frame, "id.display"))
+        return error_set(err, ERROR_INPUT,
+                         "has no layer id, which tells the pixels of a display; render it with "
+                         "--layers id,display");
+    if (!layer_view_find(frame, "id.display", arena, &view, err)) return false;
+    *plane = view.planes[0];
+    return true;
+}
+
+static bool find_planes(const FrameImage *frame, Arena *arena, Planes *out, Error *err)
+{
+    if (!layer_view_find(frame, NULL, arena, &out->light, err)) return false;
+    out->has_variance = raw_layer(frame, "variance", arena, &out->variance);
+    out->has_display = raw_layer(frame, "display.white", arena, &out->white) &&
+                       raw_layer(frame, "display.black", arena, &out->black) &&
+                       raw_layer(frame, "display.reflected", arena, &out->reflected);
+    return true;
+}
+
+/* ---- one pixel after the other ------------------------------------------------------- */
+
+/* Greatest variance of the luminance that those of R, G and B allow. */
+static double luminance_variance(const float variance[3])
+{
+    float sigma[3] = {sqrtf(variance[0]), sqrtf(variance[1]), sqrtf(variance[2])}, xyz[3];
+    xyz_from_rgb(sigma, xyz);
+    return (double)xyz[1] * (double)xyz[1];
+}
+
+static void add_display(const Planes *planes, size_t i, double variance, Sums *sums)
+{
+    double white = luminance_at(&planes->white, i), black = luminance_at(&planes->black, i);
+    double reflected = luminance_at(&planes->reflected, i);
+    if (!isfinite(white) || !isfinite(black) || !isfinite(reflected)) return;
+    sums->white += white;
+    sums->black += black;
+    sums->reflected += reflected;
+    sums->reflected_variance += variance;
+    sums->display_pixels++;
+}
+
+static void add_pixel(const Planes *planes, size_t i, Sums *sums)
+{
+    double luminance = luminance_at(&planes->light, i), variance = 0;
+    if (!isfinite(luminance)) {
+        sums->nonfinite++;
+        return;
+    }
+    for (int c = 0; c < 3; c++) sums->rgb[c] += (double)planes->light.planes[c][i];
+    if (planes->has_variance) {
+        float v[3];
+        for (int c = 0; c < 3; c++) {
+            v[c] = planes->variance.planes[c][i];
+            sums->variance[c] += (double)v[c];
+        }
+        variance = luminance_variance(v);
+        sums->luminance_variance += variance;
+    }
+    if (planes->has_display) add_display(planes, i, variance, sums);
+    if (luminance < sums->least) sums->least = luminance;
+    if (luminance > sums->greatest) sums->greatest = luminance;
+    sums->pixels++;
+}
+
+/* ---- figures ------------------------------------------------------------------------- */
+
+static void chromaticity_of(const double rgb[3], double xyuv[4], double xyz[3])
+{
+    float in[3] = {(float)rgb[0], (float)rgb[1], (float)rgb[2]}, out[3];
+    xyz_from_rgb(in, out);
+    for (int c = 0; c < 3; c++) xyz[c] = (double)out[c];
+    double sum = xyz[0] + xyz[1] + xyz[2], uv = xyz[0] + 15 * xyz[1] + 3 * xyz[2];
+    xyuv[0] = xyz[0] / sum;
+    xyuv[1] = xyz[1] / sum;
+    xyuv[2] = 4 * xyz[0] / uv;
+    xyuv[3] = 9 * xyz[1] / uv;
+}
+
+/* First-order propagation of the channels' variances, the slopes by central differences. */
+static void measure_colour(const double rgb[3], const double variance[3], Measurement *out)
+{
+    double    mean[4], spread[4] = {0, 0, 0, 0}, unused[3];
+    Measured *figures[4] = {&out->x, &out->y, &out->u, &out->v};
+    double    scale = fabs(rgb[0]) + fabs(rgb[1]) + fabs(rgb[2]);
+    chromaticity_of(rgb, mean, out->xyz);
+    for (int c = 0; c < 3; c++) {
+        double step = scale * 1e-3, above[3], below[3], high[4], low[4];
+        memcpy(above, rgb, sizeof above);
+        memcpy(below, rgb, sizeof below);
+        above[c] += step;
+        below[c] -= step;
+        chromaticity_of(above, high, unused);
+        chromaticity_of(below, low, unused);
+        for (int k = 0; k < 4; k++) {
+            double slope = (high[k] - low[k]) / (2 * step);
+            spread[k] += slope * slope * variance[c];
+        }
+    }
+    for (int k = 0; k < 4; k++)
+        *figures[k] = (Measured){
+            mean[k], out->has_variance ? SIGMAS_95 * sqrt(spread[k]) : (double)NAN};
+}
+
+/* dC/dr = (black - white) / (black + r)^2: only the reflected light is noisy. */
+static void measure_contrast(const Sums *sums, Measurement *out)
+{
+    double n = (double)sums->display_pixels;
+    out->display_pixels = sums->display_pixels;
+    out->has_contrast = sums->display_pixels > 0;
+    if (!out->has_contrast) return;
+    out->white = sums->white / n;
+    out->black = sums->black / n;
+    out->reflected = sums->reflected / n;
+    double low = out->black + out->reflected;
+    double slope = (out->black - out->white) / (low * low);
+    double sigma = sqrt(sums->reflected_variance) / n;
+    out->contrast.value = (out->white + out->reflected) / low;
+    out->contrast.half_width = out->has_variance ? SIGMAS_95 * fabs(slope) * sigma : NAN;
+}
+
+static Measurement figures_of(const Sums *sums, bool has_variance)
+{
+    double      n = (double)sums->pixels, rgb[3], variance[3];
+    Measurement out = {.pixels = sums->pixels, .nonfinite = sums->nonfinite,
+                       .has_variance = has_variance, .least = sums->least,
+                       .greatest = sums->greatest};
+    for (int c = 0; c < 3; c++) {
+        rgb[c] = sums->rgb[c] / n;
+        variance[c] = sums->variance[c] / (n * n);
+    }
+    measure_colour(rgb, variance, &out);
+    out.luminance.value = out.xyz[1];
+    out.luminance.half_width =
+        has_variance ? SIGMAS_95 * sqrt(sums->luminance_variance) / n : NAN;
+    measure_contrast(sums, &out);
+    return out;
+}
+
+static bool check_region(const FrameImage *frame, const MeasureRequest *request, ExrWindow *out,
+                         Error *err)
+{
+    const ExrWindow d = frame->data, r = request->has_region ? request->region : d;
+    if (r.x0 < d.x0 || r.y0 < d.y0 || r.x1 > d.x1 || r.y1 > d.y1 || r.x0 >= r.x1 ||
+        r.y0 >= r.y1)
+        return error_set(err, ERROR_USAGE,
+                         "--region %d,%d,%d,%d: wanted X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 "
+                         "inside the frame's pixels %d,%d,%d,%d",
+                         r.x0, r.y0, r.x1, r.y1, d.x0, d.y0, d.x1, d.y1);
+    const ExrWindow w = frame->display;
+    *out = (ExrWindow){r.x0 > w.x0 ? r.x0 : w.x0, r.y0 > w.y0 ? r.y0 : w.y0,
+                       r.x1 < w.x1 ? r.x1 : w.x1, r.y1 < w.y1 ? r.y1 : w.y1};
+    return true;
+}
+
+bool measure_frame(const FrameImage *frame, const MeasureRequest *request, Arena scratch,
+                   Measurement *out, Error *err)
+{
+    Planes    planes = {0};
+    Sums      sums = {.least = INFINITY, .greatest = -INFINITY};
+    ExrWindow r = frame->data, w = frame->display;
+    int       id = -1;
+    if (!check_region(frame, request, &r, err)) return false;
+    if (request->display && !find_display(frame, request->display, &scratch, &id,
+                                          &planes.display_id, err))
+        return error_in_file(err, request->frame_name);
+    if (!find_planes(frame, &scratch, &planes, err))
+        return error_in_file(err, request->frame_name);
+    for (int y = r.y0; y < r.y1; y++) {
+        for (int x = r.x0; x < r.x1; x++) {
+            size_t i = (size_t)(y - w.y0) * (size_t)planes.light.width + (size_t)(x - w.x0);
+            if (!planes.display_id || planes.display_id[i] == (float)id)
+                add_pixel(&planes, i, &sums);
+        }
+    }
+    if (sums.pixels == 0)
+        return error_at(err, ERROR_INPUT, request->frame_name, "",
+                        "no pixel to measure%s%s: %ld are not finite",
+                        request->display ? " on display " : "",
+                        request->display ? request->display : "", sums.nonfinite);
+    *out = figures_of(&sums, planes.has_variance);
+    return true;
+}

@@ -1,0 +1,41 @@
+/* measure.h -- figures of a part of a frame, with how sure they are.
+ *
+ * Units    luminance in cd m^-2; CIE 1931 x, y and CIE 1976 u', v'.
+ * Intervals are 95 % confidence intervals (1.96 standard errors) of the render's noise, from
+ *          the frame's variance layer: pixels are independent. R, G and B of a pixel are taken
+ *          to rise and fall together for luminance and contrast, and to be independent for
+ *          chromaticity: the wider answer each time.
+ * Threads  pure functions.
+ * Fails    when the frame lacks what is asked for: the text says what to render again.
+ */
+#pragma once
+#include "image/frame.h"
+
+typedef struct MeasureRequest {
+    const char *frame_name; /* for messages */
+    bool        has_region;
+    ExrWindow   region;  /* half-open, pixels of the display window */
+    const char *display; /* only pixels that show this display; NULL: all */
+} MeasureRequest;
+
+/* A figure; half_width is of its interval, NaN without a variance layer. */
+typedef struct Measured {
+    double value, half_width;
+} Measured;
+
+typedef struct Measurement {
+    long     pixels;    /* that were taken */
+    long     nonfinite; /* that were left out, NaN or infinite */
+    double   xyz[3];    /* mean, cd m^-2 */
+    Measured luminance; /* xyz[1] */
+    double   least, greatest; /* luminance of single pixels */
+    Measured x, y, u, v; /* of the mean colour; NaN for black */
+    bool     has_variance;
+    bool     has_contrast; /* some of the pixels show a display and the layers are there */
+    long     display_pixels;
+    double   white, black, reflected; /* means over the display's pixels, cd m^-2 */
+    Measured contrast; /* (white + reflected) / (black + reflected) */
+} Measurement;
+
+bool measure_frame(const FrameImage *frame, const MeasureRequest *request, Arena scratch,
+                   Measurement *out, Error *err);
