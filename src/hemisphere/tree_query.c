@@ -9,11 +9,6 @@ static uint32_t octant_in_tree(const Tree *tree, uint32_t octant)
     return octant & ((uint32_t)tree->octants - 1); /* 2 octants: y is folded */
 }
 
-static TreeNode node_at(const Tree *tree, uint32_t index)
-{
-    return index == NO_NODE ? (TreeNode){0, 0} : tree->nodes[index];
-}
-
 /* The node of a child, if it has one. */
 static uint32_t child_node(TreeNode node, uint32_t child)
 {
@@ -94,20 +89,20 @@ void tree_walk_triangle(const Tree *tree, int level, uint32_t id, TreeTaps *taps
 
 /* ---- interpolation ------------------------------------------------------------------------ */
 
-#define MAX_TRIANGLES 13 /* the leaf and up to 6 around each of two corners */
+#define MAX_LEAVES 13 /* the leaf and up to 6 around each of two corners */
 
-/* Triangles of one level with weights, sorted by id once `sort_triangles` was called. */
-typedef struct Triangles {
+/* The leaves that an interpolated value is made of; some may be there twice. */
+typedef struct Leaves {
     int      count;
-    uint32_t id[MAX_TRIANGLES];
-    float    weight[MAX_TRIANGLES];
-    uint32_t node[MAX_TRIANGLES];
-} Triangles;
+    uint32_t id[MAX_LEAVES];
+    float    weight[MAX_LEAVES];
+} Leaves;
 
-static void add_triangle(Triangles *t, uint32_t id, float weight)
+static void add_leaf(Leaves *leaves, uint32_t id, float weight)
 {
-    t->id[t->count] = id;
-    t->weight[t->count++] = weight;
+    int i = leaves->count++;
+    leaves->id[i] = id;
+    leaves->weight[i] = weight;
 }
 
 /* The leaves around one corner of a leaf, inside its octant; at the octant's borders the mirror
@@ -118,132 +113,191 @@ typedef struct Ring {
     uint32_t borders; /* bit k: the corner lies on the octant's border opposite corner k */
 } Ring;
 
-/* Turns around the corner, first crossing edge `first`, until back or at a border. An edge
- * keeps its number on both sides and the corner takes the number that is not on either edge:
- * the edges to cross are first, corner, third, first, ... (geodesic_neighbour). */
-static void turn(int level, uint32_t id, int corner, int first, Ring *ring)
+/* id of a triangle `depth` levels above the leaves to that of its leaf at its corner `corner`:
+ * a corner child keeps its father's corner in the same place. */
+static uint32_t leaf_at_corner(uint32_t id, int depth, uint32_t corner)
 {
-    int      third = 3 - corner - first;
-    int      edges[3] = {first, corner, third};
-    uint32_t next = id;
-    for (int i = 0; i < 6; i++) {
-        next = geodesic_neighbour(level, next, edges[i % 3]);
-        if (next == GEODESIC_NONE) {
-            ring->borders |= 1u << edges[i % 3];
-            return;
-        }
-        if (next == id) return;
-        ring->id[ring->count++] = next;
-    }
+    uint32_t repeated = 0x55555555u * (corner + 1);
+    return id << 2 * depth | (repeated & ((1u << 2 * depth) - 1));
 }
 
-static Ring ring_around(int level, uint32_t id, int corner)
+/* The three children of `father` at the midpoint of its edge `edge`, as leaves there. The
+ * midpoint is the central child's corner `edge`, and in the corner children at the edge's two
+ * ends, p and q, it is corner q and p. */
+static void add_to_ring(Ring *ring, uint32_t father, uint32_t edge, int depth)
 {
-    Ring ring = {.count = 1, .id = {id}};
-    turn(level, id, corner, (corner + 1) % 3, &ring);
-    if (ring.borders) turn(level, id, corner, (corner + 2) % 3, &ring);
+    uint32_t p = edge == 0 ? 1 : 0, q = 3 - edge - p;
+    ring->id[ring->count++] = leaf_at_corner(4 * father, depth, edge);
+    ring->id[ring->count++] = leaf_at_corner(4 * father + p + 1, depth, q);
+    ring->id[ring->count++] = leaf_at_corner(4 * father + q + 1, depth, p);
+}
+
+/* A corner of a leaf was made as the midpoint of an edge of some larger triangle; below that,
+ * every triangle at the corner has it in the same place, so that the trailing digits corner + 1
+ * of the leaf's id tell how far up that was. The triangle and its neighbour across the edge
+ * hold the whole ring. Only the octants' own corners never were midpoints. */
+static Ring ring_around(int level, uint32_t id, uint32_t corner)
+{
+    uint32_t differ = (id ^ 0x55555555u * (corner + 1)) & ((1u << 2 * level) - 1);
+    if (differ == 0) return (Ring){.count = 1, .id = {id}, .borders = 7u & ~(1u << corner)};
+    int      depth = __builtin_ctz(differ) / 2;
+    uint32_t digit = id >> 2 * depth & 3, father = id >> (2 * depth + 2);
+    uint32_t edge = digit == 0 ? corner : 3 - corner - (digit - 1);
+    uint32_t across = geodesic_neighbour(level - depth - 1, father, (int)edge);
+    Ring     ring = {.count = 0};
+    add_to_ring(&ring, father, edge, depth);
+    if (across == GEODESIC_NONE)
+        ring.borders = 1u << edge;
+    else
+        add_to_ring(&ring, across, edge, depth);
     return ring;
 }
 
-/* Adds the area mean of the leaves around a corner, times weight. */
-static void add_corner(const Tree *tree, uint32_t id, int corner, float weight, Triangles *out)
+/* Octant bits over whose planes the tree's mirror images count. */
+static uint32_t mirrors_of(const Tree *tree, const Ring *ring)
 {
-    int          level = tree->level;
-    uint32_t     flips = ((uint32_t)tree->octants - 1) << 2 * level;
-    uint32_t     mask = (1u << 2 * level) - 1;
-    const float *areas = tree->geodesic->areas[level];
-    Ring         ring = ring_around(level, id, corner);
-    uint32_t     mirrors = (ring.borders & 3) << 2 * level & flips;
-    float        sum = 0;
-    for (int i = 0; i < ring.count; i++) sum += areas[ring.id[i] & mask];
+    return (ring->borders & 3 & ((uint32_t)tree->octants - 1)) << 2 * tree->level;
+}
+
+/* Adds the area mean of the leaves around a corner, times weight. */
+static void add_ring(const Tree *tree, const Ring *ring, float weight, Leaves *out)
+{
+    uint32_t     mask = (1u << 2 * tree->level) - 1, mirrors = mirrors_of(tree, ring);
+    const float *areas = tree->geodesic->areas[tree->level];
+    float        area[6], sum = 0;
+    for (int i = 0; i < ring->count; i++) sum += area[i] = areas[ring->id[i] & mask];
     float scale = weight / (sum * (float)(1 << __builtin_popcount(mirrors)));
     for (uint32_t flip = 0;; flip = (flip - mirrors) & mirrors) { /* every subset of mirrors */
-        for (int i = 0; i < ring.count; i++)
-            add_triangle(out, ring.id[i] ^ flip, scale * areas[ring.id[i] & mask]);
+        for (int i = 0; i < ring->count; i++)
+            add_leaf(out, ring->id[i] ^ flip, scale * area[i]);
         if (flip == mirrors) return;
     }
 }
 
-/* By id, equal ids joined. */
-static void sort_triangles(Triangles *t)
+/* A triangle of the tree on the way to some of the leaves. */
+typedef struct Visit {
+    uint32_t node, place; /* place in its octant */
+    int      level;
+    uint32_t leaves; /* bit i: leaf i lies inside */
+} Visit;
+
+/* Adds the rows of a triangle with the weights that go to its children, and puts the children
+ * that have nodes on the stack. */
+static int visit(const Tree *tree, const Leaves *leaves, Visit at, TreeTaps *taps, Visit *stack)
 {
-    int count = 0;
-    for (int i = 0; i < t->count; i++) {
-        uint32_t id = t->id[i];
-        float    weight = t->weight[i];
-        int      at = count;
-        while (at > 0 && t->id[at - 1] > id) at--;
-        if (at > 0 && t->id[at - 1] == id) {
-            t->weight[at - 1] += weight;
-            continue;
+    TreeNode node = tree->nodes[at.node];
+    int      shift = 2 * (tree->level - at.level - 1), pushed = 0;
+    float    weight[4] = {0, 0, 0, 0};
+    uint32_t inside[4] = {0, 0, 0, 0};
+    for (uint32_t rest = at.leaves; rest; rest &= rest - 1) {
+        int      i = __builtin_ctz(rest);
+        uint32_t child = leaves->id[i] >> shift & 3;
+        weight[child] += leaves->weight[i];
+        inside[child] |= 1u << i;
+    }
+    if (node.rows & 7)
+        add_rows(taps, node, at.level, weight, area_ratio(tree, at.level, at.place));
+    for (uint32_t child = 0; child < 4; child++)
+        if (inside[child] && node.children >> child & 1)
+            stack[pushed++] = (Visit){child_node(node, child), 4 * at.place + child,
+                                      at.level + 1, inside[child]};
+    return pushed;
+}
+
+/* All below the triangle `from`. */
+static void visit_below(const Tree *tree, const Leaves *leaves, Visit from, TreeTaps *taps)
+{
+    Visit stack[4 * GEODESIC_MAX_LEVEL];
+    int   count = 1;
+    stack[0] = from;
+    while (count > 0) {
+        Visit at = stack[--count];
+        if (at.level < tree->level) count += visit(tree, leaves, at, taps, stack + count);
+    }
+}
+
+/* Leaves in several octants, around a corner on the planes between these. */
+static void visit_octants(const Tree *tree, const Leaves *leaves, TreeTaps *taps)
+{
+    for (uint32_t octant = 0; octant < (uint32_t)tree->octants; octant++) {
+        uint32_t inside = 0;
+        taps->mean_weight[octant] = 0;
+        for (int i = 0; i < leaves->count; i++) {
+            if (leaves->id[i] >> 2 * tree->level != octant) continue;
+            inside |= 1u << i;
+            taps->mean_weight[octant] += leaves->weight[i];
         }
-        memmove(&t->id[at + 1], &t->id[at], (size_t)(count - at) * sizeof t->id[0]);
-        memmove(&t->weight[at + 1], &t->weight[at], (size_t)(count - at) * sizeof t->weight[0]);
-        t->id[at] = id;
-        t->weight[at] = weight;
-        count++;
+        if (inside) visit_below(tree, leaves, (Visit){octant, 0, 0, inside}, taps);
     }
-    t->count = count;
 }
 
-/* The fathers of sorted triangles, with the sums of their children's weights. */
-static void fathers_of(const Triangles *children, Triangles *fathers)
+/* What interpolation inside one leaf needs. In the leaf's barycentric coordinates (u, v, w)
+ * with the least one m, the triangle between the centre and two corners gives the centre 3m and
+ * the corners u-m, v-m, w-m, one of which is 0. */
+typedef struct Stencil {
+    uint32_t leaf;
+    float    center_weight;
+    int      corner_count;
+    Ring     ring[2];
+    float    ring_weight[2];
+    int      common_level; /* of the smallest triangle that holds all leaves; -1: no octant does */
+} Stencil;
+
+static void find_common_level(const Tree *tree, Stencil *stencil)
 {
-    fathers->count = 0;
-    for (int i = 0; i < children->count; i++) {
-        uint32_t id = children->id[i] >> 2;
-        if (fathers->count == 0 || fathers->id[fathers->count - 1] != id)
-            add_triangle(fathers, id, 0);
-        fathers->weight[fathers->count - 1] += children->weight[i];
+    uint32_t differ = 0;
+    for (int r = 0; r < stencil->corner_count; r++) {
+        const Ring *ring = &stencil->ring[r];
+        differ |= mirrors_of(tree, ring);
+        for (int i = 0; i < ring->count; i++) differ |= ring->id[i] ^ stencil->leaf;
     }
+    int bits = differ ? 32 - __builtin_clz(differ) : 0;
+    stencil->common_level = tree->level - (bits + 1) / 2;
 }
 
-/* Adds the rows of all fathers of a level and finds their children's nodes. */
-static void walk_level(const Tree *tree, int level, const Triangles *fathers,
-                       Triangles *children, TreeTaps *taps)
-{
-    uint32_t mask = (1u << 2 * level) - 1;
-    int      child = 0;
-    for (int i = 0; i < fathers->count; i++) {
-        TreeNode node = node_at(tree, fathers->node[i]);
-        float    weight[4] = {0, 0, 0, 0};
-        for (; child < children->count && children->id[child] >> 2 == fathers->id[i]; child++) {
-            uint32_t digit = children->id[child] & 3;
-            weight[digit] = children->weight[child];
-            children->node[child] = child_node(node, digit);
-        }
-        if (node.rows & 7)
-            add_rows(taps, node, level, weight, area_ratio(tree, level, fathers->id[i] & mask));
-    }
-}
-
-/* In the leaf's barycentric coordinates (u, v, w) with the least one m, the triangle between
- * centre and two corners gives the centre 3m and the corners u-m, v-m, w-m (one of them 0). */
-static void find_leaves(const Tree *tree, Vec3 direction, Triangles *out)
+static Stencil stencil_at(const Tree *tree, Vec3 direction)
 {
     GeodesicPoint point = geodesic_find(tree->geodesic, tree->level, direction);
     const float  *w = point.weight;
     float         least = w[0] < w[1] ? w[0] : w[1];
     if (w[2] < least) least = w[2];
-    uint32_t id = point.id & (((uint32_t)tree->octants << 2 * tree->level) - 1);
-    out->count = 0;
-    add_triangle(out, id, 3 * least);
-    for (int i = 0; i < 3; i++)
-        if (w[i] > least) add_corner(tree, id, i, w[i] - least, out);
-    sort_triangles(out);
+    Stencil stencil = {.center_weight = 3 * least, .corner_count = 0};
+    stencil.leaf = point.id & (((uint32_t)tree->octants << 2 * tree->level) - 1);
+    for (uint32_t i = 0; i < 3; i++) {
+        if (!(w[i] > least)) continue;
+        stencil.ring[stencil.corner_count] = ring_around(tree->level, stencil.leaf, i);
+        stencil.ring_weight[stencil.corner_count++] = w[i] - least;
+    }
+    find_common_level(tree, &stencil);
+    return stencil;
 }
 
+/* Down to the triangle that holds all leaves there is one way, for weights that sum to one.
+ * Where the tree ends on it, the function is constant around: most queries of a small tree. */
 void tree_walk_interpolated(const Tree *tree, Vec3 direction, TreeTaps *taps)
 {
-    Triangles levels[GEODESIC_MAX_LEVEL + 1];
-    find_leaves(tree, direction, &levels[tree->level]);
-    for (int i = tree->level; i > 0; i--) fathers_of(&levels[i], &levels[i - 1]);
+    Stencil  stencil = stencil_at(tree, direction);
+    uint32_t node = stencil.leaf >> 2 * tree->level;
+    uint32_t place = stencil.leaf & ((1u << 2 * tree->level) - 1);
+    Leaves   leaves = {.count = 0};
     start_taps(taps);
-    for (int i = 0; i < levels[0].count; i++) {
-        levels[0].node[i] = levels[0].id[i];
-        taps->mean_weight[levels[0].id[i]] = levels[0].weight[i];
+    taps->mean_weight[node] = 1;
+    for (int i = 0; i < stencil.common_level; i++) {
+        node = step_down(tree, node, i, place >> 2 * (tree->level - i - 1), taps);
+        if (node == NO_NODE) return;
     }
-    for (int i = 0; i < tree->level; i++) walk_level(tree, i, &levels[i], &levels[i + 1], taps);
+    add_leaf(&leaves, stencil.leaf, stencil.center_weight);
+    for (int r = 0; r < stencil.corner_count; r++)
+        add_ring(tree, &stencil.ring[r], stencil.ring_weight[r], &leaves);
+    if (stencil.common_level < 0) {
+        visit_octants(tree, &leaves, taps);
+        return;
+    }
+    int depth = tree->level - stencil.common_level;
+    visit_below(tree, &leaves,
+                (Visit){node, place >> 2 * depth, stencil.common_level,
+                        (1u << leaves.count) - 1},
+                taps);
 }
 
 /* ---- sums ----------------------------------------------------------------------------------- */

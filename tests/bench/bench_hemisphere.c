@@ -1,0 +1,371 @@
+/* bench_hemisphere.c -- size and error of compressed hemispheres, and nanoseconds per query.
+ *
+ * Signals are functions with known values everywhere: a display's luminance over angle, the
+ * haze of an anti-glare surface around a mirror direction (fixed frame and specular-following
+ * frame), and a peak half a degree wide. The error of leaves compares the tree with its source;
+ * the errors of directions compare leaf values and interpolation with the function itself,
+ * cosine-weighted, at directions that no leaf centre coincides with.
+ * Times: one thread, fixed seed, median and spread (least to most) of RUNS runs.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/mathf.h"
+#include "base/sampler.h"
+#include "base/units.h"
+#include "hemisphere/sampling_tree.h"
+#include "hemisphere/specular_frame.h"
+#include "hemisphere/tree_query.h"
+
+#define RUNS 9
+#define DIRECTIONS 4096
+#define MAX_LEVEL 7
+
+/* ---- signals --------------------------------------------------------------------------------- */
+
+typedef double (*Signal)(Vec3 direction);
+
+static double polar_deg(Vec3 d)
+{
+    return degrees_from_radians(atan2(sqrt((double)(d.x * d.x + d.y * d.y)), (double)d.z));
+}
+
+/* An IPS-like luminance: a power of the cosine, wider along the horizontal, a slight skew. */
+static double emission(Vec3 d)
+{
+    double across = (double)d.x, up = (double)d.y, z = (double)d.z;
+    return 400 * pow(z, 1.6) * (1 + 0.15 * across - 0.2 * up * up) + 40 * z * exp(-6 * up * up);
+}
+
+static double angle_between_deg(Vec3 a, Vec3 b)
+{
+    return degrees_from_radians(
+        2 * asin(fmin(1, 0.5 * (double)vec3_length(vec3_sub(a, b)))));
+}
+
+/* Light at 30 degrees: a lobe of 6 degrees with wide skirts on a Lambert floor. */
+static double haze(Vec3 d)
+{
+    Vec3   mirror = vec3(0.5f, 0, 0.8660254f);
+    double angle = angle_between_deg(d, mirror) / 6;
+    return 4 / pow(1 + angle * angle, 1.7) + 0.01;
+}
+
+static double haze_in_specular_frame(Vec3 stored)
+{
+    SpecularFrame frame = specular_frame(30 * PI_F / 180, 2);
+    return haze(specular_frame_outer(&frame, stored));
+}
+
+/* A peak of half a degree (half width) at the pole, on haze of 1/300 of its height. */
+static double narrow_peak(Vec3 d)
+{
+    double peak = polar_deg(d) / 0.5, wide = polar_deg(d) / 8;
+    return 300 * exp(-0.6931 * peak * peak) + 1 / (1 + wide * wide) + 0.01;
+}
+
+static double narrow_peak_in_specular_frame(Vec3 stored)
+{
+    SpecularFrame frame = specular_frame(0, 2);
+    return narrow_peak(specular_frame_outer(&frame, stored));
+}
+
+typedef struct SignalRow {
+    const char *name;
+    Signal      value;
+    int         octants;
+} SignalRow;
+
+static const SignalRow SIGNALS[] = {
+    {"emission", emission, 4},
+    {"haze", haze, 2},
+    {"haze, k=2 frame", haze_in_specular_frame, 2},
+    {"narrow peak", narrow_peak, 2},
+    {"narrow peak, k=2 frame", narrow_peak_in_specular_frame, 2},
+};
+
+/* ---- size and error -------------------------------------------------------------------------- */
+
+static float *leaf_values(Signal signal, int level, int octants, Arena *arena)
+{
+    uint32_t count = (uint32_t)octants << 2 * level;
+    float   *leaves = ARENA_NEW(arena, float, count);
+    for (uint32_t i = 0; i < count; i++) leaves[i] = (float)signal(geodesic_center(level, i));
+    return leaves;
+}
+
+static Vec3 direction_of(uint32_t i)
+{
+    float z = (float)((i + 0.5) / DIRECTIONS), across = sqrtf(1 - z * z), sine, cosine;
+    sincos_turns(unit_float(hash_u32(i)), &sine, &cosine);
+    return vec3(across * cosine, across * sine, z);
+}
+
+/* Relative L2 errors of the leaf's value and of the interpolant, per cent. */
+static void direction_errors(const Tree *tree, Signal signal, double percent[2])
+{
+    double error[2] = {0, 0}, sum = 0;
+    for (uint32_t i = 0; i < DIRECTIONS; i++) {
+        Vec3   d = direction_of(i);
+        double truth = signal(d);
+        float  leaf, smooth;
+        tree_value(tree, d, &leaf);
+        tree_interpolate(tree, d, &smooth);
+        error[0] += (double)d.z * ((double)leaf - truth) * ((double)leaf - truth);
+        error[1] += (double)d.z * ((double)smooth - truth) * ((double)smooth - truth);
+        sum += (double)d.z * truth * truth;
+    }
+    for (int i = 0; i < 2; i++) percent[i] = 100 * sqrt(error[i] / sum);
+}
+
+static void print_size_row(const SignalRow *row, TreeOptions options, const float *leaves,
+                           const Geodesic *geodesic, Arena scratch)
+{
+    const void *blob;
+    TreeReport  report;
+    Tree        tree;
+    Error       err;
+    double      percent[2];
+    if (!tree_build(&options, leaves, &scratch, &blob, &report, &err) ||
+        !tree_open(blob, report.bytes, geodesic, &tree, &err)) {
+        printf("%s\n", err.text);
+        exit(1);
+    }
+    float largest = 0;
+    for (uint32_t i = 0; i < report.leaves; i++) largest = fmaxf(largest, leaves[i]);
+    direction_errors(&tree, row->value, percent);
+    printf("%-23s %5d  %-5s %-6s %8.2f %8u %8u %9zu %8.1f %9.3f %9.3f %9.3f %9.3f\n", row->name,
+           options.shape.level, options.shape.weights == HAAR_AREA ? "area" : "equal",
+           options.rows == TREE_ROWS_INT16 ? "int16" : "float",
+           100 * (double)options.keep_share, report.stored_rows, report.nodes, report.bytes,
+           (double)report.source_bytes / (double)report.bytes,
+           100 * (double)report.max_error / (double)largest, 100 * (double)report.relative_l2,
+           percent[0], percent[1]);
+}
+
+static void print_sizes(const Geodesic *geodesic, Arena scratch)
+{
+    static const float shares[] = {0.0025f, 0.01f, 0.05f, 0.2f, 1};
+    printf("size and error against the kept share (errors in %%; max relative to the largest "
+           "value)\n%-23s %5s  %-5s %-6s %8s %8s %8s %9s %8s %9s %9s %9s %9s\n", "signal",
+           "level", "means", "rows", "kept %", "stored", "nodes", "bytes", "ratio", "leaf max",
+           "leaf L2", "value L2", "interp L2");
+    for (size_t s = 0; s < sizeof SIGNALS / sizeof *SIGNALS; s++)
+        for (int level = 5; level <= MAX_LEVEL; level++) {
+            Arena       inner = scratch;
+            HaarShape   shape = {level, SIGNALS[s].octants, 1, HAAR_AREA};
+            const float *leaves = leaf_values(SIGNALS[s].value, level, shape.octants, &inner);
+            for (size_t i = 0; i < sizeof shares / sizeof *shares; i++)
+                print_size_row(&SIGNALS[s],
+                               (TreeOptions){.shape = shape, .keep_share = shares[i],
+                                             .rows = TREE_ROWS_INT16},
+                               leaves, geodesic, inner);
+            print_size_row(&SIGNALS[s], (TreeOptions){.shape = shape, .keep_share = 0.01f},
+                           leaves, geodesic, inner);
+            shape.weights = HAAR_EQUAL;
+            print_size_row(&SIGNALS[s], (TreeOptions){.shape = shape, .keep_share = 0.01f},
+                           leaves, geodesic, inner);
+        }
+}
+
+/* ---- time ------------------------------------------------------------------------------------ */
+
+/* What the timed works share. */
+typedef struct Input {
+    Vec3         directions[DIRECTIONS];
+    Tree         tree;
+    SamplingTree sampler;
+    SpecularFrame frame;
+    float         sink; /* keeps results alive */
+} Input;
+
+typedef struct Bench {
+    const char *name;
+    void (*work)(Input *input); /* DIRECTIONS queries */
+} Bench;
+
+static void work_find(Input *in)
+{
+    for (int i = 0; i < DIRECTIONS; i++)
+        in->sink += geodesic_find(in->tree.geodesic, MAX_LEVEL, in->directions[i]).weight[0];
+}
+
+static void work_value(Input *in)
+{
+    float out[TREE_MAX_COMPONENTS];
+    for (int i = 0; i < DIRECTIONS; i++) {
+        tree_value(&in->tree, in->directions[i], out);
+        in->sink += out[0];
+    }
+}
+
+static void work_walk(Input *in)
+{
+    TreeTaps taps;
+    for (int i = 0; i < DIRECTIONS; i++) {
+        tree_walk_interpolated(&in->tree, in->directions[i], &taps);
+        in->sink += taps.mean_weight[0] + (float)taps.count;
+    }
+}
+
+static void work_interpolate(Input *in)
+{
+    float out[TREE_MAX_COMPONENTS];
+    for (int i = 0; i < DIRECTIONS; i++) {
+        tree_interpolate(&in->tree, in->directions[i], out);
+        in->sink += out[0];
+    }
+}
+
+static void work_sample(Input *in)
+{
+    for (uint32_t i = 0; i < DIRECTIONS; i++) {
+        float u0 = unit_float(hash_u32(2 * i)), u1 = unit_float(hash_u32(2 * i + 1));
+        in->sink += sampling_tree_sample(&in->sampler, u0, u1).pdf;
+    }
+}
+
+static void work_pdf(Input *in)
+{
+    for (int i = 0; i < DIRECTIONS; i++)
+        in->sink += sampling_tree_pdf(&in->sampler, in->directions[i]);
+}
+
+static void work_stored(Input *in)
+{
+    for (int i = 0; i < DIRECTIONS; i++)
+        in->sink += specular_frame_stored(&in->frame, in->directions[i]).x;
+}
+
+static void work_outer(Input *in)
+{
+    for (int i = 0; i < DIRECTIONS; i++)
+        in->sink += specular_frame_outer(&in->frame, in->directions[i]).x;
+}
+
+static void work_jacobian(Input *in)
+{
+    for (int i = 0; i < DIRECTIONS; i++)
+        in->sink += specular_frame_jacobian(&in->frame, in->directions[i]);
+}
+
+static const Bench TREE_WORKS[] = {
+    {"leaf value", work_value},
+    {"walk for interpolation", work_walk},
+    {"interpolated value", work_interpolate},
+};
+
+static const Bench OTHER_WORKS[] = {
+    {"find the leaf", work_find},           {"sample a direction", work_sample},
+    {"pdf of a direction", work_pdf},       {"specular frame, stored", work_stored},
+    {"specular frame, outer", work_outer},  {"specular frame, Jacobian", work_jacobian},
+};
+
+static double seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void time_work(const Bench *bench, const char *what, Input *input)
+{
+    double ns[RUNS];
+    for (int run = -1; run < RUNS; run++) { /* the first warms up */
+        double start = seconds();
+        for (int i = 0; i < 16; i++) bench->work(input);
+        if (run >= 0) ns[run] = (seconds() - start) * 1e9 / (16.0 * DIRECTIONS);
+    }
+    qsort(ns, RUNS, sizeof *ns, ascending);
+    printf("%-26s %-34s %8.1f ns   (%.1f to %.1f)\n", bench->name, what, ns[RUNS / 2], ns[0],
+           ns[RUNS - 1]);
+}
+
+/* The haze with components that differ a little, as spectra do. */
+static void fill_tree(Input *in, int components, float share, TreeRowFormat rows,
+                      const Geodesic *geodesic, Arena *arena)
+{
+    HaarShape   shape = {MAX_LEVEL, 2, components, HAAR_AREA};
+    TreeOptions options = {.shape = shape, .keep_share = share, .rows = rows};
+    Arena       behind = *arena;
+    uint32_t    count = haar_leaf_count(&shape);
+    const void *blob;
+    Error       err;
+    arena_alloc(&behind, 1, 16, (size_t)32 << 20); /* the blob's room, in front of the scratch */
+    float *leaves = ARENA_NEW(&behind, float, count * (uint32_t)components);
+    for (uint32_t i = 0; i < count; i++) {
+        float value = (float)haze_in_specular_frame(geodesic_center(MAX_LEVEL, i));
+        for (int c = 0; c < components; c++)
+            leaves[i * (uint32_t)components + (uint32_t)c] =
+                value * (1 + 0.1f * (float)c / (float)components);
+    }
+    if (!tree_build(&options, leaves, &behind, &blob, NULL, &err) ||
+        !tree_open(blob, tree_size(blob), geodesic, &in->tree, &err)) {
+        printf("%s\n", err.text);
+        exit(1);
+    }
+    *arena = behind;
+}
+
+static void fill_sampler(Input *in, const Geodesic *geodesic, Arena *arena)
+{
+    SamplingOptions options = {.level = MAX_LEVEL, .octants = 2, .cells = 655};
+    uint32_t        count = 2u << 2 * MAX_LEVEL;
+    float          *integrals = leaf_values(haze_in_specular_frame, MAX_LEVEL, 2, arena);
+    const void     *blob;
+    Error           err;
+    for (uint32_t i = 0; i < count; i++)
+        integrals[i] *= geodesic_center(MAX_LEVEL, i).z *
+                        geodesic->areas[MAX_LEVEL][i & ((1u << 2 * MAX_LEVEL) - 1)];
+    if (!sampling_tree_build(&options, integrals, arena, &blob, &err) ||
+        !sampling_tree_open(blob, sampling_tree_size(blob), geodesic, &in->sampler, &err)) {
+        printf("%s\n", err.text);
+        exit(1);
+    }
+}
+
+static void print_times(const Geodesic *geodesic, Arena scratch)
+{
+    static const int   components[] = {1, 3, 16, 32};
+    static const float shares[] = {0.01f, 0.05f};
+    Input             *in = ARENA_NEW(&scratch, Input, 1);
+    for (uint32_t i = 0; i < DIRECTIONS; i++) in->directions[i] = direction_of(hash_u32(i) % DIRECTIONS);
+    in->frame = specular_frame(30 * PI_F / 180, 2);
+    printf("\ntime per query, random directions, haze at level %d; median (least to most) of %d "
+           "runs, 1 thread\n", MAX_LEVEL, RUNS);
+    for (size_t s = 0; s < 2; s++)
+        for (size_t c = 0; c < 4; c++)
+            for (int rows = 0; rows < 2; rows++) {
+                Arena inner = scratch;
+                char  what[64];
+                fill_tree(in, components[c], shares[s], (TreeRowFormat)rows, geodesic, &inner);
+                snprintf(what, sizeof what, "%2d components, %g%% kept, %s", components[c],
+                         100 * (double)shares[s], rows ? "int16" : "float");
+                for (size_t w = 0; w < sizeof TREE_WORKS / sizeof *TREE_WORKS; w++)
+                    time_work(&TREE_WORKS[w], what, in);
+            }
+    fill_sampler(in, geodesic, &scratch);
+    for (size_t w = 0; w < sizeof OTHER_WORKS / sizeof *OTHER_WORKS; w++)
+        time_work(&OTHER_WORKS[w], "", in);
+}
+
+/* bench_hemisphere [size|time]: one half only. */
+int main(int argc, char **argv)
+{
+    Arena           arena = arena_reserve((size_t)2 << 30);
+    const Geodesic *geodesic = geodesic_create(MAX_LEVEL, &arena);
+    const char     *part = argc > 1 ? argv[1] : "";
+    if (strcmp(part, "time") != 0) print_sizes(geodesic, arena);
+    if (strcmp(part, "size") != 0) print_times(geodesic, arena);
+    arena_release(&arena);
+    return 0;
+}
