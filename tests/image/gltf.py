@@ -195,6 +195,8 @@ class Scene:
         self.used.add("KHR_lights_punctual")
         lights = self.document.setdefault("extensions", {}).setdefault(
             "KHR_lights_punctual", {"lights": []})["lights"]
+        if kind == "spot":
+            members.setdefault("spot", {})
         lights.append({"type": kind, "intensity": intensity, **members})
         self._node({"translation": list(position),
                     "rotation": quaternion_looking(direction, upright(direction)),
