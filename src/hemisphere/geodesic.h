@@ -74,7 +74,8 @@ static inline GeodesicWalk geodesic_walk_start(Vec3 d)
                           .weight = {fabsf(d.x), fabsf(d.y), d.z > 0 ? d.z : 0.0f}};
 }
 
-/* From a triangle of `level` to its child; returns which one, 0..3. */
+/* From a triangle of `level` to its child; returns which one, 0..3. The child is as good as
+ * random: all four outcomes and a look-up take half the time of mispredicted branches. */
 static inline uint32_t geodesic_walk_down(const Geodesic *geodesic, int level,
                                           GeodesicWalk *walk)
 {
@@ -82,10 +83,14 @@ static inline uint32_t geodesic_walk_down(const Geodesic *geodesic, int level,
     float        u = walk->weight[0], v = walk->weight[1], w = walk->weight[2];
     float        half = 0.5f * (u + v + w);
     float        p = half - u, q = half - v, r = half - w; /* of bc, ca, ab; one below 0 at most */
-    uint32_t     child = p < 0 ? 1 : q < 0 ? 2 : r < 0 ? 3 : 0;
-    walk->weight[0] = child == 0 ? p * k[0] : child == 1 ? -p : u * k[4 - child];
-    walk->weight[1] = child == 0 ? q * k[1] : child == 2 ? -q : v * k[3 - child];
-    walk->weight[2] = child == 0 ? r * k[2] : child == 3 ? -r : w * k[2 - child];
+    uint32_t     child = (p < 0 ? 1u : 0u) + (q < 0 ? 2u : 0u) + (r < 0 ? 3u : 0u);
+    const float  a[4] = {p * k[0], -p, u * k[2], u * k[1]};
+    const float  b[4] = {q * k[1], v * k[2], -q, v * k[0]};
+    const float  c[4] = {r * k[2], w * k[1], w * k[0], -r};
+    child &= 3;
+    walk->weight[0] = a[child];
+    walk->weight[1] = b[child];
+    walk->weight[2] = c[child];
     walk->place = 4 * walk->place + child;
     return child;
 }

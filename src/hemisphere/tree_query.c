@@ -105,13 +105,35 @@ static void add_leaf(Leaves *leaves, uint32_t id, float weight)
     leaves->weight[i] = weight;
 }
 
-/* The leaves around one corner of a leaf, inside its octant; at the octant's borders the mirror
- * images of these lie around it too. */
+/* The leaves around one corner of a leaf, inside its octant: the three at the midpoint of one
+ * edge of a larger triangle, and the three of its neighbour across the edge. At the octant's
+ * borders the mirror images of these lie around the corner too. */
 typedef struct Ring {
-    int      count;
-    uint32_t id[6];
+    int      father_count; /* 2; 1: no neighbour in the octant; 0: the octant's own corner */
+    uint32_t father[2];
+    uint32_t edge;
+    int      depth;   /* of the fathers' children above the leaves */
     uint32_t borders; /* bit k: the corner lies on the octant's border opposite corner k */
 } Ring;
+
+/* A corner of a leaf was made as the midpoint of an edge of some larger triangle; below that,
+ * every triangle at the corner has it in the same place, so that the trailing digits corner + 1
+ * of the leaf's id tell how far up that was. Only the octants' corners never were midpoints. */
+static Ring ring_around(int level, uint32_t id, uint32_t corner)
+{
+    uint32_t differ = (id ^ 0x55555555u * (corner + 1)) & ((1u << 2 * level) - 1);
+    if (differ == 0) return (Ring){.borders = 7u & ~(1u << corner)};
+    Ring     ring = {.father_count = 2, .depth = __builtin_ctz(differ) / 2};
+    uint32_t digit = id >> 2 * ring.depth & 3;
+    ring.father[0] = id >> (2 * ring.depth + 2);
+    ring.edge = digit == 0 ? corner : 3 - corner - (digit - 1);
+    ring.father[1] = geodesic_neighbour(level - ring.depth - 1, ring.father[0], (int)ring.edge);
+    if (ring.father[1] == GEODESIC_NONE) {
+        ring.father_count = 1;
+        ring.borders = 1u << ring.edge;
+    }
+    return ring;
+}
 
 /* id of a triangle `depth` levels above the leaves to that of its leaf at its corner `corner`:
  * a corner child keeps its father's corner in the same place. */
@@ -121,36 +143,20 @@ static uint32_t leaf_at_corner(uint32_t id, int depth, uint32_t corner)
     return id << 2 * depth | (repeated & ((1u << 2 * depth) - 1));
 }
 
-/* The three children of `father` at the midpoint of its edge `edge`, as leaves there. The
- * midpoint is the central child's corner `edge`, and in the corner children at the edge's two
- * ends, p and q, it is corner q and p. */
-static void add_to_ring(Ring *ring, uint32_t father, uint32_t edge, int depth)
+/* The midpoint of `edge` is the central child's corner `edge`, and in the corner children at
+ * the edge's two ends, p and q, it is corner q and p. Returns the count, at most 6. */
+static int ring_leaves(const Ring *ring, uint32_t leaf, uint32_t id[6])
 {
-    uint32_t p = edge == 0 ? 1 : 0, q = 3 - edge - p;
-    ring->id[ring->count++] = leaf_at_corner(4 * father, depth, edge);
-    ring->id[ring->count++] = leaf_at_corner(4 * father + p + 1, depth, q);
-    ring->id[ring->count++] = leaf_at_corner(4 * father + q + 1, depth, p);
-}
-
-/* A corner of a leaf was made as the midpoint of an edge of some larger triangle; below that,
- * every triangle at the corner has it in the same place, so that the trailing digits corner + 1
- * of the leaf's id tell how far up that was. The triangle and its neighbour across the edge
- * hold the whole ring. Only the octants' own corners never were midpoints. */
-static Ring ring_around(int level, uint32_t id, uint32_t corner)
-{
-    uint32_t differ = (id ^ 0x55555555u * (corner + 1)) & ((1u << 2 * level) - 1);
-    if (differ == 0) return (Ring){.count = 1, .id = {id}, .borders = 7u & ~(1u << corner)};
-    int      depth = __builtin_ctz(differ) / 2;
-    uint32_t digit = id >> 2 * depth & 3, father = id >> (2 * depth + 2);
-    uint32_t edge = digit == 0 ? corner : 3 - corner - (digit - 1);
-    uint32_t across = geodesic_neighbour(level - depth - 1, father, (int)edge);
-    Ring     ring = {.count = 0};
-    add_to_ring(&ring, father, edge, depth);
-    if (across == GEODESIC_NONE)
-        ring.borders = 1u << edge;
-    else
-        add_to_ring(&ring, across, edge, depth);
-    return ring;
+    uint32_t p = ring->edge == 0 ? 1 : 0, q = 3 - ring->edge - p;
+    int      count = 0;
+    if (ring->father_count == 0) id[count++] = leaf;
+    for (int i = 0; i < ring->father_count; i++) {
+        uint32_t first = 4 * ring->father[i];
+        id[count++] = leaf_at_corner(first, ring->depth, ring->edge);
+        id[count++] = leaf_at_corner(first + p + 1, ring->depth, q);
+        id[count++] = leaf_at_corner(first + q + 1, ring->depth, p);
+    }
+    return count;
 }
 
 /* Octant bits over whose planes the tree's mirror images count. */
@@ -159,17 +165,27 @@ static uint32_t mirrors_of(const Tree *tree, const Ring *ring)
     return (ring->borders & 3 & ((uint32_t)tree->octants - 1)) << 2 * tree->level;
 }
 
-/* Adds the area mean of the leaves around a corner, times weight. */
-static void add_ring(const Tree *tree, const Ring *ring, float weight, Leaves *out)
+/* Level of the smallest triangle that holds the whole ring; -1: no octant does. */
+static int ring_level(const Tree *tree, const Ring *ring)
 {
-    uint32_t     mask = (1u << 2 * tree->level) - 1, mirrors = mirrors_of(tree, ring);
+    int level = ring->father_count == 0 ? tree->level : tree->level - ring->depth - 1;
+    if (mirrors_of(tree, ring)) return -1;
+    if (ring->father_count < 2) return level;
+    return level - (33 - __builtin_clz(ring->father[0] ^ ring->father[1])) / 2;
+}
+
+/* Adds the area mean of the leaves around a corner, times weight. */
+static void add_ring(const Tree *tree, const Ring *ring, uint32_t leaf, float weight,
+                     Leaves *out)
+{
+    uint32_t     mask = (1u << 2 * tree->level) - 1, mirrors = mirrors_of(tree, ring), id[6];
     const float *areas = tree->geodesic->areas[tree->level];
+    int          count = ring_leaves(ring, leaf, id);
     float        area[6], sum = 0;
-    for (int i = 0; i < ring->count; i++) sum += area[i] = areas[ring->id[i] & mask];
+    for (int i = 0; i < count; i++) sum += area[i] = areas[id[i] & mask];
     float scale = weight / (sum * (float)(1 << __builtin_popcount(mirrors)));
     for (uint32_t flip = 0;; flip = (flip - mirrors) & mirrors) { /* every subset of mirrors */
-        for (int i = 0; i < ring->count; i++)
-            add_leaf(out, ring->id[i] ^ flip, scale * area[i]);
+        for (int i = 0; i < count; i++) add_leaf(out, id[i] ^ flip, scale * area[i]);
         if (flip == mirrors) return;
     }
 }
@@ -243,32 +259,22 @@ typedef struct Stencil {
     int      common_level; /* of the smallest triangle that holds all leaves; -1: no octant does */
 } Stencil;
 
-static void find_common_level(const Tree *tree, Stencil *stencil)
-{
-    uint32_t differ = 0;
-    for (int r = 0; r < stencil->corner_count; r++) {
-        const Ring *ring = &stencil->ring[r];
-        differ |= mirrors_of(tree, ring);
-        for (int i = 0; i < ring->count; i++) differ |= ring->id[i] ^ stencil->leaf;
-    }
-    int bits = differ ? 32 - __builtin_clz(differ) : 0;
-    stencil->common_level = tree->level - (bits + 1) / 2;
-}
-
 static Stencil stencil_at(const Tree *tree, Vec3 direction)
 {
     GeodesicPoint point = geodesic_find(tree->geodesic, tree->level, direction);
     const float  *w = point.weight;
     float         least = w[0] < w[1] ? w[0] : w[1];
     if (w[2] < least) least = w[2];
-    Stencil stencil = {.center_weight = 3 * least, .corner_count = 0};
+    Stencil stencil = {.center_weight = 3 * least, .common_level = tree->level};
     stencil.leaf = point.id & (((uint32_t)tree->octants << 2 * tree->level) - 1);
     for (uint32_t i = 0; i < 3; i++) {
         if (!(w[i] > least)) continue;
-        stencil.ring[stencil.corner_count] = ring_around(tree->level, stencil.leaf, i);
+        Ring *ring = &stencil.ring[stencil.corner_count];
+        *ring = ring_around(tree->level, stencil.leaf, i);
         stencil.ring_weight[stencil.corner_count++] = w[i] - least;
+        int level = ring_level(tree, ring);
+        if (level < stencil.common_level) stencil.common_level = level;
     }
-    find_common_level(tree, &stencil);
     return stencil;
 }
 
@@ -288,7 +294,7 @@ void tree_walk_interpolated(const Tree *tree, Vec3 direction, TreeTaps *taps)
     }
     add_leaf(&leaves, stencil.leaf, stencil.center_weight);
     for (int r = 0; r < stencil.corner_count; r++)
-        add_ring(tree, &stencil.ring[r], stencil.ring_weight[r], &leaves);
+        add_ring(tree, &stencil.ring[r], stencil.leaf, stencil.ring_weight[r], &leaves);
     if (stencil.common_level < 0) {
         visit_octants(tree, &leaves, taps);
         return;
