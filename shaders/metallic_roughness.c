@@ -48,6 +48,16 @@ typedef struct Choices {
     float coat, mirror, diffuse, through;
 } Choices;
 
+/* The material as one eye sees it: what eval and sample need of wo. */
+typedef struct View {
+    const MetallicRoughness *m;
+    Vec3     wo;
+    Boundary boundary;
+    Energy   energy; /* of the base towards wo */
+    float    coat;   /* the coat's albedo towards wo, times its share */
+    Choices  choices;
+} View;
+
 MetallicRoughness metallic_roughness_default(const EnergyTable *energy)
 {
     return (MetallicRoughness){.base_color = spectrum_all(1),
@@ -64,7 +74,7 @@ static float normal_reflectance(float ior)
     return ior >= 1 ? fresnel_normal(ior) : 1.0f;
 }
 
-static Boundary boundary_of(const MetallicRoughness *m)
+static inline Boundary boundary_of(const MetallicRoughness *m)
 {
     Spectrum tinted = m->specular_color * spectrum_all(normal_reflectance(m->energy->ior));
     Boundary b;
@@ -81,18 +91,18 @@ static float fresnel_shape(float ior, float cosine)
     return (fresnel_mean(fresnel_dielectric(cosine, ior, NULL)) - f0) / (1 - f0);
 }
 
-static Spectrum boundary_reflectance(const MetallicRoughness *m, const Boundary *b, float cosine)
+static inline Spectrum boundary_reflectance(const MetallicRoughness *m, const Boundary *b, float cosine)
 {
     return b->f0 + b->rise * spectrum_all(fresnel_shape(m->energy->ior, cosine));
 }
 
-static Spectrum pane_reflectance(Spectrum face)
+static inline Spectrum pane_reflectance(Spectrum face)
 {
     return (face + face) / (spectrum_all(1) + face);
 }
 
 /* Share of the base's light that a boundary lets pass, for an energy of the table. */
-static Spectrum let_in(const Boundary *b, Energy e)
+static inline Spectrum let_in(const Boundary *b, Energy e)
 {
     return spectrum_all(1) - b->f0 * spectrum_all(e.all) - b->rise * spectrum_all(e.shape);
 }
@@ -122,13 +132,15 @@ static Spectrum pane_transmittance(const MetallicRoughness *m, const Boundary *b
 }
 
 /* Lambert under the boundary: base / pi * in(wo) in(wi) / mean of in (Kelemen 2001). */
-static Spectrum diffuse_eval(const MetallicRoughness *m, const Boundary *b, Energy out, Energy in)
+static Spectrum diffuse_eval(const View *view, Energy in)
 {
+    const MetallicRoughness *m = view->m;
+    const Boundary *b = &view->boundary;
     float share = (1 - m->metallic) * (1 - m->transmission);
     if (!(share > 0)) return spectrum_all(0);
     Spectrum mean = let_in(b, energy_average(m->energy, m->alpha));
-    return m->base_color * let_in(b, out) * let_in(b, in) * spectrum_all(share * INV_PI_F) /
-           spectrum_max(mean, spectrum_all(1e-3f));
+    return m->base_color * let_in(b, view->energy) * let_in(b, in) *
+           spectrum_all(share * INV_PI_F) / spectrum_max(mean, spectrum_all(1e-3f));
 }
 
 /* What facets of metal send to one another and then out (Kulla and Conty 2017): the missing
@@ -195,17 +207,17 @@ static float coat_eval(const MetallicRoughness *m, Vec3 wo, Vec3 wi, float *pdf)
 }
 
 /* Probabilities follow the lanes' mean albedo of each part, so that none is ever starved. */
-static Choices choose(const MetallicRoughness *m, Vec3 wo)
+static Choices choose(const View *view)
 {
-    Energy   e = energy_directional(m->energy, wo.z, m->alpha);
-    Boundary b = boundary_of(m);
-    float base = spectrum_mean(m->base_color);
-    float f0 = spectrum_mean(b.f0);
+    const MetallicRoughness *m = view->m;
+    Energy e = view->energy;
+    float  base = spectrum_mean(m->base_color);
+    float  f0 = spectrum_mean(view->boundary.f0);
     float face = f0 * e.all + (m->specular - f0) * e.shape;
     float pane = 2 * face / (1 + face);
     float metal = base * e.all + (1 - base) * e.shape;
     float clear = (1 - m->metallic) * m->transmission, solid = 1 - m->metallic - clear;
-    float coat = vec3_dot(m->clearcoat_normal, wo) > 0 ? coat_albedo(m, wo) : 0;
+    float coat = vec3_dot(m->clearcoat_normal, view->wo) > 0 ? view->coat : 0;
     float under = 1 - coat;
     Choices c = {
         .coat = coat,
@@ -218,45 +230,55 @@ static Choices choose(const MetallicRoughness *m, Vec3 wo)
     return (Choices){c.coat * scale, c.mirror * scale, c.diffuse * scale, c.through * scale};
 }
 
-/* The base seen from above: rough mirror, Lambert, rebound; and its part of the pdf. */
-static Spectrum base_above(const MetallicRoughness *m, Vec3 wo, Vec3 wi, Choices c, float *pdf)
+static View view_from(const MetallicRoughness *m, Vec3 wo)
 {
-    Boundary b = boundary_of(m);
-    Energy   out = energy_directional(m->energy, wo.z, m->alpha);
+    View view = {.m = m, .wo = wo, .boundary = boundary_of(m),
+                 .energy = energy_directional(m->energy, wo.z, m->alpha),
+                 .coat = coat_albedo(m, wo)};
+    view.choices = choose(&view);
+    return view;
+}
+
+/* The base seen from above: rough mirror, Lambert, rebound; and its part of the pdf. */
+static Spectrum base_above(const View *view, Vec3 wi, float *pdf)
+{
+    const MetallicRoughness *m = view->m;
     Energy   in = energy_directional(m->energy, wi.z, m->alpha);
-    Spectrum sum = diffuse_eval(m, &b, out, in) + metal_rebound(m, out, in);
-    *pdf = c.diffuse * wi.z * INV_PI_F;
+    Spectrum sum = diffuse_eval(view, in) + metal_rebound(m, view->energy, in);
+    *pdf = view->choices.diffuse * wi.z * INV_PI_F;
     if (!is_smooth(m->alpha)) {
-        Vec3  half = vec3_normalize(vec3_add(wo, wi));
-        float lobe = ggx_reflection(wo, wi, half, m->alpha);
-        sum += facet_reflectance(m, &b, vec3_dot(wo, half)) * spectrum_all(lobe);
-        *pdf += c.mirror * ggx_reflection_pdf(wo, half, m->alpha);
+        Vec3  half = vec3_normalize(vec3_add(view->wo, wi));
+        float lobe = ggx_reflection(view->wo, wi, half, m->alpha);
+        sum += facet_reflectance(m, &view->boundary, vec3_dot(view->wo, half)) *
+               spectrum_all(lobe);
+        *pdf += view->choices.mirror * ggx_reflection_pdf(view->wo, half, m->alpha);
     }
     return sum;
 }
 
 /* A rough pane sends on what a mirror would send back, turned over to the other side. */
-static Spectrum base_below(const MetallicRoughness *m, Vec3 wo, Vec3 wi, Choices c, float *pdf)
+static Spectrum base_below(const View *view, Vec3 wi, float *pdf)
 {
+    const MetallicRoughness *m = view->m;
     *pdf = 0;
     if (is_smooth(m->alpha) || !(m->transmission > 0)) return spectrum_all(0);
-    Vec3     up = vec3(wi.x, wi.y, -wi.z);
-    Vec3     half = vec3_normalize(vec3_add(wo, up));
-    Boundary b = boundary_of(m);
-    *pdf = c.through * ggx_reflection_pdf(wo, half, m->alpha);
-    return pane_transmittance(m, &b, vec3_dot(wo, half)) *
-           spectrum_all(ggx_reflection(wo, up, half, m->alpha));
+    Vec3 up = vec3(wi.x, wi.y, -wi.z);
+    Vec3 half = vec3_normalize(vec3_add(view->wo, up));
+    *pdf = view->choices.through * ggx_reflection_pdf(view->wo, half, m->alpha);
+    return pane_transmittance(m, &view->boundary, vec3_dot(view->wo, half)) *
+           spectrum_all(ggx_reflection(view->wo, up, half, m->alpha));
 }
 
-static Spectrum eval_chosen(const MetallicRoughness *m, Vec3 wo, Vec3 wi, Choices c, float *pdf)
+static Spectrum eval_view(const View *view, Vec3 wi, float *pdf)
 {
-    Spectrum f = wi.z > 0 ? base_above(m, wo, wi, c, pdf) : base_below(m, wo, wi, c, pdf);
+    const MetallicRoughness *m = view->m;
+    Spectrum f = wi.z > 0 ? base_above(view, wi, pdf) : base_below(view, wi, pdf);
     if (!(m->clearcoat > 0)) return f;
-    f *= spectrum_all((1 - coat_albedo(m, wo)) * (1 - coat_albedo(m, wi)));
+    f *= spectrum_all((1 - view->coat) * (1 - coat_albedo(m, wi)));
     if (!is_smooth(m->clearcoat_alpha)) {
         float coat_pdf;
-        f += spectrum_all(coat_eval(m, wo, wi, &coat_pdf));
-        *pdf += c.coat * coat_pdf;
+        f += spectrum_all(coat_eval(m, view->wo, wi, &coat_pdf));
+        *pdf += view->choices.coat * coat_pdf;
     }
     return f;
 }
@@ -265,7 +287,8 @@ Spectrum metallic_roughness_eval(const MetallicRoughness *m, Vec3 wo, Vec3 wi, f
 {
     *pdf = 0;
     if (!(wo.z > 0) || wi.z == 0) return spectrum_all(0);
-    return eval_chosen(m, wo, wi, choose(m, wo), pdf);
+    View view = view_from(m, wo);
+    return eval_view(&view, wi, pdf);
 }
 
 static bool sample_smooth(BsdfSample *sample, Vec3 wi, Spectrum value, float prob)
@@ -276,24 +299,24 @@ static bool sample_smooth(BsdfSample *sample, Vec3 wi, Spectrum value, float pro
 }
 
 /* The smooth coat's mirror image, about the coat's own normal. */
-static bool sample_smooth_coat(const MetallicRoughness *m, Vec3 wo, float prob,
-                               BsdfSample *sample)
+static bool sample_smooth_coat(const View *view, BsdfSample *sample)
 {
+    const MetallicRoughness *m = view->m;
+    Vec3  wo = view->wo;
     float cosine = vec3_dot(m->clearcoat_normal, wo);
     Vec3  wi = vec3_sub(vec3_scale(m->clearcoat_normal, 2 * cosine), wo);
     float value = m->clearcoat * coat_facet(cosine) * coat_tilt(m, wo, wi);
     if (!(value > 0)) return false;
     /* Tilted cosines: the lobe is per cosine to the coat, the surface's cosine carries it. */
-    return sample_smooth(sample, wi, spectrum_all(value * wi.z / cosine), prob);
+    return sample_smooth(sample, wi, spectrum_all(value * wi.z / cosine), view->choices.coat);
 }
 
-static bool sample_smooth_base(const MetallicRoughness *m, Vec3 wo, float prob,
-                               BsdfSample *sample)
+static bool sample_smooth_base(const View *view, BsdfSample *sample)
 {
-    Boundary b = boundary_of(m);
-    Vec3     wi = vec3(-wo.x, -wo.y, wo.z);
-    float    coat = (1 - coat_albedo(m, wo)) * (1 - coat_albedo(m, wi));
-    return sample_smooth(sample, wi, facet_reflectance(m, &b, wo.z) * spectrum_all(coat), prob);
+    Vec3  wi = vec3(-view->wo.x, -view->wo.y, view->wo.z);
+    float coat = (1 - view->coat) * (1 - coat_albedo(view->m, wi));
+    Spectrum value = facet_reflectance(view->m, &view->boundary, wi.z) * spectrum_all(coat);
+    return sample_smooth(sample, wi, value, view->choices.mirror);
 }
 
 Spectrum metallic_roughness_pass(const MetallicRoughness *m, Vec3 wo)
@@ -326,13 +349,14 @@ bool metallic_roughness_sample(const MetallicRoughness *m, Vec3 wo, const float 
                                BsdfSample *sample)
 {
     if (!(wo.z > 0)) return false;
-    Choices c = choose(m, wo);
+    View    view = view_from(m, wo);
+    Choices c = view.choices;
     if (u[2] >= c.coat + c.mirror + c.diffuse + c.through) return false;
     bool by_coat = u[2] < c.coat;
     bool by_mirror = !by_coat && u[2] < c.coat + c.mirror;
     bool by_pane = u[2] >= c.coat + c.mirror + c.diffuse;
-    if (by_coat && is_smooth(m->clearcoat_alpha)) return sample_smooth_coat(m, wo, c.coat, sample);
-    if (by_mirror && is_smooth(m->alpha)) return sample_smooth_base(m, wo, c.mirror, sample);
+    if (by_coat && is_smooth(m->clearcoat_alpha)) return sample_smooth_coat(&view, sample);
+    if (by_mirror && is_smooth(m->alpha)) return sample_smooth_base(&view, sample);
     if (by_pane && is_smooth(m->alpha)) {
         sample_smooth(sample, vec3_neg(wo), metallic_roughness_pass(m, wo), c.through);
         return sample->passes = true;
@@ -340,7 +364,7 @@ bool metallic_roughness_sample(const MetallicRoughness *m, Vec3 wo, const float 
     Vec3 wi = sample_rough(m, wo, c, u);
     if (!(by_pane ? wi.z < 0 : wi.z > 0)) return false;
     float    pdf;
-    Spectrum f = eval_chosen(m, wo, wi, c, &pdf);
+    Spectrum f = eval_view(&view, wi, &pdf);
     if (!(pdf > 0)) return false;
     *sample = (BsdfSample){.wi = wi, .weight = f * spectrum_all(fabsf(wi.z) / pdf), .pdf = pdf};
     return true;

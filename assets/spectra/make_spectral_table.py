@@ -20,6 +20,7 @@ OUT = HERE.parents[1] / "src" / "spectrum" / "spectral_table.c"
 FIRST, LAST = 360, 830
 NM = np.arange(FIRST, LAST + 1.0)
 K_M = 683.002  # lm/W, CIE
+GUIDES = 512  # equal shares of the density, for a quick start of its inversion
 UNIFORM_SHARE = 0.02  # of the density that wavelengths are drawn from
 
 
@@ -132,8 +133,10 @@ def main():
     rows = zip(*observer, *basis, d65, a)
     text = HEAD + "const SpectralRow spectral_table[SPECTRAL_COUNT] = {\n"
     text += "".join(row(*values) for values in rows)
-    text += "};\n\n" + numbers("const float wavelength_cdf[SPECTRAL_COUNT]",
-                               sampling_steps(observer) / 2.0 ** 24)
+    steps = sampling_steps(observer)
+    guide = np.searchsorted(steps, np.arange(GUIDES) * 2 ** 24 // GUIDES, side="right") - 1
+    text += "};\n\n" + numbers("const float wavelength_steps[SPECTRAL_COUNT]", steps, 9)
+    text += "\n" + numbers("const short wavelength_guide[WAVELENGTH_GUIDES]", guide, 18)
     text += "\n" + numbers("const float d65_white_xyz[3]", white)
     text += "\n" + numbers("const float rgb_from_xyz_matrix[9]", matrix.ravel())
     text += "\n" + numbers("const float xyz_from_rgb_matrix[9]", np.linalg.inv(matrix).ravel())
@@ -148,8 +151,8 @@ def row(x, y, z, red, green, blue, *sources):
     return "    {" + ", ".join(texts) + "},\n"
 
 
-def numbers(name, values):
-    lines = [values[i:i + 5] for i in range(0, len(values), 5)]
+def numbers(name, values, per_line=5):
+    lines = [values[i:i + per_line] for i in range(0, len(values), per_line)]
     return name + " = {\n" + "".join(
         "    " + ", ".join(f"{np.float32(v):.9g}" for v in line) + ",\n" for line in lines) + "};\n"
 

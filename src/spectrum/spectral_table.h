@@ -21,8 +21,12 @@ typedef struct SpectralRow {
 
 extern const SpectralRow spectral_table[SPECTRAL_COUNT];
 
-/* Share of sampled wavelengths below 360 nm + i; multiples of 2^-24, from 0 to 1. */
-extern const float wavelength_cdf[SPECTRAL_COUNT];
+/* Share of sampled wavelengths below 360 nm + i, in units of 2^-24: from 0 to 2^24, whole. */
+extern const float wavelength_steps[SPECTRAL_COUNT];
+
+/* The nanometre (from 360) in which the share reaches i / WAVELENGTH_GUIDES. */
+#define WAVELENGTH_GUIDES 512
+extern const short wavelength_guide[WAVELENGTH_GUIDES];
 
 /* Tristimulus values of D65 with Y = 1, as this table's observer sees it. */
 extern const float d65_white_xyz[3];

@@ -42,13 +42,15 @@ static inline Spectrum spectrum_clamp(Spectrum a, float low, float high)
     return spectrum_min(spectrum_max(a, spectrum_all(low)), spectrum_all(high));
 }
 
-/* Sum over the lanes, in a fixed order (the same bits for every instruction set). */
+/* Sum over the lanes, in a fixed order (the same bits for every instruction set): halves are
+ * folded onto each other until four numbers are left. */
 static inline float spectrum_sum(Spectrum a)
 {
-    float half[8], quarter[4];
-    for (int i = 0; i < 8; i++) half[i] = a[i] + a[i + 8];
-    for (int i = 0; i < 4; i++) quarter[i] = half[i] + half[i + 4];
-    return (quarter[0] + quarter[2]) + (quarter[1] + quarter[3]);
+    typedef float Four __attribute__((vector_size(16)));
+    Four part[4];
+    memcpy(part, &a, sizeof part);
+    Four sum = (part[0] + part[2]) + (part[1] + part[3]);
+    return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
 
 static inline float spectrum_mean(Spectrum a)

@@ -13,55 +13,30 @@ static Row load_row(int i)
     return row;
 }
 
-/* The nanometre with cdf[cell] <= u < cdf[cell + 1], not below `low`: lanes ask in rising order,
- * so that the search gallops from the cell of the lane before. */
-static int find_cell(float u, int low)
-{
-    int high = SPECTRAL_COUNT - 1;
-    int step = 8;
-    while (low + step < high && wavelength_cdf[low + step] <= u) {
-        low += step;
-        step *= 2;
-    }
-    if (low + step < high) high = low + step;
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        if (wavelength_cdf[middle] <= u)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-/* The density is constant within a nanometre, so the inverse of its integral is linear there;
- * the cdf's values are multiples of 2^-24, so their differences are exact. */
+/* The density is constant within a nanometre, so the inverse of its integral is linear there.
+ * Shares are whole multiples of 2^-24, so their differences are exact. */
 void wavelengths_sample(float offset, Wavelengths *out)
 {
-    const float k_m = (float)(LUMINOUS_EFFICACY_MAX / SPECTRUM_LANES);
-    float lanes[8][SPECTRUM_LANES];
-    int   cell = 0;
+    const float k_m = (float)(LUMINOUS_EFFICACY_MAX / SPECTRUM_LANES) * 0x1p24f;
     for (int i = 0; i < SPECTRUM_LANES; i++) {
-        float u = ((float)i + offset) * (1.0f / SPECTRUM_LANES);
-        cell = find_cell(u, cell);
-        float width = 1 / (wavelength_cdf[cell + 1] - wavelength_cdf[cell]);
-        float t = clampf((u - wavelength_cdf[cell]) * width, 0, 1);
+        float share = ((float)i + offset) * (0x1p24f / SPECTRUM_LANES);
+        share = share < 0x1p24f ? share : 0x1p24f - 1; /* i + offset may round up */
+        int   cell = wavelength_guide[(int)(share * (WAVELENGTH_GUIDES * 0x1p-24f))];
+        while (wavelength_steps[cell + 1] <= share) cell++;
+        float width = 1 / (wavelength_steps[cell + 1] - wavelength_steps[cell]);
+        float t = (share - wavelength_steps[cell]) * width, weight = k_m * width;
         Row   low = load_row(cell), high = load_row(cell + 1);
         Row   row = low + (high - low) * (Row){t, t, t, t, t, t, t, t};
-        float weight = k_m * width;
-        for (int k = 0; k < 3; k++) lanes[k][i] = row[k] * weight;
-        for (int k = 3; k < 7; k++) lanes[k][i] = row[k];
-        lanes[7][i] = (float)(SPECTRAL_FIRST_NM + cell) + t;
+        for (int k = 0; k < 3; k++) out->xyz[k][i] = row[k] * weight;
+        for (int k = 0; k < 3; k++) out->rgb[k][i] = row[k + 3];
+        out->d65[i] = row[6];
+        out->nm[i] = (float)(SPECTRAL_FIRST_NM + cell) + t;
     }
-    memcpy(&out->xyz, lanes[0], sizeof out->xyz);
-    memcpy(&out->rgb, lanes[3], sizeof out->rgb);
-    memcpy(&out->d65, lanes[6], sizeof out->d65);
-    memcpy(&out->nm, lanes[7], sizeof out->nm);
 }
 
 float wavelengths_pdf(float nm)
 {
     if (!(nm >= SPECTRAL_FIRST_NM && nm < SPECTRAL_LAST_NM)) return 0;
     int cell = (int)nm - SPECTRAL_FIRST_NM;
-    return wavelength_cdf[cell + 1] - wavelength_cdf[cell];
+    return (wavelength_steps[cell + 1] - wavelength_steps[cell]) * 0x1p-24f;
 }

@@ -108,9 +108,9 @@ static void wavelengths_cover_the_range_once(void **state)
     double integral = 0;
     for (int i = 0; i < 47000; i++) integral += (double)wavelengths_pdf(360.005f + 0.01f * (float)i) * 0.01;
     assert_close(integral, 1, 1e-4);
-    for (int i = 0; i < 1000; i++) {
+    for (int i = 0; i <= 1000; i++) {
         Wavelengths w;
-        wavelengths_sample((float)i / 1000, &w);
+        wavelengths_sample(i < 1000 ? (float)i / 1000 : 0x1.fffffep-1f, &w);
         for (int k = 0; k < SPECTRUM_LANES; k++) {
             assert_true(w.nm[k] >= 360 && w.nm[k] <= 830);
             if (k) assert_true(w.nm[k] > w.nm[k - 1]);
