@@ -14,6 +14,9 @@ mkdir -p $out
 
 echo "commit $(git rev-parse --short HEAD 2>/dev/null || echo unknown), $(nproc) processors"
 python3 tests/bench/frames.py "$runs" .build/release/parhelion
-for bench in .build/release/bench_*; do
-    [ ! -x "$bench" ] || "$bench" "$runs"
-done
+dashboard='scenes/car_dashboard.gltf scenes/noon.gltf'
+# shellcheck disable=SC2086
+.build/release/bench_tracing "$runs" $dashboard
+.build/release/bench_tracing "$runs" $out/box.gltf
+.build/release/bench_shaders "$runs"
+.build/release/bench_hemisphere
