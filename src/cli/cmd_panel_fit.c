@@ -1,0 +1,164 @@
+/* panel fit, panel simulate: from files of a laboratory (or a recipe) to a panel file. */
+#include <stdio.h>
+
+#include "base/units.h"
+#include "cli/cli.h"
+#include "cli/panel_commands.h"
+#include "panel/fit.h"
+#include "panel/simulate.h"
+
+#define ARENA_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
+#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
+
+static void print_table(const json_t *table)
+{
+    printf("%-16s %10.0f %12.0f %9.0f %8.1f %9.2g %9.2g %9.2g %9.2g %6.2f%%\n",
+           json_string_value(json_object_get(table, "name")),
+           json_number_value(json_object_get(table, "source_bytes_text")),
+           json_number_value(json_object_get(table, "stored_values")),
+           json_number_value(json_object_get(table, "bytes")),
+           json_number_value(json_object_get(table, "ratio")),
+           json_number_value(json_object_get(table, "max_error")),
+           json_number_value(json_object_get(table, "rms_error")),
+           json_number_value(json_object_get(table, "integral_error")),
+           json_number_value(json_object_get(table, "noise")),
+           100 * json_number_value(json_object_get(table, "extrapolated_share")));
+}
+
+void panel_print_report(const json_t *report)
+{
+    size_t  i;
+    json_t *value;
+    printf("panel      %s\nsource     %s (%s)\n",
+           json_string_value(json_object_get(report, "panel")),
+           json_string_value(json_object_get(report, "source")),
+           json_string_value(json_object_get(report, "instrument")));
+    json_array_foreach(json_object_get(report, "notes"), i, value)
+        printf("note       %s\n", json_string_value(value));
+    printf("errors are relative; sizes in bytes; trees are shared, a table's part is its even "
+           "share\n%-16s %10s %12s %9s %8s %9s %9s %9s %9s %7s\n", "table", "text", "values",
+           "bytes", "ratio", "max err", "rms err", "integral", "noise", "extrap.");
+    json_array_foreach(json_object_get(report, "tables"), i, value) print_table(value);
+    print_table(json_object_get(report, "total"));
+}
+
+bool cmd_panel_fit(int argc, char **argv, Error *err)
+{
+    Arena       arena = arena_reserve(ARENA_BYTES);
+    Cli         cli;
+    const char *output = NULL;
+    int         basis = 0, wavelet = WAVELET_CDF53, weights = 0, incidence = 0;
+    long        level = 0;
+    double      keep = 0, max_error = 0, frame = 0;
+    const Option options[] = {
+        {"-o", OPTION_TEXT, "X.panel", "the file to write", &output, .given = NULL},
+        {"--basis", OPTION_CHOICE, "haar", "basis on the hemisphere (default haar)", &basis,
+         .given = NULL},
+        {"--weights", OPTION_CHOICE, "area|equal", "means by area or equal (default area)",
+         &weights, .given = NULL},
+        {"--level", OPTION_INTEGER, "N", "subdivision level of the trees (default 6)", &level,
+         2, 9, .given = NULL},
+        {"--keep", OPTION_NUMBER, "SHARE", "share of coefficients to keep, instead of a bound",
+         &keep, 1e-5, 1, .given = NULL},
+        {"--max-error", OPTION_NUMBER, "R", "relative error bound of the trees (default 0.003)",
+         &max_error, 1e-5, 1, .given = NULL},
+        {"--wavelet", OPTION_CHOICE, "haar|cdf53|cdf97",
+         "wavelet along the wavelengths (default cdf53)", &wavelet, .given = NULL},
+        {"--frame", OPTION_NUMBER, "K", "exponent of the specular frame, 1 to 3 (default: choose)",
+         &frame, 1, 3, .given = NULL},
+        {"--incidence", OPTION_CHOICE, "cubic|linear",
+         "between incidences: four slices or two (default cubic)", &incidence, .given = NULL},
+    };
+    const CliCommand command = {"panel fit", "measurement files to one compressed panel file",
+        "MANIFEST.json|TABLE.csv -o X.panel [options]",
+        "parhelion panel fit measured/MANIFEST.json -o cluster.panel", options, COUNT(options),
+        1, 1};
+    if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
+    if (cli.help_shown) return true;
+    if (!output) return error_set(err, ERROR_USAGE, "panel fit wants -o X.panel");
+    if (keep > 0 && max_error > 0)
+        return error_set(err, ERROR_USAGE, "--keep and --max-error exclude each other");
+    FitOptions fit = fit_options_default();
+    fit.level = (int)level;
+    fit.wavelet = (WaveletKind)wavelet;
+    fit.weights = weights ? HAAR_EQUAL : HAAR_AREA;
+    fit.frame_exponent = (float)frame;
+    fit.is_linear_in_incidence = incidence == 1;
+    fit.progress = cli.progress;
+    if (max_error > 0) fit.max_error = (float)max_error;
+    if (keep > 0) {
+        fit.keep_share = (float)keep;
+        fit.max_error = 0;
+    }
+    Measurement *set = ARENA_NEW(&arena, Measurement, 1);
+    json_t      *report = NULL;
+    bool ok = measurement_read(cli.arguments[0], &arena, set, err) &&
+              panel_fit(set, &fit, output, &arena, &report, err);
+    if (ok && cli.json) {
+        ok = cli_print_json(report, err);
+    } else if (ok) {
+        panel_print_report(report);
+        json_decref(report);
+    }
+    arena_release(&arena);
+    return ok;
+}
+
+/* ---- simulate -------------------------------------------------------------------------- */
+
+/* The closed truth at one direction: what a perfect fit would say. */
+static bool print_truth(const Recipe *recipe, const double at[5], Error *err)
+{
+    double  xyz[3], angles[2] = {radians_from_degrees(at[0]), radians_from_degrees(at[1])};
+    json_t *brdf = json_array(), *mirror = json_array(), *nm = json_array();
+    truth_black_xyz(recipe, angles, xyz);
+    for (int p = 0; p < 3; p++) {
+        double add[3];
+        truth_emission_xyz(recipe, p, at[2 + p], angles, add);
+        for (int j = 0; j < 3; j++) xyz[j] += add[j];
+    }
+    json_t *document = json_pack("{s:f, s:f, s:[f,f,f], s:[f,f,f]}", "theta_deg", at[0],
+                                 "phi_deg", at[1], "rgb", at[2], at[3], at[4], "XYZ", xyz[0],
+                                 xyz[1], xyz[2]);
+    for (int w = 0; w < recipe->reflection.wavelength_count && recipe->reflection.exists; w++) {
+        double l = recipe->reflection.wavelength_nm[w];
+        json_array_append_new(nm, json_real(l));
+        json_array_append_new(brdf, json_real(truth_brdf(recipe, angles[0], angles[0], 0, l)));
+        json_array_append_new(mirror, json_real(truth_mirror(recipe, angles[0], l)));
+    }
+    json_object_set_new(document, "wavelengths_nm", nm);
+    json_object_set_new(document, "brdf_at_mirror_sr", brdf);
+    json_object_set_new(document, "mirror", mirror);
+    return cli_print_json(document, err);
+}
+
+bool cmd_panel_simulate(int argc, char **argv, Error *err)
+{
+    Arena       arena = arena_reserve(ARENA_BYTES);
+    Cli         cli;
+    Recipe      recipe;
+    const char *folder = NULL;
+    double      at[5];
+    bool        wants_truth = false;
+    const Option options[] = {
+        {"-o", OPTION_TEXT, "DIR", "folder for MANIFEST.json and its tables", &folder,
+         .given = NULL},
+        {"--truth", OPTION_NUMBERS, "THETA,PHI,R,G,B",
+         "print the recipe's exact value instead: degrees and codes", at, -360, 360, 5,
+         &wants_truth},
+    };
+    const CliCommand command = {"panel simulate",
+        "a virtual Fourier-optics instrument measures a recipe's panel",
+        "RECIPE.json -o DIR",
+        "parhelion panel simulate assets/panels/ips_cluster.recipe.json -o ips_cluster",
+        options, COUNT(options), 1, 1};
+    if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
+    if (cli.help_shown) return true;
+    if (!folder && !wants_truth)
+        return error_set(err, ERROR_USAGE, "panel simulate wants -o DIR");
+    bool ok = recipe_read(cli.arguments[0], &arena, &recipe, err);
+    if (ok && wants_truth) ok = print_truth(&recipe, at, err);
+    if (ok && folder) ok = simulate_measurement(&recipe, folder, cli.progress, err);
+    arena_release(&arena);
+    return ok;
+}

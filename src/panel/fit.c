@@ -1,0 +1,99 @@
+#include "panel/fit.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/units.h"
+#include "panel/fit_parts.h"
+
+FitOptions fit_options_default(void)
+{
+    return (FitOptions){.max_error = 0.003f, .wavelet = WAVELET_CDF53, .weights = HAAR_AREA,
+                        .progress = PROGRESS_NONE};
+}
+
+void fit_note(FitNotes *notes, const char *format, ...)
+{
+    char    text[512];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    if (notes->count < 32)
+        notes->text[notes->count++] = arena_string(notes->arena, text, strlen(text));
+}
+
+static void note_limits(const Measurement *set, FitNotes *notes)
+{
+    if (set->is_white_only)
+        fit_note(notes, "white only: XYZ split into non-negative amounts of the Rec.709 "
+                 "primaries, level curve 2.2, black 0");
+    for (int p = 0; p < 3; p++)
+        if (set->primary[p].level[set->primary[p].level_count - 1] < 255)
+            fit_note(notes, "%s is measured up to level %g only; above, its power law goes on",
+                     p == 0 ? "red" : p == 1 ? "green" : "blue",
+                     set->primary[p].level[set->primary[p].level_count - 1]);
+    if (set->incidence_count)
+        fit_note(notes, "reflection beyond %.0f degrees of incidence is extrapolated: the haze "
+                 "moves in the panel's plane, its height follows Fresnel's formula",
+                 degrees_from_radians(set->incidence[set->incidence_count - 1]));
+}
+
+/* The report's text, then the file with it; errors are measured on the file's own bytes. */
+static bool finish_file(const FitParts *parts, const char *path, Arena *arena, json_t **report,
+                        Error *err)
+{
+    size_t size;
+    Panel *panel;
+    void  *bytes = fit_file_bytes(parts, "{}", arena, &size);
+    if (!panel_from_bytes(bytes, size, path, arena, &panel, err)) return false;
+    json_t *document = fit_measure(parts, panel, size, *arena);
+    char   *text = json_dumps(document, JSON_COMPACT | JSON_REAL_PRECISION(6));
+    if (!text) {
+        json_decref(document);
+        return error_set(err, ERROR_MEMORY, "the report does not fit into memory");
+    }
+    bytes = fit_file_bytes(parts, text, arena, &size);
+    free(text);
+    if (!file_write(path, bytes, size, err)) {
+        json_decref(document);
+        return false;
+    }
+    *report = document;
+    return true;
+}
+
+bool panel_fit(const Measurement *measurement, const FitOptions *options, const char *path,
+               Arena *arena, json_t **report, Error *err)
+{
+    FitNotes        notes = {.arena = arena};
+    FitEmission    *emission = ARENA_NEW(arena, FitEmission, 1);
+    FitReflection  *reflection = ARENA_NEW(arena, FitReflection, 1);
+    PanelPrimaries *primaries = ARENA_NEW(arena, PanelPrimaries, 1);
+    FitParts parts = {measurement, options, emission, primaries,
+                      measurement->incidence_count ? reflection : NULL, &notes};
+    Progress progress = progress_start(options->progress, "fit", "steps", 4);
+    note_limits(measurement, &notes);
+    if (!fit_emission(measurement, options, arena, &notes, emission, err)) return false;
+    progress_update(&progress, 1);
+    fit_spectra(measurement, emission, &notes, primaries);
+    progress_update(&progress, 2);
+    if (parts.reflection &&
+        !fit_reflection(measurement, options, arena, &notes, reflection, err))
+        return false;
+    progress_update(&progress, 3);
+    bool ok = finish_file(&parts, path, arena, report, err);
+    progress_end(&progress, 4);
+    return ok;
+}
+
+bool panel_report(const Panel *panel, json_t **report, Error *err)
+{
+    json_error_t fault;
+    *report = json_loadb(panel->meta, panel->meta_size, 0, &fault);
+    if (*report) return true;
+    return error_set(err, ERROR_INPUT, "the panel's report is no JSON: %s", fault.text);
+}

@@ -1,0 +1,40 @@
+/* fit.h -- from measured tables to one compressed panel file.
+ *
+ * Emission: the logarithm of every table's X, Y, Z (black-compensated) at the triangles'
+ * centres, as a few principal components over the tables, in one Haar tree. Reflection: the
+ * logarithm of f / F(theta_i) in the specular-following frame, the spectrum by a 1-D wavelet,
+ * all incidences in one Haar tree; the mirror's image is taken out first.
+ *
+ * Memory   the arena's. Threads: one fit at a time per arena.
+ * Fails    with the file that cannot be written; a measurement that was read is good to fit.
+ */
+#pragma once
+#include <jansson.h>
+
+#include "base/progress.h"
+#include "hemisphere/haar.h"
+#include "hemisphere/wavelet1d.h"
+#include "panel/measurement.h"
+
+/* Exactly one of keep_share and max_error is above 0; the others have 0 for "choose". */
+typedef struct FitOptions {
+    int         level;      /* of the trees; 0: 6 for emission, 7 for reflection */
+    float       keep_share; /* stored rows over leaves, (0, 1] */
+    float       max_error;  /* relative, of each tree component */
+    WaveletKind wavelet;    /* along the wavelengths */
+    HaarWeights weights;
+    float       frame_exponent; /* k of the specular-following frame; 0: choose */
+    bool        is_linear_in_incidence; /* over two slices instead of cubic over four */
+    ProgressMode progress;
+} FitOptions;
+
+FitOptions fit_options_default(void);
+
+/* Fits, checks against the tables and writes the file at once (nothing half-written stays).
+ * *report: what `panel info` shows, owned by the caller (json_decref). */
+bool panel_fit(const Measurement *measurement, const FitOptions *options, const char *path,
+               Arena *arena, json_t **report, Error *err);
+
+/* The report inside a panel file; the caller's to release. */
+struct Panel;
+bool panel_report(const struct Panel *panel, json_t **report, Error *err);

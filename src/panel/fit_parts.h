@@ -1,0 +1,96 @@
+/* fit_parts.h -- the steps of a fit and what they hand to each other. Private to src/panel. */
+#pragma once
+#include "hemisphere/tree.h"
+#include "panel/fit.h"
+#include "panel/panel_file.h"
+
+/* One measured table in the report. */
+typedef struct FitTable {
+    const char *name;
+    size_t text_bytes, float32_bytes;
+    double stored_values, bytes;
+    double max_error, rms_error, integral_error, noise, extrapolated;
+} FitTable;
+
+typedef struct FitNotes {
+    const char *text[32];
+    int         count;
+    Arena      *arena;
+} FitNotes;
+
+void fit_note(FitNotes *notes, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* ---- emission -------------------------------------------------------------------------- */
+
+typedef struct FitEmission {
+    PanelEmission head;
+    float        *mean, *loading, *mean_y; /* as in the file */
+    const void   *tree;
+    TreeReport    tree_report;
+    float         ratio_low[4][2], ratio_high[4][2]; /* ranges of log X/Y, log Z/Y */
+    double        peak_xyz[4][3]; /* at the brightest level on the axis; 3: black */
+    double        noise[3 * PANEL_LEVELS_MAX + 1]; /* relative, per table; last: black */
+    double        rank_residual; /* rms of ln values that the components leave out */
+} FitEmission;
+
+bool fit_emission(const Measurement *set, const FitOptions *options, Arena *arena,
+                  FitNotes *notes, FitEmission *out, Error *err);
+
+/* Relative noise of a table: third differences along the rings, robust. channel: which. */
+double fit_noise(const AngleTable *table, int channel, Arena scratch);
+
+/* ---- spectra --------------------------------------------------------------------------- */
+
+void fit_spectra(const Measurement *set, const FitEmission *emission, FitNotes *notes,
+                 PanelPrimaries *out);
+
+/* Coefficients c that bend a spectrum of 1 cd m^-2 so that ln X/Y and ln Z/Y become `ratio`
+ * and Y stays 1; c holds the start and the result. False: no solution near. */
+bool fit_bend(const float *spectrum, const double ratio[2], double c[3]);
+
+/* XYZ in cd m^-2 of spectrum * exp(c0 + c1 t + c2 t^2), all linear between whole nm. */
+void fit_bent_xyz(const float *spectrum, const double c[3], double xyz[3]);
+
+/* ---- reflection ------------------------------------------------------------------------ */
+
+typedef struct FitReflection {
+    PanelReflection head;
+    float          *basis, *mirror;
+    const void     *tree;
+    TreeReport      tree_report;
+    const void     *sampling[PANEL_SLICES_MAX];
+    AngleTable      haze[MEASUREMENT_INCIDENCES_MAX]; /* what is left without the mirror */
+    double          noise[MEASUREMENT_INCIDENCES_MAX];
+    double          mirror_y[MEASUREMENT_INCIDENCES_MAX]; /* luminous mirror reflectance */
+    double          largest_albedo; /* before it was held at 1 */
+    bool            has_mirror;
+} FitReflection;
+
+bool fit_reflection(const Measurement *set, const FitOptions *options, Arena *arena,
+                    FitNotes *notes, FitReflection *out, Error *err);
+
+/* Takes the mirror's image out of one slice: reflectance[wavelength], and the table without
+ * it (values in the arena). */
+void fit_mirror(const AngleTable *slice, double incidence, double fwhm, Arena *arena,
+                double *reflectance, AngleTable *haze);
+
+/* Unpolarised Fresnel reflectance that reflection tables are divided by. */
+double fit_fresnel(double cos_theta);
+#define FIT_REFRACTIVE_INDEX 1.5
+
+/* ---- the file and the report ----------------------------------------------------------- */
+
+typedef struct FitParts {
+    const Measurement    *set;
+    const FitOptions     *options;
+    const FitEmission    *emission;
+    const PanelPrimaries *primaries;
+    const FitReflection  *reflection; /* NULL: none */
+    FitNotes             *notes;
+} FitParts;
+
+/* The file's bytes with this meta text; *size bytes in the arena, aligned to 64. */
+void *fit_file_bytes(const FitParts *parts, const char *meta, Arena *arena, size_t *size);
+
+/* Compares the panel with the tables; a new JSON document. */
+json_t *fit_measure(const FitParts *parts, const Panel *panel, size_t file_bytes, Arena scratch);

@@ -1,0 +1,50 @@
+/* json_view.h -- typed, checked reading of one JSON object of a user's file.
+ *
+ * Every error names the file, the JSON path, what was found and what was wanted; an unknown
+ * key names the nearest known one.
+ *
+ * Memory   texts are copied into the arena; the document itself is released by json_view_close.
+ * Threads  one at a time.
+ */
+#pragma once
+#include <jansson.h>
+#include <stdbool.h>
+
+#include "base/arena.h"
+#include "base/error.h"
+
+typedef struct JsonView {
+    json_t     *object; /* NULL: the key was absent and everything keeps its default */
+    const char *file;   /* as the user named it */
+    const char *path;   /* JSON path of the object, "" for the root */
+    Arena      *arena;
+} JsonView;
+
+/* Reads a file that holds one JSON object; duplicate keys are refused. */
+bool json_view_open(const char *file, Arena *arena, JsonView *out, Error *err);
+void json_view_close(JsonView *root);
+
+/* Refuses a key that is not among the known ones. */
+bool json_view_check_keys(const JsonView *view, const char *const *known, int count,
+                          Error *err);
+
+/* The object under a key. Absent: out->object is NULL, or an error when required. */
+bool json_view_child(const JsonView *view, const char *key, bool required, JsonView *out,
+                     Error *err);
+
+/* A finite number in [low, high]; absent: *out keeps its value. */
+bool json_view_number(const JsonView *view, const char *key, double low, double high,
+                      double *out, Error *err);
+
+/* An array of at most `capacity` finite numbers in [low, high]; absent: out keeps its values. */
+bool json_view_numbers(const JsonView *view, const char *key, const double limits[2],
+                       double *out, int capacity, int *count, Error *err);
+
+/* A text; absent: *out keeps its value. */
+bool json_view_text(const JsonView *view, const char *key, const char **out, Error *err);
+
+/* JSON path of a member, from the arena. */
+const char *json_view_path(const JsonView *view, const char *key);
+
+/* The known word that is nearest to `word` by edits. */
+const char *nearest_word(const char *word, const char *const *known, int count);

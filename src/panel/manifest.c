@@ -1,0 +1,404 @@
+/* MANIFEST.json: which tables a measurement set has, and the set as a whole. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/units.h"
+#include "panel/csv_table.h"
+#include "panel/json_view.h"
+#include "panel/measurement.h"
+
+#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
+
+static const char *const primary_names[3] = {"red", "green", "blue"};
+
+/* Reads the table that `value` names: a CSV's path, or {"X": ..., "Y": ..., "Z": ...}. */
+static bool read_emission_table(const JsonView *view, const char *key, const char *name,
+                                AngleTable *out, Error *err)
+{
+    static const char *const components[3] = {"X", "Y", "Z"};
+    json_t *value = json_object_get(view->object, key);
+    if (json_is_string(value)) {
+        const char *file = path_beside(view->file, json_string_value(value), view->arena);
+        return angle_table_read_xyz(file, name, view->arena, out, err);
+    }
+    if (!json_is_object(value))
+        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
+                        "wanted a table's path, or an object with X, Y and Z paths");
+    JsonView    grid;
+    const char *file[3];
+    if (!json_view_child(view, key, true, &grid, err) ||
+        !json_view_check_keys(&grid, components, 3, err))
+        return false;
+    for (int j = 0; j < 3; j++) {
+        json_t *text = json_object_get(grid.object, components[j]);
+        if (!json_is_string(text))
+            return error_at(err, ERROR_INPUT, view->file, grid.path,
+                            "key '%s' is missing or no text", components[j]);
+        file[j] = path_beside(view->file, json_string_value(text), view->arena);
+    }
+    return angle_table_read_grid(file, name, view->arena, out, err);
+}
+
+typedef struct LevelKey {
+    double      level;
+    const char *key;
+} LevelKey;
+
+static int by_level(const void *a, const void *b)
+{
+    double p = ((const LevelKey *)a)->level, q = ((const LevelKey *)b)->level;
+    return p < q ? -1 : p > q;
+}
+
+static bool read_level_keys(const JsonView *view, LevelKey *keys, int *count, Error *err)
+{
+    const char *key;
+    json_t     *value;
+    *count = 0;
+    json_object_foreach(view->object, key, value) {
+        char  *after;
+        double level = strtod(key, &after);
+        if (after == key || *after || !(level > 0 && level <= 255))
+            return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
+                            "is no grey level, wanted a number above 0 and up to 255");
+        if (*count == MEASUREMENT_LEVELS_MAX)
+            return error_at(err, ERROR_INPUT, view->file, view->path,
+                            "has more than %d levels", MEASUREMENT_LEVELS_MAX);
+        keys[(*count)++] = (LevelKey){level, key};
+    }
+    qsort(keys, (size_t)*count, sizeof *keys, by_level);
+    return *count || error_at(err, ERROR_INPUT, view->file, view->path,
+                              "has no grey levels, wanted at least \"255\"");
+}
+
+static bool read_primary(const JsonView *emission, int index, MeasuredPrimary *out, Error *err)
+{
+    JsonView view;
+    LevelKey keys[MEASUREMENT_LEVELS_MAX];
+    int      count;
+    if (!json_view_child(emission, primary_names[index], true, &view, err) ||
+        !read_level_keys(&view, keys, &count, err))
+        return false;
+    for (int i = 0; i < count; i++) {
+        const char *name = arena_format(view.arena, "%s %03g", primary_names[index],
+                                        keys[i].level);
+        if (i && keys[i].level == keys[i - 1].level)
+            return error_at(err, ERROR_INPUT, view.file, json_view_path(&view, keys[i].key),
+                            "is the same grey level as '%s'", keys[i - 1].key);
+        if (!read_emission_table(&view, keys[i].key, name, &out->table[i], err)) return false;
+        out->level[i] = keys[i].level;
+    }
+    out->level_count = count;
+    return true;
+}
+
+/* ---- white-only tables ---------------------------------------------------------------- */
+
+/* XYZ as non-negative amounts of the Rec.709 primaries: amounts below zero become zero and
+ * the luminance is kept. */
+static void split_white(const float xyz[3], float amount[3])
+{
+    float before = 0, after = 0;
+    for (int p = 0; p < 3; p++) {
+        amount[p] = 0;
+        for (int j = 0; j < 3; j++) amount[p] += rgb_from_xyz_matrix[3 * p + j] * xyz[j];
+        float weight = xyz_from_rgb_matrix[3 + p];
+        before += amount[p] * weight;
+        amount[p] = amount[p] > 0 ? amount[p] : 0;
+        after += amount[p] * weight;
+    }
+    for (int p = 0; p < 3; p++) amount[p] *= after > 0 ? before / after : 0;
+}
+
+/* One level a primary, from the white table with the black one (if any) left in it once. */
+static void split_white_table(const AngleTable *white, Arena *arena, Measurement *out)
+{
+    float *value[3];
+    for (int p = 0; p < 3; p++) {
+        value[p] = ARENA_NEW(arena, float, 3 * (size_t)white->rows);
+        out->primary[p].level_count = 1;
+        out->primary[p].level[0] = 255;
+        out->primary[p].table[0] = *white;
+        out->primary[p].table[0].name = arena_format(arena, "%s 255", primary_names[p]);
+        out->primary[p].table[0].value = value[p];
+        if (p) out->primary[p].table[0].text_bytes = 0;
+    }
+    for (int i = 0; i < white->rows; i++) {
+        float amount[3];
+        split_white(white->value + 3 * i, amount);
+        for (int p = 0; p < 3; p++)
+            for (int j = 0; j < 3; j++)
+                value[p][3 * i + j] = amount[p] * xyz_from_rgb_matrix[3 * j + p];
+    }
+    out->is_white_only = true;
+}
+
+static bool read_white(const JsonView *emission, Measurement *out, Error *err)
+{
+    AngleTable white;
+    for (int p = 0; p < 3; p++)
+        if (json_object_get(emission->object, primary_names[p]))
+            return error_at(err, ERROR_INPUT, emission->file, emission->path,
+                            "has both 'white' and '%s', wanted either the white table or the "
+                            "three primaries", primary_names[p]);
+    if (json_object_get(emission->object, "black"))
+        return error_at(err, ERROR_INPUT, emission->file, emission->path,
+                        "has both 'white' and 'black'; a white-only set has a black of 0");
+    if (!read_emission_table(emission, "white", "white", &white, err)) return false;
+    split_white_table(&white, emission->arena, out);
+    return true;
+}
+
+static bool read_emission(const JsonView *root, Measurement *out, Error *err)
+{
+    static const char *const keys[] = {"black", "red", "green", "blue", "white"};
+    JsonView view;
+    if (!json_view_child(root, "emission", true, &view, err) ||
+        !json_view_check_keys(&view, keys, COUNT(keys), err))
+        return false;
+    if (json_object_get(view.object, "white")) return read_white(&view, out, err);
+    if (!json_object_get(view.object, "black"))
+        return error_at(err, ERROR_INPUT, view.file, view.path,
+                        "key 'black' is missing: the black pattern's table");
+    if (!read_emission_table(&view, "black", "black", &out->black, err)) return false;
+    out->has_black = true;
+    for (int p = 0; p < 3; p++)
+        if (!read_primary(&view, p, &out->primary[p], err)) return false;
+    return true;
+}
+
+/* ---- spectra --------------------------------------------------------------------------- */
+
+/* Linear between measured wavelengths, zero outside them. */
+static void resample_spectrum(const CsvTable *csv, int nm_column, int column, float *out)
+{
+    size_t width = (size_t)csv->columns;
+    int    last = 0;
+    for (int i = 0; i < SPECTRAL_COUNT; i++) {
+        float nm = (float)(SPECTRAL_FIRST_NM + i);
+        while (last + 2 < csv->rows && csv->cell[(size_t)(last + 1) * width + (size_t)nm_column] <= nm)
+            last++;
+        const float *a = csv->cell + (size_t)last * width;
+        const float *b = csv->rows > 1 ? a + width : a;
+        float t = b[nm_column] > a[nm_column] ? (nm - a[nm_column]) /
+                                                (b[nm_column] - a[nm_column]) : 0;
+        float value = a[column] + (b[column] - a[column]) * t;
+        out[i] = t >= 0 && t <= 1 && value > 0 ? value : 0;
+    }
+}
+
+static bool check_spectra(const CsvTable *csv, int nm_column, Arena *arena, Error *err)
+{
+    for (int i = 0; i < csv->rows; i++) {
+        const float *row = csv->cell + (size_t)i * (size_t)csv->columns;
+        if (i && !(row[nm_column] > row[nm_column - csv->columns]))
+            return error_at(err, ERROR_INPUT, csv->file, csv_table_place(csv, i, arena),
+                            "wavelength %g follows %g, wanted rising wavelengths",
+                            (double)row[nm_column], (double)row[nm_column - csv->columns]);
+    }
+    return true;
+}
+
+static bool spectrum_has_light(const float *spectrum)
+{
+    for (int i = 0; i < SPECTRAL_COUNT; i++)
+        if (spectrum[i] > 0 && spectral_table[i].y > 0) return true;
+    return false;
+}
+
+static bool read_spectra(const char *file, Arena *arena, Measurement *out, Error *err)
+{
+    static const char *const known[] = {"nm", "red", "green", "blue", "black"};
+    CsvTable csv;
+    if (!csv_table_read(file, arena, &csv, err)) return false;
+    for (int c = 0; c < csv.columns; c++) {
+        bool found = false;
+        for (int i = 0; i < COUNT(known); i++) found |= !strcmp(csv.name[c], known[i]);
+        if (!found)
+            return error_at(err, ERROR_INPUT, file, "header line",
+                            "column '%s' is unknown; the nearest known one is '%s'",
+                            csv.name[c], nearest_word(csv.name[c], known, COUNT(known)));
+    }
+    int nm = csv_table_column(&csv, "nm");
+    for (int i = 0; i < 4; i++)
+        if (csv_table_column(&csv, known[i]) < 0)
+            return error_at(err, ERROR_INPUT, file, "header line", "has no column '%s'",
+                            known[i]);
+    if (!check_spectra(&csv, nm, arena, err)) return false;
+    for (int p = 0; p < 3; p++) {
+        resample_spectrum(&csv, nm, csv_table_column(&csv, primary_names[p]),
+                          out->spectrum[p]);
+        if (!spectrum_has_light(out->spectrum[p]))
+            return error_at(err, ERROR_INPUT, file, "", "column '%s' holds no light between "
+                            "360 and 830 nm", primary_names[p]);
+    }
+    out->has_spectra = true;
+    return true;
+}
+
+/* ---- reflection ------------------------------------------------------------------------ */
+
+/* The pattern with {incidence} and {wavelength} replaced; a negative number stays out. */
+static const char *fill_pattern(const char *pattern, double incidence, double wavelength,
+                                Arena *arena)
+{
+    const char *text = "";
+    while (*pattern) {
+        if (!strncmp(pattern, "{incidence}", 11)) {
+            text = arena_format(arena, "%s%.10g", text, incidence);
+            pattern += 11;
+        } else if (!strncmp(pattern, "{wavelength}", 12)) {
+            text = arena_format(arena, "%s%.10g", text, wavelength);
+            pattern += 12;
+        } else {
+            text = arena_format(arena, "%s%c", text, *pattern++);
+        }
+    }
+    return text;
+}
+
+static bool same_directions(const AngleTable *a, const AngleTable *b)
+{
+    return a->rows == b->rows &&
+           !memcmp(a->theta, b->theta, sizeof *a->theta * (size_t)a->rows) &&
+           !memcmp(a->phi, b->phi, sizeof *a->phi * (size_t)a->rows);
+}
+
+/* One file a wavelength becomes one table. */
+static bool join_wavelengths(const JsonView *view, const char *pattern, double incidence,
+                             const Measurement *set, AngleTable *out, Error *err)
+{
+    Arena *arena = view->arena;
+    float *value = NULL;
+    size_t count = (size_t)set->wavelength_count;
+    for (size_t w = 0; w < count; w++) {
+        AngleTable one;
+        double nm = (double)set->wavelength_nm[w];
+        const char *file = path_beside(view->file, fill_pattern(pattern, incidence, nm, arena),
+                                       arena);
+        if (!angle_table_read_brdf(file, "", &set->wavelength_nm[w], 1, arena, &one, err))
+            return false;
+        if (!w) {
+            *out = one;
+            out->text_bytes = 0;
+            value = ARENA_NEW(arena, float, count * (size_t)one.rows);
+        } else if (!same_directions(out, &one)) {
+            return error_at(err, ERROR_INPUT, file, "", "has other directions than the table of "
+                            "%g nm, wanted the same at every wavelength",
+                            (double)set->wavelength_nm[0]);
+        }
+        out->text_bytes += one.text_bytes;
+        for (size_t i = 0; i < (size_t)one.rows; i++) value[i * count + w] = one.value[i];
+    }
+    out->value = value;
+    out->channels = set->wavelength_count;
+    return true;
+}
+
+static bool read_slices(const JsonView *view, const char *pattern, Measurement *out, Error *err)
+{
+    bool is_split = strstr(pattern, "{wavelength}") != NULL;
+    for (int i = 0; i < out->incidence_count; i++) {
+        double degrees = round(degrees_from_radians(out->incidence[i]) * 1e9) / 1e9;
+        const char *name = arena_format(view->arena, "brdf %g deg", degrees);
+        AngleTable *table = &out->brdf[i];
+        const char *file = path_beside(view->file, fill_pattern(pattern, degrees, -1,
+                                                                view->arena), view->arena);
+        if (is_split ? !join_wavelengths(view, pattern, degrees, out, table, err)
+                     : !angle_table_read_brdf(file, name, out->wavelength_nm,
+                                              out->wavelength_count, view->arena, table, err))
+            return false;
+        table->name = name;
+    }
+    return true;
+}
+
+static bool check_rising(const JsonView *view, const char *key, const double *value, int count,
+                         Error *err)
+{
+    for (int i = 1; i < count; i++)
+        if (!(value[i] > value[i - 1]))
+            return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
+                            "%g follows %g, wanted rising values", value[i], value[i - 1]);
+    return count > 0 || error_at(err, ERROR_INPUT, view->file, view->path,
+                                 "key '%s' is missing", key);
+}
+
+static bool read_reflection(const JsonView *root, Measurement *out, Error *err)
+{
+    static const char *const keys[] = {"wavelengths_nm", "incidence_deg", "files"};
+    JsonView    view;
+    const char *pattern = NULL;
+    double      nm[MEASUREMENT_WAVELENGTHS_MAX], degrees[MEASUREMENT_INCIDENCES_MAX];
+    int         nm_count = 0, count = 0;
+    if (!json_view_child(root, "reflection", false, &view, err)) return false;
+    if (!view.object) return true;
+    if (!json_view_check_keys(&view, keys, COUNT(keys), err) ||
+        !json_view_numbers(&view, "wavelengths_nm", (double[2]){360, 830}, nm, COUNT(nm),
+                           &nm_count, err) ||
+        !json_view_numbers(&view, "incidence_deg", (double[2]){0, 89}, degrees, COUNT(degrees),
+                           &count, err) ||
+        !json_view_text(&view, "files", &pattern, err) ||
+        !check_rising(&view, "wavelengths_nm", nm, nm_count, err) ||
+        !check_rising(&view, "incidence_deg", degrees, count, err))
+        return false;
+    if (!pattern || !strstr(pattern, "{incidence}"))
+        return error_at(err, ERROR_INPUT, view.file, json_view_path(&view, "files"),
+                        "wanted a pattern that holds {incidence}");
+    out->incidence_count = count;
+    out->wavelength_count = nm_count;
+    for (int i = 0; i < nm_count; i++) out->wavelength_nm[i] = (float)nm[i];
+    for (int i = 0; i < count; i++) out->incidence[i] = radians_from_degrees(degrees[i]);
+    return read_slices(&view, pattern, out, err);
+}
+
+static bool read_members(const JsonView *root, Measurement *out, Error *err)
+{
+    static const char *const keys[] = {"panel", "instrument", "note", "pixels", "size_mm",
+        "instrument_fwhm_deg", "emission", "primaries", "reflection"};
+    int         two = 2;
+    const char *primaries = NULL;
+    bool ok = json_view_check_keys(root, keys, COUNT(keys), err) &&
+        json_view_text(root, "panel", &out->panel, err) &&
+        json_view_text(root, "instrument", &out->instrument, err) &&
+        json_view_text(root, "note", &out->note, err) &&
+        json_view_text(root, "primaries", &primaries, err) &&
+        json_view_numbers(root, "pixels", (double[2]){1, 65536}, out->pixels, 2, &two, err) &&
+        json_view_numbers(root, "size_mm", (double[2]){1, 1e5}, out->size_mm, 2, &two, err) &&
+        json_view_number(root, "instrument_fwhm_deg", 0.05, 15, &out->instrument_fwhm_deg,
+                         err) &&
+        read_emission(root, out, err) && read_reflection(root, out, err);
+    if (!ok || !primaries) return ok;
+    return read_spectra(path_beside(root->file, primaries, root->arena), root->arena, out, err);
+}
+
+/* A lone CSV: white only. */
+static bool read_lone_table(const char *path, Arena *arena, Measurement *out, Error *err)
+{
+    AngleTable white;
+    if (!angle_table_read_xyz(path, "white", arena, &white, err)) return false;
+    split_white_table(&white, arena, out);
+    out->panel = path_name(path);
+    return true;
+}
+
+bool measurement_read(const char *path, Arena *arena, Measurement *out, Error *err)
+{
+    JsonView     root;
+    Measurement *set = ARENA_NEW(arena, Measurement, 1);
+    *set = (Measurement){.file = arena_string(arena, path, strlen(path)), .panel = "",
+                         .instrument = "", .note = ""};
+    bool ok;
+    if (!strcmp(path_ending(path), ".csv")) {
+        ok = read_lone_table(path, arena, set, err);
+    } else {
+        if (!json_view_open(path, arena, &root, err)) return false;
+        ok = read_members(&root, set, err);
+        json_view_close(&root);
+    }
+    if (ok) *out = *set;
+    return ok;
+}

@@ -1,0 +1,117 @@
+/* panel_file.h -- the layout of X.panel and of an opened Panel. Private to src/panel.
+ *
+ * Little-endian. A header, a table of contents, then the sections, each at a multiple of 64
+ * bytes; no pointers, so that a mapped file is queried in place. The checksum (XXH3, 64 bits)
+ * covers everything behind itself. The version changes whenever a struct below does.
+ */
+#pragma once
+#include <stdint.h>
+
+#include "hemisphere/sampling_tree.h"
+#include "hemisphere/tree.h"
+#include "panel/panel.h"
+#include "spectrum/spectral_table.h"
+
+#define PANEL_MAGIC "PHPANEL\n"
+#define PANEL_VERSION 1u
+#define PANEL_SECTIONS_MAX 64
+#define PANEL_LEVELS_MAX 64
+#define PANEL_SLICES_MAX 40
+#define PANEL_WAVELENGTHS_MAX 256
+#define PANEL_COMPONENTS_MAX 64  /* of the emission tree */
+#define PANEL_COEFFICIENTS_MAX 32 /* spectral, per slice */
+#define PANEL_ANGLES 181 /* nodes of tables over theta: 0, 0.5, ... 90 degrees */
+#define PANEL_BEND_SIDE 17
+
+typedef struct PanelHeader {
+    char     magic[8]; /* PANEL_MAGIC, without its zero */
+    uint32_t version, header_size;
+    uint64_t size;     /* of the file */
+    uint64_t checksum; /* of the bytes from section_count on */
+    uint32_t section_count, flags; /* flags: 0 */
+    uint64_t reserved[3];          /* 0 */
+} PanelHeader;
+
+typedef enum PanelSectionKind {
+    PANEL_META = 1,            /* JSON text: names, source, reports */
+    PANEL_EMISSION = 2,        /* PanelEmission, means, loadings, luminances */
+    PANEL_EMISSION_TREE = 3,
+    PANEL_PRIMARIES = 4,       /* PanelPrimaries */
+    PANEL_REFLECTION = 5,      /* PanelReflection, basis, mirror */
+    PANEL_REFLECTION_TREE = 6,
+    PANEL_SAMPLING = 7         /* one a slice, in order */
+} PanelSectionKind;
+
+typedef struct PanelSection {
+    uint32_t kind, index;
+    uint64_t offset, size;
+} PanelSection;
+
+/* Natural logarithms of tristimulus values in cd m^-2. A channel is one of X, Y, Z of one
+ * table: red's levels rising, then green's, blue's, then (if any) the black pattern's. At a
+ * direction, log value[channel] = mean[channel] + sum over the tree's components of
+ * loading[channel][component] * component. */
+typedef struct PanelEmission {
+    uint32_t components, channels, level_count[3], has_black;
+    float    cone_cos;   /* cos of the last measured theta */
+    float    level_power; /* exponent of the level curve where only one level is known */
+    float    level[3][PANEL_LEVELS_MAX];
+    /* then: float mean[channels], loading[channels][components], mean_y[channels / 3] */
+} PanelEmission;
+
+/* How a primary's spectrum is bent: coefficients over (log X/Y, log Z/Y). */
+typedef struct PanelBend {
+    float low[2], high[2];
+    float coefficient[PANEL_BEND_SIDE * PANEL_BEND_SIDE][3]; /* first index: log Z/Y */
+} PanelBend;
+
+/* Red, green, blue, black. Spectra every nm from SPECTRAL_FIRST_NM, of 1 cd m^-2. */
+typedef struct PanelPrimaries {
+    float     spectrum[4][SPECTRAL_COUNT];
+    PanelBend bend[4];
+} PanelPrimaries;
+
+/* Slices in the specular-following frame: component slice * coefficients + k of the tree is
+ * coefficient k of log(f / F(theta_i)); basis[k] times it, summed, is the logarithm at the
+ * wavelengths. Slices with a negative theta are the first ones mirrored at the normal. */
+typedef struct PanelReflection {
+    uint32_t slices, coefficients, wavelengths, padded_wavelengths;
+    float    frame_exponent, refractive_index;
+    float    cone_cos;               /* of the leaving directions */
+    float    first_theta, last_theta; /* measured incidences, radians */
+    uint32_t is_cubic;               /* over four slices; else linear over two */
+    float    slice_theta[PANEL_SLICES_MAX];
+    float    wavelength_nm[PANEL_WAVELENGTHS_MAX];
+    float    haze_albedo[PANEL_ANGLES];
+    /* then: float basis[coefficients][padded], mirror[PANEL_ANGLES][padded] */
+} PanelReflection;
+
+struct Panel {
+    void   *map; /* NULL: the bytes belong to somebody else */
+    size_t  size;
+    const char *meta;
+    size_t      meta_size;
+    const PanelEmission *emission;
+    const float *channel_mean, *loading, *mean_y;
+    Tree         emission_tree;
+    float        log_level[3][PANEL_LEVELS_MAX];
+    const PanelPrimaries *primaries;
+    const PanelReflection *reflection; /* NULL: reflects nothing */
+    const float *basis, *mirror;
+    Tree         reflection_tree;
+    SamplingTree sampling[PANEL_SLICES_MAX];
+    int16_t      wavelength_index[SPECTRAL_COUNT]; /* interval that begins at or below a nm */
+    float        wavelength_scale[PANEL_WAVELENGTHS_MAX]; /* 1 / interval's width */
+};
+
+/* Checks bytes (aligned to 8, alive as long as the panel) and makes the view. */
+bool panel_from_bytes(const void *bytes, size_t size, const char *name, Arena *arena,
+                      Panel **out, Error *err);
+
+/* Number of levels' channels before primary p; p = 3: the black pattern's first channel. */
+static inline uint32_t panel_first_channel(const PanelEmission *emission, int p)
+{
+    uint32_t channel = 0;
+    for (int i = 0; i < p; i++) channel += 3 * emission->level_count[i];
+    return channel;
+}

@@ -1,0 +1,214 @@
+/* HOT: what a panel emits. No allocation, no lock, no libm. */
+#include <string.h>
+
+#include "hemisphere/tree_query.h"
+#include "panel/panel_query.h"
+
+float panel_channel_log(const Panel *panel, uint32_t channel, const float *components)
+{
+    uint32_t     count = panel->emission->components;
+    const float *loading = panel->loading + (size_t)channel * count;
+    float        sum = panel->channel_mean[channel];
+    for (uint32_t i = 0; i < count; i++) sum += loading[i] * components[i];
+    return sum;
+}
+
+LevelPosition panel_level_position(const Panel *panel, int primary, float code)
+{
+    const PanelEmission *e = panel->emission;
+    const float *level = e->level[primary], *x = panel->log_level[primary];
+    int last = (int)e->level_count[primary] - 1, i = 0;
+    if (!(code > 0)) return (LevelPosition){.kind = LEVEL_DARK};
+    while (i < last && level[i + 1] <= code) i++;
+    LevelPosition at = {LEVEL_EXACT, i, log_f(code), {0, 0, 0, 0}};
+    if (code == level[i]) return at;
+    at.kind = last == 0 ? LEVEL_POWER : code < level[0] ? LEVEL_BELOW
+            : i == last ? LEVEL_ABOVE : LEVEL_BETWEEN;
+    for (int k = 0; k < 4; k++) {
+        int j = i - 1 + k;
+        at.node[k] = x[j < 0 ? 0 : j > last ? last : j];
+    }
+    return at;
+}
+
+/* Slope at a node between two intervals of widths h and steepness d: the harmonic mean of
+ * Fritsch and Butland (1984), 0 at an extremum, so that the interpolant is monotone. */
+static float monotone_slope(float h0, float h1, float d0, float d1)
+{
+    if (!(d0 * d1 > 0)) return 0;
+    float w0 = 2 * h1 + h0, w1 = h1 + 2 * h0;
+    return (w0 + w1) * d0 * d1 / (w0 * d1 + w1 * d0);
+}
+
+float panel_level_interpolate(const Panel *panel, const LevelPosition *at, const float y[4])
+{
+    const float *x = at->node;
+    switch (at->kind) {
+    case LEVEL_DARK: return -INFINITY;
+    case LEVEL_EXACT: return y[1];
+    case LEVEL_POWER: return y[1] + panel->emission->level_power * (at->x - x[1]);
+    case LEVEL_BELOW: {
+        float slope = (y[2] - y[1]) / (x[2] - x[1]);
+        return y[1] + (slope > 0.1f ? slope : 0.1f) * (at->x - x[1]);
+    }
+    case LEVEL_ABOVE: {
+        float slope = (y[1] - y[0]) / (x[1] - x[0]);
+        return y[1] + (slope > 0 ? slope : 0) * (at->x - x[1]);
+    }
+    case LEVEL_BETWEEN: break;
+    }
+    float h = x[2] - x[1], d = (y[2] - y[1]) / h, m1 = d, m2 = d;
+    if (x[0] < x[1]) m1 = monotone_slope(x[1] - x[0], h, (y[1] - y[0]) / (x[1] - x[0]), d);
+    if (x[3] > x[2]) m2 = monotone_slope(h, x[3] - x[2], d, (y[3] - y[2]) / (x[3] - x[2]));
+    float t = (at->x - x[1]) / h, t2 = t * t, t3 = t2 * t;
+    return y[1] * (2 * t3 - 3 * t2 + 1) + y[2] * (3 * t2 - 2 * t3) +
+           h * (m1 * (t3 - 2 * t2 + t) + m2 * (t3 - t2));
+}
+
+/* ln of the three tristimulus values that a primary adds at this level. */
+static void primary_logs(const Panel *panel, int primary, const LevelPosition *at,
+                         const float *components, float logs[3])
+{
+    uint32_t first = panel_first_channel(panel->emission, primary);
+    int      last = (int)panel->emission->level_count[primary] - 1;
+    for (int j = 0; j < 3; j++) {
+        float y[4] = {0, 0, 0, 0};
+        bool  lone = at->kind == LEVEL_EXACT || at->kind == LEVEL_POWER;
+        for (int k = lone ? 1 : 0; k < (lone ? 2 : 4); k++) {
+            int i = at->first - 1 + k;
+            i = i < 0 ? 0 : i > last ? last : i;
+            y[k] = panel_channel_log(panel, first + 3 * (uint32_t)i + (uint32_t)j, components);
+        }
+        logs[j] = panel_level_interpolate(panel, at, y);
+    }
+}
+
+static bool is_measured(const Panel *panel, Vec3 direction)
+{
+    return direction.z >= panel->emission->cone_cos - 1e-6f;
+}
+
+/* ln XYZ of the four sources of light: three primaries (-infinity: dark) and black. */
+static void source_logs(const Panel *panel, Vec3 direction, const float rgb[3],
+                        float logs[4][3], bool lit[4])
+{
+    float components[PANEL_COMPONENTS_MAX];
+    tree_interpolate(&panel->emission_tree, direction, components);
+    for (int p = 0; p < 3; p++) {
+        LevelPosition at = panel_level_position(panel, p, rgb[p]);
+        lit[p] = at.kind != LEVEL_DARK;
+        if (lit[p]) primary_logs(panel, p, &at, components, logs[p]);
+    }
+    lit[3] = panel->emission->has_black;
+    uint32_t black = panel_first_channel(panel->emission, 3);
+    for (uint32_t j = 0; j < 3 && lit[3]; j++)
+        logs[3][j] = panel_channel_log(panel, black + j, components);
+}
+
+bool panel_emission_xyz(const Panel *panel, Vec3 direction, const float rgb[3], float xyz[3])
+{
+    float logs[4][3];
+    bool  lit[4];
+    xyz[0] = xyz[1] = xyz[2] = 0;
+    if (!(direction.z > 0)) return false;
+    source_logs(panel, direction, rgb, logs, lit);
+    for (int s = 0; s < 4; s++)
+        for (int j = 0; j < 3 && lit[s]; j++) xyz[j] += exp_f(logs[s][j]);
+    return is_measured(panel, direction);
+}
+
+/* ---- spectra --------------------------------------------------------------------------- */
+
+/* Weights of a Catmull-Rom cubic over four neighbours of an even row. */
+static int cubic_cell(float at, float low, float high, float weight[4])
+{
+    float s = (at - low) / (high - low) * (PANEL_BEND_SIDE - 1);
+    s = clampf(s, 0, PANEL_BEND_SIDE - 1);
+    int   cell = (int)s;
+    if (cell > PANEL_BEND_SIDE - 2) cell = PANEL_BEND_SIDE - 2;
+    float t = s - (float)cell, t2 = t * t, t3 = t2 * t;
+    weight[0] = 0.5f * (2 * t2 - t3 - t);
+    weight[1] = 0.5f * (3 * t3 - 5 * t2 + 2);
+    weight[2] = 0.5f * (4 * t2 - 3 * t3 + t);
+    weight[3] = 0.5f * (t3 - t2);
+    if (cell == 0) { /* one neighbour is missing: the straight line goes on */
+        weight[1] += 2 * weight[0];
+        weight[2] -= weight[0];
+        weight[0] = 0;
+    }
+    if (cell == PANEL_BEND_SIDE - 2) {
+        weight[2] += 2 * weight[3];
+        weight[1] -= weight[3];
+        weight[3] = 0;
+    }
+    return cell - 1;
+}
+
+void panel_bend_lookup(const PanelBend *bend, const float logs[3], float coefficient[3])
+{
+    float wu[4], wv[4];
+    int   u = cubic_cell(logs[0] - logs[1], bend->low[0], bend->high[0], wu);
+    int   v = cubic_cell(logs[2] - logs[1], bend->low[1], bend->high[1], wv);
+    coefficient[0] = coefficient[1] = coefficient[2] = 0;
+    for (int j = 0; j < 4; j++)
+        for (int i = 0; i < 4; i++) {
+            float w = wu[i] * wv[j];
+            if (w == 0) continue;
+            const float *from = bend->coefficient[(v + j) * PANEL_BEND_SIDE + u + i];
+            for (int k = 0; k < 3; k++) coefficient[k] += w * from[k];
+        }
+}
+
+/* The spectrum of a source at the lanes' wavelengths, linear between whole nm. */
+static Spectrum spectrum_of(const float *spectrum, const Wavelengths *wavelengths)
+{
+    Spectrum out;
+    for (int i = 0; i < SPECTRUM_LANES; i++) {
+        float at = clampf(wavelengths->nm[i] - SPECTRAL_FIRST_NM, 0, SPECTRAL_COUNT - 1.001f);
+        int   n = (int)at;
+        out[i] = lerpf(spectrum[n], spectrum[n + 1], at - (float)n);
+    }
+    return out;
+}
+
+/* S = T exp(c0 + c1 t + c2 t^2) Y, t = (lambda - 560 nm) / 180 nm; strictly positive where T
+ * is (design: panel, section 7). */
+Spectrum panel_emission_spectrum(const Panel *panel, Vec3 direction, const float rgb[3],
+                                 const Wavelengths *wavelengths)
+{
+    float    logs[4][3];
+    bool     lit[4];
+    Spectrum sum = spectrum_all(0);
+    if (!(direction.z > 0)) return sum;
+    source_logs(panel, direction, rgb, logs, lit);
+    Spectrum t = (wavelengths->nm - spectrum_all(560)) * spectrum_all(1.0f / 180);
+    for (int s = 0; s < 4; s++) {
+        float c[3];
+        if (!lit[s]) continue;
+        panel_bend_lookup(&panel->primaries->bend[s], logs[s], c);
+        Spectrum exponent = (spectrum_all(c[2]) * t + spectrum_all(c[1])) * t +
+                            spectrum_all(c[0] + logs[s][1]);
+        sum += spectrum_of(panel->primaries->spectrum[s], wavelengths) * spectrum_exp(exponent);
+    }
+    return sum;
+}
+
+/* ---- mean ------------------------------------------------------------------------------ */
+
+float panel_mean_luminance(const Panel *panel, const float rgb[3])
+{
+    const PanelEmission *e = panel->emission;
+    float sum = e->has_black ? panel->mean_y[panel_first_channel(e, 3) / 3] : 0;
+    for (int p = 0; p < 3; p++) {
+        LevelPosition at = panel_level_position(panel, p, rgb[p]);
+        float y[4];
+        if (at.kind == LEVEL_DARK) continue;
+        for (int k = 0; k < 4; k++) {
+            int i = at.first - 1 + k, last = (int)e->level_count[p] - 1;
+            i = i < 0 ? 0 : i > last ? last : i;
+            y[k] = log_f(panel->mean_y[panel_first_channel(e, p) / 3 + (uint32_t)i]);
+        }
+        sum += exp_f(panel_level_interpolate(panel, &at, y));
+    }
+    return sum;
+}

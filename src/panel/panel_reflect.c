@@ -1,0 +1,215 @@
+/* HOT: what a panel reflects. No allocation, no lock, no libm. */
+#include <string.h>
+
+#include "base/units.h"
+#include "hemisphere/specular_frame.h"
+#include "hemisphere/tree_query.h"
+#include "panel/panel_file.h"
+
+#define PADDED_MAX ((PANEL_WAVELENGTHS_MAX + 15) / 16 * 16)
+
+/* Which slices an incidence is made of. */
+typedef struct SliceMix {
+    int   first, count;
+    float weight[4];
+} SliceMix;
+
+bool panel_reflects(const Panel *panel)
+{
+    return panel->reflection != NULL;
+}
+
+/* Unpolarised Fresnel reflectance, exact. */
+static float fresnel(float c, float n)
+{
+    float t = safe_sqrtf(1 - (1 - c * c) / (n * n));
+    float s = (c - n * t) / (c + n * t), p = (n * c - t) / (n * c + t);
+    return 0.5f * (s * s + p * p);
+}
+
+/* The interval of slices that holds theta: theta lies between slices i and i + 1. */
+static int slice_interval(const PanelReflection *r, float theta, float *t)
+{
+    int i = 0;
+    while (i + 2 < (int)r->slices && r->slice_theta[i + 1] <= theta) i++;
+    if (r->slices == 1) {
+        *t = 0;
+        return 0;
+    }
+    float span = r->slice_theta[i + 1] - r->slice_theta[i];
+    *t = clampf((theta - r->slice_theta[i]) / span, 0, 1);
+    return i;
+}
+
+static SliceMix linear_mix(const PanelReflection *r, float theta)
+{
+    float    t;
+    int      i = slice_interval(r, theta, &t);
+    SliceMix mix = {i, r->slices == 1 ? 1 : 2, {1 - t, t, 0, 0}};
+    return mix;
+}
+
+/* Cubic Hermite over four slices with the slopes of parabolas through three; the ends take
+ * the straight slope. Weights may be negative: they are for logarithms only. */
+static SliceMix cubic_mix(const PanelReflection *r, float theta)
+{
+    float u;
+    int   i = slice_interval(r, theta, &u);
+    if (!r->is_cubic || r->slices < 3) return linear_mix(r, theta);
+    const float *x = r->slice_theta;
+    bool  has_left = i > 0, has_right = i + 2 < (int)r->slices;
+    float h = x[i + 1] - x[i], u2 = u * u, u3 = u2 * u;
+    float a = (u3 - 2 * u2 + u) * h, b = (u3 - u2) * h; /* of the slopes at the two ends */
+    float w[4] = {0, 2 * u3 - 3 * u2 + 1, 3 * u2 - 2 * u3, 0};
+    float h0 = has_left ? x[i] - x[i - 1] : 0, h2 = has_right ? x[i + 2] - x[i + 1] : 0;
+    /* slope at x[i] = (h d0 + h0 d1) / (h0 + h), d0 and d1 the divided differences */
+    float a0 = has_left ? a * h / (h0 + h) : 0, a1 = a - a0;
+    float b2 = has_right ? b * h / (h + h2) : 0, b1 = b - b2;
+    if (has_left) {
+        w[0] -= a0 / h0;
+        w[1] += a0 / h0;
+    }
+    if (has_right) {
+        w[2] -= b2 / h2;
+        w[3] += b2 / h2;
+    }
+    w[1] -= (a1 + b1) / h;
+    w[2] += (a1 + b1) / h;
+    SliceMix mix = {i - has_left, 2 + has_left + has_right, {0, 0, 0, 0}};
+    for (int k = 0; k < mix.count; k++) mix.weight[k] = w[k + !has_left];
+    return mix;
+}
+
+/* `towards` in the frame in which the light's azimuth is 180 degrees. */
+static Vec3 turned(Vec3 light, Vec3 towards)
+{
+    float s = safe_sqrtf(light.x * light.x + light.y * light.y);
+    if (s < 1e-6f) return towards;
+    float ex = -light.x / s, ey = -light.y / s; /* the mirror direction's azimuth */
+    return vec3(ex * towards.x + ey * towards.y, ex * towards.y - ey * towards.x, towards.z);
+}
+
+static Vec3 turned_back(Vec3 light, Vec3 local)
+{
+    float s = safe_sqrtf(light.x * light.x + light.y * light.y);
+    if (s < 1e-6f) return local;
+    float ex = -light.x / s, ey = -light.y / s;
+    return vec3(ex * local.x - ey * local.y, ey * local.x + ex * local.y, local.z);
+}
+
+/* Polar angle, accurate near the pole too. */
+static float polar_angle(Vec3 d)
+{
+    return atan2_f(safe_sqrtf(d.x * d.x + d.y * d.y), d.z);
+}
+
+/* ln (f / F) at all measured wavelengths. */
+static void reflection_logs(const Panel *panel, Vec3 stored, float theta, float *logs)
+{
+    const PanelReflection *r = panel->reflection;
+    SliceMix mix = cubic_mix(r, theta);
+    TreeTaps taps;
+    int      k_count = (int)r->coefficients;
+    float    part[4 * PANEL_COEFFICIENTS_MAX], coefficient[PANEL_COEFFICIENTS_MAX] = {0};
+    tree_walk_interpolated(&panel->reflection_tree, stored, &taps);
+    tree_sum(&panel->reflection_tree, &taps, mix.first * k_count, mix.count * k_count, part);
+    for (int s = 0; s < mix.count; s++)
+        for (int k = 0; k < k_count; k++)
+            coefficient[k] += mix.weight[s] * part[s * k_count + k];
+    int padded = (int)r->padded_wavelengths;
+    memset(logs, 0, sizeof *logs * (size_t)padded);
+    for (int k = 0; k < k_count; k++) {
+        const float *basis = panel->basis + k * padded;
+        for (int w = 0; w < padded; w++) logs[w] += coefficient[k] * basis[w];
+    }
+}
+
+/* Values at the lanes, linear between measured wavelengths; the end value holds outside. */
+static Spectrum spread(const Panel *panel, const float *value, const Wavelengths *wavelengths)
+{
+    const PanelReflection *r = panel->reflection;
+    Spectrum out;
+    if (r->wavelengths == 1) return spectrum_all(value[0]);
+    for (int i = 0; i < SPECTRUM_LANES; i++) {
+        float nm = clampf(wavelengths->nm[i], SPECTRAL_FIRST_NM, SPECTRAL_LAST_NM);
+        int   n = panel->wavelength_index[(int)(nm - SPECTRAL_FIRST_NM)];
+        while (n + 2 < (int)r->wavelengths && r->wavelength_nm[n + 1] <= nm) n++;
+        float t = (nm - r->wavelength_nm[n]) * panel->wavelength_scale[n];
+        out[i] = lerpf(value[n], value[n + 1], clampf(t, 0, 1));
+    }
+    return out;
+}
+
+Spectrum panel_brdf(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *wavelengths)
+{
+    const PanelReflection *r = panel->reflection;
+    float logs[PADDED_MAX];
+    if (!r || !(wo.z > 0) || !(wi.z > 0)) return spectrum_all(0);
+    float theta = polar_angle(wi);
+    SpecularFrame frame = specular_frame(theta, r->frame_exponent);
+    reflection_logs(panel, specular_frame_stored(&frame, turned(wi, wo)), theta, logs);
+    Spectrum exponent = spread(panel, logs, wavelengths);
+    return spectrum_exp(exponent) * spectrum_all(fresnel(wi.z, r->refractive_index));
+}
+
+/* Position in a table over theta. */
+static int angle_node(float cos_theta, float *t)
+{
+    float at = acos_f(clampf(cos_theta, 0, 1)) * (2 * 180 / PI_F);
+    int   node = (int)at;
+    if (node > PANEL_ANGLES - 2) node = PANEL_ANGLES - 2;
+    *t = clampf(at - (float)node, 0, 1);
+    return node;
+}
+
+Spectrum panel_mirror(const Panel *panel, float cos_theta, const Wavelengths *wavelengths)
+{
+    float t, row[PADDED_MAX];
+    if (!panel->reflection || !(cos_theta > 0)) return spectrum_all(0);
+    int          node = angle_node(cos_theta, &t);
+    int          padded = (int)panel->reflection->padded_wavelengths;
+    const float *a = panel->mirror + node * padded, *b = a + padded;
+    for (int w = 0; w < padded; w++) row[w] = lerpf(a[w], b[w], t);
+    return spread(panel, row, wavelengths);
+}
+
+float panel_haze_albedo(const Panel *panel, float cos_theta)
+{
+    float t;
+    if (!panel->reflection || !(cos_theta > 0)) return 0;
+    int node = angle_node(cos_theta, &t);
+    const float *albedo = panel->reflection->haze_albedo;
+    return lerpf(albedo[node], albedo[node + 1], t);
+}
+
+/* ---- sampling -------------------------------------------------------------------------- */
+
+float panel_pdf(const Panel *panel, Vec3 wo, Vec3 wi)
+{
+    const PanelReflection *r = panel->reflection;
+    if (!r || !(wo.z > 0) || !(wi.z > 0)) return 0;
+    float         theta = polar_angle(wo), pdf = 0;
+    SpecularFrame frame = specular_frame(theta, r->frame_exponent);
+    Vec3          stored = specular_frame_stored(&frame, turned(wo, wi));
+    SliceMix      mix = linear_mix(r, theta);
+    for (int s = 0; s < mix.count; s++)
+        if (mix.weight[s] > 0)
+            pdf += mix.weight[s] * sampling_tree_pdf(&panel->sampling[mix.first + s], stored);
+    float jacobian = specular_frame_jacobian(&frame, stored);
+    return jacobian > 0 ? pdf / jacobian : 0;
+}
+
+bool panel_sample(const Panel *panel, Vec3 wo, const float u[3], Vec3 *wi)
+{
+    const PanelReflection *r = panel->reflection;
+    if (!r || !(wo.z > 0)) return false;
+    float         theta = polar_angle(wo);
+    SpecularFrame frame = specular_frame(theta, r->frame_exponent);
+    SliceMix      mix = linear_mix(r, theta);
+    int           slice = mix.first + (mix.count == 2 && u[2] >= mix.weight[0]);
+    SamplingResult drawn = sampling_tree_sample(&panel->sampling[slice], u[0], u[1]);
+    Vec3 local = specular_frame_outer(&frame, drawn.direction);
+    if (!(local.z > 0)) return false;
+    *wi = turned_back(wo, local);
+    return true;
+}

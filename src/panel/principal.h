@@ -1,0 +1,25 @@
+/* principal.h -- few numbers a row instead of many: principal components with weights.
+ *
+ * row[c] = mean[c] + sum_k loading[c][k] score[k], where the rms of weight[c] times the rest
+ * is below the tolerance (or the components run out).
+ */
+#pragma once
+#include "base/arena.h"
+
+typedef struct PrincipalShape {
+    int    rows, channels;
+    int    components_max;
+    double tolerance; /* rms of the weighted rest over rows and channels */
+} PrincipalShape;
+
+typedef struct Principal {
+    int    components; /* at least 1 */
+    float *mean, *loading; /* channels; channels x components */
+    float *score;          /* rows x components */
+    const double *weight;  /* as given */
+    double residual;       /* weighted rms of what is left out */
+} Principal;
+
+/* values: rows x channels; row_weight: areas; weight: what a channel's error is worth. */
+Principal principal_components(const float *values, const double *row_weight,
+                               const double *weight, PrincipalShape shape, Arena *arena);

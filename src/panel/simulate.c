@@ -1,0 +1,288 @@
+#include "panel/simulate.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/file.h"
+#include "base/sampler.h"
+#include "base/units.h"
+#include "spectrum/spectral_table.h"
+
+#define ROW_BYTES 96 /* of an emission row, at most */
+
+static const char *const primary_names[3] = {"red", "green", "blue"};
+
+/* Text that grows in memory and becomes a file at once. */
+typedef struct Text {
+    char  *begin;
+    size_t size, capacity;
+} Text;
+
+typedef struct Instrument {
+    const Recipe *recipe;
+    const char   *folder;
+    Progress      progress;
+    int           tables_done;
+    Arena         scratch;
+    Error        *err;
+} Instrument;
+
+static Text text_start(Arena *arena, size_t capacity)
+{
+    return (Text){ARENA_NEW(arena, char, capacity), 0, capacity};
+}
+
+__attribute__((format(printf, 2, 3)))
+static void text_add(Text *text, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    int added = vsnprintf(text->begin + text->size, text->capacity - text->size, format, args);
+    va_end(args);
+    text->size += (size_t)added;
+}
+
+/* A normal deviate by Box and Muller from two hashes of (seed, table, value). */
+static double normal_deviate(const RecipeInstrument *instrument, int table, uint32_t value)
+{
+    uint32_t h = hash_combine(hash_combine(hash_u32((uint32_t)instrument->seed),
+                                           (uint32_t)table), value);
+    double u = ((double)hash_u32(h) + 0.5) / 4294967296.0;
+    double v = ((double)hash_u32(h ^ 0x5bd1e995u) + 0.5) / 4294967296.0;
+    return sqrt(-2 * log(u)) * cos(2 * PI * v);
+}
+
+static double noisy(const Instrument *instrument, double value, double absolute, uint32_t index)
+{
+    const RecipeInstrument *i = &instrument->recipe->instrument;
+    if (i->noise_relative == 0 && absolute == 0) return value;
+    int table = instrument->tables_done;
+    return value * (1 + i->noise_relative * normal_deviate(i, table, 2 * index)) +
+           absolute * normal_deviate(i, table, 2 * index + 1);
+}
+
+static bool write_text(const Instrument *instrument, const char *name, const Text *text,
+                       Arena arena)
+{
+    const char *path = arena_format(&arena, "%s/%s", instrument->folder, name);
+    return file_write(path, text->begin, text->size, instrument->err);
+}
+
+/* Directions of a grid: theta from one step (0 stands apart) to the cone, all azimuths. */
+typedef struct Grid {
+    double theta_step_deg, phi_step_deg;
+    int    thetas, phis;
+} Grid;
+
+static Grid grid_of(double theta_max_deg, double theta_step_deg, double phi_step_deg)
+{
+    int phis = (int)round(360 / phi_step_deg);
+    return (Grid){theta_step_deg, 360.0 / phis, (int)(theta_max_deg / theta_step_deg + 1e-9),
+                  phis};
+}
+
+/* Direction i of the grid in degrees; 0 is the normal. */
+static void grid_direction(const Grid *grid, int i, double degrees[2])
+{
+    degrees[0] = i ? ((i - 1) / grid->phis + 1) * grid->theta_step_deg : 0;
+    degrees[1] = i ? (i - 1) % grid->phis * grid->phi_step_deg : 0;
+}
+
+static int grid_count(const Grid *grid)
+{
+    return 1 + grid->thetas * grid->phis;
+}
+
+/* ---- emission -------------------------------------------------------------------------- */
+
+/* primary -1: the black pattern. */
+static bool write_emission(Instrument *instrument, int primary, double level)
+{
+    const Recipe *recipe = instrument->recipe;
+    Arena arena = instrument->scratch;
+    Grid  grid = grid_of(recipe->instrument.theta_max_deg, recipe->instrument.theta_step_deg,
+                         recipe->instrument.phi_step_deg);
+    Text  text = text_start(&arena, (size_t)(grid_count(&grid) + 2) * ROW_BYTES);
+    text_add(&text, "theta,phi,X,Y,Z\n");
+    for (int i = 0; i < grid_count(&grid); i++) {
+        double degrees[2], xyz[3], add[3] = {0, 0, 0};
+        grid_direction(&grid, i, degrees);
+        double angles[2] = {radians_from_degrees(degrees[0]), radians_from_degrees(degrees[1])};
+        truth_black_xyz(recipe, angles, xyz);
+        if (primary >= 0) truth_emission_xyz(recipe, primary, level, angles, add);
+        text_add(&text, "%.10g,%.10g", degrees[0], degrees[1]);
+        for (int j = 0; j < 3; j++)
+            text_add(&text, ",%.6g", noisy(instrument, xyz[j] + add[j],
+                                           recipe->instrument.noise_cd_m2,
+                                           (uint32_t)(3 * i + j)));
+        text_add(&text, "\n");
+    }
+    const char *name = primary < 0 ? "emission/black.csv"
+        : arena_format(&arena, "emission/%s_%03g.csv", primary_names[primary], level);
+    bool ok = write_text(instrument, name, &text, arena);
+    progress_update(&instrument->progress, ++instrument->tables_done);
+    return ok;
+}
+
+static bool write_all_emission(Instrument *instrument)
+{
+    const RecipeEmission *emission = &instrument->recipe->emission;
+    bool ok = write_emission(instrument, -1, 0);
+    for (int p = 0; p < 3 && ok; p++)
+        for (int i = 0; i < emission->level_count && ok; i++)
+            ok = write_emission(instrument, p, emission->level[i]);
+    return ok;
+}
+
+/* ---- reflection ------------------------------------------------------------------------ */
+
+static void add_brdf_row(Instrument *instrument, Text *text, double incidence,
+                         const double degrees[2], uint32_t index)
+{
+    const Recipe *recipe = instrument->recipe;
+    const RecipeReflection *r = &recipe->reflection;
+    text_add(text, "%.10g,%.10g", degrees[0], degrees[1]);
+    for (int w = 0; w < r->wavelength_count; w++) {
+        double value = truth_instrument_brdf(recipe, incidence,
+            radians_from_degrees(degrees[0]), radians_from_degrees(degrees[1]),
+            r->wavelength_nm[w]);
+        text_add(text, ",%.5g", noisy(instrument, value, recipe->instrument.noise_brdf_sr,
+                                      index * (uint32_t)r->wavelength_count + (uint32_t)w));
+    }
+    text_add(text, "\n");
+}
+
+static bool write_brdf(Instrument *instrument, double incidence_deg)
+{
+    const Recipe *recipe = instrument->recipe;
+    const RecipeReflection *r = &recipe->reflection;
+    Arena arena = instrument->scratch;
+    Grid  grid = grid_of(recipe->instrument.theta_max_deg,
+                         recipe->instrument.brdf_theta_step_deg,
+                         recipe->instrument.brdf_phi_step_deg);
+    size_t row_bytes = 48 + 16 * (size_t)r->wavelength_count;
+    Text   text = text_start(&arena, (size_t)(grid_count(&grid) + 2) * row_bytes);
+    text_add(&text, "theta,phi");
+    for (int w = 0; w < r->wavelength_count; w++) text_add(&text, ",%.10g", r->wavelength_nm[w]);
+    text_add(&text, "\n");
+    for (int i = 0; i < grid_count(&grid); i++) {
+        double degrees[2];
+        grid_direction(&grid, i, degrees);
+        add_brdf_row(instrument, &text, radians_from_degrees(incidence_deg), degrees,
+                     (uint32_t)i);
+    }
+    const char *name = arena_format(&arena, "brdf/i%.10g.csv", incidence_deg);
+    bool ok = write_text(instrument, name, &text, arena);
+    progress_update(&instrument->progress, ++instrument->tables_done);
+    return ok;
+}
+
+/* ---- spectra and manifest -------------------------------------------------------------- */
+
+static bool write_spectra(Instrument *instrument)
+{
+    Arena arena = instrument->scratch;
+    Text  text = text_start(&arena, (SPECTRAL_COUNT + 1) * (size_t)ROW_BYTES);
+    text_add(&text, "nm,red,green,blue\n");
+    for (int i = 0; i < SPECTRAL_COUNT; i++) {
+        int nm = SPECTRAL_FIRST_NM + i;
+        text_add(&text, "%d", nm);
+        for (int p = 0; p < 3; p++)
+            text_add(&text, ",%.6g",
+                     truth_spectrum(&instrument->recipe->emission.primary[p], nm));
+        text_add(&text, "\n");
+    }
+    return write_text(instrument, "primaries.csv", &text, arena);
+}
+
+static void add_quoted(Text *text, const char *key, const char *value)
+{
+    text_add(text, "  \"%s\": \"", key);
+    for (; *value; value++) {
+        if (*value == '"' || *value == '\\') text_add(text, "\\");
+        if ((unsigned char)*value >= ' ') text_add(text, "%c", *value);
+    }
+    text_add(text, "\",\n");
+}
+
+static void add_list(Text *text, const char *key, const double *value, int count)
+{
+    text_add(text, "\"%s\": [", key);
+    for (int i = 0; i < count; i++) text_add(text, "%s%.10g", i ? ", " : "", value[i]);
+    text_add(text, "]");
+}
+
+static void add_emission(Text *text, const RecipeEmission *emission)
+{
+    text_add(text, "  \"emission\": {\n    \"black\": \"emission/black.csv\"");
+    for (int p = 0; p < 3; p++) {
+        text_add(text, ",\n    \"%s\": {", primary_names[p]);
+        for (int i = 0; i < emission->level_count; i++)
+            text_add(text, "%s\"%g\": \"emission/%s_%03g.csv\"", i ? ", " : "",
+                     emission->level[i], primary_names[p], emission->level[i]);
+        text_add(text, "}");
+    }
+    text_add(text, "\n  },\n");
+}
+
+static bool write_manifest(Instrument *instrument)
+{
+    const Recipe *recipe = instrument->recipe;
+    Arena arena = instrument->scratch;
+    Text  text = text_start(&arena, 1u << 18);
+    text_add(&text, "{\n");
+    add_quoted(&text, "panel", recipe->panel);
+    text_add(&text, "  \"instrument\": \"simulated Fourier optics, %g deg\",\n",
+             recipe->instrument.theta_max_deg);
+    add_quoted(&text, "note", recipe->note);
+    text_add(&text, "  \"instrument_fwhm_deg\": %g,\n  ", recipe->instrument.fwhm_deg);
+    add_list(&text, "pixels", recipe->pixels, 2);
+    text_add(&text, ",\n  ");
+    add_list(&text, "size_mm", recipe->size_mm, 2);
+    text_add(&text, ",\n");
+    add_emission(&text, &recipe->emission);
+    text_add(&text, "  \"primaries\": \"primaries.csv\"");
+    if (recipe->reflection.exists) {
+        text_add(&text, ",\n  \"reflection\": {");
+        add_list(&text, "wavelengths_nm", recipe->reflection.wavelength_nm,
+                 recipe->reflection.wavelength_count);
+        text_add(&text, ",\n    ");
+        add_list(&text, "incidence_deg", recipe->reflection.incidence_deg,
+                 recipe->reflection.incidence_count);
+        text_add(&text, ",\n    \"files\": \"brdf/i{incidence}.csv\"}");
+    }
+    text_add(&text, "\n}\n");
+    return write_text(instrument, "MANIFEST.json", &text, arena);
+}
+
+static bool make_folder(const char *folder, const char *inside, Error *err)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s%s%s", folder, *inside ? "/" : "", inside);
+    if (!mkdir(path, 0777) || errno == EEXIST) return true;
+    return error_at(err, ERROR_OUTPUT, path, "", "cannot be made: %s", strerror(errno));
+}
+
+bool simulate_measurement(const Recipe *recipe, const char *folder, ProgressMode mode,
+                          Error *err)
+{
+    const RecipeReflection *r = &recipe->reflection;
+    int slices = r->exists ? r->incidence_count : 0;
+    int tables = 1 + 3 * recipe->emission.level_count + slices;
+    if (!make_folder(folder, "", err) || !make_folder(folder, "emission", err) ||
+        (slices && !make_folder(folder, "brdf", err)))
+        return false;
+    Arena      arena = arena_reserve((size_t)16 << 30);
+    Instrument instrument = {recipe, folder, progress_start(mode, "simulate", "tables", tables),
+                             0, arena, err};
+    bool ok = write_all_emission(&instrument);
+    for (int i = 0; i < slices && ok; i++) ok = write_brdf(&instrument, r->incidence_deg[i]);
+    ok = ok && write_spectra(&instrument) && write_manifest(&instrument);
+    progress_end(&instrument.progress, instrument.tables_done);
+    arena_release(&arena);
+    return ok;
+}
