@@ -205,7 +205,7 @@ bool frame_read_memory(const void *bytes, size_t size, const char *name, Arena *
                        FrameImage *out, Error *err)
 {
     ExrReader *reader;
-    if (!exr_reader_create(bytes, size, &reader, err)) return error_in_file(err, name);
+    if (!exr_reader_create(name, bytes, size, &reader, err)) return error_in_file(err, name);
     bool ok = read_picture(reader, arena, out, err);
     exr_reader_destroy(reader);
     return ok || error_in_file(err, name);

@@ -262,7 +262,7 @@ static bool decode(const char *format, const void *bytes, size_t size, const cha
     ExrReader *reader;
     if (strcmp(format, "openexr") != 0)
         return decode_other(format, bytes, size, name, arena, out, err);
-    if (!exr_reader_create(bytes, size, &reader, err)) return false;
+    if (!exr_reader_create(name, bytes, size, &reader, err)) return false;
     bool ok = decode_exr(reader, arena, out, err);
     exr_reader_destroy(reader);
     return ok;

@@ -114,7 +114,7 @@ struct ExrReader {
     std::vector<ExrAttribute>                attributes;
     ExrPicture                               picture{};
 
-    ExrReader(const void *bytes, size_t size) : memory(bytes, size) {}
+    ExrReader(const char *name, const void *bytes, size_t size) : memory(name, bytes, size) {}
 };
 
 static bool check_window(const ExrPicture &p, Error *err)
@@ -159,12 +159,15 @@ static bool describe(ExrReader *reader, Error *err)
     return check_window(reader->picture, err);
 }
 
-bool exr_reader_create(const void *bytes, size_t size, ExrReader **out, Error *err)
+bool exr_reader_create(const char *name, const void *bytes, size_t size, ExrReader **out,
+                       Error *err)
 {
+    if (size < 4 || memcmp(bytes, "\x76\x2f\x31\x01", 4) != 0)
+        return error_set(err, ERROR_INPUT, "not an OpenEXR file");
     return guarded(err, ERROR_INPUT, "damaged OpenEXR file", [&] {
         Imf::Header::setMaxImageSize(EXR_MAX_SIDE, EXR_MAX_SIDE);
         Imf::Header::setMaxTileSize(EXR_MAX_SIDE / 4, EXR_MAX_SIDE / 4);
-        auto reader = std::make_unique<ExrReader>(bytes, size);
+        auto reader = std::make_unique<ExrReader>(name, bytes, size);
         reader->file = std::make_unique<Imf::MultiPartInputFile>(reader->memory, 0, false);
         if (!describe(reader.get(), err)) return false;
         *out = reader.release();

@@ -56,9 +56,11 @@ enum { EXR_MAX_SIDE = 65536, EXR_MAX_PIXELS = 1 << 28, EXR_MAX_CHANNELS = 1024 }
 
 typedef struct ExrReader ExrReader; /* owns C++ objects */
 
-/* The first part of a file that lies in memory. bytes must outlive the reader. Deep pictures
- * and channels that are sampled more coarsely than the pixels are refused. */
-bool exr_reader_create(const void *bytes, size_t size, ExrReader **out, Error *err);
+/* The first part of a file that lies in memory. bytes must outlive the reader; name is for
+ * messages. Deep pictures and channels that are sampled more coarsely than the pixels are
+ * refused. */
+bool exr_reader_create(const char *name, const void *bytes, size_t size, ExrReader **out,
+                       Error *err);
 
 /* Channels without values; lives as long as the reader. */
 const ExrPicture *exr_reader_picture(const ExrReader *reader);

@@ -11,8 +11,8 @@
 
 class MemoryInput : public Imf::IStream {
 public:
-    MemoryInput(const void *bytes, size_t size)
-        : Imf::IStream("memory"), bytes_((const char *)bytes), size_(size)
+    MemoryInput(const char *name, const void *bytes, size_t size)
+        : Imf::IStream(name), bytes_((const char *)bytes), size_(size)
     {
     }
     bool read(char *to, int n) override
