@@ -9,20 +9,17 @@ static uint32_t octant_in_tree(const Tree *tree, uint32_t octant)
     return octant & ((uint32_t)tree->octants - 1); /* 2 octants: y is folded */
 }
 
+/* Bits that are set in a number below 8 (the baseline instruction set cannot count bits). */
+static uint32_t bits_of_3(uint32_t number)
+{
+    return 0xe994u >> 2 * number & 3;
+}
+
 /* The node of a child, if it has one. */
 static uint32_t child_node(TreeNode node, uint32_t child)
 {
     uint32_t before = node.children & ((1u << child) - 1);
-    if (!(node.children >> child & 1)) return NO_NODE;
-    return (node.children >> 4) + (uint32_t)__builtin_popcount(before);
-}
-
-static void add_tap(TreeTaps *taps, uint32_t row, float weight, int level)
-{
-    int i = taps->count++;
-    taps->row[i] = row;
-    taps->weight[i] = weight;
-    taps->level[i] = (uint8_t)level;
+    return node.children >> child & 1 ? (node.children >> 4) + bits_of_3(before) : NO_NODE;
 }
 
 static void start_taps(TreeTaps *taps)
@@ -32,17 +29,23 @@ static void start_taps(TreeTaps *taps)
 }
 
 /* Adds the rows of a node whose children count with weight[0..3]: child i = 1..3 adds its
- * detail, child 0 takes ratio_i of it away (haar.h). */
+ * detail, child 0 takes ratio_i of it away (haar.h). Every tap is written and then kept or not:
+ * which rows there are cannot be predicted. */
 static void add_rows(TreeTaps *taps, TreeNode node, int level, const float weight[4],
                      const float ratio[3])
 {
     uint32_t row = node.rows >> 3;
+    int      count = taps->count;
     for (int i = 0; i < 3; i++) {
-        if (!(node.rows >> i & 1)) continue;
-        float w = weight[i + 1] - weight[0] * ratio[i];
-        if (w != 0) add_tap(taps, row, w, level);
-        row++;
+        uint32_t stored = node.rows >> i & 1;
+        float    w = weight[i + 1] - weight[0] * ratio[i];
+        taps->row[count] = row;
+        taps->weight[count] = w;
+        taps->level[count] = (uint8_t)level;
+        count += (int)stored & (w != 0);
+        row += stored;
     }
+    taps->count = count;
 }
 
 static const float *area_ratio(const Tree *tree, int level, uint32_t place)
@@ -57,11 +60,9 @@ static uint32_t step_down(const Tree *tree, uint32_t index, int level, uint32_t 
 {
     TreeNode node = tree->nodes[index];
     uint32_t child = child_place & 3;
-    if (node.rows & 7) {
-        float weight[4] = {0, 0, 0, 0};
-        weight[child] = 1;
-        add_rows(taps, node, level, weight, area_ratio(tree, level, child_place >> 2));
-    }
+    float    weight[4] = {0, 0, 0, 0};
+    weight[child] = 1;
+    add_rows(taps, node, level, weight, area_ratio(tree, level, child_place >> 2));
     return child_node(node, child);
 }
 
@@ -211,8 +212,7 @@ static int visit(const Tree *tree, const Leaves *leaves, Visit at, TreeTaps *tap
         weight[child] += leaves->weight[i];
         inside[child] |= 1u << i;
     }
-    if (node.rows & 7)
-        add_rows(taps, node, at.level, weight, area_ratio(tree, at.level, at.place));
+    add_rows(taps, node, at.level, weight, area_ratio(tree, at.level, at.place));
     for (uint32_t child = 0; child < 4; child++)
         if (inside[child] && node.children >> child & 1)
             stack[pushed++] = (Visit){child_node(node, child), 4 * at.place + child,
@@ -308,33 +308,81 @@ void tree_walk_interpolated(const Tree *tree, Vec3 direction, TreeTaps *taps)
 
 /* ---- sums ----------------------------------------------------------------------------------- */
 
-static void add_means(const Tree *tree, const TreeTaps *taps, int first, int count, float *out)
+typedef float   Float4 __attribute__((vector_size(16)));
+typedef int16_t Short4 __attribute__((vector_size(8)));
+
+static inline Float4 load_floats(const float *from)
 {
-    for (int i = 0; i < count; i++) out[i] = 0;
+    Float4 value;
+    memcpy(&value, from, sizeof value);
+    return value;
+}
+
+static inline Float4 load_shorts(const int16_t *from)
+{
+    Short4 value;
+    memcpy(&value, from, sizeof value);
+    return __builtin_convertvector(value, Float4);
+}
+
+static inline Float4 all_lanes(float value)
+{
+    return (Float4){value, value, value, value};
+}
+
+/* 4 * blocks components from `first` on; `blocks` is a constant where this is inlined, so that
+ * the sums stay in registers. */
+static inline void sum_blocks(const Tree *tree, const TreeTaps *taps, int first, int blocks,
+                              float *out)
+{
+    size_t components = (size_t)tree->components;
+    Float4 sum[4] = {{0}};
     for (int q = 0; q < tree->octants; q++) {
-        float        weight = taps->mean_weight[q];
-        const float *mean = tree->means + q * tree->components + first;
-        if (weight == 0) continue;
-        for (int i = 0; i < count; i++) out[i] += weight * mean[i];
+        const float *mean = tree->means + (size_t)q * components + first;
+        Float4       weight = all_lanes(taps->mean_weight[q]);
+        for (int b = 0; b < blocks; b++) sum[b] += weight * load_floats(mean + 4 * b);
     }
+    for (int t = 0; t < taps->count; t++) {
+        size_t offset = taps->row[t] * components + (size_t)first;
+        Float4 weight = all_lanes(taps->weight[t]);
+        if (tree->format == TREE_ROWS_FLOAT) {
+            const float *row = (const float *)tree->rows + offset;
+            for (int b = 0; b < blocks; b++) sum[b] += weight * load_floats(row + 4 * b);
+        } else {
+            const int16_t *row = (const int16_t *)tree->rows + offset;
+            const float   *scale = tree->scales + taps->level[t] * components + first;
+            for (int b = 0; b < blocks; b++)
+                sum[b] += weight * (load_floats(scale + 4 * b) * load_shorts(row + 4 * b));
+        }
+    }
+    memcpy(out, sum, sizeof(Float4) * (size_t)blocks);
+}
+
+/* One component, by the same operations in the same order as in a block. */
+static float sum_one(const Tree *tree, const TreeTaps *taps, int component)
+{
+    size_t components = (size_t)tree->components;
+    float  sum = 0;
+    for (int q = 0; q < tree->octants; q++)
+        sum += taps->mean_weight[q] * tree->means[(size_t)q * components + (size_t)component];
+    for (int t = 0; t < taps->count; t++) {
+        size_t at = taps->row[t] * components + (size_t)component;
+        if (tree->format == TREE_ROWS_FLOAT)
+            sum += taps->weight[t] * ((const float *)tree->rows)[at];
+        else
+            sum += taps->weight[t] *
+                   (tree->scales[taps->level[t] * components + (size_t)component] *
+                    (float)((const int16_t *)tree->rows)[at]);
+    }
+    return sum;
 }
 
 void tree_sum(const Tree *tree, const TreeTaps *taps, int first, int count, float *out)
 {
-    size_t components = (size_t)tree->components;
-    add_means(tree, taps, first, count, out);
-    for (int t = 0; t < taps->count; t++) {
-        float  weight = taps->weight[t];
-        size_t offset = taps->row[t] * components + (size_t)first;
-        if (tree->format == TREE_ROWS_FLOAT) {
-            const float *row = (const float *)tree->rows + offset;
-            for (int i = 0; i < count; i++) out[i] += weight * row[i];
-        } else {
-            const int16_t *row = (const int16_t *)tree->rows + offset;
-            const float *scale = tree->scales + taps->level[t] * components + (size_t)first;
-            for (int i = 0; i < count; i++) out[i] += weight * (scale[i] * (float)row[i]);
-        }
-    }
+    int i = 0;
+    for (; i + 16 <= count; i += 16) sum_blocks(tree, taps, first + i, 4, out + i);
+    for (; i + 4 <= count; i += 4) sum_blocks(tree, taps, first + i, 1, out + i);
+    for (; i < count; i++) out[i] = sum_one(tree, taps, first + i);
 }
 
 void tree_mean(const Tree *tree, int level, Vec3 direction, float *out)
