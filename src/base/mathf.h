@@ -38,11 +38,13 @@ static inline float safe_sqrtf(float value)
     return value > 0 ? sqrtf(value) : 0.0f;
 }
 
-/* sin(2 pi t) and cos(2 pi t), t in [-4, 4], absolute error below 3e-7. The octant is taken
- * off exactly, then Taylor series (degree 7 and 8) on [-pi/4, pi/4] in double precision. */
+/* sin(2 pi t) and cos(2 pi t), |t| below 2^22, absolute error below 1e-7 (of |t| within 4; the
+ * float t itself is coarser beyond). The quarter is taken off exactly, then Taylor series
+ * (degree 9 and 8) on [-pi/4, pi/4] in double precision. */
 static inline void sincos_turns(float t, float *sine, float *cosine)
 {
-    double turns = (double)t - floor((double)t);
+    double turns = (double)t - (double)(int)t;
+    if (turns < 0) turns += 1;
     int    quarter = (int)(turns * 4 + 0.5);
     double x = (turns - quarter * 0.25) * 6.283185307179586;
     double x2 = x * x;
@@ -56,20 +58,21 @@ static inline void sincos_turns(float t, float *sine, float *cosine)
     }
 }
 
-/* e^x, relative error below 2e-7 for x in [-87, 88]; 0 below, infinity above. */
+/* e^x, relative error below 2e-7 for x in [-87, 88]; 0 below, infinity above, NaN of NaN. */
 static inline float exp_f(float x)
 {
     if (x < -87.3f) return 0.0f;
     if (x > 88.7f) return INFINITY;
-    double n = floor((double)x * 1.4426950408889634 + 0.5);
+    if (x != x) return x;
+    int    n = (int)((double)x * 1.4426950408889634 + 128.5) - 128;
     double r = (double)x - n * 0.6931471805599453;
     double p = 1 + r * (1 + r * (1.0 / 2 + r * (1.0 / 6 + r * (1.0 / 24 + r * (1.0 / 120 +
                r * (1.0 / 720 + r / 5040))))));
-    union { uint64_t bits; double value; } scale = {(uint64_t)((int64_t)n + 1023) << 52};
+    union { uint64_t bits; double value; } scale = {(uint64_t)(n + 1023) << 52};
     return (float)(p * scale.value);
 }
 
-/* ln x for finite x > 0, absolute error below 2e-7; -infinity at 0. */
+/* ln x for finite x > 0, error below 2e-7 * max(1, |ln x|); -infinity at 0 and below. */
 static inline float log_f(float x)
 {
     if (!(x > 0)) return -INFINITY;
@@ -85,6 +88,7 @@ static inline float log_f(float x)
     return (float)(s + exponent * 0.6931471805599453);
 }
 
+/* base^exponent, relative error below 3e-7 (1 + |exponent ln base|); 0 for base <= 0. */
 static inline float pow_f(float base, float exponent)
 {
     return base > 0 ? exp_f(exponent * log_f(base)) : 0.0f;
