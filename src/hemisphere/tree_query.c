@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "base/mathf.h"
+
 static const uint32_t NO_NODE = UINT32_MAX;
 
 static uint32_t octant_in_tree(const Tree *tree, uint32_t octant)
@@ -90,7 +92,7 @@ void tree_walk_triangle(const Tree *tree, int level, uint32_t id, TreeTaps *taps
 
 /* ---- interpolation ------------------------------------------------------------------------ */
 
-#define MAX_LEAVES 13 /* the leaf and up to 6 around each of two corners */
+#define MAX_LEAVES 11 /* the leaf and up to 5 more around each of two corners */
 
 /* The leaves that an interpolated value is made of; some may be there twice. */
 typedef struct Leaves {
@@ -175,7 +177,7 @@ static int ring_level(const Tree *tree, const Ring *ring)
     return level - (33 - __builtin_clz(ring->father[0] ^ ring->father[1])) / 2;
 }
 
-/* Adds the area mean of the leaves around a corner, times weight. */
+/* Adds the area mean of the leaves around a corner, times weight; leaf 0 is `leaf` itself. */
 static void add_ring(const Tree *tree, const Ring *ring, uint32_t leaf, float weight,
                      Leaves *out)
 {
@@ -186,7 +188,11 @@ static void add_ring(const Tree *tree, const Ring *ring, uint32_t leaf, float we
     for (int i = 0; i < count; i++) sum += area[i] = areas[id[i] & mask];
     float scale = weight / (sum * (float)(1 << __builtin_popcount(mirrors)));
     for (uint32_t flip = 0;; flip = (flip - mirrors) & mirrors) { /* every subset of mirrors */
-        for (int i = 0; i < count; i++) add_leaf(out, id[i] ^ flip, scale * area[i]);
+        for (int i = 0; i < count; i++)
+            if ((id[i] ^ flip) == leaf)
+                out->weight[0] += scale * area[i];
+            else
+                add_leaf(out, id[i] ^ flip, scale * area[i]);
         if (flip == mirrors) return;
     }
 }
@@ -259,14 +265,14 @@ typedef struct Stencil {
     int      common_level; /* of the smallest triangle that holds all leaves; -1: no octant does */
 } Stencil;
 
-static Stencil stencil_at(const Tree *tree, Vec3 direction)
+static Stencil stencil_at(const Tree *tree, const GeodesicPoint *point)
 {
-    GeodesicPoint point = geodesic_find(tree->geodesic, tree->level, direction);
-    const float  *w = point.weight;
-    float         least = w[0] < w[1] ? w[0] : w[1];
+    const float *w = point->weight;
+    float        least = w[0] < w[1] ? w[0] : w[1];
     if (w[2] < least) least = w[2];
-    Stencil stencil = {.center_weight = 3 * least, .common_level = tree->level};
-    stencil.leaf = point.id & (((uint32_t)tree->octants << 2 * tree->level) - 1);
+    Stencil stencil = {.leaf = point->id,
+                       .center_weight = 3 * least,
+                       .common_level = tree->level};
     for (uint32_t i = 0; i < 3; i++) {
         if (!(w[i] > least)) continue;
         Ring *ring = &stencil.ring[stencil.corner_count];
@@ -278,32 +284,69 @@ static Stencil stencil_at(const Tree *tree, Vec3 direction)
     return stencil;
 }
 
+/* The way down to a leaf: the tree's node on each level (NO_NODE below the last one) and how
+ * many taps the levels above it have. */
+typedef struct Path {
+    GeodesicWalk walk;
+    uint32_t     node[GEODESIC_MAX_LEVEL + 1];
+    int          tap_count[GEODESIC_MAX_LEVEL + 1];
+} Path;
+
+/* Does no leaf around the walk's direction touch the border of its triangle of `level`? Leaves
+ * are at most pi/2 / 2^(tree's level - level) wide in its barycentric coordinates (at an
+ * octant's corner), so that twice the power of two is safe. */
+static bool is_far_inside(const Tree *tree, const GeodesicWalk *walk, int level)
+{
+    const float *w = walk->weight;
+    float        margin = (w[0] + w[1] + w[2]) * float_from_bits((128u + (uint32_t)level -
+                                                           (uint32_t)tree->level) << 23);
+    return w[0] > margin && w[1] > margin && w[2] > margin;
+}
+
+/* Goes to the leaf with weight 1. False: the tree ended early, in a triangle that holds every
+ * leaf around, so that the taps are complete. */
+static bool walk_to_leaf(const Tree *tree, Path *path, TreeTaps *taps)
+{
+    uint32_t node = path->walk.octant;
+    for (int i = 0; i < tree->level; i++) {
+        path->node[i] = node;
+        path->tap_count[i] = taps->count;
+        geodesic_walk_down(tree->geodesic, i, &path->walk);
+        if (node == NO_NODE) continue;
+        node = step_down(tree, node, i, path->walk.place, taps);
+        if (node == NO_NODE && is_far_inside(tree, &path->walk, i + 1)) return false;
+    }
+    path->node[tree->level] = node;
+    path->tap_count[tree->level] = taps->count;
+    return true;
+}
+
 /* Down to the triangle that holds all leaves there is one way, for weights that sum to one.
- * Where the tree ends on it, the function is constant around: most queries of a small tree. */
+ * Where the tree ends on it, the function is constant around: most queries of a small tree.
+ * Else the taps below it are made anew, for every leaf. */
 void tree_walk_interpolated(const Tree *tree, Vec3 direction, TreeTaps *taps)
 {
-    Stencil  stencil = stencil_at(tree, direction);
-    uint32_t node = stencil.leaf >> 2 * tree->level;
-    uint32_t place = stencil.leaf & ((1u << 2 * tree->level) - 1);
-    Leaves   leaves = {.count = 0};
+    Path path = {.walk = geodesic_walk_start(direction)};
+    path.walk.octant = octant_in_tree(tree, path.walk.octant);
     start_taps(taps);
-    taps->mean_weight[node] = 1;
-    for (int i = 0; i < stencil.common_level; i++) {
-        node = step_down(tree, node, i, place >> 2 * (tree->level - i - 1), taps);
-        if (node == NO_NODE) return;
-    }
+    taps->mean_weight[path.walk.octant] = 1;
+    if (!walk_to_leaf(tree, &path, taps)) return;
+    GeodesicPoint point = geodesic_walk_point(&path.walk, tree->level);
+    Stencil       stencil = stencil_at(tree, &point);
+    int           common = stencil.common_level;
+    if (common >= 0 && path.node[common] == NO_NODE) return;
+    Leaves leaves = {.count = 0};
     add_leaf(&leaves, stencil.leaf, stencil.center_weight);
     for (int r = 0; r < stencil.corner_count; r++)
         add_ring(tree, &stencil.ring[r], stencil.leaf, stencil.ring_weight[r], &leaves);
-    if (stencil.common_level < 0) {
+    taps->count = common < 0 ? 0 : path.tap_count[common];
+    if (common < 0)
         visit_octants(tree, &leaves, taps);
-        return;
-    }
-    int depth = tree->level - stencil.common_level;
-    visit_below(tree, &leaves,
-                (Visit){node, place >> 2 * depth, stencil.common_level,
-                        (1u << leaves.count) - 1},
-                taps);
+    else
+        visit_below(tree, &leaves,
+                    (Visit){path.node[common], path.walk.place >> 2 * (tree->level - common),
+                            common, (1u << leaves.count) - 1},
+                    taps);
 }
 
 /* ---- sums ----------------------------------------------------------------------------------- */

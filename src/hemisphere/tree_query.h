@@ -11,9 +11,9 @@
 #pragma once
 #include "hemisphere/tree.h"
 
-/* Three rows for each of the at most 13 triangles of a level around a leaf's two corners; one
+/* Three rows for each of the at most 11 triangles of a level around a leaf's two corners; one
  * more that is written before it is known whether it is kept. */
-#define TREE_MAX_TAPS (3 * 13 * GEODESIC_MAX_LEVEL + 1)
+#define TREE_MAX_TAPS (3 * 11 * GEODESIC_MAX_LEVEL + 1)
 
 /* A value as a weighted sum of a tree's octant means and rows. */
 typedef struct TreeTaps {
