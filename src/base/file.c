@@ -269,6 +269,16 @@ static bool base64_decode(const char *text, size_t length, unsigned char *out, s
     return true;
 }
 
+/* type/subtype;name=value;...;base64: no part between semicolons may be empty. */
+static bool check_media_type(const char *head, size_t length, Error *err)
+{
+    for (size_t i = 0; i < length; i++)
+        if (head[i] == ';' && (i + 1 == length || head[i + 1] == ';'))
+            return error_set(err, ERROR_INPUT, "the data: URI has an empty part in \"%.*s\"",
+                             (int)(length < 80 ? length : 80), head);
+    return true;
+}
+
 bool data_uri_decode(const char *uri, Arena *arena, FileBytes *out, const char **media_type,
                      Error *err)
 {
@@ -276,6 +286,7 @@ bool data_uri_decode(const char *uri, Arena *arena, FileBytes *out, const char *
     if (!comma)
         return error_set(err, ERROR_INPUT, "the data: URI has no comma before its data");
     size_t head = (size_t)(comma - uri), length = strlen(comma + 1), size;
+    if (!check_media_type(uri, head, err)) return false;
     bool   is_base64 = head >= 12 && strncasecmp(comma - 7, ";base64", 7) == 0;
     unsigned char *bytes = ARENA_NEW(arena, unsigned char, length + 1);
     if (is_base64) {

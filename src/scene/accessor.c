@@ -36,6 +36,12 @@ static size_t component_offset(const GltfAccessor *accessor, int component)
            size * (size_t)(component % accessor->matrix_rows);
 }
 
+size_t accessor_element_extent(const GltfAccessor *accessor)
+{
+    return component_offset(accessor, accessor->component_count - 1) +
+           component_size(accessor->component_type);
+}
+
 const GltfAccessor *accessor_get(const GltfFile *file, int accessor)
 {
     bool exists = accessor >= 0 && accessor < file->data.accessor_count;
@@ -75,38 +81,48 @@ static float float_at(const unsigned char *bytes, int component_type, bool is_no
     return value < -1 ? -1.0f : value;
 }
 
-/* One element's components to `out`, either as floats or as integers. */
+typedef enum Decoding { TO_FLOATS, TO_RAW_FLOATS, TO_INTEGERS } Decoding;
+
+/* One element's components to `out`, floats or integers. */
 static void decode_element(const GltfAccessor *accessor, const unsigned char *bytes,
-                           bool to_float, void *out)
+                           Decoding decoding, void *out)
 {
+    bool is_normalized = accessor->is_normalized && decoding == TO_FLOATS;
     for (int c = 0; c < accessor->component_count; c++) {
         const unsigned char *at = bytes + component_offset(accessor, c);
-        if (to_float)
-            ((float *)out)[c] = float_at(at, accessor->component_type, accessor->is_normalized);
-        else
+        if (decoding == TO_INTEGERS)
             ((uint32_t *)out)[c] = integer_at(at, accessor->component_type);
+        else
+            ((float *)out)[c] = float_at(at, accessor->component_type, is_normalized);
     }
 }
 
-static void decode_sparse(GltfFile *file, const GltfAccessor *accessor, bool to_float, void *out)
+uint32_t *accessor_sparse_indices(GltfFile *file, const GltfAccessor *accessor)
 {
-    const unsigned char *indices = document_view(file, accessor->sparse_index_view).data;
-    const unsigned char *values = document_view(file, accessor->sparse_value_view).data;
-    size_t index_size = component_size(accessor->sparse_index_type);
-    size_t value_size = accessor_element_size(accessor);
-    size_t row = 4 * (size_t)accessor->component_count;
-    if (!indices || !values) return;
-    indices += accessor->sparse_index_offset;
-    values += accessor->sparse_value_offset;
-    for (size_t i = 0; i < accessor->sparse_count; i++) {
-        size_t element = integer_at(indices + i * index_size, accessor->sparse_index_type);
-        if (element < accessor->count)
-            decode_element(accessor, values + i * value_size, to_float,
-                           (char *)out + element * row);
-    }
+    const unsigned char *bytes = document_view(file, accessor->sparse_index_view).data;
+    size_t size = component_size(accessor->sparse_index_type);
+    if (!bytes) return NULL;
+    uint32_t *indices = ARENA_NEW(&file->load->scratch, uint32_t, accessor->sparse_count);
+    bytes += accessor->sparse_index_offset;
+    for (size_t i = 0; i < accessor->sparse_count; i++)
+        indices[i] = integer_at(bytes + i * size, accessor->sparse_index_type);
+    return indices;
 }
 
-static void *decode(GltfFile *file, int accessor_id, bool to_float)
+static void decode_sparse(GltfFile *file, const GltfAccessor *accessor, Decoding decoding,
+                          char *out)
+{
+    const uint32_t      *indices = accessor_sparse_indices(file, accessor);
+    const unsigned char *values = document_view(file, accessor->sparse_value_view).data;
+    size_t size = accessor_element_size(accessor), row = 4 * (size_t)accessor->component_count;
+    if (!indices || !values) return;
+    values += accessor->sparse_value_offset;
+    for (size_t i = 0; i < accessor->sparse_count; i++)
+        if (indices[i] < accessor->count)
+            decode_element(accessor, values + i * size, decoding, out + indices[i] * row);
+}
+
+static void *decode(GltfFile *file, int accessor_id, Decoding decoding)
 {
     const GltfAccessor *accessor = accessor_get(file, accessor_id);
     size_t row = 4 * (size_t)accessor->component_count;
@@ -118,18 +134,23 @@ static void *decode(GltfFile *file, int accessor_id, bool to_float)
         if (!stride) stride = accessor_element_size(accessor);
         const unsigned char *at = bytes.data + accessor->offset;
         for (size_t i = 0; i < accessor->count; i++)
-            decode_element(accessor, at + i * stride, to_float, out + i * row);
+            decode_element(accessor, at + i * stride, decoding, out + i * row);
     }
-    if (accessor->sparse_count) decode_sparse(file, accessor, to_float, out);
+    if (accessor->sparse_count) decode_sparse(file, accessor, decoding, out);
     return out;
 }
 
 float *accessor_floats(GltfFile *file, int accessor)
 {
-    return decode(file, accessor, true);
+    return decode(file, accessor, TO_FLOATS);
+}
+
+float *accessor_raw_floats(GltfFile *file, int accessor)
+{
+    return decode(file, accessor, TO_RAW_FLOATS);
 }
 
 uint32_t *accessor_integers(GltfFile *file, int accessor)
 {
-    return decode(file, accessor, false);
+    return decode(file, accessor, TO_INTEGERS);
 }

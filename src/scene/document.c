@@ -210,6 +210,7 @@ static bool buffer_bytes(GltfFile *file, const GltfValue *buffer, FileBytes *out
     const char *path;
     Arena      *scratch = &file->load->scratch;
     const GltfValue *uri = tree_member(buffer, "uri");
+    if (uri && uri->kind != GLTF_STRING) return false; /* reported by the check */
     if (!uri) {
         *out = buffer->index == 0 ? file->bin : (FileBytes){0};
         if (file->is_binary && buffer->index == 0 && !out->data)
@@ -230,7 +231,7 @@ static bool buffer_bytes(GltfFile *file, const GltfValue *buffer, FileBytes *out
 void document_load_buffers(GltfFile *file)
 {
     const GltfValue *buffers = tree_member(file->root, "buffers");
-    int count = buffers ? buffers->count : 0;
+    int count = buffers && buffers->kind == GLTF_ARRAY ? buffers->count : 0;
     file->buffers = ARENA_NEW(&file->load->scratch, FileBytes, count);
     for (int i = 0; i < count; i++) {
         const GltfValue *buffer = &buffers->items[i];

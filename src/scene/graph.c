@@ -44,13 +44,20 @@ typedef struct NodeOrder {
     int *stack;
     bool *is_seen;
     int  count, capacity;
+    bool skips_hidden;
 } NodeOrder;
+
+/* KHR_node_visibility: the node and everything below it. */
+static bool is_hidden(const GltfValue *node)
+{
+    return !tree_boolean(tree_extension(node, "KHR_node_visibility"), "visible", true);
+}
 
 static NodeOrder order_start(GltfFile *file, int node_count)
 {
     Arena *scratch = &file->load->scratch;
     return (NodeOrder){ARENA_NEW(scratch, int, node_count), ARENA_NEW(scratch, int, node_count),
-                       ARENA_NEW(scratch, bool, node_count), 0, node_count};
+                       ARENA_NEW(scratch, bool, node_count), 0, node_count, false};
 }
 
 static void order_below(NodeOrder *order, const GltfValue *nodes, int root)
@@ -62,6 +69,7 @@ static void order_below(NodeOrder *order, const GltfValue *nodes, int root)
     while (depth) {
         int node = order->stack[--depth];
         const GltfValue *children = tree_member(&nodes->items[node], "children");
+        if (order->skips_hidden && is_hidden(&nodes->items[node])) continue;
         order->nodes[order->count++] = node;
         for (int i = children ? children->count : 0; i-- > 0;) {
             int child = (int)children->items[i].number;
@@ -105,6 +113,7 @@ static void place_nodes(GltfFile *file, const GltfValue *nodes, const int *paren
 static NodeOrder nodes_of_scene(GltfFile *file, const GltfValue *nodes, const int *parent)
 {
     NodeOrder order = order_start(file, nodes->count);
+    order.skips_hidden = true;
     const GltfValue *scene =
         tree_element(file->root, "scenes", tree_int(file->root, "scene", 0));
     const GltfValue *roots = tree_member(scene, "nodes");

@@ -100,6 +100,8 @@ const GltfAccessor *accessor_get(const GltfFile *file, int accessor);
 
 /* Bytes of one element, columns of matrices padded to four bytes. */
 size_t accessor_element_size(const GltfAccessor *accessor);
+/* The same without the padding behind the last column, which a buffer need not have. */
+size_t accessor_element_extent(const GltfAccessor *accessor);
 size_t component_size(int component_type); /* 0: no such type */
 
 /* count x component_count numbers in scratch; normalised integers become [0,1] or [-1,1].
@@ -107,6 +109,10 @@ size_t component_size(int component_type); /* 0: no such type */
 float    *accessor_floats(GltfFile *file, int accessor);
 /* The same for integers that are not normalised: indices, joints. */
 uint32_t *accessor_integers(GltfFile *file, int accessor);
+/* As accessor_floats, but normalised integers stay what they are: min and max count these. */
+float    *accessor_raw_floats(GltfFile *file, int accessor);
+/* Where the sparse values go; NULL when the bytes are missing. */
+uint32_t *accessor_sparse_indices(GltfFile *file, const GltfAccessor *accessor);
 
 /* ---- building ------------------------------------------------------------------------- */
 

@@ -32,10 +32,10 @@ TextureSlot texture_slot(GltfFile *file, const GltfValue *info)
     const GltfValue *transform = tree_extension(info, "KHR_texture_transform");
     if (transform) apply_transform(transform, &slot);
     const Texture *texture = list_item(&file->load->textures, slot.texture_id);
-    if (texture->image.width == 0 &&
-        tree_int(tree_element(file->root, "textures", index), "source", NO_ID) < 0)
-        file_error(file, info, "texture %d has no PNG or JPEG source", index);
-    return slot;
+    if (texture->image.width > 0) return slot;
+    if (!tree_member(tree_element(file->root, "textures", index), "source"))
+        file_warning(file, info, "texture %d has no PNG or JPEG source: it is left out", index);
+    return no_texture();
 }
 
 /* ---- which uv sets does a material need? ------------------------------------------------ */

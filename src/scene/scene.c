@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "scene/load.h"
+#include "scene/schema.h"
 
 /* ---- from drafts to arrays ---------------------------------------------------------------- */
 
@@ -122,27 +123,37 @@ static void note_extensions(GltfFile *file)
             arena_string(file->load->arena, used->items[i].text, strlen(used->items[i].text));
 }
 
-static bool has_new_errors(const Loader *load, int before)
+static void check_document(GltfFile *file)
 {
-    return load->problems->error_count > before;
+    const Check check = {file, SEVERITY_ERROR};
+    schema_check(&check, file->root, &SCHEMA_ROOT);
+    check_extensions(&check, file->root);
+    check_hierarchy(&check, file->root);
+    document_load_buffers(file);
+}
+
+static bool read_data(GltfFile *file)
+{
+    Error err;
+    if (gltf_json_data(file->json, file->json_size, &file->load->scratch, &file->data, &err))
+        return true;
+    file_error(file, NULL, "%s", err.text);
+    return false;
 }
 
 /* One file: read, check, and, when nothing is wrong, build. */
 static void load_file(Loader *load, const char *path)
 {
-    Error     err;
-    int       before = load->problems->error_count;
+    const Problems *problems = load->problems;
+    int       before = problems->error_count;
     GltfFile *file = ARENA_NEW(&load->scratch, GltfFile, 1);
     *file = (GltfFile){.load = load, .path = arena_string(load->arena, path, strlen(path))};
     if (!document_read(file)) return;
     note_extensions(file);
-    document_load_buffers(file);
-    if (has_new_errors(load, before)) return;
-    if (!gltf_json_data(file->json, file->json_size, &load->scratch, &file->data, &err)) {
-        file_error(file, NULL, "%s", err.text);
-        return;
-    }
-    if (has_new_errors(load, before)) return;
+    check_document(file);
+    if (problems->error_count > before || !read_data(file)) return;
+    check_data(file);
+    if (problems->error_count > before) return;
     images_load(file);
     materials_build(file);
     graph_build(file);

@@ -1,0 +1,173 @@
+/* What tables cannot say about the document's small objects. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/schema.h"
+
+/* "major.minor", digits only; false when the text is anything else. */
+static bool parse_version(const char *text, long *major, long *minor)
+{
+    char *end;
+    if (text[0] < '0' || text[0] > '9') return false;
+    *major = strtol(text, &end, 10);
+    if (*end != '.' || end[1] < '0' || end[1] > '9') return false;
+    *minor = strtol(end + 1, &end, 10);
+    return *end == '\0';
+}
+
+static void check_version(const Check *check, const GltfValue *value, bool is_minimum)
+{
+    long major, minor;
+    if (!value || value->kind != GLTF_STRING) return;
+    if (!parse_version(value->text, &major, &minor))
+        check_fails(check, value, "is \"%.40s\", a version like \"2.0\" is wanted", value->text);
+    else if (major != 2 || (is_minimum && minor > 0))
+        check_fails(check, value, "is \"%.40s\", version 2.0 is read", value->text);
+}
+
+void check_asset(const Check *check, const GltfValue *asset)
+{
+    check_version(check, tree_member(asset, "version"), false);
+    check_version(check, tree_member(asset, "minVersion"), true);
+}
+
+/* ---- extensionsUsed and extensionsRequired -------------------------------------------------- */
+
+static bool lists(const GltfValue *array, const char *text)
+{
+    for (int i = 0; array && array->kind == GLTF_ARRAY && i < array->count; i++)
+        if (strcmp(array->items[i].text, text) == 0) return true;
+    return false;
+}
+
+void check_extensions(const Check *check, const GltfValue *root)
+{
+    const GltfValue *used = tree_member(root, "extensionsUsed");
+    const GltfValue *required = tree_member(root, "extensionsRequired");
+    for (int i = 0; required && i < required->count; i++) {
+        const GltfValue *name = &required->items[i];
+        if (name->kind != GLTF_STRING) continue;
+        if (!extension_is_supported(name->text))
+            check_fails(check, name, "the file requires the extension \"%.80s\", which is not "
+                        "supported", name->text);
+        if (!lists(used, name->text))
+            check_warns(check, name, "\"%.80s\" is required but not listed in extensionsUsed",
+                        name->text);
+    }
+    for (int i = 0; used && i < used->count; i++) {
+        const GltfValue *name = &used->items[i];
+        if (name->kind != GLTF_STRING || lists(required, name->text)) continue;
+        if (!extension_is_supported(name->text))
+            check_warns(check, name, "the extension \"%.80s\" is not supported: what it adds is "
+                        "not shown", name->text);
+        else if (strcmp(name->text, "KHR_mesh_quantization") == 0)
+            check_warns(check, name, "KHR_mesh_quantization must be listed in extensionsRequired");
+    }
+}
+
+void check_animation_pointer(const Check *check, const GltfValue *extension)
+{
+    const GltfValue *target = extension->parent ? extension->parent->parent : NULL;
+    if (tree_member(target, "node"))
+        check_warns(check, extension, "a target with a pointer has a node as well");
+}
+
+/* ---- pictures ------------------------------------------------------------------------------- */
+
+void check_image(const Check *check, const GltfValue *image)
+{
+    const GltfValue *uri = tree_member(image, "uri");
+    const GltfValue *view = tree_member(image, "bufferView");
+    if ((uri != NULL) == (view != NULL))
+        check_fails(check, image, "has %s; either \"uri\" or \"bufferView\" is wanted",
+                    uri ? "both" : "neither");
+    if (view && !tree_member(image, "mimeType"))
+        check_warns(check, image, "\"mimeType\" is missing beside \"bufferView\"");
+    const GltfValue *target = tree_element(check->file->root, "bufferViews",
+                                           tree_int(image, "bufferView", NO_ID));
+    if (tree_member(target, "byteStride"))
+        check_warns(check, view, "the buffer view of a picture has a byteStride");
+}
+
+/* ---- cameras and lights --------------------------------------------------------------------- */
+
+static void check_depths(const Check *check, const GltfValue *kind)
+{
+    const GltfValue *zfar = tree_member(kind, "zfar");
+    double near = tree_number(kind, "znear", 0);
+    if (zfar && zfar->number <= near)
+        check_fails(check, zfar, "is %g, more than znear (%g) is wanted", zfar->number, near);
+}
+
+void check_camera(const Check *check, const GltfValue *camera)
+{
+    const char *type = tree_text(camera, "type", "");
+    const GltfValue *eye = tree_member(camera, "perspective");
+    const GltfValue *flat = tree_member(camera, "orthographic");
+    if (eye && flat)
+        check_fails(check, camera, "has \"perspective\" and \"orthographic\"; one is wanted");
+    if ((strcmp(type, "perspective") == 0 && !eye) || (strcmp(type, "orthographic") == 0 && !flat))
+        check_fails(check, camera, "\"%s\" is missing", type);
+    check_depths(check, eye);
+    check_depths(check, flat);
+    if (tree_number(eye, "yfov", 1) >= 3.14159265358979)
+        check_warns(check, tree_member(eye, "yfov"), "is %g rad, less than pi is wanted",
+                    tree_number(eye, "yfov", 1));
+    for (int i = 0; i < 2; i++) {
+        const GltfValue *mag = tree_member(flat, i ? "ymag" : "xmag");
+        if (mag && mag->kind == GLTF_NUMBER && mag->number == 0)
+            check_fails(check, mag, "is 0, half the picture's size in metres is wanted");
+        if (mag && mag->number < 0)
+            check_warns(check, mag, "is %g, a positive number is wanted: its size is taken",
+                        mag->number);
+    }
+}
+
+void check_light(const Check *check, const GltfValue *light)
+{
+    const GltfValue *type = tree_member(light, "type"), *cone = tree_member(light, "spot");
+    double inner = tree_number(cone, "innerConeAngle", 0);
+    double outer = tree_number(cone, "outerConeAngle", 0.7853981633974483);
+    if (type && strcmp(type->text, "point") != 0 && strcmp(type->text, "spot") != 0 &&
+        strcmp(type->text, "directional") != 0)
+        check_warns(check, type, "is \"%.40s\", one of point|spot|directional is wanted: the light "
+                    "is skipped", type->text);
+    if (type && strcmp(type->text, "spot") == 0 && !cone)
+        check_fails(check, light, "\"spot\" is missing");
+    if (cone && inner >= outer)
+        check_fails(check, cone, "the inner cone angle %g is not below the outer one %g", inner,
+                    outer);
+}
+
+/* ---- ours ----------------------------------------------------------------------------------- */
+
+void check_display(const Check *check, const GltfValue *display)
+{
+    const SceneOptions *options = check->file->load->options;
+    const GltfValue    *material = display->parent ? display->parent->parent : NULL;
+    const char         *name = tree_text(material, "name", "");
+    if (tree_member(display, "panel")) return;
+    for (int i = 0; i < options->panel_count; i++)
+        if (strcmp(options->panels[i].material, name) == 0) return;
+    check_fails(check, display, "\"panel\" is missing, and --panel names none");
+}
+
+/* What each type of environment must have besides its type. */
+void check_environment(const Check *check, const GltfValue *environment)
+{
+    static const char *const NEEDED[][4] = {
+        {"constant", "luminance"}, {"hdri", "uri"}, {"cie", "sky", "diffuse_horizontal_lx"},
+        {"perez", "direct_normal_w_m2", "diffuse_horizontal_w_m2"}, {"sky", "when", "where"}};
+    const char *type = tree_text(environment, "type", "");
+    for (size_t i = 0; i < sizeof NEEDED / sizeof *NEEDED; i++) {
+        if (strcmp(NEEDED[i][0], type) != 0) continue;
+        for (int k = 1; k < 4 && NEEDED[i][k]; k++)
+            if (!tree_member(environment, NEEDED[i][k]))
+                check_fails(check, environment, "\"%s\" is missing in an environment of type "
+                            "\"%s\"", NEEDED[i][k], type);
+    }
+    if (tree_member(environment, "scale") && tree_member(environment, "horizontal_illuminance_lx"))
+        check_fails(check, environment, "has \"scale\" and \"horizontal_illuminance_lx\"; one of "
+                    "them is wanted");
+}
