@@ -124,9 +124,29 @@ static bool write_all(int file, const char *bytes, size_t size)
     return true;
 }
 
+/* A device or a pipe takes the bytes itself: a rename would put a file in its place. */
+static bool is_special(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
+}
+
+static bool write_special(const char *path, const void *bytes, size_t size, Error *err)
+{
+    int  file = open(path, O_WRONLY | O_CLOEXEC);
+    bool done = file >= 0 && write_all(file, bytes, size);
+    int  reason = errno;
+    if (file >= 0 && close(file) != 0 && done) {
+        done = false;
+        reason = errno;
+    }
+    return done || output_error(path, "written", reason, err);
+}
+
 bool file_write(const char *path, const void *bytes, size_t size, Error *err)
 {
     char temporary[4096];
+    if (is_special(path)) return write_special(path, bytes, size, err);
     int  length = snprintf(temporary, sizeof temporary, "%s.%ld.part", path, (long)getpid());
     if (length >= (int)sizeof temporary) return output_error(path, "created", ENAMETOOLONG, err);
     int file = open(temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);

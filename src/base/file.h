@@ -38,7 +38,7 @@ bool file_commit(const char *temporary, const char *path, Error *err);
 /* Removes a temporary file after a failure. */
 void file_discard(const char *temporary);
 
-/* All of the above for bytes in memory. */
+/* All of the above for bytes in memory. A device or a pipe is written as it stands. */
 bool file_write(const char *path, const void *bytes, size_t size, Error *err);
 
 /* ---- names --------------------------------------------------------------------------- */
