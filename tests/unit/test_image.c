@@ -1,0 +1,528 @@
+/* Pictures and textures: what is decoded is what the file says, and broken files are refused. */
+#include "check.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "image/image.h"
+#include "image/texture.h"
+#include "openimageio/image_file.h"
+
+enum { ARENA_BYTES = 1 << 28 };
+
+static void assert_text_has(const Error *err, const char *part)
+{
+    if (!strstr(err->text, part)) fail_msg("\"%s\" lacks \"%s\"", err->text, part);
+}
+
+/* ---- PNG files made by hand, so that every kind of them can be had ----------------------- */
+
+typedef struct Bytes {
+    unsigned char data[1 << 16];
+    size_t        size;
+} Bytes;
+
+static void put(Bytes *b, const void *data, size_t size)
+{
+    memcpy(b->data + b->size, data, size);
+    b->size += size;
+}
+
+static void put_u32(Bytes *b, uint32_t v)
+{
+    unsigned char bytes[4] = {(unsigned char)(v >> 24), (unsigned char)(v >> 16),
+                              (unsigned char)(v >> 8), (unsigned char)v};
+    put(b, bytes, 4);
+}
+
+static uint32_t crc_of(const unsigned char *data, size_t size)
+{
+    uint32_t crc = 0xffffffffu;
+    for (size_t i = 0; i < size; i++) {
+        crc ^= data[i];
+        for (int k = 0; k < 8; k++) crc = crc & 1 ? 0xedb88320u ^ crc >> 1 : crc >> 1;
+    }
+    return ~crc;
+}
+
+static void put_chunk(Bytes *b, const char *type, const void *data, size_t size)
+{
+    put_u32(b, (uint32_t)size);
+    size_t start = b->size;
+    put(b, type, 4);
+    put(b, data, size);
+    put_u32(b, crc_of(b->data + start, b->size - start));
+}
+
+/* zlib (RFC 1950) with one stored block. */
+static void put_pixels(Bytes *b, const unsigned char *rows, size_t size)
+{
+    static Bytes z;
+    uint32_t     low = 1, high = 0;
+    unsigned char head[7] = {0x78, 1, 1, (unsigned char)size, (unsigned char)(size >> 8),
+                             (unsigned char)~size, (unsigned char)(~size >> 8)};
+    z.size = 0;
+    put(&z, head, 7);
+    put(&z, rows, size);
+    for (size_t i = 0; i < size; i++) {
+        low = (low + rows[i]) % 65521;
+        high = (high + low) % 65521;
+    }
+    put_u32(&z, high << 16 | low);
+    put_chunk(b, "IDAT", z.data, z.size);
+}
+
+typedef struct PngKind {
+    uint32_t width, height;
+    unsigned char bits, colour; /* 0 grey, 2 RGB, 3 palette, 4 grey and alpha, 6 RGBA */
+    const unsigned char *palette;
+    size_t palette_size;
+} PngKind;
+
+/* rows: each with its filter byte 0 in front. */
+static const Bytes *make_png(PngKind kind, const unsigned char *rows, size_t size)
+{
+    static Bytes png;
+    Bytes head = {.size = 0};
+    png.size = 0;
+    put(&png, "\x89PNG\r\n\x1a\n", 8);
+    put_u32(&head, kind.width);
+    put_u32(&head, kind.height);
+    put(&head, (unsigned char[]){kind.bits, kind.colour, 0, 0, 0}, 5);
+    put_chunk(&png, "IHDR", head.data, head.size);
+    if (kind.palette) put_chunk(&png, "PLTE", kind.palette, kind.palette_size);
+    put_pixels(&png, rows, size);
+    put_chunk(&png, "IEND", "", 0);
+    return &png;
+}
+
+static Image read_png(const Bytes *png, Arena *arena)
+{
+    Image image;
+    Error err = {0};
+    if (!image_read_memory(png->data, png->size, "test.png", arena, &image, &err))
+        fail_msg("%s", err.text);
+    return image;
+}
+
+static void assert_pixel8(const Image *image, int at, int r, int g, int b, int a)
+{
+    const uint8_t *p = (const uint8_t *)image->pixels + 4 * at;
+    assert_int_equal(image->format, IMAGE_RGBA8);
+    int want[4] = {r, g, b, a};
+    for (int c = 0; c < 4; c++) assert_int_equal(p[c], want[c]);
+}
+
+static void every_kind_of_png_becomes_rgba(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(ARENA_BYTES);
+    Image i = read_png(make_png((PngKind){2, 1, 8, 0, NULL, 0}, (unsigned char[]){0, 7, 200}, 3),
+                       &arena);
+    assert_pixel8(&i, 1, 200, 200, 200, 255);
+    i = read_png(make_png((PngKind){1, 1, 8, 4, NULL, 0}, (unsigned char[]){0, 90, 40}, 3),
+                 &arena);
+    assert_pixel8(&i, 0, 90, 90, 90, 40);
+    i = read_png(make_png((PngKind){1, 1, 8, 2, NULL, 0}, (unsigned char[]){0, 1, 2, 3}, 4),
+                 &arena);
+    assert_pixel8(&i, 0, 1, 2, 3, 255);
+    i = read_png(make_png((PngKind){2, 1, 8, 3, (unsigned char[]){9, 8, 7, 60, 50, 40}, 6},
+                          (unsigned char[]){0, 1, 0}, 3), &arena);
+    assert_pixel8(&i, 0, 60, 50, 40, 255);
+    assert_pixel8(&i, 1, 9, 8, 7, 255);
+    i = read_png(make_png((PngKind){8, 1, 1, 0, NULL, 0}, (unsigned char[]){0, 0xa0}, 2), &arena);
+    assert_pixel8(&i, 0, 255, 255, 255, 255);
+    assert_pixel8(&i, 1, 0, 0, 0, 255);
+    arena_release(&arena);
+}
+
+static void alpha_stays_straight(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(ARENA_BYTES);
+    unsigned char row[] = {0, 200, 100, 50, 128, 200, 100, 50, 0};
+    Image i = read_png(make_png((PngKind){2, 1, 8, 6, NULL, 0}, row, 9), &arena);
+    assert_pixel8(&i, 0, 200, 100, 50, 128);
+    assert_pixel8(&i, 1, 200, 100, 50, 0);
+    arena_release(&arena);
+}
+
+static void sixteen_bits_stay_sixteen_bits(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(ARENA_BYTES);
+    unsigned char row[] = {0, 0x12, 0x34, 0xff, 0xfe, 0, 1};
+    Image i = read_png(make_png((PngKind){1, 1, 16, 2, NULL, 0}, row, 7), &arena);
+    const uint16_t *p = i.pixels;
+    assert_int_equal(i.format, IMAGE_RGBA16);
+    assert_int_equal(p[0], 0x1234);
+    assert_int_equal(p[1], 0xfffe);
+    assert_int_equal(p[2], 1);
+    assert_int_equal(p[3], 65535);
+    arena_release(&arena);
+}
+
+/* ---- what must be refused ------------------------------------------------------------ */
+
+static void refuses_a_bomb_before_decoding_it(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(ARENA_BYTES), before = arena;
+    Image image = {.width = -7};
+    Error err = {0};
+    const Bytes *png = make_png((PngKind){40000, 40000, 8, 0, NULL, 0}, (unsigned char[]){0}, 1);
+    assert_false(image_read_memory(png->data, png->size, "bomb.png", &arena, &image, &err));
+    assert_text_has(&err, "40000 x 40000 pixels");
+    assert_text_has(&err, "at most");
+    assert_string_equal(err.file, "bomb.png");
+    assert_int_equal(image.width, -7);
+    assert_ptr_equal(arena.next, before.next);
+    arena_release(&arena);
+}
+
+static void says_when_memory_is_too_small(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 20);
+    Image image;
+    Error err = {0};
+    const Bytes *png = make_png((PngKind){2000, 2000, 8, 6, NULL, 0}, (unsigned char[]){0}, 1);
+    assert_false(image_read_memory(png->data, png->size, "big.png", &arena, &image, &err));
+    assert_int_equal(err.code, ERROR_MEMORY);
+    assert_text_has(&err, "MB are left");
+    arena_release(&arena);
+}
+
+static void refuses_every_prefix_of_a_png(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(ARENA_BYTES), before = arena;
+    unsigned char row[] = {0, 200, 100, 50, 128, 9, 9, 9, 0};
+    Bytes png = *make_png((PngKind){2, 1, 8, 6, NULL, 0}, row, 9);
+    for (size_t size = 0; size < png.size; size++) {
+        Image image;
+        Error err = {0};
+        unsigned char *exact = malloc(size + (size == 0)); /* so that ASan sees a step beyond */
+        memcpy(exact, png.data, size);
+        if (image_read_memory(exact, size, "cut.png", &arena, &image, &err))
+            fail_msg("%zu of %zu bytes were accepted", size, png.size);
+        assert_true(err.text[0] && !strchr(err.text, '\n'));
+        assert_string_equal(err.file, "cut.png");
+        assert_ptr_equal(arena.next, before.next);
+        free(exact);
+    }
+    arena_release(&arena);
+}
+
+static void names_what_cannot_be_read(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(ARENA_BYTES);
+    Image image;
+    Error err = {0};
+    assert_false(image_read_memory("hello, world", 12, "a.txt", &arena, &image, &err));
+    assert_text_has(&err, "not a picture that can be read");
+    assert_false(image_read("no/such/file.png", &arena, &image, &err));
+    assert_string_equal(err.file, "no/such/file.png");
+    assert_text_has(&err, "No such file");
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_false(image_read("/", &arena, &image, &err));
+    assert_text_has(&err, "folder");
+    arena_release(&arena);
+}
+
+/* ---- other formats ----------------------------------------------------------------------- */
+
+static void reads_radiance_pictures(void **state)
+{
+    (void)state;
+    static const char HDR[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n"
+                              "\x80\x40\x20\x81\x80\x80\x80\x8b";
+    Arena arena = arena_reserve(ARENA_BYTES);
+    Image image;
+    Error err = {0};
+    assert_true(image_read_memory(HDR, sizeof HDR - 1, "a.hdr", &arena, &image, &err));
+    const float *p = image.pixels;
+    assert_int_equal(image.format, IMAGE_RGBA32F);
+    assert_close(p[0], 1, 0.01); /* mantissa 0x80 / 256 * 2^(0x81 - 128) */
+    assert_close(p[1], 0.5, 0.02);
+    assert_close(p[2], 0.25, 0.02);
+    assert_close(p[4], 1024, 0.01);
+    assert_true(p[3] == 1 && p[7] == 1);
+    arena_release(&arena);
+}
+
+static void what_is_encoded_reads_back(void **state)
+{
+    (void)state;
+    static const char *const FORMATS[] = {"png", "tiff"};
+    Arena arena = arena_reserve(ARENA_BYTES);
+    for (int k = 0; k < 4; k++) {
+        uint16_t codes[12];
+        for (int i = 0; i < 12; i++) codes[i] = (uint16_t)(i * 5461);
+        bool wide = k & 1;
+        ImageToEncode in = {.width = 2, .height = 2, .channels = 3,
+                            .type = wide ? PIXEL_U16 : PIXEL_U8, .pixels = codes};
+        EncodedImage *encoded;
+        Error  err = {0};
+        Image  image;
+        size_t size;
+        assert_true(image_encode(FORMATS[k / 2], &in, &encoded, &err));
+        const void *bytes = encoded_image_bytes(encoded, &size);
+        if (!image_read_memory(bytes, size, "x", &arena, &image, &err)) fail_msg("%s", err.text);
+        for (int i = 0; i < 12; i++) {
+            int at = i / 3 * 4 + i % 3;
+            if (wide) assert_int_equal(((const uint16_t *)image.pixels)[at], codes[i]);
+            else assert_int_equal(((const uint8_t *)image.pixels)[at], ((uint8_t *)codes)[i]);
+        }
+        encoded_image_destroy(encoded);
+    }
+    arena_release(&arena);
+}
+
+static void the_same_picture_makes_the_same_bytes(void **state)
+{
+    (void)state;
+    static const char *const FORMATS[] = {"png", "jpeg", "tiff"};
+    uint8_t codes[300];
+    for (int i = 0; i < 300; i++) codes[i] = (uint8_t)(i * 37);
+    ImageToEncode in = {.width = 10, .height = 10, .channels = 3, .type = PIXEL_U8,
+                        .pixels = codes, .jpeg_quality = 95, .description = "made so"};
+    EncodedImage *encoded[2][3];
+    Error err = {0};
+    for (int run = 0; run < 2; run++) {
+        in.jpeg_quality = 0;
+        for (int f = 0; f < 3; f++) {
+            in.jpeg_quality = f == 1 ? 95 : 0;
+            assert_true(image_encode(FORMATS[f], &in, &encoded[run][f], &err));
+        }
+        if (run == 0) usleep(1100000); /* a time of day in the file would differ now */
+    }
+    for (int f = 0; f < 3; f++) {
+        size_t a, b;
+        const void *first = encoded_image_bytes(encoded[0][f], &a);
+        const void *second = encoded_image_bytes(encoded[1][f], &b);
+        assert_int_equal(a, b);
+        assert_memory_equal(first, second, a);
+        encoded_image_destroy(encoded[0][f]);
+        encoded_image_destroy(encoded[1][f]);
+    }
+    assert_false(image_encode("nonsense", &in, &encoded[0][0], &err));
+    assert_text_has(&err, "nonsense");
+}
+
+/* ---- environment pictures ------------------------------------------------------------ */
+
+/* Skips the test when the shared data are not there. */
+static Image read_shared(const char *name, Arena *arena)
+{
+    char  path[512];
+    Image image = {0};
+    Error err = {0};
+    snprintf(path, sizeof path, "%s/%s", SHARED_DATA_DIR, name);
+    if (!file_exists(path)) skip();
+    if (!image_read(path, arena, &image, &err)) fail_msg("%s: %s", path, err.text);
+    return image;
+}
+
+static void negative_values_of_environments_are_kept(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(ARENA_BYTES);
+    Image image = read_shared("hdri/blender/interior.exr", &arena);
+    const float *p = image.pixels;
+    long negative = 0;
+    for (int i = 0; i < image.width * image.height * 4; i++) negative += p[i] < 0;
+    assert_int_equal(image.width, 1024);
+    assert_int_equal(negative, 8980);
+    arena_release(&arena);
+}
+
+static void the_orientation_picture_can_be_read(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(ARENA_BYTES);
+    Image image = read_shared("hdri/openexr-env/OrientationLatLong.exr", &arena);
+    const float *p = image.pixels;
+    assert_int_equal(image.width, 1024);
+    assert_int_equal(image.height, 512);
+    for (int i = 0; i < 1024 * 512 * 4; i++) assert_true(p[i] >= 0 && p[i] <= 1);
+    arena_release(&arena);
+}
+
+static void a_data_window_is_placed_in_the_display_window(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(ARENA_BYTES);
+    Image whole = read_shared("exr/DisplayWindow/t01.exr", &arena);
+    Image part = read_shared("exr/DisplayWindow/t05.exr", &arena); /* shows 30,20 .. 370,280 */
+    assert_int_equal(part.width, 340);
+    assert_int_equal(part.height, 260);
+    const float *a = whole.pixels, *b = part.pixels;
+    for (int y = 0; y < 260; y++)
+        assert_memory_equal(a + ((y + 20) * 400 + 30) * 4, b + y * 340 * 4, 340 * 16);
+    arena_release(&arena);
+}
+
+/* The same scene is stored once in Rec.709 and once as XYZ. */
+static void the_primaries_of_a_file_are_honoured(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(ARENA_BYTES);
+    Image a = read_shared("exr/Chromaticities/Rec709.exr", &arena);
+    Image b = read_shared("exr/Chromaticities/XYZ.exr", &arena);
+    const float *p = a.pixels, *q = b.pixels;
+    for (int i = 0; i < a.width * a.height * 4; i++)
+        assert_near(q[i], p[i], 0.004 + 0.01 * (double)fabsf(p[i])); /* both are halves */
+    arena_release(&arena);
+}
+
+/* ---- textures ---------------------------------------------------------------------------- */
+
+static double srgb_decoded(double c)
+{
+    return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
+}
+
+static Texture texture_of(const void *pixels, ImageFormat format, int width, int height,
+                          TextureWrap wrap)
+{
+    return (Texture){{width, height, format, pixels}, wrap, wrap, false};
+}
+
+static void colours_are_decoded_from_srgb(void **state)
+{
+    (void)state;
+    float rgba[4];
+    for (int code = 0; code < 256; code++) {
+        uint8_t p8[4] = {(uint8_t)code, (uint8_t)code, (uint8_t)code, (uint8_t)code};
+        Texture t = texture_of(p8, IMAGE_RGBA8, 1, 1, WRAP_REPEAT);
+        texture_colour(&t, 0.3f, 0.9f, rgba);
+        assert_near(rgba[1], srgb_decoded(code / 255.0), 1e-7);
+        assert_near(rgba[3], code / 255.0, 1e-7);
+        texture_data(&t, 0.3f, 0.9f, rgba);
+        assert_near(rgba[1], code / 255.0, 1e-7);
+        uint16_t wide = (uint16_t)(code * 257), p16[4] = {wide, wide, wide, wide};
+        t = texture_of(p16, IMAGE_RGBA16, 1, 1, WRAP_REPEAT);
+        texture_colour(&t, 0.3f, 0.9f, rgba);
+        assert_near(rgba[0], srgb_decoded(code / 255.0), 1e-6);
+    }
+}
+
+static void codes_come_back_exactly(void **state)
+{
+    (void)state;
+    float rgb[3];
+    for (int code = 0; code < 256; code++) {
+        uint8_t  p8[4] = {(uint8_t)code, 0, 255, 255};
+        uint16_t p16[4] = {(uint16_t)(code * 257), 0, 65535, 65535};
+        Texture  t = texture_of(p8, IMAGE_RGBA8, 1, 1, WRAP_CLAMP);
+        texture_codes(&t, 0.5f, 0.5f, rgb);
+        assert_true(rgb[0] == (float)code && rgb[1] == 0 && rgb[2] == 255);
+        t = texture_of(p16, IMAGE_RGBA16, 1, 1, WRAP_CLAMP);
+        texture_codes(&t, 0.5f, 0.5f, rgb);
+        assert_true(rgb[0] == (float)code && rgb[2] == 255);
+    }
+    float   p32[4] = {0.5f, NAN, 7, 1};
+    Texture t = texture_of(p32, IMAGE_RGBA32F, 1, 1, WRAP_CLAMP);
+    texture_codes(&t, 0.5f, 0.5f, rgb);
+    assert_true(rgb[0] == 127.5f && rgb[1] == 0 && rgb[2] == 255);
+}
+
+/* A row of four texels 0, 10, 20, 40 (times 1 in every channel). */
+static float row_at(TextureWrap wrap, bool nearest, float u)
+{
+    static const float ROW[16] = {0, 0, 0, 0, 10, 10, 10, 10, 20, 20, 20, 20, 40, 40, 40, 40};
+    Texture t = texture_of(ROW, IMAGE_RGBA32F, 4, 1, wrap);
+    float   rgba[4];
+    t.nearest = nearest;
+    texture_data(&t, u, 0.5f, rgba);
+    return rgba[0];
+}
+
+static void between_texels_the_value_is_linear(void **state)
+{
+    (void)state;
+    for (int wrap = WRAP_REPEAT; wrap <= WRAP_MIRROR; wrap++) {
+        assert_near(row_at((TextureWrap)wrap, false, 0.125f), 0, 1e-5); /* a texel's centre */
+        assert_near(row_at((TextureWrap)wrap, false, 0.375f), 10, 1e-5);
+        assert_near(row_at((TextureWrap)wrap, false, 0.25f), 5, 1e-5);
+        assert_near(row_at((TextureWrap)wrap, false, 0.8125f), 35, 1e-4);
+    }
+    float grid[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 5, 5, 5, 5}, rgba[4];
+    Texture t = texture_of(grid, IMAGE_RGBA32F, 2, 2, WRAP_CLAMP);
+    for (int i = 0; i <= 10; i++) {
+        for (int j = 0; j <= 10; j++) {
+            double x = i / 10.0, y = j / 10.0;
+            texture_data(&t, (float)(0.25 + x / 2), (float)(0.25 + y / 2), rgba);
+            assert_near(rgba[2], x * (1 - y) + 2 * (1 - x) * y + 5 * x * y, 1e-5);
+        }
+    }
+}
+
+static void over_the_edge_the_wrap_mode_decides(void **state)
+{
+    (void)state;
+    assert_near(row_at(WRAP_REPEAT, false, 0), 20, 1e-4); /* half of 40 and half of 0 */
+    assert_near(row_at(WRAP_CLAMP, false, 0), 0, 1e-5);
+    assert_near(row_at(WRAP_MIRROR, false, 0), 0, 1e-5);
+    assert_near(row_at(WRAP_REPEAT, false, 5.375f), 10, 1e-4);
+    assert_near(row_at(WRAP_REPEAT, false, -0.625f), 10, 1e-4);
+    assert_near(row_at(WRAP_CLAMP, false, 5.375f), 40, 1e-4);
+    assert_near(row_at(WRAP_CLAMP, false, -3), 0, 1e-5);
+    assert_near(row_at(WRAP_MIRROR, false, 1.375f), 20, 1e-4); /* falls on 0.625 */
+    assert_near(row_at(WRAP_MIRROR, false, -0.375f), 10, 1e-4);
+    assert_near(row_at(WRAP_MIRROR, false, 2.375f), 10, 1e-4);
+    assert_true(row_at(WRAP_REPEAT, true, 0.26f) == 10 && row_at(WRAP_REPEAT, true, 1) == 0);
+    assert_true(row_at(WRAP_REPEAT, true, -1e-9f) == 0 || row_at(WRAP_REPEAT, true, -1e-9f) == 40);
+    assert_true(row_at(WRAP_CLAMP, true, 1) == 40 && row_at(WRAP_MIRROR, true, 1) == 40);
+}
+
+static void no_coordinate_leaves_the_texture(void **state)
+{
+    (void)state;
+    static const float WILD[] = {NAN, INFINITY, -INFINITY, 1e38f, -1e38f, 1e-45f, -1e-45f,
+                                 4194304, -4194304, 2147483648.0f, 0.99999994f, -5.9e-8f};
+    uint8_t *pixels = malloc(3 * 5 * 4);
+    memset(pixels, 77, 3 * 5 * 4);
+    for (int wrap = WRAP_REPEAT; wrap <= WRAP_MIRROR; wrap++) {
+        for (int i = 0; i < 12 * 12 * 2; i++) {
+            Texture t = texture_of(pixels, IMAGE_RGBA8, 3, 5, (TextureWrap)wrap);
+            float   rgba[4], rgb[3];
+            t.nearest = i & 1;
+            texture_data(&t, WILD[i / 2 % 12], WILD[i / 24], rgba);
+            assert_near(rgba[0], 77 / 255.0, 1e-6);
+            texture_codes(&t, WILD[i / 2 % 12], WILD[i / 24], rgb);
+            assert_true(rgb[0] == 77);
+        }
+    }
+    free(pixels);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_kind_of_png_becomes_rgba),
+        cmocka_unit_test(alpha_stays_straight),
+        cmocka_unit_test(sixteen_bits_stay_sixteen_bits),
+        cmocka_unit_test(refuses_a_bomb_before_decoding_it),
+        cmocka_unit_test(says_when_memory_is_too_small),
+        cmocka_unit_test(refuses_every_prefix_of_a_png),
+        cmocka_unit_test(names_what_cannot_be_read),
+        cmocka_unit_test(reads_radiance_pictures),
+        cmocka_unit_test(what_is_encoded_reads_back),
+        cmocka_unit_test(the_same_picture_makes_the_same_bytes),
+        cmocka_unit_test(negative_values_of_environments_are_kept),
+        cmocka_unit_test(the_orientation_picture_can_be_read),
+        cmocka_unit_test(a_data_window_is_placed_in_the_display_window),
+        cmocka_unit_test(the_primaries_of_a_file_are_honoured),
+        cmocka_unit_test(colours_are_decoded_from_srgb),
+        cmocka_unit_test(codes_come_back_exactly),
+        cmocka_unit_test(between_texels_the_value_is_linear),
+        cmocka_unit_test(over_the_edge_the_wrap_mode_decides),
+        cmocka_unit_test(no_coordinate_leaves_the_texture),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
