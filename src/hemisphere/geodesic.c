@@ -97,9 +97,10 @@ static DTriangle triangle_of(int level, uint32_t id)
 
 /* Where geodesic_create writes. */
 typedef struct Tables {
-    int           level;
-    GeodesicNode *nodes[GEODESIC_MAX_LEVEL + 1];
-    float        *areas[GEODESIC_MAX_LEVEL + 1];
+    int             level;
+    GeodesicEdges  *edges[GEODESIC_MAX_LEVEL + 1];
+    GeodesicRatios *ratios[GEODESIC_MAX_LEVEL + 1];
+    float          *areas[GEODESIC_MAX_LEVEL + 1];
 } Tables;
 
 static float half_edge_cos(DVec3 a, DVec3 b)
@@ -118,10 +119,10 @@ static void fill_tables(const Tables *tables, int level, uint32_t id, const DTri
         area[i] = triangle_area(&child);
         fill_tables(tables, level + 1, 4 * id + i, &child);
     }
-    GeodesicNode *node = &tables->nodes[level][id];
     for (int i = 0; i < 3; i++) {
-        node->half_edge_cos[i] = half_edge_cos(t->corner[(i + 1) % 3], t->corner[(i + 2) % 3]);
-        node->area_ratio[i] = (float)(area[i + 1] / area[0]);
+        tables->edges[level][id].half_cos[i] =
+            half_edge_cos(t->corner[(i + 1) % 3], t->corner[(i + 2) % 3]);
+        tables->ratios[level][id].of_child[i] = (float)(area[i + 1] / area[0]);
     }
 }
 
@@ -131,10 +132,11 @@ const Geodesic *geodesic_create(int level, Arena *arena)
     Tables    tables = {.level = level};
     geodesic->level = level;
     for (int i = 0; i <= level; i++) {
-        if (i < level) tables.nodes[i] = ARENA_NEW(arena, GeodesicNode, 1u << 2 * i);
-        tables.areas[i] = ARENA_NEW(arena, float, 1u << 2 * i);
-        geodesic->nodes[i] = tables.nodes[i];
-        geodesic->areas[i] = tables.areas[i];
+        uint32_t count = 1u << 2 * i;
+        geodesic->areas[i] = tables.areas[i] = ARENA_NEW(arena, float, count);
+        if (i == level) break;
+        geodesic->edges[i] = tables.edges[i] = ARENA_NEW(arena, GeodesicEdges, count);
+        geodesic->ratios[i] = tables.ratios[i] = ARENA_NEW(arena, GeodesicRatios, count);
     }
     DTriangle octant = octant_triangle(0);
     fill_tables(&tables, 0, 0, &octant);

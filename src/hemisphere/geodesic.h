@@ -28,17 +28,22 @@
 
 #define GEODESIC_MAX_LEVEL 10
 
-/* One triangle of octant 0 that has children. */
-typedef struct GeodesicNode {
-    float half_edge_cos[3]; /* cos of half the edge opposite corner 0, 1, 2 */
-    float area_ratio[3];    /* area of child 1, 2, 3 over the area of child 0 */
-} GeodesicNode;
+/* Cosines of half the edges opposite corner 0, 1, 2: all that a descent reads. */
+typedef struct GeodesicEdges {
+    float half_cos[3];
+} GeodesicEdges;
+
+/* Areas of child 1, 2, 3 over the area of child 0. */
+typedef struct GeodesicRatios {
+    float of_child[3];
+} GeodesicRatios;
 
 /* What depends on the level only: built once, shared by every tree of this level or less. */
 typedef struct Geodesic {
-    int                 level;                          /* of the finest triangles */
-    const GeodesicNode *nodes[GEODESIC_MAX_LEVEL + 1];  /* per level < level: 4^level of them */
-    const float        *areas[GEODESIC_MAX_LEVEL + 1];  /* per level: 4^level areas, sr */
+    int                   level; /* of the finest triangles */
+    const GeodesicEdges  *edges[GEODESIC_MAX_LEVEL + 1];  /* levels < level: 4^level each */
+    const GeodesicRatios *ratios[GEODESIC_MAX_LEVEL + 1]; /* levels < level: 4^level each */
+    const float          *areas[GEODESIC_MAX_LEVEL + 1];  /* every level: 4^level areas, sr */
 } Geodesic;
 
 /* Where a direction lies: the triangle and the coordinates in its corners. */
@@ -57,7 +62,7 @@ static inline uint32_t geodesic_count(int level)
     return 4u << 2 * level;
 }
 
-/* level: 0..GEODESIC_MAX_LEVEL. About 32 bytes for every triangle of octant 0. */
+/* level: 0..GEODESIC_MAX_LEVEL. About 12 bytes for every triangle of octant 0. */
 const Geodesic *geodesic_create(int level, Arena *arena);
 
 /* HOT. One descent, level by level, for queries that stop early or do more on the way. */
@@ -79,7 +84,7 @@ static inline GeodesicWalk geodesic_walk_start(Vec3 d)
 static inline uint32_t geodesic_walk_down(const Geodesic *geodesic, int level,
                                           GeodesicWalk *walk)
 {
-    const float *k = geodesic->nodes[level][walk->place].half_edge_cos;
+    const float *k = geodesic->edges[level][walk->place].half_cos;
     float        u = walk->weight[0], v = walk->weight[1], w = walk->weight[2];
     float        half = 0.5f * (u + v + w);
     float        p = half - u, q = half - v, r = half - w; /* of bc, ca, ab; one below 0 at most */

@@ -32,9 +32,9 @@ static Vec3 edge_middle(Vec3 a, Vec3 b, float half_edge_cos)
     return vec3_scale(vec3_add(a, b), 0.5f / half_edge_cos);
 }
 
-static void corners_down(const GeodesicNode *node, uint32_t child, GeodesicTriangle *t)
+static void corners_down(const GeodesicEdges *edges, uint32_t child, GeodesicTriangle *t)
 {
-    const float *k = node->half_edge_cos;
+    const float *k = edges->half_cos;
     Vec3         a = t->corner[0], b = t->corner[1], c = t->corner[2];
     if (child != 1) t->corner[0] = child == 0   ? edge_middle(b, c, k[0])
                                    : child == 2 ? edge_middle(a, b, k[2])
@@ -78,7 +78,7 @@ SamplingResult sampling_tree_sample(const SamplingTree *tree, float u0, float u1
                            vec3(0, octant & 2 ? -1.0f : 1.0f, 0), vec3(0, 0, 1)}};
     for (; !(at & SAMPLING_CELL); level++) {
         uint32_t child = choose_child(&tree->nodes[at], &u0, &u1);
-        corners_down(&tree->geodesic->nodes[level][place], child, &t);
+        corners_down(&tree->geodesic->edges[level][place], child, &t);
         at = tree->nodes[at].child[child];
         place = 4 * place + child;
     }

@@ -53,7 +53,7 @@ static void add_rows(TreeTaps *taps, TreeNode node, int level, const float weigh
 static const float *area_ratio(const Tree *tree, int level, uint32_t place)
 {
     static const float equal[3] = {1, 1, 1};
-    return tree->weights == HAAR_AREA ? tree->geodesic->nodes[level][place].area_ratio : equal;
+    return tree->weights == HAAR_AREA ? tree->geodesic->ratios[level][place].of_child : equal;
 }
 
 /* From a node to the child that the walk went to. */

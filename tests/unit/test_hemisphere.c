@@ -142,14 +142,14 @@ static void tables_agree_with_geometry(void **state)
     Fixture *f = *state;
     for (int level = 0; level < LEVEL; level++)
         for (uint32_t id = 0; id < 1u << 2 * level; id += 5) {
-            const GeodesicNode *node = &f->geodesic->nodes[level][id];
-            GeodesicTriangle    t = geodesic_triangle(level, id);
-            double              middle = geodesic_area(level + 1, 4 * id);
+            const float     *cosines = f->geodesic->edges[level][id].half_cos;
+            const float     *ratios = f->geodesic->ratios[level][id].of_child;
+            GeodesicTriangle t = geodesic_triangle(level, id);
+            double           middle = geodesic_area(level + 1, 4 * id);
             for (uint32_t i = 0; i < 3; i++) {
                 Vec3 sum = vec3_add(t.corner[(i + 1) % 3], t.corner[(i + 2) % 3]);
-                assert_close(node->half_edge_cos[i], 0.5f * vec3_length(sum), 1e-6);
-                assert_close(node->area_ratio[i], geodesic_area(level + 1, 4 * id + i + 1) / middle,
-                             1e-6);
+                assert_close(cosines[i], 0.5f * vec3_length(sum), 1e-6);
+                assert_close(ratios[i], geodesic_area(level + 1, 4 * id + i + 1) / middle, 1e-6);
             }
             assert_close(f->geodesic->areas[level][id], geodesic_area(level, id), 1e-6);
         }
