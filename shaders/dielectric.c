@@ -69,7 +69,8 @@ typedef struct Side {
 static Side side_of(const Dielectric *d, Vec3 wo, Vec3 wi)
 {
     if (wo.z > 0) return (Side){wo, wi, d->ior, false};
-    return (Side){vec3(wo.x, wo.y, -wo.z), vec3(wi.x, wi.y, -wi.z), 1 / d->ior, true};
+    float eta = d->ior > 0 ? 1 / d->ior : 0; /* index 0 reflects everything (glTF) */
+    return (Side){vec3(wo.x, wo.y, -wo.z), vec3(wi.x, wi.y, -wi.z), eta, true};
 }
 
 static float face_reflectance(float cosine, float eta, float *behind)

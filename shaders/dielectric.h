@@ -19,7 +19,7 @@ bool     thin_window_sample(const ThinWindow *window, Vec3 wo, const float u[3],
 /* Where a solid ends. The frame's +z is the outside: wo.z < 0 is an eye inside the solid. */
 typedef struct Dielectric {
     Spectrum tint;  /* [0, 1]: of transmitted light, at each crossing */
-    float    ior;   /* of the solid against its surroundings, > 0 */
+    float    ior;   /* of the solid against its surroundings, > 0; 0: reflects everything */
     float    alpha; /* GGX, [0, 1]; below SMOOTH_ALPHA smooth */
 } Dielectric;
 
