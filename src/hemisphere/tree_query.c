@@ -352,7 +352,8 @@ void tree_walk_interpolated(const Tree *tree, Vec3 direction, TreeTaps *taps)
 /* ---- sums ----------------------------------------------------------------------------------- */
 
 typedef float   Float4 __attribute__((vector_size(16)));
-typedef int16_t Short4 __attribute__((vector_size(8)));
+typedef int32_t Int4 __attribute__((vector_size(16)));
+typedef int16_t Short8 __attribute__((vector_size(16)));
 
 static inline Float4 load_floats(const float *from)
 {
@@ -361,11 +362,14 @@ static inline Float4 load_floats(const float *from)
     return value;
 }
 
+/* Four 16-bit numbers: put into the upper halves of 32 bits and shifted down with their sign
+ * (compilers make four scalar conversions of the direct way). */
 static inline Float4 load_shorts(const int16_t *from)
 {
-    Short4 value;
-    memcpy(&value, from, sizeof value);
-    return __builtin_convertvector(value, Float4);
+    Short8 zero = {0}, value = {0};
+    memcpy(&value, from, 4 * sizeof *from);
+    Short8 upper = __builtin_shufflevector(zero, value, 0, 8, 1, 9, 2, 10, 3, 11);
+    return __builtin_convertvector((Int4)upper >> 16, Float4);
 }
 
 static inline Float4 all_lanes(float value)
