@@ -49,9 +49,10 @@ static int edit_distance(const char *a, const char *b)
 const char *cli_nearest(const char *word, const char *const *words, int count)
 {
     const char *nearest = NULL;
-    int         limit = (int)strlen(word) / 3 + 1;
+    size_t      dashes = strspn(word, "-");
+    int         limit = (int)(strlen(word) - dashes) / 3 + 1; /* a third of the letters */
     for (int i = 0; i < count; i++) {
-        bool begins = strlen(word) > 3 && !strncmp(word, words[i], strlen(word));
+        bool begins = strlen(word) > dashes + 1 && !strncmp(word, words[i], strlen(word));
         int  distance = begins ? 0 : edit_distance(word, words[i]);
         if (distance > limit) continue;
         nearest = words[i];

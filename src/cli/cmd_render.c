@@ -70,7 +70,7 @@ static bool check_look(const RenderRequest *request, Arena scratch, Error *err)
     DevelopReport report;
     for (const char *name = "RGB"; *name; name++)
         frame_add_channel(&frame, arena_format(&scratch, "%c", *name), false, &scratch)[0] = 1;
-    return picture_check_name(request->png, request->look.bits, err) &&
+    return picture_check_name(request->png, 8, err) &&
            develop_picture(&frame, &request->look, &scratch, &picture, &report, err);
 }
 

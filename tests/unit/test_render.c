@@ -1,0 +1,200 @@
+/* The render loop's parts that need no scene: tiles, passes, workers, signals, progress. */
+#include "check.h"
+
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "render/render.h"
+#include "render/signals.h"
+
+/* ---- tiles and passes -------------------------------------------------------------------- */
+
+static void tiles_cover_every_pixel_of_the_crop_once(void **state)
+{
+    (void)state;
+    static const FilmRect crops[] = {{0, 0, 1, 1}, {0, 0, 64, 48}, {5, 7, 86, 60}, {3, 2, 19, 18}};
+    for (size_t c = 0; c < sizeof crops / sizeof *crops; c++) {
+        unsigned char hits[100][100] = {{0}};
+        FilmRect      crop = crops[c];
+        for (int i = 0; i < render_tile_count(crop); i++) {
+            FilmRect tile = render_tile(crop, i);
+            assert_true(tile.x0 < tile.x1 && tile.y0 < tile.y1);
+            for (int y = tile.y0; y < tile.y1; y++)
+                for (int x = tile.x0; x < tile.x1; x++) hits[y][x]++;
+        }
+        for (int y = 0; y < 100; y++)
+            for (int x = 0; x < 100; x++)
+                assert_int_equal(hits[y][x], x >= crop.x0 && x < crop.x1 && y >= crop.y0 &&
+                                                 y < crop.y1);
+    }
+}
+
+static void passes_double_and_then_stay(void **state)
+{
+    (void)state;
+    static const uint32_t wanted[] = {1, 1, 2, 4, 8, 16, 32, 64, 64, 64};
+    uint32_t              done = 0;
+    for (int i = 0; i < 10; i++) {
+        assert_int_equal(render_pass_samples(done, 4096), wanted[i]);
+        done += wanted[i];
+    }
+    assert_int_equal(render_pass_samples(8, (size_t)1280 * 720), 4);
+    assert_int_equal(render_pass_samples(1000, (size_t)1 << 28), 1);
+}
+
+/* ---- workers ----------------------------------------------------------------------------- */
+
+#define ITEMS 2000
+
+typedef struct Counting {
+    atomic_int items[ITEMS];
+    atomic_int busy[PARALLEL_THREADS_MAX]; /* a worker index must not be used twice at a time */
+    atomic_int clashes;
+    int        threads;
+} Counting;
+
+static void count_item(void *context, int item, int worker)
+{
+    Counting *counting = context;
+    if (worker < 0 || worker >= counting->threads || atomic_fetch_add(&counting->busy[worker], 1))
+        atomic_fetch_add(&counting->clashes, 1);
+    atomic_fetch_add(&counting->items[item], 1);
+    atomic_fetch_sub(&counting->busy[worker], 1);
+}
+
+static void every_item_is_done_once_for_any_number_of_threads(void **state)
+{
+    (void)state;
+    static const int threads[] = {1, 2, 3, 16, 200};
+    for (size_t t = 0; t < sizeof threads / sizeof *threads; t++) {
+        Counting *counting = calloc(1, sizeof *counting);
+        counting->threads = threads[t];
+        parallel_for(threads[t], ITEMS, count_item, counting);
+        for (int i = 0; i < ITEMS; i++) assert_int_equal(counting->items[i], 1);
+        assert_int_equal(counting->clashes, 0);
+        free(counting);
+    }
+}
+
+static void no_items_is_no_work(void **state)
+{
+    (void)state;
+    Counting counting = {.threads = 4};
+    parallel_for(4, 0, count_item, &counting);
+    assert_int_equal(counting.items[0], 0);
+    assert_in_range(parallel_default_threads(), 1, PARALLEL_THREADS_MAX);
+}
+
+/* ---- signals ----------------------------------------------------------------------------- */
+
+static void the_first_interrupt_asks_and_the_second_ends(void **state)
+{
+    (void)state;
+    static const int numbers[] = {SIGINT, SIGTERM};
+    for (int i = 0; i < 2; i++) {
+        pid_t child = fork();
+        if (child == 0) {
+            signals_watch();
+            if (signals_stop_requested()) _exit(1);
+            raise(numbers[i]);
+            if (signals_stop_requested() != numbers[i]) _exit(2);
+            raise(numbers[i]);
+            _exit(3);
+        }
+        int status;
+        assert_int_equal(waitpid(child, &status, 0), child);
+        assert_true(WIFEXITED(status));
+        assert_int_equal(WEXITSTATUS(status), 128 + numbers[i]);
+    }
+}
+
+static void a_snapshot_is_taken_once(void **state)
+{
+    (void)state;
+    signals_watch();
+    assert_false(signals_take_snapshot());
+    raise(SIGUSR1);
+    assert_true(signals_take_snapshot());
+    assert_false(signals_take_snapshot());
+}
+
+/* ---- progress ---------------------------------------------------------------------------- */
+
+/* What a whole life of a progress prints to stderr, which is no terminal here. */
+static void progress_output(ProgressMode mode, char *text, size_t size)
+{
+    FILE *file = tmpfile();
+    int   kept = dup(STDERR_FILENO);
+    assert_non_null(file);
+    dup2(fileno(file), STDERR_FILENO);
+    Progress progress = progress_start(mode, "render", "samples", 200);
+    progress.interval_s = 0;
+    progress.begun_s -= 10;
+    progress_update(&progress, 50);
+    progress_end(&progress, 200);
+    fflush(stderr);
+    dup2(kept, STDERR_FILENO);
+    close(kept);
+    ssize_t length = pread(fileno(file), text, size - 1, 0);
+    fclose(file);
+    text[length < 0 ? 0 : length] = '\0';
+}
+
+static void progress_shows_percent_rate_elapsed_and_remaining(void **state)
+{
+    (void)state;
+    char text[2048];
+    progress_output(PROGRESS_AUTO, text, sizeof text);
+    assert_string_equal(text, "parhelion: render 25%, 5 samples/s, 0:10 elapsed, 0:30 left\n"
+                              "parhelion: render 100%, 20 samples/s, 0:10 elapsed, 0:00 left\n");
+    progress_output(PROGRESS_BAR, text, sizeof text);
+    assert_non_null(strstr(text, "\rrender  25% [######..................] 5 samples/s  "
+                                 "0:10 elapsed  0:30 left"));
+    assert_null(strstr(text, "\033[36m"));
+    progress_output(PROGRESS_NONE, text, sizeof text);
+    assert_string_equal(text, "");
+}
+
+static void json_progress_is_one_object_a_line(void **state)
+{
+    (void)state;
+    char text[2048];
+    progress_output(PROGRESS_JSON, text, sizeof text);
+    assert_non_null(strstr(text, "{\"progress\":{\"what\":\"render\",\"unit\":\"samples\","
+                                 "\"done\":50,\"total\":200,\"fraction\":0.2500,"));
+    assert_non_null(strstr(text, "\"elapsed_s\":10.0,\"remaining_s\":30.0}}\n"));
+}
+
+static void rates_have_three_digits(void **state)
+{
+    (void)state;
+    char text[32];
+    rate_text(950, text, (int)sizeof text);
+    assert_string_equal(text, "950 ");
+    rate_text(12345, text, (int)sizeof text);
+    assert_string_equal(text, "12.3 k");
+    rate_text(4.56e6, text, (int)sizeof text);
+    assert_string_equal(text, "4.56 M");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tiles_cover_every_pixel_of_the_crop_once),
+        cmocka_unit_test(passes_double_and_then_stay),
+        cmocka_unit_test(every_item_is_done_once_for_any_number_of_threads),
+        cmocka_unit_test(no_items_is_no_work),
+        cmocka_unit_test(the_first_interrupt_asks_and_the_second_ends),
+        cmocka_unit_test(a_snapshot_is_taken_once),
+        cmocka_unit_test(progress_shows_percent_rate_elapsed_and_remaining),
+        cmocka_unit_test(json_progress_is_one_object_a_line),
+        cmocka_unit_test(rates_have_three_digits),
+    };
+    return cmocka_run_group_tests_name("render", tests, NULL, NULL);
+}
