@@ -54,7 +54,8 @@ bool bsdf_scatters(const Bsdf *bsdf)
 Spectrum bsdf_albedo(const Bsdf *bsdf, Vec3 wo)
 {
     switch (bsdf->kind) {
-    case BSDF_METALLIC_ROUGHNESS: return metallic_roughness_albedo(&bsdf->metallic_roughness, wo);
+    case BSDF_METALLIC_ROUGHNESS:
+        return metallic_roughness_albedo(&bsdf->metallic_roughness, wo);
     case BSDF_THIN_WINDOW:
         return thin_window_reflectance(&bsdf->thin_window, fabsf(wo.z)) +
                thin_window_transmittance(&bsdf->thin_window, fabsf(wo.z));

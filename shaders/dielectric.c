@@ -53,7 +53,10 @@ bool thin_window_sample(const ThinWindow *window, Vec3 wo, const float u[3], Bsd
         return true;
     }
     if (!(through > 0)) return false;
-    *sample = (BsdfSample){.wi = vec3_neg(wo), .pdf = 1 - prob, .is_delta = true, .passes = true,
+    *sample = (BsdfSample){.wi = vec3_neg(wo),
+                           .pdf = 1 - prob,
+                           .is_delta = true,
+                           .passes = true,
                            .weight = window->tint * spectrum_all((1 - reflected) / (1 - prob))};
     return true;
 }

@@ -40,7 +40,8 @@ Spectrum display_eval(const DisplaySurface *display, Vec3 wo, Vec3 wi, float *pd
     return panel_brdf(display->panel, wo, wi, display->wavelengths);
 }
 
-bool display_sample(const DisplaySurface *display, Vec3 wo, const float u[3], BsdfSample *sample)
+bool display_sample(const DisplaySurface *display, Vec3 wo, const float u[3],
+                    BsdfSample *sample)
 {
     if (!reflects(display, wo)) return false;
     Spectrum mirror;

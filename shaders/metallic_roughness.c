@@ -91,7 +91,8 @@ static float fresnel_shape(float ior, float cosine)
     return (fresnel_mean(fresnel_dielectric(cosine, ior, NULL)) - f0) / (1 - f0);
 }
 
-static inline Spectrum boundary_reflectance(const MetallicRoughness *m, const Boundary *b, float cosine)
+static inline Spectrum boundary_reflectance(const MetallicRoughness *m, const Boundary *b,
+                                            float cosine)
 {
     return b->f0 + b->rise * spectrum_all(fresnel_shape(m->energy->ior, cosine));
 }
@@ -333,7 +334,8 @@ static Vec3 sample_rough(const MetallicRoughness *m, Vec3 wo, Choices c, const f
     if (u[2] < c.coat) {
         Frame frame = coat_frame(m);
         Vec3  out = frame_to_local(&frame, wo);
-        return frame_to_world(&frame, ggx_sample_reflection(out, m->clearcoat_alpha, u[0], u[1]));
+        return frame_to_world(&frame,
+                              ggx_sample_reflection(out, m->clearcoat_alpha, u[0], u[1]));
     }
     if (u[2] < c.coat + c.mirror) return ggx_sample_reflection(wo, m->alpha, u[0], u[1]);
     if (u[2] < c.coat + c.mirror + c.diffuse) {

@@ -86,7 +86,7 @@ def interior_point(hessian, linear, equal, equal_to, less, less_to, start):
 def solve_basis(observer, d65, matrix):
     """Red, green, blue reflectances; d65 has luminance 1 under the observer (K_m included)."""
     n = len(NM)
-    show = matrix @ (K_M * np.array([weights(o, d65) for o in observer]))  # RGB from reflectance
+    show = matrix @ (K_M * np.array([weights(o, d65) for o in observer]))  # to RGB
     d = np.diff(np.eye(n), axis=0)
     smooth = d.T @ d
     zero, eye = np.zeros((n, n)), np.eye(n)
@@ -105,7 +105,7 @@ def solve_basis(observer, d65, matrix):
 
 
 def sampling_steps(observer):
-    """Probability of each nanometre in units of 2^-24, so that sums of them are exact floats."""
+    """Probability of each nanometre in units of 2^-24, so that their sums are exact."""
     total = observer.sum(axis=0)
     mass = (total[:-1] + total[1:]) / 2
     mass = (1 - UNIFORM_SHARE) * mass / mass.sum() + UNIFORM_SHARE / len(mass)
@@ -153,8 +153,8 @@ def row(x, y, z, red, green, blue, *sources):
 
 def numbers(name, values, per_line=5):
     lines = [values[i:i + per_line] for i in range(0, len(values), per_line)]
-    return name + " = {\n" + "".join(
-        "    " + ", ".join(f"{np.float32(v):.9g}" for v in line) + ",\n" for line in lines) + "};\n"
+    texts = (", ".join(f"{np.float32(v):.9g}" for v in line) for line in lines)
+    return name + " = {\n" + "".join(f"    {text},\n" for text in texts) + "};\n"
 
 
 if __name__ == "__main__":

@@ -149,7 +149,8 @@ static void composed_transforms_act_one_after_the_other(void **state)
         Transform a = random_transform(&seed), b = random_transform(&seed);
         Transform ab = transform_compose(&a, &b), one = transform_identity();
         Vec3      p = random_vector(&seed);
-        assert_vector(transform_point(&ab, p), transform_point(&a, transform_point(&b, p)), 1e-5);
+        assert_vector(transform_point(&ab, p), transform_point(&a, transform_point(&b, p)),
+                      1e-5);
         assert_vector(transform_vector(&ab, p), transform_vector(&a, transform_vector(&b, p)),
                       1e-5);
         assert_vector(transform_point(&one, p), p, 0);
@@ -198,8 +199,9 @@ static void assert_net(int x, int dimension, uint32_t first, int log_count)
         }
         for (int i = 0; i < count; i++)
             if (hit[i] != 1)
-                fail_msg("pixel %d, pair %d, block %u of %d: interval %d of 2^%d columns has %d",
-                         x, dimension, first, count, i, across, hit[i]);
+                fail_msg(
+                    "pixel %d, pair %d, block %u of %d: interval %d of 2^%d columns has %d", x,
+                    dimension, first, count, i, across, hit[i]);
     }
 }
 

@@ -200,11 +200,12 @@ static void visible_facets_are_all_there_is_to_see(void **state)
                 double rest = (k / 400 + 0.5) / 400, share = rest * rest;
                 double angle = atan((double)alphas[a] * sqrt((1 - share) / share));
                 double turn = 2 * PI * (k % 400 + 0.5) / 400;
-                Vec3   h = vec3((float)(sin(angle) * cos(turn)), (float)(sin(angle) * sin(turn)),
-                                (float)cos(angle));
+                Vec3 h = vec3((float)(sin(angle) * cos(turn)), (float)(sin(angle) * sin(turn)),
+                              (float)cos(angle));
                 /* 1 - share is even under GGX's density D cos; its tail is stretched */
                 double density = (double)ggx_density(h, alphas[a]) * cos(angle);
-                sum += (double)ggx_visible_pdf(wo, h, alphas[a]) * 2 * rest / density / (400 * 400);
+                sum += (double)ggx_visible_pdf(wo, h, alphas[a]) * 2 * rest / density /
+                       (400 * 400);
             }
             assert_close(sum, 1, 3e-3);
         }

@@ -32,7 +32,8 @@ static Spectrum ramp(float from, float to)
     return s;
 }
 
-static MetallicRoughness *add_model(const char *name, float metallic, float alpha, bool lossless)
+static MetallicRoughness *add_model(const char *name, float metallic, float alpha,
+                                    bool lossless)
 {
     Model *model = &models[model_count++];
     assert_true(model_count <= MAX_MODELS);
@@ -111,9 +112,13 @@ static void add_lacquers(void)
 
 static void add_dielectric(const char *name, float ior, float alpha)
 {
-    models[model_count++] = (Model){.name = name, .bsdf.kind = BSDF_DIELECTRIC,
-        .bsdf.dielectric = {spectrum_all(1), ior, alpha}, .both_sides = true,
-        .lossless = alpha < 0.06f, .width = alpha < SMOOTH_ALPHA ? 1 : 0.5f * alpha * fabsf(ior - 1)};
+    models[model_count++] =
+        (Model){.name = name,
+                .bsdf.kind = BSDF_DIELECTRIC,
+                .bsdf.dielectric = {spectrum_all(1), ior, alpha},
+                .both_sides = true,
+                .lossless = alpha < 0.06f,
+                .width = alpha < SMOOTH_ALPHA ? 1 : 0.5f * alpha * fabsf(ior - 1)};
 }
 
 static void add_glass(void)
@@ -226,7 +231,7 @@ static int cell_of(const Chart *chart, Vec3 wi)
     double side = sqrt((double)local.x * (double)local.x + (double)local.y * (double)local.y);
     double ring = ring_of(chart, atan2(side, (double)local.z)) * RINGS;
     double turn = (atan2((double)local.y, (double)local.x) / (2 * PI) + 0.5) * SECTORS;
-    int    r = ring < RINGS ? (int)ring : RINGS - 1, s = turn < SECTORS ? (int)turn : SECTORS - 1;
+    int r = ring < RINGS ? (int)ring : RINGS - 1, s = turn < SECTORS ? (int)turn : SECTORS - 1;
     return r * SECTORS + s;
 }
 
@@ -237,7 +242,9 @@ static double integrate_cell(const Model *model, Vec3 wo, const Chart *chart, in
     double sum = 0;
     int    ring = cell / SECTORS, sector = cell % SECTORS;
     int    turns = model->width < 0.03f ? 72 : 36;
-    int    fine = fabsf(wo.z) < 0.1f || model->width < 0.03f ? 40 : 16; /* the horizon cuts narrow lobes */
+    int fine = fabsf(wo.z) < 0.1f || model->width < 0.03f
+                   ? 40
+                   : 16; /* the horizon cuts narrow lobes */
     double before = angle_of(chart, (double)ring / RINGS);
     for (int i = 0; i < fine; i++) {
         double after = angle_of(chart, (ring + (i + 1.0) / fine) / RINGS);
@@ -246,8 +253,8 @@ static double integrate_cell(const Model *model, Vec3 wo, const Chart *chart, in
         before = after;
         for (int k = 0; k < turns; k++) {
             double turn = ((sector + (k + 0.5) / turns) / SECTORS - 0.5) * 2 * PI;
-            Vec3   local = vec3((float)(sin(angle) * cos(turn)), (float)(sin(angle) * sin(turn)),
-                                (float)cos(angle));
+            Vec3 local = vec3((float)(sin(angle) * cos(turn)), (float)(sin(angle) * sin(turn)),
+                              (float)cos(angle));
             Vec3   wi = frame_to_world(&chart->frame, local);
             if ((wi.z * wo.z > 0) != same_side) continue;
             float pdf;
@@ -297,7 +304,8 @@ static void samples_follow_pdf(const Model *model, Vec3 wo)
         total += part;
         expected[i] = part * SAMPLES;
     }
-    if (!(total <= 1.01)) fail_msg("%s, cos %g: pdf integrates to %g", model->name, (double)wo.z, total);
+    if (!(total <= 1.01))
+        fail_msg("%s, cos %g: pdf integrates to %g", model->name, (double)wo.z, total);
     for (uint32_t i = 0; i < SAMPLES; i++) {
         Sampler    sampler = sampler_start(11, (int)(i * 7919u), (int)(wo.z * 1000), i);
         BsdfSample sample;
@@ -315,8 +323,8 @@ static void samples_follow_pdf(const Model *model, Vec3 wo)
         fail_msg("%s, cos %g: %g of the samples are lost, the pdf leaves %g", model->name,
                  (double)wo.z, found[CELLS] / SAMPLES, 1 - total);
     if (degrees > 0 && !(deviate(chi2, degrees) < 4.5))
-        fail_msg("%s, cos %g: chi-square %g with %d degrees (pdf integrates to %g)", model->name,
-                 (double)wo.z, chi2, degrees, total);
+        fail_msg("%s, cos %g: chi-square %g with %d degrees (pdf integrates to %g)",
+                 model->name, (double)wo.z, chi2, degrees, total);
 }
 
 static void samples_are_distributed_as_their_pdf_says(void **state)
@@ -417,7 +425,8 @@ static void no_surface_sends_back_more_than_it_gets(void **state)
 
 static void albedo_is_near(const Model *model, Vec3 wo)
 {
-    bool tilted = strstr(model->name, "tilted") != NULL; /* loses light, by how much is not told */
+    bool tilted =
+        strstr(model->name, "tilted") != NULL; /* loses light, by how much is not told */
     if (model->bsdf.kind == BSDF_DIELECTRIC || tilted) return;
     Spectrum sent = furnace(model, wo, 4096), told = bsdf_albedo(&model->bsdf, wo);
     for (int k = 0; k < SPECTRUM_LANES; k += 5)
@@ -457,16 +466,17 @@ static void check_reciprocity(const Model *model, Vec3 wo, Vec3 wi)
     float scale = wo.z > 0 ? ior * ior : 1 / (ior * ior);
     double tolerance = is_solid || model->width < 0.05f ? 1e-3 : 1e-4;
     /* wider where rounding of half is seen: narrow lobes, and next to total reflection */
-    if (turn && model->bsdf.metallic_roughness.clearcoat > 0) return; /* its coat is on one side */
+    if (turn && model->bsdf.metallic_roughness.clearcoat > 0)
+        return; /* its coat is on one side */
     Spectrum a = bsdf_eval(&model->bsdf, wo, wi, &pdf);
-    Spectrum b = bsdf_eval(&model->bsdf, turn ? turned_over(wi) : wi, turn ? turned_over(wo) : wo,
-                           &pdf);
+    Spectrum b =
+        bsdf_eval(&model->bsdf, turn ? turned_over(wi) : wi, turn ? turned_over(wo) : wo, &pdf);
     for (int k = 0; k < SPECTRUM_LANES; k += 3) {
         double forth = (double)(a[k] * scale), back = (double)b[k];
         if (!(fabs(forth - back) <= tolerance * (forth + back) + 1e-6))
             fail_msg("%s: f(%g,%g,%g / %g,%g,%g) is %g and %g back", model->name, (double)wo.x,
-                     (double)wo.y, (double)wo.z, (double)wi.x, (double)wi.y, (double)wi.z, forth,
-                     back);
+                     (double)wo.y, (double)wo.z, (double)wi.x, (double)wi.y, (double)wi.z,
+                     forth, back);
     }
 }
 

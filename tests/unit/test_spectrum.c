@@ -80,7 +80,8 @@ static void illuminant_a_is_a_black_body_of_2856_kelvin(void **state)
     (void)state;
     double ratio = (double)spectral_row(560).illuminant_a / black_body_radiance(560, 2855.5);
     for (int nm = 380; nm <= 780; nm += 40)
-        assert_close(spectral_row(nm).illuminant_a, ratio * black_body_radiance(nm, 2855.5), 2e-4);
+        assert_close(spectral_row(nm).illuminant_a, ratio * black_body_radiance(nm, 2855.5),
+                     2e-4);
 }
 
 static void d65_has_its_chromaticity(void **state)
@@ -106,7 +107,8 @@ static void wavelengths_cover_the_range_once(void **state)
 {
     (void)state;
     double integral = 0;
-    for (int i = 0; i < 47000; i++) integral += (double)wavelengths_pdf(360.005f + 0.01f * (float)i) * 0.01;
+    for (int i = 0; i < 47000; i++)
+        integral += (double)wavelengths_pdf(360.005f + 0.01f * (float)i) * 0.01;
     assert_close(integral, 1, 1e-4);
     for (int i = 0; i <= 1000; i++) {
         Wavelengths w;
@@ -128,7 +130,8 @@ static void wavelengths_follow_their_density(void **state)
         wavelengths_sample(((float)i + 0.5f) / OFFSETS, &w);
         for (int k = 0; k < SPECTRUM_LANES; k++) histogram[(int)((w.nm[k] - 360) / 10.0001f)]++;
     }
-    for (int nm = 360; nm < 830; nm++) expected[(nm - 360) / 10] += (double)wavelengths_pdf((float)nm + 0.5f);
+    for (int nm = 360; nm < 830; nm++)
+        expected[(nm - 360) / 10] += (double)wavelengths_pdf((float)nm + 0.5f);
     for (int b = 0; b < 47; b++)
         assert_near(histogram[b] / (OFFSETS * 16.0), expected[b], 2e-4);
 }
@@ -160,7 +163,8 @@ static void spiky_spectra_are_integrated_without_bias(void **state)
             sum[1] += t * (double)row.y * 683.002e-3;
             sum[2] += t * (double)row.z * 683.002e-3;
         }
-        for (int c = 0; c < 3; c++) assert_near(xyz[c], sum[c], 1e-2 * (sum[1] + sum[c]) + 1e-3);
+        for (int c = 0; c < 3; c++)
+            assert_near(xyz[c], sum[c], 1e-2 * (sum[1] + sum[c]) + 1e-3);
     }
 }
 
@@ -361,7 +365,8 @@ static void lane_operations_agree_with_loops(void **state)
         sum += a[i];
         most = a[i] > most ? a[i] : most;
     }
-    Spectrum high = spectrum_max(a, b), low = spectrum_min(a, b), held = spectrum_clamp(a, -1, 2);
+    Spectrum high = spectrum_max(a, b), low = spectrum_min(a, b),
+             held = spectrum_clamp(a, -1, 2);
     Spectrum root = spectrum_sqrt(high);
     for (int i = 0; i < SPECTRUM_LANES; i++) {
         assert_true(high[i] == (a[i] > b[i] ? a[i] : b[i]));
@@ -372,7 +377,8 @@ static void lane_operations_agree_with_loops(void **state)
     assert_near(spectrum_sum(a), sum, 1e-5);
     assert_near(spectrum_mean(a), sum / 16, 1e-6);
     assert_true(spectrum_max_lane(a) == most);
-    assert_true(spectrum_is_finite(a) && !spectrum_is_grey(a) && spectrum_is_grey(spectrum_all(3)));
+    assert_true(spectrum_is_finite(a) && !spectrum_is_grey(a) &&
+                spectrum_is_grey(spectrum_all(3)));
     for (int i = 0; i < SPECTRUM_LANES; i++) {
         Spectrum bad = a;
         bad[i] = i & 1 ? NAN : INFINITY;
