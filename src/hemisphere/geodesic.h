@@ -87,7 +87,7 @@ static inline uint32_t geodesic_walk_down(const Geodesic *geodesic, int level,
     const float *k = geodesic->edges[level][walk->place].half_cos;
     float        u = walk->weight[0], v = walk->weight[1], w = walk->weight[2];
     float        half = 0.5f * (u + v + w);
-    float        p = half - u, q = half - v, r = half - w; /* of bc, ca, ab; one below 0 at most */
+    float p = half - u, q = half - v, r = half - w; /* of bc, ca, ab; one below 0 at most */
     uint32_t     child = (p < 0 ? 1u : 0u) + (q < 0 ? 2u : 0u) + (r < 0 ? 3u : 0u);
     const float  a[4] = {p * k[0], -p, u * k[2], u * k[1]};
     const float  b[4] = {q * k[1], v * k[2], -q, v * k[0]};

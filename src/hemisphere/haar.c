@@ -96,7 +96,8 @@ static void octant_norms(const HaarShape *shape, const AreaPyramid *pyramid, flo
         for (size_t n = 0; n < (size_t)1 << 2 * level; n++) {
             const double *area = &pyramid->areas[level + 1][4 * n];
             for (size_t i = 1; i < 4; i++) {
-                double echo = shape->weights == HAAR_AREA ? area[i] * area[i] / area[0] : area[0];
+                double echo =
+                    shape->weights == HAAR_AREA ? area[i] * area[i] / area[0] : area[0];
                 norms[(4 * n + i) * step] = (float)sqrt(area[i] + echo);
             }
         }

@@ -10,6 +10,7 @@
  *           stands at leaf q * 4^level, and the detail of child k = 1..3 of node n of level j
  *           at leaf (4n + k) * 4^(level-j-1).
  * Memory    in place; `scratch` needs about 11 bytes for every leaf of one octant.
+ * Threads   nothing is shared.
  */
 #pragma once
 #include "base/arena.h"

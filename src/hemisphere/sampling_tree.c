@@ -84,6 +84,10 @@ SamplingResult sampling_tree_sample(const SamplingTree *tree, float u0, float u1
     }
     Vec3 p = geodesic_sample_triangle(&t, tree->geodesic->areas[level][place], u0, u1);
     if (!(p.z > 0)) p.z = 0;
-    if (cell_of(tree, p) != (at & ~SAMPLING_CELL)) p = moved_inwards(&t, p);
-    return (SamplingResult){p, sampling_tree_pdf(tree, p)};
+    uint32_t cell = cell_of(tree, p);
+    if (cell != (at & ~SAMPLING_CELL)) {
+        p = moved_inwards(&t, p);
+        cell = cell_of(tree, p);
+    }
+    return (SamplingResult){p, tree->density[cell]};
 }

@@ -2,9 +2,9 @@
  *
  * A pruned tree over the triangles of geodesic.h: cells of different size, constant density in
  * each. Sampling descends by conditional probabilities, two binary choices a level, each of
- * which hands the unused part of its random number on (Clarberg et al. 2005, "Wavelet Importance
- * Sampling"), so that well-spread pairs of numbers give well-spread directions; inside the cell
- * the direction is uniform (geodesic_sample_triangle).
+ * which hands the unused part of its random number on (Clarberg et al. 2005, "Wavelet
+ * Importance Sampling"), so that well-spread pairs of numbers give well-spread directions;
+ * inside the cell the direction is uniform (geodesic_sample_triangle).
  *
  * Units     density per solid angle of the frame that the tree was built in, sr^-1.
  * Blob      little-endian, offsets only; at an address that is a multiple of 8.

@@ -7,7 +7,7 @@
 
 _Static_assert(sizeof(SamplingHeader) == 40 && sizeof(SamplingNode) == 28, "the blob's layout");
 
-/* ---- build --------------------------------------------------------------------------------- */
+/* ---- build ------------------------------------------------------------------------------- */
 
 /* A triangle that may become a cell or be split. */
 typedef struct Cell {
@@ -123,7 +123,8 @@ static void split_cells(Build *build, Arena *arena)
     for (int q = 0; q < build->options->octants; q++) heap_push(build, 0, (uint32_t)q);
     while (build->cells + 3 <= build->options->cells) {
         Cell cell = heap_pop(build);
-        if (!(cell.error > 1e-15)) return; /* constant inside, to rounding; all masses sum to 1 */
+        if (!(cell.error > 1e-15))
+            return; /* constant inside, to rounding; all masses sum to 1 */
         build->split[cell.level][cell.id] = true;
         build->cells += 3;
         build->nodes++;
@@ -198,13 +199,13 @@ static SamplingHeader plan_blob(const SamplingOptions *options, uint32_t nodes, 
 static bool check_options(const SamplingOptions *o, Error *err)
 {
     if (o->level < 0 || o->level > GEODESIC_MAX_LEVEL)
-        return error_set(err, ERROR_INPUT, "sampling tree level is %d, wanted 0 to %d", o->level,
-                         GEODESIC_MAX_LEVEL);
+        return error_set(err, ERROR_INPUT, "sampling tree level is %d, wanted 0 to %d",
+                         o->level, GEODESIC_MAX_LEVEL);
     if (o->octants != 2 && o->octants != 4)
         return error_set(err, ERROR_INPUT, "octants are %d, wanted 2 or 4", o->octants);
     if (o->cells < o->octants || o->cells > (int)geodesic_count(GEODESIC_MAX_LEVEL))
-        return error_set(err, ERROR_INPUT, "cells are %d, wanted %d to %u", o->cells, o->octants,
-                         geodesic_count(GEODESIC_MAX_LEVEL));
+        return error_set(err, ERROR_INPUT, "cells are %d, wanted %d to %u", o->cells,
+                         o->octants, geodesic_count(GEODESIC_MAX_LEVEL));
     if (!(o->uniform_share >= 0 && o->uniform_share <= 1))
         return error_set(err, ERROR_INPUT, "uniform share is %g, wanted 0 to 1",
                          (double)o->uniform_share);
@@ -217,11 +218,14 @@ static bool check_integrals(const SamplingOptions *options, const float *integra
     double   sum = 0;
     for (uint32_t i = 0; i < count; i++) {
         if (!(integrals[i] >= 0 && isfinite(integrals[i])))
-            return error_set(err, ERROR_INPUT, "the integral over leaf %u is %g, wanted a finite "
-                             "value of at least 0", i, (double)integrals[i]);
+            return error_set(err, ERROR_INPUT,
+                             "the integral over leaf %u is %g, wanted a finite "
+                             "value of at least 0",
+                             i, (double)integrals[i]);
         sum += (double)integrals[i];
     }
-    if (!(sum > 0)) return error_set(err, ERROR_INPUT, "a function that is 0 cannot be sampled");
+    if (!(sum > 0))
+        return error_set(err, ERROR_INPUT, "a function that is 0 cannot be sampled");
     return true;
 }
 
@@ -252,7 +256,7 @@ size_t sampling_tree_size(const void *blob)
     return ((const SamplingHeader *)blob)->size;
 }
 
-/* ---- open ---------------------------------------------------------------------------------- */
+/* ---- open -------------------------------------------------------------------------------- */
 
 static bool refuse(Error *err, const char *what, double found, double wanted)
 {
@@ -262,10 +266,12 @@ static bool refuse(Error *err, const char *what, double found, double wanted)
 
 static bool check_header(const SamplingHeader *h, size_t size, Error *err)
 {
-    if (h->magic != SAMPLING_MAGIC) return refuse(err, "magic number", h->magic, SAMPLING_MAGIC);
+    if (h->magic != SAMPLING_MAGIC)
+        return refuse(err, "magic number", h->magic, SAMPLING_MAGIC);
     if (h->version != SAMPLING_VERSION)
         return refuse(err, "version", h->version, SAMPLING_VERSION);
-    if (h->level > GEODESIC_MAX_LEVEL) return refuse(err, "level", h->level, GEODESIC_MAX_LEVEL);
+    if (h->level > GEODESIC_MAX_LEVEL)
+        return refuse(err, "level", h->level, GEODESIC_MAX_LEVEL);
     if (h->octants != 2 && h->octants != 4) return refuse(err, "octant count", h->octants, 4);
     uint64_t most = 2ull * geodesic_count(GEODESIC_MAX_LEVEL);
     if (h->node_count < 1 || h->node_count > most)
@@ -298,7 +304,8 @@ static bool check_probabilities(const Check *check, const SamplingNode *node, ui
     return true;
 }
 
-static bool check_cell(Check *check, uint32_t cell, int level, uint32_t place, double probability)
+static bool check_cell(Check *check, uint32_t cell, int level, uint32_t place,
+                       double probability)
 {
     if (cell != check->next_cell || cell >= check->tree->cell_count)
         return refuse(check->err, "cell index", cell, check->next_cell);
@@ -341,8 +348,10 @@ static bool check_tree(const SamplingTree *tree, Error *err)
             return false;
         if (node->child[q] != node->child[stored] ||
             probability != child_probability(node, stored))
-            return error_set(err, ERROR_INPUT, "sampling tree: octant %u differs from its mirror "
-                             "image %u", q, stored);
+            return error_set(err, ERROR_INPUT,
+                             "sampling tree: octant %u differs from its mirror "
+                             "image %u",
+                             q, stored);
     }
     if (check.next_node != tree->node_count)
         return refuse(err, "node count", tree->node_count, check.next_node);

@@ -90,8 +90,9 @@ static float sinc(float radius)
 }
 
 /* Polar angles are theta = 90deg * radius, so that d(solid angle) = sinc(theta) (pi/2)^2 dA of
- * the disk. With c = r^k: dA_outer = |dU/dc x dU/dphi| dc dphi = c (1 - d0.e) k r^(k-1) dr dphi,
- * dA_stored = r dr dphi. */
+ * the disk. With c = r^k the areas are
+ *     dA_outer = |dU/dc x dU/dphi| dc dphi = c (1 - d0.e) k r^(k-1) dr dphi,
+ *     dA_stored = r dr dphi. */
 float specular_frame_jacobian(const SpecularFrame *frame, Vec3 stored)
 {
     Vec2  p = disk_from_direction(stored);

@@ -1,15 +1,16 @@
 /* specular_frame.h -- hemisphere coordinates in which a reflection's peak stands still.
  *
- * The "distorted disk": light comes from azimuth 180 degrees (-x) at theta_i, so that the mirror
- * direction lies at azimuth 0. A direction (theta, phi) is the disk point
- * U = theta/90deg (cos phi, sin phi), the mirror direction is d0 = (theta_i/90deg, 0). Write
- * U = c e + (1-c) d0 with |e| = 1 and c in [0, 1]. The stored direction has the azimuth of e and
- * the polar angle 90deg c^(1/k): the peak is at the pole, the horizon stays the horizon. k = 2
- * widens narrow peaks, k = 1 keeps wide haze small.
+ * The "distorted disk": light comes from azimuth 180 degrees (-x) at theta_i, so that the
+ * mirror direction lies at azimuth 0. A direction (theta, phi) is the disk point
+ *     U = theta/90deg (cos phi, sin phi), the mirror direction d0 = (theta_i/90deg, 0).
+ * Write U = c e + (1-c) d0 with |e| = 1 and c in [0, 1]. The stored direction has the azimuth
+ * of e and the polar angle 90deg c^(1/k): the peak is at the pole, the horizon stays the
+ * horizon. k = 2 widens narrow peaks, k = 1 keeps wide haze small.
  *
  * Frame     "outer" is the display's frame turned so that the light is at -x; "stored" is the
- *           tree's frame. Both: +z up, unit vectors, z >= 0 (z < 0 counts as 0). Symmetric in y.
- * HOT: no libm.
+ *           tree's frame. Both: +z up, unit vectors, z >= 0 (z < 0 counts as 0). Mirror
+ *           images in y stay mirror images.
+ * Speed     HOT: no libm.
  */
 #pragma once
 #include "base/vec.h"

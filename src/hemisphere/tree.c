@@ -23,7 +23,8 @@ static bool check_header(const TreeHeader *h, size_t size, Error *err)
     if (h->size > size)
         return error_set(err, ERROR_INPUT, "tree: %zu bytes are there, wanted %llu", size,
                          (unsigned long long)h->size);
-    if (h->level > GEODESIC_MAX_LEVEL) return refuse(err, "level", h->level, GEODESIC_MAX_LEVEL);
+    if (h->level > GEODESIC_MAX_LEVEL)
+        return refuse(err, "level", h->level, GEODESIC_MAX_LEVEL);
     if (h->octants != 2 && h->octants != 4) return refuse(err, "octant count", h->octants, 4);
     if (h->weights > HAAR_AREA) return refuse(err, "weight kind", h->weights, HAAR_AREA);
     if (h->rows > TREE_ROWS_INT16) return refuse(err, "row format", h->rows, TREE_ROWS_INT16);
@@ -76,14 +77,16 @@ static bool check_nodes(const Tree *tree, Error *err)
         next_node += (uint32_t)__builtin_popcount(node.children & 15);
         next_row += (uint32_t)__builtin_popcount(node.rows & 7);
         if (next_node > tree->node_count || next_row > tree->row_count)
-            return error_set(err, ERROR_INPUT, "tree: node %u leads to node %u of %u and row %u "
-                             "of %u", i, next_node, tree->node_count, next_row,
-                             tree->row_count);
+            return error_set(err, ERROR_INPUT,
+                             "tree: node %u leads to node %u of %u and row %u "
+                             "of %u",
+                             i, next_node, tree->node_count, next_row, tree->row_count);
         if (level >= tree->level && (node.children & 15 || node.rows & 7))
             return error_set(err, ERROR_INPUT, "tree: node %u has children below the leaves' "
                              "level %d", i, tree->level);
     }
-    if (next_node != tree->node_count) return refuse(err, "node count", tree->node_count, next_node);
+    if (next_node != tree->node_count)
+        return refuse(err, "node count", tree->node_count, next_node);
     if (next_row != tree->row_count) return refuse(err, "row count", tree->row_count, next_row);
     return true;
 }
@@ -100,7 +103,8 @@ static bool check_finite(const float *values, size_t count, const char *what, Er
 static bool check_values(const Tree *tree, Error *err)
 {
     size_t components = (size_t)tree->components;
-    if (!check_finite(tree->means, components * (size_t)tree->octants, "mean", err)) return false;
+    if (!check_finite(tree->means, components * (size_t)tree->octants, "mean", err))
+        return false;
     if (tree->format == TREE_ROWS_INT16)
         return check_finite(tree->scales, components * (size_t)tree->level, "scale", err);
     return check_finite(tree->rows, components * tree->row_count, "detail", err);
@@ -113,7 +117,8 @@ static Tree view(const char *blob, const Geodesic *geodesic)
     return (Tree){.geodesic = geodesic,
                   .nodes = (const TreeNode *)(const void *)(blob + h->nodes_offset),
                   .means = (const float *)(const void *)(blob + h->means_offset),
-                  .scales = small ? (const float *)(const void *)(blob + h->scales_offset) : NULL,
+                  .scales =
+                      small ? (const float *)(const void *)(blob + h->scales_offset) : NULL,
                   .rows = blob + h->rows_offset,
                   .level = h->level,
                   .octants = h->octants,
@@ -127,7 +132,8 @@ static Tree view(const char *blob, const Geodesic *geodesic)
 bool tree_open(const void *blob, size_t size, const Geodesic *geodesic, Tree *out, Error *err)
 {
     if ((uintptr_t)blob % 8 != 0)
-        return error_set(err, ERROR_INPUT, "tree: stands at an address that is no multiple of 8");
+        return error_set(err, ERROR_INPUT,
+                         "tree: stands at an address that is no multiple of 8");
     if (size < sizeof(TreeHeader))
         return refuse(err, "number of bytes", (double)size, sizeof(TreeHeader));
     const TreeHeader *header = blob;
@@ -140,7 +146,7 @@ bool tree_open(const void *blob, size_t size, const Geodesic *geodesic, Tree *ou
     return true;
 }
 
-/* ---- inversion ---------------------------------------------------------------------------- */
+/* ---- inversion --------------------------------------------------------------------------- */
 
 static void place_row(const Tree *tree, uint32_t row, int level, float *to)
 {

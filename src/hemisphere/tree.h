@@ -5,8 +5,8 @@
  * and queried in place (tree_query.h). A row is the detail of one child: `components` numbers.
  *
  * Blob      TreeHeader | octant means, float32 | scales, float32 (16-bit rows only) | TreeNode[]
- *           in order of levels | rows. Must lie at an address that is a multiple of 8.
- * Errors    the report compares with the source after everything, quantisation included.
+ *           level by level | rows. Must lie at an address that is a multiple of 8.
+ * Accuracy  the report compares with the source after everything, quantisation included.
  * Threads   a Tree is constant.
  */
 #pragma once

@@ -222,7 +222,8 @@ static TreeHeader plan_blob(const TreeOptions *options, uint32_t nodes, uint32_t
     bool             small = options->rows == TREE_ROWS_INT16;
     size_t           means = sizeof(TreeHeader);
     size_t           scales = means + sizeof(float) * (size_t)shape->octants * components;
-    size_t node_start = align_up(scales + (small ? 4 * (size_t)shape->level * components : 0), 8);
+    size_t node_start =
+        align_up(scales + (small ? 4 * (size_t)shape->level * components : 0), 8);
     size_t row_start = align_up(node_start + nodes * sizeof(TreeNode), 8);
     return (TreeHeader){.magic = TREE_MAGIC,
                         .version = TREE_VERSION,

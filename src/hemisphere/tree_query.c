@@ -90,7 +90,7 @@ void tree_walk_triangle(const Tree *tree, int level, uint32_t id, TreeTaps *taps
         index = step_down(tree, index, i, place >> 2 * (level - i - 1), taps);
 }
 
-/* ---- interpolation ------------------------------------------------------------------------ */
+/* ---- interpolation ----------------------------------------------------------------------- */
 
 #define MAX_LEAVES 11 /* the leaf and up to 5 more around each of two corners */
 
@@ -262,7 +262,7 @@ typedef struct Stencil {
     int      corner_count;
     Ring     ring[2];
     float    ring_weight[2];
-    int      common_level; /* of the smallest triangle that holds all leaves; -1: no octant does */
+    int common_level; /* of the smallest triangle that holds all leaves; -1: no octant does */
 } Stencil;
 
 static Stencil stencil_at(const Tree *tree, const GeodesicPoint *point)
@@ -349,7 +349,7 @@ void tree_walk_interpolated(const Tree *tree, Vec3 direction, TreeTaps *taps)
                     taps);
 }
 
-/* ---- sums ----------------------------------------------------------------------------------- */
+/* ---- sums -------------------------------------------------------------------------------- */
 
 typedef float   Float4 __attribute__((vector_size(16)));
 typedef int32_t Int4 __attribute__((vector_size(16)));

@@ -25,7 +25,8 @@
 #define DIRECTIONS 4096
 #define MAX_LEVEL 7
 
-/* ---- signals --------------------------------------------------------------------------------- */
+/* ---- signals
+ * --------------------------------------------------------------------------------- */
 
 typedef double (*Signal)(Vec3 direction);
 
@@ -88,7 +89,8 @@ static const SignalRow SIGNALS[] = {
     {"narrow peak, k=2 frame", narrow_peak_in_specular_frame, 2},
 };
 
-/* ---- size and error -------------------------------------------------------------------------- */
+/* ---- size and error
+ * -------------------------------------------------------------------------- */
 
 static float *leaf_values(Signal signal, int level, int octants, Arena *arena)
 {
@@ -172,7 +174,8 @@ static void print_sizes(const Geodesic *geodesic, Arena scratch)
         }
 }
 
-/* ---- time ------------------------------------------------------------------------------------ */
+/* ---- time
+ * ------------------------------------------------------------------------------------ */
 
 /* What the timed works share. */
 typedef struct Input {
@@ -301,7 +304,8 @@ static void fill_tree(Input *in, int components, float share, TreeRowFormat rows
     uint32_t    count = haar_leaf_count(&shape);
     const void *blob;
     Error       err;
-    arena_alloc(&behind, 1, 16, (size_t)32 << 20); /* the blob's room, in front of the scratch */
+    arena_alloc(&behind, 1, 16,
+                (size_t)32 << 20); /* the blob's room, in front of the scratch */
     float *leaves = ARENA_NEW(&behind, float, count * (uint32_t)components);
     for (uint32_t i = 0; i < count; i++) {
         float value = (float)haze_in_specular_frame(geodesic_center(MAX_LEVEL, i));
@@ -339,10 +343,13 @@ static void print_times(const Geodesic *geodesic, Arena scratch)
     static const int   components[] = {1, 3, 16, 32};
     static const float shares[] = {0.01f, 0.05f};
     Input             *in = ARENA_NEW(&scratch, Input, 1);
-    for (uint32_t i = 0; i < DIRECTIONS; i++) in->directions[i] = direction_of(hash_u32(i) % DIRECTIONS);
+    for (uint32_t i = 0; i < DIRECTIONS; i++)
+        in->directions[i] = direction_of(hash_u32(i) % DIRECTIONS);
     in->frame = specular_frame(30 * PI_F / 180, 2);
-    printf("\ntime per query, random directions, haze at level %d; median (least to most) of %d "
-           "runs, 1 thread\n", MAX_LEVEL, RUNS);
+    printf(
+        "\ntime per query, random directions, haze at level %d; median (least to most) of %d "
+        "runs, 1 thread\n",
+        MAX_LEVEL, RUNS);
     for (size_t s = 0; s < 2; s++)
         for (size_t c = 0; c < 4; c++)
             for (int rows = 0; rows < 2; rows++) {

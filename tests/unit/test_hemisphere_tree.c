@@ -1,0 +1,415 @@
+/* test_hemisphere_tree.c -- compressed trees, their queries and hostile blobs. */
+#include "hemisphere_fixture.h"
+
+#include "hemisphere/tree_query.h"
+static Tree build_and_open(Fixture *f, const TreeOptions *options, const float *leaves,
+                           TreeReport *report)
+{
+    const void *blob;
+    Tree        tree;
+    Error       err;
+    if (!tree_build(options, leaves, &f->arena, &blob, report, &err)) fail_msg("%s", err.text);
+    if (!tree_open(blob, tree_size(blob), f->geodesic, &tree, &err)) fail_msg("%s", err.text);
+    return tree;
+}
+
+/* ---- compressed trees -------------------------------------------------------------------- */
+
+static void a_query_equals_the_inverted_tree_at_every_leaf(void **state)
+{
+    Fixture *f = *state;
+    for (int variant = 0; variant < 8; variant++) {
+        Arena       keep = f->arena;
+        HaarShape   shape = {6, variant & 1 ? 2 : 4, 3, WEIGHTS[variant >> 1 & 1]};
+        TreeOptions options = {.shape = shape, .keep_share = 0.05f,
+                               .rows = variant & 4 ? TREE_ROWS_INT16 : TREE_ROWS_FLOAT};
+        uint32_t    count = haar_leaf_count(&shape);
+        TreeReport  report;
+        float      *source = leaves_of_signals(&shape, &f->arena);
+        Tree        tree = build_and_open(f, &options, source, &report);
+        float      *leaves = ARENA_NEW(&f->arena, float, 3 * count);
+        tree_expand(&tree, leaves, f->arena);
+        assert_int_equal(report.stored_rows, (count * 5 + 50) / 100);
+        float error = 0;
+        for (uint32_t id = 0; id < count; id++) {
+            float value[3], again[3];
+            TreeTaps taps;
+            tree_value(&tree, geodesic_center(6, id), value);
+            tree_walk_triangle(&tree, 6, id, &taps);
+            tree_sum(&tree, &taps, 1, 2, again + 1);
+            for (uint32_t c = 0; c < 3; c++) {
+                assert_near(value[c], leaves[3 * id + c], 3e-4);
+                if (c > 0) assert_near(again[c], value[c], 1e-6);
+                error = fmaxf(error, fabsf(value[c] - source[3 * id + c]));
+            }
+        }
+        assert_close(error, report.max_error, 1e-3);
+        f->arena = keep;
+    }
+}
+
+static void a_tree_with_everything_kept_is_its_source(void **state)
+{
+    Fixture    *f = *state;
+    HaarShape   shape = {5, 4, 3, HAAR_AREA};
+    TreeOptions options = {.shape = shape, .keep_share = 1};
+    TreeReport  report;
+    float      *source = leaves_of_signals(&shape, &f->arena);
+    Tree        tree = build_and_open(f, &options, source, &report);
+    for (uint32_t id = 0; id < haar_leaf_count(&shape); id++) {
+        float value[3];
+        tree_value(&tree, geodesic_center(5, id), value);
+        for (uint32_t c = 0; c < 3; c++) assert_near(value[c], source[3 * id + c], 1e-3);
+    }
+    assert_true(report.relative_l2 < 1e-6f);
+}
+
+static int larger_first(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x < y) - (x > y);
+}
+
+/* Families of three details are orthogonal to each other; inside one, the square error is
+ * sum a_i d_i^2 + (sum a_i d_i)^2 / a_0, at most three times the sum of squares of normalised
+ * details (Cauchy and Schwarz). */
+static void thresholding_keeps_the_l2_bound(void **state)
+{
+    Fixture  *f = *state;
+    Arena     scratch = f->arena;
+    HaarShape shape = {6, 4, 1, HAAR_AREA};
+    uint32_t  count = haar_leaf_count(&shape);
+    float    *source = leaves_of_signals(&shape, &scratch);
+    float    *coefficients = ARENA_NEW(&scratch, float, count);
+    float    *norms = ARENA_NEW(&scratch, float, count);
+    double   *squares = ARENA_NEW(&scratch, double, count);
+    memcpy(coefficients, source, count * sizeof *source);
+    haar_forward(&shape, coefficients, scratch);
+    haar_norms(&shape, norms, scratch);
+    for (uint32_t i = 0; i < count; i++) {
+        double d = i % (count / 4) == 0 ? 0 : (double)coefficients[i] * (double)norms[i];
+        squares[i] = d * d;
+    }
+    qsort(squares, count, sizeof *squares, larger_first);
+    for (float share = 0.01f; share < 0.5f; share *= 3) {
+        TreeOptions options = {.shape = shape, .keep_share = share};
+        TreeReport  report;
+        const void *blob;
+        Error       err;
+        Arena       inner = scratch;
+        assert_true(tree_build(&options, source, &inner, &blob, &report, &err));
+        double dropped = 0,
+               error = (double)report.rms_error * (double)report.rms_error * 2 * PI;
+        for (uint32_t i = report.stored_rows - 4; i < count; i++) dropped += squares[i];
+        assert_true(error <= 3 * dropped * (1 + 1e-4));
+        assert_true(error >= dropped * 0.1); /* and the bound is not an empty one */
+    }
+}
+
+static void an_error_bound_holds_at_every_leaf(void **state)
+{
+    Fixture *f = *state;
+    for (int rows = 0; rows < 2; rows++) {
+        Arena       keep = f->arena;
+        HaarShape   shape = {5, 2, 2, HAAR_AREA};
+        const float scale[2] = {0.1f, 1};
+        TreeOptions options = {.shape = shape, .max_error = 0.3f, .component_scale = scale,
+                               .rows = (TreeRowFormat)rows};
+        uint32_t    count = haar_leaf_count(&shape);
+        TreeReport  report;
+        float      *source = leaves_of_signals(&shape, &f->arena);
+        Tree        tree = build_and_open(f, &options, source, &report);
+        for (uint32_t id = 0; id < count; id++) {
+            float value[2];
+            tree_value(&tree, geodesic_center(5, id), value);
+            for (uint32_t c = 0; c < 2; c++)
+                assert_true(scale[c] * fabsf(value[c] - source[2 * id + c]) <= 0.3001f);
+        }
+        assert_true(report.stored_rows < count);
+        f->arena = keep;
+    }
+}
+
+static void an_unreachable_bound_is_refused_in_words(void **state)
+{
+    Fixture    *f = *state;
+    Arena       scratch = f->arena;
+    HaarShape   shape = {4, 4, 1, HAAR_AREA};
+    TreeOptions options = {.shape = shape, .max_error = 1e-6f, .rows = TREE_ROWS_INT16};
+    float      *source = leaves_of_signals(&shape, &scratch);
+    const void *blob;
+    Error       err;
+    assert_false(tree_build(&options, source, &scratch, &blob, NULL, &err));
+    assert_non_null(strstr(err.text, "wanted at most 1e-06"));
+    source[7] = NAN;
+    assert_false(tree_build(&options, source, &scratch, &blob, NULL, &err));
+    assert_non_null(strstr(err.text, "leaf 7, component 0 is nan"));
+    options.keep_share = 0.5f;
+    assert_false(tree_build(&options, source, &scratch, &blob, NULL, &err));
+    assert_non_null(strstr(err.text, "wanted one of them above 0"));
+    options.shape.components = 0;
+    assert_false(tree_build(&options, source, &scratch, &blob, NULL, &err));
+    assert_non_null(strstr(err.text, "components are 0"));
+    options.shape.octants = 3;
+    assert_false(tree_build(&options, source, &scratch, &blob, NULL, &err));
+    assert_non_null(strstr(err.text, "octants are 3"));
+    options.shape.level = 11;
+    assert_false(tree_build(&options, source, &scratch, &blob, NULL, &err));
+    assert_non_null(strstr(err.text, "tree level is 11"));
+}
+
+/* Every mean of the tree is the exact mean of its leaves. */
+static void a_mean_at_any_level_is_the_mean_of_its_leaves(void **state)
+{
+    Fixture    *f = *state;
+    HaarShape   shape = {6, 4, 1, HAAR_AREA};
+    TreeOptions options = {.shape = shape, .keep_share = 0.03f};
+    uint32_t    count = haar_leaf_count(&shape);
+    TreeReport  report;
+    float      *source = leaves_of_signals(&shape, &f->arena);
+    Tree        tree = build_and_open(f, &options, source, &report);
+    float      *leaves = ARENA_NEW(&f->arena, float, count);
+    tree_expand(&tree, leaves, f->arena);
+    for (int level = 0; level <= 6; level++)
+        for (uint32_t id = 0; id < geodesic_count(level); id++) {
+            uint32_t first = id << 2 * (6 - level), leaf_count = 1u << 2 * (6 - level);
+            double   sum = 0, area = 0;
+            float    mean;
+            if (level < 4 || id % 17 == 0) {
+                for (uint32_t i = first; i < first + leaf_count; i++) {
+                    double a = (double)f->geodesic->areas[6][i & 4095];
+                    area += a;
+                    sum += a * (double)leaves[i];
+                }
+                tree_mean(&tree, level, geodesic_center(level, id), &mean);
+                assert_near(mean, sum / area, 1e-3);
+            }
+        }
+}
+
+/* ---- interpolation ----------------------------------------------------------------------- */
+
+/* The interpolant straight from its definition, with all leaves at hand. */
+static float reference_interpolation(const float *leaves, const Geodesic *geodesic, int level,
+                                     Vec3 direction)
+{
+    GeodesicPoint    p = geodesic_find(geodesic, level, direction);
+    GeodesicTriangle t = geodesic_triangle(level, p.id);
+    double least = (double)fminf(p.weight[0], fminf(p.weight[1], p.weight[2]));
+    double value = 3 * least * (double)leaves[p.id];
+    for (int k = 0; k < 3; k++) {
+        double sum = 0, area = 0;
+        for (uint32_t id = 0; id < geodesic_count(level); id++) {
+            GeodesicTriangle other = geodesic_triangle(level, id);
+            for (int i = 0; i < 3; i++) {
+                if (vec3_length(vec3_sub(other.corner[i], t.corner[k])) > 1e-5f) continue;
+                sum += geodesic_area(level, id) * (double)leaves[id];
+                area += geodesic_area(level, id);
+            }
+        }
+        value += ((double)p.weight[k] - least) * sum / area;
+    }
+    return (float)value;
+}
+
+static void interpolation_follows_its_definition(void **state)
+{
+    Fixture  *f = *state;
+    HaarShape shape = {3, 4, 1, HAAR_AREA};
+    uint32_t  seed = 5, count = haar_leaf_count(&shape);
+    float    *source = ARENA_NEW(&f->arena, float, count);
+    for (uint32_t i = 0; i < count; i++) source[i] = random_unit(&seed);
+    TreeOptions options = {.shape = shape, .keep_share = 1};
+    Tree        tree = build_and_open(f, &options, source, NULL);
+    for (int i = 0; i < 400; i++) {
+        Vec3  d = random_direction(&seed);
+        float value;
+        if (i % 4 == 0) d.z *= 1e-3f; /* the horizon's leaves */
+        if (i % 4 == 1) d.x *= 1e-2f, d.y *= 0.1f; /* octant borders, the pole */
+        tree_interpolate(&tree, d, &value);
+        assert_near(value, reference_interpolation(source, f->geodesic, 3, d), 2e-5);
+    }
+}
+
+/* A tree of 2 octants is the tree of 4 of the function mirrored at y = 0. */
+static void half_trees_equal_whole_trees_of_symmetric_functions(void **state)
+{
+    Fixture    *f = *state;
+    HaarShape   half = {5, 2, 1, HAAR_AREA}, whole = {5, 4, 1, HAAR_AREA};
+    uint32_t    count = haar_leaf_count(&half), seed = 6;
+    float      *source = ARENA_NEW(&f->arena, float, 2 * count);
+    for (uint32_t i = 0; i < count; i++) source[i] = source[i + count] = random_unit(&seed);
+    TreeOptions half_options = {.shape = half, .keep_share = 1};
+    TreeOptions whole_options = {.shape = whole, .keep_share = 1};
+    Tree        a = build_and_open(f, &half_options, source, NULL);
+    Tree        b = build_and_open(f, &whole_options, source, NULL);
+    for (int i = 0; i < 3000; i++) {
+        Vec3  d = random_direction(&seed);
+        float x, y;
+        if (i % 2) d.y *= 1e-2f;
+        tree_interpolate(&a, d, &x);
+        tree_interpolate(&b, d, &y);
+        assert_near(x, y, 1e-5);
+        tree_mean(&a, i % 6, d, &x);
+        tree_mean(&b, i % 6, d, &y);
+        assert_near(x, y, 1e-5);
+    }
+}
+
+static void interpolation_keeps_centres_and_constants(void **state)
+{
+    Fixture    *f = *state;
+    HaarShape   shape = {6, 4, 3, HAAR_AREA};
+    TreeOptions options = {.shape = shape, .keep_share = 0.05f};
+    uint32_t    count = haar_leaf_count(&shape), seed = 7;
+    float      *source = leaves_of_signals(&shape, &f->arena);
+    for (uint32_t i = 0; i < count; i++) source[3 * i + 2] = 4;
+    Tree tree = build_and_open(f, &options, source, NULL);
+    for (uint32_t id = 0; id < count; id++) {
+        float at[3], leaf[3];
+        tree_interpolate(&tree, geodesic_center(6, id), at);
+        tree_value(&tree, geodesic_center(6, id), leaf);
+        for (int c = 0; c < 3; c++) assert_near(at[c], leaf[c], 1e-3 * (double)fabsf(leaf[c]));
+    }
+    for (int i = 0; i < 5000; i++) {
+        float value[3];
+        tree_interpolate(&tree, random_direction(&seed), value);
+        assert_close(value[2], 4, 1e-6);
+    }
+}
+
+/* Across many edges: steps of 1e-5 radian never jump; the piecewise constant value does. */
+static void interpolation_is_continuous(void **state)
+{
+    Fixture    *f = *state;
+    HaarShape   shape = {6, 4, 1, HAAR_AREA};
+    TreeOptions options = {.shape = shape, .keep_share = 0.02f};
+    Tree        tree = build_and_open(f, &options, leaves_of_signals(&shape, &f->arena), NULL);
+    float       largest = 0, largest_plain = 0, before = 0, plain_before = 0;
+    for (int line = 0; line < 4; line++)
+        for (int i = 0; i < 40000; i++) {
+            float sine, cosine, value, plain;
+            sincos_turns(0.25f * (float)i / 40000, &sine, &cosine);
+            Vec3 d = line < 2 ? vec3(sine * 0.8f, sine * (line ? -0.6f : 0.6f), cosine)
+                              : vec3(cosine * 0.7f, sine * 0.7f, line == 2 ? 0.7f : 0.0f);
+            tree_interpolate(&tree, d, &value);
+            tree_value(&tree, d, &plain);
+            if (i > 0) {
+                largest = fmaxf(largest, fabsf(value - before));
+                largest_plain = fmaxf(largest_plain, fabsf(plain - plain_before));
+            }
+            before = value;
+            plain_before = plain;
+        }
+    assert_true(largest < 0.4f);
+    assert_true(largest_plain > 20 * largest);
+}
+
+/* ---- hostile blobs
+ * ---------------------------------------------------------------------------- */
+
+static void query_everything(const Tree *tree, Arena scratch)
+{
+    uint32_t seed = 8;
+    float    value[TREE_MAX_COMPONENTS];
+    for (int i = 0; i < 16; i++) {
+        Vec3 d = random_direction(&seed);
+        tree_interpolate(tree, d, value);
+        tree_value(tree, d, value);
+    }
+    float *leaves = ARENA_NEW(&scratch, float,
+                              ((size_t)tree->octants << 2 * tree->level) *
+                                  (size_t)tree->components);
+    tree_expand(tree, leaves, scratch);
+}
+
+/* A copy that ends where its memory ends, so that the sanitizer sees any step beyond. */
+static void try_tree(const Fixture *f, const char *blob, size_t size, int *opened)
+{
+    char *copy = malloc(size ? size : 1);
+    Tree  tree;
+    Error err = {0};
+    memcpy(copy, blob, size);
+    if (tree_open(copy, size, f->geodesic, &tree, &err)) {
+        query_everything(&tree, f->arena);
+        (*opened)++;
+    } else {
+        assert_true(err.text[0] != 0);
+    }
+    free(copy);
+}
+
+static void mutated_trees_are_refused_or_harmless(void **state)
+{
+    Fixture *f = *state;
+    for (int rows = 0; rows < 2; rows++) {
+        HaarShape   shape = {3, 4, 2, HAAR_AREA};
+        TreeOptions options = {.shape = shape, .keep_share = 0.1f, .rows = (TreeRowFormat)rows};
+        const void *blob;
+        Error       err;
+        uint32_t    seed = 9;
+        int         opened = 0;
+        float      *source = leaves_of_signals(&shape, &f->arena);
+        assert_true(tree_build(&options, source, &f->arena, &blob, NULL, &err));
+        size_t size = tree_size(blob);
+        for (size_t prefix = 0; prefix < size; prefix++)
+            try_tree(f, blob, prefix, &opened);
+        assert_int_equal(opened, 0);
+        char *copy = ARENA_NEW(&f->arena, char, size);
+        for (int i = 0; i < 6000; i++) {
+            memcpy(copy, blob, size);
+            mutate(copy, size, &seed);
+            try_tree(f, copy, size, &opened);
+        }
+        assert_true(opened > 100); /* changed numbers, same structure */
+        assert_true(opened < 5000);
+    }
+}
+
+static void a_bad_header_is_named(void **state)
+{
+    Fixture    *f = *state;
+    HaarShape   shape = {3, 4, 1, HAAR_AREA};
+    TreeOptions options = {.shape = shape, .keep_share = 0.5f};
+    const void *blob;
+    Error       err;
+    Tree        tree;
+    assert_true(tree_build(&options, leaves_of_signals(&shape, &f->arena), &f->arena, &blob,
+                           NULL, &err));
+    size_t size = tree_size(blob);
+    char  *copy = arena_alloc(&f->arena, 1, 16, size + 8);
+    assert_false(tree_open((const char *)blob + 4, size, f->geodesic, &tree, &err));
+    assert_non_null(strstr(err.text, "multiple of 8"));
+    assert_false(tree_open(blob, 20, f->geodesic, &tree, &err));
+    assert_non_null(strstr(err.text, "number of bytes is 20"));
+    assert_false(tree_open(blob, size, geodesic_create(2, &f->arena), &tree, &err));
+    assert_non_null(strstr(err.text, "level of the geodesic is 2, wanted 3"));
+    memcpy(copy, blob, size);
+    copy[0] ^= 1;
+    assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
+    assert_non_null(strstr(err.text, "magic number"));
+    memcpy(copy, blob, size);
+    ((TreeHeader *)(void *)copy)->version = 7;
+    assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
+    assert_non_null(strstr(err.text, "version is 7, wanted 1"));
+}
+
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        CASE(a_query_equals_the_inverted_tree_at_every_leaf),
+        CASE(a_tree_with_everything_kept_is_its_source),
+        CASE(thresholding_keeps_the_l2_bound),
+        CASE(an_error_bound_holds_at_every_leaf),
+        CASE(an_unreachable_bound_is_refused_in_words),
+        CASE(a_mean_at_any_level_is_the_mean_of_its_leaves),
+        CASE(interpolation_follows_its_definition),
+        CASE(half_trees_equal_whole_trees_of_symmetric_functions),
+        CASE(interpolation_keeps_centres_and_constants),
+        CASE(interpolation_is_continuous),
+        CASE(mutated_trees_are_refused_or_harmless),
+        CASE(a_bad_header_is_named),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
