@@ -144,7 +144,7 @@ def pillar(side, sign):
 
 
 def door_mirror(side, sign):
-    at = frame_matrix((sign * 1.00, 0.845, 1.085), (0.985, 0.17 * sign, 0), (0, 0.03, 1))
+    at = frame_matrix((sign * 1.00, 0.845, 1.085), (0.970, -0.24 * sign, 0), (0, 0.07, 1))
     outline = rounded_rectangle(0.205, 0.125, 0.045, 8)
     rings = [np.column_stack([outline * k, np.full(len(outline), z)]) for k, z in
              ((0.10, -0.098), (0.45, -0.092), (0.72, -0.078), (0.90, -0.052), (0.985, -0.020), (1.0, 0.0), (0.985, 0.004), (0.95, 0.003))]
@@ -173,14 +173,31 @@ def roof():
         target = np.array([head[0], head[1] + (y - 0.44), head[2] + lift])
         return base * (1 - blend) + target * blend
 
-    inside = [[point(u, y, -0.028) for u in us] for y in ys]
-    outside = [[point(u, y, 0.004) for u in us] for y in ys]
-    grid("roof lining", np.array(inside), "alcantara grey")
-    grid("roof", np.array(outside), "car paint", flip=True)
+    for name, lift, material, flip in (("roof lining", -0.028, "alcantara grey", False), ("roof", 0.004, "car paint", True)):
+        parts = [grid(name, np.array([[point(u, y, lift) for u in columns] for y in rows]), material, flip=flip)
+                 for rows, columns in roof_frame(ys, us)]
+        joined(name, parts)
+    pane = [[point(u, y, -0.002) for u in np.linspace(-0.72, 0.72, 13)] for y in np.linspace(0.13, -1.20, 18)]
+    grid("roof glass", np.array(pane), "roof glass")
+    edge = [point(u, y, -0.014) for u, y in roof_opening()]
+    tube("roof glass seal", np.array(edge), 0.016, "rubber", 8, True)
     lip = [[screen(u, v, 0.024) + np.array([0, dy, 0]) for u in us] for v, dy in ((0.955, 0), (1.0, 0.0), (1.03, -0.02))]
     grid("header trim", np.array(lip), "alcantara grey")
     tube("header edge", screen(us * 0.99, 0.955, 0.020), 0.008, "alcantara grey", 10)
     console_lamp()
+
+
+def roof_frame(ys, us):
+    """Four strips of the roof around its glass: (rows, columns) in y and u."""
+    middle = np.linspace(0.10, -1.17, 20)
+    return ((np.linspace(ys[0], 0.10, 8), us), (np.linspace(-1.17, ys[-1], 5), us),
+            (middle, np.linspace(-1, -0.70, 6)), (middle, np.linspace(0.70, 1, 6)))
+
+
+def roof_opening():
+    """(u, y) around the glass's edge, with rounded corners."""
+    outline = rounded_rectangle(1.40, 1.27, 0.10, 6)
+    return [(x, y - 0.535) for x, y in outline]
 
 
 def console_lamp():
@@ -310,7 +327,7 @@ def seats():
             cushion(f"seat bolster {side} {k}", (0.10, 0.52, 0.20), (x + 0.215 * k, -0.315, 0.80), (1, 0, 0), back, "leather black", 0.045)
         cushion(f"headrest {side}", (0.25, 0.17, 0.10), (x, -0.475, 1.265), (1, 0, 0), (0, -0.12, 1), "leather black", 0.045)
         for k in (-1, 1):
-            tube(f"headrest rod {side} {k}", [(x + 0.055 * k, -0.468, 1.10), (x + 0.055 * k, -0.475, 1.22)], 0.006, "bright chrome", 10)
+            tube(f"headrest rod {side} {k}", [(x + 0.055 * k, -0.468, 1.10), (x + 0.055 * k, -0.475, 1.22)], 0.006, "bright chrome", 10, up=(1, 0, 0))
     cushion("rear bench", (1.30, 0.52, 0.18), (0, -0.98, 0.50), (1, 0, 0), (0, 1, 0.12), "seat leather")
     cushion("rear back", (1.32, 0.62, 0.16), (0, -1.34, 0.80), (1, 0, 0), (0, -0.38, 1), "seat leather")
     for k in (-1, 1):

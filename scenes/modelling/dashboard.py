@@ -29,19 +29,27 @@ def glass_foot(x):
     return 1.340 - 0.230 * (x / 0.735) ** 2
 
 
-def section(profile, x, count):
+def cluster_recess(x):
+    """The pad steps back (least y) to leave room for the cluster inside its binnacle."""
+    edge = min(max((0.185 - abs(x - DRIVER_X)) / 0.035, 0.0), 1.0)
+    return 0.600 + 0.180 * edge * edge * (3 - 2 * edge)
+
+
+def section(profile, x, count, recess=False):
     curve = spline(profile, count)
     out = np.empty((count, 3))
     out[:, 0] = x
     out[:, 1] = np.minimum(curve[:, 0] + wrap(x), glass_foot(x) - 0.004)
+    if recess:
+        out[:, 1] = np.maximum(out[:, 1], cluster_recess(x))
     out[:, 2] = curve[:, 1]
     return out
 
 
-def sweep(name, profile, x_range, material, count=24, step=0.025):
+def sweep(name, profile, x_range, material, count=24, step=0.025, recess=False):
     """A profile carried along x and around the wrap; fronts look up and to the people."""
     xs = np.linspace(*x_range, max(2, int(abs(x_range[1] - x_range[0]) / step) + 1))
-    rows = [section(profile, x, count) for x in xs]
+    rows = [section(profile, x, count, recess) for x in xs]
     return grid(name, np.array(rows), material)
 
 
@@ -53,7 +61,7 @@ def along(profile_point, x_range, count, lift=0.0):
 
 
 def pad():
-    sweep("dashboard pad", PAD, (-HALF_WIDTH, HALF_WIDTH), "leather black", 40, 0.02)
+    sweep("dashboard pad", PAD, (-HALF_WIDTH, HALF_WIDTH), "leather black", 40, 0.02, True)
     curve = spline(PAD, 400)
     for label, target in (("rear", 0.776), ("front", 0.764)):
         k = np.argmin(abs(curve[:, 0] - target) + 10 * (curve[:, 1] < 1.04))

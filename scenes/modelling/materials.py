@@ -4,7 +4,7 @@ Colours are linear Rec.709 reflectances. TILE says how many metres one tile of a
 textures covers.
 """
 TILE = {
-    "leather black": 0.12, "leather cognac": 0.12, "leather wheel": 0.12, "seat leather": 0.10,
+    "leather black": 0.10, "leather cognac": 0.10, "leather wheel": 0.08, "seat leather": 0.10,
     "plastic grained": 0.10, "pillar fabric": 0.05, "alcantara grey": 0.20, "walnut open pore": 0.26,
     "carpet": 0.10, "asphalt": 1.4, "grass": 3.0, "foliage": 3.0, "facade plaster": 12.0,
     "facade brick": 12.0, "facade office": 14.0, "hills": 160.0, "paving": 2.4,
@@ -47,6 +47,7 @@ MATERIALS = {
     "mirror silver": grey(0.90, 0.02, 1.0),
     # glass and body
     "windscreen glass": surface((0.86, 0.885, 0.875), 0.0, glass=True, ior=1.52),
+    "roof glass": surface((0.30, 0.32, 0.31), 0.0, glass=True, ior=1.52),
     "side glass": surface((0.82, 0.85, 0.84), 0.0, glass=True, ior=1.52),
     "frit": grey(0.012, 0.6),
     "rubber": grey(0.022, 0.75),

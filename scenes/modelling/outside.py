@@ -71,7 +71,8 @@ def houses():
             depth = rng.uniform(12, 22)
             width = rng.uniform(10, 14)
             floors = rng.choice((2, 3, 3, 4, 5))
-            if rng.random() < 0.80:
+            open_square = side < 0 and y + depth < 30  # lets the low sun onto the car
+            if rng.random() < 0.80 and not open_square:
                 x = side * (setback + width / 2 + rng.uniform(0, 3.0))
                 kind = facades[2] if floors >= 5 else rng.choice(facades[:2])
                 house(i, x, y + depth / 2, width, depth, floors, kind, floors >= 4)
@@ -80,16 +81,16 @@ def houses():
             y += depth + rng.choice((0.4, 3.0, 7.0))
 
 
-def crown(name, centre, radius, seed, material):
+def crown(name, centre, radius, seed, material, subdivisions=3):
     """A leafy crown: a ball pushed in and out by noise."""
     ball = bmesh.new()
-    bmesh.ops.create_icosphere(ball, subdivisions=3, radius=1.0)
+    bmesh.ops.create_icosphere(ball, subdivisions=subdivisions, radius=1.0)
     data = bpy.data.meshes.new(name)
     for v in ball.verts:
         n = v.co.normalized()
         bump = perlin.fractal(n * 1.7 + Vector((seed, 0, 0)), 1.0, 2.0, 4)
-        fine = perlin.noise(n * 6.5 + Vector((0, seed, 0)))
-        v.co = Vector(centre) + Vector((n.x, n.y, n.z * 1.12)) * radius * (1 + 0.30 * bump + 0.14 * fine)
+        fine = perlin.fractal(n * 6.0 + Vector((0, seed, 0)), 1.0, 2.0, 2)
+        v.co = Vector(centre) + Vector((n.x, n.y, n.z * 1.12)) * radius * (1 + 0.30 * bump + 0.17 * fine)
     ball.to_mesh(data)
     ball.free()
     data.materials.append(named_material(material))
@@ -102,13 +103,14 @@ def crown(name, centre, radius, seed, material):
 def tree(i, x, y, height, rng):
     radius = 0.26 * height
     tube(f"trunk {i}", spline([(x, y, 0), (x + 0.05, y, height * 0.3), (x, y + 0.1, height * 0.62)], 6),
-         np.linspace(0.17, 0.09, 6), "bark", 8)
+         np.linspace(0.17, 0.09, 6), "bark", 8, up=(0, 1, 0))
     kind = rng.choice(("foliage", "foliage", "foliage light"))
-    balls = [crown("crown", (x, y, height * 0.66), radius, 10 * i + 1.3, kind)]
+    detail = 4 if y < 60 else 3
+    balls = [crown("crown", (x, y, height * 0.66), radius, 10 * i + 1.3, kind, detail)]
     for k in range(2):
         angle = rng.uniform(0, 6.28)
         offset = Vector((math.cos(angle), math.sin(angle), 0)) * radius * 0.55
-        balls.append(crown("crown", Vector((x, y, height * (0.54 + 0.22 * k))) + offset, radius * 0.66, 10 * i + 4.1 * k, kind))
+        balls.append(crown("crown", Vector((x, y, height * (0.54 + 0.22 * k))) + offset, radius * 0.66, 10 * i + 4.1 * k, kind, detail))
     joined(f"tree {i}", balls)
 
 
@@ -127,7 +129,7 @@ def street_lamps():
         foot = 3.0 if side > 0 else -6.6
         path = spline([(foot, y, 0.1), (foot, y, 4.0), (foot, y, 6.4), (foot - 0.25 * side, y, 7.1), (foot - 0.9 * side, y, 7.42),
                        (x + 0.3 * side, y, 7.46)], 20)
-        tube(f"lamp post {i}", path, np.linspace(0.075, 0.035, 20), "pole", 8)
+        tube(f"lamp post {i}", path, np.linspace(0.075, 0.035, 20), "pole", 8, up=(0, 1, 0))
         box(f"lamp housing {i}", (0.62, 0.24, 0.09), frame_matrix((x, y, z + 0.115), (1, 0, 0), (0, 1, 0)), "pole", 0.03, 3)
 
 
@@ -150,7 +152,7 @@ def vehicle(name, x, y, heading, paint):
         smooth = np.stack([spline(np.array(rings)[:, k], 24) for k in range(len(rings[0]))], axis=1)
         grid(f"{name} {part}", smooth, material, closed=True)
     roof = frame_matrix((x, y - 0.25 * heading, 1.425), (1, 0, 0), (0, 1, 0))
-    plate(f"{name} roof", rounded_rectangle(1.16, 1.2, 0.2, 6), 0.05, roof @ Matrix.Translation((0, 0, 0.035)), paint, 0.03, 3)
+    plate(f"{name} roof", rounded_rectangle(1.16, 1.2, 0.2, 6), 0.05, roof @ Matrix.Translation((0, 0, 0.035)), paint, 0.02, 3)
     for k in (-1, 1):
         rear = frame_matrix((x + 0.62 * k, y - 2.185 * heading, 0.80), (heading, 0, 0), (0, 0, 1))
         box(f"{name} tail lamp {k}", (0.36, 0.12, 0.10), rear, "tail lamp", 0.03, 3)
@@ -183,7 +185,7 @@ def furniture():
     grid("guard rail", np.array([[(x, y, z) for y in ys] for x, z in section]), "galvanised steel")
     posts = [box("post", (0.08, 0.10, 0.80), frame_matrix((-9.36, y, 0.40), (1, 0, 0), (0, 1, 0)), "galvanised steel", 0.01) for y in np.arange(60, 181, 4.0)]
     joined("guard rail posts", posts)
-    tube("sign post", [(2.9, 34, 0), (2.9, 34, 3.4)], 0.04, "pole", 8)
+    tube("sign post", [(2.9, 34, 0), (2.9, 34, 3.4)], 0.04, "pole", 8, up=(0, 1, 0))
     sign = frame_matrix((2.9, 33.94, 2.9), (1, 0, 0), (0, 0, 1))
     plate("direction sign", rounded_rectangle(1.5, 0.85, 0.08, 5), 0.03, sign, "sign blue", 0.005)
     arrow = [(-0.05, -0.30), (0.05, -0.30), (0.05, 0.08), (0.16, 0.08), (0.0, 0.30), (-0.16, 0.08), (-0.05, 0.08)]
@@ -191,7 +193,7 @@ def furniture():
     for k in range(2):
         bar = sign @ Matrix.Translation((0.22, 0.16 - 0.30 * k, 0.002))
         box(f"direction sign line {k}", (0.75 - 0.2 * k, 0.11, 0.01), bar, "road marking", 0)
-    tube("traffic light post", [(2.75, 45.2, 0), (2.75, 45.2, 3.5)], 0.05, "pole", 8)
+    tube("traffic light post", [(2.75, 45.2, 0), (2.75, 45.2, 3.5)], 0.05, "pole", 8, up=(0, 1, 0))
     box("traffic light", (0.26, 0.22, 0.80), frame_matrix((2.75, 45.05, 3.1), (1, 0, 0), (0, 1, 0)), "plastic dark", 0.03, 3)
 
 

@@ -16,8 +16,8 @@ import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 WIDTH, HEIGHT = 512, 256
-SUN_AZIMUTH_DEG, SUN_ELEVATION_DEG = 238.0, 33.0
-SUN_LX, DIFFUSE_LX = 82000.0, 16000.0
+SUN_AZIMUTH_DEG, SUN_ELEVATION_DEG = 240.0, 26.0
+SUN_LX, DIFFUSE_LX = 74000.0, 20000.0
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 

@@ -77,7 +77,7 @@ def spokes():
           (0.064, 0.048, 0.040, 0.040), (0.028, 0.018, 0.014, 0.012), "plastic dark")
     slot = WHEEL @ Matrix.Translation((0, -0.118, 0.0145))
     plate("steering wheel clasp", np.array([(-0.019, -0.040), (0.019, -0.040), (0.024, 0.036), (-0.024, 0.036)]),
-          0.004, slot, "satin chrome", 0.0025, 3)
+          0.004, slot, "satin chrome", 0.0015, 3)
 
 
 def switch_pod(side, sign):
@@ -102,8 +102,8 @@ def switch_pod(side, sign):
 
 
 def paddle(side, sign):
-    at = WHEEL @ Matrix.Translation((sign * 0.118, 0.034, -0.024)) @ Matrix.Rotation(sign * math.radians(14), 4, "Z")
-    plate(f"shift paddle {side}", rounded_rectangle(0.036, 0.088, 0.012, 6), 0.004, at, "satin chrome", 0.0015, 3)
+    at = WHEEL @ Matrix.Translation((sign * 0.120, 0.030, -0.024)) @ Matrix.Rotation(sign * math.radians(14), 4, "Z")
+    plate(f"shift paddle {side}", rounded_rectangle(0.030, 0.070, 0.010, 6), 0.004, at, "satin chrome", 0.0015, 3)
 
 
 def hub():
