@@ -1,0 +1,377 @@
+/* Frames: what is written is read, whole or not at all. */
+#include "check.h"
+
+#include <dirent.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "image/frame.h"
+
+enum { ARENA_BYTES = 1 << 28 };
+
+static char folder[64] = "frames-XXXXXX";
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int files_in_folder(void)
+{
+    DIR *dir = opendir(folder);
+    int  count = 0;
+    while (readdir(dir)) count++;
+    closedir(dir);
+    return count - 2;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    DIR *dir = opendir(folder);
+    for (struct dirent *e; (e = readdir(dir));) {
+        char path[400];
+        snprintf(path, sizeof path, "%s/%s", folder, e->d_name);
+        if (e->d_name[0] != '.') unlink(path);
+    }
+    closedir(dir);
+    return rmdir(folder);
+}
+
+static const char *in_folder(const char *name)
+{
+    static char path[200];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+static void assert_text_has(const Error *err, const char *part)
+{
+    if (!strstr(err->text, part)) fail_msg("\"%s\" lacks \"%s\"", err->text, part);
+}
+
+/* Noise, which ZIP cannot make shorter, besides values that are no ordinary numbers. */
+static void fill(float *values, size_t count, unsigned seed)
+{
+    static const float ODD[] = {-1.5f, INFINITY, -INFINITY, 1e-40f, 3e38f, -0.0f};
+    for (size_t i = 0; i < count; i++) {
+        seed = seed * 1664525u + 1013904223u;
+        values[i] = i < 6 ? ODD[i] : (float)seed * 1e-3f;
+    }
+    if (count > 6) values[6] = NAN;
+}
+
+static FrameImage make_frame(int width, int height, ExrWindow data, Arena *arena)
+{
+    static const char *const NAMES[] = {"R", "G", "B", "depth.Z", "variance.R",
+                                        "display.emitted.R", "display.theta"};
+    static const double MATRIX[16] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16};
+    static const double SECONDS = 0.5;
+    FrameImage frame = frame_create(width, height, data, 1, 1, arena); /* and grows */
+    size_t     count = frame_pixel_count(&frame);
+    for (unsigned i = 0; i < 7; i++)
+        fill(frame_add_channel(&frame, NAMES[i], false, arena), count, i);
+    float *id = frame_add_channel(&frame, "id.display", true, arena);
+    for (size_t i = 0; i < count; i++) id[i] = i % 3 ? (float)i : -1;
+    if (count > 1) id[1] = 16777216;
+    frame_set_string(&frame, "parhelion:display.3", "cluster", arena);
+    frame_set_string(&frame, "parhelion:version", "old", arena);
+    frame_set_string(&frame, "parhelion:version", "a name longer than thirty-one letters", arena);
+    frame_set_number(&frame, "parhelion:a number of some length, too", 0.1, arena);
+    frame_set_whole(&frame, "parhelion:seed", -12345, arena);
+    frame_set_values(&frame, "worldToCamera", EXR_MATRIX44, MATRIX, arena);
+    frame_set_values(&frame, "expTime", EXR_FLOAT, &SECONDS, arena);
+    return frame;
+}
+
+static FrameImage write_and_read(const FrameImage *frame, Arena *arena)
+{
+    FrameImage back;
+    Error      err = {0};
+    if (!frame_write(in_folder("a.exr"), frame, &err)) fail_msg("%s", err.text);
+    if (!frame_read(in_folder("a.exr"), arena, &back, &err)) fail_msg("%s", err.text);
+    return back;
+}
+
+static void assert_same_channels(const FrameImage *a, const FrameImage *b)
+{
+    assert_int_equal(a->channel_count, b->channel_count);
+    for (int i = 0; i < a->channel_count; i++) {
+        const float *values = frame_channel(b, a->channels[i].name);
+        assert_non_null(values);
+        assert_memory_equal(values, a->channels[i].values, frame_pixel_count(a) * sizeof(float));
+    }
+}
+
+static void every_bit_comes_back(void **state)
+{
+    (void)state;
+    static const int SIZES[][2] = {{1, 1}, {7, 3}, {64, 33}, {200, 70}};
+    Arena arena = arena_reserve(ARENA_BYTES);
+    for (int i = 0; i < 4; i++) {
+        int w = SIZES[i][0], h = SIZES[i][1];
+        FrameImage frame = make_frame(w, h, (ExrWindow){0, 0, w, h}, &arena);
+        FrameImage back = write_and_read(&frame, &arena);
+        assert_memory_equal(&back.display, &frame.display, sizeof frame.display);
+        assert_same_channels(&frame, &back);
+    }
+    arena_release(&arena);
+}
+
+static void a_crop_keeps_its_place(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(ARENA_BYTES);
+    ExrWindow  crop = {13, 5, 40, 30};
+    FrameImage frame = make_frame(64, 48, crop, &arena), back = write_and_read(&frame, &arena);
+    assert_memory_equal(&back.data, &crop, sizeof crop);
+    assert_int_equal(back.display.x1, 64);
+    assert_int_equal(back.display.y1, 48);
+    assert_same_channels(&frame, &back);
+    arena_release(&arena);
+}
+
+static void attributes_come_back(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(ARENA_BYTES);
+    FrameImage frame = make_frame(4, 4, (ExrWindow){0, 0, 4, 4}, &arena);
+    FrameImage back = write_and_read(&frame, &arena);
+    assert_string_equal(frame_string(&back, "parhelion:version"),
+                        "a name longer than thirty-one letters");
+    assert_true(frame_attribute(&back, "parhelion:a number of some length, too")->values[0] == 0.1);
+    assert_true(frame_attribute(&back, "parhelion:seed")->values[0] == -12345);
+    assert_true(frame_attribute(&back, "expTime")->values[0] == 0.5);
+    assert_true(frame_attribute(&back, "whiteLuminance")->values[0] == 1);
+    const ExrAttribute *c = frame_attribute(&back, "chromaticities");
+    assert_int_equal(c->kind, EXR_CHROMATICITIES);
+    assert_near(c->values[0], 0.64, 1e-6);
+    assert_near(c->values[7], 0.3290, 1e-6);
+    const ExrAttribute *m = frame_attribute(&back, "worldToCamera");
+    for (int i = 0; i < 16; i++) assert_true(m->values[i] == i + 1);
+    assert_null(frame_attribute(&back, "nothing"));
+    assert_null(frame_string(&back, "expTime"));
+    assert_int_equal(frame_id_of(&back, "display", "cluster"), 3);
+    assert_int_equal(frame_id_of(&back, "display", "clust"), -1);
+    assert_int_equal(frame_id_of(&back, "part", "cluster"), -1);
+    arena_release(&arena);
+}
+
+static void layers_are_found_by_name(void **state)
+{
+    (void)state;
+    Arena        arena = arena_reserve(ARENA_BYTES);
+    FrameImage   frame = make_frame(4, 4, (ExrWindow){0, 0, 4, 4}, &arena);
+    const float *rgb[3];
+    assert_true(frame_rgb(&frame, "", rgb));
+    assert_ptr_equal(rgb[1], frame_channel(&frame, "G"));
+    assert_false(frame_rgb(&frame, "variance", rgb));
+    assert_null(frame_channel(&frame, "depth"));
+    arena_release(&arena);
+}
+
+static void the_same_frame_makes_the_same_bytes(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(ARENA_BYTES);
+    FrameImage frame = make_frame(90, 40, (ExrWindow){0, 0, 90, 40}, &arena);
+    FileBytes  bytes[2];
+    Error      err = {0};
+    for (int i = 0; i < 2; i++) {
+        assert_true(frame_write(in_folder("same.exr"), &frame, &err));
+        assert_true(file_read(in_folder("same.exr"), ARENA_BYTES, &arena, &bytes[i], &err));
+    }
+    assert_int_equal(bytes[0].size, bytes[1].size);
+    assert_memory_equal(bytes[0].data, bytes[1].data, bytes[0].size);
+    arena_release(&arena);
+}
+
+/* ---- writing that fails ------------------------------------------------------------------ */
+
+static void a_full_disk_leaves_nothing(void **state)
+{
+    (void)state;
+    Arena         arena = arena_reserve(ARENA_BYTES);
+    FrameImage    frame = make_frame(90, 40, (ExrWindow){0, 0, 90, 40}, &arena);
+    struct rlimit before, small;
+    Error         err = {0};
+    int           files = files_in_folder();
+    signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before);
+    small = before;
+    small.rlim_cur = 5000; /* bytes that fit before the "disk" is full */
+    setrlimit(RLIMIT_FSIZE, &small);
+    bool done = frame_write(in_folder("full.exr"), &frame, &err);
+    setrlimit(RLIMIT_FSIZE, &before);
+    assert_false(done);
+    assert_int_equal(err.code, ERROR_OUTPUT);
+    assert_text_has(&err, "cannot be written");
+    assert_non_null(strstr(err.file, "full.exr"));
+    assert_int_equal(files_in_folder(), files);
+    arena_release(&arena);
+}
+
+static void a_device_that_is_full_says_so(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(ARENA_BYTES);
+    FrameImage frame = make_frame(90, 40, (ExrWindow){0, 0, 90, 40}, &arena);
+    Error      err = {0};
+    struct stat info;
+    if (stat("/dev/full", &info) != 0 || !S_ISCHR(info.st_mode)) skip();
+    assert_false(frame_write("/dev/full", &frame, &err));
+    assert_text_has(&err, "No space left");
+    assert_int_equal(stat("/dev/full", &info), 0);
+    assert_true(S_ISCHR(info.st_mode));
+    arena_release(&arena);
+}
+
+static void a_missing_folder_and_a_bad_window_are_told(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(ARENA_BYTES);
+    FrameImage frame = make_frame(9, 4, (ExrWindow){0, 0, 9, 4}, &arena);
+    Error      err = {0};
+    assert_false(frame_write("no/such/folder/a.exr", &frame, &err));
+    assert_int_equal(err.code, ERROR_OUTPUT);
+    assert_string_equal(err.file, "no/such/folder/a.exr");
+    frame.data.x1 = 10;
+    assert_false(frame_write(in_folder("window.exr"), &frame, &err));
+    assert_text_has(&err, "not inside the display window");
+    assert_false(file_exists(in_folder("window.exr")));
+    arena_release(&arena);
+}
+
+/* ---- reading what is broken -------------------------------------------------------------- */
+
+static void refuses_every_prefix(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(ARENA_BYTES);
+    FrameImage frame = make_frame(5, 20, (ExrWindow){0, 0, 5, 20}, &arena), back;
+    FileBytes  whole;
+    Error      err = {0};
+    assert_true(frame_write(in_folder("whole.exr"), &frame, &err));
+    assert_true(file_read(in_folder("whole.exr"), ARENA_BYTES, &arena, &whole, &err));
+    for (size_t size = 0; size < whole.size; size++) {
+        Arena before = arena;
+        unsigned char *exact = malloc(size + (size == 0)); /* so that ASan sees a step beyond */
+        memcpy(exact, whole.data, size);
+        err.text[0] = '\0';
+        if (frame_read_memory(exact, size, "cut.exr", &arena, &back, &err))
+            fail_msg("%zu of %zu bytes were accepted", size, whole.size);
+        assert_true(err.text[0] && !strchr(err.text, '\n'));
+        assert_string_equal(err.file, "cut.exr");
+        assert_ptr_equal(arena.next, before.next);
+        free(exact);
+    }
+    arena_release(&arena);
+}
+
+static void survives_flipped_bits(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(ARENA_BYTES);
+    FrameImage frame = make_frame(5, 20, (ExrWindow){0, 0, 5, 20}, &arena), back;
+    FileBytes  whole;
+    Error      err = {0};
+    unsigned   seed = 1;
+    assert_true(frame_write(in_folder("whole.exr"), &frame, &err));
+    assert_true(file_read(in_folder("whole.exr"), ARENA_BYTES, &arena, &whole, &err));
+    unsigned char *bytes = ARENA_NEW(&arena, unsigned char, whole.size);
+    for (int i = 0; i < 3000; i++) {
+        Arena scratch = arena;
+        seed = seed * 1664525u + 1013904223u;
+        memcpy(bytes, whole.data, whole.size);
+        bytes[(seed >> 8) % (i % 2 ? whole.size : 1200)] ^= (unsigned char)(1u << (seed & 7));
+        err.text[0] = '\0';
+        if (!frame_read_memory(bytes, whole.size, "flipped.exr", &scratch, &back, &err))
+            assert_true(err.text[0] && !strchr(err.text, '\n'));
+    }
+    arena_release(&arena);
+}
+
+/* The corpus of the library's own makers: files found by fuzzing. */
+static void damaged_files_are_read_or_refused(void **state)
+{
+    (void)state;
+    char name[200], path[600];
+    int  refused = 0, total = 0;
+    snprintf(name, sizeof name, "%s/exr/Damaged", SHARED_DATA_DIR);
+    DIR *dir = opendir(name);
+    if (!dir) skip();
+    for (struct dirent *e; (e = readdir(dir));) {
+        Arena      arena = arena_reserve((size_t)1 << 30);
+        FrameImage frame;
+        Error      err = {0};
+        if (e->d_name[0] == '.') continue;
+        snprintf(path, sizeof path, "%s/%s", name, e->d_name);
+        total++;
+        if (!frame_read(path, &arena, &frame, &err)) {
+            refused++;
+            assert_string_equal(err.file, path);
+            assert_true(err.text[0] && !strchr(err.text, '\n'));
+        }
+        arena_release(&arena);
+    }
+    closedir(dir);
+    print_message("%d of %d damaged files are refused\n", refused, total);
+    assert_true(total > 50 && refused > total / 2);
+}
+
+static void what_cannot_be_shown_flat_is_refused(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(ARENA_BYTES);
+    FrameImage frame;
+    Error      err = {0};
+    char       path[512];
+    assert_false(frame_read_memory("hello, world", 12, "a.txt", &arena, &frame, &err));
+    assert_text_has(&err, "not an OpenEXR file");
+    assert_false(frame_read("no/such.exr", &arena, &frame, &err));
+    assert_text_has(&err, "No such file");
+    snprintf(path, sizeof path, "%s/exr/LuminanceChroma/Garden.exr", SHARED_DATA_DIR);
+    if (!file_exists(path)) skip();
+    assert_true(frame_read(path, &arena, &frame, &err)); /* luminance only: one plain channel */
+    arena_release(&arena);
+}
+
+static void a_file_larger_than_the_arena_is_refused(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(ARENA_BYTES), small = arena_reserve(1 << 21);
+    FrameImage frame = make_frame(300, 300, (ExrWindow){0, 0, 300, 300}, &arena), back;
+    Error      err = {0};
+    assert_true(frame_write(in_folder("large.exr"), &frame, &err));
+    assert_false(frame_read(in_folder("large.exr"), &small, &back, &err));
+    assert_int_equal(err.code, ERROR_MEMORY);
+    assert_text_has(&err, "8 channels of 90000 pixels");
+    arena_release(&arena);
+    arena_release(&small);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_bit_comes_back),
+        cmocka_unit_test(a_crop_keeps_its_place),
+        cmocka_unit_test(attributes_come_back),
+        cmocka_unit_test(layers_are_found_by_name),
+        cmocka_unit_test(the_same_frame_makes_the_same_bytes),
+        cmocka_unit_test(a_full_disk_leaves_nothing),
+        cmocka_unit_test(a_device_that_is_full_says_so),
+        cmocka_unit_test(a_missing_folder_and_a_bad_window_are_told),
+        cmocka_unit_test(refuses_every_prefix),
+        cmocka_unit_test(survives_flipped_bits),
+        cmocka_unit_test(damaged_files_are_read_or_refused),
+        cmocka_unit_test(what_cannot_be_shown_flat_is_refused),
+        cmocka_unit_test(a_file_larger_than_the_arena_is_refused),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
