@@ -64,8 +64,9 @@ void cli_print_warnings(const Problems *problems)
     for (int i = 0; i < problems->count; i++) {
         const Problem *one = &problems->list[i];
         if (one->severity != SEVERITY_WARNING || is_repeated(problems, i)) continue;
-        fprintf(stderr, "parhelion: warning: %s%s%s%s%s%s\n", one->file, one->file[0] ? ": " : "",
-                one->message, one->path[0] ? " (" : "", one->path, one->path[0] ? ")" : "");
+        fprintf(stderr, "parhelion: warning: %s%s%s%s%s%s\n", one->file,
+                one->file[0] ? ": " : "", one->message, one->path[0] ? " (" : "", one->path,
+                one->path[0] ? ")" : "");
     }
 }
 

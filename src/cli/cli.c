@@ -153,8 +153,10 @@ static bool read_size(const Parser *in, const Option *option, const char *text)
     long  width = strtol(text, &end_w, 10);
     long  height = *end_w == 'x' ? strtol(end_w + 1, &end_h, 10) : 0;
     bool  reads = end_w != text && end_h && end_h != end_w + 1 && !*end_h;
-    if (!reads || width < 1 || height < 1 || width > SIZE_MAX_PIXELS || height > SIZE_MAX_PIXELS)
-        return bad_value(in, option, text, "a size in pixels such as 1280x720, each 1 to 65536");
+    if (!reads || width < 1 || height < 1 || width > SIZE_MAX_PIXELS ||
+        height > SIZE_MAX_PIXELS)
+        return bad_value(in, option, text,
+                         "a size in pixels such as 1280x720, each 1 to 65536");
     ((int *)option->out)[0] = (int)width;
     ((int *)option->out)[1] = (int)height;
     return true;
@@ -212,7 +214,8 @@ static const Option *find_option(const Parser *in, const char *name, size_t leng
         const Option *option = i < in->command->option_count
                                    ? &in->command->options[i]
                                    : &in->common[i - in->command->option_count];
-        if (strlen(option->name) == length && !strncmp(option->name, name, length)) return option;
+        if (strlen(option->name) == length && !strncmp(option->name, name, length))
+            return option;
     }
     return NULL;
 }

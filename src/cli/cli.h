@@ -74,7 +74,8 @@ typedef struct Cli {
     int          argument_count;
 } Cli;
 
-/* argv[0] is the command's own name and skipped. Lists come from the arena; texts stay argv's. */
+/* argv[0] is the command's own name and skipped. Lists come from the arena; texts stay argv's.
+ */
 bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, Cli *out,
                Error *err);
 

@@ -26,7 +26,8 @@ static bool check_writable(const char *path, Arena scratch, Error *err)
     const char *probe = file_temporary_name(path, &scratch);
     int         file = open(probe, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
     if (file < 0)
-        return error_at(err, ERROR_OUTPUT, path, NULL, "cannot be written: %s", strerror(errno));
+        return error_at(err, ERROR_OUTPUT, path, NULL, "cannot be written: %s",
+                        strerror(errno));
     close(file);
     unlink(probe);
     return true;
@@ -44,9 +45,10 @@ static bool check_memory(const RenderOptions *options, Error *err)
     double   pixels = (double)(crop.x1 - crop.x0) * (double)(crop.y1 - crop.y0);
     double   memory = (double)memory_bytes();
     if (pixels > EXR_MAX_PIXELS)
-        return error_set(err, ERROR_USAGE,
-                         "--size %dx%d: %.0f pixels, at most %d — use --crop and several frames",
-                         options->width, options->height, pixels, EXR_MAX_PIXELS);
+        return error_set(
+            err, ERROR_USAGE,
+            "--size %dx%d: %.0f pixels, at most %d — use --crop and several frames",
+            options->width, options->height, pixels, EXR_MAX_PIXELS);
     double wanted = (double)film_bytes(crop, options->layers);
     if (wanted < memory) return true;
     return error_set(err, ERROR_MEMORY,
@@ -78,11 +80,10 @@ static bool load(Work *work, Error *err)
 {
     RenderRequest *request = &work->request;
     work->problems = problems_start(work->arena);
-    bool loaded = scene_load(&request->scene, work->arena, &work->problems, &work->scene, err) &&
-                  render_change_environment(&request->environment, work->scene, work->arena,
-                                            err) &&
-                  render_choose_camera(work->scene, request->camera, &work->problems,
-                                       &work->camera, err);
+    bool loaded =
+        scene_load(&request->scene, work->arena, &work->problems, &work->scene, err) &&
+        render_change_environment(&request->environment, work->scene, work->arena, err) &&
+        render_choose_camera(work->scene, request->camera, &work->problems, &work->camera, err);
     cli_print_warnings(&work->problems);
     return loaded;
 }
@@ -123,11 +124,11 @@ static bool report_interruption(const Work *work, const RenderResult *result, Er
 {
     const RenderOptions *options = &work->request.render;
     bool by_int = result->stopped_by == SIGINT;
-    error_at(err, by_int ? ERROR_INTERRUPTED : ERROR_TERMINATED, work->request.output, NULL,
-             "stopped by %s after %u of %u samples a pixel; the frame is marked incomplete — run "
-             "the same command again for the whole",
-             by_int ? "INT" : "TERM", result->samples,
-             options->end_sample - options->first_sample);
+    error_at(
+        err, by_int ? ERROR_INTERRUPTED : ERROR_TERMINATED, work->request.output, NULL,
+        "stopped by %s after %u of %u samples a pixel; the frame is marked incomplete — run "
+        "the same command again for the whole",
+        by_int ? "INT" : "TERM", result->samples, options->end_sample - options->first_sample);
     cli_report_error(err, false);
     err->text[0] = '\0';
     return false;

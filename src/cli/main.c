@@ -44,9 +44,9 @@ static bool unknown_command(const char *name, Error *err)
     const char *names[COMMAND_COUNT];
     for (int i = 0; i < COMMAND_COUNT; i++) names[i] = commands[i].name;
     const char *nearest = cli_nearest(name, names, COMMAND_COUNT);
-    return error_set(err, ERROR_USAGE, "unknown command %s — %s%s%s`parhelion --help` lists them",
-                     name, nearest ? "did you mean " : "", nearest ? nearest : "",
-                     nearest ? "? " : "");
+    return error_set(
+        err, ERROR_USAGE, "unknown command %s — %s%s%s`parhelion --help` lists them", name,
+        nearest ? "did you mean " : "", nearest ? nearest : "", nearest ? "? " : "");
 }
 
 static bool run_command(int argc, char **argv, Error *err)

@@ -29,8 +29,8 @@ static void set_camera(FrameImage *frame, const SceneCamera *camera, Arena *aren
     frame_set_string(frame, "parhelion:camera",
                      camera->node_name[0] ? camera->node_name : camera->camera_name, arena);
     if (camera->is_perspective)
-        frame_set_number(frame, "parhelion:yfov_deg", degrees_from_radians((double)camera->yfov),
-                         arena);
+        frame_set_number(frame, "parhelion:yfov_deg",
+                         degrees_from_radians((double)camera->yfov), arena);
     else
         frame_set_number(frame, "parhelion:ymag_m", (double)camera->ymag, arena);
 }
@@ -159,7 +159,8 @@ static bool print_line(const RenderRequest *request, const RenderResult *result,
 {
     const PathStatistics *counts = &result->statistics;
     char samples[32], rays[32];
-    rate_text(per_second((double)counts->samples, result->seconds), samples, (int)sizeof samples);
+    rate_text(per_second((double)counts->samples, result->seconds), samples,
+              (int)sizeof samples);
     rate_text(per_second(ray_count(counts), result->seconds), rays, (int)sizeof rays);
     int written = printf("%s: %dx%d, %u samples a pixel%s, %.1f s, %ssamples/s, %srays/s, "
                          "relative error %.2f%%, peak memory %.0f MB\n",
@@ -219,14 +220,15 @@ bool render_print_replay(const RenderRequest *request, const Scene *scene,
     const char *display = display_name(scene, (int)value_of(&frame, "id.display"));
     if (request->cli.json)
         return cli_print_json(
-            json_pack("{s:i, s:i, s:I, s:b, s:o, s:o, s:o, s:o, s:o}", "x", options->crop.x0, "y",
-                      options->crop.y0, "sample", (json_int_t)options->first_sample, "finite",
-                      is_finite, "XYZ", triple(&frame, "xyz.X", "xyz.Y", "xyz.Z"), "RGB",
-                      triple(&frame, "R", "G", "B"), "depth_m",
+            json_pack("{s:i, s:i, s:I, s:b, s:o, s:o, s:o, s:o, s:o}", "x", options->crop.x0,
+                      "y", options->crop.y0, "sample", (json_int_t)options->first_sample,
+                      "finite", is_finite, "XYZ", triple(&frame, "xyz.X", "xyz.Y", "xyz.Z"),
+                      "RGB", triple(&frame, "R", "G", "B"), "depth_m",
                       json_number_or_null(value_of(&frame, "depth.Z")), "part",
                       name_or_null(part), "display", name_or_null(display)),
             err);
-    printf("pixel %d,%d sample %u: ", options->crop.x0, options->crop.y0, options->first_sample);
+    printf("pixel %d,%d sample %u: ", options->crop.x0, options->crop.y0,
+           options->first_sample);
     if (is_finite)
         printf("XYZ %.9g %.9g %.9g cd/m2, RGB %.9g %.9g %.9g\n", value_of(&frame, "xyz.X"),
                value_of(&frame, "xyz.Y"), value_of(&frame, "xyz.Z"), value_of(&frame, "R"),

@@ -89,10 +89,11 @@ static bool parse_noise(const char *text, RenderOptions *options, Error *err)
     bool   of_displays = !strncmp(text, "display:", 8);
     double noise;
     if (!cli_numbers(text + (of_displays ? 8 : 0), 1, &noise) || !(noise > 0 && noise < 1))
-        return error_set(err, ERROR_USAGE,
-                         "--noise %s: wanted a relative error above 0 and below 1, such as 0.05 "
-                         "or display:0.01",
-                         text);
+        return error_set(
+            err, ERROR_USAGE,
+            "--noise %s: wanted a relative error above 0 and below 1, such as 0.05 "
+            "or display:0.01",
+            text);
     options->noise = noise;
     options->noise_of_displays = of_displays;
     return true;
@@ -107,14 +108,16 @@ static bool parse_crop(const double crop[4], RenderOptions *options, Error *err)
 {
     for (int i = 0; i < 4; i++)
         if (!is_whole(crop[i]))
-            return error_set(err, ERROR_USAGE, "--crop: %g is no whole number of pixels", crop[i]);
+            return error_set(err, ERROR_USAGE, "--crop: %g is no whole number of pixels",
+                             crop[i]);
     FilmRect rect = {(int)crop[0], (int)crop[1], (int)crop[2], (int)crop[3]};
     if (rect.x0 < 0 || rect.y0 < 0 || rect.x0 >= rect.x1 || rect.y0 >= rect.y1 ||
         rect.x1 > options->width || rect.y1 > options->height)
-        return error_set(err, ERROR_USAGE,
-                         "--crop %d,%d,%d,%d: wanted X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 inside "
-                         "the frame of %dx%d pixels",
-                         rect.x0, rect.y0, rect.x1, rect.y1, options->width, options->height);
+        return error_set(
+            err, ERROR_USAGE,
+            "--crop %d,%d,%d,%d: wanted X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 inside "
+            "the frame of %dx%d pixels",
+            rect.x0, rect.y0, rect.x1, rect.y1, options->width, options->height);
     options->crop = rect;
     return true;
 }
@@ -178,7 +181,8 @@ static bool check_outputs(const RenderRequest *request, Error *err)
     const DevelopOptions *look = &request->look;
     if (!request->png && (look->exposure || look->config || look->display || look->view ||
                           look->false_colour))
-        return error_set(err, ERROR_USAGE, "a look is asked for, but no picture — add --png FILE");
+        return error_set(err, ERROR_USAGE,
+                         "a look is asked for, but no picture — add --png FILE");
     if (request->replays) return true;
     if (!request->output)
         return error_set(err, ERROR_USAGE, "no output — add -o FRAME.exr");
@@ -229,8 +233,8 @@ static const char *join_command_line(int argc, char **argv, Arena *arena)
     return line;
 }
 
-static bool parse_line(int argc, char **argv, Arena *arena, Typed *typed, RenderRequest *request,
-                       Error *err)
+static bool parse_line(int argc, char **argv, Arena *arena, Typed *typed,
+                       RenderRequest *request, Error *err)
 {
     EnvironmentChange *outside = &request->environment;
     const Option options[] = {
@@ -241,7 +245,8 @@ static bool parse_line(int argc, char **argv, Arena *arena, Typed *typed, Render
          &request->look.exposure},
         {"--config", OPTION_TEXT, "FILE", "OpenColorIO configuration (default $OCIO, else own)",
          &request->look.config},
-        {"--display", OPTION_TEXT, "NAME", "the configuration's display", &request->look.display},
+        {"--display", OPTION_TEXT, "NAME", "the configuration's display",
+         &request->look.display},
         {"--view", OPTION_TEXT, "NAME", "the configuration's view", &request->look.view},
         {"--false-colour", OPTION_CHOICE, "luminance", "show luminance on a scale of colours",
          &typed->false_colour, .given = &request->look.false_colour},
@@ -288,8 +293,8 @@ static bool parse_line(int argc, char **argv, Arena *arena, Typed *typed, Render
     const CliCommand command = {
         "render", "render a scene to a linear, photometric EXR",
         "SCENE.gltf|.glb [LIGHTS.gltf|.glb ...] -o FRAME.exr",
-        "parhelion render scenes/car_dashboard.gltf scenes/noon.gltf -o noon.exr --png noon.png "
-        "--spp 64",
+        "parhelion render scenes/car_dashboard.gltf scenes/noon.gltf -o noon.exr "
+        "--png noon.png --spp 64",
         options, (int)(sizeof options / sizeof *options), 1, -1};
     return cli_parse(&command, argc, argv, arena, &request->cli, err);
 }

@@ -85,14 +85,15 @@ static bool set_sun(const char *text, Environment *environment, Error *err)
     bool has_lux = cli_numbers(text, 3, sun);
     if ((!has_lux && !cli_numbers(text, 2, sun)) || fabs(sun[0]) > 360 || fabs(sun[1]) > 90 ||
         sun[2] < 0)
-        return error_set(err, ERROR_USAGE,
-                         "--sun %s: wanted off, or AZ,EL,LUX with AZ -360 to 360 and EL -90 to 90 "
-                         "degrees and LUX at least 0",
-                         text);
+        return error_set(
+            err, ERROR_USAGE,
+            "--sun %s: wanted off, or AZ,EL,LUX with AZ -360 to 360 and EL -90 to 90 "
+            "degrees and LUX at least 0",
+            text);
     if (!has_lux && !environment->has_sun)
-        return error_set(err, ERROR_USAGE,
-                         "--sun %s: the scene's sun has no illuminance to keep — write AZ,EL,LUX",
-                         text);
+        return error_set(
+            err, ERROR_USAGE,
+            "--sun %s: the scene's sun has no illuminance to keep — write AZ,EL,LUX", text);
     environment->has_sun = true;
     environment->sun_azimuth = (float)radians_from_degrees(sun[0]);
     environment->sun_elevation = (float)radians_from_degrees(sun[1]);
@@ -102,7 +103,8 @@ static bool set_sun(const char *text, Environment *environment, Error *err)
     return true;
 }
 
-static bool set_directions(const EnvironmentChange *change, Environment *environment, Error *err)
+static bool set_directions(const EnvironmentChange *change, Environment *environment,
+                           Error *err)
 {
     if (change->has_heading)
         environment->heading = (float)radians_from_degrees(change->heading_deg);
@@ -126,8 +128,9 @@ bool render_change_environment(const EnvironmentChange *change, Scene *scene, Ar
         return false;
     if (change->has_hdri_lux) {
         if (environment->kind != ENVIRONMENT_HDRI)
-            return error_set(err, ERROR_USAGE, "--hdri-lux: there is no HDRI — add --environment "
-                                               "hdri:FILE");
+            return error_set(err, ERROR_USAGE,
+                             "--hdri-lux: there is no HDRI — add --environment "
+                             "hdri:FILE");
         environment->horizontal_illuminance_lx = (float)change->hdri_lux;
     }
     if (change->sun && !set_sun(change->sun, environment, err)) return false;

@@ -120,7 +120,8 @@ static void drop_sample(Film *film, int x, int y, uint32_t sample)
     while (place > 0 && comes_before(sample, x, y, dropped, place - 1)) place--;
     if (place < FILM_DROPPED_KEPT) {
         if (dropped->kept < FILM_DROPPED_KEPT) dropped->kept++;
-        for (int i = dropped->kept - 1; i > place; i--) dropped->first[i] = dropped->first[i - 1];
+        for (int i = dropped->kept - 1; i > place; i--)
+            dropped->first[i] = dropped->first[i - 1];
         dropped->first[place].sample_index = sample;
         dropped->first[place].x = x;
         dropped->first[place].y = y;
@@ -277,7 +278,8 @@ static double lowest_luminance(const Film *film)
 static double pixel_error(const FilmPixel *pixel, double lowest)
 {
     if (pixel->samples < 2) return 1;
-    double sigma = 0.2126 * sqrt(pixel->variance_rgb[0]) + 0.7152 * sqrt(pixel->variance_rgb[1]) +
+    double sigma = 0.2126 * sqrt(pixel->variance_rgb[0]) +
+                   0.7152 * sqrt(pixel->variance_rgb[1]) +
                    0.0722 * sqrt(pixel->variance_rgb[2]);
     double luminance = pixel->mean_xyz[1] > lowest ? pixel->mean_xyz[1] : lowest;
     return luminance > 0 ? sigma / luminance : 0;

@@ -29,7 +29,7 @@
 /* What one sample of one pixel saw. Everything that belongs to a display is of the FIRST
  * surface the camera ray met (windows passed straight through do not count). */
 typedef struct FilmSample {
-    uint32_t sample_index; /* of the pixel; only settles which id is shown, and the replay hint */
+    uint32_t sample_index; /* of the pixel: settles which id is shown, and the replay hint */
     float xyz[3];          /* cd m^-2 */
     bool  hit;             /* the camera ray met a surface; else depth .. uv are unset */
     float depth;           /* m, along the ray */
@@ -45,10 +45,20 @@ typedef struct FilmSample {
 } FilmSample;
 
 typedef enum FilmLayer {
-    LAYER_XYZ = 1 << 0, LAYER_DEPTH = 1 << 1, LAYER_POSITION = 1 << 2, LAYER_NORMAL = 1 << 3,
-    LAYER_ALBEDO = 1 << 4, LAYER_ID = 1 << 5, LAYER_UV = 1 << 6, LAYER_VARIANCE = 1 << 7,
-    LAYER_SAMPLES = 1 << 8, LAYER_DISPLAY_EMITTED = 1 << 9, LAYER_DISPLAY_REFLECTED = 1 << 10,
-    LAYER_DISPLAY_WHITE = 1 << 11, LAYER_DISPLAY_BLACK = 1 << 12, LAYER_DISPLAY_ANGLES = 1 << 13,
+    LAYER_XYZ = 1 << 0,
+    LAYER_DEPTH = 1 << 1,
+    LAYER_POSITION = 1 << 2,
+    LAYER_NORMAL = 1 << 3,
+    LAYER_ALBEDO = 1 << 4,
+    LAYER_ID = 1 << 5,
+    LAYER_UV = 1 << 6,
+    LAYER_VARIANCE = 1 << 7,
+    LAYER_SAMPLES = 1 << 8,
+    LAYER_DISPLAY_EMITTED = 1 << 9,
+    LAYER_DISPLAY_REFLECTED = 1 << 10,
+    LAYER_DISPLAY_WHITE = 1 << 11,
+    LAYER_DISPLAY_BLACK = 1 << 12,
+    LAYER_DISPLAY_ANGLES = 1 << 13,
     LAYER_DISPLAY_CONTRAST = 1 << 14,
     LAYER_ALL = (1 << 15) - 1,
     LAYER_DISPLAYS = LAYER_ALL & ~(LAYER_DISPLAY_EMITTED - 1),

@@ -141,7 +141,8 @@ static void run_passes(Run *run)
         if (samples > total - done) samples = total - done;
         run->job.first_sample = options->first_sample + done;
         run->job.end_sample = run->job.first_sample + samples;
-        parallel_for(options->threads, render_tile_count(options->crop), render_one_tile, &pass);
+        parallel_for(options->threads, render_tile_count(options->crop), render_one_tile,
+                     &pass);
         run->result.samples = done + samples;
         run->result.complete = noise_reached(run) || run->result.samples == total;
         run->result.stopped_by = signals_stop_requested();

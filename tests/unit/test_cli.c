@@ -30,17 +30,42 @@ static bool parse(const char *const *words, Arena *arena, Values *out)
     *out = (Values){.text = "unset", .number = 7, .integer = 7, .choice = 7};
     const Option options[] = {
         {.name = "--flag", .kind = OPTION_FLAG, .help = "a flag", .out = &out->flag},
-        {.name = "--text", .kind = OPTION_TEXT, .value = "TEXT", .help = "t", .out = &out->text},
-        {.name = "--number", .kind = OPTION_NUMBER, .value = "X", .help = "a number",
-         .out = &out->number, .low = -1, .high = 2, .given = &out->number_given},
-        {.name = "--numbers", .kind = OPTION_NUMBERS, .value = "X,Y,Z", .help = "n",
-         .out = out->numbers, .count = 3},
-        {.name = "--integer", .kind = OPTION_INTEGER, .value = "N", .help = "i",
-         .out = &out->integer, .low = 0, .high = 4294967295.0},
+        {.name = "--text",
+         .kind = OPTION_TEXT,
+         .value = "TEXT",
+         .help = "t",
+         .out = &out->text},
+        {.name = "--number",
+         .kind = OPTION_NUMBER,
+         .value = "X",
+         .help = "a number",
+         .out = &out->number,
+         .low = -1,
+         .high = 2,
+         .given = &out->number_given},
+        {.name = "--numbers",
+         .kind = OPTION_NUMBERS,
+         .value = "X,Y,Z",
+         .help = "n",
+         .out = out->numbers,
+         .count = 3},
+        {.name = "--integer",
+         .kind = OPTION_INTEGER,
+         .value = "N",
+         .help = "i",
+         .out = &out->integer,
+         .low = 0,
+         .high = 4294967295.0},
         {.name = "--size", .kind = OPTION_SIZE, .value = "WxH", .help = "s", .out = out->size},
-        {.name = "--choice", .kind = OPTION_CHOICE, .value = "red|green|blue", .help = "c",
+        {.name = "--choice",
+         .kind = OPTION_CHOICE,
+         .value = "red|green|blue",
+         .help = "c",
          .out = &out->choice},
-        {.name = "--pair", .kind = OPTION_TEXTS, .value = "A=B", .help = "p",
+        {.name = "--pair",
+         .kind = OPTION_TEXTS,
+         .value = "A=B",
+         .help = "p",
          .out = &out->texts},
     };
     const CliCommand command = {"try", "tries", "ARGUMENT [MORE]", "parhelion try x", options,
@@ -54,14 +79,15 @@ static void values_come_after_the_option_or_after_an_equals_sign(void **state)
 {
     Arena *arena = *state;
     Values v;
-    assert_true(parse(WORDS("file", "--number", "-0.5", "--size=640x480", "--flag"), arena, &v));
+    assert_true(
+        parse(WORDS("file", "--number", "-0.5", "--size=640x480", "--flag"), arena, &v));
     assert_true(v.flag && v.number_given && v.number == -0.5);
     assert_int_equal(v.size[0], 640);
     assert_int_equal(v.size[1], 480);
     assert_int_equal(v.cli.argument_count, 1);
     assert_string_equal(v.cli.arguments[0], "file");
-    assert_true(parse(WORDS("file", "--text=a=b", "--choice", "blue", "--integer", "4294967295"),
-                      arena, &v));
+    assert_true(parse(
+        WORDS("file", "--text=a=b", "--choice", "blue", "--integer", "4294967295"), arena, &v));
     assert_string_equal(v.text, "a=b");
     assert_int_equal(v.choice, 2);
     assert_true(v.integer == 4294967295);
@@ -128,7 +154,8 @@ static void errors_name_the_option_the_value_and_what_is_wanted(void **state)
         {{"x", "--zoom", "1"},
          "unknown option --zoom — `parhelion try --help` lists what there is"},
         {{"x", "--numb=1"},
-         "unknown option --numb — did you mean --number? `parhelion try --help` lists what there "
+         "unknown option --numb — did you mean --number? `parhelion try --help` lists what "
+         "there "
          "is"},
         {{"x", "-q"}, "unknown option -q — `parhelion try --help` lists what there is"},
         {{"x", "--number"}, "--number needs a value: X, a number"},
@@ -205,10 +232,11 @@ static void an_error_line_puts_the_place_before_the_advice(void **state)
     (void)state;
     Error err;
     char  line[512];
-    error_at(&err, ERROR_INPUT, "a.gltf", "/materials/3", "no panel named 'x' — did you mean 'y'?");
+    error_at(&err, ERROR_INPUT, "a.gltf", "/materials/3",
+             "no panel named 'x' — did you mean 'y'?");
     cli_error_line(&err, line, (int)sizeof line);
-    assert_string_equal(line,
-                        "parhelion: a.gltf: no panel named 'x' (/materials/3) — did you mean 'y'?");
+    assert_string_equal(
+        line, "parhelion: a.gltf: no panel named 'x' (/materials/3) — did you mean 'y'?");
     error_at(&err, ERROR_INPUT, "a.gltf", "line 7", "bad number");
     cli_error_line(&err, line, (int)sizeof line);
     assert_string_equal(line, "parhelion: a.gltf: bad number (line 7)");
@@ -229,8 +257,9 @@ static void warnings_are_listed_once_each(void **state)
     json_t *errors = cli_json_problems(&problems, SEVERITY_ERROR);
     assert_int_equal(json_array_size(warnings), 2);
     assert_int_equal(json_array_size(errors), 1);
-    assert_string_equal(json_string_value(json_object_get(json_array_get(errors, 0), "message")),
-                        "bad ? bytes");
+    assert_string_equal(
+        json_string_value(json_object_get(json_array_get(errors, 0), "message")),
+        "bad ? bytes");
     json_decref(warnings);
     json_decref(errors);
 }

@@ -152,16 +152,19 @@ static void values_of_render_are_checked_before_anything_is_read(void **state)
     static const struct {
         const char *option, *value, *text;
     } cases[] = {
-        {"--samples", "5:5", "--samples 5:5: wanted A:B, whole numbers with 0 <= A < B <= "
-                             "2147483647"},
+        {"--samples", "5:5",
+         "--samples 5:5: wanted A:B, whole numbers with 0 <= A < B <= "
+         "2147483647"},
         {"--samples", "-1:5", "--samples -1:5: wanted A:B"},
         {"--samples", "5", "--samples 5: wanted A:B"},
         {"--noise", "0", "--noise 0: wanted a relative error above 0 and below 1"},
         {"--noise", "displays:0.1", "--noise displays:0.1: wanted a relative error"},
-        {"--layers", "depth,norml", "--layers: no layer is named 'norml' — did you mean normal?"},
+        {"--layers", "depth,norml",
+         "--layers: no layer is named 'norml' — did you mean normal?"},
         {"--layers", "", "--layers '': wanted a text that is not empty"},
-        {"--crop", "0,0,65,4", "--crop 0,0,65,4: wanted X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 "
-                               "inside the frame of 64x36 pixels"},
+        {"--crop", "0,0,65,4",
+         "--crop 0,0,65,4: wanted X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 "
+         "inside the frame of 64x36 pixels"},
         {"--crop", "4,0,4,4", "--crop 4,0,4,4: wanted X0,Y0,X1,Y1"},
         {"--crop", "0.5,0,4,4", "--crop: 0.5 is no whole number of pixels"},
         {"--replay", "64,0,1", "--replay 64,0,1: wanted X,Y,SAMPLE"},
@@ -186,19 +189,25 @@ static void values_of_the_surroundings_are_checked(void **state)
         EnvironmentChange change;
         const char       *text;
     } cases[] = {
-        {{.environment = "sky:clear"}, "--environment sky:clear: sky models are not available in "
-                                       "this version — use constant:CD_M2 or hdri:FILE"},
-        {{.environment = "constant:-1"}, "--environment constant:-1: wanted a luminance in cd/m2, "
-                                         "at least 0"},
+        {{.environment = "sky:clear"},
+         "--environment sky:clear: sky models are not available in "
+         "this version — use constant:CD_M2 or hdri:FILE"},
+        {{.environment = "constant:-1"},
+         "--environment constant:-1: wanted a luminance in cd/m2, "
+         "at least 0"},
         {{.environment = "black"}, "--environment black: wanted constant:CD_M2 or hdri:FILE"},
-        {{.has_hdri_lux = true, .hdri_lux = 9}, "--hdri-lux: there is no HDRI — add --environment "
-                                                "hdri:FILE"},
-        {{.sun = "100,20"}, "--sun 100,20: the scene's sun has no illuminance to keep — write "
-                            "AZ,EL,LUX"},
-        {{.sun = "1,95,1000"}, "--sun 1,95,1000: wanted off, or AZ,EL,LUX with AZ -360 to 360 and "
-                               "EL -90 to 90 degrees and LUX at least 0"},
-        {{.has_forward = true, .forward = {0, 1, 0}}, "--forward 0,1,0: wanted a vector that is "
-                                                      "not vertical"},
+        {{.has_hdri_lux = true, .hdri_lux = 9},
+         "--hdri-lux: there is no HDRI — add --environment "
+         "hdri:FILE"},
+        {{.sun = "100,20"},
+         "--sun 100,20: the scene's sun has no illuminance to keep — write "
+         "AZ,EL,LUX"},
+        {{.sun = "1,95,1000"},
+         "--sun 1,95,1000: wanted off, or AZ,EL,LUX with AZ -360 to 360 and "
+         "EL -90 to 90 degrees and LUX at least 0"},
+        {{.has_forward = true, .forward = {0, 1, 0}},
+         "--forward 0,1,0: wanted a vector that is "
+         "not vertical"},
     };
     Arena *arena = *state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -251,8 +260,9 @@ static void a_camera_is_found_by_node_then_by_camera_then_by_place(void **state)
         assert_ptr_equal(found.camera_name, cameras[cases[i].index].camera_name);
     }
     assert_false(render_choose_camera(&scene, "3", &problems, &found, &err));
-    assert_string_equal(err.text, "--camera 3: no camera has this name or index — the scene has 0 "
-                                  "'left', 1 'right', 2 'lens'");
+    assert_string_equal(err.text,
+                        "--camera 3: no camera has this name or index — the scene has 0 "
+                        "'left', 1 'right', 2 'lens'");
     assert_int_equal(problems.count, 0);
     Scene empty = {0};
     assert_false(render_choose_camera(&empty, NULL, &problems, &found, &err));
@@ -295,7 +305,8 @@ static void an_output_that_cannot_be_written_is_status_4_at_once(void **state)
     assert_int_equal(o.status, 4);
     assert_string_equal(o.err, "parhelion: nowhere/a.exr: cannot be written: No such file or "
                                "directory\n");
-    RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--png", "nowhere/a.png", "--spp", "1000000");
+    RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--png", "nowhere/a.png", "--spp",
+        "1000000");
     assert_int_equal(o.status, 4);
 }
 
@@ -360,8 +371,8 @@ static void threads_do_not_change_a_bit_and_a_crop_is_a_part(void **state)
 {
     Arena  *arena = *state;
     Outcome o;
-    RUN(&o, "render", "scene.gltf", "-o", "one.exr", "--size", "50x40", "--spp", "5", "--threads",
-        "1", "--quiet");
+    RUN(&o, "render", "scene.gltf", "-o", "one.exr", "--size", "50x40", "--spp", "5",
+        "--threads", "1", "--quiet");
     RUN(&o, "render", "scene.gltf", "-o", "five.exr", "--size", "50x40", "--spp", "5",
         "--threads", "5", "--quiet");
     RUN(&o, "render", "scene.gltf", "-o", "crop.exr", "--size", "50x40", "--spp", "5", "--crop",
@@ -387,7 +398,8 @@ static void a_replayed_sample_is_the_one_that_was_rendered(void **state)
     assert_int_equal(o.status, 0);
     json_t *answer = json_loads(o.out, 0, NULL);
     json_t *green = json_array_get(json_object_get(answer, "RGB"), 1);
-    assert_close(json_number_value(green), (double)frame_channel(&frame, "G")[6 * 16 + 8], 1e-8);
+    assert_close(json_number_value(green), (double)frame_channel(&frame, "G")[6 * 16 + 8],
+                 1e-8);
     assert_true(json_number_value(green) > 0);
     assert_string_equal(json_string_value(json_object_get(answer, "part")), "wall");
     json_decref(answer);

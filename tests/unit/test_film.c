@@ -24,7 +24,8 @@ static FilmSample random_sample(uint32_t *state, uint32_t index)
 {
     FilmSample s = {.sample_index = index, .hit = random_unit(state) < 0.9f};
     for (int i = 0; i < 3; i++) {
-        s.xyz[i] = powf(10, -6 + 18 * random_unit(state)) * (random_unit(state) < 0.1f ? -1 : 1);
+        s.xyz[i] =
+            powf(10, -6 + 18 * random_unit(state)) * (random_unit(state) < 0.1f ? -1 : 1);
         s.position[i] = 100 * random_unit(state) - 50;
         s.normal[i] = 2 * random_unit(state) - 1;
         s.albedo[i] = random_unit(state);
@@ -141,10 +142,11 @@ static void the_largest_sums_do_not_overflow(void **state)
         const PixelSums *sums = film_sums(film, 0, 0);
         for (int i = 0; i < 3; i++) {
             Fixed product;
-            assert_false(__builtin_mul_overflow(sums->xyz[i], (Fixed)FILM_SAMPLES_MAX, &product));
+            assert_false(
+                __builtin_mul_overflow(sums->xyz[i], (Fixed)FILM_SAMPLES_MAX, &product));
             for (int j = 0; j < 2; j++)
-                assert_false(__builtin_mul_overflow(sums->squares[i][j], (Fixed)FILM_SAMPLES_MAX,
-                                                    &product));
+                assert_false(__builtin_mul_overflow(sums->squares[i][j],
+                                                    (Fixed)FILM_SAMPLES_MAX, &product));
         }
     }
     arena_release(&arena);
@@ -212,7 +214,8 @@ static void variance_spans_both_windows_of_squares(void **state)
         sum += green;
         squares += green * green;
     }
-    assert_close(film_pixel(film, 0, 0).variance_rgb[1], (squares - sum * sum / 5) / 4 / 5, 1e-6);
+    assert_close(film_pixel(film, 0, 0).variance_rgb[1], (squares - sum * sum / 5) / 4 / 5,
+                 1e-6);
     arena_release(&arena);
 }
 
@@ -311,7 +314,8 @@ static void a_frame_has_the_channels_asked_for_and_no_others(void **state)
     assert_null(frame_channel(&frame, "xyz.X"));
     film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
     frame = film_to_frame(film, 0, &arena);
-    assert_int_equal(frame.channel_count, 3 + 3 + 1 + 3 + 3 + 3 + 2 + 2 + 3 + 1 + 4 * 3 + 2 + 1);
+    assert_int_equal(frame.channel_count,
+                     3 + 3 + 1 + 3 + 3 + 3 + 2 + 2 + 3 + 1 + 4 * 3 + 2 + 1);
     arena_release(&arena);
 }
 
@@ -353,7 +357,8 @@ static void features_that_are_not_finite_leave_the_light_alone(void **state)
     (void)state;
     Arena      arena = arena_reserve(1 << 22);
     Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
-    FilmSample s = {.xyz = {4, 4, 4}, .hit = true, .depth = NAN, .part_id = 1, .display_id = -1};
+    FilmSample s = {
+        .xyz = {4, 4, 4}, .hit = true, .depth = NAN, .part_id = 1, .display_id = -1};
     film_add_sample(film, 0, 0, &s);
     FrameImage frame = film_to_frame(film, 0, &arena);
     assert_close(at(&frame, "xyz.Y", 0), 4, 1e-7);

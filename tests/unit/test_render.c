@@ -18,7 +18,8 @@
 static void tiles_cover_every_pixel_of_the_crop_once(void **state)
 {
     (void)state;
-    static const FilmRect crops[] = {{0, 0, 1, 1}, {0, 0, 64, 48}, {5, 7, 86, 60}, {3, 2, 19, 18}};
+    static const FilmRect crops[] = {
+        {0, 0, 1, 1}, {0, 0, 64, 48}, {5, 7, 86, 60}, {3, 2, 19, 18}};
     for (size_t c = 0; c < sizeof crops / sizeof *crops; c++) {
         unsigned char hits[100][100] = {{0}};
         FilmRect      crop = crops[c];
@@ -62,7 +63,8 @@ typedef struct Counting {
 static void count_item(void *context, int item, int worker)
 {
     Counting *counting = context;
-    if (worker < 0 || worker >= counting->threads || atomic_fetch_add(&counting->busy[worker], 1))
+    if (worker < 0 || worker >= counting->threads ||
+        atomic_fetch_add(&counting->busy[worker], 1))
         atomic_fetch_add(&counting->clashes, 1);
     atomic_fetch_add(&counting->items[item], 1);
     atomic_fetch_sub(&counting->busy[worker], 1);
@@ -151,8 +153,9 @@ static void progress_shows_percent_rate_elapsed_and_remaining(void **state)
     (void)state;
     char text[2048];
     progress_output(PROGRESS_AUTO, text, sizeof text);
-    assert_string_equal(text, "parhelion: render 25%, 5 samples/s, 0:10 elapsed, 0:30 left\n"
-                              "parhelion: render 100%, 20 samples/s, 0:10 elapsed, 0:00 left\n");
+    assert_string_equal(text,
+                        "parhelion: render 25%, 5 samples/s, 0:10 elapsed, 0:30 left\n"
+                        "parhelion: render 100%, 20 samples/s, 0:10 elapsed, 0:00 left\n");
     progress_output(PROGRESS_BAR, text, sizeof text);
     assert_non_null(strstr(text, "\rrender  25% [######..................] 5 samples/s  "
                                  "0:10 elapsed  0:30 left"));
