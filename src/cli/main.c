@@ -16,6 +16,7 @@ typedef struct Command {
 static const Command commands[] = {
     {"render", "render a scene to a linear, photometric EXR", cmd_render},
     {"develop", "make a picture of a frame", cmd_develop},
+    {"panel", "fit, look into and evaluate a measured display panel", cmd_panel},
     {"measure", "luminance, colour and contrast of a part of a frame", cmd_measure},
 };
 
