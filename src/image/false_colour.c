@@ -40,12 +40,33 @@ static float srgb_from_linear(float v)
     return v <= 0.0031308f ? 12.92f * v : 1.055f * pow_f(v, 1 / 2.4f) - 0.055f;
 }
 
+/* CIE 1976 lightness L* above 8 to luminance. */
+static float luminance_from_lightness(float lightness)
+{
+    float f = (lightness + 16) / 116;
+    return f * f * f;
+}
+
+/* Of the colours of one hue (its cosine and sine) and chroma the one with this luminance. */
+static void colour_of_luminance(float luminance, float cosine, float sine, float chroma,
+                                float rgb[3])
+{
+    float low = 0, high = 1;
+    for (int i = 0; i < 22; i++) {
+        float l = (low + high) / 2;
+        linear_from_oklab(l, chroma * cosine, chroma * sine, rgb);
+        float y = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+        if (y < luminance) low = l;
+        else high = l;
+    }
+}
+
 void false_colour_of(float t, float srgb[3])
 {
-    float lightness = 0.17f + 0.80f * t, sine, cosine, rgb[3];
+    float luminance = luminance_from_lightness(8 + 88 * t), sine, cosine, rgb[3];
     sincos_turns((200 + 265 * t) / 360, &sine, &cosine); /* teal, blue .. red .. yellow */
-    for (float chroma = 0.20f; chroma > 0; chroma -= 0.002f) {
-        linear_from_oklab(lightness, chroma * cosine, chroma * sine, rgb);
+    for (float chroma = 0.20f; chroma > 0; chroma -= 0.004f) {
+        colour_of_luminance(luminance, cosine, sine, chroma, rgb);
         if (is_inside(rgb)) break;
     }
     for (int c = 0; c < 3; c++) srgb[c] = srgb_from_linear(clampf(rgb[c], 0, 1));
@@ -209,7 +230,7 @@ static void draw_scale(Picture *picture, int width, ScaleRange range, const char
 Picture false_colour_picture(const float *values, int width, int height, ScaleRange range,
                              const char *unit, Arena *arena)
 {
-    enum { STEPS = 1024 };
+    enum { STEPS = 512 };
     float table[STEPS + 1][3];
     for (int i = 0; i <= STEPS; i++) false_colour_of((float)i / STEPS, table[i]);
     Picture picture = picture_create(width + lay_out(width, height).width, height, arena);

@@ -7,10 +7,10 @@
 #pragma once
 #include "image/picture.h"
 
-/* The colour for t in [0, 1] as sRGB codes: lightness rises steadily from dark teal over blue,
- * purple and red to pale yellow, so that order can be seen even without colour vision. A path
- * in OKLCh (Ottosson 2020, "A perceptual color space for image processing"): lightness and hue
- * run straight, chroma is what sRGB can show of 0.2. */
+/* The colour for t in [0, 1] as sRGB codes: lightness (CIE L*) rises evenly from 8 to 96 while
+ * the hue runs evenly from teal over blue, purple and red to yellow, so that order can be seen
+ * even without colour vision. Hue and chroma are those of OKLab (Ottosson 2020, "A perceptual
+ * color space for image processing"), chroma as much of 0.2 as sRGB can show. */
 void false_colour_of(float t, float srgb[3]);
 
 typedef struct ScaleRange {

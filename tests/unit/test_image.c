@@ -264,7 +264,8 @@ static void what_is_encoded_reads_back(void **state)
         for (int i = 0; i < 12; i++) codes[i] = (uint16_t)(i * 5461);
         bool wide = k & 1;
         ImageToEncode in = {.width = 2, .height = 2, .channels = 3,
-                            .type = wide ? PIXEL_U16 : PIXEL_U8, .pixels = codes};
+                            .type = wide ? PIXEL_U16 : PIXEL_U8, .pixels = codes,
+                            .is_srgb = true, .description = "a picture"};
         EncodedImage *encoded;
         Error  err = {0};
         Image  image;

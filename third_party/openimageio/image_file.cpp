@@ -120,7 +120,7 @@ struct EncodedImage {
     std::vector<unsigned char> bytes;
 };
 
-static OIIO::ImageSpec output_spec(const ImageToEncode *image)
+static OIIO::ImageSpec output_spec(const char *format, const ImageToEncode *image)
 {
     OIIO::ImageSpec spec(image->width, image->height, image->channels,
                          library_type(image->type));
@@ -136,7 +136,10 @@ static OIIO::ImageSpec output_spec(const ImageToEncode *image)
         spec.attribute("jpeg:subsampling", "4:4:4");
     }
     if (image->description) spec.attribute("ImageDescription", image->description);
-    if (image->is_srgb) spec.attribute("oiio:ColorSpace", "sRGB");
+    /* For a TIFF the library would say it in an Exif directory, and 2.4.7 writes a file that
+     * cannot be read when it does so in memory. */
+    if (image->is_srgb && std::string(format) != "tiff")
+        spec.attribute("oiio:ColorSpace", "sRGB");
     return spec;
 }
 
@@ -152,7 +155,7 @@ bool image_encode(const char *format, const ImageToEncode *image, EncodedImage *
                              format);
         }
         output->set_ioproxy(&sink);
-        OIIO::ImageSpec spec = output_spec(image);
+        OIIO::ImageSpec spec = output_spec(format, image);
         std::string     name = std::string("picture.") + format;
         if (!output->open(name, spec)
             || !output->write_image(library_type(image->type), image->pixels)

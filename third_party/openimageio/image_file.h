@@ -44,7 +44,7 @@ typedef struct ImageToEncode {
     PixelType   type;
     const void *pixels;
     int         jpeg_quality;       /* 1 .. 100 for "jpeg", else 0 */
-    bool        is_srgb;            /* the file says that its codes are sRGB */
+    bool        is_srgb;            /* the file says that its codes are sRGB (not a TIFF) */
     const char *description;        /* a text that goes into the file, or NULL */
 } ImageToEncode;
 
