@@ -42,14 +42,16 @@ static inline Spectrum spectrum_clamp(Spectrum a, float low, float high)
     return spectrum_min(spectrum_max(a, spectrum_all(low)), spectrum_all(high));
 }
 
+/* A quarter of the lanes: folds end on these. */
+typedef float SpectrumQuarter __attribute__((vector_size(SPECTRUM_LANES), aligned(16)));
+
 /* Sum over the lanes, in a fixed order (the same bits for every instruction set): halves are
  * folded onto each other until four numbers are left. */
 static inline float spectrum_sum(Spectrum a)
 {
-    typedef float Four __attribute__((vector_size(16)));
-    Four part[4];
+    SpectrumQuarter part[4];
     memcpy(part, &a, sizeof part);
-    Four sum = (part[0] + part[2]) + (part[1] + part[3]);
+    SpectrumQuarter sum = (part[0] + part[2]) + (part[1] + part[3]);
     return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
 
@@ -60,9 +62,12 @@ static inline float spectrum_mean(Spectrum a)
 
 static inline float spectrum_max_lane(Spectrum a)
 {
-    float most = a[0];
-    for (int i = 1; i < SPECTRUM_LANES; i++) most = a[i] > most ? a[i] : most;
-    return most;
+    float half[8], quarter[4];
+    for (int i = 0; i < 8; i++) half[i] = a[i] > a[i + 8] ? a[i] : a[i + 8];
+    for (int i = 0; i < 4; i++) quarter[i] = half[i] > half[i + 4] ? half[i] : half[i + 4];
+    float x = quarter[0] > quarter[2] ? quarter[0] : quarter[2];
+    float y = quarter[1] > quarter[3] ? quarter[1] : quarter[3];
+    return x > y ? x : y;
 }
 
 /* No lane NaN or infinite. */
@@ -71,18 +76,17 @@ static inline bool spectrum_is_finite(Spectrum a)
     return isfinite(spectrum_sum(a * spectrum_all(0)));
 }
 
+/* No lane above 0. NaN is not nothing. */
 static inline bool spectrum_is_zero(Spectrum a)
 {
-    return spectrum_max_lane(a) <= 0;
+    return spectrum_sum(spectrum_max(spectrum_all(0), a)) <= 0;
 }
 
 /* All lanes hold the same bits: nothing so far depended on wavelength. */
 static inline bool spectrum_is_grey(Spectrum a)
 {
-    SpectrumMask same = a == spectrum_all(a[0]);
-    int all = -1;
-    for (int i = 0; i < SPECTRUM_LANES; i++) all &= same[i];
-    return all != 0;
+    Spectrum first = spectrum_all(a[0]);
+    return memcmp(&a, &first, sizeof a) == 0;
 }
 
 static inline Spectrum spectrum_sqrt(Spectrum a)

@@ -383,6 +383,11 @@ static void lane_operations_agree_with_loops(void **state)
         Spectrum bad = a;
         bad[i] = i & 1 ? NAN : INFINITY;
         assert_false(spectrum_is_finite(bad));
+        Spectrum hidden = spectrum_all(0);
+        hidden[i] = NAN;
+        assert_false(spectrum_is_zero(hidden));
+        hidden[i] = 1e-30f;
+        assert_false(spectrum_is_zero(hidden));
         Spectrum other = spectrum_all(1);
         other[i] = 1 + 0x1p-23f;
         assert_false(spectrum_is_grey(other));
