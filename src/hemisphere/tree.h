@@ -4,7 +4,7 @@
  * them as one blob: little-endian, offsets instead of pointers, to be stored in a file, mapped
  * and queried in place (tree_query.h). A row is the detail of one child: `components` numbers.
  *
- * Blob      TreeHeader | octant means, float32 | scales, float32 (16-bit rows only) | TreeNode[]
+ * Blob      TreeHeader | octant means, float32 | scales, float32 (16-bit rows only) | nodes
  *           level by level | rows. Must lie at an address that is a multiple of 8.
  * Accuracy  the report compares with the source after everything, quantisation included.
  * Threads   a Tree is constant.

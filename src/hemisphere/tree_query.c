@@ -4,6 +4,10 @@
 
 #include "base/mathf.h"
 
+typedef float   Float4 __attribute__((vector_size(16)));
+typedef int32_t Int4 __attribute__((vector_size(16)));
+typedef int16_t Short8 __attribute__((vector_size(16)));
+
 static const uint32_t NO_NODE = UINT32_MAX;
 
 static uint32_t octant_in_tree(const Tree *tree, uint32_t octant)
@@ -30,10 +34,10 @@ static void start_taps(TreeTaps *taps)
     for (int q = 0; q < 4; q++) taps->mean_weight[q] = 0;
 }
 
-/* Adds the rows of a node whose children count with weight[0..3]: child i = 1..3 adds its
+/* Adds the rows of a node whose children count with the lanes of weight: child i = 1..3 adds its
  * detail, child 0 takes ratio_i of it away (haar.h). Every tap is written and then kept or not:
  * which rows there are cannot be predicted. */
-static void add_rows(TreeTaps *taps, TreeNode node, int level, const float weight[4],
+static void add_rows(TreeTaps *taps, TreeNode node, int level, Float4 weight,
                      const float ratio[3])
 {
     uint32_t row = node.rows >> 3;
@@ -56,15 +60,16 @@ static const float *area_ratio(const Tree *tree, int level, uint32_t place)
     return tree->weights == HAAR_AREA ? tree->geodesic->ratios[level][place].of_child : equal;
 }
 
-/* From a node to the child that the walk went to. */
+static const Float4 ONE_IN_LANE[4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+
+/* From a node to its child at `child_place` in the octant, with a weight. */
 static uint32_t step_down(const Tree *tree, uint32_t index, int level, uint32_t child_place,
-                          TreeTaps *taps)
+                          float weight, TreeTaps *taps)
 {
     TreeNode node = tree->nodes[index];
     uint32_t child = child_place & 3;
-    float    weight[4] = {0, 0, 0, 0};
-    weight[child] = 1;
-    add_rows(taps, node, level, weight, area_ratio(tree, level, child_place >> 2));
+    add_rows(taps, node, level, weight * ONE_IN_LANE[child],
+             area_ratio(tree, level, child_place >> 2));
     return child_node(node, child);
 }
 
@@ -76,7 +81,7 @@ void tree_walk_mean(const Tree *tree, int level, Vec3 direction, TreeTaps *taps)
     taps->mean_weight[index] = 1;
     for (int i = 0; i < level && index != NO_NODE; i++) {
         geodesic_walk_down(tree->geodesic, i, &walk);
-        index = step_down(tree, index, i, walk.place, taps);
+        index = step_down(tree, index, i, walk.place, 1, taps);
     }
 }
 
@@ -87,7 +92,7 @@ void tree_walk_triangle(const Tree *tree, int level, uint32_t id, TreeTaps *taps
     start_taps(taps);
     taps->mean_weight[index] = 1;
     for (int i = 0; i < level && index != NO_NODE; i++)
-        index = step_down(tree, index, i, place >> 2 * (level - i - 1), taps);
+        index = step_down(tree, index, i, place >> 2 * (level - i - 1), 1, taps);
 }
 
 /* ---- interpolation ----------------------------------------------------------------------- */
@@ -205,25 +210,35 @@ typedef struct Visit {
 } Visit;
 
 /* Adds the rows of a triangle with the weights that go to its children, and puts the children
- * that have nodes on the stack. */
+ * that have nodes on the stack. inside: four sets of leaves, 16 bits each. */
 static int visit(const Tree *tree, const Leaves *leaves, Visit at, TreeTaps *taps, Visit *stack)
 {
     TreeNode node = tree->nodes[at.node];
     int      shift = 2 * (tree->level - at.level - 1), pushed = 0;
-    float    weight[4] = {0, 0, 0, 0};
-    uint32_t inside[4] = {0, 0, 0, 0};
+    Float4   weight = {0, 0, 0, 0};
+    uint64_t inside = 0;
     for (uint32_t rest = at.leaves; rest; rest &= rest - 1) {
         int      i = __builtin_ctz(rest);
         uint32_t child = leaves->id[i] >> shift & 3;
-        weight[child] += leaves->weight[i];
-        inside[child] |= 1u << i;
+        weight += leaves->weight[i] * ONE_IN_LANE[child];
+        inside |= (uint64_t)1 << (16 * child + (uint32_t)i);
     }
     add_rows(taps, node, at.level, weight, area_ratio(tree, at.level, at.place));
-    for (uint32_t child = 0; child < 4; child++)
-        if (inside[child] && node.children >> child & 1)
+    for (uint32_t child = 0; child < 4; child++, inside >>= 16)
+        if (inside & 0xffff && node.children >> child & 1)
             stack[pushed++] = (Visit){child_node(node, child), 4 * at.place + child,
-                                      at.level + 1, inside[child]};
+                                      at.level + 1, (uint32_t)inside & 0xffff};
     return pushed;
+}
+
+/* Straight down to the only leaf left. */
+static void visit_leaf(const Tree *tree, const Leaves *leaves, Visit at, TreeTaps *taps)
+{
+    int      leaf = __builtin_ctz(at.leaves);
+    uint32_t place = leaves->id[leaf] & ((1u << 2 * tree->level) - 1), node = at.node;
+    for (int i = at.level; i < tree->level && node != NO_NODE; i++)
+        node = step_down(tree, node, i, place >> 2 * (tree->level - i - 1),
+                         leaves->weight[leaf], taps);
 }
 
 /* All below the triangle `from`. */
@@ -234,7 +249,11 @@ static void visit_below(const Tree *tree, const Leaves *leaves, Visit from, Tree
     stack[0] = from;
     while (count > 0) {
         Visit at = stack[--count];
-        if (at.level < tree->level) count += visit(tree, leaves, at, taps, stack + count);
+        if (at.level == tree->level) continue;
+        if ((at.leaves & (at.leaves - 1)) == 0)
+            visit_leaf(tree, leaves, at, taps);
+        else
+            count += visit(tree, leaves, at, taps, stack + count);
     }
 }
 
@@ -313,7 +332,7 @@ static bool walk_to_leaf(const Tree *tree, Path *path, TreeTaps *taps)
         path->tap_count[i] = taps->count;
         geodesic_walk_down(tree->geodesic, i, &path->walk);
         if (node == NO_NODE) continue;
-        node = step_down(tree, node, i, path->walk.place, taps);
+        node = step_down(tree, node, i, path->walk.place, 1, taps);
         if (node == NO_NODE && is_far_inside(tree, &path->walk, i + 1)) return false;
     }
     path->node[tree->level] = node;
@@ -350,10 +369,6 @@ void tree_walk_interpolated(const Tree *tree, Vec3 direction, TreeTaps *taps)
 }
 
 /* ---- sums -------------------------------------------------------------------------------- */
-
-typedef float   Float4 __attribute__((vector_size(16)));
-typedef int32_t Int4 __attribute__((vector_size(16)));
-typedef int16_t Short8 __attribute__((vector_size(16)));
 
 static inline Float4 load_floats(const float *from)
 {

@@ -321,21 +321,73 @@ static void fill_tree(Input *in, int components, float share, TreeRowFormat rows
     *arena = behind;
 }
 
-static void fill_sampler(Input *in, const Geodesic *geodesic, Arena *arena)
+/* What a sample in the stored frame is drawn for: f cos J. */
+static double haze_cos_jacobian(Vec3 stored)
 {
-    SamplingOptions options = {.level = MAX_LEVEL, .octants = 2, .cells = 655};
+    SpecularFrame frame = specular_frame(30 * PI_F / 180, 2);
+    double        f = haze_in_specular_frame(stored);
+    return f * (double)(specular_frame_outer(&frame, stored).z *
+                        specular_frame_jacobian(&frame, stored));
+}
+
+static SamplingTree make_sampler(int cells, const Geodesic *geodesic, Arena *arena,
+                                 size_t *bytes)
+{
+    SamplingOptions options = {.level = MAX_LEVEL, .octants = 2, .cells = cells};
     uint32_t        count = 2u << 2 * MAX_LEVEL;
-    float          *integrals = leaf_values(haze_in_specular_frame, MAX_LEVEL, 2, arena);
+    float          *integrals = leaf_values(haze_cos_jacobian, MAX_LEVEL, 2, arena);
     const void     *blob;
+    SamplingTree    tree;
     Error           err;
     for (uint32_t i = 0; i < count; i++)
-        integrals[i] *= geodesic_center(MAX_LEVEL, i).z *
-                        geodesic->areas[MAX_LEVEL][i & ((1u << 2 * MAX_LEVEL) - 1)];
+        integrals[i] *= geodesic->areas[MAX_LEVEL][i & ((1u << 2 * MAX_LEVEL) - 1)];
     if (!sampling_tree_build(&options, integrals, arena, &blob, &err) ||
-        !sampling_tree_open(blob, sampling_tree_size(blob), geodesic, &in->sampler, &err)) {
+        !sampling_tree_open(blob, sampling_tree_size(blob), geodesic, &tree, &err)) {
         printf("%s\n", err.text);
         exit(1);
     }
+    *bytes = sampling_tree_size(blob);
+    return tree;
+}
+
+/* Variance of sampling weights over their squared mean. */
+static double relative_variance(double sum, double squares, double count)
+{
+    return squares / count / (sum / count * (sum / count)) - 1;
+}
+
+static void print_sampling(const Geodesic *geodesic, Arena scratch)
+{
+    static const int cells[] = {2, 20, 80, 200, 655, 2000, 8000};
+    const uint32_t   count = 200000;
+    printf(
+        "\nsampling the haze (frame of 30 degrees, k = 2): relative variance of the weights\n"
+        "%8s %9s %12s\n",
+        "cells", "bytes", "variance");
+    for (size_t c = 0; c < sizeof cells / sizeof *cells; c++) {
+        Arena        inner = scratch;
+        size_t       bytes;
+        SamplingTree tree = make_sampler(cells[c], geodesic, &inner, &bytes);
+        double       sum = 0, squares = 0;
+        for (uint32_t i = 0; i < count; i++) {
+            float u0 = unit_float(hash_u32(2 * i)), u1 = unit_float(hash_u32(2 * i + 1));
+            SamplingResult r = sampling_tree_sample(&tree, u0, u1);
+            double         weight = haze_cos_jacobian(r.direction) / (double)r.pdf;
+            sum += weight;
+            squares += weight * weight;
+        }
+        printf("%8u %9zu %12.4f\n", tree.cell_count, bytes,
+               relative_variance(sum, squares, count));
+    }
+    double sum = 0, squares = 0;
+    for (uint32_t i = 0; i < count; i++) { /* cosine sampling: weight pi f */
+        float z2 = unit_float(hash_u32(2 * i)), across = sqrtf(1 - z2), sine, cosine;
+        sincos_turns(unit_float(hash_u32(2 * i + 1)), &sine, &cosine);
+        double weight = haze(vec3(across * cosine, across * sine, sqrtf(z2)));
+        sum += weight;
+        squares += weight * weight;
+    }
+    printf("%8s %9s %12.4f\n", "cosine", "-", relative_variance(sum, squares, count));
 }
 
 static void print_times(const Geodesic *geodesic, Arena scratch)
@@ -361,7 +413,8 @@ static void print_times(const Geodesic *geodesic, Arena scratch)
                 for (size_t w = 0; w < sizeof TREE_WORKS / sizeof *TREE_WORKS; w++)
                     time_work(&TREE_WORKS[w], what, in);
             }
-    fill_sampler(in, geodesic, &scratch);
+    size_t bytes;
+    in->sampler = make_sampler(655, geodesic, &scratch, &bytes);
     for (size_t w = 0; w < sizeof OTHER_WORKS / sizeof *OTHER_WORKS; w++)
         time_work(&OTHER_WORKS[w], "", in);
 }
@@ -373,6 +426,7 @@ int main(int argc, char **argv)
     const Geodesic *geodesic = geodesic_create(MAX_LEVEL, &arena);
     const char     *part = argc > 1 ? argv[1] : "";
     if (strcmp(part, "time") != 0) print_sizes(geodesic, arena);
+    if (strcmp(part, "time") != 0) print_sampling(geodesic, arena);
     if (strcmp(part, "size") != 0) print_times(geodesic, arena);
     arena_release(&arena);
     return 0;
