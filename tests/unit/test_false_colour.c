@@ -1,0 +1,131 @@
+/* False colours, their scale and its letters; colour spaces from primaries. */
+#include "check.h"
+
+#include "image/colour.h"
+#include "image/false_colour.h"
+#include "image/lettering.h"
+
+enum { ARENA_BYTES = 1 << 28 };
+
+static double luminance_of_code(const float srgb[3])
+{
+    double y = 0;
+    for (int c = 0; c < 3; c++) {
+        double v = (double)srgb[c];
+        double linear = v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
+        y += linear * (c == 0 ? 0.2126 : c == 1 ? 0.7152 : 0.0722);
+    }
+    return y;
+}
+
+static void false_colours_grow_lighter_all_the_way(void **state)
+{
+    (void)state;
+    double last = -1;
+    for (int i = 0; i <= 200; i++) {
+        float rgb[3];
+        false_colour_of((float)i / 200, rgb);
+        for (int c = 0; c < 3; c++) assert_true(rgb[c] >= 0 && rgb[c] <= 1);
+        double y = luminance_of_code(rgb);
+        assert_true(y > last);
+        last = y;
+    }
+    assert_true(last > 0.8);
+}
+
+static void false_colours_show_the_value_by_the_scale(void **state)
+{
+    (void)state;
+    Arena       arena = arena_reserve(ARENA_BYTES);
+    const float values[6] = {0.1f, 1, 10, 100, 1000, NAN};
+    ScaleRange  range = {0.1f, 1000, true};
+    Picture     p = false_colour_picture(values, 6, 1, range, "cd/m^2", &arena);
+    assert_true(p.width > 6 && p.height == 1);
+    for (int i = 0; i < 5; i++) {
+        float want[3];
+        assert_near(scale_position(range, values[i]), i / 4.0, 1e-6);
+        false_colour_of((float)i / 4, want);
+        for (int c = 0; c < 3; c++) assert_near(picture_pixel(&p, i, 0)[c], want[c], 1e-3);
+    }
+    assert_true(scale_position(range, -1) == 0 && scale_position(range, 0) == 0);
+    assert_true(scale_position(range, INFINITY) == 1);
+    arena_release(&arena);
+}
+
+static void a_scale_has_round_ends_around_the_values(void **state)
+{
+    (void)state;
+    enum { N = 10000 };
+    static float values[N];
+    Arena        arena = arena_reserve(ARENA_BYTES);
+    for (int i = 0; i < N; i++) values[i] = (float)exp(log(0.03) + i * log(7000 / 0.03) / N);
+    ScaleRange r = scale_range_of(values, N, true, arena);
+    assert_close(r.low, 0.05, 1e-5); /* the 5th percentile is 0.056 */
+    assert_close(r.high, 10000, 1e-5);
+    for (int i = 0; i < N; i++) values[i] = 5;
+    r = scale_range_of(values, N, true, arena);
+    assert_close(r.high, 5, 1e-5);
+    assert_close(r.low, 0.05, 1e-5);
+    for (int i = 0; i < N; i++) values[i] = i == 0 ? NAN : (float)i * 0.0088f;
+    r = scale_range_of(values, N, false, arena);
+    assert_true(r.low == 0 && r.high == 100);
+    values[0] = NAN;
+    r = scale_range_of(values, 1, true, arena);
+    assert_true(r.low > 0 && r.high > r.low);
+    arena_release(&arena);
+}
+
+static void letters_are_drawn_as_wide_as_they_are_said_to_be(void **state)
+{
+    (void)state;
+    static const char TEXT[] = "0123456789.-+/:%()abcdefghijklmnopqrstuvwxyz";
+    Arena     arena = arena_reserve(ARENA_BYTES);
+    Lettering lettering = {24, {1, 1, 1}};
+    for (size_t i = 0; i + 1 < sizeof TEXT; i++) {
+        char    text[2] = {TEXT[i], 0};
+        Picture p = picture_create(60, 60, &arena);
+        float   width = lettering_width(lettering, text);
+        int     ink = 0;
+        lettering_draw(&p, lettering, 12, 30, text);
+        for (int k = 0; k < 3600; k++) {
+            if (!(p.rgb[3 * k] > 0.5f)) continue;
+            ink++;
+            assert_true((float)(k % 60) > 12 - 8 && (float)(k % 60) < 12 + width + 1);
+        }
+        assert_true(ink > 8);
+    }
+    assert_near(lettering_width(lettering, "00"), 2 * lettering_width(lettering, "0"), 1e-3);
+    assert_near(lettering_width(lettering, "1"), lettering_width(lettering, "8"), 1e-3);
+    assert_true(lettering_width(lettering, "^2") < lettering_width(lettering, "2"));
+    arena_release(&arena);
+}
+
+/* ---- colour spaces ----------------------------------------------------------------------- */
+
+static void primaries_give_the_published_matrix(void **state)
+{
+    (void)state;
+    /* ITU-R BT.709 with D65, as in IEC 61966-2-1 to four digits. */
+    static const double WANT[3][3] = {
+        {0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}};
+    ColourMatrix m = xyz_from_primaries(REC709_CHROMATICITIES);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) assert_near(m.m[i][j], WANT[i][j], 1e-4);
+    ColourMatrix one = rec709_from_primaries(REC709_CHROMATICITIES);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) assert_near(one.m[i][j], i == j, 1e-12);
+    assert_false(chromaticities_are_usable((double[8]){.1, .1, .2, .2, .3, .3, .33, .33}));
+    assert_false(chromaticities_are_usable((double[8]){NAN}));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(false_colours_grow_lighter_all_the_way),
+        cmocka_unit_test(false_colours_show_the_value_by_the_scale),
+        cmocka_unit_test(a_scale_has_round_ends_around_the_values),
+        cmocka_unit_test(letters_are_drawn_as_wide_as_they_are_said_to_be),
+        cmocka_unit_test(primaries_give_the_published_matrix),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,169 @@
+/* Figures of a part of a frame, and their intervals. */
+#include "check.h"
+
+#include <string.h>
+
+#include "image/measure.h"
+
+enum { ARENA_BYTES = 1 << 28 };
+
+static void assert_text_has(const Error *err, const char *part)
+{
+    if (!strstr(err->text, part)) fail_msg("\"%s\" lacks \"%s\"", err->text, part);
+}
+
+/* Every pixel of R, G, B holds cd_m2 of D65. */
+static FrameImage uniform_frame(int width, int height, float cd_m2, Arena *arena)
+{
+    FrameImage frame = frame_create(width, height, (ExrWindow){0, 0, width, height}, 3, 0, arena);
+    for (int c = 0; c < 3; c++) {
+        char   name[2] = {"RGB"[c], 0};
+        float *plane = frame_add_channel(&frame, name, false, arena);
+        for (int i = 0; i < width * height; i++) plane[i] = cd_m2;
+    }
+    return frame;
+}
+
+static Measurement measure(const FrameImage *frame, MeasureRequest request, Arena arena)
+{
+    Measurement m;
+    Error       err = {0};
+    request.frame_name = "f.exr";
+    if (!measure_frame(frame, &request, arena, &m, &err)) fail_msg("%s", err.text);
+    return m;
+}
+
+static void add_layer(FrameImage *frame, const char *layer, float value, Arena *arena)
+{
+    for (int c = 0; c < 3; c++) {
+        char name[64];
+        snprintf(name, sizeof name, "%s.%c", layer, "RGB"[c]);
+        float *plane = frame_add_channel(frame, name, false, arena);
+        for (size_t i = 0; i < frame_pixel_count(frame); i++) plane[i] = value;
+    }
+}
+
+static void a_region_has_the_mean_of_its_pixels(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(ARENA_BYTES);
+    FrameImage frame = uniform_frame(10, 10, 100, &arena);
+    for (int c = 0; c < 3; c++) frame.channels[c].values[0] = 500;
+    Measurement m = measure(&frame, (MeasureRequest){.has_region = true, .region = {0, 0, 2, 2}},
+                            arena);
+    assert_int_equal(m.pixels, 4);
+    assert_close(m.luminance.value, 200, 1e-5);
+    assert_close(m.least, 100, 1e-5);
+    assert_close(m.greatest, 500, 1e-5);
+    assert_near(m.x.value, 0.3127, 2e-4);
+    assert_near(m.y.value, 0.3290, 2e-4);
+    assert_near(m.u.value, 0.1978, 3e-4);
+    assert_near(m.v.value, 0.4683, 3e-4);
+    assert_true(isnan(m.luminance.half_width) && !m.has_variance && !m.has_contrast);
+    frame.channels[1].values[1] = NAN;
+    m = measure(&frame, (MeasureRequest){.has_region = true, .region = {0, 0, 2, 2}}, arena);
+    assert_int_equal(m.pixels, 3);
+    assert_int_equal(m.nonfinite, 1);
+    arena_release(&arena);
+}
+
+/* 100 pixels whose means have a variance of 4 each: 1.96 * 2 / sqrt(100). */
+static void intervals_follow_from_the_variance_layer(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(ARENA_BYTES);
+    FrameImage frame = uniform_frame(10, 10, 100, &arena);
+    add_layer(&frame, "variance", 4, &arena);
+    Measurement m = measure(&frame, (MeasureRequest){0}, arena);
+    assert_close(m.luminance.half_width, 1.959964 * 0.2, 1e-4);
+    assert_true(m.x.half_width > 0 && m.x.half_width < 0.01);
+    arena_release(&arena);
+}
+
+/* With channels that are independent and normal the interval of x holds 95 of 100 times. */
+static void the_interval_of_chromaticity_covers(void **state)
+{
+    (void)state;
+    enum { TRIALS = 2000 };
+    Arena    arena = arena_reserve(ARENA_BYTES);
+    unsigned seed = 7;
+    int      inside = 0;
+    double   truth = 0;
+    for (int trial = -1; trial < TRIALS; trial++) {
+        Arena      scratch = arena;
+        FrameImage frame = uniform_frame(1, 1, 100, &scratch);
+        add_layer(&frame, "variance", 4, &scratch);
+        for (int c = 0; c < 3; c++) {
+            double sum = -6; /* twelve uniform numbers make a normal one */
+            for (int k = 0; k < 12; k++) {
+                seed = seed * 1664525u + 1013904223u;
+                sum += (double)(seed >> 8) / (1 << 24);
+            }
+            if (trial >= 0) frame.channels[c].values[0] += (float)(2 * sum);
+        }
+        Measurement m = measure(&frame, (MeasureRequest){0}, scratch);
+        if (trial < 0) truth = m.x.value;
+        else inside += fabs(m.x.value - truth) <= m.x.half_width;
+    }
+    assert_near(inside / (double)TRIALS, 0.95, 0.02);
+    arena_release(&arena);
+}
+
+static void a_display_has_its_contrast(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(ARENA_BYTES);
+    FrameImage frame = uniform_frame(10, 10, 100, &arena);
+    add_layer(&frame, "variance", 4, &arena);
+    add_layer(&frame, "display.white", 400, &arena);
+    add_layer(&frame, "display.black", 0.4f, &arena);
+    add_layer(&frame, "display.reflected", 20, &arena);
+    float *id = frame_add_channel(&frame, "id.display", true, &arena);
+    for (int i = 0; i < 100; i++) id[i] = i < 50 ? 1 : i < 60 ? 0 : -1;
+    frame_set_string(&frame, "parhelion:display.0", "centre", &arena);
+    frame_set_string(&frame, "parhelion:display.1", "cluster", &arena);
+    Measurement m = measure(&frame, (MeasureRequest){.display = "cluster"}, arena);
+    assert_int_equal(m.pixels, 50);
+    assert_true(m.has_contrast);
+    assert_close(m.contrast.value, 420 / 20.4, 1e-5);
+    assert_close(m.contrast.half_width, 1.959964 * 399.6 / (20.4 * 20.4) * 2 / sqrt(50), 1e-3);
+    m = measure(&frame, (MeasureRequest){.display = "centre"}, arena);
+    assert_int_equal(m.pixels, 10);
+    arena_release(&arena);
+}
+
+static void what_cannot_be_measured_is_told(void **state)
+{
+    (void)state;
+    Arena          arena = arena_reserve(ARENA_BYTES);
+    FrameImage     frame = uniform_frame(10, 10, 100, &arena);
+    MeasureRequest request = {.frame_name = "f.exr", .has_region = true, .region = {5, 5, 11, 8}};
+    Measurement    m;
+    Error          err = {0};
+    assert_false(measure_frame(&frame, &request, arena, &m, &err));
+    assert_text_has(&err, "inside the frame's pixels 0,0,10,10");
+    frame_set_string(&frame, "parhelion:display.1", "cluster", &arena);
+    request = (MeasureRequest){.frame_name = "f.exr", .display = "claster"};
+    assert_false(measure_frame(&frame, &request, arena, &m, &err));
+    assert_text_has(&err, "its displays: cluster");
+    request.display = "cluster";
+    assert_false(measure_frame(&frame, &request, arena, &m, &err));
+    assert_text_has(&err, "--layers id");
+    float *id = frame_add_channel(&frame, "id.display", true, &arena);
+    for (int i = 0; i < 100; i++) id[i] = -1;
+    assert_false(measure_frame(&frame, &request, arena, &m, &err));
+    assert_text_has(&err, "no pixel to measure on display cluster");
+    arena_release(&arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_region_has_the_mean_of_its_pixels),
+        cmocka_unit_test(intervals_follow_from_the_variance_layer),
+        cmocka_unit_test(the_interval_of_chromaticity_covers),
+        cmocka_unit_test(a_display_has_its_contrast),
+        cmocka_unit_test(what_cannot_be_measured_is_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
