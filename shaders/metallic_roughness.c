@@ -208,7 +208,7 @@ static float coat_eval(const MetallicRoughness *m, Vec3 wo, Vec3 wi, float *pdf)
 }
 
 /* Probabilities follow the lanes' mean albedo of each part, so that none is ever starved. */
-static Choices choose(const View *view)
+static inline Choices choose(const View *view)
 {
     const MetallicRoughness *m = view->m;
     Energy e = view->energy;
@@ -231,11 +231,14 @@ static Choices choose(const View *view)
     return (Choices){c.coat * scale, c.mirror * scale, c.diffuse * scale, c.through * scale};
 }
 
-static View view_from(const MetallicRoughness *m, Vec3 wo)
+static inline View view_from(const MetallicRoughness *m, Vec3 wo)
 {
-    View view = {.m = m, .wo = wo, .boundary = boundary_of(m),
-                 .energy = energy_directional(m->energy, wo.z, m->alpha),
-                 .coat = coat_albedo(m, wo)};
+    View view;
+    view.m = m;
+    view.wo = wo;
+    view.boundary = boundary_of(m);
+    view.energy = energy_directional(m->energy, wo.z, m->alpha);
+    view.coat = coat_albedo(m, wo);
     view.choices = choose(&view);
     return view;
 }

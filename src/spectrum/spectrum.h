@@ -21,20 +21,28 @@ static inline Spectrum spectrum_all(float value)
                       value, value, value, value, value, value, value, value};
 }
 
-/* a where mask is set (the result of a comparison of Spectra), b elsewhere. */
+/* a where mask is set (spectrum_above, or a comparison of Spectra), b elsewhere. */
 static inline Spectrum spectrum_select(SpectrumMask mask, Spectrum a, Spectrum b)
 {
     return (Spectrum)(((SpectrumMask)a & mask) | ((SpectrumMask)b & ~mask));
 }
 
+/* All bits set in the lanes where a is above b; a lane with NaN may go either way. GCC takes
+ * comparisons of vectors wider than the CPU's apart lane by lane, but not shifts: the sign of
+ * a difference is exact (subtraction never rounds to zero or across it). */
+static inline SpectrumMask spectrum_above(Spectrum a, Spectrum b)
+{
+    return (SpectrumMask)(b - a) >> 31;
+}
+
 static inline Spectrum spectrum_max(Spectrum a, Spectrum b)
 {
-    return spectrum_select(a > b, a, b);
+    return spectrum_select(spectrum_above(a, b), a, b);
 }
 
 static inline Spectrum spectrum_min(Spectrum a, Spectrum b)
 {
-    return spectrum_select(a < b, a, b);
+    return spectrum_select(spectrum_above(b, a), a, b);
 }
 
 static inline Spectrum spectrum_clamp(Spectrum a, float low, float high)
@@ -42,16 +50,14 @@ static inline Spectrum spectrum_clamp(Spectrum a, float low, float high)
     return spectrum_min(spectrum_max(a, spectrum_all(low)), spectrum_all(high));
 }
 
-/* A quarter of the lanes: folds end on these. */
-typedef float SpectrumQuarter __attribute__((vector_size(SPECTRUM_LANES), aligned(16)));
-
 /* Sum over the lanes, in a fixed order (the same bits for every instruction set): halves are
  * folded onto each other until four numbers are left. */
 static inline float spectrum_sum(Spectrum a)
 {
-    SpectrumQuarter part[4];
+    typedef float Quarter __attribute__((vector_size(16)));
+    Quarter part[SPECTRUM_LANES / 4];
     memcpy(part, &a, sizeof part);
-    SpectrumQuarter sum = (part[0] + part[2]) + (part[1] + part[3]);
+    Quarter sum = (part[0] + part[2]) + (part[1] + part[3]);
     return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
 
@@ -79,7 +85,7 @@ static inline bool spectrum_is_finite(Spectrum a)
 /* No lane above 0. NaN is not nothing. */
 static inline bool spectrum_is_zero(Spectrum a)
 {
-    return spectrum_sum(spectrum_max(spectrum_all(0), a)) <= 0;
+    return spectrum_max_lane(a) <= 0 && spectrum_is_finite(a);
 }
 
 /* All lanes hold the same bits: nothing so far depended on wavelength. */
