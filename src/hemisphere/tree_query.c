@@ -34,9 +34,9 @@ static void start_taps(TreeTaps *taps)
     for (int q = 0; q < 4; q++) taps->mean_weight[q] = 0;
 }
 
-/* Adds the rows of a node whose children count with the lanes of weight: child i = 1..3 adds its
- * detail, child 0 takes ratio_i of it away (haar.h). Every tap is written and then kept or not:
- * which rows there are cannot be predicted. */
+/* Adds the rows of a node whose children count with the lanes of weight: child i = 1..3 adds
+ * its detail, child 0 takes ratio_i of it away (haar.h). Which rows there are cannot be
+ * predicted: every tap is written, and then kept or not. */
 static void add_rows(TreeTaps *taps, TreeNode node, int level, Float4 weight,
                      const float ratio[3])
 {
