@@ -22,7 +22,8 @@ static bool parse(int argc, char **argv, Arena *arena, Typed *out, Error *err)
         {"-o", OPTION_TEXT, "FILE", "the picture: .png, .jpg or .tif", .out = &out->output},
         {"--exposure", OPTION_TEXT, "auto|EV|white:CD_M2",
          "auto (default: the cabin looks well), an exposure value at ISO 100 (15: full sun; "
-         "one more is half as bright), or the luminance that becomes white", .out = &o->exposure},
+         "one more is half as bright), or the luminance that becomes white",
+         .out = &o->exposure},
         {"--display", OPTION_TEXT, "NAME", "sRGB (default), Display P3, Rec.1886",
          .out = &o->display},
         {"--view", OPTION_TEXT, "NAME", "photographic (default), ACES SDR, untonemapped, raw",

@@ -67,22 +67,26 @@ static bool apply_view(Picture *picture, const DevelopOptions *options, DevelopR
     return ok;
 }
 
-static bool develop_light(const FrameImage *frame, const LayerView *view,
-                          const DevelopOptions *options, Arena *arena, Picture *out,
-                          DevelopReport *report, Error *err)
+/* What middle grey is, in cd m^-2. */
+static bool find_exposure(const LayerView *view, const char *exposure, Arena scratch,
+                          double *grey, Error *err)
 {
     ExposureRequest request;
-    const char     *exposure = options->exposure ? options->exposure : "auto";
-    if (!exposure_parse(exposure, &request, err)) return false;
+    if (!exposure_parse(exposure ? exposure : "auto", &request, err)) return false;
     size_t count = (size_t)view->width * (size_t)view->height;
-    Arena  scratch = *arena;
     float *luminance = layer_view_luminance(view, &scratch);
-    report->grey_cd_m2 = exposure_grey(request, luminance, count, scratch);
+    *grey = exposure_grey(request, luminance, count, scratch);
+    return true;
+}
+
+static bool develop_light(const LayerView *view, const DevelopOptions *options, Arena *arena,
+                          Picture *out, DevelopReport *report, Error *err)
+{
+    if (!find_exposure(view, options->exposure, *arena, &report->grey_cd_m2, err)) return false;
     report->ev = exposure_ev_of_grey(report->grey_cd_m2);
     report->is_developed = true;
     float scale = (float)(MIDDLE_GREY / report->grey_cd_m2);
     *out = exposed(view, scale, &report->nonfinite_pixels, arena);
-    report->nonfinite_pixels -= pixels_outside_data(frame);
     return apply_view(out, options, report, err);
 }
 
@@ -112,11 +116,12 @@ bool develop_picture(const FrameImage *frame, const DevelopOptions *options, Are
                            .is_log = true};
     }
     if (view.show == SHOW_LIGHT) {
-        if (!develop_light(frame, &view, options, arena, &picture, &made, err)) return false;
+        if (!develop_light(&view, options, arena, &picture, &made, err)) return false;
     } else {
-        made.nonfinite_pixels = count_nonfinite(&view) - pixels_outside_data(frame);
+        made.nonfinite_pixels = count_nonfinite(&view);
         picture = layer_view_picture(&view, arena, made.scale);
     }
+    made.nonfinite_pixels -= pixels_outside_data(frame);
     made.width = picture.width;
     made.height = picture.height;
     *out = picture;

@@ -144,11 +144,18 @@ static bool decode_pixels(ImageDecoder *decoder, Arena *arena, Image *out, Error
     return true;
 }
 
-static bool decode_other(const char *format, const void *bytes, size_t size, const char *name,
-                         Arena *arena, Image *out, Error *err)
+/* A file in memory. */
+typedef struct Encoded {
+    const char *format, *name;
+    const void *bytes;
+    size_t      size;
+} Encoded;
+
+static bool decode_other(const Encoded *file, Arena *arena, Image *out, Error *err)
 {
     ImageDecoder *decoder;
-    if (!image_decoder_create(format, name, bytes, size, &decoder, err)) return false;
+    if (!image_decoder_create(file->format, file->name, file->bytes, file->size, &decoder, err))
+        return false;
     bool ok = decode_pixels(decoder, arena, out, err);
     image_decoder_destroy(decoder);
     return ok;
@@ -256,13 +263,11 @@ static bool decode_exr(ExrReader *reader, Arena *arena, Image *out, Error *err)
     return true;
 }
 
-static bool decode(const char *format, const void *bytes, size_t size, const char *name,
-                   Arena *arena, Image *out, Error *err)
+static bool decode(const Encoded *file, Arena *arena, Image *out, Error *err)
 {
     ExrReader *reader;
-    if (strcmp(format, "openexr") != 0)
-        return decode_other(format, bytes, size, name, arena, out, err);
-    if (!exr_reader_create(name, bytes, size, &reader, err)) return false;
+    if (strcmp(file->format, "openexr") != 0) return decode_other(file, arena, out, err);
+    if (!exr_reader_create(file->name, file->bytes, file->size, &reader, err)) return false;
     bool ok = decode_exr(reader, arena, out, err);
     exr_reader_destroy(reader);
     return ok;
@@ -273,16 +278,16 @@ static bool decode(const char *format, const void *bytes, size_t size, const cha
 bool image_read_memory(const void *bytes, size_t size, const char *name, Arena *arena,
                        Image *out, Error *err)
 {
-    const char *format = format_of(bytes, size, name);
-    bool        ok;
-    if (!format) {
+    const Encoded file = {format_of(bytes, size, name), name, bytes, size};
+    bool          ok;
+    if (!file.format) {
         ok = error_set(err, ERROR_INPUT,
                        "not a picture that can be read (PNG, JPEG, OpenEXR, Radiance HDR, "
                        "TIFF, WebP, BMP, TGA, GIF, DPX or PNM)");
-    } else if (!strcmp(format, "png") && !png_is_whole(bytes, size)) {
+    } else if (!strcmp(file.format, "png") && !png_is_whole(bytes, size)) {
         ok = error_set(err, ERROR_INPUT, "damaged png picture: cut off, the end is missing");
     } else {
-        ok = decode(format, bytes, size, name, arena, out, err);
+        ok = decode(&file, arena, out, err);
     }
     return ok || error_in_file(err, name);
 }

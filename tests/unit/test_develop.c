@@ -64,7 +64,8 @@ static void assert_text_has(const Error *err, const char *part)
 /* Every pixel of R, G, B holds cd_m2 of D65. */
 static FrameImage uniform_frame(int width, int height, float cd_m2, Arena *arena)
 {
-    FrameImage frame = frame_create(width, height, (ExrWindow){0, 0, width, height}, 3, 0, arena);
+    ExrWindow  whole = {0, 0, width, height};
+    FrameImage frame = frame_create(width, height, whole, 3, 0, arena);
     for (int c = 0; c < 3; c++) {
         char   name[2] = {"RGB"[c], 0};
         float *plane = frame_add_channel(&frame, name, false, arena);
@@ -78,7 +79,8 @@ static Picture develop(const FrameImage *frame, DevelopOptions options, Arena *a
 {
     Picture picture;
     Error   err = {0};
-    if (!develop_picture(frame, &options, arena, &picture, report, &err)) fail_msg("%s", err.text);
+    if (!develop_picture(frame, &options, arena, &picture, report, &err))
+        fail_msg("%s", err.text);
     return picture;
 }
 
@@ -112,7 +114,7 @@ static void middle_grey_has_the_known_codes(void **state)
     assert_near(grey_through("Display P3", "untonemapped", 0.18f), 0.461356, 2e-5);
     assert_near(grey_through("Rec.1886", "untonemapped", 0.18f), pow(0.18, 1 / 2.4), 2e-5);
     assert_near(grey_through("sRGB", "raw", 0.18f), 0.18, 1e-7);
-    assert_near(grey_through(NULL, NULL, 0.18f), grey_through("sRGB", "photographic", 0.18f), 0);
+    assert_near(grey_through(NULL, NULL, 0.4f), grey_through("sRGB", "photographic", 0.4f), 0);
 }
 
 static void untonemapped_is_the_srgb_curve(void **state)
@@ -246,8 +248,8 @@ static void what_is_not_light_has_no_say_in_exposure(void **state)
 static void bad_exposures_are_told(void **state)
 {
     (void)state;
-    static const char *const BAD[] = {"", "bright", "white:", "white:0", "white:-3", "white:nan",
-                                      "1e9", "3 ", "inf", "auto1"};
+    static const char *const BAD[] = {"", "bright", "white:", "white:0", "white:-3",
+                                      "white:nan", "1e9", "3 ", "inf", "auto1"};
     for (size_t i = 0; i < sizeof BAD / sizeof *BAD; i++) {
         ExposureRequest request;
         Error           err = {0};

@@ -82,8 +82,8 @@ static FrameImage make_frame(int width, int height, ExrWindow data, Arena *arena
     if (count > 1) id[1] = 16777216;
     frame_set_string(&frame, "parhelion:display.3", "cluster", arena);
     frame_set_string(&frame, "parhelion:version", "old", arena);
-    frame_set_string(&frame, "parhelion:version", "a name longer than thirty-one letters", arena);
-    frame_set_number(&frame, "parhelion:a number of some length, too", 0.1, arena);
+    frame_set_string(&frame, "parhelion:version", "new", arena);
+    frame_set_number(&frame, "parhelion:a name longer than thirty-one letters", 0.1, arena);
     frame_set_whole(&frame, "parhelion:seed", -12345, arena);
     frame_set_values(&frame, "worldToCamera", EXR_MATRIX44, MATRIX, arena);
     frame_set_values(&frame, "expTime", EXR_FLOAT, &SECONDS, arena);
@@ -104,8 +104,9 @@ static void assert_same_channels(const FrameImage *a, const FrameImage *b)
     assert_int_equal(a->channel_count, b->channel_count);
     for (int i = 0; i < a->channel_count; i++) {
         const float *values = frame_channel(b, a->channels[i].name);
+        size_t       bytes = frame_pixel_count(a) * sizeof(float);
         assert_non_null(values);
-        assert_memory_equal(values, a->channels[i].values, frame_pixel_count(a) * sizeof(float));
+        assert_memory_equal(values, a->channels[i].values, bytes);
     }
 }
 
@@ -143,9 +144,10 @@ static void attributes_come_back(void **state)
     Arena      arena = arena_reserve(ARENA_BYTES);
     FrameImage frame = make_frame(4, 4, (ExrWindow){0, 0, 4, 4}, &arena);
     FrameImage back = write_and_read(&frame, &arena);
-    assert_string_equal(frame_string(&back, "parhelion:version"),
-                        "a name longer than thirty-one letters");
-    assert_true(frame_attribute(&back, "parhelion:a number of some length, too")->values[0] == 0.1);
+    assert_string_equal(frame_string(&back, "parhelion:version"), "new");
+    const ExrAttribute *a =
+        frame_attribute(&back, "parhelion:a name longer than thirty-one letters");
+    assert_true(a->kind == EXR_DOUBLE && a->values[0] == 0.1);
     assert_true(frame_attribute(&back, "parhelion:seed")->values[0] == -12345);
     assert_true(frame_attribute(&back, "expTime")->values[0] == 0.5);
     assert_true(frame_attribute(&back, "whiteLuminance")->values[0] == 1);

@@ -15,7 +15,8 @@ static void assert_text_has(const Error *err, const char *part)
 /* Every pixel of R, G, B holds cd_m2 of D65. */
 static FrameImage uniform_frame(int width, int height, float cd_m2, Arena *arena)
 {
-    FrameImage frame = frame_create(width, height, (ExrWindow){0, 0, width, height}, 3, 0, arena);
+    ExrWindow  whole = {0, 0, width, height};
+    FrameImage frame = frame_create(width, height, whole, 3, 0, arena);
     for (int c = 0; c < 3; c++) {
         char   name[2] = {"RGB"[c], 0};
         float *plane = frame_add_channel(&frame, name, false, arena);
@@ -49,8 +50,8 @@ static void a_region_has_the_mean_of_its_pixels(void **state)
     Arena      arena = arena_reserve(ARENA_BYTES);
     FrameImage frame = uniform_frame(10, 10, 100, &arena);
     for (int c = 0; c < 3; c++) frame.channels[c].values[0] = 500;
-    Measurement m = measure(&frame, (MeasureRequest){.has_region = true, .region = {0, 0, 2, 2}},
-                            arena);
+    MeasureRequest corner = {.has_region = true, .region = {0, 0, 2, 2}};
+    Measurement    m = measure(&frame, corner, arena);
     assert_int_equal(m.pixels, 4);
     assert_close(m.luminance.value, 200, 1e-5);
     assert_close(m.least, 100, 1e-5);
@@ -61,7 +62,7 @@ static void a_region_has_the_mean_of_its_pixels(void **state)
     assert_near(m.v.value, 0.4683, 3e-4);
     assert_true(isnan(m.luminance.half_width) && !m.has_variance && !m.has_contrast);
     frame.channels[1].values[1] = NAN;
-    m = measure(&frame, (MeasureRequest){.has_region = true, .region = {0, 0, 2, 2}}, arena);
+    m = measure(&frame, corner, arena);
     assert_int_equal(m.pixels, 3);
     assert_int_equal(m.nonfinite, 1);
     arena_release(&arena);
@@ -137,7 +138,7 @@ static void what_cannot_be_measured_is_told(void **state)
     (void)state;
     Arena          arena = arena_reserve(ARENA_BYTES);
     FrameImage     frame = uniform_frame(10, 10, 100, &arena);
-    MeasureRequest request = {.frame_name = "f.exr", .has_region = true, .region = {5, 5, 11, 8}};
+    MeasureRequest request = {"f.exr", true, {5, 5, 11, 8}, NULL};
     Measurement    m;
     Error          err = {0};
     assert_false(measure_frame(&frame, &request, arena, &m, &err));

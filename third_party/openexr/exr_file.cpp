@@ -13,7 +13,6 @@
 #include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
-#include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/OpenEXRConfig.h>
@@ -138,7 +137,7 @@ static bool check_window(const ExrPicture &p, Error *err)
 static bool describe(ExrReader *reader, Error *err)
 {
     const Imf::Header &header = reader->file->header(0);
-    if (header.hasType() && !Imf::isImage(header.type()))
+    if (header.hasType() && header.type().rfind("deep", 0) == 0)
         return error_set(err, ERROR_INPUT, "a deep picture, a flat one is wanted");
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
         if (c.channel().xSampling != 1 || c.channel().ySampling != 1)
