@@ -167,12 +167,12 @@ static bool sample_sun(const Lights *lights, const Wavelengths *wavelengths, con
 static bool sample_sky(const Lights *lights, Vec3 ns, const Wavelengths *wavelengths,
                        const float u[3], LightSample *sample)
 {
-    Vec3 wi;
-    if (!sky_sample(&lights->sky, ns, u[0], u[1], &wi)) return false;
-    *sample = (LightSample){.wi = wi, .distance = INFINITY,
-                            .radiance = sky_radiance(&lights->sky, wi, wavelengths),
-                            .pdf = sky_pdf(&lights->sky, wi, ns)};
-    return sample->pdf > 0;
+    SkySample sky;
+    if (!sky_sample(&lights->sky, ns, u[0], u[1], &sky)) return false;
+    *sample = (LightSample){.wi = sky.direction, .distance = INFINITY,
+                            .radiance = spectrum_from_rgb_emission(wavelengths, sky.rgb),
+                            .pdf = sky.pdf};
+    return true;
 }
 
 bool lights_sample(const Lights *lights, LightSet set, Vec3 position, Vec3 ns,
@@ -191,10 +191,11 @@ bool lights_sample(const Lights *lights, LightSet set, Vec3 position, Vec3 ns,
 void lights_distant(const Lights *lights, Vec3 direction, Vec3 ns,
                     const Wavelengths *wavelengths, Spectrum radiance[2], float pdf[2])
 {
+    SkySample seen = sky_seen(&lights->sky, direction, ns);
     radiance[LIGHTS_SUN] = sun_radiance(&lights->sky, direction, wavelengths);
-    radiance[LIGHTS_SKY] = sky_radiance(&lights->sky, direction, wavelengths);
+    radiance[LIGHTS_SKY] = spectrum_from_rgb_emission(wavelengths, seen.rgb);
     pdf[LIGHTS_SUN] = sun_pdf(&lights->sky, direction);
-    pdf[LIGHTS_SKY] = sky_pdf(&lights->sky, direction, ns);
+    pdf[LIGHTS_SKY] = seen.pdf;
 }
 
 float lights_emitter_pdf(const Lights *lights, uint32_t triangle, Vec3 direction, Vec3 ng,

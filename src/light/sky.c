@@ -51,14 +51,27 @@ static double pixel_solid_angle(const Sky *sky, int y)
            (cos(PI * y / sky->height) - cos(PI * (y + 1) / sky->height));
 }
 
+/* guide[k]: the last i with cdf[i] <= k / count (Chen and Asau 1974): one step or two from
+ * there find any u of that cell. */
+static void build_guide(const float *cdf, int count, uint16_t *guide)
+{
+    int i = 0;
+    for (int k = 0; k < count; k++) {
+        while (i + 1 < count && cdf[i + 1] <= (float)k / (float)count) i++;
+        guide[k] = (uint16_t)i;
+    }
+}
+
 static void build_distribution(Sky *sky, Arena *arena)
 {
     int    width = sky->width, height = sky->height;
     double total = 0, *row_sum = ARENA_NEW(arena, double, height);
-    sky->row_cdf = ARENA_NEW(arena, float, height + 1);
-    sky->column_cdf = ARENA_NEW(arena, float, (size_t)height * (size_t)(width + 1));
+    float *row_cdf = ARENA_NEW(arena, float, height + 1);
+    float *column_cdf = ARENA_NEW(arena, float, (size_t)height * (size_t)(width + 1));
+    uint16_t *row_guide = ARENA_NEW(arena, uint16_t, height);
+    uint16_t *column_guide = ARENA_NEW(arena, uint16_t, (size_t)height * (size_t)width);
     for (int y = 0; y < height; y++) {
-        float *cdf = sky->column_cdf + (size_t)y * (size_t)(width + 1);
+        float *cdf = column_cdf + (size_t)y * (size_t)(width + 1);
         double sum = 0;
         for (int x = 0; x < width; x++) sum += cell_luminance(sky, x, y);
         double running = 0;
@@ -67,15 +80,21 @@ static void build_distribution(Sky *sky, Arena *arena)
             cdf[x + 1] = (float)running;
         }
         cdf[width] = 1;
+        build_guide(cdf, width, column_guide + (size_t)y * (size_t)width);
         row_sum[y] = sum * pixel_solid_angle(sky, y);
         total += row_sum[y];
     }
     double running = 0;
     for (int y = 0; y < height; y++) {
         running += total > 0 ? row_sum[y] / total : 1.0 / height;
-        sky->row_cdf[y + 1] = (float)running;
+        row_cdf[y + 1] = (float)running;
     }
-    sky->row_cdf[height] = 1;
+    row_cdf[height] = 1;
+    build_guide(row_cdf, height, row_guide);
+    sky->row_cdf = row_cdf;
+    sky->column_cdf = column_cdf;
+    sky->row_guide = row_guide;
+    sky->column_guide = column_guide;
 }
 
 /* lx on a horizontal plane from the upper half of the picture, at scale 1. */
@@ -226,27 +245,12 @@ bool sky_build(const Environment *environment, Arena *arena, Sky *out, Error *er
     return true;
 }
 
-Spectrum sky_radiance(const Sky *sky, Vec3 direction, const Wavelengths *wavelengths)
-{
-    if (sky->kind == ENVIRONMENT_NONE) return spectrum_all(0);
-    if (sky->kind == ENVIRONMENT_CONSTANT)
-        return spectrum_from_rgb_emission(wavelengths, sky->constant_rgb);
-    float rgb[3];
-    Vec2  at = picture_from_direction(sky, direction);
-    picture_rgb(sky, at.x, at.y, rgb);
-    return spectrum_from_rgb_emission(wavelengths, rgb);
-}
-
 /* The largest i with cdf[i] <= u, 0 <= i < count. */
-static int find_interval(const float *cdf, int count, float u)
+static int find_interval(const float *cdf, const uint16_t *guide, int count, float u)
 {
-    int low = 0, high = count;
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        if (cdf[middle] <= u) low = middle;
-        else high = middle;
-    }
-    return low;
+    int i = guide[(int)(u * (float)count)];
+    while (i + 1 < count && cdf[i + 1] <= u) i++;
+    return i;
 }
 
 /* Position inside interval i, in [0, 1). */
@@ -264,15 +268,26 @@ static float picture_pdf(const Sky *sky, int x, int y, float sin_theta)
     return sin_theta > 0 ? cell * cells / (2 * PI_F * PI_F * sin_theta) : 0;
 }
 
-float sky_pdf(const Sky *sky, Vec3 direction, Vec3 ns)
+static SkySample picture_seen(const Sky *sky, Vec3 direction)
 {
-    if (sky->kind == ENVIRONMENT_NONE) return 0;
-    if (sky->kind == ENVIRONMENT_CONSTANT) return fmaxf(vec3_dot(direction, ns), 0) * INV_PI_F;
+    SkySample seen = {.direction = direction};
     Vec2 at = picture_from_direction(sky, direction);
     int  x = (int)at.x, y = (int)at.y;
     if (x >= sky->width) x = sky->width - 1;
     if (y >= sky->height) y = sky->height - 1;
-    return picture_pdf(sky, x, y, safe_sqrtf(1 - direction.y * direction.y));
+    seen.pdf = picture_pdf(sky, x, y, safe_sqrtf(1 - direction.y * direction.y));
+    picture_rgb(sky, at.x, at.y, seen.rgb);
+    return seen;
+}
+
+SkySample sky_seen(const Sky *sky, Vec3 direction, Vec3 ns)
+{
+    SkySample seen = {.direction = direction};
+    if (sky->kind == ENVIRONMENT_NONE) return seen;
+    if (sky->kind == ENVIRONMENT_HDRI) return picture_seen(sky, direction);
+    seen.pdf = fmaxf(vec3_dot(direction, ns), 0) * INV_PI_F;
+    for (int i = 0; i < 3; i++) seen.rgb[i] = sky->constant_rgb[i];
+    return seen;
 }
 
 static Vec3 sample_cosine(Vec3 ns, float u0, float u1)
@@ -283,21 +298,30 @@ static Vec3 sample_cosine(Vec3 ns, float u0, float u1)
     return frame_to_world(&frame, vec3(radius * cosine, radius * sine, safe_sqrtf(1 - u0)));
 }
 
-bool sky_sample(const Sky *sky, Vec3 ns, float u0, float u1, Vec3 *direction)
+static void sample_picture(const Sky *sky, float u0, float u1, SkySample *sample)
+{
+    int    y = find_interval(sky->row_cdf, sky->row_guide, sky->height, u1);
+    size_t row = (size_t)y * (size_t)sky->width;
+    const float *columns = sky->column_cdf + row + (size_t)y;
+    int    x = find_interval(columns, sky->column_guide + row, sky->width, u0);
+    float  at_x = (float)x + inside_interval(columns, x, u0);
+    float  at_y = (float)y + inside_interval(sky->row_cdf, y, u1);
+    float  turns = at_x / (float)sky->width - sky->u_offset;
+    float  sin_theta, cos_theta, sine, cosine;
+    sincos_turns(0.5f * at_y / (float)sky->height, &sin_theta, &cos_theta);
+    sincos_turns(turns - floorf(turns), &sine, &cosine);
+    sample->direction = vec3(sin_theta * sine, cos_theta, -sin_theta * cosine);
+    sample->pdf = picture_pdf(sky, x, y, sin_theta);
+    picture_rgb(sky, at_x, at_y, sample->rgb);
+}
+
+bool sky_sample(const Sky *sky, Vec3 ns, float u0, float u1, SkySample *sample)
 {
     if (sky->kind == ENVIRONMENT_NONE) return false;
-    if (sky->kind == ENVIRONMENT_CONSTANT) {
-        *direction = sample_cosine(ns, u0, u1);
-        return true;
+    if (sky->kind == ENVIRONMENT_HDRI) {
+        sample_picture(sky, u0, u1, sample);
+        return sample->pdf > 0;
     }
-    int    y = find_interval(sky->row_cdf, sky->height, u1);
-    float *columns = sky->column_cdf + (size_t)y * (size_t)(sky->width + 1);
-    int    x = find_interval(columns, sky->width, u0);
-    float  u = ((float)x + inside_interval(columns, x, u0)) / (float)sky->width;
-    float  v = ((float)y + inside_interval(sky->row_cdf, y, u1)) / (float)sky->height;
-    float  sin_theta, cos_theta, sine, cosine;
-    sincos_turns(0.5f * v, &sin_theta, &cos_theta);
-    sincos_turns(u - sky->u_offset - floorf(u - sky->u_offset), &sine, &cosine);
-    *direction = vec3(sin_theta * sine, cos_theta, -sin_theta * cosine);
-    return sin_theta > 0;
+    *sample = sky_seen(sky, sample_cosine(ns, u0, u1), ns);
+    return sample->pdf > 0;
 }

@@ -22,8 +22,9 @@ typedef struct Sky {
     int    width, height;
     float  scale;
     float  u_offset;       /* image u = azimuth in the scene / 2 pi + u_offset */
-    float *row_cdf;        /* height + 1 values from 0 to 1 */
-    float *column_cdf;     /* height rows of width + 1 values */
+    const float *row_cdf;     /* height + 1 values from 0 to 1 */
+    const float *column_cdf;  /* height rows of width + 1 values */
+    const uint16_t *row_guide, *column_guide; /* where to begin looking: height; height * width */
     long   refused_pixels; /* had a negative or non-finite value */
 
     bool   has_sun;
@@ -38,12 +39,17 @@ typedef struct Sky {
 /* Fails on an environment whose model is not there yet, naming it. */
 bool sky_build(const Environment *environment, Arena *arena, Sky *out, Error *err);
 
-Spectrum sky_radiance(const Sky *sky, Vec3 direction, const Wavelengths *wavelengths);
+/* A direction towards the sky: what comes from there, and with which density sky_sample would
+ * choose it for a surface with shading normal ns (constant skies are sampled by the cosine
+ * around it, pictures by their luminance). */
+typedef struct SkySample {
+    Vec3  direction;
+    float rgb[3]; /* cd m^-2, linear Rec.709 */
+    float pdf;    /* sr^-1 */
+} SkySample;
 
-/* sr^-1, of sky_sample for a surface with shading normal ns (constant skies are sampled by the
- * cosine around it, pictures by their luminance). */
-float sky_pdf(const Sky *sky, Vec3 direction, Vec3 ns);
-bool  sky_sample(const Sky *sky, Vec3 ns, float u0, float u1, Vec3 *direction);
+SkySample sky_seen(const Sky *sky, Vec3 direction, Vec3 ns);
+bool      sky_sample(const Sky *sky, Vec3 ns, float u0, float u1, SkySample *sample);
 
 /* Zero off the disc. */
 Spectrum sun_radiance(const Sky *sky, Vec3 direction, const Wavelengths *wavelengths);
