@@ -2,6 +2,7 @@
 
 #include "base/units.h"
 #include "scene/load.h"
+#include "spectrum/photometry.h"
 
 static float radians(const GltfValue *object, const char *name)
 {
@@ -21,7 +22,7 @@ static void read_color(GltfFile *file, const GltfValue *extension, float out[3])
 {
     float color[3] = {1, 1, 1};
     tree_floats(extension, "color", 3, color);
-    float luminance = 0.2126f * color[0] + 0.7152f * color[1] + 0.0722f * color[2];
+    float luminance = luminance_from_rgb(color);
     if (!(luminance > 0)) {
         file_error(file, tree_member(extension, "color"), "the colour is black; a colour of "
                    "positive luminance is wanted (luminance 0 makes it dark)");

@@ -50,6 +50,7 @@ typedef struct Loader {
     List input_hashes; /* uint64_t */
     List extensions;   /* const char * */
     size_t vertex_total;
+    int    ignored_occlusion_count;
 } Loader;
 
 typedef struct GltfFile {

@@ -1,6 +1,7 @@
 #include <string.h>
 
 #include "scene/load.h"
+#include "spectrum/photometry.h"
 
 static TextureSlot no_texture(void)
 {
@@ -138,6 +139,7 @@ static void read_core(GltfFile *file, const GltfValue *value, Material *m)
     m->alpha_mode = alpha_mode(tree_text(value, "alphaMode", "OPAQUE"));
     m->alpha_cutoff = tree_float(value, "alphaCutoff", 0.5f);
     m->double_sided = tree_boolean(value, "doubleSided", false);
+    if (tree_member(value, "occlusionTexture")) file->load->ignored_occlusion_count++;
 }
 
 /* ---- extensions ------------------------------------------------------------------------ */
@@ -197,12 +199,27 @@ static int read_curve(GltfFile *file, const GltfValue *uri)
     return NO_ID;
 }
 
+/* An emission spectrum tells the colour; emissiveFactor and its strength tell how much. */
+static void make_unit_luminance(GltfFile *file, const GltfValue *at, int curve_id)
+{
+    Curve *curve = list_item(&file->load->curves, curve_id);
+    double luminance = luminance_cd_m2(curve->value, CURVE_COUNT, CURVE_FIRST_NM, 1);
+    if (!(luminance > 0)) {
+        file_error(file, at, "the emission spectrum has no visible light");
+        return;
+    }
+    for (int i = 0; i < CURVE_COUNT; i++)
+        curve->value[i] = (float)((double)curve->value[i] / luminance);
+}
+
 static void read_spectra(GltfFile *file, const GltfValue *spectrum, Material *m)
 {
     m->base_color_curve_id = read_curve(file, tree_member(spectrum, "baseColor"));
     m->transmission_curve_id = read_curve(file, tree_member(spectrum, "transmission"));
     m->specular_curve_id = read_curve(file, tree_member(spectrum, "specular"));
     m->emission_curve_id = read_curve(file, tree_member(spectrum, "emission"));
+    if (m->emission_curve_id != NO_ID)
+        make_unit_luminance(file, tree_member(spectrum, "emission"), m->emission_curve_id);
 }
 
 /* ---- all of them ----------------------------------------------------------------------- */

@@ -105,7 +105,8 @@ static Scene *assemble(Loader *load)
         .inputs = list_copy(&load->inputs, arena),
         .input_hashes = list_copy(&load->input_hashes, arena), .input_count = load->inputs.count,
         .extensions = list_copy(&load->extensions, arena),
-        .extension_count = load->extensions.count, .environment = load->environment};
+        .extension_count = load->extensions.count, .environment = load->environment,
+        .ignored_occlusion_count = load->ignored_occlusion_count};
     join_parts(load, scene);
     measure_bounds(scene);
     fill_gaps(scene);
@@ -175,32 +176,35 @@ static Loader loader_start(const SceneOptions *options, Arena *arena, Problems *
         .extensions = list_of(sizeof(const char *))};
 }
 
-static void close_panels(const Display *displays, int count)
-{
-    for (int i = 0; i < count; i++) {
-        bool is_first = true; /* displays of one file share its panel */
-        for (int k = 0; k < i; k++) is_first &= displays[k].panel != displays[i].panel;
-        if (is_first) panel_close((Panel *)displays[i].panel);
-    }
-}
-
-bool scene_load(const SceneOptions *options, Arena *arena, Problems *problems, Scene **out,
-                Error *err)
+Scene *scene_survey(const SceneOptions *options, Arena *arena, Problems *problems)
 {
     Loader load = loader_start(options, arena, problems);
     for (int i = 0; i < options->path_count; i++) load_file(&load, options->paths[i]);
     displays_override(&load);
     displays_finish(&load);
-    bool is_sound = problems_verdict(problems, err);
-    if (is_sound)
-        *out = assemble(&load);
-    else
-        close_panels(load.displays.items, load.displays.count);
+    Scene *scene = assemble(&load);
     arena_release(&load.scratch);
-    return is_sound;
+    return scene;
+}
+
+bool scene_load(const SceneOptions *options, Arena *arena, Problems *problems, Scene **out,
+                Error *err)
+{
+    Scene *scene = scene_survey(options, arena, problems);
+    if (problems_verdict(problems, err)) {
+        *out = scene;
+        return true;
+    }
+    scene_close(scene);
+    return false;
 }
 
 void scene_close(Scene *scene)
 {
-    if (scene) close_panels(scene->displays, scene->display_count);
+    for (int i = 0; scene && i < scene->display_count; i++) {
+        const Display *displays = scene->displays;
+        bool is_first = true; /* displays of one file share its panel */
+        for (int k = 0; k < i; k++) is_first &= displays[k].panel != displays[i].panel;
+        if (is_first) panel_close((Panel *)displays[i].panel);
+    }
 }

@@ -170,6 +170,8 @@ typedef struct Scene {
     int       input_count;
     const char **extensions; /* every extensionsUsed, sorted, once each */
     int       extension_count;
+    int       ignored_occlusion_count; /* materials whose occlusion texture is ignored, since
+                                          occlusion is what tracing itself finds */
 } Scene;
 
 /* Which files make the scene, and what the command line overrides. */
@@ -193,6 +195,10 @@ typedef struct SceneOptions {
  * JSON path. False (and *err = the first error) when there is an error. */
 bool scene_load(const SceneOptions *options, Arena *arena, Problems *problems, Scene **out,
                 Error *err);
+
+/* As scene_load, for a report: *problems holds everything that is wrong, and the Scene (never
+ * NULL) is as much as could be read. Only one without errors may be rendered. */
+Scene *scene_survey(const SceneOptions *options, Arena *arena, Problems *problems);
 
 /* Closes the panels. NULL is fine. */
 void scene_close(Scene *scene);

@@ -1,0 +1,270 @@
+/* parhelion check: what is in a scene, and everything that is wrong with it. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/units.h"
+#include "cli/cli.h"
+#include "scene/scene.h"
+
+#define ARENA_BYTES ((size_t)64 << 30) /* address space; pages come when touched */
+
+static double degrees(float radians)
+{
+    return degrees_from_radians((double)radians);
+}
+
+/* ---- words for kinds ---------------------------------------------------------------------- */
+
+static const char *light_kind(LightKind kind)
+{
+    return kind == LIGHT_POINT ? "point" : kind == LIGHT_SPOT ? "spot" : "directional";
+}
+
+static const char *light_unit(LightKind kind)
+{
+    return kind == LIGHT_DIRECTIONAL ? "lx" : "cd";
+}
+
+static const char *environment_kind(EnvironmentKind kind)
+{
+    switch (kind) {
+    case ENVIRONMENT_NONE: return "none";
+    case ENVIRONMENT_CONSTANT: return "constant";
+    case ENVIRONMENT_HDRI: return "hdri";
+    case ENVIRONMENT_CIE: return "cie";
+    case ENVIRONMENT_PEREZ: return "perez";
+    case ENVIRONMENT_SKY: return "sky";
+    }
+    return "";
+}
+
+static const char *camera_name(const SceneCamera *camera)
+{
+    return camera->node_name[0] ? camera->node_name : camera->camera_name;
+}
+
+static const Image *content_of(const Scene *scene, const Display *display)
+{
+    int id = display->content.texture_id;
+    return id == NO_ID ? NULL : &scene->textures[id].image;
+}
+
+/* ---- for people --------------------------------------------------------------------------- */
+
+static void print_displays(const Scene *scene)
+{
+    for (int i = 0; i < scene->display_count; i++) {
+        const Display *d = &scene->displays[i];
+        const Image   *content = content_of(scene, d);
+        printf("display      %s: panel %s, level %g %%, ", d->name, d->panel_path,
+               100 * (double)d->level);
+        if (content) printf("content of %dx%d pixels\n", content->width, content->height);
+        else printf("no content (full white)\n");
+    }
+}
+
+static void print_lights(const Scene *scene)
+{
+    for (int i = 0; i < scene->light_count; i++) {
+        const PunctualLight *light = &scene->lights[i];
+        printf("light        %s: %s, RGB %g %g %g %s\n", light->name, light_kind(light->kind),
+               (double)light->intensity[0], (double)light->intensity[1],
+               (double)light->intensity[2], light_unit(light->kind));
+    }
+    for (int i = 0; i < scene->material_count; i++) {
+        const Material *m = &scene->materials[i];
+        if (!m->is_emitter || m->display_id != NO_ID || m->unlit) continue;
+        printf("light        %s: emissive material, RGB up to %g %g %g cd/m2\n", m->name,
+               (double)m->emissive_cd_m2[0], (double)m->emissive_cd_m2[1],
+               (double)m->emissive_cd_m2[2]);
+    }
+}
+
+static void print_environment(const Environment *e)
+{
+    printf("environment  %s", environment_kind(e->kind));
+    if (e->kind == ENVIRONMENT_CONSTANT) printf(", %g cd/m2", (double)e->luminance_cd_m2);
+    if (e->kind == ENVIRONMENT_HDRI)
+        printf(" %s, %dx%d pixels", e->hdri_path, e->hdri.width, e->hdri.height);
+    if (e->has_sun)
+        printf(", sun at azimuth %.4g deg, elevation %.4g deg, %g lx", degrees(e->sun_azimuth),
+               degrees(e->sun_elevation), (double)e->sun_illuminance_lx);
+    printf("%s\n", e->kind == ENVIRONMENT_NONE && !e->has_sun ? ": the outside is black" : "");
+}
+
+static void print_cameras(const Scene *scene)
+{
+    for (int i = 0; i < scene->camera_count; i++) {
+        const SceneCamera *c = &scene->cameras[i];
+        printf("camera %-5d %s: ", i, camera_name(c)[0] ? camera_name(c) : "(no name)");
+        if (c->is_perspective) printf("perspective, %.4g deg high\n", degrees(c->yfov));
+        else printf("orthographic, %g m high\n", 2 * (double)c->ymag);
+    }
+    if (!scene->camera_count) printf("camera       none: the scene is framed whole\n");
+}
+
+static void print_size(const Scene *scene)
+{
+    const Vec3 low = scene->bounds_min, high = scene->bounds_max;
+    printf("triangles    %u (%u opaque) in %d parts\n", scene->triangle_count, scene->opaque_count,
+           scene->part_count);
+    if (scene->triangle_count)
+        printf("size         %.4g x %.4g x %.4g m\n", (double)(high.x - low.x),
+               (double)(high.y - low.y), (double)(high.z - low.z));
+    printf("materials    %d, textures %d\n", scene->material_count, scene->texture_count);
+    if (scene->ignored_occlusion_count)
+        printf("note         %d materials have an occlusion texture: it is ignored, since tracing "
+               "finds what is occluded\n", scene->ignored_occlusion_count);
+}
+
+static void print_problems(const Problems *problems)
+{
+    for (int i = 0; i < problems->count; i++) {
+        const Problem *p = &problems->list[i];
+        printf("%-12s %s: %s%s%s%s\n", p->severity == SEVERITY_ERROR ? "ERROR" : "warning",
+               p->file, p->message, p->path[0] ? " (" : "", p->path, p->path[0] ? ")" : "");
+    }
+}
+
+static void print_report(const Scene *scene, const Problems *problems)
+{
+    print_size(scene);
+    print_displays(scene);
+    print_lights(scene);
+    print_environment(&scene->environment);
+    print_cameras(scene);
+    if (scene->extension_count) printf("extensions  ");
+    for (int i = 0; i < scene->extension_count; i++) printf(" %s", scene->extensions[i]);
+    if (scene->extension_count) printf("\n");
+    print_problems(problems);
+    printf("%s: %d errors, %d warnings\n", problems->error_count ? "NOT OK" : "ok",
+           problems->error_count, problems->count - problems->error_count);
+}
+
+/* ---- for scripts -------------------------------------------------------------------------- */
+
+static json_t *json_displays(const Scene *scene)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < scene->display_count; i++) {
+        const Display *d = &scene->displays[i];
+        const Image   *content = content_of(scene, d);
+        json_t *size = content ? json_pack("[i,i]", content->width, content->height) : json_null();
+        json_array_append_new(list, json_pack("{s:o, s:o, s:o, s:f}", "name",
+                                              cli_json_text(d->name), "panel",
+                                              cli_json_text(d->panel_path), "content_size", size,
+                                              "level", (double)d->level));
+    }
+    return list;
+}
+
+static json_t *json_rgb(const float rgb[3])
+{
+    return json_pack("[f,f,f]", (double)rgb[0], (double)rgb[1], (double)rgb[2]);
+}
+
+static json_t *json_lights(const Scene *scene)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < scene->light_count; i++) {
+        const PunctualLight *light = &scene->lights[i];
+        json_array_append_new(list, json_pack("{s:o, s:s, s:o, s:s}", "name",
+                                              cli_json_text(light->name), "type",
+                                              light_kind(light->kind), "intensity",
+                                              json_rgb(light->intensity), "unit",
+                                              light_unit(light->kind)));
+    }
+    for (int i = 0; i < scene->material_count; i++) {
+        const Material *m = &scene->materials[i];
+        if (!m->is_emitter || m->display_id != NO_ID || m->unlit) continue;
+        json_array_append_new(list, json_pack("{s:o, s:s, s:o, s:s}", "name",
+                                              cli_json_text(m->name), "type", "emissive",
+                                              "intensity", json_rgb(m->emissive_cd_m2), "unit",
+                                              "cd/m2"));
+    }
+    return list;
+}
+
+static json_t *json_environment(const Environment *e)
+{
+    json_t *out = json_pack("{s:s}", "type", environment_kind(e->kind));
+    if (e->kind == ENVIRONMENT_CONSTANT)
+        json_object_set_new(out, "luminance_cd_m2", json_real((double)e->luminance_cd_m2));
+    if (e->kind == ENVIRONMENT_HDRI)
+        json_object_set_new(out, "file", cli_json_text(e->hdri_path));
+    if (e->has_sun)
+        json_object_set_new(out, "sun", json_pack("{s:f, s:f, s:f}", "azimuth_deg",
+                                                  degrees(e->sun_azimuth), "elevation_deg",
+                                                  degrees(e->sun_elevation), "illuminance_lx",
+                                                  (double)e->sun_illuminance_lx));
+    return out;
+}
+
+static json_t *json_cameras(const Scene *scene)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < scene->camera_count; i++) {
+        const SceneCamera *c = &scene->cameras[i];
+        json_t *camera = json_pack("{s:o, s:o, s:s}", "node", cli_json_text(c->node_name), "name",
+                                   cli_json_text(c->camera_name), "type",
+                                   c->is_perspective ? "perspective" : "orthographic");
+        if (c->is_perspective)
+            json_object_set_new(camera, "yfov_deg", json_real(degrees(c->yfov)));
+        else
+            json_object_set_new(camera, "ymag_m", json_real((double)c->ymag));
+        json_array_append_new(list, camera);
+    }
+    return list;
+}
+
+static json_t *json_extensions(const Scene *scene)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < scene->extension_count; i++)
+        json_array_append_new(list, cli_json_text(scene->extensions[i]));
+    return list;
+}
+
+static bool print_json(const Scene *scene, const Problems *problems, Error *err)
+{
+    json_t *list = cli_json_problems(problems, SEVERITY_ERROR);
+    json_t *warnings = cli_json_problems(problems, SEVERITY_WARNING);
+    json_array_extend(list, warnings);
+    json_decref(warnings);
+    return cli_print_json(
+        json_pack("{s:b, s:o, s:o, s:o, s:o, s:o, s:i, s:i, s:I, s:o}", "ok",
+                  problems->error_count == 0, "problems", list, "displays", json_displays(scene),
+                  "lights", json_lights(scene), "environment",
+                  json_environment(&scene->environment), "cameras", json_cameras(scene),
+                  "materials", scene->material_count, "textures", scene->texture_count,
+                  "triangles", (json_int_t)scene->triangle_count, "extensions",
+                  json_extensions(scene)),
+        err);
+}
+
+/* ---- the command -------------------------------------------------------------------------- */
+
+bool cmd_check(int argc, char **argv, Error *err)
+{
+    const CliCommand command = {
+        "check", "what is in a scene, and everything that is wrong with it",
+        "SCENE.gltf|.glb [LIGHTS.gltf|.glb ...]",
+        "parhelion check scenes/car_dashboard.gltf scenes/noon.gltf", NULL, 0, 1, -1};
+    Cli   cli;
+    Arena arena = arena_reserve(ARENA_BYTES);
+    bool  done = cli_parse(&command, argc, argv, &arena, &cli, err);
+    if (done && !cli.help_shown) {
+        Problems problems = problems_start(&arena);
+        const SceneOptions options = {.paths = cli.arguments, .path_count = cli.argument_count};
+        Scene *scene = scene_survey(&options, &arena, &problems);
+        if (cli.json) done = print_json(scene, &problems, err);
+        else print_report(scene, &problems);
+        scene_close(scene);
+        if (done && problems.error_count) {
+            *err = (Error){.code = ERROR_INPUT}; /* said already, problem by problem */
+            done = false;
+        }
+    }
+    arena_release(&arena);
+    return done;
+}
