@@ -372,9 +372,10 @@ void direction_grid_taps(const DirectionGrid *grid, float theta, float phi, Grid
     }
     if (fold > 0) x[3] = 2 * x[2] - x[1];
     cubic_weights(x, theta, w);
-    if (fold > 0) { /* beyond the last ring: the straight line through the last two */
-        w[2] += 2 * w[3];
-        w[1] -= w[3];
+    if (fold > 0) { /* beyond the last ring: the parabola through the last three */
+        w[2] += 3 * w[3];
+        w[1] -= 3 * w[3];
+        w[0] += w[3];
         w[3] = 0;
     }
     for (int i = 0; i < 4; i++) add_ring(grid, ring[i], opposite[i] ? there : here, w[i], taps);

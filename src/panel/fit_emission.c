@@ -20,10 +20,10 @@ typedef struct LeafTaps {
 } LeafTaps;
 
 typedef struct Leaves {
-    int       level, count, channels;
-    Vec3     *center;
-    double   *area;
-    float    *logs; /* count x channels */
+    FitPlaces places;
+    int       count, channels;
+    float    *logs; /* count x channels, leaves and rings */
+    float    *doubt; /* count x channels: standard deviation of the logarithm */
     float    *floor; /* per channel, cd m^-2 */
     LeafTaps *taps;
     Arena    *arena;
@@ -44,7 +44,7 @@ static const LeafTaps *taps_for(Leaves *leaves, const AngleTable *table)
     taps->taps = ARENA_NEW(leaves->arena, GridTaps, leaves->count);
     direction_grid_build(table, false, leaves->arena, &taps->grid);
     for (int i = 0; i < leaves->count; i++) {
-        Vec3 d = leaves->center[i];
+        Vec3 d = leaves->places.direction[i];
         direction_grid_taps(&taps->grid, (float)polar(d), atan2f(d.y, d.x), &taps->taps[i]);
     }
     taps->next = leaves->taps;
@@ -52,17 +52,65 @@ static const LeafTaps *taps_for(Leaves *leaves, const AngleTable *table)
     return taps;
 }
 
-/* XYZ of a table at every leaf; beyond the cone the last ring's value falls with cos theta. */
+/* About how a display falls to the horizon, in powers of cos theta: taken out of the
+ * logarithms between rings, so that the last rings do not bend them. */
+#define HORIZON_POWER 1.5f
+
+static float horizon_fall(float theta)
+{
+    return HORIZON_POWER * logf(fmaxf(cosf(theta), 1e-4f));
+}
+
+/* ln of the cells over the fall to the horizon; what is below the floor (noise, zeros) is held
+ * there. */
+static float *log_cells(const DirectionGrid *grid, const AngleTable *table, Arena *arena)
+{
+    float *cells = direction_grid_cells(grid, table->value, 3, arena);
+    size_t count = 3 * (size_t)(grid->thetas * grid->phis);
+    float  most[3] = {0, 0, 0};
+    for (size_t i = 0; i < count; i++) most[i % 3] = fmaxf(most[i % 3], cells[i]);
+    for (size_t i = 0; i < count; i++)
+        cells[i] = logf(fmaxf(cells[i], fmaxf(1e-6f * most[i % 3], 1e-9f))) -
+                   horizon_fall(grid->theta[i / 3 / (size_t)grid->phis]);
+    return cells;
+}
+
+/* d ln value / d ln cos theta between two rings of the cone's edge, at an azimuth, held
+ * between 0.5 and 4: how the value goes on falling to 0 at the horizon (less HORIZON_POWER). */
+static void edge_power(const DirectionGrid *grid, const float *cells, float phi, float power[3])
+{
+    GridTaps inner, outer;
+    float    a[3], b[3], last = grid->theta[grid->thetas - 1];
+    float    before = fmaxf(0, last - fmaxf((float)radians_from_degrees(3),
+                                            1.5f * (last - grid->theta[grid->thetas - 2])));
+    direction_grid_taps(grid, before, phi, &inner);
+    direction_grid_taps(grid, last, phi, &outer);
+    direction_grid_read(&inner, cells, 3, a);
+    direction_grid_read(&outer, cells, 3, b);
+    for (int j = 0; j < 3; j++) {
+        float slope = (b[j] - a[j]) / logf(fmaxf(cosf(last), 1e-4f) / cosf(before));
+        power[j] = fminf(4 - HORIZON_POWER, fmaxf(0.5f - HORIZON_POWER, slope));
+    }
+}
+
+/* XYZ of a table at every leaf, the logarithm between rows; beyond the cone the power law in
+ * cos theta that the last rings follow. */
 static float *leaf_values(Leaves *leaves, const AngleTable *table)
 {
     const LeafTaps *taps = taps_for(leaves, table);
-    float *cells = direction_grid_cells(&taps->grid, table->value, 3, leaves->arena);
+    const DirectionGrid *grid = &taps->grid;
+    float *cells = log_cells(grid, table, leaves->arena);
     float *out = ARENA_NEW(leaves->arena, float, 3 * (size_t)leaves->count);
     float  edge = fmaxf(cosf(table->theta_max), 1e-3f);
     for (int i = 0; i < leaves->count; i++) {
-        direction_grid_read(&taps->taps[i], cells, 3, out + 3 * i);
-        if (taps->taps[i].is_outside)
-            for (int j = 0; j < 3; j++) out[3 * i + j] *= leaves->center[i].z / edge;
+        float power[3] = {0, 0, 0}, *to = out + 3 * i;
+        Vec3  d = leaves->places.direction[i];
+        direction_grid_read(&taps->taps[i], cells, 3, to);
+        bool outside = taps->taps[i].is_outside && grid->thetas > 1;
+        if (outside) edge_power(grid, cells, atan2f(d.y, d.x), power);
+        for (int j = 0; j < 3; j++)
+            to[j] = expf(to[j] + horizon_fall(panel_polar_angle(d)) +
+                         (outside ? power[j] * logf(d.z / edge) : 0));
     }
     return out;
 }
@@ -90,6 +138,22 @@ double fit_noise(const AngleTable *table, int channel, Arena scratch)
     return third[count / 2] / (0.6745 * sqrt(20)); /* the median of |normal|, 1 3 3 1 */
 }
 
+/* Noise in cd m^-2 of the dimmest rings, where only what does not scale with light is left. */
+static double fit_dim_noise(const AngleTable *table, int channel, Arena scratch)
+{
+    double *third = ARENA_NEW(&scratch, double, table->rows + 1);
+    int     count = 0, size = table->channels;
+    for (int i = 3; i < table->rows; i++) {
+        const float *v = table->value + (size_t)i * (size_t)size + channel;
+        if (table->theta[i] != table->theta[i - 3] || table->theta[i] < 0.9f * table->theta_max)
+            continue;
+        third[count++] = fabs((double)(v[0] - 3 * v[-size] + 3 * v[-2 * size] - v[-3 * size]));
+    }
+    if (count < 16) return 0;
+    qsort(third, (size_t)count, sizeof *third, by_value);
+    return third[count / 2] / (0.6745 * sqrt(20));
+}
+
 static float table_maximum(const float *values, int count, int component)
 {
     float most = 0;
@@ -97,21 +161,25 @@ static float table_maximum(const float *values, int count, int component)
     return most;
 }
 
-/* ln of three components into the leaves' channels. `black` may be NULL. */
-static void add_channels(Leaves *leaves, int first, const float *values, const float *black,
-                         double noise)
+/* ln of three components into the leaves' channels, and how far noise may have moved it. */
+static void add_channels(Leaves *leaves, int first, const AngleTable *table,
+                         const float *values, const float *black, double noise)
 {
     for (int j = 0; j < 3; j++) {
-        float most = table_maximum(values, leaves->count, j);
-        float floor = fmaxf(1e-6f * most, 1e-9f);
+        float floor = fmaxf(1e-6f * table_maximum(values, leaves->count, j), 1e-9f);
+        float dim_noise = (float)fit_dim_noise(table, j, *leaves->arena);
         leaves->floor[first + j] = floor;
         for (int i = 0; i < leaves->count; i++) {
             float total = values[3 * i + j], dark = black ? black[3 * i + j] : 0;
+            float sigma = sqrtf((float)(noise * noise) * total * total +
+                                (black ? 2 : 1) * dim_noise * dim_noise);
             /* what noise cannot tell from black stays at a fifth of the noise */
-            float least = fmaxf(floor * leaves->center[i].z,
-                                black ? 0.2f * (float)noise * total : 0);
-            leaves->logs[(size_t)i * (size_t)leaves->channels + (size_t)(first + j)] =
-                logf(fmaxf(total - dark, fmaxf(least, 1e-12f)));
+            float least = fmaxf(1e-12f, fmaxf(floor * leaves->places.direction[i].z,
+                                              black ? 0.2f * sigma : 0));
+            float  value = fmaxf(total - dark, least);
+            size_t at = (size_t)i * (size_t)leaves->channels + (size_t)(first + j);
+            leaves->logs[at] = logf(value);
+            leaves->doubt[at] = sigma / value;
         }
     }
 }
@@ -133,19 +201,14 @@ static bool black_shines(const Measurement *set)
     return sum > 0.5 * noise && sum / set->black.rows > 1e-4;
 }
 
-static Leaves start_leaves(int level, int channels, HaarWeights weights, Arena *arena)
+static Leaves start_leaves(int level, int channels, Arena *arena)
 {
-    (void)weights;
-    Leaves leaves = {.level = level, .count = (int)geodesic_count(level), .channels = channels,
+    Leaves leaves = {.places = fit_places(level, 4, arena), .channels = channels,
                      .arena = arena, .cone = 0.5 * PI};
-    leaves.center = ARENA_NEW(arena, Vec3, leaves.count);
-    leaves.area = ARENA_NEW(arena, double, leaves.count);
+    leaves.count = leaves.places.count;
     leaves.logs = ARENA_NEW(arena, float, (size_t)leaves.count * (size_t)channels);
+    leaves.doubt = ARENA_NEW(arena, float, (size_t)leaves.count * (size_t)channels);
     leaves.floor = ARENA_NEW(arena, float, channels);
-    for (int i = 0; i < leaves.count; i++) {
-        leaves.center[i] = geodesic_center(level, (uint32_t)i);
-        leaves.area[i] = geodesic_area(level, (uint32_t)i);
-    }
     return leaves;
 }
 
@@ -158,13 +221,66 @@ static void fill_channels(const Measurement *set, Leaves *leaves, FitEmission *o
             const AngleTable *from = &set->primary[p].table[i];
             Arena saved = *leaves->arena;
             out->noise[table] = fit_noise(from, 1, saved);
-            add_channels(leaves, channel, leaf_values(leaves, from), black, out->noise[table]);
+            add_channels(leaves, channel, from, leaf_values(leaves, from), black,
+                         out->noise[table]);
             narrow_cone(leaves, from);
         }
     if (!black) return;
     out->noise[table] = fit_noise(&set->black, 1, *leaves->arena);
-    add_channels(leaves, channel, black, NULL, out->noise[table]);
+    add_channels(leaves, channel, &set->black, black, NULL, out->noise[table]);
     narrow_cone(leaves, &set->black);
+}
+
+/* ---- noise ----------------------------------------------------------------------------- */
+
+#define DOUBT 0.015 /* where noise exceeds this share a brighter table speaks too */
+
+/* Weight of a channel's own word at a place. */
+static double own_word(const Leaves *leaves, int place, int channel)
+{
+    double s = (double)leaves->doubt[(size_t)place * (size_t)leaves->channels +
+                                     (size_t)channel] / DOUBT;
+    return 1 / (1 + s * s * s * s);
+}
+
+/* Where a channel drowns in noise it follows a brighter one: their difference, a + b sin^2
+ * theta, is fitted where the channel can be trusted. */
+static void follow(Leaves *leaves, int channel, int brighter)
+{
+    double m[2][2] = {{0}}, r[2] = {0, 0};
+    for (int i = 0; i < leaves->count; i++) {
+        const float *row = leaves->logs + (size_t)i * (size_t)leaves->channels;
+        double z = (double)leaves->places.direction[i].z, s = 1 - z * z;
+        double w = leaves->places.area[i] * own_word(leaves, i, channel);
+        double d = (double)(row[channel] - row[brighter]);
+        m[0][0] += w, m[0][1] += w * s, m[1][1] += w * s * s;
+        r[0] += w * d, r[1] += w * s * d;
+    }
+    double det = m[0][0] * m[1][1] - m[0][1] * m[0][1];
+    if (!(det > 1e-6 * m[0][0] * m[0][0]) || !(m[0][0] > 0.2)) return; /* too little light */
+    double a = (r[0] * m[1][1] - r[1] * m[0][1]) / det;
+    double b = (r[1] * m[0][0] - r[0] * m[0][1]) / det;
+    for (int i = 0; i < leaves->count; i++) {
+        float *row = leaves->logs + (size_t)i * (size_t)leaves->channels;
+        double z = (double)leaves->places.direction[i].z;
+        double told = (double)row[brighter] + a + b * (1 - z * z);
+        double w = own_word(leaves, i, channel);
+        row[channel] = (float)(w * (double)row[channel] + (1 - w) * told);
+    }
+}
+
+/* X and Z of the brightest level follow its Y, each dimmer level the next brighter one. */
+static void quieten(Leaves *leaves, const FitEmission *out)
+{
+    int first = 0;
+    for (int p = 0; p < 4; p++) {
+        int count = p < 3 ? (int)out->head.level_count[p] : (int)out->head.has_black;
+        int top = first + 3 * (count - 1);
+        for (int j = 0; j < 3 && count; j++)
+            if (j != 1) follow(leaves, top + j, top + 1);
+        for (int c = top - 1; c >= first; c--) follow(leaves, c, c + 3);
+        first += 3 * count;
+    }
 }
 
 /* What a channel's relative error is worth: its share of the light that the eye gets with it,
@@ -178,34 +294,38 @@ static void channel_weights(const Leaves *leaves, bool has_black, double *weight
             const float *row = leaves->logs + (size_t)i * (size_t)leaves->channels;
             double dark = has_black && c < black
                               ? exp((double)row[black + c % 3] - (double)row[c]) : 0;
-            share += leaves->area[i] / (1 + dark);
-            area += leaves->area[i];
+            share += leaves->places.area[i] / (1 + dark);
+            area += leaves->places.area[i];
         }
         weight[c] = fmax(0.01, share / area);
     }
 }
 
-/* Ranges of log X/Y and log Z/Y over the measured cone, where the light is clear of the
- * floor. Source 0..2: a primary's levels; 3: the black pattern. */
+/* Ranges of log X/Y and log Z/Y over the measured cone, where a table's light is above a
+ * fiftieth of its maximum (and 0.2 cd/m2): noise has no colour. A percent at either end is
+ * left out. Source 0..2: a primary's levels; 3: the black pattern. */
 static void ratio_range(const Leaves *leaves, int first, int count, float low[2], float high[2])
 {
-    for (int k = 0; k < 2; k++) low[k] = 1e9f, high[k] = -1e9f;
-    for (int i = 0; i < leaves->count; i++) {
-        if (polar(leaves->center[i]) > leaves->cone) continue;
-        const float *row = leaves->logs + (size_t)i * (size_t)leaves->channels;
-        for (int c = first; c < first + count; c += 3) {
-            float ratio[2] = {row[c] - row[c + 1], row[c + 2] - row[c + 1]};
-            for (int k = 0; k < 2; k++) {
-                if (logf(4 * leaves->floor[c + 2 * k]) > row[c + 2 * k]) continue;
-                low[k] = fminf(low[k], ratio[k]);
-                high[k] = fmaxf(high[k], ratio[k]);
-            }
+    double *ratio[2];
+    int     kept = 0;
+    Arena   scratch = *leaves->arena;
+    for (int k = 0; k < 2; k++)
+        ratio[k] = ARENA_NEW(&scratch, double, (size_t)leaves->count * (size_t)(count / 3 + 1));
+    for (int c = first; c < first + count; c += 3) {
+        float most = logf(0.2f * 50);
+        for (int i = 0; i < leaves->count; i++)
+            most = fmaxf(most, leaves->logs[(size_t)i * (size_t)leaves->channels + (size_t)c + 1]);
+        for (int i = 0; i < leaves->count; i++) {
+            const float *row = leaves->logs + (size_t)i * (size_t)leaves->channels + c;
+            if (polar(leaves->places.direction[i]) > leaves->cone || row[1] < most - logf(50)) continue;
+            ratio[0][kept] = (double)(row[0] - row[1]);
+            ratio[1][kept++] = (double)(row[2] - row[1]);
         }
     }
     for (int k = 0; k < 2; k++) {
-        if (!(high[k] >= low[k])) low[k] = -1, high[k] = 1;
-        low[k] -= 0.02f;
-        high[k] += 0.02f;
+        qsort(ratio[k], (size_t)kept, sizeof(double), by_value);
+        low[k] = kept ? (float)ratio[k][kept / 100] - 0.03f : -1;
+        high[k] = kept ? (float)ratio[k][kept - 1 - kept / 100] + 0.03f : 1;
     }
 }
 
@@ -217,7 +337,7 @@ static void find_ranges(const Measurement *set, const Leaves *leaves, FitEmissio
         ratio_range(leaves, first, count, out->ratio_low[p], out->ratio_high[p]);
         int axis = 0, last = first + count - 3;
         for (int i = 0; i < leaves->count; i++)
-            if (leaves->center[i].z > leaves->center[axis].z) axis = i;
+            if (leaves->places.direction[i].z > leaves->places.direction[axis].z) axis = i;
         for (int j = 0; j < 3 && count; j++)
             out->peak_xyz[p][j] =
                 exp((double)leaves->logs[(size_t)axis * (size_t)leaves->channels +
@@ -231,7 +351,7 @@ static void mean_luminances(const Leaves *leaves, float *mean_y)
     for (int c = 1; c < leaves->channels; c += 3) {
         double sum = 0, weight = 0;
         for (int i = 0; i < leaves->count; i++) {
-            double w = leaves->area[i] * (double)leaves->center[i].z;
+            double w = leaves->places.area[i] * (double)leaves->places.direction[i].z;
             sum += w * exp((double)leaves->logs[(size_t)i * (size_t)leaves->channels + (size_t)c]);
             weight += w;
         }
@@ -239,9 +359,41 @@ static void mean_luminances(const Leaves *leaves, float *mean_y)
     }
 }
 
+/* What all channels lose towards the horizon, d ln / d ln cos theta over the last 15 degrees of
+ * the hemisphere, is taken out of the logarithms. */
+static void share_cosine_power(Leaves *leaves, PanelEmission *head)
+{
+    double sum = 0, weight = 0;
+    int    near = leaves->places.leaves + 150 * FIT_RING, far = near + 26 * FIT_RING;
+    for (int i = 0; i < FIT_RING; i++)
+        for (int c = 0; c < leaves->channels; c++) {
+            const float *a = leaves->logs + (size_t)(near + i) * (size_t)leaves->channels + c;
+            const float *b = leaves->logs + (size_t)(far + i) * (size_t)leaves->channels + c;
+            sum += (double)(*b - *a) / log((double)leaves->places.direction[far + i].z /
+                                           (double)leaves->places.direction[near + i].z);
+            weight++;
+        }
+    head->cosine_power = (float)fmin(5, fmax(0, sum / weight));
+    for (int i = 0; i < leaves->count; i++) {
+        float fall = head->cosine_power * logf(fmaxf(leaves->places.direction[i].z, 1e-4f));
+        for (int c = 0; c < leaves->channels; c++)
+            leaves->logs[(size_t)i * (size_t)leaves->channels + (size_t)c] -= fall;
+    }
+}
+
+/* The tables' noise need not be stored. */
+static double median_noise(const double *noise, int count)
+{
+    double sorted[3 * PANEL_LEVELS_MAX + 1];
+    memcpy(sorted, noise, sizeof *sorted * (size_t)count);
+    qsort(sorted, (size_t)count, sizeof *sorted, by_value);
+    return sorted[count / 2];
+}
+
 static bool build_tree(const Leaves *leaves, const FitOptions *options, const Principal *rank,
                        FitEmission *out, Error *err)
 {
+    out->profile = fit_profile(&leaves->places, rank->score, rank->components, leaves->arena);
     float scale[PANEL_COMPONENTS_MAX];
     for (int k = 0; k < rank->components; k++) {
         double most = 0;
@@ -249,8 +401,11 @@ static bool build_tree(const Leaves *leaves, const FitOptions *options, const Pr
             most = fmax(most, fabs(rank->weight[c] * (double)rank->loading[c * rank->components + k]));
         scale[k] = (float)fmax(most, 1e-6);
     }
-    TreeOptions tree = {.shape = {leaves->level, 4, rank->components, options->weights},
-                        .keep_share = options->keep_share, .max_error = options->max_error,
+    double bound = fmax((double)options->max_error, 3 * median_noise(out->noise,
+                                                                     leaves->channels / 3));
+    TreeOptions tree = {.shape = {leaves->places.level, 4, rank->components, options->weights},
+                        .keep_share = options->keep_share,
+                        .max_error = options->max_error > 0 ? (float)bound : 0,
                         .component_scale = scale, .rows = TREE_ROWS_INT16};
     return tree_build(&tree, rank->score, leaves->arena, &out->tree, &out->tree_report, err) ||
            error_prefix(err, "emission");
@@ -287,14 +442,17 @@ bool fit_emission(const Measurement *set, const FitOptions *options, Arena *aren
     }
     channels += out->head.has_black ? 3 : 0;
     int level = options->level ? options->level : DEFAULT_LEVEL;
-    Leaves leaves = start_leaves(level, channels, options->weights, arena);
+    Leaves leaves = start_leaves(level, channels, arena);
     fill_channels(set, &leaves, out);
+    quieten(&leaves, out);
     channel_weights(&leaves, out->head.has_black, weight);
     find_ranges(set, &leaves, out);
     out->mean_y = ARENA_NEW(arena, float, channels / 3);
     mean_luminances(&leaves, out->mean_y);
     double tolerance = options->max_error > 0 ? 0.15 * (double)options->max_error : 3e-4;
-    Principal rank = principal_components(leaves.logs, leaves.area, weight,
+    tolerance = fmax(tolerance, median_noise(out->noise, channels / 3));
+    share_cosine_power(&leaves, &out->head);
+    Principal rank = principal_components(leaves.logs, leaves.places.area, weight,
                                           (PrincipalShape){leaves.count, channels,
                                               PANEL_COMPONENTS_MAX / 2, tolerance}, arena);
     out->rank_residual = rank.residual;

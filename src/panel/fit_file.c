@@ -41,9 +41,10 @@ static void add_emission(Writer *writer, const FitEmission *e)
     size_t channels = e->head.channels, f = sizeof(float);
     Piece  pieces[] = {{&e->head, sizeof e->head}, {e->mean, channels * f},
                        {e->loading, channels * e->head.components * f},
-                       {e->mean_y, channels / 3 * f}};
+                       {e->mean_y, channels / 3 * f},
+                       {e->profile, PANEL_ANGLES * e->head.components * f}};
     Piece  tree = {e->tree, tree_size(e->tree)};
-    add_section(writer, PANEL_EMISSION, 0, pieces, 4);
+    add_section(writer, PANEL_EMISSION, 0, pieces, 5);
     add_section(writer, PANEL_EMISSION_TREE, 0, &tree, 1);
 }
 
@@ -51,9 +52,10 @@ static void add_reflection(Writer *writer, const FitReflection *r)
 {
     size_t padded = r->head.padded_wavelengths, f = sizeof(float);
     Piece  pieces[] = {{&r->head, sizeof r->head}, {r->basis, r->head.coefficients * padded * f},
-                       {r->mirror, PANEL_ANGLES * padded * f}};
+                       {r->mirror, PANEL_ANGLES * padded * f},
+                       {r->profile, PANEL_ANGLES * r->head.slices * r->head.coefficients * f}};
     Piece  tree = {r->tree, tree_size(r->tree)};
-    add_section(writer, PANEL_REFLECTION, 0, pieces, 3);
+    add_section(writer, PANEL_REFLECTION, 0, pieces, 4);
     add_section(writer, PANEL_REFLECTION_TREE, 0, &tree, 1);
     for (uint32_t i = 0; i < r->head.slices; i++) {
         Piece sampling = {r->sampling[i], sampling_tree_size(r->sampling[i])};
@@ -65,11 +67,13 @@ static size_t enough_bytes(const FitParts *parts, size_t meta)
 {
     size_t size = meta + tree_size(parts->emission->tree) + sizeof(PanelPrimaries) +
                   sizeof(PanelEmission) + sizeof(PanelReflection) + 64 * 128 +
-                  4 * parts->emission->head.channels * (2 + parts->emission->head.components);
+                  4 * parts->emission->head.channels * (2 + parts->emission->head.components) +
+                  4 * PANEL_ANGLES * parts->emission->head.components;
     const FitReflection *r = parts->reflection;
     if (!r) return size;
     size += tree_size(r->tree) +
-            4 * r->head.padded_wavelengths * (r->head.coefficients + (size_t)PANEL_ANGLES);
+            4 * r->head.padded_wavelengths * (r->head.coefficients + (size_t)PANEL_ANGLES) +
+            4 * (size_t)PANEL_ANGLES * r->head.coefficients * r->head.slices;
     for (uint32_t i = 0; i < r->head.slices; i++) size += sampling_tree_size(r->sampling[i]);
     return size;
 }

@@ -5,23 +5,32 @@
 #include "base/units.h"
 #include "panel/fit_parts.h"
 
-#define WINDOW_FWHMS 5.0 /* rows nearer to the mirror direction than this are looked at */
+#define WINDOW_FWHMS 6.0 /* rows nearer to the mirror direction than this are looked at */
 #define CORE_FWHMS 1.6   /* here the fitted haze replaces what the subtraction leaves */
 #define WINDOW_ROWS_MAX 60000
 
 /* One row near the mirror direction. */
 typedef struct Spot {
     int    row;
-    double image;  /* of a mirror of reflectance 1, sr^-1 */
-    double b2;     /* squared distance of the projections on the panel's plane */
-    double angle;  /* to the mirror direction */
+    double image; /* of a mirror of reflectance 1, sr^-1 */
+    double b2;    /* squared distance of the projections on the panel's plane */
+    double tilt;  /* theta - incidence */
+    double angle; /* to the mirror direction */
+    double mean;  /* over the wavelengths */
 } Spot;
 
 typedef struct Window {
-    Spot *spot;
-    int   count;
+    Spot  *spot;
+    int    count;
+    double floor; /* of the slice, mean over the wavelengths */
     const AngleTable *slice;
 } Window;
+
+/* f = R image + (a + t tilt) haze + floor. */
+typedef struct Model {
+    double width, power;   /* haze = (1 + b2 / width^2)^-power */
+    double r, a, t;
+} Model;
 
 static double angle_to(double theta, double phi, double incidence)
 {
@@ -29,106 +38,163 @@ static double angle_to(double theta, double phi, double incidence)
     return 2 * asin(sqrt(fmin(1, dt * dt + sin(theta) * sin(incidence) * dp * dp)));
 }
 
+static double row_mean(const AngleTable *slice, int row)
+{
+    double sum = 0;
+    for (int w = 0; w < slice->channels; w++)
+        sum += (double)slice->value[(size_t)row * (size_t)slice->channels + (size_t)w];
+    return sum / slice->channels;
+}
+
 static Window collect(const AngleTable *slice, double incidence, double fwhm, Arena *arena)
 {
-    Window window = {ARENA_NEW(arena, Spot, slice->rows), 0, slice};
+    Window window = {ARENA_NEW(arena, Spot, slice->rows), 0, 1e30, slice};
     double sigma = fwhm / sqrt(8 * log(2));
     for (int i = 0; i < slice->rows; i++) {
         double theta = (double)slice->theta[i], phi = (double)slice->phi[i];
-        double angle = angle_to(theta, phi, incidence);
+        double angle = angle_to(theta, phi, incidence), mean = row_mean(slice, i);
+        if (theta < radians_from_degrees(60)) window.floor = fmin(window.floor, mean);
         if (angle > WINDOW_FWHMS * fwhm || window.count == WINDOW_ROWS_MAX) continue;
         double so = sin(theta), si = sin(incidence), sp = sin(0.5 * phi);
         window.spot[window.count++] = (Spot){
             i, exp(-0.5 * angle * angle / (sigma * sigma)) /
                    (2 * PI * sigma * sigma * cos(incidence)),
-            (so - si) * (so - si) + 4 * so * si * sp * sp, angle};
+            (so - si) * (so - si) + 4 * so * si * sp * sp, theta - incidence, angle, mean};
     }
+    window.floor = fmax(0, fmin(window.floor, 1e29));
     return window;
 }
 
-/* Least squares of f = R image + a haze + b with weights 1 / f^2; wavelength -1: the mean.
- * Returns the weighted rms rest; x: R, a, b. */
-static double solve_window(const Window *window, const double haze[2], int wavelength,
-                           double x[3])
+static double haze_shape(const Model *model, const Spot *spot)
 {
-    double m[3][4] = {{0}}, squares = 0;
-    int    size = window->slice->channels;
-    for (int pass = 0; pass < 2; pass++)
-        for (int i = 0; i < window->count; i++) {
-            const Spot  *spot = &window->spot[i];
-            const float *row = window->slice->value + (size_t)spot->row * (size_t)size;
-            double f = 0;
-            if (wavelength >= 0) f = (double)row[wavelength];
-            else for (int w = 0; w < size; w++) f += (double)row[w] / size;
-            double basis[3] = {spot->image, pow(1 + spot->b2 / (haze[0] * haze[0]), -haze[1]), 1};
-            double weight = 1 / (fabs(f) + 1e-5);
-            if (pass) {
-                double rest = f - x[0] * basis[0] - x[1] * basis[1] - x[2] * basis[2];
-                squares += rest * rest * weight * weight;
-                continue;
-            }
-            for (int r = 0; r < 3; r++) {
-                for (int c = 0; c < 3; c++) m[r][c] += weight * weight * basis[r] * basis[c];
-                m[r][3] += weight * weight * basis[r] * f;
-            }
-            if (i + 1 < window->count) continue;
-            for (int r = 0; r < 3; r++) m[r][r] *= 1 + 1e-10;
-            for (int r = 0; r < 3; r++)
-                for (int q = r + 1; q < 3; q++) {
-                    double factor = m[r][r] > 0 ? m[q][r] / m[r][r] : 0;
-                    for (int c = r; c < 4; c++) m[q][c] -= factor * m[r][c];
-                }
-            for (int r = 2; r >= 0; r--) {
-                double sum = m[r][3];
-                for (int c = r + 1; c < 3; c++) sum -= m[r][c] * x[c];
-                x[r] = m[r][r] > 0 ? sum / m[r][r] : 0;
-            }
+    return pow(1 + spot->b2 / (model->width * model->width), -model->power);
+}
+
+static double model_haze(const Model *model, const Spot *spot)
+{
+    return (model->a + model->t * spot->tilt) * haze_shape(model, spot);
+}
+
+/* The measured value; wavelength -1: the mean. */
+static double spot_value(const Window *window, const Spot *spot, int wavelength)
+{
+    if (wavelength < 0) return spot->mean;
+    return (double)window->slice->value[(size_t)spot->row * (size_t)window->slice->channels +
+                                        (size_t)wavelength];
+}
+
+/* Gauss's elimination of the symmetric system m[r][0..2] x = m[r][3]. */
+static void solve_normal(double m[3][4], double x[3])
+{
+    for (int r = 0; r < 3; r++) m[r][r] *= 1 + 1e-10;
+    for (int r = 0; r < 3; r++)
+        for (int q = r + 1; q < 3; q++) {
+            double factor = m[r][r] > 0 ? m[q][r] / m[r][r] : 0;
+            for (int c = r; c < 4; c++) m[q][c] -= factor * m[r][c];
         }
+    for (int r = 2; r >= 0; r--) {
+        double sum = m[r][3];
+        for (int c = r + 1; c < 3; c++) sum -= m[r][c] * x[c];
+        x[r] = m[r][r] > 0 ? sum / m[r][r] : 0;
+    }
+}
+
+/* Least squares over r, a, t with weights 1 / f^2. Returns the weighted rms rest. */
+static double solve_window(const Window *window, int wavelength, double floor, Model *model)
+{
+    double m[3][4] = {{0}}, x[3], squares = 0;
+    for (int i = 0; i < window->count; i++) {
+        const Spot *spot = &window->spot[i];
+        double f = spot_value(window, spot, wavelength), shape = haze_shape(model, spot);
+        double basis[4] = {spot->image, shape, shape * spot->tilt, f - floor};
+        double weight = 1 / ((fabs(f) + 1e-5) * (fabs(f) + 1e-5));
+        for (int r = 0; r < 3; r++)
+            for (int c = 0; c < 4; c++) m[r][c] += weight * basis[r] * basis[c];
+    }
+    solve_normal(m, x);
+    model->r = x[0], model->a = x[1], model->t = x[2];
+    for (int i = 0; i < window->count; i++) {
+        const Spot *spot = &window->spot[i];
+        double f = spot_value(window, spot, wavelength);
+        double rest = (f - floor - model->r * spot->image - model_haze(model, spot)) /
+                      (fabs(f) + 1e-5);
+        squares += rest * rest;
+    }
     return sqrt(squares / window->count);
 }
 
-/* Width and power of the haze under the image, the same for all wavelengths. */
-static void choose_haze(const Window *window, double fwhm, double haze[2], double x[3])
+/* The best width for a power: golden section over its logarithm. */
+static double best_width(const Window *window, double fwhm, Model *model)
 {
-    static const double powers[] = {1.2, 1.5, 1.8, 2.2, 3.0};
-    double best = 1e300;
-    for (int w = 0; w < 12; w++)
-        for (int p = 0; p < 5; p++) {
-            double trial[2] = {0.6 * fwhm * pow(1.35, w), powers[p]}, y[3];
-            double rest = solve_window(window, trial, -1, y);
-            if (rest < best && y[1] >= 0 && y[0] > -1e-4) {
-                best = rest;
-                memcpy(haze, trial, sizeof trial);
-                memcpy(x, y, sizeof y);
-            }
-        }
+    double low = log(0.5 * fwhm), high = log(40 * fwhm), rest = 0;
+    for (int i = 0; i < 18; i++) {
+        double a = high - 0.618034 * (high - low), b = low + 0.618034 * (high - low);
+        model->width = exp(a);
+        double left = solve_window(window, -1, window->floor, model);
+        model->width = exp(b);
+        double right = solve_window(window, -1, window->floor, model);
+        if (left < right) high = b;
+        else low = a;
+    }
+    model->width = exp(0.5 * (low + high));
+    rest = solve_window(window, -1, window->floor, model);
+    return rest;
+}
+
+/* Width and power of the haze under the image, the same for all wavelengths. */
+static Model choose_haze(const Window *window, double fwhm)
+{
+    double low = log(1.05), high = log(4.0);
+    Model  model = {0};
+    for (int i = 0; i < 12; i++) {
+        double a = high - 0.618034 * (high - low), b = low + 0.618034 * (high - low);
+        model.power = exp(a);
+        double left = best_width(window, fwhm, &model);
+        model.power = exp(b);
+        double right = best_width(window, fwhm, &model);
+        if (left < right) high = b;
+        else low = a;
+    }
+    model.power = exp(0.5 * (low + high));
+    best_width(window, fwhm, &model);
+    return model;
+}
+
+static double channel_floor(const AngleTable *slice, int channel)
+{
+    double least = 1e30;
+    for (int i = 0; i < slice->rows; i++)
+        if ((double)slice->theta[i] < radians_from_degrees(60))
+            least = fmin(least, (double)slice->value[(size_t)i * (size_t)slice->channels +
+                                                     (size_t)channel]);
+    return fmax(0, fmin(least, 1e29));
 }
 
 void fit_mirror(const AngleTable *slice, double incidence, double fwhm, Arena *arena,
                 double *reflectance, AngleTable *haze_table)
 {
-    double haze[2] = {1, 2}, x[3] = {0, 0, 0};
     int    size = slice->channels;
-    size_t bytes = sizeof(float) * (size_t)slice->rows * (size_t)size;
-    float *value = ARENA_NEW(arena, float, (size_t)slice->rows * (size_t)size);
-    memcpy(value, slice->value, bytes);
+    size_t count = (size_t)slice->rows * (size_t)size;
+    float *value = ARENA_NEW(arena, float, count);
+    memcpy(value, slice->value, sizeof *value * count);
     *haze_table = *slice;
     haze_table->value = value;
     for (int w = 0; w < size; w++) reflectance[w] = 0;
     Window window = collect(slice, incidence, fwhm, arena);
     if (window.count < 12) return;
-    choose_haze(&window, fwhm, haze, x);
-    double image_peak = x[0] * 4 * log(2) / (PI * fwhm * fwhm * cos(incidence));
-    if (!(image_peak > 0.05 * (x[1] + x[2]))) return; /* no image stands out of the haze */
+    Model  model = choose_haze(&window, fwhm);
+    double peak = model.r * 4 * log(2) / (PI * fwhm * fwhm * cos(incidence));
+    if (!(peak > 0.05 * (model.a + window.floor))) return; /* no image stands out of the haze */
     for (int w = 0; w < size; w++) {
-        solve_window(&window, haze, w, x);
-        reflectance[w] = fmax(0, x[0]);
+        double floor = channel_floor(slice, w);
+        solve_window(&window, w, floor, &model);
+        reflectance[w] = fmax(0, model.r);
         for (int i = 0; i < window.count; i++) {
             const Spot *spot = &window.spot[i];
             float *at = value + (size_t)spot->row * (size_t)size + w;
-            double model = x[1] * pow(1 + spot->b2 / (haze[0] * haze[0]), -haze[1]) + x[2];
             bool   in_core = spot->angle < CORE_FWHMS * fwhm;
-            *at = (float)(in_core ? fmax(model, 0) : (double)*at - reflectance[w] * spot->image);
+            *at = (float)(in_core ? fmax(model_haze(&model, spot) + floor, 0)
+                                  : (double)*at - reflectance[w] * spot->image);
         }
     }
 }

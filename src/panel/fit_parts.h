@@ -24,7 +24,7 @@ void fit_note(FitNotes *notes, const char *format, ...) __attribute__((format(pr
 
 typedef struct FitEmission {
     PanelEmission head;
-    float        *mean, *loading, *mean_y; /* as in the file */
+    float        *mean, *loading, *mean_y, *profile; /* as in the file */
     const void   *tree;
     TreeReport    tree_report;
     float         ratio_low[4][2], ratio_high[4][2]; /* ranges of log X/Y, log Z/Y */
@@ -55,7 +55,7 @@ void fit_bent_xyz(const float *spectrum, const double c[3], double xyz[3]);
 
 typedef struct FitReflection {
     PanelReflection head;
-    float          *basis, *mirror;
+    float          *basis, *mirror, *profile; /* as in the file */
     const void     *tree;
     TreeReport      tree_report;
     const void     *sampling[PANEL_SLICES_MAX];
@@ -77,6 +77,24 @@ void fit_mirror(const AngleTable *slice, double incidence, double fwhm, Arena *a
 /* Unpolarised Fresnel reflectance that reflection tables are divided by. */
 double fit_fresnel(double cos_theta);
 #define FIT_REFRACTIVE_INDEX 1.5
+
+/* ---- where functions are read ----------------------------------------------------------- */
+
+/* The centres of a level's triangles (the first `octants`), and behind them, for the mean over
+ * azimuths, PANEL_ANGLES rings of FIT_RING directions each. */
+#define FIT_RING 72
+typedef struct FitPlaces {
+    int     level, leaves, count;
+    Vec3   *direction;
+    double *area; /* of the triangles, sr; 0 on rings */
+} FitPlaces;
+
+/* octants 2: the half with y >= 0, rings over azimuths 0..180 degrees only. */
+FitPlaces fit_places(int level, int octants, Arena *arena);
+
+/* profile[PANEL_ANGLES][components] from the rings of values (count x components), and takes
+ * it out of the leaves' values. */
+float *fit_profile(const FitPlaces *places, float *values, int components, Arena *arena);
 
 /* ---- the file and the report ----------------------------------------------------------- */
 

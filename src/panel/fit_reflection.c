@@ -17,11 +17,10 @@ typedef struct Work {
     Arena             *arena;
     FitNotes          *notes;
     FitReflection     *out;
-    int    level, leaves, wavelengths, slices, mirrored, measured;
+    FitPlaces places; /* in the stored frame */
+    int    leaves, wavelengths, slices, mirrored, measured;
     float  k;
-    Vec3  *center;  /* stored frame */
-    double *area;
-    float *logs[PANEL_SLICES_MAX]; /* leaves x wavelengths: ln (f / F) */
+    float *logs[PANEL_SLICES_MAX]; /* places x wavelengths: ln (f / F) */
     double mirror[MEASUREMENT_INCIDENCES_MAX][MEASUREMENT_WAVELENGTHS_MAX];
     double luminous[MEASUREMENT_WAVELENGTHS_MAX]; /* observer's weight, sum 1 */
     DirectionGrid grid;
@@ -43,7 +42,7 @@ static double clamped_angle(double cosine)
 
 static float *slice_logs(Work *work)
 {
-    return ARENA_NEW(work->arena, float, (size_t)work->leaves * (size_t)work->wavelengths);
+    return ARENA_NEW(work->arena, float, (size_t)work->places.count * (size_t)work->wavelengths);
 }
 
 /* ln of the haze at the cells of a slice's grid; noise and zeros are held above a floor. */
@@ -70,9 +69,9 @@ static void read_slice(Work *work, int slice)
     SpecularFrame frame = specular_frame((float)theta_i, work->k);
     float *logs = work->logs[work->mirrored + slice] = slice_logs(work);
     work->cells = log_cells(work, slice);
-    for (int i = 0; i < work->leaves; i++) {
+    for (int i = 0; i < work->places.count; i++) {
         GridTaps taps;
-        Vec3     d = specular_frame_outer(&frame, work->center[i]);
+        Vec3     d = specular_frame_outer(&frame, work->places.direction[i]);
         float   *to = logs + (size_t)i * (size_t)work->wavelengths;
         direction_grid_taps(&work->grid, (float)clamped_angle((double)d.z), atan2f(d.y, d.x),
                             &taps);
@@ -88,6 +87,9 @@ static void mirror_slice(Work *work, int to, int from)
     work->logs[to] = slice_logs(work);
     memcpy(work->logs[to], work->logs[from] + half, half * sizeof(float));
     memcpy(work->logs[to] + half, work->logs[from], half * sizeof(float));
+    memcpy(work->logs[to] + 2 * half, work->logs[from] + 2 * half, /* only their mean counts */
+           sizeof(float) * (size_t)(work->places.count - work->leaves) *
+               (size_t)work->wavelengths);
 }
 
 /* The smallest value of the last slice per wavelength inside 60 degrees: its floor. */
@@ -102,30 +104,56 @@ static void slice_floor(const Work *work, double *floor)
     }
 }
 
+/* R / F over the measured incidences, straight lines in F; beyond the last one the line goes
+ * on (a coating loses its effect towards grazing), held between half the last ratio and 1. */
+static double mirror_ratio(const Work *work, int wavelength, double fresnel)
+{
+    int    m = work->measured, i = 0;
+    double f[2], ratio[2];
+    while (i + 2 < m && fit_fresnel(cos(work->set->incidence[i + 1])) < fresnel) i++;
+    for (int k = 0; k < 2; k++) {
+        int j = i + k < m ? i + k : m - 1;
+        f[k] = fit_fresnel(cos(work->set->incidence[j]));
+        ratio[k] = work->mirror[j][wavelength] / f[k];
+    }
+    if (m < 2 || fresnel <= f[0] || !(f[1] - f[0] > 1e-6)) return ratio[fresnel > f[0]];
+    double value = ratio[0] + (ratio[1] - ratio[0]) * (fresnel - f[0]) / (f[1] - f[0]);
+    return fmin(1, fmax(value, 0.5 * fmin(ratio[0], ratio[1])));
+}
+
+/* Reflectance of the glossy surface at a wavelength: the mirror part's where there is one (the
+ * coating is the same), Fresnel's otherwise. Up to a constant. */
+static double gloss(const Work *work, int wavelength, double fresnel)
+{
+    return work->out->has_mirror ? fresnel * mirror_ratio(work, wavelength, fresnel) : fresnel;
+}
+
 /* A slice beyond the last measured incidence, by the invariance of scatter from surfaces of
  * low slope (Harvey): in the projection on the panel's plane the lobe only moves, and its
- * height follows sqrt(F(theta_i) F(theta_o)). The floor follows the light that enters. */
+ * height follows the root of the surface's reflectances at theta_i and theta_o. The floor
+ * follows the light that enters. */
 static void extrapolate_slice(Work *work, int slice, double theta_i)
 {
     double last = work->set->incidence[work->measured - 1];
     double floor[MEASUREMENT_WAVELENGTHS_MAX], fi = fit_fresnel(cos(theta_i));
-    double entering = (1 - fi) / (1 - fit_fresnel(cos(last)));
+    double fl = fit_fresnel(cos(last)), entering = (1 - fi) / (1 - fl);
     double edge = sin((double)work->grid.theta[work->grid.thetas - 1]);
     SpecularFrame frame = specular_frame((float)theta_i, work->k);
     work->logs[slice] = slice_logs(work);
     slice_floor(work, floor);
-    for (int i = 0; i < work->leaves; i++) {
+    for (int i = 0; i < work->places.count; i++) {
         GridTaps taps;
         float    from[MEASUREMENT_WAVELENGTHS_MAX];
-        Vec3     d = specular_frame_outer(&frame, work->center[i]);
+        Vec3     d = specular_frame_outer(&frame, work->places.direction[i]);
         double   x = (double)d.x - sin(theta_i) + sin(last), y = (double)d.y;
         double   r = sqrt(x * x + y * y), s = r > edge ? edge : r;
         double   fo = fit_fresnel((double)d.z), fs = fit_fresnel(sqrt(1 - s * s));
-        double   gain = sqrt(fi * fo / (fit_fresnel(cos(last)) * fs));
         direction_grid_taps(&work->grid, (float)asin(s), (float)atan2(y, x), &taps);
         direction_grid_read(&taps, work->cells, work->wavelengths, from);
         for (int w = 0; w < work->wavelengths; w++) {
             double haze = fmax(0, exp((double)from[w]) - floor[w]);
+            double gain = sqrt(gloss(work, w, fi) * gloss(work, w, fo) /
+                               (gloss(work, w, fl) * gloss(work, w, fs)));
             double value = haze * gain + floor[w] * entering;
             work->logs[slice][(size_t)i * (size_t)work->wavelengths + (size_t)w] =
                 (float)log(fmax(value, 1e-9) / fi);
@@ -137,7 +165,7 @@ static void extrapolate_slice(Work *work, int slice, double theta_i)
 
 static void name_slices(Work *work)
 {
-    static const double beyond_deg[] = {75, 82, 88};
+    static const double beyond_deg[] = {67, 75, 82, 88};
     PanelReflection *head = &work->out->head;
     int    n = 0, m = work->measured;
     double first = work->set->incidence[0], last = work->set->incidence[m - 1];
@@ -145,7 +173,7 @@ static void name_slices(Work *work)
     for (int i = work->mirrored; i > 0; i--)
         head->slice_theta[n++] = (float)-work->set->incidence[first > 1e-6 ? i - 1 : i];
     for (int i = 0; i < m; i++) head->slice_theta[n++] = (float)work->set->incidence[i];
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 4; i++)
         if (radians_from_degrees(beyond_deg[i]) > last + radians_from_degrees(4))
             head->slice_theta[n++] = (float)radians_from_degrees(beyond_deg[i]);
     work->slices = n;
@@ -165,23 +193,6 @@ static void fill_slices(Work *work)
 }
 
 /* ---- the mirror part ------------------------------------------------------------------- */
-
-/* R / F over the measured incidences, straight lines in F; beyond the last one the line goes
- * on (a coating loses its effect towards grazing), held between half the last ratio and 1. */
-static double mirror_ratio(const Work *work, int wavelength, double fresnel)
-{
-    int    m = work->measured, i = 0;
-    double f[2], ratio[2];
-    while (i + 2 < m && fit_fresnel(cos(work->set->incidence[i + 1])) < fresnel) i++;
-    for (int k = 0; k < 2; k++) {
-        int j = i + k < m ? i + k : m - 1;
-        f[k] = fit_fresnel(cos(work->set->incidence[j]));
-        ratio[k] = work->mirror[j][wavelength] / f[k];
-    }
-    if (m < 2 || fresnel <= f[0] || !(f[1] - f[0] > 1e-6)) return ratio[fresnel > f[0]];
-    double value = ratio[0] + (ratio[1] - ratio[0]) * (fresnel - f[0]) / (f[1] - f[0]);
-    return fmin(1, fmax(value, 0.5 * fmin(ratio[0], ratio[1])));
-}
 
 static void fill_mirror(Work *work)
 {
@@ -232,10 +243,10 @@ static void slice_albedo(const Work *work, int slice, double *albedo)
     SpecularFrame frame = specular_frame((float)theta, work->k);
     memset(albedo, 0, sizeof *albedo * (size_t)work->wavelengths);
     for (int i = 0; i < work->leaves; i++) {
-        Vec3 stored = work->center[i];
+        Vec3 stored = work->places.direction[i];
         int  from = is_mirrored ? (i + work->leaves / 2) % work->leaves : i;
         Vec3 outer = specular_frame_outer(&frame, stored);
-        double weight = 2 * work->area[i] * fresnel * fmax(0, (double)outer.z) *
+        double weight = 2 * work->places.area[i] * fresnel * fmax(0, (double)outer.z) *
                         (double)specular_frame_jacobian(&frame, stored);
         const float *logs = work->logs[slice] + (size_t)from * (size_t)work->wavelengths;
         for (int w = 0; w < work->wavelengths; w++) albedo[w] += weight * exp((double)logs[w]);
@@ -257,7 +268,7 @@ static void settle_energy(Work *work)
             sum += work->luminous[w] * fmin(albedo[w], room);
             if (albedo[w] <= room) continue;
             float lower = (float)log(albedo[w] / room);
-            for (int i = 0; i < work->leaves; i++)
+            for (int i = 0; i < work->places.count; i++)
                 work->logs[s][(size_t)i * (size_t)work->wavelengths + (size_t)w] -= lower;
         }
         ratio[s] = sum / f;
@@ -310,12 +321,12 @@ static void transform_spectra(Work *work, double *energy)
     wavelet1d_norms(work->options->wavelet, n, norm);
     memset(energy, 0, sizeof *energy * (size_t)n);
     for (int s = 0; s < work->slices; s++)
-        for (int i = 0; i < work->leaves; i++) {
+        for (int i = 0; i < work->places.count; i++) {
             float *row = work->logs[s] + (size_t)i * (size_t)n;
             wavelet1d_forward(work->options->wavelet, row, n);
             for (int w = 0; w < n; w++) {
                 double c = (double)(row[w] * norm[w]);
-                energy[w] += c * c / ((double)work->leaves * work->slices);
+                energy[w] += c * c / ((double)work->places.count * work->slices);
             }
         }
 }
@@ -334,23 +345,34 @@ static void make_basis(Work *work, const int *index, int count, float *largest)
     }
 }
 
+static double largest_noise(const FitReflection *out, int measured)
+{
+    double most = 0;
+    for (int i = 0; i < measured; i++) most = fmax(most, out->noise[i]);
+    return most;
+}
+
 static bool build_tree(Work *work, const int *index, int count, const float *largest,
                        Error *err)
 {
     int    components = work->slices * count;
-    float *values = ARENA_NEW(work->arena, float, (size_t)work->leaves * (size_t)components);
+    float *values = ARENA_NEW(work->arena, float,
+                              (size_t)work->places.count * (size_t)components);
     float  scale[TREE_MAX_COMPONENTS];
     for (int s = 0; s < work->slices; s++)
         for (int k = 0; k < count; k++) {
             int c = s * count + k;
             scale[c] = largest[k];
-            for (int i = 0; i < work->leaves; i++)
+            for (int i = 0; i < work->places.count; i++)
                 values[(size_t)i * (size_t)components + (size_t)c] =
                     work->logs[s][(size_t)i * (size_t)work->wavelengths + (size_t)index[k]];
         }
-    TreeOptions options = {.shape = {work->level, 2, components, work->options->weights},
+    work->out->profile = fit_profile(&work->places, values, components, work->arena);
+    double bound = fmax(4 * (double)work->options->max_error,
+                        3 * largest_noise(work->out, work->measured));
+    TreeOptions options = {.shape = {work->places.level, 2, components, work->options->weights},
                            .keep_share = work->options->keep_share,
-                           .max_error = 4 * work->options->max_error,
+                           .max_error = work->options->max_error > 0 ? (float)bound : 0,
                            .component_scale = scale, .rows = TREE_ROWS_INT16};
     work->out->head.coefficients = (uint32_t)count;
     return tree_build(&options, values, work->arena, &work->out->tree, &work->out->tree_report,
@@ -363,7 +385,7 @@ static bool build_tree(Work *work, const int *index, int count, const float *lar
  * direction and wavelength can be chosen. Reads ln (f / F): before transform_spectra. */
 static bool build_sampling(Work *work, Error *err)
 {
-    SamplingOptions options = {work->level, 2, SAMPLING_CELLS, 0.02f};
+    SamplingOptions options = {work->places.level, 2, SAMPLING_CELLS, 0.02f};
     float *integral = ARENA_NEW(work->arena, float, work->leaves);
     for (int s = 0; s < work->slices; s++) {
         bool   flip = work->out->head.slice_theta[s] < 0;
@@ -371,14 +393,14 @@ static bool build_sampling(Work *work, Error *err)
         SpecularFrame frame = specular_frame((float)theta, work->k);
         for (int i = 0; i < work->leaves; i++) {
             int    from = flip ? (i + work->leaves / 2) % work->leaves : i;
-            Vec3   outer = specular_frame_outer(&frame, work->center[i]);
+            Vec3   outer = specular_frame_outer(&frame, work->places.direction[i]);
             double sum = 0;
             const float *logs = work->logs[s] + (size_t)from * (size_t)work->wavelengths;
             for (int w = 0; w < work->wavelengths; w++)
                 sum += work->luminous[w] * exp((double)logs[w]);
             int to = from;
-            integral[to] = (float)(sum * fmax(0, (double)outer.z) * work->area[i] *
-                                   (double)specular_frame_jacobian(&frame, work->center[i]));
+            integral[to] = (float)(sum * fmax(0, (double)outer.z) * work->places.area[i] *
+                                   (double)specular_frame_jacobian(&frame, work->places.direction[i]));
         }
         if (!sampling_tree_build(&options, integral, work->arena, &work->out->sampling[s], err))
             return error_prefix(err, "sampling of the slice at %.0f degrees",
@@ -395,14 +417,9 @@ static void start_work(Work *work)
     double total = 0;
     work->measured = work->set->incidence_count;
     work->wavelengths = work->set->wavelength_count;
-    work->level = work->options->level ? work->options->level : DEFAULT_LEVEL;
-    work->leaves = 2 << 2 * work->level;
-    work->center = ARENA_NEW(work->arena, Vec3, work->leaves);
-    work->area = ARENA_NEW(work->arena, double, work->leaves);
-    for (int i = 0; i < work->leaves; i++) {
-        work->center[i] = geodesic_center(work->level, (uint32_t)i);
-        work->area[i] = geodesic_area(work->level, (uint32_t)i);
-    }
+    work->places = fit_places(work->options->level ? work->options->level : DEFAULT_LEVEL, 2,
+                              work->arena);
+    work->leaves = work->places.leaves;
     for (int w = 0; w < work->wavelengths; w++) {
         int i = (int)((double)work->set->wavelength_nm[w] + 0.5) - SPECTRAL_FIRST_NM;
         i = i < 0 ? 0 : i >= SPECTRAL_COUNT ? SPECTRAL_COUNT - 1 : i;
@@ -442,7 +459,8 @@ bool fit_reflection(const Measurement *set, const FitOptions *options, Arena *ar
     out->head.cone_cos = (float)cos(edge);
     if (!build_sampling(work, err)) return false;
     transform_spectra(work, energy);
-    double tolerance = options->max_error > 0 ? 0.3 * (double)options->max_error : 1e-3;
+    double tolerance = options->max_error > 0 ? (double)options->max_error : 3e-3;
+    tolerance = fmax(tolerance, 1.5 * largest_noise(out, work->measured));
     int count = choose_coefficients(work, energy, tolerance, index);
     make_basis(work, index, count, largest);
     return build_tree(work, index, count, largest, err);

@@ -41,23 +41,26 @@ static void finish(const Errors *errors, FitTable *out)
                               ? errors->integral / errors->integral_source - 1 : 0;
 }
 
-/* Relative to the sum of the measured tristimulus values (at least 1e-4 cd/m2). */
+/* Relative to the sum of the measured tristimulus values, or to 1% of the table's largest sum
+ * where the light is dimmer than that. */
 static void measure_emission(const AngleTable *table, const Panel *panel, const float rgb[3],
                              FitTable *out)
 {
     Errors errors = {0};
+    double least = 1e-4;
+    for (int i = 0; i < table->rows; i++) {
+        const float *m = table->value + 3 * i;
+        least = fmax(least, 0.01 * (double)(m[0] + m[1] + m[2]));
+    }
     for (int i = 0; i < table->rows; i++) {
         const float *m = table->value + 3 * i;
         float  xyz[3];
         Vec3   d = direction_of(table, i);
-        double scale = fmax(1e-4, (double)(m[0] + m[1] + m[2])), weight = row_weight(table, i);
+        double scale = fmax(least, (double)(m[0] + m[1] + m[2])), weight = row_weight(table, i);
         if (!(d.z > 0)) continue;
         panel_emission_xyz(panel, d, rgb, xyz);
-        Errors one = errors;
-        for (int j = 0; j < 3; j++) {
-            add_error(&one, (double)xyz[j], (double)m[j], scale, j == 1 ? weight : 0);
-        }
-        errors = one;
+        for (int j = 0; j < 3; j++)
+            add_error(&errors, (double)xyz[j], (double)m[j], scale, j == 1 ? weight : 0);
     }
     finish(&errors, out);
     out->extrapolated = (double)panel->emission->cone_cos; /* share of the hemisphere's sr */

@@ -87,30 +87,47 @@ bool fit_bend(const float *spectrum, const double ratio[2], double c[3])
     return false;
 }
 
-/* Bends as far towards `ratio` as it goes from `own`, halving the way. Returns how far. */
-static double bend_towards(const float *spectrum, const double own[2], const double ratio[2],
-                           double c[3])
+/* From a colour that was reached (`from`, with coefficients c) as far towards `to` as bending
+ * goes, by halving the way. True when it goes all the way. */
+static bool bend_along(const float *spectrum, const double from[2], const double to[2],
+                       double c[3])
 {
-    double start[3] = {c[0], c[1], c[2]};
-    if (fit_bend(spectrum, ratio, c)) return 1;
-    memset(c, 0, 3 * sizeof *c);
-    if (fit_bend(spectrum, ratio, c)) return 1;
-    double good = 0, bad = 1, best[3] = {0, 0, 0};
-    fit_bend(spectrum, own, best);
-    for (int i = 0; i < 12; i++) {
-        double middle = 0.5 * (good + bad), trial[3] = {best[0], best[1], best[2]};
-        double target[2] = {own[0] + middle * (ratio[0] - own[0]),
-                            own[1] + middle * (ratio[1] - own[1])};
+    double good = 0, bad = 1, trial[3] = {c[0], c[1], c[2]};
+    if (fit_bend(spectrum, to, trial)) {
+        memcpy(c, trial, sizeof trial);
+        return true;
+    }
+    for (int i = 0; i < 10; i++) {
+        double middle = 0.5 * (good + bad);
+        double target[2] = {from[0] + middle * (to[0] - from[0]),
+                            from[1] + middle * (to[1] - from[1])};
+        memcpy(trial, c, sizeof trial);
         if (fit_bend(spectrum, target, trial)) {
             good = middle;
-            memcpy(best, trial, sizeof best);
+            memcpy(c, trial, sizeof trial);
         } else {
             bad = middle;
         }
     }
-    (void)start;
-    memcpy(c, best, sizeof best);
-    return good;
+    return false;
+}
+
+/* Bends to `ratio`; where that cannot be, the ratio of the stronger of X and Z first, then as
+ * far as it goes with the weaker one, which the eye hardly sees. */
+static bool bend_towards(const float *spectrum, const double own[2], const double ratio[2],
+                         double c[3])
+{
+    double trial[3] = {c[0], c[1], c[2]};
+    if (fit_bend(spectrum, ratio, trial)) {
+        memcpy(c, trial, sizeof trial);
+        return true;
+    }
+    bool   x_first = own[0] > own[1];
+    double between[2] = {x_first ? ratio[0] : own[0], x_first ? own[1] : ratio[1]};
+    memset(c, 0, 3 * sizeof *c);
+    if (!fit_bend(spectrum, own, c)) return false;
+    if (!bend_along(spectrum, own, between, c)) return false;
+    return bend_along(spectrum, between, ratio, c);
 }
 
 /* The table over the ranges of log X/Y and log Z/Y. Returns how many nodes were not reached. */
@@ -129,7 +146,7 @@ static int fill_bend(const float *spectrum, const float low[2], const float high
             double ratio[2] = {
                 (double)low[0] + (double)(high[0] - low[0]) * u / (PANEL_BEND_SIDE - 1),
                 (double)low[1] + (double)(high[1] - low[1]) * v / (PANEL_BEND_SIDE - 1)};
-            missed += bend_towards(spectrum, own, ratio, c) < 1;
+            missed += !bend_towards(spectrum, own, ratio, c);
             float *to = out->coefficient[v * PANEL_BEND_SIDE + u];
             for (int k = 0; k < 3; k++) to[k] = (float)c[k];
         }

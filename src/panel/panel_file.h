@@ -7,6 +7,7 @@
 #pragma once
 #include <stdint.h>
 
+#include "base/mathf.h"
 #include "hemisphere/sampling_tree.h"
 #include "hemisphere/tree.h"
 #include "panel/panel.h"
@@ -49,14 +50,18 @@ typedef struct PanelSection {
 
 /* Natural logarithms of tristimulus values in cd m^-2. A channel is one of X, Y, Z of one
  * table: red's levels rising, then green's, blue's, then (if any) the black pattern's. At a
- * direction, log value[channel] = mean[channel] + sum over the tree's components of
- * loading[channel][component] * component. */
+ * direction, log value[channel] = mean[channel] + cosine_power log cos theta + sum over
+ * components of loading[channel][component] * (profile[theta][component] + tree's component).
+ * The profile is the mean over azimuths, so that the tree holds only what turns with phi: its
+ * interpolation is of first order, and a display falls to 0 at the horizon. */
 typedef struct PanelEmission {
     uint32_t components, channels, level_count[3], has_black;
     float    cone_cos;   /* cos of the last measured theta */
     float    level_power; /* exponent of the level curve where only one level is known */
+    float    cosine_power;
     float    level[3][PANEL_LEVELS_MAX];
-    /* then: float mean[channels], loading[channels][components], mean_y[channels / 3] */
+    /* then: float mean[channels], loading[channels][components], mean_y[channels / 3],
+     * profile[PANEL_ANGLES][components] */
 } PanelEmission;
 
 /* How a primary's spectrum is bent: coefficients over (log X/Y, log Z/Y). */
@@ -71,9 +76,9 @@ typedef struct PanelPrimaries {
     PanelBend bend[4];
 } PanelPrimaries;
 
-/* Slices in the specular-following frame: component slice * coefficients + k of the tree is
- * coefficient k of log(f / F(theta_i)); basis[k] times it, summed, is the logarithm at the
- * wavelengths. Slices with a negative theta are the first ones mirrored at the normal. */
+/* Slices in the specular-following frame: component slice * coefficients + k of profile plus
+ * tree is coefficient k of log(f / F(theta_i)); basis[k] times it, summed, is the logarithm at
+ * the wavelengths. The profile is the mean over the stored frame's azimuths. Slices with a negative theta are the first ones mirrored at the normal. */
 typedef struct PanelReflection {
     uint32_t slices, coefficients, wavelengths, padded_wavelengths;
     float    frame_exponent, refractive_index;
@@ -83,7 +88,8 @@ typedef struct PanelReflection {
     float    slice_theta[PANEL_SLICES_MAX];
     float    wavelength_nm[PANEL_WAVELENGTHS_MAX];
     float    haze_albedo[PANEL_ANGLES];
-    /* then: float basis[coefficients][padded], mirror[PANEL_ANGLES][padded] */
+    /* then: float basis[coefficients][padded], mirror[PANEL_ANGLES][padded],
+     * profile[PANEL_ANGLES][slices * coefficients] */
 } PanelReflection;
 
 struct Panel {
@@ -92,12 +98,12 @@ struct Panel {
     const char *meta;
     size_t      meta_size;
     const PanelEmission *emission;
-    const float *channel_mean, *loading, *mean_y;
+    const float *channel_mean, *loading, *mean_y, *emission_profile;
     Tree         emission_tree;
     float        log_level[3][PANEL_LEVELS_MAX];
     const PanelPrimaries *primaries;
     const PanelReflection *reflection; /* NULL: reflects nothing */
-    const float *basis, *mirror;
+    const float *basis, *mirror, *reflection_profile;
     Tree         reflection_tree;
     SamplingTree sampling[PANEL_SLICES_MAX];
     int16_t      wavelength_index[SPECTRAL_COUNT]; /* interval that begins at or below a nm */
@@ -114,4 +120,29 @@ static inline uint32_t panel_first_channel(const PanelEmission *emission, int p)
     uint32_t channel = 0;
     for (int i = 0; i < p; i++) channel += 3 * emission->level_count[i];
     return channel;
+}
+
+/* Position in a table over theta: *t in [0, 1] from node to node + 1. */
+static inline int panel_angle_node(float theta, float *t)
+{
+    float at = clampf(theta * 114.59155902616465f, 0, PANEL_ANGLES - 1); /* half degrees */
+    int   node = (int)at;
+    if (node > PANEL_ANGLES - 2) node = PANEL_ANGLES - 2;
+    *t = at - (float)node;
+    return node;
+}
+
+/* Polar angle of a direction, accurate near the pole too. */
+static inline float panel_polar_angle(Vec3 d)
+{
+    return atan2_f(safe_sqrtf(d.x * d.x + d.y * d.y), d.z);
+}
+
+/* Adds components first .. first + count - 1 of a profile of `width` components. */
+static inline void panel_add_profile(const float *profile, int width, float theta, int first,
+                                     int count, float *out)
+{
+    float        t;
+    const float *a = profile + panel_angle_node(theta, &t) * width + first, *b = a + width;
+    for (int i = 0; i < count; i++) out[i] += lerpf(a[i], b[i], t);
 }

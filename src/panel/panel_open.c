@@ -114,7 +114,8 @@ static bool check_levels(const Bytes *at, const PanelEmission *e)
     if (e->has_black > 1 || channels != e->channels || e->components < 1 ||
         e->components > PANEL_COMPONENTS_MAX)
         return refuse(at, "emission", "channel or component count out of range");
-    if (!(e->cone_cos >= 0 && e->cone_cos <= 1) || !(e->level_power > 0 && e->level_power < 10))
+    if (!(e->cone_cos >= 0 && e->cone_cos <= 1) || !(e->level_power > 0 && e->level_power < 10) ||
+        !(e->cosine_power >= 0 && e->cosine_power < 10))
         return refuse(at, "emission", "cone or level power out of range");
     return true;
 }
@@ -128,13 +129,15 @@ static bool open_emission(const Bytes *bytes, const Geodesic *geodesic, Panel *p
     const PanelEmission *e = (const PanelEmission *)at.data;
     if (at.size < sizeof *e) return refuse(&at, "emission", "is too short");
     if (!check_levels(&at, e)) return false;
-    size_t floats = (size_t)e->channels * (1 + e->components) + e->channels / 3;
+    size_t floats = (size_t)e->channels * (1 + e->components) + e->channels / 3 +
+                    (size_t)PANEL_ANGLES * e->components;
     if (at.size != sizeof *e + floats * sizeof(float))
         return refuse(&at, "emission", "has another size than its counts say");
     panel->emission = e;
     panel->channel_mean = (const float *)(at.data + sizeof *e);
     panel->loading = panel->channel_mean + e->channels;
     panel->mean_y = panel->loading + (size_t)e->channels * e->components;
+    panel->emission_profile = panel->mean_y + e->channels / 3;
     if (!all_finite(panel->channel_mean, floats))
         return refuse(&at, "emission", "holds a number that is not finite");
     if (!tree_open(tree.data, tree.size, geodesic, &panel->emission_tree, bytes->err))
@@ -224,12 +227,14 @@ static bool open_reflection(const Bytes *bytes, const Geodesic *geodesic, Panel 
     const PanelReflection *r = (const PanelReflection *)at.data;
     if (at.size < sizeof *r) return refuse(&at, "reflection", "is too short");
     if (!check_reflection(&at, r)) return false;
-    size_t floats = (size_t)r->padded_wavelengths * (r->coefficients + PANEL_ANGLES);
+    size_t floats = (size_t)r->padded_wavelengths * (r->coefficients + PANEL_ANGLES) +
+                    (size_t)PANEL_ANGLES * r->slices * r->coefficients;
     if (at.size != sizeof *r + floats * sizeof(float))
         return refuse(&at, "reflection", "has another size than its counts say");
     panel->reflection = r;
     panel->basis = (const float *)(at.data + sizeof *r);
     panel->mirror = panel->basis + (size_t)r->padded_wavelengths * r->coefficients;
+    panel->reflection_profile = panel->mirror + (size_t)r->padded_wavelengths * PANEL_ANGLES;
     if (!all_finite(panel->basis, floats))
         return refuse(&at, "reflection", "holds a number that is not finite");
     if (!tree_open(tree.data, tree.size, geodesic, &panel->reflection_tree, bytes->err))

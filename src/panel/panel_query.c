@@ -65,9 +65,10 @@ float panel_level_interpolate(const Panel *panel, const LevelPosition *at, const
            h * (m1 * (t3 - 2 * t2 + t) + m2 * (t3 - t2));
 }
 
-/* ln of the three tristimulus values that a primary adds at this level. */
+/* ln of the three tristimulus values that a primary adds at this level; fall is the part that
+ * all channels share. */
 static void primary_logs(const Panel *panel, int primary, const LevelPosition *at,
-                         const float *components, float logs[3])
+                         const float *components, float fall, float logs[3])
 {
     uint32_t first = panel_first_channel(panel->emission, primary);
     int      last = (int)panel->emission->level_count[primary] - 1;
@@ -79,7 +80,7 @@ static void primary_logs(const Panel *panel, int primary, const LevelPosition *a
             i = i < 0 ? 0 : i > last ? last : i;
             y[k] = panel_channel_log(panel, first + 3 * (uint32_t)i + (uint32_t)j, components);
         }
-        logs[j] = panel_level_interpolate(panel, at, y);
+        logs[j] = fall + panel_level_interpolate(panel, at, y);
     }
 }
 
@@ -93,16 +94,20 @@ static void source_logs(const Panel *panel, Vec3 direction, const float rgb[3],
                         float logs[4][3], bool lit[4])
 {
     float components[PANEL_COMPONENTS_MAX];
+    int   count = (int)panel->emission->components;
     tree_interpolate(&panel->emission_tree, direction, components);
+    panel_add_profile(panel->emission_profile, count, panel_polar_angle(direction), 0, count,
+                      components);
+    float fall = panel->emission->cosine_power * log_f(clampf(direction.z, 1e-4f, 1));
     for (int p = 0; p < 3; p++) {
         LevelPosition at = panel_level_position(panel, p, rgb[p]);
         lit[p] = at.kind != LEVEL_DARK;
-        if (lit[p]) primary_logs(panel, p, &at, components, logs[p]);
+        if (lit[p]) primary_logs(panel, p, &at, components, fall, logs[p]);
     }
     lit[3] = panel->emission->has_black;
     uint32_t black = panel_first_channel(panel->emission, 3);
     for (uint32_t j = 0; j < 3 && lit[3]; j++)
-        logs[3][j] = panel_channel_log(panel, black + j, components);
+        logs[3][j] = fall + panel_channel_log(panel, black + j, components);
 }
 
 bool panel_emission_xyz(const Panel *panel, Vec3 direction, const float rgb[3], float xyz[3])

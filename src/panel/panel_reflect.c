@@ -97,12 +97,6 @@ static Vec3 turned_back(Vec3 light, Vec3 local)
     return vec3(ex * local.x - ey * local.y, ey * local.x + ex * local.y, local.z);
 }
 
-/* Polar angle, accurate near the pole too. */
-static float polar_angle(Vec3 d)
-{
-    return atan2_f(safe_sqrtf(d.x * d.x + d.y * d.y), d.z);
-}
-
 /* ln (f / F) at all measured wavelengths. */
 static void reflection_logs(const Panel *panel, Vec3 stored, float theta, float *logs)
 {
@@ -113,6 +107,8 @@ static void reflection_logs(const Panel *panel, Vec3 stored, float theta, float 
     float    part[4 * PANEL_COEFFICIENTS_MAX], coefficient[PANEL_COEFFICIENTS_MAX] = {0};
     tree_walk_interpolated(&panel->reflection_tree, stored, &taps);
     tree_sum(&panel->reflection_tree, &taps, mix.first * k_count, mix.count * k_count, part);
+    panel_add_profile(panel->reflection_profile, (int)r->slices * k_count,
+                      panel_polar_angle(stored), mix.first * k_count, mix.count * k_count, part);
     for (int s = 0; s < mix.count; s++)
         for (int k = 0; k < k_count; k++)
             coefficient[k] += mix.weight[s] * part[s * k_count + k];
@@ -145,28 +141,18 @@ Spectrum panel_brdf(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *wav
     const PanelReflection *r = panel->reflection;
     float logs[PADDED_MAX];
     if (!r || !(wo.z > 0) || !(wi.z > 0)) return spectrum_all(0);
-    float theta = polar_angle(wi);
+    float theta = panel_polar_angle(wi);
     SpecularFrame frame = specular_frame(theta, r->frame_exponent);
     reflection_logs(panel, specular_frame_stored(&frame, turned(wi, wo)), theta, logs);
     Spectrum exponent = spread(panel, logs, wavelengths);
     return spectrum_exp(exponent) * spectrum_all(fresnel(wi.z, r->refractive_index));
 }
 
-/* Position in a table over theta. */
-static int angle_node(float cos_theta, float *t)
-{
-    float at = acos_f(clampf(cos_theta, 0, 1)) * (2 * 180 / PI_F);
-    int   node = (int)at;
-    if (node > PANEL_ANGLES - 2) node = PANEL_ANGLES - 2;
-    *t = clampf(at - (float)node, 0, 1);
-    return node;
-}
-
 Spectrum panel_mirror(const Panel *panel, float cos_theta, const Wavelengths *wavelengths)
 {
     float t, row[PADDED_MAX];
     if (!panel->reflection || !(cos_theta > 0)) return spectrum_all(0);
-    int          node = angle_node(cos_theta, &t);
+    int          node = panel_angle_node(acos_f(cos_theta), &t);
     int          padded = (int)panel->reflection->padded_wavelengths;
     const float *a = panel->mirror + node * padded, *b = a + padded;
     for (int w = 0; w < padded; w++) row[w] = lerpf(a[w], b[w], t);
@@ -177,7 +163,7 @@ float panel_haze_albedo(const Panel *panel, float cos_theta)
 {
     float t;
     if (!panel->reflection || !(cos_theta > 0)) return 0;
-    int node = angle_node(cos_theta, &t);
+    int node = panel_angle_node(acos_f(cos_theta), &t);
     const float *albedo = panel->reflection->haze_albedo;
     return lerpf(albedo[node], albedo[node + 1], t);
 }
@@ -188,7 +174,7 @@ float panel_pdf(const Panel *panel, Vec3 wo, Vec3 wi)
 {
     const PanelReflection *r = panel->reflection;
     if (!r || !(wo.z > 0) || !(wi.z > 0)) return 0;
-    float         theta = polar_angle(wo), pdf = 0;
+    float         theta = panel_polar_angle(wo), pdf = 0;
     SpecularFrame frame = specular_frame(theta, r->frame_exponent);
     Vec3          stored = specular_frame_stored(&frame, turned(wo, wi));
     SliceMix      mix = linear_mix(r, theta);
@@ -203,7 +189,7 @@ bool panel_sample(const Panel *panel, Vec3 wo, const float u[3], Vec3 *wi)
 {
     const PanelReflection *r = panel->reflection;
     if (!r || !(wo.z > 0)) return false;
-    float         theta = polar_angle(wo);
+    float         theta = panel_polar_angle(wo);
     SpecularFrame frame = specular_frame(theta, r->frame_exponent);
     SliceMix      mix = linear_mix(r, theta);
     int           slice = mix.first + (mix.count == 2 && u[2] >= mix.weight[0]);
