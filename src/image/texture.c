@@ -65,7 +65,7 @@ static float linear_from_srgb(float c)
 
 /* Where a coordinate falls in [0, 1] after wrapping. Coordinates beyond 2^22 have no texel of
  * their own any more; they and NaN fall on 0. */
-static float wrap_unit(float u, TextureWrap wrap)
+static inline float wrap_unit(float u, TextureWrap wrap)
 {
     if (wrap == WRAP_CLAMP) return u > 0 ? (u < 1 ? u : 1.0f) : 0.0f;
     if (!(u > -4194304.0f && u < 4194304.0f)) return 0.0f;
@@ -76,7 +76,7 @@ static float wrap_unit(float u, TextureWrap wrap)
 }
 
 /* A texel index next to the edge: -1 and size are the neighbours over it. */
-static int wrap_texel(int i, int size, TextureWrap wrap)
+static inline int wrap_texel(int i, int size, TextureWrap wrap)
 {
     if (i >= 0 && i < size) return i;
     if (wrap == WRAP_REPEAT) return i < 0 ? size - 1 : 0;
@@ -88,7 +88,7 @@ typedef struct Texel {
     float weight;    /* of high */
 } Texel;
 
-static Texel texel_between(float u, int size, TextureWrap wrap)
+static inline Texel texel_between(float u, int size, TextureWrap wrap)
 {
     float x = wrap_unit(u, wrap) * (float)size - 0.5f; /* texel centres at halves */
     int   low = (int)(x + 1) - 1;
@@ -96,77 +96,107 @@ static Texel texel_between(float u, int size, TextureWrap wrap)
                    x - (float)low};
 }
 
-static int texel_at(float u, int size, TextureWrap wrap)
+static inline int texel_at(float u, int size, TextureWrap wrap)
 {
     int i = (int)(wrap_unit(u, wrap) * (float)size);
     return i < size ? i : size - 1;
 }
 
-static size_t offset_of(const Image *image, int x, int y)
+static inline size_t offset_of(const Image *image, int x, int y)
 {
     return ((size_t)y * (size_t)image->width + (size_t)x) * 4;
 }
 
-static void fetch_codes(const Image *image, int x, int y, float rgba[4])
-{
-    size_t at = offset_of(image, x, y);
-    switch (image->format) {
-    case IMAGE_RGBA8:
-        for (size_t c = 0; c < 4; c++)
-            rgba[c] = (float)((const uint8_t *)image->pixels)[at + c] / 255.0f;
-        break;
-    case IMAGE_RGBA16:
-        for (size_t c = 0; c < 4; c++)
-            rgba[c] = (float)((const uint16_t *)image->pixels)[at + c] / 65535.0f;
-        break;
-    case IMAGE_RGBA32F:
-        memcpy(rgba, (const float *)image->pixels + at, 4 * sizeof *rgba);
-        break;
-    }
-}
+/* The texels that make a value: where their first channel lies, and how they mix. One and the
+ * same four times when the texture is looked up nearest. */
+typedef struct Footprint {
+    size_t at[4]; /* (low, low), (high, low), (low, high), (high, high) in x, y */
+    float  x, y;  /* weights of high */
+} Footprint;
 
-static void fetch_linear(const Image *image, int x, int y, float rgba[4])
-{
-    if (image->format == IMAGE_RGBA8) {
-        const uint8_t *codes = (const uint8_t *)image->pixels + offset_of(image, x, y);
-        for (int c = 0; c < 3; c++) rgba[c] = LINEAR_FROM_SRGB8[codes[c]];
-        rgba[3] = (float)codes[3] / 255.0f;
-        return;
-    }
-    fetch_codes(image, x, y, rgba);
-    if (image->format == IMAGE_RGBA16)
-        for (int c = 0; c < 3; c++) rgba[c] = linear_from_srgb(rgba[c]);
-}
-
-typedef void Fetch(const Image *image, int x, int y, float rgba[4]);
-
-static inline void look_up(const Texture *t, float u, float v, float rgba[4], Fetch *fetch)
+static inline Footprint footprint_of(const Texture *t, float u, float v)
 {
     const Image *image = &t->image;
     if (t->nearest) {
-        fetch(image, texel_at(u, image->width, t->wrap_u),
-              texel_at(v, image->height, t->wrap_v), rgba);
-        return;
+        size_t at = offset_of(image, texel_at(u, image->width, t->wrap_u),
+                              texel_at(v, image->height, t->wrap_v));
+        return (Footprint){{at, at, at, at}, 0, 0};
     }
     Texel x = texel_between(u, image->width, t->wrap_u);
     Texel y = texel_between(v, image->height, t->wrap_v);
-    float a[4], b[4], c[4], d[4];
-    fetch(image, x.low, y.low, a);
-    fetch(image, x.high, y.low, b);
-    fetch(image, x.low, y.high, c);
-    fetch(image, x.high, y.high, d);
-    for (int i = 0; i < 4; i++)
-        rgba[i] = lerpf(lerpf(a[i], b[i], x.weight), lerpf(c[i], d[i], x.weight), y.weight);
+    return (Footprint){{offset_of(image, x.low, y.low), offset_of(image, x.high, y.low),
+                        offset_of(image, x.low, y.high), offset_of(image, x.high, y.high)},
+                       x.weight, y.weight};
+}
+
+static inline float mixed(const Footprint *f, float a, float b, float c, float d)
+{
+    return lerpf(lerpf(a, b, f->x), lerpf(c, d, f->x), f->y);
+}
+
+static inline float mixed_u8(const Footprint *f, const uint8_t *p)
+{
+    return mixed(f, p[f->at[0]], p[f->at[1]], p[f->at[2]], p[f->at[3]]) / 255.0f;
+}
+
+static inline float mixed_u16(const Footprint *f, const uint16_t *p)
+{
+    return mixed(f, p[f->at[0]], p[f->at[1]], p[f->at[2]], p[f->at[3]]) / 65535.0f;
+}
+
+static inline float mixed_f32(const Footprint *f, const float *p)
+{
+    return mixed(f, p[f->at[0]], p[f->at[1]], p[f->at[2]], p[f->at[3]]);
+}
+
+static inline float mixed_srgb8(const Footprint *f, const uint8_t *p)
+{
+    const float *linear = LINEAR_FROM_SRGB8;
+    return mixed(f, linear[p[f->at[0]]], linear[p[f->at[1]]], linear[p[f->at[2]]],
+                 linear[p[f->at[3]]]);
+}
+
+static float mixed_srgb16(const Footprint *f, const uint16_t *p)
+{
+    float linear[4];
+    for (int k = 0; k < 4; k++) linear[k] = linear_from_srgb((float)p[f->at[k]] / 65535.0f);
+    return mixed(f, linear[0], linear[1], linear[2], linear[3]);
 }
 
 void texture_data(const Texture *texture, float u, float v, float rgba[4])
 {
-    look_up(texture, u, v, rgba, fetch_codes);
+    const Footprint f = footprint_of(texture, u, v);
+    const void     *pixels = texture->image.pixels;
+    switch (texture->image.format) {
+    case IMAGE_RGBA8:
+        for (int c = 0; c < 4; c++) rgba[c] = mixed_u8(&f, (const uint8_t *)pixels + c);
+        break;
+    case IMAGE_RGBA16:
+        for (int c = 0; c < 4; c++) rgba[c] = mixed_u16(&f, (const uint16_t *)pixels + c);
+        break;
+    case IMAGE_RGBA32F:
+        for (int c = 0; c < 4; c++) rgba[c] = mixed_f32(&f, (const float *)pixels + c);
+        break;
+    }
 }
 
 void texture_colour(const Texture *texture, float u, float v, float rgba[4])
 {
-    look_up(texture, u, v, rgba, fetch_linear);
+    const Footprint f = footprint_of(texture, u, v);
+    const void     *pixels = texture->image.pixels;
+    switch (texture->image.format) {
+    case IMAGE_RGBA8:
+        for (int c = 0; c < 3; c++) rgba[c] = mixed_srgb8(&f, (const uint8_t *)pixels + c);
+        rgba[3] = mixed_u8(&f, (const uint8_t *)pixels + 3);
+        break;
+    case IMAGE_RGBA16:
+        for (int c = 0; c < 3; c++) rgba[c] = mixed_srgb16(&f, (const uint16_t *)pixels + c);
+        rgba[3] = mixed_u16(&f, (const uint16_t *)pixels + 3);
+        break;
+    case IMAGE_RGBA32F:
+        for (int c = 0; c < 4; c++) rgba[c] = mixed_f32(&f, (const float *)pixels + c);
+        break;
+    }
 }
 
 static float code_of(const Image *image, size_t at)
