@@ -98,6 +98,20 @@ static long count_nonfinite(const LayerView *view)
     return count;
 }
 
+static bool set_range(const DevelopOptions *options, LayerView *view, Error *err)
+{
+    double low = options->range[0], high = options->range[1];
+    if (low == 0 && high == 0) return true;
+    if (view->show != SHOW_NUMBER)
+        return error_set(err, ERROR_USAGE, "--range: only false colours have a range");
+    if (!(high > low) || (view->is_log && !(low > 0)))
+        return error_set(err, ERROR_USAGE, "--range %g,%g: wanted LOW,HIGH with LOW < HIGH%s",
+                         low, high, view->is_log ? " and LOW above 0" : "");
+    view->low = (float)low;
+    view->high = (float)high;
+    return true;
+}
+
 bool develop_picture(const FrameImage *frame, const DevelopOptions *options, Arena *arena,
                      Picture *out, DevelopReport *report, Error *err)
 {
@@ -115,6 +129,7 @@ bool develop_picture(const FrameImage *frame, const DevelopOptions *options, Are
                            .planes = {layer_view_luminance(&view, arena)}, .unit = "cd/m^2",
                            .is_log = true};
     }
+    if (!set_range(options, &view, err)) return false;
     if (view.show == SHOW_LIGHT) {
         if (!develop_light(&view, options, arena, &picture, &made, err)) return false;
     } else {

@@ -17,6 +17,7 @@ typedef struct DevelopOptions {
     const char *display, *view; /* NULL: the configuration's defaults */
     const char *layer;    /* NULL: R, G, B of the frame itself */
     bool        false_colour; /* luminance on a logarithmic scale */
+    double      range[2];     /* of false colours; both 0: what fits the frame */
     int         bits;     /* 0 or 8, or 16 */
     const char *frame_name; /* for messages about its layers; may be NULL */
 } DevelopOptions;

@@ -297,7 +297,9 @@ Picture layer_view_picture(const LayerView *view, Arena *arena, char *scale)
         return picture;
     }
     if (view->show != SHOW_NUMBER) return plain_picture(view, arena);
-    ScaleRange range = scale_range_of(view->planes[0], pixel_count(view), view->is_log, *arena);
+    ScaleRange range = {view->low, view->high, view->is_log};
+    if (!(view->high > view->low))
+        range = scale_range_of(view->planes[0], pixel_count(view), view->is_log, *arena);
     if (scale)
         snprintf(scale, 160, "%g to %g %s, %s", (double)range.low, (double)range.high,
                  view->unit, range.is_log ? "logarithmic" : "linear");

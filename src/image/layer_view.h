@@ -23,6 +23,7 @@ typedef struct LayerView {
     int          width, height;
     const char  *unit;   /* SHOW_NUMBER, as lettering.h writes it */
     bool         is_log; /* SHOW_NUMBER: on a logarithmic scale */
+    float        low, high; /* SHOW_NUMBER: the scale's ends; both 0: what fits the values */
 } LayerView;
 
 /* layer: NULL or "" for the frame's own R, G, B; a layer ("normal", "display.emitted",

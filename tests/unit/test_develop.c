@@ -11,6 +11,7 @@
 #include "base/file.h"
 #include "image/develop.h"
 #include "image/exposure.h"
+#include "image/false_colour.h"
 #include "image/image.h"
 #include "opencolorio/view_transform.h"
 
@@ -305,6 +306,28 @@ static void the_same_frame_makes_the_same_picture_file(void **state)
     arena_release(&arena);
 }
 
+static void a_range_makes_frames_comparable(void **state)
+{
+    (void)state;
+    Arena          arena = arena_reserve(ARENA_BYTES);
+    FrameImage     frame = uniform_frame(8, 5, 90, &arena);
+    DevelopOptions options = {.false_colour = true, .range = {0.9, 900}};
+    DevelopReport  report;
+    Picture        p = develop(&frame, options, &arena, &report);
+    float          want[3];
+    Error          err = {0};
+    false_colour_of(2 / 3.0f, want);
+    for (int c = 0; c < 3; c++) assert_near(p.rgb[c], want[c], 5e-3);
+    assert_string_equal(report.scale, "0.9 to 900 cd/m^2, logarithmic");
+    options.range[0] = 0;
+    assert_false(develop_picture(&frame, &options, &arena, &p, NULL, &err));
+    assert_text_has(&err, "--range 0,900: wanted LOW,HIGH with LOW < HIGH and LOW above 0");
+    options.false_colour = false;
+    assert_false(develop_picture(&frame, &options, &arena, &p, NULL, &err));
+    assert_text_has(&err, "only false colours have a range");
+    arena_release(&arena);
+}
+
 static void what_is_not_finite_is_cleaned_and_counted(void **state)
 {
     (void)state;
@@ -456,6 +479,7 @@ int main(void)
         cmocka_unit_test(bad_exposures_are_told),
         cmocka_unit_test(a_frame_becomes_the_codes_it_should),
         cmocka_unit_test(the_same_frame_makes_the_same_picture_file),
+        cmocka_unit_test(a_range_makes_frames_comparable),
         cmocka_unit_test(what_is_not_finite_is_cleaned_and_counted),
         cmocka_unit_test(a_crop_stands_in_its_frame),
         cmocka_unit_test(a_picture_that_fails_leaves_nothing),

@@ -344,6 +344,26 @@ static void what_cannot_be_shown_flat_is_refused(void **state)
     arena_release(&arena);
 }
 
+/* The sampling of channel G in the header becomes 2 x 2, as in luminance-chroma coding. */
+static void coarse_channels_are_refused(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(ARENA_BYTES);
+    FrameImage frame = make_frame(8, 4, (ExrWindow){0, 0, 8, 4}, &arena), back;
+    FileBytes  file;
+    Error      err = {0};
+    assert_true(frame_write(in_folder("fine.exr"), &frame, &err));
+    assert_true(file_read(in_folder("fine.exr"), ARENA_BYTES, &arena, &file, &err));
+    unsigned char *bytes = ARENA_NEW(&arena, unsigned char, file.size), *entry;
+    memcpy(bytes, file.data, file.size);
+    entry = memmem(bytes, file.size, "\0G\0\2\0\0\0", 7); /* name, then FLOAT */
+    assert_non_null(entry);
+    entry[11] = entry[15] = 2;
+    assert_false(frame_read_memory(bytes, file.size, "coarse.exr", &arena, &back, &err));
+    assert_text_has(&err, "channel G is sampled every 2 x 2 pixels");
+    arena_release(&arena);
+}
+
 static void a_file_larger_than_the_arena_is_refused(void **state)
 {
     (void)state;
@@ -373,6 +393,7 @@ int main(void)
         cmocka_unit_test(survives_flipped_bits),
         cmocka_unit_test(damaged_files_are_read_or_refused),
         cmocka_unit_test(what_cannot_be_shown_flat_is_refused),
+        cmocka_unit_test(coarse_channels_are_refused),
         cmocka_unit_test(a_file_larger_than_the_arena_is_refused),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
