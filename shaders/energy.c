@@ -3,9 +3,10 @@
 #include "shaders/fresnel.h"
 #include "shaders/microfacet.h"
 
-/* Points of the midpoint rule over the unit square of facets; half the turn is enough. */
-#define TURNS 16
-#define HEIGHTS 40
+/* Points of the midpoint rule over the unit square of facets; half the turn is enough. They
+ * crowd where u1 nears 1: the facets that send light below the horizon lie there. */
+#define TURNS 24
+#define HEIGHTS 32
 
 /* Exact reflectance's rise from normal incidence (0) to grazing (1). */
 static float fresnel_shape(float ior, float cosine)
@@ -27,11 +28,11 @@ static Energy integrate(float ior, float cosine, float alpha)
     float all = 0, shape = 0;
     for (int i = 0; i < TURNS * HEIGHTS; i++) {
         float u0 = ((float)(i % TURNS) + 0.5f) / (2 * TURNS);
-        float u1 = ((float)(i / TURNS) + 0.5f) / HEIGHTS;
-        Vec3  wi = ggx_sample_reflection(wo, alpha, u0, u1);
+        float rest = ((float)(i / TURNS) + 0.5f) / HEIGHTS;
+        Vec3  wi = ggx_sample_reflection(wo, alpha, u0, 1 - rest * rest);
         if (!(wi.z > 0)) continue;
         Vec3  half = vec3_normalize(vec3_add(wo, wi));
-        float weight = ggx_reflection(wo, wi, half, alpha) * wi.z /
+        float weight = 2 * rest * ggx_reflection(wo, wi, half, alpha) * wi.z /
                        ggx_reflection_pdf(wo, half, alpha);
         all += weight;
         shape += weight * fresnel_shape(ior, vec3_dot(wo, half));

@@ -21,10 +21,11 @@
  * visible normals. Non-metals reflect by the exact Fresnel curve, scaled so that its ends are
  * F0 = min(F0(ior) specular_color, 1) specular and F90 = specular. What the boundary does not
  * send back goes into a Lambert base, coupled symmetrically (Kelemen and Szirmay-Kalos 2001),
- * so a white plastic returns exactly what it gets. Metals use Schlick's curve a wavelength and
- * get back what facets send to other facets (Kulla and Conty 2017). The transmissive share is a
- * pane with two faces, R = 2F/(1+F); smooth panes pass light straight on. The coat lies over
- * everything and takes its albedo off the base on the way in and out. All of it is reciprocal.
+ * so a white plastic returns exactly what it gets. Metals use Schlick's curve a wavelength. The
+ * transmissive share is a pane with two faces, R = 2F/(1+F); smooth panes pass light straight
+ * on. Metals and panes get back what facets send to other facets (Kulla and Conty 2017). The
+ * coat lies over everything and takes its albedo off the base on the way in and out. All of it
+ * is reciprocal.
  *
  * Not modelled: polarisation, anisotropic brushing, sheen of velvet, subsurface spread, light
  * that a coat's inside sends back down, coloured absorption along a slanted path in the coat,
@@ -144,19 +145,43 @@ static Spectrum diffuse_eval(const View *view, Energy in)
            spectrum_all(share * INV_PI_F) / spectrum_max(mean, spectrum_all(1e-3f));
 }
 
-/* What facets of metal send to one another and then out (Kulla and Conty 2017): the missing
- * albedo on both sides, times the mean reflectance of all further bounces. The mean of
- * Schlick's curve over the hemisphere is f0 + (1 - f0) / 21. */
-static Spectrum metal_rebound(const MetallicRoughness *m, Energy out, Energy in)
+/* Light that one facet hides from the eye meets others and comes out in the end, spread like
+ * the missing albedo on both sides (Kulla and Conty 2017): sr^-1, for reflectance 1. */
+static float rebound_lobe(const View *view, Energy in)
 {
-    float mean = energy_average(m->energy, m->alpha).all;
-    float missing = 1 - mean;
-    if (!(m->metallic > 0 && missing > 1e-6f)) return spectrum_all(0);
+    float missing = 1 - energy_average(view->m->energy, view->m->alpha).all;
+    if (!(missing > 1e-6f)) return 0;
+    return (1 - view->energy.all) * (1 - in.all) / missing * INV_PI_F;
+}
+
+/* Of a metal every further bounce takes its mean reflectance; the mean of Schlick's curve over
+ * the hemisphere is f0 + (1 - f0) / 21. */
+static Spectrum metal_rebound(const MetallicRoughness *m)
+{
+    float    mean = energy_average(m->energy, m->alpha).all;
     Spectrum one = spectrum_all(1);
     Spectrum f = m->base_color + (one - m->base_color) * spectrum_all(1.0f / 21);
-    Spectrum bounces = f * f * spectrum_all(mean) / (one - f * spectrum_all(missing));
-    float shape = (1 - out.all) * (1 - in.all) / missing * INV_PI_F;
-    return bounces * spectrum_all(m->metallic * shape);
+    return f * f * spectrum_all(mean * m->metallic) / (one - f * spectrum_all(1 - mean));
+}
+
+/* A pane parts it by its mean reflectance over the hemisphere. */
+static Spectrum pane_mean(const View *view)
+{
+    const Boundary *b = &view->boundary;
+    float shape = energy_average(view->m->energy, 0).shape;
+    return pane_reflectance(b->f0 + b->rise * spectrum_all(shape));
+}
+
+static Spectrum rebound_above(const View *view, Energy in)
+{
+    const MetallicRoughness *m = view->m;
+    Spectrum sum = spectrum_all(0);
+    float    clear = (1 - m->metallic) * m->transmission;
+    float    lobe = m->metallic > 0 || clear > 0 ? rebound_lobe(view, in) : 0;
+    if (!(lobe > 0)) return sum;
+    if (m->metallic > 0) sum = metal_rebound(m);
+    if (clear > 0) sum += pane_mean(view) * spectrum_all(clear);
+    return sum * spectrum_all(lobe);
 }
 
 static float coat_cosine(const MetallicRoughness *m, Vec3 w)
@@ -223,7 +248,8 @@ static inline Choices choose(const View *view)
     Choices c = {
         .coat = coat,
         .mirror = under * (solid * face + clear * pane + m->metallic * metal),
-        .diffuse = under * base * (solid * (1 - face) + m->metallic * base * (1 - e.all)),
+        .diffuse = under * (base * (solid * (1 - face) + m->metallic * base * (1 - e.all)) +
+                            clear * pane * (1 - e.all)),
         .through = under * base * clear * (1 - pane),
     };
     float sum = c.coat + c.mirror + c.diffuse + c.through;
@@ -248,7 +274,7 @@ static Spectrum base_above(const View *view, Vec3 wi, float *pdf)
 {
     const MetallicRoughness *m = view->m;
     Energy   in = energy_directional(m->energy, wi.z, m->alpha);
-    Spectrum sum = diffuse_eval(view, in) + metal_rebound(m, view->energy, in);
+    Spectrum sum = diffuse_eval(view, in) + rebound_above(view, in);
     *pdf = view->choices.diffuse * wi.z * INV_PI_F;
     if (!is_smooth(m->alpha)) {
         Vec3  half = vec3_normalize(vec3_add(view->wo, wi));
@@ -260,17 +286,23 @@ static Spectrum base_above(const View *view, Vec3 wi, float *pdf)
     return sum;
 }
 
-/* A rough pane sends on what a mirror would send back, turned over to the other side. */
+/* A rough pane sends on what a mirror would send back, turned over to the other side, and its
+ * part of the rebound. */
 static Spectrum base_below(const View *view, Vec3 wi, float *pdf)
 {
     const MetallicRoughness *m = view->m;
     *pdf = 0;
     if (is_smooth(m->alpha) || !(m->transmission > 0)) return spectrum_all(0);
-    Vec3 up = vec3(wi.x, wi.y, -wi.z);
-    Vec3 half = vec3_normalize(vec3_add(view->wo, up));
-    *pdf = view->choices.through * ggx_reflection_pdf(view->wo, half, m->alpha);
-    return pane_transmittance(m, &view->boundary, vec3_dot(view->wo, half)) *
-           spectrum_all(ggx_reflection(view->wo, up, half, m->alpha));
+    Vec3   up = vec3(wi.x, wi.y, -wi.z);
+    Vec3   half = vec3_normalize(vec3_add(view->wo, up));
+    Energy in = energy_directional(m->energy, up.z, m->alpha);
+    float  all = view->energy.all, lobe = ggx_reflection_pdf(view->wo, half, m->alpha);
+    *pdf = view->choices.through * (all * lobe + (1 - all) * up.z * INV_PI_F);
+    Spectrum straight = pane_transmittance(m, &view->boundary, vec3_dot(view->wo, half));
+    Spectrum spread = (spectrum_all(1) - pane_mean(view)) * m->base_color *
+                      spectrum_all((1 - m->metallic) * m->transmission);
+    return straight * spectrum_all(ggx_reflection(view->wo, up, half, m->alpha)) +
+           spread * spectrum_all(rebound_lobe(view, in));
 }
 
 static Spectrum eval_view(const View *view, Vec3 wi, float *pdf)
@@ -331,22 +363,29 @@ Spectrum metallic_roughness_pass(const MetallicRoughness *m, Vec3 wo)
     return pane_transmittance(m, &b, wo.z) * spectrum_all(coat * coat);
 }
 
-/* A direction by the rough coat, the rough mirror, the Lambert base or the rough pane. */
-static Vec3 sample_rough(const MetallicRoughness *m, Vec3 wo, Choices c, const float u[3])
+static Vec3 sample_cosine(float u0, float u1)
 {
+    float sine, cosine, radius = sqrtf(u1);
+    sincos_turns(u0, &sine, &cosine);
+    return vec3(radius * cosine, radius * sine, safe_sqrtf(1 - u1));
+}
+
+/* A direction by the rough coat, the rough mirror, the Lambert base or the rough pane. */
+static Vec3 sample_rough(const View *view, const float u[3])
+{
+    const MetallicRoughness *m = view->m;
+    Choices c = view->choices;
     if (u[2] < c.coat) {
         Frame frame = coat_frame(m);
-        Vec3  out = frame_to_local(&frame, wo);
+        Vec3  out = frame_to_local(&frame, view->wo);
         return frame_to_world(&frame,
                               ggx_sample_reflection(out, m->clearcoat_alpha, u[0], u[1]));
     }
-    if (u[2] < c.coat + c.mirror) return ggx_sample_reflection(wo, m->alpha, u[0], u[1]);
-    if (u[2] < c.coat + c.mirror + c.diffuse) {
-        float sine, cosine, radius = sqrtf(u[1]);
-        sincos_turns(u[0], &sine, &cosine);
-        return vec3(radius * cosine, radius * sine, safe_sqrtf(1 - u[1]));
-    }
-    Vec3 up = ggx_sample_reflection(wo, m->alpha, u[0], u[1]);
+    float diffuse = c.coat + c.mirror, through = diffuse + c.diffuse;
+    if (u[2] < diffuse) return ggx_sample_reflection(view->wo, m->alpha, u[0], u[1]);
+    if (u[2] < through) return sample_cosine(u[0], u[1]);
+    Vec3 up = u[2] < through + c.through * view->energy.all ?
+              ggx_sample_reflection(view->wo, m->alpha, u[0], u[1]) : sample_cosine(u[0], u[1]);
     return vec3(up.x, up.y, -up.z);
 }
 
@@ -366,7 +405,7 @@ bool metallic_roughness_sample(const MetallicRoughness *m, Vec3 wo, const float 
         sample_smooth(sample, vec3_neg(wo), metallic_roughness_pass(m, wo), c.through);
         return sample->passes = true;
     }
-    Vec3 wi = sample_rough(m, wo, c, u);
+    Vec3 wi = sample_rough(&view, u);
     if (!(by_pane ? wi.z < 0 : wi.z > 0)) return false;
     float    pdf;
     Spectrum f = eval_view(&view, wi, &pdf);
@@ -389,7 +428,7 @@ Spectrum metallic_roughness_albedo(const MetallicRoughness *m, Vec3 wo)
     Boundary b = boundary_of(m);
     Spectrum one = spectrum_all(1), in = let_in(&b, e), base = m->base_color;
     Spectrum pane = pane_reflectance(one - in);
-    Spectrum clear = (pane + (one - pane) * base) * spectrum_all(e.all);
+    Spectrum clear = pane + (one - pane) * base;
     Spectrum solid = (one - in) + in * base;
     Spectrum metal = base + (one - base) * spectrum_all(e.shape);
     Spectrum dielectric = solid + (clear - solid) * spectrum_all(m->transmission);

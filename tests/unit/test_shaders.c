@@ -81,7 +81,7 @@ static void add_panes(void)
 {
     add_model("smooth clear sheet", 0, 0, true)->transmission = 1;
     add_model("smooth half clear sheet", 0, 0, true)->transmission = 0.5f;
-    add_model("frosted sheet", 0, 0.3f, false)->transmission = 1;
+    add_model("frosted sheet", 0, 0.3f, true)->transmission = 1;
     MetallicRoughness *m = add_model("coloured frosted sheet", 0.2f, 0.1f, false);
     m->transmission = 0.6f;
     m->base_color = ramp(0.2f, 0.9f);
