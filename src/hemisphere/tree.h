@@ -26,7 +26,10 @@ typedef enum TreeRowFormat {
     TREE_ROWS_INT16 = 1  /* 16 bits times a scale for every level and component */
 } TreeRowFormat;
 
-/* How to compress. Exactly one of keep_share and max_error is above 0. */
+/* How to compress; exactly one of keep_share and max_error is above 0. By share: the details of
+ * the largest normalised magnitude stay (haar_norms). By error: triangles whose leaves all lie
+ * within the bound of their mean need no details; of the others' details the least significant
+ * go as long as the bound holds at every leaf. */
 typedef struct TreeOptions {
     HaarShape     shape;
     float         keep_share; /* stored rows (octant means included) over leaves, (0, 1] */

@@ -140,41 +140,153 @@ static Deviation deviation(const Build *build)
     return (Deviation){(float)max, (float)sqrt(error / area), (float)sqrt(source / area)};
 }
 
+/* Largest deviation of any leaf below a triangle from the triangle's mean, over all components,
+ * weighted by component_scale; not above its father's: what is good enough for the father needs
+ * nothing below. [level][node] for the levels above the leaves. */
+typedef struct Spread {
+    float *level[GEODESIC_MAX_LEVEL + 1];
+} Spread;
+
+/* One component's leaves, replaced by their fathers' level by level. */
+typedef struct Ranges {
+    float  *mean, *low, *high;
+    double *weight; /* octant 0: areas, or leaf counts with equal weights */
+} Ranges;
+
+static Ranges leaf_ranges(const Build *build, int component, Arena *arena)
+{
+    const HaarShape *shape = &build->options->shape;
+    size_t           count = build->leaf_count, octant = (size_t)1 << 2 * shape->level;
+    float            scale = component_scale(build->options, component);
+    Ranges           r = {ARENA_NEW(arena, float, count), ARENA_NEW(arena, float, count),
+                          ARENA_NEW(arena, float, count), ARENA_NEW(arena, double, octant)};
+    for (size_t i = 0; i < count; i++)
+        r.mean[i] = r.low[i] = r.high[i] =
+            scale * build->source[i * (size_t)shape->components + (size_t)component];
+    for (size_t i = 0; i < octant; i++)
+        r.weight[i] = shape->weights == HAAR_AREA ? build->areas[i] : 1.0;
+    return r;
+}
+
+/* Puts the range of children 4n .. 4n+3 in place n. */
+static void join_ranges(Ranges *r, uint32_t n, const double weight[4])
+{
+    double   sum = 0;
+    uint32_t first = 4 * n;
+    float    low = r->low[first], high = r->high[first];
+    for (uint32_t i = 0; i < 4; i++) {
+        sum += weight[i] * (double)r->mean[first + i];
+        low = fminf(low, r->low[first + i]);
+        high = fmaxf(high, r->high[first + i]);
+    }
+    r->mean[n] = (float)(sum / (weight[0] + weight[1] + weight[2] + weight[3]));
+    r->low[n] = low;
+    r->high[n] = high;
+}
+
+static void spread_component(const Build *build, int component, Spread *spread, Arena scratch)
+{
+    const HaarShape *shape = &build->options->shape;
+    Ranges           r = leaf_ranges(build, component, &scratch);
+    for (int level = shape->level - 1; level >= 0; level--) {
+        uint32_t octant = 1u << 2 * level;
+        for (uint32_t n = 0; n < (uint32_t)shape->octants * octant; n++) {
+            join_ranges(&r, n, &r.weight[4 * (n % octant)]);
+            float largest = fmaxf(r.high[n] - r.mean[n], r.mean[n] - r.low[n]);
+            spread->level[level][n] = fmaxf(spread->level[level][n], largest);
+        }
+        for (uint32_t n = 0; n < octant; n++) {
+            const double *w = &r.weight[4 * n];
+            r.weight[n] = w[0] + w[1] + w[2] + w[3];
+        }
+    }
+}
+
+static Spread find_spread(const Build *build, Arena *arena)
+{
+    const HaarShape *shape = &build->options->shape;
+    Spread           spread = {{0}};
+    for (int level = 0; level < shape->level; level++)
+        spread.level[level] = ARENA_NEW(arena, float, (size_t)shape->octants << 2 * level);
+    for (int c = 0; c < shape->components; c++) spread_component(build, c, &spread, *arena);
+    for (int level = 1; level < shape->level; level++)
+        for (uint32_t n = 0; n < (uint32_t)shape->octants << 2 * level; n++)
+            spread.level[level][n] = fminf(spread.level[level][n], spread.level[level - 1][n / 4]);
+    return spread;
+}
+
+/* The candidates below triangles that spread by more than `bound`, in the same order. With all
+ * of these kept every leaf is within `bound`, since the mean of a triangle that has no kept
+ * details is exact. */
+static void limit_candidates(const Build *from, const Spread *spread, float bound, Build *out)
+{
+    int tree_level = from->options->shape.level;
+    out->candidate_count = 0;
+    for (uint32_t i = 0; i < from->candidate_count; i++) {
+        uint32_t place = from->candidates[i].place;
+        int      level = father_level(&from->options->shape, place);
+        if (spread->level[level][place >> 2 * (tree_level - level)] > bound)
+            out->candidates[out->candidate_count++] = from->candidates[i];
+    }
+}
+
+static float error_with(Build *build, uint32_t kept, Arena scratch)
+{
+    reconstruct(build, kept, scratch);
+    return deviation(build).max;
+}
+
 /* The smallest number of candidates (by bisection: the error need not fall with every single
- * one, but the number returned was tried) that keeps to max_error. */
-static bool enough_for_error(Build *build, uint32_t *kept, Arena scratch, Error *err)
+ * one, but the number returned was tried) that keeps to max_error; all of them do. */
+static uint32_t enough_candidates(Build *build, Arena scratch)
 {
     uint32_t low = 0, high = build->candidate_count;
-    reconstruct(build, high, scratch);
-    float best = deviation(build).max;
-    if (best > build->options->max_error)
-        return error_set(err, ERROR_INPUT,
-                         "the error with every detail kept is %g, wanted at most %g: use a "
-                         "larger bound or 32-bit rows", (double)best,
-                         (double)build->options->max_error);
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
-        reconstruct(build, middle, scratch);
-        if (deviation(build).max <= build->options->max_error)
+        if (error_with(build, middle, scratch) <= build->options->max_error)
             high = middle;
         else
             low = middle + 1;
     }
-    *kept = high;
-    return true;
+    return high;
+}
+
+/* Keeps to max_error: first whole triangles that need no details go, then of the rest the least
+ * significant details. Together they need a fifth to two fifths fewer rows than significance
+ * alone. The first share of the bound that leaves room for quantisation is taken. */
+static bool choose_for_error(Build *build, uint32_t *kept, Arena scratch, Error *err)
+{
+    static const float shares[] = {0.99f, 0.9f, 0.6f, 0};
+    Spread spread = find_spread(build, &scratch);
+    Build  limited = *build;
+    float  best = 0, bound = build->options->max_error;
+    limited.candidates = ARENA_NEW(&scratch, Candidate, build->candidate_count);
+    for (size_t i = 0; i < sizeof shares / sizeof *shares; i++) {
+        limit_candidates(build, &spread, shares[i] * bound, &limited);
+        best = error_with(&limited, limited.candidate_count, scratch);
+        if (best > bound) continue;
+        *kept = enough_candidates(&limited, scratch);
+        memcpy(build->candidates, limited.candidates, *kept * sizeof(Candidate));
+        return true;
+    }
+    return error_set(err, ERROR_INPUT,
+                     "the error with every detail kept is %g, wanted at most %g: use a larger "
+                     "bound or 32-bit rows", (double)best, (double)bound);
+}
+
+static uint32_t count_for_share(const Build *build)
+{
+    double rows = floor((double)build->options->keep_share * build->leaf_count + 0.5);
+    double details = fmax(rows - build->options->shape.octants, 0);
+    return details < build->candidate_count ? (uint32_t)details : build->candidate_count;
 }
 
 static bool choose_kept(Build *build, uint32_t *kept, Arena scratch, Error *err)
 {
-    const TreeOptions *options = build->options;
-    if (options->max_error > 0) {
-        if (!enough_for_error(build, kept, scratch, err)) return false;
-    } else {
-        double rows = floor((double)options->keep_share * build->leaf_count + 0.5);
-        double details = rows - options->shape.octants;
-        *kept = details > 0 ? (uint32_t)details : 0;
-        if (*kept > build->candidate_count) *kept = build->candidate_count;
-    }
+    if (!(build->options->max_error > 0))
+        *kept = count_for_share(build);
+    else if (!choose_for_error(build, kept, scratch, err))
+        return false;
     reconstruct(build, *kept, scratch);
     for (uint32_t i = 0; i < *kept; i++) build->kept[build->candidates[i].place] = true;
     return true;

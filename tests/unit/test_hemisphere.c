@@ -286,6 +286,22 @@ static void constants_have_no_details(void **state)
         }
 }
 
+/* A change at one end reaches only a few coefficients at the other (the coarse ones). */
+static void finest_details_are_local(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < 3; k++)
+        for (int count = 64; count <= 65; count++) {
+            float row[65] = {0}, changed[65] = {1};
+            int   first = (count + 1) / 2;
+            wavelet1d_forward(KINDS[k], row, count);
+            wavelet1d_forward(KINDS[k], changed, count);
+            assert_true(row[first] != changed[first]);
+            for (int i = first + 4; i < count; i++) assert_true(row[i] == changed[i]);
+            for (int i = first / 2 + 4; i < first; i++) assert_near(changed[i], 0, 1e-6);
+        }
+}
+
 /* Vanishing moments: straight lines for 5/3, cubics for 9/7, away from the ends. */
 static void smooth_rows_have_small_details(void **state)
 {
@@ -414,6 +430,7 @@ int main(void)
         CASE(norms_say_what_a_detail_is_worth),
         CASE(one_dimensional_wavelets_invert_at_every_length),
         CASE(constants_have_no_details),
+        CASE(finest_details_are_local),
         CASE(smooth_rows_have_small_details),
         CASE(wavelet_norms_are_positive_and_haars_are_known),
         CASE(the_specular_frame_round_trips),

@@ -94,6 +94,22 @@ static void the_density_is_positive_where_the_function_is(void **state)
     assert_true(sampling_tree_pdf(&tree, vec3(0, 0, -1)) == 0);
 }
 
+/* Numbers at the ends of their range put directions on the cells' edges, where rounding could
+ * find the neighbour, whose density may be 0. */
+static void samples_on_edges_keep_a_density(void **state)
+{
+    Fixture        *f = *state;
+    SamplingOptions options = {.level = 5, .octants = 4, .cells = 4096};
+    SamplingTree    tree = sampler_of(f, options, zero_outside_signal);
+    const float     ends[] = {0, 0x1p-24f, 0.25f, 0.5f, 0.75f, 1 - 0x1p-24f};
+    for (int i = 0; i < 20000; i++)
+        for (size_t k = 0; k < sizeof ends / sizeof *ends; k++) {
+            float u = (float)i / 20000;
+            assert_true(sampling_tree_sample(&tree, u, ends[k]).pdf > 0);
+            assert_true(sampling_tree_sample(&tree, ends[k], u).pdf > 0);
+        }
+}
+
 /* Importance sampling beats cosine sampling by far on a narrow peak. */
 static void weights_of_importance_samples_vary_little(void **state)
 {
@@ -186,6 +202,7 @@ int main(void)
         CASE(the_pdf_integrates_to_1),
         CASE(samples_follow_the_pdf),
         CASE(the_density_is_positive_where_the_function_is),
+        CASE(samples_on_edges_keep_a_density),
         CASE(weights_of_importance_samples_vary_little),
         CASE(mutated_sampling_trees_are_refused_or_harmless),
         CASE(functions_that_cannot_be_sampled_are_named),

@@ -64,46 +64,98 @@ static void a_tree_with_everything_kept_is_its_source(void **state)
     assert_true(report.relative_l2 < 1e-6f);
 }
 
+/* With everything kept, 16 bits are the only error; it is reported, and small. */
+static void quantisation_is_part_of_the_report(void **state)
+{
+    Fixture    *f = *state;
+    HaarShape   shape = {5, 4, 1, HAAR_AREA};
+    TreeOptions options = {.shape = shape, .keep_share = 1, .rows = TREE_ROWS_INT16};
+    TreeReport  report;
+    float      *source = leaves_of_signals(&shape, &f->arena), largest = 0;
+    Tree        tree = build_and_open(f, &options, source, &report);
+    for (uint32_t id = 0; id < haar_leaf_count(&shape); id++) {
+        float value;
+        tree_value(&tree, geodesic_center(5, id), &value);
+        largest = fmaxf(largest, fabsf(value - source[id]));
+    }
+    assert_close(report.max_error, largest, 0.1);
+    assert_true(largest > 1e-4f && largest < 0.02f); /* of values up to 325 */
+}
+
+typedef struct Detail {
+    float    significance;
+    uint32_t place;
+} Detail;
+
 static int larger_first(const void *a, const void *b)
 {
-    double x = *(const double *)a, y = *(const double *)b;
+    float x = ((const Detail *)a)->significance, y = ((const Detail *)b)->significance;
     return (x < y) - (x > y);
 }
 
-/* Families of three details are orthogonal to each other; inside one, the square error is
- * sum a_i d_i^2 + (sum a_i d_i)^2 / a_0, at most three times the sum of squares of normalised
- * details (Cauchy and Schwarz). */
+/* Normalised details, largest first; octant means come before all. */
+static Detail *sorted_details(const float *coefficients, const float *norms, uint32_t count,
+                              Arena *arena)
+{
+    Detail *details = ARENA_NEW(arena, Detail, count);
+    for (uint32_t i = 0; i < count; i++)
+        details[i] = (Detail){
+            i % (count / 4) == 0 ? INFINITY : fabsf(coefficients[i]) * norms[i], i};
+    qsort(details, count, sizeof *details, larger_first);
+    return details;
+}
+
+/* The error is what dropping the smallest normalised details gives. Families of three details
+ * are orthogonal to each other; inside one, the square error is sum a_i d_i^2 +
+ * (sum a_i d_i)^2 / a_0, at most three times the sum of squares of normalised details. */
 static void thresholding_keeps_the_l2_bound(void **state)
 {
     Fixture  *f = *state;
-    Arena     scratch = f->arena;
     HaarShape shape = {6, 4, 1, HAAR_AREA};
     uint32_t  count = haar_leaf_count(&shape);
-    float    *source = leaves_of_signals(&shape, &scratch);
-    float    *coefficients = ARENA_NEW(&scratch, float, count);
-    float    *norms = ARENA_NEW(&scratch, float, count);
-    double   *squares = ARENA_NEW(&scratch, double, count);
+    float    *source = leaves_of_signals(&shape, &f->arena);
+    float    *coefficients = ARENA_NEW(&f->arena, float, count);
+    float    *norms = ARENA_NEW(&f->arena, float, count);
     memcpy(coefficients, source, count * sizeof *source);
-    haar_forward(&shape, coefficients, scratch);
-    haar_norms(&shape, norms, scratch);
-    for (uint32_t i = 0; i < count; i++) {
-        double d = i % (count / 4) == 0 ? 0 : (double)coefficients[i] * (double)norms[i];
-        squares[i] = d * d;
-    }
-    qsort(squares, count, sizeof *squares, larger_first);
+    haar_forward(&shape, coefficients, f->arena);
+    haar_norms(&shape, norms, f->arena);
+    Detail *details = sorted_details(coefficients, norms, count, &f->arena);
     for (float share = 0.01f; share < 0.5f; share *= 3) {
         TreeOptions options = {.shape = shape, .keep_share = share};
         TreeReport  report;
-        const void *blob;
-        Error       err;
-        Arena       inner = scratch;
-        assert_true(tree_build(&options, source, &inner, &blob, &report, &err));
-        double dropped = 0,
-               error = (double)report.rms_error * (double)report.rms_error * 2 * PI;
-        for (uint32_t i = report.stored_rows - 4; i < count; i++) dropped += squares[i];
+        Arena       keep = f->arena;
+        build_and_open(f, &options, source, &report);
+        float *values = ARENA_NEW(&f->arena, float, count);
+        double dropped = 0, error = 0;
+        for (uint32_t i = 0; i < count; i++)
+            if (i < report.stored_rows)
+                values[details[i].place] = coefficients[details[i].place];
+            else
+                dropped += (double)details[i].significance * (double)details[i].significance;
+        haar_inverse(&shape, values, f->arena);
+        for (uint32_t i = 0; i < count; i++) {
+            double e = (double)(values[i] - source[i]);
+            error += (double)f->geodesic->areas[6][i % (count / 4)] * e * e;
+        }
+        assert_close(report.rms_error, sqrt(error / (2 * PI)), 1e-4);
         assert_true(error <= 3 * dropped * (1 + 1e-4));
-        assert_true(error >= dropped * 0.1); /* and the bound is not an empty one */
+        f->arena = keep;
     }
+}
+
+/* Pruning whole triangles first needs fewer rows than a share with the same largest error. */
+static void an_error_bound_costs_fewer_rows_than_significance_alone(void **state)
+{
+    Fixture    *f = *state;
+    HaarShape   shape = {6, 4, 3, HAAR_AREA};
+    TreeOptions bound = {.shape = shape, .max_error = 2}, share = {.shape = shape};
+    TreeReport  by_bound, by_share;
+    float      *source = leaves_of_signals(&shape, &f->arena);
+    build_and_open(f, &bound, source, &by_bound);
+    share.keep_share = (float)by_bound.stored_rows / (float)by_bound.leaves;
+    build_and_open(f, &share, source, &by_share);
+    assert_true(by_bound.max_error <= 2);
+    assert_true(by_share.max_error > 2.2f);
 }
 
 static void an_error_bound_holds_at_every_leaf(void **state)
@@ -439,7 +491,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         CASE(a_query_equals_the_inverted_tree_at_every_leaf),
         CASE(a_tree_with_everything_kept_is_its_source),
+        CASE(quantisation_is_part_of_the_report),
         CASE(thresholding_keeps_the_l2_bound),
+        CASE(an_error_bound_costs_fewer_rows_than_significance_alone),
         CASE(an_error_bound_holds_at_every_leaf),
         CASE(an_unreachable_bound_is_refused_in_words),
         CASE(a_mean_at_any_level_is_the_mean_of_its_leaves),
