@@ -211,7 +211,8 @@ static Spread find_spread(const Build *build, Arena *arena)
     for (int c = 0; c < shape->components; c++) spread_component(build, c, &spread, *arena);
     for (int level = 1; level < shape->level; level++)
         for (uint32_t n = 0; n < (uint32_t)shape->octants << 2 * level; n++)
-            spread.level[level][n] = fminf(spread.level[level][n], spread.level[level - 1][n / 4]);
+            spread.level[level][n] =
+                fminf(spread.level[level][n], spread.level[level - 1][n / 4]);
     return spread;
 }
 

@@ -165,6 +165,7 @@ static void mutated_sampling_trees_are_refused_or_harmless(void **state)
     const void     *blob;
     Error           err;
     int             opened = 0;
+    f->geodesic = geodesic_create(3, &f->arena); /* not a level more than the tree's */
     assert_true(sampling_tree_build(&options, integrals, &f->arena, &blob, &err));
     size_t size = sampling_tree_size(blob);
     for (size_t prefix = 0; prefix < size; prefix++) try_sampler(f, blob, prefix, &opened);
@@ -176,6 +177,31 @@ static void mutated_sampling_trees_are_refused_or_harmless(void **state)
         try_sampler(f, copy, size, &opened);
     }
     assert_true(opened > 0 && opened < 6000);
+}
+
+static void sampling_trees_deeper_than_their_header_are_refused(void **state)
+{
+    Fixture        *f = *state;
+    uint32_t        seed = 18;
+    float           integrals[256];
+    SamplingOptions options = {.level = 3, .octants = 4, .cells = 100};
+    const void     *blob;
+    SamplingTree    tree;
+    Error           err;
+    for (int i = 0; i < 256; i++) integrals[i] = random_unit(&seed);
+    assert_true(sampling_tree_build(&options, integrals, &f->arena, &blob, &err));
+    size_t          size = sampling_tree_size(blob);
+    SamplingHeader *copy = arena_alloc(&f->arena, 1, 16, size);
+    memcpy(copy, blob, size);
+    copy->level = 2;
+    assert_false(sampling_tree_open(copy, size, f->geodesic, &tree, &err));
+    assert_non_null(strstr(err.text, "depth is 3, wanted 2"));
+    assert_false(sampling_tree_open(copy, size, geodesic_create(1, &f->arena), &tree, &err));
+    assert_non_null(strstr(err.text, "level of the geodesic is 1, wanted 2"));
+    memcpy(copy, blob, size);
+    copy->octants = 2; /* the octants' children differ */
+    assert_false(sampling_tree_open(copy, size, f->geodesic, &tree, &err));
+    assert_non_null(strstr(err.text, "mirror image"));
 }
 
 static void functions_that_cannot_be_sampled_are_named(void **state)
@@ -205,6 +231,7 @@ int main(void)
         CASE(samples_on_edges_keep_a_density),
         CASE(weights_of_importance_samples_vary_little),
         CASE(mutated_sampling_trees_are_refused_or_harmless),
+        CASE(sampling_trees_deeper_than_their_header_are_refused),
         CASE(functions_that_cannot_be_sampled_are_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

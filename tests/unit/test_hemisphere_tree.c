@@ -433,6 +433,7 @@ static void try_tree(const Fixture *f, const char *blob, size_t size, int *opene
 static void mutated_trees_are_refused_or_harmless(void **state)
 {
     Fixture *f = *state;
+    f->geodesic = geodesic_create(3, &f->arena); /* not a level more than the tree's */
     for (int rows = 0; rows < 2; rows++) {
         HaarShape   shape = {3, 4, 2, HAAR_AREA};
         TreeOptions options = {.shape = shape, .keep_share = 0.1f, .rows = (TreeRowFormat)rows};
@@ -455,6 +456,34 @@ static void mutated_trees_are_refused_or_harmless(void **state)
         assert_true(opened > 100); /* changed numbers, same structure */
         assert_true(opened < 5000);
     }
+}
+
+/* A header with fewer levels than the nodes have, and one with fewer rows. */
+static void trees_deeper_than_their_header_are_refused(void **state)
+{
+    Fixture    *f = *state;
+    HaarShape   shape = {3, 4, 1, HAAR_AREA};
+    TreeOptions options = {.shape = shape, .keep_share = 0.2f};
+    const void *blob;
+    Tree        tree;
+    Error       err;
+    float      *source = leaves_of_signals(&shape, &f->arena);
+    assert_true(tree_build(&options, source, &f->arena, &blob, NULL, &err));
+    size_t      size = tree_size(blob);
+    TreeHeader *copy = arena_alloc(&f->arena, 1, 16, size);
+    memcpy(copy, blob, size);
+    copy->level = 2;
+    assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
+    assert_non_null(strstr(err.text, "below the leaves' level 2"));
+    copy->level = 3;
+    copy->row_count -= 2;
+    copy->size -= 8;
+    assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
+    assert_non_null(strstr(err.text, "row"));
+    copy->row_count += 4;
+    copy->size += 16;
+    assert_false(tree_open(copy, size + 8, f->geodesic, &tree, &err));
+    assert_non_null(strstr(err.text, "row count is"));
 }
 
 static void a_bad_header_is_named(void **state)
@@ -503,6 +532,7 @@ int main(void)
         CASE(interpolation_keeps_centres_and_constants),
         CASE(interpolation_is_continuous),
         CASE(mutated_trees_are_refused_or_harmless),
+        CASE(trees_deeper_than_their_header_are_refused),
         CASE(a_bad_header_is_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
