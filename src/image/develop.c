@@ -90,14 +90,6 @@ static bool develop_light(const LayerView *view, const DevelopOptions *options, 
     return apply_view(out, options, report, err);
 }
 
-static long count_nonfinite(const LayerView *view)
-{
-    long   count = 0;
-    size_t pixels = (size_t)view->width * (size_t)view->height;
-    for (size_t i = 0; i < pixels; i++) count += !isfinite(view->planes[0][i]);
-    return count;
-}
-
 static bool set_range(const DevelopOptions *options, LayerView *view, Error *err)
 {
     double low = options->range[0], high = options->range[1];
@@ -133,10 +125,10 @@ bool develop_picture(const FrameImage *frame, const DevelopOptions *options, Are
     if (view.show == SHOW_LIGHT) {
         if (!develop_light(&view, options, arena, &picture, &made, err)) return false;
     } else {
-        made.nonfinite_pixels = count_nonfinite(&view);
         picture = layer_view_picture(&view, arena, made.scale);
     }
     made.nonfinite_pixels -= pixels_outside_data(frame);
+    if (view.has_gaps || view.show != SHOW_LIGHT) made.nonfinite_pixels = 0;
     made.width = picture.width;
     made.height = picture.height;
     *out = picture;

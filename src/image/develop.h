@@ -28,7 +28,7 @@ typedef struct DevelopReport {
     double grey_cd_m2;    /* what became middle grey; 0 when not developed */
     double ev;            /* the same as an exposure value */
     char   config[1024], display[128], view[128]; /* "" when not developed */
-    long   nonfinite_pixels; /* NaN shown black (grey in false colour), infinity white */
+    long   nonfinite_pixels; /* of light: NaN is shown black, infinity white */
     char   scale[160];    /* of false colours: "0.1 to 1000 cd/m^2, logarithmic", else "" */
 } DevelopReport;
 

@@ -8,7 +8,7 @@
 
 #define KEY_LOW 0.05
 #define KEY_HIGH 0.60
-#define KEY_SHOWN_AT 0.15
+#define KEY_SHOWN_AT 0.12
 #define GUARD_PERCENTILE 0.99
 #define GUARD_RATIO 16.0
 #define GUARD_NIGHT_CD_M2 300.0

@@ -184,8 +184,10 @@ static void draw_tick(Picture *picture, const ScaleLayout *s, float y, bool is_l
     fill(picture, s->right, row, s->right + length, row + thick, INK);
     if (!is_labelled) return;
     char text[32];
-    bool is_long = fabsf(value) >= 1e4f && fabsf(value) < 1e7f;
-    snprintf(text, sizeof text, is_long ? "%.0f" : "%.4g", (double)value);
+    int  decade = value > 0 ? (int)floor(log10((double)value) + 1e-4) : 0;
+    bool is_long = decade > 5 || decade < -4;
+    if (is_long) snprintf(text, sizeof text, "%.0fe%d", (double)value / pow(10, decade), decade);
+    else snprintf(text, sizeof text, decade > 3 ? "%.0f" : "%.4g", (double)value);
     lettering_draw(picture, s->lettering, (float)s->right + letter, y, text);
 }
 

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/mathf.h"
@@ -56,7 +57,7 @@ static const KnownLayer KNOWN[] = {
     {"uv", "UV", SHOW_UV, "", false},
     {"xyz", "XYZ", SHOW_LIGHT, "cd/m^2", true},
     {"variance", "RGB", SHOW_NUMBER, "(cd/m^2)^2", true},
-    {"depth", "Z", SHOW_NUMBER, "m", false},
+    {"depth", "Z", SHOW_NUMBER, "m", true},
     {"samples", "N", SHOW_NUMBER, "samples", false},
     {"display.theta", "", SHOW_NUMBER, "deg", false},
     {"display.phi", "", SHOW_NUMBER, "deg", false},
@@ -204,6 +205,7 @@ bool layer_view_find(const FrameImage *frame, const char *layer, Arena *arena, L
     long long width = (long long)w.x1 - w.x0, height = (long long)w.y1 - w.y0;
     LayerView view = {.show = SHOW_LIGHT, .unit = ""};
     if (!layer) layer = "";
+    view.has_gaps = !strncmp(layer, "display.", 8);
     if (!find_layer(frame, layer, &view)) return unknown_layer(frame, layer, *arena, err);
     if (width < 1 || height < 1 || width * height > MAX_PIXELS || width > 65536)
         return error_set(err, ERROR_INPUT, "a display window of %lld x %lld pixels, at most "
@@ -251,16 +253,24 @@ static void id_colour(float id, float rgb[3])
     }
 }
 
-/* The least and greatest finite value of a plane. */
-static ScaleRange extent_of(const float *plane, size_t count)
+static int compare_floats(const void *a, const void *b)
 {
-    ScaleRange range = {INFINITY, -INFINITY, false};
-    for (size_t i = 0; i < count; i++) {
-        if (!isfinite(plane[i])) continue;
-        if (plane[i] < range.low) range.low = plane[i];
-        if (plane[i] > range.high) range.high = plane[i];
-    }
-    return range.high > range.low ? range : (ScaleRange){0, 1, false};
+    float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+/* From the 5th to the 80th percentile of a plane: mountains far away must not make a cabin
+ * one colour. */
+static ScaleRange extent_of(const float *plane, size_t count, Arena scratch)
+{
+    float *sorted = ARENA_NEW(&scratch, float, count);
+    size_t kept = 0;
+    for (size_t i = 0; i < count; i++)
+        if (isfinite(plane[i])) sorted[kept++] = plane[i];
+    if (kept == 0) return (ScaleRange){0, 1, false};
+    qsort(sorted, kept, sizeof *sorted, compare_floats);
+    ScaleRange range = {sorted[(kept - 1) / 20], sorted[(kept - 1) * 4 / 5], false};
+    return range.high > range.low ? range : (ScaleRange){range.low, range.low + 1, false};
 }
 
 static float shown(LayerShow show, float value, ScaleRange extent)
@@ -280,7 +290,9 @@ static Picture plain_picture(const LayerView *view, Arena *arena)
     Picture picture = picture_create(view->width, view->height, arena);
     for (int c = 0; c < 3; c++) {
         if (!view->planes[c]) continue;
-        ScaleRange extent = extent_of(view->planes[c], pixel_count(view));
+        ScaleRange extent = {0, 1, false};
+        if (view->show == SHOW_POSITION)
+            extent = extent_of(view->planes[c], pixel_count(view), *arena);
         for (size_t i = 0; i < pixel_count(view); i++)
             picture.rgb[3 * i + (size_t)c] = shown(view->show, view->planes[c][i], extent);
     }

@@ -11,7 +11,7 @@ typedef enum LayerShow {
     SHOW_LIGHT,       /* 3 planes, linear Rec.709 in cd m^-2: developed */
     SHOW_REFLECTANCE, /* 3 planes, linear Rec.709, 0 .. 1: as sRGB */
     SHOW_DIRECTION,   /* 3 planes, -1 .. 1: 0 is half grey */
-    SHOW_POSITION,    /* 3 planes: each axis from its least to its greatest */
+    SHOW_POSITION,    /* 3 planes: each axis over the range that most pixels have */
     SHOW_UV,          /* 2 planes: the fractions as red and green */
     SHOW_ID,          /* 1 plane: every number its own colour */
     SHOW_NUMBER       /* 1 plane: false colours with their scale */
@@ -21,6 +21,7 @@ typedef struct LayerView {
     LayerShow    show;
     const float *planes[3]; /* the display window, row by row; NaN where there is nothing */
     int          width, height;
+    bool         has_gaps; /* NaN is no accident: the pixels that show no display */
     const char  *unit;   /* SHOW_NUMBER, as lettering.h writes it */
     bool         is_log; /* SHOW_NUMBER: on a logarithmic scale */
     float        low, high; /* SHOW_NUMBER: the scale's ends; both 0: what fits the values */
