@@ -76,6 +76,12 @@ static Side side_of(const Dielectric *d, Vec3 wo, Vec3 wi)
     return (Side){vec3(wo.x, wo.y, -wo.z), vec3(wi.x, wi.y, -wi.z), eta, true};
 }
 
+/* Facets between equal media bend nothing, and would have no half-way normal to be found by. */
+static bool is_delta(const Dielectric *d)
+{
+    return is_smooth(d->alpha) || fabsf(d->ior - 1) < 1e-4f;
+}
+
 static float face_reflectance(float cosine, float eta, float *behind)
 {
     return fresnel_mean(fresnel_dielectric(cosine, eta, behind));
@@ -120,7 +126,7 @@ static Spectrum eval_transmitted(const Dielectric *d, const Side *s, float *pdf)
 Spectrum dielectric_eval(const Dielectric *d, Vec3 wo, Vec3 wi, float *pdf)
 {
     *pdf = 0;
-    if (is_smooth(d->alpha) || wo.z == 0 || wi.z == 0) return spectrum_all(0);
+    if (is_delta(d) || wo.z == 0 || wi.z == 0) return spectrum_all(0);
     Side s = side_of(d, wo, wi);
     return s.wi.z > 0 ? eval_reflected(d, &s, pdf) : eval_transmitted(d, &s, pdf);
 }
@@ -149,7 +155,7 @@ bool dielectric_sample(const Dielectric *d, Vec3 wo, const float u[3], BsdfSampl
 {
     if (wo.z == 0) return false;
     Side  s = side_of(d, wo, wo);
-    bool  smooth = is_smooth(d->alpha);
+    bool  smooth = is_delta(d);
     Vec3  half = smooth ? vec3(0, 0, 1) : ggx_sample_visible(s.wo, d->alpha, u[0], u[1]);
     float cosine = vec3_dot(s.wo, half), behind;
     if (!(cosine > 0)) return false;
@@ -174,5 +180,5 @@ bool dielectric_sample(const Dielectric *d, Vec3 wo, const float u[3], BsdfSampl
 
 bool dielectric_scatters(const Dielectric *d)
 {
-    return !is_smooth(d->alpha);
+    return !is_delta(d);
 }

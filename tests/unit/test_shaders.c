@@ -111,13 +111,10 @@ static void add_lacquers(void)
 
 static void add_dielectric(const char *name, float ior, float alpha)
 {
-    models[model_count++] =
-        (Model){.name = name,
-                .bsdf.kind = BSDF_DIELECTRIC,
-                .bsdf.dielectric = {spectrum_all(1), ior, alpha},
-                .both_sides = true,
-                .lossless = alpha < 0.06f,
-                .width = alpha < SMOOTH_ALPHA ? 1 : 0.5f * alpha * fabsf(ior - 1)};
+    float width = alpha < SMOOTH_ALPHA ? 1 : 0.5f * alpha * fabsf(ior - 1) + 1e-4f;
+    models[model_count++] = (Model){.name = name, .bsdf.kind = BSDF_DIELECTRIC,
+                                    .bsdf.dielectric = {spectrum_all(1), ior, alpha},
+                                    .both_sides = true, .lossless = alpha < 0.06f, .width = width};
 }
 
 static void add_glass(void)
@@ -132,6 +129,7 @@ static void add_glass(void)
     add_dielectric("frosted glass", 1.5f, 0.3f);
     add_dielectric("very rough water", 1.33f, 0.8f);
     add_dielectric("bubble", 0.75f, 0.1f);
+    add_dielectric("no boundary", 1, 0.05f);
     models[model_count++] = (Model){.name = "black", .bsdf.kind = BSDF_BLACK, .width = 1};
 }
 
