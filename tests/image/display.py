@@ -1,8 +1,7 @@
-"""display.py PARHELION -- a display in a black room shows what its panel emits: three primaries
+"""display.py [PANEL...] PARHELION -- a display in a black room shows what its panel emits: three primaries
 at nine grey levels from 25 directions, each against `panel eval`, luminance within 0.5 % and
 chromaticity within 0.002 in u'v'.
 """
-import concurrent.futures
 import glob
 import json
 import math
@@ -59,7 +58,7 @@ def shown(program, path, theta, phi, folder):
     out = os.path.join(folder, f"{theta}_{phi}.exr")
     subprocess.run([program, "render", path, "-o", out, "--camera", f"{theta},{phi}", "--size",
                     f"{COLUMNS * len(PATCHES)}x1", "--spp", "16", "--max-bounces", "0",
-                    "--quiet"], check=True, capture_output=True)
+                    "--quiet"], check=True, capture_output=True, text=True)
     frame, values = Frame(out), []
     for i in range(len(PATCHES)):
         region = (COLUMNS * i + 5, 0, COLUMNS * i + 11, 1)
@@ -68,9 +67,15 @@ def shown(program, path, theta, phi, folder):
     return values
 
 
-def evaluated(program, panel, theta, phi, rgb):
-    done = subprocess.run([program, "panel", "eval", panel, "--theta", str(theta), "--phi",
-                           str(phi), "--rgb", ",".join(map(str, rgb)), "--json"],
+def evaluated(program, panel, folder):
+    """`panel eval` of every patch in every direction, in their order."""
+    rows = os.path.join(folder, "rows.csv")
+    with open(rows, "w", encoding="utf-8") as file:
+        file.write("theta,phi,r,g,b\n")
+        for theta, phi in DIRECTIONS:
+            for rgb in PATCHES:
+                file.write(f"{theta},{phi},{rgb[0]},{rgb[1]},{rgb[2]}\n")
+    done = subprocess.run([program, "panel", "eval", panel, "--batch", rows, "--json"],
                           check=True, capture_output=True, text=True)
     return json.loads(done.stdout)
 
@@ -94,16 +99,13 @@ def compare(report, panel, place, xyz, answer):
 
 def check_panel(report, program, panel, folder):
     path = os.path.join(folder, os.path.basename(panel) + ".gltf")
-    display_scene(os.path.abspath(panel)).write(path)
+    display_scene(os.path.relpath(panel, folder)).write(path)
     worst = [0, 0]
+    answers = iter(evaluated(program, panel, folder))
     for theta, phi in DIRECTIONS:
-        values = shown(program, path, theta, phi, folder)
-        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-            answers = list(pool.map(
-                lambda rgb: evaluated(program, panel, theta, phi, rgb), PATCHES))
-        for rgb, xyz, answer in zip(PATCHES, values, answers):
+        for rgb, xyz in zip(PATCHES, shown(program, path, theta, phi, folder)):
             found = compare(report, os.path.basename(panel), f"rgb {rgb} theta {theta} phi {phi}",
-                            xyz, answer)
+                            xyz, next(answers))
             worst = [max(a, b) for a, b in zip(worst, found)]
     print(f"{os.path.basename(panel)}: luminance off by at most {100 * worst[0]:.3g} %, "
           f"u'v' by {worst[1]:.2g}")
@@ -111,11 +113,14 @@ def check_panel(report, program, panel, folder):
 
 def main():
     report, program = Report(), os.path.abspath(sys.argv[-1])
-    panels = sorted(glob.glob(os.path.join(ROOT, "assets", "panels", "*.panel")))
+    panels = sys.argv[1:-1] or sorted(glob.glob(os.path.join(ROOT, "assets/panels/*.panel")))
     report.claim(bool(panels), "assets/panels holds no panel")
     with tempfile.TemporaryDirectory() as folder:
         for panel in panels:
-            check_panel(report, program, panel, folder)
+            try:
+                check_panel(report, program, panel, folder)
+            except subprocess.CalledProcessError as error:
+                report.claim(False, f"{panel}: {error.stderr}")
     report.finish()
 
 

@@ -1,0 +1,211 @@
+"""reflection.py [PANEL...] PARHELION -- a dark display under the sun alone, and under a uniform
+sky alone, shows the integral of its BRDF as `panel eval` tells it: luminance within 0.5 %.
+
+The luminous mean over wavelengths is that of D65 (assets/spectra); the sun's own spectrum is
+near enough for a BRDF that changes slowly with wavelength.
+"""
+import csv
+import glob
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+from exr import Frame
+from gltf import Scene, along, cross, dot, unit
+
+ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
+from report import Report  # noqa: E402
+
+SUN_RADIUS = math.radians(0.26645)
+EYES = [(0, 0), (30, 20), (35, 100), (55, 250), (70, 0)]     # theta, phi in degrees
+SUNS = [(20, 130), (33, 200), (50, 60), (40, 178), (15, 90)]  # each before the eye of its place
+LUX, SKY_CD_M2, WITHIN = 90000, 1000, 0.005
+
+
+def direction(theta_deg, phi_deg):
+    theta, phi = math.radians(theta_deg), math.radians(phi_deg)
+    return [math.sin(theta) * math.cos(phi), math.sin(theta) * math.sin(phi), math.cos(theta)]
+
+
+def angles(vector):
+    return (math.degrees(math.acos(min(1, max(-1, vector[2])))),
+            math.degrees(math.atan2(vector[1], vector[0])) % 360)
+
+
+def spectrum(name, column):
+    """nm -> value of one of the CSV files, linear between its rows."""
+    with open(os.path.join(ROOT, "assets", "spectra", name), encoding="utf-8") as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    points = [(float(row["nm"]), float(row[column])) for row in rows]
+
+    def value(nm):
+        for (a, low), (b, high) in zip(points, points[1:]):
+            if a <= nm <= b:
+                return low + (high - low) * (nm - a) / (b - a)
+        return 0
+    return value
+
+
+def luminous_weights(wavelengths):
+    """What each measured wavelength counts in a luminance under D65, in sum one: linear
+    interpolation between them, the end values outside."""
+    observer, light = spectrum("cie1931_2deg.csv", "y"), spectrum("d65.csv", "power")
+    weights = [0.0] * len(wavelengths)
+    for nm in range(360, 831):
+        share = observer(nm) * light(nm)
+        after = next((i for i, w in enumerate(wavelengths) if w >= nm), len(wavelengths))
+        if after in (0, len(wavelengths)):
+            weights[min(after, len(wavelengths) - 1)] += share
+        else:
+            a, b = wavelengths[after - 1], wavelengths[after]
+            weights[after - 1] += share * (b - nm) / (b - a)
+            weights[after] += share * (nm - a) / (b - a)
+    total = sum(weights)
+    return [w / total for w in weights]
+
+
+class Panel:
+    """Luminous BRDF and mirror reflectance, asked of the program for many directions at once."""
+
+    def __init__(self, program, path, folder):
+        self.program, self.path, self.folder, self.weights = program, path, folder, None
+
+    def ask(self, eye, lights):
+        """[(brdf, mirror)] for one eye and many directions of light."""
+        rows = os.path.join(self.folder, "rows.csv")
+        theta, phi = angles(eye)
+        with open(rows, "w", encoding="utf-8") as file:
+            file.write("incidence,incidence_phi,theta,phi\n")
+            for light in lights:
+                file.write("{:.9g},{:.9g},{:.9g},{:.9g}\n".format(*angles(light), theta, phi))
+        done = subprocess.run([self.program, "panel", "eval", self.path, "--brdf", "--batch",
+                               rows, "--json"], check=True, capture_output=True, text=True)
+        answers = json.loads(done.stdout)
+        self.weights = self.weights or luminous_weights(answers[0]["wavelengths_nm"])
+        return [(dot(self.weights, a["brdf_sr"]), dot(self.weights, a["mirror"]))
+                for a in answers]
+
+
+def disc(centre, rings=6):
+    """Equal-area points of the sun's disc."""
+    x = unit(cross(centre, [0.3, 1, 0.2]))
+    y = cross(centre, x)
+    points = []
+    for i in range(rings):
+        for j in range(6 * i + 3):
+            radius = SUN_RADIUS * math.sqrt(disc_share(i, rings))
+            turn = 2 * math.pi * (j + 0.5) / (6 * i + 3)
+            points.append(unit(along(along(centre, x, radius * math.cos(turn)), y,
+                                     radius * math.sin(turn))))
+    return points
+
+
+def disc_share(ring, rings):
+    """Middle of the ring, as a share of the disc's area; ring i has 6 i + 3 points of 3 n^2."""
+    return (ring * ring + (ring + 1) ** 2) / 2 / rings ** 2
+
+
+def under_sun(panel, eye, sun):
+    points = disc(sun)
+    values = panel.ask(eye, points)
+    return LUX * sum(f * p[2] for (f, _), p in zip(values, points)) / len(points)
+
+
+def under_sky(panel, eye, steps=90, turns=72):
+    """Midpoints in rings about the mirror direction, dense where the haze is steep."""
+    mirror = [-eye[0], -eye[1], eye[2]]
+    x = unit(cross(mirror, [0.3, 1, 0.2]))
+    y = cross(mirror, x)
+    lights, shares, total = [], [], 0
+    for i in range(steps):
+        inner, outer = (math.pi * (k / steps) ** 2 for k in (i, i + 1))
+        middle = (inner + outer) / 2
+        solid = (math.cos(inner) - math.cos(outer)) * 2 * math.pi / turns
+        for j in range(turns):
+            turn = 2 * math.pi * (j + 0.5) / turns
+            across = along([math.cos(turn) * k for k in x], y, math.sin(turn))
+            light = unit(along([math.cos(middle) * k for k in mirror], across,
+                               math.sin(middle)))
+            if light[2] > 1e-6:
+                lights.append(light)
+                shares.append(solid * light[2])
+    values = panel.ask(eye, lights)
+    total = sum(f * share for (f, _), share in zip(values, shares))
+    return SKY_CD_M2 * (total + panel.ask(eye, [mirror])[0][1])
+
+
+def scene_of(panel_path, environment, eyes):
+    scene = Scene()
+    material = scene.material("display", extensions={"PARHELION_display": {
+        "panel": panel_path, "level": 0}})
+    scene.quad(material, [-1, -1, 0], [2, 0, 0], [0, 2, 0])
+    scene.environment(**environment)
+    for i, eye in enumerate(eyes):
+        scene.probe(f"eye{i}", [0.05 * k for k in eye], [-k for k in eye], 0.001)
+    return scene
+
+
+def shown(program, path, camera, folder):
+    """Luminance of the frame, with samples until its own error is a tenth of what is allowed."""
+    samples, out = 256, os.path.join(folder, "frame.exr")
+    while True:
+        subprocess.run([program, "render", path, "-o", out, "--camera", camera, "--size", "16x16",
+                        "--spp", str(samples), "--max-bounces", "1", "--layers", "variance",
+                        "--quiet"], check=True, capture_output=True, text=True)
+        mean, sigma = Frame(out).mean_luminance()
+        if sigma <= WITHIN / 5 * mean or samples >= 65536:
+            return mean, sigma
+        samples *= 4
+
+
+def sun_environment(sun):
+    """The glTF description of a sun in this direction; north is -Z, east +X."""
+    azimuth = math.degrees(math.atan2(sun[0], -sun[2])) % 360
+    return {"type": "constant", "luminance": 0, "sun": {
+        "azimuth_deg": azimuth, "elevation_deg": math.degrees(math.asin(sun[1])),
+        "illuminance_lx": LUX}}
+
+
+def claim(report, what, value, expected):
+    mean, sigma = value
+    text = (f"{what}: {mean:.6g} cd/m2 in the frame, {expected:.6g} by `panel eval` "
+            f"({100 * (mean / expected - 1):+.2g} %, sigma {100 * sigma / expected:.2g} %)")
+    if report.claim(abs(mean - expected) <= WITHIN * expected + 3 * sigma, text):
+        print(f"passed {text}")
+
+
+def check_panel(report, program, path, folder):
+    panel, name = Panel(program, path, folder), os.path.basename(path)
+    relative = os.path.relpath(path, folder)
+    scene_path = os.path.join(folder, "scene.gltf")
+    eyes = [direction(*eye) for eye in EYES]
+    for i, (eye, sun_angles) in enumerate(zip(eyes, SUNS)):
+        sun = direction(*sun_angles)
+        scene_of(relative, sun_environment(sun), eyes).write(scene_path)
+        claim(report, f"{name} from {EYES[i]} under the sun at {sun_angles}",
+              shown(program, scene_path, f"eye{i}", folder), under_sun(panel, eye, sun))
+    scene_of(relative, {"type": "constant", "luminance": SKY_CD_M2}, eyes).write(scene_path)
+    for i, eye in enumerate(eyes):
+        claim(report, f"{name} from {EYES[i]} under a uniform sky",
+              shown(program, scene_path, f"eye{i}", folder), under_sky(panel, eye))
+
+
+def main():
+    report, program = Report(), os.path.abspath(sys.argv[-1])
+    panels = sys.argv[1:-1] or sorted(glob.glob(os.path.join(ROOT, "assets/panels/*.panel")))
+    report.claim(bool(panels), "assets/panels holds no panel")
+    with tempfile.TemporaryDirectory() as folder:
+        for panel in panels:
+            try:
+                check_panel(report, program, panel, folder)
+            except subprocess.CalledProcessError as error:
+                report.claim(False, f"{panel}: {error.stderr}")
+    report.finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
