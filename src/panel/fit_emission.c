@@ -115,45 +115,6 @@ static float *leaf_values(Leaves *leaves, const AngleTable *table)
     return out;
 }
 
-static int by_value(const void *a, const void *b)
-{
-    double p = *(const double *)a, q = *(const double *)b;
-    return p < q ? -1 : p > q;
-}
-
-double fit_noise(const AngleTable *table, int channel, Arena scratch)
-{
-    double *third = ARENA_NEW(&scratch, double, table->rows + 1);
-    int     count = 0, size = table->channels;
-    for (int i = 3; i < table->rows; i++) { /* rows are sorted: neighbours on a ring */
-        if (table->theta[i] != table->theta[i - 3] || table->theta[i] > radians_from_degrees(70))
-            continue;
-        const float *v = table->value + (size_t)i * (size_t)size + channel;
-        double a = (double)v[0], b = (double)v[-size], c = (double)v[-2 * size],
-               d = (double)v[-3 * size], mean = (a + b + c + d) / 4;
-        if (mean > 0) third[count++] = fabs(a - 3 * b + 3 * c - d) / mean;
-    }
-    if (count < 16) return 0;
-    qsort(third, (size_t)count, sizeof *third, by_value);
-    return third[count / 2] / (0.6745 * sqrt(20)); /* the median of |normal|, 1 3 3 1 */
-}
-
-/* Noise in cd m^-2 of the dimmest rings, where only what does not scale with light is left. */
-static double fit_dim_noise(const AngleTable *table, int channel, Arena scratch)
-{
-    double *third = ARENA_NEW(&scratch, double, table->rows + 1);
-    int     count = 0, size = table->channels;
-    for (int i = 3; i < table->rows; i++) {
-        const float *v = table->value + (size_t)i * (size_t)size + channel;
-        if (table->theta[i] != table->theta[i - 3] || table->theta[i] < 0.9f * table->theta_max)
-            continue;
-        third[count++] = fabs((double)(v[0] - 3 * v[-size] + 3 * v[-2 * size] - v[-3 * size]));
-    }
-    if (count < 16) return 0;
-    qsort(third, (size_t)count, sizeof *third, by_value);
-    return third[count / 2] / (0.6745 * sqrt(20));
-}
-
 static float table_maximum(const float *values, int count, int component)
 {
     float most = 0;
@@ -179,7 +140,7 @@ static void add_channels(Leaves *leaves, int first, const AngleTable *table,
             float  value = fmaxf(total - dark, least);
             size_t at = (size_t)i * (size_t)leaves->channels + (size_t)(first + j);
             leaves->logs[at] = logf(value);
-            leaves->doubt[at] = sigma / value;
+            leaves->doubt[at] = fminf(sigma / value, 1e3f);
         }
     }
 }
@@ -233,7 +194,7 @@ static void fill_channels(const Measurement *set, Leaves *leaves, FitEmission *o
 
 /* ---- noise ----------------------------------------------------------------------------- */
 
-#define DOUBT 0.015 /* where noise exceeds this share a brighter table speaks too */
+#define DOUBT 0.015 /* where noise exceeds this share a brighter table speaks as well */
 
 /* Weight of a channel's own word at a place. */
 static double own_word(const Leaves *leaves, int place, int channel)
@@ -243,12 +204,26 @@ static double own_word(const Leaves *leaves, int place, int channel)
     return 1 / (1 + s * s * s * s);
 }
 
-/* Where a channel drowns in noise it follows a brighter one: their difference, a + b sin^2
- * theta, is fitted where the channel can be trusted. */
-static void follow(Leaves *leaves, int channel, int brighter)
+/* ln of the ratio of two channels' sums over the hemisphere: what is known of a channel that is
+ * nowhere clear of the noise. */
+static double ratio_of_sums(const Leaves *leaves, int channel, int brighter)
+{
+    double sum[2] = {0, 0};
+    for (int i = 0; i < leaves->places.leaves; i++) {
+        const float *row = leaves->logs + (size_t)i * (size_t)leaves->channels;
+        double w = leaves->places.area[i] * (double)leaves->places.direction[i].z;
+        sum[0] += w * exp((double)row[channel]);
+        sum[1] += w * exp((double)row[brighter]);
+    }
+    return log(sum[0] / sum[1]);
+}
+
+/* The difference of two channels' logarithms, line[0] + line[1] sin^2 theta, fitted where the
+ * first can be trusted. */
+static void fit_difference(const Leaves *leaves, int channel, int brighter, double line[2])
 {
     double m[2][2] = {{0}}, r[2] = {0, 0};
-    for (int i = 0; i < leaves->count; i++) {
+    for (int i = 0; i < leaves->places.leaves; i++) {
         const float *row = leaves->logs + (size_t)i * (size_t)leaves->channels;
         double z = (double)leaves->places.direction[i].z, s = 1 - z * z;
         double w = leaves->places.area[i] * own_word(leaves, i, channel);
@@ -257,15 +232,26 @@ static void follow(Leaves *leaves, int channel, int brighter)
         r[0] += w * d, r[1] += w * s * d;
     }
     double det = m[0][0] * m[1][1] - m[0][1] * m[0][1];
+    line[0] = ratio_of_sums(leaves, channel, brighter);
+    line[1] = 0;
     if (!(det > 1e-6 * m[0][0] * m[0][0]) || !(m[0][0] > 0.2)) return; /* too little light */
-    double a = (r[0] * m[1][1] - r[1] * m[0][1]) / det;
-    double b = (r[1] * m[0][0] - r[0] * m[0][1]) / det;
+    line[0] = (r[0] * m[1][1] - r[1] * m[0][1]) / det;
+    line[1] = (r[1] * m[0][0] - r[0] * m[0][1]) / det;
+}
+
+/* Where a channel drowns in noise it follows a brighter one. */
+static void follow(Leaves *leaves, int channel, int brighter)
+{
+    double line[2];
+    fit_difference(leaves, channel, brighter, line);
     for (int i = 0; i < leaves->count; i++) {
         float *row = leaves->logs + (size_t)i * (size_t)leaves->channels;
+        float *doubt = leaves->doubt + (size_t)i * (size_t)leaves->channels;
         double z = (double)leaves->places.direction[i].z;
-        double told = (double)row[brighter] + a + b * (1 - z * z);
+        double told = (double)row[brighter] + line[0] + line[1] * (1 - z * z);
         double w = own_word(leaves, i, channel);
         row[channel] = (float)(w * (double)row[channel] + (1 - w) * told);
+        doubt[channel] = (float)w * doubt[channel] + (float)(1 - w) * doubt[brighter];
     }
 }
 
@@ -323,7 +309,7 @@ static void ratio_range(const Leaves *leaves, int first, int count, float low[2]
         }
     }
     for (int k = 0; k < 2; k++) {
-        qsort(ratio[k], (size_t)kept, sizeof(double), by_value);
+        qsort(ratio[k], (size_t)kept, sizeof(double), fit_by_value);
         low[k] = kept ? (float)ratio[k][kept / 100] - 0.03f : -1;
         high[k] = kept ? (float)ratio[k][kept - 1 - kept / 100] + 0.03f : 1;
     }
@@ -386,14 +372,36 @@ static double median_noise(const double *noise, int count)
 {
     double sorted[3 * PANEL_LEVELS_MAX + 1];
     memcpy(sorted, noise, sizeof *sorted * (size_t)count);
-    qsort(sorted, (size_t)count, sizeof *sorted, by_value);
+    qsort(sorted, (size_t)count, sizeof *sorted, fit_by_value);
     return sorted[count / 2];
+}
+
+/* What the smooth profile leaves at a place is believed as far as it stands out of the noise
+ * there: shrunk by 1 - (2 sigma / rest)^2, sigma the channels' doubt carried to a component. */
+static void shrink_noise(const Leaves *leaves, const Principal *rank)
+{
+    for (int i = 0; i < leaves->places.leaves; i++)
+        for (int k = 0; k < rank->components; k++) {
+            double variance = 1e-20;
+            float *rest = &rank->score[(size_t)i * (size_t)rank->components + (size_t)k];
+            for (int c = 0; c < leaves->channels; c++) {
+                double w = rank->weight[c];
+                double part = w * w * (double)rank->loading[c * rank->components + k] *
+                    (double)leaves->doubt[(size_t)i * (size_t)leaves->channels + (size_t)c];
+                variance += part * part;
+            }
+            double share = 1 - 4 * variance / ((double)*rest * (double)*rest + 1e-20);
+            *rest *= (float)fmax(0, share);
+        }
 }
 
 static bool build_tree(const Leaves *leaves, const FitOptions *options, const Principal *rank,
                        FitEmission *out, Error *err)
 {
-    out->profile = fit_profile(&leaves->places, rank->score, rank->components, leaves->arena);
+    out->head.harmonics = FIT_EMISSION_HARMONICS;
+    out->profile = fit_profile(&leaves->places, rank->score, rank->components,
+                               FIT_EMISSION_HARMONICS, leaves->arena);
+    shrink_noise(leaves, rank);
     float scale[PANEL_COMPONENTS_MAX];
     for (int k = 0; k < rank->components; k++) {
         double most = 0;

@@ -42,7 +42,8 @@ static void add_emission(Writer *writer, const FitEmission *e)
     Piece  pieces[] = {{&e->head, sizeof e->head}, {e->mean, channels * f},
                        {e->loading, channels * e->head.components * f},
                        {e->mean_y, channels / 3 * f},
-                       {e->profile, PANEL_ANGLES * e->head.components * f}};
+                       {e->profile, PANEL_ANGLES * e->head.components *
+                                       (1 + 2 * e->head.harmonics) * f}};
     Piece  tree = {e->tree, tree_size(e->tree)};
     add_section(writer, PANEL_EMISSION, 0, pieces, 5);
     add_section(writer, PANEL_EMISSION_TREE, 0, &tree, 1);
@@ -53,7 +54,8 @@ static void add_reflection(Writer *writer, const FitReflection *r)
     size_t padded = r->head.padded_wavelengths, f = sizeof(float);
     Piece  pieces[] = {{&r->head, sizeof r->head}, {r->basis, r->head.coefficients * padded * f},
                        {r->mirror, PANEL_ANGLES * padded * f},
-                       {r->profile, PANEL_ANGLES * r->head.slices * r->head.coefficients * f}};
+                       {r->profile, PANEL_ANGLES * r->head.slices * r->head.coefficients *
+                                       (1 + r->head.harmonics) * f}};
     Piece  tree = {r->tree, tree_size(r->tree)};
     add_section(writer, PANEL_REFLECTION, 0, pieces, 4);
     add_section(writer, PANEL_REFLECTION_TREE, 0, &tree, 1);
@@ -68,12 +70,14 @@ static size_t enough_bytes(const FitParts *parts, size_t meta)
     size_t size = meta + tree_size(parts->emission->tree) + sizeof(PanelPrimaries) +
                   sizeof(PanelEmission) + sizeof(PanelReflection) + 64 * 128 +
                   4 * parts->emission->head.channels * (2 + parts->emission->head.components) +
-                  4 * PANEL_ANGLES * parts->emission->head.components;
+                  4 * PANEL_ANGLES * parts->emission->head.components *
+                      (1 + 2 * parts->emission->head.harmonics);
     const FitReflection *r = parts->reflection;
     if (!r) return size;
     size += tree_size(r->tree) +
             4 * r->head.padded_wavelengths * (r->head.coefficients + (size_t)PANEL_ANGLES) +
-            4 * (size_t)PANEL_ANGLES * r->head.coefficients * r->head.slices;
+            4 * (size_t)PANEL_ANGLES * r->head.coefficients * r->head.slices *
+                (1 + r->head.harmonics);
     for (uint32_t i = 0; i < r->head.slices; i++) size += sampling_tree_size(r->sampling[i]);
     return size;
 }

@@ -36,8 +36,18 @@ typedef struct FitEmission {
 bool fit_emission(const Measurement *set, const FitOptions *options, Arena *arena,
                   FitNotes *notes, FitEmission *out, Error *err);
 
-/* Relative noise of a table: third differences along the rings, robust. channel: which. */
+/* ---- noise ------------------------------------------------------------------------------ */
+
+/* Relative noise of a table's channel inside 70 degrees: the median of third differences along
+ * the rings, or along the meridians of a table that has but a few azimuths. 0: cannot tell. */
 double fit_noise(const AngleTable *table, int channel, Arena scratch);
+
+/* Noise in the channel's unit on the dimmest rings, where only what does not scale with light
+ * is left. */
+double fit_dim_noise(const AngleTable *table, int channel, Arena scratch);
+
+/* For qsort: doubles, rising. */
+int fit_by_value(const void *a, const void *b);
 
 /* ---- spectra --------------------------------------------------------------------------- */
 
@@ -84,7 +94,7 @@ double fit_fresnel(double cos_theta);
  * azimuths, PANEL_ANGLES rings of FIT_RING directions each. */
 #define FIT_RING 72
 typedef struct FitPlaces {
-    int     level, leaves, count;
+    int     level, octants, leaves, count;
     Vec3   *direction;
     double *area; /* of the triangles, sr; 0 on rings */
 } FitPlaces;
@@ -92,9 +102,12 @@ typedef struct FitPlaces {
 /* octants 2: the half with y >= 0, rings over azimuths 0..180 degrees only. */
 FitPlaces fit_places(int level, int octants, Arena *arena);
 
-/* profile[PANEL_ANGLES][components] from the rings of values (count x components), and takes
- * it out of the leaves' values. */
-float *fit_profile(const FitPlaces *places, float *values, int components, Arena *arena);
+/* The values of a profile (PanelProfile) with so many harmonics from the rings of `values`
+ * (count x components), which it takes out of the leaves' values. */
+#define FIT_EMISSION_HARMONICS 4
+#define FIT_REFLECTION_HARMONICS 2
+float *fit_profile(const FitPlaces *places, float *values, int components, int harmonics,
+                   Arena *arena);
 
 /* ---- the file and the report ----------------------------------------------------------- */
 

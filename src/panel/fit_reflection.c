@@ -87,9 +87,13 @@ static void mirror_slice(Work *work, int to, int from)
     work->logs[to] = slice_logs(work);
     memcpy(work->logs[to], work->logs[from] + half, half * sizeof(float));
     memcpy(work->logs[to] + half, work->logs[from], half * sizeof(float));
-    memcpy(work->logs[to] + 2 * half, work->logs[from] + 2 * half, /* only their mean counts */
-           sizeof(float) * (size_t)(work->places.count - work->leaves) *
-               (size_t)work->wavelengths);
+    size_t size = (size_t)work->wavelengths;
+    for (int i = work->leaves; i < work->places.count; i++) {
+        int ring = (i - work->leaves) / FIT_RING, turn = (i - work->leaves) % FIT_RING;
+        int other = work->leaves + ring * FIT_RING + FIT_RING - 1 - turn;
+        memcpy(work->logs[to] + (size_t)i * size, work->logs[from] + (size_t)other * size,
+               sizeof(float) * size);
+    }
 }
 
 /* The smallest value of the last slice per wavelength inside 60 degrees: its floor. */
@@ -362,12 +366,15 @@ static bool build_tree(Work *work, const int *index, int count, const float *lar
     for (int s = 0; s < work->slices; s++)
         for (int k = 0; k < count; k++) {
             int c = s * count + k;
-            scale[c] = largest[k];
+            /* nobody measured beyond the last incidence: a quarter of the precision there */
+            scale[c] = s < work->mirrored + work->measured ? largest[k] : 0.25f * largest[k];
             for (int i = 0; i < work->places.count; i++)
                 values[(size_t)i * (size_t)components + (size_t)c] =
                     work->logs[s][(size_t)i * (size_t)work->wavelengths + (size_t)index[k]];
         }
-    work->out->profile = fit_profile(&work->places, values, components, work->arena);
+    work->out->head.harmonics = FIT_REFLECTION_HARMONICS;
+    work->out->profile = fit_profile(&work->places, values, components,
+                                     FIT_REFLECTION_HARMONICS, work->arena);
     double bound = fmax(4 * (double)work->options->max_error,
                         3 * largest_noise(work->out, work->measured));
     TreeOptions options = {.shape = {work->places.level, 2, components, work->options->weights},

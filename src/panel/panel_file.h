@@ -23,6 +23,7 @@
 #define PANEL_COEFFICIENTS_MAX 32 /* spectral, per slice */
 #define PANEL_ANGLES 181 /* nodes of tables over theta: 0, 0.5, ... 90 degrees */
 #define PANEL_BEND_SIDE 17
+#define PANEL_HARMONICS_MAX 8
 
 typedef struct PanelHeader {
     char     magic[8]; /* PANEL_MAGIC, without its zero */
@@ -51,17 +52,16 @@ typedef struct PanelSection {
 /* Natural logarithms of tristimulus values in cd m^-2. A channel is one of X, Y, Z of one
  * table: red's levels rising, then green's, blue's, then (if any) the black pattern's. At a
  * direction, log value[channel] = mean[channel] + cosine_power log cos theta + sum over
- * components of loading[channel][component] * (profile[theta][component] + tree's component).
- * The profile is the mean over azimuths, so that the tree holds only what turns with phi: its
- * interpolation is of first order, and a display falls to 0 at the horizon. */
+ * components of loading[channel][component] * (profile + tree's component). */
 typedef struct PanelEmission {
     uint32_t components, channels, level_count[3], has_black;
     float    cone_cos;   /* cos of the last measured theta */
     float    level_power; /* exponent of the level curve where only one level is known */
     float    cosine_power;
     float    level[3][PANEL_LEVELS_MAX];
+    uint32_t harmonics; /* of the profile */
     /* then: float mean[channels], loading[channels][components], mean_y[channels / 3],
-     * profile[PANEL_ANGLES][components] */
+     * profile[PANEL_ANGLES][1 + 2 harmonics][components] */
 } PanelEmission;
 
 /* How a primary's spectrum is bent: coefficients over (log X/Y, log Z/Y). */
@@ -78,49 +78,20 @@ typedef struct PanelPrimaries {
 
 /* Slices in the specular-following frame: component slice * coefficients + k of profile plus
  * tree is coefficient k of log(f / F(theta_i)); basis[k] times it, summed, is the logarithm at
- * the wavelengths. The profile is the mean over the stored frame's azimuths. Slices with a negative theta are the first ones mirrored at the normal. */
+ * the wavelengths. Slices with a negative theta are the first ones mirrored at the normal. */
 typedef struct PanelReflection {
     uint32_t slices, coefficients, wavelengths, padded_wavelengths;
     float    frame_exponent, refractive_index;
     float    cone_cos;               /* of the leaving directions */
     float    first_theta, last_theta; /* measured incidences, radians */
     uint32_t is_cubic;               /* over four slices; else linear over two */
+    uint32_t harmonics;              /* of the profile, cosines only */
     float    slice_theta[PANEL_SLICES_MAX];
     float    wavelength_nm[PANEL_WAVELENGTHS_MAX];
     float    haze_albedo[PANEL_ANGLES];
     /* then: float basis[coefficients][padded], mirror[PANEL_ANGLES][padded],
-     * profile[PANEL_ANGLES][slices * coefficients] */
+     * profile[PANEL_ANGLES][1 + harmonics][slices * coefficients] */
 } PanelReflection;
-
-struct Panel {
-    void   *map; /* NULL: the bytes belong to somebody else */
-    size_t  size;
-    const char *meta;
-    size_t      meta_size;
-    const PanelEmission *emission;
-    const float *channel_mean, *loading, *mean_y, *emission_profile;
-    Tree         emission_tree;
-    float        log_level[3][PANEL_LEVELS_MAX];
-    const PanelPrimaries *primaries;
-    const PanelReflection *reflection; /* NULL: reflects nothing */
-    const float *basis, *mirror, *reflection_profile;
-    Tree         reflection_tree;
-    SamplingTree sampling[PANEL_SLICES_MAX];
-    int16_t      wavelength_index[SPECTRAL_COUNT]; /* interval that begins at or below a nm */
-    float        wavelength_scale[PANEL_WAVELENGTHS_MAX]; /* 1 / interval's width */
-};
-
-/* Checks bytes (aligned to 8, alive as long as the panel) and makes the view. */
-bool panel_from_bytes(const void *bytes, size_t size, const char *name, Arena *arena,
-                      Panel **out, Error *err);
-
-/* Number of levels' channels before primary p; p = 3: the black pattern's first channel. */
-static inline uint32_t panel_first_channel(const PanelEmission *emission, int p)
-{
-    uint32_t channel = 0;
-    for (int i = 0; i < p; i++) channel += 3 * emission->level_count[i];
-    return channel;
-}
 
 /* Position in a table over theta: *t in [0, 1] from node to node + 1. */
 static inline int panel_angle_node(float theta, float *t)
@@ -138,11 +109,75 @@ static inline float panel_polar_angle(Vec3 d)
     return atan2_f(safe_sqrtf(d.x * d.x + d.y * d.y), d.z);
 }
 
-/* Adds components first .. first + count - 1 of a profile of `width` components. */
-static inline void panel_add_profile(const float *profile, int width, float theta, int first,
-                                     int count, float *out)
+/* The smooth part of a tree's components, a Fourier series over the azimuth whose terms are
+ * tables over theta: values[angle][term][component], terms 1, cos phi, (sin phi,) cos 2 phi ...
+ * It leaves to the tree what is fine or irregular; interpolation between leaves is of first
+ * order, and the smooth part, steep towards the horizon, would suffer most of it. */
+typedef struct PanelProfile {
+    const float *values;
+    int          width;     /* components */
+    int          harmonics;
+    bool         has_sines; /* false: symmetric in y */
+} PanelProfile;
+
+static inline int panel_profile_terms(int harmonics, bool has_sines)
 {
-    float        t;
-    const float *a = profile + panel_angle_node(theta, &t) * width + first, *b = a + width;
-    for (int i = 0; i < count; i++) out[i] += lerpf(a[i], b[i], t);
+    return 1 + (has_sines ? 2 : 1) * harmonics;
+}
+
+static inline void panel_add_row(const float *row, int stride, float t, float factor, int count,
+                                 float *out)
+{
+    for (int i = 0; i < count; i++) out[i] += factor * lerpf(row[i], row[i + stride], t);
+}
+
+/* Adds components first .. first + count - 1 at a direction to out. */
+static inline void panel_add_profile(const PanelProfile *profile, Vec3 d, int first, int count,
+                                     float *out)
+{
+    float t, s = safe_sqrtf(d.x * d.x + d.y * d.y);
+    float cos_1 = s > 0 ? d.x / s : 1, sin_1 = s > 0 ? d.y / s : 0, c = 1, sine = 0;
+    int   terms = panel_profile_terms(profile->harmonics, profile->has_sines);
+    int   stride = terms * profile->width;
+    const float *row = profile->values + panel_angle_node(atan2_f(s, d.z), &t) * stride + first;
+    panel_add_row(row, stride, t, 1, count, out);
+    for (int m = 1; m <= profile->harmonics; m++) {
+        float next = c * cos_1 - sine * sin_1;
+        sine = sine * cos_1 + c * sin_1;
+        c = next;
+        panel_add_row(row += profile->width, stride, t, c, count, out);
+        if (profile->has_sines) panel_add_row(row += profile->width, stride, t, sine, count, out);
+    }
+}
+
+struct Panel {
+    void   *map; /* NULL: the bytes belong to somebody else */
+    size_t  size;
+    const char *meta;
+    size_t      meta_size;
+    const PanelEmission *emission;
+    const float *channel_mean, *loading, *mean_y;
+    PanelProfile emission_profile;
+    Tree         emission_tree;
+    float        log_level[3][PANEL_LEVELS_MAX];
+    const PanelPrimaries *primaries;
+    const PanelReflection *reflection; /* NULL: reflects nothing */
+    const float *basis, *mirror;
+    PanelProfile reflection_profile;
+    Tree         reflection_tree;
+    SamplingTree sampling[PANEL_SLICES_MAX];
+    int16_t      wavelength_index[SPECTRAL_COUNT]; /* interval that begins at or below a nm */
+    float        wavelength_scale[PANEL_WAVELENGTHS_MAX]; /* 1 / interval's width */
+};
+
+/* Checks bytes (aligned to 8, alive as long as the panel) and makes the view. */
+bool panel_from_bytes(const void *bytes, size_t size, const char *name, Arena *arena,
+                      Panel **out, Error *err);
+
+/* Number of levels' channels before primary p; p = 3: the black pattern's first channel. */
+static inline uint32_t panel_first_channel(const PanelEmission *emission, int p)
+{
+    uint32_t channel = 0;
+    for (int i = 0; i < p; i++) channel += 3 * emission->level_count[i];
+    return channel;
 }

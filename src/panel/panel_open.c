@@ -111,7 +111,7 @@ static bool check_levels(const Bytes *at, const PanelEmission *e)
             return refuse(at, "emission", "levels do not rise from above 0 to 255");
         channels += 3 * (uint64_t)e->level_count[p];
     }
-    if (e->has_black > 1 || channels != e->channels || e->components < 1 ||
+    if (e->has_black > 1 || e->harmonics > PANEL_HARMONICS_MAX || channels != e->channels || e->components < 1 ||
         e->components > PANEL_COMPONENTS_MAX)
         return refuse(at, "emission", "channel or component count out of range");
     if (!(e->cone_cos >= 0 && e->cone_cos <= 1) || !(e->level_power > 0 && e->level_power < 10) ||
@@ -130,14 +130,15 @@ static bool open_emission(const Bytes *bytes, const Geodesic *geodesic, Panel *p
     if (at.size < sizeof *e) return refuse(&at, "emission", "is too short");
     if (!check_levels(&at, e)) return false;
     size_t floats = (size_t)e->channels * (1 + e->components) + e->channels / 3 +
-                    (size_t)PANEL_ANGLES * e->components;
+                    (size_t)PANEL_ANGLES * e->components * (1 + 2 * e->harmonics);
     if (at.size != sizeof *e + floats * sizeof(float))
         return refuse(&at, "emission", "has another size than its counts say");
     panel->emission = e;
     panel->channel_mean = (const float *)(at.data + sizeof *e);
     panel->loading = panel->channel_mean + e->channels;
     panel->mean_y = panel->loading + (size_t)e->channels * e->components;
-    panel->emission_profile = panel->mean_y + e->channels / 3;
+    panel->emission_profile = (PanelProfile){panel->mean_y + e->channels / 3,
+                                             (int)e->components, (int)e->harmonics, true};
     if (!all_finite(panel->channel_mean, floats))
         return refuse(&at, "emission", "holds a number that is not finite");
     if (!tree_open(tree.data, tree.size, geodesic, &panel->emission_tree, bytes->err))
@@ -174,7 +175,8 @@ static bool check_reflection(const Bytes *at, const PanelReflection *r)
     if (r->slices < 1 || r->slices > PANEL_SLICES_MAX || r->coefficients < 1 ||
         r->coefficients > PANEL_COEFFICIENTS_MAX || r->wavelengths < 1 ||
         r->wavelengths > PANEL_WAVELENGTHS_MAX ||
-        r->padded_wavelengths != (r->wavelengths + 15) / 16 * 16 || r->is_cubic > 1)
+        r->padded_wavelengths != (r->wavelengths + 15) / 16 * 16 || r->is_cubic > 1 ||
+        r->harmonics > PANEL_HARMONICS_MAX)
         return refuse(at, "reflection", "a count is out of range");
     if (!(r->frame_exponent >= 1 && r->frame_exponent <= 4) ||
         !(r->refractive_index >= 1 && r->refractive_index <= 4) ||
@@ -228,13 +230,15 @@ static bool open_reflection(const Bytes *bytes, const Geodesic *geodesic, Panel 
     if (at.size < sizeof *r) return refuse(&at, "reflection", "is too short");
     if (!check_reflection(&at, r)) return false;
     size_t floats = (size_t)r->padded_wavelengths * (r->coefficients + PANEL_ANGLES) +
-                    (size_t)PANEL_ANGLES * r->slices * r->coefficients;
+                    (size_t)PANEL_ANGLES * r->slices * r->coefficients * (1 + r->harmonics);
     if (at.size != sizeof *r + floats * sizeof(float))
         return refuse(&at, "reflection", "has another size than its counts say");
     panel->reflection = r;
     panel->basis = (const float *)(at.data + sizeof *r);
     panel->mirror = panel->basis + (size_t)r->padded_wavelengths * r->coefficients;
-    panel->reflection_profile = panel->mirror + (size_t)r->padded_wavelengths * PANEL_ANGLES;
+    panel->reflection_profile =
+        (PanelProfile){panel->mirror + (size_t)r->padded_wavelengths * PANEL_ANGLES,
+                       (int)(r->slices * r->coefficients), (int)r->harmonics, false};
     if (!all_finite(panel->basis, floats))
         return refuse(&at, "reflection", "holds a number that is not finite");
     if (!tree_open(tree.data, tree.size, geodesic, &panel->reflection_tree, bytes->err))

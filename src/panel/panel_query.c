@@ -96,8 +96,7 @@ static void source_logs(const Panel *panel, Vec3 direction, const float rgb[3],
     float components[PANEL_COMPONENTS_MAX];
     int   count = (int)panel->emission->components;
     tree_interpolate(&panel->emission_tree, direction, components);
-    panel_add_profile(panel->emission_profile, count, panel_polar_angle(direction), 0, count,
-                      components);
+    panel_add_profile(&panel->emission_profile, direction, 0, count, components);
     float fall = panel->emission->cosine_power * log_f(clampf(direction.z, 1e-4f, 1));
     for (int p = 0; p < 3; p++) {
         LevelPosition at = panel_level_position(panel, p, rgb[p]);

@@ -107,8 +107,8 @@ static void reflection_logs(const Panel *panel, Vec3 stored, float theta, float 
     float    part[4 * PANEL_COEFFICIENTS_MAX], coefficient[PANEL_COEFFICIENTS_MAX] = {0};
     tree_walk_interpolated(&panel->reflection_tree, stored, &taps);
     tree_sum(&panel->reflection_tree, &taps, mix.first * k_count, mix.count * k_count, part);
-    panel_add_profile(panel->reflection_profile, (int)r->slices * k_count,
-                      panel_polar_angle(stored), mix.first * k_count, mix.count * k_count, part);
+    panel_add_profile(&panel->reflection_profile, stored, mix.first * k_count,
+                      mix.count * k_count, part);
     for (int s = 0; s < mix.count; s++)
         for (int k = 0; k < k_count; k++)
             coefficient[k] += mix.weight[s] * part[s * k_count + k];
