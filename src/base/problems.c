@@ -16,7 +16,8 @@ static void append(Problems *problems, Severity severity, const char *file, cons
     if (problems->count == problems->capacity) {
         int      capacity = problems->capacity ? 2 * problems->capacity : 16;
         Problem *list = ARENA_NEW(arena, Problem, capacity);
-        if (problems->count) memcpy(list, problems->list, sizeof *list * (size_t)problems->count);
+        if (problems->count)
+            memcpy(list, problems->list, sizeof *list * (size_t)problems->count);
         problems->list = list;
         problems->capacity = capacity;
     }

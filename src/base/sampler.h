@@ -41,8 +41,8 @@ static inline uint32_t reverse_bits(uint32_t x)
     return (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
 }
 
-/* Owen scrambling of bits in reversed order (lowest first): a hash whose bits flow upwards only
- * (Laine and Karras 2011, with the better constants of Vegdahl's "Building a better LK hash"). */
+/* Owen scrambling of bits in reversed order (lowest first): a hash whose bits flow up only
+ * (Laine and Karras 2011, constants of Vegdahl's "Building a better LK hash"). */
 static inline uint32_t owen_scramble_reversed(uint32_t x, uint32_t seed)
 {
     x ^= x * 0x3d20adeau;

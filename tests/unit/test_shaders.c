@@ -114,7 +114,8 @@ static void add_dielectric(const char *name, float ior, float alpha)
     float width = alpha < SMOOTH_ALPHA ? 1 : 0.5f * alpha * fabsf(ior - 1) + 1e-4f;
     models[model_count++] = (Model){.name = name, .bsdf.kind = BSDF_DIELECTRIC,
                                     .bsdf.dielectric = {spectrum_all(1), ior, alpha},
-                                    .both_sides = true, .lossless = alpha < 0.06f, .width = width};
+                                    .lossless = alpha < 0.06f, .both_sides = true,
+                                    .width = width};
 }
 
 static void add_glass(void)

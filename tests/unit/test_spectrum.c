@@ -301,7 +301,7 @@ static void a_curve_passes_through_its_points_and_holds_its_ends(void **state)
 /* Writes a temporary file; the caller removes it. */
 static void write_text(char path[64], const char *text)
 {
-    snprintf(path, 64, "/tmp/parhelion_curve_XXXXXX");
+    snprintf(path, 64, "%s/parhelion_curve_XXXXXX", P_tmpdir);
     int fd = mkstemp(path);
     assert_true(fd >= 0);
     FILE *file = fdopen(fd, "w");
