@@ -1,0 +1,169 @@
+/* Files are read whole or not at all, written whole or not at all; URIs mean what RFC 3986 and
+ * RFC 2397 say. */
+#include "check.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/file.h"
+
+static Arena arena;
+static char  folder[256];
+
+static int start(void **state)
+{
+    (void)state;
+    const char *base = getenv("TMPDIR");
+    snprintf(folder, sizeof folder, "%s/parhelion-test-XXXXXX", base ? base : P_tmpdir);
+    arena = arena_reserve(1 << 24);
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int end(void **state)
+{
+    (void)state;
+    arena_release(&arena);
+    return rmdir(folder); /* fails when a test left anything behind */
+}
+
+static const char *in_folder(const char *name)
+{
+    return arena_format(&arena, "%s/%s", folder, name);
+}
+
+static void what_was_written_is_read_back(void **state)
+{
+    (void)state;
+    Error       err;
+    FileBytes   bytes;
+    const char *path = in_folder("a.bin");
+    assert_true(file_write(path, "first", 5, &err));
+    assert_true(file_write(path, "a\0b", 3, &err)); /* replaces */
+    assert_true(file_read(path, 100, &arena, &bytes, &err));
+    assert_int_equal(bytes.size, 3);
+    assert_memory_equal(bytes.data, "a\0b", 4); /* and a zero behind */
+    unlink(path);
+}
+
+static void a_file_that_cannot_be_written_leaves_nothing(void **state)
+{
+    (void)state;
+    Error err;
+    assert_false(file_write(in_folder("none/a.bin"), "x", 1, &err));
+    assert_int_equal(err.code, ERROR_OUTPUT);
+    assert_non_null(strstr(err.text, "cannot be created: No such file or directory"));
+    char *temporary = file_temporary_name(in_folder("b.bin"), &arena);
+    FILE *file = fopen(temporary, "wb");
+    assert_non_null(file);
+    fclose(file);
+    assert_false(file_commit(temporary, in_folder("none/b.bin"), &err));
+    assert_false(file_exists(temporary));
+}
+
+static void reading_names_what_is_wrong(void **state)
+{
+    (void)state;
+    Error       err;
+    FileBytes   bytes;
+    const char *path = in_folder("c.bin");
+    assert_false(file_read(path, 100, &arena, &bytes, &err));
+    assert_string_equal(err.file, path);
+    assert_string_equal(err.text, "cannot be opened: No such file or directory");
+    assert_false(file_read(folder, 100, &arena, &bytes, &err));
+    assert_string_equal(err.text, "is a folder, a file is wanted");
+    assert_true(file_write(path, "12345", 5, &err));
+    assert_false(file_read(path, 4, &arena, &bytes, &err));
+    assert_string_equal(err.text, "has 5 bytes, at most 4 are read");
+    unlink(path);
+}
+
+static void paths_are_joined_and_measured(void **state)
+{
+    (void)state;
+    assert_string_equal(path_beside("a/b/c.gltf", "d.bin", &arena), "a/b/d.bin");
+    assert_string_equal(path_beside("c.gltf", "d.bin", &arena), "d.bin");
+    assert_string_equal(path_beside("a/c.gltf", "/d.bin", &arena), "/d.bin");
+    assert_string_equal(path_ending("a.b/c"), "");
+    assert_string_equal(path_ending("a/.hidden"), "");
+    assert_string_equal(path_ending("a/c.tar.gz"), ".gz");
+    assert_int_equal(path_climb("a/../b"), 0);
+    assert_int_equal(path_climb("./a//b/../../c"), 0);
+    assert_int_equal(path_climb("../b"), 1);
+    assert_int_equal(path_climb("a/../../../b/c/d"), 2);
+    assert_int_equal(path_climb("..a/..b"), 0);
+}
+
+static void schemes_are_told_from_paths(void **state)
+{
+    (void)state;
+    assert_int_equal(uri_scheme_length("http://x"), 4);
+    assert_int_equal(uri_scheme_length("C:/x"), 1);
+    assert_int_equal(uri_scheme_length("a/b:c"), 0);
+    assert_int_equal(uri_scheme_length("a b:c"), 0);
+    assert_int_equal(uri_scheme_length(""), 0);
+    assert_true(uri_is_data("DATA:,x"));
+    assert_false(uri_is_data("date:,x"));
+}
+
+static void percent_escapes_are_taken_out(void **state)
+{
+    (void)state;
+    Error err;
+    char *text;
+    assert_true(uri_decode("a%20b%c3%A9c", &arena, &text, &err));
+    assert_string_equal(text, "a b\xc3\xa9" "c");
+    static const char *const BROKEN[] = {"%", "%2", "a%2", "a%zz", "%2g"};
+    for (int i = 0; i < 5; i++) assert_false(uri_decode(BROKEN[i], &arena, &text, &err));
+    assert_false(uri_decode("a%00b", &arena, &text, &err));
+}
+
+/* RFC 4648, section 10. */
+static void base64_data_are_decoded(void **state)
+{
+    (void)state;
+    static const char *const ENCODED[] = {"", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=",
+                                          "Zm9vYmFy", "Zm9vYg"};
+    static const char *const PLAIN[] = {"", "f", "fo", "foo", "foob", "fooba", "foobar", "foob"};
+    Error       err;
+    FileBytes   bytes;
+    const char *type;
+    for (int i = 0; i < 8; i++) {
+        char uri[64];
+        snprintf(uri, sizeof uri, "data:text/plain;base64,%s", ENCODED[i]);
+        assert_true(data_uri_decode(uri, &arena, &bytes, &type, &err));
+        assert_int_equal(bytes.size, strlen(PLAIN[i]));
+        assert_string_equal((const char *)bytes.data, PLAIN[i]);
+        assert_string_equal(type, "text/plain");
+    }
+    assert_true(data_uri_decode("data:,a%20b", &arena, &bytes, &type, &err));
+    assert_string_equal((const char *)bytes.data, "a b");
+    assert_string_equal(type, "");
+}
+
+static void broken_data_uris_are_refused(void **state)
+{
+    (void)state;
+    static const char *const BROKEN[] = {"data:text/plain;base64", "data:;base64,Z",
+                                         "data:;base64,Zm9*", "data:a/b;;base64,Zg==",
+                                         "data:;base64,Zg==Zg==", "file:,x"};
+    Error     err;
+    FileBytes bytes;
+    for (int i = 0; i < 6; i++)
+        assert_false(data_uri_decode(BROKEN[i], &arena, &bytes, NULL, &err));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_was_written_is_read_back),
+        cmocka_unit_test(a_file_that_cannot_be_written_leaves_nothing),
+        cmocka_unit_test(reading_names_what_is_wrong),
+        cmocka_unit_test(paths_are_joined_and_measured),
+        cmocka_unit_test(schemes_are_told_from_paths),
+        cmocka_unit_test(percent_escapes_are_taken_out),
+        cmocka_unit_test(base64_data_are_decoded),
+        cmocka_unit_test(broken_data_uris_are_refused),
+    };
+    return cmocka_run_group_tests_name("file", tests, start, end);
+}
