@@ -30,7 +30,8 @@ static bool check_header(const TreeHeader *h, size_t size, Error *err)
     if (h->rows > TREE_ROWS_INT16) return refuse(err, "row format", h->rows, TREE_ROWS_INT16);
     if (h->components < 1 || h->components > TREE_MAX_COMPONENTS)
         return refuse(err, "component count", h->components, TREE_MAX_COMPONENTS);
-    if (h->reserved != 0) return refuse(err, "reserved word", h->reserved, 0);
+    if (h->byte_level != 0 && (h->byte_level >= h->level || h->rows != TREE_ROWS_INT16))
+        return refuse(err, "level of 8-bit rows", h->byte_level, 0);
     return true;
 }
 
@@ -46,21 +47,31 @@ static bool check_offsets(const TreeHeader *h, Error *err)
     uint64_t scales = sizeof(TreeHeader) + 4ull * h->octants * h->components;
     uint64_t nodes = (scales + (small ? 4ull * h->level * h->components : 0) + 7) / 8 * 8;
     uint64_t rows = nodes + sizeof(TreeNode) * (uint64_t)h->node_count;
-    uint64_t size = (rows + (small ? 2ull : 4ull) * h->components * h->row_count + 7) / 8 * 8;
     if (h->means_offset != sizeof(TreeHeader))
         return refuse(err, "offset of the means", h->means_offset, sizeof(TreeHeader));
     if (h->scales_offset != scales)
         return refuse(err, "offset of the scales", h->scales_offset, (double)scales);
     if (h->nodes_offset != nodes)
         return refuse(err, "offset of the nodes", h->nodes_offset, (double)nodes);
-    if (h->rows_offset != rows)
+    if (h->rows_offset != rows || rows > h->size)
         return refuse(err, "offset of the rows", (double)h->rows_offset, (double)rows);
+    return true;
+}
+
+/* The nodes say how many rows have 8 bits, and with that how long the rows are. */
+static bool check_size(const TreeHeader *h, const Tree *tree, Error *err)
+{
+    uint64_t bytes = tree->format == TREE_ROWS_FLOAT
+                         ? 4ull * h->components * h->row_count
+                         : tree_row_offset(tree, h->row_count);
+    uint64_t size = (h->rows_offset + bytes + 7) / 8 * 8;
     if (h->size != size) return refuse(err, "size", (double)h->size, (double)size);
     return true;
 }
 
-/* Nodes stand level by level, children and rows in order: each index must continue the last. */
-static bool check_nodes(const Tree *tree, Error *err)
+/* Nodes stand level by level, children and rows in order: each index must continue the last.
+ * Finds the first row of byte_level. */
+static bool check_nodes(Tree *tree, uint32_t byte_level, Error *err)
 {
     uint32_t next_node = (uint32_t)tree->octants, next_row = 0, level_end = next_node;
     int      level = 0;
@@ -69,6 +80,7 @@ static bool check_nodes(const Tree *tree, Error *err)
         if (i == level_end) {
             level_end = next_node;
             level++;
+            if (level == (int)byte_level) tree->byte_row = next_row;
         }
         if (node.children >> 4 != next_node || node.rows >> 3 != next_row)
             return error_set(err, ERROR_INPUT, "tree: node %u points to node %u and row %u, "
@@ -126,7 +138,8 @@ static Tree view(const char *blob, const Geodesic *geodesic)
                   .weights = (HaarWeights)h->weights,
                   .format = (TreeRowFormat)h->rows,
                   .row_count = h->row_count,
-                  .node_count = h->node_count};
+                  .node_count = h->node_count,
+                  .byte_row = h->row_count};
 }
 
 bool tree_open(const void *blob, size_t size, const Geodesic *geodesic, Tree *out, Error *err)
@@ -141,7 +154,9 @@ bool tree_open(const void *blob, size_t size, const Geodesic *geodesic, Tree *ou
     if (geodesic->level < header->level)
         return refuse(err, "level of the geodesic", geodesic->level, header->level);
     Tree tree = view(blob, geodesic);
-    if (!check_nodes(&tree, err) || !check_values(&tree, err)) return false;
+    if (!check_nodes(&tree, header->byte_level, err) || !check_size(header, &tree, err) ||
+        !check_values(&tree, err))
+        return false;
     *out = tree;
     return true;
 }
@@ -155,9 +170,12 @@ static void place_row(const Tree *tree, uint32_t row, int level, float *to)
         memcpy(to, (const float *)tree->rows + row * components, components * sizeof(float));
         return;
     }
-    const int16_t *from = (const int16_t *)tree->rows + row * components;
-    const float   *scale = tree->scales + (size_t)level * components;
-    for (size_t c = 0; c < components; c++) to[c] = scale[c] * (float)from[c];
+    const char  *from = (const char *)tree->rows + tree_row_offset(tree, row);
+    const float *scale = tree->scales + (size_t)level * components;
+    for (size_t c = 0; c < components; c++)
+        to[c] = scale[c] * (float)(row < tree->byte_row
+                                       ? ((const int16_t *)(const void *)from)[c]
+                                       : ((const int8_t *)(const void *)from)[c]);
 }
 
 /* Details to their places in haar.h's layout. ids: of each node's triangle on its level. */

@@ -4,7 +4,7 @@
  * them as one blob: little-endian, offsets instead of pointers, to be stored in a file, mapped
  * and queried in place (tree_query.h). A row is the detail of one child: `components` numbers.
  *
- * Blob      TreeHeader | octant means, float32 | scales, float32 (16-bit rows only) | nodes
+ * Blob      TreeHeader | octant means, float32 | scales, float32 (integer rows only) | nodes
  *           level by level | rows. Must lie at an address that is a multiple of 8.
  * Accuracy  the report compares with the source after everything, quantisation included.
  * Threads   a Tree is constant.
@@ -23,7 +23,9 @@
 
 typedef enum TreeRowFormat {
     TREE_ROWS_FLOAT = 0, /* float32 */
-    TREE_ROWS_INT16 = 1  /* 16 bits times a scale for every level and component */
+    TREE_ROWS_INT16 = 1  /* 16 bits times a scale for every level and component; 8 bits on the
+                            finest levels where rounding to these is no more than 1/16 of the
+                            error that the tree has anyway */
 } TreeRowFormat;
 
 /* How to compress; exactly one of keep_share and max_error is above 0. By share: the details of
@@ -57,7 +59,7 @@ typedef struct TreeHeader {
     uint32_t components;
     uint32_t node_count, row_count; /* row_count: details only */
     uint32_t means_offset, scales_offset, nodes_offset; /* bytes from the blob's start */
-    uint32_t reserved; /* 0 */
+    uint32_t byte_level; /* rows of fathers of this level and finer have 8 bits; 0: none */
     uint64_t rows_offset;
 } TreeHeader;
 
@@ -74,12 +76,13 @@ typedef struct Tree {
     const Geodesic *geodesic;
     const TreeNode *nodes;
     const float    *means;  /* octants x components */
-    const float    *scales; /* level x components, 16-bit rows only; else NULL */
-    const void     *rows;   /* row_count x components */
+    const float    *scales; /* level x components, integer rows only; else NULL */
+    const void     *rows;   /* row_count x components, 16-bit rows before 8-bit rows */
     int             level, octants, components;
     HaarWeights     weights;
     TreeRowFormat   format;
     uint32_t        row_count, node_count;
+    uint32_t        byte_row; /* the first row of 8 bits, row_count if there is none */
 } Tree;
 
 /* leaves: haar_leaf_count x components floats, finite. The blob is allocated from `arena`,
@@ -95,6 +98,14 @@ size_t tree_size(const void *blob);
  * can leave its `size` bytes, and makes the view. geodesic->level must be at least the tree's.
  * Fails (ERROR_INPUT) naming what is wrong. */
 bool tree_open(const void *blob, size_t size, const Geodesic *geodesic, Tree *out, Error *err);
+
+/* Where an integer row starts, in bytes from tree->rows. */
+static inline size_t tree_row_offset(const Tree *tree, uint32_t row)
+{
+    size_t components = (size_t)tree->components;
+    return row < tree->byte_row ? 2 * components * row
+                                : components * ((size_t)tree->byte_row + row);
+}
 
 /* Inverts the whole tree: haar_leaf_count x components floats. */
 void tree_expand(const Tree *tree, float *leaves, Arena scratch);

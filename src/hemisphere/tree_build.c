@@ -22,6 +22,8 @@ typedef struct Build {
     uint32_t           candidate_count;
     uint32_t           leaf_count;
     float             *scales; /* level x components */
+    float              byte_limit; /* rounding to 8 bits may cost this much */
+    int                byte_level; /* from which level rows have 8 bits; 0: none */
     bool              *kept;   /* per place */
 } Build;
 
@@ -68,8 +70,8 @@ static void list_candidates(Build *build, Arena *arena)
 
 /* ---- build: what a choice of details gives back ---------------------------------------- */
 
-/* Scales that put the largest kept detail of a level and component at 32767. */
-static void choose_scales(Build *build, uint32_t kept)
+/* scales = the largest kept detail of each level and component. */
+static void find_largest(Build *build, uint32_t kept)
 {
     const HaarShape *shape = &build->options->shape;
     size_t           components = (size_t)shape->components;
@@ -81,12 +83,35 @@ static void choose_scales(Build *build, uint32_t kept)
         for (size_t c = 0; c < components; c++)
             if (fabsf(row[c]) > scale[c]) scale[c] = fabsf(row[c]);
     }
-    for (size_t i = 0; i < components * (size_t)shape->level; i++) build->scales[i] /= 32767;
 }
 
-static int16_t quantised(float value, float scale)
+/* Would rounding the level's details to 8 bits stay within the limit? */
+static bool bytes_suffice(const Build *build, int level)
 {
-    return scale > 0 ? (int16_t)lrintf(fminf(fmaxf(value / scale, -32767), 32767)) : 0;
+    int          components = build->options->shape.components;
+    const float *largest = build->scales + level * components;
+    for (int c = 0; c < components; c++)
+        if (component_scale(build->options, c) * largest[c] * (0.5f / 127) > build->byte_limit)
+            return false;
+    return true;
+}
+
+/* Scales that put the largest kept detail of a level and component at 32767, or at 127 on the
+ * finest levels, as far up as that suffices. Level 0 always has 16 bits. */
+static void choose_scales(Build *build, uint32_t kept)
+{
+    const HaarShape *shape = &build->options->shape;
+    int              byte_level = shape->level;
+    find_largest(build, kept);
+    while (byte_level > 1 && bytes_suffice(build, byte_level - 1)) byte_level--;
+    build->byte_level = byte_level < shape->level ? byte_level : 0;
+    for (int i = 0; i < shape->level * shape->components; i++)
+        build->scales[i] /= i / shape->components >= byte_level ? 127 : 32767;
+}
+
+static int quantised(float value, float scale)
+{
+    return scale > 0 ? (int)lrintf(value / scale) : 0;
 }
 
 static void keep_row(const Build *build, uint32_t place)
@@ -284,10 +309,13 @@ static uint32_t count_for_share(const Build *build)
 
 static bool choose_kept(Build *build, uint32_t *kept, Arena scratch, Error *err)
 {
-    if (!(build->options->max_error > 0))
+    if (build->options->max_error > 0) {
+        build->byte_limit = build->options->max_error / 16;
+        if (!choose_for_error(build, kept, scratch, err)) return false;
+    } else {
         *kept = count_for_share(build);
-    else if (!choose_for_error(build, kept, scratch, err))
-        return false;
+        build->byte_limit = error_with(build, *kept, scratch) / 16; /* with 16 bits so far */
+    }
     reconstruct(build, *kept, scratch);
     for (uint32_t i = 0; i < *kept; i++) build->kept[build->candidates[i].place] = true;
     return true;
@@ -328,11 +356,21 @@ static size_t align_up(size_t bytes, size_t to)
     return (bytes + to - 1) / to * to;
 }
 
-static TreeHeader plan_blob(const TreeOptions *options, uint32_t nodes, uint32_t rows)
+static size_t row_bytes(const Build *build, int level)
 {
-    const HaarShape *shape = &options->shape;
-    size_t           components = (size_t)shape->components;
-    bool             small = options->rows == TREE_ROWS_INT16;
+    size_t width = build->options->rows == TREE_ROWS_FLOAT                     ? 4
+                   : build->byte_level > 0 && level >= build->byte_level ? 1
+                                                                          : 2;
+    return width * (size_t)build->options->shape.components;
+}
+
+static TreeHeader plan_blob(const Build *build, uint32_t nodes, uint32_t kept)
+{
+    const HaarShape *shape = &build->options->shape;
+    size_t           components = (size_t)shape->components, rows = 0;
+    bool             small = build->options->rows == TREE_ROWS_INT16;
+    for (uint32_t i = 0; i < kept; i++)
+        rows += row_bytes(build, father_level(shape, build->candidates[i].place));
     size_t           means = sizeof(TreeHeader);
     size_t           scales = means + sizeof(float) * (size_t)shape->octants * components;
     size_t node_start =
@@ -340,36 +378,43 @@ static TreeHeader plan_blob(const TreeOptions *options, uint32_t nodes, uint32_t
     size_t row_start = align_up(node_start + nodes * sizeof(TreeNode), 8);
     return (TreeHeader){.magic = TREE_MAGIC,
                         .version = TREE_VERSION,
-                        .size = align_up(row_start + (small ? 2 : 4) * components * rows, 8),
+                        .size = align_up(row_start + rows, 8),
                         .level = (uint8_t)shape->level,
                         .octants = (uint8_t)shape->octants,
                         .weights = (uint8_t)shape->weights,
-                        .rows = (uint8_t)options->rows,
+                        .rows = (uint8_t)build->options->rows,
                         .components = (uint32_t)components,
                         .node_count = nodes,
-                        .row_count = rows,
+                        .row_count = kept,
                         .means_offset = (uint32_t)means,
                         .scales_offset = (uint32_t)scales,
                         .nodes_offset = (uint32_t)node_start,
+                        .byte_level = small ? (uint32_t)build->byte_level : 0,
                         .rows_offset = row_start};
 }
 
-static void write_row(const Build *build, char *blob, const TreeHeader *header, uint32_t index,
-                      uint32_t place)
+/* Writes a row and returns where the next one goes. */
+static char *write_row(const Build *build, char *to, uint32_t place)
 {
-    size_t       components = header->components;
+    size_t       components = (size_t)build->options->shape.components;
     const float *from = build->coefficients + place * components;
-    char        *rows = blob + header->rows_offset;
-    if (header->rows == TREE_ROWS_FLOAT) {
-        memcpy(rows + 4 * components * index, from, 4 * components);
-        return;
-    }
     int          level = father_level(&build->options->shape, place);
+    size_t       bytes = row_bytes(build, level);
     const float *scale = build->scales + (size_t)level * components;
-    for (size_t c = 0; c < components; c++) {
-        int16_t q = quantised(from[c], scale[c]);
-        memcpy(rows + 2 * (components * index + c), &q, sizeof q);
+    if (build->options->rows == TREE_ROWS_FLOAT) {
+        memcpy(to, from, bytes);
+        return to + bytes;
     }
+    for (size_t c = 0; c < components; c++) {
+        int     q = quantised(from[c], scale[c]);
+        int16_t wide = (int16_t)q;
+        int8_t  narrow = (int8_t)q;
+        if (bytes == components)
+            memcpy(to + c, &narrow, sizeof narrow);
+        else
+            memcpy(to + 2 * c, &wide, sizeof wide);
+    }
+    return to + bytes;
 }
 
 /* Nodes level by level; children of one node follow each other, as do rows. */
@@ -378,6 +423,7 @@ static void write_nodes(const Build *build, char *blob, const TreeHeader *header
 {
     TreeNode *node = (TreeNode *)(void *)(blob + header->nodes_offset);
     uint32_t  next_node = header->octants, next_row = 0;
+    char     *row = blob + header->rows_offset;
     for (int level = 0; level <= header->level; level++)
         for (uint32_t n = 0; n < (uint32_t)header->octants << 2 * level; n++) {
             if (!alive->level[level][n]) continue;
@@ -387,7 +433,8 @@ static void write_nodes(const Build *build, char *blob, const TreeHeader *header
                 if (alive->level[level + 1][4 * n + i]) node->children |= 1u << i, next_node++;
                 if (i == 0 || !build->kept[place]) continue;
                 node->rows |= 1u << (i - 1);
-                write_row(build, blob, header, next_row++, place);
+                row = write_row(build, row, place);
+                next_row++;
             }
             node++;
         }
@@ -401,7 +448,7 @@ static char *write_blob(const Build *build, uint32_t kept, Arena *arena)
     for (int level = 0; level <= shape->level; level++)
         for (uint32_t n = 0; n < (uint32_t)shape->octants << 2 * level; n++)
             nodes += alive.level[level][n];
-    TreeHeader header = plan_blob(build->options, nodes, kept);
+    TreeHeader header = plan_blob(build, nodes, kept);
     char      *blob = arena_alloc(arena, 1, 16, header.size);
     memcpy(blob, &header, sizeof header);
     size_t bytes = sizeof(float) * header.components;

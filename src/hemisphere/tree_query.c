@@ -7,6 +7,7 @@
 typedef float   Float4 __attribute__((vector_size(16)));
 typedef int32_t Int4 __attribute__((vector_size(16)));
 typedef int16_t Short8 __attribute__((vector_size(16)));
+typedef int8_t  Byte16 __attribute__((vector_size(16)));
 
 static const uint32_t NO_NODE = UINT32_MAX;
 
@@ -377,14 +378,29 @@ static inline Float4 load_floats(const float *from)
     return value;
 }
 
-/* Four 16-bit numbers: put into the upper halves of 32 bits and shifted down with their sign
- * (compilers make four scalar conversions of the direct way). */
-static inline Float4 load_shorts(const int16_t *from)
+/* The lower four of eight 16-bit numbers: put into the upper halves of 32 bits and shifted down
+ * with their sign (compilers make four scalar conversions of the direct way). */
+static inline Float4 floats_from_shorts(Short8 value, int shift)
 {
-    Short8 zero = {0}, value = {0};
-    memcpy(&value, from, 4 * sizeof *from);
+    Short8 zero = {0};
     Short8 upper = __builtin_shufflevector(zero, value, 0, 8, 1, 9, 2, 10, 3, 11);
-    return __builtin_convertvector((Int4)upper >> 16, Float4);
+    return __builtin_convertvector((Int4)upper >> shift, Float4);
+}
+
+static inline Float4 load_shorts(const char *from)
+{
+    Short8 value = {0};
+    memcpy(&value, from, 4 * sizeof(int16_t));
+    return floats_from_shorts(value, 16);
+}
+
+static inline Float4 load_bytes(const char *from)
+{
+    Byte16 zero = {0}, value = {0};
+    memcpy(&value, from, 4);
+    Byte16 upper = __builtin_shufflevector(zero, value, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5,
+                                           21, 6, 22, 7, 23);
+    return floats_from_shorts((Short8)upper, 24);
 }
 
 static inline Float4 all_lanes(float value)
@@ -405,37 +421,45 @@ static inline void sum_blocks(const Tree *tree, const TreeTaps *taps, int first,
         for (int b = 0; b < blocks; b++) sum[b] += weight * load_floats(mean + 4 * b);
     }
     for (int t = 0; t < taps->count; t++) {
-        size_t offset = taps->row[t] * components + (size_t)first;
-        Float4 weight = all_lanes(taps->weight[t]);
+        uint32_t at = taps->row[t];
+        Float4   weight = all_lanes(taps->weight[t]);
         if (tree->format == TREE_ROWS_FLOAT) {
-            const float *row = (const float *)tree->rows + offset;
+            const float *row = (const float *)tree->rows + at * components + first;
             for (int b = 0; b < blocks; b++) sum[b] += weight * load_floats(row + 4 * b);
-        } else {
-            const int16_t *row = (const int16_t *)tree->rows + offset;
-            const float   *scale = tree->scales + taps->level[t] * components + first;
-            for (int b = 0; b < blocks; b++)
-                sum[b] += weight * (load_floats(scale + 4 * b) * load_shorts(row + 4 * b));
+            continue;
+        }
+        const char  *row = (const char *)tree->rows + tree_row_offset(tree, at);
+        const float *scale = tree->scales + taps->level[t] * components + first;
+        for (int b = 0; b < blocks; b++) {
+            int    c = first + 4 * b;
+            Float4 detail =
+                at < tree->byte_row ? load_shorts(row + 2 * c) : load_bytes(row + c);
+            sum[b] += weight * (load_floats(scale + 4 * b) * detail);
         }
     }
     memcpy(out, sum, sizeof(Float4) * (size_t)blocks);
 }
 
+static float row_component(const Tree *tree, uint32_t row, int level, int component)
+{
+    size_t components = (size_t)tree->components;
+    if (tree->format == TREE_ROWS_FLOAT)
+        return ((const float *)tree->rows)[row * components + (size_t)component];
+    const char *from = (const char *)tree->rows + tree_row_offset(tree, row);
+    float       scale = tree->scales[(size_t)level * components + (size_t)component];
+    return scale * (float)(row < tree->byte_row
+                               ? ((const int16_t *)(const void *)from)[component]
+                               : ((const int8_t *)(const void *)from)[component]);
+}
+
 /* One component, by the same operations in the same order as in a block. */
 static float sum_one(const Tree *tree, const TreeTaps *taps, int component)
 {
-    size_t components = (size_t)tree->components;
-    float  sum = 0;
+    float sum = 0;
     for (int q = 0; q < tree->octants; q++)
-        sum += taps->mean_weight[q] * tree->means[(size_t)q * components + (size_t)component];
-    for (int t = 0; t < taps->count; t++) {
-        size_t at = taps->row[t] * components + (size_t)component;
-        if (tree->format == TREE_ROWS_FLOAT)
-            sum += taps->weight[t] * ((const float *)tree->rows)[at];
-        else
-            sum += taps->weight[t] *
-                   (tree->scales[taps->level[t] * components + (size_t)component] *
-                    (float)((const int16_t *)tree->rows)[at]);
-    }
+        sum += taps->mean_weight[q] * tree->means[q * tree->components + component];
+    for (int t = 0; t < taps->count; t++)
+        sum += taps->weight[t] * row_component(tree, taps->row[t], taps->level[t], component);
     return sum;
 }
 

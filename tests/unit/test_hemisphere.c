@@ -346,9 +346,9 @@ static void the_specular_frame_round_trips(void **state)
             for (int i = 0; i < 40; i++) {
                 Vec3 d = random_direction(&seed);
                 Vec3 back = specular_frame_outer(&frame, specular_frame_stored(&frame, d));
-                assert_true(vec3_length(vec3_sub(back, d)) < 2e-5f);
+                assert_true(vec3_length(vec3_sub(back, d)) < 4e-6f);
                 back = specular_frame_stored(&frame, specular_frame_outer(&frame, d));
-                assert_true(vec3_length(vec3_sub(back, d)) < (theta > 80 ? 2e-3f : 2e-4f));
+                assert_true(vec3_length(vec3_sub(back, d)) < (theta > 60 ? 2e-4f : 2e-5f));
             }
         }
 }

@@ -82,6 +82,32 @@ static void quantisation_is_part_of_the_report(void **state)
     assert_true(largest > 1e-4f && largest < 0.02f); /* of values up to 325 */
 }
 
+/* Smooth functions have small details on fine levels: these take a byte a component, and the
+ * error hardly grows. Components that are no multiple of 4 reach every way of summing. */
+static void fine_details_take_8_bits(void **state)
+{
+    Fixture    *f = *state;
+    HaarShape   shape = {6, 2, 7, HAAR_AREA};
+    TreeOptions small = {.shape = shape, .keep_share = 0.3f, .rows = TREE_ROWS_INT16};
+    TreeOptions wide = {.shape = shape, .keep_share = 0.3f};
+    TreeReport  small_report, wide_report;
+    uint32_t    count = haar_leaf_count(&shape);
+    float      *source = ARENA_NEW(&f->arena, float, 7 * count), value[7];
+    for (uint32_t i = 0; i < 7 * count; i++)
+        source[i] = smooth_signal(geodesic_center(6, i / 7)) * (1 + 0.1f * (float)(i % 7));
+    Tree   tree = build_and_open(f, &small, source, &small_report);
+    float *leaves = ARENA_NEW(&f->arena, float, 7 * count);
+    build_and_open(f, &wide, source, &wide_report);
+    assert_true(tree.byte_row > 0 && tree.byte_row < tree.row_count / 2);
+    assert_true(small_report.max_error < 1.15f * wide_report.max_error);
+    assert_true(small_report.bytes < 0.45 * (double)wide_report.bytes);
+    tree_expand(&tree, leaves, f->arena);
+    for (uint32_t id = 0; id < count; id++) {
+        tree_value(&tree, geodesic_center(6, id), value);
+        for (uint32_t c = 0; c < 7; c++) assert_close(value[c], leaves[7 * id + c], 1e-5);
+    }
+}
+
 typedef struct Detail {
     float    significance;
     uint32_t place;
@@ -453,6 +479,7 @@ static void mutated_trees_are_refused_or_harmless(void **state)
             mutate(copy, size, &seed);
             try_tree(f, copy, size, &opened);
         }
+        assert_int_equal(((const TreeHeader *)blob)->byte_level > 0, rows == 1);
         assert_true(opened > 100); /* changed numbers, same structure */
         assert_true(opened < 5000);
     }
@@ -521,6 +548,7 @@ int main(void)
         CASE(a_query_equals_the_inverted_tree_at_every_leaf),
         CASE(a_tree_with_everything_kept_is_its_source),
         CASE(quantisation_is_part_of_the_report),
+        CASE(fine_details_take_8_bits),
         CASE(thresholding_keeps_the_l2_bound),
         CASE(an_error_bound_costs_fewer_rows_than_significance_alone),
         CASE(an_error_bound_holds_at_every_leaf),
