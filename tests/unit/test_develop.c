@@ -182,6 +182,24 @@ static void a_configuration_without_interchange_is_refused(void **state)
     assert_string_equal(err.file, path);
 }
 
+/* A newer version than the library knows is refused in one line. */
+static void a_configuration_that_is_too_new_is_refused(void **state)
+{
+    (void)state;
+    char        *text = strdup(OWN_OCIO_CONFIG), *version = strstr(text, "version: 2\n");
+    char         path[200], newer[20000];
+    Error        err = {0};
+    ViewTransform *transform;
+    snprintf(newer, sizeof newer, "ocio_profile_version: 2.9%s", version + 10);
+    snprintf(path, sizeof path, "%s", in_folder("newer.ocio"));
+    assert_true(file_write(path, newer, strlen(newer), &err));
+    ViewRequest request = {path, OWN_OCIO_CONFIG, NULL, NULL};
+    assert_false(view_transform_create(&request, &transform, &err));
+    assert_text_has(&err, "2.9");
+    assert_null(strchr(err.text, '\n'));
+    free(text);
+}
+
 /* The studios' own ACES configuration agrees with ours. */
 static void a_users_configuration_is_entered_by_its_interchange_role(void **state)
 {
@@ -473,6 +491,7 @@ int main(void)
         cmocka_unit_test(photographic_is_its_formula),
         cmocka_unit_test(wrong_names_are_told_with_the_right_ones),
         cmocka_unit_test(a_configuration_without_interchange_is_refused),
+        cmocka_unit_test(a_configuration_that_is_too_new_is_refused),
         cmocka_unit_test(a_users_configuration_is_entered_by_its_interchange_role),
         cmocka_unit_test(exposure_follows_its_closed_forms),
         cmocka_unit_test(what_is_not_light_has_no_say_in_exposure),

@@ -2,6 +2,7 @@
 
 #include <OpenColorIO/OpenColorIO.h>
 
+#include <algorithm>
 #include <exception>
 #include <memory>
 #include <sstream>
@@ -11,6 +12,14 @@ namespace OCIO = OCIO_NAMESPACE;
 
 namespace {
 
+/* Messages of the library may have several lines. */
+std::string one_line(std::string text)
+{
+    while (!text.empty() && isspace((unsigned char)text.back())) text.pop_back();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
 /* No exception crosses into C, and none loses its message on the way. */
 template <typename Body>
 bool guarded(Error *err, ErrorCode code, const char *doing, Body body) noexcept
@@ -18,7 +27,7 @@ bool guarded(Error *err, ErrorCode code, const char *doing, Body body) noexcept
     try {
         return body();
     } catch (const std::exception &e) {
-        return error_set(err, code, "%s: %s", doing, e.what());
+        return error_set(err, code, "%s: %s", doing, one_line(e.what()).c_str());
     } catch (...) {
         return error_set(err, code, "%s: unknown C++ exception", doing);
     }

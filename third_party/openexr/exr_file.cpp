@@ -28,6 +28,13 @@ namespace {
 
 const float NONE_FROM_FILE = 4294967040.0f; /* the float below 2^32: whole "none" */
 
+/* Messages of the library may have several lines. */
+std::string one_line(std::string text)
+{
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
 /* No exception crosses into C, and none loses its message on the way. */
 template <typename Body>
 bool guarded(Error *err, ErrorCode code, const char *doing, Body body) noexcept
@@ -37,7 +44,7 @@ bool guarded(Error *err, ErrorCode code, const char *doing, Body body) noexcept
     } catch (const std::bad_alloc &) {
         return error_set(err, ERROR_MEMORY, "%s: out of memory", doing);
     } catch (const std::exception &e) {
-        return error_set(err, code, "%s: %s", doing, e.what());
+        return error_set(err, code, "%s: %s", doing, one_line(e.what()).c_str());
     } catch (...) {
         return error_set(err, code, "%s: unknown C++ exception", doing);
     }

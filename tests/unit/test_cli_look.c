@@ -1,0 +1,220 @@
+/* develop and measure as scripts use them: exit statuses, answers, what is left behind. */
+#include "check.h"
+
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "image/frame.h"
+#include "image/image.h"
+
+enum { ARENA_BYTES = 1 << 26 };
+
+static char folder[64] = "look-XXXXXX";
+
+typedef struct Outcome {
+    int  status;
+    char out[8192];
+} Outcome;
+
+/* Runs `parhelion WORDS` in the folder; stderr is thrown away, or with "2>&1" joins stdout. */
+static Outcome run(const char *words)
+{
+    Outcome outcome;
+    char    line[1024];
+    snprintf(line, sizeof line, "cd %s && unset OCIO && %s %s %s", folder, PROGRAM, words,
+             strstr(words, "2>&1") ? "" : "2>/dev/null");
+    FILE  *pipe = popen(line, "r");
+    size_t size = fread(outcome.out, 1, sizeof outcome.out - 1, pipe);
+    outcome.out[size] = '\0';
+    outcome.status = WEXITSTATUS(pclose(pipe));
+    return outcome;
+}
+
+static const char *in_folder(const char *name)
+{
+    static char path[200];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+static void add(FrameImage *frame, const char *name, float left, float right, Arena *arena)
+{
+    float *plane = frame_add_channel(frame, name, !strncmp(name, "id", 2), arena);
+    for (int i = 0; i < 12 * 8; i++) plane[i] = i % 12 < 6 ? left : right;
+}
+
+/* A display of 100 cd/m2 at the left, a wall of 300 cd/m2 at the right. */
+static int write_frame(void **state)
+{
+    static const char *const DISPLAY[] = {"white", "black", "reflected"};
+    static const float       LEVELS[] = {400, 1, 4};
+    Arena      arena = arena_reserve(ARENA_BYTES);
+    FrameImage frame = frame_create(12, 8, (ExrWindow){0, 0, 12, 8}, 20, 5, &arena);
+    Error      err = {0};
+    (void)state;
+    for (int c = 0; c < 3; c++) {
+        char name[64];
+        add(&frame, (char[]){"RGB"[c], 0}, 100, 300, &arena);
+        snprintf(name, sizeof name, "variance.%c", "RGB"[c]);
+        add(&frame, name, 1, 1, &arena);
+        for (int k = 0; k < 3; k++) {
+            snprintf(name, sizeof name, "display.%s.%c", DISPLAY[k], "RGB"[c]);
+            add(&frame, name, LEVELS[k], NAN, &arena);
+        }
+    }
+    add(&frame, "id.display", 0, -1, &arena);
+    frame_set_string(&frame, "parhelion:display.0", "cluster", &arena);
+    if (!mkdtemp(folder) || !frame_write(in_folder("f.exr"), &frame, &err)) return -1;
+    arena_release(&arena);
+    return 0;
+}
+
+static int remove_folder(void **state)
+{
+    static const char *const NAMES[] = {"f.exr", "a.png", "b.png", "c.tif", "d.jpg", "e.png"};
+    (void)state;
+    for (size_t i = 0; i < sizeof NAMES / sizeof *NAMES; i++) unlink(in_folder(NAMES[i]));
+    return rmdir(folder); /* fails when anything else was left behind */
+}
+
+static json_t *answer(const Outcome *outcome)
+{
+    json_error_t error;
+    json_t      *document = json_loads(outcome->out, 0, &error);
+    if (!document) fail_msg("%s: %s", error.text, outcome->out);
+    return document;
+}
+
+static double number(const json_t *document, const char *key)
+{
+    const json_t *value = json_object_get(document, key);
+    if (!json_is_number(value)) fail_msg("no number %s", key);
+    return json_number_value(value);
+}
+
+static void develop_writes_what_it_says(void **state)
+{
+    (void)state;
+    Outcome o = run("develop f.exr -o a.png --exposure white:500 --view untonemapped");
+    Arena   arena = arena_reserve(ARENA_BYTES);
+    Image   image;
+    Error   err = {0};
+    assert_int_equal(o.status, 0);
+    assert_non_null(strstr(o.out, "a.png: sRGB, untonemapped, middle grey 90 cd/m2"));
+    assert_non_null(strstr(o.out, "parhelion-1"));
+    assert_true(image_read(in_folder("a.png"), &arena, &image, &err));
+    assert_int_equal(image.width, 12);
+    /* 100/500 and 300/500 through the sRGB curve */
+    assert_int_equal(((const uint8_t *)image.pixels)[0], 124);
+    assert_int_equal(((const uint8_t *)image.pixels)[4 * 11], 203);
+    arena_release(&arena);
+}
+
+static void develop_answers_in_json(void **state)
+{
+    (void)state;
+    Outcome o = run("develop f.exr -o b.png --exposure 10 --json");
+    json_t *j = answer(&o);
+    assert_int_equal(o.status, 0);
+    assert_string_equal(json_string_value(json_object_get(j, "output")), "b.png");
+    assert_string_equal(json_string_value(json_object_get(j, "view")), "photographic");
+    assert_close(number(j, "exposure_ev"), 10, 1e-9);
+    assert_close(number(j, "middle_grey_cd_m2"), 128, 1e-9);
+    assert_true(number(j, "nonfinite_pixels") == 0);
+    json_decref(j);
+    o = run("develop f.exr -o e.png --false-colour luminance --range 1,1000 --json");
+    j = answer(&o);
+    assert_string_equal(json_string_value(json_object_get(j, "scale")),
+                        "1 to 1000 cd/m^2, logarithmic");
+    json_decref(j);
+}
+
+static void other_endings_work(void **state)
+{
+    (void)state;
+    assert_int_equal(run("develop f.exr -o c.tif --bits 16").status, 0);
+    assert_int_equal(run("develop f.exr -o d.jpg --view 'ACES SDR'").status, 0);
+    assert_true(file_exists(in_folder("c.tif")) && file_exists(in_folder("d.jpg")));
+}
+
+static void wrong_uses_have_their_status(void **state)
+{
+    (void)state;
+    assert_int_equal(run("develop f.exr").status, 2);
+    assert_int_equal(run("develop f.exr -o x.gif").status, 2);
+    assert_int_equal(run("develop f.exr -o x.jpg --bits 16").status, 2);
+    assert_int_equal(run("develop f.exr -o x.png --exposure bright").status, 2);
+    assert_int_equal(run("develop f.exr -o x.png --layer nothing").status, 2);
+    assert_int_equal(run("develop f.exr -o x.png --view nothing").status, 2);
+    assert_int_equal(run("develop f.exr -o x.png --false-colour hue").status, 2);
+    assert_int_equal(run("develop none.exr -o x.png").status, 3);
+    assert_int_equal(run("develop f.exr -o x.png --config none.ocio").status, 3);
+    assert_int_equal(run("develop f.exr -o none/x.png").status, 4);
+    assert_int_equal(run("measure none.exr").status, 3);
+    assert_int_equal(run("measure f.exr --region 0,0,13,8").status, 2);
+    assert_int_equal(run("measure f.exr --region 0,0,1.5,8").status, 2);
+    assert_int_equal(run("measure f.exr --display other").status, 2);
+    assert_int_equal(run("measure").status, 2);
+    Outcome o = run("develop none.exr -o x.png 2>&1");
+    assert_string_equal(o.out, "parhelion: none.exr: cannot be opened: No such file or "
+                               "directory\n");
+}
+
+static void help_tells_the_options(void **state)
+{
+    (void)state;
+    Outcome o = run("develop --help");
+    assert_int_equal(o.status, 0);
+    assert_non_null(strstr(o.out, "--exposure auto|EV|white:CD_M2"));
+    o = run("measure --help");
+    assert_int_equal(o.status, 0);
+    assert_non_null(strstr(o.out, "--region X0,Y0,X1,Y1"));
+}
+
+static void measure_gives_the_figures_of_a_display(void **state)
+{
+    (void)state;
+    Outcome o = run("measure f.exr --display cluster --json");
+    json_t *j = answer(&o), *contrast = json_object_get(j, "contrast");
+    assert_int_equal(o.status, 0);
+    assert_true(number(j, "pixels") == 48);
+    assert_close(number(j, "luminance_cd_m2"), 100, 1e-5);
+    assert_close(json_number_value(json_array_get(json_object_get(j, "luminance_interval"), 1)),
+                 100 + 1.959964 / sqrt(48), 1e-5);
+    assert_near(json_number_value(json_array_get(json_object_get(j, "xy"), 0)), 0.3127, 2e-4);
+    assert_near(json_number_value(json_array_get(json_object_get(j, "uv"), 1)), 0.4683, 3e-4);
+    assert_close(number(contrast, "value"), 404 / 5.0, 1e-5);
+    assert_int_equal(json_array_size(json_object_get(j, "missing_layers")), 0);
+    json_decref(j);
+}
+
+static void measure_gives_the_figures_of_a_region(void **state)
+{
+    (void)state;
+    Outcome o = run("measure f.exr --region 6,0,12,8 --json");
+    json_t *j = answer(&o);
+    assert_close(number(j, "luminance_cd_m2"), 300, 1e-5);
+    assert_true(json_is_null(json_object_get(j, "contrast")));
+    json_decref(j);
+    o = run("measure f.exr --region 3,0,9,8");
+    assert_non_null(strstr(o.out, "luminance    200 +- "));
+    assert_non_null(strstr(o.out, "100 to 300 cd/m2"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(develop_writes_what_it_says),
+        cmocka_unit_test(develop_answers_in_json),
+        cmocka_unit_test(other_endings_work),
+        cmocka_unit_test(wrong_uses_have_their_status),
+        cmocka_unit_test(help_tells_the_options),
+        cmocka_unit_test(measure_gives_the_figures_of_a_display),
+        cmocka_unit_test(measure_gives_the_figures_of_a_region),
+    };
+    return cmocka_run_group_tests(tests, write_frame, remove_folder);
+}
