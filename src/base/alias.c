@@ -7,14 +7,14 @@ static void fill(AliasTable *table, double *scaled, Arena scratch)
     int  count = table->count, poor_count = 0, rich_count = 0;
     int *poor = ARENA_NEW(&scratch, int, count), *rich = ARENA_NEW(&scratch, int, count);
     for (int i = 0; i < count; i++) {
-        table->keep[i] = 1;
+        table->keep[i] = 1u << 24;
         table->other[i] = (uint32_t)i;
         if (scaled[i] < 1) poor[poor_count++] = i;
         else rich[rich_count++] = i;
     }
     while (poor_count && rich_count) {
         int low = poor[--poor_count], high = rich[rich_count - 1];
-        table->keep[low] = (float)scaled[low];
+        table->keep[low] = (uint32_t)(scaled[low] * 0x1p24 + 0.5);
         table->other[low] = (uint32_t)high;
         scaled[high] -= 1 - scaled[low];
         if (scaled[high] < 1) {
@@ -24,20 +24,36 @@ static void fill(AliasTable *table, double *scaled, Arena scratch)
     }
 }
 
+/* Counts, over all 2^24 numbers u, how often each slot is chosen. Number k falls into slot
+ * k * count >> 24, and from one number to the next the rest grows by count. */
+static void count_choices(AliasTable *table, Arena scratch)
+{
+    int64_t   count = table->count, numbers = 1 << 24;
+    uint32_t *chosen = ARENA_NEW(&scratch, uint32_t, count);
+    for (int64_t slot = 0; slot < count; slot++) {
+        int64_t first = (slot * numbers + count - 1) / count;
+        int64_t end = ((slot + 1) * numbers + count - 1) / count;
+        int64_t rest = first * count - slot * numbers;
+        int64_t kept = ((int64_t)table->keep[slot] - rest + count - 1) / count;
+        kept = kept < 0 ? 0 : kept > end - first ? end - first : kept;
+        chosen[slot] += (uint32_t)kept;
+        chosen[table->other[slot]] += (uint32_t)(end - first - kept);
+    }
+    for (int i = 0; i < table->count; i++) table->prob[i] = (float)chosen[i] * 0x1p-24f;
+}
+
 AliasTable alias_build(const double *weights, int count, Arena *arena)
 {
     AliasTable table = {.count = count,
-                        .keep = ARENA_NEW(arena, float, count),
+                        .keep = ARENA_NEW(arena, uint32_t, count),
                         .other = ARENA_NEW(arena, uint32_t, count),
                         .prob = ARENA_NEW(arena, float, count)};
     Arena   scratch = *arena;
     double *scaled = ARENA_NEW(&scratch, double, count);
     double  sum = 0;
     for (int i = 0; i < count; i++) sum += weights[i];
-    for (int i = 0; i < count; i++) {
-        table.prob[i] = (float)(weights[i] / sum);
-        scaled[i] = weights[i] / sum * count;
-    }
+    for (int i = 0; i < count; i++) scaled[i] = weights[i] / sum * count;
     fill(&table, scaled, scratch);
+    count_choices(&table, scratch);
     return table;
 }

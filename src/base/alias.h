@@ -7,9 +7,12 @@
 
 #include "base/arena.h"
 
+/* A sample's number has 24 bits, so every probability is a whole number of 2^-24: `prob` is
+ * that number, counted, and differs from the weight's share by the rounding. What is divided by
+ * prob is therefore without bias; a share far below 2^-24 may never be chosen. */
 typedef struct AliasTable {
     int       count;
-    float    *keep;  /* probability of keeping slot i */
+    uint32_t *keep;  /* of 2^24 places in slot i, the first that i keeps */
     uint32_t *other; /* what slot i gives otherwise */
     float    *prob;  /* probability of i; they sum to one */
 } AliasTable;
@@ -20,8 +23,7 @@ AliasTable alias_build(const double *weights, int count, Arena *arena);
 /* u in [0,1). */
 static inline int alias_sample(const AliasTable *table, float u)
 {
-    float scaled = u * (float)table->count;
-    int   slot = (int)scaled;
-    if (slot >= table->count) slot = table->count - 1;
-    return scaled - (float)slot < table->keep[slot] ? slot : (int)table->other[slot];
+    uint64_t place = (uint64_t)(u * 0x1p24f) * (uint64_t)table->count;
+    uint32_t slot = (uint32_t)(place >> 24), rest = (uint32_t)place & 0xffffffu;
+    return (int)(rest < table->keep[slot] ? slot : table->other[slot]);
 }

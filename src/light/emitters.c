@@ -100,7 +100,7 @@ Emitters emitters_build(const Scene *scene, Arena *arena)
     emitters.choice = alias_build(weights, emitters.count, arena);
     for (int i = 0; i < emitters.count; i++) {
         double area = triangle_area(scene, emitters.triangles[i]);
-        emitters.pdf_area[i] = area > 0 ? (float)(weights[i] / total / area) : 0;
+        emitters.pdf_area[i] = area > 0 ? (float)((double)emitters.choice.prob[i] / area) : 0;
     }
     return emitters;
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/alias.h"
 #include "base/arena.h"
 #include "base/error.h"
 #include "base/mathf.h"
@@ -270,6 +271,42 @@ static void numbers_depend_on_nothing_but_their_place(void **state)
     assert_true(unit_float(0xffffffffu) < 1);
 }
 
+/* ---- alias tables -------------------------------------------------------------------- */
+
+/* Draws every number there is, once. */
+static void assert_probabilities_exact(const double *weights, int count)
+{
+    Arena      arena = arena_reserve((size_t)64 << 20);
+    AliasTable table = alias_build(weights, count, &arena);
+    uint32_t  *drawn = ARENA_NEW(&arena, uint32_t, count);
+    double     sum = 0, total = 0;
+    for (uint32_t k = 0; k < 1u << 24; k++) drawn[alias_sample(&table, (float)k * 0x1p-24f)]++;
+    for (int i = 0; i < count; i++) sum += weights[i];
+    for (int i = 0; i < count; i++) {
+        assert_true((float)drawn[i] * 0x1p-24f == table.prob[i]);
+        assert_near(table.prob[i], weights[i] / sum, 2e-3 * weights[i] / sum + 0x1p-22);
+        if (weights[i] == 0) assert_int_equal(drawn[i], 0);
+        total += (double)table.prob[i];
+    }
+    assert_near(total, 1, 1e-6);
+    arena_release(&arena);
+}
+
+static void alias_tables_know_their_exact_probabilities(void **state)
+{
+    (void)state;
+    static double weights[100000];
+    uint32_t      seed = 3;
+    assert_probabilities_exact((double[]){7}, 1);
+    assert_probabilities_exact((double[]){0, 1, 0, 3, 0}, 5);
+    for (int i = 0; i < 100000; i++)
+        weights[i] = pow((double)unit_float(seed = hash_u32(seed + 1)), 6);
+    weights[77] = 1e4; /* the sun among stars */
+    weights[78] = 0;
+    assert_probabilities_exact(weights, 1000);
+    assert_probabilities_exact(weights, 100000);
+}
+
 /* ---- arena --------------------------------------------------------------------------- */
 
 static void arena_memory_is_aligned_and_zeroed(void **state)
@@ -462,6 +499,7 @@ int main(void)
         cmocka_unit_test(pairs_are_independent_of_each_other),
         cmocka_unit_test(neighbouring_pixels_and_seeds_are_independent),
         cmocka_unit_test(numbers_depend_on_nothing_but_their_place),
+        cmocka_unit_test(alias_tables_know_their_exact_probabilities),
         cmocka_unit_test(arena_memory_is_aligned_and_zeroed),
         cmocka_unit_test(scratch_is_back_after_the_call),
         cmocka_unit_test(a_full_arena_says_what_was_wanted_and_left),
