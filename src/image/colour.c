@@ -8,8 +8,7 @@ static double determinant(const ColourMatrix *a)
            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-/* Cofactors over the determinant; 0 for a singular matrix. */
-static ColourMatrix inverse(const ColourMatrix *a)
+ColourMatrix colour_inverse(const ColourMatrix *a)
 {
     const double(*m)[3] = a->m;
     double       d = determinant(a);
@@ -24,7 +23,7 @@ static ColourMatrix inverse(const ColourMatrix *a)
     return out;
 }
 
-static ColourMatrix product(const ColourMatrix *a, const ColourMatrix *b)
+ColourMatrix colour_product(const ColourMatrix *a, const ColourMatrix *b)
 {
     ColourMatrix out = {{{0}}};
     for (int i = 0; i < 3; i++)
@@ -43,7 +42,7 @@ ColourMatrix xyz_from_primaries(const double c[8])
         columns.m[1][k] = c[2 * k + 1];
         columns.m[2][k] = 1 - c[2 * k] - c[2 * k + 1];
     }
-    ColourMatrix from_xyz = inverse(&columns);
+    ColourMatrix from_xyz = colour_inverse(&columns);
     double       white[3] = {c[6] / c[7], 1, (1 - c[6] - c[7]) / c[7]};
     for (int k = 0; k < 3; k++) {
         double scale = 0;
@@ -57,8 +56,8 @@ ColourMatrix rec709_from_primaries(const double chromaticities[8])
 {
     ColourMatrix xyz = xyz_from_primaries(chromaticities);
     ColourMatrix rec709 = xyz_from_primaries(REC709_CHROMATICITIES);
-    ColourMatrix from_xyz = inverse(&rec709);
-    return product(&from_xyz, &xyz);
+    ColourMatrix from_xyz = colour_inverse(&rec709);
+    return colour_product(&from_xyz, &xyz);
 }
 
 bool chromaticities_are_usable(const double c[8])

@@ -16,6 +16,12 @@ typedef struct ColourMatrix {
 static const double REC709_CHROMATICITIES[8] = {0.64, 0.33, 0.30, 0.60,
                                                 0.15, 0.06, 0.3127, 0.3290};
 
+/* All 0 for a singular matrix. */
+ColourMatrix colour_inverse(const ColourMatrix *matrix);
+
+/* First b, then a. */
+ColourMatrix colour_product(const ColourMatrix *a, const ColourMatrix *b);
+
 /* m = 0 for primaries on one line, which no light can be mixed from. */
 ColourMatrix xyz_from_primaries(const double chromaticities[8]);
 

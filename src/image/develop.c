@@ -5,7 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/colour.h"
 #include "image/exposure.h"
+#include "image/icc_profile.h"
 #include "image/layer_view.h"
 #include "opencolorio/view_transform.h"
 
@@ -144,6 +146,18 @@ static const char *description(const DevelopReport *report, Arena *arena)
                         report->config);
 }
 
+/* The displays of our own configuration besides sRGB; what a user's displays are is not
+ * known. */
+static IccProfile profile_of(const DevelopReport *report, Arena *arena)
+{
+    static const double P3[8] = {0.680, 0.320, 0.265, 0.690, 0.150, 0.060, 0.3127, 0.3290};
+    if (!strcmp(report->display, "Display P3"))
+        return icc_profile_create(P3, ICC_CURVE_SRGB, "Display P3", arena);
+    if (!strcmp(report->display, "Rec.1886"))
+        return icc_profile_create(REC709_CHROMATICITIES, ICC_CURVE_GAMMA24, "Rec.1886", arena);
+    return (IccProfile){NULL, 0};
+}
+
 bool develop_frame(const FrameImage *frame, const DevelopOptions *options, const char *path,
                    Arena scratch, DevelopReport *report, Error *err)
 {
@@ -153,7 +167,7 @@ bool develop_frame(const FrameImage *frame, const DevelopOptions *options, const
     if (!picture_check_name(path, bits, err)) return false;
     if (!develop_picture(frame, options, &scratch, &picture, &made, err)) return false;
     PictureFile file = {bits, !made.is_developed || !strcmp(made.display, "sRGB"),
-                        description(&made, &scratch)};
+                        profile_of(&made, &scratch), description(&made, &scratch)};
     if (!picture_write(path, &picture, file, scratch, err)) return false;
     if (report) *report = made;
     return true;

@@ -186,8 +186,10 @@ static void draw_tick(Picture *picture, const ScaleLayout *s, float y, bool is_l
     char text[32];
     int  decade = value > 0 ? (int)floor(log10((double)value) + 1e-4) : 0;
     bool is_long = decade > 5 || decade < -4;
-    if (is_long) snprintf(text, sizeof text, "%.0fe%d", (double)value / pow(10, decade), decade);
-    else snprintf(text, sizeof text, decade > 3 ? "%.0f" : "%.4g", (double)value);
+    if (is_long)
+        snprintf(text, sizeof text, "%.0fe%d", (double)value / pow(10, decade), decade);
+    else
+        snprintf(text, sizeof text, decade > 3 ? "%.0f" : "%.4g", (double)value);
     lettering_draw(picture, s->lettering, (float)s->right + letter, y, text);
 }
 

@@ -72,6 +72,8 @@ bool picture_write(const char *path, const Picture *picture, PictureFile file, A
         .pixels = quantised(picture, file.bits, &scratch),
         .jpeg_quality = !strcmp(format, "jpeg") ? 95 : 0,
         .is_srgb = file.is_srgb,
+        .icc_profile = file.icc.bytes,
+        .icc_profile_size = file.icc.size,
         .description = file.description,
     };
     EncodedImage *encoded;

@@ -8,6 +8,7 @@
 #pragma once
 #include "base/arena.h"
 #include "base/error.h"
+#include "image/icc_profile.h"
 
 typedef struct Picture {
     int    width, height;
@@ -25,6 +26,7 @@ static inline float *picture_pixel(const Picture *picture, int x, int y)
 typedef struct PictureFile {
     int         bits;        /* 8 or 16; JPEG has 8 */
     bool        is_srgb;     /* says so in the file */
+    IccProfile  icc;         /* else this does, when there is one */
     const char *description; /* goes into the file; NULL: none */
 } PictureFile;
 

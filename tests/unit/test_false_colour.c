@@ -1,8 +1,11 @@
 /* False colours, their scale and its letters; colour spaces from primaries. */
 #include "check.h"
 
+#include <string.h>
+
 #include "image/colour.h"
 #include "image/false_colour.h"
+#include "image/icc_profile.h"
 #include "image/lettering.h"
 
 enum { ARENA_BYTES = 1 << 28 };
@@ -118,6 +121,46 @@ static void primaries_give_the_published_matrix(void **state)
     assert_false(chromaticities_are_usable((double[8]){NAN}));
 }
 
+static uint32_t u32_at(const unsigned char *p)
+{
+    return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
+}
+
+/* A value of a tag whose values begin 8 bytes into it, NaN when there is no such tag. */
+static double icc_value(IccProfile profile, const char *tag, int i)
+{
+    const unsigned char *bytes = profile.bytes;
+    for (uint32_t k = 0; k < u32_at(bytes + 128); k++) {
+        const unsigned char *entry = bytes + 132 + 12 * k;
+        uint32_t             at = u32_at(entry + 4), size = u32_at(entry + 8);
+        assert_true(at % 4 == 0 && at + size <= profile.size);
+        if (!memcmp(entry, tag, 4)) return (int32_t)u32_at(bytes + at + 8 + 4 * i) / 65536.0;
+    }
+    return (double)NAN;
+}
+
+/* The columns of sRGB adapted to D50, as the ICC's own sRGB profiles have them. */
+static void the_profile_holds_the_published_primaries(void **state)
+{
+    (void)state;
+    static const char *const TAGS[3] = {"rXYZ", "gXYZ", "bXYZ"};
+    static const double      WANT[3][3] = {
+        {0.4361, 0.2225, 0.0139}, {0.3851, 0.7169, 0.0971}, {0.1431, 0.0606, 0.7141}};
+    Arena      arena = arena_reserve(ARENA_BYTES);
+    IccProfile p = icc_profile_create(REC709_CHROMATICITIES, ICC_CURVE_SRGB, "test", &arena);
+    assert_int_equal(u32_at(p.bytes), p.size);
+    for (int c = 0; c < 3; c++) {
+        double sum = 0;
+        for (int k = 0; k < 3; k++) {
+            assert_near(icc_value(p, TAGS[k], c), WANT[k][c], 2e-4);
+            sum += icc_value(p, TAGS[k], c);
+        }
+        assert_near(sum, icc_value(p, "wtpt", c), 1e-4);
+    }
+    assert_near(icc_value(p, "gTRC", 1), 2.4, 1e-4); /* behind the curve's kind */
+    arena_release(&arena);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -126,6 +169,7 @@ int main(void)
         cmocka_unit_test(a_scale_has_round_ends_around_the_values),
         cmocka_unit_test(letters_are_drawn_as_wide_as_they_are_said_to_be),
         cmocka_unit_test(primaries_give_the_published_matrix),
+        cmocka_unit_test(the_profile_holds_the_published_primaries),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

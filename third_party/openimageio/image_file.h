@@ -45,6 +45,8 @@ typedef struct ImageToEncode {
     const void *pixels;
     int         jpeg_quality;       /* 1 .. 100 for "jpeg", else 0 */
     bool        is_srgb;            /* the file says that its codes are sRGB (not a TIFF) */
+    const void *icc_profile;        /* valid, or NULL */
+    size_t      icc_profile_size;
     const char *description;        /* a text that goes into the file, or NULL */
 } ImageToEncode;
 
