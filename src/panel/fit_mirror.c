@@ -15,6 +15,7 @@ typedef struct Spot {
     double image; /* of a mirror of reflectance 1, sr^-1 */
     double b2;    /* squared distance of the projections on the panel's plane */
     double tilt;  /* theta - incidence */
+    double gain;  /* sqrt(F(theta) / F(incidence)) */
     double angle; /* to the mirror direction */
     double mean;  /* over the wavelengths */
 } Spot;
@@ -28,7 +29,7 @@ typedef struct Window {
 
 /* f = R image + (a + t tilt) haze + floor. */
 typedef struct Model {
-    double width, power;   /* haze = (1 + b2 / width^2)^-power */
+    double width, power;   /* haze = gain (1 + b2 / width^2)^-power */
     double r, a, t;
 } Model;
 
@@ -59,7 +60,8 @@ static Window collect(const AngleTable *slice, double incidence, double fwhm, Ar
         window.spot[window.count++] = (Spot){
             i, exp(-0.5 * angle * angle / (sigma * sigma)) /
                    (2 * PI * sigma * sigma * cos(incidence)),
-            (so - si) * (so - si) + 4 * so * si * sp * sp, theta - incidence, angle, mean};
+            (so - si) * (so - si) + 4 * so * si * sp * sp, theta - incidence,
+            sqrt(fit_fresnel(cos(theta)) / fit_fresnel(cos(incidence))), angle, mean};
     }
     window.floor = fmax(0, fmin(window.floor, 1e29));
     return window;
@@ -67,7 +69,7 @@ static Window collect(const AngleTable *slice, double incidence, double fwhm, Ar
 
 static double haze_shape(const Model *model, const Spot *spot)
 {
-    return pow(1 + spot->b2 / (model->width * model->width), -model->power);
+    return spot->gain * pow(1 + spot->b2 / (model->width * model->width), -model->power);
 }
 
 static double model_haze(const Model *model, const Spot *spot)

@@ -1,0 +1,117 @@
+/* panel_fixture.h -- small synthetic panels for tests: recipe, measurement set, fit, panel. */
+#pragma once
+#define _XOPEN_SOURCE 700
+#include <ftw.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "base/units.h"
+#include "check.h"
+#include "panel/fit.h"
+#include "panel/measurement.h"
+#include "panel/panel.h"
+#include "panel/simulate.h"
+
+typedef struct Fixture {
+    Arena        arena;
+    char         folder[64];
+    char         panel_path[128];
+    Recipe       recipe;
+    Measurement *set;
+    Panel       *panel;
+    json_t      *report;
+} Fixture;
+
+#define FIXTURE_SPECTRA                                                                        \
+    "\"red\": {\"luminance_cd_m2\": 200, \"peaks_nm\": [625, 600], \"fwhm_nm\": [40, 80],"    \
+    " \"weights\": [1, 0.1], \"shift\": [-0.10, -0.12, 0.05]},"                                \
+    "\"green\": {\"luminance_cd_m2\": 600, \"peaks_nm\": [535, 520], \"fwhm_nm\": [50, 90],"  \
+    " \"weights\": [1, 0.1], \"shift\": [0.04, 0, 0.06]},"                                     \
+    "\"blue\": {\"luminance_cd_m2\": 70, \"peaks_nm\": [452, 500], \"fwhm_nm\": [30, 90],"    \
+    " \"weights\": [1, 0.1], \"shift\": [-0.05, 0.05, -0.10]},"
+
+/* Like the shipped IPS panel, without noise, on a coarse grid. */
+#define FIXTURE_IPS                                                                            \
+    "{\"panel\": \"test IPS\", \"refractive_index\": 1.5, \"emission\": {" FIXTURE_SPECTRA     \
+    "\"gamma\": 2.2, \"gamma_drop\": 0.2, \"cosine_power\": [1.1, 1.6],"                       \
+    "\"black_cd_m2\": 0.7, \"leak\": 3},"                                                      \
+    "\"reflection\": {\"coating\": 0.6, \"coating_blue\": 0.15, \"haze_share\": 0.8,"          \
+    "\"haze_width\": 0.09, \"haze_power\": 1.8, \"floor_albedo\": 0.004,"                      \
+    "\"wavelengths_nm\": [400,420,440,460,480,500,520,540,560,580,600,620,640,660,680,700]},"  \
+    "\"instrument\": {\"theta_step_deg\": 2, \"phi_step_deg\": 6, \"brdf_theta_step_deg\": 1," \
+    "\"brdf_phi_step_deg\": 3, \"fwhm_deg\": 2.5}}"
+
+static inline int fixture_remove(const char *path, const struct stat *status, int kind,
+                                 struct FTW *walk)
+{
+    (void)status, (void)kind, (void)walk;
+    return remove(path);
+}
+
+/* Writes a text into the fixture's folder and returns its path. */
+static inline const char *fixture_file(Fixture *fixture, const char *name, const char *text)
+{
+    Error err = {0};
+    const char *path = arena_format(&fixture->arena, "%s/%s", fixture->folder, name);
+    if (!file_write(path, text, strlen(text), &err)) fail_msg("%s", err.text);
+    return path;
+}
+
+static inline void fixture_folder(Fixture *fixture)
+{
+    memset(fixture, 0, sizeof *fixture);
+    fixture->arena = arena_reserve((size_t)16 << 30);
+    strcpy(fixture->folder, "/tmp/parhelion_panel_XXXXXX");
+    assert_non_null(mkdtemp(fixture->folder));
+    snprintf(fixture->panel_path, sizeof fixture->panel_path, "%s/test.panel", fixture->folder);
+}
+
+/* Recipe text to a fitted, opened panel. */
+static inline void fixture_start(Fixture *fixture, const char *recipe, const FitOptions *options)
+{
+    Error err = {0};
+    fixture_folder(fixture);
+    const char *path = fixture_file(fixture, "recipe.json", recipe);
+    const char *manifest = arena_format(&fixture->arena, "%s/MANIFEST.json", fixture->folder);
+    fixture->set = ARENA_NEW(&fixture->arena, Measurement, 1);
+    if (!recipe_read(path, &fixture->arena, &fixture->recipe, &err) ||
+        !simulate_measurement(&fixture->recipe, fixture->folder, PROGRESS_NONE, &err) ||
+        !measurement_read(manifest, &fixture->arena, fixture->set, &err) ||
+        !panel_fit(fixture->set, options, fixture->panel_path, &fixture->arena,
+                   &fixture->report, &err) ||
+        !panel_open(fixture->panel_path, &fixture->arena, &fixture->panel, &err))
+        fail_msg("%s: %s: %s", err.file, err.path, err.text);
+}
+
+static inline void fixture_end(Fixture *fixture)
+{
+    panel_close(fixture->panel);
+    json_decref(fixture->report);
+    nftw(fixture->folder, fixture_remove, 16, FTW_DEPTH | FTW_PHYS);
+    arena_release(&fixture->arena);
+}
+
+/* Unit vector of a direction in degrees. */
+static inline Vec3 direction_deg(double theta_deg, double phi_deg)
+{
+    double t = radians_from_degrees(theta_deg), p = radians_from_degrees(phi_deg);
+    return vec3((float)(sin(t) * cos(p)), (float)(sin(t) * sin(p)), (float)cos(t));
+}
+
+/* A number in [0, 1) that depends on nothing but its index. */
+static inline double steady_random(uint32_t *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return (double)(*state >> 8) / 16777216.0;
+}
+
+/* 16 wavelengths, evenly from first_nm on. */
+static inline Wavelengths even_wavelengths(float first_nm, float step_nm)
+{
+    Wavelengths wavelengths = {0};
+    for (int i = 0; i < SPECTRUM_LANES; i++)
+        wavelengths.nm[i] = first_nm + step_nm * (float)i;
+    return wavelengths;
+}
