@@ -1,5 +1,6 @@
 #include "image/image.h"
 
+#include <ctype.h>
 #include <string.h>
 
 #include "base/file.h"
@@ -41,18 +42,49 @@ static const char *format_of(const unsigned char *bytes, size_t size, const char
     return length > 4 && !strcmp(name + length - 4, ".tga") ? "targa" : NULL;
 }
 
-/* The library stops at the last row; a picture cut behind it would pass as whole. */
-static bool png_is_whole(const unsigned char *bytes, size_t size)
+/* CRC-32 of ISO 3309 (PNG 1.2, annex D), four bits at a time. */
+static uint32_t crc_of(const unsigned char *bytes, size_t size)
 {
-    size_t at = 8;
-    while (size - at >= 12) {
-        size_t length = (size_t)bytes[at] << 24 | (size_t)bytes[at + 1] << 16 |
-                        (size_t)bytes[at + 2] << 8 | bytes[at + 3];
-        if (length > size - at - 12) return false;
-        if (!memcmp(bytes + at + 4, "IEND", 4)) return true;
+    static const uint32_t TABLE[16] = {
+        0x00000000, 0x1db71064, 0x3b6e20c8, 0x26d930ac, 0x76dc4190, 0x6b6b51f4,
+        0x4db26158, 0x5005713c, 0xedb88320, 0xf00f9344, 0xd6d6a3e8, 0xcb61b38c,
+        0x9b64c2b0, 0x86d3d2d4, 0xa00ae278, 0xbdbdf21c};
+    uint32_t crc = 0xffffffffu;
+    for (size_t i = 0; i < size; i++) {
+        crc = TABLE[(crc ^ bytes[i]) & 15] ^ crc >> 4;
+        crc = TABLE[(crc ^ (uint32_t)bytes[i] >> 4) & 15] ^ crc >> 4;
+    }
+    return ~crc;
+}
+
+static uint32_t u32_at(const unsigned char *p)
+{
+    return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
+}
+
+/* A part that the picture can do without (its name begins with a small letter) may be. */
+static bool is_damaged(const unsigned char *type, size_t length)
+{
+    for (int i = 0; i < 4; i++)
+        if (!isalpha(type[i])) return true;
+    return isupper(type[0]) && crc_of(type, length + 4) != u32_at(type + 4 + length);
+}
+
+/* The library stops at the last row, so that a picture cut behind it would pass as whole; and
+ * what it finds damaged it tells stderr as well. */
+static bool check_png(const unsigned char *bytes, size_t size, Error *err)
+{
+    for (size_t at = 8; size - at >= 12;) {
+        size_t length = u32_at(bytes + at);
+        if (length > size - at - 12) break;
+        const unsigned char *type = bytes + at + 4; /* and the data, then their CRC */
+        if (is_damaged(type, length))
+            return error_set(err, ERROR_INPUT,
+                             "damaged png picture: wrong checksum of the part at byte %zu", at);
+        if (!memcmp(type, "IEND", 4)) return true;
         at += 12 + length;
     }
-    return false;
+    return error_set(err, ERROR_INPUT, "damaged png picture: cut off, the end is missing");
 }
 
 static size_t format_bytes(ImageFormat format)
@@ -284,10 +316,9 @@ bool image_read_memory(const void *bytes, size_t size, const char *name, Arena *
         ok = error_set(err, ERROR_INPUT,
                        "not a picture that can be read (PNG, JPEG, OpenEXR, Radiance HDR, "
                        "TIFF, WebP, BMP, TGA, GIF, DPX or PNM)");
-    } else if (!strcmp(file.format, "png") && !png_is_whole(bytes, size)) {
-        ok = error_set(err, ERROR_INPUT, "damaged png picture: cut off, the end is missing");
     } else {
-        ok = decode(&file, arena, out, err);
+        ok = (strcmp(file.format, "png") != 0 || check_png(bytes, size, err)) &&
+             decode(&file, arena, out, err);
     }
     return ok || error_in_file(err, name);
 }

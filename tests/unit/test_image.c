@@ -316,6 +316,40 @@ static void the_same_picture_makes_the_same_bytes(void **state)
     assert_text_has(&err, "nonsense");
 }
 
+/* Whatever comes of it: no crash, and one line of reasons when it is refused. */
+static void survives_flipped_bits(void **state)
+{
+    (void)state;
+    static const char *const FORMATS[] = {"png", "jpeg", "tiff"};
+    uint8_t  codes[16 * 16 * 3];
+    unsigned seed = 3;
+    Arena    arena = arena_reserve(ARENA_BYTES);
+    for (size_t i = 0; i < sizeof codes; i++) codes[i] = (uint8_t)(i * i >> 3);
+    for (int f = 0; f < 3; f++) {
+        ImageToEncode in = {.width = 16, .height = 16, .channels = 3, .type = PIXEL_U8,
+                            .pixels = codes, .jpeg_quality = f == 1 ? 90 : 0};
+        EncodedImage *encoded;
+        Error  err = {0};
+        size_t size;
+        assert_true(image_encode(FORMATS[f], &in, &encoded, &err));
+        const void *bytes = encoded_image_bytes(encoded, &size);
+        for (int i = 0; i < 400; i++) {
+            Arena scratch = arena;
+            Image image;
+            unsigned char *flipped = malloc(size);
+            memcpy(flipped, bytes, size);
+            seed = seed * 1664525u + 1013904223u;
+            flipped[(seed >> 8) % size] ^= (unsigned char)(1u << (seed & 7));
+            err.text[0] = '\0';
+            if (!image_read_memory(flipped, size, "flipped", &scratch, &image, &err))
+                assert_true(err.text[0] && !strchr(err.text, '\n'));
+            free(flipped);
+        }
+        encoded_image_destroy(encoded);
+    }
+    arena_release(&arena);
+}
+
 /* ---- environment pictures ------------------------------------------------------------ */
 
 /* Skips the test when the shared data are not there. */
@@ -518,6 +552,7 @@ int main(void)
         cmocka_unit_test(reads_radiance_pictures),
         cmocka_unit_test(what_is_encoded_reads_back),
         cmocka_unit_test(the_same_picture_makes_the_same_bytes),
+        cmocka_unit_test(survives_flipped_bits),
         cmocka_unit_test(negative_values_of_environments_are_kept),
         cmocka_unit_test(the_orientation_picture_can_be_read),
         cmocka_unit_test(a_data_window_is_placed_in_the_display_window),
