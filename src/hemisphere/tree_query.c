@@ -210,12 +210,12 @@ typedef struct Visit {
     uint32_t leaves; /* bit i: leaf i lies inside */
 } Visit;
 
-/* Adds the rows of a triangle with the weights that go to its children, and puts the children
- * that have nodes on the stack. inside: four sets of leaves, 16 bits each. */
-static int visit(const Tree *tree, const Leaves *leaves, Visit at, TreeTaps *taps, Visit *stack)
+/* Adds the rows of a triangle with the weights that go to its children, and queues the children
+ * that have nodes. inside: four sets of leaves, 16 bits each. Returns how many were queued. */
+static int visit(const Tree *tree, const Leaves *leaves, Visit at, TreeTaps *taps, Visit *queue)
 {
     TreeNode node = tree->nodes[at.node];
-    int      shift = 2 * (tree->level - at.level - 1), pushed = 0;
+    int      shift = 2 * (tree->level - at.level - 1), queued = 0;
     Float4   weight = {0, 0, 0, 0};
     uint64_t inside = 0;
     for (uint32_t rest = at.leaves; rest; rest &= rest - 1) {
@@ -227,40 +227,44 @@ static int visit(const Tree *tree, const Leaves *leaves, Visit at, TreeTaps *tap
     add_rows(taps, node, at.level, weight, area_ratio(tree, at.level, at.place));
     for (uint32_t child = 0; child < 4; child++, inside >>= 16)
         if (inside & 0xffff && node.children >> child & 1)
-            stack[pushed++] = (Visit){child_node(node, child), 4 * at.place + child,
+            queue[queued++] = (Visit){child_node(node, child), 4 * at.place + child,
                                       at.level + 1, (uint32_t)inside & 0xffff};
-    return pushed;
+    return queued;
 }
 
-/* Straight down to the only leaf left. */
-static void visit_leaf(const Tree *tree, const Leaves *leaves, Visit at, TreeTaps *taps)
+/* As visit, for a single leaf. */
+static int visit_one(const Tree *tree, const Leaves *leaves, Visit at, TreeTaps *taps,
+                     Visit *queue)
 {
-    int      leaf = __builtin_ctz(at.leaves);
-    uint32_t place = leaves->id[leaf] & ((1u << 2 * tree->level) - 1), node = at.node;
-    for (int i = at.level; i < tree->level && node != NO_NODE; i++)
-        node = step_down(tree, node, i, place >> 2 * (tree->level - i - 1),
-                         leaves->weight[leaf], taps);
+    int      leaf = __builtin_ctz(at.leaves), shift = 2 * (tree->level - at.level - 1);
+    uint32_t place = 4 * at.place + (leaves->id[leaf] >> shift & 3);
+    uint32_t node = step_down(tree, at.node, at.level, place, leaves->weight[leaf], taps);
+    if (node == NO_NODE) return 0;
+    *queue = (Visit){node, place, at.level + 1, at.leaves};
+    return 1;
 }
 
-/* All below the triangle `from`. */
-static void visit_below(const Tree *tree, const Leaves *leaves, Visit from, TreeTaps *taps)
+/* Everything below the triangles in the queue, level by level: taps of one level follow each
+ * other, which tree_sum wants. */
+static void visit_below(const Tree *tree, const Leaves *leaves, Visit *queue, int count,
+                        TreeTaps *taps)
 {
-    Visit stack[4 * GEODESIC_MAX_LEVEL];
-    int   count = 1;
-    stack[0] = from;
-    while (count > 0) {
-        Visit at = stack[--count];
-        if (at.level == tree->level) continue;
+    for (int i = 0; i < count && queue[i].level < tree->level; i++) {
+        Visit at = queue[i];
         if ((at.leaves & (at.leaves - 1)) == 0)
-            visit_leaf(tree, leaves, at, taps);
+            count += visit_one(tree, leaves, at, taps, queue + count);
         else
-            count += visit(tree, leaves, at, taps, stack + count);
+            count += visit(tree, leaves, at, taps, queue + count);
     }
 }
+
+#define MAX_VISITS (MAX_LEAVES * (GEODESIC_MAX_LEVEL + 1))
 
 /* Leaves in several octants, around a corner on the planes between these. */
 static void visit_octants(const Tree *tree, const Leaves *leaves, TreeTaps *taps)
 {
+    Visit queue[MAX_VISITS];
+    int   count = 0;
     for (uint32_t octant = 0; octant < (uint32_t)tree->octants; octant++) {
         uint32_t inside = 0;
         taps->mean_weight[octant] = 0;
@@ -269,8 +273,18 @@ static void visit_octants(const Tree *tree, const Leaves *leaves, TreeTaps *taps
             inside |= 1u << i;
             taps->mean_weight[octant] += leaves->weight[i];
         }
-        if (inside) visit_below(tree, leaves, (Visit){octant, 0, 0, inside}, taps);
+        if (inside) queue[count++] = (Visit){octant, 0, 0, inside};
     }
+    visit_below(tree, leaves, queue, count, taps);
+}
+
+/* Leaves that all lie in one triangle. */
+static void visit_triangle(const Tree *tree, const Leaves *leaves, Visit triangle,
+                           TreeTaps *taps)
+{
+    Visit queue[MAX_VISITS];
+    queue[0] = triangle;
+    visit_below(tree, leaves, queue, 1, taps);
 }
 
 /* What interpolation inside one leaf needs. In the leaf's barycentric coordinates (u, v, w)
@@ -363,10 +377,10 @@ void tree_walk_interpolated(const Tree *tree, Vec3 direction, TreeTaps *taps)
     if (common < 0)
         visit_octants(tree, &leaves, taps);
     else
-        visit_below(tree, &leaves,
-                    (Visit){path.node[common], path.walk.place >> 2 * (tree->level - common),
-                            common, (1u << leaves.count) - 1},
-                    taps);
+        visit_triangle(tree, &leaves,
+                       (Visit){path.node[common], path.walk.place >> 2 * (tree->level - common),
+                               common, (1u << leaves.count) - 1},
+                       taps);
 }
 
 /* ---- sums -------------------------------------------------------------------------------- */
@@ -378,29 +392,35 @@ static inline Float4 load_floats(const float *from)
     return value;
 }
 
-/* The lower four of eight 16-bit numbers: put into the upper halves of 32 bits and shifted down
- * with their sign (compilers make four scalar conversions of the direct way). */
-static inline Float4 floats_from_shorts(Short8 value, int shift)
+/* Integers to floats: put into the upper bits of 32-bit lanes and shifted down with their sign
+ * (compilers make scalar conversions of the direct way). */
+static inline Float4 lower_shorts(Short8 value, int shift)
 {
     Short8 zero = {0};
     Short8 upper = __builtin_shufflevector(zero, value, 0, 8, 1, 9, 2, 10, 3, 11);
     return __builtin_convertvector((Int4)upper >> shift, Float4);
 }
 
-static inline Float4 load_shorts(const char *from)
+static inline Float4 upper_shorts(Short8 value, int shift)
 {
-    Short8 value = {0};
-    memcpy(&value, from, 4 * sizeof(int16_t));
-    return floats_from_shorts(value, 16);
+    Short8 zero = {0};
+    Short8 upper = __builtin_shufflevector(zero, value, 4, 12, 5, 13, 6, 14, 7, 15);
+    return __builtin_convertvector((Int4)upper >> shift, Float4);
 }
 
-static inline Float4 load_bytes(const char *from)
+/* Eight bytes to the upper halves of 16 bits. */
+static inline Short8 lower_bytes(Byte16 value)
 {
-    Byte16 zero = {0}, value = {0};
-    memcpy(&value, from, 4);
-    Byte16 upper = __builtin_shufflevector(zero, value, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5,
+    Byte16 zero = {0};
+    return (Short8)__builtin_shufflevector(zero, value, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5,
                                            21, 6, 22, 7, 23);
-    return floats_from_shorts((Short8)upper, 24);
+}
+
+static inline Short8 upper_bytes(Byte16 value)
+{
+    Byte16 zero = {0};
+    return (Short8)__builtin_shufflevector(zero, value, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28,
+                                           13, 29, 14, 30, 15, 31);
 }
 
 static inline Float4 all_lanes(float value)
@@ -408,48 +428,87 @@ static inline Float4 all_lanes(float value)
     return (Float4){value, value, value, value};
 }
 
-/* 4 * blocks components from `first` on; `blocks` is a constant where this is inlined, so that
- * the sums stay in registers. */
+/* sum += weight * 4 * blocks details from `from` on, 8 bits each; blocks is 1 or 4. */
+static inline void add_bytes(const char *from, Float4 weight, int blocks, Float4 *sum)
+{
+    Byte16 value = {0};
+    memcpy(&value, from, 4 * (size_t)blocks);
+    sum[0] += weight * lower_shorts(lower_bytes(value), 24);
+    if (blocks == 1) return;
+    sum[1] += weight * upper_shorts(lower_bytes(value), 24);
+    sum[2] += weight * lower_shorts(upper_bytes(value), 24);
+    sum[3] += weight * upper_shorts(upper_bytes(value), 24);
+}
+
+/* The same with 16 bits each. */
+static inline void add_shorts(const char *from, Float4 weight, int blocks, Float4 *sum)
+{
+    for (int b = 0; b < blocks; b += 2, from += sizeof(Short8)) {
+        Short8 value = {0};
+        memcpy(&value, from, blocks == 1 ? sizeof(Short8) / 2 : sizeof(Short8));
+        sum[b] += weight * lower_shorts(value, 16);
+        if (blocks > 1) sum[b + 1] += weight * upper_shorts(value, 16);
+    }
+}
+
+/* The taps from `tap` on that have the same level: their integer rows, times their weights, are
+ * summed up before the level's scales apply. Returns the next tap. */
+static inline int add_level(const Tree *tree, const TreeTaps *taps, int tap, int first,
+                            int blocks, Float4 *sum)
+{
+    Float4       part[4] = {{0}};
+    int          level = taps->level[tap];
+    const float *scale = tree->scales + level * tree->components + first;
+    for (; tap < taps->count && taps->level[tap] == level; tap++) {
+        uint32_t    row = taps->row[tap];
+        const char *from = (const char *)tree->rows + tree_row_offset(tree, row);
+        Float4      weight = all_lanes(taps->weight[tap]);
+        if (row < tree->byte_row)
+            add_shorts(from + 2 * first, weight, blocks, part);
+        else
+            add_bytes(from + first, weight, blocks, part);
+    }
+    for (int b = 0; b < blocks; b++) sum[b] += load_floats(scale + 4 * b) * part[b];
+    return tap;
+}
+
+static inline void add_float_rows(const Tree *tree, const TreeTaps *taps, int first, int blocks,
+                                  Float4 *sum)
+{
+    for (int t = 0; t < taps->count; t++) {
+        size_t       offset = taps->row[t] * (size_t)tree->components + (size_t)first;
+        const float *row = (const float *)tree->rows + offset;
+        for (int b = 0; b < blocks; b++)
+            sum[b] += all_lanes(taps->weight[t]) * load_floats(row + 4 * b);
+    }
+}
+
+/* 4 * blocks components from `first` on; `blocks` is a constant (1 or 4) where this is inlined,
+ * so that the sums stay in registers. */
 static inline void sum_blocks(const Tree *tree, const TreeTaps *taps, int first, int blocks,
                               float *out)
 {
-    size_t components = (size_t)tree->components;
     Float4 sum[4] = {{0}};
     for (int q = 0; q < tree->octants; q++) {
-        const float *mean = tree->means + (size_t)q * components + first;
-        Float4       weight = all_lanes(taps->mean_weight[q]);
-        for (int b = 0; b < blocks; b++) sum[b] += weight * load_floats(mean + 4 * b);
+        const float *mean = tree->means + q * tree->components + first;
+        for (int b = 0; b < blocks; b++)
+            sum[b] += all_lanes(taps->mean_weight[q]) * load_floats(mean + 4 * b);
     }
-    for (int t = 0; t < taps->count; t++) {
-        uint32_t at = taps->row[t];
-        Float4   weight = all_lanes(taps->weight[t]);
-        if (tree->format == TREE_ROWS_FLOAT) {
-            const float *row = (const float *)tree->rows + at * components + first;
-            for (int b = 0; b < blocks; b++) sum[b] += weight * load_floats(row + 4 * b);
-            continue;
-        }
-        const char  *row = (const char *)tree->rows + tree_row_offset(tree, at);
-        const float *scale = tree->scales + taps->level[t] * components + first;
-        for (int b = 0; b < blocks; b++) {
-            int    c = first + 4 * b;
-            Float4 detail =
-                at < tree->byte_row ? load_shorts(row + 2 * c) : load_bytes(row + c);
-            sum[b] += weight * (load_floats(scale + 4 * b) * detail);
-        }
-    }
+    if (tree->format == TREE_ROWS_FLOAT)
+        add_float_rows(tree, taps, first, blocks, sum);
+    else
+        for (int t = 0; t < taps->count;) t = add_level(tree, taps, t, first, blocks, sum);
     memcpy(out, sum, sizeof(Float4) * (size_t)blocks);
 }
 
-static float row_component(const Tree *tree, uint32_t row, int level, int component)
+/* A detail, of integer rows without its scale. */
+static float row_component(const Tree *tree, uint32_t row, int component)
 {
-    size_t components = (size_t)tree->components;
     if (tree->format == TREE_ROWS_FLOAT)
-        return ((const float *)tree->rows)[row * components + (size_t)component];
+        return ((const float *)tree->rows)[row * (size_t)tree->components + (size_t)component];
     const char *from = (const char *)tree->rows + tree_row_offset(tree, row);
-    float       scale = tree->scales[(size_t)level * components + (size_t)component];
-    return scale * (float)(row < tree->byte_row
-                               ? ((const int16_t *)(const void *)from)[component]
-                               : ((const int8_t *)(const void *)from)[component]);
+    return row < tree->byte_row ? ((const int16_t *)(const void *)from)[component]
+                                : ((const int8_t *)(const void *)from)[component];
 }
 
 /* One component, by the same operations in the same order as in a block. */
@@ -458,8 +517,15 @@ static float sum_one(const Tree *tree, const TreeTaps *taps, int component)
     float sum = 0;
     for (int q = 0; q < tree->octants; q++)
         sum += taps->mean_weight[q] * tree->means[q * tree->components + component];
-    for (int t = 0; t < taps->count; t++)
-        sum += taps->weight[t] * row_component(tree, taps->row[t], taps->level[t], component);
+    for (int t = 0; t < taps->count;) {
+        float part = 0;
+        int   level = taps->level[t];
+        for (; t < taps->count && taps->level[t] == level; t++)
+            part += taps->weight[t] * row_component(tree, taps->row[t], component);
+        sum += tree->format == TREE_ROWS_FLOAT
+                   ? part
+                   : tree->scales[level * tree->components + component] * part;
+    }
     return sum;
 }
 
