@@ -196,11 +196,12 @@ static void rates_have_three_digits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        /* first: the thread sanitizer wants a fork before any thread */
+        cmocka_unit_test(the_first_interrupt_asks_and_the_second_ends),
         cmocka_unit_test(tiles_cover_every_pixel_of_the_crop_once),
         cmocka_unit_test(passes_double_and_then_stay),
         cmocka_unit_test(every_item_is_done_once_for_any_number_of_threads),
         cmocka_unit_test(no_items_is_no_work),
-        cmocka_unit_test(the_first_interrupt_asks_and_the_second_ends),
         cmocka_unit_test(a_snapshot_is_taken_once),
         cmocka_unit_test(progress_shows_percent_rate_elapsed_and_remaining),
         cmocka_unit_test(json_progress_is_one_object_a_line),
