@@ -87,6 +87,25 @@ static bool check_png(const unsigned char *bytes, size_t size, Error *err)
     return error_set(err, ERROR_INPUT, "damaged png picture: cut off, the end is missing");
 }
 
+/* A decoder fills what is missing of a JPEG with grey. The end marker must come behind the
+ * last start of pixels; neither occurs inside pixels (ITU-T T.81, B.1.1.5). */
+static bool check_jpeg(const unsigned char *bytes, size_t size, Error *err)
+{
+    for (size_t at = size; at >= 2; at--) {
+        if (bytes[at - 2] != 0xff) continue;
+        if (bytes[at - 1] == 0xd9) return true;
+        if (bytes[at - 1] == 0xda) break;
+    }
+    return error_set(err, ERROR_INPUT, "damaged jpeg picture: cut off, the end is missing");
+}
+
+/* What the libraries let pass. */
+static bool check_whole(const char *format, const void *bytes, size_t size, Error *err)
+{
+    if (!strcmp(format, "png")) return check_png(bytes, size, err);
+    return strcmp(format, "jpeg") != 0 || check_jpeg(bytes, size, err);
+}
+
 static size_t format_bytes(ImageFormat format)
 {
     return format == IMAGE_RGBA8 ? 4 : format == IMAGE_RGBA16 ? 8 : 16;
@@ -317,8 +336,7 @@ bool image_read_memory(const void *bytes, size_t size, const char *name, Arena *
                        "not a picture that can be read (PNG, JPEG, OpenEXR, Radiance HDR, "
                        "TIFF, WebP, BMP, TGA, GIF, DPX or PNM)");
     } else {
-        ok = (strcmp(file.format, "png") != 0 || check_png(bytes, size, err)) &&
-             decode(&file, arena, out, err);
+        ok = check_whole(file.format, bytes, size, err) && decode(&file, arena, out, err);
     }
     return ok || error_in_file(err, name);
 }

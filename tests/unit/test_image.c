@@ -217,6 +217,37 @@ static void refuses_every_prefix_of_a_png(void **state)
     arena_release(&arena);
 }
 
+/* Every prefix of what this program writes, and of a Radiance picture. */
+static void refuses_every_prefix_of_other_formats(void **state)
+{
+    (void)state;
+    static const char HDR[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n12341234";
+    static const char *const FORMATS[] = {"jpeg", "tiff", "hdr"};
+    Arena   arena = arena_reserve(ARENA_BYTES), scratch;
+    uint8_t codes[8 * 8 * 3];
+    for (size_t i = 0; i < sizeof codes; i++) codes[i] = (uint8_t)(i * 37);
+    for (int f = 0; f < 3; f++) {
+        ImageToEncode in = {.width = 8, .height = 8, .channels = 3, .type = PIXEL_U8,
+                            .pixels = codes, .jpeg_quality = f == 0 ? 90 : 0};
+        EncodedImage *encoded = NULL;
+        Error  err = {0};
+        Image  image;
+        size_t whole = sizeof HDR - 1;
+        if (f < 2) assert_true(image_encode(FORMATS[f], &in, &encoded, &err));
+        const void *bytes = f < 2 ? encoded_image_bytes(encoded, &whole) : HDR;
+        for (size_t size = 0; size <= whole; size++) {
+            unsigned char *exact = malloc(size + (size == 0));
+            memcpy(exact, bytes, size);
+            scratch = arena;
+            if (image_read_memory(exact, size, "cut", &scratch, &image, &err) != (size == whole))
+                fail_msg("%s: %zu of %zu bytes: %s", FORMATS[f], size, whole, err.text);
+            free(exact);
+        }
+        encoded_image_destroy(encoded);
+    }
+    arena_release(&arena);
+}
+
 static void names_what_cannot_be_read(void **state)
 {
     (void)state;
@@ -548,6 +579,7 @@ int main(void)
         cmocka_unit_test(refuses_a_bomb_before_decoding_it),
         cmocka_unit_test(says_when_memory_is_too_small),
         cmocka_unit_test(refuses_every_prefix_of_a_png),
+        cmocka_unit_test(refuses_every_prefix_of_other_formats),
         cmocka_unit_test(names_what_cannot_be_read),
         cmocka_unit_test(reads_radiance_pictures),
         cmocka_unit_test(what_is_encoded_reads_back),
