@@ -119,11 +119,11 @@ static void fill_tables(const Tables *tables, int level, uint32_t id, const DTri
         area[i] = triangle_area(&child);
         fill_tables(tables, level + 1, 4 * id + i, &child);
     }
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 4; i++)
+        tables->ratios[level][id].of_child[i] = (float)(area[i] / area[0]);
+    for (int i = 0; i < 3; i++)
         tables->edges[level][id].half_cos[i] =
             half_edge_cos(t->corner[(i + 1) % 3], t->corner[(i + 2) % 3]);
-        tables->ratios[level][id].of_child[i] = (float)(area[i + 1] / area[0]);
-    }
 }
 
 const Geodesic *geodesic_create(int level, Arena *arena)

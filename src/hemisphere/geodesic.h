@@ -33,9 +33,9 @@ typedef struct GeodesicEdges {
     float half_cos[3];
 } GeodesicEdges;
 
-/* Areas of child 1, 2, 3 over the area of child 0. */
+/* Areas of the children over the area of child 0. */
 typedef struct GeodesicRatios {
-    float of_child[3];
+    float of_child[4];
 } GeodesicRatios;
 
 /* What depends on the level only: built once, shared by every tree of this level or less. */

@@ -35,29 +35,40 @@ static void start_taps(TreeTaps *taps)
     for (int q = 0; q < 4; q++) taps->mean_weight[q] = 0;
 }
 
-/* Adds the rows of a node whose children count with the lanes of weight: child i = 1..3 adds
- * its detail, child 0 takes ratio_i of it away (haar.h). Which rows there are cannot be
- * predicted: every tap is written, and then kept or not. */
-static void add_rows(TreeTaps *taps, TreeNode node, int level, Float4 weight,
-                     const float ratio[3])
+static inline Float4 load_floats(const float *from)
 {
+    Float4 value;
+    memcpy(&value, from, sizeof value);
+    return value;
+}
+
+/* Writes a tap; it is kept when there is such a row and its weight is not 0. Whether that is so
+ * cannot be predicted, so there is no branch. */
+static inline int put_tap(TreeTaps *taps, int count, uint32_t row, float weight, int level,
+                          uint32_t stored)
+{
+    taps->row[count] = row;
+    taps->weight[count] = weight;
+    taps->level[count] = (uint8_t)level;
+    return count + (int)(stored & (bits_from_float(weight) << 1 != 0));
+}
+
+/* Adds the rows of a node whose children count with the lanes of weight: child i = 1..3 adds
+ * its detail, child 0 takes ratio_i of it away (haar.h). ratio: of all four children. */
+static inline void add_rows(TreeTaps *taps, TreeNode node, int level, Float4 weight,
+                            const float *ratio)
+{
+    uint32_t first = node.rows & 1, second = node.rows >> 1 & 1, third = node.rows >> 2 & 1;
     uint32_t row = node.rows >> 3;
-    int      count = taps->count;
-    for (int i = 0; i < 3; i++) {
-        uint32_t stored = node.rows >> i & 1;
-        float    w = weight[i + 1] - weight[0] * ratio[i];
-        taps->row[count] = row;
-        taps->weight[count] = w;
-        taps->level[count] = (uint8_t)level;
-        count += (int)stored & (w != 0);
-        row += stored;
-    }
-    taps->count = count;
+    Float4   w = weight - weight[0] * load_floats(ratio);
+    int      count = put_tap(taps, taps->count, row, w[1], level, first);
+    count = put_tap(taps, count, row + first, w[2], level, second);
+    taps->count = put_tap(taps, count, row + first + second, w[3], level, third);
 }
 
 static const float *area_ratio(const Tree *tree, int level, uint32_t place)
 {
-    static const float equal[3] = {1, 1, 1};
+    static const float equal[4] = {1, 1, 1, 1};
     return tree->weights == HAAR_AREA ? tree->geodesic->ratios[level][place].of_child : equal;
 }
 
@@ -384,13 +395,6 @@ void tree_walk_interpolated(const Tree *tree, Vec3 direction, TreeTaps *taps)
 }
 
 /* ---- sums -------------------------------------------------------------------------------- */
-
-static inline Float4 load_floats(const float *from)
-{
-    Float4 value;
-    memcpy(&value, from, sizeof value);
-    return value;
-}
 
 /* Integers to floats: put into the upper bits of 32-bit lanes and shifted down with their sign
  * (compilers make scalar conversions of the direct way). */

@@ -58,7 +58,7 @@ static void tables_agree_with_geometry(void **state)
             for (uint32_t i = 0; i < 3; i++) {
                 Vec3 sum = vec3_add(t.corner[(i + 1) % 3], t.corner[(i + 2) % 3]);
                 assert_close(cosines[i], 0.5f * vec3_length(sum), 1e-6);
-                assert_close(ratios[i], geodesic_area(level + 1, 4 * id + i + 1) / middle,
+                assert_close(ratios[i + 1], geodesic_area(level + 1, 4 * id + i + 1) / middle,
                              1e-6);
             }
             assert_close(f->geodesic->areas[level][id], geodesic_area(level, id), 1e-6);
