@@ -63,14 +63,32 @@ static void print_displays(const Scene *scene)
     }
 }
 
+static bool is_same_light(const PunctualLight *a, const PunctualLight *b)
+{
+    return a->kind == b->kind && !strcmp(a->name, b->name) &&
+           !memcmp(a->intensity, b->intensity, sizeof a->intensity);
+}
+
+/* A row of street lamps is one line. */
+static void print_light(const Scene *scene, int index)
+{
+    const PunctualLight *light = &scene->lights[index];
+    int count = 0;
+    for (int i = 0; i < scene->light_count; i++) {
+        bool is_same = is_same_light(light, &scene->lights[i]);
+        if (is_same && i < index) return;
+        count += is_same;
+    }
+    printf("light        %s: %s, RGB %g %g %g %s", light->name, light_kind(light->kind),
+           (double)light->intensity[0], (double)light->intensity[1], (double)light->intensity[2],
+           light_unit(light->kind));
+    if (count > 1) printf(", %d times", count);
+    printf("\n");
+}
+
 static void print_lights(const Scene *scene)
 {
-    for (int i = 0; i < scene->light_count; i++) {
-        const PunctualLight *light = &scene->lights[i];
-        printf("light        %s: %s, RGB %g %g %g %s\n", light->name, light_kind(light->kind),
-               (double)light->intensity[0], (double)light->intensity[1],
-               (double)light->intensity[2], light_unit(light->kind));
-    }
+    for (int i = 0; i < scene->light_count; i++) print_light(scene, i);
     for (int i = 0; i < scene->material_count; i++) {
         const Material *m = &scene->materials[i];
         if (!m->is_emitter || m->display_id != NO_ID || m->unlit) continue;

@@ -153,20 +153,80 @@ void check_display(const Check *check, const GltfValue *display)
     check_fails(check, display, "\"panel\" is missing, and --panel names none");
 }
 
-/* What each type of environment must have besides its type. */
+/* What an environment of a type must have, and what else it may have. */
+typedef struct EnvironmentType {
+    const char *name;
+    const char *needed[2];
+    const char *allowed; /* "|a|b|", the needed ones included */
+} EnvironmentType;
+
+static const EnvironmentType ENVIRONMENT_TYPES[] = {
+    {"constant", {"luminance", NULL}, "|luminance|color|"},
+    {"hdri", {"uri", NULL}, "|uri|rotation_deg|scale|horizontal_illuminance_lx|"},
+    {"cie", {"sky", "diffuse_horizontal_lx"}, "|sky|diffuse_horizontal_lx|"},
+    {"perez", {"direct_normal_w_m2", "diffuse_horizontal_w_m2"},
+     "|direct_normal_w_m2|diffuse_horizontal_w_m2|when|where|"},
+    {"sky", {"when", "where"},
+     "|when|where|turbidity|ozone_atm_cm|water_cm|albedo|ground|cloud_top_m|"},
+};
+
+static void check_members(const Check *check, const GltfValue *environment,
+                          const EnvironmentType *type)
+{
+    static const char COMMON[] = "|type|heading_deg|forward|sun|extensions|extras|name|";
+    for (int i = 0; i < 2 && type->needed[i]; i++)
+        if (!tree_member(environment, type->needed[i]))
+            check_fails(check, environment, "\"%s\" is missing in an environment of type \"%s\"",
+                        type->needed[i], type->name);
+    for (int i = 0; i < environment->count; i++) {
+        char word[80];
+        snprintf(word, sizeof word, "|%.70s|", environment->items[i].key);
+        if (!strstr(COMMON, word) && !strstr(type->allowed, word))
+            check_warns(check, &environment->items[i], "has no meaning for an environment of type "
+                        "\"%s\" and is skipped", type->name);
+    }
+}
+
+/* ISO 8601 with minutes, and seconds if wanted, and the offset from UTC. */
+static bool is_moment(const char *text)
+{
+    int year, month, day, hour, minute, second = 0, used = 0, more = 0, off_hour, off_minute, tail;
+    if (sscanf(text, "%4d-%2d-%2dT%2d:%2d%n", &year, &month, &day, &hour, &minute, &used) != 5 ||
+        used != 16)
+        return false;
+    if (sscanf(text + used, ":%2d%n", &second, &more) == 1 && more == 3) used += more;
+    if (month < 1 || month > 12 || day < 1 || day > 31 || hour < 0 || hour > 24 || minute < 0 ||
+        minute > 59 || second < 0 || second > 60)
+        return false;
+    if (strcmp(text + used, "Z") == 0) return true;
+    return (text[used] == '+' || text[used] == '-') &&
+           sscanf(text + used + 1, "%2d:%2d%n", &off_hour, &off_minute, &tail) == 2 && tail == 5 &&
+           text[used + 6] == '\0' && off_hour <= 14 && off_minute <= 59;
+}
+
+static void check_time_and_place(const Check *check, const GltfValue *environment)
+{
+    const GltfValue *when = tree_member(environment, "when");
+    const GltfValue *where = tree_member(environment, "where");
+    const GltfValue *latitude = tree_item(where, 0), *longitude = tree_item(where, 1);
+    if (when && when->kind == GLTF_STRING && !is_moment(when->text))
+        check_fails(check, when, "is \"%.60s\", a time like \"2026-06-21T08:30+02:00\" is wanted",
+                    when->text);
+    if (latitude && !(fabs(latitude->number) <= 90))
+        check_fails(check, latitude, "is %g, a latitude from -90 to 90 degrees is wanted",
+                    latitude->number);
+    if (longitude && !(fabs(longitude->number) <= 360))
+        check_fails(check, longitude, "is %g, a longitude from -360 to 360 degrees is wanted",
+                    longitude->number);
+}
+
 void check_environment(const Check *check, const GltfValue *environment)
 {
-    static const char *const NEEDED[][4] = {
-        {"constant", "luminance"}, {"hdri", "uri"}, {"cie", "sky", "diffuse_horizontal_lx"},
-        {"perez", "direct_normal_w_m2", "diffuse_horizontal_w_m2"}, {"sky", "when", "where"}};
     const char *type = tree_text(environment, "type", "");
-    for (size_t i = 0; i < sizeof NEEDED / sizeof *NEEDED; i++) {
-        if (strcmp(NEEDED[i][0], type) != 0) continue;
-        for (int k = 1; k < 4 && NEEDED[i][k]; k++)
-            if (!tree_member(environment, NEEDED[i][k]))
-                check_fails(check, environment, "\"%s\" is missing in an environment of type "
-                            "\"%s\"", NEEDED[i][k], type);
-    }
+    for (size_t i = 0; i < sizeof ENVIRONMENT_TYPES / sizeof *ENVIRONMENT_TYPES; i++)
+        if (strcmp(ENVIRONMENT_TYPES[i].name, type) == 0)
+            check_members(check, environment, &ENVIRONMENT_TYPES[i]);
+    check_time_and_place(check, environment);
     if (tree_member(environment, "scale") && tree_member(environment, "horizontal_illuminance_lx"))
         check_fails(check, environment, "has \"scale\" and \"horizontal_illuminance_lx\"; one of "
                     "them is wanted");

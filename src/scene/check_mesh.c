@@ -13,6 +13,8 @@ typedef struct Format {
     bool        is_normalized; /* integers must be */
 } Format;
 
+enum { MOST_ATTRIBUTES = 256 }; /* pairs of them are compared */
+
 enum { BYTE = 1, UBYTE = 2, SHORT = 4, USHORT = 8, UINT = 32, FLOATS = 64 };
 
 static const Format FORMATS[] = {
@@ -215,6 +217,11 @@ void check_primitive(const Check *check, const GltfValue *primitive)
     const GltfValue *attributes = tree_member(primitive, "attributes");
     const GltfValue *indices = tree_member(primitive, "indices");
     if (!attributes || attributes->kind != GLTF_OBJECT) return;
+    if (attributes->count > MOST_ATTRIBUTES) {
+        check_fails(check, attributes, "has %d attributes, at most %d are read",
+                    attributes->count, MOST_ATTRIBUTES);
+        return;
+    }
     const GltfValue *position = tree_member(attributes, "POSITION");
     double count = tree_number(accessor_of(check, position), "count", -1);
     if (!position) check_warns(check, attributes, "has no POSITION: the primitive is skipped");

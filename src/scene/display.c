@@ -88,10 +88,12 @@ static void set_content(Loader *load, int display_id, const char *value)
         option_error(load, "--content", "%.300s: %.600s", value, err.text);
         return;
     }
-    Texture texture = {.image = image, .wrap_u = WRAP_CLAMP, .wrap_v = WRAP_CLAMP,
-                       .nearest = true};
+    Texture texture = {.wrap_u = WRAP_CLAMP, .wrap_v = WRAP_CLAMP, .nearest = true};
     if (display->content.texture_id == NO_ID)
         display->content = (TextureSlot){.uv_from_uv = {1, 0, 0, 0, 1, 0}};
+    else /* another picture on the same sampler */
+        texture = *(const Texture *)list_item(&load->textures, display->content.texture_id);
+    texture.image = image;
     display->content.texture_id = texture_add(load, texture);
 }
 

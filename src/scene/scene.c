@@ -6,6 +6,51 @@
 #include "scene/load.h"
 #include "scene/schema.h"
 
+/* ---- materials that say BLEND or MASK but are opaque everywhere --------------------------- */
+
+/* Exporters mark whole models so; asking such surfaces at every ray costs time for nothing. */
+
+static bool has_full_alpha(const Image *image)
+{
+    size_t count = (size_t)image->width * (size_t)image->height;
+    for (size_t i = 3; i < 4 * count; i += 4) {
+        if (image->format == IMAGE_RGBA8 && ((const uint8_t *)image->pixels)[i] < 255)
+            return false;
+        if (image->format == IMAGE_RGBA16 && ((const uint16_t *)image->pixels)[i] < 65535)
+            return false;
+        if (image->format == IMAGE_RGBA32F && !(((const float *)image->pixels)[i] >= 1))
+            return false;
+    }
+    return true;
+}
+
+static bool has_opaque_colors(const Loader *load, int material_id)
+{
+    for (int i = 0; i < load->parts.count; i++) {
+        const PartDraft *draft = list_item(&load->parts, i);
+        if (draft->part.material_id != material_id) continue;
+        for (uint32_t v = 0; v < draft->vertex_count; v++)
+            if (draft->vertices[v].color[3] < 65535) return false;
+    }
+    return true;
+}
+
+static void find_opaque_materials(Loader *load)
+{
+    for (int i = 0; i < load->materials.count; i++) {
+        Material *m = list_item(&load->materials, i);
+        int       texture = m->base_color_texture.texture_id;
+        if (m->alpha_mode == ALPHA_OPAQUE || m->base_color[3] < 1) continue;
+        if (m->alpha_mode == ALPHA_MASK && m->alpha_cutoff > 1) continue;
+        if (texture != NO_ID &&
+            !has_full_alpha(&((const Texture *)list_item(&load->textures, texture))->image))
+            continue;
+        if (!has_opaque_colors(load, i)) continue;
+        m->alpha_mode = ALPHA_OPAQUE;
+        material_derive_flags(m);
+    }
+}
+
 /* ---- from drafts to arrays ---------------------------------------------------------------- */
 
 static bool lets_through(const Loader *load, const PartDraft *draft)
@@ -182,6 +227,7 @@ Scene *scene_survey(const SceneOptions *options, Arena *arena, Problems *problem
     for (int i = 0; i < options->path_count; i++) load_file(&load, options->paths[i]);
     displays_override(&load);
     displays_finish(&load);
+    find_opaque_materials(&load);
     Scene *scene = assemble(&load);
     arena_release(&load.scratch);
     return scene;

@@ -145,6 +145,15 @@ static const FaultCase FAULTS[] = {
     {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_environment':"
      "{'type':'fog'}}}]", "/scenes/0/extensions/PARHELION_environment/type",
      "is \"fog\", one of constant|hdri|cie|perez|sky"},
+    {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_environment':"
+     "{'type':'constant','luminance':1,'sky':3}}}]",
+     "/scenes/0/extensions/PARHELION_environment/sky", "no meaning for an environment of type"},
+    {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_environment':"
+     "{'type':'sky','when':'yesterday','where':[95,0]}}}]",
+     "/scenes/0/extensions/PARHELION_environment/when", "is \"yesterday\", a time like"},
+    {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_environment':"
+     "{'type':'sky','when':'2026-06-21T08:30+02:00','where':[95,0]}}}]",
+     "/scenes/0/extensions/PARHELION_environment/where/0", "is 95, a latitude"},
     {"'extensionsUsed':['PARHELION_spectrum'],'materials':[{'extensions':{'PARHELION_spectrum':"
      "{'baseColor':'none.csv'}}}]", "/materials/0/extensions/PARHELION_spectrum/baseColor",
      "No such file"},

@@ -118,8 +118,12 @@ static void flags_follow_from_the_numbers(void **state)
 {
     (void)state;
     assert_true(load_material("'emissiveFactor':[0,0,0.1]")->is_emitter);
-    assert_true(load_material("'alphaMode':'BLEND'")->lets_light_through);
-    assert_true(load_material("'alphaMode':'MASK'")->lets_light_through);
+    static const char HALF[] = ",'pbrMetallicRoughness':{'baseColorFactor':[1,1,1,0.5]}";
+    char blend[128], mask[128];
+    snprintf(blend, sizeof blend, "'alphaMode':'BLEND'%s", HALF);
+    snprintf(mask, sizeof mask, "'alphaMode':'MASK'%s", HALF);
+    assert_true(load_material(blend)->lets_light_through);
+    assert_true(load_material(mask)->lets_light_through);
     assert_true(load_material("'doubleSided':true")->double_sided);
     assert_true(load_material(EXTENSION("KHR_materials_unlit", ""))->unlit);
     assert_true(load_material(EXTENSION("KHR_materials_transmission", "'transmissionFactor':1"))
@@ -259,7 +263,8 @@ static void opaque_triangles_come_first(void **state)
     (void)state;
     const Scene *scene = maker_load(TRIANGLE, sizeof TRIANGLE,
         "'bufferViews':[{'buffer':0,'byteLength':36}],'accessors':[{'bufferView':0,"
-        "'componentType':5126,'count':3,'type':'VEC3'}],'materials':[{'alphaMode':'BLEND'},{}],"
+        "'componentType':5126,'count':3,'type':'VEC3'}],'materials':[{'alphaMode':'BLEND','pbrMetallicRoughness':"
+        "{'baseColorFactor':[1,1,1,0.5]}},{}],"
         "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'material':0},"
         "{'attributes':{'POSITION':0},'material':1},{'attributes':{'POSITION':0}}]}],"
         "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0,'translation':[0,0,2]}]");
@@ -273,6 +278,25 @@ static void opaque_triangles_come_first(void **state)
     assert_near(scene->bounds_min.z, 2, 0);
     assert_near(scene->bounds_max.x, 1, 0);
     assert_int_equal((uintptr_t)scene->vertices % 64, 0);
+}
+
+/* BLEND with an alpha of 1 everywhere needs no asking; a vertex that is not full does. */
+static void what_is_opaque_everywhere_is_opaque(void **state)
+{
+    (void)state;
+    struct { float points[9]; uint8_t colors[12]; } data = {
+        {0, 0, 0, 1, 0, 0, 0, 1, 0}, {255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255}};
+    for (int alpha = 255; alpha >= 254; alpha--) {
+        data.colors[11] = (uint8_t)alpha;
+        const Scene *scene = maker_load(&data, sizeof data,
+            "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"
+            "'byteLength':12}],'accessors':[{'bufferView':0,'componentType':5126,'count':3,"
+            "'type':'VEC3'},{'bufferView':1,'componentType':5121,'normalized':true,'count':3,"
+            "'type':'VEC4'}],'materials':[{'alphaMode':'BLEND'}],'meshes':[{'primitives':"
+            "[{'attributes':{'POSITION':0,'COLOR_0':1},'material':0}]}],"
+            "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0}]");
+        assert_int_equal(scene->opaque_count, alpha == 255);
+    }
 }
 
 static void triangles_without_area_are_dropped_and_counted(void **state)
@@ -302,6 +326,7 @@ int main(void)
         cmocka_unit_test_setup(a_picture_of_the_sky_is_read_beside_the_scene, maker_reset),
         cmocka_unit_test_setup(several_files_are_one_scene, maker_reset),
         cmocka_unit_test_setup(opaque_triangles_come_first, maker_reset),
+        cmocka_unit_test_setup(what_is_opaque_everywhere_is_opaque, maker_reset),
         cmocka_unit_test_setup(triangles_without_area_are_dropped_and_counted, maker_reset),
     };
     return cmocka_run_group_tests_name("scene_materials", tests, maker_start, maker_end);
