@@ -6,6 +6,7 @@
 /* Up to this bounce every set of lights is sampled at every vertex; later ones draw one set. */
 #define ALL_SETS_BOUNCES 2
 #define ROULETTE_FIRST_BOUNCE 3
+#define MIRROR_SHARE 0.5f /* of the samples that follow the first window's mirror image */
 #define PASSES_MAX 512 /* windows and holes along one path: more is a closed loop of rounding */
 
 /* One path on its way. */
@@ -23,6 +24,7 @@ typedef struct Walk {
     float    last_pdf;   /* with which it chose the direction, sr^-1 */
     bool     last_is_delta; /* no light sample could have found what comes now */
     int      bounce;     /* scattering vertices so far */
+    bool     has_split;  /* followed both ways of a window already */
     int      medium_id;  /* material of the solid that the ray is in; NO_ID: air */
 } Walk;
 
@@ -274,6 +276,33 @@ static void keep_first(const Hit *hit, float distance, Vec3 wo, PathResult *out)
     out->direction = vec3_neg(wo);
 }
 
+static void walk_path(Walk *walk, PathResult *out);
+
+/* The first window that the eye looks through is followed both ways, the mirror image in every
+ * second sample: either way by chance, one in twelve would show the cabin and not the street. */
+static Step split_window(Walk *walk, const Surface *surface, Vec3 wo)
+{
+    Vec3 local_wo = frame_to_local(&surface->frame, wo);
+    const ThinWindow *window = &surface->bsdf.thin_window;
+    Walk mirrored = *walk;
+    PathResult ignored = {.hit = true};
+    BsdfSample mirror = {.wi = vec3(-local_wo.x, -local_wo.y, local_wo.z), .is_delta = true,
+                         .pdf = 1};
+    walk->has_split = mirrored.has_split = true;
+    mirrored.throughput *= thin_window_reflectance(window, local_wo.z) *
+                           spectrum_all(1 / MIRROR_SHARE);
+    mirrored.radiance = spectrum_all(0);
+    for (int i = 0; i < 3; i++) mirrored.xyz[i] = 0;
+    if (walk->context->max_bounces > 0 && sampler_1d(walk->sampler) < MIRROR_SHARE &&
+        turn(&mirrored, surface, wo, &mirror) == STEP_SCATTERED)
+        walk_path(&mirrored, &ignored);
+    walk->radiance += mirrored.radiance;
+    for (int i = 0; i < 3; i++) walk->xyz[i] += mirrored.xyz[i];
+    walk->throughput *= thin_window_transmittance(window, local_wo.z);
+    go_on_behind(walk, surface);
+    return STEP_PASSED;
+}
+
 /* The loop: what is hit, what it emits, what the lights send it, where the path goes on. */
 static void walk_path(Walk *walk, PathResult *out)
 {
@@ -294,7 +323,8 @@ static void walk_path(Walk *walk, PathResult *out)
         }
         add_emitted(walk, &surface, &hit, wo);
         if (walk->bounce < context->max_bounces) add_light_samples(walk, &surface, wo);
-        Step step = scatter(walk, &surface, wo);
+        bool splits = surface.bsdf.kind == BSDF_THIN_WINDOW && !walk->bounce && !walk->has_split;
+        Step step = splits ? split_window(walk, &surface, wo) : scatter(walk, &surface, wo);
         if (step != STEP_PASSED) keep_first(&hit, distance, wo, out);
         if (step == STEP_ENDED) return;
     }
