@@ -18,10 +18,10 @@
 #include <OpenEXR/OpenEXRConfig.h>
 
 #include <algorithm>
-#include <cstring>
 #include <exception>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace {
@@ -49,6 +49,16 @@ bool guarded(Error *err, ErrorCode code, const char *doing, Body body) noexcept
         return error_set(err, code, "%s: unknown C++ exception", doing);
     }
 }
+
+/* The library's own threads, for as long as one picture is encoded; how many makes no
+ * difference to the bytes. */
+struct EncodingThreads {
+    EncodingThreads()
+    {
+        Imf::setGlobalThreadCount(std::min((int)std::thread::hardware_concurrency(), 8));
+    }
+    ~EncodingThreads() { Imf::setGlobalThreadCount(0); }
+};
 
 ExrWindow half_open(const Imath::Box2i &box)
 {
@@ -92,15 +102,14 @@ bool describe_attribute(const Imf::Attribute &from, ExrAttribute *to)
 void insert_attribute(Imf::Header *header, const ExrAttribute &a)
 {
     const double *v = a.values;
-    auto          point = [v](int k) { return Imath::V2f((float)v[k], (float)v[k + 1]); };
+    auto          xy = [v](int k) { return Imath::V2f((float)v[k], (float)v[k + 1]); };
     switch (a.kind) {
     case EXR_STRING: header->insert(a.name, Imf::StringAttribute(a.text)); break;
     case EXR_INT: header->insert(a.name, Imf::IntAttribute((int)v[0])); break;
     case EXR_FLOAT: header->insert(a.name, Imf::FloatAttribute((float)v[0])); break;
     case EXR_DOUBLE: header->insert(a.name, Imf::DoubleAttribute(v[0])); break;
     case EXR_CHROMATICITIES:
-        header->insert(a.name, Imf::ChromaticitiesAttribute(Imf::Chromaticities(
-                                   point(0), point(2), point(4), point(6))));
+        header->insert(a.name, Imf::ChromaticitiesAttribute({xy(0), xy(2), xy(4), xy(6)}));
         break;
     case EXR_MATRIX44: {
         Imath::M44f matrix;
@@ -268,8 +277,9 @@ bool exr_encode(const ExrPicture *p, ExrBytes **out, Error *err)
                          p->display.y0, p->display.x1, p->display.y1);
     }
     return guarded(err, ERROR_LIBRARY, "encoding OpenEXR", [&] {
-        auto         encoded = std::make_unique<ExrBytes>();
-        MemoryOutput stream(&encoded->bytes);
+        EncodingThreads threads;
+        auto            encoded = std::make_unique<ExrBytes>();
+        MemoryOutput    stream(&encoded->bytes);
         write_picture(*p, &stream);
         *out = encoded.release();
         return true;
