@@ -57,13 +57,24 @@ static float blend_of(float offset, Vec2 df)
     return b > 0 ? (b + root) / (2 * a) : 2 * square / (root - b);
 }
 
-Vec3 specular_frame_stored(const SpecularFrame *frame, Vec3 outer)
+/* A stored point: azimuth e (unit), c = r^k. */
+typedef struct StoredPoint {
+    Vec2  e;
+    float c, r;
+} StoredPoint;
+
+static StoredPoint stored_point(const SpecularFrame *frame, Vec2 u)
 {
-    Vec2  u = disk_from_direction(outer);
     Vec2  df = {u.x - frame->offset, u.y};
     float c = clampf(blend_of(frame->offset, df), 0, 1);
     Vec2  e = c > 0 ? unit_or_right((Vec2){df.x + c * frame->offset, df.y}) : (Vec2){1, 0};
-    return direction_from_polar(e, power(c, 1 / frame->exponent));
+    return (StoredPoint){e, c, power(c, 1 / frame->exponent)};
+}
+
+Vec3 specular_frame_stored(const SpecularFrame *frame, Vec3 outer)
+{
+    StoredPoint p = stored_point(frame, disk_from_direction(outer));
+    return direction_from_polar(p.e, p.r);
 }
 
 /* U of a stored point: azimuth e, c = r^k. */
@@ -80,13 +91,23 @@ Vec3 specular_frame_outer(const SpecularFrame *frame, Vec3 stored)
     return direction_from_polar(unit_or_right(u), disk_radius(u));
 }
 
-/* sin t / t at t = radius * 90 degrees. */
-static float sinc(float radius)
+/* sin t / t for t = radius * 90 degrees. */
+static float sinc(float radius, float sine)
+{
+    return radius < 1e-4f ? 1.0f : sine / (radius * RIGHT_ANGLE);
+}
+
+static float sine_of_radius(float radius)
 {
     float sine, cosine;
-    if (radius < 1e-4f) return 1;
     sincos_turns(0.25f * radius, &sine, &cosine);
-    return sine / (radius * RIGHT_ANGLE);
+    return sine;
+}
+
+/* d(radius) of the stored disk to that of the outer one: k r^(2k-2), see below. */
+static float stretch_at(float r, float k)
+{
+    return k == 1.0f ? 1.0f : k * power(r * r, k - 1);
 }
 
 /* Polar angles are theta = 90deg * radius, so that d(solid angle) = sinc(theta) (pi/2)^2 dA of
@@ -95,9 +116,22 @@ static float sinc(float radius)
  *     dA_stored = r dr dphi. */
 float specular_frame_jacobian(const SpecularFrame *frame, Vec3 stored)
 {
-    Vec2  p = disk_from_direction(stored);
-    float r = clampf(disk_radius(p), 0, 1), k = frame->exponent;
-    Vec2  e = unit_or_right(p), u = outer_disk(frame, e, r);
-    float stretch = k == 1.0f ? 1.0f : k * power(r * r, k - 1);
-    return sinc(disk_radius(u)) / sinc(r) * (1 - frame->offset * e.x) * stretch;
+    Vec2  p = disk_from_direction(stored), e = unit_or_right(p);
+    float r = clampf(disk_radius(p), 0, 1);
+    float outer = disk_radius(outer_disk(frame, e, r));
+    return sinc(outer, sine_of_radius(outer)) / sinc(r, sine_of_radius(r)) *
+           (1 - frame->offset * e.x) * stretch_at(r, frame->exponent);
+}
+
+/* The two directions know the sines of their polar angles already. */
+Vec3 specular_frame_stored_jacobian(const SpecularFrame *frame, Vec3 outer, float *jacobian)
+{
+    Vec2        u = disk_from_direction(outer);
+    StoredPoint p = stored_point(frame, u);
+    Vec3        stored = direction_from_polar(p.e, p.r);
+    float       outer_sine = disk_radius((Vec2){outer.x, outer.y});
+    float       stored_sine = disk_radius((Vec2){stored.x, stored.y});
+    *jacobian = sinc(disk_radius(u), outer_sine) / sinc(p.r, stored_sine) *
+                (1 - frame->offset * p.e.x) * stretch_at(p.r, frame->exponent);
+    return stored;
 }

@@ -256,6 +256,15 @@ static void work_jacobian(Input *in)
         in->sink += specular_frame_jacobian(&in->frame, in->directions[i]);
 }
 
+static void work_both(Input *in)
+{
+    float jacobian;
+    for (int i = 0; i < DIRECTIONS; i++) {
+        in->sink += specular_frame_stored_jacobian(&in->frame, in->directions[i], &jacobian).x;
+        in->sink += jacobian;
+    }
+}
+
 static const Bench TREE_WORKS[] = {
     {"leaf value", work_value},
     {"walk for interpolation", work_walk},
@@ -266,6 +275,7 @@ static const Bench OTHER_WORKS[] = {
     {"find the leaf", work_find},           {"sample a direction", work_sample},
     {"pdf of a direction", work_pdf},       {"specular frame, stored", work_stored},
     {"specular frame, outer", work_outer},  {"specular frame, Jacobian", work_jacobian},
+    {"specular frame, both", work_both},
 };
 
 static double seconds(void)

@@ -394,6 +394,21 @@ static void the_jacobian_agrees_with_differences(void **state)
     }
 }
 
+static void both_at_once_agrees_with_one_by_one(void **state)
+{
+    (void)state;
+    uint32_t seed = 19;
+    for (int i = 0; i < 3000; i++) {
+        float         theta = 1.5f * random_unit(&seed), jacobian;
+        SpecularFrame frame = specular_frame(theta, EXPONENTS[i % 3]);
+        Vec3          outer = random_direction(&seed);
+        Vec3          stored = specular_frame_stored_jacobian(&frame, outer, &jacobian);
+        Vec3          alone = specular_frame_stored(&frame, outer);
+        assert_true(stored.x == alone.x && stored.y == alone.y && stored.z == alone.z);
+        assert_close(jacobian, specular_frame_jacobian(&frame, stored), 1e-4);
+    }
+}
+
 /* The integral of J over the stored hemisphere is the outer hemisphere. */
 static void the_jacobian_integrates_to_the_hemisphere(void **state)
 {
@@ -436,6 +451,7 @@ int main(void)
         CASE(the_specular_frame_round_trips),
         CASE(the_horizon_stays_the_horizon_and_the_peak_is_the_pole),
         CASE(the_jacobian_agrees_with_differences),
+        CASE(both_at_once_agrees_with_one_by_one),
         CASE(the_jacobian_integrates_to_the_hemisphere),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
