@@ -193,8 +193,3 @@ void view_transform_destroy(ViewTransform *transform)
 {
     delete transform;
 }
-
-const char *view_transform_library_version(void)
-{
-    return OCIO::GetVersion();
-}

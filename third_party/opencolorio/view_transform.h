@@ -41,9 +41,6 @@ bool view_transform_apply(const ViewTransform *transform, float *rgb, size_t pix
 
 void view_transform_destroy(ViewTransform *transform); /* NULL is fine */
 
-/* "2.1.2" */
-const char *view_transform_library_version(void);
-
 #ifdef __cplusplus
 }
 #endif

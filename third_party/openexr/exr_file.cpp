@@ -296,8 +296,3 @@ void exr_bytes_destroy(ExrBytes *encoded)
 {
     delete encoded;
 }
-
-const char *exr_library_version(void)
-{
-    return OPENEXR_VERSION_STRING;
-}

@@ -80,9 +80,6 @@ bool exr_encode(const ExrPicture *picture, ExrBytes **out, Error *err);
 const void *exr_bytes(const ExrBytes *encoded, size_t *size);
 void exr_bytes_destroy(ExrBytes *encoded); /* NULL is fine */
 
-/* "3.1.5" */
-const char *exr_library_version(void);
-
 #ifdef __cplusplus
 }
 #endif

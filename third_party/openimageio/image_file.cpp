@@ -182,8 +182,3 @@ void encoded_image_destroy(EncodedImage *encoded)
 {
     delete encoded;
 }
-
-const char *image_file_library_version(void)
-{
-    return OIIO_VERSION_STRING;
-}

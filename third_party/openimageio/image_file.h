@@ -59,9 +59,6 @@ bool image_encode(const char *format, const ImageToEncode *image, EncodedImage *
 const void *encoded_image_bytes(const EncodedImage *encoded, size_t *size);
 void encoded_image_destroy(EncodedImage *encoded); /* NULL is fine */
 
-/* "2.4.7" */
-const char *image_file_library_version(void);
-
 #ifdef __cplusplus
 }
 #endif
