@@ -4,7 +4,7 @@
 
 #include "panel/fit_parts.h"
 
-#define BEND_LIMIT 80.0 /* largest |c1|, |c2| that counts as a solution */
+#define BEND_LIMIT 24.0 /* largest |c1|, |c2| that counts as a solution */
 
 /* Where a panel has no spectra: red, green and blue light of a display, FWHM in nm. */
 static const struct { double nm, fwhm; } typical[3] = {{625, 40}, {535, 50}, {455, 25}};

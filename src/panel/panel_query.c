@@ -175,6 +175,8 @@ static Spectrum spectrum_of(const float *spectrum, const Wavelengths *wavelength
     return out;
 }
 
+#define EXPONENT_MOST 60.0f
+
 /* S = T exp(c0 + c1 t + c2 t^2) Y, t = (lambda - 560 nm) / 180 nm; strictly positive where T
  * is (design: panel, section 7). */
 Spectrum panel_emission_spectrum(const Panel *panel, Vec3 direction, const float rgb[3],
@@ -192,6 +194,9 @@ Spectrum panel_emission_spectrum(const Panel *panel, Vec3 direction, const float
         panel_bend_lookup(&panel->primaries->bend[s], logs[s], c);
         Spectrum exponent = (spectrum_all(c[2]) * t + spectrum_all(c[1])) * t +
                             spectrum_all(c[0] + logs[s][1]);
+        /* Far from a narrow primary the curve may run away where the primary is dark: infinity
+         * times nothing would be no number. */
+        exponent = spectrum_min(exponent, spectrum_all(EXPONENT_MOST));
         sum += spectrum_of(panel->primaries->spectrum[s], wavelengths) * spectrum_exp(exponent);
     }
     return sum;
