@@ -49,7 +49,7 @@ bool file_read(const char *path, size_t max_bytes, Arena *arena, FileBytes *out,
     size_t size = (size_t)info.st_size, got = 0;
     unsigned char *bytes = ARENA_NEW(arena, unsigned char, size + 1);
     bool done = read_all(file, bytes, size, &got);
-    int  reason = errno;
+    int reason = errno;
     close(file);
     if (!done)
         return error_at(err, ERROR_INPUT, path, "", "cannot be read: %s", strerror(reason));
@@ -63,7 +63,7 @@ bool file_exists(const char *path)
     return access(path, R_OK) == 0;
 }
 
-/* ---- writing ------------------------------------------------------------------------- */
+/* ---- writing --------------------------------------------------------------------------- */
 
 char *file_temporary_name(const char *path, Arena *arena)
 {
@@ -80,7 +80,7 @@ static bool output_error(const char *path, const char *what, int reason, Error *
 static void sync_folder(const char *path)
 {
     char folder[4096];
-    int  length = (int)(path_name(path) - path);
+    int length = (int)(path_name(path) - path);
     if (length >= (int)sizeof folder) return;
     snprintf(folder, sizeof folder, "%.*s", length ? length : 1, length ? path : ".");
     int handle = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -91,9 +91,9 @@ static void sync_folder(const char *path)
 
 bool file_commit(const char *temporary, const char *path, Error *err)
 {
-    int  file = open(temporary, O_RDWR | O_CLOEXEC);
+    int file = open(temporary, O_RDWR | O_CLOEXEC);
     bool synced = file >= 0 && fsync(file) == 0;
-    int  reason = errno;
+    int reason = errno;
     if (file >= 0 && close(file) != 0 && synced) {
         synced = false;
         reason = errno;
@@ -133,9 +133,9 @@ static bool is_special(const char *path)
 
 static bool write_special(const char *path, const void *bytes, size_t size, Error *err)
 {
-    int  file = open(path, O_WRONLY | O_CLOEXEC);
+    int file = open(path, O_WRONLY | O_CLOEXEC);
     bool done = file >= 0 && write_all(file, bytes, size);
-    int  reason = errno;
+    int reason = errno;
     if (file >= 0 && close(file) != 0 && done) {
         done = false;
         reason = errno;
@@ -147,12 +147,13 @@ bool file_write(const char *path, const void *bytes, size_t size, Error *err)
 {
     char temporary[4096];
     if (is_special(path)) return write_special(path, bytes, size, err);
-    int  length = snprintf(temporary, sizeof temporary, "%s.%ld.part", path, (long)getpid());
-    if (length >= (int)sizeof temporary) return output_error(path, "created", ENAMETOOLONG, err);
+    int length = snprintf(temporary, sizeof temporary, "%s.%ld.part", path, (long)getpid());
+    if (length >= (int)sizeof temporary)
+        return output_error(path, "created", ENAMETOOLONG, err);
     int file = open(temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (file < 0) return output_error(path, "created", errno, err);
     bool done = write_all(file, bytes, size);
-    int  reason = errno;
+    int reason = errno;
     if (close(file) != 0 && done) {
         done = false;
         reason = errno;
@@ -162,7 +163,7 @@ bool file_write(const char *path, const void *bytes, size_t size, Error *err)
     return output_error(path, "written", reason, err);
 }
 
-/* ---- names --------------------------------------------------------------------------- */
+/* ---- names ----------------------------------------------------------------------------- */
 
 const char *path_name(const char *path)
 {
@@ -198,13 +199,14 @@ int path_climb(const char *relative)
     return -lowest;
 }
 
-/* ---- URIs ---------------------------------------------------------------------------- */
+/* ---- URIs ------------------------------------------------------------------------------ */
 
 size_t uri_scheme_length(const char *uri)
 {
     size_t length = 0;
     if (!isalpha((unsigned char)uri[0])) return 0;
-    while (isalnum((unsigned char)uri[length]) || strchr("+-.", uri[length] ? uri[length] : ' '))
+    while (isalnum((unsigned char)uri[length]) ||
+           strchr("+-.", uri[length] ? uri[length] : ' '))
         length++;
     return uri[length] == ':' ? length : 0;
 }
@@ -234,7 +236,8 @@ static bool percent_decode(const char *text, size_t length, char *out, size_t *s
             if (low < 0)
                 return error_set(err, ERROR_INPUT,
                                  "broken escape \"%.3s\" in a URI, %% and two hexadecimal "
-                                 "digits are wanted", text + i);
+                                 "digits are wanted",
+                                 text + i);
             c = (char)(high * 16 + low);
             i += 2;
         }
@@ -246,7 +249,7 @@ static bool percent_decode(const char *text, size_t length, char *out, size_t *s
 bool uri_decode(const char *uri, Arena *arena, char **out, Error *err)
 {
     size_t length = strlen(uri), size;
-    char  *text = ARENA_NEW(arena, char, length + 1);
+    char *text = ARENA_NEW(arena, char, length + 1);
     if (!percent_decode(uri, length, text, &size, err)) return false;
     if (memchr(text, 0, size))
         return error_set(err, ERROR_INPUT, "a URI holds an encoded zero byte");
@@ -268,14 +271,15 @@ static bool base64_decode(const char *text, size_t length, unsigned char *out, s
 {
     while (length && text[length - 1] == '=') length--;
     unsigned bits = 0;
-    int      count = 0;
+    int count = 0;
     *size = 0;
     for (size_t i = 0; i < length; i++) {
         int digit = base64_digit((unsigned char)text[i]);
         if (digit < 0)
             return error_set(err, ERROR_INPUT,
                              "character %zu of the base64 data is \"%.1s\", which is none of "
-                             "its digits", i + 1, text + i);
+                             "its digits",
+                             i + 1, text + i);
         bits = bits << 6 | (unsigned)digit;
         count += 6;
         if (count >= 8) {
@@ -284,8 +288,10 @@ static bool base64_decode(const char *text, size_t length, unsigned char *out, s
         }
     }
     if (count >= 6)
-        return error_set(err, ERROR_INPUT, "the base64 data has a length of %zu digits, which "
-                         "none has", length);
+        return error_set(err, ERROR_INPUT,
+                         "the base64 data has a length of %zu digits, which "
+                         "none has",
+                         length);
     return true;
 }
 
@@ -307,7 +313,7 @@ bool data_uri_decode(const char *uri, Arena *arena, FileBytes *out, const char *
         return error_set(err, ERROR_INPUT, "the data: URI has no comma before its data");
     size_t head = (size_t)(comma - uri), length = strlen(comma + 1), size;
     if (!check_media_type(uri, head, err)) return false;
-    bool   is_base64 = head >= 12 && strncasecmp(comma - 7, ";base64", 7) == 0;
+    bool is_base64 = head >= 12 && strncasecmp(comma - 7, ";base64", 7) == 0;
     unsigned char *bytes = ARENA_NEW(arena, unsigned char, length + 1);
     if (is_base64) {
         if (!base64_decode(comma + 1, length, bytes, &size, err)) return false;

@@ -26,7 +26,7 @@ bool file_read(const char *path, size_t max_bytes, Arena *arena, FileBytes *out,
 /* True when something that can be opened for reading stands there. */
 bool file_exists(const char *path);
 
-/* ---- writing: temporary name, fsync, rename ------------------------------------------ */
+/* ---- writing: temporary name, fsync, rename -------------------------------------------- */
 
 /* A name beside `path`, for a writer that wants a path; unlike any other process's. */
 char *file_temporary_name(const char *path, Arena *arena);
@@ -41,7 +41,7 @@ void file_discard(const char *temporary);
 /* All of the above for bytes in memory. A device or a pipe is written as it stands. */
 bool file_write(const char *path, const void *bytes, size_t size, Error *err);
 
-/* ---- names --------------------------------------------------------------------------- */
+/* ---- names ----------------------------------------------------------------------------- */
 
 /* `relative` as seen from the folder of the file `beside`; an absolute path stays itself. */
 char *path_beside(const char *beside, const char *relative, Arena *arena);
@@ -56,7 +56,7 @@ const char *path_ending(const char *path);
  * "a/../b" 0, "../b" 1, "../../b" 2. */
 int path_climb(const char *relative);
 
-/* ---- URIs (RFC 3986, RFC 2397) ------------------------------------------------------- */
+/* ---- URIs (RFC 3986, RFC 2397) --------------------------------------------------------- */
 
 /* The length of the scheme before its colon, 0 when there is none ("C:/x" counts as one). */
 size_t uri_scheme_length(const char *uri);

@@ -13,7 +13,7 @@ static double degrees(float radians)
     return degrees_from_radians((double)radians);
 }
 
-/* ---- words for kinds ---------------------------------------------------------------------- */
+/* ---- words for kinds ------------------------------------------------------------------- */
 
 static const char *light_kind(LightKind kind)
 {
@@ -49,17 +49,19 @@ static const Image *content_of(const Scene *scene, const Display *display)
     return id == NO_ID ? NULL : &scene->textures[id].image;
 }
 
-/* ---- for people --------------------------------------------------------------------------- */
+/* ---- for people ------------------------------------------------------------------------ */
 
 static void print_displays(const Scene *scene)
 {
     for (int i = 0; i < scene->display_count; i++) {
         const Display *d = &scene->displays[i];
-        const Image   *content = content_of(scene, d);
+        const Image *content = content_of(scene, d);
         printf("display      %s: panel %s, level %g %%, ", d->name, d->panel_path,
                100 * (double)d->level);
-        if (content) printf("content of %dx%d pixels\n", content->width, content->height);
-        else printf("no content (full white)\n");
+        if (content)
+            printf("content of %dx%d pixels\n", content->width, content->height);
+        else
+            printf("no content (full white)\n");
     }
 }
 
@@ -80,8 +82,8 @@ static void print_light(const Scene *scene, int index)
         count += is_same;
     }
     printf("light        %s: %s, RGB %g %g %g %s", light->name, light_kind(light->kind),
-           (double)light->intensity[0], (double)light->intensity[1], (double)light->intensity[2],
-           light_unit(light->kind));
+           (double)light->intensity[0], (double)light->intensity[1],
+           (double)light->intensity[2], light_unit(light->kind));
     if (count > 1) printf(", %d times", count);
     printf("\n");
 }
@@ -115,8 +117,10 @@ static void print_cameras(const Scene *scene)
     for (int i = 0; i < scene->camera_count; i++) {
         const SceneCamera *c = &scene->cameras[i];
         printf("camera %-5d %s: ", i, camera_name(c)[0] ? camera_name(c) : "(no name)");
-        if (c->is_perspective) printf("perspective, %.4g deg high\n", degrees(c->yfov));
-        else printf("orthographic, %g m high\n", 2 * (double)c->ymag);
+        if (c->is_perspective)
+            printf("perspective, %.4g deg high\n", degrees(c->yfov));
+        else
+            printf("orthographic, %g m high\n", 2 * (double)c->ymag);
     }
     if (!scene->camera_count) printf("camera       none: the scene is framed whole\n");
 }
@@ -124,15 +128,17 @@ static void print_cameras(const Scene *scene)
 static void print_size(const Scene *scene)
 {
     const Vec3 low = scene->bounds_min, high = scene->bounds_max;
-    printf("triangles    %u (%u opaque) in %d parts\n", scene->triangle_count, scene->opaque_count,
-           scene->part_count);
+    printf("triangles    %u (%u opaque) in %d parts\n", scene->triangle_count,
+           scene->opaque_count, scene->part_count);
     if (scene->triangle_count)
         printf("size         %.4g x %.4g x %.4g m\n", (double)(high.x - low.x),
                (double)(high.y - low.y), (double)(high.z - low.z));
     printf("materials    %d, textures %d\n", scene->material_count, scene->texture_count);
     if (scene->ignored_occlusion_count)
-        printf("note         %d materials have an occlusion texture: it is ignored, since tracing "
-               "finds what is occluded\n", scene->ignored_occlusion_count);
+        printf(
+            "note         %d materials have an occlusion texture: it is ignored, since tracing "
+            "finds what is occluded\n",
+            scene->ignored_occlusion_count);
 }
 
 static void print_problems(const Problems *problems)
@@ -159,19 +165,20 @@ static void print_report(const Scene *scene, const Problems *problems)
            problems->error_count, problems->count - problems->error_count);
 }
 
-/* ---- for scripts -------------------------------------------------------------------------- */
+/* ---- for scripts ----------------------------------------------------------------------- */
 
 static json_t *json_displays(const Scene *scene)
 {
     json_t *list = json_array();
     for (int i = 0; i < scene->display_count; i++) {
         const Display *d = &scene->displays[i];
-        const Image   *content = content_of(scene, d);
-        json_t *size = content ? json_pack("[i,i]", content->width, content->height) : json_null();
-        json_array_append_new(list, json_pack("{s:o, s:o, s:o, s:f}", "name",
-                                              cli_json_text(d->name), "panel",
-                                              cli_json_text(d->panel_path), "content_size", size,
-                                              "level", (double)d->level));
+        const Image *content = content_of(scene, d);
+        json_t *size =
+            content ? json_pack("[i,i]", content->width, content->height) : json_null();
+        json_array_append_new(list,
+                              json_pack("{s:o, s:o, s:o, s:f}", "name", cli_json_text(d->name),
+                                        "panel", cli_json_text(d->panel_path), "content_size",
+                                        size, "level", (double)d->level));
     }
     return list;
 }
@@ -186,19 +193,18 @@ static json_t *json_lights(const Scene *scene)
     json_t *list = json_array();
     for (int i = 0; i < scene->light_count; i++) {
         const PunctualLight *light = &scene->lights[i];
-        json_array_append_new(list, json_pack("{s:o, s:s, s:o, s:s}", "name",
-                                              cli_json_text(light->name), "type",
-                                              light_kind(light->kind), "intensity",
-                                              json_rgb(light->intensity), "unit",
-                                              light_unit(light->kind)));
+        json_array_append_new(
+            list, json_pack("{s:o, s:s, s:o, s:s}", "name", cli_json_text(light->name), "type",
+                            light_kind(light->kind), "intensity", json_rgb(light->intensity),
+                            "unit", light_unit(light->kind)));
     }
     for (int i = 0; i < scene->material_count; i++) {
         const Material *m = &scene->materials[i];
         if (!m->is_emitter || m->display_id != NO_ID || m->unlit) continue;
-        json_array_append_new(list, json_pack("{s:o, s:s, s:o, s:s}", "name",
-                                              cli_json_text(m->name), "type", "emissive",
-                                              "intensity", json_rgb(m->emissive_cd_m2), "unit",
-                                              "cd/m2"));
+        json_array_append_new(list,
+                              json_pack("{s:o, s:s, s:o, s:s}", "name", cli_json_text(m->name),
+                                        "type", "emissive", "intensity",
+                                        json_rgb(m->emissive_cd_m2), "unit", "cd/m2"));
     }
     return list;
 }
@@ -211,10 +217,10 @@ static json_t *json_environment(const Environment *e)
     if (e->kind == ENVIRONMENT_HDRI)
         json_object_set_new(out, "file", cli_json_text(e->hdri_path));
     if (e->has_sun)
-        json_object_set_new(out, "sun", json_pack("{s:f, s:f, s:f}", "azimuth_deg",
-                                                  degrees(e->sun_azimuth), "elevation_deg",
-                                                  degrees(e->sun_elevation), "illuminance_lx",
-                                                  (double)e->sun_illuminance_lx));
+        json_object_set_new(out, "sun",
+                            json_pack("{s:f, s:f, s:f}", "azimuth_deg", degrees(e->sun_azimuth),
+                                      "elevation_deg", degrees(e->sun_elevation),
+                                      "illuminance_lx", (double)e->sun_illuminance_lx));
     return out;
 }
 
@@ -223,8 +229,8 @@ static json_t *json_cameras(const Scene *scene)
     json_t *list = json_array();
     for (int i = 0; i < scene->camera_count; i++) {
         const SceneCamera *c = &scene->cameras[i];
-        json_t *camera = json_pack("{s:o, s:o, s:s}", "node", cli_json_text(c->node_name), "name",
-                                   cli_json_text(c->camera_name), "type",
+        json_t *camera = json_pack("{s:o, s:o, s:s}", "node", cli_json_text(c->node_name),
+                                   "name", cli_json_text(c->camera_name), "type",
                                    c->is_perspective ? "perspective" : "orthographic");
         if (c->is_perspective)
             json_object_set_new(camera, "yfov_deg", json_real(degrees(c->yfov)));
@@ -249,34 +255,40 @@ static bool print_json(const Scene *scene, const Problems *problems, Error *err)
     json_t *warnings = cli_json_problems(problems, SEVERITY_WARNING);
     json_array_extend(list, warnings);
     json_decref(warnings);
-    return cli_print_json(
-        json_pack("{s:b, s:o, s:o, s:o, s:o, s:o, s:i, s:i, s:I, s:o}", "ok",
-                  problems->error_count == 0, "problems", list, "displays", json_displays(scene),
-                  "lights", json_lights(scene), "environment",
-                  json_environment(&scene->environment), "cameras", json_cameras(scene),
-                  "materials", scene->material_count, "textures", scene->texture_count,
-                  "triangles", (json_int_t)scene->triangle_count, "extensions",
-                  json_extensions(scene)),
-        err);
+    return cli_print_json(json_pack("{s:b, s:o, s:o, s:o, s:o, s:o, s:i, s:i, s:I, s:o}", "ok",
+                                    problems->error_count == 0, "problems", list, "displays",
+                                    json_displays(scene), "lights", json_lights(scene),
+                                    "environment", json_environment(&scene->environment),
+                                    "cameras", json_cameras(scene), "materials",
+                                    scene->material_count, "textures", scene->texture_count,
+                                    "triangles", (json_int_t)scene->triangle_count,
+                                    "extensions", json_extensions(scene)),
+                          err);
 }
 
-/* ---- the command -------------------------------------------------------------------------- */
+/* ---- the command ----------------------------------------------------------------------- */
 
 bool cmd_check(int argc, char **argv, Error *err)
 {
-    const CliCommand command = {
-        "check", "what is in a scene, and everything that is wrong with it",
-        "SCENE.gltf|.glb [LIGHTS.gltf|.glb ...]",
-        "parhelion check scenes/car_dashboard.gltf scenes/noon.gltf", NULL, 0, 1, -1};
-    Cli   cli;
+    const CliCommand command = {"check",
+                                "what is in a scene, and everything that is wrong with it",
+                                "SCENE.gltf|.glb [LIGHTS.gltf|.glb ...]",
+                                "parhelion check scenes/car_dashboard.gltf scenes/noon.gltf",
+                                NULL,
+                                0,
+                                1,
+                                -1};
+    Cli cli;
     Arena arena = arena_reserve(ARENA_BYTES);
-    bool  done = cli_parse(&command, argc, argv, &arena, &cli, err);
+    bool done = cli_parse(&command, argc, argv, &arena, &cli, err);
     if (done && !cli.help_shown) {
         Problems problems = problems_start(&arena);
         const SceneOptions options = {.paths = cli.arguments, .path_count = cli.argument_count};
         Scene *scene = scene_survey(&options, &arena, &problems);
-        if (cli.json) done = print_json(scene, &problems, err);
-        else print_report(scene, &problems);
+        if (cli.json)
+            done = print_json(scene, &problems, err);
+        else
+            print_report(scene, &problems);
         scene_close(scene);
         if (done && problems.error_count) {
             *err = (Error){.code = ERROR_INPUT}; /* said already, problem by problem */

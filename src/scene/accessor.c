@@ -7,9 +7,12 @@ enum { TYPE_BYTE = 5120, TYPE_UBYTE, TYPE_SHORT, TYPE_USHORT, TYPE_INT, TYPE_UIN
 size_t component_size(int component_type)
 {
     switch (component_type) {
-    case TYPE_BYTE: case TYPE_UBYTE: return 1;
-    case TYPE_SHORT: case TYPE_USHORT: return 2;
-    case TYPE_UINT: case TYPE_FLOAT: return 4;
+    case TYPE_BYTE:
+    case TYPE_UBYTE: return 1;
+    case TYPE_SHORT:
+    case TYPE_USHORT: return 2;
+    case TYPE_UINT:
+    case TYPE_FLOAT: return 4;
     default: return 0;
     }
 }
@@ -25,7 +28,8 @@ size_t accessor_element_size(const GltfAccessor *accessor)
 {
     if (!accessor->matrix_rows)
         return component_size(accessor->component_type) * (size_t)accessor->component_count;
-    return column_stride(accessor) * (size_t)(accessor->component_count / accessor->matrix_rows);
+    return column_stride(accessor) *
+           (size_t)(accessor->component_count / accessor->matrix_rows);
 }
 
 static size_t component_offset(const GltfAccessor *accessor, int component)
@@ -65,10 +69,11 @@ static uint32_t integer_at(const unsigned char *bytes, int component_type)
 static float float_at(const unsigned char *bytes, int component_type, bool is_normalized)
 {
     uint32_t bits = integer_at(bytes, component_type);
-    float    value;
+    float value;
     switch (component_type) {
     case TYPE_FLOAT: memcpy(&value, &bits, sizeof value); return value;
-    case TYPE_BYTE: case TYPE_SHORT: value = (float)(int32_t)bits; break;
+    case TYPE_BYTE:
+    case TYPE_SHORT: value = (float)(int32_t)bits; break;
     default: value = (float)bits; break;
     }
     if (!is_normalized) return value;
@@ -112,7 +117,7 @@ uint32_t *accessor_sparse_indices(GltfFile *file, const GltfAccessor *accessor)
 static void decode_sparse(GltfFile *file, const GltfAccessor *accessor, Decoding decoding,
                           char *out)
 {
-    const uint32_t      *indices = accessor_sparse_indices(file, accessor);
+    const uint32_t *indices = accessor_sparse_indices(file, accessor);
     const unsigned char *values = document_view(file, accessor->sparse_value_view).data;
     size_t size = accessor_element_size(accessor), row = 4 * (size_t)accessor->component_count;
     if (!indices || !values) return;
@@ -126,7 +131,7 @@ static void *decode(GltfFile *file, int accessor_id, Decoding decoding)
 {
     const GltfAccessor *accessor = accessor_get(file, accessor_id);
     size_t row = 4 * (size_t)accessor->component_count;
-    char  *out = arena_alloc(&file->load->scratch, row, 16, accessor->count);
+    char *out = arena_alloc(&file->load->scratch, row, 16, accessor->count);
     FileBytes bytes = {0};
     if (accessor->buffer_view >= 0) bytes = document_view(file, accessor->buffer_view);
     if (bytes.data) {

@@ -6,21 +6,24 @@
 /* What a channel of this path is made of, and how many outputs a key frame has. */
 typedef struct Path {
     const char *name, *type;
-    bool        may_be_integer; /* normalised */
+    bool may_be_integer; /* normalised */
 } Path;
 
-static const Path PATHS[] = {{"translation", "VEC3", false}, {"rotation", "VEC4", true},
-                             {"scale", "VEC3", false}, {"weights", "SCALAR", true}};
+static const Path PATHS[] = {{"translation", "VEC3", false},
+                             {"rotation", "VEC4", true},
+                             {"scale", "VEC3", false},
+                             {"weights", "SCALAR", true}};
 
-static const GltfValue *accessor_of(const Check *check, const GltfValue *sampler, const char *name)
+static const GltfValue *accessor_of(const Check *check, const GltfValue *sampler,
+                                    const char *name)
 {
     return tree_element(check->file->root, "accessors", tree_int(sampler, name, NO_ID));
 }
 
 static bool has_stride(const Check *check, const GltfValue *accessor)
 {
-    const GltfValue *view = tree_element(check->file->root, "bufferViews",
-                                         tree_int(accessor, "bufferView", NO_ID));
+    const GltfValue *view =
+        tree_element(check->file->root, "bufferViews", tree_int(accessor, "bufferView", NO_ID));
     return tree_member(view, "byteStride") != NULL;
 }
 
@@ -53,20 +56,23 @@ static void check_output(const Check *check, const GltfValue *channel, const Glt
 {
     const GltfValue *input = accessor_of(check, sampler, "input");
     const GltfValue *output = accessor_of(check, sampler, "output");
-    int  component = tree_int(output, "componentType", 5126);
+    int component = tree_int(output, "componentType", 5126);
     bool is_cubic = strcmp(tree_text(sampler, "interpolation", "LINEAR"), "CUBICSPLINE") == 0;
     if (!input || !output) return;
     if (strcmp(tree_text(output, "type", ""), path->type) != 0 ||
-        (component != 5126 && !(path->may_be_integer && tree_boolean(output, "normalized", false))))
-        check_warns(check, channel, "the values of a %s are %s of component type %d, %s is wanted",
-                    path->name, tree_text(output, "type", "?"), component, path->type);
+        (component != 5126 &&
+         !(path->may_be_integer && tree_boolean(output, "normalized", false))))
+        check_warns(check, channel,
+                    "the values of a %s are %s of component type %d, %s is wanted", path->name,
+                    tree_text(output, "type", "?"), component, path->type);
     double wanted = tree_number(input, "count", 0) * (is_cubic ? 3 : 1) * values;
     if (values && tree_number(output, "count", 0) != wanted)
         check_warns(check, channel, "%g values for %g key frames, %g are wanted",
                     tree_number(output, "count", 0), tree_number(input, "count", 0), wanted);
 }
 
-static void check_channel(const Check *check, const GltfValue *animation, const GltfValue *channel)
+static void check_channel(const Check *check, const GltfValue *animation,
+                          const GltfValue *channel)
 {
     const GltfValue *target = tree_member(channel, "target");
     const GltfValue *node =

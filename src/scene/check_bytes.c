@@ -15,8 +15,8 @@ void check_buffer_view(const Check *check, const GltfValue *view)
     double stride = tree_number(view, "byteStride", 4);
     double whole = tree_number(buffer, "byteLength", -1);
     if (buffer && whole >= 0 && offset + length > whole)
-        check_fails(check, view, "takes bytes %.15g to %.15g of a buffer of %.15g bytes", offset,
-                    offset + length, whole);
+        check_fails(check, view, "takes bytes %.15g to %.15g of a buffer of %.15g bytes",
+                    offset, offset + length, whole);
     if (fmod(stride, 4) != 0)
         check_fails(check, tree_member(view, "byteStride"), "is %g, a multiple of 4 is wanted",
                     stride);
@@ -24,7 +24,8 @@ void check_buffer_view(const Check *check, const GltfValue *view)
 
 static int components_of(const char *type)
 {
-    static const char *const NAMES[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+    static const char *const NAMES[] = {"SCALAR", "VEC2", "VEC3", "VEC4",
+                                        "MAT2",   "MAT3", "MAT4"};
     static const int COUNTS[] = {1, 2, 3, 4, 4, 9, 16};
     for (int i = 0; i < 7; i++)
         if (strcmp(NAMES[i], type) == 0) return COUNTS[i];
@@ -46,7 +47,7 @@ static bool element_size(const GltfValue *accessor, double *size, double *extent
 
 /* A run of `count` elements in a view, all the way to the last byte. */
 typedef struct Run {
-    const GltfValue *at;   /* what to point at */
+    const GltfValue *at; /* what to point at */
     const GltfValue *view;
     double offset, count, extent, stride, align;
 } Run;
@@ -57,16 +58,20 @@ static void check_run(const Check *check, const Run *run)
     double end = run->offset + run->stride * (run->count - 1) + run->extent;
     double start = tree_number(run->view, "byteOffset", 0) + run->offset;
     if (end > length)
-        check_fails(check, run->at, "needs bytes %.15g to %.15g of a buffer view of %.15g bytes",
-                    run->offset, end, length);
+        check_fails(check, run->at,
+                    "needs bytes %.15g to %.15g of a buffer view of %.15g bytes", run->offset,
+                    end, length);
     if (fmod(start, run->align) != 0)
-        check_fails(check, run->at, "starts at byte %.0f of the buffer, a multiple of %.0f is "
-                    "wanted", start, run->align);
+        check_fails(check, run->at,
+                    "starts at byte %.0f of the buffer, a multiple of %.0f is "
+                    "wanted",
+                    start, run->align);
 }
 
 static const GltfValue *view_of(const Check *check, const GltfValue *object)
 {
-    return tree_element(check->file->root, "bufferViews", tree_int(object, "bufferView", NO_ID));
+    return tree_element(check->file->root, "bufferViews",
+                        tree_int(object, "bufferView", NO_ID));
 }
 
 /* run: count, extent, stride and align are set. */
@@ -75,7 +80,8 @@ static void check_sparse_part(const Check *check, const GltfValue *part, Run run
     const GltfValue *view = view_of(check, part);
     if (!view || !run.stride) return;
     if (tree_member(view, "byteStride"))
-        check_warns(check, tree_member(part, "bufferView"), "the buffer view of sparse data has a "
+        check_warns(check, tree_member(part, "bufferView"),
+                    "the buffer view of sparse data has a "
                     "byteStride, which is not used");
     run.at = part;
     run.view = view;
@@ -91,8 +97,8 @@ static void check_sparse(const Check *check, const GltfValue *accessor, Run run)
     double index_size = (double)component_size(tree_int(indices, "componentType", 0));
     if (!sparse) return;
     if (count > whole)
-        check_fails(check, tree_member(sparse, "count"), "is %.0f, the accessor has %.0f elements",
-                    count, whole);
+        check_fails(check, tree_member(sparse, "count"),
+                    "is %.0f, the accessor has %.0f elements", count, whole);
     run.count = count;
     check_sparse_part(check, tree_member(sparse, "values"), run);
     run.extent = run.stride = run.align = index_size;
@@ -114,15 +120,20 @@ static void check_in_view(const Check *check, const GltfValue *accessor, Run run
     const GltfValue *view = view_of(check, accessor);
     double count = tree_number(accessor, "count", 1), size = run.stride;
     double stride = tree_number(view, "byteStride", size);
-    if (!view && !tree_member(accessor, "bufferView") && count > (double)LOAD_MAX_EMPTY_ELEMENTS)
-        check_fails(check, tree_member(accessor, "count"), "is %.0f without a buffer view; at most "
-                    "%zu such elements are allowed", count, LOAD_MAX_EMPTY_ELEMENTS);
+    if (!view && !tree_member(accessor, "bufferView") &&
+        count > (double)LOAD_MAX_EMPTY_ELEMENTS)
+        check_fails(check, tree_member(accessor, "count"),
+                    "is %.0f without a buffer view; at most "
+                    "%zu such elements are allowed",
+                    count, LOAD_MAX_EMPTY_ELEMENTS);
     if (!view) return;
     if (stride < size)
-        check_fails(check, accessor, "has elements of %.0f bytes in a buffer view whose byteStride "
-                    "is %.0f", size, stride);
-    run = (Run){accessor, view, tree_number(accessor, "byteOffset", 0), count, run.extent, stride,
-                run.align};
+        check_fails(check, accessor,
+                    "has elements of %.0f bytes in a buffer view whose byteStride "
+                    "is %.0f",
+                    size, stride);
+    run = (Run){accessor, view,     tree_number(accessor, "byteOffset", 0), count, run.extent,
+                stride,   run.align};
     check_run(check, &run);
 }
 
@@ -132,7 +143,8 @@ void check_accessor(const Check *check, const GltfValue *accessor)
     Run run = {.align = (double)component_size(component)};
     if (!element_size(accessor, &run.stride, &run.extent)) return; /* reported by the table */
     if (tree_boolean(accessor, "normalized", false) && component >= 5125)
-        check_warns(check, tree_member(accessor, "normalized"), "only bytes and shorts can be "
+        check_warns(check, tree_member(accessor, "normalized"),
+                    "only bytes and shorts can be "
                     "normalised: it is not used");
     check_in_view(check, accessor, run);
     check_sparse(check, accessor, run);

@@ -4,7 +4,7 @@
 
 #include "scene/schema.h"
 
-/* ---- numbers ------------------------------------------------------------------------------ */
+/* ---- numbers --------------------------------------------------------------------------- */
 
 /* Reports the first number that is not finite. */
 static bool check_finite(GltfFile *file, const GltfValue *value, const GltfAccessor *accessor,
@@ -43,18 +43,23 @@ static void check_bounds(GltfFile *file, const GltfValue *value, const GltfAcces
     }
 }
 
-static void check_sparse_order(GltfFile *file, const GltfValue *value, const GltfAccessor *accessor)
+static void check_sparse_order(GltfFile *file, const GltfValue *value,
+                               const GltfAccessor *accessor)
 {
     const uint32_t *indices = accessor_sparse_indices(file, accessor);
     for (size_t i = 0; indices && i < accessor->sparse_count; i++) {
         if (indices[i] >= accessor->count) {
-            file_error(file, tree_member(value, "sparse"), "index %zu is %u, the accessor has %zu "
-                       "elements", i, indices[i], accessor->count);
+            file_error(file, tree_member(value, "sparse"),
+                       "index %zu is %u, the accessor has %zu "
+                       "elements",
+                       i, indices[i], accessor->count);
             return;
         }
         if (i && indices[i] <= indices[i - 1]) {
-            file_error(file, tree_member(value, "sparse"), "index %zu is %u after %u; indices that "
-                       "rise are wanted", i, indices[i], indices[i - 1]);
+            file_error(file, tree_member(value, "sparse"),
+                       "index %zu is %u after %u; indices that "
+                       "rise are wanted",
+                       i, indices[i], indices[i - 1]);
             return;
         }
     }
@@ -62,15 +67,16 @@ static void check_sparse_order(GltfFile *file, const GltfValue *value, const Glt
 
 static void check_one(GltfFile *file, int id)
 {
-    const GltfValue    *value = tree_element(file->root, "accessors", id);
+    const GltfValue *value = tree_element(file->root, "accessors", id);
     const GltfAccessor *accessor = accessor_get(file, id);
     if (!accessor->sparse_count && accessor->buffer_view < 0) return; /* zeros */
     if (accessor->sparse_count) check_sparse_order(file, value, accessor);
     const float *numbers = accessor_raw_floats(file, id);
-    if (check_finite(file, value, accessor, numbers)) check_bounds(file, value, accessor, numbers);
+    if (check_finite(file, value, accessor, numbers))
+        check_bounds(file, value, accessor, numbers);
 }
 
-/* ---- indices ------------------------------------------------------------------------------ */
+/* ---- indices --------------------------------------------------------------------------- */
 
 static int attribute(const GltfValue *primitive, const char *name)
 {
@@ -84,7 +90,8 @@ static void check_vertex_indices(GltfFile *file, const GltfValue *primitive)
     if (!indices || !position) return;
     const uint32_t *list = accessor_integers(file, tree_int(primitive, "indices", NO_ID));
     size_t wrong = 0, first = 0, restart = 0;
-    uint32_t greatest = (uint32_t)(0xFFFFFFFFu >> (32 - 8 * component_size(indices->component_type)));
+    uint32_t greatest =
+        (uint32_t)(0xFFFFFFFFu >> (32 - 8 * component_size(indices->component_type)));
     for (size_t i = indices->count; i-- > 0;)
         if (list[i] >= position->count) {
             wrong++;
@@ -93,14 +100,19 @@ static void check_vertex_indices(GltfFile *file, const GltfValue *primitive)
             restart++;
         }
     if (restart)
-        file_warning(file, tree_member(primitive, "indices"), "the greatest index of its type, %u, "
-                     "stands there %zu times: glTF reserves it", greatest, restart);
+        file_warning(file, tree_member(primitive, "indices"),
+                     "the greatest index of its type, %u, "
+                     "stands there %zu times: glTF reserves it",
+                     greatest, restart);
     if (wrong)
-        file_error(file, tree_member(primitive, "indices"), "index %zu is %u, the primitive has "
-                   "%zu vertices (%zu such indices)", first, list[first], position->count, wrong);
+        file_error(file, tree_member(primitive, "indices"),
+                   "index %zu is %u, the primitive has "
+                   "%zu vertices (%zu such indices)",
+                   first, list[first], position->count, wrong);
 }
 
-static void check_joint_indices(GltfFile *file, const GltfValue *node, const GltfValue *primitive)
+static void check_joint_indices(GltfFile *file, const GltfValue *node,
+                                const GltfValue *primitive)
 {
     const GltfValue *skin = tree_element(file->root, "skins", tree_int(node, "skin", NO_ID));
     uint32_t count = (uint32_t)tree_count(skin, "joints");
@@ -113,7 +125,8 @@ static void check_joint_indices(GltfFile *file, const GltfValue *node, const Glt
         for (size_t i = 0; i < 4 * accessor->count; i++) {
             if (joints[i] < count) continue;
             file_error(file, tree_member(tree_member(primitive, "attributes"), name),
-                       "vertex %zu names joint %u, the skin has %u joints", i / 4, joints[i], count);
+                       "vertex %zu names joint %u, the skin has %u joints", i / 4, joints[i],
+                       count);
             return;
         }
     }
@@ -137,7 +150,8 @@ static void check_skinned_nodes(GltfFile *file)
     const GltfValue *nodes = tree_member(file->root, "nodes");
     for (int i = 0; nodes && i < nodes->count; i++) {
         const GltfValue *node = &nodes->items[i];
-        const GltfValue *mesh = tree_element(file->root, "meshes", tree_int(node, "mesh", NO_ID));
+        const GltfValue *mesh =
+            tree_element(file->root, "meshes", tree_int(node, "mesh", NO_ID));
         const GltfValue *list = tree_member(mesh, "primitives");
         for (int p = 0; list && tree_member(node, "skin") && p < list->count; p++) {
             Arena saved = file->load->scratch;
@@ -147,7 +161,7 @@ static void check_skinned_nodes(GltfFile *file)
     }
 }
 
-/* ---- matrices and quaternions --------------------------------------------------------------- */
+/* ---- matrices and quaternions ---------------------------------------------------------- */
 
 static void check_bind_matrices(GltfFile *file, const GltfValue *skin)
 {
@@ -157,9 +171,10 @@ static void check_bind_matrices(GltfFile *file, const GltfValue *skin)
     const float *m = accessor_floats(file, id);
     for (size_t i = 0; i < accessor->count; i++, m += 16)
         if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) {
-            file_warning(file, tree_member(skin, "inverseBindMatrices"), "the last row of matrix "
-                         "%zu is (%g, %g, %g, %g), which is not used", i, (double)m[3],
-                         (double)m[7], (double)m[11], (double)m[15]);
+            file_warning(file, tree_member(skin, "inverseBindMatrices"),
+                         "the last row of matrix "
+                         "%zu is (%g, %g, %g, %g), which is not used",
+                         i, (double)m[3], (double)m[7], (double)m[11], (double)m[15]);
             return;
         }
 }
@@ -175,7 +190,7 @@ static void check_turns(GltfFile *file, const GltfValue *animation, const GltfVa
     const GltfValue *target = tree_member(channel, "target");
     const GltfValue *sampler =
         tree_item(tree_member(animation, "samplers"), tree_int(channel, "sampler", NO_ID));
-    int  id = tree_int(sampler, "output", NO_ID);
+    int id = tree_int(sampler, "output", NO_ID);
     bool is_cubic = strcmp(tree_text(sampler, "interpolation", "LINEAR"), "CUBICSPLINE") == 0;
     const GltfAccessor *accessor = accessor_get(file, id);
     if (!accessor || accessor->component_count != 4 ||

@@ -21,7 +21,8 @@ static void check_version(const Check *check, const GltfValue *value, bool is_mi
     long major, minor;
     if (!value || value->kind != GLTF_STRING) return;
     if (!parse_version(value->text, &major, &minor))
-        check_fails(check, value, "is \"%.40s\", a version like \"2.0\" is wanted", value->text);
+        check_fails(check, value, "is \"%.40s\", a version like \"2.0\" is wanted",
+                    value->text);
     else if (major != 2 || (is_minimum && minor > 0))
         check_fails(check, value, "is \"%.40s\", version 2.0 is read", value->text);
 }
@@ -32,7 +33,7 @@ void check_asset(const Check *check, const GltfValue *asset)
     check_version(check, tree_member(asset, "minVersion"), true);
 }
 
-/* ---- extensionsUsed and extensionsRequired -------------------------------------------------- */
+/* ---- extensionsUsed and extensionsRequired --------------------------------------------- */
 
 static bool lists(const GltfValue *array, const char *text)
 {
@@ -49,8 +50,10 @@ void check_extensions(const Check *check, const GltfValue *root)
         const GltfValue *name = &required->items[i];
         if (name->kind != GLTF_STRING) continue;
         if (!extension_is_supported(name->text))
-            check_fails(check, name, "the file requires the extension \"%.80s\", which is not "
-                        "supported", name->text);
+            check_fails(check, name,
+                        "the file requires the extension \"%.80s\", which is not "
+                        "supported",
+                        name->text);
         if (!lists(used, name->text))
             check_warns(check, name, "\"%.80s\" is required but not listed in extensionsUsed",
                         name->text);
@@ -59,10 +62,13 @@ void check_extensions(const Check *check, const GltfValue *root)
         const GltfValue *name = &used->items[i];
         if (name->kind != GLTF_STRING || lists(required, name->text)) continue;
         if (!extension_is_supported(name->text))
-            check_warns(check, name, "the extension \"%.80s\" is not supported: what it adds is "
-                        "not shown", name->text);
+            check_warns(check, name,
+                        "the extension \"%.80s\" is not supported: what it adds is "
+                        "not shown",
+                        name->text);
         else if (strcmp(name->text, "KHR_mesh_quantization") == 0)
-            check_warns(check, name, "KHR_mesh_quantization must be listed in extensionsRequired");
+            check_warns(check, name,
+                        "KHR_mesh_quantization must be listed in extensionsRequired");
     }
 }
 
@@ -73,7 +79,7 @@ void check_animation_pointer(const Check *check, const GltfValue *extension)
         check_warns(check, extension, "a target with a pointer has a node as well");
 }
 
-/* ---- pictures ------------------------------------------------------------------------------- */
+/* ---- pictures -------------------------------------------------------------------------- */
 
 void check_image(const Check *check, const GltfValue *image)
 {
@@ -84,13 +90,13 @@ void check_image(const Check *check, const GltfValue *image)
                     uri ? "both" : "neither");
     if (view && !tree_member(image, "mimeType"))
         check_warns(check, image, "\"mimeType\" is missing beside \"bufferView\"");
-    const GltfValue *target = tree_element(check->file->root, "bufferViews",
-                                           tree_int(image, "bufferView", NO_ID));
+    const GltfValue *target =
+        tree_element(check->file->root, "bufferViews", tree_int(image, "bufferView", NO_ID));
     if (tree_member(target, "byteStride"))
         check_warns(check, view, "the buffer view of a picture has a byteStride");
 }
 
-/* ---- cameras and lights --------------------------------------------------------------------- */
+/* ---- cameras and lights ---------------------------------------------------------------- */
 
 static void check_depths(const Check *check, const GltfValue *kind)
 {
@@ -107,7 +113,8 @@ void check_camera(const Check *check, const GltfValue *camera)
     const GltfValue *flat = tree_member(camera, "orthographic");
     if (eye && flat)
         check_fails(check, camera, "has \"perspective\" and \"orthographic\"; one is wanted");
-    if ((strcmp(type, "perspective") == 0 && !eye) || (strcmp(type, "orthographic") == 0 && !flat))
+    if ((strcmp(type, "perspective") == 0 && !eye) ||
+        (strcmp(type, "orthographic") == 0 && !flat))
         check_fails(check, camera, "\"%s\" is missing", type);
     check_depths(check, eye);
     check_depths(check, flat);
@@ -131,8 +138,10 @@ void check_light(const Check *check, const GltfValue *light)
     double outer = tree_number(cone, "outerConeAngle", 0.7853981633974483);
     if (type && strcmp(type->text, "point") != 0 && strcmp(type->text, "spot") != 0 &&
         strcmp(type->text, "directional") != 0)
-        check_warns(check, type, "is \"%.40s\", one of point|spot|directional is wanted: the light "
-                    "is skipped", type->text);
+        check_warns(check, type,
+                    "is \"%.40s\", one of point|spot|directional is wanted: the light "
+                    "is skipped",
+                    type->text);
     if (type && strcmp(type->text, "spot") == 0 && !cone)
         check_fails(check, light, "\"spot\" is missing");
     if (cone && inner >= outer)
@@ -140,13 +149,13 @@ void check_light(const Check *check, const GltfValue *light)
                     outer);
 }
 
-/* ---- ours ----------------------------------------------------------------------------------- */
+/* ---- ours ------------------------------------------------------------------------------ */
 
 void check_display(const Check *check, const GltfValue *display)
 {
     const SceneOptions *options = check->file->load->options;
-    const GltfValue    *material = display->parent ? display->parent->parent : NULL;
-    const char         *name = tree_text(material, "name", "");
+    const GltfValue *material = display->parent ? display->parent->parent : NULL;
+    const char *name = tree_text(material, "name", "");
     if (tree_member(display, "panel")) return;
     for (int i = 0; i < options->panel_count; i++)
         if (strcmp(options->panels[i].material, name) == 0) return;
@@ -164,9 +173,11 @@ static const EnvironmentType ENVIRONMENT_TYPES[] = {
     {"constant", {"luminance", NULL}, "|luminance|color|"},
     {"hdri", {"uri", NULL}, "|uri|rotation_deg|scale|horizontal_illuminance_lx|"},
     {"cie", {"sky", "diffuse_horizontal_lx"}, "|sky|diffuse_horizontal_lx|"},
-    {"perez", {"direct_normal_w_m2", "diffuse_horizontal_w_m2"},
+    {"perez",
+     {"direct_normal_w_m2", "diffuse_horizontal_w_m2"},
      "|direct_normal_w_m2|diffuse_horizontal_w_m2|when|where|"},
-    {"sky", {"when", "where"},
+    {"sky",
+     {"when", "where"},
      "|when|where|turbidity|ozone_atm_cm|water_cm|albedo|ground|cloud_top_m|"},
 };
 
@@ -176,22 +187,27 @@ static void check_members(const Check *check, const GltfValue *environment,
     static const char COMMON[] = "|type|heading_deg|forward|sun|extensions|extras|name|";
     for (int i = 0; i < 2 && type->needed[i]; i++)
         if (!tree_member(environment, type->needed[i]))
-            check_fails(check, environment, "\"%s\" is missing in an environment of type \"%s\"",
-                        type->needed[i], type->name);
+            check_fails(check, environment,
+                        "\"%s\" is missing in an environment of type \"%s\"", type->needed[i],
+                        type->name);
     for (int i = 0; i < environment->count; i++) {
         char word[80];
         snprintf(word, sizeof word, "|%.70s|", environment->items[i].key);
         if (!strstr(COMMON, word) && !strstr(type->allowed, word))
-            check_warns(check, &environment->items[i], "has no meaning for an environment of type "
-                        "\"%s\" and is skipped", type->name);
+            check_warns(check, &environment->items[i],
+                        "has no meaning for an environment of type "
+                        "\"%s\" and is skipped",
+                        type->name);
     }
 }
 
 /* ISO 8601 with minutes, and seconds if wanted, and the offset from UTC. */
 static bool is_moment(const char *text)
 {
-    int year, month, day, hour, minute, second = 0, used = 0, more = 0, off_hour, off_minute, tail;
-    if (sscanf(text, "%4d-%2d-%2dT%2d:%2d%n", &year, &month, &day, &hour, &minute, &used) != 5 ||
+    int year, month, day, hour, minute, second = 0, used = 0, more = 0, off_hour, off_minute,
+                                        tail;
+    if (sscanf(text, "%4d-%2d-%2dT%2d:%2d%n", &year, &month, &day, &hour, &minute, &used) !=
+            5 ||
         used != 16)
         return false;
     if (sscanf(text + used, ":%2d%n", &second, &more) == 1 && more == 3) used += more;
@@ -200,8 +216,8 @@ static bool is_moment(const char *text)
         return false;
     if (strcmp(text + used, "Z") == 0) return true;
     return (text[used] == '+' || text[used] == '-') &&
-           sscanf(text + used + 1, "%2d:%2d%n", &off_hour, &off_minute, &tail) == 2 && tail == 5 &&
-           text[used + 6] == '\0' && off_hour <= 14 && off_minute <= 59;
+           sscanf(text + used + 1, "%2d:%2d%n", &off_hour, &off_minute, &tail) == 2 &&
+           tail == 5 && text[used + 6] == '\0' && off_hour <= 14 && off_minute <= 59;
 }
 
 static void check_time_and_place(const Check *check, const GltfValue *environment)
@@ -210,7 +226,8 @@ static void check_time_and_place(const Check *check, const GltfValue *environmen
     const GltfValue *where = tree_member(environment, "where");
     const GltfValue *latitude = tree_item(where, 0), *longitude = tree_item(where, 1);
     if (when && when->kind == GLTF_STRING && !is_moment(when->text))
-        check_fails(check, when, "is \"%.60s\", a time like \"2026-06-21T08:30+02:00\" is wanted",
+        check_fails(check, when,
+                    "is \"%.60s\", a time like \"2026-06-21T08:30+02:00\" is wanted",
                     when->text);
     if (latitude && !(fabs(latitude->number) <= 90))
         check_fails(check, latitude, "is %g, a latitude from -90 to 90 degrees is wanted",
@@ -227,7 +244,9 @@ void check_environment(const Check *check, const GltfValue *environment)
         if (strcmp(ENVIRONMENT_TYPES[i].name, type) == 0)
             check_members(check, environment, &ENVIRONMENT_TYPES[i]);
     check_time_and_place(check, environment);
-    if (tree_member(environment, "scale") && tree_member(environment, "horizontal_illuminance_lx"))
-        check_fails(check, environment, "has \"scale\" and \"horizontal_illuminance_lx\"; one of "
+    if (tree_member(environment, "scale") &&
+        tree_member(environment, "horizontal_illuminance_lx"))
+        check_fails(check, environment,
+                    "has \"scale\" and \"horizontal_illuminance_lx\"; one of "
                     "them is wanted");
 }

@@ -13,7 +13,7 @@ static const GltfValue *first_primitive(const GltfValue *mesh)
     return tree_item(tree_member(mesh, "primitives"), 0);
 }
 
-/* ---- nodes -------------------------------------------------------------------------------- */
+/* ---- nodes ----------------------------------------------------------------------------- */
 
 static void check_matrix(const Check *check, const GltfValue *node)
 {
@@ -24,9 +24,11 @@ static void check_matrix(const Check *check, const GltfValue *node)
             check_fails(check, node, "has \"matrix\" and \"%s\"; one way is wanted", PARTS[i]);
     if (!tree_floats(node, "matrix", 16, matrix)) return;
     if (matrix[3] != 0 || matrix[7] != 0 || matrix[11] != 0 || matrix[15] != 1)
-        check_fails(check, tree_member(node, "matrix"), "the last row is (%g, %g, %g, %g), "
-                    "(0, 0, 0, 1) is wanted", (double)matrix[3], (double)matrix[7],
-                    (double)matrix[11], (double)matrix[15]);
+        check_fails(check, tree_member(node, "matrix"),
+                    "the last row is (%g, %g, %g, %g), "
+                    "(0, 0, 0, 1) is wanted",
+                    (double)matrix[3], (double)matrix[7], (double)matrix[11],
+                    (double)matrix[15]);
 }
 
 static void check_rotation(const Check *check, const GltfValue *node)
@@ -35,8 +37,10 @@ static void check_rotation(const Check *check, const GltfValue *node)
     if (!tree_floats(node, "rotation", 4, q)) return;
     float length = sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     if (!(fabsf(length - 1) <= 5e-3f)) /* what quantised exports still keep */
-        check_fails(check, tree_member(node, "rotation"), "the quaternion's length is %g, 1 is "
-                    "wanted", (double)length);
+        check_fails(check, tree_member(node, "rotation"),
+                    "the quaternion's length is %g, 1 is "
+                    "wanted",
+                    (double)length);
 }
 
 static void check_weights(const Check *check, const GltfValue *owner, const GltfValue *mesh)
@@ -69,8 +73,10 @@ void check_mesh(const Check *check, const GltfValue *mesh)
     check_weights(check, mesh, mesh);
     for (int i = 1; primitives && i < primitives->count; i++)
         if (tree_count(&primitives->items[i], "targets") != targets)
-            check_fails(check, &primitives->items[i], "has %d morph targets, the mesh's first "
-                        "primitive has %d", tree_count(&primitives->items[i], "targets"), targets);
+            check_fails(check, &primitives->items[i],
+                        "has %d morph targets, the mesh's first "
+                        "primitive has %d",
+                        tree_count(&primitives->items[i], "targets"), targets);
 }
 
 void check_skin(const Check *check, const GltfValue *skin)
@@ -79,8 +85,7 @@ void check_skin(const Check *check, const GltfValue *skin)
     const GltfValue *accessor = tree_element(check->file->root, "accessors",
                                              tree_int(skin, "inverseBindMatrices", NO_ID));
     int joints = tree_count(skin, "joints");
-    if (!joints && tree_member(skin, "joints"))
-        check_fails(check, skin, "has no joints");
+    if (!joints && tree_member(skin, "joints")) check_fails(check, skin, "has no joints");
     if (!accessor) return;
     if (strcmp(tree_text(accessor, "type", ""), "MAT4") != 0 ||
         tree_int(accessor, "componentType", 0) != 5126)
@@ -89,13 +94,13 @@ void check_skin(const Check *check, const GltfValue *skin)
     if (tree_number(accessor, "count", 0) < joints)
         check_fails(check, value, "has %g matrices for %d joints",
                     tree_number(accessor, "count", 0), joints);
-    const GltfValue *view = tree_element(check->file->root, "bufferViews",
-                                         tree_int(accessor, "bufferView", NO_ID));
+    const GltfValue *view =
+        tree_element(check->file->root, "bufferViews", tree_int(accessor, "bufferView", NO_ID));
     if (tree_member(view, "byteStride"))
         check_warns(check, value, "the buffer view of inverse bind matrices has a byteStride");
 }
 
-/* ---- the tree of nodes: one parent at most, and no way back --------------------------------- */
+/* ---- the tree of nodes: one parent at most, and no way back ---------------------------- */
 
 static int index_of(const GltfValue *value, int count)
 {
@@ -112,15 +117,17 @@ static void find_parents(const Check *check, const GltfValue *nodes, int *parent
             int child = index_of(&children->items[c], nodes->count);
             if (child == NO_ID) continue;
             if (parent[child] != NO_ID && parent[child] != i)
-                check_fails(check, &children->items[c], "node %d has two parents, nodes %d and %d",
-                            child, parent[child], i);
+                check_fails(check, &children->items[c],
+                            "node %d has two parents, nodes %d and %d", child, parent[child],
+                            i);
             parent[child] = i;
         }
     }
 }
 
 /* Walks up from every node; a walk that meets its own trail has found a circle. */
-static void find_cycles(const Check *check, const GltfValue *nodes, const int *parent, int *trail)
+static void find_cycles(const Check *check, const GltfValue *nodes, const int *parent,
+                        int *trail)
 {
     for (int i = 0; i < nodes->count; i++) {
         int node = i;
@@ -141,8 +148,10 @@ static void check_roots(const Check *check, const GltfValue *root, const int *pa
         for (int i = 0; list && i < list->count; i++) {
             int node = index_of(&list->items[i], count);
             if (node != NO_ID && parent[node] != NO_ID)
-                check_fails(check, &list->items[i], "node %d is a child of node %d, a scene lists "
-                            "roots only", node, parent[node]);
+                check_fails(check, &list->items[i],
+                            "node %d is a child of node %d, a scene lists "
+                            "roots only",
+                            node, parent[node]);
         }
     }
 }
@@ -158,7 +167,8 @@ static void check_joints(const Check *check, const GltfValue *root, const int *p
 {
     const GltfValue *nodes = tree_member(root, "nodes"), *scenes = tree_member(root, "scenes");
     for (int i = 0; scenes && i < nodes->count; i++) {
-        const GltfValue *skin = tree_element(root, "skins", tree_int(&nodes->items[i], "skin", -1));
+        const GltfValue *skin =
+            tree_element(root, "skins", tree_int(&nodes->items[i], "skin", -1));
         int joint = index_of(tree_item(tree_member(skin, "joints"), 0), nodes->count);
         if (joint == NO_ID) continue;
         int own = root_of(parent, i, nodes->count), far = root_of(parent, joint, nodes->count);
@@ -174,7 +184,8 @@ static void check_joints(const Check *check, const GltfValue *root, const int *p
             is_complete |= has_own && has_far;
         }
         if (is_shown && !is_complete)
-            check_warns(check, &nodes->items[i], "the scene that shows this skin lacks its joints");
+            check_warns(check, &nodes->items[i],
+                        "the scene that shows this skin lacks its joints");
     }
 }
 

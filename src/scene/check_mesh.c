@@ -9,8 +9,8 @@
 typedef struct Format {
     const char *prefix; /* "TEXCOORD_": a number follows; "POSITION": the whole name */
     const char *types;
-    unsigned    components, quantized; /* the latter with KHR_mesh_quantization */
-    bool        is_normalized; /* integers must be */
+    unsigned components, quantized; /* the latter with KHR_mesh_quantization */
+    bool is_normalized;             /* integers must be */
 } Format;
 
 enum { MOST_ATTRIBUTES = 256 }; /* pairs of them are compared */
@@ -21,7 +21,8 @@ static const Format FORMATS[] = {
     {"POSITION", "VEC3", FLOATS, FLOATS | BYTE | UBYTE | SHORT | USHORT, false},
     {"NORMAL", "VEC3", FLOATS, FLOATS | BYTE | SHORT, true},
     {"TANGENT", "VEC4", FLOATS, FLOATS | BYTE | SHORT, true},
-    {"TEXCOORD_", "VEC2", FLOATS | UBYTE | USHORT, FLOATS | BYTE | UBYTE | SHORT | USHORT, false},
+    {"TEXCOORD_", "VEC2", FLOATS | UBYTE | USHORT, FLOATS | BYTE | UBYTE | SHORT | USHORT,
+     false},
     {"COLOR_", "VEC3|VEC4", FLOATS | UBYTE | USHORT, FLOATS | UBYTE | USHORT, true},
     {"JOINTS_", "VEC4", UBYTE | USHORT, UBYTE | USHORT, false},
     {"WEIGHTS_", "VEC4", FLOATS | UBYTE | USHORT, FLOATS | UBYTE | USHORT, true},
@@ -71,10 +72,10 @@ static bool is_type(const char *types, const char *type)
 /* Displacements have no sign for a bitangent and may be signed integers throughout. */
 static void check_format(const Check *check, const GltfValue *attribute, bool is_target)
 {
-    const Format    *format = format_of(attribute->key);
+    const Format *format = format_of(attribute->key);
     const GltfValue *accessor = accessor_of(check, attribute);
     if (!accessor) return;
-    int      code = tree_int(accessor, "componentType", 0);
+    int code = tree_int(accessor, "componentType", 0);
     unsigned bit = code >= 5120 && code <= 5126 ? 1u << (code - 5120) : 0;
     const char *type = tree_text(accessor, "type", "");
     if (!format) {
@@ -89,9 +90,12 @@ static void check_format(const Check *check, const GltfValue *attribute, bool is
     const char *types = is_target && format->types[3] == '4' ? "VEC3" : format->types;
     if (is_target) allowed |= BYTE | SHORT;
     if (!is_type(types, type) || !(bit & allowed))
-        check_fails(check, attribute, "%s is %s of component type %d, which glTF does not allow "
-                    "(%s is wanted)", attribute->key, type, code, types);
-    else if (format->is_normalized && bit != FLOATS && !tree_boolean(accessor, "normalized", false))
+        check_fails(check, attribute,
+                    "%s is %s of component type %d, which glTF does not allow "
+                    "(%s is wanted)",
+                    attribute->key, type, code, types);
+    else if (format->is_normalized && bit != FLOATS &&
+             !tree_boolean(accessor, "normalized", false))
         check_fails(check, attribute, "%s is made of integers that are not normalised",
                     attribute->key);
 }
@@ -132,19 +136,24 @@ static const GltfValue *view_of(const Check *check, const GltfValue *reference)
 }
 
 /* Interleaved attributes need a stride; vertices and indices do not share a view. */
-static void check_views(const Check *check, const GltfValue *attributes, const GltfValue *indices)
+static void check_views(const Check *check, const GltfValue *attributes,
+                        const GltfValue *indices)
 {
     const GltfValue *index_view = view_of(check, indices);
     for (int i = 0; i < attributes->count; i++) {
         const GltfValue *view = view_of(check, &attributes->items[i]);
         if (!view) continue;
         if (view == index_view || tree_int(view, "target", 34962) == 34963)
-            check_warns(check, &attributes->items[i], "vertices stand in a buffer view for indices");
+            check_warns(check, &attributes->items[i],
+                        "vertices stand in a buffer view for indices");
         for (int k = 0; k < i; k++)
-            if (view == view_of(check, &attributes->items[k]) && !tree_member(view, "byteStride") &&
+            if (view == view_of(check, &attributes->items[k]) &&
+                !tree_member(view, "byteStride") &&
                 attributes->items[i].number != attributes->items[k].number) {
-                check_warns(check, &attributes->items[i], "shares a buffer view with %s, which "
-                            "has no byteStride", attributes->items[k].key);
+                check_warns(check, &attributes->items[i],
+                            "shares a buffer view with %s, which "
+                            "has no byteStride",
+                            attributes->items[k].key);
                 break;
             }
     }
@@ -157,12 +166,14 @@ static void check_views(const Check *check, const GltfValue *attributes, const G
 static void check_indices(const Check *check, const GltfValue *indices)
 {
     const GltfValue *accessor = accessor_of(check, indices);
-    int  code = tree_int(accessor, "componentType", 0);
+    int code = tree_int(accessor, "componentType", 0);
     bool is_unsigned = code == 5121 || code == 5123 || code == 5125;
     if (!accessor) return;
     if (strcmp(tree_text(accessor, "type", ""), "SCALAR") != 0 || !is_unsigned)
-        check_fails(check, indices, "are %s of component type %d, SCALAR of 5121, 5123 or 5125 is "
-                    "wanted", tree_text(accessor, "type", "?"), code);
+        check_fails(check, indices,
+                    "are %s of component type %d, SCALAR of 5121, 5123 or 5125 is "
+                    "wanted",
+                    tree_text(accessor, "type", "?"), code);
     else if (tree_boolean(accessor, "normalized", false))
         check_fails(check, indices, "are normalised, which indices cannot be");
 }
@@ -202,14 +213,14 @@ static void check_targets(const Check *check, const GltfValue *primitive, double
 static void check_mode(const Check *check, const GltfValue *primitive, double vertices)
 {
     static const int LEAST[] = {1, 2, 2, 2, 3, 3, 3};
-    int    mode = tree_int(primitive, "mode", 4);
-    double count = tree_number(accessor_of(check, tree_member(primitive, "indices")), "count",
-                               vertices);
+    int mode = tree_int(primitive, "mode", 4);
+    double count =
+        tree_number(accessor_of(check, tree_member(primitive, "indices")), "count", vertices);
     if (mode < 0 || mode > 6 || count < 0) return;
     bool is_odd = (mode == 4 && fmod(count, 3) != 0) || (mode == 1 && fmod(count, 2) != 0);
     if (count < LEAST[mode] || is_odd)
-        check_warns(check, primitive, "%.0f corners do not make whole primitives of mode %d", count,
-                    mode);
+        check_warns(check, primitive, "%.0f corners do not make whole primitives of mode %d",
+                    count, mode);
 }
 
 void check_primitive(const Check *check, const GltfValue *primitive)

@@ -22,20 +22,23 @@ static int add_display(Loader *load, Display display, const char *file, const ch
 
 void display_build(GltfFile *file, const GltfValue *extension, int material_id)
 {
-    Loader     *load = file->load;
+    Loader *load = file->load;
     const char *path = "";
-    char        pointer[256];
+    char pointer[256];
     const GltfValue *panel = tree_member(extension, "panel");
-    const Material  *material = list_item(&load->materials, material_id);
+    const Material *material = list_item(&load->materials, material_id);
     if (panel && !document_resolve(file, panel, &path)) return;
     tree_pointer(panel ? panel : extension, pointer, sizeof pointer);
-    add_display(load, (Display){
-        .name = material->name, .material_id = material_id, .panel_path = kept(load, path),
-        .content = texture_slot(file, tree_member(extension, "content")),
-        .level = tree_float(extension, "level", 1)}, file->path, pointer);
+    add_display(load,
+                (Display){.name = material->name,
+                          .material_id = material_id,
+                          .panel_path = kept(load, path),
+                          .content = texture_slot(file, tree_member(extension, "content")),
+                          .level = tree_float(extension, "level", 1)},
+                file->path, pointer);
 }
 
-/* ---- the command line's overrides -------------------------------------------------------- */
+/* ---- the command line's overrides ------------------------------------------------------ */
 
 static bool option_error(Loader *load, const char *option, const char *format, const char *a,
                          const char *b)
@@ -54,7 +57,8 @@ static void report_unknown(Loader *load, const char *option, const char *name)
         const Material *m = list_item(&load->materials, i);
         size_t length = strlen(names);
         if (length + strlen(m->name) + 8 > sizeof names) break;
-        snprintf(names + length, sizeof names - length, "%s\"%s\"", length ? ", " : "", m->name);
+        snprintf(names + length, sizeof names - length, "%s\"%s\"", length ? ", " : "",
+                 m->name);
     }
     option_error(load, option, "no material is named \"%.200s\"; the scene has %s", name,
                  names[0] ? names : "none");
@@ -65,9 +69,13 @@ static int make_display(Loader *load, int material_id)
 {
     Material *m = list_item(&load->materials, material_id);
     if (m->display_id != NO_ID) return m->display_id;
-    return add_display(load, (Display){.name = m->name, .material_id = material_id,
-                                       .panel_path = "", .content = m->emissive_texture,
-                                       .level = 1}, "--panel", "");
+    return add_display(load,
+                       (Display){.name = m->name,
+                                 .material_id = material_id,
+                                 .panel_path = "",
+                                 .content = m->emissive_texture,
+                                 .level = 1},
+                       "--panel", "");
 }
 
 typedef void ApplyOverride(Loader *load, int display_id, const char *value);
@@ -76,13 +84,14 @@ static void set_panel(Loader *load, int display_id, const char *value)
 {
     Display *display = list_item(&load->displays, display_id);
     display->panel_path = kept(load, value);
-    *(DisplayPlace *)list_item(&load->display_places, display_id) = (DisplayPlace){"--panel", ""};
+    *(DisplayPlace *)list_item(&load->display_places, display_id) =
+        (DisplayPlace){"--panel", ""};
 }
 
 static void set_content(Loader *load, int display_id, const char *value)
 {
-    Error    err;
-    Image    image;
+    Error err;
+    Image image;
     Display *display = list_item(&load->displays, display_id);
     if (!load_image(load, value, &image, &err)) {
         option_error(load, "--content", "%.300s: %.600s", value, err.text);
@@ -99,11 +108,13 @@ static void set_content(Loader *load, int display_id, const char *value)
 
 static void set_level(Loader *load, int display_id, const char *value)
 {
-    char  *end;
+    char *end;
     double percent = strtod(value, &end);
     if (end == value || (*end && strcmp(end, "%") != 0) || !(percent >= 0 && percent <= 1e6)) {
-        option_error(load, "--display-level", "\"%.100s\" is no percentage; a number from 0 up is "
-                     "wanted%s", value, "");
+        option_error(load, "--display-level",
+                     "\"%.100s\" is no percentage; a number from 0 up is "
+                     "wanted%s",
+                     value, "");
         return;
     }
     Display *display = list_item(&load->displays, display_id);
@@ -122,8 +133,10 @@ static void apply(Loader *load, const char *option, const SceneOverride *list, i
             if (strcmp(material->name, list[i].material) != 0) continue;
             is_found = true;
             if (!is_panel && material->display_id == NO_ID)
-                option_error(load, option, "material \"%.200s\" is no display; --panel makes it "
-                             "one%s", material->name, "");
+                option_error(load, option,
+                             "material \"%.200s\" is no display; --panel makes it "
+                             "one%s",
+                             material->name, "");
             else
                 set(load, make_display(load, m), list[i].value);
         }
@@ -139,7 +152,7 @@ void displays_override(Loader *load)
     apply(load, "--display-level", o->levels, o->level_count, set_level);
 }
 
-/* ---- what is checked when all files are read ---------------------------------------------- */
+/* ---- what is checked when all files are read ------------------------------------------- */
 
 static const Panel *find_panel(const Loader *load, int before, const char *path)
 {
@@ -152,11 +165,11 @@ static const Panel *find_panel(const Loader *load, int before, const char *path)
 
 static void open_panel(Loader *load, int id)
 {
-    Error     err;
-    Panel    *panel;
+    Error err;
+    Panel *panel;
     FileBytes bytes;
-    Arena     scratch = load->scratch;
-    Display  *display = list_item(&load->displays, id);
+    Arena scratch = load->scratch;
+    Display *display = list_item(&load->displays, id);
     const DisplayPlace *place = list_item(&load->display_places, id);
     display->panel = find_panel(load, id, display->panel_path);
     if (display->panel) return;
@@ -171,7 +184,7 @@ static void open_panel(Loader *load, int id)
 
 static void check_content(Loader *load, int id)
 {
-    const Display      *display = list_item(&load->displays, id);
+    const Display *display = list_item(&load->displays, id);
     const DisplayPlace *place = list_item(&load->display_places, id);
     if (display->content.texture_id == NO_ID)
         problems_add(load->problems, SEVERITY_WARNING, place->file, place->pointer,
@@ -184,21 +197,25 @@ static void check_coordinates(Loader *load, const PartDraft *draft)
     const Material *material = list_item(&load->materials, draft->part.material_id);
     if (material->display_id == NO_ID) return;
     const Display *display = list_item(&load->displays, material->display_id);
-    TextureSlot    slot = display->content;
+    TextureSlot slot = display->content;
     int counts[3] = {0};
     for (uint32_t t = 0; t < draft->triangle_count; t++) {
         const uint32_t *index = draft->indices + 3 * (size_t)t;
-        const Vertex   *const v[3] = {&draft->vertices[index[0]], &draft->vertices[index[1]],
-                                      &draft->vertices[index[2]]};
+        const Vertex *const v[3] = {&draft->vertices[index[0]], &draft->vertices[index[1]],
+                                    &draft->vertices[index[2]]};
         Vec3 right;
         counts[triangle_tangent(&slot, v, &right)]++;
     }
     if (counts[2])
-        file_error(draft->file, draft->primitive, "display \"%s\": the texture coordinates of %d "
-                   "triangles are mirrored, seen from the front", display->name, counts[2]);
+        file_error(draft->file, draft->primitive,
+                   "display \"%s\": the texture coordinates of %d "
+                   "triangles are mirrored, seen from the front",
+                   display->name, counts[2]);
     if (counts[0])
-        file_error(draft->file, draft->primitive, "display \"%s\": the texture coordinates of %d "
-                   "triangles span no area: right and up are unknown", display->name, counts[0]);
+        file_error(draft->file, draft->primitive,
+                   "display \"%s\": the texture coordinates of %d "
+                   "triangles span no area: right and up are unknown",
+                   display->name, counts[0]);
 }
 
 void displays_finish(Loader *load)

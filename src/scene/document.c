@@ -9,7 +9,7 @@
 
 #include "scene/load.h"
 
-/* ---- problems ------------------------------------------------------------------------- */
+/* ---- problems -------------------------------------------------------------------------- */
 
 static void report(GltfFile *file, Severity severity, const GltfValue *at, const char *format,
                    va_list args)
@@ -42,7 +42,7 @@ static bool frame_error(GltfFile *file, const char *place, const char *format, .
 
 static bool frame_error(GltfFile *file, const char *place, const char *format, ...)
 {
-    char    message[1024];
+    char message[1024];
     va_list args;
     va_start(args, format);
     vsnprintf(message, sizeof message, format, args);
@@ -51,7 +51,7 @@ static bool frame_error(GltfFile *file, const char *place, const char *format, .
     return false;
 }
 
-/* ---- files ---------------------------------------------------------------------------- */
+/* ---- files ----------------------------------------------------------------------------- */
 
 static void note_input(Loader *load, const char *path, FileBytes bytes)
 {
@@ -72,12 +72,14 @@ bool load_read(Loader *load, const char *path, Arena *arena, FileBytes *out, Err
 
 bool document_resolve(GltfFile *file, const GltfValue *uri, const char **path)
 {
-    Error  err;
-    char  *relative;
+    Error err;
+    char *relative;
     size_t scheme = uri_scheme_length(uri->text);
     if (scheme) {
-        file_error(file, uri, "the URI's scheme is \"%.*s:\"; only data: and relative paths are "
-                   "read", (int)(scheme < 40 ? scheme : 40), uri->text);
+        file_error(file, uri,
+                   "the URI's scheme is \"%.*s:\"; only data: and relative paths are "
+                   "read",
+                   (int)(scheme < 40 ? scheme : 40), uri->text);
         return false;
     }
     if (!uri_decode(uri->text, &file->load->scratch, &relative, &err)) {
@@ -90,15 +92,17 @@ bool document_resolve(GltfFile *file, const GltfValue *uri, const char **path)
         return false;
     }
     if (path_climb(relative) > 1) {
-        file_error(file, uri, "\"%.200s\" leaves the parent of the scene's folder; files are "
-                   "read from there and below only", relative);
+        file_error(file, uri,
+                   "\"%.200s\" leaves the parent of the scene's folder; files are "
+                   "read from there and below only",
+                   relative);
         return false;
     }
     *path = path_beside(file->path, relative, &file->load->scratch);
     return true;
 }
 
-/* ---- a .glb's frame (glTF 2.0, section 4) ----------------------------------------------- */
+/* ---- a .glb's frame (glTF 2.0, section 4) ---------------------------------------------- */
 
 enum { GLB_HEADER = 12, CHUNK_HEADER = 8, CHUNK_JSON = 0x4E4F534A, CHUNK_BIN = 0x004E4942 };
 
@@ -112,8 +116,10 @@ static bool take_chunk(GltfFile *file, const char *place, int number, uint32_t t
                        FileBytes chunk)
 {
     if (number == 0 && type != CHUNK_JSON)
-        return frame_error(file, place, "the first chunk's type is 0x%08x, JSON (0x4e4f534a) is "
-                           "wanted", type);
+        return frame_error(file, place,
+                           "the first chunk's type is 0x%08x, JSON (0x4e4f534a) is "
+                           "wanted",
+                           type);
     if (number > 0 && type == CHUNK_JSON)
         return frame_error(file, place, "a second JSON chunk; one is wanted");
     if (type == CHUNK_BIN && number != 1)
@@ -138,7 +144,8 @@ static bool read_chunks(GltfFile *file, FileBytes bytes, size_t length)
         char place[64];
         snprintf(place, sizeof place, "byte %zu", at);
         if (length - at < CHUNK_HEADER)
-            return frame_error(file, place, "%zu bytes left, a chunk's header has 8", length - at);
+            return frame_error(file, place, "%zu bytes left, a chunk's header has 8",
+                               length - at);
         uint32_t size = u32_at(bytes.data + at), type = u32_at(bytes.data + at + 4);
         at += CHUNK_HEADER;
         if (size > length - at)
@@ -179,9 +186,9 @@ static bool read_glb(GltfFile *file, FileBytes bytes)
 
 bool document_read(GltfFile *file)
 {
-    Error     err;
+    Error err;
     FileBytes bytes;
-    Loader   *load = file->load;
+    Loader *load = file->load;
     if (!load_read(load, file->path, &load->scratch, &bytes, &err)) {
         problems_add_error(load->problems, &err);
         return false;
@@ -202,13 +209,13 @@ bool document_read(GltfFile *file)
     return false;
 }
 
-/* ---- buffers -------------------------------------------------------------------------- */
+/* ---- buffers --------------------------------------------------------------------------- */
 
 static bool buffer_bytes(GltfFile *file, const GltfValue *buffer, FileBytes *out)
 {
-    Error       err;
+    Error err;
     const char *path;
-    Arena      *scratch = &file->load->scratch;
+    Arena *scratch = &file->load->scratch;
     const GltfValue *uri = tree_member(buffer, "uri");
     if (uri && uri->kind != GLTF_STRING) return false; /* reported by the check */
     if (!uri) {

@@ -24,7 +24,8 @@ static void read_color(GltfFile *file, const GltfValue *extension, float out[3])
     tree_floats(extension, "color", 3, color);
     float luminance = luminance_from_rgb(color);
     if (!(luminance > 0)) {
-        file_error(file, tree_member(extension, "color"), "the colour is black; a colour of "
+        file_error(file, tree_member(extension, "color"),
+                   "the colour is black; a colour of "
                    "positive luminance is wanted (luminance 0 makes it dark)");
         luminance = 1;
     }
@@ -50,8 +51,10 @@ static void clean_pixels(GltfFile *file, const GltfValue *uri, const Image *imag
     size_t count = (size_t)image->width * (size_t)image->height, negative = 0, broken = 0;
     for (size_t i = 0; i < 4 * count; i++) {
         if (i % 4 == 3 || (values[i] >= 0 && isfinite(values[i]))) continue;
-        if (isfinite(values[i])) negative++;
-        else broken++;
+        if (isfinite(values[i]))
+            negative++;
+        else
+            broken++;
         values[i] = 0;
     }
     if (negative) file_warning(file, uri, "%zu negative values count as 0", negative);
@@ -60,7 +63,7 @@ static void clean_pixels(GltfFile *file, const GltfValue *uri, const Image *imag
 
 static void read_hdri(GltfFile *file, const GltfValue *extension, Environment *out)
 {
-    Error       err;
+    Error err;
     const char *path;
     const GltfValue *uri = tree_member(extension, "uri");
     out->hdri_rotation = radians(extension, "rotation_deg");
@@ -71,18 +74,20 @@ static void read_hdri(GltfFile *file, const GltfValue *extension, Environment *o
     if (!load_image(file->load, path, &out->hdri, &err))
         file_error(file, uri, "%s: %s", path, err.text);
     else if (out->hdri.format != IMAGE_RGBA32F)
-        file_error(file, uri, "%s holds integer codes; a picture of floats (EXR, HDR) is wanted",
-                   path);
+        file_error(file, uri,
+                   "%s holds integer codes; a picture of floats (EXR, HDR) is wanted", path);
     else
         clean_pixels(file, uri, &out->hdri);
 }
 
 void environment_build(GltfFile *file, const GltfValue *extension)
 {
-    Vec3  forward = vec3(0, 0, -1);
+    Vec3 forward = vec3(0, 0, -1);
     float numbers[3];
     Environment out = {.kind = kind_from_text(tree_text(extension, "type", "")),
-                       .color = {1, 1, 1}, .hdri_path = "", .hdri_scale = 1};
+                       .color = {1, 1, 1},
+                       .hdri_path = "",
+                       .hdri_scale = 1};
     if (out.kind == ENVIRONMENT_CONSTANT) {
         out.luminance_cd_m2 = tree_float(extension, "luminance", 0);
         read_color(file, extension, out.color);
@@ -91,8 +96,10 @@ void environment_build(GltfFile *file, const GltfValue *extension)
     read_sun(tree_member(extension, "sun"), &out);
     if (tree_floats(extension, "forward", 3, numbers))
         forward = vec3(numbers[0], numbers[1], numbers[2]);
-    if (vec3_length(forward) > 0) forward = vec3_normalize(forward);
-    else file_error(file, tree_member(extension, "forward"), "the vector is zero");
+    if (vec3_length(forward) > 0)
+        forward = vec3_normalize(forward);
+    else
+        file_error(file, tree_member(extension, "forward"), "the vector is zero");
     out.forward = forward;
     out.heading = radians(extension, "heading_deg");
     file->load->environment = out;

@@ -18,9 +18,9 @@ static Transform from_trs(const float t[3], const float q[4], const float s[3])
     float n = sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     float k = n > 0 ? 1 / n : 0;
     float x = q[0] * k, y = q[1] * k, z = q[2] * k, w = n > 0 ? q[3] * k : 1.0f;
-    Vec3  a = vec3(1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y));
-    Vec3  b = vec3(2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x));
-    Vec3  c = vec3(2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y));
+    Vec3 a = vec3(1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y));
+    Vec3 b = vec3(2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x));
+    Vec3 c = vec3(2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y));
     return (Transform){vec3_scale(a, s[0]), vec3_scale(b, s[1]), vec3_scale(c, s[2]),
                        vec3(t[0], t[1], t[2])};
 }
@@ -43,7 +43,7 @@ typedef struct NodeOrder {
     int *nodes;
     int *stack;
     bool *is_seen;
-    int  count, capacity;
+    int count, capacity;
     bool skips_hidden;
 } NodeOrder;
 
@@ -56,8 +56,12 @@ static bool is_hidden(const GltfValue *node)
 static NodeOrder order_start(GltfFile *file, int node_count)
 {
     Arena *scratch = &file->load->scratch;
-    return (NodeOrder){ARENA_NEW(scratch, int, node_count), ARENA_NEW(scratch, int, node_count),
-                       ARENA_NEW(scratch, bool, node_count), 0, node_count, false};
+    return (NodeOrder){ARENA_NEW(scratch, int, node_count),
+                       ARENA_NEW(scratch, int, node_count),
+                       ARENA_NEW(scratch, bool, node_count),
+                       0,
+                       node_count,
+                       false};
 }
 
 static void order_below(NodeOrder *order, const GltfValue *nodes, int root)
@@ -101,11 +105,12 @@ static void place_nodes(GltfFile *file, const GltfValue *nodes, const int *paren
     for (int i = 0; i < nodes->count; i++)
         if (parent[i] == NO_ID) order_below(&order, nodes, i);
     for (int i = 0; i < order.count; i++) {
-        int       node = order.nodes[i];
+        int node = order.nodes[i];
         Transform local = parent_from_node(&nodes->items[node]);
         file->world_from_node[node] =
-            parent[node] == NO_ID ? local
-                                  : transform_compose(&file->world_from_node[parent[node]], &local);
+            parent[node] == NO_ID
+                ? local
+                : transform_compose(&file->world_from_node[parent[node]], &local);
     }
 }
 
@@ -127,7 +132,7 @@ static NodeOrder nodes_of_scene(GltfFile *file, const GltfValue *nodes, const in
     return order;
 }
 
-/* ---- cameras and lights ----------------------------------------------------------------- */
+/* ---- cameras and lights ---------------------------------------------------------------- */
 
 static const char *kept_text(GltfFile *file, const char *text)
 {
@@ -142,17 +147,17 @@ static void add_camera(GltfFile *file, const GltfValue *node, const Transform *w
     const GltfValue *eye = tree_member(camera, "perspective");
     const GltfValue *flat = tree_member(camera, "orthographic");
     float xmag = fabsf(tree_float(flat, "xmag", 1)), ymag = fabsf(tree_float(flat, "ymag", 1));
-    *(SceneCamera *)list_add(&file->load->cameras, &file->load->scratch) = (SceneCamera){
-        .node_name = kept_text(file, tree_text(node, "name", "")),
-        .camera_name = kept_text(file, tree_text(camera, "name", "")),
-        .is_perspective = eye != NULL,
-        .yfov = tree_float(eye, "yfov", 0),
-        .ymag = ymag,
-        .aspect = eye ? tree_float(eye, "aspectRatio", 0) : xmag / ymag,
-        .znear = tree_float(eye ? eye : flat, "znear", 0),
-        .zfar = tree_float(eye ? eye : flat, "zfar", INFINITY),
-        .world_from_camera = {vec3_normalize(world->x), vec3_normalize(world->y),
-                              vec3_normalize(world->z), world->origin}};
+    *(SceneCamera *)list_add(&file->load->cameras, &file->load->scratch) =
+        (SceneCamera){.node_name = kept_text(file, tree_text(node, "name", "")),
+                      .camera_name = kept_text(file, tree_text(camera, "name", "")),
+                      .is_perspective = eye != NULL,
+                      .yfov = tree_float(eye, "yfov", 0),
+                      .ymag = ymag,
+                      .aspect = eye ? tree_float(eye, "aspectRatio", 0) : xmag / ymag,
+                      .znear = tree_float(eye ? eye : flat, "znear", 0),
+                      .zfar = tree_float(eye ? eye : flat, "zfar", INFINITY),
+                      .world_from_camera = {vec3_normalize(world->x), vec3_normalize(world->y),
+                                            vec3_normalize(world->z), world->origin}};
 }
 
 static void add_light(GltfFile *file, const GltfValue *node, const Transform *world)
@@ -169,7 +174,9 @@ static void add_light(GltfFile *file, const GltfValue *node, const Transform *wo
     tree_floats(light, "color", 3, color);
     PunctualLight *out = list_add(&file->load->lights, &file->load->scratch);
     *out = (PunctualLight){
-        .kind = is_spot ? LIGHT_SPOT : is_beam ? LIGHT_DIRECTIONAL : LIGHT_POINT,
+        .kind = is_spot   ? LIGHT_SPOT
+                : is_beam ? LIGHT_DIRECTIONAL
+                          : LIGHT_POINT,
         .position = world->origin,
         .direction = vec3_normalize(vec3_neg(world->z)),
         .cos_inner = cosf(is_spot ? tree_float(cone, "innerConeAngle", 0) : 0),
@@ -180,7 +187,7 @@ static void add_light(GltfFile *file, const GltfValue *node, const Transform *wo
                         : arena_format(file->load->arena, "light %d", light->index);
 }
 
-/* ---- all of it -------------------------------------------------------------------------- */
+/* ---- all of it ------------------------------------------------------------------------- */
 
 static void add_mesh(GltfFile *file, const GltfValue *node, const Transform *world)
 {

@@ -4,7 +4,7 @@
 
 #include "scene/load.h"
 
-/* ---- which images do the materials show? ------------------------------------------------ */
+/* ---- which images do the materials show? ----------------------------------------------- */
 
 /* Marks the textures that any textureInfo below `value` names. */
 static void mark_textures(const GltfValue *value, bool *is_used, int count)
@@ -17,9 +17,9 @@ static void mark_textures(const GltfValue *value, bool *is_used, int count)
 static bool *used_images(GltfFile *file, const GltfValue *textures, int image_count)
 {
     Arena *scratch = &file->load->scratch;
-    int    count = textures ? textures->count : 0;
-    bool  *texture_used = ARENA_NEW(scratch, bool, count);
-    bool  *image_used = ARENA_NEW(scratch, bool, image_count);
+    int count = textures ? textures->count : 0;
+    bool *texture_used = ARENA_NEW(scratch, bool, count);
+    bool *image_used = ARENA_NEW(scratch, bool, image_count);
     const GltfValue *materials = tree_member(file->root, "materials");
     if (materials) mark_textures(materials, texture_used, count);
     for (int i = 0; i < count; i++) {
@@ -29,7 +29,7 @@ static bool *used_images(GltfFile *file, const GltfValue *textures, int image_co
     return image_used;
 }
 
-/* ---- bytes ---------------------------------------------------------------------------- */
+/* ---- bytes ----------------------------------------------------------------------------- */
 
 static const char *sniffed_type(FileBytes bytes)
 {
@@ -59,10 +59,10 @@ static void check_type(GltfFile *file, const GltfValue *image, const char *decla
 static bool image_bytes(GltfFile *file, const GltfValue *image, FileBytes *bytes,
                         const char **name, const char **declared)
 {
-    Error  err;
+    Error err;
     Arena *scratch = &file->load->scratch;
     const GltfValue *uri = tree_member(image, "uri");
-    char   pointer[64];
+    char pointer[64];
     tree_pointer(image, pointer, sizeof pointer);
     *name = arena_string(scratch, pointer, strlen(pointer));
     *declared = tree_text(image, "mimeType", "");
@@ -86,8 +86,8 @@ static bool image_bytes(GltfFile *file, const GltfValue *image, FileBytes *bytes
 
 static void load_one_image(GltfFile *file, const GltfValue *image, bool is_used, Image *out)
 {
-    Error       err;
-    FileBytes   bytes;
+    Error err;
+    FileBytes bytes;
     const char *name, *declared;
     if (!image_bytes(file, image, &bytes, &name, &declared)) return;
     check_type(file, image, declared, bytes);
@@ -99,7 +99,7 @@ static void load_one_image(GltfFile *file, const GltfValue *image, bool is_used,
         file_warning(file, image, "cannot be decoded (no material shows it): %s", err.text);
 }
 
-/* ---- textures ------------------------------------------------------------------------- */
+/* ---- textures -------------------------------------------------------------------------- */
 
 static TextureWrap wrap_from_gl(int code)
 {
@@ -116,9 +116,9 @@ void images_load(GltfFile *file)
 {
     const GltfValue *images = tree_member(file->root, "images");
     const GltfValue *textures = tree_member(file->root, "textures");
-    int    image_count = images ? images->count : 0;
+    int image_count = images ? images->count : 0;
     Image *decoded = ARENA_NEW(&file->load->scratch, Image, image_count);
-    bool  *is_used = used_images(file, textures, image_count);
+    bool *is_used = used_images(file, textures, image_count);
     for (int i = 0; i < image_count; i++)
         load_one_image(file, &images->items[i], is_used[i], &decoded[i]);
     file->texture_base = file->load->textures.count;
@@ -127,12 +127,14 @@ void images_load(GltfFile *file)
         const GltfValue *sampler =
             tree_element(file->root, "samplers", tree_int(texture, "sampler", NO_ID));
         int source = tree_int(texture, "source", NO_ID);
-        texture_add(file->load, (Texture){
-            .image = source >= 0 && source < image_count ? decoded[source] : (Image){0},
-            .wrap_u = wrap_from_gl(tree_int(sampler, "wrapS", 10497)),
-            .wrap_v = wrap_from_gl(tree_int(sampler, "wrapT", 10497)),
-            .nearest = tree_int(sampler, "magFilter", 9729) == 9728,
-        });
+        texture_add(
+            file->load,
+            (Texture){
+                .image = source >= 0 && source < image_count ? decoded[source] : (Image){0},
+                .wrap_u = wrap_from_gl(tree_int(sampler, "wrapS", 10497)),
+                .wrap_v = wrap_from_gl(tree_int(sampler, "wrapT", 10497)),
+                .nearest = tree_int(sampler, "magFilter", 9729) == 9728,
+            });
     }
 }
 

@@ -9,9 +9,9 @@
 #include "base/arena.h"
 
 typedef struct List {
-    void  *items;
+    void *items;
     size_t item_size;
-    int    count, capacity;
+    int count, capacity;
 } List;
 
 static inline List list_of(size_t item_size)
@@ -23,7 +23,7 @@ static inline List list_of(size_t item_size)
 static inline void *list_add(List *list, Arena *arena)
 {
     if (list->count == list->capacity) {
-        int   capacity = list->capacity ? 2 * list->capacity : 16;
+        int capacity = list->capacity ? 2 * list->capacity : 16;
         void *items = arena_alloc(arena, list->item_size, 64, (size_t)capacity);
         if (list->count) memcpy(items, list->items, list->item_size * (size_t)list->count);
         list->items = items;

@@ -16,15 +16,15 @@
 /* Limits: more than these is refused with a clear line. */
 #define LOAD_MAX_FILE_BYTES ((size_t)4 << 30)
 #define LOAD_MAX_ELEMENTS ((size_t)1 << 27)       /* of one accessor, and vertices in all */
-#define LOAD_SCRATCH_BYTES ((size_t)64 << 30) /* address space; pages come when touched */
+#define LOAD_SCRATCH_BYTES ((size_t)64 << 30)     /* address space; pages come when touched */
 #define LOAD_MAX_EMPTY_ELEMENTS ((size_t)1 << 22) /* of an accessor without bytes behind it */
 
 /* A part before all triangles stand in one array. Indices count from the part's vertices. */
 typedef struct PartDraft {
-    Part      part;
-    Vertex   *vertices;
+    Part part;
+    Vertex *vertices;
     uint32_t *indices; /* three a triangle */
-    uint32_t  vertex_count, triangle_count;
+    uint32_t vertex_count, triangle_count;
     struct GltfFile *file; /* where it came from, for messages */
     const GltfValue *primitive;
 } PartDraft;
@@ -36,40 +36,40 @@ typedef struct DisplayPlace {
 } DisplayPlace;
 
 typedef struct Loader {
-    Arena    *arena;
-    Arena     scratch;
+    Arena *arena;
+    Arena scratch;
     Problems *problems;
     const SceneOptions *options;
     Environment environment;
-    List parts;     /* PartDraft */
-    List materials; /* Material */
+    List parts;            /* PartDraft */
+    List materials;        /* Material */
     List material_uv_sets; /* int[2] a material: which TEXCOORD_n its Vertex.uv slots hold */
     List textures, displays, lights, cameras, curves;
     List display_places; /* DisplayPlace, one a display */
-    List inputs;       /* const char * */
-    List input_hashes; /* uint64_t */
-    List extensions;   /* const char * */
+    List inputs;         /* const char * */
+    List input_hashes;   /* uint64_t */
+    List extensions;     /* const char * */
     size_t vertex_total;
-    int    ignored_occlusion_count;
+    int ignored_occlusion_count;
 } Loader;
 
 typedef struct GltfFile {
-    Loader     *load;
+    Loader *load;
     const char *path; /* as the user named it */
     const GltfValue *root;
     const char *json;
-    size_t      json_size;
-    bool        is_binary; /* a .glb */
-    FileBytes   bin;       /* its BIN chunk; data NULL without one */
-    FileBytes  *buffers;   /* data NULL: could not be had */
-    GltfData    data;
-    Transform  *world_from_node;
-    int         material_base, texture_base; /* first id of this file's */
-    int         default_material_id;         /* NO_ID until it is needed */
-    int         skipped_count, degenerate_count; /* primitives; triangles */
+    size_t json_size;
+    bool is_binary;     /* a .glb */
+    FileBytes bin;      /* its BIN chunk; data NULL without one */
+    FileBytes *buffers; /* data NULL: could not be had */
+    GltfData data;
+    Transform *world_from_node;
+    int material_base, texture_base;     /* first id of this file's */
+    int default_material_id;             /* NO_ID until it is needed */
+    int skipped_count, degenerate_count; /* primitives; triangles */
 } GltfFile;
 
-/* ---- problems (document.c) ------------------------------------------------------------ */
+/* ---- problems (document.c) ------------------------------------------------------------- */
 
 /* A fault or warning at a place of the document (NULL: the file as a whole). */
 void file_error(GltfFile *file, const GltfValue *at, const char *format, ...)
@@ -77,7 +77,7 @@ void file_error(GltfFile *file, const GltfValue *at, const char *format, ...)
 void file_warning(GltfFile *file, const GltfValue *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* ---- files (document.c) --------------------------------------------------------------- */
+/* ---- files (document.c) ---------------------------------------------------------------- */
 
 /* Reads a file, hashes it and notes it among the scene's inputs. */
 bool load_read(Loader *load, const char *path, Arena *arena, FileBytes *out, Error *err);
@@ -107,20 +107,20 @@ size_t component_size(int component_type); /* 0: no such type */
 
 /* count x component_count numbers in scratch; normalised integers become [0,1] or [-1,1].
  * Matrices lose their padding. */
-float    *accessor_floats(GltfFile *file, int accessor);
+float *accessor_floats(GltfFile *file, int accessor);
 /* The same for integers that are not normalised: indices, joints. */
 uint32_t *accessor_integers(GltfFile *file, int accessor);
 /* As accessor_floats, but normalised integers stay what they are: min and max count these. */
-float    *accessor_raw_floats(GltfFile *file, int accessor);
+float *accessor_raw_floats(GltfFile *file, int accessor);
 /* Where the sparse values go; NULL when the bytes are missing. */
 uint32_t *accessor_sparse_indices(GltfFile *file, const GltfAccessor *accessor);
 
-/* ---- building ------------------------------------------------------------------------- */
+/* ---- building -------------------------------------------------------------------------- */
 
-void images_load(GltfFile *file);    /* image.c: the file's textures */
+void images_load(GltfFile *file);     /* image.c: the file's textures */
 void materials_build(GltfFile *file); /* material.c */
-int  material_default(GltfFile *file); /* glTF's default material */
-int  texture_add(Loader *load, Texture texture);
+int material_default(GltfFile *file); /* glTF's default material */
+int texture_add(Loader *load, Texture texture);
 
 /* Reads {"index", "texCoord", KHR_texture_transform}; NO_ID where `info` is NULL. The uv_set is
  * still the file's TEXCOORD number. */

@@ -17,7 +17,7 @@ static void apply_transform(const GltfValue *transform, TextureSlot *slot)
     float c = cosf(turn), s = sinf(turn);
     tree_floats(transform, "offset", 2, offset);
     tree_floats(transform, "scale", 2, scale);
-    float matrix[6] = {scale[0] * c, scale[1] * s, offset[0],
+    float matrix[6] = {scale[0] * c,  scale[1] * s, offset[0],
                        -scale[0] * s, scale[1] * c, offset[1]};
     memcpy(slot->uv_from_uv, matrix, sizeof matrix);
     slot->uv_set = tree_int(transform, "texCoord", slot->uv_set);
@@ -39,17 +39,23 @@ TextureSlot texture_slot(GltfFile *file, const GltfValue *info)
     return no_texture();
 }
 
-/* ---- which uv sets does a material need? ------------------------------------------------ */
+/* ---- which uv sets does a material need? ----------------------------------------------- */
 
 #define SLOTS_OF_A_MATERIAL 11
 
 static void collect_slots(Material *m, TextureSlot *slots[SLOTS_OF_A_MATERIAL])
 {
-    TextureSlot *all[SLOTS_OF_A_MATERIAL] = {
-        &m->base_color_texture, &m->metallic_roughness_texture, &m->normal_texture,
-        &m->emissive_texture, &m->specular_texture, &m->specular_color_texture,
-        &m->transmission_texture, &m->clearcoat_texture, &m->clearcoat_roughness_texture,
-        &m->clearcoat_normal_texture, NULL};
+    TextureSlot *all[SLOTS_OF_A_MATERIAL] = {&m->base_color_texture,
+                                             &m->metallic_roughness_texture,
+                                             &m->normal_texture,
+                                             &m->emissive_texture,
+                                             &m->specular_texture,
+                                             &m->specular_color_texture,
+                                             &m->transmission_texture,
+                                             &m->clearcoat_texture,
+                                             &m->clearcoat_roughness_texture,
+                                             &m->clearcoat_normal_texture,
+                                             NULL};
     memcpy(slots, all, sizeof all);
 }
 
@@ -88,9 +94,10 @@ static void place_uv_sets(GltfFile *file, const GltfValue *value, Material *mate
     for (int i = 0; i < SLOTS_OF_A_MATERIAL; i++) {
         if (!slots[i] || slots[i]->texture_id == NO_ID) continue;
         if (!claim_set(sets, slots[i]->uv_set)) {
-            file_error(file, value, "the textures of \"%s\" use TEXCOORD_%d, _%d and _%d; at most "
-                       "two sets are carried", material->name, sets[0], sets[1],
-                       slots[i]->uv_set);
+            file_error(file, value,
+                       "the textures of \"%s\" use TEXCOORD_%d, _%d and _%d; at most "
+                       "two sets are carried",
+                       material->name, sets[0], sets[1], slots[i]->uv_set);
             return;
         }
     }
@@ -99,27 +106,45 @@ static void place_uv_sets(GltfFile *file, const GltfValue *value, Material *mate
         if (slots[i]) slots[i]->uv_set = slots[i]->uv_set == sets[1];
 }
 
-/* ---- core ----------------------------------------------------------------------------- */
+/* ---- core ------------------------------------------------------------------------------ */
 
 static Material default_material(const char *name)
 {
     TextureSlot none = no_texture();
-    return (Material){
-        .name = name, .base_color = {1, 1, 1, 1}, .metallic = 1, .roughness = 1,
-        .base_color_texture = none, .metallic_roughness_texture = none, .normal_texture = none,
-        .emissive_texture = none, .specular_texture = none, .specular_color_texture = none,
-        .transmission_texture = none, .clearcoat_texture = none,
-        .clearcoat_roughness_texture = none, .clearcoat_normal_texture = none,
-        .normal_scale = 1, .clearcoat_normal_scale = 1, .alpha_cutoff = 0.5f, .ior = 1.5f,
-        .specular = 1, .specular_color = {1, 1, 1}, .attenuation_color = {1, 1, 1},
-        .attenuation_distance_m = INFINITY, .display_id = NO_ID, .base_color_curve_id = NO_ID,
-        .specular_curve_id = NO_ID, .transmission_curve_id = NO_ID, .emission_curve_id = NO_ID};
+    return (Material){.name = name,
+                      .base_color = {1, 1, 1, 1},
+                      .metallic = 1,
+                      .roughness = 1,
+                      .base_color_texture = none,
+                      .metallic_roughness_texture = none,
+                      .normal_texture = none,
+                      .emissive_texture = none,
+                      .specular_texture = none,
+                      .specular_color_texture = none,
+                      .transmission_texture = none,
+                      .clearcoat_texture = none,
+                      .clearcoat_roughness_texture = none,
+                      .clearcoat_normal_texture = none,
+                      .normal_scale = 1,
+                      .clearcoat_normal_scale = 1,
+                      .alpha_cutoff = 0.5f,
+                      .ior = 1.5f,
+                      .specular = 1,
+                      .specular_color = {1, 1, 1},
+                      .attenuation_color = {1, 1, 1},
+                      .attenuation_distance_m = INFINITY,
+                      .display_id = NO_ID,
+                      .base_color_curve_id = NO_ID,
+                      .specular_curve_id = NO_ID,
+                      .transmission_curve_id = NO_ID,
+                      .emission_curve_id = NO_ID};
 }
 
 static AlphaMode alpha_mode(const char *text)
 {
-    return strcmp(text, "MASK") == 0 ? ALPHA_MASK
-           : strcmp(text, "BLEND") == 0 ? ALPHA_BLEND : ALPHA_OPAQUE;
+    return strcmp(text, "MASK") == 0    ? ALPHA_MASK
+           : strcmp(text, "BLEND") == 0 ? ALPHA_BLEND
+                                        : ALPHA_OPAQUE;
 }
 
 static void read_core(GltfFile *file, const GltfValue *value, Material *m)
@@ -175,7 +200,8 @@ static void read_extensions(GltfFile *file, const GltfValue *value, Material *m)
     m->specular = tree_float(specular, "specularFactor", 1);
     tree_floats(specular, "specularColorFactor", 3, m->specular_color);
     m->specular_texture = texture_slot(file, tree_member(specular, "specularTexture"));
-    m->specular_color_texture = texture_slot(file, tree_member(specular, "specularColorTexture"));
+    m->specular_color_texture =
+        texture_slot(file, tree_member(specular, "specularColorTexture"));
     m->transmission = tree_float(transmission, "transmissionFactor", 0);
     m->transmission_texture =
         texture_slot(file, tree_member(transmission, "transmissionTexture"));
@@ -185,10 +211,10 @@ static void read_extensions(GltfFile *file, const GltfValue *value, Material *m)
 
 static int read_curve(GltfFile *file, const GltfValue *uri)
 {
-    Error       err;
-    FileBytes   bytes;
+    Error err;
+    FileBytes bytes;
     const char *path;
-    Loader     *load = file->load;
+    Loader *load = file->load;
     if (!uri || !document_resolve(file, uri, &path)) return NO_ID;
     Curve *curve = list_add(&load->curves, &load->scratch);
     if (load_read(load, path, &load->scratch, &bytes, &err) && curve_read(path, curve, &err))
@@ -233,9 +259,8 @@ void material_derive_flags(Material *m)
 {
     m->is_emitter = any_positive(m->emissive_cd_m2) || m->display_id != NO_ID ||
                     (m->unlit && any_positive(m->base_color));
-    m->lets_light_through =
-        m->display_id == NO_ID &&
-        (m->alpha_mode != ALPHA_OPAQUE || (m->transmission > 0 && !m->is_solid));
+    m->lets_light_through = m->display_id == NO_ID && (m->alpha_mode != ALPHA_OPAQUE ||
+                                                       (m->transmission > 0 && !m->is_solid));
 }
 
 static int add_material(Loader *load, Material material, const int sets[SCENE_UV_SETS])
@@ -247,11 +272,11 @@ static int add_material(Loader *load, Material material, const int sets[SCENE_UV
 
 static void build_material(GltfFile *file, const GltfValue *value)
 {
-    Loader     *load = file->load;
+    Loader *load = file->load;
     const char *name = tree_text(value, "name", "");
-    Material    m = default_material(
-        name[0] ? arena_string(load->arena, name, strlen(name))
-                : arena_format(load->arena, "material %d", value->index));
+    Material m =
+        default_material(name[0] ? arena_string(load->arena, name, strlen(name))
+                                 : arena_format(load->arena, "material %d", value->index));
     int id = load->materials.count, sets[SCENE_UV_SETS];
     const GltfValue *display = tree_extension(value, "PARHELION_display");
     read_core(file, value, &m);
@@ -260,7 +285,7 @@ static void build_material(GltfFile *file, const GltfValue *value)
     add_material(load, m, (int[SCENE_UV_SETS]){0, 1});
     if (display) display_build(file, display, id);
     Material *added = list_item(&load->materials, id);
-    Display  *shown =
+    Display *shown =
         added->display_id == NO_ID ? NULL : list_item(&load->displays, added->display_id);
     place_uv_sets(file, value, added, shown ? &shown->content : NULL, sets);
     memcpy(list_item(&load->material_uv_sets, id), sets, sizeof sets);

@@ -9,10 +9,10 @@ typedef struct Attributes {
     float *position, *normal, *tangent; /* 3, 3, 4 a vertex; NULL: absent */
     float *uv[SCENE_UV_SETS];           /* 2 a vertex */
     float *color;
-    int    color_components;
+    int color_components;
 } Attributes;
 
-/* ---- morph targets: the rest pose is base + sum of weight * displacement ----------------- */
+/* ---- morph targets: the rest pose is base + sum of weight * displacement --------------- */
 
 static const GltfValue *rest_weights(const GltfValue *node, const GltfValue *mesh)
 {
@@ -28,7 +28,7 @@ static void morph(GltfFile *file, const GltfValue *primitive, const GltfValue *w
     for (int t = 0; targets && t < targets->count; t++) {
         const GltfValue *weight = tree_item(weights, t);
         float w = weight ? (float)weight->number : 0;
-        int   accessor = tree_int(&targets->items[t], name, NO_ID);
+        int accessor = tree_int(&targets->items[t], name, NO_ID);
         if (w == 0 || accessor < 0) continue;
         const GltfAccessor *a = accessor_get(file, accessor);
         const float *change = accessor_floats(file, accessor);
@@ -46,7 +46,8 @@ static float *attribute(GltfFile *file, const GltfValue *primitive, const GltfVa
     int accessor = tree_int(tree_member(primitive, "attributes"), name, NO_ID);
     if (accessor < 0) return NULL;
     float *values = accessor_floats(file, accessor);
-    morph(file, primitive, weights, name, values, accessor_get(file, accessor)->component_count);
+    morph(file, primitive, weights, name, values,
+          accessor_get(file, accessor)->component_count);
     return values;
 }
 
@@ -54,37 +55,38 @@ static Attributes read_attributes(GltfFile *file, const GltfValue *primitive,
                                   const GltfValue *weights, const int sets[SCENE_UV_SETS])
 {
     const GltfValue *names = tree_member(primitive, "attributes");
-    Attributes a = {
-        .count = accessor_get(file, tree_int(names, "POSITION", NO_ID))->count,
-        .position = attribute(file, primitive, weights, "POSITION"),
-        .normal = attribute(file, primitive, weights, "NORMAL"),
-        .tangent = attribute(file, primitive, weights, "TANGENT"),
-        .color = attribute(file, primitive, weights, "COLOR_0")};
+    Attributes a = {.count = accessor_get(file, tree_int(names, "POSITION", NO_ID))->count,
+                    .position = attribute(file, primitive, weights, "POSITION"),
+                    .normal = attribute(file, primitive, weights, "NORMAL"),
+                    .tangent = attribute(file, primitive, weights, "TANGENT"),
+                    .color = attribute(file, primitive, weights, "COLOR_0")};
     for (int i = 0; i < SCENE_UV_SETS; i++) {
         char name[24];
         snprintf(name, sizeof name, "TEXCOORD_%d", sets[i]);
         a.uv[i] = attribute(file, primitive, weights, name);
     }
     if (a.color)
-        a.color_components = accessor_get(file, tree_int(names, "COLOR_0", NO_ID))->component_count;
-    if (!a.normal) a.tangent = NULL; /* glTF 2.0, 3.7.2.1: flat normals come with own tangents */
+        a.color_components =
+            accessor_get(file, tree_int(names, "COLOR_0", NO_ID))->component_count;
+    if (!a.normal)
+        a.tangent = NULL; /* glTF 2.0, 3.7.2.1: flat normals come with own tangents */
     return a;
 }
 
-/* ---- skins at rest: a vertex goes where its joints put it --------------------------------- */
+/* ---- skins at rest: a vertex goes where its joints put it ------------------------------ */
 
 typedef struct Skin {
     Transform *world_from_bind; /* one a joint */
-    int        joint_count;
-    int        set_count;
-    uint32_t  *joints[8]; /* JOINTS_n and WEIGHTS_n, four a vertex */
-    float     *weights[8];
+    int joint_count;
+    int set_count;
+    uint32_t *joints[8]; /* JOINTS_n and WEIGHTS_n, four a vertex */
+    float *weights[8];
 } Skin;
 
 static Transform *bind_transforms(GltfFile *file, const GltfValue *skin, int joint_count)
 {
     const GltfValue *joints = tree_member(skin, "joints");
-    int    accessor = tree_int(skin, "inverseBindMatrices", NO_ID);
+    int accessor = tree_int(skin, "inverseBindMatrices", NO_ID);
     float *inverse = accessor >= 0 ? accessor_floats(file, accessor) : NULL;
     Transform *out = ARENA_NEW(&file->load->scratch, Transform, joint_count);
     for (int i = 0; i < joint_count; i++) {
@@ -129,10 +131,10 @@ static Transform weighted_sum(Transform a, const Transform *b, float w)
 static Transform skin_transform(const Skin *skin, size_t vertex)
 {
     Transform sum = {0};
-    float     total = 0;
+    float total = 0;
     for (int n = 0; n < skin->set_count; n++)
         for (size_t k = 4 * vertex; k < 4 * vertex + 4; k++) {
-            float    w = skin->weights[n][k];
+            float w = skin->weights[n][k];
             uint32_t joint = skin->joints[n][k];
             if (w == 0 || joint >= (uint32_t)skin->joint_count) continue;
             sum = weighted_sum(sum, &skin->world_from_bind[joint], w);
@@ -143,7 +145,7 @@ static Transform skin_transform(const Skin *skin, size_t vertex)
     return weighted_sum(none, &sum, 1 / total);
 }
 
-/* ---- vertices ---------------------------------------------------------------------------- */
+/* ---- vertices -------------------------------------------------------------------------- */
 
 static void store(float out[3], Vec3 v)
 {
@@ -156,7 +158,8 @@ static void place_color(const Attributes *a, size_t i, uint16_t out[4])
 {
     for (int c = 0; c < 4; c++) {
         float value = a->color && c < a->color_components
-                          ? a->color[i * (size_t)a->color_components + (size_t)c] : 1.0f;
+                          ? a->color[i * (size_t)a->color_components + (size_t)c]
+                          : 1.0f;
         value = value < 0 ? 0.0f : value > 1 ? 1.0f : value;
         out[c] = (uint16_t)(value * 65535.0f + 0.5f);
     }
@@ -167,8 +170,7 @@ static void place_vertex(const Attributes *a, size_t i, const Transform *world, 
     const float *p = a->position + 3 * i, *n = a->normal ? a->normal + 3 * i : NULL;
     const float *t = a->tangent ? a->tangent + 4 * i : NULL;
     store(out->position, transform_point(world, vec3(p[0], p[1], p[2])));
-    if (n)
-        store(out->normal, vec3_normalize(transform_normal(world, vec3(n[0], n[1], n[2]))));
+    if (n) store(out->normal, vec3_normalize(transform_normal(world, vec3(n[0], n[1], n[2]))));
     if (t) {
         float mirrored = transform_determinant(world) < 0 ? -1.0f : 1.0f;
         store(out->tangent, vec3_normalize(transform_vector(world, vec3(t[0], t[1], t[2]))));
@@ -193,7 +195,7 @@ static bool place_vertices(const Attributes *a, const Skin *skin, const Transfor
     return is_mirrored;
 }
 
-/* ---- triangles --------------------------------------------------------------------------- */
+/* ---- triangles ------------------------------------------------------------------------- */
 
 enum { MODE_TRIANGLES = 4, MODE_STRIP = 5, MODE_FAN = 6 };
 
@@ -202,9 +204,21 @@ static void corners(int mode, uint32_t triangle, uint32_t out[3])
 {
     uint32_t i = triangle;
     switch (mode) {
-    case MODE_STRIP: out[0] = i; out[1] = i + 1 + i % 2; out[2] = i + 2 - i % 2; break;
-    case MODE_FAN: out[0] = i + 1; out[1] = i + 2; out[2] = 0; break;
-    default: out[0] = 3 * i; out[1] = 3 * i + 1; out[2] = 3 * i + 2; break;
+    case MODE_STRIP:
+        out[0] = i;
+        out[1] = i + 1 + i % 2;
+        out[2] = i + 2 - i % 2;
+        break;
+    case MODE_FAN:
+        out[0] = i + 1;
+        out[1] = i + 2;
+        out[2] = 0;
+        break;
+    default:
+        out[0] = 3 * i;
+        out[1] = 3 * i + 1;
+        out[2] = 3 * i + 2;
+        break;
     }
 }
 
@@ -218,8 +232,8 @@ static bool has_area(const Vertex *a, const Vertex *b, const Vertex *c)
     }
     double x = e[1] * f[2] - e[2] * f[1], y = e[2] * f[0] - e[0] * f[2];
     double z = e[0] * f[1] - e[1] * f[0];
-    double edges = (e[0] * e[0] + e[1] * e[1] + e[2] * e[2]) *
-                   (f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
+    double edges =
+        (e[0] * e[0] + e[1] * e[1] + e[2] * e[2]) * (f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
     return x * x + y * y + z * z > 1e-24 * edges;
 }
 
@@ -248,11 +262,11 @@ static void list_triangles(GltfFile *file, const GltfValue *primitive, bool is_m
     }
 }
 
-/* ---- a part ------------------------------------------------------------------------------ */
+/* ---- a part ---------------------------------------------------------------------------- */
 
 static const char *part_name(GltfFile *file, const GltfValue *node, const GltfValue *mesh)
 {
-    Arena      *arena = file->load->arena;
+    Arena *arena = file->load->arena;
     const char *name = tree_text(node, "name", "");
     if (!name[0]) name = tree_text(mesh, "name", "");
     if (!name[0]) return arena_format(arena, "node %d", node->index);
@@ -264,26 +278,35 @@ static bool check_vertices(GltfFile *file, const GltfValue *primitive, const Par
     for (uint32_t i = 0; i < draft->vertex_count; i++) {
         const float *p = draft->vertices[i].position;
         if (vec3_is_finite(vec3(p[0], p[1], p[2]))) continue;
-        file_error(file, primitive, "vertex %u stands at (%g, %g, %g) in the scene; finite "
-                   "numbers are wanted", i, (double)p[0], (double)p[1], (double)p[2]);
+        file_error(file, primitive,
+                   "vertex %u stands at (%g, %g, %g) in the scene; finite "
+                   "numbers are wanted",
+                   i, (double)p[0], (double)p[1], (double)p[2]);
         return false;
     }
     return true;
 }
 
 /* A texture whose coordinates the primitive lacks shows one texel only: said once. */
-static void warn_of_missing_uv(GltfFile *file, const GltfValue *primitive,
-                               const Attributes *a, const Material *m, const int *sets)
+static void warn_of_missing_uv(GltfFile *file, const GltfValue *primitive, const Attributes *a,
+                               const Material *m, const int *sets)
 {
-    const TextureSlot *slots[] = {
-        &m->base_color_texture, &m->metallic_roughness_texture, &m->normal_texture,
-        &m->emissive_texture, &m->specular_texture, &m->specular_color_texture,
-        &m->transmission_texture, &m->clearcoat_texture, &m->clearcoat_roughness_texture,
-        &m->clearcoat_normal_texture};
+    const TextureSlot *slots[] = {&m->base_color_texture,
+                                  &m->metallic_roughness_texture,
+                                  &m->normal_texture,
+                                  &m->emissive_texture,
+                                  &m->specular_texture,
+                                  &m->specular_color_texture,
+                                  &m->transmission_texture,
+                                  &m->clearcoat_texture,
+                                  &m->clearcoat_roughness_texture,
+                                  &m->clearcoat_normal_texture};
     for (size_t i = 0; i < sizeof slots / sizeof *slots; i++) {
         if (slots[i]->texture_id == NO_ID || a->uv[slots[i]->uv_set]) continue;
-        file_warning(file, primitive, "the material \"%s\" needs TEXCOORD_%d, which is not "
-                     "there: (0, 0) is taken", m->name, sets[slots[i]->uv_set]);
+        file_warning(file, primitive,
+                     "the material \"%s\" needs TEXCOORD_%d, which is not "
+                     "there: (0, 0) is taken",
+                     m->name, sets[slots[i]->uv_set]);
         return;
     }
 }
@@ -318,8 +341,8 @@ void primitive_build(GltfFile *file, const GltfValue *node, const Transform *wor
     Loader *load = file->load;
     int mode = tree_int(primitive, "mode", MODE_TRIANGLES);
     int material = tree_int(primitive, "material", NO_ID);
-    const GltfAccessor *position = accessor_get(
-        file, tree_int(tree_member(primitive, "attributes"), "POSITION", NO_ID));
+    const GltfAccessor *position =
+        accessor_get(file, tree_int(tree_member(primitive, "attributes"), "POSITION", NO_ID));
     if (mode < MODE_TRIANGLES) file->skipped_count++;
     if (mode < MODE_TRIANGLES || !position || !fits(file, primitive, position->count)) return;
     int material_id = material >= 0 ? file->material_base + material : material_default(file);
@@ -327,10 +350,12 @@ void primitive_build(GltfFile *file, const GltfValue *node, const Transform *wor
     const Material *m = list_item(&load->materials, material_id);
     Attributes a = read_attributes(file, primitive, rest_weights(node, mesh), sets);
     Skin skin = read_skin(file, node, primitive);
-    PartDraft draft = {.part = {.name = part_name(file, node, mesh), .material_id = material_id},
-                       .vertices = ARENA_NEW(&load->scratch, Vertex, a.count),
-                       .vertex_count = (uint32_t)a.count,
-                       .file = file, .primitive = primitive};
+    PartDraft draft = {
+        .part = {.name = part_name(file, node, mesh), .material_id = material_id},
+        .vertices = ARENA_NEW(&load->scratch, Vertex, a.count),
+        .vertex_count = (uint32_t)a.count,
+        .file = file,
+        .primitive = primitive};
     bool is_mirrored = place_vertices(&a, &skin, world, draft.vertices);
     if (!check_vertices(file, primitive, &draft)) return;
     warn_of_missing_uv(file, primitive, &a, m, sets);

@@ -6,7 +6,7 @@
 #include "scene/load.h"
 #include "scene/schema.h"
 
-/* ---- materials that say BLEND or MASK but are opaque everywhere --------------------------- */
+/* ---- materials that say BLEND or MASK but are opaque everywhere ------------------------ */
 
 /* Exporters mark whole models so; asking such surfaces at every ray costs time for nothing. */
 
@@ -39,7 +39,7 @@ static void find_opaque_materials(Loader *load)
 {
     for (int i = 0; i < load->materials.count; i++) {
         Material *m = list_item(&load->materials, i);
-        int       texture = m->base_color_texture.texture_id;
+        int texture = m->base_color_texture.texture_id;
         if (m->alpha_mode == ALPHA_OPAQUE || m->base_color[3] < 1) continue;
         if (m->alpha_mode == ALPHA_MASK && m->alpha_cutoff > 1) continue;
         if (texture != NO_ID &&
@@ -51,7 +51,7 @@ static void find_opaque_materials(Loader *load)
     }
 }
 
-/* ---- from drafts to arrays ---------------------------------------------------------------- */
+/* ---- from drafts to arrays ------------------------------------------------------------- */
 
 static bool lets_through(const Loader *load, const PartDraft *draft)
 {
@@ -71,7 +71,8 @@ static void append_part(Scene *scene, const PartDraft *draft)
         Triangle *triangle = &scene->triangles[scene->triangle_count++];
         triangle->part_id = (uint32_t)scene->part_count;
         for (int c = 0; c < 3; c++)
-            triangle->vertex[c] = scene->vertex_count + draft->indices[3 * (size_t)t + (size_t)c];
+            triangle->vertex[c] =
+                scene->vertex_count + draft->indices[3 * (size_t)t + (size_t)c];
     }
     scene->vertex_count += draft->vertex_count;
     scene->part_count++;
@@ -139,19 +140,25 @@ static Scene *assemble(Loader *load)
 {
     Arena *arena = load->arena;
     Scene *scene = ARENA_NEW(arena, Scene, 1);
-    *scene = (Scene){
-        .materials = list_copy(&load->materials, arena),
-        .material_count = load->materials.count,
-        .textures = list_copy(&load->textures, arena), .texture_count = load->textures.count,
-        .displays = list_copy(&load->displays, arena), .display_count = load->displays.count,
-        .lights = list_copy(&load->lights, arena), .light_count = load->lights.count,
-        .cameras = list_copy(&load->cameras, arena), .camera_count = load->cameras.count,
-        .curves = list_copy(&load->curves, arena), .curve_count = load->curves.count,
-        .inputs = list_copy(&load->inputs, arena),
-        .input_hashes = list_copy(&load->input_hashes, arena), .input_count = load->inputs.count,
-        .extensions = list_copy(&load->extensions, arena),
-        .extension_count = load->extensions.count, .environment = load->environment,
-        .ignored_occlusion_count = load->ignored_occlusion_count};
+    *scene = (Scene){.materials = list_copy(&load->materials, arena),
+                     .material_count = load->materials.count,
+                     .textures = list_copy(&load->textures, arena),
+                     .texture_count = load->textures.count,
+                     .displays = list_copy(&load->displays, arena),
+                     .display_count = load->displays.count,
+                     .lights = list_copy(&load->lights, arena),
+                     .light_count = load->lights.count,
+                     .cameras = list_copy(&load->cameras, arena),
+                     .camera_count = load->cameras.count,
+                     .curves = list_copy(&load->curves, arena),
+                     .curve_count = load->curves.count,
+                     .inputs = list_copy(&load->inputs, arena),
+                     .input_hashes = list_copy(&load->input_hashes, arena),
+                     .input_count = load->inputs.count,
+                     .extensions = list_copy(&load->extensions, arena),
+                     .extension_count = load->extensions.count,
+                     .environment = load->environment,
+                     .ignored_occlusion_count = load->ignored_occlusion_count};
     join_parts(load, scene);
     measure_bounds(scene);
     fill_gaps(scene);
@@ -159,7 +166,7 @@ static Scene *assemble(Loader *load)
     return scene;
 }
 
-/* ---- reading ------------------------------------------------------------------------------ */
+/* ---- reading --------------------------------------------------------------------------- */
 
 static void note_extensions(GltfFile *file)
 {
@@ -191,7 +198,7 @@ static bool read_data(GltfFile *file)
 static void load_file(Loader *load, const char *path)
 {
     const Problems *problems = load->problems;
-    int       before = problems->error_count;
+    int before = problems->error_count;
     GltfFile *file = ARENA_NEW(&load->scratch, GltfFile, 1);
     *file = (GltfFile){.load = load, .path = arena_string(load->arena, path, strlen(path))};
     if (!document_read(file)) return;
@@ -207,18 +214,26 @@ static void load_file(Loader *load, const char *path)
 
 static Loader loader_start(const SceneOptions *options, Arena *arena, Problems *problems)
 {
-    return (Loader){
-        .arena = arena, .scratch = arena_reserve(LOAD_SCRATCH_BYTES), .problems = problems,
-        .options = options,
-        .environment = {.color = {1, 1, 1}, .hdri_path = "", .hdri_scale = 1,
-                        .forward = {0, 0, -1}},
-        .parts = list_of(sizeof(PartDraft)), .materials = list_of(sizeof(Material)),
-        .material_uv_sets = list_of(sizeof(int[SCENE_UV_SETS])),
-        .textures = list_of(sizeof(Texture)), .displays = list_of(sizeof(Display)),
-        .lights = list_of(sizeof(PunctualLight)), .cameras = list_of(sizeof(SceneCamera)),
-        .curves = list_of(sizeof(Curve)), .display_places = list_of(sizeof(DisplayPlace)),
-        .inputs = list_of(sizeof(const char *)), .input_hashes = list_of(sizeof(uint64_t)),
-        .extensions = list_of(sizeof(const char *))};
+    return (Loader){.arena = arena,
+                    .scratch = arena_reserve(LOAD_SCRATCH_BYTES),
+                    .problems = problems,
+                    .options = options,
+                    .environment = {.color = {1, 1, 1},
+                                    .hdri_path = "",
+                                    .hdri_scale = 1,
+                                    .forward = {0, 0, -1}},
+                    .parts = list_of(sizeof(PartDraft)),
+                    .materials = list_of(sizeof(Material)),
+                    .material_uv_sets = list_of(sizeof(int[SCENE_UV_SETS])),
+                    .textures = list_of(sizeof(Texture)),
+                    .displays = list_of(sizeof(Display)),
+                    .lights = list_of(sizeof(PunctualLight)),
+                    .cameras = list_of(sizeof(SceneCamera)),
+                    .curves = list_of(sizeof(Curve)),
+                    .display_places = list_of(sizeof(DisplayPlace)),
+                    .inputs = list_of(sizeof(const char *)),
+                    .input_hashes = list_of(sizeof(uint64_t)),
+                    .extensions = list_of(sizeof(const char *))};
 }
 
 Scene *scene_survey(const SceneOptions *options, Arena *arena, Problems *problems)

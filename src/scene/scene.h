@@ -63,7 +63,7 @@ typedef struct Material {
     float normal_scale;
     float emissive_cd_m2[3]; /* factor * KHR_materials_emissive_strength, linear Rec.709 */
     TextureSlot emissive_texture;
-    AlphaMode alpha_mode; /* OPAQUE also where a file says otherwise but alpha is 1 everywhere */
+    AlphaMode alpha_mode; /* OPAQUE also where the file says otherwise but alpha is always 1 */
     float alpha_cutoff;
     bool  double_sided; /* decides only whether the back emits */
     bool  unlit;        /* shows base colour as cd/m2, scatters nothing */

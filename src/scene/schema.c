@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- problems ---------------------------------------------------------------------------- */
+/* ---- problems -------------------------------------------------------------------------- */
 
 static void report(const Check *check, Severity severity, const GltfValue *at,
                    const char *format, va_list args)
@@ -52,10 +52,11 @@ static const char *describe(const GltfValue *value, char *buffer, size_t size)
 static void fails_as(const Check *check, const GltfValue *value, const char *wanted)
 {
     char found[128];
-    check_fails(check, value, "is %s, %s is wanted", describe(value, found, sizeof found), wanted);
+    check_fails(check, value, "is %s, %s is wanted", describe(value, found, sizeof found),
+                wanted);
 }
 
-/* ---- single values ------------------------------------------------------------------------ */
+/* ---- single values --------------------------------------------------------------------- */
 
 static bool has_range(const Rule *rule)
 {
@@ -65,7 +66,8 @@ static bool has_range(const Rule *rule)
 static bool in_range(const Rule *rule, double number)
 {
     if (!has_range(rule)) return true;
-    if (rule->flags & RULE_ABOVE_MIN ? !(number > rule->min) : !(number >= rule->min)) return false;
+    if (rule->flags & RULE_ABOVE_MIN ? !(number > rule->min) : !(number >= rule->min))
+        return false;
     return rule->flags & RULE_FROM_MIN || number <= rule->max;
 }
 
@@ -118,7 +120,7 @@ static const GltfValue *referred_list(const GltfFile *file, const char *path)
 {
     const GltfValue *value = file->root;
     while (value && *path) {
-        char   name[64];
+        char name[64];
         size_t size = strcspn(path, "/");
         snprintf(name, sizeof name, "%.*s", (int)size, path);
         value = tree_member(value, name);
@@ -131,7 +133,7 @@ static void check_index(const Check *check, const GltfValue *value, const char *
 {
     const GltfValue *list = referred_list(check->file, of);
     const char *slash = strrchr(of, '/'), *noun = slash ? slash + 1 : of;
-    int  count = list ? list->count : 0;
+    int count = list ? list->count : 0;
     char wanted[96];
     if (tree_is_integer(value) && value->number >= 0 && value->number < count) return;
     if (tree_is_integer(value) && value->number >= 0)
@@ -143,7 +145,7 @@ static void check_index(const Check *check, const GltfValue *value, const char *
     }
 }
 
-/* ---- arrays ------------------------------------------------------------------------------- */
+/* ---- arrays ---------------------------------------------------------------------------- */
 
 static bool is_same(const GltfValue *a, const GltfValue *b)
 {
@@ -168,7 +170,8 @@ static bool check_array(const Check *check, const GltfValue *value, const Rule *
         fails_as(check, value, "an array");
         return false;
     }
-    bool is_short = value->count < rule->least, is_long = rule->most && value->count > rule->most;
+    bool is_short = value->count < rule->least,
+         is_long = rule->most && value->count > rule->most;
     if (is_short || is_long) {
         if (rule->least == rule->most)
             snprintf(wanted, sizeof wanted, "an array of %d", rule->least);
@@ -185,8 +188,10 @@ static void check_value(const Check *check, const GltfValue *value, const Rule *
 
 static void check_items(const Check *check, const GltfValue *array, const Rule *rule)
 {
-    static const RuleKind ITEM[] = {[RULE_INDICES] = RULE_INDEX, [RULE_NUMBERS] = RULE_NUMBER,
-                                    [RULE_TEXTS] = RULE_TEXT, [RULE_OBJECTS] = RULE_OBJECT};
+    static const RuleKind ITEM[] = {[RULE_INDICES] = RULE_INDEX,
+                                    [RULE_NUMBERS] = RULE_NUMBER,
+                                    [RULE_TEXTS] = RULE_TEXT,
+                                    [RULE_OBJECTS] = RULE_OBJECT};
     Rule item = *rule;
     if (!check_array(check, array, rule)) return;
     item.kind = ITEM[rule->kind];
@@ -209,25 +214,28 @@ static void check_value(const Check *check, const GltfValue *value, const Rule *
     Check inner = *check;
     if (rule->flags & RULE_WARNS) inner.severity = SEVERITY_WARNING;
     switch (rule->kind) {
-    case RULE_NUMBER: case RULE_INTEGER: check_number(&inner, value, rule); break;
+    case RULE_NUMBER:
+    case RULE_INTEGER: check_number(&inner, value, rule); break;
     case RULE_BOOLEAN:
         if (value->kind != GLTF_BOOLEAN) fails_as(&inner, value, "true or false");
         break;
     case RULE_TEXT:
         if (value->kind != GLTF_STRING) fails_as(&inner, value, "a text");
         break;
-    case RULE_CHOICE: case RULE_CODE: check_choice(&inner, value, rule); break;
+    case RULE_CHOICE:
+    case RULE_CODE: check_choice(&inner, value, rule); break;
     case RULE_INDEX: check_index(&inner, value, rule->of); break;
     case RULE_OBJECT: schema_check(&inner, value, rule->schema); break;
     case RULE_MAP: check_map(&inner, value, rule); break;
-    case RULE_INDICES: case RULE_NUMBERS: case RULE_TEXTS: case RULE_OBJECTS:
-        check_items(&inner, value, rule);
-        break;
+    case RULE_INDICES:
+    case RULE_NUMBERS:
+    case RULE_TEXTS:
+    case RULE_OBJECTS: check_items(&inner, value, rule); break;
     case RULE_ANY: break;
     }
 }
 
-/* ---- objects ------------------------------------------------------------------------------ */
+/* ---- objects --------------------------------------------------------------------------- */
 
 /* Edits (insert, delete, replace) from one short word to another. */
 static int edit_distance(const char *a, const char *b)
@@ -272,7 +280,7 @@ static const Rule *find_rule(const Schema *schema, const char *name)
 static void check_unknown(const Check *check, const GltfValue *member, const Schema *schema)
 {
     const char *near = nearest_name(schema, member->key);
-    char        hint[100] = "";
+    char hint[100] = "";
     if (near) snprintf(hint, sizeof hint, "; is \"%s\" meant?", near);
     if (schema->is_ours)
         check_fails(check, member, "is no member of %s%s", schema->name, hint);
@@ -291,7 +299,7 @@ static bool is_declared(const GltfFile *file, const char *extension)
 
 static void check_extension(const Check *check, const GltfValue *extension, const char *host)
 {
-    bool  is_known = false;
+    bool is_known = false;
     Check inner = *check;
     const ExtensionRule *rule = extension_rule(extension->key, host, &is_known);
     if (!is_declared(check->file, extension->key))
@@ -302,8 +310,8 @@ static void check_extension(const Check *check, const GltfValue *extension, cons
         return;
     }
     if (!rule && is_known)
-        check_warns(check, extension, "%s has no meaning on a %s and is skipped", extension->key,
-                    host);
+        check_warns(check, extension, "%s has no meaning on a %s and is skipped",
+                    extension->key, host);
     if (!extension_is_supported(extension->key)) inner.severity = SEVERITY_WARNING;
     if (rule && rule->schema) schema_check(&inner, extension, rule->schema);
 }
@@ -337,8 +345,10 @@ void schema_check(const Check *check, const GltfValue *value, const Schema *sche
     }
     for (int i = 0; i < value->count; i++) {
         const Rule *rule = find_rule(schema, value->items[i].key);
-        if (rule) check_value(check, &value->items[i], rule);
-        else check_common(check, &value->items[i], schema);
+        if (rule)
+            check_value(check, &value->items[i], rule);
+        else
+            check_common(check, &value->items[i], schema);
     }
     if (schema->more) schema->more(check, value);
 }

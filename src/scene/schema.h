@@ -30,7 +30,7 @@ typedef enum RuleKind {
 
 enum {
     RULE_REQUIRED = 1,
-    RULE_ABOVE_MIN = 2,  /* min itself is not allowed */
+    RULE_ABOVE_MIN = 2, /* min itself is not allowed */
     RULE_MAY_BE_EMPTY = 4,
     RULE_WARNS = 8,      /* this member and what is below it only warn */
     RULE_HAS_RANGE = 16, /* min and max hold; otherwise any number will do */
@@ -39,31 +39,31 @@ enum {
 
 typedef struct Rule {
     const char *name;
-    RuleKind    kind;
-    unsigned    flags;
-    double      min, max;
-    int         least, most; /* items of an array; most 0: as many as there are */
+    RuleKind kind;
+    unsigned flags;
+    double min, max;
+    int least, most; /* items of an array; most 0: as many as there are */
     const char *of;
     const struct Schema *schema;
 } Rule;
 
 typedef struct Check {
     GltfFile *file;
-    Severity  severity; /* of what is found here */
+    Severity severity; /* of what is found here */
 } Check;
 
 typedef struct Schema {
     const char *name; /* "node": what extensions are asked by, and what messages say */
     const Rule *rules;
-    int         rule_count;
-    bool        is_ours; /* PARHELION_*: an unknown member is an error, not a warning */
-    void      (*more)(const Check *check, const GltfValue *value); /* NULL: the table says all */
+    int rule_count;
+    bool is_ours; /* PARHELION_*: an unknown member is an error, not a warning */
+    void (*more)(const Check *check, const GltfValue *value); /* NULL: the table says all */
 } Schema;
 
 /* An extension on one kind of object. */
 typedef struct ExtensionRule {
-    const char   *name;
-    const char   *host;   /* the name of the schema it may stand on */
+    const char *name;
+    const char *host;     /* the name of the schema it may stand on */
     const Schema *schema; /* NULL: its content is not looked into */
 } ExtensionRule;
 
@@ -85,7 +85,7 @@ void check_fails(const Check *check, const GltfValue *at, const char *format, ..
 void check_warns(const Check *check, const GltfValue *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* ---- what tables cannot say -------------------------------------------------------------- */
+/* ---- what tables cannot say ------------------------------------------------------------ */
 
 /* check_document.c, check_graph.c ...: called for their objects by the tables. */
 void check_asset(const Check *check, const GltfValue *asset);

@@ -5,18 +5,26 @@
 
 #define COUNT_OF(array) ((int)(sizeof(array) / sizeof *(array)))
 
-/* ---- lights ------------------------------------------------------------------------------- */
+/* ---- lights ---------------------------------------------------------------------------- */
 
 static const Rule SPOT[] = {
-    {.name = "innerConeAngle", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE,
+    {.name = "innerConeAngle",
+     .kind = RULE_NUMBER,
+     .flags = RULE_HAS_RANGE,
      .max = 1.5707963267948966},
-    {.name = "outerConeAngle", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE | RULE_ABOVE_MIN,
+    {.name = "outerConeAngle",
+     .kind = RULE_NUMBER,
+     .flags = RULE_HAS_RANGE | RULE_ABOVE_MIN,
      .max = 1.5707963267948968},
 };
 static const Schema SCHEMA_SPOT = {"light.spot", SPOT, COUNT_OF(SPOT), false, NULL};
 
 static const Rule LIGHT[] = {
-    {.name = "color", .kind = RULE_NUMBERS, .flags = RULE_HAS_RANGE, .max = 1, .least = 3,
+    {.name = "color",
+     .kind = RULE_NUMBERS,
+     .flags = RULE_HAS_RANGE,
+     .max = 1,
+     .least = 3,
      .most = 3},
     {.name = "intensity", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
     {.name = "spot", .kind = RULE_OBJECT, .schema = &SCHEMA_SPOT},
@@ -27,15 +35,17 @@ static const Schema SCHEMA_LIGHT = {"light", LIGHT, COUNT_OF(LIGHT), false, chec
 
 static const Rule LIGHTS[] = {
     {.name = "lights", .kind = RULE_OBJECTS, .flags = RULE_REQUIRED, .schema = &SCHEMA_LIGHT}};
-static const Schema SCHEMA_LIGHTS = {"KHR_lights_punctual", LIGHTS, COUNT_OF(LIGHTS), false, NULL};
+static const Schema SCHEMA_LIGHTS = {"KHR_lights_punctual", LIGHTS, COUNT_OF(LIGHTS), false,
+                                     NULL};
 
-static const Rule NODE_LIGHT[] = {
-    {.name = "light", .kind = RULE_INDEX, .flags = RULE_REQUIRED,
-     .of = "extensions/KHR_lights_punctual/lights"}};
-static const Schema SCHEMA_NODE_LIGHT = {"KHR_lights_punctual", NODE_LIGHT, COUNT_OF(NODE_LIGHT),
-                                         false, NULL};
+static const Rule NODE_LIGHT[] = {{.name = "light",
+                                   .kind = RULE_INDEX,
+                                   .flags = RULE_REQUIRED,
+                                   .of = "extensions/KHR_lights_punctual/lights"}};
+static const Schema SCHEMA_NODE_LIGHT = {"KHR_lights_punctual", NODE_LIGHT,
+                                         COUNT_OF(NODE_LIGHT), false, NULL};
 
-/* ---- materials ---------------------------------------------------------------------------- */
+/* ---- materials ------------------------------------------------------------------------- */
 
 static const Rule EMISSIVE_STRENGTH[] = {
     {.name = "emissiveStrength", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN}};
@@ -48,7 +58,10 @@ static const Schema SCHEMA_UNLIT = {"KHR_materials_unlit", NULL, 0, false, NULL}
 static const Rule SPECULAR[] = {
     {.name = "specularFactor", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 1},
     {.name = "specularTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-    {.name = "specularColorFactor", .kind = RULE_NUMBERS, .flags = RULE_FROM_MIN, .least = 3,
+    {.name = "specularColorFactor",
+     .kind = RULE_NUMBERS,
+     .flags = RULE_FROM_MIN,
+     .least = 3,
      .most = 3},
     {.name = "specularColorTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
 };
@@ -65,7 +78,10 @@ static const Schema SCHEMA_TRANSMISSION = {"KHR_materials_transmission", TRANSMI
 static const Rule CLEARCOAT[] = {
     {.name = "clearcoatFactor", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 1},
     {.name = "clearcoatTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-    {.name = "clearcoatRoughnessFactor", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 1},
+    {.name = "clearcoatRoughnessFactor",
+     .kind = RULE_NUMBER,
+     .flags = RULE_HAS_RANGE,
+     .max = 1},
     {.name = "clearcoatRoughnessTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
     {.name = "clearcoatNormalTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
 };
@@ -75,9 +91,15 @@ static const Schema SCHEMA_CLEARCOAT = {"KHR_materials_clearcoat", CLEARCOAT,
 static const Rule VOLUME[] = {
     {.name = "thicknessFactor", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
     {.name = "thicknessTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-    {.name = "attenuationDistance", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN | RULE_ABOVE_MIN},
-    {.name = "attenuationColor", .kind = RULE_NUMBERS, .flags = RULE_HAS_RANGE, .max = 1,
-     .least = 3, .most = 3},
+    {.name = "attenuationDistance",
+     .kind = RULE_NUMBER,
+     .flags = RULE_FROM_MIN | RULE_ABOVE_MIN},
+    {.name = "attenuationColor",
+     .kind = RULE_NUMBERS,
+     .flags = RULE_HAS_RANGE,
+     .max = 1,
+     .least = 3,
+     .most = 3},
 };
 static const Schema SCHEMA_VOLUME = {"KHR_materials_volume", VOLUME, COUNT_OF(VOLUME), false,
                                      NULL};
@@ -88,7 +110,8 @@ static void check_ior(const Check *check, const GltfValue *extension)
     double ior = tree_number(extension, "ior", 1.5);
     if (ior > 0 && ior < 1)
         check_fails(check, tree_member(extension, "ior"),
-                    "is %.9g, 0 (which means infinite) or a number of at least 1 is wanted", ior);
+                    "is %.9g, 0 (which means infinite) or a number of at least 1 is wanted",
+                    ior);
 }
 static const Schema SCHEMA_IOR = {"KHR_materials_ior", IOR, COUNT_OF(IOR), false, check_ior};
 
@@ -100,7 +123,7 @@ static const Rule ANISOTROPY[] = {
 static const Schema SCHEMA_ANISOTROPY = {"KHR_materials_anisotropy", ANISOTROPY,
                                          COUNT_OF(ANISOTROPY), false, NULL};
 
-/* ---- the rest of Khronos' ----------------------------------------------------------------- */
+/* ---- the rest of Khronos' -------------------------------------------------------------- */
 
 static const Rule TEXTURE_TRANSFORM[] = {
     {.name = "offset", .kind = RULE_NUMBERS, .least = 2, .most = 2},
@@ -113,34 +136,37 @@ static const Schema SCHEMA_TEXTURE_TRANSFORM = {"KHR_texture_transform", TEXTURE
 
 static const Rule VARIANT[] = {{.name = "name", .kind = RULE_TEXT, .flags = RULE_REQUIRED}};
 static const Schema SCHEMA_VARIANT = {"variant", VARIANT, COUNT_OF(VARIANT), false, NULL};
-static const Rule VARIANTS[] = {
-    {.name = "variants", .kind = RULE_OBJECTS, .flags = RULE_REQUIRED,
-     .schema = &SCHEMA_VARIANT}};
+static const Rule VARIANTS[] = {{.name = "variants",
+                                 .kind = RULE_OBJECTS,
+                                 .flags = RULE_REQUIRED,
+                                 .schema = &SCHEMA_VARIANT}};
 static const Schema SCHEMA_VARIANTS = {"KHR_materials_variants", VARIANTS, COUNT_OF(VARIANTS),
                                        false, NULL};
 
 static const Rule MAPPING[] = {
-    {.name = "variants", .kind = RULE_INDICES, .flags = RULE_REQUIRED,
+    {.name = "variants",
+     .kind = RULE_INDICES,
+     .flags = RULE_REQUIRED,
      .of = "extensions/KHR_materials_variants/variants"},
     {.name = "material", .kind = RULE_INDEX, .flags = RULE_REQUIRED, .of = "materials"},
 };
 static const Schema SCHEMA_MAPPING = {"mapping", MAPPING, COUNT_OF(MAPPING), false, NULL};
-static const Rule MAPPINGS[] = {
-    {.name = "mappings", .kind = RULE_OBJECTS, .flags = RULE_REQUIRED,
-     .schema = &SCHEMA_MAPPING}};
+static const Rule MAPPINGS[] = {{.name = "mappings",
+                                 .kind = RULE_OBJECTS,
+                                 .flags = RULE_REQUIRED,
+                                 .schema = &SCHEMA_MAPPING}};
 static const Schema SCHEMA_MAPPINGS = {"KHR_materials_variants", MAPPINGS, COUNT_OF(MAPPINGS),
                                        false, NULL};
 
-static const Rule POINTER[] = {
-    {.name = "pointer", .kind = RULE_TEXT, .flags = RULE_REQUIRED}};
-static const Schema SCHEMA_POINTER = {"KHR_animation_pointer", POINTER, COUNT_OF(POINTER), false,
-                                      check_animation_pointer};
+static const Rule POINTER[] = {{.name = "pointer", .kind = RULE_TEXT, .flags = RULE_REQUIRED}};
+static const Schema SCHEMA_POINTER = {"KHR_animation_pointer", POINTER, COUNT_OF(POINTER),
+                                      false, check_animation_pointer};
 
 static const Rule VISIBILITY[] = {{.name = "visible", .kind = RULE_BOOLEAN}};
-static const Schema SCHEMA_VISIBILITY = {"KHR_node_visibility", VISIBILITY, COUNT_OF(VISIBILITY),
-                                         false, NULL};
+static const Schema SCHEMA_VISIBILITY = {"KHR_node_visibility", VISIBILITY,
+                                         COUNT_OF(VISIBILITY), false, NULL};
 
-/* ---- ours (formats: files that users write) ------------------------------------------------ */
+/* ---- ours (formats: files that users write) -------------------------------------------- */
 
 static const Rule DISPLAY[] = {
     {.name = "panel", .kind = RULE_TEXT},
@@ -151,30 +177,47 @@ static const Schema SCHEMA_DISPLAY = {"PARHELION_display", DISPLAY, COUNT_OF(DIS
                                       check_display};
 
 static const Rule SUN[] = {
-    {.name = "azimuth_deg", .kind = RULE_NUMBER, .flags = RULE_REQUIRED | RULE_HAS_RANGE,
-     .min = -360, .max = 360},
-    {.name = "elevation_deg", .kind = RULE_NUMBER, .flags = RULE_REQUIRED | RULE_HAS_RANGE,
-     .min = -90, .max = 90},
+    {.name = "azimuth_deg",
+     .kind = RULE_NUMBER,
+     .flags = RULE_REQUIRED | RULE_HAS_RANGE,
+     .min = -360,
+     .max = 360},
+    {.name = "elevation_deg",
+     .kind = RULE_NUMBER,
+     .flags = RULE_REQUIRED | RULE_HAS_RANGE,
+     .min = -90,
+     .max = 90},
     {.name = "illuminance_lx", .kind = RULE_NUMBER, .flags = RULE_REQUIRED | RULE_FROM_MIN},
-    {.name = "angular_radius_deg", .kind = RULE_NUMBER,
-     .flags = RULE_HAS_RANGE | RULE_ABOVE_MIN, .max = 45},
+    {.name = "angular_radius_deg",
+     .kind = RULE_NUMBER,
+     .flags = RULE_HAS_RANGE | RULE_ABOVE_MIN,
+     .max = 45},
 };
 static const Schema SCHEMA_SUN = {"sun", SUN, COUNT_OF(SUN), true, NULL};
 
 static const Rule ENVIRONMENT[] = {
-    {.name = "type", .kind = RULE_CHOICE, .flags = RULE_REQUIRED,
+    {.name = "type",
+     .kind = RULE_CHOICE,
+     .flags = RULE_REQUIRED,
      .of = "constant|hdri|cie|perez|sky"},
-    {.name = "heading_deg", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .min = -360,
+    {.name = "heading_deg",
+     .kind = RULE_NUMBER,
+     .flags = RULE_HAS_RANGE,
+     .min = -360,
      .max = 360},
     {.name = "forward", .kind = RULE_NUMBERS, .least = 3, .most = 3},
     {.name = "sun", .kind = RULE_OBJECT, .schema = &SCHEMA_SUN},
     {.name = "luminance", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
     {.name = "color", .kind = RULE_NUMBERS, .flags = RULE_FROM_MIN, .least = 3, .most = 3},
     {.name = "uri", .kind = RULE_TEXT},
-    {.name = "rotation_deg", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .min = -360,
+    {.name = "rotation_deg",
+     .kind = RULE_NUMBER,
+     .flags = RULE_HAS_RANGE,
+     .min = -360,
      .max = 360},
     {.name = "scale", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
-    {.name = "horizontal_illuminance_lx", .kind = RULE_NUMBER,
+    {.name = "horizontal_illuminance_lx",
+     .kind = RULE_NUMBER,
      .flags = RULE_FROM_MIN | RULE_ABOVE_MIN},
     {.name = "sky", .kind = RULE_INTEGER, .flags = RULE_HAS_RANGE, .min = 1, .max = 15},
     {.name = "diffuse_horizontal_lx", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
@@ -192,13 +235,14 @@ static const Rule ENVIRONMENT[] = {
 static const Schema SCHEMA_ENVIRONMENT = {"PARHELION_environment", ENVIRONMENT,
                                           COUNT_OF(ENVIRONMENT), true, check_environment};
 
-static const Rule SPECTRUM[] = {
-    {.name = "baseColor", .kind = RULE_TEXT}, {.name = "transmission", .kind = RULE_TEXT},
-    {.name = "specular", .kind = RULE_TEXT}, {.name = "emission", .kind = RULE_TEXT}};
+static const Rule SPECTRUM[] = {{.name = "baseColor", .kind = RULE_TEXT},
+                                {.name = "transmission", .kind = RULE_TEXT},
+                                {.name = "specular", .kind = RULE_TEXT},
+                                {.name = "emission", .kind = RULE_TEXT}};
 static const Schema SCHEMA_SPECTRUM = {"PARHELION_spectrum", SPECTRUM, COUNT_OF(SPECTRUM), true,
                                        NULL};
 
-/* ---- where they stand ----------------------------------------------------------------------- */
+/* ---- where they stand ------------------------------------------------------------------ */
 
 static const ExtensionRule EXTENSIONS[] = {
     {"KHR_lights_punctual", "document", &SCHEMA_LIGHTS},

@@ -15,12 +15,12 @@ static void store3(float out[3], Vec3 v)
     out[2] = v.z;
 }
 
-/* ---- flat normals (glTF 2.0, 3.7.2.1): every triangle gets vertices of its own ------------- */
+/* ---- flat normals (glTF 2.0, 3.7.2.1): every triangle gets vertices of its own --------- */
 
 void draft_flat_normals(PartDraft *draft, Arena *scratch)
 {
     uint32_t count = 3 * draft->triangle_count;
-    Vertex  *vertices = ARENA_NEW(scratch, Vertex, count);
+    Vertex *vertices = ARENA_NEW(scratch, Vertex, count);
     for (uint32_t i = 0; i < count; i++) {
         vertices[i] = draft->vertices[draft->indices[i]];
         draft->indices[i] = i;
@@ -36,14 +36,14 @@ void draft_flat_normals(PartDraft *draft, Arena *scratch)
     draft->vertex_count = count;
 }
 
-/* ---- tangents: along growing u, averaged over the triangles that meet ----------------------- */
+/* ---- tangents: along growing u, averaged over the triangles that meet ------------------ */
 
 /* Any frame will do where no texture asks for one. */
 void draft_any_tangents(PartDraft *draft)
 {
     for (uint32_t i = 0; i < draft->vertex_count; i++) {
         Vertex *v = &draft->vertices[i];
-        Vec3    n = load3(v->normal);
+        Vec3 n = load3(v->normal);
         store3(v->tangent, vec3_dot(n, n) > 0 ? frame_from_z(n).x : vec3(1, 0, 0));
         v->tangent[3] = 1;
     }
@@ -75,12 +75,12 @@ static uint32_t hash_key(const WeldKey *key)
 static uint32_t *weld_vertices(const PartDraft *draft, int uv_set, Arena *scratch)
 {
     uint32_t *weld = ARENA_NEW(scratch, uint32_t, draft->vertex_count);
-    size_t    size = 16;
+    size_t size = 16;
     while (size < 2 * (size_t)draft->vertex_count) size *= 2;
     uint32_t *table = ARENA_NEW(scratch, uint32_t, size); /* vertex + 1, 0: free */
     for (uint32_t i = 0; i < draft->vertex_count; i++) {
         WeldKey key = weld_key(&draft->vertices[i], uv_set);
-        size_t  slot = hash_key(&key) & (size - 1);
+        size_t slot = hash_key(&key) & (size - 1);
         for (;; slot = (slot + 1) & (size - 1)) {
             if (!table[slot]) table[slot] = i + 1;
             WeldKey other = weld_key(&draft->vertices[table[slot] - 1], uv_set);
@@ -108,8 +108,8 @@ int triangle_tangent(const TextureSlot *slot, const Vertex *const v[3], Vec3 *ta
     slot_coordinates(slot, v[0], a);
     slot_coordinates(slot, v[1], b);
     slot_coordinates(slot, v[2], c);
-    Vec3  e = vec3_sub(load3(v[1]->position), load3(v[0]->position));
-    Vec3  f = vec3_sub(load3(v[2]->position), load3(v[0]->position));
+    Vec3 e = vec3_sub(load3(v[1]->position), load3(v[0]->position));
+    Vec3 f = vec3_sub(load3(v[2]->position), load3(v[0]->position));
     float eu = b[0] - a[0], ev = b[1] - a[1], fu = c[0] - a[0], fv = c[1] - a[1];
     float det = eu * fv - fu * ev;
     if (!(fabsf(det) > 0)) return 0;
@@ -133,15 +133,15 @@ static void sum_tangents(const PartDraft *draft, const TextureSlot *slot, const 
 {
     for (uint32_t t = 0; t < draft->triangle_count; t++) {
         const uint32_t *index = draft->indices + 3 * (size_t)t;
-        const Vertex   *const v[3] = {&draft->vertices[index[0]], &draft->vertices[index[1]],
-                                &draft->vertices[index[2]]};
+        const Vertex *const v[3] = {&draft->vertices[index[0]], &draft->vertices[index[1]],
+                                    &draft->vertices[index[2]]};
         Vec3 tangent = {0};
-        int  side = triangle_tangent(slot, v, &tangent);
+        int side = triangle_tangent(slot, v, &tangent);
         sides[t] = (unsigned char)side;
         if (!side) continue;
         for (int c = 0; c < 3; c++) {
-            Vec3  n = load3(v[c]->normal);
-            Vec3  flat = vec3_normalize(vec3_along(tangent, n, -vec3_dot(n, tangent)));
+            Vec3 n = load3(v[c]->normal);
+            Vec3 flat = vec3_normalize(vec3_along(tangent, n, -vec3_dot(n, tangent)));
             Vec3 *sum = &sums[2 * (size_t)weld[index[c]] + (size_t)side - 1];
             *sum = vec3_along(*sum, flat, corner_angle(v, c));
         }
@@ -160,18 +160,19 @@ static void set_tangent(Vertex *v, Vec3 sum, int side)
 /* A vertex where the picture is mirrored on one side only becomes two vertices. */
 void draft_tangents(PartDraft *draft, const TextureSlot *slot, Arena *scratch)
 {
-    uint32_t  count = draft->vertex_count;
+    uint32_t count = draft->vertex_count;
     uint32_t *weld = weld_vertices(draft, slot->uv_set, scratch);
-    Vec3     *sums = ARENA_NEW(scratch, Vec3, 2 * (size_t)count);
+    Vec3 *sums = ARENA_NEW(scratch, Vec3, 2 * (size_t)count);
     unsigned char *sides = ARENA_NEW(scratch, unsigned char, draft->triangle_count);
-    uint32_t *place[2] = {ARENA_NEW(scratch, uint32_t, count), ARENA_NEW(scratch, uint32_t, count)};
-    Vertex   *vertices = ARENA_NEW(scratch, Vertex, 2 * (size_t)count);
+    uint32_t *place[2] = {ARENA_NEW(scratch, uint32_t, count),
+                          ARENA_NEW(scratch, uint32_t, count)};
+    Vertex *vertices = ARENA_NEW(scratch, Vertex, 2 * (size_t)count);
     draft_any_tangents(draft);
     sum_tangents(draft, slot, weld, sums, sides);
     uint32_t used = 0;
     for (uint32_t k = 0; k < 3 * draft->triangle_count; k++) {
         uint32_t old = draft->indices[k];
-        int      side = sides[k / 3] == 2 ? 2 : 1;
+        int side = sides[k / 3] == 2 ? 2 : 1;
         if (!place[side - 1][old]) {
             vertices[used] = draft->vertices[old];
             set_tangent(&vertices[used], sums[2 * (size_t)weld[old] + (size_t)side - 1], side);

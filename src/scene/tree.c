@@ -91,15 +91,18 @@ static void put_before(char *buffer, size_t *start, const char *text, size_t len
 static void put_key_before(char *buffer, size_t *start, const char *key)
 {
     for (size_t i = strlen(key); i-- > 0;) {
-        if (key[i] == '~') put_before(buffer, start, "~0", 2);
-        else if (key[i] == '/') put_before(buffer, start, "~1", 2);
-        else put_before(buffer, start, key + i, 1);
+        if (key[i] == '~')
+            put_before(buffer, start, "~0", 2);
+        else if (key[i] == '/')
+            put_before(buffer, start, "~1", 2);
+        else
+            put_before(buffer, start, key + i, 1);
     }
 }
 
 void tree_pointer(const GltfValue *value, char *buffer, size_t size)
 {
-    char   text[1024]; /* filled from its end while walking up */
+    char text[1024]; /* filled from its end while walking up */
     size_t start = sizeof text;
     for (; value && value->parent; value = value->parent) {
         char number[16];

@@ -24,11 +24,11 @@ const GltfValue *tree_extension(const GltfValue *object, const char *name);
 /* How many items the member has; 0 unless it is an array or object. */
 int tree_count(const GltfValue *object, const char *name);
 
-bool        tree_is_integer(const GltfValue *value); /* a number without fraction, |n| < 2^53 */
-double      tree_number(const GltfValue *object, const char *name, double fallback);
-float       tree_float(const GltfValue *object, const char *name, float fallback);
-int         tree_int(const GltfValue *object, const char *name, int fallback);
-bool        tree_boolean(const GltfValue *object, const char *name, bool fallback);
+bool tree_is_integer(const GltfValue *value); /* a number without fraction, |n| < 2^53 */
+double tree_number(const GltfValue *object, const char *name, double fallback);
+float tree_float(const GltfValue *object, const char *name, float fallback);
+int tree_int(const GltfValue *object, const char *name, int fallback);
+bool tree_boolean(const GltfValue *object, const char *name, bool fallback);
 const char *tree_text(const GltfValue *object, const char *name, const char *fallback);
 
 /* Exactly `count` numbers into `out`; false (and out as it was) unless they are there. */

@@ -13,9 +13,9 @@
 
 /* One folder a test program; removed with what lies in it by maker_end. */
 typedef struct Maker {
-    char  folder[256];
+    char folder[256];
     Arena arena;
-    int   file_count, most_files;
+    int file_count, most_files;
 } Maker;
 
 static Maker maker;
@@ -58,7 +58,8 @@ static inline int maker_reset(void **state)
 /* Writes bytes under a new name with this ending; returns the path. */
 static inline const char *maker_file(const void *bytes, size_t size, const char *ending)
 {
-    char *path = arena_format(&maker.arena, "%s/%d%s", maker.folder, maker.file_count++, ending);
+    char *path =
+        arena_format(&maker.arena, "%s/%d%s", maker.folder, maker.file_count++, ending);
     FILE *file = fopen(path, "wb");
     if (!file || fwrite(bytes, 1, size, file) != size || fclose(file) != 0)
         fail_msg("%s cannot be written", path);
@@ -90,9 +91,10 @@ static inline char *maker_text(const void *bytes, size_t size, const char *membe
 {
     const char *buffers = "";
     if (size)
-        buffers = arena_format(&maker.arena, ",\"buffers\":[{\"byteLength\":%zu,\"uri\":"
-                               "\"data:application/octet-stream;base64,%s\"}]", size,
-                               maker_base64(bytes, size));
+        buffers = arena_format(&maker.arena,
+                               ",\"buffers\":[{\"byteLength\":%zu,\"uri\":"
+                               "\"data:application/octet-stream;base64,%s\"}]",
+                               size, maker_base64(bytes, size));
     char *text = arena_format(&maker.arena, "{\"asset\":{\"version\":\"2.0\"}%s%s%s}", buffers,
                               members[0] ? "," : "", members);
     for (char *c = strstr(text, members); *c; c++)
@@ -108,7 +110,7 @@ static inline const char *maker_gltf(const void *bytes, size_t size, const char 
 
 /* What a survey found: the scene as far as it goes, and the problems. */
 typedef struct Found {
-    Scene   *scene;
+    Scene *scene;
     Problems problems;
 } Found;
 

@@ -9,7 +9,7 @@
 #include "base/file.h"
 
 static Arena arena;
-static char  folder[256];
+static char folder[256];
 
 static int start(void **state)
 {
@@ -35,8 +35,8 @@ static const char *in_folder(const char *name)
 static void what_was_written_is_read_back(void **state)
 {
     (void)state;
-    Error       err;
-    FileBytes   bytes;
+    Error err;
+    FileBytes bytes;
     const char *path = in_folder("a.bin");
     assert_true(file_write(path, "first", 5, &err));
     assert_true(file_write(path, "a\0b", 3, &err)); /* replaces */
@@ -64,8 +64,8 @@ static void a_file_that_cannot_be_written_leaves_nothing(void **state)
 static void reading_names_what_is_wrong(void **state)
 {
     (void)state;
-    Error       err;
-    FileBytes   bytes;
+    Error err;
+    FileBytes bytes;
     const char *path = in_folder("c.bin");
     assert_false(file_read(path, 100, &arena, &bytes, &err));
     assert_string_equal(err.file, path);
@@ -112,7 +112,8 @@ static void percent_escapes_are_taken_out(void **state)
     Error err;
     char *text;
     assert_true(uri_decode("a%20b%c3%A9c", &arena, &text, &err));
-    assert_string_equal(text, "a b\xc3\xa9" "c");
+    assert_string_equal(text, "a b\xc3\xa9"
+                              "c");
     static const char *const BROKEN[] = {"%", "%2", "a%2", "a%zz", "%2g"};
     for (int i = 0; i < 5; i++) assert_false(uri_decode(BROKEN[i], &arena, &text, &err));
     assert_false(uri_decode("a%00b", &arena, &text, &err));
@@ -122,11 +123,12 @@ static void percent_escapes_are_taken_out(void **state)
 static void base64_data_are_decoded(void **state)
 {
     (void)state;
-    static const char *const ENCODED[] = {"", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=",
-                                          "Zm9vYmFy", "Zm9vYg"};
-    static const char *const PLAIN[] = {"", "f", "fo", "foo", "foob", "fooba", "foobar", "foob"};
-    Error       err;
-    FileBytes   bytes;
+    static const char *const ENCODED[] = {"",         "Zg==",     "Zm8=",     "Zm9v",
+                                          "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy", "Zm9vYg"};
+    static const char *const PLAIN[] = {"",     "f",     "fo",     "foo",
+                                        "foob", "fooba", "foobar", "foob"};
+    Error err;
+    FileBytes bytes;
     const char *type;
     for (int i = 0; i < 8; i++) {
         char uri[64];
@@ -144,10 +146,10 @@ static void base64_data_are_decoded(void **state)
 static void broken_data_uris_are_refused(void **state)
 {
     (void)state;
-    static const char *const BROKEN[] = {"data:text/plain;base64", "data:;base64,Z",
-                                         "data:;base64,Zm9*", "data:a/b;;base64,Zg==",
-                                         "data:;base64,Zg==Zg==", "file:,x"};
-    Error     err;
+    static const char *const BROKEN[] = {
+        "data:text/plain;base64", "data:;base64,Z",        "data:;base64,Zm9*",
+        "data:a/b;;base64,Zg==",  "data:;base64,Zg==Zg==", "file:,x"};
+    Error err;
     FileBytes bytes;
     for (int i = 0; i < 6; i++)
         assert_false(data_uri_decode(BROKEN[i], &arena, &bytes, NULL, &err));

@@ -50,14 +50,14 @@ static void assert_vec3(Vec3 found, float x, float y, float z)
     assert_near(found.z, z, 1e-5);
 }
 
-/* ---- accessors ---------------------------------------------------------------------------- */
+/* ---- accessors ------------------------------------------------------------------------- */
 
 /* Puts value (an integer code, or the float itself) at bytes; returns its size. */
 static size_t put(unsigned char *bytes, int type, double value)
 {
-    float    f = (float)value;
+    float f = (float)value;
     uint32_t bits = (uint32_t)(int32_t)value;
-    size_t   size = type < 5122 ? 1 : type < 5124 ? 2 : 4;
+    size_t size = type < 5122 ? 1 : type < 5124 ? 2 : 4;
     if (type == 5126) memcpy(&bits, &f, 4);
     for (size_t i = 0; i < size; i++) bytes[i] = (unsigned char)(bits >> 8 * i);
     return size;
@@ -75,8 +75,8 @@ static void check_component(int type, bool is_normalized)
 {
     static const double CODES[3][3] = {{0, 3, 1}, {120, 2, 7}, {5, 127, 90}};
     unsigned char bytes[36] = {0};
-    char   members[1024];
-    int    stride = type == 5126 ? 12 : 8;
+    char members[1024];
+    int stride = type == 5126 ? 12 : 8;
     double sign = type == 5120 || type == 5122 ? -1 : 1; /* signed types show it */
     for (int v = 0; v < 3; v++)
         for (int c = 0; c < 3; c++) {
@@ -88,7 +88,8 @@ static void check_component(int type, bool is_normalized)
              "'extensionsRequired':['KHR_mesh_quantization'],"
              "'bufferViews':[{'buffer':0,'byteLength':%d,'byteStride':%d}],"
              "'accessors':[{'bufferView':0,'componentType':%d,'count':3,'type':'VEC3'%s}]," MESH
-             NODE, 3 * stride, stride, type, is_normalized ? ",'normalized':true" : "");
+                 NODE,
+             3 * stride, stride, type, is_normalized ? ",'normalized':true" : "");
     Scene *scene = maker_load(bytes, (size_t)(3 * stride), members);
     assert_int_equal(scene->triangle_count, 1);
     for (int v = 0; v < 3; v++) {
@@ -114,12 +115,13 @@ static void the_smallest_signed_code_is_minus_one(void **state)
 {
     (void)state;
     static const signed char BYTES[12] = {-128, 0, 0, 0, 127, 0, 0, 0, 0, 127, 0, 0};
-    Scene *scene = maker_load(BYTES, sizeof BYTES,
-        "'extensionsUsed':['KHR_mesh_quantization'],"
-        "'extensionsRequired':['KHR_mesh_quantization'],"
-        "'bufferViews':[{'buffer':0,'byteLength':12,'byteStride':4}],"
-        "'accessors':[{'bufferView':0,'componentType':5120,'count':3,'type':'VEC3',"
-        "'normalized':true}]," MESH NODE);
+    Scene *scene =
+        maker_load(BYTES, sizeof BYTES,
+                   "'extensionsUsed':['KHR_mesh_quantization'],"
+                   "'extensionsRequired':['KHR_mesh_quantization'],"
+                   "'bufferViews':[{'buffer':0,'byteLength':12,'byteStride':4}],"
+                   "'accessors':[{'bufferView':0,'componentType':5120,'count':3,'type':'VEC3',"
+                   "'normalized':true}]," MESH NODE);
     assert_vec3(position(scene, 0, 0), -1, 0, 0);
     assert_vec3(position(scene, 0, 1), 1, 0, 0);
 }
@@ -128,39 +130,55 @@ static void the_smallest_signed_code_is_minus_one(void **state)
 static void sparse_values_replace_the_base(void **state)
 {
     (void)state;
-    struct { float base[9]; uint16_t index[2]; float value[3]; } data = {
-        {0, 0, 0, 9, 9, 9, 0, 1, 0}, {1, 0}, {1, 0, 0}};
-    Scene *scene = maker_load(&data, sizeof data,
-        "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,'byteLength':2},"
+    struct {
+        float base[9];
+        uint16_t index[2];
+        float value[3];
+    } data = {{0, 0, 0, 9, 9, 9, 0, 1, 0}, {1, 0}, {1, 0, 0}};
+    Scene *scene = maker_load(
+        &data, sizeof data,
+        "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,'byteLength':"
+        "2},"
         "{'buffer':0,'byteOffset':40,'byteLength':12}],'accessors':[{'bufferView':0,"
         "'componentType':5126,'count':3,'type':'VEC3','sparse':{'count':1,"
-        "'indices':{'bufferView':1,'componentType':5123},'values':{'bufferView':2}}}]," MESH NODE);
+        "'indices':{'bufferView':1,'componentType':5123},'values':{'bufferView':2}}}]," MESH
+            NODE);
     assert_vec3(position(scene, 0, 1), 1, 0, 0);
-    struct { uint8_t index[4]; float value[6]; } over_zeros = {{1, 2}, {2, 0, 0, 0, 3, 0}};
-    scene = maker_load(&over_zeros, sizeof over_zeros,
-        "'bufferViews':[{'buffer':0,'byteLength':2},{'buffer':0,'byteOffset':4,'byteLength':24}],"
+    struct {
+        uint8_t index[4];
+        float value[6];
+    } over_zeros = {{1, 2}, {2, 0, 0, 0, 3, 0}};
+    scene = maker_load(
+        &over_zeros, sizeof over_zeros,
+        "'bufferViews':[{'buffer':0,'byteLength':2},{'buffer':0,'byteOffset':4,'byteLength':24}"
+        "],"
         "'accessors':[{'componentType':5126,'count':3,'type':'VEC3','sparse':{'count':2,"
-        "'indices':{'bufferView':0,'componentType':5121},'values':{'bufferView':1}}}]," MESH NODE);
+        "'indices':{'bufferView':0,'componentType':5121},'values':{'bufferView':1}}}]," MESH
+            NODE);
     assert_vec3(position(scene, 0, 0), 0, 0, 0);
     assert_vec3(position(scene, 0, 1), 2, 0, 0);
     assert_vec3(position(scene, 0, 2), 0, 3, 0);
 }
 
-/* ---- strips and fans ----------------------------------------------------------------------- */
+/* ---- strips and fans ------------------------------------------------------------------- */
 
 /* Loads five points of a zigzag or fan with these indices and mode. */
 static Scene *load_mode(const uint8_t *indices, int count, int mode, const float *points)
 {
-    struct { float points[15]; uint8_t indices[12]; } data = {0};
+    struct {
+        float points[15];
+        uint8_t indices[12];
+    } data = {0};
     char members[1024];
     memcpy(data.points, points, sizeof data.points);
     memcpy(data.indices, indices, (size_t)count);
-    snprintf(members, sizeof members,
-             "'bufferViews':[{'buffer':0,'byteLength':60},{'buffer':0,'byteOffset':60,"
-             "'byteLength':12}],'accessors':[{'bufferView':0,'componentType':5126,'count':5,"
-             "'type':'VEC3'},{'bufferView':1,'componentType':5121,'count':%d,'type':'SCALAR'}],"
-             "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'mode':%d}]}]," NODE,
-             count, mode);
+    snprintf(
+        members, sizeof members,
+        "'bufferViews':[{'buffer':0,'byteLength':60},{'buffer':0,'byteOffset':60,"
+        "'byteLength':12}],'accessors':[{'bufferView':0,'componentType':5126,'count':5,"
+        "'type':'VEC3'},{'bufferView':1,'componentType':5121,'count':%d,'type':'SCALAR'}],"
+        "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'mode':%d}]}]," NODE,
+        count, mode);
     return maker_load(&data, sizeof data, members);
 }
 
@@ -171,7 +189,8 @@ static bool has_triangle(const Scene *scene, Vec3 a, Vec3 b, Vec3 c)
         for (int turn = 0; turn < 3; turn++) {
             bool is_same = true;
             for (int i = 0; i < 3; i++)
-                is_same &= vec3_length(vec3_sub(position(scene, t, (i + turn) % 3), wanted[i])) == 0;
+                is_same &=
+                    vec3_length(vec3_sub(position(scene, t, (i + turn) % 3), wanted[i])) == 0;
             if (is_same) return true;
         }
     return false;
@@ -197,27 +216,29 @@ static void strips_and_fans_are_their_triangles(void **state)
     assert_same_triangles(load_mode(FAN, 9, 4, PIE), load_mode(ORDER, 5, 6, PIE));
 }
 
-/* ---- nodes --------------------------------------------------------------------------------- */
+/* ---- nodes ----------------------------------------------------------------------------- */
 
 static void nodes_move_their_meshes(void **state)
 {
     (void)state;
-    Scene *scene = load_triangle(MESH "'scenes':[{'nodes':[0]}],'nodes':[{'children':[1],"
-        "'translation':[10,0,0]},{'mesh':0,'rotation':[0,0,0.70710678,0.70710678],"
-        "'scale':[2,3,1],'translation':[0,5,0]}]");
+    Scene *scene = load_triangle(
+        MESH "'scenes':[{'nodes':[0]}],'nodes':[{'children':[1],"
+             "'translation':[10,0,0]},{'mesh':0,'rotation':[0,0,0.70710678,0.70710678],"
+             "'scale':[2,3,1],'translation':[0,5,0]}]");
     assert_vec3(position(scene, 0, 0), 10, 5, 0);
-    assert_vec3(position(scene, 0, 1), 10, 7, 0);  /* x turned to y, doubled */
-    assert_vec3(position(scene, 0, 2), 7, 5, 0);   /* y turned to -x, tripled */
+    assert_vec3(position(scene, 0, 1), 10, 7, 0); /* x turned to y, doubled */
+    assert_vec3(position(scene, 0, 2), 7, 5, 0);  /* y turned to -x, tripled */
     assert_vec3(normal(scene, 0, 0), 0, 0, 1);
 }
 
 static void a_matrix_says_the_same_as_its_parts(void **state)
 {
     (void)state;
-    Scene *parts = load_triangle(MESH "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0,"
-        "'rotation':[0,0,0.70710678,0.70710678],'scale':[2,3,1],'translation':[1,2,3]}]");
+    Scene *parts = load_triangle(
+        MESH "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0,"
+             "'rotation':[0,0,0.70710678,0.70710678],'scale':[2,3,1],'translation':[1,2,3]}]");
     Scene *matrix = load_triangle(MESH "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0,"
-        "'matrix':[0,2,0,0,-3,0,0,0,0,0,1,0,1,2,3,1]}]");
+                                       "'matrix':[0,2,0,0,-3,0,0,0,0,0,1,0,1,2,3,1]}]");
     for (int c = 0; c < 3; c++) {
         Vec3 p = position(matrix, 0, c);
         assert_vec3(position(parts, 0, c), p.x, p.y, p.z);
@@ -228,20 +249,22 @@ static void a_matrix_says_the_same_as_its_parts(void **state)
 static void mirroring_keeps_the_front_outside(void **state)
 {
     (void)state;
-    struct { float points[9], normals[9]; } data = {
-        {0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 0, 1, 0, 0, 1, 0, 0, 1}};
+    struct {
+        float points[9], normals[9];
+    } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 0, 1, 0, 0, 1, 0, 0, 1}};
     static const char *const SCALES[] = {"[-1,1,1]", "[1,1,-1]", "[-2,-2,-2]", "[-1,-1,1]"};
     static const float FACING[] = {1, -1, -1, 1};
     for (int with_normals = 0; with_normals < 2; with_normals++)
         for (int i = 0; i < 4; i++) {
             char members[1024];
-            snprintf(members, sizeof members,
-                     "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"
-                     "'byteLength':36}],'accessors':[{'bufferView':0,'componentType':5126,"
-                     "'count':3,'type':'VEC3'},{'bufferView':1,'componentType':5126,'count':3,"
-                     "'type':'VEC3'}],'meshes':[{'primitives':[{'attributes':{'POSITION':0%s}}]}],"
-                     "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0,'scale':%s}]",
-                     with_normals ? ",'NORMAL':1" : "", SCALES[i]);
+            snprintf(
+                members, sizeof members,
+                "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"
+                "'byteLength':36}],'accessors':[{'bufferView':0,'componentType':5126,"
+                "'count':3,'type':'VEC3'},{'bufferView':1,'componentType':5126,'count':3,"
+                "'type':'VEC3'}],'meshes':[{'primitives':[{'attributes':{'POSITION':0%s}}]}],"
+                "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0,'scale':%s}]",
+                with_normals ? ",'NORMAL':1" : "", SCALES[i]);
             Scene *scene = maker_load(&data, sizeof data, members);
             assert_vec3(front(scene, 0), 0, 0, FACING[i]);
             assert_vec3(normal(scene, 0, 0), 0, 0, FACING[i]);
@@ -251,7 +274,9 @@ static void mirroring_keeps_the_front_outside(void **state)
 static void hidden_nodes_are_left_out(void **state)
 {
     (void)state;
-    Scene *scene = load_triangle(MESH "'extensionsUsed':['KHR_node_visibility'],"
+    Scene *scene = load_triangle(
+        MESH
+        "'extensionsUsed':['KHR_node_visibility'],"
         "'scenes':[{'nodes':[0]}],'nodes':[{'children':[1],'mesh':0},{'mesh':0,'extensions':"
         "{'KHR_node_visibility':{'visible':false}},'children':[2]},{'mesh':0}]");
     assert_int_equal(scene->part_count, 1);
@@ -260,8 +285,10 @@ static void hidden_nodes_are_left_out(void **state)
 static void cameras_come_in_the_order_of_their_nodes(void **state)
 {
     (void)state;
-    Scene *scene = maker_load(NULL, 0,
-        "'cameras':[{'type':'orthographic','orthographic':{'xmag':2,'ymag':1,'znear':0,'zfar':9}},"
+    Scene *scene = maker_load(
+        NULL, 0,
+        "'cameras':[{'type':'orthographic','orthographic':{'xmag':2,'ymag':1,'znear':0,'zfar':"
+        "9}},"
         "{'type':'perspective','name':'lens','perspective':{'yfov':0.5,'znear':0.1,"
         "'aspectRatio':1.5}}],'scenes':[{'nodes':[1,0]}],'nodes':[{'camera':0},{'camera':1,"
         "'name':'eye','translation':[1,2,3],'scale':[4,4,4]}]");
@@ -280,21 +307,24 @@ static void cameras_come_in_the_order_of_their_nodes(void **state)
     assert_close(flat->aspect, 2, 1e-6);
 }
 
-/* ---- skins and morph targets ---------------------------------------------------------------- */
+/* ---- skins and morph targets ----------------------------------------------------------- */
 
 static void morph_weights_of_the_node_win(void **state)
 {
     (void)state;
-    struct { float points[9], change[9]; } data = {
-        {0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 0, 1, 0, 0, 2, 0, 0, 4}};
+    struct {
+        float points[9], change[9];
+    } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 0, 1, 0, 0, 2, 0, 0, 4}};
     static const char HEAD[] =
         "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"
         "'byteLength':36}],'accessors':[{'bufferView':0,'componentType':5126,'count':3,"
         "'type':'VEC3'},{'bufferView':1,'componentType':5126,'count':3,'type':'VEC3'}],"
         "'meshes':[{'weights':[0.5],'primitives':[{'attributes':{'POSITION':0},"
         "'targets':[{'POSITION':1}]}]}],'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0%s}]";
-    static const struct { const char *weights; float factor; } CASES[] = {
-        {"", 0.5f}, {",'weights':[2]", 2}, {",'weights':[0]", 0}};
+    static const struct {
+        const char *weights;
+        float factor;
+    } CASES[] = {{"", 0.5f}, {",'weights':[2]", 2}, {",'weights':[0]", 0}};
     for (int i = 0; i < 3; i++) {
         char members[1024];
         snprintf(members, sizeof members, HEAD, CASES[i].weights);
@@ -307,23 +337,32 @@ static void morph_weights_of_the_node_win(void **state)
 static void skinned_vertices_follow_their_joints(void **state)
 {
     (void)state;
-    struct { float points[9]; uint8_t joints[12]; float weights[12]; } data = {
-        {0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0},
-        {1, 0, 0, 0, 1, 0, 0, 0, 0.5f, 0.5f, 0, 0}};
-    Scene *scene = maker_load(&data, sizeof data,
-        "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,'byteLength':12},"
+    struct {
+        float points[9];
+        uint8_t joints[12];
+        float weights[12];
+    } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0},
+              {0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0},
+              {1, 0, 0, 0, 1, 0, 0, 0, 0.5f, 0.5f, 0, 0}};
+    Scene *scene = maker_load(
+        &data, sizeof data,
+        "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,'byteLength':"
+        "12},"
         "{'buffer':0,'byteOffset':48,'byteLength':48}],'accessors':[{'bufferView':0,"
         "'componentType':5126,'count':3,'type':'VEC3'},{'bufferView':1,'componentType':5121,"
-        "'count':3,'type':'VEC4'},{'bufferView':2,'componentType':5126,'count':3,'type':'VEC4'}],"
+        "'count':3,'type':'VEC4'},{'bufferView':2,'componentType':5126,'count':3,'type':'VEC4'}"
+        "],"
         "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'JOINTS_0':1,'WEIGHTS_0':2}}]}],"
         "'skins':[{'joints':[1,2]}],'scenes':[{'nodes':[0,1]}],'nodes':[{'mesh':0,'skin':0,"
-        "'translation':[100,0,0]},{'translation':[0,0,1],'children':[2]},{'translation':[0,0,4]}]");
+        "'translation':[100,0,0]},{'translation':[0,0,1],'children':[2]},{'translation':[0,0,4]"
+        "}]");
     assert_vec3(position(scene, 0, 0), 0, 0, 1);
     assert_vec3(position(scene, 0, 1), 1, 0, 5);
     assert_vec3(position(scene, 0, 2), 0, 1, 3);
 }
 
-/* ---- colours, coordinates, tangents ---------------------------------------------------------- */
+/* ---- colours, coordinates, tangents
+ * ---------------------------------------------------------- */
 
 static void vertex_colours_of_every_format_agree(void **state)
 {
@@ -339,14 +378,17 @@ static void vertex_colours_of_every_format_agree(void **state)
             for (int v = 0; v < 3; v++)
                 for (int c = 0; c < components; c++)
                     put(bytes + 36 + v * stride + c * stride / 4, TYPES[t],
-                        c == 3 ? whole / 5 : c == v ? whole : 0);
+                        c == 3   ? whole / 5
+                        : c == v ? whole
+                                 : 0);
             snprintf(members, sizeof members,
                      "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"
                      "'byteLength':48,'byteStride':%d}],'accessors':[{'bufferView':0,"
                      "'componentType':5126,'count':3,'type':'VEC3'},{'bufferView':1,"
                      "'componentType':%d,'count':3,'type':'VEC%d'%s}],'meshes':[{'primitives':"
-                     "[{'attributes':{'POSITION':0,'COLOR_0':1}}]}]," NODE, stride, TYPES[t],
-                     components, TYPES[t] == 5126 ? "" : ",'normalized':true");
+                     "[{'attributes':{'POSITION':0,'COLOR_0':1}}]}]," NODE,
+                     stride, TYPES[t], components,
+                     TYPES[t] == 5126 ? "" : ",'normalized':true");
             Scene *scene = maker_load(bytes, sizeof bytes, members);
             for (int v = 0; v < 3; v++) {
                 const uint16_t *color = corner(scene, 0, v)->color;
@@ -357,17 +399,22 @@ static void vertex_colours_of_every_format_agree(void **state)
 }
 
 /* A 1 x 1 PNG, so that textures have a picture. */
-#define PICTURE "'images':[{'uri':'data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1Pe" \
-                "AAAADElEQVR4nGNgYGAAAAAEAAH2FzhVAAAAAElFTkSuQmCC'}],'textures':[{'source':0}],"
+#define PICTURE                                                                                \
+    "'images':[{'uri':'data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1Pe"     \
+    "AAAADElEQVR4nGNgYGAAAAAEAAH2FzhVAAAAAElFTkSuQmCC'}],'textures':[{'source':0}],"
 
 /* u runs right and v down on a triangle that faces +z, or u runs left when mirrored. */
 static Scene *load_with_normal_map(bool is_mirrored)
 {
-    struct { float points[9], uv[6]; } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 1, 1, 0, 0}};
+    struct {
+        float points[9], uv[6];
+    } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 1, 1, 0, 0}};
     for (int i = 0; i < 6; i += 2)
         if (is_mirrored) data.uv[i] = 1 - data.uv[i];
-    return maker_load(&data, sizeof data,
-        PICTURE "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"
+    return maker_load(
+        &data, sizeof data,
+        PICTURE
+        "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"
         "'byteLength':24}],'accessors':[{'bufferView':0,'componentType':5126,'count':3,"
         "'type':'VEC3'},{'bufferView':1,'componentType':5126,'count':3,'type':'VEC2'}],"
         "'materials':[{'normalTexture':{'index':0}}],'meshes':[{'primitives':[{'material':0,"
@@ -392,8 +439,10 @@ static void tangents_point_to_the_pictures_right(void **state)
 static const float *slot_matrix(const char *transform)
 {
     char members[1024];
-    snprintf(members, sizeof members, "'extensionsUsed':['KHR_texture_transform']," PICTURE
-             "'materials':[{'emissiveTexture':{'index':0,'texCoord':1%s}}]", transform);
+    snprintf(members, sizeof members,
+             "'extensionsUsed':['KHR_texture_transform']," PICTURE
+             "'materials':[{'emissiveTexture':{'index':0,'texCoord':1%s}}]",
+             transform);
     Scene *scene = maker_load(NULL, 0, members);
     return scene->materials[0].emissive_texture.uv_from_uv;
 }
@@ -409,7 +458,8 @@ static void texture_transforms_scale_turn_and_shift(void **state)
     (void)state;
     const float *m = slot_matrix("");
     assert_maps(m, 0.25f, 0.75f, 0.25f, 0.75f);
-    m = slot_matrix(",'extensions':{'KHR_texture_transform':{'offset':[0.5,0.25],'scale':[2,3]}}");
+    m = slot_matrix(
+        ",'extensions':{'KHR_texture_transform':{'offset':[0.5,0.25],'scale':[2,3]}}");
     assert_maps(m, 1, 1, 2.5f, 3.25f);
     /* Counter-clockwise as one sees it, with v running down: right turns to up. */
     m = slot_matrix(",'extensions':{'KHR_texture_transform':{'rotation':1.5707963267948966}}");
@@ -423,20 +473,24 @@ static void texture_transforms_scale_turn_and_shift(void **state)
 static void two_uv_sets_of_any_number_are_carried(void **state)
 {
     (void)state;
-    struct { float points[9], uv[3][6]; } data = {
-        {0, 0, 0, 1, 0, 0, 0, 1, 0}, {{0}, {1, 1, 1, 1, 1, 1}, {2, 2, 2, 2, 2, 2}}};
-    Scene *scene = maker_load(&data, sizeof data,
-        PICTURE "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"
+    struct {
+        float points[9], uv[3][6];
+    } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {{0}, {1, 1, 1, 1, 1, 1}, {2, 2, 2, 2, 2, 2}}};
+    Scene *scene = maker_load(
+        &data, sizeof data,
+        PICTURE
+        "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"
         "'byteLength':24},{'buffer':0,'byteOffset':60,'byteLength':24},{'buffer':0,"
         "'byteOffset':84,'byteLength':24}],'accessors':[{'bufferView':0,'componentType':5126,"
-        "'count':3,'type':'VEC3'},{'bufferView':1,'componentType':5126,'count':3,'type':'VEC2'},"
+        "'count':3,'type':'VEC3'},{'bufferView':1,'componentType':5126,'count':3,'type':'VEC2'}"
+        ","
         "{'bufferView':2,'componentType':5126,'count':3,'type':'VEC2'},{'bufferView':3,"
         "'componentType':5126,'count':3,'type':'VEC2'}],'materials':[{'emissiveTexture':"
         "{'index':0,'texCoord':2},'pbrMetallicRoughness':{'baseColorTexture':{'index':0,"
         "'texCoord':1}}}],'meshes':[{'primitives':[{'material':0,'attributes':{'POSITION':0,"
         "'TEXCOORD_0':1,'TEXCOORD_1':2,'TEXCOORD_2':3}}]}]," NODE);
     const Material *m = &scene->materials[0];
-    const Vertex   *v = corner(scene, 0, 0);
+    const Vertex *v = corner(scene, 0, 0);
     assert_near(v->uv[m->base_color_texture.uv_set][0], 1, 0);
     assert_near(v->uv[m->emissive_texture.uv_set][0], 2, 0);
 }

@@ -23,15 +23,17 @@ static void walk_folder(const char *folder, const Walk *walk)
     struct dirent **entries;
     int count = scandir(folder, &entries, NULL, alphasort);
     for (int i = 0; i < count; i++) {
-        char        path[1024];
+        char path[1024];
         struct stat info;
         snprintf(path, sizeof path, "%s/%s", folder, entries[i]->d_name);
         const char *ending = path_ending(path);
         bool is_dot = entries[i]->d_name[0] == '.';
         free(entries[i]);
         if (is_dot || stat(path, &info) != 0) continue;
-        if (S_ISDIR(info.st_mode)) walk_folder(path, walk);
-        else if (!strcmp(ending, ".gltf") || !strcmp(ending, ".glb")) walk->visit(path, walk->data);
+        if (S_ISDIR(info.st_mode))
+            walk_folder(path, walk);
+        else if (!strcmp(ending, ".gltf") || !strcmp(ending, ".glb"))
+            walk->visit(path, walk->data);
     }
     if (count >= 0) free(entries);
 }
@@ -45,17 +47,17 @@ static void need_corpus(void)
 
 /* How a file was taken: its problems by kind, and the first error. */
 typedef struct Verdict {
-    int      errors, warnings;
-    char     message[1024];
+    int errors, warnings;
+    char message[1024];
     uint32_t triangles;
 } Verdict;
 
 static Verdict verdict_of(const char *path)
 {
-    Verdict  verdict = {0};
-    Error    err;
-    Scene   *scene;
-    Arena    arena = arena_reserve((size_t)4 << 30);
+    Verdict verdict = {0};
+    Error err;
+    Scene *scene;
+    Arena arena = arena_reserve((size_t)4 << 30);
     Problems problems = problems_start(&arena);
     if (scene_load(&(SceneOptions){.paths = &path, .path_count = 1}, &arena, &problems, &scene,
                    &err)) {
@@ -78,23 +80,23 @@ typedef struct Tally {
 static void visit_reported(const char *path, void *data)
 {
     Tally *tally = data;
-    char   report[1100];
+    char report[1100];
     snprintf(report, sizeof report, "%s.report.json", path);
     json_t *document = json_load_file(report, 0, NULL);
     json_t *count = json_object_get(json_object_get(document, "issues"), "numErrors");
-    bool    is_whole = json_integer_value(count) == 0;
+    bool is_whole = json_integer_value(count) == 0;
     assert_true(json_is_integer(count));
     json_decref(document);
     Verdict verdict = verdict_of(path);
-    bool    is_right = is_whole ? verdict.errors == 0 : verdict.errors + verdict.warnings > 0;
+    bool is_right = is_whole ? verdict.errors == 0 : verdict.errors + verdict.warnings > 0;
     tally->whole += is_whole;
     tally->faulty += !is_whole;
     tally->refused += verdict.errors > 0;
     tally->warned += !is_whole && !verdict.errors && verdict.warnings;
     tally->exceptions += !is_right;
     if (!is_right)
-        print_message("%s: %s %s\n", path, is_whole ? "whole but refused:" : "faulty but silent",
-                      verdict.message);
+        print_message("%s: %s %s\n", path,
+                      is_whole ? "whole but refused:" : "faulty but silent", verdict.message);
 }
 
 static void the_validator_s_verdicts_are_ours(void **state)
@@ -103,14 +105,17 @@ static void the_validator_s_verdicts_are_ours(void **state)
     Tally tally = {0};
     need_corpus();
     walk_folder(CORPUS "/validator-corpus", &(Walk){visit_reported, &tally});
-    print_message("validator corpus: %d whole models load, %d faulty: %d refused, %d warned of\n",
-                  tally.whole, tally.faulty, tally.refused, tally.warned);
+    print_message(
+        "validator corpus: %d whole models load, %d faulty: %d refused, %d warned of\n",
+        tally.whole, tally.faulty, tally.refused, tally.warned);
     assert_true(tally.whole > 0 && tally.faulty > 0);
     assert_int_equal(tally.exceptions, 0);
 }
 
 /* What is wrong with the faulty models among the others; every other one must load. */
-static const struct { const char *name, *text; } REFUSED[] = {
+static const struct {
+    const char *name, *text;
+} REFUSED[] = {
     {"/MissingBin/BoxTextured.gltf", "cannot be opened: No such file"},
     {"/IncorrectVertexArrays/Cube.gltf", "takes bytes 504 to 936 of a buffer of 514"},
     {"/TestNoRootNode/NoScene.gltf", "is 0, but there are 0 in scenes"},
@@ -131,9 +136,9 @@ static const char *wanted_refusal(const char *path)
 
 static void visit_other(const char *path, void *data)
 {
-    Tally      *tally = data;
+    Tally *tally = data;
     const char *wanted = wanted_refusal(path);
-    Verdict     verdict = verdict_of(path);
+    Verdict verdict = verdict_of(path);
     bool is_right = wanted ? strstr(verdict.message, wanted) != NULL : verdict.errors == 0;
     tally->whole += !wanted;
     tally->refused += wanted != NULL;

@@ -12,19 +12,21 @@ static void assert_found(const FaultCase *fault, const void *bytes, size_t size)
     Found found = maker_survey_file(maker_gltf(bytes, size, fault->members));
     if (maker_find(&found, fault->place, fault->text)) return;
     for (int i = 0; i < found.problems.count; i++)
-        print_message("    %s: %s\n", found.problems.list[i].path, found.problems.list[i].message);
+        print_message("    %s: %s\n", found.problems.list[i].path,
+                      found.problems.list[i].message);
     fail_msg("no problem at %s says \"%s\" for %s", fault->place, fault->text, fault->members);
 }
 
 /* The bytes behind the cases: a triangle, its indices 0 1 9, and a triangle with a NaN. */
 static const struct {
-    float    points[9];
+    float points[9];
     uint16_t indices[4];
-    float    broken[9];
+    float broken[9];
 } BYTES = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 9, 0}, {0, 0, 0, NAN, 0, 0, 0, 1, 0}};
 
-#define VIEWS "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36," \
-              "'byteLength':8},{'buffer':0,'byteOffset':44,'byteLength':36}],"
+#define VIEWS                                                                                  \
+    "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"                 \
+    "'byteLength':8},{'buffer':0,'byteOffset':44,'byteLength':36}],"
 #define POINTS "{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'}"
 #define PRIMITIVE(body) VIEWS "'accessors':[" POINTS "],'meshes':[{'primitives':[{" body "}]}]"
 
@@ -37,7 +39,8 @@ static const FaultCase FAULTS[] = {
     {"'materials':[{'pbrMetallicRoughness':{'baseColorFactor':'red'}}]",
      "/materials/0/pbrMetallicRoughness/baseColorFactor", "is \"red\", an array is wanted"},
     {"'materials':[{'pbrMetallicRoughness':{'metallicFactor':2}}]",
-     "/materials/0/pbrMetallicRoughness/metallicFactor", "is 2, a number from 0 to 1 is wanted"},
+     "/materials/0/pbrMetallicRoughness/metallicFactor",
+     "is 2, a number from 0 to 1 is wanted"},
     {"'materials':[{'alphaMode':'CUTOUT'}]", "/materials/0/alphaMode",
      "is \"CUTOUT\", one of OPAQUE|MASK|BLEND is wanted"},
     {"'accessors':[{'componentType':5124,'count':1,'type':'SCALAR'}]",
@@ -48,7 +51,8 @@ static const FaultCase FAULTS[] = {
      "is 1.5, an integer"},
     {"'accessors':[{'componentType':5126,'count':100000000,'type':'SCALAR'}]",
      "/accessors/0/count", "without a buffer view"},
-    {"'accessors':[{'count':1,'type':'SCALAR'}]", "/accessors/0", "\"componentType\" is missing"},
+    {"'accessors':[{'count':1,'type':'SCALAR'}]", "/accessors/0",
+     "\"componentType\" is missing"},
     {"'nodes':[{'mehs':0}]", "/nodes/0/mehs", "is skipped; is \"mesh\" meant?"},
     /* references */
     {"'nodes':[{'mesh':5}]", "/nodes/0/mesh", "is 5, but there are 0 in meshes"},
@@ -75,25 +79,29 @@ static const FaultCase FAULTS[] = {
     {VIEWS "'accessors':[{'bufferView':0,'componentType':5126,'count':4,'type':'VEC3'}]",
      "/accessors/0", "needs bytes 0 to 48 of a buffer view of 36 bytes"},
     {VIEWS "'accessors':[{'bufferView':0,'byteOffset':2,'componentType':5126,'count':1,"
-     "'type':'VEC3'}]", "/accessors/0", "starts at byte 2 of the buffer, a multiple of 4"},
+           "'type':'VEC3'}]",
+     "/accessors/0", "starts at byte 2 of the buffer, a multiple of 4"},
     {"'bufferViews':[{'buffer':0,'byteLength':36,'byteStride':8}],'accessors':[" POINTS "]",
      "/accessors/0", "elements of 12 bytes in a buffer view whose byteStride is 8"},
     {VIEWS "'accessors':[{'bufferView':2,'componentType':5126,'count':3,'type':'VEC3'}]",
      "/accessors/0", "element 1 has the component nan"},
     {VIEWS "'accessors':[{'componentType':5126,'count':3,'type':'SCALAR','sparse':{'count':2,"
-     "'indices':{'bufferView':1,'componentType':5123},'values':{'bufferView':0}}}],"
-     "'meshes':[]", "/meshes", "is empty"},
+           "'indices':{'bufferView':1,'componentType':5123},'values':{'bufferView':0}}}],"
+           "'meshes':[]",
+     "/meshes", "is empty"},
     {VIEWS "'accessors':[{'componentType':5126,'count':2,'type':'SCALAR','sparse':{'count':3,"
-     "'indices':{'bufferView':1,'componentType':5123},'values':{'bufferView':0}}}]",
+           "'indices':{'bufferView':1,'componentType':5123},'values':{'bufferView':0}}}]",
      "/accessors/0/sparse/count", "is 3, the accessor has 2 elements"},
     /* shapes */
     {PRIMITIVE("'attributes':{'POSITION':0,'NORMAL':0},'indices':0"),
      "/meshes/0/primitives/0/indices", "VEC3 of component type 5126, SCALAR"},
-    {VIEWS "'accessors':[" POINTS ",{'bufferView':1,'componentType':5123,'count':3,"
+    {VIEWS
+     "'accessors':[" POINTS ",{'bufferView':1,'componentType':5123,'count':3,"
      "'type':'SCALAR'}],'meshes':[{'primitives':[{'attributes':{'POSITION':0},'indices':1}]}]",
      "/meshes/0/primitives/0/indices", "index 2 is 9, the primitive has 3 vertices"},
-    {VIEWS "'accessors':[" POINTS ",{'bufferView':0,'componentType':5126,'count':2,'type':'VEC3'}],"
-     "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':1}}]}]",
+    {VIEWS "'accessors':[" POINTS
+           ",{'bufferView':0,'componentType':5126,'count':2,'type':'VEC3'}],"
+           "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':1}}]}]",
      "/meshes/0/primitives/0/attributes/NORMAL", "NORMAL has 2 elements, POSITION has 3"},
     {PRIMITIVE("'attributes':{'POSITION':0,'TEXCOORD_0':0}"),
      "/meshes/0/primitives/0/attributes/TEXCOORD_0", "(VEC2 is wanted)"},
@@ -101,8 +109,8 @@ static const FaultCase FAULTS[] = {
      "/meshes/0/primitives/0/attributes/NORMALS", "\"NORMALS\" is no attribute"},
     {PRIMITIVE("'attributes':{}"), "/meshes/0/primitives/0/attributes", "has no POSITION"},
     {VIEWS "'accessors':[" POINTS "],'meshes':[{'weights':[1,2],'primitives':[{'attributes':"
-     "{'POSITION':0},'targets':[{'POSITION':0}]}]}]", "/meshes/0/weights",
-     "has 2 weights, the mesh has 1 morph targets"},
+           "{'POSITION':0},'targets':[{'POSITION':0}]}]}]",
+     "/meshes/0/weights", "has 2 weights, the mesh has 1 morph targets"},
     /* files */
     {"'images':[{'uri':'http://example.com/a.png'}]", "/images/0/uri", "scheme is \"http:\""},
     {"'images':[{'uri':'/etc/passwd'}]", "/images/0/uri", "an absolute path"},
@@ -115,13 +123,14 @@ static const FaultCase FAULTS[] = {
     {"'cameras':[{'type':'perspective'}]", "/cameras/0", "\"perspective\" is missing"},
     {"'cameras':[{'type':'perspective','perspective':{'yfov':0,'znear':1}}]",
      "/cameras/0/perspective/yfov", "is 0, a number above 0"},
-    {"'cameras':[{'type':'orthographic','orthographic':{'xmag':0,'ymag':1,'znear':0,'zfar':1}}]",
+    {"'cameras':[{'type':'orthographic','orthographic':{'xmag':0,'ymag':1,'znear':0,'zfar':1}}"
+     "]",
      "/cameras/0/orthographic/xmag", "is 0, half the picture's size"},
     {"'cameras':[{'type':'perspective','perspective':{'yfov':1,'znear':2,'zfar':1}}]",
      "/cameras/0/perspective/zfar", "is 1, more than znear (2)"},
     {"'extensionsUsed':['KHR_lights_punctual'],'extensions':{'KHR_lights_punctual':{'lights':"
-     "[{'type':'point','intensity':-1}]}}", "/extensions/KHR_lights_punctual/lights/0/intensity",
-     "is -1, a number of at least 0"},
+     "[{'type':'point','intensity':-1}]}}",
+     "/extensions/KHR_lights_punctual/lights/0/intensity", "is -1, a number of at least 0"},
     /* extensions */
     {"'extensionsRequired':['ACME_magic']", "/extensionsRequired/0",
      "requires the extension \"ACME_magic\", which is not supported"},
@@ -132,31 +141,41 @@ static const FaultCase FAULTS[] = {
      "{'PARHELION_display':{'panel':'none.panel','level':-1}}}]",
      "/materials/0/extensions/PARHELION_display/level", "is -1, a number of at least 0"},
     {"'extensionsUsed':['PARHELION_display'],'materials':[{'extensions':{'PARHELION_display':"
-     "{'panell':'x'}}}]", "/materials/0/extensions/PARHELION_display/panell",
+     "{'panell':'x'}}}]",
+     "/materials/0/extensions/PARHELION_display/panell",
      "is no member of PARHELION_display; is \"panel\" meant?"},
     {"'extensionsUsed':['PARHELION_display'],'materials':[{'name':'cluster','extensions':"
      "{'PARHELION_display':{'panel':'none.panel'}}}]",
      "/materials/0/extensions/PARHELION_display/panel", "display \"cluster\": "},
-    {"'extensionsUsed':['PARHELION_display'],'materials':[{'extensions':{'PARHELION_display':{}}}]",
-     "/materials/0/extensions/PARHELION_display", "\"panel\" is missing, and --panel names none"},
-    {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_environment':"
-     "{'type':'hdri'}}}]", "/scenes/0/extensions/PARHELION_environment",
+    {"'extensionsUsed':['PARHELION_display'],'materials':[{'extensions':{'PARHELION_display':{}"
+     "}}]",
+     "/materials/0/extensions/PARHELION_display",
+     "\"panel\" is missing, and --panel names none"},
+    {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_"
+     "environment':"
+     "{'type':'hdri'}}}]",
+     "/scenes/0/extensions/PARHELION_environment",
      "\"uri\" is missing in an environment of type \"hdri\""},
-    {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_environment':"
-     "{'type':'fog'}}}]", "/scenes/0/extensions/PARHELION_environment/type",
+    {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_"
+     "environment':"
+     "{'type':'fog'}}}]",
+     "/scenes/0/extensions/PARHELION_environment/type",
      "is \"fog\", one of constant|hdri|cie|perez|sky"},
-    {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_environment':"
+    {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_"
+     "environment':"
      "{'type':'constant','luminance':1,'sky':3}}}]",
      "/scenes/0/extensions/PARHELION_environment/sky", "no meaning for an environment of type"},
-    {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_environment':"
+    {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_"
+     "environment':"
      "{'type':'sky','when':'yesterday','where':[95,0]}}}]",
      "/scenes/0/extensions/PARHELION_environment/when", "is \"yesterday\", a time like"},
-    {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_environment':"
+    {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_"
+     "environment':"
      "{'type':'sky','when':'2026-06-21T08:30+02:00','where':[95,0]}}}]",
      "/scenes/0/extensions/PARHELION_environment/where/0", "is 95, a latitude"},
     {"'extensionsUsed':['PARHELION_spectrum'],'materials':[{'extensions':{'PARHELION_spectrum':"
-     "{'baseColor':'none.csv'}}}]", "/materials/0/extensions/PARHELION_spectrum/baseColor",
-     "No such file"},
+     "{'baseColor':'none.csv'}}}]",
+     "/materials/0/extensions/PARHELION_spectrum/baseColor", "No such file"},
 };
 
 static void every_fault_is_named_with_its_place(void **state)
@@ -182,9 +201,12 @@ static void documents_that_are_none_are_refused(void **state)
     assert_text("{\"asset\":", "", "not valid JSON: parse error at line 1, column 10");
     assert_text("[]", "", "the document is no JSON object");
     assert_text("{}", "", "\"asset\" is missing");
-    assert_text("{\"asset\":{\"version\":\"1.0\"}}", "/asset/version", "is \"1.0\", version 2.0");
-    assert_text("{\"asset\":{\"version\":\"2.0\"},\"asset\":{}}", "", "stands twice in one object");
-    assert_text("{\"asset\":{\"version\":\"2.0\"},\"a\":1e999}", "", "not valid JSON: number overflow");
+    assert_text("{\"asset\":{\"version\":\"1.0\"}}", "/asset/version",
+                "is \"1.0\", version 2.0");
+    assert_text("{\"asset\":{\"version\":\"2.0\"},\"asset\":{}}", "",
+                "stands twice in one object");
+    assert_text("{\"asset\":{\"version\":\"2.0\"},\"a\":1e999}", "",
+                "not valid JSON: number overflow");
 }
 
 static void deep_nesting_is_refused(void **state)
@@ -199,18 +221,19 @@ static void deep_nesting_is_refused(void **state)
 static void all_problems_are_reported_not_the_first(void **state)
 {
     (void)state;
-    Found found = maker_survey_file(maker_gltf(NULL, 0,
-        "'nodes':[{'mesh':5},{'camera':1}],'scene':3,'materials':[{'alphaMode':1}],"
-        "'images':[{'uri':'none.png'}]"));
+    Found found = maker_survey_file(
+        maker_gltf(NULL, 0,
+                   "'nodes':[{'mesh':5},{'camera':1}],'scene':3,'materials':[{'alphaMode':1}],"
+                   "'images':[{'uri':'none.png'}]"));
     assert_int_equal(found.problems.error_count, 4);
 }
 
 static void the_first_error_reaches_the_command_line(void **state)
 {
     (void)state;
-    Error       err;
-    Scene      *scene = NULL;
-    Problems    problems = problems_start(&maker.arena);
+    Error err;
+    Scene *scene = NULL;
+    Problems problems = problems_start(&maker.arena);
     const char *path = maker_gltf(NULL, 0, "'nodes':[{'mesh':5},{'camera':1}]");
     const SceneOptions options = {.paths = &path, .path_count = 1};
     assert_false(scene_load(&options, &maker.arena, &problems, &scene, &err));
@@ -221,19 +244,24 @@ static void the_first_error_reaches_the_command_line(void **state)
     assert_non_null(strstr(err.text, "and 1 more"));
 }
 
-/* ---- displays and the command line's overrides -------------------------------------------------- */
+/* ---- displays and the command line's overrides
+ * -------------------------------------------------- */
 
 /* A display with these texture coordinates (two triangles would say the same of each). */
 static Found survey_display(const float uv[6], const SceneOptions *more)
 {
-    struct { float points[9], uv[6]; } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0}};
+    struct {
+        float points[9], uv[6];
+    } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0}};
     memcpy(data.uv, uv, sizeof data.uv);
-    const char *path = maker_gltf(&data, sizeof data,
+    const char *path = maker_gltf(
+        &data, sizeof data,
         "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"
         "'byteLength':24}],'accessors':[{'bufferView':0,'componentType':5126,'count':3,"
         "'type':'VEC3'},{'bufferView':1,'componentType':5126,'count':3,'type':'VEC2'}],"
         "'extensionsUsed':['PARHELION_display'],'materials':[{'name':'cluster','extensions':"
-        "{'PARHELION_display':{'panel':'none.panel'}}},{'name':'trim'}],'meshes':[{'primitives':"
+        "{'PARHELION_display':{'panel':'none.panel'}}},{'name':'trim'}],'meshes':[{'primitives'"
+        ":"
         "[{'material':0,'attributes':{'POSITION':0,'TEXCOORD_0':1}}]}],"
         "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0}]");
     SceneOptions options = *more;
@@ -261,22 +289,25 @@ static void overrides_reach_displays_by_the_material_s_name(void **state)
 {
     (void)state;
     static const float UPRIGHT[6] = {0, 1, 1, 1, 0, 0};
-    const SceneOverride levels[] = {{"cluster", "30"}, {"dash", "30"}, {"trim", "5"},
-                                    {"cluster", "dim"}};
+    const SceneOverride levels[] = {
+        {"cluster", "30"}, {"dash", "30"}, {"trim", "5"}, {"cluster", "dim"}};
     const SceneOverride panels[] = {{"trim", "other.panel"}};
-    Found found = survey_display(UPRIGHT, &(SceneOptions){.levels = levels, .level_count = 4,
-                                                          .panels = panels, .panel_count = 1});
+    Found found = survey_display(
+        UPRIGHT, &(SceneOptions){
+                     .levels = levels, .level_count = 4, .panels = panels, .panel_count = 1});
     assert_int_equal(found.scene->display_count, 2);
     assert_close(found.scene->displays[0].level, 0.3, 1e-6);
     assert_close(found.scene->displays[1].level, 0.05, 1e-6);
     assert_string_equal(found.scene->displays[1].name, "trim");
-    assert_non_null(maker_find(&found, "", "no material is named \"dash\"; the scene has "
-                                           "\"cluster\", \"trim\""));
+    assert_non_null(maker_find(&found, "",
+                               "no material is named \"dash\"; the scene has "
+                               "\"cluster\", \"trim\""));
     assert_non_null(maker_find(&found, "", "\"dim\" is no percentage"));
     assert_non_null(maker_find(&found, "", "other.panel: cannot be opened"));
 }
 
-/* ---- damaged files ------------------------------------------------------------------------------- */
+/* ---- damaged files
+ * ------------------------------------------------------------------------------- */
 
 static const char SMALL[] =
     "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":36}],"
@@ -322,11 +353,12 @@ static void every_prefix_of_a_glb_is_refused(void **state)
 
 static void every_prefix_of_a_gltf_is_refused(void **state)
 {
-    char  *whole = maker_text(BYTES.points, 36,
+    char *whole = maker_text(
+        BYTES.points, 36,
         "'bufferViews':[{'buffer':0,'byteLength':36}],'accessors':[{'bufferView':0,"
         "'componentType':5126,'count':3,'type':'VEC3'}],'meshes':[{'primitives':[{'attributes':"
         "{'POSITION':0}}]}],'nodes':[{'mesh':0}],'scenes':[{'nodes':[0]}]");
-    char   text[1024];
+    char text[1024];
     size_t size = strlen(whole);
     assert_true(size < sizeof text);
     memcpy(text, whole, size);
@@ -341,7 +373,7 @@ static void every_prefix_of_a_gltf_is_refused(void **state)
 static void damaged_bytes_do_no_harm(void **state)
 {
     unsigned char bytes[1024];
-    size_t   size = small_glb(bytes);
+    size_t size = small_glb(bytes);
     uint32_t random = 1;
     for (int i = 0; i < 1000; i++) {
         unsigned char damaged[1024];

@@ -3,17 +3,21 @@
 #include "base/units.h"
 #include "gltf_maker.h"
 
-#define PICTURE "'images':[{'uri':'data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1Pe" \
-                "AAAADElEQVR4nGNgYGAAAAAEAAH2FzhVAAAAAElFTkSuQmCC'}],'textures':[{'source':0}],"
+#define PICTURE                                                                                \
+    "'images':[{'uri':'data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1Pe"     \
+    "AAAADElEQVR4nGNgYGAAAAAEAAH2FzhVAAAAAElFTkSuQmCC'}],'textures':[{'source':0}],"
 
 /* The material whose members are these. */
 static const Material *load_material(const char *members)
 {
     char text[2048];
-    snprintf(text, sizeof text, PICTURE "'extensionsUsed':['KHR_materials_ior',"
+    snprintf(text, sizeof text,
+             PICTURE
+             "'extensionsUsed':['KHR_materials_ior',"
              "'KHR_materials_specular','KHR_materials_transmission','KHR_materials_clearcoat',"
              "'KHR_materials_volume','KHR_materials_unlit','KHR_materials_emissive_strength'],"
-             "'materials':[{%s}]", members);
+             "'materials':[{%s}]",
+             members);
     return &maker_load(NULL, 0, text)->materials[0];
 }
 
@@ -41,8 +45,8 @@ static void an_empty_material_has_the_defaults(void **state)
 /* A number of a material, and a text that sets it. */
 typedef struct NumberCase {
     const char *members;
-    size_t      offset; /* of a float in Material */
-    float       value;
+    size_t offset; /* of a float in Material */
+    float value;
 } NumberCase;
 
 #define AT(member) offsetof(Material, member)
@@ -55,15 +59,16 @@ static const NumberCase NUMBERS[] = {
     {"'emissiveFactor':[0.1,0.2,0.3]", AT(emissive_cd_m2[1]), 0.2f},
     {"'alphaMode':'MASK','alphaCutoff':0.3", AT(alpha_cutoff), 0.3f},
     {"'normalTexture':{'index':0,'scale':0.6}", AT(normal_scale), 0.6f},
-    {"'emissiveFactor':[0,0.5,0],"
-     EXTENSION("KHR_materials_emissive_strength", "'emissiveStrength':4000"),
+    {"'emissiveFactor':[0,0.5,0]," EXTENSION("KHR_materials_emissive_strength",
+                                             "'emissiveStrength':4000"),
      AT(emissive_cd_m2[1]), 2000},
     {EXTENSION("KHR_materials_ior", "'ior':1.33"), AT(ior), 1.33f},
     {EXTENSION("KHR_materials_ior", ""), AT(ior), 1.5f},
     {EXTENSION("KHR_materials_specular", "'specularFactor':0.5"), AT(specular), 0.5f},
     {EXTENSION("KHR_materials_specular", "'specularColorFactor':[1,2,3]"),
      AT(specular_color[2]), 3},
-    {EXTENSION("KHR_materials_transmission", "'transmissionFactor':0.9"), AT(transmission), 0.9f},
+    {EXTENSION("KHR_materials_transmission", "'transmissionFactor':0.9"), AT(transmission),
+     0.9f},
     {EXTENSION("KHR_materials_clearcoat", "'clearcoatFactor':0.8"), AT(clearcoat), 0.8f},
     {EXTENSION("KHR_materials_clearcoat", "'clearcoatRoughnessFactor':0.2"),
      AT(clearcoat_roughness), 0.2f},
@@ -78,18 +83,23 @@ static void every_factor_arrives(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof NUMBERS / sizeof *NUMBERS; i++) {
         const Material *m = load_material(NUMBERS[i].members);
-        assert_close(*(const float *)((const char *)m + NUMBERS[i].offset), NUMBERS[i].value, 1e-6);
+        assert_close(*(const float *)((const char *)m + NUMBERS[i].offset), NUMBERS[i].value,
+                     1e-6);
     }
 }
 
 /* A texture of a material, and where it is named. */
-static const struct { const char *members; size_t offset; } SLOTS[] = {
+static const struct {
+    const char *members;
+    size_t offset;
+} SLOTS[] = {
     {"'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}", AT(base_color_texture)},
     {"'pbrMetallicRoughness':{'metallicRoughnessTexture':{'index':0}}",
      AT(metallic_roughness_texture)},
     {"'normalTexture':{'index':0}", AT(normal_texture)},
     {"'emissiveTexture':{'index':0}", AT(emissive_texture)},
-    {EXTENSION("KHR_materials_specular", "'specularTexture':{'index':0}"), AT(specular_texture)},
+    {EXTENSION("KHR_materials_specular", "'specularTexture':{'index':0}"),
+     AT(specular_texture)},
     {EXTENSION("KHR_materials_specular", "'specularColorTexture':{'index':0}"),
      AT(specular_color_texture)},
     {EXTENSION("KHR_materials_transmission", "'transmissionTexture':{'index':0}"),
@@ -128,24 +138,28 @@ static void flags_follow_from_the_numbers(void **state)
     assert_true(load_material(EXTENSION("KHR_materials_unlit", ""))->unlit);
     assert_true(load_material(EXTENSION("KHR_materials_transmission", "'transmissionFactor':1"))
                     ->lets_light_through);
-    const Material *glass = load_material(
-        "'extensions':{'KHR_materials_transmission':{'transmissionFactor':1},"
-        "'KHR_materials_volume':{'thicknessFactor':0.1}}");
+    const Material *glass =
+        load_material("'extensions':{'KHR_materials_transmission':{'transmissionFactor':1},"
+                      "'KHR_materials_volume':{'thicknessFactor':0.1}}");
     assert_true(glass->is_solid);
     assert_false(glass->lets_light_through);
 }
 
-/* ---- lights -------------------------------------------------------------------------------- */
+/* ---- lights ---------------------------------------------------------------------------- */
 
 static void punctual_lights_keep_their_units_and_place(void **state)
 {
     (void)state;
-    Scene *scene = maker_load(NULL, 0,
-        "'extensionsUsed':['KHR_lights_punctual'],'extensions':{'KHR_lights_punctual':{'lights':["
-        "{'type':'point','intensity':100,'color':[1,0.5,0],'name':'bulb'},{'type':'directional'},"
+    Scene *scene = maker_load(
+        NULL, 0,
+        "'extensionsUsed':['KHR_lights_punctual'],'extensions':{'KHR_lights_punctual':{'lights'"
+        ":["
+        "{'type':'point','intensity':100,'color':[1,0.5,0],'name':'bulb'},{'type':'directional'"
+        "},"
         "{'type':'spot','intensity':10,'spot':{'innerConeAngle':0.1,'outerConeAngle':0.2}},"
         "{'type':'spot','spot':{}}]}},'scenes':[{'nodes':[0,1,2,3]}],'nodes':["
-        "{'translation':[1,2,3],'scale':[5,5,5],'extensions':{'KHR_lights_punctual':{'light':0}}},"
+        "{'translation':[1,2,3],'scale':[5,5,5],'extensions':{'KHR_lights_punctual':{'light':0}"
+        "}},"
         "{'rotation':[-0.70710678,0,0,0.70710678],'extensions':{'KHR_lights_punctual':"
         "{'light':1}}},{'extensions':{'KHR_lights_punctual':{'light':2}}},"
         "{'extensions':{'KHR_lights_punctual':{'light':3}}}]");
@@ -165,22 +179,27 @@ static void punctual_lights_keep_their_units_and_place(void **state)
     assert_close(scene->lights[3].cos_outer, cos(PI / 4), 1e-6);
 }
 
-/* ---- environment ---------------------------------------------------------------------------- */
+/* ---- environment ----------------------------------------------------------------------- */
 
-#define ENVIRONMENT(body) "'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':" \
-                          "{'PARHELION_environment':{" body "}}}]"
+#define ENVIRONMENT(body)                                                                      \
+    "'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':"                      \
+    "{'PARHELION_environment':{" body "}}}]"
 
 static void a_constant_sky_has_its_luminance(void **state)
 {
     (void)state;
-    const Environment *e = &maker_load(NULL, 0, ENVIRONMENT(
-        "'type':'constant','luminance':1000,'color':[2,1,0.5],'heading_deg':90,"
-        "'forward':[2,0,0],'sun':{'azimuth_deg':180,'elevation_deg':30,'illuminance_lx':90000}"))
-        ->environment;
+    const Environment *e =
+        &maker_load(NULL, 0,
+                    ENVIRONMENT(
+                        "'type':'constant','luminance':1000,'color':[2,1,0.5],'heading_deg':90,"
+                        "'forward':[2,0,0],'sun':{'azimuth_deg':180,'elevation_deg':30,'"
+                        "illuminance_lx':90000}"))
+             ->environment;
     assert_int_equal(e->kind, ENVIRONMENT_CONSTANT);
     assert_near(e->luminance_cd_m2, 1000, 0);
     assert_close(0.2126 * (double)e->color[0] + 0.7152 * (double)e->color[1] +
-                     0.0722 * (double)e->color[2], 1, 1e-3);
+                     0.0722 * (double)e->color[2],
+                 1, 1e-3);
     assert_close(e->color[0], 2 * e->color[1], 1e-6);
     assert_close(e->heading, PI / 2, 1e-6);
     assert_near(e->forward.x, 1, 0);
@@ -208,8 +227,10 @@ static void a_picture_of_the_sky_is_read_beside_the_scene(void **state)
         "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x80\x80\x81\x80\x80\x80\x82";
     const char *picture = maker_file(PIXELS, sizeof PIXELS - 1, ".hdr");
     char members[512];
-    snprintf(members, sizeof members, ENVIRONMENT("'type':'hdri','uri':'%s','rotation_deg':45,"
-             "'horizontal_illuminance_lx':20000"), path_name(picture));
+    snprintf(members, sizeof members,
+             ENVIRONMENT("'type':'hdri','uri':'%s','rotation_deg':45,"
+                         "'horizontal_illuminance_lx':20000"),
+             path_name(picture));
     const Environment *e = &maker_load(NULL, 0, members)->environment;
     assert_int_equal(e->kind, ENVIRONMENT_HDRI);
     assert_string_equal(e->hdri_path, picture);
@@ -219,23 +240,28 @@ static void a_picture_of_the_sky_is_read_beside_the_scene(void **state)
     assert_near(e->horizontal_illuminance_lx, 20000, 0);
 }
 
-/* ---- several files --------------------------------------------------------------------------- */
+/* ---- several files
+ * --------------------------------------------------------------------------- */
 
 static const float TRIANGLE[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 
-#define SHAPE "'bufferViews':[{'buffer':0,'byteLength':36}],'accessors':[{'bufferView':0," \
-              "'componentType':5126,'count':3,'type':'VEC3'}]," \
-              "'meshes':[{'primitives':[{'attributes':{'POSITION':0}%s}]}]," \
-              "'nodes':[{'mesh':0,'name':'%s'}],"
+#define SHAPE                                                                                  \
+    "'bufferViews':[{'buffer':0,'byteLength':36}],'accessors':[{'bufferView':0,"               \
+    "'componentType':5126,'count':3,'type':'VEC3'}],"                                          \
+    "'meshes':[{'primitives':[{'attributes':{'POSITION':0}%s}]}],"                             \
+    "'nodes':[{'mesh':0,'name':'%s'}],"
 
 static void several_files_are_one_scene(void **state)
 {
     (void)state;
     char first[2048], second[2048];
-    snprintf(first, sizeof first, SHAPE "'materials':[{'name':'a'}],"
-             ENVIRONMENT("'type':'constant','luminance':1") , ",'material':0", "one");
-    snprintf(second, sizeof second, SHAPE "'materials':[{'name':'b','alphaMode':'BLEND'},"
-             "{'name':'c'}],'scenes':[{'nodes':[0]}]", ",'material':1", "two");
+    snprintf(first, sizeof first,
+             SHAPE "'materials':[{'name':'a'}]," ENVIRONMENT("'type':'constant','luminance':1"),
+             ",'material':0", "one");
+    snprintf(second, sizeof second,
+             SHAPE "'materials':[{'name':'b','alphaMode':'BLEND'},"
+                   "{'name':'c'}],'scenes':[{'nodes':[0]}]",
+             ",'material':1", "two");
     char *shown = strstr(first, "'scenes':[{");
     memmove(shown + 11 + 13, shown + 11, strlen(shown + 11) + 1);
     memcpy(shown + 11, "'nodes':[0], ", 13);
@@ -256,14 +282,17 @@ static void several_files_are_one_scene(void **state)
     assert_int_equal(scene->extension_count, 1);
 }
 
-/* ---- the arrays ------------------------------------------------------------------------------- */
+/* ---- the arrays
+ * ------------------------------------------------------------------------------- */
 
 static void opaque_triangles_come_first(void **state)
 {
     (void)state;
-    const Scene *scene = maker_load(TRIANGLE, sizeof TRIANGLE,
+    const Scene *scene = maker_load(
+        TRIANGLE, sizeof TRIANGLE,
         "'bufferViews':[{'buffer':0,'byteLength':36}],'accessors':[{'bufferView':0,"
-        "'componentType':5126,'count':3,'type':'VEC3'}],'materials':[{'alphaMode':'BLEND','pbrMetallicRoughness':"
+        "'componentType':5126,'count':3,'type':'VEC3'}],'materials':[{'alphaMode':'BLEND','"
+        "pbrMetallicRoughness':"
         "{'baseColorFactor':[1,1,1,0.5]}},{}],"
         "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'material':0},"
         "{'attributes':{'POSITION':0},'material':1},{'attributes':{'POSITION':0}}]}],"
@@ -272,7 +301,8 @@ static void opaque_triangles_come_first(void **state)
     assert_int_equal(scene->opaque_count, 2);
     for (uint32_t t = 0; t < 3; t++) {
         const Part *part = &scene->parts[scene->triangles[t].part_id];
-        assert_true(t >= part->first_triangle && t < part->first_triangle + part->triangle_count);
+        assert_true(t >= part->first_triangle &&
+                    t < part->first_triangle + part->triangle_count);
         assert_int_equal(scene->materials[part->material_id].lets_light_through, t == 2);
     }
     assert_near(scene->bounds_min.z, 2, 0);
@@ -284,11 +314,15 @@ static void opaque_triangles_come_first(void **state)
 static void what_is_opaque_everywhere_is_opaque(void **state)
 {
     (void)state;
-    struct { float points[9]; uint8_t colors[12]; } data = {
-        {0, 0, 0, 1, 0, 0, 0, 1, 0}, {255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255}};
+    struct {
+        float points[9];
+        uint8_t colors[12];
+    } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0},
+              {255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255}};
     for (int alpha = 255; alpha >= 254; alpha--) {
         data.colors[11] = (uint8_t)alpha;
-        const Scene *scene = maker_load(&data, sizeof data,
+        const Scene *scene = maker_load(
+            &data, sizeof data,
             "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"
             "'byteLength':12}],'accessors':[{'bufferView':0,'componentType':5126,'count':3,"
             "'type':'VEC3'},{'bufferView':1,'componentType':5121,'normalized':true,'count':3,"
@@ -303,11 +337,12 @@ static void triangles_without_area_are_dropped_and_counted(void **state)
 {
     (void)state;
     static const float POINTS[18] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 1, 2, 2, 2};
-    Found found = maker_survey_file(maker_gltf(POINTS, sizeof POINTS,
-        "'bufferViews':[{'buffer':0,'byteLength':72}],'accessors':[{'bufferView':0,"
-        "'componentType':5126,'count':6,'type':'VEC3'}],'meshes':[{'primitives':["
-        "{'attributes':{'POSITION':0}},{'attributes':{'POSITION':0},'mode':0}]}],"
-        "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0}]"));
+    Found found = maker_survey_file(
+        maker_gltf(POINTS, sizeof POINTS,
+                   "'bufferViews':[{'buffer':0,'byteLength':72}],'accessors':[{'bufferView':0,"
+                   "'componentType':5126,'count':6,'type':'VEC3'}],'meshes':[{'primitives':["
+                   "{'attributes':{'POSITION':0}},{'attributes':{'POSITION':0},'mode':0}]}],"
+                   "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0}]"));
     assert_int_equal(found.scene->triangle_count, 1);
     assert_non_null(maker_find(&found, "/meshes", "1 triangle without area dropped"));
     assert_non_null(maker_find(&found, "/meshes", "1 primitive of points or lines skipped"));

@@ -26,8 +26,7 @@
 using Json = nlohmann::json;
 
 /* No exception crosses into C, and none loses its message on the way. */
-template <typename Body>
-static bool guarded(Error *err, const char *doing, Body body) noexcept
+template <typename Body> static bool guarded(Error *err, const char *doing, Body body) noexcept
 {
     try {
         return body();
@@ -38,55 +37,85 @@ static bool guarded(Error *err, const char *doing, Body body) noexcept
     }
 }
 
-template <typename T>
-static T *arena_array(Arena *arena, size_t count)
+template <typename T> static T *arena_array(Arena *arena, size_t count)
 {
     return static_cast<T *>(arena_alloc(arena, sizeof(T), alignof(T), count));
 }
 
-namespace {
+namespace
+{
 
 /* An array or object whose end has not been read yet. */
 struct Open {
-    GltfValue              value;
+    GltfValue value;
     std::vector<GltfValue> items;
-    std::set<std::string>  names; /* of an object: a name may stand once */
-    const char            *next_key = nullptr;
+    std::set<std::string> names; /* of an object: a name may stand once */
+    const char *next_key = nullptr;
 };
 
 /* Builds the tree while the (iterative) parser reads: deep nesting costs no stack. */
-class TreeBuilder : public nlohmann::json_sax<Json> {
-public:
-    TreeBuilder(Arena *arena, Error *err) : arena_(arena), err_(err) {}
+class TreeBuilder : public nlohmann::json_sax<Json>
+{
+  public:
+    TreeBuilder(Arena *arena, Error *err) : arena_(arena), err_(err)
+    {
+    }
 
     GltfValue root{};
 
-    bool null() override { return add(make(GLTF_NULL)); }
+    bool null() override
+    {
+        return add(make(GLTF_NULL));
+    }
     bool boolean(bool value) override
     {
         GltfValue v = make(GLTF_BOOLEAN);
         v.number = value;
         return add(v);
     }
-    bool number_integer(number_integer_t value) override { return number((double)value); }
-    bool number_unsigned(number_unsigned_t value) override { return number((double)value); }
-    bool number_float(number_float_t value, const string_t &) override { return number(value); }
+    bool number_integer(number_integer_t value) override
+    {
+        return number((double)value);
+    }
+    bool number_unsigned(number_unsigned_t value) override
+    {
+        return number((double)value);
+    }
+    bool number_float(number_float_t value, const string_t &) override
+    {
+        return number(value);
+    }
     bool string(string_t &value) override
     {
         GltfValue v = make(GLTF_STRING);
         v.text = arena_string(arena_, value.data(), value.size());
         return add(v);
     }
-    bool binary(binary_t &) override { return false; }
-    bool start_object(size_t) override { return open(GLTF_OBJECT); }
-    bool start_array(size_t) override { return open(GLTF_ARRAY); }
-    bool end_object() override { return close(); }
-    bool end_array() override { return close(); }
+    bool binary(binary_t &) override
+    {
+        return false;
+    }
+    bool start_object(size_t) override
+    {
+        return open(GLTF_OBJECT);
+    }
+    bool start_array(size_t) override
+    {
+        return open(GLTF_ARRAY);
+    }
+    bool end_object() override
+    {
+        return close();
+    }
+    bool end_array() override
+    {
+        return close();
+    }
     bool key(string_t &name) override
     {
         if (!open_.back().names.insert(name).second)
-            return error_set(err_, ERROR_INPUT, "the name \"%.100s\" stands twice in one object",
-                             name.c_str());
+            return error_set(err_, ERROR_INPUT,
+                             "the name \"%.100s\" stands twice in one object", name.c_str());
         open_.back().next_key = arena_string(arena_, name.data(), name.size());
         return true;
     }
@@ -96,9 +125,9 @@ public:
         return error_set(err_, ERROR_INPUT, "not valid JSON: %s", end ? end + 2 : what);
     }
 
-private:
-    Arena            *arena_;
-    Error            *err_;
+  private:
+    Arena *arena_;
+    Error *err_;
     std::vector<Open> open_;
 
     static GltfValue make(GltfKind kind)
@@ -137,8 +166,8 @@ private:
     }
     bool close()
     {
-        Open       done = std::move(open_.back());
-        size_t     count = done.items.size();
+        Open done = std::move(open_.back());
+        size_t count = done.items.size();
         GltfValue *items = arena_array<GltfValue>(arena_, count);
         if (count) std::memcpy(items, done.items.data(), count * sizeof *items);
         done.value.items = items;
@@ -240,13 +269,13 @@ bool gltf_json_data(const char *text, size_t size, Arena *arena, GltfData *out, 
 {
     return guarded(err, "tinygltf", [&] {
         tinygltf::TinyGLTF loader;
-        tinygltf::Model    model;
-        std::string        failure, warning, part = data_document(text, size);
+        tinygltf::Model model;
+        std::string failure, warning, part = data_document(text, size);
         if (!loader.LoadASCIIFromString(&model, &failure, &warning, part.data(),
                                         (unsigned)part.size(), "", tinygltf::NO_REQUIRE))
             return error_set(err, ERROR_LIBRARY, "tinygltf: %s", failure.c_str());
         GltfBufferView *views = arena_array<GltfBufferView>(arena, model.bufferViews.size());
-        GltfAccessor   *accessors = arena_array<GltfAccessor>(arena, model.accessors.size());
+        GltfAccessor *accessors = arena_array<GltfAccessor>(arena, model.accessors.size());
         for (size_t i = 0; i < model.bufferViews.size(); i++)
             views[i] = view_from(model.bufferViews[i]);
         for (size_t i = 0; i < model.accessors.size(); i++)

@@ -16,19 +16,24 @@ extern "C" {
 #endif
 
 typedef enum GltfKind {
-    GLTF_NULL, GLTF_BOOLEAN, GLTF_NUMBER, GLTF_STRING, GLTF_ARRAY, GLTF_OBJECT
+    GLTF_NULL,
+    GLTF_BOOLEAN,
+    GLTF_NUMBER,
+    GLTF_STRING,
+    GLTF_ARRAY,
+    GLTF_OBJECT
 } GltfKind;
 
 /* One value of the document. Knows its place, so that a message can name it. */
 typedef struct GltfValue {
     GltfKind kind;
-    int      index;                 /* place among the parent's items */
+    int index;                      /* place among the parent's items */
     const char *key;                /* name in the parent object, NULL elsewhere */
     const struct GltfValue *parent; /* NULL for the document itself */
-    double   number;                /* finite; a boolean's 0 or 1 */
+    double number;                  /* finite; a boolean's 0 or 1 */
     const char *text;               /* UTF-8, never NULL; "" unless a string */
     const struct GltfValue *items;  /* of an array or object, in the file's order */
-    int      count;
+    int count;
 } GltfValue;
 
 #define GLTF_MAX_DEPTH 256 /* of nested arrays and objects */
@@ -38,26 +43,26 @@ bool gltf_json_parse(const char *text, size_t size, Arena *arena, const GltfValu
                      Error *err);
 
 typedef struct GltfBufferView {
-    int    buffer;
+    int buffer;
     size_t offset, length;
     size_t stride; /* bytes, 0: as tight as the accessor's elements are */
 } GltfBufferView;
 
 typedef struct GltfAccessor {
-    int    buffer_view; /* -1: all zero (before the sparse values) */
+    int buffer_view; /* -1: all zero (before the sparse values) */
     size_t offset, count;
-    int    component_type;  /* 5120 ... 5126 */
-    int    component_count; /* 1 ... 4; a matrix's columns times rows */
-    int    matrix_rows;     /* 2, 3, 4 of a matrix; 0 otherwise */
-    bool   is_normalized;
-    size_t sparse_count;    /* 0: not sparse */
-    int    sparse_index_view, sparse_index_type, sparse_value_view;
+    int component_type;  /* 5120 ... 5126 */
+    int component_count; /* 1 ... 4; a matrix's columns times rows */
+    int matrix_rows;     /* 2, 3, 4 of a matrix; 0 otherwise */
+    bool is_normalized;
+    size_t sparse_count; /* 0: not sparse */
+    int sparse_index_view, sparse_index_type, sparse_value_view;
     size_t sparse_index_offset, sparse_value_offset;
 } GltfAccessor;
 
 typedef struct GltfData {
     const GltfBufferView *views;
-    const GltfAccessor   *accessors;
+    const GltfAccessor *accessors;
     int view_count, accessor_count;
 } GltfData;
 
