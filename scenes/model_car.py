@@ -3,8 +3,9 @@
     blender -b --python scenes/model_car.py
     blender -b --python scenes/model_car.py -- night      (night.gltf and its .bin)
 
-Only modelling needs Blender (3.4, from Debian); the committed glTF does not. Blender's x is the
-car's right, y forward and z up, in metres, with the road at z = 0 and the driver's eye at y = 0.
+Only modelling needs Blender (3.4, from Debian); the committed glTF does not. Blender's x is
+the car's right, y forward and z up, in metres, with the road at z = 0 and the driver's eye at
+y = 0.
 """
 import math
 import os
@@ -16,9 +17,11 @@ from mathutils import Vector
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "modelling"))
 
+import body  # noqa: E402
 import cabin  # noqa: E402
 import dashboard  # noqa: E402
 import finish  # noqa: E402
+import greenhouse  # noqa: E402
 import night  # noqa: E402
 import outside  # noqa: E402
 import textures  # noqa: E402
@@ -36,7 +39,9 @@ def add_camera(name, position, target, yfov_deg):
     data.clip_start, data.clip_end = 0.01, 5000.0
     item = bpy.data.objects.new(name, data)
     item.location = position
-    item.rotation_euler = (Vector(target) - Vector(position)).to_track_quat("-Z", "Y").to_euler()
+    item.rotation_euler = (
+        (Vector(target) - Vector(position)).to_track_quat("-Z", "Y").to_euler()
+    )
     bpy.context.scene.collection.objects.link(item)
 
 
@@ -55,7 +60,9 @@ def build_car(path):
     textures.write_textures(os.path.join(HERE, "textures"))
     dashboard.build_dashboard()
     wheel.build_wheel()
+    greenhouse.build_greenhouse()
     cabin.build_cabin()
+    body.build_body()
     outside.build_outside()
     add_cameras()
     finish.finish_meshes()
@@ -64,7 +71,9 @@ def build_car(path):
 
 
 def main():
-    what = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else ["car_dashboard", "night"]
+    what = (
+        sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else ["car_dashboard", "night"]
+    )
     for name in what:
         empty_scene()
         path = os.path.join(HERE, name + ".gltf")

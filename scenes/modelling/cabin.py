@@ -1,228 +1,27 @@
-"""Glass, pillars, roof, doors, console, seats and the body around the dashboard."""
-import math
+"""Doors, console and seats."""
 
 import numpy as np
-from mathutils import Matrix, Vector
+from mathutils import Matrix
 
-from dashboard import glass_foot
-from shapes import (box, frame_matrix, frame_ring, grid, joined, lathe, mesh, place, plate, round_section,
-                    rounded_rectangle, spline, stitches, tube)
-
-SIDES = (("left", -1), ("right", 1))
-
-
-# ---- windscreen --------------------------------------------------------------------------
-
-def screen(u, v, inward=0.0):
-    """Windscreen at u (-1 left .. 1 right), v (0 foot .. 1 header); inward shifts it inside."""
-    u, v = np.broadcast_arrays(np.asarray(u, float), np.asarray(v, float))
-    foot = np.stack([0.735 * u, 1.340 - 0.230 * u ** 2, 1.005 + 0.045 * u ** 2], -1)
-    head = np.stack([0.575 * u, 0.440 - 0.120 * u ** 2, 1.480 - 0.035 * u ** 2], -1)
-    bulge = (0.026 * 4 * v * (1 - v) - inward)[..., None] * np.array([0.0, 0.46, 0.89])
-    return foot * (1 - v)[..., None] + head * v[..., None] + bulge
-
-
-def screen_grid(name, us, vs, material, inward):
-    u, v = np.meshgrid(us, vs)
-    return grid(name, screen(u, v, inward), material)
-
-
-def windscreen():
-    screen_grid("windscreen", np.linspace(-1.02, 1.02, 49), np.linspace(-0.03, 1.03, 33), "windscreen glass", 0.0)
-    us, vs = np.linspace(-1.02, 1.02, 49), np.linspace(-0.03, 1.03, 33)
-    bands = {"foot": (us, np.linspace(-0.03, 0.075, 4)), "header": (us, np.linspace(0.93, 1.03, 4)),
-             "left": (np.linspace(-1.02, -0.945, 3), vs), "right": (np.linspace(0.945, 1.02, 3), vs),
-             "mirror foot": (np.linspace(-0.10, 0.10, 5), np.linspace(0.80, 0.94, 5))}
-    parts = [screen_grid(k, *b, "frit", 0.0022) for k, b in bands.items()]
-    joined("frit band", parts)
-    frit_dots()
-    for name, a, b in (("driver", (-0.80, 0.030), (-0.06, 0.075)), ("passenger", (0.02, 0.030), (0.74, 0.070))):
-        path = [screen(a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t + 0.014 * math.sin(math.pi * t), -0.012)
-                for t in np.linspace(0, 1, 14)]
-        tube(f"wiper {name}", path, 0.0055, "rubber", 8)
-        tube(f"wiper arm {name}", spline([path[0] + (0, 0.05, -0.01), path[4] + (0, 0, 0.012), path[8] + (0, 0, 0.006)], 10),
-             0.006, "plastic dark", 8)
-
-
-def frit_dots():
-    """Rows of shrinking dots that fade the band's edge."""
-    vertices, faces = [], []
-    a = np.linspace(0, 2 * math.pi, 8, endpoint=False)
-    for row, (v, radius) in enumerate(((0.0805, 0.0021), (0.0855, 0.0016), (0.0900, 0.0011))):
-        for i in range(170):
-            u = -0.93 + 1.86 * (i + 0.5 * (row % 2)) / 170
-            base = len(vertices)
-            vertices.extend(screen(u + radius * np.cos(a) / 0.72, v + radius * np.sin(a) / 1.0, 0.0022))
-            faces.append([base + k for k in range(8)])
-    mesh("frit dots", vertices, faces, "frit")
-
-
-def rear_view_mirror():
-    at = frame_matrix((0.0, 0.500, 1.392), (0.952, -0.305, 0), (0, -0.13, 1))
-    outline = rounded_rectangle(0.236, 0.062, 0.022, 8)
-    plate("mirror housing", outline * 1.02, 0.022, at @ Matrix.Translation((0, 0, -0.001)), "plastic dark", 0.006, 3)
-    plate("mirror glass", outline * 0.975, 0.001, at @ Matrix.Translation((0, 0, 0.0006)), "mirror silver", 0.0004)
-    tube("mirror stalk", spline([(0.0, 0.522, 1.396), (0.0, 0.556, 1.412), screen(0.0, 0.865, 0.004)], 8), 0.008, "plastic dark", 12)
-    box("camera housing", (0.10, 0.10, 0.035),
-        frame_matrix(screen(0.0, 0.895, 0.020), (1, 0, 0), (0, -0.89, 0.46)), "plastic dark", 0.012, 3)
-
-
-def visors():
-    for side, sign in SIDES:
-        centre = screen(0.52 * sign, 1.0, 0.024) + np.array([0, -0.105, 0.004])
-        at = frame_matrix(centre, (1, -0.10 * sign, 0), (0, 1, -0.02))
-        plate(f"sun visor {side}", rounded_rectangle(0.38, 0.15, 0.03, 6), 0.018, at, "alcantara grey", 0.006, 3)
-
-
-# ---- greenhouse --------------------------------------------------------------------------
-
-RAIL_Y = np.array([1.11, 0.910, 0.710, 0.510, 0.32, 0.10, -0.20, -0.60, -1.05, -1.40, -1.80])
-RAIL_X = np.array([0.748, 0.708, 0.667, 0.627, 0.592, 0.580, 0.574, 0.566, 0.552, 0.572, 0.660])
-RAIL_Z = np.array([1.050, 1.165, 1.270, 1.368, 1.447, 1.470, 1.480, 1.472, 1.432, 1.330, 1.070])
-
-
-def rail(y):
-    return np.interp(y, RAIL_Y[::-1], RAIL_X[::-1]), np.interp(y, RAIL_Y[::-1], RAIL_Z[::-1])
-
-
-def belt(y):
-    return 0.778, 1.036 + 0.012 * (1.1 - y)
-
-
-def side_sheet(name, sign, y_range, material, outward=0.0, low=0.0, high=None, step=0.04):
-    """Part of the side window's sheet. low: metres above the belt; high: a height above the
-    belt, or None for the roof rail, or minus metres under the rail."""
-    ys = np.linspace(*y_range, max(3, int(abs(y_range[1] - y_range[0]) / step)))
-    rows = []
-    for t in np.linspace(0, 1, 9):
-        row = []
-        for y in ys:
-            (bx, bz), (rx, rz) = belt(y), rail(y)
-            rz = max(rz, bz + 0.002)
-            top = rz - bz
-            start = min(max(top + low, 0), top) if low < 0 else min(low, top)
-            end = top if high is None else min(high, top)
-            h = start + (end - start) * t
-            k = h / top
-            x = bx + (rx - bx) * k + 0.030 * 4 * k * (1 - k) * 0.5 + outward
-            row.append((sign * x, y, bz + h))
-        rows.append(row)
-    return grid(name, np.array(rows), material, flip=(sign < 0))
-
-
-def side_windows():
-    for side, sign in SIDES:
-        side_sheet(f"side glass {side}", sign, (1.10, -1.60), "side glass")
-        for layer, shift, fabric in (("inner", -0.006, "pillar fabric"), ("outer", 0.004, "plastic dark")):
-            side_sheet(f"B-pillar {layer} {side}", sign, (-0.17, -0.30), fabric, shift)
-            side_sheet(f"C-pillar {layer} {side}", sign, (-1.22, -1.80), fabric if layer == "inner" else "car paint", shift)
-            side_sheet(f"mirror sail {layer} {side}", sign, (1.11, 0.90), "plastic dark", shift)
-            side_sheet(f"waist seal {layer} {side}", sign, (1.10, -1.6), "rubber", shift, 0.0, 0.016)
-            side_sheet(f"window frame {layer} {side}", sign, (1.10, -1.6), "rubber", shift * 1.2, -0.030, None)
-        waist_chrome(side, sign)
-        pillar(side, sign)
-        door_mirror(side, sign)
-
-
-def waist_chrome(side, sign):
-    ys = np.linspace(1.05, -1.6, 40)
-    path = [(sign * (belt(y)[0] + 0.008), y, belt(y)[1] + 0.004) for y in ys]
-    tube(f"waist strip {side}", path, 0.006, "satin chrome", 8)
-
-
-def pillar(side, sign):
-    """A-pillar: fabric inside, paint outside, and the trim along the roof rail behind it."""
-    vs = np.linspace(-0.06, 1.0, 26)
-    inner = screen(0.995 * sign, vs, 0.022)
-    header = np.array([(sign * (rail(y)[0] - 0.012), y, rail(y)[1] - 0.012) for y in np.linspace(0.24, -1.5, 24)])
-    path = np.concatenate([inner, header])
-    radius = np.concatenate([np.interp(vs, (-0.06, 0.2, 1), (0.046, 0.036, 0.033)), np.full(24, 0.030)])
-    tube(f"A-pillar {side}", path, radius, "pillar fabric", 20, False, 0.80, (0, 0.46, 0.89))
-    outer = screen(1.03 * sign, vs, -0.004)
-    roof = np.array([(sign * (rail(y)[0] + 0.012), y, rail(y)[1] + 0.010) for y in np.linspace(0.26, -1.85, 24)])
-    tube(f"A-pillar outside {side}", np.concatenate([outer, roof]), 0.028, "car paint", 16, False, 0.9, (0, 0.46, 0.89))
-
-
-def door_mirror(side, sign):
-    at = frame_matrix((sign * 1.00, 0.845, 1.085), (0.970, -0.24 * sign, 0), (0, 0.07, 1))
-    outline = rounded_rectangle(0.205, 0.125, 0.045, 8)
-    rings = [np.column_stack([outline * k, np.full(len(outline), z)]) for k, z in
-             ((0.10, -0.098), (0.45, -0.092), (0.72, -0.078), (0.90, -0.052), (0.985, -0.020), (1.0, 0.0), (0.985, 0.004), (0.95, 0.003))]
-    grid(f"door mirror {side}", place(np.array(rings), at), "car paint", closed=True)
-    plate(f"door mirror glass {side}", outline * 0.95, 0.002, at, "mirror silver", 0.0005)
-    tube(f"door mirror arm {side}", spline([(sign * 0.80, 0.90, 1.035), (sign * 0.87, 0.895, 1.030), (sign * 0.945, 0.88, 1.045)], 8),
-         0.024, "plastic dark", 14, False, 0.55)
-
-
-# ---- roof, rear and floor ----------------------------------------------------------------
-
-def roof_point(u, y, lift):
-    x, z = rail(y)
-    front = -0.120 * u ** 2 * np.clip((y + 0.4) / 0.84, 0, 1) + 0.0
-    return np.array([x * u, y + front, z + 0.040 * (1 - u * u) + lift])
-
-
-def roof():
-    ys = np.linspace(0.44, -1.42, 32)
-    us = np.linspace(-1, 1, 25)
-
-    def point(u, y, lift):
-        head = screen(u, 1.0, 0.0)
-        base = roof_point(u, y, lift)
-        blend = np.clip((y - 0.10) / 0.34, 0, 1)
-        target = np.array([head[0], head[1] + (y - 0.44), head[2] + lift])
-        return base * (1 - blend) + target * blend
-
-    for name, lift, material, flip in (("roof lining", -0.028, "alcantara grey", False), ("roof", 0.004, "car paint", True)):
-        parts = [grid(name, np.array([[point(u, y, lift) for u in columns] for y in rows]), material, flip=flip)
-                 for rows, columns in roof_frame(ys, us)]
-        joined(name, parts)
-    pane = [[point(u, y, -0.002) for u in np.linspace(-0.72, 0.72, 13)] for y in np.linspace(0.13, -1.20, 18)]
-    grid("roof glass", np.array(pane), "roof glass")
-    edge = [point(u, y, -0.014) for u, y in roof_opening()]
-    tube("roof glass seal", np.array(edge), 0.016, "rubber", 8, True)
-    lip = [[screen(u, v, 0.024) + np.array([0, dy, 0]) for u in us] for v, dy in ((0.955, 0), (1.0, 0.0), (1.03, -0.02))]
-    grid("header trim", np.array(lip), "alcantara grey")
-    tube("header edge", screen(us * 0.99, 0.955, 0.020), 0.008, "alcantara grey", 10)
-    console_lamp()
-
-
-def roof_frame(ys, us):
-    """Four strips of the roof around its glass: (rows, columns) in y and u."""
-    middle = np.linspace(0.10, -1.17, 20)
-    return ((np.linspace(ys[0], 0.10, 8), us), (np.linspace(-1.17, ys[-1], 5), us),
-            (middle, np.linspace(-1, -0.70, 6)), (middle, np.linspace(0.70, 1, 6)))
-
-
-def roof_opening():
-    """(u, y) around the glass's edge, with rounded corners."""
-    outline = rounded_rectangle(1.40, 1.27, 0.10, 6)
-    return [(x, y - 0.535) for x, y in outline]
-
-
-def console_lamp():
-    at = frame_matrix((0, 0.23, 1.470), (1, 0, 0), (0, 1, 0.10))
-    plate("roof console", rounded_rectangle(0.16, 0.18, 0.03, 6), 0.02, at @ Matrix.Translation((0, 0, -0.012)), "plastic grained", 0.005, 3)
-
-
-def rear():
-    us = np.linspace(-1, 1, 17)
-    top = np.array([[rail(-1.40)[0] * u, -1.40, rail(-1.40)[1] + 0.045 * (1 - u * u)] for u in us])
-    foot = np.array([[0.66 * u, -1.86 - 0.05 * (1 - u * u), 1.075] for u in us])
-    rows = [top * (1 - t) + foot * t + np.array([0, -0.02, 0.02]) * 4 * t * (1 - t) for t in np.linspace(0, 1, 9)]
-    grid("rear glass", np.array(rows), "side glass")
-    grid("rear shelf", np.array([[(0.78 * u, y, 1.068) for u in us] for y in (-1.30, -1.93)]), "carpet", flip=True)
-
-
-def hull():
-    """The closed tub below the windows: floor, firewall, sides, boot wall."""
-    x, y0, y1, z0, z1 = 0.80, -1.92, 1.34, 0.22, 1.04
-    corners = [(-x, y0, z0), (x, y0, z0), (x, y1, z0), (-x, y1, z0), (-x, y0, z1), (x, y0, z1), (x, y1, 1.0), (-x, y1, 1.0)]
-    faces = [(0, 1, 2, 3), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)]
-    mesh("floor and firewall", corners, faces, "carpet")
+from shapes import (
+    box,
+    frame_matrix,
+    frame_ring,
+    grid,
+    lathe,
+    place,
+    plate,
+    round_section,
+    rounded_rectangle,
+    spline,
+    stitches,
+    tube,
+)
+from greenhouse import SIDES
 
 
 # ---- doors -------------------------------------------------------------------------------
+
 
 def door_profile(points, y, sign, count):
     curve = spline(points, count)
@@ -230,17 +29,36 @@ def door_profile(points, y, sign, count):
     return np.column_stack([sign * (curve[:, 0] - ease), np.full(count, y), curve[:, 1]])
 
 
-DOOR_TOP = [(0.800, 1.030), (0.775, 1.040), (0.748, 1.039), (0.733, 1.022), (0.727, 0.980), (0.730, 0.935), (0.738, 0.915)]
+DOOR_TOP = [
+    (0.800, 1.030),
+    (0.775, 1.040),
+    (0.748, 1.039),
+    (0.733, 1.022),
+    (0.727, 0.980),
+    (0.730, 0.935),
+    (0.738, 0.915),
+]
 DOOR_INSERT = [(0.742, 0.905), (0.735, 0.890), (0.735, 0.80), (0.742, 0.722)]
-DOOR_REST = [(0.742, 0.728), (0.690, 0.722), (0.662, 0.708), (0.655, 0.682), (0.672, 0.655), (0.735, 0.635)]
+DOOR_REST = [
+    (0.742, 0.728),
+    (0.690, 0.722),
+    (0.662, 0.708),
+    (0.655, 0.682),
+    (0.672, 0.655),
+    (0.735, 0.635),
+]
 DOOR_LOW = [(0.737, 0.632), (0.745, 0.50), (0.770, 0.28)]
 
 
 def doors():
     ys = np.linspace(1.05, -1.30, 60)
     for side, sign in SIDES:
-        for part, points, material, count in (("top", DOOR_TOP, "leather black", 18), ("insert", DOOR_INSERT, "leather cognac", 8),
-                                              ("armrest", DOOR_REST, "leather black", 14), ("lower", DOOR_LOW, "plastic grained", 6)):
+        for part, points, material, count in (
+            ("top", DOOR_TOP, "leather black", 18),
+            ("insert", DOOR_INSERT, "leather cognac", 8),
+            ("armrest", DOOR_REST, "leather black", 14),
+            ("lower", DOOR_LOW, "plastic grained", 6),
+        ):
             rows = np.array([door_profile(points, y, sign, count) for y in ys])
             grid(f"door {part} {side}", rows, material, flip=(sign < 0))
         strip = [door_profile([(0.7385, 0.910), (0.7380, 0.9095)], y, sign, 2)[0] for y in ys]
@@ -251,37 +69,122 @@ def doors():
 
 
 def door_fittings(side, sign):
-    path = spline([(sign * 0.733, 0.36, 0.852), (sign * 0.712, 0.345, 0.856), (sign * 0.708, 0.29, 0.858), (sign * 0.714, 0.235, 0.856)], 14)
-    tube(f"door handle {side}", path, np.linspace(0.008, 0.0065, 14), "satin chrome", 12, False, 1.25)
+    path = spline(
+        [
+            (sign * 0.733, 0.36, 0.852),
+            (sign * 0.712, 0.345, 0.856),
+            (sign * 0.708, 0.29, 0.858),
+            (sign * 0.714, 0.235, 0.856),
+        ],
+        14,
+    )
+    tube(
+        f"door handle {side}",
+        path,
+        np.linspace(0.008, 0.0065, 14),
+        "satin chrome",
+        12,
+        False,
+        1.25,
+    )
     cup = frame_matrix((sign * 0.7345, 0.30, 0.855), (0, -sign, 0), (0, 0, 1))
-    frame_ring(f"door handle cup {side}", rounded_rectangle(0.150, 0.045, 0.02, 8), round_section(0.004, 0.005), cup, "satin chrome")
-    plate(f"door handle well {side}", rounded_rectangle(0.148, 0.043, 0.02, 8), 0.002, cup, "plastic dark", 0.0005)
-    at = frame_matrix((sign * 0.695, 0.33, 0.7245), (0, -sign, 0), (sign, 0, 0.05))
-    plate(f"window switches {side}", rounded_rectangle(0.14, 0.050, 0.012, 6), 0.004, frame_matrix((sign * 0.697, 0.33, 0.7275), (1, 0, 0), (0, 1, 0)),
-          "piano black", 0.001)
+    frame_ring(
+        f"door handle cup {side}",
+        rounded_rectangle(0.150, 0.045, 0.02, 8),
+        round_section(0.004, 0.005),
+        cup,
+        "satin chrome",
+    )
+    plate(
+        f"door handle well {side}",
+        rounded_rectangle(0.148, 0.043, 0.02, 8),
+        0.002,
+        cup,
+        "plastic dark",
+        0.0005,
+    )
+    plate(
+        f"window switches {side}",
+        rounded_rectangle(0.14, 0.050, 0.012, 6),
+        0.004,
+        frame_matrix((sign * 0.697, 0.33, 0.7275), (1, 0, 0), (0, 1, 0)),
+        "piano black",
+        0.001,
+    )
     for i in range(4):
         x, y = sign * 0.697 - 0.012 + 0.024 * (i % 2), 0.35 - 0.045 * (i // 2)
-        box(f"window switch {side} {i}", (0.016, 0.026, 0.008), frame_matrix((x, y, 0.7300), (1, 0, 0), (0, 1, 0.25)), "button", 0.002, 2)
+        box(
+            f"window switch {side} {i}",
+            (0.016, 0.026, 0.008),
+            frame_matrix((x, y, 0.7300), (1, 0, 0), (0, 1, 0.25)),
+            "button",
+            0.002,
+            2,
+        )
     speaker = frame_matrix((sign * 0.752, 0.55, 0.47), (0, -sign, 0), (0, 0, 1))
-    lathe(f"door speaker {side}", [(0.085, -0.01), (0.085, 0.006), (0.080, 0.008), (0.076, 0.005), (0.05, 0.009), (0.001, 0.011)], speaker, "plastic dark", 48)
+    lathe(
+        f"door speaker {side}",
+        [
+            (0.085, -0.01),
+            (0.085, 0.006),
+            (0.080, 0.008),
+            (0.076, 0.005),
+            (0.05, 0.009),
+            (0.001, 0.011),
+        ],
+        speaker,
+        "plastic dark",
+        48,
+    )
 
 
 # ---- console and seats -------------------------------------------------------------------
 
+
 def console():
     rows = []
-    for y, z, w in ((0.80, 0.800, 0.30), (0.72, 0.790, 0.30), (0.66, 0.760, 0.275), (0.58, 0.725, 0.255), (0.45, 0.700, 0.245),
-                    (0.25, 0.690, 0.240), (0.02, 0.690, 0.236)):
-        o = [(-w / 2 - 0.012, z - 0.50), (-w / 2 - 0.006, z - 0.06), (-w / 2, z - 0.018), (-w / 2 + 0.012, z), (0, z + 0.001),
-             (w / 2 - 0.012, z), (w / 2, z - 0.018), (w / 2 + 0.006, z - 0.06), (w / 2 + 0.012, z - 0.50)]
+    for y, z, w in (
+        (0.80, 0.800, 0.30),
+        (0.72, 0.790, 0.30),
+        (0.66, 0.760, 0.275),
+        (0.58, 0.725, 0.255),
+        (0.45, 0.700, 0.245),
+        (0.25, 0.690, 0.240),
+        (0.02, 0.690, 0.236),
+    ):
+        o = [
+            (-w / 2 - 0.012, z - 0.50),
+            (-w / 2 - 0.006, z - 0.06),
+            (-w / 2, z - 0.018),
+            (-w / 2 + 0.012, z),
+            (0, z + 0.001),
+            (w / 2 - 0.012, z),
+            (w / 2, z - 0.018),
+            (w / 2 + 0.006, z - 0.06),
+            (w / 2 + 0.012, z - 0.50),
+        ]
         curve = spline(o, 33)
         rows.append(np.column_stack([curve[:, 0], np.full(33, y), curve[:, 1]]))
     smooth = np.stack([spline(np.array(rows)[:, k], 30) for k in range(33)], axis=1)
     grid("centre console", smooth[::-1], "leather black", flip=False)
     deck = frame_matrix((0, 0.37, 0.699), (1, 0, 0), (0, 1, 0.055))
     outline = rounded_rectangle(0.185, 0.40, 0.03, 6)
-    plate("console deck", outline, 0.01, deck @ Matrix.Translation((0, 0, 0.004)), "walnut open pore", 0.002, 3)
-    frame_ring("console deck trim", outline, round_section(0.005, 0.006, 10), deck @ Matrix.Translation((0, 0, 0.002)), "satin chrome")
+    plate(
+        "console deck",
+        outline,
+        0.01,
+        deck @ Matrix.Translation((0, 0, 0.004)),
+        "walnut open pore",
+        0.002,
+        3,
+    )
+    frame_ring(
+        "console deck trim",
+        outline,
+        round_section(0.005, 0.006, 10),
+        deck @ Matrix.Translation((0, 0, 0.002)),
+        "satin chrome",
+    )
     selector()
     cup_holders()
     armrest = frame_matrix((0, -0.10, 0.735), (1, 0, 0), (0, 1, 0))
@@ -290,17 +193,45 @@ def console():
 
 def selector():
     base = frame_matrix((-0.045, 0.44, 0.712), (1, 0, 0), (0, 1, 0.055))
-    plate("gear selector base", rounded_rectangle(0.062, 0.125, 0.02, 6), 0.006, base, "piano black", 0.0015, 3)
+    plate(
+        "gear selector base",
+        rounded_rectangle(0.062, 0.125, 0.02, 6),
+        0.006,
+        base,
+        "piano black",
+        0.0015,
+        3,
+    )
     rings = []
-    for z, w, d, shift in ((0.0, 0.026, 0.036, 0), (0.018, 0.024, 0.032, 0), (0.034, 0.030, 0.044, -0.003), (0.046, 0.036, 0.056, -0.007),
-                           (0.056, 0.036, 0.058, -0.010), (0.062, 0.031, 0.050, -0.011), (0.0645, 0.020, 0.034, -0.011), (0.065, 0.001, 0.001, -0.011)):
+    for z, w, d, shift in (
+        (0.0, 0.026, 0.036, 0),
+        (0.018, 0.024, 0.032, 0),
+        (0.034, 0.030, 0.044, -0.003),
+        (0.046, 0.036, 0.056, -0.007),
+        (0.056, 0.036, 0.058, -0.010),
+        (0.062, 0.031, 0.050, -0.011),
+        (0.0645, 0.020, 0.034, -0.011),
+        (0.065, 0.001, 0.001, -0.011),
+    ):
         o = rounded_rectangle(w, d, 0.45 * min(w, d), 6)
         rings.append(np.column_stack([o[:, 0], o[:, 1] + shift, np.full(len(o), z)]))
     grid("gear selector", place(np.array(rings), base), "leather wheel", closed=True)
     collar = rounded_rectangle(0.029, 0.040, 0.012, 6)
-    frame_ring("gear selector collar", collar, round_section(0.004, 0.004), base @ Matrix.Translation((0, 0, 0.020)), "satin chrome")
+    frame_ring(
+        "gear selector collar",
+        collar,
+        round_section(0.004, 0.004),
+        base @ Matrix.Translation((0, 0, 0.020)),
+        "satin chrome",
+    )
     start = frame_matrix((-0.055, 0.545, 0.722), (1, 0, 0), (0, 1, 0.2))
-    lathe("start button", [(0.017, -0.004), (0.017, 0.003), (0.0155, 0.0045), (0.0145, 0.0035), (0.0005, 0.003)], start, "satin chrome", 40)
+    lathe(
+        "start button",
+        [(0.017, -0.004), (0.017, 0.003), (0.0155, 0.0045), (0.0145, 0.0035), (0.0005, 0.003)],
+        start,
+        "satin chrome",
+        40,
+    )
     for i in range(3):
         where = frame_matrix((0.05, 0.50 - 0.035 * i, 0.7145), (1, 0, 0), (0, 1, 0.055))
         box(f"console key {i}", (0.055, 0.026, 0.008), where, "button", 0.002, 2)
@@ -309,7 +240,19 @@ def selector():
 def cup_holders():
     for i, y in enumerate((0.345, 0.255)):
         at = frame_matrix((0.045, y, 0.7055), (1, 0, 0), (0, 1, 0.055))
-        lathe(f"cup holder ring {i}", [(0.041, -0.002), (0.0425, 0.002), (0.040, 0.004), (0.037, 0.002), (0.0365, -0.001)], at, "satin chrome", 48)
+        lathe(
+            f"cup holder ring {i}",
+            [
+                (0.041, -0.002),
+                (0.0425, 0.002),
+                (0.040, 0.004),
+                (0.037, 0.002),
+                (0.0365, -0.001),
+            ],
+            at,
+            "satin chrome",
+            48,
+        )
         lathe(f"cup holder {i}", [(0.037, 0.0006), (0.0005, 0.0006)], at, "gap", 32)
 
 
@@ -320,83 +263,80 @@ def cushion(name, size, origin, right, up, material, bevel=0.06):
 def seats():
     for side, sign in SIDES:
         x = 0.37 * sign
-        cushion(f"seat cushion {side}", (0.50, 0.50, 0.16), (x, 0.10, 0.52), (1, 0, 0), (0, 1, 0.14), "seat leather")
+        cushion(
+            f"seat cushion {side}",
+            (0.50, 0.50, 0.16),
+            (x, 0.10, 0.52),
+            (1, 0, 0),
+            (0, 1, 0.14),
+            "seat leather",
+        )
         back = (0, -0.36, 1)
-        cushion(f"seat back {side}", (0.40, 0.62, 0.13), (x, -0.36, 0.85), (1, 0, 0), back, "seat leather")
+        cushion(
+            f"seat back {side}",
+            (0.40, 0.62, 0.13),
+            (x, -0.36, 0.85),
+            (1, 0, 0),
+            back,
+            "seat leather",
+        )
         for k in (-1, 1):
-            cushion(f"seat bolster {side} {k}", (0.10, 0.52, 0.20), (x + 0.215 * k, -0.315, 0.80), (1, 0, 0), back, "leather black", 0.045)
-        cushion(f"headrest {side}", (0.25, 0.17, 0.10), (x, -0.475, 1.265), (1, 0, 0), (0, -0.12, 1), "leather black", 0.045)
+            cushion(
+                f"seat bolster {side} {k}",
+                (0.10, 0.52, 0.20),
+                (x + 0.215 * k, -0.315, 0.80),
+                (1, 0, 0),
+                back,
+                "leather black",
+                0.045,
+            )
+        cushion(
+            f"headrest {side}",
+            (0.25, 0.17, 0.10),
+            (x, -0.475, 1.265),
+            (1, 0, 0),
+            (0, -0.12, 1),
+            "leather black",
+            0.045,
+        )
         for k in (-1, 1):
-            tube(f"headrest rod {side} {k}", [(x + 0.055 * k, -0.468, 1.10), (x + 0.055 * k, -0.475, 1.22)], 0.006, "bright chrome", 10, up=(1, 0, 0))
-    cushion("rear bench", (1.30, 0.52, 0.18), (0, -0.98, 0.50), (1, 0, 0), (0, 1, 0.12), "seat leather")
-    cushion("rear back", (1.32, 0.62, 0.16), (0, -1.34, 0.80), (1, 0, 0), (0, -0.38, 1), "seat leather")
+            tube(
+                f"headrest rod {side} {k}",
+                [(x + 0.055 * k, -0.468, 1.10), (x + 0.055 * k, -0.475, 1.22)],
+                0.006,
+                "bright chrome",
+                10,
+                up=(1, 0, 0),
+            )
+    cushion(
+        "rear bench",
+        (1.30, 0.52, 0.18),
+        (0, -0.98, 0.50),
+        (1, 0, 0),
+        (0, 1, 0.12),
+        "seat leather",
+    )
+    cushion(
+        "rear back",
+        (1.32, 0.62, 0.16),
+        (0, -1.34, 0.80),
+        (1, 0, 0),
+        (0, -0.38, 1),
+        "seat leather",
+    )
     for k in (-1, 1):
-        cushion(f"rear headrest {k}", (0.24, 0.14, 0.09), (0.36 * k, -1.47, 1.135), (1, 0, 0), (0, -0.2, 1), "leather black", 0.04)
-
-
-# ---- body outside ------------------------------------------------------------------------
-
-def bonnet_z(x, y):
-    along = np.interp(y, (1.10, 1.42, 1.80, 2.20, 2.42, 2.52, 2.56), (1.005, 0.985, 0.958, 0.905, 0.855, 0.800, 0.700))
-    a = abs(x)
-    crown = -0.055 * (a / 0.75) ** 2 + 0.026 * math.exp(-((a - 0.60) / 0.10) ** 2)
-    edge = -0.25 * max(0.0, (a - 0.74) / 0.16) ** 2
-    return along + crown + edge
-
-
-def bonnet():
-    xs = np.linspace(-0.90, 0.90, 49)
-    ts = np.linspace(0, 1, 30)
-    rows = []
-    for t in ts:
-        row = []
-        for x in xs:
-            back = glass_foot(np.clip(x, -0.8, 0.8)) + 0.085
-            front = 2.56 - 0.16 * (abs(x) / 0.9) ** 3
-            y = back + (front - back) * t
-            row.append((x, y, bonnet_z(x, y)))
-        rows.append(row)
-    last = np.array(rows[-1])
-    rows.append(last + np.array([0, 0.01, -0.08]))
-    rows.append(last * np.array([1, 1, 0]) + np.array([0, -0.02, 0.30]))
-    grid("bonnet", np.array(rows), "car paint")
-    for side, sign in SIDES:
-        line = [(sign * 0.70, y, bonnet_z(0.70, y) + 0.0005) for y in np.linspace(1.38, 2.45, 40)]
-        tube(f"bonnet shut line {side}", line, 0.0022, "gap", 6)
-    us = np.linspace(-1.05, 1.05, 33)
-    cowl = [[(0.735 * u, glass_foot(0.735 * u) + d, 1.005 + 0.045 * u * u * k + h) for u in us] for d, k, h in
-            ((-0.030, 1, 0.004), (0.010, 1, -0.010), (0.050, 0.6, -0.030), (0.110, 0.2, -0.050))]
-    grid("cowl", np.array(cowl), "plastic grained")
-
-
-def body_sides():
-    profile = [(0.782, 1.034), (0.800, 1.030), (0.865, 0.985), (0.905, 0.90), (0.912, 0.72), (0.895, 0.45), (0.86, 0.28)]
-    curve = spline(profile, 26)
-    for side, sign in SIDES:
-        rows = []
-        for y in np.linspace(1.30, -2.10, 50):
-            taper = 1.0 - 0.06 * max(0.0, (-y - 1.2) / 0.9) ** 2
-            rows.append(np.column_stack([sign * curve[:, 0] * taper, np.full(26, y), curve[:, 1]]))
-        grid(f"body side {side}", np.array(rows), "car paint", flip=(sign > 0))
-    us = np.linspace(-1, 1, 17)
-    boot = [[(x * u, y, z + 0.02 * (1 - u * u)) for u in us] for x, y, z in ((0.79, -1.84, 1.055), (0.80, -2.15, 1.02), (0.82, -2.30, 0.98), (0.82, -2.36, 0.80), (0.80, -2.38, 0.35))]
-    grid("boot", np.array(boot), "car paint", flip=True)
-    mesh("underside", [(-0.88, -2.36, 0.28), (0.88, -2.36, 0.28), (0.88, 2.45, 0.28), (-0.88, 2.45, 0.28)], [(0, 3, 2, 1)], "plastic dark")
-    for k, (x, y) in enumerate(((-0.80, 1.72), (0.80, 1.72), (-0.80, -1.35), (0.80, -1.35))):
-        at = frame_matrix((x, y, 0.335), (0, 1, 0), (0, 0, 1))
-        lathe(f"tyre {k}", [(0.20, -0.10), (0.31, -0.11), (0.335, -0.08), (0.335, 0.08), (0.31, 0.11), (0.20, 0.10)], at, "rubber", 40)
+        cushion(
+            f"rear headrest {k}",
+            (0.24, 0.14, 0.09),
+            (0.36 * k, -1.47, 1.135),
+            (1, 0, 0),
+            (0, -0.2, 1),
+            "leather black",
+            0.04,
+        )
 
 
 def build_cabin():
-    windscreen()
-    rear_view_mirror()
-    visors()
-    side_windows()
-    roof()
-    rear()
-    hull()
     doors()
     console()
     seats()
-    bonnet()
-    body_sides()

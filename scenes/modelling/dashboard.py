@@ -4,19 +4,49 @@ import math
 import numpy as np
 from mathutils import Matrix, Vector
 
-from shapes import (bevelled, box, frame_matrix, frame_ring, grid, joined, lathe, mesh, place, plate,
-                    round_section, rounded_rectangle, spline, stitches, tube)
+from shapes import (
+    box,
+    frame_matrix,
+    frame_ring,
+    grid,
+    joined,
+    lathe,
+    mesh,
+    place,
+    plate,
+    round_section,
+    rounded_rectangle,
+    spline,
+    stitches,
+    tube,
+)
 
-HALF_WIDTH = 0.755   # m, where the dashboard meets the doors
-DRIVER_X = -0.37     # m, the wheel, the cluster and the driver's eye
-CENTRE_X = 0.0       # m, the middle of the centre display
+HALF_WIDTH = 0.755  # m, where the dashboard meets the doors
+DRIVER_X = -0.37  # m, the wheel, the cluster and the driver's eye
+CENTRE_X = 0.0  # m, the middle of the centre display
 
 # (y, z) sections at the car's centre line, from the windscreen to the knees.
-PAD = [(1.36, 1.000), (1.20, 1.018), (1.02, 1.040), (0.88, 1.057), (0.800, 1.063), (0.758, 1.053),
-       (0.740, 1.030), (0.739, 1.008), (0.748, 0.992)]
+PAD = [
+    (1.36, 1.000),
+    (1.20, 1.018),
+    (1.02, 1.040),
+    (0.88, 1.057),
+    (0.800, 1.063),
+    (0.758, 1.053),
+    (0.740, 1.030),
+    (0.739, 1.008),
+    (0.748, 0.992),
+]
 BAND = [(0.752, 0.988), (0.746, 0.972), (0.744, 0.950), (0.747, 0.930), (0.752, 0.922)]
-KNEES = [(0.756, 0.916), (0.734, 0.904), (0.724, 0.880), (0.728, 0.840), (0.752, 0.760),
-         (0.800, 0.690), (0.880, 0.640)]
+KNEES = [
+    (0.756, 0.916),
+    (0.734, 0.904),
+    (0.724, 0.880),
+    (0.728, 0.840),
+    (0.752, 0.760),
+    (0.800, 0.690),
+    (0.880, 0.640),
+]
 
 
 def wrap(x):
@@ -56,8 +86,13 @@ def sweep(name, profile, x_range, material, count=24, step=0.025, recess=False):
 def along(profile_point, x_range, count, lift=0.0):
     """A line across the dashboard at one (y, z) of the section."""
     xs = np.linspace(*x_range, count)
-    return np.column_stack([xs, profile_point[0] + np.array([wrap(x) for x in xs]),
-                            np.full(count, profile_point[1] + lift)])
+    return np.column_stack(
+        [
+            xs,
+            profile_point[0] + np.array([wrap(x) for x in xs]),
+            np.full(count, profile_point[1] + lift),
+        ]
+    )
 
 
 def pad():
@@ -70,10 +105,55 @@ def pad():
         normal = normal if normal[2] > 0 else -normal
         for span, part in (((-0.742, -0.60), "left"), ((-0.14, 0.742), "right")):
             path = along(curve[k], span, 160)
-            stitches(f"dashboard seam {label} {part}", path, np.tile(normal, (160, 1)), "thread")
+            stitches(
+                f"dashboard seam {label} {part}", path, np.tile(normal, (160, 1)), "thread"
+            )
     k = np.argmin(abs(curve[:, 0] - 0.770) + 10 * (curve[:, 1] < 1.04))
     tube("dashboard seam fold", along(curve[k], (-0.745, 0.745), 120, 0.0002), 0.0011, "gap", 6)
     airbag_seam()
+    defroster()
+    pad_speaker()
+
+
+def pad_height(x, y):
+    """z of the pad's upper face at (x, y)."""
+    curve = spline(PAD, 400)
+    upper = curve[curve[:, 1] > curve[:, 1].max() - 0.09]
+    upper = upper[: np.argmax(upper[:, 1]) + 1]
+    return float(np.interp(-(y - wrap(x)), -upper[:, 0], upper[:, 1]))
+
+
+def defroster():
+    """The slots that blow onto the windscreen, along its foot."""
+    for part, span in (("left", (-0.62, -0.06)), ("right", (0.06, 0.62))):
+        xs = np.linspace(*span, 50)
+        ys = np.array([glass_foot(x) - 0.105 for x in xs])
+        path = np.column_stack([xs, ys, [pad_height(x, y) + 0.0004 for x, y in zip(xs, ys)]])
+        tube(f"defroster {part}", path, 0.011, "plastic dark", 10, squash=0.22)
+        tube(f"defroster slot {part}", path + (0, 0, 0.0018), 0.0062, "gap", 8, squash=0.22)
+
+
+def pad_speaker():
+    """A round grille in the middle of the pad."""
+    y = 1.045
+    slope = (pad_height(0, y + 0.02) - pad_height(0, y - 0.02)) / 0.04
+    at = frame_matrix((0, y, pad_height(0, y) + 0.0005), (1, 0, 0), (0, 1, slope))
+    ring = [
+        (0.050, -0.003),
+        (0.050, 0.003),
+        (0.0485, 0.0048),
+        (0.0465, 0.0040),
+        (0.0460, 0.0020),
+    ]
+    lathe("pad speaker ring", ring, at, "plastic dark", 56)
+    grille = [
+        (0.0462, 0.0022),
+        (0.040, 0.0034),
+        (0.030, 0.0046),
+        (0.015, 0.0054),
+        (0.0005, 0.0056),
+    ]
+    lathe("pad speaker grille", grille, at, "speaker cloth", 48)
 
 
 def airbag_seam():
@@ -90,13 +170,25 @@ def airbag_seam():
 
 
 def trim_band():
-    for name, span in (("left", (-0.598, -0.545)), ("driver", (-0.545, -0.12)), ("right", (-0.12, 0.592))):
-        if name != "left":
-            sweep(f"trim band {name}", BAND, span, "walnut open pore", 12)
-    sweep("trim band left", BAND, (-0.598, -0.545), "walnut open pore", 12)
-    for name, point, radius in (("upper", (0.7495, 0.9895), 0.0026), ("lower", (0.7490, 0.9195), 0.0042)):
-        tube(f"trim strip {name}", along(point, (-0.748, 0.748), 90), radius, "satin chrome", 10)
-    tube("ambient light guide", along((0.7545, 0.9145), (-0.74, 0.74), 60), 0.0016, "symbol white", 6)
+    """Wood between the vents, its grain along the dashboard."""
+    for name, span in (("left", (-0.598, -0.12)), ("right", (-0.12, 0.592))):
+        xs = np.linspace(*span, int((span[1] - span[0]) / 0.025) + 1)
+        rows = np.array([section(BAND, x, 12) for x in xs])
+        grid(f"trim band {name}", rows.transpose(1, 0, 2), "walnut open pore", flip=True)
+    for name, point, radius in (
+        ("upper", (0.7495, 0.9895), 0.0026),
+        ("lower", (0.7490, 0.9195), 0.0042),
+    ):
+        tube(
+            f"trim strip {name}", along(point, (-0.748, 0.748), 90), radius, "satin chrome", 10
+        )
+    tube(
+        "ambient light guide",
+        along((0.7545, 0.9145), (-0.74, 0.74), 60),
+        0.0016,
+        "symbol white",
+        6,
+    )
 
 
 def knees():
@@ -111,6 +203,7 @@ def knees():
 
 def glovebox(curve):
     """The lid's gap and its satin handle, on the passenger's side."""
+
     def on_knees(x, z):
         k = np.argmin(abs(curve[:, 1] - z))
         return (x, curve[k, 0] + wrap(x) - 0.0002, curve[k, 1])
@@ -118,13 +211,22 @@ def glovebox(curve):
     outline = rounded_rectangle(0.42, 0.165, 0.02) + np.array([0.45, 0.782])
     path = np.array([on_knees(*p) for p in np.vstack([outline, outline[:1]])])
     tube("glovebox gap", path, 0.0014, "gap", 6)
-    where = frame_matrix(Vector(on_knees(0.45, 0.845)) + Vector((0, -0.004, 0)), (1, 0, 0), (0, 0, 1))
-    plate("glovebox handle", rounded_rectangle(0.085, 0.016, 0.006), 0.006, where, "satin chrome", 0.002)
+    where = frame_matrix(
+        Vector(on_knees(0.45, 0.845)) + Vector((0, -0.004, 0)), (1, 0, 0), (0, 0, 1)
+    )
+    plate(
+        "glovebox handle",
+        rounded_rectangle(0.085, 0.016, 0.006),
+        0.006,
+        where,
+        "satin chrome",
+        0.002,
+    )
 
 
 # ---- instrument cluster ------------------------------------------------------------------
 
-CLUSTER_SIZE = (0.292, 0.1095)   # m, active area
+CLUSTER_SIZE = (0.292, 0.1095)  # m, active area
 CLUSTER_FRAME = frame_matrix((DRIVER_X, 0.728, 1.034), (1, 0, 0), (0, 0.17, 1))
 
 
@@ -134,20 +236,35 @@ def hood_ring(y_top, y_bottom, half_width, z_top, z_bottom, count=48):
     c, s = np.cos(angle), np.sin(angle)
     x = DRIVER_X + half_width * np.sign(c) * abs(c) ** 0.62
     middle = z_bottom + 0.33 * (z_top - z_bottom)
-    z = np.where(s > 0, middle + (z_top - middle) * abs(s) ** 0.72, middle - (middle - z_bottom) * 2.1 * abs(s))
+    z = np.where(
+        s > 0,
+        middle + (z_top - middle) * abs(s) ** 0.72,
+        middle - (middle - z_bottom) * 2.1 * abs(s),
+    )
     share = np.clip((z - z_bottom) / (z_top - z_bottom), 0, 1)
     return np.column_stack([x, y_bottom + (y_top - y_bottom) * share, z])
 
 
 def binnacle():
-    outside = [hood_ring(1.10, 1.10, 0.235, 1.010, 0.90), hood_ring(1.00, 1.00, 0.226, 1.049, 0.92),
-               hood_ring(0.92, 0.92, 0.215, 1.084, 0.935), hood_ring(0.84, 0.84, 0.203, 1.110, 0.945),
-               hood_ring(0.76, 0.775, 0.193, 1.1235, 0.952), hood_ring(0.705, 0.735, 0.187, 1.1260, 0.956),
-               hood_ring(0.672, 0.713, 0.184, 1.1250, 0.9585)]
-    lip = [hood_ring(0.663, 0.706, 0.1825, 1.1225, 0.9600), hood_ring(0.660, 0.704, 0.1800, 1.1190, 0.9615),
-           hood_ring(0.6625, 0.706, 0.1775, 1.1160, 0.9630)]
-    inside = [hood_ring(0.680, 0.718, 0.1700, 1.1105, 0.9660), hood_ring(0.715, 0.728, 0.1620, 1.1010, 0.9690),
-              hood_ring(0.745, 0.735, 0.1540, 1.0935, 0.9710)]
+    outside = [
+        hood_ring(1.10, 1.10, 0.235, 1.010, 0.90),
+        hood_ring(1.00, 1.00, 0.226, 1.049, 0.92),
+        hood_ring(0.92, 0.92, 0.215, 1.084, 0.935),
+        hood_ring(0.84, 0.84, 0.203, 1.110, 0.945),
+        hood_ring(0.76, 0.775, 0.193, 1.1235, 0.952),
+        hood_ring(0.705, 0.735, 0.187, 1.1260, 0.956),
+        hood_ring(0.672, 0.713, 0.184, 1.1250, 0.9585),
+    ]
+    lip = [
+        hood_ring(0.663, 0.706, 0.1825, 1.1225, 0.9600),
+        hood_ring(0.660, 0.704, 0.1800, 1.1190, 0.9615),
+        hood_ring(0.6625, 0.706, 0.1775, 1.1160, 0.9630),
+    ]
+    inside = [
+        hood_ring(0.680, 0.718, 0.1700, 1.1105, 0.9660),
+        hood_ring(0.715, 0.728, 0.1620, 1.1010, 0.9690),
+        hood_ring(0.745, 0.735, 0.1540, 1.0935, 0.9710),
+    ]
     shell = np.array(outside + lip)
     smooth = np.stack([spline(shell[:, k], 40) for k in range(shell.shape[1])], axis=1)
     grid("binnacle hood", smooth, "leather black", flip=True)
@@ -182,7 +299,14 @@ def display_quad(name, size, matrix):
 def cluster():
     binnacle()
     front = CLUSTER_FRAME @ Matrix.Translation((0, 0, -0.0006))
-    plate("cluster cover lens", rounded_rectangle(0.322, 0.142, 0.022), 0.012, front, "cover glass", 0.001)
+    plate(
+        "cluster cover lens",
+        rounded_rectangle(0.322, 0.142, 0.022),
+        0.012,
+        front,
+        "cover glass",
+        0.001,
+    )
     display_quad("cluster", CLUSTER_SIZE, CLUSTER_FRAME)
     lower = CLUSTER_FRAME @ Matrix.Translation((0, -0.066, -0.004))
     box("cluster base", (0.33, 0.03, 0.05), lower, "plastic dark", 0.006)
@@ -190,9 +314,12 @@ def cluster():
 
 # ---- centre display ----------------------------------------------------------------------
 
-CENTRE_SIZE = (0.2716, 0.1528)   # m, active area
-CENTRE_FRAME = frame_matrix((CENTRE_X, 0.672, 1.028), (math.cos(math.radians(7)), -math.sin(math.radians(7)), 0),
-                            (0, 0.13, 1))
+CENTRE_SIZE = (0.2716, 0.1528)  # m, active area
+CENTRE_FRAME = frame_matrix(
+    (CENTRE_X, 0.672, 1.028),
+    (math.cos(math.radians(7)), -math.sin(math.radians(7)), 0),
+    (0, 0.13, 1),
+)
 
 
 def centre_display():
@@ -200,9 +327,19 @@ def centre_display():
     outline = rounded_rectangle(0.2960, 0.1790, 0.011, 8)
     plate("centre display glass", outline, 0.0035, glass, "cover glass", 0.0011, 3)
     rim = CENTRE_FRAME @ Matrix.Translation((0, 0, -0.0055))
-    frame_ring("centre display rim", outline, round_section(0.0030, 0.0080, 12), rim, "satin chrome")
+    frame_ring(
+        "centre display rim", outline, round_section(0.0030, 0.0080, 12), rim, "satin chrome"
+    )
     back = CENTRE_FRAME @ Matrix.Translation((0, 0, -0.0035))
-    plate("centre display back", rounded_rectangle(0.2950, 0.1780, 0.0105, 8), 0.013, back, "plastic dark", 0.005, 3)
+    plate(
+        "centre display back",
+        rounded_rectangle(0.2950, 0.1780, 0.0105, 8),
+        0.013,
+        back,
+        "plastic dark",
+        0.005,
+        3,
+    )
     display_quad("centre", CENTRE_SIZE, CENTRE_FRAME)
     foot = CENTRE_FRAME @ Matrix.Translation((0, -0.035, -0.045))
     box("centre display foot", (0.16, 0.10, 0.07), foot, "plastic dark", 0.012, 3)
@@ -210,13 +347,18 @@ def centre_display():
 
 # ---- air vents ---------------------------------------------------------------------------
 
+
 def vent(name, origin, right, up, width, height, slats=4, vanes=5):
     """Slats with a satin edge in front of upright vanes, in a dark duct with a surround."""
     at = frame_matrix(origin, right, up)
     outline = rounded_rectangle(width, height, min(0.014, 0.42 * height), 6)
-    frame_ring(f"{name} surround", outline, round_section(0.0052, 0.0090, 12), at, "satin chrome")
+    frame_ring(
+        f"{name} surround", outline, round_section(0.0052, 0.0090, 12), at, "satin chrome"
+    )
     deep = at @ Matrix.Translation((0, 0, -0.030))
-    rings = np.array([np.column_stack([outline, np.full(len(outline), d)]) for d in (0.0, -0.022, -0.046)])
+    rings = np.array(
+        [np.column_stack([outline, np.full(len(outline), d)]) for d in (0.0, -0.022, -0.046)]
+    )
     grid(f"{name} duct", place(rings, at), "plastic dark", closed=True)
     plate(f"{name} duct end", outline, 0.001, at @ Matrix.Translation((0, 0, -0.045)), "gap", 0)
     blades, edges = [], []
@@ -226,14 +368,27 @@ def vent(name, origin, right, up, width, height, slats=4, vanes=5):
         tilt = Matrix.Translation((0, y, -0.013)) @ Matrix.Rotation(math.radians(14), 4, "X")
         half = abs(y) / height
         blade_width = width - 0.004 - (0.012 if half > 0.38 else 0)
-        blades.append(box("blade", (blade_width, 0.0026, 0.021), at @ tilt, "plastic dark", 0.001))
+        blades.append(
+            box("blade", (blade_width, 0.0026, 0.021), at @ tilt, "plastic dark", 0.001)
+        )
         edge = tilt @ Matrix.Translation((0, 0, 0.0106))
-        edges.append(box("edge", (blade_width - 0.002, 0.0017, 0.0018), at @ edge, "satin chrome", 0.0006))
+        edges.append(
+            box(
+                "edge", (blade_width - 0.002, 0.0017, 0.0018), at @ edge, "satin chrome", 0.0006
+            )
+        )
     joined(f"{name} slats", blades)
     joined(f"{name} slat edges", edges)
-    uprights = [box("vane", (0.0022, height - 0.004, 0.014),
-                    deep @ Matrix.Translation(((i - (vanes - 1) / 2) * width / (vanes + 0.5), 0, 0)),
-                    "plastic dark", 0.0008) for i in range(vanes)]
+    uprights = [
+        box(
+            "vane",
+            (0.0022, height - 0.004, 0.014),
+            deep @ Matrix.Translation(((i - (vanes - 1) / 2) * width / (vanes + 0.5), 0, 0)),
+            "plastic dark",
+            0.0008,
+        )
+        for i in range(vanes)
+    ]
     joined(f"{name} vanes", uprights)
     tab = at @ Matrix.Translation((0, 0, -0.002))
     box(f"{name} tab", (0.013, 0.0070, 0.010), tab, "satin chrome", 0.0022, 3)
@@ -252,40 +407,58 @@ def vents():
         back = frame_matrix((x, y + 0.0075, 0.955), side_direction(x), (0, 0, 1))
         surround = rounded_rectangle(0.146, 0.068, 0.012, 6)
         inner = rounded_rectangle(0.128, 0.056, 0.013, 6)
-        rings = np.array([np.column_stack([surround, np.full(len(surround), -0.004)]),
-                          np.column_stack([surround * 0.985, np.full(len(surround), 0.001)]),
-                          np.column_stack([inner, np.full(len(inner), 0.004)])])
+        rings = np.array(
+            [
+                np.column_stack([surround, np.full(len(surround), -0.004)]),
+                np.column_stack([surround * 0.985, np.full(len(surround), 0.001)]),
+                np.column_stack([inner, np.full(len(inner), 0.004)]),
+            ]
+        )
         grid(f"{name} bezel", place(rings, back), "piano black", closed=True, flip=False)
-    for name, x in (("air vent centre left", CENTRE_X - 0.083), ("air vent centre right", CENTRE_X + 0.083)):
+    for name, x in (
+        ("air vent centre left", CENTRE_X - 0.083),
+        ("air vent centre right", CENTRE_X + 0.083),
+    ):
         vent(name, (x, 0.6995, 0.8945), (1, 0, 0), (0, 0.20, 1), 0.150, 0.040, 3, 6)
 
 
 # ---- centre stack ------------------------------------------------------------------------
 
+
 def stack_face(offset):
-    return frame_matrix((CENTRE_X, 0.712, 0.862), (1, 0, 0), (0, 0.20, 1)) @ Matrix.Translation(offset)
+    return frame_matrix((CENTRE_X, 0.712, 0.862), (1, 0, 0), (0, 0.20, 1)) @ Matrix.Translation(
+        offset
+    )
 
 
 def centre_stack():
     outline = rounded_rectangle(0.352, 0.128, 0.012, 6)
-    inner = [rounded_rectangle(0.150, 0.040, 0.0139, 6) + np.array([dx, 0.0338]) for dx in (-0.083, 0.083)]
+    inner = [
+        rounded_rectangle(0.150, 0.040, 0.0139, 6) + np.array([dx, 0.0338])
+        for dx in (-0.083, 0.083)
+    ]
     holed_plate("centre stack fascia", outline, inner, stack_face((0, 0, 0.0035)))
     edge = stack_face((0, 0, -0.004))
-    frame_ring("centre stack trim", outline, round_section(0.0045, 0.012, 12), edge, "satin chrome")
+    frame_ring(
+        "centre stack trim", outline, round_section(0.0045, 0.012, 12), edge, "satin chrome"
+    )
     block = frame_matrix((CENTRE_X, 0.79, 0.85), (1, 0, 0), (0, 0.2, 1))
     box("centre stack body", (0.35, 0.125, 0.10), block, "plastic dark", 0.006)
     climate_keys()
 
 
 def holed_plate(name, outline, holes, matrix):
-    """The fascia around the vents: the outline cut into a strip of cells, minus the holes' boxes."""
+    """The fascia around the vents: bars between the outline and the holes."""
     bars = []
     left, right = outline[:, 0].min(), outline[:, 0].max()
     bottom, top = outline[:, 1].min(), outline[:, 1].max()
-    edges = sorted([left, right] + [h[:, 0].min() for h in holes] + [h[:, 0].max() for h in holes])
+    edges = sorted(
+        [left, right] + [h[:, 0].min() for h in holes] + [h[:, 0].max() for h in holes]
+    )
     low, high = holes[0][:, 1].min(), holes[0][:, 1].max()
-    for x0, x1, y0, y1 in [(left, right, bottom, low), (left, right, high, top)] + \
-            [(edges[i], edges[i + 1], low, high) for i in (0, 2, 4)]:
+    for x0, x1, y0, y1 in [(left, right, bottom, low), (left, right, high, top)] + [
+        (edges[i], edges[i + 1], low, high) for i in (0, 2, 4)
+    ]:
         at = matrix @ Matrix.Translation(((x0 + x1) / 2, (y0 + y1) / 2, -0.004))
         bars.append(box("bar", (x1 - x0, y1 - y0, 0.008), at, "piano black", 0))
     return joined(name, bars)
@@ -296,7 +469,16 @@ def climate_keys():
     keys = []
     for i in range(8):
         x = (i - 3.5) * 0.0262
-        keys.append(box("key", (0.0245, 0.017, 0.006), stack_face((x, -0.0335, 0.0045)), "button", 0.0016, 3))
+        keys.append(
+            box(
+                "key",
+                (0.0245, 0.017, 0.006),
+                stack_face((x, -0.0335, 0.0045)),
+                "button",
+                0.0016,
+                3,
+            )
+        )
         label = stack_face((x, -0.0310, 0.00765))
         symbol(f"climate symbol {i}", label, i)
     joined("climate keys", keys)
@@ -310,25 +492,56 @@ def knob(name, matrix, radius, height):
     a = np.linspace(0, 2 * math.pi, sides, endpoint=False)
     ridge = np.where(np.arange(sides) % 2 == 0, 1.0, 0.972)
     rings = []
-    for r, h, knurl in ((1.0, 0.0, 1), (1.0, 0.75, 1), (0.985, 0.90, 1), (0.93, 0.98, 0), (0.86, 1.0, 0)):
+    for r, h, knurl in (
+        (1.0, 0.0, 1),
+        (1.0, 0.75, 1),
+        (0.985, 0.90, 1),
+        (0.93, 0.98, 0),
+        (0.86, 1.0, 0),
+    ):
         k = radius * r * (ridge if knurl else np.ones(sides))
-        rings.append(np.column_stack([k * np.cos(a), k * np.sin(a), np.full(sides, h * height)]))
+        rings.append(
+            np.column_stack([k * np.cos(a), k * np.sin(a), np.full(sides, h * height)])
+        )
     grid(name, place(np.array(rings), matrix), "satin chrome", closed=True)
-    lathe(f"{name} cap", [(radius * 0.86, height * 0.999), (radius * 0.80, height * 0.955),
-                          (radius * 0.4, height * 0.95), (0.0004, height * 0.95)], matrix, "piano black", 48)
+    lathe(
+        f"{name} cap",
+        [
+            (radius * 0.86, height * 0.999),
+            (radius * 0.80, height * 0.955),
+            (radius * 0.4, height * 0.95),
+            (0.0004, height * 0.95),
+        ],
+        matrix,
+        "piano black",
+        48,
+    )
 
 
 def symbol(name, matrix, kind):
     """Small printed signs: bars, a ring, an arrow; enough to read as climate symbols."""
-    strokes = {0: [(-2, 0, 4, 0.6), (0, 1.6, 3, 0.6), (0, -1.6, 3, 0.6)], 1: [(0, 0, 0.7, 4), (0, 0, 4, 0.7)],
-               2: [(-1.2, 0, 0.7, 3.6), (1.2, 0, 0.7, 3.6)], 3: [(0, 1.2, 4.2, 0.7), (0, -1.2, 4.2, 0.7)],
-               4: [(0, 0.6, 0.7, 3.4), (0, -1.8, 3, 0.7)], 5: [(-1.6, 0, 0.7, 3), (0, 0, 0.7, 3), (1.6, 0, 0.7, 3)],
-               6: [(0, 0, 4.4, 0.7), (1.4, 1.0, 0.7, 2)], 7: [(0, -1.4, 4.4, 0.7), (0, 0.8, 2.6, 0.7)]}[kind]
+    strokes = {
+        0: [(-2, 0, 4, 0.6), (0, 1.6, 3, 0.6), (0, -1.6, 3, 0.6)],
+        1: [(0, 0, 0.7, 4), (0, 0, 4, 0.7)],
+        2: [(-1.2, 0, 0.7, 3.6), (1.2, 0, 0.7, 3.6)],
+        3: [(0, 1.2, 4.2, 0.7), (0, -1.2, 4.2, 0.7)],
+        4: [(0, 0.6, 0.7, 3.4), (0, -1.8, 3, 0.7)],
+        5: [(-1.6, 0, 0.7, 3), (0, 0, 0.7, 3), (1.6, 0, 0.7, 3)],
+        6: [(0, 0, 4.4, 0.7), (1.4, 1.0, 0.7, 2)],
+        7: [(0, -1.4, 4.4, 0.7), (0, 0.8, 2.6, 0.7)],
+    }[kind]
     parts = []
     for x, y, w, h in strokes:
         x, y, w, h = (0.001 * 1.35 * v for v in (x, y, w, h))
-        corners = place([(x - w / 2, y - h / 2, 0), (x + w / 2, y - h / 2, 0), (x + w / 2, y + h / 2, 0),
-                         (x - w / 2, y + h / 2, 0)], matrix)
+        corners = place(
+            [
+                (x - w / 2, y - h / 2, 0),
+                (x + w / 2, y - h / 2, 0),
+                (x + w / 2, y + h / 2, 0),
+                (x - w / 2, y + h / 2, 0),
+            ],
+            matrix,
+        )
         parts.append(mesh("stroke", corners, [(0, 1, 2, 3)], "symbol white"))
     return joined(name, parts)
 

@@ -41,10 +41,21 @@ def finish_meshes():
 
 def export(path):
     bpy.ops.export_scene.gltf(
-        filepath=path, export_format="GLTF_SEPARATE", export_apply=False, export_yup=True,
-        export_normals=True, export_tangents=False, export_colors=False, export_cameras=True,
-        export_lights=True, export_animations=False, export_skins=False, export_morph=False,
-        export_materials="EXPORT", export_extras=False)
+        filepath=path,
+        export_format="GLTF_SEPARATE",
+        export_apply=False,
+        export_yup=True,
+        export_normals=True,
+        export_tangents=False,
+        export_colors=False,
+        export_cameras=True,
+        export_lights=True,
+        export_animations=False,
+        export_skins=False,
+        export_morph=False,
+        export_materials="EXPORT",
+        export_extras=False,
+    )
 
 
 class Textures:
@@ -59,8 +70,15 @@ class Textures:
     def index(self, uri, sampler):
         if (uri, id(sampler)) not in self.known:
             self.known[(uri, id(sampler))] = self._append(
-                "textures", {"sampler": self._shared("samplers", sampler), "source": self._shared(
-                    "images", {"uri": uri, "name": os.path.splitext(os.path.basename(uri))[0]})})
+                "textures",
+                {
+                    "sampler": self._shared("samplers", sampler),
+                    "source": self._shared(
+                        "images",
+                        {"uri": uri, "name": os.path.splitext(os.path.basename(uri))[0]},
+                    ),
+                },
+            )
         return self.known[(uri, id(sampler))]
 
     def _append(self, key, value):
@@ -74,19 +92,31 @@ class Textures:
 
 def material_json(name, textures, used):
     entry = MATERIALS[name]
-    pbr = {"baseColorFactor": [*entry["color"], 1.0], "metallicFactor": entry["metallic"], "roughnessFactor": entry["roughness"]}
+    pbr = {
+        "baseColorFactor": [*entry["color"], 1.0],
+        "metallicFactor": entry["metallic"],
+        "roughnessFactor": entry["roughness"],
+    }
     out = {"name": name, "doubleSided": True, "pbrMetallicRoughness": pbr}
     extensions = {}
     if "texture" in entry:
-        pbr["baseColorTexture"] = {"index": textures.index(f"textures/{entry['texture']}.png", LINEAR_REPEAT)}
+        pbr["baseColorTexture"] = {
+            "index": textures.index(f"textures/{entry['texture']}.png", LINEAR_REPEAT)
+        }
     if "normal" in entry:
         uri, scale = entry["normal"]
-        out["normalTexture"] = {"index": textures.index(f"textures/{uri}.png", LINEAR_REPEAT), "scale": scale}
+        out["normalTexture"] = {
+            "index": textures.index(f"textures/{uri}.png", LINEAR_REPEAT),
+            "scale": scale,
+        }
     if "ior" in entry:
         extensions["KHR_materials_ior"] = {"ior": entry["ior"]}
     if "clearcoat" in entry:
         factor, roughness = entry["clearcoat"]
-        extensions["KHR_materials_clearcoat"] = {"clearcoatFactor": factor, "clearcoatRoughnessFactor": roughness}
+        extensions["KHR_materials_clearcoat"] = {
+            "clearcoatFactor": factor,
+            "clearcoatRoughnessFactor": roughness,
+        }
     if entry.get("glass"):
         extensions["KHR_materials_transmission"] = {"transmissionFactor": 1.0}
     if "emission" in entry:
@@ -109,7 +139,11 @@ def display_json(display, out, extensions, textures):
     out["emissiveTexture"] = {"index": index}
     out["emissiveFactor"] = [1.0, 1.0, 1.0]
     extensions["KHR_materials_emissive_strength"] = {"emissiveStrength": white_cd_m2}
-    extensions["PARHELION_display"] = {"panel": f"../assets/panels/{panel}", "content": {"index": index, "texCoord": 0}, "level": 1.0}
+    extensions["PARHELION_display"] = {
+        "panel": f"../assets/panels/{panel}",
+        "content": {"index": index, "texCoord": 0},
+        "level": 1.0,
+    }
 
 
 def patch(path, environment=None, used=()):
@@ -119,7 +153,9 @@ def patch(path, environment=None, used=()):
     used = set(used) | set(gltf.get("extensionsUsed", []))
     textures = Textures(gltf)
     if "materials" in gltf:
-        gltf["materials"] = [material_json(m["name"], textures, used) for m in gltf["materials"]]
+        gltf["materials"] = [
+            material_json(m["name"], textures, used) for m in gltf["materials"]
+        ]
     gltf["asset"]["generator"] = GENERATOR
     if environment:
         gltf["scenes"][0].setdefault("extensions", {})["PARHELION_environment"] = environment
@@ -148,5 +184,11 @@ def triangle_count(path):
     for node in gltf.get("nodes", []):
         if "mesh" in node:
             uses[node["mesh"]] = uses.get(node["mesh"], 0) + 1
-    return sum(count * sum(gltf["accessors"][p["indices"]]["count"] // 3 for p in gltf["meshes"][m]["primitives"])
-               for m, count in uses.items())
+    return sum(
+        count
+        * sum(
+            gltf["accessors"][p["indices"]]["count"] // 3
+            for p in gltf["meshes"][m]["primitives"]
+        )
+        for m, count in uses.items()
+    )

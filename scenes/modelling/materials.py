@@ -4,10 +4,24 @@ Colours are linear Rec.709 reflectances. TILE says how many metres one tile of a
 textures covers.
 """
 TILE = {
-    "leather black": 0.10, "leather cognac": 0.10, "leather wheel": 0.08, "seat leather": 0.10,
-    "plastic grained": 0.10, "pillar fabric": 0.05, "alcantara grey": 0.20, "walnut open pore": 0.26,
-    "carpet": 0.10, "asphalt": 1.4, "grass": 3.0, "foliage": 3.0, "facade plaster": 12.0,
-    "facade brick": 12.0, "facade office": 14.0, "hills": 160.0, "paving": 2.4,
+    "leather black": 0.10,
+    "leather cognac": 0.10,
+    "leather wheel": 0.08,
+    "seat leather": 0.10,
+    "plastic grained": 0.10,
+    "pillar fabric": 0.05,
+    "alcantara grey": 0.20,
+    "walnut open pore": 0.26,
+    "carpet": 0.10,
+    "speaker cloth": 0.018,
+    "asphalt": 1.4,
+    "grass": 3.0,
+    "foliage": 3.0,
+    "facade plaster": 12.0,
+    "facade brick": 12.0,
+    "facade office": 14.0,
+    "hills": 160.0,
+    "paving": 2.4,
 }
 
 
@@ -22,24 +36,39 @@ def grey(value, roughness, metallic=0.0, **extra):
 
 MATERIALS = {
     # cabin, soft
-    "leather black": surface((0.040, 0.040, 0.042), 0.55, normal=("leather_normal", 0.8), ior=1.5),
-    "leather cognac": surface((0.230, 0.095, 0.038), 0.52, normal=("leather_normal", 0.8), ior=1.5),
-    "leather wheel": surface((0.036, 0.036, 0.038), 0.50, normal=("leather_normal", 0.45), ior=1.5),
-    "seat leather": surface((0.215, 0.090, 0.037), 0.55, normal=("perforated_normal", 0.8), ior=1.5),
+    "leather black": surface(
+        (0.040, 0.040, 0.042), 0.55, normal=("leather_normal", 0.8), ior=1.5
+    ),
+    "leather cognac": surface(
+        (0.230, 0.095, 0.038), 0.52, normal=("leather_normal", 0.8), ior=1.5
+    ),
+    "leather wheel": surface(
+        (0.036, 0.036, 0.038), 0.50, normal=("leather_normal", 0.45), ior=1.5
+    ),
+    "seat leather": surface(
+        (0.215, 0.090, 0.037), 0.55, normal=("perforated_normal", 0.8), ior=1.5
+    ),
     "thread": surface((0.48, 0.36, 0.25), 0.75),
     "thread dark": surface((0.16, 0.15, 0.145), 0.75),
-    "pillar fabric": surface((1, 1, 1), 0.95, texture="fabric_color", normal=("fabric_normal", 0.7)),
+    "pillar fabric": surface(
+        (1, 1, 1), 0.95, texture="fabric_color", normal=("fabric_normal", 0.7)
+    ),
     "alcantara grey": surface((1, 1, 1), 1.0, texture="suede_color"),
+    "speaker cloth": surface((0.024, 0.024, 0.025), 0.7, normal=("perforated_normal", 1.0)),
     "carpet": surface((0.030, 0.030, 0.032), 1.0, normal=("fabric_normal", 1.0)),
     # cabin, hard
-    "plastic grained": surface((0.045, 0.045, 0.047), 0.58, normal=("leather_normal", 0.5), ior=1.5),
+    "plastic grained": surface(
+        (0.045, 0.045, 0.047), 0.58, normal=("leather_normal", 0.5), ior=1.5
+    ),
     "plastic dark": surface((0.028, 0.028, 0.030), 0.42, ior=1.5),
     "gap": grey(0.010, 0.9),
     "piano black": grey(0.012, 0.30, clearcoat=(1.0, 0.03)),
     "cover glass": grey(0.008, 0.06, ior=1.52),
-    "walnut open pore": surface((1, 1, 1), 0.42, texture="wood_color", normal=("wood_normal", 0.6)),
+    "walnut open pore": surface(
+        (1, 1, 1), 0.42, texture="wood_color", normal=("wood_normal", 0.6)
+    ),
     "satin chrome": surface((0.70, 0.70, 0.71), 0.25, 1.0),
-    "bright chrome": surface((0.74, 0.74, 0.75), 0.08, 1.0),
+    "bright chrome": surface((0.74, 0.74, 0.75), 0.14, 1.0),
     "brushed aluminium": surface((0.78, 0.785, 0.79), 0.32, 1.0),
     "button": surface((0.034, 0.034, 0.036), 0.45),
     "symbol white": grey(0.72, 0.6),
@@ -57,7 +86,9 @@ MATERIALS = {
     "paint red": surface((0.24, 0.022, 0.018), 0.4, 0.0, clearcoat=(1.0, 0.03)),
     "dark glass": grey(0.010, 0.03, ior=1.52),
     # outside
-    "asphalt": surface((1, 1, 1), 0.88, texture="asphalt_color", normal=("asphalt_normal", 1.0)),
+    "asphalt": surface(
+        (1, 1, 1), 0.88, texture="asphalt_color", normal=("asphalt_normal", 1.0)
+    ),
     "paving": surface((0.27, 0.265, 0.25), 0.9, normal=("asphalt_normal", 0.8)),
     "kerb": grey(0.30, 0.85),
     "road marking": grey(0.62, 0.7),
@@ -79,7 +110,7 @@ MATERIALS = {
     "cluster": grey(0.0, 0.25, display=("ips_cluster.panel", "cluster.png", 450.0)),
     "centre": grey(0.0, 0.10, display=("oled_centre.panel", "centre.png", 600.0)),
     # lights of the night scene: (linear colour, strength in cd/m2)
-    "lamp head": grey(0.1, 0.5, emission=((1.0, 0.86, 0.66), 60000.0)),
+    "lamp head": grey(0.1, 0.5, emission=((1.0, 0.86, 0.66), 9000.0)),
     "lit window": grey(0.1, 0.5, emission=((1.0, 0.74, 0.42), 45.0)),
     "lit window cool": grey(0.1, 0.5, emission=((0.85, 0.93, 1.0), 30.0)),
     "tail lamp lit": grey(0.1, 0.5, emission=((1.0, 0.02, 0.01), 900.0)),

@@ -4,8 +4,6 @@ Only what shines is in night.gltf; what it shines on is in car_dashboard.gltf.""
 import math
 import random
 
-import bpy
-import numpy as np
 from mathutils import Vector
 
 import dashboard
@@ -28,21 +26,45 @@ def build_night(path):
 
 
 def lamp_heads():
-    faces = [box("head", (0.42, 0.16, 0.012), frame_matrix((x, y, z + 0.062), (1, 0, 0), (0, 1, 0)), "lamp head", 0) for x, y, z in LAMPS]
+    faces = [
+        box(
+            "head",
+            (0.42, 0.16, 0.012),
+            frame_matrix((x, y, z + 0.062), (1, 0, 0), (0, 1, 0)),
+            "lamp head",
+            0,
+        )
+        for x, y, z in LAMPS
+    ]
     joined("street lamp heads", faces)
 
 
 def signals():
     lamps = []
     for k in (-1, 1):
-        lamps.append(box("lamp", (0.33, 0.01, 0.09), frame_matrix((0.05 + 0.62 * k, 18.75, 0.80), (1, 0, 0), (0, 1, 0)), "tail lamp lit", 0))
+        lamps.append(
+            box(
+                "lamp",
+                (0.33, 0.01, 0.09),
+                frame_matrix((0.05 + 0.62 * k, 18.75, 0.80), (1, 0, 0), (0, 1, 0)),
+                "tail lamp lit",
+                0,
+            )
+        )
     joined("lit tail lamps", lamps)
-    box("green light", (0.19, 0.01, 0.19), frame_matrix((2.75, 44.93, 2.86), (1, 0, 0), (0, 1, 0)), "traffic green", 0)
+    box(
+        "green light",
+        (0.19, 0.01, 0.19),
+        frame_matrix((2.75, 44.93, 2.86), (1, 0, 0), (0, 1, 0)),
+        "traffic green",
+        0,
+    )
 
 
 def windows():
     """Some panes of the street's houses are lit; a window grid of 3 m as in the facades."""
     import outside
+
     rng = random.Random(2)
     outside.HOUSES.clear()
     positions = house_fronts()
@@ -51,12 +73,21 @@ def windows():
         for floor in range(floors):
             for bay in range(int(depth // 3)):
                 if rng.random() < 0.26:
-                    panes["lit window cool" if rng.random() < 0.25 else "lit window"].append((x, y + 3 * bay + 1.5, 3 * floor + 1.9, side))
+                    panes["lit window cool" if rng.random() < 0.25 else "lit window"].append(
+                        (x, y + 3 * bay + 1.5, 3 * floor + 1.9, side)
+                    )
     for kind, spots in panes.items():
         vertices, faces = [], []
         for x, y, z, side in spots:
             front, base = x - 0.03 * side, len(vertices)
-            vertices.extend([(front, y - 0.62, z - 0.75), (front, y + 0.62, z - 0.75), (front, y + 0.62, z + 0.75), (front, y - 0.62, z + 0.75)])
+            vertices.extend(
+                [
+                    (front, y - 0.62, z - 0.75),
+                    (front, y + 0.62, z - 0.75),
+                    (front, y + 0.62, z + 0.75),
+                    (front, y - 0.62, z + 0.75),
+                ]
+            )
             faces.append([base + k for k in (range(4) if side < 0 else range(3, -1, -1))])
         mesh(kind + "s", vertices, faces, kind)
 
@@ -64,6 +95,7 @@ def windows():
 def house_fronts():
     """Where the street's fronts stand: the same random run as the houses themselves."""
     import outside
+
     build = outside.house
     outside.house = lambda *ignored: None
     try:
@@ -81,21 +113,40 @@ def ambient_line():
 def add_lights(path):
     """KHR_lights_punctual by hand: Blender's exporter would turn candela into its own watts."""
     import json
+
     with open(path, encoding="utf-8") as file:
         gltf = json.load(file)
     lights = [
-        {"name": "street lamp", "type": "spot", "color": [1.0, 0.86, 0.66], "intensity": 2600.0,
-         "spot": {"innerConeAngle": math.radians(48), "outerConeAngle": math.radians(74)}},
-        {"name": "footwell light", "type": "point", "color": [0.35, 0.66, 1.0], "intensity": 0.10},
+        {
+            "name": "street lamp",
+            "type": "spot",
+            "color": [1.0, 0.86, 0.66],
+            "intensity": 2600.0,
+            "spot": {"innerConeAngle": math.radians(48), "outerConeAngle": math.radians(74)},
+        },
+        {
+            "name": "footwell light",
+            "type": "point",
+            "color": [0.35, 0.66, 1.0],
+            "intensity": 0.10,
+        },
         {"name": "door light", "type": "point", "color": [1.0, 0.80, 0.58], "intensity": 0.02},
-        {"name": "own low beam", "type": "spot", "color": [1.0, 0.96, 0.90], "intensity": 9000.0,
-         "spot": {"innerConeAngle": math.radians(7), "outerConeAngle": math.radians(26)}},
+        {
+            "name": "own low beam",
+            "type": "spot",
+            "color": [1.0, 0.96, 0.90],
+            "intensity": 9000.0,
+            "spot": {"innerConeAngle": math.radians(7), "outerConeAngle": math.radians(26)},
+        },
     ]
     gltf["extensions"] = {"KHR_lights_punctual": {"lights": lights}}
     gltf["extensionsUsed"] = sorted(set(gltf["extensionsUsed"]) | {"KHR_lights_punctual"})
     for name, index, place, direction in light_places():
-        node = {"name": name, "translation": [round(v, 4) for v in (place[0], place[2], -place[1])],
-                "extensions": {"KHR_lights_punctual": {"light": index}}}
+        node = {
+            "name": name,
+            "translation": [round(v, 4) for v in (place[0], place[2], -place[1])],
+            "extensions": {"KHR_lights_punctual": {"light": index}},
+        }
         if direction is not None:
             node["rotation"] = [round(v, 7) for v in rotation(direction)]
         gltf["nodes"].append(node)
@@ -107,10 +158,22 @@ def add_lights(path):
 
 def light_places():
     """(name, light, position, direction) in the car's frame, y forward and z up."""
-    out = [(f"street lamp {i}", 0, (x, y, z - 0.02), (0, 0, -1)) for i, (x, y, z) in enumerate(LAMPS)]
-    out += [(f"footwell {side}", 1, (x, 0.62, 0.55), None) for side, x in (("left", -0.37), ("right", 0.37))]
-    out += [(f"door {side}", 2, (x, 0.10, 0.60), None) for side, x in (("left", -0.62), ("right", 0.62))]
-    out += [(f"low beam {side}", 3, (x, 2.62, 0.66), (0.02, 1, -0.035)) for side, x in (("left", -0.62), ("right", 0.62))]
+    out = [
+        (f"street lamp {i}", 0, (x, y, z - 0.02), (0, 0, -1))
+        for i, (x, y, z) in enumerate(LAMPS)
+    ]
+    out += [
+        (f"footwell {side}", 1, (x, 0.62, 0.55), None)
+        for side, x in (("left", -0.37), ("right", 0.37))
+    ]
+    out += [
+        (f"door {side}", 2, (x, 0.10, 0.60), None)
+        for side, x in (("left", -0.62), ("right", 0.62))
+    ]
+    out += [
+        (f"low beam {side}", 3, (x, 2.62, 0.66), (0.02, 1, -0.035))
+        for side, x in (("left", -0.62), ("right", 0.62))
+    ]
     return out
 
 

@@ -10,13 +10,27 @@ import numpy as np
 from mathutils import Matrix, Vector
 from mathutils import noise as perlin
 
-from shapes import box, frame_matrix, grid, joined, lathe, mesh, named_material, plate, rounded_rectangle, spline, tube
+from shapes import (
+    box,
+    frame_matrix,
+    grid,
+    joined,
+    lathe,
+    mesh,
+    named_material,
+    plate,
+    rounded_rectangle,
+    spline,
+    tube,
+)
 
 LEFT_KERB, RIGHT_KERB = -5.60, 2.15
 NEAR, FAR = -120.0, 760.0
 
 # Lamp heads (x, y, z) of the street lamps; the night scene puts lights there.
-LAMPS = [(1.2, 9.0 + 27.0 * i, 7.3) for i in range(-2, 9)] + [(-4.7, 22.5 + 27.0 * i, 7.3) for i in range(-2, 9)]
+LAMPS = [(1.2, 9.0 + 27.0 * i, 7.3) for i in range(-2, 9)] + [
+    (-4.7, 22.5 + 27.0 * i, 7.3) for i in range(-2, 9)
+]
 
 
 def level(x, y):
@@ -24,7 +38,9 @@ def level(x, y):
 
 
 def flat(name, x0, x1, y0, y1, z, material):
-    return mesh(name, [(x0, y0, z), (x1, y0, z), (x1, y1, z), (x0, y1, z)], [(0, 1, 2, 3)], material)
+    return mesh(
+        name, [(x0, y0, z), (x1, y0, z), (x1, y1, z), (x0, y1, z)], [(0, 1, 2, 3)], material
+    )
 
 
 def road():
@@ -35,10 +51,19 @@ def road():
     for name, x in (("right", RIGHT_KERB + 0.07), ("left", LEFT_KERB - 0.07)):
         at = frame_matrix((x, 0.5 * (NEAR + FAR), 0.02), (1, 0, 0), (0, 1, 0))
         box(f"kerb {name}", (0.14, FAR - NEAR, 0.20), at, "kerb", 0.02, 2)
-    dashes = [flat("dash", -1.815, -1.685, y, y + 3.0, 0.004, "road marking") for y in np.arange(-30, 420, 9.0)]
-    dashes += [flat("edge", x - 0.06, x + 0.06, NEAR, FAR, 0.004, "road marking") for x in (1.72, -5.17)]
+    dashes = [
+        flat("dash", -1.815, -1.685, y, y + 3.0, 0.004, "road marking")
+        for y in np.arange(-30, 420, 9.0)
+    ]
+    dashes += [
+        flat("edge", x - 0.06, x + 0.06, NEAR, FAR, 0.004, "road marking")
+        for x in (1.72, -5.17)
+    ]
     joined("lane markings", dashes)
-    stripes = [flat("stripe", x, x + 0.5, 46.0, 49.5, 0.005, "road marking") for x in np.arange(-5.1, 1.8, 1.0)]
+    stripes = [
+        flat("stripe", x, x + 0.5, 46.0, 49.5, 0.005, "road marking")
+        for x in np.arange(-5.1, 1.8, 1.0)
+    ]
     joined("zebra crossing", stripes)
 
 
@@ -51,8 +76,20 @@ def house(i, x, y, width, depth, floors, facade, flat_roof):
         box(f"house roof {i}", (width + 0.5, depth + 0.5, 0.5), top, "roof grey", 0.04)
         return body
     w, d, z, rise, o = width / 2 + 0.4, depth / 2 + 0.4, height, 0.42 * width, 0.12
-    corners = [(x - w, y - d, z), (x + w, y - d, z), (x + w, y + d, z), (x - w, y + d, z), (x, y - d + o, z + rise), (x, y + d - o, z + rise)]
-    mesh(f"house roof {i}", corners, [(0, 4, 5, 3), (1, 2, 5, 4), (0, 1, 4), (2, 3, 5), (0, 3, 2, 1)], "roof tile")
+    corners = [
+        (x - w, y - d, z),
+        (x + w, y - d, z),
+        (x + w, y + d, z),
+        (x - w, y + d, z),
+        (x, y - d + o, z + rise),
+        (x, y + d - o, z + rise),
+    ]
+    mesh(
+        f"house roof {i}",
+        corners,
+        [(0, 4, 5, 3), (1, 2, 5, 4), (0, 1, 4), (2, 3, 5), (0, 3, 2, 1)],
+        "roof tile",
+    )
     chimney = frame_matrix((x + 0.2 * width, y, z + rise * 0.7), (1, 0, 0), (0, 1, 0))
     box(f"chimney {i}", (0.7, 0.9, 2.6), chimney, "facade brick", 0.03)
     return body
@@ -81,16 +118,18 @@ def houses():
             y += depth + rng.choice((0.4, 3.0, 7.0))
 
 
-def crown(name, centre, radius, seed, material, subdivisions=3):
+def crown(name, centre, radius, seed, material):
     """A leafy crown: a ball pushed in and out by noise."""
     ball = bmesh.new()
-    bmesh.ops.create_icosphere(ball, subdivisions=subdivisions, radius=1.0)
+    bmesh.ops.create_icosphere(ball, subdivisions=3, radius=1.0)
     data = bpy.data.meshes.new(name)
     for v in ball.verts:
         n = v.co.normalized()
         bump = perlin.fractal(n * 1.7 + Vector((seed, 0, 0)), 1.0, 2.0, 4)
         fine = perlin.fractal(n * 6.0 + Vector((0, seed, 0)), 1.0, 2.0, 2)
-        v.co = Vector(centre) + Vector((n.x, n.y, n.z * 1.12)) * radius * (1 + 0.30 * bump + 0.17 * fine)
+        v.co = Vector(centre) + Vector((n.x, n.y, n.z * 1.12)) * radius * (
+            1 + 0.30 * bump + 0.17 * fine
+        )
     ball.to_mesh(data)
     ball.free()
     data.materials.append(named_material(material))
@@ -102,16 +141,45 @@ def crown(name, centre, radius, seed, material, subdivisions=3):
 
 def tree(i, x, y, height, rng):
     radius = 0.26 * height
-    tube(f"trunk {i}", spline([(x, y, 0), (x + 0.05, y, height * 0.3), (x, y + 0.1, height * 0.62)], 6),
-         np.linspace(0.17, 0.09, 6), "bark", 8, up=(0, 1, 0))
+    tube(
+        f"trunk {i}",
+        spline([(x, y, 0), (x + 0.05, y, height * 0.3), (x, y + 0.1, height * 0.62)], 6),
+        np.linspace(0.17, 0.09, 6),
+        "bark",
+        8,
+        up=(0, 1, 0),
+    )
     kind = rng.choice(("foliage", "foliage", "foliage light"))
-    detail = 4 if y < 60 else 3
-    balls = [crown("crown", (x, y, height * 0.66), radius, 10 * i + 1.3, kind, detail)]
+    balls = [crown("crown", (x, y, height * 0.66), radius, 10 * i + 1.3, kind)]
     for k in range(2):
         angle = rng.uniform(0, 6.28)
         offset = Vector((math.cos(angle), math.sin(angle), 0)) * radius * 0.55
-        balls.append(crown("crown", Vector((x, y, height * (0.54 + 0.22 * k))) + offset, radius * 0.66, 10 * i + 4.1 * k, kind, detail))
-    joined(f"tree {i}", balls)
+        centre = Vector((x, y, height * (0.54 + 0.22 * k))) + offset
+        balls.append(crown("crown", centre, radius * 0.66, 10 * i + 4.1 * k, kind))
+    crowns = joined(f"tree {i}", balls)
+    count, size = (2000, 0.20) if y < 40 else (900, 0.30) if y < 80 else (300, 0.50)
+    leaves(f"leaves {i}", crowns, count, size, kind)
+
+
+def leaves(name, crowns, count, size, material):
+    """Clumps of leaves scattered over the crowns: small quads turned at random."""
+    rng = np.random.default_rng(sum(map(ord, name)))
+    data = crowns.data
+    centres = np.array([p.center for p in data.polygons])
+    normals = np.array([p.normal for p in data.polygons])
+    chosen = rng.choice(len(centres), count)
+    middle = centres[chosen] + normals[chosen] * rng.uniform(-0.05, 0.14, (count, 1))
+    middle += rng.normal(0, 0.6 * size, (count, 3))
+    facing = normals[chosen] + rng.normal(0, 0.55, (count, 3)) + np.array([0, 0, 0.35])
+    facing /= np.linalg.norm(facing, axis=1)[:, None]
+    side = np.cross(facing, rng.normal(0, 1, (count, 3)))
+    side /= np.linalg.norm(side, axis=1)[:, None]
+    lift = np.cross(facing, side)
+    scale = size * rng.uniform(0.6, 1.3, (count, 1))
+    corners = [middle - scale * side, middle - 0.42 * scale * lift]
+    corners += [middle + scale * side, middle + 0.42 * scale * lift]
+    vertices = np.stack(corners, axis=1).reshape(-1, 3)
+    mesh(name, vertices, np.arange(4 * count).reshape(-1, 4), material)
 
 
 def trees():
@@ -119,7 +187,13 @@ def trees():
     i = 0
     for x, start, gap in ((4.4, 17.0, 18.0), (-7.9, 11.0, 18.0)):
         for y in np.arange(start, 175, gap):
-            tree(i, x + rng.uniform(-0.2, 0.2), y + rng.uniform(-1.5, 1.5), rng.uniform(5.5, 8.0), rng)
+            tree(
+                i,
+                x + rng.uniform(-0.2, 0.2),
+                y + rng.uniform(-1.5, 1.5),
+                rng.uniform(5.5, 8.0),
+                rng,
+            )
             i += 1
 
 
@@ -127,74 +201,198 @@ def street_lamps():
     for i, (x, y, z) in enumerate(LAMPS):
         side = 1 if x > 0 else -1
         foot = 3.0 if side > 0 else -6.6
-        path = spline([(foot, y, 0.1), (foot, y, 4.0), (foot, y, 6.4), (foot - 0.25 * side, y, 7.1), (foot - 0.9 * side, y, 7.42),
-                       (x + 0.3 * side, y, 7.46)], 20)
+        path = spline(
+            [
+                (foot, y, 0.1),
+                (foot, y, 4.0),
+                (foot, y, 6.4),
+                (foot - 0.25 * side, y, 7.1),
+                (foot - 0.9 * side, y, 7.42),
+                (x + 0.3 * side, y, 7.46),
+            ],
+            20,
+        )
         tube(f"lamp post {i}", path, np.linspace(0.075, 0.035, 20), "pole", 8, up=(0, 1, 0))
-        box(f"lamp housing {i}", (0.62, 0.24, 0.09), frame_matrix((x, y, z + 0.115), (1, 0, 0), (0, 1, 0)), "pole", 0.03, 3)
+        box(
+            f"lamp housing {i}",
+            (0.62, 0.24, 0.09),
+            frame_matrix((x, y, z + 0.115), (1, 0, 0), (0, 1, 0)),
+            "pole",
+            0.03,
+            3,
+        )
 
 
 def vehicle(name, x, y, heading, paint):
     """A plain saloon seen from some way off; heading 1 drives away, -1 comes towards us."""
+
     def at(points):
         return [(x + heading * px, y + heading * py, pz) for px, py, pz in points]
 
     body, cabin = [], []
-    for py, w, low, high in ((-2.20, 0.72, 0.42, 0.86), (-2.15, 0.84, 0.30, 0.98), (-1.7, 0.90, 0.24, 1.02), (-0.6, 0.91, 0.24, 1.00),
-                             (0.7, 0.91, 0.24, 0.98), (1.6, 0.88, 0.24, 0.84), (2.10, 0.80, 0.28, 0.70), (2.20, 0.68, 0.38, 0.58)):
+    for py, w, low, high in (
+        (-2.20, 0.72, 0.42, 0.86),
+        (-2.15, 0.84, 0.30, 0.98),
+        (-1.7, 0.90, 0.24, 1.02),
+        (-0.6, 0.91, 0.24, 1.00),
+        (0.7, 0.91, 0.24, 0.98),
+        (1.6, 0.88, 0.24, 0.84),
+        (2.10, 0.80, 0.28, 0.70),
+        (2.20, 0.68, 0.38, 0.58),
+    ):
         o = rounded_rectangle(2 * w, high - low, 0.16, 5)
         body.append(at([(a, py, b + (high + low) / 2) for a, b in o]))
-    for py, w, low, high in ((-1.75, 0.62, 0.94, 1.02), (-1.05, 0.70, 0.94, 1.36), (-0.4, 0.72, 0.94, 1.44), (0.2, 0.70, 0.94, 1.42), (1.15, 0.66, 0.92, 0.98)):
+    for py, w, low, high in (
+        (-1.75, 0.62, 0.94, 1.02),
+        (-1.05, 0.70, 0.94, 1.36),
+        (-0.4, 0.72, 0.94, 1.44),
+        (0.2, 0.70, 0.94, 1.42),
+        (1.15, 0.66, 0.92, 0.98),
+    ):
         o = rounded_rectangle(2 * w, high - low, min(0.14, 0.45 * (high - low)), 5)
         cabin.append(at([(a, py, b + (high + low) / 2) for a, b in o]))
     for part, rings, material in (("body", body, paint), ("windows", cabin, "dark glass")):
         rings = [np.array(r) for r in rings]
-        rings = [rings[0].mean(0) + (rings[0] - rings[0].mean(0)) * 0.02] + rings + [rings[-1].mean(0) + (rings[-1] - rings[-1].mean(0)) * 0.02]
-        smooth = np.stack([spline(np.array(rings)[:, k], 24) for k in range(len(rings[0]))], axis=1)
+        rings = (
+            [rings[0].mean(0) + (rings[0] - rings[0].mean(0)) * 0.02]
+            + rings
+            + [rings[-1].mean(0) + (rings[-1] - rings[-1].mean(0)) * 0.02]
+        )
+        smooth = np.stack(
+            [spline(np.array(rings)[:, k], 24) for k in range(len(rings[0]))], axis=1
+        )
         grid(f"{name} {part}", smooth, material, closed=True)
     roof = frame_matrix((x, y - 0.25 * heading, 1.425), (1, 0, 0), (0, 1, 0))
-    plate(f"{name} roof", rounded_rectangle(1.16, 1.2, 0.2, 6), 0.05, roof @ Matrix.Translation((0, 0, 0.035)), paint, 0.02, 3)
+    plate(
+        f"{name} roof",
+        rounded_rectangle(1.16, 1.2, 0.2, 6),
+        0.05,
+        roof @ Matrix.Translation((0, 0, 0.035)),
+        paint,
+        0.02,
+        3,
+    )
     for k in (-1, 1):
-        rear = frame_matrix((x + 0.62 * k, y - 2.185 * heading, 0.80), (heading, 0, 0), (0, 0, 1))
+        rear = frame_matrix(
+            (x + 0.62 * k, y - 2.185 * heading, 0.80), (heading, 0, 0), (0, 0, 1)
+        )
         box(f"{name} tail lamp {k}", (0.36, 0.12, 0.10), rear, "tail lamp", 0.03, 3)
-        front = frame_matrix((x + 0.62 * k, y + 2.10 * heading, 0.64), (heading, 0, 0), (0, 0, 1))
+        front = frame_matrix(
+            (x + 0.62 * k, y + 2.10 * heading, 0.64), (heading, 0, 0), (0, 0, 1)
+        )
         box(f"{name} head lamp {k}", (0.34, 0.11, 0.16), front, "bright chrome", 0.03, 3)
         for py in (-1.35, 1.35):
             wheel = frame_matrix((x + 0.78 * k, y + py, 0.33), (0, 1, 0), (0, 0, 1))
-            lathe(f"{name} tyre", [(0.02, -0.12), (0.30, -0.12), (0.33, -0.09), (0.33, 0.09), (0.30, 0.12), (0.02, 0.12)], wheel, "rubber", 24)
+            lathe(
+                f"{name} tyre",
+                [
+                    (0.02, -0.12),
+                    (0.30, -0.12),
+                    (0.33, -0.09),
+                    (0.33, 0.09),
+                    (0.30, 0.12),
+                    (0.02, 0.12),
+                ],
+                wheel,
+                "rubber",
+                24,
+            )
     plate_at = frame_matrix((x, y - 2.225 * heading, 0.62), (heading, 0, 0), (0, 0, 1))
     box(f"{name} number plate", (0.52, 0.11, 0.01), plate_at, "road marking", 0.002)
 
 
 def hills():
     rng = random.Random(3)
-    for name, distance, height, material, seed in (("hills near", 620.0, 46.0, "hills", 1.0), ("hills far", 1500.0, 150.0, "hills far", 9.0)):
+    for name, distance, height, material, seed in (
+        ("hills near", 620.0, 46.0, "hills", 1.0),
+        ("hills far", 1500.0, 150.0, "hills far", 9.0),
+    ):
         rows = [[], [], [], []]
         for a in np.linspace(math.radians(-75), math.radians(75), 140):
             x, y = distance * math.sin(a), distance * math.cos(a)
             n = 0.5 + 0.5 * perlin.fractal(Vector((3.2 * a + seed, seed, 0)), 1.0, 2.0, 6)
             h = height * (0.25 + n)
-            for row, (k, back) in enumerate(((0.0, -0.16), (0.45, -0.06), (0.86, 0.0), (1.0, 0.05))):
-                rows[row].append((x * (1 + back), y * (1 + back), h * k - 1.0 + 0.06 * height * k * rng.uniform(-0.4, 0.4)))
+            for row, (k, back) in enumerate(
+                ((0.0, -0.16), (0.45, -0.06), (0.86, 0.0), (1.0, 0.05))
+            ):
+                rows[row].append(
+                    (
+                        x * (1 + back),
+                        y * (1 + back),
+                        h * k - 1.0 + 0.06 * height * k * rng.uniform(-0.4, 0.4),
+                    )
+                )
         grid(name, np.array(rows), material)
 
 
 def furniture():
     """A guard rail on the left, a direction sign, a traffic light at the crossing."""
     ys = np.linspace(60, 180, 60)
-    section = [(-9.30, 0.52), (-9.22, 0.56), (-9.27, 0.62), (-9.27, 0.68), (-9.22, 0.74), (-9.30, 0.78)]
-    grid("guard rail", np.array([[(x, y, z) for y in ys] for x, z in section]), "galvanised steel")
-    posts = [box("post", (0.08, 0.10, 0.80), frame_matrix((-9.36, y, 0.40), (1, 0, 0), (0, 1, 0)), "galvanised steel", 0.01) for y in np.arange(60, 181, 4.0)]
+    section = [
+        (-9.30, 0.52),
+        (-9.22, 0.56),
+        (-9.27, 0.62),
+        (-9.27, 0.68),
+        (-9.22, 0.74),
+        (-9.30, 0.78),
+    ]
+    grid(
+        "guard rail",
+        np.array([[(x, y, z) for y in ys] for x, z in section]),
+        "galvanised steel",
+    )
+    posts = [
+        box(
+            "post",
+            (0.08, 0.10, 0.80),
+            frame_matrix((-9.36, y, 0.40), (1, 0, 0), (0, 1, 0)),
+            "galvanised steel",
+            0.01,
+        )
+        for y in np.arange(60, 181, 4.0)
+    ]
     joined("guard rail posts", posts)
     tube("sign post", [(2.9, 34, 0), (2.9, 34, 3.4)], 0.04, "pole", 8, up=(0, 1, 0))
     sign = frame_matrix((2.9, 33.94, 2.9), (1, 0, 0), (0, 0, 1))
-    plate("direction sign", rounded_rectangle(1.5, 0.85, 0.08, 5), 0.03, sign, "sign blue", 0.005)
-    arrow = [(-0.05, -0.30), (0.05, -0.30), (0.05, 0.08), (0.16, 0.08), (0.0, 0.30), (-0.16, 0.08), (-0.05, 0.08)]
-    plate("direction sign arrow", np.array(arrow) + (-0.45, 0), 0.006, sign @ Matrix.Translation((0, 0, 0.007)), "road marking", 0)
+    plate(
+        "direction sign", rounded_rectangle(1.5, 0.85, 0.08, 5), 0.03, sign, "sign blue", 0.005
+    )
+    arrow = [
+        (-0.05, -0.30),
+        (0.05, -0.30),
+        (0.05, 0.08),
+        (0.16, 0.08),
+        (0.0, 0.30),
+        (-0.16, 0.08),
+        (-0.05, 0.08),
+    ]
+    plate(
+        "direction sign arrow",
+        np.array(arrow) + (-0.45, 0),
+        0.006,
+        sign @ Matrix.Translation((0, 0, 0.007)),
+        "road marking",
+        0,
+    )
     for k in range(2):
         bar = sign @ Matrix.Translation((0.22, 0.16 - 0.30 * k, 0.002))
         box(f"direction sign line {k}", (0.75 - 0.2 * k, 0.11, 0.01), bar, "road marking", 0)
-    tube("traffic light post", [(2.75, 45.2, 0), (2.75, 45.2, 3.5)], 0.05, "pole", 8, up=(0, 1, 0))
-    box("traffic light", (0.26, 0.22, 0.80), frame_matrix((2.75, 45.05, 3.1), (1, 0, 0), (0, 1, 0)), "plastic dark", 0.03, 3)
+    tube(
+        "traffic light post",
+        [(2.75, 45.2, 0), (2.75, 45.2, 3.5)],
+        0.05,
+        "pole",
+        8,
+        up=(0, 1, 0),
+    )
+    box(
+        "traffic light",
+        (0.26, 0.22, 0.80),
+        frame_matrix((2.75, 45.05, 3.1), (1, 0, 0), (0, 1, 0)),
+        "plastic dark",
+        0.03,
+        3,
+    )
 
 
 def build_outside():

@@ -6,7 +6,6 @@ each material's tile. A face's front is where its corners run counter-clockwise.
 """
 import math
 
-import bmesh
 import bpy
 import numpy as np
 from mathutils import Matrix, Vector
@@ -22,8 +21,12 @@ def spline(points, count):
     i = np.floor(t).astype(int)
     f = (t - i)[:, None]
     a, b, c, d = p[i], p[i + 1], p[i + 2], p[i + 3]
-    return 0.5 * (2 * b + (c - a) * f + (2 * a - 5 * b + 4 * c - d) * f ** 2
-                  + (3 * b - a - 3 * c + d) * f ** 3)
+    return 0.5 * (
+        2 * b
+        + (c - a) * f
+        + (2 * a - 5 * b + 4 * c - d) * f**2
+        + (3 * b - a - 3 * c + d) * f**3
+    )
 
 
 def rounded_rectangle(width, height, radius, steps=6):
@@ -31,8 +34,12 @@ def rounded_rectangle(width, height, radius, steps=6):
     corners = []
     for k, (sx, sy) in enumerate(((1, 1), (-1, 1), (-1, -1), (1, -1))):
         for a in np.linspace(0, math.pi / 2, steps) + k * math.pi / 2:
-            corners.append((sx * (width / 2 - radius) + radius * math.cos(a),
-                            sy * (height / 2 - radius) + radius * math.sin(a)))
+            corners.append(
+                (
+                    sx * (width / 2 - radius) + radius * math.cos(a),
+                    sy * (height / 2 - radius) + radius * math.sin(a),
+                )
+            )
     return np.array(corners)
 
 
@@ -57,7 +64,9 @@ def mesh(name, vertices, faces, material, loop_uvs=None):
     """An object of one material. loop_uvs: one (u, v) in metres per face corner, or None for a
     projection along the axis that each face looks to (made when the model is finished)."""
     data = bpy.data.meshes.new(name)
-    data.from_pydata([tuple(map(float, v)) for v in vertices], [], [tuple(map(int, f)) for f in faces])
+    data.from_pydata(
+        [tuple(map(float, v)) for v in vertices], [], [tuple(map(int, f)) for f in faces]
+    )
     data.materials.append(named_material(material))
     data.polygons.foreach_set("use_smooth", [True] * len(data.polygons))
     data.use_auto_smooth = True
@@ -110,8 +119,11 @@ def tube_points(path, radius, sides=10, closed=False, squash=1.0, up=(0, 0, 1)):
     lift = np.cross(side, tangent)
     a = np.linspace(0, 2 * math.pi, sides, endpoint=False)
     r = np.broadcast_to(np.asarray(radius, float), (len(path),))[:, None, None]
-    return (path[:, None] + r * np.cos(a)[None, :, None] * side[:, None]
-            + squash * r * np.sin(a)[None, :, None] * lift[:, None])
+    return (
+        path[:, None]
+        + r * np.cos(a)[None, :, None] * side[:, None]
+        + squash * r * np.sin(a)[None, :, None] * lift[:, None]
+    )
 
 
 def tube(name, path, radius, material, sides=10, closed=False, squash=1.0, up=(0, 0, 1)):
@@ -125,8 +137,14 @@ def tube(name, path, radius, material, sides=10, closed=False, squash=1.0, up=(0
     r = np.linalg.norm(first[0] - begin), np.linalg.norm(last[0] - end)
     d0 = (begin - rings[1].mean(0)) / max(np.linalg.norm(begin - rings[1].mean(0)), 1e-9)
     d1 = (end - rings[-2].mean(0)) / max(np.linalg.norm(end - rings[-2].mean(0)), 1e-9)
-    caps0 = [begin + (first - begin) * k + d0 * r[0] * h for k, h in ((0.02, 0.6), (0.55, 0.5), (0.88, 0.28))]
-    caps1 = [end + (last - end) * k + d1 * r[1] * h for k, h in ((0.88, 0.28), (0.55, 0.5), (0.02, 0.6))]
+    caps0 = [
+        begin + (first - begin) * k + d0 * r[0] * h
+        for k, h in ((0.02, 0.6), (0.55, 0.5), (0.88, 0.28))
+    ]
+    caps1 = [
+        end + (last - end) * k + d1 * r[1] * h
+        for k, h in ((0.88, 0.28), (0.55, 0.5), (0.02, 0.6))
+    ]
     return grid(name, np.concatenate([caps0, rings, caps1]), material, closed=True, flip=True)
 
 
@@ -141,8 +159,16 @@ def lathe(name, profile, matrix, material, sides=32):
 def box(name, size, matrix, material, bevel=0.002, segments=2):
     """A box about the origin of `matrix` with bevelled edges."""
     x, y, z = (0.5 * s for s in size)
-    corners = [(-x, -y, -z), (x, -y, -z), (x, y, -z), (-x, y, -z),
-               (-x, -y, z), (x, -y, z), (x, y, z), (-x, y, z)]
+    corners = [
+        (-x, -y, -z),
+        (x, -y, -z),
+        (x, y, -z),
+        (-x, y, -z),
+        (-x, -y, z),
+        (x, -y, z),
+        (x, y, z),
+        (-x, y, z),
+    ]
     faces = [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
     item = mesh(name, place(corners, matrix), faces, material)
     return bevelled(item, bevel, segments)
@@ -156,7 +182,9 @@ def plate(name, outline, thickness, matrix, material, bevel=0.001, segments=2, c
     rings = [np.column_stack([o, np.full(n, -thickness)]), np.column_stack([o, np.zeros(n)])]
     steps = (0.75, 0.5, 0.25, 0.04) if crown else ()
     for k in steps:
-        rings.append(np.column_stack([middle + (o - middle) * k, np.full(n, crown * (1 - k * k))]))
+        rings.append(
+            np.column_stack([middle + (o - middle) * k, np.full(n, crown * (1 - k * k))])
+        )
     vertices = place(np.concatenate(rings), matrix)
     faces = [list(range(n))[::-1]]
     for i in range(len(rings) - 1):
@@ -175,8 +203,13 @@ def frame_ring(name, outline, section, matrix, material):
     tangent /= np.linalg.norm(tangent, axis=1)[:, None]
     outward = np.column_stack([tangent[:, 1], -tangent[:, 0]])
     s = np.asarray(section, float)
-    rings = np.concatenate([o[:, None] + s[None, :, :1] * outward[:, None],
-                            np.broadcast_to(s[None, :, 1:], (len(o), len(s), 1))], axis=2)
+    rings = np.concatenate(
+        [
+            o[:, None] + s[None, :, :1] * outward[:, None],
+            np.broadcast_to(s[None, :, 1:], (len(o), len(s), 1)),
+        ],
+        axis=2,
+    )
     rings = np.concatenate([rings, rings[:1]])
     return grid(name, place(rings, matrix), material, closed=True, flip=True)
 
@@ -227,7 +260,9 @@ def apply_modifiers(item):
     item.data = data
 
 
-def stitches(name, path, normals, material, length=0.0042, pitch=0.0062, thickness=0.0011, slant=0.0):
+def stitches(
+    name, path, normals, material, length=0.0042, pitch=0.0062, thickness=0.0011, slant=0.0
+):
     """A seam: short threads along `path` that dive into the surface at both ends.
     normals: the surface's, one per path point; slant: shift across the seam in metres."""
     path, normals = np.asarray(path, float), np.asarray(normals, float)
@@ -237,7 +272,9 @@ def stitches(name, path, normals, material, length=0.0042, pitch=0.0062, thickne
     for start in np.arange(0, arc[-1] - length, pitch):
         s = start + np.array([0.0, 0.3, 0.7, 1.0]) * length
         points = np.column_stack([np.interp(s, arc, path[:, k]) for k in range(3)])
-        normal = np.array([np.interp(start + 0.5 * length, arc, normals[:, k]) for k in range(3)])
+        normal = np.array(
+            [np.interp(start + 0.5 * length, arc, normals[:, k]) for k in range(3)]
+        )
         normal /= np.linalg.norm(normal)
         along = points[-1] - points[0]
         along /= np.linalg.norm(along)

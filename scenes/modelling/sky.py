@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Makes the sky of the noon scene: noon_sky.exr (512x256, equirectangular, cd/m2) and noon.gltf.
+"""Makes the noon scene: noon_sky.exr (512x256, equirectangular, cd/m2) and noon.gltf.
 
 A clear sky (CIE standard general sky 12: gradation a = -1, b = -0.32, scattering c = 10,
 d = -3, e = 0.45, ISO 15469) with a few cumulus clouds, scaled to a diffuse horizontal
@@ -16,8 +16,8 @@ import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 WIDTH, HEIGHT = 512, 256
-SUN_AZIMUTH_DEG, SUN_ELEVATION_DEG = 240.0, 26.0
-SUN_LX, DIFFUSE_LX = 74000.0, 20000.0
+SUN_AZIMUTH_DEG, SUN_ELEVATION_DEG = 238.0, 22.0
+SUN_LX, DIFFUSE_LX = 68000.0, 18000.0
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 
@@ -51,13 +51,15 @@ def fractal(x, y, seed, octaves=6):
     total, weight = np.zeros_like(x), 0.0
     for k in range(octaves):
         lattice = rng.random((64, 64))
-        fx, fy = x * 2 ** k, y * 2 ** k
+        fx, fy = x * 2**k, y * 2**k
         ix, iy = np.floor(fx).astype(int), np.floor(fy).astype(int)
         tx, ty = fx - ix, fy - iy
         tx, ty = tx * tx * (3 - 2 * tx), ty * ty * (3 - 2 * ty)
         corner = [lattice[(iy + b) % 64, (ix + a) % 64] for b in (0, 1) for a in (0, 1)]
-        value = (corner[0] * (1 - tx) + corner[1] * tx) * (1 - ty) + (corner[2] * (1 - tx) + corner[3] * tx) * ty
-        total, weight = total + value * 0.55 ** k, weight + 0.55 ** k
+        value = (corner[0] * (1 - tx) + corner[1] * tx) * (1 - ty) + (
+            corner[2] * (1 - tx) + corner[3] * tx
+        ) * ty
+        total, weight = total + value * 0.55**k, weight + 0.55**k
     return total / weight
 
 
@@ -66,7 +68,9 @@ def clouds(d, angle):
     up = np.maximum(d[..., 1], 0.02)
     x, y = d[..., 0] / (up + 0.12) * 1.6 + 20, d[..., 2] / (up + 0.12) * 1.6 + 20
     shape = fractal(x, y, 12)
-    cover = np.clip((shape - 0.53) / 0.14, 0, 1) ** 1.3 * np.clip((d[..., 1] - 0.03) / 0.10, 0, 1)
+    cover = np.clip((shape - 0.53) / 0.14, 0, 1) ** 1.3 * np.clip(
+        (d[..., 1] - 0.03) / 0.10, 0, 1
+    )
     thick = np.clip((shape - 0.58) / 0.22, 0, 1)
     bright = 1.9 + 1.5 * np.exp(-2.2 * angle) - 0.9 * thick
     return 0.85 * cover, bright
@@ -81,13 +85,22 @@ def sky_pixels():
     d = directions()
     relative, angle = clear_sky(d)
     up = np.clip(d[..., 1:2], 0, 1)
-    blue = np.array([0.26, 0.49, 1.0]) * (up ** 0.45) + np.array([0.78, 0.93, 1.12]) * (1 - up ** 0.45)
-    near = np.exp(-(angle / 0.30) ** 1.2)[..., None]
+    blue = np.array([0.26, 0.49, 1.0]) * (up**0.45) + np.array([0.78, 0.93, 1.12]) * (
+        1 - up**0.45
+    )
+    near = np.exp(-((angle / 0.30) ** 1.2))[..., None]
     pixels = colored(relative, blue * (1 - near) + np.array([1.0, 0.96, 0.88]) * near)
     cover, bright = clouds(d, angle)
     white = np.broadcast_to(np.array([1.0, 0.99, 0.97]), pixels.shape)
     pixels = pixels * (1 - cover[..., None]) + cover[..., None] * colored(bright, white)
-    area = np.cos((0.5 - (np.arange(HEIGHT) + 0.5) / HEIGHT) * np.pi)[:, None] * np.pi / HEIGHT * 2 * np.pi / WIDTH
+    area = (
+        np.cos((0.5 - (np.arange(HEIGHT) + 0.5) / HEIGHT) * np.pi)[:, None]
+        * np.pi
+        / HEIGHT
+        * 2
+        * np.pi
+        / WIDTH
+    )
     above = d[..., 1] > 0
     flux = ((pixels @ LUMINANCE) * np.maximum(d[..., 1], 0) * area)[above].sum()
     pixels *= DIFFUSE_LX / flux
@@ -112,13 +125,22 @@ def zip_block(rows):
 
 def write_exr(path, pixels):
     """Half-float RGB, ZIP blocks of 16 lines, linear Rec.709."""
-    channels = b"".join(c + b"\0" + struct.pack("<iiii", 1, 0, 1, 1) for c in (b"B", b"G", b"R")) + b"\0"
+    channels = (
+        b"".join(c + b"\0" + struct.pack("<iiii", 1, 0, 1, 1) for c in (b"B", b"G", b"R"))
+        + b"\0"
+    )
     window = struct.pack("<iiii", 0, 0, WIDTH - 1, HEIGHT - 1)
     header = struct.pack("<ii", 20000630, 2)
     header += exr_attribute("channels", "chlist", channels)
-    header += exr_attribute("chromaticities", "chromaticities", struct.pack("<8f", 0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290))
+    header += exr_attribute(
+        "chromaticities",
+        "chromaticities",
+        struct.pack("<8f", 0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290),
+    )
     header += exr_attribute("compression", "compression", b"\x03")
-    header += exr_attribute("dataWindow", "box2i", window) + exr_attribute("displayWindow", "box2i", window)
+    header += exr_attribute("dataWindow", "box2i", window) + exr_attribute(
+        "displayWindow", "box2i", window
+    )
     header += exr_attribute("lineOrder", "lineOrder", b"\0")
     header += exr_attribute("pixelAspectRatio", "float", struct.pack("<f", 1))
     header += exr_attribute("screenWindowCenter", "v2f", struct.pack("<ff", 0, 0))
@@ -126,7 +148,11 @@ def write_exr(path, pixels):
     half = pixels.astype("<f2")
     blocks = []
     for y in range(0, HEIGHT, 16):
-        rows = b"".join(half[line, :, c].tobytes() for line in range(y, min(y + 16, HEIGHT)) for c in (2, 1, 0))
+        rows = b"".join(
+            half[line, :, c].tobytes()
+            for line in range(y, min(y + 16, HEIGHT))
+            for c in (2, 1, 0)
+        )
         body = zip_block(rows)
         blocks.append(struct.pack("<ii", y, len(body)) + body)
     offset, table = len(header) + 8 * len(blocks), b""
@@ -138,10 +164,23 @@ def write_exr(path, pixels):
 
 
 def noon_gltf():
-    environment = {"type": "hdri", "uri": "noon_sky.exr", "rotation_deg": 0, "scale": 1.0,
-                   "sun": {"azimuth_deg": SUN_AZIMUTH_DEG, "elevation_deg": SUN_ELEVATION_DEG, "illuminance_lx": SUN_LX}}
-    return {"asset": {"version": "2.0", "generator": "sky.py of Parhelion"}, "extensionsUsed": ["PARHELION_environment"],
-            "scene": 0, "scenes": [{"name": "noon", "extensions": {"PARHELION_environment": environment}}]}
+    environment = {
+        "type": "hdri",
+        "uri": "noon_sky.exr",
+        "rotation_deg": 0,
+        "scale": 1.0,
+        "sun": {
+            "azimuth_deg": SUN_AZIMUTH_DEG,
+            "elevation_deg": SUN_ELEVATION_DEG,
+            "illuminance_lx": SUN_LX,
+        },
+    }
+    return {
+        "asset": {"version": "2.0", "generator": "sky.py of Parhelion"},
+        "extensionsUsed": ["PARHELION_environment"],
+        "scene": 0,
+        "scenes": [{"name": "noon", "extensions": {"PARHELION_environment": environment}}],
+    }
 
 
 if __name__ == "__main__":
@@ -152,4 +191,7 @@ if __name__ == "__main__":
         json.dump(noon_gltf(), out, indent=1)
         out.write("\n")
     y = picture @ LUMINANCE
-    print(f"zenith {y[2].mean():.0f} cd/m2, horizon {y[HEIGHT // 2 - 3].mean():.0f}, brightest {y.max():.0f}")
+    print(
+        f"zenith {y[2].mean():.0f} cd/m2, horizon {y[HEIGHT // 2 - 3].mean():.0f}, "
+        f"brightest {y.max():.0f}"
+    )

@@ -19,7 +19,13 @@ def write_png(path, pixels):
     left = np.concatenate([np.zeros((height, step), np.int16), flat[:, :-step]], axis=1)
     above = np.concatenate([np.zeros((1, flat.shape[1]), np.int16), flat[:-1]])
     corner = np.concatenate([np.zeros((height, step), np.int16), above[:, :-step]], axis=1)
-    choices = [flat, flat - left, flat - above, flat - (left + above) // 2, flat - paeth(left, above, corner)]
+    choices = [
+        flat,
+        flat - left,
+        flat - above,
+        flat - (left + above) // 2,
+        flat - paeth(left, above, corner),
+    ]
     coded = np.stack([c.astype(np.uint8) for c in choices])
     cost = np.abs(coded.astype(np.int8).astype(np.int32)).sum(axis=2)
     best = cost.argmin(axis=0)
@@ -27,9 +33,17 @@ def write_png(path, pixels):
     header = struct.pack(">IIBBBBB", width, height, 8, 0 if grey else 2, 0, 0, 0)
     with open(path, "wb") as file:
         file.write(b"\x89PNG\r\n\x1a\n")
-        for kind, body in ((b"IHDR", header), (b"IDAT", zlib.compress(b"".join(rows), 9)), (b"IEND", b"")):
-            file.write(struct.pack(">I", len(body)) + kind + body
-                       + struct.pack(">I", zlib.crc32(kind + body) & 0xFFFFFFFF))
+        for kind, body in (
+            (b"IHDR", header),
+            (b"IDAT", zlib.compress(b"".join(rows), 9)),
+            (b"IEND", b""),
+        ):
+            file.write(
+                struct.pack(">I", len(body))
+                + kind
+                + body
+                + struct.pack(">I", zlib.crc32(kind + body) & 0xFFFFFFFF)
+            )
 
 
 def paeth(left, above, corner):
@@ -47,8 +61,15 @@ def noise(shape, low, high, seed, stretch=1.0):
     fy = np.fft.fftfreq(height)[:, None] * height
     fx = np.fft.rfftfreq(width)[None, :] * width * stretch
     f = np.hypot(fy, fx)
-    band = np.exp(-((np.log2(np.maximum(f, 0.5)) - 0.5 * (np.log2(low) + np.log2(high)))
-                    / (0.25 + 0.5 * (np.log2(high) - np.log2(low)))) ** 2)
+    band = np.exp(
+        -(
+            (
+                (np.log2(np.maximum(f, 0.5)) - 0.5 * (np.log2(low) + np.log2(high)))
+                / (0.25 + 0.5 * (np.log2(high) - np.log2(low)))
+            )
+            ** 2
+        )
+    )
     band[f == 0] = 0
     field = np.fft.irfft2(np.fft.rfft2(rng.standard_normal(shape)) * band, s=shape)
     return field / field.std()
@@ -109,8 +130,11 @@ def fabric_normal():
     """Plain weave: warp over weft, threads of 0.55 mm."""
     y, x = np.mgrid[0:256, 0:256] / 256 * 2 * np.pi * 24
     over = np.sign(np.sin(x / 2) * np.sin(y / 2))
-    height = np.where(over > 0, abs(np.sin(x / 2)) * (0.6 + 0.4 * abs(np.cos(y / 2))),
-                      abs(np.sin(y / 2)) * (0.6 + 0.4 * abs(np.cos(x / 2))))
+    height = np.where(
+        over > 0,
+        abs(np.sin(x / 2)) * (0.6 + 0.4 * abs(np.cos(y / 2))),
+        abs(np.sin(y / 2)) * (0.6 + 0.4 * abs(np.cos(x / 2))),
+    )
     return normal_map(height + 0.08 * noise((256, 256), 20, 90, 8), 1.6)
 
 
@@ -135,7 +159,9 @@ def wood_color():
     tone = 0.5 + 0.16 * bands + 0.14 * ring
     pores = np.clip(noise(shape, 90, 200, 24, 30) - 1.1, 0, 1)
     tone = np.clip(tone, 0, 1)[..., None]
-    color = (1 - tone) * np.array([0.034, 0.016, 0.008]) + tone * np.array([0.170, 0.082, 0.038])
+    color = (1 - tone) * np.array([0.034, 0.016, 0.008]) + tone * np.array(
+        [0.170, 0.082, 0.038]
+    )
     return srgb(color * (1 - 0.75 * pores[..., None]))
 
 
@@ -156,7 +182,9 @@ def asphalt_normal():
 
 
 def grass_color():
-    field = np.clip(1 + 0.22 * noise((256, 256), 3, 60, 41) + 0.18 * noise((256, 256), 60, 120, 42), 0.3, 2)
+    field = np.clip(
+        1 + 0.22 * noise((256, 256), 3, 60, 41) + 0.18 * noise((256, 256), 60, 120, 42), 0.3, 2
+    )
     return tinted((0.062, 0.105, 0.034), field)
 
 
@@ -168,7 +196,11 @@ def leaf_color():
 def facade(wall, seed, glazing=(0.52, 0.60)):
     """Four by four windows with sills and frames; a tile is 12 m wide and high."""
     size, bay = 512, 128
-    field = 1 + 0.05 * noise((size, size), 2, 12, seed) + 0.03 * noise((size, size), 60, 200, seed + 1)
+    field = (
+        1
+        + 0.05 * noise((size, size), 2, 12, seed)
+        + 0.03 * noise((size, size), 60, 200, seed + 1)
+    )
     color = np.asarray(wall)[None, None, :] * field[..., None]
     y, x = np.mgrid[0:size, 0:size] % bay / bay - 0.5
     y = y - 0.02
@@ -179,7 +211,11 @@ def facade(wall, seed, glazing=(0.52, 0.60)):
     color[sill] = (0.30, 0.29, 0.28)
     rng = np.random.default_rng(seed + 2)
     curtains = rng.uniform(0.4, 1.8, (4, 4)).repeat(bay, 0).repeat(bay, 1)
-    pane = np.array([0.035, 0.045, 0.055])[None, None, :] * curtains[..., None] * (1.3 - 0.8 * y[..., None])
+    pane = (
+        np.array([0.035, 0.045, 0.055])[None, None, :]
+        * curtains[..., None]
+        * (1.3 - 0.8 * y[..., None])
+    )
     pane[abs(x) < 0.012] = (0.40, 0.40, 0.39)
     color[inside] = pane[inside]
     return srgb(color)
@@ -197,10 +233,17 @@ def perforated_normal():
 
 
 TEXTURES = {
-    "leather_normal": leather_normal, "fabric_normal": fabric_normal, "fabric_color": fabric_color,
-    "suede_color": suede_color, "wood_color": wood_color, "wood_normal": wood_normal,
-    "asphalt_color": asphalt_color, "asphalt_normal": asphalt_normal, "grass_color": grass_color,
-    "leaf_color": leaf_color, "perforated_normal": perforated_normal,
+    "leather_normal": leather_normal,
+    "fabric_normal": fabric_normal,
+    "fabric_color": fabric_color,
+    "suede_color": suede_color,
+    "wood_color": wood_color,
+    "wood_normal": wood_normal,
+    "asphalt_color": asphalt_color,
+    "asphalt_normal": asphalt_normal,
+    "grass_color": grass_color,
+    "leaf_color": leaf_color,
+    "perforated_normal": perforated_normal,
     "facade_plaster": lambda: facade((0.55, 0.50, 0.42), 71),
     "facade_brick": lambda: facade((0.26, 0.115, 0.075), 75, (0.46, 0.62)),
     "facade_office": lambda: facade((0.36, 0.37, 0.38), 79, (0.86, 0.58)),
@@ -215,4 +258,5 @@ def write_textures(folder, names=None):
 
 if __name__ == "__main__":
     import sys
+
     write_textures(sys.argv[1], sys.argv[2:])

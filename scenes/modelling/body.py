@@ -1,0 +1,114 @@
+"""The body outside: bonnet, cowl, sides, boot, tyres."""
+import math
+
+import numpy as np
+
+from dashboard import glass_foot
+from shapes import frame_matrix, grid, lathe, mesh, spline, tube
+from greenhouse import SIDES
+
+
+def bonnet_z(x, y):
+    along = np.interp(
+        y,
+        (1.10, 1.42, 1.80, 2.20, 2.42, 2.52, 2.56),
+        (1.005, 0.985, 0.958, 0.905, 0.855, 0.800, 0.700),
+    )
+    a = abs(x)
+    crown = -0.055 * (a / 0.75) ** 2 + 0.026 * math.exp(-(((a - 0.60) / 0.10) ** 2))
+    edge = -0.25 * max(0.0, (a - 0.74) / 0.16) ** 2
+    return along + crown + edge
+
+
+def bonnet():
+    xs = np.linspace(-0.90, 0.90, 49)
+    ts = np.linspace(0, 1, 30)
+    rows = []
+    for t in ts:
+        row = []
+        for x in xs:
+            back = glass_foot(np.clip(x, -0.8, 0.8)) + 0.085
+            front = 2.56 - 0.16 * (abs(x) / 0.9) ** 3
+            y = back + (front - back) * t
+            row.append((x, y, bonnet_z(x, y)))
+        rows.append(row)
+    last = np.array(rows[-1])
+    rows.append(last + np.array([0, 0.01, -0.08]))
+    rows.append(last * np.array([1, 1, 0]) + np.array([0, -0.02, 0.30]))
+    grid("bonnet", np.array(rows), "car paint")
+    for side, sign in SIDES:
+        line = [
+            (sign * 0.70, y, bonnet_z(0.70, y) + 0.0005) for y in np.linspace(1.38, 2.45, 40)
+        ]
+        tube(f"bonnet shut line {side}", line, 0.0022, "gap", 6)
+    us = np.linspace(-1.05, 1.05, 33)
+    cowl = [
+        [(0.735 * u, glass_foot(0.735 * u) + d, 1.005 + 0.045 * u * u * k + h) for u in us]
+        for d, k, h in (
+            (-0.030, 1, 0.004),
+            (0.010, 1, -0.010),
+            (0.050, 0.6, -0.030),
+            (0.110, 0.2, -0.050),
+        )
+    ]
+    grid("cowl", np.array(cowl), "plastic grained")
+
+
+def body_sides():
+    profile = [
+        (0.782, 1.034),
+        (0.800, 1.030),
+        (0.865, 0.985),
+        (0.905, 0.90),
+        (0.912, 0.72),
+        (0.895, 0.45),
+        (0.86, 0.28),
+    ]
+    curve = spline(profile, 26)
+    for side, sign in SIDES:
+        rows = []
+        for y in np.linspace(1.30, -2.10, 50):
+            taper = 1.0 - 0.06 * max(0.0, (-y - 1.2) / 0.9) ** 2
+            rows.append(
+                np.column_stack([sign * curve[:, 0] * taper, np.full(26, y), curve[:, 1]])
+            )
+        grid(f"body side {side}", np.array(rows), "car paint", flip=(sign > 0))
+    us = np.linspace(-1, 1, 17)
+    boot = [
+        [(x * u, y, z + 0.02 * (1 - u * u)) for u in us]
+        for x, y, z in (
+            (0.79, -1.84, 1.055),
+            (0.80, -2.15, 1.02),
+            (0.82, -2.30, 0.98),
+            (0.82, -2.36, 0.80),
+            (0.80, -2.38, 0.35),
+        )
+    ]
+    grid("boot", np.array(boot), "car paint", flip=True)
+    mesh(
+        "underside",
+        [(-0.88, -2.36, 0.28), (0.88, -2.36, 0.28), (0.88, 2.45, 0.28), (-0.88, 2.45, 0.28)],
+        [(0, 3, 2, 1)],
+        "plastic dark",
+    )
+    for k, (x, y) in enumerate(((-0.80, 1.72), (0.80, 1.72), (-0.80, -1.35), (0.80, -1.35))):
+        at = frame_matrix((x, y, 0.335), (0, 1, 0), (0, 0, 1))
+        lathe(
+            f"tyre {k}",
+            [
+                (0.20, -0.10),
+                (0.31, -0.11),
+                (0.335, -0.08),
+                (0.335, 0.08),
+                (0.31, 0.11),
+                (0.20, 0.10),
+            ],
+            at,
+            "rubber",
+            40,
+        )
+
+
+def build_body():
+    bonnet()
+    body_sides()
