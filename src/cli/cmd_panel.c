@@ -31,7 +31,8 @@ bool cmd_panel(int argc, char **argv, Error *err)
 {
     const char *names[COMMAND_COUNT];
     if (argc < 2)
-        return error_set(err, ERROR_USAGE, "panel wants a command: fit, info, eval or simulate");
+        return error_set(err, ERROR_USAGE, 
+                         "panel wants a command: fit, info, eval or simulate");
     if (!strcmp(argv[1], "--help") || !strcmp(argv[1], "help")) {
         print_help();
         return true;

@@ -58,7 +58,8 @@ static json_t *answer_emission(const Panel *panel, const Question *q)
     double x = (double)xyz[0], y = (double)xyz[1], z = (double)xyz[2], d = x + 15 * y + 3 * z;
     return json_pack("{s:f, s:f, s:[f,f,f], s:[f,f,f], s:f, s:[f,f], s:b}",
         "theta_deg", q->theta, "phi_deg", q->phi, "rgb", q->rgb[0], q->rgb[1], q->rgb[2],
-        "XYZ", x, y, z, "luminance_cd_m2", y, "uv", d > 0 ? 4 * x / d : 0, d > 0 ? 9 * y / d : 0,
+        "XYZ", x, y, z, "luminance_cd_m2", y,
+        "uv", d > 0 ? 4 * x / d : 0, d > 0 ? 9 * y / d : 0,
         "extrapolated", (int)!measured);
 }
 
@@ -106,7 +107,8 @@ static json_t *answer(const Panel *panel, const Question *question)
 
 static void print_answer(const json_t *a, bool is_brdf)
 {
-    const char *flag = json_is_true(json_object_get(a, "extrapolated")) ? "  (extrapolated)" : "";
+    bool        is_far = json_is_true(json_object_get(a, "extrapolated"));
+    const char *flag = is_far ? "  (extrapolated)" : "";
     if (!is_brdf) {
         json_t *xyz = json_object_get(a, "XYZ"), *uv = json_object_get(a, "uv");
         printf("%.6g cd/m2  XYZ %.6g %.6g %.6g  u'v' %.4f %.4f%s\n",
@@ -114,8 +116,8 @@ static void print_answer(const json_t *a, bool is_brdf)
                json_number_value(json_array_get(xyz, 0)),
                json_number_value(json_array_get(xyz, 1)),
                json_number_value(json_array_get(xyz, 2)),
-               json_number_value(json_array_get(uv, 0)), json_number_value(json_array_get(uv, 1)),
-               flag);
+               json_number_value(json_array_get(uv, 0)),
+               json_number_value(json_array_get(uv, 1)), flag);
         return;
     }
     for (size_t i = 0; i < json_array_size(json_object_get(a, "brdf_sr")); i++)
@@ -164,9 +166,9 @@ static bool answer_batch(const Panel *panel, const char *file, const Question *f
             double *to = question_member(&q, csv.name[c]);
             if (!to) {
                 json_decref(list);
-                return error_at(err, ERROR_INPUT, file, "header line", "column '%s' is unknown, "
-                                "wanted theta, phi, r, g, b, incidence, incidence_phi or "
-                                "wavelength", csv.name[c]);
+                return error_at(err, ERROR_INPUT, file, "header line",
+                                "column '%s' is unknown, wanted theta, phi, r, g, b, "
+                                "incidence, incidence_phi or wavelength", csv.name[c]);
             }
             *to = (double)csv.cell[(size_t)i * (size_t)csv.columns + (size_t)c];
         }
@@ -222,8 +224,8 @@ bool cmd_panel_eval(int argc, char **argv, Error *err)
     const Option options[] = {
         {"--theta", OPTION_NUMBER, "DEG", "angle from the normal", &q.theta, 0, 90, 0,
          &has_theta},
-        {"--phi", OPTION_NUMBER, "DEG", "azimuth: 0 right, 90 up (default 0)", &q.phi, -360, 360,
-         .given = NULL},
+        {"--phi", OPTION_NUMBER, "DEG", "azimuth: 0 right, 90 up (default 0)", &q.phi, -360,
+         360, .given = NULL},
         {"--rgb", OPTION_NUMBERS, "R,G,B", "the pixel's codes, 0 to 255", q.rgb, 0, 255, 3,
          &has_rgb},
         {"--brdf", OPTION_FLAG, NULL, "reflection instead of emission", &q.is_brdf,

@@ -44,22 +44,21 @@ static int by_direction(const void *a, const void *b)
     return p->line - q->line;
 }
 
-static bool bad_row(const RawTable *raw, int line, Arena *arena, Error *err, const char *what,
-                    double found, const char *wanted)
+/* "line 12" in the arena. */
+static const char *place_of(int line, Arena *arena)
 {
-    return error_at(err, ERROR_INPUT, raw->file, arena_format(arena, "line %d", line),
-                    "%s is %g, wanted %s", what, found, wanted);
+    return arena_format(arena, "line %d", line);
 }
 
 /* Brings theta to [0, 90] and phi to [0, 360); a negative theta is the other side. */
 static bool place_row(const RawTable *raw, Row *row, Arena *arena, Error *err)
 {
     if (!(fabsf(row->theta_deg) <= 90))
-        return bad_row(raw, row->line, arena, err, "theta", (double)row->theta_deg,
-                       "0 to 90 degrees");
+        return error_at(err, ERROR_INPUT, raw->file, place_of(row->line, arena),
+                        "theta is %g, wanted 0 to 90 degrees", (double)row->theta_deg);
     if (!(fabsf(row->phi_deg) <= 360))
-        return bad_row(raw, row->line, arena, err, "phi", (double)row->phi_deg,
-                       "-360 to 360 degrees");
+        return error_at(err, ERROR_INPUT, raw->file, place_of(row->line, arena),
+                        "phi is %g, wanted -360 to 360 degrees", (double)row->phi_deg);
     if (row->theta_deg < 0) {
         row->theta_deg = -row->theta_deg;
         row->phi_deg += 180;
@@ -78,13 +77,11 @@ static bool check_signs(const RawTable *raw, NoiseAllowance noise, Arena *arena,
     for (size_t i = 0; i < total; i++) most = raw->value[i] > most ? raw->value[i] : most;
     float allowed = fmaxf(noise.absolute, noise.share * most);
     for (size_t i = 0; i < total; i++)
-        if (raw->value[i] < -allowed) {
-            char wanted[96];
-            snprintf(wanted, sizeof wanted, "at least %g %s (noise below zero)",
-                     -(double)allowed, noise.unit);
-            return bad_row(raw, raw->row[i / (size_t)raw->channels].line, arena, err,
-                           "a value", (double)raw->value[i], wanted);
-        }
+        if (raw->value[i] < -allowed)
+            return error_at(err, ERROR_INPUT, raw->file,
+                            place_of(raw->row[i / (size_t)raw->channels].line, arena),
+                            "a value is %g, wanted at least %g %s (noise below zero)",
+                            (double)raw->value[i], -(double)allowed, noise.unit);
     return true;
 }
 
@@ -137,7 +134,8 @@ static bool finish_table(RawTable *raw, NoiseAllowance noise, Arena *arena, Angl
         if (!place_row(raw, &raw->row[i], arena, err)) return false;
     if (!check_signs(raw, noise, arena, err)) return false;
     qsort(raw->row, (size_t)raw->rows, sizeof *raw->row, by_direction);
-    float *theta = ARENA_NEW(arena, float, raw->rows), *phi = ARENA_NEW(arena, float, raw->rows);
+    float *theta = ARENA_NEW(arena, float, raw->rows);
+    float *phi = ARENA_NEW(arena, float, raw->rows);
     float *value = ARENA_NEW(arena, float, (size_t)raw->rows * (size_t)raw->channels);
     AngleTable table = {.name = raw->name, .channels = raw->channels, .theta = theta,
                         .phi = phi, .value = value, .text_bytes = raw->bytes};
@@ -147,7 +145,7 @@ static bool finish_table(RawTable *raw, NoiseAllowance noise, Arena *arena, Angl
             keep_row(raw, row, &table, theta, phi, value);
         } else if (!same_values(raw, row, last)) {
             return error_at(err, ERROR_INPUT, raw->file,
-                            arena_format(arena, "line %d", row->line),
+                            place_of(row->line, arena),
                             "theta %g, phi %g stands here and in line %d with different "
                             "values, wanted every direction once",
                             (double)row->theta_deg, (double)row->phi_deg, last->line);
@@ -210,7 +208,7 @@ static bool xyz_from_yxy(const RawTable *raw, float *value, int line, Arena *are
 {
     float y_cd_m2 = value[0], x = value[1], y = value[2];
     if (!(x >= 0) || !(y >= 0) || !(x + y <= 1) || (y == 0 && y_cd_m2 != 0)) {
-        return error_at(err, ERROR_INPUT, raw->file, arena_format(arena, "line %d", line),
+        return error_at(err, ERROR_INPUT, raw->file, place_of(line, arena),
                         "chromaticity is x %g, y %g, wanted a point of the CIE 1931 diagram",
                         (double)x, (double)y);
     }
@@ -287,12 +285,12 @@ static bool reject_other_wavelengths(const CsvTable *csv, const float *wavelengt
     return true;
 }
 
-bool angle_table_read_brdf(const char *file, const char *name, const float *wavelength_nm,
-                           int count, Arena *arena, AngleTable *out, Error *err)
+bool angle_table_read_brdf(const char *file, const float *wavelength_nm, int count,
+                           Arena *arena, AngleTable *out, Error *err)
 {
     CsvTable csv;
     RawTable raw;
-    if (!csv_table_read(file, arena, &csv, err) || !start_rows(&csv, name, arena, &raw, err) ||
+    if (!csv_table_read(file, arena, &csv, err) || !start_rows(&csv, "", arena, &raw, err) ||
         !reject_other_wavelengths(&csv, wavelength_nm, count, err))
         return false;
     float *value = ARENA_NEW(arena, float, (size_t)csv.rows * (size_t)count);
@@ -318,7 +316,7 @@ static bool same_grid(const CsvTable *a, const CsvTable *b, Error *err)
     bool same = a->columns == b->columns && a->rows == b->rows;
     for (int c = 1; same && c < a->columns; c++) same = !strcmp(a->name[c], b->name[c]);
     for (int i = 0; same && i < a->rows; i++)
-        same = a->cell[(size_t)i * (size_t)a->columns] == b->cell[(size_t)i * (size_t)b->columns];
+        same = a->cell[(size_t)(i * a->columns)] == b->cell[(size_t)(i * b->columns)];
     return same || error_at(err, ERROR_INPUT, b->file, "",
                             "has other angles than %s, wanted one grid for X, Y and Z",
                             a->file);

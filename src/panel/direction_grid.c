@@ -313,7 +313,8 @@ static void azimuth_taps(const DirectionGrid *grid, float phi, int index[4], flo
         int j = first - 1 + i;
         if (grid->is_mirrored) { /* reflect at 0 and pi: the values are even there */
             bool low = j < 0, high = j >= n;
-            int  skip_low = grid->phi[0] < SAME_ANGLE, skip_high = grid->phi[n - 1] > PI_F - SAME_ANGLE;
+            int  skip_low = grid->phi[0] < SAME_ANGLE;
+            int  skip_high = grid->phi[n - 1] > PI_F - SAME_ANGLE;
             int  k = low ? -j - 1 + skip_low : high ? 2 * n - 1 - j - skip_high : j;
             k = k < 0 ? 0 : k >= n ? n - 1 : k;
             x[i] = low ? -grid->phi[k] : high ? 2 * PI_F - grid->phi[k] : grid->phi[k];

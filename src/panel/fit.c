@@ -50,7 +50,7 @@ static bool finish_file(const FitParts *parts, const char *path, Arena *arena, j
     Panel *panel;
     void  *bytes = fit_file_bytes(parts, "{}", arena, &size);
     if (!panel_from_bytes(bytes, size, path, arena, &panel, err)) return false;
-    json_t *document = fit_measure(parts, panel, size, *arena);
+    json_t *document = fit_measure(parts, panel, size);
     char   *text = json_dumps(document, JSON_COMPACT | JSON_REAL_PRECISION(6));
     if (!text) {
         json_decref(document);

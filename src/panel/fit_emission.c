@@ -192,6 +192,12 @@ static void fill_channels(const Measurement *set, Leaves *leaves, FitEmission *o
     narrow_cone(leaves, &set->black);
 }
 
+/* A place's channels. */
+static float *row_of(const Leaves *leaves, int place)
+{
+    return leaves->logs + (size_t)place * (size_t)leaves->channels;
+}
+
 /* ---- noise ----------------------------------------------------------------------------- */
 
 #define DOUBT 0.015 /* where noise exceeds this share a brighter table speaks as well */
@@ -210,7 +216,7 @@ static double ratio_of_sums(const Leaves *leaves, int channel, int brighter)
 {
     double sum[2] = {0, 0};
     for (int i = 0; i < leaves->places.leaves; i++) {
-        const float *row = leaves->logs + (size_t)i * (size_t)leaves->channels;
+        const float *row = row_of(leaves, i);
         double w = leaves->places.area[i] * (double)leaves->places.direction[i].z;
         sum[0] += w * exp((double)row[channel]);
         sum[1] += w * exp((double)row[brighter]);
@@ -224,7 +230,7 @@ static void fit_difference(const Leaves *leaves, int channel, int brighter, doub
 {
     double m[2][2] = {{0}}, r[2] = {0, 0};
     for (int i = 0; i < leaves->places.leaves; i++) {
-        const float *row = leaves->logs + (size_t)i * (size_t)leaves->channels;
+        const float *row = row_of(leaves, i);
         double z = (double)leaves->places.direction[i].z, s = 1 - z * z;
         double w = leaves->places.area[i] * own_word(leaves, i, channel);
         double d = (double)(row[channel] - row[brighter]);
@@ -245,7 +251,7 @@ static void follow(Leaves *leaves, int channel, int brighter)
     double line[2];
     fit_difference(leaves, channel, brighter, line);
     for (int i = 0; i < leaves->count; i++) {
-        float *row = leaves->logs + (size_t)i * (size_t)leaves->channels;
+        float *row = row_of(leaves, i);
         float *doubt = leaves->doubt + (size_t)i * (size_t)leaves->channels;
         double z = (double)leaves->places.direction[i].z;
         double told = (double)row[brighter] + line[0] + line[1] * (1 - z * z);
@@ -277,7 +283,7 @@ static void channel_weights(const Leaves *leaves, bool has_black, double *weight
     for (int c = 0; c < leaves->channels; c++) {
         double share = 0, area = 0;
         for (int i = 0; i < leaves->count; i += 7) {
-            const float *row = leaves->logs + (size_t)i * (size_t)leaves->channels;
+            const float *row = row_of(leaves, i);
             double dark = has_black && c < black
                               ? exp((double)row[black + c % 3] - (double)row[c]) : 0;
             share += leaves->places.area[i] / (1 + dark);
@@ -300,10 +306,11 @@ static void ratio_range(const Leaves *leaves, int first, int count, float low[2]
     for (int c = first; c < first + count; c += 3) {
         float most = logf(0.2f * 50);
         for (int i = 0; i < leaves->count; i++)
-            most = fmaxf(most, leaves->logs[(size_t)i * (size_t)leaves->channels + (size_t)c + 1]);
+            most = fmaxf(most, row_of(leaves, i)[c + 1]);
         for (int i = 0; i < leaves->count; i++) {
-            const float *row = leaves->logs + (size_t)i * (size_t)leaves->channels + c;
-            if (polar(leaves->places.direction[i]) > leaves->cone || row[1] < most - logf(50)) continue;
+            const float *row = row_of(leaves, i) + c;
+            if (polar(leaves->places.direction[i]) > leaves->cone) continue;
+            if (row[1] < most - logf(50)) continue;
             ratio[0][kept] = (double)(row[0] - row[1]);
             ratio[1][kept++] = (double)(row[2] - row[1]);
         }
@@ -326,8 +333,7 @@ static void find_ranges(const Measurement *set, const Leaves *leaves, FitEmissio
             if (leaves->places.direction[i].z > leaves->places.direction[axis].z) axis = i;
         for (int j = 0; j < 3 && count; j++)
             out->peak_xyz[p][j] =
-                exp((double)leaves->logs[(size_t)axis * (size_t)leaves->channels +
-                                         (size_t)(last + j)]);
+                exp((double)row_of(leaves, axis)[last + j]);
         first += count;
     }
 }
@@ -338,7 +344,7 @@ static void mean_luminances(const Leaves *leaves, float *mean_y)
         double sum = 0, weight = 0;
         for (int i = 0; i < leaves->count; i++) {
             double w = leaves->places.area[i] * (double)leaves->places.direction[i].z;
-            sum += w * exp((double)leaves->logs[(size_t)i * (size_t)leaves->channels + (size_t)c]);
+            sum += w * exp((double)row_of(leaves, i)[c]);
             weight += w;
         }
         mean_y[c / 3] = (float)(sum / weight);
@@ -406,7 +412,8 @@ static bool build_tree(const Leaves *leaves, const FitOptions *options, const Pr
     for (int k = 0; k < rank->components; k++) {
         double most = 0;
         for (int c = 0; c < leaves->channels; c++)
-            most = fmax(most, fabs(rank->weight[c] * (double)rank->loading[c * rank->components + k]));
+            most = fmax(most, rank->weight[c] *
+                                  fabs((double)rank->loading[c * rank->components + k]));
         scale[k] = (float)fmax(most, 1e-6);
     }
     double bound = fmax((double)options->max_error, 3 * median_noise(out->noise,
@@ -445,7 +452,8 @@ bool fit_emission(const Measurement *set, const FitOptions *options, Arena *aren
     for (int p = 0; p < 3; p++) {
         const MeasuredPrimary *from = &set->primary[p];
         out->head.level_count[p] = (uint32_t)from->level_count;
-        for (int i = 0; i < from->level_count; i++) out->head.level[p][i] = (float)from->level[i];
+        for (int i = 0; i < from->level_count; i++)
+            out->head.level[p][i] = (float)from->level[i];
         channels += 3 * from->level_count;
     }
     channels += out->head.has_black ? 3 : 0;

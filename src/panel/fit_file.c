@@ -52,7 +52,8 @@ static void add_emission(Writer *writer, const FitEmission *e)
 static void add_reflection(Writer *writer, const FitReflection *r)
 {
     size_t padded = r->head.padded_wavelengths, f = sizeof(float);
-    Piece  pieces[] = {{&r->head, sizeof r->head}, {r->basis, r->head.coefficients * padded * f},
+    Piece  pieces[] = {{&r->head, sizeof r->head},
+                       {r->basis, r->head.coefficients * padded * f},
                        {r->mirror, PANEL_ANGLES * padded * f},
                        {r->profile, PANEL_ANGLES * r->head.slices * r->head.coefficients *
                                        (1 + r->head.harmonics) * f}};

@@ -62,7 +62,8 @@ static double median_difference(const AngleTable *table, int channel, const doub
     for (int pass = 0; pass < 2 && count < ENOUGH; pass++) {
         count = 0;
         for (int i = 3; i < table->rows; i++) {
-            if ((double)table->theta[i] < range[0] || (double)table->theta[i] > range[1]) continue;
+            double theta = (double)table->theta[i];
+            if (theta < range[0] || theta > range[1]) continue;
             if (!third_difference(table, i, channel, pass == 0, &difference, &mean)) continue;
             if (!relative) list[count++] = difference;
             else if (mean > 0) list[count++] = difference / mean;

@@ -124,4 +124,4 @@ typedef struct FitParts {
 void *fit_file_bytes(const FitParts *parts, const char *meta, Arena *arena, size_t *size);
 
 /* Compares the panel with the tables; a new JSON document. */
-json_t *fit_measure(const FitParts *parts, const Panel *panel, size_t file_bytes, Arena scratch);
+json_t *fit_measure(const FitParts *parts, const Panel *panel, size_t file_bytes);

@@ -42,7 +42,8 @@ static double clamped_angle(double cosine)
 
 static float *slice_logs(Work *work)
 {
-    return ARENA_NEW(work->arena, float, (size_t)work->places.count * (size_t)work->wavelengths);
+    return ARENA_NEW(work->arena, float,
+                     (size_t)work->places.count * (size_t)work->wavelengths);
 }
 
 /* ln of the haze at the cells of a slice's grid; noise and zeros are held above a floor. */
@@ -405,9 +406,10 @@ static bool build_sampling(Work *work, Error *err)
             const float *logs = work->logs[s] + (size_t)from * (size_t)work->wavelengths;
             for (int w = 0; w < work->wavelengths; w++)
                 sum += work->luminous[w] * exp((double)logs[w]);
-            int to = from;
-            integral[to] = (float)(sum * fmax(0, (double)outer.z) * work->places.area[i] *
-                                   (double)specular_frame_jacobian(&frame, work->places.direction[i]));
+            double jacobian =
+                (double)specular_frame_jacobian(&frame, work->places.direction[i]);
+            integral[from] = (float)(sum * fmax(0, (double)outer.z) * work->places.area[i] *
+                                     jacobian);
         }
         if (!sampling_tree_build(&options, integral, work->arena, &work->out->sampling[s], err))
             return error_prefix(err, "sampling of the slice at %.0f degrees",

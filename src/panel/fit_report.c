@@ -1,7 +1,12 @@
 /* How well a fitted panel says again what was measured (design: panel, section 8). */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "base/file.h"
 #include "base/units.h"
 #include "hemisphere/specular_frame.h"
 #include "panel/fit_parts.h"
@@ -162,7 +167,8 @@ static void add_emission_tables(const FitParts *parts, const Panel *panel, json_
         bool is_black = p == 3;
         int  levels = is_black ? (int)e->head.has_black : parts->set->primary[p].level_count;
         for (int i = 0; i < levels; i++, index++) {
-            const AngleTable *from = is_black ? &parts->set->black : &parts->set->primary[p].table[i];
+            const AngleTable *from = is_black ? &parts->set->black
+                                              : &parts->set->primary[p].table[i];
             FitTable one = {.name = from->name, .text_bytes = from->text_bytes,
                             .float32_bytes = 5 * sizeof(float) * (size_t)from->rows,
                             .stored_values = values, .bytes = bytes, .noise = e->noise[index]};
@@ -207,7 +213,8 @@ static json_t *mirror_json(const FitParts *parts)
 static json_t *notes_json(const FitNotes *notes)
 {
     json_t *list = json_array();
-    for (int i = 0; i < notes->count; i++) json_array_append_new(list, json_string(notes->text[i]));
+    for (int i = 0; i < notes->count; i++)
+        json_array_append_new(list, json_string(notes->text[i]));
     return list;
 }
 
@@ -227,16 +234,37 @@ static void describe_reflection(const FitParts *parts, const Panel *panel, json_
         "largest_albedo", r->largest_albedo, "mirror", mirror_json(parts)));
 }
 
-json_t *fit_measure(const FitParts *parts, const Panel *panel, size_t file_bytes, Arena scratch)
+static void hash_table(XXH3_state_t *hash, const AngleTable *table)
+{
+    size_t rows = (size_t)table->rows;
+    XXH3_64bits_update(hash, table->theta, sizeof(float) * rows);
+    XXH3_64bits_update(hash, table->phi, sizeof(float) * rows);
+    XXH3_64bits_update(hash, table->value, sizeof(float) * rows * (size_t)table->channels);
+}
+
+/* Of all measured numbers, so that a panel can be told from another set's of the same name. */
+static uint64_t source_hash(const Measurement *set)
+{
+    XXH3_state_t hash;
+    XXH3_64bits_reset(&hash);
+    if (set->has_black) hash_table(&hash, &set->black);
+    for (int p = 0; p < 3; p++)
+        for (int i = 0; i < set->primary[p].level_count; i++)
+            hash_table(&hash, &set->primary[p].table[i]);
+    for (int i = 0; i < set->incidence_count; i++) hash_table(&hash, &set->brdf[i]);
+    if (set->has_spectra) XXH3_64bits_update(&hash, set->spectrum, sizeof set->spectrum);
+    return XXH3_64bits_digest(&hash);
+}
+
+json_t *fit_measure(const FitParts *parts, const Panel *panel, size_t file_bytes)
 {
     const Measurement *set = parts->set;
-    (void)scratch;
     json_t  *tables = json_array();
     FitTable total = {.name = "total", .bytes = (double)file_bytes};
     add_emission_tables(parts, panel, tables, &total);
     json_t *out = json_pack("{s:s, s:s, s:s, s:s, s:[f,f], s:[f,f], s:s, s:s}",
         "panel", set->panel, "instrument", set->instrument, "note", set->note,
-        "source", set->file, "pixels", set->pixels[0], set->pixels[1],
+        "source", path_name(set->file), "pixels", set->pixels[0], set->pixels[1],
         "size_mm", set->size_mm[0], set->size_mm[1], "basis", "haar",
         "weights", parts->options->weights == HAAR_AREA ? "area" : "equal");
     json_object_set_new(out, "emission", json_pack("{s:i, s:i, s:f, s:f, s:b, s:b}",
@@ -245,6 +273,9 @@ json_t *fit_measure(const FitParts *parts, const Panel *panel, size_t file_bytes
         "rank_residual", parts->emission->rank_residual,
         "cone_deg", degrees_from_radians(acos((double)panel->emission->cone_cos)),
         "black", (int)parts->emission->head.has_black, "white_only", (int)set->is_white_only));
+    char hash[32];
+    snprintf(hash, sizeof hash, "%016llx", (unsigned long long)source_hash(set));
+    json_object_set_new(out, "source_hash_xxh3", json_string(hash));
     if (parts->reflection) {
         add_reflection_tables(parts, panel, tables, &total);
         describe_reflection(parts, panel, out);

@@ -133,16 +133,17 @@ bool json_view_number(const JsonView *view, const char *key, double low, double 
     return true;
 }
 
-bool json_view_numbers(const JsonView *view, const char *key, const double limits[2],
-                       double *out, int capacity, int *count, Error *err)
+bool json_view_numbers(const JsonView *view, const char *key, JsonRange range, double *out,
+                       int *count, Error *err)
 {
+    double  limits[2] = {range.low, range.high};
     json_t *list = json_object_get(view->object, key);
     if (!list) return true;
     if (!json_is_array(list)) return wrong_kind(view, key, list, "an array of numbers", err);
     int length = (int)json_array_size(list);
-    if (length < 1 || length > capacity)
+    if (length < 1 || length > range.capacity)
         return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                        "has %d values, wanted 1 to %d", length, capacity);
+                        "has %d values, wanted 1 to %d", length, range.capacity);
     for (int i = 0; i < length; i++) {
         json_t *value = json_array_get(list, (size_t)i);
         if (!json_is_number(value)) return wrong_kind(view, key, value, "only numbers", err);

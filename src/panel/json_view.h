@@ -36,9 +36,15 @@ bool json_view_child(const JsonView *view, const char *key, bool required, JsonV
 bool json_view_number(const JsonView *view, const char *key, double low, double high,
                       double *out, Error *err);
 
-/* An array of at most `capacity` finite numbers in [low, high]; absent: out keeps its values. */
-bool json_view_numbers(const JsonView *view, const char *key, const double limits[2],
-                       double *out, int capacity, int *count, Error *err);
+/* What an array of numbers may hold. */
+typedef struct JsonRange {
+    double low, high;
+    int    capacity; /* 1 to so many numbers */
+} JsonRange;
+
+/* An array of finite numbers; absent: out and *count keep their values. */
+bool json_view_numbers(const JsonView *view, const char *key, JsonRange range, double *out,
+                       int *count, Error *err);
 
 /* A text; absent: *out keeps its value. */
 bool json_view_text(const JsonView *view, const char *key, const char **out, Error *err);

@@ -179,7 +179,8 @@ static void resample_spectrum(const CsvTable *csv, int nm_column, int column, fl
     int    last = 0;
     for (int i = 0; i < SPECTRAL_COUNT; i++) {
         float nm = (float)(SPECTRAL_FIRST_NM + i);
-        while (last + 2 < csv->rows && csv->cell[(size_t)(last + 1) * width + (size_t)nm_column] <= nm)
+        while (last + 2 < csv->rows &&
+               csv->cell[(size_t)(last + 1) * width + (size_t)nm_column] <= nm)
             last++;
         const float *a = csv->cell + (size_t)last * width;
         const float *b = csv->rows > 1 ? a + width : a;
@@ -279,15 +280,15 @@ static bool join_wavelengths(const JsonView *view, const char *pattern, double i
         double nm = (double)set->wavelength_nm[w];
         const char *file = path_beside(view->file, fill_pattern(pattern, incidence, nm, arena),
                                        arena);
-        if (!angle_table_read_brdf(file, "", &set->wavelength_nm[w], 1, arena, &one, err))
+        if (!angle_table_read_brdf(file, &set->wavelength_nm[w], 1, arena, &one, err))
             return false;
         if (!w) {
             *out = one;
             out->text_bytes = 0;
             value = ARENA_NEW(arena, float, count * (size_t)one.rows);
         } else if (!same_directions(out, &one)) {
-            return error_at(err, ERROR_INPUT, file, "", "has other directions than the table of "
-                            "%g nm, wanted the same at every wavelength",
+            return error_at(err, ERROR_INPUT, file, "", "has other directions than the table "
+                            "of %g nm, wanted the same at every wavelength",
                             (double)set->wavelength_nm[0]);
         }
         out->text_bytes += one.text_bytes;
@@ -308,8 +309,8 @@ static bool read_slices(const JsonView *view, const char *pattern, Measurement *
         const char *file = path_beside(view->file, fill_pattern(pattern, degrees, -1,
                                                                 view->arena), view->arena);
         if (is_split ? !join_wavelengths(view, pattern, degrees, out, table, err)
-                     : !angle_table_read_brdf(file, name, out->wavelength_nm,
-                                              out->wavelength_count, view->arena, table, err))
+                     : !angle_table_read_brdf(file, out->wavelength_nm, out->wavelength_count,
+                                              view->arena, table, err))
             return false;
         table->name = name;
     }
@@ -337,10 +338,10 @@ static bool read_reflection(const JsonView *root, Measurement *out, Error *err)
     if (!json_view_child(root, "reflection", false, &view, err)) return false;
     if (!view.object) return true;
     if (!json_view_check_keys(&view, keys, COUNT(keys), err) ||
-        !json_view_numbers(&view, "wavelengths_nm", (double[2]){360, 830}, nm, COUNT(nm),
-                           &nm_count, err) ||
-        !json_view_numbers(&view, "incidence_deg", (double[2]){0, 89}, degrees, COUNT(degrees),
-                           &count, err) ||
+        !json_view_numbers(&view, "wavelengths_nm", (JsonRange){360, 830, COUNT(nm)},
+                           nm, &nm_count, err) ||
+        !json_view_numbers(&view, "incidence_deg", (JsonRange){0, 89, COUNT(degrees)},
+                           degrees, &count, err) ||
         !json_view_text(&view, "files", &pattern, err) ||
         !check_rising(&view, "wavelengths_nm", nm, nm_count, err) ||
         !check_rising(&view, "incidence_deg", degrees, count, err))
@@ -366,8 +367,10 @@ static bool read_members(const JsonView *root, Measurement *out, Error *err)
         json_view_text(root, "instrument", &out->instrument, err) &&
         json_view_text(root, "note", &out->note, err) &&
         json_view_text(root, "primaries", &primaries, err) &&
-        json_view_numbers(root, "pixels", (double[2]){1, 65536}, out->pixels, 2, &two, err) &&
-        json_view_numbers(root, "size_mm", (double[2]){1, 1e5}, out->size_mm, 2, &two, err) &&
+        json_view_numbers(root, "pixels", (JsonRange){1, 65536, 2},
+                           out->pixels, &two, err) &&
+        json_view_numbers(root, "size_mm", (JsonRange){1, 1e5, 2},
+                           out->size_mm, &two, err) &&
         json_view_number(root, "instrument_fwhm_deg", 0.05, 15, &out->instrument_fwhm_deg,
                          err) &&
         read_emission(root, out, err) && read_reflection(root, out, err);

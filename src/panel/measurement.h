@@ -63,6 +63,6 @@ bool angle_table_read_xyz(const char *file, const char *name, Arena *arena, Angl
 bool angle_table_read_grid(const char *const files[3], const char *name, Arena *arena,
                            AngleTable *out, Error *err);
 
-/* Columns theta, phi and one a wavelength ("brdf" when there is but one). */
-bool angle_table_read_brdf(const char *file, const char *name, const float *wavelength_nm,
-                           int count, Arena *arena, AngleTable *out, Error *err);
+/* Columns theta, phi and one a wavelength ("brdf" when there is but one); without a name. */
+bool angle_table_read_brdf(const char *file, const float *wavelength_nm, int count,
+                           Arena *arena, AngleTable *out, Error *err);

@@ -146,7 +146,8 @@ static inline void panel_add_profile(const PanelProfile *profile, Vec3 d, int fi
         sine = sine * cos_1 + c * sin_1;
         c = next;
         panel_add_row(row += profile->width, stride, t, c, count, out);
-        if (profile->has_sines) panel_add_row(row += profile->width, stride, t, sine, count, out);
+        if (profile->has_sines)
+            panel_add_row(row += profile->width, stride, t, sine, count, out);
     }
 }
 

@@ -111,10 +111,12 @@ static bool check_levels(const Bytes *at, const PanelEmission *e)
             return refuse(at, "emission", "levels do not rise from above 0 to 255");
         channels += 3 * (uint64_t)e->level_count[p];
     }
-    if (e->has_black > 1 || e->harmonics > PANEL_HARMONICS_MAX || channels != e->channels || e->components < 1 ||
+    if (e->has_black > 1 || e->harmonics > PANEL_HARMONICS_MAX || channels != e->channels ||
+        e->components < 1 ||
         e->components > PANEL_COMPONENTS_MAX)
         return refuse(at, "emission", "channel or component count out of range");
-    if (!(e->cone_cos >= 0 && e->cone_cos <= 1) || !(e->level_power > 0 && e->level_power < 10) ||
+    if (!(e->cone_cos >= 0 && e->cone_cos <= 1) ||
+        !(e->level_power > 0 && e->level_power < 10) ||
         !(e->cosine_power >= 0 && e->cosine_power < 10))
         return refuse(at, "emission", "cone or level power out of range");
     return true;
@@ -142,7 +144,8 @@ static bool open_emission(const Bytes *bytes, const Geodesic *geodesic, Panel *p
     if (!all_finite(panel->channel_mean, floats))
         return refuse(&at, "emission", "holds a number that is not finite");
     if (!tree_open(tree.data, tree.size, geodesic, &panel->emission_tree, bytes->err))
-        return error_prefix(bytes->err, "emission tree") || error_in_file(bytes->err, bytes->name);
+        return error_prefix(bytes->err, "emission tree") ||
+               error_in_file(bytes->err, bytes->name);
     if (panel->emission_tree.components != (int)e->components ||
         panel->emission_tree.octants != 4)
         return refuse(&at, "emission", "does not fit its tree");

@@ -9,7 +9,8 @@ static void channel_means(const float *values, const double *row_weight, Princip
     for (int c = 0; c < shape.channels; c++) {
         double sum = 0, total = 0;
         for (int i = 0; i < shape.rows; i++) {
-            sum += row_weight[i] * (double)values[(size_t)i * (size_t)shape.channels + (size_t)c];
+            sum += row_weight[i] *
+                   (double)values[(size_t)i * (size_t)shape.channels + (size_t)c];
             total += row_weight[i];
         }
         mean[c] = (float)(sum / total);
@@ -110,7 +111,8 @@ Principal principal_components(const float *values, const double *row_weight,
 {
     int       n = shape.channels;
     Principal out = {.mean = ARENA_NEW(arena, float, n), .weight = weight};
-    double   *matrix = ARENA_NEW(arena, double, n * n), *vector = ARENA_NEW(arena, double, n * n);
+    double   *matrix = ARENA_NEW(arena, double, n * n);
+    double   *vector = ARENA_NEW(arena, double, n * n);
     int      *order = ARENA_NEW(arena, int, n);
     channel_means(values, row_weight, shape, out.mean);
     covariance(values, row_weight, weight, shape, out.mean, matrix);

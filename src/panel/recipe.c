@@ -66,13 +66,14 @@ static bool read_primary(const JsonView *emission, const char *name, RecipePrima
     if (!json_view_child(emission, name, true, &view, err) ||
         !json_view_check_keys(&view, keys, COUNT(keys), err) ||
         !json_view_number(&view, "luminance_cd_m2", 1e-3, 1e5, &out->luminance_cd_m2, err) ||
-        !json_view_numbers(&view, "peaks_nm", (double[2]){360, 830}, out->peak_nm,
-                           RECIPE_PEAKS_MAX, &counts[0], err) ||
-        !json_view_numbers(&view, "fwhm_nm", (double[2]){2, 400}, out->fwhm_nm,
-                           RECIPE_PEAKS_MAX, &counts[1], err) ||
-        !json_view_numbers(&view, "weights", (double[2]){1e-6, 1e6}, out->weight,
-                           RECIPE_PEAKS_MAX, &counts[2], err) ||
-        !json_view_numbers(&view, "shift", (double[2]){-5, 5}, out->shift, 3, &shifts, err))
+        !json_view_numbers(&view, "peaks_nm", (JsonRange){360, 830, RECIPE_PEAKS_MAX},
+                           out->peak_nm, &counts[0], err) ||
+        !json_view_numbers(&view, "fwhm_nm", (JsonRange){2, 400, RECIPE_PEAKS_MAX},
+                           out->fwhm_nm, &counts[1], err) ||
+        !json_view_numbers(&view, "weights", (JsonRange){1e-6, 1e6, RECIPE_PEAKS_MAX},
+                           out->weight, &counts[2], err) ||
+        !json_view_numbers(&view, "shift", (JsonRange){-5, 5, 3},
+                           out->shift, &shifts, err))
         return false;
     if (!same_length(&view, counts, err)) return false;
     if (!counts[0])
@@ -102,8 +103,8 @@ static bool read_lobe(const JsonView *emission, RecipeEmission *out, Error *err)
 
 static bool read_levels(const JsonView *view, RecipeEmission *out, Error *err)
 {
-    if (!json_view_numbers(view, "levels", (double[2]){1, 255}, out->level, RECIPE_LEVELS_MAX,
-                           &out->level_count, err))
+    if (!json_view_numbers(view, "levels", (JsonRange){1, 255, RECIPE_LEVELS_MAX},
+                           out->level, &out->level_count, err))
         return false;
     for (int i = 1; i < out->level_count; i++)
         if (!(out->level[i] > out->level[i - 1]))
@@ -126,8 +127,8 @@ static bool read_emission(const JsonView *root, RecipeEmission *out, Error *err)
            read_primary(&view, "blue", &out->primary[2], err) &&
            json_view_number(&view, "gamma", 0.3, 5, &out->gamma, err) &&
            json_view_number(&view, "gamma_drop", -1, 1, &out->gamma_drop, err) &&
-           json_view_numbers(&view, "cosine_power", (double[2]){0, 20}, out->cosine_power, 2,
-                             &powers, err) &&
+           json_view_numbers(&view, "cosine_power", (JsonRange){0, 20, 2},
+                           out->cosine_power, &powers, err) &&
            json_view_number(&view, "black_cd_m2", 0, 1000, &out->black_cd_m2, err) &&
            json_view_number(&view, "leak", 0, 1000, &out->leak, err) &&
            read_lobe(&view, out, err) && read_levels(&view, out, err);
@@ -147,11 +148,11 @@ static bool read_reflection(const JsonView *root, RecipeReflection *out, Error *
            json_view_number(&view, "haze_width", 1e-3, 1, &out->haze_width, err) &&
            json_view_number(&view, "haze_power", 1.1, 10, &out->haze_power, err) &&
            json_view_number(&view, "floor_albedo", 0, 0.5, &out->floor_albedo, err) &&
-           json_view_numbers(&view, "incidence_deg", (double[2]){0, 85}, out->incidence_deg,
-                             RECIPE_INCIDENCES_MAX, &out->incidence_count, err) &&
-           json_view_numbers(&view, "wavelengths_nm", (double[2]){360, 830},
-                             out->wavelength_nm, RECIPE_WAVELENGTHS_MAX,
-                             &out->wavelength_count, err);
+           json_view_numbers(&view, "incidence_deg", (JsonRange){0, 85, RECIPE_INCIDENCES_MAX},
+                           out->incidence_deg, &out->incidence_count, err) &&
+           json_view_numbers(&view, "wavelengths_nm",
+                             (JsonRange){360, 830, RECIPE_WAVELENGTHS_MAX},
+                             out->wavelength_nm, &out->wavelength_count, err);
 }
 
 static bool read_instrument(const JsonView *root, RecipeInstrument *out, Error *err)
@@ -187,8 +188,10 @@ static bool read_members(const JsonView *root, Recipe *out, Error *err)
     return json_view_check_keys(root, keys, COUNT(keys), err) &&
            json_view_text(root, "panel", &out->panel, err) &&
            json_view_text(root, "note", &out->note, err) &&
-           json_view_numbers(root, "pixels", (double[2]){1, 65536}, out->pixels, 2, &two, err) &&
-           json_view_numbers(root, "size_mm", (double[2]){1, 1e5}, out->size_mm, 2, &two, err) &&
+           json_view_numbers(root, "pixels", (JsonRange){1, 65536, 2},
+                           out->pixels, &two, err) &&
+           json_view_numbers(root, "size_mm", (JsonRange){1, 1e5, 2},
+                           out->size_mm, &two, err) &&
            json_view_number(root, "refractive_index", 1, 3, &out->refractive_index, err) &&
            read_emission(root, &out->emission, err) &&
            read_reflection(root, &out->reflection, err) &&

@@ -167,7 +167,8 @@ static bool write_brdf(Instrument *instrument, double incidence_deg)
     size_t row_bytes = 48 + 16 * (size_t)r->wavelength_count;
     Text   text = text_start(&arena, (size_t)(grid_count(&grid) + 2) * row_bytes);
     text_add(&text, "theta,phi");
-    for (int w = 0; w < r->wavelength_count; w++) text_add(&text, ",%.10g", r->wavelength_nm[w]);
+    for (int w = 0; w < r->wavelength_count; w++)
+        text_add(&text, ",%.10g", r->wavelength_nm[w]);
     text_add(&text, "\n");
     for (int i = 0; i < grid_count(&grid); i++) {
         double degrees[2];

@@ -93,7 +93,8 @@ double truth_brdf(const Recipe *recipe, double theta_i, double theta_o, double p
     double sp = sin(0.5 * phi);
     double b2 = (so - si) * (so - si) + 4 * so * si * sp * sp;
     double k = (r->haze_power - 1) / (PI * w2) * pow(1 + b2 / w2, -r->haze_power);
-    double gloss = sqrt(coated_reflectance(recipe, ci, nm) * coated_reflectance(recipe, co, nm));
+    double gloss = sqrt(coated_reflectance(recipe, ci, nm) *
+                        coated_reflectance(recipe, co, nm));
     double under = (1 - fresnel_unpolarised(ci, n)) * (1 - fresnel_unpolarised(co, n));
     return r->haze_share * gloss * k + r->floor_albedo / PI * under;
 }

@@ -16,8 +16,8 @@
 
 typedef struct Fixture {
     Arena        arena;
-    char         folder[64];
-    char         panel_path[128];
+    char         folder[512];
+    char         panel_path[600];
     Recipe       recipe;
     Measurement *set;
     Panel       *panel;
@@ -63,13 +63,16 @@ static inline void fixture_folder(Fixture *fixture)
 {
     memset(fixture, 0, sizeof *fixture);
     fixture->arena = arena_reserve((size_t)16 << 30);
-    strcpy(fixture->folder, "/tmp/parhelion_panel_XXXXXX");
+    const char *base = getenv("TMPDIR");
+    snprintf(fixture->folder, sizeof fixture->folder, "%s/parhelion_panel_XXXXXX",
+             base ? base : P_tmpdir);
     assert_non_null(mkdtemp(fixture->folder));
     snprintf(fixture->panel_path, sizeof fixture->panel_path, "%s/test.panel", fixture->folder);
 }
 
 /* Recipe text to a fitted, opened panel. */
-static inline void fixture_start(Fixture *fixture, const char *recipe, const FitOptions *options)
+static inline void fixture_start(Fixture *fixture, const char *recipe,
+                                 const FitOptions *options)
 {
     Error err = {0};
     fixture_folder(fixture);

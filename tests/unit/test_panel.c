@@ -54,12 +54,14 @@ static double error_at_samples(const AngleTable *table, const float rgb[3])
 {
     double worst = 0, most = 0;
     for (int i = 0; i < 3 * table->rows; i += 3)
-        most = fmax(most, (double)(table->value[i] + table->value[i + 1] + table->value[i + 2]));
+        most = fmax(most, (double)(table->value[i] + table->value[i + 1] +
+                                   table->value[i + 2]));
     for (int i = 0; i < table->rows; i++) {
         const float *m = table->value + 3 * i;
         float xyz[3];
-        panel_emission_xyz(ips.panel, direction_deg(degrees_from_radians((double)table->theta[i]),
-                           degrees_from_radians((double)table->phi[i])), rgb, xyz);
+        Vec3  d = direction_deg(degrees_from_radians((double)table->theta[i]),
+                                degrees_from_radians((double)table->phi[i]));
+        panel_emission_xyz(ips.panel, d, rgb, xyz);
         double scale = fmax(0.01 * most, (double)(m[0] + m[1] + m[2]));
         for (int j = 0; j < 3; j++) worst = fmax(worst, fabs((double)(xyz[j] - m[j])) / scale);
     }
@@ -74,7 +76,8 @@ static void a_fit_stays_within_its_printed_error_at_the_samples(void **state)
             const AngleTable *table = &ips.set->primary[p].table[i];
             float rgb[3] = {0, 0, 0};
             rgb[p] = (float)ips.set->primary[p].level[i];
-            double printed = json_number_value(json_object_get(table_of(table->name), "max_error"));
+            double printed =
+                json_number_value(json_object_get(table_of(table->name), "max_error"));
             double found = error_at_samples(table, rgb);
             if (!(found <= printed * 1.001 + 1e-6) || !(printed < 0.03))
                 fail_msg("%s: printed %g, found %g", table->name, printed, found);
@@ -160,7 +163,8 @@ static void below_the_surface_nothing_is_emitted(void **state)
     assert_false(panel_emission_xyz(ips.panel, vec3(0.6f, 0, -0.8f), rgb, xyz));
     assert_true(xyz[0] == 0 && xyz[1] == 0 && xyz[2] == 0);
     Wavelengths w = even_wavelengths(400, 20);
-    assert_true(spectrum_is_zero(panel_brdf(ips.panel, vec3(0, 0.6f, -0.8f), vec3(0, 0, 1), &w)));
+    assert_true(spectrum_is_zero(panel_brdf(ips.panel, vec3(0, 0.6f, -0.8f), vec3(0, 0, 1),
+                                            &w)));
     assert_true(panel_pdf(ips.panel, vec3(0, 0, 1), vec3(0, 0.6f, -0.8f)) == 0);
 }
 
@@ -337,7 +341,8 @@ static void no_more_comes_back_than_falls_in(void **state)
             }
         if (!(spectrum_max_lane(sum) <= 1.001f))
             fail_msg("incidence %d: albedo %g", incidence, (double)spectrum_max_lane(sum));
-        assert_true(panel_haze_albedo(ips.panel, (float)cos(radians_from_degrees(incidence))) <= 1);
+        float cosine = (float)cos(radians_from_degrees(incidence));
+        assert_true(panel_haze_albedo(ips.panel, cosine) <= 1);
     }
 }
 
@@ -349,7 +354,8 @@ static void a_lobe_at_phi_90_is_seen_from_above(void **state)
     Fixture    lobe;
     FitOptions options = fit_options_default();
     fixture_start(&lobe, "{\"panel\": \"lobe\", \"emission\": {" FIXTURE_SPECTRA
-                  "\"lobe\": {\"theta_deg\": 40, \"phi_deg\": 90, \"width_deg\": 12, \"gain\": 4}},"
+                  "\"lobe\": {\"theta_deg\": 40, \"phi_deg\": 90, \"width_deg\": 12,"
+                  "\"gain\": 4}},"
                   "\"instrument\": {\"theta_step_deg\": 3, \"phi_step_deg\": 6}}", &options);
     float rgb[3] = {255, 255, 255}, up[3], right[3], down[3], left[3];
     float up_by_hand = 0.6427876f; /* sin 40 degrees: +y is up, +x the viewer's right */

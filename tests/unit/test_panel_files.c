@@ -1,4 +1,5 @@
-/* Hostile files: recipes, manifests and tables name what is wrong; a damaged panel is refused. */
+/* Hostile files: what is wrong with recipes, manifests and tables is named; damaged panels are
+ * refused. */
 #include "panel_fixture.h"
 
 #define XXH_INLINE_ALL
@@ -135,10 +136,12 @@ static void manifests_name_the_key(void **state)
         {"{\"emission\": {\"red\": {}}}", {"/emission", "'black' is missing", ""}},
         {"{\"emission\": {\"black\": \"no.csv\"}}", {"no.csv", "", ""}},
         {"{\"emission\": {\"white\": 3}}", {"/emission/white", "a table's path", ""}},
-        {"{\"emission\": {\"white\": \"t.csv\", \"red\": {}}}", {"both 'white' and 'red'", "", ""}},
+        {"{\"emission\": {\"white\": \"t.csv\", \"red\": {}}}",
+         {"both 'white' and 'red'", "", ""}},
         {"{\"emission\": 3}", {"/emission", "is a number", "wanted an object"}},
-        {"{\"emission\": {\"white\": \"good.csv\"}, \"reflection\": {\"wavelengths_nm\": [500, 400],"
-         " \"incidence_deg\": [10], \"files\": \"i{incidence}.csv\"}}",
+        {"{\"emission\": {\"white\": \"good.csv\"}, \"reflection\": {"
+         "\"wavelengths_nm\": [500, 400], \"incidence_deg\": [10],"
+         "\"files\": \"i{incidence}.csv\"}}",
          {"/reflection/wavelengths_nm", "400 follows 500", "rising"}},
         {"{\"emission\": {\"white\": \"good.csv\"}, \"reflection\": {\"wavelengths_nm\": [500],"
          " \"incidence_deg\": [10], \"files\": \"i.csv\"}}",
@@ -168,7 +171,8 @@ static void recipes_name_the_key(void **state)
          {"/emission/red/fwhm_nm", "wanted a number from 2 to 400"}},
         {"{\"emission\": {\"red\": {\"peak_nm\": [600]}}}",
          {"/emission/red/peak_nm", "nearest known one is 'peaks_nm'"}},
-        {"{\"emission\": {\"red\": {\"peaks_nm\": [600, 610], \"fwhm_nm\": [10], \"weights\": [1]}}}",
+        {"{\"emission\": {\"red\": {\"peaks_nm\": [600, 610], \"fwhm_nm\": [10],"
+         "\"weights\": [1]}}}",
          {"/emission/red", "2, 1 and 1 values, wanted equal"}},
         {"{}", {"recipe.json", "key 'emission' is missing"}},
     };
@@ -249,7 +253,8 @@ static void ask_everything(const Panel *panel)
     Wavelengths w = even_wavelengths(370, 30);
     float rgb[3] = {255, 90, 3}, u[3] = {0.3f, 0.7f, 0.9f}, xyz[3];
     for (int i = 0; i < 4; i++) {
-        Vec3 wo = direction_deg(29.0 * i, 100.0 * i), wi = direction_deg(80 - 25.0 * i, 60.0 * i);
+        Vec3 wo = direction_deg(29.0 * i, 100.0 * i);
+        Vec3 wi = direction_deg(80 - 25.0 * i, 60.0 * i);
         panel_emission_xyz(panel, wo, rgb, xyz);
         panel_emission_spectrum(panel, wi, rgb, &w);
         panel_mean_luminance(panel, rgb);
@@ -344,8 +349,8 @@ static void other_files_are_no_panels(void **state)
     const char *path = fixture_file(&folder, "x.panel", "");
     assert_false(panel_open(path, &folder.arena, &panel, &err));
     EXPECT_LINE(err, "x.panel", "is no panel file, wanted one that `panel fit` wrote");
-    path = fixture_file(&folder, "x.panel", "PHPANEL\nxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx"
-                        "xxxxxxxxxxxxxxxx");
+    path = fixture_file(&folder, "x.panel", "PHPANEL\nxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx"
+                        "xxxxxxxxxxxxxxxxxxxxxxxxxxxxxx");
     assert_false(panel_open(path, &folder.arena, &panel, &err));
     EXPECT_LINE(err, "x.panel: header: has version", "fit the panel again");
     panel_close(NULL);
@@ -358,8 +363,8 @@ static void an_unwritable_output_is_named(void **state)
     json_t    *report = NULL;
     FitOptions options = fit_options_default();
     options.level = 2;
-    assert_false(panel_fit(small.set, &options, "/no/such/folder/x.panel", &small.arena, &report,
-                           &err));
+    assert_false(panel_fit(small.set, &options, "/no/such/folder/x.panel", &small.arena,
+                           &report, &err));
     assert_int_equal(err.code, ERROR_OUTPUT);
     assert_non_null(strstr(err.file, "/no/such/folder/x.panel"));
 }

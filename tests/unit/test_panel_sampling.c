@@ -67,7 +67,8 @@ static void expected_bins(double theta, double *bins)
     memset(bins, 0, BINS * sizeof *bins);
     for (uint32_t i = 0; i < geodesic_count(FINE_LEVEL); i++)
         bins[i >> 2 * (FINE_LEVEL - BIN_LEVEL)] +=
-            stored_density(theta, geodesic_center(FINE_LEVEL, i)) * geodesic_area(FINE_LEVEL, i);
+            stored_density(theta, geodesic_center(FINE_LEVEL, i)) *
+            geodesic_area(FINE_LEVEL, i);
 }
 
 static void samples_fall_as_the_density_says(void **state)
@@ -76,7 +77,8 @@ static void samples_fall_as_the_density_says(void **state)
     const Geodesic *geodesic = geodesic_create(BIN_LEVEL, &ips.arena);
     uint32_t random = 7;
     for (int k = 0; k < 64; k++) {
-        double        theta = radians_from_degrees(0.3 + 1.38 * k), bins[BINS], chi = 0, rest = 0;
+        double        theta = radians_from_degrees(0.3 + 1.38 * k);
+        double        bins[BINS], chi = 0, rest = 0;
         int           counts[BINS] = {0}, freedom = -1, drawn = 0, rest_count = 0;
         SpecularFrame frame = frame_of(theta);
         Vec3 wo = vec3((float)-sin(theta), 0, (float)cos(theta));
@@ -116,7 +118,8 @@ static void weights_average_to_the_albedo(void **state)
     uint32_t    random = 3;
     for (int k = 0; k <= 8; k++) {
         double   theta = radians_from_degrees(10 * k + 2), squares = 0;
-        Vec3     wo = vec3((float)(sin(theta) * 0.6), (float)(sin(theta) * 0.8), (float)cos(theta));
+        Vec3     wo = vec3((float)(sin(theta) * 0.6), (float)(sin(theta) * 0.8),
+                           (float)cos(theta));
         Spectrum sum = spectrum_all(0), albedo = spectrum_all(0);
         for (int i = 0; i < DRAWS; i++) {
             float u[3];
@@ -132,7 +135,8 @@ static void weights_average_to_the_albedo(void **state)
         for (int t = 0; t < 180; t++)
             for (int p = 0; p < 180; p++) {
                 double a = radians_from_degrees(0.5 * t + 0.25);
-                albedo += panel_brdf(ips.panel, wo, direction_deg(0.5 * t + 0.25, 2 * p + 1), &w) *
+                Vec3   wi = direction_deg(0.5 * t + 0.25, 2 * p + 1);
+                albedo += panel_brdf(ips.panel, wo, wi, &w) *
                           spectrum_all((float)(sin(2 * a) * 0.5 * PI / 360 * PI / 90));
             }
         double mean = (double)sum[7] / DRAWS, variance = squares / DRAWS - mean * mean;
@@ -140,7 +144,7 @@ static void weights_average_to_the_albedo(void **state)
         if (!(fabs(mean - (double)albedo[7]) < 5 * sigma + 0.004 * (double)albedo[7]))
             fail_msg("incidence %g: mean weight %g, albedo %g, sigma %g",
                      degrees_from_radians(theta), mean, (double)albedo[7], sigma);
-        assert_true(variance < 0.35 * mean * mean); /* uniform sampling has a hundred times that */
+        assert_true(variance < 0.35 * mean * mean); /* uniform: a hundred times that */
     }
 }
 
