@@ -110,7 +110,7 @@ static bool unknown_layer(const FrameImage *frame, const char *layer, Arena scra
 {
     const char *names = layer_names(frame, &scratch);
     if (!layer[0])
-        return error_set(err, ERROR_INPUT, "has no channels R, G and B; it has: %s", names);
+        return error_set(err, ERROR_INPUT, "has no channels R, G, B or Y; it has: %s", names);
     return error_set(err, ERROR_USAGE, "has no layer \"%s\"; it has: %s", layer, names);
 }
 
@@ -130,7 +130,7 @@ static bool find_number(const FrameImage *frame, const char *name, LayerView *vi
         view->show = known->show == SHOW_ID ? SHOW_ID : SHOW_NUMBER;
         view->unit = known->unit;
         view->is_log = known->is_log;
-    } else if (!name[0] || strchr("RGBY", dot ? dot[1] : name[0])) {
+    } else if (strchr("RGBY", dot ? dot[1] : name[0])) {
         view->unit = "cd/m^2";
         view->is_log = true;
     }
@@ -149,10 +149,11 @@ static bool find_layer(const FrameImage *frame, const char *name, LayerView *vie
         return true;
     }
     if (find_planes(frame, name, "RGB", view->planes)) return true;
+    if (!name[0]) return find_planes(frame, name, "YYY", view->planes); /* a grey picture */
     if (find_number(frame, name, view)) return true;
     for (const char *letter = "ZNYVA"; *letter; letter++) {
         char channel[256];
-        snprintf(channel, sizeof channel, "%s%s%c", name, name[0] ? "." : "", *letter);
+        snprintf(channel, sizeof channel, "%s.%c", name, *letter);
         if (find_number(frame, channel, view)) return true;
     }
     return false;

@@ -464,6 +464,27 @@ static void directions_and_albedo_have_their_closed_forms(void **state)
     arena_release(&arena);
 }
 
+static void a_grey_frame_is_light_as_well(void **state)
+{
+    (void)state;
+    Arena         arena = arena_reserve(ARENA_BYTES);
+    FrameImage    frame = frame_create(1, 1, (ExrWindow){0, 0, 1, 1}, 1, 0, &arena);
+    DevelopReport report;
+    Picture       picture;
+    Error         err = {0};
+    float        *depth = frame_add_channel(&frame, "depth.Z", false, &arena);
+    depth[0] = 1;
+    DevelopOptions plain = {0};
+    assert_false(develop_picture(&frame, &plain, &arena, &picture, &report, &err));
+    assert_text_has(&err, "has no channels R, G, B or Y; it has: depth");
+    frame_add_channel(&frame, "Y", false, &arena)[0] = 18;
+    picture = develop(&frame, (DevelopOptions){.exposure = "white:100", .view = "untonemapped"},
+                      &arena, &report);
+    assert_near(picture.rgb[0], 0.461356, 1e-5);
+    assert_near(picture.rgb[2], 0.461356, 1e-5);
+    arena_release(&arena);
+}
+
 static void an_unknown_layer_is_told_with_those_there_are(void **state)
 {
     (void)state;
@@ -504,6 +525,7 @@ int main(void)
         cmocka_unit_test(a_picture_that_fails_leaves_nothing),
         cmocka_unit_test(every_layer_can_be_looked_at),
         cmocka_unit_test(directions_and_albedo_have_their_closed_forms),
+        cmocka_unit_test(a_grey_frame_is_light_as_well),
         cmocka_unit_test(an_unknown_layer_is_told_with_those_there_are),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
