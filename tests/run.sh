@@ -18,7 +18,8 @@ if run_one 'release build, warnings are errors' build-release build release; the
     run 'closed forms in frames' image python3 tests/image/run.py .build/release/parhelion
     run 'displays against their panels' display \
         python3 tests/image/display.py .build/release/parhelion
-    run 'displays the right way round' marked python3 tests/image/marked.py .build/release/parhelion
+    run 'displays the right way round' marked \
+        python3 tests/image/marked.py .build/release/parhelion
     run 'displays under sun and sky' reflection \
         python3 tests/image/reflection.py .build/release/parhelion
     run 'same bits, any threads' bits python3 tests/image/bits.py .build/release/parhelion

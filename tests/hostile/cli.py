@@ -77,7 +77,9 @@ def check_help(report, program):
 
 
 def check_inputs(report, program):
-    claim_status(report, program.run("check", program.file("absent.gltf")), 3, "absent.gltf")
+    done = program.run("check", program.file("absent.gltf"))
+    report.claim(done.returncode == 3 and "absent.gltf: cannot be opened" in done.stdout,
+                 f"check of an absent file says {done.stdout}")
     claim_status(report, program.run("render", program.file("absent.gltf"), "-o",
                                      program.file("x.exr")), 3, "absent.gltf")
     report.claim(not os.path.exists(program.file("x.exr")), "a failed render left a file")
