@@ -117,7 +117,7 @@ static void check_joint_indices(GltfFile *file, const GltfValue *node,
     const GltfValue *skin = tree_element(file->root, "skins", tree_int(node, "skin", NO_ID));
     uint32_t count = (uint32_t)tree_count(skin, "joints");
     for (int n = 0; n < 8 && count; n++) {
-        char name[16];
+        char name[24];
         snprintf(name, sizeof name, "JOINTS_%d", n);
         const GltfAccessor *accessor = accessor_get(file, attribute(primitive, name));
         if (!accessor) return;

@@ -108,7 +108,7 @@ static Skin read_skin(GltfFile *file, const GltfValue *node, const GltfValue *pr
     skin.joint_count = tree_count(value, "joints");
     if (!skin.joint_count) return skin;
     for (int n = 0; n < 8; n++) {
-        char name[16];
+        char name[24];
         snprintf(name, sizeof name, "JOINTS_%d", n);
         int joints = tree_int(names, name, NO_ID);
         snprintf(name, sizeof name, "WEIGHTS_%d", n);
