@@ -110,9 +110,9 @@ static void faults_name_line_and_column(void **state)
     (void)state;
     Error err;
     const GltfValue *root;
-    static const char TEXT[] = "{\n  \"a\" 1\n}";
+    static const char TEXT[] = "{\n  \"a\" \"b\"}";
     assert_false(gltf_json_parse(TEXT, sizeof TEXT - 1, &arena, &root, &err));
-    assert_non_null(strstr(err.text, "not valid JSON: parse error at line 2, column 7"));
+    assert_non_null(strstr(err.text, "not valid JSON: parse error at line 2, column 9"));
     assert_false(gltf_json_parse("{\"a\":1,\"a\":2}", 13, &arena, &root, &err));
     assert_string_equal(err.text, "the name \"a\" stands twice in one object");
     assert_false(gltf_json_parse("\"\xff\"", 3, &arena, &root, &err)); /* no UTF-8 */
