@@ -20,7 +20,7 @@
 #include "spectrum/curve.h"
 
 #define NO_ID (-1)
-#define SCENE_UV_SETS 2 /* per vertex in Vertex; a primitive's further sets are mapped to these */
+#define SCENE_UV_SETS 2 /* in a Vertex; the sets that a material uses are mapped to these */
 
 /* 64 bytes: a cache line. The triangles' vertex buffer is shared with the ray tracer. */
 typedef struct Vertex {
@@ -129,7 +129,7 @@ typedef enum EnvironmentKind {
 typedef struct Environment {
     EnvironmentKind kind;
     float luminance_cd_m2;       /* constant */
-    float color[3];              /* constant: linear Rec.709, scaled so that its luminance is 1 */
+    float color[3];              /* constant: linear Rec.709, its luminance scaled to 1 */
     const char *hdri_path;       /* hdri: resolved path */
     Image hdri;                  /* RGBA32F; cd/m2 after scale */
     float hdri_rotation;
