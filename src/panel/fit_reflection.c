@@ -309,7 +309,8 @@ static int choose_coefficients(const Work *work, const double *energy, double to
         int best = -1;
         for (int w = 0; w < work->wavelengths; w++)
             if (!used[w] && (best < 0 || energy[w] > energy[best])) best = w;
-        if (count && sqrt(rest / work->wavelengths) <= tolerance) break;
+        bool is_enough = count && sqrt(rest / work->wavelengths) <= tolerance;
+        if (is_enough && count % 4 == 0) break; /* queries sum four at a time */
         used[best] = true;
         rest -= energy[best];
         index[count++] = best;
@@ -469,7 +470,7 @@ bool fit_reflection(const Measurement *set, const FitOptions *options, Arena *ar
     if (!build_sampling(work, err)) return false;
     transform_spectra(work, energy);
     double tolerance = options->max_error > 0 ? (double)options->max_error : 3e-3;
-    tolerance = fmax(tolerance, 1.5 * largest_noise(out, work->measured));
+    tolerance = fmax(tolerance, 2 * largest_noise(out, work->measured));
     int count = choose_coefficients(work, energy, tolerance, index);
     make_basis(work, index, count, largest);
     return build_tree(work, index, count, largest, err);

@@ -125,10 +125,17 @@ static inline int panel_profile_terms(int harmonics, bool has_sines)
     return 1 + (has_sines ? 2 : 1) * harmonics;
 }
 
+typedef float PanelFloat4 __attribute__((vector_size(16), aligned(4), may_alias));
+
 static inline void panel_add_row(const float *row, int stride, float t, float factor, int count,
                                  float *out)
 {
-    for (int i = 0; i < count; i++) out[i] += factor * lerpf(row[i], row[i + stride], t);
+    float near = factor * (1 - t), far = factor * t;
+    int   i = 0;
+    for (; i + 4 <= count; i += 4)
+        *(PanelFloat4 *)(out + i) += *(const PanelFloat4 *)(row + i) * near +
+                                     *(const PanelFloat4 *)(row + i + stride) * far;
+    for (; i < count; i++) out[i] += near * row[i] + far * row[i + stride];
 }
 
 /* Adds components first .. first + count - 1 at a direction to out. */

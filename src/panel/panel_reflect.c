@@ -97,8 +97,16 @@ static Vec3 turned_back(Vec3 light, Vec3 local)
     return vec3(ex * local.x - ey * local.y, ey * local.x + ex * local.y, local.z);
 }
 
+/* A row of 16 floats that need not be aligned. */
+static Spectrum load_16(const float *from)
+{
+    Spectrum value;
+    memcpy(&value, from, sizeof value);
+    return value;
+}
+
 /* ln (f / F) at all measured wavelengths. */
-static void reflection_logs(const Panel *panel, Vec3 stored, float theta, float *logs)
+static void reflection_logs(const Panel *panel, Vec3 stored, float theta, Spectrum *logs)
 {
     const PanelReflection *r = panel->reflection;
     SliceMix mix = cubic_mix(r, theta);
@@ -113,10 +121,11 @@ static void reflection_logs(const Panel *panel, Vec3 stored, float theta, float 
         for (int k = 0; k < k_count; k++)
             coefficient[k] += mix.weight[s] * part[s * k_count + k];
     int padded = (int)r->padded_wavelengths;
-    memset(logs, 0, sizeof *logs * (size_t)padded);
-    for (int k = 0; k < k_count; k++) {
-        const float *basis = panel->basis + k * padded;
-        for (int w = 0; w < padded; w++) logs[w] += coefficient[k] * basis[w];
+    for (int w = 0; w < padded; w += SPECTRUM_LANES) {
+        Spectrum sum = spectrum_all(0);
+        for (int k = 0; k < k_count; k++)
+            sum += spectrum_all(coefficient[k]) * load_16(panel->basis + k * padded + w);
+        logs[w / SPECTRUM_LANES] = sum;
     }
 }
 
@@ -139,24 +148,27 @@ static Spectrum spread(const Panel *panel, const float *value, const Wavelengths
 Spectrum panel_brdf(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *wavelengths)
 {
     const PanelReflection *r = panel->reflection;
-    float logs[PADDED_MAX];
+    Spectrum logs[PADDED_MAX / SPECTRUM_LANES];
     if (!r || !(wo.z > 0) || !(wi.z > 0)) return spectrum_all(0);
     float theta = panel_polar_angle(wi);
     SpecularFrame frame = specular_frame(theta, r->frame_exponent);
     reflection_logs(panel, specular_frame_stored(&frame, turned(wi, wo)), theta, logs);
-    Spectrum exponent = spread(panel, logs, wavelengths);
+    Spectrum exponent = spread(panel, (const float *)logs, wavelengths);
     return spectrum_exp(exponent) * spectrum_all(fresnel(wi.z, r->refractive_index));
 }
 
 Spectrum panel_mirror(const Panel *panel, float cos_theta, const Wavelengths *wavelengths)
 {
-    float t, row[PADDED_MAX];
+    float    t;
+    Spectrum row[PADDED_MAX / SPECTRUM_LANES];
     if (!panel->reflection || !(cos_theta > 0)) return spectrum_all(0);
     int          node = panel_angle_node(acos_f(cos_theta), &t);
     int          padded = (int)panel->reflection->padded_wavelengths;
     const float *a = panel->mirror + node * padded, *b = a + padded;
-    for (int w = 0; w < padded; w++) row[w] = lerpf(a[w], b[w], t);
-    return spread(panel, row, wavelengths);
+    for (int w = 0; w < padded; w += SPECTRUM_LANES)
+        row[w / SPECTRUM_LANES] = load_16(a + w) + (load_16(b + w) - load_16(a + w)) *
+                                                       spectrum_all(t);
+    return spread(panel, (const float *)row, wavelengths);
 }
 
 float panel_haze_albedo(const Panel *panel, float cos_theta)
@@ -176,12 +188,12 @@ float panel_pdf(const Panel *panel, Vec3 wo, Vec3 wi)
     if (!r || !(wo.z > 0) || !(wi.z > 0)) return 0;
     float         theta = panel_polar_angle(wo), pdf = 0;
     SpecularFrame frame = specular_frame(theta, r->frame_exponent);
-    Vec3          stored = specular_frame_stored(&frame, turned(wo, wi));
+    float         jacobian;
+    Vec3          stored = specular_frame_stored_jacobian(&frame, turned(wo, wi), &jacobian);
     SliceMix      mix = linear_mix(r, theta);
     for (int s = 0; s < mix.count; s++)
         if (mix.weight[s] > 0)
             pdf += mix.weight[s] * sampling_tree_pdf(&panel->sampling[mix.first + s], stored);
-    float jacobian = specular_frame_jacobian(&frame, stored);
     return jacobian > 0 ? pdf / jacobian : 0;
 }
 

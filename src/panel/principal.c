@@ -102,6 +102,7 @@ static int choose_count(const double *matrix, const int *order, PrincipalShape s
         rest = more;
         count--;
     }
+    while (count % 4 && count < n && count < shape.components_max) count++;
     *residual = sqrt(rest / n);
     return count;
 }
