@@ -37,7 +37,7 @@ UNREAD = ("/animations", "/extensions/KHR_materials_variants", "KHR_materials_va
 REFUSED = {
     "tinygltf/models/BoundsChecking/invalid-buffer-index.gltf": "buffer",
     "tinygltf/models/BoundsChecking/invalid-buffer-view-index.gltf": "buffer",
-    "tinygltf/models/BoundsChecking/invalid-primitive-indices.gltf": "ind",
+    "tinygltf/models/BoundsChecking/invalid-primitive-indices.gltf": "accessors",
     "tinygltf/models/BoundsChecking/integer-out-of-bounds.gltf": "",
     "tinygltf/tests/issue-416.gltf": "version",
     "assimp/IncorrectVertexArrays/Cube.gltf": "bytes",
