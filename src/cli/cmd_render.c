@@ -1,6 +1,7 @@
 /* parhelion render: load, render, write, develop, answer. */
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -109,14 +110,36 @@ static void write_snapshot(void *user, const RenderResult *so_far)
         cli_report_error(&err, false);
 }
 
-static void warn_of_dropped(const Work *work, const RenderResult *result)
+/* On stderr at once, and among the answer's warnings. */
+static void warn(Work *work, const char *text)
+{
+    fprintf(stderr, "parhelion: warning: %s\n", text);
+    problems_add(&work->problems, SEVERITY_WARNING, "", "", "%s", text);
+}
+
+static void warn_of_dropped(Work *work, const RenderResult *result)
 {
     FilmDropped dropped = film_dropped(result->film);
-    if (!dropped.count) return;
-    fprintf(stderr, "parhelion: warning: %llu samples were not finite and are left out; to see "
-                    "the first again:\n  %s --replay %d,%d,%u\n",
-            (unsigned long long)dropped.count, work->request.command_line, dropped.first[0].x,
-            dropped.first[0].y, dropped.first[0].sample_index);
+    if (!dropped.count || work->request.replays) return;
+    warn(work, arena_format(work->arena,
+                            "%llu samples were not finite and are left out; to see the first "
+                            "again: %s --replay %d,%d,%u",
+                            (unsigned long long)dropped.count, work->request.command_line,
+                            dropped.first[0].x, dropped.first[0].y,
+                            dropped.first[0].sample_index));
+}
+
+static void warn_of_noise(Work *work, const RenderResult *result)
+{
+    const RenderOptions *options = &work->request.render;
+    double error = options->noise_of_displays ? result->error.displays : result->error.frame;
+    if (!(options->noise > 0) || !result->complete || error <= options->noise) return;
+    warn(work, isnan(error)
+                   ? "no display is in view: --noise display:R had nothing to go by"
+                   : arena_format(work->arena,
+                                  "the relative error is %.3g, not the %.3g of --noise, after "
+                                  "all %u samples a pixel",
+                                  error, options->noise, result->samples));
 }
 
 /* The partial frame is written and the answer given: only the line and the status are left. */
@@ -151,6 +174,7 @@ static bool develop(const Work *work, const RenderResult *result, Error *err)
 static bool hand_over(Work *work, const RenderResult *result, Error *err)
 {
     warn_of_dropped(work, result);
+    warn_of_noise(work, result);
     if (work->request.replays)
         return render_print_replay(&work->request, work->scene, result, work->arena, err);
     if (!write_frame(work, result, err)) return false;

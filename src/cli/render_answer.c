@@ -11,15 +11,17 @@
 
 /* ---- the frame --------------------------------------------------------------------------- */
 
-/* For row vectors, as OpenEXR has it: p_camera = p_world * M. */
+/* For row vectors, as OpenEXR has it: p_camera = p_world * M. Zeros are all positive. */
 static void set_world_to_camera(FrameImage *frame, const Transform *t, Arena *arena)
 {
-    Vec3   o = t->origin;
-    double matrix[16] = {
-        (double)t->x.x, (double)t->y.x, (double)t->z.x, 0,
-        (double)t->x.y, (double)t->y.y, (double)t->z.y, 0,
-        (double)t->x.z, (double)t->y.z, (double)t->z.z, 0,
-        -(double)vec3_dot(o, t->x), -(double)vec3_dot(o, t->y), -(double)vec3_dot(o, t->z), 1};
+    const Vec3 axes[3] = {t->x, t->y, t->z};
+    double     matrix[16] = {[15] = 1};
+    for (int i = 0; i < 3; i++) {
+        matrix[i] = 0.0 + (double)axes[i].x;
+        matrix[4 + i] = 0.0 + (double)axes[i].y;
+        matrix[8 + i] = 0.0 + (double)axes[i].z;
+        matrix[12 + i] = 0.0 - (double)vec3_dot(t->origin, axes[i]);
+    }
     frame_set_values(frame, "worldToCamera", EXR_MATRIX44, matrix, arena);
 }
 

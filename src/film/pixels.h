@@ -4,7 +4,6 @@
  * LayerSums. All sums are two's complement integers that count steps: see film.h for ranges.
  */
 #pragma once
-#include <math.h>
 #include <pthread.h>
 
 #include "film/film.h"
@@ -64,8 +63,12 @@ static inline PixelSums *film_sums(const Film *film, int x, int y)
     return (PixelSums *)(void *)(film->pixels + index * film->stride);
 }
 
-/* bits: a step is 2^-bits. */
+/* bits: a step is 2^-bits, of the size of a double's exponent. */
 static inline double double_from_fixed(Fixed value, int bits)
 {
-    return ldexp((double)value, -bits);
+    union {
+        uint64_t bits;
+        double   value;
+    } step = {(uint64_t)(1023 - bits) << 52};
+    return (double)value * step.value;
 }

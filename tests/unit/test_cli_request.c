@@ -1,0 +1,154 @@
+/* What the user types after `parhelion render`, and what it does to a scene. */
+#include "check.h"
+
+#include <string.h>
+
+#include "base/units.h"
+#include "cli/render_command.h"
+
+static void values_of_render_are_checked_before_anything_is_read(void **state)
+{
+    static const struct {
+        const char *option, *value, *text;
+    } cases[] = {
+        {"--samples", "5:5",
+         "--samples 5:5: wanted A:B, whole numbers with 0 <= A < B <= "
+         "2147483647"},
+        {"--samples", "-1:5", "--samples -1:5: wanted A:B"},
+        {"--samples", "5", "--samples 5: wanted A:B"},
+        {"--noise", "0", "--noise 0: wanted a relative error above 0 and below 1"},
+        {"--noise", "displays:0.1", "--noise displays:0.1: wanted a relative error"},
+        {"--layers", "depth,norml",
+         "--layers: no layer is named 'norml' — did you mean normal?"},
+        {"--layers", "", "--layers '': wanted a text that is not empty"},
+        {"--crop", "0,0,65,4",
+         "--crop 0,0,65,4: wanted X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 "
+         "inside the frame of 64x36 pixels"},
+        {"--crop", "4,0,4,4", "--crop 4,0,4,4: wanted X0,Y0,X1,Y1"},
+        {"--crop", "0.5,0,4,4", "--crop: 0.5 is no whole number of pixels"},
+        {"--replay", "64,0,1", "--replay 64,0,1: wanted X,Y,SAMPLE"},
+        {"--content", "cluster", "--content cluster: wanted NAME=VALUE, both not empty"},
+        {"--view", "raw", "a look is asked for, but no picture — add --png FILE"},
+    };
+    Arena *arena = *state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        RenderRequest request;
+        Error         err = {0};
+        const char   *words[] = {"render", "nowhere.gltf", "-o", "a.exr", "--size", "64x36",
+                                 cases[i].option, cases[i].value};
+        assert_false(render_request_parse(8, (char **)(uintptr_t)words, arena, &request, &err));
+        if (err.code != ERROR_USAGE || strstr(err.text, cases[i].text) != err.text)
+            fail_msg("%s %s: %s", cases[i].option, cases[i].value, err.text);
+    }
+}
+
+static void values_of_the_surroundings_are_checked(void **state)
+{
+    static const struct {
+        EnvironmentChange change;
+        const char       *text;
+    } cases[] = {
+        {{.environment = "sky:clear"},
+         "--environment sky:clear: sky models are not available in "
+         "this version — use constant:CD_M2 or hdri:FILE"},
+        {{.environment = "constant:-1"},
+         "--environment constant:-1: wanted a luminance in cd/m2, "
+         "at least 0"},
+        {{.environment = "black"}, "--environment black: wanted constant:CD_M2 or hdri:FILE"},
+        {{.has_hdri_lux = true, .hdri_lux = 9},
+         "--hdri-lux: there is no HDRI — add --environment "
+         "hdri:FILE"},
+        {{.sun = "100,20"},
+         "--sun 100,20: the scene's sun has no illuminance to keep — write "
+         "AZ,EL,LUX"},
+        {{.sun = "1,95,1000"},
+         "--sun 1,95,1000: wanted off, or AZ,EL,LUX with AZ -360 to 360 and "
+         "EL -90 to 90 degrees and LUX at least 0"},
+        {{.has_forward = true, .forward = {0, 1, 0}},
+         "--forward 0,1,0: wanted a vector that is "
+         "not vertical"},
+    };
+    Arena *arena = *state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        Scene scene = {0};
+        Error err = {0};
+        assert_false(render_change_environment(&cases[i].change, &scene, arena, &err));
+        assert_int_equal(err.code, ERROR_USAGE);
+        assert_string_equal(err.text, cases[i].text);
+    }
+}
+
+static void the_line_overrides_single_members_of_the_surroundings(void **state)
+{
+    Arena            *arena = *state;
+    Scene             scene = {.environment = {.has_sun = true, .sun_illuminance_lx = 5000,
+                                               .sun_angular_radius = 0.01f}};
+    EnvironmentChange change = {.environment = "constant:250", .sun = "90,30",
+                                .has_heading = true, .heading_deg = 180};
+    Error             err;
+    assert_true(render_change_environment(&change, &scene, arena, &err));
+    const Environment *e = &scene.environment;
+    assert_int_equal(e->kind, ENVIRONMENT_CONSTANT);
+    assert_true(e->luminance_cd_m2 == 250 && e->color[2] == 1);
+    assert_close(e->sun_azimuth, PI / 2, 1e-6);
+    assert_close(e->sun_elevation, PI / 6, 1e-6);
+    assert_true(e->sun_illuminance_lx == 5000 && e->sun_angular_radius == 0.01f);
+    assert_close(e->heading, PI, 1e-6);
+    assert_true(e->forward.z == -1);
+    EnvironmentChange off = {.sun = "off"};
+    assert_true(render_change_environment(&off, &scene, arena, &err));
+    assert_false(e->has_sun);
+    assert_true(e->luminance_cd_m2 == 250);
+}
+
+static void a_camera_is_found_by_node_then_by_camera_then_by_place(void **state)
+{
+    SceneCamera cameras[] = {{.node_name = "left", .camera_name = "1"},
+                             {.node_name = "right", .camera_name = "left"},
+                             {.node_name = "", .camera_name = "lens"}};
+    Scene       scene = {.cameras = cameras, .camera_count = 3};
+    Problems    problems = problems_start(*state);
+    SceneCamera found;
+    Error       err;
+    static const struct {
+        const char *wanted;
+        int         index;
+    } cases[] = {{NULL, 0}, {"left", 0}, {"1", 0}, {"right", 1}, {"lens", 2}, {"2", 2}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        assert_true(render_choose_camera(&scene, cases[i].wanted, &problems, &found, &err));
+        assert_ptr_equal(found.camera_name, cameras[cases[i].index].camera_name);
+    }
+    assert_false(render_choose_camera(&scene, "3", &problems, &found, &err));
+    assert_string_equal(err.text,
+                        "--camera 3: no camera has this name or index — the scene has 0 "
+                        "'left', 1 'right', 2 'lens'");
+    assert_int_equal(problems.count, 0);
+    Scene empty = {0};
+    assert_false(render_choose_camera(&empty, NULL, &problems, &found, &err));
+    assert_string_equal(err.text, "the scene has neither a camera nor triangles to look at");
+}
+
+static int set_up(void **state)
+{
+    static Arena arena;
+    arena = arena_reserve(1 << 22);
+    *state = &arena;
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    arena_release(*state);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(values_of_render_are_checked_before_anything_is_read),
+        cmocka_unit_test(values_of_the_surroundings_are_checked),
+        cmocka_unit_test(the_line_overrides_single_members_of_the_surroundings),
+        cmocka_unit_test(a_camera_is_found_by_node_then_by_camera_then_by_place),
+    };
+    return cmocka_run_group_tests_name("cli_request", tests, set_up, tear_down);
+}
