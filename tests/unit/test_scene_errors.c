@@ -387,6 +387,39 @@ static void damaged_bytes_do_no_harm(void **state)
     }
 }
 
+static jmp_buf memory_is_out;
+
+static void leave_when_full(size_t bytes_wanted, size_t bytes_left)
+{
+    assert_true(bytes_wanted + 64 > bytes_left); /* alignment may need some */
+    longjmp(memory_is_out, 1);
+}
+
+/* With ever more memory for the scene, up to what it needs: either it loads or the one exit is
+ * taken. (The loader's own scratch is left mapped each time, which is why there are few.) */
+static void running_out_of_memory_takes_the_one_exit(void **state)
+{
+    (void)state;
+    unsigned char   bytes[1024];
+    const char     *path = maker_file(bytes, small_glb(bytes), ".glb");
+    volatile int    refused = 0, loaded = 0;
+    volatile size_t left = 16;
+    for (; left < 1 << 16 && !loaded; left += left / 4 + 16) {
+        Arena arena = maker.arena;
+        arena.end = arena.next + left;
+        arena.on_full = leave_when_full;
+        if (setjmp(memory_is_out)) {
+            refused++;
+            continue;
+        }
+        Problems problems = problems_start(&arena);
+        scene_survey(&(SceneOptions){.paths = &path, .path_count = 1}, &arena, &problems);
+        loaded++;
+    }
+    assert_int_equal(loaded, 1);
+    assert_true(refused > 3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -400,6 +433,7 @@ int main(void)
         cmocka_unit_test_setup(every_prefix_of_a_glb_is_refused, maker_reset),
         cmocka_unit_test_setup(every_prefix_of_a_gltf_is_refused, maker_reset),
         cmocka_unit_test_setup(damaged_bytes_do_no_harm, maker_reset),
+        cmocka_unit_test_setup(running_out_of_memory_takes_the_one_exit, maker_reset),
     };
     return cmocka_run_group_tests_name("scene_errors", tests, maker_start, maker_end);
 }
