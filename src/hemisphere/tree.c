@@ -27,10 +27,11 @@ static bool check_header(const TreeHeader *h, size_t size, Error *err)
         return refuse(err, "level", h->level, GEODESIC_MAX_LEVEL);
     if (h->octants != 2 && h->octants != 4) return refuse(err, "octant count", h->octants, 4);
     if (h->weights > HAAR_AREA) return refuse(err, "weight kind", h->weights, HAAR_AREA);
-    if (h->rows > TREE_ROWS_INT16) return refuse(err, "row format", h->rows, TREE_ROWS_INT16);
+    if (h->rows > TREE_ROWS_BLOCKS)
+        return refuse(err, "row format", h->rows, TREE_ROWS_BLOCKS);
     if (h->components < 1 || h->components > TREE_MAX_COMPONENTS)
         return refuse(err, "component count", h->components, TREE_MAX_COMPONENTS);
-    if (h->byte_level != 0 && (h->byte_level >= h->level || h->rows != TREE_ROWS_INT16))
+    if (h->byte_level != 0 && (h->byte_level >= h->level || h->rows == TREE_ROWS_FLOAT))
         return refuse(err, "level of 8-bit rows", h->byte_level, 0);
     return true;
 }
@@ -43,10 +44,12 @@ static bool check_offsets(const TreeHeader *h, Error *err)
     if (h->node_count < h->octants || h->node_count > 2 * leaves)
         return refuse(err, "node count", h->node_count, h->octants);
     if (h->row_count >= leaves) return refuse(err, "row count", h->row_count, (double)leaves);
-    bool     small = h->rows == TREE_ROWS_INT16;
-    uint64_t scales = sizeof(TreeHeader) + 4ull * h->octants * h->components;
-    uint64_t nodes = (scales + (small ? 4ull * h->level * h->components : 0) + 7) / 8 * 8;
+    uint64_t stride = (uint64_t)tree_stride((TreeRowFormat)h->rows, (int)h->components);
+    uint64_t scales = sizeof(TreeHeader) + 4 * h->octants * stride;
+    uint64_t scale_bytes = h->rows == TREE_ROWS_FLOAT ? 0 : 4 * h->level * stride;
+    uint64_t nodes = (scales + scale_bytes + 7) / 8 * 8;
     uint64_t rows = nodes + sizeof(TreeNode) * (uint64_t)h->node_count;
+    if (h->rows == TREE_ROWS_BLOCKS) rows += sizeof(TreeRow) * (uint64_t)h->row_count;
     if (h->means_offset != sizeof(TreeHeader))
         return refuse(err, "offset of the means", h->means_offset, sizeof(TreeHeader));
     if (h->scales_offset != scales)
@@ -58,12 +61,29 @@ static bool check_offsets(const TreeHeader *h, Error *err)
     return true;
 }
 
+/* Bytes of the blocks, whose places must continue each other. */
+static bool check_row_table(const Tree *tree, uint64_t *bytes, Error *err)
+{
+    uint32_t unknown = ~0u << (tree->stride / TREE_BLOCK - 1) << 1;
+    *bytes = 0;
+    for (uint32_t i = 0; i < tree->row_count; i++) {
+        TreeRow row = tree->row_table[i];
+        if (row.blocks == 0 || row.blocks & unknown || row.offset != *bytes)
+            return error_set(err, ERROR_INPUT, "tree: row %u has blocks %#x at byte %u, wanted "
+                             "some of %d blocks at byte %llu", i, row.blocks, row.offset,
+                             tree->stride / TREE_BLOCK, (unsigned long long)*bytes);
+        uint64_t width = i < tree->byte_row ? 2 : 1;
+        *bytes += width * TREE_BLOCK * (uint64_t)__builtin_popcount(row.blocks);
+    }
+    return true;
+}
+
 /* The nodes say how many rows have 8 bits, and with that how long the rows are. */
 static bool check_size(const TreeHeader *h, const Tree *tree, Error *err)
 {
-    uint64_t bytes = tree->format == TREE_ROWS_FLOAT
-                         ? 4ull * h->components * h->row_count
-                         : tree_row_offset(tree, h->row_count);
+    uint64_t bytes = 4ull * h->components * h->row_count;
+    if (tree->format == TREE_ROWS_INT16) bytes = tree_row_offset(tree, h->row_count);
+    if (tree->format == TREE_ROWS_BLOCKS && !check_row_table(tree, &bytes, err)) return false;
     uint64_t size = (h->rows_offset + bytes + 7) / 8 * 8;
     if (h->size != size) return refuse(err, "size", (double)h->size, (double)size);
     return true;
@@ -114,27 +134,30 @@ static bool check_finite(const float *values, size_t count, const char *what, Er
 
 static bool check_values(const Tree *tree, Error *err)
 {
-    size_t components = (size_t)tree->components;
-    if (!check_finite(tree->means, components * (size_t)tree->octants, "mean", err))
-        return false;
-    if (tree->format == TREE_ROWS_INT16)
-        return check_finite(tree->scales, components * (size_t)tree->level, "scale", err);
-    return check_finite(tree->rows, components * tree->row_count, "detail", err);
+    size_t stride = (size_t)tree->stride;
+    if (!check_finite(tree->means, stride * (size_t)tree->octants, "mean", err)) return false;
+    if (tree->format != TREE_ROWS_FLOAT)
+        return check_finite(tree->scales, stride * (size_t)tree->level, "scale", err);
+    return check_finite(tree->rows, stride * tree->row_count, "detail", err);
 }
 
 static Tree view(const char *blob, const Geodesic *geodesic)
 {
     const TreeHeader *h = (const TreeHeader *)(const void *)blob;
-    bool              small = h->rows == TREE_ROWS_INT16;
+    const char       *rows = blob + h->rows_offset;
+    bool              blocks = h->rows == TREE_ROWS_BLOCKS;
+    const char *scales = h->rows == TREE_ROWS_FLOAT ? NULL : blob + h->scales_offset;
+    const char *table = blocks ? rows - h->row_count * sizeof(TreeRow) : NULL;
     return (Tree){.geodesic = geodesic,
                   .nodes = (const TreeNode *)(const void *)(blob + h->nodes_offset),
                   .means = (const float *)(const void *)(blob + h->means_offset),
-                  .scales =
-                      small ? (const float *)(const void *)(blob + h->scales_offset) : NULL,
-                  .rows = blob + h->rows_offset,
+                  .scales = (const float *)(const void *)scales,
+                  .row_table = (const TreeRow *)(const void *)table,
+                  .rows = rows,
                   .level = h->level,
                   .octants = h->octants,
                   .components = (int)h->components,
+                  .stride = tree_stride((TreeRowFormat)h->rows, (int)h->components),
                   .weights = (HaarWeights)h->weights,
                   .format = (TreeRowFormat)h->rows,
                   .row_count = h->row_count,
@@ -163,19 +186,37 @@ bool tree_open(const void *blob, size_t size, const Geodesic *geodesic, Tree *ou
 
 /* ---- inversion --------------------------------------------------------------------------- */
 
+static float integer_at(const char *from, bool is_byte, size_t index)
+{
+    return is_byte ? ((const int8_t *)(const void *)from)[index]
+                   : ((const int16_t *)(const void *)from)[index];
+}
+
+static void place_blocks(const Tree *tree, uint32_t row, const float *scale, float *to)
+{
+    const char *from = (const char *)tree->rows + tree->row_table[row].offset;
+    bool        is_byte = row >= tree->byte_row;
+    for (uint32_t rest = tree->row_table[row].blocks; rest; rest &= rest - 1) {
+        int first = TREE_BLOCK * __builtin_ctz(rest);
+        for (int i = 0; i < TREE_BLOCK && first + i < tree->components; i++)
+            to[first + i] = scale[first + i] * integer_at(from, is_byte, (size_t)i);
+        from += is_byte ? TREE_BLOCK : 2 * TREE_BLOCK;
+    }
+}
+
 static void place_row(const Tree *tree, uint32_t row, int level, float *to)
 {
-    size_t components = (size_t)tree->components;
+    size_t       components = (size_t)tree->components;
+    const float *scale = tree->scales ? tree->scales + level * tree->stride : NULL;
     if (tree->format == TREE_ROWS_FLOAT) {
         memcpy(to, (const float *)tree->rows + row * components, components * sizeof(float));
-        return;
+    } else if (tree->format == TREE_ROWS_BLOCKS) {
+        place_blocks(tree, row, scale, to);
+    } else {
+        const char *from = (const char *)tree->rows + tree_row_offset(tree, row);
+        for (size_t c = 0; c < components; c++)
+            to[c] = scale[c] * integer_at(from, row >= tree->byte_row, c);
     }
-    const char  *from = (const char *)tree->rows + tree_row_offset(tree, row);
-    const float *scale = tree->scales + (size_t)level * components;
-    for (size_t c = 0; c < components; c++)
-        to[c] = scale[c] * (float)(row < tree->byte_row
-                                       ? ((const int16_t *)(const void *)from)[c]
-                                       : ((const int8_t *)(const void *)from)[c]);
 }
 
 /* Details to their places in haar.h's layout. ids: of each node's triangle on its level. */
@@ -205,7 +246,8 @@ void tree_expand(const Tree *tree, float *leaves, Arena scratch)
     size_t    components = (size_t)tree->components;
     memset(leaves, 0, haar_leaf_count(&shape) * components * sizeof(float));
     for (size_t q = 0; q < (size_t)tree->octants; q++)
-        memcpy(leaves + (q << 2 * tree->level) * components, tree->means + q * components,
+        memcpy(leaves + (q << 2 * tree->level) * components,
+               tree->means + q * (size_t)tree->stride,
                components * sizeof(float));
     place_rows(tree, leaves, ARENA_NEW(&scratch, uint32_t, tree->node_count));
     haar_inverse(&shape, leaves, scratch);

@@ -5,7 +5,8 @@
  * and queried in place (tree_query.h). A row is the detail of one child: `components` numbers.
  *
  * Blob      TreeHeader | octant means, float32 | scales, float32 (integer rows only) | nodes
- *           level by level | rows. Must lie at an address that is a multiple of 8.
+ *           level by level | TreeRow[] (blocks only) | rows. Must lie at an address that is a
+ *           multiple of 8.
  * Accuracy  the report compares with the source after everything, quantisation included.
  * Threads   a Tree is constant.
  */
@@ -18,14 +19,18 @@
 #include "hemisphere/haar.h"
 
 #define TREE_MAX_COMPONENTS 256
+#define TREE_BLOCK 8 /* components */
+#define TREE_MAX_BLOCKS (TREE_MAX_COMPONENTS / TREE_BLOCK)
 #define TREE_MAGIC 0x52414148u /* "HAAR" */
 #define TREE_VERSION 1u
 
 typedef enum TreeRowFormat {
     TREE_ROWS_FLOAT = 0, /* float32 */
-    TREE_ROWS_INT16 = 1  /* 16 bits times a scale for every level and component; 8 bits on the
+    TREE_ROWS_INT16 = 1, /* 16 bits times a scale for every level and component; 8 bits on the
                             finest levels where rounding to these is no more than 1/16 of the
                             error that the tree has anyway */
+    TREE_ROWS_BLOCKS = 2 /* as INT16, and every 8 components are kept or dropped by themselves:
+                            for components that differ, such as slices of a reflection */
 } TreeRowFormat;
 
 /* How to compress; exactly one of keep_share and max_error is above 0. By share: the details of
@@ -34,7 +39,8 @@ typedef enum TreeRowFormat {
  * go as long as the bound holds at every leaf. */
 typedef struct TreeOptions {
     HaarShape     shape;
-    float         keep_share; /* stored rows (octant means included) over leaves, (0, 1] */
+    float         keep_share; /* stored rows (octant means included) over leaves, (0, 1]; of
+                                 TREE_ROWS_BLOCKS: stored blocks over all blocks */
     float         max_error;  /* bound on |component_scale * (tree - source)| at every leaf */
     const float  *component_scale; /* what a component's error is worth; NULL: all 1 */
     TreeRowFormat rows;
@@ -44,6 +50,7 @@ typedef struct TreeOptions {
 typedef struct TreeReport {
     uint32_t leaves;      /* leaves of the source */
     uint32_t stored_rows; /* octant means and details */
+    size_t   stored_values; /* numbers in these */
     uint32_t nodes;
     size_t   bytes;        /* of the blob */
     size_t   source_bytes; /* leaves * components * 4 */
@@ -71,14 +78,23 @@ typedef struct TreeNode {
     uint32_t rows;
 } TreeNode;
 
+/* Of TREE_ROWS_BLOCKS: which blocks of a row are stored, one bit each, and where the first one
+ * starts, in bytes from the first row. Blocks are always whole, the last one padded with 0. */
+typedef struct TreeRow {
+    uint32_t blocks;
+    uint32_t offset;
+} TreeRow;
+
 /* A checked blob, ready for queries. Plain views into the blob and the geodesic. */
 typedef struct Tree {
     const Geodesic *geodesic;
     const TreeNode *nodes;
-    const float    *means;  /* octants x components */
-    const float    *scales; /* level x components, integer rows only; else NULL */
-    const void     *rows;   /* row_count x components, 16-bit rows before 8-bit rows */
+    const float    *means;  /* octants x stride */
+    const float    *scales; /* level x stride, integer rows only; else NULL */
+    const TreeRow  *row_table; /* row_count, blocks only; else NULL */
+    const void     *rows;   /* 16-bit rows before 8-bit rows */
     int             level, octants, components;
+    int             stride; /* components; of blocks: rounded up to whole ones */
     HaarWeights     weights;
     TreeRowFormat   format;
     uint32_t        row_count, node_count;
@@ -99,7 +115,14 @@ size_t tree_size(const void *blob);
  * Fails (ERROR_INPUT) naming what is wrong. */
 bool tree_open(const void *blob, size_t size, const Geodesic *geodesic, Tree *out, Error *err);
 
-/* Where an integer row starts, in bytes from tree->rows. */
+/* Components with their padding: what separates octant means, and levels of scales. */
+static inline int tree_stride(TreeRowFormat format, int components)
+{
+    int blocks = (components + TREE_BLOCK - 1) / TREE_BLOCK;
+    return format == TREE_ROWS_BLOCKS ? blocks * TREE_BLOCK : components;
+}
+
+/* Where a row of TREE_ROWS_INT16 starts, in bytes from tree->rows. */
 static inline size_t tree_row_offset(const Tree *tree, uint32_t row)
 {
     size_t components = (size_t)tree->components;

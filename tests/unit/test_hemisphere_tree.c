@@ -108,6 +108,67 @@ static void fine_details_take_8_bits(void **state)
     }
 }
 
+/* 19 components that differ in where they vary: three blocks, the last one not full. */
+static float *leaves_of_blocks(const HaarShape *shape, Arena *arena)
+{
+    uint32_t count = haar_leaf_count(shape), components = (uint32_t)shape->components;
+    float   *leaves = ARENA_NEW(arena, float, count * components);
+    for (uint32_t i = 0; i < count * components; i++) {
+        Vec3 d = geodesic_center(shape->level, i / components);
+        leaves[i] = i % components < 8    ? smooth_signal(d) * 0.002f
+                    : i % components < 16 ? peak_signal(d) * (0.1f + 0.001f * (float)(i % 8))
+                                          : 3 + 0.2f * d.x * d.x;
+    }
+    return leaves;
+}
+
+static void blocks_of_components_are_kept_by_themselves(void **state)
+{
+    Fixture    *f = *state;
+    HaarShape   shape = {6, 2, 19, HAAR_AREA};
+    TreeOptions blocks = {.shape = shape, .max_error = 0.1f, .rows = TREE_ROWS_BLOCKS};
+    TreeOptions rows = {.shape = shape, .max_error = 0.1f, .rows = TREE_ROWS_INT16};
+    TreeReport  block_report, row_report;
+    uint32_t    count = haar_leaf_count(&shape);
+    float      *source = leaves_of_blocks(&shape, &f->arena), value[19], some[19];
+    Tree        tree = build_and_open(f, &blocks, source, &block_report);
+    float      *leaves = ARENA_NEW(&f->arena, float, 19 * count);
+    build_and_open(f, &rows, source, &row_report);
+    tree_expand(&tree, leaves, f->arena);
+    assert_true(block_report.bytes < row_report.bytes);
+    assert_true(block_report.stored_values < 0.6 * (double)row_report.stored_values);
+    assert_true(tree.byte_row > 0 && tree.byte_row < tree.row_count);
+    for (uint32_t id = 0; id < count; id++) {
+        TreeTaps taps;
+        tree_walk_mean(&tree, 6, geodesic_center(6, id), &taps);
+        tree_sum(&tree, &taps, 0, 19, value);
+        for (uint32_t c = 0; c < 19; c++) {
+            assert_near(value[c], leaves[19 * id + c], 2e-5 * (double)fabsf(value[c]));
+            assert_true(fabsf(leaves[19 * id + c] - source[19 * id + c]) <= 0.1001f);
+        }
+        int first = (int)(id % 19), part = 1 + (int)(id / 19 % (19 - id % 19));
+        tree_sum(&tree, &taps, first, part, some);
+        for (int c = 0; c < part; c++) assert_true(some[c] == value[first + c]);
+    }
+}
+
+static void a_share_of_blocks_is_a_share(void **state)
+{
+    Fixture    *f = *state;
+    HaarShape   shape = {5, 4, 19, HAAR_EQUAL};
+    TreeOptions options = {.shape = shape, .keep_share = 0.1f, .rows = TREE_ROWS_BLOCKS};
+    TreeReport  report;
+    Tree tree = build_and_open(f, &options, leaves_of_blocks(&shape, &f->arena), &report);
+    size_t blocks = 0, wanted = (size_t)lrint(0.1 * 3 * haar_leaf_count(&shape)) - 4 * 3;
+    for (uint32_t i = 0; i < tree.row_count; i++)
+        blocks += (size_t)__builtin_popcount(tree.row_table[i].blocks);
+    assert_int_equal(blocks, wanted);
+    assert_int_equal(report.stored_values, wanted * 8 + 4 * 19);
+    options.keep_share = 1; /* 16 bits are the only error */
+    build_and_open(f, &options, leaves_of_blocks(&shape, &f->arena), &report);
+    assert_true(report.relative_l2 < 1e-4f);
+}
+
 typedef struct Detail {
     float    significance;
     uint32_t place;
@@ -460,14 +521,15 @@ static void mutated_trees_are_refused_or_harmless(void **state)
 {
     Fixture *f = *state;
     f->geodesic = geodesic_create(3, &f->arena); /* not a level more than the tree's */
-    for (int rows = 0; rows < 2; rows++) {
-        HaarShape   shape = {3, 4, 2, HAAR_AREA};
+    for (int rows = 0; rows <= TREE_ROWS_BLOCKS; rows++) {
+        HaarShape   shape = {3, 4, rows == TREE_ROWS_BLOCKS ? 19 : 2, HAAR_AREA};
         TreeOptions options = {.shape = shape, .keep_share = 0.1f, .rows = (TreeRowFormat)rows};
         const void *blob;
         Error       err;
         uint32_t    seed = 9;
         int         opened = 0;
-        float      *source = leaves_of_signals(&shape, &f->arena);
+        float      *source = rows == TREE_ROWS_BLOCKS ? leaves_of_blocks(&shape, &f->arena)
+                                                      : leaves_of_signals(&shape, &f->arena);
         assert_true(tree_build(&options, source, &f->arena, &blob, NULL, &err));
         size_t size = tree_size(blob);
         for (size_t prefix = 0; prefix < size; prefix++)
@@ -479,7 +541,7 @@ static void mutated_trees_are_refused_or_harmless(void **state)
             mutate(copy, size, &seed);
             try_tree(f, copy, size, &opened);
         }
-        assert_int_equal(((const TreeHeader *)blob)->byte_level > 0, rows == 1);
+        assert_int_equal(((const TreeHeader *)blob)->byte_level > 0, rows > 0);
         assert_true(opened > 100); /* changed numbers, same structure */
         assert_true(opened < 5000);
     }
@@ -549,6 +611,8 @@ int main(void)
         CASE(a_tree_with_everything_kept_is_its_source),
         CASE(quantisation_is_part_of_the_report),
         CASE(fine_details_take_8_bits),
+        CASE(blocks_of_components_are_kept_by_themselves),
+        CASE(a_share_of_blocks_is_a_share),
         CASE(thresholding_keeps_the_l2_bound),
         CASE(an_error_bound_costs_fewer_rows_than_significance_alone),
         CASE(an_error_bound_holds_at_every_leaf),
