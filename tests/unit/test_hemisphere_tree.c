@@ -1,18 +1,7 @@
-/* test_hemisphere_tree.c -- compressed trees, their queries and hostile blobs. */
+/* test_hemisphere_tree.c -- compressed trees and their queries. */
 #include "hemisphere_fixture.h"
 
 #include "hemisphere/tree_query.h"
-static Tree build_and_open(Fixture *f, const TreeOptions *options, const float *leaves,
-                           TreeReport *report)
-{
-    const void *blob;
-    Tree        tree;
-    Error       err;
-    if (!tree_build(options, leaves, &f->arena, &blob, report, &err)) fail_msg("%s", err.text);
-    if (!tree_open(blob, tree_size(blob), f->geodesic, &tree, &err)) fail_msg("%s", err.text);
-    return tree;
-}
-
 /* ---- compressed trees -------------------------------------------------------------------- */
 
 static void a_query_equals_the_inverted_tree_at_every_leaf(void **state)
@@ -83,20 +72,20 @@ static void quantisation_is_part_of_the_report(void **state)
 }
 
 /* Smooth functions have small details on fine levels: these take a byte a component, and the
- * error hardly grows. Components that are no multiple of 4 reach every way of summing. */
+ * error hardly grows. 23 components are summed in all three ways: 16, 4 and 1 at a time. */
 static void fine_details_take_8_bits(void **state)
 {
     Fixture    *f = *state;
-    HaarShape   shape = {6, 2, 7, HAAR_AREA};
+    HaarShape   shape = {6, 2, 23, HAAR_AREA};
     TreeOptions small = {.shape = shape, .keep_share = 0.3f, .rows = TREE_ROWS_INT16};
     TreeOptions wide = {.shape = shape, .keep_share = 0.3f};
     TreeReport  small_report, wide_report;
     uint32_t    count = haar_leaf_count(&shape);
-    float      *source = ARENA_NEW(&f->arena, float, 7 * count), value[7];
-    for (uint32_t i = 0; i < 7 * count; i++)
-        source[i] = smooth_signal(geodesic_center(6, i / 7)) * (1 + 0.1f * (float)(i % 7));
+    float      *source = ARENA_NEW(&f->arena, float, 23 * count), value[23];
+    for (uint32_t i = 0; i < 23 * count; i++)
+        source[i] = smooth_signal(geodesic_center(6, i / 23)) * (1 + 0.1f * (float)(i % 23));
     Tree   tree = build_and_open(f, &small, source, &small_report);
-    float *leaves = ARENA_NEW(&f->arena, float, 7 * count);
+    float *leaves = ARENA_NEW(&f->arena, float, 23 * count);
     build_and_open(f, &wide, source, &wide_report);
     assert_true(tree.byte_row > 0 && tree.byte_row < tree.row_count / 2);
     assert_true(small_report.max_error < 1.15f * wide_report.max_error);
@@ -104,22 +93,8 @@ static void fine_details_take_8_bits(void **state)
     tree_expand(&tree, leaves, f->arena);
     for (uint32_t id = 0; id < count; id++) {
         tree_value(&tree, geodesic_center(6, id), value);
-        for (uint32_t c = 0; c < 7; c++) assert_close(value[c], leaves[7 * id + c], 1e-5);
+        for (uint32_t c = 0; c < 23; c++) assert_close(value[c], leaves[23 * id + c], 1e-5);
     }
-}
-
-/* 19 components that differ in where they vary: three blocks, the last one not full. */
-static float *leaves_of_blocks(const HaarShape *shape, Arena *arena)
-{
-    uint32_t count = haar_leaf_count(shape), components = (uint32_t)shape->components;
-    float   *leaves = ARENA_NEW(arena, float, count * components);
-    for (uint32_t i = 0; i < count * components; i++) {
-        Vec3 d = geodesic_center(shape->level, i / components);
-        leaves[i] = i % components < 8    ? smooth_signal(d) * 0.002f
-                    : i % components < 16 ? peak_signal(d) * (0.1f + 0.001f * (float)(i % 8))
-                                          : 3 + 0.2f * d.x * d.x;
-    }
-    return leaves;
 }
 
 static void blocks_of_components_are_kept_by_themselves(void **state)
@@ -483,127 +458,6 @@ static void interpolation_is_continuous(void **state)
     }
 }
 
-/* ---- hostile blobs
- * ---------------------------------------------------------------------------- */
-
-static void query_everything(const Tree *tree, Arena scratch)
-{
-    uint32_t seed = 8;
-    float    value[TREE_MAX_COMPONENTS];
-    for (int i = 0; i < 16; i++) {
-        Vec3 d = random_direction(&seed);
-        tree_interpolate(tree, d, value);
-        tree_value(tree, d, value);
-    }
-    float *leaves = ARENA_NEW(&scratch, float,
-                              ((size_t)tree->octants << 2 * tree->level) *
-                                  (size_t)tree->components);
-    tree_expand(tree, leaves, scratch);
-}
-
-/* A copy that ends where its memory ends, so that the sanitizer sees any step beyond. */
-static void try_tree(const Fixture *f, const char *blob, size_t size, int *opened)
-{
-    char *copy = malloc(size ? size : 1);
-    Tree  tree;
-    Error err = {0};
-    memcpy(copy, blob, size);
-    if (tree_open(copy, size, f->geodesic, &tree, &err)) {
-        query_everything(&tree, f->arena);
-        (*opened)++;
-    } else {
-        assert_true(err.text[0] != 0);
-    }
-    free(copy);
-}
-
-static void mutated_trees_are_refused_or_harmless(void **state)
-{
-    Fixture *f = *state;
-    f->geodesic = geodesic_create(3, &f->arena); /* not a level more than the tree's */
-    for (int rows = 0; rows <= TREE_ROWS_BLOCKS; rows++) {
-        HaarShape   shape = {3, 4, rows == TREE_ROWS_BLOCKS ? 19 : 2, HAAR_AREA};
-        TreeOptions options = {.shape = shape, .keep_share = 0.1f, .rows = (TreeRowFormat)rows};
-        const void *blob;
-        Error       err;
-        uint32_t    seed = 9;
-        int         opened = 0;
-        float      *source = rows == TREE_ROWS_BLOCKS ? leaves_of_blocks(&shape, &f->arena)
-                                                      : leaves_of_signals(&shape, &f->arena);
-        assert_true(tree_build(&options, source, &f->arena, &blob, NULL, &err));
-        size_t size = tree_size(blob);
-        for (size_t prefix = 0; prefix < size; prefix++)
-            try_tree(f, blob, prefix, &opened);
-        assert_int_equal(opened, 0);
-        char *copy = ARENA_NEW(&f->arena, char, size);
-        for (int i = 0; i < 6000; i++) {
-            memcpy(copy, blob, size);
-            mutate(copy, size, &seed);
-            try_tree(f, copy, size, &opened);
-        }
-        assert_int_equal(((const TreeHeader *)blob)->byte_level > 0, rows > 0);
-        assert_true(opened > 100); /* changed numbers, same structure */
-        assert_true(opened < 5000);
-    }
-}
-
-/* A header with fewer levels than the nodes have, and one with fewer rows. */
-static void trees_deeper_than_their_header_are_refused(void **state)
-{
-    Fixture    *f = *state;
-    HaarShape   shape = {3, 4, 1, HAAR_AREA};
-    TreeOptions options = {.shape = shape, .keep_share = 0.2f};
-    const void *blob;
-    Tree        tree;
-    Error       err;
-    float      *source = leaves_of_signals(&shape, &f->arena);
-    assert_true(tree_build(&options, source, &f->arena, &blob, NULL, &err));
-    size_t      size = tree_size(blob);
-    TreeHeader *copy = arena_alloc(&f->arena, 1, 16, size);
-    memcpy(copy, blob, size);
-    copy->level = 2;
-    assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
-    assert_non_null(strstr(err.text, "below the leaves' level 2"));
-    copy->level = 3;
-    copy->row_count -= 2;
-    copy->size -= 8;
-    assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
-    assert_non_null(strstr(err.text, "row"));
-    copy->row_count += 4;
-    copy->size += 16;
-    assert_false(tree_open(copy, size + 8, f->geodesic, &tree, &err));
-    assert_non_null(strstr(err.text, "row count is"));
-}
-
-static void a_bad_header_is_named(void **state)
-{
-    Fixture    *f = *state;
-    HaarShape   shape = {3, 4, 1, HAAR_AREA};
-    TreeOptions options = {.shape = shape, .keep_share = 0.5f};
-    const void *blob;
-    Error       err;
-    Tree        tree;
-    assert_true(tree_build(&options, leaves_of_signals(&shape, &f->arena), &f->arena, &blob,
-                           NULL, &err));
-    size_t size = tree_size(blob);
-    char  *copy = arena_alloc(&f->arena, 1, 16, size + 8);
-    assert_false(tree_open((const char *)blob + 4, size, f->geodesic, &tree, &err));
-    assert_non_null(strstr(err.text, "multiple of 8"));
-    assert_false(tree_open(blob, 20, f->geodesic, &tree, &err));
-    assert_non_null(strstr(err.text, "number of bytes is 20"));
-    assert_false(tree_open(blob, size, geodesic_create(2, &f->arena), &tree, &err));
-    assert_non_null(strstr(err.text, "level of the geodesic is 2, wanted 3"));
-    memcpy(copy, blob, size);
-    copy[0] ^= 1;
-    assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
-    assert_non_null(strstr(err.text, "magic number"));
-    memcpy(copy, blob, size);
-    ((TreeHeader *)(void *)copy)->version = 7;
-    assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
-    assert_non_null(strstr(err.text, "version is 7, wanted 1"));
-}
-
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -623,9 +477,6 @@ int main(void)
         CASE(half_trees_equal_whole_trees_of_symmetric_functions),
         CASE(interpolation_keeps_centres_and_constants),
         CASE(interpolation_is_continuous),
-        CASE(mutated_trees_are_refused_or_harmless),
-        CASE(trees_deeper_than_their_header_are_refused),
-        CASE(a_bad_header_is_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,129 @@
+/* test_hemisphere_blob.c -- damaged and hostile trees are refused, or harmless. */
+#include "hemisphere_fixture.h"
+
+static void query_everything(const Tree *tree, Arena scratch)
+{
+    uint32_t seed = 8;
+    float    value[TREE_MAX_COMPONENTS];
+    for (int i = 0; i < 16; i++) {
+        Vec3 d = random_direction(&seed);
+        tree_interpolate(tree, d, value);
+        tree_value(tree, d, value);
+    }
+    float *leaves = ARENA_NEW(&scratch, float,
+                              ((size_t)tree->octants << 2 * tree->level) *
+                                  (size_t)tree->components);
+    tree_expand(tree, leaves, scratch);
+}
+
+/* A copy that ends where its memory ends, so that the sanitizer sees any step beyond. */
+static void try_tree(const Fixture *f, const char *blob, size_t size, int *opened)
+{
+    char *copy = malloc(size ? size : 1);
+    Tree  tree;
+    Error err = {0};
+    memcpy(copy, blob, size);
+    if (tree_open(copy, size, f->geodesic, &tree, &err)) {
+        query_everything(&tree, f->arena);
+        (*opened)++;
+    } else {
+        assert_true(err.text[0] != 0);
+    }
+    free(copy);
+}
+
+static void mutated_trees_are_refused_or_harmless(void **state)
+{
+    Fixture *f = *state;
+    f->geodesic = geodesic_create(3, &f->arena); /* not a level more than the tree's */
+    for (int rows = 0; rows <= TREE_ROWS_BLOCKS; rows++) {
+        HaarShape   shape = {3, 4, rows == TREE_ROWS_BLOCKS ? 19 : 2, HAAR_AREA};
+        TreeOptions options = {.shape = shape, .keep_share = 0.1f, .rows = (TreeRowFormat)rows};
+        const void *blob;
+        Error       err;
+        uint32_t    seed = 9;
+        int         opened = 0;
+        float      *source = rows == TREE_ROWS_BLOCKS ? leaves_of_blocks(&shape, &f->arena)
+                                                      : leaves_of_signals(&shape, &f->arena);
+        assert_true(tree_build(&options, source, &f->arena, &blob, NULL, &err));
+        size_t size = tree_size(blob);
+        for (size_t prefix = 0; prefix < size; prefix++)
+            try_tree(f, blob, prefix, &opened);
+        assert_int_equal(opened, 0);
+        char *copy = ARENA_NEW(&f->arena, char, size);
+        for (int i = 0; i < 6000; i++) {
+            memcpy(copy, blob, size);
+            mutate(copy, size, &seed);
+            try_tree(f, copy, size, &opened);
+        }
+        assert_int_equal(((const TreeHeader *)blob)->byte_level > 0, rows > 0);
+        assert_true(opened > 100); /* changed numbers, same structure */
+        assert_true(opened < 5000);
+    }
+}
+
+/* A header with fewer levels than the nodes have, and one with fewer rows. */
+static void trees_deeper_than_their_header_are_refused(void **state)
+{
+    Fixture    *f = *state;
+    HaarShape   shape = {3, 4, 1, HAAR_AREA};
+    TreeOptions options = {.shape = shape, .keep_share = 0.2f};
+    const void *blob;
+    Tree        tree;
+    Error       err;
+    float      *source = leaves_of_signals(&shape, &f->arena);
+    assert_true(tree_build(&options, source, &f->arena, &blob, NULL, &err));
+    size_t      size = tree_size(blob);
+    TreeHeader *copy = arena_alloc(&f->arena, 1, 16, size);
+    memcpy(copy, blob, size);
+    copy->level = 2;
+    assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
+    assert_non_null(strstr(err.text, "below the leaves' level 2"));
+    copy->level = 3;
+    copy->row_count -= 2;
+    copy->size -= 8;
+    assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
+    assert_non_null(strstr(err.text, "row"));
+    copy->row_count += 4;
+    copy->size += 16;
+    assert_false(tree_open(copy, size + 8, f->geodesic, &tree, &err));
+    assert_non_null(strstr(err.text, "row count is"));
+}
+
+static void a_bad_header_is_named(void **state)
+{
+    Fixture    *f = *state;
+    HaarShape   shape = {3, 4, 1, HAAR_AREA};
+    TreeOptions options = {.shape = shape, .keep_share = 0.5f};
+    const void *blob;
+    Error       err;
+    Tree        tree;
+    assert_true(tree_build(&options, leaves_of_signals(&shape, &f->arena), &f->arena, &blob,
+                           NULL, &err));
+    size_t size = tree_size(blob);
+    char  *copy = arena_alloc(&f->arena, 1, 16, size + 8);
+    assert_false(tree_open((const char *)blob + 4, size, f->geodesic, &tree, &err));
+    assert_non_null(strstr(err.text, "multiple of 8"));
+    assert_false(tree_open(blob, 20, f->geodesic, &tree, &err));
+    assert_non_null(strstr(err.text, "number of bytes is 20"));
+    assert_false(tree_open(blob, size, geodesic_create(2, &f->arena), &tree, &err));
+    assert_non_null(strstr(err.text, "level of the geodesic is 2, wanted 3"));
+    memcpy(copy, blob, size);
+    copy[0] ^= 1;
+    assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
+    assert_non_null(strstr(err.text, "magic number"));
+    memcpy(copy, blob, size);
+    ((TreeHeader *)(void *)copy)->version = 7;
+    assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
+    assert_non_null(strstr(err.text, "version is 7, wanted 1"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        CASE(mutated_trees_are_refused_or_harmless),
+        CASE(trees_deeper_than_their_header_are_refused),
+        CASE(a_bad_header_is_named),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
