@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "base/file.h"
@@ -34,28 +35,33 @@ static bool check_writable(const char *path, Arena scratch, Error *err)
     return true;
 }
 
+/* What this process may use: the machine's memory, or half of the address space that a batch
+ * system grants (the libraries' share is the other half). */
 static size_t memory_bytes(void)
 {
-    return (size_t)sysconf(_SC_PHYS_PAGES) * (size_t)sysconf(_SC_PAGESIZE);
+    size_t        machine = (size_t)sysconf(_SC_PHYS_PAGES) * (size_t)sysconf(_SC_PAGESIZE);
+    struct rlimit limit;
+    if (getrlimit(RLIMIT_AS, &limit) || limit.rlim_cur == RLIM_INFINITY) return machine;
+    return limit.rlim_cur / 2 < machine ? (size_t)limit.rlim_cur / 2 : machine;
 }
 
-/* Frames that OpenEXR's reader would refuse, and films that no memory of this machine holds. */
+/* Frames that our own reader would refuse, and films that the memory does not hold. */
 static bool check_memory(const RenderOptions *options, Error *err)
 {
     FilmRect crop = options->crop;
-    double   pixels = (double)(crop.x1 - crop.x0) * (double)(crop.y1 - crop.y0);
+    double   pixels = (double)options->width * (double)options->height;
+    double   wanted = (double)film_bytes(crop, options->layers);
     double   memory = (double)memory_bytes();
     if (pixels > EXR_MAX_PIXELS)
-        return error_set(
-            err, ERROR_USAGE,
-            "--size %dx%d: %.0f pixels, at most %d — use --crop and several frames",
-            options->width, options->height, pixels, EXR_MAX_PIXELS);
-    double wanted = (double)film_bytes(crop, options->layers);
+        return error_set(err, ERROR_USAGE,
+                         "--size %dx%d: %.0f pixels, at most %d are supported", options->width,
+                         options->height, pixels, EXR_MAX_PIXELS);
     if (wanted < memory) return true;
-    return error_set(err, ERROR_MEMORY,
-                     "the film of %.0f pixels needs %.1f GB, this machine has %.1f GB — use "
-                     "--crop or fewer --layers",
-                     pixels, wanted / 1e9, memory / 1e9);
+    return error_set(
+        err, ERROR_MEMORY,
+        "the film of %dx%d pixels needs %.1f GB, there are %.1f GB — use --crop or "
+        "fewer --layers",
+        crop.x1 - crop.x0, crop.y1 - crop.y0, wanted / 1e9, memory / 1e9);
 }
 
 static bool check_outputs(const RenderRequest *request, Arena scratch, Error *err)
@@ -198,7 +204,7 @@ static bool run(Work *work, Error *err)
 
 bool cmd_render(int argc, char **argv, Error *err)
 {
-    Arena arena = arena_reserve(2 * memory_bytes()); /* address space: what is touched counts */
+    Arena arena = arena_reserve(memory_bytes()); /* address space: what is touched counts */
     Work  work = {.arena = &arena};
     bool  done = render_request_parse(argc, argv, &arena, &work.request, err) &&
                 (work.request.cli.help_shown || run(&work, err));

@@ -159,6 +159,22 @@ static void an_hdri_that_is_missing_or_not_linear_is_named(void **state)
     assert_false(exists("a.exr"));
 }
 
+static void a_frame_too_large_is_refused_before_it_fills_the_memory(void **state)
+{
+    (void)state;
+    Outcome o;
+    RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--size", "65536x65536", "--crop",
+        "0,0,4,4");
+    assert_int_equal(o.status, 2);
+    assert_string_equal(o.err, "parhelion: --size 65536x65536: 4294967296 pixels, at most "
+                               "268435456 are supported\n");
+    if ((double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE) > 160e9) return;
+    RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--size", "16384x16384", "--layers", "all");
+    assert_int_equal(o.status, 3);
+    assert_non_null(strstr(o.err, "parhelion: the film of 16384x16384 pixels needs 163.2 GB, "
+                                  "there are "));
+}
+
 static void a_missing_input_is_status_3_and_named(void **state)
 {
     (void)state;
@@ -476,6 +492,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_wrong_line_is_status_2),
         cmocka_unit_test(an_hdri_that_is_missing_or_not_linear_is_named),
+        cmocka_unit_test(a_frame_too_large_is_refused_before_it_fills_the_memory),
         cmocka_unit_test(a_missing_input_is_status_3_and_named),
         cmocka_unit_test(an_output_that_cannot_be_written_is_status_4_at_once),
         cmocka_unit_test(version_and_help_need_nothing),
