@@ -1,15 +1,17 @@
-/* parhelion measure: figures of a part of a frame, with their 95 % intervals. */
+/* parhelion measure: figures of a part of a frame, or the illuminance at a point of a scene,
+ * with their 95 % intervals. */
 #include <math.h>
 #include <stdio.h>
 
-#include "cli/cli.h"
+#include "cli/measure_command.h"
 #include "image/measure.h"
 
 #define MEMORY_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
 
 typedef struct Typed {
-    MeasureRequest request;
-    Cli            cli;
+    MeasureRequest  request;
+    LuxmeterRequest luxmeter;
+    Cli             cli;
 } Typed;
 
 static bool parse(int argc, char **argv, Arena *arena, Typed *out, Error *err)
@@ -22,14 +24,22 @@ static bool parse(int argc, char **argv, Arena *arena, Typed *out, Error *err)
          .low = -65536, .high = 65536, .count = 4, .given = &r->has_region},
         {"--display", OPTION_TEXT, "NAME",
          "only pixels that show this display (its material's name)", .out = &r->display},
+        {"--illuminance", OPTION_NUMBERS, "X,Y,Z,NX,NY,NZ",
+         "of a scene: lx at a point (m) on a plane that faces N", .out = out->luxmeter.place,
+         .low = -1e9, .high = 1e9, .count = 6, .given = &out->luxmeter.given},
+        {"--samples", OPTION_INTEGER, "N", "paths for --illuminance (default 262144)",
+         .out = &out->luxmeter.samples, .low = 2, .high = 1 << 30},
     };
     const CliCommand command = {
         "measure", "luminance, colour and contrast of a part of a frame, with 95 % intervals",
-        "FRAME.exr [--region X0,Y0,X1,Y1] [--display NAME]",
+        "FRAME.exr [--region X0,Y0,X1,Y1] [--display NAME] | SCENE... --illuminance ...",
         "parhelion measure frame.exr --display cluster --json",
-        options, sizeof options / sizeof *options, 1, 1};
+        options, sizeof options / sizeof *options, 1, -1};
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
-    if (out->cli.help_shown) return true;
+    if (out->cli.help_shown || out->luxmeter.given) return true;
+    if (out->cli.argument_count > 1)
+        return error_set(err, ERROR_USAGE, "%s: one frame at a time is measured",
+                         out->cli.arguments[1]);
     for (int i = 0; i < 4 && r->has_region; i++)
         if (region[i] != floor(region[i]))
             return error_set(err, ERROR_USAGE, "--region: %g is no whole number of pixels",
@@ -133,6 +143,8 @@ static bool measure(const Typed *typed, Arena *arena, Error *err)
 {
     FrameImage  frame;
     Measurement measured;
+    if (typed->luxmeter.given)
+        return measure_illuminance(&typed->cli, &typed->luxmeter, arena, err);
     if (!frame_read(typed->request.frame_name, arena, &frame, err)) return false;
     if (!measure_frame(&frame, &typed->request, *arena, &measured, err)) return false;
     if (typed->cli.json) return print_json(typed, &measured, err);
@@ -143,7 +155,7 @@ static bool measure(const Typed *typed, Arena *arena, Error *err)
 bool cmd_measure(int argc, char **argv, Error *err)
 {
     Arena arena = arena_reserve(MEMORY_BYTES);
-    Typed typed = {0};
+    Typed typed = {.luxmeter = {.samples = 1 << 18}};
     bool  ok = parse(argc, argv, &arena, &typed, err) &&
               (typed.cli.help_shown || measure(&typed, &arena, err));
     arena_release(&arena);

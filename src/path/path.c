@@ -330,16 +330,42 @@ static void walk_path(Walk *walk, PathResult *out)
     }
 }
 
+static Walk walk_start(const PathContext *context, const Wavelengths *wavelengths,
+                       Sampler *sampler, PathStatistics *statistics)
+{
+    statistics->samples++;
+    return (Walk){.context = context, .wavelengths = wavelengths, .sampler = sampler,
+                  .statistics = statistics, .throughput = spectrum_all(1),
+                  .radiance = spectrum_all(0), .last_ns = vec3(0, 0, 1), .last_is_delta = true,
+                  .medium_id = NO_ID};
+}
+
+static void walk_xyz(Walk *walk, float xyz[3])
+{
+    spectrum_add_xyz(walk->wavelengths, walk->radiance, walk->xyz);
+    for (int i = 0; i < 3; i++) xyz[i] = walk->xyz[i];
+}
+
 void path_trace(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
                 Sampler *sampler, PathResult *out, PathStatistics *statistics)
 {
-    Walk walk = {.context = context, .wavelengths = wavelengths, .sampler = sampler,
-                 .statistics = statistics, .ray = ray, .throughput = spectrum_all(1),
-                 .radiance = spectrum_all(0), .last_ns = ray.direction, .last_is_delta = true,
-                 .medium_id = NO_ID};
+    Walk walk = walk_start(context, wavelengths, sampler, statistics);
+    walk.ray = ray;
     *out = (PathResult){.hit = false};
-    statistics->samples++;
     walk_path(&walk, out);
-    spectrum_add_xyz(wavelengths, walk.radiance, walk.xyz);
-    for (int i = 0; i < 3; i++) out->xyz[i] = walk.xyz[i];
+    walk_xyz(&walk, out->xyz);
+}
+
+void path_illuminance(const PathContext *context, Vec3 position, Vec3 normal,
+                      const Wavelengths *wavelengths, Sampler *sampler, float xyz_lx[3],
+                      PathStatistics *statistics)
+{
+    Walk       walk = walk_start(context, wavelengths, sampler, statistics);
+    PathResult ignored = {.hit = true};
+    Surface    head;
+    surface_white(context->tables, position, normal, &head);
+    walk.throughput = spectrum_all(PI_F);
+    add_light_samples(&walk, &head, normal);
+    if (scatter(&walk, &head, normal) == STEP_SCATTERED) walk_path(&walk, &ignored);
+    walk_xyz(&walk, xyz_lx);
 }

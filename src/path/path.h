@@ -39,6 +39,12 @@ typedef struct PathResult {
 void path_trace(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
                 Sampler *sampler, PathResult *out, PathStatistics *statistics);
 
+/* Illuminance of a plane at `position` (m, world) that faces `normal` (unit), as tristimulus
+ * values in lx: what a white Lambert surface would send back, times pi. */
+void path_illuminance(const PathContext *context, Vec3 position, Vec3 normal,
+                      const Wavelengths *wavelengths, Sampler *sampler, float xyz_lx[3],
+                      PathStatistics *statistics);
+
 /* What the layers show of the first surface of a path. */
 typedef struct PathFeatures {
     float depth;       /* m along the ray */

@@ -256,6 +256,16 @@ void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
     }
 }
 
+void surface_white(const SurfaceTables *tables, Vec3 position, Vec3 normal, Surface *out)
+{
+    *out = (Surface){.position = position, .ng = normal, .frame = frame_from_z(normal),
+                     .part_id = NO_ID, .material_id = NO_ID, .alpha = 1};
+    out->bsdf.kind = BSDF_METALLIC_ROUGHNESS;
+    out->bsdf.metallic_roughness = metallic_roughness_default(tables->of_coat);
+    out->bsdf.metallic_roughness.metallic = 0;
+    out->bsdf.metallic_roughness.specular = 0;
+}
+
 Spectrum surface_pass(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
                       Vec3 direction, const Wavelengths *wavelengths)
 {

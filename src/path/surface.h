@@ -29,6 +29,9 @@ typedef struct Surface {
 void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit, Vec3 wo,
                 const Wavelengths *wavelengths, Surface *out);
 
+/* A white Lambert point that faces `normal` (unit, world): a luxmeter's head. */
+void surface_white(const SurfaceTables *tables, Vec3 position, Vec3 normal, Surface *out);
+
 /* What share of light passes the triangle straight on, per lane: holes and thin windows. */
 Spectrum surface_pass(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
                       Vec3 direction, const Wavelengths *wavelengths);

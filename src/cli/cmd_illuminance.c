@@ -1,0 +1,50 @@
+/* parhelion measure --illuminance: a luxmeter at a point of a scene. */
+#include <stdio.h>
+
+#include "cli/measure_command.h"
+#include "render/illuminance.h"
+#include "scene/scene.h"
+#include "spectrum/photometry.h"
+
+static bool print_illuminance(const Cli *cli, const IlluminanceOptions *options,
+                              const Illuminance *e, Error *err)
+{
+    float xyz[3], xy[2];
+    for (int k = 0; k < 3; k++) xyz[k] = (float)e->xyz_lx[k];
+    xy_from_xyz(xyz, xy);
+    double half_width = 1.96 * e->sigma_lx;
+    if (cli->json)
+        return cli_print_json(
+            json_pack("{s:f, s:[f,f], s:[f,f], s:I}", "illuminance_lx", e->xyz_lx[1],
+                      "illuminance_interval", e->xyz_lx[1] - half_width,
+                      e->xyz_lx[1] + half_width, "xy", (double)xy[0], (double)xy[1], "samples",
+                      (json_int_t)options->samples),
+            err);
+    printf("illuminance  %.6g +- %.2g lx\nx, y         %.4f, %.4f\n", e->xyz_lx[1], half_width,
+           (double)xy[0], (double)xy[1]);
+    return true;
+}
+
+bool measure_illuminance(const Cli *cli, const LuxmeterRequest *request, Arena *arena,
+                         Error *err)
+{
+    Problems     problems = problems_start(arena);
+    SceneOptions files = {.paths = cli->arguments, .path_count = cli->argument_count};
+    const double *n = request->place + 3;
+    Scene       *scene;
+    Illuminance  measured;
+    IlluminanceOptions options = {
+        .position = vec3((float)request->place[0], (float)request->place[1],
+                         (float)request->place[2]),
+        .normal = vec3_normalize(vec3((float)n[0], (float)n[1], (float)n[2])),
+        .samples = request->samples, .max_bounces = 64, .threads = cli->threads};
+    if (!(vec3_dot(options.normal, options.normal) > 0.5f))
+        return error_set(err, ERROR_USAGE, "--illuminance: the normal (%g, %g, %g) has no "
+                         "direction", n[0], n[1], n[2]);
+    if (!scene_load(&files, arena, &problems, &scene, err)) return false;
+    cli_print_warnings(&problems);
+    bool ok = illuminance_measure(scene, &options, arena, &measured, err) &&
+              print_illuminance(cli, &options, &measured, err);
+    scene_close(scene);
+    return ok;
+}

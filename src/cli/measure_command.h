@@ -1,0 +1,14 @@
+/* measure_command.h -- the parts of `parhelion measure`; private to src/cli. */
+#pragma once
+#include "cli/cli.h"
+
+/* A luxmeter in a scene. */
+typedef struct LuxmeterRequest {
+    bool   given;
+    double place[6]; /* x, y, z in metres, then where the head faces */
+    long   samples;
+} LuxmeterRequest;
+
+/* Loads cli->arguments as one scene and prints the illuminance there. */
+bool measure_illuminance(const Cli *cli, const LuxmeterRequest *request, Arena *arena,
+                         Error *err);

@@ -1,0 +1,65 @@
+#include "render/illuminance.h"
+
+#include "base/parallel.h"
+
+#define CHUNK 1024 /* samples of one piece of work; pieces are added in order */
+
+typedef struct Sums {
+    double xyz[3], squares;
+} Sums;
+
+typedef struct Meter {
+    const PathContext        *context;
+    const IlluminanceOptions *options;
+    Sums                     *sums; /* one a chunk */
+} Meter;
+
+static void measure_chunk(void *user, int chunk, int worker)
+{
+    (void)worker;
+    const Meter *meter = user;
+    const IlluminanceOptions *options = meter->options;
+    PathStatistics statistics = {0};
+    Sums *sums = &meter->sums[chunk];
+    for (long i = (long)chunk * CHUNK; i < (long)(chunk + 1) * CHUNK && i < options->samples; i++) {
+        Sampler     sampler = sampler_start(options->seed, 0, 0, (uint32_t)i);
+        Wavelengths wavelengths;
+        float       xyz[3];
+        wavelengths_sample(sampler_1d(&sampler), &wavelengths);
+        path_illuminance(meter->context, options->position, options->normal, &wavelengths,
+                         &sampler, xyz, &statistics);
+        for (int k = 0; k < 3; k++) sums->xyz[k] += (double)xyz[k];
+        sums->squares += (double)xyz[1] * (double)xyz[1];
+    }
+}
+
+static Illuminance add_chunks(const Sums *sums, int chunks, double samples)
+{
+    Illuminance total = {0};
+    double squares = 0;
+    for (int c = 0; c < chunks; c++) {
+        for (int k = 0; k < 3; k++) total.xyz_lx[k] += sums[c].xyz[k] / samples;
+        squares += sums[c].squares / samples;
+    }
+    double variance = squares - total.xyz_lx[1] * total.xyz_lx[1];
+    total.sigma_lx = sqrt(fmax(variance, 0) / (samples - 1));
+    return total;
+}
+
+bool illuminance_measure(const Scene *scene, const IlluminanceOptions *options, Arena *arena,
+                         Illuminance *out, Error *err)
+{
+    int     chunks = (int)((options->samples + CHUNK - 1) / CHUNK);
+    Lights *lights;
+    Bvh    *bvh;
+    if (!lights_build(scene, arena, &lights, err)) return false;
+    if (!bvh_create(scene, options->threads, NULL, &bvh, err)) return false;
+    PathContext context = {.scene = scene, .bvh = bvh, .lights = lights,
+                           .tables = surface_tables_build(scene, arena),
+                           .max_bounces = options->max_bounces, .strategy = PATH_MIS};
+    Meter meter = {&context, options, ARENA_NEW(arena, Sums, chunks)};
+    parallel_for(options->threads, chunks, measure_chunk, &meter);
+    bvh_destroy(bvh);
+    *out = add_chunks(meter.sums, chunks, (double)options->samples);
+    return true;
+}

@@ -1,0 +1,24 @@
+/* illuminance.h -- a luxmeter in a scene.
+ *
+ * Units    position in metres (world), the head faces `normal`; results in lx.
+ * Memory   the lights come from the arena; the ray tracer's memory is gone on return.
+ * Threads  starts its own; the same figures for any number.
+ */
+#pragma once
+#include "path/path.h"
+
+typedef struct IlluminanceOptions {
+    Vec3     position, normal; /* normal: unit */
+    long     samples;          /* at least 2 */
+    int      max_bounces;
+    uint32_t seed;
+    int      threads;          /* at least 1 */
+} IlluminanceOptions;
+
+typedef struct Illuminance {
+    double xyz_lx[3];  /* Y is the illuminance */
+    double sigma_lx;   /* standard error of Y */
+} Illuminance;
+
+bool illuminance_measure(const Scene *scene, const IlluminanceOptions *options, Arena *arena,
+                         Illuminance *out, Error *err);
