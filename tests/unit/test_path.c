@@ -284,6 +284,40 @@ static void the_back_of_a_one_sided_emitter_is_dark(void **state)
     world_end(&world);
 }
 
+static double illuminance(const World *world, Vec3 position, Vec3 normal, int count)
+{
+    double sum = 0;
+    PathStatistics statistics = {0};
+    for (int i = 0; i < count; i++) {
+        Sampler     sampler = sampler_start(2, 0, 0, (uint32_t)i);
+        Wavelengths w;
+        float       lx[3];
+        wavelengths_sample(sampler_1d(&sampler), &w);
+        path_illuminance(&world->context, position, normal, &w, &sampler, lx, &statistics);
+        sum += (double)lx[1] / count;
+    }
+    return sum;
+}
+
+static void a_luxmeter_reads_what_falls_on_it(void **state)
+{
+    (void)state;
+    World world = world_start();
+    builder_part(world.scene, builder_material(0));
+    builder_quad(world.scene, vec3(0, -1, 0), vec3(5, 0, 0), vec3(0, 0, -5));
+    set_sky(&world, 100);
+    world.scene->environment.has_sun = true;
+    world.scene->environment.sun_elevation = (float)radians_from_degrees(30);
+    world.scene->environment.sun_illuminance_lx = 1000;
+    world.scene->lights[world.scene->light_count++] = (PunctualLight){
+        .kind = LIGHT_POINT, .position = {0, 3, 0}, .intensity = {900, 900, 900}};
+    world_ready(&world);
+    assert_close(illuminance(&world, vec3(0, 0, 0), vec3(0, 1, 0), 20000),
+                 PI * 100 + 1000 * 0.5 + 900 / 9.0, 2e-3);
+    assert_near(illuminance(&world, vec3(0, -0.5f, 0), vec3(0, -1, 0), 4000), 0, 1e-9);
+    world_end(&world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -296,6 +330,7 @@ int main(void)
         cmocka_unit_test(a_clear_ball_in_a_uniform_sky_is_invisible),
         cmocka_unit_test(half_there_shows_half_of_what_is_behind),
         cmocka_unit_test(bounces_are_counted_as_documented),
+        cmocka_unit_test(a_luxmeter_reads_what_falls_on_it),
         cmocka_unit_test(the_back_of_a_one_sided_emitter_is_dark),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
