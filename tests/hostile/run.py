@@ -93,7 +93,8 @@ def claim_refusal(report, name, check, render):
     lines = [line for line in render[2].splitlines() if "warning:" not in line]
     report.claim(render[0] == 3 and len(lines) == 1 and base in lines[0],
                  f"{name}: refusal is not one line with the file's name: {lines[:3]}")
-    errors = [p for p in problems_of(check) if p.get("severity") == "error" and p.get("message")]
+    errors = [p for p in problems_of(check)
+              if p.get("severity") == "error" and p.get("message")]
     report.claim(bool(errors), f"{name}: refused, but `check` names no error: {check[1][:200]}")
 
 
@@ -144,8 +145,8 @@ def judge(report, path, outcome):
 
 
 def models():
-    return sorted(path for ending in ("gltf", "glb")
-                  for path in glob.glob(os.path.join(DATA, "**", "*." + ending), recursive=True))
+    return sorted(path for ending in ("*.gltf", "*.glb")
+                  for path in glob.glob(os.path.join(DATA, "**", ending), recursive=True))
 
 
 def run_all(program, paths, folder):

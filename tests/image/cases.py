@@ -208,8 +208,9 @@ def sun_direction():
     """Azimuth runs from north (-Z) over east (+X)."""
     scene = Scene()
     white = scene.lambert(RHO)
-    for name, normal, centre in (("east", [1, 0, 0], [5, 0, 0]), ("north", [0, 0, -1], [0, 0, 5]),
-                                 ("west", [-1, 0, 0], [-5, 0, 0])):
+    walls = (("east", [1, 0, 0], [5, 0, 0]), ("north", [0, 0, -1], [0, 0, 5]),
+             ("west", [-1, 0, 0], [-5, 0, 0]))
+    for name, normal, centre in walls:
         scene.facing_quad(white, centre, normal, 1)
         look_from(scene, name, centre, normal)
     scene.environment(type="constant", luminance=0, sun={

@@ -1,6 +1,6 @@
-"""display.py [PANEL...] PARHELION -- a display in a black room shows what its panel emits: three primaries
-at nine grey levels from 25 directions, each against `panel eval`, luminance within 0.5 % and
-chromaticity within 0.002 in u'v'.
+"""display.py [PANEL...] PARHELION -- a display in a black room shows what its panel emits:
+three primaries at nine grey levels from 25 directions, each against `panel eval`, luminance within
+0.5 % and chromaticity within 0.002 in u'v'.
 """
 import glob
 import json
@@ -104,8 +104,8 @@ def check_panel(report, program, panel, folder):
     answers = iter(evaluated(program, panel, folder))
     for theta, phi in DIRECTIONS:
         for rgb, xyz in zip(PATCHES, shown(program, path, theta, phi, folder)):
-            found = compare(report, os.path.basename(panel), f"rgb {rgb} theta {theta} phi {phi}",
-                            xyz, next(answers))
+            place = f"rgb {rgb} theta {theta} phi {phi}"
+            found = compare(report, os.path.basename(panel), place, xyz, next(answers))
             worst = [max(a, b) for a, b in zip(worst, found)]
     print(f"{os.path.basename(panel)}: luminance off by at most {100 * worst[0]:.3g} %, "
           f"u'v' by {worst[1]:.2g}")

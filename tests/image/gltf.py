@@ -98,7 +98,8 @@ class Scene:
     def mesh(self, material, positions, triangles, normals=None, uvs=None, node=None):
         """positions, normals: [x, y, z] each; triangles: [i, j, k] each."""
         rounded = [list(struct.unpack("<3f", struct.pack("<3f", *p))) for p in positions]
-        limits = {"min": [min(c) for c in zip(*rounded)], "max": [max(c) for c in zip(*rounded)]}
+        limits = {"min": [min(c) for c in zip(*rounded)],
+                  "max": [max(c) for c in zip(*rounded)]}
         attributes = {"POSITION": self._accessor(rounded, "VEC3", 5126, "f", limits)}
         if normals:
             attributes["NORMAL"] = self._accessor(normals, "VEC3", 5126, "f")

@@ -1,5 +1,6 @@
 """marked.py PARHELION -- which way round a display is: a panel with a lobe upwards looks bright
-from above, content stands upright, and a real viewing-angle table is seen in a frame within 2 %.
+from above, content stands upright, and a real viewing-angle table is seen in a frame within
+2 %.
 """
 import csv
 import json
@@ -98,8 +99,8 @@ def check_measured(report, program, folder):
         expected = next(row[3] for row in rows if row[:2] == (theta, phi))
         mean, _ = frame_of(program, folder, panel, theta, phi).mean_luminance()
         report.claim(abs(mean / expected - 1) < 0.02,
-                     f"the measured panel at theta {theta}, phi {phi}: {mean:.5g} cd/m2 instead "
-                     f"of {expected:.5g}")
+                     f"the measured panel at theta {theta}, phi {phi}: {mean:.5g} cd/m2 "
+                     f"instead of {expected:.5g}")
         print(f"measured panel at theta {theta}, phi {phi}: off by "
               f"{100 * (mean / expected - 1):+.2g} %")
 

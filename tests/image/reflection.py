@@ -69,7 +69,7 @@ def luminous_weights(wavelengths):
 
 
 class Panel:
-    """Luminous BRDF and mirror reflectance, asked of the program for many directions at once."""
+    """Luminous BRDF and mirror reflectance, asked of the program for many directions."""
 
     def __init__(self, program, path, folder):
         self.program, self.path, self.folder, self.weights = program, path, folder, None
@@ -150,12 +150,12 @@ def scene_of(panel_path, environment, eyes):
 
 
 def shown(program, path, camera, folder):
-    """Luminance of the frame, with samples until its own error is a tenth of what is allowed."""
+    """Luminance of the frame, with samples until its own error is a fifth of the allowed."""
     samples, out = 256, os.path.join(folder, "frame.exr")
     while True:
-        subprocess.run([program, "render", path, "-o", out, "--camera", camera, "--size", "16x16",
-                        "--spp", str(samples), "--max-bounces", "1", "--layers", "variance",
-                        "--quiet"], check=True, capture_output=True, text=True)
+        subprocess.run([program, "render", path, "-o", out, "--camera", camera, "--size",
+                        "16x16", "--spp", str(samples), "--max-bounces", "1", "--layers",
+                        "variance", "--quiet"], check=True, capture_output=True, text=True)
         mean, sigma = Frame(out).mean_luminance()
         if sigma <= WITHIN / 5 * mean or samples >= 65536:
             return mean, sigma

@@ -22,5 +22,6 @@
     do {                                                                                       \
         double a_ = (double)(actual), e_ = (double)(expected);                                 \
         if (!(fabs(a_ - e_) <= (absolute)))                                                    \
-            fail_msg("%s = %.9g, expected %.9g within %.2g", #actual, a_, e_, (double)(absolute)); \
+            fail_msg("%s = %.9g, expected %.9g within %.2g", #actual, a_, e_,                  \
+                     (double)(absolute));                                                      \
     } while (0)
