@@ -151,11 +151,24 @@ static float sum_one(const Tree *tree, const TreeTaps *taps, int component)
     return sum;
 }
 
+/* The last one to three components, as part of the four that end with them or go beyond. */
+static void sum_tail(const Tree *tree, const TreeTaps *taps, int first, int count, float *out)
+{
+    float four[4];
+    int   start = first + 4 <= tree->components ? first : tree->components - 4;
+    sum_blocks(tree, taps, start, 1, four);
+    memcpy(out, four + (first - start), (size_t)count * sizeof *out);
+}
+
 static void sum_rows(const Tree *tree, const TreeTaps *taps, int first, int count, float *out)
 {
     int i = 0;
     for (; i + 16 <= count; i += 16) sum_blocks(tree, taps, first + i, 4, out + i);
     for (; i + 4 <= count; i += 4) sum_blocks(tree, taps, first + i, 1, out + i);
+    if (i < count && tree->components >= 4) {
+        sum_tail(tree, taps, first + i, count - i, out + i);
+        return;
+    }
     for (; i < count; i++) out[i] = sum_one(tree, taps, first + i);
 }
 

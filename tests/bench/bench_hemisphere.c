@@ -404,6 +404,7 @@ static void print_times(const Geodesic *geodesic, Arena scratch)
 {
     static const int   components[] = {1, 3, 16, 32};
     static const float shares[] = {0.01f, 0.05f};
+    static const char *const formats[] = {"float", "int16", "blocks"};
     Input             *in = ARENA_NEW(&scratch, Input, 1);
     for (uint32_t i = 0; i < DIRECTIONS; i++)
         in->directions[i] = direction_of(hash_u32(i) % DIRECTIONS);
@@ -414,12 +415,12 @@ static void print_times(const Geodesic *geodesic, Arena scratch)
         MAX_LEVEL, RUNS);
     for (size_t s = 0; s < 2; s++)
         for (size_t c = 0; c < 4; c++)
-            for (int rows = 0; rows < 2; rows++) {
+            for (int rows = 0; rows < (components[c] < 16 ? 2 : 3); rows++) {
                 Arena inner = scratch;
                 char  what[64];
                 fill_tree(in, components[c], shares[s], (TreeRowFormat)rows, geodesic, &inner);
                 snprintf(what, sizeof what, "%2d components, %g%% kept, %s", components[c],
-                         100 * (double)shares[s], rows ? "int16" : "float");
+                         100 * (double)shares[s], formats[rows]);
                 for (size_t w = 0; w < sizeof TREE_WORKS / sizeof *TREE_WORKS; w++)
                     time_work(&TREE_WORKS[w], what, in);
             }
