@@ -17,6 +17,9 @@ void check_buffer_view(const Check *check, const GltfValue *view)
     if (buffer && whole >= 0 && offset + length > whole)
         check_fails(check, view, "takes bytes %.15g to %.15g of a buffer of %.15g bytes",
                     offset, offset + length, whole);
+    bool has_chunk = buffer && buffer->index == 0 && check->file->bin.data;
+    if (buffer && !tree_member(buffer, "uri") && !has_chunk && !check->file->is_binary)
+        check_warns(check, view, "its buffer has no \"uri\", so there are no bytes to read");
     if (fmod(stride, 4) != 0)
         check_fails(check, tree_member(view, "byteStride"), "is %g, a multiple of 4 is wanted",
                     stride);

@@ -200,6 +200,11 @@ bool document_read(GltfFile *file)
         file->json = (const char *)bytes.data;
         file->json_size = bytes.size;
     }
+    if (file->json_size > LOAD_MAX_JSON_BYTES) {
+        file_error(file, NULL, "the JSON has %zu bytes, at most %zu are read", file->json_size,
+                   LOAD_MAX_JSON_BYTES);
+        return false;
+    }
     if (!gltf_json_parse(file->json, file->json_size, &load->scratch, &file->root, &err)) {
         file_error(file, NULL, "%s", err.text);
         return false;

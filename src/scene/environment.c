@@ -78,6 +78,11 @@ static void read_hdri(GltfFile *file, const GltfValue *extension, Environment *o
                    "%s holds integer codes; a picture of floats (EXR, HDR) is wanted", path);
     else
         clean_pixels(file, uri, &out->hdri);
+    if (out->hdri.width != 2 * out->hdri.height)
+        file_warning(file, uri,
+                     "%s has %dx%d pixels; an equirectangular picture is twice as wide "
+                     "as high",
+                     path, out->hdri.width, out->hdri.height);
 }
 
 void environment_build(GltfFile *file, const GltfValue *extension)

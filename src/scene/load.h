@@ -15,6 +15,7 @@
 
 /* Limits: more than these is refused with a clear line. */
 #define LOAD_MAX_FILE_BYTES ((size_t)4 << 30)
+#define LOAD_MAX_JSON_BYTES ((size_t)1 << 30)
 #define LOAD_MAX_ELEMENTS ((size_t)1 << 27)       /* of one accessor, and vertices in all */
 #define LOAD_SCRATCH_BYTES ((size_t)64 << 30)     /* address space; pages come when touched */
 #define LOAD_MAX_EMPTY_ELEMENTS ((size_t)1 << 22) /* of an accessor without bytes behind it */

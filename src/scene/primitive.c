@@ -326,6 +326,15 @@ static void finish_shading(GltfFile *file, PartDraft *draft, const Attributes *a
         draft_any_tangents(draft);
 }
 
+/* A buffer may lack its bytes, but not when something of it is shown. */
+static bool has_bytes(GltfFile *file, const GltfValue *primitive, const GltfAccessor *position)
+{
+    if (position->buffer_view < 0 || document_view(file, position->buffer_view).data)
+        return true;
+    file_error(file, primitive, "the bytes of POSITION are missing: their buffer has no uri");
+    return false;
+}
+
 static bool fits(GltfFile *file, const GltfValue *primitive, size_t count)
 {
     Loader *load = file->load;
@@ -344,7 +353,9 @@ void primitive_build(GltfFile *file, const GltfValue *node, const Transform *wor
     const GltfAccessor *position =
         accessor_get(file, tree_int(tree_member(primitive, "attributes"), "POSITION", NO_ID));
     if (mode < MODE_TRIANGLES) file->skipped_count++;
-    if (mode < MODE_TRIANGLES || !position || !fits(file, primitive, position->count)) return;
+    if (mode < MODE_TRIANGLES || !position || !has_bytes(file, primitive, position) ||
+        !fits(file, primitive, position->count))
+        return;
     int material_id = material >= 0 ? file->material_base + material : material_default(file);
     const int *sets = list_item(&load->material_uv_sets, material_id);
     const Material *m = list_item(&load->materials, material_id);

@@ -92,6 +92,7 @@ static const FaultCase FAULTS[] = {
     {VIEWS "'accessors':[{'componentType':5126,'count':2,'type':'SCALAR','sparse':{'count':3,"
            "'indices':{'bufferView':1,'componentType':5123},'values':{'bufferView':0}}}]",
      "/accessors/0/sparse/count", "is 3, the accessor has 2 elements"},
+    {"'buffers ':0", "/buffers ", "is skipped; is \"buffers\" meant?"},
     /* shapes */
     {PRIMITIVE("'attributes':{'POSITION':0,'NORMAL':0},'indices':0"),
      "/meshes/0/primitives/0/indices", "VEC3 of component type 5126, SCALAR"},
@@ -207,6 +208,19 @@ static void documents_that_are_none_are_refused(void **state)
                 "stands twice in one object");
     assert_text("{\"asset\":{\"version\":\"2.0\"},\"a\":1e999}", "",
                 "not valid JSON: number overflow");
+}
+
+static void a_buffer_without_bytes_is_told(void **state)
+{
+    (void)state;
+    static const char TEXT[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":36}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"accessors\":[{\"bufferView\":0,"
+        "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],\"meshes\":[{\"primitives\":"
+        "[{\"attributes\":{\"POSITION\":0}}]}],\"scenes\":[{\"nodes\":[0]}],"
+        "\"nodes\":[{\"mesh\":0}]}";
+    assert_text(TEXT, "/bufferViews/0", "its buffer has no \"uri\"");
+    assert_text(TEXT, "/meshes/0/primitives/0", "the bytes of POSITION are missing");
 }
 
 static void deep_nesting_is_refused(void **state)
@@ -400,9 +414,9 @@ static void leave_when_full(size_t bytes_wanted, size_t bytes_left)
 static void running_out_of_memory_takes_the_one_exit(void **state)
 {
     (void)state;
-    unsigned char   bytes[1024];
-    const char     *path = maker_file(bytes, small_glb(bytes), ".glb");
-    volatile int    refused = 0, loaded = 0;
+    unsigned char bytes[1024];
+    const char *path = maker_file(bytes, small_glb(bytes), ".glb");
+    volatile int refused = 0, loaded = 0;
     volatile size_t left = 16;
     for (; left < 1 << 16 && !loaded; left += left / 4 + 16) {
         Arena arena = maker.arena;
@@ -425,6 +439,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(every_fault_is_named_with_its_place, maker_reset),
         cmocka_unit_test_setup(documents_that_are_none_are_refused, maker_reset),
+        cmocka_unit_test_setup(a_buffer_without_bytes_is_told, maker_reset),
         cmocka_unit_test_setup(deep_nesting_is_refused, maker_reset),
         cmocka_unit_test_setup(all_problems_are_reported_not_the_first, maker_reset),
         cmocka_unit_test_setup(the_first_error_reaches_the_command_line, maker_reset),
