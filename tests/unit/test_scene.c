@@ -436,6 +436,38 @@ static void tangents_point_to_the_pictures_right(void **state)
     }
 }
 
+/* Along an edge where the picture folds back, either side keeps its own tangent. */
+static void a_mirrored_seam_splits_its_vertices(void **state)
+{
+    (void)state;
+    struct {
+        float points[12], normals[12], uv[8];
+        uint8_t indices[8];
+    } data = {{0, 0, 0, 1, 0, 0, 1, 1, 0, 2, 0, 0},
+              {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1},
+              {0, 1, 1, 1, 1, 0, 0, 1}, /* the last corner mirrors the first */
+              {0, 1, 2, 1, 3, 2}};
+    Scene *scene = maker_load(
+        &data, sizeof data,
+        PICTURE "'bufferViews':[{'buffer':0,'byteLength':48},{'buffer':0,'byteOffset':48,"
+                "'byteLength':48},{'buffer':0,'byteOffset':96,'byteLength':32},{'buffer':0,"
+                "'byteOffset':128,'byteLength':8}],'accessors':[{'bufferView':0,"
+                "'componentType':5126,'count':4,'type':'VEC3'},{'bufferView':1,"
+                "'componentType':5126,'count':4,'type':'VEC3'},{'bufferView':2,"
+                "'componentType':5126,'count':4,'type':'VEC2'},{'bufferView':3,"
+                "'componentType':5121,'count':6,'type':'SCALAR'}],'materials':["
+                "{'normalTexture':{'index':0}}],'meshes':[{'primitives':[{'material':0,"
+                "'indices':3,'attributes':{'POSITION':0,'NORMAL':1,'TEXCOORD_0':2}}]}]," NODE);
+    assert_int_equal(scene->vertex_count, 6);
+    for (int c = 0; c < 3; c++) {
+        const float *left = corner(scene, 0, c)->tangent, *right = corner(scene, 1, c)->tangent;
+        assert_near(left[0], 1, 1e-6);
+        assert_near(left[3], 1, 0);
+        assert_near(right[0], -1, 1e-6);
+        assert_near(right[3], -1, 0);
+    }
+}
+
 static const float *slot_matrix(const char *transform)
 {
     char members[1024];
@@ -511,6 +543,7 @@ int main(void)
         cmocka_unit_test_setup(skinned_vertices_follow_their_joints, maker_reset),
         cmocka_unit_test_setup(vertex_colours_of_every_format_agree, maker_reset),
         cmocka_unit_test_setup(tangents_point_to_the_pictures_right, maker_reset),
+        cmocka_unit_test_setup(a_mirrored_seam_splits_its_vertices, maker_reset),
         cmocka_unit_test_setup(texture_transforms_scale_turn_and_shift, maker_reset),
         cmocka_unit_test_setup(two_uv_sets_of_any_number_are_carried, maker_reset),
     };
