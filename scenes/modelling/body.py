@@ -1,5 +1,4 @@
 """The body outside: bonnet, cowl, sides, boot, tyres."""
-import math
 
 import numpy as np
 
@@ -9,19 +8,27 @@ from greenhouse import SIDES
 
 
 def bonnet_z(x, y):
-    along = np.interp(
+    """Height of bonnet and wings: the wings' ridge meets the body's shoulder behind."""
+    middle = np.interp(
         y,
         (1.10, 1.42, 1.80, 2.20, 2.42, 2.52, 2.56),
         (1.005, 0.985, 0.958, 0.905, 0.855, 0.800, 0.700),
     )
+    ridge = np.interp(
+        y,
+        (1.10, 1.30, 1.80, 2.20, 2.42, 2.52, 2.56),
+        (1.034, 1.030, 0.992, 0.935, 0.870, 0.800, 0.700),
+    )
     a = abs(x)
-    crown = -0.055 * (a / 0.75) ** 2 + 0.026 * math.exp(-(((a - 0.60) / 0.10) ** 2))
-    edge = -0.25 * max(0.0, (a - 0.74) / 0.16) ** 2
-    return along + crown + edge
+    crown = -0.055 * (a / 0.75) ** 2
+    wing = np.interp(a, (0.0, 0.782, 0.82, 0.865, 0.905), (0.0, 0.0, -0.014, -0.047, -0.132))
+    blend = min(max((a - 0.56) / 0.20, 0.0), 1.0)
+    blend = blend * blend * (3 - 2 * blend)
+    return (1 - blend) * (middle + crown) + blend * (ridge + wing)
 
 
 def bonnet():
-    xs = np.linspace(-0.90, 0.90, 49)
+    xs = np.linspace(-0.905, 0.905, 61)
     ts = np.linspace(0, 1, 30)
     rows = []
     for t in ts:
@@ -38,10 +45,10 @@ def bonnet():
     grid("bonnet", np.array(rows), "car paint")
     for side, sign in SIDES:
         line = [
-            (sign * 0.70, y, bonnet_z(0.70, y) + 0.0005) for y in np.linspace(1.38, 2.45, 40)
+            (sign * 0.665, y, bonnet_z(0.665, y) + 0.0005) for y in np.linspace(1.38, 2.45, 40)
         ]
         tube(f"bonnet shut line {side}", line, 0.0022, "gap", 6)
-    us = np.linspace(-1.05, 1.05, 33)
+    us = np.linspace(-0.985, 0.985, 33)
     cowl = [
         [(0.735 * u, glass_foot(0.735 * u) + d, 1.005 + 0.045 * u * u * k + h) for u in us]
         for d, k, h in (

@@ -63,8 +63,8 @@ def doors():
             grid(f"door {part} {side}", rows, material, flip=(sign < 0))
         strip = [door_profile([(0.7385, 0.910), (0.7380, 0.9095)], y, sign, 2)[0] for y in ys]
         tube(f"door strip {side}", strip, 0.0045, "satin chrome", 8)
-        seam = np.array([(sign * 0.7455, y, 1.0405) for y in np.linspace(1.0, -0.25, 120)])
-        stitches(f"door seam {side}", seam, np.tile((-0.3 * sign, 0, 1), (120, 1)), "thread")
+        seam = np.array([(sign * 0.7455, y, 1.0405) for y in np.linspace(1.0, 0.15, 90)])
+        stitches(f"door seam {side}", seam, np.tile((-0.3 * sign, 0, 1), (90, 1)), "thread")
         door_fittings(side, sign)
 
 

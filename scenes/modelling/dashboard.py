@@ -482,9 +482,36 @@ def climate_keys():
         label = stack_face((x, -0.0310, 0.00765))
         symbol(f"climate symbol {i}", label, i)
     joined("climate keys", keys)
+    hazard_key()
     for side, x in (("left", -0.142), ("right", 0.142)):
         at = stack_face((x, -0.0335, 0.003))
         knob(f"temperature knob {side}", at, 0.0195, 0.019)
+
+
+def hazard_key():
+    """The red triangle between the vents."""
+    box(
+        "hazard key",
+        (0.0125, 0.030, 0.006),
+        stack_face((0, 0.0338, 0.0035)),
+        "button",
+        0.0016,
+        3,
+    )
+    corners = np.array(
+        [(-0.0042, 0.0300, 0.0070), (0.0042, 0.0300, 0.0070), (0, 0.0376, 0.0070)]
+    )
+    edges = [
+        corners[k] + (corners[(k + 1) % 3] - corners[k]) * t for k in range(3) for t in (0, 0.5)
+    ]
+    tube(
+        "hazard triangle",
+        place(np.array(edges), stack_face((0, 0, 0))),
+        0.0006,
+        "symbol red",
+        6,
+        True,
+    )
 
 
 def knob(name, matrix, radius, height):

@@ -247,11 +247,11 @@ def pillar(side, sign):
     tube(
         f"A-pillar outside {side}",
         spline(np.concatenate([outer, roof]), 52),
-        0.028,
+        0.034,
         "car paint",
         16,
         False,
-        0.9,
+        0.62,
         (0, 0.46, 0.89),
     )
 

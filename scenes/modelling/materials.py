@@ -95,6 +95,8 @@ MATERIALS = {
     "grass": surface((1, 1, 1), 1.0, texture="grass_color"),
     "foliage": surface((1, 1, 1), 0.9, texture="leaf_color"),
     "foliage light": surface((1.0, 0.82, 0.40), 0.9, texture="leaf_color"),
+    "leaf": surface((0.046, 0.088, 0.022), 0.7),
+    "leaf light": surface((0.060, 0.095, 0.018), 0.7),
     "bark": surface((0.075, 0.056, 0.040), 0.95),
     "facade plaster": surface((1, 1, 1), 0.85, texture="facade_plaster"),
     "facade brick": surface((1, 1, 1), 0.85, texture="facade_brick"),

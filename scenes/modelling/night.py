@@ -11,6 +11,7 @@ import finish
 from outside import LAMPS
 from shapes import box, frame_matrix, joined, mesh, tube
 
+LIT_LAMPS = [lamp for lamp in LAMPS if -20.0 < lamp[1] < 150.0]
 SKY = {"type": "constant", "luminance": 0.05, "color": [0.55, 0.72, 1.0]}
 
 
@@ -34,7 +35,7 @@ def lamp_heads():
             "lamp head",
             0,
         )
-        for x, y, z in LAMPS
+        for x, y, z in LIT_LAMPS
     ]
     joined("street lamp heads", faces)
 
@@ -160,7 +161,7 @@ def light_places():
     """(name, light, position, direction) in the car's frame, y forward and z up."""
     out = [
         (f"street lamp {i}", 0, (x, y, z - 0.02), (0, 0, -1))
-        for i, (x, y, z) in enumerate(LAMPS)
+        for i, (x, y, z) in enumerate(LIT_LAMPS)
     ]
     out += [
         (f"footwell {side}", 1, (x, 0.62, 0.55), None)

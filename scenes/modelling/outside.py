@@ -116,12 +116,17 @@ def houses():
                 HOUSES.append((x - side * width / 2, y, depth, floors, side))
                 i += 1
             y += depth + rng.choice((0.4, 3.0, 7.0))
+    for k in range(6):
+        floors = (2, 3, 2, 4, 3, 2)[k]
+        house(
+            i + k, -56.0 - 2 * (k % 2), -86.0 + 22 * k, 13, 19, floors, facades[k % 2], k == 3
+        )
 
 
-def crown(name, centre, radius, seed, material):
+def crown(name, centre, radius, seed, material, subdivisions):
     """A leafy crown: a ball pushed in and out by noise."""
     ball = bmesh.new()
-    bmesh.ops.create_icosphere(ball, subdivisions=3, radius=1.0)
+    bmesh.ops.create_icosphere(ball, subdivisions=subdivisions, radius=1.0)
     data = bpy.data.meshes.new(name)
     for v in ball.verts:
         n = v.co.normalized()
@@ -150,42 +155,46 @@ def tree(i, x, y, height, rng):
         up=(0, 1, 0),
     )
     kind = rng.choice(("foliage", "foliage", "foliage light"))
-    balls = [crown("crown", (x, y, height * 0.66), radius, 10 * i + 1.3, kind)]
+    ahead = y > 0 and abs(x) < 10
+    detail = 3 if ahead and y < 60 else 2
+    balls = [crown("crown", (x, y, height * 0.66), radius, 10 * i + 1.3, kind, detail)]
     for k in range(2):
         angle = rng.uniform(0, 6.28)
         offset = Vector((math.cos(angle), math.sin(angle), 0)) * radius * 0.55
         centre = Vector((x, y, height * (0.54 + 0.22 * k))) + offset
-        balls.append(crown("crown", centre, radius * 0.66, 10 * i + 4.1 * k, kind))
+        balls.append(crown("crown", centre, radius * 0.66, 10 * i + 4.1 * k, kind, detail))
     crowns = joined(f"tree {i}", balls)
-    count, size = (2000, 0.20) if y < 40 else (900, 0.30) if y < 80 else (300, 0.50)
-    leaves(f"leaves {i}", crowns, count, size, kind)
+    count, size = (1900, 0.26) if y < 40 else (800, 0.40) if y < 80 else (260, 0.65)
+    if not ahead:
+        count, size = 420, 0.50
+    leaves(f"leaves {i}", crowns, count, size, kind.replace("foliage", "leaf"))
 
 
 def leaves(name, crowns, count, size, material):
-    """Clumps of leaves scattered over the crowns: small quads turned at random."""
+    """Sprays of leaves scattered over the crowns: small triangles turned at random."""
     rng = np.random.default_rng(sum(map(ord, name)))
     data = crowns.data
     centres = np.array([p.center for p in data.polygons])
     normals = np.array([p.normal for p in data.polygons])
     chosen = rng.choice(len(centres), count)
     middle = centres[chosen] + normals[chosen] * rng.uniform(-0.05, 0.14, (count, 1))
-    middle += rng.normal(0, 0.6 * size, (count, 3))
+    middle += rng.normal(0, 0.45 * size, (count, 3))
     facing = normals[chosen] + rng.normal(0, 0.55, (count, 3)) + np.array([0, 0, 0.35])
     facing /= np.linalg.norm(facing, axis=1)[:, None]
     side = np.cross(facing, rng.normal(0, 1, (count, 3)))
     side /= np.linalg.norm(side, axis=1)[:, None]
     lift = np.cross(facing, side)
     scale = size * rng.uniform(0.6, 1.3, (count, 1))
-    corners = [middle - scale * side, middle - 0.42 * scale * lift]
-    corners += [middle + scale * side, middle + 0.42 * scale * lift]
+    corners = [middle - scale * side, middle + scale * (0.5 * side - 0.45 * lift)]
+    corners.append(middle + scale * (0.5 * side + 0.45 * lift))
     vertices = np.stack(corners, axis=1).reshape(-1, 3)
-    mesh(name, vertices, np.arange(4 * count).reshape(-1, 4), material)
+    mesh(name, vertices, np.arange(3 * count).reshape(-1, 3), material)
 
 
 def trees():
     rng = random.Random(11)
     i = 0
-    for x, start, gap in ((4.4, 17.0, 18.0), (-7.9, 11.0, 18.0)):
+    for x, start, gap in ((4.4, -37.0, 18.0), (-7.9, 11.0, 18.0)):
         for y in np.arange(start, 175, gap):
             tree(
                 i,
@@ -195,6 +204,9 @@ def trees():
                 rng,
             )
             i += 1
+    for x, y in ((-20, -26), (-31, -12), (-27, -44), (-38, 6), (-24, 14), (-42, -30)):
+        tree(i, x, y, rng.uniform(5.5, 7.5), rng)
+        i += 1
 
 
 def street_lamps():
@@ -210,16 +222,16 @@ def street_lamps():
                 (foot - 0.9 * side, y, 7.42),
                 (x + 0.3 * side, y, 7.46),
             ],
-            20,
+            14,
         )
-        tube(f"lamp post {i}", path, np.linspace(0.075, 0.035, 20), "pole", 8, up=(0, 1, 0))
+        tube(f"lamp post {i}", path, np.linspace(0.075, 0.035, 14), "pole", 7, up=(0, 1, 0))
         box(
             f"lamp housing {i}",
             (0.62, 0.24, 0.09),
             frame_matrix((x, y, z + 0.115), (1, 0, 0), (0, 1, 0)),
             "pole",
             0.03,
-            3,
+            2,
         )
 
 
@@ -308,9 +320,10 @@ def hills():
         ("hills far", 1500.0, 150.0, "hills far", 9.0),
     ):
         rows = [[], [], [], []]
-        for a in np.linspace(math.radians(-75), math.radians(75), 140):
+        for a in np.linspace(-math.pi, math.pi, 220):
             x, y = distance * math.sin(a), distance * math.cos(a)
-            n = 0.5 + 0.5 * perlin.fractal(Vector((3.2 * a + seed, seed, 0)), 1.0, 2.0, 6)
+            spot = Vector((3.2 * math.sin(a) + seed, seed, 3.2 * math.cos(a)))
+            n = 0.5 + 0.5 * perlin.fractal(spot, 1.0, 2.0, 6)
             h = height * (0.25 + n)
             for row, (k, back) in enumerate(
                 ((0.0, -0.16), (0.45, -0.06), (0.86, 0.0), (1.0, 0.05))
@@ -319,7 +332,9 @@ def hills():
                     (
                         x * (1 + back),
                         y * (1 + back),
-                        h * k - 1.0 + 0.06 * height * k * rng.uniform(-0.4, 0.4),
+                        h * k
+                        - 1.0
+                        + 0.06 * height * k * rng.uniform(-0.4, 0.4) * (abs(a) < 3.1),
                     )
                 )
         grid(name, np.array(rows), material)

@@ -268,7 +268,7 @@ def stitches(
     path, normals = np.asarray(path, float), np.asarray(normals, float)
     arc = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
     vertices, faces = [], []
-    ring = [(math.cos(a), math.sin(a)) for a in np.linspace(0, 2 * math.pi, 5, endpoint=False)]
+    ring = [(math.cos(a), math.sin(a)) for a in np.linspace(0, 2 * math.pi, 4, endpoint=False)]
     for start in np.arange(0, arc[-1] - length, pitch):
         s = start + np.array([0.0, 0.3, 0.7, 1.0]) * length
         points = np.column_stack([np.interp(s, arc, path[:, k]) for k in range(3)])
@@ -285,9 +285,9 @@ def stitches(
             wide = 0.5 * thickness * (0.55 if k in (0, 3) else 1.0)
             vertices.extend(centre + wide * (c * side + d * normal) for c, d in ring)
         for k in range(3):
-            for j in range(5):
-                a, b = base + 5 * k + j, base + 5 * k + (j + 1) % 5
-                faces.append([a, b, b + 5, a + 5])
+            for j in range(4):
+                a, b = base + 4 * k + j, base + 4 * k + (j + 1) % 4
+                faces.append([a, b, b + 4, a + 4])
     return mesh(name, vertices, faces, material)
 
 

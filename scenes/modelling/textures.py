@@ -172,13 +172,14 @@ def wood_normal():
 
 
 def asphalt_color():
-    field = 1 + 0.22 * noise((512, 512), 60, 230, 31) + 0.07 * noise((512, 512), 2, 10, 32)
-    stones = np.clip(noise((512, 512), 90, 220, 33) - 1.4, 0, 1)
+    shape = (320, 320)
+    field = 1 + 0.22 * noise(shape, 40, 140, 31) + 0.05 * noise(shape, 2, 10, 32)
+    stones = np.clip(noise(shape, 60, 140, 33) - 1.4, 0, 1)
     return tinted((0.088, 0.089, 0.092), np.clip(field + 0.9 * stones, 0.35, 3))
 
 
 def asphalt_normal():
-    return normal_map(noise((256, 256), 30, 110, 34), 0.35)
+    return normal_map(noise((160, 160), 20, 70, 34), 0.35)
 
 
 def grass_color():
