@@ -5,7 +5,7 @@
 
 /* Up to this bounce every set of lights is sampled at every vertex; later ones draw one set. */
 #define ALL_SETS_BOUNCES 2
-#define ROULETTE_FIRST_BOUNCE 3
+#define ROULETTE_FIRST_BOUNCE 2
 #define MIRROR_SHARE 0.5f /* of the samples that follow the first window's mirror image */
 #define PASSES_MAX 512 /* windows and holes along one path: more is a closed loop of rounding */
 
@@ -214,7 +214,7 @@ static void absorb(Walk *walk, float distance)
 static bool roulette(Walk *walk)
 {
     if (walk->bounce < ROULETTE_FIRST_BOUNCE) return true;
-    float survival = fminf(spectrum_max_lane(walk->throughput), 0.95f);
+    float survival = fminf(sqrtf(spectrum_max_lane(walk->throughput)), 0.95f);
     if (sampler_1d(walk->sampler) >= survival) return false;
     walk->throughput *= spectrum_all(1 / survival);
     return true;
