@@ -219,20 +219,23 @@ static bool xyz_from_yxy(const RawTable *raw, float *value, int line, Arena *are
     return true;
 }
 
-bool angle_table_read_xyz(const char *file, const char *name, Arena *arena, AngleTable *out,
-                          Error *err)
+/* Address space for the text of one file and its numbers; given back when they are sorted. */
+#define SCRATCH_BYTES ((size_t)64 << 30)
+
+static bool read_xyz(const char *file, const char *name, Arena *scratch, RawTable *out,
+                     Error *err)
 {
     static const char *const xyz[] = {"theta", "phi", "X", "Y", "Z"};
     static const char *const yxy[] = {"theta", "phi", "Y", "x", "y"};
     CsvTable csv;
     RawTable raw;
-    if (!csv_table_read(file, arena, &csv, err)) return false;
+    if (!csv_table_read(file, scratch, &csv, err)) return false;
     bool is_yxy = csv_table_column(&csv, "x") >= 0 && csv_table_column(&csv, "X") < 0;
     const char *const *wanted = is_yxy ? yxy : xyz;
-    if (!start_rows(&csv, name, arena, &raw, err) ||
+    if (!start_rows(&csv, name, scratch, &raw, err) ||
         !reject_other_columns(&csv, wanted, 5, err))
         return false;
-    float *value = ARENA_NEW(arena, float, 3 * (size_t)csv.rows);
+    float *value = ARENA_NEW(scratch, float, 3 * (size_t)csv.rows);
     for (int j = 0; j < 3; j++) {
         int column = csv_table_column(&csv, wanted[2 + j]);
         if (column < 0) return missing_column(&csv, wanted[2 + j], err);
@@ -240,11 +243,24 @@ bool angle_table_read_xyz(const char *file, const char *name, Arena *arena, Angl
             value[3 * i + j] = csv.cell[(size_t)i * (size_t)csv.columns + (size_t)column];
     }
     for (int i = 0; i < csv.rows && is_yxy; i++)
-        if (!xyz_from_yxy(&raw, value + 3 * i, csv.line[i], arena, err)) return false;
+        if (!xyz_from_yxy(&raw, value + 3 * i, csv.line[i], scratch, err)) return false;
     raw.value = value;
     raw.channels = 3;
-    return finish_table(&raw, emission_noise, arena, out, err);
+    *out = raw;
+    return true;
 }
+
+bool angle_table_read_xyz(const char *file, const char *name, Arena *arena, AngleTable *out,
+                          Error *err)
+{
+    RawTable raw;
+    Arena    scratch = arena_reserve(SCRATCH_BYTES);
+    bool     ok = read_xyz(file, name, &scratch, &raw, err) &&
+                  finish_table(&raw, emission_noise, arena, out, err);
+    arena_release(&scratch);
+    return ok;
+}
+
 
 static bool is_wavelength_column(const CsvTable *csv, int column, const float *wavelength_nm,
                                  int count)
@@ -285,15 +301,15 @@ static bool reject_other_wavelengths(const CsvTable *csv, const float *wavelengt
     return true;
 }
 
-bool angle_table_read_brdf(const char *file, const float *wavelength_nm, int count,
-                           Arena *arena, AngleTable *out, Error *err)
+static bool read_brdf(const char *file, const float *wavelength_nm, int count, Arena *scratch,
+                      RawTable *out, Error *err)
 {
     CsvTable csv;
     RawTable raw;
-    if (!csv_table_read(file, arena, &csv, err) || !start_rows(&csv, "", arena, &raw, err) ||
+    if (!csv_table_read(file, scratch, &csv, err) || !start_rows(&csv, "", scratch, &raw, err) ||
         !reject_other_wavelengths(&csv, wavelength_nm, count, err))
         return false;
-    float *value = ARENA_NEW(arena, float, (size_t)csv.rows * (size_t)count);
+    float *value = ARENA_NEW(scratch, float, (size_t)csv.rows * (size_t)count);
     for (int w = 0; w < count; w++) {
         int column = wavelength_column(&csv, wavelength_nm[w], count);
         if (column < 0)
@@ -306,7 +322,19 @@ bool angle_table_read_brdf(const char *file, const float *wavelength_nm, int cou
     }
     raw.value = value;
     raw.channels = count;
-    return finish_table(&raw, brdf_noise, arena, out, err);
+    *out = raw;
+    return true;
+}
+
+bool angle_table_read_brdf(const char *file, const float *wavelength_nm, int count,
+                           Arena *arena, AngleTable *out, Error *err)
+{
+    RawTable raw;
+    Arena    scratch = arena_reserve(SCRATCH_BYTES);
+    bool     ok = read_brdf(file, wavelength_nm, count, &scratch, &raw, err) &&
+                  finish_table(&raw, brdf_noise, arena, out, err);
+    arena_release(&scratch);
+    return ok;
 }
 
 /* ---- polar grids --------------------------------------------------------------------- */

@@ -1,5 +1,6 @@
 #include "panel/fit.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -66,6 +67,52 @@ static bool finish_file(const FitParts *parts, const char *path, Arena *arena, j
     return true;
 }
 
+/* Error of the haze with a frame exponent; what it takes is dropped with the arena. */
+static bool try_frame(const FitParts *parts, float exponent, Arena arena, double *error,
+                      Error *err)
+{
+    FitNotes       unheard = {.arena = &arena};
+    FitOptions     options = *parts->options;
+    FitReflection *trial = ARENA_NEW(&arena, FitReflection, 1);
+    FitParts       part = *parts;
+    Panel         *panel;
+    size_t         size;
+    *trial = *parts->reflection;
+    options.frame_exponent = exponent;
+    part.reflection = trial;
+    if (!fit_reflection(parts->set, &options, &arena, &unheard, trial, err)) return false;
+    void *bytes = fit_file_bytes(&part, "{}", &arena, &size);
+    if (!panel_from_bytes(bytes, size, "trial", &arena, &panel, err)) return false;
+    *error = fit_reflection_error(parts->set, trial, panel, 5);
+    return true;
+}
+
+/* The frame exponent with the least error: wide haze likes 1, narrow haze 2. */
+static bool choose_frame(const FitParts *parts, Arena *arena, FitOptions *options, Error *err)
+{
+    static const float exponents[] = {2, 1.5f, 1};
+    double best = INFINITY, error;
+    if (options->frame_exponent > 0) return true;
+    for (int i = 0; i < 3; i++) {
+        if (!try_frame(parts, exponents[i], *arena, &error, err)) return false;
+        if (!(error < best)) continue;
+        best = error;
+        options->frame_exponent = exponents[i];
+    }
+    return true;
+}
+
+/* Haze, floor and mirror of parts->set into *reflection. */
+static bool fit_all_reflection(FitParts *parts, FitReflection *reflection, Arena *arena,
+                               Error *err)
+{
+    FitOptions options = *parts->options;
+    parts->reflection = reflection;
+    fit_separate(parts->set, arena, parts->notes, reflection);
+    return choose_frame(parts, arena, &options, err) &&
+           fit_reflection(parts->set, &options, arena, parts->notes, reflection, err);
+}
+
 bool panel_fit(const Measurement *measurement, const FitOptions *options, const char *path,
                Arena *arena, json_t **report, Error *err)
 {
@@ -74,15 +121,14 @@ bool panel_fit(const Measurement *measurement, const FitOptions *options, const 
     FitReflection  *reflection = ARENA_NEW(arena, FitReflection, 1);
     PanelPrimaries *primaries = ARENA_NEW(arena, PanelPrimaries, 1);
     FitParts parts = {measurement, options, emission, primaries,
-                      measurement->incidence_count ? reflection : NULL, &notes};
+                      NULL, &notes};
     Progress progress = progress_start(options->progress, "fit", "steps", 4);
     note_limits(measurement, &notes);
     if (!fit_emission(measurement, options, arena, &notes, emission, err)) return false;
     progress_update(&progress, 1);
     fit_spectra(measurement, emission, &notes, primaries);
     progress_update(&progress, 2);
-    if (parts.reflection &&
-        !fit_reflection(measurement, options, arena, &notes, reflection, err))
+    if (measurement->incidence_count && !fit_all_reflection(&parts, reflection, arena, err))
         return false;
     progress_update(&progress, 3);
     bool ok = finish_file(&parts, path, arena, report, err);

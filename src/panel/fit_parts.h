@@ -71,11 +71,17 @@ typedef struct FitReflection {
     const void     *sampling[PANEL_SLICES_MAX];
     AngleTable      haze[MEASUREMENT_INCIDENCES_MAX]; /* what is left without the mirror */
     double          noise[MEASUREMENT_INCIDENCES_MAX];
+    double          reflectance[MEASUREMENT_INCIDENCES_MAX][MEASUREMENT_WAVELENGTHS_MAX];
     double          mirror_y[MEASUREMENT_INCIDENCES_MAX]; /* luminous mirror reflectance */
+    double          luminous[MEASUREMENT_WAVELENGTHS_MAX]; /* observer's weight, sum 1 */
     double          largest_albedo; /* before it was held at 1 */
     bool            has_mirror;
 } FitReflection;
 
+/* First step: noise, and haze and mirror told apart, for every slice. */
+void fit_separate(const Measurement *set, Arena *arena, FitNotes *notes, FitReflection *out);
+
+/* Second step, on what the first one left in *out. options->frame_exponent above 0. */
 bool fit_reflection(const Measurement *set, const FitOptions *options, Arena *arena,
                     FitNotes *notes, FitReflection *out, Error *err);
 
@@ -125,3 +131,8 @@ void *fit_file_bytes(const FitParts *parts, const char *meta, Arena *arena, size
 
 /* Compares the panel with the tables; a new JSON document. */
 json_t *fit_measure(const FitParts *parts, const Panel *panel, size_t file_bytes);
+
+/* L2 error of the haze over the L2 norm of the haze, weighted by the cosine, at every `stride`-th
+ * measured direction; rms over the slices. */
+double fit_reflection_error(const Measurement *set, const FitReflection *reflection,
+                            const Panel *panel, int stride);

@@ -21,8 +21,6 @@ typedef struct Work {
     int    leaves, wavelengths, slices, mirrored, measured;
     float  k;
     float *logs[PANEL_SLICES_MAX]; /* places x wavelengths: ln (f / F) */
-    double mirror[MEASUREMENT_INCIDENCES_MAX][MEASUREMENT_WAVELENGTHS_MAX];
-    double luminous[MEASUREMENT_WAVELENGTHS_MAX]; /* observer's weight, sum 1 */
     DirectionGrid grid;
     float *cells; /* of the last slice: ln f */
 } Work;
@@ -119,7 +117,7 @@ static double mirror_ratio(const Work *work, int wavelength, double fresnel)
     for (int k = 0; k < 2; k++) {
         int j = i + k < m ? i + k : m - 1;
         f[k] = fit_fresnel(cos(work->set->incidence[j]));
-        ratio[k] = work->mirror[j][wavelength] / f[k];
+        ratio[k] = work->out->reflectance[j][wavelength] / f[k];
     }
     if (m < 2 || fresnel <= f[0] || !(f[1] - f[0] > 1e-6)) return ratio[fresnel > f[0]];
     double value = ratio[0] + (ratio[1] - ratio[0]) * (fresnel - f[0]) / (f[1] - f[0]);
@@ -211,30 +209,47 @@ static void fill_mirror(Work *work)
     }
 }
 
-static void separate_mirror(Work *work)
+static void luminous_weights(const Measurement *set, double *luminous)
 {
-    double fwhm = radians_from_degrees(work->set->instrument_fwhm_deg);
-    for (int i = 0; i < work->measured; i++) {
-        const AngleTable *slice = &work->set->brdf[i];
-        work->out->haze[i] = *slice;
-        work->out->noise[i] = fit_noise(slice, work->wavelengths / 2, *work->arena);
-        if (!(fwhm > 0)) continue;
-        fit_mirror(slice, work->set->incidence[i], fwhm, work->arena, work->mirror[i],
-                   &work->out->haze[i]);
-        for (int w = 0; w < work->wavelengths; w++)
-            work->out->mirror_y[i] += work->luminous[w] * work->mirror[i][w];
-        work->out->has_mirror |= work->out->mirror_y[i] > 0;
+    double total = 0;
+    for (int w = 0; w < set->wavelength_count; w++) {
+        int i = (int)((double)set->wavelength_nm[w] + 0.5) - SPECTRAL_FIRST_NM;
+        i = i < 0 ? 0 : i >= SPECTRAL_COUNT ? SPECTRAL_COUNT - 1 : i;
+        luminous[w] = (double)spectral_table[i].y + 0.002;
+        total += luminous[w];
     }
-    if (work->out->has_mirror)
-        fit_note(work->notes, "a mirror image as wide as the instrument (%g deg) was moved to "
-                 "the mirror part: luminous reflectance %.4f at %g deg, %.4f at %g deg",
-                 work->set->instrument_fwhm_deg, work->out->mirror_y[0],
-                 degrees_from_radians(work->set->incidence[0]),
-                 work->out->mirror_y[work->measured - 1],
-                 degrees_from_radians(work->set->incidence[work->measured - 1]));
-    else if (!(fwhm > 0))
-        fit_note(work->notes, "the instrument's width is not declared (instrument_fwhm_deg): "
-                 "no mirror part was separated");
+    for (int w = 0; w < set->wavelength_count; w++) luminous[w] /= total;
+}
+
+static void note_mirror(const Measurement *set, const FitReflection *out, FitNotes *notes)
+{
+    int last = set->incidence_count - 1;
+    if (out->has_mirror)
+        fit_note(notes, "a mirror image as wide as the instrument (%g deg) was moved to the "
+                 "mirror part: luminous reflectance %.4f at %g deg, %.4f at %g deg",
+                 set->instrument_fwhm_deg, out->mirror_y[0],
+                 degrees_from_radians(set->incidence[0]), out->mirror_y[last],
+                 degrees_from_radians(set->incidence[last]));
+    else if (!(set->instrument_fwhm_deg > 0))
+        fit_note(notes, "the instrument's width is not declared (instrument_fwhm_deg): no "
+                 "mirror part was separated");
+}
+
+void fit_separate(const Measurement *set, Arena *arena, FitNotes *notes, FitReflection *out)
+{
+    double fwhm = radians_from_degrees(set->instrument_fwhm_deg);
+    luminous_weights(set, out->luminous);
+    for (int i = 0; i < set->incidence_count; i++) {
+        const AngleTable *slice = &set->brdf[i];
+        out->haze[i] = *slice;
+        out->noise[i] = fit_noise(slice, set->wavelength_count / 2, *arena);
+        if (!(fwhm > 0)) continue;
+        fit_mirror(slice, set->incidence[i], fwhm, arena, out->reflectance[i], &out->haze[i]);
+        for (int w = 0; w < set->wavelength_count; w++)
+            out->mirror_y[i] += out->luminous[w] * out->reflectance[i][w];
+        out->has_mirror |= out->mirror_y[i] > 0;
+    }
+    note_mirror(set, out, notes);
 }
 
 /* ---- energy ---------------------------------------------------------------------------- */
@@ -270,7 +285,7 @@ static void settle_energy(Work *work)
             double mirror = work->out->has_mirror ? f * mirror_ratio(work, w, f) : 0;
             double total = albedo[w] + mirror, room = fmax(0.01, 0.995 - mirror);
             work->out->largest_albedo = fmax(work->out->largest_albedo, total);
-            sum += work->luminous[w] * fmin(albedo[w], room);
+            sum += work->out->luminous[w] * fmin(albedo[w], room);
             if (albedo[w] <= room) continue;
             float lower = (float)log(albedo[w] / room);
             for (int i = 0; i < work->places.count; i++)
@@ -406,7 +421,7 @@ static bool build_sampling(Work *work, Error *err)
             double sum = 0;
             const float *logs = work->logs[s] + (size_t)from * (size_t)work->wavelengths;
             for (int w = 0; w < work->wavelengths; w++)
-                sum += work->luminous[w] * exp((double)logs[w]);
+                sum += work->out->luminous[w] * exp((double)logs[w]);
             double jacobian =
                 (double)specular_frame_jacobian(&frame, work->places.direction[i]);
             integral[from] = (float)(sum * fmax(0, (double)outer.z) * work->places.area[i] *
@@ -424,26 +439,18 @@ static bool build_sampling(Work *work, Error *err)
 static void start_work(Work *work)
 {
     PanelReflection *head = &work->out->head;
-    double total = 0;
     work->measured = work->set->incidence_count;
     work->wavelengths = work->set->wavelength_count;
     work->places = fit_places(work->options->level ? work->options->level : DEFAULT_LEVEL, 2,
                               work->arena);
     work->leaves = work->places.leaves;
-    for (int w = 0; w < work->wavelengths; w++) {
-        int i = (int)((double)work->set->wavelength_nm[w] + 0.5) - SPECTRAL_FIRST_NM;
-        i = i < 0 ? 0 : i >= SPECTRAL_COUNT ? SPECTRAL_COUNT - 1 : i;
-        work->luminous[w] = (double)spectral_table[i].y + 0.002;
-        total += work->luminous[w];
-        head->wavelength_nm[w] = work->set->wavelength_nm[w];
-    }
-    for (int w = 0; w < work->wavelengths; w++) work->luminous[w] /= total;
+    memcpy(head->wavelength_nm, work->set->wavelength_nm,
+           sizeof *head->wavelength_nm * (size_t)work->wavelengths);
     head->wavelengths = (uint32_t)work->wavelengths;
     head->padded_wavelengths = (head->wavelengths + 15) / 16 * 16;
     head->refractive_index = (float)FIT_REFRACTIVE_INDEX;
     head->is_cubic = !work->options->is_linear_in_incidence;
-    head->frame_exponent = work->k = work->options->frame_exponent > 0
-                                         ? work->options->frame_exponent : 2;
+    head->frame_exponent = work->k = work->options->frame_exponent;
 }
 
 bool fit_reflection(const Measurement *set, const FitOptions *options, Arena *arena,
@@ -459,7 +466,6 @@ bool fit_reflection(const Measurement *set, const FitOptions *options, Arena *ar
     work->notes = notes;
     work->out = out;
     start_work(work);
-    separate_mirror(work);
     name_slices(work);
     fill_slices(work);
     settle_energy(work);

@@ -13,6 +13,7 @@
 
 typedef struct Errors {
     double max, squares, count, integral, integral_source;
+    double l2, l2_source; /* of the values themselves, cosine-weighted */
 } Errors;
 
 static Vec3 direction_of(const AngleTable *table, int row)
@@ -36,6 +37,8 @@ static void add_error(Errors *errors, double found, double wanted, double scale,
     errors->count += 1;
     errors->integral += weight * found;
     errors->integral_source += weight * wanted;
+    errors->l2 += weight * (found - wanted) * (found - wanted);
+    errors->l2_source += weight * wanted * wanted;
 }
 
 static void finish(const Errors *errors, FitTable *out)
@@ -82,9 +85,9 @@ static Wavelengths measured_wavelengths(const Measurement *set, int first)
     return wavelengths;
 }
 
-/* The haze against the table without the mirror's image. */
-static void measure_reflection(const Measurement *set, int slice, const AngleTable *table,
-                               const Panel *panel, FitTable *out)
+/* The haze against the table without the mirror's image, at every stride-th row. */
+static Errors reflection_errors(const Measurement *set, int slice, const AngleTable *table,
+                                const Panel *panel, int stride)
 {
     Errors errors = {0};
     double theta = set->incidence[slice];
@@ -92,7 +95,7 @@ static void measure_reflection(const Measurement *set, int slice, const AngleTab
     for (int first = 0; first < set->wavelength_count; first += SPECTRUM_LANES) {
         Wavelengths wavelengths = measured_wavelengths(set, first);
         int lanes = set->wavelength_count - first;
-        for (int i = 0; i < table->rows; i++) {
+        for (int i = 0; i < table->rows; i += stride) {
             const float *m = table->value + (size_t)i * (size_t)table->channels + first;
             Spectrum f = panel_brdf(panel, direction_of(table, i), wi, &wavelengths);
             for (int k = 0; k < lanes && k < SPECTRUM_LANES; k++)
@@ -100,8 +103,18 @@ static void measure_reflection(const Measurement *set, int slice, const AngleTab
                           row_weight(table, i));
         }
     }
-    finish(&errors, out);
-    out->extrapolated = (double)panel->reflection->cone_cos;
+    return errors;
+}
+
+double fit_reflection_error(const Measurement *set, const FitReflection *reflection,
+                            const Panel *panel, int stride)
+{
+    double sum = 0;
+    for (int i = 0; i < set->incidence_count; i++) {
+        Errors errors = reflection_errors(set, i, &reflection->haze[i], panel, stride);
+        sum += errors.l2 / fmax(1e-30, errors.l2_source);
+    }
+    return sqrt(sum / fmax(1, set->incidence_count));
 }
 
 /* rms of |f(i, o) - f(o, i)| / mean over pairs of measured incidences, at 550 nm or next. */
@@ -195,7 +208,9 @@ static void add_reflection_tables(const FitParts *parts, const Panel *panel, jso
             .float32_bytes = (size_t)(2 + from->channels) * sizeof(float) * (size_t)from->rows,
             .stored_values = values / parts->set->incidence_count,
             .bytes = bytes / parts->set->incidence_count, .noise = r->noise[i]};
-        measure_reflection(parts->set, i, from, panel, &one);
+        Errors errors = reflection_errors(parts->set, i, from, panel, 1);
+        finish(&errors, &one);
+        one.extrapolated = (double)panel->reflection->cone_cos;
         add_table(tables, total, &one);
     }
 }
