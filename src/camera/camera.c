@@ -37,6 +37,10 @@ Ray camera_ray(const Camera *camera, float x, float y)
 
 SceneCamera camera_frame_scene(const Scene *scene)
 {
+    if (!scene->triangle_count)
+        return (SceneCamera){.node_name = "", .camera_name = "origin", .is_perspective = true,
+                             .yfov = 0.7f, .zfar = INFINITY,
+                             .world_from_camera = transform_identity()};
     Vec3  centre = vec3_scale(vec3_add(scene->bounds_min, scene->bounds_max), 0.5f);
     Vec3  size = vec3_sub(scene->bounds_max, scene->bounds_min);
     float radius = fmaxf(0.5f * vec3_length(size), 1e-6f);

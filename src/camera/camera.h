@@ -21,5 +21,5 @@ Camera camera_from_scene(const SceneCamera *camera, int width, int height);
 Ray camera_ray(const Camera *camera, float x, float y);
 
 /* A camera that sees the whole scene from the front (+Z), slightly from above: for scenes that
- * have none. The scene's bounds must not be empty. */
+ * have none. Without triangles: from the origin along -Z. */
 SceneCamera camera_frame_scene(const Scene *scene);

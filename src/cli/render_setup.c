@@ -177,11 +177,10 @@ bool render_choose_camera(const Scene *scene, const char *wanted, Problems *prob
         *out = scene->cameras[index];
         return true;
     }
-    if (!scene->triangle_count)
-        return error_at(err, ERROR_INPUT, scene->input_count ? scene->inputs[0] : "", NULL,
-                        "the scene has neither a camera nor triangles to look at");
     *out = camera_frame_scene(scene);
     problems_add(problems, SEVERITY_WARNING, scene->input_count ? scene->inputs[0] : "", NULL,
-                 "the scene has no camera: it is framed whole");
+                 scene->triangle_count ? "the scene has no camera: it is framed whole"
+                                       : "the scene has neither a camera nor triangles: the "
+                                         "view is from its origin along -Z");
     return true;
 }
