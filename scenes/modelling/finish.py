@@ -28,8 +28,12 @@ def needs_coordinates(item):
 
 
 def finish_meshes():
+    done = set()
     for item in [o for o in bpy.context.scene.objects if o.type == "MESH"]:
+        if item.data.name in done:  # copies share one mesh
+            continue
         apply_modifiers(item)
+        done.add(item.data.name)
         if not needs_coordinates(item):
             while item.data.uv_layers:
                 item.data.uv_layers.remove(item.data.uv_layers[0])

@@ -132,9 +132,8 @@ def crown(name, centre, radius, seed, material, subdivisions):
         n = v.co.normalized()
         bump = perlin.fractal(n * 1.7 + Vector((seed, 0, 0)), 1.0, 2.0, 4)
         fine = perlin.fractal(n * 6.0 + Vector((0, seed, 0)), 1.0, 2.0, 2)
-        v.co = Vector(centre) + Vector((n.x, n.y, n.z * 1.12)) * radius * (
-            1 + 0.30 * bump + 0.17 * fine
-        )
+        stretched = Vector((n.x, n.y, n.z * 1.12))
+        v.co = Vector(centre) + stretched * radius * (1 + 0.30 * bump + 0.17 * fine)
     ball.to_mesh(data)
     ball.free()
     data.materials.append(named_material(material))
@@ -144,41 +143,18 @@ def crown(name, centre, radius, seed, material, subdivisions):
     return item
 
 
-def tree(i, x, y, height, rng):
-    radius = 0.26 * height
-    tube(
-        f"trunk {i}",
-        spline([(x, y, 0), (x + 0.05, y, height * 0.3), (x, y + 0.1, height * 0.62)], 6),
-        np.linspace(0.17, 0.09, 6),
-        "bark",
-        8,
-        up=(0, 1, 0),
-    )
-    kind = rng.choice(("foliage", "foliage", "foliage light"))
-    ahead = y > 0 and abs(x) < 10
-    detail = 3 if ahead and y < 60 else 2
-    balls = [crown("crown", (x, y, height * 0.66), radius, 10 * i + 1.3, kind, detail)]
-    for k in range(2):
-        angle = rng.uniform(0, 6.28)
-        offset = Vector((math.cos(angle), math.sin(angle), 0)) * radius * 0.55
-        centre = Vector((x, y, height * (0.54 + 0.22 * k))) + offset
-        balls.append(crown("crown", centre, radius * 0.66, 10 * i + 4.1 * k, kind, detail))
-    crowns = joined(f"tree {i}", balls)
-    count, size = (1900, 0.26) if y < 40 else (800, 0.40) if y < 80 else (260, 0.65)
-    if not ahead:
-        count, size = 420, 0.50
-    leaves(f"leaves {i}", crowns, count, size, kind.replace("foliage", "leaf"))
-
-
 def leaves(name, crowns, count, size, material):
     """Sprays of leaves scattered over the crowns: small triangles turned at random."""
     rng = np.random.default_rng(sum(map(ord, name)))
     data = crowns.data
     centres = np.array([p.center for p in data.polygons])
     normals = np.array([p.normal for p in data.polygons])
-    chosen = rng.choice(len(centres), count)
+    areas = np.array([p.area for p in data.polygons])
+    chosen = rng.choice(len(centres), count, p=areas / areas.sum())
     middle = centres[chosen] + normals[chosen] * rng.uniform(-0.05, 0.14, (count, 1))
-    middle += rng.normal(0, 0.45 * size, (count, 3))
+    middle += rng.normal(0, 1, (count, 3)) * (
+        0.3 * size + 0.3 * np.sqrt(areas[chosen])[:, None]
+    )
     facing = normals[chosen] + rng.normal(0, 0.55, (count, 3)) + np.array([0, 0, 0.35])
     facing /= np.linalg.norm(facing, axis=1)[:, None]
     side = np.cross(facing, rng.normal(0, 1, (count, 3)))
@@ -188,25 +164,61 @@ def leaves(name, crowns, count, size, material):
     corners = [middle - scale * side, middle + scale * (0.5 * side - 0.45 * lift)]
     corners.append(middle + scale * (0.5 * side + 0.45 * lift))
     vertices = np.stack(corners, axis=1).reshape(-1, 3)
-    mesh(name, vertices, np.arange(3 * count).reshape(-1, 3), material)
+    return mesh(name, vertices, np.arange(3 * count).reshape(-1, 3), material)
+
+
+# Trees are copies of a few: (kind, subdivisions of the crowns, leaves, their size in metres).
+TREES = {
+    "near": ("foliage", 3, 5200, 0.165),
+    "middle": ("foliage light", 3, 1700, 0.28),
+    "far": ("foliage", 2, 420, 0.55),
+}
+TREE_HEIGHT = 6.6  # m, of the originals
+
+
+def original_tree(label):
+    """Trunk, crowns and leaves of one kind of tree, standing at the origin."""
+    kind, detail, count, size = TREES[label]
+    radius, height = 0.26 * TREE_HEIGHT, TREE_HEIGHT
+    path = spline([(0, 0, 0), (0.05, 0, 0.3 * height), (0, 0.1, 0.62 * height)], 5)
+    trunk = tube(f"trunk {label}", path, np.linspace(0.17, 0.09, 5), "bark", 8, up=(0, 1, 0))
+    balls = [crown("crown", (0, 0, 0.66 * height), radius, len(label) + 1.3, kind, detail)]
+    for k, angle in enumerate((0.7, 2.9, 5.0)):
+        offset = Vector((math.cos(angle), math.sin(angle), 0)) * radius * 0.55
+        centre = Vector((0, 0, height * (0.54 + 0.11 * k))) + offset
+        balls.append(crown("crown", centre, radius * 0.62, 4.1 * k + len(label), kind, detail))
+    crowns = joined(f"tree {label}", balls)
+    spray = leaves(f"leaves {label}", crowns, count, size, kind.replace("foliage", "leaf"))
+    return trunk, crowns, spray
+
+
+def planted(originals, i, x, y, rng):
+    """A copy of a tree at (x, y), turned and sized at random."""
+    scale, turn = rng.uniform(0.82, 1.22), rng.uniform(0, 2 * math.pi)
+    for part in originals:
+        copy = bpy.data.objects.new(f"{part.name} {i}", part.data)
+        copy.matrix_world = (
+            Matrix.Translation((x, y, 0))
+            @ Matrix.Rotation(turn, 4, "Z")
+            @ Matrix.Scale(scale, 4)
+        )
+        bpy.context.scene.collection.objects.link(copy)
 
 
 def trees():
     rng = random.Random(11)
-    i = 0
-    for x, start, gap in ((4.4, -37.0, 18.0), (-7.9, 11.0, 18.0)):
-        for y in np.arange(start, 175, gap):
-            tree(
-                i,
-                x + rng.uniform(-0.2, 0.2),
-                y + rng.uniform(-1.5, 1.5),
-                rng.uniform(5.5, 8.0),
-                rng,
-            )
-            i += 1
-    for x, y in ((-20, -26), (-31, -12), (-27, -44), (-38, 6), (-24, 14), (-42, -30)):
-        tree(i, x, y, rng.uniform(5.5, 7.5), rng)
-        i += 1
+    originals = {label: original_tree(label) for label in TREES}
+    spots = [(4.4, y) for y in np.arange(-37, 175, 18)]
+    spots += [(-7.9, y) for y in np.arange(11, 175, 18)]
+    spots += [(-20, -26), (-31, -12), (-27, -44), (-38, 6), (-24, 14), (-42, -30)]
+    for i, (x, y) in enumerate(spots):
+        ahead = y > 0 and abs(x) < 10
+        label = "near" if ahead and y < 40 else "middle" if ahead and y < 80 else "far"
+        where = x + rng.uniform(-0.2, 0.2), y + rng.uniform(-1.5, 1.5)
+        planted(originals[label], i, *where, rng)
+    for parts in originals.values():
+        for part in parts:
+            bpy.data.objects.remove(part)
 
 
 def street_lamps():
