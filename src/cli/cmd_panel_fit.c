@@ -64,8 +64,9 @@ bool cmd_panel_fit(int argc, char **argv, Error *err)
          &max_error, 1e-5, 1, .given = NULL},
         {"--wavelet", OPTION_CHOICE, "haar|cdf53|cdf97",
          "wavelet along the wavelengths (default cdf53)", &wavelet, .given = NULL},
-        {"--frame", OPTION_NUMBER, "K", "specular frame's exponent, 1 to 3 (default: the least error)",
-         &frame, 1, 3, .given = NULL},
+        {"--frame", OPTION_NUMBER, "K",
+         "specular frame's exponent, 1 to 3 (default: the least error)", &frame, 1, 3,
+         .given = NULL},
         {"--incidence", OPTION_CHOICE, "cubic|linear",
          "between incidences: four slices or two (default cubic)", &incidence, .given = NULL},
     };

@@ -306,7 +306,8 @@ static bool read_brdf(const char *file, const float *wavelength_nm, int count, A
 {
     CsvTable csv;
     RawTable raw;
-    if (!csv_table_read(file, scratch, &csv, err) || !start_rows(&csv, "", scratch, &raw, err) ||
+    if (!csv_table_read(file, scratch, &csv, err) ||
+        !start_rows(&csv, "", scratch, &raw, err) ||
         !reject_other_wavelengths(&csv, wavelength_nm, count, err))
         return false;
     float *value = ARENA_NEW(scratch, float, (size_t)csv.rows * (size_t)count);

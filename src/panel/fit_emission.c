@@ -476,7 +476,7 @@ bool fit_emission(const Measurement *set, const FitOptions *options, Arena *aren
     out->loading = rank.loading;
     out->head.channels = (uint32_t)channels;
     out->head.components = (uint32_t)rank.components;
-    out->head.cone_cos = cosf((float)leaves.cone);
+    out->head.cone_cos = fmaxf(0, cosf((float)leaves.cone));
     out->head.level_power = 2.2f;
     note_grids(&leaves, notes);
     if (set->has_black && !out->head.has_black)

@@ -132,7 +132,7 @@ void *fit_file_bytes(const FitParts *parts, const char *meta, Arena *arena, size
 /* Compares the panel with the tables; a new JSON document. */
 json_t *fit_measure(const FitParts *parts, const Panel *panel, size_t file_bytes);
 
-/* L2 error of the haze over the L2 norm of the haze, weighted by the cosine, at every `stride`-th
- * measured direction; rms over the slices. */
+/* L2 error of the haze over its L2 norm, weighted by the cosine, at every `stride`-th measured
+ * direction; rms over the slices. */
 double fit_reflection_error(const Measurement *set, const FitReflection *reflection,
                             const Panel *panel, int stride);

@@ -230,7 +230,10 @@ static void note_mirror(const Measurement *set, const FitReflection *out, FitNot
                  set->instrument_fwhm_deg, out->mirror_y[0],
                  degrees_from_radians(set->incidence[0]), out->mirror_y[last],
                  degrees_from_radians(set->incidence[last]));
-    else if (!(set->instrument_fwhm_deg > 0))
+    else if (set->instrument_fwhm_deg > 0)
+        fit_note(notes, "no image as narrow as the instrument (%g deg) stands out of the haze: "
+                 "no mirror part", set->instrument_fwhm_deg);
+    else
         fit_note(notes, "the instrument's width is not declared (instrument_fwhm_deg): no "
                  "mirror part was separated");
 }
@@ -472,7 +475,7 @@ bool fit_reflection(const Measurement *set, const FitOptions *options, Arena *ar
     fill_mirror(work);
     double edge = 0.5 * PI;
     for (int i = 0; i < work->measured; i++) edge = fmin(edge, (double)set->brdf[i].theta_max);
-    out->head.cone_cos = (float)cos(edge);
+    out->head.cone_cos = (float)fmax(0, cos(edge));
     if (!build_sampling(work, err)) return false;
     transform_spectra(work, energy);
     double tolerance = options->max_error > 0 ? (double)options->max_error : 3e-3;

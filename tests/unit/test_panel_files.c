@@ -195,7 +195,7 @@ static void other_layouts_say_the_same(void **state)
     for (int j = 0; j < 3; j++) {
         size_t at = (size_t)snprintf(text, sizeof text, "theta\\phi,0,30,60,90,120,150,180,210,"
                                      "240,270,300,330\n");
-        for (int t = 0; t <= 80; t += 5) {
+        for (int t = 0; t <= 90; t += 5) {
             at += (size_t)snprintf(text + at, sizeof text - at, "%d", t);
             for (int p = 0; p < 12; p++)
                 at += (size_t)snprintf(text + at, sizeof text - at, ",%g",
@@ -205,7 +205,7 @@ static void other_layouts_say_the_same(void **state)
         fixture_file(&folder, j == 0 ? "X.csv" : j == 1 ? "Y.csv" : "Z.csv", text);
     }
     size_t at = (size_t)snprintf(text, sizeof text, "theta,phi,X,Y,Z\n");
-    for (int t = 80; t >= 0; t -= 5) /* from the horizon up, a wedge shadowed */
+    for (int t = 90; t >= 0; t -= 5) /* from the horizon up, a wedge shadowed */
         for (int p = 0; p < (t ? 12 : 1); p++) {
             double c = cos(radians_from_degrees(t));
             if (p == 4 && t > 20 && t < 50) continue;
