@@ -11,7 +11,7 @@ run 'sizes and contents of the sources' source python3 tests/structure/source.py
 run 'the README names what is there' readme python3 tests/structure/readme.py
 run 'scenes hold to their schemas' schemas python3 tests/structure/schemas.py
 
-if run_one 'release build, warnings are errors' build-release build release; then
+if run_one 'release build, warnings are errors' build-release build release all; then
     run 'libraries keep no state' globals sh tests/structure/globals.sh .build/release
     run_units 'unit tests' unit .build/release
     run 'the command line' cli python3 tests/hostile/cli.py .build/release/parhelion
@@ -24,14 +24,16 @@ if run_one 'release build, warnings are errors' build-release build release; the
         python3 tests/image/reflection.py .build/release/parhelion
     run 'same bits, any threads' bits python3 tests/image/bits.py .build/release/parhelion
 fi
-if run_one 'build with address sanitizer' build-asan build asan; then
+if run_one 'build with address sanitizer' build-asan build asan all; then
     export UBSAN_OPTIONS=print_stacktrace=1
     run_units 'unit tests, address sanitizer' unit-asan .build/asan
     run 'malformed and foreign models' hostile \
         python3 tests/hostile/run.py .build/asan/parhelion
 fi
-if run_one 'build with thread sanitizer' build-tsan build tsan parhelion; then
+if run_one 'build with thread sanitizer' build-tsan \
+    build tsan parhelion test_base test_render; then
     export TSAN_OPTIONS=ignore_noninstrumented_modules=1
+    run_units 'unit tests, thread sanitizer' unit-tsan .build/tsan -R '^(base|render)$'
     run 'two threads, thread sanitizer' tsan \
         python3 tests/image/bits.py --small .build/tsan/parhelion
 fi
