@@ -105,6 +105,9 @@ static void raise_and_wait(int number)
 static void the_first_interrupt_asks_and_the_second_ends(void **state)
 {
     (void)state;
+#ifdef __SANITIZE_THREAD__
+    skip(); /* it holds signals back, and forgets the second one in a child */
+#endif
     static const int numbers[] = {SIGINT, SIGTERM};
     for (int i = 0; i < 2; i++) {
         pid_t child = fork();
