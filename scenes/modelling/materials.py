@@ -67,8 +67,8 @@ MATERIALS = {
     "walnut open pore": surface(
         (1, 1, 1), 0.42, texture="wood_color", normal=("wood_normal", 0.6)
     ),
-    "satin chrome": surface((0.70, 0.70, 0.71), 0.25, 1.0),
-    "bright chrome": surface((0.74, 0.74, 0.75), 0.14, 1.0),
+    "satin chrome": surface((0.70, 0.70, 0.71), 0.32, 1.0),
+    "bright chrome": surface((0.74, 0.74, 0.75), 0.24, 1.0),
     "brushed aluminium": surface((0.78, 0.785, 0.79), 0.32, 1.0),
     "button": surface((0.034, 0.034, 0.036), 0.45),
     "symbol white": grey(0.72, 0.6),
