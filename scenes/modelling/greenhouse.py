@@ -160,8 +160,7 @@ def rail(y):
     return np.interp(y, RAIL_Y[::-1], RAIL_X[::-1]), np.interp(y, RAIL_Y[::-1], RAIL_Z[::-1])
 
 
-def belt(y):
-    return 0.778, 1.036 + 0.012 * (1.1 - y)
+BELT_X, BELT_Z = 0.778, 1.036  # m, the windows' lower edge
 
 
 def side_sheet(name, sign, y_range, material, outward=0.0, low=0.0, high=None, step=0.04):
@@ -172,7 +171,7 @@ def side_sheet(name, sign, y_range, material, outward=0.0, low=0.0, high=None, s
     for t in np.linspace(0, 1, 9):
         row = []
         for y in ys:
-            (bx, bz), (rx, rz) = belt(y), rail(y)
+            (bx, bz), (rx, rz) = (BELT_X, BELT_Z), rail(y)
             rz = max(rz, bz + 0.002)
             top = rz - bz
             start = min(max(top + low, 0), top) if low < 0 else min(low, top)
@@ -220,7 +219,7 @@ def side_windows():
 
 def waist_chrome(side, sign):
     ys = np.linspace(1.05, -1.6, 40)
-    path = [(sign * (belt(y)[0] + 0.008), y, belt(y)[1] + 0.004) for y in ys]
+    path = [(sign * (BELT_X + 0.008), y, BELT_Z + 0.004) for y in ys]
     tube(f"waist strip {side}", path, 0.006, "satin chrome", 8)
 
 

@@ -128,6 +128,7 @@ def spokes():
             "plastic dark",
         )
         switch_pod(side, sign)
+        spoke_inlay(side, sign)
         paddle(side, sign)
     spoke(
         "steering wheel spoke lower",
@@ -146,6 +147,15 @@ def spokes():
         0.0015,
         3,
     )
+
+
+def spoke_inlay(side, sign):
+    """A satin line along the lower edge of a spoke, from the hub to the rim."""
+    path = [(0.070, -0.0360, 0.0195), (0.100, -0.0315, 0.0165), (0.135, -0.0245, 0.0115)]
+    path.append((0.160, -0.0175, 0.0075))
+    points = spline([(sign * x, y, z) for x, y, z in path], 16)
+    turn = tuple(WHEEL.to_3x3() @ Vector((0, 0, 1)))
+    tube(f"spoke inlay {side}", place(points, WHEEL), 0.0026, "satin chrome", 10, up=turn)
 
 
 def switch_pod(side, sign):
