@@ -18,7 +18,7 @@
 
 /* Exactly one of keep_share and max_error is above 0; the others have 0 for "choose". */
 typedef struct FitOptions {
-    int         level;      /* of the trees; 0: 6 for emission, 7 for reflection */
+    int         level;      /* of the trees; 0: 6, cells of 1.1 degrees */
     float       keep_share; /* stored rows over leaves, (0, 1] */
     float       max_error;  /* relative, of each tree component */
     WaveletKind wavelet;    /* along the wavelengths */

@@ -24,7 +24,6 @@ typedef struct Leaves {
     int       count, channels;
     float    *logs; /* count x channels, leaves and rings */
     float    *doubt; /* count x channels: standard deviation of the logarithm */
-    float    *floor; /* per channel, cd m^-2 */
     LeafTaps *taps;
     Arena    *arena;
     double    cone; /* radians: the narrowest table's */
@@ -129,7 +128,6 @@ static void add_channels(Leaves *leaves, int first, const AngleTable *table,
     for (int j = 0; j < 3; j++) {
         float floor = fmaxf(1e-6f * table_maximum(values, leaves->count, j), 1e-9f);
         float dim_noise = (float)fit_dim_noise(table, j, *leaves->arena);
-        leaves->floor[first + j] = floor;
         for (int i = 0; i < leaves->count; i++) {
             float total = values[3 * i + j], dark = black ? black[3 * i + j] : 0;
             float sigma = sqrtf((float)(noise * noise) * total * total +
@@ -169,7 +167,6 @@ static Leaves start_leaves(int level, int channels, Arena *arena)
     leaves.count = leaves.places.count;
     leaves.logs = ARENA_NEW(arena, float, (size_t)leaves.count * (size_t)channels);
     leaves.doubt = ARENA_NEW(arena, float, (size_t)leaves.count * (size_t)channels);
-    leaves.floor = ARENA_NEW(arena, float, channels);
     return leaves;
 }
 
@@ -293,14 +290,49 @@ static void channel_weights(const Leaves *leaves, bool has_black, double *weight
     }
 }
 
-/* Ranges of log X/Y and log Z/Y over the measured cone, where a table's light is above a
- * fiftieth of its maximum (and 0.2 cd/m2): noise has no colour. A percent at either end is
- * left out. Source 0..2: a primary's levels; 3: the black pattern. */
-static void ratio_range(const Leaves *leaves, int first, int count, float low[2], float high[2])
+/* Axes of a cloud of (ln X/Y, ln Z/Y): its centre and the direction of its largest spread. */
+static void cloud_axes(double *const ratio[2], int count, PanelBend *out)
+{
+    double mean[2] = {0, 0}, m[3] = {0, 0, 0};
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < 2; k++) mean[k] += ratio[k][i] / count;
+    for (int i = 0; i < count; i++) {
+        double u = ratio[0][i] - mean[0], v = ratio[1][i] - mean[1];
+        m[0] += u * u, m[1] += u * v, m[2] += v * v;
+    }
+    double angle = 0.5 * atan2(2 * m[1], m[0] - m[2]);
+    for (int k = 0; k < 2; k++) out->origin[k] = (float)mean[k];
+    out->along[0] = (float)cos(angle);
+    out->along[1] = (float)sin(angle);
+}
+
+/* Where the colours lie along and across these axes; half a percent at either end is left
+ * out, a margin is added. */
+static void cloud_range(double *const ratio[2], int count, PanelBend *out)
+{
+    for (int i = 0; i < count; i++) {
+        double u = ratio[0][i] - (double)out->origin[0];
+        double v = ratio[1][i] - (double)out->origin[1];
+        ratio[0][i] = u * (double)out->along[0] + v * (double)out->along[1];
+        ratio[1][i] = v * (double)out->along[0] - u * (double)out->along[1];
+    }
+    for (int k = 0; k < 2; k++) {
+        qsort(ratio[k], (size_t)count, sizeof(double), fit_by_value);
+        double low = ratio[k][count / 200], high = ratio[k][count - 1 - count / 200];
+        double margin = 0.002 + 0.05 * (high - low);
+        out->low[k] = (float)(low - margin);
+        out->high[k] = (float)(high + margin);
+    }
+}
+
+/* Colours over the measured cone, where a table's light is above a fiftieth of its maximum
+ * (and 0.2 cd/m2): noise has no colour. Source 0..2: a primary's levels; 3: black. */
+static void find_range(const Leaves *leaves, int first, int count, PanelBend *out)
 {
     double *ratio[2];
     int     kept = 0;
     Arena   scratch = *leaves->arena;
+    *out = (PanelBend){.along = {1, 0}, .low = {-1, -1}, .high = {1, 1}};
     for (int k = 0; k < 2; k++)
         ratio[k] = ARENA_NEW(&scratch, double, (size_t)leaves->count * (size_t)(count / 3 + 1));
     for (int c = first; c < first + count; c += 3) {
@@ -315,11 +347,9 @@ static void ratio_range(const Leaves *leaves, int first, int count, float low[2]
             ratio[1][kept++] = (double)(row[2] - row[1]);
         }
     }
-    for (int k = 0; k < 2; k++) {
-        qsort(ratio[k], (size_t)kept, sizeof(double), fit_by_value);
-        low[k] = kept ? (float)ratio[k][kept / 100] - 0.03f : -1;
-        high[k] = kept ? (float)ratio[k][kept - 1 - kept / 100] + 0.03f : 1;
-    }
+    if (!kept) return;
+    cloud_axes(ratio, kept, out);
+    cloud_range(ratio, kept, out);
 }
 
 static void find_ranges(const Measurement *set, const Leaves *leaves, FitEmission *out)
@@ -327,7 +357,7 @@ static void find_ranges(const Measurement *set, const Leaves *leaves, FitEmissio
     int first = 0;
     for (int p = 0; p < 4; p++) {
         int count = p < 3 ? 3 * set->primary[p].level_count : out->head.has_black ? 3 : 0;
-        ratio_range(leaves, first, count, out->ratio_low[p], out->ratio_high[p]);
+        find_range(leaves, first, count, &out->range[p]);
         int axis = 0, last = first + count - 3;
         for (int i = 0; i < leaves->count; i++)
             if (leaves->places.direction[i].z > leaves->places.direction[axis].z) axis = i;

@@ -27,7 +27,7 @@ typedef struct FitEmission {
     float        *mean, *loading, *mean_y, *profile; /* as in the file */
     const void   *tree;
     TreeReport    tree_report;
-    float         ratio_low[4][2], ratio_high[4][2]; /* ranges of log X/Y, log Z/Y */
+    PanelBend     range[4]; /* where the colours lie; coefficients still empty */
     double        peak_xyz[4][3]; /* at the brightest level on the axis; 3: black */
     double        noise[3 * PANEL_LEVELS_MAX + 1]; /* relative, per table; last: black */
     double        rank_residual; /* rms of ln values that the components leave out */

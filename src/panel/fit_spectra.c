@@ -60,6 +60,21 @@ static double bend_rest(const double moment[3][3], const double ratio[2], double
     return fmax(fabs(rest[0]), fabs(rest[1]));
 }
 
+/* Does bending leave the spectrum a display's? Of the same luminance, it must nowhere be four
+ * times as high as the highest peak was: extreme coefficients blow up the tails. */
+static bool is_tame(const float *spectrum, const double c[3])
+{
+    double before = 0, after = 0;
+    for (int i = 0; i < SPECTRAL_COUNT; i++) {
+        double t = (SPECTRAL_FIRST_NM + i - 560) / 180.0, s = (double)spectrum[i];
+        before = fmax(before, s);
+        if (s > 0) after = fmax(after, s * exp(c[0] + (c[1] + c[2] * t) * t));
+    }
+    double zero[3] = {0, 0, 0}, xyz[3];
+    fit_bent_xyz(spectrum, zero, xyz);
+    return after < 4 * before / xyz[1];
+}
+
 bool fit_bend(const float *spectrum, const double ratio[2], double c[3])
 {
     double moment[3][3], rest[2], jacobian[4];
@@ -73,7 +88,7 @@ bool fit_bend(const float *spectrum, const double ratio[2], double c[3])
             c[0] = -log(LUMINOUS_EFFICACY_MAX * moment[1][0]);
             c[1] = at[1];
             c[2] = at[2];
-            return true;
+            return is_tame(spectrum, c);
         }
         double det = jacobian[0] * jacobian[3] - jacobian[1] * jacobian[2];
         if (!(fabs(det) > 1e-14)) return false;
@@ -112,44 +127,42 @@ static bool bend_along(const float *spectrum, const double from[2], const double
     return false;
 }
 
-/* Bends to `ratio`; where that cannot be, the ratio of the stronger of X and Z first, then as
- * far as it goes with the weaker one, which the eye hardly sees. */
-static bool bend_towards(const float *spectrum, const double own[2], const double ratio[2],
-                         double c[3])
+/* (ln X/Y, ln Z/Y) at a node of the table. */
+static void node_ratio(const PanelBend *bend, double along, double across, double ratio[2])
 {
-    double trial[3] = {c[0], c[1], c[2]};
-    if (fit_bend(spectrum, ratio, trial)) {
-        memcpy(c, trial, sizeof trial);
-        return true;
-    }
-    bool   x_first = own[0] > own[1];
-    double between[2] = {x_first ? ratio[0] : own[0], x_first ? own[1] : ratio[1]};
-    memset(c, 0, 3 * sizeof *c);
-    if (!fit_bend(spectrum, own, c)) return false;
-    if (!bend_along(spectrum, own, between, c)) return false;
-    return bend_along(spectrum, between, ratio, c);
+    double ax = (double)bend->along[0], ay = (double)bend->along[1];
+    ratio[0] = (double)bend->origin[0] + along * ax - across * ay;
+    ratio[1] = (double)bend->origin[1] + along * ay + across * ax;
 }
 
-/* The table over the ranges of log X/Y and log Z/Y. Returns how many nodes were not reached. */
-static int fill_bend(const float *spectrum, const float low[2], const float high[2],
-                     PanelBend *out)
+static double node_at(const PanelBend *bend, int coordinate, int index)
 {
-    double xyz[3], zero[3] = {0, 0, 0}, c[3] = {0, 0, 0};
+    double low = (double)bend->low[coordinate], high = (double)bend->high[coordinate];
+    return low + (high - low) * index / (PANEL_BEND_SIDE - 1);
+}
+
+/* The table: along the spread of the colours first, then from there to either side, so that
+ * neighbours stay neighbours where bending does not reach all the way. Returns how many nodes
+ * were not reached. */
+static int fill_bend(const float *spectrum, PanelBend *bend)
+{
+    double xyz[3], zero[3] = {0, 0, 0};
     int    missed = 0;
     fit_bent_xyz(spectrum, zero, xyz);
     double own[2] = {log(xyz[0] / xyz[1]), log(xyz[2] / xyz[1])};
-    memcpy(out->low, low, sizeof out->low);
-    memcpy(out->high, high, sizeof out->high);
-    for (int v = 0; v < PANEL_BEND_SIDE; v++)
-        for (int i = 0; i < PANEL_BEND_SIDE; i++) {
-            int    u = v % 2 ? PANEL_BEND_SIDE - 1 - i : i; /* neighbours start each other */
-            double ratio[2] = {
-                (double)low[0] + (double)(high[0] - low[0]) * u / (PANEL_BEND_SIDE - 1),
-                (double)low[1] + (double)(high[1] - low[1]) * v / (PANEL_BEND_SIDE - 1)};
-            missed += !bend_towards(spectrum, own, ratio, c);
-            float *to = out->coefficient[v * PANEL_BEND_SIDE + u];
+    for (int i = 0; i < PANEL_BEND_SIDE; i++) {
+        double along = node_at(bend, 0, i), middle[2], start[3] = {0, 0, 0};
+        node_ratio(bend, along, 0, middle);
+        fit_bend(spectrum, own, start);
+        bool is_reached = bend_along(spectrum, own, middle, start);
+        for (int j = 0; j < PANEL_BEND_SIDE; j++) {
+            double ratio[2], c[3] = {start[0], start[1], start[2]};
+            node_ratio(bend, along, node_at(bend, 1, j), ratio);
+            missed += !(is_reached && bend_along(spectrum, middle, ratio, c));
+            float *to = bend->coefficient[j * PANEL_BEND_SIDE + i];
             for (int k = 0; k < 3; k++) to[k] = (float)c[k];
         }
+    }
     return missed;
 }
 
@@ -187,8 +200,8 @@ void fit_spectra(const Measurement *set, const FitEmission *emission, FitNotes *
     }
     normalise(out->spectrum[3]);
     for (int p = 0; p < 4; p++) {
-        int missed = fill_bend(out->spectrum[p], emission->ratio_low[p],
-                               emission->ratio_high[p], &out->bend[p]);
+        out->bend[p] = emission->range[p];
+        int missed = fill_bend(out->spectrum[p], &out->bend[p]);
         if (missed && (p < 3 || emission->head.has_black))
             fit_note(notes, "%s: %d of %d colours of the spectrum's table cannot be reached; "
                      "the nearest ones on the way serve", names[p], missed,

@@ -13,8 +13,10 @@
 #include "panel/panel.h"
 #include "spectrum/spectral_table.h"
 
+_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "files are queried in place");
+
 #define PANEL_MAGIC "PHPANEL\n"
-#define PANEL_VERSION 1u
+#define PANEL_VERSION 2u
 #define PANEL_SECTIONS_MAX 64
 #define PANEL_LEVELS_MAX 64
 #define PANEL_SLICES_MAX 40
@@ -64,10 +66,13 @@ typedef struct PanelEmission {
      * profile[PANEL_ANGLES][1 + 2 harmonics][components] */
 } PanelEmission;
 
-/* How a primary's spectrum is bent: coefficients over (log X/Y, log Z/Y). */
+/* How a primary's spectrum is bent: coefficients over (u, v) = (ln X/Y, ln Z/Y), in axes along
+ * which the measured colours spread: those of a narrow primary lie along a curve, and bending
+ * reaches hardly anything beside it. First coordinate: along, second: across. */
 typedef struct PanelBend {
-    float low[2], high[2];
-    float coefficient[PANEL_BEND_SIDE * PANEL_BEND_SIDE][3]; /* first index: log Z/Y */
+    float origin[2], along[2]; /* in (u, v); a unit vector, across = (-along[1], along[0]) */
+    float low[2], high[2];     /* of the two coordinates */
+    float coefficient[PANEL_BEND_SIDE * PANEL_BEND_SIDE][3]; /* across * side + along */
 } PanelBend;
 
 /* Red, green, blue, black. Spectra every nm from SPECTRAL_FIRST_NM, of 1 cd m^-2. */

@@ -151,8 +151,11 @@ static int cubic_cell(float at, float low, float high, float weight[4])
 void panel_bend_lookup(const PanelBend *bend, const float logs[3], float coefficient[3])
 {
     float wu[4], wv[4];
-    int   u = cubic_cell(logs[0] - logs[1], bend->low[0], bend->high[0], wu);
-    int   v = cubic_cell(logs[2] - logs[1], bend->low[1], bend->high[1], wv);
+    float du = logs[0] - logs[1] - bend->origin[0], dv = logs[2] - logs[1] - bend->origin[1];
+    float along = du * bend->along[0] + dv * bend->along[1];
+    float across = dv * bend->along[0] - du * bend->along[1];
+    int   u = cubic_cell(along, bend->low[0], bend->high[0], wu);
+    int   v = cubic_cell(across, bend->low[1], bend->high[1], wv);
     coefficient[0] = coefficient[1] = coefficient[2] = 0;
     for (int j = 0; j < 4; j++)
         for (int i = 0; i < 4; i++) {
@@ -197,7 +200,9 @@ Spectrum panel_emission_spectrum(const Panel *panel, Vec3 direction, const float
         /* Far from a narrow primary the curve may run away where the primary is dark: infinity
          * times nothing would be no number. */
         exponent = spectrum_min(exponent, spectrum_all(EXPONENT_MOST));
-        sum += spectrum_of(panel->primaries->spectrum[s], wavelengths) * spectrum_exp(exponent);
+        /* far from the primary's light, where T is 0, the exponent may be anything */
+        sum += spectrum_of(panel->primaries->spectrum[s], wavelengths) *
+               spectrum_exp(spectrum_min(exponent, spectrum_all(80)));
     }
     return sum;
 }
