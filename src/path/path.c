@@ -3,8 +3,9 @@
 #include "base/units.h"
 #include "spectrum/photometry.h"
 
-/* Up to this bounce every set of lights is sampled at every vertex; later ones draw one set. */
-#define ALL_SETS_BOUNCES 2
+/* From this bounce on lights are sampled less often: what they add is dim by then. */
+#define DEEP_BOUNCE 2
+#define DEEP_SHARE 0.4f
 #define ROULETTE_FIRST_BOUNCE 2
 #define MIRROR_SHARE 0.5f /* of the samples that follow the first window's mirror image */
 #define PASSES_MAX 512 /* windows and holes along one path: more is a closed loop of rounding */
@@ -21,6 +22,7 @@ typedef struct Walk {
     float    xyz[3];     /* found so far, of displays whose measured XYZ arrives unchanged */
     float    straight;   /* m since the last scattering vertex (windows do not scatter) */
     Vec3     last_ns;    /* of that vertex */
+    int      last_part_id;
     float    last_pdf;   /* with which it chose the direction, sr^-1 */
     bool     last_is_delta; /* no light sample could have found what comes now */
     int      bounce;     /* scattering vertices so far */
@@ -30,14 +32,10 @@ typedef struct Walk {
 
 /* ---- weights ---------------------------------------------------------------------------- */
 
-/* With which probability a vertex at `bounce` samples this set of lights. */
-static float set_probability(const Lights *lights, LightSet set, int bounce)
+/* With which probability a vertex of the part at `bounce` samples this set of lights. */
+static float set_probability(const LightChoice *choice, int part_id, LightSet set, int bounce)
 {
-    if (!lights_has(lights, set)) return 0;
-    if (bounce < ALL_SETS_BOUNCES) return 1;
-    int sets = 0;
-    for (int i = 0; i < LIGHT_SETS; i++) sets += lights_has(lights, (LightSet)i);
-    return 1 / (float)sets;
+    return choice_of_part(choice, part_id)[set] * (bounce < DEEP_BOUNCE ? 1 : DEEP_SHARE);
 }
 
 /* The power heuristic (Veach 1997, 9.2.4) for two strategies. */
@@ -54,7 +52,7 @@ static float emission_weight(const Walk *walk, LightSet set, float light_pdf)
     const PathContext *context = walk->context;
     if (walk->last_is_delta || context->strategy == PATH_BSDF_ONLY) return 1;
     if (context->strategy == PATH_LIGHTS_ONLY) return 0;
-    float prob = set_probability(context->lights, set, walk->bounce - 1);
+    float prob = set_probability(&context->choice, walk->last_part_id, set, walk->bounce - 1);
     return mis_weight(walk->last_pdf, prob * light_pdf);
 }
 
@@ -141,13 +139,14 @@ static bool sides_agree(const Surface *surface, Vec3 local_wi, Vec3 wi, Vec3 loc
            (vec3_dot(wi, surface->ng) * vec3_dot(wo, surface->ng) > 0);
 }
 
-static void add_light_sample(Walk *walk, const Surface *surface, Vec3 wo, LightSet set,
-                             float set_prob)
+static void add_light_sample(Walk *walk, const Surface *surface, Vec3 wo, LightSet set)
 {
     const PathContext *context = walk->context;
     LightSample light;
     Vec2  u01 = sampler_2d(walk->sampler), u2 = sampler_2d(walk->sampler);
     float u[3] = {u01.x, u01.y, u2.x};
+    float set_prob = set_probability(&context->choice, surface->part_id, set, walk->bounce);
+    if (u2.y >= set_prob) return;
     if (!lights_sample(context->lights, set, surface->position, surface->frame.z,
                        walk->wavelengths, u, &light))
         return;
@@ -165,29 +164,12 @@ static void add_light_sample(Walk *walk, const Surface *surface, Vec3 wo, LightS
     walk->radiance += share * visibility(walk, surface, light.wi, light.distance);
 }
 
-/* Draws one of the sets that have lights, each with the same probability. */
-static LightSet draw_set(const Lights *lights, float u)
-{
-    LightSet present[LIGHT_SETS];
-    int count = 0;
-    for (int set = 0; set < LIGHT_SETS; set++)
-        if (lights_has(lights, (LightSet)set)) present[count++] = (LightSet)set;
-    return count ? present[(int)(u * (float)count)] : LIGHT_SETS;
-}
-
 static void add_light_samples(Walk *walk, const Surface *surface, Vec3 wo)
 {
-    const Lights *lights = walk->context->lights;
     if (!bsdf_scatters(&surface->bsdf)) return;
-    if (walk->bounce < ALL_SETS_BOUNCES) {
-        for (int set = 0; set < LIGHT_SETS; set++)
-            if (lights_has(lights, (LightSet)set))
-                add_light_sample(walk, surface, wo, (LightSet)set, 1);
-        return;
-    }
-    LightSet set = draw_set(lights, sampler_1d(walk->sampler));
-    if (set != LIGHT_SETS)
-        add_light_sample(walk, surface, wo, set, set_probability(lights, set, walk->bounce));
+    for (int set = 0; set < LIGHT_SETS; set++)
+        if (lights_has(walk->context->lights, (LightSet)set))
+            add_light_sample(walk, surface, wo, (LightSet)set);
 }
 
 /* ---- the walk --------------------------------------------------------------------------- */
@@ -231,6 +213,7 @@ static Step turn(Walk *walk, const Surface *surface, Vec3 wo, const BsdfSample *
     if (surface->bsdf.kind == BSDF_DIELECTRIC && next->wi.z * local_wo.z < 0)
         walk->medium_id = next->wi.z < 0 ? surface->material_id : NO_ID;
     walk->last_ns = surface->frame.z;
+    walk->last_part_id = surface->part_id;
     walk->last_pdf = next->pdf;
     walk->last_is_delta = next->is_delta;
     walk->straight = 0;
@@ -330,6 +313,15 @@ static void walk_path(Walk *walk, PathResult *out)
     }
 }
 
+PathContext path_context_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
+                               int max_bounces, Arena *arena)
+{
+    return (PathContext){.scene = scene, .bvh = bvh, .lights = lights,
+                         .tables = surface_tables_build(scene, arena),
+                         .choice = choice_build(scene, bvh, lights, arena),
+                         .max_bounces = max_bounces, .strategy = PATH_MIS};
+}
+
 static Walk walk_start(const PathContext *context, const Wavelengths *wavelengths,
                        Sampler *sampler, PathStatistics *statistics)
 {
@@ -337,7 +329,7 @@ static Walk walk_start(const PathContext *context, const Wavelengths *wavelength
     return (Walk){.context = context, .wavelengths = wavelengths, .sampler = sampler,
                   .statistics = statistics, .throughput = spectrum_all(1),
                   .radiance = spectrum_all(0), .last_ns = vec3(0, 0, 1), .last_is_delta = true,
-                  .medium_id = NO_ID};
+                  .last_part_id = NO_ID, .medium_id = NO_ID};
 }
 
 static void walk_xyz(Walk *walk, float xyz[3])

@@ -7,6 +7,7 @@
 #include "base/sampler.h"
 #include "bvh/bvh.h"
 #include "light/light.h"
+#include "path/choice.h"
 #include "path/surface.h"
 
 /* Which estimators reach the light; all three agree in the mean (a test). */
@@ -17,9 +18,15 @@ typedef struct PathContext {
     const Bvh           *bvh;
     const Lights        *lights;
     const SurfaceTables *tables;
+    LightChoice          choice;
     int                  max_bounces; /* 0: emission only, 1: plus direct light */
     PathStrategy         strategy;
 } PathContext;
+
+/* All that paths need besides scene, ray tracer and lights, which must outlive the context. The
+ * tables come from the arena. Strategy: PATH_MIS. */
+PathContext path_context_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
+                               int max_bounces, Arena *arena);
 
 /* Counts of one thread; add them up. */
 typedef struct PathStatistics {

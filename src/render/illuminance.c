@@ -54,9 +54,7 @@ bool illuminance_measure(const Scene *scene, const IlluminanceOptions *options, 
     Bvh    *bvh;
     if (!lights_build(scene, arena, &lights, err)) return false;
     if (!bvh_create(scene, options->threads, NULL, &bvh, err)) return false;
-    PathContext context = {.scene = scene, .bvh = bvh, .lights = lights,
-                           .tables = surface_tables_build(scene, arena),
-                           .max_bounces = options->max_bounces, .strategy = PATH_MIS};
+    PathContext context = path_context_build(scene, bvh, lights, options->max_bounces, arena);
     Meter meter = {&context, options, ARENA_NEW(arena, Sums, chunks)};
     parallel_for(options->threads, chunks, measure_chunk, &meter);
     bvh_destroy(bvh);

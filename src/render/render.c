@@ -185,9 +185,7 @@ bool render_scene(const Scene *scene, const SceneCamera *camera, const RenderOpt
     if (!kernel_choose(options->isa, &kernel, err)) return false;
     if (!lights_build(scene, arena, &lights, err)) return false;
     if (!bvh_create(scene, options->threads, options->isa, &bvh, err)) return false;
-    PathContext context = {.scene = scene, .bvh = bvh, .lights = lights,
-                           .tables = surface_tables_build(scene, arena),
-                           .max_bounces = options->max_bounces, .strategy = PATH_MIS};
+    PathContext context = path_context_build(scene, bvh, lights, options->max_bounces, arena);
     RenderResult result = {.kernel = kernel, .build_seconds = monotonic_seconds() - begun_s};
     render_film(&context, camera, options, arena, &result);
     bvh_destroy(bvh);

@@ -115,9 +115,7 @@ static bool prepare(const char *const *paths, int count, Arena *arena, Bench *be
     if (!lights_build(scene, arena, &lights, err)) return false;
     SceneCamera camera = scene->camera_count ? scene->cameras[0] : camera_frame_scene(scene);
     bench->camera = camera_from_scene(&camera, WIDTH, HEIGHT);
-    bench->context = (PathContext){.scene = scene, .bvh = bench->bvh, .lights = lights,
-                                   .tables = surface_tables_build(scene, arena),
-                                   .max_bounces = 8, .strategy = PATH_MIS};
+    bench->context = path_context_build(scene, bench->bvh, lights, 8, arena);
     bench->recorder = (BvhRecorder){.rays = ARENA_NEW(arena, Ray, RAYS_MAX),
                                     .is_shadow = ARENA_NEW(arena, bool, RAYS_MAX),
                                     .capacity = RAYS_MAX};

@@ -51,9 +51,7 @@ static void world_ready(World *world)
     Lights *lights;
     if (!bvh_create(world->scene, 1, NULL, &world->bvh, &err)) fail_msg("%s", err.text);
     if (!lights_build(world->scene, &world->arena, &lights, &err)) fail_msg("%s", err.text);
-    world->context = (PathContext){.scene = world->scene, .bvh = world->bvh, .lights = lights,
-                                   .tables = surface_tables_build(world->scene, &world->arena),
-                                   .max_bounces = 4, .strategy = PATH_MIS};
+    world->context = path_context_build(world->scene, world->bvh, lights, 4, &world->arena);
 }
 
 static void world_end(World *world)
