@@ -25,6 +25,21 @@ static void print_table(const json_t *table)
            100 * json_number_value(json_object_get(table, "extrapolated_share")));
 }
 
+/* "a name": its text or number behind the line's label, for everything a fit has chosen. */
+static void print_choices(const char *label, const json_t *choices)
+{
+    const char *key;
+    json_t     *value;
+    if (!choices) return;
+    printf("%-10s", label);
+    json_object_foreach((json_t *)choices, key, value) {
+        if (json_is_string(value)) printf(" %s %s;", key, json_string_value(value));
+        if (json_is_number(value)) printf(" %s %.4g;", key, json_number_value(value));
+        if (json_is_boolean(value)) printf(" %s %s;", key, json_is_true(value) ? "yes" : "no");
+    }
+    printf("\n");
+}
+
 void panel_print_report(const json_t *report)
 {
     size_t  i;
@@ -33,6 +48,8 @@ void panel_print_report(const json_t *report)
            json_string_value(json_object_get(report, "panel")),
            json_string_value(json_object_get(report, "source")),
            json_string_value(json_object_get(report, "instrument")));
+    print_choices("emission", json_object_get(report, "emission"));
+    print_choices("reflection", json_object_get(report, "reflection"));
     json_array_foreach(json_object_get(report, "notes"), i, value)
         printf("note       %s\n", json_string_value(value));
     printf("errors are relative; sizes in bytes; trees are shared, a table's part is its even "
@@ -86,6 +103,7 @@ bool cmd_panel_fit(int argc, char **argv, Error *err)
     fit.frame_exponent = (float)frame;
     fit.is_linear_in_incidence = incidence == 1;
     fit.progress = cli.progress;
+    fit.threads = cli.threads;
     if (max_error > 0) fit.max_error = (float)max_error;
     if (keep > 0) {
         fit.keep_share = (float)keep;

@@ -1,19 +1,21 @@
 #include "panel/fit.h"
 
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/file.h"
+#include "base/parallel.h"
 #include "base/units.h"
 #include "panel/fit_parts.h"
+
+#define TRIAL_BYTES ((size_t)32 << 30) /* address space; pages cost nothing until touched */
 
 FitOptions fit_options_default(void)
 {
     return (FitOptions){.max_error = 0.003f, .wavelet = WAVELET_CDF53, .weights = HAAR_AREA,
-                        .progress = PROGRESS_NONE};
+                        .threads = 1, .progress = PROGRESS_NONE};
 }
 
 void fit_note(FitNotes *notes, const char *format, ...)
@@ -67,38 +69,59 @@ static bool finish_file(const FitParts *parts, const char *path, Arena *arena, j
     return true;
 }
 
-/* Error of the haze with a frame exponent; what it takes is dropped with the arena. */
-static bool try_frame(const FitParts *parts, float exponent, Arena arena, double *error,
-                      Error *err)
+/* One frame exponent and how well the haze came out with it. */
+typedef struct FrameTrial {
+    const FitParts *parts;
+    float  exponent;
+    double error; /* fit_reflection_error */
+    bool   has_failed;
+    Error  err;
+} FrameTrial;
+
+static bool try_frame(FrameTrial *trial, Arena *arena)
 {
-    FitNotes       unheard = {.arena = &arena};
-    FitOptions     options = *parts->options;
-    FitReflection *trial = ARENA_NEW(&arena, FitReflection, 1);
-    FitParts       part = *parts;
+    FitNotes       unheard = {.arena = arena};
+    FitOptions     options = *trial->parts->options;
+    FitReflection *reflection = ARENA_NEW(arena, FitReflection, 1);
+    FitParts       parts = *trial->parts;
     Panel         *panel;
     size_t         size;
-    *trial = *parts->reflection;
-    options.frame_exponent = exponent;
-    part.reflection = trial;
-    if (!fit_reflection(parts->set, &options, &arena, &unheard, trial, err)) return false;
-    void *bytes = fit_file_bytes(&part, "{}", &arena, &size);
-    if (!panel_from_bytes(bytes, size, "trial", &arena, &panel, err)) return false;
-    *error = fit_reflection_error(parts->set, trial, panel, 5);
+    *reflection = *parts.reflection;
+    options.frame_exponent = trial->exponent;
+    parts.reflection = reflection;
+    if (!fit_reflection(parts.set, &options, arena, &unheard, reflection, &trial->err))
+        return false;
+    void *bytes = fit_file_bytes(&parts, "{}", arena, &size);
+    if (!panel_from_bytes(bytes, size, "trial", arena, &panel, &trial->err)) return false;
+    trial->error = fit_reflection_error(parts.set, reflection, panel, 5);
     return true;
 }
 
-/* The frame exponent with the least error: wide haze likes 1, narrow haze 2. */
-static bool choose_frame(const FitParts *parts, Arena *arena, FitOptions *options, Error *err)
+static void run_trial(void *context, int item, int worker)
 {
-    static const float exponents[] = {2, 1.5f, 1};
-    double best = INFINITY, error;
+    FrameTrial *trial = (FrameTrial *)context + item;
+    Arena       arena = arena_reserve(TRIAL_BYTES);
+    (void)worker;
+    trial->has_failed = !try_frame(trial, &arena);
+    arena_release(&arena);
+}
+
+/* The frame exponent with the least error: wide haze likes 1, narrow haze 2. */
+static bool choose_frame(const FitParts *parts, FitOptions *options, Error *err)
+{
+    FrameTrial trials[3] = {{parts, 2, 0, false, {0}}, {parts, 1.5f, 0, false, {0}},
+                            {parts, 1, 0, false, {0}}};
+    int        best = 0, threads = options->level > 7 ? 1 : options->threads;
     if (options->frame_exponent > 0) return true;
+    parallel_for(threads, 3, run_trial, trials);
     for (int i = 0; i < 3; i++) {
-        if (!try_frame(parts, exponents[i], *arena, &error, err)) return false;
-        if (!(error < best)) continue;
-        best = error;
-        options->frame_exponent = exponents[i];
+        if (trials[i].has_failed) {
+            *err = trials[i].err;
+            return false;
+        }
+        if (trials[i].error < trials[best].error) best = i;
     }
+    options->frame_exponent = trials[best].exponent;
     return true;
 }
 
@@ -109,7 +132,7 @@ static bool fit_all_reflection(FitParts *parts, FitReflection *reflection, Arena
     FitOptions options = *parts->options;
     parts->reflection = reflection;
     fit_separate(parts->set, arena, parts->notes, reflection);
-    return choose_frame(parts, arena, &options, err) &&
+    return choose_frame(parts, &options, err) &&
            fit_reflection(parts->set, &options, arena, parts->notes, reflection, err);
 }
 

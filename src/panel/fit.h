@@ -25,6 +25,7 @@ typedef struct FitOptions {
     HaarWeights weights;
     float       frame_exponent; /* k of the specular-following frame; 0: choose */
     bool        is_linear_in_incidence; /* over two slices instead of cubic over four */
+    int         threads;    /* at least 1; the bytes do not depend on it */
     ProgressMode progress;
 } FitOptions;
 

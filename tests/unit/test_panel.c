@@ -1,6 +1,7 @@
 /* What a fitted panel says against the closed truth that its tables were made of. */
 #include "panel_fixture.h"
 
+#include "panel/panel_file.h"
 #include "spectrum/spectral_table.h"
 
 static Fixture ips;
@@ -9,6 +10,7 @@ static int start_ips(void **state)
 {
     (void)state;
     FitOptions options = fit_options_default();
+    options.threads = 2;
     fixture_start(&ips, FIXTURE_IPS, &options);
     return 0;
 }
@@ -346,6 +348,41 @@ static void no_more_comes_back_than_falls_in(void **state)
     }
 }
 
+static void the_report_has_what_scripts_rely_on(void **state)
+{
+    (void)state;
+    static const char *const keys[] = {"name", "source_bytes_text", "source_bytes_float32",
+        "stored_values", "bytes", "ratio", "max_error", "rms_error", "integral_error", "noise"};
+    Error   err = {0};
+    json_t *report;
+    if (!panel_report(ips.panel, &report, &err)) fail_msg("%s", err.text);
+    assert_int_equal(json_array_size(json_object_get(report, "tables")), 31);
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+        assert_non_null(json_object_get(json_array_get(json_object_get(report, "tables"), 0),
+                                        keys[i]));
+        assert_non_null(json_object_get(json_object_get(report, "total"), keys[i]));
+    }
+    json_decref(report);
+}
+
+static void a_fit_gives_the_same_bytes_again(void **state)
+{
+    (void)state;
+    Error      err = {0};
+    FitOptions options = fit_options_default();
+    FileBytes  before, after;
+    json_t    *report;
+    const char *path = arena_format(&ips.arena, "%s/again.panel", ips.folder);
+    options.frame_exponent = ips.panel->reflection->frame_exponent; /* what was chosen */
+    if (!panel_fit(ips.set, &options, path, &ips.arena, &report, &err) ||
+        !file_read(ips.panel_path, (size_t)1 << 30, &ips.arena, &before, &err) ||
+        !file_read(path, (size_t)1 << 30, &ips.arena, &after, &err))
+        fail_msg("%s", err.text);
+    json_decref(report);
+    assert_int_equal(before.size, after.size);
+    assert_memory_equal(before.data, after.data, before.size);
+}
+
 /* ---- other panels ---------------------------------------------------------------------- */
 
 static void a_lobe_at_phi_90_is_seen_from_above(void **state)
@@ -417,6 +454,47 @@ static void a_white_only_table_of_two_sections_becomes_a_panel(void **state)
     fixture_end(&real);
 }
 
+static void check_shipped(const char *name)
+{
+    Error    err = {0};
+    Recipe   recipe;
+    Panel   *panel;
+    Arena    arena = arena_reserve((size_t)1 << 30);
+    uint32_t random = 9;
+    char     path[512], recipe_path[512];
+    snprintf(path, sizeof path, PROJECT_DIR "/assets/panels/%s.panel", name);
+    snprintf(recipe_path, sizeof recipe_path, PROJECT_DIR "/assets/panels/%s.recipe.json",
+             name);
+    if (!recipe_read(recipe_path, &arena, &recipe, &err) ||
+        !panel_open(path, &arena, &panel, &err))
+        fail_msg("%s: %s", err.file, err.text);
+    Wavelengths w = even_wavelengths(420, 15);
+    for (int i = 0; i < 1000; i++) {
+        double theta = 75 * steady_random(&random), phi = 360 * steady_random(&random);
+        double truth[3];
+        float  rgb[3], xyz[3];
+        for (int p = 0; p < 3; p++) rgb[p] = (float)(20 + 235 * steady_random(&random));
+        true_xyz(&recipe, theta, phi, rgb, truth);
+        panel_emission_xyz(panel, direction_deg(theta, phi), rgb, xyz);
+        assert_close(xyz[1], truth[1], 0.01);
+        assert_true(chromaticity_distance(truth, xyz) < 0.002);
+    }
+    for (int t = 0; t <= 60; t += 5) {
+        Spectrum f = panel_brdf(panel, direction_deg(t, 0), direction_deg(t, 180), &w);
+        double   angle = radians_from_degrees(t);
+        assert_close(f[7], truth_brdf(&recipe, angle, angle, 0, (double)w.nm[7]), 0.03);
+    }
+    panel_close(panel);
+    arena_release(&arena);
+}
+
+static void shipped_panels_say_what_their_recipes_say(void **state)
+{
+    (void)state;
+    check_shipped("ips_cluster");
+    check_shipped("oled_centre");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -435,6 +513,9 @@ int main(void)
         cmocka_unit_test(the_mirror_part_is_told_from_the_haze),
         cmocka_unit_test(the_reciprocity_defect_is_reported_and_small),
         cmocka_unit_test(no_more_comes_back_than_falls_in),
+        cmocka_unit_test(the_report_has_what_scripts_rely_on),
+        cmocka_unit_test(a_fit_gives_the_same_bytes_again),
+        cmocka_unit_test(shipped_panels_say_what_their_recipes_say),
         cmocka_unit_test(a_lobe_at_phi_90_is_seen_from_above),
         cmocka_unit_test(a_true_black_stays_black),
         cmocka_unit_test(a_white_only_table_of_two_sections_becomes_a_panel),
