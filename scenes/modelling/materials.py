@@ -115,7 +115,7 @@ MATERIALS = {
     "lamp head": grey(0.1, 0.5, emission=((1.0, 0.86, 0.66), 9000.0)),
     "lit window": grey(0.1, 0.5, emission=((1.0, 0.74, 0.42), 45.0)),
     "lit window cool": grey(0.1, 0.5, emission=((0.85, 0.93, 1.0), 30.0)),
-    "tail lamp lit": grey(0.1, 0.5, emission=((1.0, 0.02, 0.01), 900.0)),
+    "tail lamp lit": grey(0.1, 0.5, emission=((1.0, 0.02, 0.01), 150.0)),
     "ambient line": grey(0.1, 0.5, emission=((0.25, 0.62, 1.0), 14.0)),
     "traffic green": grey(0.1, 0.5, emission=((0.05, 1.0, 0.45), 2500.0)),
 }

@@ -137,7 +137,7 @@ def add_lights(path):
             "type": "spot",
             "color": [1.0, 0.96, 0.90],
             "intensity": 9000.0,
-            "spot": {"innerConeAngle": math.radians(7), "outerConeAngle": math.radians(26)},
+            "spot": {"innerConeAngle": math.radians(5), "outerConeAngle": math.radians(14)},
         },
     ]
     gltf["extensions"] = {"KHR_lights_punctual": {"lights": lights}}
@@ -172,7 +172,7 @@ def light_places():
         for side, x in (("left", -0.62), ("right", 0.62))
     ]
     out += [
-        (f"low beam {side}", 3, (x, 2.62, 0.66), (0.02, 1, -0.035))
+        (f"low beam {side}", 3, (x, 2.62, 0.66), (0.02, 1, -0.20))
         for side, x in (("left", -0.62), ("right", 0.62))
     ]
     return out
