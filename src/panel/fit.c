@@ -1,5 +1,6 @@
 #include "panel/fit.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -136,6 +137,18 @@ static bool fit_all_reflection(FitParts *parts, FitReflection *reflection, Arena
            fit_reflection(parts->set, &options, arena, parts->notes, reflection, err);
 }
 
+/* A fit takes a while: whether its file can be made is found out first. */
+static bool check_output(const char *path, Arena scratch, Error *err)
+{
+    const char *temporary = file_temporary_name(path, &scratch);
+    FILE       *file = fopen(temporary, "wbx");
+    if (!file)
+        return error_at(err, ERROR_OUTPUT, path, "", "cannot be created: %s", strerror(errno));
+    fclose(file);
+    file_discard(temporary);
+    return true;
+}
+
 bool panel_fit(const Measurement *measurement, const FitOptions *options, const char *path,
                Arena *arena, json_t **report, Error *err)
 {
@@ -146,6 +159,7 @@ bool panel_fit(const Measurement *measurement, const FitOptions *options, const 
     FitParts parts = {measurement, options, emission, primaries,
                       NULL, &notes};
     Progress progress = progress_start(options->progress, "fit", "steps", 4);
+    if (!check_output(path, *arena, err)) return false;
     note_limits(measurement, &notes);
     if (!fit_emission(measurement, options, arena, &notes, emission, err)) return false;
     progress_update(&progress, 1);

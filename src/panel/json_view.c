@@ -1,5 +1,6 @@
 #include "panel/json_view.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -52,7 +53,8 @@ static const char *kind_of(const json_t *value)
 bool json_view_open(const char *file, Arena *arena, JsonView *out, Error *err)
 {
     FILE *stream = fopen(file, "rb");
-    if (!stream) return error_at(err, ERROR_INPUT, file, "", "cannot be opened");
+    if (!stream)
+        return error_at(err, ERROR_INPUT, file, "", "cannot be opened: %s", strerror(errno));
     json_error_t fault;
     json_t *root = json_loadf(stream, JSON_REJECT_DUPLICATES, &fault);
     fclose(stream);

@@ -236,6 +236,32 @@ static void other_layouts_say_the_same(void **state)
     }
 }
 
+static void one_file_a_wavelength_is_one_table(void **state)
+{
+    (void)state;
+    Error        err = {0};
+    Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
+    const char  *manifest = "{\"emission\": {\"white\": \"good.csv\"}, \"reflection\": {"
+        "\"wavelengths_nm\": [500, 600.5], \"incidence_deg\": [12.5],"
+        "\"files\": \"i{incidence}_w{wavelength}.csv\"}}";
+    fixture_file(&folder, "good.csv", "theta,phi,X,Y,Z\n0,0,1,1,1\n10,0,1,1,1\n");
+    fixture_file(&folder, "i12.5_w500.csv", "theta,phi,brdf\n0,0,0.5\n10,90,0.25\n");
+    fixture_file(&folder, "i12.5_w600.5.csv", "phi,theta,brdf\n90,10,2\n0,0,4\n");
+    const char *path = fixture_file(&folder, "MANIFEST.json", manifest);
+    if (!measurement_read(path, &folder.arena, set, &err)) fail_msg("%s", err.text);
+    const AngleTable *table = &set->brdf[0];
+    const float wanted[4] = {0.5f, 4, 0.25f, 2};
+    assert_int_equal(table->rows, 2);
+    assert_int_equal(table->channels, 2);
+    assert_memory_equal(table->value, wanted, sizeof wanted);
+    fixture_file(&folder, "i12.5_w600.5.csv", "theta,phi,brdf\n0,0,4\n20,90,2\n");
+    err = bad_manifest(manifest);
+    EXPECT_LINE(err, "i12.5_w600.5.csv", "other directions than the table of 500 nm");
+    fixture_file(&folder, "i12.5_w600.5.csv", "theta,phi,reflectance\n0,0,4\n");
+    err = bad_manifest(manifest);
+    EXPECT_LINE(err, "header line", "column 'reflectance' is no wavelength of the manifest");
+}
+
 /* ---- panel files ------------------------------------------------------------------------ */
 
 static FileBytes small_bytes(void)
@@ -378,6 +404,7 @@ int main(void)
         cmocka_unit_test(manifests_name_the_key),
         cmocka_unit_test(recipes_name_the_key),
         cmocka_unit_test(other_layouts_say_the_same),
+        cmocka_unit_test(one_file_a_wavelength_is_one_table),
         cmocka_unit_test(every_prefix_of_a_panel_is_refused),
         cmocka_unit_test(every_mutation_is_refused),
         cmocka_unit_test(a_forged_checksum_leads_nobody_astray),

@@ -148,11 +148,51 @@ static void weights_average_to_the_albedo(void **state)
     }
 }
 
+static void expect_finite(Vec3 wo, Vec3 wi, const Wavelengths *w)
+{
+    static const float us[][3] = {{0, 0, 0}, {0.9999999f, 0.9999999f, 0.9999999f},
+                                  {0.5f, 0, 1e-7f}};
+    float    rgb[3] = {255, 1, 0.1f}, xyz[3], pdf = panel_pdf(ips.panel, wo, wi);
+    Spectrum f = panel_brdf(ips.panel, wo, wi, w);
+    panel_emission_xyz(ips.panel, wo, rgb, xyz);
+    if (!(pdf >= 0) || isinf(pdf) || !spectrum_is_finite(f) || !(spectrum_max_lane(f) >= 0) ||
+        !isfinite(xyz[0] + xyz[1] + xyz[2]) ||
+        !spectrum_is_finite(panel_emission_spectrum(ips.panel, wo, rgb, w)))
+        fail_msg("wo %g %g %g, wi %g %g %g: pdf %g, f %g", (double)wo.x, (double)wo.y,
+                 (double)wo.z, (double)wi.x, (double)wi.y, (double)wi.z, (double)pdf,
+                 (double)f[0]);
+    for (int i = 0; i < 3; i++) {
+        Vec3 drawn;
+        if (!panel_sample(ips.panel, wo, us[i], &drawn)) continue;
+        assert_true(vec3_is_finite(drawn) && drawn.z > 0);
+        assert_near(vec3_length(drawn), 1, 1e-5);
+    }
+}
+
+/* Poles, axes, exact mirror directions, and the horizon from very near. */
+static void answers_are_finite_in_every_corner(void **state)
+{
+    (void)state;
+    Wavelengths w = even_wavelengths(360, 31.3f);
+    static const float heights[] = {1, 0.9999999f, 0.999f, 0.7f, 0.05f, 1e-3f, 1e-5f, 1e-20f};
+    Vec3 corner[8 * 9];
+    int  count = 0;
+    for (int h = 0; h < 8; h++)
+        for (int p = 0; p < 9; p++) {
+            float s = sqrtf(1 - heights[h] * heights[h]), sine, cosine;
+            sincos_turns((float)p / 8 + (p == 8 ? 0.01f : 0), &sine, &cosine);
+            corner[count++] = vec3(s * cosine, s * sine, heights[h]);
+        }
+    for (int i = 0; i < count; i++)
+        for (int j = 0; j < count; j++) expect_finite(corner[i], corner[j], &w);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_density_integrates_to_one),
         cmocka_unit_test(samples_fall_as_the_density_says),
+        cmocka_unit_test(answers_are_finite_in_every_corner),
         cmocka_unit_test(weights_average_to_the_albedo),
     };
     return cmocka_run_group_tests(tests, start_ips, end_ips);
