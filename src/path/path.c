@@ -7,7 +7,8 @@
 #define DEEP_BOUNCE 2
 #define DEEP_SHARE 0.4f
 #define ROULETTE_FIRST_BOUNCE 2
-#define MIRROR_SHARE 0.5f /* of the samples that follow the first window's mirror image */
+#define PANE_SHARE 0.5f /* of the samples that follow what a pane itself shows */
+#define SPLITS 2        /* panes along a camera ray that are followed both ways */
 #define PASSES_MAX 512 /* windows and holes along one path: more is a closed loop of rounding */
 
 /* One path on its way. */
@@ -26,7 +27,7 @@ typedef struct Walk {
     float    last_pdf;   /* with which it chose the direction, sr^-1 */
     bool     last_is_delta; /* no light sample could have found what comes now */
     int      bounce;     /* scattering vertices so far */
-    bool     has_split;  /* followed both ways of a window already */
+    int      splits_left; /* panes that may still be followed both ways */
     int      medium_id;  /* material of the solid that the ray is in; NO_ID: air */
 } Walk;
 
@@ -259,31 +260,58 @@ static void keep_first(const Hit *hit, float distance, Vec3 wo, PathResult *out)
     out->direction = vec3_neg(wo);
 }
 
-static void walk_path(Walk *walk, PathResult *out);
+/* What happens at a surface that is there. */
+static Step shade(Walk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
+{
+    add_emitted(walk, surface, hit, wo);
+    if (walk->bounce < walk->context->max_bounces) add_light_samples(walk, surface, wo);
+    return scatter(walk, surface, wo);
+}
 
-/* The first window that the eye looks through is followed both ways, the mirror image in every
- * second sample: either way by chance, one in twelve would show the cabin and not the street. */
-static Step split_window(Walk *walk, const Surface *surface, Vec3 wo)
+static Step reflect_window(Walk *walk, const Surface *surface, Vec3 wo)
 {
     Vec3 local_wo = frame_to_local(&surface->frame, wo);
-    const ThinWindow *window = &surface->bsdf.thin_window;
-    Walk mirrored = *walk;
-    PathResult ignored = {.hit = true};
     BsdfSample mirror = {.wi = vec3(-local_wo.x, -local_wo.y, local_wo.z), .is_delta = true,
                          .pdf = 1};
-    walk->has_split = mirrored.has_split = true;
-    mirrored.throughput *= thin_window_reflectance(window, local_wo.z) *
-                           spectrum_all(1 / MIRROR_SHARE);
-    mirrored.radiance = spectrum_all(0);
-    for (int i = 0; i < 3; i++) mirrored.xyz[i] = 0;
-    if (walk->context->max_bounces > 0 && sampler_1d(walk->sampler) < MIRROR_SHARE &&
-        turn(&mirrored, surface, wo, &mirror) == STEP_SCATTERED)
-        walk_path(&mirrored, &ignored);
-    walk->radiance += mirrored.radiance;
-    for (int i = 0; i < 3; i++) walk->xyz[i] += mirrored.xyz[i];
-    walk->throughput *= thin_window_transmittance(window, local_wo.z);
+    if (walk->bounce >= walk->context->max_bounces) return STEP_ENDED;
+    walk->throughput *= thin_window_reflectance(&surface->bsdf.thin_window, local_wo.z);
+    return turn(walk, surface, wo, &mirror);
+}
+
+static void walk_path(Walk *walk, PathResult *out);
+
+/* What the pane itself shows to the eye: its mirror image, or what of it is not a hole. */
+static void add_pane(Walk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
+{
+    PathResult ignored = {.hit = true};
+    Walk pane = *walk;
+    pane.splits_left = 0;
+    pane.radiance = spectrum_all(0);
+    for (int i = 0; i < 3; i++) pane.xyz[i] = 0;
+    pane.throughput *= spectrum_all(surface->alpha / PANE_SHARE);
+    Step step = surface->alpha < 1 ? shade(&pane, surface, hit, wo)
+                                   : reflect_window(&pane, surface, wo);
+    if (step != STEP_ENDED) walk_path(&pane, &ignored);
+    walk->radiance += pane.radiance;
+    for (int i = 0; i < 3; i++) walk->xyz[i] += pane.xyz[i];
+}
+
+/* The first panes that the eye looks through are followed both ways, the pane itself in every
+ * second sample. By chance, either way, one sample in twelve would show the cabin's mirror image
+ * and not the street: noise that everyone sees. False: this is no such pane. */
+static bool look_through(Walk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
+{
+    bool is_hole = surface->alpha > 0 && surface->alpha < 1;
+    bool is_window = surface->alpha >= 1 && surface->bsdf.kind == BSDF_THIN_WINDOW;
+    if (walk->bounce || !walk->splits_left || !(is_hole || is_window)) return false;
+    walk->splits_left--;
+    if (sampler_1d(walk->sampler) < PANE_SHARE) add_pane(walk, surface, hit, wo);
+    walk->throughput *=
+        is_hole ? spectrum_all(1 - surface->alpha)
+                : thin_window_transmittance(&surface->bsdf.thin_window,
+                                            vec3_dot(surface->frame.z, wo));
     go_on_behind(walk, surface);
-    return STEP_PASSED;
+    return true;
 }
 
 /* The loop: what is hit, what it emits, what the lights send it, where the path goes on. */
@@ -300,14 +328,12 @@ static void walk_path(Walk *walk, PathResult *out)
         Vec3  wo = vec3_neg(walk->ray.direction);
         float distance = walk->straight;
         surface_at(context->scene, context->tables, &hit, wo, walk->wavelengths, &surface);
+        if (look_through(walk, &surface, &hit, wo)) continue;
         if (surface.alpha < 1 && sampler_1d(walk->sampler) >= surface.alpha) {
             go_on_behind(walk, &surface);
             continue;
         }
-        add_emitted(walk, &surface, &hit, wo);
-        if (walk->bounce < context->max_bounces) add_light_samples(walk, &surface, wo);
-        bool splits = surface.bsdf.kind == BSDF_THIN_WINDOW && !walk->bounce && !walk->has_split;
-        Step step = splits ? split_window(walk, &surface, wo) : scatter(walk, &surface, wo);
+        Step step = shade(walk, &surface, &hit, wo);
         if (step != STEP_PASSED) keep_first(&hit, distance, wo, out);
         if (step == STEP_ENDED) return;
     }
@@ -329,7 +355,7 @@ static Walk walk_start(const PathContext *context, const Wavelengths *wavelength
     return (Walk){.context = context, .wavelengths = wavelengths, .sampler = sampler,
                   .statistics = statistics, .throughput = spectrum_all(1),
                   .radiance = spectrum_all(0), .last_ns = vec3(0, 0, 1), .last_is_delta = true,
-                  .last_part_id = NO_ID, .medium_id = NO_ID};
+                  .last_part_id = NO_ID, .splits_left = SPLITS, .medium_id = NO_ID};
 }
 
 static void walk_xyz(Walk *walk, float xyz[3])
