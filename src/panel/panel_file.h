@@ -98,6 +98,8 @@ typedef struct PanelReflection {
      * profile[PANEL_ANGLES][1 + harmonics][slices * coefficients] */
 } PanelReflection;
 
+#define PANEL_CHANNELS_AT_ONCE 12 /* X, Y, Z of four levels */
+
 /* Position in a table over theta: *t in [0, 1] from node to node + 1. */
 static inline int panel_angle_node(float theta, float *t)
 {
@@ -170,6 +172,10 @@ struct Panel {
     size_t      meta_size;
     const PanelEmission *emission;
     const float *channel_mean, *loading, *mean_y;
+    /* mean, then the loadings of component 0, 1, ...: rows of channel_stride floats, so that
+     * neighbouring channels are read at once, also four beyond the last one */
+    const float *channel_rows;
+    int          channel_stride;
     PanelProfile emission_profile;
     Tree         emission_tree;
     float        log_level[3][PANEL_LEVELS_MAX];

@@ -122,7 +122,24 @@ static bool check_levels(const Bytes *at, const PanelEmission *e)
     return true;
 }
 
-static bool open_emission(const Bytes *bytes, const Geodesic *geodesic, Panel *panel)
+/* Means and loadings, turned so that a query reads neighbouring channels at once. */
+static void turn_loadings(Panel *panel, Arena *arena)
+{
+    const PanelEmission *e = panel->emission;
+    int    channels = (int)e->channels, components = (int)e->components;
+    int    stride = (channels + PANEL_CHANNELS_AT_ONCE + 3) / 4 * 4;
+    float *rows = ARENA_NEW(arena, float, stride * (1 + components));
+    for (int c = 0; c < channels; c++) {
+        rows[c] = panel->channel_mean[c];
+        for (int k = 0; k < components; k++)
+            rows[(1 + k) * stride + c] = panel->loading[c * components + k];
+    }
+    panel->channel_rows = rows;
+    panel->channel_stride = stride;
+}
+
+static bool open_emission(const Bytes *bytes, const Geodesic *geodesic, Arena *arena,
+                          Panel *panel)
 {
     Bytes at, tree;
     if (!need_section(bytes, PANEL_EMISSION, 0, &at) ||
@@ -149,6 +166,7 @@ static bool open_emission(const Bytes *bytes, const Geodesic *geodesic, Panel *p
     if (panel->emission_tree.components != (int)e->components ||
         panel->emission_tree.octants != 4)
         return refuse(&at, "emission", "does not fit its tree");
+    turn_loadings(panel, arena);
     for (int p = 0; p < 3; p++)
         for (uint32_t i = 0; i < e->level_count[p]; i++)
             panel->log_level[p][i] = log_f(e->level[p][i]);
@@ -291,7 +309,7 @@ bool panel_from_bytes(const void *data, size_t size, const char *name, Arena *ar
     panel->size = size;
     panel->meta = (const char *)meta.data;
     panel->meta_size = meta.size;
-    if (!open_emission(&bytes, geodesic, panel) || !open_primaries(&bytes, panel) ||
+    if (!open_emission(&bytes, geodesic, arena, panel) || !open_primaries(&bytes, panel) ||
         !open_reflection(&bytes, geodesic, panel))
         return false;
     *out = panel;

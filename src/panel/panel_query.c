@@ -4,13 +4,19 @@
 #include "hemisphere/tree_query.h"
 #include "panel/panel_query.h"
 
-float panel_channel_log(const Panel *panel, uint32_t channel, const float *components)
+/* ln of `blocks` times four neighbouring channels in cd m^-2, without the cosine's power. */
+static inline void channel_logs(const Panel *panel, int first, int blocks,
+                                const float *components, float *out)
 {
-    uint32_t     count = panel->emission->components;
-    const float *loading = panel->loading + (size_t)channel * count;
-    float        sum = panel->channel_mean[channel];
-    for (uint32_t i = 0; i < count; i++) sum += loading[i] * components[i];
-    return sum;
+    PanelFloat4  sum[PANEL_CHANNELS_AT_ONCE / 4];
+    const float *row = panel->channel_rows + first;
+    for (int b = 0; b < blocks; b++) sum[b] = *(const PanelFloat4 *)(row + 4 * b);
+    for (int k = 0; k < (int)panel->emission->components; k++) {
+        row += panel->channel_stride;
+        for (int b = 0; b < blocks; b++)
+            sum[b] += components[k] * *(const PanelFloat4 *)(row + 4 * b);
+    }
+    memcpy(out, sum, sizeof *sum * (size_t)blocks);
 }
 
 LevelPosition panel_level_position(const Panel *panel, int primary, float code)
@@ -70,15 +76,23 @@ float panel_level_interpolate(const Panel *panel, const LevelPosition *at, const
 static void primary_logs(const Panel *panel, int primary, const LevelPosition *at,
                          const float *components, float fall, float logs[3])
 {
-    uint32_t first = panel_first_channel(panel->emission, primary);
-    int      last = (int)panel->emission->level_count[primary] - 1;
+    int   first = (int)panel_first_channel(panel->emission, primary);
+    int   levels = (int)panel->emission->level_count[primary];
+    float values[PANEL_CHANNELS_AT_ONCE];
+    if (at->kind == LEVEL_EXACT) {
+        channel_logs(panel, first + 3 * at->first, 1, components, values);
+        for (int j = 0; j < 3; j++) logs[j] = fall + values[j];
+        return;
+    }
+    int window = at->first - 1 > levels - 4 ? levels - 4 : at->first - 1; /* four levels */
+    if (window < 0) window = 0;
+    channel_logs(panel, first + 3 * window, PANEL_CHANNELS_AT_ONCE / 4, components, values);
     for (int j = 0; j < 3; j++) {
-        float y[4] = {0, 0, 0, 0};
-        bool  lone = at->kind == LEVEL_EXACT || at->kind == LEVEL_POWER;
-        for (int k = lone ? 1 : 0; k < (lone ? 2 : 4); k++) {
+        float y[4];
+        for (int k = 0; k < 4; k++) {
             int i = at->first - 1 + k;
-            i = i < 0 ? 0 : i > last ? last : i;
-            y[k] = panel_channel_log(panel, first + 3 * (uint32_t)i + (uint32_t)j, components);
+            i = i < 0 ? 0 : i > levels - 1 ? levels - 1 : i;
+            y[k] = values[3 * (i - window) + j];
         }
         logs[j] = fall + panel_level_interpolate(panel, at, y);
     }
@@ -104,9 +118,10 @@ static void source_logs(const Panel *panel, Vec3 direction, const float rgb[3],
         if (lit[p]) primary_logs(panel, p, &at, components, fall, logs[p]);
     }
     lit[3] = panel->emission->has_black;
-    uint32_t black = panel_first_channel(panel->emission, 3);
-    for (uint32_t j = 0; j < 3 && lit[3]; j++)
-        logs[3][j] = fall + panel_channel_log(panel, black + j, components);
+    if (!lit[3]) return;
+    float black[4];
+    channel_logs(panel, (int)panel_first_channel(panel->emission, 3), 1, components, black);
+    for (int j = 0; j < 3; j++) logs[3][j] = fall + black[j];
 }
 
 bool panel_emission_xyz(const Panel *panel, Vec3 direction, const float rgb[3], float xyz[3])

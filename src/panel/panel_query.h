@@ -27,8 +27,5 @@ LevelPosition panel_level_position(const Panel *panel, int primary, float code);
 /* y: ln E at levels first - 1 .. first + 2 (EXACT and POWER read y[1] only). */
 float panel_level_interpolate(const Panel *panel, const LevelPosition *at, const float y[4]);
 
-/* ln of a channel in cd m^-2, without the cosine's power, from profile plus tree. */
-float panel_channel_log(const Panel *panel, uint32_t channel, const float *components);
-
 /* c0, c1, c2 of a source of 1 cd m^-2 for ln XYZ (only the ratios count). */
 void panel_bend_lookup(const PanelBend *bend, const float logs[3], float coefficient[3]);
