@@ -142,8 +142,8 @@ bool bvh_create(const Scene *scene, int threads, const char *isa, Bvh **out, Err
 {
     char config[96];
     Error first = {0};
-    snprintf(config, sizeof config, "threads=%d,set_affinity=0%s%s", threads, isa ? ",isa=" : "",
-             isa ? isa : "");
+    snprintf(config, sizeof config, "threads=%d,set_affinity=0%s%s", threads,
+             isa ? ",isa=" : "", isa ? isa : "");
     Bvh *bvh = calloc(1, sizeof *bvh);
     if (!bvh) return error_set(err, ERROR_MEMORY, "out of memory for the ray tracer");
     bvh->device = rtcNewDevice(config);

@@ -34,11 +34,11 @@ bool measure_illuminance(const Cli *cli, const LuxmeterRequest *request, Arena *
     Scene       *scene;
     Illuminance  measured;
     IlluminanceOptions options = {
-        .position = vec3((float)request->place[0], (float)request->place[1],
-                         (float)request->place[2]),
-        .normal = vec3_normalize(vec3((float)n[0], (float)n[1], (float)n[2])),
+        .point = {vec3((float)request->place[0], (float)request->place[1],
+                       (float)request->place[2]),
+                  vec3_normalize(vec3((float)n[0], (float)n[1], (float)n[2]))},
         .samples = request->samples, .max_bounces = 64, .threads = cli->threads};
-    if (!(vec3_dot(options.normal, options.normal) > 0.5f))
+    if (!(vec3_dot(options.point.ns, options.point.ns) > 0.5f))
         return error_set(err, ERROR_USAGE, "--illuminance: the normal (%g, %g, %g) has no "
                          "direction", n[0], n[1], n[2]);
     if (!scene_load(&files, arena, &problems, &scene, err)) return false;

@@ -125,8 +125,8 @@ Spectrum triangle_emission(const Scene *scene, uint32_t triangle, const Triangle
     const Material *material =
         &scene->materials[scene->parts[scene->triangles[triangle].part_id].material_id];
     bool front = vec3_dot(point->ng, direction) > 0;
-    if (!material->is_emitter || (!front && (material->display_id != NO_ID || !material->double_sided)))
-        return spectrum_all(0);
+    bool back_is_dark = material->display_id != NO_ID || !material->double_sided;
+    if (!material->is_emitter || (!front && back_is_dark)) return spectrum_all(0);
     if (material->display_id != NO_ID)
         return display_emission(scene, &scene->displays[material->display_id], triangle, point,
                                 direction, wavelengths);

@@ -119,7 +119,6 @@ float emitters_pdf_area(const Emitters *emitters, const Scene *scene, uint32_t t
 {
     int part = (int)scene->triangles[triangle].part_id;
     int first = emitters->count ? emitters->first_of_part[part] : NO_ID;
-    return first == NO_ID
-               ? 0
-               : emitters->pdf_area[first + (int)(triangle - scene->parts[part].first_triangle)];
+    if (first == NO_ID) return 0;
+    return emitters->pdf_area[first + (int)(triangle - scene->parts[part].first_triangle)];
 }

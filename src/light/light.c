@@ -175,14 +175,16 @@ static bool sample_sky(const Lights *lights, Vec3 ns, const Wavelengths *wavelen
     return true;
 }
 
-bool lights_sample(const Lights *lights, LightSet set, Vec3 position, Vec3 ns,
+bool lights_sample(const Lights *lights, LightSet set, LitPoint point,
                    const Wavelengths *wavelengths, const float u[3], LightSample *sample)
 {
     switch (set) {
     case LIGHTS_SUN: return sample_sun(lights, wavelengths, u, sample);
-    case LIGHTS_SKY: return sample_sky(lights, ns, wavelengths, u, sample);
-    case LIGHTS_EMITTERS: return sample_emitters(lights, position, wavelengths, u, sample);
-    case LIGHTS_PUNCTUAL: return sample_punctual(lights, position, wavelengths, u, sample);
+    case LIGHTS_SKY: return sample_sky(lights, point.ns, wavelengths, u, sample);
+    case LIGHTS_EMITTERS:
+        return sample_emitters(lights, point.position, wavelengths, u, sample);
+    case LIGHTS_PUNCTUAL:
+        return sample_punctual(lights, point.position, wavelengths, u, sample);
     case LIGHT_SETS: break;
     }
     return false;

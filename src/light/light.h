@@ -14,7 +14,13 @@
 #include "scene/scene.h"
 #include "spectrum/wavelengths.h"
 
-typedef enum LightSet { LIGHTS_SUN, LIGHTS_SKY, LIGHTS_EMITTERS, LIGHTS_PUNCTUAL, LIGHT_SETS } LightSet;
+typedef enum LightSet {
+    LIGHTS_SUN,
+    LIGHTS_SKY,
+    LIGHTS_EMITTERS,
+    LIGHTS_PUNCTUAL,
+    LIGHT_SETS
+} LightSet;
 
 typedef struct Lights Lights;
 
@@ -32,15 +38,20 @@ typedef struct LightSample {
     bool     is_delta; /* a BSDF sample can never hit it */
 } LightSample;
 
-/* One sample of one set as seen from `position`, whose shading normal is ns. u in [0,1)^3.
- * False: nothing comes from there. */
-bool lights_sample(const Lights *lights, LightSet set, Vec3 position, Vec3 ns,
+/* A point that is lit. */
+typedef struct LitPoint {
+    Vec3 position; /* m, world */
+    Vec3 ns;       /* unit, world: its shading normal */
+} LitPoint;
+
+/* One sample of one set as seen from `point`. u in [0,1)^3. False: nothing comes from there. */
+bool lights_sample(const Lights *lights, LightSet set, LitPoint point,
                    const Wavelengths *wavelengths, const float u[3], LightSample *sample);
 
 /* Radiance of sun plus sky from a direction, and each one's sampling pdf as above.
  * radiance[0] the sun's, radiance[1] the sky's; likewise pdf. */
-void lights_distant(const Lights *lights, Vec3 direction, Vec3 ns, const Wavelengths *wavelengths,
-                    Spectrum radiance[2], float pdf[2]);
+void lights_distant(const Lights *lights, Vec3 direction, Vec3 ns,
+                    const Wavelengths *wavelengths, Spectrum radiance[2], float pdf[2]);
 
 /* pdf, sr^-1, with which LIGHTS_EMITTERS chooses the point of `triangle` that lies at distance
  * t (m, from the point that is lit) along `direction`; ng: the triangle's normal. */

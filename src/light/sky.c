@@ -40,7 +40,8 @@ static double cell_luminance(const Sky *sky, int x, int y)
     double sum = 0;
     for (int j = -1; j <= 1; j++)
         for (int i = -1; i <= 1; i++)
-            sum += share[i + 1] * share[j + 1] * (double)luminance_from_rgb(pixel(sky, x + i, y + j));
+            sum += share[i + 1] * share[j + 1] *
+                   (double)luminance_from_rgb(pixel(sky, x + i, y + j));
     return sum;
 }
 

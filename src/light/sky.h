@@ -24,7 +24,7 @@ typedef struct Sky {
     float  u_offset;       /* image u = azimuth in the scene / 2 pi + u_offset */
     const float *row_cdf;     /* height + 1 values from 0 to 1 */
     const float *column_cdf;  /* height rows of width + 1 values */
-    const uint16_t *row_guide, *column_guide; /* where to begin looking: height; height * width */
+    const uint16_t *row_guide, *column_guide; /* where to begin looking in them */
     long   refused_pixels; /* had a negative or non-finite value */
 
     bool   has_sun;

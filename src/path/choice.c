@@ -23,7 +23,7 @@ static double sample_illuminance(const Bvh *bvh, const Lights *lights, LightSet 
     Vec2  u01 = sampler_2d(sampler), u2 = sampler_2d(sampler);
     const float u[3] = {u01.x, u01.y, u2.x};
     wavelengths_sample(u2.y, &wavelengths);
-    if (!lights_sample(lights, set, position, n, &wavelengths, u, &light)) return 0;
+    if (!lights_sample(lights, set, (LitPoint){position, n}, &wavelengths, u, &light)) return 0;
     float cosine = vec3_dot(n, light.wi);
     if (!(cosine > 0)) return 0;
     Ray ray = {ray_offset_origin(position, n, light.wi), light.wi, 0, light.distance * 0.999f};
@@ -70,7 +70,8 @@ static void weigh_part(const Scene *scene, const Bvh *bvh, const Lights *lights,
     }
 }
 
-LightChoice choice_build(const Scene *scene, const Bvh *bvh, const Lights *lights, Arena *arena)
+LightChoice choice_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
+                         Arena *arena)
 {
     LightChoice choice;
     choice.prob = (float(*)[LIGHT_SETS])ARENA_NEW(arena, float,

@@ -75,7 +75,8 @@ static void add_distant(Walk *walk)
 static void add_display_xyz(Walk *walk, const Surface *surface, Vec3 wo, float weight)
 {
     const Scene   *scene = walk->context->scene;
-    const Display *display = &scene->displays[scene->materials[surface->material_id].display_id];
+    int            display_id = scene->materials[surface->material_id].display_id;
+    const Display *display = &scene->displays[display_id];
     float codes[3], xyz[3];
     Vec3  local = frame_to_local(&surface->frame, wo);
     display_codes(scene, display, &surface->point, codes);
@@ -148,8 +149,8 @@ static void add_light_sample(Walk *walk, const Surface *surface, Vec3 wo, LightS
     float u[3] = {u01.x, u01.y, u2.x};
     float set_prob = set_probability(&context->choice, surface->part_id, set, walk->bounce);
     if (u2.y >= set_prob) return;
-    if (!lights_sample(context->lights, set, surface->position, surface->frame.z,
-                       walk->wavelengths, u, &light))
+    LitPoint point = {surface->position, surface->frame.z};
+    if (!lights_sample(context->lights, set, point, walk->wavelengths, u, &light))
         return;
     if (!light.is_delta && context->strategy == PATH_BSDF_ONLY) return;
     Vec3 local_wi = frame_to_local(&surface->frame, light.wi);
@@ -193,7 +194,8 @@ static void absorb(Walk *walk, float distance)
         walk->throughput[i] *= pow_f(left[i], distance / m->attenuation_distance_m);
 }
 
-/* Ends dim paths; what survives is made stronger, so that the mean stays (Arvo and Kirk 1990). */
+/* Ends dim paths; what survives is made stronger, so that the mean stays (Arvo and Kirk 1990).
+ * The square root spares the light that reaches shadows by way of dark leather. */
 static bool roulette(Walk *walk)
 {
     if (walk->bounce < ROULETTE_FIRST_BOUNCE) return true;
@@ -297,8 +299,8 @@ static void add_pane(Walk *walk, const Surface *surface, const Hit *hit, Vec3 wo
 }
 
 /* The first panes that the eye looks through are followed both ways, the pane itself in every
- * second sample. By chance, either way, one sample in twelve would show the cabin's mirror image
- * and not the street: noise that everyone sees. False: this is no such pane. */
+ * second sample. By chance, one sample in twelve would show the cabin's mirror image and not the
+ * street: noise that everyone sees. False: this is no such pane. */
 static bool look_through(Walk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
 {
     bool is_hole = surface->alpha > 0 && surface->alpha < 1;
@@ -374,16 +376,16 @@ void path_trace(const PathContext *context, Ray ray, const Wavelengths *waveleng
     walk_xyz(&walk, out->xyz);
 }
 
-void path_illuminance(const PathContext *context, Vec3 position, Vec3 normal,
+void path_illuminance(const PathContext *context, LitPoint point,
                       const Wavelengths *wavelengths, Sampler *sampler, float xyz_lx[3],
                       PathStatistics *statistics)
 {
     Walk       walk = walk_start(context, wavelengths, sampler, statistics);
     PathResult ignored = {.hit = true};
     Surface    head;
-    surface_white(context->tables, position, normal, &head);
+    surface_white(context->tables, point.position, point.ns, &head);
     walk.throughput = spectrum_all(PI_F);
-    add_light_samples(&walk, &head, normal);
-    if (scatter(&walk, &head, normal) == STEP_SCATTERED) walk_path(&walk, &ignored);
+    add_light_samples(&walk, &head, point.ns);
+    if (scatter(&walk, &head, point.ns) == STEP_SCATTERED) walk_path(&walk, &ignored);
     walk_xyz(&walk, xyz_lx);
 }

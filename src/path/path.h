@@ -46,9 +46,9 @@ typedef struct PathResult {
 void path_trace(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
                 Sampler *sampler, PathResult *out, PathStatistics *statistics);
 
-/* Illuminance of a plane at `position` (m, world) that faces `normal` (unit), as tristimulus
- * values in lx: what a white Lambert surface would send back, times pi. */
-void path_illuminance(const PathContext *context, Vec3 position, Vec3 normal,
+/* Illuminance of a plane at the point, facing its normal, as tristimulus values in lx: what a
+ * white Lambert surface would send back, times pi. */
+void path_illuminance(const PathContext *context, LitPoint point,
                       const Wavelengths *wavelengths, Sampler *sampler, float xyz_lx[3],
                       PathStatistics *statistics);
 

@@ -116,7 +116,7 @@ static Vec3 mapped_normal(const Scene *scene, const TextureSlot *slot, float sca
     return vec3_dot(bent, bent) > 0.5f ? bent : n;
 }
 
-/* Turned to the side of ng's half-space that `side` is in, and bent until `above` is above it. */
+/* Turned to the side that `side` is on, and bent until `above` is above its plane. */
 static Vec3 oriented_normal(Vec3 ns, Vec3 side, Vec3 above)
 {
     if (vec3_dot(ns, side) < 0) ns = vec3_neg(ns);

@@ -9,7 +9,8 @@
 #include "scene/scene.h"
 #include "shaders/bsdf.h"
 
-typedef struct SurfaceTables SurfaceTables; /* energy tables of the scene's indices of refraction */
+/* Energy tables of the scene's indices of refraction. */
+typedef struct SurfaceTables SurfaceTables;
 
 /* Everything comes from the arena. */
 const SurfaceTables *surface_tables_build(const Scene *scene, Arena *arena);

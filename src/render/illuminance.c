@@ -21,13 +21,14 @@ static void measure_chunk(void *user, int chunk, int worker)
     const IlluminanceOptions *options = meter->options;
     PathStatistics statistics = {0};
     Sums *sums = &meter->sums[chunk];
-    for (long i = (long)chunk * CHUNK; i < (long)(chunk + 1) * CHUNK && i < options->samples; i++) {
+    long  begin = (long)chunk * CHUNK, end = begin + CHUNK;
+    for (long i = begin; i < end && i < options->samples; i++) {
         Sampler     sampler = sampler_start(options->seed, 0, 0, (uint32_t)i);
         Wavelengths wavelengths;
         float       xyz[3];
         wavelengths_sample(sampler_1d(&sampler), &wavelengths);
-        path_illuminance(meter->context, options->position, options->normal, &wavelengths,
-                         &sampler, xyz, &statistics);
+        path_illuminance(meter->context, options->point, &wavelengths, &sampler, xyz,
+                         &statistics);
         for (int k = 0; k < 3; k++) sums->xyz[k] += (double)xyz[k];
         sums->squares += (double)xyz[1] * (double)xyz[1];
     }

@@ -1,6 +1,6 @@
 /* illuminance.h -- a luxmeter in a scene.
  *
- * Units    position in metres (world), the head faces `normal`; results in lx.
+ * Units    places in metres (world); results in lx.
  * Memory   the lights come from the arena; the ray tracer's memory is gone on return.
  * Threads  starts its own; the same figures for any number.
  */
@@ -8,7 +8,7 @@
 #include "path/path.h"
 
 typedef struct IlluminanceOptions {
-    Vec3     position, normal; /* normal: unit */
+    LitPoint point;            /* the head is there and faces point.ns */
     long     samples;          /* at least 2 */
     int      max_bounces;
     uint32_t seed;

@@ -1,8 +1,8 @@
 /* bench_tracing RUNS SCENE... -- how much of a render is ray tracing itself.
  *
- * Renders a frame with one thread, counts its rays by class, then replays the very same rays, in
- * the same order, through plain single-ray Embree (windows let every shadow ray pass, unasked for
- * their colour). Share = replay time / render time. One line a figure: unit, median and spread.
+ * Renders a frame with one thread, counts its rays by class, then replays the very same rays in
+ * the same order through plain single-ray Embree (windows let every shadow ray pass, unasked
+ * for their colour). Share = replay time / render time. A line a figure: unit, median, spread.
  */
 #include <stdio.h>
 #include <stdlib.h>

@@ -18,18 +18,33 @@ static inline TextureSlot builder_no_texture(void)
 static inline Material builder_material(float albedo)
 {
     TextureSlot none = builder_no_texture();
-    return (Material){.name = "test", .base_color = {albedo, albedo, albedo, 1},
-                      .base_color_texture = none, .metallic = 0, .roughness = 1,
-                      .metallic_roughness_texture = none, .normal_texture = none,
-                      .normal_scale = 1, .emissive_texture = none, .alpha_cutoff = 0.5f,
-                      .ior = 1.5f, .specular = 0, .specular_texture = none,
-                      .specular_color = {1, 1, 1}, .specular_color_texture = none,
-                      .transmission_texture = none, .clearcoat_texture = none,
-                      .clearcoat_roughness_texture = none, .clearcoat_normal_texture = none,
-                      .clearcoat_normal_scale = 1, .attenuation_color = {1, 1, 1},
-                      .attenuation_distance_m = INFINITY, .display_id = NO_ID,
-                      .base_color_curve_id = NO_ID, .specular_curve_id = NO_ID,
-                      .transmission_curve_id = NO_ID, .emission_curve_id = NO_ID};
+    return (Material){.name = "test",
+                      .base_color = {albedo, albedo, albedo, 1},
+                      .base_color_texture = none,
+                      .metallic = 0,
+                      .roughness = 1,
+                      .metallic_roughness_texture = none,
+                      .normal_texture = none,
+                      .normal_scale = 1,
+                      .emissive_texture = none,
+                      .alpha_cutoff = 0.5f,
+                      .ior = 1.5f,
+                      .specular = 0,
+                      .specular_texture = none,
+                      .specular_color = {1, 1, 1},
+                      .specular_color_texture = none,
+                      .transmission_texture = none,
+                      .clearcoat_texture = none,
+                      .clearcoat_roughness_texture = none,
+                      .clearcoat_normal_texture = none,
+                      .clearcoat_normal_scale = 1,
+                      .attenuation_color = {1, 1, 1},
+                      .attenuation_distance_m = INFINITY,
+                      .display_id = NO_ID,
+                      .base_color_curve_id = NO_ID,
+                      .specular_curve_id = NO_ID,
+                      .transmission_curve_id = NO_ID,
+                      .emission_curve_id = NO_ID};
 }
 
 static inline Scene *builder_scene(Arena *arena)
@@ -49,7 +64,8 @@ static inline Scene *builder_scene(Arena *arena)
     return scene;
 }
 
-/* Starts a part with a material; triangles that follow belong to it. Opaque parts come first. */
+/* Starts a part with a material; triangles that follow belong to it. Opaque parts come first.
+ */
 static inline int builder_part(Scene *scene, Material material)
 {
     int id = scene->material_count++;
@@ -62,7 +78,8 @@ static inline int builder_part(Scene *scene, Material material)
 static inline uint32_t builder_vertex(Scene *scene, Vec3 p, Vec3 n, float u, float v)
 {
     Vertex *vertex = &scene->vertices[scene->vertex_count];
-    *vertex = (Vertex){.position = {p.x, p.y, p.z}, .normal = {n.x, n.y, n.z},
+    *vertex = (Vertex){.position = {p.x, p.y, p.z},
+                       .normal = {n.x, n.y, n.z},
                        .uv = {{u, v}, {u, v}},
                        .color = {65535, 65535, 65535, 65535}};
     scene->bounds_min = vec3(fminf(scene->bounds_min.x, p.x), fminf(scene->bounds_min.y, p.y),
@@ -98,7 +115,8 @@ static inline void builder_quad(Scene *scene, Vec3 centre, Vec3 half_u, Vec3 hal
 }
 
 /* A sphere of 2 * rings * rings * 2 triangles; outward front, or inward when inside is set. */
-static inline void builder_sphere(Scene *scene, Vec3 centre, float radius, int rings, int inside)
+static inline void builder_sphere(Scene *scene, Vec3 centre, float radius, int rings,
+                                  int inside)
 {
     uint32_t first = scene->vertex_count;
     int columns = 2 * rings;
@@ -113,9 +131,9 @@ static inline void builder_sphere(Scene *scene, Vec3 centre, float radius, int r
         }
     for (int j = 0; j < rings; j++)
         for (int i = 0; i < columns; i++) {
-            uint32_t a = first + (uint32_t)(j * (columns + 1) + i), b = a + (uint32_t)columns + 1;
-            if (j > 0)
-                builder_triangle(scene, a, inside ? a + 1 : b, inside ? b : a + 1);
+            uint32_t a = first + (uint32_t)(j * (columns + 1) + i),
+                     b = a + (uint32_t)columns + 1;
+            if (j > 0) builder_triangle(scene, a, inside ? a + 1 : b, inside ? b : a + 1);
             if (j < rings - 1)
                 builder_triangle(scene, a + 1, inside ? b + 1 : b, inside ? b : b + 1);
         }

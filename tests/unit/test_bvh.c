@@ -19,17 +19,17 @@ static Vec3 random_point(uint32_t *state, float size)
 static Scene *soup(Arena *arena, int triangles, int asked)
 {
     uint32_t random = 7;
-    Scene   *scene = builder_scene(arena);
+    Scene *scene = builder_scene(arena);
     for (int kind = 0; kind < 2; kind++) {
         Material material = builder_material(0.5f);
         material.lets_light_through = kind == 1;
         builder_part(scene, material);
         for (int i = 0; i < (kind ? asked : triangles); i++) {
-            Vec3     at = random_point(&random, 2);
+            Vec3 at = random_point(&random, 2);
             uint32_t first = scene->vertex_count;
             for (int k = 0; k < 3; k++)
-                builder_vertex(scene, vec3_add(at, random_point(&random, 0.6f)), vec3(0, 1, 0), 0,
-                               0);
+                builder_vertex(scene, vec3_add(at, random_point(&random, 0.6f)), vec3(0, 1, 0),
+                               0, 0);
             builder_triangle(scene, first, first + 1, first + 2);
         }
     }
@@ -45,8 +45,7 @@ static int hits(const Scene *scene, uint32_t triangle, Ray ray, double *t)
     const double o[3] = {(double)ray.origin.x, (double)ray.origin.y, (double)ray.origin.z};
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < 3; i++)
-            p[k][i] =
-                (double)scene->vertices[scene->triangles[triangle].vertex[k]].position[i];
+            p[k][i] = (double)scene->vertices[scene->triangles[triangle].vertex[k]].position[i];
     for (int i = 0; i < 3; i++) {
         e1[i] = p[1][i] - p[0][i];
         e2[i] = p[2][i] - p[0][i];
@@ -66,11 +65,11 @@ static int hits(const Scene *scene, uint32_t triangle, Ray ray, double *t)
 
 static void the_nearest_of_all_triangles_is_hit(void **state)
 {
-    Arena  arena = arena_reserve(1 << 28);
+    Arena arena = arena_reserve(1 << 28);
     Scene *scene = soup(&arena, 300, 100);
-    Bvh   *bvh;
-    Error  err;
-    int    disagree = 0;
+    Bvh *bvh;
+    Error err;
+    int disagree = 0;
     uint32_t random = 3;
     (void)state;
     assert_true(bvh_create(scene, 1, NULL, &bvh, &err));
@@ -78,7 +77,7 @@ static void the_nearest_of_all_triangles_is_hit(void **state)
         Ray ray = {random_point(&random, 3), vec3_normalize(random_point(&random, 2)), 0,
                    INFINITY};
         double nearest = INFINITY, t;
-        Hit    hit = {INFINITY, 0, 0, 0};
+        Hit hit = {INFINITY, 0, 0, 0};
         for (uint32_t k = 0; k < scene->triangle_count; k++)
             if (hits(scene, k, ray, &t) && t < nearest) nearest = t;
         bvh_intersect(bvh, ray, &hit);
@@ -92,7 +91,7 @@ static void the_nearest_of_all_triangles_is_hit(void **state)
 
 typedef struct Asked {
     const Scene *scene;
-    int   count;
+    int count;
     float transmitted;
 } Asked;
 
@@ -109,11 +108,11 @@ static bool half_passes(void *user, const Hit *hit)
 static void a_shadow_ray_asks_every_window_once(void **state)
 {
     (void)state;
-    Arena    arena = arena_reserve(1 << 28);
-    Scene   *scene = builder_scene(&arena);
+    Arena arena = arena_reserve(1 << 28);
+    Scene *scene = builder_scene(&arena);
     Material window = builder_material(1);
-    Bvh     *bvh;
-    Error    err;
+    Bvh *bvh;
+    Error err;
     window.lets_light_through = true;
     builder_part(scene, builder_material(0.5f));
     builder_quad(scene, vec3(0, 0, -20), vec3(1, 0, 0), vec3(0, 1, 0));
@@ -122,7 +121,7 @@ static void a_shadow_ray_asks_every_window_once(void **state)
         builder_quad(scene, vec3(0, 0, (float)-i), vec3(1, 0, 0), vec3(0, 1, 0));
     assert_true(bvh_create(scene, 2, NULL, &bvh, &err));
     Asked asked = {scene, 0, 1};
-    Ray   ray = {vec3(0.3f, 0.1f, 0), vec3(0, 0, -1), 0, 15};
+    Ray ray = {vec3(0.3f, 0.1f, 0), vec3(0, 0, -1), 0, 15};
     assert_false(bvh_occluded(bvh, ray, half_passes, &asked));
     assert_int_equal(asked.count, 10);
     ray.t_max = 30; /* now the opaque wall stands in the way */
@@ -134,11 +133,11 @@ static void a_shadow_ray_asks_every_window_once(void **state)
 static void rays_that_are_not_finite_hit_nothing_and_light_nothing(void **state)
 {
     (void)state;
-    Arena  arena = arena_reserve(1 << 28);
+    Arena arena = arena_reserve(1 << 28);
     Scene *scene = soup(&arena, 50, 0);
-    Bvh   *bvh;
-    Error  err;
-    Hit    hit;
+    Bvh *bvh;
+    Error err;
+    Hit hit;
     const Ray bad[] = {
         {vec3(NAN, 0, 0), vec3(0, 0, 1), 0, INFINITY},
         {vec3(0, INFINITY, 0), vec3(0, 0, 1), 0, INFINITY},
@@ -160,11 +159,11 @@ static void rays_that_are_not_finite_hit_nothing_and_light_nothing(void **state)
 static void an_empty_scene_is_hit_nowhere(void **state)
 {
     (void)state;
-    Arena  arena = arena_reserve(1 << 28);
+    Arena arena = arena_reserve(1 << 28);
     Scene *scene = builder_scene(&arena);
-    Bvh   *bvh;
-    Error  err;
-    Hit    hit;
+    Bvh *bvh;
+    Error err;
+    Hit hit;
     assert_true(bvh_create(scene, 1, NULL, &bvh, &err));
     assert_false(bvh_intersect(bvh, (Ray){vec3(0, 0, 0), vec3(0, 0, 1), 0, INFINITY}, &hit));
     bvh_destroy(bvh);

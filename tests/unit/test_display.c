@@ -12,10 +12,10 @@ static const char *const PANELS[] = {PROJECT_DIR "/assets/panels/ips_cluster.pan
 
 /* A display of 2 x 1 m in the plane z = 0 that faces +z, u to the right, v down. */
 typedef struct World {
-    Arena       arena;
-    Scene      *scene;
-    Panel      *panel;
-    Bvh        *bvh;
+    Arena arena;
+    Scene *scene;
+    Panel *panel;
+    Bvh *bvh;
     PathContext context;
 } World;
 
@@ -32,7 +32,10 @@ static World world_open(const char *panel_path)
     builder_part(world.scene, material);
     builder_quad(world.scene, vec3(0, 0, 0), vec3(1, 0, 0), vec3(0, 0.5f, 0));
     world.scene->displays[world.scene->display_count++] =
-        (Display){.name = "display", .panel = world.panel, .material_id = 0, .level = 1,
+        (Display){.name = "display",
+                  .panel = world.panel,
+                  .material_id = 0,
+                  .level = 1,
                   .content = builder_no_texture()};
     return world;
 }
@@ -40,14 +43,14 @@ static World world_open(const char *panel_path)
 /* Shows a picture of width x height pixels of 8-bit codes. */
 static void world_show(World *world, const uint8_t *rgba, int width, int height)
 {
-    world->scene->textures[0] = (Texture){{width, height, IMAGE_RGBA8, rgba}, WRAP_CLAMP,
-                                          WRAP_CLAMP, true};
+    world->scene->textures[0] =
+        (Texture){{width, height, IMAGE_RGBA8, rgba}, WRAP_CLAMP, WRAP_CLAMP, true};
     world->scene->displays[0].content.texture_id = 0;
 }
 
 static void world_ready(World *world)
 {
-    Error   err = {0};
+    Error err = {0};
     Lights *lights;
     if (!bvh_create(world->scene, 1, NULL, &world->bvh, &err)) fail_msg("%s", err.text);
     if (!lights_build(world->scene, &world->arena, &lights, &err)) fail_msg("%s", err.text);
@@ -74,14 +77,14 @@ typedef struct Seen {
 /* Mean of count paths from 3 m away along `towards` (from the display) to its point `at`. */
 static Seen look(const World *world, Vec3 at, Vec3 towards, int count)
 {
-    Seen   seen = {{0}, 0};
+    Seen seen = {{0}, 0};
     double squares = 0;
     PathStatistics statistics = {0};
-    Ray    ray = {vec3_along(at, towards, 3), vec3_neg(towards), 0, INFINITY};
+    Ray ray = {vec3_along(at, towards, 3), vec3_neg(towards), 0, INFINITY};
     for (int i = 0; i < count; i++) {
-        Sampler     sampler = sampler_start(9, 0, 0, (uint32_t)i);
+        Sampler sampler = sampler_start(9, 0, 0, (uint32_t)i);
         Wavelengths w;
-        PathResult  result;
+        PathResult result;
         wavelengths_sample(sampler_1d(&sampler), &w);
         path_trace(&world->context, ray, &w, &sampler, &result, &statistics);
         for (int k = 0; k < 3; k++) seen.xyz[k] += (double)result.xyz[k] / count;
@@ -96,14 +99,14 @@ static void a_frame_shows_what_the_panel_emits(void **state)
 {
     (void)state;
     for (int p = 0; p < PANEL_COUNT; p++) {
-        World   world = world_open(PANELS[p]);
+        World world = world_open(PANELS[p]);
         uint8_t pixel[4] = {0, 0, 0, 255};
         world_show(&world, pixel, 1, 1);
         world_ready(&world);
         for (int primary = 0; primary < 3; primary++)
             for (int level = 0; level < 9; level++)
                 for (int d = 0; d < 25; d++) {
-                    Vec3  towards = direction(3 + 3.3 * d, 137.5 * d);
+                    Vec3 towards = direction(3 + 3.3 * d, 137.5 * d);
                     float codes[3] = {0}, expected[3], uv[2], wanted_uv[2], xyz[3];
                     memset(pixel, 0, 3);
                     pixel[primary] = (uint8_t)(level ? 32 * level - 1 : 0);
@@ -128,8 +131,8 @@ static void the_display_lights_a_wall_with_its_measured_luminance(void **state)
     (void)state;
     World world = world_open(PANELS[0]);
     const float codes[3] = {255, 180, 60};
-    uint8_t  pixel[4] = {255, 180, 60, 255};
-    double   expected = 0;
+    uint8_t pixel[4] = {255, 180, 60, 255};
+    double expected = 0;
     const int side = 400;
     world_show(&world, pixel, 1, 1);
     builder_part(world.scene, builder_material(0.5f));
@@ -138,8 +141,8 @@ static void the_display_lights_a_wall_with_its_measured_luminance(void **state)
     world.context.max_bounces = 1;
     for (int i = 0; i < side; i++) /* the illuminance at the wall's middle, by area */
         for (int j = 0; j < side; j++) {
-            Vec3  from = vec3((2 * (i + 0.5f) / side - 1), (j + 0.5f) / side - 0.5f, 0);
-            Vec3  to = vec3_sub(vec3(0, 0, 4), from);
+            Vec3 from = vec3((2 * (i + 0.5f) / side - 1), (j + 0.5f) / side - 0.5f, 0);
+            Vec3 to = vec3_sub(vec3(0, 0, 4), from);
             float xyz[3], d2 = vec3_dot(to, to), cosine = 4 / sqrtf(d2);
             panel_emission_xyz(world.panel, vec3_normalize(to), codes, xyz);
             expected += (double)(xyz[1] * cosine * cosine / d2) * 2.0 / (side * side);
@@ -149,9 +152,9 @@ static void the_display_lights_a_wall_with_its_measured_luminance(void **state)
     const int count = 40000;
     double squares = 0;
     for (int i = 0; i < count; i++) {
-        Sampler     sampler = sampler_start(4, 0, 0, (uint32_t)i);
+        Sampler sampler = sampler_start(4, 0, 0, (uint32_t)i);
         Wavelengths w;
-        PathResult  result;
+        PathResult result;
         wavelengths_sample(sampler_1d(&sampler), &w);
         path_trace(&world.context, (Ray){vec3(0, 0, 3.5f), vec3(0, 0, 1), 0, INFINITY}, &w,
                    &sampler, &result, &statistics);
@@ -169,15 +172,15 @@ static void the_picture_stands_upright(void **state)
 {
     (void)state;
     World world = world_open(PANELS[0]);
-    static const uint8_t picture[16] = {255, 0, 0, 255, /* upper left red */
-                                        0, 255, 0, 255, /* upper right green */
-                                        0, 0, 255, 255, /* lower left blue */
+    static const uint8_t picture[16] = {255, 0,   0,   255, /* upper left red */
+                                        0,   255, 0,   255, /* upper right green */
+                                        0,   0,   255, 255, /* lower left blue */
                                         255, 255, 255, 255};
     world_show(&world, picture, 2, 2);
     world_ready(&world);
     for (int corner = 0; corner < 4; corner++) {
         float codes[3], expected[3];
-        Vec3  at = vec3(corner & 1 ? 0.5f : -0.5f, corner & 2 ? -0.25f : 0.25f, 0);
+        Vec3 at = vec3(corner & 1 ? 0.5f : -0.5f, corner & 2 ? -0.25f : 0.25f, 0);
         for (int k = 0; k < 3; k++) codes[k] = picture[4 * corner + k];
         panel_emission_xyz(world.panel, vec3(0, 0, 1), codes, expected);
         Seen seen = look(&world, at, vec3(0, 0, 1), 1);
@@ -190,7 +193,7 @@ static void the_picture_stands_upright(void **state)
 static void angles_are_those_of_someone_who_faces_the_display(void **state)
 {
     (void)state;
-    World   world = world_open(PANELS[0]);
+    World world = world_open(PANELS[0]);
     uint8_t pixel[4] = {255, 255, 255, 255};
     world_show(&world, pixel, 1, 1);
     for (int turned = 0; turned < 2; turned++) {
@@ -202,9 +205,9 @@ static void angles_are_those_of_someone_who_faces_the_display(void **state)
             }
         world_ready(&world);
         for (int phi = 0; phi < 360; phi += 45) {
-            PathResult     result = {.hit = true, .first = {3, 0.3f, 0.2f, 0}};
-            PathFeatures   features;
-            Wavelengths    w;
+            PathResult result = {.hit = true, .first = {3, 0.3f, 0.2f, 0}};
+            PathFeatures features;
+            Wavelengths w;
             wavelengths_sample(0.5f, &w);
             result.direction = vec3_neg(direction(30, phi));
             path_features(&world.context, &result, &w, &features);
@@ -247,8 +250,8 @@ static Spectrum reflected_sky(const World *world, const Wavelengths *w, const vo
         for (int j = 0; j < SECTORS; j++) {
             /* Rings are denser about the mirror direction's polar angle than elsewhere. */
             double theta = PI / 2 * (i + 0.5) / RINGS, phi = 2 * PI * (j + 0.5) / SECTORS;
-            Vec3   wi = vec3((float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)),
-                             (float)cos(theta));
+            Vec3 wi = vec3((float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)),
+                           (float)cos(theta));
             double weight = sin(theta) * cos(theta) * PI / 2 / RINGS * 2 * PI / SECTORS;
             sum += panel_brdf(world->panel, *wo, wi, w) * spectrum_all((float)weight);
         }
@@ -260,7 +263,7 @@ static void a_display_under_a_uniform_sky_reflects_its_brdfs_integral(void **sta
 {
     (void)state;
     for (int p = 0; p < PANEL_COUNT; p++) {
-        World   world = world_open(PANELS[p]);
+        World world = world_open(PANELS[p]);
         uint8_t pixel[4] = {0, 0, 0, 255};
         world_show(&world, pixel, 1, 1);
         world.scene->displays[0].level = 0;
@@ -269,9 +272,9 @@ static void a_display_under_a_uniform_sky_reflects_its_brdfs_integral(void **sta
         for (int i = 0; i < 3; i++) world.scene->environment.color[i] = 1;
         world_ready(&world);
         for (int theta = 10; theta <= 60; theta += 25) {
-            Vec3   wo = direction(theta, 40);
+            Vec3 wo = direction(theta, 40);
             double expected = mean_luminance(&world, reflected_sky, &wo);
-            Seen   seen = look(&world, vec3(0, 0, 0), wo, 60000);
+            Seen seen = look(&world, vec3(0, 0, 0), wo, 60000);
             print_message("sky, panel %d, %d deg: %.5g +- %.2g, integral %.5g\n", p, theta,
                           seen.xyz[1], seen.sigma_y, expected);
             assert_true(seen.sigma_y < 2e-3 * expected);
@@ -290,14 +293,14 @@ typedef struct SunView {
 static Spectrum reflected_sun(const World *world, const Wavelengths *w, const void *context)
 {
     const SunView *view = context;
-    Frame    frame = frame_from_z(view->sun);
+    Frame frame = frame_from_z(view->sun);
     Spectrum sum = spectrum_all(0);
     enum { RINGS = 24, SECTORS = 48 };
     for (int i = 0; i < RINGS; i++)
         for (int j = 0; j < SECTORS; j++) {
             double r = view->radius * sqrt((i + 0.5) / RINGS), a = 2 * PI * (j + 0.5) / SECTORS;
-            Vec3   wi = frame_to_world(&frame, vec3((float)(sin(r) * cos(a)),
-                                                    (float)(sin(r) * sin(a)), (float)cos(r)));
+            Vec3 wi = frame_to_world(&frame, vec3((float)(sin(r) * cos(a)),
+                                                  (float)(sin(r) * sin(a)), (float)cos(r)));
             sum += panel_brdf(world->panel, view->wo, wi, w) *
                    spectrum_all(wi.z / (RINGS * SECTORS));
         }
@@ -309,7 +312,7 @@ static void a_display_under_the_sun_reflects_its_brdf_over_the_disc(void **state
     (void)state;
     for (int p = 0; p < PANEL_COUNT; p++)
         for (int away = 2; away <= 30; away += 7) {
-            World   world = world_open(PANELS[p]);
+            World world = world_open(PANELS[p]);
             uint8_t pixel[4] = {0, 0, 0, 255};
             Environment *environment = &world.scene->environment;
             world_show(&world, pixel, 1, 1);
@@ -319,23 +322,28 @@ static void a_display_under_the_sun_reflects_its_brdf_over_the_disc(void **state
             environment->sun_elevation = (float)radians_from_degrees(40);
             environment->sun_illuminance_lx = 50000;
             world_ready(&world);
-            SunView view = {.wo = direction(40 - away, 270), .sun = direction(40, 90),
-                            .lx = 50000, .radius = (double)environment->sun_angular_radius};
+            SunView view = {.wo = direction(40 - away, 270),
+                            .sun = direction(40, 90),
+                            .lx = 50000,
+                            .radius = (double)environment->sun_angular_radius};
             LightSample sample;
             double expected = 0;
             for (int i = 0; i < 16; i++) { /* the sun's own spectrum, of 50 klx */
                 Wavelengths w;
                 float xyz[3] = {0}, u[3] = {0.5f, 0.5f, 0.5f};
                 wavelengths_sample(((float)i + 0.5f) / 16, &w);
-                assert_true(lights_sample(world.context.lights, LIGHTS_SUN, vec3(0, 0, 0),
-                                          vec3(0, 0, 1), &w, u, &sample));
-                spectrum_add_xyz(&w, reflected_sun(&world, &w, &view) * sample.radiance /
-                                         spectrum_all(sample.pdf), xyz);
+                assert_true(lights_sample(world.context.lights, LIGHTS_SUN,
+                                          (LitPoint){vec3(0, 0, 0), vec3(0, 0, 1)}, &w, u,
+                                          &sample));
+                spectrum_add_xyz(&w,
+                                 reflected_sun(&world, &w, &view) * sample.radiance /
+                                     spectrum_all(sample.pdf),
+                                 xyz);
                 expected += (double)xyz[1] / 16;
             }
             Seen seen = look(&world, vec3(0, 0, 0), view.wo, 20000);
-            print_message("sun, panel %d, %d deg off the mirror: %.5g +- %.2g, integral %.5g\n", p,
-                          away, seen.xyz[1], seen.sigma_y, expected);
+            print_message("sun, panel %d, %d deg off the mirror: %.5g +- %.2g, integral %.5g\n",
+                          p, away, seen.xyz[1], seen.sigma_y, expected);
             assert_true(seen.sigma_y < 2e-3 * expected);
             assert_close(seen.xyz[1], expected, 5e-3);
             world_end(&world);

@@ -22,7 +22,7 @@ static void random3(uint32_t *state, float u[3])
 /* Mean and standard error of a running sum. */
 typedef struct Mean {
     double sum, squares;
-    long   count;
+    long count;
 } Mean;
 
 static void mean_add(Mean *mean, double value)
@@ -44,7 +44,7 @@ static void assert_mean(const char *what, Mean mean, double expected)
 /* Illuminance, lx, of one set at `position` on a plane with normal n, by its own samples. */
 static Mean illuminance(const Lights *lights, LightSet set, Vec3 position, Vec3 n)
 {
-    Mean     mean = {0};
+    Mean mean = {0};
     uint32_t random = 11;
     for (int i = 0; i < SAMPLES; i++) {
         Wavelengths w;
@@ -52,7 +52,7 @@ static Mean illuminance(const Lights *lights, LightSet set, Vec3 position, Vec3 
         float u[3], xyz[3] = {0};
         random3(&random, u);
         wavelengths_sample(random_unit(&random), &w);
-        if (lights_sample(lights, set, position, n, &w, u, &sample)) {
+        if (lights_sample(lights, set, (LitPoint){position, n}, &w, u, &sample)) {
             float cosine = fmaxf(vec3_dot(n, sample.wi), 0);
             spectrum_add_xyz(&w, sample.radiance * spectrum_all(cosine / sample.pdf), xyz);
         }
@@ -64,7 +64,7 @@ static Mean illuminance(const Lights *lights, LightSet set, Vec3 position, Vec3 
 static const Lights *build(const Scene *scene, Arena *arena)
 {
     Lights *lights;
-    Error   err = {0};
+    Error err = {0};
     if (!lights_build(scene, arena, &lights, &err)) fail_msg("%s", err.text);
     return lights;
 }
@@ -74,7 +74,7 @@ static void the_suns_irradiance_is_exact_whatever_its_size(void **state)
     (void)state;
     const float radius[] = {0.0005f, 0.00465f, 0.05f};
     for (int i = 0; i < 3; i++) {
-        Arena  arena = arena_reserve(1 << 28);
+        Arena arena = arena_reserve(1 << 28);
         Scene *scene = builder_scene(&arena);
         scene->environment.has_sun = true;
         scene->environment.sun_angular_radius = radius[i];
@@ -82,8 +82,8 @@ static void the_suns_irradiance_is_exact_whatever_its_size(void **state)
         scene->environment.sun_elevation = 0.6f;
         scene->environment.sun_illuminance_lx = 90000;
         const Lights *lights = build(scene, &arena);
-        Vec3 to_sun = vec3((float)(cos(0.6) * sin(1.1)), (float)sin(0.6),
-                           (float)(-cos(0.6) * cos(1.1)));
+        Vec3 to_sun =
+            vec3((float)(cos(0.6) * sin(1.1)), (float)sin(0.6), (float)(-cos(0.6) * cos(1.1)));
         assert_mean("facing the sun", illuminance(lights, LIGHTS_SUN, vec3(0, 0, 0), to_sun),
                     90000);
         assert_mean("on the ground",
@@ -96,10 +96,10 @@ static void the_suns_irradiance_is_exact_whatever_its_size(void **state)
 static void the_heading_turns_the_sun_and_not_the_scene(void **state)
 {
     (void)state;
-    Arena  arena = arena_reserve(1 << 26);
+    Arena arena = arena_reserve(1 << 26);
     Scene *scene = builder_scene(&arena);
-    Sky    sky;
-    Error  err;
+    Sky sky;
+    Error err;
     scene->environment.has_sun = true;
     scene->environment.sun_illuminance_lx = 1;
     scene->environment.sun_azimuth = (float)(PI / 2); /* east */
@@ -117,7 +117,7 @@ static void the_heading_turns_the_sun_and_not_the_scene(void **state)
 static void a_uniform_sky_of_luminance_l_gives_pi_l(void **state)
 {
     (void)state;
-    Arena  arena = arena_reserve(1 << 28);
+    Arena arena = arena_reserve(1 << 28);
     Scene *scene = builder_scene(&arena);
     scene->environment.kind = ENVIRONMENT_CONSTANT;
     scene->environment.luminance_cd_m2 = 1000;
@@ -150,13 +150,13 @@ static Scene *picture_scene(Arena *arena, int width, int height)
 static void a_picture_can_be_scaled_to_an_illuminance(void **state)
 {
     (void)state;
-    Arena  arena = arena_reserve(1 << 28);
+    Arena arena = arena_reserve(1 << 28);
     Scene *scene = picture_scene(&arena, 64, 32);
     scene->environment.horizontal_illuminance_lx = 15000;
     const Lights *lights = build(scene, &arena);
     assert_int_equal(lights_refused_pixels(lights), 1);
-    assert_mean("scaled picture",
-                illuminance(lights, LIGHTS_SKY, vec3(0, 0, 0), vec3(0, 1, 0)), 15000);
+    assert_mean("scaled picture", illuminance(lights, LIGHTS_SKY, vec3(0, 0, 0), vec3(0, 1, 0)),
+                15000);
     arena_release(&arena);
 }
 
@@ -164,11 +164,11 @@ static void a_picture_can_be_scaled_to_an_illuminance(void **state)
 static void a_picture_hangs_the_right_way_round(void **state)
 {
     (void)state;
-    Arena  arena = arena_reserve(1 << 26);
+    Arena arena = arena_reserve(1 << 26);
     Scene *scene = builder_scene(&arena);
-    float  pixels[8 * 4 * 4] = {0}; /* 8 columns, 4 rows: column 0 north, 2 east ... */
-    Sky    sky;
-    Error  err;
+    float pixels[8 * 4 * 4] = {0}; /* 8 columns, 4 rows: column 0 north, 2 east ... */
+    Sky sky;
+    Error err;
     for (int y = 0; y < 4; y++)
         for (int x = 0; x < 8; x++)
             for (int i = 0; i < 3; i++) pixels[4 * (y * 8 + x) + i] = (float)(x / 2 + 1);
@@ -180,7 +180,7 @@ static void a_picture_hangs_the_right_way_round(void **state)
         assert_true(sky_build(&scene->environment, &arena, &sky, &err));
         for (int k = 0; k < 4; k++) {
             float angle = (float)(k * PI / 2 + 0.35 + PI / 4);
-            Vec3  d = vec3((float)sin((double)angle), 0, (float)-cos((double)angle));
+            Vec3 d = vec3((float)sin((double)angle), 0, (float)-cos((double)angle));
             assert_close(sky_seen(&sky, d, d).rgb[1], (k - turn + 4) % 4 + 1, 1e-4);
         }
     }
@@ -192,18 +192,18 @@ static void picture_samples_follow_their_density(void **state)
 {
     (void)state;
     enum { ROWS = 16, COLUMNS = 32, COUNT = 400000, FINE = 24 };
-    Arena    arena = arena_reserve(1 << 28);
-    Scene   *scene = picture_scene(&arena, 64, 32);
-    Sky      sky;
-    Error    err;
+    Arena arena = arena_reserve(1 << 28);
+    Scene *scene = picture_scene(&arena, 64, 32);
+    Sky sky;
+    Error err;
     uint32_t random = 5;
-    int      unlike = 0;
+    int unlike = 0;
     static double found[ROWS * COLUMNS], expected[ROWS * COLUMNS];
     scene->environment.hdri_rotation = (float)(2 * PI * 5 / 64); /* texels on the grid */
     assert_true(sky_build(&scene->environment, &arena, &sky, &err));
     for (int i = 0; i < COUNT; i++) {
         SkySample sample;
-        Vec3  n = vec3(0, 1, 0);
+        Vec3 n = vec3(0, 1, 0);
         float u0 = random_unit(&random), u1 = random_unit(&random);
         if (!sky_sample(&sky, n, u0, u1, &sample)) continue;
         Vec3 d = sample.direction;
@@ -215,13 +215,13 @@ static void picture_samples_follow_their_density(void **state)
     }
     assert_true(unlike < COUNT / 1000);
     double total = 0, chi2 = 0;
-    int    cells = 0;
+    int cells = 0;
     for (int row = 0; row < ROWS * FINE; row++)
         for (int column = 0; column < COLUMNS * FINE; column++) {
             double theta = PI * (row + 0.5) / (ROWS * FINE);
             double phi = 2 * PI * (column + 0.5) / (COLUMNS * FINE) - PI;
-            Vec3   d = vec3((float)(sin(theta) * cos(phi)), (float)cos(theta),
-                            (float)(sin(theta) * sin(phi)));
+            Vec3 d = vec3((float)(sin(theta) * cos(phi)), (float)cos(theta),
+                          (float)(sin(theta) * sin(phi)));
             double share = (double)sky_seen(&sky, d, vec3(0, 1, 0)).pdf * sin(theta) * PI /
                            (ROWS * FINE) * 2 * PI / (COLUMNS * FINE);
             expected[row / FINE * COLUMNS + column / FINE] += share * COUNT;
@@ -242,13 +242,13 @@ static void picture_samples_follow_their_density(void **state)
 static void point_and_spot_follow_the_inverse_square_and_the_cone(void **state)
 {
     (void)state;
-    Arena  arena = arena_reserve(1 << 26);
+    Arena arena = arena_reserve(1 << 26);
     Scene *scene = builder_scene(&arena);
-    scene->lights[scene->light_count++] =
-        (PunctualLight){.kind = LIGHT_POINT, .position = {0, 3, 0}, .intensity = {1000, 1000, 1000}};
+    scene->lights[scene->light_count++] = (PunctualLight){
+        .kind = LIGHT_POINT, .position = {0, 3, 0}, .intensity = {1000, 1000, 1000}};
     const Lights *lights = build(scene, &arena);
-    assert_mean("1000 cd at 3 m", illuminance(lights, LIGHTS_PUNCTUAL, vec3(0, 0, 0), vec3(0, 1, 0)),
-                111.111);
+    assert_mean("1000 cd at 3 m",
+                illuminance(lights, LIGHTS_PUNCTUAL, vec3(0, 0, 0), vec3(0, 1, 0)), 111.111);
     scene->lights[0].kind = LIGHT_SPOT;
     scene->lights[0].direction = vec3(0, -1, 0);
     scene->lights[0].cos_inner = (float)cos(0.2);
@@ -257,29 +257,32 @@ static void point_and_spot_follow_the_inverse_square_and_the_cone(void **state)
                 illuminance(lights, LIGHTS_PUNCTUAL, vec3(0.3f, 0, 0), vec3(0, 1, 0)),
                 1000 * 3 / pow(9.09, 1.5));
     double ramp = (cos(0.3) - cos(0.4)) / (cos(0.2) - cos(0.4));
-    assert_mean("on the cone's edge",
-                illuminance(lights, LIGHTS_PUNCTUAL, vec3((float)(3 * tan(0.3)), 0, 0),
-                            vec3(0, 1, 0)),
-                1000.0 / 9 * pow(cos(0.3), 3) * ramp * ramp);
+    assert_mean(
+        "on the cone's edge",
+        illuminance(lights, LIGHTS_PUNCTUAL, vec3((float)(3 * tan(0.3)), 0, 0), vec3(0, 1, 0)),
+        1000.0 / 9 * pow(cos(0.3), 3) * ramp * ramp);
     arena_release(&arena);
 }
 
 static void many_lights_are_chosen_without_bias(void **state)
 {
     (void)state;
-    Arena  arena = arena_reserve(1 << 26);
+    Arena arena = arena_reserve(1 << 26);
     Scene *scene = builder_scene(&arena);
     double expected = 0;
     for (int i = 0; i < 50; i++) {
-        Vec3  at = vec3((float)(i % 10) - 4.5f, 2 + 0.1f * (float)(i % 3), (float)(i / 10) - 2.0f);
+        Vec3 at =
+            vec3((float)(i % 10) - 4.5f, 2 + 0.1f * (float)(i % 3), (float)(i / 10) - 2.0f);
         float cd = 10.0f * (float)(i % 7 + 1);
         double d2 = (double)vec3_dot(at, at);
         scene->lights[scene->light_count++] =
             (PunctualLight){.kind = LIGHT_POINT, .position = at, .intensity = {cd, cd, cd}};
         expected += (double)cd * (double)at.y / (d2 * sqrt(d2));
     }
-    assert_mean("fifty lamps", illuminance(build(scene, &arena), LIGHTS_PUNCTUAL,
-                                           vec3(0, 0, 0), vec3(0, 1, 0)), expected);
+    assert_mean(
+        "fifty lamps",
+        illuminance(build(scene, &arena), LIGHTS_PUNCTUAL, vec3(0, 0, 0), vec3(0, 1, 0)),
+        expected);
     arena_release(&arena);
 }
 
@@ -287,8 +290,8 @@ static void many_lights_are_chosen_without_bias(void **state)
 static void an_area_light_gives_its_configuration_factor(void **state)
 {
     (void)state;
-    Arena    arena = arena_reserve(1 << 28);
-    Scene   *scene = builder_scene(&arena);
+    Arena arena = arena_reserve(1 << 28);
+    Scene *scene = builder_scene(&arena);
     Material lamp = builder_material(0);
     lamp.is_emitter = true;
     for (int i = 0; i < 3; i++) lamp.emissive_cd_m2[i] = 2000;
@@ -297,19 +300,21 @@ static void an_area_light_gives_its_configuration_factor(void **state)
     double x = 0.5, root = sqrt(1 + x * x);
     double factor = 4 / (2 * PI) * 2 * (x / root * atan(x / root));
     const Lights *lights = build(scene, &arena);
-    assert_mean("square lamp", illuminance(lights, LIGHTS_EMITTERS, vec3(0, 0, 0), vec3(0, 1, 0)),
+    assert_mean("square lamp",
+                illuminance(lights, LIGHTS_EMITTERS, vec3(0, 0, 0), vec3(0, 1, 0)),
                 PI * 2000 * factor);
     LightSample sample;
     Wavelengths w;
     float u[3] = {0.3f, 0.4f, 0.1f};
     wavelengths_sample(0.5f, &w);
-    assert_true(lights_sample(lights, LIGHTS_EMITTERS, vec3(0, 0, 0), vec3(0, 1, 0), &w, u,
-                              &sample));
+    assert_true(lights_sample(lights, LIGHTS_EMITTERS, (LitPoint){vec3(0, 0, 0), vec3(0, 1, 0)},
+                              &w, u, &sample));
     float pdf0 = lights_emitter_pdf(lights, 0, sample.wi, vec3(0, -1, 0), sample.distance);
     float pdf1 = lights_emitter_pdf(lights, 1, sample.wi, vec3(0, -1, 0), sample.distance);
     assert_close(pdf0, sample.pdf, 1e-5);
     assert_close(pdf1, sample.pdf, 1e-5);
-    assert_false(lights_sample(lights, LIGHTS_EMITTERS, vec3(0, 4, 0), vec3(0, -1, 0), &w, u,
+    assert_false(lights_sample(lights, LIGHTS_EMITTERS,
+                               (LitPoint){vec3(0, 4, 0), vec3(0, -1, 0)}, &w, u,
                                &sample)); /* its back is dark */
     arena_release(&arena);
 }
@@ -317,10 +322,10 @@ static void an_area_light_gives_its_configuration_factor(void **state)
 static void a_sky_model_that_is_not_there_is_named(void **state)
 {
     (void)state;
-    Arena   arena = arena_reserve(1 << 26);
-    Scene  *scene = builder_scene(&arena);
+    Arena arena = arena_reserve(1 << 26);
+    Scene *scene = builder_scene(&arena);
     Lights *lights;
-    Error   err;
+    Error err;
     scene->environment.kind = ENVIRONMENT_PEREZ;
     assert_false(lights_build(scene, &arena, &lights, &err));
     assert_non_null(strstr(err.text, "\"perez\""));

@@ -6,9 +6,9 @@
 
 /* A scene made ready for paths. */
 typedef struct World {
-    Arena       arena;
-    Scene      *scene;
-    Bvh        *bvh;
+    Arena arena;
+    Scene *scene;
+    Bvh *bvh;
     PathContext context;
 } World;
 
@@ -21,7 +21,7 @@ static World world_start(void)
 
 static void world_ready(World *world)
 {
-    Error   err = {0};
+    Error err = {0};
     Lights *lights;
     if (!bvh_create(world->scene, 1, NULL, &world->bvh, &err)) fail_msg("%s", err.text);
     if (!lights_build(world->scene, &world->arena, &lights, &err)) fail_msg("%s", err.text);
@@ -39,19 +39,20 @@ typedef struct Estimate {
 } Estimate;
 
 /* Luminance, cd m^-2, along rays from `from` into a cone of about `spread` around direction. */
-static Estimate luminance(const World *world, Vec3 from, Vec3 direction, float spread, int count)
+static Estimate luminance(const World *world, Vec3 from, Vec3 direction, float spread,
+                          int count)
 {
     double sum = 0, squares = 0;
-    Frame  frame = frame_from_z(vec3_normalize(direction));
+    Frame frame = frame_from_z(vec3_normalize(direction));
     PathStatistics statistics = {0};
     for (int i = 0; i < count; i++) {
-        Sampler     sampler = sampler_start(1, 0, 0, (uint32_t)i);
-        Vec2        at = sampler_2d(&sampler);
+        Sampler sampler = sampler_start(1, 0, 0, (uint32_t)i);
+        Vec2 at = sampler_2d(&sampler);
         Wavelengths w;
-        PathResult  result;
+        PathResult result;
         wavelengths_sample(sampler_1d(&sampler), &w);
         Vec3 local = vec3(spread * (at.x - 0.5f), spread * (at.y - 0.5f), 1);
-        Ray  ray = {from, vec3_normalize(frame_to_world(&frame, local)), 0, INFINITY};
+        Ray ray = {from, vec3_normalize(frame_to_world(&frame, local)), 0, INFINITY};
         path_trace(&world->context, ray, &w, &sampler, &result, &statistics);
         sum += (double)result.xyz[1];
         squares += (double)result.xyz[1] * (double)result.xyz[1];
@@ -65,7 +66,8 @@ static void assert_luminance(const char *what, Estimate e, double expected)
     if (!(fabs(e.mean - expected) <= 3.5 * e.sigma + 1e-4 * fabs(expected)))
         fail_msg("%s: %.6g +- %.2g cd/m2, expected %.6g", what, e.mean, e.sigma, expected);
     if (!(e.sigma <= 0.01 * fabs(expected)))
-        fail_msg("%s: sigma %.2g of %.6g is too large to say anything", what, e.sigma, expected);
+        fail_msg("%s: sigma %.2g of %.6g is too large to say anything", what, e.sigma,
+                 expected);
 }
 
 static Material emitter(float cd_m2)
@@ -86,7 +88,7 @@ static void set_sky(World *world, float cd_m2)
 static void a_furnace_of_albedo_and_emission_one_half_shows_one(void **state)
 {
     (void)state;
-    World    world = world_start();
+    World world = world_start();
     Material wall = emitter(0.5f);
     for (int i = 0; i < 3; i++) wall.base_color[i] = 0.5f;
     builder_part(world.scene, wall);
@@ -94,8 +96,9 @@ static void a_furnace_of_albedo_and_emission_one_half_shows_one(void **state)
     world_ready(&world);
     for (PathStrategy s = PATH_MIS; s <= PATH_BSDF_ONLY; s++) {
         world.context.strategy = s;
-        assert_luminance("furnace", luminance(&world, vec3(0.2f, 0.1f, 0), vec3(0, 0.3f, -1), 0.5f,
-                                              20000), 1);
+        assert_luminance("furnace",
+                         luminance(&world, vec3(0.2f, 0.1f, 0), vec3(0, 0.3f, -1), 0.5f, 20000),
+                         1);
     }
     world_end(&world);
 }
@@ -111,8 +114,8 @@ static void a_lambert_plane_under_the_sun_has_its_luminance(void **state)
     world.scene->environment.sun_azimuth = 2;
     world.scene->environment.sun_illuminance_lx = 90000;
     world_ready(&world);
-    assert_luminance("sunlit plane", luminance(&world, vec3(0, 2, 0), vec3(0.2f, -1, 0.1f), 0.1f,
-                                               20000),
+    assert_luminance("sunlit plane",
+                     luminance(&world, vec3(0, 2, 0), vec3(0.2f, -1, 0.1f), 0.1f, 20000),
                      90000 * sin(radians_from_degrees(35)) * 0.5 / PI);
     world_end(&world);
 }
@@ -123,7 +126,7 @@ static void light_samples_bsdf_samples_and_mis_agree(void **state)
     (void)state;
     const float roughness[] = {0.3f, 0.6f, 1.0f};
     for (int i = 0; i < 3; i++) {
-        World    world = world_start();
+        World world = world_start();
         Material floor = builder_material(0.4f);
         Estimate e[3];
         floor.roughness = roughness[i];
@@ -163,18 +166,20 @@ static Material window_material(float ior)
 static void a_window_passes_what_a_slab_passes(void **state)
 {
     (void)state;
-    const double degrees[] = {0, 30, 45, 60, 75}, slab[] = {0.918318, 0.915957, 0.902528,
-                                                           0.843471, 0.614805};
+    const double degrees[] = {0, 30, 45, 60, 75},
+                 slab[] = {0.918318, 0.915957, 0.902528, 0.843471, 0.614805};
     for (int i = 0; i < 5; i++) {
         World world = world_start();
         float a = (float)radians_from_degrees(degrees[i]);
         builder_part(world.scene, emitter(1000));
         builder_quad(world.scene, vec3(0, 0, -10), vec3(1, 0, 0), vec3(0, 1, 0));
         builder_part(world.scene, window_material(1.52f));
-        builder_quad(world.scene, vec3(0, 0, -5), vec3(4 * (float)cos((double)a), 0,
-                                                       4 * (float)sin((double)a)), vec3(0, 4, 0));
+        builder_quad(world.scene, vec3(0, 0, -5),
+                     vec3(4 * (float)cos((double)a), 0, 4 * (float)sin((double)a)),
+                     vec3(0, 4, 0));
         world_ready(&world);
-        assert_luminance("window", luminance(&world, vec3(0, 0, 0), vec3(0, 0, -1), 0.001f, 40000),
+        assert_luminance("window",
+                         luminance(&world, vec3(0, 0, 0), vec3(0, 0, -1), 0.001f, 40000),
                          1000 * slab[i]);
         world_end(&world);
     }
@@ -193,8 +198,8 @@ static void the_sun_lights_a_wall_through_a_window(void **state)
     world.scene->environment.sun_illuminance_lx = 10000;
     world_ready(&world);
     world.context.max_bounces = 1;
-    assert_luminance("wall behind glass", luminance(&world, vec3(0, 2, 0), vec3(0.1f, -1, 0), 0.1f,
-                                                    20000),
+    assert_luminance("wall behind glass",
+                     luminance(&world, vec3(0, 2, 0), vec3(0.1f, -1, 0), 0.1f, 20000),
                      10000 * sin(PI / 4) * 0.902528 * 0.5 / PI);
     world_end(&world);
 }
@@ -203,9 +208,9 @@ static void a_mirror_of_metal_shows_its_reflectance_times_what_is_there(void **s
 {
     (void)state;
     for (int degrees = 0; degrees <= 80; degrees += 20) {
-        World    world = world_start();
+        World world = world_start();
         Material mirror = builder_material(0.8f);
-        double   a = radians_from_degrees(degrees);
+        double a = radians_from_degrees(degrees);
         mirror.metallic = 1;
         mirror.roughness = 0;
         builder_part(world.scene, mirror);
@@ -223,7 +228,7 @@ static void a_mirror_of_metal_shows_its_reflectance_times_what_is_there(void **s
 static void a_clear_ball_in_a_uniform_sky_is_invisible(void **state)
 {
     (void)state;
-    World    world = world_start();
+    World world = world_start();
     Material glass = window_material(1.5f);
     glass.is_solid = true;
     glass.lets_light_through = false;
@@ -231,14 +236,15 @@ static void a_clear_ball_in_a_uniform_sky_is_invisible(void **state)
     builder_sphere(world.scene, vec3(0, 0, 0), 1, 48, 0);
     set_sky(&world, 100);
     world_ready(&world);
-    assert_luminance("ball", luminance(&world, vec3(0, 0, 3), vec3(0, 0, -1), 0.6f, 20000), 100);
+    assert_luminance("ball", luminance(&world, vec3(0, 0, 3), vec3(0, 0, -1), 0.6f, 20000),
+                     100);
     world_end(&world);
 }
 
 static void half_there_shows_half_of_what_is_behind(void **state)
 {
     (void)state;
-    World    world = world_start();
+    World world = world_start();
     Material veil = emitter(0);
     builder_part(world.scene, emitter(100));
     builder_quad(world.scene, vec3(0, 0, -2), vec3(1, 0, 0), vec3(0, 1, 0));
@@ -248,7 +254,8 @@ static void half_there_shows_half_of_what_is_behind(void **state)
     builder_part(world.scene, veil);
     builder_quad(world.scene, vec3(0, 0, -1), vec3(1, 0, 0), vec3(0, 1, 0));
     world_ready(&world);
-    assert_luminance("veil", luminance(&world, vec3(0, 0, 0), vec3(0, 0, -1), 0.01f, 40000), 75);
+    assert_luminance("veil", luminance(&world, vec3(0, 0, 0), vec3(0, 0, -1), 0.01f, 40000),
+                     75);
     world_end(&world);
 }
 
@@ -263,8 +270,8 @@ static void bounces_are_counted_as_documented(void **state)
     world.context.max_bounces = 0;
     assert_near(luminance(&world, vec3(0, 1, 0), vec3(0, -1, 0), 0.1f, 100).mean, 0, 0);
     world.context.max_bounces = 1;
-    assert_luminance("one bounce", luminance(&world, vec3(0, 1, 0), vec3(0, -1, 0), 0.1f, 20000),
-                     50);
+    assert_luminance("one bounce",
+                     luminance(&world, vec3(0, 1, 0), vec3(0, -1, 0), 0.1f, 20000), 50);
     world_end(&world);
 }
 
@@ -277,8 +284,8 @@ static void the_back_of_a_one_sided_emitter_is_dark(void **state)
     world_ready(&world);
     assert_near(luminance(&world, vec3(0, 0, 0), vec3(0, 0, -1), 0.01f, 100).mean, 0, 0);
     world.scene->materials[0].double_sided = true;
-    assert_luminance("both sides", luminance(&world, vec3(0, 0, 0), vec3(0, 0, -1), 0.01f, 4000),
-                     100);
+    assert_luminance("both sides",
+                     luminance(&world, vec3(0, 0, 0), vec3(0, 0, -1), 0.01f, 4000), 100);
     world_end(&world);
 }
 
@@ -287,11 +294,12 @@ static double illuminance(const World *world, Vec3 position, Vec3 normal, int co
     double sum = 0;
     PathStatistics statistics = {0};
     for (int i = 0; i < count; i++) {
-        Sampler     sampler = sampler_start(2, 0, 0, (uint32_t)i);
+        Sampler sampler = sampler_start(2, 0, 0, (uint32_t)i);
         Wavelengths w;
-        float       lx[3];
+        float lx[3];
         wavelengths_sample(sampler_1d(&sampler), &w);
-        path_illuminance(&world->context, position, normal, &w, &sampler, lx, &statistics);
+        path_illuminance(&world->context, (LitPoint){position, normal}, &w, &sampler, lx,
+                         &statistics);
         sum += (double)lx[1] / count;
     }
     return sum;
