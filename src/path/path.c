@@ -299,8 +299,8 @@ static void add_pane(Walk *walk, const Surface *surface, const Hit *hit, Vec3 wo
 }
 
 /* The first panes that the eye looks through are followed both ways, the pane itself in every
- * second sample. By chance, one sample in twelve would show the cabin's mirror image and not the
- * street: noise that everyone sees. False: this is no such pane. */
+ * second sample. By chance, one sample in twelve would show the cabin's mirror image and not
+ * the street: noise that everyone sees. False: this is no such pane. */
 static bool look_through(Walk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
 {
     bool is_hole = surface->alpha > 0 && surface->alpha < 1;
