@@ -6,6 +6,7 @@ import glob
 import json
 import math
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -99,7 +100,8 @@ def compare(report, panel, place, xyz, answer):
 
 def check_panel(report, program, panel, folder):
     path = os.path.join(folder, os.path.basename(panel) + ".gltf")
-    display_scene(os.path.relpath(panel, folder)).write(path)
+    shutil.copy(panel, folder)  # a scene reads only what lies in or beside its folder
+    display_scene(os.path.basename(panel)).write(path)
     worst = [0, 0]
     answers = iter(evaluated(program, panel, folder))
     for theta, phi in DIRECTIONS:

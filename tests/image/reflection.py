@@ -9,6 +9,7 @@ import glob
 import json
 import math
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -180,15 +181,15 @@ def claim(report, what, value, expected):
 
 def check_panel(report, program, path, folder):
     panel, name = Panel(program, path, folder), os.path.basename(path)
-    relative = os.path.relpath(path, folder)
+    shutil.copy(path, folder)  # a scene reads only what lies in or beside its folder
     scene_path = os.path.join(folder, "scene.gltf")
     eyes = [direction(*eye) for eye in EYES]
     for i, (eye, sun_angles) in enumerate(zip(eyes, SUNS)):
         sun = direction(*sun_angles)
-        scene_of(relative, sun_environment(sun), eyes).write(scene_path)
+        scene_of(name, sun_environment(sun), eyes).write(scene_path)
         claim(report, f"{name} from {EYES[i]} under the sun at {sun_angles}",
               shown(program, scene_path, f"eye{i}", folder), under_sun(panel, eye, sun))
-    scene_of(relative, {"type": "constant", "luminance": SKY_CD_M2}, eyes).write(scene_path)
+    scene_of(name, {"type": "constant", "luminance": SKY_CD_M2}, eyes).write(scene_path)
     for i, eye in enumerate(eyes):
         claim(report, f"{name} from {EYES[i]} under a uniform sky",
               shown(program, scene_path, f"eye{i}", folder), under_sky(panel, eye))
