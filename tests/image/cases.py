@@ -6,7 +6,7 @@ must show. A Lambertian surface of reflectance RHO under E lux shows RHO E / pi.
 import math
 from dataclasses import dataclass, field
 
-from gltf import Scene, png
+from gltf import Scene, png, radiance_picture
 
 RHO = 0.5
 FACING_DOWN = (0, -1, 0)
@@ -275,6 +275,51 @@ def environment():
                 [Claim("floor", RHO * 1000), Claim("sky", 1000)])
 
 
+def heading():
+    """A vehicle that heads east has the east before it: at -Z, its forward direction."""
+    scene = Scene()
+    white = scene.lambert(RHO)
+    walls = (("ahead", [0, 0, -1], [0, 0, 5]), ("left", [-1, 0, 0], [5, 0, 0]))
+    for name, normal, centre in walls:
+        scene.facing_quad(white, centre, normal, 1)
+        look_from(scene, name, centre, normal)
+    scene.environment(type="constant", luminance=0, heading_deg=90, sun={
+        "azimuth_deg": 60, "elevation_deg": 0, "illuminance_lx": 90000})
+    return Case("the heading turns the sky, not the scene", scene, [
+        Claim("ahead", shown(90000 * math.cos(math.radians(30)))),
+        Claim("left", shown(90000 * math.cos(math.radians(60))))], ["--max-bounces", "1"])
+
+
+def six_sides(u, v):
+    """Another value in each direction of the axes; the centre of the picture is +Z, +X is on
+    its left."""
+    if v < 0.25 or v > 0.75:
+        return 64 if v < 0.25 else 2
+    return (8, 16, 32, 4)[int(4 * u + 0.5) % 4]
+
+
+def hdri_sides():
+    scene = Scene()
+    scene.files["sides.hdr"] = radiance_picture(64, 32, six_sides)
+    scene.environment(type="hdri", uri="sides.hdr", scale=10)
+    sides = {"up": ([0, 1, 0], 64), "down": ([0, -1, 0], 2), "+x": ([1, 0, 0], 16),
+             "+z": ([0, 0, 1], 32), "-x": ([-1, 0, 0], 4), "-z": ([0, 0, -1], 8)}
+    for name, (direction, _) in sides.items():
+        scene.view(name, [0, 0, 0], direction, 10)
+    return Case("a picture of the surroundings lies the right way round", scene,
+                [Claim(name, 10 * value) for name, (_, value) in sides.items()])
+
+
+def hdri_illuminance():
+    scene = floor_scene()
+    scene.files["grey.hdr"] = radiance_picture(32, 16, lambda u, v: 0.5)
+    scene.environment(type="hdri", uri="grey.hdr", horizontal_illuminance_lx=15000)
+    look_from(scene, "floor", [0, 0, 0], [0, 1, 0])
+    scene.probe("sky", [0, 5, 0], [0.3, 1, 0], 0.1)
+    return Case("a picture scaled to 15000 lx gives them", scene,
+                [Claim("floor", shown(15000)), Claim("sky", 15000 / math.pi)])
+
+
 # ---- surfaces ------------------------------------------------------------------------------
 
 def units():
@@ -350,6 +395,23 @@ def window(degrees, is_mirrored):
                 [Claim("through", 100 * transmittance)], samples=1024)
 
 
+def solid_slab(degrees):
+    """Plane-parallel glass of 10 cm that takes half the light a 20 cm: unpolarised at each
+    face, as light is traced; all inner reflections, geometric series."""
+    scene = Scene()
+    scene.box_outside(scene.glass(1.52, ([0.5, 0.5, 0.5], 0.2)), [-50, -0.1, -50], [50, 0, 50])
+    direction = tilted(degrees)
+    scene.facing_quad(scene.emitter(100), [-5 * x for x in direction], direction, 4)
+    look_from(scene, "through", [0.1, 0, 0.3], direction, distance=1)
+    cos_i = math.cos(math.radians(degrees))
+    reflectance = sum(fresnel(cos_i, 1.52)) / 2
+    length = 0.1 / math.sqrt(1 - (1 - cos_i * cos_i) / 1.52 ** 2)
+    inside = 0.5 ** (length / 0.2)
+    shown_through = 100 * (1 - reflectance) ** 2 * inside / (1 - (reflectance * inside) ** 2)
+    return Case(f"solid glass at {degrees} degrees", scene, [Claim("through", shown_through)],
+                samples=1024)
+
+
 def light_through_window(degrees):
     scene = floor_scene()
     scene.quad(scene.window(1.52, (0.8, 0.8, 0.8)), [-50, 1, 50], [100, 0, 0], [0, 0, -100])
@@ -402,11 +464,13 @@ def all_cases():
              cube(0.05, False), cube(0.95, False), flux(), point_light(),
              small_lambertian_source(), spot_light(), coloured_light(), sun(10), sun(35),
              sun(90), sun_direction(), half_sun(), area_light_above(), lit_floor(),
-             environment(), units(), texture(), alpha(), picture()]
+             environment(), heading(), hdri_sides(), hdri_illuminance(), units(),
+             texture(), alpha(), picture()]
     cases += [directional_light(angle) for angle in (0, 30, 60, 85)]
     cases += [mirror(angle) for angle in ANGLES]
     cases += [mirror_direction(angle) for angle in ANGLES[1:]]
     cases += [window(angle, False) for angle in ANGLES[:-1]]
     cases += [window(angle, True) for angle in ANGLES[:-1]]
+    cases += [solid_slab(angle) for angle in (0, 45, 70)]
     cases += [light_through_window(angle) for angle in ANGLES[:-1]]
     return cases

@@ -5,6 +5,7 @@ Metres, +Y up. Standard library only.
 import base64
 import json
 import math
+import os
 import struct
 import zlib
 
@@ -64,6 +65,17 @@ def png(width, height, rows):
             + chunk(b"IEND", b""))
 
 
+def radiance_picture(width, height, value):
+    """A Radiance HDR of grey pixels; value(u, v), u and v in [0, 1] from the top left, is shown
+    with an error of at most 1/256."""
+    data = f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n".encode()
+    for j in range(height):
+        for i in range(width):
+            mantissa, exponent = math.frexp(value((i + 0.5) / width, (j + 0.5) / height))
+            data += bytes([int(mantissa * 256)] * 3 + [exponent + 128])
+    return data
+
+
 def data_uri(kind, data):
     return f"data:{kind};base64," + base64.b64encode(data).decode()
 
@@ -76,6 +88,7 @@ class Scene:
                          "nodes": []}
         self.used = set()
         self.binary = bytearray()
+        self.files = {}  # name -> bytes: written beside the document
 
     def _append(self, key, item):
         self.document.setdefault(key, []).append(item)
@@ -138,6 +151,17 @@ class Scene:
         self.quad(material, [x0, y0, z1], [0, 0, -d], [0, h, 0])
         self.quad(material, [x1, y0, z0], [0, 0, d], [0, h, 0])
 
+    def box_outside(self, material, low, high):
+        """A closed box, fronts outwards."""
+        (x0, y0, z0), (x1, y1, z1) = low, high
+        w, h, d = x1 - x0, y1 - y0, z1 - z0
+        self.quad(material, [x0, y0, z0], [w, 0, 0], [0, 0, d])
+        self.quad(material, [x0, y1, z1], [w, 0, 0], [0, 0, -d])
+        self.quad(material, [x1, y0, z0], [-w, 0, 0], [0, h, 0])
+        self.quad(material, [x0, y0, z1], [w, 0, 0], [0, h, 0])
+        self.quad(material, [x0, y0, z0], [0, 0, d], [0, h, 0])
+        self.quad(material, [x1, y0, z1], [0, 0, -d], [0, h, 0])
+
     def sphere(self, material, centre, radius, inside=False, rings=24):
         """A closed sphere of flat triangles; `inside`: its front is the inner side."""
         points, triangles, side = [], [], 2 * rings
@@ -191,6 +215,17 @@ class Scene:
             extensions={"KHR_materials_transmission": {"transmissionFactor": 1},
                         "KHR_materials_ior": {"ior": ior}})
 
+    def glass(self, ior, attenuation=None):
+        """A solid: KHR_materials_volume. attenuation: ([r, g, b], metres)."""
+        volume = {"thicknessFactor": 1}
+        if attenuation:
+            volume["attenuationColor"], volume["attenuationDistance"] = attenuation
+        return self.material(
+            pbrMetallicRoughness={"baseColorFactor": [1, 1, 1, 1], "metallicFactor": 0,
+                                  "roughnessFactor": 0},
+            extensions={"KHR_materials_transmission": {"transmissionFactor": 1},
+                        "KHR_materials_ior": {"ior": ior}, "KHR_materials_volume": volume})
+
     def light(self, kind, intensity, position=(0, 0, 0), direction=(0, -1, 0), **members):
         """kind point or spot: candela; directional: lux."""
         self.used.add("KHR_lights_punctual")
@@ -234,6 +269,9 @@ class Scene:
             self.document["buffers"] = [{"byteLength": len(self.binary), "uri": uri}]
         if self.used:
             self.document["extensionsUsed"] = sorted(self.used)
+        for name, data in self.files.items():
+            with open(os.path.join(os.path.dirname(path), name), "wb") as file:
+                file.write(data)
         with open(path, "w", encoding="utf-8") as file:
             json.dump(self.document, file)
 
