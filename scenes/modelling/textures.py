@@ -140,7 +140,7 @@ def fabric_normal():
 
 def fabric_color():
     field = 1 + 0.10 * noise((256, 256), 30, 110, 9) + 0.05 * noise((256, 256), 2, 8, 10)
-    return tinted((0.33, 0.335, 0.34), field)
+    return tinted((0.125, 0.127, 0.130), field)
 
 
 def suede_color():
