@@ -1,6 +1,7 @@
 #include "check.h"
 
 #include "base/units.h"
+#include "light/emitters.h"
 #include "light/light.h"
 #include "light/sky.h"
 #include "scene_builder.h"
@@ -239,6 +240,94 @@ static void picture_samples_follow_their_density(void **state)
     arena_release(&arena);
 }
 
+/* Pearson's sum for counts that should all be the same. */
+static double chi_square_of_equals(const int *counts, int cells, int samples)
+{
+    double expected = (double)samples / cells, sum = 0;
+    for (int i = 0; i < cells; i++)
+        sum += (counts[i] - expected) * (counts[i] - expected) / expected;
+    return sum;
+}
+
+static void assert_equal_cells(const char *what, const int *counts, int cells, int samples)
+{
+    double chi2 = chi_square_of_equals(counts, cells, samples);
+    if (chi2 > cells + 4 * sqrt(2.0 * cells))
+        fail_msg("%s: chi-square %.1f over %d equal cells", what, chi2, cells);
+}
+
+static void sun_samples_are_uniform_on_the_disc_and_never_off_it(void **state)
+{
+    (void)state;
+    enum { RINGS = 8, SECTORS = 16 };
+    Arena    arena = arena_reserve(1 << 26);
+    Scene   *scene = builder_scene(&arena);
+    Sky      sky;
+    Error    err;
+    uint32_t random = 3;
+    static int counts[RINGS * SECTORS];
+    scene->environment.has_sun = true;
+    scene->environment.sun_illuminance_lx = 1;
+    scene->environment.sun_elevation = 0.4f;
+    assert_true(sky_build(&scene->environment, &arena, &sky, &err));
+    Frame frame = frame_from_z(sky.sun_direction);
+    for (int i = 0; i < SAMPLES; i++) {
+        float u0 = random_unit(&random), u1 = random_unit(&random);
+        Vec3  d = sun_sample(&sky, u0, u1), local = frame_to_local(&frame, d);
+        assert_close(sun_pdf(&sky, d), 1 / sky.sun_solid_angle, 1e-6);
+        double away2 = (double)(local.x * local.x + local.y * local.y);
+        double share = away2 / pow(sin((double)sky.sun_radius), 2);
+        double turns = atan2((double)local.y, (double)local.x) / (2 * PI) + 0.5;
+        int    ring = (int)(share * RINGS), sector = (int)(turns * SECTORS);
+        counts[(ring < RINGS ? ring : RINGS - 1) * SECTORS + sector % SECTORS]++;
+    }
+    assert_equal_cells("sun", counts, RINGS * SECTORS, SAMPLES);
+    assert_close(sky.sun_solid_angle, 2 * PI * (1 - cos((double)sky.sun_radius)), 1e-4);
+    arena_release(&arena);
+}
+
+/* Two lamps, one four times as large and three times as bright: points are uniform on each
+ * triangle, triangles are chosen by power, and the density integrates to one. */
+static void emitter_samples_follow_their_density(void **state)
+{
+    (void)state;
+    enum { STRIPS = 8 };
+    Arena    arena = arena_reserve(1 << 28);
+    Scene   *scene = builder_scene(&arena);
+    uint32_t random = 8;
+    static int chosen[4], strips[STRIPS];
+    for (int lamp = 0; lamp < 2; lamp++) {
+        Material material = builder_material(0);
+        material.is_emitter = true;
+        for (int i = 0; i < 3; i++) material.emissive_cd_m2[i] = lamp ? 300.0f : 100.0f;
+        builder_part(scene, material);
+        builder_quad(scene, vec3(4.0f * (float)lamp, 2, 0), vec3(lamp ? 2.0f : 1.0f, 0, 0),
+                     vec3(0, 0, lamp ? 2.0f : 1.0f));
+    }
+    Emitters emitters = emitters_build(scene, &arena);
+    double   area[4] = {2, 2, 8, 8}, total = 0;
+    assert_int_equal(emitters.count, 4);
+    for (int t = 0; t < 4; t++)
+        total += area[t] * (double)emitters_pdf_area(&emitters, scene, (uint32_t)t);
+    assert_close(total, 1, 1e-5);
+    for (int i = 0; i < SAMPLES; i++) {
+        TrianglePoint point;
+        float    u[3], pdf_area;
+        random3(&random, u);
+        uint32_t t = emitters_sample(&emitters, scene, u, &point, &pdf_area);
+        chosen[t]++;
+        assert_close(pdf_area, emitters_pdf_area(&emitters, scene, t), 1e-6);
+        if (t >= 2) strips[(int)((double)(point.position.x - 2) / 4 * STRIPS * 0.99999)]++;
+    }
+    for (int t = 0; t < 4; t++) {
+        double share = area[t] * (double)emitters.pdf_area[t];
+        assert_near(chosen[t], share * SAMPLES, 5 * sqrt(share * SAMPLES));
+    }
+    assert_close(chosen[2] / (double)chosen[0], 12, 0.1);
+    assert_equal_cells("strips of the large lamp", strips, STRIPS, chosen[2] + chosen[3]);
+    arena_release(&arena);
+}
+
 static void point_and_spot_follow_the_inverse_square_and_the_cone(void **state)
 {
     (void)state;
@@ -342,6 +431,8 @@ int main(void)
         cmocka_unit_test(a_picture_can_be_scaled_to_an_illuminance),
         cmocka_unit_test(a_picture_hangs_the_right_way_round),
         cmocka_unit_test(picture_samples_follow_their_density),
+        cmocka_unit_test(sun_samples_are_uniform_on_the_disc_and_never_off_it),
+        cmocka_unit_test(emitter_samples_follow_their_density),
         cmocka_unit_test(point_and_spot_follow_the_inverse_square_and_the_cone),
         cmocka_unit_test(many_lights_are_chosen_without_bias),
         cmocka_unit_test(an_area_light_gives_its_configuration_factor),
