@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Draws what the displays of car_dashboard.gltf show: assets/content/cluster.png (1920x720)
-and assets/content/centre.png (1920x1080), sRGB code values as a panel receives them.
+and assets/content/centre.png (2560x1440), sRGB code values as a panel receives them.
 
 Needs python3-cairo and the font Inter (Debian fonts-inter, SIL Open Font Licence 1.1).
 """

@@ -1,4 +1,4 @@
-"""The picture of the centre display, 1920x1080 pixels: a map with guidance, media, climate."""
+"""The picture of the centre display, 2560x1440 pixels: a map with guidance, media, climate."""
 import math
 import random
 
@@ -304,8 +304,9 @@ def draw_status(ctx):
 
 
 def draw_centre(path):
-    surface = cairo.ImageSurface(cairo.FORMAT_RGB24, 1920, 1080)
+    surface = cairo.ImageSurface(cairo.FORMAT_RGB24, 2560, 1440)
     ctx = cairo.Context(surface)
+    ctx.scale(2560 / 1920, 1440 / 1080)  # drawn in units of a 1920x1080 panel
     ctx.set_source_rgb(*LAND)
     ctx.paint()
     draw_blocks(ctx)

@@ -314,9 +314,9 @@ def cluster():
 
 # ---- centre display ----------------------------------------------------------------------
 
-CENTRE_SIZE = (0.2716, 0.1528)  # m, active area
+CENTRE_SIZE = (0.320, 0.180)  # m, active area, as its panel says
 CENTRE_FRAME = frame_matrix(
-    (CENTRE_X, 0.672, 1.028),
+    (CENTRE_X + 0.034, 0.668, 1.034),
     (math.cos(math.radians(7)), -math.sin(math.radians(7)), 0),
     (0, 0.13, 1),
 )
@@ -324,7 +324,7 @@ CENTRE_FRAME = frame_matrix(
 
 def centre_display():
     glass = CENTRE_FRAME @ Matrix.Translation((0, 0, -0.0005))
-    outline = rounded_rectangle(0.2960, 0.1790, 0.011, 8)
+    outline = rounded_rectangle(0.3400, 0.2020, 0.011, 8)
     plate("centre display glass", outline, 0.0035, glass, "cover glass", 0.0011, 3)
     rim = CENTRE_FRAME @ Matrix.Translation((0, 0, -0.0055))
     frame_ring(
@@ -333,7 +333,7 @@ def centre_display():
     back = CENTRE_FRAME @ Matrix.Translation((0, 0, -0.0035))
     plate(
         "centre display back",
-        rounded_rectangle(0.2950, 0.1780, 0.0105, 8),
+        rounded_rectangle(0.3390, 0.2010, 0.0105, 8),
         0.013,
         back,
         "plastic dark",
