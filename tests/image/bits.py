@@ -1,7 +1,8 @@
-"""bits.py [--small] PARHELION -- a frame's pixels have the same bits with 1, 2 and 5 threads,
-and a crop has those of the whole. --small: one render with 2 threads of the small scene, for
-the thread sanitizer.
+"""bits.py [--small | --against OTHER] PARHELION -- a frame's pixels have the same bits with 1, 2
+and 5 threads, and a crop has those of the whole. --small: one render with 2 threads of the
+small scene, for the thread sanitizer. --against: the same bits as another build's.
 """
+import argparse
 import hashlib
 import os
 import subprocess
@@ -76,20 +77,40 @@ def compare(report, program, scenes, folder, options):
     print(f"{name}: {digest(whole, whole.box)}")
 
 
+def compare_builds(report, programs, scenes, folder, options):
+    """Two programs, one picture."""
+    name, out = os.path.basename(scenes[0]), os.path.join(folder, "frame.exr")
+    frames = [render(program, scenes, out, options) for program in programs]
+    if report.claim(None not in frames, f"{name}: not rendered"):
+        report.claim(digest(frames[0], None) == digest(frames[1], None),
+                     f"{name}: {programs[0]} and {programs[1]} give different bits")
+
+
 def main():
-    report, program = Report(), os.path.abspath(sys.argv[-1])
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--small", action="store_true")
+    parser.add_argument("--against")
+    parser.add_argument("program")
+    arguments = parser.parse_args()
+    report, program = Report(), os.path.abspath(arguments.program)
     with tempfile.TemporaryDirectory() as folder:
         small = os.path.join(folder, "small.gltf")
         write_scene(small)
-        if "--small" in sys.argv:
+        dashboard = [os.path.join(ROOT, "scenes", name)
+                     for name in ("car_dashboard.gltf", "noon.gltf")]
+        works = [([small], ["--size", "96x64", "--spp", "8"]),
+                 (dashboard, ["--size", "96x54", "--spp", "4"])]
+        if arguments.small:
             frame = render(program, [small], os.path.join(folder, "frame.exr"),
                            ["--size", "32x32", "--spp", "2", "--threads", "2"])
             report.claim(frame is not None, "two threads at once")
-        else:
-            compare(report, program, [small], folder, ["--size", "96x64", "--spp", "8"])
-            dashboard = [os.path.join(ROOT, "scenes", name)
-                         for name in ("car_dashboard.gltf", "noon.gltf")]
-            compare(report, program, dashboard, folder, ["--size", "96x54", "--spp", "4"])
+            works = []
+        for scenes, options in works:
+            if arguments.against:
+                other = os.path.abspath(arguments.against)
+                compare_builds(report, [program, other], scenes, folder, options)
+            else:
+                compare(report, program, scenes, folder, options)
     report.finish()
 
 
