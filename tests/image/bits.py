@@ -1,5 +1,5 @@
-"""bits.py [--small | --against OTHER] PARHELION -- a frame's pixels have the same bits with 1, 2
-and 5 threads, and a crop has those of the whole. --small: one render with 2 threads of the
+"""bits.py [--small | --against OTHER] PARHELION -- a frame's pixels have the same bits with 1,
+2 and 5 threads, and a crop has those of the whole. --small: one render with 2 threads of the
 small scene, for the thread sanitizer. --against: the same bits as another build's.
 """
 import argparse
