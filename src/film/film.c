@@ -223,6 +223,10 @@ void film_add_sample(Film *film, int x, int y, const FilmSample *sample)
     sums->samples++;
     for (int i = 0; i < 3; i++) sums->xyz[i] += fixed_from_float(sample->xyz[i]);
     add_squares(sums, sample->xyz);
+    if (sample->sample_index / BLOCK_SAMPLES % 2) {
+        sums->odd_y += fixed_from_float(sample->xyz[1]);
+        sums->odd_samples++;
+    }
     if (sample->hit) add_features(film, sums, sample);
 }
 
@@ -249,6 +253,24 @@ void pixel_variance(const PixelSums *sums, double variance[3])
     }
 }
 
+/* From the samples' spread, as if they were independent: the most it can be. */
+static double sigma_of_spread(const double variance_rgb[3])
+{
+    return 0.2126 * sqrt(variance_rgb[0]) + 0.7152 * sqrt(variance_rgb[1]) +
+           0.0722 * sqrt(variance_rgb[2]);
+}
+
+/* Standard error of Y from the difference of two interleaved halves, each a mean of whole blocks
+ * whose samples are spread evenly. One difference d of two normal means says sigma only in the
+ * mean over pixels, where E|d| = sqrt(2 / pi) sigma_d. */
+static double sigma_of_halves(const PixelSums *sums)
+{
+    double n = (double)sums->samples, odd = (double)sums->odd_samples, even = n - odd;
+    double odd_y = double_from_fixed(sums->odd_y, FIXED_BITS);
+    double even_y = double_from_fixed(sums->xyz[1] - sums->odd_y, FIXED_BITS);
+    return 1.2533141373155003 * fabs(odd_y / odd - even_y / even) * sqrt(odd * even) / n;
+}
+
 FilmPixel film_pixel(const Film *film, int x, int y)
 {
     const PixelSums *sums = film_sums(film, x, y);
@@ -256,6 +278,9 @@ FilmPixel film_pixel(const Film *film, int x, int y)
     for (int i = 0; i < 3 && sums->samples; i++)
         pixel.mean_xyz[i] = double_from_fixed(sums->xyz[i], FIXED_BITS) / (double)sums->samples;
     pixel_variance(sums, pixel.variance_rgb);
+    bool halves = sums->odd_samples >= BLOCK_SAMPLES &&
+                  sums->samples - sums->odd_samples >= BLOCK_SAMPLES;
+    pixel.sigma_y = halves ? sigma_of_halves(sums) : sigma_of_spread(pixel.variance_rgb);
     return pixel;
 }
 
@@ -278,11 +303,8 @@ static double lowest_luminance(const Film *film)
 static double pixel_error(const FilmPixel *pixel, double lowest)
 {
     if (pixel->samples < 2) return 1;
-    double sigma = 0.2126 * sqrt(pixel->variance_rgb[0]) +
-                   0.7152 * sqrt(pixel->variance_rgb[1]) +
-                   0.0722 * sqrt(pixel->variance_rgb[2]);
     double luminance = pixel->mean_xyz[1] > lowest ? pixel->mean_xyz[1] : lowest;
-    return luminance > 0 ? sigma / luminance : 0;
+    return luminance > 0 ? pixel->sigma_y / luminance : 0;
 }
 
 FilmError film_relative_error(const Film *film)

@@ -88,20 +88,23 @@ void film_add_sample(Film *film, int x, int y, const FilmSample *sample);
 typedef struct FilmPixel {
     uint32_t samples;         /* kept ones */
     double   mean_xyz[3];     /* cd m^-2; 0 without samples */
-    double   variance_rgb[3]; /* of the mean, (cd m^-2)^2; NaN below two samples */
+    double   variance_rgb[3]; /* of the mean, (cd m^-2)^2, as if samples were independent; NaN
+                                 below two */
+    double   sigma_y;         /* standard error of Y; right in the mean over many pixels */
     int      display_id;      /* of the lowest sample index that saw a display; -1: none did */
 } FilmPixel;
 
 FilmPixel film_pixel(const Film *film, int x, int y);
 
-/* How sure the frame is: the mean over pixels of sigma / max(Y, Y_low). sigma is the standard
- * error of the pixel's luminance, taken as 0.21 sigma_R + 0.72 sigma_G + 0.07 sigma_B (the
- * upper bound, reached when the three rise and fall together, as luminance noise does). Y_low
- * is half the frame's key, the geometric mean of the luminances above zero (Reinhard et al.
- * 2002): the noise of deep shadows is judged against what an eye adapted to the frame sees, the
- * same as the 0.01 in the usual relMSE when the key is exposed to 0.18; a sun in view does not
- * move it. A pixel of fewer than two samples counts 1. sigma comes from the samples' spread as
- * if they were independent: scrambled Sobol points do better, so the true error is lower. */
+/* How sure the frame is: the mean over pixels of sigma / max(Y, Y_low). Y_low is half the frame's
+ * key, the geometric mean of the luminances above zero (Reinhard et al. 2002): the noise of deep
+ * shadows is judged against what an eye adapted to the frame sees, the same as the 0.01 in the
+ * usual relMSE when the key is exposed to 0.18; a sun in view does not move it. A pixel of fewer
+ * than two samples counts 1.
+ * From 32 samples on sigma comes from the difference of two halves of the samples, in
+ * interleaved blocks of 16: scrambled Sobol points are better than independent ones, and the
+ * difference knows it. Below, from the samples' spread as if they were independent, taken as
+ * 0.21 sigma_R + 0.72 sigma_G + 0.07 sigma_B: too much rather than too little. */
 typedef struct FilmError {
     double frame;
     double displays; /* over the pixels that show a display; NaN where none does */

@@ -16,6 +16,7 @@ __extension__ typedef __int128 Fixed;
 #define SQUARE_SPLIT 0x1p34
 #define VALUE_LIMIT 0x1p47f
 #define NO_SAMPLE 0xffffffffu
+#define BLOCK_SAMPLES 16 /* consecutive samples that are well spread among themselves */
 
 /* Layers with sums of their own. */
 typedef enum LayerSums {
@@ -29,12 +30,13 @@ typedef enum LayerSums {
 typedef struct PixelSums {
     Fixed    xyz[3];
     Fixed    squares[3][2]; /* of linear Rec.709 R, G, B: [0] small, [1] large squares */
+    Fixed    odd_y;        /* Y of the samples in every second block of BLOCK_SAMPLES */
     uint32_t samples, hits, display_hits;
     uint32_t part_sample;    /* lowest sample index that hit; NO_SAMPLE: none */
     int32_t  part_id;
     uint32_t display_sample; /* lowest sample index that saw a display */
     int32_t  display_id;
-    uint32_t unused;
+    uint32_t odd_samples;  /* how many odd_y holds */
     Fixed    layers[];
 } PixelSums;
 

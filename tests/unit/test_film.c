@@ -232,20 +232,48 @@ static void variance_needs_two_samples(void **state)
     arena_release(&arena);
 }
 
+/* A coin that is the same for every machine: 1 or 3 times the value. */
+static float coin(int pixel, uint32_t index, float value)
+{
+    return value * (hash_combine((uint32_t)pixel, index) & 1 ? 1.0f : 3.0f);
+}
+
 static void relative_error_is_the_mean_of_sigma_over_luminance(void **state)
+{
+    (void)state;
+    enum { SIDE = 100 };
+    static const uint32_t counts[] = {20, 64, 200};
+    for (int c = 0; c < 3; c++) {
+        Arena    arena = arena_reserve(1 << 23);
+        FilmRect square = {0, 0, SIDE, SIDE};
+        Film    *film = film_create(SIDE, SIDE, square, 0, &arena);
+        assert_close(film_relative_error(film).frame, 1, 1e-15);
+        for (int p = 0; p < SIDE * SIDE; p++)
+            for (uint32_t i = 0; i < counts[c]; i++)
+                add_grey(film, p % SIDE, p / SIDE, i, coin(p, i, (float)(1 + p % SIDE)));
+        /* Pixels are 2 (1 + x) with sigma 1 (1 + x); the darkest count as half the key. */
+        double expected = 0, key = 0;
+        for (int x = 0; x < SIDE; x++) key += log(2.0 * (1 + x)) / SIDE;
+        key = exp(key);
+        for (int x = 0; x < SIDE; x++)
+            expected += (1 + x) / fmax(2.0 * (1 + x), key / 2) / SIDE / sqrt(counts[c]);
+        assert_close(film_relative_error(film).frame, expected, 0.03);
+        assert_true(isnan(film_relative_error(film).displays));
+        arena_release(&arena);
+    }
+}
+
+/* Samples whose errors cancel within every block: the mean is sure, whatever their spread. */
+static void relative_error_knows_that_even_samples_are_better(void **state)
 {
     (void)state;
     Arena arena = arena_reserve(1 << 20);
     Film *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
-    assert_close(film_relative_error(film).frame, 1, 1e-15);
-    int n = 101 * 2;
-    for (int y = 0; y < HEIGHT; y++)
-        for (int x = 0; x < WIDTH; x++)
-            for (int i = 0; i < n; i++)
-                add_grey(film, x, y, (uint32_t)i, (i % 2 ? 1.0f : 3.0f) * (float)(1 + x));
-    /* grey XYZ (1,1,1) has RGB (1.205, 0.948, 0.909): sigma adds up to Y's own. */
-    assert_close(film_relative_error(film).frame, 0.5 / sqrt(n - 1), 1e-3);
-    assert_true(isnan(film_relative_error(film).displays));
+    for (int p = 0; p < WIDTH * HEIGHT; p++)
+        for (uint32_t i = 0; i < 64; i++)
+            add_grey(film, p % WIDTH, p / WIDTH, i, i % 2 ? 1.0f : 3.0f);
+    assert_near(film_relative_error(film).frame, 0, 1e-12);
+    assert_close(film_pixel(film, 0, 0).variance_rgb[1] / pow(0.948, 2), 1.0 / 63, 0.01);
     arena_release(&arena);
 }
 
@@ -266,21 +294,23 @@ static void relative_error_judges_shadows_against_half_the_key(void **state)
 static void relative_error_of_displays_counts_their_pixels_only(void **state)
 {
     (void)state;
-    Arena arena = arena_reserve(1 << 20);
-    Film *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
-    for (uint32_t i = 0; i < 100; i++)
-        for (int y = 0; y < HEIGHT; y++)
-            for (int x = 0; x < WIDTH; x++) {
-                float      value = x == 0 ? 7 : i % 2 ? 1 : 3;
-                FilmSample s = {.sample_index = i, .xyz = {value, value, value}, .hit = true,
-                                .display_id = x == 0 ? 4 : -1};
-                film_add_sample(film, x, y, &s);
-            }
+    enum { SIDE = 100 };
+    Arena    arena = arena_reserve(1 << 23);
+    FilmRect square = {0, 0, SIDE, SIDE};
+    Film    *film = film_create(SIDE, SIDE, square, 0, &arena);
+    for (int p = 0; p < SIDE * SIDE; p++)
+        for (uint32_t i = 0; i < 64; i++) {
+            bool       display = p % SIDE < SIDE / 2;
+            float      value = display ? 2 : coin(p, i, 1);
+            FilmSample s = {.sample_index = i, .xyz = {value, value, value}, .hit = true,
+                            .display_id = display ? 4 : -1};
+            film_add_sample(film, p % SIDE, p / SIDE, &s);
+        }
     FilmError error = film_relative_error(film);
     assert_near(error.displays, 0, 1e-6);
-    assert_close(error.frame, 2.0 / 3 * 0.5 / sqrt(99), 1e-3);
+    assert_close(error.frame, 0.5 * 0.5 / sqrt(64), 0.03);
     assert_int_equal(film_pixel(film, 0, 1).display_id, 4);
-    assert_int_equal(film_pixel(film, 1, 1).display_id, -1);
+    assert_int_equal(film_pixel(film, SIDE - 1, 1).display_id, -1);
     arena_release(&arena);
 }
 
@@ -465,6 +495,7 @@ int main(void)
         cmocka_unit_test(variance_spans_both_windows_of_squares),
         cmocka_unit_test(variance_needs_two_samples),
         cmocka_unit_test(relative_error_is_the_mean_of_sigma_over_luminance),
+        cmocka_unit_test(relative_error_knows_that_even_samples_are_better),
         cmocka_unit_test(relative_error_judges_shadows_against_half_the_key),
         cmocka_unit_test(relative_error_of_displays_counts_their_pixels_only),
         cmocka_unit_test(a_frame_has_the_channels_asked_for_and_no_others),
