@@ -10,7 +10,7 @@
  *            them stay below 2^126 steps in either. Relative to the square a step is 2^-29 or
  *            less for 1e-5 cd m^-2 and more.
  *          A pixel takes at most FILM_SAMPLES_MAX samples; an assertion guards it.
- * Memory   everything comes from `arena`; nothing to free. 176 bytes a pixel, and 48 for each
+ * Memory   everything comes from `arena`; nothing to free. 192 bytes a pixel, and 48 for each
  *          three-component layer.
  * Threads  tiles of different pixels may be filled at the same time; one pixel belongs to one
  *          thread at a time. Reading needs all writers to be done.
