@@ -260,9 +260,9 @@ static double sigma_of_spread(const double variance_rgb[3])
            0.0722 * sqrt(variance_rgb[2]);
 }
 
-/* Standard error of Y from the difference of two interleaved halves, each a mean of whole blocks
- * whose samples are spread evenly. One difference d of two normal means says sigma only in the
- * mean over pixels, where E|d| = sqrt(2 / pi) sigma_d. */
+/* Standard error of Y from the difference of two interleaved halves, each a mean of whole
+ * blocks whose samples are spread evenly. One difference d of two normal means says sigma only
+ * in the mean over pixels, where E|d| = sqrt(2 / pi) sigma_d. */
 static double sigma_of_halves(const PixelSums *sums)
 {
     double n = (double)sums->samples, odd = (double)sums->odd_samples, even = n - odd;

@@ -256,7 +256,8 @@ static void refuses_every_prefix_of_other_formats(void **state)
             unsigned char *exact = malloc(size + (size == 0));
             memcpy(exact, bytes, size);
             scratch = arena;
-            if (image_read_memory(exact, size, "cut", &scratch, &image, &err) != (size == whole))
+            bool read = image_read_memory(exact, size, "cut", &scratch, &image, &err);
+            if (read != (size == whole))
                 fail_msg("%s: %zu of %zu bytes: %s", FORMATS[f], size, whole, err.text);
             free(exact);
         }
