@@ -99,8 +99,8 @@ FilmPixel film_pixel(const Film *film, int x, int y);
 /* How sure the frame is: the mean over pixels of sigma / max(Y, Y_low). Y_low is half the
  * frame's key, the geometric mean of the luminances above zero (Reinhard et al. 2002): the
  * noise of deep shadows is judged against what an eye adapted to the frame sees, the same as
- * the 0.01 in the usual relMSE when the key is exposed to 0.18; a sun in view does not move it. A pixel
- * of fewer than two samples counts 1.
+ * the 0.01 in the usual relMSE when the key is exposed to 0.18; a sun in view does not move it.
+ * A pixel of fewer than two samples counts 1.
  * From 32 samples on sigma comes from the difference of two halves of the samples, in
  * interleaved blocks of 16: scrambled Sobol points are better than independent ones, and the
  * difference knows it. Below, from the samples' spread as if they were independent, taken as
