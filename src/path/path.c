@@ -109,12 +109,22 @@ typedef struct ShadowQuestion {
     const Walk *walk;
     Vec3     direction;
     Spectrum passed;
+    Hit      last; /* the one that was passed last */
 } ShadowQuestion;
+
+/* A ray through the edge that two triangles share meets both: that is one pane, not two. */
+static bool is_same_pane(const Scene *scene, const Hit *a, const Hit *b)
+{
+    return fabsf(a->t - b->t) <= 2e-6f * a->t &&
+           scene->triangles[a->triangle].part_id == scene->triangles[b->triangle].part_id;
+}
 
 static bool passes(void *user, const Hit *hit)
 {
     ShadowQuestion *question = user;
     const PathContext *context = question->walk->context;
+    if (is_same_pane(context->scene, hit, &question->last)) return true;
+    question->last = *hit;
     question->passed *= surface_pass(context->scene, context->tables, hit, question->direction,
                                      question->walk->wavelengths);
     return !spectrum_is_zero(question->passed);
@@ -126,7 +136,7 @@ static Spectrum visibility(Walk *walk, const Surface *surface, Vec3 wi, float di
     Vec3  origin = ray_offset_origin(surface->position, surface->ng, wi);
     Vec3  moved = vec3_sub(origin, surface->position);
     float end = distance * (1 - 1e-4f) - 4 * vec3_length(moved);
-    ShadowQuestion question = {walk, wi, spectrum_all(1)};
+    ShadowQuestion question = {walk, wi, spectrum_all(1), {.t = -1}};
     walk->statistics->shadow_rays++;
     bool blocked = bvh_occluded(walk->context->bvh, (Ray){origin, wi, 0, fmaxf(end, 0)}, passes,
                                 &question);

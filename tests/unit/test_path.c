@@ -324,6 +324,22 @@ static void a_luxmeter_reads_what_falls_on_it(void **state)
     world_end(&world);
 }
 
+/* The ray meets the diagonal that both triangles of the pane share: one pane, tinted once. */
+static void a_pane_is_passed_once_on_the_edge_of_its_triangles(void **state)
+{
+    (void)state;
+    World world = world_start();
+    builder_part(world.scene, builder_material(0));
+    builder_quad(world.scene, vec3(0, -1, 0), vec3(5, 0, 0), vec3(0, 0, -5));
+    builder_part(world.scene, window_material(1.52f));
+    builder_quad(world.scene, vec3(0, 1, 0), vec3(1, 0, 0), vec3(0, 0, -1));
+    world.scene->lights[world.scene->light_count++] = (PunctualLight){
+        .kind = LIGHT_POINT, .position = {0, 2, 0}, .intensity = {400, 400, 400}};
+    world_ready(&world);
+    assert_close(illuminance(&world, vec3(0, 0, 0), vec3(0, 1, 0), 4000), 100 * 0.918318, 2e-3);
+    world_end(&world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -336,6 +352,7 @@ int main(void)
         cmocka_unit_test(a_clear_ball_in_a_uniform_sky_is_invisible),
         cmocka_unit_test(half_there_shows_half_of_what_is_behind),
         cmocka_unit_test(bounces_are_counted_as_documented),
+        cmocka_unit_test(a_pane_is_passed_once_on_the_edge_of_its_triangles),
         cmocka_unit_test(a_luxmeter_reads_what_falls_on_it),
         cmocka_unit_test(the_back_of_a_one_sided_emitter_is_dark),
     };
