@@ -135,6 +135,16 @@ static void warn_of_dropped(Work *work, const RenderResult *result)
                             dropped.first[0].sample_index));
 }
 
+/* A picture that the scene names was cleaned, and told of, when it was loaded. */
+static void warn_of_picture(Work *work, const RenderResult *result)
+{
+    if (!result->refused_pixels || work->request.replays) return;
+    warn(work, arena_format(work->arena,
+                            "--environment %s: %ld pixels have negative values or values that "
+                            "are not finite, which count as 0",
+                            work->request.environment.environment, result->refused_pixels));
+}
+
 static void warn_of_noise(Work *work, const RenderResult *result)
 {
     const RenderOptions *options = &work->request.render;
@@ -179,6 +189,7 @@ static bool develop(const Work *work, const RenderResult *result, Error *err)
 
 static bool hand_over(Work *work, const RenderResult *result, Error *err)
 {
+    warn_of_picture(work, result);
     warn_of_dropped(work, result);
     warn_of_noise(work, result);
     if (work->request.replays)

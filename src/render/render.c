@@ -186,7 +186,8 @@ bool render_scene(const Scene *scene, const SceneCamera *camera, const RenderOpt
     if (!lights_build(scene, arena, &lights, err)) return false;
     if (!bvh_create(scene, options->threads, options->isa, &bvh, err)) return false;
     PathContext context = path_context_build(scene, bvh, lights, options->max_bounces, arena);
-    RenderResult result = {.kernel = kernel, .build_seconds = monotonic_seconds() - begun_s};
+    RenderResult result = {.kernel = kernel, .refused_pixels = lights_refused_pixels(lights),
+                           .build_seconds = monotonic_seconds() - begun_s};
     render_film(&context, camera, options, arena, &result);
     bvh_destroy(bvh);
     *out = result;

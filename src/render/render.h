@@ -42,6 +42,7 @@ struct RenderResult {
     Film          *film;
     const Kernel  *kernel;     /* the one that was used */
     uint32_t       samples;    /* a pixel */
+    long           refused_pixels; /* of the surroundings' picture: negative or not finite, 0 */
     double         seconds;    /* of rendering alone */
     double         build_seconds; /* of the ray tracer's and the lights' structures */
     PathStatistics statistics;

@@ -95,13 +95,6 @@ static inline bool spectrum_is_grey(Spectrum a)
     return memcmp(&a, &first, sizeof a) == 0;
 }
 
-static inline Spectrum spectrum_sqrt(Spectrum a)
-{
-    Spectrum root;
-    for (int i = 0; i < SPECTRUM_LANES; i++) root[i] = safe_sqrtf(a[i]);
-    return root;
-}
-
 static inline Spectrum spectrum_exp(Spectrum a)
 {
     Spectrum power;

@@ -190,6 +190,28 @@ static void a_missing_input_is_status_3_and_named(void **state)
     json_decref(answer);
 }
 
+static void a_picture_with_negative_light_is_told_of(void **state)
+{
+    (void)state;
+    Outcome    o;
+    Error      err = {0};
+    Arena      arena = arena_reserve(1 << 22);
+    FrameImage picture = frame_create(8, 4, (ExrWindow){0, 0, 8, 4}, 3, 8, &arena);
+    for (int c = 0; c < 3; c++) {
+        float *values = frame_add_channel(&picture, c == 0 ? "R" : c == 1 ? "G" : "B", false,
+                                          &arena);
+        for (int i = 0; i < 32; i++) values[i] = c == 1 && i % 16 == 3 ? -1.0f : 10.0f;
+    }
+    char path[256];
+    snprintf(path, sizeof path, "%s/negative.exr", folder);
+    assert_true(frame_write(path, &picture, &err));
+    RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--size", "4x4", "--spp", "1",
+        "--environment", "hdri:negative.exr");
+    if (o.status) fail_msg("%s", o.err);
+    assert_non_null(strstr(o.err, "hdri:negative.exr: 2 pixels have negative values"));
+    arena_release(&arena);
+}
+
 static void an_output_that_cannot_be_written_is_status_4_at_once(void **state)
 {
     (void)state;
@@ -494,6 +516,7 @@ int main(void)
         cmocka_unit_test(an_hdri_that_is_missing_or_not_linear_is_named),
         cmocka_unit_test(a_frame_too_large_is_refused_before_it_fills_the_memory),
         cmocka_unit_test(a_missing_input_is_status_3_and_named),
+        cmocka_unit_test(a_picture_with_negative_light_is_told_of),
         cmocka_unit_test(an_output_that_cannot_be_written_is_status_4_at_once),
         cmocka_unit_test(version_and_help_need_nothing),
         cmocka_unit_test(a_frame_says_how_to_make_it_again),
