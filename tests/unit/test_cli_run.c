@@ -202,9 +202,8 @@ static void a_picture_with_negative_light_is_told_of(void **state)
                                           &arena);
         for (int i = 0; i < 32; i++) values[i] = c == 1 && i % 16 == 3 ? -1.0f : 10.0f;
     }
-    char path[256];
-    snprintf(path, sizeof path, "%s/negative.exr", folder);
-    assert_true(frame_write(path, &picture, &err));
+    char path[512];
+    assert_true(frame_write(in_folder(path, "negative.exr"), &picture, &err));
     RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--size", "4x4", "--spp", "1",
         "--environment", "hdri:negative.exr");
     if (o.status) fail_msg("%s", o.err);
