@@ -115,6 +115,21 @@ FitPlaces fit_places(int level, int octants, Arena *arena);
 float *fit_profile(const FitPlaces *places, float *values, int components, int harmonics,
                    Arena *arena);
 
+/* ---- sampling --------------------------------------------------------------------------- */
+
+/* What the sampling trees of all slices share. */
+typedef struct FitSampling {
+    const FitPlaces *places;
+    int              wavelengths;
+    const double    *luminous;       /* weight of each wavelength, sum 1 */
+    float            frame_exponent;
+} FitSampling;
+
+/* The tree of one slice, *tree in the arena. logs: places x wavelengths, ln (f / F); theta in
+ * radians, below 0 for a slice mirrored at the normal. */
+bool fit_sampling(const FitSampling *shared, const float *logs, double theta, Arena *arena,
+                  const void **tree, Error *err);
+
 /* ---- the file and the report ----------------------------------------------------------- */
 
 typedef struct FitParts {
