@@ -141,8 +141,42 @@ typedef struct FitParts {
     FitNotes             *notes;
 } FitParts;
 
+/* Sections are written one after the other, each of pieces that follow each other. */
+typedef struct FitPiece {
+    const void *data;
+    size_t      size;
+} FitPiece;
+
+typedef struct FitWriter FitWriter;
+void fit_write_section(FitWriter *writer, PanelSectionKind kind, uint32_t index,
+                       const FitPiece *piece, int pieces);
+void fit_write_reflection(FitWriter *writer, const FitReflection *reflection);
+
 /* The file's bytes with this meta text; *size bytes in the arena, aligned to 64. */
 void *fit_file_bytes(const FitParts *parts, const char *meta, Arena *arena, size_t *size);
+
+/* Deviations of a panel from a table, summed up. */
+typedef struct FitErrors {
+    double max, squares, count, integral, integral_source;
+    double l2, l2_source; /* of the values themselves, cosine-weighted */
+} FitErrors;
+
+Vec3 fit_row_direction(const AngleTable *table, int row);
+
+/* A row's share of the hemisphere, up to a factor: rings and azimuths are about even. */
+double fit_row_weight(const AngleTable *table, int row);
+
+/* scale: what the error is relative to. */
+void fit_add_error(FitErrors *errors, double found, double wanted, double scale, double weight);
+void fit_finish_errors(const FitErrors *errors, FitTable *out);
+
+/* One more row of the report, and into its total. */
+void fit_add_table(json_t *tables, FitTable *total, const FitTable *one);
+
+/* The reflection's rows, and what was chosen for it as "reflection" in *out. */
+void fit_report_reflection_tables(const FitParts *parts, const Panel *panel, json_t *tables,
+                                  FitTable *total);
+void fit_report_reflection(const FitParts *parts, const Panel *panel, json_t *out);
 
 /* Compares the panel with the tables; a new JSON document. */
 json_t *fit_measure(const FitParts *parts, const Panel *panel, size_t file_bytes);

@@ -1,6 +1,6 @@
 /* panel_file.h -- the layout of X.panel and of an opened Panel. Private to src/panel.
  *
- * Little-endian. A header, a table of contents, then the sections, each at a multiple of 64
+ * Little-endian. A header, a table of contents, then the sections, each at a multiple of 8
  * bytes; no pointers, so that a mapped file is queried in place. The checksum (XXH3, 64 bits)
  * covers everything behind itself. The version changes whenever a struct below does.
  */
@@ -16,7 +16,8 @@
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "files are queried in place");
 
 #define PANEL_MAGIC "PHPANEL\n"
-#define PANEL_VERSION 2u
+#define PANEL_VERSION 3u
+#define PANEL_ALIGN 8 /* of sections, bytes */
 #define PANEL_SECTIONS_MAX 64
 #define PANEL_LEVELS_MAX 64
 #define PANEL_SLICES_MAX 40
@@ -29,11 +30,10 @@ _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "files are queried in 
 
 typedef struct PanelHeader {
     char     magic[8]; /* PANEL_MAGIC, without its zero */
-    uint32_t version, header_size;
-    uint64_t size;     /* of the file */
-    uint64_t checksum; /* of the bytes from section_count on */
-    uint32_t section_count, flags; /* flags: 0 */
-    uint64_t reserved[3];          /* 0 */
+    uint32_t version, flags; /* flags: 0 */
+    uint64_t checksum;       /* of the bytes from size on */
+    uint64_t size;           /* of the file */
+    uint32_t section_count, reserved; /* reserved: 0 */
 } PanelHeader;
 
 typedef enum PanelSectionKind {
@@ -47,8 +47,9 @@ typedef enum PanelSectionKind {
 } PanelSectionKind;
 
 typedef struct PanelSection {
-    uint32_t kind, index;
-    uint64_t offset, size;
+    uint16_t kind, index;
+    uint32_t size;
+    uint64_t offset;
 } PanelSection;
 
 /* Natural logarithms of tristimulus values in cd m^-2. A channel is one of X, Y, Z of one
