@@ -1,0 +1,4 @@
+/* importers.h -- one row a foreign format; each stands in the file of its name.
+ */
+#pragma once
+#include "import/import.h"
