@@ -36,15 +36,42 @@ typedef struct FitEmission {
 bool fit_emission(const Measurement *set, const FitOptions *options, Arena *arena,
                   FitNotes *notes, FitEmission *out, Error *err);
 
-/* ---- noise ------------------------------------------------------------------------------ */
+/* ---- noise, outliers ------------------------------------------------------------------- */
 
-/* Relative noise of a table's channel inside 70 degrees: the median of third differences along
- * the rings, or along the meridians of a table that has but a few azimuths. 0: cannot tell. */
+/* Relative noise of a table's channel inside 70 degrees: the median of high differences along
+ * the rings or the meridians, whichever says less. 0: cannot tell. */
 double fit_noise(const AngleTable *table, int channel, Arena scratch);
 
 /* Noise in the channel's unit on the dimmest rings, where only what does not scale with light
  * is left. */
 double fit_dim_noise(const AngleTable *table, int channel, Arena scratch);
+
+/* Per row: the one before it on its ring, and the one at the same azimuth on the ring inside;
+ * -1: none, or too far. */
+typedef struct FitNeighbours {
+    const int *ring, *inner;
+} FitNeighbours;
+void fit_neighbours(const AngleTable *table, Arena *arena, FitNeighbours *out);
+
+/* A direction of a table that stands out, or is missing. */
+typedef struct FitFlag {
+    const char *table;
+    double      theta, phi;      /* radians */
+    double      value, expected; /* Y, cd m^-2 */
+} FitFlag;
+
+#define FIT_FLAGS_MAX 4096
+typedef struct FitFlags {
+    FitFlag *flag;  /* room for FIT_FLAGS_MAX */
+    int      count; /* may be more than are listed */
+} FitFlags;
+
+/* Rows of an XYZ table that no neighbour explains: is_outlier[row]. Returns how many. */
+int fit_find_outliers(const AngleTable *table, uint8_t *is_outlier, FitFlags *flags,
+                      Arena scratch);
+
+/* Directions that the table's grid lacks. */
+int fit_find_holes(const AngleTable *table, FitFlags *flags, Arena scratch);
 
 /* For qsort: doubles, rising. */
 int fit_by_value(const void *a, const void *b);
@@ -68,7 +95,8 @@ typedef struct FitReflection {
     float          *basis, *mirror, *profile; /* as in the file */
     const void     *tree;
     TreeReport      tree_report;
-    const void     *sampling[PANEL_SLICES_MAX];
+    const void     *sampling; /* the section's bytes; NULL: not yet built */
+    size_t          sampling_size;
     AngleTable      haze[MEASUREMENT_INCIDENCES_MAX]; /* what is left without the mirror */
     double          noise[MEASUREMENT_INCIDENCES_MAX];
     double          reflectance[MEASUREMENT_INCIDENCES_MAX][MEASUREMENT_WAVELENGTHS_MAX];
@@ -117,18 +145,10 @@ float *fit_profile(const FitPlaces *places, float *values, int components, int h
 
 /* ---- sampling --------------------------------------------------------------------------- */
 
-/* What the sampling trees of all slices share. */
-typedef struct FitSampling {
-    const FitPlaces *places;
-    int              wavelengths;
-    const double    *luminous;       /* weight of each wavelength, sum 1 */
-    float            frame_exponent;
-} FitSampling;
-
-/* The tree of one slice, *tree in the arena. logs: places x wavelengths, ln (f / F); theta in
- * radians, below 0 for a slice mirrored at the normal. */
-bool fit_sampling(const FitSampling *shared, const float *logs, double theta, Arena *arena,
-                  const void **tree, Error *err);
+/* Third step, once the panel's reflection can be queried: the PANEL_SAMPLING section into
+ * *reflection, from what `panel`, which has none yet, says itself. */
+bool fit_sampling(const Panel *panel, Arena *arena, FitNotes *notes, FitReflection *reflection,
+                  Error *err);
 
 /* ---- the file and the report ----------------------------------------------------------- */
 

@@ -444,11 +444,6 @@ bool fit_reflection(const Measurement *set, const FitOptions *options, Arena *ar
     double edge = 0.5 * PI;
     for (int i = 0; i < work->measured; i++) edge = fmin(edge, (double)set->brdf[i].theta_max);
     out->head.cone_cos = (float)fmax(0, cos(edge));
-    FitSampling sampling = {&work->places, work->wavelengths, out->luminous, work->k};
-    for (int s = 0; s < work->slices; s++)
-        if (!fit_sampling(&sampling, work->logs[s], (double)out->head.slice_theta[s], arena,
-                          &out->sampling[s], err))
-            return false;
     transform_spectra(work, energy);
     double tolerance = options->max_error > 0 ? (double)options->max_error : 3e-3;
     tolerance = fmax(tolerance, 2 * largest_noise(out, work->measured));

@@ -12,8 +12,6 @@ void fit_write_reflection(FitWriter *writer, const FitReflection *r)
     FitPiece tree = {r->tree, tree_size(r->tree)};
     fit_write_section(writer, PANEL_REFLECTION, 0, pieces, 4);
     fit_write_section(writer, PANEL_REFLECTION_TREE, 0, &tree, 1);
-    for (uint32_t i = 0; i < r->head.slices; i++) {
-        FitPiece sampling = {r->sampling[i], sampling_tree_size(r->sampling[i])};
-        fit_write_section(writer, PANEL_SAMPLING, i, &sampling, 1);
-    }
+    FitPiece sampling = {r->sampling, r->sampling_size};
+    if (r->sampling) fit_write_section(writer, PANEL_SAMPLING, 0, &sampling, 1);
 }

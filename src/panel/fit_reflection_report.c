@@ -72,10 +72,7 @@ void fit_report_reflection_tables(const FitParts *parts, const Panel *panel, jso
                                    FitTable *total)
 {
     const FitReflection *r = parts->reflection;
-    double sampling = 0;
-    for (uint32_t i = 0; i < r->head.slices; i++)
-        sampling += (double)sampling_tree_size(r->sampling[i]);
-    double bytes = (double)tree_size(r->tree) + sampling;
+    double bytes = (double)tree_size(r->tree) + (double)r->sampling_size;
     double values = (double)r->tree_report.stored_rows * r->head.coefficients * r->head.slices;
     for (int i = 0; i < parts->set->incidence_count; i++) {
         const AngleTable *from = &r->haze[i];

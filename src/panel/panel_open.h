@@ -33,3 +33,7 @@ bool panel_rising(const float *value, uint32_t count);
  * from the stored ones come from the arena. */
 bool panel_open_reflection(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
                            Panel *panel);
+
+/* The sampling tree, expanded into the arena; a file without one leaves *out as it is. */
+bool panel_open_sampling(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
+                         PanelSampling *out);

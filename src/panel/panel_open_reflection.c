@@ -27,18 +27,6 @@ static bool check_reflection(const PanelBytes *at, const PanelReflection *r)
     return true;
 }
 
-static bool open_sampling(const PanelBytes *bytes, const Geodesic *geodesic, Panel *panel)
-{
-    for (uint32_t i = 0; i < panel->reflection->slices; i++) {
-        PanelBytes at;
-        if (!panel_need_section(bytes, PANEL_SAMPLING, i, &at)) return false;
-        if (!sampling_tree_open(at.data, at.size, geodesic, &panel->sampling[i], bytes->err))
-            return error_prefix(bytes->err, "sampling tree %u", i) ||
-                   error_in_file(bytes->err, bytes->name);
-    }
-    return true;
-}
-
 /* For every whole nm the interval of measured wavelengths that holds it. */
 static void index_wavelengths(Panel *panel)
 {
@@ -59,7 +47,6 @@ bool panel_open_reflection(const PanelBytes *bytes, const Geodesic *geodesic, Ar
 {
     PanelBytes at, tree;
     bool  found;
-    (void)arena;
     if (!panel_find_section(bytes, PANEL_REFLECTION, 0, &at, &found)) return false;
     if (!found) return true;
     if (!panel_need_section(bytes, PANEL_REFLECTION_TREE, 0, &tree)) return false;
@@ -84,5 +71,5 @@ bool panel_open_reflection(const PanelBytes *bytes, const Geodesic *geodesic, Ar
     if (panel->reflection_tree.components != (int)(r->slices * r->coefficients))
         return panel_refuse(&at, "reflection", "does not fit its tree");
     index_wavelengths(panel);
-    return open_sampling(bytes, geodesic, panel);
+    return panel_open_sampling(bytes, geodesic, arena, &panel->sampling);
 }
