@@ -43,25 +43,6 @@ def percent(value):
 
 # ---- foreign sets --------------------------------------------------------------------------
 
-def imported(program, name):
-    """The set's manifest through `panel import`; by this script's own hand where it refuses."""
-    folder = os.path.join(panels.DATA, "panels", name)
-    out = program.file(name, "MANIFEST.json")
-    if os.path.exists(out):
-        return out
-    os.makedirs(program.file(name), exist_ok=True)
-    files = [os.path.join(folder, f) for f in sorted(os.listdir(folder))
-             if not f.startswith("truth")]
-    try:
-        program.run("panel", "import", *files, "-o", out)
-        print(f"{name}: imported by the program")
-    except Refused as error:
-        print(f"{name}: converted by this script, for the program says: {str(error)[:160]}")
-        convert = panels.convert_set_a if name == "set-a" else panels.convert_set_b
-        out = convert(program.file(name))
-    return out
-
-
 def truth_rows(name):
     with open(os.path.join(panels.DATA, "panels", "set-a", name)) as file:
         return [list(map(float, row)) for row in list(csv.reader(file))[1:]]
@@ -89,7 +70,7 @@ def measure_emission(program, options):
     limits = {"set-a": (0.005, 0.001), "set-b": (0.015, 0.004)}
     truth = truth_rows("truth_emission.csv")
     for name, (limit_y, limit_uv) in limits.items():
-        manifest = imported(program, name)
+        manifest = panels.imported(program, name)
         panel = program.file(name + ".panel")
         report = program.fit(panels.emission_only(manifest), panel, *options)
         _, answers = program.ask(panel, ("theta", "phi", "r", "g", "b"),
@@ -160,7 +141,7 @@ def found_peak(program, panel, incidence, wavelength):
 def measure_reflection(program, options):
     truth = truth_rows("truth_brdf.csv")
     panel = program.file("set-a-brdf.panel")
-    report = program.fit(imported(program, "set-a"), panel, *options)
+    report = program.fit(panels.imported(program, "set-a"), panel, *options)
     _, answers = program.ask(panel, ("theta", "phi", "incidence", "wavelength"),
                              [(t, p, i, nm) for i, t, p, nm, _ in truth], "--brdf",
                              "--wavelength", 550)
@@ -193,34 +174,6 @@ def measure_reflection(program, options):
               f"{value:.4g} sr^-1")
     print(f"set-a with reflection: file {report['file_bytes']} bytes, fit "
           f"{report['seconds']:.1f} s")
-
-
-# ---- the closed form of a recipe (src/panel/recipe.h) ----------------------------------------
-
-def fresnel(c, n):
-    t = math.sqrt(1 - (1 - c * c) / (n * n))
-    s, p = (c - n * t) / (c + n * t), (n * c - t) / (n * c + t)
-    return 0.5 * (s * s + p * p)
-
-
-class Truth:
-    def __init__(self, text):
-        self.r, self.n = text["reflection"], text["refractive_index"]
-
-    def coated(self, c, nm):
-        f, r = fresnel(c, self.n), self.r
-        share = min(1, r["coating"] + r["coating_blue"] * ((nm - 550) / 150) ** 2)
-        return f * (share + (1 - share) * f)
-
-    def haze(self, incidence, theta, phi, nm):
-        r, i, o = self.r, math.radians(incidence), math.radians(theta)
-        w2, sp = r["haze_width"] ** 2, math.sin(math.radians(phi) / 2)
-        si, so, ci, co = math.sin(i), math.sin(o), math.cos(i), math.cos(o)
-        b2 = (so - si) ** 2 + 4 * so * si * sp * sp
-        k = (r["haze_power"] - 1) / (math.pi * w2) * (1 + b2 / w2) ** -r["haze_power"]
-        gloss = math.sqrt(self.coated(ci, nm) * self.coated(co, nm))
-        under = (1 - fresnel(ci, self.n)) * (1 - fresnel(co, self.n))
-        return r["haze_share"] * gloss * k + r["floor_albedo"] / math.pi * under
 
 
 # ---- between incidences ----------------------------------------------------------------------
@@ -259,7 +212,7 @@ def measure_incidence(program, options):
         manifest = panels.simulate(program, text, name + "-incidence")
         panel = program.file(name + "-incidence.panel")
         program.fit(manifest, panel, *options)
-        truth = Truth(text)
+        truth = panels.Truth(text)
         for incidence in (15, 25, 35, 45, 55):
             print_slice(name, f"middle of the grid, {incidence} deg",
                         compare_slice(program, panel, truth, incidence), (0.01, 0.01))
