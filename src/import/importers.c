@@ -3,5 +3,6 @@
 #include "import/importers.h"
 
 const Importer *const importers[] = {
+    &importer_fred, &importer_mountain, &importer_zemax, &importer_lighttools,
     NULL,
 };

@@ -2,3 +2,6 @@
  */
 #pragma once
 #include "import/import.h"
+
+/* ---- scatter ---- */
+extern const Importer importer_zemax, importer_lighttools, importer_mountain, importer_fred;
