@@ -7,8 +7,9 @@
 
 #define CELLS_OF_PICTURE 32768 /* about, of a part with content or an emissive texture */
 #define CELLS_OF_PLAIN 256
-#define POINTS_MAX 64          /* a cell, at which its light is read */
-#define FLOOR_SHARE 0.01 /* of the part's mean, so that no lit texel is impossible */
+#define POINTS_LEAST 16 /* a cell, at which the light of a picture is read */
+#define POINTS_MAX 128
+#define FLOOR_SHARE 0.02 /* of the part's mean, so that no lit texel is impossible */
 #define SIDE_MAX 512
 
 /* Luminance of a display by its codes: what red, green and blue add, the rest at code 0. */
@@ -101,9 +102,12 @@ static Corner uv_corner(const Reader *reader, uint32_t triangle)
                     {uv[2].x - uv[0].x, uv[2].y - uv[0].y}};
 }
 
-/* Barycentric weights of a uniform point, from a low-discrepancy lattice (R2 sequence). */
+/* Barycentric weights of a point: the three corners, where a bright texel may reach in, then
+ * uniform ones from a low-discrepancy lattice (R2 sequence). */
 static Vec2 lattice_point(int i)
 {
+    static const Vec2 corners[3] = {{0.01f, 0.01f}, {0.98f, 0.01f}, {0.01f, 0.98f}};
+    if (i < 3) return corners[i];
     double a = 0.5 + 0.7548776662466927 * i, b = 0.5 + 0.5698402909980532 * i;
     a -= floor(a);
     b -= floor(b);
@@ -128,7 +132,7 @@ static double cell_luminance(const Reader *reader, const Corner *corner,
     return sqrt(squares / points);
 }
 
-/* Points a cell, about one a texel. */
+/* Points a cell, about two a texel. */
 static int points_of(const Reader *reader, const Corner *corner, int side)
 {
     if (reader->slot->texture_id == NO_ID) return 1;
@@ -136,7 +140,7 @@ static int points_of(const Reader *reader, const Corner *corner, int side)
     double cross = fabs((double)(corner->along_u.x * corner->along_v.y -
                                  corner->along_u.y * corner->along_v.x));
     double texels = 0.5 * cross * image->width * image->height / ((double)side * side);
-    return (int)fmin(POINTS_MAX, fmax(4, ceil(texels)));
+    return (int)fmin(POINTS_MAX, fmax(POINTS_LEAST, ceil(2 * texels)));
 }
 
 /* Luminances of an emitter's cells, in order. */
