@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "import/import_parts.h"
 
 /* A direction in steps of SAME_ANGLE_DEG, and its row. */
@@ -163,7 +164,7 @@ bool import_join_tables(ImportSet *set, const int *part, int count, ImportTable 
                         "files of one table", joined->file, joined->rows, most);
     if (joined->rows < most)
         import_note(set, "%s: %d directions are not in every file of the table and are left out",
-                    joined->file, most - joined->rows);
+                    path_name(joined->file), most - joined->rows);
     return true;
 }
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/units.h"
+#include "base/file.h"
 #include "import/import_parts.h"
 #include "spectrum/spectral_table.h"
 
@@ -81,8 +82,9 @@ static bool combine(ImportSet *set, ImportTable *table, const ImportTable *helpe
         phi[kept++] = table->phi_deg[i];
     }
     if (kept < table->rows)
-        import_note(set, "%s: %d of %d directions are not in %s and are left out", table->file,
-                    table->rows - kept, table->rows, helper->file);
+        import_note(set, "%s: %d of %d directions are not in %s and are left out",
+                    path_name(table->file), table->rows - kept, table->rows,
+                    path_name(helper->file));
     if (!kept)
         return error_at(err, ERROR_INPUT, helper->file, "", "has none of the directions of %s",
                         table->file);

@@ -179,8 +179,8 @@ static void note_names(TextReader *in)
     if (in->said.panel && !in->set->panel) in->set->panel = in->said.panel;
     if (in->said.instrument && !in->set->instrument) in->set->instrument = in->said.instrument;
     if (in->said.unused_columns)
-        import_note(in->set, "%s: %d columns with other names are not used", in->file,
-                    in->said.unused_columns);
+        import_note(in->set, "%s: %d columns with other names are not used",
+                    path_name(in->file), in->said.unused_columns);
 }
 
 static bool read_text(const char *file, const ImportOptions *options, ImportSet *set, Error *err)

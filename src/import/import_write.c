@@ -21,7 +21,7 @@ typedef struct Output {
     Arena            scratch;
     const char     **path, **temporary; /* of what is written so far */
     int              count;
-    const char      *folder[2]; /* made here: removed again on failure when empty */
+    const char      *folder[3]; /* made here: removed again on failure when empty */
     int              folder_count;
     Error           *err;
 } Output;
@@ -41,15 +41,27 @@ const char *import_table_file(const ImportSet *set, const ImportTable *table, Ar
 
 /* ---- files --------------------------------------------------------------------------------- */
 
-static bool make_folder(Output *out, const char *name)
+static bool make_folder(Output *out, const char *path)
 {
-    const char *path = path_beside(out->manifest, name, &out->scratch);
     if (!mkdir(path, 0777)) {
         out->folder[out->folder_count++] = path;
         return true;
     }
     return errno == EEXIST || error_at(out->err, ERROR_OUTPUT, path, "", "cannot be made: %s",
                                        strerror(errno));
+}
+
+/* The manifest's own folder, when it is not there, and those of its tables. */
+static bool make_folders(Output *out, bool emission, bool reflection)
+{
+    const char *name = path_name(out->manifest);
+    size_t      length = (size_t)(name - out->manifest);
+    if (length > 1 &&
+        !make_folder(out, arena_string(&out->scratch, out->manifest, length - 1)))
+        return false;
+    return (!emission || make_folder(out, path_beside(out->manifest, "emission",
+                                                      &out->scratch))) &&
+           (!reflection || make_folder(out, path_beside(out->manifest, "brdf", &out->scratch)));
 }
 
 static FILE *begin_file(Output *out, const char *path)
@@ -76,7 +88,7 @@ static bool end_file(Output *out, FILE *stream)
 static void undo(Output *out)
 {
     for (int i = 0; i < out->count; i++) file_discard(out->temporary[i]);
-    for (int i = 0; i < out->folder_count; i++) rmdir(out->folder[i]);
+    for (int i = out->folder_count - 1; i >= 0; i--) rmdir(out->folder[i]);
 }
 
 static bool commit_all(Output *out)
@@ -284,8 +296,7 @@ bool import_write(const ImportSet *set, const char *manifest, Error *err)
     out.path = ARENA_NEW(&arena, const char *, set->count + 2);
     out.temporary = ARENA_NEW(&arena, const char *, set->count + 2);
     out.scratch = arena;
-    bool ok = (!has_source(set, false) || make_folder(&out, "emission")) &&
-              (!has_source(set, true) || make_folder(&out, "brdf"));
+    bool ok = make_folders(&out, has_source(set, false), has_source(set, true));
     for (int i = 0; i < set->count && ok; i++) ok = write_table(&out, &set->table[i]);
     ok = ok && write_spectra(&out) && write_manifest(&out) && commit_all(&out);
     if (!ok) undo(&out);

@@ -5,7 +5,10 @@
 
 /* ---- scatter ---- */
 extern const Importer importer_zemax, importer_lighttools, importer_mountain, importer_fred,
-    importer_speos, importer_astm, importer_ssdd;
+    importer_speos, importer_astm, importer_ssdd, importer_window;
+
+/* ---- luminaires ---- */
+extern const Importer importer_eulumdat, importer_ies;
 
 /* ---- columns and matrices ---- */
 extern const Importer importer_text;

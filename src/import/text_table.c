@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/units.h"
 #include "import/text_reader.h"
 
@@ -232,7 +233,7 @@ static bool fill_table(TextReader *in, const Channels *channels, const Group *gr
         if (!fill_row(in, channels, group[i].row, table, table, &to)) return false;
     if (to.beyond)
         import_note(in->set, "%s: %d of %d directions lie beyond 90 degrees and are left out",
-                    in->file, to.beyond, count);
+                    path_name(in->file), to.beyond, count);
     if (table->rows < DIRECTIONS_MIN)
         return error_at(in->err, ERROR_INPUT, in->file, row_place(in, group[0].row),
                         "begins a table of %d measured direction%s, wanted an angular table of "
