@@ -118,18 +118,25 @@ static void clip_to_plot(Chart *chart)
 
 void chart_curve(Chart *chart, const double *x, const double *y, int count, Stroke stroke)
 {
-    cairo_t *cr = chart->canvas->cr;
-    bool     is_down = false;
+    Arena   scratch = *chart->canvas->arena;
+    double *px = ARENA_NEW(&scratch, double, count), *py = ARENA_NEW(&scratch, double, count);
+    Canvas  canvas = *chart->canvas;
+    int     length = 0;
+    canvas.arena = &scratch;
     clip_to_plot(chart);
-    for (int i = 0; i < count; i++) {
-        bool ok = isfinite(x[i]) && isfinite(y[i]) && (!chart->y.is_log || y[i] > 0) &&
-                  (!chart->x.is_log || x[i] > 0);
-        if (ok && is_down) cairo_line_to(cr, chart_x(chart, x[i]), chart_y(chart, y[i]));
-        if (ok && !is_down) cairo_move_to(cr, chart_x(chart, x[i]), chart_y(chart, y[i]));
-        is_down = ok;
+    for (int i = 0; i <= count; i++) {
+        bool ok = i < count && isfinite(x[i]) && isfinite(y[i]) &&
+                  (!chart->y.is_log || y[i] > 0) && (!chart->x.is_log || x[i] > 0);
+        if (ok) {
+            px[length] = chart_x(chart, x[i]);
+            py[length++] = chart_y(chart, y[i]);
+        } else {
+            canvas_polyline(&canvas, px, py, length);
+            length = 0;
+        }
     }
-    canvas_stroke(chart->canvas, stroke);
-    cairo_restore(cr);
+    canvas_stroke(&canvas, stroke);
+    cairo_restore(canvas.cr);
 }
 
 void chart_name(Chart *chart, double x, double y, Ink ink, const char *text)

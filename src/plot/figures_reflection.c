@@ -73,7 +73,6 @@ static void brdf_range(const PlaneCurve *curve, int count, double *low, double *
 static void hatch_unmeasured(Chart *chart, const Subject *s)
 {
     double cone = degrees_from_radians(s->brdf_cone);
-    if (cone >= 88) return;
     chart_hatch(chart, -90, -cone);
     chart_hatch(chart, cone, 90);
 }

@@ -264,6 +264,20 @@ static void clip_to_disc(const PolarDisc *disc)
     cairo_clip(disc->canvas->cr);
 }
 
+/* A narrow rim that was not measured has no room for lines; a wide one shows them dimmed. */
+static void draw_lines_inside(PolarDisc *disc)
+{
+    double   share = disc->map->theta_measured / disc->map->field->theta_rim;
+    cairo_t *cr = disc->canvas->cr;
+    cairo_save(cr);
+    cairo_new_sub_path(cr);
+    cairo_arc(cr, disc->x, disc->y, disc->radius * (share < 1 && share > 0.88 ? share : 1), 0,
+              2 * PI);
+    cairo_clip(cr);
+    polar_draw_lines(disc);
+    cairo_restore(cr);
+}
+
 PolarPlace polar_draw(Canvas *canvas, Box box, const PolarMap *map)
 {
     double    across = box.w - SCALE_WIDTH - 2 * LABEL_ROOM - 6, down = box.h - 34;
@@ -275,8 +289,8 @@ PolarPlace polar_draw(Canvas *canvas, Box box, const PolarMap *map)
     clip_to_disc(&disc);
     paint_colours(&disc);
     draw_rings(&disc);
-    if (!map->is_residual) polar_draw_lines(&disc);
     cairo_restore(canvas->cr);
+    if (!map->is_residual) draw_lines_inside(&disc);
     hatch_outside(&disc);
     write_ring_labels(&disc, false);
     if (map->has_light) mark_light(&disc);

@@ -56,6 +56,21 @@ static const char *skip_declaration(const char *p)
     return end;
 }
 
+/* A point and its decimals, three of them at most and no zeros at the end; how many letters
+ * were read. */
+static size_t add_decimals(const char *p, char **to)
+{
+    size_t read = 1, kept = 0;
+    while (isdigit((unsigned char)p[read])) read++;
+    for (size_t i = 1; i < read && i <= 3; i++)
+        if (p[i] != '0') kept = i;
+    if (kept > 0) {
+        memcpy(*to, p, kept + 1);
+        *to += kept + 1;
+    }
+    return read;
+}
+
 PlotBytes svg_with_ids(PlotBytes svg, const char *prefix, bool is_inline, Arena *arena)
 {
     const char *begin = (const char *)svg.data, *end = begin + svg.size;
@@ -68,8 +83,14 @@ PlotBytes svg_with_ids(PlotBytes svg, const char *prefix, bool is_inline, Arena 
     names.number = ARENA_NEW(arena, int, names.capacity);
     size_t room = svg.size + ids * (strlen(prefix) + 12) + 1;
     char  *out = ARENA_NEW(arena, char, room), *to = out;
+    bool in_path = false;
     for (const char *p = is_inline ? skip_declaration(begin) : begin; p < end;) {
         size_t length = name_at(begin, p);
+        if (*p == '"') in_path = p - begin >= 3 && !memcmp(p - 3, " d=", 3);
+        if (in_path && *p == '.') {
+            p += add_decimals(p, &to);
+            continue;
+        }
         if (length == 0) {
             *to++ = *p++;
             continue;
