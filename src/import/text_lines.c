@@ -259,51 +259,62 @@ bool text_is_masked(TextCell cell)
 
 #define DIALECT_LINES 4000
 
-/* At least two numbers, and nothing else but masks. */
-static bool is_numeric_row(const TextCell *cell, int count, char decimal)
+/* At least two numbers, and nothing else but masks; or, when a column may hold words, at least
+ * three that are the better half. */
+static bool is_numeric_row(const TextCell *cell, int count, char decimal, bool with_words)
 {
-    int    numbers = 0;
+    int    numbers = 0, words = 0;
     double value;
     for (int i = 0; i < count; i++) {
         if (text_number(cell[i], decimal, &value)) numbers++;
-        else if (!text_is_masked(cell[i])) return false;
+        else words += !text_is_masked(cell[i]);
     }
-    return numbers >= 2;
+    return with_words ? numbers >= 3 && numbers > words : numbers >= 2 && !words;
 }
 
-static int count_rows(const TextFile *text, int first_line, TextDialect dialect, TextCell *cell)
+static int count_rows(const TextFile *text, int first_line, TextDialect dialect,
+                      bool with_words, TextCell *cell)
 {
     int rows = 0, seen = 0;
     for (int i = first_line; i < text->count && seen < DIALECT_LINES; i++) {
         if (!text->line[i].length) continue;
         int count = text_cells(text->line[i], dialect.delimiter, cell);
         seen++;
-        rows += count > 1 && is_numeric_row(cell, count, dialect.decimal);
+        rows += count > 1 && is_numeric_row(cell, count, dialect.decimal, with_words);
     }
     return rows;
 }
 
-bool text_find_dialect(const TextFile *text, int first_line, Arena scratch,
-                       TextDialect *dialect, Error *err)
+/* The dialect of the most rows; how many they are. */
+static int best_dialect(const TextFile *text, int first_line, bool with_words, TextCell *cell,
+                        TextDialect *dialect)
 {
     static const char delimiters[] = ";\t, ", decimals[] = ".,";
-    TextCell   *cell = ARENA_NEW(&scratch, TextCell, TEXT_CELLS_MAX);
-    TextDialect best = {0, 0};
+    TextDialect best = *dialect;
     int         most = 0;
     for (const char *d = delimiters; *d; d++)
         for (const char *p = decimals; *p; p++) {
             bool wanted = (!dialect->delimiter || dialect->delimiter == *d) &&
                           (!dialect->decimal || dialect->decimal == *p) && *d != *p;
-            int rows = wanted ? count_rows(text, first_line, (TextDialect){*d, *p}, cell) : 0;
+            int rows = wanted ? count_rows(text, first_line, (TextDialect){*d, *p}, with_words,
+                                           cell) : 0;
             if (rows <= most) continue;
             most = rows;
             best = (TextDialect){*d, *p};
         }
-    if (!most)
-        return error_at(err, ERROR_INPUT, text->file, "",
-                        "has no row of numbers%s — say how they are written with --delimiter "
-                        "and --decimal, or name the file's --format",
-                        dialect->delimiter || dialect->decimal ? " as declared" : "");
     *dialect = best;
-    return true;
+    return most;
+}
+
+bool text_find_dialect(const TextFile *text, int first_line, Arena scratch,
+                       TextDialect *dialect, Error *err)
+{
+    TextCell *cell = ARENA_NEW(&scratch, TextCell, TEXT_CELLS_MAX);
+    if (best_dialect(text, first_line, false, cell, dialect) ||
+        best_dialect(text, first_line, true, cell, dialect))
+        return true;
+    return error_at(err, ERROR_INPUT, text->file, "",
+                    "has no row of numbers%s — say how they are written with --delimiter and "
+                    "--decimal, or name the file's --format",
+                    dialect->delimiter || dialect->decimal ? " as declared" : "");
 }

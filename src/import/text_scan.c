@@ -260,7 +260,9 @@ static bool begin_rows(Scan *scan)
 {
     bool is_matrix = scan->declared->layout == LAYOUT_THETA_DOWN ||
                      scan->declared->layout == LAYOUT_PHI_DOWN;
+    bool may_head = scan->declared->layout != LAYOUT_LIST && !scan->declared->columns;
     if (is_matrix && scan->count > 1) return begin_block(scan);
+    if (may_head && is_matrix_head(scan)) return begin_block(scan); /* an empty corner */
     if (scan->has_header && !scan->blocks.count) {
         scan->state = STATE_LIST;
         return add_list_row(scan);
@@ -320,7 +322,8 @@ static bool read_row(Scan *scan)
 {
     switch (scan->state) {
     case STATE_LIST:   return add_list_row(scan);
-    case STATE_BLOCK:  return add_block_row(scan);
+    case STATE_BLOCK:
+        return is_matrix_head(scan) ? begin_block(scan) : add_block_row(scan);
     case STATE_BEFORE: return begin_rows(scan);
     case STATE_DONE:   break;
     }
