@@ -49,9 +49,10 @@ typedef struct FigureList {
 } FigureList;
 
 /* Every figure that this panel's data allow, in the order of the page. */
-FigureList *plot_figures(const Subject *subject, Arena *arena);
+FigureList *plot_figures(const Subject *subject, PlotKind kind, Arena *arena);
 
-/* Asks the panel; *report is the caller's to release. NULL: *err says why. */
+/* Asks the panel for what options->kind shows; *report is the caller's to release. NULL: *err
+ * says why. */
 Subject *plot_subject(const PlotInput *input, const PlotOptions *options, Arena *arena,
                       json_t **report, Error *err);
 

@@ -238,9 +238,11 @@ bool plot_write_report(const PlotInput *input, const PlotOptions *options, const
     if (strcmp(ending, ".html") && strcmp(ending, ".htm"))
         return error_set(err, ERROR_USAGE, "--report is '%s', wanted a name that ends in .html",
                          path);
-    Subject *subject = plot_subject(input, options, arena, &report, err);
+    PlotOptions all = *options;
+    all.kind = PLOT_ALL;
+    Subject *subject = plot_subject(input, &all, arena, &report, err);
     if (!subject) return false;
-    FigureList *list = plot_figures(subject, arena);
+    FigureList *list = plot_figures(subject, PLOT_ALL, arena);
     bool ok = add_page(&html, subject, list, options->is_dark, err) &&
               file_write(path, html.data, html.size, err);
     if (ok) *figures = list->count;

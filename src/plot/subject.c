@@ -78,9 +78,11 @@ static void sample_emission(Subject *s)
         float rgb[3];
         pattern_codes((Pattern)p, rgb);
         panel_emission_xyz(s->source.panel, vec3(0, 0, 1), rgb, s->normal[p]);
-        for (int c = 0; c < 3; c++) s->xyz[p][c] = field_new(SIDE, PI / 2, s->arena);
+        for (int c = 0; c < 3 && s->source.wants_maps; c++)
+            s->xyz[p][c] = field_new(SIDE, PI / 2, s->arena);
     }
-    parallel_for(s->source.threads, PATTERN_COUNT * SIDE, sample_emission_row, s);
+    if (s->source.wants_maps)
+        parallel_for(s->source.threads, PATTERN_COUNT * SIDE, sample_emission_row, s);
     s->has_black = s->normal[PATTERN_BLACK][1] > 0;
     s->cone = measured_cone(s);
 }

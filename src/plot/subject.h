@@ -23,6 +23,7 @@ typedef struct SubjectSource {
     const json_t      *report;   /* panel_report's */
     const Measurement *measured; /* NULL: none given */
     double             incidence_phi; /* azimuth of the light, radians; PI: from the left */
+    bool               wants_maps;    /* samples emission over the hemisphere */
     int                threads;
 } SubjectSource;
 
@@ -33,7 +34,7 @@ typedef struct Subject {
     bool   is_white_only;       /* its primaries and levels are assumed, not measured */
     double cone;                /* emission is measured up to this theta */
     float  normal[PATTERN_COUNT][3];  /* XYZ at the normal */
-    Field  xyz[PATTERN_COUNT][3];     /* over the hemisphere */
+    Field  xyz[PATTERN_COUNT][3];     /* over the hemisphere; without maps empty */
     int    wavelength_count;    /* of the measured reflection */
     float  wavelength_nm[PANEL_INFO_WAVELENGTHS_MAX];
     double last_incidence;      /* largest measured */
