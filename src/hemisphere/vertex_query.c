@@ -89,7 +89,7 @@ static inline void put_level(const Tree *tree, const VertexLevel *level, VertexP
 /* How many levels have details around a place. */
 static inline int depth_at(const Tree *tree, VertexPlace place)
 {
-    int      side = 1 << VERTEX_DEPTH_LEVEL;
+    int      side = 1 << tree->depth_level;
     int      x = (int)(place.x * (float)side), y = (int)(place.y * (float)side);
     x = x < side ? x : side - 1;
     y = y < side ? y : side - 1;
