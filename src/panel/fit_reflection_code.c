@@ -12,8 +12,10 @@
 #define PLACE_SHARE 0.8    /* of the bound, for places: the rest is for what lies between */
 #define PEAK_SHARE 0.35    /* of that where a table is within 1/e of its largest value */
 #define TIGHTER 0.6        /* a miss makes the places around it so much more precise */
-#define TIGHTEST 0.1       /* of the bound, beyond what the components leave out: rounding */
+#define TIGHTEST 0.2       /* of the bound, beyond what the components leave out: rounding */
 #define ROUNDS 5
+#define ATTEMPTS 8
+#define LOOSER 1.3f
 #define CHUNK 256
 
 static void place_logs(const ReflectionFit *fit, int place, int table, float *logs)
@@ -107,10 +109,23 @@ static bool build_haar(ReflectionFit *fit, Error *err)
                       err);
 }
 
+static void loosen(ReflectionFit *fit)
+{
+    size_t count = (size_t)fit->places * (size_t)fit->tables;
+    for (size_t i = 0; i < count; i++) fit->tolerance[i] *= LOOSER;
+}
+
+/* The coder's steps are as fine as the tightest places need, and may then be too fine for the
+ * largest details: it is asked for less until it can do what it is asked for. */
 static bool build_tree(ReflectionFit *fit, Error *err)
 {
-    bool ok = fit->options->basis == FIT_VERTEX ? build_vertex(fit, err)
-                                                : build_haar(fit, err);
+    bool ok = false;
+    for (int attempt = 0; attempt < ATTEMPTS && !ok; attempt++) {
+        if (attempt) loosen(fit);
+        *err = (Error){0};
+        ok = fit->options->basis == FIT_VERTEX ? build_vertex(fit, err) : build_haar(fit, err);
+        if (fit->options->basis != FIT_VERTEX) break;
+    }
     return ok || error_prefix(err, "reflection");
 }
 
