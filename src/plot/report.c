@@ -57,6 +57,7 @@ static void add_chart_values(Text *html, const FigureMap *map)
     text_add(html, "\"]}");
 }
 
+/* figure: the index-th of its list; a caption that the one before has is not said again. */
 static bool add_figure(Text *html, const Figure *figure, int index, bool is_dark, Error *err)
 {
     PlotBytes   svg = {0};
@@ -73,9 +74,14 @@ static bool add_figure(Text *html, const Figure *figure, int index, bool is_dark
     text_add_escaped(html, figure->subtitle);
     text_add(html, "</p>\n");
     text_add_bytes(html, svg.data, svg.size);
-    text_add(html, "<div class=\"read\"></div>\n<figcaption>");
-    text_add_escaped(html, figure->caption);
-    text_add(html, "</figcaption>\n</figure>\n");
+    text_add(html, "<div class=\"read\"></div>\n");
+    bool is_said = index > 0 && !strcmp(figure[-1].caption, figure->caption);
+    if (!is_said) {
+        text_add(html, "<figcaption>");
+        text_add_escaped(html, figure->caption);
+        text_add(html, "</figcaption>\n");
+    }
+    text_add(html, "</figure>\n");
     return true;
 }
 
@@ -147,6 +153,19 @@ static void add_emission_keys(Text *html, const Subject *s)
                          degrees_from_radians(limit)));
 }
 
+static double largest_error(const json_t *report, bool is_reflection)
+{
+    size_t  i;
+    json_t *table;
+    double  most = 0;
+    json_array_foreach(json_object_get(report, "tables"), i, table) {
+        const char *name = json_string_value(json_object_get(table, "name"));
+        if (name && !strncmp(name, "brdf", 4) == is_reflection)
+            most = fmax(most, json_number_value(json_object_get(table, "max_error")));
+    }
+    return most;
+}
+
 static void add_file_keys(Text *html, const Subject *s)
 {
     char          text[32];
@@ -156,9 +175,13 @@ static void add_file_keys(Text *html, const Subject *s)
     if (bytes > 0 && source > 0)
         add_key(html, arena_format(html->arena, "%s %%", figure_text(100 * bytes / source, text)),
                 "file size over the source's float32 values");
-    double error = json_number_value(json_object_get(total, "max_error"));
-    add_key(html, arena_format(html->arena, "%s %%", figure_text(100 * error, text)),
-            "largest error at any measured sample");
+    for (int part = 0; part < 2; part++) {
+        double error = largest_error(s->source.report, part == 1);
+        if (error > 0)
+            add_key(html, arena_format(html->arena, "%s %%", figure_text(100 * error, text)),
+                    part ? "largest error of a reflection sample"
+                         : "largest error of an emission sample");
+    }
 }
 
 static void add_keys(Text *html, const Subject *s)

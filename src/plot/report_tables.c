@@ -147,6 +147,16 @@ static bool is_plain(const json_t *value)
     return !json_is_array(value) || !json_is_object(json_array_get(value, 0));
 }
 
+/* Numbers that were not declared stand as zeros in the report. */
+static bool is_all_zero(const json_t *list)
+{
+    size_t  i;
+    json_t *item;
+    json_array_foreach(list, i, item)
+        if (!json_is_number(item) || json_number_value(item) != 0) return false;
+    return true;
+}
+
 static void add_definitions(Text *html, const json_t *object)
 {
     const char *key;
@@ -154,7 +164,8 @@ static void add_definitions(Text *html, const json_t *object)
     text_add(html, "<table class=\"list\"><tbody>\n");
     json_object_foreach((json_t *)object, key, value) {
         bool is_empty = (json_is_string(value) && !*json_string_value(value)) ||
-                        json_is_null(value) || !strcmp(key, "notes");
+                        json_is_null(value) || !strcmp(key, "notes") ||
+                        (json_is_array(value) && is_all_zero(value));
         if (!is_plain(value) || is_empty) continue;
         text_add(html, "<tr><th>");
         add_name(html, word_of(key).name);
