@@ -5,7 +5,8 @@
 
 /* ---- scatter ---- */
 extern const Importer importer_zemax, importer_lighttools, importer_mountain, importer_fred,
-    importer_speos, importer_astm, importer_ssdd, importer_window;
+    importer_speos, importer_astm, importer_ssdd, importer_window,
+    importer_rgl, importer_pbsdf, importer_merl;
 
 /* ---- luminaires ---- */
 extern const Importer importer_eulumdat, importer_ies;

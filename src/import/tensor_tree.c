@@ -1,8 +1,8 @@
 /* Radiance's tensor tree: the BSDF as steps of varying size over squares that Shirley and
  * Chiu's map ("A Low Distortion Map Between Disk and Square", 1997) makes of the disk of
  * projected directions. Rank 3: a coordinate for the incidence, (1 - sin theta) / 2, and two
- * for the leaving direction, counted from the mirror direction. Rank 4: two for the point that the
- * light is mirrored to, two for the leaving one.
+ * for the leaving direction, counted from the mirror direction. Rank 4: two for the point that
+ * the light is mirrored to, two for the leaving one.
  *
  * A node is "{" 2^rank nodes "}" (bit d of a child's number is its side along dimension d), or
  * "{" numbers "}", a grid of equal steps along each dimension, the last dimension fastest.

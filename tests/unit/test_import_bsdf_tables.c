@@ -213,7 +213,8 @@ static void speos_errors_name_the_line(void **state)
     assert_refused(f, "OPTIS - Anisotropic BSDF surface file v7.0\n0\n", i,
                    "line 2: the version is 'v7.0', wanted v8.0 or later");
     assert_refused(f, "OPTIS - Anisotropic BSDF surface file v8.0\n0\nC\n0\n\n0 1 0\n0 1\n"
-                      "1\n", i, "line 8: there is transmission only: a display panel is opaque");
+                      "1\n", i, "line 8: there is transmission only: a display panel is "
+                   "opaque");
     assert_refused(f, "OPTIS - BRDF surface file v8.0\n0\nC\n0\n\n1 0\n1\n1 1\n30\n450\n40\n"
                       "2 1\n0\n0 1\n95 1\n", i, "theta is 95, wanted 0 to 90 degrees");
     assert_refused(f, "OPTIS - Simple scattering surface file v2.0\nC\nReflection\n"

@@ -86,7 +86,8 @@ static void zemax_totals_are_told_beside_the_tables_own(void **state)
     Fixture *f = *state;
     char     text[16384];
     int      n = snprintf(text, sizeof text,
-                          "Symmetry PlaneSymmetrical\nSpectralContent Monochrome\nScatterType BRDF\n"
+                          "Symmetry PlaneSymmetrical\nSpectralContent Monochrome\n"
+                          "ScatterType BRDF\n"
                           "SampleRotation 1\n0\nAngleOfIncidence 1\n50\nScatterAzimuth 19\n");
     for (int i = 0; i < 19; i++) n += sprintf(text + n, "%d ", i * 10);
     n += sprintf(text + n, "\nScatterRadial 19\n");
@@ -127,8 +128,8 @@ static void zemax_errors_name_the_line(void **state)
     assert_refused(f, "AngleOfIncidence 1000\n1 2\n", z,
                    "line 1: AngleOfIncidence is 1000, more than the rest of the file can hold");
     f->options.wavelength_nm = 0;
-    assert_refused(f, "Symmetry PlaneSymmetrical\nSpectralContent Monochrome\nScatterType BRDF\n"
-                      "SampleRotation 1\n0\nAngleOfIncidence 1\n30\nScatterAzimuth 1\n0\n"
+    assert_refused(f, "Symmetry PlaneSymmetrical\nSpectralContent Monochrome\n"
+                      "ScatterType BRDF\nSampleRotation 1\n0\nAngleOfIncidence 1\n30\nScatterAzimuth 1\n0\n"
                       "ScatterRadial 1\n10\nMonochrome\nDataBegin\nTIS 0 7\nDataEnd\n", z,
                    "does not say the wavelength of its values — give it as --wavelength NM");
 }

@@ -228,13 +228,15 @@ static void files_without_reflection_are_refused(void **state)
     assert_false(fixture_read_file(f, file, "window"));
     assert_string_equal(f->err.text,
                         "there is transmission only, wanted a WavelengthDataBlock of "
-                        "Reflection Front at the wavelength Visible: a display panel is opaque");
+                        "Reflection Front at the wavelength Visible: a display panel is "
+                        "opaque");
     assert_false(fixture_read_file(f, shared_bsdf(f, "window-xml/simple_tensor_spot_trans.xml"),
                                    "window"));
     assert_false(fixture_read_file(f, shared_bsdf(f, "window-xml/minimalBSDFt.xml"), "window"));
     assert_string_equal(f->err.text,
                         "there is no scattering data, wanted a WavelengthDataBlock of "
-                        "Reflection Front at the wavelength Visible: a display panel is opaque");
+                        "Reflection Front at the wavelength Visible: a display panel is "
+                        "opaque");
 }
 
 static void xml_errors_name_the_line(void **state)
@@ -250,7 +252,8 @@ static void xml_errors_name_the_line(void **state)
                                "{{1}{2}"), i,
                    "line 10: ' ' stands where '{' of the tensor tree is wanted");
     assert_refused(f, document(&f->arena, "Columns", "Reflection Front", quarter_bases,
-                               "1 2"), i, "line 10: the matrix is 41 x 41, more numbers than there are");
+                               "1 2"), i,
+                   "line 10: the matrix is 41 x 41, more numbers than there are");
     assert_refused(f, document(&f->arena, "Diagonal", "Reflection Front", tree_basis, "1"), i,
                    "line 6: IncidentDataStructure is 'Diagonal', wanted Columns, Rows, "
                    "TensorTree3 or TensorTree4");
