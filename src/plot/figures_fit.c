@@ -38,38 +38,23 @@ static double table_peak(const AngleTable *table)
     return peak;
 }
 
-static double row_sum(const AngleTable *table, int row)
+/* Fitted less measured luminance over the measured one, percent; over a hundredth of the
+ * table's peak where the light is dimmer than that. NaN on the horizon. */
+static double residual_percent(const Subject *s, const FitTableRef *ref, int row, double peak)
 {
-    const float *v = table->value + 3 * row;
-    return (double)v[0] + (double)v[1] + (double)v[2];
-}
-
-/* The dimmest sum that errors are relative to: a hundredth of the table's largest. */
-static double least_sum(const AngleTable *table)
-{
-    double least = 1e-4;
-    for (int i = 0; i < table->rows; i++) least = fmax(least, 0.01 * row_sum(table, i));
-    return least;
-}
-
-/* Fitted less measured, of X, Y and Z the one that is furthest off, relative to the measured
- * sum of the three as the file's own report has it; percent. NaN on the horizon. */
-static double residual_percent(const Subject *s, const FitTableRef *ref, int row, double least)
-{
-    double xyz[3], worst = 0, theta = (double)ref->table->theta[row];
-    if (theta > PI / 2 - 1e-4) return NAN;
+    double xyz[3], theta = (double)ref->table->theta[row];
+    double measured = (double)ref->table->value[3 * row + 1];
+    if (theta > PI / 2 - 1e-4 || !(peak > 0)) return NAN;
     subject_xyz(s, theta, (double)ref->table->phi[row], ref->rgb, xyz);
-    for (int c = 0; c < 3; c++) {
-        double off = xyz[c] - (double)ref->table->value[3 * row + c];
-        if (fabs(off) > fabs(worst)) worst = off;
-    }
-    return 100 * worst / fmax(least, row_sum(ref->table, row));
+    return 100 * (xyz[1] - measured) / fmax(0.01 * peak, measured);
 }
 
-/* The bound that the file states for its emission tables, percent. */
+/* What the fit was asked for, percent; of a file that does not say the largest error of its
+ * emission tables. */
 static double stated_bound_percent(const Subject *s)
 {
-    const json_t *report = s->source.report, *bound = json_object_get(report, "bound");
+    const json_t *report = s->source.report;
+    const json_t *bound = json_object_get(json_object_get(report, "emission"), "bound");
     if (json_is_number(bound)) return 100 * json_number_value(bound);
     size_t  i;
     json_t *table;
@@ -180,9 +165,9 @@ static void measure_residuals(const Subject *s, Residuals *out)
     double       squares = 0;
     for (int pass = 0; pass < 2; pass++) {
         for (int t = 0; t < tables; t++) {
-            double least = least_sum(ref[t].table);
+            double peak = table_peak(ref[t].table);
             for (int i = 0; i < ref[t].table->rows; i++) {
-                double r = residual_percent(s, &ref[t], i, least);
+                double r = residual_percent(s, &ref[t], i, peak);
                 if (!isfinite(r)) continue;
                 if (pass == 1) {
                     int bin = (int)floor((r / out->reach + 1) / 2 * BINS);
@@ -213,7 +198,7 @@ static void draw_histogram(Canvas *canvas, Box box, const Figure *figure, Figure
     measure_residuals(s, r);
     Chart chart = chart_open(canvas, box,
         (AxisSpec){.low = -r->reach, .high = r->reach, .suffix = " %",
-                   .title = "fitted less measured, of X, Y, Z the worst"},
+                   .title = "fitted less measured luminance"},
         (AxisSpec){.low = 0.7, .high = round_up(fmax(r->highest, 10) * 1.1), .is_log = true,
                    .title = "samples"}, 14);
     for (int i = 0; i < BINS; i++) {
@@ -235,13 +220,13 @@ static void draw_histogram(Canvas *canvas, Box box, const Figure *figure, Figure
 static Field residual_field(const Subject *s, const FitTableRef *ref, Arena *arena)
 {
     Field  field = field_new(301, PI / 2, arena);
-    double least = least_sum(ref->table), *nearest = ARENA_NEW(arena, double, 301 * 301);
+    double peak = table_peak(ref->table), *nearest = ARENA_NEW(arena, double, 301 * 301);
     double spacing = sqrt(2 * PI / ref->table->rows) * 1.3; /* radians between samples */
     int    reach = (int)ceil(spacing / (PI / 300)) + 1;
     reach = reach > 12 ? 12 : reach;
     for (int i = 0; i < 301 * 301; i++) nearest[i] = INFINITY;
     for (int k = 0; k < ref->table->rows; k++) {
-        double c, r, value = residual_percent(s, ref, k, least);
+        double c, r, value = residual_percent(s, ref, k, peak);
         if (!isfinite(value)) continue;
         field_place(&field, (double)ref->table->theta[k], (double)ref->table->phi[k], &c, &r);
         for (int y = (int)r - reach; y <= (int)r + reach; y++)
@@ -290,10 +275,24 @@ typedef struct BrdfPoints {
     double fine_deg[BRDF_FINE], fitted[BRDF_FINE];
 } BrdfPoints;
 
+/* The measured azimuth of the light that is nearest to the one asked for. */
+static int nearest_azimuth(const Subject *s)
+{
+    const Measurement *set = s->source.measured;
+    int best = 0;
+    for (int a = 1; a < set->azimuth_count; a++)
+        if (fabs(remainder(set->azimuth[a] - s->source.incidence_phi, 2 * PI)) <
+            fabs(remainder(set->azimuth[best] - s->source.incidence_phi, 2 * PI))) best = a;
+    return best;
+}
+
 static void fill_brdf_points(const Subject *s, int incidence, int channel, BrdfPoints *out)
 {
     const Measurement *set = s->source.measured;
-    const AngleTable  *table = &set->brdf[incidence];
+    int                azimuth = nearest_azimuth(s);
+    const AngleTable  *table = &set->brdf[azimuth * set->incidence_count + incidence];
+    Subject            turned = *s;
+    if (set->azimuth_count > 1) turned.source.incidence_phi = set->azimuth[azimuth];
     *out = (BrdfPoints){0};
     for (int i = 0; i < table->rows && out->count < BRDF_POINTS; i++) {
         double deg;
@@ -304,7 +303,7 @@ static void fill_brdf_points(const Subject *s, int incidence, int channel, BrdfP
     for (int i = 0; i < BRDF_FINE; i++) {
         double deg = -88 + 0.25 * i;
         out->fine_deg[i] = deg;
-        out->fitted[i] = subject_brdf_at(s, set->incidence[incidence],
+        out->fitted[i] = subject_brdf_at(&turned, set->incidence[incidence],
                                          radians_from_degrees(fabs(deg)), deg < 0 ? PI : 0,
                                          (double)set->wavelength_nm[channel]);
     }
@@ -362,19 +361,18 @@ static void add_emission_fit(FigureList *list, const Subject *s)
             "highest level.", draw_fit_section, s, i,
             i ? SHEET_SPARE : SHEET_ALWAYS, false});
     figure_add(list, &(Figure){PLOT_FIT, "Residuals of all samples",
-        arena_format(s->arena, "%.0f samples: rms %s %%, at most %s %%; line: the file's bound",
+        arena_format(s->arena, "%.0f samples: rms %s %%, at most %s %%; line: the bound",
                      r->count, figure_text(r->rms, rms), figure_text(r->most, most)),
-        "Fitted less measured tristimulus value (of X, Y and Z the one furthest off) of every "
-        "sample of every emission table, relative to the measured X + Y + Z (to a hundredth of "
-        "the table's largest where that is more); the lines are the largest error that the file "
-        "states.", draw_histogram, s, 0, SHEET_ALWAYS, false});
+        "Fitted less measured luminance of every sample of every emission table, relative to the "
+        "measured one (to a hundredth of the table's peak where that is more). The lines are the "
+        "bound of the fit; what the source's own noise adds may lie beyond.", draw_histogram, s, 0, SHEET_ALWAYS, false});
     if (r->worst.table)
         figure_add(list, &(Figure){PLOT_FIT, "Residual of the worst table",
             arena_format(s->arena, "%s: at most %s %% at θ %.0f°, φ %.0f°", r->worst.table->name,
                          most, degrees_from_radians(r->worst_theta),
                          degrees_from_radians(r->worst_phi)),
-            "Fitted less measured tristimulus value in percent for the table with the largest error; the "
-            "colours end at the bound that the file states.", draw_residual_map, s, 0, SHEET_ALWAYS, false});
+            "Fitted less measured luminance in percent for the table with the largest error; the "
+            "colours end at the bound of the fit.", draw_residual_map, s, 0, SHEET_ALWAYS, false});
 }
 
 void figures_add_fit(FigureList *list, const Subject *s)

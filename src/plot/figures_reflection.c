@@ -14,21 +14,28 @@ static Ink series_ink(const Canvas *canvas, int i, int count)
     return (Ink){srgb[0], srgb[1], srgb[2], 1};
 }
 
-/* Multiples of ten degrees (of fifteen where there would be many) within the measured ones. */
-static int chosen_incidences(const Subject *s, int deg[8])
+#define INCIDENCES_SHOWN 7
+
+/* Of the measured incidences all, or so many spread over them; degrees. */
+static int chosen_incidences(const Subject *s, double deg[INCIDENCES_SHOWN])
 {
-    double last = degrees_from_radians(s->last_incidence);
-    int    step = last > 62 ? 15 : 10, count = 0;
-    for (int d = step; d <= last + 1e-6 && count < 7; d += step) deg[count++] = d;
-    if (count == 0) deg[count++] = (int)fmax(1, floor(last));
+    int count = s->incidence_count < INCIDENCES_SHOWN ? s->incidence_count : INCIDENCES_SHOWN;
+    for (int i = 0; i < count; i++) {
+        int which = count > 1 ? i * (s->incidence_count - 1) / (count - 1) : 0;
+        deg[i] = degrees_from_radians(s->incidence[which]);
+    }
     return count;
 }
 
-/* The round incidence for figures with one. */
-static int middle_incidence(const Subject *s)
+/* The measured incidence nearest to one, whole degrees. */
+static int incidence_near(const Subject *s, double deg)
 {
-    double last = degrees_from_radians(s->last_incidence);
-    return last >= 30 ? 30 : last >= 20 ? 20 : last >= 10 ? 10 : (int)last;
+    double best = 0;
+    for (int i = 0; i < s->incidence_count; i++) {
+        double one = degrees_from_radians(s->incidence[i]);
+        if (i == 0 || fabs(one - deg) < fabs(best - deg)) best = one;
+    }
+    return (int)nearbyint(best);
 }
 
 /* ---- in the plane of incidence ------------------------------------------------------------- */
@@ -80,7 +87,8 @@ static void hatch_unmeasured(Chart *chart, const Subject *s)
 static void draw_plane(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
 {
     const Subject *s = figure->subject;
-    int         deg[8], count = chosen_incidences(s, deg);
+    double      deg[INCIDENCES_SHOWN];
+    int         count = chosen_incidences(s, deg);
     double      low, high, last_x = -INFINITY, last_y = 0;
     PlaneCurve *curve = ARENA_NEW(canvas->arena, PlaneCurve, count);
     for (int k = 0; k < count; k++) fill_plane(s, deg[k], &curve[k]);
@@ -99,7 +107,7 @@ static void draw_plane(Canvas *canvas, Box box, const Figure *figure, FigureMap 
         if (x - last_x < 15 && fabs(y - last_y) < 12) continue;
         canvas_text(canvas, x, y, (Letters){.size = SIZE_TICK, .across = 0.5, .down = 1,
                     .ink = series_ink(canvas, k, count), .halo = canvas->theme.paper},
-                    arena_format(canvas->arena, "%d°", deg[k]));
+                    arena_format(canvas->arena, "%.3g°", deg[k]));
         last_x = x;
         last_y = y;
     }
@@ -249,16 +257,16 @@ static void draw_mirror(Canvas *canvas, Box box, const Figure *figure, FigureMap
 static const char *light_text(const Subject *s)
 {
     double deg = degrees_from_radians(s->source.incidence_phi);
-    return fabs(s->source.incidence_phi - PI) < 1e-9 ? ""
+    return fabs(s->source.incidence_phi - PI) < 1e-9 && !s->is_anisotropic ? ""
                : arena_format(s->arena, ", light from φ %.4g°", deg);
 }
 
 static void add_maps(FigureList *list, const Subject *s)
 {
-    int incidences[2] = {middle_incidence(s), 60};
+    int incidences[2] = {incidence_near(s, 30), incidence_near(s, 60)};
     for (int i = 0; i < 2; i++) {
         char peak[32];
-        if (i == 1 && degrees_from_radians(s->last_incidence) < 60) continue;
+        if (i == 1 && incidences[1] < incidences[0] + 10) continue;
         Field      field = subject_brdf_field(s, radians_from_degrees(incidences[i]), s->arena);
         FieldRange range = field_range(&field, s->brdf_cone);
         figure_add(list, &(Figure){PLOT_BRDF_MAP,
@@ -274,7 +282,7 @@ static void add_maps(FigureList *list, const Subject *s)
 void figures_add_reflection(FigureList *list, const Subject *s)
 {
     if (!s->reflects) return;
-    int middle = middle_incidence(s);
+    int middle = incidence_near(s, 30);
     figure_add(list, &(Figure){PLOT_BRDF, "BRDF in the plane of incidence",
         arena_format(s->arena, "photopic mean, without the mirror part; incidence at each peak%s",
                      light_text(s)),

@@ -37,7 +37,9 @@ typedef struct Subject {
     Field  xyz[PATTERN_COUNT][3];     /* over the hemisphere; without maps empty */
     int    wavelength_count;    /* of the measured reflection */
     float  wavelength_nm[PANEL_INFO_WAVELENGTHS_MAX];
-    double last_incidence;      /* largest measured */
+    int    incidence_count;     /* of the light, measured, rising */
+    double incidence[PANEL_INFO_INCIDENCES_MAX], last_incidence;
+    bool   is_anisotropic;      /* reflection depends on the light's azimuth */
     double brdf_cone;           /* leaving theta measured up to here */
     Arena *arena;
 } Subject;
