@@ -69,7 +69,7 @@ static void the_truth_files_are_no_tables_and_are_named(void **state)
     lab->file[0] = lab->file[1];
     lab->count = 1;
     assert_false(lab_run(lab));
-    assert_non_null(strstr(lab->err.text, "are a mixture"));
+    assert_non_null(strstr(lab->err.text, "--role FILE=skip"));
 }
 
 /* ---- set-b: matrices, Latin-1, decimal comma, clockwise from 12 o'clock -------------------- */
