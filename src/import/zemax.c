@@ -27,6 +27,7 @@ typedef struct Zemax {
     double *tis;    /* per block of the component that is kept */
     double *value;  /* blocks x azimuths x radials */
     int     blocks; /* read so far, of the component that is kept */
+    TotalsNote totals;
 } Zemax;
 
 /* ---- header ------------------------------------------------------------------------------ */
@@ -258,8 +259,8 @@ static void put_radial(const Zemax *in, ScatterRows *rows, const double *value,
     if (radial == 0) put_about_mirror(rows, incidence_deg, 0, 0, &at_mirror);
 }
 
-static bool add_block(const Zemax *in, int rotation, int incidence, const float *nm,
-                      ImportSet *set, TotalsNote *totals, Error *err)
+static bool add_block(Zemax *in, int rotation, int incidence, const float *nm, ImportSet *set,
+                      Error *err)
 {
     int           block = rotation * in->incidences + incidence;
     const double *value = in->value + block_size(in) * (size_t)block;
@@ -268,20 +269,19 @@ static bool add_block(const Zemax *in, int rotation, int incidence, const float 
     for (int i = 0; i < in->radials; i++) put_radial(in, &rows, value, lean, i);
     PolarGrid grid = {in->radials, in->azimuths, in->radial, in->azimuth, value, lean,
                       in->is_half};
-    totals_add(totals, lean, in->tis[block], polar_grid_integral(&grid, *set->arena));
+    totals_add(&in->totals, lean, in->tis[block], polar_grid_integral(&grid, *set->arena));
     ScatterLight light = {lean, in->rotations > 1 ? 180 - in->rotation[rotation] : 180};
     return scatter_add(set, in->scan.file, &rows, light, nm, err);
 }
 
-static bool add_tables(const Zemax *in, float nm, ImportSet *set, Error *err)
+static bool add_tables(Zemax *in, float nm, ImportSet *set, Error *err)
 {
-    float     *kept_nm = ARENA_NEW(set->arena, float, 1);
-    TotalsNote totals = {{0}, 0};
+    float *kept_nm = ARENA_NEW(set->arena, float, 1);
     *kept_nm = nm;
     for (int r = 0; r < in->rotations; r++)
         for (int i = 0; i < in->incidences; i++)
-            if (!add_block(in, r, i, kept_nm, set, &totals, err)) return false;
-    totals_tell(&totals, in->scan.file, set);
+            if (!add_block(in, r, i, kept_nm, set, err)) return false;
+    totals_tell(&in->totals, in->scan.file, set);
     if (in->rotations > 1)
         import_note(set, "%s: a sample turned by S counter-clockwise is taken as light from "
                     "azimuth 180 - S", path_name(in->scan.file));

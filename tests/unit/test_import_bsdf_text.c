@@ -129,7 +129,8 @@ static void zemax_errors_name_the_line(void **state)
                    "line 1: AngleOfIncidence is 1000, more than the rest of the file can hold");
     f->options.wavelength_nm = 0;
     assert_refused(f, "Symmetry PlaneSymmetrical\nSpectralContent Monochrome\n"
-                      "ScatterType BRDF\nSampleRotation 1\n0\nAngleOfIncidence 1\n30\nScatterAzimuth 1\n0\n"
+                      "ScatterType BRDF\nSampleRotation 1\n0\nAngleOfIncidence 1\n30\n"
+                      "ScatterAzimuth 1\n0\n"
                       "ScatterRadial 1\n10\nMonochrome\nDataBegin\nTIS 0 7\nDataEnd\n", z,
                    "does not say the wavelength of its values — give it as --wavelength NM");
 }
