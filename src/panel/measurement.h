@@ -19,6 +19,11 @@
 
 /* Values over directions. Rows are sorted by theta, then phi; no direction stands twice.
  * theta in [0, pi/2], phi in [0, 2 pi); rows at theta 0 have become one. */
+typedef struct AngleOutlier {
+    int   row; /* among those at theta 0 */
+    float phi, value, expected; /* radians; Y, cd m^-2 */
+} AngleOutlier;
+
 typedef struct AngleTable {
     const char  *name;     /* "red 031", "brdf 30 deg" */
     int          rows, channels;
@@ -26,6 +31,8 @@ typedef struct AngleTable {
     const float *value;    /* rows x channels */
     size_t       text_bytes;
     float        theta_max;
+    int          pole_outliers; /* of emission tables, at theta 0: they are not in the mean */
+    const AngleOutlier *pole_outlier;
 } AngleTable;
 
 typedef struct MeasuredPrimary {
