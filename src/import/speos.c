@@ -190,8 +190,10 @@ static bool add_scaled(const Speos *in, ImportSet *set, Error *err)
     for (int c = 0; c < bands.count; c++)
         bands.factor[c] = percent_at(in, (double)nm[c]) / 100 * scale;
     for (int i = 0; i < in->tables; i++) {
-        if (in->table[i].incidence_deg >= 90) continue;
-        if (!add_table(in, &in->table[i], &bands, set, err)) return false;
+        const SpeosTable *table = &in->table[i];
+        bool is_again = table->anisotropy_deg == 360 && in->table[0].anisotropy_deg == 0;
+        if (table->incidence_deg >= 90 || is_again) continue;
+        if (!add_table(in, table, &bands, set, err)) return false;
     }
     import_note(set, "%s: relative values scaled to %g%% directional-hemispherical reflectance "
                 "at incidence %g and %g nm, as the file states", path_name(in->file),

@@ -278,7 +278,9 @@ static bool add_tables(Zemax *in, float nm, ImportSet *set, Error *err)
 {
     float *kept_nm = ARENA_NEW(set->arena, float, 1);
     *kept_nm = nm;
-    for (int r = 0; r < in->rotations; r++)
+    int  last = in->rotations - 1; /* a whole turn may end with its beginning */
+    bool closes = last > 0 && in->rotation[last] - in->rotation[0] == 360;
+    for (int r = 0; r <= last - closes; r++)
         for (int i = 0; i < in->incidences; i++)
             if (!add_block(in, r, i, kept_nm, set, err)) return false;
     totals_tell(&in->totals, in->scan.file, set);

@@ -64,6 +64,14 @@ static void zemax_sample_rotations_are_azimuths_of_the_light(void **state)
     assert_true(f->set.is_anisotropic);
     assert_near(value_at(table_at(f, 30, 180), 20, 0, 0), 7, 0);
     assert_near(value_at(table_at(f, 30, 90), 20, 0, 0), 8, 0);
+    /* 360 is 0 again. */
+    assert_reads(f, "Symmetry ASymmetrical4D\nSpectralContent Monochrome\nScatterType BRDF\n"
+                    "SampleRotation 3\n0 180 360\nAngleOfIncidence 1\n30\nScatterAzimuth 2\n"
+                    "0 360\nScatterRadial 1\n10\nMonochrome\nDataBegin\nTIS 0 7 7\n"
+                    "TIS 0 8 8\nTIS 0 7 7\nDataEnd\n", "zemax");
+    assert_int_equal(f->set.count, 2);
+    assert_int_equal(f->set.table[0].rows, 1);
+    assert_near(value_at(table_at(f, 30, 0), 20, 0, 0), 8, 0);
 }
 
 static void zemax_of_xyz_keeps_y(void **state)
