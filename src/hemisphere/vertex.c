@@ -2,22 +2,6 @@
 
 #include <stdlib.h>
 
-uint32_t vertex_count(VertexLattice lattice)
-{
-    uint32_t n = 1u << lattice.level;
-    return lattice.octants == 2 ? (n + 1) * (n + 1) : 2 * n * (n + 1) + 1;
-}
-
-/* Below the x axis row y = t - n starts after t^2 points; above it the rows get shorter. */
-uint32_t vertex_index(VertexLattice lattice, int x, int y)
-{
-    int n = 1 << lattice.level;
-    if (lattice.octants == 2) y = abs(y);
-    if (y < 0) return (uint32_t)((y + n) * (y + n) + y + n + x);
-    int before = lattice.octants == 2 ? 0 : n * n;
-    return (uint32_t)(before + y * (2 * n + 2 - y) + n - y + x);
-}
-
 /* ---- directions -------------------------------------------------------------------------- */
 
 /* A point of the lattice's plane on its way down octant 0: (x, y) relative to the corner c of

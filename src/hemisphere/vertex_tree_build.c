@@ -52,11 +52,6 @@ typedef struct Trial {
 #define FIRST_BASE 1
 #define LAST_BASE 3
 
-static const float *target_of(const Coder *c, uint32_t vertex)
-{
-    return c->choice.target + vertex * (size_t)c->code.components;
-}
-
 static bool accepts(Coder *c, uint32_t vertex, const float *reconstructed)
 {
     return vertex_accepts(&c->judge, vertex, reconstructed);
@@ -70,11 +65,10 @@ static void rebuild(const Coder *c, const float *prediction, const int16_t *inte
         out[i] = prediction[i] + c->step[i] * (factor * (float)integers[i]);
 }
 
-/* The nearest integers; false: one is too large. */
-static bool round_detail(const Coder *c, uint32_t vertex, const float *prediction, float factor,
-                         int16_t *integers)
+/* The integers nearest to a value; false: one is too large. */
+static bool round_detail(const Coder *c, const float *value, const float *prediction,
+                         float factor, int16_t *integers)
 {
-    const float *value = target_of(c, vertex);
     for (int i = 0; i < c->code.components; i++) {
         float q = rintf((value[i] - prediction[i]) / (factor * c->step[i]));
         if (!(fabsf(q) < VERTEX_MOST)) return false;
@@ -98,16 +92,22 @@ static bool search_near(Coder *c, uint32_t vertex, const float *prediction, floa
     return false;
 }
 
-/* Stores a vertex as prediction plus integers; false: not even neighbours are accepted. */
+/* Stores a vertex as prediction plus integers: of its target; where rounding leads out of what
+ * is accepted, of its value. False: not even neighbours are accepted. */
 static bool store(Coder *c, uint32_t vertex, const float *prediction, float factor)
 {
     size_t   k = (size_t)c->code.components;
     int16_t *integers = c->code.integers + vertex * k;
     c->code.stored[vertex] = true;
-    if (!round_detail(c, vertex, prediction, factor, integers)) return false;
-    rebuild(c, prediction, integers, factor, c->rebuilt + vertex * k);
-    return accepts(c, vertex, c->rebuilt + vertex * k) ||
-           search_near(c, vertex, prediction, factor, integers);
+    const float *wanted[2] = {c->choice.target + vertex * k, c->values + vertex * k};
+    for (int i = 0; i < 2; i++) {
+        if (!round_detail(c, wanted[i], prediction, factor, integers)) return false;
+        rebuild(c, prediction, integers, factor, c->rebuilt + vertex * k);
+        if (accepts(c, vertex, c->rebuilt + vertex * k) ||
+            search_near(c, vertex, prediction, factor, integers))
+            return true;
+    }
+    return false;
 }
 
 /* All new vertices of a level with one exponent. The first vertex that cannot be stored so
