@@ -77,7 +77,7 @@ static void print_summary(const ImportSet *set, const char *manifest, Arena *are
 
 /* What the command line holds before it is put on top of the declaration file. */
 typedef struct Words {
-    const char *output, *layout, *primaries, *panel, *instrument, *format;
+    const char *output, *layout, *primaries, *panel, *instrument, *format, *symmetry;
     CliTexts    roles, skip, list[KEYS_MAX];
     const char *key[KEYS_MAX]; /* of the text tables' keys */
     double      wavelength_nm, area_mm[2];
@@ -120,6 +120,8 @@ static int list_options(Words *words, Option *option, Arena *arena)
          words->area_mm, 1e-3, 1e6, 2, &words->has_area},
         {"--isotropic", OPTION_FLAG, NULL, "the light's azimuth makes no difference",
          &words->is_isotropic, .given = NULL},
+        {"--symmetry", OPTION_TEXT, "left-right|up-down|both|half-turn",
+         "of the sample: fills what was not measured", &words->symmetry, .given = NULL},
         {"--no-black", OPTION_FLAG, NULL, "the black pattern was subtracted already",
          &words->black_is_zero, .given = NULL},
         {"--panel", OPTION_TEXT, "NAME", "the panel's name in the manifest", &words->panel,
@@ -179,6 +181,8 @@ static bool make_request(const Words *words, Arena *arena, ImportRequest *reques
             return error_set(err, ERROR_USAGE, "--skip is given too often");
         request->skip.text[request->skip.count++] = words->skip.list[i];
     }
+    if (words->symmetry && !import_symmetry_named(words->symmetry, &request->symmetry, err))
+        return false;
     if (words->format) request->options.format = words->format;
     if (words->wavelength_nm > 0) request->options.wavelength_nm = words->wavelength_nm;
     if (words->has_area)

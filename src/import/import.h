@@ -56,6 +56,11 @@ typedef struct ImportSpectra {
     const double *value[4]; /* red, green, blue, black (may be NULL) */
 } ImportSpectra;
 
+/* What the user declares of the sample: what was not measured is filled from its image. */
+typedef enum ImportSymmetry {
+    IMPORT_NO_SYMMETRY, IMPORT_LEFT_RIGHT, IMPORT_UP_DOWN, IMPORT_BOTH, IMPORT_HALF_TURN
+} ImportSymmetry;
+
 typedef struct ImportSet {
     Arena        *arena;
     ImportTable  *table;             /* room for IMPORT_TABLES_MAX */
@@ -63,6 +68,7 @@ typedef struct ImportSet {
     bool          is_anisotropic;    /* reflection depends on the light's azimuth; tables of
                                         several azimuths make it so */
     bool          is_isotropic;      /* the user says that it does not, whatever the tables */
+    ImportSymmetry symmetry;
     bool          black_is_zero;     /* the user says that the black pattern was subtracted */
     const char   *panel, *instrument; /* names for the manifest; NULL: the file's */
     double        white_reflectance; /* of the reference: Lambertian, 0 to 1 (default 1) */

@@ -239,7 +239,10 @@ static void settle_azimuths(ImportSet *set)
         several |= first >= 0 && fabs(table->incidence_phi_deg - first) > SAME_ANGLE_DEG;
         first = table->incidence_phi_deg;
     }
-    set->is_anisotropic = (set->is_anisotropic || several) && !set->is_isotropic;
+    if (set->is_anisotropic && !several)
+        import_note(set, "the material depends on the light's azimuth, but only one was measured: "
+                    "it is taken for all, the same on both sides of the plane of incidence");
+    set->is_anisotropic = several && !set->is_isotropic;
     for (int i = 0; i < set->count && !set->is_anisotropic; i++)
         if (set->table[i].source == IMPORT_REFLECTION) set->table[i].incidence_phi_deg = 180;
 }
@@ -320,6 +323,7 @@ static bool check_sources(ImportSet *set, Error *err)
         return error_set(err, ERROR_INPUT, "no file is the black pattern — name one as --role "
                          "FILE=black, or say --no-black when it was subtracted");
     if (primaries && white) {
+        import_note_white(set);
         import_note(set, "the white table is not used: red, green and blue are there");
         remove_source(set, IMPORT_WHITE);
     }
@@ -348,6 +352,11 @@ static bool check_lights(const ImportSet *set, Error *err)
         return error_at(err, ERROR_INPUT, first->file, "",
                         "gives %d angles of incidence with the other files, wanted at most %d",
                         incidences, MEASUREMENT_INCIDENCES_MAX);
+    if (azimuths > MEASUREMENT_AZIMUTHS_MAX || incidences * azimuths > MEASUREMENT_TABLES_MAX)
+        return error_at(err, ERROR_INPUT, first->file, "",
+                        "gives light from %d incidences and %d azimuths with the other files, "
+                        "wanted at most %d azimuths and %d tables", incidences, azimuths,
+                        MEASUREMENT_AZIMUTHS_MAX, MEASUREMENT_TABLES_MAX);
     for (int i = 0; i < incidences; i++)
         for (int k = 0; k < azimuths; k++) {
             const ImportTable *table = find_light(set, incidence[i], azimuth[k]);
@@ -383,7 +392,7 @@ bool import_complete(ImportSet *set, Error *err)
     settle_azimuths(set);
     if (!join_parts(set, err) || !keep_usable(set, err)) return false;
     import_merge_directions(set);
-    if (!complete_lights(set, err) || !check_sources(set, err) || !check_lights(set, err))
+    if (!import_mirror(set, err) || !complete_lights(set, err) || !check_sources(set, err) || !check_lights(set, err))
         return false;
     qsort(set->table, (size_t)set->count, sizeof *set->table, by_light);
     return true;

@@ -29,6 +29,12 @@ bool import_apply_references(ImportSet *set, Error *err);
 /* Luminance alone as X, Y, Z: the chromaticity of the primaries' spectra, or that of D65. */
 void import_add_colour(ImportSet *set, ImportTable *table);
 
+/* Fills directions and lights by the set's symmetry. */
+bool import_mirror(ImportSet *set, Error *err);
+
+/* Notes how far a measured white is from the sum of the primaries. */
+void import_note_white(ImportSet *set);
+
 /* A direction that stands more than once in a table becomes the mean of its values; theta 0
  * is left alone. */
 void import_merge_directions(ImportSet *set);

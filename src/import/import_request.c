@@ -12,7 +12,7 @@
 
 /* Keys besides those of the text tables. */
 static const char *const other_keys[] = {"roles", "skip", "format", "wavelength_nm", "area_mm",
-    "panel", "instrument", "primaries", "isotropic", "no_black", "note"};
+    "panel", "instrument", "primaries", "isotropic", "symmetry", "no_black", "note"};
 
 static bool wrong_kind(const JsonView *view, const char *key, const char *wanted, Error *err)
 {
@@ -117,6 +117,25 @@ static bool read_flag(const JsonView *root, const char *key, bool *out, Error *e
     return true;
 }
 
+bool import_symmetry_named(const char *name, ImportSymmetry *out, Error *err)
+{
+    static const char *const names[] = {"none", "left-right", "up-down", "both", "half-turn"};
+    for (int i = 0; i < COUNT(names); i++)
+        if (!strcmp(names[i], name)) {
+            *out = (ImportSymmetry)i;
+            return true;
+        }
+    return error_set(err, ERROR_USAGE, "symmetry is '%s', wanted none, left-right, up-down, both "
+                     "or half-turn", name);
+}
+
+static bool read_symmetry(const JsonView *root, ImportSymmetry *out, Error *err)
+{
+    const char *name = "none";
+    return json_view_text(root, "symmetry", &name, err) &&
+           (import_symmetry_named(name, out, err) || error_in_file(err, root->file));
+}
+
 static bool read_others(const JsonView *root, ImportRequest *request, Error *err)
 {
     int two = 2;
@@ -130,6 +149,7 @@ static bool read_others(const JsonView *root, ImportRequest *request, Error *err
               json_view_text(root, "instrument", &request->instrument, err) &&
               json_view_text(root, "primaries", &request->primaries, err) &&
               read_flag(root, "isotropic", &request->is_isotropic, err) &&
+              read_symmetry(root, &request->symmetry, err) &&
               read_flag(root, "no_black", &request->black_is_zero, err);
     if (ok && request->primaries)
         request->primaries = path_beside(root->file, request->primaries, root->arena);
@@ -172,6 +192,7 @@ bool import_run(const char *const *file, int count, const ImportRequest *request
     set->panel = request->panel;
     set->instrument = request->instrument;
     set->is_isotropic = request->is_isotropic;
+    set->symmetry = request->symmetry;
     set->black_is_zero = request->black_is_zero;
     if (request->text.white_reflectance > 0)
         set->white_reflectance = request->text.white_reflectance;

@@ -13,11 +13,15 @@ typedef struct ImportRequest {
     TextList        skip;     /* patterns of files to leave out */
     const char     *primaries; /* a file of spectra; NULL: none */
     const char     *panel, *instrument;
+    ImportSymmetry  symmetry;
     bool            is_isotropic, black_is_zero;
 } ImportRequest;
 
 /* Reads a declaration file (README: its keys) into a request. */
 bool import_request_read(const char *file, Arena *arena, ImportRequest *request, Error *err);
+
+/* "none", "left-right", "up-down", "both", "half-turn". */
+bool import_symmetry_named(const char *name, ImportSymmetry *out, Error *err);
 
 /* Does a pattern of the list fit the file's name or path? */
 bool import_is_skipped(const ImportRequest *request, const char *file);

@@ -181,6 +181,63 @@ static void wavelengths_that_nobody_sees_are_left_out(void **state)
     lab_refused(lab, "i10.csv: has wavelengths from 1064 to 1064 nm, wanted some of 360 to 830 nm");
 }
 
+static void a_declared_symmetry_fills_what_was_not_measured(void **state)
+{
+    Lab *lab = *state;
+    lab_write(lab, "white.csv", "theta,phi,L\n0,0,9\n30,0,1\n30,30,2\n30,90,3\n");
+    lab->request->symmetry = IMPORT_BOTH;
+    lab_import(lab);
+    const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
+    assert_int_equal(white->rows, 1 + 8);
+    static const double phi[] = {30, 150, 210, 330};
+    for (int i = 0; i < 4; i++) assert_near(lab_value(white, 30, phi[i], 1), 2, 0);
+    assert_near(lab_value(white, 30, 270, 1), 3, 0);
+    lab->request->symmetry = IMPORT_HALF_TURN;
+    lab_import(lab);
+    assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 30, 210, 1), 2, 0);
+    assert_int_equal(lab_table(lab, IMPORT_WHITE, 255)->rows, 1 + 6);
+}
+
+/* The sample's image is the sample: light and leaving direction mirrored, the same value. */
+static void mirrored_lights_keep_the_mirrored_values(void **state)
+{
+    Lab *lab = *state;
+    static const char text[] = "theta,phi,550nm\n0,0,1\n30,20,2\n40,200,3\n50,300,4\n";
+    static const char *const names[] = {"i30_a0.csv", "i30_a50.csv", "i30_a90.csv"};
+    for (int i = 0; i < 3; i++) lab_write(lab, names[i], text);
+    lab->request->symmetry = IMPORT_BOTH;
+    lab_import(lab);
+    assert_int_equal(lab->set.count, 8);
+    for (int i = 0; i < lab->set.count; i++) {
+        const ImportTable *table = &lab->set.table[i];
+        double light = table->incidence_phi_deg;
+        bool   is_left = light > 90 && light < 270, is_low = light > 180;
+        if (light == 0 || light == 90 || light == 180 || light == 270) continue;
+        for (int k = 0; k < 3; k++) {
+            static const double phi[] = {20, 200, 300};
+            double seen = is_left ? 180 - phi[k] : phi[k];
+            seen = is_low ? -seen : seen;
+            assert_near(lab_value(table, 30 + 10 * k, seen + 180 - light, 0), 2 + k, 0);
+        }
+    }
+}
+
+static void white_is_compared_with_the_sum_of_the_primaries(void **state)
+{
+    Lab *lab = *state;
+    static const char *const names[] = {"red.csv", "green.csv", "blue.csv", "black.csv",
+                                        "white.csv"};
+    static const double level[] = {11, 21, 31, 1, 60};
+    for (int i = 0; i < 5; i++)
+        lab_write(lab, names[i], arena_format(&lab->arena, "theta,phi,L\n0,0,%g\n30,0,%g\n"
+                                              "40,0,%g\n", level[i], level[i],
+                                              level[i] + 6 * (i == 4)));
+    lab_import(lab);
+    assert_true(lab_noted(lab, "white is -1.64% of red + green + blue - 2 black on the normal and "
+                               "+8.20% at theta 40, phi 0"));
+    assert_true(lab_noted(lab, "the white table is not used"));
+}
+
 static void nothing_half_written_stays(void **state)
 {
     Lab *lab = *state;
@@ -306,6 +363,9 @@ int main(void)
         lab_case(a_black_that_was_subtracted_is_written_as_zero),
         lab_case(what_a_set_needs_is_said),
         lab_case(wavelengths_that_nobody_sees_are_left_out),
+        lab_case(a_declared_symmetry_fills_what_was_not_measured),
+        lab_case(mirrored_lights_keep_the_mirrored_values),
+        lab_case(white_is_compared_with_the_sum_of_the_primaries),
         lab_case(nothing_half_written_stays),
         lab_case(a_declaration_file_holds_all_options),
         lab_case(a_declaration_files_mistakes_are_named),
