@@ -354,6 +354,24 @@ static void spectra_go_into_the_set(void **state)
     }
 }
 
+/* ---- documentation ------------------------------------------------------------------------- */
+
+static void the_readme_names_every_key_and_format(void **state)
+{
+    Lab      *lab = *state;
+    FileBytes readme;
+    assert_true(file_read(PROJECT_DIR "/src/import/README.md", 1 << 20, &lab->arena, &readme,
+                          &lab->err));
+    for (int i = 0; i < text_key_count; i++)
+        if (!strstr((const char *)readme.data,
+                    arena_format(&lab->arena, "| `%s` |", text_keys[i].key)))
+            fail_msg("no key %s", text_keys[i].key);
+    for (int i = 0; importers[i]; i++)
+        if (!strstr((const char *)readme.data,
+                    arena_format(&lab->arena, "| `%s` |", importers[i]->name)))
+            fail_msg("no format %s", importers[i]->name);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -370,6 +388,7 @@ int main(void)
         lab_case(a_declaration_file_holds_all_options),
         lab_case(a_declaration_files_mistakes_are_named),
         lab_case(spectra_go_into_the_set),
+        lab_case(the_readme_names_every_key_and_format),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
