@@ -192,24 +192,42 @@ static bool read_data(Zemax *in, Error *err)
 
 /* ---- the wavelength in the comments ------------------------------------------------------ */
 
-/* "650 nm" or "650nm" in a line that begins with #; 0: none. */
+/* The number that ends before `stop` (blanks between allowed) and does not begin before
+ * `begin`. */
+static bool number_before(const char *begin, const char *stop, double *out)
+{
+    char number[16];
+    while (stop > begin && stop[-1] == ' ') stop--;
+    const char *digit = stop;
+    while (digit > begin && (isdigit((unsigned char)digit[-1]) || digit[-1] == '.')) digit--;
+    size_t length = (size_t)(stop - digit);
+    if (!length || length >= sizeof number) return false;
+    memcpy(number, digit, length);
+    number[length] = 0;
+    return scan_to_number(number, out);
+}
+
+/* The number after "(nm) =" or "(nm):". */
+static bool number_after(const char *text, const char *end, double *out)
+{
+    while (text < end && strchr(") =:\t", *text)) text++;
+    const char *stop = text;
+    while (stop < end && (isdigit((unsigned char)*stop) || *stop == '.')) stop++;
+    return number_before(text, stop, out);
+}
+
+/* "650 nm", "650nm" or "(nm) = 650" in a line that begins with #; 0: none. */
 static double comment_wavelength(const char *text, const char *end)
 {
     for (const char *c = text; c + 1 < end; c++) {
         bool is_longer = c + 2 < end && isalnum((unsigned char)c[2]);
         if (c[0] != 'n' || c[1] != 'm' || is_longer) continue;
-        const char *line = c, *digit = c;
+        const char *line = c;
+        double      nm;
         while (line > text && line[-1] != '\n') line--;
-        while (digit > line && digit[-1] == ' ') digit--;
-        const char *last = digit;
-        while (digit > line && (isdigit((unsigned char)digit[-1]) || digit[-1] == '.')) digit--;
-        char   number[16];
-        double nm;
-        size_t length = (size_t)(last - digit);
-        if (*line != '#' || !length || length >= sizeof number) continue;
-        memcpy(number, digit, length);
-        number[length] = 0;
-        if (scan_to_number(number, &nm) && nm >= 100 && nm <= 20000) return nm;
+        if (*line != '#') continue;
+        if (!number_before(line, c, &nm) && !number_after(c + 2, end, &nm)) continue;
+        if (nm >= 100 && nm <= 20000) return nm;
     }
     return 0;
 }

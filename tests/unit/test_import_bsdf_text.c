@@ -38,6 +38,21 @@ static void zemax_angles_count_from_the_mirror_direction(void **state)
     assert_false(f->set.is_anisotropic);
 }
 
+static void zemax_wavelength_stands_in_the_comments(void **state)
+{
+    static const char *const line[] = {"# laser, 532nm wide", "#Wavelength (nm) = 532.0"};
+    Fixture *f = *state;
+    f->options.wavelength_nm = 0;
+    for (int i = 0; i < 2; i++) {
+        assert_reads(f, arena_format(&f->arena, "%s\nSymmetry PlaneSymmetrical\n"
+                                     "SpectralContent Monochrome\nScatterType BRDF\n"
+                                     "SampleRotation 1\n0\nAngleOfIncidence 1\n30\n"
+                                     "ScatterAzimuth 1\n0\nScatterRadial 1\n10\nMonochrome\n"
+                                     "DataBegin\nTIS 0 7\nDataEnd\n", line[i]), "zemax");
+        assert_close(f->set.table[0].wavelength_nm[0], 532, 1e-7);
+    }
+}
+
 static void zemax_azimuth_runs_counter_clockwise(void **state)
 {
     Fixture *f = *state;
@@ -315,6 +330,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         fixture_case(zemax_angles_count_from_the_mirror_direction),
+        fixture_case(zemax_wavelength_stands_in_the_comments),
         fixture_case(zemax_azimuth_runs_counter_clockwise),
         fixture_case(zemax_sample_rotations_are_azimuths_of_the_light),
         fixture_case(zemax_of_xyz_keeps_y),
