@@ -320,6 +320,20 @@ static void merl_errors_name_the_byte(void **state)
                    "byte 0: the file ends inside its header");
 }
 
+/* ---- workbooks --------------------------------------------------------------------------- */
+
+static void a_workbook_is_refused_with_what_to_give_instead(void **state)
+{
+    static const char magic[] = "\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1 workbook";
+    Fixture *f = *state;
+    assert_false(fixture_read(f, magic, sizeof magic, "spreadsheet"));
+    assert_string_equal(f->err.text, "is a workbook of a spreadsheet program — export its "
+                                     "tables as CSV; of a scatterometer (RT-300S) give the "
+                                     ".bsdf or FRED text that was made from it");
+    assert_false(fixture_read_file(
+        f, shared_bsdf(f, "loft-rt300s/raw/NiTE_on_invar_v1o0A_20250915.xls"), "spreadsheet"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -331,6 +345,7 @@ int main(void)
         fixture_case(merl_cells_are_found_by_half_and_difference_angles),
         fixture_case(merl_of_full_size_and_its_unmeasured_cells),
         fixture_case(merl_errors_name_the_byte),
+        fixture_case(a_workbook_is_refused_with_what_to_give_instead),
     };
     return cmocka_run_group_tests_name("import_bsdf_tensor", tests, NULL, NULL);
 }
