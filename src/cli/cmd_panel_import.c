@@ -15,17 +15,18 @@ static void show_progress(void *context, int done)
 }
 
 /* Reads every file and makes the set; the bar ends before anything else is printed. */
-static bool read_files(const Cli *cli, const ImportRequest *request, ImportSet *set, Error *err)
+static bool read_files(const Cli *cli, ImportRequest *request, ImportSet *set, Error *err)
 {
     Progress progress = progress_start(cli->progress, "import", "files", cli->argument_count);
-    bool ok = import_run(cli->arguments, cli->argument_count, request, show_progress, &progress,
-                         set, err);
+    request->step = show_progress;
+    request->context = &progress;
+    bool ok = import_run(cli->arguments, cli->argument_count, request, set, err);
     if (ok) progress_end(&progress, cli->argument_count);
     else progress_clear(&progress);
     return ok;
 }
 
-/* ---- the summary --------------------------------------------------------------------------- */
+/* ---- the summary ------------------------------------------------------------------------- */
 
 static json_t *table_summary(const ImportSet *set, const ImportTable *table, Arena *arena)
 {
@@ -70,7 +71,7 @@ static void print_summary(const ImportSet *set, const char *manifest, Arena *are
     printf("%s: %d tables, %.0f directions, %.0f masked\n", manifest, set->count, rows, masked);
 }
 
-/* ---- options ------------------------------------------------------------------------------- */
+/* ---- options ----------------------------------------------------------------------------- */
 
 #define KEYS_MAX 32
 #define OPTIONS_MAX (KEYS_MAX + 16)
@@ -195,7 +196,7 @@ static bool make_request(const Words *words, Arena *arena, ImportRequest *reques
     return true;
 }
 
-/* ---- the command --------------------------------------------------------------------------- */
+/* ---- the command ------------------------------------------------------------------------- */
 
 static void print_formats(void)
 {
@@ -233,7 +234,8 @@ bool cmd_panel_import(int argc, char **argv, Error *err)
         print_formats();
         return true;
     }
-    if (!words->output) return error_set(err, ERROR_USAGE, "panel import wants -o MANIFEST.json");
+    if (!words->output)
+        return error_set(err, ERROR_USAGE, "panel import wants -o MANIFEST.json");
     bool ok = run(&cli, words, &arena, err);
     arena_release(&arena);
     return ok;

@@ -72,25 +72,26 @@ static bool read_head(Ldt *in, Head *head, const char **name)
     TextLine line;
     double   ignored;
     int      type;
-    bool ok = skip_lines(in, "the maker's name", 1) &&
-              next_count(in, "the type of luminaire", 0, 4, &type) &&
-              next_count(in, "the symmetry", 0, 4, &head->symmetry) &&
-              next_count(in, "the number of C-planes", 1, LUMINAIRE_ANGLES_MAX, &head->planes) &&
-              next_number(in, "the step of the C-planes", 0, 360, &ignored) &&
-              next_count(in, "the number of angles a plane", 2, LUMINAIRE_ANGLES_MAX,
-                         &head->gammas) &&
-              next_number(in, "the step of the angles", 0, 180, &ignored) &&
-              skip_lines(in, "the report's number", 1) &&
-              next_line(in, "the luminaire's name", &line) &&
-              skip_lines(in, "the luminaire's sizes", 6) &&
-              next_number(in, "the length of the luminous area", 0, 1e6, &head->length_mm) &&
-              next_number(in, "the width of the luminous area", 0, 1e6, &head->width_mm) &&
-              skip_lines(in, "the heights of the luminous area", 4) &&
-              next_number(in, "the downward flux fraction", -1, 1000, &ignored) &&
-              next_number(in, "the light output ratio", 0, 1000, &head->output_ratio) &&
-              next_number(in, "the conversion factor", 0, 1e6, &head->factor) &&
-              next_number(in, "the tilt", -360, 360, &ignored) &&
-              next_count(in, "the number of lamp sets", 0, 20, &head->lamp_sets);
+    bool ok =
+        skip_lines(in, "the maker's name", 1) &&
+        next_count(in, "the type of luminaire", 0, 4, &type) &&
+        next_count(in, "the symmetry", 0, 4, &head->symmetry) &&
+        next_count(in, "the number of C-planes", 1, LUMINAIRE_ANGLES_MAX, &head->planes) &&
+        next_number(in, "the step of the C-planes", 0, 360, &ignored) &&
+        next_count(in, "the number of angles a plane", 2, LUMINAIRE_ANGLES_MAX,
+                   &head->gammas) &&
+        next_number(in, "the step of the angles", 0, 180, &ignored) &&
+        skip_lines(in, "the report's number", 1) &&
+        next_line(in, "the luminaire's name", &line) &&
+        skip_lines(in, "the luminaire's sizes", 6) &&
+        next_number(in, "the length of the luminous area", 0, 1e6, &head->length_mm) &&
+        next_number(in, "the width of the luminous area", 0, 1e6, &head->width_mm) &&
+        skip_lines(in, "the heights of the luminous area", 4) &&
+        next_number(in, "the downward flux fraction", -1, 1000, &ignored) &&
+        next_number(in, "the light output ratio", 0, 1000, &head->output_ratio) &&
+        next_number(in, "the conversion factor", 0, 1e6, &head->factor) &&
+        next_number(in, "the tilt", -360, 360, &ignored) &&
+        next_count(in, "the number of lamp sets", 0, 20, &head->lamp_sets);
     if (ok && line.length) *name = arena_string(in->arena, line.text, (size_t)line.length);
     return ok;
 }
@@ -141,8 +142,9 @@ static bool read_angles(Ldt *in, const char *what, int count, double most, doubl
         if (!next_number(in, what, 0, most, &angle[i])) return false;
         if (i && !(angle[i] > angle[i - 1]))
             return error_at(in->err, ERROR_INPUT, in->text.file,
-                            text_place(in->at - 1, in->arena), "%s %g follows %g, wanted rising "
-                            "angles", what, angle[i], angle[i - 1]);
+                            text_place(in->at - 1, in->arena),
+                            "%s %g follows %g, wanted rising angles", what, angle[i],
+                            angle[i - 1]);
     }
     return true;
 }
@@ -187,7 +189,8 @@ static bool read_eulumdat(const char *file, const ImportOptions *options, Import
     double length = head.length_mm * 1e-3, width = head.width_mm * 1e-3;
     luminaire.area_m2 = width > 0 ? length * width : PI / 4 * length * length;
     luminaire.stated_lm = head.flux_lm * (head.is_absolute ? 1 : head.output_ratio / 100);
-    luminaire.stated_as = head.is_absolute ? "absolute" : "lamps' flux times light output ratio";
+    luminaire.stated_as =
+        head.is_absolute ? "absolute" : "lamps' flux times light output ratio";
     if (head.lamp_sets > 1)
         import_note(set, "%s: the first of %d lamp sets is taken", path_name(file),
                     head.lamp_sets);

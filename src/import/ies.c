@@ -70,12 +70,13 @@ static bool next_count(Ies *in, const char *what, int low, int high, int *out)
                     "%s is %g, wanted a whole number", what, value);
 }
 
-/* ---- head ---------------------------------------------------------------------------------- */
+/* ---- head -------------------------------------------------------------------------------- */
 
 static const char *keyword_value(const Ies *in, TextLine line, const char *keyword)
 {
     int length = (int)strlen(keyword);
-    if (line.length <= length || strncasecmp(line.text, keyword, (size_t)length) != 0) return NULL;
+    if (line.length <= length || strncasecmp(line.text, keyword, (size_t)length) != 0)
+        return NULL;
     const char *begin = line.text + length, *end = line.text + line.length;
     while (begin < end && is_gap(*begin)) begin++;
     return begin < end ? arena_string(in->arena, begin, (size_t)(end - begin)) : NULL;
@@ -152,14 +153,15 @@ static double opening_m2(const Head *head)
     return fabs(w * l);
 }
 
-/* ---- angles and intensities ---------------------------------------------------------------- */
+/* ---- angles and intensities -------------------------------------------------------------- */
 
 static bool read_angles(Ies *in, const char *what, int count, double most, double *angle)
 {
     for (int i = 0; i < count; i++) {
         if (!next_number(in, what, 0, most, &angle[i])) return false;
         if (i && !(angle[i] > angle[i - 1]))
-            return error_at(in->err, ERROR_INPUT, in->text.file, text_place(in->line, in->arena),
+            return error_at(in->err, ERROR_INPUT, in->text.file,
+                            text_place(in->line, in->arena),
                             "%s %g follows %g, wanted rising angles", what, angle[i],
                             angle[i - 1]);
     }
@@ -179,8 +181,9 @@ static bool find_symmetry(Ies *in, Luminaire *out)
     bool is_whole = first == 0 && last > 180; /* 345 or 360 */
     return out->mirror_deg[0] >= 0 || is_whole ||
            error_at(in->err, ERROR_INPUT, in->text.file, text_place(in->line, in->arena),
-                    "horizontal angles go from %g to %g, wanted 0, 0 to 90, 0 to 180, 90 to 270 "
-                    "or 0 to 360 degrees", first, last);
+                    "horizontal angles go from %g to %g, wanted 0, 0 to 90, 0 to 180, 90 to "
+                    "270 or 0 to 360 degrees",
+                    first, last);
 }
 
 static bool read_candela(Ies *in, const Head *head, Luminaire *out)

@@ -34,7 +34,7 @@ void import_note(ImportSet *set, const char *format, ...)
     set->note[set->note_count++] = arena_string(set->arena, text, strlen(text));
 }
 
-/* ---- what a table must be ------------------------------------------------------------------ */
+/* ---- what a table must be ---------------------------------------------------------------- */
 
 static bool refuse(const ImportTable *table, Error *err, const char *what, double found,
                    const char *wanted)
@@ -114,7 +114,7 @@ bool import_add(ImportSet *set, const ImportTable *table, Error *err)
     return true;
 }
 
-/* ---- which importer ------------------------------------------------------------------------ */
+/* ---- which importer ---------------------------------------------------------------------- */
 
 static const Importer *importer_named(const char *name, Error *err)
 {

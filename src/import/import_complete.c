@@ -20,7 +20,7 @@ const char *import_source_name(ImportSource source)
     return source_names[source];
 }
 
-/* ---- parts of one table -------------------------------------------------------------------- */
+/* ---- parts of one table ------------------------------------------------------------------ */
 
 static bool same_light(const ImportTable *a, const ImportTable *b)
 {
@@ -52,11 +52,12 @@ static bool join_components(ImportSet *set, int first, Error *err)
     for (int j = 0; j < 3; j++)
         if (part[j] < 0)
             return error_at(err, ERROR_INPUT, table[first].file, "",
-                            "is %c of %s %g, and no file has %c — give the missing file, or its "
-                            "role as --role FILE=%s:%g:%c", table[first].component,
+                            "is %c of %s %g, and no file has %c — give the missing file, or "
+                            "its role as --role FILE=%s:%g:%c",
+                            table[first].component, import_source_name(table[first].source),
+                            table[first].level, letters[j],
                             import_source_name(table[first].source), table[first].level,
-                            letters[j], import_source_name(table[first].source),
-                            table[first].level, letters[j]);
+                            letters[j]);
     ImportTable joined = table[first];
     if (!import_join_tables(set, part, 3, &joined, err)) return false;
     joined.component = 0;
@@ -88,8 +89,9 @@ static bool refuse_twice(const ImportSet *set, int first, Error *err)
     const ImportTable *table = set->table;
     for (int i = first + 1; i < set->count; i++)
         if (same_light(&table[first], &table[i]))
-            return error_at(err, ERROR_INPUT, table[i].file, "", "is %s %g, and so is %s — give "
-                            "one of them another --role, or leave it out",
+            return error_at(err, ERROR_INPUT, table[i].file, "",
+                            "is %s %g, and so is %s — give one of them another --role, or "
+                            "leave it out",
                             import_source_name(table[i].source), table[i].level,
                             table[first].file);
     return true;
@@ -106,7 +108,7 @@ static bool join_parts(ImportSet *set, Error *err)
     return true;
 }
 
-/* ---- what the manifest cannot take --------------------------------------------------------- */
+/* ---- what the manifest cannot take ------------------------------------------------------- */
 
 static bool keep_visible(ImportSet *set, ImportTable *table, Error *err)
 {
@@ -149,7 +151,7 @@ static bool keep_usable(ImportSet *set, Error *err)
     return true;
 }
 
-/* ---- lights at every azimuth --------------------------------------------------------------- */
+/* ---- lights at every azimuth ------------------------------------------------------------- */
 
 static int collect_angles(const ImportSet *set, bool of_azimuth, double *angle, int most)
 {
@@ -206,7 +208,7 @@ static const ImportTable *first_normal(const ImportSet *set)
     return NULL;
 }
 
-/* A table of normal incidence whose azimuth no other light has, is told of one that they have. */
+/* A table of normal incidence whose azimuth no other light has moves to one that they have. */
 static void move_normal(ImportSet *set)
 {
     const ImportTable *other = NULL;
@@ -217,7 +219,8 @@ static void move_normal(ImportSet *set)
     for (int i = 0; i < set->count && other; i++) {
         ImportTable *table = &set->table[i];
         bool is_known = false;
-        if (table->source != IMPORT_REFLECTION || table->incidence_deg >= SAME_ANGLE_DEG) continue;
+        if (table->source != IMPORT_REFLECTION || table->incidence_deg >= SAME_ANGLE_DEG)
+            continue;
         for (int k = 0; k < set->count; k++)
             is_known |= set->table[k].source == IMPORT_REFLECTION &&
                         set->table[k].incidence_deg >= SAME_ANGLE_DEG &&
@@ -235,13 +238,15 @@ static void settle_azimuths(ImportSet *set)
     bool   several = false;
     for (int i = 0; i < set->count; i++) {
         const ImportTable *table = &set->table[i];
-        if (table->source != IMPORT_REFLECTION || table->incidence_deg < SAME_ANGLE_DEG) continue;
+        if (table->source != IMPORT_REFLECTION || table->incidence_deg < SAME_ANGLE_DEG)
+            continue;
         several |= first >= 0 && fabs(table->incidence_phi_deg - first) > SAME_ANGLE_DEG;
         first = table->incidence_phi_deg;
     }
     if (set->is_anisotropic && !several)
-        import_note(set, "the material depends on the light's azimuth, but only one was measured: "
-                    "it is taken for all, the same on both sides of the plane of incidence");
+        import_note(set, "the material depends on the light's azimuth, but only one was "
+                         "measured: it is taken for all, the same on both sides of the plane "
+                         "of incidence");
     set->is_anisotropic = several && !set->is_isotropic;
     for (int i = 0; i < set->count && !set->is_anisotropic; i++)
         if (set->table[i].source == IMPORT_REFLECTION) set->table[i].incidence_phi_deg = 180;
@@ -260,7 +265,7 @@ static bool complete_lights(ImportSet *set, Error *err)
     return true;
 }
 
-/* ---- is it a set? -------------------------------------------------------------------------- */
+/* ---- is it a set? ------------------------------------------------------------------------ */
 
 static const ImportTable *first_of(const ImportSet *set, ImportSource source)
 {
@@ -308,7 +313,8 @@ static bool check_sources(ImportSet *set, Error *err)
                         "is a black pattern alone, wanted also red, green and blue, or white");
     for (int p = IMPORT_RED; primaries && p <= IMPORT_BLUE; p++) {
         if (!first_of(set, (ImportSource)p))
-            return error_set(err, ERROR_INPUT, "no file is %s — name one as --role FILE=%s:LEVEL",
+            return error_set(err, ERROR_INPUT,
+                             "no file is %s — name one as --role FILE=%s:LEVEL",
                              source_names[p], source_names[p]);
         if (count_of(set, (ImportSource)p) > MEASUREMENT_LEVELS_MAX)
             return error_set(err, ERROR_INPUT, "%s has %d grey levels, wanted at most %d",
@@ -361,9 +367,10 @@ static bool check_lights(const ImportSet *set, Error *err)
         for (int k = 0; k < azimuths; k++) {
             const ImportTable *table = find_light(set, incidence[i], azimuth[k]);
             if (!table)
-                return error_set(err, ERROR_INPUT, "no file has light from incidence %g, azimuth "
-                                 "%g degrees; a material that depends on the azimuth is wanted "
-                                 "at every incidence (%d) and azimuth (%d) of the light — or say "
+                return error_set(err, ERROR_INPUT,
+                                 "no file has light from incidence %g, azimuth %g degrees; a "
+                                 "material that depends on the azimuth is wanted at every "
+                                 "incidence (%d) and azimuth (%d) of the light — or say "
                                  "--isotropic when the azimuth makes no difference",
                                  incidence[i], azimuth[k], incidences, azimuths);
             if (!same_wavelengths(first, table))
@@ -392,7 +399,8 @@ bool import_complete(ImportSet *set, Error *err)
     settle_azimuths(set);
     if (!join_parts(set, err) || !keep_usable(set, err)) return false;
     import_merge_directions(set);
-    if (!import_mirror(set, err) || !complete_lights(set, err) || !check_sources(set, err) || !check_lights(set, err))
+    if (!import_mirror(set, err) || !complete_lights(set, err) || !check_sources(set, err) ||
+        !check_lights(set, err))
         return false;
     qsort(set->table, (size_t)set->count, sizeof *set->table, by_light);
     return true;

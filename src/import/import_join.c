@@ -39,7 +39,7 @@ static Place *sorted_places(const ImportTable *table, Arena *arena)
     return place;
 }
 
-/* ---- joining ------------------------------------------------------------------------------- */
+/* ---- joining ----------------------------------------------------------------------------- */
 
 static void sort_parts(const ImportSet *set, const int *part, int count, int *sorted)
 {
@@ -163,7 +163,8 @@ bool import_join_tables(ImportSet *set, const int *part, int count, ImportTable 
                         "and %s share %d of %d directions, wanted the same directions in the "
                         "files of one table", joined->file, joined->rows, most);
     if (joined->rows < most)
-        import_note(set, "%s: %d directions are not in every file of the table and are left out",
+        import_note(set,
+                    "%s: %d directions are not in every file of the table and are left out",
                     path_name(joined->file), most - joined->rows);
     return true;
 }
@@ -193,7 +194,7 @@ int *import_match_rows(const ImportTable *table, const ImportTable *other, Arena
     return match;
 }
 
-/* ---- a direction once ---------------------------------------------------------------------- */
+/* ---- a direction once -------------------------------------------------------------------- */
 
 /* How many rows are repetitions; leader[row] is the first row of the same direction. */
 static int find_repeats(const ImportTable *table, Arena scratch, int *leader)
@@ -227,7 +228,8 @@ static void take_means(ImportTable *table, const int *leader, int rows, Arena *a
             value[(size_t)to * size + c] += table->value[(size_t)i * size + c];
     }
     for (int i = 0; i < rows; i++)
-        for (size_t c = 0; c < size && count[i] > 1; c++) value[(size_t)i * size + c] /= count[i];
+        for (size_t c = 0; c < size && count[i] > 1; c++)
+            value[(size_t)i * size + c] /= count[i];
     table->theta_deg = theta;
     table->phi_deg = phi;
     table->value = value;
@@ -250,6 +252,7 @@ void import_merge_directions(ImportSet *set)
         tables++;
     }
     if (total)
-        import_note(set, "%d directions of %d tables stood more than once: their mean was taken",
+        import_note(set,
+                    "%d directions of %d tables stood more than once: their mean was taken",
                     total, tables);
 }

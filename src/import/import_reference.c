@@ -109,10 +109,10 @@ static bool divide_reference(ImportSet *set, ImportTable *table, Error *err)
     if (!find_helper(set, table, IMPORT_REFERENCE, &reference, err)) return false;
     if (!reference)
         return error_at(err, ERROR_INPUT, table->file, "",
-                        "holds signals, and no white reference was measured at incidence %g with "
-                        "the same channels — name one with --role FILE=reference:%g, or one for "
-                        "all with --role FILE=reference", table->incidence_deg,
-                        table->incidence_deg);
+                        "holds signals, and no white reference was measured at incidence %g "
+                        "with the same channels — name one with --role FILE=reference:%g, or "
+                        "one for all with --role FILE=reference",
+                        table->incidence_deg, table->incidence_deg);
     table->is_signal = false;
     return combine(set, table, reference, divide, set->white_reflectance / PI, err);
 }
@@ -122,7 +122,8 @@ static bool is_used(const ImportSet *set, const ImportTable *helper)
     for (int i = 0; i < set->count; i++) {
         const ImportTable *table = &set->table[i];
         if (!is_helper(table) && same_channels(table, helper) &&
-            (helper->source == IMPORT_DARK || helper->is_any_light || same_light(table, helper)))
+            (helper->source == IMPORT_DARK || helper->is_any_light ||
+             same_light(table, helper)))
             return true;
     }
     return false;
@@ -150,7 +151,7 @@ bool import_apply_references(ImportSet *set, Error *err)
     return true;
 }
 
-/* ---- luminance without colour -------------------------------------------------------------- */
+/* ---- luminance without colour ------------------------------------------------------------ */
 
 /* X/Y and Z/Y of a spectrum, by the trapezoidal rule over its own wavelengths. */
 static bool spectrum_ratios(const ImportSpectra *spectra, const double *value, double ratio[2])

@@ -16,7 +16,8 @@ static const char *const other_keys[] = {"roles", "skip", "format", "wavelength_
 
 static bool wrong_kind(const JsonView *view, const char *key, const char *wanted, Error *err)
 {
-    return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key), "wanted %s", wanted);
+    return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key), "wanted %s",
+                    wanted);
 }
 
 /* A text or a number as the text that the command line would have. */
@@ -51,7 +52,8 @@ static bool declare_list(const JsonView *view, const char *key, const json_t *li
     json_array_foreach((json_t *)list, i, value) {
         const char *plain = plain_text(view, value);
         if (!plain) return wrong_kind(view, key, "texts or numbers", err);
-        if (is_columns) joined = arena_format(view->arena, "%s%s%s", joined, i ? "," : "", plain);
+        if (is_columns)
+            joined = arena_format(view->arena, "%s%s%s", joined, i ? "," : "", plain);
         else if (!declare_one(view, key, value, text, err)) return false;
     }
     return !is_columns || text_declare(text, key, joined, err) ||
@@ -125,8 +127,9 @@ bool import_symmetry_named(const char *name, ImportSymmetry *out, Error *err)
             *out = (ImportSymmetry)i;
             return true;
         }
-    return error_set(err, ERROR_USAGE, "symmetry is '%s', wanted none, left-right, up-down, both "
-                     "or half-turn", name);
+    return error_set(err, ERROR_USAGE,
+                     "symmetry is '%s', wanted none, left-right, up-down, both or half-turn",
+                     name);
 }
 
 static bool read_symmetry(const JsonView *root, ImportSymmetry *out, Error *err)
@@ -170,7 +173,7 @@ bool import_request_read(const char *file, Arena *arena, ImportRequest *request,
     return ok;
 }
 
-/* ---- the import ---------------------------------------------------------------------------- */
+/* ---- the import -------------------------------------------------------------------------- */
 
 bool import_is_skipped(const ImportRequest *request, const char *file)
 {
@@ -184,7 +187,7 @@ bool import_is_skipped(const ImportRequest *request, const char *file)
 }
 
 bool import_run(const char *const *file, int count, const ImportRequest *request,
-                ImportStep *step, void *context, ImportSet *set, Error *err)
+                ImportSet *set, Error *err)
 {
     ImportOptions options = request->options;
     int           skipped = 0;
@@ -202,7 +205,7 @@ bool import_run(const char *const *file, int count, const ImportRequest *request
         bool is_skipped = import_is_skipped(request, file[i]);
         skipped += is_skipped;
         if (!is_skipped && !import_file(file[i], &options, set, err)) return false;
-        if (step) step(context, i + 1);
+        if (request->step) request->step(request->context, i + 1);
     }
     if (skipped) import_note(set, "%d files were left out as asked", skipped);
     return import_complete(set, err);

@@ -5,7 +5,7 @@
 
 #include "import/import_parts.h"
 
-/* ---- mirrors ------------------------------------------------------------------------------- */
+/* ---- mirrors ----------------------------------------------------------------------------- */
 
 /* Azimuths reflect about a plane through the normal: phi becomes 2 m - phi, or turn by 180. */
 typedef struct Image {
@@ -99,7 +99,8 @@ bool import_mirror(ImportSet *set, Error *err)
         for (int i = 0; i < count; i++) {
             ImportTable *table = &set->table[i];
             if (table->source != IMPORT_REFLECTION) mirror_rows(set, table, image[k]);
-            else if (set->is_anisotropic && !mirror_light(set, table, image[k], err)) return false;
+            else if (set->is_anisotropic && !mirror_light(set, table, image[k], err))
+                return false;
         }
     }
     if (images) import_note(set, "directions that were not measured are filled by the declared "
@@ -107,7 +108,7 @@ bool import_mirror(ImportSet *set, Error *err)
     return true;
 }
 
-/* ---- white --------------------------------------------------------------------------------- */
+/* ---- white ------------------------------------------------------------------------------- */
 
 static const ImportTable *full(const ImportSet *set, ImportSource source)
 {
@@ -146,7 +147,8 @@ void import_note_white(ImportSet *set)
         at[1] = white->phi_deg[i];
     }
     if (compared)
-        import_note(set, "white is %+.2f%% of red + green + blue - 2 black on the normal and "
-                    "%+.2f%% at theta %g, phi %g, where it is furthest from the sum", 100 * normal,
-                    100 * worst, at[0], at[1]);
+        import_note(set,
+                    "white is %+.2f%% of red + green + blue - 2 black on the normal and "
+                    "%+.2f%% at theta %g, phi %g, where it is furthest from the sum",
+                    100 * normal, 100 * worst, at[0], at[1]);
 }

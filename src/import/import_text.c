@@ -8,12 +8,12 @@
 #include "import/importers.h"
 #include "import/text_reader.h"
 
-/* ---- what the file is ---------------------------------------------------------------------- */
+/* ---- what the file is -------------------------------------------------------------------- */
 
 static bool not_told(TextReader *in, bool is_ambiguous)
 {
-    const char *wanted = in->is_reflection ? "brdf:INCIDENCE" : "red:255 (or green, blue, black, "
-                                                                "white)";
+    const char *wanted =
+        in->is_reflection ? "brdf:INCIDENCE" : "red:255 (or green, blue, black, white)";
     return error_at(in->err, ERROR_INPUT, in->file, "",
                     "%s %s — say it with --role %s=%s", is_ambiguous ? "tells more than one"
                     : "does not tell, by its contents or its name,",
@@ -102,7 +102,7 @@ bool text_find_role(TextReader *in)
     return in->role.is_told || not_told(in, is_mixed[0] || (!said.is_told && is_mixed[1]));
 }
 
-/* ---- columns ------------------------------------------------------------------------------- */
+/* ---- columns ----------------------------------------------------------------------------- */
 
 static void index_columns(TextReader *in)
 {
@@ -111,13 +111,14 @@ static void index_columns(TextReader *in)
         in->column[in->raw->column[c].name.quantity] = c;
 }
 
-/* A matrix without a label: --quantity says what it holds, or a role or name with a component. */
+/* A matrix without a label: --quantity says what it holds, or a component in role or name. */
 static bool name_unlabelled(TextReader *in)
 {
     int c = in->column[QUANTITY_NONE];
     if (c < 0) return true;
     ColumnName *name = &in->raw->column[c].name;
-    const char *told = in->declared->quantity, *role = text_declared_role(in->declared, in->file);
+    const char *told = in->declared->quantity,
+               *role = text_declared_role(in->declared, in->file);
     double most = in->declared->level_max > 0 ? in->declared->level_max : 255;
     bool   is_mixed;
     Role   named = role_from_words(name_without_ending(in), most, &is_mixed);
@@ -130,8 +131,8 @@ static bool name_unlabelled(TextReader *in)
         name->quantity = (Quantity)(QUANTITY_X + named.component - 'X');
     } else {
         return error_at(in->err, ERROR_INPUT, in->file, "",
-                        "does not say what its matrix holds — say --quantity X, Y, Z, L or brdf, "
-                        "or the component in the role, as --role %s=red:255:X",
+                        "does not say what its matrix holds — say --quantity X, Y, Z, L or "
+                        "brdf, or the component in the role, as --role %s=red:255:X",
                         path_name(in->file));
     }
     index_columns(in);
@@ -146,8 +147,8 @@ static bool find_kind(TextReader *in)
     in->is_reflection = in->column[QUANTITY_REFLECTION] >= 0;
     if (emission == in->is_reflection)
         return error_at(in->err, ERROR_INPUT, in->file, "header line",
-                        emission ? "has columns of luminance and of reflection, wanted one kind "
-                                   "— skip some with --columns"
+                        emission ? "has columns of luminance and of reflection, wanted one "
+                                   "kind — skip some with --columns"
                                  : "has no column of luminance or reflection — name them with "
                                    "--columns");
     int codes = 0;
@@ -172,7 +173,7 @@ static bool check_sayings(TextReader *in)
     return true;
 }
 
-/* ---- the importer -------------------------------------------------------------------------- */
+/* ---- the importer ------------------------------------------------------------------------ */
 
 static void note_names(TextReader *in)
 {
@@ -183,7 +184,8 @@ static void note_names(TextReader *in)
                     path_name(in->file), in->said.unused_columns);
 }
 
-static bool read_text(const char *file, const ImportOptions *options, ImportSet *set, Error *err)
+static bool read_text(const char *file, const ImportOptions *options, ImportSet *set,
+                      Error *err)
 {
     static const TextDeclaration nothing;
     TextReader in = {.file = file, .options = options, .set = set, .err = err,

@@ -39,7 +39,7 @@ const char *import_table_file(const ImportSet *set, const ImportTable *table, Ar
     return arena_format(arena, "brdf/i%.10g.csv", table->incidence_deg);
 }
 
-/* ---- files --------------------------------------------------------------------------------- */
+/* ---- files ------------------------------------------------------------------------------- */
 
 static bool make_folder(Output *out, const char *path)
 {
@@ -98,7 +98,7 @@ static bool commit_all(Output *out)
     return true;
 }
 
-/* ---- tables -------------------------------------------------------------------------------- */
+/* ---- tables ------------------------------------------------------------------------------ */
 
 /* The fewest of 6 to 9 digits that give the same float again. */
 static void print_value(FILE *stream, double value)
@@ -123,7 +123,8 @@ static void print_rows(FILE *stream, const ImportTable *table)
     size_t size = (size_t)table->channels;
     for (int i = 0; i < table->rows; i++) {
         fprintf(stream, "%.9g,%.9g", table->theta_deg[i], wrapped(table->phi_deg[i]));
-        for (size_t c = 0; c < size; c++) print_value(stream, table->value[(size_t)i * size + c]);
+        for (size_t c = 0; c < size; c++)
+            print_value(stream, table->value[(size_t)i * size + c]);
         fputc('\n', stream);
     }
 }
@@ -172,7 +173,7 @@ static bool write_spectra(Output *out)
     return end_file(out, stream);
 }
 
-/* ---- the manifest -------------------------------------------------------------------------- */
+/* ---- the manifest ------------------------------------------------------------------------ */
 
 static json_t *emission_object(Output *out)
 {
@@ -219,7 +220,8 @@ static json_t *reflection_object(const ImportSet *set)
         const ImportTable *table = &set->table[i];
         if (table->source != IMPORT_REFLECTION) continue;
         for (int c = 0; c < table->channels && !object; c++)
-            json_array_append_new(nm, number(round((double)table->wavelength_nm[c] * 1e4) / 1e4));
+            json_array_append_new(nm,
+                                  number(round((double)table->wavelength_nm[c] * 1e4) / 1e4));
         if (!object) object = json_object();
         append_once(incidence, table->incidence_deg);
         append_once(azimuth, table->incidence_phi_deg);
@@ -256,8 +258,9 @@ static json_t *manifest_object(Output *out)
     for (int i = 0; i < set->note_count; i++)
         note = arena_format(&out->scratch, "%s%s%s", note, i ? "; " : "", set->note[i]);
     json_t *root = json_object(), *emission = emission_object(out);
-    json_object_set_new(root, "panel", text_value(set->panel ? set->panel :
-                                                  path_name(set->table[0].file), &out->scratch));
+    json_object_set_new(root, "panel",
+                        text_value(set->panel ? set->panel : path_name(set->table[0].file),
+                                   &out->scratch));
     if (set->instrument)
         json_object_set_new(root, "instrument", text_value(set->instrument, &out->scratch));
     if (*note) json_object_set_new(root, "note", text_value(note, &out->scratch));

@@ -14,7 +14,7 @@ typedef struct Plane {
     int    source; /* index of the stored plane */
 } Plane;
 
-/* ---- all planes ---------------------------------------------------------------------------- */
+/* ---- all planes -------------------------------------------------------------------------- */
 
 static double turned(double degrees)
 {
@@ -44,7 +44,8 @@ static int expand_planes(const Luminaire *in, Plane *plane)
 {
     int count = 0;
     if (in->is_round) {
-        for (int i = 0; i < ROUND_PLANES; i++) plane[count++] = (Plane){i * 360.0 / ROUND_PLANES, 0};
+        for (int i = 0; i < ROUND_PLANES; i++)
+            plane[count++] = (Plane){i * 360.0 / ROUND_PLANES, 0};
         return count;
     }
     for (int i = 0; i < in->planes; i++) {
@@ -62,7 +63,7 @@ static int expand_planes(const Luminaire *in, Plane *plane)
     return count;
 }
 
-/* ---- flux ---------------------------------------------------------------------------------- */
+/* ---- flux -------------------------------------------------------------------------------- */
 
 /* Integral of I sin(gamma) between two gammas (radians), I linear between them. */
 static double ring_integral(double a, double b, double at_a, double at_b)
@@ -124,16 +125,16 @@ static bool note_flux(const Luminaire *in, const Plane *plane, int count, Import
     return true;
 }
 
-/* ---- the table ----------------------------------------------------------------------------- */
+/* ---- the table --------------------------------------------------------------------------- */
 
 static bool find_area(const Luminaire *in, const ImportOptions *options, double *area_m2,
                       Error *err)
 {
     double given = options->area_mm[0] * options->area_mm[1] * 1e-6;
     *area_m2 = given > 0 ? given : in->area_m2;
-    return *area_m2 > 0 ||
-           error_at(err, ERROR_INPUT, in->file, "",
-                    "states no luminous area, which luminance needs — give it with --area-mm W,H");
+    return *area_m2 > 0 || error_at(err, ERROR_INPUT, in->file, "",
+                                    "states no luminous area, which luminance needs — give it "
+                                    "with --area-mm W,H");
 }
 
 static double phi_of(const ImportOptions *options, double c_deg)
@@ -160,7 +161,8 @@ static void fill(const Luminaire *in, const Plane *plane, int count,
         }
 }
 
-bool luminaire_add(const Luminaire *in, const ImportOptions *options, ImportSet *set, Error *err)
+bool luminaire_add(const Luminaire *in, const ImportOptions *options, ImportSet *set,
+                   Error *err)
 {
     Arena *arena = set->arena;
     Plane *plane = ARENA_NEW(arena, Plane, 4 * (size_t)in->planes + ROUND_PLANES);
@@ -177,10 +179,12 @@ bool luminaire_add(const Luminaire *in, const ImportOptions *options, ImportSet 
                          .phi_deg = ARENA_NEW(arena, double, most),
                          .value = ARENA_NEW(arena, double, most)};
     fill(in, plane, count, options, area_m2, &table);
-    import_note(set, "%s: luminance is intensity over %.6g mm2 times the cosine; C-planes run %s "
-                "as the viewer sees them", path_name(in->file), area_m2 * 1e6,
+    import_note(set,
+                "%s: luminance is intensity over %.6g mm2 times the cosine; C-planes run %s as "
+                "the viewer sees them",
+                path_name(in->file), area_m2 * 1e6,
                 phi_of(options, 90) == turned(phi_of(options, 0) + 90) ? "counter-clockwise"
-                                                                         : "clockwise");
+                                                                       : "clockwise");
     if (in->name && !set->panel) set->panel = in->name;
     return import_add(set, &table, err);
 }

@@ -6,7 +6,7 @@
 
 #include "import/text_scan.h"
 
-/* ---- labels -------------------------------------------------------------------------------- */
+/* ---- labels ------------------------------------------------------------------------------ */
 
 static bool is_label_key(TextCell cell)
 {
@@ -39,7 +39,7 @@ bool text_blocks_label(TextBlocks *blocks, const TextCell *cell, int count)
     return true;
 }
 
-/* ---- rows ---------------------------------------------------------------------------------- */
+/* ---- rows -------------------------------------------------------------------------------- */
 
 bool text_blocks_begin(TextBlocks *blocks, const TextCell *cell, int count, char decimal,
                        int line, Error *err)
@@ -96,7 +96,7 @@ double *text_blocks_row(TextBlocks *blocks, int line, Error *err)
     return block->cell + (size_t)block->down++ * width;
 }
 
-/* ---- which angle runs down ----------------------------------------------------------------- */
+/* ---- which angle runs down --------------------------------------------------------------- */
 
 /* What the corner calls the first column and the first row: "Incl\Azim". */
 static void corner_names(const char *corner, ColumnName name[2])
@@ -160,7 +160,7 @@ static bool choose_layout(const TextBlocks *blocks, const ColumnName name[2], Ta
                     "or phi-down");
 }
 
-/* ---- to rows ------------------------------------------------------------------------------- */
+/* ---- to rows ----------------------------------------------------------------------------- */
 
 static bool same_grid(const TextBlocks *blocks, const TextBlock *block, Error *err)
 {

@@ -7,13 +7,12 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/file.h"
 #include "import/import.h"
 
 #define CELL_DIGITS_MAX 60
 #define LINES_MAX (INT_MAX / 2)
 
-/* ---- characters ---------------------------------------------------------------------------- */
+/* ---- characters -------------------------------------------------------------------------- */
 
 /* Writes one character as UTF-8; blanks and minus signs of typographers become plain ones. */
 static char *put_character(char *to, unsigned code)
@@ -93,7 +92,8 @@ static char *decode(const unsigned char *bytes, size_t size, TextEncoding encodi
             if (size - i < 2) break;
             i += utf16_character(bytes + i, size - i, encoding == ENCODING_UTF16BE, &code);
         } else {
-            int length = encoding == ENCODING_UTF8 ? utf8_sequence(bytes + i, size - i, &code) : 0;
+            int length =
+                encoding == ENCODING_UTF8 ? utf8_sequence(bytes + i, size - i, &code) : 0;
             if (!length) code = bytes[i]; /* Latin-1, or a broken byte of UTF-8 */
             i += length ? (size_t)length : 1;
         }
@@ -102,7 +102,7 @@ static char *decode(const unsigned char *bytes, size_t size, TextEncoding encodi
     return to;
 }
 
-/* ---- lines --------------------------------------------------------------------------------- */
+/* ---- lines ------------------------------------------------------------------------------- */
 
 static size_t count_character(const char *text, const char *end, char wanted)
 {
@@ -114,7 +114,8 @@ static size_t count_character(const char *text, const char *end, char wanted)
     return count;
 }
 
-static bool cut_lines(const char *text, const char *end, Arena *arena, TextFile *out, Error *err)
+static bool cut_lines(const char *text, const char *end, Arena *arena, TextFile *out,
+                      Error *err)
 {
     char   feed = memchr(text, '\n', (size_t)(end - text)) ? '\n' : '\r';
     size_t count = count_character(text, end, feed) + 1;
@@ -135,15 +136,15 @@ static bool cut_lines(const char *text, const char *end, Arena *arena, TextFile 
     return true;
 }
 
-bool text_decode(const char *file, const unsigned char *bytes, size_t size,
-                 TextEncoding encoding, Arena *arena, TextFile *out, Error *err)
+bool text_decode(const char *file, FileBytes bytes, TextEncoding encoding, Arena *arena,
+                 TextFile *out, Error *err)
 {
     size_t       mark;
-    TextEncoding found = find_encoding(bytes, size, &mark);
+    TextEncoding found = find_encoding(bytes.data, bytes.size, &mark);
     TextFile     text = {.file = file};
     if (encoding == ENCODING_AUTO) encoding = found;
-    char *decoded = ARENA_NEW(arena, char, 2 * (size - mark) + 1);
-    char *end = decode(bytes + mark, size - mark, encoding, decoded);
+    char *decoded = ARENA_NEW(arena, char, 2 * (bytes.size - mark) + 1);
+    char *end = decode(bytes.data + mark, bytes.size - mark, encoding, decoded);
     if (!cut_lines(decoded, end, arena, &text, err)) return false;
     *out = text;
     return true;
@@ -154,7 +155,7 @@ bool text_file_read(const char *file, TextEncoding encoding, Arena *arena, TextF
 {
     FileBytes bytes;
     return file_read(file, IMPORT_FILE_BYTES_MAX, arena, &bytes, err) &&
-           text_decode(file, bytes.data, bytes.size, encoding, arena, out, err);
+           text_decode(file, bytes, encoding, arena, out, err);
 }
 
 const char *text_place(int line_index, Arena *arena)
@@ -162,7 +163,7 @@ const char *text_place(int line_index, Arena *arena)
     return arena_format(arena, "line %d", line_index + 1);
 }
 
-/* ---- cells --------------------------------------------------------------------------------- */
+/* ---- cells ------------------------------------------------------------------------------- */
 
 static bool is_blank(char c)
 {
@@ -255,7 +256,7 @@ bool text_is_masked(TextCell cell)
     return false;
 }
 
-/* ---- which delimiter, which decimal sign --------------------------------------------------- */
+/* ---- which delimiter, which decimal sign ------------------------------------------------- */
 
 #define DIALECT_LINES 4000
 

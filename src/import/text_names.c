@@ -15,7 +15,7 @@ typedef struct Parts {
     double number;
 } Parts;
 
-/* ---- units --------------------------------------------------------------------------------- */
+/* ---- units ------------------------------------------------------------------------------- */
 
 typedef struct UnitName {
     const char *name; /* lower case without blanks, ^, brackets */
@@ -70,7 +70,7 @@ double value_unit_cd_m2(ValueUnit unit)
     return factors[unit];
 }
 
-/* ---- columns ------------------------------------------------------------------------------- */
+/* ---- columns ----------------------------------------------------------------------------- */
 
 static int digits_at(TextCell cell, int i)
 {
@@ -213,8 +213,9 @@ static Quantity named_quantity(const char *base)
 /* "400", "400 nm", "R_400nm", "brdf 550": a wavelength with words that may stand before it. */
 static bool is_wavelength(const Parts *parts)
 {
-    static const char *const before[] = {"", "w", "wl", "r", "f", "fr", "brdf", "bsdf", "lambda",
-                                         "brf", "refl", "reflectance"};
+    static const char *const before[] = {"",       "w",   "wl",   "r",
+                                         "f",      "fr",  "brdf", "bsdf",
+                                         "lambda", "brf", "refl", "reflectance"};
     if (!parts->has_number || parts->number < 100 || parts->number > 20000) return false;
     if (parts->unit[0] && strcasecmp(parts->unit, "nm") != 0) return false;
     for (size_t i = 0; i < COUNT(before); i++)
@@ -243,7 +244,7 @@ ColumnName column_name(TextCell cell)
     return name;
 }
 
-/* ---- azimuths ------------------------------------------------------------------------------ */
+/* ---- azimuths ---------------------------------------------------------------------------- */
 
 bool line_has(TextLine line, const char *words)
 {

@@ -33,7 +33,7 @@ static const char *place(const Scan *scan)
     return text_place(scan->at, scan->arena);
 }
 
-/* ---- cells --------------------------------------------------------------------------------- */
+/* ---- cells ------------------------------------------------------------------------------- */
 
 static bool is_declared_mask(const Scan *scan, TextCell cell, double value, bool is_number)
 {
@@ -85,7 +85,7 @@ static bool is_row(const Scan *scan, const TextCell *cell, int count)
     return numbers > 0;
 }
 
-/* ---- rows of a list ------------------------------------------------------------------------ */
+/* ---- rows of a list ---------------------------------------------------------------------- */
 
 static double *new_row(Scan *scan)
 {
@@ -93,7 +93,7 @@ static double *new_row(Scan *scan)
     if (table->rows == table->capacity) {
         int     capacity = table->capacity ? 2 * table->capacity : 1024;
         size_t  size = (size_t)table->columns * (size_t)table->rows;
-        double *cell = ARENA_NEW(scan->arena, double, (size_t)capacity * (size_t)table->columns);
+        double *cell = ARENA_NEW(scan->arena, double, (size_t)capacity *(size_t)table->columns);
         int    *line = ARENA_NEW(scan->arena, int, capacity);
         if (size) memcpy(cell, table->cell, sizeof *cell * size);
         if (size) memcpy(line, table->line, sizeof *line * (size_t)table->rows);
@@ -124,7 +124,7 @@ static bool add_list_row(Scan *scan)
     return true;
 }
 
-/* ---- headers ------------------------------------------------------------------------------- */
+/* ---- headers ----------------------------------------------------------------------------- */
 
 static bool add_column(Scan *scan, ColumnName name, const char *text, int from)
 {
@@ -180,12 +180,14 @@ static bool read_declared_columns(Scan *scan)
     int       count = text_cells(line, ',', cell);
     if (count < 0) return error_set(scan->err, ERROR_USAGE, "--columns has too many names");
     if (!has_direction(cell, count))
-        return error_set(scan->err, ERROR_USAGE, "--columns '%s' has no two angles, wanted theta "
-                         "and phi, or horizontal and vertical", scan->declared->columns);
+        return error_set(scan->err, ERROR_USAGE,
+                         "--columns '%s' has no two angles, wanted theta and phi, or "
+                         "horizontal and vertical",
+                         scan->declared->columns);
     return read_header(scan, cell, count, true);
 }
 
-/* ---- lines --------------------------------------------------------------------------------- */
+/* ---- lines ------------------------------------------------------------------------------- */
 
 /* How many characters begin a comment; 0: it is none. */
 static int comment_length(const Scan *scan, TextLine line)
@@ -277,7 +279,8 @@ static bool add_block_row(Scan *scan)
     bool    has_final = scan->count == wanted + 1 && !scan->cell[wanted].length;
     if (scan->count != wanted && !has_final)
         return error_at(scan->err, ERROR_INPUT, scan->text->file, place(scan),
-                        "has %d cells, wanted %d as the head of the matrix", scan->count, wanted);
+                        "has %d cells, wanted %d as the head of the matrix", scan->count,
+                        wanted);
     double *value = text_blocks_row(blocks, scan->at, scan->err);
     if (!value) return false;
     for (int i = 0; i < wanted; i++)
@@ -290,7 +293,8 @@ static bool add_block_row(Scan *scan)
 /* A row may also hold text, in columns that are not used. */
 static bool begins_row(const Scan *scan)
 {
-    int first = scan->has_header && scan->state != STATE_BLOCK ? scan->table->column[0].from : 0;
+    int first =
+        scan->has_header && scan->state != STATE_BLOCK ? scan->table->column[0].from : 0;
     return first < scan->count && is_number(scan, scan->cell[first]);
 }
 
@@ -361,7 +365,8 @@ bool text_scan(const char *file, const TextDeclaration *declared, Arena *arena, 
                  .arena = arena, .err = err, .said = said, .table = out,
                  .cell = ARENA_NEW(arena, TextCell, TEXT_CELLS_MAX)};
     scan.blocks = (TextBlocks){.text = &text, .declared = declared, .arena = arena};
-    if (!text_find_dialect(&text, declared->skip_lines, *arena, &scan.dialect, err)) return false;
+    if (!text_find_dialect(&text, declared->skip_lines, *arena, &scan.dialect, err))
+        return false;
     if (declared->columns && !read_declared_columns(&scan)) return false;
     for (scan.at = declared->skip_lines; scan.at < text.count; scan.at++)
         if (!read_line(&scan)) return false;

@@ -35,7 +35,7 @@ static const char *row_place(const TextReader *in, int row)
     return text_place(in->raw->line[row], in->set->arena);
 }
 
-/* ---- which channels ------------------------------------------------------------------------ */
+/* ---- which channels ---------------------------------------------------------------------- */
 
 static bool has(const TextReader *in, Quantity quantity)
 {
@@ -74,8 +74,8 @@ static bool emission_channels(TextReader *in, Channels *out)
         }
     }
     return error_at(in->err, ERROR_INPUT, in->file, "header line",
-                    "has not what makes a colour: X, Y, Z; or luminance with x, y or u', v'; or "
-                    "luminance alone — name the columns with --columns");
+                    "has not what makes a colour: X, Y, Z; or luminance with x, y or u', v'; "
+                    "or luminance alone — name the columns with --columns");
 }
 
 static float column_wavelength(const TextReader *in, int column)
@@ -95,7 +95,8 @@ static bool reflection_channels(TextReader *in, Channels *out)
         if (!(nm > 0) && !has(in, QUANTITY_WAVELENGTH))
             return error_at(in->err, ERROR_INPUT, in->file, "header line",
                             "does not say the wavelength of '%s' — say it with --wavelength NM "
-                            "or --role FILE=brdf:INCIDENCE:AZIMUTH:NM", in->raw->column[c].text);
+                            "or --role FILE=brdf:INCIDENCE:AZIMUTH:NM",
+                            in->raw->column[c].text);
         int at = out->count++;
         for (; at > 0 && out->nm[at - 1] > nm; at--) {
             out->nm[at] = out->nm[at - 1];
@@ -109,7 +110,7 @@ static bool reflection_channels(TextReader *in, Channels *out)
                     "has a column of wavelengths and more than one of reflection");
 }
 
-/* ---- values of a row ----------------------------------------------------------------------- */
+/* ---- values of a row --------------------------------------------------------------------- */
 
 static bool bad_chromaticity(const TextReader *in, int row, double x, double y)
 {
@@ -158,7 +159,8 @@ static void reflection_values(const TextReader *in, const Channels *channels, in
     double cosine = cos(radians_from_degrees(theta_deg));
     double scale = 1;
     if (in->unit == UNIT_FACTOR)
-        scale *= (in->declared->white_reflectance > 0 ? in->declared->white_reflectance : 1) / PI;
+        scale *=
+            (in->declared->white_reflectance > 0 ? in->declared->white_reflectance : 1) / PI;
     if (in->unit == UNIT_BRDF_COS) {
         *is_masked |= cosine < 1e-3;
         scale /= cosine < 1e-3 ? 1 : cosine;
@@ -170,7 +172,7 @@ static void reflection_values(const TextReader *in, const Channels *channels, in
     }
 }
 
-/* ---- one table ----------------------------------------------------------------------------- */
+/* ---- one table --------------------------------------------------------------------------- */
 
 typedef struct Filling {
     double *theta, *phi, *value, *masked_theta, *masked_phi;
@@ -224,7 +226,8 @@ static bool fill_table(TextReader *in, const Channels *channels, const Group *gr
                        ImportTable *table)
 {
     Arena  *arena = in->set->arena;
-    Filling to = {.theta = ARENA_NEW(arena, double, count), .phi = ARENA_NEW(arena, double, count),
+    Filling to = {.theta = ARENA_NEW(arena, double, count),
+                  .phi = ARENA_NEW(arena, double, count),
                   .masked_theta = ARENA_NEW(arena, double, count),
                   .masked_phi = ARENA_NEW(arena, double, count)};
     to.value = ARENA_NEW(arena, double, (size_t)count * (size_t)channels->count);
@@ -247,7 +250,7 @@ static bool fill_table(TextReader *in, const Channels *channels, const Group *gr
     return import_add(in->set, table, in->err);
 }
 
-/* ---- groups -------------------------------------------------------------------------------- */
+/* ---- groups ------------------------------------------------------------------------------ */
 
 static int by_key(const void *a, const void *b)
 {
@@ -303,9 +306,10 @@ static bool codes_role(TextReader *in, const Group *group, Role *role)
     if (is_white) role->source = IMPORT_WHITE;
     return lit <= 1 || is_white ||
            error_at(in->err, ERROR_INPUT, in->file, row_place(in, group->row),
-                    "the codes %g, %g, %g are a mixture, wanted one primary at a time, black or "
-                    "white — leave the file out (--role FILE=skip) if it is no table of one "
-                    "pattern", group->key[0], group->key[1], group->key[2]);
+                    "the codes %g, %g, %g are a mixture, wanted one primary at a time, black "
+                    "or white — leave the file out (--role FILE=skip) if it is no table of one "
+                    "pattern",
+                    group->key[0], group->key[1], group->key[2]);
 }
 
 static void light_of(const TextReader *in, const Group *group, ImportTable *table)
@@ -321,8 +325,8 @@ static void light_of(const TextReader *in, const Group *group, ImportTable *tabl
                                           : in->declared->light_azimuth_deg;
         azimuth = fmod(in->zero_deg + in->sense * raw + 720, 360);
     } else {
-        import_note(in->set, "reflection azimuths are taken to count from the mirror direction: "
-                    "no azimuth of the light is told (--light-azimuth)");
+        import_note(in->set, "reflection azimuths are taken to count from the mirror "
+                             "direction: no azimuth of the light is told (--light-azimuth)");
     }
     if (incidence < 0) azimuth += 180;
     table->is_any_light = !has_column && !in->role.has_incidence;

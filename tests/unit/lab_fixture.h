@@ -40,7 +40,8 @@ static inline void lab_write(Lab *lab, const char *name, const char *text)
 
 static inline void lab_declare(Lab *lab, const char *key, const char *value)
 {
-    if (!text_declare(&lab->request->text, key, value, &lab->err)) fail_msg("%s", lab->err.text);
+    if (!text_declare(&lab->request->text, key, value, &lab->err))
+        fail_msg("%s", lab->err.text);
 }
 
 static inline void lab_role(Lab *lab, const char *pattern, const char *role)
@@ -53,7 +54,7 @@ static inline bool lab_run(Lab *lab)
 {
     lab->set = import_set(&lab->arena);
     lab->err = (Error){.code = ERROR_NONE};
-    return import_run(lab->file, lab->count, lab->request, NULL, NULL, &lab->set, &lab->err);
+    return import_run(lab->file, lab->count, lab->request, &lab->set, &lab->err);
 }
 
 static inline void lab_import(Lab *lab)
@@ -89,7 +90,8 @@ static inline int lab_setup(void **state)
     const char *base = getenv("TMPDIR");
     lab->arena = arena_reserve((size_t)16 << 30);
     lab->request = ARENA_NEW(&lab->arena, ImportRequest, 1);
-    snprintf(lab->folder, sizeof lab->folder, "%s/parhelion_lab_XXXXXX", base ? base : P_tmpdir);
+    snprintf(lab->folder, sizeof lab->folder, "%s/parhelion_lab_XXXXXX",
+             base ? base : P_tmpdir);
     *state = lab;
     return mkdtemp(lab->folder) ? 0 : -1;
 }

@@ -3,7 +3,7 @@
 
 #include "base/units.h"
 
-/* ---- EULUMDAT ------------------------------------------------------------------------------ */
+/* ---- EULUMDAT ---------------------------------------------------------------------------- */
 
 #define HEAD_LINES                                                                             \
     "Maker\n2\n%d\n%d\n%g\n%d\n%g\nreport\nLamp 7\nno\nfile\ndate\n"                           \
@@ -48,8 +48,8 @@ static void a_lambertian_luminaire_is_equally_bright_everywhere(void **state)
     const ImportTable *white = import_ldt(lab, &plain);
     assert_int_equal(white->rows, 36 * 18); /* not the horizon */
     for (int i = 0; i < white->rows; i++) assert_close(white->value[3 * i + 1], 10000, 1e-6);
-    assert_true(lab_noted(lab, "the file states 1600 lm (lamps' flux times light output ratio): "
-                               "ratio 0.392"));
+    assert_true(lab_noted(lab, "the file states 1600 lm (lamps' flux times light output "
+                               "ratio): ratio 0.392"));
     assert_string_equal(lab->set.panel, "Lamp 7");
 }
 
@@ -143,7 +143,7 @@ static void a_cut_eulumdat_is_refused(void **state)
     no_prefix_is_taken(lab, "lamp.ldt", text, (size_t)(end - text) + 1);
 }
 
-/* ---- IES ----------------------------------------------------------------------------------- */
+/* ---- IES --------------------------------------------------------------------------------- */
 
 #define IES_HEAD "IESNA:LM-63-2002\n[TEST] 1\n[LUMINAIRE] Panel 60\nTILT=NONE\n"
 #define GAMMAS "0 30 60 90\n"
@@ -219,29 +219,32 @@ static void tilts_are_passed_over_and_light_behind_is_told(void **state)
 
 static void ies_is_refused_with_its_line(void **state)
 {
-    static const struct { const char *text, *message; } cases[] = {
-        {"IESNA91\n1 1 1\n", "lamp.ies: has no line TILT="},
-        {IES_HEAD "1 -1 1 4 1 2 2 1 1 0\n1 1 9\n",
-         "lamp.ies: line 6: is photometry of type B (2), wanted type C (1)"},
-        {IES_HEAD "1 -1 1 4 1 3 2 1 1 0\n1 1 9\n",
-         "lamp.ies: line 6: is photometry of type A (3), wanted type C (1)"},
-        {IES_HEAD "1 -1 1 4 1 1 2 0 0 0\n1 1 9\n" GAMMAS "0\n" PLANE_1,
-         "lamp.ies: states no luminous area, which luminance needs — give it with --area-mm W,H"},
-        {IES_HEAD "1 -1 1 4 2 1 2 1 1 0\n1 1 9\n" GAMMAS "0 45\n" PLANE_1 PLANE_1,
-         "lamp.ies: line 8: horizontal angles go from 0 to 45, wanted 0, 0 to 90, 0 to 180, 90 to "
-         "270 or 0 to 360 degrees"},
-        {IES_HEAD "1 -1 1 4 1 1 2 1 1 0\n1 1 9\n0 30 20 90\n0\n" PLANE_1,
-         "lamp.ies: line 7: the vertical angle 20 follows 30, wanted rising angles"},
-        {IES_HEAD "1 -1 1 99999 1 1 2 1 1 0\n",
-         "lamp.ies: line 5: the number of vertical angles is '99999', wanted a number from 2 to "
-         "4096"},
-        {IES_HEAD "1 -1 1 4.5 1 1 2 1 1 0\n",
-         "lamp.ies: line 5: the number of vertical angles is 4.5, wanted a whole number"},
-        {IES_HEAD "1 -1 1 4 1 1 2 1 1 0\n1 1 9\n" GAMMAS "0\n1 2 x\n",
-         "lamp.ies: line 9: an intensity is 'x', wanted a number from -1e+09 to 1e+09"},
-        {IES_HEAD "1 -1 1 2 1 1 2 1 1 0\n1 1 9\n90 180\n0\n0 5\n",
-         "lamp.ies: shines nothing within 90 degrees of gamma 0, wanted a luminaire that lights "
-         "in front of its face"}};
+    static const struct { const char *text, *message;
+    } cases[] = {{"IESNA91\n1 1 1\n", "lamp.ies: has no line TILT="},
+                 {IES_HEAD "1 -1 1 4 1 2 2 1 1 0\n1 1 9\n", "lamp.ies: line 6: is photometry "
+                                                            "of type B (2), wanted type C (1)"},
+                 {IES_HEAD "1 -1 1 4 1 3 2 1 1 0\n1 1 9\n", "lamp.ies: line 6: is photometry "
+                                                            "of type A (3), wanted type C (1)"},
+                 {IES_HEAD "1 -1 1 4 1 1 2 0 0 0\n1 1 9\n" GAMMAS "0\n" PLANE_1,
+                  "lamp.ies: states no luminous area, which luminance needs — give it with "
+                  "--area-mm W,H"},
+                 {IES_HEAD "1 -1 1 4 2 1 2 1 1 0\n1 1 9\n" GAMMAS "0 45\n" PLANE_1 PLANE_1,
+                  "lamp.ies: line 8: horizontal angles go from 0 to 45, wanted 0, 0 to 90, 0 "
+                  "to 180, 90 to 270 or 0 to 360 degrees"},
+                 {IES_HEAD "1 -1 1 4 1 1 2 1 1 0\n1 1 9\n0 30 20 90\n0\n" PLANE_1,
+                  "lamp.ies: line 7: the vertical angle 20 follows 30, wanted rising angles"},
+                 {IES_HEAD "1 -1 1 99999 1 1 2 1 1 0\n", "lamp.ies: line 5: the number of "
+                                                         "vertical angles is '99999', wanted a "
+                                                         "number from 2 to 4096"},
+                 {IES_HEAD "1 -1 1 4.5 1 1 2 1 1 0\n", "lamp.ies: line 5: the number of "
+                                                       "vertical angles is 4.5, wanted a whole "
+                                                       "number"},
+                 {IES_HEAD "1 -1 1 4 1 1 2 1 1 0\n1 1 9\n" GAMMAS "0\n1 2 x\n",
+                  "lamp.ies: line 9: an intensity is 'x', wanted a number from -1e+09 to "
+                  "1e+09"},
+                 {IES_HEAD "1 -1 1 2 1 1 2 1 1 0\n1 1 9\n90 180\n0\n0 5\n",
+                  "lamp.ies: shines nothing within 90 degrees of gamma 0, wanted a luminaire "
+                  "that lights in front of its face"}};
     Lab *lab = *state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         lab_write(lab, "lamp.ies", cases[i].text);
@@ -255,7 +258,7 @@ static void a_cut_ies_is_refused(void **state)
     no_prefix_is_taken(*state, "lamp.ies", text, sizeof text);
 }
 
-/* ---- real files ---------------------------------------------------------------------------- */
+/* ---- real files -------------------------------------------------------------------------- */
 
 static double ratio_noted(const Lab *lab)
 {
@@ -276,7 +279,7 @@ static double lumens_noted(const Lab *lab)
     return 0;
 }
 
-/* The flux that the tables add up to beside what the file states, its name or its lamp's line. */
+/* The flux that the tables add up to beside what the file, its name or its lamp's line says. */
 static void real_luminaires_add_up_to_their_lumens(void **state)
 {
     static const struct { const char *name; double ratio, lumens, within; } cases[] = {

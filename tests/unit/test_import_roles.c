@@ -6,21 +6,33 @@
 static void names_tell_the_pattern_or_the_light(void **state)
 {
     (void)state;
-    static const struct { const char *name; ImportSource source; double number; } cases[] = {
-        {"R_031", IMPORT_RED, 31}, {"red_255", IMPORT_RED, 255}, {"G127", IMPORT_GREEN, 127},
-        {"B-63 run 2", IMPORT_BLUE, 63}, {"K_000", IMPORT_BLACK, 0}, {"black", IMPORT_BLACK, 0},
-        {"White", IMPORT_WHITE, 0}, {"W_255", IMPORT_WHITE, 0}, {"panel7_Blue_16", IMPORT_BLUE, 16},
-        {"BLAU 31", IMPORT_BLUE, 31}, {"gr\xC3\xBCn_255", IMPORT_GREEN, 255},
-        {"red", IMPORT_RED, 255}, {"2024-05-17_rot_063", IMPORT_RED, 63},
-        {"BRDF_05", IMPORT_REFLECTION, 5}, {"i10_w550", IMPORT_REFLECTION, 10},
-        {"sample3 inc45.5", IMPORT_REFLECTION, 45.5}, {"brdf_i20", IMPORT_REFLECTION, 20},
-        {"AOI 30 deg", IMPORT_REFLECTION, 30}, {"bsdf_60_550nm", IMPORT_REFLECTION, 60},
-        {"BRDF_10_20250211", IMPORT_REFLECTION, 10}};
+    static const struct { const char *name; ImportSource source; double number;
+    } cases[] = {{"R_031", IMPORT_RED, 31},
+                 {"red_255", IMPORT_RED, 255},
+                 {"G127", IMPORT_GREEN, 127},
+                 {"B-63 run 2", IMPORT_BLUE, 63},
+                 {"K_000", IMPORT_BLACK, 0},
+                 {"black", IMPORT_BLACK, 0},
+                 {"White", IMPORT_WHITE, 0},
+                 {"W_255", IMPORT_WHITE, 0},
+                 {"panel7_Blue_16", IMPORT_BLUE, 16},
+                 {"BLAU 31", IMPORT_BLUE, 31},
+                 {"gr\xC3\xBCn_255", IMPORT_GREEN, 255},
+                 {"red", IMPORT_RED, 255},
+                 {"2024-05-17_rot_063", IMPORT_RED, 63},
+                 {"BRDF_05", IMPORT_REFLECTION, 5},
+                 {"i10_w550", IMPORT_REFLECTION, 10},
+                 {"sample3 inc45.5", IMPORT_REFLECTION, 45.5},
+                 {"brdf_i20", IMPORT_REFLECTION, 20},
+                 {"AOI 30 deg", IMPORT_REFLECTION, 30},
+                 {"bsdf_60_550nm", IMPORT_REFLECTION, 60},
+                 {"BRDF_10_20250211", IMPORT_REFLECTION, 10}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         bool mixed;
         Role role = role_from_words(cases[i].name, 255, &mixed);
         if (!role.is_told || mixed || role.source != cases[i].source)
-            fail_msg("'%s' is taken as %d", cases[i].name, role.is_told ? (int)role.source : -1);
+            fail_msg("'%s' is taken as %d", cases[i].name,
+                     role.is_told ? (int)role.source : -1);
         if (role.source <= IMPORT_BLUE) assert_near(role.level, cases[i].number, 0);
         if (role.source == IMPORT_REFLECTION)
             assert_near(role.incidence_deg, cases[i].number, 0);
@@ -45,11 +57,12 @@ static void names_tell_the_rest_too(void **state)
 static void what_a_name_does_not_tell_is_not_guessed(void **state)
 {
     (void)state;
-    static const struct { const char *name; bool is_ambiguous; } cases[] = {
-        {"measurement 12", false}, {"truth_emission", false}, {"R", false}, {"oled_phi0_90", false},
-        {"red_and_blue", true}, {"R2_G_255 b31", true}, {"BRDF_20-90", true}, {"R_1023", true},
-        {"white_128", true}, {"red_0", true}, {"brdf_20_i30", true}, {"black_12", true},
-        {"black_i20", true}};
+    static const struct { const char *name; bool is_ambiguous;
+    } cases[] = {{"measurement 12", false}, {"truth_emission", false}, {"R", false},
+                 {"oled_phi0_90", false},   {"red_and_blue", true},    {"R2_G_255 b31", true},
+                 {"BRDF_20-90", true},      {"R_1023", true},          {"white_128", true},
+                 {"red_0", true},           {"brdf_20_i30", true},     {"black_12", true},
+                 {"black_i20", true}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         bool mixed;
         Role role = role_from_words(cases[i].name, 255, &mixed);
@@ -103,8 +116,8 @@ static void words_and_name_must_not_contradict(void **state)
 {
     Lab *lab = *state;
     lab_write(lab, "red_255.csv", "Sample: blue 127\n" TABLE);
-    lab_refused(lab, "red_255.csv: line 1: is blue 127 by its contents and red 255 by its name — "
-                     "say which with --role red_255.csv=...");
+    lab_refused(lab, "red_255.csv: line 1: is blue 127 by its contents and red 255 by its name "
+                     "— say which with --role red_255.csv=...");
     lab_role(lab, "red_*", "white");
     lab_import(lab);
     lab_table(lab, IMPORT_WHITE, 255);
@@ -114,8 +127,9 @@ static void a_file_that_does_not_tell_is_named_with_the_option(void **state)
 {
     Lab *lab = *state;
     lab_write(lab, "m1.csv", TABLE);
-    lab_refused(lab, "m1.csv: does not tell, by its contents or its name, which pattern it shows "
-                     "— say it with --role m1.csv=red:255 (or green, blue, black, white)");
+    lab_refused(lab, "m1.csv: does not tell, by its contents or its name, which pattern it "
+                     "shows — say it with --role m1.csv=red:255 (or green, blue, black, "
+                     "white)");
     lab_write(lab, "m1.csv", "theta,phi,550nm\n0,0,1\n10,0,1\n20,0,1\n");
     lab_refused(lab, "m1.csv: does not tell, by its contents or its name, the light's angle of "
                      "incidence — say it with --role m1.csv=brdf:INCIDENCE");
@@ -124,8 +138,8 @@ static void a_file_that_does_not_tell_is_named_with_the_option(void **state)
     lab_write(lab, "BRDF_20-90.csv", "theta,phi,550nm\n0,0,1\n10,0,1\n20,0,1\n");
     lab->file[0] = lab->file[1];
     lab->count = 1;
-    lab_refused(lab, "BRDF_20-90.csv: tells more than one angle of incidence — say it with --role "
-                     "BRDF_20-90.csv=brdf:INCIDENCE");
+    lab_refused(lab, "BRDF_20-90.csv: tells more than one angle of incidence — say it with "
+                     "--role BRDF_20-90.csv=brdf:INCIDENCE");
 }
 
 static void levels_scale_from_the_panels_highest_code(void **state)

@@ -76,7 +76,8 @@ static void any_float_survives_the_text(void **state)
         uint32_t bits = (random >> 2) % 0x10000000u + 0x38000000u; /* 3e-5 to 2e33 */
         memcpy(&value[i], &bits, sizeof bits);
         value[i] = fminf(value[i], 1e25f);
-        at += (size_t)sprintf(text + at, "%d,%d,%.9g\n", 1 + i / 100, i % 100, (double)value[i]);
+        at +=
+            (size_t)sprintf(text + at, "%d,%d,%.9g\n", 1 + i / 100, i % 100, (double)value[i]);
     }
     lab_write(lab, "white.csv", text);
     lab_import(lab);
@@ -145,8 +146,8 @@ static void what_a_set_needs_is_said(void **state)
                      "white");
     lab->count = 0;
     lab_write(lab, "white_x.csv", "theta,phi,X\n0,0,1\n9,0,1\n8,0,1\n");
-    lab_refused(lab, "white_x.csv: is X of white 255, and no file has Y — give the missing file, "
-                     "or its role as --role FILE=white:255:Y");
+    lab_refused(lab, "white_x.csv: is X of white 255, and no file has Y — give the missing "
+                     "file, or its role as --role FILE=white:255:Y");
     lab->count = 0;
     lab_write(lab, "i10.csv", BRDF);
     lab_write(lab, "i20.csv", "theta,phi,450nm\n0,0,1\n30,0,3\n30,90,5\n");
@@ -156,29 +157,32 @@ static void what_a_set_needs_is_said(void **state)
     lab_write(lab, "i10_a0.csv", BRDF);
     lab_write(lab, "i20_a90.csv", BRDF);
     lab_refused(lab, "no file has light from incidence 10, azimuth 90 degrees; a material that "
-                     "depends on the azimuth is wanted at every incidence (2) and azimuth (2) of "
-                     "the light — or say --isotropic when the azimuth makes no difference");
+                     "depends on the azimuth is wanted at every incidence (2) and azimuth (2) "
+                     "of the light — or say --isotropic when the azimuth makes no difference");
     lab->count = 0;
     lab_declare(lab, "unit", "signal");
     lab_write(lab, "i10.csv", BRDF);
-    lab_refused(lab, "i10.csv: holds signals, and no white reference was measured at incidence 10 "
-                     "with the same channels — name one with --role FILE=reference:10, or one for "
-                     "all with --role FILE=reference");
+    lab_refused(lab, "i10.csv: holds signals, and no white reference was measured at incidence "
+                     "10 with the same channels — name one with --role FILE=reference:10, or "
+                     "one for all with --role FILE=reference");
     lab_write(lab, "ref.csv", BRDF);
     lab_role(lab, "ref.csv", "reference:30");
-    lab_refused(lab, "ref.csv: is a reference file, and no table has its channels and its light");
+    lab_refused(lab, "ref.csv: is a reference file, and no table has its channels and its "
+                     "light");
 }
 
 static void wavelengths_that_nobody_sees_are_left_out(void **state)
 {
     Lab *lab = *state;
-    lab_write(lab, "i10.csv", "theta,phi,300nm,550nm,1064nm\n0,0,1,2,3\n30,0,1,2,3\n9,9,1,2,3\n");
+    lab_write(lab, "i10.csv",
+              "theta,phi,300nm,550nm,1064nm\n0,0,1,2,3\n30,0,1,2,3\n9,9,1,2,3\n");
     lab_import(lab);
     assert_int_equal(lab_table(lab, IMPORT_REFLECTION, 10)->channels, 1);
     assert_near(lab_value(lab_table(lab, IMPORT_REFLECTION, 10), 30, 0, 0), 2, 0);
     assert_true(lab_noted(lab, "2 of 3 wavelengths lie outside 360 to 830 nm"));
     lab_write(lab, "i10.csv", "theta,phi,1064nm\n0,0,3\n30,0,3\n9,9,3\n");
-    lab_refused(lab, "i10.csv: has wavelengths from 1064 to 1064 nm, wanted some of 360 to 830 nm");
+    lab_refused(lab, "i10.csv: has wavelengths from 1064 to 1064 nm, wanted some of 360 to 830 "
+                     "nm");
 }
 
 static void a_declared_symmetry_fills_what_was_not_measured(void **state)
@@ -233,8 +237,8 @@ static void white_is_compared_with_the_sum_of_the_primaries(void **state)
                                               "40,0,%g\n", level[i], level[i],
                                               level[i] + 6 * (i == 4)));
     lab_import(lab);
-    assert_true(lab_noted(lab, "white is -1.64% of red + green + blue - 2 black on the normal and "
-                               "+8.20% at theta 40, phi 0"));
+    assert_true(lab_noted(lab, "white is -1.64% of red + green + blue - 2 black on the normal "
+                               "and +8.20% at theta 40, phi 0"));
     assert_true(lab_noted(lab, "the white table is not used"));
 }
 
@@ -261,7 +265,7 @@ static void nothing_half_written_stays(void **state)
     assert_true(file_exists(manifest_of(lab)));
 }
 
-/* ---- the declaration file ------------------------------------------------------------------ */
+/* ---- the declaration file ---------------------------------------------------------------- */
 
 static bool read_layout(Lab *lab, const char *text)
 {
@@ -319,7 +323,7 @@ static void a_declaration_files_mistakes_are_named(void **state)
     }
 }
 
-/* ---- spectra ------------------------------------------------------------------------------- */
+/* ---- spectra ----------------------------------------------------------------------------- */
 
 static void spectra_go_into_the_set(void **state)
 {
@@ -337,15 +341,16 @@ static void spectra_go_into_the_set(void **state)
     assert_near(set->spectrum[0][620 - SPECTRAL_FIRST_NM], 0.25, 1e-6);
     assert_near(set->spectrum[2][400 - SPECTRAL_FIRST_NM], 0.5, 1e-6);
     static const char *const wrong[][2] = {
-        {"nm,red,green\n400,1,2\n500,1,2\n",
-         "s.csv: header line: has no columns of wavelength, red, green and blue"},
-        {"nm,red,green,blue\n400,1,2,3\n390,1,2,3\n",
-         "s.csv: line 3: wavelength 390 follows 400, wanted rising wavelengths"},
-        {"nm,red,green,blue\n400,1,2,3\n500,1,2\n",
-         "s.csv: line 3: has not the 4 cells of the header"},
-        {"nm,red,green,blue\n400,1,2,3\n500,1,2,x\n", "s.csv: line 3: holds 'x', wanted a number"},
-        {"nm,red,green,blue\n.4,1,2,3\n.5,1,2,3\n",
-         "s.csv: line 2: has a wavelength of 0.4, wanted nanometres"},
+        {"nm,red,green\n400,1,2\n500,1,2\n", "s.csv: header line: has no columns of "
+                                             "wavelength, red, green and blue"},
+        {"nm,red,green,blue\n400,1,2,3\n390,1,2,3\n", "s.csv: line 3: wavelength 390 follows "
+                                                      "400, wanted rising wavelengths"},
+        {"nm,red,green,blue\n400,1,2,3\n500,1,2\n", "s.csv: line 3: has not the 4 cells of the "
+                                                    "header"},
+        {"nm,red,green,blue\n400,1,2,3\n500,1,2,x\n", "s.csv: line 3: holds 'x', wanted a "
+                                                      "number"},
+        {"nm,red,green,blue\n.4,1,2,3\n.5,1,2,3\n", "s.csv: line 2: has a wavelength of 0.4, "
+                                                    "wanted nanometres"},
         {"nm,red,green,blue\n400,1,2,3\n", "s.csv: has 1 wavelengths, wanted more"}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         lab_write(lab, "s.csv", wrong[i][0]);
@@ -354,7 +359,7 @@ static void spectra_go_into_the_set(void **state)
     }
 }
 
-/* ---- documentation ------------------------------------------------------------------------- */
+/* ---- documentation ----------------------------------------------------------------------- */
 
 static void the_readme_names_every_key_and_format(void **state)
 {

@@ -20,7 +20,7 @@ static void add_files(Lab *lab, const char *pattern)
     globfree(&found);
 }
 
-/* ---- set-a: lists in this project's own convention ----------------------------------------- */
+/* ---- set-a: lists in this project's own convention --------------------------------------- */
 
 /* Every row of the source as it stands, to the float. */
 static void compare_list(const ImportTable *table)
@@ -72,7 +72,7 @@ static void the_truth_files_are_no_tables_and_are_named(void **state)
     assert_non_null(strstr(lab->err.text, "--role FILE=skip"));
 }
 
-/* ---- set-b: matrices, Latin-1, decimal comma, clockwise from 12 o'clock -------------------- */
+/* ---- set-b: matrices, Latin-1, decimal comma, clockwise from 12 o'clock ------------------ */
 
 /* The matrix of a component: its cells by row and column; "---" as NAN. */
 static void read_matrix(const char *text, char component, double cell[23][36])
@@ -168,7 +168,7 @@ static void both_sets_show_the_same_display(void **state)
     assert_true(sum < 0.02 * count); /* hot pixels */
 }
 
-/* ---- others -------------------------------------------------------------------------------- */
+/* ---- others ------------------------------------------------------------------------------ */
 
 static void a_viewing_angle_table_needs_but_its_role(void **state)
 {

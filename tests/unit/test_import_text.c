@@ -2,7 +2,8 @@
 #include "lab_fixture.h"
 
 /* White at four directions, a list as this project writes it. */
-#define WHITE "theta,phi,X,Y,Z\n0,0,95,100,109\n30,0,85,90,98\n30,90,75,80,87\n30,180,65,70,76\n"
+#define WHITE                                                                                  \
+    "theta,phi,X,Y,Z\n0,0,95,100,109\n30,0,85,90,98\n30,90,75,80,87\n30,180,65,70,76\n"
 
 static void check_white(const Lab *lab)
 {
@@ -21,7 +22,7 @@ static void import_white(Lab *lab, const char *text)
     lab_import(lab);
 }
 
-/* ---- how numbers are written --------------------------------------------------------------- */
+/* ---- how numbers are written ------------------------------------------------------------- */
 
 static void delimiters_and_decimal_signs_are_found(void **state)
 {
@@ -39,7 +40,8 @@ static void delimiters_and_decimal_signs_are_found(void **state)
         "30, 180, 65, 70, 76\n",
         "\"theta\",\"phi\",\"X\",\"Y\",\"Z\"\n\"0\",\"0\",\"9.5e1\",\"1E+02\",\"109\"\n"
         "30,0,85,90,98\n30,90,75,80,87\n30,180,65,70,76\n",
-        "theta;phi;X;Y;Z;\n0;0;95;100;109;\n30;0;85;90;98;\n30;90;75;80;87;\n30;180;65;70;76;\n",
+        "theta;phi;X;Y;Z;\n0;0;95;100;109;\n30;0;85;90;98;\n30;90;75;80;87;\n30;180;65;70;76;"
+        "\n",
     };
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         import_white(*state, texts[i]);
@@ -88,7 +90,7 @@ static void comments_and_lines_before_the_header_are_passed_over(void **state)
     check_white(lab);
 }
 
-/* ---- columns ------------------------------------------------------------------------------- */
+/* ---- columns ----------------------------------------------------------------------------- */
 
 static void columns_stand_in_any_order_and_others_are_left(void **state)
 {
@@ -99,7 +101,8 @@ static void columns_stand_in_any_order_and_others_are_left(void **state)
     check_white(lab);
     assert_true(lab_noted(lab, "2 columns with other names are not used"));
     lab_declare(lab, "columns", "theta,phi,-,X,Y,Z");
-    import_white(lab, "0,0,7,95,100,109\n30,0,7,85,90,98\n30,90,7,75,80,87\n30,180,7,65,70,76\n");
+    import_white(lab, "0,0,7,95,100,109\n30,0,7,85,90,98\n30,90,7,75,80,87\n30,180,7,65,70,"
+                      "76\n");
     check_white(lab);
 }
 
@@ -164,7 +167,7 @@ static void units_of_luminance_become_candela_a_square_metre(void **state)
     assert_close(lab_value(lab_table(lab, IMPORT_WHITE, 255), 0, 0, 1), 34.262590996, 1e-9);
 }
 
-/* ---- angles -------------------------------------------------------------------------------- */
+/* ---- angles ------------------------------------------------------------------------------ */
 
 static void azimuths_are_turned_to_the_viewers_right(void **state)
 {
@@ -191,7 +194,8 @@ static void a_file_says_its_own_azimuths_and_units(void **state)
     import_white(lab, "[Conoscope export]\nPanel;Type 7\nInstrument;Cone 88\n"
                       "Azimuth;0 = 12 o'clock; clockwise\nUnit;fL\n\n"
                       "theta;phi;X;Y;Z\n0;0;1;2;3\n40;30;4;5;6\n40;60;7;8;9\n");
-    assert_close(lab_value(lab_table(lab, IMPORT_WHITE, 255), 40, 60, 1), 5 * 3.4262590996, 1e-9);
+    assert_close(lab_value(lab_table(lab, IMPORT_WHITE, 255), 40, 60, 1), 5 * 3.4262590996,
+                 1e-9);
     assert_string_equal(lab->set.panel, "Type 7");
     assert_string_equal(lab->set.instrument, "Cone 88");
     assert_false(lab_noted(lab, "azimuth 0 is taken"));
@@ -236,7 +240,7 @@ static void horizontal_and_vertical_angles_become_theta_and_phi(void **state)
     }
 }
 
-/* ---- matrices ------------------------------------------------------------------------------ */
+/* ---- matrices ---------------------------------------------------------------------------- */
 
 static void matrices_read_down_and_across(void **state)
 {
@@ -283,7 +287,7 @@ static void one_file_a_component_is_joined(void **state)
     assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 30, 240, 2), 4, 0);
 }
 
-/* ---- what was not measured ----------------------------------------------------------------- */
+/* ---- what was not measured --------------------------------------------------------------- */
 
 static void marks_are_left_out_and_counted(void **state)
 {
@@ -312,12 +316,12 @@ static void a_direction_that_stands_twice_becomes_the_mean(void **state)
     import_white(lab, "theta,phi,X,Y,Z\n0,0,1,2,3\n0,90,2,3,4\n30,0,10,20,30\n30,360,12,24,36\n"
                       "30,90,5,6,7\n");
     const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
-    assert_int_equal(white->rows, 4); /* the pole's rows stay: the set takes their mean itself */
+    assert_int_equal(white->rows, 4); /* the pole's rows stay: the set takes their mean */
     assert_near(lab_value(white, 30, 0, 1), 22, 0);
     assert_true(lab_noted(lab, "1 directions of 1 tables stood more than once"));
 }
 
-/* ---- reflection ---------------------------------------------------------------------------- */
+/* ---- reflection -------------------------------------------------------------------------- */
 
 #define BRDF "theta,phi,450nm,550nm\n0,0,1,2\n30,0,3,4\n30,90,5,6\n60,180,7,8\n"
 
@@ -386,7 +390,8 @@ static void scatter_units_become_brdf(void **state)
         lab_declare(lab, "white_reflectance", "0.98");
         lab_write(lab, "BRDF_20.csv", "theta,phi,550nm\n0,0,1\n30,0,1\n60,0,0.5\n");
         lab_import(lab);
-        assert_close(lab_value(lab_table(lab, IMPORT_REFLECTION, 20), 60, 0, 0), wanted[i], 1e-12);
+        assert_close(lab_value(lab_table(lab, IMPORT_REFLECTION, 20), 60, 0, 0), wanted[i],
+                     1e-12);
     }
 }
 
