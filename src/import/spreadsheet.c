@@ -32,5 +32,5 @@ static bool refuse_spreadsheet(const char *file, const ImportOptions *options, I
 }
 
 const Importer importer_spreadsheet = {
-    "spreadsheet", "workbooks (.xls, .xlsx): refused, with what to give instead", is_spreadsheet,
-    refuse_spreadsheet};
+    "spreadsheet", "workbooks (.xls, .xlsx): refused, with what to give instead",
+    is_spreadsheet, refuse_spreadsheet};
