@@ -360,7 +360,7 @@ void vertex_choose(VertexJudge *judge, int base_level, Arena scratch, VertexChoi
         drop_least(&c, share, scratch);
         uint32_t now = mend(&c, scratch);
         bool better = now < best;
-        if (now > best - best / 25) share *= 0.5f;
+        if (now >= best - best / 25) share *= 0.5f;
         if (!better) continue;
         keep(&c, out);
         best = now;
