@@ -6,7 +6,7 @@
 #include "cli/panel_commands.h"
 #include "import/import_request.h"
 
-#define ARENA_BYTES ((size_t)256 << 30) /* address space; pages cost nothing until touched */
+#define ARENA_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
 static void show_progress(void *context, int done)
@@ -227,8 +227,8 @@ bool cmd_panel_import(int argc, char **argv, Error *err)
     const CliCommand command = {"panel import",
         "the files that laboratories have as one measurement set",
         "FILE... -o MANIFEST.json [options]",
-        "parhelion panel import lab/*.csv --azimuth-zero top --azimuth-sense cw "
-        "-o measured/MANIFEST.json", options, count, 1, -1};
+        "parhelion panel import ips_cluster/emission/*.csv ips_cluster/brdf/*.csv "
+        "-o again/MANIFEST.json", options, count, 1, -1};
     if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
     if (cli.help_shown) {
         print_formats();

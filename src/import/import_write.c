@@ -251,6 +251,17 @@ static json_t *text_value(const char *text, Arena *arena)
     return json_string(plain);
 }
 
+/* What the files say; else the name of the folder they come from, or of the only file. */
+static const char *panel_name(Output *out)
+{
+    const char *file = out->set->table[0].file, *name = path_name(file);
+    if (out->set->panel) return out->set->panel;
+    if (out->set->count == 1 || name - file < 2) return name;
+    char *folder = arena_string(&out->scratch, file, (size_t)(name - file) - 1);
+    name = path_name(folder);
+    return *name && *name != '.' ? name : path_name(file);
+}
+
 static json_t *manifest_object(Output *out)
 {
     const ImportSet *set = out->set;
@@ -258,9 +269,7 @@ static json_t *manifest_object(Output *out)
     for (int i = 0; i < set->note_count; i++)
         note = arena_format(&out->scratch, "%s%s%s", note, i ? "; " : "", set->note[i]);
     json_t *root = json_object(), *emission = emission_object(out);
-    json_object_set_new(root, "panel",
-                        text_value(set->panel ? set->panel : path_name(set->table[0].file),
-                                   &out->scratch));
+    json_object_set_new(root, "panel", text_value(panel_name(out), &out->scratch));
     if (set->instrument)
         json_object_set_new(root, "instrument", text_value(set->instrument, &out->scratch));
     if (*note) json_object_set_new(root, "note", text_value(note, &out->scratch));

@@ -10,6 +10,7 @@
 #include "import/import.h"
 
 #define CELL_DIGITS_MAX 60
+#define DEGREE_SIGN "\xC2\xB0"
 #define LINES_MAX (INT_MAX / 2)
 
 /* ---- characters -------------------------------------------------------------------------- */
@@ -223,6 +224,8 @@ bool text_number(TextCell cell, char decimal, double *out)
 {
     char plain[CELL_DIGITS_MAX + 1], *after;
     bool has_digit = false;
+    if (cell.length > 2 && !memcmp(cell.text + cell.length - 2, DEGREE_SIGN, 2))
+        cell.length -= 2;
     if (cell.length < 1 || cell.length > CELL_DIGITS_MAX) return false;
     for (int i = 0; i < cell.length; i++) {
         char c = cell.text[i];

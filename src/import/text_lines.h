@@ -58,7 +58,7 @@ typedef struct TextCell {
  * counts. Returns the number of cells, or -1 when there are too many. */
 int text_cells(TextLine line, char delimiter, TextCell *cell);
 
-/* A decimal number and nothing else, with this decimal sign. */
+/* A decimal number and nothing else (but a degree sign), with this decimal sign. */
 bool text_number(TextCell cell, char decimal, double *out);
 
 /* Marks of a value that was not measured: nothing, "---", "NaN", "n/a", "***". */

@@ -122,7 +122,7 @@ static Parts name_parts(TextCell cell)
     return parts;
 }
 
-static AngleUnit angle_unit(const char *unit)
+AngleUnit angle_unit(const char *unit)
 {
     if (!strncasecmp(unit, "deg", 3) || !strcmp(unit, "\xC2\xB0")) return ANGLE_DEGREES;
     return !strncasecmp(unit, "rad", 3) ? ANGLE_RADIANS : ANGLE_AUTO;
@@ -157,9 +157,10 @@ static const QuantityName loose_names[] = {
     {"inclin", QUANTITY_THETA}, {"polar", QUANTITY_THETA}, {"polarangle", QUANTITY_THETA},
     {"zenith", QUANTITY_THETA}, {"\xCE\xB8", QUANTITY_THETA}, {"thetao", QUANTITY_THETA},
     {"thetaout", QUANTITY_THETA}, {"thetas", QUANTITY_THETA}, {"thetar", QUANTITY_THETA},
-    {"viewz", QUANTITY_THETA}, {"viewtheta", QUANTITY_THETA}, {"thetaview", QUANTITY_THETA},
+    {"neigung", QUANTITY_THETA},
+    {"inclinaison", QUANTITY_THETA}, {"viewz", QUANTITY_THETA}, {"viewtheta", QUANTITY_THETA}, {"thetaview", QUANTITY_THETA},
     {"phi", QUANTITY_PHI}, {"azimuth", QUANTITY_PHI}, {"azim", QUANTITY_PHI},
-    {"azi", QUANTITY_PHI}, {"az", QUANTITY_PHI}, {"\xCF\x86", QUANTITY_PHI},
+    {"azimut", QUANTITY_PHI}, {"azi", QUANTITY_PHI}, {"az", QUANTITY_PHI}, {"\xCF\x86", QUANTITY_PHI},
     {"\xCF\x95", QUANTITY_PHI}, {"phio", QUANTITY_PHI}, {"phiout", QUANTITY_PHI},
     {"phis", QUANTITY_PHI}, {"phir", QUANTITY_PHI}, {"viewa", QUANTITY_PHI},
     {"viewphi", QUANTITY_PHI}, {"phiview", QUANTITY_PHI}, {"azimuthangle", QUANTITY_PHI},

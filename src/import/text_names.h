@@ -42,6 +42,9 @@ ColumnName column_name(TextCell cell);
 ValueUnit value_unit(TextCell cell);
 const char *value_unit_name(ValueUnit unit);
 
+/* "deg", "degrees", "rad", the degree sign; ANGLE_AUTO when it is none. */
+AngleUnit angle_unit(const char *unit);
+
 /* Into cd m^-2; 0 for what is no luminance. */
 double value_unit_cd_m2(ValueUnit unit);
 

@@ -290,6 +290,27 @@ static bool add_block_row(Scan *scan)
     return true;
 }
 
+/* A line of units under the header: "deg;deg;fL;fL;fL". False: it is none. */
+static bool read_units(Scan *scan)
+{
+    int known = 0, filled = 0;
+    for (int i = 0; i < scan->count; i++) {
+        const char *text = arena_string(scan->arena, scan->cell[i].text,
+                                        (size_t)scan->cell[i].length);
+        known += angle_unit(text) != ANGLE_AUTO || value_unit(scan->cell[i]) != UNIT_AUTO;
+        filled += *text != 0;
+    }
+    if (scan->count != scan->blocks.header_cells || !known || 2 * known < filled) return false;
+    for (int c = 0; c < scan->table->columns; c++) {
+        RawColumn  *column = &scan->table->column[c];
+        TextCell    cell = scan->cell[column->from];
+        const char *text = arena_string(scan->arena, cell.text, (size_t)cell.length);
+        if (column->name.angle == ANGLE_AUTO) column->name.angle = angle_unit(text);
+        if (column->name.unit == UNIT_AUTO) column->name.unit = value_unit(cell);
+    }
+    return true;
+}
+
 /* A row may also hold text, in columns that are not used. */
 static bool begins_row(const Scan *scan)
 {
@@ -312,6 +333,7 @@ static bool read_text_line(Scan *scan, TextLine line)
         if (begins_with_number) return add_block_row(scan);
         scan->state = STATE_BEFORE;
     }
+    if (scan->state == STATE_BEFORE && scan->has_header && read_units(scan)) return true;
     bool is_open = scan->state == STATE_BEFORE && !scan->declared->columns;
     if (is_open && is_matrix_head(scan) && scan->declared->layout != LAYOUT_LIST)
         return begin_block(scan);

@@ -162,6 +162,11 @@ static void units_of_luminance_become_candela_a_square_metre(void **state)
         assert_close(lab_value(lab_table(lab, IMPORT_WHITE, 255), 0, 0, 1),
                      10 * cases[i].factor, 1e-9);
     }
+    import_white(lab, "theta;phi;L;u';v'\ndeg;deg;fL;;\n0;0;10;.2;.5\n5;0;9;.2;.5\n"
+                      "9;0;8;.2;.5\n");
+    assert_close(lab_value(lab_table(lab, IMPORT_WHITE, 255), 0, 0, 1), 34.262590996, 1e-9);
+    import_white(lab, "[fL]\nNeigung;Azimut;L\n0\xC2\xB0;0\xC2\xB0;10\n5\xC2\xB0;0;9\n9;0;8\n");
+    assert_close(lab_value(lab_table(lab, IMPORT_WHITE, 255), 0, 0, 1), 34.262590996, 1e-9);
     lab_declare(lab, "unit", "fL");
     import_white(lab, "theta,phi,L\n0,0,10\n5,0,9\n10,0,8\n");
     assert_close(lab_value(lab_table(lab, IMPORT_WHITE, 255), 0, 0, 1), 34.262590996, 1e-9);
