@@ -41,7 +41,7 @@ Theme theme_dark(void)
         .accent = ink_hex(0xf0b35a), .is_dark = true};
 }
 
-/* ---- letters --------------------------------------------------------------------------- */
+/* ---- letters ---------------------------------------------------------------------------- */
 
 static void set_face(Canvas *canvas, double size, bool is_bold)
 {
@@ -125,7 +125,7 @@ double canvas_paragraph(Canvas *canvas, Box box, Letters letters, const char *te
     return y;
 }
 
-/* ---- lines and areas ------------------------------------------------------------------- */
+/* ---- lines and areas -------------------------------------------------------------------- */
 
 void canvas_stroke(Canvas *canvas, Stroke stroke)
 {

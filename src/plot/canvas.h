@@ -36,7 +36,7 @@ typedef struct Box {
     double x, y, w, h;
 } Box;
 
-/* ---- letters --------------------------------------------------------------------------- */
+/* ---- letters ---------------------------------------------------------------------------- */
 
 #define SIZE_HEADING 20.0
 #define SIZE_TITLE 13.0
@@ -64,7 +64,7 @@ const char *canvas_fit_text(Canvas *canvas, double size, bool is_bold, double wi
 /* Lines of text within `width`, broken at blanks; returns the y below the last. */
 double canvas_paragraph(Canvas *canvas, Box box, Letters letters, const char *text);
 
-/* ---- lines and areas ------------------------------------------------------------------- */
+/* ---- lines and areas -------------------------------------------------------------------- */
 
 typedef enum Dash { DASH_NONE, DASH_LONG, DASH_SHORT, DASH_DOT } Dash;
 

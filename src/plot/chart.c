@@ -237,7 +237,8 @@ void chart_close(Chart *chart)
         const CurveName *name = &chart->name[i];
         double from = fmin(name->x, right) + 2;
         cairo_move_to(chart->canvas->cr, from, name->y);
-        cairo_curve_to(chart->canvas->cr, from + 5, name->y, right + 2, at[i], right + 8, at[i]);
+        cairo_curve_to(chart->canvas->cr, from + 5, name->y, right + 2, at[i], right + 8,
+                       at[i]);
         canvas_stroke(chart->canvas, (Stroke){ink_alpha(name->ink, 0.6), 0.7, DASH_NONE});
         canvas_text(chart->canvas, right + 10, at[i],
                     (Letters){.size = SIZE_TICK, .ink = name->ink, .down = 0.5}, name->text);

@@ -8,7 +8,7 @@
 #include "plot/figure.h"
 #include "plot/ticks.h"
 
-/* ---- sections ------------------------------------------------------------------------------ */
+/* ---- sections --------------------------------------------------------------------------- */
 
 #define SECTION_POINTS 353 /* -88 to 88 degrees, every half */
 
@@ -57,11 +57,13 @@ static const char *half_angles_text(const Subject *s, double phi)
     double high = half_angle_deg(s, PATTERN_WHITE, phi, 1);
     double cone = degrees_from_radians(s->cone);
     if (isnan(low) && isnan(high))
-        return arena_format(s->arena, "white keeps above half its luminance within ±%.3g°", cone);
+        return arena_format(s->arena, "white keeps above half its luminance within ±%.3g°",
+                            cone);
     if (isnan(low) || isnan(high))
         return arena_format(s->arena, "half the luminance of white at %+.1f°", isnan(low) ? high
                                                                                          : low);
-    return arena_format(s->arena, "half the luminance of white at −%.1f° and +%.1f°", -low, high);
+    return arena_format(s->arena, "half the luminance of white at −%.1f° and +%.1f°", -low,
+                        high);
 }
 
 static Ink pattern_ink(const Canvas *canvas, Pattern pattern)
@@ -167,7 +169,7 @@ static void add_sections(FigureList *list, const Subject *s)
             i < 2 ? SHEET_ALWAYS : SHEET_SPARE, false});
 }
 
-/* ---- grey levels ----------------------------------------------------------------------------- */
+/* ---- grey levels ------------------------------------------------------------------------ */
 
 #define GREY_POINTS 255 /* codes 1 .. 255 */
 

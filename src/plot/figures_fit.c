@@ -7,7 +7,7 @@
 #include "plot/figure.h"
 #include "plot/ticks.h"
 
-/* ---- comparing ------------------------------------------------------------------------------- */
+/* ---- comparing -------------------------------------------------------------------------- */
 
 /* One emission table with the codes that it shows. */
 typedef struct FitTableRef {
@@ -55,7 +55,7 @@ static double stated_bound_percent(const Subject *s)
 {
     const json_t *report = s->source.report;
     const json_t *bound = json_object_get(json_object_get(report, "emission"), "bound");
-    if (json_is_number(bound)) return 100 * json_number_value(bound);
+    if (json_number_value(bound) > 0) return 100 * json_number_value(bound);
     size_t  i;
     json_t *table;
     double  most = 0;
@@ -67,7 +67,7 @@ static double stated_bound_percent(const Subject *s)
     return 100 * most;
 }
 
-/* ---- sections with points -------------------------------------------------------------------- */
+/* ---- sections with points --------------------------------------------------------------- */
 
 /* Signed angle of a direction in the plane through phi; false outside it. */
 static bool in_plane(double theta, double phi, double plane, double *deg)
@@ -146,7 +146,7 @@ static void draw_fit_section(Canvas *canvas, Box box, const Figure *figure, Figu
     figure_map_chart(out, &chart);
 }
 
-/* ---- all residuals ----------------------------------------------------------------------------- */
+/* ---- all residuals ---------------------------------------------------------------------- */
 
 #define BINS 61
 
@@ -255,14 +255,15 @@ static void draw_residual_map(Canvas *canvas, Box box, const Figure *figure, Fig
     *out = (FigureMap){.kind = FIGURE_POLAR, .disc = place, .field = *field, .unit = "%"};
 }
 
-/* ---- reflection --------------------------------------------------------------------------------- */
+/* ---- reflection ------------------------------------------------------------------------- */
 
 /* The channel nearest to 550 nm. */
 static int middle_channel(const Measurement *set)
 {
     int best = 0;
     for (int w = 1; w < set->wavelength_count; w++)
-        if (fabsf(set->wavelength_nm[w] - 550) < fabsf(set->wavelength_nm[best] - 550)) best = w;
+        if (fabsf(set->wavelength_nm[w] - 550) < fabsf(set->wavelength_nm[best] - 550))
+            best = w;
     return best;
 }
 
@@ -346,7 +347,7 @@ static void draw_fit_brdf(Canvas *canvas, Box box, const Figure *figure, FigureM
     figure_map_chart(out, &chart);
 }
 
-/* ---- the list -------------------------------------------------------------------------------------- */
+/* ---- the list --------------------------------------------------------------------------- */
 
 static void add_emission_fit(FigureList *list, const Subject *s)
 {
@@ -363,16 +364,18 @@ static void add_emission_fit(FigureList *list, const Subject *s)
     figure_add(list, &(Figure){PLOT_FIT, "Residuals of all samples",
         arena_format(s->arena, "%.0f samples: rms %s %%, at most %s %%; line: the bound",
                      r->count, figure_text(r->rms, rms), figure_text(r->most, most)),
-        "Fitted less measured luminance of every sample of every emission table, relative to the "
-        "measured one (to a hundredth of the table's peak where that is more). The lines are the "
-        "bound of the fit; what the source's own noise adds may lie beyond.", draw_histogram, s, 0, SHEET_ALWAYS, false});
+        "Fitted less measured luminance of every sample of every emission table, relative to "
+        "the measured one (to a hundredth of the table's peak where that is more). The lines "
+        "are the bound of the fit; what the source's own noise adds may lie beyond.",
+        draw_histogram, s, 0, SHEET_ALWAYS, false});
     if (r->worst.table)
         figure_add(list, &(Figure){PLOT_FIT, "Residual of the worst table",
-            arena_format(s->arena, "%s: at most %s %% at θ %.0f°, φ %.0f°", r->worst.table->name,
-                         most, degrees_from_radians(r->worst_theta),
+            arena_format(s->arena, "%s: at most %s %% at θ %.0f°, φ %.0f°",
+                         r->worst.table->name, most, degrees_from_radians(r->worst_theta),
                          degrees_from_radians(r->worst_phi)),
-            "Fitted less measured luminance in percent for the table with the largest error; the "
-            "colours end at the bound of the fit.", draw_residual_map, s, 0, SHEET_ALWAYS, false});
+            "Fitted less measured luminance in percent for the table with the largest error; "
+            "the colours end at the bound of the fit.", draw_residual_map, s, 0, SHEET_ALWAYS,
+            false});
 }
 
 void figures_add_fit(FigureList *list, const Subject *s)
@@ -384,8 +387,8 @@ void figures_add_fit(FigureList *list, const Subject *s)
         figure_add(list, &(Figure){PLOT_FIT, "Measured and fitted BRDF",
             arena_format(s->arena, "%.4g nm; rings: the source, lines: without the mirror part",
                          (double)set->wavelength_nm[middle_channel(set)]),
-            "The source's BRDF in the plane of incidence (rings) over the panel file's haze and "
-            "floor (lines). What stands above the line at the mirror direction is the "
+            "The source's BRDF in the plane of incidence (rings) over the panel file's haze "
+            "and floor (lines). What stands above the line at the mirror direction is the "
             "instrument's image of the mirror part, which the file keeps apart.", draw_fit_brdf,
             s, 0, SHEET_ALWAYS, false});
 }

@@ -38,7 +38,7 @@ static int incidence_near(const Subject *s, double deg)
     return (int)nearbyint(best);
 }
 
-/* ---- in the plane of incidence ------------------------------------------------------------- */
+/* ---- in the plane of incidence ---------------------------------------------------------- */
 
 #define PLANE_POINTS 1200
 
@@ -114,7 +114,7 @@ static void draw_plane(Canvas *canvas, Box box, const Figure *figure, FigureMap 
     figure_map_chart(out, &chart);
 }
 
-/* ---- over wavelength ------------------------------------------------------------------------- */
+/* ---- over wavelength -------------------------------------------------------------------- */
 
 #define WAVELENGTH_POINTS 101
 
@@ -174,7 +174,7 @@ static void draw_wavelengths(Canvas *canvas, Box box, const Figure *figure, Figu
     figure_map_chart(out, &chart);
 }
 
-/* ---- over the hemisphere -------------------------------------------------------------------- */
+/* ---- over the hemisphere ---------------------------------------------------------------- */
 
 static void draw_map(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
 {
@@ -207,7 +207,7 @@ static void draw_map(Canvas *canvas, Box box, const Figure *figure, FigureMap *o
     *out = (FigureMap){.kind = FIGURE_POLAR, .disc = place, .field = *field, .unit = "sr⁻¹"};
 }
 
-/* ---- the mirror part ------------------------------------------------------------------------- */
+/* ---- the mirror part -------------------------------------------------------------------- */
 
 #define MIRROR_POINTS 179
 
@@ -239,8 +239,9 @@ static void draw_mirror(Canvas *canvas, Box box, const Figure *figure, FigureMap
         (AxisSpec){.low = round_down(fmax(low * 0.7, 1e-6)), .high = 1, .is_log = true,
                    .title = "Mirror reflectance"}, 62);
     chart_hatch(&chart, degrees_from_radians(s->last_incidence), 90);
-    chart_curve(&chart, deg, glass[0], MIRROR_POINTS, (Stroke){canvas->theme.soft, 1, DASH_LONG});
-    chart_curve(&chart, deg, glass[1], MIRROR_POINTS, (Stroke){canvas->theme.soft, 1, DASH_DOT});
+    for (int i = 0; i < 2; i++)
+        chart_curve(&chart, deg, glass[i], MIRROR_POINTS,
+                    (Stroke){canvas->theme.soft, 1, i ? DASH_DOT : DASH_LONG});
     for (int k = 3; k >= 0; k--) {
         Ink ink = k == 0 ? canvas->theme.ink : canvas->theme.primary[3 - k];
         chart_curve(&chart, deg, value[k], MIRROR_POINTS,
@@ -252,7 +253,7 @@ static void draw_mirror(Canvas *canvas, Box box, const Figure *figure, FigureMap
     figure_map_chart(out, &chart);
 }
 
-/* ---- the list ---------------------------------------------------------------------------------- */
+/* ---- the list --------------------------------------------------------------------------- */
 
 static const char *light_text(const Subject *s)
 {
@@ -273,9 +274,9 @@ static void add_maps(FigureList *list, const Subject *s)
             arena_format(s->arena, "BRDF at %d° incidence", incidences[i]),
             arena_format(s->arena, "φ from the mirror direction, photopic mean; %s sr⁻¹ at the "
                          "peak%s", figure_text(range.high, peak), light_text(s)),
-            "BRDF in sr⁻¹ over the leaving directions on a logarithmic scale, without the mirror "
-            "part; φ counts from the mirror direction, the light's own direction is marked.",
-            draw_map, s, incidences[i], i ? SHEET_SPARE : SHEET_ALWAYS, false});
+            "BRDF in sr⁻¹ over the leaving directions on a logarithmic scale, without the "
+            "mirror part; φ counts from the mirror direction, the light's own direction is "
+            "marked.", draw_map, s, incidences[i], i ? SHEET_SPARE : SHEET_ALWAYS, false});
     }
 }
 
@@ -284,16 +285,17 @@ void figures_add_reflection(FigureList *list, const Subject *s)
     if (!s->reflects) return;
     int middle = incidence_near(s, 30);
     figure_add(list, &(Figure){PLOT_BRDF, "BRDF in the plane of incidence",
-        arena_format(s->arena, "photopic mean, without the mirror part; incidence at each peak%s",
-                     light_text(s)),
-        "BRDF in sr⁻¹ over the leaving angle in the plane of incidence, one curve an incidence. "
-        "The mirror part is not in it.", draw_plane, s, 0, SHEET_ALWAYS, false});
+        arena_format(s->arena, "photopic mean, without the mirror part; incidence at each "
+                     "peak%s", light_text(s)),
+        "BRDF in sr⁻¹ over the leaving angle in the plane of incidence, one curve an "
+        "incidence. The mirror part is not in it.", draw_plane, s, 0, SHEET_ALWAYS, false});
     if (s->wavelength_count > 1)
         figure_add(list, &(Figure){PLOT_BRDF_SPECTRUM, "BRDF over wavelength",
             arena_format(s->arena, "incidence %d°; angle from the mirror direction%s", middle,
                          light_text(s)),
             "BRDF in sr⁻¹ over wavelength at several angles from the mirror direction, towards "
-            "the normal; dots at the measured wavelengths.", draw_wavelengths, s, middle, SHEET_ALWAYS, false});
+            "the normal; dots at the measured wavelengths.", draw_wavelengths, s, middle,
+            SHEET_ALWAYS, false});
     add_maps(list, s);
     if (s->has_mirror)
         figure_add(list, &(Figure){PLOT_MIRROR, "Mirror reflectance",

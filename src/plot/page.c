@@ -12,7 +12,7 @@
 #define HEADER 66.0
 #define FOOTER 30.0
 
-/* ---- where everything goes ------------------------------------------------------------- */
+/* ---- where everything goes -------------------------------------------------------------- */
 
 typedef struct Layout {
     int    columns, rows;
@@ -62,7 +62,8 @@ static Layout layout_for_size(const PageSpec *spec)
         int    rows = (spec->list->count + columns - 1) / columns;
         double scale = fmin(spec->width / page_width(columns, w),
                             spec->height / page_height(rows, h));
-        if (scale > best.scale) best = (Layout){.columns = columns, .rows = rows, .scale = scale};
+        if (scale > best.scale)
+            best = (Layout){.columns = columns, .rows = rows, .scale = scale};
     }
     best.width = spec->width / best.scale;
     best.height = spec->height / best.scale;
@@ -79,7 +80,7 @@ static Layout layout_of(const PageSpec *spec, double pixels_per_point)
     return l;
 }
 
-/* ---- drawing ----------------------------------------------------------------------------- */
+/* ---- drawing ---------------------------------------------------------------------------- */
 
 static void draw_heading(Canvas *canvas, const PageSpec *spec, const Layout *l)
 {
@@ -119,13 +120,13 @@ static const char *extrapolation_text(Canvas *canvas, const PageSpec *spec)
                        has_kind(spec, PLOT_SECTIONS, PLOT_SECTIONS));
     bool   reflection = s->reflects && (is_fit || has_kind(spec, PLOT_BRDF, PLOT_MIRROR));
     if (emission && reflection)
-        return arena_format(canvas->arena, "not measured, extrapolated: emission beyond θ %.4g°, "
-                            "reflection beyond θ %.4g° or an incidence of %.4g°", cone,
+        return arena_format(canvas->arena, "not measured, extrapolated: emission beyond θ "
+                            "%.4g°, reflection beyond θ %.4g° or an incidence of %.4g°", cone,
                             degrees_from_radians(s->brdf_cone), last);
     if (emission)
         return arena_format(canvas->arena, "not measured, extrapolated: beyond θ %.4g°", cone);
-    return reflection ? arena_format(canvas->arena, "not measured, extrapolated: beyond θ %.4g° "
-                                     "or an incidence of %.4g°",
+    return reflection ? arena_format(canvas->arena, "not measured, extrapolated: beyond θ "
+                                     "%.4g° or an incidence of %.4g°",
                                      degrees_from_radians(s->brdf_cone), last) : NULL;
 }
 
@@ -167,7 +168,8 @@ static Box figure_box(const Layout *l, int index)
 
 static void draw_page(cairo_t *cr, const PageSpec *spec, const Layout *l, Arena *arena)
 {
-    Canvas canvas = {cr, spec->is_dark ? theme_dark() : theme_light(), fmax(l->scale, 1), arena};
+    Theme     theme = spec->is_dark ? theme_dark() : theme_light();
+    Canvas    canvas = {cr, theme, fmax(l->scale, 1), arena};
     FigureMap unused;
     cairo_rectangle(cr, 0, 0, l->width, l->height);
     canvas_fill(&canvas, canvas.theme.paper);
@@ -178,7 +180,7 @@ static void draw_page(cairo_t *cr, const PageSpec *spec, const Layout *l, Arena 
     draw_legend(&canvas, spec, l);
 }
 
-/* ---- bytes ----------------------------------------------------------------------------------- */
+/* ---- bytes ------------------------------------------------------------------------------ */
 
 typedef struct Sink {
     Arena    *arena;

@@ -70,8 +70,8 @@ static bool say_nothing_to_draw(const Subject *s, PlotKind kind, Error *err)
         return error_at(err, ERROR_INPUT, file, "", "has no reflection data, wanted for --kind "
                         "%s; fit a set with a 'reflection' entry", name);
     if (kind < PLOT_BRDF && !s->emits)
-        return error_at(err, ERROR_INPUT, file, "", "has no emission data, wanted for --kind %s; "
-                        "the panel only reflects", name);
+        return error_at(err, ERROR_INPUT, file, "", "has no emission data, wanted for --kind "
+                        "%s; the panel only reflects", name);
     if (kind == PLOT_CONTRAST)
         return error_at(err, ERROR_INPUT, file, "", "its black emits nothing, so there is no "
                         "contrast ratio to draw");
@@ -101,8 +101,8 @@ bool plot_write(const PlotInput *input, const PlotOptions *options, const char *
     const char *ending = path_ending(path);
     bool        is_svg = !strcmp(ending, ".svg");
     if (!is_svg && strcmp(ending, ".png"))
-        return error_set(err, ERROR_USAGE, "-o is '%s', wanted a name that ends in .svg or .png",
-                         path);
+        return error_set(err, ERROR_USAGE, "-o is '%s', wanted a name that ends in .svg or "
+                         ".png", path);
     Subject *subject = plot_subject(input, options, arena, &report, err);
     if (!subject) return false;
     FigureList *list = plot_figures(subject, options->kind, arena);

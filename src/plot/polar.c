@@ -26,7 +26,7 @@ double polar_letter_size(const PolarDisc *disc)
     return disc->radius < 60 ? 7 : disc->radius > 180 ? 10.5 : SIZE_SMALL;
 }
 
-/* ---- the colours ----------------------------------------------------------------------- */
+/* ---- the colours ------------------------------------------------------------------------ */
 
 static uint32_t pixel_of(const PolarMap *map, double value, uint32_t nothing)
 {
@@ -75,8 +75,8 @@ static void paint_colours(const PolarDisc *disc)
         for (int column = 0; column < side; column++) {
             double v = field_at(disc->map->field, (column + 0.5) * scale, (row + 0.5) * scale);
             bool   ok = isfinite(v) && (!disc->map->is_log || v > 0);
-            pixel[column] = ok ? palette.colour[(int)(1023 * polar_position(disc->map, v) + 0.5)]
-                               : palette.nothing;
+            int    i = ok ? (int)(1023 * polar_position(disc->map, v) + 0.5) : 0;
+            pixel[column] = ok ? palette.colour[i] : palette.nothing;
         }
     }
     cairo_surface_mark_dirty(image);
@@ -89,7 +89,7 @@ static void paint_colours(const PolarDisc *disc)
     cairo_surface_destroy(image);
 }
 
-/* ---- what was not measured --------------------------------------------------------------- */
+/* ---- what was not measured -------------------------------------------------------------- */
 
 static void hatch_outside(const PolarDisc *disc)
 {
@@ -110,7 +110,7 @@ static void hatch_outside(const PolarDisc *disc)
     canvas_stroke(disc->canvas, (Stroke){disc->canvas->theme.ink, 0.8, DASH_SHORT});
 }
 
-/* ---- angles ------------------------------------------------------------------------------ */
+/* ---- angles ----------------------------------------------------------------------------- */
 
 static double ring_step_deg(const PolarDisc *disc)
 {
@@ -196,7 +196,7 @@ static void mark_light(const PolarDisc *disc)
                 (Letters){.size = SIZE_SMALL, .ink = ink, .across = 0.5}, "light");
 }
 
-/* ---- the scale --------------------------------------------------------------------------- */
+/* ---- the scale -------------------------------------------------------------------------- */
 
 static Ticks scale_ticks(const PolarMap *map, double height)
 {
@@ -251,7 +251,7 @@ static void draw_scale(const PolarDisc *disc, Box bar)
                 disc->map->unit);
 }
 
-/* ---- the whole ----------------------------------------------------------------------------- */
+/* ---- the whole -------------------------------------------------------------------------- */
 
 #define SCALE_WIDTH 62.0
 #define LABEL_ROOM 26.0

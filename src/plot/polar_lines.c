@@ -102,8 +102,8 @@ static bool find_spot(const PolarDisc *disc, const Way *way, double width, Spot 
     bool   found = false;
     for (double s = 0; s < total; s += 3) {
         Spot spot;
-        if (!try_spot(disc, way, s, width, &spot) || (found && spot.cost >= best->cost)) continue;
-        *best = spot;
+        if (!try_spot(disc, way, s, width, &spot)) continue;
+        if (!found || spot.cost < best->cost) *best = spot;
         found = true;
     }
     return found;

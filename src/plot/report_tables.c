@@ -90,7 +90,7 @@ static void add_value(Text *html, const json_t *value, Style style)
     }
 }
 
-/* ---- the table of tables ------------------------------------------------------------------- */
+/* ---- the table of tables ---------------------------------------------------------------- */
 
 static void add_row(Text *html, const json_t *keys, const json_t *row, const char *kind)
 {
@@ -139,7 +139,7 @@ void report_add_tables(Text *html, const json_t *report)
     add_rows(html, tables, json_object_get(report, "total"));
 }
 
-/* ---- everything else ------------------------------------------------------------------------ */
+/* ---- everything else -------------------------------------------------------------------- */
 
 static bool is_plain(const json_t *value)
 {

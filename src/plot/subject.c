@@ -39,12 +39,13 @@ bool subject_xyz(const Subject *subject, double theta, double phi, const float r
                  double xyz[3])
 {
     float found[3];
-    bool  measured = panel_emission_xyz(subject->source.panel, direction(theta, phi), rgb, found);
+    Vec3  d = direction(theta, phi);
+    bool  measured = panel_emission_xyz(subject->source.panel, d, rgb, found);
     for (int c = 0; c < 3; c++) xyz[c] = (double)found[c];
     return measured;
 }
 
-/* ---- sampling, row by row over the threads ------------------------------------------------- */
+/* ---- sampling, row by row over the threads ---------------------------------------------- */
 
 static void sample_emission_row(void *context, int item, int worker)
 {
@@ -129,7 +130,7 @@ Field subject_shift(const Subject *s, Pattern pattern, Arena *arena)
     return field;
 }
 
-/* ---- reflection ---------------------------------------------------------------------------- */
+/* ---- reflection ------------------------------------------------------------------------- */
 
 /* Sixteen wavelengths from 420 to 690 nm, 18 nm apart, or all of them nm. */
 static Wavelengths lanes(double nm)

@@ -49,7 +49,7 @@ Subject *subject_new(const SubjectSource *source, Arena *arena);
 const char *pattern_name(Pattern pattern);
 void pattern_codes(Pattern pattern, float rgb[3]);
 
-/* ---- emission ------------------------------------------------------------------------ */
+/* ---- emission --------------------------------------------------------------------------- */
 
 /* XYZ at an angle; true where measured. Negative theta: the opposite azimuth. */
 bool subject_xyz(const Subject *subject, double theta, double phi, const float rgb[3],
@@ -63,7 +63,7 @@ Field subject_shift(const Subject *subject, Pattern pattern, Arena *arena);
 
 void uv_of(const double xyz[3], double uv[2]);
 
-/* ---- reflection ---------------------------------------------------------------------- */
+/* ---- reflection ------------------------------------------------------------------------- */
 
 /* BRDF, sr^-1, weighted over wavelength as the eye weighs equal-energy light; the leaving
  * direction's phi counts from the mirror direction. */

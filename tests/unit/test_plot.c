@@ -30,7 +30,7 @@ static int end(void **state)
     return 0;
 }
 
-/* ---- contour lines ----------------------------------------------------------------------- */
+/* ---- contour lines ---------------------------------------------------------------------- */
 
 /* theta itself: its lines are circles around the centre. */
 static Field theta_field(int side)
@@ -68,7 +68,8 @@ static void lines_lie_on_their_level(void **state)
     enum { SIDE = 61 };
     Field field = field_new(SIDE, PI / 2, &arena);
     for (int i = 0; i < SIDE * SIDE; i++)
-        field.value[i] = (float)(sin(0.21 * (i % SIDE)) * cos(0.17 * (i / SIDE)) + 0.01 * (i % 7));
+        field.value[i] = (float)(sin(0.21 * (i % SIDE)) * cos(0.17 * (i / SIDE)) +
+                                 0.01 * (i % 7));
     for (int k = -6; k <= 6; k++) {
         double     level = 0.13 * k + 0.003;
         ContourSet set = contour_lines(field.value, SIDE, level, &arena);
@@ -117,7 +118,7 @@ static void holes_have_no_lines(void **state)
     for (int i = 0; i < set.line[0].count; i++) assert_true(set.line[0].point[i].x >= 20);
 }
 
-/* ---- ticks --------------------------------------------------------------------------------- */
+/* ---- ticks ------------------------------------------------------------------------------ */
 
 static void ticks_are_round_inside_and_few(void **state)
 {
@@ -196,7 +197,7 @@ static void round_numbers_enclose(void **state)
     }
 }
 
-/* ---- colours --------------------------------------------------------------------------------- */
+/* ---- colours ---------------------------------------------------------------------------- */
 
 static double lightness_at(ColourMap map, double t)
 {
@@ -247,7 +248,7 @@ static void light_and_white_have_their_lightness(void **state)
     assert_false(colour_map_wants_light_ink(MAP_AMOUNT, 1));
 }
 
-/* ---- the polar map ----------------------------------------------------------------------------- */
+/* ---- the polar map ---------------------------------------------------------------------- */
 
 #define SCALE 4 /* pixels per point */
 #define SIZE 400
@@ -341,7 +342,7 @@ static void what_was_not_measured_is_dimmed_and_hatched(void **state)
     picture_end(&picture);
 }
 
-/* ---- fields -------------------------------------------------------------------------------------- */
+/* ---- fields ----------------------------------------------------------------------------- */
 
 static void a_grid_point_looks_where_it_stands(void **state)
 {
@@ -371,7 +372,7 @@ static void quantiles_and_ranges_agree(void **state)
     assert_near(field_quantile(&field, PI / 2, 0.25, arena), PI / 4, 0.02);
 }
 
-/* ---- charts and documents -------------------------------------------------------------------------- */
+/* ---- charts and documents --------------------------------------------------------------- */
 
 static void axes_put_values_where_they_belong(void **state)
 {

@@ -18,8 +18,8 @@ static Fixture ips, reflects_nothing;
     "\"reflection\": {\"coating\": 0.6, \"coating_blue\": 0.15, \"haze_share\": 0.8,"          \
     "\"haze_width\": 0.09, \"haze_power\": 1.8, \"floor_albedo\": 0.004,"                      \
     "\"wavelengths_nm\": [450, 550, 650], \"incidence_deg\": [15, 30, 45, 60]},"               \
-    "\"instrument\": {\"theta_step_deg\": 4, \"phi_step_deg\": 15, \"brdf_theta_step_deg\": 2," \
-    "\"brdf_phi_step_deg\": 10, \"fwhm_deg\": 2.5}}"
+    "\"instrument\": {\"theta_step_deg\": 4, \"phi_step_deg\": 15,"                            \
+    "\"brdf_theta_step_deg\": 2, \"brdf_phi_step_deg\": 10, \"fwhm_deg\": 2.5}}"
 
 #define RECIPE_WITHOUT_REFLECTION                                                              \
     "{\"panel\": \"test <OLED> & co\", \"refractive_index\": 1.5, \"emission\": {"             \
@@ -168,7 +168,7 @@ static void assert_ids_are_whole(const char *text)
                          compare_names)) fail_msg("nobody is #%s", used[k]->name[i]);
 }
 
-/* ---- pictures -------------------------------------------------------------------------------- */
+/* ---- pictures --------------------------------------------------------------------------- */
 
 static void every_kind_draws_svg(void **state)
 {
@@ -239,7 +239,7 @@ static void the_same_call_writes_the_same_bytes(void **state)
     }
 }
 
-/* ---- the report -------------------------------------------------------------------------------- */
+/* ---- the report ------------------------------------------------------------------------- */
 
 static void the_report_stands_alone(void **state)
 {
@@ -275,7 +275,7 @@ static void the_report_is_well_formed(void **state)
     assert_non_null(strstr(html, "Reflection</h2>"));
 }
 
-/* ---- errors ------------------------------------------------------------------------------------- */
+/* ---- errors ----------------------------------------------------------------------------- */
 
 static void a_wrong_command_line_says_what_is_wanted(void **state)
 {
@@ -297,9 +297,10 @@ static void what_a_panel_lacks_is_said(void **state)
 {
     (void)state;
     Error       err;
-    const char *panel = reflects_nothing.panel_path, *svg = in_folder(&reflects_nothing, "e.svg");
-    RUN_FAILS(err, ERROR_INPUT, "has no reflection data, wanted for --kind brdf-map", panel, "-o",
-              svg, "--kind", "brdf-map");
+    const char *panel = reflects_nothing.panel_path;
+    const char *svg = in_folder(&reflects_nothing, "e.svg");
+    RUN_FAILS(err, ERROR_INPUT, "has no reflection data, wanted for --kind brdf-map", panel,
+              "-o", svg, "--kind", "brdf-map");
     assert_string_equal(err.file, panel);
     RUN_FAILS(err, ERROR_INPUT, "its black emits nothing", panel, "-o", svg, "--kind",
               "contrast");
@@ -327,7 +328,8 @@ static void a_target_that_cannot_be_written_leaves_nothing(void **state)
               "--kind", "mirror");
     RUN_FAILS(err, ERROR_OUTPUT, "", ips.panel_path, "-o", in_folder(&ips, "none/x.svg"),
               "--kind", "mirror");
-    RUN_FAILS(err, ERROR_OUTPUT, "", ips.panel_path, "--report", in_folder(&ips, "none/x.html"));
+    RUN_FAILS(err, ERROR_OUTPUT, "", ips.panel_path, "--report",
+              in_folder(&ips, "none/x.html"));
     assert_int_equal(files_in(ips.folder), before);
 }
 
