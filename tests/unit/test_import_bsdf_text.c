@@ -1,6 +1,8 @@
 /* Scatter in the text formats of optical design programs and goniophotometers. */
 #include "import_fixture.h"
 
+#define PI 3.14159265358979323846
+
 /* ---- Zemax ------------------------------------------------------------------------------- */
 
 #define ZEMAX_HEAD                                                                             \
@@ -28,7 +30,7 @@ static void zemax_angles_count_from_the_mirror_direction(void **state)
     assert_near(value_at(t, 20, 180, 0), 12, 0);
     assert_near(value_at(t, 50, 0, 0), 15, 0);
     /* Across: cos theta = cos 10 cos 40, sin of the turn over sin theta; both halves. */
-    double r = 3.14159265358979323846 / 180;
+    double r = PI / 180;
     double theta = acos(cos(10 * r) * cos(40 * r)) / r;
     double phi = asin(sin(10 * r) / sin(theta * r)) / r;
     assert_near(value_at(t, theta, phi, 0), 13, 0);
@@ -256,7 +258,7 @@ static void mountain_light_comes_from_the_incident_angle(void **state)
     assert_reads(f, MOUNTAIN, "mountain");
     const ImportTable *t = table_at(f, 30, 90);
     assert_int_equal(t->rows, 3);
-    assert_close(value_at(t, 30, 0, 0), 0.5 / cos(30 * 3.14159265358979323846 / 180), 1e-12);
+    assert_close(value_at(t, 30, 0, 0), 0.5 / cos(30 * PI / 180), 1e-12);
     assert_close(value_at(t, 60, 180, 0), 0.5, 1e-12);
     assert_near(value_at(t, 0, 0, 0), 0.125, 0);
     assert_noted(f, "1 directions behind the sample");
@@ -264,6 +266,34 @@ static void mountain_light_comes_from_the_incident_angle(void **state)
     assert_reads(f, "#format: theta phi BSDF\n#intheta 20\n#inphi 0\n#colorimetry: CIE-XYZ\n"
                     "20 180 1 2 3\n", "mountain");
     assert_near(value_at(table_at(f, 20, 0), 20, 0, 0), 2, 0);
+}
+
+static void mountain_patterns_of_one_light_are_one_table(void **state)
+{
+    Fixture *f = *state;
+    assert_reads(f, MOUNTAIN, "mountain");
+    fixture_write(f, "#format: theta phi BSDF\n#incident_angle 30 90\n10 270 4\n", 55);
+    assert_true(importer_mountain.read(f->file, &f->options, &f->set, &f->err));
+    fixture_write(f, "#format: theta phi BSDF\n#incident_angle 40 90\n10 270 5\n", 55);
+    assert_true(importer_mountain.read(f->file, &f->options, &f->set, &f->err));
+    assert_int_equal(f->set.count, 2);
+    const ImportTable *t = table_at(f, 30, 90);
+    assert_int_equal(t->rows, 4);
+    assert_near(value_at(t, 10, 0, 0), 4, 0);
+    assert_near(value_at(t, 0, 0, 0), 0.125, 0);
+}
+
+/* DSF = rho / pi cos theta: the table is rho / pi. */
+static void mountain_lambertian_loses_its_cosine(void **state)
+{
+    Fixture *f = *state;
+    char     text[4096];
+    int      n = sprintf(text, "#format: theta phi DSF\n#incident_angle 40 0\n");
+    for (int i = 0; i <= 85; i += 5)
+        n += sprintf(text + n, "%d %d %.9g\n", i, 3 * i, 0.4 / PI * cos(i * PI / 180));
+    assert_reads(f, text, "mountain");
+    for (int i = 0; i < f->set.table[0].rows; i++)
+        assert_close(f->set.table[0].value[i], 0.4 / PI, 1e-7);
 }
 
 static void mountain_errors_name_the_line(void **state)
@@ -343,6 +373,8 @@ int main(void)
         fixture_case(fred_errors_name_the_line),
         fixture_case(real_tables_of_fred_have_their_values),
         fixture_case(mountain_light_comes_from_the_incident_angle),
+        fixture_case(mountain_patterns_of_one_light_are_one_table),
+        fixture_case(mountain_lambertian_loses_its_cosine),
         fixture_case(mountain_errors_name_the_line),
         fixture_case(lighttools_mirror_lies_opposite_the_light),
         fixture_case(lighttools_errors_name_the_line),
