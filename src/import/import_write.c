@@ -98,6 +98,24 @@ static bool commit_all(Output *out)
     return true;
 }
 
+/* A laboratory's own file is never written over. */
+static bool spares_sources(Output *out)
+{
+    struct stat source, target;
+    for (int i = 0; i < out->set->count; i++) {
+        const char *name = import_table_file(out->set, &out->set->table[i], &out->scratch);
+        const char *path = path_beside(out->manifest, name, &out->scratch);
+        if (stat(path, &target)) continue;
+        for (int k = 0; k < out->set->count; k++)
+            if (!stat(out->set->table[k].file, &source) && source.st_dev == target.st_dev &&
+                source.st_ino == target.st_ino)
+                return error_at(out->err, ERROR_OUTPUT, path, "",
+                                "is one of the files to import and would be written over — "
+                                "choose another folder for the manifest");
+    }
+    return true;
+}
+
 /* ---- tables ------------------------------------------------------------------------------ */
 
 /* The fewest of 6 to 9 digits that give the same float again. */
@@ -308,7 +326,8 @@ bool import_write(const ImportSet *set, const char *manifest, Error *err)
     out.path = ARENA_NEW(&arena, const char *, set->count + 2);
     out.temporary = ARENA_NEW(&arena, const char *, set->count + 2);
     out.scratch = arena;
-    bool ok = make_folders(&out, has_source(set, false), has_source(set, true));
+    bool ok = spares_sources(&out) &&
+              make_folders(&out, has_source(set, false), has_source(set, true));
     for (int i = 0; i < set->count && ok; i++) ok = write_table(&out, &set->table[i]);
     ok = ok && write_spectra(&out) && write_manifest(&out) && commit_all(&out);
     if (!ok) undo(&out);

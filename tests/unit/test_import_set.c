@@ -265,6 +265,22 @@ static void nothing_half_written_stays(void **state)
     assert_true(file_exists(manifest_of(lab)));
 }
 
+static void a_source_is_not_written_over(void **state)
+{
+    Lab *lab = *state;
+    assert_int_equal(mkdir(arena_format(&lab->arena, "%s/out", lab->folder), 0777), 0);
+    const char *inside = arena_format(&lab->arena, "%s/out/emission", lab->folder);
+    assert_int_equal(mkdir(inside, 0777), 0);
+    lab_write(lab, "out/emission/white.csv", TABLE);
+    lab_import(lab);
+    assert_false(import_write(&lab->set, manifest_of(lab), &lab->err));
+    assert_int_equal(lab->err.code, ERROR_OUTPUT);
+    assert_non_null(strstr(lab->err.text, "would be written over"));
+    assert_false(file_exists(manifest_of(lab)));
+    lab->file[0] = inside;
+    lab_refused(lab, "out/emission: is a folder, a file is wanted");
+}
+
 /* ---- the declaration file ---------------------------------------------------------------- */
 
 static bool read_layout(Lab *lab, const char *text)
@@ -390,6 +406,7 @@ int main(void)
         lab_case(mirrored_lights_keep_the_mirrored_values),
         lab_case(white_is_compared_with_the_sum_of_the_primaries),
         lab_case(nothing_half_written_stays),
+        lab_case(a_source_is_not_written_over),
         lab_case(a_declaration_file_holds_all_options),
         lab_case(a_declaration_files_mistakes_are_named),
         lab_case(spectra_go_into_the_set),
