@@ -113,8 +113,10 @@ static double percent_at(const Speos *in, double nm)
 /* The file's wavelengths that a panel has, and its ends where the file goes beyond them. */
 static int choose_bands(const Speos *in, ImportSet *set, float *nm)
 {
-    int count = 0, last = in->spectrum_count - 1;
-    bool before = in->spectrum_nm[0] < FIRST_NM, after = in->spectrum_nm[last] > LAST_NM;
+    int    count = 0, last = in->spectrum_count - 1;
+    double first_nm = in->spectrum_nm[0], last_nm = in->spectrum_nm[last];
+    bool   before = first_nm < FIRST_NM && last_nm >= FIRST_NM;
+    bool   after = last_nm > LAST_NM && first_nm <= LAST_NM;
     if (before) nm[count++] = (float)FIRST_NM;
     for (int i = 0; i <= last && count < MEASUREMENT_WAVELENGTHS_MAX - 1; i++) {
         double one = in->spectrum_nm[i];
@@ -125,8 +127,8 @@ static int choose_bands(const Speos *in, ImportSet *set, float *nm)
     if (after) nm[count++] = (float)LAST_NM;
     if (before || after)
         import_note(set, "%s: the spectrum goes from %g to %g nm; it is cut (by straight "
-                    "lines) to %g to %g nm", path_name(in->file), in->spectrum_nm[0],
-                    in->spectrum_nm[last], FIRST_NM, LAST_NM);
+                    "lines) to %g to %g nm", path_name(in->file), first_nm, last_nm,
+                    FIRST_NM, LAST_NM);
     return count;
 }
 
