@@ -118,8 +118,7 @@ static bool build_model(const Measurement *set, const FitOptions *options, Arena
     model->tolerance = choose_tolerance(model, options);
     emission_round(model);
     choose_steps(model, arena);
-    model->spline_size = emission_smooth(samples, rank, model->step, arena,
-                                         &model->spline_bytes);
+    model->spline_size = emission_smooth(model, arena, &model->spline_bytes);
     return panel_spline_open(model->spline_bytes, model->spline_size, rank->components, arena,
                              &model->spline, &used);
 }

@@ -50,11 +50,6 @@ void emission_logs(const EmissionRank *rank, int channels, const float *componen
 /* cosine_power ln cos theta as queries have it. */
 float emission_fall(float cosine_power, Vec3 direction);
 
-/* The smooth part of the scores as stored bytes (panel_spline.h); step: what rounding may cost
- * a component. Returns their number. */
-size_t emission_smooth(const EmissionSamples *samples, const EmissionRank *rank,
-                       const float *step, Arena *arena, const void **bytes);
-
 /* What the stages before the tree have fixed. Everything is as it will be read again. */
 typedef struct EmissionModel {
     const EmissionSamples *samples;
@@ -67,6 +62,9 @@ typedef struct EmissionModel {
     double        tolerance; /* relative to M */
     double        noise;     /* of the channels after the components pooled it, a median */
 } EmissionModel;
+
+/* The smooth part of the scores as stored bytes (panel_spline.h). Returns their number. */
+size_t emission_smooth(const EmissionModel *model, Arena *arena, const void **bytes);
 
 /* Rounds means and loadings to what the section holds. */
 void emission_round(EmissionModel *model);

@@ -169,30 +169,63 @@ typedef struct Work {
     float                 *logs; /* channels */
 } Work;
 
+/* d M / d scores of a channel over sigma, and the rest of M over sigma; returns the weight. */
+static double row_equation(const Work *work, size_t at, int channel, double *x, double *rest)
+{
+    const EmissionSamples *s = work->samples;
+    const EmissionRank    *rank = work->rank;
+    int    n = rank->components, dark = s->black + channel % 3;
+    double sigma = (double)s->sigma[at];
+    double e = exp(fmin(60, (double)work->logs[channel])) / sigma, b = 0;
+    if (s->black >= 0 && !is_black_channel(s, channel))
+        b = exp(fmin(60, (double)work->logs[dark])) / sigma;
+    for (int k = 0; k < n; k++) {
+        x[k] = e * (double)rank->loading[channel * n + k];
+        if (b > 0) x[k] += b * (double)rank->loading[dark * n + k];
+    }
+    *rest = (double)s->total[at] / sigma - e - b;
+    return fabs(*rest) > HUBER ? HUBER / fabs(*rest) : 1;
+}
+
+/* A step is no longer than what changes a channel by a factor of e. */
+static double step_length(const EmissionRank *rank, int channels, const double *step)
+{
+    double most = 0;
+    for (int c = 0; c < channels; c++) {
+        double change = 0;
+        for (int k = 0; k < rank->components; k++)
+            change += step[k] * (double)rank->loading[c * rank->components + k];
+        most = fmax(most, fabs(change));
+    }
+    return most > 1 ? 1 / most : 1;
+}
+
 /* New scores of a row; the prior is that they are of variance 1. Returns the information that
  * the row has on its components, a mean. */
 static double improve_row(const Work *work, int row)
 {
+    const EmissionSamples *s = work->samples;
     EmissionRank *rank = work->rank;
     int    n = rank->components;
-    double matrix[COMPONENTS_MAX * COMPONENTS_MAX] = {0}, right[COMPONENTS_MAX] = {0};
+    double matrix[COMPONENTS_MAX * COMPONENTS_MAX] = {0}, step[COMPONENTS_MAX] = {0};
     double x[COMPONENTS_MAX], trace = 0;
     float *score = rank->score + (size_t)row * (size_t)n;
-    float  fall = emission_fall(rank->cosine_power, work->samples->direction[row]);
-    emission_logs(rank, work->samples->channels, score, fall, work->logs);
-    for (int c = 0; c < work->samples->channels; c++) {
-        Wish   wish = wish_of(work->samples, row, c, work->logs);
-        double y = wish.step;
-        if (wish.weight == 0) continue;
-        for (int k = 0; k < n; k++) {
-            x[k] = (double)rank->loading[c * n + k];
-            y += x[k] * (double)score[k];
-        }
-        add_equation(x, y, wish.weight, n, matrix, right);
+    emission_logs(rank, s->channels, score,
+                  emission_fall(rank->cosine_power, s->direction[row]), work->logs);
+    for (int c = 0; c < s->channels; c++) {
+        double rest;
+        if (isinf(s->sigma[number(s, row, c)])) continue;
+        double weight = row_equation(work, number(s, row, c), c, x, &rest);
+        add_equation(x, rest, weight, n, matrix, step);
     }
-    for (int k = 0; k < n; k++) trace += matrix[k * n + k], matrix[k * n + k] += 1;
-    solve(matrix, right, n);
-    for (int k = 0; k < n; k++) score[k] = (float)fmin(1e3, fmax(-1e3, right[k]));
+    for (int k = 0; k < n; k++) {
+        trace += matrix[k * n + k];
+        matrix[k * n + k] += 1;
+        step[k] -= (double)score[k];
+    }
+    solve(matrix, step, n);
+    double length = step_length(rank, s->channels, step);
+    for (int k = 0; k < n; k++) score[k] += (float)(length * step[k]);
     return trace / n;
 }
 

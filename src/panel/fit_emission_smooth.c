@@ -15,6 +15,11 @@
 #define POWER_PENALTY 1e-7
 #define LEAST_PENALTY 1e-12
 
+/* What is expected of scores of variance 1: steps of STEP / (1 + m^2) between coefficients of
+ * harmonic m, sizes of SIZE / (1 + m^2). Noise is believed against that. */
+#define STEP 0.3
+#define SIZE 1.0
+
 /* The terms that so many azimuths on a ring can tell apart. */
 static int choose_terms(int azimuths, uint8_t term[PANEL_SPLINE_TERMS_MAX])
 {
@@ -72,44 +77,69 @@ static void add_sample(Normal *normal, const Taps *taps, const float *score, dou
     normal->total += weight;
 }
 
-static void add_penalties(Normal *normal, int terms)
+/* noise: standard deviation of a sample's score. */
+static void add_penalties(Normal *normal, const uint8_t *term, int terms, double noise,
+                          int samples)
 {
     size_t n = (size_t)normal->unknowns;
-    for (int t = 0; t < terms; t++)
+    double doubt = normal->total / samples * noise * noise;
+    for (int t = 0; t < terms; t++) {
+        int    m = panel_spline_harmonic(term[t]);
+        double wave = (1 + m * m) * (1 + m * m), w = normal->total * STEP_PENALTY;
+        double size = normal->total * LEAST_PENALTY + (m ? doubt * wave / (SIZE * SIZE) : 0);
+        w += doubt * wave / (STEP * STEP);
         for (int i = 0; i < PANEL_SPLINE_NUMBERS; i++) {
             size_t a = (size_t)(t * PANEL_SPLINE_NUMBERS + i);
             bool   is_power = i == PANEL_SPLINE_COEFFICIENTS;
-            normal->matrix[a * n + a] += normal->total *
-                                         (is_power ? POWER_PENALTY : LEAST_PENALTY);
+            normal->matrix[a * n + a] += is_power ? normal->total * POWER_PENALTY + doubt * wave
+                                                  : size;
             if (is_power || i == 0) continue;
-            double w = normal->total * STEP_PENALTY;
             normal->matrix[a * n + a] += w;
             normal->matrix[(a - 1) * n + a - 1] += w;
             normal->matrix[a * n + a - 1] -= w;
         }
+    }
 }
 
-/* Cholesky, all right sides at once. */
-static void solve_normal(Normal *normal)
+/* Cholesky; the solution for one component into `right`. */
+static void solve_normal(const Normal *normal, double *m, double *r)
 {
-    size_t  n = (size_t)normal->unknowns, c = (size_t)normal->components;
-    double *m = normal->matrix, *r = normal->right;
+    size_t n = (size_t)normal->unknowns;
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j <= i; j++) {
             double sum = m[i * n + j];
             for (size_t k = 0; k < j; k++) sum -= m[i * n + k] * m[j * n + k];
             m[i * n + j] = i == j ? sqrt(fmax(sum, 1e-300)) : sum / m[j * n + j];
         }
-    for (size_t i = 0; i < n; i++)
-        for (size_t q = 0; q < c; q++) {
-            for (size_t k = 0; k < i; k++) r[i * c + q] -= m[i * n + k] * r[k * c + q];
-            r[i * c + q] /= m[i * n + i];
-        }
-    for (size_t i = n; i-- > 0;)
-        for (size_t q = 0; q < c; q++) {
-            for (size_t k = i + 1; k < n; k++) r[i * c + q] -= m[k * n + i] * r[k * c + q];
-            r[i * c + q] /= m[i * n + i];
-        }
+    for (size_t i = 0; i < n; i++) {
+        for (size_t k = 0; k < i; k++) r[i] -= m[i * n + k] * r[k];
+        r[i] /= m[i * n + i];
+    }
+    for (size_t i = n; i-- > 0;) {
+        for (size_t k = i + 1; k < n; k++) r[i] -= m[k * n + i] * r[k];
+        r[i] /= m[i * n + i];
+    }
+}
+
+/* One component's numbers [term][number]. */
+static void solve_component(const Normal *normal, const uint8_t *term, int terms, int component,
+                            const EmissionModel *model, float *numbers, Arena scratch)
+{
+    size_t n = (size_t)normal->unknowns;
+    Normal one = *normal;
+    double *right = ARENA_NEW(&scratch, double, n);
+    one.matrix = ARENA_NEW(&scratch, double, n * n);
+    memcpy(one.matrix, normal->matrix, n * n * sizeof *one.matrix);
+    for (size_t a = 0; a < n; a++)
+        right[a] = normal->right[a * (size_t)normal->components + (size_t)component];
+    add_penalties(&one, term, terms, (double)model->score_noise[component],
+                  model->samples->rows);
+    solve_normal(&one, one.matrix, right);
+    for (size_t a = 0; a < n; a++) {
+        size_t t = a / PANEL_SPLINE_NUMBERS, i = a % PANEL_SPLINE_NUMBERS;
+        numbers[(t * (size_t)normal->components + (size_t)component) * PANEL_SPLINE_NUMBERS +
+                i] = (float)right[a];
+    }
 }
 
 /* The largest number of a block decides whether it is worth storing. */
@@ -122,15 +152,15 @@ static void drop_small_blocks(float *numbers, int terms, int components, const f
     }
 }
 
-size_t emission_smooth(const EmissionSamples *samples, const EmissionRank *rank,
-                       const float *step, Arena *arena, const void **bytes)
+size_t emission_smooth(const EmissionModel *model, Arena *arena, const void **bytes)
 {
+    const EmissionSamples *samples = model->samples;
+    const EmissionRank    *rank = model->rank;
     uint8_t term[PANEL_SPLINE_TERMS_MAX];
     int     terms = choose_terms(samples->azimuths, term), components = rank->components;
     Arena   scratch = arena_reserve((size_t)64 << 20);
     Normal  normal = {terms * PANEL_SPLINE_NUMBERS, components, NULL, NULL, 0};
     size_t  unknowns = (size_t)normal.unknowns;
-    float   worth[PANEL_COMPONENTS_MAX];
     normal.matrix = ARENA_NEW(&scratch, double, unknowns * unknowns);
     normal.right = ARENA_NEW(&scratch, double, unknowns * (size_t)components);
     for (int i = 0; i < samples->rows; i++) {
@@ -139,18 +169,12 @@ size_t emission_smooth(const EmissionSamples *samples, const EmissionRank *rank,
         add_sample(&normal, &taps, rank->score + (size_t)i * (size_t)components,
                    (double)rank->belief[i] * samples->area[i]);
     }
-    add_penalties(&normal, terms);
-    solve_normal(&normal);
     float *numbers = ARENA_NEW(&scratch, float, unknowns * (size_t)components);
-    for (size_t a = 0; a < unknowns; a++)
-        for (size_t k = 0; k < (size_t)components; k++) {
-            size_t t = a / PANEL_SPLINE_NUMBERS, i = a % PANEL_SPLINE_NUMBERS;
-            numbers[(t * (size_t)components + k) * PANEL_SPLINE_NUMBERS + i] =
-                (float)normal.right[a * (size_t)components + k];
-        }
-    for (int k = 0; k < components; k++) worth[k] = step[k];
-    drop_small_blocks(numbers, terms, components, worth);
-    size_t size = panel_spline_pack(term, terms, components, numbers, step, arena, bytes);
+    for (int k = 0; k < components; k++)
+        solve_component(&normal, term, terms, k, model, numbers, scratch);
+    drop_small_blocks(numbers, terms, components, model->step);
+    size_t size = panel_spline_pack(term, terms, components, numbers, model->step, arena,
+                                    bytes);
     arena_release(&scratch);
     return size;
 }
