@@ -104,7 +104,8 @@ static bool check_angles(Rgl *in, Error *err)
     double first = tensor_value(in->phi_i, 0);
     double last = tensor_value(in->phi_i, in->phi_i->count - 1);
     in->closes = fabs(last - first - 2 * PI) < 1e-3;
-    if (last - first < 2 * PI * (1 - 1.5 / in->phis))
+    double step = (last - first) / (in->phis - 1);
+    if (!(last - first > 2 * PI - 1.5 * step)) /* the last step may be left out */
         return error_at(err, ERROR_INPUT, file, "phi_i", "goes from %g to %g: only part of a "
                         "turn (a material stored by its symmetry), which is not read here",
                         first, last);

@@ -28,7 +28,7 @@ static void check_refusals(Fixture *f, const Importer *importer, const Refusal *
 
 #define ZEMAX                                                                                  \
     "Symmetry Asymmetrical\nSpectralContent Monochrome\nScatterType BRDF\n"                    \
-    "SampleRotation 1\n0\nAngleOfIncidence 1\n30\nScatterAzimuth 1\n0\nScatterRadial 1\n10\n"   \
+    "SampleRotation 1\n0\nAngleOfIncidence 1\n30\nScatterAzimuth 1\n0\nScatterRadial 1\n10\n"  \
     "Monochrome\nDataBegin\n"
 
 static void zemax_refusals(void **state)

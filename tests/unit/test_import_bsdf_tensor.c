@@ -174,6 +174,118 @@ static void rgl_errors_name_the_field(void **state)
     free(b);
 }
 
+/* A small sound file, but for one field. */
+typedef struct Field {
+    const char   *name;
+    int           type;
+    const size_t *shape;
+    const double *value;
+} Field;
+
+static void build_but(Builder *b, Field other)
+{
+    static const double ones[64] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+    const Field field[] = {
+        {"theta_i", 10, SHAPE(2), LIST(0, 1)}, {"phi_i", 10, SHAPE(1), LIST(0)},
+        {"ndf", 10, SHAPE(2, 2), ones},        {"sigma", 10, SHAPE(2, 2), ones},
+        {"vndf", 10, SHAPE(1, 2, 2, 2), ones}, {"jacobian", 1, SHAPE(1), ones},
+        {"wavelengths", 10, SHAPE(1), LIST(500)},
+        {"spectra", 10, SHAPE(1, 2, 1, 2, 2), ones}};
+    builder_start(b);
+    for (size_t i = 0; i < sizeof field / sizeof *field; i++) {
+        Field one = strcmp(field[i].name, other.name) ? field[i] : other;
+        builder_add(b, one.name, one.type, one.shape, one.value);
+    }
+}
+
+static void rgl_refusals(void **state)
+{
+    const struct {
+        Field       field;
+        const char *words;
+    } row[] = {
+        {{"theta_i", 10, SHAPE(2), LIST(0, 2)}, "has 2, wanted 0 to pi / 2"},
+        {{"theta_i", 10, SHAPE(1, 2), LIST(0, 1)}, "has 2 dimensions, wanted 1"},
+        {{"theta_i", 2, SHAPE(2), LIST(0, 1)}, "has numbers of type 2, wanted floats"},
+        {{"theta_i", 10, SHAPE(2), LIST(0, INFINITY)}, "number 2 is not finite"},
+        {{"phi_i", 10, SHAPE(3), LIST(0, 1, 2)}, "has the wrong shape, wanted phi_i x theta_i"},
+        {{"ndf", 10, SHAPE(1, 4), LIST(1, 1, 1, 1)}, "wrong shape, wanted at least 2 x 2"},
+        {{"sigma", 10, SHAPE(2, 2), LIST(0, 0, 0, 0)}, "is 0 at theta_i 0, wanted above 0"},
+        {{"vndf", 10, SHAPE(1, 2, 2, 2), LIST(1, 1, 1, -1, 1, 1, 1, 1)},
+         "has a density below 0"},
+        {{"vndf", 10, SHAPE(1, 2, 2, 2), LIST(0, 0, 0, 0, 1, 1, 1, 1)},
+         "has a density of 0 everywhere"},
+        {{"jacobian", 1, SHAPE(2), LIST(1, 1)}, "has the wrong shape, wanted one number"},
+        {{"wavelengths", 10, SHAPE(2), LIST(500, 600)}, "has the wrong shape, wanted phi_i x"},
+        {{"wavelengths", 10, SHAPE(1), LIST(-5)}, "has -5 nm, wanted rising wavelengths"},
+        {{"spectra", 10, SHAPE(1, 2, 1, 1, 2), LIST(1, 1, 1, 1)}, "has the wrong shape"},
+        {{"", 0, NULL, NULL}, NULL},
+    };
+    Fixture *f = *state;
+    Builder *b = malloc(sizeof *b);
+    for (int i = 0; row[i].words; i++) {
+        build_but(b, row[i].field);
+        assert_false(fixture_read(f, b->bytes, b->data, "rgl"));
+        if (!strstr(f->err.text, row[i].words))
+            fail_msg("%s: %s, wanted %s", row[i].field.name, f->err.text, row[i].words);
+    }
+    build_but(b, row[13].field);
+    assert_true(fixture_read(f, b->bytes, b->data, "rgl"));
+    free(b);
+}
+
+/* Half a turn of azimuths is a symmetry that is not read. */
+static void rgl_of_a_symmetric_material_is_refused(void **state)
+{
+    static double ones[3 * 2 * 4] = {0};
+    Fixture *f = *state;
+    Builder *b = malloc(sizeof *b);
+    for (int i = 0; i < 24; i++) ones[i] = 1;
+    for (int is_whole = 0; is_whole < 2; is_whole++) {
+        double last = is_whole ? PI : 0;
+        builder_start(b);
+        builder_add(b, "theta_i", 10, SHAPE(2), LIST(0.5, 1));
+        builder_add(b, "phi_i", 10, SHAPE(3), LIST(-PI, (last - PI) / 2, last));
+        builder_add(b, "ndf", 10, SHAPE(2, 2), ones);
+        builder_add(b, "sigma", 10, SHAPE(2, 2), ones);
+        builder_add(b, "vndf", 10, SHAPE(3, 2, 2, 2), ones);
+        builder_add(b, "jacobian", 1, SHAPE(1), LIST(0));
+        builder_add(b, "wavelengths", 10, SHAPE(1), LIST(500));
+        builder_add(b, "spectra", 10, SHAPE(3, 2, 1, 2, 2), ones);
+        assert_true(fixture_read(f, b->bytes, b->data, "rgl") == is_whole);
+    }
+    assert_true(f->set.is_anisotropic); /* -180 and 0; 180 is -180 again */
+    assert_int_equal(f->set.count, 4);
+    free(b);
+}
+
+static void tensor_files_that_are_not_sound_are_refused(void **state)
+{
+    static const struct {
+        size_t      at; /* byte */
+        int         value;
+        const char *words;
+    } row[] = {
+        {0, 'T', "is no tensor file: it does not begin with 'tensor_file'"},
+        {12, 2, "the version is 2.0, wanted 1.0"},
+        {14, 200, "there are 200 fields, wanted at most 64"},
+        {27, 9, "field 'theta_i' has 9 dimensions, wanted at most 8"},
+        {29, 12, "field 'theta_i' has a type of number 12, wanted 1 to 11"},
+        {36, 1, "field 'theta_i' begins behind the file's end"},
+    };
+    Fixture *f = *state;
+    Builder *b = malloc(sizeof *b);
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        build_but(b, (Field){"", 0, NULL, NULL});
+        b->bytes[row[i].at] = (unsigned char)row[i].value;
+        fixture_write(f, b->bytes, b->data);
+        f->set = import_set(&f->arena);
+        assert_false(importer_rgl.read(f->file, &f->options, &f->set, &f->err));
+        assert_string_equal(f->err.text, row[i].words);
+    }
+    free(b);
+}
+
 /* ---- KAIST ------------------------------------------------------------------------------- */
 
 #define PHIS 5
@@ -316,8 +428,27 @@ static void merl_of_full_size_and_its_unmeasured_cells(void **state)
 static void merl_errors_name_the_byte(void **state)
 {
     assert_refused(*state, "abc", &importer_merl, "byte 0: the file ends inside its header");
-    assert_refused(*state, "\x5a\0\0\0", &importer_merl,
-                   "byte 0: the file ends inside its header");
+    Fixture *f = *state;
+    unsigned char bytes[12 + 24] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const double  infinite = INFINITY, unmeasured = -1;
+    fixture_write(f, bytes, 20);
+    f->set = import_set(&f->arena);
+    assert_false(importer_merl.read(f->file, &f->options, &f->set, &f->err));
+    assert_string_equal(f->err.text, "8 bytes follow, wanted 24 for 1 x 1 x 1 cells of three "
+                                     "colours");
+    memcpy(bytes + 12, &infinite, 8);
+    fixture_write(f, bytes, 36);
+    assert_false(importer_merl.read(f->file, &f->options, &f->set, &f->err));
+    assert_string_equal(f->err.text, "number 1 is not finite");
+    memcpy(bytes + 12, &unmeasured, 8);
+    fixture_write(f, bytes, 36);
+    assert_false(importer_merl.read(f->file, &f->options, &f->set, &f->err));
+    assert_string_equal(f->err.text, "has no value of reflection");
+    bytes[1] = 255;
+    fixture_write(f, bytes, 36);
+    assert_false(importer_merl.read(f->file, &f->options, &f->set, &f->err));
+    assert_string_equal(f->err.text, "a side is 65281 cells, wanted 1 to 4096 (MERL: 90, 90, "
+                                     "180)");
 }
 
 /* ---- workbooks --------------------------------------------------------------------------- */
@@ -340,6 +471,9 @@ int main(void)
         fixture_case(rgl_values_lose_their_cosine),
         fixture_case(rgl_samples_are_warped_to_half_vectors),
         fixture_case(rgl_errors_name_the_field),
+        fixture_case(rgl_refusals),
+        fixture_case(rgl_of_a_symmetric_material_is_refused),
+        fixture_case(tensor_files_that_are_not_sound_are_refused),
         fixture_case(kaist_first_element_is_evaluated),
         fixture_case(the_real_reduced_file_says_why_it_is_not_read),
         fixture_case(merl_cells_are_found_by_half_and_difference_angles),
