@@ -96,7 +96,7 @@ static const char *option_name(const char *key, Arena *arena)
 
 static bool is_list(const char *key)
 {
-    return !strcmp(key, "comment") || !strcmp(key, "mask");
+    return !strcmp(key, "comment") || !strcmp(key, "mask") || !strcmp(key, "section");
 }
 
 static int list_options(Words *words, Option *option, Arena *arena)

@@ -30,6 +30,40 @@ static bool same_light(const ImportTable *a, const ImportTable *b)
            fabs(a->incidence_phi_deg - b->incidence_phi_deg) < SAME_ANGLE_DEG;
 }
 
+static bool same_channels(const ImportTable *a, const ImportTable *b)
+{
+    bool same = a->channels == b->channels && a->component == b->component;
+    for (int c = 0; same && a->source == IMPORT_REFLECTION && c < a->channels; c++)
+        same = fabsf(a->wavelength_nm[c] - b->wavelength_nm[c]) < 1e-3f;
+    return same;
+}
+
+/* Sections at several azimuths make one table. */
+static bool join_sections(ImportSet *set, Error *err)
+{
+    int *part = ARENA_NEW(set->arena, int, IMPORT_TABLES_MAX);
+    for (int i = 0; i < set->count; i++) {
+        int    count = 0;
+        double rows = 0;
+        for (int k = i; k < set->count && set->table[i].is_section; k++)
+            if (set->table[k].is_section && same_light(&set->table[i], &set->table[k]) &&
+                same_channels(&set->table[i], &set->table[k])) {
+                part[count++] = k;
+                rows += set->table[k].rows;
+            }
+        if (count < 2) continue;
+        if (rows > IMPORT_ROWS_MAX)
+            return error_at(err, ERROR_INPUT, set->table[i].file, "",
+                            "and its other sections have %g directions, wanted at most %d",
+                            rows, IMPORT_ROWS_MAX);
+        ImportTable joined;
+        import_append_tables(set, part, count, &joined);
+        set->table[i] = joined;
+        import_remove_tables(set, part, count, i);
+    }
+    return true;
+}
+
 /* Files of X, Y and Z alone: each of them once. */
 static bool join_components(ImportSet *set, int first, Error *err)
 {
@@ -397,7 +431,8 @@ bool import_complete(ImportSet *set, Error *err)
         return error_set(err, ERROR_INPUT, "the files hold no table of a panel");
     if (!import_apply_references(set, err)) return false;
     settle_azimuths(set);
-    if (!join_parts(set, err) || !keep_usable(set, err)) return false;
+    if (!join_sections(set, err) || !join_parts(set, err) || !keep_usable(set, err))
+        return false;
     import_merge_directions(set);
     if (!import_mirror(set, err) || !complete_lights(set, err) || !check_sources(set, err) ||
         !check_lights(set, err))

@@ -169,6 +169,41 @@ bool import_join_tables(ImportSet *set, const int *part, int count, ImportTable 
     return true;
 }
 
+static void append_rows(const ImportTable *from, size_t rows, size_t masked, ImportTable *to)
+{
+    size_t size = (size_t)from->channels, count = (size_t)from->rows;
+    memcpy((double *)to->theta_deg + rows, from->theta_deg, sizeof(double) * count);
+    memcpy((double *)to->phi_deg + rows, from->phi_deg, sizeof(double) * count);
+    memcpy((double *)to->value + rows * size, from->value, sizeof(double) * count * size);
+    if (!from->masked || !from->masked_theta_deg) return;
+    count = (size_t)from->masked;
+    memcpy((double *)to->masked_theta_deg + masked, from->masked_theta_deg,
+           sizeof(double) * count);
+    memcpy((double *)to->masked_phi_deg + masked, from->masked_phi_deg, sizeof(double) * count);
+}
+
+void import_append_tables(ImportSet *set, const int *part, int count, ImportTable *joined)
+{
+    size_t rows = 0, masked = 0, size = (size_t)set->table[part[0]].channels;
+    for (int k = 0; k < count; k++) {
+        rows += (size_t)set->table[part[k]].rows;
+        masked += (size_t)set->table[part[k]].masked;
+    }
+    *joined = set->table[part[0]];
+    joined->theta_deg = ARENA_NEW(set->arena, double, rows);
+    joined->phi_deg = ARENA_NEW(set->arena, double, rows);
+    joined->value = ARENA_NEW(set->arena, double, rows * size);
+    joined->masked_theta_deg = ARENA_NEW(set->arena, double, masked);
+    joined->masked_phi_deg = ARENA_NEW(set->arena, double, masked);
+    joined->rows = joined->masked = 0;
+    for (int k = 0; k < count; k++) {
+        const ImportTable *from = &set->table[part[k]];
+        append_rows(from, (size_t)joined->rows, (size_t)joined->masked, joined);
+        joined->rows += from->rows;
+        joined->masked += from->masked;
+    }
+}
+
 void import_remove_tables(ImportSet *set, const int *part, int count, int keep)
 {
     int kept = 0;

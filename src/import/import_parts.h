@@ -16,6 +16,9 @@ const char *import_source_name(ImportSource source);
 bool import_join_tables(ImportSet *set, const int *part, int count, ImportTable *joined,
                         Error *err);
 
+/* The rows of `count` tables one after the other. */
+void import_append_tables(ImportSet *set, const int *part, int count, ImportTable *joined);
+
 /* Removes the tables of the list but `keep`. */
 void import_remove_tables(ImportSet *set, const int *part, int count, int keep);
 

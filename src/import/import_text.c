@@ -156,7 +156,12 @@ static bool find_kind(TextReader *in)
     if (codes && codes < 3)
         return error_at(in->err, ERROR_INPUT, in->file, "header line",
                         "has %d of the three columns R, G and B", codes);
-    bool has_polar = in->column[QUANTITY_THETA] >= 0 && in->column[QUANTITY_PHI] >= 0;
+    in->is_section = in->column[QUANTITY_THETA] >= 0 && in->column[QUANTITY_PHI] < 0;
+    if (in->is_section && !text_declared_section(in->declared, in->file, &in->section_phi))
+        return error_at(in->err, ERROR_INPUT, in->file, "header line",
+                        "has theta but no azimuth — say the section's azimuth with --section "
+                        "%s=DEG", path_name(in->file));
+    bool has_polar = in->column[QUANTITY_THETA] >= 0;
     bool has_pair = in->column[QUANTITY_HORIZONTAL] >= 0 && in->column[QUANTITY_VERTICAL] >= 0;
     return has_polar != has_pair ||
            error_at(in->err, ERROR_INPUT, in->file, "header line",

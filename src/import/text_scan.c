@@ -150,6 +150,18 @@ static bool has_direction(const TextCell *cell, int count)
            (seen[QUANTITY_HORIZONTAL] && seen[QUANTITY_VERTICAL]);
 }
 
+/* theta and something measured, but no azimuth: a section. */
+static bool has_section(const TextCell *cell, int count)
+{
+    bool has_theta = false, has_value = false;
+    for (int i = 0; i < count; i++) {
+        Quantity quantity = column_name(cell[i]).quantity;
+        has_theta |= quantity == QUANTITY_THETA;
+        has_value |= quantity >= QUANTITY_X;
+    }
+    return has_theta && has_value;
+}
+
 /* The cells of a header as columns; names that are not known are not used. */
 static bool read_header(Scan *scan, const TextCell *cell, int count, bool from_user)
 {
@@ -179,7 +191,7 @@ static bool read_declared_columns(Scan *scan)
     TextLine  line = {scan->declared->columns, (int)strlen(scan->declared->columns)};
     int       count = text_cells(line, ',', cell);
     if (count < 0) return error_set(scan->err, ERROR_USAGE, "--columns has too many names");
-    if (!has_direction(cell, count))
+    if (!has_direction(cell, count) && !has_section(cell, count))
         return error_set(scan->err, ERROR_USAGE,
                          "--columns '%s' has no two angles, wanted theta and phi, or "
                          "horizontal and vertical",
@@ -337,7 +349,9 @@ static bool read_text_line(Scan *scan, TextLine line)
     bool is_open = scan->state == STATE_BEFORE && !scan->declared->columns;
     if (is_open && is_matrix_head(scan) && scan->declared->layout != LAYOUT_LIST)
         return begin_block(scan);
-    if (is_open && !scan->blocks.count && has_direction(scan->cell, scan->count))
+    bool is_header = has_direction(scan->cell, scan->count) ||
+                     (!scan->has_header && has_section(scan->cell, scan->count));
+    if (is_open && !scan->blocks.count && is_header)
         return read_header(scan, scan->cell, scan->count, false);
     if (is_open && text_blocks_label(&scan->blocks, scan->cell, scan->count)) return true;
     text_said_line(scan->said, line, scan->at, scan->arena);

@@ -184,7 +184,9 @@ static bool row_angles(const TextReader *in, int row, double *theta, double *phi
     bool   is_pair = in->column[QUANTITY_THETA] < 0;
     int    a = in->column[is_pair ? QUANTITY_HORIZONTAL : QUANTITY_THETA];
     int    b = in->column[is_pair ? QUANTITY_VERTICAL : QUANTITY_PHI];
-    double raw[2] = {cell_of(in, row, a), cell_of(in, row, b)};
+    double phi_unit = in->is_radians ? PI / 180 : 1; /* --section is always in degrees */
+    double raw[2] = {cell_of(in, row, a),
+                     in->is_section ? in->section_phi * phi_unit : cell_of(in, row, b)};
     if (isnan(raw[0]) || isnan(raw[1]))
         return error_at(in->err, ERROR_INPUT, in->file, row_place(in, row),
                         "has no angle, wanted two numbers");
@@ -347,7 +349,7 @@ static bool add_group(TextReader *in, const Channels *channels, const Group *gro
 {
     Role        role = in->role;
     Channels   *own = (Channels *)channels;
-    ImportTable table = {.file = in->file};
+    ImportTable table = {.file = in->file, .is_section = in->is_section};
     if (has(in, QUANTITY_CODE_R) && !codes_role(in, group, &role)) return false;
     table.source = role.source;
     if (in->is_reflection) {

@@ -326,6 +326,30 @@ static void a_direction_that_stands_twice_becomes_the_mean(void **state)
     assert_true(lab_noted(lab, "1 directions of 1 tables stood more than once"));
 }
 
+/* ---- sections ---------------------------------------------------------------------------- */
+
+static void sections_of_one_pattern_make_one_table(void **state)
+{
+    Lab *lab = *state;
+    lab_declare(lab, "section", "*_hor*=0");
+    lab_declare(lab, "section", "*_ver*=90");
+    lab_declare(lab, "azimuth_zero", "left");
+    lab_write(lab, "white_hor.txt", "theta\tL\n-40\t4\n-20\t5\n0\t6\n20\t---\n");
+    lab_write(lab, "white_ver.txt", "theta\tL\n-40\t7\n0\t6\n40\t8\n");
+    lab_import(lab);
+    assert_int_equal(lab->set.count, 1);
+    const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
+    assert_int_equal(white->rows, 6);
+    assert_int_equal(white->masked, 1);
+    assert_near(lab_value(white, 40, 0, 1), 4, 0); /* 0 is left, and the angle negative */
+    assert_near(lab_value(white, 40, 90, 1), 7, 0);
+    assert_near(lab_value(white, 40, 270, 1), 8, 0);
+    assert_near(white->masked_phi_deg[0], 180, 0);
+    lab->request->text.section.count = 0;
+    lab_refused(lab, "white_hor.txt: header line: has theta but no azimuth — say the section's "
+                     "azimuth with --section white_hor.txt=DEG");
+}
+
 /* ---- reflection -------------------------------------------------------------------------- */
 
 #define BRDF "theta,phi,450nm,550nm\n0,0,1,2\n30,0,3,4\n30,90,5,6\n60,180,7,8\n"
@@ -457,6 +481,7 @@ int main(void)
         lab_case(marks_are_left_out_and_counted),
         lab_case(directions_beyond_the_horizon_are_left_out_and_told),
         lab_case(a_direction_that_stands_twice_becomes_the_mean),
+        lab_case(sections_of_one_pattern_make_one_table),
         lab_case(reflection_has_a_column_a_wavelength),
         lab_case(one_file_a_wavelength_is_joined),
         lab_case(long_lists_are_cut_into_tables),
