@@ -224,6 +224,7 @@ static Field residual_field(const Subject *s, const FitTableRef *ref, Arena *are
     double spacing = sqrt(2 * PI / ref->table->rows) * 1.3; /* radians between samples */
     int    reach = (int)ceil(spacing / (PI / 300)) + 1;
     reach = reach > 12 ? 12 : reach;
+    double rim = 150 * ((double)ref->table->theta_max + 0.01) / (PI / 2);
     for (int i = 0; i < 301 * 301; i++) nearest[i] = INFINITY;
     for (int k = 0; k < ref->table->rows; k++) {
         double c, r, value = residual_percent(s, ref, k, peak);
@@ -233,7 +234,7 @@ static Field residual_field(const Subject *s, const FitTableRef *ref, Arena *are
             for (int x = (int)c - reach; x <= (int)c + reach; x++) {
                 double d = hypot(x - c, y - r);
                 if (x < 0 || y < 0 || x > 300 || y > 300 || d > reach ||
-                    d >= nearest[y * 301 + x]) continue;
+                    d >= nearest[y * 301 + x] || hypot(x - 150, y - 150) > rim) continue;
                 nearest[y * 301 + x] = d;
                 field.value[y * 301 + x] = (float)value;
             }
@@ -330,6 +331,9 @@ static void draw_fit_brdf(Canvas *canvas, Box box, const Figure *figure, FigureM
                    .title = "leaving angle in the plane of incidence"},
         (AxisSpec){.low = low, .high = round_up(high * 1.3), .is_log = true,
                    .title = "BRDF, sr⁻¹"}, 14);
+    double cone = degrees_from_radians(s->brdf_cone);
+    chart_hatch(&chart, -90, -cone);
+    chart_hatch(&chart, cone, 90);
     for (int k = 0; k < count; k++) {
         double srgb[3];
         bool   taken[151] = {false}; /* rings no nearer than 1.2 degrees */
@@ -378,6 +382,13 @@ static void add_emission_fit(FigureList *list, const Subject *s)
             false});
 }
 
+static const char *azimuth_text(const Subject *s)
+{
+    const Measurement *set = s->source.measured;
+    return set->azimuth_count < 2 ? "" : arena_format(s->arena, "; light from φ %.4g°",
+        degrees_from_radians(set->azimuth[nearest_azimuth(s)]));
+}
+
 void figures_add_fit(FigureList *list, const Subject *s)
 {
     const Measurement *set = s->source.measured;
@@ -385,8 +396,8 @@ void figures_add_fit(FigureList *list, const Subject *s)
     if (s->emits && set->primary[0].level_count > 0) add_emission_fit(list, s);
     if (s->reflects && set->incidence_count > 0)
         figure_add(list, &(Figure){PLOT_FIT, "Measured and fitted BRDF",
-            arena_format(s->arena, "%.4g nm; rings: the source, lines: without the mirror part",
-                         (double)set->wavelength_nm[middle_channel(set)]),
+            arena_format(s->arena, "%.4g nm; rings: the source, lines: without the mirror part%s",
+                         (double)set->wavelength_nm[middle_channel(set)], azimuth_text(s)),
             "The source's BRDF in the plane of incidence (rings) over the panel file's haze "
             "and floor (lines). What stands above the line at the mirror direction is the "
             "instrument's image of the mirror part, which the file keeps apart.", draw_fit_brdf,

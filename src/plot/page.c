@@ -239,7 +239,7 @@ bool page_svg(const PageSpec *spec, Arena *arena, PlotBytes *out, Error *err)
     cairo_surface_t *surface = svg_surface(&sink, l.width * l.scale, l.height * l.scale);
     cairo_t         *cr = cairo_create(surface);
     cairo_scale(cr, l.scale, l.scale);
-    if (l.scale < 2) l.scale = 2; /* rasters inside are finer than the page's unit */
+    if (l.scale < 1.6) l.scale = 1.6; /* rasters inside are finer than the page's unit */
     Layout drawn = l;
     draw_page(cr, spec, &drawn, arena);
     bool ok = finish(cr, surface, err);
