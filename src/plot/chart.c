@@ -93,8 +93,19 @@ static void draw_y_axis(Chart *chart, const Ticks *ticks)
                 chart->y.title);
 }
 
+/* Data without any spread still get an axis. */
+static AxisSpec with_extent(AxisSpec axis)
+{
+    if (axis.is_log && !(axis.high > 0)) axis.high = 1;
+    if (axis.is_log && !(axis.low > 0 && axis.low < axis.high)) axis.low = axis.high / 10;
+    if (!axis.is_log && !(axis.high > axis.low)) axis.high = axis.low + 1;
+    return axis;
+}
+
 Chart chart_open(Canvas *canvas, Box box, AxisSpec x, AxisSpec y, double right)
 {
+    x = with_extent(x);
+    y = with_extent(y);
     Chart chart = {.canvas = canvas, .box = box, .x = x, .y = y};
     double top = 22, bottom = 34;
     Ticks  y_ticks = axis_ticks(&y, box.h - top - bottom, 26);

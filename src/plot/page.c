@@ -6,6 +6,7 @@
 
 #include "base/file.h"
 #include "base/units.h"
+#include "plot/text.h"
 
 #define MARGIN 40.0
 #define GUTTER 34.0
@@ -92,12 +93,13 @@ static void draw_heading(Canvas *canvas, const PageSpec *spec, const Layout *l)
     canvas_text(canvas, MARGIN, MARGIN,
                 (Letters){.size = SIZE_HEADING, .ink = t->ink, .is_bold = true},
                 canvas_fit_text(canvas, SIZE_HEADING, true, width, s->name));
-    const char *line = arena_format(canvas->arena, "%s%s%s%s%s", path_name(s->source.file),
+    const char *line = arena_format(canvas->arena, "%s%s%s%s%s", s->file_name,
                                     source ? "  ·  fitted from " : "", source ? source : "",
                                     instrument && *instrument ? "  ·  " : "",
                                     instrument ? instrument : "");
     canvas_text(canvas, MARGIN, MARGIN + 27, (Letters){.size = SIZE_TEXT, .ink = t->soft},
-                canvas_fit_text(canvas, SIZE_TEXT, false, width, line));
+                canvas_fit_text(canvas, SIZE_TEXT, false, width,
+                                text_clean(line, canvas->arena)));
     canvas_line(canvas, MARGIN, MARGIN + 46, l->width - MARGIN, MARGIN + 46,
                 (Stroke){t->faint, 0.7, DASH_NONE});
 }

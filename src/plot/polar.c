@@ -278,8 +278,13 @@ static void draw_lines_inside(PolarDisc *disc)
     cairo_restore(cr);
 }
 
-PolarPlace polar_draw(Canvas *canvas, Box box, const PolarMap *map)
+PolarPlace polar_draw(Canvas *canvas, Box box, const PolarMap *asked)
 {
+    PolarMap  with_extent = *asked; /* data without any spread still get a scale */
+    PolarMap *map = &with_extent;
+    if (map->is_log && !(map->high > 0)) map->high = 1;
+    if (map->is_log && !(map->low > 0 && map->low < map->high)) map->low = map->high / 10;
+    if (!map->is_log && !(map->high > map->low)) map->high = map->low + 1;
     double    across = box.w - SCALE_WIDTH - 2 * LABEL_ROOM - 6, down = box.h - 34;
     double    radius = fmin(across, down) / 2;
     PolarDisc disc = {.canvas = canvas, .map = map, .radius = radius, .y = box.y + box.h / 2};

@@ -220,7 +220,7 @@ static void add_head(Text *html, const Subject *s, bool is_dark)
                 REPORT_STYLE, is_dark ? " class=\"dark\"" : "");
     text_add_escaped(html, s->name);
     text_add(html, "</h1>\n<p class=\"sub\">");
-    text_add_escaped(html, path_name(s->source.file));
+    text_add_escaped(html, s->file_name);
     text_add(html, note && *note ? " · " : "");
     text_add_escaped(html, note);
     text_add(html, "</p>\n");

@@ -2,8 +2,10 @@
 
 #include <math.h>
 
+#include "base/file.h"
 #include "base/parallel.h"
 #include "base/units.h"
+#include "plot/text.h"
 #include "spectrum/photometry.h"
 
 #define SIDE 301 /* grid of the maps: 0.6 degrees a step */
@@ -95,7 +97,8 @@ Subject *subject_new(const SubjectSource *source, Arena *arena)
     const char *name = json_string_value(json_object_get(source->report, "panel"));
     s->source = *source;
     s->arena = arena;
-    s->name = name && *name ? name : source->file;
+    s->file_name = text_clean(path_name(source->file), arena);
+    s->name = name && *name ? text_clean(name, arena) : s->file_name;
     s->is_white_only = json_is_true(json_object_get(
         json_object_get(source->report, "emission"), "white_only"));
     s->emits = panel_info_emits(source->panel);

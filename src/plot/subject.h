@@ -29,7 +29,7 @@ typedef struct SubjectSource {
 
 typedef struct Subject {
     SubjectSource source;
-    const char *name;           /* of the panel */
+    const char *name, *file_name; /* of the panel, and of its file without folders */
     bool   emits, has_black, reflects, has_mirror;
     bool   is_white_only;       /* its primaries and levels are assumed, not measured */
     double cone;                /* emission is measured up to this theta */

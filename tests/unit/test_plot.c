@@ -414,6 +414,34 @@ static void texts_are_escaped(void **state)
     assert_string_equal(text.data, "a&lt;b&gt;&amp;&quot;c&#39;");
 }
 
+/* Names of files may be anything; cairo and a browser want UTF-8. */
+static void names_become_utf8(void **state)
+{
+    (void)state;
+    assert_string_equal(text_clean("display é µ ₂ 𝄞.panel", &arena), "display é µ ₂ 𝄞.panel");
+    assert_string_equal(text_clean("a\xff\xc3(\xe2\x82" "b\n\xc0\x80", &arena), "a?\?(?\?b???");
+    assert_string_equal(text_clean("\xed\xa0\x80", &arena), "???"); /* a surrogate */
+    assert_string_equal(text_clean("\xf0\x9d", &arena), "??");       /* cut short */
+}
+
+static void data_without_spread_have_a_picture(void **state)
+{
+    (void)state;
+    Picture8 picture = picture_start();
+    Field    field = field_new(31, PI / 2, &arena);
+    for (int pass = 0; pass < 3; pass++) {
+        for (int i = 0; i < 31 * 31; i++) field.value[i] = pass == 2 ? NAN : 0;
+        polar_draw(&picture.canvas, (Box){0, 0, SIZE, SIZE},
+                   &(PolarMap){.field = &field, .is_log = pass == 1, .strong = NAN,
+                               .theta_measured = PI / 2, .unit = ""});
+        Chart chart = chart_open(&picture.canvas, (Box){0, 0, SIZE, SIZE},
+                                 (AxisSpec){.title = "x"},
+                                 (AxisSpec){.is_log = pass == 1, .title = "y"}, 20);
+        chart_close(&chart);
+    }
+    picture_end(&picture);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -436,6 +464,8 @@ int main(void)
         cmocka_unit_test(axes_put_values_where_they_belong),
         cmocka_unit_test(ids_are_renamed_alike_and_apart),
         cmocka_unit_test(texts_are_escaped),
+        cmocka_unit_test(names_become_utf8),
+        cmocka_unit_test(data_without_spread_have_a_picture),
     };
     return cmocka_run_group_tests(tests, start, end);
 }
