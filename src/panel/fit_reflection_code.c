@@ -26,7 +26,10 @@ static void place_logs(const ReflectionFit *fit, int place, int table, float *lo
 static float largest_difference(const float *a, const float *b, int count)
 {
     float most = 0;
-    for (int w = 0; w < count; w++) most = fmaxf(most, fabsf(a[w] - b[w]));
+    for (int w = 0; w < count; w++) {
+        float difference = fabsf(a[w] - b[w]);
+        most = difference > most ? difference : most;
+    }
     return most;
 }
 
@@ -69,13 +72,11 @@ static void start_tolerances(ReflectionFit *fit)
 static bool accepts(const void *context, uint32_t place, const float *reconstructed)
 {
     const ReflectionFit *fit = context;
-    float logs[MEASUREMENT_WAVELENGTHS_MAX];
     for (int t = 0; t < fit->tables; t++) {
         size_t at = (size_t)place * (size_t)fit->tables + (size_t)t;
         if (fit->is_free[at]) continue;
-        reflect_logs(fit, t, reconstructed, logs);
-        if (largest_difference(logs, fit->value + at * (size_t)fit->wavelengths,
-                               fit->wavelengths) > fit->tolerance[at])
+        if (!reflect_is_near(fit, t, reconstructed,
+                             fit->value + at * (size_t)fit->wavelengths, fit->tolerance[at]))
             return false;
     }
     return true;
