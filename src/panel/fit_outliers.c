@@ -52,7 +52,7 @@ static int neighbours(const Search *search, int row, int begin, int end, int nea
         int next = 1;
         while (next < search->table->rows && search->table->theta[next] == search->table->theta[1])
             next++;
-        for (int k = 0; k < 4 && next > 4; k++) near[count++] = 1 + k * (next - 1) / 4;
+        for (int k = 0; k < 4 && next > 8; k++) near[count++] = 1 + k * (next - 1) / 4;
         return count;
     }
     int found[4] = {beside(search->table, row, -1, begin, end),

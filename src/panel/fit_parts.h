@@ -73,7 +73,7 @@ typedef struct FitEmission {
     TreeReport  tree_report;
     int         components, level, table_count;
     bool        has_black;
-    double      cone, tolerance, bound; /* cone: radians */
+    double      cone, tolerance; /* cone: radians */
     double      rank_worst;  /* relative error that the components leave at the worst sample */
     double      noise[FIT_TABLES_MAX]; /* relative, per table; last: black */
     double      dim[FIT_TABLES_MAX][3]; /* cd m^-2, per table and channel */
@@ -81,7 +81,6 @@ typedef struct FitEmission {
     bool        is_masked; /* outliers count nowhere */
     int         outlier_count, hole_count;
     FitFlags    outliers, holes;
-    int         falling; /* codes that lose light against the next lower one, over directions */
 } FitEmission;
 
 bool fit_emission(const Measurement *set, const FitOptions *options, Arena *arena,

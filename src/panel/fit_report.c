@@ -132,7 +132,8 @@ static void add_emission_tables(const FitParts *parts, const Panel *panel, json_
         float rgb[3];
         const AngleTable *from = table_at(parts, i, rgb);
         FitTable one = {.name = from->name, .text_bytes = from->text_bytes,
-                        .float32_bytes = 3 * sizeof(float) * (size_t)from->rows,
+                        .float32_bytes = parts->set->is_white_only && i
+                                             ? 0 : 3 * sizeof(float) * (size_t)from->rows,
                         .stored_values = (double)e->tree_report.stored_values / e->table_count,
                         .bytes = (double)emission_bytes(e) / e->table_count,
                         .noise = e->noise[i]};
@@ -141,8 +142,31 @@ static void add_emission_tables(const FitParts *parts, const Panel *panel, json_
     }
 }
 
+#define FALLING_LEVEL 3 /* of the directions that are asked */
+
+/* Whole codes that give less light than the code below, over directions and primaries. */
+static int count_falling(const Panel *panel)
+{
+    int count = 0;
+    for (uint32_t i = 0; i < geodesic_count(FALLING_LEVEL); i++) {
+        Vec3 d = geodesic_center(FALLING_LEVEL, i);
+        if (d.z < panel->emission->cone_cos) continue;
+        for (int p = 0; p < 3; p++) {
+            float rgb[3] = {0, 0, 0}, xyz[3], before[3];
+            panel_emission_xyz(panel, d, rgb, before);
+            for (int code = 1; code < 256; code++) {
+                rgb[p] = (float)code;
+                panel_emission_xyz(panel, d, rgb, xyz);
+                count += xyz[1] < before[1] * (1 - 1e-6f);
+                memcpy(before, xyz, sizeof before);
+            }
+        }
+    }
+    return count;
+}
+
 /* What was chosen for the emission, and what it takes. */
-static json_t *describe_emission(const FitParts *parts, const FitTable *total)
+static json_t *describe_emission(const FitParts *parts, const FitTable *total, int falling)
 {
     const FitEmission *e = parts->emission;
     double bytes = (double)emission_bytes(e);
@@ -150,13 +174,13 @@ static json_t *describe_emission(const FitParts *parts, const FitTable *total)
                      " s:i}",
         "basis", parts->options->basis == FIT_HAAR ? "haar" : "vertex",
         "level", e->level, "components", e->components, "tolerance", e->tolerance,
-        "bound", e->bound, "rank_error", e->rank_worst,
+        "bound", total->max_error, "rank_error", e->rank_worst,
         "cone_deg", degrees_from_radians(e->cone), "black", (int)e->has_black,
         "white_only", (int)parts->set->is_white_only,
         "bytes", (json_int_t)emission_bytes(e),
         "source_bytes_float32", (json_int_t)total->float32_bytes,
         "share_of_source", bytes / fmax(1, (double)total->float32_bytes),
-        "outliers", e->outlier_count, "holes", e->hole_count, "falling_codes", e->falling);
+        "outliers", e->outlier_count, "holes", e->hole_count, "falling_codes", falling);
 }
 
 static json_t *flags_json(const FitFlags *flags, bool has_values)
@@ -224,7 +248,11 @@ json_t *fit_measure(const FitParts *parts, const Panel *panel, size_t file_bytes
     json_object_set_new(out, "source_hash_xxh3", json_string(hash));
     if (parts->emission) {
         add_emission_tables(parts, panel, tables, &total);
-        json_object_set_new(out, "emission", describe_emission(parts, &total));
+        int falling = count_falling(panel);
+        if (falling)
+            fit_note(parts->notes, "%d codes, over directions and primaries, give less light "
+                     "than the code below", falling);
+        json_object_set_new(out, "emission", describe_emission(parts, &total, falling));
         json_object_set_new(out, "outliers", flags_json(&parts->emission->outliers, true));
         json_object_set_new(out, "holes", flags_json(&parts->emission->holes, false));
     }
