@@ -238,6 +238,9 @@ bool page_svg(const PageSpec *spec, Arena *arena, PlotBytes *out, Error *err)
     /* The sink grows while figures allocate: it has an arena of its own. */
     Arena  own = arena_reserve((size_t)4 << 30);
     Sink   sink = {.arena = &own};
+    const char *title = arena_format(arena, "%s, %s", spec->subject->name,
+                                     spec->kind == PLOT_ALL ? "panel plot"
+                                                            : plot_kind_name(spec->kind));
     cairo_surface_t *surface = svg_surface(&sink, l.width * l.scale, l.height * l.scale);
     cairo_t         *cr = cairo_create(surface);
     cairo_scale(cr, l.scale, l.scale);
@@ -245,7 +248,7 @@ bool page_svg(const PageSpec *spec, Arena *arena, PlotBytes *out, Error *err)
     Layout drawn = l;
     draw_page(cr, spec, &drawn, arena);
     bool ok = finish(cr, surface, err);
-    if (ok) *out = svg_with_ids(sink.bytes, "p", false, arena);
+    if (ok) *out = svg_with_title(svg_with_ids(sink.bytes, "p", false, arena), title, arena);
     arena_release(&own);
     return ok;
 }
