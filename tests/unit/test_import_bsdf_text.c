@@ -81,6 +81,12 @@ static void zemax_sample_rotations_are_azimuths_of_the_light(void **state)
     assert_true(f->set.is_anisotropic);
     assert_near(value_at(table_at(f, 30, 180), 20, 0, 0), 7, 0);
     assert_near(value_at(table_at(f, 30, 90), 20, 0, 0), 8, 0);
+    /* Declared isotropic: the first azimuth serves. */
+    f->set = import_set(&f->arena);
+    f->set.is_isotropic = true;
+    assert_true(importer_zemax.read(f->file, &f->options, &f->set, &f->err));
+    assert_int_equal(f->set.count, 1);
+    assert_noted(f, "isotropic as declared");
     /* 360 is 0 again. */
     assert_reads(f, "Symmetry ASymmetrical4D\nSpectralContent Monochrome\nScatterType BRDF\n"
                     "SampleRotation 3\n0 180 360\nAngleOfIncidence 1\n30\nScatterAzimuth 2\n"
