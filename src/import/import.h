@@ -38,8 +38,8 @@ typedef struct ImportTable {
     char          component;         /* emission: 0, or one of 'X', 'Y', 'Z' with one channel:
                                         files of the same source and level are joined; Y alone
                                         is luminance without colour */
-    bool          is_section;        /* directions of one azimuth: sections of the same source or
-                                        light are put together */
+    bool          is_section;        /* directions of one azimuth: sections of the same source
+                                        or light are put together */
     bool          is_any_light;      /* reference: serves every light */
     bool          is_signal;         /* reflection, reference: no BRDF yet but a signal, to be
                                         divided by the reference's */

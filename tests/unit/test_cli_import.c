@@ -74,9 +74,10 @@ static void the_command_line_stands_above_the_declaration(void **state)
     Lab        *lab = *state;
     const char *printed;
     lab_write(lab, "m1.txt", TABLE);
-    lab_write(lab, "d.json", "{\"mask\": [-999], \"unit\": \"fL\", \"roles\": {\"*\": \"black\"}}");
-    assert_true(RUN(lab, &printed, "--layout", "@d.json", "--unit", "nit", "--role", "m1*=white",
-                    "@m1.txt", "-o", "@out/M.json"));
+    lab_write(lab, "d.json", "{\"mask\": [-999], \"unit\": \"fL\","
+                             " \"roles\": {\"*\": \"black\"}}");
+    assert_true(RUN(lab, &printed, "--layout", "@d.json", "--unit", "nit", "--role",
+                    "m1*=white", "@m1.txt", "-o", "@out/M.json"));
     double sum = 0;
     const Measurement *set = read_set(lab);
     for (int p = 0; p < 3; p++) sum += (double)set->primary[p].table[0].value[1];
