@@ -38,7 +38,7 @@ static double table_peak(const AngleTable *table)
     return peak;
 }
 
-/* Fitted less measured luminance over the measured one, percent; over a hundredth of the
+/* Fitted less measured luminance over the measured one, percent; over a fortieth of the
  * table's peak where the light is dimmer than that. NaN on the horizon. */
 static double residual_percent(const Subject *s, const FitTableRef *ref, int row, double peak)
 {
@@ -46,7 +46,7 @@ static double residual_percent(const Subject *s, const FitTableRef *ref, int row
     double measured = (double)ref->table->value[3 * row + 1];
     if (theta > PI / 2 - 1e-4 || !(peak > 0)) return NAN;
     subject_xyz(s, theta, (double)ref->table->phi[row], ref->rgb, xyz);
-    return 100 * (xyz[1] - measured) / fmax(0.01 * peak, measured);
+    return 100 * (xyz[1] - measured) / fmax(0.025 * peak, measured);
 }
 
 /* What the fit was asked for, percent; of a file that does not say the largest error of its
@@ -148,46 +148,60 @@ static void draw_fit_section(Canvas *canvas, Box box, const Figure *figure, Figu
 
 /* ---- all residuals ---------------------------------------------------------------------- */
 
-#define BINS 61
+#define BINS 60
+#define LEAST_PERCENT 1e-3 /* what is less counts as so much */
 
 typedef struct Residuals {
-    double  reach; /* percent, of the histogram's ends */
-    double  bin[BINS], highest;
-    double  most, rms, count;
-    double  worst_theta, worst_phi;
+    double      bin[BINS], highest; /* samples, over the logarithm of the error */
+    double      reach;              /* percent, of the last bin's end */
+    double      most, rms, count;
+    double      worst_theta, worst_phi;
     FitTableRef worst; /* the table with the largest */
 } Residuals;
+
+static void count_residual(Residuals *out, double percent)
+{
+    double t = log(fmax(percent, LEAST_PERCENT) / LEAST_PERCENT) /
+               log(out->reach / LEAST_PERCENT);
+    int    bin = (int)(t * BINS);
+    out->bin[bin < BINS ? bin : BINS - 1] += 1;
+}
+
+/* The first pass finds the largest one, the second counts. */
+static void pass_over(const Subject *s, const FitTableRef *ref, bool counts, Residuals *out)
+{
+    double peak = table_peak(ref->table);
+    for (int i = 0; i < ref->table->rows; i++) {
+        double r = fabs(residual_percent(s, ref, i, peak));
+        if (!isfinite(r)) continue;
+        if (counts) {
+            count_residual(out, r);
+            continue;
+        }
+        out->rms += r * r;
+        out->count += 1;
+        if (r <= out->most) continue;
+        out->most = r;
+        out->worst = *ref;
+        out->worst_theta = (double)ref->table->theta[i];
+        out->worst_phi = (double)ref->table->phi[i];
+    }
+}
 
 static void measure_residuals(const Subject *s, Residuals *out)
 {
     FitTableRef *ref = ARENA_NEW(s->arena, FitTableRef, FIT_TABLES_MAX);
     int          tables = emission_tables(s->source.measured, ref);
-    double       squares = 0;
-    for (int pass = 0; pass < 2; pass++) {
-        for (int t = 0; t < tables; t++) {
-            double peak = table_peak(ref[t].table);
-            for (int i = 0; i < ref[t].table->rows; i++) {
-                double r = residual_percent(s, &ref[t], i, peak);
-                if (!isfinite(r)) continue;
-                if (pass == 1) {
-                    int bin = (int)floor((r / out->reach + 1) / 2 * BINS);
-                    out->bin[bin < 0 ? 0 : bin >= BINS ? BINS - 1 : bin] += 1;
-                    continue;
-                }
-                squares += r * r;
-                out->count += 1;
-                if (fabs(r) <= out->most) continue;
-                out->most = fabs(r);
-                out->worst = ref[t];
-                out->worst_theta = (double)ref[t].table->theta[i];
-                out->worst_phi = (double)ref[t].table->phi[i];
-            }
-        }
-        out->rms = sqrt(squares / fmax(out->count, 1));
-        double bound = stated_bound_percent(s);
-        if (pass == 0) out->reach = fmax(1.15 * bound, fmin(out->most, 3 * bound)) + 1e-6;
-    }
+    for (int t = 0; t < tables; t++) pass_over(s, &ref[t], false, out);
+    out->rms = sqrt(out->rms / fmax(out->count, 1));
+    out->reach = round_up(1.3 * fmax(fmax(out->most, stated_bound_percent(s)), 0.01));
+    for (int t = 0; t < tables; t++) pass_over(s, &ref[t], true, out);
     for (int i = 0; i < BINS; i++) out->highest = fmax(out->highest, out->bin[i]);
+}
+
+static double bin_start(const Residuals *r, int bin)
+{
+    return LEAST_PERCENT * pow(r->reach / LEAST_PERCENT, (double)bin / BINS);
 }
 
 static void draw_histogram(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
@@ -197,22 +211,22 @@ static void draw_histogram(Canvas *canvas, Box box, const Figure *figure, Figure
     double         bound = stated_bound_percent(s);
     measure_residuals(s, r);
     Chart chart = chart_open(canvas, box,
-        (AxisSpec){.low = -r->reach, .high = r->reach, .suffix = " %",
-                   .title = "fitted less measured luminance"},
-        (AxisSpec){.low = 0.7, .high = round_up(fmax(r->highest, 10) * 1.1), .is_log = true,
+        (AxisSpec){.low = LEAST_PERCENT, .high = r->reach, .is_log = true, .suffix = " %",
+                   .title = "size of fitted less measured luminance"},
+        (AxisSpec){.low = 0.7, .high = round_up(fmax(r->highest, 10) * 1.6), .is_log = true,
                    .title = "samples"}, 14);
     for (int i = 0; i < BINS; i++) {
         if (!(r->bin[i] > 0)) continue;
-        double x0 = chart_x(&chart, r->reach * (2.0 * i / BINS - 1));
-        double x1 = chart_x(&chart, r->reach * (2.0 * (i + 1) / BINS - 1));
+        double x0 = chart_x(&chart, bin_start(r, i)), x1 = chart_x(&chart, bin_start(r, i + 1));
         double y = chart_y(&chart, r->bin[i]);
         cairo_rectangle(canvas->cr, x0 + 0.4, y, x1 - x0 - 0.8,
                         chart.plot.y + chart.plot.h - y);
         canvas_fill(canvas, ink_mix(canvas->theme.primary[2], canvas->theme.paper, 0.35));
     }
-    Stroke stroke = {canvas->theme.accent, 1.2, DASH_SHORT};
-    chart_mark_x(&chart, -bound, stroke, "");
-    chart_mark_x(&chart, bound, stroke, arena_format(canvas->arena, "±%.3g %%", bound));
+    chart_mark_x(&chart, r->rms, (Stroke){canvas->theme.ink, 1.1, DASH_DOT},
+                 arena_format(canvas->arena, "rms %.2g %%", r->rms));
+    chart_mark_x(&chart, bound, (Stroke){canvas->theme.accent, 1.3, DASH_SHORT},
+                 arena_format(canvas->arena, "bound %.3g %%", bound));
     figure_map_chart(out, &chart);
 }
 
@@ -242,6 +256,15 @@ static Field residual_field(const Subject *s, const FitTableRef *ref, Arena *are
     return field;
 }
 
+/* Percent: all but one direction in fifty have less; the few are for the histogram. */
+static double residual_reach(const Field *field, const Subject *s, Arena *arena)
+{
+    Field size = field_new(field->side, field->theta_rim, arena);
+    for (int i = 0; i < field->side * field->side; i++)
+        size.value[i] = fabsf(field->value[i]);
+    return fmax(field_quantile(&size, s->cone, 0.98, *arena), LEAST_PERCENT);
+}
+
 static void draw_residual_map(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
 {
     const Subject *s = figure->subject;
@@ -249,9 +272,10 @@ static void draw_residual_map(Canvas *canvas, Box box, const Figure *figure, Fig
     Field         *field = ARENA_NEW(canvas->arena, Field, 1);
     measure_residuals(s, r);
     *field = residual_field(s, &r->worst, canvas->arena);
-    double   reach = fmax(stated_bound_percent(s), 1e-3);
+    double   reach = residual_reach(field, s, canvas->arena);
     PolarMap map = {.field = field, .map = MAP_SIGNED, .low = -reach, .high = reach,
-                    .strong = NAN, .theta_measured = s->cone, .unit = "%", .is_residual = true};
+                    .is_cut = reach < 0.99 * r->most, .strong = NAN,
+                    .theta_measured = s->cone, .unit = "%", .is_residual = true};
     PolarPlace place = polar_draw(canvas, box, &map);
     *out = (FigureMap){.kind = FIGURE_POLAR, .disc = place, .field = *field, .unit = "%"};
 }
@@ -366,11 +390,11 @@ static void add_emission_fit(FigureList *list, const Subject *s)
             "highest level.", draw_fit_section, s, i,
             i ? SHEET_SPARE : SHEET_ALWAYS, false});
     figure_add(list, &(Figure){PLOT_FIT, "Residuals of all samples",
-        arena_format(s->arena, "%.0f samples: rms %s %%, at most %s %%; line: the bound",
+        arena_format(s->arena, "%.0f samples: rms %s %%, at most %s %%; line: the file's bound",
                      r->count, figure_text(r->rms, rms), figure_text(r->most, most)),
         "Fitted less measured luminance of every sample of every emission table, relative to "
-        "the measured one (to a hundredth of the table's peak where that is more). The lines "
-        "are the bound of the fit; what the source's own noise adds may lie beyond.",
+        "the measured one (to a fortieth of the table's peak where that is more), and the "
+        "largest error of X, Y and Z that the file states, noise of the source included.",
         draw_histogram, s, 0, SHEET_ALWAYS, false});
     if (r->worst.table)
         figure_add(list, &(Figure){PLOT_FIT, "Residual of the worst table",
@@ -378,7 +402,8 @@ static void add_emission_fit(FigureList *list, const Subject *s)
                          r->worst.table->name, most, degrees_from_radians(r->worst_theta),
                          degrees_from_radians(r->worst_phi)),
             "Fitted less measured luminance in percent for the table with the largest error; "
-            "the colours end at the bound of the fit.", draw_residual_map, s, 0, SHEET_ALWAYS,
+            "the colours hold all but one direction in fifty.", draw_residual_map, s, 0,
+            SHEET_ALWAYS,
             false});
 }
 
@@ -396,7 +421,8 @@ void figures_add_fit(FigureList *list, const Subject *s)
     if (s->emits && set->primary[0].level_count > 0) add_emission_fit(list, s);
     if (s->reflects && set->incidence_count > 0)
         figure_add(list, &(Figure){PLOT_FIT, "Measured and fitted BRDF",
-            arena_format(s->arena, "%.4g nm; rings: the source, lines: without the mirror part%s",
+            arena_format(s->arena, "%.4g nm; rings: the source, lines: without the mirror "
+                         "part%s",
                          (double)set->wavelength_nm[middle_channel(set)], azimuth_text(s)),
             "The source's BRDF in the plane of incidence (rings) over the panel file's haze "
             "and floor (lines). What stands above the line at the mirror direction is the "

@@ -56,7 +56,9 @@ static void fill_plane(const Subject *s, double incidence_deg, PlaneCurve *out)
         out->deg[out->count] = deg;
         out->value[out->count] = subject_brdf(s, radians_from_degrees(incidence_deg), theta,
                                               deg < 0 ? PI : 0);
-        if (out->value[out->count] > out->value[out->peak]) out->peak = out->count;
+        bool is_measured = theta <= s->brdf_cone + 1e-6;
+        if (is_measured && out->value[out->count] > out->value[out->peak])
+            out->peak = out->count;
         out->count++;
         deg += fabs(deg - incidence_deg) < 6 ? 0.05 : 0.25;
     }

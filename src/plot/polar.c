@@ -227,6 +227,12 @@ static void draw_scale(const PolarDisc *disc, Box bar)
         cairo_line_to(canvas->cr, bar.x + bar.w / 2, bar.y - 8);
         cairo_line_to(canvas->cr, bar.x + bar.w, bar.y);
         canvas_fill(canvas, ink_hex(c & 0xffffff));
+        if (disc->map->map == MAP_SIGNED) {
+            cairo_move_to(canvas->cr, bar.x, bar.y + bar.h);
+            cairo_line_to(canvas->cr, bar.x + bar.w / 2, bar.y + bar.h + 8);
+            cairo_line_to(canvas->cr, bar.x + bar.w, bar.y + bar.h);
+            canvas_fill(canvas, ink_hex(palette.colour[0] & 0xffffff));
+        }
     }
     Ticks ticks = scale_ticks(disc->map, bar.h);
     for (int i = 0; i < ticks.count; i++) {
