@@ -47,12 +47,13 @@ static void choose_wavelengths(Work *work)
 static void choose_places(Work *work, Arena *arena)
 {
     uint32_t octant = 1u << 2 * LEVEL;
-    work->octants = work->panel->reflection_tree.octants;
+    work->octants = work->panel->reflection->azimuths > 1 ? 4 : 2;
     work->leaves = work->octants << 2 * LEVEL;
     work->stored = ARENA_NEW(arena, Vec3, work->leaves);
     work->area = ARENA_NEW(arena, double, octant);
     geodesic_areas(LEVEL, work->area);
-    for (int i = 0; i < work->leaves; i++) work->stored[i] = geodesic_center(LEVEL, (uint32_t)i);
+    for (int i = 0; i < work->leaves; i++)
+        work->stored[i] = geodesic_center(LEVEL, (uint32_t)i);
 }
 
 static double area_of(const Work *work, int leaf)
@@ -64,7 +65,7 @@ static double area_of(const Work *work, int leaf)
  * Jacobian, for a wo at theta and phi, scaled to a sum of 1. */
 static void read_function(const Work *work, double theta, double phi, float *integral)
 {
-    SpecularFrame frame = specular_frame((float)theta, work->panel->reflection->frame_exponent);
+    SpecularFrame frame = specular_frame((float)theta, PANEL_SAMPLING_EXPONENT);
     double s = sin(theta), total = 0;
     Vec3   wo = vec3((float)(s * cos(phi)), (float)(s * sin(phi)), (float)cos(theta));
     float  ex = (float)-cos(phi), ey = (float)-sin(phi);

@@ -26,7 +26,7 @@ static int end_ips(void **state)
 /* The same direction in the display's frame and in the tree's, the light at azimuth 180. */
 static SpecularFrame frame_of(double theta)
 {
-    return specular_frame((float)theta, ips.panel->reflection->frame_exponent);
+    return specular_frame((float)theta, PANEL_SAMPLING_EXPONENT);
 }
 
 /* Density per solid angle of the stored frame at a stored direction; the pdf of the display's
