@@ -2,6 +2,7 @@
 #include "import/import_request.h"
 
 #include <fnmatch.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/file.h"
@@ -186,12 +187,32 @@ bool import_is_skipped(const ImportRequest *request, const char *file)
     return false;
 }
 
+/* Reads on when a file is refused, so that the message can say how many are. */
+static bool read_files(const char *const *file, int count, const ImportRequest *request,
+                       ImportSet *set, Error *err)
+{
+    ImportOptions options = request->options;
+    Error         one = {.code = ERROR_NONE};
+    int           refused = 0, skipped = 0;
+    options.text = &request->text;
+    for (int i = 0; i < count; i++) {
+        bool is_skipped = import_is_skipped(request, file[i]);
+        skipped += is_skipped;
+        if (!is_skipped && !import_file(file[i], &options, set, &one) && !refused++) *err = one;
+        if (refused && one.code != ERROR_INPUT) break;
+        if (request->step) request->step(request->context, i + 1);
+    }
+    if (skipped) import_note(set, "%d files were left out as asked", skipped);
+    size_t length = strlen(err->text);
+    if (refused > 1)
+        snprintf(err->text + length, sizeof err->text - length, "; %d more file%s refused",
+                 refused - 1, refused == 2 ? " is" : "s are");
+    return !refused;
+}
+
 bool import_run(const char *const *file, int count, const ImportRequest *request,
                 ImportSet *set, Error *err)
 {
-    ImportOptions options = request->options;
-    int           skipped = 0;
-    options.text = &request->text;
     set->panel = request->panel;
     set->instrument = request->instrument;
     set->is_isotropic = request->is_isotropic;
@@ -201,12 +222,5 @@ bool import_run(const char *const *file, int count, const ImportRequest *request
         set->white_reflectance = request->text.white_reflectance;
     if (request->primaries && !import_primaries(request->primaries, &request->text, set, err))
         return false;
-    for (int i = 0; i < count; i++) {
-        bool is_skipped = import_is_skipped(request, file[i]);
-        skipped += is_skipped;
-        if (!is_skipped && !import_file(file[i], &options, set, err)) return false;
-        if (request->step) request->step(request->context, i + 1);
-    }
-    if (skipped) import_note(set, "%d files were left out as asked", skipped);
-    return import_complete(set, err);
+    return read_files(file, count, request, set, err) && import_complete(set, err);
 }

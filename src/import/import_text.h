@@ -18,7 +18,9 @@ typedef enum TableLayout {
     LAYOUT_AUTO,
     LAYOUT_LIST,      /* a direction a row */
     LAYOUT_THETA_DOWN, /* a matrix: theta in the first column, phi in the first row */
-    LAYOUT_PHI_DOWN
+    LAYOUT_PHI_DOWN,
+    LAYOUT_HORIZONTAL_DOWN, /* a matrix of horizontal and vertical angles */
+    LAYOUT_VERTICAL_DOWN
 } TableLayout;
 
 /* Which two angles the columns theta and phi, or horizontal and vertical, are. */

@@ -11,7 +11,8 @@
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
 const TextKey text_keys[] = {
-    {"table", "list|theta-down|phi-down", "a direction a row, or a matrix and what runs down"},
+    {"table", "list|theta-down|phi-down|horizontal-down|vertical-down",
+     "a direction a row, or a matrix and what runs down"},
     {"columns", "NAME,NAME,...",
      "what each column is: theta, phi, X, Y, Z, L, x, y, u', v', 550nm, ...; - skips one"},
     {"quantity", "X|Y|Z|L|brdf|550nm|...", "what a matrix without a label holds"},

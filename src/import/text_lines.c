@@ -289,7 +289,8 @@ static int count_rows(const TextFile *text, int first_line, TextDialect dialect,
     return rows;
 }
 
-/* The dialect of the most rows; how many they are. */
+/* The dialect of the most rows; how many they are. Decimal commas between commas stand in
+ * quotes. */
 static int best_dialect(const TextFile *text, int first_line, bool with_words, TextCell *cell,
                         TextDialect *dialect)
 {
@@ -299,7 +300,7 @@ static int best_dialect(const TextFile *text, int first_line, bool with_words, T
     for (const char *d = delimiters; *d; d++)
         for (const char *p = decimals; *p; p++) {
             bool wanted = (!dialect->delimiter || dialect->delimiter == *d) &&
-                          (!dialect->decimal || dialect->decimal == *p) && *d != *p;
+                          (!dialect->decimal || dialect->decimal == *p);
             int rows = wanted ? count_rows(text, first_line, (TextDialect){*d, *p}, with_words,
                                            cell) : 0;
             if (rows <= most) continue;

@@ -272,8 +272,7 @@ static bool numbers_without_names(Scan *scan)
 /* The first row of numbers: of which layout is it? */
 static bool begin_rows(Scan *scan)
 {
-    bool is_matrix = scan->declared->layout == LAYOUT_THETA_DOWN ||
-                     scan->declared->layout == LAYOUT_PHI_DOWN;
+    bool is_matrix = scan->declared->layout >= LAYOUT_THETA_DOWN;
     bool may_head = scan->declared->layout != LAYOUT_LIST && !scan->declared->columns;
     if (is_matrix && scan->count > 1) return begin_block(scan);
     if (may_head && is_matrix_head(scan)) return begin_block(scan); /* an empty corner */

@@ -142,6 +142,18 @@ static void a_file_that_does_not_tell_is_named_with_the_option(void **state)
                      "--role BRDF_20-90.csv=brdf:INCIDENCE");
 }
 
+static void one_message_counts_all_refused_files(void **state)
+{
+    Lab *lab = *state;
+    lab_write(lab, "m1.csv", TABLE);
+    lab_write(lab, "white.csv", TABLE);
+    lab_write(lab, "m2.csv", TABLE);
+    lab_write(lab, "m3.csv", TABLE);
+    lab_refused(lab, "m1.csv: does not tell, by its contents or its name, which pattern it "
+                     "shows — say it with --role m1.csv=red:255 (or green, blue, black, "
+                     "white); 2 more files are refused");
+}
+
 static void levels_scale_from_the_panels_highest_code(void **state)
 {
     Lab *lab = *state;
@@ -178,6 +190,7 @@ int main(void)
         lab_case(a_files_own_words_tell_its_pattern),
         lab_case(words_and_name_must_not_contradict),
         lab_case(a_file_that_does_not_tell_is_named_with_the_option),
+        lab_case(one_message_counts_all_refused_files),
         lab_case(levels_scale_from_the_panels_highest_code),
         lab_case(files_are_left_out_as_asked),
     };

@@ -40,6 +40,8 @@ static void delimiters_and_decimal_signs_are_found(void **state)
         "30, 180, 65, 70, 76\n",
         "\"theta\",\"phi\",\"X\",\"Y\",\"Z\"\n\"0\",\"0\",\"9.5e1\",\"1E+02\",\"109\"\n"
         "30,0,85,90,98\n30,90,75,80,87\n30,180,65,70,76\n",
+        "theta,phi,X,Y,Z\n\"0,0\",\"0,0\",\"95,0\",\"100,0\",\"109,0\"\n\"30,0\",\"0\","
+        "\"85,0\",\"90,0\",\"98,0\"\n30,90,75,80,87\n30,180,\"65,0\",70,76\n",
         "theta;phi;X;Y;Z;\n0;0;95;100;109;\n30;0;85;90;98;\n30;90;75;80;87;\n30;180;65;70;76;"
         "\n",
     };
@@ -279,6 +281,21 @@ static void a_matrix_without_names_is_told_by_its_range(void **state)
     assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 30, 80, 1), 40, 0);
 }
 
+static void a_matrix_may_have_horizontal_and_vertical_angles(void **state)
+{
+    Lab *lab = *state;
+    lab_declare(lab, "angles", "equidistant");
+    import_white(lab, "[L]\ntheta_V\\theta_H;-30;0;40\n-20;1;2;3\n0;4;5;6\n");
+    const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
+    assert_near(lab_value(white, 40, 0, 1), 6, 0);
+    assert_near(lab_value(white, 30, 180, 1), 4, 0);
+    assert_near(lab_value(white, 20, 270, 1), 2, 0);
+    lab_declare(lab, "table", "horizontal-down");
+    import_white(lab, "[L]\n;-20;0\n-30;1;4\n0;2;5\n40;3;6\n");
+    assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 40, 0, 1), 6, 0);
+    assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 20, 270, 1), 2, 0);
+}
+
 static void one_file_a_component_is_joined(void **state)
 {
     Lab *lab = *state;
@@ -347,7 +364,7 @@ static void sections_of_one_pattern_make_one_table(void **state)
     assert_near(white->masked_phi_deg[0], 180, 0);
     lab->request->text.section.count = 0;
     lab_refused(lab, "white_hor.txt: header line: has theta but no azimuth — say the section's "
-                     "azimuth with --section white_hor.txt=DEG");
+                     "azimuth with --section white_hor.txt=DEG; 1 more file is refused");
 }
 
 /* ---- reflection -------------------------------------------------------------------------- */
@@ -477,6 +494,7 @@ int main(void)
         lab_case(horizontal_and_vertical_angles_become_theta_and_phi),
         lab_case(matrices_read_down_and_across),
         lab_case(a_matrix_without_names_is_told_by_its_range),
+        lab_case(a_matrix_may_have_horizontal_and_vertical_angles),
         lab_case(one_file_a_component_is_joined),
         lab_case(marks_are_left_out_and_counted),
         lab_case(directions_beyond_the_horizon_are_left_out_and_told),
