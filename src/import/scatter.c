@@ -138,8 +138,8 @@ static bool is_spared(ImportSet *set, const char *file, ScatterLight light, floa
             fabs(table->incidence_deg - light.incidence_deg) > 1e-6 ||
             fabsf(table->wavelength_nm[0] - nm) > 1e-3f)
             continue;
-        import_note(set, "%s: isotropic as declared: of several azimuths of the light the first "
-                    "one is taken", path_name(file));
+        import_note(set, "%s: isotropic as declared: of several azimuths of the light the "
+                    "first one is taken", path_name(file));
         return true;
     }
     return false;
