@@ -96,7 +96,49 @@ static double ridge_of(const EmissionModel *model, const float *rest, int compon
         area += s->area[i];
     }
     double variance = fmax(sum / area - noise * noise, 0.01 * noise * noise + 1e-12);
-    return fmax(1e-13, noise * noise / (s->rows * 6 * variance));
+    return noise * noise / (s->rows * 6 * variance);
+}
+
+/* rms of what vertex values leave of the samples, weighted as they are. */
+static double rest_of_fit(const Coder *coder, const VertexSamples *samples, const float *values)
+{
+    double sum = 0, total = 0;
+    for (int i = 0; i < samples->count; i++) {
+        VertexPoint at = vertex_find(coder->geodesic, coder->lattice, samples->direction[i]);
+        double rest = (double)samples->value[i], w = (double)samples->weight[i];
+        for (int q = 0; q < 3; q++)
+            rest -= (double)at.weight[q] * (double)values[at.vertex[q]];
+        sum += w * rest * rest;
+        total += w;
+    }
+    return sqrt(sum / total);
+}
+
+#define RIDGE_STEP 32.0
+#define LEAST_RIDGE 1e-12
+#define WEAK_RIDGE 1e-9 /* weaker than this they hardly smooth; then */
+#define WORTH 0.7       /* the next must leave so much less */
+
+/* The strongest ridge that leaves no more than the noise, or nothing that matters, or hardly
+ * more than a weaker one. */
+static bool fit_values(const Coder *coder, const VertexSamples *samples, int component,
+                       double ridge, Arena scratch, float *values, Error *err)
+{
+    double enough = fmax(1.2 * (double)coder->model->score_noise[component],
+                         0.1 * (double)coder->model->step[component]);
+    double before = INFINITY;
+    float *trial = ARENA_NEW(&scratch, float, coder->vertices);
+    for (;; ridge /= RIDGE_STEP) {
+        Arena work = scratch;
+        ridge = fmax(ridge, LEAST_RIDGE);
+        if (!vertex_fit(coder->geodesic, coder->lattice, samples, ridge, &work, trial, err))
+            return false;
+        double rest = rest_of_fit(coder, samples, trial);
+        if (ridge < WEAK_RIDGE && rest > WORTH * before) return true;
+        memcpy(values, trial, coder->vertices * sizeof *values);
+        if (ridge == LEAST_RIDGE || rest <= enough) return true;
+        before = rest;
+    }
 }
 
 static bool fit_component(Coder *coder, const float *rest, int component, Arena scratch,
@@ -104,18 +146,18 @@ static bool fit_component(Coder *coder, const float *rest, int component, Arena 
 {
     const EmissionSamples *s = coder->model->samples;
     int    n = coder->model->rank->components;
-    float *one = ARENA_NEW(&scratch, float, s->rows), *weight = ARENA_NEW(&scratch, float, s->rows);
-    float *values = ARENA_NEW(&scratch, float, coder->vertices);
+    float *one = ARENA_NEW(&scratch, float, s->rows);
+    float *weight = ARENA_NEW(&scratch, float, s->rows);
+    float *values = ARENA_NEW(&scratch, float, coder->vertices), low = INFINITY, high = -low;
     for (int i = 0; i < s->rows; i++) {
         one[i] = rest[i * n + component];
         weight[i] = coder->model->rank->belief[i] * (float)s->area[i];
+        low = fminf(low, one[i]), high = fmaxf(high, one[i]);
     }
     VertexSamples samples = {s->rows, 1, s->direction, one, weight};
-    if (!vertex_fit(coder->geodesic, coder->lattice, &samples,
-                    ridge_of(coder->model, rest, component), &scratch, values, err))
+    if (!fit_values(coder, &samples, component, ridge_of(coder->model, rest, component),
+                    scratch, values, err))
         return false;
-    float low = INFINITY, high = -INFINITY;
-    for (int i = 0; i < s->rows; i++) low = fminf(low, one[i]), high = fmaxf(high, one[i]);
     for (uint32_t v = 0; v < coder->vertices; v++) /* what nothing measures cannot run away */
         coder->value[v * (uint32_t)n + (uint32_t)component] = clampf(values[v], low, high);
     return true;
