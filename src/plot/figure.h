@@ -66,6 +66,9 @@ void figures_add_fit(FigureList *list, const Subject *subject);
 /* A figure of primaries or levels of a set that is white only says so and leaves the sheet. */
 void figure_add(FigureList *list, const Figure *figure);
 
+/* The ink of the i-th of so many curves that stand in an order. */
+Ink figure_series_ink(const Canvas *canvas, int i, int count);
+
 /* Title, subtitle and the figure itself. */
 void figure_draw(Canvas *canvas, Box box, const Figure *figure, FigureMap *map);
 

@@ -146,6 +146,58 @@ static void draw_fit_section(Canvas *canvas, Box box, const Figure *figure, Figu
     figure_map_chart(out, &chart);
 }
 
+/* ---- levels at the normal ----------------------------------------------------------------- */
+
+/* Measured luminance at the least theta of the table. */
+static double normal_luminance(const AngleTable *table)
+{
+    return (double)table->value[1];
+}
+
+static void draw_fit_level_curve(Chart *chart, const Subject *s, int primary, Ink ink)
+{
+    enum { POINTS = 120 };
+    double code[POINTS], value[POINTS];
+    for (int i = 0; i < POINTS; i++) {
+        float  rgb[3] = {0, 0, 0};
+        double xyz[3];
+        code[i] = 8 * pow(255.0 / 8, (double)i / (POINTS - 1));
+        rgb[primary] = (float)code[i];
+        subject_xyz(s, 0, 0, rgb, xyz);
+        value[i] = xyz[1];
+    }
+    chart_curve(chart, code, value, POINTS, (Stroke){ink, 1.2, DASH_NONE});
+    chart_name(chart, 255, value[POINTS - 1], ink,
+               pattern_name((Pattern)(PATTERN_RED + primary)));
+}
+
+static void draw_fit_levels(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+{
+    const Subject     *s = figure->subject;
+    const Measurement *set = s->source.measured;
+    double low = INFINITY, high = 0;
+    for (int p = 0; p < 3; p++)
+        for (int i = 0; i < set->primary[p].level_count; i++) {
+            double y = normal_luminance(&set->primary[p].table[i]);
+            if (y > 0) low = fmin(low, y);
+            high = fmax(high, y);
+        }
+    low = fmax(low, high / 1e5);
+    Chart chart = chart_open(canvas, box,
+        (AxisSpec){.low = 8, .high = 256, .is_log = true, .title = "code of 255"},
+        (AxisSpec){.low = round_down(0.6 * low), .high = round_up(1.3 * high), .is_log = true,
+                   .title = "Luminance at the normal, cd/m², black included"}, 48);
+    for (int p = 0; p < 3; p++) {
+        const MeasuredPrimary *primary = &set->primary[p];
+        draw_fit_level_curve(&chart, s, p, canvas->theme.primary[p]);
+        for (int i = 0; i < primary->level_count; i++)
+            ring(&chart, primary->level[i], normal_luminance(&primary->table[i]),
+                 canvas->theme.primary[p]);
+    }
+    chart_close(&chart);
+    figure_map_chart(out, &chart);
+}
+
 /* ---- all residuals ---------------------------------------------------------------------- */
 
 #define BINS 60
@@ -359,10 +411,8 @@ static void draw_fit_brdf(Canvas *canvas, Box box, const Figure *figure, FigureM
     chart_hatch(&chart, -90, -cone);
     chart_hatch(&chart, cone, 90);
     for (int k = 0; k < count; k++) {
-        double srgb[3];
-        bool   taken[151] = {false}; /* rings no nearer than 1.2 degrees */
-        colour_map_at(MAP_SCATTER, 0.12 + 0.6 * k / fmax(count - 1, 1), srgb);
-        Ink ink = {srgb[0], srgb[1], srgb[2], 1};
+        Ink  ink = figure_series_ink(canvas, k, count);
+        bool taken[151] = {false}; /* rings no nearer than 1.2 degrees */
         for (int i = 0; i < points[k].count; i++) {
             int slot = (int)((points[k].deg[i] + 90) / 1.2);
             if (slot < 0 || slot > 150 || taken[slot]) continue;
@@ -389,6 +439,11 @@ static void add_emission_fit(FigureList *list, const Subject *s)
             "The source's luminance (rings) over the panel file's (lines), each primary at its "
             "highest level.", draw_fit_section, s, i,
             i ? SHEET_SPARE : SHEET_ALWAYS, false});
+    if (s->source.measured->primary[0].level_count > 1)
+        figure_add(list, &(Figure){PLOT_FIT, "Measured and fitted levels",
+            "rings: the source's samples, lines: the panel file",
+            "The source's luminance at the normal (rings) over the panel file's (lines), for "
+            "every measured level of each primary.", draw_fit_levels, s, 0, SHEET_SPARE, true});
     figure_add(list, &(Figure){PLOT_FIT, "Residuals of all samples",
         arena_format(s->arena, "%.0f samples: rms %s %%, at most %s %%; line: the file's bound",
                      r->count, figure_text(r->rms, rms), figure_text(r->most, most)),

@@ -3,16 +3,8 @@
 
 #include "base/units.h"
 #include "plot/chart.h"
-#include "plot/colour_map.h"
 #include "plot/figure.h"
 #include "plot/ticks.h"
-
-static Ink series_ink(const Canvas *canvas, int i, int count)
-{
-    double srgb[3], t = count > 1 ? (double)i / (count - 1) : 0;
-    colour_map_at(MAP_SCATTER, canvas->theme.is_dark ? 0.42 + 0.5 * t : 0.12 + 0.6 * t, srgb);
-    return (Ink){srgb[0], srgb[1], srgb[2], 1};
-}
 
 #define INCIDENCES_SHOWN 7
 
@@ -102,13 +94,13 @@ static void draw_plane(Canvas *canvas, Box box, const Figure *figure, FigureMap 
     hatch_unmeasured(&chart, s);
     for (int k = count - 1; k >= 0; k--)
         chart_curve(&chart, curve[k].deg, curve[k].value, curve[k].count,
-                    (Stroke){series_ink(canvas, k, count), 1.5, k % 2 ? DASH_LONG : DASH_NONE});
+                    (Stroke){figure_series_ink(canvas, k, count), 1.5, k % 2 ? DASH_LONG : DASH_NONE});
     for (int k = 0; k < count; k++) {
         double x = chart_x(&chart, curve[k].deg[curve[k].peak]);
         double y = chart_y(&chart, fmax(curve[k].value[curve[k].peak], low)) - 5;
         if (x - last_x < 15 && fabs(y - last_y) < 12) continue;
         canvas_text(canvas, x, y, (Letters){.size = SIZE_TICK, .across = 0.5, .down = 1,
-                    .ink = series_ink(canvas, k, count), .halo = canvas->theme.paper},
+                    .ink = figure_series_ink(canvas, k, count), .halo = canvas->theme.paper},
                     arena_format(canvas->arena, "%.3g°", deg[k]));
         last_x = x;
         last_y = y;
@@ -161,7 +153,7 @@ static void draw_wavelengths(Canvas *canvas, Box box, const Figure *figure, Figu
         (AxisSpec){.low = low, .high = round_up(high * 1.05), .is_log = true,
                    .title = "BRDF, sr⁻¹"}, 40);
     for (int k = 0; k < ASPECULAR_COUNT; k++) {
-        Ink ink = series_ink(canvas, k, ASPECULAR_COUNT);
+        Ink ink = figure_series_ink(canvas, k, ASPECULAR_COUNT);
         chart_curve(&chart, curve[k].nm, curve[k].value, WAVELENGTH_POINTS,
                     (Stroke){ink, 1.4, DASH_NONE});
         for (int w = 0; w < s->wavelength_count && s->wavelength_count <= 40; w++) {
