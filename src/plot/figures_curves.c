@@ -262,7 +262,8 @@ static void write_angle_key(const Chart *chart)
         Ink ink = angle_ink(canvas, i, ANGLES);
         canvas_line(canvas, x, y, x + 20, y, (Stroke){ink, 1.6, DASH_NONE});
         canvas_text(canvas, x + 27, y, (Letters){.size = SIZE_TICK, .ink = canvas->theme.ink,
-                    .down = 0.5, .halo = canvas->theme.paper}, arena_format(canvas->arena, "θ %d°", GREY_ANGLES[i]));
+                    .down = 0.5, .halo = canvas->theme.paper},
+                    arena_format(canvas->arena, "θ %d°", GREY_ANGLES[i]));
     }
 }
 
@@ -324,6 +325,10 @@ static void add_grey(FigureList *list, const Subject *s)
 {
     static const char *const TITLES[] = {"Grey levels", "Grey levels, logarithmic",
                                          "Local gamma"};
+    static const char *const SUBTITLES[] = {
+        "solid: φ 0°, dashed: φ 90°; dotted: a power of 2.2; dots: measured",
+        "solid: φ 0°, dashed: φ 90°; dotted: a power of 2.2; dots: measured",
+        "solid: φ 0°, dashed: φ 90°; dotted: 2.2; hatched: below the levels"};
     static const char *const CAPTIONS[] = {
         "Luminance of grey (red, green and blue at one code) above that of black, divided by "
         "that of white, at several angles.",
@@ -333,9 +338,7 @@ static void add_grey(FigureList *list, const Subject *s)
         "Hatched: below the first measured level."};
     for (int i = 0; i < 3; i++)
         figure_add(list, &(Figure){PLOT_GREY_LEVELS, TITLES[i],
-            i == GREY_GAMMA ? "solid: φ 0°, dashed: φ 90°; dotted: 2.2; hatched: below the levels"
-                            : "solid: φ 0°, dashed: φ 90°; dotted: a power of 2.2; dots: measured",
-            CAPTIONS[i],
+            SUBTITLES[i], CAPTIONS[i],
             draw_grey, s, i, i > 0 ? SHEET_ALWAYS : SHEET_SPARE, true});
 }
 

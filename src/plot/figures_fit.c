@@ -146,7 +146,7 @@ static void draw_fit_section(Canvas *canvas, Box box, const Figure *figure, Figu
     figure_map_chart(out, &chart);
 }
 
-/* ---- levels at the normal ----------------------------------------------------------------- */
+/* ---- levels at the normal -------------------------------------------------------------- */
 
 /* Measured luminance at the least theta of the table. */
 static double normal_luminance(const AngleTable *table)

@@ -94,7 +94,8 @@ static void draw_plane(Canvas *canvas, Box box, const Figure *figure, FigureMap 
     hatch_unmeasured(&chart, s);
     for (int k = count - 1; k >= 0; k--)
         chart_curve(&chart, curve[k].deg, curve[k].value, curve[k].count,
-                    (Stroke){figure_series_ink(canvas, k, count), 1.5, k % 2 ? DASH_LONG : DASH_NONE});
+                    (Stroke){figure_series_ink(canvas, k, count), 1.5,
+                             k % 2 ? DASH_LONG : DASH_NONE});
     for (int k = 0; k < count; k++) {
         double x = chart_x(&chart, curve[k].deg[curve[k].peak]);
         double y = chart_y(&chart, fmax(curve[k].value[curve[k].peak], low)) - 5;
