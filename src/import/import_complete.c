@@ -415,6 +415,27 @@ static bool check_lights(const ImportSet *set, Error *err)
     return true;
 }
 
+/* The fit takes noise below zero, but nothing that cannot be noise. */
+static bool check_signs(const ImportTable *table, Error *err)
+{
+    bool   is_light = table->source == IMPORT_REFLECTION;
+    size_t size = (size_t)table->channels, total = size * (size_t)table->rows, worst = 0;
+    double most = 0;
+    for (size_t i = 0; i < total; i++) {
+        most = fmax(most, table->value[i]);
+        if (table->value[i] < table->value[worst]) worst = i;
+    }
+    double share = is_light ? (double)MEASUREMENT_NOISE_BRDF_SHARE
+                            : (double)MEASUREMENT_NOISE_CD_M2_SHARE;
+    double least = is_light ? (double)MEASUREMENT_NOISE_BRDF : (double)MEASUREMENT_NOISE_CD_M2;
+    double allowed = fmax(least, share * most);
+    return table->value[worst] >= -allowed ||
+           error_at(err, ERROR_INPUT, table->file, "",
+                    "is %g at theta %g, phi %g, wanted at least %g %s (noise below zero)",
+                    table->value[worst], table->theta_deg[worst / size],
+                    table->phi_deg[worst / size], -allowed, is_light ? "sr^-1" : "cd/m2");
+}
+
 static int by_light(const void *a, const void *b)
 {
     const ImportTable *p = a, *q = b;
@@ -437,6 +458,8 @@ bool import_complete(ImportSet *set, Error *err)
     if (!import_mirror(set, err) || !complete_lights(set, err) || !check_sources(set, err) ||
         !check_lights(set, err))
         return false;
+    for (int i = 0; i < set->count; i++)
+        if (!check_signs(&set->table[i], err)) return false;
     qsort(set->table, (size_t)set->count, sizeof *set->table, by_light);
     return true;
 }

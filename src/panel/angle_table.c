@@ -19,8 +19,10 @@ typedef struct NoiseAllowance {
     const char *unit;
 } NoiseAllowance;
 
-static const NoiseAllowance emission_noise = {0.05f, 0.005f, "cd/m2"};
-static const NoiseAllowance brdf_noise = {0.001f, 0.001f, "sr^-1"};
+static const NoiseAllowance emission_noise = {MEASUREMENT_NOISE_CD_M2,
+                                              MEASUREMENT_NOISE_CD_M2_SHARE, "cd/m2"};
+static const NoiseAllowance brdf_noise = {MEASUREMENT_NOISE_BRDF, MEASUREMENT_NOISE_BRDF_SHARE,
+                                          "sr^-1"};
 
 /* One row while it is sorted: where it came from and where it looks. */
 typedef struct Row {

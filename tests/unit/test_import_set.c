@@ -171,6 +171,22 @@ static void what_a_set_needs_is_said(void **state)
                      "light");
 }
 
+static void what_cannot_be_noise_below_zero_is_refused(void **state)
+{
+    Lab *lab = *state;
+    lab_write(lab, "white.csv", "theta,phi,L\n0,0,100\n30,90,-0.4\n40,0,90\n");
+    lab_import(lab);
+    lab_write(lab, "white.csv", "theta,phi,L\n0,0,100\n30,90,-2\n40,0,90\n");
+    lab_refused(lab, "white.csv: is -2.17766 at theta 30, phi 90, wanted at least -0.544415 "
+                     "cd/m2 (noise below zero)");
+    lab->count = 0;
+    lab_write(lab, "i10.csv", "theta,phi,550nm\n0,0,1\n30,0,-0.0009\n40,0,1\n");
+    lab_import(lab);
+    lab_write(lab, "i10.csv", "theta,phi,550nm\n0,0,1\n30,0,-0.0011\n40,0,1\n");
+    lab_refused(lab, "i10.csv: is -0.0011 at theta 30, phi 0, wanted at least -0.001 sr^-1 "
+                     "(noise below zero)");
+}
+
 static void wavelengths_that_nobody_sees_are_left_out(void **state)
 {
     Lab *lab = *state;
@@ -401,6 +417,7 @@ int main(void)
         lab_case(anisotropic_tables_are_named_by_azimuth),
         lab_case(a_black_that_was_subtracted_is_written_as_zero),
         lab_case(what_a_set_needs_is_said),
+        lab_case(what_cannot_be_noise_below_zero_is_refused),
         lab_case(wavelengths_that_nobody_sees_are_left_out),
         lab_case(a_declared_symmetry_fills_what_was_not_measured),
         lab_case(mirrored_lights_keep_the_mirrored_values),
