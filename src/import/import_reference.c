@@ -59,13 +59,21 @@ static void divide(double *value, double with, double scale)
     *value = with > 0 ? *value / with * scale : NAN;
 }
 
+/* A single reading of the helper serves every direction. */
+static int *helper_rows(ImportSet *set, const ImportTable *table, const ImportTable *helper)
+{
+    if (helper->rows > 1) return import_match_rows(table, helper, set->arena);
+    import_note(set, "%s is one reading: it serves every direction", path_name(helper->file));
+    return ARENA_NEW(set->arena, int, table->rows);
+}
+
 /* Combines every row with the helper's row of the same direction; rows without one are left
  * out and counted. */
 static bool combine(ImportSet *set, ImportTable *table, const ImportTable *helper,
                     Combine *how, double scale, Error *err)
 {
     size_t  size = (size_t)table->channels;
-    int    *match = import_match_rows(table, helper, set->arena), kept = 0;
+    int    *match = helper_rows(set, table, helper), kept = 0;
     double *theta = ARENA_NEW(set->arena, double, table->rows);
     double *phi = ARENA_NEW(set->arena, double, table->rows);
     double *value = ARENA_NEW(set->arena, double, (size_t)table->rows * size);

@@ -239,11 +239,13 @@ static bool fill_table(TextReader *in, const Channels *channels, const Group *gr
     if (to.beyond)
         import_note(in->set, "%s: %d of %d directions lie beyond 90 degrees and are left out",
                     path_name(in->file), to.beyond, count);
-    if (table->rows < DIRECTIONS_MIN)
+    bool is_helper = table->source == IMPORT_DARK || table->source == IMPORT_REFERENCE;
+    if (table->rows < (is_helper ? 1 : DIRECTIONS_MIN))
         return error_at(in->err, ERROR_INPUT, in->file, row_place(in, group[0].row),
                         "begins a table of %d measured direction%s, wanted an angular table of "
                         "at least %d — leave the file out (--role FILE=skip) if it is none",
-                        table->rows, table->rows == 1 ? "" : "s", DIRECTIONS_MIN);
+                        table->rows, table->rows == 1 ? "" : "s",
+                        is_helper ? 1 : DIRECTIONS_MIN);
     table->theta_deg = to.theta;
     table->phi_deg = to.phi;
     table->value = to.value;

@@ -458,6 +458,22 @@ static void signals_are_divided_by_the_white_reference_without_the_dark(void **s
     assert_close(lab_value(table, 30, 0, 0), 0.2 * 0.99 / 3.14159265358979323846, 1e-12);
 }
 
+static void one_reading_of_a_reference_serves_every_direction(void **state)
+{
+    Lab *lab = *state;
+    lab_declare(lab, "unit", "signal");
+    lab_write(lab, "BRDF_20.csv", "theta,phi,550nm\n0,0,11\n30,0,21\n60,0,31\n");
+    lab_write(lab, "ref.csv", "theta,phi,550nm\n0,0,101\n");
+    lab_write(lab, "cap.csv", "theta,phi,550nm\n0,0,1\n");
+    lab_role(lab, "ref.csv", "reference:20");
+    lab_role(lab, "cap.csv", "dark");
+    lab_import(lab);
+    const ImportTable *table = lab_table(lab, IMPORT_REFLECTION, 20);
+    assert_int_equal(table->rows, 3);
+    assert_close(lab_value(table, 60, 0, 0), 0.3 / 3.14159265358979323846, 1e-12);
+    assert_true(lab_noted(lab, "ref.csv is one reading"));
+}
+
 static void azimuths_of_the_light_make_an_anisotropic_set(void **state)
 {
     Lab *lab = *state;
@@ -505,6 +521,7 @@ int main(void)
         lab_case(long_lists_are_cut_into_tables),
         lab_case(scatter_units_become_brdf),
         lab_case(signals_are_divided_by_the_white_reference_without_the_dark),
+        lab_case(one_reading_of_a_reference_serves_every_direction),
         lab_case(azimuths_of_the_light_make_an_anisotropic_set),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
