@@ -205,14 +205,14 @@ static bool read_text(const char *file, const ImportOptions *options, ImportSet 
     return text_add_tables(&in);
 }
 
-/* Text holds no zero bytes but as half of UTF-16's. */
+/* Text holds no zero bytes but as half of UTF-16's; DOS ends it with a control-Z. */
 static bool is_text(const char *file, const char *head, size_t size)
 {
     (void)file;
     size_t zeros = 0, odd = 0;
     for (size_t i = 0; i < size; i++) {
         zeros += head[i] == 0;
-        odd += head[i] > 0 && head[i] < ' ' && !strchr("\t\r\n\f", head[i]);
+        odd += head[i] > 0 && head[i] < ' ' && !strchr("\t\r\n\f\x1A", head[i]);
     }
     return odd == 0 && (zeros == 0 || zeros * 5 > size * 2);
 }

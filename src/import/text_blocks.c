@@ -124,6 +124,8 @@ static double largest_across(const TextBlock *block, int across)
 
 static TableLayout corner_layout(const ColumnName name[2])
 {
+    if (name[0].quantity == QUANTITY_INCIDENCE) return LAYOUT_THETA_DOWN;
+    if (name[1].quantity == QUANTITY_INCIDENCE) return LAYOUT_PHI_DOWN;
     if (name[0].quantity == QUANTITY_THETA || name[1].quantity == QUANTITY_PHI)
         return LAYOUT_THETA_DOWN;
     if (name[0].quantity == QUANTITY_PHI || name[1].quantity == QUANTITY_THETA)

@@ -18,7 +18,7 @@
 /* Writes one character as UTF-8; blanks and minus signs of typographers become plain ones. */
 static char *put_character(char *to, unsigned code)
 {
-    if (code == 0xA0 || code == 0x2007 || code == 0x202F) code = ' ';
+    if (code == 0xA0 || code == 0x2007 || code == 0x202F || code == 0x1A) code = ' ';
     if (code == 0x2212) code = '-';
     if (code < 0x80) {
         *to++ = (char)(code ? code : ' ');

@@ -146,7 +146,10 @@ static bool has_direction(const TextCell *cell, int count)
 {
     bool seen[QUANTITY_COUNT] = {false};
     for (int i = 0; i < count; i++) seen[column_name(cell[i]).quantity] = true;
-    return (seen[QUANTITY_THETA] && seen[QUANTITY_PHI]) ||
+    bool emission = false;
+    for (int q = QUANTITY_X; q <= QUANTITY_VPRIME; q++) emission |= seen[q];
+    bool has_theta = seen[QUANTITY_THETA] || (emission && seen[QUANTITY_INCIDENCE]);
+    return (has_theta && seen[QUANTITY_PHI]) ||
            (seen[QUANTITY_HORIZONTAL] && seen[QUANTITY_VERTICAL]);
 }
 
@@ -160,6 +163,21 @@ static bool has_section(const TextCell *cell, int count)
         has_value |= quantity >= QUANTITY_X;
     }
     return has_theta && has_value;
+}
+
+/* Fourier-optics instruments call theta the incidence; where luminances stand and no theta,
+ * that is what is meant. */
+static void rename_incidence(RawTable *table)
+{
+    RawColumn *incidence = NULL;
+    bool       emission = false, has_theta = false;
+    for (int c = 0; c < table->columns; c++) {
+        Quantity quantity = table->column[c].name.quantity;
+        emission |= quantity >= QUANTITY_X && quantity <= QUANTITY_VPRIME;
+        has_theta |= quantity == QUANTITY_THETA;
+        if (quantity == QUANTITY_INCIDENCE) incidence = &table->column[c];
+    }
+    if (incidence && emission && !has_theta) incidence->name.quantity = QUANTITY_THETA;
 }
 
 /* The cells of a header as columns; names that are not known are not used. */
@@ -181,6 +199,7 @@ static bool read_header(Scan *scan, const TextCell *cell, int count, bool from_u
         scan->said->unused_columns += name.quantity == QUANTITY_NONE;
         if (name.quantity != QUANTITY_NONE && !add_column(scan, name, text, i)) return false;
     }
+    rename_incidence(scan->table);
     scan->has_header = true;
     return true;
 }

@@ -65,6 +65,8 @@ static void encodings_are_found(void **state)
         wide[1][2 + 2 * i] = 0;
         wide[1][3 + 2 * i] = WHITE[i];
     }
+    import_white(lab, WHITE "\x1A");
+    check_white(lab);
     import_white(lab, latin);
     check_white(lab);
     import_white(lab, marked);
@@ -106,6 +108,16 @@ static void columns_stand_in_any_order_and_others_are_left(void **state)
     import_white(lab, "0,0,7,95,100,109\n30,0,7,85,90,98\n30,90,7,75,80,87\n30,180,7,65,70,"
                       "76\n");
     check_white(lab);
+}
+
+static void incidence_is_the_viewing_angle_of_luminances(void **state)
+{
+    Lab *lab = *state;
+    import_white(lab, "Incidence angle;Azimuth angle;X;Y;Z\n0;0;95;100;109\n30;0;85;90;98\n"
+                      "30;90;75;80;87\n30;180;65;70;76\n");
+    check_white(lab);
+    import_white(lab, "[L]\nIncidence\\Azimuth;0;40\n0;1;2\n30;3;4\n");
+    assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 30, 40, 1), 4, 0);
 }
 
 /* CIE 15: X = Y x/y, Z = Y (1-x-y)/y; X = 9 Y u'/(4v'), Z = Y (12-3u'-20v')/(4v'). */
@@ -501,6 +513,7 @@ int main(void)
         lab_case(encodings_are_found),
         lab_case(comments_and_lines_before_the_header_are_passed_over),
         lab_case(columns_stand_in_any_order_and_others_are_left),
+        lab_case(incidence_is_the_viewing_angle_of_luminances),
         lab_case(chromaticities_become_tristimulus_values),
         lab_case(luminance_alone_has_the_colour_of_the_spectra_or_of_daylight),
         lab_case(units_of_luminance_become_candela_a_square_metre),
