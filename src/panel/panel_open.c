@@ -176,7 +176,11 @@ bool panel_open(const char *path, Arena *arena, Panel **out, Error *err)
     }
     panel->map = map;
     *out = panel;
-    return true;
+    if (!panel->reflection || panel->sampling.incidences) return true;
+    panel_refuse(&(PanelBytes){map, size, path, err}, "table of contents",
+                 "a reflection stands without its sampling tree");
+    panel_close(panel);
+    return false;
 }
 
 void panel_close(Panel *panel)
