@@ -19,6 +19,7 @@ typedef struct ReflectionFit {
     Arena             *arena;
     int    tables, wavelengths;
     bool   is_trial; /* only to compare frames: nothing is mended */
+    bool   is_last;  /* no finer level follows: everything is tried */
     double bound;  /* relative error allowed at every sample, noise apart */
     float  k;      /* of the frame */
     VertexLattice lattice; /* level and octants, of the triangles when Haar */

@@ -9,7 +9,7 @@
 #define DEFAULT_BOUND 0.02
 #define NOISY_BOUND 0.025
 #define NOISY 0.0005       /* relative: tables below it count as without noise */
-#define FIRST_LEVEL 7
+#define FIRST_LEVEL 6
 #define LAST_LEVEL 9
 #define NARROWEST 2.0f     /* the largest frame exponent that is tried */
 #define PLACES_BYTES ((size_t)5 << 29) /* of values at most: memory is bounded */
@@ -63,7 +63,7 @@ static void run_trial(void *context, int item, int worker)
     options.threads = 1;
     fit.out = &out, fit.options = &options, fit.arena = &arena, fit.k = trial->exponent;
     fit.is_trial = true;
-    reflect_read_places(&fit, FIRST_LEVEL - 1);
+    reflect_read_places(&fit, FIRST_LEVEL);
     reflect_choose_spectra(&fit);
     trial->has_failed = !reflect_code(&fit, &trial->misses, &trial->err);
     if (!trial->has_failed) trial->bytes = tree_size(out.tree);
@@ -112,6 +112,7 @@ static bool code_levels(ReflectionFit *fit, ReflectionMisses *misses, Error *err
         *fit->arena = before;
         reflect_read_places(fit, level);
         reflect_choose_spectra(fit);
+        fit->is_last = level == last;
         if (!reflect_code(fit, &now, err)) return false;
         bool is_better = level == first || now.misses < misses->misses;
         *misses = now;

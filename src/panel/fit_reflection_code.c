@@ -14,6 +14,7 @@
 #define TIGHTER 0.6        /* a miss makes the places around it so much more precise */
 #define TIGHTEST 0.2       /* of the bound, beyond what the components leave out: rounding */
 #define ROUNDS 5
+#define HOPELESS 200 /* one miss in fewer samples: a finer level is wanted, not smaller steps */
 #define ATTEMPTS 8
 #define LOOSER 1.3f
 #define CHUNK 256
@@ -266,7 +267,8 @@ bool reflect_code(ReflectionFit *fit, ReflectionMisses *misses, Error *err)
     start_tolerances(fit);
     for (int round = 0;; round++) {
         if (!build_tree(fit, err) || !check_samples(check, misses, err)) return false;
-        if (!misses->misses || round == ROUNDS || fit->is_trial ||
+        bool is_hopeless = !fit->is_last && misses->misses > misses->samples / HOPELESS;
+        if (!misses->misses || round == ROUNDS || fit->is_trial || is_hopeless ||
             fit->options->basis != FIT_VERTEX)
             return true;
         Arena  scratch = *fit->arena;
