@@ -14,6 +14,13 @@
 #include "plot/text.h"
 #include "plot/ticks.h"
 
+/* The leak sanitizer asks for this: the font library keeps what it has found until the end. */
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_suppressions(void)
+{
+    return "leak:libfontconfig";
+}
+
 static Arena arena;
 
 static int start(void **state)

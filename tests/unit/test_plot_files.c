@@ -8,6 +8,13 @@
 #include "image/image.h"
 #include "plot/plot.h"
 
+/* The leak sanitizer asks for this: the font library keeps what it has found until the end. */
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_suppressions(void)
+{
+    return "leak:libfontconfig";
+}
+
 static Fixture ips, reflects_nothing;
 
 /* Small and coarse: what is drawn here need not be pretty. */
