@@ -1,6 +1,6 @@
 """panel_commands.py [--against OTHER] PARHELION -- the panel commands as scripts use them:
-grids, tables written back, synthetic sets, errors of one line. --against: a panel that one build
-wrote says the same, to the last printed figure, when the other build reads it.
+grids, tables written back, synthetic sets, errors of one line. --against: a panel that one
+build wrote says the same, to the last printed figure, when the other build reads it.
 """
 import argparse
 import csv
@@ -153,8 +153,8 @@ def check_other_build(report, first, second):
         panel = writer.make(f"by_{writer is first}.panel")
         for question in ASKED:
             a, b = (c.text("eval", panel, *question) for c in (writer, reader))
-            report.claim(a == b and len(a) > 1000, f"what {writer.path} wrote is read otherwise "
-                         f"by {reader.path}: {' '.join(question)}")
+            report.claim(a == b and len(a) > 1000, f"what {writer.path} wrote is read "
+                         f"otherwise by {reader.path}: {' '.join(question)}")
         a, b = (c.text("info", panel, "--json") for c in (writer, reader))
         report.claim(a == b, "info differs")
 
