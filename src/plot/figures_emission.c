@@ -73,7 +73,7 @@ static void add_luminance(FigureList *list, const Subject *s, Pattern pattern)
         SHEET_ALWAYS, pattern != PATTERN_WHITE && pattern != PATTERN_BLACK});
 }
 
-/* Beyond it black is next to nothing and ratios are noise: it does not set the colours. */
+/* Beyond it black is next to nothing and high ratios are noise: they do not set the colours. */
 #define GRAZING (80 * PI / 180)
 
 /* ---- contrast --------------------------------------------------------------------------- */
@@ -86,6 +86,7 @@ static void draw_contrast(Canvas *canvas, Box box, const Figure *figure, FigureM
     Field      *field = ARENA_NEW(canvas->arena, Field, 1);
     *field = subject_contrast(s, canvas->arena);
     FieldRange  range = field_range(field, fmin(s->cone, GRAZING));
+    range.low = fmin(range.low, field_range(field, s->cone).low);
     PolarMap    map = {.field = field, .map = MAP_RATIO, .is_log = true, .strong = NAN,
                        .low = round_down(fmax(range.low, range.high / 1e5)),
                        .high = round_up(range.high), .theta_measured = s->cone, .unit = ": 1"};
