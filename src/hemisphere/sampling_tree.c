@@ -23,13 +23,19 @@ static inline uint32_t choose_child(const SamplingChoice *choice, float *u0, flo
     return 2 * pair + second_of_two(u1, choice->inside[pair]);
 }
 
-static uint32_t cell_of(const SamplingTree *tree, Vec3 direction)
+static uint32_t cell_of(const SamplingTree *tree, Vec3 direction, GeodesicWalk *walk)
 {
-    GeodesicWalk walk = geodesic_walk_start(direction);
-    uint32_t     at = tree->nodes[0].child[walk.octant];
+    *walk = geodesic_walk_start(direction);
+    uint32_t at = tree->nodes[0].child[walk->octant];
     for (int level = 0; !(at & SAMPLING_CELL); level++)
-        at = tree->nodes[at].child[geodesic_walk_down(tree->geodesic, level, &walk)];
+        at = tree->nodes[at].child[geodesic_walk_down(tree->geodesic, level, walk)];
     return at & ~SAMPLING_CELL;
+}
+
+static float margin_of(const GeodesicWalk *walk)
+{
+    float u = walk->weight[0], v = walk->weight[1], w = walk->weight[2];
+    return fminf(u, fminf(v, w)) / (u + v + w);
 }
 
 static float density_of(const SamplingTree *tree, const SamplingMix *mix, uint32_t cell)
@@ -42,7 +48,8 @@ static float density_of(const SamplingTree *tree, const SamplingMix *mix, uint32
 
 float sampling_tree_pdf(const SamplingTree *tree, const SamplingMix *mix, Vec3 direction)
 {
-    return direction.z >= 0 ? density_of(tree, mix, cell_of(tree, direction)) : 0.0f;
+    GeodesicWalk walk;
+    return direction.z >= 0 ? density_of(tree, mix, cell_of(tree, direction, &walk)) : 0.0f;
 }
 
 static int choose_function(const SamplingMix *mix, float u)
@@ -84,10 +91,12 @@ SamplingResult sampling_tree_sample(const SamplingTree *tree, const SamplingMix 
     at &= ~SAMPLING_CELL;
     Vec3     p = geodesic_sampler_draw(&tree->cells[at], u0, u1);
     if (!(p.z > 0)) p.z = 0;
-    uint32_t found = cell_of(tree, p);
+    GeodesicWalk walk;
+    uint32_t     found = cell_of(tree, p, &walk);
     if (found != at) {
         p = moved_inwards(&tree->cells[at], p);
-        found = cell_of(tree, p);
+        found = cell_of(tree, p, &walk);
     }
-    return (SamplingResult){mirrored(p, is_mirrored), density_of(tree, mix, found)};
+    return (SamplingResult){mirrored(p, is_mirrored), density_of(tree, mix, found),
+                            margin_of(&walk)};
 }

@@ -81,6 +81,7 @@ typedef struct SamplingMix {
 typedef struct SamplingResult {
     Vec3  direction; /* unit */
     float pdf;       /* sr^-1; what sampling_tree_pdf gives for this direction, bit for bit */
+    float margin;    /* how far inside its cell: least barycentric weight, 0 on an edge */
 } SamplingResult;
 
 /* integrals: functions * octants * 4^level values >= 0, the integral over each leaf (f * cos *

@@ -3,6 +3,8 @@
 #include "hemisphere/specular_frame.h"
 #include "panel/panel_slices.h"
 
+#define EDGE 4e-3f /* of a cell */
+
 /* Position among rising nodes: *t in [0, 1] from node to node + 1. */
 static int node_below(const float *node, int count, float x, float *t)
 {
@@ -64,5 +66,7 @@ bool panel_sample(const Panel *panel, Vec3 wo, const float u[3], Vec3 *wi, float
     if (!(local.z > 0) || !(jacobian > 0)) return false;
     *wi = panel_turned_back(wo, local);
     *pdf = drawn.pdf / jacobian;
-    return true;
+    /* so near an edge that the way back may end in the next cell: as panel_pdf sees it */
+    if (drawn.margin < EDGE) *pdf = panel_pdf(panel, wo, *wi);
+    return *pdf > 0;
 }
