@@ -90,6 +90,7 @@ static FitOptions quick(void)
 {
     FitOptions options = fit_options_default();
     options.frame_exponent = 1.5f;
+    options.level = 6;
     return options;
 }
 
