@@ -316,6 +316,29 @@ static void what_a_panel_lacks_is_said(void **state)
     RUN_OK(panel, "-o", svg);
 }
 
+/* A surface that was only lit: paper, a switched-off screen. */
+static void a_panel_that_only_reflects_is_drawn(void **state)
+{
+    (void)state;
+    Error        err = {0};
+    json_t      *report = NULL;
+    FitOptions   options = fit_options_default();
+    Measurement *set = ARENA_NEW(&ips.arena, Measurement, 1);
+    const char  *panel = in_folder(&ips, "paper.panel"), *svg = in_folder(&ips, "paper.svg");
+    const char  *manifest = fixture_file(&ips, "PAPER.json",
+        "{\"panel\": \"paper\", \"reflection\": {\"wavelengths_nm\": [450, 550, 650],"
+        " \"incidence_deg\": [15, 30, 45, 60], \"files\": \"brdf/i{incidence}.csv\"}}");
+    options.progress = PROGRESS_NONE;
+    options.level = 5;
+    if (!measurement_read(manifest, &ips.arena, set, &err) ||
+        !panel_fit(set, &options, panel, &ips.arena, &report, &err))
+        fail_msg("%s: %s: %s", err.file, err.path, err.text);
+    json_decref(report);
+    RUN_OK(panel, "-o", svg, "--report", in_folder(&ips, "paper.html"), "--measured", manifest);
+    RUN_FAILS(err, ERROR_INPUT, "has no emission data, wanted for --kind sections", panel, "-o",
+              svg, "--kind", "sections");
+}
+
 static int files_in(const char *folder)
 {
     DIR *dir = opendir(folder);
@@ -352,6 +375,7 @@ int main(void)
         cmocka_unit_test(the_report_is_well_formed),
         cmocka_unit_test(a_wrong_command_line_says_what_is_wanted),
         cmocka_unit_test(what_a_panel_lacks_is_said),
+        cmocka_unit_test(a_panel_that_only_reflects_is_drawn),
         cmocka_unit_test(a_target_that_cannot_be_written_leaves_nothing),
     };
     return cmocka_run_group_tests(tests, start, end);
