@@ -20,6 +20,7 @@
 #include "hemisphere/sampling_tree.h"
 #include "hemisphere/specular_frame.h"
 #include "hemisphere/tree_query.h"
+#include "hemisphere/vertex_tree.h"
 
 #define RUNS 25
 #define DIRECTIONS 4096
@@ -174,6 +175,125 @@ static void print_sizes(const Geodesic *geodesic, Arena scratch)
         }
 }
 
+/* ---- the two bases -------------------------------------------------------------------- */
+
+/* An absolute bound on a signal's values at vertices. */
+typedef struct Bound {
+    const float *values;
+    int          components;
+    float        tolerance;
+} Bound;
+
+static bool within_bound(const void *context, uint32_t vertex, const float *reconstructed)
+{
+    const Bound *b = context;
+    const float *value = b->values + vertex * (size_t)b->components;
+    for (int i = 0; i < b->components; i++)
+        if (!(fabsf(reconstructed[i] - value[i]) <= b->tolerance)) return false;
+    return true;
+}
+
+/* Component c is the signal times 1 + c/10 of the components: they differ as spectra do. */
+static float *vertex_values(Signal signal, VertexLattice lattice, int components, Arena *arena)
+{
+    uint32_t count = vertex_count(lattice);
+    Vec3    *d = ARENA_NEW(arena, Vec3, count);
+    float   *values = ARENA_NEW(arena, float, count * (uint32_t)components);
+    vertex_directions(lattice, d);
+    for (uint32_t i = 0; i < count; i++)
+        for (int c = 0; c < components; c++)
+            values[i * (uint32_t)components + (uint32_t)c] =
+                (float)signal(d[i]) * (1 + 0.1f * (float)c / (float)components);
+    return values;
+}
+
+static Tree build_vertex_tree(const Bound *bound, VertexLattice lattice,
+                              const Geodesic *geodesic, Arena *arena, TreeReport *report)
+{
+    VertexTreeOptions options = {lattice, bound->components, within_bound, bound, NULL};
+    const void       *blob;
+    Tree              tree;
+    Error             err;
+    if (!vertex_tree_build(&options, bound->values, arena, &blob, report, &err) ||
+        !tree_open(blob, report->bytes, geodesic, &tree, &err)) {
+        printf("%s\n", err.text);
+        exit(1);
+    }
+    return tree;
+}
+
+/* The finest bound, in steps of 7 %, with which no more than `stored` vertices are stored. */
+static float bound_for(Signal signal, VertexLattice lattice, uint32_t stored,
+                       const Geodesic *geodesic, Arena scratch)
+{
+    Bound bound = {vertex_values(signal, lattice, 1, &scratch), 1, 0};
+    float best = 0;
+    for (uint32_t i = 0; i < vertex_count(lattice); i++)
+        bound.tolerance = fmaxf(bound.tolerance, 0.1f * bound.values[i]);
+    for (uint32_t rows = 0; rows < stored + stored / 4; bound.tolerance *= 0.93f) {
+        Arena      inner = scratch;
+        TreeReport report;
+        build_vertex_tree(&bound, lattice, geodesic, &inner, &report);
+        rows = report.stored_rows;
+        if (rows <= stored) best = bound.tolerance;
+    }
+    return best;
+}
+
+static double interpolation_ns(const Tree *tree);
+
+/* Relative L2 (cosine-weighted) and largest error over the largest value of the interpolation,
+ * at directions that no vertex or leaf centre coincides with. */
+static void print_basis(const char *name, const char *basis, const Tree *tree,
+                        const TreeReport *report, Signal signal)
+{
+    double error = 0, sum = 0, most = 0, largest = 0;
+    for (uint32_t i = 0; i < DIRECTIONS; i++) {
+        Vec3   d = direction_of(i);
+        double truth = signal(d);
+        float  value;
+        tree_interpolate(tree, d, &value);
+        double e = fabs((double)value - truth);
+        error += (double)d.z * e * e;
+        sum += (double)d.z * truth * truth;
+        most = fmax(most, e);
+        largest = fmax(largest, truth);
+    }
+    printf("%-23s %-7s %8u %9zu %9.3f %9.3f %9.1f\n", name, basis, report->stored_rows,
+           report->bytes, 100 * sqrt(error / sum), 100 * most / largest,
+           interpolation_ns(tree));
+}
+
+/* Both bases at level 7 with 1 % of the leaves' number stored. */
+static void print_bases(const Geodesic *geodesic, Arena scratch)
+{
+    printf("\nvertex and Haar basis, level %d, 1 %% stored: errors in %%, of directions between "
+           "the vertices\n%-23s %-7s %8s %9s %9s %9s %9s\n", MAX_LEVEL, "signal", "basis",
+           "stored", "bytes", "L2", "max", "ns");
+    for (size_t s = 0; s < sizeof SIGNALS / sizeof *SIGNALS; s++) {
+        const SignalRow *row = &SIGNALS[s];
+        Arena            inner = scratch;
+        VertexLattice    lattice = {MAX_LEVEL, row->octants};
+        HaarShape        shape = {MAX_LEVEL, row->octants, 1, HAAR_AREA};
+        TreeOptions      options = {.shape = shape, .keep_share = 0.01f,
+                                    .rows = TREE_ROWS_INT16};
+        uint32_t         stored = haar_leaf_count(&shape) / 100;
+        const void      *blob;
+        TreeReport       report;
+        Tree             tree;
+        Error            err;
+        Bound bound = {vertex_values(row->value, lattice, 1, &inner), 1,
+                       bound_for(row->value, lattice, stored, geodesic, inner)};
+        tree = build_vertex_tree(&bound, lattice, geodesic, &inner, &report);
+        print_basis(row->name, "vertex", &tree, &report, row->value);
+        if (!tree_build(&options, leaf_values(row->value, MAX_LEVEL, row->octants, &inner),
+                        &inner, &blob, &report, &err) ||
+            !tree_open(blob, report.bytes, geodesic, &tree, &err))
+            exit(1);
+        print_basis(row->name, "haar", &tree, &report, row->value);
+    }
+}
+
 /* ---- time
  * ------------------------------------------------------------------------------------ */
 
@@ -306,6 +426,49 @@ static void time_work(const Bench *bench, const char *what, Input *input)
            ns[RUNS - 1]);
 }
 
+/* Median processor time of an interpolated value in random directions, ns. */
+static double interpolation_ns(const Tree *tree)
+{
+    static Vec3 directions[DIRECTIONS];
+    double      ns[RUNS], sink = 0;
+    float       out[TREE_MAX_COMPONENTS];
+    for (uint32_t i = 0; i < DIRECTIONS; i++)
+        directions[i] = direction_of(hash_u32(i) % DIRECTIONS);
+    for (int run = -1; run < RUNS; run++) {
+        double start = seconds();
+        for (int i = 0; i < DIRECTIONS; i++) {
+            tree_interpolate(tree, directions[i], out);
+            sink += (double)out[0];
+        }
+        if (run >= 0) ns[run] = (seconds() - start) * 1e9 / DIRECTIONS;
+    }
+    qsort(ns, RUNS, sizeof *ns, ascending);
+    return sink == 0.5 ? 0 : ns[RUNS / 2];
+}
+
+/* Vertex trees of more components: emission and haze within 0.3 % of their largest value. */
+static void print_vertex_times(const Geodesic *geodesic, Arena scratch)
+{
+    static const int components[] = {1, 4, 8, 12, 16, 32};
+    printf("\nvertex trees, level %d, bound 0.3 %% of the largest value: median ns of an "
+           "interpolated value\n%-23s %10s %8s %9s %9s\n", MAX_LEVEL, "signal", "components",
+           "stored", "bytes", "ns");
+    for (size_t s = 0; s < 3; s++)
+        for (size_t c = 0; c < sizeof components / sizeof *components; c++) {
+            Arena         inner = scratch;
+            VertexLattice lattice = {MAX_LEVEL, SIGNALS[s].octants};
+            TreeReport    report;
+            Bound bound = {vertex_values(SIGNALS[s].value, lattice, components[c], &inner),
+                           components[c], 0};
+            uint32_t count = vertex_count(lattice) * (uint32_t)components[c];
+            for (uint32_t i = 0; i < count; i++)
+                bound.tolerance = fmaxf(bound.tolerance, 0.003f * bound.values[i]);
+            Tree tree = build_vertex_tree(&bound, lattice, geodesic, &inner, &report);
+            printf("%-23s %10d %8u %9zu %9.1f\n", SIGNALS[s].name, components[c],
+                   report.stored_rows, report.bytes, interpolation_ns(&tree));
+        }
+}
+
 /* The haze with components that differ a little, as spectra do. */
 static void fill_tree(Input *in, int components, float share, TreeRowFormat rows,
                       const Geodesic *geodesic, Arena *arena)
@@ -435,15 +598,22 @@ static void print_times(const Geodesic *geodesic, Arena scratch)
         time_work(&OTHER_WORKS[w], "", in);
 }
 
-/* bench_hemisphere [size|time]: one half only. */
+/* bench_hemisphere [size|bases|time]: one part only. */
 int main(int argc, char **argv)
 {
     Arena           arena = arena_reserve((size_t)2 << 30);
     const Geodesic *geodesic = geodesic_create(MAX_LEVEL, &arena);
     const char     *part = argc > 1 ? argv[1] : "";
-    if (strcmp(part, "time") != 0) print_sizes(geodesic, arena);
-    if (strcmp(part, "time") != 0) print_sampling(geodesic, arena);
-    if (strcmp(part, "size") != 0) print_times(geodesic, arena);
+    bool all = !part[0], size = !strcmp(part, "size"), time = !strcmp(part, "time");
+    if (all || size) {
+        print_sizes(geodesic, arena);
+        print_sampling(geodesic, arena);
+    }
+    if (all || !strcmp(part, "bases")) {
+        print_bases(geodesic, arena);
+        print_vertex_times(geodesic, arena);
+    }
+    if (all || time) print_times(geodesic, arena);
     arena_release(&arena);
     return 0;
 }
