@@ -207,7 +207,8 @@ static void png_opens_with_the_size_asked_for(void **state)
     (void)state;
     Error err = {0};
     Image image;
-    RUN_OK(ips.panel_path, "-o", in_folder(&ips, "s.png"), "--size", "801x603");
+    RUN_OK(ips.panel_path, "-o", in_folder(&ips, "s.png"), "--size", "801x603", "--kind",
+           "sections");
     if (!image_read(in_folder(&ips, "s.png"), &ips.arena, &image, &err))
         fail_msg("%s", err.text);
     assert_int_equal(image.width, 801);
@@ -238,8 +239,8 @@ static void the_same_call_writes_the_same_bytes(void **state)
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 2; k++)
             RUN_OK(fixture->panel_path, i == 2 ? "--report" : "-o",
-                   in_folder(fixture, NAMES[i][k]), "--size", "640x480", "--threads",
-                   k ? "2" : "1");
+                   in_folder(fixture, NAMES[i][k]), "--size", "640x480", "--kind",
+                   "luminance", "--threads", k ? "2" : "1");
         FileBytes a = bytes_of(fixture, NAMES[i][0]), b = bytes_of(fixture, NAMES[i][1]);
         assert_int_equal(a.size, b.size);
         assert_memory_equal(a.data, b.data, a.size);
