@@ -66,6 +66,20 @@ def spikes(manifest):
     return found
 
 
+def compare_spikes(name, hot, reported):
+    """Every hot pixel reported, and nothing else? The normal is one direction."""
+    def key(table, theta, phi):
+        parts = table.split()
+        level = float(parts[1]) if len(parts) > 1 else 0.0
+        return parts[0], level, round(theta), round(phi) % 360 if theta > 0.01 else 0
+
+    wanted = {key(*one) for one in hot}
+    told = {key(one["table"], one["theta_deg"], one["phi_deg"]) for one in reported}
+    print(f"{name}: {len(wanted)} hot pixels in the tables; reported {len(told & wanted)} of "
+          f"them and {len(told - wanted)} others; missed: {sorted(wanted - told)}; too many: "
+          f"{sorted(told - wanted)[:8]}")
+
+
 def measure_emission(program, options):
     limits = {"set-a": (0.005, 0.001), "set-b": (0.015, 0.004)}
     truth = truth_rows("truth_emission.csv")
@@ -86,11 +100,7 @@ def measure_emission(program, options):
               f"{worst_y[1]}; delta u'v' max {worst_uv[0]:.5f} (limit {limit_uv}) rms "
               f"{rms([e for e, _ in colour]):.5f} at {worst_uv[1]}; file "
               f"{report['file_bytes']} bytes, fit {report['seconds']:.1f} s")
-        hot = spikes(manifest)
-        told = [note for note in report.get("notes", []) if "hot" in note or "outlier" in note
-                or "spike" in note]
-        print(f"{name}: {len(hot)} hot pixels in the tables; the fit's report: "
-              f"{report.get('outliers', told)}")
+        compare_spikes(name, spikes(manifest), report.get("outliers", []))
 
 
 # ---- reflection ----------------------------------------------------------------------------
