@@ -10,6 +10,7 @@
 #include "hemisphere/geodesic.h"
 #include "hemisphere/specular_frame.h"
 #include "panel/panel_file.h"
+#include "shaders/display.h"
 
 typedef struct Case {
     const char *name;
@@ -27,12 +28,12 @@ static int     case_count;
 #define FIXTURE_NARROW                                                                         \
     "{\"panel\": \"test narrow\", \"refractive_index\": 1.5, \"emission\": {" FIXTURE_SPECTRA  \
     "\"gamma\": 2.2, \"cosine_power\": [1, 1], \"black_cd_m2\": 0, \"leak\": 0},"              \
-    "\"reflection\": {\"coating\": 0.6, \"coating_blue\": 0.15, \"haze_share\": 1,"            \
+    "\"reflection\": {\"coating\": 0.6, \"coating_blue\": 0.15, \"haze_share\": 0.7,"          \
     "\"haze_width\": 0.03, \"haze_power\": 1.8, \"floor_albedo\": 0.004,"                      \
     "\"incidence_deg\": [0, 20, 40, 60],"                                                      \
     "\"wavelengths_nm\": [420,450,480,510,540,570,600,630,660]},"                              \
     "\"instrument\": {\"theta_step_deg\": 3, \"phi_step_deg\": 10,"                            \
-    "\"brdf_theta_step_deg\": 0.5, \"brdf_phi_step_deg\": 3}}"
+    "\"brdf_theta_step_deg\": 0.5, \"brdf_phi_step_deg\": 3, \"fwhm_deg\": 1}}"
 
 static void add_case(const char *name, Panel *panel)
 {
@@ -240,6 +241,43 @@ static void samples_fall_as_the_density_says(void **state)
     }
 }
 
+/* The whole display: its mirror as often as it says, the rest as display_eval's density; 64
+ * incidences, each for blue, green and red light. */
+static void displays_draw_mirror_and_haze_as_they_say(void **state)
+{
+    (void)state;
+    Arena           scratch = ips.arena;
+    const Geodesic *geodesic = geodesic_create(BIN_LEVEL, &scratch);
+    uint32_t        random = 99;
+    for (int k = 0; k < 64 * 3; k++) {
+        Wavelengths    w = even_wavelengths(420 + 90 * (float)(k % 3), 2);
+        DisplaySurface display = {narrow.panel, &w};
+        double         theta = radians_from_degrees(0.4 + 1.38 * (k / 3)), bins[BINS];
+        int            counts[BINS] = {0}, drawn = 0, mirrored = 0;
+        float          mirror = 0;
+        SpecularFrame  frame = frame_of(theta);
+        Vec3           wo = direction_at(theta, PI);
+        expected_bins(narrow.panel, theta, PI, bins);
+        for (int i = 0; i < CHI_DRAWS / 2; i++) {
+            BsdfSample s;
+            float      u[3];
+            for (int j = 0; j < 3; j++) u[j] = unit_float(hash_u32(random++));
+            if (!display_sample(&display, wo, u, &s)) continue;
+            drawn++;
+            mirrored += s.is_delta;
+            if (s.is_delta) mirror = s.pdf;
+            if (s.is_delta) continue;
+            Vec3 stored = specular_frame_stored(&frame, s.wi);
+            counts[geodesic_find(geodesic, BIN_LEVEL, stored).id]++;
+        }
+        double share = (double)mirror * drawn, z = compare_bins(bins, counts, drawn - mirrored);
+        assert_true(drawn >= CHI_DRAWS / 2 - 20);
+        if (!(z < 4.5) || !(fabs(mirrored - share) <= 4.5 * sqrt(share) + 0.5))
+            fail_msg("%g degrees, %g nm: haze %.1f sigma off; mirror %d times, wanted %.1f",
+                     degrees_from_radians(theta), (double)w.nm[0], z, mirrored, share);
+    }
+}
+
 /* What panel_sample says of its density is what panel_pdf says of the direction. */
 static void samples_know_their_density(void **state)
 {
@@ -314,7 +352,7 @@ static void weights_vary_little_at_every_incidence(void **state)
             double theta = 0.5 * (double)(s->theta[k / 2] + s->theta[(k + 1) / 2]);
             double deg = degrees_from_radians(theta);
             if (deg > 80.5) break;
-            Weights found = draw_weights(cases[c].panel, fmax(theta, 1e-3), 0.37 * k, 8000);
+            Weights found = draw_weights(cases[c].panel, fmax(theta, 1e-3), 0.37 * k, 6000);
             bool    steep = deg > 65;
             worst[steep] = fmax(worst[steep], found.variance);
             furnace = fmax(furnace, found.furnace);
@@ -442,6 +480,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_density_integrates_to_one),
         cmocka_unit_test(samples_fall_as_the_density_says),
+        cmocka_unit_test(displays_draw_mirror_and_haze_as_they_say),
         cmocka_unit_test(samples_know_their_density),
         cmocka_unit_test(weights_vary_little_at_every_incidence),
         cmocka_unit_test(answers_are_finite_in_every_corner),
