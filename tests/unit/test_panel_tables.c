@@ -1,5 +1,5 @@
-/* Files of a laboratory: what is wrong with recipes, manifests and tables is named; every layout
- * says the same. */
+/* Files of a laboratory: what is wrong with recipes, manifests and tables is named; every
+ * layout says the same. */
 #include "panel_fixture.h"
 
 static Fixture folder; /* a folder for files, nothing fitted */
