@@ -1,8 +1,8 @@
 /* export.h -- a panel's tables written back as a measurement set (design: formats).
  *
- * MANIFEST.json, emission/ at every stored level and black, primaries.csv, brdf/ at the measured
- * incidences and wavelengths; `panel fit` reads it again. The numbers are what the panel
- * answers, so within its stated bound of what was measured. The mirror part, a delta, is drawn
+ * MANIFEST.json, emission/ at every stored level and black, primaries.csv, brdf/ at the
+ * measured incidences and wavelengths; `panel fit` reads it again. The numbers are what the
+ * panel answers, so within its stated bound of what was measured. The mirror part, a delta, is drawn
  * as an instrument of a stated width sees it; the manifest declares that width, and a fit
  * takes it out again.
  *
