@@ -2,9 +2,9 @@
  *
  * MANIFEST.json, emission/ at every stored level and black, primaries.csv, brdf/ at the
  * measured incidences and wavelengths; `panel fit` reads it again. The numbers are what the
- * panel answers, so within its stated bound of what was measured. The mirror part, a delta, is drawn
- * as an instrument of a stated width sees it; the manifest declares that width, and a fit
- * takes it out again.
+ * panel answers, so within its stated bound of what was measured. The mirror part, a delta,
+ * is drawn as an instrument of a stated width sees it; the manifest declares that width, and a
+ * fit takes it out again.
  *
  * Units    degrees; XYZ with Y in cd m^-2; sr^-1 without the cosine; nm. Decimal figures enough
  *          for float32. Every file says so in a comment.
