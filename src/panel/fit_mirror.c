@@ -236,7 +236,7 @@ void fit_mirror(const AngleTable *slice, double incidence, double fwhm, Arena *a
     take_out(&window, fwhm, model, reflectance, value);
 }
 
-/* ---- a lobe -------------------------------------------------------------------------------- */
+/* ---- a lobe ------------------------------------------------------------------------------ */
 
 /* Full width at half of the largest value near the mirror direction; 0: the largest value is
  * not there. The outermost row above half of it tells, or the grid's step if that is wider. */
@@ -263,7 +263,7 @@ static double rest_of_width(Window *window, double fwhm, double haze, Model *mod
     return solve_window(window, -1, window->floor, model);
 }
 
-/* The width that leaves the least, by golden section over its logarithm. haze: to begin from. */
+/* The width that leaves the least, by golden section over its logarithm. haze: begins there. */
 static double choose_width(Window *window, const double range[2], double haze, Model *model)
 {
     double low = log(range[0]), high = log(range[1]);
@@ -311,7 +311,8 @@ bool fit_lobe(const AngleTable *slice, double incidence, double noise, Arena *ar
     Model  model;
     double fwhm = choose_width(&window, (double[2]){0.5 * guess, 2 * guess}, 2 * guess, &model);
     double rest = solve_window(&window, -1, window.floor, &model);
-    double most = LOBE_REST + 2 * noise, peak = 4 * log(2) / (PI * fwhm * fwhm * cos(incidence));
+    double most = LOBE_REST + 2 * noise;
+    double peak = 4 * log(2) / (PI * fwhm * fwhm * cos(incidence));
     if (!(model.r * peak > LOBE_HEIGHT * (model.a + window.floor)) || rest > most ||
         core_rest(&window, &model) > most)
         return false;

@@ -83,7 +83,7 @@ static bool accepts(const void *context, uint32_t place, const float *reconstruc
     return true;
 }
 
-/* ---- the two bases ------------------------------------------------------------------------ */
+/* ---- the two bases ----------------------------------------------------------------------- */
 
 static bool build_vertex(ReflectionFit *fit, Error *err)
 {
@@ -131,14 +131,13 @@ static bool build_tree(ReflectionFit *fit, Error *err)
     return ok || error_prefix(err, "reflection");
 }
 
-/* ---- all measured samples ----------------------------------------------------------------- */
+/* ---- all measured samples ---------------------------------------------------------------- */
 
 typedef struct Check {
     ReflectionFit *fit;
     Tree           tree;
     int            first[PANEL_TABLES_MAX + 1]; /* chunk of each table */
     ReflectionMisses *part; /* per chunk */
-    bool           tightens;
 } Check;
 
 /* Error over bound of one row of a table. */
@@ -162,8 +161,7 @@ static double row_error(const Check *check, int t, int row, const SpecularFrame 
     return worst;
 }
 
-/* The places around a sample that was missed become more precise. Chunks of other tables touch
- * other tolerances; chunks of one table may race for the same vertex, to the same value. */
+/* The places around a sample that was missed become more precise. */
 static void tighten(ReflectionFit *fit, int table, Vec3 stored, float *wanted)
 {
     VertexPoint at = vertex_find(fit->geodesic, fit->lattice, stored);
@@ -203,7 +201,7 @@ static void start_chunks(Check *check, Arena *arena)
     check->part = ARENA_NEW(arena, ReflectionMisses, count + 1);
 }
 
-/* Marks what has to be more precise, in order, so that the result does not depend on threads. */
+/* Marks what has to be more precise. */
 static void mark_misses(Check *check, float *wanted)
 {
     ReflectionFit *fit = check->fit;

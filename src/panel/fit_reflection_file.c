@@ -19,8 +19,10 @@
 #define FLOOR_QUANTILE 100  /* one row in so many is dimmer than the floor */
 #define FLOOR_DEG 60.0      /* rows further from the normal say nothing of the floor */
 #define NODES 7
+#define FAR 1.13 /* radians: where measurements usually end before; else nodes are even */
 
-static const double beyond_deg[NODES] = {0, 70, 75, 80, 84, 87, 89.5}; /* 0: the last measured */
+/* The first stands for the last measured incidence. */
+static const double beyond_deg[NODES] = {0, 70, 75, 80, 84, 87, 89.5};
 
 /* A section under construction, its parts writable. */
 typedef struct Section {
@@ -43,7 +45,7 @@ static uint16_t share(double value)
     return (uint16_t)rint(65535 * fmax(0, fmin(1, value)));
 }
 
-/* ---- integrals as measured ---------------------------------------------------------------- */
+/* ---- integrals as measured --------------------------------------------------------------- */
 
 typedef struct IntegralPass {
     const ReflectionFit *fit;
@@ -58,7 +60,8 @@ static double lobe_shape(const ReflectionFit *fit, int table, Vec3 d)
     double theta = reflect_incidence(fit, table), sigma = fit->out->lobe_sigma[table];
     double x = (double)d.x - sin(theta), y = (double)d.y, z = (double)d.z - cos(theta);
     double chord = x * x + y * y + z * z, square = chord * (1 + chord / 12) / (sigma * sigma);
-    return square > LOBE_SQUARE ? 0 : exp(-0.5 * square) / (2 * PI * sigma * sigma * cos(theta));
+    if (square > LOBE_SQUARE) return 0;
+    return exp(-0.5 * square) / (2 * PI * sigma * sigma * cos(theta));
 }
 
 /* By what the lobe must be multiplied so that the sums of haze and lobe over the rows are those
@@ -84,7 +87,7 @@ static void match_lobe(IntegralPass *pass, int t)
     }
 }
 
-/* What the means of a table must change by, so that sums over its rows are those of the haze. */
+/* What the means of a table must change by, so that its rows add up to what the haze does. */
 static void match_integrals(void *context, int t, int worker)
 {
     IntegralPass        *pass = context;
@@ -131,7 +134,7 @@ static bool settle_integrals(ReflectionFit *fit, Error *err)
     return true;
 }
 
-/* ---- the floor ---------------------------------------------------------------------------- */
+/* ---- the floor --------------------------------------------------------------------------- */
 
 /* What is left far from the peak: nearly the least value inside 60 degrees. */
 static double table_floor(const AngleTable *table, int wavelength, double *list)
@@ -161,7 +164,7 @@ static void fill_floors(const ReflectionFit *fit, const Section *section)
     }
 }
 
-/* ---- the numbers of the fit ---------------------------------------------------------------- */
+/* ---- the numbers of the fit -------------------------------------------------------------- */
 
 static double lobe_logarithm(const ReflectionFit *fit, int table, int wavelength)
 {
@@ -203,14 +206,16 @@ static void fill_axes(const ReflectionFit *fit, const Section *section)
     for (int i = 0; i < incidences; i++)
         floats(to->incidence)[i] = (float)fit->set->incidence[i];
     for (int i = 0; i < section->stored->azimuths; i++)
-        floats(to->azimuth)[i] = section->stored->azimuths > 1 ? (float)fit->set->azimuth[i] : 0;
+        floats(to->azimuth)[i] = (float)(section->stored->azimuths > 1 ? fit->set->azimuth[i]
+                                                                       : 0);
     for (int i = 0; i < fit->wavelengths; i++)
         floats(to->wavelength_nm)[i] = fit->set->wavelength_nm[i];
     floats(to->node_theta)[n++] = (float)last;
     for (int i = 1; i < NODES; i++) {
         double theta = radians_from_degrees(beyond_deg[i]), room = 0.5 * PI - last;
         double spaced = last + room * i / (NODES - 0.9);
-        floats(to->node_theta)[n++] = (float)(theta > last + 0.05 && last < 1.13 ? theta : spaced);
+        bool   is_usual = last < FAR && theta > last;
+        floats(to->node_theta)[n++] = (float)(is_usual ? theta : spaced);
     }
     for (int k = 0; k < fit->coefficients; k++)
         floats(to->basis_scale)[k] = fit->basis_scale[k];
@@ -225,7 +230,8 @@ static void fill_numbers(const ReflectionFit *fit, const Section *section)
     const ReflectionLayout *to = &section->layout;
     int m = fit->coefficients, n = fit->components, wavelengths = fit->wavelengths;
     for (int i = 0; i < fit->tables * wavelengths; i++)
-        shorts(to->mean)[i] = stepped((double)fit->mean[i], (double)section->stored->mean_scale);
+        shorts(to->mean)[i] = stepped((double)fit->mean[i],
+                                      (double)section->stored->mean_scale);
     for (int i = 0; i < m * wavelengths; i++)
         shorts(to->basis)[i] = stepped((double)fit->basis[i],
                                        (double)fit->basis_scale[i / wavelengths]);
@@ -250,7 +256,7 @@ static void fill_mirror(const ReflectionFit *fit, const Section *section)
         }
 }
 
-/* ---- energy ---------------------------------------------------------------------------------- */
+/* ---- energy ------------------------------------------------------------------------------ */
 
 /* A query's view of the section as it stands. */
 static bool view_section(const ReflectionFit *fit, const Section *section, Arena *arena,

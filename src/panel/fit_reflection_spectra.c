@@ -226,7 +226,8 @@ static void fill_scores(ReflectionFit *fit, const double *inverse, const double 
         place_coefficients(fit, inverse, p, coefficient);
         for (int i = 0; i < channels; i++)
             for (int c = 0; c < n; c++) sum[c] += (double)coefficient[i] * onto[i * n + c];
-        for (int c = 0; c < n; c++) fit->score[(size_t)p * (size_t)n + (size_t)c] = (float)sum[c];
+        float *to = fit->score + (size_t)p * (size_t)n;
+        for (int c = 0; c < n; c++) to[c] = (float)sum[c];
     }
 }
 
@@ -248,7 +249,7 @@ static void choose_loadings(ReflectionFit *fit, const double *inverse, const dou
     round_loadings(fit);
 }
 
-/* ---- back to logarithms -------------------------------------------------------------------- */
+/* ---- back to logarithms ------------------------------------------------------------------ */
 
 static void fill_matrix(ReflectionFit *fit)
 {

@@ -47,7 +47,7 @@ static void note_lobe(const Measurement *set, const FitReflection *out, FitNotes
              "so (instrument_fwhm_deg) and it becomes the mirror part");
 }
 
-/* ---- one table after the other ------------------------------------------------------------- */
+/* ---- one table after the other ----------------------------------------------------------- */
 
 typedef struct Pass {
     const Measurement *set;
@@ -106,7 +106,8 @@ static void keep_table(AngleTable *to, const AngleTable *from, const AngleTable 
     to->value = value;
 }
 
-static double luminous_mean(const FitReflection *out, const Measurement *set, double *all, int t)
+static double luminous_mean(const FitReflection *out, const Measurement *set, double *all,
+                            int t)
 {
     double sum = 0;
     for (int w = 0; w < set->wavelength_count; w++)

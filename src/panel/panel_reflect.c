@@ -135,33 +135,36 @@ static Spectrum load_16(const float *from)
     return value;
 }
 
-/* Adds weight * rows of the mixed tables to logs, padded_wavelengths floats. */
-static void add_rows(const PanelReflection *r, const TableMix *mix, const float *rows,
-                     Spectrum *logs)
+/* Weighted rows of the mixed tables at 16 wavelengths from w on. */
+static inline Spectrum mixed_rows(const PanelReflection *r, const TableMix *mix,
+                                  const float *rows, int w)
 {
-    int padded = (int)r->padded_wavelengths;
+    Spectrum sum = spectrum_all(0);
     for (int turned = 0; turned < 2; turned++)
         for (int i = 0; i < mix->count[turned]; i++) {
-            const Term  *term = &mix->term[turned][i];
-            const float *row = rows + term->table * padded;
-            for (int w = 0; w < padded; w += SPECTRUM_LANES)
-                logs[w / SPECTRUM_LANES] += spectrum_all(term->weight) * load_16(row + w);
+            const Term *term = &mix->term[turned][i];
+            sum += spectrum_all(term->weight) *
+                   load_16(rows + term->table * (int)r->padded_wavelengths + w);
         }
+    return sum;
 }
 
 /* Adds what a component vector of the tree means for the mixed tables. */
-static void add_loadings(const PanelReflection *r, const TableMix *mix, int turned,
-                         const float *component, float *coefficient)
+static inline void add_loadings(const PanelReflection *r, const TableMix *mix, int turned,
+                                const float *component, float *coefficient)
 {
     int padded = (int)r->padded_coefficients, n = (int)r->components;
-    for (int i = 0; i < mix->count[turned]; i++) {
-        const Term  *term = &mix->term[turned][i];
-        const float *row = r->loading + term->table * n * padded;
-        for (int c = 0; c < n; c++, row += padded) {
-            float factor = term->weight * component[c];
-            for (int k = 0; k < padded; k += 4)
-                *(PanelFloat4 *)(coefficient + k) += factor * *(const PanelFloat4 *)(row + k);
+    for (int k = 0; k < padded; k += 4) {
+        PanelFloat4 sum = *(PanelFloat4 *)(coefficient + k);
+        for (int i = 0; i < mix->count[turned]; i++) {
+            const Term  *term = &mix->term[turned][i];
+            const float *row = r->loading + term->table * n * padded + k;
+            PanelFloat4  part = {0};
+            for (int c = 0; c < n; c++, row += padded)
+                part += component[c] * *(const PanelFloat4 *)row;
+            sum += term->weight * part;
         }
+        *(PanelFloat4 *)(coefficient + k) = sum;
     }
 }
 
@@ -170,20 +173,20 @@ static void reflection_logs(const Panel *panel, Vec3 stored, const TableMix *mix
                             Spectrum *logs)
 {
     const PanelReflection *r = panel->reflection;
-    float component[COMPONENTS_MAX], coefficient[COEFFICIENTS_MAX] = {0};
+    float component[COMPONENTS_MAX], coefficient[COEFFICIENTS_MAX];
     int   padded = (int)r->padded_wavelengths;
-    for (int w = 0; w < padded; w += SPECTRUM_LANES) logs[w / SPECTRUM_LANES] = spectrum_all(0);
-    add_rows(r, mix, r->mean, logs);
+    for (int k = 0; k < (int)r->padded_coefficients; k++) coefficient[k] = 0;
     for (int turned = 0; turned < 2; turned++) {
         if (!mix->count[turned]) continue;
         Vec3 at = turned ? vec3(-stored.x, -stored.y, stored.z) : stored;
         tree_interpolate(&panel->reflection_tree, at, component);
         add_loadings(r, mix, turned, component, coefficient);
     }
-    for (int k = 0; k < (int)r->coefficients; k++) {
-        const float *row = r->basis + k * padded;
-        for (int w = 0; w < padded; w += SPECTRUM_LANES)
-            logs[w / SPECTRUM_LANES] += spectrum_all(coefficient[k]) * load_16(row + w);
+    for (int w = 0; w < padded; w += SPECTRUM_LANES) {
+        Spectrum sum = mixed_rows(r, mix, r->mean, w);
+        for (int k = 0; k < (int)r->coefficients; k++)
+            sum += spectrum_all(coefficient[k]) * load_16(r->basis + k * padded + w);
+        logs[w / SPECTRUM_LANES] = sum;
     }
 }
 
@@ -246,8 +249,7 @@ static Spectrum lobe_over_fresnel(const Panel *panel, const TableMix *mix, Vec3 
     float    square = squared_angle(local, sine, wi.z), inverse = 1 / (sigma * sigma);
     if (square * inverse > LOBE_SIGMAS * LOBE_SIGMAS) return spectrum_all(0);
     for (int w = 0; w < (int)r->padded_wavelengths; w += SPECTRUM_LANES)
-        logs[w / SPECTRUM_LANES] = spectrum_all(0);
-    add_rows(r, mix, r->lobe, logs);
+        logs[w / SPECTRUM_LANES] = mixed_rows(r, mix, r->lobe, w);
     float cosine = wi.z > 0.02f ? wi.z : 0.02f;
     float shape = exp_f(-0.5f * square * inverse) * inverse / (2 * PI_F * cosine);
     return spectrum_exp(spread(panel, (const float *)logs, wavelengths)) * spectrum_all(shape);

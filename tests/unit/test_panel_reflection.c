@@ -94,7 +94,7 @@ static FitOptions quick(void)
     return options;
 }
 
-/* ---- surfaces ------------------------------------------------------------------------------ */
+/* ---- surfaces ---------------------------------------------------------------------------- */
 
 static double fresnel(double c)
 {
@@ -149,7 +149,7 @@ static const Tables HAZY = {.incidence_deg = {5, 20, 35, 50, 65}, .incidences = 
 
 static Fitted shared; /* of HAZY, with what `fit` chooses */
 
-/* ---- laws ----------------------------------------------------------------------------------- */
+/* ---- laws -------------------------------------------------------------------------------- */
 
 /* Largest error relative to the surface's value, at samples (between = 0) or off them; light
  * at phi_i. */
@@ -208,7 +208,8 @@ static void light_from_any_azimuth_reads_the_same(void **state)
     (void)state;
     Wavelengths w = even_wavelengths(400, 20);
     for (double turn = 0; turn < 360; turn += 37) {
-        Spectrum a = panel_brdf(shared.panel, direction_deg(40, 12), direction_deg(30, 180), &w);
+        Spectrum a = panel_brdf(shared.panel, direction_deg(40, 12), direction_deg(30, 180),
+                                &w);
         Spectrum b = panel_brdf(shared.panel, direction_deg(40, 12 + turn),
                                 direction_deg(30, 180 + turn), &w);
         Spectrum c = panel_brdf(shared.panel, direction_deg(40, turn - 12),
@@ -268,7 +269,8 @@ static void beyond_the_measured_incidences_haze_follows_fresnel(void **state)
     for (double theta = 68; theta <= 80; theta += 4) {
         Spectrum f = panel_brdf(shared.panel, direction_deg(theta, 0),
                                 direction_deg(theta, 180), &w);
-        double truth = hazy(radians_from_degrees(theta), PI, radians_from_degrees(theta), 0, 560);
+        double angle = radians_from_degrees(theta);
+        double truth = hazy(angle, PI, angle, 0, 560);
         assert_close(f[8], truth, 0.12);
     }
 }
@@ -318,7 +320,7 @@ static void the_albedo_is_the_integral(void **state)
     }
 }
 
-/* ---- bases along the wavelengths and on the hemisphere --------------------------------------- */
+/* ---- bases along the wavelengths and on the hemisphere ----------------------------------- */
 
 static void every_spectral_basis_and_both_hemispherical_ones_hold_the_bound(void **state)
 {
@@ -352,7 +354,7 @@ static void every_spectral_basis_and_both_hemispherical_ones_hold_the_bound(void
     }
 }
 
-/* ---- the parts -------------------------------------------------------------------------------- */
+/* ---- the parts --------------------------------------------------------------------------- */
 
 static const json_t *part_at(const Fitted *f, size_t incidence)
 {
@@ -413,7 +415,7 @@ static void an_image_as_wide_as_the_instrument_becomes_the_mirror(void **state)
     end_fit(&f);
 }
 
-/* ---- azimuths of the light ---------------------------------------------------------------------- */
+/* ---- azimuths of the light --------------------------------------------------------------- */
 
 static void a_brushed_surface_is_told_between_azimuths(void **state)
 {
@@ -457,7 +459,7 @@ static void an_isotropic_surface_stored_with_azimuths_answers_the_same(void **st
     end_fit(&f);
 }
 
-/* ---- zeros --------------------------------------------------------------------------------------- */
+/* ---- zeros ------------------------------------------------------------------------------- */
 
 static double with_zeros(double theta_i, double phi_i, double theta, double phi, double nm)
 {
