@@ -99,7 +99,7 @@ bool cmd_panel_fit(int argc, char **argv, Error *err)
     Arena       arena = arena_reserve(ARENA_BYTES);
     Cli         cli;
     const char *output = NULL;
-    int         basis = 0, wavelet = WAVELET_CDF53, weights = 0, incidence = 0;
+    int         basis = 0, wavelet = 0, weights = 0, incidence = 0;
     long        level = 0;
     double      keep = 0, max_error = 0, frame = 0;
     bool        mask = false;
@@ -120,8 +120,9 @@ bool cmd_panel_fit(int argc, char **argv, Error *err)
          .given = NULL},
         {"--mask-outliers", OPTION_FLAG, NULL,
          "errors leave out hot and dead pixels of emission tables", &mask, .given = NULL},
-        {"--wavelet", OPTION_CHOICE, "haar|cdf53|cdf97",
-         "wavelet along the wavelengths (default cdf53)", &wavelet, .given = NULL},
+        {"--wavelet", OPTION_CHOICE, "principal|haar|cdf53|cdf97",
+         "basis along the wavelengths: a few principal spectra, or a wavelet (default "
+         "principal)", &wavelet, .given = NULL},
         {"--frame", OPTION_NUMBER, "K",
          "specular frame's exponent, 1 to 3 (default: the least error)", &frame, 1, 3,
          .given = NULL},
@@ -139,7 +140,8 @@ bool cmd_panel_fit(int argc, char **argv, Error *err)
         return error_set(err, ERROR_USAGE, "--keep and --max-error exclude each other");
     FitOptions fit = fit_options_default();
     fit.level = (int)level;
-    fit.wavelet = (WaveletKind)wavelet;
+    fit.has_wavelet = wavelet > 0;
+    fit.wavelet = (WaveletKind)(wavelet > 0 ? wavelet - 1 : 0);
     fit.weights = weights ? HAAR_EQUAL : HAAR_AREA;
     fit.frame_exponent = (float)frame;
     fit.is_linear_in_incidence = incidence == 1;
