@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""Draws what the displays of car_dashboard.gltf show: assets/content/cluster.png (1920x720)
-and assets/content/centre.png (2560x1440), sRGB code values as a panel receives them.
+"""Draws what the displays show, sRGB code values as a panel receives them, into
+assets/content: cluster.png (1920x720) and centre.png (2560x1440) of car_dashboard.gltf; pfd.png
+and nav.png (1280x1024), engine.png, standby.png, cdu.png and windows.png of cockpit.gltf.
 
 Needs python3-cairo and the font Inter (Debian fonts-inter, SIL Open Font Licence 1.1).
 """
@@ -12,6 +13,8 @@ sys.path.insert(0, os.path.join(HERE, "modelling"))
 
 from centre_content import draw_centre  # noqa: E402
 from cluster_content import draw_cluster  # noqa: E402
+from flight_content import draw_nav, draw_pfd  # noqa: E402
+from systems_content import draw_systems  # noqa: E402
 
 FOLDER = os.path.join(HERE, "..", "assets", "content")
 
@@ -20,3 +23,6 @@ if __name__ == "__main__":
     os.makedirs(FOLDER, exist_ok=True)
     draw_cluster(os.path.join(FOLDER, "cluster.png"))
     draw_centre(os.path.join(FOLDER, "centre.png"))
+    draw_pfd(os.path.join(FOLDER, "pfd.png"))
+    draw_nav(os.path.join(FOLDER, "nav.png"))
+    draw_systems(FOLDER)

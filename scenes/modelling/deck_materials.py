@@ -1,0 +1,60 @@
+"""The flight deck's materials, beside the car's: painted metal panels, moulded plastics, an
+anti-glare coaming, engraved legends that glow faintly, glass of the windscreens."""
+from materials import MATERIALS, TILE, grey, surface
+
+TILE.update({"coaming": 0.055, "armrest": 0.10, "deck seat": 0.05, "deck carpet": 0.10})
+
+DECK = {
+    # soft
+    "coaming": surface((0.034, 0.035, 0.038), 0.80, normal=("leather_normal", 0.45), ior=1.45),
+    "coaming thread": surface((0.115, 0.118, 0.125), 0.85),
+    "armrest": surface((0.050, 0.052, 0.056), 0.6, normal=("leather_normal", 0.7), ior=1.5),
+    "deck seat": surface((0.100, 0.118, 0.150), 0.95, normal=("fabric_normal", 1.0)),
+    "sheepskin": surface((0.33, 0.29, 0.23), 1.0, normal=("fabric_normal", 1.0)),
+    "deck carpet": surface((0.040, 0.046, 0.058), 1.0, normal=("fabric_normal", 1.0)),
+    "visor": surface((0.070, 0.085, 0.060), 0.35, ior=1.5),
+    # painted and moulded
+    "panel": surface((0.105, 0.128, 0.150), 0.52, ior=1.45),
+    "panel dark": surface((0.055, 0.062, 0.070), 0.5, ior=1.45),
+    "lining": surface((0.40, 0.39, 0.365), 0.72, ior=1.45),
+    "lining grey": surface((0.185, 0.195, 0.205), 0.68, ior=1.45),
+    "bezel": surface((0.042, 0.044, 0.047), 0.45, ior=1.5),
+    "key": surface((0.060, 0.062, 0.066), 0.48, ior=1.5),
+    "key light": surface((0.17, 0.18, 0.19), 0.5, ior=1.5),
+    "knob": surface((0.046, 0.047, 0.050), 0.40, ior=1.5),
+    "knob grey": surface((0.24, 0.25, 0.26), 0.42, ior=1.5),
+    "handle": surface((0.46, 0.45, 0.43), 0.38, ior=1.5),
+    "stick": surface((0.038, 0.039, 0.042), 0.46, ior=1.5),
+    "window black": grey(0.014, 0.16, ior=1.5),
+    "fastener": surface((0.30, 0.30, 0.305), 0.42, 0.8),
+    "steel": surface((0.60, 0.60, 0.61), 0.30, 1.0),
+    "lever": surface((0.66, 0.665, 0.67), 0.34, 1.0),
+    "guard red": surface((0.42, 0.028, 0.022), 0.42, ior=1.5),
+    "compass face": grey(0.020, 0.5),
+    # what glows
+    "legend": surface((0.62, 0.62, 0.60), 0.6, emission=((1.0, 0.86, 0.66), 0.55)),
+    "legend dim": surface((0.40, 0.40, 0.39), 0.6, emission=((1.0, 0.86, 0.66), 0.18)),
+    "lit green": surface((0.03, 0.10, 0.04), 0.5, emission=((0.16, 1.0, 0.30), 9.0)),
+    "lit amber": surface((0.12, 0.07, 0.02), 0.5, emission=((1.0, 0.55, 0.06), 9.0)),
+    "lit cyan": surface((0.03, 0.09, 0.11), 0.5, emission=((0.20, 0.85, 1.0), 7.0)),
+    "lit white": surface((0.40, 0.40, 0.40), 0.5, emission=((1.0, 0.93, 0.82), 5.0)),
+    # glass and skin
+    "cockpit glass": surface((0.84, 0.87, 0.85), 0.0, glass=True, ior=1.52),
+    "compass glass": surface((0.93, 0.93, 0.93), 0.0, glass=True, ior=1.5),
+    "seal": grey(0.020, 0.70),
+    "skin": surface((0.66, 0.665, 0.67), 0.34, 0.0, clearcoat=(1.0, 0.06)),
+    "skin dark": grey(0.030, 0.62),
+    # displays: (panel, picture, white other viewers show in cd/m2)
+    "pfd": grey(0.0, 0.25, display=("ips_cluster.panel", "pfd.png", 450.0)),
+    "nav": grey(0.0, 0.25, display=("ips_cluster.panel", "nav.png", 450.0)),
+    "engine": grey(0.0, 0.25, display=("ips_cluster.panel", "engine.png", 450.0)),
+    "standby": grey(0.0, 0.10, display=("oled_centre.panel", "standby.png", 450.0)),
+    "pfd_right": grey(0.0, 0.25, display=("ips_cluster.panel", "pfd.png", 450.0)),
+    "nav_right": grey(0.0, 0.25, display=("ips_cluster.panel", "nav.png", 450.0)),
+    "cdu": grey(0.0, 0.25, display=("oled_centre.panel", "cdu.png", 300.0)),
+    "windows": grey(0.0, 0.25, display=("oled_centre.panel", "windows.png", 300.0)),
+}
+
+
+def use_deck_materials():
+    MATERIALS.update(DECK)
