@@ -102,7 +102,7 @@ bool cmd_panel_fit(int argc, char **argv, Error *err)
     int         basis = 0, wavelet = 0, weights = 0, incidence = 0;
     long        level = 0;
     double      keep = 0, max_error = 0, frame = 0;
-    bool        mask = false;
+    bool        mask = false, lobe = false;
     const Option options[] = {
         {"-o", OPTION_TEXT, "X.panel", "the file to write", &output, .given = NULL},
         {"--basis", OPTION_CHOICE, "vertex|haar",
@@ -120,6 +120,9 @@ bool cmd_panel_fit(int argc, char **argv, Error *err)
          .given = NULL},
         {"--mask-outliers", OPTION_FLAG, NULL,
          "errors leave out hot and dead pixels of emission tables", &mask, .given = NULL},
+        {"--lobe-is-mirror", OPTION_FLAG, NULL,
+         "a narrow peak on the haze is the mirror's image as wide as the instrument, where the "
+         "set does not declare that width", &lobe, .given = NULL},
         {"--wavelet", OPTION_CHOICE, "principal|haar|cdf53|cdf97",
          "basis along the wavelengths: a few principal spectra, or a wavelet (default "
          "principal)", &wavelet, .given = NULL},
@@ -149,6 +152,7 @@ bool cmd_panel_fit(int argc, char **argv, Error *err)
     fit.threads = cli.threads;
     fit.basis = (FitBasis)basis;
     fit.mask_outliers = mask;
+    fit.lobe_is_mirror = lobe;
     if (max_error > 0) fit.bound = (float)max_error;
     if (keep > 0) {
         fit.keep_share = (float)keep;

@@ -104,7 +104,7 @@ static bool fit_all_reflection(FitParts *parts, FitReflection *reflection, Arena
                                Error *err)
 {
     parts->reflection = reflection;
-    fit_separate(parts->set, parts->options->threads, arena, parts->notes, reflection);
+    fit_separate(parts->set, parts->options, arena, parts->notes, reflection);
     return fit_reflection(parts->set, parts->options, arena, parts->notes, reflection, err) &&
            sample_reflection(parts, reflection, arena, err);
 }

@@ -31,6 +31,8 @@ typedef struct FitOptions {
     bool        has_wavelet; /* along the wavelengths; else a few principal spectra */
     WaveletKind wavelet;
     HaarWeights weights;
+    bool        lobe_is_mirror; /* a peak on the haze is the instrument's image of the mirror,
+                                   its width the instrument's, where that is not declared */
     float       frame_exponent; /* k of the specular-following frame; 0: choose */
     bool        is_linear_in_incidence; /* over two slices instead of cubic over four */
     int         threads;    /* at least 1; the bytes do not depend on it */

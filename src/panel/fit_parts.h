@@ -65,6 +65,7 @@ int fit_by_value(const void *a, const void *b);
 
 /* ---- emission -------------------------------------------------------------------------- */
 
+#define FIT_NO_LIGHT 1e-4 /* cd m^-2: what is less counts relative to this */
 #define FIT_TABLES_MAX (3 * PANEL_LEVELS_MAX + 1)
 
 typedef struct FitEmission {
@@ -121,8 +122,8 @@ typedef struct FitReflection {
 } FitReflection;
 
 /* First step: noise, and mirror, lobe and haze told apart, for every table. */
-void fit_separate(const Measurement *set, int threads, Arena *arena, FitNotes *notes,
-                  FitReflection *out);
+void fit_separate(const Measurement *set, const FitOptions *options, Arena *arena,
+                  FitNotes *notes, FitReflection *out);
 
 /* Second step, on what the first one left in *out. */
 bool fit_reflection(const Measurement *set, const FitOptions *options, Arena *arena,

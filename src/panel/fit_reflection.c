@@ -125,6 +125,9 @@ static bool code_levels(ReflectionFit *fit, ReflectionMisses *misses, Error *err
 static void note_outcome(const ReflectionFit *fit, const ReflectionMisses *misses,
                          FitNotes *notes)
 {
+    if (fit->options->keep_share > 0 && fit->options->basis == FIT_VERTEX)
+        fit_note(notes, "reflection: the vertex basis keeps what its bound needs; a share to "
+                 "keep is for the Haar basis");
     if (fit->out->masked)
         fit_note(notes, "%d zeros or negative values of reflection were held above a floor "
                  "(1e-6 of their table's largest value); their errors do not count",

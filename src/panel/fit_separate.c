@@ -1,5 +1,6 @@
 /* The parts of a reflection told apart: mirror, lobe, and what is left for the haze. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/parallel.h"
@@ -142,8 +143,29 @@ static void separate_lobe(Pass *pass, int threads, Arena *arena)
     }
 }
 
-void fit_separate(const Measurement *set, int threads, Arena *arena, FitNotes *notes,
-                  FitReflection *out)
+/* The lobe is the instrument's image of the mirror: the user says so. */
+static void take_lobe_for_mirror(FitReflection *out)
+{
+    double *none = out->reflectance;
+    out->reflectance = out->lobe;
+    out->lobe = none;
+    out->has_mirror = true;
+    out->has_lobe = false;
+    for (int t = 0; t < out->tables; t++) out->kept[t] = out->haze[t];
+    memcpy(out->mirror_y, out->lobe_y, sizeof out->mirror_y);
+    memset(out->lobe_y, 0, sizeof out->lobe_y);
+}
+
+static double median_fwhm_deg(const FitReflection *out, Arena scratch)
+{
+    double *list = ARENA_NEW(&scratch, double, out->tables);
+    memcpy(list, out->lobe_sigma, sizeof *list * (size_t)out->tables);
+    qsort(list, (size_t)out->tables, sizeof *list, fit_by_value);
+    return degrees_from_radians(list[out->tables / 2] * sqrt(8 * log(2)));
+}
+
+void fit_separate(const Measurement *set, const FitOptions *options, Arena *arena,
+                  FitNotes *notes, FitReflection *out)
 {
     int    tables = set->incidence_count * (set->azimuth_count > 1 ? set->azimuth_count : 1);
     size_t rows = (size_t)tables * (size_t)set->wavelength_count;
@@ -161,9 +183,16 @@ void fit_separate(const Measurement *set, int threads, Arena *arena, FitNotes *n
     pass.arena = ARENA_NEW(arena, Arena, tables);
     luminous_weights(set, out->luminous);
     for (int t = 0; t < tables; t++) pass.arena[t] = arena_reserve(TABLE_BYTES);
-    separate_mirror(&pass, threads, arena);
-    separate_lobe(&pass, threads, arena);
+    separate_mirror(&pass, options->threads, arena);
+    separate_lobe(&pass, options->threads, arena);
     for (int t = 0; t < tables; t++) arena_release(&pass.arena[t]);
-    note_mirror(set, out, notes);
+    if (out->has_lobe && options->lobe_is_mirror && !(set->instrument_fwhm_deg > 0)) {
+        take_lobe_for_mirror(out);
+        fit_note(notes, "as asked, the peak on the haze counts as the mirror's image: the "
+                 "instrument's width is then %.2f deg (an estimate, not declared)",
+                 median_fwhm_deg(out, *arena));
+    } else {
+        note_mirror(set, out, notes);
+    }
     if (out->has_lobe) note_lobe(set, out, notes);
 }

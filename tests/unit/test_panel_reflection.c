@@ -415,6 +415,31 @@ static void an_image_as_wide_as_the_instrument_becomes_the_mirror(void **state)
     end_fit(&f);
 }
 
+static void a_lobe_becomes_the_mirror_only_when_asked(void **state)
+{
+    (void)state;
+    Tables      tables = HAZY;
+    FitOptions  options = quick();
+    Fitted      f;
+    Wavelengths w = even_wavelengths(400, 20);
+    tables.surface = lobed;
+    tables.wavelengths = 1;
+    tables.incidences = 2;
+    tables.theta_step = 1;
+    tables.phi_step = 3;
+    options.lobe_is_mirror = true;
+    fit_tables(&f, tables, &options);
+    for (int i = 0; i < 2; i++) {
+        double theta = f.tables.set.incidence[i];
+        assert_close(panel_mirror(f.panel, (float)cos(theta), &w)[0],
+                     LOBE_SHARE * fresnel(cos(theta)), 0.02);
+        Spectrum v = panel_brdf(f.panel, direction_deg(HAZY.incidence_deg[i], 0),
+                                direction_deg(HAZY.incidence_deg[i], 180), &w);
+        assert_close(v[0], hazy(theta, PI, theta, 0, 400), 0.05);
+    }
+    end_fit(&f);
+}
+
 /* ---- azimuths of the light --------------------------------------------------------------- */
 
 static void a_brushed_surface_is_told_between_azimuths(void **state)
@@ -519,6 +544,7 @@ int main(void)
         cmocka_unit_test(every_spectral_basis_and_both_hemispherical_ones_hold_the_bound),
         cmocka_unit_test(a_lobe_on_haze_is_told_apart_and_stays_one_lobe_between_incidences),
         cmocka_unit_test(an_image_as_wide_as_the_instrument_becomes_the_mirror),
+        cmocka_unit_test(a_lobe_becomes_the_mirror_only_when_asked),
         cmocka_unit_test(a_brushed_surface_is_told_between_azimuths),
         cmocka_unit_test(an_isotropic_surface_stored_with_azimuths_answers_the_same),
         cmocka_unit_test(zeros_and_negative_values_are_held_counted_and_told),
