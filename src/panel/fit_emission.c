@@ -45,8 +45,8 @@ static void survey_tables(const Measurement *set, const FitOptions *options, Are
 static void note_flags(const FitEmission *e, FitNotes *notes)
 {
     if (e->outlier_count)
-        fit_note(notes, "%d emission samples stand out of their neighbours and are not followed;"
-                 " the errors %s", e->outlier_count, e->is_masked ? "leave them out"
+        fit_note(notes, "%d emission samples stand out of their neighbours and are not "
+                 "followed; the errors %s", e->outlier_count, e->is_masked ? "leave them out"
                  : "count them, unless --mask-outliers leaves them out");
     if (e->hole_count)
         fit_note(notes, "%d directions of the emission tables' grids are not measured; the "

@@ -22,7 +22,7 @@ typedef struct EmissionSamples {
     double  tolerance; /* relative to M */
 } EmissionSamples;
 
-/* Table `index` of a set in the order of channels; NULL beyond the last. *primary: 3 is black. */
+/* Table `index` of a set in the order of channels; NULL beyond the last. *primary: 3: black. */
 const AngleTable *emission_table(const Measurement *set, bool has_black, int index,
                                  int *primary, int *level);
 

@@ -12,12 +12,14 @@
 
 #define COMPONENTS_MAX 24
 #define ITERATIONS 6
+#define PATIENCE 6 /* so many more components without any gain are enough */
 #define ASKED_ROWS 5000 /* loadings are found from about so many */
 #define HUBER 4.0       /* sigmas */
 #define UNKNOWN_BLACK 0.1f /* how far off a black that neighbours tell may be */
 #define STRAY 0.3       /* a sample this far off, */
 #define STRAYS 1e-3     /* and with few like it, is none that a component is made for */
-#define PRIOR 400.0     /* a channel's loadings against those of a brighter one, in 1/variance */
+#define SCORE_MOST 1e3
+#define PRIOR 400.0     /* 1/variance: a channel's loadings against a brighter one's */
 
 float emission_fall(float cosine_power, Vec3 direction)
 {
@@ -81,7 +83,7 @@ static float shared_power(const EmissionSamples *s)
 {
     double sum = 0, count = 0, power;
     for (int c = 0; c < s->channels; c++)
-        if (channel_power(s, c, &power)) sum += fmin(4, fmax(0.5, power)), count++;
+        if (channel_power(s, c, &power)) sum += fmin(9.5, fmax(0.5, power)), count++;
     return count > 0 ? (float)(sum / count) : 1.0f;
 }
 
@@ -225,8 +227,11 @@ static double improve_row(const Work *work, int row)
     }
     solve(matrix, step, n);
     double length = step_length(rank, s->channels, step);
-    for (int k = 0; k < n; k++) score[k] += (float)(length * step[k]);
-    return trace / n;
+    for (int k = 0; k < n; k++) {
+        double next = (double)score[k] + length * step[k];
+        if (isfinite(next)) score[k] = (float)fmin(SCORE_MOST, fmax(-SCORE_MOST, next));
+    }
+    return isfinite(trace) ? trace / n : 0;
 }
 
 /* The channel whose loadings one resembles: the next brighter level's, Y of the brightest. */
@@ -259,7 +264,8 @@ static void improve_channel(const Work *work, int channel, int stride)
         Wish wish = wish_of(s, i, channel, work->logs);
         if (wish.weight == 0) continue;
         for (int k = 0; k < n; k++) x[k + 1] = (double)score[k];
-        add_equation(x, wish.step + (double)(logs[0] - fall), wish.weight, n + 1, matrix, right);
+        add_equation(x, wish.step + (double)(logs[0] - fall), wish.weight, n + 1, matrix,
+                     right);
     }
     matrix[0] += 1e-2;
     right[0] += 1e-2 * (double)rank->mean[channel];
@@ -328,7 +334,8 @@ static void straighten(const EmissionSamples *s, const double *weight, EmissionR
 {
     int    n = rank->components, order[COMPONENTS_MAX];
     double matrix[COMPONENTS_MAX * COMPONENTS_MAX], axes[COMPONENTS_MAX * COMPONENTS_MAX];
-    double turn[COMPONENTS_MAX * COMPONENTS_MAX] = {0}, back[COMPONENTS_MAX * COMPONENTS_MAX] = {0};
+    double turn[COMPONENTS_MAX * COMPONENTS_MAX] = {0};
+    double back[COMPONENTS_MAX * COMPONENTS_MAX] = {0};
     centre(s, rank);
     row_covariance(rank->score, s->rows, s->area, n, matrix);
     principal_axes(matrix, axes, n);
@@ -423,6 +430,38 @@ static void settle_belief(const EmissionSamples *s, EmissionRank *rank, Arena sc
         rank->belief[i] = (float)fmin(1, (double)rank->belief[i] / middle);
 }
 
+/* Rows' areas, less where few channels are clear of noise: for the start. */
+static double *start_weights(const EmissionSamples *s, Arena *arena)
+{
+    double *weight = ARENA_NEW(arena, double, s->rows);
+    for (int i = 0; i < s->rows; i++) {
+        double clear = 0;
+        for (int c = 0; c < s->channels; c++) {
+            float sigma, e = added_light(s, i, c, &sigma);
+            double x = (double)(sigma / fmaxf(e, 1e-12f));
+            clear += isinf(sigma) ? 0 : 1 / (1 + 400 * x * x);
+        }
+        weight[i] = s->area[i] * (1e-3 + clear / s->channels);
+    }
+    return weight;
+}
+
+/* A fit with n components; returns how many samples it misses. */
+static int try_components(const Work *work, const Principal *start, int n, const double *weight)
+{
+    int missed;
+    take_start(work->samples, start, n, work->rank);
+    improve(work, weight);
+    work->rank->worst = worst_rest(work, &missed);
+    return missed;
+}
+
+static bool is_enough(const EmissionSamples *s, const EmissionRank *rank, int missed)
+{
+    double numbers = (double)s->rows * s->channels;
+    return missed <= (rank->worst > STRAY ? STRAYS * numbers : 0);
+}
+
 void emission_rank(const EmissionSamples *s, Arena *arena, EmissionRank *out)
 {
     size_t  channels = (size_t)s->channels, rows = (size_t)s->rows;
@@ -436,13 +475,17 @@ void emission_rank(const EmissionSamples *s, Arena *arena, EmissionRank *out)
     Arena scratch = *arena;
     Work  work = {s, out, ARENA_NEW(&scratch, float, channels)};
     float *logs = start_logs(s, out->cosine_power, weight, &scratch);
-    Principal start = principal_components(logs, s->area, weight,
+    Principal start = principal_components(logs, start_weights(s, &scratch), weight,
         (PrincipalShape){s->rows, s->channels, most, 0}, &scratch);
-    for (int n = most < 3 ? most : 3, missed; n <= most; n++) {
-        take_start(s, &start, n, out);
-        improve(&work, weight);
-        out->worst = worst_rest(&work, &missed);
-        if (missed <= (out->worst > STRAY ? STRAYS * (double)s->rows * s->channels : 0)) break;
+    int best = 0, least = INT32_MAX;
+    for (int n = most < 3 ? most : 3; n <= most; n++) {
+        int missed = try_components(&work, &start, n, weight);
+        if (missed < least) least = missed, best = n;
+        if (is_enough(s, out, missed)) break;
+        if (n == most || n >= best + PATIENCE) {
+            try_components(&work, &start, best, weight);
+            break;
+        }
     }
     settle_belief(s, out, scratch);
 }

@@ -56,7 +56,6 @@ static bool resample(const Resampler *from, float theta, float phi, float value[
 
 /* Even a table without noise is not to be followed further than this share of the tolerance. */
 #define LEAST_SIGMA 0.05
-#define NO_LIGHT 1e-6 /* cd m^-2, below every meter's reach */
 
 typedef struct TableNoise {
     double relative[3], dim[3];
@@ -77,7 +76,7 @@ static void put_row(EmissionSamples *out, int row, int channel, const float valu
 {
     for (int j = 0; j < 3; j++) {
         size_t at = (size_t)row * (size_t)out->channels + (size_t)(channel + j);
-        double m = (double)value[j], scale = fmax(fabs(m), NO_LIGHT);
+        double m = (double)value[j], scale = fmax(fabs(m), FIT_NO_LIGHT);
         out->total[at] = value[j];
         out->sigma[at] = (float)sqrt(pow(noise->relative[j] * m, 2) + pow(noise->dim[j], 2) +
                                      pow(LEAST_SIGMA * out->tolerance * scale, 2));
@@ -152,7 +151,8 @@ static void fill_unknown(EmissionSamples *out, int channel)
             continue;
         }
         size_t next = i + 1;
-        while (next < (size_t)out->rows && isinf(out->sigma[next * step + (size_t)channel])) next++;
+        while (next < (size_t)out->rows && isinf(out->sigma[next * step + (size_t)channel]))
+            next++;
         bool  has_next = next < (size_t)out->rows;
         float behind = has_next ? out->total[next * step + (size_t)channel] : 0;
         float before = known == SIZE_MAX ? behind : out->total[known];
@@ -166,7 +166,7 @@ static int by_angle(const void *a, const void *b)
     return p < q ? -1 : p > q;
 }
 
-/* Rows' areas: the ring's share of the hemisphere over its rows; and about how dense they are. */
+/* Rows' areas: the ring's share of the hemisphere over its rows; and how dense they are. */
 static void measure_rows(EmissionSamples *out, Arena scratch)
 {
     const AngleTable *table = out->master;
@@ -178,7 +178,8 @@ static void measure_rows(EmissionSamples *out, Arena scratch)
         double theta = (double)table->theta[i];
         double before = i ? (double)table->theta[i - 1] : -theta;
         double after = end < table->rows ? (double)table->theta[end] : 2 * theta - before;
-        double low = fmax(0, 0.5 * (before + theta)), high = fmin(PI / 2, 0.5 * (theta + after));
+        double low = fmax(0, 0.5 * (before + theta));
+        double high = fmin(PI / 2, 0.5 * (theta + after));
         for (int k = i; k < end; k++)
             out->area[k] = fmax(1e-9, (cos(low) - cos(high)) / (end - i));
         rings++;
@@ -189,7 +190,8 @@ static void measure_rows(EmissionSamples *out, Arena scratch)
     for (int i = 0; i < table->rows; i++)
         azimuths += i == 0 || phi[i] - phi[i - 1] > 1e-3f;
     out->azimuths = azimuths;
-    out->step_deg = degrees_from_radians((double)table->theta_max) / (rings > 1 ? rings - 1 : 1);
+    out->step_deg = degrees_from_radians((double)table->theta_max) /
+                    (rings > 1 ? rings - 1 : 1);
 }
 
 /* The directions of both. */

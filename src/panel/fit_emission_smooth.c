@@ -26,7 +26,8 @@ static int choose_terms(int azimuths, uint8_t term[PANEL_SPLINE_TERMS_MAX])
     int count = 0;
     for (int t = 0; t < PANEL_SPLINE_TERMS_MAX; t++) {
         int m = panel_spline_harmonic(t);
-        if (t == 0 || 2 * m < azimuths || (2 * m == azimuths && t % 2)) term[count++] = (uint8_t)t;
+        if (t == 0 || 2 * m < azimuths || (2 * m == azimuths && t % 2))
+            term[count++] = (uint8_t)t;
     }
     return count;
 }
@@ -148,7 +149,8 @@ static void drop_small_blocks(float *numbers, int terms, int components, const f
     for (int b = 0; b < terms * components; b++) {
         float *block = numbers + b * PANEL_SPLINE_NUMBERS, most = 0;
         for (int i = 0; i < PANEL_SPLINE_NUMBERS; i++) most = fmaxf(most, fabsf(block[i]));
-        if (most < worth[b % components]) memset(block, 0, sizeof *block * PANEL_SPLINE_NUMBERS);
+        if (most < worth[b % components])
+            memset(block, 0, sizeof *block * PANEL_SPLINE_NUMBERS);
     }
 }
 

@@ -46,8 +46,10 @@ static void add_smooth(const EmissionModel *model, Vec3 d, float *components)
 static bool is_close(const float *m, const float *wanted, const float *floor, int channels,
                      float limit)
 {
-    for (int c = 0; c < channels; c++)
-        if (!(fabsf(m[c] - wanted[c]) <= limit * fmaxf(wanted[c], floor[c]))) return false;
+    for (int c = 0; c < channels; c++) /* what has run away beyond the cone is nobody's wish */
+        if (!(fabsf(m[c] - wanted[c]) <= limit * fmaxf(wanted[c], floor[c])) &&
+            isfinite(wanted[c]))
+            return false;
     return true;
 }
 
@@ -182,7 +184,8 @@ static void find_wanted(Coder *coder)
         float  components[PANEL_COMPONENTS_MAX];
         add_smooth(model, d, smooth);
         memcpy(components, smooth, sizeof *smooth * (size_t)stride);
-        for (int k = 0; k < n; k++) components[k] += coder->value[(size_t)v * (size_t)n + (size_t)k];
+        for (int k = 0; k < n; k++)
+            components[k] += coder->value[(size_t)v * (size_t)n + (size_t)k];
         totals(model, components, d, coder->wanted + v * channels);
         coder->limit[v] = acos(fmin(1, (double)d.z)) <= reach
                               ? 0.75f * (float)model->tolerance : INFINITY;
@@ -193,7 +196,7 @@ static void find_wanted(Coder *coder)
 static void find_floor(const EmissionModel *model, const double (*dim)[3], float *floor)
 {
     for (int c = 0; c < model->samples->channels; c++)
-        floor[c] = fmaxf(20 * (float)dim[c / 3][c % 3], 1e-6f);
+        floor[c] = (float)fmax(20 * dim[c / 3][c % 3], FIT_NO_LIGHT);
 }
 
 static bool start_coder(EmissionModel *model, int level, const float *rest, Arena *arena,
@@ -217,7 +220,7 @@ static bool start_coder(EmissionModel *model, int level, const float *rest, Aren
     return true;
 }
 
-/* ---- against the samples ------------------------------------------------------------------ */
+/* ---- against the samples ---------------------------------------------------------------- */
 
 /* The largest relative error beyond noise of vertex values that are not coded yet: what no
  * tightening mends. */
@@ -299,10 +302,15 @@ static bool code_once(Coder *coder, Arena *arena, FitEmission *out, Tree *tree, 
 /* Codes, checks all samples, tightens around those that it misses, and codes again. */
 static bool code_tree(Coder *coder, Arena *arena, FitEmission *out, int *missed, Error *err)
 {
-    int  before = INT32_MAX;
-    Tree tree;
+    int   before = INT32_MAX;
+    Tree  tree;
+    Error unheard;
     for (int round = 0; round < ROUNDS; round++) {
-        if (!code_once(coder, arena, out, &tree, err)) return false;
+        const void *good = out->tree;
+        if (!code_once(coder, arena, out, &tree, round ? &unheard : err)) {
+            out->tree = good; /* finer than the coder can: the last one stands */
+            return round > 0;
+        }
         *missed = tighten(coder, &tree);
         if (*missed == 0 || (round > 3 && *missed >= before)) return true;
         before = *missed;

@@ -1,5 +1,5 @@
-/* How noisy a table is, told by high differences of neighbours: smooth data leave nearly nothing
- * of them, noise of deviation s leaves s times the root of the sum of squared binomials. */
+/* How noisy a table is, told by high differences of neighbours: smooth data leave nearly
+ * nothing of them, noise of deviation s leaves s times the root of the sum of squared binomials. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -20,7 +20,8 @@ int fit_by_value(const void *a, const void *b)
 
 void fit_neighbours(const AngleTable *table, Arena *arena, FitNeighbours *out)
 {
-    int   *ring = ARENA_NEW(arena, int, table->rows), *inner = ARENA_NEW(arena, int, table->rows);
+    int   *ring = ARENA_NEW(arena, int, table->rows);
+    int   *inner = ARENA_NEW(arena, int, table->rows);
     float  most = (float)radians_from_degrees(NEIGHBOUR_DEG);
     int    begin = 0, before = -1; /* rings: this one and the one inside it */
     for (int i = 0; i < table->rows; i++) {
@@ -45,60 +46,65 @@ static double value_at(const AngleTable *table, int row, int channel)
     return (double)table->value[(size_t)row * (size_t)table->channels + (size_t)channel];
 }
 
-/* |difference of that order| that ends at a row, over the noise of 1 that would make it. */
-static bool high_difference(const AngleTable *table, const int *before, int row, int channel,
-                            int order, double *difference, double *mean)
-{
-    double sum = 0, squares = 0, binomial = 1, all = 0;
-    for (int k = 0; k <= order; k++) {
-        if (row < 0) return false;
-        double value = value_at(table, row, channel);
-        sum += k % 2 ? -binomial * value : binomial * value;
-        squares += binomial * binomial;
-        all += value;
-        binomial = binomial * (order - k) / (k + 1);
-        row = before[row];
-    }
-    *difference = fabs(sum) / sqrt(squares);
-    *mean = all / (order + 1);
-    return true;
-}
-
 typedef struct NoiseQuestion {
     int    channel;
     double from, to; /* theta, radians */
     bool   is_relative; /* to the mean of the rows */
 } NoiseQuestion;
 
+/* |difference of that order| that ends at a row, over what noise of 1 would make it; of values
+ * or, which leaves less of steep functions, of their logarithms. */
+static bool high_difference(const AngleTable *table, const int *before, int row, int order,
+                            bool in_logs, const NoiseQuestion *ask, double *difference)
+{
+    double sum = 0, squares = 0, binomial = 1, all = 0;
+    for (int k = 0; k <= order; k++) {
+        if (row < 0) return false;
+        double value = value_at(table, row, ask->channel);
+        if (in_logs && !(value > 0)) return false;
+        double term = binomial * (in_logs ? log(value) : value);
+        sum += k % 2 ? -term : term;
+        squares += binomial * binomial;
+        all += value;
+        binomial = binomial * (order - k) / (k + 1);
+        row = before[row];
+    }
+    double mean = all / (order + 1), found = fabs(sum) / sqrt(squares);
+    if (ask->is_relative && !(mean > 0)) return false;
+    *difference = in_logs == ask->is_relative ? found : in_logs ? found * mean : found / mean;
+    return true;
+}
+
 /* Median over rows; 0: too few. */
 static double median_difference(const AngleTable *table, const int *before, int order,
-                                const NoiseQuestion *ask, Arena scratch)
+                                bool in_logs, const NoiseQuestion *ask, Arena scratch)
 {
-    double *list = ARENA_NEW(&scratch, double, table->rows + 1), difference, mean;
-    int     count = 0, stride = 1 + table->rows / ASKED;
+    double *list = ARENA_NEW(&scratch, double, table->rows + 1), difference;
+    int     count = 0, asked = 0, stride = 1 + table->rows / ASKED;
     for (int i = order; i < table->rows; i += stride) {
         double theta = (double)table->theta[i];
         if (theta < ask->from || theta > ask->to) continue;
-        if (!high_difference(table, before, i, ask->channel, order, &difference, &mean))
-            continue;
-        if (!ask->is_relative) list[count++] = difference;
-        else if (mean > 0) list[count++] = difference / mean;
+        asked++;
+        if (high_difference(table, before, i, order, in_logs, ask, &difference))
+            list[count++] = difference;
     }
-    if (count < ENOUGH) return 0;
+    if (count < ENOUGH || (in_logs && 2 * count < asked)) return 0;
     qsort(list, (size_t)count, sizeof *list, fit_by_value);
     return list[count / 2] / MEDIAN_OF_NORMAL;
 }
 
-/* The least over orders and over rings and meridians: structure only adds to a difference. */
-static double least_difference(const AngleTable *table, const NoiseQuestion *ask, Arena scratch)
+/* The least over orders, over rings and meridians, over values and logarithms: structure only
+ * adds to a difference. */
+static double least_difference(const AngleTable *table, bool has_logs, const NoiseQuestion *ask,
+                               Arena scratch)
 {
     FitNeighbours near;
     double        least = INFINITY;
     fit_neighbours(table, &scratch, &near);
     for (int order = 3; order <= 7; order += 2)
-        for (int k = 0; k < 2; k++) {
-            double found = median_difference(table, k ? near.inner : near.ring, order, ask,
-                                             scratch);
+        for (int k = 0; k < (has_logs ? 4 : 2); k++) {
+            double found = median_difference(table, k % 2 ? near.inner : near.ring, order,
+                                             k > 1, ask, scratch);
             if (found > 0) least = fmin(least, found);
         }
     return least < INFINITY ? least : 0;
@@ -107,18 +113,18 @@ static double least_difference(const AngleTable *table, const NoiseQuestion *ask
 double fit_noise(const AngleTable *table, int channel, Arena scratch)
 {
     NoiseQuestion ask = {channel, 0, radians_from_degrees(70), true};
-    return least_difference(table, &ask, scratch);
+    return least_difference(table, true, &ask, scratch);
 }
 
 double fit_dim_noise(const AngleTable *table, int channel, Arena scratch)
 {
     double        edge = (double)table->theta_max;
     NoiseQuestion ask = {channel, 0.9 * edge, edge, false};
-    return least_difference(table, &ask, scratch);
+    return least_difference(table, true, &ask, scratch);
 }
 
 double fit_plain_noise(const AngleTable *table, int channel, Arena scratch)
 {
     NoiseQuestion ask = {channel, 0, PI / 2, false};
-    return least_difference(table, &ask, scratch);
+    return least_difference(table, false, &ask, scratch);
 }

@@ -44,44 +44,68 @@ static double level_of(const Search *search, int row, int channel)
            (double)search->ring[3 * (size_t)row + (size_t)channel];
 }
 
-/* Up to four neighbours: on the ring and on the meridian; of the pole, four of the first ring. */
+/* Neighbours in pairs on either side, -1 where there is none: on the ring, on the meridian; of
+ * the pole, opposite ones of the first ring. Returns how many there are. */
 static int neighbours(const Search *search, int row, int begin, int end, int near[4])
 {
-    int count = 0;
-    if (row == 0 && end == 1 && search->table->theta[0] == 0) {
+    const AngleTable *table = search->table;
+    if (row == 0 && end == 1 && table->theta[0] == 0) {
         int next = 1;
-        while (next < search->table->rows && search->table->theta[next] == search->table->theta[1])
-            next++;
-        for (int k = 0; k < 4 && next > 8; k++) near[count++] = 1 + k * (next - 1) / 4;
-        return count;
+        while (next < table->rows && table->theta[next] == table->theta[1]) next++;
+        for (int k = 0; k < 4; k++)
+            near[k] = next > 8 ? 1 + (k % 2 * 2 + k / 2) * (next - 1) / 4 : -1;
+    } else {
+        near[0] = beside(table, row, -1, begin, end);
+        near[1] = beside(table, row, 1, begin, end);
+        near[2] = search->inner[row];
+        near[3] = search->outer[row];
     }
-    int found[4] = {beside(search->table, row, -1, begin, end),
-                    beside(search->table, row, 1, begin, end), search->inner[row],
-                    search->outer[row]};
-    for (int k = 0; k < 4; k++)
-        if (found[k] >= 0) near[count++] = found[k];
+    int count = 0;
+    for (int k = 0; k < 4; k++) count += near[k] >= 0;
     return count;
 }
 
-/* Median over up to four neighbours. */
-static double median_level(const Search *search, const int *near, int count, int channel)
+/* What the neighbours say: of pairs their means; of three neighbours also the median. Every one
+ * must be far from a value that stands out. */
+typedef struct Expected {
+    int    count;
+    double level[3], limit[3];
+} Expected;
+
+static Expected expected_of(const Search *search, const int near[4], int channel)
 {
-    double value[4];
-    for (int k = 0; k < count; k++) value[k] = level_of(search, near[k], channel);
-    qsort(value, (size_t)count, sizeof *value, fit_by_value);
-    return count % 2 ? value[count / 2] : 0.5 * (value[count / 2 - 1] + value[count / 2]);
+    Expected out = {0};
+    double   value[4];
+    int      found = 0;
+    for (int k = 0; k < 4; k++)
+        if (near[k] >= 0) value[found++] = level_of(search, near[k], channel);
+    for (int k = 0; k < 4; k += 2)
+        if (near[k] >= 0 && near[k + 1] >= 0) {
+            out.level[out.count] = 0.5 * (level_of(search, near[k], channel) +
+                                          level_of(search, near[k + 1], channel));
+            out.limit[out.count++] = LEAST;
+        }
+    if (found != 3) return out;
+    qsort(value, 3, sizeof *value, fit_by_value);
+    out.level[out.count] = value[1];
+    out.limit[out.count++] = LEAST_AT_EDGE;
+    return out;
 }
 
 /* Does any of the three tristimulus values stand out? */
-static bool stands_out(const Search *search, int row, const int *near, int count)
+static bool stands_out(const Search *search, int row, const int near[4])
 {
     for (int j = 0; j < 3; j++) {
-        double expected = median_level(search, near, count, j);
-        double value = level_of(search, row, j);
-        double dim = search->dim[j] /
-                     exp(fmin(value, expected) + (double)search->ring[3 * row + j]);
-        double sigma = sqrt(search->noise[j] * search->noise[j] + dim * dim);
-        if (fabs(value - expected) > fmax(SIGMAS * sigma, count < 4 ? LEAST_AT_EDGE : LEAST)) return true;
+        Expected expected = expected_of(search, near, j);
+        double   value = level_of(search, row, j), ring = (double)search->ring[3 * row + j];
+        bool     is_far = expected.count > 0 && fmax(value, expected.level[0]) + ring >
+                                                    log(100 * FIT_NO_LIGHT);
+        for (int k = 0; k < expected.count; k++) {
+            double dim = search->dim[j] / exp(fmin(value, expected.level[k]) + ring);
+            double sigma = sqrt(search->noise[j] * search->noise[j] + dim * dim);
+            is_far &= fabs(value - expected.level[k]) > fmax(SIGMAS * sigma, expected.limit[k]);
+        }
+        if (is_far) return true;
     }
     return false;
 }
@@ -131,7 +155,7 @@ static Search start_search(const AngleTable *table, Arena *arena)
         search.dim[j] = fit_dim_noise(table, j, *arena);
         for (int i = 0; i < table->rows; i++)
             most = fmax(most, (double)table->value[3 * (size_t)i + (size_t)j]);
-        search.least[j] = fmax(fmax(1e-5 * most, 0.3 * search.dim[j]), 1e-9);
+        search.least[j] = fmax(fmax(1e-5 * most, 0.3 * search.dim[j]), FIT_NO_LIGHT);
     }
     find_rings(&search, *arena);
     return search;
@@ -153,12 +177,12 @@ int fit_find_outliers(const AngleTable *table, uint8_t *is_outlier, FitFlags *fl
             while (end < table->rows && table->theta[end] == table->theta[begin]) end++;
         }
         int count = neighbours(&search, i, begin, end, near);
-        is_outlier[i] = count >= 3 && stands_out(&search, i, near, count);
+        is_outlier[i] = count >= 3 && stands_out(&search, i, near);
         if (!is_outlier[i]) continue;
         found++;
         add_flag(flags, (FitFlag){table->name, (double)table->theta[i], (double)table->phi[i],
                                   (double)table->value[3 * (size_t)i + 1],
-                                  exp(median_level(&search, near, count, 1) +
+                                  exp(expected_of(&search, near, 1).level[0] +
                                       (double)search.ring[3 * (size_t)i + 1])});
     }
     return found;

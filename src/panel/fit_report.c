@@ -44,7 +44,8 @@ void fit_finish_errors(const FitErrors *errors, FitTable *out)
                               ? errors->integral / errors->integral_source - 1 : 0;
 }
 
-/* Relative to the measured value itself, or to 20 times what is noise even without light. */
+/* Relative to the measured value itself, or to 20 times what is noise even without light, or
+ * to what no meter sees. */
 static void measure_emission(const AngleTable *table, const Panel *panel, const float rgb[3],
                              const double dim[3], const uint8_t *masked, FitTable *out)
 {
@@ -58,7 +59,8 @@ static void measure_emission(const AngleTable *table, const Panel *panel, const 
         panel_emission_xyz(panel, d, rgb, xyz);
         for (int j = 0; j < 3; j++)
             fit_add_error(&errors, (double)xyz[j], (double)m[j],
-                          fmax(fmax(20 * dim[j], 1e-6), (double)m[j]), j == 1 ? weight : 0);
+                          fmax(fmax(20 * dim[j], FIT_NO_LIGHT), (double)m[j]),
+                          j == 1 ? weight : 0);
     }
     fit_finish_errors(&errors, out);
     out->extrapolated = (double)panel->emission->cone_cos; /* share of the hemisphere's sr */
@@ -137,7 +139,8 @@ static void add_emission_tables(const FitParts *parts, const Panel *panel, json_
                         .stored_values = (double)e->tree_report.stored_values / e->table_count,
                         .bytes = (double)emission_bytes(e) / e->table_count,
                         .noise = e->noise[i]};
-        measure_emission(from, panel, rgb, e->dim[i], e->is_masked ? e->outlier[i] : NULL, &one);
+        measure_emission(from, panel, rgb, e->dim[i], e->is_masked ? e->outlier[i] : NULL,
+                         &one);
         fit_add_table(tables, total, &one);
     }
 }

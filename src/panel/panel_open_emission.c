@@ -286,7 +286,8 @@ static bool read_spectra(const PanelBytes *at, Arena *arena, PanelPrimaries *out
         return panel_refuse(at, "primaries", "wavelengths or scales are out of range");
     for (int p = 0; p < 3; p++) {
         uint16_t *value = ARENA_NEW(arena, uint16_t, head.count);
-        if (!head.count) panel_spectrum_default((PanelSpectraKind)head.kind, p, out->spectrum[p]);
+        if (!head.count)
+            panel_spectrum_default((PanelSpectraKind)head.kind, p, out->spectrum[p]);
         if (!take(&rest, value, 2 * (size_t)head.count)) return false;
         if (head.count) expand_spectrum(&head, value, p, out->spectrum[p]);
         for (int i = 0; i < SPECTRAL_COUNT; i++)

@@ -128,7 +128,8 @@ static int cubic_cell(float at, float low, float high, float weight[4])
 void panel_bend_lookup(const PanelBend *bend, const float logs[3], float coefficient[3])
 {
     float wu[4], wv[4];
-    float du = logs[0] - logs[1] - bend->range.origin[0], dv = logs[2] - logs[1] - bend->range.origin[1];
+    float du = logs[0] - logs[1] - bend->range.origin[0];
+    float dv = logs[2] - logs[1] - bend->range.origin[1];
     float along = du * bend->range.along[0] + dv * bend->range.along[1];
     float across = dv * bend->range.along[0] - du * bend->range.along[1];
     int   u = cubic_cell(along, bend->range.low[0], bend->range.high[0], wu);
@@ -195,7 +196,8 @@ static float mean_of_code(const PanelEmission *e, const float *mean, float code)
         return mean[1] * exp_f((slope > 0 ? slope : 0) * log_f(code));
     }
     if ((float)whole >= code) return mean[whole];
-    float t = (log_f(code) - e->log_code[whole]) / (e->log_code[whole + 1] - e->log_code[whole]);
+    float span = e->log_code[whole + 1] - e->log_code[whole];
+    float t = (log_f(code) - e->log_code[whole]) / span;
     return mean[whole] * exp_f(t * log_f(mean[whole + 1] / mean[whole]));
 }
 

@@ -36,8 +36,8 @@ static void cubic_basis(int i, double x, double value[4])
     }
 }
 
-/* Stored coefficient j belongs to the spline around knot j. Around the pole the spline before it
- * has the coefficient of the one behind it (times -1 for odd harmonics), and all but harmonic 0
+/* Stored coefficient j belongs to the spline around knot j. Around the pole the spline before
+ * it has the coefficient of the one behind it (times -1 for odd harmonics), and all but harmonic 0
  * vanish there: c_0 = -c_1 / 2 (even), 0 (odd). */
 PanelSplineTaps panel_spline_taps(int harmonic, double theta)
 {
@@ -54,7 +54,8 @@ PanelSplineTaps panel_spline_taps(int harmonic, double theta)
         int    j = i - 1 + k;
         double w = value[k];
         if (j == -1) taps.weight[1] += (float)(is_odd ? -w : w);
-        else if (j == 0 && harmonic) taps.weight[1 - taps.first] += (float)(is_odd ? 0 : -w / 2);
+        else if (j == 0 && harmonic)
+            taps.weight[1 - taps.first] += (float)(is_odd ? 0 : -w / 2);
         else taps.weight[j - taps.first] += (float)w;
     }
     return taps;

@@ -1,14 +1,15 @@
 /* panel_spline.h -- the smooth part of a tree's components as a few numbers, and the table that
  * a query reads instead. Private to src/panel.
  *
- * P_k(theta, phi) = sum over terms of angle(phi) (sum of B-splines(theta) + power ln cos theta),
+ * P_k(theta, phi) = sum over terms of angle(phi) (sum of B-splines(theta) + power ln cos
+ * theta),
  * angle = 1, cos phi, sin phi, cos 2 phi ... (term 0, 1, 2, 3 ...). The B-splines are cubic, on
- * knots every 5 degrees, every 2.5 beyond 70; they are mirrored at the pole with the parity that
- * a smooth function of direction has there. ln cos theta is how light ends at the horizon.
+ * knots every 5 degrees, every 2.5 beyond 70; they are mirrored at the pole with the parity
+ * that a smooth function of direction has there. ln cos theta is how light ends at the horizon.
  *
  * Stored     PanelSplineHead | uint8 term[terms] | uint8 width[terms][components] (bytes a
- *            number: 0 absent, 1, 2) | numbers of the present blocks, PANEL_SPLINE_NUMBERS each:
- *            multiples of step 2^-exponent; all 2-byte blocks first. Steps are powers of two.
+ *            number: 0 absent, 1, 2) | numbers of the present blocks, PANEL_SPLINE_NUMBERS
+ *            each: multiples of step 2^-exponent; all 2-byte blocks first. Steps are powers of two.
  * Threads    pure functions. Fails: only panel_spline_open, on bytes that are not whole.
  */
 #pragma once

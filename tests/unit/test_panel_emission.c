@@ -1,0 +1,556 @@
+/* Emission of fitted panels against closed truth: bounds, noise, grids, levels, sizes. */
+#include "panel_fixture.h"
+
+#include "panel/panel_figures.h"
+#include "panel/panel_file.h"
+
+#define COARSE "\"theta_step_deg\": 4, \"phi_step_deg\": 10"
+#define CHECK_EMISSION "\"gamma\": 2.2, \"gamma_drop\": 0.2, \"cosine_power\": [1.1, 1.6],"  \
+    "\"black_cd_m2\": 0.7, \"leak\": 3"
+#define FOUR "\"levels\": [31, 95, 175, 255],"
+#define RECIPE(emission, instrument)                                                           \
+    "{\"panel\": \"p\", \"emission\": {" FIXTURE_SPECTRA emission "},"                         \
+    "\"instrument\": {" instrument "}}"
+
+static const char *const recipes[] = {
+    RECIPE(CHECK_EMISSION, COARSE),
+    RECIPE(FOUR "\"gamma\": 2.2, \"cosine_power\": [0.3, 0.3], \"black_cd_m2\": 0", COARSE),
+    RECIPE(FOUR "\"gamma\": 2.4, \"cosine_power\": [3, 4.5], \"black_cd_m2\": 0.05,"
+           "\"leak\": 6", COARSE),
+    RECIPE(FOUR "\"cosine_power\": [1, 1.4], \"black_cd_m2\": 0.3,"
+           "\"lobe\": {\"theta_deg\": 35, \"phi_deg\": 70, \"width_deg\": 16, \"gain\": 1.5}",
+           COARSE),
+};
+
+static void true_xyz(const Recipe *recipe, const double angles[2], const float rgb[3],
+                     double xyz[3])
+{
+    double add[3];
+    truth_black_xyz(recipe, angles, xyz);
+    for (int p = 0; p < 3; p++) {
+        truth_emission_xyz(recipe, p, (double)rgb[p], angles, add);
+        for (int j = 0; j < 3; j++) xyz[j] += add[j];
+    }
+}
+
+static double chromaticity_distance(const double a[3], const float b[3])
+{
+    double da = a[0] + 15 * a[1] + 3 * a[2];
+    double db = (double)b[0] + 15 * (double)b[1] + 3 * (double)b[2];
+    return hypot(4 * a[0] / da - 4 * (double)b[0] / db, 9 * a[1] / da - 9 * (double)b[1] / db);
+}
+
+typedef struct Misses {
+    double luminance, colour; /* relative; u'v' */
+} Misses;
+
+/* At random directions up to `theta` and random codes of at least `code`. */
+static Misses misses(const Fixture *f, double theta, double code, int count)
+{
+    Misses   most = {0, 0};
+    uint32_t random = 7;
+    for (int i = 0; i < count; i++) {
+        double angles[2] = {radians_from_degrees(theta) * steady_random(&random),
+                            2 * PI * steady_random(&random)}, truth[3];
+        float  rgb[3], xyz[3];
+        for (int p = 0; p < 3; p++)
+            rgb[p] = (float)(code + (255 - code) * steady_random(&random));
+        true_xyz(&f->recipe, angles, rgb, truth);
+        panel_emission_xyz(f->panel, direction_deg(degrees_from_radians(angles[0]),
+                                                   degrees_from_radians(angles[1])), rgb, xyz);
+        most.luminance = fmax(most.luminance, fabs((double)xyz[1] / truth[1] - 1));
+        most.colour = fmax(most.colour, chromaticity_distance(truth, xyz));
+    }
+    return most;
+}
+
+/* The recipe's measurement without a fit. */
+static void measure(Fixture *f, const char *recipe)
+{
+    Error err = {0};
+    fixture_folder(f);
+    const char *path = fixture_file(f, "recipe.json", recipe);
+    const char *manifest = arena_format(&f->arena, "%s/MANIFEST.json", f->folder);
+    f->set = ARENA_NEW(&f->arena, Measurement, 1);
+    if (!recipe_read(path, &f->arena, &f->recipe, &err) ||
+        !simulate_measurement(&f->recipe, f->folder, PROGRESS_NONE, &err) ||
+        !measurement_read(manifest, &f->arena, f->set, &err))
+        fail_msg("%s: %s: %s", err.file, err.path, err.text);
+}
+
+static void fit(Fixture *f, const FitOptions *options)
+{
+    Error err = {0};
+    if (!panel_fit(f->set, options, f->panel_path, &f->arena, &f->report, &err) ||
+        !panel_open(f->panel_path, &f->arena, &f->panel, &err))
+        fail_msg("%s: %s: %s", err.file, err.path, err.text);
+}
+
+static double emission_figure(const Fixture *f, const char *key)
+{
+    json_t *value = json_object_get(json_object_get(f->report, "emission"), key);
+    assert_true(json_is_number(value));
+    return json_number_value(value);
+}
+
+/* The largest |M - measured| / measured of a table's channels; less than 0.0001 cd/m2 counts as
+ * that. */
+static double worst_sample(const Panel *panel, const AngleTable *table, const float rgb[3])
+{
+    double worst = 0;
+    for (int i = 0; i < table->rows; i++) {
+        float xyz[3];
+        panel_emission_xyz(panel, direction_deg(degrees_from_radians((double)table->theta[i]),
+                                                degrees_from_radians((double)table->phi[i])),
+                           rgb, xyz);
+        for (int j = 0; j < 3; j++)
+            worst = fmax(worst, fabs((double)(xyz[j] - table->value[3 * i + j])) /
+                                    fmax(1e-4, (double)table->value[3 * i + j]));
+    }
+    return worst;
+}
+
+static double worst_of_all(const Fixture *f)
+{
+    float  dark[3] = {0, 0, 0};
+    double worst = f->panel->emission->has_black
+                       ? worst_sample(f->panel, &f->set->black, dark) : 0;
+    for (int p = 0; p < 3; p++)
+        for (int i = 0; i < f->set->primary[p].level_count; i++) {
+            float rgb[3] = {0, 0, 0};
+            rgb[p] = (float)f->set->primary[p].level[i];
+            worst = fmax(worst, worst_sample(f->panel, &f->set->primary[p].table[i], rgb));
+        }
+    return worst;
+}
+
+/* ---- bounds ---------------------------------------------------------------------------- */
+
+/* Every recipe with the tolerance that the fit chooses. */
+static Fixture fitted[4];
+
+static int start_all(void **state)
+{
+    (void)state;
+    for (int r = 0; r < 4; r++) {
+        FitOptions options = fit_options_default();
+        measure(&fitted[r], recipes[r]);
+        fit(&fitted[r], &options);
+    }
+    return 0;
+}
+
+static int end_all(void **state)
+{
+    (void)state;
+    for (int r = 0; r < 4; r++) fixture_end(&fitted[r]);
+    return 0;
+}
+
+static void every_sample_keeps_the_bound_that_was_asked_for(void **state)
+{
+    (void)state;
+    for (int r = 0; r < 4; r++) {
+        Fixture    f;
+        FitOptions options = fit_options_default();
+        options.bound = r % 2 ? 0.005f : 0.02f;
+        measure(&f, recipes[r]);
+        fit(&f, &options);
+        double worst = worst_of_all(&f), said = emission_figure(&f, "bound");
+        if (!(worst <= (double)options.bound) || !(worst <= said * 1.01 + 1e-5))
+            fail_msg("recipe %d: %g, asked for %g, said %g", r, worst, (double)options.bound,
+                     said);
+        if (emission_figure(&f, "outliers") > 0 || emission_figure(&f, "holes") > 0)
+            fail_msg("recipe %d: outliers or holes without any", r);
+        fixture_end(&f);
+    }
+}
+
+static void between_samples_the_truth_is_near(void **state)
+{
+    (void)state;
+    for (int r = 0; r < 4; r++) {
+        Misses m = misses(&fitted[r], 80, 20, 25000);
+        if (!(m.luminance < 0.02) || !(m.colour < 0.0015))
+            fail_msg("recipe %d: luminance %g, u'v' %g", r, m.luminance, m.colour);
+    }
+}
+
+static void beyond_the_cone_light_falls(void **state)
+{
+    (void)state;
+    float rgb[3] = {255, 255, 255}, edge[3], before[3], xyz[3];
+    for (int r = 0; r < 4; r++)
+        for (int phi = 0; phi < 360; phi += 15) {
+            assert_true(panel_emission_xyz(fitted[r].panel, direction_deg(87.9, phi), rgb,
+                                           edge));
+            memcpy(before, edge, sizeof edge);
+            for (int i = 1; i < 20; i++) {
+                Vec3 d = direction_deg(88 + 0.1 * i, phi);
+                assert_false(panel_emission_xyz(fitted[r].panel, d, rgb, xyz));
+                assert_true(xyz[1] >= 0 && xyz[1] <= before[1] * 1.0001f);
+                memcpy(before, xyz, sizeof xyz);
+            }
+        }
+}
+
+static void noise_is_smoothed_not_stored(void **state)
+{
+    (void)state;
+    Fixture    clean, noisy;
+    FitOptions options = fit_options_default();
+    measure(&clean, RECIPE(FOUR CHECK_EMISSION, "\"theta_step_deg\": 2, \"phi_step_deg\": 5"));
+    fit(&clean, &options);
+    measure(&noisy, RECIPE(FOUR CHECK_EMISSION, "\"theta_step_deg\": 2, \"phi_step_deg\": 5,"
+                                           "\"noise_relative\": 0.003"));
+    fit(&noisy, &options);
+    Misses m = misses(&noisy, 75, 31, 5000);
+    if (!(m.luminance < 0.005) || !(m.colour < 0.001))
+        fail_msg("luminance %g, u'v' %g", m.luminance, m.colour);
+    assert_true(emission_figure(&noisy, "share_of_source") < 0.008);
+    assert_true(emission_figure(&noisy, "bytes") < 1.5 * emission_figure(&clean, "bytes"));
+    double said = json_number_value(json_object_get(
+        json_array_get(json_object_get(noisy.report, "tables"), 5), "noise"));
+    assert_close(said, 0.003, 0.2);
+    fixture_end(&clean);
+    fixture_end(&noisy);
+}
+
+static void sets_and_lone_tables_take_few_bytes(void **state)
+{
+    (void)state;
+    Fixture    f;
+    Error      err = {0};
+    FitOptions options = fit_options_default();
+    options.bound = 0.02f;
+    measure(&f, RECIPE(CHECK_EMISSION, "\"theta_step_deg\": 2, \"phi_step_deg\": 5"));
+    fit(&f, &options);
+    assert_true(worst_of_all(&f) <= 0.02);
+    assert_true(emission_figure(&f, "share_of_source") < 0.008);
+    const char *lone = arena_format(&f.arena, "%s/emission/green_255.csv", f.folder);
+    json_decref(f.report);
+    panel_close(f.panel);
+    if (!measurement_read(lone, &f.arena, f.set, &err)) fail_msg("%s", err.text);
+    fit(&f, &options);
+    assert_true(emission_figure(&f, "share_of_source") < 0.015);
+    fixture_end(&f);
+}
+
+static void a_table_is_as_bright_as_it_was_measured_on_the_whole(void **state)
+{
+    (void)state;
+    for (int r = 0; r < 4; r++) {
+        size_t  i;
+        json_t *table;
+        json_array_foreach(json_object_get(fitted[r].report, "tables"), i, table)
+            if (!(fabs(json_number_value(json_object_get(table, "integral_error"))) < 0.001))
+                fail_msg("recipe %d, table %zu: %g", r, i, json_number_value(
+                    json_object_get(table, "integral_error")));
+    }
+}
+
+/* ---- odd sources ----------------------------------------------------------------------- */
+
+static AngleTable *table_of(Fixture *f, int primary, int level)
+{
+    return &f->set->primary[primary].table[level];
+}
+
+static void hot_pixels_are_found_listed_and_not_followed(void **state)
+{
+    (void)state;
+    Fixture    f;
+    FitOptions options = fit_options_default();
+    int        hot[][3] = {{0, 2, 100}, {1, 3, 555}, {2, 1, 640}, {1, 0, 2}};
+    measure(&f, RECIPE(FOUR CHECK_EMISSION, COARSE ", \"noise_relative\": 0.01"));
+    for (int i = 0; i < 4; i++) {
+        AngleTable *t = table_of(&f, hot[i][0], hot[i][1]);
+        float      *value = (float *)t->value + 3 * hot[i][2];
+        for (int j = 0; j < 3; j++) value[j] *= i == 2 ? 0.2f : 8;
+    }
+    options.mask_outliers = true;
+    fit(&f, &options);
+    json_t *list = json_object_get(f.report, "outliers");
+    assert_int_equal(json_array_size(list), 4);
+    for (size_t i = 0; i < 4; i++) {
+        double value = json_number_value(json_object_get(json_array_get(list, i), "value"));
+        double wanted = json_number_value(json_object_get(json_array_get(list, i), "expected"));
+        assert_true(value > 7 * wanted || value < 0.25 * wanted);
+    }
+    assert_true(emission_figure(&f, "bound") < 0.08); /* 1% noise: 5 sigma and the tolerance */
+    Misses m = misses(&f, 75, 31, 3000);
+    assert_true(m.luminance < 0.015 && m.colour < 0.004);
+    fixture_end(&f);
+}
+
+static void drop_row(AngleTable *t, int row)
+{
+    int behind = t->rows - row - 1;
+    memmove((float *)t->theta + row, t->theta + row + 1, sizeof(float) * (size_t)behind);
+    memmove((float *)t->phi + row, t->phi + row + 1, sizeof(float) * (size_t)behind);
+    memmove((float *)t->value + 3 * row, t->value + 3 * (row + 1),
+            3 * sizeof(float) * (size_t)behind);
+    t->rows--;
+}
+
+static void holes_are_listed_and_filled_by_what_is_known(void **state)
+{
+    (void)state;
+    Fixture    f;
+    FitOptions options = fit_options_default();
+    measure(&f, RECIPE(FOUR CHECK_EMISSION, COARSE));
+    for (int i = 0; i < 6; i++) drop_row(table_of(&f, i % 3, i % 4), 150 + 40 * i);
+    fit(&f, &options);
+    assert_int_equal(json_array_size(json_object_get(f.report, "holes")), 6);
+    assert_true(emission_figure(&f, "outliers") == 0);
+    Misses m = misses(&f, 80, 20, 4000);
+    assert_true(m.luminance < 0.012 && m.colour < 0.0015);
+    fixture_end(&f);
+}
+
+static void tables_may_have_grids_of_their_own(void **state)
+{
+    (void)state;
+    Fixture    f, other;
+    FitOptions options = fit_options_default();
+    measure(&f, RECIPE(FOUR CHECK_EMISSION, COARSE));
+    measure(&other, RECIPE(FOUR CHECK_EMISSION, "\"theta_step_deg\": 3, \"phi_step_deg\": 15,"
+                                           "\"theta_max_deg\": 78"));
+    for (int i = 0; i < 2; i++) *table_of(&f, 1, i) = *table_of(&other, 1, i);
+    f.set->black = other.set->black;
+    fit(&f, &options);
+    Misses m = misses(&f, 75, 20, 4000);
+    if (!(m.luminance < 0.02) || !(m.colour < 0.004))
+        fail_msg("luminance %g, u'v' %g", m.luminance, m.colour);
+    float rgb[3] = {255, 255, 255}, xyz[3];
+    assert_true(panel_emission_xyz(f.panel, direction_deg(77, 10), rgb, xyz));
+    assert_false(panel_emission_xyz(f.panel, direction_deg(80, 10), rgb, xyz));
+    fixture_end(&other);
+    fixture_end(&f);
+}
+
+static void two_sections_are_met_where_they_were_measured(void **state)
+{
+    (void)state;
+    Fixture    f;
+    FitOptions options = fit_options_default();
+    options.bound = 0.01f;
+    measure(&f, RECIPE("\"cosine_power\": [1.1, 1.6], \"black_cd_m2\": 0.2",
+                       "\"theta_step_deg\": 4, \"phi_step_deg\": 30"));
+    for (int p = 0; p < 4; p++)
+        for (int i = 0; i < (p < 3 ? f.set->primary[p].level_count : 1); i++) {
+            AngleTable *t = p < 3 ? table_of(&f, p, i) : &f.set->black;
+            for (int row = t->rows - 1; row > 0; row--)
+                if (fabs(remainder((double)t->phi[row], PI / 2)) > 0.1) drop_row(t, row);
+        }
+    fit(&f, &options);
+    assert_true(worst_of_all(&f) <= 0.01);
+    assert_true(emission_figure(&f, "outliers") == 0);
+    fixture_end(&f);
+}
+
+static void both_bases_answer_the_same_query(void **state)
+{
+    (void)state;
+    Fixture    haar;
+    FitOptions options = fit_options_default();
+    options.basis = FIT_HAAR;
+    measure(&haar, recipes[3]);
+    fit(&haar, &options);
+    Misses m = misses(&haar, 75, 20, 4000);
+    if (!(m.luminance < 0.015) || !(m.colour < 0.002))
+        fail_msg("luminance %g, u'v' %g", m.luminance, m.colour);
+    assert_true(emission_figure(&haar, "bytes") > emission_figure(&fitted[3], "bytes"));
+    fixture_end(&haar);
+}
+
+static void a_surface_that_only_reflects_emits_nothing(void **state)
+{
+    (void)state;
+    Fixture    f;
+    Error      err = {0};
+    FitOptions options = fit_options_default();
+    options.frame_exponent = 1;
+    measure(&f, "{\"panel\": \"p\", \"emission\": {" FIXTURE_SPECTRA "\"levels\": [255]},"
+                "\"reflection\": {\"haze_share\": 1, \"haze_width\": 0.4,"
+                "\"floor_albedo\": 0.02, \"incidence_deg\": [20, 40],"
+                "\"wavelengths_nm\": [550]},"
+                "\"instrument\": {\"theta_step_deg\": 8, \"phi_step_deg\": 30,"
+                "\"brdf_theta_step_deg\": 8, \"brdf_phi_step_deg\": 20, \"fwhm_deg\": 2}}");
+    const char *manifest = fixture_file(&f, "reflects.json",
+        "{\"panel\": \"matt\", \"reflection\": {\"wavelengths_nm\": [550],"
+        "\"incidence_deg\": [20, 40], \"files\": \"brdf/i{incidence}.csv\"}}");
+    if (!measurement_read(manifest, &f.arena, f.set, &err)) fail_msg("%s", err.text);
+    fit(&f, &options);
+    float rgb[3] = {255, 255, 255}, xyz[3];
+    assert_false(panel_emission_xyz(f.panel, direction_deg(20, 0), rgb, xyz));
+    assert_true(xyz[0] == 0 && xyz[1] == 0 && xyz[2] == 0);
+    assert_true(panel_mean_luminance(f.panel, rgb) == 0);
+    assert_true(panel_reflects(f.panel));
+    const char *nothing = fixture_file(&f, "nothing.json", "{\"panel\": \"none\"}");
+    assert_false(measurement_read(nothing, &f.arena, f.set, &err));
+    fixture_end(&f);
+}
+
+/* ---- levels ---------------------------------------------------------------------------- */
+
+static void a_level_left_out_is_predicted(void **state)
+{
+    (void)state;
+    for (int left = 1; left <= 6; left += 5) {
+        Fixture    f;
+        FitOptions options = fit_options_default();
+        measure(&f, recipes[0]);
+        double code = f.set->primary[0].level[left];
+        for (int p = 0; p < 3; p++) {
+            MeasuredPrimary *from = &f.set->primary[p];
+            for (int i = left; i + 1 < from->level_count; i++) {
+                from->level[i] = from->level[i + 1];
+                from->table[i] = from->table[i + 1];
+            }
+            from->level_count--;
+        }
+        fit(&f, &options);
+        for (int i = 0; i < 200; i++) {
+            double angles[2] = {radians_from_degrees(0.37 * i), 0.7 * i}, truth[3];
+            float  rgb[3] = {(float)code, (float)code, (float)code}, xyz[3];
+            rgb[i % 3] = 0;
+            true_xyz(&f.recipe, angles, rgb, truth);
+            panel_emission_xyz(f.panel, direction_deg(0.37 * i,
+                                                      degrees_from_radians(0.7 * i)), rgb, xyz);
+            assert_close(xyz[1], truth[1], 0.01);
+            assert_true(chromaticity_distance(truth, xyz) < 0.001);
+        }
+        fixture_end(&f);
+    }
+}
+
+static void level_weights_reproduce_the_mean_curve(void **state)
+{
+    (void)state;
+    static const float codes[] = {16, 31, 80, 127, 200, 255};
+    float x[6], y[6];
+    for (int i = 0; i < 6; i++) {
+        x[i] = logf(codes[i]);
+        y[i] = 2.2f * x[i] + 0.2f * sinf(3 * x[i]);
+    }
+    for (int code = 2; code < 256; code++) {
+        float at = logf((float)code), sum = 0, ones = 0, line = 0;
+        PanelLevelWeights w = panel_level_weights(x, y, 6, 2.2f, at);
+        for (int i = 0; i < 4 && w.first + i < 6; i++) {
+            sum += w.weight[i] * y[w.first + i];
+            line += w.weight[i] * x[w.first + i];
+            ones += w.weight[i];
+        }
+        assert_near(ones, 1, 1e-4);
+        for (int i = 0; i < 6; i++)
+            if (codes[i] == (float)code) assert_near(sum, y[i], 1e-4);
+        if (code > 16) assert_true(sum > y[0] - 1e-4f && sum < y[5] + 1e-4f);
+        if (code < 16) assert_near(line, at, 1e-3); /* a power law stays one */
+    }
+}
+
+static void fractions_of_codes_lie_between_whole_ones(void **state)
+{
+    (void)state;
+    const Panel *panel = fitted[0].panel;
+    for (int code = 0; code < 255; code += 3)
+        for (int p = 0; p < 3; p++) {
+            float low[3] = {0, 0, 0}, middle[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+            float a[3], b[3], c[3];
+            Vec3  d = direction_deg(0.3 * code, 7.0 * code);
+            low[p] = (float)code;
+            middle[p] = (float)code + 0.4f;
+            high[p] = (float)code + 1;
+            panel_emission_xyz(panel, d, low, a);
+            panel_emission_xyz(panel, d, middle, b);
+            panel_emission_xyz(panel, d, high, c);
+            assert_true(a[1] <= b[1] && b[1] <= c[1]);
+            assert_true(panel_mean_luminance(panel, low) <=
+                        panel_mean_luminance(panel, middle));
+            assert_true(panel_mean_luminance(panel, middle) <=
+                        panel_mean_luminance(panel, high));
+        }
+}
+
+/* ---- pieces of the file ---------------------------------------------------------------- */
+
+static void a_smooth_part_comes_back_as_it_was_packed(void **state)
+{
+    (void)state;
+    Arena    arena = arena_reserve((size_t)64 << 20);
+    uint8_t  term[4] = {0, 1, 3, 8};
+    float    step[5] = {1e-3f, 2e-3f, 0.01f, 0.05f, 0.1f};
+    float    numbers[4 * 5 * PANEL_SPLINE_NUMBERS];
+    uint32_t random = 3;
+    for (int i = 0; i < 4 * 5 * PANEL_SPLINE_NUMBERS; i++)
+        numbers[i] = (float)(2 * steady_random(&random) - 1);
+    const void *bytes;
+    size_t      used, size = panel_spline_pack(term, 4, 5, numbers, step, &arena, &bytes);
+    PanelSpline exact, stored;
+    panel_spline_expand(term, 4, 5, numbers, &arena, &exact);
+    assert_true(panel_spline_open(bytes, size, 5, &arena, &stored, &used));
+    assert_int_equal(used, size);
+    for (int i = 0; i < 300; i++) {
+        float a[8] = {0}, b[8] = {0};
+        Vec3  d = direction_deg(0.29 * i, 13.0 * i);
+        panel_spline_add(&exact, d, logf(d.z), a);
+        panel_spline_add(&stored, d, logf(d.z), b);
+        for (int k = 0; k < 5; k++) assert_near(a[k], b[k], (double)step[k] * (4 + 4 * 4.5));
+    }
+    for (size_t cut = 0; cut < size; cut++)
+        assert_false(panel_spline_open(bytes, cut, 5, &arena, &stored, &used) && used == size);
+    arena_release(&arena);
+}
+
+static void stated_figures_are_never_rounded_down(void **state)
+{
+    (void)state;
+    Arena   arena = arena_reserve((size_t)1 << 20);
+    json_t *tables = json_array();
+    for (int i = 0; i < 50; i++)
+        json_array_append_new(tables, json_pack("{s:s, s:f, s:I, s:f}", "name", "red 031",
+            "max_error", 0.001 * i + 0.00012345, "source_bytes_float32", (json_int_t)(977 * i),
+            "bytes", 12.5 * i + 1));
+    const void *bytes;
+    size_t      size = panel_figures_pack(tables, &arena, &bytes);
+    json_t     *back = panel_figures_open(bytes, size);
+    assert_non_null(back);
+    for (size_t i = 0; i < 50; i++) {
+        json_t *a = json_array_get(tables, i), *b = json_array_get(back, i);
+        double  was = json_number_value(json_object_get(a, "max_error"));
+        double  is = json_number_value(json_object_get(b, "max_error"));
+        assert_true(is >= was * (1 - 1e-7) && is <= was * 1.01);
+        assert_true(json_equal(json_object_get(a, "source_bytes_float32"),
+                               json_object_get(b, "source_bytes_float32")));
+        assert_non_null(json_object_get(b, "ratio"));
+    }
+    for (size_t cut = 0; cut < size; cut++) assert_null(panel_figures_open(bytes, cut));
+    json_decref(tables);
+    json_decref(back);
+    arena_release(&arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_sample_keeps_the_bound_that_was_asked_for),
+        cmocka_unit_test(between_samples_the_truth_is_near),
+        cmocka_unit_test(beyond_the_cone_light_falls),
+        cmocka_unit_test(noise_is_smoothed_not_stored),
+        cmocka_unit_test(sets_and_lone_tables_take_few_bytes),
+        cmocka_unit_test(a_table_is_as_bright_as_it_was_measured_on_the_whole),
+        cmocka_unit_test(hot_pixels_are_found_listed_and_not_followed),
+        cmocka_unit_test(holes_are_listed_and_filled_by_what_is_known),
+        cmocka_unit_test(tables_may_have_grids_of_their_own),
+        cmocka_unit_test(two_sections_are_met_where_they_were_measured),
+        cmocka_unit_test(both_bases_answer_the_same_query),
+        cmocka_unit_test(a_surface_that_only_reflects_emits_nothing),
+        cmocka_unit_test(a_level_left_out_is_predicted),
+        cmocka_unit_test(level_weights_reproduce_the_mean_curve),
+        cmocka_unit_test(fractions_of_codes_lie_between_whole_ones),
+        cmocka_unit_test(a_smooth_part_comes_back_as_it_was_packed),
+        cmocka_unit_test(stated_figures_are_never_rounded_down),
+    };
+    return cmocka_run_group_tests(tests, start_all, end_all);
+}
