@@ -3,10 +3,10 @@
  *
  * Halving the edges of the octahedron's upper half puts the vertices of level i one to one on
  * the lattice points (x, y) with |x| + |y| <= 2^i: the pole is (0, 0), the axes +x and +y are
- * (2^i, 0) and (0, 2^i), and a new vertex lies midway between the two ends of its edge. A vertex
- * of level i is the vertex (2x, 2y) of level i + 1. Triangles that share an edge name its
- * midpoint by the same point, also across octants. Functions that are symmetric in y need the
- * points with y >= 0 only (octants = 2).
+ * (2^i, 0) and (0, 2^i), and a new vertex lies midway between the two ends of its edge. A
+ * vertex of level i is the vertex (2x, 2y) of level i + 1. Triangles that share an edge name
+ * its midpoint by the same point, also across octants. Functions that are symmetric in y need
+ * the points with y >= 0 only (octants = 2).
  *
  * Map       A direction has a place on the lattice's plane: inside a triangle of level
  *           VERTEX_PLANE_LEVEL (of the lattice's level, when that is less) its barycentric
@@ -41,7 +41,8 @@ static inline uint32_t vertex_count(VertexLattice lattice)
 static inline uint32_t vertex_index(VertexLattice lattice, int x, int y)
 {
     int n = 1 << lattice.level, half = lattice.octants == 2, below = y >> 31;
-    int t = n - ((y ^ below) - below), before = t * t + t, last = 2 * n * (n + 1) - half * n * n;
+    int t = n - ((y ^ below) - below), before = t * t + t;
+    int last = 2 * n * (n + 1) - half * n * n;
     below &= half - 1; /* a mask: the sign of y is as good as random in queries */
     return (uint32_t)(x + ((before & below) | ((last - before) & ~below)));
 }
@@ -71,7 +72,6 @@ typedef struct VertexPoint {
     uint32_t vertex[3];
     float    weight[3];
 } VertexPoint;
-VertexPoint vertex_point(VertexLattice lattice, VertexPlace place);
 VertexPoint vertex_find(const Geodesic *geodesic, VertexLattice lattice, Vec3 direction);
 
 /* ---- from samples to vertices ----------------------------------------------------------- */

@@ -24,15 +24,15 @@ typedef struct VertexEdge {
 /* Edges of level i of a lattice; `edges` NULL: only their number. */
 uint32_t vertex_edges(VertexLattice lattice, int level, VertexEdge *edges);
 
-/* Asks the caller's question and remembers: what lies well within a distance from the value that
- * was accepted once is taken as accepted, whatever its direction. The finished tree is checked
- * without that. */
+/* Asks the caller's question and remembers: what lies well within a distance from the value
+ * that was accepted once is taken as accepted, whatever its direction. The finished tree is
+ * checked without that. */
 typedef struct VertexJudge {
     const VertexTreeOptions *options;
     const float             *values; /* vertices x components */
     const float             *unit;   /* what an error of each component counts in, > 0 */
-    float                   *safe;   /* of vertices: the largest accepted distance, in units; < 0:
-                                never taken as accepted */
+    float                   *safe;   /* of vertices: the largest accepted distance, in units;
+                                        below 0: never taken as accepted */
     bool                     is_exact; /* does not use what it remembers */
 } VertexJudge;
 

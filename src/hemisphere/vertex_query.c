@@ -1,11 +1,11 @@
-#include "base/mathf.h"
+#include "hemisphere/vertex_map.h"
 #include "hemisphere/vertex_view.h"
 
 /* The base level's three rows. */
 static void put_base(const Tree *tree, VertexPlace place, TreeTaps *taps)
 {
     VertexLattice lattice = {tree->base_level, tree->octants};
-    VertexPoint   point = vertex_point(lattice, place);
+    VertexPoint   point = map_point(lattice, place);
     for (int i = 0; i < 3; i++) {
         taps->row[i] = point.vertex[i] * tree->base_bytes;
         taps->weight[i] = point.weight[i] * tree->base_factor;
@@ -41,8 +41,8 @@ static inline float hat(float a, float b, float c)
 }
 
 /* In the octant, the place lies in the cell (cx, cy), in its half towards the pole or the other
- * one; there (u, v, w) are the barycentric coordinates, u and v of the corners next to the right
- * angle. Mirrored, column cx is -1 - cx, and line cx is -cx. */
+ * one; there (u, v, w) are the barycentric coordinates, u and v of the corners next to the
+ * right angle. Mirrored, column cx is -1 - cx, and line cx is -cx. */
 static inline Edges edges_at(const VertexLevel *level, VertexPlace place, int number)
 {
     float n = (float)(1 << number), x = place.x * n, y = place.y * n;
@@ -141,12 +141,12 @@ static inline int depth_at(const Tree *tree, VertexPlace place)
     int      x = (int)(place.x * (float)side), y = (int)(place.y * (float)side);
     x = x < side ? x : side - 1;
     y = y < side ? y : side - 1;
-    int      cx = place.octant & 1 ? -1 - x : x, cy = place.octant & 2 ? -1 - y : y;
-    uint32_t at = (uint32_t)((cy + (tree->octants == 2 ? 0 : side)) * 2 * side + cx + side);
+    int      cx = x ^ -(int)(place.octant & 1), cy = y ^ -(int)(place.octant >> 1);
+    uint32_t at = (uint32_t)((cy + (tree->octants / 4) * side) * 2 * side + cx + side);
     return tree->depths[at / 2] >> at % 2 * 4 & 15;
 }
 
-void vertex_tree_walk_place(const Tree *tree, int level, VertexPlace place, TreeTaps *taps)
+static inline void walk(const Tree *tree, int level, VertexPlace place, TreeTaps *taps)
 {
     put_base(tree, place, taps);
     for (int q = 0; q < 4; q++) taps->mean_weight[q] = 0;
@@ -156,9 +156,14 @@ void vertex_tree_walk_place(const Tree *tree, int level, VertexPlace place, Tree
         put_level(tree, &tree->levels[l], place, tree->base_level + l, taps);
 }
 
+void vertex_tree_walk_place(const Tree *tree, int level, VertexPlace place, TreeTaps *taps)
+{
+    walk(tree, level, place, taps);
+}
+
 void vertex_tree_walk(const Tree *tree, int level, Vec3 direction, TreeTaps *taps)
 {
-    VertexPlace place = vertex_place(tree->geodesic, tree->plane_level, direction);
+    VertexPlace place = map_place(tree->geodesic, tree->plane_level, direction);
     place.octant &= (uint32_t)tree->octants - 1; /* 2 octants: y is folded */
-    vertex_tree_walk_place(tree, level, place, taps);
+    walk(tree, level, place, taps);
 }

@@ -8,7 +8,8 @@ typedef uint64_t ULong2 __attribute__((vector_size(16)));
 static const uint8_t KEEP_BYTES[16] = {255, 255, 255, 255, 255, 255, 255, 255};
 
 /* `wanted` (4 or 8) bytes of a plane of `pairs` bytes from byte `skip` on, 0 beyond its end;
- * each holds two components. Returns signed 4 bits in the upper halves of bytes, in order of components. */
+ * each holds two components. Returns signed 4 bits in the upper halves of bytes, in order of
+ * components. */
 static inline Byte16 load_plane(const uint8_t *from, int pairs, int skip, int wanted)
 {
     uint64_t bits = 0, keep;

@@ -305,9 +305,9 @@ static bool code_best(Coder *c, Trial *best, Error *err)
     size_t least = best->size;
     for (int base = first + 1; base <= LAST_BASE && base <= c->code.lattice.level; base++) {
         size_t so_far = best->size;
-        best->size = least + least / 32;
+        best->size = least + least / 12;
         if (!try_coding(c, base, best->coarseness, best, err) ||
-            best->size == least + least / 32) {
+            best->size == least + least / 12) {
             best->size = so_far;
             break;
         }

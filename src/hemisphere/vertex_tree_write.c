@@ -318,10 +318,12 @@ const void *vertex_code_write(const VertexCode *code, Arena *arena, size_t *size
                            .base_exponent = (int8_t)code->base_exponent},
                 .words = ARENA_NEW(&scratch, uint32_t, 8192),
                 .ranks = ARENA_NEW(&scratch, uint16_t, 8192),
-                .depths = ARENA_NEW(&scratch, uint8_t, vertex_depth_cells(4, VERTEX_MAX_DEPTH_LEVEL)),
+                .depths = ARENA_NEW(&scratch, uint8_t,
+                                    vertex_depth_cells(4, VERTEX_MAX_DEPTH_LEVEL)),
                 .block_formats = ARENA_NEW(&scratch, uint8_t, UINT16_MAX),
                 .blocks = ARENA_NEW(&scratch, uint64_t, UINT16_MAX),
-                .rows = ARENA_NEW(&scratch, uint8_t, vertices * (k * 2 + 2 + (1 << VERTEX_MAX_SHIFT) / 8))};
+                .rows = ARENA_NEW(&scratch, uint8_t,
+                                  vertices * (k * 2 + 2 + (1 << VERTEX_MAX_SHIFT) / 8))};
     write_base(&w, scratch);
     write_levels(&w, scratch);
     drop_empty_levels(&w, code->lattice.level - code->base_level);

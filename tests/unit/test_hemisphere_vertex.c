@@ -1,4 +1,4 @@
-/* The vertex basis: its lattice, the fit of values to samples, trees and their queries. */
+/* The vertex basis: its lattice, trees and their queries. */
 #include "hemisphere_fixture.h"
 
 #include "hemisphere/vertex.h"
@@ -109,7 +109,8 @@ static void gathering_is_the_transpose(void **state)
     Fixture      *f = *state;
     VertexLattice l = {5, 2};
     uint32_t      count = vertex_count(l), seed = 11;
-    float        *h = ARENA_NEW(&f->arena, float, count), *x = ARENA_NEW(&f->arena, float, count);
+    float        *h = ARENA_NEW(&f->arena, float, count);
+    float        *x = ARENA_NEW(&f->arena, float, count);
     float        *sh = ARENA_NEW(&f->arena, float, count);
     float        *tx = ARENA_NEW(&f->arena, float, count);
     for (uint32_t v = 0; v < count; v++) {
@@ -143,6 +144,14 @@ static bool within_bound(const void *context, uint32_t vertex, const float *reco
         if (!(fabsf(reconstructed[i] - value) <= b->tolerance)) return false;
     }
     return true;
+}
+
+static VertexTreeOptions options_of(VertexLattice lattice, const Bound *bound)
+{
+    return (VertexTreeOptions){.lattice = lattice,
+                               .components = bound->components,
+                               .accepts = within_bound,
+                               .context = bound};
 }
 
 typedef enum Kind { SMOOTH, PEAKED, BROKEN, NOISE } Kind;
@@ -182,7 +191,7 @@ static Tree build_example(Fixture *f, const Example *e, const float **values,
 {
     *values = values_of(e->lattice, e->components, e->kind, &f->arena);
     Bound             bound = {*values, e->components, e->tolerance};
-    VertexTreeOptions options = {e->lattice, e->components, within_bound, &bound, NULL};
+    VertexTreeOptions options = options_of(e->lattice, &bound);
     const void       *blob;
     Tree              tree;
     Error             err;
@@ -418,7 +427,7 @@ static void what_cannot_be_stored_is_refused(void **state)
     VertexLattice     l = {3, 4};
     float            *values = values_of(l, 2, SMOOTH, &f->arena);
     Bound             bound = {values, 2, 0.01f};
-    VertexTreeOptions good = {l, 2, within_bound, &bound, NULL}, o = good;
+    VertexTreeOptions good = options_of(l, &bound), o = good;
     o.lattice.level = GEODESIC_MAX_LEVEL;
     assert_refused(&o, values, "level 10, wanted 0 to 9", &f->arena);
     o = good;
@@ -454,7 +463,7 @@ static const void *example_blob(Fixture *f, const Example *e)
 {
     float            *values = values_of(e->lattice, e->components, e->kind, &f->arena);
     Bound             bound = {values, e->components, e->tolerance};
-    VertexTreeOptions options = {e->lattice, e->components, within_bound, &bound, NULL};
+    VertexTreeOptions options = options_of(e->lattice, &bound);
     const void       *blob;
     Error             err;
     if (!vertex_tree_build(&options, values, &f->arena, &blob, NULL, &err))
@@ -528,104 +537,6 @@ static void a_bad_header_is_named(void **state)
     free(copy);
 }
 
-/* ---- from samples to vertices ------------------------------------------------------------ */
-
-/* Random directions and the smooth function there; those below `lowest` z are left out. */
-static VertexSamples smooth_samples(int count, float lowest, Arena *arena)
-{
-    uint32_t seed = 23;
-    Vec3    *d = ARENA_NEW(arena, Vec3, count);
-    float   *value = ARENA_NEW(arena, float, 2 * count);
-    for (int i = 0; i < count; i++) {
-        do d[i] = random_direction(&seed);
-        while (d[i].z < lowest);
-        for (int c = 0; c < 2; c++)
-            value[2 * i + c] = function_at(SMOOTH, d[i], c, &seed);
-    }
-    return (VertexSamples){count, 2, d, value, NULL};
-}
-
-static void fits_recover_smooth_functions(void **state)
-{
-    Fixture      *f = *state;
-    VertexLattice l = {5, 4};
-    uint32_t      count = vertex_count(l);
-    Vec3         *d = ARENA_NEW(&f->arena, Vec3, count);
-    float        *values = ARENA_NEW(&f->arena, float, 2 * count);
-    VertexSamples samples = smooth_samples(20000, 0, &f->arena);
-    Error         err;
-    uint32_t      seed = 1;
-    vertex_directions(l, d);
-    assert_true(vertex_fit(f->geodesic, l, &samples, 1e-12, &f->arena, values, &err));
-    for (uint32_t i = 0; i < 2 * count; i++)
-        assert_near(values[i], function_at(SMOOTH, d[i / 2], (int)(i % 2), &seed), 4e-3);
-}
-
-/* No samples below 53 degrees: the values go on smoothly and stay in sight. */
-static void fits_stay_smooth_in_gaps(void **state)
-{
-    Fixture      *f = *state;
-    VertexLattice l = {5, 4};
-    uint32_t      count = vertex_count(l);
-    float        *values = ARENA_NEW(&f->arena, float, 2 * count);
-    VertexSamples samples = smooth_samples(8000, 0.6f, &f->arena);
-    Error         err;
-    assert_true(vertex_fit(f->geodesic, l, &samples, 1e-10, &f->arena, values, &err));
-    for (uint32_t i = 0; i < 2 * count; i++) assert_true(fabsf(values[i]) < 2);
-    vertex_details_from_values(l, 2, values);
-    for (int y = -32; y <= 32; y++)
-        for (int x = abs(y) - 32; x <= 32 - abs(y); x++)
-            if ((x | y) & 1) assert_near(values[2 * vertex_index(l, x, y)], 0, 0.01);
-}
-
-static void fits_of_constants_are_constant(void **state)
-{
-    Fixture      *f = *state;
-    VertexLattice l = {4, 2};
-    uint32_t      count = vertex_count(l);
-    float        *values = ARENA_NEW(&f->arena, float, count);
-    const Vec3    d[2] = {{0, 0, 1}, {0.6f, 0, 0.8f}};
-    const float   three[2] = {3, 3};
-    VertexSamples samples = {2, 1, d, three, NULL};
-    Error         err;
-    assert_true(vertex_fit(f->geodesic, l, &samples, 1e-6, &f->arena, values, &err));
-    for (uint32_t i = 0; i < count; i++) assert_near(values[i], 3, 1e-3);
-}
-
-/* Weights of 0 hide samples; mirrored samples of half lattices are one. */
-static void fits_weigh_and_mirror(void **state)
-{
-    Fixture      *f = *state;
-    VertexLattice l = {3, 2};
-    float        *values = ARENA_NEW(&f->arena, float, vertex_count(l));
-    const Vec3    d[3] = {{0.6f, 0.48f, 0.64f}, {0.6f, -0.48f, 0.64f}, {0.6f, 0.48f, 0.64f}};
-    const float   value[3] = {1, 3, 1000}, weight[3] = {1, 1, 0};
-    VertexSamples samples = {3, 1, d, value, weight};
-    Error         err;
-    assert_true(vertex_fit(f->geodesic, l, &samples, 1e-6, &f->arena, values, &err));
-    for (uint32_t i = 0; i < vertex_count(l); i++) assert_near(values[i], 2, 1e-3);
-}
-
-static void fits_refuse_what_is_no_number(void **state)
-{
-    Fixture      *f = *state;
-    VertexLattice l = {2, 4};
-    float         values[64];
-    const Vec3    d[2] = {{0, 0, 1}, {0.6f, 0, 0.8f}};
-    float         value[2] = {1, 2}, weight[2] = {0, 0};
-    VertexSamples samples = {2, 1, d, value, weight};
-    Error         err;
-    assert_false(vertex_fit(f->geodesic, l, &samples, 1e-6, &f->arena, values, &err));
-    assert_non_null(strstr(err.text, "2 samples have no weight, wanted some"));
-    weight[1] = -1;
-    assert_false(vertex_fit(f->geodesic, l, &samples, 1e-6, &f->arena, values, &err));
-    assert_non_null(strstr(err.text, "sample 1 has the weight -1, wanted 0 or more"));
-    weight[1] = 1;
-    value[0] = NAN;
-    assert_false(vertex_fit(f->geodesic, l, &samples, 1e-6, &f->arena, values, &err));
-    assert_non_null(strstr(err.text, "sample 0 is nan, wanted a finite number"));
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -647,11 +558,6 @@ int main(void)
         CASE(every_prefix_is_refused),
         CASE(mutated_blobs_are_refused_or_harmless),
         CASE(a_bad_header_is_named),
-        CASE(fits_recover_smooth_functions),
-        CASE(fits_stay_smooth_in_gaps),
-        CASE(fits_of_constants_are_constant),
-        CASE(fits_weigh_and_mirror),
-        CASE(fits_refuse_what_is_no_number),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
