@@ -25,6 +25,7 @@ typedef struct Coder {
     float           *limit;     /* vertices: relative; INFINITY: anything will do */
     float           *floor;     /* channels: errors count relative to no less than this */
     float           *work;      /* channels */
+    int              threads;
 } Coder;
 
 /* M of all channels from components. */
@@ -58,13 +59,13 @@ static bool accepts(const void *context, uint32_t vertex, const float *reconstru
     const Coder *coder = context;
     const EmissionModel *model = coder->model;
     int    n = model->rank->components, channels = model->samples->channels;
-    float  components[PANEL_COMPONENTS_MAX];
+    float  components[PANEL_COMPONENTS_MAX], m[3 * FIT_TABLES_MAX];
     if (isinf(coder->limit[vertex])) return true;
     memcpy(components, coder->smooth + (size_t)vertex * (size_t)model->spline.stride,
            sizeof *components * (size_t)model->spline.stride);
     for (int k = 0; k < n; k++) components[k] += reconstructed[k];
-    totals(model, components, coder->direction[vertex], coder->work);
-    return is_close(coder->work, coder->wanted + (size_t)vertex * (size_t)channels,
+    totals(model, components, coder->direction[vertex], m);
+    return is_close(m, coder->wanted + (size_t)vertex * (size_t)channels,
                     coder->floor, channels, coder->limit[vertex]);
 }
 
@@ -292,7 +293,7 @@ static bool code_once(Coder *coder, Arena *arena, FitEmission *out, Tree *tree, 
 {
     EmissionModel *model = coder->model;
     VertexTreeOptions options = {coder->lattice, model->rank->components, accepts, coder,
-                                 model->step};
+                                 model->step, coder->threads};
     return (vertex_tree_build(&options, coder->value, arena, &out->tree, &out->tree_report,
                               err) &&
             tree_open(out->tree, tree_size(out->tree), coder->geodesic, tree, err)) ||
@@ -386,10 +387,12 @@ bool emission_tree(EmissionModel *model, const FitOptions *options, Arena *arena
     Coder  coder, finer;
     if (!start_coder(model, level, rest, arena, &coder, err)) return false;
     find_floor(model, (const double (*)[3])out->dim, coder.floor);
+    coder.threads = options->threads;
     uncoded = uncoded_error(&coder);
     while (!options->level && uncoded > 0.5 * model->tolerance && level < LEVEL_MOST) {
         if (!start_coder(model, level + 1, rest, arena, &finer, err)) return false;
         finer.floor = coder.floor;
+        finer.threads = coder.threads;
         double next = uncoded_error(&finer);
         if (next > 0.8 * uncoded) break;
         coder = finer;

@@ -1,5 +1,6 @@
 /* How noisy a table is, told by high differences of neighbours: smooth data leave nearly
- * nothing of them, noise of deviation s leaves s times the root of the sum of squared binomials. */
+ * nothing of them, noise of deviation s leaves s times the root of the sum of squared
+ * binomials. */
 #include <math.h>
 #include <stdlib.h>
 

@@ -12,7 +12,7 @@
 PanelBendRange panel_bend_range(float *const ratio[2], int count);
 
 /* The table of coefficients over bend->range for a spectrum of 1 cd m^-2. Returns how many
- * colours cannot be reached; there the nearest ones on the way from the spectrum's own serve. */
+ * colours cannot be reached: there the nearest ones on the way from its own colour serve. */
 int panel_bend_fill(const float *spectrum, PanelBend *bend);
 
 /* XYZ of a spectrum. */

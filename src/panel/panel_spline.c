@@ -37,8 +37,8 @@ static void cubic_basis(int i, double x, double value[4])
 }
 
 /* Stored coefficient j belongs to the spline around knot j. Around the pole the spline before
- * it has the coefficient of the one behind it (times -1 for odd harmonics), and all but harmonic 0
- * vanish there: c_0 = -c_1 / 2 (even), 0 (odd). */
+ * it has the coefficient of the one behind it (times -1 for odd harmonics), and all but
+ * harmonic 0 vanish there: c_0 = -c_1 / 2 (even), 0 (odd). */
 PanelSplineTaps panel_spline_taps(int harmonic, double theta)
 {
     double x = degrees_from_radians(theta), value[4];

@@ -9,7 +9,7 @@
  *
  * Stored     PanelSplineHead | uint8 term[terms] | uint8 width[terms][components] (bytes a
  *            number: 0 absent, 1, 2) | numbers of the present blocks, PANEL_SPLINE_NUMBERS
- *            each: multiples of step 2^-exponent; all 2-byte blocks first. Steps are powers of two.
+ *            each: multiples of step 2^-exponent; all 2-byte blocks first.
  * Threads    pure functions. Fails: only panel_spline_open, on bytes that are not whole.
  */
 #pragma once
