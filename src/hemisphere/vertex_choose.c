@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/parallel.h"
 #include "hemisphere/vertex_code.h"
 
 #define SLACK 0.85f /* of the tolerance: the rest is for rounding */
@@ -16,125 +17,144 @@
 #define MOST_WEIGHT 64.0f
 #define MENDS 12 /* rounds that add details where some are missing */
 
+/* Four components: what least squares work on, side by side for all vertices. */
+typedef float Four __attribute__((vector_size(16)));
+
+/* One group of four components of everything, a number a vertex. */
+typedef struct Group {
+    Four *value, *detail, *fitted, *rest, *direction, *product, *gradient;
+} Group;
+
 typedef struct Chooser {
     const VertexTreeOptions *options;
     const float             *values, *unit; /* the judge's */
     VertexJudge             *judge;
-    int                      base_level, k;
+    int                      base_level, k, group_count;
     uint32_t                 count;
     VertexEdge              *edges[GEODESIC_MAX_LEVEL];
     uint32_t                 edge_count[GEODESIC_MAX_LEVEL];
     bool                    *chosen; /* base vertices and stored details */
     bool                    *missed; /* not accepted now */
+    uint32_t                *list; /* the chosen ones, while fitting */
+    uint32_t                 list_count;
     float                   *weight, *diagonal;
-    float                   *detail, *fitted; /* k numbers a vertex, like all that follow */
-    float                   *rest, *direction, *product, *gradient;
+    Group                   *group;
 } Chooser;
 
 /* ---- the hierarchy above the base level -------------------------------------------------- */
 
 /* Details (base vertices: values) to values, in place. */
-static void synthesise(const Chooser *c, int k, float *rows)
+static void synthesise(const Chooser *c, Four *row)
 {
     for (int i = c->base_level; i < c->options->lattice.level; i++)
         for (uint32_t e = 0; e < c->edge_count[i]; e++) {
             const VertexEdge *edge = &c->edges[i][e];
-            float            *to = rows + (size_t)edge->vertex * (size_t)k;
-            const float      *u = rows + (size_t)edge->end[0] * (size_t)k;
-            const float      *w = rows + (size_t)edge->end[1] * (size_t)k;
-            for (int j = 0; j < k; j++) to[j] += 0.5f * (u[j] + w[j]);
+            row[edge->vertex] += 0.5f * (row[edge->end[0]] + row[edge->end[1]]);
         }
 }
 
 /* The transpose. */
-static void gather(const Chooser *c, int k, float *rows)
+static void gather(const Chooser *c, Four *row)
 {
     for (int i = c->options->lattice.level - 1; i >= c->base_level; i--)
         for (uint32_t e = 0; e < c->edge_count[i]; e++) {
             const VertexEdge *edge = &c->edges[i][e];
-            const float      *from = rows + (size_t)edge->vertex * (size_t)k;
-            float            *u = rows + (size_t)edge->end[0] * (size_t)k;
-            float            *w = rows + (size_t)edge->end[1] * (size_t)k;
-            for (int j = 0; j < k; j++) {
-                u[j] += 0.5f * from[j];
-                w[j] += 0.5f * from[j];
-            }
+            Four half = 0.5f * row[edge->vertex];
+            row[edge->end[0]] += half;
+            row[edge->end[1]] += half;
+        }
+}
+
+/* The diagonal of S^T w S, with the squares of the hats taken as the hats. */
+static void find_diagonal(Chooser *c)
+{
+    memcpy(c->diagonal, c->weight, c->count * sizeof *c->weight);
+    for (int i = c->options->lattice.level - 1; i >= c->base_level; i--)
+        for (uint32_t e = 0; e < c->edge_count[i]; e++) {
+            const VertexEdge *edge = &c->edges[i][e];
+            float half = 0.5f * c->diagonal[edge->vertex];
+            c->diagonal[edge->end[0]] += half;
+            c->diagonal[edge->end[1]] += half;
         }
 }
 
 /* ---- least squares ----------------------------------------------------------------------- */
 
-/* gradient = S^T w (values - S detail), of all vertices. */
-static void find_gradient(Chooser *c)
+/* gradient = S^T w (value - S detail), of all vertices. */
+static void find_gradient(const Chooser *c, const Group *g)
 {
-    size_t k = (size_t)c->k;
-    memcpy(c->fitted, c->detail, c->count * k * sizeof *c->fitted);
-    synthesise(c, c->k, c->fitted);
+    memcpy(g->fitted, g->detail, c->count * sizeof *g->fitted);
+    synthesise(c, g->fitted);
     for (size_t v = 0; v < c->count; v++)
-        for (size_t j = v * k; j < v * k + k; j++)
-            c->gradient[j] = c->weight[v] * (c->values[j] - c->fitted[j]);
-    gather(c, c->k, c->gradient);
-    memcpy(c->diagonal, c->weight, c->count * sizeof *c->weight);
-    gather(c, 1, c->diagonal);
+        g->gradient[v] = c->weight[v] * (g->value[v] - g->fitted[v]);
+    gather(c, g->gradient);
 }
 
 /* product = S^T w S direction, of chosen vertices. */
-static void multiply(Chooser *c)
+static void multiply(const Chooser *c, const Group *g)
 {
-    size_t k = (size_t)c->k;
-    memcpy(c->product, c->direction, c->count * k * sizeof *c->product);
-    synthesise(c, c->k, c->product);
-    for (size_t v = 0; v < c->count; v++)
-        for (size_t j = v * k; j < v * k + k; j++) c->product[j] *= c->weight[v];
-    gather(c, c->k, c->product);
+    memcpy(g->product, g->direction, c->count * sizeof *g->product);
+    synthesise(c, g->product);
+    for (size_t v = 0; v < c->count; v++) g->product[v] *= c->weight[v];
+    gather(c, g->product);
 }
 
 /* For every component: the sum over chosen vertices of rest^2 / diagonal, and of direction
  * times product. */
-static void find_steps(const Chooser *c, double *rho, double *curvature)
+static void find_steps(const Chooser *c, const Group *g, double rho[4], double curvature[4])
 {
-    size_t k = (size_t)c->k;
-    for (size_t j = 0; j < k; j++) rho[j] = curvature[j] = 0;
-    for (size_t v = 0; v < c->count; v++) {
-        if (!c->chosen[v]) continue;
-        double inverse = 1 / (double)c->diagonal[v];
-        for (size_t j = 0; j < k; j++) {
-            double r = (double)c->rest[v * k + j];
-            rho[j] += r * r * inverse;
-            curvature[j] += (double)c->direction[v * k + j] * (double)c->product[v * k + j];
+    for (int j = 0; j < 4; j++) rho[j] = curvature[j] = 0;
+    for (uint32_t i = 0; i < c->list_count; i++) {
+        uint32_t v = c->list[i];
+        Four r = g->rest[v] * g->rest[v] / c->diagonal[v], s = g->direction[v] * g->product[v];
+        for (int j = 0; j < 4; j++) {
+            rho[j] += (double)r[j];
+            curvature[j] += (double)s[j];
         }
     }
 }
 
-/* Conjugate gradients from the details that are there. */
+/* Conjugate gradients from the details that are there, for four components. */
+static void fit_group(void *context, int item, int worker)
+{
+    const Chooser *c = context;
+    const Group   *g = &c->group[item];
+    double rho[4], next[4], curvature[4];
+    (void)worker;
+    find_gradient(c, g);
+    memset(g->direction, 0, c->count * sizeof *g->direction);
+    for (uint32_t i = 0; i < c->list_count; i++) {
+        uint32_t v = c->list[i];
+        g->rest[v] = g->gradient[v];
+        g->direction[v] = g->rest[v] / c->diagonal[v];
+    }
+    for (int step = 0; step < STEPS; step++) {
+        Four a, b;
+        multiply(c, g);
+        find_steps(c, g, rho, curvature);
+        for (int j = 0; j < 4; j++)
+            a[j] = curvature[j] > 0 ? (float)(rho[j] / curvature[j]) : 0.0f;
+        for (uint32_t i = 0; i < c->list_count; i++) {
+            g->detail[c->list[i]] += a * g->direction[c->list[i]];
+            g->rest[c->list[i]] -= a * g->product[c->list[i]];
+        }
+        find_steps(c, g, next, curvature);
+        for (int j = 0; j < 4; j++) b[j] = rho[j] > 0 ? (float)(next[j] / rho[j]) : 0.0f;
+        for (uint32_t i = 0; i < c->list_count; i++) {
+            uint32_t v = c->list[i];
+            g->direction[v] = g->rest[v] / c->diagonal[v] + b * g->direction[v];
+        }
+    }
+    find_gradient(c, g);
+}
+
 static void fit(Chooser *c)
 {
-    size_t k = (size_t)c->k;
-    double rho[TREE_MAX_COMPONENTS], next[TREE_MAX_COMPONENTS], curvature[TREE_MAX_COMPONENTS];
-    find_gradient(c);
-    for (size_t v = 0; v < c->count; v++)
-        for (size_t j = v * k; j < v * k + k; j++) {
-            c->rest[j] = c->chosen[v] ? c->gradient[j] : 0.0f;
-            c->direction[j] = c->rest[j] / c->diagonal[v];
-        }
-    for (int step = 0; step < STEPS; step++) {
-        multiply(c);
-        find_steps(c, rho, curvature);
-        for (size_t v = 0; v < c->count; v++)
-            for (size_t j = 0; c->chosen[v] && j < k; j++) {
-                float a = curvature[j] > 0 ? (float)(rho[j] / curvature[j]) : 0.0f;
-                c->detail[v * k + j] += a * c->direction[v * k + j];
-                c->rest[v * k + j] -= a * c->product[v * k + j];
-            }
-        find_steps(c, next, curvature);
-        for (size_t v = 0; v < c->count; v++)
-            for (size_t j = 0; c->chosen[v] && j < k; j++) {
-                float b = rho[j] > 0 ? (float)(next[j] / rho[j]) : 0.0f;
-                size_t at = v * k + j;
-                c->direction[at] = c->rest[at] / c->diagonal[v] + b * c->direction[at];
-            }
-    }
-    find_gradient(c);
+    c->list_count = 0;
+    for (uint32_t v = 0; v < c->count; v++)
+        if (c->chosen[v]) c->list[c->list_count++] = v;
+    find_diagonal(c);
+    parallel_for(c->options->threads > 1 ? c->options->threads : 1, c->group_count, fit_group, c);
 }
 
 static uint32_t count_chosen(const Chooser *c)
@@ -144,15 +164,28 @@ static uint32_t count_chosen(const Chooser *c)
     return sum;
 }
 
+/* One component of a vertex. */
+static float *component(Four *row, uint32_t vertex, int j)
+{
+    return (float *)&row[vertex] + j % 4;
+}
+
+/* What the tree has at a vertex now. */
+static void fitted_row(const Chooser *c, uint32_t vertex, float *row)
+{
+    for (int j = 0; j < c->k; j++) row[j] = *component(c->group[j / 4].fitted, vertex, j);
+}
+
 /* ---- what is missed ---------------------------------------------------------------------- */
 
 /* Marks what is not accepted with the slack, and makes it heavier; how many. */
 static uint32_t find_missed(Chooser *c)
 {
-    size_t   k = (size_t)c->k;
     uint32_t missed = 0;
+    float    row[TREE_MAX_COMPONENTS];
     for (uint32_t v = 0; v < c->count; v++) {
-        c->missed[v] = !vertex_accepts_beyond(c->judge, v, c->fitted + v * k, 1 / SLACK);
+        fitted_row(c, v, row);
+        c->missed[v] = !vertex_accepts_beyond(c->judge, v, row, 1 / SLACK);
         missed += c->missed[v];
         if (c->missed[v] && c->weight[v] < MOST_WEIGHT) c->weight[v] *= 2;
     }
@@ -164,7 +197,7 @@ static float gain_of(const Chooser *c, uint32_t vertex)
 {
     float sum = 0;
     for (int j = 0; j < c->k; j++) {
-        float g = c->gradient[(size_t)vertex * (size_t)c->k + (size_t)j] / c->unit[j];
+        float g = *component(c->group[j / 4].gradient, vertex, j) / c->unit[j];
         sum += g * g;
     }
     return sum / c->diagonal[vertex];
@@ -292,7 +325,7 @@ static void drop_least(Chooser *c, float share, Arena scratch)
             float    sum = 0;
             if (!c->chosen[v]) continue;
             for (int j = 0; j < c->k; j++) {
-                float d = c->detail[(size_t)v * (size_t)c->k + (size_t)j] / c->unit[j];
+                float d = *component(c->group[j / 4].detail, v, j) / c->unit[j];
                 sum += d * d;
             }
             loss[count++] = (Loss){v, sum * c->diagonal[v]};
@@ -300,8 +333,8 @@ static void drop_least(Chooser *c, float share, Arena scratch)
     qsort(loss, count, sizeof *loss, by_loss);
     for (uint32_t i = 0; i < (uint32_t)(share * (float)count); i++) {
         c->chosen[loss[i].vertex] = false;
-        memset(c->detail + (size_t)loss[i].vertex * (size_t)c->k, 0,
-               (size_t)c->k * sizeof *c->detail);
+        for (int j = 0; j < c->group_count; j++)
+            c->group[j].detail[loss[i].vertex] = (Four){0, 0, 0, 0};
     }
 }
 
@@ -320,18 +353,28 @@ static Chooser start(VertexJudge *judge, int base_level, Arena *arena)
     }
     c.chosen = ARENA_NEW(arena, bool, n);
     c.missed = ARENA_NEW(arena, bool, n);
+    c.list = ARENA_NEW(arena, uint32_t, n);
     c.weight = ARENA_NEW(arena, float, n);
     c.diagonal = ARENA_NEW(arena, float, n);
-    float **rows[] = {&c.detail, &c.fitted, &c.rest, &c.direction, &c.product, &c.gradient};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        *rows[i] = ARENA_NEW(arena, float, n * k);
+    c.group_count = (c.k + 3) / 4;
+    c.group = ARENA_NEW(arena, Group, c.group_count);
+    for (int i = 0; i < c.group_count; i++) {
+        Group *g = &c.group[i];
+        Four **rows[] = {&g->value, &g->detail, &g->fitted, &g->rest, &g->direction,
+                         &g->product, &g->gradient};
+        for (size_t r = 0; r < sizeof rows / sizeof *rows; r++)
+            *rows[r] = arena_alloc(arena, sizeof(Four), sizeof(Four), n);
+    }
+    for (size_t v = 0; v < n; v++)
+        for (size_t j = 0; j < k; j++)
+            *component(c.group[j / 4].value, (uint32_t)v, (int)j) = c.values[v * k + j];
     for (size_t v = 0; v < n; v++) c.weight[v] = 1;
     int side = 1 << options->lattice.level, spacing = side >> base_level;
     for (int y = options->lattice.octants == 2 ? 0 : -side; y <= side; y += spacing)
         for (int x = abs(y) - side; x <= side - abs(y); x += spacing) {
             size_t v = vertex_index(options->lattice, x, y);
             c.chosen[v] = true;
-            memcpy(c.detail + v * k, c.values + v * k, k * sizeof *c.values);
+            for (int i = 0; i < c.group_count; i++) c.group[i].detail[v] = c.group[i].value[v];
         }
     return c;
 }
@@ -342,8 +385,8 @@ static void keep(const Chooser *c, VertexChoice *out)
     size_t k = (size_t)c->k;
     memcpy(out->chosen, c->chosen, c->count * sizeof *out->chosen);
     for (size_t v = 0; v < c->count; v++)
-        memcpy(out->target + v * k, (c->missed[v] ? c->values : c->fitted) + v * k,
-               k * sizeof *out->target);
+        if (c->missed[v]) memcpy(out->target + v * k, c->values + v * k, k * sizeof(float));
+        else fitted_row(c, (uint32_t)v, out->target + v * k);
 }
 
 void vertex_choose(VertexJudge *judge, int base_level, Arena scratch, VertexChoice *out)

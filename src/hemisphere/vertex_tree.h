@@ -1,10 +1,12 @@
 /* vertex_tree.h -- compresses a vector-valued function on the hemisphere in the vertex basis.
  *
- * A vertex of level i+1 is new on an edge (u, w) of level i; its detail is f(v) - (f(u)+f(w))/2.
- * What a query reconstructs is the barycentric interpolation on the finest triangles:
- * continuous, and between the values of its vertices everywhere. Coded in a closed loop from
- * the top: every vertex is predicted from RECONSTRUCTED ends, and a detail is stored only where
- * the prediction is not accepted, so that no error adds up over levels.
+ * A vertex of level i+1 is new on an edge (u, w) of level i; its detail is
+ * f(v) - (f(u) + f(w))/2. What a query reconstructs is the barycentric interpolation on the
+ * finest triangles: continuous, and between the values of its vertices everywhere. Which
+ * details are stored, and towards which values, is chosen for the whole function
+ * (vertex_choose.c); then they are coded in a closed loop from the top: every vertex is
+ * predicted from RECONSTRUCTED ends, and one whose prediction is not accepted gets a detail
+ * too, so that no error adds up over levels.
  *
  * The blob is opened by tree_open and read by tree_query.h like a Haar tree's; its magic number
  * says which one it is.
@@ -25,11 +27,13 @@ typedef struct VertexTreeOptions {
     /* What one component's rounding may cost in its own unit, where that matters beyond
      * `accepts`: the coarsest step that the coder may use; NULL: it chooses. */
     const float   *coarsest_step;
+    int            threads; /* 0 and 1: the caller's alone; the bytes do not depend on it */
 } VertexTreeOptions;
 
-/* values: vertex_count(lattice) x components, finite. Fails (ERROR_INPUT) on values that are not
- * finite, and when a stored value cannot be made acceptable (named by its direction). The
- * report's errors are over vertices, every component by itself; leaves counts vertices. */
+/* values: vertex_count(lattice) x components, finite. Fails (ERROR_INPUT) on values that are
+ * not finite, and when a stored value cannot be made acceptable (named by its direction): the
+ * least step is a 30,000th of the largest value. The report's errors are over vertices, every
+ * component by itself; leaves counts vertices. */
 bool vertex_tree_build(const VertexTreeOptions *options, const float *values, Arena *arena,
                        const void **blob, TreeReport *report, Error *err);
 

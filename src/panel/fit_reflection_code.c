@@ -88,7 +88,8 @@ static bool accepts(const void *context, uint32_t place, const float *reconstruc
 static bool build_vertex(ReflectionFit *fit, Error *err)
 {
     VertexTreeOptions options = {.lattice = fit->lattice, .components = fit->components,
-                                 .accepts = accepts, .context = fit};
+                                 .accepts = accepts, .context = fit,
+                                 .threads = fit->options->threads};
     return vertex_tree_build(&options, fit->score, fit->arena, &fit->out->tree,
                              &fit->out->tree_report, err);
 }
