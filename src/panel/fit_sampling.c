@@ -83,8 +83,9 @@ static void read_function(const Work *work, double theta, double phi, float *int
         integral[i] = isfinite(f) ? (float)f : 0;
         total += (double)integral[i];
     }
-    if (!(total > 0)) return;
-    for (int i = 0; i < work->leaves; i++) integral[i] = (float)((double)integral[i] / total);
+    for (int i = 0; i < work->leaves; i++) /* black: any distribution will do */
+        integral[i] = (float)(total > 0 ? (double)integral[i] / total
+                                        : area_of(work, i) / (work->octants * 0.5 * PI));
 }
 
 /* Relative variance of weights when `wanted` is drawn with the mean of two others. */
