@@ -96,9 +96,9 @@ static int start_panels(void **state)
     FitOptions options = fit_options_default();
     options.level = 5;
     options.frame_exponent = 2;
+    options.basis = FIT_HAAR; /* fitted in no time; the shipped panels have the other one */
     fixture_start(&ips, FIXTURE_IPS, &options);
     add_case("anti-glare", ips.panel);
-    options.basis = FIT_HAAR; /* fitted in no time; sampling is the same */
     start_brushed(&options);
     add_case("brushed", brushed.panel);
     options.level = 6;
@@ -178,8 +178,8 @@ static double chi_square_z(double value, int freedom)
     return (cbrt(value / freedom) - (1 - a)) / sqrt(a);
 }
 
-enum { BIN_LEVEL = 2, FINE_LEVEL = 5, BINS = 4 << 2 * BIN_LEVEL, DRAWS = 20000,
-       CHI_DRAWS = 8000 };
+enum { BIN_LEVEL = 2, FINE_LEVEL = 5, BINS = 4 << 2 * BIN_LEVEL, DRAWS = 12000,
+       CHI_DRAWS = 5000 };
 
 /* Probability of every bin of the stored frame. */
 static void expected_bins(const Panel *panel, double theta, double phi, double *bins)
