@@ -12,7 +12,7 @@
 
 #define COMPONENTS_MAX 24
 #define ITERATIONS 6
-#define PATIENCE 6 /* so many more components without any gain are enough */
+#define PATIENCE 3 /* so many more components without any gain are enough */
 #define ASKED_ROWS 5000 /* loadings are found from about so many */
 #define HUBER 4.0       /* sigmas */
 #define UNKNOWN_BLACK 0.1f /* how far off a black that neighbours tell may be */

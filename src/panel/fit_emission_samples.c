@@ -57,6 +57,9 @@ static bool resample(const Resampler *from, float theta, float phi, float value[
 /* Even a table without noise is not to be followed further than this share of the tolerance. */
 #define LEAST_SIGMA 0.05
 
+/* What is read between a table's own directions is not known better. */
+#define RESAMPLED_SIGMA 0.002
+
 typedef struct TableNoise {
     double relative[3], dim[3];
 } TableNoise;
@@ -131,6 +134,8 @@ static void put_table(EmissionSamples *out, const AngleTable *table, int channel
         return;
     }
     Resampler from = start_resampler(table, &scratch);
+    for (int j = 0; j < 3; j++)
+        noise.relative[j] = fmax(noise.relative[j], RESAMPLED_SIGMA);
     for (int i = 0; i < out->rows; i++) {
         float value[3];
         if (resample(&from, out->master->theta[i], out->master->phi[i], value))

@@ -314,7 +314,7 @@ static void tables_may_have_grids_of_their_own(void **state)
     Fixture    f, other;
     FitOptions options = fit_options_default();
     measure(&f, RECIPE(FOUR CHECK_EMISSION, COARSE));
-    measure(&other, RECIPE(FOUR CHECK_EMISSION, "\"theta_step_deg\": 3, \"phi_step_deg\": 15,"
+    measure(&other, RECIPE(FOUR CHECK_EMISSION, "\"theta_step_deg\": 3, \"phi_step_deg\": 7.5,"
                                            "\"theta_max_deg\": 78"));
     for (int i = 0; i < 2; i++) *table_of(&f, 1, i) = *table_of(&other, 1, i);
     f.set->black = other.set->black;
