@@ -20,11 +20,12 @@ typedef struct Coder {
 
 /* The shortest blob so far. */
 typedef struct Trial {
-    size_t size; /* 0: none */
-    char  *blob;
-    int    base_level;
-    float  coarseness;
-    Arena  scratch; /* for one trial at a time */
+    size_t   size; /* 0: none */
+    uint32_t stored; /* vertices */
+    char    *blob;
+    int      base_level;
+    float    coarseness;
+    Arena    scratch; /* for one trial at a time */
 } Trial;
 
 #define FIRST_BASE 1
@@ -270,6 +271,13 @@ static uint32_t count_wrong(Coder *c, const Trial *best, float *rebuilt, uint32_
     return count;
 }
 
+static uint32_t count_stored(const Coder *c)
+{
+    uint32_t sum = 0;
+    for (uint32_t v = 0; v < vertex_count(c->code.lattice); v++) sum += c->code.stored[v];
+    return sum;
+}
+
 /* One way to code the choice: shorter than *size, it replaces the blob. False, and *err says
  * why: not possible so. */
 static bool try_coding(Coder *c, int base_level, float coarseness, Trial *best, Error *err)
@@ -286,42 +294,39 @@ static bool try_coding(Coder *c, int base_level, float coarseness, Trial *best, 
     const void *blob = vertex_code_write(&c->code, &scratch, &size);
     if (best->size != 0 && size >= best->size) return true;
     best->size = size;
+    best->stored = count_stored(c);
     best->base_level = base_level;
     best->coarseness = coarseness;
     memcpy(best->blob, blob, size);
     return true;
 }
 
-/* Steps from coarse to fine, then larger bases: one level less to walk through, where that
- * costs next to nothing. */
+/* Steps from coarse to fine, then larger bases where these cost little: each is one level less
+ * to walk through. */
 static bool code_best(Coder *c, Trial *best, Error *err)
 {
     static const float coarseness[] = {2, 1.2f, 0.7f, 0.4f, 0.2f};
     int  first = c->code.lattice.level < FIRST_BASE ? c->code.lattice.level : FIRST_BASE;
     for (size_t i = 0; i < sizeof coarseness / sizeof *coarseness; i++)
-        if (!try_coding(c, first, coarseness[i], best, err) && i > 0 && best->size == 0)
-            continue;
+        try_coding(c, first, coarseness[i], best, err);
     if (best->size == 0) return false;
     size_t least = best->size;
     for (int base = first + 1; base <= LAST_BASE && base <= c->code.lattice.level; base++) {
-        size_t so_far = best->size;
-        best->size = least + least / 12;
-        if (!try_coding(c, base, best->coarseness, best, err) ||
-            best->size == least + least / 12) {
-            best->size = so_far;
-            break;
-        }
+        size_t so_far = best->size, most = least + least / 12;
+        best->size = most;
+        try_coding(c, base, best->coarseness, best, err);
+        if (best->size == most) best->size = so_far;
         if (best->size < least) least = best->size;
     }
     return true;
 }
 
-static void fill_report(const Coder *c, const float *rebuilt, size_t size, TreeReport *report)
+static void fill_report(const Coder *c, const float *rebuilt, const Trial *best,
+                        TreeReport *report)
 {
-    uint32_t count = vertex_count(c->code.lattice), stored = 0;
+    uint32_t count = vertex_count(c->code.lattice);
     size_t   numbers = count * (size_t)c->code.components;
     double   square = 0, error_square = 0, most = 0;
-    for (uint32_t v = 0; v < count; v++) stored += c->code.stored[v];
     for (size_t i = 0; i < numbers; i++) {
         double error = (double)rebuilt[i] - (double)c->values[i];
         square += (double)c->values[i] * (double)c->values[i];
@@ -329,9 +334,9 @@ static void fill_report(const Coder *c, const float *rebuilt, size_t size, TreeR
         most = fmax(most, fabs(error));
     }
     *report = (TreeReport){.leaves = count,
-                           .stored_rows = stored,
-                           .stored_values = stored * (size_t)c->code.components,
-                           .bytes = size,
+                           .stored_rows = best->stored,
+                           .stored_values = best->stored * (size_t)c->code.components,
+                           .bytes = best->size,
                            .source_bytes = numbers * sizeof(float),
                            .max_error = (float)most,
                            .rms_error = (float)sqrt(error_square / (double)numbers),
@@ -366,6 +371,6 @@ bool vertex_tree_build(const VertexTreeOptions *options, const float *values, Ar
     char *kept = arena_alloc(arena, 1, 16, best.size);
     memcpy(kept, best.blob, best.size);
     *blob = kept;
-    if (report) fill_report(&c, rebuilt, best.size, report);
+    if (report) fill_report(&c, rebuilt, &best, report);
     return true;
 }
