@@ -15,7 +15,7 @@
 #include "panel/panel_file.h"
 #include "panel/panel_info.h"
 
-#define MUTATIONS 3000
+#define MUTATIONS 1800
 
 static Fixture folder; /* files and what is made of them */
 
@@ -28,7 +28,7 @@ static Fixture folder; /* files and what is made of them */
     "\"reflection\": {\"haze_share\": 0.7, \"haze_width\": 0.2, \"incidence_deg\": [20, 50],"  \
     "\"wavelengths_nm\": [450, 550, 650]}"
 #define INSTRUMENT                                                                             \
-    "\"instrument\": {\"theta_step_deg\": 6, \"phi_step_deg\": 15, \"fwhm_deg\": 8}"
+    "\"instrument\": {\"theta_step_deg\": 10, \"phi_step_deg\": 30, \"fwhm_deg\": 10}"
 #define SMALL_RECIPE "{\"panel\": \"small\", " EMISSION ", " REFLECTION ", " INSTRUMENT "}"
 
 #define ONLY_REFLECTION                                                                        \
@@ -87,6 +87,7 @@ static FitOptions small_options(FitBasis basis)
     FitOptions options = fit_options_default();
     options.level = 2;
     options.basis = basis;
+    options.bound = 0.2f; /* the coder has little to search */
     return options;
 }
 
