@@ -22,6 +22,7 @@ import deck_lights  # noqa: E402
 import deck_panel  # noqa: E402
 import deck_pedestal  # noqa: E402
 import deck_shell  # noqa: E402
+import deck_trim  # noqa: E402
 import finish  # noqa: E402
 from deck_layout import EYE  # noqa: E402
 from deck_materials import use_deck_materials  # noqa: E402
@@ -49,10 +50,10 @@ def add_camera(name, position, yaw_deg, pitch_deg, yfov_deg):
 
 def add_cameras():
     x, y, z = EYE
-    add_camera("captain", EYE, 13.0, -15.0, 62.0)
-    add_camera("first_officer", (-x, y, z), -13.0, -15.0, 62.0)
-    add_camera("pfd", (-0.535, 0.260, 1.030), -3.0, -27.0, 36.0)
-    add_camera("wide", (0.0, -0.66, 1.300), 0.0, -11.0, 68.0)
+    add_camera("captain", EYE, 13.0, -17.0, 62.0)
+    add_camera("first_officer", (-x, y, z), -13.0, -17.0, 62.0)
+    add_camera("pfd", (-0.545, 0.270, 0.985), -4.0, -24.0, 36.0)
+    add_camera("wide", (0.0, -0.46, 1.270), 0.0, -12.0, 72.0)
 
 
 def main():
@@ -67,6 +68,7 @@ def main():
     deck_glareshield.build_glareshield()
     deck_pedestal.build_pedestal()
     deck_cabin.build_cabin()
+    deck_trim.build_trim()
     finish.finish_meshes()
     finish.export(path)
     finish.patch(path)

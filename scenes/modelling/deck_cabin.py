@@ -96,7 +96,7 @@ def seat(kit, side):
     parts = [
         ("cushion", (0.46, 0.46, 0.11), flat(x, 0.12, 0.45, 0.06), "sheepskin", 0.05),
         ("base", (0.48, 0.46, 0.06), flat(x, 0.12, 0.375), "panel dark", 0.012),
-        ("back", (0.45, 0.62, 0.10), flat(x, -0.205, 0.775, lean), "deck seat", 0.05),
+        ("back", (0.45, 0.62, 0.10), flat(x, -0.205, 0.775, lean), "deck seat", 0.046),
         ("pad", (0.37, 0.54, 0.05), flat(x, -0.160, 0.775, lean), "sheepskin", 0.024),
         ("head", (0.27, 0.17, 0.085), flat(x, -0.275, 1.190, lean), "deck seat", 0.04),
     ]
@@ -123,7 +123,7 @@ def pedals(kit, side):
     for k in (-1, 1):
         x = side * -EYE[0] + k * 0.125
         at = frame_matrix((x, 0.86, 0.22), (1, 0, 0), (0, 0.45, 1))
-        kit.box((0.095, 0.17, 0.014), at, "lever", 0.004)
+        kit.box((0.095, 0.17, 0.014), at, "panel dark", 0.004)
         for row in range(6):
             kit.box((0.085, 0.006, 0.004), shifted(at, 0, -0.062 + 0.025 * row, 0.009), "seal")
         kit.box((0.03, 0.03, 0.30), frame_matrix((x, 0.90, 0.12), (1, 0, 0), (0, 1, 0)),

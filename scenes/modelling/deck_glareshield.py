@@ -5,7 +5,7 @@ from deck_layout import FACE, FACE_FOOT, FACE_HALF, PANEL_TOP
 from deck_panel import display_quad
 from deck_shell import windscreen_foot
 from kit import Kit, shifted
-from shapes import grid, spline, stitches, tube
+from shapes import box, frame_matrix, grid, spline, stitches, tube
 
 COAMING_HALF = 0.800
 # (y, z) from under the lip, over its roll, to the windscreen; y of the last is the glass.
@@ -58,12 +58,10 @@ def underside(kit):
     """From the face's foot back to the panel, and the body behind the face."""
     depth = PANEL_TOP[0] + 0.02 - FACE_FOOT[0]
     middle = FACE_FOOT[0] + 0.5 * depth + 0.004
-    from shapes import frame_matrix
-
-    at = frame_matrix((0, middle, 0.966), (1, 0, 0), (0, 1, 0))
-    kit.box((2 * COAMING_HALF - 0.05, depth, 0.060), at, "panel dark", 0.004)
+    at = frame_matrix((0, middle, 0.969), (1, 0, 0), (0, 1, 0))
+    box("coaming body", (2 * FACE_HALF + 0.13, depth, 0.058), at, "armrest", 0.018, 4)
     for side in (-1, 1):
-        flood = frame_matrix((side * 0.42, FACE_FOOT[0] + 0.060, 0.9345), (1, 0, 0), (0, -1, 0))
+        flood = frame_matrix((side * 0.42, FACE_FOOT[0] + 0.060, 0.9385), (1, 0, 0), (0, -1, 0))
         kit.box((0.36, 0.016, 0.006), flood, "bezel", 0.002)
 
 

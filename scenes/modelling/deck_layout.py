@@ -9,8 +9,8 @@ from shapes import frame_matrix
 EYE = (-0.53, 0.0, 1.17)  # the captain's
 
 # The main instrument panel: a plane that leans away at the top.
-PANEL_TOP, PANEL_FOOT = (0.740, 0.930), (0.662, 0.668)  # (y, z)
-PANEL_HALF = 0.760
+PANEL_TOP, PANEL_FOOT = (0.740, 0.914), (0.662, 0.650)  # (y, z)
+PANEL_HALF = 0.766
 PANEL_UP = (0.0, PANEL_TOP[0] - PANEL_FOOT[0], PANEL_TOP[1] - PANEL_FOOT[1])
 PANEL = frame_matrix(
     (0, 0.5 * (PANEL_TOP[0] + PANEL_FOOT[0]), 0.5 * (PANEL_TOP[1] + PANEL_FOOT[1])),
@@ -21,16 +21,16 @@ PANEL_HEIGHT = float(np.hypot(PANEL_UP[1], PANEL_UP[2]))
 
 # Displays on it: name -> (x, y in the plane, width, height of the active area)
 DISPLAYS = {
-    "pfd": (-0.585, 0.008, 0.250, 0.200),
-    "nav": (-0.304, 0.008, 0.250, 0.200),
-    "engine": (0.056, 0.008, 0.172, 0.215),
+    "pfd": (-0.585, 0.002, 0.250, 0.200),
+    "nav": (-0.304, 0.002, 0.250, 0.200),
+    "engine": (0.056, 0.000, 0.172, 0.215),
     "standby": (-0.098, 0.060, 0.078, 0.078),
-    "nav_right": (0.304, 0.008, 0.250, 0.200),
-    "pfd_right": (0.585, 0.008, 0.250, 0.200),
+    "nav_right": (0.304, 0.002, 0.250, 0.200),
+    "pfd_right": (0.585, 0.002, 0.250, 0.200),
 }
 
 # The glareshield's control panel and the coaming above it.
-FACE_FOOT, FACE_TOP = (0.618, 0.938), (0.628, 1.002)  # (y, z)
+FACE_FOOT, FACE_TOP = (0.618, 0.942), (0.628, 1.004)  # (y, z)
 FACE_HALF = 0.690
 FACE = frame_matrix(
     (0, 0.5 * (FACE_FOOT[0] + FACE_TOP[0]), 0.5 * (FACE_FOOT[1] + FACE_TOP[1])),
@@ -40,7 +40,7 @@ FACE = frame_matrix(
 
 # The pedestal: (y, z) of its ridge, from the main panel to the rear.
 PEDESTAL_HALF = 0.190
-PEDESTAL = [(0.662, 0.668), (0.470, 0.598), (0.120, 0.575), (-0.330, 0.555)]
+PEDESTAL = [(0.662, 0.650), (0.470, 0.584), (0.120, 0.562), (-0.330, 0.545)]
 
 
 def pedestal_plane(i, share=0.5):

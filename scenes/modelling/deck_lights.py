@@ -25,7 +25,7 @@ def sky(when, heading_deg, cloud_top_m=3000, place=None):
 WARM = [1.0, 0.80, 0.56]
 
 # Spot lights under the coaming that wash the main panel; a dome lamp behind the pilots.
-FLOODS = [("panel flood", (x, 0.675, 0.934), (0.0, 0.06, -1.0)) for x in (-0.58, -0.30, 0.0, 0.30, 0.58)]
+FLOODS = [("panel flood", (x, 0.675, 0.930), (0.0, 0.06, -1.0)) for x in (-0.58, -0.30, 0.0, 0.30, 0.58)]
 PEDESTAL = ("pedestal flood", (0.0, 0.30, 1.62), (0.0, 0.02, -1.0))
 
 

@@ -2,7 +2,7 @@
 anti-glare coaming, engraved legends that glow faintly, glass of the windscreens."""
 from materials import MATERIALS, TILE, grey, surface
 
-TILE.update({"coaming": 0.055, "armrest": 0.10, "deck seat": 0.05, "deck carpet": 0.10})
+TILE.update({"coaming": 0.055, "sheepskin": 0.05, "armrest": 0.10, "deck seat": 0.05, "deck carpet": 0.10})
 
 DECK = {
     # soft
@@ -14,8 +14,8 @@ DECK = {
     "deck carpet": surface((0.040, 0.046, 0.058), 1.0, normal=("fabric_normal", 1.0)),
     "visor": surface((0.070, 0.085, 0.060), 0.35, ior=1.5),
     # painted and moulded
-    "panel": surface((0.105, 0.128, 0.150), 0.52, ior=1.45),
-    "panel dark": surface((0.055, 0.062, 0.070), 0.5, ior=1.45),
+    "panel": surface((0.150, 0.160, 0.166), 0.52, ior=1.45),
+    "panel dark": surface((0.066, 0.070, 0.073), 0.5, ior=1.45),
     "lining": surface((0.40, 0.39, 0.365), 0.72, ior=1.45),
     "lining grey": surface((0.185, 0.195, 0.205), 0.68, ior=1.45),
     "bezel": surface((0.042, 0.044, 0.047), 0.45, ior=1.5),
@@ -30,6 +30,8 @@ DECK = {
     "steel": surface((0.60, 0.60, 0.61), 0.30, 1.0),
     "lever": surface((0.66, 0.665, 0.67), 0.34, 1.0),
     "guard red": surface((0.42, 0.028, 0.022), 0.42, ior=1.5),
+    "paper": grey(0.50, 0.85),
+    "ink": grey(0.035, 0.8),
     "compass face": grey(0.020, 0.5),
     # what glows
     "legend": surface((0.62, 0.62, 0.60), 0.6, emission=((1.0, 0.86, 0.66), 0.55)),
@@ -52,6 +54,7 @@ DECK = {
     "pfd_right": grey(0.0, 0.25, display=("ips_cluster.panel", "pfd.png", 450.0)),
     "nav_right": grey(0.0, 0.25, display=("ips_cluster.panel", "nav.png", 450.0)),
     "cdu": grey(0.0, 0.25, display=("oled_centre.panel", "cdu.png", 300.0)),
+    "tablet": grey(0.0, 0.10, display=("oled_centre.panel", "tablet.png", 300.0)),
     "windows": grey(0.0, 0.25, display=("oled_centre.panel", "windows.png", 300.0)),
 }
 

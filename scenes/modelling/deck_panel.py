@@ -97,23 +97,23 @@ def panel_face(kit):
         size = (b - a, PANEL_HEIGHT)
         kit.screws(shifted(at, z=0.012), size, 0.009, 0.0032)
     kit.box(
-        (2 * PANEL_HALF + 0.04, PANEL_HEIGHT + 0.01, 0.01), shifted(PANEL, z=-0.03), "gap", 0
+        (2 * PANEL_HALF + 0.04, PANEL_HEIGHT + 0.01, 0.01), shifted(PANEL, z=-0.03), "gap"
     )
 
 
 def outboard(kit, side):
     """Beside each pilot's displays: switches for source and brightness."""
-    at = shifted(PANEL, side * 0.7355, 0, 0.002)
-    kit.panel((0.042, 0.205), shifted(at, 0, 0.008), "panel dark", 0.003, 0.003)
+    at = shifted(PANEL, side * 0.7440, 0, 0.002)
+    kit.panel((0.036, 0.205), shifted(at, 0, 0.008), "panel dark", 0.003, 0.003)
     face = shifted(at, 0, 0.008, 0.003)
-    kit.screws(face, (0.042, 0.205), 0.0055, 0.0022)
-    for i, name in enumerate(("PFD", "ND", "LOUD SPKR")):
+    kit.screws(face, (0.036, 0.205), 0.0050, 0.0020)
+    for i, name in enumerate(("PFD", "ND", "SPKR")):
         y = 0.074 - 0.048 * i
         kit.knob(shifted(face, 0, y, 0, 25 - 40 * i), 0.0082, 0.013)
         kit.text(name, shifted(face, 0, y + 0.0165), 0.0036)
-        kit.text("OFF", shifted(face, -0.0125, y - 0.0115), 0.0022)
-        kit.text("BRT", shifted(face, 0.0125, y - 0.0115), 0.0022)
-    for i, name in enumerate(("PFD/ND XFR", "TERR ON ND")):
+        kit.text("OFF", shifted(face, -0.0115, y - 0.0115), 0.0022)
+        kit.text("BRT", shifted(face, 0.0115, y - 0.0115), 0.0022)
+    for i, name in enumerate(("XFR", "TERR")):
         y = -0.062 - 0.026 * i
         kit.button(shifted(face, 0, y), (0.0150, 0.0130), "key", 0.004)
         if i:

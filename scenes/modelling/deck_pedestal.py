@@ -15,8 +15,8 @@ def body(kit):
     count = len(top)
     for side in (-1, 1):
         x = side * PEDESTAL_HALF
-        points = [(x, y, z - 0.002) for y, z in top] + [(x, y, 0.0) for y, z in top[::-1]]
-        mesh(f"pedestal side {side}", points, [list(range(2 * count))], "panel dark")
+        points = [(x, y, z - 0.002) for y, z in top] + [(x, top[-1][0], 0.0), (x, top[0][0], 0.0)]
+        mesh(f"pedestal side {side}", points, [list(range(count + 2))], "panel dark")
     y, z = top[-1]
     h = PEDESTAL_HALF
     mesh(

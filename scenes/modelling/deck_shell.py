@@ -221,7 +221,7 @@ def nose():
     """The skin in front of the windscreens, falling away to the radome."""
     rows = []
     for t in np.linspace(0, 1, 24):
-        y_middle, z = 1.275 + 1.75 * t, 0.925 - 0.235 * t - 0.56 * t**2.6
+        y_middle, z = 1.275 + 1.75 * t, 0.968 - 0.060 * t - 0.42 * t**2.6
         half = 0.98 * (1 - 0.62 * t**1.7)
         row = []
         for u in np.linspace(-1, 1, 41):

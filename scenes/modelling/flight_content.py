@@ -235,7 +235,7 @@ def vertical_speed(ctx):
 def heading_tape(ctx):
     cx, cy, radius, heading = CENTRE[0], 1150, 318, 206
     ctx.save()
-    ctx.rectangle(330, 815, 540, 209)
+    ctx.rectangle(300, 795, 600, 229)
     ctx.clip()
     ctx.arc(cx, cy, radius, 0, 2 * math.pi)
     ctx.set_source_rgb(*DARK)
@@ -263,9 +263,9 @@ def heading_tape(ctx):
     ctx.stroke()
     ctx.restore()
     line(ctx, [(cx, 818), (cx, 866)], YELLOW, 6)
-    text(ctx, "206°", cx, 936, 44, GREEN, FACE)
-    text(ctx, "TRK 209", 388, 1000, 32, GREEN, FACE)
-    text(ctx, "GS 446", 812, 1000, 32, GREEN, FACE)
+    text(ctx, "206°", cx, 968, 44, GREEN, FACE)
+    text(ctx, "TRK 209", 190, 980, 33, GREEN, FACE)
+    text(ctx, "GS 446", 1010, 980, 33, GREEN, FACE)
 
 
 def mode_annunciator(ctx):
@@ -302,8 +302,8 @@ NAV_HEADING = 206
 
 def weather(ctx):
     """Echoes of rain: blobs of three levels in range cells, as an antenna sweeps them."""
-    cells = [(-34, 0.74, 0.16, 3), (-27, 0.62, 0.12, 2), (-40, 0.88, 0.11, 1), (16, 0.84, 0.13, 2),
-             (23, 0.93, 0.10, 3), (38, 0.58, 0.11, 1), (31, 0.66, 0.07, 2)]
+    cells = [(-36, 0.78, 0.20, 3), (-27, 0.62, 0.12, 2), (-40, 0.88, 0.11, 1), (5, 0.88, 0.15, 2),
+             (36, 0.80, 0.13, 3), (38, 0.58, 0.11, 1), (31, 0.66, 0.07, 2)]
     levels = {1: (0.0, 0.42, 0.08), 2: (0.74, 0.66, 0.02), 3: (0.76, 0.06, 0.05)}
     for strength in (1, 2, 3):
         for step in range(-120, 121):
@@ -371,7 +371,7 @@ def route(ctx):
         ctx.set_line_width(4)
         ctx.stroke()
         text(ctx, name, x + 22, y - 10, 31, color, FACE, align="left")
-    text(ctx, "FL350", spot(0.20, 0.80)[0] + 22, spot(0.20, 0.80)[1] + 24, 27, MAGENTA, FACE,
+    text(ctx, "FL350", spot(0.20, 0.80)[0] + 22, spot(0.20, 0.80)[1] + 34, 27, MAGENTA, FACE,
          align="left")
     for dx, ahead, name in ((-0.30, 0.42, "LMR"), (0.36, 0.36, "VDA")):
         x, y = spot(dx, ahead)

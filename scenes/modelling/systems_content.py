@@ -225,7 +225,44 @@ def draw_windows(path):
     surface.write_to_png(path)
 
 
+LAND, WATER, PAPER = (0.115, 0.125, 0.130), (0.055, 0.085, 0.115), (0.030, 0.034, 0.040)
+
+
+def draw_tablet(path):
+    """An enroute chart in its night colours."""
+    surface, ctx = page((600, 800))
+    box(ctx, 0, 0, 600, 800, LAND)
+    polygon(ctx, [(0, 0), (250, 0), (210, 120), (262, 250), (180, 330), (120, 470), (0, 540)], WATER)
+    for radius in (90, 150):
+        ring(ctx, (330, 430), radius, 2, (0, 360), GREY)
+    routes = [((40, 90), (330, 430)), ((330, 430), (560, 250)), ((330, 430), (470, 760)),
+              ((330, 430), (80, 690)), ((150, 60), (560, 250)), ((470, 760), (560, 250))]
+    for a, b in routes:
+        line(ctx, [a, b], (0.45, 0.60, 0.72), 3)
+        mx, my = 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])
+        box(ctx, mx - 26, my - 13, 52, 26, PAPER, (0.45, 0.60, 0.72), 2)
+        text(ctx, f"{int(a[0] + b[1]) % 900 + 60}", mx, my + 8, 19, WHITE, FACE)
+    line(ctx, [(80, 690), (330, 430), (420, 330), (560, 250)], MAGENTA, 5)
+    for (x, y), name in (((40, 90), "LMR"), ((330, 430), "TOLKA"), ((560, 250), "KESTU"),
+                         ((470, 760), "VDA"), ((80, 690), "NIBEX"), ((420, 330), "BRINO")):
+        polygon(ctx, [(x, y - 11), (x + 10, y + 8), (x - 10, y + 8)], CYAN)
+        text(ctx, name, min(x + 14, 520), y + 28, 22, WHITE, FACE, align="left")
+    polygon(ctx, [(206, 545), (216, 574), (206, 567), (196, 574)], YELLOW)
+    box(ctx, 0, 0, 600, 54, PAPER)
+    text(ctx, "ENROUTE HIGH", 16, 38, 27, WHITE, FACE, align="left")
+    text(ctx, "06:30 Z", 584, 38, 27, GREEN, FACE, align="right")
+    box(ctx, 0, 738, 600, 62, PAPER)
+    for k, name in enumerate(("CHARTS", "PERF", "DOCS", "MSG")):
+        text(ctx, name, 75 + 150 * k, 778, 25, CYAN if k == 0 else GREY, FACE)
+    surface.write_to_png(path)
+
+
 def draw_systems(folder):
-    for name, draw in (("engine", draw_engine), ("standby", draw_standby), ("cdu", draw_cdu),
-                       ("windows", draw_windows)):
+    for name, draw in (
+        ("engine", draw_engine),
+        ("standby", draw_standby),
+        ("cdu", draw_cdu),
+        ("windows", draw_windows),
+        ("tablet", draw_tablet),
+    ):
         draw(f"{folder}/{name}.png")
