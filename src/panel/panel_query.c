@@ -4,12 +4,22 @@
 #include "hemisphere/tree_query.h"
 #include "panel/panel_query.h"
 
+/* Position in the spline's table over tan(theta / 2): *t in [0, 1] from node to node + 1. */
+static inline int spline_node(float tan_half, float *t)
+{
+    float at = clampf(tan_half, 0, 1) * (PANEL_SPLINE_ANGLES - 1);
+    int   node = (int)at;
+    if (node > PANEL_SPLINE_ANGLES - 2) node = PANEL_SPLINE_ANGLES - 2;
+    *t = at - (float)node;
+    return node;
+}
+
 void panel_spline_add(const PanelSpline *spline, Vec3 d, float log_cos, float *out)
 {
     float t, s = safe_sqrtf(d.x * d.x + d.y * d.y);
     float cos_1 = s > 0 ? d.x / s : 1, sin_1 = s > 0 ? d.y / s : 0;
     float angle[PANEL_SPLINE_TERMS_MAX + 1] = {1, cos_1, sin_1};
-    int   node = panel_angle_node(atan2_f(s, d.z), &t), row = spline->terms * spline->stride;
+    int   node = spline_node(s / (1 + d.z), &t), row = spline->terms * spline->stride;
     const float *near = spline->table + node * row, *power = spline->power;
     for (int m = 2; m <= spline->harmonics; m++) {
         float c = angle[2 * m - 3], e = angle[2 * m - 2];

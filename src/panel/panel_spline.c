@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/mathf.h"
 #include "base/units.h"
 
 #define INTERVALS (PANEL_SPLINE_COEFFICIENTS - 2)
@@ -82,8 +83,9 @@ void panel_spline_expand(const uint8_t *term, int terms, int components, const f
             power[t * stride + k] = numbers[number_at(components, t, k) +
                                             PANEL_SPLINE_COEFFICIENTS];
         for (int a = 0; a < PANEL_SPLINE_ANGLES; a++) {
-            PanelSplineTaps taps = panel_spline_taps(panel_spline_harmonic(term[t]),
-                                                     radians_from_degrees(0.5 * a));
+            PanelSplineTaps taps = panel_spline_taps(
+                panel_spline_harmonic(term[t]),
+                2 * (double)atan2_f((float)a, PANEL_SPLINE_ANGLES - 1));
             for (int k = 0; k < components; k++) {
                 const float *c = numbers + number_at(components, t, k) + taps.first;
                 float sum = 0;

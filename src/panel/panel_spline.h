@@ -23,7 +23,7 @@
 #define PANEL_SPLINE_COEFFICIENTS 24 /* B-splines */
 #define PANEL_SPLINE_NUMBERS 25      /* and the power of cos theta */
 #define PANEL_SPLINE_TERMS_MAX 17
-#define PANEL_SPLINE_ANGLES 181 /* of the table: every half degree */
+#define PANEL_SPLINE_ANGLES 181 /* of the table: even in tan(theta / 2), which costs no arc */
 
 /* B-splines that are not zero at an angle, in stored coefficients. */
 typedef struct PanelSplineTaps {
