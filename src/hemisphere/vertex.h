@@ -89,8 +89,8 @@ typedef struct VertexSamples {
  * horizon, i = 0, less the pole), relative to the samples' total weight. What no sample reaches
  * stays smooth. Solved by conjugate gradients over the details, for all components at once.
  * Fails (ERROR_INPUT) on numbers that are not finite and when no sample has a weight. */
-bool vertex_fit(const Geodesic *geodesic, VertexLattice lattice, const VertexSamples *samples,
-                double ridge, Arena *scratch, float *values, Error *err);
+bool vertex_fit(VertexLattice lattice, const VertexSamples *samples, double ridge,
+                Arena *scratch, float *values, Error *err);
 
 /* ---- the hierarchy ---------------------------------------------------------------------- */
 

@@ -2,10 +2,10 @@
  *
  * Interpolating a function at its own values is wasteful: where it curves, all errors between
  * the vertices have the same sign. Values that balance the errors need up to half as many
- * vertices. So: least squares over ALL vertices of the lattice for the details of those that are
- * stored, from the coarse levels to the fine; where that is not accepted, the weights grow, and
- * the detail of the level that would help most (gradient^2 over diagonal) is added. In the end
- * the details that matter least are dropped as long as everything stays accepted. */
+ * vertices. So: least squares over ALL vertices of the lattice for the details of those that
+ * are stored, from the coarse levels to the fine; where that is not accepted, the weights grow,
+ * and the detail of the level that would help most (gradient^2 over diagonal) is added. In the
+ * end the details that matter least are dropped as long as everything stays accepted. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -154,7 +154,8 @@ static void fit(Chooser *c)
     for (uint32_t v = 0; v < c->count; v++)
         if (c->chosen[v]) c->list[c->list_count++] = v;
     find_diagonal(c);
-    parallel_for(c->options->threads > 1 ? c->options->threads : 1, c->group_count, fit_group, c);
+    parallel_for(c->options->threads > 1 ? c->options->threads : 1, c->group_count, fit_group,
+                 c);
 }
 
 static uint32_t count_chosen(const Chooser *c)
@@ -344,8 +345,13 @@ static Chooser start(VertexJudge *judge, int base_level, Arena *arena)
 {
     const VertexTreeOptions *options = judge->options;
     size_t  n = vertex_count(options->lattice), k = (size_t)options->components;
-    Chooser c = {.options = options, .values = judge->values, .unit = judge->unit,
-                 .judge = judge, .base_level = base_level, .k = options->components, .count = (uint32_t)n};
+    Chooser c = {.options = options,
+                 .values = judge->values,
+                 .unit = judge->unit,
+                 .judge = judge,
+                 .base_level = base_level,
+                 .k = options->components,
+                 .count = (uint32_t)n};
     for (int i = base_level; i < options->lattice.level; i++) {
         c.edge_count[i] = vertex_edges(options->lattice, i, NULL);
         c.edges[i] = ARENA_NEW(arena, VertexEdge, c.edge_count[i]);

@@ -242,12 +242,13 @@ static Work make_work(const Problem *p, Arena *arena)
     return w;
 }
 
-bool vertex_fit(const Geodesic *geodesic, VertexLattice lattice, const VertexSamples *samples,
-                double ridge, Arena *scratch, float *values, Error *err)
+bool vertex_fit(VertexLattice lattice, const VertexSamples *samples, double ridge,
+                Arena *scratch, float *values, Error *err)
 {
-    Arena        arena = *scratch;
-    VertexPoint *points = ARENA_NEW(&arena, VertexPoint, samples->count);
-    double      *weight = ARENA_NEW(&arena, double, samples->count);
+    Arena           arena = *scratch;
+    const Geodesic *geodesic = geodesic_create(vertex_plane_level(lattice.level), &arena);
+    VertexPoint    *points = ARENA_NEW(&arena, VertexPoint, samples->count);
+    double         *weight = ARENA_NEW(&arena, double, samples->count);
     if (!check_samples(samples, err) || !make_weights(samples, weight, err)) return false;
     for (int s = 0; s < samples->count; s++)
         points[s] = vertex_find(geodesic, lattice, samples->direction[s]);

@@ -22,10 +22,8 @@ static void put_base(const Tree *tree, VertexPlace place, TreeTaps *taps)
  * weights there. The edge along x and the diagonal lie in column x, the edge along y and the
  * diagonal in row y. */
 typedef struct Edges {
-    uint32_t x, y;     /* of the diagonal's cell */
-    uint32_t along_x_y; /* row of the edge along x */
-    uint32_t along_y_x; /* column of the edge along y */
-    float    weight[3]; /* in order of the bits: along x, along y, diagonal */
+    uint32_t x[3], y[3]; /* in order of the bits: along x, along y, diagonal */
+    float    weight[3];
 } Edges;
 
 static inline float least(float a, float b)
@@ -53,10 +51,11 @@ static inline Edges edges_at(const VertexLevel *level, VertexPlace place, int nu
     v = fabsf((float)upper - v);
     float w = 1 - u - v, factor = float_from_bits((uint32_t)(127 + level->exponent) << 23);
     int   mx = -(int)(place.octant & 1), my = -(int)(place.octant >> 1);
-    return (Edges){(uint32_t)((cx ^ mx) - level->x),
-                   (uint32_t)((cy ^ my) - level->y),
-                   (uint32_t)(((cy + upper) ^ my) - my - level->y),
-                   (uint32_t)(((cx + upper) ^ mx) - mx - level->x),
+    uint32_t column = (uint32_t)((cx ^ mx) - level->x), row = (uint32_t)((cy ^ my) - level->y);
+    uint32_t line_x = (uint32_t)(((cx + upper) ^ mx) - mx - level->x);
+    uint32_t line_y = (uint32_t)(((cy + upper) ^ my) - my - level->y);
+    return (Edges){{column, line_x, column},
+                   {line_y, row, row},
                    {hat(u, w, v) * factor, hat(v, w, u) * factor, hat(u, v, w) * factor}};
 }
 
@@ -90,45 +89,45 @@ static inline Block open_block(const Tree *tree, const VertexLevel *level, uint3
                    vertex_format_bytes(tree->formats[format]), format};
 }
 
-/* Writes a tap for an edge of a cell, and counts it if there is such a detail: that cannot be
- * predicted, so there is no branch. */
-static inline void put_detail(const Block *block, uint32_t x, uint32_t y, uint32_t edge,
-                              float weight, TreeTaps *taps)
+/* Writes a tap for edge i, and counts it if there is such a detail: that cannot be predicted,
+ * so there is no branch. */
+static inline void put_detail(const Block *block, const Edges *e, uint32_t i, TreeTaps *taps)
 {
-    uint32_t bit = y % VERTEX_BLOCK_SIDE * 12 + x % VERTEX_BLOCK_SIDE * 3 + edge;
+    uint32_t bit = e->y[i] % VERTEX_BLOCK_SIDE * 12 + e->x[i] % VERTEX_BLOCK_SIDE * 3 + i;
     uint32_t row = vertex_count_bits(block->bits & ((1ull << bit) - 1));
     int      at = taps->count;
     taps->row[at] = block->first + row * block->row_bytes;
-    taps->weight[at] = weight;
+    taps->weight[at] = e->weight[i];
     taps->level[at] = block->format;
-    taps->count = at + (int)((uint32_t)(block->bits >> bit) & (uint32_t)(weight > 0));
+    taps->count =
+        at + (int)((uint32_t)(block->bits >> bit) & (uint32_t)(e->weight[i] > 0));
 }
 
-static inline void put_in(const Tree *tree, const VertexLevel *level, uint32_t x, uint32_t y,
-                          uint32_t edge, float weight, TreeTaps *taps)
+static inline void put_in(const Tree *tree, const VertexLevel *level, const Edges *e,
+                          uint32_t i, TreeTaps *taps)
 {
-    uint32_t index = find_block(tree, level, x, y);
+    uint32_t index = find_block(tree, level, e->x[i], e->y[i]);
     if (index == NO_BLOCK) return;
     Block block = open_block(tree, level, index);
-    put_detail(&block, x, y, edge, weight, taps);
+    put_detail(&block, e, i, taps);
 }
 
-/* Mostly the three edges are in one block. */
+/* Mostly the three edges are in one block. Written out, so that they stay in registers. */
 static inline void put_level(const Tree *tree, const VertexLevel *level, VertexPlace place,
                              int number, TreeTaps *taps)
 {
     Edges e = edges_at(level, place, number);
-    if (((e.x ^ e.along_y_x) | (e.y ^ e.along_x_y)) < VERTEX_BLOCK_SIDE) {
-        uint32_t index = find_block(tree, level, e.x, e.y);
+    if (((e.x[0] ^ e.x[1]) | (e.y[0] ^ e.y[1])) < VERTEX_BLOCK_SIDE) {
+        uint32_t index = find_block(tree, level, e.x[0], e.y[1]);
         if (index == NO_BLOCK) return;
         Block block = open_block(tree, level, index);
-        put_detail(&block, e.x, e.along_x_y, 0, e.weight[0], taps);
-        put_detail(&block, e.along_y_x, e.y, 1, e.weight[1], taps);
-        put_detail(&block, e.x, e.y, 2, e.weight[2], taps);
+        put_detail(&block, &e, 0, taps);
+        put_detail(&block, &e, 1, taps);
+        put_detail(&block, &e, 2, taps);
     } else {
-        put_in(tree, level, e.x, e.along_x_y, 0, e.weight[0], taps);
-        put_in(tree, level, e.along_y_x, e.y, 1, e.weight[1], taps);
-        put_in(tree, level, e.x, e.y, 2, e.weight[2], taps);
+        put_in(tree, level, &e, 0, taps);
+        put_in(tree, level, &e, 1, taps);
+        put_in(tree, level, &e, 2, taps);
     }
 }
 

@@ -134,7 +134,7 @@ static bool fit_values(const Coder *coder, const VertexSamples *samples, int com
     for (;; ridge /= RIDGE_STEP) {
         Arena work = scratch;
         ridge = fmax(ridge, LEAST_RIDGE);
-        if (!vertex_fit(coder->geodesic, coder->lattice, samples, ridge, &work, trial, err))
+        if (!vertex_fit(coder->lattice, samples, ridge, &work, trial, err))
             return false;
         double rest = rest_of_fit(coder, samples, trial);
         if (ridge < WEAK_RIDGE && rest > WORTH * before) return true;

@@ -35,7 +35,7 @@ static void fits_recover_smooth_functions(void **state)
     VertexSamples samples = smooth_samples(20000, 0, &f->arena);
     Error         err;
     vertex_directions(l, d);
-    assert_true(vertex_fit(f->geodesic, l, &samples, 1e-12, &f->arena, values, &err));
+    assert_true(vertex_fit(l, &samples, 1e-12, &f->arena, values, &err));
     for (uint32_t i = 0; i < 2 * count; i++)
         assert_near(values[i], function_at(d[i / 2], (int)(i % 2)), 4e-3);
 }
@@ -49,7 +49,7 @@ static void fits_stay_smooth_in_gaps(void **state)
     float        *values = ARENA_NEW(&f->arena, float, 2 * count);
     VertexSamples samples = smooth_samples(8000, 0.6f, &f->arena);
     Error         err;
-    assert_true(vertex_fit(f->geodesic, l, &samples, 1e-10, &f->arena, values, &err));
+    assert_true(vertex_fit(l, &samples, 1e-10, &f->arena, values, &err));
     for (uint32_t i = 0; i < 2 * count; i++) assert_true(fabsf(values[i]) < 2);
     vertex_details_from_values(l, 2, values);
     for (int y = -32; y <= 32; y++)
@@ -67,7 +67,7 @@ static void fits_of_constants_are_constant(void **state)
     const float   three[2] = {3, 3};
     VertexSamples samples = {2, 1, d, three, NULL};
     Error         err;
-    assert_true(vertex_fit(f->geodesic, l, &samples, 1e-6, &f->arena, values, &err));
+    assert_true(vertex_fit(l, &samples, 1e-6, &f->arena, values, &err));
     for (uint32_t i = 0; i < count; i++) assert_near(values[i], 3, 1e-3);
 }
 
@@ -81,7 +81,7 @@ static void fits_weigh_and_mirror(void **state)
     const float   value[3] = {1, 3, 1000}, weight[3] = {1, 1, 0};
     VertexSamples samples = {3, 1, d, value, weight};
     Error         err;
-    assert_true(vertex_fit(f->geodesic, l, &samples, 1e-6, &f->arena, values, &err));
+    assert_true(vertex_fit(l, &samples, 1e-6, &f->arena, values, &err));
     for (uint32_t i = 0; i < vertex_count(l); i++) assert_near(values[i], 2, 1e-3);
 }
 
@@ -94,14 +94,14 @@ static void fits_refuse_what_is_no_number(void **state)
     float         value[2] = {1, 2}, weight[2] = {0, 0};
     VertexSamples samples = {2, 1, d, value, weight};
     Error         err;
-    assert_false(vertex_fit(f->geodesic, l, &samples, 1e-6, &f->arena, values, &err));
+    assert_false(vertex_fit(l, &samples, 1e-6, &f->arena, values, &err));
     assert_non_null(strstr(err.text, "2 samples have no weight, wanted some"));
     weight[1] = -1;
-    assert_false(vertex_fit(f->geodesic, l, &samples, 1e-6, &f->arena, values, &err));
+    assert_false(vertex_fit(l, &samples, 1e-6, &f->arena, values, &err));
     assert_non_null(strstr(err.text, "sample 1 has the weight -1, wanted 0 or more"));
     weight[1] = 1;
     value[0] = NAN;
-    assert_false(vertex_fit(f->geodesic, l, &samples, 1e-6, &f->arena, values, &err));
+    assert_false(vertex_fit(l, &samples, 1e-6, &f->arena, values, &err));
     assert_non_null(strstr(err.text, "sample 0 is nan, wanted a finite number"));
 }
 
