@@ -16,7 +16,7 @@
 #include "panel/panel_info.h"
 
 #define MUTATIONS 2400
-#define FORGED_SHARE 4 /* one in so many has a checksum that fits: it is opened, which takes ms */
+#define FORGED_SHARE 4 /* one in so many has a checksum that fits: it is opened, at some ms */
 
 static Fixture folder; /* files and what is made of them */
 
