@@ -11,6 +11,7 @@
 #define NOISY 0.0005       /* relative: tables below it count as without noise */
 #define FIRST_LEVEL 6
 #define LAST_LEVEL 9
+#define HELPED 0.8         /* a level that leaves more misses than this share did not help */
 #define NARROWEST 2.0f     /* the largest frame exponent that is tried */
 #define PLACES_BYTES ((size_t)5 << 29) /* of values at most: memory is bounded */
 #define TRIAL_BYTES ((size_t)32 << 30) /* address space; pages cost nothing until touched */
@@ -101,23 +102,28 @@ static size_t value_bytes(const ReflectionFit *fit, int level)
            (size_t)fit->tables * (size_t)fit->wavelengths;
 }
 
-/* Deeper while samples are missed and the last step helped. */
+/* Deeper while samples are missed and the last step helped; one that did not is taken back. */
 static bool code_levels(ReflectionFit *fit, ReflectionMisses *misses, Error *err)
 {
-    int   first = fit->options->level > 0 ? fit->options->level : FIRST_LEVEL;
-    int   last = fit->options->level > 0 ? first : LAST_LEVEL;
-    Arena before = *fit->arena;
+    int first = fit->options->level > 0 ? fit->options->level : FIRST_LEVEL;
+    int last = fit->options->level > 0 ? first : LAST_LEVEL;
     for (int level = first;; level++) {
         ReflectionMisses now;
-        *fit->arena = before;
+        ReflectionFit    before = *fit;
+        const void      *tree = fit->out->tree;
+        TreeReport       report = fit->out->tree_report;
         reflect_read_places(fit, level);
         reflect_choose_spectra(fit);
         fit->is_last = level == last;
         if (!reflect_code(fit, &now, err)) return false;
-        bool is_better = level == first || now.misses < misses->misses;
+        if (level > first && now.misses > (int)(HELPED * misses->misses)) {
+            *fit = before;
+            fit->out->tree = tree;
+            fit->out->tree_report = report;
+            return true;
+        }
         *misses = now;
-        if (!now.misses || level == last || !is_better ||
-            value_bytes(fit, level + 1) > PLACES_BYTES)
+        if (!now.misses || level == last || value_bytes(fit, level + 1) > PLACES_BYTES)
             return true;
     }
 }
