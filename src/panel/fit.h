@@ -1,9 +1,11 @@
 /* fit.h -- from measured tables to one compressed panel file.
  *
- * Emission: the logarithm of every table's X, Y, Z (black-compensated) at the triangles'
- * centres, as a few principal components over the tables, in one Haar tree. Reflection: the
- * logarithm of f / F(theta_i) in the specular-following frame, the spectrum by a 1-D wavelet,
- * all incidences in one Haar tree; the mirror's image is taken out first.
+ * Emission: the logarithm of what every table's X, Y, Z add to the black pattern, as a few
+ * components over the tables fitted with each number's own noise; of the components a smooth
+ * part (splines times harmonics) is taken out first, the rest is one vertex or Haar tree.
+ * Reflection: the logarithm of f / F(theta_i) in the specular-following frame, few spectra (or
+ * a 1-D wavelet along the wavelengths), all incidences in one tree; the mirror's image is taken
+ * out first.
  *
  * Memory   the arena's. Threads: one fit at a time per arena.
  * Fails    with the file that cannot be written; a measurement that was read is good to fit.
@@ -20,7 +22,7 @@ typedef enum FitBasis { FIT_VERTEX = 0, FIT_HAAR = 1 } FitBasis; /* on the hemis
 
 /* Exactly one of keep_share and max_error is above 0; the others have 0 for "choose". */
 typedef struct FitOptions {
-    int         level;      /* of the trees; 0: 6, cells of 1.1 degrees */
+    int         level;      /* of the trees; 0: what the samples need */
     float       keep_share; /* stored rows over leaves, (0, 1] */
     float       max_error;  /* relative, of each tree component */
     float       bound;      /* relative error allowed at every measured sample; 0: 2 %, and
