@@ -9,10 +9,22 @@ from kit import Kit, shifted
 from shapes import box, frame_matrix, grid, spline, tube
 
 # The side console's inner edge and its foot at the wall, right half, front to rear.
-INNER = [(0.800, 0.915, 0.950), (0.785, 0.690, 0.915), (0.780, 0.585, 0.800),
-         (0.785, 0.520, 0.752), (0.795, 0.20, 0.742), (0.80, -0.86, 0.735)]
-OUTER = [(0.802, 0.930, 0.957), (0.882, 0.680, 0.956), (0.920, 0.560, 0.930),
-         (0.945, 0.480, 0.900), (1.020, 0.22, 0.880), (1.06, -0.86, 0.870)]
+INNER = [
+    (0.800, 0.955, 0.900),
+    (0.785, 0.700, 0.880),
+    (0.780, 0.585, 0.800),
+    (0.785, 0.520, 0.752),
+    (0.795, 0.20, 0.742),
+    (0.80, -0.86, 0.735),
+]
+OUTER = [
+    (0.822, 0.968, 0.902),
+    (0.917, 0.707, 0.881),
+    (0.971, 0.562, 0.870),
+    (1.001, 0.480, 0.864),
+    (1.074, 0.279, 0.850),
+    (1.116, -0.860, 0.850),
+]
 
 
 def ledge(kit, side):
@@ -20,8 +32,15 @@ def ledge(kit, side):
     inner = spline([(side * x, y, z) for x, y, z in INNER], 60)
     outer = spline([(side * x, y, z) for x, y, z in OUTER], 60)
     rows = []
-    for t, low in ((0.0, 0.012), (0.03, 0.003), (0.10, 0.0), (0.35, 0.0), (0.6, 0.006),
-                   (0.8, 0.012), (1.0, 0.0)):
+    for t, low in (
+        (0.0, 0.012),
+        (0.03, 0.003),
+        (0.10, 0.0),
+        (0.35, 0.0),
+        (0.6, 0.006),
+        (0.8, 0.012),
+        (1.0, 0.0),
+    ):
         share = t**2.4
         rows.append(
             np.column_stack(
@@ -46,23 +65,41 @@ def side_stick(kit, top, side):
     """A pistol grip in its boot, canted a little inboard."""
     base = shifted(top, 0, 0.020, 0.004)
     kit.lathe(
-        [(0.040, 0), (0.040, 0.004), (0.034, 0.008), (0.030, 0.016), (0.032, 0.020),
-         (0.024, 0.028), (0.026, 0.032), (0.018, 0.041), (0.016, 0.050)],
-        base, "seal", 28)
+        [
+            (0.040, 0),
+            (0.040, 0.004),
+            (0.034, 0.008),
+            (0.030, 0.016),
+            (0.032, 0.020),
+            (0.024, 0.028),
+            (0.026, 0.032),
+            (0.018, 0.041),
+            (0.016, 0.050),
+        ],
+        base,
+        "seal",
+        28,
+    )
     lean = base @ Matrix.Rotation(math.radians(-7), 4, "X")
     lean = lean @ Matrix.Rotation(math.radians(-side * 5), 4, "Y")
     rings = []
     for z, wide, deep, ahead in (
-        (0.040, 0.0150, 0.0165, 0.000), (0.055, 0.0165, 0.0200, 0.000),
-        (0.063, 0.0230, 0.0260, 0.000), (0.070, 0.0175, 0.0225, 0.000),
-        (0.090, 0.0172, 0.0230, 0.003), (0.112, 0.0178, 0.0215, 0.005),
-        (0.132, 0.0190, 0.0225, 0.009), (0.150, 0.0215, 0.0235, 0.015),
-        (0.163, 0.0205, 0.0225, 0.019), (0.170, 0.0150, 0.0165, 0.021),
+        (0.040, 0.0150, 0.0165, 0.000),
+        (0.055, 0.0165, 0.0200, 0.000),
+        (0.063, 0.0230, 0.0260, 0.000),
+        (0.070, 0.0175, 0.0225, 0.000),
+        (0.090, 0.0172, 0.0230, 0.003),
+        (0.112, 0.0178, 0.0215, 0.005),
+        (0.132, 0.0190, 0.0225, 0.009),
+        (0.150, 0.0215, 0.0235, 0.015),
+        (0.163, 0.0205, 0.0225, 0.019),
+        (0.170, 0.0150, 0.0165, 0.021),
         (0.1725, 0.0010, 0.0010, 0.021),
     ):
         a = np.linspace(0, 2 * math.pi, 24, endpoint=False)
-        rings.append(np.column_stack(
-            [wide * np.cos(a), ahead + deep * np.sin(a), np.full(24, z)]))
+        rings.append(
+            np.column_stack([wide * np.cos(a), ahead + deep * np.sin(a), np.full(24, z)])
+        )
     smooth = spline(np.array(rings).reshape(len(rings), -1), 40).reshape(40, 24, 3)
     m = np.array(lean)
     grid(f"side stick {side}", smooth @ m[:3, :3].T + m[:3, 3], "stick", closed=True)
@@ -77,21 +114,31 @@ def side_stick(kit, top, side):
 
 def console_details(kit, side):
     """Lamp, speaker grille and air outlet on the wall beside each pilot."""
-    wall = frame_matrix((side * 0.935, 0.505, 0.918), (0.1, 1, 0) if side < 0 else (-0.1, -1, 0),
-                        (0, 0, 1))
-    kit.lathe([(0.026, -0.02), (0.026, 0.004), (0.021, 0.007), (0.015, 0.001)], wall, "bezel", 28)
-    arm = [(side * 0.885, 0.66, 0.955), (side * 0.87, 0.66, 0.99), (side * 0.85, 0.63, 1.015),
-           (side * 0.835, 0.60, 1.010)]
+    wall = frame_matrix(
+        (side * 0.955, 0.445, 0.860), (0.1, 1, 0) if side < 0 else (-0.1, -1, 0), (0, 0, 1)
+    )
+    kit.lathe(
+        [(0.026, -0.02), (0.026, 0.004), (0.021, 0.007), (0.015, 0.001)], wall, "bezel", 28
+    )
+    arm = [
+        (side * 0.870, 0.68, 0.925),
+        (side * 0.87, 0.66, 0.99),
+        (side * 0.85, 0.63, 1.015),
+        (side * 0.835, 0.60, 1.010),
+    ]
     tube(f"map light neck {side}", spline(arm, 20), 0.0055, "stick", 10)
     head = frame_matrix((side * 0.828, 0.588, 1.006), (1, 0, 0), (0, 0.6, 1))
-    kit.lathe([(0.006, -0.030), (0.014, -0.018), (0.015, 0.006), (0.012, 0.008)], head, "stick", 20)
+    kit.lathe(
+        [(0.006, -0.030), (0.014, -0.018), (0.015, 0.006), (0.012, 0.008)], head, "stick", 20
+    )
 
 
 def seat(kit, side):
     """A pilot's seat with sheepskin, armrests and belts."""
     x = side * -EYE[0]
     flat = lambda px, py, pz, lean=0.0: frame_matrix(  # noqa: E731
-        (px, py, pz), (1, 0, 0), (0, math.cos(lean), math.sin(lean)))
+        (px, py, pz), (1, 0, 0), (0, math.cos(lean), math.sin(lean))
+    )
     lean = math.radians(104)
     parts = [
         ("cushion", (0.46, 0.46, 0.11), flat(x, 0.12, 0.45, 0.06), "sheepskin", 0.05),
@@ -105,18 +152,30 @@ def seat(kit, side):
     for k in (-1, 1):
         arm = frame_matrix((x + k * 0.262, 0.03, 0.675), (1, 0, 0), (0, 1, 0.05))
         box(f"armrest {side} {k}", (0.058, 0.31, 0.045), arm, "armrest", 0.018, 4)
-        kit.box((0.030, 0.045, 0.25), frame_matrix((x + k * 0.262, -0.09, 0.55), (1, 0, 0),
-                (0, 1, 0)), "panel dark", 0.006)
-        belt = [(x + k * 0.055, -0.33, 1.08), (x + k * 0.08, -0.235, 1.075),
-                (x + k * 0.10, -0.165, 0.95), (x + k * 0.09, -0.115, 0.72),
-                (x + k * 0.05, -0.045, 0.56)]
+        kit.box(
+            (0.030, 0.045, 0.25),
+            frame_matrix((x + k * 0.262, -0.09, 0.55), (1, 0, 0), (0, 1, 0)),
+            "panel dark",
+            0.006,
+        )
+        belt = [
+            (x + k * 0.055, -0.33, 1.08),
+            (x + k * 0.08, -0.235, 1.075),
+            (x + k * 0.10, -0.165, 0.95),
+            (x + k * 0.09, -0.115, 0.72),
+            (x + k * 0.05, -0.045, 0.56),
+        ]
         path = spline(belt, 40)
         strap = np.stack([path - (0.022, 0, 0), path + (0.022, 0, 0)])
         grid(f"belt {side} {k}", strap, "panel dark")
         post = frame_matrix((x + k * 0.07, -0.255, 1.10), (1, 0, 0), (0, 1, 0))
         kit.lathe([(0.007, -0.05), (0.007, 0.06)], post, "steel", 12)
-    kit.lathe([(0.09, 0), (0.07, 0.05), (0.055, 0.10), (0.055, 0.35)],
-              frame_matrix((x, 0.12, 0), (1, 0, 0), (0, 1, 0)), "panel dark", 28)
+    kit.lathe(
+        [(0.09, 0), (0.07, 0.05), (0.055, 0.10), (0.055, 0.35)],
+        frame_matrix((x, 0.12, 0), (1, 0, 0), (0, 1, 0)),
+        "panel dark",
+        28,
+    )
 
 
 def pedals(kit, side):
@@ -126,14 +185,37 @@ def pedals(kit, side):
         kit.box((0.095, 0.17, 0.014), at, "panel dark", 0.004)
         for row in range(6):
             kit.box((0.085, 0.006, 0.004), shifted(at, 0, -0.062 + 0.025 * row, 0.009), "seal")
-        kit.box((0.03, 0.03, 0.30), frame_matrix((x, 0.90, 0.12), (1, 0, 0), (0, 1, 0)),
-                "panel dark", 0.004)
-    kit.box((0.52, 0.02, 0.55), frame_matrix((side * -EYE[0], 1.0, 0.30), (1, 0, 0), (0, 1, 0)),
-            "panel dark", 0.004)
+        kit.box(
+            (0.03, 0.03, 0.30),
+            frame_matrix((x, 0.90, 0.12), (1, 0, 0), (0, 1, 0)),
+            "panel dark",
+            0.004,
+        )
+    kit.box(
+        (0.52, 0.02, 0.55),
+        frame_matrix((side * -EYE[0], 1.0, 0.30), (1, 0, 0), (0, 1, 0)),
+        "panel dark",
+        0.004,
+    )
 
 
-SYSTEMS = ("ADIRS", "HYD", "FUEL", "ELEC", "AIR COND", "ANTI ICE", "CABIN PRESS", "EXT LT",
-           "APU", "OXYGEN", "FIRE", "CALLS", "RAIN RPLNT", "SIGNS", "INT LT")
+SYSTEMS = (
+    "ADIRS",
+    "HYD",
+    "FUEL",
+    "ELEC",
+    "AIR COND",
+    "ANTI ICE",
+    "CABIN PRESS",
+    "EXT LT",
+    "APU",
+    "OXYGEN",
+    "FIRE",
+    "CALLS",
+    "RAIN RPLNT",
+    "SIGNS",
+    "INT LT",
+)
 
 
 def overhead(kit):
@@ -160,8 +242,12 @@ def system(kit, face, kind):
             at = shifted(face, -0.072 + 0.048 * (i % 4), 0.022 - 0.052 * (i // 4))
             kit.button(at, (0.021, 0.021), "key", 0.005)
             kit.text(("GEN 1", "PUMP", "BLEED", "PACK")[i % 4], shifted(at, 0, 0.0165), 0.0038)
-            kit.text("AUTO" if i % 3 else "OFF", shifted(at, 0, -0.004, 0.0052), 0.0040,
-                     "lit white" if i in (2, ) and kind == 3 else "legend dim")
+            kit.text(
+                "AUTO" if i % 3 else "OFF",
+                shifted(at, 0, -0.004, 0.0052),
+                0.0040,
+                "lit white" if i in (2,) and kind == 3 else "legend dim",
+            )
         kit.line([(-0.072, -0.006), (0.072, -0.006)], face, 0.0014, "legend dim")
     elif kind % 3 == 1:
         for i in range(3):
@@ -171,13 +257,19 @@ def system(kit, face, kind):
         for i in range(4):
             at = shifted(face, -0.066 + 0.044 * i, -0.042)
             kit.button(at, (0.019, 0.019), "key", 0.005)
-            kit.text("ON", shifted(at, 0, -0.003, 0.0052), 0.0044,
-                     "lit green" if i == 1 else "legend dim")
+            kit.text(
+                "ON",
+                shifted(at, 0, -0.003, 0.0052),
+                0.0044,
+                "lit green" if i == 1 else "legend dim",
+            )
     else:
         for i in range(5):
             at = shifted(face, -0.072 + 0.036 * i, 0.014)
             kit.toggle(at, 18 if i % 2 else -18)
-            kit.text(("STROBE", "BEACON", "WING", "NAV", "LAND")[i], shifted(at, 0, 0.024), 0.0036)
+            kit.text(
+                ("STROBE", "BEACON", "WING", "NAV", "LAND")[i], shifted(at, 0, 0.024), 0.0036
+            )
             kit.text("OFF", shifted(at, 0, -0.021), 0.0032)
         for i in range(3):
             kit.knob(shifted(face, -0.058 + 0.058 * i, -0.043, 0, 30 * i), 0.0085, 0.013)

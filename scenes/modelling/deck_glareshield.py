@@ -7,7 +7,7 @@ from deck_shell import windscreen_foot
 from kit import Kit, shifted
 from shapes import box, frame_matrix, grid, spline, stitches, tube
 
-COAMING_HALF = 0.800
+COAMING_HALF = 0.820
 # (y, z) from under the lip, over its roll, to the windscreen; y of the last is the glass.
 LIP = [
     (0.652, 1.003),
@@ -32,7 +32,10 @@ def section(x, count=22):
     lip[:, 1] -= 0.028 * e**2
     foot = windscreen_foot(x)
     back = [
-        (lip[-1, 0] + t * (foot[0] - lip[-1, 0]), lip[-1, 1] + t**1.4 * (foot[1] - lip[-1, 1]))
+        (
+            lip[-1, 0] + t * (foot[0] - lip[-1, 0]),
+            lip[-1, 1] + t**1.4 * (foot[1] - lip[-1, 1]),
+        )
         for t in np.linspace(0, 1, 9)[1:]
     ]
     curve = np.vstack([lip, back])
@@ -47,8 +50,13 @@ def coaming():
         path, normals = rows[:, index], np.tile((0.0, -0.35, 1.0), (len(xs), 1))
         dense, up = spline(path, 500), spline(normals, 500)
         stitches(
-            f"coaming seam {label}", dense + 0.0004 * up, up, "coaming thread",
-            0.0055, 0.0082, 0.0013,
+            f"coaming seam {label}",
+            dense + 0.0004 * up,
+            up,
+            "coaming thread",
+            0.0055,
+            0.0082,
+            0.0013,
         )
     fold = 0.5 * (rows[:, 16] + rows[:, 17])
     tube("coaming fold", fold + (0, 0, 0.0003), 0.0012, "gap", 6)
@@ -143,12 +151,15 @@ def efis_unit(kit, side):
     kit.text("HPA", shifted(face, x + 0.0185, -0.024), 0.0024)
     for i, label in enumerate(("CSTR", "WPT", "VOR", "NDB", "ARPT")):
         lit_button(
-            kit, face, (0.028 - 0.0205 * i) * outer - 0.006 * outer, 0.0185, label,
-            "lit green" if i == 0 else None, (0.0155, 0.0115),
+            kit,
+            face,
+            (0.028 - 0.0205 * i) * outer - 0.006 * outer,
+            0.0185,
+            label,
+            "lit green" if i == 0 else None,
+            (0.0155, 0.0115),
         )
-    for i, (label, marks) in enumerate(
-        (("ROSE  ARC  PLAN", 5), ("10  40  160  320", 6))
-    ):
+    for i, (label, marks) in enumerate((("ROSE  ARC  PLAN", 5), ("10  40  160  320", 6))):
         at = shifted(face, (0.008 - 0.050 * i) * outer, -0.0120)
         kit.knob(shifted(at, turn_deg=35 - 60 * i), 0.0090, 0.017)
         kit.text(label, shifted(at, 0, 0.0150), 0.0024)
@@ -192,7 +203,9 @@ def warning_unit(kit, side):
 def build_glareshield():
     kit = Kit("glareshield")
     underside(kit)
-    kit.box((2 * FACE_HALF + 0.012, 0.0665, 0.006), shifted(FACE, z=-0.001), "panel dark", 0.002)
+    kit.box(
+        (2 * FACE_HALF + 0.012, 0.0665, 0.006), shifted(FACE, z=-0.001), "panel dark", 0.002
+    )
     control_unit(kit)
     for side in (-1, 1):
         efis_unit(kit, side)

@@ -1,4 +1,4 @@
-"""The flight deck's light scenes: skies by place and time, and dim flood lights after sunset."""
+"""The flight deck's light scenes: skies by place and time; dim flood lights after sunset."""
 import json
 import math
 import os
@@ -25,7 +25,10 @@ def sky(when, heading_deg, cloud_top_m=3000, place=None):
 WARM = [1.0, 0.80, 0.56]
 
 # Spot lights under the coaming that wash the main panel; a dome lamp behind the pilots.
-FLOODS = [("panel flood", (x, 0.675, 0.930), (0.0, 0.06, -1.0)) for x in (-0.58, -0.30, 0.0, 0.30, 0.58)]
+FLOODS = [
+    ("panel flood", (x, 0.675, 0.930), (0.0, 0.06, -1.0))
+    for x in (-0.58, -0.30, 0.0, 0.30, 0.58)
+]
 PEDESTAL = ("pedestal flood", (0.0, 0.30, 1.62), (0.0, 0.02, -1.0))
 
 
@@ -93,7 +96,7 @@ def write_scene(folder, name, environment, lights=()):
 
 def write_lights(folder):
     write_scene(folder, "cloud_noon", sky("2026-06-21T12:10+00:00", 70.0))
-    write_scene(folder, "low_sun_left", sky("2026-09-21T06:30+00:00", 206.0))
+    write_scene(folder, "low_sun_left", sky("2026-09-21T06:30+00:00", 200.0))
     write_scene(folder, "dusk", sky("2026-09-21T05:17+00:00", 100.0), lamps(0.25, 2.0))
     night = {"type": "constant", "luminance": 0.001, "color": [0.62, 0.78, 1.0]}
     write_scene(folder, "flight_night", night, lamps(0.03, 0.35))

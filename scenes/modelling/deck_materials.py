@@ -2,7 +2,15 @@
 anti-glare coaming, engraved legends that glow faintly, glass of the windscreens."""
 from materials import MATERIALS, TILE, grey, surface
 
-TILE.update({"coaming": 0.055, "sheepskin": 0.05, "armrest": 0.10, "deck seat": 0.05, "deck carpet": 0.10})
+TILE.update(
+    {
+        "coaming": 0.055,
+        "sheepskin": 0.05,
+        "armrest": 0.10,
+        "deck seat": 0.05,
+        "deck carpet": 0.10,
+    }
+)
 
 DECK = {
     # soft
@@ -14,10 +22,10 @@ DECK = {
     "deck carpet": surface((0.040, 0.046, 0.058), 1.0, normal=("fabric_normal", 1.0)),
     "visor": surface((0.070, 0.085, 0.060), 0.35, ior=1.5),
     # painted and moulded
-    "panel": surface((0.150, 0.160, 0.166), 0.52, ior=1.45),
+    "panel": surface((0.175, 0.182, 0.185), 0.52, ior=1.45),
     "panel dark": surface((0.066, 0.070, 0.073), 0.5, ior=1.45),
-    "lining": surface((0.40, 0.39, 0.365), 0.72, ior=1.45),
-    "lining grey": surface((0.185, 0.195, 0.205), 0.68, ior=1.45),
+    "lining": surface((0.53, 0.52, 0.49), 0.72, ior=1.45),
+    "lining grey": surface((0.285, 0.292, 0.296), 0.68, ior=1.45),
     "bezel": surface((0.042, 0.044, 0.047), 0.45, ior=1.5),
     "key": surface((0.060, 0.062, 0.066), 0.48, ior=1.5),
     "key light": surface((0.17, 0.18, 0.19), 0.5, ior=1.5),
@@ -30,7 +38,7 @@ DECK = {
     "steel": surface((0.60, 0.60, 0.61), 0.30, 1.0),
     "lever": surface((0.66, 0.665, 0.67), 0.34, 1.0),
     "guard red": surface((0.42, 0.028, 0.022), 0.42, ior=1.5),
-    "paper": grey(0.50, 0.85),
+    "paper": grey(0.58, 0.85),
     "ink": grey(0.035, 0.8),
     "compass face": grey(0.020, 0.5),
     # what glows
@@ -44,7 +52,7 @@ DECK = {
     "cockpit glass": surface((0.84, 0.87, 0.85), 0.0, glass=True, ior=1.52),
     "compass glass": surface((0.93, 0.93, 0.93), 0.0, glass=True, ior=1.5),
     "seal": grey(0.020, 0.70),
-    "skin": surface((0.66, 0.665, 0.67), 0.34, 0.0, clearcoat=(1.0, 0.06)),
+    "skin": surface((0.075, 0.078, 0.080), 0.55, ior=1.45),
     "skin dark": grey(0.030, 0.62),
     # displays: (panel, picture, white other viewers show in cd/m2)
     "pfd": grey(0.0, 0.25, display=("ips_cluster.panel", "pfd.png", 450.0)),

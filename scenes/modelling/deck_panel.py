@@ -96,9 +96,7 @@ def panel_face(kit):
         kit.box((b - a, PANEL_HEIGHT, 0.024), at, "panel", 0.002)
         size = (b - a, PANEL_HEIGHT)
         kit.screws(shifted(at, z=0.012), size, 0.009, 0.0032)
-    kit.box(
-        (2 * PANEL_HALF + 0.04, PANEL_HEIGHT + 0.01, 0.01), shifted(PANEL, z=-0.03), "gap"
-    )
+    kit.box((2 * PANEL_HALF + 0.04, PANEL_HEIGHT + 0.01, 0.01), shifted(PANEL, z=-0.03), "gap")
 
 
 def outboard(kit, side):
@@ -178,8 +176,9 @@ def knee_shelf(kit):
         kit.box((wide + 0.03, 0.15, 0.012), below, "panel dark", 0.003)
         for k in (-1, 1):
             vent = shifted(below, k * 0.13, 0, 0.006)
-            kit.lathe([(0.034, 0), (0.034, 0.006), (0.029, 0.008), (0.024, 0.002)], vent,
-                      "bezel", 28)
+            kit.lathe(
+                [(0.034, 0), (0.034, 0.006), (0.029, 0.008), (0.024, 0.002)], vent, "bezel", 28
+            )
 
 
 def build_panel():

@@ -15,7 +15,10 @@ def body(kit):
     count = len(top)
     for side in (-1, 1):
         x = side * PEDESTAL_HALF
-        points = [(x, y, z - 0.002) for y, z in top] + [(x, top[-1][0], 0.0), (x, top[0][0], 0.0)]
+        points = [(x, y, z - 0.002) for y, z in top] + [
+            (x, top[-1][0], 0.0),
+            (x, top[0][0], 0.0),
+        ]
         mesh(f"pedestal side {side}", points, [list(range(count + 2))], "panel dark")
     y, z = top[-1]
     h = PEDESTAL_HALF
@@ -142,8 +145,11 @@ def trim_wheel(kit, x):
         a = 2 * math.pi * k / 24
         c, s = math.cos(a), math.sin(a)
         for z in (0.0, -0.0147):
-            kit.line([(0.078 * c, 0.078 * s), (0.090 * c, 0.090 * s)],
-                     rim @ Matrix.Translation((0, 0, z)), 0.0022)
+            kit.line(
+                [(0.078 * c, 0.078 * s), (0.090 * c, 0.090 * s)],
+                rim @ Matrix.Translation((0, 0, z)),
+                0.0022,
+            )
 
 
 def side_levers(kit):
@@ -167,8 +173,12 @@ def side_levers(kit):
         if side > 0:
             kit.box((0.044, 0.012, 0.022), head, "handle", 0.005)
         else:
-            kit.lathe([(0.006, -0.008), (0.011, -0.004), (0.012, 0.006), (0.009, 0.012)], head,
-                      "handle", 20)
+            kit.lathe(
+                [(0.006, -0.008), (0.011, -0.004), (0.012, 0.006), (0.009, 0.012)],
+                head,
+                "handle",
+                20,
+            )
 
 
 def engine_masters(kit):
@@ -205,8 +215,12 @@ def radio(kit, plane, x, y, title, frequencies):
         key = shifted(face, -0.060 + 0.0215 * k, -0.010)
         kit.button(key, (0.0165, 0.0095), "key", 0.003)
         kit.text(("VHF1", "VHF2", "VHF3", "HF", "AM")[k], shifted(key, z=0.0032), 0.0030)
-        kit.line([(-0.004, 0), (0.004, 0)], shifted(face, -0.060 + 0.0215 * k, -0.0185), 0.001,
-                 "lit green" if k == 0 else "legend dim")
+        kit.line(
+            [(-0.004, 0), (0.004, 0)],
+            shifted(face, -0.060 + 0.0215 * k, -0.0185),
+            0.001,
+            "lit green" if k == 0 else "legend dim",
+        )
     kit.concentric(shifted(face, 0.058, -0.012), 0.013)
 
 
@@ -216,7 +230,10 @@ def radios(kit):
     for row in range(5):
         for side in (-1, 1):
             radio(
-                kit, plane, side * 0.090, 0.176 - 0.084 * row,
+                kit,
+                plane,
+                side * 0.090,
+                0.176 - 0.084 * row,
                 ("VHF / HF", "AUDIO", "NAV", "ATC / TCAS", "WX RADAR")[row],
                 pages[(row + (side > 0)) % 3],
             )

@@ -10,18 +10,28 @@ from mathutils.geometry import tessellate_polygon
 from kit import Kit, shifted
 from shapes import frame_matrix, grid, mesh, place, spline, tube
 
-SILL_Z, TOP_Z = 0.955, 1.485
-SILL = [(0.0, 1.20), (0.80, 0.93), (1.03, 0.22), (1.07, -0.86)]  # (x, y) of the right half
+SILL_Z, TOP_Z = 0.900, 1.485
+# (x, y, z) of the right half; the side windows reach lower, along their rear edges.
+SILL = [
+    (0.0, 1.2454, SILL_Z),
+    (0.8208, 0.9684, SILL_Z),
+    (1.0746, 0.2798, 0.849),
+    (1.116, -0.838, 0.849),
+]
 TOP = [(0.0, 0.7625), (0.60, 0.56), (0.807, -0.079), (0.84, -0.97)]
 DEEP = 0.050  # m from the lining to the pane
 # margins of the windows in their facets: sill, rear post, top, front post
-MARGINS = ((0.030, 0.040, 0.046, 0.036), (0.034, 0.032, 0.046, 0.040), (0.05, 0.20, 0.06, 0.032))
+MARGINS = (
+    (0.030, 0.040, 0.046, 0.036),
+    (0.034, 0.032, 0.046, 0.040),
+    (0.05, 0.20, 0.06, 0.032),
+)
 REAR = -0.86  # y of the rear wall
 
 
 def windscreen_foot(x):
     """(y, z) of the windscreens' sill at x."""
-    return 1.20 - 0.3375 * min(abs(x), 0.80) + 0.006, SILL_Z + 0.004
+    return 1.2454 - 0.3375 * min(abs(x), 0.8208) + 0.006, SILL_Z + 0.004
 
 
 def facet(i, side):
@@ -29,8 +39,8 @@ def facet(i, side):
     a, b = SILL[i], SILL[i + 1]
     c, d = TOP[i + 1], TOP[i]
     corners = [
-        (side * a[0], a[1], SILL_Z),
-        (side * b[0], b[1], SILL_Z),
+        (side * a[0], a[1], a[2]),
+        (side * b[0], b[1], b[2]),
         (side * c[0], c[1], TOP_Z),
         (side * d[0], d[1], TOP_Z),
     ]
@@ -166,7 +176,7 @@ def pane(kit, hole, plane, label):
 
 def post(name, i, side, radius, material, squash):
     """A padded cover along the crease between two facets."""
-    a = np.array([side * SILL[i][0], SILL[i][1], SILL_Z - 0.02])
+    a = np.array([side * SILL[i][0], SILL[i][1], SILL[i][2] - 0.02])
     b = np.array([side * TOP[i][0], TOP[i][1], TOP_Z + 0.02])
     path = [a + (b - a) * t for t in np.linspace(0, 1, 12)]
     inward = Vector((-side if i else 0.0, -0.8, 0.0))
@@ -189,8 +199,12 @@ def roof(side):
     """From the windows' top line over the brow to the middle of the ceiling."""
     top = half_line(TOP, TOP_Z, side)
     brow = [(side * x * 0.97, y - 0.035, TOP_Z + 0.05) for x, y in TOP]
-    high = [(0, 0.56, 1.66), (side * 0.44, 0.42, 1.67), (side * 0.62, -0.12, 1.72),
-            (side * 0.64, -0.97, 1.72)]
+    high = [
+        (0, 0.56, 1.66),
+        (side * 0.44, 0.42, 1.67),
+        (side * 0.62, -0.12, 1.72),
+        (side * 0.64, -0.97, 1.72),
+    ]
     middle = [(0, y, z + 0.03) for x, y, z in high]
     strip(f"brow {side}", [top, brow, high], "lining", side > 0, 10)
     strip(f"ceiling {side}", [high, middle], "lining", side > 0)
@@ -198,12 +212,16 @@ def roof(side):
 
 def walls(side):
     """Below the sill: to the floor; and the rear wall that closes the cabin."""
-    sill = half_line(SILL, SILL_Z, side)
-    floor = [(side * x * 0.86, y, 0.0) for x, y in SILL]
+    sill = [(side * x, y, z) for x, y, z in SILL]
+    floor = [(side * x * 0.86, y, 0.0) for x, y, _ in SILL]
     strip(f"side wall {side}", [sill, floor], "lining grey", side < 0)
     rear = [
-        (0, REAR, 0.0), (side * 1.10, REAR, 0.0), (side * 1.10, REAR, 0.955),
-        (side * 0.84, REAR, 1.485), (side * 0.64, REAR, 1.76), (0, REAR, 1.76),
+        (0, REAR, 0.0),
+        (side * 1.14, REAR, 0.0),
+        (side * 1.14, REAR, 0.849),
+        (side * 0.84, REAR, 1.485),
+        (side * 0.64, REAR, 1.76),
+        (0, REAR, 1.76),
     ]
     mesh(f"rear wall {side}", rear, [list(range(6))], "lining grey")
 
@@ -221,13 +239,15 @@ def nose():
     """The skin in front of the windscreens, falling away to the radome."""
     rows = []
     for t in np.linspace(0, 1, 24):
-        y_middle, z = 1.275 + 1.75 * t, 0.968 - 0.060 * t - 0.42 * t**2.6
+        y_middle, z = 1.320 + 1.75 * t, 0.932 - 0.030 * t - 0.40 * t**2.6
         half = 0.98 * (1 - 0.62 * t**1.7)
         row = []
         for u in np.linspace(-1, 1, 41):
             x = half * u
             sweep = (0.3375 * min(abs(x), 0.80) + 1.3 * max(abs(x) - 0.80, 0)) * (1 - t)
-            row.append((x, y_middle - sweep - 0.22 * t * u * u, z - 0.30 * abs(u) ** 3.0 * (0.12 + t)))
+            row.append(
+                (x, y_middle - sweep - 0.22 * t * u * u, z - 0.30 * abs(u) ** 3.0 * (0.12 + t))
+            )
         rows.append(row)
     grid("nose", np.array(rows), "skin")
     rim = np.array(rows[0])
@@ -239,10 +259,15 @@ def nose():
 def wipers(kit):
     """Parked along the foot of the front panes."""
     for side in (-1, 1):
-        base = np.array([side * 0.10, 1.262, 0.965])
-        tip = np.array([side * 0.64, 1.035, 1.018])
-        tube(f"wiper arm {side}", [base, 0.5 * (base + tip) + (0, 0.01, 0.016), tip], 0.0075,
-             "skin dark", 8)
+        base = np.array([side * 0.10, 1.307, 0.930])
+        tip = np.array([side * 0.64, 1.078, 0.972])
+        tube(
+            f"wiper arm {side}",
+            [base, 0.5 * (base + tip) + (0, 0.01, 0.016), tip],
+            0.0075,
+            "skin dark",
+            8,
+        )
         blade = [tip + (side * 0.02, 0.0, 0.09), tip, tip + (-side * 0.16, 0.06, -0.046)]
         tube(f"wiper blade {side}", spline(blade, 10), 0.005, "skin dark", 8)
         at = frame_matrix(base - (0, 0.01, 0.06), (1, 0, 0), (0, 1, 0))

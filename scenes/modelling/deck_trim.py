@@ -4,7 +4,7 @@ from mathutils import Matrix
 
 from deck_layout import EYE
 from deck_panel import display_quad
-from deck_shell import SILL, SILL_Z, TOP, TOP_Z
+from deck_shell import SILL, TOP, TOP_Z
 from kit import Kit, shifted
 from shapes import frame_matrix, spline, tube
 
@@ -23,16 +23,18 @@ def tablet(kit, side):
         kit.box((0.030, 0.012, 0.018), shifted(at, k * 0.045, -0.104, -0.004), "knob", 0.003)
     back = at @ Matrix.Translation((0, -0.03, -0.024))
     kit.lathe([(0.020, -0.012), (0.022, 0), (0.020, 0.012)], back, "knob", 24)
-    path = spline([back.translation, (side * 0.93, 0.52, 0.955), (side * 0.915, 0.535, 0.905)], 14)
+    path = spline(
+        [back.translation, (side * 0.925, 0.52, 0.925), (side * 0.912, 0.530, 0.835)], 14
+    )
     tube(f"tablet arm {side}", path, 0.011, "stick", 12)
-    foot = frame_matrix((side * 0.915, 0.535, 0.895), (1, 0, 0), (0, 1, 0))
+    foot = frame_matrix((side * 0.912, 0.530, 0.822), (1, 0, 0), (0, 1, 0))
     kit.lathe([(0.032, -0.012), (0.032, 0.006), (0.026, 0.012)], foot, "knob", 28)
 
 
 def sill_gaps(side):
     """The joint between the window frames and the side lining."""
     for i in (1, 2):
-        a, b = np.array([*SILL[i], SILL_Z]), np.array([*SILL[i + 1], SILL_Z])
+        a, b = np.array(SILL[i]), np.array(SILL[i + 1])
         inward = np.array([-0.004, -0.004, -0.004])
         path = [(a + (b - a) * t + inward) * (side, 1, 1) for t in np.linspace(0, 1, 12)]
         tube(f"sill joint {side} {i}", path, 0.0022, "gap", 6)
@@ -53,19 +55,27 @@ def console_boxes(kit, side):
     kit.panel((0.050, 0.022), shifted(top, 0, 0.055), "guard red", 0.003, 0.003)
     kit.text("OXY MASK", shifted(top, 0, 0.055, 0.0033), 0.0055)
     kit.text("PRESS TO TEST", shifted(top, 0, 0.030), 0.0042)
-    kit.lathe([(0.010, 0), (0.010, 0.004), (0.008, 0.005)], shifted(top, 0.03, -0.04), "knob", 24)
+    kit.lathe(
+        [(0.010, 0), (0.010, 0.004), (0.008, 0.005)], shifted(top, 0.03, -0.04), "knob", 24
+    )
     cup = frame_matrix((side * 0.870, -0.085, 0.742), (1, 0, 0), (0, 1, 0))
-    kit.lathe([(0.047, 0), (0.047, 0.006), (0.041, 0.008), (0.040, 0.004), (0.038, -0.045)], cup,
-              "panel dark", 36)
+    kit.lathe(
+        [(0.047, 0), (0.047, 0.006), (0.041, 0.008), (0.040, 0.004), (0.038, -0.045)],
+        cup,
+        "panel dark",
+        36,
+    )
 
 
 def post_details(kit, side):
     """A placard and a vent on the posts between the windows."""
-    a = np.array([side * SILL[1][0], SILL[1][1], SILL_Z])
+    a = np.array([side * SILL[1][0], SILL[1][1], SILL[1][2]])
     b = np.array([side * TOP[1][0], TOP[1][1], TOP_Z])
     spot = a + (b - a) * 0.24 + np.array([-side * 0.020, -0.024, 0.004])
     at = frame_matrix(spot, (0.72, -0.60 * side, 0) if side > 0 else (0.72, 0.60, 0), b - a)
-    kit.lathe([(0.023, -0.012), (0.023, 0.006), (0.019, 0.011), (0.013, 0.004)], at, "bezel", 28)
+    kit.lathe(
+        [(0.023, -0.012), (0.023, 0.006), (0.019, 0.011), (0.013, 0.004)], at, "bezel", 28
+    )
     kit.lathe([(0.0125, 0.002), (0.010, 0.008), (0.004, 0.010)], at, "knob", 20)
 
 
@@ -74,7 +84,9 @@ def clip_boards(kit):
     for side in (-1, 1):
         board = frame_matrix((side * 0.480, 0.590, 0.6440), (1, 0, 0), (0, 0.98, 0.18))
         kit.panel((0.160, 0.105), board, "panel dark", 0.004, 0.005)
-        kit.panel((0.140, 0.098), shifted(board, 0, -0.004, 0.004), "paper", 0.0006, 0.001, 0.0002)
+        kit.panel(
+            (0.140, 0.098), shifted(board, 0, -0.004, 0.004), "paper", 0.0006, 0.001, 0.0002
+        )
         sheet = shifted(board, 0, -0.004, 0.0047)
         for k in range(9):
             wide = 0.050 - 0.012 * ((k * 7) % 4) / 3

@@ -100,8 +100,15 @@ def ladder(ctx, horizon):
         line(ctx, [(CENTRE[0] - half, y), (CENTRE[0] + half, y)], WHITE, 3.5)
         if step % 4 == 0:
             for side in (-1, 1):
-                text(ctx, str(abs(int(degrees))), CENTRE[0] + side * (half + 32), y + 10, 30,
-                     WHITE, FACE)
+                text(
+                    ctx,
+                    str(abs(int(degrees))),
+                    CENTRE[0] + side * (half + 32),
+                    y + 10,
+                    30,
+                    WHITE,
+                    FACE,
+                )
 
 
 def bank_scale(ctx):
@@ -116,8 +123,10 @@ def bank_scale(ctx):
     x, y = CENTRE[0], CENTRE[1] - radius
     polygon(ctx, [(x, y), (x - 17, y - 26), (x + 17, y - 26)], YELLOW)
     ctx.set_line_width(3.5)
-    for points in ([(x, y + 3), (x - 16, y + 26), (x + 16, y + 26)],
-                   [(x - 20, y + 31), (x + 20, y + 31), (x + 23, y + 40), (x - 23, y + 40)]):
+    for points in (
+        [(x, y + 3), (x - 16, y + 26), (x + 16, y + 26)],
+        [(x - 20, y + 31), (x + 20, y + 31), (x + 23, y + 40), (x - 23, y + 40)],
+    ):
         polygon(ctx, points)
         ctx.set_source_rgb(*WHITE)
         ctx.stroke()
@@ -127,8 +136,12 @@ def aircraft_symbol(ctx):
     x, y = CENTRE
     for side in (-1, 1):
         wing = [
-            (x + side * 210, y - 7), (x + side * 96, y - 7), (x + side * 96, y + 32),
-            (x + side * 110, y + 32), (x + side * 110, y + 8), (x + side * 210, y + 8),
+            (x + side * 210, y - 7),
+            (x + side * 96, y - 7),
+            (x + side * 96, y + 32),
+            (x + side * 110, y + 32),
+            (x + side * 110, y + 8),
+            (x + side * 210, y + 8),
         ]
         polygon(ctx, wing, (0.02, 0.02, 0.02))
         polygon(ctx, wing)
@@ -176,9 +189,19 @@ def speed_tape(ctx):
 
 
 def readout(ctx, x, width, string, size):
-    polygon(ctx, [(x, CENTRE[1] - 32), (x + width, CENTRE[1] - 32), (x + width, CENTRE[1] - 12),
-                  (x + width + 16, CENTRE[1]), (x + width, CENTRE[1] + 12),
-                  (x + width, CENTRE[1] + 32), (x, CENTRE[1] + 32)], (0.02, 0.02, 0.025))
+    polygon(
+        ctx,
+        [
+            (x, CENTRE[1] - 32),
+            (x + width, CENTRE[1] - 32),
+            (x + width, CENTRE[1] - 12),
+            (x + width + 16, CENTRE[1]),
+            (x + width, CENTRE[1] + 12),
+            (x + width, CENTRE[1] + 32),
+            (x, CENTRE[1] + 32),
+        ],
+        (0.02, 0.02, 0.025),
+    )
     box(ctx, x, CENTRE[1] - 32, width, 64, (0.02, 0.02, 0.025), YELLOW, 3.5)
     text(ctx, string, x + width - 12, CENTRE[1] + 15, size, GREEN, FACE, align="right")
 
@@ -199,8 +222,16 @@ def altitude_tape(ctx):
     line(ctx, [(x - 8, 226), (x + width, 226)], WHITE, 4)
     line(ctx, [(x - 8, 746), (x + width, 746)], WHITE, 4)
     for dy in (-1, 1):
-        line(ctx, [(x - 12, CENTRE[1] + dy * 24), (x - 12, CENTRE[1] + dy * 60),
-                   (x + 12, CENTRE[1] + dy * 60)], CYAN, 4.5)
+        line(
+            ctx,
+            [
+                (x - 12, CENTRE[1] + dy * 24),
+                (x - 12, CENTRE[1] + dy * 60),
+                (x + 12, CENTRE[1] + dy * 60),
+            ],
+            CYAN,
+            4.5,
+        )
     box(ctx, x + 6, CENTRE[1] - 34, 92, 68, (0.02, 0.02, 0.025))
     text(ctx, "350", x + 92, CENTRE[1] + 16, 44, GREEN, FACE, align="right")
     box(ctx, x + 98, CENTRE[1] - 56, 56, 112, (0.02, 0.02, 0.025), YELLOW, 3.5)
@@ -217,8 +248,11 @@ def altitude_tape(ctx):
 
 def vertical_speed(ctx):
     x = 1102
-    polygon(ctx, [(x, 258), (x + 58, 258), (x + 84, 350), (x + 84, 622), (x + 58, 714),
-                  (x, 714)], DARK)
+    polygon(
+        ctx,
+        [(x, 258), (x + 58, 258), (x + 84, 350), (x + 84, 622), (x + 58, 714), (x, 714)],
+        DARK,
+    )
     for label, dy in (("6", 200), ("2", 150), ("1", 92)):
         for side in (-1, 1):
             y = CENTRE[1] - side * dy
@@ -246,7 +280,9 @@ def heading_tape(ctx):
             continue
         angle = (degrees - heading) - 90
         long = 26 if degrees % 10 == 0 else 14
-        line(ctx, [polar(cx, cy, radius, angle), polar(cx, cy, radius - long, angle)], WHITE, 3.5)
+        line(
+            ctx, [polar(cx, cy, radius, angle), polar(cx, cy, radius - long, angle)], WHITE, 3.5
+        )
         if degrees % 10 == 0:
             ctx.save()
             px, py = polar(cx, cy, radius - 58, angle)
@@ -256,8 +292,14 @@ def heading_tape(ctx):
             text(ctx, str(degrees // 10), 0, 10, 40 if big else 28, WHITE, FACE)
             ctx.restore()
     a = (212 - heading) - 90
-    polygon(ctx, [polar(cx, cy, radius + 2, a), polar(cx, cy, radius + 30, a - 2.6),
-                  polar(cx, cy, radius + 30, a + 2.6)])
+    polygon(
+        ctx,
+        [
+            polar(cx, cy, radius + 2, a),
+            polar(cx, cy, radius + 30, a - 2.6),
+            polar(cx, cy, radius + 30, a + 2.6),
+        ],
+    )
     ctx.set_source_rgb(*CYAN)
     ctx.set_line_width(4.5)
     ctx.stroke()
@@ -302,8 +344,15 @@ NAV_HEADING = 206
 
 def weather(ctx):
     """Echoes of rain: blobs of three levels in range cells, as an antenna sweeps them."""
-    cells = [(-36, 0.78, 0.20, 3), (-27, 0.62, 0.12, 2), (-40, 0.88, 0.11, 1), (5, 0.88, 0.15, 2),
-             (36, 0.80, 0.13, 3), (38, 0.58, 0.11, 1), (31, 0.66, 0.07, 2)]
+    cells = [
+        (-36, 0.78, 0.20, 3),
+        (-27, 0.62, 0.12, 2),
+        (-40, 0.88, 0.11, 1),
+        (5, 0.88, 0.15, 2),
+        (36, 0.80, 0.13, 3),
+        (38, 0.58, 0.11, 1),
+        (31, 0.66, 0.07, 2),
+    ]
     levels = {1: (0.0, 0.42, 0.08), 2: (0.74, 0.66, 0.02), 3: (0.76, 0.06, 0.05)}
     for strength in (1, 2, 3):
         for step in range(-120, 121):
@@ -314,10 +363,18 @@ def weather(ctx):
                 for a, r, size, level in cells:
                     d2 = ((angle - a) * share / 57.3) ** 2 + (share - r) ** 2
                     power += level * math.exp(-d2 / (0.32 * size) ** 2)
-                power *= 1 + 0.30 * math.sin(angle * 1.9 + 3 * share) * math.sin(34 * share + angle)
+                power *= 1 + 0.30 * math.sin(angle * 1.9 + 3 * share) * math.sin(
+                    34 * share + angle
+                )
                 if power > 0.35 + 0.72 * (strength - 1):
-                    ring(ctx, OWN, RANGE_RADIUS * share, 6.6, (angle - 90.3, angle - 89.7),
-                         levels[strength])
+                    ring(
+                        ctx,
+                        OWN,
+                        RANGE_RADIUS * share,
+                        6.6,
+                        (angle - 90.3, angle - 89.7),
+                        levels[strength],
+                    )
 
 
 def rose(ctx):
@@ -331,7 +388,9 @@ def rose(ctx):
             continue
         a = degrees - NAV_HEADING - 90
         long = 24 if degrees % 10 == 0 else 13
-        line(ctx, [polar(*OWN, RANGE_RADIUS, a), polar(*OWN, RANGE_RADIUS + long, a)], WHITE, 3.5)
+        line(
+            ctx, [polar(*OWN, RANGE_RADIUS, a), polar(*OWN, RANGE_RADIUS + long, a)], WHITE, 3.5
+        )
         if degrees % 10 == 0:
             ctx.save()
             ctx.translate(*polar(*OWN, RANGE_RADIUS + 38, a))
@@ -344,15 +403,27 @@ def rose(ctx):
             text(ctx, label, x, y + 8, 27, CYAN, FACE)
     x = OWN[0]
     line(ctx, [(x, OWN[1] - RANGE_RADIUS - 40), (x, OWN[1] - RANGE_RADIUS + 30)], YELLOW, 6)
-    polygon(ctx, [polar(*OWN, RANGE_RADIUS, -84), polar(*OWN, RANGE_RADIUS + 26, -85.4),
-                  polar(*OWN, RANGE_RADIUS + 26, -82.6)])
+    polygon(
+        ctx,
+        [
+            polar(*OWN, RANGE_RADIUS, -84),
+            polar(*OWN, RANGE_RADIUS + 26, -85.4),
+            polar(*OWN, RANGE_RADIUS + 26, -82.6),
+        ],
+    )
     ctx.set_source_rgb(*CYAN)
     ctx.set_line_width(4)
     ctx.stroke()
 
 
-WAYPOINTS = [(0.00, 0.00, ""), (0.035, 0.33, "TOLKA"), (0.02, 0.60, "BRINO"), (0.20, 0.80, "KESTU"),
-             (0.47, 0.92, "OSMAR"), (0.62, 1.12, "")]
+WAYPOINTS = [
+    (0.00, 0.00, ""),
+    (0.035, 0.33, "TOLKA"),
+    (0.02, 0.60, "BRINO"),
+    (0.20, 0.80, "KESTU"),
+    (0.47, 0.92, "OSMAR"),
+    (0.62, 1.12, ""),
+]
 
 
 def spot(dx, ahead):
@@ -371,8 +442,16 @@ def route(ctx):
         ctx.set_line_width(4)
         ctx.stroke()
         text(ctx, name, x + 22, y - 10, 31, color, FACE, align="left")
-    text(ctx, "FL350", spot(0.20, 0.80)[0] + 22, spot(0.20, 0.80)[1] + 34, 27, MAGENTA, FACE,
-         align="left")
+    text(
+        ctx,
+        "FL350",
+        spot(0.20, 0.80)[0] + 22,
+        spot(0.20, 0.80)[1] + 34,
+        27,
+        MAGENTA,
+        FACE,
+        align="left",
+    )
     for dx, ahead, name in ((-0.30, 0.42, "LMR"), (0.36, 0.36, "VDA")):
         x, y = spot(dx, ahead)
         line(ctx, [(x - 14, y), (x + 14, y)], MAGENTA, 4)
@@ -385,8 +464,10 @@ def route(ctx):
 
 def traffic(ctx):
     for dx, ahead, label, color, filled, arrow in (
-        (-0.17, 0.66, "+10", CYAN, False, 1), (0.30, 0.55, "-18", CYAN, True, -1),
-        (-0.44, 0.50, "+21", CYAN, False, 0), (0.17, 0.27, "-07", AMBER, True, 1),
+        (-0.17, 0.66, "+10", CYAN, False, 1),
+        (0.30, 0.55, "-18", CYAN, True, -1),
+        (-0.44, 0.50, "+21", CYAN, False, 0),
+        (0.17, 0.27, "-07", AMBER, True, 1),
     ):
         x, y = spot(dx, ahead)
         if color is AMBER:
@@ -401,8 +482,12 @@ def traffic(ctx):
         if arrow:
             line(ctx, [(x + 28, y + 18), (x + 28, y - 18)], color, 3.5)
             tip = y - 18 * arrow
-            line(ctx, [(x + 20, tip + 11 * arrow), (x + 28, tip), (x + 36, tip + 11 * arrow)],
-                 color, 3.5)
+            line(
+                ctx,
+                [(x + 20, tip + 11 * arrow), (x + 28, tip), (x + 36, tip + 11 * arrow)],
+                color,
+                3.5,
+            )
 
 
 def own_aircraft(ctx):

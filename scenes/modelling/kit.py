@@ -117,9 +117,7 @@ class Kit:
                 (bx + tx - ty, by + ty + tx),
                 (ax - tx - ty, ay - ty + tx),
             ):
-                vertices.append(
-                    ((x - align * width) * height, (y - 0.5) * height, 0.0003)
-                )
+                vertices.append(((x - align * width) * height, (y - 0.5) * height, 0.0003))
             faces.append([base, base + 1, base + 2, base + 3])
         if faces:
             self.add(material, place(vertices, matrix), faces)
@@ -161,9 +159,7 @@ class Kit:
         for sx in (-1, 1):
             for sy in (-1, 1):
                 self.screw(
-                    shifted(
-                        matrix, sx * (0.5 * size[0] - inset), sy * (0.5 * size[1] - inset)
-                    ),
+                    shifted(matrix, sx * (0.5 * size[0] - inset), sy * (0.5 * size[1] - inset)),
                     radius,
                 )
 

@@ -63,7 +63,7 @@ def point(token):
 
 
 def strokes(string):
-    """([((ax, ay), (bx, by)), ...], width) of a line of text; cap height 1, origin lower left."""
+    """([((ax, ay), (bx, by)), ...], width) of a line of text; cap height 1."""
     out, x = [], 0.0
     for letter in string.upper():
         width = NARROW.get(letter, 4.0)

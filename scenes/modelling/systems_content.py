@@ -33,7 +33,14 @@ def arc_gauge(ctx, centre, radius, share, value, limit=0.94, marks=()):
     for s, label in marks:
         a = start + s * span
         line(ctx, [polar(*centre, radius, a), polar(*centre, radius - 20, a)], WHITE, 4)
-        text(ctx, label, *(lambda p: (p[0], p[1] + 9))(polar(*centre, radius - 40, a)), 27, WHITE, FACE)
+        text(
+            ctx,
+            label,
+            *(lambda p: (p[0], p[1] + 9))(polar(*centre, radius - 40, a)),
+            27,
+            WHITE,
+            FACE,
+        )
     a = start + share * span
     line(ctx, [polar(*centre, 0.20 * radius, a), polar(*centre, radius + 4, a)], GREEN, 8)
     bug = start + (share + 0.05) * span
@@ -54,13 +61,19 @@ def small_gauge(ctx, centre, radius, share, value):
 def engines(ctx):
     marks = ((0.22, "5"), (0.80, "10"))
     for x, n1, egt, n2, flow in (
-        (250, 0.735, 0.60, "91.4", "1180"), (774, 0.737, 0.585, "91.5", "1170"),
+        (250, 0.735, 0.60, "91.4", "1180"),
+        (774, 0.737, 0.585, "91.5", "1170"),
     ):
         arc_gauge(ctx, (x, 190), 140, n1, "85.3" if x < 500 else "85.4", marks=marks)
         small_gauge(ctx, (x, 405), 90, egt, "612" if x < 500 else "606")
         text(ctx, n2, x, 534, 44, GREEN, FACE)
         text(ctx, flow, x, 612, 44, GREEN, FACE)
-    for y, name, unit in ((160, "N1", "%"), (380, "EGT", "°C"), (518, "N2", "%"), (596, "FF", "KG/H")):
+    for y, name, unit in (
+        (160, "N1", "%"),
+        (380, "EGT", "°C"),
+        (518, "N2", "%"),
+        (596, "FF", "KG/H"),
+    ):
         text(ctx, name, 512, y, 38, WHITE, FACE)
         text(ctx, unit, 512, y + 36, 30, CYAN, FACE)
     for y in (516, 596):
@@ -91,11 +104,18 @@ def alerts(ctx):
     line(ctx, [(40, 822), (984, 822)], GREY, 4)
     line(ctx, [(690, 834), (690, 1128)], GREY, 4)
     for y, string, color in (
-        (880, "FUEL  R TK PUMP 2 LO PR", AMBER), (928, "  - R TK PUMP 2 ....... OFF", CYAN),
-        (1000, "ENG ANTI ICE", GREEN), (1046, "SEAT BELTS", GREEN), (1092, "LDG LT RETRACTED", GREEN),
+        (880, "FUEL  R TK PUMP 2 LO PR", AMBER),
+        (928, "  - R TK PUMP 2 ....... OFF", CYAN),
+        (1000, "ENG ANTI ICE", GREEN),
+        (1046, "SEAT BELTS", GREEN),
+        (1092, "LDG LT RETRACTED", GREEN),
     ):
         text(ctx, string, 50, y, 37, color, FACE, align="left")
-    for y, string, color in ((880, "ENG A. ICE", GREEN), (928, "WX RADAR", GREEN), (976, "CTR TK FEEDG", GREEN)):
+    for y, string, color in (
+        (880, "ENG A. ICE", GREEN),
+        (928, "WX RADAR", GREEN),
+        (976, "CTR TK FEEDG", GREEN),
+    ):
         text(ctx, string, 712, y, 36, color, FACE, align="left")
     line(ctx, [(40, 1140), (984, 1140)], GREY, 4)
     for x, name, value, unit in ((50, "TAT", "-21", "°C"), (50, "SAT", "-52", "°C")):
@@ -135,8 +155,18 @@ def draw_standby(path):
         line(ctx, [polar(256, 256, 176, a), polar(256, 256, 190, a)], WHITE, 3)
     polygon(ctx, [(256, 82), (246, 100), (266, 100)], YELLOW)
     for side in (-1, 1):
-        polygon(ctx, [(256 + side * 34, 252), (256 + side * 108, 252), (256 + side * 108, 262),
-                      (256 + side * 44, 262), (256 + side * 44, 276), (256 + side * 34, 276)], YELLOW)
+        polygon(
+            ctx,
+            [
+                (256 + side * 34, 252),
+                (256 + side * 108, 252),
+                (256 + side * 108, 262),
+                (256 + side * 44, 262),
+                (256 + side * 44, 276),
+                (256 + side * 34, 276),
+            ],
+            YELLOW,
+        )
     box(ctx, 251, 251, 10, 10, YELLOW)
     for x in (0, 420):
         box(ctx, x, 0, 92, 512, (0.10, 0.11, 0.13))
@@ -182,7 +212,9 @@ def draw_cdu(path):
         size, color = (30, GREEN) if big else (22, WHITE)
         text(ctx, left, 16, y, size, color, FACE, align="left")
         text(ctx, middle, 330, y, size, color, FACE)
-        text(ctx, right, 624, y, size, MAGENTA if big and k < 10 else color, FACE, align="right")
+        text(
+            ctx, right, 624, y, size, MAGENTA if big and k < 10 else color, FACE, align="right"
+        )
     line(ctx, [(10, 402), (630, 402)], GREY, 2)
     box(ctx, 10, 446, 620, 34, DARK)
     text(ctx, "GPS PRIMARY", 20, 474, 29, AMBER, FACE, align="left")
@@ -190,8 +222,17 @@ def draw_cdu(path):
 
 
 SEGMENTS = {
-    "0": "abcdef", "1": "bc", "2": "abged", "3": "abgcd", "4": "fgbc", "5": "afgcd",
-    "6": "afgedc", "7": "abc", "8": "abcdefg", "9": "abfgcd", "-": "g",
+    "0": "abcdef",
+    "1": "bc",
+    "2": "abged",
+    "3": "abgcd",
+    "4": "fgbc",
+    "5": "afgcd",
+    "6": "afgedc",
+    "7": "abc",
+    "8": "abcdefg",
+    "9": "abfgcd",
+    "-": "g",
 }
 
 
@@ -199,8 +240,12 @@ def digit(ctx, x, y, w, h, letter, color):
     """Seven segments, upright."""
     m = y + h / 2
     ends = {
-        "a": ((x, y), (x + w, y)), "b": ((x + w, y), (x + w, m)), "c": ((x + w, m), (x + w, y + h)),
-        "d": ((x, y + h), (x + w, y + h)), "e": ((x, m), (x, y + h)), "f": ((x, y), (x, m)),
+        "a": ((x, y), (x + w, y)),
+        "b": ((x + w, y), (x + w, m)),
+        "c": ((x + w, m), (x + w, y + h)),
+        "d": ((x, y + h), (x + w, y + h)),
+        "e": ((x, m), (x, y + h)),
+        "f": ((x, y), (x, m)),
         "g": ((x, m), (x + w, m)),
     }
     for name in SEGMENTS.get(letter, ""):
@@ -208,7 +253,11 @@ def digit(ctx, x, y, w, h, letter, color):
         tx, ty = (4.5, 0) if ay == by else (0, 4.5)
         line(ctx, [(ax + tx, ay + ty), (bx - tx, by - ty)], color, 8)
     if letter == ".":
-        polygon(ctx, [(x - 6, y + h - 6), (x + 4, y + h - 6), (x + 4, y + h + 4), (x - 6, y + h + 4)], color)
+        polygon(
+            ctx,
+            [(x - 6, y + h - 6), (x + 4, y + h - 6), (x + 4, y + h + 4), (x - 6, y + h + 4)],
+            color,
+        )
 
 
 def draw_windows(path):
@@ -232,19 +281,33 @@ def draw_tablet(path):
     """An enroute chart in its night colours."""
     surface, ctx = page((600, 800))
     box(ctx, 0, 0, 600, 800, LAND)
-    polygon(ctx, [(0, 0), (250, 0), (210, 120), (262, 250), (180, 330), (120, 470), (0, 540)], WATER)
+    polygon(
+        ctx, [(0, 0), (250, 0), (210, 120), (262, 250), (180, 330), (120, 470), (0, 540)], WATER
+    )
     for radius in (90, 150):
         ring(ctx, (330, 430), radius, 2, (0, 360), GREY)
-    routes = [((40, 90), (330, 430)), ((330, 430), (560, 250)), ((330, 430), (470, 760)),
-              ((330, 430), (80, 690)), ((150, 60), (560, 250)), ((470, 760), (560, 250))]
+    routes = [
+        ((40, 90), (330, 430)),
+        ((330, 430), (560, 250)),
+        ((330, 430), (470, 760)),
+        ((330, 430), (80, 690)),
+        ((150, 60), (560, 250)),
+        ((470, 760), (560, 250)),
+    ]
     for a, b in routes:
         line(ctx, [a, b], (0.45, 0.60, 0.72), 3)
         mx, my = 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])
         box(ctx, mx - 26, my - 13, 52, 26, PAPER, (0.45, 0.60, 0.72), 2)
         text(ctx, f"{int(a[0] + b[1]) % 900 + 60}", mx, my + 8, 19, WHITE, FACE)
     line(ctx, [(80, 690), (330, 430), (420, 330), (560, 250)], MAGENTA, 5)
-    for (x, y), name in (((40, 90), "LMR"), ((330, 430), "TOLKA"), ((560, 250), "KESTU"),
-                         ((470, 760), "VDA"), ((80, 690), "NIBEX"), ((420, 330), "BRINO")):
+    for (x, y), name in (
+        ((40, 90), "LMR"),
+        ((330, 430), "TOLKA"),
+        ((560, 250), "KESTU"),
+        ((470, 760), "VDA"),
+        ((80, 690), "NIBEX"),
+        ((420, 330), "BRINO"),
+    ):
         polygon(ctx, [(x, y - 11), (x + 10, y + 8), (x - 10, y + 8)], CYAN)
         text(ctx, name, min(x + 14, 520), y + 28, 22, WHITE, FACE, align="left")
     polygon(ctx, [(206, 545), (216, 574), (206, 567), (196, 574)], YELLOW)
