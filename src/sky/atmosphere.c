@@ -77,14 +77,11 @@ static void fill_light(void *context, int item, int worker)
 
 /* ---- one point ------------------------------------------------------------------------------ */
 
-/* How much of the sun's beam reaches a point; the disc sets behind the floor's edge. */
-static Spectrum beam_at(const Builder *b, double altitude, double cosine)
+/* Transmittance from space to a point; below the floor's edge the edge's own. */
+static Spectrum passing_at(const Builder *b, double altitude, double cosine)
 {
     const AtmosphereInput *in = &b->atmosphere->input;
     double edge = edge_cosine(altitude, in->floor_m);
-    double seen = 0.5 + (acos(fmax(-1, edge)) - acos(fmax(-1, fmin(1, cosine)))) /
-                            (2 * SUN_RADIUS);
-    if (seen <= 0) return spectrum_all(0);
     double y = sqrt(fmax(0, altitude - in->floor_m) / (AIR_TOP_M - in->floor_m)) *
                (COLUMN_HEIGHTS - 1);
     double x = sqrt(fmax(0, fmin(1, (cosine - edge) / (1 - edge)))) * (COLUMN_COSINES - 1);
@@ -98,7 +95,16 @@ static Spectrum beam_at(const Builder *b, double altitude, double cosine)
                              lerpf(high[p], high[p + AIR_PARTS], u), t);
         depth += b->atmosphere->optics.depth[p] * spectrum_all(column);
     }
-    return spectrum_exp(-depth) * spectrum_all((float)fmin(1, seen));
+    return spectrum_exp(-depth);
+}
+
+/* How much of the sun's beam reaches a point; the disc sets behind the floor's edge. */
+static Spectrum beam_at(const Builder *b, double altitude, double cosine)
+{
+    double edge = edge_cosine(altitude, b->atmosphere->input.floor_m);
+    double seen = 0.5 + (acos(edge) - acos(fmax(-1, fmin(1, cosine)))) / (2 * SUN_RADIUS);
+    if (seen <= 0) return spectrum_all(0);
+    return passing_at(b, altitude, cosine) * spectrum_all((float)fmin(1, seen));
 }
 
 static void density_at(const Builder *b, double altitude, float density[AIR_PARTS])
@@ -278,7 +284,7 @@ bool atmosphere_build(const AtmosphereInput *input, Arena *arena, Atmosphere *ou
     parallel_for(input->threads, COLUMN_HEIGHTS, fill_columns, b);
     build_lights(b, &scratch);
     parallel_for(input->threads, 2 * ATMOSPHERE_ROWS, fill_row, b);
-    out->sun_passing = beam_at(b, input->observer_m, sin(input->sun_elevation));
+    out->sun_passing = passing_at(b, input->observer_m, sin(input->sun_elevation));
     Place under = {input->floor_m, 1, sin(input->sun_elevation), 1};
     out->floor_exitance = floor_radiance(b, &under) * spectrum_all(PI_F);
     for (int i = 0; i < SUN_ANGLES; i++) arena_release(&b->arena[i]);
@@ -290,7 +296,8 @@ Spectrum atmosphere_radiance(const Atmosphere *a, float elevation, float azimuth
     bool  below = (double)elevation < a->horizon;
     float horizon = (float)a->horizon, reach = below ? -PI_F / 2 - horizon : PI_F / 2 - horizon;
     float y = safe_sqrtf((elevation - horizon) / reach) * (ATMOSPHERE_ROWS - 1);
-    float x = fabsf(azimuth) / PI_F * (ATMOSPHERE_COLUMNS - 1);
+    float turns = azimuth * (0.5f * INV_PI_F), around = turns - floorf(turns); /* [0, 1) */
+    float x = (around > 0.5f ? 1 - around : around) * 2 * (ATMOSPHERE_COLUMNS - 1);
     y = clampf(y, 0, ATMOSPHERE_ROWS - 1.001f), x = clampf(x, 0, ATMOSPHERE_COLUMNS - 1.001f);
     int   i = (int)y, j = (int)x;
     float t = y - (float)i, u = x - (float)j;
@@ -304,8 +311,11 @@ Spectrum atmosphere_radiance(const Atmosphere *a, float elevation, float azimuth
         aerosol += w * a->aerosol[from[k]];
         sum += w * a->rest[from[k]];
     }
-    float sun = (float)a->input.sun_elevation;
-    float cosine = sinf(elevation) * sinf(sun) + cosf(elevation) * cosf(sun) * cosf(azimuth);
+    float s[3], c[3];
+    sincos_turns(elevation * (0.5f * INV_PI_F), &s[0], &c[0]);
+    sincos_turns((float)a->input.sun_elevation * (0.5f * INV_PI_F), &s[1], &c[1]);
+    sincos_turns(azimuth * (0.5f * INV_PI_F), &s[2], &c[2]);
+    float cosine = s[0] * s[1] + c[0] * c[1] * c[2];
     return sum + molecules * spectrum_all(air_phase_molecules(cosine)) +
            aerosol * spectrum_all(air_phase_aerosol(cosine));
 }

@@ -20,7 +20,7 @@
 typedef struct AtmosphereInput {
     Air    air;              /* pressure: at sea level; ground_albedo: of the floor */
     double observer_m, floor_m; /* above sea level */
-    double sun_elevation;    /* radians, true: without refraction */
+    double sun_elevation;    /* radians, as seen: its light is taken to come straight from there */
     int    threads;
     int    steps;            /* of a ray; 0: 48 */
 } AtmosphereInput;
@@ -29,7 +29,7 @@ typedef struct Atmosphere {
     AtmosphereInput input;
     AirOptics optics;
     double    horizon;      /* elevation of the floor's edge, radians, at most 0 */
-    Spectrum  sun_passing;  /* transmittance from the sun's centre to the observer; 0: hidden */
+    Spectrum  sun_passing;  /* transmittance from the sun's centre to the observer */
     Spectrum  floor_exitance; /* light that the floor under the observer sends up, relative */
     /* [below][row][column]: what molecules and aerosol scatter once, without their phase
      * functions, and the rest; row 0 touches the horizon */

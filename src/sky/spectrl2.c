@@ -155,3 +155,21 @@ Spectrl2 spectrl2(const Air *air, double apparent_zenith_deg, double distance_fa
     }
     return out;
 }
+
+void spectrl2_gases(const Air *air, double apparent_zenith_deg,
+                     double passing_gases[SPECTRL2_COUNT])
+{
+    double m = air_mass(fmin(apparent_zenith_deg, 90));
+    for (int i = 0; i < SPECTRL2_COUNT; i++) {
+        Passing p = passing(&bands[i], air, m, m);
+        passing_gases[i] = p.water * p.mixed;
+    }
+}
+
+double spectrl2_total(const double *value)
+{
+    double sum = 0;
+    for (int i = 1; i < SPECTRL2_COUNT; i++)
+        sum += 0.5 * (value[i] + value[i - 1]) * (bands[i].nm - bands[i - 1].nm);
+    return sum;
+}

@@ -36,6 +36,12 @@ typedef struct Spectrl2 {
 /* distance_factor: 1 / R^2, R in au. */
 Spectrl2 spectrl2(const Air *air, double apparent_zenith_deg, double distance_factor);
 
+/* Transmittance of water vapour and of the mixed gases (oxygen) alone. */
+void spectrl2_gases(const Air *air, double apparent_zenith_deg, double passing[SPECTRL2_COUNT]);
+
+/* W m^-2 of a row of spectral values, 300 to 4000 nm, trapezoids. */
+double spectrl2_total(const double *value);
+
 /* nm of row i. */
 double spectrl2_nm(int i);
 
