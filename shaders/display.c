@@ -53,8 +53,9 @@ bool display_sample(const DisplaySurface *display, Vec3 wo, const float u[3],
     }
     float rest[3] = {u[0], u[1], clampf((u[2] - prob) / (1 - prob), 0, 0x1.fffffep-1f)};
     Vec3  wi;
-    if (!panel_sample(display->panel, wo, rest, &wi) || !(wi.z > 0)) return false;
-    float pdf = (1 - prob) * panel_pdf(display->panel, wo, wi);
+    float pdf;
+    if (!panel_sample(display->panel, wo, rest, &wi, &pdf) || !(wi.z > 0)) return false;
+    pdf *= 1 - prob;
     if (!(pdf > 0)) return false;
     Spectrum f = panel_brdf(display->panel, wo, wi, display->wavelengths);
     *sample = (BsdfSample){.wi = wi, .weight = f * spectrum_all(wi.z / pdf), .pdf = pdf};

@@ -11,6 +11,7 @@ typedef struct PanelCommand {
 } PanelCommand;
 
 static const PanelCommand commands[] = {
+    {"import", "the files that laboratories have as one measurement set", cmd_panel_import},
     {"fit", "measurement files to one compressed panel file", cmd_panel_fit},
     {"info", "what a panel file holds, its sizes and errors", cmd_panel_info},
     {"eval", "what a panel emits or reflects in one direction", cmd_panel_eval},

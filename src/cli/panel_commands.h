@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 
+bool cmd_panel_import(int argc, char **argv, Error *err);
 bool cmd_panel_fit(int argc, char **argv, Error *err);
 bool cmd_panel_info(int argc, char **argv, Error *err);
 bool cmd_panel_eval(int argc, char **argv, Error *err);

@@ -228,22 +228,34 @@ static float tangent(float x)
  *   tan(u0 E / 2) = t det(a, b, e) / ((1 + a.b) + t b.e),
  * which is linear in t. Then the point on the arc from b to c' whose 1 - cosine to b is the
  * part u1 of that of c' (Arvo's second step). All vectors are differences from a or b. */
+GeodesicSampler geodesic_sampler(const GeodesicTriangle *triangle, float area)
+{
+    Vec3 a = triangle->corner[0], b = triangle->corner[1];
+    Vec3 ab = vec3_sub(b, a), ac = vec3_sub(triangle->corner[2], a);
+    Vec3 e = vec3_normalize(vec3_along(ac, a, 0.5f * vec3_dot(ac, ac)));
+    return (GeodesicSampler){.a = a, .b = b, .across = e, .area = area,
+                             .volume = fabsf(vec3_dot(a, vec3_cross(ab, e))),
+                             .span = 2 - 0.5f * vec3_dot(ab, ab), .lean = vec3_dot(ab, e)};
+}
+
+Vec3 geodesic_sampler_draw(const GeodesicSampler *s, float u0, float u1)
+{
+    float tan_half = tangent(0.5f * u0 * s->area);
+    float t = tan_half * s->span / (s->volume - tan_half * s->lean);
+    float scale = 2 * t / (1 + t * t);
+    Vec3  cut = vec3_along(vec3_scale(s->across, scale), s->a, -t * scale); /* c' - a */
+    Vec3  arc = vec3_sub(cut, vec3_sub(s->b, s->a));                        /* c' - b */
+    float height = 0.5f * vec3_dot(arc, arc);                               /* 1 - c'.b */
+    Vec3  across = vec3_normalize(vec3_along(arc, s->b, height));
+    float drop = u1 * height;
+    Vec3  p = vec3_along(vec3_scale(across, sqrtf(drop * (2 - drop))), s->b, 1 - drop);
+    return vec3_normalize(p);
+}
+
 Vec3 geodesic_sample_triangle(const GeodesicTriangle *triangle, float area, float u0, float u1)
 {
-    Vec3  a = triangle->corner[0], b = triangle->corner[1];
-    Vec3  ab = vec3_sub(b, a), ac = vec3_sub(triangle->corner[2], a);
-    Vec3  e = vec3_normalize(vec3_along(ac, a, 0.5f * vec3_dot(ac, ac)));
-    float det = fabsf(vec3_dot(a, vec3_cross(ab, e)));
-    float tan_half = tangent(0.5f * u0 * area);
-    float t = tan_half * (2 - 0.5f * vec3_dot(ab, ab)) / (det - tan_half * vec3_dot(ab, e));
-    float scale = 2 * t / (1 + t * t);
-    Vec3  cut = vec3_along(vec3_scale(e, scale), a, -t * scale); /* c' - a */
-    Vec3  arc = vec3_sub(cut, ab);                               /* c' - b */
-    float height = 0.5f * vec3_dot(arc, arc);                    /* 1 - c'.b */
-    Vec3  across = vec3_normalize(vec3_along(arc, b, height));
-    float drop = u1 * height;
-    Vec3  p = vec3_along(vec3_scale(across, sqrtf(drop * (2 - drop))), b, 1 - drop);
-    return vec3_normalize(p);
+    GeodesicSampler sampler = geodesic_sampler(triangle, area);
+    return geodesic_sampler_draw(&sampler, u0, u1);
 }
 
 Vec2 geodesic_invert_triangle(const GeodesicTriangle *triangle, float area, Vec3 direction)

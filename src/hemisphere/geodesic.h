@@ -141,5 +141,20 @@ uint32_t geodesic_neighbour(int level, uint32_t id, int corner);
  * the corners' angles that stays accurate for small triangles). area: of the triangle, sr. */
 Vec3 geodesic_sample_triangle(const GeodesicTriangle *triangle, float area, float u0, float u1);
 
+/* What geodesic_sample_triangle needs of a triangle that is drawn from again and again. */
+typedef struct GeodesicSampler {
+    Vec3  a, b;   /* corners 0 and 1 */
+    Vec3  across; /* unit, from corner 0 along the arc to corner 2 */
+    float area;   /* sr */
+    float volume; /* |a . (b - a) x across| */
+    float span;   /* 1 + a . b */
+    float lean;   /* (b - a) . across */
+} GeodesicSampler;
+
+GeodesicSampler geodesic_sampler(const GeodesicTriangle *triangle, float area);
+
+/* HOT. The same as geodesic_sample_triangle, bit for bit. */
+Vec3 geodesic_sampler_draw(const GeodesicSampler *sampler, float u0, float u1);
+
 /* The inverse of geodesic_sample_triangle for a direction inside the triangle. */
 Vec2 geodesic_invert_triangle(const GeodesicTriangle *triangle, float area, Vec3 direction);

@@ -1,50 +1,26 @@
+/* HOT: drawing directions. No allocation, no lock, no libm. */
 #include "hemisphere/sampling_tree.h"
 
 #include "base/mathf.h"
 
 #define BELOW_ONE 0x1.fffffep-1f
 
-typedef struct Choice {
-    bool  first;
-    float rest; /* the random number's unused part, in [0, 1) */
-} Choice;
-
-/* Takes a decision of the given probability off a random number. */
-static inline Choice choose(float u, float probability)
+/* Takes a decision off a random number and leaves its unused part, in [0, 1). 1: the second of
+ * the two. Without a branch: the outcome is as good as random. */
+static inline uint32_t second_of_two(float *u, float first_probability)
 {
-    bool  first = u < probability;
-    float rest = first ? u / probability : (u - probability) / (1 - probability);
-    return (Choice){first, rest < BELOW_ONE ? rest : BELOW_ONE};
+    const float low[2] = {0, first_probability};
+    const float width[2] = {first_probability, 1 - first_probability};
+    uint32_t    second = *u < first_probability ? 0u : 1u;
+    float       rest = (*u - low[second]) / width[second];
+    *u = rest < BELOW_ONE ? rest : BELOW_ONE;
+    return second;
 }
 
-static uint32_t choose_child(const SamplingNode *node, float *u0, float *u1)
+static inline uint32_t choose_child(const SamplingChoice *choice, float *u0, float *u1)
 {
-    Choice pair = choose(*u0, node->pair);
-    Choice inside = choose(*u1, node->inside[pair.first ? 0 : 1]);
-    *u0 = pair.rest;
-    *u1 = inside.rest;
-    return (pair.first ? 0u : 2u) + (inside.first ? 0u : 1u);
-}
-
-/* Midpoint of an edge from the cosine of half its length: |a + b| is twice that. */
-static Vec3 edge_middle(Vec3 a, Vec3 b, float half_edge_cos)
-{
-    return vec3_scale(vec3_add(a, b), 0.5f / half_edge_cos);
-}
-
-static void corners_down(const GeodesicEdges *edges, uint32_t child, GeodesicTriangle *t)
-{
-    const float *k = edges->half_cos;
-    Vec3         a = t->corner[0], b = t->corner[1], c = t->corner[2];
-    if (child != 1) t->corner[0] = child == 0   ? edge_middle(b, c, k[0])
-                                   : child == 2 ? edge_middle(a, b, k[2])
-                                                : edge_middle(c, a, k[1]);
-    if (child != 2) t->corner[1] = child == 0   ? edge_middle(c, a, k[1])
-                                   : child == 1 ? edge_middle(a, b, k[2])
-                                                : edge_middle(b, c, k[0]);
-    if (child != 3) t->corner[2] = child == 0   ? edge_middle(a, b, k[2])
-                                   : child == 1 ? edge_middle(c, a, k[1])
-                                                : edge_middle(b, c, k[0]);
+    uint32_t pair = second_of_two(u0, choice->pair);
+    return 2 * pair + second_of_two(u1, choice->inside[pair]);
 }
 
 static uint32_t cell_of(const SamplingTree *tree, Vec3 direction)
@@ -56,38 +32,62 @@ static uint32_t cell_of(const SamplingTree *tree, Vec3 direction)
     return at & ~SAMPLING_CELL;
 }
 
-float sampling_tree_pdf(const SamplingTree *tree, Vec3 direction)
+static float density_of(const SamplingTree *tree, const SamplingMix *mix, uint32_t cell)
 {
-    return direction.z >= 0 ? tree->density[cell_of(tree, direction)] : 0.0f;
+    const float *density = tree->density + (size_t)cell * (size_t)tree->functions;
+    float        sum = 0;
+    for (int i = 0; i < mix->count; i++) sum += mix->weight[i] * density[mix->function[i]];
+    return sum;
+}
+
+float sampling_tree_pdf(const SamplingTree *tree, const SamplingMix *mix, Vec3 direction)
+{
+    return direction.z >= 0 ? density_of(tree, mix, cell_of(tree, direction)) : 0.0f;
+}
+
+static int choose_function(const SamplingMix *mix, float u)
+{
+    int   last = 0;
+    float sum = 0;
+    for (int i = 0; i < mix->count; i++) {
+        if (!(mix->weight[i] > 0)) continue;
+        last = mix->function[i];
+        sum += mix->weight[i];
+        if (u < sum) break;
+    }
+    return last;
+}
+
+static Vec3 mirrored(Vec3 p, bool is_mirrored)
+{
+    return vec3(p.x, is_mirrored ? -p.y : p.y, p.z);
 }
 
 /* A point so near an edge that rounding puts it into the next cell, moved inwards by a part in
- * ten thousand. */
-static Vec3 moved_inwards(const GeodesicTriangle *t, Vec3 p)
+ * ten thousand: the middle of u stands for the inside. */
+static Vec3 moved_inwards(const GeodesicSampler *cell, Vec3 p)
 {
-    Vec3 sum = vec3_add(vec3_add(t->corner[0], t->corner[1]), t->corner[2]);
-    return vec3_normalize(vec3_along(vec3_scale(p, 0.9999f), vec3_normalize(sum), 0.0001f));
+    Vec3 inside = geodesic_sampler_draw(cell, 0.5f, 0.5f);
+    return vec3_normalize(vec3_along(vec3_scale(p, 0.9999f), inside, 0.0001f));
 }
 
-SamplingResult sampling_tree_sample(const SamplingTree *tree, float u0, float u1)
+SamplingResult sampling_tree_sample(const SamplingTree *tree, const SamplingMix *mix,
+                                    const float u[3])
 {
-    uint32_t octant = choose_child(&tree->nodes[0], &u0, &u1), place = 0;
-    uint32_t at = tree->nodes[0].child[octant];
-    int      level = 0;
-    GeodesicTriangle t = {{vec3(octant & 1 ? -1.0f : 1.0f, 0, 0),
-                           vec3(0, octant & 2 ? -1.0f : 1.0f, 0), vec3(0, 0, 1)}};
-    for (; !(at & SAMPLING_CELL); level++) {
-        uint32_t child = choose_child(&tree->nodes[at], &u0, &u1);
-        corners_down(&tree->geodesic->edges[level][place], child, &t);
-        at = tree->nodes[at].child[child];
-        place = 4 * place + child;
-    }
-    Vec3 p = geodesic_sample_triangle(&t, tree->geodesic->areas[level][place], u0, u1);
+    const SamplingChoice *choices =
+        tree->choices + (size_t)choose_function(mix, u[2]) * tree->node_count;
+    float    u0 = u[0], u1 = u[1];
+    uint32_t octant = choose_child(&choices[0], &u0, &u1), at = tree->nodes[0].child[octant];
+    bool     is_mirrored = tree->octants == 2 && octant >= 2;
+    while (!(at & SAMPLING_CELL))
+        at = tree->nodes[at].child[choose_child(&choices[at], &u0, &u1)];
+    at &= ~SAMPLING_CELL;
+    Vec3     p = geodesic_sampler_draw(&tree->cells[at], u0, u1);
     if (!(p.z > 0)) p.z = 0;
-    uint32_t cell = cell_of(tree, p);
-    if (cell != (at & ~SAMPLING_CELL)) {
-        p = moved_inwards(&t, p);
-        cell = cell_of(tree, p);
+    uint32_t found = cell_of(tree, p);
+    if (found != at) {
+        p = moved_inwards(&tree->cells[at], p);
+        found = cell_of(tree, p);
     }
-    return (SamplingResult){p, tree->density[cell]};
+    return (SamplingResult){mirrored(p, is_mirrored), density_of(tree, mix, found)};
 }

@@ -123,6 +123,20 @@ float specular_frame_jacobian(const SpecularFrame *frame, Vec3 stored)
            (1 - frame->offset * e.x) * stretch_at(r, frame->exponent);
 }
 
+Vec3 specular_frame_outer_jacobian(const SpecularFrame *frame, Vec3 stored, float *jacobian)
+{
+    Vec2  p = disk_from_direction(stored), e = unit_or_right(p);
+    float r = clampf(disk_radius(p), 0, 1);
+    Vec2  u = outer_disk(frame, e, r);
+    float outer_r = disk_radius(u);
+    Vec3  outer = direction_from_polar(unit_or_right(u), outer_r);
+    float outer_sine = disk_radius((Vec2){outer.x, outer.y});
+    float stored_sine = disk_radius((Vec2){stored.x, stored.y});
+    *jacobian = sinc(outer_r, outer_sine) / sinc(r, stored_sine) *
+                (1 - frame->offset * e.x) * stretch_at(r, frame->exponent);
+    return outer;
+}
+
 /* The two directions know the sines of their polar angles already. */
 Vec3 specular_frame_stored_jacobian(const SpecularFrame *frame, Vec3 outer, float *jacobian)
 {

@@ -35,5 +35,8 @@ Vec3 specular_frame_outer(const SpecularFrame *frame, Vec3 stored);
  * J goes to 0 at the pole (the peak), where the outer density diverges integrably. */
 float specular_frame_jacobian(const SpecularFrame *frame, Vec3 stored);
 
-/* Both at once for a unit outer direction, in little more time than the first alone. */
+/* specular_frame_outer and specular_frame_jacobian at once, for a unit stored direction. */
+Vec3 specular_frame_outer_jacobian(const SpecularFrame *frame, Vec3 stored, float *jacobian);
+
+/* specular_frame_stored and its Jacobian at once for a unit outer direction, in little more time than the first alone. */
 Vec3 specular_frame_stored_jacobian(const SpecularFrame *frame, Vec3 outer, float *jacobian);

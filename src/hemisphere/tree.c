@@ -3,11 +3,15 @@
 #include <math.h>
 #include <string.h>
 
+#include "hemisphere/tree_query.h"
+#include "hemisphere/vertex_view.h"
+
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "blobs are little-endian in place");
 _Static_assert(sizeof(TreeHeader) == 56 && sizeof(TreeNode) == 8, "the blob's layout");
 
 size_t tree_size(const void *blob)
 {
+    if (*(const uint32_t *)blob == VERTEX_MAGIC) return ((const VertexHeader *)blob)->size;
     return ((const TreeHeader *)blob)->size;
 }
 
@@ -170,6 +174,8 @@ bool tree_open(const void *blob, size_t size, const Geodesic *geodesic, Tree *ou
     if ((uintptr_t)blob % 8 != 0)
         return error_set(err, ERROR_INPUT,
                          "tree: stands at an address that is no multiple of 8");
+    if (size >= sizeof(uint32_t) && *(const uint32_t *)blob == VERTEX_MAGIC)
+        return vertex_tree_open(blob, size, geodesic, out, err);
     if (size < sizeof(TreeHeader))
         return refuse(err, "number of bytes", (double)size, sizeof(TreeHeader));
     const TreeHeader *header = blob;
@@ -244,6 +250,11 @@ void tree_expand(const Tree *tree, float *leaves, Arena scratch)
 {
     HaarShape shape = {tree->level, tree->octants, tree->components, tree->weights};
     size_t    components = (size_t)tree->components;
+    if (tree->basis == TREE_VERTEX) {
+        for (uint32_t i = 0; i < haar_leaf_count(&shape); i++)
+            tree_interpolate(tree, geodesic_center(tree->level, i), leaves + i * components);
+        return;
+    }
     memset(leaves, 0, haar_leaf_count(&shape) * components * sizeof(float));
     for (size_t q = 0; q < (size_t)tree->octants; q++)
         memcpy(leaves + (q << 2 * tree->level) * components,

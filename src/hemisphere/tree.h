@@ -1,4 +1,7 @@
-/* tree.h -- a vector-valued function on the hemisphere as a compressed Haar tree.
+/* tree.h -- a vector-valued function on the hemisphere as a compressed tree.
+ *
+ * Two bases stand behind one view: Haar trees (this header) and vertex trees (vertex_tree.h).
+ * tree_open and tree_query.h take either; the blob's magic number says which one it is.
  *
  * tree_build transforms leaf values (haar.h), keeps the details that matter most, and writes
  * them as one blob: little-endian, offsets instead of pointers, to be stored in a file, mapped
@@ -85,15 +88,32 @@ typedef struct TreeRow {
     uint32_t offset;
 } TreeRow;
 
+typedef enum TreeBasis { TREE_HAAR = 0, TREE_VERTEX = 1 } TreeBasis;
+
 /* A checked blob, ready for queries. Plain views into the blob and the geodesic. */
 typedef struct Tree {
     const Geodesic *geodesic;
+    TreeBasis       basis;
+    int             level, octants, components;
+
+    /* Of vertex trees (vertex_tree.h). */
+    int                       base_level, level_count, plane_level;
+    float                     base_factor; /* 2^base_exponent */
+    const float              *scale;       /* of each component */
+    const struct VertexLevel *levels;
+    const uint32_t           *words;
+    const uint16_t           *ranks;
+    const uint8_t            *depths;
+    const uint64_t           *blocks;
+    const int16_t            *base;
+    const uint8_t            *details;
+
+    /* Of Haar trees. */
     const TreeNode *nodes;
     const float    *means;  /* octants x stride */
     const float    *scales; /* level x stride, integer rows only; else NULL */
     const TreeRow  *row_table; /* row_count, blocks only; else NULL */
     const void     *rows;   /* 16-bit rows before 8-bit rows */
-    int             level, octants, components;
     int             stride; /* components; of blocks: rounded up to whole ones */
     HaarWeights     weights;
     TreeRowFormat   format;
@@ -107,12 +127,12 @@ typedef struct Tree {
 bool tree_build(const TreeOptions *options, const float *leaves, Arena *arena,
                 const void **blob, TreeReport *report, Error *err);
 
-/* Bytes of a blob that tree_build made. */
+/* Bytes of a blob that tree_build or vertex_tree_build made. */
 size_t tree_size(const void *blob);
 
 /* Checks every count, offset, index and finite number of a blob from anywhere, so that no query
- * can leave its `size` bytes, and makes the view. geodesic->level must be at least the tree's.
- * Fails (ERROR_INPUT) naming what is wrong. */
+ * can leave its `size` bytes, and makes the view. geodesic->level must be at least the tree's
+ * (a vertex tree's vertex_plane_level). Fails (ERROR_INPUT) naming what is wrong. */
 bool tree_open(const void *blob, size_t size, const Geodesic *geodesic, Tree *out, Error *err);
 
 /* Components with their padding: what separates octant means, and levels of scales. */
@@ -130,5 +150,6 @@ static inline size_t tree_row_offset(const Tree *tree, uint32_t row)
                                 : components * ((size_t)tree->byte_row + row);
 }
 
-/* Inverts the whole tree: haar_leaf_count x components floats. */
+/* Inverts the whole tree: haar_leaf_count x components floats (of a vertex tree: its values at
+ * the leaves' centres). */
 void tree_expand(const Tree *tree, float *leaves, Arena scratch);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/mathf.h"
+#include "hemisphere/vertex_view.h"
 
 typedef float Float4 __attribute__((vector_size(16)));
 
@@ -84,6 +85,10 @@ static uint32_t step_down(const Tree *tree, uint32_t index, int level, uint32_t 
 
 void tree_walk_mean(const Tree *tree, int level, Vec3 direction, TreeTaps *taps)
 {
+    if (tree->basis == TREE_VERTEX) {
+        vertex_tree_walk(tree, level, direction, taps);
+        return;
+    }
     GeodesicWalk walk = geodesic_walk_start(direction);
     uint32_t     index = octant_in_tree(tree, walk.octant);
     start_taps(taps);
@@ -96,6 +101,10 @@ void tree_walk_mean(const Tree *tree, int level, Vec3 direction, TreeTaps *taps)
 
 void tree_walk_triangle(const Tree *tree, int level, uint32_t id, TreeTaps *taps)
 {
+    if (tree->basis == TREE_VERTEX) {
+        vertex_tree_walk(tree, level, geodesic_center(level, id), taps);
+        return;
+    }
     uint32_t index = octant_in_tree(tree, id >> 2 * level);
     uint32_t place = id & ((1u << 2 * level) - 1);
     start_taps(taps);
@@ -368,6 +377,10 @@ static bool walk_to_leaf(const Tree *tree, Path *path, TreeTaps *taps)
  * Else the taps below it are made anew, for every leaf. */
 void tree_walk_interpolated(const Tree *tree, Vec3 direction, TreeTaps *taps)
 {
+    if (tree->basis == TREE_VERTEX) {
+        vertex_tree_walk(tree, tree->level, direction, taps);
+        return;
+    }
     Path path = {.walk = geodesic_walk_start(direction)};
     path.walk.octant = octant_in_tree(tree, path.walk.octant);
     start_taps(taps);

@@ -15,7 +15,9 @@
  * more that is written before it is known whether it is kept. */
 #define TREE_MAX_TAPS (3 * 11 * GEODESIC_MAX_LEVEL + 1)
 
-/* A value as a weighted sum of a tree's octant means and rows. */
+/* A value as a weighted sum of a tree's octant means and rows. Of a vertex tree: the first three
+ * rows are base rows, the others' numbers are the places of details in bytes, and weights hold
+ * the powers of two that details are multiplied by. */
 typedef struct TreeTaps {
     int      count;
     float    mean_weight[4]; /* of the octant means */
@@ -25,13 +27,18 @@ typedef struct TreeTaps {
 } TreeTaps;
 
 /* The mean over the triangle of `level` around the direction (level of detail); level =
- * tree->level is the leaf's value. With area weights it is the exact mean of the tree. */
+ * tree->level is the leaf's value. With area weights it is the exact mean of the tree. A vertex
+ * tree has no means: it answers with the interpolation between the vertices of `level` (of its
+ * base level at least), which is smooth too but filters nothing; at level = tree->level that is
+ * the value. */
 void tree_walk_mean(const Tree *tree, int level, Vec3 direction, TreeTaps *taps);
 
-/* The same for a triangle's id (of 2-octant trees: ids of octants 2, 3 are folded). */
+/* The same for a triangle's id (of 2-octant trees: ids of octants 2, 3 are folded; of vertex
+ * trees: at its centre). */
 void tree_walk_triangle(const Tree *tree, int level, uint32_t id, TreeTaps *taps);
 
-/* Continuous interpolation of the leaves: a leaf's centre keeps the leaf's value, each corner
+/* Continuous interpolation. Of a vertex tree: barycentric between the vertices around. Of a
+ * Haar tree, between its leaves: a leaf's centre keeps the leaf's value, each corner
  * takes the area mean of the leaves around it, linear in between (over the three triangles
  * between centre and corners, in barycentric coordinates). Reproduces constants. */
 void tree_walk_interpolated(const Tree *tree, Vec3 direction, TreeTaps *taps);

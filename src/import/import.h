@@ -15,6 +15,9 @@
 #include "base/error.h"
 
 #define IMPORT_TABLES_MAX 4096
+#define IMPORT_NOTES_MAX 64
+#define IMPORT_FILE_BYTES_MAX ((size_t)1 << 30) /* for file_read: no foreign file is larger */
+#define IMPORT_ROWS_MAX 8000000 /* directions of one table */
 
 typedef enum ImportSource {
     IMPORT_RED, IMPORT_GREEN, IMPORT_BLUE, IMPORT_BLACK, IMPORT_WHITE, /* emission: XYZ */
@@ -29,32 +32,54 @@ typedef struct ImportTable {
     double        incidence_phi_deg; /* reflection: the light's azimuth, [0, 360); 180: isotropic
                                         data, or the only azimuth measured */
     int           rows, channels;    /* channels: 3 (X, Y, Z), or wavelength_count */
-    const float  *wavelength_nm;     /* reflection: channels of them, rising */
-    const double *theta_deg, *phi_deg; /* rows */
+    char          component;         /* emission: 0, or one of 'X', 'Y', 'Z' with one channel: files
+                                        of the same source and level are joined */
+    const float  *wavelength_nm;     /* reflection: channels of them, rising. Tables of the same
+                                        light and directions at other wavelengths are joined */
+    const double *theta_deg, *phi_deg; /* rows; theta in [0, 90], any phi */
     const double *value;             /* rows x channels */
     int           masked;            /* directions that the file marks as not measured: left out */
+    const double *masked_theta_deg, *masked_phi_deg; /* masked of them, or NULL: not told */
 } ImportTable;
 
+/* Spectra of the primaries, relative. */
+typedef struct ImportSpectra {
+    int           rows;     /* 0: none */
+    const double *nm;       /* rising */
+    const double *value[4]; /* red, green, blue, black (may be NULL) */
+} ImportSpectra;
+
 typedef struct ImportSet {
-    Arena       *arena;
-    ImportTable *table;              /* room for IMPORT_TABLES_MAX */
-    int          count;
-    bool         is_anisotropic;     /* reflection depends on the light's azimuth */
-    const char  *panel, *instrument; /* names for the manifest; NULL: the file's */
-    const char  *note[64];           /* one line each: what was assumed, converted, left out */
-    int          note_count;
+    Arena        *arena;
+    ImportTable  *table;             /* room for IMPORT_TABLES_MAX */
+    int           count;
+    bool          is_anisotropic;    /* reflection depends on the light's azimuth */
+    const char   *panel, *instrument; /* names for the manifest; NULL: the file's */
+    ImportSpectra spectra;
+    const char   *note[IMPORT_NOTES_MAX]; /* one line each: assumed, converted, left out */
+    int           note_count;
 } ImportSet;
 
 ImportSet import_set(Arena *arena);
 
-/* Copies the table's fields (not its arrays) into the set. */
+/* Copies the table's fields (not its arrays) into the set. Refuses angles out of range, numbers
+ * that are not finite, wavelengths that do not rise. */
 bool import_add(ImportSet *set, const ImportTable *table, Error *err);
+
+/* A note that stands there already is not repeated. */
 void import_note(ImportSet *set, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Writes the tables beside MANIFEST.json (folders emission/ and brdf/), then the manifest; checks
- * first that the tables make a set (red, green and blue or white; every incidence with the same
- * wavelengths; a full grid of incidences and azimuths). Nothing half-written stays. */
+/* Makes of the tables a set: joins X, Y and Z and wavelengths that lie in several tables, takes
+ * the mean where one direction stands twice, gives normal incidence to every azimuth of the
+ * light, and checks what import_write needs. */
+bool import_complete(ImportSet *set, Error *err);
+
+/* Writes the tables beside MANIFEST.json (folders emission/ and brdf/), then the manifest. The
+ * set is complete. Nothing half-written stays. */
 bool import_write(const ImportSet *set, const char *manifest, Error *err);
+
+/* The file's name of a table in the set: "emission/red_031.csv", "brdf/i30_a180.csv". */
+const char *import_table_file(const ImportSet *set, const ImportTable *table, Arena *arena);
 
 /* ---- what the user declared ---------------------------------------------------------------- */
 
@@ -73,5 +98,8 @@ typedef struct Importer {
     bool (*read)(const char *file, const ImportOptions *options, ImportSet *set, Error *err);
 } Importer;
 
-/* All importers, in the order in which they are asked; ends with a NULL name. */
+/* All importers (importers.c), in the order in which they are asked; ends with a NULL. */
 extern const Importer *const importers[];
+
+/* Reads a file with the importer that --format names, or that recognises it. */
+bool import_file(const char *file, const ImportOptions *options, ImportSet *set, Error *err);

@@ -126,6 +126,17 @@ static bool choose_frame(const FitParts *parts, FitOptions *options, Error *err)
     return true;
 }
 
+/* How the reflection is sampled follows from what it says when it is queried. */
+static bool sample_reflection(const FitParts *parts, FitReflection *reflection, Arena *arena,
+                              Error *err)
+{
+    size_t size;
+    Panel *panel;
+    void  *bytes = fit_file_bytes(parts, "{}", arena, &size);
+    return panel_from_bytes(bytes, size, "panel", arena, &panel, err) &&
+           fit_sampling(panel, arena, parts->notes, reflection, err);
+}
+
 /* Haze, floor and mirror of parts->set into *reflection. */
 static bool fit_all_reflection(FitParts *parts, FitReflection *reflection, Arena *arena,
                                Error *err)
@@ -134,7 +145,8 @@ static bool fit_all_reflection(FitParts *parts, FitReflection *reflection, Arena
     parts->reflection = reflection;
     fit_separate(parts->set, arena, parts->notes, reflection);
     return choose_frame(parts, &options, err) &&
-           fit_reflection(parts->set, &options, arena, parts->notes, reflection, err);
+           fit_reflection(parts->set, &options, arena, parts->notes, reflection, err) &&
+           sample_reflection(parts, reflection, arena, err);
 }
 
 /* A fit takes a while: whether its file can be made is found out first. */

@@ -16,12 +16,18 @@
 #include "hemisphere/wavelet1d.h"
 #include "panel/measurement.h"
 
+typedef enum FitBasis { FIT_VERTEX = 0, FIT_HAAR = 1 } FitBasis; /* on the hemisphere */
+
 /* Exactly one of keep_share and max_error is above 0; the others have 0 for "choose". */
 typedef struct FitOptions {
     int         level;      /* of the trees; 0: 6, cells of 1.1 degrees */
     float       keep_share; /* stored rows over leaves, (0, 1] */
     float       max_error;  /* relative, of each tree component */
-    WaveletKind wavelet;    /* along the wavelengths */
+    float       bound;      /* relative error allowed at every measured sample; 0: 2 %, and
+                               2.5 % of noisy tables. Noise allows its own 5 sigma anyway */
+    FitBasis    basis;
+    bool        has_wavelet; /* along the wavelengths; else a few principal spectra */
+    WaveletKind wavelet;
     HaarWeights weights;
     float       frame_exponent; /* k of the specular-following frame; 0: choose */
     bool        is_linear_in_incidence; /* over two slices instead of cubic over four */

@@ -36,15 +36,42 @@ typedef struct FitEmission {
 bool fit_emission(const Measurement *set, const FitOptions *options, Arena *arena,
                   FitNotes *notes, FitEmission *out, Error *err);
 
-/* ---- noise ------------------------------------------------------------------------------ */
+/* ---- noise, outliers ------------------------------------------------------------------- */
 
-/* Relative noise of a table's channel inside 70 degrees: the median of third differences along
- * the rings, or along the meridians of a table that has but a few azimuths. 0: cannot tell. */
+/* Relative noise of a table's channel inside 70 degrees: the median of high differences along
+ * the rings or the meridians, whichever says less. 0: cannot tell. */
 double fit_noise(const AngleTable *table, int channel, Arena scratch);
 
 /* Noise in the channel's unit on the dimmest rings, where only what does not scale with light
  * is left. */
 double fit_dim_noise(const AngleTable *table, int channel, Arena scratch);
+
+/* Per row: the one before it on its ring, and the one at the same azimuth on the ring inside;
+ * -1: none, or too far. */
+typedef struct FitNeighbours {
+    const int *ring, *inner;
+} FitNeighbours;
+void fit_neighbours(const AngleTable *table, Arena *arena, FitNeighbours *out);
+
+/* A direction of a table that stands out, or is missing. */
+typedef struct FitFlag {
+    const char *table;
+    double      theta, phi;      /* radians */
+    double      value, expected; /* Y, cd m^-2 */
+} FitFlag;
+
+#define FIT_FLAGS_MAX 4096
+typedef struct FitFlags {
+    FitFlag *flag;  /* room for FIT_FLAGS_MAX */
+    int      count; /* may be more than are listed */
+} FitFlags;
+
+/* Rows of an XYZ table that no neighbour explains: is_outlier[row]. Returns how many. */
+int fit_find_outliers(const AngleTable *table, uint8_t *is_outlier, FitFlags *flags,
+                      Arena scratch);
+
+/* Directions that the table's grid lacks. */
+int fit_find_holes(const AngleTable *table, FitFlags *flags, Arena scratch);
 
 /* For qsort: doubles, rising. */
 int fit_by_value(const void *a, const void *b);
@@ -68,7 +95,8 @@ typedef struct FitReflection {
     float          *basis, *mirror, *profile; /* as in the file */
     const void     *tree;
     TreeReport      tree_report;
-    const void     *sampling[PANEL_SLICES_MAX];
+    const void     *sampling; /* the section's bytes; NULL: not yet built */
+    size_t          sampling_size;
     AngleTable      haze[MEASUREMENT_INCIDENCES_MAX]; /* what is left without the mirror */
     double          noise[MEASUREMENT_INCIDENCES_MAX];
     double          reflectance[MEASUREMENT_INCIDENCES_MAX][MEASUREMENT_WAVELENGTHS_MAX];
@@ -115,6 +143,13 @@ FitPlaces fit_places(int level, int octants, Arena *arena);
 float *fit_profile(const FitPlaces *places, float *values, int components, int harmonics,
                    Arena *arena);
 
+/* ---- sampling --------------------------------------------------------------------------- */
+
+/* Third step, once the panel's reflection can be queried: the PANEL_SAMPLING section into
+ * *reflection, from what `panel`, which has none yet, says itself. */
+bool fit_sampling(const Panel *panel, Arena *arena, FitNotes *notes, FitReflection *reflection,
+                  Error *err);
+
 /* ---- the file and the report ----------------------------------------------------------- */
 
 typedef struct FitParts {
@@ -126,8 +161,42 @@ typedef struct FitParts {
     FitNotes             *notes;
 } FitParts;
 
+/* Sections are written one after the other, each of pieces that follow each other. */
+typedef struct FitPiece {
+    const void *data;
+    size_t      size;
+} FitPiece;
+
+typedef struct FitWriter FitWriter;
+void fit_write_section(FitWriter *writer, PanelSectionKind kind, uint32_t index,
+                       const FitPiece *piece, int pieces);
+void fit_write_reflection(FitWriter *writer, const FitReflection *reflection);
+
 /* The file's bytes with this meta text; *size bytes in the arena, aligned to 64. */
 void *fit_file_bytes(const FitParts *parts, const char *meta, Arena *arena, size_t *size);
+
+/* Deviations of a panel from a table, summed up. */
+typedef struct FitErrors {
+    double max, squares, count, integral, integral_source;
+    double l2, l2_source; /* of the values themselves, cosine-weighted */
+} FitErrors;
+
+Vec3 fit_row_direction(const AngleTable *table, int row);
+
+/* A row's share of the hemisphere, up to a factor: rings and azimuths are about even. */
+double fit_row_weight(const AngleTable *table, int row);
+
+/* scale: what the error is relative to. */
+void fit_add_error(FitErrors *errors, double found, double wanted, double scale, double weight);
+void fit_finish_errors(const FitErrors *errors, FitTable *out);
+
+/* One more row of the report, and into its total. */
+void fit_add_table(json_t *tables, FitTable *total, const FitTable *one);
+
+/* The reflection's rows, and what was chosen for it as "reflection" in *out. */
+void fit_report_reflection_tables(const FitParts *parts, const Panel *panel, json_t *tables,
+                                  FitTable *total);
+void fit_report_reflection(const FitParts *parts, const Panel *panel, json_t *out);
 
 /* Compares the panel with the tables; a new JSON document. */
 json_t *fit_measure(const FitParts *parts, const Panel *panel, size_t file_bytes);

@@ -8,7 +8,6 @@
 #include "panel/fit_parts.h"
 
 #define DEFAULT_LEVEL 6
-#define SAMPLING_CELLS 512
 
 /* What happens in one fit, with everything that its steps share. */
 typedef struct Work {
@@ -406,37 +405,6 @@ static bool build_tree(Work *work, const int *index, int count, const float *lar
                       err) || error_prefix(err, "reflection");
 }
 
-/* ---- sampling -------------------------------------------------------------------------- */
-
-/* One tree a slice on the luminous mean of f cos theta_o, a little of it uniform so that every
- * direction and wavelength can be chosen. Reads ln (f / F): before transform_spectra. */
-static bool build_sampling(Work *work, Error *err)
-{
-    SamplingOptions options = {work->places.level, 2, SAMPLING_CELLS, 0.02f};
-    float *integral = ARENA_NEW(work->arena, float, work->leaves);
-    for (int s = 0; s < work->slices; s++) {
-        bool   flip = work->out->head.slice_theta[s] < 0;
-        double theta = fabs((double)work->out->head.slice_theta[s]);
-        SpecularFrame frame = specular_frame((float)theta, work->k);
-        for (int i = 0; i < work->leaves; i++) {
-            int    from = flip ? (i + work->leaves / 2) % work->leaves : i;
-            Vec3   outer = specular_frame_outer(&frame, work->places.direction[i]);
-            double sum = 0;
-            const float *logs = work->logs[s] + (size_t)from * (size_t)work->wavelengths;
-            for (int w = 0; w < work->wavelengths; w++)
-                sum += work->out->luminous[w] * exp((double)logs[w]);
-            double jacobian =
-                (double)specular_frame_jacobian(&frame, work->places.direction[i]);
-            integral[from] = (float)(sum * fmax(0, (double)outer.z) * work->places.area[i] *
-                                     jacobian);
-        }
-        if (!sampling_tree_build(&options, integral, work->arena, &work->out->sampling[s], err))
-            return error_prefix(err, "sampling of the slice at %.0f degrees",
-                                degrees_from_radians(theta));
-    }
-    return true;
-}
-
 /* ---- all of it ------------------------------------------------------------------------- */
 
 static void start_work(Work *work)
@@ -476,7 +444,6 @@ bool fit_reflection(const Measurement *set, const FitOptions *options, Arena *ar
     double edge = 0.5 * PI;
     for (int i = 0; i < work->measured; i++) edge = fmin(edge, (double)set->brdf[i].theta_max);
     out->head.cone_cos = (float)fmax(0, cos(edge));
-    if (!build_sampling(work, err)) return false;
     transform_spectra(work, energy);
     double tolerance = options->max_error > 0 ? (double)options->max_error : 3e-3;
     tolerance = fmax(tolerance, 2 * largest_noise(out, work->measured));

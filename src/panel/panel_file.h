@@ -1,6 +1,6 @@
 /* panel_file.h -- the layout of X.panel and of an opened Panel. Private to src/panel.
  *
- * Little-endian. A header, a table of contents, then the sections, each at a multiple of 64
+ * Little-endian. A header, a table of contents, then the sections, each at a multiple of 8
  * bytes; no pointers, so that a mapped file is queried in place. The checksum (XXH3, 64 bits)
  * covers everything behind itself. The version changes whenever a struct below does.
  */
@@ -11,12 +11,14 @@
 #include "hemisphere/sampling_tree.h"
 #include "hemisphere/tree.h"
 #include "panel/panel.h"
+#include "panel/panel_spline.h"
 #include "spectrum/spectral_table.h"
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "files are queried in place");
 
 #define PANEL_MAGIC "PHPANEL\n"
-#define PANEL_VERSION 2u
+#define PANEL_VERSION 3u
+#define PANEL_ALIGN 8 /* of sections, bytes */
 #define PANEL_SECTIONS_MAX 64
 #define PANEL_LEVELS_MAX 64
 #define PANEL_SLICES_MAX 40
@@ -29,51 +31,102 @@ _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "files are queried in 
 
 typedef struct PanelHeader {
     char     magic[8]; /* PANEL_MAGIC, without its zero */
-    uint32_t version, header_size;
-    uint64_t size;     /* of the file */
-    uint64_t checksum; /* of the bytes from section_count on */
-    uint32_t section_count, flags; /* flags: 0 */
-    uint64_t reserved[3];          /* 0 */
+    uint32_t version, flags; /* flags: 0 */
+    uint64_t checksum;       /* of the bytes from size on */
+    uint64_t size;           /* of the file */
+    uint32_t section_count, reserved; /* reserved: 0 */
 } PanelHeader;
 
 typedef enum PanelSectionKind {
     PANEL_META = 1,            /* JSON text: names, source, reports */
-    PANEL_EMISSION = 2,        /* PanelEmission, means, loadings, luminances */
+    PANEL_EMISSION = 2,        /* PanelEmissionHead and what follows it */
     PANEL_EMISSION_TREE = 3,
-    PANEL_PRIMARIES = 4,       /* PanelPrimaries */
+    PANEL_PRIMARIES = 4,       /* PanelPrimariesHead, spectra */
     PANEL_REFLECTION = 5,      /* PanelReflection, basis, mirror */
     PANEL_REFLECTION_TREE = 6,
-    PANEL_SAMPLING = 7         /* one a slice, in order */
+    PANEL_SAMPLING = 7         /* a sampling tree, PanelSampling's counts and thetas */
 } PanelSectionKind;
 
 typedef struct PanelSection {
-    uint32_t kind, index;
-    uint64_t offset, size;
+    uint16_t kind, index;
+    uint32_t size;
+    uint64_t offset;
 } PanelSection;
 
 /* Natural logarithms of tristimulus values in cd m^-2. A channel is one of X, Y, Z of one
  * table: red's levels rising, then green's, blue's, then (if any) the black pattern's. At a
- * direction, log value[channel] = mean[channel] + cosine_power log cos theta + sum over
- * components of loading[channel][component] * (profile + tree's component). */
+ * direction, ln E[channel] = mean[channel] + cosine_power ln cos theta + sum over components of
+ * loading[channel][component] * (spline + tree's component). E is what a level adds to the
+ * black pattern, or the black pattern itself.
+ *
+ * Section   PanelEmissionHead | uint16 level[tables without black], 1/256 of a code | int16
+ *           mean[channels], 2^-PANEL_MEAN_BITS | uint8 exponent[components], the step of
+ *           loadings is 2^-exponent | uint8 width[components], 1 or 2 bytes | loadings,
+ *           component by component, [channels] of that width, all 2-byte ones first | the
+ *           spline as panel_spline.h has it. */
+typedef struct PanelEmissionHead {
+    uint8_t components, has_black, level_count[3], reserved[3];
+    float   cone_cos;    /* cos of the last measured theta */
+    float   level_power; /* exponent of the level curve where only one level is known */
+    float   cosine_power;
+} PanelEmissionHead;
+#define PANEL_MEAN_BITS 11
+#define PANEL_LEVEL_UNIT 256.0f
+
+/* The emission as numbers: what the section says, and what queries read instead. */
 typedef struct PanelEmission {
-    uint32_t components, channels, level_count[3], has_black;
-    float    cone_cos;   /* cos of the last measured theta */
-    float    level_power; /* exponent of the level curve where only one level is known */
-    float    cosine_power;
-    float    level[3][PANEL_LEVELS_MAX];
-    uint32_t harmonics; /* of the profile */
-    /* then: float mean[channels], loading[channels][components], mean_y[channels / 3],
-     * profile[PANEL_ANGLES][1 + 2 harmonics][components] */
+    int    components, stride; /* stride: components rounded up to four */
+    int    channels, level_count[3];
+    bool   has_black;
+    float  cone_cos, level_power, cosine_power;
+    float  level[3][PANEL_LEVELS_MAX];
+    const float *mean, *loading; /* channels, channels x components */
+    PanelSpline  spline;
+    /* Rows of a source: for code 1 .. 255 the mean of ln X, ln Y, ln Z (and a padding number),
+     * then so many for every component. Row 0 is the change with ln code below code 1. */
+    const float *code_rows[3];
+    const float *black_rows; /* one row */
+    float        log_code[256];
+    float        mean_y[3][256]; /* panel_mean_luminance at whole codes */
+    float        black_mean_y;
 } PanelEmission;
+
+/* How the levels of a channel make a code's logarithm: fixed weights over at most four levels,
+ * of cubic Hermite pieces over ln code whose slopes are those of Fritsch and Butland (1984) at
+ * the channel's mean curve, as first-order changes of it. Exact on the mean curve, linear in
+ * the levels' logarithms. */
+typedef struct PanelLevelWeights {
+    int   first;     /* level of weight[0] */
+    float weight[4]; /* of logarithms; those beyond the last level are 0 */
+    float offset;    /* to be added: power laws of a single level */
+} PanelLevelWeights;
+
+/* curve: the levels' mean logarithms; log_level: ln of their codes. code > 0. */
+PanelLevelWeights panel_level_weights(const float *log_level, const float *curve, int count,
+                                      float level_power, float log_code);
 
 /* How a primary's spectrum is bent: coefficients over (u, v) = (ln X/Y, ln Z/Y), in axes along
  * which the measured colours spread: those of a narrow primary lie along a curve, and bending
  * reaches hardly anything beside it. First coordinate: along, second: across. */
-typedef struct PanelBend {
+typedef struct PanelBendRange {
     float origin[2], along[2]; /* in (u, v); a unit vector, across = (-along[1], along[0]) */
     float low[2], high[2];     /* of the two coordinates */
+} PanelBendRange;
+
+typedef struct PanelBend {
+    PanelBendRange range;
     float coefficient[PANEL_BEND_SIDE * PANEL_BEND_SIDE][3]; /* across * side + along */
 } PanelBend;
+
+/* The section of the primaries: this head, then uint16 value[3][count] of red, green, blue at
+ * even wavelengths, multiples of scale; linear between them, 0 outside. */
+typedef struct PanelPrimariesHead {
+    float          first_nm, step_nm;
+    uint16_t       count, reserved;
+    float          scale[3];
+    PanelBendRange range[4]; /* red, green, blue, black */
+} PanelPrimariesHead;
+#define PANEL_SPECTRUM_MAX 1024
 
 /* Red, green, blue, black. Spectra every nm from SPECTRAL_FIRST_NM, of 1 cd m^-2. */
 typedef struct PanelPrimaries {
@@ -97,8 +150,6 @@ typedef struct PanelReflection {
     /* then: float basis[coefficients][padded], mirror[PANEL_ANGLES][padded],
      * profile[PANEL_ANGLES][1 + harmonics][slices * coefficients] */
 } PanelReflection;
-
-#define PANEL_CHANNELS_AT_ONCE 12 /* X, Y, Z of four levels */
 
 /* Position in a table over theta: *t in [0, 1] from node to node + 1. */
 static inline int panel_angle_node(float theta, float *t)
@@ -165,26 +216,34 @@ static inline void panel_add_profile(const PanelProfile *profile, Vec3 d, int fi
     }
 }
 
+/* How wi is chosen for a wo: function azimuth * incidences + incidence of one sampling tree in
+ * the specular-following frame of wo's polar angle theta. In the file: the tree, at the next
+ * multiple of four bytes uint16 incidences and azimuths, then float theta[incidences]. */
+typedef struct PanelSampling {
+    SamplingTree tree;
+    int          incidences; /* 0: nothing is reflected */
+    int          azimuths;   /* of wo, evenly over the turn from 0; 1: isotropic */
+    const float *theta;      /* radians, rising */
+} PanelSampling;
+
+static inline size_t panel_sampling_tree_bytes(size_t tree)
+{
+    return (tree + 3) / 4 * 4;
+}
+
 struct Panel {
     void   *map; /* NULL: the bytes belong to somebody else */
     size_t  size;
     const char *meta;
     size_t      meta_size;
-    const PanelEmission *emission;
-    const float *channel_mean, *loading, *mean_y;
-    /* mean, then the loadings of component 0, 1, ...: rows of channel_stride floats, so that
-     * neighbouring channels are read at once, also four beyond the last one */
-    const float *channel_rows;
-    int          channel_stride;
-    PanelProfile emission_profile;
+    const PanelEmission *emission; /* NULL: emits nothing */
     Tree         emission_tree;
-    float        log_level[3][PANEL_LEVELS_MAX];
-    const PanelPrimaries *primaries;
+    const PanelPrimaries *primaries; /* with emission */
     const PanelReflection *reflection; /* NULL: reflects nothing */
     const float *basis, *mirror;
     PanelProfile reflection_profile;
     Tree         reflection_tree;
-    SamplingTree sampling[PANEL_SLICES_MAX];
+    PanelSampling sampling;
     int16_t      wavelength_index[SPECTRAL_COUNT]; /* interval that begins at or below a nm */
     float        wavelength_scale[PANEL_WAVELENGTHS_MAX]; /* 1 / interval's width */
 };
@@ -197,6 +256,6 @@ bool panel_from_bytes(const void *bytes, size_t size, const char *name, Arena *a
 static inline uint32_t panel_first_channel(const PanelEmission *emission, int p)
 {
     uint32_t channel = 0;
-    for (int i = 0; i < p; i++) channel += 3 * emission->level_count[i];
+    for (int i = 0; i < p; i++) channel += 3 * (uint32_t)emission->level_count[i];
     return channel;
 }

@@ -11,34 +11,27 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "panel/panel_file.h"
+#include "panel/panel_open.h"
 
-#define CHECKSUM_FROM offsetof(PanelHeader, section_count)
+#define CHECKSUM_FROM offsetof(PanelHeader, size)
 
-_Static_assert(sizeof(PanelHeader) == 64, "the file's layout");
-_Static_assert(sizeof(PanelSection) == 24, "the file's layout");
+_Static_assert(sizeof(PanelHeader) == 40, "the file's layout");
+_Static_assert(sizeof(PanelSection) == 16, "the file's layout");
 _Static_assert(sizeof(float) == 4, "the file's layout");
 
-typedef struct Bytes {
-    const unsigned char *data;
-    size_t      size;
-    const char *name;
-    Error      *err;
-} Bytes;
-
-static bool refuse(const Bytes *bytes, const char *place, const char *what)
+bool panel_refuse(const PanelBytes *bytes, const char *place, const char *what)
 {
     return error_at(bytes->err, ERROR_INPUT, bytes->name, place,
                     "%s; the panel file is damaged, wanted one that `panel fit` wrote", what);
 }
 
-static bool check_header(const Bytes *bytes, PanelHeader *header)
+static bool check_header(const PanelBytes *bytes, PanelHeader *header)
 {
     if (bytes->size < sizeof *header || memcmp(bytes->data, PANEL_MAGIC, 8))
         return error_at(bytes->err, ERROR_INPUT, bytes->name, "",
                         "is no panel file, wanted one that `panel fit` wrote");
     memcpy(header, bytes->data, sizeof *header);
-    if (header->version != PANEL_VERSION || header->header_size != sizeof *header)
+    if (header->version != PANEL_VERSION || header->flags)
         return error_at(bytes->err, ERROR_INPUT, bytes->name, "header",
                         "has version %u, wanted %u: fit the panel again", header->version,
                         PANEL_VERSION);
@@ -48,50 +41,52 @@ static bool check_header(const Bytes *bytes, PanelHeader *header)
                         (unsigned long long)header->size);
     if (XXH3_64bits(bytes->data + CHECKSUM_FROM, bytes->size - CHECKSUM_FROM) !=
         header->checksum)
-        return refuse(bytes, "header", "the checksum does not fit the bytes");
-    if (header->section_count > PANEL_SECTIONS_MAX || header->flags)
-        return refuse(bytes, "header", "section count or flags are out of range");
+        return panel_refuse(bytes, "header", "the checksum does not fit the bytes");
+    if (header->section_count > PANEL_SECTIONS_MAX)
+        return panel_refuse(bytes, "header", "the section count is out of range");
     return true;
 }
 
-/* The section of a kind and index, inside the file; false with *found false when absent. */
-static bool find_section(const Bytes *bytes, PanelSectionKind kind, uint32_t index,
-                         Bytes *out, bool *found)
+bool panel_find_section(const PanelBytes *bytes, PanelSectionKind kind, uint32_t index,
+                         PanelBytes *out, bool *found)
 {
     PanelHeader header;
     memcpy(&header, bytes->data, sizeof header);
     size_t toc = sizeof header + header.section_count * sizeof(PanelSection);
     *found = false;
-    if (toc > bytes->size) return refuse(bytes, "table of contents", "reaches beyond the end");
+    if (toc > bytes->size)
+        return panel_refuse(bytes, "table of contents", "reaches beyond the end");
     for (uint32_t i = 0; i < header.section_count; i++) {
         PanelSection section;
         memcpy(&section, bytes->data + sizeof header + i * sizeof section, sizeof section);
         if (section.kind != (uint32_t)kind || section.index != index) continue;
-        if (section.offset % 64 || section.offset < toc || section.offset > bytes->size ||
-            section.size > bytes->size - section.offset)
-            return refuse(bytes, "table of contents", "a section lies outside the file");
-        *out = (Bytes){bytes->data + section.offset, section.size, bytes->name, bytes->err};
+        if (section.offset % PANEL_ALIGN || section.offset < toc ||
+            section.offset > bytes->size || section.size > bytes->size - section.offset)
+            return panel_refuse(bytes, "table of contents", "a section lies outside the file");
+        *out = (PanelBytes){bytes->data + section.offset, section.size, bytes->name,
+                            bytes->err};
         *found = true;
         return true;
     }
     return true;
 }
 
-static bool need_section(const Bytes *bytes, PanelSectionKind kind, uint32_t index, Bytes *out)
+bool panel_need_section(const PanelBytes *bytes, PanelSectionKind kind, uint32_t index,
+                        PanelBytes *out)
 {
     bool found;
-    if (!find_section(bytes, kind, index, out, &found)) return false;
-    return found || refuse(bytes, "table of contents", "a section is missing");
+    if (!panel_find_section(bytes, kind, index, out, &found)) return false;
+    return found || panel_refuse(bytes, "table of contents", "a section is missing");
 }
 
-static bool all_finite(const float *value, size_t count)
+bool panel_all_finite(const float *value, size_t count)
 {
     for (size_t i = 0; i < count; i++)
         if (!(fabsf(value[i]) < 1e30f)) return false;
     return true;
 }
 
-static bool rising(const float *value, uint32_t count)
+bool panel_rising(const float *value, uint32_t count)
 {
     for (uint32_t i = 1; i < count; i++)
         if (!(value[i] > value[i - 1])) return false;
@@ -100,25 +95,25 @@ static bool rising(const float *value, uint32_t count)
 
 /* ---- emission -------------------------------------------------------------------------- */
 
-static bool check_levels(const Bytes *at, const PanelEmission *e)
+static bool check_levels(const PanelBytes *at, const PanelEmission *e)
 {
     uint64_t channels = e->has_black ? 3 : 0;
     for (int p = 0; p < 3; p++) {
         if (e->level_count[p] < 1 || e->level_count[p] > PANEL_LEVELS_MAX)
-            return refuse(at, "emission", "level count out of range");
+            return panel_refuse(at, "emission", "level count out of range");
         if (!(e->level[p][0] > 0) || !(e->level[p][e->level_count[p] - 1] <= 255) ||
-            !rising(e->level[p], e->level_count[p]))
-            return refuse(at, "emission", "levels do not rise from above 0 to 255");
+            !panel_rising(e->level[p], e->level_count[p]))
+            return panel_refuse(at, "emission", "levels do not rise from above 0 to 255");
         channels += 3 * (uint64_t)e->level_count[p];
     }
     if (e->has_black > 1 || e->harmonics > PANEL_HARMONICS_MAX || channels != e->channels ||
         e->components < 1 ||
         e->components > PANEL_COMPONENTS_MAX)
-        return refuse(at, "emission", "channel or component count out of range");
+        return panel_refuse(at, "emission", "channel or component count out of range");
     if (!(e->cone_cos >= 0 && e->cone_cos <= 1) ||
         !(e->level_power > 0 && e->level_power < 10) ||
         !(e->cosine_power >= 0 && e->cosine_power < 10))
-        return refuse(at, "emission", "cone or level power out of range");
+        return panel_refuse(at, "emission", "cone or level power out of range");
     return true;
 }
 
@@ -138,34 +133,34 @@ static void turn_loadings(Panel *panel, Arena *arena)
     panel->channel_stride = stride;
 }
 
-static bool open_emission(const Bytes *bytes, const Geodesic *geodesic, Arena *arena,
+static bool open_emission(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
                           Panel *panel)
 {
-    Bytes at, tree;
-    if (!need_section(bytes, PANEL_EMISSION, 0, &at) ||
-        !need_section(bytes, PANEL_EMISSION_TREE, 0, &tree))
+    PanelBytes at, tree;
+    if (!panel_need_section(bytes, PANEL_EMISSION, 0, &at) ||
+        !panel_need_section(bytes, PANEL_EMISSION_TREE, 0, &tree))
         return false;
     const PanelEmission *e = (const PanelEmission *)at.data;
-    if (at.size < sizeof *e) return refuse(&at, "emission", "is too short");
+    if (at.size < sizeof *e) return panel_refuse(&at, "emission", "is too short");
     if (!check_levels(&at, e)) return false;
     size_t floats = (size_t)e->channels * (1 + e->components) + e->channels / 3 +
                     (size_t)PANEL_ANGLES * e->components * (1 + 2 * e->harmonics);
     if (at.size != sizeof *e + floats * sizeof(float))
-        return refuse(&at, "emission", "has another size than its counts say");
+        return panel_refuse(&at, "emission", "has another size than its counts say");
     panel->emission = e;
     panel->channel_mean = (const float *)(at.data + sizeof *e);
     panel->loading = panel->channel_mean + e->channels;
     panel->mean_y = panel->loading + (size_t)e->channels * e->components;
     panel->emission_profile = (PanelProfile){panel->mean_y + e->channels / 3,
                                              (int)e->components, (int)e->harmonics, true};
-    if (!all_finite(panel->channel_mean, floats))
-        return refuse(&at, "emission", "holds a number that is not finite");
+    if (!panel_all_finite(panel->channel_mean, floats))
+        return panel_refuse(&at, "emission", "holds a number that is not finite");
     if (!tree_open(tree.data, tree.size, geodesic, &panel->emission_tree, bytes->err))
         return error_prefix(bytes->err, "emission tree") ||
                error_in_file(bytes->err, bytes->name);
     if (panel->emission_tree.components != (int)e->components ||
         panel->emission_tree.octants != 4)
-        return refuse(&at, "emission", "does not fit its tree");
+        return panel_refuse(&at, "emission", "does not fit its tree");
     turn_loadings(panel, arena);
     for (int p = 0; p < 3; p++)
         for (uint32_t i = 0; i < e->level_count[p]; i++)
@@ -173,118 +168,36 @@ static bool open_emission(const Bytes *bytes, const Geodesic *geodesic, Arena *a
     return true;
 }
 
-static bool open_primaries(const Bytes *bytes, Panel *panel)
+static bool open_primaries(const PanelBytes *bytes, Panel *panel)
 {
-    Bytes at;
-    if (!need_section(bytes, PANEL_PRIMARIES, 0, &at)) return false;
+    PanelBytes at;
+    if (!panel_need_section(bytes, PANEL_PRIMARIES, 0, &at)) return false;
     const PanelPrimaries *p = (const PanelPrimaries *)at.data;
-    if (at.size != sizeof *p) return refuse(&at, "primaries", "has a wrong size");
-    if (!all_finite((const float *)p, sizeof *p / sizeof(float)))
-        return refuse(&at, "primaries", "holds a number that is not finite");
+    if (at.size != sizeof *p) return panel_refuse(&at, "primaries", "has a wrong size");
+    if (!panel_all_finite((const float *)p, sizeof *p / sizeof(float)))
+        return panel_refuse(&at, "primaries", "holds a number that is not finite");
     for (int i = 0; i < 4; i++)
         for (int k = 0; k < 2; k++)
             if (!(p->bend[i].high[k] > p->bend[i].low[k]))
-                return refuse(&at, "primaries", "a chromaticity range is empty");
+                return panel_refuse(&at, "primaries", "a chromaticity range is empty");
     panel->primaries = p;
     return true;
-}
-
-/* ---- reflection ------------------------------------------------------------------------ */
-
-static bool check_reflection(const Bytes *at, const PanelReflection *r)
-{
-    if (r->slices < 1 || r->slices > PANEL_SLICES_MAX || r->coefficients < 1 ||
-        r->coefficients > PANEL_COEFFICIENTS_MAX || r->wavelengths < 1 ||
-        r->wavelengths > PANEL_WAVELENGTHS_MAX ||
-        r->padded_wavelengths != (r->wavelengths + 15) / 16 * 16 || r->is_cubic > 1 ||
-        r->harmonics > PANEL_HARMONICS_MAX)
-        return refuse(at, "reflection", "a count is out of range");
-    if (!(r->frame_exponent >= 1 && r->frame_exponent <= 4) ||
-        !(r->refractive_index >= 1 && r->refractive_index <= 4) ||
-        !(r->cone_cos >= 0 && r->cone_cos <= 1))
-        return refuse(at, "reflection", "frame, refractive index or cone out of range");
-    if (!rising(r->slice_theta, r->slices) || !rising(r->wavelength_nm, r->wavelengths) ||
-        !all_finite(r->slice_theta, r->slices) ||
-        !all_finite(r->wavelength_nm, r->wavelengths) ||
-        !all_finite(r->haze_albedo, PANEL_ANGLES) || !(r->slice_theta[r->slices - 1] >= 0))
-        return refuse(at, "reflection", "incidences or wavelengths do not rise");
-    if (!all_finite(&r->first_theta, 2))
-        return refuse(at, "reflection", "holds a number that is not finite");
-    return true;
-}
-
-static bool open_sampling(const Bytes *bytes, const Geodesic *geodesic, Panel *panel)
-{
-    for (uint32_t i = 0; i < panel->reflection->slices; i++) {
-        Bytes at;
-        if (!need_section(bytes, PANEL_SAMPLING, i, &at)) return false;
-        if (!sampling_tree_open(at.data, at.size, geodesic, &panel->sampling[i], bytes->err))
-            return error_prefix(bytes->err, "sampling tree %u", i) ||
-                   error_in_file(bytes->err, bytes->name);
-    }
-    return true;
-}
-
-/* For every whole nm the interval of measured wavelengths that holds it. */
-static void index_wavelengths(Panel *panel)
-{
-    const PanelReflection *r = panel->reflection;
-    int last = 0, intervals = (int)r->wavelengths - 1;
-    for (int i = 0; i < SPECTRAL_COUNT; i++) {
-        while (last + 1 < intervals &&
-               r->wavelength_nm[last + 1] <= (float)(SPECTRAL_FIRST_NM + i))
-            last++;
-        panel->wavelength_index[i] = (int16_t)last;
-    }
-    for (int i = 0; i < intervals; i++)
-        panel->wavelength_scale[i] = 1 / (r->wavelength_nm[i + 1] - r->wavelength_nm[i]);
-}
-
-static bool open_reflection(const Bytes *bytes, const Geodesic *geodesic, Panel *panel)
-{
-    Bytes at, tree;
-    bool  found;
-    if (!find_section(bytes, PANEL_REFLECTION, 0, &at, &found)) return false;
-    if (!found) return true;
-    if (!need_section(bytes, PANEL_REFLECTION_TREE, 0, &tree)) return false;
-    const PanelReflection *r = (const PanelReflection *)at.data;
-    if (at.size < sizeof *r) return refuse(&at, "reflection", "is too short");
-    if (!check_reflection(&at, r)) return false;
-    size_t floats = (size_t)r->padded_wavelengths * (r->coefficients + PANEL_ANGLES) +
-                    (size_t)PANEL_ANGLES * r->slices * r->coefficients * (1 + r->harmonics);
-    if (at.size != sizeof *r + floats * sizeof(float))
-        return refuse(&at, "reflection", "has another size than its counts say");
-    panel->reflection = r;
-    panel->basis = (const float *)(at.data + sizeof *r);
-    panel->mirror = panel->basis + (size_t)r->padded_wavelengths * r->coefficients;
-    panel->reflection_profile =
-        (PanelProfile){panel->mirror + (size_t)r->padded_wavelengths * PANEL_ANGLES,
-                       (int)(r->slices * r->coefficients), (int)r->harmonics, false};
-    if (!all_finite(panel->basis, floats))
-        return refuse(&at, "reflection", "holds a number that is not finite");
-    if (!tree_open(tree.data, tree.size, geodesic, &panel->reflection_tree, bytes->err))
-        return error_prefix(bytes->err, "reflection tree") ||
-               error_in_file(bytes->err, bytes->name);
-    if (panel->reflection_tree.components != (int)(r->slices * r->coefficients))
-        return refuse(&at, "reflection", "does not fit its tree");
-    index_wavelengths(panel);
-    return open_sampling(bytes, geodesic, panel);
 }
 
 /* ---- the whole file -------------------------------------------------------------------- */
 
 /* The finest level of any tree inside, read before the trees themselves are checked. */
-static bool finest_level(const Bytes *bytes, int *level)
+static bool finest_level(const PanelBytes *bytes, int *level)
 {
     static const PanelSectionKind kinds[] = {PANEL_EMISSION_TREE, PANEL_REFLECTION_TREE,
                                              PANEL_SAMPLING};
     *level = 0;
     for (int k = 0; k < 3; k++)
         for (uint32_t i = 0; i < PANEL_SLICES_MAX; i++) {
-            Bytes at;
+            PanelBytes at;
             bool  found;
             int   one = 0;
-            if (!find_section(bytes, kinds[k], i, &at, &found)) return false;
+            if (!panel_find_section(bytes, kinds[k], i, &at, &found)) return false;
             if (!found) break;
             if (kinds[k] == PANEL_SAMPLING && at.size >= sizeof(SamplingHeader))
                 one = ((const SamplingHeader *)at.data)->level;
@@ -292,17 +205,17 @@ static bool finest_level(const Bytes *bytes, int *level)
                 one = ((const TreeHeader *)at.data)->level;
             *level = one > *level ? one : *level;
         }
-    return *level <= GEODESIC_MAX_LEVEL || refuse(bytes, "trees", "are too deep");
+    return *level <= GEODESIC_MAX_LEVEL || panel_refuse(bytes, "trees", "are too deep");
 }
 
 bool panel_from_bytes(const void *data, size_t size, const char *name, Arena *arena,
                       Panel **out, Error *err)
 {
-    Bytes       bytes = {data, size, name, err}, meta;
+    PanelBytes       bytes = {data, size, name, err}, meta;
     PanelHeader header;
     int         level;
     if (!check_header(&bytes, &header) || !finest_level(&bytes, &level) ||
-        !need_section(&bytes, PANEL_META, 0, &meta))
+        !panel_need_section(&bytes, PANEL_META, 0, &meta))
         return false;
     const Geodesic *geodesic = geodesic_create(level, arena);
     Panel *panel = ARENA_NEW(arena, Panel, 1);
@@ -310,7 +223,7 @@ bool panel_from_bytes(const void *data, size_t size, const char *name, Arena *ar
     panel->meta = (const char *)meta.data;
     panel->meta_size = meta.size;
     if (!open_emission(&bytes, geodesic, arena, panel) || !open_primaries(&bytes, panel) ||
-        !open_reflection(&bytes, geodesic, panel))
+        !panel_open_reflection(&bytes, geodesic, arena, panel))
         return false;
     *out = panel;
     return true;

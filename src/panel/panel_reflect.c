@@ -4,15 +4,9 @@
 #include "base/units.h"
 #include "hemisphere/specular_frame.h"
 #include "hemisphere/tree_query.h"
-#include "panel/panel_file.h"
+#include "panel/panel_slices.h"
 
 #define PADDED_MAX ((PANEL_WAVELENGTHS_MAX + 15) / 16 * 16)
-
-/* Which slices an incidence is made of. */
-typedef struct SliceMix {
-    int   first, count;
-    float weight[4];
-} SliceMix;
 
 bool panel_reflects(const Panel *panel)
 {
@@ -27,35 +21,13 @@ static float fresnel(float c, float n)
     return 0.5f * (s * s + p * p);
 }
 
-/* The interval of slices that holds theta: theta lies between slices i and i + 1. */
-static int slice_interval(const PanelReflection *r, float theta, float *t)
-{
-    int i = 0;
-    while (i + 2 < (int)r->slices && r->slice_theta[i + 1] <= theta) i++;
-    if (r->slices == 1) {
-        *t = 0;
-        return 0;
-    }
-    float span = r->slice_theta[i + 1] - r->slice_theta[i];
-    *t = clampf((theta - r->slice_theta[i]) / span, 0, 1);
-    return i;
-}
-
-static SliceMix linear_mix(const PanelReflection *r, float theta)
-{
-    float    t;
-    int      i = slice_interval(r, theta, &t);
-    SliceMix mix = {i, r->slices == 1 ? 1 : 2, {1 - t, t, 0, 0}};
-    return mix;
-}
-
 /* Cubic Hermite over four slices with the slopes of parabolas through three; the ends take
  * the straight slope. Weights may be negative: they are for logarithms only. */
 static SliceMix cubic_mix(const PanelReflection *r, float theta)
 {
     float u;
-    int   i = slice_interval(r, theta, &u);
-    if (!r->is_cubic || r->slices < 3) return linear_mix(r, theta);
+    int   i = panel_slice_interval(r, theta, &u);
+    if (!r->is_cubic || r->slices < 3) return panel_linear_mix(r, theta);
     const float *x = r->slice_theta;
     bool  has_left = i > 0, has_right = i + 2 < (int)r->slices;
     float h = x[i + 1] - x[i], u2 = u * u, u3 = u2 * u;
@@ -78,23 +50,6 @@ static SliceMix cubic_mix(const PanelReflection *r, float theta)
     SliceMix mix = {i - has_left, 2 + has_left + has_right, {0, 0, 0, 0}};
     for (int k = 0; k < mix.count; k++) mix.weight[k] = w[k + !has_left];
     return mix;
-}
-
-/* `towards` in the frame in which the light's azimuth is 180 degrees. */
-static Vec3 turned(Vec3 light, Vec3 towards)
-{
-    float s = safe_sqrtf(light.x * light.x + light.y * light.y);
-    if (s < 1e-6f) return towards;
-    float ex = -light.x / s, ey = -light.y / s; /* the mirror direction's azimuth */
-    return vec3(ex * towards.x + ey * towards.y, ex * towards.y - ey * towards.x, towards.z);
-}
-
-static Vec3 turned_back(Vec3 light, Vec3 local)
-{
-    float s = safe_sqrtf(light.x * light.x + light.y * light.y);
-    if (s < 1e-6f) return local;
-    float ex = -light.x / s, ey = -light.y / s;
-    return vec3(ex * local.x - ey * local.y, ey * local.x + ex * local.y, local.z);
 }
 
 /* A row of 16 floats that need not be aligned. */
@@ -152,7 +107,7 @@ Spectrum panel_brdf(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *wav
     if (!r || !(wo.z > 0) || !(wi.z > 0)) return spectrum_all(0);
     float theta = panel_polar_angle(wi);
     SpecularFrame frame = specular_frame(theta, r->frame_exponent);
-    reflection_logs(panel, specular_frame_stored(&frame, turned(wi, wo)), theta, logs);
+    reflection_logs(panel, specular_frame_stored(&frame, panel_turned(wi, wo)), theta, logs);
     Spectrum exponent = spread(panel, (const float *)logs, wavelengths);
     return spectrum_exp(exponent) * spectrum_all(fresnel(wi.z, r->refractive_index));
 }
@@ -178,36 +133,4 @@ float panel_haze_albedo(const Panel *panel, float cos_theta)
     int node = panel_angle_node(acos_f(cos_theta), &t);
     const float *albedo = panel->reflection->haze_albedo;
     return lerpf(albedo[node], albedo[node + 1], t);
-}
-
-/* ---- sampling -------------------------------------------------------------------------- */
-
-float panel_pdf(const Panel *panel, Vec3 wo, Vec3 wi)
-{
-    const PanelReflection *r = panel->reflection;
-    if (!r || !(wo.z > 0) || !(wi.z > 0)) return 0;
-    float         theta = panel_polar_angle(wo), pdf = 0;
-    SpecularFrame frame = specular_frame(theta, r->frame_exponent);
-    float         jacobian;
-    Vec3          stored = specular_frame_stored_jacobian(&frame, turned(wo, wi), &jacobian);
-    SliceMix      mix = linear_mix(r, theta);
-    for (int s = 0; s < mix.count; s++)
-        if (mix.weight[s] > 0)
-            pdf += mix.weight[s] * sampling_tree_pdf(&panel->sampling[mix.first + s], stored);
-    return jacobian > 0 ? pdf / jacobian : 0;
-}
-
-bool panel_sample(const Panel *panel, Vec3 wo, const float u[3], Vec3 *wi)
-{
-    const PanelReflection *r = panel->reflection;
-    if (!r || !(wo.z > 0)) return false;
-    float         theta = panel_polar_angle(wo);
-    SpecularFrame frame = specular_frame(theta, r->frame_exponent);
-    SliceMix      mix = linear_mix(r, theta);
-    int           slice = mix.first + (mix.count == 2 && u[2] >= mix.weight[0]);
-    SamplingResult drawn = sampling_tree_sample(&panel->sampling[slice], u[0], u[1]);
-    Vec3 local = specular_frame_outer(&frame, drawn.direction);
-    if (!(local.z > 0)) return false;
-    *wi = turned_back(wo, local);
-    return true;
 }

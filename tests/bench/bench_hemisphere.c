@@ -226,16 +226,18 @@ static void work_interpolate(Input *in)
 
 static void work_sample(Input *in)
 {
+    SamplingMix only = sampling_only(0);
     for (uint32_t i = 0; i < DIRECTIONS; i++) {
-        float u0 = unit_float(hash_u32(2 * i)), u1 = unit_float(hash_u32(2 * i + 1));
-        in->sink += sampling_tree_sample(&in->sampler, u0, u1).pdf;
+        float u[3] = {unit_float(hash_u32(2 * i)), unit_float(hash_u32(2 * i + 1))};
+        in->sink += sampling_tree_sample(&in->sampler, &only, u).pdf;
     }
 }
 
 static void work_pdf(Input *in)
 {
+    SamplingMix only = sampling_only(0);
     for (int i = 0; i < DIRECTIONS; i++)
-        in->sink += sampling_tree_pdf(&in->sampler, in->directions[i]);
+        in->sink += sampling_tree_pdf(&in->sampler, &only, in->directions[i]);
 }
 
 static void work_stored(Input *in)
@@ -343,7 +345,8 @@ static double haze_cos_jacobian(Vec3 stored)
 static SamplingTree make_sampler(int cells, const Geodesic *geodesic, Arena *arena,
                                  size_t *bytes)
 {
-    SamplingOptions options = {.level = MAX_LEVEL, .octants = 2, .cells = cells};
+    SamplingOptions options = {.level = MAX_LEVEL, .octants = 2, .functions = 1,
+                               .cells = cells};
     uint32_t        count = 2u << 2 * MAX_LEVEL;
     float          *integrals = leaf_values(haze_cos_jacobian, MAX_LEVEL, 2, arena);
     const void     *blob;
@@ -352,7 +355,8 @@ static SamplingTree make_sampler(int cells, const Geodesic *geodesic, Arena *are
     for (uint32_t i = 0; i < count; i++)
         integrals[i] *= geodesic->areas[MAX_LEVEL][i & ((1u << 2 * MAX_LEVEL) - 1)];
     if (!sampling_tree_build(&options, integrals, arena, &blob, &err) ||
-        !sampling_tree_open(blob, sampling_tree_size(blob), geodesic, &tree, &err)) {
+        !sampling_tree_open(blob, sampling_tree_size(blob), geodesic, arena, &tree,
+                            &err)) {
         printf("%s\n", err.text);
         exit(1);
     }
@@ -370,6 +374,7 @@ static void print_sampling(const Geodesic *geodesic, Arena scratch)
 {
     static const int cells[] = {2, 20, 80, 200, 655, 2000, 8000};
     const uint32_t   count = 200000;
+    SamplingMix      only = sampling_only(0);
     printf(
         "\nsampling the haze (frame of 30 degrees, k = 2): relative variance of the weights\n"
         "%8s %9s %12s\n",
@@ -380,8 +385,8 @@ static void print_sampling(const Geodesic *geodesic, Arena scratch)
         SamplingTree tree = make_sampler(cells[c], geodesic, &inner, &bytes);
         double       sum = 0, squares = 0;
         for (uint32_t i = 0; i < count; i++) {
-            float u0 = unit_float(hash_u32(2 * i)), u1 = unit_float(hash_u32(2 * i + 1));
-            SamplingResult r = sampling_tree_sample(&tree, u0, u1);
+            float u[3] = {unit_float(hash_u32(2 * i)), unit_float(hash_u32(2 * i + 1))};
+            SamplingResult r = sampling_tree_sample(&tree, &only, u);
             double         weight = haze_cos_jacobian(r.direction) / (double)r.pdf;
             sum += weight;
             squares += weight * weight;

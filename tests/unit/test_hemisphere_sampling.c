@@ -4,39 +4,65 @@
 #include "hemisphere/sampling_tree.h"
 static const Signal SIGNALS[] = {smooth_signal, peak_signal, zero_outside_signal};
 
-static SamplingTree sampler_of(Fixture *f, SamplingOptions options, Signal signal)
+/* The integrals of functions over the leaves, one function after the other. */
+static float *integrals_of(Fixture *f, const SamplingOptions *o, const Signal *signals)
 {
-    uint32_t count = (uint32_t)options.octants << 2 * options.level;
-    float   *integrals = ARENA_NEW(&f->arena, float, count);
-    uint32_t mask = (1u << 2 * options.level) - 1;
-    for (uint32_t i = 0; i < count; i++) {
-        Vec3 center = geodesic_center(options.level, i);
-        integrals[i] = signal(center) * center.z * f->geodesic->areas[options.level][i & mask];
-    }
+    uint32_t count = (uint32_t)o->octants << 2 * o->level, mask = (1u << 2 * o->level) - 1;
+    float   *integrals = ARENA_NEW(&f->arena, float, count * (uint32_t)o->functions);
+    for (uint32_t k = 0; k < (uint32_t)o->functions; k++)
+        for (uint32_t i = 0; i < count; i++) {
+            Vec3 center = geodesic_center(o->level, i);
+            integrals[k * count + i] =
+                signals[k](center) * center.z * f->geodesic->areas[o->level][i & mask];
+        }
+    return integrals;
+}
+
+static SamplingTree sampler_of(Fixture *f, SamplingOptions options, const Signal *signals)
+{
     const void  *blob;
     SamplingTree tree;
     Error        err;
-    if (!sampling_tree_build(&options, integrals, &f->arena, &blob, &err))
+    if (!sampling_tree_build(&options, integrals_of(f, &options, signals), &f->arena, &blob,
+                             &err))
         fail_msg("%s", err.text);
-    if (!sampling_tree_open(blob, sampling_tree_size(blob), f->geodesic, &tree, &err))
+    if (!sampling_tree_open(blob, sampling_tree_size(blob), f->geodesic, &f->arena, &tree,
+                            &err))
         fail_msg("%s", err.text);
     return tree;
+}
+
+/* Single functions, pairs and all three, alone and mixed. */
+static SamplingMix mix_of(int functions)
+{
+    if (functions == 1) return sampling_only(0);
+    if (functions == 2) return (SamplingMix){2, {0, 1}, {0.25f, 0.75f}};
+    return (SamplingMix){4, {2, 0, 1, 2}, {0.5f, 0, 0.375f, 0.125f}};
 }
 
 static void the_pdf_integrates_to_1(void **state)
 {
     Fixture *f = *state;
     for (int variant = 0; variant < 12; variant++) {
+        int             functions = 1 + variant % 3;
         SamplingOptions options = {.level = 6, .octants = variant % 2 ? 2 : 4,
-                                   .cells = variant < 6 ? 655 : 100,
+                                   .functions = functions, .cells = variant < 6 ? 655 : 100,
                                    .uniform_share = variant % 4 < 2 ? 0 : 0.1f};
-        SamplingTree tree = sampler_of(f, options, SIGNALS[variant % 3]);
+        SamplingTree tree = sampler_of(f, options, SIGNALS);
+        SamplingMix  mix = mix_of(functions);
         double       sum = 0;
         for (uint32_t id = 0; id < geodesic_count(6); id++)
             sum += (double)f->geodesic->areas[6][id & 4095] *
-                   (double)sampling_tree_pdf(&tree, geodesic_center(6, id));
+                   (double)sampling_tree_pdf(&tree, &mix, geodesic_center(6, id));
         assert_close(sum, 1, 1e-5);
     }
+}
+
+static SamplingResult draw(const SamplingTree *tree, const SamplingMix *mix, uint32_t *seed)
+{
+    float u[3];
+    for (int i = 0; i < 3; i++) u[i] = random_unit(seed);
+    return sampling_tree_sample(tree, mix, u);
 }
 
 static void samples_follow_the_pdf(void **state)
@@ -44,23 +70,25 @@ static void samples_follow_the_pdf(void **state)
     Fixture  *f = *state;
     uint32_t  seed = 12;
     const int count = 200000;
-    for (int variant = 0; variant < 6; variant++) {
+    for (int variant = 0; variant < 9; variant++) {
+        int             functions = 1 + variant / 3;
         SamplingOptions options = {.level = 6, .octants = variant % 2 ? 2 : 4, .cells = 400,
+                                   .functions = functions,
                                    .uniform_share = variant == 4 ? 0.2f : 0};
-        SamplingTree tree = sampler_of(f, options, SIGNALS[variant % 3]);
+        SamplingTree tree = sampler_of(f, options, SIGNALS + (functions == 1 ? variant : 0));
+        SamplingMix  mix = mix_of(functions);
         Arena        scratch = f->arena;
         int         *hits = ARENA_NEW(&scratch, int, geodesic_count(4));
         double      *expected = ARENA_NEW(&scratch, double, geodesic_count(4)), chi = 0;
         for (int i = 0; i < count; i++) {
-            float          u0 = random_unit(&seed), u1 = random_unit(&seed);
-            SamplingResult s = sampling_tree_sample(&tree, u0, u1);
+            SamplingResult s = draw(&tree, &mix, &seed);
             assert_true(s.pdf > 0 && s.direction.z >= 0);
-            assert_true(s.pdf == sampling_tree_pdf(&tree, s.direction));
+            assert_true(s.pdf == sampling_tree_pdf(&tree, &mix, s.direction));
             hits[geodesic_find(f->geodesic, 4, s.direction).id]++;
         }
         for (uint32_t id = 0; id < geodesic_count(6); id++)
             expected[id >> 4] += count * (double)f->geodesic->areas[6][id & 4095] *
-                                 (double)sampling_tree_pdf(&tree, geodesic_center(6, id));
+                                 (double)sampling_tree_pdf(&tree, &mix, geodesic_center(6, id));
         int    bins = 0, pooled_hits = 0;
         double pooled = 0;
         for (uint32_t id = 0; id < geodesic_count(4); id++) {
@@ -81,17 +109,20 @@ static void the_density_is_positive_where_the_function_is(void **state)
 {
     Fixture        *f = *state;
     uint32_t        seed = 13;
-    SamplingOptions options = {.level = 6, .octants = 4, .cells = 60};
-    SamplingTree    tree = sampler_of(f, options, zero_outside_signal);
+    SamplingMix     only = sampling_only(0);
+    SamplingOptions options = {.level = 6, .octants = 4, .functions = 1, .cells = 60};
+    SamplingTree    tree = sampler_of(f, options, SIGNALS + 2);
     for (uint32_t id = 0; id < geodesic_count(6); id++) {
         Vec3 center = geodesic_center(6, id);
-        if (zero_outside_signal(center) > 0) assert_true(sampling_tree_pdf(&tree, center) > 0);
+        if (zero_outside_signal(center) > 0)
+            assert_true(sampling_tree_pdf(&tree, &only, center) > 0);
     }
     options.uniform_share = 0.01f;
-    tree = sampler_of(f, options, zero_outside_signal);
+    tree = sampler_of(f, options, SIGNALS + 2);
     for (int i = 0; i < 1000; i++)
-        assert_true(sampling_tree_pdf(&tree, random_direction(&seed)) >= 0.0099f / (2 * PI_F));
-    assert_true(sampling_tree_pdf(&tree, vec3(0, 0, -1)) == 0);
+        assert_true(sampling_tree_pdf(&tree, &only, random_direction(&seed)) >=
+                    0.005f / (2 * PI_F)); /* probabilities are stored in steps */
+    assert_true(sampling_tree_pdf(&tree, &only, vec3(0, 0, -1)) == 0);
 }
 
 /* Numbers at the ends of their range put directions on the cells' edges, where rounding could
@@ -99,14 +130,15 @@ static void the_density_is_positive_where_the_function_is(void **state)
 static void samples_on_edges_keep_a_density(void **state)
 {
     Fixture        *f = *state;
-    SamplingOptions options = {.level = 5, .octants = 4, .cells = 4096};
-    SamplingTree    tree = sampler_of(f, options, zero_outside_signal);
+    SamplingMix     only = sampling_only(0);
+    SamplingOptions options = {.level = 5, .octants = 4, .functions = 1, .cells = 4096};
+    SamplingTree    tree = sampler_of(f, options, SIGNALS + 2);
     const float     ends[] = {0, 0x1p-24f, 0.25f, 0.5f, 0.75f, 1 - 0x1p-24f};
     for (int i = 0; i < 20000; i++)
         for (size_t k = 0; k < sizeof ends / sizeof *ends; k++) {
-            float u = (float)i / 20000;
-            assert_true(sampling_tree_sample(&tree, u, ends[k]).pdf > 0);
-            assert_true(sampling_tree_sample(&tree, ends[k], u).pdf > 0);
+            float u = (float)i / 20000, a[3] = {u, ends[k]}, b[3] = {ends[k], u};
+            assert_true(sampling_tree_sample(&tree, &only, a).pdf > 0);
+            assert_true(sampling_tree_sample(&tree, &only, b).pdf > 0);
         }
 }
 
@@ -115,13 +147,13 @@ static void weights_of_importance_samples_vary_little(void **state)
 {
     Fixture        *f = *state;
     uint32_t        seed = 14;
-    SamplingOptions options = {.level = 7, .octants = 4, .cells = 655};
-    SamplingTree    tree = sampler_of(f, options, peak_signal);
+    SamplingMix     only = sampling_only(0);
+    SamplingOptions options = {.level = 7, .octants = 4, .functions = 1, .cells = 655};
+    SamplingTree    tree = sampler_of(f, options, SIGNALS + 1);
     double          sum = 0, squares = 0;
     const int       count = 50000;
     for (int i = 0; i < count; i++) {
-        float          u0 = random_unit(&seed), u1 = random_unit(&seed);
-        SamplingResult s = sampling_tree_sample(&tree, u0, u1);
+        SamplingResult s = draw(&tree, &only, &seed);
         double         w = (double)(peak_signal(s.direction) * s.direction.z / s.pdf);
         sum += w;
         squares += w * w;
@@ -136,17 +168,66 @@ static void weights_of_importance_samples_vary_little(void **state)
     assert_close(mean, exact, 4 * sqrt(variance / count) + 1e-3);
 }
 
+/* As few cells as a variance asks for, and the variance is what is then measured. */
+static void cells_are_spent_until_the_variance_is_reached(void **state)
+{
+    Fixture     *f = *state;
+    uint32_t     last = 0;
+    const float  wanted[] = {0.2f, 0.05f, 0.0125f};
+    for (int k = 0; k < 3; k++) {
+        SamplingOptions options = {.level = 7, .octants = 4, .functions = 2, .cells = 16000,
+                                   .variance = wanted[k]};
+        SamplingTree tree = sampler_of(f, options, SIGNALS);
+        assert_true(tree.cell_count > 2 * last);
+        last = tree.cell_count;
+        for (int function = 0; function < 2; function++) {
+            SamplingMix only = sampling_only(function);
+            double      sum = 0, squares = 0;
+            for (uint32_t id = 0; id < geodesic_count(7); id++) {
+                Vec3   center = geodesic_center(7, id);
+                double area = (double)f->geodesic->areas[7][id & 16383];
+                double g = (double)(SIGNALS[function](center) * center.z);
+                sum += g * area;
+                squares += g * g * area / (double)sampling_tree_pdf(&tree, &only, center);
+            }
+            double variance = squares / (sum * sum) - 1;
+            if (!(variance < 1.15 * (double)wanted[k] + 0.001))
+                fail_msg("wanted %g: %u cells, function %d varies %g", (double)wanted[k],
+                         tree.cell_count, function, variance);
+        }
+    }
+}
+
+/* Functions that are alike cost little more than one of them. */
+static void functions_that_are_alike_take_few_bytes(void **state)
+{
+    Fixture        *f = *state;
+    const void     *one, *four;
+    Error           err;
+    Signal          signals[4] = {peak_signal, peak_signal, peak_signal, peak_signal};
+    SamplingOptions options = {.level = 6, .octants = 2, .functions = 1, .cells = 500};
+    float          *integrals = integrals_of(f, &options, signals);
+    assert_true(sampling_tree_build(&options, integrals, &f->arena, &one, &err));
+    assert_true(sampling_tree_size(one) < 700);
+    options.functions = 4;
+    integrals = integrals_of(f, &options, signals);
+    assert_true(sampling_tree_build(&options, integrals, &f->arena, &four, &err));
+    assert_true(sampling_tree_size(four) < sampling_tree_size(one) + 3 * 70);
+}
+
 static void try_sampler(const Fixture *f, const char *blob, size_t size, int *opened)
 {
     char        *copy = malloc(size ? size : 1);
+    Arena        scratch = f->arena;
     SamplingTree tree;
     Error        err = {0};
     uint32_t     seed = 15;
     memcpy(copy, blob, size);
-    if (sampling_tree_open(copy, size, f->geodesic, &tree, &err)) {
+    if (sampling_tree_open(copy, size, f->geodesic, &scratch, &tree, &err)) {
         for (int i = 0; i < 16; i++) {
-            float u0 = random_unit(&seed), u1 = random_unit(&seed);
-            sampling_tree_sample(&tree, u0, u1);
+            SamplingMix    mix = {2, {0, tree.functions - 1}, {0.5f, 0.5f}};
+            SamplingResult s = draw(&tree, &mix, &seed);
+            assert_true(s.pdf >= 0 && isfinite(s.pdf) && vec3_is_finite(s.direction));
         }
         (*opened)++;
     } else {
@@ -155,19 +236,28 @@ static void try_sampler(const Fixture *f, const char *blob, size_t size, int *op
     free(copy);
 }
 
-static void mutated_sampling_trees_are_refused_or_harmless(void **state)
+/* A blob of two random functions, of a geodesic that is not a level finer than it. */
+static const void *small_blob(Fixture *f, Arena *arena, size_t *size)
 {
-    Fixture *f = *state;
     uint32_t seed = 16;
-    float    integrals[256];
-    for (int i = 0; i < 256; i++) integrals[i] = random_unit(&seed);
-    SamplingOptions options = {.level = 3, .octants = 4, .cells = 100};
+    float    integrals[512];
+    for (int i = 0; i < 512; i++) integrals[i] = random_unit(&seed);
+    SamplingOptions options = {.level = 3, .octants = 4, .functions = 2, .cells = 100};
     const void     *blob;
     Error           err;
-    int             opened = 0;
-    f->geodesic = geodesic_create(3, &f->arena); /* not a level more than the tree's */
-    assert_true(sampling_tree_build(&options, integrals, &f->arena, &blob, &err));
-    size_t size = sampling_tree_size(blob);
+    f->geodesic = geodesic_create(3, arena);
+    assert_true(sampling_tree_build(&options, integrals, arena, &blob, &err));
+    *size = sampling_tree_size(blob);
+    return blob;
+}
+
+static void mutated_sampling_trees_are_refused_or_harmless(void **state)
+{
+    Fixture    *f = *state;
+    uint32_t    seed = 16;
+    int         opened = 0;
+    size_t      size;
+    const void *blob = small_blob(f, &f->arena, &size);
     for (size_t prefix = 0; prefix < size; prefix++) try_sampler(f, blob, prefix, &opened);
     assert_int_equal(opened, 0);
     char *copy = ARENA_NEW(&f->arena, char, size);
@@ -179,36 +269,45 @@ static void mutated_sampling_trees_are_refused_or_harmless(void **state)
     assert_true(opened > 0 && opened < 6000);
 }
 
-static void sampling_trees_deeper_than_their_header_are_refused(void **state)
+static void assert_refused(const Fixture *f, const void *blob, size_t size, const char *text)
+{
+    Arena        scratch = f->arena;
+    SamplingTree tree;
+    Error        err = {0};
+    assert_false(sampling_tree_open(blob, size, f->geodesic, &scratch, &tree, &err));
+    if (!strstr(err.text, text)) fail_msg("%s, wanted %s", err.text, text);
+}
+
+static void what_does_not_fit_the_header_is_named(void **state)
 {
     Fixture        *f = *state;
-    uint32_t        seed = 18;
-    float           integrals[256];
-    SamplingOptions options = {.level = 3, .octants = 4, .cells = 100};
-    const void     *blob;
-    SamplingTree    tree;
-    Error           err;
-    for (int i = 0; i < 256; i++) integrals[i] = random_unit(&seed);
-    assert_true(sampling_tree_build(&options, integrals, &f->arena, &blob, &err));
-    size_t          size = sampling_tree_size(blob);
+    size_t          size;
+    const void     *blob = small_blob(f, &f->arena, &size);
     SamplingHeader *copy = arena_alloc(&f->arena, 1, 16, size);
     memcpy(copy, blob, size);
     copy->level = 2;
-    assert_false(sampling_tree_open(copy, size, f->geodesic, &tree, &err));
-    assert_non_null(strstr(err.text, "depth is 3, wanted 2"));
-    assert_false(sampling_tree_open(copy, size, geodesic_create(1, &f->arena), &tree, &err));
-    assert_non_null(strstr(err.text, "level of the geodesic is 1, wanted 2"));
+    assert_refused(f, copy, size, "depth is 3, wanted 2");
+    f->geodesic = geodesic_create(1, &f->arena);
+    assert_refused(f, copy, size, "level of the geodesic is 1, wanted 2");
+    f->geodesic = geodesic_create(3, &f->arena);
     memcpy(copy, blob, size);
-    copy->octants = 2; /* the octants' children differ */
-    assert_false(sampling_tree_open(copy, size, f->geodesic, &tree, &err));
-    assert_non_null(strstr(err.text, "mirror image"));
+    copy->splits++;
+    assert_refused(f, copy, size, "number of splits");
+    copy->splits -= 2;
+    assert_refused(f, copy, size, "number of splits");
+    memcpy(copy, blob, size);
+    copy->functions = 3; /* nothing is left for the third */
+    assert_refused(f, copy, size, "a probability is missing");
+    copy->functions = 1;
+    assert_refused(f, copy, size, "number of bytes");
+    assert_refused(f, blob, size - 1, "number of bytes");
 }
 
 static void functions_that_cannot_be_sampled_are_named(void **state)
 {
     Fixture        *f = *state;
     float           integrals[16] = {0};
-    SamplingOptions options = {.level = 1, .octants = 4, .cells = 8};
+    SamplingOptions options = {.level = 1, .octants = 4, .functions = 1, .cells = 8};
     const void     *blob;
     Error           err;
     assert_false(sampling_tree_build(&options, integrals, &f->arena, &blob, &err));
@@ -219,6 +318,9 @@ static void functions_that_cannot_be_sampled_are_named(void **state)
     options.cells = 3;
     assert_false(sampling_tree_build(&options, integrals, &f->arena, &blob, &err));
     assert_non_null(strstr(err.text, "cells are 3"));
+    options.functions = 0;
+    assert_false(sampling_tree_build(&options, integrals, &f->arena, &blob, &err));
+    assert_non_null(strstr(err.text, "functions are 0"));
 }
 
 
@@ -231,7 +333,9 @@ int main(void)
         CASE(samples_on_edges_keep_a_density),
         CASE(weights_of_importance_samples_vary_little),
         CASE(mutated_sampling_trees_are_refused_or_harmless),
-        CASE(sampling_trees_deeper_than_their_header_are_refused),
+        CASE(what_does_not_fit_the_header_is_named),
+        CASE(cells_are_spent_until_the_variance_is_reached),
+        CASE(functions_that_are_alike_take_few_bytes),
         CASE(functions_that_cannot_be_sampled_are_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

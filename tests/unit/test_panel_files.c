@@ -277,7 +277,7 @@ static FileBytes small_bytes(void)
 static void ask_everything(const Panel *panel)
 {
     Wavelengths w = even_wavelengths(370, 30);
-    float rgb[3] = {255, 90, 3}, u[3] = {0.3f, 0.7f, 0.9f}, xyz[3];
+    float rgb[3] = {255, 90, 3}, u[3] = {0.3f, 0.7f, 0.9f}, xyz[3], pdf;
     for (int i = 0; i < 4; i++) {
         Vec3 wo = direction_deg(29.0 * i, 100.0 * i);
         Vec3 wi = direction_deg(80 - 25.0 * i, 60.0 * i);
@@ -288,7 +288,7 @@ static void ask_everything(const Panel *panel)
         panel_mirror(panel, wo.z, &w);
         panel_haze_albedo(panel, wi.z);
         panel_pdf(panel, wo, wi);
-        panel_sample(panel, wo, u, &wi);
+        panel_sample(panel, wo, u, &wi, &pdf);
     }
 }
 

@@ -86,8 +86,9 @@ static void samples_fall_as_the_density_says(void **state)
         for (int i = 0; i < DRAWS; i++) {
             float u[3];
             Vec3  wi;
+            float pdf;
             for (int j = 0; j < 3; j++) u[j] = (float)steady_random(&random);
-            if (!panel_sample(ips.panel, wo, u, &wi)) continue;
+            if (!panel_sample(ips.panel, wo, u, &wi, &pdf)) continue;
             drawn++;
             counts[geodesic_find(geodesic, BIN_LEVEL,
                                  specular_frame_stored(&frame, wi)).id]++;
@@ -124,9 +125,9 @@ static void weights_average_to_the_albedo(void **state)
         for (int i = 0; i < DRAWS; i++) {
             float u[3];
             Vec3  wi;
+            float pdf;
             for (int j = 0; j < 3; j++) u[j] = (float)steady_random(&random);
-            if (!panel_sample(ips.panel, wo, u, &wi)) continue;
-            float pdf = panel_pdf(ips.panel, wo, wi);
+            if (!panel_sample(ips.panel, wo, u, &wi, &pdf)) continue;
             assert_true(pdf > 0);
             Spectrum weight = panel_brdf(ips.panel, wo, wi, &w) * spectrum_all(wi.z / pdf);
             sum += weight;
@@ -163,7 +164,8 @@ static void expect_finite(Vec3 wo, Vec3 wi, const Wavelengths *w)
                  (double)f[0]);
     for (int i = 0; i < 3; i++) {
         Vec3 drawn;
-        if (!panel_sample(ips.panel, wo, us[i], &drawn)) continue;
+        if (!panel_sample(ips.panel, wo, us[i], &drawn, &pdf)) continue;
+        assert_true(pdf > 0 && isfinite(pdf));
         assert_true(vec3_is_finite(drawn) && drawn.z > 0);
         assert_near(vec3_length(drawn), 1, 1e-5);
     }

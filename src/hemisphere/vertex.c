@@ -1,0 +1,159 @@
+#include "hemisphere/vertex.h"
+
+#include <stdlib.h>
+
+uint32_t vertex_count(VertexLattice lattice)
+{
+    uint32_t n = 1u << lattice.level;
+    return lattice.octants == 2 ? (n + 1) * (n + 1) : 2 * n * (n + 1) + 1;
+}
+
+/* Below the x axis row y = t - n starts after t^2 points; above it the rows get shorter. */
+uint32_t vertex_index(VertexLattice lattice, int x, int y)
+{
+    int n = 1 << lattice.level;
+    if (lattice.octants == 2) y = abs(y);
+    if (y < 0) return (uint32_t)((y + n) * (y + n) + y + n + x);
+    int before = lattice.octants == 2 ? 0 : n * n;
+    return (uint32_t)(before + y * (2 * n + 2 - y) + n - y + x);
+}
+
+/* ---- directions -------------------------------------------------------------------------- */
+
+/* A point of the lattice's plane on its way down octant 0: (x, y) relative to the corner c of
+ * its triangle, in the triangle's own directions, where the triangle has `size`. */
+typedef struct Descent {
+    int      x, y, size;
+    uint32_t id;
+} Descent;
+
+/* The children of x, y >= 0, x + y <= size: geodesic.h's numbering. */
+static void step_down(Descent *d)
+{
+    int half = d->size / 2, child = 0;
+    if (d->x >= half)
+        child = 1;
+    else if (d->y >= half)
+        child = 2;
+    else if (d->x + d->y <= half)
+        child = 3;
+    if (child == 0) { /* turned around: its corner c is the midpoint of (a, b) */
+        d->x = half - d->x;
+        d->y = half - d->y;
+    }
+    if (child == 1) d->x -= half;
+    if (child == 2) d->y -= half;
+    d->id = 4 * d->id + (uint32_t)child;
+    d->size = half;
+}
+
+/* The direction of the point (x, y) of octant 0, x + y <= 2^level. */
+static Vec3 direction_in_octant(int level, int x, int y)
+{
+    int     plane = vertex_plane_level(level);
+    Descent d = {x, y, 1 << level, 0};
+    for (int i = 0; i < plane; i++) step_down(&d);
+    GeodesicTriangle t = geodesic_triangle(plane, d.id);
+    double weight[3] = {d.x, d.y, d.size - d.x - d.y}, sum[3] = {0, 0, 0}, square = 0;
+    for (int i = 0; i < 3; i++) {
+        sum[0] += weight[i] * (double)t.corner[i].x;
+        sum[1] += weight[i] * (double)t.corner[i].y;
+        sum[2] += weight[i] * (double)t.corner[i].z;
+    }
+    for (int i = 0; i < 3; i++) square += sum[i] * sum[i];
+    double scale = 1 / sqrt(square);
+    return vec3((float)(sum[0] * scale), (float)(sum[1] * scale), (float)(sum[2] * scale));
+}
+
+Vec3 vertex_direction(VertexLattice lattice, int x, int y)
+{
+    Vec3 d = direction_in_octant(lattice.level, abs(x), abs(y));
+    return vec3(x < 0 ? -d.x : d.x, y < 0 ? -d.y : d.y, d.z);
+}
+
+void vertex_directions(VertexLattice lattice, Vec3 *direction)
+{
+    int n = 1 << lattice.level;
+    for (int y = 0; y <= n; y++)
+        for (int x = 0; x <= n - y; x++) {
+            Vec3 d = direction_in_octant(lattice.level, x, y);
+            direction[vertex_index(lattice, x, y)] = d;
+            direction[vertex_index(lattice, -x, y)] = vec3(-d.x, d.y, d.z);
+            if (lattice.octants == 2) continue;
+            direction[vertex_index(lattice, x, -y)] = vec3(d.x, -d.y, d.z);
+            direction[vertex_index(lattice, -x, -y)] = vec3(-d.x, -d.y, d.z);
+        }
+}
+
+/* ---- the hierarchy ----------------------------------------------------------------------- */
+
+/* Visits the new vertices of level i + 1: those of even multiples of half, both not of edge. */
+typedef void EdgeWork(float *middle, float *end0, float *end1, int components);
+
+typedef struct Edges {
+    VertexLattice lattice;
+    int           components;
+    float        *rows;
+    EdgeWork     *work;
+} Edges;
+
+static float *row_at(const Edges *e, int x, int y)
+{
+    return e->rows + (size_t)vertex_index(e->lattice, x, y) * (size_t)e->components;
+}
+
+/* The ends of the edge with the midpoint (x, y), `half` away from it. A diagonal edge turns
+ * around the pole: its ends have equal |x| + |y|. */
+static void visit_edge(const Edges *e, int x, int y, int half)
+{
+    int dx = x & half ? half : 0, dy = y & half ? half : 0;
+    if (dx && dy && (x < 0) == (y < 0)) dy = -dy;
+    e->work(row_at(e, x, y), row_at(e, x - dx, y - dy), row_at(e, x + dx, y + dy),
+            e->components);
+}
+
+static void visit_level(const Edges *e, int level)
+{
+    int n = 1 << e->lattice.level, half = n >> (level + 1);
+    for (int y = e->lattice.octants == 2 ? 0 : -n; y <= n; y += half) {
+        int reach = n - abs(y);
+        for (int x = -reach; x <= reach; x += half)
+            if (x & half || y & half) visit_edge(e, x, y, half);
+    }
+}
+
+static void take_mean(float *middle, float *end0, float *end1, int components)
+{
+    for (int c = 0; c < components; c++) middle[c] -= 0.5f * (end0[c] + end1[c]);
+}
+
+static void add_mean(float *middle, float *end0, float *end1, int components)
+{
+    for (int c = 0; c < components; c++) middle[c] += 0.5f * (end0[c] + end1[c]);
+}
+
+static void add_to_ends(float *middle, float *end0, float *end1, int components)
+{
+    for (int c = 0; c < components; c++) {
+        end0[c] += 0.5f * middle[c];
+        end1[c] += 0.5f * middle[c];
+    }
+}
+
+void vertex_details_from_values(VertexLattice lattice, int components, float *rows)
+{
+    Edges edges = {lattice, components, rows, take_mean};
+    for (int i = lattice.level - 1; i >= 0; i--) visit_level(&edges, i);
+}
+
+void vertex_values_from_details(VertexLattice lattice, int components, float *rows)
+{
+    Edges edges = {lattice, components, rows, add_mean};
+    for (int i = 0; i < lattice.level; i++) visit_level(&edges, i);
+}
+
+void vertex_gather(VertexLattice lattice, int components, float *rows)
+{
+    Edges edges = {lattice, components, rows, add_to_ends};
+    for (int i = lattice.level - 1; i >= 0; i--) visit_level(&edges, i);
+}

@@ -1,0 +1,24 @@
+/* import_parts.h -- what the set's completion works with: tables joined by their directions.
+ *
+ * Memory   the set's arena. Threads: one set per thread.
+ */
+#pragma once
+#include "import/import.h"
+
+/* Angles nearer than this are the same one, degrees. */
+#define SAME_ANGLE_DEG 1e-4
+
+/* "red", "black", "reflection". */
+const char *import_source_name(ImportSource source);
+
+/* The channels of `count` tables (indices into the set) side by side, at the directions that
+ * all of them have; by rising wavelength for reflection. */
+bool import_join_tables(ImportSet *set, const int *part, int count, ImportTable *joined,
+                        Error *err);
+
+/* Removes the tables of the list but `keep`. */
+void import_remove_tables(ImportSet *set, const int *part, int count, int keep);
+
+/* A direction that stands more than once in a table becomes the mean of its values; theta 0
+ * is left alone. */
+void import_merge_directions(ImportSet *set);

@@ -1,0 +1,8 @@
+/* The formats, in the order in which they are asked whether a file is theirs: those with a sure
+ * mark first, text of any layout last. */
+#include "import/importers.h"
+
+const Importer *const importers[] = {
+    &importer_fred, &importer_mountain, &importer_zemax, &importer_lighttools,
+    NULL,
+};

@@ -1,0 +1,57 @@
+/* scan.h -- walks over a text file word by word or line by line, and knows the line.
+ *
+ * Words are separated by blanks and line ends (and by commas, where a format has them). A line
+ * that begins with the comment mark is passed over.
+ *
+ * Memory   the arena's. Threads: one scan per thread.
+ * Fails    with file, line, what was found and what was wanted.
+ */
+#pragma once
+#include <stddef.h>
+
+#include "base/arena.h"
+#include "base/error.h"
+
+typedef struct Scan {
+    const char *file;
+    const char *next, *end; /* the text; *end is 0 */
+    int         line;       /* of `next`, from 1 */
+    char        comment;    /* 0: none */
+    bool        commas;     /* a comma separates words, too */
+    Arena      *arena;
+} Scan;
+
+/* Reads the file (a byte order mark is passed over); '#' is the comment mark. */
+bool scan_open(const char *file, Arena *arena, Scan *out, Error *err);
+
+/* The next word in the arena; NULL at the end. Comments between words are passed over. */
+const char *scan_word(Scan *scan);
+
+/* As scan_word, without moving. */
+const char *scan_peek(const Scan *scan);
+
+/* The rest of the line, blanks around it removed, in the arena; NULL at the end of the file.
+ * Comment marks mean nothing here. */
+const char *scan_line(Scan *scan);
+
+/* Moves when the next word is this one (case does not matter). */
+bool scan_accept(Scan *scan, const char *word);
+
+/* A finite number; `what` names it in the message. */
+bool scan_number(Scan *scan, const char *what, double *out, Error *err);
+
+/* A whole number from 1 to `most`, no larger than the rest of the file could hold as words. */
+bool scan_count(Scan *scan, const char *what, int most, int *out, Error *err);
+
+/* `count` numbers into fresh memory. */
+bool scan_list(Scan *scan, const char *what, int count, double **out, Error *err);
+
+/* An error at the current line. Always false. */
+bool scan_fail(const Scan *scan, Error *err, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* The whole word as a finite number. */
+bool scan_to_number(const char *word, double *out);
+
+/* Do the first bytes of a file hold this word at the beginning of a line (case matters)? */
+bool scan_head_has(const char *head, size_t size, const char *line_start);

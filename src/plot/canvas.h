@@ -1,0 +1,88 @@
+/* canvas.h -- what every figure is drawn with: inks, letters, lines, hatching.
+ *
+ * Units    "points" of the page, y down; a page is scaled to its picture as a whole.
+ * Frame    angles of texts in radians, clockwise as y runs down.
+ * Threads  one thread a canvas. Fails: never here; cairo's status is asked once at the end.
+ */
+#pragma once
+#include <cairo.h>
+#include <stdbool.h>
+
+#include "base/arena.h"
+
+typedef struct Ink {
+    double red, green, blue, alpha; /* sRGB, 0 to 1 */
+} Ink;
+
+/* The few inks of a page. */
+typedef struct Theme {
+    Ink  paper, ink, soft, faint, grid;
+    Ink  primary[3];   /* red, green, blue of a display */
+    Ink  accent;
+    bool is_dark;
+} Theme;
+
+Theme theme_light(void);
+Theme theme_dark(void);
+
+typedef struct Canvas {
+    cairo_t *cr;
+    Theme    theme;
+    double   pixels_per_point; /* of the finished picture, for rasters inside it */
+    Arena   *arena;
+} Canvas;
+
+typedef struct Box {
+    double x, y, w, h;
+} Box;
+
+/* ---- letters --------------------------------------------------------------------------- */
+
+#define SIZE_HEADING 20.0
+#define SIZE_TITLE 13.0
+#define SIZE_TEXT 10.5
+#define SIZE_TICK 9.5
+#define SIZE_SMALL 8.5
+
+typedef struct Letters {
+    double size;  /* points */
+    Ink    ink;
+    double across, down; /* 0 left/top .. 0.5 middle .. 1 right/bottom of the text is at x, y */
+    double angle;
+    bool   is_bold;
+    Ink    halo;  /* alpha 0: none */
+} Letters;
+
+/* UTF-8. */
+void canvas_text(Canvas *canvas, double x, double y, Letters letters, const char *text);
+double canvas_text_width(Canvas *canvas, double size, bool is_bold, const char *text);
+
+/* Cuts the text so that it fits, with an ellipsis; from the arena where it is cut. */
+const char *canvas_fit_text(Canvas *canvas, double size, bool is_bold, double width,
+                            const char *text);
+
+/* Lines of text within `width`, broken at blanks; returns the y below the last. */
+double canvas_paragraph(Canvas *canvas, Box box, Letters letters, const char *text);
+
+/* ---- lines and areas ------------------------------------------------------------------- */
+
+typedef enum Dash { DASH_NONE, DASH_LONG, DASH_SHORT, DASH_DOT } Dash;
+
+typedef struct Stroke {
+    Ink    ink;
+    double width;
+    Dash   dash;
+} Stroke;
+
+/* The current path of canvas->cr, which is emptied. */
+void canvas_stroke(Canvas *canvas, Stroke stroke);
+void canvas_fill(Canvas *canvas, Ink ink);
+
+void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1, Stroke stroke);
+
+/* The area inside the present clip is dimmed with paper and hatched: not measured. */
+void canvas_hatch(Canvas *canvas, Box area);
+
+Ink  ink_hex(unsigned rgb);
+Ink  ink_alpha(Ink ink, double alpha);
+Ink  ink_mix(Ink a, Ink b, double t);

@@ -1,0 +1,30 @@
+#include "plot/figure.h"
+
+#include "plot/chart.h"
+
+void figure_add(FigureList *list, const Figure *figure)
+{
+    if (list->count < FIGURES_MAX) list->figure[list->count++] = *figure;
+}
+
+void figure_draw(Canvas *canvas, Box box, const Figure *figure, FigureMap *map)
+{
+    Theme *theme = &canvas->theme;
+    *map = (FigureMap){0};
+    canvas_text(canvas, box.x, box.y,
+                (Letters){.size = SIZE_TITLE, .ink = theme->ink, .is_bold = true},
+                canvas_fit_text(canvas, SIZE_TITLE, true, box.w, figure->title));
+    canvas_text(canvas, box.x, box.y + 17,
+                (Letters){.size = SIZE_TICK, .ink = theme->soft},
+                canvas_fit_text(canvas, SIZE_TICK, false, box.w, figure->subtitle));
+    figure->draw(canvas, (Box){box.x, box.y + 34, box.w, box.h - 34}, figure, map);
+}
+
+void figure_map_chart(FigureMap *map, const Chart *chart)
+{
+    *map = (FigureMap){.kind = FIGURE_CHART, .plot = chart->plot,
+                       .low = {chart->x.low, chart->y.low},
+                       .high = {chart->x.high, chart->y.high},
+                       .is_log = {chart->x.is_log, chart->y.is_log},
+                       .axis = {chart->x.title, chart->y.title}};
+}

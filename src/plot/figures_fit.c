@@ -1,0 +1,379 @@
+/* Measured against fitted: the source's points over the curves, and what is left. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/units.h"
+#include "plot/chart.h"
+#include "plot/figure.h"
+#include "plot/ticks.h"
+
+/* ---- comparing ------------------------------------------------------------------------------- */
+
+/* One emission table with the codes that it shows. */
+typedef struct FitTableRef {
+    const AngleTable *table;
+    float             rgb[3];
+} FitTableRef;
+
+#define FIT_TABLES_MAX (3 * MEASUREMENT_LEVELS_MAX + 1)
+
+static int emission_tables(const Measurement *set, FitTableRef out[FIT_TABLES_MAX])
+{
+    int count = 0;
+    if (set->has_black) out[count++] = (FitTableRef){&set->black, {0, 0, 0}};
+    for (int p = 0; p < 3; p++)
+        for (int i = 0; i < set->primary[p].level_count; i++) {
+            FitTableRef ref = {&set->primary[p].table[i], {0, 0, 0}};
+            ref.rgb[p] = (float)set->primary[p].level[i];
+            out[count++] = ref;
+        }
+    return count;
+}
+
+static double table_peak(const AngleTable *table)
+{
+    double peak = 0;
+    for (int i = 0; i < table->rows; i++)
+        peak = fmax(peak, (double)table->value[i * table->channels + 1]);
+    return peak;
+}
+
+/* Fitted over measured luminance, less one, in percent; relative to a hundredth of the table's
+ * peak where the light is dimmer. NaN on the horizon. */
+static double residual_percent(const Subject *s, const FitTableRef *ref, int row, double peak)
+{
+    double xyz[3], theta = (double)ref->table->theta[row];
+    double measured = (double)ref->table->value[row * ref->table->channels + 1];
+    if (theta > PI / 2 - 1e-4 || !(peak > 0)) return NAN;
+    subject_xyz(s, theta, (double)ref->table->phi[row], ref->rgb, xyz);
+    return 100 * (xyz[1] - measured) / fmax(measured, 0.01 * peak);
+}
+
+/* The bound that the file states for its emission tables, percent. */
+static double stated_bound_percent(const Subject *s)
+{
+    const json_t *report = s->source.report, *bound = json_object_get(report, "bound");
+    if (json_is_number(bound)) return 100 * json_number_value(bound);
+    size_t  i;
+    json_t *table;
+    double  most = 0;
+    json_array_foreach(json_object_get(report, "tables"), i, table) {
+        const char *name = json_string_value(json_object_get(table, "name"));
+        if (name && !strncmp(name, "brdf", 4)) continue;
+        most = fmax(most, json_number_value(json_object_get(table, "max_error")));
+    }
+    return 100 * most;
+}
+
+/* ---- sections with points -------------------------------------------------------------------- */
+
+/* Signed angle of a direction in the plane through phi; false outside it. */
+static bool in_plane(double theta, double phi, double plane, double *deg)
+{
+    double away = fabs(remainder(phi - plane, 2 * PI));
+    double across = fabs(remainder(phi - plane - PI, 2 * PI));
+    if (theta > 1e-6 && away > 1e-3 && across > 1e-3) return false;
+    *deg = degrees_from_radians(theta) * (away < across ? 1 : -1);
+    return true;
+}
+
+static void ring(Chart *chart, double x, double y, Ink ink)
+{
+    double px = chart_x(chart, x), py = chart_y(chart, y);
+    Box    p = chart->plot;
+    if (px < p.x - 1 || px > p.x + p.w + 1 || py < p.y - 1 || py > p.y + p.h + 1) return;
+    cairo_new_sub_path(chart->canvas->cr);
+    cairo_arc(chart->canvas->cr, px, py, 1.9, 0, 2 * PI);
+    canvas_stroke(chart->canvas, (Stroke){ink, 0.8, DASH_NONE});
+}
+
+/* Points of one table in the plane, no nearer than 2 degrees. */
+static void draw_points(Chart *chart, const AngleTable *table, double plane, Ink ink)
+{
+    bool taken[181] = {false};
+    for (int i = 0; i < table->rows; i++) {
+        double deg;
+        if (!in_plane((double)table->theta[i], (double)table->phi[i], plane, &deg)) continue;
+        int slot = (int)floor((deg + 90) / 2);
+        if (slot < 0 || slot > 180 || taken[slot]) continue;
+        taken[slot] = true;
+        ring(chart, deg, (double)table->value[i * table->channels + 1], ink);
+    }
+}
+
+static void draw_fitted_curve(Chart *chart, const Subject *s, const float rgb[3], double plane,
+                              Ink ink)
+{
+    double deg[353], value[353];
+    for (int i = 0; i < 353; i++) {
+        double xyz[3];
+        deg[i] = -88 + i * 0.5;
+        subject_xyz(s, radians_from_degrees(deg[i]), plane, rgb, xyz);
+        value[i] = xyz[1];
+    }
+    chart_curve(chart, deg, value, 353, (Stroke){ink, 1.2, DASH_NONE});
+}
+
+static void draw_fit_section(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+{
+    const Subject     *s = figure->subject;
+    const Measurement *set = s->source.measured;
+    double high = 0, plane = figure->index ? PI / 2 : 0;
+    for (int p = 0; p < 3; p++)
+        high = fmax(high, table_peak(&set->primary[p].table[set->primary[p].level_count - 1]));
+    Chart chart = chart_open(canvas, box,
+        (AxisSpec){.low = -90, .high = 90, .step = 30, .suffix = "°",
+                   .title = figure->index ? "θ along φ 270° to 90°" : "θ along φ 180° to 0°"},
+        (AxisSpec){.high = 1.06 * high, .title = "Luminance, cd/m²"}, 48);
+    double cone = degrees_from_radians(s->cone);
+    chart_hatch(&chart, -90, -cone);
+    chart_hatch(&chart, cone, 90);
+    for (int p = 0; p < 3; p++) {
+        const MeasuredPrimary *primary = &set->primary[p];
+        int   last = primary->level_count - 1;
+        float rgb[3] = {0, 0, 0};
+        rgb[p] = (float)primary->level[last];
+        Ink ink = canvas->theme.primary[p];
+        double xyz[3];
+        draw_points(&chart, &primary->table[last], plane, ink);
+        draw_fitted_curve(&chart, s, rgb, plane, ink);
+        subject_xyz(s, radians_from_degrees(78), plane, rgb, xyz);
+        chart_name(&chart, 78, xyz[1], ink, pattern_name((Pattern)(PATTERN_RED + p)));
+    }
+    chart_close(&chart);
+    figure_map_chart(out, &chart);
+}
+
+/* ---- all residuals ----------------------------------------------------------------------------- */
+
+#define BINS 61
+
+typedef struct Residuals {
+    double  reach; /* percent, of the histogram's ends */
+    double  bin[BINS], highest;
+    double  most, rms, count;
+    double  worst_theta, worst_phi;
+    FitTableRef worst; /* the table with the largest */
+} Residuals;
+
+static void measure_residuals(const Subject *s, Residuals *out)
+{
+    FitTableRef *ref = ARENA_NEW(s->arena, FitTableRef, FIT_TABLES_MAX);
+    int          tables = emission_tables(s->source.measured, ref);
+    double       squares = 0;
+    for (int pass = 0; pass < 2; pass++) {
+        for (int t = 0; t < tables; t++) {
+            double peak = table_peak(ref[t].table);
+            for (int i = 0; i < ref[t].table->rows; i++) {
+                double r = residual_percent(s, &ref[t], i, peak);
+                if (!isfinite(r)) continue;
+                if (pass == 1) {
+                    int bin = (int)floor((r / out->reach + 1) / 2 * BINS);
+                    out->bin[bin < 0 ? 0 : bin >= BINS ? BINS - 1 : bin] += 1;
+                    continue;
+                }
+                squares += r * r;
+                out->count += 1;
+                if (fabs(r) <= out->most) continue;
+                out->most = fabs(r);
+                out->worst = ref[t];
+                out->worst_theta = (double)ref[t].table->theta[i];
+                out->worst_phi = (double)ref[t].table->phi[i];
+            }
+        }
+        out->rms = sqrt(squares / fmax(out->count, 1));
+        double bound = stated_bound_percent(s);
+        if (pass == 0) out->reach = fmax(1.15 * bound, fmin(out->most, 3 * bound)) + 1e-6;
+    }
+    for (int i = 0; i < BINS; i++) out->highest = fmax(out->highest, out->bin[i]);
+}
+
+static void draw_histogram(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+{
+    const Subject *s = figure->subject;
+    Residuals     *r = ARENA_NEW(canvas->arena, Residuals, 1);
+    double         bound = stated_bound_percent(s);
+    measure_residuals(s, r);
+    Chart chart = chart_open(canvas, box,
+        (AxisSpec){.low = -r->reach, .high = r->reach, .suffix = " %",
+                   .title = "fitted less measured luminance"},
+        (AxisSpec){.low = 0.7, .high = round_up(fmax(r->highest, 10) * 1.1), .is_log = true,
+                   .title = "samples"}, 14);
+    for (int i = 0; i < BINS; i++) {
+        if (!(r->bin[i] > 0)) continue;
+        double x0 = chart_x(&chart, r->reach * (2.0 * i / BINS - 1));
+        double x1 = chart_x(&chart, r->reach * (2.0 * (i + 1) / BINS - 1));
+        double y = chart_y(&chart, r->bin[i]);
+        cairo_rectangle(canvas->cr, x0 + 0.4, y, x1 - x0 - 0.8,
+                        chart.plot.y + chart.plot.h - y);
+        canvas_fill(canvas, ink_mix(canvas->theme.primary[2], canvas->theme.paper, 0.35));
+    }
+    Stroke stroke = {canvas->theme.accent, 1.2, DASH_SHORT};
+    chart_mark_x(&chart, -bound, stroke, "");
+    chart_mark_x(&chart, bound, stroke, arena_format(canvas->arena, "±%.3g %%", bound));
+    figure_map_chart(out, &chart);
+}
+
+/* The worst table's residuals as a map: every grid point takes its nearest sample's value. */
+static Field residual_field(const Subject *s, const FitTableRef *ref, Arena *arena)
+{
+    Field  field = field_new(301, PI / 2, arena);
+    double peak = table_peak(ref->table), *nearest = ARENA_NEW(arena, double, 301 * 301);
+    double spacing = sqrt(2 * PI / ref->table->rows) * 1.3; /* radians between samples */
+    int    reach = (int)ceil(spacing / (PI / 300)) + 1;
+    reach = reach > 12 ? 12 : reach;
+    for (int i = 0; i < 301 * 301; i++) nearest[i] = INFINITY;
+    for (int k = 0; k < ref->table->rows; k++) {
+        double c, r, value = residual_percent(s, ref, k, peak);
+        if (!isfinite(value)) continue;
+        field_place(&field, (double)ref->table->theta[k], (double)ref->table->phi[k], &c, &r);
+        for (int y = (int)r - reach; y <= (int)r + reach; y++)
+            for (int x = (int)c - reach; x <= (int)c + reach; x++) {
+                double d = hypot(x - c, y - r);
+                if (x < 0 || y < 0 || x > 300 || y > 300 || d > reach ||
+                    d >= nearest[y * 301 + x]) continue;
+                nearest[y * 301 + x] = d;
+                field.value[y * 301 + x] = (float)value;
+            }
+    }
+    return field;
+}
+
+static void draw_residual_map(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+{
+    const Subject *s = figure->subject;
+    Residuals     *r = ARENA_NEW(canvas->arena, Residuals, 1);
+    Field         *field = ARENA_NEW(canvas->arena, Field, 1);
+    measure_residuals(s, r);
+    *field = residual_field(s, &r->worst, canvas->arena);
+    double   reach = fmax(stated_bound_percent(s), 1e-3);
+    PolarMap map = {.field = field, .map = MAP_SIGNED, .low = -reach, .high = reach,
+                    .strong = NAN, .theta_measured = s->cone, .unit = "%", .is_residual = true};
+    PolarPlace place = polar_draw(canvas, box, &map);
+    *out = (FigureMap){.kind = FIGURE_POLAR, .disc = place, .field = *field, .unit = "%"};
+}
+
+/* ---- reflection --------------------------------------------------------------------------------- */
+
+/* The channel nearest to 550 nm. */
+static int middle_channel(const Measurement *set)
+{
+    int best = 0;
+    for (int w = 1; w < set->wavelength_count; w++)
+        if (fabsf(set->wavelength_nm[w] - 550) < fabsf(set->wavelength_nm[best] - 550)) best = w;
+    return best;
+}
+
+typedef struct BrdfPoints {
+    int    count;
+    double deg[2048], value[2048], fitted[2048];
+} BrdfPoints;
+
+static int compare_points(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void fill_brdf_points(const Subject *s, int incidence, int channel, BrdfPoints *out)
+{
+    const Measurement *set = s->source.measured;
+    const AngleTable  *table = &set->brdf[incidence];
+    double             pairs[2048][2];
+    *out = (BrdfPoints){0};
+    for (int i = 0; i < table->rows && out->count < 2048; i++) {
+        double deg;
+        if (!in_plane((double)table->theta[i], (double)table->phi[i], 0, &deg)) continue;
+        pairs[out->count][0] = deg;
+        pairs[out->count++][1] = (double)table->value[i * table->channels + channel];
+    }
+    qsort(pairs, (size_t)out->count, sizeof *pairs, compare_points);
+    for (int i = 0; i < out->count; i++) {
+        out->deg[i] = pairs[i][0];
+        out->value[i] = pairs[i][1];
+        out->fitted[i] = subject_brdf_at(s, set->incidence[incidence],
+                                         radians_from_degrees(fabs(pairs[i][0])),
+                                         pairs[i][0] < 0 ? PI : 0,
+                                         (double)set->wavelength_nm[channel]);
+    }
+}
+
+static void draw_fit_brdf(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+{
+    const Subject     *s = figure->subject;
+    const Measurement *set = s->source.measured;
+    int         count = set->incidence_count < 6 ? set->incidence_count : 6;
+    BrdfPoints *points = ARENA_NEW(canvas->arena, BrdfPoints, count);
+    double      low = INFINITY, high = 1e-9;
+    for (int k = 0; k < count; k++) {
+        int which = count > 1 ? k * (set->incidence_count - 1) / (count - 1) : 0;
+        fill_brdf_points(s, which, middle_channel(set), &points[k]);
+        for (int i = 0; i < points[k].count; i++) {
+            high = fmax(high, points[k].value[i]);
+            if (points[k].fitted[i] > 0) low = fmin(low, points[k].fitted[i]);
+        }
+    }
+    low = round_down(fmax(fmin(low, high / 10), high / 1e6) * 0.8);
+    Chart chart = chart_open(canvas, box,
+        (AxisSpec){.low = -90, .high = 90, .step = 30, .suffix = "°",
+                   .title = "leaving angle in the plane of incidence"},
+        (AxisSpec){.low = low, .high = round_up(high * 1.3), .is_log = true,
+                   .title = "BRDF, sr⁻¹"}, 14);
+    for (int k = 0; k < count; k++) {
+        double srgb[3], shown = -INFINITY;
+        colour_map_at(MAP_SCATTER, 0.12 + 0.6 * k / fmax(count - 1, 1), srgb);
+        Ink ink = {srgb[0], srgb[1], srgb[2], 1};
+        for (int i = 0; i < points[k].count; i++) {
+            if (points[k].deg[i] - shown < 1.2) continue;
+            shown = points[k].deg[i];
+            ring(&chart, points[k].deg[i], points[k].value[i], ink_alpha(ink, 0.75));
+        }
+        chart_curve(&chart, points[k].deg, points[k].fitted, points[k].count,
+                    (Stroke){ink, 1.2, DASH_NONE});
+    }
+    figure_map_chart(out, &chart);
+}
+
+/* ---- the list -------------------------------------------------------------------------------------- */
+
+static void add_emission_fit(FigureList *list, const Subject *s)
+{
+    Residuals *r = ARENA_NEW(s->arena, Residuals, 1);
+    char       most[32], rms[32];
+    measure_residuals(s, r);
+    for (int i = 0; i < 2; i++)
+        figure_add(list, &(Figure){PLOT_FIT, i ? "Measured and fitted, vertical"
+                                                 : "Measured and fitted, horizontal",
+            "rings: the source's samples, lines: the panel file",
+            "The source's luminance (rings) over the panel file's (lines), each primary at its "
+            "highest level.", draw_fit_section, s, i, true});
+    figure_add(list, &(Figure){PLOT_FIT, "Residuals of all samples",
+        arena_format(s->arena, "%.0f samples: rms %s %%, at most %s %%; line: the file's bound",
+                     r->count, figure_text(r->rms, rms), figure_text(r->most, most)),
+        "Fitted less measured luminance of every sample of every emission table, relative to the "
+        "measured one (to a hundredth of the table's peak where that is more); the lines are the "
+        "largest error that the file states.", draw_histogram, s, 0, true});
+    if (r->worst.table)
+        figure_add(list, &(Figure){PLOT_FIT, "Residual of the worst table",
+            arena_format(s->arena, "%s: at most %s %% at θ %.0f°, φ %.0f°", r->worst.table->name,
+                         most, degrees_from_radians(r->worst_theta),
+                         degrees_from_radians(r->worst_phi)),
+            "Fitted less measured luminance in percent for the table with the largest error; the "
+            "colours end at the bound that the file states.", draw_residual_map, s, 0, true});
+}
+
+void figures_add_fit(FigureList *list, const Subject *s)
+{
+    const Measurement *set = s->source.measured;
+    if (!set) return;
+    if (s->emits && set->primary[0].level_count > 0) add_emission_fit(list, s);
+    if (s->reflects && set->incidence_count > 0)
+        figure_add(list, &(Figure){PLOT_FIT, "Measured and fitted BRDF",
+            arena_format(s->arena, "%.4g nm; rings: the source, lines: without the mirror part",
+                         (double)set->wavelength_nm[middle_channel(set)]),
+            "The source's BRDF in the plane of incidence (rings) over the panel file's haze and "
+            "floor (lines). What stands above the line at the mirror direction is the "
+            "instrument's image of the mirror part, which the file keeps apart.", draw_fit_brdf,
+            s, 0, true});
+}

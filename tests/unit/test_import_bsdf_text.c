@@ -1,0 +1,325 @@
+/* Scatter in the text formats of optical design programs and goniophotometers. */
+#include "import_fixture.h"
+
+/* ---- Zemax ------------------------------------------------------------------------------- */
+
+#define ZEMAX_HEAD                                                                             \
+    "#Measured at 633 nm\n"                                                                    \
+    "Source Measured\nSymmetry PlaneSymmetrical\nSpectralContent Monochrome\n"                 \
+    "ScatterType BRDF\nSampleRotation 1\n0\nAngleOfIncidence 2\n20 40\n"                       \
+    "ScatterAzimuth 3\n0 90 180\nScatterRadial 3\n0 10 60\n\nMonochrome\nDataBegin\n"
+#define ZEMAX                                                                                  \
+    ZEMAX_HEAD                                                                                 \
+    "TIS 0.5\n9 1 2\n9 3 4\n9 5 6\n"                                                           \
+    "TIS 0.6\n19 11 12\n19 13 14\n19 15 16\nDataEnd\n"
+
+static void zemax_angles_count_from_the_mirror_direction(void **state)
+{
+    Fixture *f = *state;
+    f->options.wavelength_nm = 0;
+    assert_reads(f, ZEMAX, "zemax");
+    assert_int_equal(f->set.count, 2);
+    const ImportTable *t = table_at(f, 40, 180);
+    assert_close(t->wavelength_nm[0], 633, 1e-7);
+    assert_noted(f, "633 nm is read from the file's comments");
+    /* The mirror direction is (40, 0); azimuth 0 leads towards the normal and beyond. */
+    assert_near(value_at(t, 40, 0, 0), 19, 0);
+    assert_near(value_at(t, 30, 0, 0), 11, 0);
+    assert_near(value_at(t, 20, 180, 0), 12, 0);
+    assert_near(value_at(t, 50, 0, 0), 15, 0);
+    /* Across: cos theta = cos 10 cos 40, sin of the turn over sin theta; both halves. */
+    double r = 3.14159265358979323846 / 180;
+    double theta = acos(cos(10 * r) * cos(40 * r)) / r;
+    double phi = asin(sin(10 * r) / sin(theta * r)) / r;
+    assert_near(value_at(t, theta, phi, 0), 13, 0);
+    assert_near(value_at(t, theta, -phi, 0), 13, 0);
+    /* Azimuth 180 and radial 60 lies under the horizon: the others are there. */
+    assert_int_equal(t->rows, 1 + 4 + 3);
+    assert_false(f->set.is_anisotropic);
+}
+
+static void zemax_azimuth_runs_counter_clockwise(void **state)
+{
+    Fixture *f = *state;
+    assert_reads(f, "Source Measured\nSymmetry ASymmetrical\nSpectralContent Monochrome\n"
+                    "ScatterType BRDF\nSampleRotation 1\n0\nAngleOfIncidence 1\n0\n"
+                    "ScatterAzimuth 4\n0 90 180 270\nScatterRadial 2\n0 30\n\nMonochrome\n"
+                    "DataBegin\nTIS 0\n1 2\n1 3\n1 4\n1 5\nDataEnd\n", "zemax");
+    /* At normal incidence the tangent towards the normal points away from phi 0, to 180. */
+    const ImportTable *t = table_at(f, 0, 180);
+    assert_near(value_at(t, 30, 180, 0), 2, 0);
+    assert_near(value_at(t, 30, 270, 0), 3, 0);
+    assert_near(value_at(t, 30, 0, 0), 4, 0);
+    assert_near(value_at(t, 30, 90, 0), 5, 0);
+    assert_int_equal(t->rows, 5);
+}
+
+static void zemax_sample_rotations_are_azimuths_of_the_light(void **state)
+{
+    Fixture *f = *state;
+    assert_reads(f, "Symmetry ASymmetrical4D\nSpectralContent Monochrome\nScatterType BRDF\n"
+                    "SampleRotation 2\n0 90\nAngleOfIncidence 1\n30\nScatterAzimuth 1\n0\n"
+                    "ScatterRadial 1\n10\nMonochrome\nDataBegin\nTIS 0 7\nTIS 0 8\nDataEnd\n",
+                 "zemax");
+    assert_true(f->set.is_anisotropic);
+    assert_near(value_at(table_at(f, 30, 180), 20, 0, 0), 7, 0);
+    assert_near(value_at(table_at(f, 30, 90), 20, 0, 0), 8, 0);
+}
+
+static void zemax_of_xyz_keeps_y(void **state)
+{
+    Fixture *f = *state;
+    f->options.wavelength_nm = 0;
+    assert_reads(f, "Symmetry PlaneSymmetrical\nSpectralContent XYZ\nScatterType BRDF\n"
+                    "SampleRotation 1\n0\nAngleOfIncidence 1\n30\nScatterAzimuth 1\n0\n"
+                    "ScatterRadial 1\n10\nTristimulusX\nDataBegin\nTIS 0 7\nDataEnd\n"
+                    "TristimulusY\nDataBegin\nTIS 0 8\nDataEnd\nTristimulusZ\nDataBegin\n"
+                    "TIS 0 9\nDataEnd\n", "zemax");
+    assert_near(value_at(table_at(f, 30, 180), 20, 0, 0), 8, 0);
+    assert_close(f->set.table[0].wavelength_nm[0], 555, 1e-7);
+    assert_noted(f, "of X, Y and Z only Y is taken");
+}
+
+/* A Lambertian surface of reflectance 0.6: brdf 0.6 / pi about any mirror direction. */
+static void zemax_totals_are_told_beside_the_tables_own(void **state)
+{
+    Fixture *f = *state;
+    char     text[16384];
+    int      n = snprintf(text, sizeof text,
+                          "Symmetry PlaneSymmetrical\nSpectralContent Monochrome\nScatterType BRDF\n"
+                          "SampleRotation 1\n0\nAngleOfIncidence 1\n50\nScatterAzimuth 19\n");
+    for (int i = 0; i < 19; i++) n += sprintf(text + n, "%d ", i * 10);
+    n += sprintf(text + n, "\nScatterRadial 19\n");
+    for (int i = 0; i < 19; i++) n += sprintf(text + n, "%d ", i * 10);
+    n += sprintf(text + n, "\nMonochrome\nDataBegin\nTIS 0.6\n");
+    for (int i = 0; i < 19 * 19; i++) n += sprintf(text + n, "0.190986 ");
+    sprintf(text + n, "\nDataEnd\n");
+    assert_reads(f, text, "zemax");
+    assert_noted(f, "50 deg 0.6 (0.6)");
+    for (int i = 0; i < f->set.table[0].rows; i++)
+        assert_close(f->set.table[0].value[i], 0.190986, 1e-12);
+}
+
+static void zemax_zeros_are_directions_without_a_measurement(void **state)
+{
+    Fixture *f = *state;
+    assert_reads(f, "Symmetry PlaneSymmetrical\nSpectralContent Monochrome\nScatterType BRDF\n"
+                    "SampleRotation 1\n0\nAngleOfIncidence 1\n30\nScatterAzimuth 1\n0\n"
+                    "ScatterRadial 3\n0 10 20\nMonochrome\nDataBegin\nTIS 0 7 0 8\nDataEnd\n",
+                 "zemax");
+    assert_int_equal(f->set.table[0].rows, 2);
+    assert_int_equal(f->set.table[0].masked, 1);
+    assert_close(f->set.table[0].masked_theta_deg[0], 20, 1e-9);
+}
+
+static void zemax_errors_name_the_line(void **state)
+{
+    Fixture        *f = *state;
+    const Importer *z = &importer_zemax;
+    assert_refused(f, ZEMAX_HEAD "TIS 0.5\n9 1 2\n9 x 4\n", z,
+                   "line 19: a value of the block is 'x', wanted a number");
+    assert_refused(f, ZEMAX_HEAD "TIS 0.5\n9 1 2\n9 3 4\n9 5 6\nDataEnd\n", z,
+                   "line 22: the file ends after 1 blocks, wanted 2");
+    assert_refused(f, "Symmetry Round\n", z, "line 1: Symmetry is 'Round', wanted "
+                   "PlaneSymmetrical, Asymmetrical or ASymmetrical4D");
+    assert_refused(f, "ScatterType BTDF\n", z,
+                   "line 1: ScatterType is BTDF: transmission, and a display panel is opaque");
+    assert_refused(f, "AngleOfIncidence 1000\n1 2\n", z,
+                   "line 1: AngleOfIncidence is 1000, more than the rest of the file can hold");
+    f->options.wavelength_nm = 0;
+    assert_refused(f, "Symmetry PlaneSymmetrical\nSpectralContent Monochrome\nScatterType BRDF\n"
+                      "SampleRotation 1\n0\nAngleOfIncidence 1\n30\nScatterAzimuth 1\n0\n"
+                      "ScatterRadial 1\n10\nMonochrome\nDataBegin\nTIS 0 7\nDataEnd\n", z,
+                   "does not say the wavelength of its values — give it as --wavelength NM");
+}
+
+static void zemax_prefixes_are_refused(void **state)
+{
+    assert_prefixes_refused(*state, ZEMAX, strlen(ZEMAX) - 1, 1, &importer_zemax);
+}
+
+/* Values read off the file: line 39 is azimuth 0 of incidence 10, line 47 azimuth 80. */
+static void a_real_black_coating_of_zemax_has_its_values(void **state)
+{
+    Fixture *f = *state;
+    f->options.wavelength_nm = 0;
+    const char *file = shared_bsdf(f, "loft-rt300s/AnoBlackEC1onAlum.bsdf");
+    assert_true(fixture_read_file(f, file, "zemax"));
+    assert_int_equal(f->set.count, 4);
+    const ImportTable *t = table_at(f, 10, 180);
+    assert_close(t->wavelength_nm[0], 650, 1e-7);
+    assert_close(value_at(t, 10, 0, 0), 3.480e-2, 1e-12);
+    assert_close(value_at(t, 5, 0, 0), 3.355e-2, 1e-12);
+    assert_close(value_at(t, 0, 0, 0), 3.067e-2, 1e-12);
+    assert_close(value_at(t, 5, 180, 0), 2.781e-2, 1e-12);
+    assert_close(value_at(t, 80, 180, 0), 7.904e-3, 1e-12); /* radial 90 */
+    assert_close(value_at(t, 15, 0, 0), 3.248e-2, 1e-12);   /* azimuth 180, radial 5 */
+    assert_true(t->masked > 0);
+    assert_noted(f, "10 deg 0.03866 (");
+}
+
+/* ---- FRED -------------------------------------------------------------------------------- */
+
+#define FRED                                                                                   \
+    "type bsdf_data\nformat angles=deg bsdf=value scale=2\n"                                   \
+    "30 0\n0 0 1\n30 0 4\n30 90 2\n60 180 3\n"                                                 \
+    "50 0\n50 0 5\n-20 0 6\n"
+
+static void fred_angles_count_from_the_mirrors_azimuth(void **state)
+{
+    Fixture *f = *state;
+    assert_reads(f, FRED, "fred");
+    assert_int_equal(f->set.count, 2);
+    const ImportTable *t = table_at(f, 30, 180);
+    assert_int_equal(t->rows, 4);
+    assert_near(value_at(t, 30, 0, 0), 8, 0);
+    assert_near(value_at(t, 30, 90, 0), 4, 0);
+    assert_near(value_at(t, 60, 180, 0), 6, 0);
+    assert_near(value_at(table_at(f, 50, 180), 20, 180, 0), 12, 0);
+    assert_reads(f, "!!sample\n!!BSDF Data\n20.000 90.000\n20 90 7\n20 180 8\n", "fred");
+    t = table_at(f, 20, 270);
+    assert_near(value_at(t, 20, 0, 0), 7, 0);
+    assert_near(value_at(t, 20, 90, 0), 8, 0);
+}
+
+static void fred_errors_name_the_line(void **state)
+{
+    Fixture        *f = *state;
+    const Importer *i = &importer_fred;
+    assert_refused(f, "type bsdf_data\n10 20 30\n", i, "line 2: a row of three numbers stands "
+                   "before the two angles of the light");
+    assert_refused(f, "type bsdf_data\n30 0\n30 0 4\n95 0\n", i,
+                   "line 4: the angle of incidence is 95, wanted 0 to below 90 degrees");
+    assert_refused(f, "type bsdf_data\n30 0\n30 zero 4\n", i, "line 3: '30 zero 4' is no row, "
+                   "wanted theta, phi and value, or the two angles of the light");
+    assert_refused(f, "type bsdf_data\nformat angles=sine\n", i, "line 2: 'angles=sine' is no "
+                   "format that is known here, wanted angles=deg, bsdf=value, scale=NUMBER");
+    assert_refused(f, "type bsdf_data\n30 0\n30 0 4", i,
+                   "line 1: the last line has no line end: the file may be cut");
+    assert_refused(f, "type bsdf_data\n30 0\n40 0\n", i,
+                   "line 3: incidence 30 has no row of theta, phi and value");
+}
+
+static void real_tables_of_fred_have_their_values(void **state)
+{
+    Fixture    *f = *state;
+    const char *file = shared_bsdf(f, "loft-rt300s/AnoBlackEC1onAlum_fullAz.fred.txt");
+    assert_true(fixture_read_file(f, file, "fred"));
+    const ImportTable *t = table_at(f, 10, 180);
+    assert_int_equal(f->set.count, 4);
+    assert_close(value_at(t, 0, 0, 0), 0.031984, 1e-12);
+    assert_close(value_at(t, 10, 0, 0), 0.034800, 1e-12);
+    assert_close(value_at(t, 15, 130, 0), 0.024724, 1e-12);
+    file = shared_bsdf(f, "viavi-engineered-diffuser/EDS10_20-90.txt");
+    assert_true(fixture_read_file(f, file, "fred"));
+    t = table_at(f, 20, 270);
+    assert_int_equal(t->rows + t->masked, 86 * 360);
+    assert_close(t->value[brightest_row(t)], 26.9673, 1e-9);
+    assert_near(angle_between(t->theta_deg[brightest_row(t)], t->phi_deg[brightest_row(t)],
+                              25, 349), 0, 1e-6);
+}
+
+/* ---- Mountain ---------------------------------------------------------------------------- */
+
+#define MOUNTAIN                                                                               \
+    "#sample_name \"pane\"\n#format: theta phi DSF\n#incident_angle 30 90\n"                   \
+    "30 270 0.5\n60 90 0.25\n0 0 0.125\n120 0 0.5\n"
+
+static void mountain_light_comes_from_the_incident_angle(void **state)
+{
+    Fixture *f = *state;
+    assert_reads(f, MOUNTAIN, "mountain");
+    const ImportTable *t = table_at(f, 30, 90);
+    assert_int_equal(t->rows, 3);
+    assert_close(value_at(t, 30, 0, 0), 0.5 / cos(30 * 3.14159265358979323846 / 180), 1e-12);
+    assert_close(value_at(t, 60, 180, 0), 0.5, 1e-12);
+    assert_near(value_at(t, 0, 0, 0), 0.125, 0);
+    assert_noted(f, "1 directions behind the sample");
+    assert_string_equal(f->set.panel, "pane");
+    assert_reads(f, "#format: theta phi BSDF\n#intheta 20\n#inphi 0\n#colorimetry: CIE-XYZ\n"
+                    "20 180 1 2 3\n", "mountain");
+    assert_near(value_at(table_at(f, 20, 0), 20, 0, 0), 2, 0);
+}
+
+static void mountain_errors_name_the_line(void **state)
+{
+    Fixture        *f = *state;
+    const Importer *i = &importer_mountain;
+    assert_refused(f, "#format: theta phi BSDF\n1 2 3\n", i,
+                   "line 2: the header has no #intheta");
+    assert_refused(f, "#intheta 20\n#inphi 0\n1 2 3\n", i,
+                   "line 3: the header has no #format: line");
+    assert_refused(f, "#format: theta phi BSDF\n#incident_angle 20 0\n100 2 3\n", i,
+                   "line 3: every direction is behind the sample: transmission, and a display "
+                   "panel is opaque");
+    assert_refused(f, "#format: theta phi BSDF\n#incident_angle 120 0\n10 2 3\n", i,
+                   "line 3: the light comes from behind (intheta 120), wanted the front: below "
+                   "90 degrees");
+    assert_refused(f, "#format: theta phi BSDF\n#incident_angle 20 0\n10 2\n", i,
+                   "line 4: the file ends, wanted the value");
+}
+
+/* ---- LightTools -------------------------------------------------------------------------- */
+
+#define LIGHTTOOLS                                                                             \
+    "# LightTools\nSource Measured\nSymmetry Asymmetric\nSpectralContent Monochrome\n"         \
+    "ScatterAzimuth 4\n0 90 180 270\nScatterRadial 2\n0 30\nDataBegin\n"                       \
+    "AOI 30\nPOI 0\nSide Front\nWavelength 600\nScatterType BRDF\nTIS 0.5\n"                   \
+    "1 2 1 3 1 4 1 5\n"                                                                        \
+    "AOI 30\nPOI 0\nSide Front\nWavelength 600\nScatterType BTDF\nTIS 0.5\n"                   \
+    "9 9 9 9 9 9 9 9\n"                                                                        \
+    "AOI 30\nPOI 0\nSide Back\nWavelength 600\nScatterType BRDF\nTIS 0.5\n"                    \
+    "8 8 8 8 8 8 8 8\nDataEnd\n"
+
+static void lighttools_mirror_lies_opposite_the_light(void **state)
+{
+    Fixture *f = *state;
+    f->options.wavelength_nm = 0;
+    assert_reads(f, LIGHTTOOLS, "lighttools");
+    assert_int_equal(f->set.count, 1);
+    const ImportTable *t = table_at(f, 30, 90);
+    assert_close(t->wavelength_nm[0], 600, 1e-7);
+    assert_near(value_at(t, 30, 0, 0), 5, 0); /* the light at 90, the mirror at 270 */
+    assert_near(value_at(t, 30, 90, 0), 2, 0);
+    assert_near(value_at(t, 30, 180, 0), 3, 0);
+    assert_near(value_at(t, 30, 270, 0), 4, 0);
+    assert_noted(f, "left out are 1 blocks of the back and 1 of transmission");
+}
+
+static void lighttools_errors_name_the_line(void **state)
+{
+    Fixture        *f = *state;
+    const Importer *i = &importer_lighttools;
+    assert_refused(f, "SpectralContent Monochrome\nScatterAzimuth 1\n0\nScatterRadial 1\n0\n"
+                      "DataBegin\nAOI 30\nTIS 0\n1\nDataBreak\n", i,
+                   "line 9: DataBreak stands where an entry of a block (AOI, POI, Side, "
+                   "Wavelength, ScatterType, TIS) or DataEnd is wanted");
+    assert_refused(f, "SpectralContent Monochrome\nScatterAzimuth 1\n0\nScatterRadial 1\n0\n"
+                      "DataBegin\nAOI 30\nScatterType BTDF\nTIS 0\n1\nDataEnd\n", i,
+                   "line 11: there is no block of reflection at the front: a display panel is "
+                   "opaque, and only its front is seen");
+    assert_prefixes_refused(f, LIGHTTOOLS, strlen(LIGHTTOOLS) - 1, 1, i);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        fixture_case(zemax_angles_count_from_the_mirror_direction),
+        fixture_case(zemax_azimuth_runs_counter_clockwise),
+        fixture_case(zemax_sample_rotations_are_azimuths_of_the_light),
+        fixture_case(zemax_of_xyz_keeps_y),
+        fixture_case(zemax_totals_are_told_beside_the_tables_own),
+        fixture_case(zemax_zeros_are_directions_without_a_measurement),
+        fixture_case(zemax_errors_name_the_line),
+        fixture_case(zemax_prefixes_are_refused),
+        fixture_case(a_real_black_coating_of_zemax_has_its_values),
+        fixture_case(fred_angles_count_from_the_mirrors_azimuth),
+        fixture_case(fred_errors_name_the_line),
+        fixture_case(real_tables_of_fred_have_their_values),
+        fixture_case(mountain_light_comes_from_the_incident_angle),
+        fixture_case(mountain_errors_name_the_line),
+        fixture_case(lighttools_mirror_lies_opposite_the_light),
+        fixture_case(lighttools_errors_name_the_line),
+    };
+    return cmocka_run_group_tests_name("import_bsdf_text", tests, NULL, NULL);
+}
