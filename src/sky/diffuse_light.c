@@ -206,6 +206,14 @@ static void transport(Solver *s, bool with_beam)
                     s->order_source[slot(k, i, m)], s->order_source[slot(k + 1, i, m)]);
 }
 
+static void leave_at_top(Solver *s)
+{
+    for (int i = 0; i < SIDE; i++)
+        s->light->top_exitance += s->total[slot(DIFFUSE_LEVELS - 1, i, 0)] *
+                                  spectrum_all((float)(2 * PI * gauss_weight[i] *
+                                                       gauss_cosine[i]));
+}
+
 /* Adds an order to the total; returns its greatest share of it. */
 static float add_order(Solver *s)
 {
@@ -245,7 +253,8 @@ void diffuse_light_build(const DiffuseInput *input, Arena *arena, DiffuseLight *
     double direction[DIRECTIONS];
     size_t slots = slot(DIFFUSE_LEVELS, 0, 0);
     *out = (DiffuseLight){.floor_m = input->floor_m, .sun_cosine = input->sun_cosine,
-                          .ground_direct = spectrum_all(0), .ground_diffuse = spectrum_all(0)};
+                          .ground_direct = spectrum_all(0), .ground_diffuse = spectrum_all(0),
+                          .top_exitance = spectrum_all(0)};
     out->source = spectra(arena, (size_t)DIFFUSE_LEVELS * DIFFUSE_COSINES * DIFFUSE_MODES);
     Arena  scratch = *arena;
     Solver s = {.input = input, .light = out, .direction = direction,
@@ -271,6 +280,7 @@ void diffuse_light_build(const DiffuseInput *input, Arena *arena, DiffuseLight *
         scatter_again(&s);
     }
     fill_source(&s);
+    leave_at_top(&s);
 }
 
 /* ---- reading -------------------------------------------------------------------------------- */

@@ -26,6 +26,7 @@ typedef struct DiffuseLight {
      * azimuth from the sun's. */
     Spectrum *source;
     Spectrum  ground_direct, ground_diffuse; /* irradiance on the floor */
+    Spectrum  top_exitance; /* what leaves for space */
 } DiffuseLight;
 
 typedef struct DiffuseInput {
