@@ -15,6 +15,7 @@ static const PanelCommand commands[] = {
     {"fit", "measurement files to one compressed panel file", cmd_panel_fit},
     {"info", "what a panel file holds, its sizes and errors", cmd_panel_info},
     {"eval", "what a panel emits or reflects in one direction", cmd_panel_eval},
+    {"export", "a panel's tables written back, readable by fit", cmd_panel_export},
     {"simulate", "a virtual instrument writes a synthetic measurement set", cmd_panel_simulate},
 };
 

@@ -171,8 +171,9 @@ bool cmd_panel_eval(int argc, char **argv, Error *err)
         {"--incidence-phi", OPTION_NUMBER, "DEG",
          "azimuth of the light, degrees (default 180: the mirror direction is at phi 0)",
          &q->incidence_phi, -360, 360, .given = NULL},
-        {"--wavelength", OPTION_NUMBER, "NM", "one wavelength, nm, instead of all measured ones",
-         &q->wavelength_nm, 360, 830, .given = NULL},
+        {"--wavelength", OPTION_NUMBER, "NM",
+         "one wavelength, nm, instead of all measured ones", &q->wavelength_nm, 360, 830,
+         .given = NULL},
         {"--grid", OPTION_TEXT, "T0:T1:DT,P0:P1:DP",
          "theta and phi from, to, step, degrees, instead of one direction", &r.grid,
          .given = NULL},
@@ -191,7 +192,7 @@ bool cmd_panel_eval(int argc, char **argv, Error *err)
     };
     const CliCommand command = {"panel eval",
         "what a panel emits (cd/m2) or reflects (sr^-1) in one direction, or on a grid",
-        "X.panel --theta T --phi P --rgb R,G,B | --brdf --incidence T --theta T --phi P | --grid",
+        "X.panel --theta T --phi P --rgb R,G,B | --brdf --incidence T --theta T --phi P",
         "parhelion panel eval assets/panels/ips_cluster.panel --theta 30 --phi 0 "
         "--rgb 255,255,255", options, COUNT(options), 1, 1};
     if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;

@@ -97,16 +97,17 @@ typedef struct Tree {
     int             level, octants, components;
 
     /* Of vertex trees (vertex_tree.h). */
-    int                       base_level, level_count, plane_level;
-    float                     base_factor; /* 2^base_exponent */
-    const float              *scale;       /* of each component */
-    const struct VertexLevel *levels;
-    const uint32_t           *words;
-    const uint16_t           *ranks;
-    const uint8_t            *depths;
-    const uint64_t           *blocks;
-    const int16_t            *base;
-    const uint8_t            *details;
+    int                        base_level, level_count, plane_level;
+    uint32_t                   base_bytes;  /* of a base row */
+    float                      base_factor; /* 2^base_exponent */
+    const float               *scale;       /* of each component */
+    const struct VertexLevel  *levels;
+    const struct VertexFormat *formats;
+    const uint32_t            *words;
+    const uint16_t            *ranks;
+    const uint8_t             *depths, *block_formats;
+    const uint64_t            *blocks;
+    const uint8_t             *details; /* all rows */
 
     /* Of Haar trees. */
     const TreeNode *nodes;

@@ -15,9 +15,9 @@
  * more that is written before it is known whether it is kept. */
 #define TREE_MAX_TAPS (3 * 11 * GEODESIC_MAX_LEVEL + 1)
 
-/* A value as a weighted sum of a tree's octant means and rows. Of a vertex tree: the first three
- * rows are base rows, the others' numbers are the places of details in bytes, and weights hold
- * the powers of two that details are multiplied by. */
+/* A value as a weighted sum of a tree's octant means and rows. Of a vertex tree: the rows are
+ * places in bytes, levels are formats, and weights hold the powers of two that integers are
+ * multiplied by. */
 typedef struct TreeTaps {
     int      count;
     float    mean_weight[4]; /* of the octant means */

@@ -24,6 +24,5 @@ typedef struct VertexEdge {
 /* Edges of level i of a lattice; `edges` NULL: only their number. */
 uint32_t vertex_edges(VertexLattice lattice, int level, VertexEdge *edges);
 
-/* The blob; its bytes are in *size. Fails when a level has more than 65535 details. */
-bool vertex_code_write(const VertexCode *code, Arena *arena, const void **blob, size_t *size,
-                       Error *err);
+/* The blob; its bytes are in *size. */
+const void *vertex_code_write(const VertexCode *code, Arena *arena, size_t *size);

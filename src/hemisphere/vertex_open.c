@@ -1,10 +1,9 @@
 #include <math.h>
-#include <string.h>
 
 #include "hemisphere/vertex_view.h"
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "blobs are little-endian in place");
-_Static_assert(sizeof(VertexHeader) == 32 && sizeof(VertexLevel) == 20, "the blob's layout");
+_Static_assert(sizeof(VertexHeader) == 32 && sizeof(VertexLevel) == 16, "the blob's layout");
 
 static bool refuse(Error *err, const char *what, double found, double wanted)
 {
@@ -41,28 +40,40 @@ static bool check_header(const VertexHeader *h, size_t size, Error *err)
     return true;
 }
 
+static bool check_formats(const Tree *tree, const VertexHeader *h, Error *err)
+{
+    if (h->format_count < 1) return refuse(err, "number of formats", h->format_count, 1);
+    for (int i = 0; i < h->format_count; i++) {
+        int most = (h->components + 1) / 2;
+        for (int p = 0; p < VERTEX_PLANES; p++) {
+            int bytes = tree->formats[i].pairs[p];
+            if (bytes > most) return refuse(err, "bytes of a plane", bytes, most);
+            most = bytes;
+        }
+    }
+    for (int i = 0; i < h->block_count; i++)
+        if (tree->block_formats[i] >= h->format_count)
+            return refuse(err, "format of a block", tree->block_formats[i], h->format_count);
+    return true;
+}
+
 /* Where the next level's parts must start. */
 typedef struct Place {
     uint32_t word, block, byte;
 } Place;
 
-static bool check_level_numbers(const Tree *tree, const VertexHeader *h, int l, Place at,
-                                Error *err)
+static bool check_level_numbers(const Tree *tree, int l, Place at, Error *err)
 {
     const VertexLevel *level = &tree->levels[l];
     int                side = 1 << (tree->base_level + l);
-    uint32_t           kept = level->kept, width = level->is_wide ? 2 : 1;
     if (level->x < -side || level->x > side)
         return refuse_level(err, l, "window's column", level->x, -side);
     if (level->y < -side || level->y > side)
         return refuse_level(err, l, "window's row", level->y, -side);
-    if (level->is_wide > 1) return refuse_level(err, l, "width of rows", level->is_wide, 1);
+    if (level->shift > VERTEX_MAX_SHIFT)
+        return refuse_level(err, l, "shift", level->shift, VERTEX_MAX_SHIFT);
     if (level->exponent < -VERTEX_MAX_EXPONENT || level->exponent > VERTEX_MAX_EXPONENT)
         return refuse_level(err, l, "exponent", level->exponent, 0);
-    if (kept < 1 || kept > h->components || (kept < h->components && kept % 4 != 0))
-        return refuse_level(err, l, "number of components", kept, h->components);
-    if (level->row_bytes != kept * width)
-        return refuse_level(err, l, "bytes a row", level->row_bytes, kept * width);
     if (level->first_word != at.word)
         return refuse_level(err, l, "first word", level->first_word, at.word);
     if (level->first_block != at.block)
@@ -79,12 +90,36 @@ static uint32_t words_of(const VertexLevel *level)
     return blocks ? (blocks + 31) / 32 : 1;
 }
 
-/* The level's directory and blocks: every rank and first row continues the last. */
+/* The level's blocks: each one's rows start where the last one's end, rounded up. */
+static bool check_blocks(const Tree *tree, const VertexHeader *h, int l, uint32_t count,
+                         Place *at, Error *err)
+{
+    const VertexLevel *level = &tree->levels[l];
+    uint32_t           end = 0, unit = 1u << level->shift;
+    if (count > h->block_count - at->block)
+        return refuse_level(err, l, "blocks", count, h->block_count - at->block);
+    for (uint32_t b = at->block; b < at->block + count; b++) {
+        uint64_t bits = tree->blocks[b], rows = bits & ((1ull << VERTEX_BLOCK_BITS) - 1);
+        uint32_t start = (end + unit - 1) / unit;
+        if (bits >> VERTEX_BLOCK_BITS != start)
+            return refuse_level(err, l, "start of a block",
+                                (double)(bits >> VERTEX_BLOCK_BITS), start);
+        end = start * unit + vertex_count_bits(rows) *
+                                 vertex_format_bytes(tree->formats[tree->block_formats[b]]);
+    }
+    at->block += count;
+    at->byte += end;
+    if (at->byte > h->row_bytes)
+        return refuse_level(err, l, "rows' bytes", at->byte, h->row_bytes);
+    return true;
+}
+
+/* The level's directory: every rank continues the last. */
 static bool check_directory(const Tree *tree, const VertexHeader *h, int l, Place *at,
                             Error *err)
 {
     const VertexLevel *level = &tree->levels[l];
-    uint32_t           words = words_of(level), blocks = 0, rows = 0;
+    uint32_t           words = words_of(level), blocks = 0;
     uint32_t           spare = words * 32 - (uint32_t)level->width * level->height;
     if (words > h->word_count - at->word)
         return refuse_level(err, l, "directory's words", words, h->word_count - at->word);
@@ -97,26 +132,16 @@ static bool check_directory(const Tree *tree, const VertexHeader *h, int l, Plac
     }
     if (blocks > h->block_count - at->block)
         return refuse_level(err, l, "blocks", blocks, h->block_count - at->block);
-    for (uint32_t b = 0; b < blocks; b++) {
-        uint64_t bits = tree->blocks[at->block + b];
-        if (bits >> VERTEX_BLOCK_BITS != rows)
-            return refuse_level(err, l, "row of a block", (double)(bits >> VERTEX_BLOCK_BITS),
-                                rows);
-        rows += vertex_count_bits(bits & ((1ull << VERTEX_BLOCK_BITS) - 1));
-    }
     at->word += words;
-    at->block += blocks;
-    at->byte += rows * level->row_bytes;
-    if (at->byte > h->row_bytes)
-        return refuse_level(err, l, "rows' bytes", at->byte, h->row_bytes);
-    return true;
+    return check_blocks(tree, h, l, blocks, at, err);
 }
 
 static bool check_levels(const Tree *tree, const VertexHeader *h, Error *err)
 {
-    Place at = {0, 0, 0};
+    VertexLattice base = {tree->base_level, tree->octants};
+    Place         at = {0, 0, vertex_count(base) * tree->base_bytes};
     for (int l = 0; l < tree->level_count; l++)
-        if (!check_level_numbers(tree, h, l, at, err) ||
+        if (!check_level_numbers(tree, l, at, err) ||
             !check_directory(tree, h, l, &at, err))
             return false;
     if (at.word != h->word_count) return refuse(err, "word count", h->word_count, at.word);
@@ -139,7 +164,7 @@ static bool check_scales(const Tree *tree, Error *err)
 
 static bool check_depths(const Tree *tree, Error *err)
 {
-    for (int i = 0; i < tree->octants * 32; i++)
+    for (size_t i = 0; i < vertex_depth_cells(tree->octants) / 2; i++)
         if ((tree->depths[i] & 15) > tree->level_count ||
             tree->depths[i] >> 4 > tree->level_count)
             return refuse(err, "depth", tree->depths[i] >> 4, tree->level_count);
@@ -150,6 +175,7 @@ static Tree view(const char *blob, const Geodesic *geodesic)
 {
     const VertexHeader *h = (const VertexHeader *)(const void *)blob;
     VertexParts         parts = vertex_parts(h);
+    const uint8_t      *bytes = (const uint8_t *)blob;
     const void         *at = blob;
     return (Tree){.geodesic = geodesic,
                   .basis = TREE_VERTEX,
@@ -161,13 +187,14 @@ static Tree view(const char *blob, const Geodesic *geodesic)
                   .plane_level = vertex_plane_level(h->level),
                   .base_factor = ldexpf(1, h->base_exponent),
                   .scale = (const float *)at + parts.scale / sizeof(float),
-                  .levels = (const VertexLevel *)(const void *)(blob + parts.levels),
+                  .levels = (const VertexLevel *)(const void *)(bytes + parts.levels),
+                  .formats = (const VertexFormat *)(const void *)(bytes + parts.formats),
                   .words = (const uint32_t *)at + parts.words / sizeof(uint32_t),
                   .ranks = (const uint16_t *)at + parts.ranks / sizeof(uint16_t),
-                  .depths = (const uint8_t *)at + parts.depths,
+                  .depths = bytes + parts.depths,
+                  .block_formats = bytes + parts.block_formats,
                   .blocks = (const uint64_t *)at + parts.blocks / sizeof(uint64_t),
-                  .base = (const int16_t *)at + parts.base / sizeof(int16_t),
-                  .details = (const uint8_t *)at + parts.rows};
+                  .details = bytes + parts.rows};
 }
 
 bool vertex_tree_open(const void *blob, size_t size, const Geodesic *geodesic, Tree *out,
@@ -181,6 +208,8 @@ bool vertex_tree_open(const void *blob, size_t size, const Geodesic *geodesic, T
         return refuse(err, "level of the geodesic", geodesic->level,
                       vertex_plane_level(header->level));
     Tree tree = view(blob, geodesic);
+    if (!check_formats(&tree, header, err)) return false;
+    tree.base_bytes = vertex_format_bytes(tree.formats[0]);
     if (!check_levels(&tree, header, err) || !check_scales(&tree, err) ||
         !check_depths(&tree, err))
         return false;

@@ -28,7 +28,7 @@ static void put_base(const Tree *tree, VertexPlace place, TreeTaps *taps)
     VertexLattice lattice = {tree->base_level, tree->octants};
     VertexPoint   point = vertex_point(lattice, place);
     for (int i = 0; i < 3; i++) {
-        taps->row[i] = point.vertex[i];
+        taps->row[i] = point.vertex[i] * tree->base_bytes;
         taps->weight[i] = point.weight[i] * tree->base_factor;
         taps->level[i] = 0;
     }
@@ -49,12 +49,14 @@ static inline void put_detail(const Tree *tree, const VertexLevel *level, int x,
                      vertex_count_bits(word & (below - 1));
     uint64_t bits = tree->blocks[block];
     uint32_t bit = cy % VERTEX_BLOCK_SIDE * 12 + cx % VERTEX_BLOCK_SIDE * 3 + edge;
-    uint32_t row = (uint32_t)(bits >> VERTEX_BLOCK_BITS) +
-                   vertex_count_bits(bits & ((1ull << bit) - 1));
+    uint32_t start = (uint32_t)(bits >> VERTEX_BLOCK_BITS) << level->shift;
+    uint8_t  format = tree->block_formats[block];
+    uint32_t row = vertex_count_bits(bits & ((1ull << bit) - 1));
     int      at = taps->count;
-    taps->row[at] = level->first_byte + row * level->row_bytes;
+    taps->row[at] =
+        level->first_byte + start + row * vertex_format_bytes(tree->formats[format]);
     taps->weight[at] = weight;
-    taps->level[at] = (uint8_t)(level - tree->levels);
+    taps->level[at] = format;
     taps->count += (int)(inside & (uint32_t)((word & below) != 0) & (uint32_t)(bits >> bit) &
                          (uint32_t)(weight > 0));
 }

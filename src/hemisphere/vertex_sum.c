@@ -1,81 +1,80 @@
 #include "hemisphere/rows.h"
 #include "hemisphere/vertex_view.h"
 
-/* sum += weight * 4 * quads integers from `from` on. quads: 1..4, a constant where inlined. */
-static inline void add_bytes(const uint8_t *from, Float4 weight, int quads, Float4 *sum)
+typedef uint16_t UShort8 __attribute__((vector_size(16)));
+
+/* A load of 8 bytes from KEEP_BYTES + 8 - n keeps n of 8 bytes. */
+static const uint8_t KEEP_BYTES[16] = {255, 255, 255, 255, 255, 255, 255, 255};
+
+/* `wanted` (4 or 8) bytes of a plane of `pairs` bytes from byte `skip` on, 0 beyond its end;
+ * each holds two components. Returns signed 4 bits in the upper halves of bytes, in order of components. */
+static inline Byte16 load_plane(const uint8_t *from, int pairs, int skip, int wanted)
 {
-    Byte16 value = {0};
-    memcpy(&value, from, 4 * (size_t)quads);
-    Short8 low = lower_bytes(value), high = upper_bytes(value);
-    sum[0] += weight * lower_shorts(low, 24);
-    if (quads > 1) sum[1] += weight * upper_shorts(low, 24);
-    if (quads > 2) sum[2] += weight * lower_shorts(high, 24);
-    if (quads > 3) sum[3] += weight * upper_shorts(high, 24);
+    uint64_t bits = 0, keep;
+    int      there = pairs > skip + 8 ? 8 : pairs > skip ? pairs - skip : 0;
+    memcpy(&bits, from + (there ? skip : 0), (size_t)wanted);
+    memcpy(&keep, KEEP_BYTES + 8 - there, 8);
+    bits &= keep;
+    Byte16  bytes = {0};
+    memcpy(&bytes, &bits, 8);
+    UShort8 even = (UShort8)bytes << 4, odd = (UShort8)bytes;
+    Byte16  upper = {-16, -16, -16, -16, -16, -16, -16, -16,
+                     -16, -16, -16, -16, -16, -16, -16, -16};
+    return (Byte16)__builtin_shufflevector((Byte16)even & upper, (Byte16)odd & upper, 0, 16, 1,
+                                           17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
 }
 
-static inline void add_shorts(const uint8_t *from, Float4 weight, int quads, Float4 *sum)
+/* Adds 16^plane times signed 4 bits, which stand in the upper halves of bytes. */
+static inline void add_plane(Byte16 digits, int plane, Short8 *low, Short8 *high)
 {
-    for (int q = 0; q < quads; q++) {
-        Short8 value = {0};
-        memcpy(&value, from + 8 * q, 8);
-        sum[q] += weight * lower_shorts(value, 16);
+    *low += plane < 3 ? lower_bytes(digits) >> (12 - 4 * plane) : lower_bytes(digits);
+    *high += plane < 3 ? upper_bytes(digits) >> (12 - 4 * plane) : upper_bytes(digits);
+}
+
+/* sum += weight * the 4 * quads components of a row from byte `skip` of its planes on. quads is
+ * 2 or 4, a constant where inlined. */
+static inline void add_row(const uint8_t *from, VertexFormat format, int skip, Float4 weight,
+                           int quads, Float4 *sum)
+{
+    Short8 low = {0}, high = {0};
+    int    wanted = 2 * quads;
+    add_plane(load_plane(from, format.pairs[0], skip, wanted), 0, &low, &high);
+    from += format.pairs[0];
+    add_plane(load_plane(from, format.pairs[1], skip, wanted), 1, &low, &high);
+    if (format.pairs[2]) {
+        from += format.pairs[1];
+        add_plane(load_plane(from, format.pairs[2], skip, wanted), 2, &low, &high);
+        from += format.pairs[2];
+        add_plane(load_plane(from, format.pairs[3], skip, wanted), 3, &low, &high);
     }
+    sum[0] += weight * lower_shorts(low, 16);
+    sum[1] += weight * upper_shorts(low, 16);
+    if (quads < 4) return;
+    sum[2] += weight * lower_shorts(high, 16);
+    sum[3] += weight * upper_shorts(high, 16);
 }
 
-static inline void add_row(const uint8_t *from, bool is_wide, Float4 weight, int quads,
-                           Float4 *sum)
-{
-    if (is_wide)
-        add_shorts(from, weight, quads, sum);
-    else
-        add_bytes(from, weight, quads, sum);
-}
-
-/* A detail whose row may end before the last quad. */
-static inline void add_part(const uint8_t *from, bool is_wide, Float4 weight, int quads,
-                            Float4 *sum)
-{
-    for (int q = 0; q < quads; q++)
-        add_row(from + (is_wide ? 8 : 4) * q, is_wide, weight, 1, sum + q);
-}
-
-/* The components 4 * start .. 4 * (start + quads) - 1. */
-static inline void sum_quads(const Tree *tree, const TreeTaps *taps, int start, int quads,
+/* 4 * quads components from 8 * eighth on. */
+static inline void sum_quads(const Tree *tree, const TreeTaps *taps, int eighth, int quads,
                              Float4 *sum)
 {
-    const uint8_t *base = (const uint8_t *)tree->base + 8 * start;
     for (int q = 0; q < quads; q++) sum[q] = all_lanes(0);
-    for (int t = 0; t < 3; t++)
-        add_shorts(base + 2 * (size_t)tree->components * taps->row[t],
-                   all_lanes(taps->weight[t]), quads, sum);
-    for (int t = 3; t < taps->count; t++) {
-        const VertexLevel *level = &tree->levels[taps->level[t]];
-        const uint8_t     *from = tree->details + taps->row[t];
-        Float4             weight = all_lanes(taps->weight[t]);
-        int                there = (level->kept + 3) / 4 - start;
-        from += (level->is_wide ? 8 : 4) * start;
-        if (there >= quads)
-            add_row(from, level->is_wide, weight, quads, sum);
-        else
-            add_part(from, level->is_wide, weight, there, sum);
-    }
+    for (int t = 0; t < taps->count; t++)
+        add_row(tree->details + taps->row[t], tree->formats[taps->level[t]], 4 * eighth,
+                all_lanes(taps->weight[t]), quads, sum);
     for (int q = 0; q < quads; q++) {
         Float4 scale;
-        memcpy(&scale, tree->scale + 4 * (start + q), sizeof scale);
+        memcpy(&scale, tree->scale + 8 * eighth + 4 * q, sizeof scale);
         sum[q] *= scale;
     }
 }
 
 void vertex_tree_sum(const Tree *tree, const TreeTaps *taps, int first, int count, float *out)
 {
-    Float4 sum[TREE_MAX_COMPONENTS / 4];
-    int    start = first / 4, end = (first + count + 3) / 4, q = start;
-    for (; q + 4 <= end; q += 4) sum_quads(tree, taps, q, 4, sum + (q - start));
-    if (q + 2 <= end) {
-        sum_quads(tree, taps, q, 2, sum + (q - start));
-        q += 2;
-    }
-    if (q < end) sum_quads(tree, taps, q, 1, sum + (q - start));
-    memcpy(out, (const float *)(const void *)sum + (first - 4 * start),
+    Float4 sum[TREE_MAX_COMPONENTS / 4 + 4];
+    int    start = first / 8, end = (first + count + 7) / 8, at = start;
+    for (; at + 2 <= end; at += 2) sum_quads(tree, taps, at, 4, sum + 2 * (at - start));
+    if (at < end) sum_quads(tree, taps, at, 2, sum + 2 * (at - start));
+    memcpy(out, (const float *)(const void *)sum + (first - 8 * start),
            (size_t)count * sizeof *out);
 }

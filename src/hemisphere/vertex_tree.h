@@ -19,7 +19,7 @@ typedef bool VertexAccepts(const void *context, uint32_t vertex, const float *re
 
 typedef struct VertexTreeOptions {
     VertexLattice  lattice;    /* of the values */
-    int            components; /* 1..TREE_MAX_COMPONENTS */
+    int            components; /* 1..TREE_MAX_COMPONENTS; the largest first pack best */
     VertexAccepts *accepts;
     const void    *context;
     /* What one component's rounding may cost in its own unit, where that matters beyond
@@ -39,22 +39,26 @@ void vertex_tree_expand(const Tree *tree, float *values);
 /* ---- the blob ----------------------------------------------------------------------------
  *
  * VertexHeader | scale, float32, one a component | VertexLevel, one a level of details |
- * directory: uint32 bits, then uint16 ranks | depths, 4 bits each | blocks, uint64 |
- * base rows, int16 | rows | VERTEX_TAIL zeros. Each part starts at a multiple of its numbers'
- * size.
+ * directory words, uint32 | VertexFormat | directory ranks, uint16 | depths, 4 bits each |
+ * formats of blocks, uint8 | zeros to a multiple of 8 | blocks, uint64 | rows |
+ * VERTEX_TAIL zeros and zeros to a multiple of 8.
  *
- * Base      the values of all vertices of base_level, times scale * 2^base_exponent.
+ * Base      the values of all vertices of base_level, the first rows, in order of
+ *           vertex_index, in format 0; times scale * 2^base_exponent.
  * Levels    l = 0, 1, ...: details of the vertices that are new on edges of level
  *           i = base_level + l. A new vertex (x, y), in steps of level i + 1, belongs to the
  *           cell (floor(x/2), floor(y/2)), as one of its three edges: 0 along x (y even), 1
  *           along y (x even), 2 the diagonal. 4 x 4 cells are a block: bit 12 row + 3 column +
- *           edge says that there is a detail, the upper 16 bits count the level's rows before.
- *           A directory word has a bit for each of 32 blocks of the level's window, row by row,
- *           that is not empty; its rank counts the level's blocks before the word.
- * Rows      of a level: the first `kept` components, 8 or 16 bits each; times scale *
- *           2^exponent.
+ *           edge says that there is a detail. The upper 16 bits, times 2^shift bytes after the
+ *           level's first, say where the block's rows start; they follow each other in order of
+ *           the bits. A directory word has a bit for each of 32 blocks of the level's window,
+ *           row by row, that is not empty; its rank counts the level's blocks before the word.
+ * Rows      of integers, times scale * 2^exponent. An integer is the sum of 16^p times the
+ *           signed 4 bits of plane p = 0..3; plane p of a row has `pairs[p]` bytes, the first
+ *           components in order, two a byte, the even one in the low bits; other components
+ *           have 0 there. Most details are a few steps in the first components.
  * Depths    for each cell of level VERTEX_DEPTH_LEVEL, how many levels have details whose hat
- *           reaches into it or beyond it on the way down: where queries stop.
+ *           reaches into it: where queries stop.
  */
 #define VERTEX_MAGIC 0x58545256u /* "VRTX" */
 #define VERTEX_VERSION 1u
@@ -62,9 +66,13 @@ void vertex_tree_expand(const Tree *tree, float *values);
 #define VERTEX_MAX_BASE_LEVEL 4
 #define VERTEX_BLOCK_SIDE 4 /* cells */
 #define VERTEX_BLOCK_BITS 48
+#define VERTEX_PLANES 4
+#define VERTEX_LEAST (-30000) /* integers that planes can hold */
+#define VERTEX_MOST 30000
 #define VERTEX_TAIL 16 /* bytes that a query may read beyond a row */
 #define VERTEX_MAX_SCALE 1e20f
 #define VERTEX_MAX_EXPONENT 24
+#define VERTEX_MAX_SHIFT 8
 
 typedef struct VertexHeader {
     uint32_t magic, version;
@@ -72,20 +80,29 @@ typedef struct VertexHeader {
     uint8_t  level, octants, base_level, level_count;
     uint16_t components, word_count; /* directory words of all levels */
     uint16_t block_count;            /* of all levels */
-    int16_t  base_exponent;
-    uint32_t row_bytes;
+    uint8_t  format_count;
+    int8_t   base_exponent;
+    uint32_t row_bytes; /* of the base and all levels */
 } VertexHeader;
 
 typedef struct VertexLevel {
-    int16_t  x, y;             /* first cell of the window */
-    uint8_t  width, height;    /* of the window in blocks */
-    uint8_t  is_wide;          /* rows of 16 bits */
+    int16_t  x, y;          /* first cell of the window */
+    uint8_t  width, height; /* of the window in blocks */
+    uint8_t  shift;
     int8_t   exponent;
     uint16_t first_word, first_block;
     uint32_t first_byte; /* of the level's rows */
-    uint16_t kept;       /* components of a row */
-    uint16_t row_bytes;
 } VertexLevel;
+
+/* How a row is packed: bytes of each plane, never more than of the plane before. */
+typedef struct VertexFormat {
+    uint8_t pairs[VERTEX_PLANES];
+} VertexFormat;
+
+static inline uint32_t vertex_format_bytes(VertexFormat f)
+{
+    return (uint32_t)f.pairs[0] + f.pairs[1] + f.pairs[2] + f.pairs[3];
+}
 
 /* Bits that are set; exact whether the instruction set counts them or not. */
 static inline uint32_t vertex_count_bits(uint64_t bits)

@@ -62,7 +62,7 @@ static bool round_detail(const Coder *c, uint32_t vertex, const float *predictio
     const float *value = value_of(c, vertex);
     for (int i = 0; i < c->code.components; i++) {
         float q = rintf((value[i] - prediction[i]) / (factor * c->step[i]));
-        if (!(fabsf(q) <= 32767)) return false;
+        if (!(fabsf(q) < VERTEX_MOST)) return false;
         integers[i] = (int16_t)q;
     }
     return true;
@@ -156,7 +156,7 @@ static bool code_base(Coder *c, Error *err)
     for (size_t i = 0; i < vertex_count(lattice) * k; i++)
         most = fmaxf(most, fabsf(c->values[i]) / c->step[i % k]);
     int exponent = -8;
-    while (exponent < VERTEX_MAX_EXPONENT && most / ldexpf(1, exponent) > 32700) exponent++;
+    while (exponent < VERTEX_MAX_EXPONENT && most / ldexpf(1, exponent) > VERTEX_MOST - 1) exponent++;
     c->code.base_exponent = exponent;
     for (int y = lattice.octants == 2 ? 0 : -n; y <= n; y += spacing)
         for (int x = abs(y) - n; x <= n - abs(y); x += spacing) {
@@ -296,13 +296,11 @@ bool vertex_tree_build(const VertexTreeOptions *options, const float *values, Ar
         if (options->coarsest_step) c.step[i] = fminf(c.step[i], options->coarsest_step[i]);
     }
     c.code.base_level = options->lattice.level < 2 ? options->lattice.level : 2;
-    const void *out;
     size_t      size;
     float      *rebuilt = ARENA_NEW(&scratch, float, numbers);
     if (!code_all(&c, scratch, err)) return false;
-    if (!vertex_code_write(&c.code, &scratch, &out, &size, err) ||
-        !verify(&c, out, size, rebuilt, scratch, err))
-        return false;
+    const void *out = vertex_code_write(&c.code, &scratch, &size);
+    if (!verify(&c, out, size, rebuilt, scratch, err)) return false;
     char *kept = arena_alloc(arena, 1, 16, size);
     memcpy(kept, out, size);
     *blob = kept;

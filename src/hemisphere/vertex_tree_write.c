@@ -12,6 +12,8 @@ typedef struct Writer {
     uint32_t         *words;
     uint16_t         *ranks;
     uint8_t          *depths; /* one a byte */
+    VertexFormat      formats[UINT8_MAX];
+    uint8_t          *block_formats;
     uint64_t         *blocks;
     uint8_t          *rows;
 } Writer;
@@ -24,26 +26,71 @@ typedef struct Filling {
     int               shift; /* from the lattice's steps to cells */
 } Filling;
 
-static int largest(const VertexCode *code, uint32_t vertex, int component)
+/* ---- rows -------------------------------------------------------------------------------- */
+
+static const int16_t *integers_of(const VertexCode *code, uint32_t vertex)
 {
-    return abs(code->integers[vertex * (size_t)code->components + (size_t)component]);
+    return code->integers + vertex * (size_t)code->components;
 }
 
-/* How many components and bits the rows of a level need. */
-static void choose_format(const VertexCode *code, const Filling *f, VertexLevel *level)
+/* The planes that an integer needs: what is left above each is a multiple of its 16. */
+static int planes_of(int value)
 {
-    int kept = 1, most = 0;
-    for (uint32_t i = 0; i < f->count; i++)
-        for (int c = 0; c < code->components; c++) {
-            int value = largest(code, f->edges[i].vertex, c);
-            if (value > most) most = value;
-            if (value > 0 && c >= kept) kept = c + 1;
-        }
-    kept = (kept + 3) / 4 * 4;
-    level->kept = (uint16_t)(kept < code->components ? kept : code->components);
-    level->is_wide = most > 127;
-    level->row_bytes = (uint16_t)(level->kept * (level->is_wide ? 2 : 1));
+    int count = 0;
+    for (; value != 0; count++) value = (value - (((value & 15) ^ 8) - 8)) / 16;
+    return count;
 }
+
+/* Makes a format hold a row too. */
+static void widen(VertexFormat *format, const VertexCode *code, uint32_t vertex)
+{
+    const int16_t *row = integers_of(code, vertex);
+    for (int c = 0; c < code->components; c++)
+        for (int p = planes_of(row[c]) - 1; p >= 0; p--)
+            if (format->pairs[p] < c / 2 + 1) format->pairs[p] = (uint8_t)(c / 2 + 1);
+}
+
+static bool holds(VertexFormat outer, VertexFormat inner)
+{
+    for (int p = 0; p < VERTEX_PLANES; p++)
+        if (outer.pairs[p] < inner.pairs[p]) return false;
+    return true;
+}
+
+/* The number of a format; when the table is full, of the shortest that is as wide. Format 1
+ * is as wide as all (format 0 is the base's). */
+static uint8_t format_number(Writer *w, VertexFormat format)
+{
+    uint32_t best = 1;
+    for (uint32_t i = 0; i < w->header.format_count; i++) {
+        if (memcmp(&w->formats[i], &format, sizeof format) == 0) return (uint8_t)i;
+        if (holds(w->formats[i], format) &&
+            vertex_format_bytes(w->formats[i]) < vertex_format_bytes(w->formats[best]))
+            best = i;
+    }
+    if (w->header.format_count == UINT8_MAX) return (uint8_t)best;
+    w->formats[w->header.format_count] = format;
+    return w->header.format_count++;
+}
+
+static void put_row(Writer *w, VertexFormat format, uint32_t vertex)
+{
+    const int16_t *row = integers_of(w->code, vertex);
+    uint8_t       *to = w->rows + w->header.row_bytes;
+    w->header.row_bytes += vertex_format_bytes(format);
+    for (int c = 0; c < w->code->components; c++) {
+        int      value = row[c];
+        uint8_t *at = to + c / 2;
+        for (int p = 0; p < VERTEX_PLANES && value != 0; p++) {
+            int digit = ((value & 15) ^ 8) - 8;
+            *at = (uint8_t)(*at | (digit & 15) << c % 2 * 4);
+            value = (value - digit) / 16;
+            at += format.pairs[p];
+        }
+    }
+}
+
+/* ---- the directory ----------------------------------------------------------------------- */
 
 /* The smallest rectangle of cells around all stored edges, in whole blocks. */
 static void choose_window(const Filling *f, VertexLevel *level)
@@ -61,8 +108,6 @@ static void choose_window(const Filling *f, VertexLevel *level)
     level->width = (uint8_t)((high[0] - low[0] + VERTEX_BLOCK_SIDE) / VERTEX_BLOCK_SIDE);
     level->height = (uint8_t)((high[1] - low[1] + VERTEX_BLOCK_SIDE) / VERTEX_BLOCK_SIDE);
 }
-
-/* ---- the directory ----------------------------------------------------------------------- */
 
 /* An edge's block in its level's window, and its bit there. */
 static uint32_t place_of(const Filling *f, const VertexLevel *level, const VertexEdge *edge,
@@ -86,48 +131,51 @@ static uint32_t *spread(const Filling *f, const VertexLevel *level, Arena *arena
     return vertex;
 }
 
-static void put_row(Writer *w, const VertexLevel *level, uint32_t vertex)
-{
-    const int16_t *from = w->code->integers + vertex * (size_t)w->code->components;
-    uint8_t       *to = w->rows + w->header.row_bytes;
-    for (int c = 0; c < level->kept; c++) {
-        if (level->is_wide)
-            memcpy(to + 2 * c, from + c, sizeof *from);
-        else
-            to[c] = (uint8_t)(int8_t)from[c];
-    }
-    w->header.row_bytes += level->row_bytes;
-}
-
 /* One block's bits and rows; false: there are none. */
-static bool put_block(Writer *w, const VertexLevel *level, const uint32_t *vertex,
-                      uint32_t *row)
+static bool put_block(Writer *w, const VertexLevel *level, const uint32_t *vertex)
 {
-    uint64_t bits = 0;
+    uint64_t     bits = 0;
+    VertexFormat format = {{0}};
     for (uint32_t b = 0; b < VERTEX_BLOCK_BITS; b++) {
         if (vertex[b] == 0) continue;
         bits |= 1ull << b;
-        put_row(w, level, vertex[b] - 1);
+        widen(&format, w->code, vertex[b] - 1);
     }
     if (bits == 0) return false;
-    w->blocks[w->header.block_count++] = bits | (uint64_t)*row << VERTEX_BLOCK_BITS;
-    *row += vertex_count_bits(bits);
+    uint32_t unit = 1u << level->shift;
+    uint32_t start = (w->header.row_bytes - level->first_byte + unit - 1) / unit;
+    uint8_t  number = format_number(w, format);
+    w->header.row_bytes = level->first_byte + start * unit;
+    w->block_formats[w->header.block_count] = number;
+    w->blocks[w->header.block_count++] = bits | (uint64_t)start << VERTEX_BLOCK_BITS;
+    for (; bits; bits &= bits - 1)
+        put_row(w, w->formats[number], vertex[__builtin_ctzll(bits)] - 1);
     return true;
+}
+
+/* A shift with which the starts of all blocks fit into 16 bits. */
+static uint8_t choose_shift(const Writer *w, const Filling *f)
+{
+    uint64_t most = (uint64_t)f->count * vertex_format_bytes(w->formats[1]);
+    uint8_t  shift = 0;
+    while ((most >> shift) + UINT16_MAX / 8 > UINT16_MAX) shift++;
+    return shift;
 }
 
 static void put_level(Writer *w, const Filling *f, VertexLevel *level, Arena scratch)
 {
+    level->shift = choose_shift(w, f);
     level->first_word = w->header.word_count;
     level->first_block = w->header.block_count;
     level->first_byte = w->header.row_bytes;
     const uint32_t *vertex = spread(f, level, &scratch);
-    uint32_t        count = (uint32_t)level->width * level->height, row = 0;
+    uint32_t        count = (uint32_t)level->width * level->height;
     for (uint32_t b = 0; b < count || b == 0; b++) {
         if (b % 32 == 0)
             w->ranks[w->header.word_count++] =
                 (uint16_t)(w->header.block_count - level->first_block);
         uint32_t *word = &w->words[w->header.word_count - 1];
-        if (b < count && put_block(w, level, vertex + b * VERTEX_BLOCK_BITS, &row))
+        if (b < count && put_block(w, level, vertex + b * VERTEX_BLOCK_BITS))
             *word |= 1u << b % 32;
     }
 }
@@ -160,7 +208,7 @@ static uint32_t stored_edges(const VertexCode *code, int level, VertexEdge *edge
     return count;
 }
 
-static bool write_levels(Writer *w, Arena scratch, Error *err)
+static void write_levels(Writer *w, Arena scratch)
 {
     const VertexCode *code = w->code;
     int               last = code->lattice.level - code->base_level;
@@ -173,19 +221,14 @@ static bool write_levels(Writer *w, Arena scratch, Error *err)
                          .count = stored_edges(code, level, edges),
                          .edges = edges,
                          .shift = code->lattice.level - level};
-        if (f.count > UINT16_MAX)
-            return error_set(err, ERROR_INPUT, "vertex tree: %u details on level %d, wanted "
-                             "65535 at most: a larger tolerance", f.count, level + 1);
         VertexLevel *out = &w->level[l];
         *out = (VertexLevel){.exponent = (int8_t)code->exponent[l]};
-        choose_format(code, &f, out);
         choose_window(&f, out);
         put_level(w, &f, out, inner);
         for (uint32_t i = 0; i < f.count; i++)
             mark_depth(w, &edges[i], 1 << (f.shift - 1), l + 1);
         if (f.count > 0) w->header.level_count = (uint8_t)(l + 1);
     }
-    return true;
 }
 
 /* Levels after the last one with details are not stored: neither are their words. */
@@ -195,16 +238,33 @@ static void drop_empty_levels(Writer *w, int levels)
                                       (levels - w->header.level_count));
 }
 
-static void put_base(const VertexCode *code, int16_t *to)
+/* The vertices of the base level in the code's lattice, in order; how many. */
+static uint32_t base_vertices(const VertexCode *code, uint32_t *vertex)
 {
     VertexLattice base = {code->base_level, code->lattice.octants};
     int           n = 1 << base.level, scale = 1 << (code->lattice.level - base.level);
-    size_t        k = (size_t)code->components;
+    uint32_t      count = 0;
     for (int y = base.octants == 2 ? 0 : -n; y <= n; y++)
         for (int x = abs(y) - n; x <= n - abs(y); x++)
-            memcpy(to + vertex_index(base, x, y) * k,
-                   code->integers + vertex_index(code->lattice, x * scale, y * scale) * k,
-                   k * sizeof *to);
+            vertex[count++] = vertex_index(code->lattice, x * scale, y * scale);
+    return count;
+}
+
+/* Formats 0 (of the base) and 1 (of any detail), and the base's rows. */
+static void write_base(Writer *w, Arena scratch)
+{
+    uint32_t  all = vertex_count(w->code->lattice);
+    uint32_t *vertex = ARENA_NEW(&scratch, uint32_t, all);
+    bool     *is_base = ARENA_NEW(&scratch, bool, all);
+    uint32_t  count = base_vertices(w->code, vertex);
+    for (uint32_t i = 0; i < count; i++) {
+        is_base[vertex[i]] = true;
+        widen(&w->formats[0], w->code, vertex[i]);
+    }
+    for (uint32_t v = 0; v < all; v++)
+        if (w->code->stored[v] && !is_base[v]) widen(&w->formats[1], w->code, v);
+    w->header.format_count = 2;
+    for (uint32_t i = 0; i < count; i++) put_row(w, w->formats[0], vertex[i]);
 }
 
 static const void *assemble(const Writer *w, const VertexParts *p, Arena *arena)
@@ -216,16 +276,16 @@ static const void *assemble(const Writer *w, const VertexParts *p, Arena *arena)
     memcpy(blob + p->levels, w->level, sizeof(VertexLevel) * h->level_count);
     memcpy(blob + p->words, w->words, sizeof(uint32_t) * h->word_count);
     memcpy(blob + p->ranks, w->ranks, sizeof(uint16_t) * h->word_count);
-    for (int i = 0; i < h->octants * 64; i++)
-        blob[p->depths + (size_t)i / 2] |= (char)(w->depths[i] << i % 2 * 4);
+    memcpy(blob + p->formats, w->formats, sizeof(VertexFormat) * h->format_count);
+    memcpy(blob + p->block_formats, w->block_formats, h->block_count);
+    for (size_t i = 0; i < vertex_depth_cells(h->octants); i++)
+        blob[p->depths + i / 2] |= (char)(w->depths[i] << i % 2 * 4);
     memcpy(blob + p->blocks, w->blocks, sizeof(uint64_t) * h->block_count);
-    put_base(w->code, (int16_t *)(void *)(blob + p->base));
     memcpy(blob + p->rows, w->rows, h->row_bytes);
     return blob;
 }
 
-bool vertex_code_write(const VertexCode *code, Arena *arena, const void **blob, size_t *size,
-                       Error *err)
+const void *vertex_code_write(const VertexCode *code, Arena *arena, size_t *size)
 {
     /* The blob's room first, so that the scratch is behind it. */
     size_t vertices = vertex_count(code->lattice), k = (size_t)code->components;
@@ -238,17 +298,18 @@ bool vertex_code_write(const VertexCode *code, Arena *arena, const void **blob, 
                            .octants = (uint8_t)code->lattice.octants,
                            .base_level = (uint8_t)code->base_level,
                            .components = (uint16_t)code->components,
-                           .base_exponent = (int16_t)code->base_exponent},
+                           .base_exponent = (int8_t)code->base_exponent},
                 .words = ARENA_NEW(&scratch, uint32_t, 8192),
                 .ranks = ARENA_NEW(&scratch, uint16_t, 8192),
                 .depths = ARENA_NEW(&scratch, uint8_t, 256),
+                .block_formats = ARENA_NEW(&scratch, uint8_t, UINT16_MAX),
                 .blocks = ARENA_NEW(&scratch, uint64_t, UINT16_MAX),
-                .rows = ARENA_NEW(&scratch, uint8_t, vertices * k * 2)};
-    if (!write_levels(&w, scratch, err)) return false;
+                .rows = ARENA_NEW(&scratch, uint8_t, vertices * (k * 2 + 2 + (1 << VERTEX_MAX_SHIFT) / 8))};
+    write_base(&w, scratch);
+    write_levels(&w, scratch);
     drop_empty_levels(&w, code->lattice.level - code->base_level);
     VertexParts parts = vertex_parts(&w.header);
     w.header.size = parts.size;
-    *blob = assemble(&w, &parts, arena);
     *size = parts.size;
-    return true;
+    return assemble(&w, &parts, arena);
 }

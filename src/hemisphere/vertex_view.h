@@ -18,21 +18,26 @@ void vertex_tree_sum(const Tree *tree, const TreeTaps *taps, int first, int coun
 
 /* Bytes from a blob's start to its parts, which its counts decide. */
 typedef struct VertexParts {
-    size_t scale, levels, words, ranks, depths, blocks, base, rows, size;
+    size_t scale, levels, words, formats, ranks, depths, block_formats, blocks, rows, size;
 } VertexParts;
+
+/* Cells of VERTEX_DEPTH_LEVEL. */
+static inline size_t vertex_depth_cells(int octants)
+{
+    return (size_t)octants << 2 * VERTEX_DEPTH_LEVEL;
+}
 
 static inline VertexParts vertex_parts(const VertexHeader *h)
 {
     VertexParts p = {.scale = sizeof *h};
-    VertexLattice base = {h->base_level, h->octants};
-    size_t        depth_cells = (size_t)h->octants * 64;
     p.levels = p.scale + sizeof(float) * h->components;
     p.words = p.levels + sizeof(VertexLevel) * h->level_count;
-    p.ranks = p.words + sizeof(uint32_t) * h->word_count;
+    p.formats = p.words + sizeof(uint32_t) * h->word_count;
+    p.ranks = p.formats + sizeof(VertexFormat) * h->format_count;
     p.depths = p.ranks + sizeof(uint16_t) * h->word_count;
-    p.blocks = (p.depths + depth_cells / 2 + 7) / 8 * 8;
-    p.base = p.blocks + sizeof(uint64_t) * h->block_count;
-    p.rows = p.base + sizeof(int16_t) * h->components * (size_t)vertex_count(base);
+    p.block_formats = p.depths + vertex_depth_cells(h->octants) / 2;
+    p.blocks = (p.block_formats + h->block_count + 7) / 8 * 8;
+    p.rows = p.blocks + sizeof(uint64_t) * h->block_count;
     p.size = (p.rows + h->row_bytes + VERTEX_TAIL + 7) / 8 * 8;
     return p;
 }

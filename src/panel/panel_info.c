@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/units.h"
 #include "panel/panel_file.h"
 
 int panel_info_wavelengths(const Panel *panel, float nm[PANEL_INFO_WAVELENGTHS_MAX])
@@ -17,4 +18,55 @@ bool panel_info_brdf_is_measured(const Panel *panel, double incidence, double th
     const PanelReflection *r = panel->reflection;
     return r && incidence <= (double)r->last_theta + 1e-6 &&
            cos(theta) >= (double)r->cone_cos - 1e-6;
+}
+
+int panel_info_incidences(const Panel *panel, double theta[PANEL_INFO_INCIDENCES_MAX])
+{
+    const PanelReflection *r = panel->reflection;
+    int count = 0;
+    for (uint32_t i = 0; r && i < r->slices; i++)
+        if (r->slice_theta[i] >= r->first_theta && r->slice_theta[i] <= r->last_theta)
+            theta[count++] = (double)r->slice_theta[i];
+    return count;
+}
+
+int panel_info_azimuths(const Panel *panel, double phi[PANEL_INFO_AZIMUTHS_MAX])
+{
+    phi[0] = PI;
+    return panel->reflection ? 1 : 0;
+}
+
+double panel_info_reflection_cone(const Panel *panel)
+{
+    return panel->reflection ? acos((double)panel->reflection->cone_cos) : 0;
+}
+
+/* ---- emission -------------------------------------------------------------------------- */
+
+bool panel_info_emits(const Panel *panel)
+{
+    return panel->emission != NULL;
+}
+
+int panel_info_levels(const Panel *panel, int primary, double code[PANEL_INFO_LEVELS_MAX])
+{
+    const PanelEmission *e = panel->emission;
+    for (int i = 0; e && i < (int)e->level_count[primary]; i++)
+        code[i] = (double)e->level[primary][i];
+    return e ? (int)e->level_count[primary] : 0;
+}
+
+bool panel_info_has_black(const Panel *panel)
+{
+    return panel->emission && panel->emission->has_black;
+}
+
+double panel_info_emission_cone(const Panel *panel)
+{
+    return panel->emission ? acos((double)panel->emission->cone_cos) : 0;
+}
+
+const float *panel_info_spectrum(const Panel *panel, int primary)
+{
+    return panel->primaries ? panel->primaries->spectrum[primary] : NULL;
 }

@@ -26,7 +26,7 @@ double chart_y(const Chart *chart, double value)
 static Ticks axis_ticks(const AxisSpec *axis, double length, double room)
 {
     int most = (int)(length / room);
-    most = most < 2 ? 2 : most;
+    most = most < 2 ? 2 : most > 10 ? 10 : most;
     if (axis->is_log) return ticks_log(axis->low, axis->high, most);
     if (axis->step > 0 && (axis->high - axis->low) / axis->step <= most)
         return ticks_every(axis->step, axis->low, axis->high);

@@ -1,6 +1,7 @@
 #include "plot/field.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "base/units.h"
 
@@ -67,4 +68,24 @@ FieldRange field_range(const Field *field, double theta_limit)
         }
     }
     return range.high < range.low ? (FieldRange){0} : range;
+}
+
+static int compare_floats(const void *a, const void *b)
+{
+    float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+double field_quantile(const Field *field, double theta_limit, double share, Arena scratch)
+{
+    float *sorted = ARENA_NEW(&scratch, float, (size_t)field->side * (size_t)field->side);
+    int    count = 0;
+    for (int row = 0; row < field->side; row++)
+        for (int column = 0; column < field->side; column++) {
+            double phi, theta = grid_theta(field, row, column, &phi);
+            float  v = field->value[row * field->side + column];
+            if (theta <= theta_limit && isfinite(v)) sorted[count++] = v;
+        }
+    qsort(sorted, (size_t)count, sizeof *sorted, compare_floats);
+    return count > 0 ? (double)sorted[(int)(share * (count - 1))] : 0;
 }

@@ -33,5 +33,8 @@ typedef struct FieldRange {
     double theta, phi;        /* of the highest, radians */
 } FieldRange;
 
+/* The value that `share` of the disc's area inside theta_limit stays below. */
+double field_quantile(const Field *field, double theta_limit, double share, Arena scratch);
+
 /* theta_limit: only directions below it count. All NaN: low and high are 0. */
 FieldRange field_range(const Field *field, double theta_limit);

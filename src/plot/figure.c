@@ -4,7 +4,12 @@
 
 void figure_add(FigureList *list, const Figure *figure)
 {
-    if (list->count < FIGURES_MAX) list->figure[list->count++] = *figure;
+    if (list->count == FIGURES_MAX) return;
+    Figure *out = &list->figure[list->count++];
+    *out = *figure;
+    if (!figure->needs_primaries || !figure->subject->is_white_only) return;
+    out->role = SHEET_NEVER;
+    out->subtitle = "assumed, not measured: the source is a table of white only";
 }
 
 void figure_draw(Canvas *canvas, Box box, const Figure *figure, FigureMap *map)

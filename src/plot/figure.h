@@ -23,6 +23,10 @@ typedef struct FigureMap {
     const char *axis[2];
 } FigureMap;
 
+typedef enum SheetRole {
+    SHEET_NEVER, SHEET_SPARE, SHEET_ALWAYS /* spare: where a row of the sheet has room left */
+} SheetRole;
+
 typedef void FigureDraw(Canvas *canvas, Box box, const struct Figure *figure, FigureMap *map);
 
 typedef struct Figure {
@@ -33,7 +37,8 @@ typedef struct Figure {
     FigureDraw    *draw;
     const Subject *subject;
     int            index;    /* which pattern, which section: the drawer's own */
-    bool           is_for_sheet; /* shown on the contact sheet too */
+    SheetRole      role;
+    bool           needs_primaries; /* means nothing without measured primaries and levels */
 } Figure;
 
 #define FIGURES_MAX 48
@@ -50,6 +55,7 @@ void figures_add_colour(FigureList *list, const Subject *subject);
 void figures_add_reflection(FigureList *list, const Subject *subject);
 void figures_add_fit(FigureList *list, const Subject *subject);
 
+/* A figure of primaries or levels of a set that is white only says so and leaves the sheet. */
 void figure_add(FigureList *list, const Figure *figure);
 
 /* Title, subtitle and the figure itself. */

@@ -147,7 +147,7 @@ static void normal_uv(const Subject *s, Pattern pattern, double uv[2])
 static bool panel_triangle(const Subject *s, double uv[3][2])
 {
     for (int p = 0; p < 3; p++) normal_uv(s, (Pattern)(PATTERN_RED + p), uv[p]);
-    return isfinite(uv[0][0] + uv[1][0] + uv[2][0]) && triangle_area(uv) > 1e-5;
+    return !s->is_white_only && isfinite(uv[0][0] + uv[1][0] + uv[2][0]) && triangle_area(uv) > 1e-5;
 }
 
 /* From the normal to 80 degrees (or the cone's edge), along one azimuth. */
@@ -235,7 +235,8 @@ static void add_chromaticity(FigureList *list, const Subject *s)
     figure_add(list, &(Figure){PLOT_CHROMATICITY, "Chromaticity",
         arena_format(s->arena, "white u′ %.4f v′ %.4f%s", white[0], white[1], area),
         "Primaries and white in the CIE 1976 u′v′ diagram; the short paths run from the normal "
-        "(dot) to θ 80° along eight azimuths.", draw_chromaticity, s, 0, true});
+        "(dot) to θ 80° along eight azimuths.", draw_chromaticity, s, 0, SHEET_ALWAYS,
+        false});
 }
 
 /* ---- the white point over angle ------------------------------------------------------------- */
@@ -382,9 +383,9 @@ void figures_add_colour(FigureList *list, const Subject *s)
     figure_add(list, &(Figure){PLOT_CHROMATICITY, "White point over angle",
         "dots every 15° of θ, rings of Δu′v′ around the normal",
         "The chromaticity of full white from the normal to θ 80° along four azimuths.",
-        draw_white_point, s, 0, true});
+        draw_white_point, s, 0, SHEET_ALWAYS, false});
     figure_add(list, &(Figure){PLOT_SPECTRA, "Spectra at the normal",
         "each primary at full drive; dotted: white",
         "Spectral radiance at the normal of each primary at full drive and of white.",
-        draw_spectra, s, 0, true});
+        draw_spectra, s, 0, SHEET_ALWAYS, true});
 }

@@ -89,10 +89,34 @@ static void mark_half(Chart *chart, const Subject *s, double phi, bool is_normal
         canvas_line(chart->canvas, x, y, x, chart->plot.y + chart->plot.h,
                     (Stroke){ink, 0.9, DASH_SHORT});
         chart_dot(chart, deg, half, 2.6, ink);
-        canvas_text(chart->canvas, x + 5 * side, y - 2,
-                    (Letters){.size = SIZE_TICK, .ink = ink, .across = side < 0, .down = 1,
+        int outwards = fabs(deg) < 58 ? side : -side; /* where there is room */
+        canvas_text(chart->canvas, x + 5 * outwards, outwards == side ? y - 2 : y + 10,
+                    (Letters){.size = SIZE_TICK, .ink = ink, .across = outwards < 0, .down = 1,
                               .halo = chart->canvas->theme.paper},
                     arena_format(chart->canvas->arena, "½ at %.1f°", fabs(deg)));
+    }
+}
+
+/* Above the curves' middle where they differ there, else at their right ends. */
+static void name_sections(Chart *chart, const Section *section, int count,
+                          bool is_normalised)
+{
+    static const int ORDER[] = {PATTERN_WHITE, PATTERN_GREEN, PATTERN_RED, PATTERN_BLUE};
+    double last = -INFINITY;
+    for (int i = 0; i < count; i++) {
+        int    p = ORDER[i];
+        Ink    ink = pattern_ink(chart->canvas, (Pattern)p);
+        double middle = section[p].value[SECTION_POINTS / 2], y = chart_y(chart, middle) - 4;
+        if (!isfinite(middle) || !(middle > 0)) continue;
+        if (is_normalised) {
+            chart_name(chart, 70, section[p].value[316], ink, pattern_name((Pattern)p));
+            continue;
+        }
+        if (y < last + 12) y = last + 12;
+        canvas_text(chart->canvas, chart_x(chart, 0), y,
+                    (Letters){.size = SIZE_TICK, .ink = ink, .across = 0.5, .down = 1,
+                              .halo = chart->canvas->theme.paper}, pattern_name((Pattern)p));
+        last = y;
     }
 }
 
@@ -101,9 +125,10 @@ static void draw_section(Canvas *canvas, Box box, const Figure *figure, FigureMa
 {
     const Subject *s = figure->subject;
     bool     is_normalised = figure->index & 2;
+    int      count = s->is_white_only ? 1 : 4;
     double   phi = figure->index & 1 ? PI / 2 : 0, high = 0;
     Section *section = ARENA_NEW(canvas->arena, Section, 4);
-    for (int p = 0; p < 4; p++) {
+    for (int p = 0; p < count; p++) {
         fill_section(s, (Pattern)p, phi, is_normalised, &section[p]);
         for (int i = 0; i < SECTION_POINTS; i++) high = fmax(high, section[p].value[i]);
     }
@@ -111,19 +136,19 @@ static void draw_section(Canvas *canvas, Box box, const Figure *figure, FigureMa
         (AxisSpec){.low = -90, .high = 90, .step = 30, .suffix = "°",
                    .title = figure->index & 1 ? "θ along φ 270° (down) to 90° (up)"
                                               : "θ along φ 180° (left) to 0° (right)"},
-        (AxisSpec){.high = high * 1.06, .title = is_normalised
-                   ? "Luminance over that at the normal" : "Luminance, cd/m²"}, 48);
+        (AxisSpec){.high = high * 1.1, .title = is_normalised
+                   ? "Luminance over that at the normal" : "Luminance, cd/m²"},
+        is_normalised ? 48 : 14);
     double cone = degrees_from_radians(s->cone);
     chart_hatch(&chart, -90, -cone);
     chart_hatch(&chart, cone, 90);
-    for (int p = 3; p >= 0; p--) {
+    for (int p = count - 1; p >= 0; p--) {
         Ink ink = pattern_ink(canvas, (Pattern)p);
         chart_curve(&chart, section[p].angle_deg, section[p].value, SECTION_POINTS,
                     (Stroke){ink, p == 0 ? 1.9 : 1.4, pattern_dash((Pattern)p)});
-        int at = (int)((80 + 88) / 0.5); /* names lead from the curve at 80 degrees */
-        chart_name(&chart, 80, section[p].value[at], ink, pattern_name((Pattern)p));
     }
     mark_half(&chart, s, phi, is_normalised);
+    name_sections(&chart, section, count, is_normalised);
     chart_close(&chart);
     figure_map_chart(out, &chart);
 }
@@ -138,7 +163,8 @@ static void add_sections(FigureList *list, const Subject *s)
             i & 2 ? "Luminance over the angle from the normal, each pattern divided by its own "
                     "luminance at the normal."
                   : "Luminance in cd/m² over the angle from the normal, for full white and the "
-                    "three primaries alone.", draw_section, s, i, i < 2});
+                    "three primaries alone.", draw_section, s, i,
+            i < 2 ? SHEET_ALWAYS : SHEET_SPARE, false});
 }
 
 /* ---- grey levels ----------------------------------------------------------------------------- */
@@ -171,6 +197,7 @@ static void fill_grey(const Subject *s, double theta, double phi, GreyCurve *out
 }
 
 static const int GREY_ANGLES[] = {0, 15, 30, 45, 60};
+enum { ANGLES = sizeof GREY_ANGLES / sizeof *GREY_ANGLES };
 
 static Ink angle_ink(const Canvas *canvas, int i, int count)
 {
@@ -224,17 +251,29 @@ static void draw_reference_gamma(Chart *chart, int which)
                 (Letters){.size = SIZE_SMALL, .ink = chart->canvas->theme.soft}, "γ 2.2");
 }
 
+/* In the free upper left corner: the curves run too near each other for names of their own. */
+static void write_angle_key(const Chart *chart)
+{
+    Canvas *canvas = chart->canvas;
+    double  x = chart->plot.x + 14, y = chart->plot.y + 14;
+    for (int i = 0; i < ANGLES; i++, y += 14) {
+        Ink ink = angle_ink(canvas, i, ANGLES);
+        canvas_line(canvas, x, y, x + 20, y, (Stroke){ink, 1.6, DASH_NONE});
+        canvas_text(canvas, x + 27, y, (Letters){.size = SIZE_TICK, .ink = canvas->theme.ink,
+                    .down = 0.5}, arena_format(canvas->arena, "θ %d°", GREY_ANGLES[i]));
+    }
+}
+
 static void draw_grey(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
 {
     const Subject *s = figure->subject;
-    enum { ANGLES = sizeof GREY_ANGLES / sizeof *GREY_ANGLES };
     GreyCurve *curve = ARENA_NEW(canvas->arena, GreyCurve, 2 * ANGLES);
     AxisSpec   x, y;
     for (int k = 0; k < 2 * ANGLES; k++)
         fill_grey(s, radians_from_degrees(GREY_ANGLES[k / 2]), k % 2 ? PI / 2 : 0, &curve[k]);
     grey_axes(figure->index, &x, &y);
     if (figure->index == GREY_GAMMA) fit_gamma_axis(&y, curve, 2 * ANGLES);
-    Chart chart = chart_open(canvas, box, x, y, 62);
+    Chart chart = chart_open(canvas, box, x, y, figure->index == GREY_GAMMA ? 62 : 14);
     draw_reference_gamma(&chart, figure->index);
     for (int k = 2 * ANGLES - 1; k >= 0; k--) {
         if (k == 1) continue; /* at the normal there is but one azimuth */
@@ -244,8 +283,10 @@ static void draw_grey(Canvas *canvas, Box box, const Figure *figure, FigureMap *
                     (Stroke){ink, k == 0 ? 1.9 : 1.3, k % 2 ? DASH_SHORT : DASH_NONE});
         const char *name = k == 0 ? "θ 0°" : arena_format(canvas->arena, "%d°, φ %d°",
                                                GREY_ANGLES[k / 2], k % 2 ? 90 : 0);
-        chart_name_curve(&chart, curve[k].code, values, GREY_POINTS, ink, name);
+        if (figure->index == GREY_GAMMA)
+            chart_name_curve(&chart, curve[k].code, values, GREY_POINTS, ink, name);
     }
+    if (figure->index != GREY_GAMMA) write_angle_key(&chart);
     chart_close(&chart);
     figure_map_chart(out, &chart);
 }
@@ -262,7 +303,7 @@ static void add_grey(FigureList *list, const Subject *s)
     for (int i = 0; i < 3; i++)
         figure_add(list, &(Figure){PLOT_GREY_LEVELS, TITLES[i],
             "solid: φ 0° (right), dashed: φ 90° (up), dotted: a power of 2.2", CAPTIONS[i],
-            draw_grey, s, i, i > 0});
+            draw_grey, s, i, i > 0 ? SHEET_ALWAYS : SHEET_SPARE, true});
 }
 
 void figures_add_curves(FigureList *list, const Subject *s)

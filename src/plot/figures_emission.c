@@ -19,15 +19,18 @@ static void note_map(FigureMap *out, const PolarMap *map, PolarPlace place)
                        .unit = map->unit};
 }
 
-/* Round levels inside (low, high), not so near the ends that they say nothing. */
+/* Round levels inside (low, high), not so near the ends or the strong level that they say
+ * nothing. */
 static void choose_levels(PolarMap *map, double low, double high, int most)
 {
     Ticks ticks = ticks_linear(low, high, most);
     map->step = ticks.step;
     for (int i = 0; i < ticks.count; i++)
         if (ticks.value[i] > low + 0.02 * (high - low) &&
-            ticks.value[i] < high - 0.005 * (high - low))
+            ticks.value[i] < high - 0.005 * (high - low) &&
+            !(fabs(ticks.value[i] - map->strong) < 0.045 * (high - low)))
             map->level[map->level_count++] = ticks.value[i];
+    if (isfinite(map->strong)) map->level[map->level_count++] = map->strong;
 }
 
 /* ---- luminance --------------------------------------------------------------------------- */
@@ -40,13 +43,12 @@ static void draw_luminance(Canvas *canvas, Box box, const Figure *figure, Figure
     double low = range.low > 0.6 * range.high ? range.low : 0;
     PolarMap map = {.field = field, .map = MAP_AMOUNT, .low = low, .high = range.high,
                     .strong = NAN, .theta_measured = s->cone, .unit = "cd/m²"};
-    choose_levels(&map, fmax(range.low, low), range.high, 8);
     double half = 0.5 * (double)s->normal[figure->index][1];
-    if (range.low < half && half < range.high) {
+    if (figure->index != PATTERN_BLACK && range.low < half && half < range.high) {
         map.strong = half;
         map.strong_text = "½";
-        map.level[map.level_count++] = half;
     }
+    choose_levels(&map, fmax(range.low, low), range.high, 8);
     note_map(out, &map, polar_draw(canvas, box, &map));
 }
 
@@ -55,18 +57,24 @@ static void add_luminance(FigureList *list, const Subject *s, Pattern pattern)
     FieldRange range = field_range(&s->xyz[pattern][1], s->cone);
     char       normal[32], high[32];
     if (!(range.high > 0)) return;
-    const char *subtitle = arena_format(
-        s->arena, "%s cd/m² at the normal, at most %s %s",
-        figure_text((double)s->normal[pattern][1], normal), figure_text(range.high, high),
-        at_angles(s->arena, range.theta, range.phi));
+    double      at_normal = (double)s->normal[pattern][1];
+    const char *subtitle = arena_format(s->arena, "%s cd/m² at the normal%s%s%s%s",
+        figure_text(at_normal, normal), range.high > 1.002 * at_normal ? ", at most " : "",
+        range.high > 1.002 * at_normal ? figure_text(range.high, high) : "",
+        range.high > 1.002 * at_normal ? " " : "", range.high > 1.002 * at_normal
+        ? at_angles(s->arena, range.theta, range.phi) : "");
     figure_add(list, &(Figure){PLOT_LUMINANCE,
         arena_format(s->arena, "Luminance, %s", pattern == PATTERN_WHITE ? "white" :
                      pattern == PATTERN_RED ? "red" : pattern == PATTERN_GREEN ? "green" :
                      pattern == PATTERN_BLUE ? "blue" : "black"),
         subtitle, "Luminance in cd/m² over the viewing hemisphere: θ from the normal outwards, φ "
         "counter-clockwise from the viewer's right. The strong ring, where there is one, is half "
-        "the luminance of the normal.", draw_luminance, s, pattern, true});
+        "the luminance of the normal.", draw_luminance, s, pattern,
+        SHEET_ALWAYS, pattern != PATTERN_WHITE && pattern != PATTERN_BLACK});
 }
+
+/* Beyond it black is next to nothing and ratios are noise: it does not set the colours. */
+#define GRAZING (80 * PI / 180)
 
 /* ---- contrast ------------------------------------------------------------------------------ */
 
@@ -77,7 +85,7 @@ static void draw_contrast(Canvas *canvas, Box box, const Figure *figure, FigureM
     const Subject *s = figure->subject;
     Field      *field = ARENA_NEW(canvas->arena, Field, 1);
     *field = subject_contrast(s, canvas->arena);
-    FieldRange  range = field_range(field, s->cone);
+    FieldRange  range = field_range(field, fmin(s->cone, GRAZING));
     PolarMap    map = {.field = field, .map = MAP_RATIO, .is_log = true, .strong = NAN,
                        .low = round_down(fmax(range.low, range.high / 1e5)),
                        .high = round_up(range.high), .theta_measured = s->cone, .unit = ": 1"};
@@ -98,7 +106,7 @@ static void add_contrast(FigureList *list, const Subject *s)
         arena_format(s->arena, "white over black: %s at the normal, at least %s",
                      figure_text(at_normal, normal), figure_text(range.low, low)),
         "Luminance of white over that of black in a dark room, logarithmic colours.",
-        draw_contrast, s, 0, true});
+        draw_contrast, s, 0, SHEET_ALWAYS, false});
 }
 
 /* ---- colour shift -------------------------------------------------------------------------- */
@@ -134,15 +142,16 @@ static void add_shift(FigureList *list, const Subject *s, Pattern pattern)
                      figure_text(range.high, high),
                      at_angles(s->arena, range.theta, range.phi)),
         "Distance Δu′v′ in the CIE 1976 chromaticity plane between the colour at an angle and "
-        "the colour at the normal.", draw_shift, s, pattern, pattern == PATTERN_WHITE});
+        "the colour at the normal.", draw_shift, s, pattern,
+        pattern == PATTERN_WHITE ? SHEET_ALWAYS : SHEET_NEVER, pattern != PATTERN_WHITE});
 }
 
 void figures_add_emission(FigureList *list, const Subject *s)
 {
     if (!s->emits) return;
     add_luminance(list, s, PATTERN_WHITE);
+    for (int p = PATTERN_RED; p <= PATTERN_BLACK; p++) add_luminance(list, s, (Pattern)p);
     if (s->has_black) add_contrast(list, s);
     add_shift(list, s, PATTERN_WHITE);
-    for (int p = PATTERN_RED; p <= PATTERN_BLACK; p++) add_luminance(list, s, (Pattern)p);
     for (int p = PATTERN_RED; p <= PATTERN_BLUE; p++) add_shift(list, s, (Pattern)p);
 }

@@ -1,6 +1,5 @@
 /* Measured against fitted: the source's points over the curves, and what is left. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/units.h"
@@ -39,15 +38,32 @@ static double table_peak(const AngleTable *table)
     return peak;
 }
 
-/* Fitted over measured luminance, less one, in percent; relative to a hundredth of the table's
- * peak where the light is dimmer. NaN on the horizon. */
-static double residual_percent(const Subject *s, const FitTableRef *ref, int row, double peak)
+static double row_sum(const AngleTable *table, int row)
 {
-    double xyz[3], theta = (double)ref->table->theta[row];
-    double measured = (double)ref->table->value[row * ref->table->channels + 1];
-    if (theta > PI / 2 - 1e-4 || !(peak > 0)) return NAN;
+    const float *v = table->value + 3 * row;
+    return (double)v[0] + (double)v[1] + (double)v[2];
+}
+
+/* The dimmest sum that errors are relative to: a hundredth of the table's largest. */
+static double least_sum(const AngleTable *table)
+{
+    double least = 1e-4;
+    for (int i = 0; i < table->rows; i++) least = fmax(least, 0.01 * row_sum(table, i));
+    return least;
+}
+
+/* Fitted less measured, of X, Y and Z the one that is furthest off, relative to the measured
+ * sum of the three as the file's own report has it; percent. NaN on the horizon. */
+static double residual_percent(const Subject *s, const FitTableRef *ref, int row, double least)
+{
+    double xyz[3], worst = 0, theta = (double)ref->table->theta[row];
+    if (theta > PI / 2 - 1e-4) return NAN;
     subject_xyz(s, theta, (double)ref->table->phi[row], ref->rgb, xyz);
-    return 100 * (xyz[1] - measured) / fmax(measured, 0.01 * peak);
+    for (int c = 0; c < 3; c++) {
+        double off = xyz[c] - (double)ref->table->value[3 * row + c];
+        if (fabs(off) > fabs(worst)) worst = off;
+    }
+    return 100 * worst / fmax(least, row_sum(ref->table, row));
 }
 
 /* The bound that the file states for its emission tables, percent. */
@@ -164,9 +180,9 @@ static void measure_residuals(const Subject *s, Residuals *out)
     double       squares = 0;
     for (int pass = 0; pass < 2; pass++) {
         for (int t = 0; t < tables; t++) {
-            double peak = table_peak(ref[t].table);
+            double least = least_sum(ref[t].table);
             for (int i = 0; i < ref[t].table->rows; i++) {
-                double r = residual_percent(s, &ref[t], i, peak);
+                double r = residual_percent(s, &ref[t], i, least);
                 if (!isfinite(r)) continue;
                 if (pass == 1) {
                     int bin = (int)floor((r / out->reach + 1) / 2 * BINS);
@@ -197,7 +213,7 @@ static void draw_histogram(Canvas *canvas, Box box, const Figure *figure, Figure
     measure_residuals(s, r);
     Chart chart = chart_open(canvas, box,
         (AxisSpec){.low = -r->reach, .high = r->reach, .suffix = " %",
-                   .title = "fitted less measured luminance"},
+                   .title = "fitted less measured, of X, Y, Z the worst"},
         (AxisSpec){.low = 0.7, .high = round_up(fmax(r->highest, 10) * 1.1), .is_log = true,
                    .title = "samples"}, 14);
     for (int i = 0; i < BINS; i++) {
@@ -219,13 +235,13 @@ static void draw_histogram(Canvas *canvas, Box box, const Figure *figure, Figure
 static Field residual_field(const Subject *s, const FitTableRef *ref, Arena *arena)
 {
     Field  field = field_new(301, PI / 2, arena);
-    double peak = table_peak(ref->table), *nearest = ARENA_NEW(arena, double, 301 * 301);
+    double least = least_sum(ref->table), *nearest = ARENA_NEW(arena, double, 301 * 301);
     double spacing = sqrt(2 * PI / ref->table->rows) * 1.3; /* radians between samples */
     int    reach = (int)ceil(spacing / (PI / 300)) + 1;
     reach = reach > 12 ? 12 : reach;
     for (int i = 0; i < 301 * 301; i++) nearest[i] = INFINITY;
     for (int k = 0; k < ref->table->rows; k++) {
-        double c, r, value = residual_percent(s, ref, k, peak);
+        double c, r, value = residual_percent(s, ref, k, least);
         if (!isfinite(value)) continue;
         field_place(&field, (double)ref->table->theta[k], (double)ref->table->phi[k], &c, &r);
         for (int y = (int)r - reach; y <= (int)r + reach; y++)
@@ -265,36 +281,31 @@ static int middle_channel(const Measurement *set)
     return best;
 }
 
+#define BRDF_POINTS 2048
+#define BRDF_FINE 705 /* -88 to 88 degrees, every quarter */
+
 typedef struct BrdfPoints {
     int    count;
-    double deg[2048], value[2048], fitted[2048];
+    double deg[BRDF_POINTS], value[BRDF_POINTS];
+    double fine_deg[BRDF_FINE], fitted[BRDF_FINE];
 } BrdfPoints;
-
-static int compare_points(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 static void fill_brdf_points(const Subject *s, int incidence, int channel, BrdfPoints *out)
 {
     const Measurement *set = s->source.measured;
     const AngleTable  *table = &set->brdf[incidence];
-    double             pairs[2048][2];
     *out = (BrdfPoints){0};
-    for (int i = 0; i < table->rows && out->count < 2048; i++) {
+    for (int i = 0; i < table->rows && out->count < BRDF_POINTS; i++) {
         double deg;
         if (!in_plane((double)table->theta[i], (double)table->phi[i], 0, &deg)) continue;
-        pairs[out->count][0] = deg;
-        pairs[out->count++][1] = (double)table->value[i * table->channels + channel];
+        out->deg[out->count] = deg;
+        out->value[out->count++] = (double)table->value[i * table->channels + channel];
     }
-    qsort(pairs, (size_t)out->count, sizeof *pairs, compare_points);
-    for (int i = 0; i < out->count; i++) {
-        out->deg[i] = pairs[i][0];
-        out->value[i] = pairs[i][1];
+    for (int i = 0; i < BRDF_FINE; i++) {
+        double deg = -88 + 0.25 * i;
+        out->fine_deg[i] = deg;
         out->fitted[i] = subject_brdf_at(s, set->incidence[incidence],
-                                         radians_from_degrees(fabs(pairs[i][0])),
-                                         pairs[i][0] < 0 ? PI : 0,
+                                         radians_from_degrees(fabs(deg)), deg < 0 ? PI : 0,
                                          (double)set->wavelength_nm[channel]);
     }
 }
@@ -309,10 +320,9 @@ static void draw_fit_brdf(Canvas *canvas, Box box, const Figure *figure, FigureM
     for (int k = 0; k < count; k++) {
         int which = count > 1 ? k * (set->incidence_count - 1) / (count - 1) : 0;
         fill_brdf_points(s, which, middle_channel(set), &points[k]);
-        for (int i = 0; i < points[k].count; i++) {
-            high = fmax(high, points[k].value[i]);
+        for (int i = 0; i < points[k].count; i++) high = fmax(high, points[k].value[i]);
+        for (int i = 0; i < BRDF_FINE; i++)
             if (points[k].fitted[i] > 0) low = fmin(low, points[k].fitted[i]);
-        }
     }
     low = round_down(fmax(fmin(low, high / 10), high / 1e6) * 0.8);
     Chart chart = chart_open(canvas, box,
@@ -321,15 +331,17 @@ static void draw_fit_brdf(Canvas *canvas, Box box, const Figure *figure, FigureM
         (AxisSpec){.low = low, .high = round_up(high * 1.3), .is_log = true,
                    .title = "BRDF, sr⁻¹"}, 14);
     for (int k = 0; k < count; k++) {
-        double srgb[3], shown = -INFINITY;
+        double srgb[3];
+        bool   taken[151] = {false}; /* rings no nearer than 1.2 degrees */
         colour_map_at(MAP_SCATTER, 0.12 + 0.6 * k / fmax(count - 1, 1), srgb);
         Ink ink = {srgb[0], srgb[1], srgb[2], 1};
         for (int i = 0; i < points[k].count; i++) {
-            if (points[k].deg[i] - shown < 1.2) continue;
-            shown = points[k].deg[i];
+            int slot = (int)((points[k].deg[i] + 90) / 1.2);
+            if (slot < 0 || slot > 150 || taken[slot]) continue;
+            taken[slot] = true;
             ring(&chart, points[k].deg[i], points[k].value[i], ink_alpha(ink, 0.75));
         }
-        chart_curve(&chart, points[k].deg, points[k].fitted, points[k].count,
+        chart_curve(&chart, points[k].fine_deg, points[k].fitted, BRDF_FINE,
                     (Stroke){ink, 1.2, DASH_NONE});
     }
     figure_map_chart(out, &chart);
@@ -347,20 +359,22 @@ static void add_emission_fit(FigureList *list, const Subject *s)
                                                  : "Measured and fitted, horizontal",
             "rings: the source's samples, lines: the panel file",
             "The source's luminance (rings) over the panel file's (lines), each primary at its "
-            "highest level.", draw_fit_section, s, i, true});
+            "highest level.", draw_fit_section, s, i,
+            i ? SHEET_SPARE : SHEET_ALWAYS, false});
     figure_add(list, &(Figure){PLOT_FIT, "Residuals of all samples",
         arena_format(s->arena, "%.0f samples: rms %s %%, at most %s %%; line: the file's bound",
                      r->count, figure_text(r->rms, rms), figure_text(r->most, most)),
-        "Fitted less measured luminance of every sample of every emission table, relative to the "
-        "measured one (to a hundredth of the table's peak where that is more); the lines are the "
-        "largest error that the file states.", draw_histogram, s, 0, true});
+        "Fitted less measured tristimulus value (of X, Y and Z the one furthest off) of every "
+        "sample of every emission table, relative to the measured X + Y + Z (to a hundredth of "
+        "the table's largest where that is more); the lines are the largest error that the file "
+        "states.", draw_histogram, s, 0, SHEET_ALWAYS, false});
     if (r->worst.table)
         figure_add(list, &(Figure){PLOT_FIT, "Residual of the worst table",
             arena_format(s->arena, "%s: at most %s %% at θ %.0f°, φ %.0f°", r->worst.table->name,
                          most, degrees_from_radians(r->worst_theta),
                          degrees_from_radians(r->worst_phi)),
-            "Fitted less measured luminance in percent for the table with the largest error; the "
-            "colours end at the bound that the file states.", draw_residual_map, s, 0, true});
+            "Fitted less measured tristimulus value in percent for the table with the largest error; the "
+            "colours end at the bound that the file states.", draw_residual_map, s, 0, SHEET_ALWAYS, false});
 }
 
 void figures_add_fit(FigureList *list, const Subject *s)
@@ -375,5 +389,5 @@ void figures_add_fit(FigureList *list, const Subject *s)
             "The source's BRDF in the plane of incidence (rings) over the panel file's haze and "
             "floor (lines). What stands above the line at the mirror direction is the "
             "instrument's image of the mirror part, which the file keeps apart.", draw_fit_brdf,
-            s, 0, true});
+            s, 0, SHEET_ALWAYS, false});
 }

@@ -97,7 +97,7 @@ static void draw_plane(Canvas *canvas, Box box, const Figure *figure, FigureMap 
     for (int k = 0; k < count; k++) {
         double x = chart_x(&chart, curve[k].deg[curve[k].peak]);
         double y = chart_y(&chart, fmax(curve[k].value[curve[k].peak], low)) - 5;
-        if (x - last_x < 22 && fabs(y - last_y) < 12) continue;
+        if (x - last_x < 15 && fabs(y - last_y) < 12) continue;
         canvas_text(canvas, x, y, (Letters){.size = SIZE_TICK, .across = 0.5, .down = 1,
                     .ink = series_ink(canvas, k, count), .halo = canvas->theme.paper},
                     arena_format(canvas->arena, "%d°", deg[k]));
@@ -181,11 +181,17 @@ static void draw_map(Canvas *canvas, Box box, const Figure *figure, FigureMap *o
                       .unit = "sr⁻¹", .has_light = true, .theta_light = incidence};
     map.low = round_down(fmax(range.low, map.high / 1e6));
     if (map.high < 1.5 * map.low) map.low = map.high / 1.5;
-    bool has_halves = map.high / map.low < 300;
-    for (double decade = pow(10, floor(log10(map.low))); decade < map.high; decade *= 10)
-        for (int k = 0; k < (has_halves ? 3 : 1); k++) {
-            double level = decade * (double[]){1, 2, 5}[k];
-            if (level > range.low * 1.02 && level < map.high * 0.98 &&
+    double peak = map.high, most = field_quantile(field, s->brdf_cone, 0.99, *canvas->arena);
+    if (map.high > 20 * most && most > map.low) { /* a narrow peak leaves no colours for haze */
+        map.high = round_up(8 * most);
+        map.is_cut = true;
+    }
+    static const double STEPS[3][3] = {{1, 2, 5}, {1, 3, 3}, {1, 1, 1}};
+    int density = peak / map.low < 60 ? 0 : map.high / map.low < 3000 ? 1 : 2;
+    for (double decade = pow(10, floor(log10(map.low))); decade < peak; decade *= 10)
+        for (int k = 0; k < 3 - density; k++) {
+            double level = decade * STEPS[density][k];
+            if (level > range.low * 1.02 && level < peak * 0.98 &&
                 map.level_count < POLAR_LEVELS_MAX)
                 map.level[map.level_count++] = level;
         }
@@ -251,14 +257,17 @@ static void add_maps(FigureList *list, const Subject *s)
 {
     int incidences[2] = {middle_incidence(s), 60};
     for (int i = 0; i < 2; i++) {
+        char peak[32];
         if (i == 1 && degrees_from_radians(s->last_incidence) < 60) continue;
+        Field      field = subject_brdf_field(s, radians_from_degrees(incidences[i]), s->arena);
+        FieldRange range = field_range(&field, s->brdf_cone);
         figure_add(list, &(Figure){PLOT_BRDF_MAP,
             arena_format(s->arena, "BRDF at %d° incidence", incidences[i]),
-            arena_format(s->arena, "φ from the mirror direction, photopic mean%s",
-                         light_text(s)),
+            arena_format(s->arena, "φ from the mirror direction, photopic mean; %s sr⁻¹ at the "
+                         "peak%s", figure_text(range.high, peak), light_text(s)),
             "BRDF in sr⁻¹ over the leaving directions on a logarithmic scale, without the mirror "
             "part; φ counts from the mirror direction, the light's own direction is marked.",
-            draw_map, s, incidences[i], i == 0});
+            draw_map, s, incidences[i], i ? SHEET_SPARE : SHEET_ALWAYS, false});
     }
 }
 
@@ -270,18 +279,18 @@ void figures_add_reflection(FigureList *list, const Subject *s)
         arena_format(s->arena, "photopic mean, without the mirror part; incidence at each peak%s",
                      light_text(s)),
         "BRDF in sr⁻¹ over the leaving angle in the plane of incidence, one curve an incidence. "
-        "The mirror part is not in it.", draw_plane, s, 0, true});
+        "The mirror part is not in it.", draw_plane, s, 0, SHEET_ALWAYS, false});
     if (s->wavelength_count > 1)
         figure_add(list, &(Figure){PLOT_BRDF_SPECTRUM, "BRDF over wavelength",
             arena_format(s->arena, "incidence %d°; angle from the mirror direction%s", middle,
                          light_text(s)),
             "BRDF in sr⁻¹ over wavelength at several angles from the mirror direction, towards "
-            "the normal; dots at the measured wavelengths.", draw_wavelengths, s, middle, true});
+            "the normal; dots at the measured wavelengths.", draw_wavelengths, s, middle, SHEET_ALWAYS, false});
     add_maps(list, s);
     if (s->has_mirror)
         figure_add(list, &(Figure){PLOT_MIRROR, "Mirror reflectance",
             "dashed: a surface of index 1.5; dotted: scaled to the panel's",
             "Reflectance of the mirror part over the angle of incidence beside the Fresnel "
             "reflectance of one surface of refractive index 1.5 (dashed), also scaled to the "
-            "panel's value at the normal (dotted).", draw_mirror, s, 0, true});
+            "panel's value at the normal (dotted).", draw_mirror, s, 0, SHEET_ALWAYS, false});
 }

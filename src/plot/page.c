@@ -16,6 +16,7 @@
 
 typedef struct Layout {
     int    columns, rows;
+    bool   has_lead;      /* the first figure takes two columns and both rows */
     double cell_w, cell_h;
     double width, height; /* of the page, points */
     double scale;         /* pixels per point */
@@ -34,16 +35,17 @@ static double page_height(int rows, double cell_h)
 /* The size of a cell that letters and lines are made for. */
 static void natural_cell(int count, double *w, double *h)
 {
-    *w = count == 1 ? 560 : 390;
-    *h = count == 1 ? 460 : 350;
+    *w = count == 1 ? 560 : 376;
+    *h = count == 1 ? 460 : 346;
 }
 
 static Layout natural_layout(const PageSpec *spec)
 {
     int    n = spec->list->count;
     Layout l = {.scale = 1};
-    l.columns = n <= 3 ? n : n == 4 ? 2 : n <= 6 ? 3 : 4;
-    l.rows = (n + l.columns - 1) / l.columns;
+    l.has_lead = n == 5 && spec->kind == PLOT_LUMINANCE;
+    l.columns = l.has_lead ? 4 : n <= 3 ? n : n == 4 ? 2 : n <= 6 ? 3 : 4;
+    l.rows = l.has_lead ? 2 : (n + l.columns - 1) / l.columns;
     natural_cell(n, &l.cell_w, &l.cell_h);
     l.width = page_width(l.columns, l.cell_w);
     l.height = page_height(l.rows, l.cell_h);
@@ -111,8 +113,10 @@ static const char *extrapolation_text(Canvas *canvas, const PageSpec *spec)
 {
     const Subject *s = spec->subject;
     double cone = degrees_from_radians(s->cone), last = degrees_from_radians(s->last_incidence);
-    bool   emission = s->emits && cone < 89.95 && has_kind(spec, PLOT_LUMINANCE, PLOT_SECTIONS);
-    bool   reflection = s->reflects && has_kind(spec, PLOT_BRDF, PLOT_MIRROR);
+    bool   is_fit = has_kind(spec, PLOT_FIT, PLOT_FIT);
+    bool   emission = s->emits && cone < 89.95 &&
+                      (is_fit || has_kind(spec, PLOT_LUMINANCE, PLOT_SECTIONS));
+    bool   reflection = s->reflects && (is_fit || has_kind(spec, PLOT_BRDF, PLOT_MIRROR));
     if (emission && reflection)
         return arena_format(canvas->arena, "not measured, extrapolated: emission beyond θ %.4g°, "
                             "reflection beyond θ %.4g° or an incidence of %.4g°", cone,
@@ -145,6 +149,21 @@ static void draw_legend(Canvas *canvas, const PageSpec *spec, const Layout *l)
     canvas_text(canvas, l->width - MARGIN, y, letters, sign);
 }
 
+static Box figure_box(const Layout *l, int index)
+{
+    Box box = {MARGIN, MARGIN + HEADER, l->cell_w, l->cell_h};
+    if (l->has_lead && index == 0) {
+        box.w = 2 * l->cell_w + GUTTER;
+        box.h = 2 * l->cell_h + GUTTER;
+        return box;
+    }
+    int column = l->has_lead ? 2 + (index - 1) % 2 : index % l->columns;
+    int row = l->has_lead ? (index - 1) / 2 : index / l->columns;
+    box.x += column * (l->cell_w + GUTTER);
+    box.y += row * (l->cell_h + GUTTER);
+    return box;
+}
+
 static void draw_page(cairo_t *cr, const PageSpec *spec, const Layout *l, Arena *arena)
 {
     Canvas canvas = {cr, spec->is_dark ? theme_dark() : theme_light(), fmax(l->scale, 1), arena};
@@ -153,10 +172,7 @@ static void draw_page(cairo_t *cr, const PageSpec *spec, const Layout *l, Arena 
     canvas_fill(&canvas, canvas.theme.paper);
     draw_heading(&canvas, spec, l);
     for (int i = 0; i < spec->list->count; i++) {
-        Box box = {MARGIN + (i % l->columns) * (l->cell_w + GUTTER),
-                   MARGIN + HEADER + (i / l->columns) * (l->cell_h + GUTTER), l->cell_w,
-                   l->cell_h};
-        figure_draw(&canvas, box, &spec->list->figure[i], &unused);
+        figure_draw(&canvas, figure_box(l, i), &spec->list->figure[i], &unused);
     }
     draw_legend(&canvas, spec, l);
 }

@@ -25,12 +25,30 @@ static FigureList *all_figures(const Subject *subject, Arena *arena)
     return list;
 }
 
+/* The sheet has four columns: spare figures come in, in their order, where the last row would
+ * have holes. */
+#define SHEET_COLUMNS 4
+
+static void fill_sheet(FigureList *list)
+{
+    int always = 0;
+    for (int i = 0; i < list->count; i++) always += list->figure[i].role == SHEET_ALWAYS;
+    int holes = (SHEET_COLUMNS - always % SHEET_COLUMNS) % SHEET_COLUMNS;
+    for (int i = list->count - 1; i >= 0; i--) {
+        Figure *f = &list->figure[i];
+        if (f->role != SHEET_SPARE) continue;
+        f->role = holes > 0 ? SHEET_ALWAYS : SHEET_NEVER;
+        holes--;
+    }
+}
+
 static void keep_kind(FigureList *list, PlotKind kind)
 {
     int kept = 0;
+    if (kind == PLOT_ALL) fill_sheet(list);
     for (int i = 0; i < list->count; i++) {
         const Figure *f = &list->figure[i];
-        if (kind == PLOT_ALL ? f->is_for_sheet : f->kind == kind)
+        if (kind == PLOT_ALL ? f->role == SHEET_ALWAYS : f->kind == kind)
             list->figure[kept++] = list->figure[i];
     }
     list->count = kept;

@@ -21,6 +21,11 @@ Ink polar_line_ink(const PolarDisc *disc, double value)
     return light ? ink_hex(0xffffff) : ink_hex(0x14181c);
 }
 
+double polar_letter_size(const PolarDisc *disc)
+{
+    return disc->radius < 60 ? 7 : disc->radius > 180 ? 10.5 : SIZE_SMALL;
+}
+
 /* ---- the colours ----------------------------------------------------------------------- */
 
 static uint32_t pixel_of(const PolarMap *map, double value, uint32_t nothing)
@@ -145,7 +150,7 @@ static void draw_rings(const PolarDisc *disc)
 static void write_ring_labels(PolarDisc *disc, bool only_reserve)
 {
     double rim = degrees_from_radians(disc->map->field->theta_rim);
-    double step = ring_step_deg(disc), size = disc->radius < 60 ? 7 : SIZE_SMALL;
+    double step = ring_step_deg(disc), size = polar_letter_size(disc);
     for (double deg = step; deg < rim - 1; deg += step) {
         double theta = radians_from_degrees(deg), r = deg / rim * disc->radius;
         double x = disc->x + r * cos(POLAR_RING_PHI), y = disc->y - r * sin(POLAR_RING_PHI);
@@ -196,7 +201,7 @@ static void mark_light(const PolarDisc *disc)
 static Ticks scale_ticks(const PolarMap *map, double height)
 {
     int most = (int)(height / 18);
-    most = most < 3 ? 3 : most;
+    most = most < 3 ? 3 : most > 11 ? 11 : most;
     return map->is_log ? ticks_log(map->low, map->high, most)
                        : ticks_linear(map->low, map->high, most);
 }
@@ -216,6 +221,13 @@ static void draw_scale(const PolarDisc *disc, Box bar)
     cairo_set_source(canvas->cr, ramp);
     cairo_fill(canvas->cr);
     cairo_pattern_destroy(ramp);
+    if (disc->map->is_cut) {
+        uint32_t c = palette.colour[1023];
+        cairo_move_to(canvas->cr, bar.x, bar.y);
+        cairo_line_to(canvas->cr, bar.x + bar.w / 2, bar.y - 8);
+        cairo_line_to(canvas->cr, bar.x + bar.w, bar.y);
+        canvas_fill(canvas, ink_hex(c & 0xffffff));
+    }
     Ticks ticks = scale_ticks(disc->map, bar.h);
     for (int i = 0; i < ticks.count; i++) {
         char   text[32];
@@ -228,12 +240,13 @@ static void draw_scale(const PolarDisc *disc, Box bar)
                         tick_text(ticks.value[i], ticks.step, text));
     }
     for (int i = 0; i < disc->map->level_count; i++) { /* the lines of the map, on the scale */
-        double y = bar.y + bar.h * (1 - polar_position(disc->map, disc->map->level[i]));
+        double t = polar_position(disc->map, disc->map->level[i]), y = bar.y + bar.h * (1 - t);
+        if (!(t > 0 && t < 1)) continue;
         canvas_line(canvas, bar.x, y, bar.x + bar.w, y,
                     (Stroke){ink_alpha(polar_line_ink(disc, disc->map->level[i]), 0.75), 0.7,
                              DASH_NONE});
     }
-    canvas_text(canvas, bar.x, bar.y - 8,
+    canvas_text(canvas, bar.x, bar.y - (disc->map->is_cut ? 14 : 8),
                 (Letters){.size = SIZE_TICK, .ink = canvas->theme.ink, .down = 1},
                 disc->map->unit);
 }

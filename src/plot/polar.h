@@ -15,6 +15,7 @@ typedef struct PolarMap {
     ColourMap    map;
     double       low, high; /* of the colours */
     bool         is_log;
+    bool         is_cut;    /* values above `high` have its colour: the scale has an arrow */
     int          level_count;
     double       level[POLAR_LEVELS_MAX]; /* of the lines */
     double       step;      /* between levels, for their lettering; 0: figures as they are */

@@ -132,7 +132,7 @@ static void draw_way(PolarDisc *disc, const Way *way, double level, bool wants_n
 {
     Spot        spot;
     bool        strong = level == disc->map->strong;
-    double      size = disc->radius < 60 ? 7 : SIZE_SMALL, total = way->length[way->count - 1];
+    double      size = polar_letter_size(disc), total = way->length[way->count - 1];
     const char *text = level_text(disc, level);
     double      width = canvas_text_width(disc->canvas, size, strong, text);
     Ink         ink = polar_line_ink(disc, level);

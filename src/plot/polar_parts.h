@@ -5,7 +5,7 @@
 #pragma once
 #include "plot/polar.h"
 
-#define POLAR_RING_PHI (-0.3926990816987241) /* the ray with the rings' degrees: 22.5 below right */
+#define POLAR_RING_PHI (-1.1780972450961724) /* the rings' degrees stand 67.5 below right */
 #define POLAR_BOXES_MAX 64
 
 typedef struct PolarDisc {
@@ -18,6 +18,9 @@ typedef struct PolarDisc {
 
 /* Black or white, whichever reads on the colour of the value. */
 Ink polar_line_ink(const PolarDisc *disc, double value);
+
+/* Of the numbers inside the disc. */
+double polar_letter_size(const PolarDisc *disc);
 
 /* Marks a place as taken / asks whether it is free. */
 void polar_reserve(PolarDisc *disc, Box box);

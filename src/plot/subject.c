@@ -104,6 +104,8 @@ Subject *subject_new(const SubjectSource *source, Arena *arena)
     s->source = *source;
     s->arena = arena;
     s->name = name && *name ? name : source->file;
+    s->is_white_only = json_is_true(json_object_get(
+        json_object_get(source->report, "emission"), "white_only"));
     s->emits = panel_mean_luminance(source->panel, white) > 0;
     s->reflects = panel_reflects(source->panel);
     if (s->emits) sample_emission(s);

@@ -30,6 +30,7 @@ typedef struct Subject {
     SubjectSource source;
     const char *name;           /* of the panel */
     bool   emits, has_black, reflects, has_mirror;
+    bool   is_white_only;       /* its primaries and levels are assumed, not measured */
     double cone;                /* emission is measured up to this theta */
     float  normal[PATTERN_COUNT][3];  /* XYZ at the normal */
     Field  xyz[PATTERN_COUNT][3];     /* over the hemisphere */
