@@ -16,6 +16,7 @@ static const PanelCommand commands[] = {
     {"info", "what a panel file holds, its sizes and errors", cmd_panel_info},
     {"eval", "what a panel emits or reflects in one direction", cmd_panel_eval},
     {"export", "a panel's tables written back, readable by fit", cmd_panel_export},
+    {"plot", "pictures of a panel, one by one or all in a report", cmd_panel_plot},
     {"simulate", "a virtual instrument writes a synthetic measurement set", cmd_panel_simulate},
 };
 

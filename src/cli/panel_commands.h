@@ -12,6 +12,7 @@ bool cmd_panel_fit(int argc, char **argv, Error *err);
 bool cmd_panel_info(int argc, char **argv, Error *err);
 bool cmd_panel_eval(int argc, char **argv, Error *err);
 bool cmd_panel_export(int argc, char **argv, Error *err);
+bool cmd_panel_plot(int argc, char **argv, Error *err);
 bool cmd_panel_simulate(int argc, char **argv, Error *err);
 
 /* The report of a fit as a table on stdout. */

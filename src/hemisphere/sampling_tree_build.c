@@ -154,7 +154,7 @@ static void split_cells(Build *build, Arena *arena)
     }
 }
 
-/* ---- probabilities ------------------------------------------------------------------------ */
+/* ---- probabilities ----------------------------------------------------------------------- */
 
 /* The step whose probability is nearest to first / (first + second); neither 0 nor 1 when both
  * are above 0. */
@@ -246,7 +246,7 @@ static void put_functions(Build *build)
     }
 }
 
-/* ---- all of it ---------------------------------------------------------------------------- */
+/* ---- all of it --------------------------------------------------------------------------- */
 
 static bool check_options(const SamplingOptions *o, Error *err)
 {

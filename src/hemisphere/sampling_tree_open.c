@@ -100,7 +100,7 @@ static bool expand_structure(Expand *expand)
     return true;
 }
 
-/* ---- probabilities ------------------------------------------------------------------------ */
+/* ---- probabilities ----------------------------------------------------------------------- */
 
 static bool get_step(SamplingBits *bits, uint32_t k, uint8_t *step)
 {

@@ -21,7 +21,10 @@
 
 typedef enum ImportSource {
     IMPORT_RED, IMPORT_GREEN, IMPORT_BLUE, IMPORT_BLACK, IMPORT_WHITE, /* emission: XYZ */
-    IMPORT_REFLECTION /* a channel a wavelength */
+    IMPORT_REFLECTION, /* a channel a wavelength */
+    /* for import_complete, which takes them out of the set: */
+    IMPORT_DARK,     /* what the instrument reads without light; subtracted from every table */
+    IMPORT_REFERENCE /* signal of a white reference of known reflectance: signals are divided */
 } ImportSource;
 
 typedef struct ImportTable {
@@ -33,7 +36,11 @@ typedef struct ImportTable {
                                         data, or the only azimuth measured */
     int           rows, channels;    /* channels: 3 (X, Y, Z), or wavelength_count */
     char          component;         /* emission: 0, or one of 'X', 'Y', 'Z' with one channel: files
-                                        of the same source and level are joined */
+                                        of the same source and level are joined; Y alone is
+                                        luminance without colour */
+    bool          is_any_light;      /* reference: serves every light */
+    bool          is_signal;         /* reflection, reference: no BRDF yet but a signal, to be
+                                        divided by the reference's */
     const float  *wavelength_nm;     /* reflection: channels of them, rising. Tables of the same
                                         light and directions at other wavelengths are joined */
     const double *theta_deg, *phi_deg; /* rows; theta in [0, 90], any phi */
@@ -53,8 +60,12 @@ typedef struct ImportSet {
     Arena        *arena;
     ImportTable  *table;             /* room for IMPORT_TABLES_MAX */
     int           count;
-    bool          is_anisotropic;    /* reflection depends on the light's azimuth */
+    bool          is_anisotropic;    /* reflection depends on the light's azimuth; tables of
+                                        several azimuths make it so */
+    bool          is_isotropic;      /* the user says that it does not, whatever the tables */
+    bool          black_is_zero;     /* the user says that the black pattern was subtracted */
     const char   *panel, *instrument; /* names for the manifest; NULL: the file's */
+    double        white_reflectance; /* of the reference: Lambertian, 0 to 1 (default 1) */
     ImportSpectra spectra;
     const char   *note[IMPORT_NOTES_MAX]; /* one line each: assumed, converted, left out */
     int           note_count;

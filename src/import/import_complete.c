@@ -13,7 +13,7 @@
 #define INCIDENCE_MAX_DEG 89
 
 static const char *const source_names[] = {"red", "green", "blue", "black", "white",
-                                           "reflection"};
+                                           "reflection", "dark", "reference"};
 
 const char *import_source_name(ImportSource source)
 {
@@ -44,6 +44,10 @@ static bool join_components(ImportSet *set, int first, Error *err)
                             table[i].component, import_source_name(table[i].source),
                             table[i].level, table[part[at]].file);
         part[at] = i;
+    }
+    if (part[1] >= 0 && part[0] < 0 && part[2] < 0) {
+        import_add_colour(set, &table[part[1]]);
+        return true;
     }
     for (int j = 0; j < 3; j++)
         if (part[j] < 0)
@@ -176,14 +180,19 @@ static const ImportTable *find_light(const ImportSet *set, double incidence, dou
 
 /* At normal incidence the light has no azimuth: the same table serves them all, turned so that
  * its phi counts from each azimuth's mirror direction. */
+static void turn_light(const ImportSet *set, ImportTable *table, double azimuth)
+{
+    double *phi = ARENA_NEW(set->arena, double, table->rows);
+    for (int i = 0; i < table->rows; i++)
+        phi[i] = fmod(table->phi_deg[i] + table->incidence_phi_deg - azimuth + 720, 360);
+    table->phi_deg = phi;
+    table->incidence_phi_deg = azimuth;
+}
+
 static bool turn_normal(ImportSet *set, const ImportTable *normal, double azimuth, Error *err)
 {
     ImportTable turned = *normal;
-    double *phi = ARENA_NEW(set->arena, double, normal->rows);
-    for (int i = 0; i < normal->rows; i++)
-        phi[i] = fmod(normal->phi_deg[i] + normal->incidence_phi_deg - azimuth + 720, 360);
-    turned.phi_deg = phi;
-    turned.incidence_phi_deg = azimuth;
+    turn_light(set, &turned, azimuth);
     import_note(set, "normal incidence serves every azimuth of the light");
     return import_add(set, &turned, err);
 }
@@ -197,16 +206,50 @@ static const ImportTable *first_normal(const ImportSet *set)
     return NULL;
 }
 
+/* A table of normal incidence whose azimuth no other light has, is told of one that they have. */
+static void move_normal(ImportSet *set)
+{
+    const ImportTable *other = NULL;
+    for (int i = 0; i < set->count && !other; i++)
+        if (set->table[i].source == IMPORT_REFLECTION &&
+            set->table[i].incidence_deg >= SAME_ANGLE_DEG)
+            other = &set->table[i];
+    for (int i = 0; i < set->count && other; i++) {
+        ImportTable *table = &set->table[i];
+        bool is_known = false;
+        if (table->source != IMPORT_REFLECTION || table->incidence_deg >= SAME_ANGLE_DEG) continue;
+        for (int k = 0; k < set->count; k++)
+            is_known |= set->table[k].source == IMPORT_REFLECTION &&
+                        set->table[k].incidence_deg >= SAME_ANGLE_DEG &&
+                        fabs(set->table[k].incidence_phi_deg - table->incidence_phi_deg) <
+                            SAME_ANGLE_DEG;
+        if (!is_known) turn_light(set, table, other->incidence_phi_deg);
+    }
+}
+
+/* The azimuths of light that is not normal: several make the material anisotropic, unless the
+ * user says otherwise; one is as good as any other. */
+static void settle_azimuths(ImportSet *set)
+{
+    double first = -1;
+    bool   several = false;
+    for (int i = 0; i < set->count; i++) {
+        const ImportTable *table = &set->table[i];
+        if (table->source != IMPORT_REFLECTION || table->incidence_deg < SAME_ANGLE_DEG) continue;
+        several |= first >= 0 && fabs(table->incidence_phi_deg - first) > SAME_ANGLE_DEG;
+        first = table->incidence_phi_deg;
+    }
+    set->is_anisotropic = (set->is_anisotropic || several) && !set->is_isotropic;
+    for (int i = 0; i < set->count && !set->is_anisotropic; i++)
+        if (set->table[i].source == IMPORT_REFLECTION) set->table[i].incidence_phi_deg = 180;
+}
+
 static bool complete_lights(ImportSet *set, Error *err)
 {
     double azimuth[IMPORT_TABLES_MAX];
-    int    count = collect_angles(set, true, azimuth, IMPORT_TABLES_MAX);
+    move_normal(set);
+    int count = collect_angles(set, true, azimuth, IMPORT_TABLES_MAX);
     const ImportTable *normal = first_normal(set);
-    if (count < 2) return true;
-    if (!set->is_anisotropic)
-        return error_at(err, ERROR_INPUT, set->table[set->count - 1].file, "",
-                        "the tables have light from azimuths %g and %g, but the material is "
-                        "declared to be the same at every azimuth", azimuth[0], azimuth[1]);
     for (int k = 0; normal && k < count; k++)
         if (!find_light(set, normal->incidence_deg, azimuth[k]) &&
             !turn_normal(set, normal, azimuth[k], err))
@@ -238,6 +281,19 @@ static void remove_source(ImportSet *set, ImportSource source)
     set->count = kept;
 }
 
+/* Where the user says that black was subtracted: zeros at the directions of a red table. */
+static bool add_zero_black(ImportSet *set, Error *err)
+{
+    ImportTable black = *first_of(set, IMPORT_RED);
+    black.source = IMPORT_BLACK;
+    black.level = 0;
+    black.masked = 0;
+    black.masked_theta_deg = black.masked_phi_deg = NULL;
+    black.value = ARENA_NEW(set->arena, double, 3 * (size_t)black.rows);
+    import_note(set, "the black pattern is declared to be subtracted: it is written as zero");
+    return import_add(set, &black, err);
+}
+
 /* Primaries with their black, or white alone: what both have too much of is left out. */
 static bool check_sources(ImportSet *set, Error *err)
 {
@@ -256,6 +312,10 @@ static bool check_sources(ImportSet *set, Error *err)
                              source_names[p], count_of(set, (ImportSource)p),
                              MEASUREMENT_LEVELS_MAX);
     }
+    if (primaries && black && set->black_is_zero)
+        return error_at(err, ERROR_INPUT, first_of(set, IMPORT_BLACK)->file, "",
+                        "is a black pattern, and --no-black says that there is none");
+    if (primaries && !black && set->black_is_zero) return add_zero_black(set, err);
     if (primaries && !black)
         return error_set(err, ERROR_INPUT, "no file is the black pattern — name one as --role "
                          "FILE=black, or say --no-black when it was subtracted");
@@ -294,7 +354,8 @@ static bool check_lights(const ImportSet *set, Error *err)
             if (!table)
                 return error_set(err, ERROR_INPUT, "no file has light from incidence %g, azimuth "
                                  "%g degrees; a material that depends on the azimuth is wanted "
-                                 "at every incidence (%d) and azimuth (%d) of the light",
+                                 "at every incidence (%d) and azimuth (%d) of the light — or say "
+                                 "--isotropic when the azimuth makes no difference",
                                  incidence[i], azimuth[k], incidences, azimuths);
             if (!same_wavelengths(first, table))
                 return error_at(err, ERROR_INPUT, table->file, "",
@@ -318,6 +379,8 @@ bool import_complete(ImportSet *set, Error *err)
 {
     if (!set->count)
         return error_set(err, ERROR_INPUT, "the files hold no table of a panel");
+    if (!import_apply_references(set, err)) return false;
+    settle_azimuths(set);
     if (!join_parts(set, err) || !keep_usable(set, err)) return false;
     import_merge_directions(set);
     if (!complete_lights(set, err) || !check_sources(set, err) || !check_lights(set, err))

@@ -178,6 +178,20 @@ void import_remove_tables(ImportSet *set, const int *part, int count, int keep)
     set->count = kept;
 }
 
+int *import_match_rows(const ImportTable *table, const ImportTable *other, Arena *arena)
+{
+    Place *from = sorted_places(table, arena), *to = sorted_places(other, arena);
+    int   *match = ARENA_NEW(arena, int, table->rows);
+    for (int i = 0, k = 0; i < table->rows; i++) {
+        Place wanted = {from[i].theta, from[i].phi, 0};
+        while (k < other->rows && (to[k].theta < wanted.theta ||
+                                   (to[k].theta == wanted.theta && to[k].phi < wanted.phi)))
+            k++;
+        match[from[i].row] = k < other->rows && same_place(&to[k], &wanted) ? to[k].row : -1;
+    }
+    return match;
+}
+
 /* ---- a direction once ---------------------------------------------------------------------- */
 
 /* How many rows are repetitions; leader[row] is the first row of the same direction. */

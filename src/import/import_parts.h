@@ -19,6 +19,16 @@ bool import_join_tables(ImportSet *set, const int *part, int count, ImportTable 
 /* Removes the tables of the list but `keep`. */
 void import_remove_tables(ImportSet *set, const int *part, int count, int keep);
 
+/* For each row of `table` the row of `other` at the same direction, or -1; from the arena. */
+int *import_match_rows(const ImportTable *table, const ImportTable *other, Arena *arena);
+
+/* Subtracts what was read without light and divides signals by the white reference's; then
+ * both leave the set. */
+bool import_apply_references(ImportSet *set, Error *err);
+
+/* Luminance alone as X, Y, Z: the chromaticity of the primaries' spectra, or that of D65. */
+void import_add_colour(ImportSet *set, ImportTable *table);
+
 /* A direction that stands more than once in a table becomes the mean of its values; theta 0
  * is left alone. */
 void import_merge_directions(ImportSet *set);

@@ -4,5 +4,7 @@
 
 const Importer *const importers[] = {
     &importer_fred, &importer_mountain, &importer_zemax, &importer_lighttools,
+    &importer_speos, &importer_astm, &importer_ssdd,
+    &importer_text,
     NULL,
 };

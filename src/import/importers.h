@@ -4,4 +4,8 @@
 #include "import/import.h"
 
 /* ---- scatter ---- */
-extern const Importer importer_zemax, importer_lighttools, importer_mountain, importer_fred;
+extern const Importer importer_zemax, importer_lighttools, importer_mountain, importer_fred,
+    importer_speos, importer_astm, importer_ssdd;
+
+/* ---- columns and matrices ---- */
+extern const Importer importer_text;

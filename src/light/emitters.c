@@ -1,124 +1,107 @@
-#include "light/emitters.h"
+/* HOT: choosing a point of an emitter. No allocation, no lock, no libm. */
+#include "light/emitter_tiles.h"
 
-#include "spectrum/photometry.h"
+#define BELOW_ONE 0x1.fffffep-1f
+#define BLIND_SHARE 0.1f /* of the samples that do not look where the lit point is */
+#define LOOSE 0.25f      /* intensity over power of what faces all ways: a sphere's */
 
-#define POINTS_A_TRIANGLE 32
-#define FLOOR_SHARE 0.02 /* of the part's brightest point, so that no lit texel is impossible */
-
-static float luminance_at(const Scene *scene, const Material *material,
-                          const TrianglePoint *point)
+/* Bilinear in the turned octahedral map: along the diagonals x + y and x - y of the diamond
+ * that the upper half of an octahedron is seen from above. */
+static float profile_value(const EmitterProfile *profile, Vec3 d)
 {
-    float rgb[3];
-    if (material->display_id != NO_ID) {
-        const Display *display = &scene->displays[material->display_id];
-        display_codes(scene, display, point, rgb);
-        return panel_mean_luminance(display->panel, rgb) * display->level;
+    if (!(d.z > 0)) return 0;
+    float scale = 0.5f * (EMITTER_PROFILE_SIDE - 1) / (fabsf(d.x) + fabsf(d.y) + d.z);
+    float middle = 0.5f * (EMITTER_PROFILE_SIDE - 1);
+    float s = middle + (d.x + d.y) * scale, t = middle + (d.x - d.y) * scale;
+    int   i = (int)s, j = (int)t;
+    if (i > EMITTER_PROFILE_SIDE - 2) i = EMITTER_PROFILE_SIDE - 2;
+    if (j > EMITTER_PROFILE_SIDE - 2) j = EMITTER_PROFILE_SIDE - 2;
+    const float *row = profile->value + j * EMITTER_PROFILE_SIDE + i;
+    const float *next = row + EMITTER_PROFILE_SIDE;
+    s -= (float)i;
+    t -= (float)j;
+    return lerpf(lerpf(row[0], row[1], s), lerpf(next[0], next[1], s), t);
+}
+
+/* About the illuminance that a tile gives a plane that faces it. From near, where its cells are
+ * seen under all angles, and for cells that face different ways, directions count less. */
+static float importance(const EmitterTile *tile, Vec3 from)
+{
+    Vec3  d = vec3_sub(from, tile->centre);
+    float d2 = vec3_dot(d, d) + 1e-12f, sum2 = d2 + tile->spread2;
+    Vec3  w = vec3_scale(d, 1 / sqrtf(d2));
+    float facing = vec3_dot(tile->normal, w), near = tile->spread2 / sum2;
+    if (tile->profile) facing = profile_value(tile->profile, frame_to_local(&tile->frame, w));
+    else facing = tile->both_sides ? fabsf(facing) : fmaxf(facing, 0);
+    return tile->power * (facing * (1 - near) + LOOSE * (near + tile->looseness)) / sum2;
+}
+
+/* The probability of every tile. */
+static void weigh_tiles(const Emitters *emitters, Vec3 from, float *prob)
+{
+    float sum = 0;
+    int   count = emitters->tile_count;
+    for (int i = 0; i < count; i++) sum += prob[i] = importance(&emitters->tiles[i], from);
+    float scale = sum > 0 && sum < 1e30f ? (1 - BLIND_SHARE) / sum : 0;
+    for (int i = 0; i < count; i++)
+        prob[i] = prob[i] * scale +
+                  (scale > 0 ? BLIND_SHARE : 1) * emitters->tiles[i].share;
+}
+
+/* Takes the choice of a tile off *u. */
+static int choose_tile(const float *prob, int count, float *u)
+{
+    float below = 0;
+    int   i = 0;
+    while (i + 1 < count && *u >= below + prob[i]) below += prob[i++];
+    *u = clampf((*u - below) / prob[i], 0, BELOW_ONE);
+    return i;
+}
+
+static uint32_t cell_at(const Emitter *emitter, float u, float v)
+{
+    int side = emitter->side, i = (int)(u * (float)side), j = (int)(v * (float)side);
+    i = i > side - 1 ? side - 1 : i < 0 ? 0 : i;
+    j = j > side - 1 - i ? side - 1 - i : j < 0 ? 0 : j;
+    float over = u * (float)side - (float)i + v * (float)side - (float)j;
+    bool  is_turned = over > 1 && i + j < side - 1;
+    return emitter->first_cell + (uint32_t)(2 * side * i - i * i + 2 * j + is_turned);
+}
+
+static EmitterPoint point_of_cell(const Emitter *emitter, uint32_t cell, float u0, float u1)
+{
+    EmitterCell at = emitter_cell(emitter, cell);
+    float root = sqrtf(u0), a = root * (1 - u1), b = root * u1; /* uniform on the triangle */
+    float step = 1 / (float)at.side;
+    if (at.is_turned) {
+        a = 1 - a;
+        b = 1 - b;
     }
-    emitted_rgb(scene, material, point, rgb);
-    return luminance_from_rgb(rgb);
+    return (EmitterPoint){emitter->triangle, ((float)at.i + a) * step,
+                          ((float)at.j + b) * step};
 }
 
-static double triangle_area(const Scene *scene, uint32_t triangle)
+EmitterPoint emitters_sample(const Emitters *emitters, Vec3 from, const float u[3],
+                             float *pdf_area)
 {
-    const uint32_t *v = scene->triangles[triangle].vertex;
-    const float *a = scene->vertices[v[0]].position, *b = scene->vertices[v[1]].position,
-                *c = scene->vertices[v[2]].position;
-    Vec3 cross = vec3_cross(vec3(b[0] - a[0], b[1] - a[1], b[2] - a[2]),
-                            vec3(c[0] - a[0], c[1] - a[1], c[2] - a[2]));
-    return 0.5 * (double)vec3_length(cross);
+    float prob[EMITTER_TILES_MAX], u0 = u[0];
+    weigh_tiles(emitters, from, prob);
+    int                t = choose_tile(prob, emitters->tile_count, &u0);
+    const EmitterTile *tile = &emitters->tiles[t];
+    uint32_t           cell = tile->cells[alias_sample(&tile->choice, u[2])];
+    *pdf_area = prob[t] * emitters->cell_pdf_area[cell];
+    return point_of_cell(&emitters->emitters[emitters->cell_emitter[cell]], cell, u0, u[1]);
 }
 
-/* Barycentric weights of a uniform point, from a low-discrepancy lattice (R2 sequence). */
-static void lattice_point(int i, float *u, float *v)
+float emitters_pdf_area(const Emitters *emitters, const Scene *scene, Vec3 from,
+                        EmitterPoint point)
 {
-    double a = 0.5 + 0.7548776662466927 * i, b = 0.5 + 0.5698402909980532 * i;
-    a -= floor(a);
-    b -= floor(b);
-    *u = (float)(a + b > 1 ? 1 - a : a);
-    *v = (float)(a + b > 1 ? 1 - b : b);
-}
-
-static double mean_luminance(const Scene *scene, const Material *material, uint32_t triangle,
-                             double *brightest)
-{
-    double sum = 0;
-    for (int i = 0; i < POINTS_A_TRIANGLE; i++) {
-        float u, v;
-        lattice_point(i, &u, &v);
-        TrianglePoint point = triangle_point(scene, triangle, u, v);
-        double luminance = (double)luminance_at(scene, material, &point);
-        sum += luminance;
-        *brightest = luminance > *brightest ? luminance : *brightest;
-    }
-    return sum / POINTS_A_TRIANGLE;
-}
-
-static void weigh_part(const Scene *scene, const Part *part, double *weights)
-{
-    const Material *material = &scene->materials[part->material_id];
-    bool   both_sides = material->double_sided && material->display_id == NO_ID;
-    double brightest = 0;
-    for (uint32_t i = 0; i < part->triangle_count; i++)
-        weights[i] = mean_luminance(scene, material, part->first_triangle + i, &brightest);
-    if (!(brightest > 0)) brightest = 1; /* lit where no point fell, if at all */
-    for (uint32_t i = 0; i < part->triangle_count; i++)
-        weights[i] = (weights[i] + FLOOR_SHARE * brightest) * (both_sides ? 2 : 1) *
-                     triangle_area(scene, part->first_triangle + i);
-}
-
-static int list_emitters(const Scene *scene, Emitters *emitters, Arena *arena)
-{
-    int count = 0;
-    emitters->first_of_part = ARENA_NEW(arena, int, scene->part_count + 1);
-    for (int p = 0; p < scene->part_count; p++) {
-        const Part *part = &scene->parts[p];
-        bool emits = scene->materials[part->material_id].is_emitter;
-        emitters->first_of_part[p] = emits ? count : NO_ID;
-        count += emits ? (int)part->triangle_count : 0;
-    }
-    return count;
-}
-
-Emitters emitters_build(const Scene *scene, Arena *arena)
-{
-    Emitters emitters = {0};
-    emitters.count = list_emitters(scene, &emitters, arena);
-    if (!emitters.count) return emitters;
-    double *weights = ARENA_NEW(arena, double, emitters.count), total = 0;
-    emitters.triangles = ARENA_NEW(arena, uint32_t, emitters.count);
-    emitters.pdf_area = ARENA_NEW(arena, float, emitters.count);
-    for (int p = 0; p < scene->part_count; p++) {
-        int first = emitters.first_of_part[p];
-        if (first == NO_ID) continue;
-        weigh_part(scene, &scene->parts[p], weights + first);
-        for (uint32_t i = 0; i < scene->parts[p].triangle_count; i++) {
-            emitters.triangles[first + (int)i] = scene->parts[p].first_triangle + i;
-            total += weights[first + (int)i];
-        }
-    }
-    if (!(total > 0)) return (Emitters){.first_of_part = emitters.first_of_part};
-    emitters.choice = alias_build(weights, emitters.count, arena);
-    for (int i = 0; i < emitters.count; i++) {
-        double area = triangle_area(scene, emitters.triangles[i]);
-        emitters.pdf_area[i] = area > 0 ? (float)((double)emitters.choice.prob[i] / area) : 0;
-    }
-    return emitters;
-}
-
-uint32_t emitters_sample(const Emitters *emitters, const Scene *scene, const float u[3],
-                         TrianglePoint *point, float *pdf_area)
-{
-    int   i = alias_sample(&emitters->choice, u[2]);
-    float root = sqrtf(u[0]); /* uniform on the triangle */
-    *point = triangle_point(scene, emitters->triangles[i], root * (1 - u[1]), root * u[1]);
-    *pdf_area = emitters->pdf_area[i];
-    return emitters->triangles[i];
-}
-
-float emitters_pdf_area(const Emitters *emitters, const Scene *scene, uint32_t triangle)
-{
-    int part = (int)scene->triangles[triangle].part_id;
-    int first = emitters->count ? emitters->first_of_part[part] : NO_ID;
+    const Part *part = &scene->parts[scene->triangles[point.triangle].part_id];
+    int first = emitters->count ? emitters->first_of_part[part - scene->parts] : NO_ID;
     if (first == NO_ID) return 0;
-    return emitters->pdf_area[first + (int)(triangle - scene->parts[part].first_triangle)];
+    float    prob[EMITTER_TILES_MAX];
+    int      i = first + (int)(point.triangle - part->first_triangle);
+    uint32_t cell = cell_at(&emitters->emitters[i], point.u, point.v);
+    weigh_tiles(emitters, from, prob);
+    return prob[emitters->cell_tile[cell]] * emitters->cell_pdf_area[cell];
 }

@@ -56,7 +56,7 @@ bool lights_has(const Lights *lights, LightSet set)
     return false;
 }
 
-/* ---- punctual lights -------------------------------------------------------------------- */
+/* ---- punctual lights --------------------------------------------------------------------- */
 
 /* KHR_lights_punctual's recommended cone: 1 inside the inner angle, 0 outside the outer, the
  * square of the linear ramp of the cosine between. */
@@ -133,14 +133,14 @@ static bool sample_punctual(const Lights *lights, Vec3 position, const Wavelengt
     return true;
 }
 
-/* ---- all sets --------------------------------------------------------------------------- */
+/* ---- all sets ---------------------------------------------------------------------------- */
 
 static bool sample_emitters(const Lights *lights, Vec3 position, const Wavelengths *wavelengths,
                             const float u[3], LightSample *sample)
 {
-    TrianglePoint point;
-    float    pdf_area;
-    uint32_t triangle = emitters_sample(&lights->emitters, lights->scene, u, &point, &pdf_area);
+    float         pdf_area;
+    EmitterPoint  at = emitters_sample(&lights->emitters, position, u, &pdf_area);
+    TrianglePoint point = triangle_point(lights->scene, at.triangle, at.u, at.v);
     Vec3     to_light = vec3_sub(point.position, position);
     float    d2 = vec3_dot(to_light, to_light);
     sample->wi = vec3_normalize(to_light);
@@ -148,8 +148,8 @@ static bool sample_emitters(const Lights *lights, Vec3 position, const Wavelengt
     float cosine = fabsf(vec3_dot(point.ng, sample->wi));
     if (!(d2 > 0) || !(cosine > 1e-6f)) return false;
     sample->pdf = pdf_area * d2 / cosine;
-    sample->radiance = triangle_emission(lights->scene, triangle, &point, vec3_neg(sample->wi),
-                                         wavelengths);
+    sample->radiance = triangle_emission(lights->scene, at.triangle, &point,
+                                         vec3_neg(sample->wi), wavelengths);
     sample->is_delta = false;
     return sample->pdf > 0 && !spectrum_is_zero(sample->radiance);
 }
@@ -199,12 +199,13 @@ void lights_distant(const Lights *lights, Vec3 direction, Vec3 ns,
     pdf[LIGHTS_SKY] = seen.pdf;
 }
 
-float lights_emitter_pdf(const Lights *lights, uint32_t triangle, Vec3 direction, Vec3 ng,
-                         float t)
+float lights_emitter_pdf(const Lights *lights, Vec3 from, const Hit *hit, Vec3 direction,
+                         Vec3 ng)
 {
     float cosine = fabsf(vec3_dot(ng, direction));
-    float pdf_area = emitters_pdf_area(&lights->emitters, lights->scene, triangle);
-    return cosine > 1e-6f ? pdf_area * t * t / cosine : 0;
+    float pdf_area = emitters_pdf_area(&lights->emitters, lights->scene, from,
+                                       (EmitterPoint){hit->triangle, hit->u, hit->v});
+    return cosine > 1e-6f ? pdf_area * hit->t * hit->t / cosine : 0;
 }
 
 long lights_refused_pixels(const Lights *lights)

@@ -11,6 +11,7 @@
  */
 #pragma once
 #include "base/sampler.h"
+#include "bvh/ray.h"
 #include "scene/scene.h"
 #include "spectrum/wavelengths.h"
 
@@ -53,10 +54,10 @@ bool lights_sample(const Lights *lights, LightSet set, LitPoint point,
 void lights_distant(const Lights *lights, Vec3 direction, Vec3 ns,
                     const Wavelengths *wavelengths, Spectrum radiance[2], float pdf[2]);
 
-/* pdf, sr^-1, with which LIGHTS_EMITTERS chooses the point of `triangle` that lies at distance
- * t (m, from the point that is lit) along `direction`; ng: the triangle's normal. */
-float lights_emitter_pdf(const Lights *lights, uint32_t triangle, Vec3 direction, Vec3 ng,
-                         float t);
+/* pdf, sr^-1, with which LIGHTS_EMITTERS chooses the point that a ray in `direction` from the
+ * lit position `from` hit, at distance hit->t from there; ng: the triangle's normal. */
+float lights_emitter_pdf(const Lights *lights, Vec3 from, const Hit *hit, Vec3 direction,
+                         Vec3 ng);
 
 /* Pixels of the environment picture that had a negative or non-finite value, counted as 0. */
 long lights_refused_pixels(const Lights *lights);

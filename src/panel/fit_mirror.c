@@ -1,4 +1,5 @@
-/* Taking the mirror's image out of a measured slice (design: panel, section 5). */
+/* Taking a narrow peak out of a measured table: the mirror's image, as wide as the instrument,
+ * or a lobe of the panel's own, as wide as it comes (design: panel, section 5). */
 #include <math.h>
 #include <string.h>
 
@@ -6,8 +7,15 @@
 #include "panel/fit_parts.h"
 
 #define WINDOW_FWHMS 6.0 /* rows nearer to the mirror direction than this are looked at */
-#define CORE_FWHMS 1.6   /* here the fitted haze replaces what the subtraction leaves */
+#define LOBE_FWHMS 3.0   /* the same for a lobe, whose haze need not follow the model so far */
+#define CORE_SHARE 0.5   /* where haze is less than this of the peak, the fitted haze replaces
+                            what the subtraction leaves */
+#define CORE_FWHMS 1.6   /* and so near to the mirror direction anyway */
 #define WINDOW_ROWS_MAX 60000
+#define ENOUGH_ROWS 1500 /* to choose widths from */
+#define LOBE_REST 0.006  /* relative, rms: a lobe explains the data this well, or it is none */
+#define LOBE_HEIGHT 1.0  /* times the haze under it, at least */
+#define SEARCH_DEG 6.0   /* a lobe's top is nearer to the mirror direction than this */
 
 /* One row near the mirror direction. */
 typedef struct Spot {
@@ -22,7 +30,8 @@ typedef struct Spot {
 
 typedef struct Window {
     Spot  *spot;
-    int    count;
+    int    count, stride; /* stride: of the rows that a solution counts */
+    double incidence;
     double floor; /* of the slice, mean over the wavelengths */
     const AngleTable *slice;
 } Window;
@@ -47,22 +56,32 @@ static double row_mean(const AngleTable *slice, int row)
     return sum / slice->channels;
 }
 
-static Window collect(const AngleTable *slice, double incidence, double fwhm, Arena *arena)
+/* The image of a mirror of reflectance 1 at every spot: a Gaussian of the peak's width. */
+static void set_width(Window *window, double fwhm)
 {
-    Window window = {ARENA_NEW(arena, Spot, slice->rows), 0, 1e30, slice};
     double sigma = fwhm / sqrt(8 * log(2));
+    for (int i = 0; i < window->count; i++) {
+        Spot *spot = &window->spot[i];
+        spot->image = exp(-0.5 * spot->angle * spot->angle / (sigma * sigma)) /
+                      (2 * PI * sigma * sigma * cos(window->incidence));
+    }
+}
+
+static Window collect(const AngleTable *slice, double incidence, double reach, Arena *arena)
+{
+    Window window = {.spot = ARENA_NEW(arena, Spot, slice->rows), .floor = 1e30,
+                     .slice = slice, .incidence = incidence};
     for (int i = 0; i < slice->rows; i++) {
         double theta = (double)slice->theta[i], phi = (double)slice->phi[i];
         double angle = angle_to(theta, phi, incidence), mean = row_mean(slice, i);
         if (theta < radians_from_degrees(60)) window.floor = fmin(window.floor, mean);
-        if (angle > WINDOW_FWHMS * fwhm || window.count == WINDOW_ROWS_MAX) continue;
+        if (angle > reach || window.count == WINDOW_ROWS_MAX) continue;
         double so = sin(theta), si = sin(incidence), sp = sin(0.5 * phi);
         window.spot[window.count++] = (Spot){
-            i, exp(-0.5 * angle * angle / (sigma * sigma)) /
-                   (2 * PI * sigma * sigma * cos(incidence)),
-            (so - si) * (so - si) + 4 * so * si * sp * sp, theta - incidence,
+            i, 0, (so - si) * (so - si) + 4 * so * si * sp * sp, theta - incidence,
             sqrt(fit_fresnel(cos(theta)) / fit_fresnel(cos(incidence))), angle, mean};
     }
+    window.stride = 1 + window.count / ENOUGH_ROWS;
     window.floor = fmax(0, fmin(window.floor, 1e29));
     return window;
 }
@@ -105,7 +124,7 @@ static void solve_normal(double m[3][4], double x[3])
 static double solve_window(const Window *window, int wavelength, double floor, Model *model)
 {
     double m[3][4] = {{0}}, x[3], squares = 0;
-    for (int i = 0; i < window->count; i++) {
+    for (int i = 0; i < window->count; i += window->stride) {
         const Spot *spot = &window->spot[i];
         double f = spot_value(window, spot, wavelength), shape = haze_shape(model, spot);
         double basis[4] = {spot->image, shape, shape * spot->tilt, f - floor};
@@ -115,21 +134,21 @@ static double solve_window(const Window *window, int wavelength, double floor, M
     }
     solve_normal(m, x);
     model->r = x[0], model->a = x[1], model->t = x[2];
-    for (int i = 0; i < window->count; i++) {
+    for (int i = 0; i < window->count; i += window->stride) {
         const Spot *spot = &window->spot[i];
         double f = spot_value(window, spot, wavelength);
         double rest = (f - floor - model->r * spot->image - model_haze(model, spot)) /
                       (fabs(f) + 1e-5);
         squares += rest * rest;
     }
-    return sqrt(squares / window->count);
+    return sqrt(squares * window->stride / window->count);
 }
 
 /* The best width for a power: golden section over its logarithm. */
 static double best_width(const Window *window, double fwhm, Model *model)
 {
     double low = log(0.5 * fwhm), high = log(40 * fwhm), rest = 0;
-    for (int i = 0; i < 18; i++) {
+    for (int i = 0; i < 14; i++) {
         double a = high - 0.618034 * (high - low), b = low + 0.618034 * (high - low);
         model->width = exp(a);
         double left = solve_window(window, -1, window->floor, model);
@@ -148,7 +167,7 @@ static Model choose_haze(const Window *window, double fwhm)
 {
     double low = log(1.05), high = log(4.0);
     Model  model = {0};
-    for (int i = 0; i < 12; i++) {
+    for (int i = 0; i < 10; i++) {
         double a = high - 0.618034 * (high - low), b = low + 0.618034 * (high - low);
         model.power = exp(a);
         double left = best_width(window, fwhm, &model);
@@ -172,31 +191,133 @@ static double channel_floor(const AngleTable *slice, int channel)
     return fmax(0, fmin(least, 1e29));
 }
 
+/* The peak of every wavelength out of `value`, its height told by a model for the haze. */
+static void take_out(const Window *window, double fwhm, Model model, double *reflectance,
+                     float *value)
+{
+    int size = window->slice->channels;
+    for (int w = 0; w < size; w++) {
+        double floor = channel_floor(window->slice, w);
+        solve_window(window, w, floor, &model);
+        reflectance[w] = fmax(0, model.r);
+        for (int i = 0; i < window->count; i++) {
+            const Spot *spot = &window->spot[i];
+            float *at = value + (size_t)spot->row * (size_t)size + w;
+            double haze = fmax(model_haze(&model, spot) + floor, 0);
+            double peak = reflectance[w] * spot->image;
+            bool   in_core = spot->angle < CORE_FWHMS * fwhm || haze < CORE_SHARE * peak;
+            *at = (float)(in_core ? haze : (double)*at - peak);
+        }
+    }
+}
+
+static float *copy_values(const AngleTable *slice, Arena *arena, AngleTable *haze)
+{
+    size_t count = (size_t)slice->rows * (size_t)slice->channels;
+    float *value = ARENA_NEW(arena, float, count);
+    memcpy(value, slice->value, sizeof *value * count);
+    *haze = *slice;
+    haze->value = value;
+    return value;
+}
+
 void fit_mirror(const AngleTable *slice, double incidence, double fwhm, Arena *arena,
                 double *reflectance, AngleTable *haze_table)
 {
-    int    size = slice->channels;
-    size_t count = (size_t)slice->rows * (size_t)size;
-    float *value = ARENA_NEW(arena, float, count);
-    memcpy(value, slice->value, sizeof *value * count);
-    *haze_table = *slice;
-    haze_table->value = value;
-    for (int w = 0; w < size; w++) reflectance[w] = 0;
-    Window window = collect(slice, incidence, fwhm, arena);
+    float *value = copy_values(slice, arena, haze_table);
+    for (int w = 0; w < slice->channels; w++) reflectance[w] = 0;
+    Window window = collect(slice, incidence, WINDOW_FWHMS * fwhm, arena);
     if (window.count < 12) return;
+    set_width(&window, fwhm);
     Model  model = choose_haze(&window, fwhm);
     double peak = model.r * 4 * log(2) / (PI * fwhm * fwhm * cos(incidence));
     if (!(peak > 0.05 * (model.a + window.floor))) return; /* no image stands out of the haze */
-    for (int w = 0; w < size; w++) {
-        double floor = channel_floor(slice, w);
-        solve_window(&window, w, floor, &model);
-        reflectance[w] = fmax(0, model.r);
-        for (int i = 0; i < window.count; i++) {
-            const Spot *spot = &window.spot[i];
-            float *at = value + (size_t)spot->row * (size_t)size + w;
-            bool   in_core = spot->angle < CORE_FWHMS * fwhm;
-            *at = (float)(in_core ? fmax(model_haze(&model, spot) + floor, 0)
-                                  : (double)*at - reflectance[w] * spot->image);
-        }
+    window.stride = 1;
+    take_out(&window, fwhm, model, reflectance, value);
+}
+
+/* ---- a lobe -------------------------------------------------------------------------------- */
+
+/* Full width at half of the largest value near the mirror direction; 0: the largest value is
+ * not there. The outermost row above half of it tells, or the grid's step if that is wider. */
+static double guess_width(const AngleTable *slice, double incidence)
+{
+    double top = 0, reach = radians_from_degrees(SEARCH_DEG), half = 0, nearest = 1;
+    for (int i = 0; i < slice->rows; i++) {
+        double angle = angle_to((double)slice->theta[i], (double)slice->phi[i], incidence);
+        if (angle < reach) top = fmax(top, row_mean(slice, i));
+        if (angle > 1e-6) nearest = fmin(nearest, angle);
     }
+    for (int i = 0; i < slice->rows; i++) {
+        double angle = angle_to((double)slice->theta[i], (double)slice->phi[i], incidence);
+        if (angle < reach && row_mean(slice, i) > 0.5 * top) half = fmax(half, angle);
+    }
+    return half > 0.8 * reach ? 0 : 2 * fmax(half, nearest);
+}
+
+/* The width that leaves the least for the haze of a model, by golden section. */
+static double choose_width(Window *window, Model *model, const double range[2])
+{
+    double low = log(range[0]), high = log(range[1]);
+    for (int i = 0; i < 20; i++) {
+        double a = high - 0.618034 * (high - low), b = low + 0.618034 * (high - low);
+        set_width(window, exp(a));
+        double left = solve_window(window, -1, window->floor, model);
+        set_width(window, exp(b));
+        double right = solve_window(window, -1, window->floor, model);
+        if (left < right) high = b;
+        else low = a;
+    }
+    set_width(window, exp(0.5 * (low + high)));
+    return exp(0.5 * (low + high));
+}
+
+/* Width of the lobe and haze under it, in turns. */
+static double choose_both(Window *window, double guess, Model *model)
+{
+    double fwhm = guess, range[2] = {0.4 * guess, 1.6 * guess};
+    set_width(window, guess);
+    for (int turn = 0; turn < 4; turn++) {
+        *model = choose_haze(window, 2 * guess);
+        fwhm = choose_width(window, model, range);
+        range[0] = 0.8 * fwhm;
+        range[1] = 1.25 * fwhm;
+    }
+    return fwhm;
+}
+
+/* rms of what the model leaves where the peak is the larger part, relative. */
+static double core_rest(const Window *window, const Model *model)
+{
+    double squares = 0, count = 0;
+    for (int i = 0; i < window->count; i++) {
+        const Spot *spot = &window->spot[i];
+        double haze = model_haze(model, spot) + window->floor, peak = model->r * spot->image;
+        if (peak < haze) continue;
+        double rest = (spot->mean - haze - peak) / (haze + peak);
+        squares += rest * rest;
+        count++;
+    }
+    return count > 2 ? sqrt(squares / count) : 1;
+}
+
+bool fit_lobe(const AngleTable *slice, double incidence, double noise, Arena *arena,
+              FitLobe *lobe, AngleTable *haze_table)
+{
+    double guess = guess_width(slice, incidence);
+    *haze_table = *slice;
+    if (!(guess > 0)) return false;
+    Window window = collect(slice, incidence, LOBE_FWHMS * guess, arena);
+    if (window.count < 16) return false;
+    Model  model;
+    double fwhm = choose_both(&window, guess, &model);
+    double rest = solve_window(&window, -1, window.floor, &model);
+    double most = LOBE_REST + 2 * noise, peak = 4 * log(2) / (PI * fwhm * fwhm * cos(incidence));
+    if (!(model.r * peak > LOBE_HEIGHT * (model.a + window.floor)) || rest > most ||
+        core_rest(&window, &model) > most)
+        return false;
+    window.stride = 1;
+    lobe->fwhm = fwhm;
+    take_out(&window, 0, model, lobe->reflectance, copy_values(slice, arena, haze_table));
+    return true;
 }

@@ -1,6 +1,8 @@
 /* How well a fitted panel says again what was measured of its reflection. */
 #include <math.h>
+#include <stdlib.h>
 
+#include "base/parallel.h"
 #include "base/units.h"
 #include "hemisphere/specular_frame.h"
 #include "panel/fit_parts.h"
@@ -16,36 +18,88 @@ static Wavelengths measured_wavelengths(const Measurement *set, int first)
     return wavelengths;
 }
 
-/* The haze against the table without the mirror's image, at every stride-th row. */
-static FitErrors reflection_errors(const Measurement *set, int slice, const AngleTable *table,
-                                const Panel *panel, int stride)
+/* The light of a table in the display's frame, and the azimuth of its mirror direction. */
+static Vec3 light_of(const Measurement *set, int table, double *mirror)
 {
-    FitErrors errors = {0};
-    double theta = set->incidence[slice];
-    Vec3   wi = vec3((float)-sin(theta), 0, (float)cos(theta));
+    double theta = set->incidence[table % set->incidence_count];
+    double phi = set->azimuth_count > 1 ? set->azimuth[table / set->incidence_count] : PI;
+    *mirror = phi - PI;
+    return vec3((float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)),
+                (float)cos(theta));
+}
+
+/* A row's direction in the display's frame. */
+static Vec3 row_direction(const AngleTable *table, int row, double mirror)
+{
+    double theta = (double)table->theta[row], phi = (double)table->phi[row] + mirror;
+    return vec3((float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)),
+                (float)cos(theta));
+}
+
+/* One table in the report; values below the floor that zeros are held above do not count. */
+typedef struct TableWork {
+    const Measurement   *set;
+    const FitReflection *reflection;
+    const Panel         *panel;
+    FitErrors           *errors; /* per table */
+    double              *change; /* of the integral, largest over the wavelengths */
+} TableWork;
+
+static double least_value(const AngleTable *table)
+{
+    double most = 0;
+    for (size_t i = 0; i < (size_t)table->rows * (size_t)table->channels; i++)
+        most = fmax(most, (double)table->value[i]);
+    return fmax(1e-8, 1e-6 * most);
+}
+
+static void measure_table(void *context, int t, int worker)
+{
+    TableWork         *work = context;
+    const Measurement *set = work->set;
+    const AngleTable  *table = &work->reflection->kept[t];
+    double mirror, least = least_value(table);
+    Vec3   wi = light_of(set, t, &mirror);
+    (void)worker;
     for (int first = 0; first < set->wavelength_count; first += SPECTRUM_LANES) {
         Wavelengths wavelengths = measured_wavelengths(set, first);
         int lanes = set->wavelength_count - first;
-        for (int i = 0; i < table->rows; i += stride) {
+        for (int i = 0; i < table->rows; i++) {
             const float *m = table->value + (size_t)i * (size_t)table->channels + first;
-            Spectrum f = panel_brdf(panel, fit_row_direction(table, i), wi, &wavelengths);
+            Spectrum f = panel_brdf(work->panel, row_direction(table, i, mirror), wi,
+                                    &wavelengths);
             for (int k = 0; k < lanes && k < SPECTRUM_LANES; k++)
-                fit_add_error(&errors, (double)f[k], (double)m[k], fmax(1e-4, (double)m[k]),
-                          fit_row_weight(table, i));
+                if ((double)m[k] >= least)
+                    fit_add_error(&work->errors[t], (double)f[k], (double)m[k], (double)m[k],
+                                  fit_row_weight(table, i));
         }
     }
-    return errors;
 }
 
-double fit_reflection_error(const Measurement *set, const FitReflection *reflection,
-                            const Panel *panel, int stride)
+static size_t reflection_bytes(const FitReflection *r)
 {
-    double sum = 0;
-    for (int i = 0; i < set->incidence_count; i++) {
-        FitErrors errors = reflection_errors(set, i, &reflection->haze[i], panel, stride);
-        sum += errors.l2 / fmax(1e-30, errors.l2_source);
+    return r->section_size + tree_size(r->tree) + r->sampling_size;
+}
+
+void fit_report_reflection_tables(const FitParts *parts, const Panel *panel, json_t *tables,
+                                   FitTable *total)
+{
+    const FitReflection *r = parts->reflection;
+    Arena     scratch = *parts->notes->arena;
+    TableWork work = {.set = parts->set, .reflection = r, .panel = panel};
+    double bytes = (double)reflection_bytes(r) / r->tables;
+    double values = (double)r->tree_report.stored_rows * r->components / r->tables;
+    work.errors = ARENA_NEW(&scratch, FitErrors, r->tables);
+    parallel_for(parts->options->threads, r->tables, measure_table, &work);
+    for (int t = 0; t < r->tables; t++) {
+        const AngleTable *from = &r->kept[t];
+        FitTable one = {.name = from->name, .text_bytes = from->text_bytes,
+            .float32_bytes = (size_t)(2 + from->channels) * sizeof(float) * (size_t)from->rows,
+            .stored_values = values, .bytes = bytes, .noise = r->noise[t]};
+        fit_finish_errors(&work.errors[t], &one);
+        one.extrapolated = (double)panel->reflection->cone_cos;
+        fit_add_table(tables, total, &one);
     }
-    return sqrt(sum / fmax(1, set->incidence_count));
 }
 
 /* rms of |f(i, o) - f(o, i)| / mean over pairs of measured incidences, at 550 nm or next. */
@@ -68,32 +122,25 @@ static double reciprocity_defect(const Measurement *set, const Panel *panel)
     return count > 0 ? sqrt(squares / count) : 0;
 }
 
-void fit_report_reflection_tables(const FitParts *parts, const Panel *panel, json_t *tables,
-                                   FitTable *total)
+/* The three parts (and the lobe, where there is one) at every incidence, luminous. */
+static json_t *parts_json(const FitParts *parts, const Panel *panel)
 {
     const FitReflection *r = parts->reflection;
-    double bytes = (double)tree_size(r->tree) + (double)r->sampling_size;
-    double values = (double)r->tree_report.stored_rows * r->head.coefficients * r->head.slices;
-    for (int i = 0; i < parts->set->incidence_count; i++) {
-        const AngleTable *from = &r->haze[i];
-        FitTable one = {.name = from->name, .text_bytes = from->text_bytes,
-            .float32_bytes = (size_t)(2 + from->channels) * sizeof(float) * (size_t)from->rows,
-            .stored_values = values / parts->set->incidence_count,
-            .bytes = bytes / parts->set->incidence_count, .noise = r->noise[i]};
-        FitErrors errors = reflection_errors(parts->set, i, from, panel, 1);
-        fit_finish_errors(&errors, &one);
-        one.extrapolated = (double)panel->reflection->cone_cos;
-        fit_add_table(tables, total, &one);
-    }
-}
-
-static json_t *mirror_json(const FitParts *parts)
-{
     json_t *list = json_array();
-    for (int i = 0; i < parts->set->incidence_count; i++)
-        json_array_append_new(list, json_pack("{s:f, s:f}", "incidence_deg",
-            degrees_from_radians(parts->set->incidence[i]), "luminous_reflectance",
-            parts->reflection->mirror_y[i]));
+    for (int i = 0; i < parts->set->incidence_count; i++) {
+        double theta = parts->set->incidence[i];
+        double haze = (double)panel_haze_albedo(panel, (float)cos(theta));
+        json_t *one = json_pack("{s:f, s:f, s:f, s:f}",
+            "incidence_deg", degrees_from_radians(theta), "luminous_reflectance",
+            r->mirror_y[i], "haze", fmax(0, haze - r->floor_y[i] - r->lobe_y[i]),
+            "floor", fmin(haze, r->floor_y[i]));
+        if (r->has_lobe) {
+            json_object_set_new(one, "lobe", json_real(r->lobe_y[i]));
+            json_object_set_new(one, "lobe_fwhm_deg",
+                json_real(degrees_from_radians(r->lobe_sigma[i] * sqrt(8 * log(2)))));
+        }
+        json_array_append_new(list, one);
+    }
     return list;
 }
 
@@ -101,14 +148,19 @@ void fit_report_reflection(const FitParts *parts, const Panel *panel, json_t *ou
 {
     static const char *const kinds[] = {"haar", "cdf53", "cdf97"};
     const FitReflection *r = parts->reflection;
+    int    last = parts->set->incidence_count - 1;
     json_object_set_new(out, "reflection", json_pack(
-        "{s:i, s:i, s:i, s:f, s:s, s:s, s:f, s:f, s:o}",
-        "level", ((const TreeHeader *)r->tree)->level, "slices", (int)r->head.slices,
-        "spectral_coefficients", (int)r->head.coefficients,
-        "frame_exponent", (double)r->head.frame_exponent,
-        "wavelet", kinds[parts->options->wavelet],
-        "incidence_interpolation", r->head.is_cubic ? "cubic over four slices"
-                                                    : "linear over two slices",
+        "{s:s, s:i, s:i, s:i, s:i, s:f, s:s, s:s, s:f, s:f, s:I, s:i, s:f, s:f, s:f, s:o}",
+        "basis", parts->options->basis == FIT_VERTEX ? "vertex" : "haar", "level", r->level,
+        "azimuths", parts->set->azimuth_count, "spectral_coefficients", r->coefficients,
+        "components", r->components, "frame_exponent", (double)r->frame_exponent,
+        "wavelet", parts->options->has_wavelet ? kinds[parts->options->wavelet] : "principal",
+        "incidence_interpolation", parts->options->is_linear_in_incidence
+            ? "linear over two slices" : "cubic over four slices",
+        "bound", r->bound, "largest_error_over_bound", r->worst,
+        "bytes", (json_int_t)reflection_bytes(r), "zeros_masked", r->masked,
         "reciprocity_defect", reciprocity_defect(parts->set, panel),
-        "largest_albedo", r->largest_albedo, "mirror", mirror_json(parts)));
+        "largest_albedo", r->largest_albedo,
+        "extrapolated_beyond_deg", degrees_from_radians(parts->set->incidence[last]),
+        "mirror", parts_json(parts, panel)));
 }

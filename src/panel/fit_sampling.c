@@ -7,9 +7,9 @@
 #include "panel/fit_parts.h"
 
 #define LEVEL 6
-#define CELLS 900              /* of two octants, at most */
-#define CELL_VARIANCE 0.016f   /* of the weights at the incidences chosen */
-#define BETWEEN_VARIANCE 0.005 /* more of it half way between two of them */
+#define CELLS 1200             /* of two octants, at most */
+#define CELL_VARIANCE 0.012f   /* of the weights at the incidences chosen */
+#define BETWEEN_VARIANCE 0.004 /* more of it half way between two of them */
 #define UNIFORM_SHARE 0.004f
 #define LAST_DEG 88.0
 #define INCIDENCES_MAX 24
@@ -96,7 +96,7 @@ static double mixed_variance(const Work *work, const float *wanted, const float 
     return sum - 1;
 }
 
-/* ---- incidences and azimuths -------------------------------------------------------------- */
+/* ---- incidences and azimuths ------------------------------------------------------------- */
 
 typedef struct Interval {
     double theta[2];
@@ -166,7 +166,7 @@ static void choose_azimuths(Work *work, Arena scratch)
     }
 }
 
-/* ---- the section --------------------------------------------------------------------------- */
+/* ---- the section ------------------------------------------------------------------------- */
 
 static void write_section(const Work *work, const void *tree, Arena *arena,
                           FitReflection *reflection)

@@ -242,21 +242,29 @@ static bool read_spectra(const char *file, Arena *arena, Measurement *out, Error
 
 /* ---- reflection ------------------------------------------------------------------------ */
 
-/* The pattern with {incidence} and {wavelength} replaced; a negative number stays out. */
-static const char *fill_pattern(const char *pattern, double incidence, double wavelength,
-                                Arena *arena)
+/* What a file's name is made of; nm negative: of all wavelengths. */
+typedef struct SlicePlace {
+    double incidence, azimuth, nm; /* degrees, degrees, nm */
+} SlicePlace;
+
+/* The pattern with {incidence}, {azimuth} and {wavelength} replaced. */
+static const char *fill_pattern(const char *pattern, SlicePlace place, Arena *arena)
 {
+    const struct {
+        const char *word;
+        double      value;
+    } known[] = {{"{incidence}", place.incidence}, {"{azimuth}", place.azimuth},
+                 {"{wavelength}", place.nm}};
     const char *text = "";
     while (*pattern) {
-        if (!strncmp(pattern, "{incidence}", 11)) {
-            text = arena_format(arena, "%s%.10g", text, incidence);
-            pattern += 11;
-        } else if (!strncmp(pattern, "{wavelength}", 12)) {
-            text = arena_format(arena, "%s%.10g", text, wavelength);
-            pattern += 12;
-        } else {
+        int k = 0;
+        while (k < COUNT(known) && strncmp(pattern, known[k].word, strlen(known[k].word))) k++;
+        if (k == COUNT(known)) {
             text = arena_format(arena, "%s%c", text, *pattern++);
+            continue;
         }
+        text = arena_format(arena, "%s%.10g", text, known[k].value);
+        pattern += strlen(known[k].word);
     }
     return text;
 }
@@ -269,7 +277,7 @@ static bool same_directions(const AngleTable *a, const AngleTable *b)
 }
 
 /* One file a wavelength becomes one table. */
-static bool join_wavelengths(const JsonView *view, const char *pattern, double incidence,
+static bool join_wavelengths(const JsonView *view, const char *pattern, SlicePlace place,
                              const Measurement *set, AngleTable *out, Error *err)
 {
     Arena *arena = view->arena;
@@ -277,9 +285,8 @@ static bool join_wavelengths(const JsonView *view, const char *pattern, double i
     size_t count = (size_t)set->wavelength_count;
     for (size_t w = 0; w < count; w++) {
         AngleTable one;
-        double nm = (double)set->wavelength_nm[w];
-        const char *file = path_beside(view->file, fill_pattern(pattern, incidence, nm, arena),
-                                       arena);
+        place.nm = (double)set->wavelength_nm[w];
+        const char *file = path_beside(view->file, fill_pattern(pattern, place, arena), arena);
         if (!angle_table_read_brdf(file, &set->wavelength_nm[w], 1, arena, &one, err))
             return false;
         if (!w) {
@@ -299,21 +306,40 @@ static bool join_wavelengths(const JsonView *view, const char *pattern, double i
     return true;
 }
 
+static double whole_degrees(double radians)
+{
+    return round(degrees_from_radians(radians) * 1e9) / 1e9;
+}
+
+static bool read_slice(const JsonView *view, const char *pattern, int index, Measurement *out,
+                       Error *err)
+{
+    Arena      *arena = view->arena;
+    AngleTable *table = &out->brdf[index];
+    SlicePlace  place = {whole_degrees(out->incidence[index % out->incidence_count]),
+                         whole_degrees(out->azimuth[index / out->incidence_count]), -1};
+    const char *name = out->azimuth_count > 1
+        ? arena_format(arena, "brdf %g deg, light from %g deg", place.incidence, place.azimuth)
+        : arena_format(arena, "brdf %g deg", place.incidence);
+    const char *file = path_beside(view->file, fill_pattern(pattern, place, arena), arena);
+    if (strstr(pattern, "{wavelength}")
+            ? !join_wavelengths(view, pattern, place, out, table, err)
+            : !angle_table_read_brdf(file, out->wavelength_nm, out->wavelength_count, arena,
+                                     table, err))
+        return false;
+    table->name = name;
+    return true;
+}
+
 static bool read_slices(const JsonView *view, const char *pattern, Measurement *out, Error *err)
 {
-    bool is_split = strstr(pattern, "{wavelength}") != NULL;
-    for (int i = 0; i < out->incidence_count; i++) {
-        double degrees = round(degrees_from_radians(out->incidence[i]) * 1e9) / 1e9;
-        const char *name = arena_format(view->arena, "brdf %g deg", degrees);
-        AngleTable *table = &out->brdf[i];
-        const char *file = path_beside(view->file, fill_pattern(pattern, degrees, -1,
-                                                                view->arena), view->arena);
-        if (is_split ? !join_wavelengths(view, pattern, degrees, out, table, err)
-                     : !angle_table_read_brdf(file, out->wavelength_nm, out->wavelength_count,
-                                              view->arena, table, err))
-            return false;
-        table->name = name;
-    }
+    int count = out->incidence_count * out->azimuth_count;
+    if (count > MEASUREMENT_TABLES_MAX)
+        return error_at(err, ERROR_INPUT, view->file, view->path, "%d incidences times "
+                        "azimuths, wanted at most %d", count, MEASUREMENT_TABLES_MAX);
+    out->brdf = ARENA_NEW(view->arena, AngleTable, count);
+    for (int i = 0; i < count; i++)
+        if (!read_slice(view, pattern, i, out, err)) return false;
     return true;
 }
 
@@ -328,9 +354,35 @@ static bool check_rising(const JsonView *view, const char *key, const double *va
                                  "key '%s' is missing", key);
 }
 
+/* Azimuths of the light of an anisotropic panel, all around it; absent: isotropic. */
+static bool read_azimuths(const JsonView *view, const char *pattern, Measurement *out,
+                          Error *err)
+{
+    double degrees[MEASUREMENT_AZIMUTHS_MAX];
+    int    count = 0;
+    out->azimuth_count = 1;
+    out->azimuth[0] = 0;
+    if (!json_view_numbers(view, "incidence_phi_deg", (JsonRange){0, 359.999, COUNT(degrees)},
+                           degrees, &count, err))
+        return false;
+    if (!count) return true;
+    if (!check_rising(view, "incidence_phi_deg", degrees, count, err)) return false;
+    if (count < 2)
+        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "incidence_phi_deg"),
+                        "holds one azimuth, wanted several, or none for an isotropic panel");
+    if (!strstr(pattern, "{azimuth}"))
+        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "files"),
+                        "wanted a pattern that holds {azimuth}, because incidence_phi_deg is "
+                        "there");
+    out->azimuth_count = count;
+    for (int i = 0; i < count; i++) out->azimuth[i] = radians_from_degrees(degrees[i]);
+    return true;
+}
+
 static bool read_reflection(const JsonView *root, Measurement *out, Error *err)
 {
-    static const char *const keys[] = {"wavelengths_nm", "incidence_deg", "files"};
+    static const char *const keys[] = {"wavelengths_nm", "incidence_deg", "incidence_phi_deg",
+                                       "files"};
     JsonView    view;
     const char *pattern = NULL;
     double      nm[MEASUREMENT_WAVELENGTHS_MAX], degrees[MEASUREMENT_INCIDENCES_MAX];
@@ -353,7 +405,7 @@ static bool read_reflection(const JsonView *root, Measurement *out, Error *err)
     out->wavelength_count = nm_count;
     for (int i = 0; i < nm_count; i++) out->wavelength_nm[i] = (float)nm[i];
     for (int i = 0; i < count; i++) out->incidence[i] = radians_from_degrees(degrees[i]);
-    return read_slices(&view, pattern, out, err);
+    return read_azimuths(&view, pattern, out, err) && read_slices(&view, pattern, out, err);
 }
 
 static bool read_members(const JsonView *root, Measurement *out, Error *err)

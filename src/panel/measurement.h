@@ -14,6 +14,8 @@
 #define MEASUREMENT_LEVELS_MAX 64
 #define MEASUREMENT_INCIDENCES_MAX 32
 #define MEASUREMENT_WAVELENGTHS_MAX 256
+#define MEASUREMENT_AZIMUTHS_MAX 72
+#define MEASUREMENT_TABLES_MAX 1152 /* of reflection: incidences times azimuths */
 
 /* Values over directions. Rows are sorted by theta, then phi; no direction stands twice.
  * theta in [0, pi/2], phi in [0, 2 pi); rows at theta 0 have become one. */
@@ -46,7 +48,9 @@ typedef struct Measurement {
     int         incidence_count, wavelength_count; /* 0: no reflection data */
     double      incidence[MEASUREMENT_INCIDENCES_MAX]; /* radians, rising */
     float       wavelength_nm[MEASUREMENT_WAVELENGTHS_MAX]; /* rising */
-    AngleTable  brdf[MEASUREMENT_INCIDENCES_MAX];      /* channels: wavelengths */
+    int         azimuth_count; /* of the light; 1: isotropic, symmetric in phi */
+    double      azimuth[MEASUREMENT_AZIMUTHS_MAX]; /* radians, rising, [0, 2 pi) */
+    AngleTable *brdf; /* azimuth * incidence_count + incidence; channels: wavelengths */
 } Measurement;
 
 /* Reads MANIFEST.json and every table it names; a path that ends in .csv is one white-only

@@ -47,6 +47,10 @@ bool panel_reflects(const Panel *panel);
  * either is below the surface. */
 Spectrum panel_brdf(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *wavelengths);
 
+/* Whether panel_brdf rests on measured values there: the incidence no steeper than the last one
+ * measured, the leaving direction inside the instrument's cone. Else it is extrapolated. */
+bool panel_brdf_is_measured(const Panel *panel, Vec3 wo, Vec3 wi);
+
 /* Mirror reflectance (delta part), per lane, for a direction at cos_theta to the normal. */
 Spectrum panel_mirror(const Panel *panel, float cos_theta, const Wavelengths *wavelengths);
 

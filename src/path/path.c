@@ -22,7 +22,7 @@ typedef struct Walk {
     Spectrum radiance;   /* found so far */
     float    xyz[3];     /* found so far, of displays whose measured XYZ arrives unchanged */
     float    straight;   /* m since the last scattering vertex (windows do not scatter) */
-    Vec3     last_ns;    /* of that vertex */
+    Vec3     last_position, last_ns; /* of that vertex */
     int      last_part_id;
     float    last_pdf;   /* with which it chose the direction, sr^-1 */
     bool     last_is_delta; /* no light sample could have found what comes now */
@@ -85,13 +85,20 @@ static void add_display_xyz(Walk *walk, const Surface *surface, Vec3 wo, float w
         walk->xyz[i] += walk->throughput[0] * weight * display->level * xyz[i];
 }
 
+/* Of the light samples of the last vertex; nothing asks for it behind a mirror. */
+static float emitter_pdf(const Walk *walk, const Surface *surface, const Hit *hit)
+{
+    Hit seen = {walk->straight, hit->u, hit->v, hit->triangle};
+    if (walk->last_is_delta) return 0;
+    return lights_emitter_pdf(walk->context->lights, walk->last_position, &seen,
+                              walk->ray.direction, surface->ng);
+}
+
 static void add_emitted(Walk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
 {
     if (!surface->emits) return;
     const Scene *scene = walk->context->scene;
-    float pdf = lights_emitter_pdf(walk->context->lights, hit->triangle, walk->ray.direction,
-                                   surface->ng, walk->straight);
-    float weight = emission_weight(walk, LIGHTS_EMITTERS, pdf);
+    float weight = emission_weight(walk, LIGHTS_EMITTERS, emitter_pdf(walk, surface, hit));
     if (!(weight > 0)) return;
     if (scene->materials[surface->material_id].display_id != NO_ID &&
         spectrum_is_grey(walk->throughput)) {
@@ -225,6 +232,7 @@ static Step turn(Walk *walk, const Surface *surface, Vec3 wo, const BsdfSample *
     if (!sides_agree(surface, next->wi, wi, local_wo, wo)) return STEP_ENDED;
     if (surface->bsdf.kind == BSDF_DIELECTRIC && next->wi.z * local_wo.z < 0)
         walk->medium_id = next->wi.z < 0 ? surface->material_id : NO_ID;
+    walk->last_position = surface->position;
     walk->last_ns = surface->frame.z;
     walk->last_part_id = surface->part_id;
     walk->last_pdf = next->pdf;

@@ -49,6 +49,13 @@ typedef struct FigureList {
 } FigureList;
 
 /* Every figure that this panel's data allow, in the order of the page. */
+FigureList *plot_figures(const Subject *subject, Arena *arena);
+
+/* Asks the panel; *report is the caller's to release. NULL: *err says why. */
+Subject *plot_subject(const PlotInput *input, const PlotOptions *options, Arena *arena,
+                      json_t **report, Error *err);
+
+/* The parts of that list. */
 void figures_add_emission(FigureList *list, const Subject *subject);
 void figures_add_curves(FigureList *list, const Subject *subject);
 void figures_add_colour(FigureList *list, const Subject *subject);

@@ -213,7 +213,7 @@ static void draw_chromaticity(Canvas *canvas, Box box, const Figure *figure, Fig
     static const struct { const char *name; Dash dash; double width; } KEYS[] = {
         {"this panel", DASH_NONE, 1.7}, {"DCI-P3", DASH_SHORT, 0.9}, {"sRGB, BT.709", DASH_DOT, 0.9}};
     double x = chart.plot.x + chart.plot.w - 108, y = chart.plot.y + chart.plot.h - 48;
-    for (int i = 0; i < 3; i++, y += 15) {
+    for (int i = s->is_white_only; i < 3; i++, y += 15) {
         canvas_line(canvas, x, y, x + 24, y, (Stroke){i ? canvas->theme.soft : canvas->theme.ink,
                                                       KEYS[i].width, KEYS[i].dash});
         canvas_text(canvas, x + 31, y, (Letters){.size = SIZE_TICK, .ink = canvas->theme.ink,

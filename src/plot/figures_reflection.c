@@ -185,6 +185,7 @@ static void draw_map(Canvas *canvas, Box box, const Figure *figure, FigureMap *o
     if (map.high > 20 * most && most > map.low) { /* a narrow peak leaves no colours for haze */
         map.high = round_up(8 * most);
         map.is_cut = true;
+        peak = map.high;
     }
     static const double STEPS[3][3] = {{1, 2, 5}, {1, 3, 3}, {1, 1, 1}};
     int density = peak / map.low < 60 ? 0 : map.high / map.low < 3000 ? 1 : 2;

@@ -115,7 +115,8 @@ static const char *extrapolation_text(Canvas *canvas, const PageSpec *spec)
     double cone = degrees_from_radians(s->cone), last = degrees_from_radians(s->last_incidence);
     bool   is_fit = has_kind(spec, PLOT_FIT, PLOT_FIT);
     bool   emission = s->emits && cone < 89.95 &&
-                      (is_fit || has_kind(spec, PLOT_LUMINANCE, PLOT_SECTIONS));
+                      (is_fit || has_kind(spec, PLOT_LUMINANCE, PLOT_COLOUR_SHIFT) ||
+                       has_kind(spec, PLOT_SECTIONS, PLOT_SECTIONS));
     bool   reflection = s->reflects && (is_fit || has_kind(spec, PLOT_BRDF, PLOT_MIRROR));
     if (emission && reflection)
         return arena_format(canvas->arena, "not measured, extrapolated: emission beyond θ %.4g°, "
@@ -262,18 +263,17 @@ bool page_png(const PageSpec *spec, Arena *arena, PlotBytes *out, Error *err)
     return true;
 }
 
-bool page_figure_svg(const Figure *figure, Box box, const char *prefix, Arena *arena,
+bool page_figure_svg(const Figure *figure, const FigureFrame *frame, Arena *arena,
                      PlotBytes *out, FigureMap *map, Error *err)
 {
     Arena own = arena_reserve((size_t)4 << 30);
     Sink  sink = {.arena = &own};
-    cairo_surface_t *surface = svg_surface(&sink, box.w, box.h);
+    cairo_surface_t *surface = svg_surface(&sink, frame->width, frame->height);
     cairo_t         *cr = cairo_create(surface);
-    Canvas           canvas = {cr, theme_light(), 2, arena};
-    figure->draw(&canvas, (Box){box.x, box.y, box.w - 2 * box.x, box.h - 2 * box.y}, figure,
-                 map);
+    Canvas           canvas = {cr, frame->is_dark ? theme_dark() : theme_light(), 1.6, arena};
+    figure->draw(&canvas, (Box){4, 4, frame->width - 8, frame->height - 8}, figure, map);
     bool ok = finish(cr, surface, err);
-    if (ok) *out = svg_with_ids(sink.bytes, prefix, true, arena);
+    if (ok) *out = svg_with_ids(sink.bytes, frame->prefix, true, arena);
     arena_release(&own);
     return ok;
 }

@@ -21,6 +21,12 @@ typedef struct PageSpec {
 bool page_svg(const PageSpec *spec, Arena *arena, PlotBytes *out, Error *err);
 bool page_png(const PageSpec *spec, Arena *arena, PlotBytes *out, Error *err);
 
-/* One figure alone, w x h points, for the report; its ids begin with `prefix`. */
-bool page_figure_svg(const Figure *figure, Box box, const char *prefix, Arena *arena,
+typedef struct FigureFrame {
+    double      width, height; /* points */
+    const char *prefix;        /* of the drawing's ids */
+    bool        is_dark;
+} FigureFrame;
+
+/* One figure alone, without its title, to stand inside another document. */
+bool page_figure_svg(const Figure *figure, const FigureFrame *frame, Arena *arena,
                      PlotBytes *out, FigureMap *map, Error *err);

@@ -14,7 +14,7 @@ const char *plot_kind_name(PlotKind kind)
     return NAMES[kind];
 }
 
-static FigureList *all_figures(const Subject *subject, Arena *arena)
+FigureList *plot_figures(const Subject *subject, Arena *arena)
 {
     FigureList *list = ARENA_NEW(arena, FigureList, 1);
     figures_add_emission(list, subject);
@@ -75,8 +75,8 @@ static bool say_nothing_to_draw(const Subject *s, PlotKind kind, Error *err)
     return error_at(err, ERROR_INPUT, file, "", "has nothing to draw for --kind %s", name);
 }
 
-static Subject *subject_of(const PlotInput *input, const PlotOptions *options, Arena *arena,
-                           json_t **report, Error *err)
+Subject *plot_subject(const PlotInput *input, const PlotOptions *options, Arena *arena,
+                      json_t **report, Error *err)
 {
     if (!panel_report(input->panel, report, err)) {
         error_in_file(err, input->file);
@@ -96,9 +96,9 @@ bool plot_write(const PlotInput *input, const PlotOptions *options, const char *
     if (!is_svg && strcmp(ending, ".png"))
         return error_set(err, ERROR_USAGE, "-o is '%s', wanted a name that ends in .svg or .png",
                          path);
-    Subject *subject = subject_of(input, options, arena, &report, err);
+    Subject *subject = plot_subject(input, options, arena, &report, err);
     if (!subject) return false;
-    FigureList *list = all_figures(subject, arena);
+    FigureList *list = plot_figures(subject, arena);
     keep_kind(list, options->kind);
     PageSpec spec = {list, subject, options->kind, options->width, options->height,
                      options->is_dark};

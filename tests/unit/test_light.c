@@ -292,16 +292,126 @@ static void sun_samples_are_uniform_on_the_disc_and_never_off_it(void **state)
     arena_release(&arena);
 }
 
-/* Two lamps, one four times as large and three times as bright: points are uniform on each
- * triangle, triangles are chosen by power, and the density integrates to one. */
+/* ---- emitters ---------------------------------------------------------------------------- */
+
+/* Sum over an emitter's cells of density times area: every cell by its middle. */
+static double emitter_total(const Emitters *emitters, const Scene *scene, Vec3 from)
+{
+    double total = 0;
+    for (int t = 0; t < emitters->count; t++) {
+        const Emitter *e = &emitters->emitters[t];
+        const uint32_t *v = scene->triangles[e->triangle].vertex;
+        Vec3 p[3];
+        for (int k = 0; k < 3; k++) {
+            const float *at = scene->vertices[v[k]].position;
+            p[k] = vec3(at[0], at[1], at[2]);
+        }
+        double area = 0.5 * (double)vec3_length(vec3_cross(vec3_sub(p[1], p[0]),
+                                                           vec3_sub(p[2], p[0])));
+        for (int i = 0; i < e->side; i++)
+            for (int k = 0; k < 2 * (e->side - i) - 1; k++) {
+                float        in = k % 2 ? 2 / 3.0f : 1 / 3.0f, side = (float)e->side;
+                EmitterPoint at = {e->triangle, ((float)i + in) / side,
+                                   ((float)(k / 2) + in) / side};
+                total += (double)emitters_pdf_area(emitters, scene, from, at) * area /
+                         ((double)e->side * e->side);
+            }
+    }
+    return total;
+}
+
+/* Two lamps, one four times as large and three times as bright, and a picture with a bright
+ * corner and a dark half. */
+static Scene *lamp_scene(Arena *arena)
+{
+    static uint8_t picture[16 * 16 * 4];
+    Scene *scene = builder_scene(arena);
+    for (int lamp = 0; lamp < 3; lamp++) {
+        Material material = builder_material(0);
+        material.is_emitter = true;
+        for (int i = 0; i < 3; i++) material.emissive_cd_m2[i] = lamp ? 300.0f : 100.0f;
+        if (lamp == 2) material.emissive_texture.texture_id = 0;
+        builder_part(scene, material);
+        builder_quad(scene, vec3(4.0f * (float)lamp, 2, 0), vec3(lamp ? 2.0f : 1.0f, 0, 0),
+                     vec3(0, 0, lamp ? 2.0f : 1.0f));
+    }
+    for (int i = 0; i < 16 * 16; i++)
+        for (int k = 0; k < 4; k++)
+            picture[4 * i + k] = k == 3 ? 255 : i % 16 > 7 ? 0 : i < 16 * 4 ? 255 : 90;
+    scene->textures[0] =
+        (Texture){{16, 16, IMAGE_RGBA8, picture}, WRAP_CLAMP, WRAP_CLAMP, true};
+    return scene;
+}
+
+static const Vec3 LIT[] = {{0, 0, 0}, {3, 1.9f, 0.2f}, {8, 2.001f, 1}, {-50, -20, 7},
+                           {9, 5, 0} /* behind */};
+
+static void densities_of_emitters_integrate_to_one_from_anywhere(void **state)
+{
+    (void)state;
+    Arena    arena = arena_reserve(1 << 28);
+    Scene   *scene = lamp_scene(&arena);
+    Emitters emitters = emitters_build(scene, &arena);
+    assert_int_equal(emitters.count, 6);
+    for (size_t i = 0; i < sizeof LIT / sizeof *LIT; i++)
+        assert_close(emitter_total(&emitters, scene, LIT[i]), 1, 1e-4);
+    arena_release(&arena);
+}
+
+/* Points fall into strips of every triangle as the density says. */
 static void emitter_samples_follow_their_density(void **state)
 {
     (void)state;
-    enum { STRIPS = 8 };
+    enum { STRIPS = 9, TRIANGLES = 6, FINE = 64 };
+    Arena    arena = arena_reserve(1 << 28);
+    Scene   *scene = lamp_scene(&arena);
+    Emitters emitters = emitters_build(scene, &arena);
+    uint32_t random = 8;
+    const double area[TRIANGLES] = {2, 2, 8, 8, 8, 8};
+    for (size_t p = 0; p < sizeof LIT / sizeof *LIT; p++) {
+        double found[TRIANGLES][STRIPS] = {{0}}, expected[TRIANGLES][STRIPS] = {{0}}, chi = 0;
+        int    cells = 0, unlike = 0;
+        for (int i = 0; i < SAMPLES; i++) {
+            float u[3], pdf_area;
+            random3(&random, u);
+            EmitterPoint at = emitters_sample(&emitters, LIT[p], u, &pdf_area);
+            assert_true(at.u >= 0 && at.v >= 0 && at.u + at.v <= 1.0001f && pdf_area > 0);
+            float seen = emitters_pdf_area(&emitters, scene, LIT[p], at);
+            unlike += seen != pdf_area; /* rounded into the next cell */
+            found[at.triangle][(int)(at.u * STRIPS * 0.99999f)]++;
+        }
+        for (uint32_t t = 0; t < TRIANGLES; t++) {
+            int fine = STRIPS * FINE;
+            for (int i = 0; i < fine; i++)
+                for (int j = 0; j < 2 * (fine - i) - 1; j++) {
+                    float in = j % 2 ? 2 / 3.0f : 1 / 3.0f;
+                    EmitterPoint at = {t, ((float)i + in) / (float)fine,
+                                       ((float)(j / 2) + in) / (float)fine};
+                    int strip = (int)(at.u * STRIPS * 0.99999f);
+                    double pdf = (double)emitters_pdf_area(&emitters, scene, LIT[p], at);
+                    expected[t][strip] += SAMPLES * pdf * area[t] / ((double)fine * fine);
+                }
+            for (int k = 0; k < STRIPS; k++) {
+                if (expected[t][k] < 10) continue;
+                double off = found[t][k] - expected[t][k];
+                chi += off * off / (expected[t][k] + 4e-5 * expected[t][k] * expected[t][k]);
+                cells++;
+            }
+        }
+        assert_true(cells > 15 && unlike < SAMPLES / 1000);
+        if (!(chi < cells + 4.5 * sqrt(2.0 * cells)))
+            fail_msg("from point %zu: chi-square %.1f over %d strips", p, chi, cells);
+    }
+    arena_release(&arena);
+}
+
+/* From far away the choice is by power; from near it is the lamp at hand. */
+static void emitters_are_chosen_by_what_they_send_to_the_point(void **state)
+{
+    (void)state;
     Arena    arena = arena_reserve(1 << 28);
     Scene   *scene = builder_scene(&arena);
-    uint32_t random = 8;
-    static int chosen[4], strips[STRIPS];
+    uint32_t random = 3;
     for (int lamp = 0; lamp < 2; lamp++) {
         Material material = builder_material(0);
         material.is_emitter = true;
@@ -311,26 +421,54 @@ static void emitter_samples_follow_their_density(void **state)
                      vec3(0, 0, lamp ? 2.0f : 1.0f));
     }
     Emitters emitters = emitters_build(scene, &arena);
-    double   area[4] = {2, 2, 8, 8}, total = 0;
-    assert_int_equal(emitters.count, 4);
-    for (int t = 0; t < 4; t++)
-        total += area[t] * (double)emitters_pdf_area(&emitters, scene, (uint32_t)t);
-    assert_close(total, 1, 1e-5);
+    const Vec3 from[] = {{4, -400, 0}, {-0.5f, 1.5f, 0}};
+    const double low[] = {11.5, 0}, high[] = {12.5, 0.6};
+    for (int k = 0; k < 2; k++) {
+        int chosen[2] = {0};
+        for (int i = 0; i < SAMPLES; i++) {
+            float u[3], pdf_area;
+            random3(&random, u);
+            chosen[emitters_sample(&emitters, from[k], u, &pdf_area).triangle / 2]++;
+        }
+        double ratio = chosen[1] / (double)chosen[0];
+        if (!(ratio >= low[k] && ratio <= high[k])) fail_msg("ratio %g", ratio);
+    }
+    arena_release(&arena);
+}
+
+/* Lit texels are found in proportion to their light. */
+static void bright_texels_are_chosen_more_often(void **state)
+{
+    (void)state;
+    enum { SIDE = 64 };
+    Arena    arena = arena_reserve(1 << 28);
+    Scene   *scene = builder_scene(&arena);
+    uint32_t random = 21;
+    int      lit = 0;
+    uint8_t *picture = ARENA_NEW(&arena, uint8_t, SIDE * SIDE * 4);
+    for (int i = 0; i < SIDE * SIDE; i++) /* one texel in 64, and a grey that gives a tenth */
+        for (int k = 0; k < 3; k++)
+            picture[4 * i + k] = i % 8 == 3 && i / SIDE % 8 == 5 ? 255 : 12;
+    scene->textures[0] =
+        (Texture){{SIDE, SIDE, IMAGE_RGBA8, picture}, WRAP_CLAMP, WRAP_CLAMP, true};
+    Material material = builder_material(0);
+    material.is_emitter = true;
+    for (int i = 0; i < 3; i++) material.emissive_cd_m2[i] = 1000;
+    material.emissive_texture.texture_id = 0;
+    builder_part(scene, material);
+    builder_quad(scene, vec3(0, 2, 0), vec3(1, 0, 0), vec3(0, 0, 1));
+    Emitters emitters = emitters_build(scene, &arena);
     for (int i = 0; i < SAMPLES; i++) {
-        TrianglePoint point;
-        float    u[3], pdf_area;
+        float u[3], pdf_area, rgb[3];
         random3(&random, u);
-        uint32_t t = emitters_sample(&emitters, scene, u, &point, &pdf_area);
-        chosen[t]++;
-        assert_close(pdf_area, emitters_pdf_area(&emitters, scene, t), 1e-6);
-        if (t >= 2) strips[(int)((double)(point.position.x - 2) / 4 * STRIPS * 0.99999)]++;
+        EmitterPoint  at = emitters_sample(&emitters, vec3(0, 0, 0), u, &pdf_area);
+        TrianglePoint point = triangle_point(scene, at.triangle, at.u, at.v);
+        emitted_rgb(scene, &scene->materials[0], &point, rgb);
+        lit += rgb[1] > 500;
     }
-    for (int t = 0; t < 4; t++) {
-        double share = area[t] * (double)emitters.pdf_area[t];
-        assert_near(chosen[t], share * SAMPLES, 5 * sqrt(share * SAMPLES));
-    }
-    assert_close(chosen[2] / (double)chosen[0], 12, 0.1);
-    assert_equal_cells("strips of the large lamp", strips, STRIPS, chosen[2] + chosen[3]);
+    print_message("texels with 81%% of the light take %.0f%% of the samples, 1.6%% by area\n",
+                  100.0 * lit / SAMPLES);
+    assert_true(lit > SAMPLES / 2);
     arena_release(&arena);
 }
 
@@ -404,10 +542,14 @@ static void an_area_light_gives_its_configuration_factor(void **state)
     wavelengths_sample(0.5f, &w);
     assert_true(lights_sample(lights, LIGHTS_EMITTERS, (LitPoint){vec3(0, 0, 0), vec3(0, 1, 0)},
                               &w, u, &sample));
-    float pdf0 = lights_emitter_pdf(lights, 0, sample.wi, vec3(0, -1, 0), sample.distance);
-    float pdf1 = lights_emitter_pdf(lights, 1, sample.wi, vec3(0, -1, 0), sample.distance);
-    assert_close(pdf0, sample.pdf, 1e-5);
-    assert_close(pdf1, sample.pdf, 1e-5);
+    /* the ray that finds the same point: on the plane y = 2, u and v along the quad's edges */
+    Vec3 at = vec3_scale(sample.wi, sample.distance);
+    float s = 0.5f + 0.5f * at.x, t = 0.5f - 0.5f * at.z; /* builder_quad's corners */
+    Hit hits[2] = {{sample.distance, s - (1 - t), 1 - t, 0},
+                   {sample.distance, s, 1 - t - s, 1}};
+    Hit hit = hits[hits[0].u >= 0 ? 0 : 1];
+    assert_close(lights_emitter_pdf(lights, vec3(0, 0, 0), &hit, sample.wi, vec3(0, -1, 0)),
+                 sample.pdf, 1e-3);
     assert_false(lights_sample(lights, LIGHTS_EMITTERS,
                                (LitPoint){vec3(0, 4, 0), vec3(0, -1, 0)}, &w, u,
                                &sample)); /* its back is dark */
@@ -438,7 +580,10 @@ int main(void)
         cmocka_unit_test(a_picture_hangs_the_right_way_round),
         cmocka_unit_test(picture_samples_follow_their_density),
         cmocka_unit_test(sun_samples_are_uniform_on_the_disc_and_never_off_it),
+        cmocka_unit_test(densities_of_emitters_integrate_to_one_from_anywhere),
         cmocka_unit_test(emitter_samples_follow_their_density),
+        cmocka_unit_test(emitters_are_chosen_by_what_they_send_to_the_point),
+        cmocka_unit_test(bright_texels_are_chosen_more_often),
         cmocka_unit_test(point_and_spot_follow_the_inverse_square_and_the_cone),
         cmocka_unit_test(many_lights_are_chosen_without_bias),
         cmocka_unit_test(an_area_light_gives_its_configuration_factor),

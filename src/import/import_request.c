@@ -1,0 +1,188 @@
+/* The declaration file, and a whole import. */
+#include "import/import_request.h"
+
+#include <fnmatch.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "panel/json_view.h"
+
+#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
+#define KEYS_MAX 64
+
+/* Keys besides those of the text tables. */
+static const char *const other_keys[] = {"roles", "skip", "format", "wavelength_nm", "area_mm",
+    "panel", "instrument", "primaries", "isotropic", "no_black", "note"};
+
+static bool wrong_kind(const JsonView *view, const char *key, const char *wanted, Error *err)
+{
+    return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key), "wanted %s", wanted);
+}
+
+/* A text or a number as the text that the command line would have. */
+static const char *plain_text(const JsonView *view, const json_t *value)
+{
+    if (json_is_string(value)) {
+        const char *text = json_string_value(value);
+        return arena_string(view->arena, text, strlen(text));
+    }
+    return json_is_number(value) ? arena_format(view->arena, "%.15g", json_number_value(value))
+                                 : NULL;
+}
+
+static bool declare_one(const JsonView *view, const char *key, const json_t *value,
+                        TextDeclaration *text, Error *err)
+{
+    const char *plain = plain_text(view, value);
+    if (!plain) return wrong_kind(view, key, "a text or a number", err);
+    return text_declare(text, key, plain, err) ||
+           error_at(err, ERROR_INPUT, view->file, json_view_path(view, key), "%s",
+                    arena_string(view->arena, err->text, strlen(err->text)));
+}
+
+/* "columns": ["theta", "phi"] is as good as "theta,phi"; other lists add entry by entry. */
+static bool declare_list(const JsonView *view, const char *key, const json_t *list,
+                         TextDeclaration *text, Error *err)
+{
+    size_t      i;
+    json_t     *value;
+    const char *joined = "";
+    bool        is_columns = !strcmp(key, "columns");
+    json_array_foreach((json_t *)list, i, value) {
+        const char *plain = plain_text(view, value);
+        if (!plain) return wrong_kind(view, key, "texts or numbers", err);
+        if (is_columns) joined = arena_format(view->arena, "%s%s%s", joined, i ? "," : "", plain);
+        else if (!declare_one(view, key, value, text, err)) return false;
+    }
+    return !is_columns || text_declare(text, key, joined, err) ||
+           error_in_file(err, view->file);
+}
+
+static bool read_text_keys(const JsonView *view, TextDeclaration *text, Error *err)
+{
+    for (int i = 0; i < text_key_count; i++) {
+        const char   *key = text_keys[i].key;
+        const json_t *value = json_object_get(view->object, key);
+        if (!value) continue;
+        if (json_is_array(value) ? !declare_list(view, key, value, text, err)
+                                 : !declare_one(view, key, value, text, err))
+            return false;
+    }
+    return true;
+}
+
+static bool read_roles(const JsonView *root, TextDeclaration *text, Error *err)
+{
+    JsonView    view;
+    const char *pattern;
+    json_t     *value;
+    if (!json_view_child(root, "roles", false, &view, err)) return false;
+    if (!view.object) return true;
+    json_object_foreach(view.object, pattern, value) {
+        const char *role = plain_text(&view, value);
+        Role        parsed;
+        double      most = text->level_max > 0 ? text->level_max : 255;
+        if (!role) return wrong_kind(&view, pattern, "a role", err);
+        if (!role_parse(role, most, &parsed, err))
+            return error_at(err, ERROR_INPUT, view.file, json_view_path(&view, pattern), "%s",
+                            arena_string(view.arena, err->text, strlen(err->text)));
+        if (text->role_count == TEXT_ENTRIES_MAX)
+            return wrong_kind(root, "roles", "fewer roles", err);
+        text->role[text->role_count++] =
+            (RoleRow){arena_string(view.arena, pattern, strlen(pattern)), role};
+    }
+    return true;
+}
+
+static bool read_skip(const JsonView *root, TextList *skip, Error *err)
+{
+    size_t  i;
+    json_t *value, *list = json_object_get(root->object, "skip");
+    if (!list) return true;
+    if (!json_is_array(list)) return wrong_kind(root, "skip", "a list of patterns", err);
+    json_array_foreach(list, i, value) {
+        const char *plain = plain_text(root, value);
+        if (!plain || skip->count == TEXT_ENTRIES_MAX)
+            return wrong_kind(root, "skip", "a list of patterns", err);
+        skip->text[skip->count++] = plain;
+    }
+    return true;
+}
+
+static bool read_flag(const JsonView *root, const char *key, bool *out, Error *err)
+{
+    const json_t *value = json_object_get(root->object, key);
+    if (value && !json_is_boolean(value)) return wrong_kind(root, key, "true or false", err);
+    if (value) *out = json_is_true(value);
+    return true;
+}
+
+static bool read_others(const JsonView *root, ImportRequest *request, Error *err)
+{
+    int two = 2;
+    bool ok = read_roles(root, &request->text, err) && read_skip(root, &request->skip, err) &&
+              json_view_text(root, "format", &request->options.format, err) &&
+              json_view_number(root, "wavelength_nm", 360, 830, &request->options.wavelength_nm,
+                               err) &&
+              json_view_numbers(root, "area_mm", (JsonRange){1e-3, 1e6, 2},
+                                request->options.area_mm, &two, err) &&
+              json_view_text(root, "panel", &request->panel, err) &&
+              json_view_text(root, "instrument", &request->instrument, err) &&
+              json_view_text(root, "primaries", &request->primaries, err) &&
+              read_flag(root, "isotropic", &request->is_isotropic, err) &&
+              read_flag(root, "no_black", &request->black_is_zero, err);
+    if (ok && request->primaries)
+        request->primaries = path_beside(root->file, request->primaries, root->arena);
+    return ok;
+}
+
+bool import_request_read(const char *file, Arena *arena, ImportRequest *request, Error *err)
+{
+    JsonView    root;
+    const char *known[KEYS_MAX];
+    int         count = 0;
+    for (int i = 0; i < text_key_count; i++) known[count++] = text_keys[i].key;
+    for (int i = 0; i < COUNT(other_keys); i++) known[count++] = other_keys[i];
+    if (!json_view_open(file, arena, &root, err)) return false;
+    bool ok = json_view_check_keys(&root, known, count, err) &&
+              read_text_keys(&root, &request->text, err) && read_others(&root, request, err);
+    json_view_close(&root);
+    return ok;
+}
+
+/* ---- the import ---------------------------------------------------------------------------- */
+
+bool import_is_skipped(const ImportRequest *request, const char *file)
+{
+    const char *role = text_declared_role(&request->text, file);
+    if (role && !strcmp(role, "skip")) return true;
+    for (int i = 0; i < request->skip.count; i++)
+        if (!fnmatch(request->skip.text[i], file, 0) ||
+            !fnmatch(request->skip.text[i], path_name(file), 0))
+            return true;
+    return false;
+}
+
+bool import_run(const char *const *file, int count, const ImportRequest *request,
+                ImportStep *step, void *context, ImportSet *set, Error *err)
+{
+    ImportOptions options = request->options;
+    int           skipped = 0;
+    options.text = &request->text;
+    set->panel = request->panel;
+    set->instrument = request->instrument;
+    set->is_isotropic = request->is_isotropic;
+    set->black_is_zero = request->black_is_zero;
+    if (request->text.white_reflectance > 0)
+        set->white_reflectance = request->text.white_reflectance;
+    if (request->primaries && !import_primaries(request->primaries, &request->text, set, err))
+        return false;
+    for (int i = 0; i < count; i++) {
+        bool is_skipped = import_is_skipped(request, file[i]);
+        skipped += is_skipped;
+        if (!is_skipped && !import_file(file[i], &options, set, err)) return false;
+        if (step) step(context, i + 1);
+    }
+    if (skipped) import_note(set, "%d files were left out as asked", skipped);
+    return import_complete(set, err);
+}

@@ -1,0 +1,105 @@
+/* Spectra of the primaries: one column of wavelengths, one each for red, green and blue. */
+#include <ctype.h>
+#include <string.h>
+#include <strings.h>
+
+#include "import/import_request.h"
+
+#define COUNT(list) (sizeof(list) / sizeof *(list))
+#define COLUMNS 5 /* wavelength, red, green, blue, black */
+
+typedef struct Spectra {
+    const TextFile *text;
+    TextDialect     dialect;
+    ImportSet      *set;
+    Error          *err;
+    TextCell       *cell;
+    int             column[COLUMNS]; /* -1: not there */
+    int             cells;           /* of the header */
+    double         *value[COLUMNS];
+    int             rows;
+} Spectra;
+
+static int column_of(TextCell cell)
+{
+    static const char *const names[COLUMNS][5] = {
+        {"nm", "wavelength", "wavelength_nm", "lambda", "wavelength (nm)"},
+        {"red", "r", "rot", "rouge", NULL}, {"green", "g", "gruen", "vert", NULL},
+        {"blue", "b", "blau", "bleu", NULL}, {"black", "k", "schwarz", "noir", NULL}};
+    for (int c = 0; c < COLUMNS; c++)
+        for (size_t i = 0; i < 5 && names[c][i]; i++)
+            if ((int)strlen(names[c][i]) == cell.length &&
+                !strncasecmp(names[c][i], cell.text, (size_t)cell.length))
+                return c;
+    return -1;
+}
+
+static bool is_comment(TextLine line)
+{
+    return !line.length || strchr("#!%", line.text[0]);
+}
+
+/* The first line that names wavelengths and the three primaries. */
+static bool find_header(Spectra *in, int *at)
+{
+    for (*at = 0; *at < in->text->count; (*at)++) {
+        if (is_comment(in->text->line[*at])) continue;
+        in->cells = text_cells(in->text->line[*at], in->dialect.delimiter, in->cell);
+        for (int c = 0; c < COLUMNS; c++) in->column[c] = -1;
+        for (int i = 0; i < in->cells; i++) {
+            int c = column_of(in->cell[i]);
+            if (c >= 0) in->column[c] = i;
+        }
+        if (in->column[0] >= 0 && in->column[1] >= 0 && in->column[2] >= 0 && in->column[3] >= 0)
+            return true;
+    }
+    return error_at(in->err, ERROR_INPUT, in->text->file, "header line",
+                    "has no columns of wavelength, red, green and blue");
+}
+
+static bool read_row(Spectra *in, int at)
+{
+    const char *place = text_place(at, in->set->arena);
+    if (text_cells(in->text->line[at], in->dialect.delimiter, in->cell) != in->cells)
+        return error_at(in->err, ERROR_INPUT, in->text->file, place,
+                        "has not the %d cells of the header", in->cells);
+    for (int c = 0; c < COLUMNS; c++) {
+        if (in->column[c] < 0) continue;
+        TextCell cell = in->cell[in->column[c]];
+        if (!text_number(cell, in->dialect.decimal, &in->value[c][in->rows]))
+            return error_at(in->err, ERROR_INPUT, in->text->file, place,
+                            "holds '%.*s', wanted a number", cell.length < 40 ? cell.length : 40,
+                            cell.text);
+    }
+    double nm = in->value[0][in->rows];
+    if (!(nm >= 100 && nm <= 20000))
+        return error_at(in->err, ERROR_INPUT, in->text->file, place,
+                        "has a wavelength of %g, wanted nanometres", nm);
+    if (in->rows && !(nm > in->value[0][in->rows - 1]))
+        return error_at(in->err, ERROR_INPUT, in->text->file, place,
+                        "wavelength %g follows %g, wanted rising wavelengths", nm,
+                        in->value[0][in->rows - 1]);
+    in->rows++;
+    return true;
+}
+
+bool import_primaries(const char *file, const TextDeclaration *declared, ImportSet *set,
+                      Error *err)
+{
+    TextFile text;
+    int      at;
+    if (!text_file_read(file, declared->encoding, set->arena, &text, err)) return false;
+    Spectra in = {.text = &text, .dialect = declared->dialect, .set = set, .err = err,
+                  .cell = ARENA_NEW(set->arena, TextCell, TEXT_CELLS_MAX)};
+    if (!text_find_dialect(&text, 0, *set->arena, &in.dialect, err)) return false;
+    if (!find_header(&in, &at)) return false;
+    for (int c = 0; c < COLUMNS; c++)
+        if (in.column[c] >= 0) in.value[c] = ARENA_NEW(set->arena, double, text.count);
+    for (at++; at < text.count; at++)
+        if (!is_comment(text.line[at]) && !read_row(&in, at)) return false;
+    if (in.rows < 2)
+        return error_at(err, ERROR_INPUT, file, "", "has %d wavelengths, wanted more", in.rows);
+    set->spectra = (ImportSpectra){.rows = in.rows, .nm = in.value[0]};
+    for (int c = 1; c < COLUMNS; c++) set->spectra.value[c - 1] = in.value[c];
+    return true;
+}

@@ -1,0 +1,246 @@
+/* Before the first path: cells of emitters, their light, and the tiles they are gathered in. */
+#include "light/emitter_tiles.h"
+
+#include <math.h>
+
+#include "spectrum/photometry.h"
+
+#define CELLS_OF_PICTURE 32768 /* about, of a part with content or an emissive texture */
+#define CELLS_OF_PLAIN 256
+#define POINTS_LEAST 16 /* a cell, at which the light of a picture is read */
+#define POINTS_MAX 128
+#define FLOOR_SHARE 0.02 /* of the part's mean, so that no lit texel is impossible */
+#define SIDE_MAX 512
+
+/* Luminance of a display by its codes: what red, green and blue add, the rest at code 0. */
+typedef struct CodeTable {
+    float dark, added[3][256];
+} CodeTable;
+
+static void fill_codes(const Display *display, CodeTable *table)
+{
+    float rgb[3] = {0, 0, 0};
+    table->dark = panel_mean_luminance(display->panel, rgb) * display->level;
+    for (int p = 0; p < 3; p++)
+        for (int code = 0; code < 256; code++) {
+            for (int i = 0; i < 3; i++) rgb[i] = i == p ? (float)code : 0;
+            table->added[p][code] =
+                panel_mean_luminance(display->panel, rgb) * display->level - table->dark;
+        }
+}
+
+/* How the light of one part is read. */
+typedef struct Reader {
+    const Scene       *scene;
+    const Material    *material;
+    const TextureSlot *slot; /* texture_id NO_ID: the same everywhere */
+    CodeTable         *codes;
+    double             plain; /* luminance where the slot has no texture */
+} Reader;
+
+static Reader reader_of(const Scene *scene, const Material *material, CodeTable *codes)
+{
+    Reader reader = {.scene = scene, .material = material, .codes = codes};
+    if (material->display_id == NO_ID) {
+        const float *factor = material->unlit ? material->base_color : material->emissive_cd_m2;
+        reader.slot =
+            material->unlit ? &material->base_color_texture : &material->emissive_texture;
+        reader.plain = (double)luminance_from_rgb(factor);
+        return reader;
+    }
+    const Display *display = &scene->displays[material->display_id];
+    reader.slot = &display->content;
+    fill_codes(display, codes);
+    reader.plain = (double)(codes->dark + codes->added[0][255] + codes->added[1][255] +
+                            codes->added[2][255]);
+    return reader;
+}
+
+static double luminance_at(const Reader *reader, Vec2 uv)
+{
+    if (reader->slot->texture_id == NO_ID) return reader->plain;
+    const Texture *texture = &reader->scene->textures[reader->slot->texture_id];
+    if (reader->material->display_id != NO_ID) {
+        float codes[3], sum = reader->codes->dark;
+        texture_codes(texture, uv.x, uv.y, codes);
+        for (int i = 0; i < 3; i++) sum += reader->codes->added[i][(int)(codes[i] + 0.5f)];
+        return (double)sum;
+    }
+    const float *factor = reader->material->unlit ? reader->material->base_color
+                                                  : reader->material->emissive_cd_m2;
+    float texel[4];
+    texture_colour(texture, uv.x, uv.y, texel);
+    for (int i = 0; i < 3; i++) texel[i] *= factor[i];
+    return (double)luminance_from_rgb(texel);
+}
+
+static double triangle_area(const Scene *scene, uint32_t triangle)
+{
+    const uint32_t *v = scene->triangles[triangle].vertex;
+    const float *a = scene->vertices[v[0]].position, *b = scene->vertices[v[1]].position,
+                *c = scene->vertices[v[2]].position;
+    Vec3 cross = vec3_cross(vec3(b[0] - a[0], b[1] - a[1], b[2] - a[2]),
+                            vec3(c[0] - a[0], c[1] - a[1], c[2] - a[2]));
+    return 0.5 * (double)vec3_length(cross);
+}
+
+/* ---- cells ------------------------------------------------------------------------------- */
+
+/* Texture coordinates of a triangle's point are linear in its barycentric weights. */
+typedef struct Corner {
+    Vec2 at, along_u, along_v;
+} Corner;
+
+static Corner uv_corner(const Reader *reader, uint32_t triangle)
+{
+    Vec2 uv[3];
+    for (int i = 0; i < 3; i++) {
+        uint32_t v = reader->scene->triangles[triangle].vertex[i];
+        uv[i] = slot_uv(reader->slot, (const float(*)[2])reader->scene->vertices[v].uv);
+    }
+    return (Corner){uv[0], {uv[1].x - uv[0].x, uv[1].y - uv[0].y},
+                    {uv[2].x - uv[0].x, uv[2].y - uv[0].y}};
+}
+
+/* Barycentric weights of a point: the three corners, where a bright texel may reach in, then
+ * uniform ones from a low-discrepancy lattice (R2 sequence). */
+static Vec2 lattice_point(int i)
+{
+    static const Vec2 corners[3] = {{0.01f, 0.01f}, {0.98f, 0.01f}, {0.01f, 0.98f}};
+    if (i < 3) return corners[i];
+    double a = 0.5 + 0.7548776662466927 * i, b = 0.5 + 0.5698402909980532 * i;
+    a -= floor(a);
+    b -= floor(b);
+    return a + b > 1 ? (Vec2){(float)(1 - a), (float)(1 - b)} : (Vec2){(float)a, (float)b};
+}
+
+/* Root of the mean square luminance of a cell whose lower corner is at column i, row j. */
+static double cell_luminance(const Reader *reader, const Corner *corner,
+                             const EmitterCell *cell, int points)
+{
+    double squares = 0;
+    float  step = 1 / (float)cell->side;
+    for (int k = 0; k < points; k++) {
+        Vec2  p = lattice_point(k);
+        float a = cell->is_turned ? 1 - p.x : p.x, b = cell->is_turned ? 1 - p.y : p.y;
+        float u = ((float)cell->i + a) * step, v = ((float)cell->j + b) * step;
+        double l = luminance_at(reader, (Vec2){
+            corner->at.x + u * corner->along_u.x + v * corner->along_v.x,
+            corner->at.y + u * corner->along_u.y + v * corner->along_v.y});
+        squares += l * l;
+    }
+    return sqrt(squares / points);
+}
+
+/* Points a cell, about two a texel. */
+static int points_of(const Reader *reader, const Corner *corner, int side)
+{
+    if (reader->slot->texture_id == NO_ID) return 1;
+    const Image *image = &reader->scene->textures[reader->slot->texture_id].image;
+    double cross = fabs((double)(corner->along_u.x * corner->along_v.y -
+                                 corner->along_u.y * corner->along_v.x));
+    double texels = 0.5 * cross * image->width * image->height / ((double)side * side);
+    return (int)fmin(POINTS_MAX, fmax(POINTS_LEAST, ceil(2 * texels)));
+}
+
+/* Luminances of an emitter's cells, in order. */
+static void read_emitter(const Reader *reader, const Emitter *emitter, double *luminance)
+{
+    Corner corner = uv_corner(reader, emitter->triangle);
+    int    side = emitter->side, points = points_of(reader, &corner, side), n = 0;
+    for (int i = 0; i < side; i++)
+        for (int k = 0; k < 2 * (side - i) - 1; k++) {
+            EmitterCell cell = {side, i, k / 2, k % 2};
+            luminance[n++] = cell_luminance(reader, &corner, &cell, points);
+        }
+}
+
+static int list_emitters(const Scene *scene, Emitters *emitters, Arena *arena)
+{
+    int count = 0;
+    emitters->first_of_part = ARENA_NEW(arena, int, scene->part_count + 1);
+    for (int p = 0; p < scene->part_count; p++) {
+        const Part *part = &scene->parts[p];
+        bool emits = scene->materials[part->material_id].is_emitter;
+        emitters->first_of_part[p] = emits ? count : NO_ID;
+        count += emits ? (int)part->triangle_count : 0;
+    }
+    return count;
+}
+
+static const TextureSlot *slot_of(const Scene *scene, const Material *material)
+{
+    if (material->display_id != NO_ID) return &scene->displays[material->display_id].content;
+    return material->unlit ? &material->base_color_texture : &material->emissive_texture;
+}
+
+/* How finely each triangle is cut: by its share of the part's area. */
+static void cut_part(const Scene *scene, int part_id, Emitters *emitters)
+{
+    const Part     *part = &scene->parts[part_id];
+    const Material *material = &scene->materials[part->material_id];
+    bool    is_picture = slot_of(scene, material)->texture_id != NO_ID;
+    double  cells = is_picture ? CELLS_OF_PICTURE : CELLS_OF_PLAIN, total = 0;
+    for (uint32_t i = 0; i < part->triangle_count; i++)
+        total += triangle_area(scene, part->first_triangle + i);
+    for (uint32_t i = 0; i < part->triangle_count; i++) {
+        uint32_t triangle = part->first_triangle + i;
+        double   share = total > 0 ? triangle_area(scene, triangle) / total : 0;
+        int      side = (int)fmin(SIDE_MAX, fmax(1, sqrt(cells * share)));
+        emitters->emitters[emitters->first_of_part[part_id] + (int)i] =
+            (Emitter){triangle, emitters->cell_count, side};
+        emitters->cell_count += (uint32_t)(side * side);
+    }
+}
+
+static void read_part(const Scene *scene, int part_id, const Emitters *emitters, double *weight)
+{
+    const Part *part = &scene->parts[part_id];
+    CodeTable   codes;
+    Reader      reader = reader_of(scene, &scene->materials[part->material_id], &codes);
+    bool both_sides = reader.material->double_sided && reader.material->display_id == NO_ID;
+    const Emitter *first = &emitters->emitters[emitters->first_of_part[part_id]];
+    double sum = 0, total = 0;
+    for (uint32_t t = 0; t < part->triangle_count; t++) {
+        const Emitter *e = &first[t];
+        double area = triangle_area(scene, e->triangle) / ((double)e->side * e->side);
+        read_emitter(&reader, e, weight + e->first_cell);
+        for (int c = 0; c < e->side * e->side; c++) {
+            sum += weight[e->first_cell + (uint32_t)c] * area;
+            total += area;
+        }
+    }
+    double floor = FLOOR_SHARE * (sum > 0 ? sum / total : 1); /* lit where no point fell? */
+    for (uint32_t t = 0; t < part->triangle_count; t++) {
+        const Emitter *e = &first[t];
+        double area = triangle_area(scene, e->triangle) / ((double)e->side * e->side);
+        for (int c = 0; c < e->side * e->side; c++) {
+            double *w = &weight[e->first_cell + (uint32_t)c];
+            *w = (*w + floor) * area * (both_sides ? 2 : 1);
+        }
+    }
+}
+
+Emitters emitters_build(const Scene *scene, Arena *arena)
+{
+    Emitters emitters = {0};
+    double   total = 0;
+    emitters.count = list_emitters(scene, &emitters, arena);
+    if (!emitters.count) return emitters;
+    emitters.emitters = ARENA_NEW(arena, Emitter, emitters.count);
+    for (int p = 0; p < scene->part_count; p++)
+        if (emitters.first_of_part[p] != NO_ID) cut_part(scene, p, &emitters);
+    double *weight = ARENA_NEW(arena, double, emitters.cell_count);
+    emitters.cell_emitter = ARENA_NEW(arena, uint32_t, emitters.cell_count);
+    for (int i = 0; i < emitters.count; i++) {
+        const Emitter *e = &emitters.emitters[i];
+        for (int c = 0; c < e->side * e->side; c++)
+            emitters.cell_emitter[e->first_cell + (uint32_t)c] = (uint32_t)i;
+    }
+    for (int p = 0; p < scene->part_count; p++)
+        if (emitters.first_of_part[p] != NO_ID) read_part(scene, p, &emitters, weight);
+    for (uint32_t c = 0; c < emitters.cell_count; c++) total += weight[c];
+    if (!(total > 0)) return (Emitters){.first_of_part = emitters.first_of_part};
+    emitter_tiles_build(scene, weight, arena, &emitters);
+    return emitters;
+}

@@ -1,0 +1,194 @@
+/* Displays as lights: chosen by content and by what they send to the point that is lit. */
+#include "panel_fixture.h"
+
+#include "base/sampler.h"
+#include "light/emitters.h"
+#include "path/path.h"
+#include "scene_builder.h"
+#include "spectrum/photometry.h"
+
+/* A privacy panel: half of the light within 15 degrees of the normal. */
+#define NARROW                                                                                 \
+    "{\"panel\": \"test privacy\", \"refractive_index\": 1.5, \"emission\": {" FIXTURE_SPECTRA \
+    "\"gamma\": 2.2, \"gamma_drop\": 0.1, \"cosine_power\": [20, 20],"                         \
+    "\"black_cd_m2\": 0.3, \"leak\": 1},"                                                      \
+    "\"instrument\": {\"theta_step_deg\": 2, \"phi_step_deg\": 10}}"
+
+static Fixture narrow;
+
+static int start_narrow(void **state)
+{
+    (void)state;
+    FitOptions options = fit_options_default();
+    options.level = 5;
+    fixture_start(&narrow, NARROW, &options);
+    return 0;
+}
+
+static int end_narrow(void **state)
+{
+    (void)state;
+    fixture_end(&narrow);
+    return 0;
+}
+
+/* A picture like an instrument's: dark but for a few bright lines. */
+static void show_lines(Scene *scene, Arena *arena)
+{
+    enum { WIDTH = 320, HEIGHT = 120 };
+    uint8_t *picture = ARENA_NEW(arena, uint8_t, WIDTH * HEIGHT * 4);
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) {
+            bool is_lit = abs(x - 2 * y - 20) < 2 || (x > 200 && x < 260 && y % 20 < 3);
+            for (int k = 0; k < 3; k++) picture[4 * (y * WIDTH + x) + k] = is_lit ? 230 : 8;
+        }
+    scene->textures[0] =
+        (Texture){{WIDTH, HEIGHT, IMAGE_RGBA8, picture}, WRAP_CLAMP, WRAP_CLAMP, true};
+}
+
+static void add_display(Scene *scene, Vec3 centre, Vec3 half_u, Vec3 half_v, bool has_content)
+{
+    Material material = builder_material(0);
+    material.display_id = scene->display_count;
+    material.is_emitter = true;
+    int material_id = builder_part(scene, material);
+    builder_quad(scene, centre, half_u, half_v);
+    Display *display = &scene->displays[scene->display_count++];
+    *display = (Display){.name = "display", .panel = narrow.panel, .material_id = material_id,
+                         .level = 1, .content = builder_no_texture()};
+    if (has_content) display->content.texture_id = 0;
+}
+
+/* One display looks at the origin, three look past it by 45 degrees. */
+static Scene *four_displays(Arena *arena, bool has_content)
+{
+    Scene *scene = builder_scene(arena);
+    show_lines(scene, arena);
+    add_display(scene, vec3(0, 0, -0.8f), vec3(0.15f, 0, 0), vec3(0, 0.055f, 0), has_content);
+    for (int i = 0; i < 3; i++)
+        add_display(scene, vec3(0.4f * (float)(i + 1), 0, -0.6f), vec3(0.1f, 0, -0.1f),
+                    vec3(0, 0.055f, 0), has_content);
+    return scene;
+}
+
+typedef struct Estimate {
+    double mean, variance; /* of one sample, relative to the mean squared */
+} Estimate;
+
+static double luminance_towards(const Scene *scene, EmitterPoint at, Vec3 to, double *geometry)
+{
+    TrianglePoint point = triangle_point(scene, at.triangle, at.u, at.v);
+    Wavelengths   w;
+    float         xyz[3] = {0};
+    Vec3   d = vec3_sub(to, point.position);
+    double d2 = (double)vec3_dot(d, d);
+    d = vec3_normalize(d);
+    *geometry = fmax(0, (double)vec3_dot(point.ng, d)) * fmax(0, (double)d.z) / d2;
+    for (int i = 0; i < 4; i++) {
+        wavelengths_sample(((float)i + 0.5f) / 4, &w);
+        spectrum_add_xyz(&w, triangle_emission(scene, at.triangle, &point, d, &w), xyz);
+    }
+    return (double)xyz[1] / 4;
+}
+
+/* Illuminance at the origin on a plane that faces -z, with samples as lights_sample draws them,
+ * or by area and mean luminance alone as the simplest renderer would. */
+static Estimate illuminance(const Scene *scene, const Emitters *emitters, bool is_blind)
+{
+    enum { COUNT = 20000 };
+    uint32_t random = 17;
+    double   sum = 0, squares = 0;
+    Vec3     to = vec3(0, 0, 0);
+    for (int i = 0; i < COUNT; i++) {
+        float  u[3], pdf;
+        double geometry;
+        for (int k = 0; k < 3; k++) u[k] = unit_float(hash_u32(random++));
+        EmitterPoint at = emitters_sample(emitters, to, u, &pdf);
+        if (is_blind) { /* all triangles have the same mean luminance: by area */
+            const double areas[4] = {0.15 * 0.055 * 4, 0.2 * 0.055 * 2 * 1.41421356,
+                                     0.2 * 0.055 * 2 * 1.41421356,
+                                     0.2 * 0.055 * 2 * 1.41421356};
+            double all = areas[0] + 3 * areas[1], pick = (double)u[2] * all;
+            int    d = pick < areas[0] ? 0 : 1 + (int)fmin(2, (pick - areas[0]) / areas[1]);
+            float  root = sqrtf(u[0]);
+            at = (EmitterPoint){(uint32_t)(2 * d) + (hash_u32(random++) & 1),
+                                root * (1 - u[1]), root * u[1]};
+            pdf = (float)(1 / all);
+        }
+        double value = luminance_towards(scene, at, to, &geometry) * geometry / (double)pdf;
+        sum += value;
+        squares += value * value;
+    }
+    double mean = sum / COUNT;
+    return (Estimate){mean, squares / COUNT / (mean * mean) - 1};
+}
+
+static void displays_are_chosen_by_angle_and_by_content(void **state)
+{
+    (void)state;
+    for (int has_content = 0; has_content < 2; has_content++) {
+        Arena    arena = arena_reserve((size_t)1 << 30);
+        Scene   *scene = four_displays(&arena, has_content);
+        Emitters emitters = emitters_build(scene, &arena);
+        Estimate blind = illuminance(scene, &emitters, true);
+        Estimate found = illuminance(scene, &emitters, false);
+        print_message("%s: %.5g lx; variance of a sample over its mean squared %.3g, by area "
+                      "%.3g\n", has_content ? "lines" : "white", found.mean, found.variance,
+                      blind.variance);
+        assert_near(found.mean, blind.mean,
+                    4 * blind.mean * sqrt((blind.variance + found.variance) / 20000));
+        assert_true(found.variance < (has_content ? 1 : 0.25));
+        assert_true(blind.variance > 8 * found.variance);
+        arena_release(&arena);
+    }
+}
+
+/* The same light, whether light samples, the wall's own samples or both find it. */
+static void every_strategy_finds_the_same_light_of_displays(void **state)
+{
+    (void)state;
+    static const PathStrategy strategies[] = {PATH_LIGHTS_ONLY, PATH_BSDF_ONLY, PATH_MIS};
+    static const int counts[] = {20000, 400000, 20000};
+    Arena  arena = arena_reserve((size_t)1 << 30);
+    Scene *scene = four_displays(&arena, true);
+    Bvh    *bvh;
+    Lights *lights;
+    Error   err = {0};
+    double  mean[3], sigma[3];
+    if (!bvh_create(scene, 1, NULL, &bvh, &err) || !lights_build(scene, &arena, &lights, &err))
+        fail_msg("%s", err.text);
+    PathContext context = path_context_build(scene, bvh, lights, 1, &arena);
+    for (int s = 0; s < 3; s++) {
+        PathStatistics statistics = {0};
+        double         squares = 0;
+        context.strategy = strategies[s];
+        mean[s] = 0;
+        for (int i = 0; i < counts[s]; i++) {
+            Sampler     sampler = sampler_start((uint32_t)s, 1, 0, (uint32_t)i);
+            Wavelengths w;
+            float       lx[3];
+            wavelengths_sample(sampler_1d(&sampler), &w);
+            path_illuminance(&context, (LitPoint){vec3(0, 0, 0), vec3(0, 0, -1)}, &w, &sampler,
+                             lx, &statistics);
+            mean[s] += (double)lx[1] / counts[s];
+            squares += (double)lx[1] * (double)lx[1] / counts[s];
+        }
+        sigma[s] = sqrt((squares - mean[s] * mean[s]) / counts[s]);
+    }
+    print_message("lights %.5g +- %.2g, wall %.5g +- %.2g, both %.5g +- %.2g lx\n", mean[0],
+                  sigma[0], mean[1], sigma[1], mean[2], sigma[2]);
+    for (int s = 0; s < 3; s++)
+        assert_near(mean[s], mean[0], 4 * hypot(sigma[s], sigma[0]) + 1e-4 * mean[0]);
+    assert_true(sigma[2] < 1.2 * sigma[0] && sigma[0] < 0.02 * mean[0]);
+    bvh_destroy(bvh);
+    arena_release(&arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(displays_are_chosen_by_angle_and_by_content),
+        cmocka_unit_test(every_strategy_finds_the_same_light_of_displays),
+    };
+    return cmocka_run_group_tests(tests, start_narrow, end_narrow);
+}

@@ -1,0 +1,373 @@
+/* Scatter as tables: ASTM, SSDD, Speos in text and binary. */
+#include "import/half_angle.h"
+#include "import/lz4_block.h"
+#include "import_fixture.h"
+
+#define PI 3.14159265358979323846
+#define RAD (PI / 180)
+
+/* ---- ASTM -------------------------------------------------------------------------------- */
+
+#define ASTM                                                                                   \
+    "LAB_NAME \"none\"\nSAMPLE_NAME \"grey\"\nNUM_POINTS 4\n"                                  \
+    "VARS theta_i,phi_i,theta_s,phi_s,650nm,450nm\n"                                           \
+    "0.5,0,0.5,3.141592653589793,7,1\n0.5,0,0.25,1.5707963267948966,8,2\n"                     \
+    "0.5,0,0,0,9,3\n1.0,0,1.0,-3.141592653589793,10,4\n"
+
+static void astm_mirror_lies_opposite_the_light(void **state)
+{
+    Fixture *f = *state;
+    assert_reads(f, ASTM, "astm");
+    assert_int_equal(f->set.count, 2);
+    const ImportTable *t = table_at(f, 0.5 / RAD, 0);
+    assert_close(t->wavelength_nm[0], 450, 1e-7);
+    assert_close(t->wavelength_nm[1], 650, 1e-7);
+    assert_near(value_at(t, 0.5 / RAD, 0, 0), 1, 0);
+    assert_near(value_at(t, 0.5 / RAD, 0, 1), 7, 0);
+    assert_near(value_at(t, 0.25 / RAD, 270, 1), 8, 0);
+    assert_near(value_at(t, 0, 0, 0), 3, 0);
+    assert_near(value_at(table_at(f, 1 / RAD, 0), 1 / RAD, 0, 1), 10, 0);
+    assert_noted(f, "angles are taken as radians");
+    assert_false(f->set.is_anisotropic);
+}
+
+static void astm_in_plane_lists_and_degrees(void **state)
+{
+    Fixture *f = *state;
+    assert_reads(f, "VARS theta_i,theta_s,brdf\n30,30,5\n30,-60,6\n", "astm");
+    const ImportTable *t = table_at(f, 30, 180);
+    assert_near(value_at(t, 30, 0, 0), 5, 0);
+    assert_near(value_at(t, 60, 180, 0), 6, 0);
+    assert_reads(f, "VARS theta_i,phi_i,theta_s,phi_s,R,G,B\n30,90,30,270,1,2,3\n", "astm");
+    t = table_at(f, 30, 90);
+    assert_near(value_at(t, 30, 0, 0), 3, 0);
+    assert_near(value_at(t, 30, 0, 2), 1, 0);
+    assert_noted(f, "blue, green and red stand as three bands at 465, 550 and 612 nm");
+}
+
+static void astm_errors_name_the_line(void **state)
+{
+    Fixture        *f = *state;
+    const Importer *i = &importer_astm;
+    assert_refused(f, "NUM_POINTS 2\nVARS theta_i,theta_s,brdf\n30,30,5\n", i,
+                   "line 3: there are 1 rows, and NUM_POINTS is 2");
+    assert_refused(f, "VARS theta_i,theta_s,brdf\n30,30\n40,40,4\n", i,
+                   "line 3: the row before has fewer than 3 numbers");
+    assert_refused(f, "VARS theta_i,theta_s,brdf\n30,30,five\n", i,
+                   "line 2: a number of the row is 'five', wanted a number");
+    assert_refused(f, "VARS theta_i,theta_s,nice,nasty\n30,30,5,6\n", i, "line 2: VARS names "
+                   "'nice', wanted a wavelength like 550nm, or R,G,B or X,Y,Z, or one column");
+    assert_refused(f, "VARS theta_i,phi_s,brdf\n30,30,5\n", i, "line 2: VARS names no theta_s");
+    f->options.wavelength_nm = 0;
+    assert_refused(f, "VARS theta_i,theta_s,brdf\n30,30,5\n", i,
+                   "does not say the wavelength of its values — give it as --wavelength NM");
+    assert_prefixes_refused(f, ASTM, strlen(ASTM), 1, i);
+}
+
+/* ---- SSDD -------------------------------------------------------------------------------- */
+
+#define SSDD_HEAD                                                                              \
+    "VERSION 0.2\n\nDATA_TYPE brdf\nCOLOR_MODEL spectrum\nWAVELENGTH_LIST 450 650\n"
+
+static void ssdd_spherical_angles_and_their_order(void **state)
+{
+    Fixture *f = *state;
+    assert_reads(f, SSDD_HEAD "PARAM_TYPE spherical_coordinate_system\nPARAM0_LIST 20 40\n"
+                    "PARAM2_LIST 0 30\nPARAM3_LIST 0 90 180 270\nDATA ascii\n"
+                    "# PARAM3 0\n1 101\n2 102\n3 103\n4 104\n5 105\n6 106\n7 107\n8 108\n"
+                    "9 109\n10 110\n11 111\n12 112\n13 113\n14 114\n15 115\n16 116\n", "ssdd");
+    const ImportTable *t = table_at(f, 40, 180);
+    assert_near(value_at(t, 30, 180, 0), 4, 0);   /* towards the light, at phi 0 there */
+    assert_near(value_at(t, 30, 0, 0), 12, 0);    /* the mirror direction's side */
+    assert_near(value_at(t, 30, 270, 1), 108, 0);
+    assert_near(value_at(table_at(f, 20, 180), 30, 90, 0), 15, 0);
+}
+
+static void ssdd_specular_angles_count_from_the_mirror_direction(void **state)
+{
+    Fixture *f = *state;
+    assert_reads(f, "VERSION 0.2\nDATA_TYPE btdf\nCOLOR_MODEL monochrome\n"
+                    "PARAM_TYPE spherical_coordinate_system\nPARAM0_LIST 0\nPARAM2_LIST 0\n"
+                    "PARAM3_LIST 0\nDATA ascii\n0.5\n"
+                    "DATA_TYPE brdf\nCOLOR_MODEL monochrome\n"
+                    "PARAM_TYPE specular_coordinate_system\nREDUCTION_TYPE bilateral_symmetry\n"
+                    "PARAM0_LIST 40\nPARAM2_LIST 0 10\nPARAM3_LIST 0 90 180\nDATA ascii\n"
+                    "9\n1\n9\n2\n9\n3\n", "ssdd");
+    const ImportTable *t = table_at(f, 40, 180);
+    assert_near(value_at(t, 40, 0, 0), 9, 0);
+    assert_near(value_at(t, 30, 0, 0), 1, 0);
+    assert_near(value_at(t, 50, 0, 0), 3, 0);
+    double theta = acos(cos(10 * RAD) * cos(40 * RAD)) / RAD;
+    double phi = asin(sin(10 * RAD) / sin(theta * RAD)) / RAD;
+    assert_near(value_at(t, theta, phi, 0), 2, 0);
+    assert_near(value_at(t, theta, -phi, 0), 2, 0);
+    assert_noted(f, "a block of transmission or of mirror reflectance is left out");
+}
+
+/* Linear in each angle, so that the interpolation is exact: brdf = 1 + theta_h / 90 +
+ * 2 theta_d / 90 (phi_d does not matter). Binary. */
+static void ssdd_half_difference_angles_are_evaluated(void **state)
+{
+    Fixture *f = *state;
+    char     bytes[512] = "VERSION 0.2\nDATA_TYPE brdf\nCOLOR_MODEL monochrome\n"
+                          "PARAM_TYPE half_difference_coordinate_system\n"
+                          "REDUCTION_TYPE bilateral_symmetry reciprocity\nPARAM0_LIST 0 90\n"
+                          "PARAM2_LIST 0 90\nPARAM3_LIST 0 90\nDATA binary\n";
+    size_t   size = strlen(bytes);
+    for (int i3 = 0; i3 < 2; i3++)
+        for (int i2 = 0; i2 < 2; i2++)
+            for (int i0 = 0; i0 < 2; i0++) {
+                float value = (float)(1 + i0 + 2 * i2);
+                memcpy(bytes + size, &value, sizeof value);
+                size += sizeof value;
+            }
+    assert_true(fixture_read(f, bytes, size, "ssdd"));
+    assert_int_equal(f->set.count, 9);
+    const ImportTable *t = table_at(f, 60, 180);
+    assert_true(t->rows > 500);
+    for (int i = 0; i < t->rows; i += 7) {
+        HalfAngles h = half_angles(direction_from_degrees(60, 180),
+                                   direction_from_degrees(t->theta_deg[i], t->phi_deg[i]));
+        assert_close(t->value[i], 1 + h.half_theta / 90 + 2 * h.diff_theta / 90, 1e-6);
+    }
+    /* In the mirror direction theta_h is 0 and theta_d the incidence. */
+    int at = row_at(t, 60, 0, 1e-6);
+    assert_close(t->value[at], 1 + 2 * 60.0 / 90, 1e-6);
+    assert_prefixes_refused(f, bytes, size, 1, &importer_ssdd);
+}
+
+static void ssdd_errors_name_the_line(void **state)
+{
+    Fixture        *f = *state;
+    const Importer *i = &importer_ssdd;
+    assert_refused(f, "DATA_TYPE brdf\n", i,
+                   "line 1: the file begins with 'DATA_TYPE', wanted VERSION");
+    assert_refused(f, SSDD_HEAD "PARAM_TYPE spherical_coordinate_system\nPARAM0_LIST 20\n"
+                      "PARAM2_LIST 0\nPARAM3_LIST 0\nDATA ascii\n1\n", i,
+                   "line 11: the block announces 2 numbers, more than the rest of the file can "
+                   "hold");
+    assert_refused(f, SSDD_HEAD "PARAM_TYPE spherical_coordinate_system\n"
+                      "PARAM0_LIST 20 10\n", i, "line 8: PARAM0_LIST does not rise at 10");
+    assert_refused(f, "VERSION 0.2\nDATA_TYPE btdf\n", i,
+                   "line 3: the file ends without a table of reflection");
+}
+
+/* ---- Speos ------------------------------------------------------------------------------- */
+
+/* Values in proportion to 3 at phi 0 and 1 at phi 180, Lambertian otherwise (2), as intensity:
+ * times the cosine. The spectrum says 50% and 30%. */
+static char *speos_text(Arena *arena, bool is_bsdf)
+{
+    char *text = arena_format(arena, "OPTIS - Anisotropic BSDF surface file v8.0\n0\nComment\n"
+                              "11\nDescription\n0 1 0\n1 0\n%d\n2\n0 90\n2\n0 40\n2\n0 40\n"
+                              "0 0\n\n2\n300 70\n700 30\n", is_bsdf);
+    for (int table = 0; table < 4; table++) {
+        text = arena_format(arena, "%s19 5\n0 90 180 270 360\n", text);
+        for (int i = 0; i <= 18; i++) {
+            double cosine = is_bsdf ? 1 : cos(i * 5 * RAD);
+            double front = (table == 1 ? 3 : 2) * cosine, back = (table == 1 ? 1 : 2) * cosine;
+            text = arena_format(arena, "%s%d %.9g %.9g %.9g %.9g %.9g\n", text, i * 5, front,
+                                2 * cosine, back, 2 * cosine, front);
+        }
+    }
+    return arena_format(arena, "%sEnd of file\n", text);
+}
+
+static void speos_values_are_scaled_to_the_stated_reflectance(void **state)
+{
+    Fixture *f = *state;
+    for (int is_bsdf = 0; is_bsdf < 2; is_bsdf++) {
+        assert_reads(f, speos_text(&f->arena, is_bsdf), "speos");
+        assert_int_equal(f->set.count, 4);
+        assert_true(f->set.is_anisotropic);
+        /* At normal incidence the value 2 has the integral 2 pi, so brdf = R / pi. */
+        const ImportTable *t = table_at(f, 40, 180);
+        assert_close(t->wavelength_nm[0], 360, 1e-7);
+        assert_close(t->wavelength_nm[1], 700, 1e-7);
+        assert_close(value_at(table_at(f, 0, 180), 30, 90, 1), 0.3 / PI, 2e-3);
+        assert_close(value_at(t, 40, 90, 0), (0.7 - 0.4 * 60 / 400) / PI, 2e-3);
+        assert_close(value_at(t, 40, 0, 1), 1.5 * 0.3 / PI, 2e-3);
+        assert_close(value_at(t, 40, 180, 1), 0.5 * 0.3 / PI, 2e-3);
+        /* Anisotropy angle 90: the mirror direction is at -90, the light at 90. */
+        assert_close(value_at(table_at(f, 40, 90), 40, 0, 1), 0.3 / PI, 2e-3);
+    }
+}
+
+static void speos_spectral_tables_have_their_own_reflectance(void **state)
+{
+    Fixture *f = *state;
+    assert_reads(f, "OPTIS - BRDF surface file v8.0\n0\nComment\n0\n\n1 0\n1\n1 2\n30\n"
+                    "450 650\n40\n3 2\n0 180\n0 2 2\n45 2 2\n90 2 2\n"
+                    "20\n3 2\n0 180\n0 5 5\n45 5 5\n90 5 5\n", "speos");
+    assert_int_equal(f->set.count, 2);
+    assert_close(f->set.table[0].wavelength_nm[0], 450, 1e-7);
+    assert_close(value_at(&f->set.table[0], 45, 0, 0), 0.4 / PI, 1e-4);
+    assert_close(f->set.table[1].wavelength_nm[0], 650, 1e-7);
+    assert_close(value_at(&f->set.table[1], 45, 180, 0), 0.2 / PI, 1e-4);
+}
+
+static void speos_errors_name_the_line(void **state)
+{
+    Fixture        *f = *state;
+    const Importer *i = &importer_speos;
+    assert_refused(f, "OPTIS - Anisotropic BSDF surface file v7.0\n0\n", i,
+                   "line 2: the version is 'v7.0', wanted v8.0 or later");
+    assert_refused(f, "OPTIS - Anisotropic BSDF surface file v8.0\n0\nC\n0\n\n0 1 0\n0 1\n"
+                      "1\n", i, "line 8: there is transmission only: a display panel is opaque");
+    assert_refused(f, "OPTIS - BRDF surface file v8.0\n0\nC\n0\n\n1 0\n1\n1 1\n30\n450\n40\n"
+                      "2 1\n0\n0 1\n95 1\n", i, "theta is 95, wanted 0 to 90 degrees");
+    assert_refused(f, "OPTIS - Simple scattering surface file v2.0\nC\nReflection\n"
+                      "10 50 0 5\n", i, "line 4: the shares are 10, 50 and 0%; only a "
+                   "Lambertian surface (0, above 0, 0) is known here");
+    const char *text = speos_text(&f->arena, true);
+    assert_prefixes_refused(f, text, strlen(text) - 12, 61, i); /* without "End of file" */
+}
+
+/* One block of literals: a token of 15 and the rest of the length, then the bytes. */
+static void put_block(unsigned char **at, const double *number, size_t count)
+{
+    size_t size = count * sizeof *number, rest = size - 15;
+    unsigned char packed[4096], *p = packed;
+    assert_true(size >= 15 && size < 4000);
+    *p++ = 0xF0;
+    for (; rest >= 255; rest -= 255) *p++ = 255;
+    *p++ = (unsigned char)rest;
+    memcpy(p, number, size);
+    p += size;
+    uint64_t bytes = size;
+    uint32_t again = (uint32_t)size, length = (uint32_t)(p - packed);
+    memcpy(*at, &bytes, 8);
+    memcpy(*at + 8, &again, 4);
+    memcpy(*at + 12, &length, 4);
+    memcpy(*at + 16, packed, length);
+    *at += 16 + length;
+}
+
+static void put_u32(unsigned char **at, uint32_t value)
+{
+    memcpy(*at, &value, 4);
+    *at += 4;
+}
+
+static void put_doubles(unsigned char **at, const double *list, size_t count)
+{
+    memcpy(*at, list, count * sizeof *list);
+    *at += count * sizeof *list;
+}
+
+/* One light at 30 degrees, BSDF values 2 everywhere but 6 at (45, 0); reflectance 0.25. */
+static size_t speos_binary(unsigned char *bytes)
+{
+    unsigned char *at = bytes;
+    double anisotropy[2] = {0, 90}, incidence[2] = {30, 50}, theta[3] = {0, 45, 90};
+    double phi[3] = {0, 120, 240}, flags[2] = {1, 1}, vector[3] = {0, 1, 0};
+    double where[2] = {30, 0}, spectrum[4] = {400, 700, 25, 25};
+    double settings[16] = {0}, tail = 632;
+    memcpy(at, "OPTIS - Anisotropic BSDF surface file v9.0\n1", 44);
+    at += 44;
+    put_u32(&at, 3);
+    put_u32(&at, 1);
+    *at++ = 0;
+    put_doubles(&at, vector, 3);
+    put_u32(&at, 4);
+    memcpy(at, "note", 4);
+    at += 4;
+    put_u32(&at, 0);
+    *at++ = 1;
+    *at++ = 0;
+    put_doubles(&at, flags, 2);
+    *at++ = 1;
+    *at++ = 0;
+    put_u32(&at, 2);
+    put_block(&at, anisotropy, 2);
+    for (int i = 0; i < 2; i++) {
+        put_u32(&at, 2);
+        put_block(&at, incidence, 2);
+    }
+    put_doubles(&at, where, 2);
+    put_u32(&at, 0);
+    put_u32(&at, 2);
+    put_doubles(&at, spectrum, 4);
+    for (int i = 0; i < 4; i++) {
+        double value[9] = {2, 2, 2, i ? 2 : 6, 2, 2, 2, 2, 2}; /* rows of theta */
+        put_u32(&at, 3);
+        put_u32(&at, 3);
+        put_block(&at, theta, 3);
+        put_block(&at, phi, 3);
+        put_block(&at, value, 9);
+    }
+    put_doubles(&at, settings, 16);
+    *at++ = 0;
+    put_doubles(&at, &tail, 1);
+    return (size_t)(at - bytes);
+}
+
+static void speos_binary_holds_what_its_text_would(void **state)
+{
+    Fixture      *f = *state;
+    unsigned char bytes[4096];
+    size_t        size = speos_binary(bytes);
+    assert_true(fixture_read(f, bytes, size, "speos"));
+    assert_int_equal(f->set.count, 4);
+    const ImportTable *t = table_at(f, 30, 180);
+    assert_close(value_at(t, 45, 0, 0) / value_at(t, 45, 120, 0), 3, 1e-12);
+    assert_close(value_at(t, 45, 120, 0), value_at(t, 0, 0, 1), 1e-12);
+    table_at(f, 50, 90);
+    assert_prefixes_refused(f, bytes, size, 1, &importer_speos);
+    bytes[44] = 4;
+    assert_false(fixture_read(f, bytes, size, "speos"));
+    assert_string_equal(f->err.text, "a field of the header is 4, and only 3 is known here — "
+                                     "save the file as text");
+}
+
+/* Worked out from the file by an independent reading: the table at 5 degrees has 0.172308 at
+ * (30, 0), times cosine; H(5) = 0.61736, H(10) = 0.62309 and R(6) = 62.27%. */
+static void a_real_measurement_of_speos_has_its_values(void **state)
+{
+    Fixture    *f = *state;
+    const char *file = shared_bsdf(f, "speos/R_test.anisotropicbsdf");
+    assert_true(fixture_read_file(f, file, "speos"));
+    assert_int_equal(f->set.count, 19);
+    const ImportTable *t = table_at(f, 5, 180);
+    assert_int_equal(t->channels, 2);
+    assert_close(value_at(t, 30, 0, 0), 0.200317, 1e-3);
+    assert_close(value_at(table_at(f, 60, 180), 60, 180, 1), 0.487850, 1e-3);
+    assert_noted(f, "brighter towards the light");
+    file = shared_bsdf(f, "speos/L100_2.simplescattering");
+    assert_true(fixture_read_file(f, file, "speos"));
+    assert_close(value_at(table_at(f, 40, 180), 45, 90, 0), 1 / PI, 1e-12);
+}
+
+static void lz4_blocks_that_are_not_sound_are_refused(void **state)
+{
+    (void)state;
+    unsigned char out[64];
+    const unsigned char good[] = {0x14, 'a', 1, 0, 0x50, 'b', 'c', 'd', 'e', 'f'};
+    assert_true(lz4_block_decode(good, sizeof good, out, 14));
+    assert_memory_equal(out, "aaaaaaaaabcdef", 14);
+    assert_false(lz4_block_decode(good, sizeof good, out, 13));
+    assert_false(lz4_block_decode(good, sizeof good, out, 15));
+    for (size_t n = 0; n < sizeof good; n++) assert_false(lz4_block_decode(good, n, out, 14));
+    const unsigned char far[] = {0x14, 'a', 2, 0, 0x50, 'b', 'c', 'd', 'e', 'f'};
+    assert_false(lz4_block_decode(far, sizeof far, out, 14));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        fixture_case(astm_mirror_lies_opposite_the_light),
+        fixture_case(astm_in_plane_lists_and_degrees),
+        fixture_case(astm_errors_name_the_line),
+        fixture_case(ssdd_spherical_angles_and_their_order),
+        fixture_case(ssdd_specular_angles_count_from_the_mirror_direction),
+        fixture_case(ssdd_half_difference_angles_are_evaluated),
+        fixture_case(ssdd_errors_name_the_line),
+        fixture_case(speos_values_are_scaled_to_the_stated_reflectance),
+        fixture_case(speos_spectral_tables_have_their_own_reflectance),
+        fixture_case(speos_errors_name_the_line),
+        fixture_case(speos_binary_holds_what_its_text_would),
+        fixture_case(a_real_measurement_of_speos_has_its_values),
+        cmocka_unit_test(lz4_blocks_that_are_not_sound_are_refused),
+    };
+    return cmocka_run_group_tests_name("import_bsdf_tables", tests, NULL, NULL);
+}
