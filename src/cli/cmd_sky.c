@@ -158,8 +158,8 @@ static int figure_lines(const Work *work, const OutsideFigures *f, const char *l
     Arena *arena = work->arena;
     int    n = 0;
     if (work->sky.model || work->sky.has_sun) {
-        line[n++] = arena_format(arena, "sun|azimuth %.2f°, elevation %.2f°%s",
-                                 f->sun_azimuth_deg, f->sun_elevation_deg,
+        line[n++] = arena_format(arena, "sun's azimuth|%.3f°", f->sun_azimuth_deg);
+        line[n++] = arena_format(arena, "sun's elevation|%.3f°%s", f->sun_elevation_deg,
                                  f->is_sun_up ? "" : " (down)");
         line[n++] = arena_format(arena, "direct normal|%.0f lx", f->direct_normal_lx);
     }
@@ -194,7 +194,7 @@ static void print_lines(const char *const *line, int count)
 static bool write_exr(const Work *work, Error *err)
 {
     ExrWindow  data = {0, 0, work->size[0], work->size[1]};
-    FrameImage frame = frame_create(work->size[0], work->size[1], data, 3, work->arena);
+    FrameImage frame = frame_create(work->size[0], work->size[1], data, 3, 8, work->arena);
     for (int i = 0; i < 3; i++) {
         char name[2] = {"RGB"[i], 0};
         memcpy(frame_add_channel(&frame, name, false, work->arena), work->rgb[i],

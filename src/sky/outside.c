@@ -385,9 +385,8 @@ static float shape_luminance(const Outside *out, float elevation, float azimuth)
 {
     float sine, cosine;
     sincos_turns(elevation * (0.5f * INV_PI_F), &sine, &cosine);
-    return out->shape_scale * (float)sky_shape_value(&out->shape, (double)sine,
-                                                     (double)angle_to_sun(out, elevation,
-                                                                          azimuth));
+    return out->shape_scale *
+           sky_shape_at(&out->shape, sine, angle_to_sun(out, elevation, azimuth));
 }
 
 float outside_luminance(const Outside *out, float elevation, float azimuth)

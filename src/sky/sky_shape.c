@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/mathf.h"
 #include "base/units.h"
 
 SkyShape sky_shape_cie(int type)
@@ -131,6 +132,18 @@ double sky_shape_value(const SkyShape *shape, double cos_theta, double gamma)
     double indicatrix = 1 + shape->c * (exp(shape->d * gamma) - shape->offset) +
                         shape->e * c * c;
     return fmax(0, gradation * indicatrix);
+}
+
+float sky_shape_at(const SkyShape *shape, float cos_theta, float gamma)
+{
+    float sine, c;
+    if (shape->linear > 0) return (1 + (float)shape->linear * cos_theta) * (1 / 3.0f);
+    sincos_turns(gamma * (0.5f * INV_PI_F), &sine, &c);
+    float gradation = 1 + (float)shape->a * exp_f((float)shape->b / fmaxf(cos_theta, 1e-6f));
+    float indicatrix = 1 + (float)shape->c * (exp_f((float)shape->d * gamma) -
+                                              (float)shape->offset) +
+                       (float)shape->e * c * c;
+    return fmaxf(0, gradation * indicatrix);
 }
 
 /* Midpoints; the azimuth over half a turn, since the sky is symmetric about the sun's. */

@@ -38,6 +38,9 @@ bool sky_shape_perez(const PerezInput *input, SkyShape *out, PerezState *state, 
 /* Relative luminance at cos theta (above 0) and at an angle gamma to the sun. Never negative. */
 double sky_shape_value(const SkyShape *shape, double cos_theta, double gamma);
 
+/* HOT: the same without the C library, so that frames are the same everywhere. */
+float sky_shape_at(const SkyShape *shape, float cos_theta, float gamma);
+
 /* Integral over the upper hemisphere of value cos theta, sr, with the sun at sun_zenith;
  * steps: of both angles (1000: about 1e-6). */
 double sky_shape_integral(const SkyShape *shape, double sun_zenith, int steps);

@@ -307,6 +307,18 @@ static void perez_makes_the_known_skies(void **state)
     }
 }
 
+static void the_quick_form_of_a_shape_is_the_same(void **state)
+{
+    (void)state;
+    for (int type = 1; type <= 16; type++) {
+        SkyShape shape = sky_shape_cie(type);
+        for (float c = 0.01f; c <= 1; c += 0.07f)
+            for (float gamma = 0; gamma < 3.1f; gamma += 0.2f)
+                assert_near(sky_shape_at(&shape, c, gamma),
+                            sky_shape_value(&shape, (double)c, (double)gamma), 1e-4);
+    }
+}
+
 static void irradiances_without_a_sky_are_refused(void **state)
 {
     (void)state;
@@ -413,6 +425,7 @@ int main(void)
         cmocka_unit_test(limb_darkening_keeps_the_irradiance),
         cmocka_unit_test(the_cie_skies_have_their_known_illuminance_over_zenith_luminance),
         cmocka_unit_test(perez_makes_the_known_skies),
+        cmocka_unit_test(the_quick_form_of_a_shape_is_the_same),
         cmocka_unit_test(irradiances_without_a_sky_are_refused),
         cmocka_unit_test(a_weather_file_tells_place_and_hours),
         cmocka_unit_test(every_prefix_of_a_weather_file_is_read_or_refused_by_line),
