@@ -324,6 +324,19 @@ static void fill_beam(Outside *out)
     curve_from_rows(gases, &out->beam);
 }
 
+/* Irradiances from 300 to 4000 nm by SPECTRL2's ratio of watts to lux. */
+static void tell_watts(Outside *out, double beam_lux)
+{
+    OutsideFigures *f = &out->figures;
+    Spectrl2 ground = ground_spectra(out);
+    Curve    diffuse;
+    curve_from_rows(ground.diffuse, &diffuse);
+    if (beam_lux > 0)
+        f->direct_normal_w_m2 = spectrl2_total(ground.direct) * f->direct_normal_lx / beam_lux;
+    f->diffuse_horizontal_w_m2 = spectrl2_total(ground.diffuse) * f->diffuse_horizontal_lx /
+                                 curve_luminance(&diffuse);
+}
+
 static bool build_clear(Outside *out, Arena *arena, Error *err)
 {
     const OutsideInput *in = &out->input;
@@ -345,8 +358,7 @@ static bool build_clear(Outside *out, Arena *arena, Error *err)
     f->floor_cd_m2 = relative_luminance(out, out->atmosphere.floor_exitance) / PI;
     f->global_horizontal_lx = f->diffuse_horizontal_lx +
                               f->direct_normal_lx * fmax(0, sin(out->sun_elevation));
-    f->direct_normal_w_m2 = lux > 0 ? spectrl2_total(ground_spectra(out).direct) *
-                                          f->direct_normal_lx / lux : 0;
+    tell_watts(out, lux);
     curve_from_relative(out, atmosphere_radiance(&out->atmosphere, (float)(PI / 2), 0), &zenith);
     f->zenith_cd_m2 = curve_luminance(&zenith);
     curve_xy(&zenith, f->zenith_xy);

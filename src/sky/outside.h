@@ -51,7 +51,7 @@ typedef struct OutsideFigures {
     double sun_azimuth_deg, sun_elevation_deg, sun_zenith_deg; /* apparent */
     double true_elevation_deg, refraction_deg, distance_au, horizon_deg;
     double direct_normal_lx, diffuse_horizontal_lx, global_horizontal_lx;
-    double direct_normal_w_m2, diffuse_horizontal_w_m2; /* 300..4000 nm; clear: 360..830 nm */
+    double direct_normal_w_m2, diffuse_horizontal_w_m2; /* 300..4000 nm */
     double zenith_cd_m2, sun_xy[2], zenith_xy[2], floor_cd_m2;
     double air_mass;
     bool   is_sun_up; /* part of its disc at least */
