@@ -1,9 +1,25 @@
 #!/bin/sh
-# long.sh -- what takes too long for run.sh: every closed form, thousands of broken models under
-# the address sanitizer, and the second compiler.
+# long.sh -- what takes too long for run.sh: every closed form, thousands of broken models and
+# panels under the address sanitizer, and the second compiler.
 cd "$(dirname "$0")/.." || exit 1
 sh third_party/install.sh --tests || exit 1
 . tests/steps.sh
+
+# build_native: the second compiler, every instruction that this machine has
+build_native()
+{
+    cmake --preset clang -B .build/native -DCMAKE_C_FLAGS=-march=native &&
+        cmake --build .build/native --target parhelion
+}
+
+# run_mutations: 100,000 mutated panel files under the sanitizers
+run_mutations()
+{
+    PARHELION_MUTATIONS=100000
+    export PARHELION_MUTATIONS
+    run_units '100,000 broken panels' panels-long .build/asan --timeout 3600 -R '^panel_files$'
+    unset PARHELION_MUTATIONS
+}
 
 run_one 'release build' build-release build release all || finish
 run 'all closed forms in frames' image-long \
@@ -13,8 +29,15 @@ if run_one 'build by the second compiler' build-clang build clang all; then
     run 'same bits from both compilers' bits-clang \
         python3 tests/image/bits.py --against .build/release/parhelion .build/clang/parhelion
 fi
+# A panel file is queried in place: every build must read every other one's.
+if run_one 'build for this processor only' build-native build_native; then
+    run 'panels of one build in another' panels-native \
+        python3 tests/hostile/panel_commands.py --against .build/release/parhelion \
+        .build/native/parhelion
+fi
 if run_one 'build with address sanitizer' build-asan build asan all; then
     export UBSAN_OPTIONS=print_stacktrace=1
+    run_mutations
     run 'thousands of broken models' hostile-long \
         python3 tests/hostile/run.py --all .build/asan/parhelion
 fi

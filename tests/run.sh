@@ -15,6 +15,8 @@ if run_one 'release build, warnings are errors' build-release build release all;
     run 'libraries keep no state' globals sh tests/structure/globals.sh .build/release
     run_units 'unit tests' unit .build/release
     run 'the command line' cli python3 tests/hostile/cli.py .build/release/parhelion
+    run 'panel commands' panel-commands \
+        python3 tests/hostile/panel_commands.py .build/release/parhelion
     run 'closed forms in frames' image python3 tests/image/run.py .build/release/parhelion
     run 'displays against their panels' display \
         python3 tests/image/display.py .build/release/parhelion

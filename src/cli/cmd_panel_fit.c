@@ -1,5 +1,7 @@
 /* panel fit: from files of a laboratory to a panel file. */
 #include <stdio.h>
+#include <sys/resource.h>
+#include <time.h>
 
 #include "cli/cli.h"
 #include "cli/panel_commands.h"
@@ -38,6 +40,35 @@ static void print_choices(const char *label, const json_t *choices)
     printf("\n");
 }
 
+/* Samples that stand out, and directions that are missing: of a fit, not of a file. */
+static void print_flags(const char *label, const json_t *flags)
+{
+    size_t  i;
+    json_t *flag, *value;
+    json_array_foreach((json_t *)flags, i, flag) {
+        printf("%-10s %s, theta %.6g, phi %.6g", label,
+               json_string_value(json_object_get(flag, "table")),
+               json_number_value(json_object_get(flag, "theta_deg")),
+               json_number_value(json_object_get(flag, "phi_deg")));
+        if ((value = json_object_get(flag, "value")))
+            printf(": %.5g cd/m2, expected %.5g", json_number_value(value),
+                   json_number_value(json_object_get(flag, "expected")));
+        printf("\n");
+    }
+}
+
+/* What the process took. */
+static void add_usage(json_t *report)
+{
+    struct rusage usage;
+    struct timespec now;
+    if (getrusage(RUSAGE_SELF, &usage) || clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now)) return;
+    json_object_set_new(report, "peak_memory_bytes",
+                        json_integer((json_int_t)usage.ru_maxrss * 1024));
+    json_object_set_new(report, "cpu_seconds",
+                        json_real((double)now.tv_sec + 1e-9 * (double)now.tv_nsec));
+}
+
 void panel_print_report(const json_t *report)
 {
     size_t  i;
@@ -50,11 +81,17 @@ void panel_print_report(const json_t *report)
     print_choices("reflection", json_object_get(report, "reflection"));
     json_array_foreach(json_object_get(report, "notes"), i, value)
         printf("note       %s\n", json_string_value(value));
+    print_flags("outlier", json_object_get(report, "outliers"));
+    print_flags("hole", json_object_get(report, "holes"));
     printf("errors are relative; sizes in bytes; trees are shared, a table's part is its even "
            "share\n%-16s %10s %12s %9s %8s %9s %9s %9s %9s %7s\n", "table", "text", "values",
            "bytes", "ratio", "max err", "rms err", "integral", "noise", "extrap.");
     json_array_foreach(json_object_get(report, "tables"), i, value) print_table(value);
     print_table(json_object_get(report, "total"));
+    if ((value = json_object_get(report, "peak_memory_bytes")))
+        printf("took       %.1f s of processor time, %.0f MB at most\n",
+               json_number_value(json_object_get(report, "cpu_seconds")),
+               1e-6 * json_number_value(value));
 }
 
 bool cmd_panel_fit(int argc, char **argv, Error *err)
@@ -65,18 +102,24 @@ bool cmd_panel_fit(int argc, char **argv, Error *err)
     int         basis = 0, wavelet = WAVELET_CDF53, weights = 0, incidence = 0;
     long        level = 0;
     double      keep = 0, max_error = 0, frame = 0;
+    bool        mask = false;
     const Option options[] = {
         {"-o", OPTION_TEXT, "X.panel", "the file to write", &output, .given = NULL},
-        {"--basis", OPTION_CHOICE, "haar", "basis on the hemisphere (default haar)", &basis,
-         .given = NULL},
-        {"--weights", OPTION_CHOICE, "area|equal", "means by area or equal (default area)",
-         &weights, .given = NULL},
-        {"--level", OPTION_INTEGER, "N", "subdivision level of the trees (default 6)", &level,
+        {"--basis", OPTION_CHOICE, "vertex|haar",
+         "basis on the hemisphere (default vertex)", &basis, .given = NULL},
+        {"--weights", OPTION_CHOICE, "area|equal",
+         "Haar's means by area or equal (default area)", &weights, .given = NULL},
+        {"--level", OPTION_INTEGER, "N",
+         "subdivision level of the trees (default: what the samples need, up to 9)", &level,
          2, 9, .given = NULL},
         {"--keep", OPTION_NUMBER, "SHARE", "share of coefficients to keep, instead of a bound",
          &keep, 1e-5, 1, .given = NULL},
-        {"--max-error", OPTION_NUMBER, "R", "relative error bound of the trees (default 0.003)",
-         &max_error, 1e-5, 1, .given = NULL},
+        {"--max-error", OPTION_NUMBER, "R",
+         "relative error allowed at every sample besides its noise (default: 0.0025 for "
+         "emission, 0.02 for reflection, or what the noise asks for)", &max_error, 1e-5, 1,
+         .given = NULL},
+        {"--mask-outliers", OPTION_FLAG, NULL,
+         "errors leave out hot and dead pixels of emission tables", &mask, .given = NULL},
         {"--wavelet", OPTION_CHOICE, "haar|cdf53|cdf97",
          "wavelet along the wavelengths (default cdf53)", &wavelet, .given = NULL},
         {"--frame", OPTION_NUMBER, "K",
@@ -102,7 +145,9 @@ bool cmd_panel_fit(int argc, char **argv, Error *err)
     fit.is_linear_in_incidence = incidence == 1;
     fit.progress = cli.progress;
     fit.threads = cli.threads;
-    if (max_error > 0) fit.max_error = (float)max_error;
+    fit.basis = (FitBasis)basis;
+    fit.mask_outliers = mask;
+    if (max_error > 0) fit.bound = (float)max_error;
     if (keep > 0) {
         fit.keep_share = (float)keep;
         fit.max_error = 0;
@@ -111,6 +156,7 @@ bool cmd_panel_fit(int argc, char **argv, Error *err)
     json_t      *report = NULL;
     bool ok = measurement_read(cli.arguments[0], &arena, set, err) &&
               panel_fit(set, &fit, output, &arena, &report, err);
+    if (ok) add_usage(report);
     if (ok && cli.json) {
         ok = cli_print_json(report, err);
     } else if (ok) {

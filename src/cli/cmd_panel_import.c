@@ -6,7 +6,7 @@
 #include "cli/panel_commands.h"
 #include "import/import_request.h"
 
-#define ARENA_BYTES ((size_t)256 << 30) /* address space; pages cost nothing until touched */
+#define ARENA_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
 static void show_progress(void *context, int done)
@@ -15,17 +15,18 @@ static void show_progress(void *context, int done)
 }
 
 /* Reads every file and makes the set; the bar ends before anything else is printed. */
-static bool read_files(const Cli *cli, const ImportRequest *request, ImportSet *set, Error *err)
+static bool read_files(const Cli *cli, ImportRequest *request, ImportSet *set, Error *err)
 {
     Progress progress = progress_start(cli->progress, "import", "files", cli->argument_count);
-    bool ok = import_run(cli->arguments, cli->argument_count, request, show_progress, &progress,
-                         set, err);
+    request->step = show_progress;
+    request->context = &progress;
+    bool ok = import_run(cli->arguments, cli->argument_count, request, set, err);
     if (ok) progress_end(&progress, cli->argument_count);
     else progress_clear(&progress);
     return ok;
 }
 
-/* ---- the summary --------------------------------------------------------------------------- */
+/* ---- the summary ------------------------------------------------------------------------- */
 
 static json_t *table_summary(const ImportSet *set, const ImportTable *table, Arena *arena)
 {
@@ -70,14 +71,14 @@ static void print_summary(const ImportSet *set, const char *manifest, Arena *are
     printf("%s: %d tables, %.0f directions, %.0f masked\n", manifest, set->count, rows, masked);
 }
 
-/* ---- options ------------------------------------------------------------------------------- */
+/* ---- options ----------------------------------------------------------------------------- */
 
 #define KEYS_MAX 32
 #define OPTIONS_MAX (KEYS_MAX + 16)
 
 /* What the command line holds before it is put on top of the declaration file. */
 typedef struct Words {
-    const char *output, *layout, *primaries, *panel, *instrument, *format;
+    const char *output, *layout, *primaries, *panel, *instrument, *format, *symmetry;
     CliTexts    roles, skip, list[KEYS_MAX];
     const char *key[KEYS_MAX]; /* of the text tables' keys */
     double      wavelength_nm, area_mm[2];
@@ -95,7 +96,7 @@ static const char *option_name(const char *key, Arena *arena)
 
 static bool is_list(const char *key)
 {
-    return !strcmp(key, "comment") || !strcmp(key, "mask");
+    return !strcmp(key, "comment") || !strcmp(key, "mask") || !strcmp(key, "section");
 }
 
 static int list_options(Words *words, Option *option, Arena *arena)
@@ -120,6 +121,8 @@ static int list_options(Words *words, Option *option, Arena *arena)
          words->area_mm, 1e-3, 1e6, 2, &words->has_area},
         {"--isotropic", OPTION_FLAG, NULL, "the light's azimuth makes no difference",
          &words->is_isotropic, .given = NULL},
+        {"--symmetry", OPTION_TEXT, "left-right|up-down|both|half-turn",
+         "of the sample: fills what was not measured", &words->symmetry, .given = NULL},
         {"--no-black", OPTION_FLAG, NULL, "the black pattern was subtracted already",
          &words->black_is_zero, .given = NULL},
         {"--panel", OPTION_TEXT, "NAME", "the panel's name in the manifest", &words->panel,
@@ -179,6 +182,8 @@ static bool make_request(const Words *words, Arena *arena, ImportRequest *reques
             return error_set(err, ERROR_USAGE, "--skip is given too often");
         request->skip.text[request->skip.count++] = words->skip.list[i];
     }
+    if (words->symmetry && !import_symmetry_named(words->symmetry, &request->symmetry, err))
+        return false;
     if (words->format) request->options.format = words->format;
     if (words->wavelength_nm > 0) request->options.wavelength_nm = words->wavelength_nm;
     if (words->has_area)
@@ -191,7 +196,7 @@ static bool make_request(const Words *words, Arena *arena, ImportRequest *reques
     return true;
 }
 
-/* ---- the command --------------------------------------------------------------------------- */
+/* ---- the command ------------------------------------------------------------------------- */
 
 static void print_formats(void)
 {
@@ -222,14 +227,15 @@ bool cmd_panel_import(int argc, char **argv, Error *err)
     const CliCommand command = {"panel import",
         "the files that laboratories have as one measurement set",
         "FILE... -o MANIFEST.json [options]",
-        "parhelion panel import lab/*.csv --azimuth-zero top --azimuth-sense cw "
-        "-o measured/MANIFEST.json", options, count, 1, -1};
+        "parhelion panel import ips_cluster/emission/*.csv ips_cluster/brdf/*.csv "
+        "-o again/MANIFEST.json", options, count, 1, -1};
     if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
     if (cli.help_shown) {
         print_formats();
         return true;
     }
-    if (!words->output) return error_set(err, ERROR_USAGE, "panel import wants -o MANIFEST.json");
+    if (!words->output)
+        return error_set(err, ERROR_USAGE, "panel import wants -o MANIFEST.json");
     bool ok = run(&cli, words, &arena, err);
     arena_release(&arena);
     return ok;

@@ -12,7 +12,7 @@
  *           then every function's probabilities, in steps of SAMPLING_STEPS and as differences
  *           to those of the function before (Rice's code). Densities are derived from the very
  *           probabilities that sampling compares with.
- * Memory    opening expands the blob into the arena: 64 bytes a cell, and 8 a cell and function.
+ * Memory    opening expands the blob into the arena: 64 bytes a cell, 8 a cell and function.
  * Threads   constant after opening. Sampling and pdf are HOT: no allocation, no libm.
  */
 #pragma once
@@ -85,7 +85,7 @@ typedef struct SamplingResult {
 
 /* integrals: functions * octants * 4^level values >= 0, the integral over each leaf (f * cos *
  * Jacobian * area), scaled as one likes. Splits the cells in which the functions' square roots
- * vary most. Fails (ERROR_INPUT) on negative or non-finite values and on a function that is 0. */
+ * vary most. Fails (ERROR_INPUT) on negative or non-finite values and on a function of 0. */
 bool sampling_tree_build(const SamplingOptions *options, const float *integrals, Arena *arena,
                          const void **blob, Error *err);
 

@@ -97,7 +97,7 @@ typedef struct Tree {
     int             level, octants, components;
 
     /* Of vertex trees (vertex_tree.h). */
-    int                        base_level, level_count, plane_level;
+    int                        base_level, level_count, depth_level, plane_level;
     uint32_t                   base_bytes;  /* of a base row */
     float                      base_factor; /* 2^base_exponent */
     const float               *scale;       /* of each component */

@@ -1,22 +1,6 @@
-#include "hemisphere/vertex.h"
+#include "hemisphere/vertex_code.h"
 
 #include <stdlib.h>
-
-uint32_t vertex_count(VertexLattice lattice)
-{
-    uint32_t n = 1u << lattice.level;
-    return lattice.octants == 2 ? (n + 1) * (n + 1) : 2 * n * (n + 1) + 1;
-}
-
-/* Below the x axis row y = t - n starts after t^2 points; above it the rows get shorter. */
-uint32_t vertex_index(VertexLattice lattice, int x, int y)
-{
-    int n = 1 << lattice.level;
-    if (lattice.octants == 2) y = abs(y);
-    if (y < 0) return (uint32_t)((y + n) * (y + n) + y + n + x);
-    int before = lattice.octants == 2 ? 0 : n * n;
-    return (uint32_t)(before + y * (2 * n + 2 - y) + n - y + x);
-}
 
 /* ---- directions -------------------------------------------------------------------------- */
 
@@ -156,4 +140,26 @@ void vertex_gather(VertexLattice lattice, int components, float *rows)
 {
     Edges edges = {lattice, components, rows, add_to_ends};
     for (int i = lattice.level - 1; i >= 0; i--) visit_level(&edges, i);
+}
+
+/* ---- edges ------------------------------------------------------------------------------- */
+
+uint32_t vertex_edges(VertexLattice lattice, int level, VertexEdge *edges)
+{
+    int      n = 1 << lattice.level, half = n >> (level + 1);
+    uint32_t count = 0;
+    for (int y = lattice.octants == 2 ? 0 : -n; y <= n; y += half)
+        for (int x = abs(y) - n; x <= n - abs(y); x += half) {
+            int dx = x & half ? half : 0, dy = y & half ? half : 0;
+            if (!dx && !dy) continue;
+            uint32_t cell_edge = dx && dy ? 2u : dx ? 0u : 1u;
+            if (cell_edge == 2 && (x < 0) == (y < 0)) dy = -dy;
+            if (edges)
+                edges[count] = (VertexEdge){x, y, vertex_index(lattice, x, y),
+                                            {vertex_index(lattice, x - dx, y - dy),
+                                             vertex_index(lattice, x + dx, y + dy)},
+                                            cell_edge};
+            count++;
+        }
+    return count;
 }

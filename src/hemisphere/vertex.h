@@ -29,10 +29,22 @@ typedef struct VertexLattice {
 } VertexLattice;
 
 /* Vertices of the lattice: 2n(n+1)+1 or (n+1)^2 with n = 2^level. */
-uint32_t vertex_count(VertexLattice lattice);
+static inline uint32_t vertex_count(VertexLattice lattice)
+{
+    uint32_t n = 1u << lattice.level;
+    return lattice.octants == 2 ? (n + 1) * (n + 1) : 2 * n * (n + 1) + 1;
+}
 
-/* Index of a lattice point (row by row in y, then x), 0 .. vertex_count - 1. */
-uint32_t vertex_index(VertexLattice lattice, int x, int y);
+/* Index of a lattice point (row by row in y, then x), 0 .. vertex_count - 1. Below the x axis
+ * t^2 points stand before the row that is t rows from the lattice's end, and t before its
+ * middle; above the axis it is the same from the other end. */
+static inline uint32_t vertex_index(VertexLattice lattice, int x, int y)
+{
+    int n = 1 << lattice.level, half = lattice.octants == 2, below = y >> 31;
+    int t = n - ((y ^ below) - below), before = t * t + t, last = 2 * n * (n + 1) - half * n * n;
+    below &= half - 1; /* a mask: the sign of y is as good as random in queries */
+    return (uint32_t)(x + ((before & below) | ((last - before) & ~below)));
+}
 
 /* Unit vector of a lattice point; of all vertices, in order of index. */
 Vec3 vertex_direction(VertexLattice lattice, int x, int y);

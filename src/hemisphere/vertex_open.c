@@ -29,6 +29,9 @@ static bool check_header(const VertexHeader *h, size_t size, Error *err)
         return refuse(err, "number of levels", h->level_count, h->level - h->base_level);
     if (h->components < 1 || h->components > TREE_MAX_COMPONENTS)
         return refuse(err, "component count", h->components, TREE_MAX_COMPONENTS);
+    if (h->depth_level > VERTEX_MAX_DEPTH_LEVEL)
+        return refuse(err, "depth level", h->depth_level, VERTEX_MAX_DEPTH_LEVEL);
+    if (h->zero != 0) return refuse(err, "spare byte", h->zero, 0);
     if (h->base_exponent < -VERTEX_MAX_EXPONENT || h->base_exponent > VERTEX_MAX_EXPONENT)
         return refuse(err, "exponent of the base", h->base_exponent, 0);
     VertexParts parts = vertex_parts(h);
@@ -164,7 +167,7 @@ static bool check_scales(const Tree *tree, Error *err)
 
 static bool check_depths(const Tree *tree, Error *err)
 {
-    for (size_t i = 0; i < vertex_depth_cells(tree->octants) / 2; i++)
+    for (size_t i = 0; i < vertex_depth_cells(tree->octants, tree->depth_level) / 2; i++)
         if ((tree->depths[i] & 15) > tree->level_count ||
             tree->depths[i] >> 4 > tree->level_count)
             return refuse(err, "depth", tree->depths[i] >> 4, tree->level_count);
@@ -184,6 +187,7 @@ static Tree view(const char *blob, const Geodesic *geodesic)
                   .components = h->components,
                   .base_level = h->base_level,
                   .level_count = h->level_count,
+                  .depth_level = h->depth_level,
                   .plane_level = vertex_plane_level(h->level),
                   .base_factor = ldexpf(1, h->base_exponent),
                   .scale = (const float *)at + parts.scale / sizeof(float),

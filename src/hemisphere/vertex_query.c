@@ -1,27 +1,6 @@
 #include "base/mathf.h"
 #include "hemisphere/vertex_view.h"
 
-/* Where a place lies on one level: its unit cell, and which half of it. The corner c of the
- * triangle is the cell's corner (0, 0), of the upper half (1, 1); u and v are the barycentric
- * coordinates of the corners that lie along x and along y from it. */
-typedef struct Cell {
-    int   x, y;
-    int   upper; /* 0 or 1 */
-    float u, v;
-} Cell;
-
-static inline Cell cell_at(VertexPlace place, int level)
-{
-    int   n = 1 << level;
-    float x = place.x * (float)n, y = place.y * (float)n;
-    Cell  cell = {.x = (int)x, .y = (int)y};
-    float u = x - (float)cell.x, v = y - (float)cell.y;
-    cell.upper = u + v > 1;
-    cell.u = cell.upper ? 1 - u : u;
-    cell.v = cell.upper ? 1 - v : v;
-    return cell;
-}
-
 /* The base level's three rows. */
 static void put_base(const Tree *tree, VertexPlace place, TreeTaps *taps)
 {
@@ -35,31 +14,19 @@ static void put_base(const Tree *tree, VertexPlace place, TreeTaps *taps)
     taps->count = 3;
 }
 
-/* Writes a tap for the new vertex (x, y) of a level, and counts it if there is such a detail:
- * that cannot be predicted, so there is no branch. */
-static inline void put_detail(const Tree *tree, const VertexLevel *level, int x, int y,
-                              uint32_t edge, float weight, TreeTaps *taps)
-{
-    uint32_t cx = (uint32_t)((x >> 1) - level->x), cy = (uint32_t)((y >> 1) - level->y);
-    uint32_t bx = cx / VERTEX_BLOCK_SIDE, by = cy / VERTEX_BLOCK_SIDE;
-    uint32_t inside = (uint32_t)(bx < level->width) & (uint32_t)(by < level->height);
-    uint32_t place = inside ? by * level->width + bx : 0;
-    uint32_t word = tree->words[level->first_word + place / 32], below = 1u << place % 32;
-    uint32_t block = level->first_block + tree->ranks[level->first_word + place / 32] +
-                     vertex_count_bits(word & (below - 1));
-    uint64_t bits = tree->blocks[block];
-    uint32_t bit = cy % VERTEX_BLOCK_SIDE * 12 + cx % VERTEX_BLOCK_SIDE * 3 + edge;
-    uint32_t start = (uint32_t)(bits >> VERTEX_BLOCK_BITS) << level->shift;
-    uint8_t  format = tree->block_formats[block];
-    uint32_t row = vertex_count_bits(bits & ((1ull << bit) - 1));
-    int      at = taps->count;
-    taps->row[at] =
-        level->first_byte + start + row * vertex_format_bytes(tree->formats[format]);
-    taps->weight[at] = weight;
-    taps->level[at] = format;
-    taps->count += (int)(inside & (uint32_t)((word & below) != 0) & (uint32_t)(bits >> bit) &
-                         (uint32_t)(weight > 0));
-}
+/* ---- one level of details ----------------------------------------------------------------
+ *
+ * Cells are counted from the window's first one, so that whole blocks are multiples of 4. */
+
+/* The three edges of the triangle that holds a place: their cells, and their hat functions'
+ * weights there. The edge along x and the diagonal lie in column x, the edge along y and the
+ * diagonal in row y. */
+typedef struct Edges {
+    uint32_t x, y;     /* of the diagonal's cell */
+    uint32_t along_x_y; /* row of the edge along x */
+    uint32_t along_y_x; /* column of the edge along y */
+    float    weight[3]; /* in order of the bits: along x, along y, diagonal */
+} Edges;
 
 static inline float least(float a, float b)
 {
@@ -73,23 +40,104 @@ static inline float hat(float a, float b, float c)
     return 2 * least(least(a, b), 0.5f - c);
 }
 
+/* In the octant, the place lies in the cell (cx, cy), in its half towards the pole or the other
+ * one; there (u, v, w) are the barycentric coordinates, u and v of the corners next to the right
+ * angle. Mirrored, column cx is -1 - cx, and line cx is -cx. */
+static inline Edges edges_at(const VertexLevel *level, VertexPlace place, int number)
+{
+    float n = (float)(1 << number), x = place.x * n, y = place.y * n;
+    int   cx = (int)x, cy = (int)y;
+    float u = x - (float)cx, v = y - (float)cy;
+    int   upper = u + v > 1;
+    u = fabsf((float)upper - u); /* either half is as likely: no branch */
+    v = fabsf((float)upper - v);
+    float w = 1 - u - v, factor = float_from_bits((uint32_t)(127 + level->exponent) << 23);
+    int   mx = -(int)(place.octant & 1), my = -(int)(place.octant >> 1);
+    return (Edges){(uint32_t)((cx ^ mx) - level->x),
+                   (uint32_t)((cy ^ my) - level->y),
+                   (uint32_t)(((cy + upper) ^ my) - my - level->y),
+                   (uint32_t)(((cx + upper) ^ mx) - mx - level->x),
+                   {hat(u, w, v) * factor, hat(v, w, u) * factor, hat(u, v, w) * factor}};
+}
+
+#define NO_BLOCK UINT32_MAX
+
+/* The block of a cell of the window. */
+static inline uint32_t find_block(const Tree *tree, const VertexLevel *level, uint32_t x,
+                                  uint32_t y)
+{
+    uint32_t bx = x / VERTEX_BLOCK_SIDE, by = y / VERTEX_BLOCK_SIDE;
+    if (bx >= level->width || by >= level->height) return NO_BLOCK;
+    uint32_t at = by * level->width + bx, index = level->first_word + at / 32;
+    uint32_t word = tree->words[index], below = 1u << at % 32;
+    if (!(word & below)) return NO_BLOCK;
+    return level->first_block + tree->ranks[index] + vertex_count_bits(word & (below - 1));
+}
+
+/* What a block's taps share. */
+typedef struct Block {
+    uint64_t bits;
+    uint32_t first, row_bytes; /* byte of the first row */
+    uint8_t  format;
+} Block;
+
+static inline Block open_block(const Tree *tree, const VertexLevel *level, uint32_t index)
+{
+    uint64_t bits = tree->blocks[index];
+    uint8_t  format = tree->block_formats[index];
+    uint32_t start = (uint32_t)(bits >> VERTEX_BLOCK_BITS) << level->shift;
+    return (Block){bits, level->first_byte + start,
+                   vertex_format_bytes(tree->formats[format]), format};
+}
+
+/* Writes a tap for an edge of a cell, and counts it if there is such a detail: that cannot be
+ * predicted, so there is no branch. */
+static inline void put_detail(const Block *block, uint32_t x, uint32_t y, uint32_t edge,
+                              float weight, TreeTaps *taps)
+{
+    uint32_t bit = y % VERTEX_BLOCK_SIDE * 12 + x % VERTEX_BLOCK_SIDE * 3 + edge;
+    uint32_t row = vertex_count_bits(block->bits & ((1ull << bit) - 1));
+    int      at = taps->count;
+    taps->row[at] = block->first + row * block->row_bytes;
+    taps->weight[at] = weight;
+    taps->level[at] = block->format;
+    taps->count = at + (int)((uint32_t)(block->bits >> bit) & (uint32_t)(weight > 0));
+}
+
+static inline void put_in(const Tree *tree, const VertexLevel *level, uint32_t x, uint32_t y,
+                          uint32_t edge, float weight, TreeTaps *taps)
+{
+    uint32_t index = find_block(tree, level, x, y);
+    if (index == NO_BLOCK) return;
+    Block block = open_block(tree, level, index);
+    put_detail(&block, x, y, edge, weight, taps);
+}
+
+/* Mostly the three edges are in one block. */
 static inline void put_level(const Tree *tree, const VertexLevel *level, VertexPlace place,
                              int number, TreeTaps *taps)
 {
-    Cell  cell = cell_at(place, number);
-    float u = cell.u, v = cell.v, w = 1 - u - v;
-    float factor = float_from_bits((uint32_t)(127 + level->exponent) << 23);
-    int   sx = place.octant & 1 ? -1 : 1, sy = place.octant & 2 ? -1 : 1;
-    int   x = sx * (2 * cell.x + 1), y = sy * (2 * cell.y + 1);
-    put_detail(tree, level, x, sy * 2 * (cell.y + cell.upper), 0, hat(u, w, v) * factor, taps);
-    put_detail(tree, level, sx * 2 * (cell.x + cell.upper), y, 1, hat(v, w, u) * factor, taps);
-    put_detail(tree, level, x, y, 2, hat(u, v, w) * factor, taps);
+    Edges e = edges_at(level, place, number);
+    if (((e.x ^ e.along_y_x) | (e.y ^ e.along_x_y)) < VERTEX_BLOCK_SIDE) {
+        uint32_t index = find_block(tree, level, e.x, e.y);
+        if (index == NO_BLOCK) return;
+        Block block = open_block(tree, level, index);
+        put_detail(&block, e.x, e.along_x_y, 0, e.weight[0], taps);
+        put_detail(&block, e.along_y_x, e.y, 1, e.weight[1], taps);
+        put_detail(&block, e.x, e.y, 2, e.weight[2], taps);
+    } else {
+        put_in(tree, level, e.x, e.along_x_y, 0, e.weight[0], taps);
+        put_in(tree, level, e.along_y_x, e.y, 1, e.weight[1], taps);
+        put_in(tree, level, e.x, e.y, 2, e.weight[2], taps);
+    }
 }
+
+/* ---- the walk ---------------------------------------------------------------------------- */
 
 /* How many levels have details around a place. */
 static inline int depth_at(const Tree *tree, VertexPlace place)
 {
-    int      side = 1 << VERTEX_DEPTH_LEVEL;
+    int      side = 1 << tree->depth_level;
     int      x = (int)(place.x * (float)side), y = (int)(place.y * (float)side);
     x = x < side ? x : side - 1;
     y = y < side ? y : side - 1;

@@ -2,6 +2,7 @@
 #include "hemisphere/vertex_view.h"
 
 typedef uint16_t UShort8 __attribute__((vector_size(16)));
+typedef uint64_t ULong2 __attribute__((vector_size(16)));
 
 /* A load of 8 bytes from KEEP_BYTES + 8 - n keeps n of 8 bytes. */
 static const uint8_t KEEP_BYTES[16] = {255, 255, 255, 255, 255, 255, 255, 255};
@@ -15,9 +16,7 @@ static inline Byte16 load_plane(const uint8_t *from, int pairs, int skip, int wa
     memcpy(&bits, from + (there ? skip : 0), (size_t)wanted);
     memcpy(&keep, KEEP_BYTES + 8 - there, 8);
     bits &= keep;
-    Byte16  bytes = {0};
-    memcpy(&bytes, &bits, 8);
-    UShort8 even = (UShort8)bytes << 4, odd = (UShort8)bytes;
+    UShort8 odd = (UShort8)(ULong2){bits, 0}, even = odd << 4;
     Byte16  upper = {-16, -16, -16, -16, -16, -16, -16, -16,
                      -16, -16, -16, -16, -16, -16, -16, -16};
     return (Byte16)__builtin_shufflevector((Byte16)even & upper, (Byte16)odd & upper, 0, 16, 1,
@@ -39,8 +38,10 @@ static inline void add_row(const uint8_t *from, VertexFormat format, int skip, F
     Short8 low = {0}, high = {0};
     int    wanted = 2 * quads;
     add_plane(load_plane(from, format.pairs[0], skip, wanted), 0, &low, &high);
-    from += format.pairs[0];
-    add_plane(load_plane(from, format.pairs[1], skip, wanted), 1, &low, &high);
+    if (format.pairs[1]) {
+        from += format.pairs[0];
+        add_plane(load_plane(from, format.pairs[1], skip, wanted), 1, &low, &high);
+    }
     if (format.pairs[2]) {
         from += format.pairs[1];
         add_plane(load_plane(from, format.pairs[2], skip, wanted), 2, &low, &high);

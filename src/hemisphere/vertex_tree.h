@@ -57,12 +57,12 @@ void vertex_tree_expand(const Tree *tree, float *values);
  *           signed 4 bits of plane p = 0..3; plane p of a row has `pairs[p]` bytes, the first
  *           components in order, two a byte, the even one in the low bits; other components
  *           have 0 there. Most details are a few steps in the first components.
- * Depths    for each cell of level VERTEX_DEPTH_LEVEL, how many levels have details whose hat
+ * Depths    for each cell of depth_level, how many levels have details whose hat
  *           reaches into it: where queries stop.
  */
 #define VERTEX_MAGIC 0x58545256u /* "VRTX" */
 #define VERTEX_VERSION 1u
-#define VERTEX_DEPTH_LEVEL 3
+#define VERTEX_MAX_DEPTH_LEVEL 4
 #define VERTEX_MAX_BASE_LEVEL 4
 #define VERTEX_BLOCK_SIDE 4 /* cells */
 #define VERTEX_BLOCK_BITS 48
@@ -75,14 +75,14 @@ void vertex_tree_expand(const Tree *tree, float *values);
 #define VERTEX_MAX_SHIFT 8
 
 typedef struct VertexHeader {
-    uint32_t magic, version;
+    uint32_t magic;
+    uint16_t version, components;
     uint64_t size; /* bytes of the whole blob */
-    uint8_t  level, octants, base_level, level_count;
-    uint16_t components, word_count; /* directory words of all levels */
-    uint16_t block_count;            /* of all levels */
-    uint8_t  format_count;
+    uint8_t  level, octants, base_level, level_count, depth_level, format_count;
     int8_t   base_exponent;
-    uint32_t row_bytes; /* of the base and all levels */
+    uint8_t  zero;
+    uint16_t word_count, block_count; /* of all levels */
+    uint32_t row_bytes;               /* of the base and all levels */
 } VertexHeader;
 
 typedef struct VertexLevel {

@@ -5,46 +5,34 @@
 #include "hemisphere/vertex_code.h"
 #include "hemisphere/vertex_view.h"
 
-/* ---- edges ------------------------------------------------------------------------------- */
-
-uint32_t vertex_edges(VertexLattice lattice, int level, VertexEdge *edges)
-{
-    int      n = 1 << lattice.level, half = n >> (level + 1);
-    uint32_t count = 0;
-    for (int y = lattice.octants == 2 ? 0 : -n; y <= n; y += half)
-        for (int x = abs(y) - n; x <= n - abs(y); x += half) {
-            int dx = x & half ? half : 0, dy = y & half ? half : 0;
-            if (!dx && !dy) continue;
-            uint32_t cell_edge = dx && dy ? 2u : dx ? 0u : 1u;
-            if (cell_edge == 2 && (x < 0) == (y < 0)) dy = -dy;
-            if (edges)
-                edges[count] = (VertexEdge){x, y, vertex_index(lattice, x, y),
-                                            {vertex_index(lattice, x - dx, y - dy),
-                                             vertex_index(lattice, x + dx, y + dy)},
-                                            cell_edge};
-            count++;
-        }
-    return count;
-}
-
 /* ---- the closed loop --------------------------------------------------------------------- */
 
 typedef struct Coder {
     const VertexTreeOptions *options;
     const float             *values;
     VertexCode               code;
+    VertexChoice             choice;
+    VertexJudge              judge;
     float                   *rebuilt; /* vertices x components */
     float                   *step;    /* of each component, before exponents */
+    float                   *tolerance; /* of each component */
 } Coder;
 
-static const float *value_of(const Coder *c, uint32_t vertex)
-{
-    return c->values + vertex * (size_t)c->code.components;
-}
+/* The shortest blob so far. */
+typedef struct Trial {
+    size_t size; /* 0: none */
+    char  *blob;
+    int    base_level;
+    float  coarseness;
+    Arena  scratch; /* for one trial at a time */
+} Trial;
 
-static bool accepts(const Coder *c, uint32_t vertex, const float *reconstructed)
+#define FIRST_BASE 1
+#define LAST_BASE 3
+
+static bool accepts(Coder *c, uint32_t vertex, const float *reconstructed)
 {
-    return c->options->accepts(c->options->context, vertex, reconstructed);
+    return vertex_accepts(&c->judge, vertex, reconstructed);
 }
 
 /* prediction + factor * step * integers */
@@ -55,11 +43,10 @@ static void rebuild(const Coder *c, const float *prediction, const int16_t *inte
         out[i] = prediction[i] + c->step[i] * (factor * (float)integers[i]);
 }
 
-/* The nearest integers; false: one is too large. */
-static bool round_detail(const Coder *c, uint32_t vertex, const float *prediction, float factor,
-                         int16_t *integers)
+/* The integers nearest to a value; false: one is too large. */
+static bool round_detail(const Coder *c, const float *value, const float *prediction,
+                         float factor, int16_t *integers)
 {
-    const float *value = value_of(c, vertex);
     for (int i = 0; i < c->code.components; i++) {
         float q = rintf((value[i] - prediction[i]) / (factor * c->step[i]));
         if (!(fabsf(q) < VERTEX_MOST)) return false;
@@ -69,7 +56,7 @@ static bool round_detail(const Coder *c, uint32_t vertex, const float *predictio
 }
 
 /* Looks for an accepted row among those that differ by 1 in one component. */
-static bool search_near(const Coder *c, uint32_t vertex, const float *prediction, float factor,
+static bool search_near(Coder *c, uint32_t vertex, const float *prediction, float factor,
                         int16_t *integers)
 {
     float *out = c->rebuilt + vertex * (size_t)c->code.components;
@@ -83,16 +70,22 @@ static bool search_near(const Coder *c, uint32_t vertex, const float *prediction
     return false;
 }
 
-/* Stores a vertex as prediction plus integers; false: not even neighbours are accepted. */
+/* Stores a vertex as prediction plus integers: of its target; where rounding leads out of what
+ * is accepted, of its value. False: not even neighbours are accepted. */
 static bool store(Coder *c, uint32_t vertex, const float *prediction, float factor)
 {
     size_t   k = (size_t)c->code.components;
     int16_t *integers = c->code.integers + vertex * k;
     c->code.stored[vertex] = true;
-    if (!round_detail(c, vertex, prediction, factor, integers)) return false;
-    rebuild(c, prediction, integers, factor, c->rebuilt + vertex * k);
-    return accepts(c, vertex, c->rebuilt + vertex * k) ||
-           search_near(c, vertex, prediction, factor, integers);
+    const float *wanted[2] = {c->choice.target + vertex * k, c->values + vertex * k};
+    for (int i = 0; i < 2; i++) {
+        if (!round_detail(c, wanted[i], prediction, factor, integers)) return false;
+        rebuild(c, prediction, integers, factor, c->rebuilt + vertex * k);
+        if (accepts(c, vertex, c->rebuilt + vertex * k) ||
+            search_near(c, vertex, prediction, factor, integers))
+            return true;
+    }
+    return false;
 }
 
 /* All new vertices of a level with one exponent. The first vertex that cannot be stored so
@@ -108,7 +101,7 @@ static bool code_level(Coder *c, const VertexEdge *edges, uint32_t count, int ex
         for (size_t j = 0; j < k; j++) prediction[j] = 0.5f * (u[j] + w[j]);
         c->code.stored[e->vertex] = false;
         memcpy(c->rebuilt + e->vertex * k, prediction, k * sizeof *prediction);
-        if (accepts(c, e->vertex, prediction)) continue;
+        if (!c->choice.chosen[e->vertex] && accepts(c, e->vertex, prediction)) continue;
         *failed = e->vertex;
         if (!store(c, e->vertex, prediction, factor)) return false;
     }
@@ -146,34 +139,44 @@ static bool code_levels(Coder *c, Arena scratch, Error *err)
     return true;
 }
 
-/* The base level's values with the finest exponent that 16 bits allow. */
-static bool code_base(Coder *c, Error *err)
+static bool code_base_with(Coder *c, int exponent, uint32_t *failed)
 {
     VertexLattice lattice = c->code.lattice;
-    int    n = 1 << lattice.level, spacing = n >> c->code.base_level;
-    size_t k = (size_t)c->code.components;
-    float  most = 0, zero[TREE_MAX_COMPONENTS] = {0};
-    for (size_t i = 0; i < vertex_count(lattice) * k; i++)
-        most = fmaxf(most, fabsf(c->values[i]) / c->step[i % k]);
-    int exponent = -8;
-    while (exponent < VERTEX_MAX_EXPONENT && most / ldexpf(1, exponent) > VERTEX_MOST - 1) exponent++;
-    c->code.base_exponent = exponent;
+    int           n = 1 << lattice.level, spacing = n >> c->code.base_level;
+    float         zero[TREE_MAX_COMPONENTS] = {0};
     for (int y = lattice.octants == 2 ? 0 : -n; y <= n; y += spacing)
         for (int x = abs(y) - n; x <= n - abs(y); x += spacing) {
-            uint32_t vertex = vertex_index(lattice, x, y);
-            if (!store(c, vertex, zero, ldexpf(1, exponent)))
-                return refuse_vertex(c, vertex, err);
+            *failed = vertex_index(lattice, x, y);
+            if (!store(c, *failed, zero, ldexpf(1, exponent))) return false;
         }
+    return true;
+}
+
+/* The base level: finer steps than details have, and coarser ones where 16 bits are full. */
+static bool code_base(Coder *c, Error *err)
+{
+    uint32_t failed = 0;
+    size_t   k = (size_t)c->code.components, count = vertex_count(c->code.lattice) * k;
+    float    most = 0;
+    int      full = -VERTEX_MAX_EXPONENT, exponent = -1;
+    for (size_t i = 0; i < count; i++)
+        most = fmaxf(most, fabsf(c->choice.target[i]) / c->step[i % k]);
+    while (full < VERTEX_MAX_EXPONENT && most / ldexpf(1, full) > VERTEX_MOST - 1) full++;
+    if (exponent < full) exponent = full;
+    while (!code_base_with(c, exponent, &failed))
+        if (--exponent < full) return refuse_vertex(c, failed, err);
+    c->code.base_exponent = exponent;
     return true;
 }
 
 /* ---- steps ------------------------------------------------------------------------------- */
 
 /* How far component i of a vertex may be off, within a factor of 1.2; at most `most`. */
-static float tolerance_at(const Coder *c, uint32_t vertex, int i, float most)
+static float tolerance_at(Coder *c, uint32_t vertex, int i, float most)
 {
     float row[TREE_MAX_COMPONENTS];
-    memcpy(row, value_of(c, vertex), (size_t)c->code.components * sizeof *row);
+    memcpy(row, c->values + vertex * (size_t)c->code.components,
+           (size_t)c->code.components * sizeof *row);
     float value = row[i], low = most * 1e-7f, high = most;
     while (high > 1.2f * low) {
         float middle = sqrtf(low * high);
@@ -190,7 +193,7 @@ static float tolerance_at(const Coder *c, uint32_t vertex, int i, float most)
 #define PROBES 256 /* vertices whose tolerance is measured */
 
 /* tolerance[i]: the least of component i over some vertices. */
-static void measure_tolerances(const Coder *c, float *tolerance)
+static void measure_tolerances(Coder *c, float *tolerance)
 {
     uint32_t count = vertex_count(c->code.lattice), stride = count / PROBES | 1;
     size_t   k = (size_t)c->code.components;
@@ -233,31 +236,84 @@ static Coder make_coder(const VertexTreeOptions *options, const float *values, A
                 .values = values,
                 .code = {.lattice = options->lattice, .components = options->components},
                 .rebuilt = ARENA_NEW(arena, float, count * k),
-                .step = ARENA_NEW(arena, float, k)};
+                .step = ARENA_NEW(arena, float, k),
+                .tolerance = ARENA_NEW(arena, float, k)};
+    c.judge = (VertexJudge){options, values, c.tolerance, ARENA_NEW(arena, float, count), true};
+    c.choice.chosen = ARENA_NEW(arena, bool, count);
+    c.choice.target = ARENA_NEW(arena, float, count * k);
     c.code.scale = c.step;
     c.code.integers = ARENA_NEW(arena, int16_t, count * k);
     c.code.stored = ARENA_NEW(arena, bool, count);
     return c;
 }
 
-/* Every vertex of a finished tree as a query sees it; rebuilt: their values. */
-static bool verify(const Coder *c, const void *blob, size_t size, float *rebuilt, Arena scratch,
-                   Error *err)
+/* Every vertex of a finished tree as a query sees it; rebuilt: their values. Those that are not
+ * accepted are asked for every time from now on, *wrong is one of them; how many. */
+static uint32_t count_wrong(Coder *c, const Trial *best, float *rebuilt, uint32_t *wrong)
 {
     VertexLattice   lattice = c->code.lattice;
+    Arena           scratch = best->scratch;
     const Geodesic *geodesic = geodesic_create(vertex_plane_level(lattice.level), &scratch);
+    uint32_t        count = 0;
     Tree            tree;
-    if (!tree_open(blob, size, geodesic, &tree, err)) return false;
+    Error           err;
+    if (!tree_open(best->blob, best->size, geodesic, &tree, &err)) abort();
     vertex_tree_expand(&tree, rebuilt);
-    for (uint32_t v = 0; v < vertex_count(lattice); v++)
-        if (!accepts(c, v, rebuilt + v * (size_t)c->code.components))
-            return refuse_vertex(c, v, err);
+    for (uint32_t v = 0; v < vertex_count(lattice); v++) {
+        if (c->options->accepts(c->options->context, v,
+                                rebuilt + v * (size_t)c->code.components))
+            continue;
+        c->judge.safe[v] = -1;
+        *wrong = v;
+        count++;
+    }
+    return count;
+}
+
+/* One way to code the choice: shorter than *size, it replaces the blob. False, and *err says
+ * why: not possible so. */
+static bool try_coding(Coder *c, int base_level, float coarseness, Trial *best, Error *err)
+{
+    Arena scratch = best->scratch;
+    c->code.base_level = base_level;
+    for (int i = 0; i < c->code.components; i++) {
+        c->step[i] = coarseness * c->tolerance[i];
+        if (c->options->coarsest_step)
+            c->step[i] = fminf(c->step[i], c->options->coarsest_step[i]);
+    }
+    if (!code_base(c, err) || !code_levels(c, scratch, err)) return false;
+    size_t      size;
+    const void *blob = vertex_code_write(&c->code, &scratch, &size);
+    if (best->size != 0 && size >= best->size) return true;
+    best->size = size;
+    best->base_level = base_level;
+    best->coarseness = coarseness;
+    memcpy(best->blob, blob, size);
     return true;
 }
 
-static bool code_all(Coder *c, Arena scratch, Error *err)
+/* Steps from coarse to fine, then larger bases: one level less to walk through, where that
+ * costs next to nothing. */
+static bool code_best(Coder *c, Trial *best, Error *err)
 {
-    return code_base(c, err) && code_levels(c, scratch, err);
+    static const float coarseness[] = {2, 1.2f, 0.7f, 0.4f, 0.2f};
+    int  first = c->code.lattice.level < FIRST_BASE ? c->code.lattice.level : FIRST_BASE;
+    for (size_t i = 0; i < sizeof coarseness / sizeof *coarseness; i++)
+        if (!try_coding(c, first, coarseness[i], best, err) && i > 0 && best->size == 0)
+            continue;
+    if (best->size == 0) return false;
+    size_t least = best->size;
+    for (int base = first + 1; base <= LAST_BASE && base <= c->code.lattice.level; base++) {
+        size_t so_far = best->size;
+        best->size = least + least / 32;
+        if (!try_coding(c, base, best->coarseness, best, err) ||
+            best->size == least + least / 32) {
+            best->size = so_far;
+            break;
+        }
+        if (best->size < least) least = best->size;
+    }
+    return true;
 }
 
 static void fill_report(const Coder *c, const float *rebuilt, size_t size, TreeReport *report)
@@ -289,21 +345,27 @@ bool vertex_tree_build(const VertexTreeOptions *options, const float *values, Ar
     if (!check_options(options, values, err)) return false;
     size_t numbers = vertex_count(options->lattice) * (size_t)options->components;
     Arena  scratch = *arena; /* behind the blob's room */
-    arena_alloc(&scratch, 1, 16, numbers * 2 + 16 * numbers + ((size_t)1 << 19));
+    size_t room = 4 * numbers + 300 * vertex_count(options->lattice) + ((size_t)1 << 20);
+    arena_alloc(&scratch, 1, 16, room);
     Coder  c = make_coder(options, values, &scratch);
-    measure_tolerances(&c, c.step);
-    for (int i = 0; i < options->components; i++) {
-        if (options->coarsest_step) c.step[i] = fminf(c.step[i], options->coarsest_step[i]);
+    float *rebuilt = ARENA_NEW(&scratch, float, numbers);
+    Trial  best = {.blob = arena_alloc(&scratch, 1, 16, room)};
+    best.scratch = scratch;
+    measure_tolerances(&c, c.tolerance);
+    int base = options->lattice.level < FIRST_BASE ? options->lattice.level : FIRST_BASE;
+    c.judge.is_exact = false;
+    vertex_choose(&c.judge, base, scratch, &c.choice);
+    if (!code_best(&c, &best, err)) return false;
+    uint32_t wrong;
+    for (int i = 0; count_wrong(&c, &best, rebuilt, &wrong) > 0; i++) {
+        best.size = 0;
+        c.judge.is_exact = i >= 2;
+        if (i == 4) return refuse_vertex(&c, wrong, err);
+        if (!try_coding(&c, best.base_level, best.coarseness, &best, err)) return false;
     }
-    c.code.base_level = options->lattice.level < 2 ? options->lattice.level : 2;
-    size_t      size;
-    float      *rebuilt = ARENA_NEW(&scratch, float, numbers);
-    if (!code_all(&c, scratch, err)) return false;
-    const void *out = vertex_code_write(&c.code, &scratch, &size);
-    if (!verify(&c, out, size, rebuilt, scratch, err)) return false;
-    char *kept = arena_alloc(arena, 1, 16, size);
-    memcpy(kept, out, size);
+    char *kept = arena_alloc(arena, 1, 16, best.size);
+    memcpy(kept, best.blob, best.size);
     *blob = kept;
-    if (report) fill_report(&c, rebuilt, size, report);
+    if (report) fill_report(&c, rebuilt, best.size, report);
     return true;
 }

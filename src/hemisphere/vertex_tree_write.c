@@ -182,10 +182,10 @@ static void put_level(Writer *w, const Filling *f, VertexLevel *level, Arena scr
 
 /* ---- depths ------------------------------------------------------------------------------ */
 
-/* The cells of VERTEX_DEPTH_LEVEL that a detail's two triangles may touch. */
+/* The depth level's cells that a detail's two triangles may touch. */
 static void mark_depth(Writer *w, const VertexEdge *edge, int half, int depth)
 {
-    int n = 1 << w->code->lattice.level, side = 1 << VERTEX_DEPTH_LEVEL;
+    int n = 1 << w->code->lattice.level, side = 1 << w->header.depth_level;
     int low = w->code->lattice.octants == 2 ? 0 : -side;
     for (int cy = low; cy < side; cy++)
         for (int cx = -side; cx < side; cx++) {
@@ -225,8 +225,6 @@ static void write_levels(Writer *w, Arena scratch)
         *out = (VertexLevel){.exponent = (int8_t)code->exponent[l]};
         choose_window(&f, out);
         put_level(w, &f, out, inner);
-        for (uint32_t i = 0; i < f.count; i++)
-            mark_depth(w, &edges[i], 1 << (f.shift - 1), l + 1);
         if (f.count > 0) w->header.level_count = (uint8_t)(l + 1);
     }
 }
@@ -267,6 +265,25 @@ static void write_base(Writer *w, Arena scratch)
     for (uint32_t i = 0; i < count; i++) put_row(w, w->formats[0], vertex[i]);
 }
 
+/* Depths cost at most a fortieth of the rest. */
+static void write_depths(Writer *w, Arena scratch)
+{
+    const VertexCode *code = w->code;
+    size_t            rest = vertex_parts(&w->header).size;
+    while (w->header.depth_level < VERTEX_MAX_DEPTH_LEVEL &&
+           vertex_depth_cells(w->header.octants, w->header.depth_level + 1) / 2 <= rest / 40)
+        w->header.depth_level++;
+    for (int l = 0; l < w->header.level_count; l++) {
+        Arena       inner = scratch;
+        int         level = code->base_level + l;
+        VertexEdge *edges =
+            ARENA_NEW(&inner, VertexEdge, vertex_edges(code->lattice, level, NULL));
+        uint32_t    count = stored_edges(code, level, edges);
+        for (uint32_t i = 0; i < count; i++)
+            mark_depth(w, &edges[i], 1 << (code->lattice.level - level - 1), l + 1);
+    }
+}
+
 static const void *assemble(const Writer *w, const VertexParts *p, Arena *arena)
 {
     const VertexHeader *h = &w->header;
@@ -278,7 +295,7 @@ static const void *assemble(const Writer *w, const VertexParts *p, Arena *arena)
     memcpy(blob + p->ranks, w->ranks, sizeof(uint16_t) * h->word_count);
     memcpy(blob + p->formats, w->formats, sizeof(VertexFormat) * h->format_count);
     memcpy(blob + p->block_formats, w->block_formats, h->block_count);
-    for (size_t i = 0; i < vertex_depth_cells(h->octants); i++)
+    for (size_t i = 0; i < vertex_depth_cells(h->octants, h->depth_level); i++)
         blob[p->depths + i / 2] |= (char)(w->depths[i] << i % 2 * 4);
     memcpy(blob + p->blocks, w->blocks, sizeof(uint64_t) * h->block_count);
     memcpy(blob + p->rows, w->rows, h->row_bytes);
@@ -294,20 +311,21 @@ const void *vertex_code_write(const VertexCode *code, Arena *arena, size_t *size
     Writer w = {.code = code,
                 .header = {.magic = VERTEX_MAGIC,
                            .version = VERTEX_VERSION,
+                           .components = (uint16_t)code->components,
                            .level = (uint8_t)code->lattice.level,
                            .octants = (uint8_t)code->lattice.octants,
                            .base_level = (uint8_t)code->base_level,
-                           .components = (uint16_t)code->components,
                            .base_exponent = (int8_t)code->base_exponent},
                 .words = ARENA_NEW(&scratch, uint32_t, 8192),
                 .ranks = ARENA_NEW(&scratch, uint16_t, 8192),
-                .depths = ARENA_NEW(&scratch, uint8_t, 256),
+                .depths = ARENA_NEW(&scratch, uint8_t, vertex_depth_cells(4, VERTEX_MAX_DEPTH_LEVEL)),
                 .block_formats = ARENA_NEW(&scratch, uint8_t, UINT16_MAX),
                 .blocks = ARENA_NEW(&scratch, uint64_t, UINT16_MAX),
                 .rows = ARENA_NEW(&scratch, uint8_t, vertices * (k * 2 + 2 + (1 << VERTEX_MAX_SHIFT) / 8))};
     write_base(&w, scratch);
     write_levels(&w, scratch);
     drop_empty_levels(&w, code->lattice.level - code->base_level);
+    write_depths(&w, scratch);
     VertexParts parts = vertex_parts(&w.header);
     w.header.size = parts.size;
     *size = parts.size;

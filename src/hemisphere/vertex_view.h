@@ -21,10 +21,10 @@ typedef struct VertexParts {
     size_t scale, levels, words, formats, ranks, depths, block_formats, blocks, rows, size;
 } VertexParts;
 
-/* Cells of VERTEX_DEPTH_LEVEL. */
-static inline size_t vertex_depth_cells(int octants)
+/* Cells of a depth level: of the square around the lattice's plane, or of its half. */
+static inline size_t vertex_depth_cells(int octants, int depth_level)
 {
-    return (size_t)octants << 2 * VERTEX_DEPTH_LEVEL;
+    return (size_t)octants << 2 * depth_level;
 }
 
 static inline VertexParts vertex_parts(const VertexHeader *h)
@@ -35,7 +35,7 @@ static inline VertexParts vertex_parts(const VertexHeader *h)
     p.formats = p.words + sizeof(uint32_t) * h->word_count;
     p.ranks = p.formats + sizeof(VertexFormat) * h->format_count;
     p.depths = p.ranks + sizeof(uint16_t) * h->word_count;
-    p.block_formats = p.depths + vertex_depth_cells(h->octants) / 2;
+    p.block_formats = p.depths + vertex_depth_cells(h->octants, h->depth_level) / 2;
     p.blocks = (p.block_formats + h->block_count + 7) / 8 * 8;
     p.rows = p.blocks + sizeof(uint64_t) * h->block_count;
     p.size = (p.rows + h->row_bytes + VERTEX_TAIL + 7) / 8 * 8;

@@ -1,10 +1,12 @@
 /* The set of tables while files are read, and which importer reads which file. */
 #include "import/import.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/file.h"
 #include "panel/json_view.h"
@@ -34,7 +36,7 @@ void import_note(ImportSet *set, const char *format, ...)
     set->note[set->note_count++] = arena_string(set->arena, text, strlen(text));
 }
 
-/* ---- what a table must be ------------------------------------------------------------------ */
+/* ---- what a table must be ---------------------------------------------------------------- */
 
 static bool refuse(const ImportTable *table, Error *err, const char *what, double found,
                    const char *wanted)
@@ -114,7 +116,7 @@ bool import_add(ImportSet *set, const ImportTable *table, Error *err)
     return true;
 }
 
-/* ---- which importer ------------------------------------------------------------------------ */
+/* ---- which importer ---------------------------------------------------------------------- */
 
 static const Importer *importer_named(const char *name, Error *err)
 {
@@ -131,8 +133,13 @@ static const Importer *importer_named(const char *name, Error *err)
 
 static bool read_head(const char *file, char *head, size_t *size, Error *err)
 {
+    struct stat info; /* a pipe would be waited for */
+    if (!stat(file, &info) && !S_ISREG(info.st_mode))
+        return error_at(err, ERROR_INPUT, file, "", "is %s, a file is wanted",
+                        S_ISDIR(info.st_mode) ? "a folder" : "not a regular file");
     FILE *stream = fopen(file, "rb");
-    if (!stream) return error_at(err, ERROR_INPUT, file, "", "cannot be opened");
+    if (!stream)
+        return error_at(err, ERROR_INPUT, file, "", "cannot be opened: %s", strerror(errno));
     *size = fread(head, 1, HEAD_BYTES, stream);
     head[*size] = 0;
     bool ok = !ferror(stream);

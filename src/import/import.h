@@ -30,14 +30,16 @@ typedef enum ImportSource {
 typedef struct ImportTable {
     ImportSource  source;
     const char   *file;              /* where it comes from */
-    double        level;             /* emission: grey level, (0, 255]; of black and white: 0, 255 */
+    double        level;             /* emission: grey level, (0, 255]; black 0, white 255 */
     double        incidence_deg;     /* reflection: [0, 90) */
-    double        incidence_phi_deg; /* reflection: the light's azimuth, [0, 360); 180: isotropic
-                                        data, or the only azimuth measured */
+    double        incidence_phi_deg; /* reflection: the light's azimuth, [0, 360); 180 for
+                                        isotropic data, or the only azimuth measured */
     int           rows, channels;    /* channels: 3 (X, Y, Z), or wavelength_count */
-    char          component;         /* emission: 0, or one of 'X', 'Y', 'Z' with one channel: files
-                                        of the same source and level are joined; Y alone is
-                                        luminance without colour */
+    char          component;         /* emission: 0, or one of 'X', 'Y', 'Z' with one channel:
+                                        files of the same source and level are joined; Y alone
+                                        is luminance without colour */
+    bool          is_section;        /* directions of one azimuth: sections of the same source
+                                        or light are put together */
     bool          is_any_light;      /* reference: serves every light */
     bool          is_signal;         /* reflection, reference: no BRDF yet but a signal, to be
                                         divided by the reference's */
@@ -45,7 +47,7 @@ typedef struct ImportTable {
                                         light and directions at other wavelengths are joined */
     const double *theta_deg, *phi_deg; /* rows; theta in [0, 90], any phi */
     const double *value;             /* rows x channels */
-    int           masked;            /* directions that the file marks as not measured: left out */
+    int           masked;            /* directions marked as not measured: left out */
     const double *masked_theta_deg, *masked_phi_deg; /* masked of them, or NULL: not told */
 } ImportTable;
 
@@ -56,6 +58,11 @@ typedef struct ImportSpectra {
     const double *value[4]; /* red, green, blue, black (may be NULL) */
 } ImportSpectra;
 
+/* What the user declares of the sample: what was not measured is filled from its image. */
+typedef enum ImportSymmetry {
+    IMPORT_NO_SYMMETRY, IMPORT_LEFT_RIGHT, IMPORT_UP_DOWN, IMPORT_BOTH, IMPORT_HALF_TURN
+} ImportSymmetry;
+
 typedef struct ImportSet {
     Arena        *arena;
     ImportTable  *table;             /* room for IMPORT_TABLES_MAX */
@@ -63,6 +70,7 @@ typedef struct ImportSet {
     bool          is_anisotropic;    /* reflection depends on the light's azimuth; tables of
                                         several azimuths make it so */
     bool          is_isotropic;      /* the user says that it does not, whatever the tables */
+    ImportSymmetry symmetry;
     bool          black_is_zero;     /* the user says that the black pattern was subtracted */
     const char   *panel, *instrument; /* names for the manifest; NULL: the file's */
     double        white_reflectance; /* of the reference: Lambertian, 0 to 1 (default 1) */
@@ -92,7 +100,7 @@ bool import_write(const ImportSet *set, const char *manifest, Error *err);
 /* The file's name of a table in the set: "emission/red_031.csv", "brdf/i30_a180.csv". */
 const char *import_table_file(const ImportSet *set, const ImportTable *table, Arena *arena);
 
-/* ---- what the user declared ---------------------------------------------------------------- */
+/* ---- what the user declared -------------------------------------------------------------- */
 
 typedef struct ImportOptions {
     const char *format;      /* name of an importer; NULL: told by the file itself */
@@ -101,7 +109,7 @@ typedef struct ImportOptions {
     const void *text;        /* the text importer's declaration (import_text.h); NULL: none */
 } ImportOptions;
 
-/* One importer: `recognises` looks at the first bytes (and the name); `read` adds the tables. */
+/* One importer: `recognises` looks at the first bytes and the name, `read` adds the tables. */
 typedef struct Importer {
     const char *name;    /* for --format: "zemax", "mountain", "klems", ... */
     const char *summary; /* one line for --help */

@@ -20,7 +20,7 @@ const char *import_source_name(ImportSource source)
     return source_names[source];
 }
 
-/* ---- parts of one table -------------------------------------------------------------------- */
+/* ---- parts of one table ------------------------------------------------------------------ */
 
 static bool same_light(const ImportTable *a, const ImportTable *b)
 {
@@ -28,6 +28,40 @@ static bool same_light(const ImportTable *a, const ImportTable *b)
     if (a->source != IMPORT_REFLECTION) return a->level == b->level;
     return fabs(a->incidence_deg - b->incidence_deg) < SAME_ANGLE_DEG &&
            fabs(a->incidence_phi_deg - b->incidence_phi_deg) < SAME_ANGLE_DEG;
+}
+
+static bool same_channels(const ImportTable *a, const ImportTable *b)
+{
+    bool same = a->channels == b->channels && a->component == b->component;
+    for (int c = 0; same && a->source == IMPORT_REFLECTION && c < a->channels; c++)
+        same = fabsf(a->wavelength_nm[c] - b->wavelength_nm[c]) < 1e-3f;
+    return same;
+}
+
+/* Sections at several azimuths make one table. */
+static bool join_sections(ImportSet *set, Error *err)
+{
+    int *part = ARENA_NEW(set->arena, int, IMPORT_TABLES_MAX);
+    for (int i = 0; i < set->count; i++) {
+        int    count = 0;
+        double rows = 0;
+        for (int k = i; k < set->count && set->table[i].is_section; k++)
+            if (set->table[k].is_section && same_light(&set->table[i], &set->table[k]) &&
+                same_channels(&set->table[i], &set->table[k])) {
+                part[count++] = k;
+                rows += set->table[k].rows;
+            }
+        if (count < 2) continue;
+        if (rows > IMPORT_ROWS_MAX)
+            return error_at(err, ERROR_INPUT, set->table[i].file, "",
+                            "and its other sections have %g directions, wanted at most %d",
+                            rows, IMPORT_ROWS_MAX);
+        ImportTable joined;
+        import_append_tables(set, part, count, &joined);
+        set->table[i] = joined;
+        import_remove_tables(set, part, count, i);
+    }
+    return true;
 }
 
 /* Files of X, Y and Z alone: each of them once. */
@@ -52,11 +86,12 @@ static bool join_components(ImportSet *set, int first, Error *err)
     for (int j = 0; j < 3; j++)
         if (part[j] < 0)
             return error_at(err, ERROR_INPUT, table[first].file, "",
-                            "is %c of %s %g, and no file has %c — give the missing file, or its "
-                            "role as --role FILE=%s:%g:%c", table[first].component,
+                            "is %c of %s %g, and no file has %c — give the missing file, or "
+                            "its role as --role FILE=%s:%g:%c",
+                            table[first].component, import_source_name(table[first].source),
+                            table[first].level, letters[j],
                             import_source_name(table[first].source), table[first].level,
-                            letters[j], import_source_name(table[first].source),
-                            table[first].level, letters[j]);
+                            letters[j]);
     ImportTable joined = table[first];
     if (!import_join_tables(set, part, 3, &joined, err)) return false;
     joined.component = 0;
@@ -88,8 +123,9 @@ static bool refuse_twice(const ImportSet *set, int first, Error *err)
     const ImportTable *table = set->table;
     for (int i = first + 1; i < set->count; i++)
         if (same_light(&table[first], &table[i]))
-            return error_at(err, ERROR_INPUT, table[i].file, "", "is %s %g, and so is %s — give "
-                            "one of them another --role, or leave it out",
+            return error_at(err, ERROR_INPUT, table[i].file, "",
+                            "is %s %g, and so is %s — give one of them another --role, or "
+                            "leave it out",
                             import_source_name(table[i].source), table[i].level,
                             table[first].file);
     return true;
@@ -106,7 +142,7 @@ static bool join_parts(ImportSet *set, Error *err)
     return true;
 }
 
-/* ---- what the manifest cannot take --------------------------------------------------------- */
+/* ---- what the manifest cannot take ------------------------------------------------------- */
 
 static bool keep_visible(ImportSet *set, ImportTable *table, Error *err)
 {
@@ -149,7 +185,7 @@ static bool keep_usable(ImportSet *set, Error *err)
     return true;
 }
 
-/* ---- lights at every azimuth --------------------------------------------------------------- */
+/* ---- lights at every azimuth ------------------------------------------------------------- */
 
 static int collect_angles(const ImportSet *set, bool of_azimuth, double *angle, int most)
 {
@@ -206,7 +242,7 @@ static const ImportTable *first_normal(const ImportSet *set)
     return NULL;
 }
 
-/* A table of normal incidence whose azimuth no other light has, is told of one that they have. */
+/* A table of normal incidence whose azimuth no other light has moves to one that they have. */
 static void move_normal(ImportSet *set)
 {
     const ImportTable *other = NULL;
@@ -217,7 +253,8 @@ static void move_normal(ImportSet *set)
     for (int i = 0; i < set->count && other; i++) {
         ImportTable *table = &set->table[i];
         bool is_known = false;
-        if (table->source != IMPORT_REFLECTION || table->incidence_deg >= SAME_ANGLE_DEG) continue;
+        if (table->source != IMPORT_REFLECTION || table->incidence_deg >= SAME_ANGLE_DEG)
+            continue;
         for (int k = 0; k < set->count; k++)
             is_known |= set->table[k].source == IMPORT_REFLECTION &&
                         set->table[k].incidence_deg >= SAME_ANGLE_DEG &&
@@ -235,11 +272,16 @@ static void settle_azimuths(ImportSet *set)
     bool   several = false;
     for (int i = 0; i < set->count; i++) {
         const ImportTable *table = &set->table[i];
-        if (table->source != IMPORT_REFLECTION || table->incidence_deg < SAME_ANGLE_DEG) continue;
+        if (table->source != IMPORT_REFLECTION || table->incidence_deg < SAME_ANGLE_DEG)
+            continue;
         several |= first >= 0 && fabs(table->incidence_phi_deg - first) > SAME_ANGLE_DEG;
         first = table->incidence_phi_deg;
     }
-    set->is_anisotropic = (set->is_anisotropic || several) && !set->is_isotropic;
+    if (set->is_anisotropic && !several)
+        import_note(set, "the material depends on the light's azimuth, but only one was "
+                         "measured: it is taken for all, the same on both sides of the plane "
+                         "of incidence");
+    set->is_anisotropic = several && !set->is_isotropic;
     for (int i = 0; i < set->count && !set->is_anisotropic; i++)
         if (set->table[i].source == IMPORT_REFLECTION) set->table[i].incidence_phi_deg = 180;
 }
@@ -257,7 +299,7 @@ static bool complete_lights(ImportSet *set, Error *err)
     return true;
 }
 
-/* ---- is it a set? -------------------------------------------------------------------------- */
+/* ---- is it a set? ------------------------------------------------------------------------ */
 
 static const ImportTable *first_of(const ImportSet *set, ImportSource source)
 {
@@ -305,7 +347,8 @@ static bool check_sources(ImportSet *set, Error *err)
                         "is a black pattern alone, wanted also red, green and blue, or white");
     for (int p = IMPORT_RED; primaries && p <= IMPORT_BLUE; p++) {
         if (!first_of(set, (ImportSource)p))
-            return error_set(err, ERROR_INPUT, "no file is %s — name one as --role FILE=%s:LEVEL",
+            return error_set(err, ERROR_INPUT,
+                             "no file is %s — name one as --role FILE=%s:LEVEL",
                              source_names[p], source_names[p]);
         if (count_of(set, (ImportSource)p) > MEASUREMENT_LEVELS_MAX)
             return error_set(err, ERROR_INPUT, "%s has %d grey levels, wanted at most %d",
@@ -320,6 +363,7 @@ static bool check_sources(ImportSet *set, Error *err)
         return error_set(err, ERROR_INPUT, "no file is the black pattern — name one as --role "
                          "FILE=black, or say --no-black when it was subtracted");
     if (primaries && white) {
+        import_note_white(set);
         import_note(set, "the white table is not used: red, green and blue are there");
         remove_source(set, IMPORT_WHITE);
     }
@@ -348,13 +392,19 @@ static bool check_lights(const ImportSet *set, Error *err)
         return error_at(err, ERROR_INPUT, first->file, "",
                         "gives %d angles of incidence with the other files, wanted at most %d",
                         incidences, MEASUREMENT_INCIDENCES_MAX);
+    if (azimuths > MEASUREMENT_AZIMUTHS_MAX || incidences * azimuths > MEASUREMENT_TABLES_MAX)
+        return error_at(err, ERROR_INPUT, first->file, "",
+                        "gives light from %d incidences and %d azimuths with the other files, "
+                        "wanted at most %d azimuths and %d tables", incidences, azimuths,
+                        MEASUREMENT_AZIMUTHS_MAX, MEASUREMENT_TABLES_MAX);
     for (int i = 0; i < incidences; i++)
         for (int k = 0; k < azimuths; k++) {
             const ImportTable *table = find_light(set, incidence[i], azimuth[k]);
             if (!table)
-                return error_set(err, ERROR_INPUT, "no file has light from incidence %g, azimuth "
-                                 "%g degrees; a material that depends on the azimuth is wanted "
-                                 "at every incidence (%d) and azimuth (%d) of the light — or say "
+                return error_set(err, ERROR_INPUT,
+                                 "no file has light from incidence %g, azimuth %g degrees; a "
+                                 "material that depends on the azimuth is wanted at every "
+                                 "incidence (%d) and azimuth (%d) of the light — or say "
                                  "--isotropic when the azimuth makes no difference",
                                  incidence[i], azimuth[k], incidences, azimuths);
             if (!same_wavelengths(first, table))
@@ -363,6 +413,27 @@ static bool check_lights(const ImportSet *set, Error *err)
                                 first->file);
         }
     return true;
+}
+
+/* The fit takes noise below zero, but nothing that cannot be noise. */
+static bool check_signs(const ImportTable *table, Error *err)
+{
+    bool   is_light = table->source == IMPORT_REFLECTION;
+    size_t size = (size_t)table->channels, total = size * (size_t)table->rows, worst = 0;
+    double most = 0;
+    for (size_t i = 0; i < total; i++) {
+        most = fmax(most, table->value[i]);
+        if (table->value[i] < table->value[worst]) worst = i;
+    }
+    double share = is_light ? (double)MEASUREMENT_NOISE_BRDF_SHARE
+                            : (double)MEASUREMENT_NOISE_CD_M2_SHARE;
+    double least = is_light ? (double)MEASUREMENT_NOISE_BRDF : (double)MEASUREMENT_NOISE_CD_M2;
+    double allowed = fmax(least, share * most);
+    return table->value[worst] >= -allowed ||
+           error_at(err, ERROR_INPUT, table->file, "",
+                    "is %g at theta %g, phi %g, wanted at least %g %s (noise below zero)",
+                    table->value[worst], table->theta_deg[worst / size],
+                    table->phi_deg[worst / size], -allowed, is_light ? "sr^-1" : "cd/m2");
 }
 
 static int by_light(const void *a, const void *b)
@@ -381,10 +452,14 @@ bool import_complete(ImportSet *set, Error *err)
         return error_set(err, ERROR_INPUT, "the files hold no table of a panel");
     if (!import_apply_references(set, err)) return false;
     settle_azimuths(set);
-    if (!join_parts(set, err) || !keep_usable(set, err)) return false;
-    import_merge_directions(set);
-    if (!complete_lights(set, err) || !check_sources(set, err) || !check_lights(set, err))
+    if (!join_sections(set, err) || !join_parts(set, err) || !keep_usable(set, err))
         return false;
+    import_merge_directions(set);
+    if (!import_mirror(set, err) || !complete_lights(set, err) || !check_sources(set, err) ||
+        !check_lights(set, err))
+        return false;
+    for (int i = 0; i < set->count; i++)
+        if (!check_signs(&set->table[i], err)) return false;
     qsort(set->table, (size_t)set->count, sizeof *set->table, by_light);
     return true;
 }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "import/import_parts.h"
 
 /* A direction in steps of SAME_ANGLE_DEG, and its row. */
@@ -38,7 +39,7 @@ static Place *sorted_places(const ImportTable *table, Arena *arena)
     return place;
 }
 
-/* ---- joining ------------------------------------------------------------------------------- */
+/* ---- joining ----------------------------------------------------------------------------- */
 
 static void sort_parts(const ImportSet *set, const int *part, int count, int *sorted)
 {
@@ -162,9 +163,45 @@ bool import_join_tables(ImportSet *set, const int *part, int count, ImportTable 
                         "and %s share %d of %d directions, wanted the same directions in the "
                         "files of one table", joined->file, joined->rows, most);
     if (joined->rows < most)
-        import_note(set, "%s: %d directions are not in every file of the table and are left out",
-                    joined->file, most - joined->rows);
+        import_note(set,
+                    "%s: %d directions are not in every file of the table and are left out",
+                    path_name(joined->file), most - joined->rows);
     return true;
+}
+
+static void append_rows(const ImportTable *from, size_t rows, size_t masked, ImportTable *to)
+{
+    size_t size = (size_t)from->channels, count = (size_t)from->rows;
+    memcpy((double *)to->theta_deg + rows, from->theta_deg, sizeof(double) * count);
+    memcpy((double *)to->phi_deg + rows, from->phi_deg, sizeof(double) * count);
+    memcpy((double *)to->value + rows * size, from->value, sizeof(double) * count * size);
+    if (!from->masked || !from->masked_theta_deg) return;
+    count = (size_t)from->masked;
+    memcpy((double *)to->masked_theta_deg + masked, from->masked_theta_deg,
+           sizeof(double) * count);
+    memcpy((double *)to->masked_phi_deg + masked, from->masked_phi_deg, sizeof(double) * count);
+}
+
+void import_append_tables(ImportSet *set, const int *part, int count, ImportTable *joined)
+{
+    size_t rows = 0, masked = 0, size = (size_t)set->table[part[0]].channels;
+    for (int k = 0; k < count; k++) {
+        rows += (size_t)set->table[part[k]].rows;
+        masked += (size_t)set->table[part[k]].masked;
+    }
+    *joined = set->table[part[0]];
+    joined->theta_deg = ARENA_NEW(set->arena, double, rows);
+    joined->phi_deg = ARENA_NEW(set->arena, double, rows);
+    joined->value = ARENA_NEW(set->arena, double, rows * size);
+    joined->masked_theta_deg = ARENA_NEW(set->arena, double, masked);
+    joined->masked_phi_deg = ARENA_NEW(set->arena, double, masked);
+    joined->rows = joined->masked = 0;
+    for (int k = 0; k < count; k++) {
+        const ImportTable *from = &set->table[part[k]];
+        append_rows(from, (size_t)joined->rows, (size_t)joined->masked, joined);
+        joined->rows += from->rows;
+        joined->masked += from->masked;
+    }
 }
 
 void import_remove_tables(ImportSet *set, const int *part, int count, int keep)
@@ -192,7 +229,7 @@ int *import_match_rows(const ImportTable *table, const ImportTable *other, Arena
     return match;
 }
 
-/* ---- a direction once ---------------------------------------------------------------------- */
+/* ---- a direction once -------------------------------------------------------------------- */
 
 /* How many rows are repetitions; leader[row] is the first row of the same direction. */
 static int find_repeats(const ImportTable *table, Arena scratch, int *leader)
@@ -226,7 +263,8 @@ static void take_means(ImportTable *table, const int *leader, int rows, Arena *a
             value[(size_t)to * size + c] += table->value[(size_t)i * size + c];
     }
     for (int i = 0; i < rows; i++)
-        for (size_t c = 0; c < size && count[i] > 1; c++) value[(size_t)i * size + c] /= count[i];
+        for (size_t c = 0; c < size && count[i] > 1; c++)
+            value[(size_t)i * size + c] /= count[i];
     table->theta_deg = theta;
     table->phi_deg = phi;
     table->value = value;
@@ -249,6 +287,7 @@ void import_merge_directions(ImportSet *set)
         tables++;
     }
     if (total)
-        import_note(set, "%d directions of %d tables stood more than once: their mean was taken",
+        import_note(set,
+                    "%d directions of %d tables stood more than once: their mean was taken",
                     total, tables);
 }

@@ -16,6 +16,9 @@ const char *import_source_name(ImportSource source);
 bool import_join_tables(ImportSet *set, const int *part, int count, ImportTable *joined,
                         Error *err);
 
+/* The rows of `count` tables one after the other. */
+void import_append_tables(ImportSet *set, const int *part, int count, ImportTable *joined);
+
 /* Removes the tables of the list but `keep`. */
 void import_remove_tables(ImportSet *set, const int *part, int count, int keep);
 
@@ -28,6 +31,12 @@ bool import_apply_references(ImportSet *set, Error *err);
 
 /* Luminance alone as X, Y, Z: the chromaticity of the primaries' spectra, or that of D65. */
 void import_add_colour(ImportSet *set, ImportTable *table);
+
+/* Fills directions and lights by the set's symmetry. */
+bool import_mirror(ImportSet *set, Error *err);
+
+/* Notes how far a measured white is from the sum of the primaries. */
+void import_note_white(ImportSet *set);
 
 /* A direction that stands more than once in a table becomes the mean of its values; theta 0
  * is left alone. */

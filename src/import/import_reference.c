@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/units.h"
+#include "base/file.h"
 #include "import/import_parts.h"
 #include "spectrum/spectral_table.h"
 
@@ -58,13 +59,21 @@ static void divide(double *value, double with, double scale)
     *value = with > 0 ? *value / with * scale : NAN;
 }
 
+/* A single reading of the helper serves every direction. */
+static int *helper_rows(ImportSet *set, const ImportTable *table, const ImportTable *helper)
+{
+    if (helper->rows > 1) return import_match_rows(table, helper, set->arena);
+    import_note(set, "%s is one reading: it serves every direction", path_name(helper->file));
+    return ARENA_NEW(set->arena, int, table->rows);
+}
+
 /* Combines every row with the helper's row of the same direction; rows without one are left
  * out and counted. */
 static bool combine(ImportSet *set, ImportTable *table, const ImportTable *helper,
                     Combine *how, double scale, Error *err)
 {
     size_t  size = (size_t)table->channels;
-    int    *match = import_match_rows(table, helper, set->arena), kept = 0;
+    int    *match = helper_rows(set, table, helper), kept = 0;
     double *theta = ARENA_NEW(set->arena, double, table->rows);
     double *phi = ARENA_NEW(set->arena, double, table->rows);
     double *value = ARENA_NEW(set->arena, double, (size_t)table->rows * size);
@@ -81,8 +90,9 @@ static bool combine(ImportSet *set, ImportTable *table, const ImportTable *helpe
         phi[kept++] = table->phi_deg[i];
     }
     if (kept < table->rows)
-        import_note(set, "%s: %d of %d directions are not in %s and are left out", table->file,
-                    table->rows - kept, table->rows, helper->file);
+        import_note(set, "%s: %d of %d directions are not in %s and are left out",
+                    path_name(table->file), table->rows - kept, table->rows,
+                    path_name(helper->file));
     if (!kept)
         return error_at(err, ERROR_INPUT, helper->file, "", "has none of the directions of %s",
                         table->file);
@@ -107,10 +117,10 @@ static bool divide_reference(ImportSet *set, ImportTable *table, Error *err)
     if (!find_helper(set, table, IMPORT_REFERENCE, &reference, err)) return false;
     if (!reference)
         return error_at(err, ERROR_INPUT, table->file, "",
-                        "holds signals, and no white reference was measured at incidence %g with "
-                        "the same channels — name one with --role FILE=reference:%g, or one for "
-                        "all with --role FILE=reference", table->incidence_deg,
-                        table->incidence_deg);
+                        "holds signals, and no white reference was measured at incidence %g "
+                        "with the same channels — name one with --role FILE=reference:%g, or "
+                        "one for all with --role FILE=reference",
+                        table->incidence_deg, table->incidence_deg);
     table->is_signal = false;
     return combine(set, table, reference, divide, set->white_reflectance / PI, err);
 }
@@ -120,7 +130,8 @@ static bool is_used(const ImportSet *set, const ImportTable *helper)
     for (int i = 0; i < set->count; i++) {
         const ImportTable *table = &set->table[i];
         if (!is_helper(table) && same_channels(table, helper) &&
-            (helper->source == IMPORT_DARK || helper->is_any_light || same_light(table, helper)))
+            (helper->source == IMPORT_DARK || helper->is_any_light ||
+             same_light(table, helper)))
             return true;
     }
     return false;
@@ -148,7 +159,7 @@ bool import_apply_references(ImportSet *set, Error *err)
     return true;
 }
 
-/* ---- luminance without colour -------------------------------------------------------------- */
+/* ---- luminance without colour ------------------------------------------------------------ */
 
 /* X/Y and Z/Y of a spectrum, by the trapezoidal rule over its own wavelengths. */
 static bool spectrum_ratios(const ImportSpectra *spectra, const double *value, double ratio[2])

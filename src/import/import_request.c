@@ -2,6 +2,7 @@
 #include "import/import_request.h"
 
 #include <fnmatch.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/file.h"
@@ -12,11 +13,12 @@
 
 /* Keys besides those of the text tables. */
 static const char *const other_keys[] = {"roles", "skip", "format", "wavelength_nm", "area_mm",
-    "panel", "instrument", "primaries", "isotropic", "no_black", "note"};
+    "panel", "instrument", "primaries", "isotropic", "symmetry", "no_black", "note"};
 
 static bool wrong_kind(const JsonView *view, const char *key, const char *wanted, Error *err)
 {
-    return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key), "wanted %s", wanted);
+    return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key), "wanted %s",
+                    wanted);
 }
 
 /* A text or a number as the text that the command line would have. */
@@ -51,7 +53,8 @@ static bool declare_list(const JsonView *view, const char *key, const json_t *li
     json_array_foreach((json_t *)list, i, value) {
         const char *plain = plain_text(view, value);
         if (!plain) return wrong_kind(view, key, "texts or numbers", err);
-        if (is_columns) joined = arena_format(view->arena, "%s%s%s", joined, i ? "," : "", plain);
+        if (is_columns)
+            joined = arena_format(view->arena, "%s%s%s", joined, i ? "," : "", plain);
         else if (!declare_one(view, key, value, text, err)) return false;
     }
     return !is_columns || text_declare(text, key, joined, err) ||
@@ -117,6 +120,26 @@ static bool read_flag(const JsonView *root, const char *key, bool *out, Error *e
     return true;
 }
 
+bool import_symmetry_named(const char *name, ImportSymmetry *out, Error *err)
+{
+    static const char *const names[] = {"none", "left-right", "up-down", "both", "half-turn"};
+    for (int i = 0; i < COUNT(names); i++)
+        if (!strcmp(names[i], name)) {
+            *out = (ImportSymmetry)i;
+            return true;
+        }
+    return error_set(err, ERROR_USAGE,
+                     "symmetry is '%s', wanted none, left-right, up-down, both or half-turn",
+                     name);
+}
+
+static bool read_symmetry(const JsonView *root, ImportSymmetry *out, Error *err)
+{
+    const char *name = "none";
+    return json_view_text(root, "symmetry", &name, err) &&
+           (import_symmetry_named(name, out, err) || error_in_file(err, root->file));
+}
+
 static bool read_others(const JsonView *root, ImportRequest *request, Error *err)
 {
     int two = 2;
@@ -130,6 +153,7 @@ static bool read_others(const JsonView *root, ImportRequest *request, Error *err
               json_view_text(root, "instrument", &request->instrument, err) &&
               json_view_text(root, "primaries", &request->primaries, err) &&
               read_flag(root, "isotropic", &request->is_isotropic, err) &&
+              read_symmetry(root, &request->symmetry, err) &&
               read_flag(root, "no_black", &request->black_is_zero, err);
     if (ok && request->primaries)
         request->primaries = path_beside(root->file, request->primaries, root->arena);
@@ -150,7 +174,7 @@ bool import_request_read(const char *file, Arena *arena, ImportRequest *request,
     return ok;
 }
 
-/* ---- the import ---------------------------------------------------------------------------- */
+/* ---- the import -------------------------------------------------------------------------- */
 
 bool import_is_skipped(const ImportRequest *request, const char *file)
 {
@@ -163,26 +187,40 @@ bool import_is_skipped(const ImportRequest *request, const char *file)
     return false;
 }
 
-bool import_run(const char *const *file, int count, const ImportRequest *request,
-                ImportStep *step, void *context, ImportSet *set, Error *err)
+/* Reads on when a file is refused, so that the message can say how many are. */
+static bool read_files(const char *const *file, int count, const ImportRequest *request,
+                       ImportSet *set, Error *err)
 {
     ImportOptions options = request->options;
-    int           skipped = 0;
+    Error         one = {.code = ERROR_NONE};
+    int           refused = 0, skipped = 0;
     options.text = &request->text;
+    for (int i = 0; i < count; i++) {
+        bool is_skipped = import_is_skipped(request, file[i]);
+        skipped += is_skipped;
+        if (!is_skipped && !import_file(file[i], &options, set, &one) && !refused++) *err = one;
+        if (refused && one.code != ERROR_INPUT) break;
+        if (request->step) request->step(request->context, i + 1);
+    }
+    if (skipped) import_note(set, "%d files were left out as asked", skipped);
+    size_t length = strlen(err->text);
+    if (refused > 1)
+        snprintf(err->text + length, sizeof err->text - length, "; %d more file%s refused",
+                 refused - 1, refused == 2 ? " is" : "s are");
+    return !refused;
+}
+
+bool import_run(const char *const *file, int count, const ImportRequest *request,
+                ImportSet *set, Error *err)
+{
     set->panel = request->panel;
     set->instrument = request->instrument;
     set->is_isotropic = request->is_isotropic;
+    set->symmetry = request->symmetry;
     set->black_is_zero = request->black_is_zero;
     if (request->text.white_reflectance > 0)
         set->white_reflectance = request->text.white_reflectance;
     if (request->primaries && !import_primaries(request->primaries, &request->text, set, err))
         return false;
-    for (int i = 0; i < count; i++) {
-        bool is_skipped = import_is_skipped(request, file[i]);
-        skipped += is_skipped;
-        if (!is_skipped && !import_file(file[i], &options, set, err)) return false;
-        if (step) step(context, i + 1);
-    }
-    if (skipped) import_note(set, "%d files were left out as asked", skipped);
-    return import_complete(set, err);
+    return read_files(file, count, request, set, err) && import_complete(set, err);
 }

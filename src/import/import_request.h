@@ -1,5 +1,5 @@
-/* import_request.h -- everything that a user declares for an import, on the command line or in a
- * declaration file that a laboratory writes once.
+/* import_request.h -- everything that a user declares for an import, on the command line or in
+ * a declaration file that a laboratory writes once.
  *
  * Memory   texts from the arena or the caller's. Threads: one at a time.
  * Fails    with the file, the JSON path, what was found and what was wanted.
@@ -7,17 +7,26 @@
 #pragma once
 #include "import/import_text.h"
 
+/* Called with the number of files done. */
+typedef void ImportStep(void *context, int done);
+
 typedef struct ImportRequest {
     TextDeclaration text;
     ImportOptions   options;  /* options.text is set by import_run */
     TextList        skip;     /* patterns of files to leave out */
     const char     *primaries; /* a file of spectra; NULL: none */
     const char     *panel, *instrument;
+    ImportSymmetry  symmetry;
     bool            is_isotropic, black_is_zero;
+    ImportStep     *step; /* NULL: nobody waits */
+    void           *context;
 } ImportRequest;
 
 /* Reads a declaration file (README: its keys) into a request. */
 bool import_request_read(const char *file, Arena *arena, ImportRequest *request, Error *err);
+
+/* "none", "left-right", "up-down", "both", "half-turn". */
+bool import_symmetry_named(const char *name, ImportSymmetry *out, Error *err);
 
 /* Does a pattern of the list fit the file's name or path? */
 bool import_is_skipped(const ImportRequest *request, const char *file);
@@ -26,9 +35,6 @@ bool import_is_skipped(const ImportRequest *request, const char *file);
 bool import_primaries(const char *file, const TextDeclaration *declared, ImportSet *set,
                       Error *err);
 
-/* Called with the number of files done; may be NULL. */
-typedef void ImportStep(void *context, int done);
-
 /* Reads all files with what the request says and completes the set. */
 bool import_run(const char *const *file, int count, const ImportRequest *request,
-                ImportStep *step, void *context, ImportSet *set, Error *err);
+                ImportSet *set, Error *err);

@@ -8,12 +8,12 @@
 #include "import/importers.h"
 #include "import/text_reader.h"
 
-/* ---- what the file is ---------------------------------------------------------------------- */
+/* ---- what the file is -------------------------------------------------------------------- */
 
 static bool not_told(TextReader *in, bool is_ambiguous)
 {
-    const char *wanted = in->is_reflection ? "brdf:INCIDENCE" : "red:255 (or green, blue, black, "
-                                                                "white)";
+    const char *wanted =
+        in->is_reflection ? "brdf:INCIDENCE" : "red:255 (or green, blue, black, white)";
     return error_at(in->err, ERROR_INPUT, in->file, "",
                     "%s %s — say it with --role %s=%s", is_ambiguous ? "tells more than one"
                     : "does not tell, by its contents or its name,",
@@ -102,7 +102,7 @@ bool text_find_role(TextReader *in)
     return in->role.is_told || not_told(in, is_mixed[0] || (!said.is_told && is_mixed[1]));
 }
 
-/* ---- columns ------------------------------------------------------------------------------- */
+/* ---- columns ----------------------------------------------------------------------------- */
 
 static void index_columns(TextReader *in)
 {
@@ -111,13 +111,14 @@ static void index_columns(TextReader *in)
         in->column[in->raw->column[c].name.quantity] = c;
 }
 
-/* A matrix without a label: --quantity says what it holds, or a role or name with a component. */
+/* A matrix without a label: --quantity says what it holds, or a component in role or name. */
 static bool name_unlabelled(TextReader *in)
 {
     int c = in->column[QUANTITY_NONE];
     if (c < 0) return true;
     ColumnName *name = &in->raw->column[c].name;
-    const char *told = in->declared->quantity, *role = text_declared_role(in->declared, in->file);
+    const char *told = in->declared->quantity,
+               *role = text_declared_role(in->declared, in->file);
     double most = in->declared->level_max > 0 ? in->declared->level_max : 255;
     bool   is_mixed;
     Role   named = role_from_words(name_without_ending(in), most, &is_mixed);
@@ -130,8 +131,8 @@ static bool name_unlabelled(TextReader *in)
         name->quantity = (Quantity)(QUANTITY_X + named.component - 'X');
     } else {
         return error_at(in->err, ERROR_INPUT, in->file, "",
-                        "does not say what its matrix holds — say --quantity X, Y, Z, L or brdf, "
-                        "or the component in the role, as --role %s=red:255:X",
+                        "does not say what its matrix holds — say --quantity X, Y, Z, L or "
+                        "brdf, or the component in the role, as --role %s=red:255:X",
                         path_name(in->file));
     }
     index_columns(in);
@@ -146,8 +147,8 @@ static bool find_kind(TextReader *in)
     in->is_reflection = in->column[QUANTITY_REFLECTION] >= 0;
     if (emission == in->is_reflection)
         return error_at(in->err, ERROR_INPUT, in->file, "header line",
-                        emission ? "has columns of luminance and of reflection, wanted one kind "
-                                   "— skip some with --columns"
+                        emission ? "has columns of luminance and of reflection, wanted one "
+                                   "kind — skip some with --columns"
                                  : "has no column of luminance or reflection — name them with "
                                    "--columns");
     int codes = 0;
@@ -155,7 +156,12 @@ static bool find_kind(TextReader *in)
     if (codes && codes < 3)
         return error_at(in->err, ERROR_INPUT, in->file, "header line",
                         "has %d of the three columns R, G and B", codes);
-    bool has_polar = in->column[QUANTITY_THETA] >= 0 && in->column[QUANTITY_PHI] >= 0;
+    in->is_section = in->column[QUANTITY_THETA] >= 0 && in->column[QUANTITY_PHI] < 0;
+    if (in->is_section && !text_declared_section(in->declared, in->file, &in->section_phi))
+        return error_at(in->err, ERROR_INPUT, in->file, "header line",
+                        "has theta but no azimuth — say the section's azimuth with --section "
+                        "%s=DEG", path_name(in->file));
+    bool has_polar = in->column[QUANTITY_THETA] >= 0;
     bool has_pair = in->column[QUANTITY_HORIZONTAL] >= 0 && in->column[QUANTITY_VERTICAL] >= 0;
     return has_polar != has_pair ||
            error_at(in->err, ERROR_INPUT, in->file, "header line",
@@ -172,18 +178,19 @@ static bool check_sayings(TextReader *in)
     return true;
 }
 
-/* ---- the importer -------------------------------------------------------------------------- */
+/* ---- the importer ------------------------------------------------------------------------ */
 
 static void note_names(TextReader *in)
 {
     if (in->said.panel && !in->set->panel) in->set->panel = in->said.panel;
     if (in->said.instrument && !in->set->instrument) in->set->instrument = in->said.instrument;
     if (in->said.unused_columns)
-        import_note(in->set, "%s: %d columns with other names are not used", in->file,
-                    in->said.unused_columns);
+        import_note(in->set, "%s: %d columns with other names are not used",
+                    path_name(in->file), in->said.unused_columns);
 }
 
-static bool read_text(const char *file, const ImportOptions *options, ImportSet *set, Error *err)
+static bool read_text(const char *file, const ImportOptions *options, ImportSet *set,
+                      Error *err)
 {
     static const TextDeclaration nothing;
     TextReader in = {.file = file, .options = options, .set = set, .err = err,
@@ -198,14 +205,14 @@ static bool read_text(const char *file, const ImportOptions *options, ImportSet 
     return text_add_tables(&in);
 }
 
-/* Text holds no zero bytes but as half of UTF-16's. */
+/* Text holds no zero bytes but as half of UTF-16's; DOS ends it with a control-Z. */
 static bool is_text(const char *file, const char *head, size_t size)
 {
     (void)file;
     size_t zeros = 0, odd = 0;
     for (size_t i = 0; i < size; i++) {
         zeros += head[i] == 0;
-        odd += head[i] > 0 && head[i] < ' ' && !strchr("\t\r\n\f", head[i]);
+        odd += head[i] > 0 && head[i] < ' ' && !strchr("\t\r\n\f\x1A", head[i]);
     }
     return odd == 0 && (zeros == 0 || zeros * 5 > size * 2);
 }

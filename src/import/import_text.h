@@ -18,7 +18,9 @@ typedef enum TableLayout {
     LAYOUT_AUTO,
     LAYOUT_LIST,      /* a direction a row */
     LAYOUT_THETA_DOWN, /* a matrix: theta in the first column, phi in the first row */
-    LAYOUT_PHI_DOWN
+    LAYOUT_PHI_DOWN,
+    LAYOUT_HORIZONTAL_DOWN, /* a matrix of horizontal and vertical angles */
+    LAYOUT_VERTICAL_DOWN
 } TableLayout;
 
 /* Which two angles the columns theta and phi, or horizontal and vertical, are. */
@@ -50,6 +52,7 @@ typedef struct TextDeclaration {
     int          skip_lines;
     TextList     comment;     /* beginnings of comment lines besides # ! % // */
     TextList     mask;        /* values that mean "not measured" */
+    TextList     section;     /* "PATTERN=DEG": the azimuth of files that have theta alone */
     AngleUnit    angle_unit;
     AnglePair    angles;
     ValueUnit    unit;
@@ -73,6 +76,9 @@ typedef struct TextKey {
 } TextKey;
 extern const TextKey text_keys[];
 extern const int     text_key_count;
+
+/* The azimuth that --section gives to a file with theta alone; false: none. */
+bool text_declared_section(const TextDeclaration *declared, const char *file, double *phi);
 
 /* The role that --role gives to a file; NULL: none. */
 const char *text_declared_role(const TextDeclaration *declaration, const char *file);

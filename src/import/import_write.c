@@ -21,7 +21,7 @@ typedef struct Output {
     Arena            scratch;
     const char     **path, **temporary; /* of what is written so far */
     int              count;
-    const char      *folder[2]; /* made here: removed again on failure when empty */
+    const char      *folder[3]; /* made here: removed again on failure when empty */
     int              folder_count;
     Error           *err;
 } Output;
@@ -39,17 +39,29 @@ const char *import_table_file(const ImportSet *set, const ImportTable *table, Ar
     return arena_format(arena, "brdf/i%.10g.csv", table->incidence_deg);
 }
 
-/* ---- files --------------------------------------------------------------------------------- */
+/* ---- files ------------------------------------------------------------------------------- */
 
-static bool make_folder(Output *out, const char *name)
+static bool make_folder(Output *out, const char *path)
 {
-    const char *path = path_beside(out->manifest, name, &out->scratch);
     if (!mkdir(path, 0777)) {
         out->folder[out->folder_count++] = path;
         return true;
     }
     return errno == EEXIST || error_at(out->err, ERROR_OUTPUT, path, "", "cannot be made: %s",
                                        strerror(errno));
+}
+
+/* The manifest's own folder, when it is not there, and those of its tables. */
+static bool make_folders(Output *out, bool emission, bool reflection)
+{
+    const char *name = path_name(out->manifest);
+    size_t      length = (size_t)(name - out->manifest);
+    if (length > 1 &&
+        !make_folder(out, arena_string(&out->scratch, out->manifest, length - 1)))
+        return false;
+    return (!emission || make_folder(out, path_beside(out->manifest, "emission",
+                                                      &out->scratch))) &&
+           (!reflection || make_folder(out, path_beside(out->manifest, "brdf", &out->scratch)));
 }
 
 static FILE *begin_file(Output *out, const char *path)
@@ -76,7 +88,7 @@ static bool end_file(Output *out, FILE *stream)
 static void undo(Output *out)
 {
     for (int i = 0; i < out->count; i++) file_discard(out->temporary[i]);
-    for (int i = 0; i < out->folder_count; i++) rmdir(out->folder[i]);
+    for (int i = out->folder_count - 1; i >= 0; i--) rmdir(out->folder[i]);
 }
 
 static bool commit_all(Output *out)
@@ -86,7 +98,25 @@ static bool commit_all(Output *out)
     return true;
 }
 
-/* ---- tables -------------------------------------------------------------------------------- */
+/* A laboratory's own file is never written over. */
+static bool spares_sources(Output *out)
+{
+    struct stat source, target;
+    for (int i = 0; i < out->set->count; i++) {
+        const char *name = import_table_file(out->set, &out->set->table[i], &out->scratch);
+        const char *path = path_beside(out->manifest, name, &out->scratch);
+        if (stat(path, &target)) continue;
+        for (int k = 0; k < out->set->count; k++)
+            if (!stat(out->set->table[k].file, &source) && source.st_dev == target.st_dev &&
+                source.st_ino == target.st_ino)
+                return error_at(out->err, ERROR_OUTPUT, path, "",
+                                "is one of the files to import and would be written over — "
+                                "choose another folder for the manifest");
+    }
+    return true;
+}
+
+/* ---- tables ------------------------------------------------------------------------------ */
 
 /* The fewest of 6 to 9 digits that give the same float again. */
 static void print_value(FILE *stream, double value)
@@ -111,7 +141,8 @@ static void print_rows(FILE *stream, const ImportTable *table)
     size_t size = (size_t)table->channels;
     for (int i = 0; i < table->rows; i++) {
         fprintf(stream, "%.9g,%.9g", table->theta_deg[i], wrapped(table->phi_deg[i]));
-        for (size_t c = 0; c < size; c++) print_value(stream, table->value[(size_t)i * size + c]);
+        for (size_t c = 0; c < size; c++)
+            print_value(stream, table->value[(size_t)i * size + c]);
         fputc('\n', stream);
     }
 }
@@ -160,7 +191,7 @@ static bool write_spectra(Output *out)
     return end_file(out, stream);
 }
 
-/* ---- the manifest -------------------------------------------------------------------------- */
+/* ---- the manifest ------------------------------------------------------------------------ */
 
 static json_t *emission_object(Output *out)
 {
@@ -207,7 +238,8 @@ static json_t *reflection_object(const ImportSet *set)
         const ImportTable *table = &set->table[i];
         if (table->source != IMPORT_REFLECTION) continue;
         for (int c = 0; c < table->channels && !object; c++)
-            json_array_append_new(nm, number(round((double)table->wavelength_nm[c] * 1e4) / 1e4));
+            json_array_append_new(nm,
+                                  number(round((double)table->wavelength_nm[c] * 1e4) / 1e4));
         if (!object) object = json_object();
         append_once(incidence, table->incidence_deg);
         append_once(azimuth, table->incidence_phi_deg);
@@ -237,6 +269,17 @@ static json_t *text_value(const char *text, Arena *arena)
     return json_string(plain);
 }
 
+/* What the files say; else the name of the folder they come from, or of the only file. */
+static const char *panel_name(Output *out)
+{
+    const char *file = out->set->table[0].file, *name = path_name(file);
+    if (out->set->panel) return out->set->panel;
+    if (out->set->count == 1 || name - file < 2) return name;
+    char *folder = arena_string(&out->scratch, file, (size_t)(name - file) - 1);
+    name = path_name(folder);
+    return *name && *name != '.' ? name : path_name(file);
+}
+
 static json_t *manifest_object(Output *out)
 {
     const ImportSet *set = out->set;
@@ -244,8 +287,7 @@ static json_t *manifest_object(Output *out)
     for (int i = 0; i < set->note_count; i++)
         note = arena_format(&out->scratch, "%s%s%s", note, i ? "; " : "", set->note[i]);
     json_t *root = json_object(), *emission = emission_object(out);
-    json_object_set_new(root, "panel", text_value(set->panel ? set->panel :
-                                                  path_name(set->table[0].file), &out->scratch));
+    json_object_set_new(root, "panel", text_value(panel_name(out), &out->scratch));
     if (set->instrument)
         json_object_set_new(root, "instrument", text_value(set->instrument, &out->scratch));
     if (*note) json_object_set_new(root, "note", text_value(note, &out->scratch));
@@ -284,8 +326,8 @@ bool import_write(const ImportSet *set, const char *manifest, Error *err)
     out.path = ARENA_NEW(&arena, const char *, set->count + 2);
     out.temporary = ARENA_NEW(&arena, const char *, set->count + 2);
     out.scratch = arena;
-    bool ok = (!has_source(set, false) || make_folder(&out, "emission")) &&
-              (!has_source(set, true) || make_folder(&out, "brdf"));
+    bool ok = spares_sources(&out) &&
+              make_folders(&out, has_source(set, false), has_source(set, true));
     for (int i = 0; i < set->count && ok; i++) ok = write_table(&out, &set->table[i]);
     ok = ok && write_spectra(&out) && write_manifest(&out) && commit_all(&out);
     if (!ok) undo(&out);

@@ -4,7 +4,9 @@
 
 const Importer *const importers[] = {
     &importer_fred, &importer_mountain, &importer_zemax, &importer_lighttools,
-    &importer_speos, &importer_astm, &importer_ssdd,
+    &importer_speos, &importer_astm, &importer_ssdd, &importer_window,
+    &importer_rgl, &importer_pbsdf, &importer_merl, &importer_spreadsheet,
+    &importer_ies, &importer_eulumdat,
     &importer_text,
     NULL,
 };

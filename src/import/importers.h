@@ -3,9 +3,13 @@
 #pragma once
 #include "import/import.h"
 
-/* ---- scatter ---- */
+/* ---- scatter ----------------------------------------------------------------------------- */
 extern const Importer importer_zemax, importer_lighttools, importer_mountain, importer_fred,
-    importer_speos, importer_astm, importer_ssdd;
+    importer_speos, importer_astm, importer_ssdd, importer_window,
+    importer_rgl, importer_pbsdf, importer_merl, importer_spreadsheet;
 
-/* ---- columns and matrices ---- */
+/* ---- luminaires -------------------------------------------------------------------------- */
+extern const Importer importer_eulumdat, importer_ies;
+
+/* ---- columns and matrices ---------------------------------------------------------------- */
 extern const Importer importer_text;

@@ -157,6 +157,40 @@ static bool read_rows(Mountain *in, ScatterRows *rows, Error *err)
     return true;
 }
 
+static bool is_light(const ImportTable *table, ScatterLight light, float nm)
+{
+    double turn = table->incidence_phi_deg - light.azimuth_deg;
+    return table->source == IMPORT_REFLECTION && table->channels == 1 &&
+           fabs(table->incidence_deg - light.incidence_deg) < 1e-4 &&
+           fabs(remainder(turn, 360)) < 1e-4 && fabsf(table->wavelength_nm[0] - nm) < 1e-3f;
+}
+
+static void append_rows(ScatterRows *all, const ScatterRows *rows)
+{
+    for (int i = 0; i < rows->rows; i++)
+        scatter_put(all, rows->theta_deg[i], rows->phi_deg[i], &rows->value[i]);
+    for (int i = 0; i < rows->masked; i++)
+        scatter_mask(all, rows->masked_theta_deg[i], rows->masked_phi_deg[i]);
+}
+
+/* Files with light from one direction and other sampling patterns are one table. */
+static ScatterRows join_pattern(ImportSet *set, const ScatterRows *rows, ScatterLight light,
+                                float nm)
+{
+    int i = 0;
+    while (i < set->count && !is_light(&set->table[i], light, nm)) i++;
+    if (i == set->count) return *rows;
+    const ImportTable *table = &set->table[i];
+    ScatterRows all = scatter_rows(set->arena, table->rows + table->masked + rows->capacity, 1);
+    for (int r = 0; r < table->rows; r++)
+        scatter_put(&all, table->theta_deg[r], table->phi_deg[r], &table->value[r]);
+    for (int r = 0; r < table->masked && table->masked_theta_deg; r++)
+        scatter_mask(&all, table->masked_theta_deg[r], table->masked_phi_deg[r]);
+    append_rows(&all, rows);
+    set->table[i] = set->table[--set->count];
+    return all;
+}
+
 static void tell(const Mountain *in, ImportSet *set)
 {
     const char *name = path_name(in->scan.file);
@@ -185,7 +219,9 @@ static bool read_mountain(const char *file, const ImportOptions *options, Import
     if (!read_rows(&in, &rows, err)) return false;
     *nm = scatter_photopic(options, file, set);
     tell(&in, set);
-    return scatter_add(set, file, &rows, (ScatterLight){in.theta, in.phi}, nm, err);
+    ScatterLight light = {in.theta, in.phi};
+    rows = join_pattern(set, &rows, light, *nm);
+    return scatter_add(set, file, &rows, light, nm, err);
 }
 
 static bool is_mountain(const char *file, const char *head, size_t head_size)

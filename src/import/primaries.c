@@ -50,7 +50,8 @@ static bool find_header(Spectra *in, int *at)
             int c = column_of(in->cell[i]);
             if (c >= 0) in->column[c] = i;
         }
-        if (in->column[0] >= 0 && in->column[1] >= 0 && in->column[2] >= 0 && in->column[3] >= 0)
+        if (in->column[0] >= 0 && in->column[1] >= 0 && in->column[2] >= 0 &&
+            in->column[3] >= 0)
             return true;
     }
     return error_at(in->err, ERROR_INPUT, in->text->file, "header line",
@@ -68,8 +69,8 @@ static bool read_row(Spectra *in, int at)
         TextCell cell = in->cell[in->column[c]];
         if (!text_number(cell, in->dialect.decimal, &in->value[c][in->rows]))
             return error_at(in->err, ERROR_INPUT, in->text->file, place,
-                            "holds '%.*s', wanted a number", cell.length < 40 ? cell.length : 40,
-                            cell.text);
+                            "holds '%.*s', wanted a number",
+                            cell.length < 40 ? cell.length : 40, cell.text);
     }
     double nm = in->value[0][in->rows];
     if (!(nm >= 100 && nm <= 20000))

@@ -16,13 +16,15 @@ typedef struct Word {
     double number;
 } Word;
 
-/* ---- "red:255:X" --------------------------------------------------------------------------- */
+/* ---- "red:255:X" ------------------------------------------------------------------------- */
 
 static bool bad_role(const char *text, Error *err)
 {
-    return error_set(err, ERROR_USAGE, "the role '%s' is unknown, wanted red, green or blue with "
-                     ":LEVEL, black, white, brdf:INCIDENCE[:AZIMUTH[:WAVELENGTH]], dark, "
-                     "reference[:INCIDENCE] or skip", text);
+    return error_set(err, ERROR_USAGE,
+                     "the role '%s' is unknown, wanted red, green or blue with :LEVEL, black, "
+                     "white, brdf:INCIDENCE[:AZIMUTH[:WAVELENGTH]], dark, "
+                     "reference[:INCIDENCE] or skip",
+                     text);
 }
 
 /* Up to three fields behind the name; NULL where there is none. */
@@ -107,7 +109,7 @@ bool role_parse(const char *text, double level_max, Role *out, Error *err)
     return bad_role(text, err);
 }
 
-/* ---- words --------------------------------------------------------------------------------- */
+/* ---- words ------------------------------------------------------------------------------- */
 
 static bool is_letter(char c)
 {
@@ -176,7 +178,8 @@ static bool read_light_word(WordReader *in, int i)
 {
     static const char *const incidence[] = {"brdf", "bsdf", "brf", "reflection", "reflectance",
         "refl", "i", "in", "inc", "incidence", "aoi", "ti", "thetai", NULL};
-    static const char *const azimuth[] = {"a", "az", "azi", "azimuth", "phi", "p", "phii", NULL};
+    static const char *const azimuth[] = {"a",   "az", "azi",  "azimuth",
+                                          "phi", "p",  "phii", NULL};
     static const char *const wavelength[] = {"w", "wl", "wave", "wavelength", "lambda", NULL};
     const char *text = in->word[i].text;
     double      number = in->word[i + 1].number;
@@ -258,7 +261,7 @@ Role role_from_words(const char *words, double level_max, bool *is_ambiguous)
     return *role;
 }
 
-/* ---- telling ------------------------------------------------------------------------------- */
+/* ---- telling ----------------------------------------------------------------------------- */
 
 const char *role_text(const Role *role, Arena *arena)
 {

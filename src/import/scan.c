@@ -10,6 +10,7 @@
 #include "base/file.h"
 #include "import/import.h"
 
+#define BYTE_ORDER_MARK "\xEF\xBB\xBF"
 #define WORD_SHOWN_MAX 40 /* of a word in a message */
 
 bool scan_open(const char *file, Arena *arena, Scan *out, Error *err)
@@ -17,7 +18,7 @@ bool scan_open(const char *file, Arena *arena, Scan *out, Error *err)
     FileBytes bytes;
     if (!file_read(file, IMPORT_FILE_BYTES_MAX, arena, &bytes, err)) return false;
     const char *text = (const char *)bytes.data;
-    size_t mark = bytes.size >= 3 && !memcmp(text, "\xEF\xBB\xBF", 3) ? 3 : 0;
+    size_t mark = bytes.size >= 3 && !memcmp(text, BYTE_ORDER_MARK, 3) ? 3 : 0;
     *out = (Scan){.file = file, .next = text + mark, .end = text + bytes.size, .line = 1,
                   .comment = '#', .arena = arena};
     return true;
@@ -149,6 +150,8 @@ bool scan_fail(const Scan *scan, Error *err, const char *format, ...)
 bool scan_head_has(const char *head, size_t size, const char *line_start)
 {
     size_t length = strlen(line_start);
+    if (size >= 3 && !memcmp(head, BYTE_ORDER_MARK, 3))
+        return scan_head_has(head + 3, size - 3, line_start);
     for (size_t i = 0; i + length <= size; i++)
         if ((!i || head[i - 1] == '\n') && !memcmp(head + i, line_start, length)) return true;
     return false;

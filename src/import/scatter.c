@@ -129,10 +129,27 @@ static bool is_turned(const ImportSet *set, double azimuth_deg)
     return false;
 }
 
+/* Of a file whose material the user calls isotropic one azimuth of the light is enough. */
+static bool is_spared(ImportSet *set, const char *file, ScatterLight light, float nm)
+{
+    for (int i = 0; i < set->count && set->is_isotropic; i++) {
+        const ImportTable *table = &set->table[i];
+        if (table->source != IMPORT_REFLECTION || strcmp(table->file, file) ||
+            fabs(table->incidence_deg - light.incidence_deg) > 1e-6 ||
+            fabsf(table->wavelength_nm[0] - nm) > 1e-3f)
+            continue;
+        import_note(set, "%s: isotropic as declared: of several azimuths of the light the "
+                    "first one is taken", path_name(file));
+        return true;
+    }
+    return false;
+}
+
 bool scatter_add(ImportSet *set, const char *file, const ScatterRows *rows,
                  ScatterLight light, const float *wavelength_nm, Error *err)
 {
     double azimuth = whole_turn(light.azimuth_deg);
+    if (is_spared(set, file, light, wavelength_nm[0])) return true;
     if (light.incidence_deg > 0 && is_turned(set, azimuth)) set->is_anisotropic = true;
     ImportTable table = {.source = IMPORT_REFLECTION, .file = file,
                          .incidence_deg = light.incidence_deg, .incidence_phi_deg = azimuth,

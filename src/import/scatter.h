@@ -54,7 +54,8 @@ typedef struct ScatterLight {
     double azimuth_deg; /* of the light; 180 for data without an azimuth of its own. Any turn */
 } ScatterLight;
 
-/* Adds the rows as a table. Light from a second azimuth makes the set anisotropic. Negative
+/* Adds the rows as a table. Light from a second azimuth makes the set anisotropic, or is left
+ * out (with a note) when the user declared the set isotropic. Negative
  * values stay: they are noise below the zero of the instrument. */
 bool scatter_add(ImportSet *set, const char *file, const ScatterRows *rows,
                  ScatterLight light, const float *wavelength_nm, Error *err);

@@ -113,8 +113,10 @@ static double percent_at(const Speos *in, double nm)
 /* The file's wavelengths that a panel has, and its ends where the file goes beyond them. */
 static int choose_bands(const Speos *in, ImportSet *set, float *nm)
 {
-    int count = 0, last = in->spectrum_count - 1;
-    bool before = in->spectrum_nm[0] < FIRST_NM, after = in->spectrum_nm[last] > LAST_NM;
+    int    count = 0, last = in->spectrum_count - 1;
+    double first_nm = in->spectrum_nm[0], last_nm = in->spectrum_nm[last];
+    bool   before = first_nm < FIRST_NM && last_nm >= FIRST_NM;
+    bool   after = last_nm > LAST_NM && first_nm <= LAST_NM;
     if (before) nm[count++] = (float)FIRST_NM;
     for (int i = 0; i <= last && count < MEASUREMENT_WAVELENGTHS_MAX - 1; i++) {
         double one = in->spectrum_nm[i];
@@ -125,8 +127,8 @@ static int choose_bands(const Speos *in, ImportSet *set, float *nm)
     if (after) nm[count++] = (float)LAST_NM;
     if (before || after)
         import_note(set, "%s: the spectrum goes from %g to %g nm; it is cut (by straight "
-                    "lines) to %g to %g nm", path_name(in->file), in->spectrum_nm[0],
-                    in->spectrum_nm[last], FIRST_NM, LAST_NM);
+                    "lines) to %g to %g nm", path_name(in->file), first_nm, last_nm,
+                    FIRST_NM, LAST_NM);
     return count;
 }
 
@@ -146,7 +148,12 @@ static bool check_spectrum(const Speos *in, Error *err)
 
 /* ---- tables ------------------------------------------------------------------------------ */
 
-/* factor: a channel each. */
+typedef struct SpeosBands {
+    int          count;
+    const float *nm;
+    double       factor[MEASUREMENT_WAVELENGTHS_MAX]; /* of the values */
+} SpeosBands;
+
 static void put_rows(const Speos *in, const SpeosTable *table, const double *factor,
                      ScatterRows *rows)
 {
@@ -161,30 +168,34 @@ static void put_rows(const Speos *in, const SpeosTable *table, const double *fac
         }
 }
 
-static bool add_table(const Speos *in, const SpeosTable *table, const float *nm,
-                      const double *factor, int channels, ImportSet *set, Error *err)
+static bool add_table(const Speos *in, const SpeosTable *table, const SpeosBands *bands,
+                      ImportSet *set, Error *err)
 {
-    ScatterRows rows = scatter_rows(set->arena, table->thetas * table->phis, channels);
-    put_rows(in, table, factor, &rows);
+    ScatterRows rows = scatter_rows(set->arena, table->thetas * table->phis, bands->count);
+    put_rows(in, table, bands->factor, &rows);
     /* The mirror direction lies `anisotropy` before the vector, which is at phi 0. */
     ScatterLight light = {table->incidence_deg, 180 - table->anisotropy_deg};
-    return scatter_add(set, in->file, &rows, light, nm, err);
+    return scatter_add(set, in->file, &rows, light, bands->nm, err);
 }
 
 static bool add_scaled(const Speos *in, ImportSet *set, Error *err)
 {
-    float  *nm = ARENA_NEW(set->arena, float, MEASUREMENT_WAVELENGTHS_MAX);
-    double  factor[MEASUREMENT_WAVELENGTHS_MAX], scale = 0;
+    float     *nm = ARENA_NEW(set->arena, float, MEASUREMENT_WAVELENGTHS_MAX);
+    SpeosBands bands = {.nm = nm};
+    double     scale = 0;
     if (!check_spectrum(in, err) || !find_scale(in, *set->arena, &scale, err)) return false;
-    int count = choose_bands(in, set, nm);
-    if (!count)
+    bands.count = choose_bands(in, set, nm);
+    if (!bands.count)
         return error_at(err, ERROR_INPUT, in->file, "", "the spectrum goes from %g to %g nm, "
                         "wanted some of %g to %g nm", in->spectrum_nm[0],
                         in->spectrum_nm[in->spectrum_count - 1], FIRST_NM, LAST_NM);
-    for (int c = 0; c < count; c++) factor[c] = percent_at(in, (double)nm[c]) / 100 * scale;
+    for (int c = 0; c < bands.count; c++)
+        bands.factor[c] = percent_at(in, (double)nm[c]) / 100 * scale;
     for (int i = 0; i < in->tables; i++) {
-        if (in->table[i].incidence_deg >= 90) continue;
-        if (!add_table(in, &in->table[i], nm, factor, count, set, err)) return false;
+        const SpeosTable *table = &in->table[i];
+        bool is_again = table->anisotropy_deg == 360 && in->table[0].anisotropy_deg == 0;
+        if (table->incidence_deg >= 90 || is_again) continue;
+        if (!add_table(in, table, &bands, set, err)) return false;
     }
     import_note(set, "%s: relative values scaled to %g%% directional-hemispherical reflectance "
                 "at incidence %g and %g nm, as the file states", path_name(in->file),
@@ -203,10 +214,10 @@ static bool add_spectral(const Speos *in, ImportSet *set, Error *err)
             return error_at(err, ERROR_INPUT, in->file, "", "the table at incidence %g and %g "
                             "nm integrates to %g, wanted above 0", table->incidence_deg,
                             table->nm, total);
-        double factor = table->percent / 100 / total;
+        SpeosBands bands = {1, nm, {table->percent / 100 / total}};
         *nm = (float)table->nm;
         totals_add(&totals, table->incidence_deg, table->percent / 100, total);
-        if (!add_table(in, table, nm, &factor, 1, set, err)) return false;
+        if (!add_table(in, table, &bands, set, err)) return false;
     }
     import_note(set, "%s: every table is scaled to the reflectance that the file states",
                 path_name(in->file));

@@ -17,7 +17,7 @@
 #include "panel/measurement.h"
 
 #define PARAMS 4
-#define PARAM_MAX 4096 /* nodes of one list */
+#define LIST_MAX 4096
 
 typedef enum SsddSystem {
     SYSTEM_NONE, SYSTEM_SPHERICAL, SYSTEM_SPECULAR, SYSTEM_HALF
@@ -43,32 +43,38 @@ typedef struct Ssdd {
 
 /* ---- metadata ---------------------------------------------------------------------------- */
 
+typedef struct List {
+    int     count;
+    double *number;
+} List;
+
 /* The numbers of the rest of a line. */
-static bool read_list(Ssdd *in, char *text, const char *what, int most, double **list,
-                      int *count, Error *err)
+static bool read_list(Ssdd *in, char *text, const char *what, List *out, Error *err)
 {
-    *list = ARENA_NEW(in->scan.arena, double, strlen(text) / 2 + 1);
-    *count = 0;
-    for (char *at = text, *word; (word = strtok_r(at, " \t", &at)); (*count)++) {
+    *out = (List){0, ARENA_NEW(in->scan.arena, double, strlen(text) / 2 + 1)};
+    for (char *at = text, *word; (word = strtok_r(at, " \t", &at)); out->count++) {
+        double *one = &out->number[out->count];
         if (*word == '#') break;
-        if (*count == most)
-            return scan_fail(&in->scan, err, "%s has more than %d numbers", what, most);
-        if (!scan_to_number(word, &(*list)[*count]))
+        if (out->count == LIST_MAX)
+            return scan_fail(&in->scan, err, "%s has more than %d numbers", what, LIST_MAX);
+        if (!scan_to_number(word, one))
             return scan_fail(&in->scan, err, "%s has '%.40s', wanted numbers", what, word);
-        if (*count && !((*list)[*count] > (*list)[*count - 1]))
-            return scan_fail(&in->scan, err, "%s does not rise at %g", what, (*list)[*count]);
+        if (out->count && !(*one > one[-1]))
+            return scan_fail(&in->scan, err, "%s does not rise at %g", what, *one);
     }
-    return *count || scan_fail(&in->scan, err, "%s is empty", what);
+    return out->count || scan_fail(&in->scan, err, "%s is empty", what);
 }
 
 static bool read_wavelengths(Ssdd *in, char *text, Error *err)
 {
-    double *list;
-    if (!read_list(in, text, "WAVELENGTH_LIST", MEASUREMENT_WAVELENGTHS_MAX, &list,
-                   &in->channels, err))
-        return false;
-    in->nm = ARENA_NEW(in->scan.arena, float, in->channels);
-    for (int c = 0; c < in->channels; c++) in->nm[c] = (float)list[c];
+    List list;
+    if (!read_list(in, text, "WAVELENGTH_LIST", &list, err)) return false;
+    if (list.count > MEASUREMENT_WAVELENGTHS_MAX)
+        return scan_fail(&in->scan, err, "WAVELENGTH_LIST has %d numbers, wanted at most %d",
+                         list.count, MEASUREMENT_WAVELENGTHS_MAX);
+    in->channels = list.count;
+    in->nm = ARENA_NEW(in->scan.arena, float, list.count);
+    for (int c = 0; c < list.count; c++) in->nm[c] = (float)list.number[c];
     return true;
 }
 
@@ -135,15 +141,17 @@ static char *value_of(char *line, const char *key)
     return line;
 }
 
-static bool read_param(Ssdd *in, char *line, bool *is_known, Error *err)
+static bool read_param(Ssdd *in, char *line, Error *err)
 {
     static const char *const names[] = {"PARAM0_LIST", "PARAM1_LIST", "PARAM2_LIST",
                                         "PARAM3_LIST"};
     for (int i = 0; i < PARAMS; i++) {
         char *text = value_of(line, names[i]);
         if (!text) continue;
-        *is_known = true;
-        return read_list(in, text, names[i], PARAM_MAX, &in->param[i], &in->count[i], err);
+        List list;
+        if (!read_list(in, text, names[i], &list, err)) return false;
+        in->param[i] = list.number;
+        in->count[i] = list.count;
     }
     return true;
 }
@@ -152,7 +160,6 @@ static bool read_param(Ssdd *in, char *line, bool *is_known, Error *err)
 static bool read_entry(Ssdd *in, char *line, const char **mode, Error *err)
 {
     char *text;
-    bool  is_param = false;
     *mode = NULL;
     if ((text = value_of(line, "DATA_TYPE"))) return start_block(in, text, err);
     if ((text = value_of(line, "COLOR_MODEL"))) return read_colour(in, text, err);
@@ -163,7 +170,7 @@ static bool read_entry(Ssdd *in, char *line, const char **mode, Error *err)
         return scan_fail(&in->scan, err, "PARAM4_LIST (offsets of the mirror direction) is not "
                          "known here for a BRDF");
     if ((text = value_of(line, "DATA"))) *mode = text;
-    return read_param(in, line, &is_param, err);
+    return read_param(in, line, err);
 }
 
 /* ---- the table --------------------------------------------------------------------------- */

@@ -6,7 +6,7 @@
 
 #include "import/text_scan.h"
 
-/* ---- labels -------------------------------------------------------------------------------- */
+/* ---- labels ------------------------------------------------------------------------------ */
 
 static bool is_label_key(TextCell cell)
 {
@@ -39,7 +39,7 @@ bool text_blocks_label(TextBlocks *blocks, const TextCell *cell, int count)
     return true;
 }
 
-/* ---- rows ---------------------------------------------------------------------------------- */
+/* ---- rows -------------------------------------------------------------------------------- */
 
 bool text_blocks_begin(TextBlocks *blocks, const TextCell *cell, int count, char decimal,
                        int line, Error *err)
@@ -96,7 +96,7 @@ double *text_blocks_row(TextBlocks *blocks, int line, Error *err)
     return block->cell + (size_t)block->down++ * width;
 }
 
-/* ---- which angle runs down ----------------------------------------------------------------- */
+/* ---- which angle runs down --------------------------------------------------------------- */
 
 /* What the corner calls the first column and the first row: "Incl\Azim". */
 static void corner_names(const char *corner, ColumnName name[2])
@@ -124,11 +124,24 @@ static double largest_across(const TextBlock *block, int across)
 
 static TableLayout corner_layout(const ColumnName name[2])
 {
+    if (name[0].quantity == QUANTITY_INCIDENCE) return LAYOUT_THETA_DOWN;
+    if (name[1].quantity == QUANTITY_INCIDENCE) return LAYOUT_PHI_DOWN;
     if (name[0].quantity == QUANTITY_THETA || name[1].quantity == QUANTITY_PHI)
         return LAYOUT_THETA_DOWN;
     if (name[0].quantity == QUANTITY_PHI || name[1].quantity == QUANTITY_THETA)
         return LAYOUT_PHI_DOWN;
+    if (name[0].quantity == QUANTITY_HORIZONTAL || name[1].quantity == QUANTITY_VERTICAL)
+        return LAYOUT_HORIZONTAL_DOWN;
+    if (name[0].quantity == QUANTITY_VERTICAL || name[1].quantity == QUANTITY_HORIZONTAL)
+        return LAYOUT_VERTICAL_DOWN;
     return LAYOUT_AUTO;
+}
+
+static const char *name_of_down(TableLayout layout)
+{
+    static const char *const names[] = {"", "", "theta", "phi", "the horizontal angle",
+                                        "the vertical angle"};
+    return names[layout];
 }
 
 /* An inclination does not exceed 90 degrees (1.6 radians are no more than that either). */
@@ -152,7 +165,7 @@ static bool choose_layout(const TextBlocks *blocks, const ColumnName name[2], Ta
     if (told != LAYOUT_AUTO && found != LAYOUT_AUTO && told != found)
         return error_at(err, ERROR_INPUT, blocks->text->file, at,
                         "the corner '%s' says that %s runs down, and --table says the other",
-                        block->corner, found == LAYOUT_THETA_DOWN ? "theta" : "phi");
+                        block->corner, name_of_down(found));
     *out = told != LAYOUT_AUTO ? told : find_layout(blocks, name);
     if (*out != LAYOUT_AUTO) return true;
     return error_at(err, ERROR_INPUT, blocks->text->file, at,
@@ -160,7 +173,7 @@ static bool choose_layout(const TextBlocks *blocks, const ColumnName name[2], Ta
                     "or phi-down");
 }
 
-/* ---- to rows ------------------------------------------------------------------------------- */
+/* ---- to rows ----------------------------------------------------------------------------- */
 
 static bool same_grid(const TextBlocks *blocks, const TextBlock *block, Error *err)
 {
@@ -195,7 +208,7 @@ static bool add_quantities(const TextBlocks *blocks, RawTable *out, Error *err)
     return true;
 }
 
-static void fill_rows(const TextBlocks *blocks, bool theta_down, RawTable *out)
+static void fill_rows(const TextBlocks *blocks, bool first_down, RawTable *out)
 {
     const TextBlock *first = &blocks->block[0];
     size_t width = (size_t)blocks->across + 1, columns = (size_t)out->columns;
@@ -203,8 +216,8 @@ static void fill_rows(const TextBlocks *blocks, bool theta_down, RawTable *out)
         for (int k = 0; k < blocks->across; k++) {
             size_t  at = (size_t)i * width;
             double *row = out->cell + (size_t)out->rows * columns;
-            row[theta_down ? 0 : 1] = first->cell[at];
-            row[theta_down ? 1 : 0] = first->angle[k];
+            row[first_down ? 0 : 1] = first->cell[at];
+            row[first_down ? 1 : 0] = first->angle[k];
             for (int b = 0; b < blocks->count; b++)
                 row[2 + b] = blocks->block[b].cell[at + 1 + (size_t)k];
             out->line[out->rows++] = first->row_line[i];
@@ -221,11 +234,14 @@ bool text_blocks_finish(TextBlocks *blocks, RawTable *out, Error *err)
         return error_at(err, ERROR_INPUT, blocks->text->file,
                         text_place(first->line, blocks->arena), "is a matrix without rows");
     if (!choose_layout(blocks, corner, &layout, err)) return false;
-    bool      theta_down = layout == LAYOUT_THETA_DOWN;
+    bool      is_pair = layout >= LAYOUT_HORIZONTAL_DOWN;
+    bool      first_down = layout == LAYOUT_THETA_DOWN || layout == LAYOUT_HORIZONTAL_DOWN;
     AngleUnit angle = corner[0].angle != ANGLE_AUTO ? corner[0].angle : corner[1].angle;
     out->columns = 2;
-    out->column[0] = (RawColumn){{.quantity = QUANTITY_THETA, .angle = angle}, "theta", 0};
-    out->column[1] = (RawColumn){{.quantity = QUANTITY_PHI, .angle = angle}, "phi", 0};
+    ColumnName name[2] = {
+        {.quantity = is_pair ? QUANTITY_HORIZONTAL : QUANTITY_THETA, .angle = angle},
+        {.quantity = is_pair ? QUANTITY_VERTICAL : QUANTITY_PHI, .angle = angle}};
+    for (int i = 0; i < 2; i++) out->column[i] = (RawColumn){name[i], "angle", 0};
     if (!add_quantities(blocks, out, err)) return false;
     size_t rows = (size_t)first->down * (size_t)blocks->across;
     if (rows > IMPORT_ROWS_MAX)
@@ -233,6 +249,6 @@ bool text_blocks_finish(TextBlocks *blocks, RawTable *out, Error *err)
                         "has %zu directions, wanted at most %d", rows, IMPORT_ROWS_MAX);
     out->cell = ARENA_NEW(blocks->arena, double, rows * (size_t)out->columns);
     out->line = ARENA_NEW(blocks->arena, int, rows);
-    fill_rows(blocks, theta_down, out);
+    fill_rows(blocks, first_down, out);
     return true;
 }

@@ -39,6 +39,6 @@ bool text_blocks_begin(TextBlocks *blocks, const TextCell *cell, int count, char
 /* Room for the next row of the current block: its angle and its values. NULL: too many. */
 double *text_blocks_row(TextBlocks *blocks, int line, Error *err);
 
-/* Checks that all blocks have one grid and makes rows of them: theta, phi and the quantities. */
+/* Checks that all blocks have one grid and makes rows of them: theta, phi, quantities. */
 struct RawTable;
 bool text_blocks_finish(TextBlocks *blocks, struct RawTable *out, Error *err);

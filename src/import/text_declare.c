@@ -1,5 +1,6 @@
 /* One key of a declaration, from the command line or from a file. */
 #include <fnmatch.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,7 +11,8 @@
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
 const TextKey text_keys[] = {
-    {"table", "list|theta-down|phi-down", "a direction a row, or a matrix and what runs down"},
+    {"table", "list|theta-down|phi-down|horizontal-down|vertical-down",
+     "a direction a row, or a matrix and what runs down"},
     {"columns", "NAME,NAME,...",
      "what each column is: theta, phi, X, Y, Z, L, x, y, u', v', 550nm, ...; - skips one"},
     {"quantity", "X|Y|Z|L|brdf|550nm|...", "what a matrix without a label holds"},
@@ -20,6 +22,7 @@ const TextKey text_keys[] = {
     {"skip_lines", "N", "lines to pass over at the file's beginning"},
     {"comment", "PREFIX", "what begins a comment, besides # ! % //"},
     {"mask", "VALUE", "a number that means: not measured (--- NaN n/a are known)"},
+    {"section", "PATTERN=DEG", "the azimuth of files that have theta alone"},
     {"angle_unit", "deg|rad", "of all angles"},
     {"angles", "polar|projected|equidistant|north-polar|east-polar",
      "which two angles a direction has"},
@@ -79,6 +82,34 @@ static bool add_entry(TextList *list, const char *value)
     return true;
 }
 
+/* A pattern, '=' and an azimuth. */
+static bool section_azimuth(const char *value, size_t *pattern_length, double *phi)
+{
+    const char *equals = strrchr(value, '=');
+    if (!equals || equals == value || !number_of(equals + 1, -360, 360, phi)) return false;
+    *pattern_length = (size_t)(equals - value);
+    return true;
+}
+
+bool text_declared_section(const TextDeclaration *declared, const char *file, double *phi)
+{
+    for (int i = declared->section.count - 1; i >= 0; i--) {
+        char   pattern[512];
+        size_t length = 0;
+        if (!section_azimuth(declared->section.text[i], &length, phi)) continue;
+        snprintf(pattern, sizeof pattern, "%.*s", (int)length, declared->section.text[i]);
+        if (!fnmatch(pattern, file, 0) || !fnmatch(pattern, path_name(file), 0)) return true;
+    }
+    return false;
+}
+
+static bool set_section(TextDeclaration *d, const char *value)
+{
+    size_t length;
+    double phi;
+    return section_azimuth(value, &length, &phi) && add_entry(&d->section, value);
+}
+
 static bool set_azimuth_zero(TextDeclaration *d, const char *value)
 {
     static const double sides[] = {0, 90, 180, 270};
@@ -134,6 +165,7 @@ static bool set_key(TextDeclaration *d, const TextKey *key, const char *value)
     if (!strcmp(name, "quantity")) return set_quantity(d, value);
     if (!strcmp(name, "skip_lines")) return set_count(&d->skip_lines, value, 1e6);
     if (!strcmp(name, "comment")) return *value && add_entry(&d->comment, value);
+    if (!strcmp(name, "section")) return set_section(d, value);
     if (!strcmp(name, "mask")) return *value && add_entry(&d->mask, value);
     if (!strcmp(name, "unit")) return set_unit(d, value);
     if (!strcmp(name, "azimuth_zero")) return set_azimuth_zero(d, value);

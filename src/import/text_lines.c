@@ -7,18 +7,18 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/file.h"
 #include "import/import.h"
 
 #define CELL_DIGITS_MAX 60
+#define DEGREE_SIGN "\xC2\xB0"
 #define LINES_MAX (INT_MAX / 2)
 
-/* ---- characters ---------------------------------------------------------------------------- */
+/* ---- characters -------------------------------------------------------------------------- */
 
 /* Writes one character as UTF-8; blanks and minus signs of typographers become plain ones. */
 static char *put_character(char *to, unsigned code)
 {
-    if (code == 0xA0 || code == 0x2007 || code == 0x202F) code = ' ';
+    if (code == 0xA0 || code == 0x2007 || code == 0x202F || code == 0x1A) code = ' ';
     if (code == 0x2212) code = '-';
     if (code < 0x80) {
         *to++ = (char)(code ? code : ' ');
@@ -93,7 +93,8 @@ static char *decode(const unsigned char *bytes, size_t size, TextEncoding encodi
             if (size - i < 2) break;
             i += utf16_character(bytes + i, size - i, encoding == ENCODING_UTF16BE, &code);
         } else {
-            int length = encoding == ENCODING_UTF8 ? utf8_sequence(bytes + i, size - i, &code) : 0;
+            int length =
+                encoding == ENCODING_UTF8 ? utf8_sequence(bytes + i, size - i, &code) : 0;
             if (!length) code = bytes[i]; /* Latin-1, or a broken byte of UTF-8 */
             i += length ? (size_t)length : 1;
         }
@@ -102,7 +103,7 @@ static char *decode(const unsigned char *bytes, size_t size, TextEncoding encodi
     return to;
 }
 
-/* ---- lines --------------------------------------------------------------------------------- */
+/* ---- lines ------------------------------------------------------------------------------- */
 
 static size_t count_character(const char *text, const char *end, char wanted)
 {
@@ -114,7 +115,8 @@ static size_t count_character(const char *text, const char *end, char wanted)
     return count;
 }
 
-static bool cut_lines(const char *text, const char *end, Arena *arena, TextFile *out, Error *err)
+static bool cut_lines(const char *text, const char *end, Arena *arena, TextFile *out,
+                      Error *err)
 {
     char   feed = memchr(text, '\n', (size_t)(end - text)) ? '\n' : '\r';
     size_t count = count_character(text, end, feed) + 1;
@@ -135,15 +137,15 @@ static bool cut_lines(const char *text, const char *end, Arena *arena, TextFile 
     return true;
 }
 
-bool text_decode(const char *file, const unsigned char *bytes, size_t size,
-                 TextEncoding encoding, Arena *arena, TextFile *out, Error *err)
+bool text_decode(const char *file, FileBytes bytes, TextEncoding encoding, Arena *arena,
+                 TextFile *out, Error *err)
 {
     size_t       mark;
-    TextEncoding found = find_encoding(bytes, size, &mark);
+    TextEncoding found = find_encoding(bytes.data, bytes.size, &mark);
     TextFile     text = {.file = file};
     if (encoding == ENCODING_AUTO) encoding = found;
-    char *decoded = ARENA_NEW(arena, char, 2 * (size - mark) + 1);
-    char *end = decode(bytes + mark, size - mark, encoding, decoded);
+    char *decoded = ARENA_NEW(arena, char, 2 * (bytes.size - mark) + 1);
+    char *end = decode(bytes.data + mark, bytes.size - mark, encoding, decoded);
     if (!cut_lines(decoded, end, arena, &text, err)) return false;
     *out = text;
     return true;
@@ -154,7 +156,7 @@ bool text_file_read(const char *file, TextEncoding encoding, Arena *arena, TextF
 {
     FileBytes bytes;
     return file_read(file, IMPORT_FILE_BYTES_MAX, arena, &bytes, err) &&
-           text_decode(file, bytes.data, bytes.size, encoding, arena, out, err);
+           text_decode(file, bytes, encoding, arena, out, err);
 }
 
 const char *text_place(int line_index, Arena *arena)
@@ -162,7 +164,7 @@ const char *text_place(int line_index, Arena *arena)
     return arena_format(arena, "line %d", line_index + 1);
 }
 
-/* ---- cells --------------------------------------------------------------------------------- */
+/* ---- cells ------------------------------------------------------------------------------- */
 
 static bool is_blank(char c)
 {
@@ -222,6 +224,8 @@ bool text_number(TextCell cell, char decimal, double *out)
 {
     char plain[CELL_DIGITS_MAX + 1], *after;
     bool has_digit = false;
+    if (cell.length > 2 && !memcmp(cell.text + cell.length - 2, DEGREE_SIGN, 2))
+        cell.length -= 2;
     if (cell.length < 1 || cell.length > CELL_DIGITS_MAX) return false;
     for (int i = 0; i < cell.length; i++) {
         char c = cell.text[i];
@@ -255,55 +259,67 @@ bool text_is_masked(TextCell cell)
     return false;
 }
 
-/* ---- which delimiter, which decimal sign --------------------------------------------------- */
+/* ---- which delimiter, which decimal sign ------------------------------------------------- */
 
 #define DIALECT_LINES 4000
 
-/* At least two numbers, and nothing else but masks. */
-static bool is_numeric_row(const TextCell *cell, int count, char decimal)
+/* At least two numbers, and nothing else but masks; or, when a column may hold words, at least
+ * three that are the better half. */
+static bool is_numeric_row(const TextCell *cell, int count, char decimal, bool with_words)
 {
-    int    numbers = 0;
+    int    numbers = 0, words = 0;
     double value;
     for (int i = 0; i < count; i++) {
         if (text_number(cell[i], decimal, &value)) numbers++;
-        else if (!text_is_masked(cell[i])) return false;
+        else words += !text_is_masked(cell[i]);
     }
-    return numbers >= 2;
+    return with_words ? numbers >= 3 && numbers > words : numbers >= 2 && !words;
 }
 
-static int count_rows(const TextFile *text, int first_line, TextDialect dialect, TextCell *cell)
+static int count_rows(const TextFile *text, int first_line, TextDialect dialect,
+                      bool with_words, TextCell *cell)
 {
     int rows = 0, seen = 0;
     for (int i = first_line; i < text->count && seen < DIALECT_LINES; i++) {
         if (!text->line[i].length) continue;
         int count = text_cells(text->line[i], dialect.delimiter, cell);
         seen++;
-        rows += count > 1 && is_numeric_row(cell, count, dialect.decimal);
+        rows += count > 1 && is_numeric_row(cell, count, dialect.decimal, with_words);
     }
     return rows;
+}
+
+/* The dialect of the most rows; how many they are. Decimal commas between commas stand in
+ * quotes. */
+static int best_dialect(const TextFile *text, int first_line, bool with_words, TextCell *cell,
+                        TextDialect *dialect)
+{
+    static const char delimiters[] = ";\t, ", decimals[] = ".,";
+    TextDialect best = *dialect;
+    int         most = 0;
+    for (const char *d = delimiters; *d; d++)
+        for (const char *p = decimals; *p; p++) {
+            bool wanted = (!dialect->delimiter || dialect->delimiter == *d) &&
+                          (!dialect->decimal || dialect->decimal == *p);
+            int rows = wanted ? count_rows(text, first_line, (TextDialect){*d, *p}, with_words,
+                                           cell) : 0;
+            if (rows <= most) continue;
+            most = rows;
+            best = (TextDialect){*d, *p};
+        }
+    *dialect = best;
+    return most;
 }
 
 bool text_find_dialect(const TextFile *text, int first_line, Arena scratch,
                        TextDialect *dialect, Error *err)
 {
-    static const char delimiters[] = ";\t, ", decimals[] = ".,";
-    TextCell   *cell = ARENA_NEW(&scratch, TextCell, TEXT_CELLS_MAX);
-    TextDialect best = {0, 0};
-    int         most = 0;
-    for (const char *d = delimiters; *d; d++)
-        for (const char *p = decimals; *p; p++) {
-            bool wanted = (!dialect->delimiter || dialect->delimiter == *d) &&
-                          (!dialect->decimal || dialect->decimal == *p) && *d != *p;
-            int rows = wanted ? count_rows(text, first_line, (TextDialect){*d, *p}, cell) : 0;
-            if (rows <= most) continue;
-            most = rows;
-            best = (TextDialect){*d, *p};
-        }
-    if (!most)
-        return error_at(err, ERROR_INPUT, text->file, "",
-                        "has no row of numbers%s — say how they are written with --delimiter "
-                        "and --decimal, or name the file's --format",
-                        dialect->delimiter || dialect->decimal ? " as declared" : "");
-    *dialect = best;
-    return true;
+    TextCell *cell = ARENA_NEW(&scratch, TextCell, TEXT_CELLS_MAX);
+    if (best_dialect(text, first_line, false, cell, dialect) ||
+        best_dialect(text, first_line, true, cell, dialect))
+        return true;
+    return error_at(err, ERROR_INPUT, text->file, "",
+                    "has no row of numbers%s — say how they are written with --delimiter and "
+                    "--decimal, or name the file's --format",
+                    dialect->delimiter || dialect->decimal ? " as declared" : "");
 }

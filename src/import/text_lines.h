@@ -1,7 +1,8 @@
 /* text_lines.h -- a foreign text file as lines of cells, whatever its encoding, line ends,
  * delimiter and decimal sign.
  *
- * Memory   the arena's. Lines and cells are views into the decoded text. Threads: no shared state.
+ * Memory   the arena's; lines and cells are views into the decoded text.
+ * Threads  no shared state.
  * Fails    with the file, the line, what was found and what was wanted.
  */
 #pragma once
@@ -9,6 +10,7 @@
 
 #include "base/arena.h"
 #include "base/error.h"
+#include "base/file.h"
 
 typedef enum TextEncoding {
     ENCODING_AUTO, ENCODING_UTF8, ENCODING_LATIN1, ENCODING_UTF16LE, ENCODING_UTF16BE
@@ -30,14 +32,14 @@ typedef struct TextFile {
 bool text_file_read(const char *file, TextEncoding encoding, Arena *arena, TextFile *out,
                     Error *err);
 
-/* Bytes in memory; size 0 is no line. */
-bool text_decode(const char *file, const unsigned char *bytes, size_t size,
-                 TextEncoding encoding, Arena *arena, TextFile *out, Error *err);
+/* The same of bytes in memory. */
+bool text_decode(const char *file, FileBytes bytes, TextEncoding encoding, Arena *arena,
+                 TextFile *out, Error *err);
 
 /* "line 12". */
 const char *text_place(int line_index, Arena *arena);
 
-/* ---- cells --------------------------------------------------------------------------------- */
+/* ---- cells ------------------------------------------------------------------------------- */
 
 #define TEXT_CELLS_MAX 4096
 
@@ -56,7 +58,7 @@ typedef struct TextCell {
  * counts. Returns the number of cells, or -1 when there are too many. */
 int text_cells(TextLine line, char delimiter, TextCell *cell);
 
-/* A decimal number and nothing else, with this decimal sign. */
+/* A decimal number and nothing else (but a degree sign), with this decimal sign. */
 bool text_number(TextCell cell, char decimal, double *out);
 
 /* Marks of a value that was not measured: nothing, "---", "NaN", "n/a", "***". */

@@ -15,7 +15,7 @@ typedef struct Parts {
     double number;
 } Parts;
 
-/* ---- units --------------------------------------------------------------------------------- */
+/* ---- units ------------------------------------------------------------------------------- */
 
 typedef struct UnitName {
     const char *name; /* lower case without blanks, ^, brackets */
@@ -70,7 +70,7 @@ double value_unit_cd_m2(ValueUnit unit)
     return factors[unit];
 }
 
-/* ---- columns ------------------------------------------------------------------------------- */
+/* ---- columns ----------------------------------------------------------------------------- */
 
 static int digits_at(TextCell cell, int i)
 {
@@ -122,7 +122,7 @@ static Parts name_parts(TextCell cell)
     return parts;
 }
 
-static AngleUnit angle_unit(const char *unit)
+AngleUnit angle_unit(const char *unit)
 {
     if (!strncasecmp(unit, "deg", 3) || !strcmp(unit, "\xC2\xB0")) return ANGLE_DEGREES;
     return !strncasecmp(unit, "rad", 3) ? ANGLE_RADIANS : ANGLE_AUTO;
@@ -157,9 +157,12 @@ static const QuantityName loose_names[] = {
     {"inclin", QUANTITY_THETA}, {"polar", QUANTITY_THETA}, {"polarangle", QUANTITY_THETA},
     {"zenith", QUANTITY_THETA}, {"\xCE\xB8", QUANTITY_THETA}, {"thetao", QUANTITY_THETA},
     {"thetaout", QUANTITY_THETA}, {"thetas", QUANTITY_THETA}, {"thetar", QUANTITY_THETA},
-    {"viewz", QUANTITY_THETA}, {"viewtheta", QUANTITY_THETA}, {"thetaview", QUANTITY_THETA},
+    {"neigung", QUANTITY_THETA},
+    {"inclinaison", QUANTITY_THETA}, {"viewz", QUANTITY_THETA},
+    {"viewtheta", QUANTITY_THETA}, {"thetaview", QUANTITY_THETA},
     {"phi", QUANTITY_PHI}, {"azimuth", QUANTITY_PHI}, {"azim", QUANTITY_PHI},
-    {"azi", QUANTITY_PHI}, {"az", QUANTITY_PHI}, {"\xCF\x86", QUANTITY_PHI},
+    {"azimut", QUANTITY_PHI}, {"azi", QUANTITY_PHI}, {"az", QUANTITY_PHI},
+    {"\xCF\x86", QUANTITY_PHI},
     {"\xCF\x95", QUANTITY_PHI}, {"phio", QUANTITY_PHI}, {"phiout", QUANTITY_PHI},
     {"phis", QUANTITY_PHI}, {"phir", QUANTITY_PHI}, {"viewa", QUANTITY_PHI},
     {"viewphi", QUANTITY_PHI}, {"phiview", QUANTITY_PHI}, {"azimuthangle", QUANTITY_PHI},
@@ -213,8 +216,9 @@ static Quantity named_quantity(const char *base)
 /* "400", "400 nm", "R_400nm", "brdf 550": a wavelength with words that may stand before it. */
 static bool is_wavelength(const Parts *parts)
 {
-    static const char *const before[] = {"", "w", "wl", "r", "f", "fr", "brdf", "bsdf", "lambda",
-                                         "brf", "refl", "reflectance"};
+    static const char *const before[] = {"",       "w",   "wl",   "r",
+                                         "f",      "fr",  "brdf", "bsdf",
+                                         "lambda", "brf", "refl", "reflectance"};
     if (!parts->has_number || parts->number < 100 || parts->number > 20000) return false;
     if (parts->unit[0] && strcasecmp(parts->unit, "nm") != 0) return false;
     for (size_t i = 0; i < COUNT(before); i++)
@@ -243,7 +247,7 @@ ColumnName column_name(TextCell cell)
     return name;
 }
 
-/* ---- azimuths ------------------------------------------------------------------------------ */
+/* ---- azimuths ---------------------------------------------------------------------------- */
 
 bool line_has(TextLine line, const char *words)
 {

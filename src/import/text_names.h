@@ -35,17 +35,20 @@ typedef struct ColumnName {
     bool      is_ambiguous;  /* "u": CIE 1960 or 1976? */
 } ColumnName;
 
-/* "theta_deg", "Azimuth [rad]", "X", "L (fL)", "400nm", "brdf_550". Not known: QUANTITY_NONE. */
+/* "theta_deg", "Azimuth [rad]", "X", "L (fL)", "400nm", "brdf_550"; QUANTITY_NONE: unknown. */
 ColumnName column_name(TextCell cell);
 
 /* "cd/m2", "nit", "fL", "1/sr", "BRDF*cos", "BRF", ...; UNIT_AUTO when it is none. */
 ValueUnit value_unit(TextCell cell);
 const char *value_unit_name(ValueUnit unit);
 
+/* "deg", "degrees", "rad", the degree sign; ANGLE_AUTO when it is none. */
+AngleUnit angle_unit(const char *unit);
+
 /* Into cd m^-2; 0 for what is no luminance. */
 double value_unit_cd_m2(ValueUnit unit);
 
-/* ---- azimuths ------------------------------------------------------------------------------ */
+/* ---- azimuths ---------------------------------------------------------------------------- */
 
 typedef struct AzimuthWords {
     bool   has_zero, has_sense, has_side;

@@ -17,6 +17,8 @@ typedef struct TextReader {
     bool       is_reflection;
     Role       role;
     ValueUnit  unit;      /* settled */
+    bool       is_section;    /* theta alone, all at section_phi (the file's azimuth) */
+    double     section_phi;
     bool       is_radians;
     AnglePair  angles;
     double     zero_deg;  /* settled: azimuth = zero + sense * the file's */

@@ -75,8 +75,9 @@ static void said_units(TextSaid *said, const KeyValue *pair, int index)
 {
     static const char *const unit_keys[] = {"unit", "units", "einheit", "valueunit",
                                             "luminanceunit"};
-    static const char *const angle_keys[] = {"angleunit", "angleunits", "angles", "winkel"};
-    if (key_is(pair, unit_keys, COUNT(unit_keys))) {
+    static const char *const angle_keys[] = {"angleunit", "angleunits", "angles", "angle",
+                                             "winkel"};
+    if (key_is(pair, unit_keys, COUNT(unit_keys)) || !pair->key[0]) { /* or the unit alone */
         ValueUnit unit = value_unit((TextCell){pair->value.text, pair->value.length});
         if (unit != UNIT_AUTO) {
             said->unit = unit;
@@ -135,8 +136,8 @@ void text_said_line(TextSaid *said, TextLine line, int index, Arena *arena)
 {
     KeyValue pair = cut_key(line);
     said_azimuth(said, line, index);
-    if (!pair.key[0]) return;
     said_units(said, &pair, index);
+    if (!pair.key[0]) return;
     said_pattern(said, &pair, index);
     said_light(said, &pair);
     said_names(said, &pair, arena);

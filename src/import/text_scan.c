@@ -33,7 +33,7 @@ static const char *place(const Scan *scan)
     return text_place(scan->at, scan->arena);
 }
 
-/* ---- cells --------------------------------------------------------------------------------- */
+/* ---- cells ------------------------------------------------------------------------------- */
 
 static bool is_declared_mask(const Scan *scan, TextCell cell, double value, bool is_number)
 {
@@ -85,7 +85,7 @@ static bool is_row(const Scan *scan, const TextCell *cell, int count)
     return numbers > 0;
 }
 
-/* ---- rows of a list ------------------------------------------------------------------------ */
+/* ---- rows of a list ---------------------------------------------------------------------- */
 
 static double *new_row(Scan *scan)
 {
@@ -93,7 +93,7 @@ static double *new_row(Scan *scan)
     if (table->rows == table->capacity) {
         int     capacity = table->capacity ? 2 * table->capacity : 1024;
         size_t  size = (size_t)table->columns * (size_t)table->rows;
-        double *cell = ARENA_NEW(scan->arena, double, (size_t)capacity * (size_t)table->columns);
+        double *cell = ARENA_NEW(scan->arena, double, (size_t)capacity *(size_t)table->columns);
         int    *line = ARENA_NEW(scan->arena, int, capacity);
         if (size) memcpy(cell, table->cell, sizeof *cell * size);
         if (size) memcpy(line, table->line, sizeof *line * (size_t)table->rows);
@@ -124,7 +124,7 @@ static bool add_list_row(Scan *scan)
     return true;
 }
 
-/* ---- headers ------------------------------------------------------------------------------- */
+/* ---- headers ----------------------------------------------------------------------------- */
 
 static bool add_column(Scan *scan, ColumnName name, const char *text, int from)
 {
@@ -146,8 +146,38 @@ static bool has_direction(const TextCell *cell, int count)
 {
     bool seen[QUANTITY_COUNT] = {false};
     for (int i = 0; i < count; i++) seen[column_name(cell[i]).quantity] = true;
-    return (seen[QUANTITY_THETA] && seen[QUANTITY_PHI]) ||
+    bool emission = false;
+    for (int q = QUANTITY_X; q <= QUANTITY_VPRIME; q++) emission |= seen[q];
+    bool has_theta = seen[QUANTITY_THETA] || (emission && seen[QUANTITY_INCIDENCE]);
+    return (has_theta && seen[QUANTITY_PHI]) ||
            (seen[QUANTITY_HORIZONTAL] && seen[QUANTITY_VERTICAL]);
+}
+
+/* theta and something measured, but no azimuth: a section. */
+static bool has_section(const TextCell *cell, int count)
+{
+    bool has_theta = false, has_value = false;
+    for (int i = 0; i < count; i++) {
+        Quantity quantity = column_name(cell[i]).quantity;
+        has_theta |= quantity == QUANTITY_THETA;
+        has_value |= quantity >= QUANTITY_X;
+    }
+    return has_theta && has_value;
+}
+
+/* Fourier-optics instruments call theta the incidence; where luminances stand and no theta,
+ * that is what is meant. */
+static void rename_incidence(RawTable *table)
+{
+    RawColumn *incidence = NULL;
+    bool       emission = false, has_theta = false;
+    for (int c = 0; c < table->columns; c++) {
+        Quantity quantity = table->column[c].name.quantity;
+        emission |= quantity >= QUANTITY_X && quantity <= QUANTITY_VPRIME;
+        has_theta |= quantity == QUANTITY_THETA;
+        if (quantity == QUANTITY_INCIDENCE) incidence = &table->column[c];
+    }
+    if (incidence && emission && !has_theta) incidence->name.quantity = QUANTITY_THETA;
 }
 
 /* The cells of a header as columns; names that are not known are not used. */
@@ -169,6 +199,7 @@ static bool read_header(Scan *scan, const TextCell *cell, int count, bool from_u
         scan->said->unused_columns += name.quantity == QUANTITY_NONE;
         if (name.quantity != QUANTITY_NONE && !add_column(scan, name, text, i)) return false;
     }
+    rename_incidence(scan->table);
     scan->has_header = true;
     return true;
 }
@@ -179,13 +210,15 @@ static bool read_declared_columns(Scan *scan)
     TextLine  line = {scan->declared->columns, (int)strlen(scan->declared->columns)};
     int       count = text_cells(line, ',', cell);
     if (count < 0) return error_set(scan->err, ERROR_USAGE, "--columns has too many names");
-    if (!has_direction(cell, count))
-        return error_set(scan->err, ERROR_USAGE, "--columns '%s' has no two angles, wanted theta "
-                         "and phi, or horizontal and vertical", scan->declared->columns);
+    if (!has_direction(cell, count) && !has_section(cell, count))
+        return error_set(scan->err, ERROR_USAGE,
+                         "--columns '%s' has no two angles, wanted theta and phi, or "
+                         "horizontal and vertical",
+                         scan->declared->columns);
     return read_header(scan, cell, count, true);
 }
 
-/* ---- lines --------------------------------------------------------------------------------- */
+/* ---- lines ------------------------------------------------------------------------------- */
 
 /* How many characters begin a comment; 0: it is none. */
 static int comment_length(const Scan *scan, TextLine line)
@@ -258,9 +291,10 @@ static bool numbers_without_names(Scan *scan)
 /* The first row of numbers: of which layout is it? */
 static bool begin_rows(Scan *scan)
 {
-    bool is_matrix = scan->declared->layout == LAYOUT_THETA_DOWN ||
-                     scan->declared->layout == LAYOUT_PHI_DOWN;
+    bool is_matrix = scan->declared->layout >= LAYOUT_THETA_DOWN;
+    bool may_head = scan->declared->layout != LAYOUT_LIST && !scan->declared->columns;
     if (is_matrix && scan->count > 1) return begin_block(scan);
+    if (may_head && is_matrix_head(scan)) return begin_block(scan); /* an empty corner */
     if (scan->has_header && !scan->blocks.count) {
         scan->state = STATE_LIST;
         return add_list_row(scan);
@@ -275,7 +309,8 @@ static bool add_block_row(Scan *scan)
     bool    has_final = scan->count == wanted + 1 && !scan->cell[wanted].length;
     if (scan->count != wanted && !has_final)
         return error_at(scan->err, ERROR_INPUT, scan->text->file, place(scan),
-                        "has %d cells, wanted %d as the head of the matrix", scan->count, wanted);
+                        "has %d cells, wanted %d as the head of the matrix", scan->count,
+                        wanted);
     double *value = text_blocks_row(blocks, scan->at, scan->err);
     if (!value) return false;
     for (int i = 0; i < wanted; i++)
@@ -285,10 +320,32 @@ static bool add_block_row(Scan *scan)
     return true;
 }
 
+/* A line of units under the header: "deg;deg;fL;fL;fL". False: it is none. */
+static bool read_units(Scan *scan)
+{
+    int known = 0, filled = 0;
+    for (int i = 0; i < scan->count; i++) {
+        const char *text = arena_string(scan->arena, scan->cell[i].text,
+                                        (size_t)scan->cell[i].length);
+        known += angle_unit(text) != ANGLE_AUTO || value_unit(scan->cell[i]) != UNIT_AUTO;
+        filled += *text != 0;
+    }
+    if (scan->count != scan->blocks.header_cells || !known || 2 * known < filled) return false;
+    for (int c = 0; c < scan->table->columns; c++) {
+        RawColumn  *column = &scan->table->column[c];
+        TextCell    cell = scan->cell[column->from];
+        const char *text = arena_string(scan->arena, cell.text, (size_t)cell.length);
+        if (column->name.angle == ANGLE_AUTO) column->name.angle = angle_unit(text);
+        if (column->name.unit == UNIT_AUTO) column->name.unit = value_unit(cell);
+    }
+    return true;
+}
+
 /* A row may also hold text, in columns that are not used. */
 static bool begins_row(const Scan *scan)
 {
-    int first = scan->has_header && scan->state != STATE_BLOCK ? scan->table->column[0].from : 0;
+    int first =
+        scan->has_header && scan->state != STATE_BLOCK ? scan->table->column[0].from : 0;
     return first < scan->count && is_number(scan, scan->cell[first]);
 }
 
@@ -306,10 +363,13 @@ static bool read_text_line(Scan *scan, TextLine line)
         if (begins_with_number) return add_block_row(scan);
         scan->state = STATE_BEFORE;
     }
+    if (scan->state == STATE_BEFORE && scan->has_header && read_units(scan)) return true;
     bool is_open = scan->state == STATE_BEFORE && !scan->declared->columns;
     if (is_open && is_matrix_head(scan) && scan->declared->layout != LAYOUT_LIST)
         return begin_block(scan);
-    if (is_open && !scan->blocks.count && has_direction(scan->cell, scan->count))
+    bool is_header = has_direction(scan->cell, scan->count) ||
+                     (!scan->has_header && has_section(scan->cell, scan->count));
+    if (is_open && !scan->blocks.count && is_header)
         return read_header(scan, scan->cell, scan->count, false);
     if (is_open && text_blocks_label(&scan->blocks, scan->cell, scan->count)) return true;
     text_said_line(scan->said, line, scan->at, scan->arena);
@@ -320,7 +380,8 @@ static bool read_row(Scan *scan)
 {
     switch (scan->state) {
     case STATE_LIST:   return add_list_row(scan);
-    case STATE_BLOCK:  return add_block_row(scan);
+    case STATE_BLOCK:
+        return is_matrix_head(scan) ? begin_block(scan) : add_block_row(scan);
     case STATE_BEFORE: return begin_rows(scan);
     case STATE_DONE:   break;
     }
@@ -358,7 +419,8 @@ bool text_scan(const char *file, const TextDeclaration *declared, Arena *arena, 
                  .arena = arena, .err = err, .said = said, .table = out,
                  .cell = ARENA_NEW(arena, TextCell, TEXT_CELLS_MAX)};
     scan.blocks = (TextBlocks){.text = &text, .declared = declared, .arena = arena};
-    if (!text_find_dialect(&text, declared->skip_lines, *arena, &scan.dialect, err)) return false;
+    if (!text_find_dialect(&text, declared->skip_lines, *arena, &scan.dialect, err))
+        return false;
     if (declared->columns && !read_declared_columns(&scan)) return false;
     for (scan.at = declared->skip_lines; scan.at < text.count; scan.at++)
         if (!read_line(&scan)) return false;

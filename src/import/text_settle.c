@@ -13,7 +13,7 @@ static bool contradicts(TextReader *in, int line, const char *said, const char *
                     "says %s, and %s says otherwise", said, option);
 }
 
-/* ---- azimuths ------------------------------------------------------------------------------ */
+/* ---- azimuths ---------------------------------------------------------------------------- */
 
 static double turned(double degrees)
 {
@@ -45,8 +45,8 @@ static bool settle_azimuths(TextReader *in)
         import_note(in->set, "azimuth 0 is taken to point right: neither the files nor "
                     "--azimuth-zero say where");
     if (!knows_sense)
-        import_note(in->set, "azimuths are taken to run counter-clockwise: neither the files nor "
-                    "--azimuth-sense say how");
+        import_note(in->set, "azimuths are taken to run counter-clockwise: neither the files "
+                             "nor --azimuth-sense say how");
     return true;
 }
 
@@ -56,7 +56,7 @@ double text_azimuth(const TextReader *in, double raw)
     return turned(in->zero_deg + in->sense * degrees);
 }
 
-/* ---- the two angles ------------------------------------------------------------------------ */
+/* ---- the two angles ---------------------------------------------------------------------- */
 
 static double largest(const TextReader *in, int column)
 {
@@ -141,7 +141,7 @@ void text_direction(const TextReader *in, const double raw[2], double *theta_deg
     *phi_deg = turned(degrees_from_radians(atan2(d[1], d[0])));
 }
 
-/* ---- values -------------------------------------------------------------------------------- */
+/* ---- values ------------------------------------------------------------------------------ */
 
 static ValueUnit canonical(ValueUnit unit)
 {

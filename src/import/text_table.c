@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/units.h"
 #include "import/text_reader.h"
 
@@ -34,7 +35,7 @@ static const char *row_place(const TextReader *in, int row)
     return text_place(in->raw->line[row], in->set->arena);
 }
 
-/* ---- which channels ------------------------------------------------------------------------ */
+/* ---- which channels ---------------------------------------------------------------------- */
 
 static bool has(const TextReader *in, Quantity quantity)
 {
@@ -73,8 +74,8 @@ static bool emission_channels(TextReader *in, Channels *out)
         }
     }
     return error_at(in->err, ERROR_INPUT, in->file, "header line",
-                    "has not what makes a colour: X, Y, Z; or luminance with x, y or u', v'; or "
-                    "luminance alone — name the columns with --columns");
+                    "has not what makes a colour: X, Y, Z; or luminance with x, y or u', v'; "
+                    "or luminance alone — name the columns with --columns");
 }
 
 static float column_wavelength(const TextReader *in, int column)
@@ -94,7 +95,8 @@ static bool reflection_channels(TextReader *in, Channels *out)
         if (!(nm > 0) && !has(in, QUANTITY_WAVELENGTH))
             return error_at(in->err, ERROR_INPUT, in->file, "header line",
                             "does not say the wavelength of '%s' — say it with --wavelength NM "
-                            "or --role FILE=brdf:INCIDENCE:AZIMUTH:NM", in->raw->column[c].text);
+                            "or --role FILE=brdf:INCIDENCE:AZIMUTH:NM",
+                            in->raw->column[c].text);
         int at = out->count++;
         for (; at > 0 && out->nm[at - 1] > nm; at--) {
             out->nm[at] = out->nm[at - 1];
@@ -108,7 +110,7 @@ static bool reflection_channels(TextReader *in, Channels *out)
                     "has a column of wavelengths and more than one of reflection");
 }
 
-/* ---- values of a row ----------------------------------------------------------------------- */
+/* ---- values of a row --------------------------------------------------------------------- */
 
 static bool bad_chromaticity(const TextReader *in, int row, double x, double y)
 {
@@ -157,7 +159,8 @@ static void reflection_values(const TextReader *in, const Channels *channels, in
     double cosine = cos(radians_from_degrees(theta_deg));
     double scale = 1;
     if (in->unit == UNIT_FACTOR)
-        scale *= (in->declared->white_reflectance > 0 ? in->declared->white_reflectance : 1) / PI;
+        scale *=
+            (in->declared->white_reflectance > 0 ? in->declared->white_reflectance : 1) / PI;
     if (in->unit == UNIT_BRDF_COS) {
         *is_masked |= cosine < 1e-3;
         scale /= cosine < 1e-3 ? 1 : cosine;
@@ -169,7 +172,7 @@ static void reflection_values(const TextReader *in, const Channels *channels, in
     }
 }
 
-/* ---- one table ----------------------------------------------------------------------------- */
+/* ---- one table --------------------------------------------------------------------------- */
 
 typedef struct Filling {
     double *theta, *phi, *value, *masked_theta, *masked_phi;
@@ -181,7 +184,9 @@ static bool row_angles(const TextReader *in, int row, double *theta, double *phi
     bool   is_pair = in->column[QUANTITY_THETA] < 0;
     int    a = in->column[is_pair ? QUANTITY_HORIZONTAL : QUANTITY_THETA];
     int    b = in->column[is_pair ? QUANTITY_VERTICAL : QUANTITY_PHI];
-    double raw[2] = {cell_of(in, row, a), cell_of(in, row, b)};
+    double phi_unit = in->is_radians ? PI / 180 : 1; /* --section is always in degrees */
+    double raw[2] = {cell_of(in, row, a),
+                     in->is_section ? in->section_phi * phi_unit : cell_of(in, row, b)};
     if (isnan(raw[0]) || isnan(raw[1]))
         return error_at(in->err, ERROR_INPUT, in->file, row_place(in, row),
                         "has no angle, wanted two numbers");
@@ -223,7 +228,8 @@ static bool fill_table(TextReader *in, const Channels *channels, const Group *gr
                        ImportTable *table)
 {
     Arena  *arena = in->set->arena;
-    Filling to = {.theta = ARENA_NEW(arena, double, count), .phi = ARENA_NEW(arena, double, count),
+    Filling to = {.theta = ARENA_NEW(arena, double, count),
+                  .phi = ARENA_NEW(arena, double, count),
                   .masked_theta = ARENA_NEW(arena, double, count),
                   .masked_phi = ARENA_NEW(arena, double, count)};
     to.value = ARENA_NEW(arena, double, (size_t)count * (size_t)channels->count);
@@ -232,12 +238,14 @@ static bool fill_table(TextReader *in, const Channels *channels, const Group *gr
         if (!fill_row(in, channels, group[i].row, table, table, &to)) return false;
     if (to.beyond)
         import_note(in->set, "%s: %d of %d directions lie beyond 90 degrees and are left out",
-                    in->file, to.beyond, count);
-    if (table->rows < DIRECTIONS_MIN)
+                    path_name(in->file), to.beyond, count);
+    bool is_helper = table->source == IMPORT_DARK || table->source == IMPORT_REFERENCE;
+    if (table->rows < (is_helper ? 1 : DIRECTIONS_MIN))
         return error_at(in->err, ERROR_INPUT, in->file, row_place(in, group[0].row),
                         "begins a table of %d measured direction%s, wanted an angular table of "
                         "at least %d — leave the file out (--role FILE=skip) if it is none",
-                        table->rows, table->rows == 1 ? "" : "s", DIRECTIONS_MIN);
+                        table->rows, table->rows == 1 ? "" : "s",
+                        is_helper ? 1 : DIRECTIONS_MIN);
     table->theta_deg = to.theta;
     table->phi_deg = to.phi;
     table->value = to.value;
@@ -246,7 +254,7 @@ static bool fill_table(TextReader *in, const Channels *channels, const Group *gr
     return import_add(in->set, table, in->err);
 }
 
-/* ---- groups -------------------------------------------------------------------------------- */
+/* ---- groups ------------------------------------------------------------------------------ */
 
 static int by_key(const void *a, const void *b)
 {
@@ -302,9 +310,10 @@ static bool codes_role(TextReader *in, const Group *group, Role *role)
     if (is_white) role->source = IMPORT_WHITE;
     return lit <= 1 || is_white ||
            error_at(in->err, ERROR_INPUT, in->file, row_place(in, group->row),
-                    "the codes %g, %g, %g are a mixture, wanted one primary at a time, black or "
-                    "white — leave the file out (--role FILE=skip) if it is no table of one "
-                    "pattern", group->key[0], group->key[1], group->key[2]);
+                    "the codes %g, %g, %g are a mixture, wanted one primary at a time, black "
+                    "or white — leave the file out (--role FILE=skip) if it is no table of one "
+                    "pattern",
+                    group->key[0], group->key[1], group->key[2]);
 }
 
 static void light_of(const TextReader *in, const Group *group, ImportTable *table)
@@ -320,8 +329,8 @@ static void light_of(const TextReader *in, const Group *group, ImportTable *tabl
                                           : in->declared->light_azimuth_deg;
         azimuth = fmod(in->zero_deg + in->sense * raw + 720, 360);
     } else {
-        import_note(in->set, "reflection azimuths are taken to count from the mirror direction: "
-                    "no azimuth of the light is told (--light-azimuth)");
+        import_note(in->set, "reflection azimuths are taken to count from the mirror "
+                             "direction: no azimuth of the light is told (--light-azimuth)");
     }
     if (incidence < 0) azimuth += 180;
     table->is_any_light = !has_column && !in->role.has_incidence;
@@ -342,7 +351,7 @@ static bool add_group(TextReader *in, const Channels *channels, const Group *gro
 {
     Role        role = in->role;
     Channels   *own = (Channels *)channels;
-    ImportTable table = {.file = in->file};
+    ImportTable table = {.file = in->file, .is_section = in->is_section};
     if (has(in, QUANTITY_CODE_R) && !codes_role(in, group, &role)) return false;
     table.source = role.source;
     if (in->is_reflection) {

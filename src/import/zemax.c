@@ -27,6 +27,7 @@ typedef struct Zemax {
     double *tis;    /* per block of the component that is kept */
     double *value;  /* blocks x azimuths x radials */
     int     blocks; /* read so far, of the component that is kept */
+    TotalsNote totals;
 } Zemax;
 
 /* ---- header ------------------------------------------------------------------------------ */
@@ -191,24 +192,42 @@ static bool read_data(Zemax *in, Error *err)
 
 /* ---- the wavelength in the comments ------------------------------------------------------ */
 
-/* "650 nm" or "650nm" in a line that begins with #; 0: none. */
+/* The number that ends before `stop` (blanks between allowed) and does not begin before
+ * `begin`. */
+static bool number_before(const char *begin, const char *stop, double *out)
+{
+    char number[16];
+    while (stop > begin && stop[-1] == ' ') stop--;
+    const char *digit = stop;
+    while (digit > begin && (isdigit((unsigned char)digit[-1]) || digit[-1] == '.')) digit--;
+    size_t length = (size_t)(stop - digit);
+    if (!length || length >= sizeof number) return false;
+    memcpy(number, digit, length);
+    number[length] = 0;
+    return scan_to_number(number, out);
+}
+
+/* The number after "(nm) =" or "(nm):". */
+static bool number_after(const char *text, const char *end, double *out)
+{
+    while (text < end && strchr(") =:\t", *text)) text++;
+    const char *stop = text;
+    while (stop < end && (isdigit((unsigned char)*stop) || *stop == '.')) stop++;
+    return number_before(text, stop, out);
+}
+
+/* "650 nm", "650nm" or "(nm) = 650" in a line that begins with #; 0: none. */
 static double comment_wavelength(const char *text, const char *end)
 {
     for (const char *c = text; c + 1 < end; c++) {
         bool is_longer = c + 2 < end && isalnum((unsigned char)c[2]);
         if (c[0] != 'n' || c[1] != 'm' || is_longer) continue;
-        const char *line = c, *digit = c;
+        const char *line = c;
+        double      nm;
         while (line > text && line[-1] != '\n') line--;
-        while (digit > line && digit[-1] == ' ') digit--;
-        const char *last = digit;
-        while (digit > line && (isdigit((unsigned char)digit[-1]) || digit[-1] == '.')) digit--;
-        char   number[16];
-        double nm;
-        size_t length = (size_t)(last - digit);
-        if (*line != '#' || !length || length >= sizeof number) continue;
-        memcpy(number, digit, length);
-        number[length] = 0;
-        if (scan_to_number(number, &nm) && nm >= 100 && nm <= 20000) return nm;
+        if (*line != '#') continue;
+        if (!number_before(line, c, &nm) && !number_after(c + 2, end, &nm)) continue;
+        if (nm >= 100 && nm <= 20000) return nm;
     }
     return 0;
 }
@@ -258,8 +277,8 @@ static void put_radial(const Zemax *in, ScatterRows *rows, const double *value,
     if (radial == 0) put_about_mirror(rows, incidence_deg, 0, 0, &at_mirror);
 }
 
-static bool add_block(const Zemax *in, int rotation, int incidence, const float *nm,
-                      ImportSet *set, TotalsNote *totals, Error *err)
+static bool add_block(Zemax *in, int rotation, int incidence, const float *nm, ImportSet *set,
+                      Error *err)
 {
     int           block = rotation * in->incidences + incidence;
     const double *value = in->value + block_size(in) * (size_t)block;
@@ -268,20 +287,21 @@ static bool add_block(const Zemax *in, int rotation, int incidence, const float 
     for (int i = 0; i < in->radials; i++) put_radial(in, &rows, value, lean, i);
     PolarGrid grid = {in->radials, in->azimuths, in->radial, in->azimuth, value, lean,
                       in->is_half};
-    totals_add(totals, lean, in->tis[block], polar_grid_integral(&grid, *set->arena));
+    totals_add(&in->totals, lean, in->tis[block], polar_grid_integral(&grid, *set->arena));
     ScatterLight light = {lean, in->rotations > 1 ? 180 - in->rotation[rotation] : 180};
     return scatter_add(set, in->scan.file, &rows, light, nm, err);
 }
 
-static bool add_tables(const Zemax *in, float nm, ImportSet *set, Error *err)
+static bool add_tables(Zemax *in, float nm, ImportSet *set, Error *err)
 {
-    float     *kept_nm = ARENA_NEW(set->arena, float, 1);
-    TotalsNote totals = {{0}, 0};
+    float *kept_nm = ARENA_NEW(set->arena, float, 1);
     *kept_nm = nm;
-    for (int r = 0; r < in->rotations; r++)
+    int  last = in->rotations - 1; /* a whole turn may end with its beginning */
+    bool closes = last > 0 && in->rotation[last] - in->rotation[0] == 360;
+    for (int r = 0; r <= last - closes; r++)
         for (int i = 0; i < in->incidences; i++)
-            if (!add_block(in, r, i, kept_nm, set, &totals, err)) return false;
-    totals_tell(&totals, in->scan.file, set);
+            if (!add_block(in, r, i, kept_nm, set, err)) return false;
+    totals_tell(&in->totals, in->scan.file, set);
     if (in->rotations > 1)
         import_note(set, "%s: a sample turned by S counter-clockwise is taken as light from "
                     "azimuth 180 - S", path_name(in->scan.file));

@@ -5,9 +5,8 @@
 #include <stdlib.h>
 
 
-#define PARTS_MAX (EMITTER_TILES_MAX / 2) /* with tiles of their own; the dimmest share one */
-#define TILES_WANTED 24
-#define FINE_ENOUGH 0.06 /* of the part's mean square extent: a quarter of its length */
+#define PARTS_MAX 12 /* with tiles of their own; the dimmest share one */
+#define FINE_ENOUGH 0.2  /* of the part's mean square extent: a good third of its length */
 #define PROFILE_CODES 8  /* of the content, whose directions are averaged */
 
 /* A tile while it is made: cells order[first .. first + count - 1]. */
@@ -22,6 +21,7 @@ typedef struct Work {
     const Emitters *emitters;
     const double   *weight;
     uint32_t       *order;
+    EmitterChoice  *choices; /* in the same order */
     float         (*position)[3]; /* of every cell's centroid */
     Gathering       tile[EMITTER_TILES_MAX];
     int             count;
@@ -192,7 +192,7 @@ static bool split(Work *work, int t)
 static void split_tiles(Work *work)
 {
     bool is_done[EMITTER_TILES_MAX] = {false};
-    while (work->count < TILES_WANTED) {
+    while (work->count < EMITTER_TILES_MAX) {
         int    best = -1;
         double most = 0;
         for (int t = 0; t < work->count; t++) {
@@ -246,7 +246,6 @@ static const EmitterProfile *profile_of(const Work *work, int part_id, Arena *ar
 {
     const Material *material =
         &work->scene->materials[work->scene->parts[part_id].material_id];
-    if (material->display_id == NO_ID) return NULL;
     const Panel    *panel = work->scene->displays[material->display_id].panel;
     EmitterProfile *profile = ARENA_NEW(arena, EmitterProfile, 1);
     float           codes[PROFILE_CODES][3], mean = 0;
@@ -265,10 +264,25 @@ static const EmitterProfile *profile_of(const Work *work, int part_id, Arena *ar
     return profile;
 }
 
-/* ---- all of it --------------------------------------------------------------------------- */
+static const EmitterProfile *lambert(Arena *arena)
+{
+    EmitterProfile *profile = ARENA_NEW(arena, EmitterProfile, 1);
+    for (int j = 0; j < EMITTER_PROFILE_SIDE; j++)
+        for (int i = 0; i < EMITTER_PROFILE_SIDE; i++)
+            profile->value[j * EMITTER_PROFILE_SIDE + i] = node_direction(i, j).z;
+    return profile;
+}
+
+/* ---- all of it -------------------------------------------------------------------------- */
+
+static bool is_display(const Work *work, int part_id)
+{
+    if (part_id == NO_ID) return false;
+    return work->scene->materials[work->scene->parts[part_id].material_id].display_id != NO_ID;
+}
 
 /* The display's frame at the cell nearest to the tile's centre. */
-static Frame tile_frame(const Work *work, const Gathering *tile)
+static Frame display_frame_of(const Work *work, const Gathering *tile)
 {
     const Part     *part = &work->scene->parts[tile->part_id];
     const Material *material = &work->scene->materials[part->material_id];
@@ -298,68 +312,96 @@ static bool shines_both_ways(const Work *work, const Gathering *tile)
     return tile->part_id == NO_ID || (m->double_sided && m->display_id == NO_ID);
 }
 
-static EmitterTile finish_tile(const Work *work, const Gathering *from, double total)
+static void set_frame(EmitterTiles *tiles, int t, Frame frame)
 {
-    EmitterTile tile = {.power = (float)from->power, .share = (float)(from->power / total),
-                        .spread2 = (float)from->spread2,
-                        .both_sides = shines_both_ways(work, from),
-                        .frame = frame_from_z(vec3(0, 0, 1)),
-                        .cells = work->order + from->first};
-    tile.centre = vec3((float)from->centre[0], (float)from->centre[1], (float)from->centre[2]);
-    tile.normal = vec3((float)from->normal[0], (float)from->normal[1], (float)from->normal[2]);
-    tile.looseness = fmaxf(0, 1 - vec3_length(tile.normal));
-    return tile;
+    const Vec3 axes[3] = {frame.x, frame.y, frame.z};
+    for (int a = 0; a < 3; a++) {
+        tiles->axis[a][0][t] = axes[a].x;
+        tiles->axis[a][1][t] = axes[a].y;
+        tiles->axis[a][2][t] = axes[a].z;
+    }
+}
+
+static void finish_tile(const Work *work, int t, EmitterTiles *tiles)
+{
+    const Gathering *from = &work->tile[t];
+    Vec3  normal = vec3((float)from->normal[0], (float)from->normal[1], (float)from->normal[2]);
+    float length = vec3_length(normal);
+    Frame frame = length > 1e-3f ? frame_from_z(vec3_scale(normal, 1 / length))
+                                 : frame_from_z(vec3(0, 0, 1));
+    for (int k = 0; k < 3; k++) tiles->centre[k][t] = (float)from->centre[k];
+    tiles->power[t] = (float)from->power;
+    tiles->spread2[t] = (float)from->spread2;
+    tiles->focus[t] = fminf(1, length);
+    tiles->both_sides[t] = shines_both_ways(work, from) ? -1 : 0;
+    tiles->cells[t] = work->choices + from->first;
+    set_frame(tiles, t, is_display(work, from->part_id) ? display_frame_of(work, from) : frame);
+}
+
+static double cell_area(const Work *work, const Emitter *e)
+{
+    const uint32_t *v = work->scene->triangles[e->triangle].vertex;
+    Vec3 p[3];
+    for (int k = 0; k < 3; k++) {
+        const float *at = work->scene->vertices[v[k]].position;
+        p[k] = vec3(at[0], at[1], at[2]);
+    }
+    Vec3 cross = vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0]));
+    return 0.5 * (double)vec3_length(cross) / ((double)e->side * e->side);
 }
 
 /* The choice among a tile's cells, and what they know of it. */
-static void finish_cells(const Work *work, const Gathering *from, int t, Arena *arena,
-                         Emitters *emitters)
+static void finish_cells(const Work *work, int t, Arena *arena, Emitters *emitters)
 {
+    const Gathering *from = &work->tile[t];
     double *weight = ARENA_NEW(arena, double, from->count);
     for (uint32_t i = 0; i < from->count; i++)
         weight[i] = work->weight[work->order[from->first + i]];
     AliasTable made = alias_build(weight, (int)from->count, arena);
-    emitters->tiles[t].choice = made;
+    emitters->tiles->choice[t] = made;
     for (uint32_t i = 0; i < from->count; i++) {
-        uint32_t       cell = work->order[from->first + i];
-        const Emitter *e = &emitters->emitters[emitters->cell_emitter[cell]];
-        const uint32_t *v = work->scene->triangles[e->triangle].vertex;
-        Vec3 p[3];
-        for (int k = 0; k < 3; k++) {
-            const float *at = work->scene->vertices[v[k]].position;
-            p[k] = vec3(at[0], at[1], at[2]);
-        }
-        float area = 0.5f * vec3_length(vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0])));
-        float cells = (float)e->side * (float)e->side;
+        uint32_t cell = work->order[from->first + i], emitter = emitters->cell_emitter[cell];
+        double   area = cell_area(work, &emitters->emitters[emitter]);
+        float    pdf_area = area > 0 ? (float)((double)made.prob[i] / area) : 0;
         emitters->cell_tile[cell] = (uint8_t)t;
-        emitters->cell_pdf_area[cell] = area > 0 ? made.prob[i] * cells / area : 0;
+        emitters->cell_pdf_area[cell] = pdf_area;
+        work->choices[from->first + i] = (EmitterChoice){cell, emitter, pdf_area};
+    }
+}
+
+static void choose_profiles(const Work *work, Arena *arena, EmitterTiles *tiles)
+{
+    const EmitterProfile  *plain = lambert(arena);
+    const EmitterProfile **of_part = ARENA_NEW(arena, const EmitterProfile *,
+                                               work->scene->part_count + 1);
+    for (int t = 0; t < work->count; t++) {
+        int part_id = work->tile[t].part_id;
+        tiles->profile[t] = plain;
+        if (!is_display(work, part_id)) continue;
+        if (!of_part[part_id]) of_part[part_id] = profile_of(work, part_id, arena);
+        tiles->profile[t] = of_part[part_id];
     }
 }
 
 void emitter_tiles_build(const Scene *scene, const double *weight, Arena *arena,
                          Emitters *emitters)
 {
-    Work   work = {.scene = scene, .emitters = emitters, .weight = weight};
-    double total = 0;
-    const EmitterProfile **profiles = ARENA_NEW(arena, const EmitterProfile *,
-                                                scene->part_count + 1);
-    work.order = ARENA_NEW(arena, uint32_t, emitters->cell_count);
-    work.position = (float(*)[3])ARENA_NEW(arena, float, 3 * (size_t)emitters->cell_count);
+    Work     work = {.scene = scene, .emitters = emitters, .weight = weight};
+    uint32_t cells = emitters->cell_count;
+    work.order = ARENA_NEW(arena, uint32_t, cells);
+    work.choices = ARENA_NEW(arena, EmitterChoice, cells);
+    work.position = (float(*)[3])ARENA_NEW(arena, float, 3 * (size_t)cells);
     find_positions(&work);
     start_tiles(&work, *arena);
     split_tiles(&work);
-    emitters->tile_count = work.count;
-    emitters->tiles = ARENA_NEW(arena, EmitterTile, work.count);
-    emitters->cell_tile = ARENA_NEW(arena, uint8_t, emitters->cell_count);
-    emitters->cell_pdf_area = ARENA_NEW(arena, float, emitters->cell_count);
-    for (int t = 0; t < work.count; t++) total += work.tile[t].power;
+    emitters->cell_tile = ARENA_NEW(arena, uint8_t, cells);
+    emitters->cell_pdf_area = ARENA_NEW(arena, float, cells);
+    EmitterTiles *tiles = emitters->tiles = ARENA_NEW(arena, EmitterTiles, 1);
+    tiles->count = work.count;
     for (int t = 0; t < work.count; t++) {
-        int part_id = work.tile[t].part_id;
-        emitters->tiles[t] = finish_tile(&work, &work.tile[t], total);
-        finish_cells(&work, &work.tile[t], t, arena, emitters);
-        if (part_id == NO_ID) continue;
-        if (!profiles[part_id]) profiles[part_id] = profile_of(&work, part_id, arena);
-        emitters->tiles[t].profile = profiles[part_id];
-        if (profiles[part_id]) emitters->tiles[t].frame = tile_frame(&work, &work.tile[t]);
+        finish_tile(&work, t, tiles);
+        finish_cells(&work, t, arena, emitters);
     }
+    tiles->share = tiles->power / spectrum_all(spectrum_sum(tiles->power));
+    choose_profiles(&work, arena, tiles);
 }

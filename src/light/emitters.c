@@ -5,51 +5,78 @@
 #define BLIND_SHARE 0.1f /* of the samples that do not look where the lit point is */
 #define LOOSE 0.25f      /* intensity over power of what faces all ways: a sphere's */
 
-/* Bilinear in the turned octahedral map: along the diagonals x + y and x - y of the diamond
- * that the upper half of an octahedron is seen from above. */
-static float profile_value(const EmitterProfile *profile, Vec3 d)
+static Spectrum spectrum_load(const float from[SPECTRUM_LANES])
 {
-    if (!(d.z > 0)) return 0;
-    float scale = 0.5f * (EMITTER_PROFILE_SIDE - 1) / (fabsf(d.x) + fabsf(d.y) + d.z);
-    float middle = 0.5f * (EMITTER_PROFILE_SIDE - 1);
-    float s = middle + (d.x + d.y) * scale, t = middle + (d.x - d.y) * scale;
-    int   i = (int)s, j = (int)t;
-    if (i > EMITTER_PROFILE_SIDE - 2) i = EMITTER_PROFILE_SIDE - 2;
-    if (j > EMITTER_PROFILE_SIDE - 2) j = EMITTER_PROFILE_SIDE - 2;
+    Spectrum value;
+    memcpy(&value, from, sizeof value);
+    return value;
+}
+
+static void spectrum_store(Spectrum value, float to[SPECTRUM_LANES])
+{
+    memcpy(to, &value, sizeof value);
+}
+
+/* Bilinear at column s, row t. */
+static float profile_at(const EmitterProfile *profile, float s, float t)
+{
+    unsigned i = (unsigned)(int)s, j = (unsigned)(int)t;
+    i = i < EMITTER_PROFILE_SIDE - 2 ? i : EMITTER_PROFILE_SIDE - 2;
+    j = j < EMITTER_PROFILE_SIDE - 2 ? j : EMITTER_PROFILE_SIDE - 2;
     const float *row = profile->value + j * EMITTER_PROFILE_SIDE + i;
     const float *next = row + EMITTER_PROFILE_SIDE;
-    s -= (float)i;
-    t -= (float)j;
-    return lerpf(lerpf(row[0], row[1], s), lerpf(next[0], next[1], s), t);
+    float a = s - (float)(int)i, b = t - (float)(int)j;
+    float near = row[0] + a * (row[1] - row[0]), far = next[0] + a * (next[1] - next[0]);
+    return near + b * (far - near);
 }
 
-/* About the illuminance that a tile gives a plane that faces it. From near, where its cells are
- * seen under all angles, and for cells that face different ways, directions count less. */
-static float importance(const EmitterTile *tile, Vec3 from)
+/* Every tile's profile in the direction (x, y, z) of its frame, of any length. Bilinear in the
+ * turned octahedral map: along the diagonals x + y and x - y of the diamond that the upper half
+ * of an octahedron is, seen from above. Behind a tile: 0. */
+static Spectrum profile_values(const EmitterTiles *tiles, Spectrum x, Spectrum y, Spectrum z)
 {
-    Vec3  d = vec3_sub(from, tile->centre);
-    float d2 = vec3_dot(d, d) + 1e-12f, sum2 = d2 + tile->spread2;
-    Vec3  w = vec3_scale(d, 1 / sqrtf(d2));
-    float facing = vec3_dot(tile->normal, w), near = tile->spread2 / sum2;
-    if (tile->profile) facing = profile_value(tile->profile, frame_to_local(&tile->frame, w));
-    else facing = tile->both_sides ? fabsf(facing) : fmaxf(facing, 0);
-    return tile->power * (facing * (1 - near) + LOOSE * (near + tile->looseness)) / sum2;
+    const float  middle = 0.5f * (EMITTER_PROFILE_SIDE - 1);
+    SpectrumMask front = spectrum_above(z, spectrum_all(0));
+    Spectrum sum = spectrum_max(x, -x) + spectrum_max(y, -y) + spectrum_max(z, spectrum_all(0));
+    Spectrum scale = spectrum_all(middle) / (sum + spectrum_all(1e-30f));
+    float s[EMITTER_TILES_MAX], t[EMITTER_TILES_MAX], value[EMITTER_TILES_MAX] = {0};
+    spectrum_store(spectrum_all(middle) + (x + y) * scale, s);
+    spectrum_store(spectrum_all(middle) + (x - y) * scale, t);
+    for (int k = 0; k < tiles->count; k++)
+        value[k] = profile_at(tiles->profile[k], s[k], t[k]);
+    return spectrum_select(front, spectrum_load(value), spectrum_all(0));
 }
 
-/* The probability of every tile. */
-static void weigh_tiles(const Emitters *emitters, Vec3 from, float *prob)
+static Spectrum along_axis(const Spectrum axis[3], const Spectrum d[3])
 {
-    float sum = 0;
-    int   count = emitters->tile_count;
-    for (int i = 0; i < count; i++) sum += prob[i] = importance(&emitters->tiles[i], from);
-    float scale = sum > 0 && sum < 1e30f ? (1 - BLIND_SHARE) / sum : 0;
-    for (int i = 0; i < count; i++)
-        prob[i] = prob[i] * scale +
-                  (scale > 0 ? BLIND_SHARE : 1) * emitters->tiles[i].share;
+    return axis[0] * d[0] + axis[1] * d[1] + axis[2] * d[2];
+}
+
+/* The probability of every tile. It follows about the illuminance that the tile gives a plane
+ * that faces it. From near, where its cells are seen under all angles, and for cells that face
+ * different ways, directions count less. */
+static Spectrum weigh_tiles(const EmitterTiles *tiles, Vec3 from)
+{
+    const Spectrum one = spectrum_all(1);
+    const Spectrum d[3] = {spectrum_all(from.x) - tiles->centre[0],
+                           spectrum_all(from.y) - tiles->centre[1],
+                           spectrum_all(from.z) - tiles->centre[2]};
+    Spectrum inverse = one / (along_axis(d, d) + tiles->spread2 + spectrum_all(1e-12f));
+    Spectrum near = tiles->spread2 * inverse, z = along_axis(tiles->axis[2], d);
+    z = spectrum_select(tiles->both_sides, spectrum_max(z, -z), z);
+    Spectrum facing = profile_values(tiles, along_axis(tiles->axis[0], d),
+                                     along_axis(tiles->axis[1], d), z);
+    Spectrum weight = tiles->power * inverse *
+                      (facing * tiles->focus * (one - near) +
+                       spectrum_all(LOOSE) * (near + one - tiles->focus));
+    float sum = spectrum_sum(weight);
+    if (!(sum > 0 && sum < 1e30f)) return tiles->share;
+    return weight * spectrum_all((1 - BLIND_SHARE) / sum) +
+           tiles->share * spectrum_all(BLIND_SHARE);
 }
 
 /* Takes the choice of a tile off *u. */
-static int choose_tile(const float *prob, int count, float *u)
+static int choose_tile(Spectrum prob, int count, float *u)
 {
     float below = 0;
     int   i = 0;
@@ -84,13 +111,13 @@ static EmitterPoint point_of_cell(const Emitter *emitter, uint32_t cell, float u
 EmitterPoint emitters_sample(const Emitters *emitters, Vec3 from, const float u[3],
                              float *pdf_area)
 {
-    float prob[EMITTER_TILES_MAX], u0 = u[0];
-    weigh_tiles(emitters, from, prob);
-    int                t = choose_tile(prob, emitters->tile_count, &u0);
-    const EmitterTile *tile = &emitters->tiles[t];
-    uint32_t           cell = tile->cells[alias_sample(&tile->choice, u[2])];
-    *pdf_area = prob[t] * emitters->cell_pdf_area[cell];
-    return point_of_cell(&emitters->emitters[emitters->cell_emitter[cell]], cell, u0, u[1]);
+    const EmitterTiles *tiles = emitters->tiles;
+    Spectrum      prob = weigh_tiles(tiles, from);
+    float         u0 = u[0];
+    int           t = choose_tile(prob, tiles->count, &u0);
+    EmitterChoice chosen = tiles->cells[t][alias_sample(&tiles->choice[t], u[2])];
+    *pdf_area = prob[t] * chosen.pdf_area;
+    return point_of_cell(&emitters->emitters[chosen.emitter], chosen.cell, u0, u[1]);
 }
 
 float emitters_pdf_area(const Emitters *emitters, const Scene *scene, Vec3 from,
@@ -99,9 +126,8 @@ float emitters_pdf_area(const Emitters *emitters, const Scene *scene, Vec3 from,
     const Part *part = &scene->parts[scene->triangles[point.triangle].part_id];
     int first = emitters->count ? emitters->first_of_part[part - scene->parts] : NO_ID;
     if (first == NO_ID) return 0;
-    float    prob[EMITTER_TILES_MAX];
     int      i = first + (int)(point.triangle - part->first_triangle);
     uint32_t cell = cell_at(&emitters->emitters[i], point.u, point.v);
-    weigh_tiles(emitters, from, prob);
+    Spectrum prob = weigh_tiles(emitters->tiles, from);
     return prob[emitters->cell_tile[cell]] * emitters->cell_pdf_area[cell];
 }

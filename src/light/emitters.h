@@ -11,8 +11,8 @@
 #pragma once
 #include "base/alias.h"
 #include "light/emission.h"
+#include "spectrum/spectrum.h"
 
-#define EMITTER_TILES_MAX 32
 #define EMITTER_PROFILE_SIDE 33
 
 /* Luminous intensity over directions, relative to (mean luminance) x area: cos theta for
@@ -21,19 +21,27 @@ typedef struct EmitterProfile {
     float value[EMITTER_PROFILE_SIDE * EMITTER_PROFILE_SIDE];
 } EmitterProfile;
 
-typedef struct EmitterTile {
-    Vec3  centre;  /* of its cells, by power; m, world */
-    float spread2; /* mean square distance of the cells from it, m^2 */
-    float power;   /* luminance x area, cd */
-    float share;   /* of the power of all tiles */
-    Vec3  normal;  /* mean, by power: shorter than 1 where cells face different ways */
-    float looseness; /* 1 - its length */
-    bool  both_sides;
-    Frame frame;   /* of the display's directions */
-    const EmitterProfile *profile; /* NULL: Lambert's */
-    AliasTable      choice; /* among its cells */
-    const uint32_t *cells;
-} EmitterTile;
+/* What is known of a cell that a tile chose. */
+typedef struct EmitterChoice {
+    uint32_t cell, emitter;
+    float    pdf_area; /* of a point on the cell once the tile is chosen */
+} EmitterChoice;
+
+/* Tiles lie in the lanes of a Spectrum: all of them are weighed at once. */
+#define EMITTER_TILES_MAX SPECTRUM_LANES
+typedef struct EmitterTiles {
+    int          count;
+    Spectrum     centre[3]; /* of their cells, by power; m, world */
+    Spectrum     spread2;   /* mean square distance of the cells from it, m^2 */
+    Spectrum     power;     /* luminance x area, cd; 0 in lanes that are not used */
+    Spectrum     share;     /* of the power of all tiles */
+    Spectrum     axis[3][3]; /* of the directions' frames, world: x, y, z */
+    Spectrum     focus;     /* length of the mean normal: below 1 where cells differ */
+    SpectrumMask both_sides;
+    const EmitterProfile *profile[EMITTER_TILES_MAX];
+    AliasTable            choice[EMITTER_TILES_MAX]; /* among a tile's cells */
+    const EmitterChoice  *cells[EMITTER_TILES_MAX];
+} EmitterTiles;
 
 /* A triangle cut along its barycentric axes into side^2 cells of the same area. */
 typedef struct Emitter {
@@ -48,9 +56,8 @@ typedef struct Emitters {
     uint32_t     cell_count;
     uint32_t    *cell_emitter;
     uint8_t     *cell_tile;
-    float       *cell_pdf_area; /* of a point on the cell once its tile is chosen */
-    EmitterTile *tiles;
-    int          tile_count;
+    float       *cell_pdf_area; /* as in EmitterChoice */
+    EmitterTiles *tiles;
 } Emitters;
 
 Emitters emitters_build(const Scene *scene, Arena *arena);

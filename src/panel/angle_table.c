@@ -19,8 +19,10 @@ typedef struct NoiseAllowance {
     const char *unit;
 } NoiseAllowance;
 
-static const NoiseAllowance emission_noise = {0.05f, 0.005f, "cd/m2"};
-static const NoiseAllowance brdf_noise = {0.001f, 0.001f, "sr^-1"};
+static const NoiseAllowance emission_noise = {MEASUREMENT_NOISE_CD_M2,
+                                              MEASUREMENT_NOISE_CD_M2_SHARE, "cd/m2"};
+static const NoiseAllowance brdf_noise = {MEASUREMENT_NOISE_BRDF, MEASUREMENT_NOISE_BRDF_SHARE,
+                                          "sr^-1"};
 
 /* One row while it is sorted: where it came from and where it looks. */
 typedef struct Row {
@@ -34,6 +36,7 @@ typedef struct RawTable {
     int          rows, channels;
     const float *value; /* rows x channels in the file's order */
     size_t       bytes;
+    bool         is_emission; /* X, Y, Z */
 } RawTable;
 
 static int by_direction(const void *a, const void *b)
@@ -66,7 +69,7 @@ static bool place_row(const RawTable *raw, Row *row, Arena *arena, Error *err)
     while (row->phi_deg < 0) row->phi_deg += 360;
     while (row->phi_deg >= 360 - SAME_DEG) row->phi_deg -= 360;
     if (row->phi_deg < 0) row->phi_deg = 0;
-    if (row->theta_deg < SAME_DEG) row->theta_deg = row->phi_deg = 0;
+    if (row->theta_deg < SAME_DEG) row->theta_deg = 0;
     return true;
 }
 
@@ -109,20 +112,71 @@ static void keep_row(const RawTable *raw, const Row *row, AngleTable *table, flo
     table->rows++;
 }
 
-/* All rows at theta 0 are one direction: their mean. Returns how many they are. */
+#define POLE_ROWS 4      /* so many tell which of them is wrong */
+#define POLE_LIMIT 0.284f /* e^0.25 - 1: further from the median is a hot or dead pixel */
+
+static int by_float(const void *a, const void *b)
+{
+    float p = *(const float *)a, q = *(const float *)b;
+    return p < q ? -1 : p > q;
+}
+
+static float pole_median(const RawTable *raw, int count, size_t channel, Arena scratch)
+{
+    float *list = ARENA_NEW(&scratch, float, count);
+    for (int i = 0; i < count; i++)
+        list[i] = raw->value[(size_t)raw->row[i].source * (size_t)raw->channels + channel];
+    qsort(list, (size_t)count, sizeof *list, by_float);
+    return list[count / 2];
+}
+
+/* Emission at theta 0: rows that are far from the median in any component. */
+static void find_pole_outliers(const RawTable *raw, int count, AngleTable *table, Arena *arena)
+{
+    float median[3];
+    if (!raw->is_emission || count < POLE_ROWS) return;
+    AngleOutlier *list = ARENA_NEW(arena, AngleOutlier, count);
+    for (size_t c = 0; c < 3; c++) median[c] = pole_median(raw, count, c, *arena);
+    table->pole_outlier = list;
+    for (int i = 0; i < count; i++) {
+        const float *at = raw->value + 3 * (size_t)raw->row[i].source;
+        bool is_far = false;
+        for (int c = 0; c < 3; c++)
+            is_far |= fabsf(at[c] - median[c]) > POLE_LIMIT * fmaxf(median[c], 0.05f);
+        if (is_far)
+            list[table->pole_outliers++] = (AngleOutlier){
+                i, (float)radians_from_degrees((double)raw->row[i].phi_deg), at[1], median[1]};
+    }
+    if (2 * table->pole_outliers > count) table->pole_outliers = 0; /* none is right */
+}
+
+static bool is_pole_outlier(const AngleTable *table, int row)
+{
+    for (int i = 0; i < table->pole_outliers; i++)
+        if (table->pole_outlier[i].row == row) return true;
+    return false;
+}
+
+/* All rows at theta 0 are one direction: the mean of those that do not stand out. Returns how
+ * many there are. */
 static int keep_pole(const RawTable *raw, AngleTable *table, float *theta, float *phi,
-                     float *value)
+                     float *value, Arena *arena)
 {
     int    count = 0;
     size_t size = (size_t)raw->channels;
     while (count < raw->rows && raw->row[count].theta_deg == 0) count++;
     if (!count) return 0;
     keep_row(raw, &raw->row[0], table, theta, phi, value);
+    phi[0] = 0;
+    find_pole_outliers(raw, count, table, arena);
     for (size_t c = 0; c < size; c++) {
-        double sum = 0;
-        for (int i = 0; i < count; i++)
+        double sum = 0, kept = 0;
+        for (int i = 0; i < count; i++) {
+            if (is_pole_outlier(table, i)) continue;
             sum += (double)raw->value[(size_t)raw->row[i].source * size + c];
-        value[c] = (float)(sum / count);
+            kept++;
+        }
+        value[c] = (float)(sum / kept);
     }
     return count;
 }
@@ -139,7 +193,7 @@ static bool finish_table(RawTable *raw, NoiseAllowance noise, Arena *arena, Angl
     float *value = ARENA_NEW(arena, float, (size_t)raw->rows * (size_t)raw->channels);
     AngleTable table = {.name = raw->name, .channels = raw->channels, .theta = theta,
                         .phi = phi, .value = value, .text_bytes = raw->bytes};
-    for (int i = keep_pole(raw, &table, theta, phi, value); i < raw->rows; i++) {
+    for (int i = keep_pole(raw, &table, theta, phi, value, arena); i < raw->rows; i++) {
         const Row *row = &raw->row[i], *last = &raw->row[i - 1];
         if (!i || !same_direction(row, last)) {
             keep_row(raw, row, &table, theta, phi, value);
@@ -246,6 +300,7 @@ static bool read_xyz(const char *file, const char *name, Arena *scratch, RawTabl
         if (!xyz_from_yxy(&raw, value + 3 * i, csv.line[i], scratch, err)) return false;
     raw.value = value;
     raw.channels = 3;
+    raw.is_emission = true;
     *out = raw;
     return true;
 }
@@ -370,6 +425,7 @@ bool angle_table_read_grid(const char *const files[3], const char *name, Arena *
             return false;
     int across = csv[0].columns - 1, cells = csv[0].rows * across;
     RawTable raw = {.file = csv[0].file, .name = name, .rows = cells, .channels = 3,
+                    .is_emission = true,
                     .row = ARENA_NEW(arena, Row, cells),
                     .bytes = csv[0].bytes + csv[1].bytes + csv[2].bytes};
     float *value = ARENA_NEW(arena, float, 3 * (size_t)cells);

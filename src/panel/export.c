@@ -391,7 +391,7 @@ static bool emission_codes(const char *table, double rgb[3])
     return rgb[0] + rgb[1] + rgb[2] > 0;
 }
 
-/* Light of "brdf 30", "brdf 30 deg", "brdf 30 at 90". */
+/* Light of "brdf 30", "brdf 30 deg", "brdf 30 at 90", "brdf 30 deg, light from 90 deg". */
 static bool brdf_light(const char *table, Light *light)
 {
     int length = 0;
@@ -400,8 +400,9 @@ static bool brdf_light(const char *table, Light *light)
     table += length;
     if (!strncmp(table, " deg", 4)) table += 4;
     length = 0;
-    if (*table && (sscanf(table, " at %lf%n", &light->phi_deg, &length) != 1 || table[length]))
-        return false;
+    if (*table && sscanf(table, ", light from %lf deg%n", &light->phi_deg, &length) != 1)
+        sscanf(table, " at %lf%n", &light->phi_deg, &length);
+    if (*table && (!length || table[length])) return false;
     return light->theta_deg >= 0 && light->theta_deg < 90 && fabs(light->phi_deg) <= 360;
 }
 

@@ -10,8 +10,7 @@
 #include "base/parallel.h"
 #include "base/units.h"
 #include "panel/fit_parts.h"
-
-#define TRIAL_BYTES ((size_t)32 << 30) /* address space; pages cost nothing until touched */
+#include "panel/panel_figures.h"
 
 FitOptions fit_options_default(void)
 {
@@ -36,7 +35,8 @@ static void note_limits(const Measurement *set, FitNotes *notes)
         fit_note(notes, "white only: XYZ split into non-negative amounts of the Rec.709 "
                  "primaries, level curve 2.2, black 0");
     for (int p = 0; p < 3; p++)
-        if (set->primary[p].level[set->primary[p].level_count - 1] < 255)
+        if (set->primary[p].level_count &&
+            set->primary[p].level[set->primary[p].level_count - 1] < 255)
             fit_note(notes, "%s is measured up to level %g only; above, its power law goes on",
                      p == 0 ? "red" : p == 1 ? "green" : "blue",
                      set->primary[p].level[set->primary[p].level_count - 1]);
@@ -46,7 +46,30 @@ static void note_limits(const Measurement *set, FitNotes *notes)
                  degrees_from_radians(set->incidence[set->incidence_count - 1]));
 }
 
-/* The report's text, then the file with it; errors are measured on the file's own bytes. */
+/* The file with its report: the long lists stay out of it, figures are packed. Its own size
+ * is one of the figures. */
+static void *reported_bytes(const FitParts *parts, json_t *document, Arena *arena, size_t *size)
+{
+    static const char *const apart[] = {"tables", "total", "outliers", "holes"};
+    FitParts whole = *parts;
+    json_t  *rows = json_copy(json_object_get(document, "tables"));
+    json_t  *meta = json_copy(document);
+    void    *bytes = NULL;
+    json_array_append(rows, json_object_get(document, "total"));
+    for (int i = 0; i < 4; i++) json_object_del(meta, apart[i]);
+    char *text = json_dumps(meta, JSON_COMPACT | JSON_REAL_PRECISION(4));
+    for (int pass = 0; pass < 2 && text; pass++) {
+        whole.figures_size = panel_figures_pack(rows, arena, &whole.figures);
+        bytes = fit_file_bytes(&whole, text, arena, size);
+        fit_report_size(json_object_get(document, "total"), *size);
+    }
+    free(text);
+    json_decref(rows);
+    json_decref(meta);
+    return bytes;
+}
+
+/* Errors are measured on the file's own bytes. */
 static bool finish_file(const FitParts *parts, const char *path, Arena *arena, json_t **report,
                         Error *err)
 {
@@ -55,74 +78,13 @@ static bool finish_file(const FitParts *parts, const char *path, Arena *arena, j
     void  *bytes = fit_file_bytes(parts, "{}", arena, &size);
     if (!panel_from_bytes(bytes, size, path, arena, &panel, err)) return false;
     json_t *document = fit_measure(parts, panel, size);
-    char   *text = json_dumps(document, JSON_COMPACT | JSON_REAL_PRECISION(6));
-    if (!text) {
-        json_decref(document);
-        return error_set(err, ERROR_MEMORY, "the report does not fit into memory");
-    }
-    bytes = fit_file_bytes(parts, text, arena, &size);
-    free(text);
-    if (!file_write(path, bytes, size, err)) {
+    bytes = reported_bytes(parts, document, arena, &size);
+    if (!bytes) error_set(err, ERROR_MEMORY, "the report does not fit into memory");
+    if (!bytes || !file_write(path, bytes, size, err)) {
         json_decref(document);
         return false;
     }
     *report = document;
-    return true;
-}
-
-/* One frame exponent and how well the haze came out with it. */
-typedef struct FrameTrial {
-    const FitParts *parts;
-    float  exponent;
-    double error; /* fit_reflection_error */
-    bool   has_failed;
-    Error  err;
-} FrameTrial;
-
-static bool try_frame(FrameTrial *trial, Arena *arena)
-{
-    FitNotes       unheard = {.arena = arena};
-    FitOptions     options = *trial->parts->options;
-    FitReflection *reflection = ARENA_NEW(arena, FitReflection, 1);
-    FitParts       parts = *trial->parts;
-    Panel         *panel;
-    size_t         size;
-    *reflection = *parts.reflection;
-    options.frame_exponent = trial->exponent;
-    parts.reflection = reflection;
-    if (!fit_reflection(parts.set, &options, arena, &unheard, reflection, &trial->err))
-        return false;
-    void *bytes = fit_file_bytes(&parts, "{}", arena, &size);
-    if (!panel_from_bytes(bytes, size, "trial", arena, &panel, &trial->err)) return false;
-    trial->error = fit_reflection_error(parts.set, reflection, panel, 5);
-    return true;
-}
-
-static void run_trial(void *context, int item, int worker)
-{
-    FrameTrial *trial = (FrameTrial *)context + item;
-    Arena       arena = arena_reserve(TRIAL_BYTES);
-    (void)worker;
-    trial->has_failed = !try_frame(trial, &arena);
-    arena_release(&arena);
-}
-
-/* The frame exponent with the least error: wide haze likes 1, narrow haze 2. */
-static bool choose_frame(const FitParts *parts, FitOptions *options, Error *err)
-{
-    FrameTrial trials[3] = {{parts, 2, 0, false, {0}}, {parts, 1.5f, 0, false, {0}},
-                            {parts, 1, 0, false, {0}}};
-    int        best = 0, threads = options->level > 7 ? 1 : options->threads;
-    if (options->frame_exponent > 0) return true;
-    parallel_for(threads, 3, run_trial, trials);
-    for (int i = 0; i < 3; i++) {
-        if (trials[i].has_failed) {
-            *err = trials[i].err;
-            return false;
-        }
-        if (trials[i].error < trials[best].error) best = i;
-    }
-    options->frame_exponent = trials[best].exponent;
     return true;
 }
 
@@ -141,11 +103,9 @@ static bool sample_reflection(const FitParts *parts, FitReflection *reflection, 
 static bool fit_all_reflection(FitParts *parts, FitReflection *reflection, Arena *arena,
                                Error *err)
 {
-    FitOptions options = *parts->options;
     parts->reflection = reflection;
-    fit_separate(parts->set, arena, parts->notes, reflection);
-    return choose_frame(parts, &options, err) &&
-           fit_reflection(parts->set, &options, arena, parts->notes, reflection, err) &&
+    fit_separate(parts->set, parts->options->threads, arena, parts->notes, reflection);
+    return fit_reflection(parts->set, parts->options, arena, parts->notes, reflection, err) &&
            sample_reflection(parts, reflection, arena, err);
 }
 
@@ -167,15 +127,17 @@ bool panel_fit(const Measurement *measurement, const FitOptions *options, const 
     FitNotes        notes = {.arena = arena};
     FitEmission    *emission = ARENA_NEW(arena, FitEmission, 1);
     FitReflection  *reflection = ARENA_NEW(arena, FitReflection, 1);
-    PanelPrimaries *primaries = ARENA_NEW(arena, PanelPrimaries, 1);
-    FitParts parts = {measurement, options, emission, primaries,
-                      NULL, &notes};
+    FitParts parts = {.set = measurement, .options = options, .notes = &notes};
     Progress progress = progress_start(options->progress, "fit", "steps", 4);
     if (!check_output(path, *arena, err)) return false;
     note_limits(measurement, &notes);
-    if (!fit_emission(measurement, options, arena, &notes, emission, err)) return false;
+    if (measurement->primary[0].level_count) {
+        parts.emission = emission;
+        if (!fit_emission(measurement, options, arena, &notes, emission, err)) return false;
+    }
     progress_update(&progress, 1);
-    fit_spectra(measurement, emission, &notes, primaries);
+    if (parts.emission)
+        parts.primaries = fit_spectra(measurement, &notes, arena, &parts.primaries_size);
     progress_update(&progress, 2);
     if (measurement->incidence_count && !fit_all_reflection(&parts, reflection, arena, err))
         return false;
@@ -188,7 +150,22 @@ bool panel_fit(const Measurement *measurement, const FitOptions *options, const 
 bool panel_report(const Panel *panel, json_t **report, Error *err)
 {
     json_error_t fault;
+    json_t *figures = panel->figures ? panel_figures_open(panel->figures, panel->figures_size)
+                                     : json_array();
     *report = json_loadb(panel->meta, panel->meta_size, 0, &fault);
-    if (*report) return true;
-    return error_set(err, ERROR_INPUT, "the panel's report is no JSON: %s", fault.text);
+    if (!json_is_object(*report) || !figures) {
+        error_set(err, ERROR_INPUT, "the panel's report is no JSON: %s",
+                  figures ? fault.text : "its figures are damaged");
+        json_decref(*report);
+        json_decref(figures);
+        return false;
+    }
+    size_t rows = json_array_size(figures);
+    if (rows) {
+        json_object_set(*report, "total", json_array_get(figures, rows - 1));
+        json_array_remove(figures, rows - 1);
+    }
+    json_object_set_new(*report, "tables", figures);
+    json_object_set_new(*report, "file_bytes", json_integer((json_int_t)panel->size));
+    return true;
 }

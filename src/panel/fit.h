@@ -26,6 +26,8 @@ typedef struct FitOptions {
     float       bound;      /* relative error allowed at every measured sample; 0: 2 %, and
                                2.5 % of noisy tables. Noise allows its own 5 sigma anyway */
     FitBasis    basis;
+    bool        mask_outliers; /* hot and dead pixels of emission tables are never followed;
+                                   with this no error counts them either */
     bool        has_wavelet; /* along the wavelengths; else a few principal spectra */
     WaveletKind wavelet;
     HaarWeights weights;

@@ -43,17 +43,14 @@ void fit_write_section(FitWriter *writer, PanelSectionKind kind, uint32_t index,
         (uint16_t)kind, (uint16_t)index, (uint32_t)(writer->size - begin), begin};
 }
 
-static void write_emission(FitWriter *writer, const FitEmission *e)
+static void write_emission(FitWriter *writer, const FitParts *parts)
 {
-    size_t   channels = e->head.channels, f = sizeof(float);
-    FitPiece pieces[] = {{&e->head, sizeof e->head}, {e->mean, channels * f},
-                         {e->loading, channels * e->head.components * f},
-                         {e->mean_y, channels / 3 * f},
-                         {e->profile, PANEL_ANGLES * e->head.components *
-                                         (1 + 2 * e->head.harmonics) * f}};
-    FitPiece tree = {e->tree, tree_size(e->tree)};
-    fit_write_section(writer, PANEL_EMISSION, 0, pieces, 5);
+    const FitEmission *e = parts->emission;
+    FitPiece section = {e->section, e->section_size}, tree = {e->tree, tree_size(e->tree)};
+    FitPiece primaries = {parts->primaries, parts->primaries_size};
+    fit_write_section(writer, PANEL_EMISSION, 0, &section, 1);
     fit_write_section(writer, PANEL_EMISSION_TREE, 0, &tree, 1);
+    fit_write_section(writer, PANEL_PRIMARIES, 0, &primaries, 1);
 }
 
 /* Header and table of contents in front of the sections. */
@@ -78,11 +75,10 @@ static void *finish(FitWriter *writer, size_t *size)
 void *fit_file_bytes(const FitParts *parts, const char *meta, Arena *arena, size_t *size)
 {
     FitWriter writer = {.arena = arena};
-    FitPiece  text = {meta, strlen(meta)}, primaries = {parts->primaries,
-                                                        sizeof *parts->primaries};
+    FitPiece  text = {meta, strlen(meta)}, figures = {parts->figures, parts->figures_size};
     fit_write_section(&writer, PANEL_META, 0, &text, 1);
-    write_emission(&writer, parts->emission);
-    fit_write_section(&writer, PANEL_PRIMARIES, 0, &primaries, 1);
+    if (parts->figures) fit_write_section(&writer, PANEL_FIGURES, 0, &figures, 1);
+    if (parts->emission) write_emission(&writer, parts);
     if (parts->reflection) fit_write_reflection(&writer, parts->reflection);
     return finish(&writer, size);
 }

@@ -12,7 +12,7 @@
                             what the subtraction leaves */
 #define CORE_FWHMS 1.6   /* and so near to the mirror direction anyway */
 #define WINDOW_ROWS_MAX 60000
-#define ENOUGH_ROWS 1500 /* to choose widths from */
+#define ENOUGH_ROWS 1000 /* to choose widths from */
 #define LOBE_REST 0.006  /* relative, rms: a lobe explains the data this well, or it is none */
 #define LOBE_HEIGHT 1.0  /* times the haze under it, at least */
 #define SEARCH_DEG 6.0   /* a lobe's top is nearer to the mirror direction than this */
@@ -255,35 +255,34 @@ static double guess_width(const AngleTable *slice, double incidence)
     return half > 0.8 * reach ? 0 : 2 * fmax(half, nearest);
 }
 
-/* The width that leaves the least for the haze of a model, by golden section. */
-static double choose_width(Window *window, Model *model, const double range[2])
+/* What a width leaves, with the haze that suits it best. */
+static double rest_of_width(Window *window, double fwhm, double haze, Model *model)
 {
-    double low = log(range[0]), high = log(range[1]);
-    for (int i = 0; i < 20; i++) {
-        double a = high - 0.618034 * (high - low), b = low + 0.618034 * (high - low);
-        set_width(window, exp(a));
-        double left = solve_window(window, -1, window->floor, model);
-        set_width(window, exp(b));
-        double right = solve_window(window, -1, window->floor, model);
-        if (left < right) high = b;
-        else low = a;
-    }
-    set_width(window, exp(0.5 * (low + high)));
-    return exp(0.5 * (low + high));
+    set_width(window, fwhm);
+    *model = choose_haze(window, haze);
+    return solve_window(window, -1, window->floor, model);
 }
 
-/* Width of the lobe and haze under it, in turns. */
-static double choose_both(Window *window, double guess, Model *model)
+/* The width that leaves the least, by golden section over its logarithm. haze: to begin from. */
+static double choose_width(Window *window, const double range[2], double haze, Model *model)
 {
-    double fwhm = guess, range[2] = {0.4 * guess, 1.6 * guess};
-    set_width(window, guess);
-    for (int turn = 0; turn < 4; turn++) {
-        *model = choose_haze(window, 2 * guess);
-        fwhm = choose_width(window, model, range);
-        range[0] = 0.8 * fwhm;
-        range[1] = 1.25 * fwhm;
+    double low = log(range[0]), high = log(range[1]);
+    double a = high - 0.618034 * (high - low), b = low + 0.618034 * (high - low);
+    double left = rest_of_width(window, exp(a), haze, model);
+    double right = rest_of_width(window, exp(b), haze, model);
+    for (int i = 0; i < 12; i++) {
+        if (left < right) {
+            high = b, b = a, right = left;
+            a = high - 0.618034 * (high - low);
+            left = rest_of_width(window, exp(a), haze, model);
+        } else {
+            low = a, a = b, left = right;
+            b = low + 0.618034 * (high - low);
+            right = rest_of_width(window, exp(b), haze, model);
+        }
     }
-    return fwhm;
+    rest_of_width(window, exp(0.5 * (low + high)), haze, model);
+    return exp(0.5 * (low + high));
 }
 
 /* rms of what the model leaves where the peak is the larger part, relative. */
@@ -310,7 +309,7 @@ bool fit_lobe(const AngleTable *slice, double incidence, double noise, Arena *ar
     Window window = collect(slice, incidence, LOBE_FWHMS * guess, arena);
     if (window.count < 16) return false;
     Model  model;
-    double fwhm = choose_both(&window, guess, &model);
+    double fwhm = choose_width(&window, (double[2]){0.5 * guess, 2 * guess}, 2 * guess, &model);
     double rest = solve_window(&window, -1, window.floor, &model);
     double most = LOBE_REST + 2 * noise, peak = 4 * log(2) / (PI * fwhm * fwhm * cos(incidence));
     if (!(model.r * peak > LOBE_HEIGHT * (model.a + window.floor)) || rest > most ||

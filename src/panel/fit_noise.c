@@ -1,5 +1,5 @@
-/* How noisy a table is, told by third differences of neighbours: smooth data leave nearly
- * nothing of them, noise of deviation s leaves s sqrt(1 + 9 + 9 + 1). */
+/* How noisy a table is, told by high differences of neighbours: smooth data leave nearly nothing
+ * of them, noise of deviation s leaves s times the root of the sum of squared binomials. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -8,6 +8,7 @@
 
 #define NEIGHBOUR_DEG 13.0 /* azimuths further apart than this tell nothing of noise */
 #define ENOUGH 16          /* differences */
+#define ASKED 6000         /* rows, at most about so many */
 #define MEDIAN_OF_NORMAL 0.6745
 
 int fit_by_value(const void *a, const void *b)
@@ -16,21 +17,27 @@ int fit_by_value(const void *a, const void *b)
     return p < q ? -1 : p > q;
 }
 
-/* The row before `row` on its ring, near enough; -1: none. Rows are sorted that way. */
-static int before_on_ring(const AngleTable *table, int row)
-{
-    if (row < 1 || table->theta[row - 1] != table->theta[row]) return -1;
-    float gap = table->phi[row] - table->phi[row - 1];
-    return gap < (float)radians_from_degrees(NEIGHBOUR_DEG) ? row - 1 : -1;
-}
 
-/* The nearest row at a smaller theta with the same azimuth; -1: none. */
-static int before_on_meridian(const AngleTable *table, int row)
+void fit_neighbours(const AngleTable *table, Arena *arena, FitNeighbours *out)
 {
-    for (int i = row - 1; i >= 0; i--)
-        if (table->phi[i] == table->phi[row] && table->theta[i] < table->theta[row])
-            return i;
-    return -1;
+    int   *ring = ARENA_NEW(arena, int, table->rows), *inner = ARENA_NEW(arena, int, table->rows);
+    float  most = (float)radians_from_degrees(NEIGHBOUR_DEG);
+    int    begin = 0, before = -1; /* rings: this one and the one inside it */
+    for (int i = 0; i < table->rows; i++) {
+        if (table->theta[i] != table->theta[begin]) {
+            before = begin;
+            begin = i;
+        }
+        bool is_near = i > begin && table->phi[i] - table->phi[i - 1] < most;
+        ring[i] = is_near ? i - 1 : -1;
+        inner[i] = -1;
+        if (before < 0) continue;
+        int from = i > begin && inner[i - 1] >= 0 ? inner[i - 1] : before;
+        while (from < begin && table->phi[from] < table->phi[i]) from++;
+        if (from < begin && table->phi[from] == table->phi[i]) inner[i] = from;
+        else if (begin - before == 1 && table->theta[before] == 0) inner[i] = before;
+    }
+    *out = (FitNeighbours){ring, inner};
 }
 
 static double value_at(const AngleTable *table, int row, int channel)
@@ -38,50 +45,80 @@ static double value_at(const AngleTable *table, int row, int channel)
     return (double)table->value[(size_t)row * (size_t)table->channels + (size_t)channel];
 }
 
-/* |third difference| that ends at a row; false: not enough neighbours. */
-static bool third_difference(const AngleTable *table, int row, int channel, bool on_ring,
-                             double *difference, double *mean)
+/* |difference of that order| that ends at a row, over the noise of 1 that would make it. */
+static bool high_difference(const AngleTable *table, const int *before, int row, int channel,
+                            int order, double *difference, double *mean)
 {
-    double v[4];
-    for (int k = 0; k < 4; k++) {
+    double sum = 0, squares = 0, binomial = 1, all = 0;
+    for (int k = 0; k <= order; k++) {
         if (row < 0) return false;
-        v[k] = value_at(table, row, channel);
-        if (k < 3) row = on_ring ? before_on_ring(table, row) : before_on_meridian(table, row);
+        double value = value_at(table, row, channel);
+        sum += k % 2 ? -binomial * value : binomial * value;
+        squares += binomial * binomial;
+        all += value;
+        binomial = binomial * (order - k) / (k + 1);
+        row = before[row];
     }
-    *difference = fabs(v[0] - 3 * v[1] + 3 * v[2] - v[3]);
-    *mean = (v[0] + v[1] + v[2] + v[3]) / 4;
+    *difference = fabs(sum) / sqrt(squares);
+    *mean = all / (order + 1);
     return true;
 }
 
-/* Median over rows between two polar angles, relative to the mean of the four or not. */
-static double median_difference(const AngleTable *table, int channel, const double range[2],
-                                bool relative, Arena scratch)
+typedef struct NoiseQuestion {
+    int    channel;
+    double from, to; /* theta, radians */
+    bool   is_relative; /* to the mean of the rows */
+} NoiseQuestion;
+
+/* Median over rows; 0: too few. */
+static double median_difference(const AngleTable *table, const int *before, int order,
+                                const NoiseQuestion *ask, Arena scratch)
 {
     double *list = ARENA_NEW(&scratch, double, table->rows + 1), difference, mean;
-    int     count = 0;
-    for (int pass = 0; pass < 2 && count < ENOUGH; pass++) {
-        count = 0;
-        for (int i = 3; i < table->rows; i++) {
-            double theta = (double)table->theta[i];
-            if (theta < range[0] || theta > range[1]) continue;
-            if (!third_difference(table, i, channel, pass == 0, &difference, &mean)) continue;
-            if (!relative) list[count++] = difference;
-            else if (mean > 0) list[count++] = difference / mean;
-        }
+    int     count = 0, stride = 1 + table->rows / ASKED;
+    for (int i = order; i < table->rows; i += stride) {
+        double theta = (double)table->theta[i];
+        if (theta < ask->from || theta > ask->to) continue;
+        if (!high_difference(table, before, i, ask->channel, order, &difference, &mean))
+            continue;
+        if (!ask->is_relative) list[count++] = difference;
+        else if (mean > 0) list[count++] = difference / mean;
     }
     if (count < ENOUGH) return 0;
     qsort(list, (size_t)count, sizeof *list, fit_by_value);
-    return list[count / 2] / (MEDIAN_OF_NORMAL * sqrt(20));
+    return list[count / 2] / MEDIAN_OF_NORMAL;
+}
+
+/* The least over orders and over rings and meridians: structure only adds to a difference. */
+static double least_difference(const AngleTable *table, const NoiseQuestion *ask, Arena scratch)
+{
+    FitNeighbours near;
+    double        least = INFINITY;
+    fit_neighbours(table, &scratch, &near);
+    for (int order = 3; order <= 7; order += 2)
+        for (int k = 0; k < 2; k++) {
+            double found = median_difference(table, k ? near.inner : near.ring, order, ask,
+                                             scratch);
+            if (found > 0) least = fmin(least, found);
+        }
+    return least < INFINITY ? least : 0;
 }
 
 double fit_noise(const AngleTable *table, int channel, Arena scratch)
 {
-    return median_difference(table, channel, (double[2]){0, radians_from_degrees(70)}, true,
-                             scratch);
+    NoiseQuestion ask = {channel, 0, radians_from_degrees(70), true};
+    return least_difference(table, &ask, scratch);
 }
 
 double fit_dim_noise(const AngleTable *table, int channel, Arena scratch)
 {
-    double edge = (double)table->theta_max;
-    return median_difference(table, channel, (double[2]){0.9 * edge, edge}, false, scratch);
+    double        edge = (double)table->theta_max;
+    NoiseQuestion ask = {channel, 0.9 * edge, edge, false};
+    return least_difference(table, &ask, scratch);
+}
+
+double fit_plain_noise(const AngleTable *table, int channel, Arena scratch)
+{
+    NoiseQuestion ask = {channel, 0, PI / 2, false};
+    return least_difference(table, &ask, scratch);
 }

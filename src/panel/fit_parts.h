@@ -20,22 +20,6 @@ typedef struct FitNotes {
 
 void fit_note(FitNotes *notes, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* ---- emission -------------------------------------------------------------------------- */
-
-typedef struct FitEmission {
-    PanelEmission head;
-    float        *mean, *loading, *mean_y, *profile; /* as in the file */
-    const void   *tree;
-    TreeReport    tree_report;
-    PanelBend     range[4]; /* where the colours lie; coefficients still empty */
-    double        peak_xyz[4][3]; /* at the brightest level on the axis; 3: black */
-    double        noise[3 * PANEL_LEVELS_MAX + 1]; /* relative, per table; last: black */
-    double        rank_residual; /* rms of ln values that the components leave out */
-} FitEmission;
-
-bool fit_emission(const Measurement *set, const FitOptions *options, Arena *arena,
-                  FitNotes *notes, FitEmission *out, Error *err);
-
 /* ---- noise, outliers ------------------------------------------------------------------- */
 
 /* Relative noise of a table's channel inside 70 degrees: the median of high differences along
@@ -45,6 +29,9 @@ double fit_noise(const AngleTable *table, int channel, Arena scratch);
 /* Noise in the channel's unit on the dimmest rings, where only what does not scale with light
  * is left. */
 double fit_dim_noise(const AngleTable *table, int channel, Arena scratch);
+
+/* Noise in the channel's unit over all rows. */
+double fit_plain_noise(const AngleTable *table, int channel, Arena scratch);
 
 /* Per row: the one before it on its ring, and the one at the same azimuth on the ring inside;
  * -1: none, or too far. */
@@ -76,47 +63,86 @@ int fit_find_holes(const AngleTable *table, FitFlags *flags, Arena scratch);
 /* For qsort: doubles, rising. */
 int fit_by_value(const void *a, const void *b);
 
+/* ---- emission -------------------------------------------------------------------------- */
+
+#define FIT_TABLES_MAX (3 * PANEL_LEVELS_MAX + 1)
+
+typedef struct FitEmission {
+    const void *section, *tree; /* as in the file */
+    size_t      section_size;
+    TreeReport  tree_report;
+    int         components, level, table_count;
+    bool        has_black;
+    double      cone, tolerance; /* cone: radians */
+    double      rank_worst;  /* relative error that the components leave at the worst sample */
+    double      noise[FIT_TABLES_MAX]; /* relative, per table; last: black */
+    double      dim[FIT_TABLES_MAX][3]; /* cd m^-2, per table and channel */
+    uint8_t    *outlier[FIT_TABLES_MAX]; /* per row */
+    bool        is_masked; /* outliers count nowhere */
+    int         outlier_count, hole_count;
+    FitFlags    outliers, holes;
+} FitEmission;
+
+bool fit_emission(const Measurement *set, const FitOptions *options, Arena *arena,
+                  FitNotes *notes, FitEmission *out, Error *err);
+
 /* ---- spectra --------------------------------------------------------------------------- */
 
-void fit_spectra(const Measurement *set, const FitEmission *emission, FitNotes *notes,
-                 PanelPrimaries *out);
-
-/* Coefficients c that bend a spectrum of 1 cd m^-2 so that ln X/Y and ln Z/Y become `ratio`
- * and Y stays 1; c holds the start and the result. False: no solution near. */
-bool fit_bend(const float *spectrum, const double ratio[2], double c[3]);
-
-/* XYZ in cd m^-2 of spectrum * exp(c0 + c1 t + c2 t^2), all linear between whole nm. */
-void fit_bent_xyz(const float *spectrum, const double c[3], double xyz[3]);
+/* The primaries' section; *size bytes in the arena. */
+const void *fit_spectra(const Measurement *set, FitNotes *notes, Arena *arena, size_t *size);
 
 /* ---- reflection ------------------------------------------------------------------------ */
 
+/* Tables are azimuth * incidences + incidence; rows over wavelengths. */
 typedef struct FitReflection {
-    PanelReflection head;
-    float          *basis, *mirror, *profile; /* as in the file */
+    const void     *section; /* PanelReflectionStored and what follows it */
+    size_t          section_size;
     const void     *tree;
     TreeReport      tree_report;
     const void     *sampling; /* the section's bytes; NULL: not yet built */
     size_t          sampling_size;
-    AngleTable      haze[MEASUREMENT_INCIDENCES_MAX]; /* what is left without the mirror */
-    double          noise[MEASUREMENT_INCIDENCES_MAX];
-    double          reflectance[MEASUREMENT_INCIDENCES_MAX][MEASUREMENT_WAVELENGTHS_MAX];
-    double          mirror_y[MEASUREMENT_INCIDENCES_MAX]; /* luminous mirror reflectance */
+    int             tables;
+    AngleTable     *kept;        /* what is left without the mirror */
+    AngleTable     *haze;        /* and without the lobe */
+    double         *noise;       /* relative, per table */
+    double         *dim_noise;   /* sr^-1, per table */
+    double         *reflectance; /* of the mirror, [table][wavelength] */
+    double         *lobe;        /* the same of the lobe */
+    double         *lobe_sigma;  /* radians, per table */
+    double          mirror_y[MEASUREMENT_INCIDENCES_MAX]; /* luminous, of the first azimuth */
+    double          lobe_y[MEASUREMENT_INCIDENCES_MAX], floor_y[MEASUREMENT_INCIDENCES_MAX];
     double          luminous[MEASUREMENT_WAVELENGTHS_MAX]; /* observer's weight, sum 1 */
     double          largest_albedo; /* before it was held at 1 */
-    bool            has_mirror;
+    bool            has_mirror, has_lobe;
+    int             masked;         /* values below the floor under which nothing counts */
+    double          bound, worst;   /* error that was aimed at; largest error over it */
+    int             level, components, coefficients;
+    float           frame_exponent;
 } FitReflection;
 
-/* First step: noise, and haze and mirror told apart, for every slice. */
-void fit_separate(const Measurement *set, Arena *arena, FitNotes *notes, FitReflection *out);
+/* First step: noise, and mirror, lobe and haze told apart, for every table. */
+void fit_separate(const Measurement *set, int threads, Arena *arena, FitNotes *notes,
+                  FitReflection *out);
 
-/* Second step, on what the first one left in *out. options->frame_exponent above 0. */
+/* Second step, on what the first one left in *out. */
 bool fit_reflection(const Measurement *set, const FitOptions *options, Arena *arena,
                     FitNotes *notes, FitReflection *out, Error *err);
 
-/* Takes the mirror's image out of one slice: reflectance[wavelength], and the table without
+/* Takes the mirror's image out of one table: reflectance[wavelength], and the table without
  * it (values in the arena). */
 void fit_mirror(const AngleTable *slice, double incidence, double fwhm, Arena *arena,
                 double *reflectance, AngleTable *haze);
+
+/* A Gaussian lobe on the mirror direction that stands on the haze. */
+typedef struct FitLobe {
+    double  fwhm;        /* radians */
+    double *reflectance; /* per wavelength, room for them */
+} FitLobe;
+
+/* Takes a lobe out of one table, if a lobe on smooth haze explains the table. noise: relative.
+ * False: the table shows none, *haze is *slice. */
+bool fit_lobe(const AngleTable *slice, double incidence, double noise, Arena *arena,
+              FitLobe *lobe, AngleTable *haze);
 
 /* Unpolarised Fresnel reflectance that reflection tables are divided by. */
 double fit_fresnel(double cos_theta);
@@ -155,10 +181,13 @@ bool fit_sampling(const Panel *panel, Arena *arena, FitNotes *notes, FitReflecti
 typedef struct FitParts {
     const Measurement    *set;
     const FitOptions     *options;
-    const FitEmission    *emission;
-    const PanelPrimaries *primaries;
+    const FitEmission    *emission; /* NULL: none */
+    const void           *primaries; /* the section */
+    size_t                primaries_size;
     const FitReflection  *reflection; /* NULL: none */
     FitNotes             *notes;
+    const void           *figures; /* panel_figures.h; NULL: none yet */
+    size_t                figures_size;
 } FitParts;
 
 /* Sections are written one after the other, each of pieces that follow each other. */
@@ -198,10 +227,9 @@ void fit_report_reflection_tables(const FitParts *parts, const Panel *panel, jso
                                   FitTable *total);
 void fit_report_reflection(const FitParts *parts, const Panel *panel, json_t *out);
 
+/* Puts the file's size into the report's total. */
+void fit_report_size(json_t *total, size_t file_bytes);
+
 /* Compares the panel with the tables; a new JSON document. */
 json_t *fit_measure(const FitParts *parts, const Panel *panel, size_t file_bytes);
 
-/* L2 error of the haze over its L2 norm, weighted by the cosine, at every `stride`-th measured
- * direction; rms over the slices. */
-double fit_reflection_error(const Measurement *set, const FitReflection *reflection,
-                            const Panel *panel, int stride);

@@ -19,6 +19,7 @@ typedef struct ReflectionFit {
     Arena             *arena;
     int    tables, wavelengths;
     bool   is_trial; /* only to compare frames: nothing is mended */
+    bool   is_last;  /* no finer level follows: everything is tried */
     double bound;  /* relative error allowed at every sample, noise apart */
     float  k;      /* of the frame */
     VertexLattice lattice; /* level and octants, of the triangles when Haar */
@@ -39,6 +40,9 @@ typedef struct ReflectionFit {
     float  loading_scale[PANEL_REFLECTION_COMPONENTS_MAX];
     float *loading;        /* tables x coefficients x components */
     float *score;          /* places x components */
+    int    padded;         /* wavelengths, rounded up to four */
+    float *padded_mean;    /* tables x padded */
+    float *matrix;         /* tables x components x padded: loadings times basis */
 } ReflectionFit;
 
 /* Which channel of the values a table begins at, at a place. */
@@ -70,6 +74,10 @@ void reflect_choose_spectra(ReflectionFit *fit);
 
 /* ln (f / F) of a table from the tree's components. */
 void reflect_logs(const ReflectionFit *fit, int table, const float *component, float *logs);
+
+/* Is that within the tolerance of `wanted` at every wavelength? */
+bool reflect_is_near(const ReflectionFit *fit, int table, const float *component,
+                     const float *wanted, float tolerance);
 
 /* The tree; what samples and places miss by is mended as far as the level lets it be. */
 typedef struct ReflectionMisses {

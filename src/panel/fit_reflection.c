@@ -9,8 +9,9 @@
 #define DEFAULT_BOUND 0.02
 #define NOISY_BOUND 0.025
 #define NOISY 0.0005       /* relative: tables below it count as without noise */
-#define FIRST_LEVEL 7
+#define FIRST_LEVEL 6
 #define LAST_LEVEL 9
+#define NARROWEST 2.0f     /* the largest frame exponent that is tried */
 #define PLACES_BYTES ((size_t)5 << 29) /* of values at most: memory is bounded */
 #define TRIAL_BYTES ((size_t)32 << 30) /* address space; pages cost nothing until touched */
 
@@ -62,7 +63,7 @@ static void run_trial(void *context, int item, int worker)
     options.threads = 1;
     fit.out = &out, fit.options = &options, fit.arena = &arena, fit.k = trial->exponent;
     fit.is_trial = true;
-    reflect_read_places(&fit, FIRST_LEVEL - 1);
+    reflect_read_places(&fit, FIRST_LEVEL);
     reflect_choose_spectra(&fit);
     trial->has_failed = !reflect_code(&fit, &trial->misses, &trial->err);
     if (!trial->has_failed) trial->bytes = tree_size(out.tree);
@@ -74,7 +75,7 @@ static void run_trial(void *context, int item, int worker)
 static bool choose_frame(ReflectionFit *fit, Error *err)
 {
     FrameTrial trials[3] = {{.fit = fit, .exponent = 1}, {.fit = fit, .exponent = 1.5f},
-                            {.fit = fit, .exponent = 2}};
+                            {.fit = fit, .exponent = NARROWEST}};
     int best = 0;
     if (fit->k > 0) return true;
     parallel_for(fit->options->threads, 3, run_trial, trials);
@@ -83,7 +84,7 @@ static bool choose_frame(ReflectionFit *fit, Error *err)
             *err = trials[i].err;
             return false;
         }
-        int room = trials[i].misses.samples / 500;
+        int room = trials[i].misses.samples / 5000;
         int more = trials[i].misses.misses - trials[best].misses.misses;
         if (more < -room || (more <= room && trials[i].bytes < trials[best].bytes)) best = i;
     }
@@ -111,6 +112,7 @@ static bool code_levels(ReflectionFit *fit, ReflectionMisses *misses, Error *err
         *fit->arena = before;
         reflect_read_places(fit, level);
         reflect_choose_spectra(fit);
+        fit->is_last = level == last;
         if (!reflect_code(fit, &now, err)) return false;
         bool is_better = level == first || now.misses < misses->misses;
         *misses = now;
@@ -133,13 +135,32 @@ static void note_outcome(const ReflectionFit *fit, const ReflectionMisses *misse
                  100 * fit->bound, misses->worst);
 }
 
+/* A peak that is missed at the finest level gets the frame that spreads it most. */
+static bool code_frames(ReflectionFit *fit, ReflectionMisses *misses, Error *err)
+{
+    Arena            before = *fit->arena;
+    float            chosen = fit->k;
+    ReflectionMisses other;
+    if (!code_levels(fit, misses, err)) return false;
+    if (!misses->misses || chosen >= NARROWEST || fit->options->frame_exponent > 0) return true;
+    fit->k = NARROWEST;
+    if (!code_levels(fit, &other, err)) return false;
+    if (other.misses < misses->misses) {
+        *misses = other;
+        return true;
+    }
+    *fit->arena = before;
+    fit->k = chosen;
+    return code_levels(fit, misses, err);
+}
+
 bool fit_reflection(const Measurement *set, const FitOptions *options, Arena *arena,
                     FitNotes *notes, FitReflection *out, Error *err)
 {
     ReflectionFit   *fit = start_fit(set, options, arena, out);
     ReflectionMisses misses = {0};
     reflect_read_tables(fit);
-    if (!choose_frame(fit, err) || !code_levels(fit, &misses, err)) return false;
+    if (!choose_frame(fit, err) || !code_frames(fit, &misses, err)) return false;
     out->bound = fit->bound;
     out->worst = misses.worst;
     out->level = fit->lattice.level;

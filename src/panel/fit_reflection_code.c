@@ -12,8 +12,11 @@
 #define PLACE_SHARE 0.8    /* of the bound, for places: the rest is for what lies between */
 #define PEAK_SHARE 0.35    /* of that where a table is within 1/e of its largest value */
 #define TIGHTER 0.6        /* a miss makes the places around it so much more precise */
-#define TIGHTEST 0.1       /* of the bound, beyond what the components leave out: rounding */
+#define TIGHTEST 0.2       /* of the bound, beyond what the components leave out: rounding */
 #define ROUNDS 5
+#define HOPELESS 200 /* one miss in fewer samples: a finer level is wanted, not smaller steps */
+#define ATTEMPTS 8
+#define LOOSER 1.3f
 #define CHUNK 256
 
 static void place_logs(const ReflectionFit *fit, int place, int table, float *logs)
@@ -24,7 +27,10 @@ static void place_logs(const ReflectionFit *fit, int place, int table, float *lo
 static float largest_difference(const float *a, const float *b, int count)
 {
     float most = 0;
-    for (int w = 0; w < count; w++) most = fmaxf(most, fabsf(a[w] - b[w]));
+    for (int w = 0; w < count; w++) {
+        float difference = fabsf(a[w] - b[w]);
+        most = difference > most ? difference : most;
+    }
     return most;
 }
 
@@ -67,13 +73,11 @@ static void start_tolerances(ReflectionFit *fit)
 static bool accepts(const void *context, uint32_t place, const float *reconstructed)
 {
     const ReflectionFit *fit = context;
-    float logs[MEASUREMENT_WAVELENGTHS_MAX];
     for (int t = 0; t < fit->tables; t++) {
         size_t at = (size_t)place * (size_t)fit->tables + (size_t)t;
         if (fit->is_free[at]) continue;
-        reflect_logs(fit, t, reconstructed, logs);
-        if (largest_difference(logs, fit->value + at * (size_t)fit->wavelengths,
-                               fit->wavelengths) > fit->tolerance[at])
+        if (!reflect_is_near(fit, t, reconstructed,
+                             fit->value + at * (size_t)fit->wavelengths, fit->tolerance[at]))
             return false;
     }
     return true;
@@ -107,10 +111,23 @@ static bool build_haar(ReflectionFit *fit, Error *err)
                       err);
 }
 
+static void loosen(ReflectionFit *fit)
+{
+    size_t count = (size_t)fit->places * (size_t)fit->tables;
+    for (size_t i = 0; i < count; i++) fit->tolerance[i] *= LOOSER;
+}
+
+/* The coder's steps are as fine as the tightest places need, and may then be too fine for the
+ * largest details: it is asked for less until it can do what it is asked for. */
 static bool build_tree(ReflectionFit *fit, Error *err)
 {
-    bool ok = fit->options->basis == FIT_VERTEX ? build_vertex(fit, err)
-                                                : build_haar(fit, err);
+    bool ok = false;
+    for (int attempt = 0; attempt < ATTEMPTS && !ok; attempt++) {
+        if (attempt) loosen(fit);
+        *err = (Error){0};
+        ok = fit->options->basis == FIT_VERTEX ? build_vertex(fit, err) : build_haar(fit, err);
+        if (fit->options->basis != FIT_VERTEX) break;
+    }
     return ok || error_prefix(err, "reflection");
 }
 
@@ -250,7 +267,8 @@ bool reflect_code(ReflectionFit *fit, ReflectionMisses *misses, Error *err)
     start_tolerances(fit);
     for (int round = 0;; round++) {
         if (!build_tree(fit, err) || !check_samples(check, misses, err)) return false;
-        if (!misses->misses || round == ROUNDS || fit->is_trial ||
+        bool is_hopeless = !fit->is_last && misses->misses > misses->samples / HOPELESS;
+        if (!misses->misses || round == ROUNDS || fit->is_trial || is_hopeless ||
             fit->options->basis != FIT_VERTEX)
             return true;
         Arena  scratch = *fit->arena;

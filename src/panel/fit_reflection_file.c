@@ -13,6 +13,7 @@
 #include "panel/panel_reflection_layout.h"
 
 #define INTEGRAL_ROOM 0.5   /* of the bound: what the integrals may move all values by */
+#define LOBE_SQUARE 42.25   /* of the distance over sigma: where queries end the lobe */
 #define ALBEDO_MOST 0.995   /* haze, lobe and mirror together */
 #define ALBEDO_LEVEL 6
 #define FLOOR_QUANTILE 100  /* one row in so many is dimmer than the floor */
@@ -48,7 +49,40 @@ typedef struct IntegralPass {
     const ReflectionFit *fit;
     Tree    tree;
     double *change; /* tables x wavelengths, of the logarithm */
+    double *gain;   /* the same of the lobe, a factor */
 } IntegralPass;
+
+/* The lobe of reflectance 1 at a row, sr^-1. */
+static double lobe_shape(const ReflectionFit *fit, int table, Vec3 d)
+{
+    double theta = reflect_incidence(fit, table), sigma = fit->out->lobe_sigma[table];
+    double x = (double)d.x - sin(theta), y = (double)d.y, z = (double)d.z - cos(theta);
+    double chord = x * x + y * y + z * z, square = chord * (1 + chord / 12) / (sigma * sigma);
+    return square > LOBE_SQUARE ? 0 : exp(-0.5 * square) / (2 * PI * sigma * sigma * cos(theta));
+}
+
+/* By what the lobe must be multiplied so that the sums of haze and lobe over the rows are those
+ * of the table. */
+static void match_lobe(IntegralPass *pass, int t)
+{
+    const ReflectionFit *fit = pass->fit;
+    const AngleTable    *kept = &fit->out->kept[t], *haze = &fit->out->haze[t];
+    double shape = 0, wanted[MEASUREMENT_WAVELENGTHS_MAX] = {0};
+    for (int i = 0; i < kept->rows; i++) {
+        double weight = fit_row_weight(kept, i);
+        size_t at = (size_t)i * (size_t)fit->wavelengths;
+        shape += weight * lobe_shape(fit, t, fit_row_direction(kept, i));
+        for (int w = 0; w < fit->wavelengths; w++)
+            wanted[w] += weight * (double)(kept->value[at + (size_t)w] -
+                                           haze->value[at + (size_t)w]);
+    }
+    for (int w = 0; w < fit->wavelengths; w++) {
+        int    i = t * fit->wavelengths + w;
+        double lobe = shape * fit->out->lobe[i], room = INTEGRAL_ROOM * fit->bound;
+        double gain = lobe > 0 ? wanted[w] / lobe : 1;
+        pass->gain[i] = fmax(1 - room, fmin(1 + room, gain));
+    }
+}
 
 /* What the means of a table must change by, so that sums over its rows are those of the haze. */
 static void match_integrals(void *context, int t, int worker)
@@ -73,6 +107,7 @@ static void match_integrals(void *context, int t, int worker)
                                                        (size_t)w];
         }
     }
+    if (fit->out->has_lobe) match_lobe(pass, t);
     for (int w = 0; w < fit->wavelengths; w++) {
         double change = wanted[w] > 0 && found[w] > 0 ? log(wanted[w] / found[w]) : 0;
         pass->change[t * fit->wavelengths + w] = fmax(-room, fmin(room, change));
@@ -84,11 +119,15 @@ static bool settle_integrals(ReflectionFit *fit, Error *err)
     IntegralPass pass = {.fit = fit};
     int count = fit->tables * fit->wavelengths;
     pass.change = ARENA_NEW(fit->arena, double, count);
+    pass.gain = ARENA_NEW(fit->arena, double, count);
     if (!tree_open(fit->out->tree, tree_size(fit->out->tree), fit->geodesic,
                    &pass.tree, err))
         return error_prefix(err, "reflection");
     parallel_for(fit->options->threads, fit->tables, match_integrals, &pass);
-    for (int i = 0; i < count; i++) fit->mean[i] += (float)pass.change[i];
+    for (int i = 0; i < count; i++) {
+        fit->mean[i] += (float)pass.change[i];
+        if (fit->out->has_lobe) fit->out->lobe[i] *= pass.gain[i];
+    }
     return true;
 }
 

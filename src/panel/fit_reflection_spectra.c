@@ -248,6 +248,57 @@ static void choose_loadings(ReflectionFit *fit, const double *inverse, const dou
     round_loadings(fit);
 }
 
+/* ---- back to logarithms -------------------------------------------------------------------- */
+
+static void fill_matrix(ReflectionFit *fit)
+{
+    int n = fit->components, m = fit->coefficients, wavelengths = fit->wavelengths;
+    fit->padded = (wavelengths + 3) / 4 * 4;
+    fit->padded_mean = ARENA_NEW(fit->arena, float, fit->tables * fit->padded);
+    fit->matrix = ARENA_NEW(fit->arena, float, fit->tables * n * fit->padded);
+    for (int t = 0; t < fit->tables; t++)
+        for (int w = 0; w < wavelengths; w++) {
+            fit->padded_mean[t * fit->padded + w] = fit->mean[t * wavelengths + w];
+            for (int c = 0; c < n; c++) {
+                float *at = &fit->matrix[(t * n + c) * fit->padded + w];
+                for (int k = 0; k < m; k++)
+                    *at += fit->loading[(t * m + k) * n + c] * fit->basis[k * wavelengths + w];
+            }
+        }
+}
+
+/* Four wavelengths from `first` on. */
+static inline PanelFloat4 four_logs(const ReflectionFit *fit, int table, const float *component,
+                                    int first)
+{
+    const float *row = fit->matrix + table * fit->components * fit->padded + first;
+    PanelFloat4  sum = *(const PanelFloat4 *)(fit->padded_mean + table * fit->padded + first);
+    for (int c = 0; c < fit->components; c++, row += fit->padded)
+        sum += component[c] * *(const PanelFloat4 *)row;
+    return sum;
+}
+
+void reflect_logs(const ReflectionFit *fit, int table, const float *component, float *logs)
+{
+    for (int first = 0; first < fit->wavelengths; first += 4) {
+        PanelFloat4 four = four_logs(fit, table, component, first);
+        for (int i = 0; i < 4 && first + i < fit->wavelengths; i++) logs[first + i] = four[i];
+    }
+}
+
+bool reflect_is_near(const ReflectionFit *fit, int table, const float *component,
+                     const float *wanted, float tolerance)
+{
+    for (int first = 0; first < fit->wavelengths; first += 4) {
+        PanelFloat4 four = four_logs(fit, table, component, first);
+        for (int i = 0; i < 4 && first + i < fit->wavelengths; i++) {
+            float error = four[i] - wanted[first + i];
+            if (!(error <= tolerance && error >= -tolerance)) return false;
+        }
+    }
+    return true;
+}
+
 void reflect_choose_spectra(ReflectionFit *fit)
 {
     double noise = largest_noise(fit);
@@ -263,16 +314,5 @@ void reflect_choose_spectra(ReflectionFit *fit)
     const double *weight = coefficient_weights(fit, fit->arena);
     choose_loadings(fit, inverse, weight, joint, *fit->arena);
     fill_scores(fit, inverse, weight);
-}
-
-void reflect_logs(const ReflectionFit *fit, int table, const float *component, float *logs)
-{
-    int n = fit->wavelengths, m = fit->coefficients;
-    const float *loading = fit->loading + table * m * fit->components;
-    memcpy(logs, fit->mean + table * n, sizeof *logs * (size_t)n);
-    for (int k = 0; k < m; k++, loading += fit->components) {
-        float coefficient = 0;
-        for (int c = 0; c < fit->components; c++) coefficient += loading[c] * component[c];
-        for (int w = 0; w < n; w++) logs[w] += coefficient * fit->basis[k * n + w];
-    }
+    fill_matrix(fit);
 }

@@ -44,27 +44,21 @@ void fit_finish_errors(const FitErrors *errors, FitTable *out)
                               ? errors->integral / errors->integral_source - 1 : 0;
 }
 
-/* Relative to the sum of the measured tristimulus values, or to 1% of the table's largest sum
- * where the light is dimmer than that. */
+/* Relative to the measured value itself, or to 20 times what is noise even without light. */
 static void measure_emission(const AngleTable *table, const Panel *panel, const float rgb[3],
-                             FitTable *out)
+                             const double dim[3], const uint8_t *masked, FitTable *out)
 {
     FitErrors errors = {0};
-    double least = 1e-4;
-    for (int i = 0; i < table->rows; i++) {
-        const float *m = table->value + 3 * i;
-        least = fmax(least, 0.01 * (double)(m[0] + m[1] + m[2]));
-    }
     for (int i = 0; i < table->rows; i++) {
         const float *m = table->value + 3 * i;
         float  xyz[3];
         Vec3   d = fit_row_direction(table, i);
-        double scale = fmax(least, (double)(m[0] + m[1] + m[2]));
         double weight = fit_row_weight(table, i);
-        if (!(d.z > 0)) continue;
+        if (!(d.z > 0) || (masked && masked[i])) continue;
         panel_emission_xyz(panel, d, rgb, xyz);
         for (int j = 0; j < 3; j++)
-            fit_add_error(&errors, (double)xyz[j], (double)m[j], scale, j == 1 ? weight : 0);
+            fit_add_error(&errors, (double)xyz[j], (double)m[j],
+                          fmax(fmax(20 * dim[j], 1e-6), (double)m[j]), j == 1 ? weight : 0);
     }
     fit_finish_errors(&errors, out);
     out->extrapolated = (double)panel->emission->cone_cos; /* share of the hemisphere's sr */
@@ -88,6 +82,16 @@ static json_t *table_json(const FitTable *t)
                      "extrapolated_share", t->extrapolated);
 }
 
+void fit_report_size(json_t *total, size_t file_bytes)
+{
+    double bytes = (double)file_bytes;
+    double binary = json_number_value(json_object_get(total, "source_bytes_float32"));
+    double text = json_number_value(json_object_get(total, "source_bytes_text"));
+    json_object_set_new(total, "bytes", json_real(bytes));
+    json_object_set_new(total, "ratio", json_real(ratio_of(binary, bytes)));
+    json_object_set_new(total, "ratio_text", json_real(ratio_of(text, bytes)));
+}
+
 void fit_add_table(json_t *tables, FitTable *total, const FitTable *one)
 {
     json_array_append_new(tables, table_json(one));
@@ -101,29 +105,99 @@ void fit_add_table(json_t *tables, FitTable *total, const FitTable *one)
     total->extrapolated = fmax(total->extrapolated, one->extrapolated);
 }
 
+static size_t emission_bytes(const FitEmission *e)
+{
+    return e->section_size + tree_size(e->tree);
+}
+
+static const AngleTable *table_at(const FitParts *parts, int index, float rgb[3])
+{
+    rgb[0] = rgb[1] = rgb[2] = 0;
+    for (int p = 0; p < 3; p++) {
+        const MeasuredPrimary *from = &parts->set->primary[p];
+        if (index < from->level_count) {
+            rgb[p] = (float)from->level[index];
+            return &from->table[index];
+        }
+        index -= from->level_count;
+    }
+    return &parts->set->black;
+}
+
 static void add_emission_tables(const FitParts *parts, const Panel *panel, json_t *tables,
                                 FitTable *total)
 {
     const FitEmission *e = parts->emission;
-    int    count = (int)e->head.channels / 3, index = 0;
-    double values = (double)e->tree_report.stored_rows * e->head.components / count;
-    double bytes = ((double)tree_size(e->tree) + 4.0 * e->head.channels *
-                    (1 + e->head.components)) / count;
-    for (int p = 0; p < 4; p++) {
-        bool is_black = p == 3;
-        int  levels = is_black ? (int)e->head.has_black : parts->set->primary[p].level_count;
-        for (int i = 0; i < levels; i++, index++) {
-            const AngleTable *from = is_black ? &parts->set->black
-                                              : &parts->set->primary[p].table[i];
-            FitTable one = {.name = from->name, .text_bytes = from->text_bytes,
-                            .float32_bytes = 5 * sizeof(float) * (size_t)from->rows,
-                            .stored_values = values, .bytes = bytes, .noise = e->noise[index]};
-            float rgb[3] = {0, 0, 0};
-            if (!is_black) rgb[p] = (float)parts->set->primary[p].level[i];
-            measure_emission(from, panel, rgb, &one);
-            fit_add_table(tables, total, &one);
+    for (int i = 0; i < e->table_count; i++) {
+        float rgb[3];
+        const AngleTable *from = table_at(parts, i, rgb);
+        FitTable one = {.name = from->name, .text_bytes = from->text_bytes,
+                        .float32_bytes = parts->set->is_white_only && i
+                                             ? 0 : 3 * sizeof(float) * (size_t)from->rows,
+                        .stored_values = (double)e->tree_report.stored_values / e->table_count,
+                        .bytes = (double)emission_bytes(e) / e->table_count,
+                        .noise = e->noise[i]};
+        measure_emission(from, panel, rgb, e->dim[i], e->is_masked ? e->outlier[i] : NULL, &one);
+        fit_add_table(tables, total, &one);
+    }
+}
+
+#define FALLING_LEVEL 3 /* of the directions that are asked */
+
+/* Whole codes that give less light than the code below, over directions and primaries. */
+static int count_falling(const Panel *panel)
+{
+    int count = 0;
+    for (uint32_t i = 0; i < geodesic_count(FALLING_LEVEL); i++) {
+        Vec3 d = geodesic_center(FALLING_LEVEL, i);
+        if (d.z < panel->emission->cone_cos) continue;
+        for (int p = 0; p < 3; p++) {
+            float rgb[3] = {0, 0, 0}, xyz[3], before[3];
+            panel_emission_xyz(panel, d, rgb, before);
+            for (int code = 1; code < 256; code++) {
+                rgb[p] = (float)code;
+                panel_emission_xyz(panel, d, rgb, xyz);
+                count += xyz[1] < before[1] * (1 - 1e-6f);
+                memcpy(before, xyz, sizeof before);
+            }
         }
     }
+    return count;
+}
+
+/* What was chosen for the emission, and what it takes. */
+static json_t *describe_emission(const FitParts *parts, const FitTable *total, int falling)
+{
+    const FitEmission *e = parts->emission;
+    double bytes = (double)emission_bytes(e);
+    return json_pack("{s:s, s:i, s:i, s:f, s:f, s:f, s:f, s:b, s:b, s:I, s:I, s:f, s:i, s:i,"
+                     " s:i}",
+        "basis", parts->options->basis == FIT_HAAR ? "haar" : "vertex",
+        "level", e->level, "components", e->components, "tolerance", e->tolerance,
+        "bound", total->max_error, "rank_error", e->rank_worst,
+        "cone_deg", degrees_from_radians(e->cone), "black", (int)e->has_black,
+        "white_only", (int)parts->set->is_white_only,
+        "bytes", (json_int_t)emission_bytes(e),
+        "source_bytes_float32", (json_int_t)total->float32_bytes,
+        "share_of_source", bytes / fmax(1, (double)total->float32_bytes),
+        "outliers", e->outlier_count, "holes", e->hole_count, "falling_codes", falling);
+}
+
+static json_t *flags_json(const FitFlags *flags, bool has_values)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < flags->count && i < FIT_FLAGS_MAX; i++) {
+        const FitFlag *f = &flags->flag[i];
+        json_t *one = json_pack("{s:s, s:f, s:f}", "table", f->table, "theta_deg",
+                                degrees_from_radians(f->theta), "phi_deg",
+                                degrees_from_radians(f->phi));
+        if (has_values) {
+            json_object_set_new(one, "value", json_real(f->value));
+            json_object_set_new(one, "expected", json_real(f->expected));
+        }
+        json_array_append_new(list, one);
+    }
+    return list;
 }
 
 static json_t *notes_json(const FitNotes *notes)
@@ -161,21 +235,27 @@ json_t *fit_measure(const FitParts *parts, const Panel *panel, size_t file_bytes
     const Measurement *set = parts->set;
     json_t  *tables = json_array();
     FitTable total = {.name = "total", .bytes = (double)file_bytes};
-    add_emission_tables(parts, panel, tables, &total);
-    json_t *out = json_pack("{s:s, s:s, s:s, s:s, s:[f,f], s:[f,f], s:s, s:s}",
+    char     hash[32];
+    json_t  *out = json_pack("{s:s, s:s, s:s, s:s, s:[f,f], s:[f,f], s:s}",
         "panel", set->panel, "instrument", set->instrument, "note", set->note,
         "source", path_name(set->file), "pixels", set->pixels[0], set->pixels[1],
-        "size_mm", set->size_mm[0], set->size_mm[1], "basis", "haar",
-        "weights", parts->options->weights == HAAR_AREA ? "area" : "equal");
-    json_object_set_new(out, "emission", json_pack("{s:i, s:i, s:f, s:f, s:b, s:b}",
-        "level", ((const TreeHeader *)parts->emission->tree)->level,
-        "components", (int)parts->emission->head.components,
-        "rank_residual", parts->emission->rank_residual,
-        "cone_deg", degrees_from_radians(acos((double)panel->emission->cone_cos)),
-        "black", (int)parts->emission->head.has_black, "white_only", (int)set->is_white_only));
-    char hash[32];
+        "size_mm", set->size_mm[0], set->size_mm[1],
+        "basis", parts->options->basis == FIT_HAAR ? "haar" : "vertex");
+    if (parts->options->basis == FIT_HAAR)
+        json_object_set_new(out, "weights", json_string(
+            parts->options->weights == HAAR_AREA ? "area" : "equal"));
     snprintf(hash, sizeof hash, "%016llx", (unsigned long long)source_hash(set));
     json_object_set_new(out, "source_hash_xxh3", json_string(hash));
+    if (parts->emission) {
+        add_emission_tables(parts, panel, tables, &total);
+        int falling = count_falling(panel);
+        if (falling)
+            fit_note(parts->notes, "%d codes, over directions and primaries, give less light "
+                     "than the code below", falling);
+        json_object_set_new(out, "emission", describe_emission(parts, &total, falling));
+        json_object_set_new(out, "outliers", flags_json(&parts->emission->outliers, true));
+        json_object_set_new(out, "holes", flags_json(&parts->emission->holes, false));
+    }
     if (parts->reflection) {
         fit_report_reflection_tables(parts, panel, tables, &total);
         fit_report_reflection(parts, panel, out);

@@ -7,6 +7,7 @@
 #include "panel/fit_parts.h"
 
 #define LEVEL 6
+#define PROBE_LEVEL 5             /* at which incidences and azimuths are chosen */
 #define CELLS 1200             /* of two octants, at most */
 #define CELL_VARIANCE 0.012f   /* of the weights at the incidences chosen */
 #define BETWEEN_VARIANCE 0.004 /* more of it half way between two of them */
@@ -14,12 +15,13 @@
 #define LAST_DEG 88.0
 #define INCIDENCES_MAX 24
 #define AZIMUTHS_LEAST 8
+#define PROBES 3                  /* azimuths at which incidences are chosen */
 #define AZIMUTHS_MAX 32
 
 /* Places of the stored frame, and the weights of the lanes. */
 typedef struct Work {
     const Panel *panel;
-    int          octants, leaves, azimuths, incidences;
+    int          level, octants, leaves, azimuths, incidences;
     Vec3        *stored;
     double      *area;
     Wavelengths  wavelengths;
@@ -44,27 +46,29 @@ static void choose_wavelengths(Work *work)
     for (int i = 0; i < SPECTRUM_LANES; i++) work->luminous[i] /= total;
 }
 
-static void choose_places(Work *work, Arena *arena)
+static void choose_places(Work *work, int level, Arena *arena)
 {
-    uint32_t octant = 1u << 2 * LEVEL;
-    work->octants = work->panel->reflection_tree.octants;
-    work->leaves = work->octants << 2 * LEVEL;
+    uint32_t octant = 1u << 2 * level;
+    work->level = level;
+    work->octants = work->panel->reflection->azimuths > 1 ? 4 : 2;
+    work->leaves = work->octants << 2 * level;
     work->stored = ARENA_NEW(arena, Vec3, work->leaves);
     work->area = ARENA_NEW(arena, double, octant);
-    geodesic_areas(LEVEL, work->area);
-    for (int i = 0; i < work->leaves; i++) work->stored[i] = geodesic_center(LEVEL, (uint32_t)i);
+    geodesic_areas(level, work->area);
+    for (int i = 0; i < work->leaves; i++)
+        work->stored[i] = geodesic_center(level, (uint32_t)i);
 }
 
 static double area_of(const Work *work, int leaf)
 {
-    return work->area[leaf & ((1 << 2 * LEVEL) - 1)];
+    return work->area[leaf & ((1 << 2 * work->level) - 1)];
 }
 
 /* The integrals over the leaves of the luminous mean of f cos theta times the frame's
  * Jacobian, for a wo at theta and phi, scaled to a sum of 1. */
 static void read_function(const Work *work, double theta, double phi, float *integral)
 {
-    SpecularFrame frame = specular_frame((float)theta, work->panel->reflection->frame_exponent);
+    SpecularFrame frame = specular_frame((float)theta, PANEL_SAMPLING_EXPONENT);
     double s = sin(theta), total = 0;
     Vec3   wo = vec3((float)(s * cos(phi)), (float)(s * sin(phi)), (float)cos(theta));
     float  ex = (float)-cos(phi), ey = (float)-sin(phi);
@@ -100,19 +104,19 @@ static double mixed_variance(const Work *work, const float *wanted, const float 
 
 typedef struct Interval {
     double theta[2];
-    float *function[2]; /* of azimuth 0, 45 ... degrees one after the other */
+    float *function[2]; /* of every probe, one after the other */
 } Interval;
 
 static int probes(const Work *work)
 {
-    return work->octants == 4 ? AZIMUTHS_LEAST : 1;
+    return work->octants == 4 ? PROBES : 1;
 }
 
 static float *read_probes(const Work *work, double theta, Arena *arena)
 {
     float *all = ARENA_NEW(arena, float, probes(work) * work->leaves);
     for (int a = 0; a < probes(work); a++)
-        read_function(work, theta, 2 * PI * a / probes(work), all + a * work->leaves);
+        read_function(work, theta, 2 * PI * 0.3 * a, all + a * work->leaves);
     return all;
 }
 
@@ -192,9 +196,10 @@ bool fit_sampling(const Panel *panel, Arena *arena, FitNotes *notes, FitReflecti
     Arena       scratch = arena_reserve((size_t)4 << 30);
     const void *tree;
     choose_wavelengths(&work);
-    choose_places(&work, &scratch);
+    choose_places(&work, PROBE_LEVEL, &scratch);
     choose_incidences(&work, scratch);
     choose_azimuths(&work, scratch);
+    choose_places(&work, LEVEL, &scratch);
     int    functions = work.incidences * work.azimuths;
     float *integrals = ARENA_NEW(&scratch, float, (size_t)functions * (size_t)work.leaves);
     for (int i = 0; i < functions; i++)

@@ -156,9 +156,10 @@ static bool read_emission(const JsonView *root, Measurement *out, Error *err)
 {
     static const char *const keys[] = {"black", "red", "green", "blue", "white"};
     JsonView view;
-    if (!json_view_child(root, "emission", true, &view, err) ||
-        !json_view_check_keys(&view, keys, COUNT(keys), err))
-        return false;
+    bool needed = !json_object_get(root->object, "reflection");
+    if (!json_view_child(root, "emission", needed, &view, err)) return false;
+    if (!view.object) return true; /* a surface that only reflects */
+    if (!json_view_check_keys(&view, keys, COUNT(keys), err)) return false;
     if (json_object_get(view.object, "white")) return read_white(&view, out, err);
     if (!json_object_get(view.object, "black"))
         return error_at(err, ERROR_INPUT, view.file, view.path,

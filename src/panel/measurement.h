@@ -17,8 +17,19 @@
 #define MEASUREMENT_AZIMUTHS_MAX 72
 #define MEASUREMENT_TABLES_MAX 1152 /* of reflection: incidences times azimuths */
 
+/* How far below zero noise may reach: so much, or so large a share of the table's maximum. */
+#define MEASUREMENT_NOISE_CD_M2 0.05f
+#define MEASUREMENT_NOISE_CD_M2_SHARE 0.005f
+#define MEASUREMENT_NOISE_BRDF 0.001f
+#define MEASUREMENT_NOISE_BRDF_SHARE 0.001f
+
 /* Values over directions. Rows are sorted by theta, then phi; no direction stands twice.
  * theta in [0, pi/2], phi in [0, 2 pi); rows at theta 0 have become one. */
+typedef struct AngleOutlier {
+    int   row; /* among those at theta 0 */
+    float phi, value, expected; /* radians; Y, cd m^-2 */
+} AngleOutlier;
+
 typedef struct AngleTable {
     const char  *name;     /* "red 031", "brdf 30 deg" */
     int          rows, channels;
@@ -26,6 +37,8 @@ typedef struct AngleTable {
     const float *value;    /* rows x channels */
     size_t       text_bytes;
     float        theta_max;
+    int          pole_outliers; /* of emission tables, at theta 0: they are not in the mean */
+    const AngleOutlier *pole_outlier;
 } AngleTable;
 
 typedef struct MeasuredPrimary {

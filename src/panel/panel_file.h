@@ -38,13 +38,14 @@ typedef struct PanelHeader {
 } PanelHeader;
 
 typedef enum PanelSectionKind {
-    PANEL_META = 1,            /* JSON text: names, source, reports */
+    PANEL_META = 1,            /* JSON text: names, source, what was chosen, notes */
     PANEL_EMISSION = 2,        /* PanelEmissionHead and what follows it */
     PANEL_EMISSION_TREE = 3,
     PANEL_PRIMARIES = 4,       /* PanelPrimariesHead, spectra */
-    PANEL_REFLECTION = 5,      /* PanelReflection, basis, mirror */
+    PANEL_REFLECTION = 5,      /* PanelReflectionStored and what follows it */
     PANEL_REFLECTION_TREE = 6,
-    PANEL_SAMPLING = 7         /* a sampling tree, PanelSampling's counts and thetas */
+    PANEL_SAMPLING = 7,          /* a sampling tree, PanelSampling's counts and thetas */
+    PANEL_FIGURES = 8          /* panel_figures.h: the tables of the report, then the total */
 } PanelSectionKind;
 
 typedef struct PanelSection {
@@ -121,10 +122,9 @@ typedef struct PanelBend {
 /* The section of the primaries: this head, then uint16 value[3][count] of red, green, blue at
  * even wavelengths, multiples of scale; linear between them, 0 outside. */
 typedef struct PanelPrimariesHead {
-    float          first_nm, step_nm;
-    uint16_t       count, reserved;
-    float          scale[3];
-    PanelBendRange range[4]; /* red, green, blue, black */
+    float    first_nm, step_nm;
+    uint16_t count, kind; /* kind: PanelSpectraKind; count 0 when nothing is stored */
+    float    scale[3];
 } PanelPrimariesHead;
 #define PANEL_SPECTRUM_MAX 1024
 
@@ -134,21 +134,68 @@ typedef struct PanelPrimaries {
     PanelBend bend[4];
 } PanelPrimaries;
 
-/* Slices in the specular-following frame: component slice * coefficients + k of profile plus
- * tree is coefficient k of log(f / F(theta_i)); basis[k] times it, summed, is the logarithm at
- * the wavelengths. Slices with a negative theta are the first ones mirrored at the normal. */
-typedef struct PanelReflection {
-    uint32_t slices, coefficients, wavelengths, padded_wavelengths;
+/* What a panel reflects. A table is the haze measured with the light at one azimuth and one
+ * incidence; table = azimuth * incidences + incidence. In the specular-following frame
+ *     ln (f / F(theta_i)) at wavelength w = mean[table][w] + sum over k of basis[k][w] *
+ *         sum over c of loading[table][k][c] * (the tree's component c),
+ * F the unpolarised Fresnel reflectance. A narrow lobe stands on the haze where one was found:
+ * reflectance R / F = exp(lobe), a Gaussian of lobe_sigma over the angle to the mirror
+ * direction. 16-bit numbers are multiples of the scale that stands beside them. */
+typedef struct PanelReflectionStored {
+    uint16_t incidences, azimuths;    /* azimuths 1: isotropic, symmetric in y */
+    uint16_t components, coefficients; /* of the tree; of spectra */
+    uint16_t wavelengths;
+    uint16_t nodes;                   /* incidences from the last measured one to 90 degrees */
+    uint8_t  is_cubic, has_mirror, has_lobe, reserved;
     float    frame_exponent, refractive_index;
-    float    cone_cos;               /* of the leaving directions */
+    float    cone_cos;                /* of the leaving directions */
+    float    mean_scale, lobe_scale;
+    /* then, float: incidence[incidences], azimuth[azimuths], wavelength_nm[wavelengths],
+     *   node_theta[nodes], basis_scale[coefficients], loading_scale[components],
+     *   lobe_sigma[tables] (with a lobe only);
+     * then, 16 bits: mean[tables][wavelengths], floor[tables][wavelengths] (ln, mean_scale),
+     *   basis[coefficients][wavelengths], loading[tables][coefficients][components],
+     *   lobe[tables][wavelengths] (with a lobe only), and of 1/65535: albedo[tables]
+     *   [wavelengths] of haze and lobe, mirror[incidences][wavelengths] (with a mirror only),
+     *   held[nodes][wavelengths], by what the haze beyond the measured incidences is
+     *   multiplied, and node_albedo[nodes][wavelengths] */
+} PanelReflectionStored;
+
+#define PANEL_TABLES_MAX 1152 /* incidences times azimuths */
+#define PANEL_AZIMUTHS_MAX 72
+#define PANEL_REFLECTION_COMPONENTS_MAX 32
+#define PANEL_NODES_MAX 16
+#define PANEL_INCIDENCES_MAX 32
+
+/* An incidence that interpolation counts on. Those below 0 are measured ones seen from the
+ * other side of the normal: the light's azimuth and the stored direction turned by 180 deg. */
+typedef struct PanelIncidence {
+    float theta;
+    int   incidence;
+    bool  is_turned;
+} PanelIncidence;
+
+/* The stored form, expanded for queries. Rows over wavelengths have padded_wavelengths floats,
+ * rows over coefficients padded_coefficients; what is padded is 0. */
+typedef struct PanelReflection {
+    uint32_t incidences, azimuths, tables, components, coefficients, padded_coefficients;
+    uint32_t wavelengths, padded_wavelengths, nodes, steps;
+    bool     is_cubic, has_mirror, has_lobe;
+    float    frame_exponent, refractive_index, cone_cos;
     float    first_theta, last_theta; /* measured incidences, radians */
-    uint32_t is_cubic;               /* over four slices; else linear over two */
-    uint32_t harmonics;              /* of the profile, cosines only */
-    float    slice_theta[PANEL_SLICES_MAX];
+    PanelIncidence step[PANEL_INCIDENCES_MAX + 2]; /* rising in theta */
+    float    azimuth[PANEL_AZIMUTHS_MAX];
     float    wavelength_nm[PANEL_WAVELENGTHS_MAX];
-    float    haze_albedo[PANEL_ANGLES];
-    /* then: float basis[coefficients][padded], mirror[PANEL_ANGLES][padded],
-     * profile[PANEL_ANGLES][1 + harmonics][slices * coefficients] */
+    float    node_theta[PANEL_NODES_MAX];
+    float    haze_albedo[PANEL_ANGLES]; /* luminous, lobe included */
+    const float *mean;    /* [tables][wavelengths] */
+    const float *basis;   /* [coefficients][wavelengths] */
+    const float *loading; /* [tables][components][coefficients] */
+    const float *floor;   /* [tables][wavelengths], sr^-1 */
+    const float *lobe;    /* [tables][wavelengths], ln (R / F) */
+    const float *lobe_sigma; /* [tables], radians */
+    const float *held;    /* [nodes][wavelengths] */
+    const float *mirror;  /* [PANEL_ANGLES][wavelengths] */
 } PanelReflection;
 
 /* Position in a table over theta: *t in [0, 1] from node to node + 1. */
@@ -217,8 +264,9 @@ static inline void panel_add_profile(const PanelProfile *profile, Vec3 d, int fi
 }
 
 /* How wi is chosen for a wo: function azimuth * incidences + incidence of one sampling tree in
- * the specular-following frame of wo's polar angle theta. In the file: the tree, at the next
+ * the specular-following frame of wo's polar angle theta, with an exponent of its own. In the file: the tree, at the next
  * multiple of four bytes uint16 incidences and azimuths, then float theta[incidences]. */
+#define PANEL_SAMPLING_EXPONENT 2.0f
 typedef struct PanelSampling {
     SamplingTree tree;
     int          incidences; /* 0: nothing is reflected */
@@ -236,12 +284,12 @@ struct Panel {
     size_t  size;
     const char *meta;
     size_t      meta_size;
+    const void *figures; /* NULL: none */
+    size_t      figures_size;
     const PanelEmission *emission; /* NULL: emits nothing */
     Tree         emission_tree;
     const PanelPrimaries *primaries; /* with emission */
     const PanelReflection *reflection; /* NULL: reflects nothing */
-    const float *basis, *mirror;
-    PanelProfile reflection_profile;
     Tree         reflection_tree;
     PanelSampling sampling;
     int16_t      wavelength_index[SPECTRAL_COUNT]; /* interval that begins at or below a nm */

@@ -24,9 +24,8 @@ int panel_info_incidences(const Panel *panel, double theta[PANEL_INFO_INCIDENCES
 {
     const PanelReflection *r = panel->reflection;
     int count = 0;
-    for (uint32_t i = 0; r && i < r->slices; i++)
-        if (r->slice_theta[i] >= r->first_theta && r->slice_theta[i] <= r->last_theta)
-            theta[count++] = (double)r->slice_theta[i];
+    for (uint32_t i = 0; r && i < r->steps; i++)
+        if (!r->step[i].is_turned) theta[count++] = (double)r->step[i].theta;
     return count;
 }
 

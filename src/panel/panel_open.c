@@ -93,97 +93,6 @@ bool panel_rising(const float *value, uint32_t count)
     return true;
 }
 
-/* ---- emission -------------------------------------------------------------------------- */
-
-static bool check_levels(const PanelBytes *at, const PanelEmission *e)
-{
-    uint64_t channels = e->has_black ? 3 : 0;
-    for (int p = 0; p < 3; p++) {
-        if (e->level_count[p] < 1 || e->level_count[p] > PANEL_LEVELS_MAX)
-            return panel_refuse(at, "emission", "level count out of range");
-        if (!(e->level[p][0] > 0) || !(e->level[p][e->level_count[p] - 1] <= 255) ||
-            !panel_rising(e->level[p], e->level_count[p]))
-            return panel_refuse(at, "emission", "levels do not rise from above 0 to 255");
-        channels += 3 * (uint64_t)e->level_count[p];
-    }
-    if (e->has_black > 1 || e->harmonics > PANEL_HARMONICS_MAX || channels != e->channels ||
-        e->components < 1 ||
-        e->components > PANEL_COMPONENTS_MAX)
-        return panel_refuse(at, "emission", "channel or component count out of range");
-    if (!(e->cone_cos >= 0 && e->cone_cos <= 1) ||
-        !(e->level_power > 0 && e->level_power < 10) ||
-        !(e->cosine_power >= 0 && e->cosine_power < 10))
-        return panel_refuse(at, "emission", "cone or level power out of range");
-    return true;
-}
-
-/* Means and loadings, turned so that a query reads neighbouring channels at once. */
-static void turn_loadings(Panel *panel, Arena *arena)
-{
-    const PanelEmission *e = panel->emission;
-    int    channels = (int)e->channels, components = (int)e->components;
-    int    stride = (channels + PANEL_CHANNELS_AT_ONCE + 3) / 4 * 4;
-    float *rows = ARENA_NEW(arena, float, stride * (1 + components));
-    for (int c = 0; c < channels; c++) {
-        rows[c] = panel->channel_mean[c];
-        for (int k = 0; k < components; k++)
-            rows[(1 + k) * stride + c] = panel->loading[c * components + k];
-    }
-    panel->channel_rows = rows;
-    panel->channel_stride = stride;
-}
-
-static bool open_emission(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
-                          Panel *panel)
-{
-    PanelBytes at, tree;
-    if (!panel_need_section(bytes, PANEL_EMISSION, 0, &at) ||
-        !panel_need_section(bytes, PANEL_EMISSION_TREE, 0, &tree))
-        return false;
-    const PanelEmission *e = (const PanelEmission *)at.data;
-    if (at.size < sizeof *e) return panel_refuse(&at, "emission", "is too short");
-    if (!check_levels(&at, e)) return false;
-    size_t floats = (size_t)e->channels * (1 + e->components) + e->channels / 3 +
-                    (size_t)PANEL_ANGLES * e->components * (1 + 2 * e->harmonics);
-    if (at.size != sizeof *e + floats * sizeof(float))
-        return panel_refuse(&at, "emission", "has another size than its counts say");
-    panel->emission = e;
-    panel->channel_mean = (const float *)(at.data + sizeof *e);
-    panel->loading = panel->channel_mean + e->channels;
-    panel->mean_y = panel->loading + (size_t)e->channels * e->components;
-    panel->emission_profile = (PanelProfile){panel->mean_y + e->channels / 3,
-                                             (int)e->components, (int)e->harmonics, true};
-    if (!panel_all_finite(panel->channel_mean, floats))
-        return panel_refuse(&at, "emission", "holds a number that is not finite");
-    if (!tree_open(tree.data, tree.size, geodesic, &panel->emission_tree, bytes->err))
-        return error_prefix(bytes->err, "emission tree") ||
-               error_in_file(bytes->err, bytes->name);
-    if (panel->emission_tree.components != (int)e->components ||
-        panel->emission_tree.octants != 4)
-        return panel_refuse(&at, "emission", "does not fit its tree");
-    turn_loadings(panel, arena);
-    for (int p = 0; p < 3; p++)
-        for (uint32_t i = 0; i < e->level_count[p]; i++)
-            panel->log_level[p][i] = log_f(e->level[p][i]);
-    return true;
-}
-
-static bool open_primaries(const PanelBytes *bytes, Panel *panel)
-{
-    PanelBytes at;
-    if (!panel_need_section(bytes, PANEL_PRIMARIES, 0, &at)) return false;
-    const PanelPrimaries *p = (const PanelPrimaries *)at.data;
-    if (at.size != sizeof *p) return panel_refuse(&at, "primaries", "has a wrong size");
-    if (!panel_all_finite((const float *)p, sizeof *p / sizeof(float)))
-        return panel_refuse(&at, "primaries", "holds a number that is not finite");
-    for (int i = 0; i < 4; i++)
-        for (int k = 0; k < 2; k++)
-            if (!(p->bend[i].high[k] > p->bend[i].low[k]))
-                return panel_refuse(&at, "primaries", "a chromaticity range is empty");
-    panel->primaries = p;
-    return true;
-}
-
 /* ---- the whole file -------------------------------------------------------------------- */
 
 /* The finest level of any tree inside, read before the trees themselves are checked. */
@@ -211,20 +120,27 @@ static bool finest_level(const PanelBytes *bytes, int *level)
 bool panel_from_bytes(const void *data, size_t size, const char *name, Arena *arena,
                       Panel **out, Error *err)
 {
-    PanelBytes       bytes = {data, size, name, err}, meta;
+    PanelBytes  bytes = {data, size, name, err}, meta, figures = {0};
     PanelHeader header;
     int         level;
+    bool        has_figures;
     if (!check_header(&bytes, &header) || !finest_level(&bytes, &level) ||
-        !panel_need_section(&bytes, PANEL_META, 0, &meta))
+        !panel_need_section(&bytes, PANEL_META, 0, &meta) ||
+        !panel_find_section(&bytes, PANEL_FIGURES, 0, &figures, &has_figures))
         return false;
     const Geodesic *geodesic = geodesic_create(level, arena);
     Panel *panel = ARENA_NEW(arena, Panel, 1);
     panel->size = size;
     panel->meta = (const char *)meta.data;
     panel->meta_size = meta.size;
-    if (!open_emission(&bytes, geodesic, arena, panel) || !open_primaries(&bytes, panel) ||
+    panel->figures = has_figures ? figures.data : NULL;
+    panel->figures_size = figures.size;
+    if (!panel_open_emission(&bytes, geodesic, arena, panel) ||
         !panel_open_reflection(&bytes, geodesic, arena, panel))
         return false;
+    if (!panel->emission && !panel->reflection)
+        return panel_refuse(&bytes, "table of contents", "neither emits nor reflects");
+    panel_open_bends(panel);
     *out = panel;
     return true;
 }
@@ -260,7 +176,11 @@ bool panel_open(const char *path, Arena *arena, Panel **out, Error *err)
     }
     panel->map = map;
     *out = panel;
-    return true;
+    if (!panel->reflection || panel->sampling.incidences) return true;
+    panel_refuse(&(PanelBytes){map, size, path, err}, "table of contents",
+                 "a reflection stands without its sampling tree");
+    panel_close(panel);
+    return false;
 }
 
 void panel_close(Panel *panel)

@@ -29,10 +29,21 @@ bool panel_all_finite(const float *value, size_t count);
 
 bool panel_rising(const float *value, uint32_t count);
 
+/* The emission's sections into *panel; a file without them is fine. */
+bool panel_open_emission(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
+                         Panel *panel);
+
+/* How the primaries' spectra bend: a few milliseconds, once everything else is in order. */
+void panel_open_bends(Panel *panel);
+
 /* The reflection's sections into *panel; a file without them is fine. Tables that are derived
  * from the stored ones come from the arena. */
 bool panel_open_reflection(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
                            Panel *panel);
+
+/* The reflection alone, from its section and its tree, into *panel. */
+bool panel_expand_reflection(const PanelBytes *at, const PanelBytes *tree,
+                             const Geodesic *geodesic, Arena *arena, Panel *panel);
 
 /* The sampling tree, expanded into the arena; a file without one leaves *out as it is. */
 bool panel_open_sampling(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,

@@ -4,98 +4,36 @@
 #include "hemisphere/tree_query.h"
 #include "panel/panel_query.h"
 
-/* ln of `blocks` times four neighbouring channels in cd m^-2, without the cosine's power. */
-static inline void channel_logs(const Panel *panel, int first, int blocks,
-                                const float *components, float *out)
+void panel_spline_add(const PanelSpline *spline, Vec3 d, float log_cos, float *out)
 {
-    PanelFloat4  sum[PANEL_CHANNELS_AT_ONCE / 4];
-    const float *row = panel->channel_rows + first;
-    for (int b = 0; b < blocks; b++) sum[b] = *(const PanelFloat4 *)(row + 4 * b);
-    for (int k = 0; k < (int)panel->emission->components; k++) {
-        row += panel->channel_stride;
-        for (int b = 0; b < blocks; b++)
-            sum[b] += components[k] * *(const PanelFloat4 *)(row + 4 * b);
+    float t, s = safe_sqrtf(d.x * d.x + d.y * d.y);
+    float cos_1 = s > 0 ? d.x / s : 1, sin_1 = s > 0 ? d.y / s : 0;
+    float angle[PANEL_SPLINE_TERMS_MAX + 1] = {1, cos_1, sin_1};
+    int   node = panel_angle_node(atan2_f(s, d.z), &t), row = spline->terms * spline->stride;
+    const float *near = spline->table + node * row, *power = spline->power;
+    for (int m = 2; m <= spline->harmonics; m++) {
+        float c = angle[2 * m - 3], e = angle[2 * m - 2];
+        angle[2 * m - 1] = c * cos_1 - e * sin_1;
+        angle[2 * m] = e * cos_1 + c * sin_1;
     }
-    memcpy(out, sum, sizeof *sum * (size_t)blocks);
+    for (int i = 0; i < spline->terms; i++, near += spline->stride, power += spline->stride) {
+        float factor = angle[spline->term[i]];
+        float a = factor * (1 - t), b = factor * t, c = factor * log_cos;
+        for (int k = 0; k < spline->stride; k += 4)
+            *(PanelFloat4 *)(out + k) += *(const PanelFloat4 *)(near + k) * a +
+                                         *(const PanelFloat4 *)(near + row + k) * b +
+                                         *(const PanelFloat4 *)(power + k) * c;
+    }
 }
 
-LevelPosition panel_level_position(const Panel *panel, int primary, float code)
+float panel_emission_components(const Panel *panel, Vec3 direction, float *components)
 {
     const PanelEmission *e = panel->emission;
-    const float *level = e->level[primary], *x = panel->log_level[primary];
-    int last = (int)e->level_count[primary] - 1, i = 0;
-    if (!(code > 0)) return (LevelPosition){.kind = LEVEL_DARK};
-    while (i < last && level[i + 1] <= code) i++;
-    LevelPosition at = {LEVEL_EXACT, i, log_f(code), {0, 0, 0, 0}};
-    if (code == level[i]) return at;
-    at.kind = last == 0 ? LEVEL_POWER : code < level[0] ? LEVEL_BELOW
-            : i == last ? LEVEL_ABOVE : LEVEL_BETWEEN;
-    for (int k = 0; k < 4; k++) {
-        int j = i - 1 + k;
-        at.node[k] = x[j < 0 ? 0 : j > last ? last : j];
-    }
-    return at;
-}
-
-/* Slope at a node between two intervals of widths h and steepness d: the harmonic mean of
- * Fritsch and Butland (1984), 0 at an extremum, so that the interpolant is monotone. */
-static float monotone_slope(float h0, float h1, float d0, float d1)
-{
-    if (!(d0 * d1 > 0)) return 0;
-    float w0 = 2 * h1 + h0, w1 = h1 + 2 * h0;
-    return (w0 + w1) * d0 * d1 / (w0 * d1 + w1 * d0);
-}
-
-float panel_level_interpolate(const Panel *panel, const LevelPosition *at, const float y[4])
-{
-    const float *x = at->node;
-    switch (at->kind) {
-    case LEVEL_DARK: return -INFINITY;
-    case LEVEL_EXACT: return y[1];
-    case LEVEL_POWER: return y[1] + panel->emission->level_power * (at->x - x[1]);
-    case LEVEL_BELOW: {
-        float slope = (y[2] - y[1]) / (x[2] - x[1]);
-        return y[1] + (slope > 0.1f ? slope : 0.1f) * (at->x - x[1]);
-    }
-    case LEVEL_ABOVE: {
-        float slope = (y[1] - y[0]) / (x[1] - x[0]);
-        return y[1] + (slope > 0 ? slope : 0) * (at->x - x[1]);
-    }
-    case LEVEL_BETWEEN: break;
-    }
-    float h = x[2] - x[1], d = (y[2] - y[1]) / h, m1 = d, m2 = d;
-    if (x[0] < x[1]) m1 = monotone_slope(x[1] - x[0], h, (y[1] - y[0]) / (x[1] - x[0]), d);
-    if (x[3] > x[2]) m2 = monotone_slope(h, x[3] - x[2], d, (y[3] - y[2]) / (x[3] - x[2]));
-    float t = (at->x - x[1]) / h, t2 = t * t, t3 = t2 * t;
-    return y[1] * (2 * t3 - 3 * t2 + 1) + y[2] * (3 * t2 - 2 * t3) +
-           h * (m1 * (t3 - 2 * t2 + t) + m2 * (t3 - t2));
-}
-
-/* ln of the three tristimulus values that a primary adds at this level; fall is the part that
- * all channels share. */
-static void primary_logs(const Panel *panel, int primary, const LevelPosition *at,
-                         const float *components, float fall, float logs[3])
-{
-    int   first = (int)panel_first_channel(panel->emission, primary);
-    int   levels = (int)panel->emission->level_count[primary];
-    float values[PANEL_CHANNELS_AT_ONCE];
-    if (at->kind == LEVEL_EXACT) {
-        channel_logs(panel, first + 3 * at->first, 1, components, values);
-        for (int j = 0; j < 3; j++) logs[j] = fall + values[j];
-        return;
-    }
-    int window = at->first - 1 > levels - 4 ? levels - 4 : at->first - 1; /* four levels */
-    if (window < 0) window = 0;
-    channel_logs(panel, first + 3 * window, PANEL_CHANNELS_AT_ONCE / 4, components, values);
-    for (int j = 0; j < 3; j++) {
-        float y[4];
-        for (int k = 0; k < 4; k++) {
-            int i = at->first - 1 + k;
-            i = i < 0 ? 0 : i > levels - 1 ? levels - 1 : i;
-            y[k] = values[3 * (i - window) + j];
-        }
-        logs[j] = fall + panel_level_interpolate(panel, at, y);
-    }
+    for (int k = e->components & ~3; k < e->stride; k++) components[k] = 0;
+    tree_interpolate(&panel->emission_tree, direction, components);
+    float log_cos = log_f(clampf(direction.z, PANEL_LEAST_COS, 1));
+    panel_spline_add(&e->spline, direction, log_cos, components);
+    return e->cosine_power * log_cos;
 }
 
 static bool is_measured(const Panel *panel, Vec3 direction)
@@ -103,36 +41,60 @@ static bool is_measured(const Panel *panel, Vec3 direction)
     return direction.z >= panel->emission->cone_cos - 1e-6f;
 }
 
-/* ln XYZ of the four sources of light: three primaries (-infinity: dark) and black. */
-static void source_logs(const Panel *panel, Vec3 direction, const float rgb[3],
-                        float logs[4][3], bool lit[4])
+/* A source's ln XYZ (and a number that means nothing) from one row. */
+static inline PanelFloat4 row_logs(const float *row, const float *components, int count)
 {
+    PanelFloat4 sum = *(const PanelFloat4 *)row;
+    for (int k = 0; k < count; k++)
+        sum += components[k] * *(const PanelFloat4 *)(row + 4 * k + 4);
+    return sum;
+}
+
+/* A primary at any code above 0: whole codes have a row; between two of them ln E is linear in
+ * ln code; below 1 it is a power law. */
+static PanelFloat4 primary_logs(const PanelEmission *e, int primary, float code,
+                                const float *components)
+{
+    int          size = 4 * (e->components + 1), whole = code < 255 ? (int)code : 255;
+    const float *rows = e->code_rows[primary];
+    if ((float)whole >= code && whole > 0)
+        return row_logs(rows + whole * size, components, e->components);
+    if (whole == 0)
+        return row_logs(rows + size, components, e->components) +
+               row_logs(rows, components, e->components) * log_f(code);
+    PanelFloat4 low = row_logs(rows + whole * size, components, e->components);
+    PanelFloat4 high = row_logs(rows + (whole + 1) * size, components, e->components);
+    float span = e->log_code[whole + 1] - e->log_code[whole];
+    return low + (high - low) * ((log_f(code) - e->log_code[whole]) / span);
+}
+
+#define DARK (-1e4f) /* a logarithm of nothing */
+
+/* ln X, Y, Z of the four sources of light: red, green, blue (DARK at code 0) and black. */
+static void source_logs(const Panel *panel, Vec3 direction, const float rgb[3],
+                        PanelFloat4 logs[4])
+{
+    const PanelEmission *e = panel->emission;
     float components[PANEL_COMPONENTS_MAX];
-    int   count = (int)panel->emission->components;
-    tree_interpolate(&panel->emission_tree, direction, components);
-    panel_add_profile(&panel->emission_profile, direction, 0, count, components);
-    float fall = panel->emission->cosine_power * log_f(clampf(direction.z, 1e-4f, 1));
-    for (int p = 0; p < 3; p++) {
-        LevelPosition at = panel_level_position(panel, p, rgb[p]);
-        lit[p] = at.kind != LEVEL_DARK;
-        if (lit[p]) primary_logs(panel, p, &at, components, fall, logs[p]);
-    }
-    lit[3] = panel->emission->has_black;
-    if (!lit[3]) return;
-    float black[4];
-    channel_logs(panel, (int)panel_first_channel(panel->emission, 3), 1, components, black);
-    for (int j = 0; j < 3; j++) logs[3][j] = fall + black[j];
+    float fall = panel_emission_components(panel, direction, components);
+    for (int s = 0; s < 4; s++) logs[s] = (PanelFloat4){DARK, DARK, DARK, DARK};
+    for (int p = 0; p < 3; p++)
+        if (rgb[p] > 0) logs[p] = fall + primary_logs(e, p, rgb[p], components);
+    if (e->has_black) logs[3] = fall + row_logs(e->black_rows, components, e->components);
 }
 
 bool panel_emission_xyz(const Panel *panel, Vec3 direction, const float rgb[3], float xyz[3])
 {
-    float logs[4][3];
-    bool  lit[4];
+    PanelFloat4 logs[4];
+    Spectrum    all;
     xyz[0] = xyz[1] = xyz[2] = 0;
-    if (!(direction.z > 0)) return false;
-    source_logs(panel, direction, rgb, logs, lit);
-    for (int s = 0; s < 4; s++)
-        for (int j = 0; j < 3 && lit[s]; j++) xyz[j] += exp_f(logs[s][j]);
+    if (!panel->emission || !(direction.z > 0)) return false;
+    source_logs(panel, direction, rgb, logs);
+    memcpy(&all, logs, sizeof all);
+    all = spectrum_exp(all);
+    memcpy(logs, &all, sizeof all);
+    PanelFloat4 sum = (logs[0] + logs[1]) + (logs[2] + logs[3]);
+    for (int j = 0; j < 3; j++) xyz[j] = sum[j];
     return is_measured(panel, direction);
 }
 
@@ -166,11 +128,11 @@ static int cubic_cell(float at, float low, float high, float weight[4])
 void panel_bend_lookup(const PanelBend *bend, const float logs[3], float coefficient[3])
 {
     float wu[4], wv[4];
-    float du = logs[0] - logs[1] - bend->origin[0], dv = logs[2] - logs[1] - bend->origin[1];
-    float along = du * bend->along[0] + dv * bend->along[1];
-    float across = dv * bend->along[0] - du * bend->along[1];
-    int   u = cubic_cell(along, bend->low[0], bend->high[0], wu);
-    int   v = cubic_cell(across, bend->low[1], bend->high[1], wv);
+    float du = logs[0] - logs[1] - bend->range.origin[0], dv = logs[2] - logs[1] - bend->range.origin[1];
+    float along = du * bend->range.along[0] + dv * bend->range.along[1];
+    float across = dv * bend->range.along[0] - du * bend->range.along[1];
+    int   u = cubic_cell(along, bend->range.low[0], bend->range.high[0], wu);
+    int   v = cubic_cell(across, bend->range.low[1], bend->range.high[1], wv);
     coefficient[0] = coefficient[1] = coefficient[2] = 0;
     for (int j = 0; j < 4; j++)
         for (int i = 0; i < 4; i++) {
@@ -200,18 +162,17 @@ static Spectrum spectrum_of(const float *spectrum, const Wavelengths *wavelength
 Spectrum panel_emission_spectrum(const Panel *panel, Vec3 direction, const float rgb[3],
                                  const Wavelengths *wavelengths)
 {
-    float    logs[4][3];
-    bool     lit[4];
-    Spectrum sum = spectrum_all(0);
-    if (!(direction.z > 0)) return sum;
-    source_logs(panel, direction, rgb, logs, lit);
+    PanelFloat4 source[4];
+    Spectrum    sum = spectrum_all(0);
+    if (!panel->emission || !(direction.z > 0)) return sum;
+    source_logs(panel, direction, rgb, source);
     Spectrum t = (wavelengths->nm - spectrum_all(560)) * spectrum_all(1.0f / 180);
     for (int s = 0; s < 4; s++) {
-        float c[3];
-        if (!lit[s]) continue;
-        panel_bend_lookup(&panel->primaries->bend[s], logs[s], c);
+        float c[3], logs[3] = {source[s][0], source[s][1], source[s][2]};
+        if (logs[1] <= DARK) continue;
+        panel_bend_lookup(&panel->primaries->bend[s], logs, c);
         Spectrum exponent = (spectrum_all(c[2]) * t + spectrum_all(c[1])) * t +
-                            spectrum_all(c[0] + logs[s][1]);
+                            spectrum_all(c[0] + logs[1]);
         /* Far from a narrow primary the curve may run away where the primary is dark: infinity
          * times nothing would be no number. */
         exponent = spectrum_min(exponent, spectrum_all(EXPONENT_MOST));
@@ -224,20 +185,25 @@ Spectrum panel_emission_spectrum(const Panel *panel, Vec3 direction, const float
 
 /* ---- mean ------------------------------------------------------------------------------ */
 
+/* At any code, by the same curve between whole codes. */
+static float mean_of_code(const PanelEmission *e, const float *mean, float code)
+{
+    int whole = code < 255 ? (int)code : 255;
+    if (!(code > 0)) return 0;
+    if (whole == 0) { /* the power law of the two lowest codes */
+        float slope = log_f(mean[2] / mean[1]) / e->log_code[2];
+        return mean[1] * exp_f((slope > 0 ? slope : 0) * log_f(code));
+    }
+    if ((float)whole >= code) return mean[whole];
+    float t = (log_f(code) - e->log_code[whole]) / (e->log_code[whole + 1] - e->log_code[whole]);
+    return mean[whole] * exp_f(t * log_f(mean[whole + 1] / mean[whole]));
+}
+
 float panel_mean_luminance(const Panel *panel, const float rgb[3])
 {
     const PanelEmission *e = panel->emission;
-    float sum = e->has_black ? panel->mean_y[panel_first_channel(e, 3) / 3] : 0;
-    for (int p = 0; p < 3; p++) {
-        LevelPosition at = panel_level_position(panel, p, rgb[p]);
-        float y[4];
-        if (at.kind == LEVEL_DARK) continue;
-        for (int k = 0; k < 4; k++) {
-            int i = at.first - 1 + k, last = (int)e->level_count[p] - 1;
-            i = i < 0 ? 0 : i > last ? last : i;
-            y[k] = log_f(panel->mean_y[panel_first_channel(e, p) / 3 + (uint32_t)i]);
-        }
-        sum += exp_f(panel_level_interpolate(panel, &at, y));
-    }
+    if (!e) return 0;
+    float sum = e->black_mean_y;
+    for (int p = 0; p < 3; p++) sum += mean_of_code(e, e->mean_y[p], rgb[p]);
     return sum;
 }

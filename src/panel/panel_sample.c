@@ -17,7 +17,8 @@ static int node_below(const float *node, int count, float x, float *t)
 /* Of the azimuth of wo: nodes stand evenly over the turn, the first at 0. */
 static int azimuth_below(int azimuths, Vec3 wo, float *t)
 {
-    float turn = atan2_f(wo.y, wo.x) * (0.5f / PI_F);
+    bool  is_normal = wo.x * wo.x + wo.y * wo.y < 1e-12f; /* panel_turned takes 180 degrees */
+    float turn = is_normal ? 0.5f : atan2_f(wo.y, wo.x) * (0.5f / PI_F);
     float at = (turn < 0 ? turn + 1 : turn) * (float)azimuths;
     int   i = (int)at;
     *t = clampf(at - (float)i, 0, 1);
@@ -44,7 +45,7 @@ float panel_pdf(const Panel *panel, Vec3 wo, Vec3 wi)
 {
     if (!panel->sampling.incidences || !(wo.z > 0) || !(wi.z > 0)) return 0;
     float         theta = panel_polar_angle(wo), jacobian;
-    SpecularFrame frame = specular_frame(theta, panel->reflection->frame_exponent);
+    SpecularFrame frame = specular_frame(theta, PANEL_SAMPLING_EXPONENT);
     SamplingMix   mix = mix_of(&panel->sampling, wo, theta);
     Vec3          stored = specular_frame_stored_jacobian(&frame, panel_turned(wo, wi),
                                                           &jacobian);
@@ -56,7 +57,7 @@ bool panel_sample(const Panel *panel, Vec3 wo, const float u[3], Vec3 *wi, float
 {
     if (!panel->sampling.incidences || !(wo.z > 0)) return false;
     float          theta = panel_polar_angle(wo), jacobian;
-    SpecularFrame  frame = specular_frame(theta, panel->reflection->frame_exponent);
+    SpecularFrame  frame = specular_frame(theta, PANEL_SAMPLING_EXPONENT);
     SamplingMix    mix = mix_of(&panel->sampling, wo, theta);
     SamplingResult drawn = sampling_tree_sample(&panel->sampling.tree, &mix, u);
     Vec3           local = specular_frame_outer_jacobian(&frame, drawn.direction, &jacobian);

@@ -60,9 +60,9 @@ static void rotate(double *matrix, double *vector, int n, int p, int q)
     }
 }
 
-/* Jacobi's method: the matrix becomes diagonal, column k of `vector` its eigenvector. */
-static void eigenvectors(double *matrix, double *vector, int n)
+void principal_axes(double *matrix, double *vector, int n)
 {
+    memset(vector, 0, sizeof *vector * (size_t)n * (size_t)n);
     for (int i = 0; i < n; i++) vector[i * n + i] = 1;
     for (int sweep = 0; sweep < 30; sweep++) {
         double off = 0, trace = 0;
@@ -117,7 +117,7 @@ Principal principal_components(const float *values, const double *row_weight,
     int      *order = ARENA_NEW(arena, int, n);
     channel_means(values, row_weight, shape, out.mean);
     covariance(values, row_weight, weight, shape, out.mean, matrix);
-    eigenvectors(matrix, vector, n);
+    principal_axes(matrix, vector, n);
     sort_falling(matrix, n, order);
     int count = out.components = choose_count(matrix, order, shape, &out.residual);
     out.loading = ARENA_NEW(arena, float, n * count);

@@ -24,3 +24,7 @@ typedef struct Principal {
 /* values: rows x channels; row_weight: areas; weight: what a channel's error is worth. */
 Principal principal_components(const float *values, const double *row_weight,
                                const double *weight, PrincipalShape shape, Arena *arena);
+
+/* Jacobi's method for a symmetric n x n matrix: it becomes diagonal, and column k of `vector`
+ * is the unit eigenvector of its k-th diagonal number. */
+void principal_axes(double *matrix, double *vector, int n);

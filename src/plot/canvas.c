@@ -41,7 +41,7 @@ Theme theme_dark(void)
         .accent = ink_hex(0xf0b35a), .is_dark = true};
 }
 
-/* ---- letters --------------------------------------------------------------------------- */
+/* ---- letters ---------------------------------------------------------------------------- */
 
 static void set_face(Canvas *canvas, double size, bool is_bold)
 {
@@ -125,7 +125,7 @@ double canvas_paragraph(Canvas *canvas, Box box, Letters letters, const char *te
     return y;
 }
 
-/* ---- lines and areas ------------------------------------------------------------------- */
+/* ---- lines and areas -------------------------------------------------------------------- */
 
 void canvas_stroke(Canvas *canvas, Stroke stroke)
 {
@@ -149,6 +149,52 @@ void canvas_fill(Canvas *canvas, Ink ink)
 {
     cairo_set_source_rgba(canvas->cr, ink.red, ink.green, ink.blue, ink.alpha);
     cairo_fill(canvas->cr);
+}
+
+/* Distance of point i from the segment a b. */
+static double distance_from(const double *x, const double *y, int i, int a, int b)
+{
+    double dx = x[b] - x[a], dy = y[b] - y[a], px = x[i] - x[a], py = y[i] - y[a];
+    double length2 = dx * dx + dy * dy;
+    double t = length2 > 0 ? fmin(fmax((px * dx + py * dy) / length2, 0), 1) : 0;
+    return hypot(px - t * dx, py - t * dy);
+}
+
+/* Douglas and Peucker 1973: a stretch is straight when no point is off by more than the
+ * tolerance; else its furthest point is kept and both halves are looked at. */
+static void keep_points(const double *x, const double *y, int count, bool *is_kept, int *stack)
+{
+    int depth = 0;
+    stack[depth++] = 0;
+    stack[depth++] = count - 1;
+    is_kept[0] = is_kept[count - 1] = true;
+    while (depth > 0) {
+        int    b = stack[--depth], a = stack[--depth], furthest = -1;
+        double most = 0.04;
+        for (int i = a + 1; i < b; i++) {
+            double d = distance_from(x, y, i, a, b);
+            if (d <= most) continue;
+            most = d;
+            furthest = i;
+        }
+        if (furthest < 0) continue;
+        is_kept[furthest] = true;
+        stack[depth++] = a;
+        stack[depth++] = furthest;
+        stack[depth++] = furthest;
+        stack[depth++] = b;
+    }
+}
+
+void canvas_polyline(Canvas *canvas, const double *x, const double *y, int count)
+{
+    if (count < 2) return;
+    Arena scratch = *canvas->arena;
+    bool *is_kept = ARENA_NEW(&scratch, bool, count);
+    keep_points(x, y, count, is_kept, ARENA_NEW(&scratch, int, 2 * count + 4));
+    cairo_move_to(canvas->cr, x[0], y[0]);
+    for (int i = 1; i < count; i++)
+        if (is_kept[i]) cairo_line_to(canvas->cr, x[i], y[i]);
 }
 
 void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1, Stroke stroke)

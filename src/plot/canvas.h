@@ -36,7 +36,7 @@ typedef struct Box {
     double x, y, w, h;
 } Box;
 
-/* ---- letters --------------------------------------------------------------------------- */
+/* ---- letters ---------------------------------------------------------------------------- */
 
 #define SIZE_HEADING 20.0
 #define SIZE_TITLE 13.0
@@ -64,7 +64,7 @@ const char *canvas_fit_text(Canvas *canvas, double size, bool is_bold, double wi
 /* Lines of text within `width`, broken at blanks; returns the y below the last. */
 double canvas_paragraph(Canvas *canvas, Box box, Letters letters, const char *text);
 
-/* ---- lines and areas ------------------------------------------------------------------- */
+/* ---- lines and areas -------------------------------------------------------------------- */
 
 typedef enum Dash { DASH_NONE, DASH_LONG, DASH_SHORT, DASH_DOT } Dash;
 
@@ -77,6 +77,9 @@ typedef struct Stroke {
 /* The current path of canvas->cr, which is emptied. */
 void canvas_stroke(Canvas *canvas, Stroke stroke);
 void canvas_fill(Canvas *canvas, Ink ink);
+
+/* Adds a polyline to the path, without the points that no eye would miss (0.04 points). */
+void canvas_polyline(Canvas *canvas, const double *x, const double *y, int count);
 
 void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1, Stroke stroke);
 

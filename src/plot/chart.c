@@ -93,8 +93,19 @@ static void draw_y_axis(Chart *chart, const Ticks *ticks)
                 chart->y.title);
 }
 
+/* Data without any spread still get an axis. */
+static AxisSpec with_extent(AxisSpec axis)
+{
+    if (axis.is_log && !(axis.high > 0)) axis.high = 1;
+    if (axis.is_log && !(axis.low > 0 && axis.low < axis.high)) axis.low = axis.high / 10;
+    if (!axis.is_log && !(axis.high > axis.low)) axis.high = axis.low + 1;
+    return axis;
+}
+
 Chart chart_open(Canvas *canvas, Box box, AxisSpec x, AxisSpec y, double right)
 {
+    x = with_extent(x);
+    y = with_extent(y);
     Chart chart = {.canvas = canvas, .box = box, .x = x, .y = y};
     double top = 22, bottom = 34;
     Ticks  y_ticks = axis_ticks(&y, box.h - top - bottom, 26);
@@ -118,18 +129,25 @@ static void clip_to_plot(Chart *chart)
 
 void chart_curve(Chart *chart, const double *x, const double *y, int count, Stroke stroke)
 {
-    cairo_t *cr = chart->canvas->cr;
-    bool     is_down = false;
+    Arena   scratch = *chart->canvas->arena;
+    double *px = ARENA_NEW(&scratch, double, count), *py = ARENA_NEW(&scratch, double, count);
+    Canvas  canvas = *chart->canvas;
+    int     length = 0;
+    canvas.arena = &scratch;
     clip_to_plot(chart);
-    for (int i = 0; i < count; i++) {
-        bool ok = isfinite(x[i]) && isfinite(y[i]) && (!chart->y.is_log || y[i] > 0) &&
-                  (!chart->x.is_log || x[i] > 0);
-        if (ok && is_down) cairo_line_to(cr, chart_x(chart, x[i]), chart_y(chart, y[i]));
-        if (ok && !is_down) cairo_move_to(cr, chart_x(chart, x[i]), chart_y(chart, y[i]));
-        is_down = ok;
+    for (int i = 0; i <= count; i++) {
+        bool ok = i < count && isfinite(x[i]) && isfinite(y[i]) &&
+                  (!chart->y.is_log || y[i] > 0) && (!chart->x.is_log || x[i] > 0);
+        if (ok) {
+            px[length] = chart_x(chart, x[i]);
+            py[length++] = chart_y(chart, y[i]);
+        } else {
+            canvas_polyline(&canvas, px, py, length);
+            length = 0;
+        }
     }
-    canvas_stroke(chart->canvas, stroke);
-    cairo_restore(cr);
+    canvas_stroke(&canvas, stroke);
+    cairo_restore(canvas.cr);
 }
 
 void chart_name(Chart *chart, double x, double y, Ink ink, const char *text)
@@ -230,7 +248,8 @@ void chart_close(Chart *chart)
         const CurveName *name = &chart->name[i];
         double from = fmin(name->x, right) + 2;
         cairo_move_to(chart->canvas->cr, from, name->y);
-        cairo_curve_to(chart->canvas->cr, from + 5, name->y, right + 2, at[i], right + 8, at[i]);
+        cairo_curve_to(chart->canvas->cr, from + 5, name->y, right + 2, at[i], right + 8,
+                       at[i]);
         canvas_stroke(chart->canvas, (Stroke){ink_alpha(name->ink, 0.6), 0.7, DASH_NONE});
         canvas_text(chart->canvas, right + 10, at[i],
                     (Letters){.size = SIZE_TICK, .ink = name->ink, .down = 0.5}, name->text);

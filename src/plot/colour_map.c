@@ -4,8 +4,8 @@
 #include <stdint.h>
 
 /* Ten colours of each map, evenly along it, as 0xRRGGBB. Viridis and inferno: van der Walt and
- * Smith 2015 (matplotlib, CC0). Cividis: Nunez, Anderton and Renslow 2018, "Optimizing colormaps
- * with consideration for color vision deficiency". The other two are this project's. */
+ * Smith 2015 (matplotlib, CC0). Cividis: Nunez, Anderton and Renslow 2018, "Optimizing
+ * colormaps with consideration for color vision deficiency". The other two are our own. */
 static const uint32_t ANCHORS[MAP_COUNT][10] = {
     [MAP_AMOUNT] = {0x440154, 0x482878, 0x3e4989, 0x31688e, 0x26828e, 0x1f9e89, 0x35b779,
                     0x6ece58, 0xb5de2b, 0xfde725},

@@ -1,8 +1,8 @@
 /* field.h -- a quantity over the hemisphere as a square grid of the polar map.
  *
- * Frame    the map is a disc: theta grows evenly from its centre, phi counter-clockwise from the
- *          right as one sees the display. Grid row 0 is the top. Cells outside the disc hold the
- *          value at the rim, so that contour lines run cleanly through it.
+ * Frame    the map is a disc: theta grows evenly from its centre, phi counter-clockwise from
+ *          the right as one sees the display. Grid row 0 is the top. Cells outside the disc
+ *          hold the value at the rim, so that contour lines run cleanly through it.
  * Units    radians; values in their own unit, NaN where there is none.
  * Memory   the arena's. Threads: const once filled.
  */

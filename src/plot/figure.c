@@ -25,6 +25,13 @@ void figure_draw(Canvas *canvas, Box box, const Figure *figure, FigureMap *map)
     figure->draw(canvas, (Box){box.x, box.y + 34, box.w, box.h - 34}, figure, map);
 }
 
+Ink figure_series_ink(const Canvas *canvas, int i, int count)
+{
+    double srgb[3], t = count > 1 ? (double)i / (count - 1) : 0;
+    colour_map_at(MAP_SCATTER, canvas->theme.is_dark ? 0.42 + 0.5 * t : 0.12 + 0.6 * t, srgb);
+    return (Ink){srgb[0], srgb[1], srgb[2], 1};
+}
+
 void figure_map_chart(FigureMap *map, const Chart *chart)
 {
     *map = (FigureMap){.kind = FIGURE_CHART, .plot = chart->plot,

@@ -49,9 +49,10 @@ typedef struct FigureList {
 } FigureList;
 
 /* Every figure that this panel's data allow, in the order of the page. */
-FigureList *plot_figures(const Subject *subject, Arena *arena);
+FigureList *plot_figures(const Subject *subject, PlotKind kind, Arena *arena);
 
-/* Asks the panel; *report is the caller's to release. NULL: *err says why. */
+/* Asks the panel for what options->kind shows; *report is the caller's to release. NULL: *err
+ * says why. */
 Subject *plot_subject(const PlotInput *input, const PlotOptions *options, Arena *arena,
                       json_t **report, Error *err);
 
@@ -64,6 +65,9 @@ void figures_add_fit(FigureList *list, const Subject *subject);
 
 /* A figure of primaries or levels of a set that is white only says so and leaves the sheet. */
 void figure_add(FigureList *list, const Figure *figure);
+
+/* The ink of the i-th of so many curves that stand in an order. */
+Ink figure_series_ink(const Canvas *canvas, int i, int count);
 
 /* Title, subtitle and the figure itself. */
 void figure_draw(Canvas *canvas, Box box, const Figure *figure, FigureMap *map);

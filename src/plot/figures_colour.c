@@ -9,7 +9,7 @@
 #include "plot/ticks.h"
 #include "spectrum/photometry.h"
 
-/* ---- the diagram --------------------------------------------------------------------------- */
+/* ---- the diagram ------------------------------------------------------------------------ */
 
 /* u', v' of a wavelength of the spectral locus. */
 static void locus(int nm, double uv[2])
@@ -38,7 +38,7 @@ static void locus_path(const Chart *chart)
     cairo_close_path(cr);
 }
 
-/* A pale hint of the colour at u', v': the brightest that sRGB shows there, mixed with paper. */
+/* A pale hint of the colour at u', v': the brightest that sRGB shows there, with paper. */
 static uint32_t hint_of(const Canvas *canvas, double u, double v)
 {
     double y = 1, x = 9 * u / (4 * v), z = (12 - 3 * u - 20 * v) / (4 * v), high = 1e-9;
@@ -147,7 +147,8 @@ static void normal_uv(const Subject *s, Pattern pattern, double uv[2])
 static bool panel_triangle(const Subject *s, double uv[3][2])
 {
     for (int p = 0; p < 3; p++) normal_uv(s, (Pattern)(PATTERN_RED + p), uv[p]);
-    return !s->is_white_only && isfinite(uv[0][0] + uv[1][0] + uv[2][0]) && triangle_area(uv) > 1e-5;
+    return !s->is_white_only && isfinite(uv[0][0] + uv[1][0] + uv[2][0]) &&
+           triangle_area(uv) > 1e-5;
 }
 
 /* From the normal to 80 degrees (or the cone's edge), along one azimuth. */
@@ -207,15 +208,17 @@ static void draw_chromaticity(Canvas *canvas, Box box, const Figure *figure, Fig
     }
     if (panel_triangle(s, uv)) {
         draw_triangle(&chart, uv, (Stroke){canvas->theme.ink, 1.7, DASH_NONE});
-        for (int p = 1; p < 4; p++) draw_paths(&chart, s, (Pattern)p, canvas->theme.primary[p - 1]);
+        for (int p = 1; p < 4; p++)
+            draw_paths(&chart, s, (Pattern)p, canvas->theme.primary[p - 1]);
     }
     draw_paths(&chart, s, PATTERN_WHITE, canvas->theme.ink);
     static const struct { const char *name; Dash dash; double width; } KEYS[] = {
-        {"this panel", DASH_NONE, 1.7}, {"DCI-P3", DASH_SHORT, 0.9}, {"sRGB, BT.709", DASH_DOT, 0.9}};
+        {"this panel", DASH_NONE, 1.7}, {"DCI-P3", DASH_SHORT, 0.9},
+        {"sRGB, BT.709", DASH_DOT, 0.9}};
     double x = chart.plot.x + chart.plot.w - 108, y = chart.plot.y + chart.plot.h - 48;
     for (int i = s->is_white_only; i < 3; i++, y += 15) {
-        canvas_line(canvas, x, y, x + 24, y, (Stroke){i ? canvas->theme.soft : canvas->theme.ink,
-                                                      KEYS[i].width, KEYS[i].dash});
+        Ink ink = i ? canvas->theme.soft : canvas->theme.ink;
+        canvas_line(canvas, x, y, x + 24, y, (Stroke){ink, KEYS[i].width, KEYS[i].dash});
         canvas_text(canvas, x + 31, y, (Letters){.size = SIZE_TICK, .ink = canvas->theme.ink,
                                                  .down = 0.5}, KEYS[i].name);
     }
@@ -239,7 +242,7 @@ static void add_chromaticity(FigureList *list, const Subject *s)
         false});
 }
 
-/* ---- the white point over angle ------------------------------------------------------------- */
+/* ---- the white point over angle --------------------------------------------------------- */
 
 static void draw_steps(Chart *chart, const double at[2], double step)
 {
@@ -253,9 +256,11 @@ static void draw_steps(Chart *chart, const double at[2], double step)
         cairo_new_sub_path(canvas->cr);
         cairo_arc(canvas->cr, chart_x(chart, at[0]), chart_y(chart, at[1]), r, 0, 2 * PI);
         canvas_stroke(canvas, (Stroke){canvas->theme.faint, 0.7, DASH_SHORT});
-        canvas_text(canvas, chart_x(chart, at[0]) - 0.7071 * r, chart_y(chart, at[1]) - 0.7071 * r,
-                    (Letters){.size = 7.5, .ink = canvas->theme.soft, .across = 0.5, .down = 0.5,
-                              .halo = canvas->theme.paper}, tick_text(k * step, step, text));
+        canvas_text(canvas, chart_x(chart, at[0]) - 0.7071 * r,
+                    chart_y(chart, at[1]) - 0.7071 * r,
+                    (Letters){.size = 7.5, .ink = canvas->theme.soft, .across = 0.5,
+                              .down = 0.5, .halo = canvas->theme.paper},
+                    tick_text(k * step, step, text));
     }
     cairo_restore(canvas->cr);
 }
@@ -300,7 +305,7 @@ static void draw_white_point(Canvas *canvas, Box box, const Figure *figure, Figu
     figure_map_chart(out, &chart);
 }
 
-/* ---- spectra ---------------------------------------------------------------------------------- */
+/* ---- spectra ---------------------------------------------------------------------------- */
 
 #define SPECTRUM_POINTS 401 /* 380 to 780 nm */
 

@@ -8,7 +8,7 @@
 #include "plot/figure.h"
 #include "plot/ticks.h"
 
-/* ---- sections ------------------------------------------------------------------------------ */
+/* ---- sections --------------------------------------------------------------------------- */
 
 #define SECTION_POINTS 353 /* -88 to 88 degrees, every half */
 
@@ -57,11 +57,13 @@ static const char *half_angles_text(const Subject *s, double phi)
     double high = half_angle_deg(s, PATTERN_WHITE, phi, 1);
     double cone = degrees_from_radians(s->cone);
     if (isnan(low) && isnan(high))
-        return arena_format(s->arena, "white keeps above half its luminance within ±%.3g°", cone);
+        return arena_format(s->arena, "white keeps above half its luminance within ±%.3g°",
+                            cone);
     if (isnan(low) || isnan(high))
         return arena_format(s->arena, "half the luminance of white at %+.1f°", isnan(low) ? high
                                                                                          : low);
-    return arena_format(s->arena, "half the luminance of white at −%.1f° and +%.1f°", -low, high);
+    return arena_format(s->arena, "half the luminance of white at −%.1f° and +%.1f°", -low,
+                        high);
 }
 
 static Ink pattern_ink(const Canvas *canvas, Pattern pattern)
@@ -167,7 +169,7 @@ static void add_sections(FigureList *list, const Subject *s)
             i < 2 ? SHEET_ALWAYS : SHEET_SPARE, false});
 }
 
-/* ---- grey levels ----------------------------------------------------------------------------- */
+/* ---- grey levels ------------------------------------------------------------------------ */
 
 #define GREY_POINTS 255 /* codes 1 .. 255 */
 
@@ -260,7 +262,30 @@ static void write_angle_key(const Chart *chart)
         Ink ink = angle_ink(canvas, i, ANGLES);
         canvas_line(canvas, x, y, x + 20, y, (Stroke){ink, 1.6, DASH_NONE});
         canvas_text(canvas, x + 27, y, (Letters){.size = SIZE_TICK, .ink = canvas->theme.ink,
-                    .down = 0.5}, arena_format(canvas->arena, "θ %d°", GREY_ANGLES[i]));
+                    .down = 0.5, .halo = canvas->theme.paper},
+                    arena_format(canvas->arena, "θ %d°", GREY_ANGLES[i]));
+    }
+}
+
+/* The lowest code at which every primary was measured. */
+static double first_level(const Subject *s)
+{
+    double first = 0, code[PANEL_INFO_LEVELS_MAX];
+    for (int p = 0; p < 3; p++)
+        if (panel_info_levels(s->source.panel, p, code) > 0) first = fmax(first, code[0]);
+    return first;
+}
+
+/* Dots at the measured codes, on the curve of the normal. */
+static void mark_levels(Chart *chart, const Subject *s, const GreyCurve *normal)
+{
+    double code[PANEL_INFO_LEVELS_MAX];
+    int    count = panel_info_levels(s->source.panel, 1, code);
+    for (int i = 0; i < count; i++) {
+        int at = (int)nearbyint(code[i]) - 1;
+        if (at >= 0 && at < GREY_POINTS)
+            chart_dot(chart, normal->code[at], normal->relative[at], 2,
+                      angle_ink(chart->canvas, 0, ANGLES));
     }
 }
 
@@ -274,6 +299,8 @@ static void draw_grey(Canvas *canvas, Box box, const Figure *figure, FigureMap *
     grey_axes(figure->index, &x, &y);
     if (figure->index == GREY_GAMMA) fit_gamma_axis(&y, curve, 2 * ANGLES);
     Chart chart = chart_open(canvas, box, x, y, figure->index == GREY_GAMMA ? 62 : 14);
+    double first = first_level(s);
+    if (figure->index != GREY_LINEAR) chart_hatch(&chart, 0, first);
     draw_reference_gamma(&chart, figure->index);
     for (int k = 2 * ANGLES - 1; k >= 0; k--) {
         if (k == 1) continue; /* at the normal there is but one azimuth */
@@ -286,7 +313,10 @@ static void draw_grey(Canvas *canvas, Box box, const Figure *figure, FigureMap *
         if (figure->index == GREY_GAMMA)
             chart_name_curve(&chart, curve[k].code, values, GREY_POINTS, ink, name);
     }
-    if (figure->index != GREY_GAMMA) write_angle_key(&chart);
+    if (figure->index != GREY_GAMMA) {
+        mark_levels(&chart, s, &curve[0]);
+        write_angle_key(&chart);
+    }
     chart_close(&chart);
     figure_map_chart(out, &chart);
 }
@@ -295,14 +325,20 @@ static void add_grey(FigureList *list, const Subject *s)
 {
     static const char *const TITLES[] = {"Grey levels", "Grey levels, logarithmic",
                                          "Local gamma"};
+    static const char *const SUBTITLES[] = {
+        "solid: φ 0°, dashed: φ 90°; dotted: a power of 2.2; dots: measured",
+        "solid: φ 0°, dashed: φ 90°; dotted: a power of 2.2; dots: measured",
+        "solid: φ 0°, dashed: φ 90°; dotted: 2.2; hatched: below the levels"};
     static const char *const CAPTIONS[] = {
         "Luminance of grey (red, green and blue at one code) above that of black, divided by "
         "that of white, at several angles.",
-        "The same over logarithmic axes: a power law is a straight line.",
-        "Slope of the logarithmic curves: the exponent that a small step of the code sees."};
+        "The same over logarithmic axes: a power law is a straight line. Hatched: below the "
+        "first measured level.",
+        "Slope of the logarithmic curves: the exponent that a small step of the code sees. "
+        "Hatched: below the first measured level."};
     for (int i = 0; i < 3; i++)
         figure_add(list, &(Figure){PLOT_GREY_LEVELS, TITLES[i],
-            "solid: φ 0° (right), dashed: φ 90° (up), dotted: a power of 2.2", CAPTIONS[i],
+            SUBTITLES[i], CAPTIONS[i],
             draw_grey, s, i, i > 0 ? SHEET_ALWAYS : SHEET_SPARE, true});
 }
 

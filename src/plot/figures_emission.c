@@ -33,7 +33,7 @@ static void choose_levels(PolarMap *map, double low, double high, int most)
     if (isfinite(map->strong)) map->level[map->level_count++] = map->strong;
 }
 
-/* ---- luminance --------------------------------------------------------------------------- */
+/* ---- luminance -------------------------------------------------------------------------- */
 
 static void draw_luminance(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
 {
@@ -67,16 +67,16 @@ static void add_luminance(FigureList *list, const Subject *s, Pattern pattern)
         arena_format(s->arena, "Luminance, %s", pattern == PATTERN_WHITE ? "white" :
                      pattern == PATTERN_RED ? "red" : pattern == PATTERN_GREEN ? "green" :
                      pattern == PATTERN_BLUE ? "blue" : "black"),
-        subtitle, "Luminance in cd/m² over the viewing hemisphere: θ from the normal outwards, φ "
-        "counter-clockwise from the viewer's right. The strong ring, where there is one, is half "
-        "the luminance of the normal.", draw_luminance, s, pattern,
+        subtitle, "Luminance in cd/m² over the viewing hemisphere: θ from the normal outwards, "
+        "φ counter-clockwise from the viewer's right. The strong ring, where there is one, is "
+        "half the luminance of the normal.", draw_luminance, s, pattern,
         SHEET_ALWAYS, pattern != PATTERN_WHITE && pattern != PATTERN_BLACK});
 }
 
-/* Beyond it black is next to nothing and ratios are noise: it does not set the colours. */
+/* Beyond it black is next to nothing and high ratios are noise: they do not set the colours. */
 #define GRAZING (80 * PI / 180)
 
-/* ---- contrast ------------------------------------------------------------------------------ */
+/* ---- contrast --------------------------------------------------------------------------- */
 
 static void draw_contrast(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
 {
@@ -86,6 +86,7 @@ static void draw_contrast(Canvas *canvas, Box box, const Figure *figure, FigureM
     Field      *field = ARENA_NEW(canvas->arena, Field, 1);
     *field = subject_contrast(s, canvas->arena);
     FieldRange  range = field_range(field, fmin(s->cone, GRAZING));
+    range.low = fmin(range.low, field_range(field, s->cone).low);
     PolarMap    map = {.field = field, .map = MAP_RATIO, .is_log = true, .strong = NAN,
                        .low = round_down(fmax(range.low, range.high / 1e5)),
                        .high = round_up(range.high), .theta_measured = s->cone, .unit = ": 1"};
@@ -109,7 +110,7 @@ static void add_contrast(FigureList *list, const Subject *s)
         draw_contrast, s, 0, SHEET_ALWAYS, false});
 }
 
-/* ---- colour shift -------------------------------------------------------------------------- */
+/* ---- colour shift ----------------------------------------------------------------------- */
 
 static const double SHIFT_LEVELS[] = {0.002, 0.005, 0.01, 0.02, 0.04, 0.06, 0.08, 0.1, 0.15,
                                       0.2, 0.3};

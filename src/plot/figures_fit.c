@@ -7,7 +7,7 @@
 #include "plot/figure.h"
 #include "plot/ticks.h"
 
-/* ---- comparing ------------------------------------------------------------------------------- */
+/* ---- comparing -------------------------------------------------------------------------- */
 
 /* One emission table with the codes that it shows. */
 typedef struct FitTableRef {
@@ -38,39 +38,24 @@ static double table_peak(const AngleTable *table)
     return peak;
 }
 
-static double row_sum(const AngleTable *table, int row)
+/* Fitted less measured luminance over the measured one, percent; over a fortieth of the
+ * table's peak where the light is dimmer than that. NaN on the horizon. */
+static double residual_percent(const Subject *s, const FitTableRef *ref, int row, double peak)
 {
-    const float *v = table->value + 3 * row;
-    return (double)v[0] + (double)v[1] + (double)v[2];
-}
-
-/* The dimmest sum that errors are relative to: a hundredth of the table's largest. */
-static double least_sum(const AngleTable *table)
-{
-    double least = 1e-4;
-    for (int i = 0; i < table->rows; i++) least = fmax(least, 0.01 * row_sum(table, i));
-    return least;
-}
-
-/* Fitted less measured, of X, Y and Z the one that is furthest off, relative to the measured
- * sum of the three as the file's own report has it; percent. NaN on the horizon. */
-static double residual_percent(const Subject *s, const FitTableRef *ref, int row, double least)
-{
-    double xyz[3], worst = 0, theta = (double)ref->table->theta[row];
-    if (theta > PI / 2 - 1e-4) return NAN;
+    double xyz[3], theta = (double)ref->table->theta[row];
+    double measured = (double)ref->table->value[3 * row + 1];
+    if (theta > PI / 2 - 1e-4 || !(peak > 0)) return NAN;
     subject_xyz(s, theta, (double)ref->table->phi[row], ref->rgb, xyz);
-    for (int c = 0; c < 3; c++) {
-        double off = xyz[c] - (double)ref->table->value[3 * row + c];
-        if (fabs(off) > fabs(worst)) worst = off;
-    }
-    return 100 * worst / fmax(least, row_sum(ref->table, row));
+    return 100 * (xyz[1] - measured) / fmax(0.025 * peak, measured);
 }
 
-/* The bound that the file states for its emission tables, percent. */
+/* What the fit was asked for, percent; of a file that does not say the largest error of its
+ * emission tables. */
 static double stated_bound_percent(const Subject *s)
 {
-    const json_t *report = s->source.report, *bound = json_object_get(report, "bound");
-    if (json_is_number(bound)) return 100 * json_number_value(bound);
+    const json_t *report = s->source.report;
+    const json_t *bound = json_object_get(json_object_get(report, "emission"), "bound");
+    if (json_number_value(bound) > 0) return 100 * json_number_value(bound);
     size_t  i;
     json_t *table;
     double  most = 0;
@@ -82,7 +67,7 @@ static double stated_bound_percent(const Subject *s)
     return 100 * most;
 }
 
-/* ---- sections with points -------------------------------------------------------------------- */
+/* ---- sections with points --------------------------------------------------------------- */
 
 /* Signed angle of a direction in the plane through phi; false outside it. */
 static bool in_plane(double theta, double phi, double plane, double *deg)
@@ -161,48 +146,114 @@ static void draw_fit_section(Canvas *canvas, Box box, const Figure *figure, Figu
     figure_map_chart(out, &chart);
 }
 
-/* ---- all residuals ----------------------------------------------------------------------------- */
+/* ---- levels at the normal -------------------------------------------------------------- */
 
-#define BINS 61
+/* Measured luminance at the least theta of the table. */
+static double normal_luminance(const AngleTable *table)
+{
+    return (double)table->value[1];
+}
+
+static void draw_fit_level_curve(Chart *chart, const Subject *s, int primary, Ink ink)
+{
+    enum { POINTS = 120 };
+    double code[POINTS], value[POINTS];
+    for (int i = 0; i < POINTS; i++) {
+        float  rgb[3] = {0, 0, 0};
+        double xyz[3];
+        code[i] = 8 * pow(255.0 / 8, (double)i / (POINTS - 1));
+        rgb[primary] = (float)code[i];
+        subject_xyz(s, 0, 0, rgb, xyz);
+        value[i] = xyz[1];
+    }
+    chart_curve(chart, code, value, POINTS, (Stroke){ink, 1.2, DASH_NONE});
+    chart_name(chart, 255, value[POINTS - 1], ink,
+               pattern_name((Pattern)(PATTERN_RED + primary)));
+}
+
+static void draw_fit_levels(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+{
+    const Subject     *s = figure->subject;
+    const Measurement *set = s->source.measured;
+    double low = INFINITY, high = 0;
+    for (int p = 0; p < 3; p++)
+        for (int i = 0; i < set->primary[p].level_count; i++) {
+            double y = normal_luminance(&set->primary[p].table[i]);
+            if (y > 0) low = fmin(low, y);
+            high = fmax(high, y);
+        }
+    low = fmax(low, high / 1e5);
+    Chart chart = chart_open(canvas, box,
+        (AxisSpec){.low = 8, .high = 256, .is_log = true, .title = "code of 255"},
+        (AxisSpec){.low = round_down(0.6 * low), .high = round_up(1.3 * high), .is_log = true,
+                   .title = "Luminance at the normal, cd/m², black included"}, 48);
+    for (int p = 0; p < 3; p++) {
+        const MeasuredPrimary *primary = &set->primary[p];
+        draw_fit_level_curve(&chart, s, p, canvas->theme.primary[p]);
+        for (int i = 0; i < primary->level_count; i++)
+            ring(&chart, primary->level[i], normal_luminance(&primary->table[i]),
+                 canvas->theme.primary[p]);
+    }
+    chart_close(&chart);
+    figure_map_chart(out, &chart);
+}
+
+/* ---- all residuals ---------------------------------------------------------------------- */
+
+#define BINS 60
+#define LEAST_PERCENT 1e-3 /* what is less counts as so much */
 
 typedef struct Residuals {
-    double  reach; /* percent, of the histogram's ends */
-    double  bin[BINS], highest;
-    double  most, rms, count;
-    double  worst_theta, worst_phi;
+    double      bin[BINS], highest; /* samples, over the logarithm of the error */
+    double      reach;              /* percent, of the last bin's end */
+    double      most, rms, count;
+    double      worst_theta, worst_phi;
     FitTableRef worst; /* the table with the largest */
 } Residuals;
+
+static void count_residual(Residuals *out, double percent)
+{
+    double t = log(fmax(percent, LEAST_PERCENT) / LEAST_PERCENT) /
+               log(out->reach / LEAST_PERCENT);
+    int    bin = (int)(t * BINS);
+    out->bin[bin < BINS ? bin : BINS - 1] += 1;
+}
+
+/* The first pass finds the largest one, the second counts. */
+static void pass_over(const Subject *s, const FitTableRef *ref, bool counts, Residuals *out)
+{
+    double peak = table_peak(ref->table);
+    for (int i = 0; i < ref->table->rows; i++) {
+        double r = fabs(residual_percent(s, ref, i, peak));
+        if (!isfinite(r)) continue;
+        if (counts) {
+            count_residual(out, r);
+            continue;
+        }
+        out->rms += r * r;
+        out->count += 1;
+        if (r <= out->most) continue;
+        out->most = r;
+        out->worst = *ref;
+        out->worst_theta = (double)ref->table->theta[i];
+        out->worst_phi = (double)ref->table->phi[i];
+    }
+}
 
 static void measure_residuals(const Subject *s, Residuals *out)
 {
     FitTableRef *ref = ARENA_NEW(s->arena, FitTableRef, FIT_TABLES_MAX);
     int          tables = emission_tables(s->source.measured, ref);
-    double       squares = 0;
-    for (int pass = 0; pass < 2; pass++) {
-        for (int t = 0; t < tables; t++) {
-            double least = least_sum(ref[t].table);
-            for (int i = 0; i < ref[t].table->rows; i++) {
-                double r = residual_percent(s, &ref[t], i, least);
-                if (!isfinite(r)) continue;
-                if (pass == 1) {
-                    int bin = (int)floor((r / out->reach + 1) / 2 * BINS);
-                    out->bin[bin < 0 ? 0 : bin >= BINS ? BINS - 1 : bin] += 1;
-                    continue;
-                }
-                squares += r * r;
-                out->count += 1;
-                if (fabs(r) <= out->most) continue;
-                out->most = fabs(r);
-                out->worst = ref[t];
-                out->worst_theta = (double)ref[t].table->theta[i];
-                out->worst_phi = (double)ref[t].table->phi[i];
-            }
-        }
-        out->rms = sqrt(squares / fmax(out->count, 1));
-        double bound = stated_bound_percent(s);
-        if (pass == 0) out->reach = fmax(1.15 * bound, fmin(out->most, 3 * bound)) + 1e-6;
-    }
+    for (int t = 0; t < tables; t++) pass_over(s, &ref[t], false, out);
+    out->rms = sqrt(out->rms / fmax(out->count, 1));
+    out->reach = round_up(1.3 * fmax(fmax(out->most, stated_bound_percent(s)), 0.01));
+    for (int t = 0; t < tables; t++) pass_over(s, &ref[t], true, out);
     for (int i = 0; i < BINS; i++) out->highest = fmax(out->highest, out->bin[i]);
+}
+
+static double bin_start(const Residuals *r, int bin)
+{
+    return LEAST_PERCENT * pow(r->reach / LEAST_PERCENT, (double)bin / BINS);
 }
 
 static void draw_histogram(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
@@ -212,22 +263,22 @@ static void draw_histogram(Canvas *canvas, Box box, const Figure *figure, Figure
     double         bound = stated_bound_percent(s);
     measure_residuals(s, r);
     Chart chart = chart_open(canvas, box,
-        (AxisSpec){.low = -r->reach, .high = r->reach, .suffix = " %",
-                   .title = "fitted less measured, of X, Y, Z the worst"},
-        (AxisSpec){.low = 0.7, .high = round_up(fmax(r->highest, 10) * 1.1), .is_log = true,
+        (AxisSpec){.low = LEAST_PERCENT, .high = r->reach, .is_log = true, .suffix = " %",
+                   .title = "size of fitted less measured luminance"},
+        (AxisSpec){.low = 0.7, .high = round_up(fmax(r->highest, 10) * 1.6), .is_log = true,
                    .title = "samples"}, 14);
     for (int i = 0; i < BINS; i++) {
         if (!(r->bin[i] > 0)) continue;
-        double x0 = chart_x(&chart, r->reach * (2.0 * i / BINS - 1));
-        double x1 = chart_x(&chart, r->reach * (2.0 * (i + 1) / BINS - 1));
+        double x0 = chart_x(&chart, bin_start(r, i)), x1 = chart_x(&chart, bin_start(r, i + 1));
         double y = chart_y(&chart, r->bin[i]);
         cairo_rectangle(canvas->cr, x0 + 0.4, y, x1 - x0 - 0.8,
                         chart.plot.y + chart.plot.h - y);
         canvas_fill(canvas, ink_mix(canvas->theme.primary[2], canvas->theme.paper, 0.35));
     }
-    Stroke stroke = {canvas->theme.accent, 1.2, DASH_SHORT};
-    chart_mark_x(&chart, -bound, stroke, "");
-    chart_mark_x(&chart, bound, stroke, arena_format(canvas->arena, "±%.3g %%", bound));
+    chart_mark_x(&chart, r->rms, (Stroke){canvas->theme.ink, 1.1, DASH_DOT},
+                 arena_format(canvas->arena, "rms %.2g %%", r->rms));
+    chart_mark_x(&chart, bound, (Stroke){canvas->theme.accent, 1.3, DASH_SHORT},
+                 arena_format(canvas->arena, "bound %.3g %%", bound));
     figure_map_chart(out, &chart);
 }
 
@@ -235,25 +286,35 @@ static void draw_histogram(Canvas *canvas, Box box, const Figure *figure, Figure
 static Field residual_field(const Subject *s, const FitTableRef *ref, Arena *arena)
 {
     Field  field = field_new(301, PI / 2, arena);
-    double least = least_sum(ref->table), *nearest = ARENA_NEW(arena, double, 301 * 301);
+    double peak = table_peak(ref->table), *nearest = ARENA_NEW(arena, double, 301 * 301);
     double spacing = sqrt(2 * PI / ref->table->rows) * 1.3; /* radians between samples */
     int    reach = (int)ceil(spacing / (PI / 300)) + 1;
     reach = reach > 12 ? 12 : reach;
+    double rim = 150 * ((double)ref->table->theta_max + 0.01) / (PI / 2);
     for (int i = 0; i < 301 * 301; i++) nearest[i] = INFINITY;
     for (int k = 0; k < ref->table->rows; k++) {
-        double c, r, value = residual_percent(s, ref, k, least);
+        double c, r, value = residual_percent(s, ref, k, peak);
         if (!isfinite(value)) continue;
         field_place(&field, (double)ref->table->theta[k], (double)ref->table->phi[k], &c, &r);
         for (int y = (int)r - reach; y <= (int)r + reach; y++)
             for (int x = (int)c - reach; x <= (int)c + reach; x++) {
                 double d = hypot(x - c, y - r);
                 if (x < 0 || y < 0 || x > 300 || y > 300 || d > reach ||
-                    d >= nearest[y * 301 + x]) continue;
+                    d >= nearest[y * 301 + x] || hypot(x - 150, y - 150) > rim) continue;
                 nearest[y * 301 + x] = d;
                 field.value[y * 301 + x] = (float)value;
             }
     }
     return field;
+}
+
+/* Percent: all but one direction in fifty have less; the few are for the histogram. */
+static double residual_reach(const Field *field, const Subject *s, Arena *arena)
+{
+    Field size = field_new(field->side, field->theta_rim, arena);
+    for (int i = 0; i < field->side * field->side; i++)
+        size.value[i] = fabsf(field->value[i]);
+    return fmax(field_quantile(&size, s->cone, 0.98, *arena), LEAST_PERCENT);
 }
 
 static void draw_residual_map(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
@@ -263,21 +324,23 @@ static void draw_residual_map(Canvas *canvas, Box box, const Figure *figure, Fig
     Field         *field = ARENA_NEW(canvas->arena, Field, 1);
     measure_residuals(s, r);
     *field = residual_field(s, &r->worst, canvas->arena);
-    double   reach = fmax(stated_bound_percent(s), 1e-3);
+    double   reach = residual_reach(field, s, canvas->arena);
     PolarMap map = {.field = field, .map = MAP_SIGNED, .low = -reach, .high = reach,
-                    .strong = NAN, .theta_measured = s->cone, .unit = "%", .is_residual = true};
+                    .is_cut = reach < 0.99 * r->most, .strong = NAN,
+                    .theta_measured = s->cone, .unit = "%", .is_residual = true};
     PolarPlace place = polar_draw(canvas, box, &map);
     *out = (FigureMap){.kind = FIGURE_POLAR, .disc = place, .field = *field, .unit = "%"};
 }
 
-/* ---- reflection --------------------------------------------------------------------------------- */
+/* ---- reflection ------------------------------------------------------------------------- */
 
 /* The channel nearest to 550 nm. */
 static int middle_channel(const Measurement *set)
 {
     int best = 0;
     for (int w = 1; w < set->wavelength_count; w++)
-        if (fabsf(set->wavelength_nm[w] - 550) < fabsf(set->wavelength_nm[best] - 550)) best = w;
+        if (fabsf(set->wavelength_nm[w] - 550) < fabsf(set->wavelength_nm[best] - 550))
+            best = w;
     return best;
 }
 
@@ -290,10 +353,24 @@ typedef struct BrdfPoints {
     double fine_deg[BRDF_FINE], fitted[BRDF_FINE];
 } BrdfPoints;
 
+/* The measured azimuth of the light that is nearest to the one asked for. */
+static int nearest_azimuth(const Subject *s)
+{
+    const Measurement *set = s->source.measured;
+    int best = 0;
+    for (int a = 1; a < set->azimuth_count; a++)
+        if (fabs(remainder(set->azimuth[a] - s->source.incidence_phi, 2 * PI)) <
+            fabs(remainder(set->azimuth[best] - s->source.incidence_phi, 2 * PI))) best = a;
+    return best;
+}
+
 static void fill_brdf_points(const Subject *s, int incidence, int channel, BrdfPoints *out)
 {
     const Measurement *set = s->source.measured;
-    const AngleTable  *table = &set->brdf[incidence];
+    int                azimuth = nearest_azimuth(s);
+    const AngleTable  *table = &set->brdf[azimuth * set->incidence_count + incidence];
+    Subject            turned = *s;
+    if (set->azimuth_count > 1) turned.source.incidence_phi = set->azimuth[azimuth];
     *out = (BrdfPoints){0};
     for (int i = 0; i < table->rows && out->count < BRDF_POINTS; i++) {
         double deg;
@@ -304,7 +381,7 @@ static void fill_brdf_points(const Subject *s, int incidence, int channel, BrdfP
     for (int i = 0; i < BRDF_FINE; i++) {
         double deg = -88 + 0.25 * i;
         out->fine_deg[i] = deg;
-        out->fitted[i] = subject_brdf_at(s, set->incidence[incidence],
+        out->fitted[i] = subject_brdf_at(&turned, set->incidence[incidence],
                                          radians_from_degrees(fabs(deg)), deg < 0 ? PI : 0,
                                          (double)set->wavelength_nm[channel]);
     }
@@ -330,11 +407,12 @@ static void draw_fit_brdf(Canvas *canvas, Box box, const Figure *figure, FigureM
                    .title = "leaving angle in the plane of incidence"},
         (AxisSpec){.low = low, .high = round_up(high * 1.3), .is_log = true,
                    .title = "BRDF, sr⁻¹"}, 14);
+    double cone = degrees_from_radians(s->brdf_cone);
+    chart_hatch(&chart, -90, -cone);
+    chart_hatch(&chart, cone, 90);
     for (int k = 0; k < count; k++) {
-        double srgb[3];
-        bool   taken[151] = {false}; /* rings no nearer than 1.2 degrees */
-        colour_map_at(MAP_SCATTER, 0.12 + 0.6 * k / fmax(count - 1, 1), srgb);
-        Ink ink = {srgb[0], srgb[1], srgb[2], 1};
+        Ink  ink = figure_series_ink(canvas, k, count);
+        bool taken[151] = {false}; /* rings no nearer than 1.2 degrees */
         for (int i = 0; i < points[k].count; i++) {
             int slot = (int)((points[k].deg[i] + 90) / 1.2);
             if (slot < 0 || slot > 150 || taken[slot]) continue;
@@ -347,7 +425,7 @@ static void draw_fit_brdf(Canvas *canvas, Box box, const Figure *figure, FigureM
     figure_map_chart(out, &chart);
 }
 
-/* ---- the list -------------------------------------------------------------------------------------- */
+/* ---- the list --------------------------------------------------------------------------- */
 
 static void add_emission_fit(FigureList *list, const Subject *s)
 {
@@ -361,20 +439,34 @@ static void add_emission_fit(FigureList *list, const Subject *s)
             "The source's luminance (rings) over the panel file's (lines), each primary at its "
             "highest level.", draw_fit_section, s, i,
             i ? SHEET_SPARE : SHEET_ALWAYS, false});
+    if (s->source.measured->primary[0].level_count > 1)
+        figure_add(list, &(Figure){PLOT_FIT, "Measured and fitted levels",
+            "rings: the source's samples, lines: the panel file",
+            "The source's luminance at the normal (rings) over the panel file's (lines), for "
+            "every measured level of each primary.", draw_fit_levels, s, 0, SHEET_SPARE, true});
     figure_add(list, &(Figure){PLOT_FIT, "Residuals of all samples",
         arena_format(s->arena, "%.0f samples: rms %s %%, at most %s %%; line: the file's bound",
                      r->count, figure_text(r->rms, rms), figure_text(r->most, most)),
-        "Fitted less measured tristimulus value (of X, Y and Z the one furthest off) of every "
-        "sample of every emission table, relative to the measured X + Y + Z (to a hundredth of "
-        "the table's largest where that is more); the lines are the largest error that the file "
-        "states.", draw_histogram, s, 0, SHEET_ALWAYS, false});
+        "Fitted less measured luminance of every sample of every emission table, relative to "
+        "the measured one (to a fortieth of the table's peak where that is more), and the "
+        "largest error of X, Y and Z that the file states, noise of the source included.",
+        draw_histogram, s, 0, SHEET_ALWAYS, false});
     if (r->worst.table)
         figure_add(list, &(Figure){PLOT_FIT, "Residual of the worst table",
-            arena_format(s->arena, "%s: at most %s %% at θ %.0f°, φ %.0f°", r->worst.table->name,
-                         most, degrees_from_radians(r->worst_theta),
+            arena_format(s->arena, "%s: at most %s %% at θ %.0f°, φ %.0f°",
+                         r->worst.table->name, most, degrees_from_radians(r->worst_theta),
                          degrees_from_radians(r->worst_phi)),
-            "Fitted less measured tristimulus value in percent for the table with the largest error; the "
-            "colours end at the bound that the file states.", draw_residual_map, s, 0, SHEET_ALWAYS, false});
+            "Fitted less measured luminance in percent for the table with the largest error; "
+            "the colours hold all but one direction in fifty.", draw_residual_map, s, 0,
+            SHEET_ALWAYS,
+            false});
+}
+
+static const char *azimuth_text(const Subject *s)
+{
+    const Measurement *set = s->source.measured;
+    return set->azimuth_count < 2 ? "" : arena_format(s->arena, "; light from φ %.4g°",
+        degrees_from_radians(set->azimuth[nearest_azimuth(s)]));
 }
 
 void figures_add_fit(FigureList *list, const Subject *s)
@@ -384,10 +476,11 @@ void figures_add_fit(FigureList *list, const Subject *s)
     if (s->emits && set->primary[0].level_count > 0) add_emission_fit(list, s);
     if (s->reflects && set->incidence_count > 0)
         figure_add(list, &(Figure){PLOT_FIT, "Measured and fitted BRDF",
-            arena_format(s->arena, "%.4g nm; rings: the source, lines: without the mirror part",
-                         (double)set->wavelength_nm[middle_channel(set)]),
-            "The source's BRDF in the plane of incidence (rings) over the panel file's haze and "
-            "floor (lines). What stands above the line at the mirror direction is the "
+            arena_format(s->arena, "%.4g nm; rings: the source, lines: without the mirror "
+                         "part%s",
+                         (double)set->wavelength_nm[middle_channel(set)], azimuth_text(s)),
+            "The source's BRDF in the plane of incidence (rings) over the panel file's haze "
+            "and floor (lines). What stands above the line at the mirror direction is the "
             "instrument's image of the mirror part, which the file keeps apart.", draw_fit_brdf,
             s, 0, SHEET_ALWAYS, false});
 }

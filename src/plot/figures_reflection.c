@@ -3,35 +3,34 @@
 
 #include "base/units.h"
 #include "plot/chart.h"
-#include "plot/colour_map.h"
 #include "plot/figure.h"
 #include "plot/ticks.h"
 
-static Ink series_ink(const Canvas *canvas, int i, int count)
-{
-    double srgb[3], t = count > 1 ? (double)i / (count - 1) : 0;
-    colour_map_at(MAP_SCATTER, canvas->theme.is_dark ? 0.42 + 0.5 * t : 0.12 + 0.6 * t, srgb);
-    return (Ink){srgb[0], srgb[1], srgb[2], 1};
-}
+#define INCIDENCES_SHOWN 7
 
-/* Multiples of ten degrees (of fifteen where there would be many) within the measured ones. */
-static int chosen_incidences(const Subject *s, int deg[8])
+/* Of the measured incidences all, or so many spread over them; degrees. */
+static int chosen_incidences(const Subject *s, double deg[INCIDENCES_SHOWN])
 {
-    double last = degrees_from_radians(s->last_incidence);
-    int    step = last > 62 ? 15 : 10, count = 0;
-    for (int d = step; d <= last + 1e-6 && count < 7; d += step) deg[count++] = d;
-    if (count == 0) deg[count++] = (int)fmax(1, floor(last));
+    int count = s->incidence_count < INCIDENCES_SHOWN ? s->incidence_count : INCIDENCES_SHOWN;
+    for (int i = 0; i < count; i++) {
+        int which = count > 1 ? i * (s->incidence_count - 1) / (count - 1) : 0;
+        deg[i] = degrees_from_radians(s->incidence[which]);
+    }
     return count;
 }
 
-/* The round incidence for figures with one. */
-static int middle_incidence(const Subject *s)
+/* The measured incidence nearest to one, whole degrees. */
+static int incidence_near(const Subject *s, double deg)
 {
-    double last = degrees_from_radians(s->last_incidence);
-    return last >= 30 ? 30 : last >= 20 ? 20 : last >= 10 ? 10 : (int)last;
+    double best = 0;
+    for (int i = 0; i < s->incidence_count; i++) {
+        double one = degrees_from_radians(s->incidence[i]);
+        if (i == 0 || fabs(one - deg) < fabs(best - deg)) best = one;
+    }
+    return (int)nearbyint(best);
 }
 
-/* ---- in the plane of incidence ------------------------------------------------------------- */
+/* ---- in the plane of incidence ---------------------------------------------------------- */
 
 #define PLANE_POINTS 1200
 
@@ -49,7 +48,9 @@ static void fill_plane(const Subject *s, double incidence_deg, PlaneCurve *out)
         out->deg[out->count] = deg;
         out->value[out->count] = subject_brdf(s, radians_from_degrees(incidence_deg), theta,
                                               deg < 0 ? PI : 0);
-        if (out->value[out->count] > out->value[out->peak]) out->peak = out->count;
+        bool is_measured = theta <= s->brdf_cone + 1e-6;
+        if (is_measured && out->value[out->count] > out->value[out->peak])
+            out->peak = out->count;
         out->count++;
         deg += fabs(deg - incidence_deg) < 6 ? 0.05 : 0.25;
     }
@@ -73,7 +74,6 @@ static void brdf_range(const PlaneCurve *curve, int count, double *low, double *
 static void hatch_unmeasured(Chart *chart, const Subject *s)
 {
     double cone = degrees_from_radians(s->brdf_cone);
-    if (cone >= 88) return;
     chart_hatch(chart, -90, -cone);
     chart_hatch(chart, cone, 90);
 }
@@ -81,7 +81,8 @@ static void hatch_unmeasured(Chart *chart, const Subject *s)
 static void draw_plane(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
 {
     const Subject *s = figure->subject;
-    int         deg[8], count = chosen_incidences(s, deg);
+    double      deg[INCIDENCES_SHOWN];
+    int         count = chosen_incidences(s, deg);
     double      low, high, last_x = -INFINITY, last_y = 0;
     PlaneCurve *curve = ARENA_NEW(canvas->arena, PlaneCurve, count);
     for (int k = 0; k < count; k++) fill_plane(s, deg[k], &curve[k]);
@@ -93,21 +94,22 @@ static void draw_plane(Canvas *canvas, Box box, const Figure *figure, FigureMap 
     hatch_unmeasured(&chart, s);
     for (int k = count - 1; k >= 0; k--)
         chart_curve(&chart, curve[k].deg, curve[k].value, curve[k].count,
-                    (Stroke){series_ink(canvas, k, count), 1.5, k % 2 ? DASH_LONG : DASH_NONE});
+                    (Stroke){figure_series_ink(canvas, k, count), 1.5,
+                             k % 2 ? DASH_LONG : DASH_NONE});
     for (int k = 0; k < count; k++) {
         double x = chart_x(&chart, curve[k].deg[curve[k].peak]);
         double y = chart_y(&chart, fmax(curve[k].value[curve[k].peak], low)) - 5;
         if (x - last_x < 15 && fabs(y - last_y) < 12) continue;
         canvas_text(canvas, x, y, (Letters){.size = SIZE_TICK, .across = 0.5, .down = 1,
-                    .ink = series_ink(canvas, k, count), .halo = canvas->theme.paper},
-                    arena_format(canvas->arena, "%d°", deg[k]));
+                    .ink = figure_series_ink(canvas, k, count), .halo = canvas->theme.paper},
+                    arena_format(canvas->arena, "%.3g°", deg[k]));
         last_x = x;
         last_y = y;
     }
     figure_map_chart(out, &chart);
 }
 
-/* ---- over wavelength ------------------------------------------------------------------------- */
+/* ---- over wavelength -------------------------------------------------------------------- */
 
 #define WAVELENGTH_POINTS 101
 
@@ -152,7 +154,7 @@ static void draw_wavelengths(Canvas *canvas, Box box, const Figure *figure, Figu
         (AxisSpec){.low = low, .high = round_up(high * 1.05), .is_log = true,
                    .title = "BRDF, sr⁻¹"}, 40);
     for (int k = 0; k < ASPECULAR_COUNT; k++) {
-        Ink ink = series_ink(canvas, k, ASPECULAR_COUNT);
+        Ink ink = figure_series_ink(canvas, k, ASPECULAR_COUNT);
         chart_curve(&chart, curve[k].nm, curve[k].value, WAVELENGTH_POINTS,
                     (Stroke){ink, 1.4, DASH_NONE});
         for (int w = 0; w < s->wavelength_count && s->wavelength_count <= 40; w++) {
@@ -167,7 +169,7 @@ static void draw_wavelengths(Canvas *canvas, Box box, const Figure *figure, Figu
     figure_map_chart(out, &chart);
 }
 
-/* ---- over the hemisphere -------------------------------------------------------------------- */
+/* ---- over the hemisphere ---------------------------------------------------------------- */
 
 static void draw_map(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
 {
@@ -200,7 +202,7 @@ static void draw_map(Canvas *canvas, Box box, const Figure *figure, FigureMap *o
     *out = (FigureMap){.kind = FIGURE_POLAR, .disc = place, .field = *field, .unit = "sr⁻¹"};
 }
 
-/* ---- the mirror part ------------------------------------------------------------------------- */
+/* ---- the mirror part -------------------------------------------------------------------- */
 
 #define MIRROR_POINTS 179
 
@@ -232,8 +234,9 @@ static void draw_mirror(Canvas *canvas, Box box, const Figure *figure, FigureMap
         (AxisSpec){.low = round_down(fmax(low * 0.7, 1e-6)), .high = 1, .is_log = true,
                    .title = "Mirror reflectance"}, 62);
     chart_hatch(&chart, degrees_from_radians(s->last_incidence), 90);
-    chart_curve(&chart, deg, glass[0], MIRROR_POINTS, (Stroke){canvas->theme.soft, 1, DASH_LONG});
-    chart_curve(&chart, deg, glass[1], MIRROR_POINTS, (Stroke){canvas->theme.soft, 1, DASH_DOT});
+    for (int i = 0; i < 2; i++)
+        chart_curve(&chart, deg, glass[i], MIRROR_POINTS,
+                    (Stroke){canvas->theme.soft, 1, i ? DASH_DOT : DASH_LONG});
     for (int k = 3; k >= 0; k--) {
         Ink ink = k == 0 ? canvas->theme.ink : canvas->theme.primary[3 - k];
         chart_curve(&chart, deg, value[k], MIRROR_POINTS,
@@ -245,48 +248,49 @@ static void draw_mirror(Canvas *canvas, Box box, const Figure *figure, FigureMap
     figure_map_chart(out, &chart);
 }
 
-/* ---- the list ---------------------------------------------------------------------------------- */
+/* ---- the list --------------------------------------------------------------------------- */
 
 static const char *light_text(const Subject *s)
 {
     double deg = degrees_from_radians(s->source.incidence_phi);
-    return fabs(s->source.incidence_phi - PI) < 1e-9 ? ""
+    return fabs(s->source.incidence_phi - PI) < 1e-9 && !s->is_anisotropic ? ""
                : arena_format(s->arena, ", light from φ %.4g°", deg);
 }
 
 static void add_maps(FigureList *list, const Subject *s)
 {
-    int incidences[2] = {middle_incidence(s), 60};
+    int incidences[2] = {incidence_near(s, 30), incidence_near(s, 60)};
     for (int i = 0; i < 2; i++) {
         char peak[32];
-        if (i == 1 && degrees_from_radians(s->last_incidence) < 60) continue;
+        if (i == 1 && incidences[1] < incidences[0] + 10) continue;
         Field      field = subject_brdf_field(s, radians_from_degrees(incidences[i]), s->arena);
         FieldRange range = field_range(&field, s->brdf_cone);
         figure_add(list, &(Figure){PLOT_BRDF_MAP,
             arena_format(s->arena, "BRDF at %d° incidence", incidences[i]),
             arena_format(s->arena, "φ from the mirror direction, photopic mean; %s sr⁻¹ at the "
                          "peak%s", figure_text(range.high, peak), light_text(s)),
-            "BRDF in sr⁻¹ over the leaving directions on a logarithmic scale, without the mirror "
-            "part; φ counts from the mirror direction, the light's own direction is marked.",
-            draw_map, s, incidences[i], i ? SHEET_SPARE : SHEET_ALWAYS, false});
+            "BRDF in sr⁻¹ over the leaving directions on a logarithmic scale, without the "
+            "mirror part; φ counts from the mirror direction, the light's own direction is "
+            "marked.", draw_map, s, incidences[i], i ? SHEET_SPARE : SHEET_ALWAYS, false});
     }
 }
 
 void figures_add_reflection(FigureList *list, const Subject *s)
 {
     if (!s->reflects) return;
-    int middle = middle_incidence(s);
+    int middle = incidence_near(s, 30);
     figure_add(list, &(Figure){PLOT_BRDF, "BRDF in the plane of incidence",
-        arena_format(s->arena, "photopic mean, without the mirror part; incidence at each peak%s",
-                     light_text(s)),
-        "BRDF in sr⁻¹ over the leaving angle in the plane of incidence, one curve an incidence. "
-        "The mirror part is not in it.", draw_plane, s, 0, SHEET_ALWAYS, false});
+        arena_format(s->arena, "photopic mean, without the mirror part; incidence at each "
+                     "peak%s", light_text(s)),
+        "BRDF in sr⁻¹ over the leaving angle in the plane of incidence, one curve an "
+        "incidence. The mirror part is not in it.", draw_plane, s, 0, SHEET_ALWAYS, false});
     if (s->wavelength_count > 1)
         figure_add(list, &(Figure){PLOT_BRDF_SPECTRUM, "BRDF over wavelength",
             arena_format(s->arena, "incidence %d°; angle from the mirror direction%s", middle,
                          light_text(s)),
             "BRDF in sr⁻¹ over wavelength at several angles from the mirror direction, towards "
-            "the normal; dots at the measured wavelengths.", draw_wavelengths, s, middle, SHEET_ALWAYS, false});
+            "the normal; dots at the measured wavelengths.", draw_wavelengths, s, middle,
+            SHEET_ALWAYS, false});
     add_maps(list, s);
     if (s->has_mirror)
         figure_add(list, &(Figure){PLOT_MIRROR, "Mirror reflectance",

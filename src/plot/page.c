@@ -6,13 +6,14 @@
 
 #include "base/file.h"
 #include "base/units.h"
+#include "plot/text.h"
 
 #define MARGIN 40.0
 #define GUTTER 34.0
 #define HEADER 66.0
 #define FOOTER 30.0
 
-/* ---- where everything goes ------------------------------------------------------------- */
+/* ---- where everything goes -------------------------------------------------------------- */
 
 typedef struct Layout {
     int    columns, rows;
@@ -62,7 +63,8 @@ static Layout layout_for_size(const PageSpec *spec)
         int    rows = (spec->list->count + columns - 1) / columns;
         double scale = fmin(spec->width / page_width(columns, w),
                             spec->height / page_height(rows, h));
-        if (scale > best.scale) best = (Layout){.columns = columns, .rows = rows, .scale = scale};
+        if (scale > best.scale)
+            best = (Layout){.columns = columns, .rows = rows, .scale = scale};
     }
     best.width = spec->width / best.scale;
     best.height = spec->height / best.scale;
@@ -79,7 +81,7 @@ static Layout layout_of(const PageSpec *spec, double pixels_per_point)
     return l;
 }
 
-/* ---- drawing ----------------------------------------------------------------------------- */
+/* ---- drawing ---------------------------------------------------------------------------- */
 
 static void draw_heading(Canvas *canvas, const PageSpec *spec, const Layout *l)
 {
@@ -91,12 +93,13 @@ static void draw_heading(Canvas *canvas, const PageSpec *spec, const Layout *l)
     canvas_text(canvas, MARGIN, MARGIN,
                 (Letters){.size = SIZE_HEADING, .ink = t->ink, .is_bold = true},
                 canvas_fit_text(canvas, SIZE_HEADING, true, width, s->name));
-    const char *line = arena_format(canvas->arena, "%s%s%s%s%s", path_name(s->source.file),
+    const char *line = arena_format(canvas->arena, "%s%s%s%s%s", s->file_name,
                                     source ? "  ·  fitted from " : "", source ? source : "",
                                     instrument && *instrument ? "  ·  " : "",
                                     instrument ? instrument : "");
     canvas_text(canvas, MARGIN, MARGIN + 27, (Letters){.size = SIZE_TEXT, .ink = t->soft},
-                canvas_fit_text(canvas, SIZE_TEXT, false, width, line));
+                canvas_fit_text(canvas, SIZE_TEXT, false, width,
+                                text_clean(line, canvas->arena)));
     canvas_line(canvas, MARGIN, MARGIN + 46, l->width - MARGIN, MARGIN + 46,
                 (Stroke){t->faint, 0.7, DASH_NONE});
 }
@@ -119,13 +122,13 @@ static const char *extrapolation_text(Canvas *canvas, const PageSpec *spec)
                        has_kind(spec, PLOT_SECTIONS, PLOT_SECTIONS));
     bool   reflection = s->reflects && (is_fit || has_kind(spec, PLOT_BRDF, PLOT_MIRROR));
     if (emission && reflection)
-        return arena_format(canvas->arena, "not measured, extrapolated: emission beyond θ %.4g°, "
-                            "reflection beyond θ %.4g° or an incidence of %.4g°", cone,
+        return arena_format(canvas->arena, "not measured, extrapolated: emission beyond θ "
+                            "%.4g°, reflection beyond θ %.4g° or an incidence of %.4g°", cone,
                             degrees_from_radians(s->brdf_cone), last);
     if (emission)
         return arena_format(canvas->arena, "not measured, extrapolated: beyond θ %.4g°", cone);
-    return reflection ? arena_format(canvas->arena, "not measured, extrapolated: beyond θ %.4g° "
-                                     "or an incidence of %.4g°",
+    return reflection ? arena_format(canvas->arena, "not measured, extrapolated: beyond θ "
+                                     "%.4g° or an incidence of %.4g°",
                                      degrees_from_radians(s->brdf_cone), last) : NULL;
 }
 
@@ -167,7 +170,8 @@ static Box figure_box(const Layout *l, int index)
 
 static void draw_page(cairo_t *cr, const PageSpec *spec, const Layout *l, Arena *arena)
 {
-    Canvas canvas = {cr, spec->is_dark ? theme_dark() : theme_light(), fmax(l->scale, 1), arena};
+    Theme     theme = spec->is_dark ? theme_dark() : theme_light();
+    Canvas    canvas = {cr, theme, fmax(l->scale, 1), arena};
     FigureMap unused;
     cairo_rectangle(cr, 0, 0, l->width, l->height);
     canvas_fill(&canvas, canvas.theme.paper);
@@ -178,7 +182,7 @@ static void draw_page(cairo_t *cr, const PageSpec *spec, const Layout *l, Arena 
     draw_legend(&canvas, spec, l);
 }
 
-/* ---- bytes ----------------------------------------------------------------------------------- */
+/* ---- bytes ------------------------------------------------------------------------------ */
 
 typedef struct Sink {
     Arena    *arena;
@@ -234,14 +238,17 @@ bool page_svg(const PageSpec *spec, Arena *arena, PlotBytes *out, Error *err)
     /* The sink grows while figures allocate: it has an arena of its own. */
     Arena  own = arena_reserve((size_t)4 << 30);
     Sink   sink = {.arena = &own};
+    const char *title = arena_format(arena, "%s, %s", spec->subject->name,
+                                     spec->kind == PLOT_ALL ? "panel plot"
+                                                            : plot_kind_name(spec->kind));
     cairo_surface_t *surface = svg_surface(&sink, l.width * l.scale, l.height * l.scale);
     cairo_t         *cr = cairo_create(surface);
     cairo_scale(cr, l.scale, l.scale);
-    if (l.scale < 2) l.scale = 2; /* rasters inside are finer than the page's unit */
+    if (l.scale < 1.6) l.scale = 1.6; /* rasters inside are finer than the page's unit */
     Layout drawn = l;
     draw_page(cr, spec, &drawn, arena);
     bool ok = finish(cr, surface, err);
-    if (ok) *out = svg_with_ids(sink.bytes, "p", false, arena);
+    if (ok) *out = svg_with_title(svg_with_ids(sink.bytes, "p", false, arena), title, arena);
     arena_release(&own);
     return ok;
 }

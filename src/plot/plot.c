@@ -14,14 +14,19 @@ const char *plot_kind_name(PlotKind kind)
     return NAMES[kind];
 }
 
-FigureList *plot_figures(const Subject *subject, Arena *arena)
+static bool is_among(PlotKind kind, PlotKind first, PlotKind last)
+{
+    return kind == PLOT_ALL || (kind >= first && kind <= last);
+}
+
+FigureList *plot_figures(const Subject *subject, PlotKind kind, Arena *arena)
 {
     FigureList *list = ARENA_NEW(arena, FigureList, 1);
-    figures_add_emission(list, subject);
-    figures_add_curves(list, subject);
-    figures_add_colour(list, subject);
-    figures_add_reflection(list, subject);
-    figures_add_fit(list, subject);
+    if (subject->source.wants_maps) figures_add_emission(list, subject);
+    if (is_among(kind, PLOT_GREY_LEVELS, PLOT_SECTIONS)) figures_add_curves(list, subject);
+    if (is_among(kind, PLOT_CHROMATICITY, PLOT_SPECTRA)) figures_add_colour(list, subject);
+    if (is_among(kind, PLOT_BRDF, PLOT_MIRROR)) figures_add_reflection(list, subject);
+    if (is_among(kind, PLOT_FIT, PLOT_FIT)) figures_add_fit(list, subject);
     return list;
 }
 
@@ -65,8 +70,8 @@ static bool say_nothing_to_draw(const Subject *s, PlotKind kind, Error *err)
         return error_at(err, ERROR_INPUT, file, "", "has no reflection data, wanted for --kind "
                         "%s; fit a set with a 'reflection' entry", name);
     if (kind < PLOT_BRDF && !s->emits)
-        return error_at(err, ERROR_INPUT, file, "", "has no emission data, wanted for --kind %s; "
-                        "the panel only reflects", name);
+        return error_at(err, ERROR_INPUT, file, "", "has no emission data, wanted for --kind "
+                        "%s; the panel only reflects", name);
     if (kind == PLOT_CONTRAST)
         return error_at(err, ERROR_INPUT, file, "", "its black emits nothing, so there is no "
                         "contrast ratio to draw");
@@ -83,7 +88,9 @@ Subject *plot_subject(const PlotInput *input, const PlotOptions *options, Arena 
         return NULL;
     }
     return subject_new(&(SubjectSource){input->panel, input->file, *report, input->measured,
-                                        options->incidence_phi, options->threads}, arena);
+                                        options->incidence_phi,
+                                        is_among(options->kind, PLOT_LUMINANCE,
+                                                 PLOT_COLOUR_SHIFT), options->threads}, arena);
 }
 
 bool plot_write(const PlotInput *input, const PlotOptions *options, const char *path,
@@ -94,11 +101,11 @@ bool plot_write(const PlotInput *input, const PlotOptions *options, const char *
     const char *ending = path_ending(path);
     bool        is_svg = !strcmp(ending, ".svg");
     if (!is_svg && strcmp(ending, ".png"))
-        return error_set(err, ERROR_USAGE, "-o is '%s', wanted a name that ends in .svg or .png",
-                         path);
+        return error_set(err, ERROR_USAGE, "-o is '%s', wanted a name that ends in .svg or "
+                         ".png", path);
     Subject *subject = plot_subject(input, options, arena, &report, err);
     if (!subject) return false;
-    FigureList *list = plot_figures(subject, arena);
+    FigureList *list = plot_figures(subject, options->kind, arena);
     keep_kind(list, options->kind);
     PageSpec spec = {list, subject, options->kind, options->width, options->height,
                      options->is_dark};

@@ -28,13 +28,13 @@ typedef struct PlotOptions {
     PlotKind kind;
     int      width, height; /* of the picture, pixels (SVG: its units); 0: chosen */
     bool     is_dark;
-    double   incidence_phi; /* azimuth of the light for reflection, radians; PI: from the left */
+    double   incidence_phi; /* azimuth of the light, radians; PI: from the left */
     int      threads;       /* at least 1 */
 } PlotOptions;
 
 typedef struct PlotInput {
     const Panel       *panel;
-    const char        *file;     /* the panel's, as the user named it: for messages and titles */
+    const char        *file;     /* the panel's, as the user named it */
     const Measurement *measured; /* NULL: none */
 } PlotInput;
 

@@ -26,7 +26,7 @@ double polar_letter_size(const PolarDisc *disc)
     return disc->radius < 60 ? 7 : disc->radius > 180 ? 10.5 : SIZE_SMALL;
 }
 
-/* ---- the colours ----------------------------------------------------------------------- */
+/* ---- the colours ------------------------------------------------------------------------ */
 
 static uint32_t pixel_of(const PolarMap *map, double value, uint32_t nothing)
 {
@@ -75,8 +75,8 @@ static void paint_colours(const PolarDisc *disc)
         for (int column = 0; column < side; column++) {
             double v = field_at(disc->map->field, (column + 0.5) * scale, (row + 0.5) * scale);
             bool   ok = isfinite(v) && (!disc->map->is_log || v > 0);
-            pixel[column] = ok ? palette.colour[(int)(1023 * polar_position(disc->map, v) + 0.5)]
-                               : palette.nothing;
+            int    i = ok ? (int)(1023 * polar_position(disc->map, v) + 0.5) : 0;
+            pixel[column] = ok ? palette.colour[i] : palette.nothing;
         }
     }
     cairo_surface_mark_dirty(image);
@@ -89,7 +89,7 @@ static void paint_colours(const PolarDisc *disc)
     cairo_surface_destroy(image);
 }
 
-/* ---- what was not measured --------------------------------------------------------------- */
+/* ---- what was not measured -------------------------------------------------------------- */
 
 static void hatch_outside(const PolarDisc *disc)
 {
@@ -110,7 +110,7 @@ static void hatch_outside(const PolarDisc *disc)
     canvas_stroke(disc->canvas, (Stroke){disc->canvas->theme.ink, 0.8, DASH_SHORT});
 }
 
-/* ---- angles ------------------------------------------------------------------------------ */
+/* ---- angles ----------------------------------------------------------------------------- */
 
 static double ring_step_deg(const PolarDisc *disc)
 {
@@ -196,7 +196,7 @@ static void mark_light(const PolarDisc *disc)
                 (Letters){.size = SIZE_SMALL, .ink = ink, .across = 0.5}, "light");
 }
 
-/* ---- the scale --------------------------------------------------------------------------- */
+/* ---- the scale -------------------------------------------------------------------------- */
 
 static Ticks scale_ticks(const PolarMap *map, double height)
 {
@@ -227,6 +227,12 @@ static void draw_scale(const PolarDisc *disc, Box bar)
         cairo_line_to(canvas->cr, bar.x + bar.w / 2, bar.y - 8);
         cairo_line_to(canvas->cr, bar.x + bar.w, bar.y);
         canvas_fill(canvas, ink_hex(c & 0xffffff));
+        if (disc->map->map == MAP_SIGNED) {
+            cairo_move_to(canvas->cr, bar.x, bar.y + bar.h);
+            cairo_line_to(canvas->cr, bar.x + bar.w / 2, bar.y + bar.h + 8);
+            cairo_line_to(canvas->cr, bar.x + bar.w, bar.y + bar.h);
+            canvas_fill(canvas, ink_hex(palette.colour[0] & 0xffffff));
+        }
     }
     Ticks ticks = scale_ticks(disc->map, bar.h);
     for (int i = 0; i < ticks.count; i++) {
@@ -251,7 +257,7 @@ static void draw_scale(const PolarDisc *disc, Box bar)
                 disc->map->unit);
 }
 
-/* ---- the whole ----------------------------------------------------------------------------- */
+/* ---- the whole -------------------------------------------------------------------------- */
 
 #define SCALE_WIDTH 62.0
 #define LABEL_ROOM 26.0
@@ -264,8 +270,27 @@ static void clip_to_disc(const PolarDisc *disc)
     cairo_clip(disc->canvas->cr);
 }
 
-PolarPlace polar_draw(Canvas *canvas, Box box, const PolarMap *map)
+/* A narrow rim that was not measured has no room for lines; a wide one shows them dimmed. */
+static void draw_lines_inside(PolarDisc *disc)
 {
+    double   share = disc->map->theta_measured / disc->map->field->theta_rim;
+    cairo_t *cr = disc->canvas->cr;
+    cairo_save(cr);
+    cairo_new_sub_path(cr);
+    cairo_arc(cr, disc->x, disc->y, disc->radius * (share < 1 && share > 0.88 ? share : 1), 0,
+              2 * PI);
+    cairo_clip(cr);
+    polar_draw_lines(disc);
+    cairo_restore(cr);
+}
+
+PolarPlace polar_draw(Canvas *canvas, Box box, const PolarMap *asked)
+{
+    PolarMap  with_extent = *asked; /* data without any spread still get a scale */
+    PolarMap *map = &with_extent;
+    if (map->is_log && !(map->high > 0)) map->high = 1;
+    if (map->is_log && !(map->low > 0 && map->low < map->high)) map->low = map->high / 10;
+    if (!map->is_log && !(map->high > map->low)) map->high = map->low + 1;
     double    across = box.w - SCALE_WIDTH - 2 * LABEL_ROOM - 6, down = box.h - 34;
     double    radius = fmin(across, down) / 2;
     PolarDisc disc = {.canvas = canvas, .map = map, .radius = radius, .y = box.y + box.h / 2};
@@ -275,8 +300,8 @@ PolarPlace polar_draw(Canvas *canvas, Box box, const PolarMap *map)
     clip_to_disc(&disc);
     paint_colours(&disc);
     draw_rings(&disc);
-    if (!map->is_residual) polar_draw_lines(&disc);
     cairo_restore(canvas->cr);
+    if (!map->is_residual) draw_lines_inside(&disc);
     hatch_outside(&disc);
     write_ring_labels(&disc, false);
     if (map->has_light) mark_light(&disc);

@@ -23,7 +23,7 @@ typedef struct PolarMap {
     const char  *strong_text;
     double       theta_measured; /* beyond it: hatched */
     const char  *unit;      /* above the scale */
-    bool         has_light; /* marks the light at theta_light, phi 180 and its mirror direction */
+    bool         has_light; /* marks the light at theta_light, phi 180 */
     double       theta_light;
     bool         is_residual; /* no lines: values are scattered */
 } PolarMap;

@@ -102,8 +102,8 @@ static bool find_spot(const PolarDisc *disc, const Way *way, double width, Spot 
     bool   found = false;
     for (double s = 0; s < total; s += 3) {
         Spot spot;
-        if (!try_spot(disc, way, s, width, &spot) || (found && spot.cost >= best->cost)) continue;
-        *best = spot;
+        if (!try_spot(disc, way, s, width, &spot)) continue;
+        if (!found || spot.cost < best->cost) *best = spot;
         found = true;
     }
     return found;
@@ -111,14 +111,24 @@ static bool find_spot(const PolarDisc *disc, const Way *way, double width, Spot 
 
 static void add_part(const PolarDisc *disc, const Way *way, double from, double to)
 {
-    cairo_t     *cr = disc->canvas->cr;
-    ContourPoint p = way_at(way, from);
     if (to <= from) return;
-    cairo_move_to(cr, p.x, p.y);
-    for (int i = 0; i < way->count; i++)
-        if (way->length[i] > from && way->length[i] < to) cairo_line_to(cr, way->x[i], way->y[i]);
-    p = way_at(way, to);
-    cairo_line_to(cr, p.x, p.y);
+    Arena        scratch = *disc->canvas->arena;
+    double      *x = ARENA_NEW(&scratch, double, way->count + 2);
+    double      *y = ARENA_NEW(&scratch, double, way->count + 2);
+    ContourPoint first = way_at(way, from), last = way_at(way, to);
+    Canvas       canvas = *disc->canvas;
+    int          count = 0;
+    canvas.arena = &scratch;
+    x[count] = first.x;
+    y[count++] = first.y;
+    for (int i = 0; i < way->count; i++) {
+        if (!(way->length[i] > from && way->length[i] < to)) continue;
+        x[count] = way->x[i];
+        y[count++] = way->y[i];
+    }
+    x[count] = last.x;
+    y[count++] = last.y;
+    canvas_polyline(&canvas, x, y, count);
 }
 
 static const char *level_text(const PolarDisc *disc, double level)

@@ -12,7 +12,7 @@
 #define FIGURE_WIDTH 420
 #define FIGURE_HEIGHT 344
 
-/* ---- what a figure tells the pointer ---------------------------------------------------------- */
+/* ---- what a figure tells the pointer ---------------------------------------------------- */
 
 #define READ_ROWS 46    /* every 2 degrees of theta */
 #define READ_COLUMNS 60 /* every 6 degrees of phi */
@@ -29,8 +29,8 @@ static void add_polar_values(Text *html, const FigureMap *map)
     for (int i = 0; i < READ_ROWS; i++)
         for (int j = 0; j < READ_COLUMNS; j++) {
             double column, row;
-            field_place(field, field->theta_rim * i / (READ_ROWS - 1), 2 * PI * j / READ_COLUMNS,
-                        &column, &row);
+            field_place(field, field->theta_rim * i / (READ_ROWS - 1),
+                        2 * PI * j / READ_COLUMNS, &column, &row);
             double v = field_at(field, column, row);
             if (i + j > 0) text_add(html, ",");
             if (isfinite(v)) text_format(html, "%.4g", v);
@@ -57,6 +57,7 @@ static void add_chart_values(Text *html, const FigureMap *map)
     text_add(html, "\"]}");
 }
 
+/* figure: the index-th of its list; a caption that the one before has is not said again. */
 static bool add_figure(Text *html, const Figure *figure, int index, bool is_dark, Error *err)
 {
     PlotBytes   svg = {0};
@@ -73,13 +74,18 @@ static bool add_figure(Text *html, const Figure *figure, int index, bool is_dark
     text_add_escaped(html, figure->subtitle);
     text_add(html, "</p>\n");
     text_add_bytes(html, svg.data, svg.size);
-    text_add(html, "<div class=\"read\"></div>\n<figcaption>");
-    text_add_escaped(html, figure->caption);
-    text_add(html, "</figcaption>\n</figure>\n");
+    text_add(html, "<div class=\"read\"></div>\n");
+    bool is_said = index > 0 && !strcmp(figure[-1].caption, figure->caption);
+    if (!is_said) {
+        text_add(html, "<figcaption>");
+        text_add_escaped(html, figure->caption);
+        text_add(html, "</figcaption>\n");
+    }
+    text_add(html, "</figure>\n");
     return true;
 }
 
-/* ---- the figures under their headings ------------------------------------------------------------ */
+/* ---- the figures under their headings --------------------------------------------------- */
 
 static const struct { PlotKind first, last; const char *title; } CHAPTERS[] = {
     {PLOT_LUMINANCE, PLOT_COLOUR_SHIFT, "Luminance, contrast and colour over the hemisphere"},
@@ -112,7 +118,7 @@ static bool add_chapters(Text *html, const FigureList *list, bool is_dark, Error
     return true;
 }
 
-/* ---- the figures of merit -------------------------------------------------------------------------- */
+/* ---- the figures of merit --------------------------------------------------------------- */
 
 static void add_key(Text *html, const char *value, const char *name)
 {
@@ -147,6 +153,19 @@ static void add_emission_keys(Text *html, const Subject *s)
                          degrees_from_radians(limit)));
 }
 
+static double largest_error(const json_t *report, bool is_reflection)
+{
+    size_t  i;
+    json_t *table;
+    double  most = 0;
+    json_array_foreach(json_object_get(report, "tables"), i, table) {
+        const char *name = json_string_value(json_object_get(table, "name"));
+        if (name && !strncmp(name, "brdf", 4) == is_reflection)
+            most = fmax(most, json_number_value(json_object_get(table, "max_error")));
+    }
+    return most;
+}
+
 static void add_file_keys(Text *html, const Subject *s)
 {
     char          text[32];
@@ -154,11 +173,22 @@ static void add_file_keys(Text *html, const Subject *s)
     double bytes = json_number_value(json_object_get(total, "bytes"));
     double source = json_number_value(json_object_get(total, "source_bytes_float32"));
     if (bytes > 0 && source > 0)
-        add_key(html, arena_format(html->arena, "%s %%", figure_text(100 * bytes / source, text)),
+        add_key(html, arena_format(html->arena, "%s %%",
+                                   figure_text(100 * bytes / source, text)),
                 "file size over the source's float32 values");
-    double error = json_number_value(json_object_get(total, "max_error"));
-    add_key(html, arena_format(html->arena, "%s %%", figure_text(100 * error, text)),
-            "largest error at any measured sample");
+    for (int part = 0; part < 2; part++) {
+        double error = largest_error(s->source.report, part == 1);
+        if (error > 0)
+            add_key(html, arena_format(html->arena, "%s %%", figure_text(100 * error, text)),
+                    part ? "largest error of a reflection sample"
+                         : "largest error of an emission sample");
+    }
+}
+
+static double haze_percent(const Subject *s)
+{
+    float cosine = (float)cos(radians_from_degrees(10));
+    return 100 * (double)panel_haze_albedo(s->source.panel, cosine);
 }
 
 static void add_keys(Text *html, const Subject *s)
@@ -171,26 +201,26 @@ static void add_keys(Text *html, const Subject *s)
                                    figure_text(100 * subject_mirror(s, 0, 0), text)),
                 "mirror reflectance at the normal");
     if (s->reflects)
-        add_key(html, arena_format(html->arena, "%s %%", figure_text(100 * (double)
-                panel_haze_albedo(s->source.panel, (float)cos(radians_from_degrees(10))), text)),
+        add_key(html, arena_format(html->arena, "%s %%", figure_text(haze_percent(s), text)),
                 "diffuse reflectance (haze and floor), light at 10°");
     add_file_keys(html, s);
     text_add(html, "</div>\n");
 }
 
-/* ---- the page ----------------------------------------------------------------------------------------- */
+/* ---- the page --------------------------------------------------------------------------- */
 
 static void add_head(Text *html, const Subject *s, bool is_dark)
 {
     const char *note = json_string_value(json_object_get(s->source.report, "note"));
     text_add(html, "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>");
+             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+             "<title>");
     text_add_escaped(html, s->name);
-    text_format(html, "</title>\n<style>\n%s</style></head>\n<body%s><main>\n<h1>", REPORT_STYLE,
-                is_dark ? " class=\"dark\"" : "");
+    text_format(html, "</title>\n<style>\n%s</style></head>\n<body%s><main>\n<h1>",
+                REPORT_STYLE, is_dark ? " class=\"dark\"" : "");
     text_add_escaped(html, s->name);
     text_add(html, "</h1>\n<p class=\"sub\">");
-    text_add_escaped(html, path_name(s->source.file));
+    text_add_escaped(html, s->file_name);
     text_add(html, note && *note ? " · " : "");
     text_add_escaped(html, note);
     text_add(html, "</p>\n");
@@ -218,14 +248,14 @@ static bool add_page(Text *html, const Subject *s, const FigureList *list, bool 
     add_legend(html, s);
     if (!add_chapters(html, list, is_dark, err)) return false;
     text_add(html, "<h2>Sizes and errors</h2>\n<p class=\"sub\" style=\"margin-bottom:12px\">"
-             "Errors are relative to the measured values; trees are shared by tables, whose part "
-             "is an even share.</p>\n");
+             "Errors are relative to the measured values; trees are shared by tables, whose "
+             "part is an even share.</p>\n");
     report_add_tables(html, s->source.report);
     text_add(html, "<h2>Choices and provenance</h2>\n");
     report_add_choices(html, s->source.report);
     report_add_notes(html, s->source.report);
-    text_format(html, "<footer>Parhelion %s, panel plot --report</footer>\n</main>\n<script>\n%s"
-                "</script>\n</body></html>\n", PARHELION_VERSION, REPORT_SCRIPT);
+    text_format(html, "<footer>Parhelion %s, panel plot --report</footer>\n</main>\n<script>\n"
+                "%s</script>\n</body></html>\n", PARHELION_VERSION, REPORT_SCRIPT);
     return true;
 }
 
@@ -238,9 +268,11 @@ bool plot_write_report(const PlotInput *input, const PlotOptions *options, const
     if (strcmp(ending, ".html") && strcmp(ending, ".htm"))
         return error_set(err, ERROR_USAGE, "--report is '%s', wanted a name that ends in .html",
                          path);
-    Subject *subject = plot_subject(input, options, arena, &report, err);
+    PlotOptions all = *options;
+    all.kind = PLOT_ALL;
+    Subject *subject = plot_subject(input, &all, arena, &report, err);
     if (!subject) return false;
-    FigureList *list = plot_figures(subject, arena);
+    FigureList *list = plot_figures(subject, PLOT_ALL, arena);
     bool ok = add_page(&html, subject, list, options->is_dark, err) &&
               file_write(path, html.data, html.size, err);
     if (ok) *figures = list->count;

@@ -90,7 +90,7 @@ static void add_value(Text *html, const json_t *value, Style style)
     }
 }
 
-/* ---- the table of tables ------------------------------------------------------------------- */
+/* ---- the table of tables ---------------------------------------------------------------- */
 
 static void add_row(Text *html, const json_t *keys, const json_t *row, const char *kind)
 {
@@ -139,12 +139,22 @@ void report_add_tables(Text *html, const json_t *report)
     add_rows(html, tables, json_object_get(report, "total"));
 }
 
-/* ---- everything else ------------------------------------------------------------------------ */
+/* ---- everything else -------------------------------------------------------------------- */
 
 static bool is_plain(const json_t *value)
 {
     if (json_is_object(value)) return false;
     return !json_is_array(value) || !json_is_object(json_array_get(value, 0));
+}
+
+/* Numbers that were not declared stand as zeros in the report. */
+static bool is_all_zero(const json_t *list)
+{
+    size_t  i;
+    json_t *item;
+    json_array_foreach(list, i, item)
+        if (!json_is_number(item) || json_number_value(item) != 0) return false;
+    return true;
 }
 
 static void add_definitions(Text *html, const json_t *object)
@@ -154,7 +164,8 @@ static void add_definitions(Text *html, const json_t *object)
     text_add(html, "<table class=\"list\"><tbody>\n");
     json_object_foreach((json_t *)object, key, value) {
         bool is_empty = (json_is_string(value) && !*json_string_value(value)) ||
-                        json_is_null(value) || !strcmp(key, "notes");
+                        json_is_null(value) || !strcmp(key, "notes") ||
+                        (json_is_array(value) && is_all_zero(value));
         if (!is_plain(value) || is_empty) continue;
         text_add(html, "<tr><th>");
         add_name(html, word_of(key).name);

@@ -2,8 +2,10 @@
 
 #include <math.h>
 
+#include "base/file.h"
 #include "base/parallel.h"
 #include "base/units.h"
+#include "plot/text.h"
 #include "spectrum/photometry.h"
 
 #define SIDE 301 /* grid of the maps: 0.6 degrees a step */
@@ -39,12 +41,13 @@ bool subject_xyz(const Subject *subject, double theta, double phi, const float r
                  double xyz[3])
 {
     float found[3];
-    bool  measured = panel_emission_xyz(subject->source.panel, direction(theta, phi), rgb, found);
+    Vec3  d = direction(theta, phi);
+    bool  measured = panel_emission_xyz(subject->source.panel, d, rgb, found);
     for (int c = 0; c < 3; c++) xyz[c] = (double)found[c];
     return measured;
 }
 
-/* ---- sampling, row by row over the threads ------------------------------------------------- */
+/* ---- sampling, row by row over the threads ---------------------------------------------- */
 
 static void sample_emission_row(void *context, int item, int worker)
 {
@@ -61,52 +64,44 @@ static void sample_emission_row(void *context, int item, int worker)
     }
 }
 
-static double measured_cone(const Subject *s)
-{
-    double cone = 0, xyz[3];
-    float  white[3] = {255, 255, 255};
-    for (int i = 0; i <= 900; i++) {
-        double theta = radians_from_degrees(i / 10.0);
-        if (subject_xyz(s, theta, 0, white, xyz) && theta <= PI / 2 - 1e-4) cone = theta;
-    }
-    return cone > radians_from_degrees(89.85) ? PI / 2 : cone;
-}
-
 static void sample_emission(Subject *s)
 {
     for (int p = 0; p < PATTERN_COUNT; p++) {
         float rgb[3];
         pattern_codes((Pattern)p, rgb);
         panel_emission_xyz(s->source.panel, vec3(0, 0, 1), rgb, s->normal[p]);
-        for (int c = 0; c < 3; c++) s->xyz[p][c] = field_new(SIDE, PI / 2, s->arena);
+        for (int c = 0; c < 3 && s->source.wants_maps; c++)
+            s->xyz[p][c] = field_new(SIDE, PI / 2, s->arena);
     }
-    parallel_for(s->source.threads, PATTERN_COUNT * SIDE, sample_emission_row, s);
+    if (s->source.wants_maps)
+        parallel_for(s->source.threads, PATTERN_COUNT * SIDE, sample_emission_row, s);
     s->has_black = s->normal[PATTERN_BLACK][1] > 0;
-    s->cone = measured_cone(s);
+    s->cone = panel_info_emission_cone(s->source.panel);
+    if (s->cone > radians_from_degrees(89.9)) s->cone = PI / 2;
 }
 
 static void look_at_reflection(Subject *s)
 {
     s->wavelength_count = panel_info_wavelengths(s->source.panel, s->wavelength_nm);
-    for (int i = 0; i <= 900; i++) {
-        double angle = radians_from_degrees(i / 10.0);
-        if (panel_info_brdf_is_measured(s->source.panel, angle, 0)) s->last_incidence = angle;
-        if (panel_info_brdf_is_measured(s->source.panel, 0, angle)) s->brdf_cone = angle;
-    }
+    double azimuths[PANEL_INFO_AZIMUTHS_MAX];
+    s->incidence_count = panel_info_incidences(s->source.panel, s->incidence);
+    if (s->incidence_count > 0) s->last_incidence = s->incidence[s->incidence_count - 1];
+    s->is_anisotropic = panel_info_azimuths(s->source.panel, azimuths) > 1;
+    s->brdf_cone = panel_info_reflection_cone(s->source.panel);
     s->has_mirror = subject_mirror(s, radians_from_degrees(5), 0) > 1e-7;
 }
 
 Subject *subject_new(const SubjectSource *source, Arena *arena)
 {
     Subject    *s = ARENA_NEW(arena, Subject, 1);
-    const float white[3] = {255, 255, 255};
     const char *name = json_string_value(json_object_get(source->report, "panel"));
     s->source = *source;
     s->arena = arena;
-    s->name = name && *name ? name : source->file;
+    s->file_name = text_clean(path_name(source->file), arena);
+    s->name = name && *name ? text_clean(name, arena) : s->file_name;
     s->is_white_only = json_is_true(json_object_get(
         json_object_get(source->report, "emission"), "white_only"));
-    s->emits = panel_mean_luminance(source->panel, white) > 0;
+    s->emits = panel_info_emits(source->panel);
     s->reflects = panel_reflects(source->panel);
     if (s->emits) sample_emission(s);
     if (s->reflects) look_at_reflection(s);
@@ -138,7 +133,7 @@ Field subject_shift(const Subject *s, Pattern pattern, Arena *arena)
     return field;
 }
 
-/* ---- reflection ---------------------------------------------------------------------------- */
+/* ---- reflection ------------------------------------------------------------------------- */
 
 /* Sixteen wavelengths from 420 to 690 nm, 18 nm apart, or all of them nm. */
 static Wavelengths lanes(double nm)

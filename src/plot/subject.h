@@ -23,20 +23,23 @@ typedef struct SubjectSource {
     const json_t      *report;   /* panel_report's */
     const Measurement *measured; /* NULL: none given */
     double             incidence_phi; /* azimuth of the light, radians; PI: from the left */
+    bool               wants_maps;    /* samples emission over the hemisphere */
     int                threads;
 } SubjectSource;
 
 typedef struct Subject {
     SubjectSource source;
-    const char *name;           /* of the panel */
+    const char *name, *file_name; /* of the panel, and of its file without folders */
     bool   emits, has_black, reflects, has_mirror;
     bool   is_white_only;       /* its primaries and levels are assumed, not measured */
     double cone;                /* emission is measured up to this theta */
     float  normal[PATTERN_COUNT][3];  /* XYZ at the normal */
-    Field  xyz[PATTERN_COUNT][3];     /* over the hemisphere */
+    Field  xyz[PATTERN_COUNT][3];     /* over the hemisphere; without maps empty */
     int    wavelength_count;    /* of the measured reflection */
     float  wavelength_nm[PANEL_INFO_WAVELENGTHS_MAX];
-    double last_incidence;      /* largest measured */
+    int    incidence_count;     /* of the light, measured, rising */
+    double incidence[PANEL_INFO_INCIDENCES_MAX], last_incidence;
+    bool   is_anisotropic;      /* reflection depends on the light's azimuth */
     double brdf_cone;           /* leaving theta measured up to here */
     Arena *arena;
 } Subject;
@@ -46,7 +49,7 @@ Subject *subject_new(const SubjectSource *source, Arena *arena);
 const char *pattern_name(Pattern pattern);
 void pattern_codes(Pattern pattern, float rgb[3]);
 
-/* ---- emission ------------------------------------------------------------------------ */
+/* ---- emission --------------------------------------------------------------------------- */
 
 /* XYZ at an angle; true where measured. Negative theta: the opposite azimuth. */
 bool subject_xyz(const Subject *subject, double theta, double phi, const float rgb[3],
@@ -60,7 +63,7 @@ Field subject_shift(const Subject *subject, Pattern pattern, Arena *arena);
 
 void uv_of(const double xyz[3], double uv[2]);
 
-/* ---- reflection ---------------------------------------------------------------------- */
+/* ---- reflection ------------------------------------------------------------------------- */
 
 /* BRDF, sr^-1, weighted over wavelength as the eye weighs equal-energy light; the leaving
  * direction's phi counts from the mirror direction. */

@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "plot/text.h"
+
 /* Names seen so far, in a table with open addressing. */
 typedef struct Names {
     const char **name;
@@ -56,6 +58,21 @@ static const char *skip_declaration(const char *p)
     return end;
 }
 
+/* A point and its decimals, three of them at most and no zeros at the end; how many letters
+ * were read. */
+static size_t add_decimals(const char *p, char **to)
+{
+    size_t read = 1, kept = 0;
+    while (isdigit((unsigned char)p[read])) read++;
+    for (size_t i = 1; i < read && i <= 3; i++)
+        if (p[i] != '0') kept = i;
+    if (kept > 0) {
+        memcpy(*to, p, kept + 1);
+        *to += kept + 1;
+    }
+    return read;
+}
+
 PlotBytes svg_with_ids(PlotBytes svg, const char *prefix, bool is_inline, Arena *arena)
 {
     const char *begin = (const char *)svg.data, *end = begin + svg.size;
@@ -68,8 +85,14 @@ PlotBytes svg_with_ids(PlotBytes svg, const char *prefix, bool is_inline, Arena 
     names.number = ARENA_NEW(arena, int, names.capacity);
     size_t room = svg.size + ids * (strlen(prefix) + 12) + 1;
     char  *out = ARENA_NEW(arena, char, room), *to = out;
+    bool in_path = false;
     for (const char *p = is_inline ? skip_declaration(begin) : begin; p < end;) {
         size_t length = name_at(begin, p);
+        if (*p == '"') in_path = p - begin >= 3 && !memcmp(p - 3, " d=", 3);
+        if (in_path && *p == '.') {
+            p += add_decimals(p, &to);
+            continue;
+        }
         if (length == 0) {
             *to++ = *p++;
             continue;
@@ -80,4 +103,18 @@ PlotBytes svg_with_ids(PlotBytes svg, const char *prefix, bool is_inline, Arena 
     }
     *to = 0;
     return (PlotBytes){(unsigned char *)out, (size_t)(to - out)};
+}
+
+PlotBytes svg_with_title(PlotBytes svg, const char *title, Arena *arena)
+{
+    const char *begin = (const char *)svg.data, *tag = strstr(begin, "<svg ");
+    const char *body = tag ? strchr(tag, '>') : NULL;
+    Text        out = {.arena = arena};
+    if (!body) return svg;
+    text_add_bytes(&out, begin, (size_t)(body + 1 - begin));
+    text_add(&out, "\n<title>");
+    text_add_escaped(&out, title);
+    text_add(&out, "</title>");
+    text_add_bytes(&out, body + 1, svg.size - (size_t)(body + 1 - begin));
+    return (PlotBytes){(unsigned char *)out.data, out.size};
 }

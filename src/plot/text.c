@@ -1,6 +1,7 @@
 #include "plot/text.h"
 
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -54,4 +55,30 @@ void text_add_escaped(Text *text, const char *string)
         default: text_add_bytes(text, c, 1);
         }
     }
+}
+
+/* Length of the UTF-8 letter at p (RFC 3629), 0 when there is none. */
+static size_t letter_length(const unsigned char *p)
+{
+    static const unsigned LEAST[] = {0, 0, 0x80, 0x800, 0x10000};
+    size_t   length = p[0] < 0x80 ? 1 : p[0] >= 0xf0 ? 4 : p[0] >= 0xe0 ? 3 : 2;
+    unsigned code = length == 1 ? p[0] : p[0] & (0xffu >> (length + 1));
+    if (p[0] < 0x20 || p[0] == 0x7f || (p[0] >= 0x80 && p[0] < 0xc2) || p[0] > 0xf4) return 0;
+    for (size_t i = 1; i < length; i++) {
+        if ((p[i] & 0xc0) != 0x80) return 0;
+        code = code << 6 | (p[i] & 0x3fu);
+    }
+    bool is_surrogate = code >= 0xd800 && code < 0xe000;
+    return code >= LEAST[length] && code < 0x110000 && !is_surrogate ? length : 0;
+}
+
+const char *text_clean(const char *string, Arena *arena)
+{
+    char *copy = arena_string(arena, string, strlen(string));
+    for (unsigned char *p = (unsigned char *)copy; *p;) {
+        size_t length = letter_length(p);
+        if (length == 0) *p = '?';
+        p += length > 0 ? length : 1;
+    }
+    return copy;
 }

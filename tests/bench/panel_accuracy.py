@@ -202,7 +202,8 @@ def compare_slice(program, panel, truth, incidence):
 
 def print_slice(name, what, result, limits):
     print(f"{name}, {what}: L2 {percent(result[0])} (limit {percent(limits[0])}), peak height "
-          f"{100 * result[1]:+.2f}% (limit {percent(limits[1])}), displaced {result[2]:+.2f} deg")
+          f"{100 * result[1]:+.2f}% (limit {percent(limits[1])}), displaced "
+          f"{result[2]:+.2f} deg")
 
 
 def measure_incidence(program, options):

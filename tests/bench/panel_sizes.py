@@ -153,7 +153,8 @@ def measure_reflection(bench):
     for grid, limit in limits.items():
         for name in SIMULATED:
             manifest = panels.simulate(bench.program, haze_recipe(name, grid), "reflection")
-            bench.measure(f"{name} haze, 7 x 16 {grid}", panels.reflection_only(manifest), limit)
+            bench.measure(f"{name} haze, 7 x 16 {grid}", panels.reflection_only(manifest),
+                          limit)
     text = haze_recipe("ips_cluster", "88x360")
     text["reflection"]["haze_share"] = panels.recipe("ips_cluster")["reflection"]["haze_share"]
     manifest = panels.simulate(bench.program, text, "reflection")

@@ -48,7 +48,8 @@ class Program:
         return done.stdout
 
     def fit(self, manifest, panel, *options):
-        """Fits; the report, with what it took: seconds (wall, processor) and bytes of memory."""
+        """Fits; the report, with what it took: seconds (wall, processor) and bytes of
+        memory."""
         request = [self.path, "panel", "fit", manifest, "-o", panel, "--json", "--quiet",
                    *map(str, options)]
         self.launcher.stdin.write(json.dumps(request) + "\n")
@@ -111,7 +112,8 @@ def read_set(manifest):
         text = json.load(file)
     folder, tables = os.path.dirname(manifest), []
     for name, entry in text.get("emission", {}).items():
-        levels = {"0": entry} if name == "black" else {"255": entry} if name == "white" else entry
+        one_level = {"black": "0", "white": "255"}.get(name)
+        levels = {one_level: entry} if one_level else entry
         for level, path in levels.items():
             table = Table(name if name in ("black", "white") else f"{name} {level}",
                           os.path.join(folder, path))
@@ -307,8 +309,8 @@ def reflection_only(manifest, flat=False):
         if flat:
             text["emission"] = {"white": FLAT}
             rows = [(t, p, 95, 100, 109) for t in range(0, 81, 10) for p in range(0, 360, 30)]
-            write_table(os.path.join(os.path.dirname(manifest), FLAT), "theta phi X Y Z".split(),
-                        rows)
+            write_table(os.path.join(os.path.dirname(manifest), FLAT),
+                        ("theta", "phi", "X", "Y", "Z"), rows)
         text.pop("primaries", None)
     return edit_manifest(manifest, "REFLECTION.json", change)
 

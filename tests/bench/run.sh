@@ -1,6 +1,7 @@
 #!/bin/sh
 # run.sh [RUNS] -- how fast it is: one line a work with its unit, median and spread (smallest
 # to largest) of RUNS runs, 5 if not said. Compare two commits on the same quiet machine only.
+# Sizes and errors of panels: panel_sizes.py; how true they are: panel_accuracy.py.
 set -eu
 cd "$(dirname "$0")/../.."
 runs=${1:-5}
@@ -20,3 +21,8 @@ dashboard='scenes/car_dashboard.gltf scenes/noon.gltf'
 .build/release/bench_tracing "$runs" $out/box.gltf
 .build/release/bench_shaders "$runs"
 .build/release/bench_hemisphere
+for panel in ips_cluster oled_centre; do
+    echo "panel $panel"
+    .build/release/bench_panel "$runs" assets/panels/$panel.recipe.json \
+        assets/panels/$panel.panel
+done

@@ -13,8 +13,8 @@
 
 typedef struct Fixture {
     Arena         arena;
-    char          folder[64];
-    char          file[96];
+    char          folder[256];
+    char          file[288];
     ImportOptions options;
     ImportSet     set;
     Error         err;
@@ -24,7 +24,8 @@ static inline int fixture_setup(void **state)
 {
     Fixture *f = calloc(1, sizeof *f);
     f->arena = arena_reserve((size_t)4 << 30);
-    strcpy(f->folder, "/tmp/import-XXXXXX");
+    const char *base = getenv("TMPDIR");
+    snprintf(f->folder, sizeof f->folder, "%s/parhelion-test-XXXXXX", base ? base : P_tmpdir);
     if (!mkdtemp(f->folder)) return -1;
     snprintf(f->file, sizeof f->file, "%s/sample", f->folder);
     f->options.wavelength_nm = 550;

@@ -4,12 +4,13 @@
 #include "hemisphere/vertex.h"
 #include "hemisphere/vertex_tree.h"
 
+
 static const VertexLattice LATTICES[] = {{0, 4}, {1, 2}, {3, 4}, {4, 2}, {6, 4}, {7, 2}};
 #define LATTICE_COUNT ((int)(sizeof LATTICES / sizeof *LATTICES))
 
 /* ---- the lattice ------------------------------------------------------------------------- */
 
-static void indices_are_one_to_one(void **state)
+static void indices_are_one_to_one_with_directions(void **state)
 {
     Fixture *f = *state;
     for (int i = 0; i < LATTICE_COUNT; i++) {
@@ -33,10 +34,624 @@ static void indices_are_one_to_one(void **state)
     }
 }
 
+static void mirrored_points_are_one_vertex(void **state)
+{
+    (void)state;
+    VertexLattice l = {5, 2};
+    for (int y = 0; y <= 32; y++)
+        for (int x = y - 32; x <= 32 - y; x++)
+            assert_int_equal(vertex_index(l, x, y), vertex_index(l, x, -y));
+}
+
+/* Corners of geodesic triangles, from whichever triangle or octant, are lattice points. */
+static void corners_of_triangles_are_lattice_points(void **state)
+{
+    Fixture *f = *state;
+    for (int level = 0; level <= 6; level++)
+        for (uint32_t id = 0; id < geodesic_count(level); id += level < 4 ? 1 : 13) {
+            GeodesicTriangle t = geodesic_triangle(level, id);
+            float            n = (float)(1 << level);
+            for (int k = 0; k < 3; k++) {
+                VertexPlace p =
+                    vertex_place(f->geodesic, vertex_plane_level(level), t.corner[k]);
+                float slack = level <= VERTEX_PLANE_LEVEL ? 1e-5f : 3e-3f;
+                assert_near(p.x * n, rintf(p.x * n), slack);
+                assert_near(p.y * n, rintf(p.y * n), slack);
+            }
+        }
+}
+
+/* sum of weight * vertex points at the direction: the weights are those of the triangle's
+ * plane. */
+static void weights_are_barycentric(void **state)
+{
+    Fixture *f = *state;
+    for (int i = 0; i < LATTICE_COUNT; i++) {
+        VertexLattice l = LATTICES[i];
+        Arena         scratch = f->arena;
+        uint32_t      seed = 5;
+        Vec3         *d = ARENA_NEW(&scratch, Vec3, vertex_count(l));
+        vertex_directions(l, d);
+        for (int q = 0; q < 2000; q++) {
+            Vec3        at = random_direction(&seed), sum = vec3(0, 0, 0);
+            VertexPoint p = vertex_find(f->geodesic, l, at);
+            if (l.octants == 2) at.y = fabsf(at.y);
+            assert_near(p.weight[0] + p.weight[1] + p.weight[2], 1, 1e-6);
+            for (int k = 0; k < 3; k++) {
+                assert_true(p.weight[k] >= 0);
+                sum = vec3_along(sum, d[p.vertex[k]], p.weight[k]);
+            }
+            /* Beyond the plane level the corners' planes are not that plane. */
+            assert_near(vec3_length(vec3_sub(vec3_normalize(sum), at)), 0, 2e-5);
+        }
+    }
+}
+
+static void details_and_values_are_inverse(void **state)
+{
+    Fixture *f = *state;
+    for (int i = 0; i < LATTICE_COUNT; i++) {
+        VertexLattice l = LATTICES[i];
+        Arena         scratch = f->arena;
+        uint32_t      count = 3 * vertex_count(l), seed = 9;
+        float        *rows = ARENA_NEW(&scratch, float, count);
+        float        *kept = ARENA_NEW(&scratch, float, count);
+        for (uint32_t v = 0; v < count; v++) rows[v] = kept[v] = random_unit(&seed);
+        vertex_details_from_values(l, 3, rows);
+        vertex_values_from_details(l, 3, rows);
+        for (uint32_t v = 0; v < count; v++) assert_near(rows[v], kept[v], 1e-5);
+    }
+}
+
+/* <values of h, x> = <h, gather x> */
+static void gathering_is_the_transpose(void **state)
+{
+    Fixture      *f = *state;
+    VertexLattice l = {5, 2};
+    uint32_t      count = vertex_count(l), seed = 11;
+    float        *h = ARENA_NEW(&f->arena, float, count), *x = ARENA_NEW(&f->arena, float, count);
+    float        *sh = ARENA_NEW(&f->arena, float, count);
+    float        *tx = ARENA_NEW(&f->arena, float, count);
+    for (uint32_t v = 0; v < count; v++) {
+        sh[v] = h[v] = random_unit(&seed) - 0.5f;
+        tx[v] = x[v] = random_unit(&seed) - 0.5f;
+    }
+    vertex_values_from_details(l, 1, sh);
+    vertex_gather(l, 1, tx);
+    double left = 0, right = 0;
+    for (uint32_t v = 0; v < count; v++) {
+        left += (double)sh[v] * (double)x[v];
+        right += (double)h[v] * (double)tx[v];
+    }
+    assert_near(left, right, 1e-4);
+}
+
+/* ---- trees ------------------------------------------------------------------------------- */
+
+/* Accepts what is within a tolerance of the values, component by component. */
+typedef struct Bound {
+    const float *values;
+    int          components;
+    float        tolerance;
+} Bound;
+
+static bool within_bound(const void *context, uint32_t vertex, const float *reconstructed)
+{
+    const Bound *b = context;
+    for (int i = 0; i < b->components; i++) {
+        float value = b->values[vertex * (uint32_t)b->components + (uint32_t)i];
+        if (!(fabsf(reconstructed[i] - value) <= b->tolerance)) return false;
+    }
+    return true;
+}
+
+typedef enum Kind { SMOOTH, PEAKED, BROKEN, NOISE } Kind;
+
+/* Component c at a direction: smaller ones later, as principal components are. */
+static float function_at(Kind kind, Vec3 d, int c, uint32_t *seed)
+{
+    float part = 1 / (1 + 0.7f * (float)c), turned = d.x * (float)(c % 3) + d.y;
+    if (kind == SMOOTH) return part * (d.z * d.z + 0.3f * turned * d.z);
+    if (kind == PEAKED) return part * peak_signal(d) * 0.02f + 0.1f * d.x;
+    if (kind == BROKEN) return d.x + 0.4f * d.y > 0.31f ? part : -part * d.z;
+    return part * random_unit(seed);
+}
+
+static float *values_of(VertexLattice lattice, int components, Kind kind, Arena *arena)
+{
+    uint32_t count = vertex_count(lattice), seed = 3;
+    Vec3    *d = ARENA_NEW(arena, Vec3, count);
+    float   *values = ARENA_NEW(arena, float, count * (uint32_t)components);
+    vertex_directions(lattice, d);
+    for (uint32_t i = 0; i < count * (uint32_t)components; i++)
+        values[i] = function_at(kind, d[i / (uint32_t)components],
+                                (int)(i % (uint32_t)components), &seed);
+    return values;
+}
+
+/* A tree within a tolerance of a function, opened; *values: of the function. */
+typedef struct Example {
+    VertexLattice lattice;
+    int           components;
+    Kind          kind;
+    float         tolerance;
+} Example;
+
+static Tree build_example(Fixture *f, const Example *e, const float **values,
+                          TreeReport *report)
+{
+    *values = values_of(e->lattice, e->components, e->kind, &f->arena);
+    Bound             bound = {*values, e->components, e->tolerance};
+    VertexTreeOptions options = {e->lattice, e->components, within_bound, &bound, NULL};
+    const void       *blob;
+    Tree              tree;
+    Error             err;
+    if (!vertex_tree_build(&options, *values, &f->arena, &blob, report, &err))
+        fail_msg("%s", err.text);
+    assert_int_equal(report->bytes, tree_size(blob));
+    if (!tree_open(blob, tree_size(blob), f->geodesic, &tree, &err)) fail_msg("%s", err.text);
+    return tree;
+}
+
+static const Example EXAMPLES[] = {
+    {{0, 4}, 1, SMOOTH, 0.01f},  {{1, 2}, 3, SMOOTH, 0.001f}, {{2, 4}, 2, NOISE, 1e-4f},
+    {{5, 4}, 8, SMOOTH, 0.005f}, {{5, 2}, 17, PEAKED, 0.01f}, {{6, 4}, 3, PEAKED, 0.002f},
+    {{6, 2}, 12, BROKEN, 0.05f}, {{4, 4}, 40, NOISE, 0.02f},  {{4, 2}, 1, NOISE, 1e-4f},
+    {{3, 4}, 256, SMOOTH, 0.01f},
+};
+#define EXAMPLE_COUNT ((int)(sizeof EXAMPLES / sizeof *EXAMPLES))
+
+static void every_vertex_keeps_its_bound(void **state)
+{
+    Fixture *f = *state;
+    for (int i = 0; i < EXAMPLE_COUNT; i++) {
+        Fixture      inner = *f;
+        const float *values;
+        TreeReport   report;
+        const Example *e = &EXAMPLES[i];
+        Tree     tree = build_example(&inner, e, &values, &report);
+        uint32_t count = vertex_count(e->lattice) * (uint32_t)e->components;
+        float   *got = ARENA_NEW(&inner.arena, float, count);
+        float    worst = 0;
+        vertex_tree_expand(&tree, got);
+        for (uint32_t v = 0; v < count; v++) worst = fmaxf(worst, fabsf(got[v] - values[v]));
+        assert_true(worst <= e->tolerance);
+        assert_close(report.max_error, worst, 1e-3);
+        assert_true(report.stored_rows <= vertex_count(e->lattice));
+    }
+}
+
+/* Queries are the barycentric interpolation of the vertices' values, never outside them. */
+static void queries_interpolate_the_vertices(void **state)
+{
+    Fixture *f = *state;
+    for (int i = 0; i < EXAMPLE_COUNT; i++) {
+        Fixture        inner = *f;
+        const Example *e = &EXAMPLES[i];
+        const float   *values;
+        TreeReport     report;
+        uint32_t       k = (uint32_t)e->components, seed = 77;
+        Tree           tree = build_example(&inner, e, &values, &report);
+        float *got = ARENA_NEW(&inner.arena, float, vertex_count(e->lattice) * k);
+        float  out[TREE_MAX_COMPONENTS];
+        vertex_tree_expand(&tree, got);
+        for (int q = 0; q < 2000; q++) {
+            Vec3        d = random_direction(&seed);
+            VertexPoint p = vertex_find(f->geodesic, e->lattice, d);
+            tree_interpolate(&tree, d, out);
+            for (uint32_t c = 0; c < k; c++) {
+                float a = got[p.vertex[0] * k + c], b = got[p.vertex[1] * k + c];
+                float third = got[p.vertex[2] * k + c];
+                float sum = p.weight[0] * a + p.weight[1] * b + p.weight[2] * third;
+                assert_near(out[c], sum, 3e-6);
+                assert_true(out[c] <= fmaxf(fmaxf(a, b), third) + 2e-6f);
+                assert_true(out[c] >= fminf(fminf(a, b), third) - 2e-6f);
+            }
+        }
+    }
+}
+
+/* Two directions a step apart differ by no more than the steepest triangle allows. */
+static void assert_small_step(const Tree *tree, Vec3 d, Vec3 step, float slope)
+{
+    float a[TREE_MAX_COMPONENTS], b[TREE_MAX_COMPONENTS];
+    tree_interpolate(tree, d, a);
+    tree_interpolate(tree, vec3_add(d, step), b);
+    for (int c = 0; c < tree->components; c++)
+        assert_near(a[c], b[c], slope * vec3_length(step) + 3e-6f);
+}
+
+/* Everywhere, across octants, and where the tree's depth changes. */
+static void trees_are_continuous(void **state)
+{
+    Fixture *f = *state;
+    for (int i = 0; i < EXAMPLE_COUNT; i++) {
+        Fixture      inner = *f;
+        const float *values;
+        TreeReport   report;
+        uint32_t     seed = 41;
+        Tree         tree = build_example(&inner, &EXAMPLES[i], &values, &report);
+        float        slope = 8 * (float)(1 << tree.level);
+        for (int q = 0; q < 3000; q++) {
+            Vec3  d = random_direction(&seed), step = random_direction(&seed);
+            Vec3  small = vec3_scale(step, 2e-6f);
+            float side = random_unit(&seed);
+            if (q % 3 == 1) d.x = side < 0.5f ? 1e-6f : -1e-6f;
+            if (q % 3 == 2) d.y = side < 0.5f ? 1e-6f : -1e-6f;
+            d = vec3_normalize(d);
+            assert_small_step(&tree, d, small, slope);
+            assert_small_step(&tree, d, vec3(-2 * d.x * (float)(q % 3 == 1), 0, 0), slope);
+        }
+        /* Onto the grid's lines, where cells, blocks and windows end. */
+        for (int q = 0; q < 3000; q++) {
+            int   n = 1 << tree.level, x = (int)(random_unit(&seed) * (float)n);
+            int   y = (int)(random_unit(&seed) * (float)(n - x));
+            Vec3  d = vertex_direction(EXAMPLES[i].lattice, x, y);
+            Vec3  small = vec3_scale(random_direction(&seed), 2e-6f);
+            assert_small_step(&tree, d, small, slope);
+            assert_small_step(&tree, d, vec3_neg(small), slope);
+        }
+    }
+}
+
+static void half_trees_are_mirror_symmetric(void **state)
+{
+    Fixture      *f = *state;
+    const Example e = {{5, 2}, 5, PEAKED, 0.01f};
+    const float  *values;
+    TreeReport    report;
+    uint32_t      seed = 13;
+    Tree          tree = build_example(f, &e, &values, &report);
+    for (int q = 0; q < 2000; q++) {
+        Vec3  d = random_direction(&seed);
+        float a[5], b[5];
+        tree_interpolate(&tree, d, a);
+        tree_interpolate(&tree, vec3(d.x, -d.y, d.z), b);
+        assert_memory_equal(a, b, sizeof a);
+    }
+}
+
+static void ranges_of_components_are_parts_of_the_whole(void **state)
+{
+    Fixture      *f = *state;
+    const Example e = {{4, 4}, 40, NOISE, 0.02f};
+    const float  *values;
+    TreeReport    report;
+    uint32_t      seed = 17;
+    Tree          tree = build_example(f, &e, &values, &report);
+    for (int q = 0; q < 2000; q++) {
+        TreeTaps taps;
+        float    all[40], part[40];
+        int      first = (int)(random_unit(&seed) * 39.9f);
+        int      count = 1 + (int)(random_unit(&seed) * (39.9f - (float)first));
+        tree_walk_interpolated(&tree, random_direction(&seed), &taps);
+        tree_sum(&tree, &taps, 0, 40, all);
+        tree_sum(&tree, &taps, first, count, part);
+        assert_memory_equal(part, all + first, (size_t)count * sizeof *part);
+    }
+}
+
+/* Coarser levels interpolate between coarser vertices; the finest level is the value. */
+static void levels_of_detail_end_in_the_value(void **state)
+{
+    Fixture      *f = *state;
+    const Example e = {{6, 4}, 3, PEAKED, 0.002f};
+    const float  *values;
+    TreeReport    report;
+    uint32_t      seed = 19;
+    Tree          tree = build_example(f, &e, &values, &report);
+    float         last[3], value[3], coarse[3];
+    for (int q = 0; q < 500; q++) {
+        Vec3 d = random_direction(&seed);
+        tree_interpolate(&tree, d, value);
+        tree_mean(&tree, tree.level, d, last);
+        assert_memory_equal(last, value, sizeof last);
+    }
+    for (uint32_t id = 0; id < 4; id++) {
+        Vec3 corner = geodesic_triangle(0, id).corner[2];
+        tree_mean(&tree, 0, corner, coarse);
+        tree_interpolate(&tree, corner, value);
+        for (int c = 0; c < 3; c++) assert_near(coarse[c], value[c], 1e-6);
+    }
+    float *leaves = ARENA_NEW(&f->arena, float, 3 * geodesic_count(6));
+    tree_expand(&tree, leaves, f->arena);
+    tree_interpolate(&tree, geodesic_center(6, 4711), value);
+    assert_memory_equal(leaves + 3 * 4711, value, sizeof value);
+}
+
+static void odd_directions_are_answered(void **state)
+{
+    Fixture   *f = *state;
+    const Vec3 odd[] = {{0, 0, 0}, {0, 0, -1}, {1, 0, 0}, {0, -1, 0}, {0.5f, 0.5f, -0.7f},
+                        {-0.7071f, 0.7071f, 0}, {1e-20f, 0, 1}, {-1e-30f, -1e-30f, 1e-30f},
+                        {3e18f, 3e18f, 1}, {0.8f, -0.6f, 1e-9f}};
+    for (int i = 0; i < EXAMPLE_COUNT; i++) {
+        Fixture      inner = *f;
+        const float *values;
+        TreeReport   report;
+        float        out[TREE_MAX_COMPONENTS];
+        Tree         tree = build_example(&inner, &EXAMPLES[i], &values, &report);
+        for (size_t q = 0; q < sizeof odd / sizeof *odd; q++) {
+            tree_interpolate(&tree, odd[q], out);
+            for (int c = 0; c < tree.components; c++) assert_true(fabsf(out[c]) < 3);
+        }
+    }
+}
+
+/* Storing vertices pays: few of them, in few bytes. */
+static void smooth_functions_take_few_bytes(void **state)
+{
+    Fixture      *f = *state;
+    const Example e = {{7, 4}, 4, SMOOTH, 0.01f};
+    const float  *values;
+    TreeReport    report;
+    build_example(f, &e, &values, &report);
+    assert_true(report.stored_rows < 500);
+    assert_true(report.bytes < 2600);
+    assert_true(report.bytes * 200 < report.source_bytes);
+}
+
+/* ---- failures ---------------------------------------------------------------------------- */
+
+static bool accepts_nothing(const void *context, uint32_t vertex, const float *reconstructed)
+{
+    const VertexLattice *l = context;
+    (void)reconstructed;
+    return vertex != vertex_index(*l, 4, 4);
+}
+
+static void assert_refused(const VertexTreeOptions *options, const float *values,
+                           const char *text, Arena *arena)
+{
+    const void *blob = arena;
+    TreeReport  report;
+    Error       err;
+    assert_false(vertex_tree_build(options, values, arena, &blob, &report, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    if (!strstr(err.text, text)) fail_msg("'%s' does not hold '%s'", err.text, text);
+    assert_ptr_equal(blob, arena);
+}
+
+static void what_cannot_be_stored_is_refused(void **state)
+{
+    Fixture          *f = *state;
+    VertexLattice     l = {3, 4};
+    float            *values = values_of(l, 2, SMOOTH, &f->arena);
+    Bound             bound = {values, 2, 0.01f};
+    VertexTreeOptions good = {l, 2, within_bound, &bound, NULL}, o = good;
+    o.lattice.level = GEODESIC_MAX_LEVEL;
+    assert_refused(&o, values, "level 10, wanted 0 to 9", &f->arena);
+    o = good;
+    o.lattice.octants = 3;
+    assert_refused(&o, values, "3 octants, wanted 2 or 4", &f->arena);
+    o = good;
+    o.components = 0;
+    assert_refused(&o, values, "0 components, wanted 1 to 256", &f->arena);
+    o = good;
+    o.accepts = accepts_nothing;
+    o.context = &l;
+    assert_refused(&o, values, "theta 90.00 deg, phi 45.00 deg", &f->arena);
+    values[7] = NAN;
+    assert_refused(&good, values, "value 7 is nan", &f->arena);
+    values[7] = INFINITY;
+    assert_refused(&good, values, "value 7 is inf", &f->arena);
+}
+
+/* ---- blobs from anywhere ----------------------------------------------------------------- */
+
+static const Example BLOBS[] = {
+    {{5, 4}, 8, PEAKED, 0.01f}, {{6, 2}, 17, PEAKED, 0.004f}, {{2, 4}, 1, NOISE, 1e-3f}};
+
+/* A copy in memory of its own size, so that a sanitizer sees every byte read beyond it. */
+static void *exact_copy(const void *blob, size_t size)
+{
+    void *copy = aligned_alloc(16, (size + 15) / 16 * 16);
+    memcpy(copy, blob, size);
+    return copy;
+}
+
+static const void *example_blob(Fixture *f, const Example *e)
+{
+    float            *values = values_of(e->lattice, e->components, e->kind, &f->arena);
+    Bound             bound = {values, e->components, e->tolerance};
+    VertexTreeOptions options = {e->lattice, e->components, within_bound, &bound, NULL};
+    const void       *blob;
+    Error             err;
+    if (!vertex_tree_build(&options, values, &f->arena, &blob, NULL, &err))
+        fail_msg("%s", err.text);
+    return blob;
+}
+
+static void every_prefix_is_refused(void **state)
+{
+    Fixture *f = *state;
+    for (size_t i = 0; i < sizeof BLOBS / sizeof *BLOBS; i++) {
+        const void *blob = example_blob(f, &BLOBS[i]);
+        for (size_t size = 0; size < tree_size(blob); size++) {
+            void *copy = exact_copy(blob, size);
+            Tree  tree;
+            Error err;
+            assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
+            free(copy);
+        }
+    }
+}
+
+static void mutated_blobs_are_refused_or_harmless(void **state)
+{
+    Fixture *f = *state;
+    uint32_t seed = 2024, opened = 0;
+    for (size_t i = 0; i < sizeof BLOBS / sizeof *BLOBS; i++) {
+        const void *blob = example_blob(f, &BLOBS[i]);
+        size_t      size = tree_size(blob);
+        char       *copy = exact_copy(blob, size);
+        for (int m = 0; m < 8000; m++) {
+            Tree  tree;
+            Error err;
+            float out[TREE_MAX_COMPONENTS];
+            memcpy(copy, blob, size);
+            mutate(copy, size, &seed);
+            if (!tree_open(copy, size, f->geodesic, &tree, &err)) continue;
+            opened++;
+            for (int q = 0; q < 8; q++) {
+                tree_interpolate(&tree, random_direction(&seed), out);
+                for (int c = 0; c < tree.components; c++) assert_true(isfinite(out[c]));
+            }
+        }
+        free(copy);
+    }
+    assert_true(opened > 500); /* changed numbers, same structure */
+    assert_true(opened < 20000);
+}
+
+static void a_bad_header_is_named(void **state)
+{
+    Fixture    *f = *state;
+    const void *blob = example_blob(f, &BLOBS[0]);
+    size_t      size = tree_size(blob);
+    char       *copy = exact_copy(blob, size);
+    Error       err;
+    Tree        tree;
+    ((VertexHeader *)(void *)copy)->version = 7;
+    assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
+    assert_non_null(strstr(err.text, "version is 7, wanted 1"));
+    memcpy(copy, blob, size);
+    ((VertexHeader *)(void *)copy)->octants = 3;
+    assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
+    assert_non_null(strstr(err.text, "octant count is 3, wanted 4"));
+    assert_false(tree_open(blob, size, geodesic_create(3, &f->arena), &tree, &err));
+    assert_non_null(strstr(err.text, "level of the geodesic is 3, wanted 4"));
+    memcpy(copy, blob, size);
+    ((float *)(void *)(copy + sizeof(VertexHeader)))[2] = NAN;
+    assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
+    assert_non_null(strstr(err.text, "scale 2 is nan"));
+    free(copy);
+}
+
+/* ---- from samples to vertices ------------------------------------------------------------ */
+
+/* Random directions and the smooth function there; those below `lowest` z are left out. */
+static VertexSamples smooth_samples(int count, float lowest, Arena *arena)
+{
+    uint32_t seed = 23;
+    Vec3    *d = ARENA_NEW(arena, Vec3, count);
+    float   *value = ARENA_NEW(arena, float, 2 * count);
+    for (int i = 0; i < count; i++) {
+        do d[i] = random_direction(&seed);
+        while (d[i].z < lowest);
+        for (int c = 0; c < 2; c++)
+            value[2 * i + c] = function_at(SMOOTH, d[i], c, &seed);
+    }
+    return (VertexSamples){count, 2, d, value, NULL};
+}
+
+static void fits_recover_smooth_functions(void **state)
+{
+    Fixture      *f = *state;
+    VertexLattice l = {5, 4};
+    uint32_t      count = vertex_count(l);
+    Vec3         *d = ARENA_NEW(&f->arena, Vec3, count);
+    float        *values = ARENA_NEW(&f->arena, float, 2 * count);
+    VertexSamples samples = smooth_samples(20000, 0, &f->arena);
+    Error         err;
+    uint32_t      seed = 1;
+    vertex_directions(l, d);
+    assert_true(vertex_fit(f->geodesic, l, &samples, 1e-12, &f->arena, values, &err));
+    for (uint32_t i = 0; i < 2 * count; i++)
+        assert_near(values[i], function_at(SMOOTH, d[i / 2], (int)(i % 2), &seed), 4e-3);
+}
+
+/* No samples below 53 degrees: the values go on smoothly and stay in sight. */
+static void fits_stay_smooth_in_gaps(void **state)
+{
+    Fixture      *f = *state;
+    VertexLattice l = {5, 4};
+    uint32_t      count = vertex_count(l);
+    float        *values = ARENA_NEW(&f->arena, float, 2 * count);
+    VertexSamples samples = smooth_samples(8000, 0.6f, &f->arena);
+    Error         err;
+    assert_true(vertex_fit(f->geodesic, l, &samples, 1e-10, &f->arena, values, &err));
+    for (uint32_t i = 0; i < 2 * count; i++) assert_true(fabsf(values[i]) < 2);
+    vertex_details_from_values(l, 2, values);
+    for (int y = -32; y <= 32; y++)
+        for (int x = abs(y) - 32; x <= 32 - abs(y); x++)
+            if ((x | y) & 1) assert_near(values[2 * vertex_index(l, x, y)], 0, 0.01);
+}
+
+static void fits_of_constants_are_constant(void **state)
+{
+    Fixture      *f = *state;
+    VertexLattice l = {4, 2};
+    uint32_t      count = vertex_count(l);
+    float        *values = ARENA_NEW(&f->arena, float, count);
+    const Vec3    d[2] = {{0, 0, 1}, {0.6f, 0, 0.8f}};
+    const float   three[2] = {3, 3};
+    VertexSamples samples = {2, 1, d, three, NULL};
+    Error         err;
+    assert_true(vertex_fit(f->geodesic, l, &samples, 1e-6, &f->arena, values, &err));
+    for (uint32_t i = 0; i < count; i++) assert_near(values[i], 3, 1e-3);
+}
+
+/* Weights of 0 hide samples; mirrored samples of half lattices are one. */
+static void fits_weigh_and_mirror(void **state)
+{
+    Fixture      *f = *state;
+    VertexLattice l = {3, 2};
+    float        *values = ARENA_NEW(&f->arena, float, vertex_count(l));
+    const Vec3    d[3] = {{0.6f, 0.48f, 0.64f}, {0.6f, -0.48f, 0.64f}, {0.6f, 0.48f, 0.64f}};
+    const float   value[3] = {1, 3, 1000}, weight[3] = {1, 1, 0};
+    VertexSamples samples = {3, 1, d, value, weight};
+    Error         err;
+    assert_true(vertex_fit(f->geodesic, l, &samples, 1e-6, &f->arena, values, &err));
+    for (uint32_t i = 0; i < vertex_count(l); i++) assert_near(values[i], 2, 1e-3);
+}
+
+static void fits_refuse_what_is_no_number(void **state)
+{
+    Fixture      *f = *state;
+    VertexLattice l = {2, 4};
+    float         values[64];
+    const Vec3    d[2] = {{0, 0, 1}, {0.6f, 0, 0.8f}};
+    float         value[2] = {1, 2}, weight[2] = {0, 0};
+    VertexSamples samples = {2, 1, d, value, weight};
+    Error         err;
+    assert_false(vertex_fit(f->geodesic, l, &samples, 1e-6, &f->arena, values, &err));
+    assert_non_null(strstr(err.text, "2 samples have no weight, wanted some"));
+    weight[1] = -1;
+    assert_false(vertex_fit(f->geodesic, l, &samples, 1e-6, &f->arena, values, &err));
+    assert_non_null(strstr(err.text, "sample 1 has the weight -1, wanted 0 or more"));
+    weight[1] = 1;
+    value[0] = NAN;
+    assert_false(vertex_fit(f->geodesic, l, &samples, 1e-6, &f->arena, values, &err));
+    assert_non_null(strstr(err.text, "sample 0 is nan, wanted a finite number"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(indices_are_one_to_one, set_up, tear_down),
+        CASE(indices_are_one_to_one_with_directions),
+        CASE(mirrored_points_are_one_vertex),
+        CASE(corners_of_triangles_are_lattice_points),
+        CASE(weights_are_barycentric),
+        CASE(details_and_values_are_inverse),
+        CASE(gathering_is_the_transpose),
+        CASE(every_vertex_keeps_its_bound),
+        CASE(queries_interpolate_the_vertices),
+        CASE(trees_are_continuous),
+        CASE(half_trees_are_mirror_symmetric),
+        CASE(ranges_of_components_are_parts_of_the_whole),
+        CASE(levels_of_detail_end_in_the_value),
+        CASE(odd_directions_are_answered),
+        CASE(smooth_functions_take_few_bytes),
+        CASE(what_cannot_be_stored_is_refused),
+        CASE(every_prefix_is_refused),
+        CASE(mutated_blobs_are_refused_or_harmless),
+        CASE(a_bad_header_is_named),
+        CASE(fits_recover_smooth_functions),
+        CASE(fits_stay_smooth_in_gaps),
+        CASE(fits_of_constants_are_constant),
+        CASE(fits_weigh_and_mirror),
+        CASE(fits_refuse_what_is_no_number),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

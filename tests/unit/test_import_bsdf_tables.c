@@ -213,7 +213,8 @@ static void speos_errors_name_the_line(void **state)
     assert_refused(f, "OPTIS - Anisotropic BSDF surface file v7.0\n0\n", i,
                    "line 2: the version is 'v7.0', wanted v8.0 or later");
     assert_refused(f, "OPTIS - Anisotropic BSDF surface file v8.0\n0\nC\n0\n\n0 1 0\n0 1\n"
-                      "1\n", i, "line 8: there is transmission only: a display panel is opaque");
+                      "1\n", i, "line 8: there is transmission only: a display panel is "
+                   "opaque");
     assert_refused(f, "OPTIS - BRDF surface file v8.0\n0\nC\n0\n\n1 0\n1\n1 1\n30\n450\n40\n"
                       "2 1\n0\n0 1\n95 1\n", i, "theta is 95, wanted 0 to 90 degrees");
     assert_refused(f, "OPTIS - Simple scattering surface file v2.0\nC\nReflection\n"
@@ -320,6 +321,42 @@ static void speos_binary_holds_what_its_text_would(void **state)
                                      "save the file as text");
 }
 
+static void speos_binary_refusals(void **state)
+{
+    static const struct {
+        int         at; /* byte */
+        int         value;
+        const char *words;
+    } row[] = {
+        {40, '8', "is binary and not of version 9.0"},
+        {52, 1, "a field of the header is 1, and only 0 is known here"},
+        {89, 0, "there is no reflection"},
+        {89, 7, "a flag is 7, wanted 0 or 1"},
+        {90, 1, "the file has transmission, whose binary layout is not known here"},
+        {98, 0x40, "a field of the header is 65536, and only 1 is known here"},
+        {109, 0, "the number of anisotropy angles is 0, wanted 1 to 4096"},
+        {113, 17, "a block has 17 bytes, wanted 16"},
+        {129, 0x20, "a packed block is not sound"},
+        {77, 0xFF, ""},
+    };
+    Fixture      *f = *state;
+    unsigned char bytes[4096];
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        size_t size = speos_binary(bytes);
+        bytes[row[i].at] = (unsigned char)row[i].value;
+        fixture_write(f, bytes, size);
+        f->set = import_set(&f->arena);
+        bool ok = importer_speos.read(f->file, &f->options, &f->set, &f->err);
+        if (*row[i].words && (ok || !strstr(f->err.text, row[i].words)))
+            fail_msg("byte %d: %s, wanted %s", row[i].at, ok ? "taken" : f->err.text,
+                     row[i].words);
+    }
+    size_t size = speos_binary(bytes);
+    fixture_write(f, bytes, size + 1);
+    assert_false(importer_speos.read(f->file, &f->options, &f->set, &f->err));
+    assert_string_equal(f->err.text, "138 bytes follow the tables, wanted 137");
+}
+
 /* Worked out from the file by an independent reading: the table at 5 degrees has 0.172308 at
  * (30, 0), times cosine; H(5) = 0.61736, H(10) = 0.62309 and R(6) = 62.27%. */
 static void a_real_measurement_of_speos_has_its_values(void **state)
@@ -366,6 +403,7 @@ int main(void)
         fixture_case(speos_spectral_tables_have_their_own_reflectance),
         fixture_case(speos_errors_name_the_line),
         fixture_case(speos_binary_holds_what_its_text_would),
+        fixture_case(speos_binary_refusals),
         fixture_case(a_real_measurement_of_speos_has_its_values),
         cmocka_unit_test(lz4_blocks_that_are_not_sound_are_refused),
     };

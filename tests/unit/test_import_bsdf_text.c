@@ -1,6 +1,8 @@
 /* Scatter in the text formats of optical design programs and goniophotometers. */
 #include "import_fixture.h"
 
+#define PI 3.14159265358979323846
+
 /* ---- Zemax ------------------------------------------------------------------------------- */
 
 #define ZEMAX_HEAD                                                                             \
@@ -28,7 +30,7 @@ static void zemax_angles_count_from_the_mirror_direction(void **state)
     assert_near(value_at(t, 20, 180, 0), 12, 0);
     assert_near(value_at(t, 50, 0, 0), 15, 0);
     /* Across: cos theta = cos 10 cos 40, sin of the turn over sin theta; both halves. */
-    double r = 3.14159265358979323846 / 180;
+    double r = PI / 180;
     double theta = acos(cos(10 * r) * cos(40 * r)) / r;
     double phi = asin(sin(10 * r) / sin(theta * r)) / r;
     assert_near(value_at(t, theta, phi, 0), 13, 0);
@@ -36,6 +38,21 @@ static void zemax_angles_count_from_the_mirror_direction(void **state)
     /* Azimuth 180 and radial 60 lies under the horizon: the others are there. */
     assert_int_equal(t->rows, 1 + 4 + 3);
     assert_false(f->set.is_anisotropic);
+}
+
+static void zemax_wavelength_stands_in_the_comments(void **state)
+{
+    static const char *const line[] = {"# laser, 532nm wide", "#Wavelength (nm) = 532.0"};
+    Fixture *f = *state;
+    f->options.wavelength_nm = 0;
+    for (int i = 0; i < 2; i++) {
+        assert_reads(f, arena_format(&f->arena, "%s\nSymmetry PlaneSymmetrical\n"
+                                     "SpectralContent Monochrome\nScatterType BRDF\n"
+                                     "SampleRotation 1\n0\nAngleOfIncidence 1\n30\n"
+                                     "ScatterAzimuth 1\n0\nScatterRadial 1\n10\nMonochrome\n"
+                                     "DataBegin\nTIS 0 7\nDataEnd\n", line[i]), "zemax");
+        assert_close(f->set.table[0].wavelength_nm[0], 532, 1e-7);
+    }
 }
 
 static void zemax_azimuth_runs_counter_clockwise(void **state)
@@ -64,6 +81,20 @@ static void zemax_sample_rotations_are_azimuths_of_the_light(void **state)
     assert_true(f->set.is_anisotropic);
     assert_near(value_at(table_at(f, 30, 180), 20, 0, 0), 7, 0);
     assert_near(value_at(table_at(f, 30, 90), 20, 0, 0), 8, 0);
+    /* Declared isotropic: the first azimuth serves. */
+    f->set = import_set(&f->arena);
+    f->set.is_isotropic = true;
+    assert_true(importer_zemax.read(f->file, &f->options, &f->set, &f->err));
+    assert_int_equal(f->set.count, 1);
+    assert_noted(f, "isotropic as declared");
+    /* 360 is 0 again. */
+    assert_reads(f, "Symmetry ASymmetrical4D\nSpectralContent Monochrome\nScatterType BRDF\n"
+                    "SampleRotation 3\n0 180 360\nAngleOfIncidence 1\n30\nScatterAzimuth 2\n"
+                    "0 360\nScatterRadial 1\n10\nMonochrome\nDataBegin\nTIS 0 7 7\n"
+                    "TIS 0 8 8\nTIS 0 7 7\nDataEnd\n", "zemax");
+    assert_int_equal(f->set.count, 2);
+    assert_int_equal(f->set.table[0].rows, 1);
+    assert_near(value_at(table_at(f, 30, 0), 20, 0, 0), 8, 0);
 }
 
 static void zemax_of_xyz_keeps_y(void **state)
@@ -86,7 +117,8 @@ static void zemax_totals_are_told_beside_the_tables_own(void **state)
     Fixture *f = *state;
     char     text[16384];
     int      n = snprintf(text, sizeof text,
-                          "Symmetry PlaneSymmetrical\nSpectralContent Monochrome\nScatterType BRDF\n"
+                          "Symmetry PlaneSymmetrical\nSpectralContent Monochrome\n"
+                          "ScatterType BRDF\n"
                           "SampleRotation 1\n0\nAngleOfIncidence 1\n50\nScatterAzimuth 19\n");
     for (int i = 0; i < 19; i++) n += sprintf(text + n, "%d ", i * 10);
     n += sprintf(text + n, "\nScatterRadial 19\n");
@@ -127,8 +159,9 @@ static void zemax_errors_name_the_line(void **state)
     assert_refused(f, "AngleOfIncidence 1000\n1 2\n", z,
                    "line 1: AngleOfIncidence is 1000, more than the rest of the file can hold");
     f->options.wavelength_nm = 0;
-    assert_refused(f, "Symmetry PlaneSymmetrical\nSpectralContent Monochrome\nScatterType BRDF\n"
-                      "SampleRotation 1\n0\nAngleOfIncidence 1\n30\nScatterAzimuth 1\n0\n"
+    assert_refused(f, "Symmetry PlaneSymmetrical\nSpectralContent Monochrome\n"
+                      "ScatterType BRDF\nSampleRotation 1\n0\nAngleOfIncidence 1\n30\n"
+                      "ScatterAzimuth 1\n0\n"
                       "ScatterRadial 1\n10\nMonochrome\nDataBegin\nTIS 0 7\nDataEnd\n", z,
                    "does not say the wavelength of its values — give it as --wavelength NM");
 }
@@ -231,7 +264,7 @@ static void mountain_light_comes_from_the_incident_angle(void **state)
     assert_reads(f, MOUNTAIN, "mountain");
     const ImportTable *t = table_at(f, 30, 90);
     assert_int_equal(t->rows, 3);
-    assert_close(value_at(t, 30, 0, 0), 0.5 / cos(30 * 3.14159265358979323846 / 180), 1e-12);
+    assert_close(value_at(t, 30, 0, 0), 0.5 / cos(30 * PI / 180), 1e-12);
     assert_close(value_at(t, 60, 180, 0), 0.5, 1e-12);
     assert_near(value_at(t, 0, 0, 0), 0.125, 0);
     assert_noted(f, "1 directions behind the sample");
@@ -239,6 +272,34 @@ static void mountain_light_comes_from_the_incident_angle(void **state)
     assert_reads(f, "#format: theta phi BSDF\n#intheta 20\n#inphi 0\n#colorimetry: CIE-XYZ\n"
                     "20 180 1 2 3\n", "mountain");
     assert_near(value_at(table_at(f, 20, 0), 20, 0, 0), 2, 0);
+}
+
+static void mountain_patterns_of_one_light_are_one_table(void **state)
+{
+    Fixture *f = *state;
+    assert_reads(f, MOUNTAIN, "mountain");
+    fixture_write(f, "#format: theta phi BSDF\n#incident_angle 30 90\n10 270 4\n", 55);
+    assert_true(importer_mountain.read(f->file, &f->options, &f->set, &f->err));
+    fixture_write(f, "#format: theta phi BSDF\n#incident_angle 40 90\n10 270 5\n", 55);
+    assert_true(importer_mountain.read(f->file, &f->options, &f->set, &f->err));
+    assert_int_equal(f->set.count, 2);
+    const ImportTable *t = table_at(f, 30, 90);
+    assert_int_equal(t->rows, 4);
+    assert_near(value_at(t, 10, 0, 0), 4, 0);
+    assert_near(value_at(t, 0, 0, 0), 0.125, 0);
+}
+
+/* DSF = rho / pi cos theta: the table is rho / pi. */
+static void mountain_lambertian_loses_its_cosine(void **state)
+{
+    Fixture *f = *state;
+    char     text[4096];
+    int      n = sprintf(text, "#format: theta phi DSF\n#incident_angle 40 0\n");
+    for (int i = 0; i <= 85; i += 5)
+        n += sprintf(text + n, "%d %d %.9g\n", i, 3 * i, 0.4 / PI * cos(i * PI / 180));
+    assert_reads(f, text, "mountain");
+    for (int i = 0; i < f->set.table[0].rows; i++)
+        assert_close(f->set.table[0].value[i], 0.4 / PI, 1e-7);
 }
 
 static void mountain_errors_name_the_line(void **state)
@@ -305,6 +366,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         fixture_case(zemax_angles_count_from_the_mirror_direction),
+        fixture_case(zemax_wavelength_stands_in_the_comments),
         fixture_case(zemax_azimuth_runs_counter_clockwise),
         fixture_case(zemax_sample_rotations_are_azimuths_of_the_light),
         fixture_case(zemax_of_xyz_keeps_y),
@@ -317,6 +379,8 @@ int main(void)
         fixture_case(fred_errors_name_the_line),
         fixture_case(real_tables_of_fred_have_their_values),
         fixture_case(mountain_light_comes_from_the_incident_angle),
+        fixture_case(mountain_patterns_of_one_light_are_one_table),
+        fixture_case(mountain_lambertian_loses_its_cosine),
         fixture_case(mountain_errors_name_the_line),
         fixture_case(lighttools_mirror_lies_opposite_the_light),
         fixture_case(lighttools_errors_name_the_line),

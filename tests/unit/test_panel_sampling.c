@@ -1,24 +1,125 @@
 /* How a panel's reflection is sampled: densities that integrate to one and fit the samples. */
 #include "panel_fixture.h"
 
+#include <stddef.h>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "base/sampler.h"
 #include "hemisphere/geodesic.h"
-#include "panel/panel_file.h"
 #include "hemisphere/specular_frame.h"
+#include "panel/panel_file.h"
 
-static Fixture ips;
+typedef struct Case {
+    const char *name;
+    Panel      *panel;
+} Case;
 
-static int start_ips(void **state)
+#define CASES_MAX 5
+static Fixture ips, narrow, brushed;
+static Panel  *shipped[2];
+static Arena   shipped_arena;
+static Case    cases[CASES_MAX];
+static int     case_count;
+
+/* A haze of 1.5 degrees on a coarse grid of incidences. */
+#define FIXTURE_NARROW                                                                         \
+    "{\"panel\": \"test narrow\", \"refractive_index\": 1.5, \"emission\": {" FIXTURE_SPECTRA  \
+    "\"gamma\": 2.2, \"cosine_power\": [1, 1], \"black_cd_m2\": 0, \"leak\": 0},"              \
+    "\"reflection\": {\"coating\": 0.6, \"coating_blue\": 0.15, \"haze_share\": 1,"            \
+    "\"haze_width\": 0.03, \"haze_power\": 1.8, \"floor_albedo\": 0.004,"                      \
+    "\"incidence_deg\": [0, 20, 40, 60],"                                                      \
+    "\"wavelengths_nm\": [420,450,480,510,540,570,600,630,660]},"                              \
+    "\"instrument\": {\"theta_step_deg\": 3, \"phi_step_deg\": 10,"                            \
+    "\"brdf_theta_step_deg\": 0.5, \"brdf_phi_step_deg\": 3}}"
+
+static void add_case(const char *name, Panel *panel)
+{
+    cases[case_count++] = (Case){name, panel};
+}
+
+/* Haze twice as wide along the display's x as along its y; one wavelength. */
+static double brushed_brdf(double theta_i, double phi_i, double theta, double phi)
+{
+    double si = sin(theta_i), so = sin(theta);
+    double x = so * cos(phi + phi_i - PI) + si * cos(phi_i);
+    double y = so * sin(phi + phi_i - PI) + si * sin(phi_i);
+    return 0.02 * pow(1 + x * x / 0.09 + y * y / 0.0225, -1.5) / 0.045 + 0.003;
+}
+
+static AngleTable brushed_table(double theta_i, double phi_i, Arena *arena)
+{
+    enum { THETAS = 29, PHIS = 60, ROWS = (THETAS - 1) * PHIS + 1 };
+    float *theta = ARENA_NEW(arena, float, ROWS), *phi = ARENA_NEW(arena, float, ROWS);
+    float *value = ARENA_NEW(arena, float, ROWS);
+    int    n = 0;
+    for (int i = 0; i < THETAS; i++)
+        for (int k = 0; k < (i ? PHIS : 1); k++, n++) {
+            theta[n] = (float)radians_from_degrees(3 * i);
+            phi[n] = (float)radians_from_degrees(6 * k);
+            value[n] = (float)brushed_brdf(theta_i, phi_i, (double)theta[n], (double)phi[n]);
+        }
+    return (AngleTable){.name = "table", .rows = ROWS, .channels = 1, .theta = theta,
+                        .phi = phi, .value = value, .theta_max = theta[ROWS - 1]};
+}
+
+/* Four incidences by eight azimuths of the light. */
+static void start_brushed(const FitOptions *options)
+{
+    Error err = {0};
+    fixture_folder(&brushed);
+    Measurement *set = brushed.set = ARENA_NEW(&brushed.arena, Measurement, 1);
+    set->file = set->panel = set->instrument = set->note = "";
+    set->incidence_count = 4;
+    set->azimuth_count = 8;
+    set->wavelength_count = 1;
+    set->wavelength_nm[0] = 550;
+    set->brdf = ARENA_NEW(&brushed.arena, AngleTable, 32);
+    for (int i = 0; i < 4; i++) set->incidence[i] = radians_from_degrees(5 + 18 * i);
+    for (int a = 0; a < 8; a++) set->azimuth[a] = 2 * PI * a / 8;
+    for (int t = 0; t < 32; t++)
+        set->brdf[t] = brushed_table(set->incidence[t % 4], set->azimuth[t / 4],
+                                     &brushed.arena);
+    if (!panel_fit(set, options, brushed.panel_path, &brushed.arena, &brushed.report, &err) ||
+        !panel_open(brushed.panel_path, &brushed.arena, &brushed.panel, &err))
+        fail_msg("%s: %s: %s", err.file, err.path, err.text);
+}
+
+static int start_panels(void **state)
 {
     (void)state;
+    static const char *const paths[2] = {PROJECT_DIR "/assets/panels/ips_cluster.panel",
+                                         PROJECT_DIR "/assets/panels/oled_centre.panel"};
+    Error      err = {0};
     FitOptions options = fit_options_default();
     options.level = 5;
+    options.frame_exponent = 2;
     fixture_start(&ips, FIXTURE_IPS, &options);
+    add_case("anti-glare", ips.panel);
+    options.basis = FIT_HAAR; /* fitted in no time; sampling is the same */
+    start_brushed(&options);
+    add_case("brushed", brushed.panel);
+    options.level = 6;
+    fixture_start(&narrow, FIXTURE_NARROW, &options);
+    add_case("narrow", narrow.panel);
+    shipped_arena = arena_reserve((size_t)1 << 30);
+    for (int i = 0; i < 2; i++) {
+        if (panel_open(paths[i], &shipped_arena, &shipped[i], &err))
+            add_case(strrchr(paths[i], '/') + 1, shipped[i]);
+        else
+            print_message("skipped: %s: %s: %s\n", err.file, err.path, err.text);
+    }
     return 0;
 }
 
-static int end_ips(void **state)
+static int end_panels(void **state)
 {
     (void)state;
+    for (int i = 0; i < 2; i++) panel_close(shipped[i]);
+    arena_release(&shipped_arena);
+    fixture_end(&narrow);
+    fixture_end(&brushed);
     fixture_end(&ips);
     return 0;
 }
@@ -26,30 +127,47 @@ static int end_ips(void **state)
 /* The same direction in the display's frame and in the tree's, the light at azimuth 180. */
 static SpecularFrame frame_of(double theta)
 {
-    return specular_frame((float)theta, ips.panel->reflection->frame_exponent);
+    return specular_frame((float)theta, PANEL_SAMPLING_EXPONENT);
+}
+
+/* wo at an azimuth, and a direction of the frame in which wo's azimuth is 180 degrees, turned
+ * along. */
+static Vec3 direction_at(double theta, double phi)
+{
+    return vec3((float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)),
+                (float)cos(theta));
+}
+
+static Vec3 turned_by(Vec3 d, double phi)
+{
+    float c = (float)cos(phi), s = (float)sin(phi);
+    return vec3(c * d.x - s * d.y, s * d.x + c * d.y, d.z);
 }
 
 /* Density per solid angle of the stored frame at a stored direction; the pdf of the display's
  * frame diverges at the peak (integrably), its product with the Jacobian does not. */
-static double stored_density(double theta, Vec3 stored)
+static double stored_density(const Panel *panel, double theta, double phi, Vec3 stored)
 {
     SpecularFrame frame = frame_of(theta);
-    Vec3 wo = vec3((float)-sin(theta), 0, (float)cos(theta));
-    Vec3 wi = specular_frame_outer(&frame, stored);
-    return (double)panel_pdf(ips.panel, wo, wi) *
-           (double)specular_frame_jacobian(&frame, specular_frame_stored(&frame, wi));
+    Vec3 outer = specular_frame_outer(&frame, stored);
+    return (double)panel_pdf(panel, direction_at(theta, phi), turned_by(outer, phi - PI)) *
+           (double)specular_frame_jacobian(&frame, specular_frame_stored(&frame, outer));
 }
 
 static void the_density_integrates_to_one(void **state)
 {
     (void)state;
     enum { LEVEL = 6 };
-    for (int k = 0; k < 16; k++) {
-        double theta = radians_from_degrees(0.5 + 5.9 * k), sum = 0;
-        for (uint32_t i = 0; i < geodesic_count(LEVEL); i++)
-            sum += stored_density(theta, geodesic_center(LEVEL, i)) * geodesic_area(LEVEL, i);
-        assert_near(sum, 1, 1e-3);
-    }
+    for (int c = 0; c < case_count; c++)
+        for (int k = 0; k < 16; k++) {
+            double theta = radians_from_degrees(0.5 + 5.9 * k), phi = 0.7 * k, sum = 0;
+            for (uint32_t i = 0; i < geodesic_count(LEVEL); i++)
+                sum += stored_density(cases[c].panel, theta, phi, geodesic_center(LEVEL, i)) *
+                       geodesic_area(LEVEL, i);
+            if (!(fabs(sum - 1) <= 1e-3))
+                fail_msg("%s at %g degrees: %.6f", cases[c].name, degrees_from_radians(theta),
+                         sum);
+        }
 }
 
 /* How many standard deviations a chi-square value lies above its mean (Wilson, Hilferty). */
@@ -59,55 +177,156 @@ static double chi_square_z(double value, int freedom)
     return (cbrt(value / freedom) - (1 - a)) / sqrt(a);
 }
 
-enum { BIN_LEVEL = 2, FINE_LEVEL = 5, BINS = 4 << 2 * BIN_LEVEL, DRAWS = 20000 };
+enum { BIN_LEVEL = 2, FINE_LEVEL = 5, BINS = 4 << 2 * BIN_LEVEL, DRAWS = 20000,
+       CHI_DRAWS = 8000 };
 
 /* Probability of every bin of the stored frame. */
-static void expected_bins(double theta, double *bins)
+static void expected_bins(const Panel *panel, double theta, double phi, double *bins)
 {
     memset(bins, 0, BINS * sizeof *bins);
     for (uint32_t i = 0; i < geodesic_count(FINE_LEVEL); i++)
         bins[i >> 2 * (FINE_LEVEL - BIN_LEVEL)] +=
-            stored_density(theta, geodesic_center(FINE_LEVEL, i)) *
+            stored_density(panel, theta, phi, geodesic_center(FINE_LEVEL, i)) *
             geodesic_area(FINE_LEVEL, i);
+}
+
+/* z of the counts; bins in which little is expected are taken together. */
+static double compare_bins(const double *bins, const int *counts, int drawn)
+{
+    double chi = 0, rest = 0;
+    int    freedom = -1, rest_count = 0;
+    for (int b = 0; b < BINS; b++) {
+        double expected = bins[b] * drawn;
+        if (expected < 10) {
+            rest += expected;
+            rest_count += counts[b];
+            continue;
+        }
+        chi += (counts[b] - expected) * (counts[b] - expected) / expected;
+        freedom++;
+    }
+    if (rest > 10) chi += (rest_count - rest) * (rest_count - rest) / rest, freedom++;
+    return chi_square_z(chi, freedom);
 }
 
 static void samples_fall_as_the_density_says(void **state)
 {
     (void)state;
-    const Geodesic *geodesic = geodesic_create(BIN_LEVEL, &ips.arena);
-    uint32_t random = 7;
-    for (int k = 0; k < 64; k++) {
-        double        theta = radians_from_degrees(0.3 + 1.38 * k);
-        double        bins[BINS], chi = 0, rest = 0;
-        int           counts[BINS] = {0}, freedom = -1, drawn = 0, rest_count = 0;
+    Arena           scratch = ips.arena;
+    const Geodesic *geodesic = geodesic_create(BIN_LEVEL, &scratch);
+    uint32_t        random = 7;
+    for (int k = 0; k < 64 * case_count; k++) {
+        const Panel  *panel = cases[k % case_count].panel;
+        double        theta = radians_from_degrees(0.3 + 1.38 * (k / case_count)), bins[BINS];
+        double        phi = 0.61 * k;
+        int           counts[BINS] = {0}, drawn = 0;
         SpecularFrame frame = frame_of(theta);
-        Vec3 wo = vec3((float)-sin(theta), 0, (float)cos(theta));
-        expected_bins(theta, bins);
-        for (int i = 0; i < DRAWS; i++) {
-            float u[3];
+        Vec3          wo = direction_at(theta, phi);
+        expected_bins(panel, theta, phi, bins);
+        for (int i = 0; i < CHI_DRAWS; i++) {
+            float u[3], pdf;
             Vec3  wi;
-            float pdf;
-            for (int j = 0; j < 3; j++) u[j] = (float)steady_random(&random);
-            if (!panel_sample(ips.panel, wo, u, &wi, &pdf)) continue;
+            for (int j = 0; j < 3; j++) u[j] = unit_float(hash_u32(random++));
+            if (!panel_sample(panel, wo, u, &wi, &pdf)) continue;
             drawn++;
-            counts[geodesic_find(geodesic, BIN_LEVEL,
-                                 specular_frame_stored(&frame, wi)).id]++;
+            wi = specular_frame_stored(&frame, turned_by(wi, PI - phi));
+            counts[geodesic_find(geodesic, BIN_LEVEL, wi).id]++;
         }
-        assert_true(drawn >= DRAWS - 20);
-        for (int b = 0; b < BINS; b++) {
-            double expected = bins[b] * drawn;
-            if (expected < 10) {
-                rest += expected;
-                rest_count += counts[b];
-                continue;
-            }
-            chi += (counts[b] - expected) * (counts[b] - expected) / expected;
-            freedom++;
+        assert_true(drawn >= CHI_DRAWS - 20);
+        double z = compare_bins(bins, counts, drawn);
+        if (!(z < 4.5))
+            fail_msg("%s, incidence %g degrees: chi-square is %.1f sigma above its mean",
+                     cases[k % case_count].name, degrees_from_radians(theta), z);
+    }
+}
+
+/* What panel_sample says of its density is what panel_pdf says of the direction. */
+static void samples_know_their_density(void **state)
+{
+    (void)state;
+    uint32_t random = 77;
+    for (int c = 0; c < case_count; c++) {
+        int unlike = 0;
+        for (int i = 0; i < DRAWS; i++) {
+            float u[3], pdf;
+            for (int j = 0; j < 3; j++) u[j] = unit_float(hash_u32(random++));
+            Vec3 wo = direction_at(radians_from_degrees(0.02 + 0.004 * (i % 20000)), i), wi;
+            if (!panel_sample(cases[c].panel, wo, u, &wi, &pdf)) continue;
+            assert_true(pdf > 0 && isfinite(pdf));
+            float seen = panel_pdf(cases[c].panel, wo, wi);
+            unlike += fabsf(seen - pdf) > 0.01f * pdf; /* across an edge, or at the peak */
         }
-        if (rest > 10) chi += (rest_count - rest) * (rest_count - rest) / rest, freedom++;
-        if (!(chi_square_z(chi, freedom) < 4.5))
-            fail_msg("incidence %g degrees: chi-square %g with %d degrees of freedom",
-                     degrees_from_radians(theta), chi, freedom);
+        if (unlike > DRAWS / 200) fail_msg("%s: %d of %d differ", cases[c].name, unlike, DRAWS);
+    }
+}
+
+/* ---- weights --------------------------------------------------------------------------- */
+
+/* f cos / pdf over many samples. */
+typedef struct Weights {
+    double albedo, variance; /* luminous: mean, and relative variance */
+    double furnace;          /* largest mean of a lane, the mirror included */
+    double worst;            /* largest relative variance of a lane */
+} Weights;
+
+static Weights draw_weights(const Panel *panel, double theta, double phi, int draws)
+{
+    Wavelengths w = even_wavelengths(420, 16);
+    Vec3        wo = direction_at(theta, phi);
+    Spectrum    mirror = panel_mirror(panel, wo.z, &w);
+    double      sum[17] = {0}, squares[17] = {0}, eye[16], total = 0;
+    for (int k = 0; k < 16; k++)
+        total += eye[k] = (double)spectral_table[(int)w.nm[k] - SPECTRAL_FIRST_NM].y;
+    for (int i = 0; i < draws; i++) {
+        Sampler sampler = sampler_start(3, (int)(1e3 * theta), 0, (uint32_t)i);
+        Vec2    a = sampler_2d(&sampler);
+        float   u[3] = {a.x, a.y, sampler_1d(&sampler)}, pdf;
+        Vec3    wi;
+        double  luminous = 0;
+        if (!panel_sample(panel, wo, u, &wi, &pdf)) continue;
+        Spectrum f = panel_brdf(panel, wo, wi, &w) * spectrum_all(wi.z / pdf);
+        for (int k = 0; k < 16; k++) {
+            double value = (double)f[k];
+            luminous += eye[k] / total * value;
+            sum[k] += value;
+            squares[k] += value * value;
+        }
+        sum[16] += luminous;
+        squares[16] += luminous * luminous;
+    }
+    Weights out = {.albedo = sum[16] / draws,
+                   .variance = draws * squares[16] / (sum[16] * sum[16]) - 1};
+    for (int k = 0; k < 16; k++) {
+        out.worst = fmax(out.worst, draws * squares[k] / (sum[k] * sum[k]) - 1);
+        out.furnace = fmax(out.furnace, sum[k] / draws + (double)mirror[k]);
+    }
+    return out;
+}
+
+/* At incidences that have a tree and half way between: 0.035 up to 65 degrees, 0.1 to 80. */
+static void weights_vary_little_at_every_incidence(void **state)
+{
+    (void)state;
+    for (int c = 0; c < case_count; c++) {
+        const PanelSampling *s = &cases[c].panel->sampling;
+        double worst[2] = {0, 0}, furnace = 0, lane = 0;
+        for (int k = 0; k < 2 * s->incidences - 1; k++) {
+            double theta = 0.5 * (double)(s->theta[k / 2] + s->theta[(k + 1) / 2]);
+            double deg = degrees_from_radians(theta);
+            if (deg > 80.5) break;
+            Weights found = draw_weights(cases[c].panel, fmax(theta, 1e-3), 0.37 * k, 8000);
+            bool    steep = deg > 65;
+            worst[steep] = fmax(worst[steep], found.variance);
+            furnace = fmax(furnace, found.furnace);
+            lane = fmax(lane, steep ? 0 : found.worst);
+            if (!(found.variance <= (steep ? 0.1 : 0.035)) || !(found.furnace <= 1.001))
+                fail_msg("%s at %.1f degrees: variance %.4f, furnace %.5f", cases[c].name, deg,
+                         found.variance, found.furnace);
+        }
+        print_message("%s: %d x %d functions, %u cells; weights vary %.4f to 65 degrees (any "
+                      "wavelength %.4f), %.4f to 80; furnace %.4f\n", cases[c].name,
+                      s->incidences, s->azimuths, s->tree.cell_count, worst[0], lane, worst[1],
+                      furnace);
     }
 }
 
@@ -189,13 +408,45 @@ static void answers_are_finite_in_every_corner(void **state)
         for (int j = 0; j < count; j++) expect_finite(corner[i], corner[j], &w);
 }
 
+/* Nothing of a reflection without its sampling: the file would light a scene wrongly. */
+static void a_panel_without_its_sampling_is_refused(void **state)
+{
+    (void)state;
+    Arena       scratch = ips.arena;
+    FileBytes   bytes;
+    Error       err = {0};
+    Panel      *panel;
+    PanelHeader header;
+    assert_true(file_read(ips.panel_path, (size_t)1 << 30, &scratch, &bytes, &err));
+    unsigned char *copy = arena_alloc(&scratch, 1, 64, bytes.size);
+    memcpy(copy, bytes.data, bytes.size);
+    memcpy(&header, copy, sizeof header);
+    for (uint32_t i = 0; i < header.section_count; i++) {
+        PanelSection section;
+        unsigned char *at = copy + sizeof header + i * sizeof section;
+        memcpy(&section, at, sizeof section);
+        if (section.kind == PANEL_SAMPLING) section.index = 1;
+        memcpy(at, &section, sizeof section);
+    }
+    size_t from = offsetof(PanelHeader, size);
+    header.checksum = XXH3_64bits(copy + from, bytes.size - from);
+    memcpy(copy, &header, sizeof header);
+    const char *path = arena_format(&scratch, "%s/without.panel", ips.folder);
+    assert_true(file_write(path, copy, bytes.size, &err));
+    assert_false(panel_open(path, &scratch, &panel, &err));
+    assert_non_null(strstr(err.text, "without its sampling tree"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_density_integrates_to_one),
         cmocka_unit_test(samples_fall_as_the_density_says),
+        cmocka_unit_test(samples_know_their_density),
+        cmocka_unit_test(weights_vary_little_at_every_incidence),
         cmocka_unit_test(answers_are_finite_in_every_corner),
         cmocka_unit_test(weights_average_to_the_albedo),
+        cmocka_unit_test(a_panel_without_its_sampling_is_refused),
     };
-    return cmocka_run_group_tests(tests, start_ips, end_ips);
+    return cmocka_run_group_tests(tests, start_panels, end_panels);
 }

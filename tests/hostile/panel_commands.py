@@ -1,0 +1,184 @@
+"""panel_commands.py [--against OTHER] PARHELION -- the panel commands as scripts use them:
+grids, tables written back, synthetic sets, errors of one line. --against: a panel that one
+build wrote says the same, to the last printed figure, when the other build reads it.
+"""
+import argparse
+import csv
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
+from report import Report  # noqa: E402
+
+RECIPE = os.path.join(ROOT, "assets", "panels", "ips_cluster.recipe.json")
+GRID = "0:80:20,0:270:90"
+ASKED = (["--rgb", "255,127,31", "--grid", "0:90:3,0:350:10"],
+         ["--rgb", "1,0,200", "--grid", "0:88:4,5:355:50"],
+         ["--brdf", "--incidence", "30", "--grid", "0:90:3,0:350:10"],
+         ["--brdf", "--incidence", "75", "--incidence-phi", "40", "--grid", "0:88:8,0:350:25"])
+
+
+class Commands:
+    def __init__(self, path, folder):
+        self.path, self.folder = os.path.abspath(path), folder
+
+    def file(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def run(self, *arguments):
+        return subprocess.run([self.path, "panel", *arguments], capture_output=True, text=True,
+                              timeout=600)
+
+    def text(self, *arguments):
+        done = self.run(*arguments)
+        if done.returncode != 0:
+            raise ValueError(f"{arguments[0]}: status {done.returncode}: {done.stderr.strip()}")
+        return done.stdout
+
+    def make(self, name):
+        """A set of 22 x 36 directions of a recipe with few wavelengths, and its panel."""
+        with open(RECIPE) as file:
+            recipe = json.load(file)
+        recipe["reflection"]["wavelengths_nm"] = [450, 550, 650]
+        with open(self.file("recipe.json"), "w") as out:
+            json.dump(recipe, out)
+        self.text("simulate", self.file("recipe.json"), "-o", self.file("set"), "--noise",
+                  "off", "--grid", "22x36", "--quiet")
+        self.text("fit", self.file("set", "MANIFEST.json"), "-o", self.file(name), "--quiet")
+        return self.file(name)
+
+
+def rows_of(text):
+    return list(csv.reader(line for line in text.splitlines() if not line.startswith("#")))
+
+
+def fails(report, done, status, *words):
+    lines = done.stderr.splitlines()
+    report.claim(done.returncode == status and len(lines) == 1 and not done.stdout
+                 and lines[0].startswith("parhelion: ") and all(w in lines[0] for w in words),
+                 f"status {done.returncode} instead of {status}, or not one line with {words}: "
+                 f"{done.stderr.strip()[:300]}")
+
+
+def check_simulation(report, commands):
+    with open(commands.file("set", "emission", "red_255.csv")) as file:
+        rows = rows_of(file.read())
+    report.claim(len(rows) == 2 + 22 * 36 and float(rows[-1][0]) == 88,
+                 f"--grid 22x36 has {len(rows)} lines, the last of {rows[-1]}")
+    fails(report, commands.run("simulate", RECIPE, "-o", commands.file("x"), "--grid",
+                               "60000x36"), 2, "--grid")
+
+
+def check_grids(report, commands, panel):
+    ask = ["eval", panel, "--rgb", "255,127,31"]
+    rows = rows_of(commands.text(*ask, "--grid", GRID))
+    report.claim(rows[0] == ["theta", "phi", "X", "Y", "Z"] and len(rows) == 21,
+                 f"a list of {GRID} is {rows[:2]}, {len(rows)} lines")
+    one = json.loads(commands.text(*ask, "--theta", "40", "--phi", "90", "--json"))
+    found = [row for row in rows[1:] if row[:2] == ["40", "90"]][0][2:]
+    report.claim(all(abs(float(a) - b) <= 1e-6 * abs(b) for a, b in zip(found, one["XYZ"])),
+                 f"the list says {found}, one direction {one['XYZ']}")
+    matrix = rows_of(commands.text(*ask, "--grid", GRID, "--layout", "matrix"))
+    report.claim(matrix[0][1:] == ["0", "90", "180", "270"] and len(matrix) == 6
+                 and matrix[3][2] == found[1], f"the matrix of Y says {matrix}")
+    colour = rows_of(commands.text(*ask, "--grid", GRID, "--layout", "matrix", "--quantity",
+                                   "u"))
+    report.claim(abs(float(colour[3][2]) - one["uv"][0]) < 1e-6, f"u' is {colour[3][2]}")
+    document = json.loads(commands.text(*ask, "--grid", "0:90:30,0:270:90", "--json"))
+    report.claim(document["theta_deg"] == [0, 30, 60, 90] and len(document["Y"]) == 4
+                 and len(document["Y"][0]) == 4
+                 and document["extrapolated"] == [False, False, False, True],
+                 f"a grid as JSON says {str(document)[:300]}")
+    ask = ["eval", panel, "--brdf", "--incidence", "30"]
+    rows = rows_of(commands.text(*ask, "--grid", GRID))
+    report.claim(rows[0] == ["theta", "phi", "450", "550", "650"] and len(rows) == 21,
+                 f"a list of reflection is {rows[:2]}")
+    matrix = rows_of(commands.text(*ask, "--grid", GRID, "--layout", "matrix", "--wavelength",
+                                   "550"))
+    report.claim(matrix[3][2] == rows[10][3], f"a matrix of reflection says {matrix[3]}")
+    document = json.loads(commands.text(*ask, "--grid", GRID, "--json"))
+    report.claim(document["wavelengths_nm"] == [450, 550, 650] and len(document["brdf_sr"]) == 3
+                 and len(document["mirror"]) == 3, "a grid of reflection as JSON")
+    for wrong in ("0:80:20", "0:95:5,0:9:1", "0:80:0,0:9:1", "a:b:c,0:1:1", "0:80:20,0:9:1x"):
+        fails(report, commands.run("eval", panel, "--rgb", "1,2,3", "--grid", wrong), 2,
+              "--grid", wrong)
+    fails(report, commands.run(*ask, "--grid", GRID, "--layout", "matrix"), 2, "--wavelength")
+    fails(report, commands.run(*ask, "--grid", GRID, "--batch", "x.csv"), 2, "--batch")
+
+
+def check_batch(report, commands, panel):
+    path = commands.file("batch.csv")
+    with open(path, "w") as out:
+        out.write("theta,phi,r,g,b\n40,90,255,127,31\n0,0,0,0,0\n")
+    rows = rows_of(commands.text("eval", panel, "--batch", path, "--csv"))
+    documents = json.loads(commands.text("eval", panel, "--batch", path, "--json"))
+    report.claim(len(rows) == 3 and len(documents) == 2 and all(
+        abs(float(row[6]) - document["XYZ"][1]) < 1e-6 * document["XYZ"][1]
+        for row, document in zip(rows[1:], documents)), f"a batch says {rows}")
+    with open(path, "w") as out:
+        out.write("theta,phi,q\n40,90,255\n")
+    fails(report, commands.run("eval", panel, "--batch", path), 3, "batch.csv", "'q'")
+    with open(path, "w") as out:
+        out.write("theta,phi\n40,90\n140,90\n")
+    fails(report, commands.run("eval", panel, "--batch", path), 3, "batch.csv", "line 3", "140")
+
+
+def check_export(report, commands, panel):
+    out = commands.file("exported")
+    commands.text("export", panel, "-o", out, "--theta-step", "8", "--phi-step", "20",
+                  "--quiet")
+    report.claim(sorted(os.listdir(out)) == ["MANIFEST.json", "brdf", "emission",
+                                             "primaries.csv"], f"exported {os.listdir(out)}")
+    done = commands.run("export", panel, "-o", out, "--quiet")
+    fails(report, done, 4, "exported", "holds something already")
+    fails(report, commands.run("export", panel, "-o", commands.file("x.csv"), "--table", "pink",
+                               "--quiet"), 2, "pink", "primaries")
+    report.claim(not [name for name in os.listdir(commands.folder) if ".part" in name],
+                 "an export that failed left something behind")
+    commands.text("fit", os.path.join(out, "MANIFEST.json"), "-o", commands.file("again.panel"),
+                  "--quiet")
+    ask = ("--rgb", "255,255,255", "--theta", "40", "--phi", "80", "--json")
+    a, b = (json.loads(commands.text("eval", path, *ask))["luminance_cd_m2"]
+            for path in (panel, commands.file("again.panel")))
+    report.claim(abs(a / b - 1) < 0.04, f"fitted again, {a} cd/m2 became {b}")
+
+
+def check_other_build(report, first, second):
+    """Both ways: what one wrote, the other reads."""
+    for writer, reader in ((first, second), (second, first)):
+        panel = writer.make(f"by_{writer is first}.panel")
+        for question in ASKED:
+            a, b = (c.text("eval", panel, *question) for c in (writer, reader))
+            report.claim(a == b and len(a) > 1000, f"what {writer.path} wrote is read "
+                         f"otherwise by {reader.path}: {' '.join(question)}")
+        a, b = (c.text("info", panel, "--json") for c in (writer, reader))
+        report.claim(a == b, "info differs")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--against")
+    parser.add_argument("program")
+    options = parser.parse_args()
+    report = Report()
+    with tempfile.TemporaryDirectory() as folder:
+        commands = Commands(options.program, folder)
+        if options.against:
+            check_other_build(report, commands, Commands(options.against, folder))
+            report.finish()
+        panel = commands.make("small.panel")
+        for check in (check_grids, check_batch, check_export):
+            try:
+                check(report, commands, panel)
+            except (ValueError, KeyError, IndexError) as error:
+                report.claim(False, f"{check.__name__}: {type(error).__name__}: {error}")
+        check_simulation(report, commands)
+    report.finish()
+
+
+if __name__ == "__main__":
+    main()

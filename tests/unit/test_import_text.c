@@ -1,0 +1,541 @@
+/* Text tables in the layouts that laboratories have, as values at directions of the set. */
+#include "lab_fixture.h"
+
+/* White at four directions, a list as this project writes it. */
+#define WHITE                                                                                  \
+    "theta,phi,X,Y,Z\n0,0,95,100,109\n30,0,85,90,98\n30,90,75,80,87\n30,180,65,70,76\n"
+
+static void check_white(const Lab *lab)
+{
+    const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
+    assert_int_equal(white->rows, 4);
+    assert_int_equal(white->channels, 3);
+    assert_near(lab_value(white, 0, 0, 1), 100, 0);
+    assert_near(lab_value(white, 30, 0, 0), 85, 0);
+    assert_near(lab_value(white, 30, 90, 1), 80, 0);
+    assert_near(lab_value(white, 30, 180, 2), 76, 0);
+}
+
+static void import_white(Lab *lab, const char *text)
+{
+    lab_write(lab, "white.csv", text);
+    lab_import(lab);
+}
+
+/* ---- how numbers are written ------------------------------------------------------------- */
+
+static void delimiters_and_decimal_signs_are_found(void **state)
+{
+    static const char *const texts[] = {
+        WHITE,
+        "theta;phi;X;Y;Z\r\n0;0;95,0;100,0;109,0\r\n30;0;85,0;90;98\r\n30;90;75;80;87\r\n"
+        "30;180;65;70;76\r\n",
+        "theta\tphi\tX\tY\tZ\n0\t0\t95\t100\t109\n30\t0\t85\t90\t98\n30\t90\t75\t80\t87\n"
+        "30\t180\t65\t70\t76\n",
+        "theta phi X Y Z\n 0   0 95 100 109\n30   0 85  90  98\n30  90 75  80  87\n"
+        "30 180 65  70  76\n",
+        "theta phi X Y Z\n0,0 0,0 95,0 100,0 109,0\n30,0 0,0 85,0 90,0 98,0\n"
+        "30,0 90,0 75,0 80,0 87,0\n30,0 180,0 65,0 70,0 76,0\n",
+        "theta, phi, X, Y, Z\n0, 0, 95, 100, 109\n30, 0, 85, 90, 98\n30, 90, 75, 80, 87\n"
+        "30, 180, 65, 70, 76\n",
+        "\"theta\",\"phi\",\"X\",\"Y\",\"Z\"\n\"0\",\"0\",\"9.5e1\",\"1E+02\",\"109\"\n"
+        "30,0,85,90,98\n30,90,75,80,87\n30,180,65,70,76\n",
+        "theta,phi,X,Y,Z\n\"0,0\",\"0,0\",\"95,0\",\"100,0\",\"109,0\"\n\"30,0\",\"0\","
+        "\"85,0\",\"90,0\",\"98,0\"\n30,90,75,80,87\n30,180,\"65,0\",70,76\n",
+        "theta;phi;X;Y;Z;\n0;0;95;100;109;\n30;0;85;90;98;\n30;90;75;80;87;\n30;180;65;70;76;"
+        "\n",
+    };
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        import_white(*state, texts[i]);
+        check_white(*state);
+    }
+}
+
+static void encodings_are_found(void **state)
+{
+    Lab *lab = *state;
+    static const char latin[] = "# Leuchtdichte in cd/m\xB2\n" WHITE;
+    static const char marked[] = "\xEF\xBB\xBF" WHITE;
+    char wide[2][2 * sizeof WHITE];
+    memcpy(wide[0], "\xFF\xFE", 2);
+    memcpy(wide[1], "\xFE\xFF", 2);
+    for (size_t i = 0; i < sizeof WHITE - 1; i++) {
+        wide[0][2 + 2 * i] = WHITE[i];
+        wide[0][3 + 2 * i] = 0;
+        wide[1][2 + 2 * i] = 0;
+        wide[1][3 + 2 * i] = WHITE[i];
+    }
+    import_white(lab, WHITE "\x1A");
+    check_white(lab);
+    import_white(lab, latin);
+    check_white(lab);
+    import_white(lab, marked);
+    check_white(lab);
+    for (int i = 0; i < 2; i++)
+        for (size_t mark = 0; mark <= 2; mark += 2) { /* with and without it */
+            lab_write_bytes(lab, "white.csv", wide[i] + mark, sizeof wide[i] - mark);
+            lab_import(lab);
+            check_white(lab);
+        }
+}
+
+static void comments_and_lines_before_the_header_are_passed_over(void **state)
+{
+    Lab *lab = *state;
+    import_white(lab, "! a comment\n% another\n// a third\n\nSerial 17, batch 2\n\n" WHITE
+                      "# end\n");
+    check_white(lab);
+    lab_declare(lab, "comment", "REM");
+    lab_declare(lab, "skip_lines", "2");
+    import_white(lab, "1,2,3,4,5\n6,7,8,9,10\nREM 1,2\n" WHITE);
+    check_white(lab);
+    import_white(lab, "0,0\n1,1\n# theta, phi, X, Y, Z\n0,0,95,100,109\n30,0,85,90,98\n"
+                      "30,90,75,80,87\n30,180,65,70,76\n");
+    check_white(lab);
+}
+
+/* ---- columns ----------------------------------------------------------------------------- */
+
+static void columns_stand_in_any_order_and_others_are_left(void **state)
+{
+    Lab *lab = *state;
+    import_white(lab, "no,Z,Azimuth (deg),when,Y [cd/m2],Inclination [deg],X\n"
+                      "1,109,0,10:31,100,0,95\n2,98,0,10:32,90,30,85\n3,87,90,10:33,80,30,75\n"
+                      "4,76,180,10:34,70,30,65\n");
+    check_white(lab);
+    assert_true(lab_noted(lab, "2 columns with other names are not used"));
+    lab_declare(lab, "columns", "theta,phi,-,X,Y,Z");
+    import_white(lab, "0,0,7,95,100,109\n30,0,7,85,90,98\n30,90,7,75,80,87\n30,180,7,65,70,"
+                      "76\n");
+    check_white(lab);
+}
+
+static void incidence_is_the_viewing_angle_of_luminances(void **state)
+{
+    Lab *lab = *state;
+    import_white(lab, "Incidence angle;Azimuth angle;X;Y;Z\n0;0;95;100;109\n30;0;85;90;98\n"
+                      "30;90;75;80;87\n30;180;65;70;76\n");
+    check_white(lab);
+    import_white(lab, "[L]\nIncidence\\Azimuth;0;40\n0;1;2\n30;3;4\n");
+    assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 30, 40, 1), 4, 0);
+}
+
+/* CIE 15: X = Y x/y, Z = Y (1-x-y)/y; X = 9 Y u'/(4v'), Z = Y (12-3u'-20v')/(4v'). */
+static void chromaticities_become_tristimulus_values(void **state)
+{
+    Lab *lab = *state;
+    import_white(lab, "theta,phi,Y,x,y\n0,0,100,0.3,0.4\n10,0,50,0.25,0.5\n20,0,0,0,0\n");
+    const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
+    assert_close(lab_value(white, 0, 0, 0), 75, 1e-12);
+    assert_close(lab_value(white, 0, 0, 2), 75, 1e-12);
+    assert_close(lab_value(white, 10, 0, 0), 25, 1e-12);
+    assert_near(lab_value(white, 20, 0, 0), 0, 0);
+    import_white(lab, "theta,phi,L,u',v'\n0,0,100,0.2,0.5\n10,0,50,0.2,0.45\n20,0,10,.2,.5\n");
+    white = lab_table(lab, IMPORT_WHITE, 255);
+    assert_close(lab_value(white, 0, 0, 0), 90, 1e-12);
+    assert_close(lab_value(white, 0, 0, 2), 70, 1e-12);
+    double x = 9 * 0.2 / (6 * 0.2 - 16 * 0.5 + 12), y = 4 * 0.5 / (6 * 0.2 - 16 * 0.5 + 12);
+    assert_close(lab_value(white, 0, 0, 0) / 100, x / y, 1e-12);
+}
+
+static void luminance_alone_has_the_colour_of_the_spectra_or_of_daylight(void **state)
+{
+    Lab *lab = *state;
+    import_white(lab, "theta,phi,L\n0,0,100\n10,0,90\n20,0,80\n");
+    const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
+    assert_close(lab_value(white, 10, 0, 0), 0.95047 * 90, 1e-9);
+    assert_close(lab_value(white, 10, 0, 1), 90, 0);
+    assert_true(lab_noted(lab, "taken as D65"));
+    const char *spectra = arena_format(&lab->arena, "%s/spectra.csv", lab->folder);
+    lab_write(lab, "spectra.csv", "wavelength_nm,R,G,B\n599,0,0,0\n600,1,0,0\n601,0,0,0\n"
+                                  "650,0,1,0\n660,0,0,1\n");
+    lab->count = 0;
+    lab->request->primaries = spectra;
+    for (int p = 0; p < 4; p++) {
+        static const char *const names[] = {"red_255.csv", "green_255.csv", "blue_255.csv",
+                                            "black.csv"};
+        lab_write(lab, names[p], "theta,phi,L\n0,0,100\n10,0,90\n20,0,80\n");
+    }
+    lab_import(lab);
+    const ImportTable *red = lab_table(lab, IMPORT_RED, 255);
+    assert_close(lab_value(red, 0, 0, 0) / 100, 1.0622 / 0.631, 1e-3); /* CIE 1931 at 600 nm */
+    assert_true(lab_noted(lab, "that of the primaries' spectra"));
+    assert_int_equal(lab->set.spectra.rows, 5);
+}
+
+static void units_of_luminance_become_candela_a_square_metre(void **state)
+{
+    static const struct { const char *header; double factor; } cases[] = {
+        {"theta,phi,L (cd/m2)", 1}, {"theta,phi,L [nit]", 1}, {"theta,phi,L_fL", 3.4262590996},
+        {"theta,phi,Luminance [kcd/m\xC2\xB2]", 1000}, {"theta,phi,Lv (cd/m^2)", 1},
+        {"theta,phi,L (cd/ft2)", 10.763910417}};
+    Lab *lab = *state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        import_white(lab, arena_format(&lab->arena, "%s\n0,0,10\n5,0,9\n10,0,8\n",
+                                       cases[i].header));
+        assert_close(lab_value(lab_table(lab, IMPORT_WHITE, 255), 0, 0, 1),
+                     10 * cases[i].factor, 1e-9);
+    }
+    import_white(lab, "theta;phi;L;u';v'\ndeg;deg;fL;;\n0;0;10;.2;.5\n5;0;9;.2;.5\n"
+                      "9;0;8;.2;.5\n");
+    assert_close(lab_value(lab_table(lab, IMPORT_WHITE, 255), 0, 0, 1), 34.262590996, 1e-9);
+    import_white(lab, "[fL]\nNeigung;Azimut;L\n0\xC2\xB0;0\xC2\xB0;10\n5\xC2\xB0;0;9\n9;0;8\n");
+    assert_close(lab_value(lab_table(lab, IMPORT_WHITE, 255), 0, 0, 1), 34.262590996, 1e-9);
+    lab_declare(lab, "unit", "fL");
+    import_white(lab, "theta,phi,L\n0,0,10\n5,0,9\n10,0,8\n");
+    assert_close(lab_value(lab_table(lab, IMPORT_WHITE, 255), 0, 0, 1), 34.262590996, 1e-9);
+}
+
+/* ---- angles ------------------------------------------------------------------------------ */
+
+static void azimuths_are_turned_to_the_viewers_right(void **state)
+{
+    static const struct { const char *zero, *sense, *side; double phi_of_30; } cases[] = {
+        {"right", "ccw", "viewer", 30}, {"top", "cw", "viewer", 60},
+        {"top", "ccw", "viewer", 120}, {"left", "cw", "viewer", 150},
+        {"bottom", "ccw", "viewer", 300}, {"45", "ccw", "viewer", 75},
+        {"top", "cw", "behind", 120}, {"right", "ccw", "behind", 150}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        Lab *lab = *state;
+        lab_declare(lab, "azimuth_zero", cases[i].zero);
+        lab_declare(lab, "azimuth_sense", cases[i].sense);
+        lab_declare(lab, "azimuth_seen_from", cases[i].side);
+        import_white(lab, "theta,phi,X,Y,Z\n0,0,1,2,3\n40,30,4,5,6\n-40,30,7,8,9\n");
+        const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
+        assert_near(lab_value(white, 40, cases[i].phi_of_30, 1), 5, 0);
+        assert_near(lab_value(white, 40, cases[i].phi_of_30 + 180, 1), 8, 0);
+    }
+}
+
+static void a_file_says_its_own_azimuths_and_units(void **state)
+{
+    Lab *lab = *state;
+    import_white(lab, "[Conoscope export]\nPanel;Type 7\nInstrument;Cone 88\n"
+                      "Azimuth;0 = 12 o'clock; clockwise\nUnit;fL\n\n"
+                      "theta;phi;X;Y;Z\n0;0;1;2;3\n40;30;4;5;6\n40;60;7;8;9\n");
+    assert_close(lab_value(lab_table(lab, IMPORT_WHITE, 255), 40, 60, 1), 5 * 3.4262590996,
+                 1e-9);
+    assert_string_equal(lab->set.panel, "Type 7");
+    assert_string_equal(lab->set.instrument, "Cone 88");
+    assert_false(lab_noted(lab, "azimuth 0 is taken"));
+    import_white(lab, "theta;phi;X;Y;Z\n0;0;1;2;3\n40;30;4;5;6\n40;60;7;8;9\n");
+    assert_true(lab_noted(lab, "azimuth 0 is taken to point right"));
+    assert_true(lab_noted(lab, "luminances are taken in cd/m2"));
+}
+
+static void radians_are_told_from_degrees_by_their_name(void **state)
+{
+    Lab *lab = *state;
+    import_white(lab, "theta_rad,phi_rad,X,Y,Z\n0,0,1,2,3\n0.5235987755982988,"
+                      "1.5707963267948966,4,5,6\n0.1,0,7,8,9\n");
+    assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 30, 90, 1), 5, 0);
+    lab_declare(lab, "angle_unit", "deg");
+    import_white(lab, "theta,phi,X,Y,Z\n0,0,1,2,3\n0.5,90,4,5,6\n1.5,0,7,8,9\n");
+    assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 0.5, 90, 1), 5, 0);
+}
+
+/* Directions of closed form: on the axes all conventions agree; off them each has its own. */
+static void horizontal_and_vertical_angles_become_theta_and_phi(void **state)
+{
+    static const struct { const char *angles; double theta, phi; } cases[] = {
+        {"projected", 0, 45}, {"equidistant", 0, 45}, {"north-polar", 0, 0},
+        {"east-polar", 0, 0}};
+    double r = 3.14159265358979323846 / 180, h = 30 * r, v = 30 * r;
+    double theta[4], phi[4];
+    theta[0] = atan(hypot(tan(h), tan(v))) / r, phi[0] = 45;
+    theta[1] = hypot(30, 30), phi[1] = 45;
+    theta[2] = acos(cos(v) * cos(h)) / r, phi[2] = atan2(sin(v), cos(v) * sin(h)) / r;
+    theta[3] = acos(cos(v) * cos(h)) / r, phi[3] = atan2(cos(h) * sin(v), sin(h)) / r;
+    for (int i = 0; i < 4; i++) {
+        Lab *lab = *state;
+        lab_declare(lab, "angles", cases[i].angles);
+        import_white(lab, "theta_H,theta_V,X,Y,Z\n20,0,1,2,3\n0,20,4,5,6\n30,30,7,8,9\n"
+                          "-20,0,10,11,12\n");
+        const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
+        assert_near(lab_value(white, 20, 0, 1), 2, 0);
+        assert_near(lab_value(white, 20, 90, 1), 5, 0);
+        assert_near(lab_value(white, 20, 180, 1), 11, 0);
+        assert_near(lab_value(white, theta[i], phi[i], 1), 8, 0);
+    }
+}
+
+/* ---- matrices ---------------------------------------------------------------------------- */
+
+static void matrices_read_down_and_across(void **state)
+{
+    Lab *lab = *state;
+    import_white(lab, "[X]\ntheta\\phi;0;90;180;\n0;1;1;1;\n30;2;3;4;\n\n"
+                      "[Y]\ntheta\\phi;0;90;180;\n0;10;10;10;\n30;20;30;40;\n\n"
+                      "[Z]\ntheta\\phi;0;90;180;\n0;100;100;100;\n30;200;300;400;\n");
+    const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
+    assert_int_equal(white->rows, 6);
+    for (int k = 0; k < 3; k++) {
+        assert_near(lab_value(white, 30, 90 * k, 0), 2 + k, 0);
+        assert_near(lab_value(white, 30, 90 * k, 1), 20 + 10 * k, 0);
+        assert_near(lab_value(white, 30, 90 * k, 2), 200 + 100 * k, 0);
+    }
+    import_white(lab, "Luminance (cd/m2)\nphi/theta,0,30\n0,10,20\n90,10,30\n180,10,40\n");
+    white = lab_table(lab, IMPORT_WHITE, 255);
+    assert_near(lab_value(white, 30, 180, 1), 40, 0);
+    assert_near(lab_value(white, 0, 0, 1), 10, 0);
+}
+
+static void a_matrix_without_names_is_told_by_its_range(void **state)
+{
+    Lab *lab = *state;
+    lab_declare(lab, "quantity", "L");
+    import_white(lab, ",0,120,240\n0,10,10,10\n30,20,30,40\n");
+    assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 30, 240, 1), 40, 0);
+    import_white(lab, ",0,30\n0,10,20\n120,10,30\n240,10,40\n");
+    assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 30, 240, 1), 40, 0);
+    lab_declare(lab, "table", "phi-down");
+    import_white(lab, "0,0,30\n0,10,20\n40,10,30\n80,10,40\n");
+    assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 30, 80, 1), 40, 0);
+}
+
+static void a_matrix_may_have_horizontal_and_vertical_angles(void **state)
+{
+    Lab *lab = *state;
+    lab_declare(lab, "angles", "equidistant");
+    import_white(lab, "[L]\ntheta_V\\theta_H;-30;0;40\n-20;1;2;3\n0;4;5;6\n");
+    const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
+    assert_near(lab_value(white, 40, 0, 1), 6, 0);
+    assert_near(lab_value(white, 30, 180, 1), 4, 0);
+    assert_near(lab_value(white, 20, 270, 1), 2, 0);
+    lab_declare(lab, "table", "horizontal-down");
+    import_white(lab, "[L]\n;-20;0\n-30;1;4\n0;2;5\n40;3;6\n");
+    assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 40, 0, 1), 6, 0);
+    assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 20, 270, 1), 2, 0);
+}
+
+static void one_file_a_component_is_joined(void **state)
+{
+    Lab *lab = *state;
+    static const char matrix[] = "theta\\phi,0,120,240\n0,1,1,1\n30,2,3,4\n";
+    lab_write(lab, "white_255_X.csv", matrix);
+    lab_write(lab, "white_255_Y.csv", matrix);
+    lab_write(lab, "tristimulus.csv", matrix);
+    lab_role(lab, "tri*.csv", "white:Z");
+    lab_import(lab);
+    assert_int_equal(lab->set.count, 1);
+    assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 30, 240, 2), 4, 0);
+}
+
+/* ---- what was not measured --------------------------------------------------------------- */
+
+static void marks_are_left_out_and_counted(void **state)
+{
+    Lab *lab = *state;
+    lab_declare(lab, "mask", "-999");
+    import_white(lab, "theta;phi;X;Y;Z\n0;0;1;2;3\n10;0;---;5;6\n10;90;NaN;;6\n"
+                      "10;180;4;5;n/a\n10;270;4;-999;6\n20;0;4;5;6\n20;90;4;5;6\n");
+    const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
+    assert_int_equal(white->rows, 3);
+    assert_int_equal(white->masked, 4);
+    assert_near(white->masked_theta_deg[3], 10, 0);
+    assert_near(white->masked_phi_deg[3], 270, 0);
+}
+
+static void directions_beyond_the_horizon_are_left_out_and_told(void **state)
+{
+    Lab *lab = *state;
+    import_white(lab, "theta,phi,L\n0,0,3\n80,0,2\n90,0,1\n100,0,1\n180,0,1\n");
+    assert_int_equal(lab_table(lab, IMPORT_WHITE, 255)->rows, 3);
+    assert_true(lab_noted(lab, "2 of 5 directions lie beyond 90 degrees"));
+}
+
+static void a_direction_that_stands_twice_becomes_the_mean(void **state)
+{
+    Lab *lab = *state;
+    import_white(lab, "theta,phi,X,Y,Z\n0,0,1,2,3\n0,90,2,3,4\n30,0,10,20,30\n30,360,12,24,36\n"
+                      "30,90,5,6,7\n");
+    const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
+    assert_int_equal(white->rows, 4); /* the pole's rows stay: the set takes their mean */
+    assert_near(lab_value(white, 30, 0, 1), 22, 0);
+    assert_true(lab_noted(lab, "1 directions of 1 tables stood more than once"));
+}
+
+/* ---- sections ---------------------------------------------------------------------------- */
+
+static void sections_of_one_pattern_make_one_table(void **state)
+{
+    Lab *lab = *state;
+    lab_declare(lab, "section", "*_hor*=0");
+    lab_declare(lab, "section", "*_ver*=90");
+    lab_declare(lab, "azimuth_zero", "left");
+    lab_write(lab, "white_hor.txt", "theta\tL\n-40\t4\n-20\t5\n0\t6\n20\t---\n");
+    lab_write(lab, "white_ver.txt", "theta\tL\n-40\t7\n0\t6\n40\t8\n");
+    lab_import(lab);
+    assert_int_equal(lab->set.count, 1);
+    const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
+    assert_int_equal(white->rows, 6);
+    assert_int_equal(white->masked, 1);
+    assert_near(lab_value(white, 40, 0, 1), 4, 0); /* 0 is left, and the angle negative */
+    assert_near(lab_value(white, 40, 90, 1), 7, 0);
+    assert_near(lab_value(white, 40, 270, 1), 8, 0);
+    assert_near(white->masked_phi_deg[0], 180, 0);
+    lab->request->text.section.count = 0;
+    lab_refused(lab, "white_hor.txt: header line: has theta but no azimuth — say the section's "
+                     "azimuth with --section white_hor.txt=DEG; 1 more file is refused");
+}
+
+/* ---- reflection -------------------------------------------------------------------------- */
+
+#define BRDF "theta,phi,450nm,550nm\n0,0,1,2\n30,0,3,4\n30,90,5,6\n60,180,7,8\n"
+
+static void reflection_has_a_column_a_wavelength(void **state)
+{
+    Lab *lab = *state;
+    lab_write(lab, "BRDF_20.csv", "theta,phi,550 nm,R_450nm\n0,0,2,1\n30,0,4,3\n30,90,6,5\n");
+    lab_write(lab, "BRDF_40.csv", BRDF);
+    lab_import(lab);
+    const ImportTable *table = lab_table(lab, IMPORT_REFLECTION, 20);
+    assert_int_equal(lab->set.count, 2);
+    assert_near(table->wavelength_nm[0], 450, 0);
+    assert_near(lab_value(table, 30, 90, 0), 5, 0);
+    assert_near(lab_value(table, 30, 90, 1), 6, 0);
+    assert_near(table->incidence_phi_deg, 180, 0);
+    assert_false(lab->set.is_anisotropic);
+    assert_true(lab_noted(lab, "count from the mirror direction"));
+}
+
+static void one_file_a_wavelength_is_joined(void **state)
+{
+    Lab *lab = *state;
+    lab_write(lab, "i10_w550.csv", "theta,phi,brdf\n0,0,2\n30,0,4\n30,90,6\n");
+    lab_write(lab, "i10_w450.csv", "theta,phi,brdf\n0,0,1\n30,0,3\n30,90,5\n");
+    lab_import(lab);
+    const ImportTable *table = lab_table(lab, IMPORT_REFLECTION, 10);
+    assert_int_equal(lab->set.count, 1);
+    assert_int_equal(table->channels, 2);
+    assert_near(lab_value(table, 30, 90, 0), 5, 0);
+    assert_near(lab_value(table, 30, 90, 1), 6, 0);
+}
+
+static void long_lists_are_cut_into_tables(void **state)
+{
+    Lab *lab = *state;
+    lab_write(lab, "all.csv",
+              "theta_i,phi_i,theta,phi,wavelength,brdf\n"
+              "0,0,0,0,450,1\n0,0,10,0,450,2\n0,0,20,0,450,3\n"
+              "0,0,0,0,550,4\n0,0,10,0,550,5\n0,0,20,0,550,6\n"
+              "30,0,0,0,450,7\n30,0,10,20,450,8\n30,0,20,0,450,9\n"
+              "30,0,0,0,550,10\n30,0,10,20,550,11\n30,0,20,0,550,12\n");
+    lab_write(lab, "codes.csv",
+              "R,G,B,theta,phi,X,Y,Z\n"
+              "0,0,0,0,0,1,1,1\n0,0,0,10,0,1,1,1\n0,0,0,20,0,1,1,1\n"
+              "255,0,0,0,0,2,2,2\n255,0,0,10,0,2,2,2\n255,0,0,20,0,2,2,2\n"
+              "127,0,0,0,0,3,3,3\n127,0,0,10,0,3,3,3\n127,0,0,20,0,3,3,3\n"
+              "0,255,0,0,0,4,4,4\n0,255,0,10,0,4,4,4\n0,255,0,20,0,4,4,4\n"
+              "0,0,255,0,0,5,5,5\n0,0,255,10,0,5,5,5\n0,0,255,20,0,5,5,5\n");
+    lab_import(lab);
+    assert_int_equal(lab->set.count, 7);
+    /* The light is at phi 0, so the mirror direction, where phi counts from, is at 180. */
+    const ImportTable *table = lab_table(lab, IMPORT_REFLECTION, 30);
+    assert_near(lab_value(table, 10, 200, 1), 11, 0);
+    assert_near(lab_value(lab_table(lab, IMPORT_RED, 127), 10, 0, 1), 3, 0);
+    assert_near(lab_value(lab_table(lab, IMPORT_BLACK, 0), 10, 0, 1), 1, 0);
+}
+
+static void scatter_units_become_brdf(void **state)
+{
+    double pi = 3.14159265358979323846;
+    static const char *const units[] = {"brdf", "brdf-cos", "factor"};
+    double wanted[] = {0.5, 0.5 / cos(60 * pi / 180), 0.5 * 0.98 / pi};
+    for (int i = 0; i < 3; i++) {
+        Lab *lab = *state;
+        lab_declare(lab, "unit", units[i]);
+        lab_declare(lab, "white_reflectance", "0.98");
+        lab_write(lab, "BRDF_20.csv", "theta,phi,550nm\n0,0,1\n30,0,1\n60,0,0.5\n");
+        lab_import(lab);
+        assert_close(lab_value(lab_table(lab, IMPORT_REFLECTION, 20), 60, 0, 0), wanted[i],
+                     1e-12);
+    }
+}
+
+static void signals_are_divided_by_the_white_reference_without_the_dark(void **state)
+{
+    Lab *lab = *state;
+    lab_declare(lab, "unit", "signal");
+    lab_declare(lab, "white_reflectance", "0.99");
+    lab_write(lab, "BRDF_20.csv", "theta,phi,550nm\n0,0,11\n30,0,21\n60,0,31\n70,0,5\n");
+    lab_write(lab, "spectralon.csv", "theta,phi,550nm\n60,0,101\n30,0,101\n0,0,101\n");
+    lab_write(lab, "cap.csv", "theta,phi,550nm\n0,0,1\n30,0,1\n60,0,1\n70,0,1\n");
+    lab_role(lab, "spectralon.csv", "reference");
+    lab_role(lab, "cap.csv", "dark");
+    lab_import(lab);
+    assert_int_equal(lab->set.count, 1);
+    const ImportTable *table = lab_table(lab, IMPORT_REFLECTION, 20);
+    assert_int_equal(table->rows, 3);
+    assert_close(lab_value(table, 30, 0, 0), 0.2 * 0.99 / 3.14159265358979323846, 1e-12);
+}
+
+static void one_reading_of_a_reference_serves_every_direction(void **state)
+{
+    Lab *lab = *state;
+    lab_declare(lab, "unit", "signal");
+    lab_write(lab, "BRDF_20.csv", "theta,phi,550nm\n0,0,11\n30,0,21\n60,0,31\n");
+    lab_write(lab, "ref.csv", "theta,phi,550nm\n0,0,101\n");
+    lab_write(lab, "cap.csv", "theta,phi,550nm\n0,0,1\n");
+    lab_role(lab, "ref.csv", "reference:20");
+    lab_role(lab, "cap.csv", "dark");
+    lab_import(lab);
+    const ImportTable *table = lab_table(lab, IMPORT_REFLECTION, 20);
+    assert_int_equal(table->rows, 3);
+    assert_close(lab_value(table, 60, 0, 0), 0.3 / 3.14159265358979323846, 1e-12);
+    assert_true(lab_noted(lab, "ref.csv is one reading"));
+}
+
+static void azimuths_of_the_light_make_an_anisotropic_set(void **state)
+{
+    Lab *lab = *state;
+    static const char table[] = "theta,phi,550nm\n0,0,1\n30,180,9\n30,270,3\n60,0,4\n";
+    lab_write(lab, "i0.csv", table);
+    lab_write(lab, "i30_a0.csv", table);
+    lab_write(lab, "i30_a90.csv", table);
+    lab_import(lab);
+    assert_true(lab->set.is_anisotropic);
+    assert_int_equal(lab->set.count, 4);
+    for (int i = 0; i < lab->set.count; i++) {
+        const ImportTable *one = &lab->set.table[i];
+        double mirror = one->incidence_phi_deg + 180;
+        assert_near(lab_value(one, 30, 180 - mirror, 0), 9, 0);
+    }
+    lab->request->is_isotropic = true;
+    lab_refused(lab, "i30_a90.csv: has light from incidence 30, azimuth 180 degrees at 550 nm, "
+                     "and so has i30_a0.csv");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        lab_case(delimiters_and_decimal_signs_are_found),
+        lab_case(encodings_are_found),
+        lab_case(comments_and_lines_before_the_header_are_passed_over),
+        lab_case(columns_stand_in_any_order_and_others_are_left),
+        lab_case(incidence_is_the_viewing_angle_of_luminances),
+        lab_case(chromaticities_become_tristimulus_values),
+        lab_case(luminance_alone_has_the_colour_of_the_spectra_or_of_daylight),
+        lab_case(units_of_luminance_become_candela_a_square_metre),
+        lab_case(azimuths_are_turned_to_the_viewers_right),
+        lab_case(a_file_says_its_own_azimuths_and_units),
+        lab_case(radians_are_told_from_degrees_by_their_name),
+        lab_case(horizontal_and_vertical_angles_become_theta_and_phi),
+        lab_case(matrices_read_down_and_across),
+        lab_case(a_matrix_without_names_is_told_by_its_range),
+        lab_case(a_matrix_may_have_horizontal_and_vertical_angles),
+        lab_case(one_file_a_component_is_joined),
+        lab_case(marks_are_left_out_and_counted),
+        lab_case(directions_beyond_the_horizon_are_left_out_and_told),
+        lab_case(a_direction_that_stands_twice_becomes_the_mean),
+        lab_case(sections_of_one_pattern_make_one_table),
+        lab_case(reflection_has_a_column_a_wavelength),
+        lab_case(one_file_a_wavelength_is_joined),
+        lab_case(long_lists_are_cut_into_tables),
+        lab_case(scatter_units_become_brdf),
+        lab_case(signals_are_divided_by_the_white_reference_without_the_dark),
+        lab_case(one_reading_of_a_reference_serves_every_direction),
+        lab_case(azimuths_of_the_light_make_an_anisotropic_set),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

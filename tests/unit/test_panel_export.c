@@ -1,0 +1,213 @@
+/* A panel's tables written back say what the panel says, and a fit of them says it again. */
+#include "panel_fixture.h"
+
+#include <dirent.h>
+
+#include "panel/csv_table.h"
+#include "panel/export.h"
+
+#define RECIPE                                                                                 \
+    "{\"panel\": \"to export\", \"emission\": {" FIXTURE_SPECTRA                               \
+    "\"black_cd_m2\": 0.5, \"leak\": 2, \"levels\": [63, 127, 255]},"                          \
+    "\"reflection\": {\"haze_share\": 0.7, \"haze_width\": 0.2, \"incidence_deg\": [20, 50],"  \
+    "\"wavelengths_nm\": [450, 550, 650]},"                                                    \
+    "\"instrument\": {\"theta_step_deg\": 4, \"phi_step_deg\": 10, \"fwhm_deg\": 5}}"
+
+#define BOUND 0.02
+
+static Fixture first, again; /* the panel, and the one fitted to what it exported */
+static char    folder[600];
+
+static const ExportOptions coarse = {.theta_step_deg = 2, .phi_step_deg = 6,
+                                     .mirror_fwhm_deg = -1, .progress = PROGRESS_NONE};
+
+static FitOptions options(void)
+{
+    FitOptions fit = fit_options_default();
+    fit.bound = (float)BOUND;
+    return fit;
+}
+
+static int start(void **state)
+{
+    (void)state;
+    Error      err = {0};
+    FitOptions fit = options();
+    fixture_start(&first, RECIPE, &fit);
+    fixture_folder(&again);
+    snprintf(folder, sizeof folder, "%s/out", first.folder);
+    const char *manifest = arena_format(&again.arena, "%s/MANIFEST.json", folder);
+    again.set = ARENA_NEW(&again.arena, Measurement, 1);
+    if (!panel_export(first.panel, first.panel_path, &coarse, folder, &err) ||
+        !measurement_read(manifest, &again.arena, again.set, &err) ||
+        !panel_fit(again.set, &fit, again.panel_path, &again.arena, &again.report, &err) ||
+        !panel_open(again.panel_path, &again.arena, &again.panel, &err))
+        fail_msg("%s: %s: %s", err.file, err.path, err.text);
+    return 0;
+}
+
+static int end(void **state)
+{
+    (void)state;
+    fixture_end(&again);
+    fixture_end(&first);
+    return 0;
+}
+
+static Vec3 row_direction(const AngleTable *table, int row)
+{
+    return direction_deg(degrees_from_radians((double)table->theta[row]),
+                         degrees_from_radians((double)table->phi[row]));
+}
+
+/* Numbers, not errors: what is written has figures enough for float32. */
+static void exported_emission_is_what_the_panel_says(void **state)
+{
+    (void)state;
+    for (int p = 0; p < 3; p++) {
+        assert_int_equal(again.set->primary[p].level_count, 3);
+        for (int i = 0; i < 3; i++) {
+            const AngleTable *table = &again.set->primary[p].table[i];
+            float rgb[3] = {0, 0, 0}, xyz[3];
+            rgb[p] = (float)again.set->primary[p].level[i];
+            assert_int_equal(table->rows, 1 + 44 * 60);
+            for (int r = 0; r < table->rows; r += 17) {
+                panel_emission_xyz(first.panel, row_direction(table, r), rgb, xyz);
+                for (int j = 0; j < 3; j++)
+                    assert_close((double)table->value[3 * r + j], (double)xyz[j], 1e-5);
+            }
+        }
+    }
+    assert_true(again.set->has_black);
+    assert_true(again.set->has_spectra);
+}
+
+static void a_fit_of_the_export_is_within_its_bound(void **state)
+{
+    (void)state;
+    float codes[4][3] = {{0, 0, 0}, {255, 255, 255}, {127, 63, 255}, {63, 0, 0}};
+    for (int r = 0; r < again.set->black.rows; r += 11)
+        for (int c = 0; c < 4; c++) {
+            float a[3], b[3];
+            Vec3  d = row_direction(&again.set->black, r);
+            panel_emission_xyz(first.panel, d, codes[c], a);
+            panel_emission_xyz(again.panel, d, codes[c], b);
+            for (int j = 0; j < 3; j++)
+                assert_close((double)b[j], (double)a[j], BOUND * 1.01);
+        }
+}
+
+/* What the instrument of the manifest sees of the second panel: haze and the mirror's image. */
+static double seen(const AngleTable *table, int row, double theta_i, double nm)
+{
+    Wavelengths w = even_wavelengths((float)nm, 0);
+    Vec3   wo = row_direction(table, row), wi = direction_deg(theta_i, 180);
+    Vec3   mirror = direction_deg(theta_i, 0);
+    double sigma = radians_from_degrees(again.set->instrument_fwhm_deg) / sqrt(8 * log(2));
+    double d = 2 * asin(0.5 * (double)vec3_length(vec3_sub(wo, mirror)));
+    double image = exp(-0.5 * d * d / (sigma * sigma)) / (2 * PI * sigma * sigma);
+    return (double)panel_brdf(again.panel, wo, wi, &w)[0] +
+           (double)panel_mirror(again.panel, wi.z, &w)[0] * image / (double)wi.z;
+}
+
+static void a_fit_of_the_exported_reflection_is_near_its_bound(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++)
+        for (int r = 0; r < again.set->brdf[i].rows; r += 11)
+            assert_close(seen(&again.set->brdf[i], r, i ? 50 : 20, 550),
+                         (double)again.set->brdf[i].value[3 * r + 1], 2 * BOUND);
+}
+
+/* The mirror part is drawn as the declared instrument sees it, and taken out again. */
+static void the_mirror_part_survives(void **state)
+{
+    (void)state;
+    Wavelengths w = even_wavelengths(450, 12.5f);
+    for (int t = 20; t <= 50; t += 30) {
+        float  cosine = (float)cos(radians_from_degrees(t));
+        double a = (double)panel_mirror(first.panel, cosine, &w)[0];
+        assert_true(a > 1e-4);
+        assert_close((double)panel_mirror(again.panel, cosine, &w)[0], a, 0.1);
+    }
+}
+
+static int entries(const char *path)
+{
+    DIR *list = opendir(path);
+    int  count = 0;
+    while (list && readdir(list)) count++;
+    if (list) closedir(list);
+    return count - 2;
+}
+
+static void a_folder_with_files_is_left_alone(void **state)
+{
+    (void)state;
+    Error err = {0};
+    int   before = entries(first.folder);
+    assert_false(panel_export(first.panel, "x.panel", &coarse, first.folder, &err));
+    assert_int_equal(err.code, ERROR_OUTPUT);
+    assert_string_equal(err.file, first.folder);
+    assert_non_null(strstr(err.text, "holds something already"));
+    assert_int_equal(entries(first.folder), before);
+    assert_false(panel_export(first.panel, "x.panel", &coarse, "/no/such/place", &err));
+    assert_int_equal(err.code, ERROR_OUTPUT);
+    assert_int_equal(entries(first.folder), before);
+}
+
+static void an_empty_folder_is_filled(void **state)
+{
+    (void)state;
+    Error       err = {0};
+    const char *empty = arena_format(&first.arena, "%s/empty", first.folder);
+    ExportOptions wide = {.theta_step_deg = 30, .phi_step_deg = 90, .extrapolates = true,
+                          .progress = PROGRESS_NONE};
+    assert_int_equal(mkdir(empty, 0777), 0);
+    assert_true(panel_export(first.panel, "x.panel", &wide, empty, &err));
+    assert_int_equal(entries(empty), 4); /* manifest, primaries, emission, brdf */
+    CsvTable table;
+    assert_true(csv_table_read(arena_format(&first.arena, "%s/emission/black.csv", empty),
+                               &first.arena, &table, &err));
+    assert_int_equal(table.rows, 1 + 3 * 4); /* the normal, and rings at 30, 60 and 90 */
+}
+
+static void single_tables_are_named_as_in_info(void **state)
+{
+    (void)state;
+    static const struct { const char *name; int columns; } tables[] = {
+        {"black", 5}, {"white 255", 5}, {"red 127.5", 5}, {"brdf 20 deg", 5}, {"brdf 33", 5},
+        {"brdf 20 at 90", 5}, {"primaries", 4}};
+    const char *file = arena_format(&first.arena, "%s/one.csv", first.folder);
+    Error       err = {0};
+    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
+        CsvTable  csv;
+        FileBytes bytes;
+        if (!panel_export_table(first.panel, tables[i].name, &coarse, file, &err) ||
+            !csv_table_read(file, &first.arena, &csv, &err) ||
+            !file_read(file, 1u << 24, &first.arena, &bytes, &err))
+            fail_msg("%s: %s", tables[i].name, err.text);
+        assert_int_equal(csv.columns, tables[i].columns);
+        assert_int_equal(bytes.data[0], '#'); /* units stand in front */
+    }
+    static const char *const wrong[] = {"", "red", "red 256", "pink 3", "brdf", "brdf 95",
+                                        "brdf 20 at", "brdf 20 at 90 x", "black 3 4"};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        assert_false(panel_export_table(first.panel, wrong[i], &coarse, file, &err));
+        assert_int_equal(err.code, ERROR_USAGE);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(exported_emission_is_what_the_panel_says),
+        cmocka_unit_test(a_fit_of_the_export_is_within_its_bound),
+        cmocka_unit_test(a_fit_of_the_exported_reflection_is_near_its_bound),
+        cmocka_unit_test(the_mirror_part_survives),
+        cmocka_unit_test(a_folder_with_files_is_left_alone),
+        cmocka_unit_test(an_empty_folder_is_filled),
+        cmocka_unit_test(single_tables_are_named_as_in_info),
+    };
+    return cmocka_run_group_tests(tests, start, end);
+}

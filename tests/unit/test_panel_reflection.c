@@ -1,0 +1,524 @@
+/* Laws of fitted reflections, on tables made from closed forms: no files are read. */
+#include "panel_fixture.h"
+
+#define INCIDENCES 5
+#define WAVELENGTHS 16
+
+/* sr^-1 of a surface with the light at theta_i, azimuth phi_i (radians). phi is the leaving
+ * azimuth, counted from the mirror direction. */
+typedef double Surface(double theta_i, double phi_i, double theta, double phi, double nm);
+
+/* A set of tables in memory. */
+typedef struct Tables {
+    Measurement  set;
+    double       incidence_deg[INCIDENCES];
+    int          incidences, azimuths, wavelengths;
+    double       theta_step, phi_step, theta_max; /* degrees */
+    Surface     *surface;
+} Tables;
+
+typedef struct Fitted {
+    Arena   arena;
+    char    folder[512];
+    Tables  tables;
+    Panel  *panel;
+    json_t *report;
+} Fitted;
+
+static AngleTable make_table(const Tables *t, int index, Arena *arena)
+{
+    int    thetas = (int)(t->theta_max / t->theta_step) + 1, phis = (int)(360 / t->phi_step);
+    int    rows = (thetas - 1) * phis + 1, n = 0;
+    float *theta = ARENA_NEW(arena, float, rows), *phi = ARENA_NEW(arena, float, rows);
+    float *value = ARENA_NEW(arena, float, rows * t->wavelengths);
+    for (int i = 0; i < thetas; i++)
+        for (int k = 0; k < (i ? phis : 1); k++, n++) {
+            theta[n] = (float)radians_from_degrees(i * t->theta_step);
+            phi[n] = (float)radians_from_degrees(k * t->phi_step);
+            for (int w = 0; w < t->wavelengths; w++)
+                value[n * t->wavelengths + w] = (float)t->surface(
+                    t->set.incidence[index % t->incidences],
+                    t->set.azimuth[index / t->incidences], (double)theta[n], (double)phi[n],
+                    (double)t->set.wavelength_nm[w]);
+        }
+    return (AngleTable){.name = "table", .rows = rows, .channels = t->wavelengths,
+                        .theta = theta, .phi = phi, .value = value,
+                        .theta_max = theta[rows - 1]};
+}
+
+static void make_tables(Tables *t, Arena *arena)
+{
+    Measurement *set = &t->set;
+    set->file = set->panel = set->instrument = set->note = "";
+    set->incidence_count = t->incidences;
+    set->wavelength_count = t->wavelengths;
+    set->azimuth_count = t->azimuths;
+    set->brdf = ARENA_NEW(arena, AngleTable, t->incidences * t->azimuths);
+    for (int i = 0; i < t->incidences; i++)
+        set->incidence[i] = radians_from_degrees(t->incidence_deg[i]);
+    for (int i = 0; i < t->azimuths; i++) set->azimuth[i] = 2 * PI * i / t->azimuths;
+    for (int w = 0; w < t->wavelengths; w++) set->wavelength_nm[w] = (float)(400 + 20 * w);
+    for (int i = 0; i < t->incidences * t->azimuths; i++)
+        set->brdf[i] = make_table(t, i, arena);
+}
+
+static void fit_tables(Fitted *f, Tables tables, const FitOptions *options)
+{
+    Error err = {0};
+    const char *base = getenv("TMPDIR");
+    *f = (Fitted){.arena = arena_reserve((size_t)64 << 30), .tables = tables};
+    snprintf(f->folder, sizeof f->folder, "%s/parhelion_reflection_XXXXXX",
+             base ? base : P_tmpdir);
+    assert_non_null(mkdtemp(f->folder));
+    make_tables(&f->tables, &f->arena);
+    const char *path = arena_format(&f->arena, "%s/test.panel", f->folder);
+    if (!panel_fit(&f->tables.set, options, path, &f->arena, &f->report, &err) ||
+        !panel_open(path, &f->arena, &f->panel, &err))
+        fail_msg("%s: %s: %s", err.file, err.path, err.text);
+}
+
+static void end_fit(Fitted *f)
+{
+    panel_close(f->panel);
+    json_decref(f->report);
+    nftw(f->folder, fixture_remove, 16, FTW_DEPTH | FTW_PHYS);
+    arena_release(&f->arena);
+}
+
+/* What most laws need: one frame, no search for it. */
+static FitOptions quick(void)
+{
+    FitOptions options = fit_options_default();
+    options.frame_exponent = 1.5f;
+    return options;
+}
+
+/* ---- surfaces ------------------------------------------------------------------------------ */
+
+static double fresnel(double c)
+{
+    return fresnel_unpolarised(c, 1.5);
+}
+
+/* Haze of the ABC form and a floor, bluer in the haze. */
+static double hazy(double theta_i, double phi_i, double theta, double phi, double nm)
+{
+    double si = sin(theta_i), so = sin(theta), sp = sin(0.5 * phi), w = 0.12;
+    double b2 = (so - si) * (so - si) + 4 * so * si * sp * sp, d = (nm - 550) / 150;
+    (void)phi_i;
+    return (0.8 + 0.2 * d * d) * sqrt(fresnel(cos(theta_i)) * fresnel(cos(theta))) * 0.5 / w *
+               pow(1 + b2 / (w * w), -1.7) + 0.002;
+}
+
+/* The same, and a lobe of 3 degrees on it. */
+#define LOBE_FWHM_DEG 3.0
+#define LOBE_SHARE 0.3 /* of Fresnel's reflectance */
+static double lobed(double theta_i, double phi_i, double theta, double phi, double nm)
+{
+    double dt = sin(0.5 * (theta - theta_i)), dp = sin(0.5 * phi);
+    double angle = 2 * asin(sqrt(dt * dt + sin(theta) * sin(theta_i) * dp * dp));
+    double sigma = radians_from_degrees(LOBE_FWHM_DEG) / sqrt(8 * log(2));
+    return hazy(theta_i, phi_i, theta, phi, nm) +
+           LOBE_SHARE * fresnel(cos(theta_i)) / cos(theta_i) *
+               exp(-0.5 * angle * angle / (sigma * sigma)) / (2 * PI * sigma * sigma);
+}
+
+/* Brushed along x: wide across it. */
+static double brushed(double theta_i, double phi_i, double theta, double phi, double nm)
+{
+    double along = phi_i - PI, si = sin(theta_i), so = sin(theta);
+    double x = so * cos(phi + along) - si * cos(along), y = so * sin(phi + along) -
+                                                            si * sin(along);
+    double b2 = x * x / (0.15 * 0.15) + y * y / (0.3 * 0.3);
+    (void)nm;
+    return 0.4 * sqrt(fresnel(cos(theta_i)) * fresnel(cos(theta))) * pow(1 + b2, -1.5) / 0.045 +
+           0.003;
+}
+
+/* As bright as white can be. */
+static double white(double theta_i, double phi_i, double theta, double phi, double nm)
+{
+    (void)theta_i, (void)phi_i, (void)theta, (void)phi, (void)nm;
+    return 1.02 / PI;
+}
+
+static const Tables HAZY = {.incidence_deg = {5, 20, 35, 50, 65}, .incidences = 5,
+                            .azimuths = 1, .wavelengths = WAVELENGTHS, .theta_step = 2,
+                            .phi_step = 6, .theta_max = 84, .surface = hazy};
+
+static Fitted shared; /* of HAZY, with what `fit` chooses */
+
+/* ---- laws ----------------------------------------------------------------------------------- */
+
+/* Largest error relative to the surface's value, at samples (between = 0) or off them; light
+ * at phi_i. */
+static double largest_error(const Fitted *f, double incidence_deg, double phi_i, double between)
+{
+    const Tables *t = &f->tables;
+    double worst = 0, theta_i = radians_from_degrees(incidence_deg);
+    Wavelengths w = even_wavelengths(400, 20);
+    Vec3   light = direction_deg(incidence_deg, degrees_from_radians(phi_i));
+    for (double a = between; a <= t->theta_max; a += 2 * t->theta_step)
+        for (double p = between; p < 360; p += 3 * t->phi_step) {
+            Spectrum v = panel_brdf(f->panel,
+                                    direction_deg(a, p + degrees_from_radians(phi_i) - 180),
+                                    light, &w);
+            for (int k = 0; k < t->wavelengths; k++) {
+                double truth = t->surface(theta_i, phi_i, radians_from_degrees(a),
+                                          radians_from_degrees(p), (double)w.nm[k]);
+                worst = fmax(worst, fabs((double)v[k] / truth - 1));
+            }
+        }
+    return worst;
+}
+
+static void the_bound_holds_at_every_sample_and_wavelength(void **state)
+{
+    (void)state;
+    for (int i = 0; i < INCIDENCES; i++) {
+        double worst = largest_error(&shared, HAZY.incidence_deg[i], PI, 0);
+        if (!(worst <= 0.0205))
+            fail_msg("%g degrees: %.4f", HAZY.incidence_deg[i], worst);
+    }
+}
+
+static void between_incidences_the_peak_has_moved_and_keeps_its_height(void **state)
+{
+    (void)state;
+    Wavelengths w = even_wavelengths(400, 20);
+    for (double incidence = 10; incidence <= 60; incidence += 10) {
+        double best = 0, at = 0, truth = 0;
+        double theta_i = radians_from_degrees(incidence);
+        Vec3   light = direction_deg(incidence, 180);
+        for (double a = incidence - 8; a < incidence + 8; a += 0.05) {
+            double f = (double)panel_brdf(shared.panel, direction_deg(fabs(a), a < 0 ? 180 : 0),
+                                          light, &w)[8];
+            double t = hazy(theta_i, PI, radians_from_degrees(fabs(a)), a < 0 ? PI : 0, 560);
+            if (f > best) best = f, at = a;
+            truth = fmax(truth, t);
+        }
+        assert_close(best, truth, 0.02);
+        assert_near(at, incidence, incidence < 55 ? 1.0 : 3.0); /* the haze leans outwards */
+    }
+}
+
+static void light_from_any_azimuth_reads_the_same(void **state)
+{
+    (void)state;
+    Wavelengths w = even_wavelengths(400, 20);
+    for (double turn = 0; turn < 360; turn += 37) {
+        Spectrum a = panel_brdf(shared.panel, direction_deg(40, 12), direction_deg(30, 180), &w);
+        Spectrum b = panel_brdf(shared.panel, direction_deg(40, 12 + turn),
+                                direction_deg(30, 180 + turn), &w);
+        Spectrum c = panel_brdf(shared.panel, direction_deg(40, turn - 12),
+                                direction_deg(30, 180 + turn), &w);
+        assert_close(b[5], a[5], 1e-3);
+        assert_close(c[5], a[5], 1e-3);
+    }
+}
+
+static void at_the_normal_the_azimuth_does_not_matter(void **state)
+{
+    (void)state;
+    Wavelengths w = even_wavelengths(400, 20);
+    Spectrum a = panel_brdf(shared.panel, direction_deg(9, 0), direction_deg(0, 0), &w);
+    for (double p = 0; p < 360; p += 30) {
+        Spectrum b = panel_brdf(shared.panel, direction_deg(9, p), direction_deg(0, 0), &w);
+        assert_close(b[8], a[8], 0.02);
+        assert_close(b[8], hazy(0, 0, radians_from_degrees(9), 0, 560), 0.03);
+    }
+}
+
+static void wavelengths_between_the_measured_ones_lie_between_their_values(void **state)
+{
+    (void)state;
+    Wavelengths at = even_wavelengths(400, 20), between = even_wavelengths(410, 20);
+    Spectrum a = panel_brdf(shared.panel, direction_deg(30, 20), direction_deg(35, 180), &at);
+    Spectrum b = panel_brdf(shared.panel, direction_deg(30, 20), direction_deg(35, 180),
+                            &between);
+    for (int i = 0; i < 15; i++) {
+        assert_true(b[i] <= fmaxf(a[i], a[i + 1]) * 1.0001f);
+        assert_true(b[i] >= fminf(a[i], a[i + 1]) * 0.9999f);
+    }
+    assert_close(b[15], a[15], 1e-5);
+}
+
+static void extrapolation_is_continuous_and_flagged(void **state)
+{
+    (void)state;
+    Wavelengths w = even_wavelengths(400, 20);
+    for (double theta = 0; theta < 84; theta += 7)
+        for (double phi = 0; phi <= 180; phi += 45) {
+            Vec3     out = direction_deg(theta, phi);
+            Spectrum a = panel_brdf(shared.panel, out, direction_deg(64.99, 180), &w);
+            Spectrum b = panel_brdf(shared.panel, out, direction_deg(65.01, 180), &w);
+            for (int k = 0; k < SPECTRUM_LANES; k++) assert_close(b[k], a[k], 0.01);
+            assert_true(panel_brdf_is_measured(shared.panel, out, direction_deg(64.9, 180)));
+            assert_false(panel_brdf_is_measured(shared.panel, out, direction_deg(65.1, 180)));
+        }
+    assert_false(panel_brdf_is_measured(shared.panel, direction_deg(86, 0),
+                                        direction_deg(30, 180)));
+}
+
+static void beyond_the_measured_incidences_haze_follows_fresnel(void **state)
+{
+    (void)state;
+    Wavelengths w = even_wavelengths(400, 20);
+    for (double theta = 68; theta <= 80; theta += 4) {
+        Spectrum f = panel_brdf(shared.panel, direction_deg(theta, 0),
+                                direction_deg(theta, 180), &w);
+        double truth = hazy(radians_from_degrees(theta), PI, radians_from_degrees(theta), 0, 560);
+        assert_close(f[8], truth, 0.12);
+    }
+}
+
+/* Haze integrated over the hemisphere, with the cosine. */
+static double albedo_at(const Panel *panel, double incidence_deg, int lane)
+{
+    Wavelengths w = even_wavelengths(400, 20);
+    double sum = 0, step = radians_from_degrees(1);
+    for (double a = 0.5; a < 90; a++)
+        for (double p = 1; p < 360; p += 2) {
+            Spectrum f = panel_brdf(panel, direction_deg(a, p),
+                                    direction_deg(incidence_deg, 180), &w);
+            double t = radians_from_degrees(a);
+            sum += (double)f[lane] * cos(t) * sin(t) * step * 2 * step;
+        }
+    return sum;
+}
+
+static void a_white_furnace_gives_no_more_than_it_gets(void **state)
+{
+    (void)state;
+    Tables     tables = HAZY;
+    FitOptions options = quick();
+    Fitted     f;
+    tables.surface = white;
+    tables.wavelengths = 2;
+    fit_tables(&f, tables, &options);
+    for (double i = 0; i < 90; i += 8.9)
+        if (!(albedo_at(f.panel, i, 0) <= 1.001))
+            fail_msg("%g degrees: %.5f", i, albedo_at(f.panel, i, 0));
+    end_fit(&f);
+}
+
+static void the_albedo_is_the_integral(void **state)
+{
+    (void)state;
+    const char *const key = "integral_error";
+    size_t  i;
+    json_t *table;
+    json_array_foreach(json_object_get(shared.report, "tables"), i, table)
+        assert_near(json_number_value(json_object_get(table, key)), 0, 1e-3);
+    for (double theta = 5; theta <= 65; theta += 15) { /* the luminous mean is near 560 nm */
+        double albedo = albedo_at(shared.panel, theta, 8);
+        assert_close(panel_haze_albedo(shared.panel, (float)cos(radians_from_degrees(theta))),
+                     albedo, 0.02);
+    }
+}
+
+/* ---- bases along the wavelengths and on the hemisphere --------------------------------------- */
+
+static void every_spectral_basis_and_both_hemispherical_ones_hold_the_bound(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        FitBasis    basis;
+        bool        has_wavelet;
+        WaveletKind wavelet;
+        double      most;
+    } CASES[] = {{"principal", FIT_VERTEX, false, WAVELET_HAAR, 0.0205},
+                 {"haar spectra", FIT_VERTEX, true, WAVELET_HAAR, 0.0205},
+                 {"cdf53 spectra", FIT_VERTEX, true, WAVELET_CDF53, 0.0205},
+                 {"cdf97 spectra", FIT_VERTEX, true, WAVELET_CDF97, 0.0205},
+                 {"haar tree", FIT_HAAR, false, WAVELET_HAAR, 0.25}};
+    for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
+        Tables     tables = HAZY;
+        FitOptions options = quick();
+        Fitted     f;
+        tables.incidences = 2;
+        tables.phi_step = 12;
+        tables.theta_step = 3;
+        tables.wavelengths = 8;
+        options.basis = CASES[i].basis;
+        options.has_wavelet = CASES[i].has_wavelet;
+        options.wavelet = CASES[i].wavelet;
+        fit_tables(&f, tables, &options);
+        double worst = fmax(largest_error(&f, 5, PI, 0), largest_error(&f, 20, PI, 0));
+        if (!(worst <= CASES[i].most)) fail_msg("%s: %.4f", CASES[i].name, worst);
+        end_fit(&f);
+    }
+}
+
+/* ---- the parts -------------------------------------------------------------------------------- */
+
+static const json_t *part_at(const Fitted *f, size_t incidence)
+{
+    return json_array_get(json_object_get(json_object_get(f->report, "reflection"), "mirror"),
+                          incidence);
+}
+
+static void a_lobe_on_haze_is_told_apart_and_stays_one_lobe_between_incidences(void **state)
+{
+    (void)state;
+    Tables     tables = HAZY;
+    FitOptions options = quick();
+    Fitted     f;
+    tables.surface = lobed;
+    tables.wavelengths = 3;
+    tables.theta_step = 1;
+    tables.phi_step = 3;
+    fit_tables(&f, tables, &options);
+    for (size_t i = 0; i < INCIDENCES; i++) {
+        const json_t *part = part_at(&f, i);
+        double r = LOBE_SHARE * fresnel(cos(f.tables.set.incidence[i]));
+        assert_close(json_number_value(json_object_get(part, "lobe_fwhm_deg")), LOBE_FWHM_DEG,
+                     0.01);
+        assert_close(json_number_value(json_object_get(part, "lobe")), r, 0.02);
+    }
+    for (double incidence = 12; incidence < 60; incidence += 15) {
+        Wavelengths w = even_wavelengths(400, 20);
+        Spectrum v = panel_brdf(f.panel, direction_deg(incidence, 0),
+                                direction_deg(incidence, 180), &w);
+        double theta = radians_from_degrees(incidence);
+        assert_close(v[2], lobed(theta, PI, theta, 0, 440), 0.015);
+    }
+    end_fit(&f);
+}
+
+static void an_image_as_wide_as_the_instrument_becomes_the_mirror(void **state)
+{
+    (void)state;
+    Tables     tables = HAZY;
+    FitOptions options = quick();
+    Fitted     f;
+    Wavelengths w = even_wavelengths(400, 20);
+    tables.surface = lobed;
+    tables.wavelengths = 4;
+    tables.incidences = 3;
+    tables.theta_step = 1;
+    tables.phi_step = 3;
+    tables.set.instrument_fwhm_deg = LOBE_FWHM_DEG;
+    fit_tables(&f, tables, &options);
+    for (int i = 0; i < 3; i++) {
+        double c = cos(f.tables.set.incidence[i]);
+        assert_close(panel_mirror(f.panel, (float)c, &w)[1], LOBE_SHARE * fresnel(c), 0.02);
+        Spectrum v = panel_brdf(f.panel, direction_deg(HAZY.incidence_deg[i], 0),
+                                direction_deg(HAZY.incidence_deg[i], 180), &w);
+        double theta = f.tables.set.incidence[i];
+        assert_close(v[1], hazy(theta, PI, theta, 0, 420), 0.05);
+    }
+    end_fit(&f);
+}
+
+/* ---- azimuths of the light ---------------------------------------------------------------------- */
+
+static void a_brushed_surface_is_told_between_azimuths(void **state)
+{
+    (void)state;
+    Tables     tables = HAZY;
+    FitOptions options = quick();
+    Fitted     f;
+    tables.surface = brushed;
+    tables.wavelengths = 1;
+    tables.azimuths = 16;
+    tables.incidences = 2;
+    tables.theta_step = 3;
+    tables.phi_step = 9;
+    tables.theta_max = 81;
+    fit_tables(&f, tables, &options);
+    for (int a = 0; a < 16; a += 5) {
+        double at = largest_error(&f, 20, 2 * PI * a / 16, 0);
+        double between = largest_error(&f, 20, 2 * PI * (a + 0.5) / 16, 0);
+        if (!(at <= 0.0205)) fail_msg("azimuth %.1f: %.4f", 22.5 * a, at);
+        if (!(between <= 0.06)) fail_msg("azimuth %.2f: %.4f", 22.5 * (a + 0.5), between);
+    }
+    end_fit(&f);
+}
+
+static void an_isotropic_surface_stored_with_azimuths_answers_the_same(void **state)
+{
+    (void)state;
+    Tables     tables = HAZY;
+    FitOptions options = quick();
+    Fitted     f;
+    tables.wavelengths = 1;
+    tables.azimuths = 4;
+    tables.incidences = 3;
+    fit_tables(&f, tables, &options);
+    for (double turn = 0; turn < 360; turn += 51) {
+        double worst = largest_error(&f, 20, radians_from_degrees(turn), 0);
+        if (!(worst <= 0.0205)) fail_msg("turned by %g: %.4f", turn, worst);
+        worst = largest_error(&f, 3, radians_from_degrees(turn), 0);
+        if (!(worst <= 0.05)) fail_msg("near the normal, turned by %g: %.4f", turn, worst);
+    }
+    end_fit(&f);
+}
+
+/* ---- zeros --------------------------------------------------------------------------------------- */
+
+static double with_zeros(double theta_i, double phi_i, double theta, double phi, double nm)
+{
+    return fabs(phi - PI) < 0.3 && theta > 1.2 ? -1e-6 : hazy(theta_i, phi_i, theta, phi, nm);
+}
+
+static void zeros_and_negative_values_are_held_counted_and_told(void **state)
+{
+    (void)state;
+    Tables     tables = HAZY;
+    FitOptions options = quick();
+    Fitted     f;
+    tables.surface = with_zeros;
+    tables.wavelengths = 1;
+    tables.incidences = 1;
+    fit_tables(&f, tables, &options);
+    json_t *reflection = json_object_get(f.report, "reflection");
+    long    masked = 0;
+    for (int i = 0; i < f.tables.set.brdf[0].rows; i++)
+        masked += f.tables.set.brdf[0].value[i] < 0;
+    assert_true(masked > 0);
+    assert_int_equal(json_integer_value(json_object_get(reflection, "zeros_masked")), masked);
+    Wavelengths w = even_wavelengths(400, 20);
+    for (double a = 0; a < 90; a += 3)
+        assert_true(panel_brdf(f.panel, direction_deg(a, 180), direction_deg(5, 180), &w)[0] >
+                    0);
+    end_fit(&f);
+}
+
+static int start(void **state)
+{
+    FitOptions options = fit_options_default();
+    (void)state;
+    fit_tables(&shared, HAZY, &options);
+    return 0;
+}
+
+static int end(void **state)
+{
+    (void)state;
+    end_fit(&shared);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_bound_holds_at_every_sample_and_wavelength),
+        cmocka_unit_test(between_incidences_the_peak_has_moved_and_keeps_its_height),
+        cmocka_unit_test(light_from_any_azimuth_reads_the_same),
+        cmocka_unit_test(at_the_normal_the_azimuth_does_not_matter),
+        cmocka_unit_test(wavelengths_between_the_measured_ones_lie_between_their_values),
+        cmocka_unit_test(extrapolation_is_continuous_and_flagged),
+        cmocka_unit_test(beyond_the_measured_incidences_haze_follows_fresnel),
+        cmocka_unit_test(the_albedo_is_the_integral),
+        cmocka_unit_test(a_white_furnace_gives_no_more_than_it_gets),
+        cmocka_unit_test(every_spectral_basis_and_both_hemispherical_ones_hold_the_bound),
+        cmocka_unit_test(a_lobe_on_haze_is_told_apart_and_stays_one_lobe_between_incidences),
+        cmocka_unit_test(an_image_as_wide_as_the_instrument_becomes_the_mirror),
+        cmocka_unit_test(a_brushed_surface_is_told_between_azimuths),
+        cmocka_unit_test(an_isotropic_surface_stored_with_azimuths_answers_the_same),
+        cmocka_unit_test(zeros_and_negative_values_are_held_counted_and_told),
+    };
+    return cmocka_run_group_tests(tests, start, end);
+}

@@ -1,0 +1,260 @@
+/* Files of a laboratory: what is wrong with recipes, manifests and tables is named; every layout
+ * says the same. */
+#include "panel_fixture.h"
+
+static Fixture folder; /* a folder for files, nothing fitted */
+
+static int start(void **state)
+{
+    (void)state;
+    fixture_folder(&folder);
+    return 0;
+}
+
+static int end(void **state)
+{
+    (void)state;
+    fixture_end(&folder);
+    return 0;
+}
+
+/* The whole line of a failure. */
+static void expect_line(const Error *err, const char *const parts[], int count)
+{
+    char line[2048];
+    error_line(err, line, sizeof line);
+    assert_int_equal(err->code, ERROR_INPUT);
+    for (int i = 0; i < count; i++)
+        if (!strstr(line, parts[i])) fail_msg("'%s' is missing in: %s", parts[i], line);
+}
+
+#define EXPECT_LINE(err, ...)                                                                  \
+    do {                                                                                       \
+        const char *const parts_[] = {__VA_ARGS__};                                            \
+        expect_line(&(err), parts_, (int)(sizeof parts_ / sizeof *parts_));                    \
+    } while (0)
+
+/* Reads a white-only table of this text; it must fail. */
+static Error bad_table(const char *text)
+{
+    Error        err = {0};
+    Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
+    const char  *path = fixture_file(&folder, "table.csv", text);
+    if (measurement_read(path, &folder.arena, set, &err)) fail_msg("was accepted: %s", text);
+    return err;
+}
+
+static Error bad_manifest(const char *text)
+{
+    Error        err = {0};
+    Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
+    const char  *path = fixture_file(&folder, "MANIFEST.json", text);
+    if (measurement_read(path, &folder.arena, set, &err)) fail_msg("was accepted: %s", text);
+    return err;
+}
+
+static void tables_name_file_line_and_value(void **state)
+{
+    (void)state;
+    static const struct { const char *text, *parts[3]; } cases[] = {
+        {"theta,phi,X,Y,Z\n0,0,1,1,1\n10,0,1,nan,1\n",
+         {"table.csv: line 3", "column 'Y' holds 'nan'", "a finite number"}},
+        {"theta,phi,X,Y,Z\n0,0,100,100,100\n10,0,1,-7,1\n",
+         {"line 3", "-7", "noise below zero"}},
+        {"theta,phi,X,Y,Z\n10,0,1,1,1\n# note\n10,360,1,2,1\n",
+         {"line 4", "in line 2 with different values", "every direction once"}},
+        {"theta,phi,X,Y,Z\n95,0,1,1,1\n", {"line 2", "theta is 95", "0 to 90 degrees"}},
+        {"theta,phi,X,Y,Z\n5,400,1,1,1\n", {"line 2", "phi is 400", "-360 to 360"}},
+        {"theta,phi,X,Y,Q\n5,40,1,1,1\n",
+         {"header line", "column 'Q' is unknown", "nearest known one is '"}},
+        {"thta,phi,X,Y,Z\n5,40,1,1,1\n", {"header line", "no column 'theta'", "'thta'"}},
+        {"theta,phi,X,Y,Z\n5,40,1,1\n", {"line 2", "fewer cells", "5 columns"}},
+        {"theta,phi,X,Y,Z\n5,40,1,1,1,9\n", {"line 2", "more cells", "5 columns"}},
+        {"theta,phi,X,Y,Z\n5,40,1,x7,1\n", {"line 2", "'x7'", "a finite number"}},
+        {"theta,phi,X,Y,Z\n", {"table.csv", "no rows", ""}},
+        {"", {"table.csv", "is empty", "a header line"}},
+        {"theta,phi,Y,x,y\n5,40,10,0.8,0.7\n", {"line 2", "x 0.8, y 0.7", "CIE 1931"}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        Error err = bad_table(cases[i].text);
+        expect_line(&err, cases[i].parts, 3);
+    }
+}
+
+static void every_prefix_of_a_table_is_read_or_refused(void **state)
+{
+    (void)state;
+    const char *text = "theta,phi,X,Y,Z\n0,0,1,1,1\n# c\n10,0,1.5e0,2,1\n10,90,1,2,3\n";
+    for (size_t n = 0; n < strlen(text); n++) {
+        Error        err = {0};
+        Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
+        const char  *cut = arena_string(&folder.arena, text, n);
+        const char  *path = fixture_file(&folder, "table.csv", cut);
+        if (!measurement_read(path, &folder.arena, set, &err)) assert_true(err.text[0] != 0);
+    }
+}
+
+static void rows_at_the_normal_are_averaged_and_equal_doubles_pass(void **state)
+{
+    (void)state;
+    Error        err = {0};
+    Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
+    const char  *path = fixture_file(&folder, "table.csv",
+        "phi,theta,X,Y,Z\n0,0,95,100,108\n90,0,97,102,110\n-90,-10,90,95,99\n90,10,90,95,99\n"
+        "0,10,91,96,100\n");
+    if (!measurement_read(path, &folder.arena, set, &err)) fail_msg("%s", err.text);
+    const AngleTable *table = &set->primary[1].table[0];
+    assert_int_equal(table->rows, 3);
+    double sum = 0;
+    for (int p = 0; p < 3; p++) sum += (double)set->primary[p].table[0].value[1];
+    assert_close(sum, 101, 1e-4);
+}
+
+static void manifests_name_the_key(void **state)
+{
+    (void)state;
+    static const struct { const char *text, *parts[3]; } cases[] = {
+        {"{\"panel\": \"x\", \"emision\": {}}", {"/emision", "unknown key", "'emission'"}},
+        {"{\"panel\": \"x\"}", {"MANIFEST.json", "'emission' is missing", ""}},
+        {"{\"emission\": {\"red\": {}}}", {"/emission", "'black' is missing", ""}},
+        {"{\"emission\": {\"black\": \"no.csv\"}}", {"no.csv", "", ""}},
+        {"{\"emission\": {\"white\": 3}}", {"/emission/white", "a table's path", ""}},
+        {"{\"emission\": {\"white\": \"t.csv\", \"red\": {}}}",
+         {"both 'white' and 'red'", "", ""}},
+        {"{\"emission\": 3}", {"/emission", "is a number", "wanted an object"}},
+        {"{\"emission\": {\"white\": \"good.csv\"}, \"reflection\": {"
+         "\"wavelengths_nm\": [500, 400], \"incidence_deg\": [10],"
+         "\"files\": \"i{incidence}.csv\"}}",
+         {"/reflection/wavelengths_nm", "400 follows 500", "rising"}},
+        {"{\"emission\": {\"white\": \"good.csv\"}, \"reflection\": {\"wavelengths_nm\": [500],"
+         " \"incidence_deg\": [10], \"files\": \"i.csv\"}}",
+         {"/reflection/files", "{incidence}", ""}},
+        {"{\"emission\": {\"white\": \"good.csv\"}, \"primaries\": \"p.csv\"}",
+         {"p.csv", "column 'gren' is unknown", "'green'"}},
+        {"{\"emission\": {\"black\": \"good.csv\", \"red\": {\"256\": \"good.csv\"}}}",
+         {"/emission/red/256", "no grey level", "up to 255"}},
+        {"{\"emission\": {\"black\": \"good.csv\", \"red\": {\"128\": \"good.csv\", \"128.0\": "
+         "\"good.csv\"}}}", {"same grey level", "", ""}},
+        {"{\"a\": 1,\n \"a\": 2}", {"MANIFEST.json: line 2", "not valid JSON", "duplicate"}},
+        {"[1]", {"MANIFEST.json", "is an array", "wanted an object"}},
+    };
+    fixture_file(&folder, "good.csv", "theta,phi,X,Y,Z\n0,0,1,1,1\n10,0,1,1,1\n");
+    fixture_file(&folder, "p.csv", "nm,red,gren,blue\n500,1,1,1\n");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        Error err = bad_manifest(cases[i].text);
+        expect_line(&err, cases[i].parts, 3);
+    }
+}
+
+static void recipes_name_the_key(void **state)
+{
+    (void)state;
+    static const struct { const char *text, *parts[2]; } cases[] = {
+        {"{\"emission\": {\"red\": {\"peaks_nm\": [600], \"fwhm_nm\": [1], \"weights\": [1]}}}",
+         {"/emission/red/fwhm_nm", "wanted a number from 2 to 400"}},
+        {"{\"emission\": {\"red\": {\"peak_nm\": [600]}}}",
+         {"/emission/red/peak_nm", "nearest known one is 'peaks_nm'"}},
+        {"{\"emission\": {\"red\": {\"peaks_nm\": [600, 610], \"fwhm_nm\": [10],"
+         "\"weights\": [1]}}}",
+         {"/emission/red", "2, 1 and 1 values, wanted equal"}},
+        {"{}", {"recipe.json", "key 'emission' is missing"}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        Error       err = {0};
+        Recipe      recipe;
+        const char *path = fixture_file(&folder, "recipe.json", cases[i].text);
+        assert_false(recipe_read(path, &folder.arena, &recipe, &err));
+        expect_line(&err, cases[i].parts, 2);
+    }
+}
+
+/* A set in the other layouts: polar grids, one file a wavelength, rows in any order and a
+ * shadow of missing directions. It must say what the plain layout says. */
+static void other_layouts_say_the_same(void **state)
+{
+    (void)state;
+    Error  err = {0};
+    char   text[40000] = "";
+    for (int j = 0; j < 3; j++) {
+        size_t at = (size_t)snprintf(text, sizeof text, "theta\\phi,0,30,60,90,120,150,180,210,"
+                                     "240,270,300,330\n");
+        for (int t = 0; t <= 90; t += 5) {
+            at += (size_t)snprintf(text + at, sizeof text - at, "%d", t);
+            for (int p = 0; p < 12; p++)
+                at += (size_t)snprintf(text + at, sizeof text - at, ",%g",
+                    t ? 100 * (j + 1) * cos(radians_from_degrees(t)) : 100.0 * (j + 1));
+            at += (size_t)snprintf(text + at, sizeof text - at, "\n");
+        }
+        fixture_file(&folder, j == 0 ? "X.csv" : j == 1 ? "Y.csv" : "Z.csv", text);
+    }
+    size_t at = (size_t)snprintf(text, sizeof text, "theta,phi,X,Y,Z\n");
+    for (int t = 90; t >= 0; t -= 5) /* from the horizon up, a wedge shadowed */
+        for (int p = 0; p < (t ? 12 : 1); p++) {
+            double c = cos(radians_from_degrees(t));
+            if (p == 4 && t > 20 && t < 50) continue;
+            at += (size_t)snprintf(text + at, sizeof text - at, "%d,%d,%g,%g,%g\n", t, 30 * p,
+                                   100 * c, 200 * c, 300 * c);
+        }
+    fixture_file(&folder, "rows.csv", text);
+    const char *manifests[2] = {
+        "{\"emission\": {\"white\": {\"X\": \"X.csv\", \"Y\": \"Y.csv\", \"Z\": \"Z.csv\"}}}",
+        "{\"emission\": {\"white\": \"rows.csv\"}}"};
+    for (int m = 0; m < 2; m++) {
+        FitOptions   options = fit_options_default();
+        Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
+        Panel       *panel = NULL;
+        json_t      *report = NULL;
+        float        rgb[3] = {255, 255, 255}, xyz[3];
+        const char  *path = fixture_file(&folder, "MANIFEST.json", manifests[m]);
+        if (!measurement_read(path, &folder.arena, set, &err) ||
+            !panel_fit(set, &options, folder.panel_path, &folder.arena, &report, &err) ||
+            !panel_open(folder.panel_path, &folder.arena, &panel, &err))
+            fail_msg("%s: %s", err.path, err.text);
+        for (int t = 0; t < 78; t += 6) {
+            panel_emission_xyz(panel, direction_deg(t, 7.0 * t), rgb, xyz);
+            assert_close(xyz[1], 200 * cos(radians_from_degrees(t)), 0.01);
+        }
+        panel_close(panel);
+        json_decref(report);
+    }
+}
+
+static void one_file_a_wavelength_is_one_table(void **state)
+{
+    (void)state;
+    Error        err = {0};
+    Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
+    const char  *manifest = "{\"emission\": {\"white\": \"good.csv\"}, \"reflection\": {"
+        "\"wavelengths_nm\": [500, 600.5], \"incidence_deg\": [12.5],"
+        "\"files\": \"i{incidence}_w{wavelength}.csv\"}}";
+    fixture_file(&folder, "good.csv", "theta,phi,X,Y,Z\n0,0,1,1,1\n10,0,1,1,1\n");
+    fixture_file(&folder, "i12.5_w500.csv", "theta,phi,brdf\n0,0,0.5\n10,90,0.25\n");
+    fixture_file(&folder, "i12.5_w600.5.csv", "phi,theta,brdf\n90,10,2\n0,0,4\n");
+    const char *path = fixture_file(&folder, "MANIFEST.json", manifest);
+    if (!measurement_read(path, &folder.arena, set, &err)) fail_msg("%s", err.text);
+    const AngleTable *table = &set->brdf[0];
+    const float wanted[4] = {0.5f, 4, 0.25f, 2};
+    assert_int_equal(table->rows, 2);
+    assert_int_equal(table->channels, 2);
+    assert_memory_equal(table->value, wanted, sizeof wanted);
+    fixture_file(&folder, "i12.5_w600.5.csv", "theta,phi,brdf\n0,0,4\n20,90,2\n");
+    err = bad_manifest(manifest);
+    EXPECT_LINE(err, "i12.5_w600.5.csv", "other directions than the table of 500 nm");
+    fixture_file(&folder, "i12.5_w600.5.csv", "theta,phi,reflectance\n0,0,4\n");
+    err = bad_manifest(manifest);
+    EXPECT_LINE(err, "header line", "column 'reflectance' is no wavelength of the manifest");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tables_name_file_line_and_value),
+        cmocka_unit_test(every_prefix_of_a_table_is_read_or_refused),
+        cmocka_unit_test(rows_at_the_normal_are_averaged_and_equal_doubles_pass),
+        cmocka_unit_test(manifests_name_the_key),
+        cmocka_unit_test(recipes_name_the_key),
+        cmocka_unit_test(other_layouts_say_the_same),
+        cmocka_unit_test(one_file_a_wavelength_is_one_table),
+    };
+    return cmocka_run_group_tests(tests, start, end);
+}

@@ -1,0 +1,358 @@
+/* panel plot as a whole: pictures and reports of a small synthetic panel, and its errors. */
+#include "panel_fixture.h"
+
+#include <ctype.h>
+#include <dirent.h>
+
+#include "cli/panel_commands.h"
+#include "image/image.h"
+#include "plot/plot.h"
+
+/* The leak sanitizer asks for this: the font library keeps what it has found until the end. */
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_suppressions(void)
+{
+    return "leak:libfontconfig";
+}
+
+static Fixture ips, reflects_nothing;
+
+/* Small and coarse: what is drawn here need not be pretty. */
+#define RECIPE_IPS                                                                             \
+    "{\"panel\": \"test IPS\", \"refractive_index\": 1.5, \"emission\": {" FIXTURE_SPECTRA     \
+    "\"gamma\": 2.2, \"gamma_drop\": 0.2, \"cosine_power\": [1.1, 1.6],"                       \
+    "\"black_cd_m2\": 0.7, \"leak\": 3, \"levels\": [63, 127, 255]},"                          \
+    "\"reflection\": {\"coating\": 0.6, \"coating_blue\": 0.15, \"haze_share\": 0.8,"          \
+    "\"haze_width\": 0.09, \"haze_power\": 1.8, \"floor_albedo\": 0.004,"                      \
+    "\"wavelengths_nm\": [450, 550, 650], \"incidence_deg\": [15, 30, 45, 60]},"               \
+    "\"instrument\": {\"theta_step_deg\": 4, \"phi_step_deg\": 15,"                            \
+    "\"brdf_theta_step_deg\": 2, \"brdf_phi_step_deg\": 10, \"fwhm_deg\": 2.5}}"
+
+#define RECIPE_WITHOUT_REFLECTION                                                              \
+    "{\"panel\": \"test <OLED> & co\", \"refractive_index\": 1.5, \"emission\": {"             \
+    FIXTURE_SPECTRA                                                                            \
+    "\"gamma\": 2.2, \"gamma_drop\": 0.0, \"cosine_power\": [0.4, 0.4],"                       \
+    "\"black_cd_m2\": 0.0, \"leak\": 0, \"levels\": [127, 255]},"                              \
+    "\"instrument\": {\"theta_max_deg\": 70, \"theta_step_deg\": 5, \"phi_step_deg\": 15}}"
+
+static int start(void **state)
+{
+    (void)state;
+    FitOptions options = fit_options_default();
+    options.progress = PROGRESS_NONE;
+    options.threads = 2;
+    options.level = 5;
+    fixture_start(&ips, RECIPE_IPS, &options);
+    fixture_start(&reflects_nothing, RECIPE_WITHOUT_REFLECTION, &options);
+    return 0;
+}
+
+static int end(void **state)
+{
+    (void)state;
+    fixture_end(&reflects_nothing);
+    fixture_end(&ips);
+    return 0;
+}
+
+static char *in_folder(Fixture *fixture, const char *name)
+{
+    return arena_format(&fixture->arena, "%s/%s", fixture->folder, name);
+}
+
+/* Runs `panel plot` with these arguments; a list that ends in NULL. */
+static bool run(Error *err, ...)
+{
+    char   *argv[24] = {(char *)"plot"};
+    int     argc = 1;
+    va_list list;
+    va_start(list, err);
+    for (char *a; (a = va_arg(list, char *)) && argc < 24; argc++) argv[argc] = a;
+    va_end(list);
+    *err = (Error){0};
+    return cmd_panel_plot(argc, argv, err);
+}
+
+#define RUN_FAILS(err, code_wanted, part, ...)                                                 \
+    do {                                                                                       \
+        assert_false(run(&(err), __VA_ARGS__, NULL));                                          \
+        assert_int_equal((err).code, code_wanted);                                             \
+        if (!strstr((err).text, part)) fail_msg("'%s' lacks '%s'", (err).text, part);          \
+    } while (0)
+
+#define RUN_OK(...)                                                                            \
+    do {                                                                                       \
+        Error e_;                                                                              \
+        if (!run(&e_, __VA_ARGS__, NULL)) fail_msg("%s: %s", e_.file, e_.text);                \
+    } while (0)
+
+static FileBytes bytes_of(Fixture *fixture, const char *name)
+{
+    Error     err = {0};
+    FileBytes bytes = {0};
+    if (!file_read(in_folder(fixture, name), (size_t)1 << 28, &fixture->arena, &bytes, &err))
+        fail_msg("%s: %s", err.file, err.text);
+    return bytes;
+}
+
+/* Tags nest, attributes are quoted, no stray & or <. Returns the number of elements. */
+static int assert_well_formed(const char *p)
+{
+    struct { const char *name; size_t length; } open[64];
+    int depth = 0, elements = 0;
+    while ((p = strchr(p, '<'))) {
+        if (p[1] == '?' || p[1] == '!') {
+            p = strchr(p, '>');
+            assert_non_null(p);
+            continue;
+        }
+        bool        closes = p[1] == '/';
+        const char *name = p + 1 + closes;
+        size_t      length = strcspn(name, " \t\r\n/>");
+        p = name + length;
+        for (char quote = 0; *p && (quote || *p != '>'); p++) {
+            if (quote && *p == quote) quote = 0;
+            else if (!quote && (*p == '"' || *p == '\'')) quote = *p;
+            assert_true(*p != '<');
+        }
+        assert_int_equal(*p, '>');
+        if (closes) {
+            assert_true(depth > 0);
+            depth--;
+            assert_int_equal(open[depth].length, length);
+            assert_memory_equal(open[depth].name, name, length);
+        } else {
+            elements++;
+            if (p[-1] == '/') continue;
+            assert_true(depth < 64);
+            open[depth].name = name;
+            open[depth++].length = length;
+        }
+    }
+    assert_int_equal(depth, 0);
+    return elements;
+}
+
+#define NAMES_MAX 20000
+
+typedef struct NameList {
+    int  count;
+    char name[NAMES_MAX][24];
+} NameList;
+
+static int compare_names(const void *a, const void *b)
+{
+    return strcmp(a, b);
+}
+
+/* What stands behind every `before` up to a quote or bracket, sorted. */
+static NameList *names_behind(const char *text, const char *before)
+{
+    NameList *list = ARENA_NEW(&ips.arena, NameList, 1);
+    for (const char *p = text; (p = strstr(p, before));) {
+        p += strlen(before);
+        size_t length = strspn(p, "abcdefghijklmnopqrstuvwxyz0123456789-");
+        if (length == 0 || length > 23 || (p[length] != '"' && p[length] != ')')) continue;
+        assert_true(list->count < NAMES_MAX);
+        memcpy(list->name[list->count++], p, length);
+    }
+    qsort(list->name, (size_t)list->count, sizeof *list->name, compare_names);
+    return list;
+}
+
+/* Every #name that is used is somebody's id, and no id stands twice. */
+static void assert_ids_are_whole(const char *text)
+{
+    NameList *ids = names_behind(text, " id=\""), *used[2];
+    used[0] = names_behind(text, "href=\"#");
+    used[1] = names_behind(text, "url(#");
+    assert_true(ids->count > 20 && used[0]->count > 20);
+    for (int i = 1; i < ids->count; i++)
+        assert_string_not_equal(ids->name[i], ids->name[i - 1]);
+    for (int k = 0; k < 2; k++)
+        for (int i = 0; i < used[k]->count; i++)
+            if (!bsearch(used[k]->name[i], ids->name, (size_t)ids->count, sizeof *ids->name,
+                         compare_names)) fail_msg("nobody is #%s", used[k]->name[i]);
+}
+
+/* ---- pictures --------------------------------------------------------------------------- */
+
+static void every_kind_draws_svg(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < PLOT_KIND_COUNT; kind++) {
+        if (kind == PLOT_FIT) continue;
+        RUN_OK(ips.panel_path, "-o", in_folder(&ips, "k.svg"), "--kind",
+               plot_kind_name((PlotKind)kind));
+        const char *svg = (const char *)bytes_of(&ips, "k.svg").data;
+        assert_true(assert_well_formed(svg) > 100);
+        assert_non_null(strstr(svg, "<svg "));
+        assert_ids_are_whole(svg);
+    }
+}
+
+static void names_of_kinds_agree_with_the_option(void **state)
+{
+    (void)state;
+    char names[256] = "";
+    for (int kind = 0; kind < PLOT_KIND_COUNT; kind++) {
+        if (kind > 0) strcat(names, "|");
+        strcat(names, plot_kind_name((PlotKind)kind));
+    }
+    assert_string_equal(names, PLOT_KINDS);
+}
+
+static void png_opens_with_the_size_asked_for(void **state)
+{
+    (void)state;
+    Error err = {0};
+    Image image;
+    RUN_OK(ips.panel_path, "-o", in_folder(&ips, "s.png"), "--size", "801x603");
+    if (!image_read(in_folder(&ips, "s.png"), &ips.arena, &image, &err))
+        fail_msg("%s", err.text);
+    assert_int_equal(image.width, 801);
+    assert_int_equal(image.height, 603);
+    const unsigned char *pixel = image.pixels;
+    assert_int_equal(pixel[0], 255); /* light ground */
+    RUN_OK(ips.panel_path, "-o", in_folder(&ips, "d.png"), "--size", "640x480", "--dark",
+           "--kind", "luminance");
+    assert_true(image_read(in_folder(&ips, "d.png"), &ips.arena, &image, &err));
+    pixel = image.pixels;
+    assert_true(pixel[0] < 40);
+}
+
+static void the_fit_shows_samples_over_curves(void **state)
+{
+    (void)state;
+    RUN_OK(ips.panel_path, "-o", in_folder(&ips, "f.svg"), "--kind", "fit", "--measured",
+           in_folder(&ips, "MANIFEST.json"));
+    assert_true(assert_well_formed((const char *)bytes_of(&ips, "f.svg").data) > 500);
+}
+
+static void the_same_call_writes_the_same_bytes(void **state)
+{
+    (void)state;
+    static const char *const NAMES[][2] = {
+        {"1.svg", "2.svg"}, {"1.png", "2.png"}, {"1.html", "2.html"}};
+    Fixture *fixture = &reflects_nothing;
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 2; k++)
+            RUN_OK(fixture->panel_path, i == 2 ? "--report" : "-o",
+                   in_folder(fixture, NAMES[i][k]), "--size", "640x480", "--threads",
+                   k ? "2" : "1");
+        FileBytes a = bytes_of(fixture, NAMES[i][0]), b = bytes_of(fixture, NAMES[i][1]);
+        assert_int_equal(a.size, b.size);
+        assert_memory_equal(a.data, b.data, a.size);
+    }
+}
+
+/* ---- the report ------------------------------------------------------------------------- */
+
+static void the_report_stands_alone(void **state)
+{
+    (void)state;
+    RUN_OK(reflects_nothing.panel_path, "--report", in_folder(&reflects_nothing, "r.html"),
+           "--measured", in_folder(&reflects_nothing, "MANIFEST.json"));
+    const char *html = (const char *)bytes_of(&reflects_nothing, "r.html").data;
+    assert_null(strstr(html, "src="));
+    assert_null(strstr(html, "<link"));
+    assert_null(strstr(html, "@import"));
+    assert_non_null(strstr(html, "test &lt;OLED&gt; &amp; co"));
+    assert_null(strstr(html, "<OLED>"));
+    assert_non_null(strstr(html, "red 255"));
+    assert_non_null(strstr(html, "max. error"));
+    assert_non_null(strstr(html, "extrapolated"));
+    assert_null(strstr(html, "Reflection</h2>"));
+    assert_non_null(strstr(html, "Measured against fitted"));
+    assert_ids_are_whole(html);
+}
+
+/* Both angle brackets inside the script would end up as tags here; it is taken out first. */
+static void the_report_is_well_formed(void **state)
+{
+    (void)state;
+    RUN_OK(ips.panel_path, "--report", in_folder(&ips, "w.html"));
+    char *html = (char *)bytes_of(&ips, "w.html").data;
+    char *script = strstr(html, "<script>"), *after = strstr(html, "</script>");
+    assert_true(script && after && script < after);
+    memset(script, ' ', (size_t)(after - script) + strlen("</script>"));
+    for (char *meta = html; (meta = strstr(meta, "<meta "));)
+        meta[1] = '!'; /* an element without an end in HTML */
+    assert_true(assert_well_formed(html) > 2000);
+    assert_non_null(strstr(html, "Reflection</h2>"));
+}
+
+/* ---- errors ----------------------------------------------------------------------------- */
+
+static void a_wrong_command_line_says_what_is_wanted(void **state)
+{
+    (void)state;
+    Error       err;
+    const char *svg = in_folder(&ips, "e.svg"), *panel = ips.panel_path;
+    RUN_FAILS(err, ERROR_USAGE, "luminanz", panel, "-o", svg, "--kind", "luminanz");
+    RUN_FAILS(err, ERROR_USAGE, "contrast", panel, "-o", svg, "--kind", "luminanz");
+    RUN_FAILS(err, ERROR_USAGE, "wants -o X.svg", panel);
+    RUN_FAILS(err, ERROR_USAGE, ".svg or .png", panel, "-o", in_folder(&ips, "e.pdf"));
+    RUN_FAILS(err, ERROR_USAGE, "ends in .html", panel, "--report", in_folder(&ips, "e.txt"));
+    RUN_FAILS(err, ERROR_USAGE, "--size is 20x20, wanted 160 to 20000", panel, "-o", svg,
+              "--size", "20x20");
+    RUN_FAILS(err, ERROR_USAGE, "--measured MANIFEST.json", panel, "-o", svg, "--kind", "fit");
+    assert_false(file_exists(svg));
+}
+
+static void what_a_panel_lacks_is_said(void **state)
+{
+    (void)state;
+    Error       err;
+    const char *panel = reflects_nothing.panel_path;
+    const char *svg = in_folder(&reflects_nothing, "e.svg");
+    RUN_FAILS(err, ERROR_INPUT, "has no reflection data, wanted for --kind brdf-map", panel,
+              "-o", svg, "--kind", "brdf-map");
+    assert_string_equal(err.file, panel);
+    RUN_FAILS(err, ERROR_INPUT, "its black emits nothing", panel, "-o", svg, "--kind",
+              "contrast");
+    RUN_FAILS(err, ERROR_INPUT, "", in_folder(&ips, "none.panel"), "-o", svg);
+    assert_false(file_exists(svg));
+    RUN_OK(panel, "-o", svg);
+}
+
+static int files_in(const char *folder)
+{
+    DIR *dir = opendir(folder);
+    int  count = 0;
+    assert_non_null(dir);
+    while (readdir(dir)) count++;
+    closedir(dir);
+    return count;
+}
+
+static void a_target_that_cannot_be_written_leaves_nothing(void **state)
+{
+    (void)state;
+    Error err;
+    int   before = files_in(ips.folder);
+    RUN_FAILS(err, ERROR_OUTPUT, "", ips.panel_path, "-o", in_folder(&ips, "none/x.png"),
+              "--kind", "mirror");
+    RUN_FAILS(err, ERROR_OUTPUT, "", ips.panel_path, "-o", in_folder(&ips, "none/x.svg"),
+              "--kind", "mirror");
+    RUN_FAILS(err, ERROR_OUTPUT, "", ips.panel_path, "--report",
+              in_folder(&ips, "none/x.html"));
+    assert_int_equal(files_in(ips.folder), before);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_kind_draws_svg),
+        cmocka_unit_test(names_of_kinds_agree_with_the_option),
+        cmocka_unit_test(png_opens_with_the_size_asked_for),
+        cmocka_unit_test(the_fit_shows_samples_over_curves),
+        cmocka_unit_test(the_same_call_writes_the_same_bytes),
+        cmocka_unit_test(the_report_stands_alone),
+        cmocka_unit_test(the_report_is_well_formed),
+        cmocka_unit_test(a_wrong_command_line_says_what_is_wanted),
+        cmocka_unit_test(what_a_panel_lacks_is_said),
+        cmocka_unit_test(a_target_that_cannot_be_written_leaves_nothing),
+    };
+    return cmocka_run_group_tests(tests, start, end);
+}
