@@ -220,7 +220,7 @@ static bool set_air(Change *change, Error *err)
     const EnvironmentChange *asked = change->asked;
     if (!asked->has_turbidity && !asked->has_visibility) return true;
     if (change->environment->kind != ENVIRONMENT_SKY)
-        return error_set(err, ERROR_USAGE, "--%s: only a clear sky has air to set — add "
+        return error_set(err, ERROR_USAGE, "--%s: there is no air to set — add "
                          "--environment sky:clear",
                          asked->has_turbidity ? "turbidity" : "visibility");
     if (asked->has_turbidity) {
