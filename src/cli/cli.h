@@ -118,4 +118,5 @@ bool cmd_render(int argc, char **argv, Error *err);
 bool cmd_develop(int argc, char **argv, Error *err);
 bool cmd_panel(int argc, char **argv, Error *err);
 bool cmd_check(int argc, char **argv, Error *err);
+bool cmd_sky(int argc, char **argv, Error *err);
 bool cmd_measure(int argc, char **argv, Error *err);

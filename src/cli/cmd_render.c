@@ -89,7 +89,8 @@ static bool load(Work *work, Error *err)
     work->problems = problems_start(work->arena);
     bool loaded =
         scene_load(&request->scene, work->arena, &work->problems, &work->scene, err) &&
-        render_change_environment(&request->environment, work->scene, work->arena, err) &&
+        environment_change(&request->environment, work->scene, work->arena,
+                           &work->problems, err) &&
         render_choose_camera(work->scene, request->camera, &work->problems, &work->camera, err);
     cli_print_warnings(&work->problems);
     return loaded;

@@ -17,6 +17,7 @@ static const Command commands[] = {
     {"render", "render a scene to a linear, photometric EXR", cmd_render},
     {"develop", "make a picture of a frame", cmd_develop},
     {"panel", "fit, look into and evaluate a measured display panel", cmd_panel},
+    {"sky", "draw the sky of a place and time, and print its figures", cmd_sky},
     {"check", "what is in a scene, and everything that is wrong with it", cmd_check},
     {"measure", "luminance, colour and contrast of a part of a frame", cmd_measure},
 };

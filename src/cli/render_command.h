@@ -6,19 +6,10 @@
  */
 #pragma once
 #include "cli/cli.h"
+#include "cli/environment_options.h"
 #include "image/develop.h"
 #include "render/render.h"
 #include "scene/scene.h"
-
-/* What the command line changes about the surroundings. */
-typedef struct EnvironmentChange {
-    const char *environment; /* "constant:CD_M2", "hdri:FILE"; NULL: the scene's own */
-    const char *sun;         /* "off", "AZ,EL", "AZ,EL,LUX"; NULL: the scene's own */
-    bool   has_hdri_lux, has_forward, has_heading;
-    double hdri_lux;         /* lx on a horizontal plane */
-    double forward[3];       /* scene vector */
-    double heading_deg;
-} EnvironmentChange;
 
 typedef struct RenderRequest {
     Cli           cli;
@@ -34,11 +25,6 @@ typedef struct RenderRequest {
 } RenderRequest;
 
 bool render_request_parse(int argc, char **argv, Arena *arena, RenderRequest *out, Error *err);
-
-/* Overrides single members of the scene's environment; a picture that is read joins the
- * scene's inputs. */
-bool render_change_environment(const EnvironmentChange *change, Scene *scene, Arena *arena,
-                               Error *err);
 
 /* By a node's name, then a camera's, then an index; NULL: the first. A scene without a camera
  * is framed whole, and a warning says so. */

@@ -168,10 +168,9 @@ static bool sample_sky(const Lights *lights, Vec3 ns, const Wavelengths *wavelen
                        const float u[3], LightSample *sample)
 {
     SkySample sky;
-    if (!sky_sample(&lights->sky, ns, u[0], u[1], &sky)) return false;
+    if (!sky_sample(&lights->sky, ns, u, wavelengths, &sky)) return false;
     *sample = (LightSample){.wi = sky.direction, .distance = INFINITY,
-                            .radiance = spectrum_from_rgb_emission(wavelengths, sky.rgb),
-                            .pdf = sky.pdf};
+                            .radiance = sky.radiance, .pdf = sky.pdf};
     return true;
 }
 
@@ -193,9 +192,9 @@ bool lights_sample(const Lights *lights, LightSet set, LitPoint point,
 void lights_distant(const Lights *lights, Vec3 direction, Vec3 ns,
                     const Wavelengths *wavelengths, Spectrum radiance[2], float pdf[2])
 {
-    SkySample seen = sky_seen(&lights->sky, direction, ns);
+    SkySample seen = sky_seen(&lights->sky, direction, ns, wavelengths);
     radiance[LIGHTS_SUN] = sun_radiance(&lights->sky, direction, wavelengths);
-    radiance[LIGHTS_SKY] = spectrum_from_rgb_emission(wavelengths, seen.rgb);
+    radiance[LIGHTS_SKY] = seen.radiance;
     pdf[LIGHTS_SUN] = sun_pdf(&lights->sky, direction);
     pdf[LIGHTS_SKY] = seen.pdf;
 }
@@ -211,5 +210,5 @@ float lights_emitter_pdf(const Lights *lights, Vec3 from, const Hit *hit, Vec3 d
 
 long lights_refused_pixels(const Lights *lights)
 {
-    return lights->sky.refused_pixels;
+    return lights->sky.picture.refused_pixels;
 }

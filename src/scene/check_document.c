@@ -177,8 +177,8 @@ static const EnvironmentType ENVIRONMENT_TYPES[] = {
      {"direct_normal_w_m2", "diffuse_horizontal_w_m2"},
      "|direct_normal_w_m2|diffuse_horizontal_w_m2|when|where|"},
     {"sky",
-     {"when", "where"},
-     "|when|where|turbidity|ozone_atm_cm|water_cm|albedo|ground|cloud_top_m|"},
+     {NULL, NULL},
+     "|when|where|turbidity|visibility_km|ozone_atm_cm|water_cm|albedo|ground|cloud_top_m|"},
 };
 
 static void check_members(const Check *check, const GltfValue *environment,
@@ -244,6 +244,11 @@ void check_environment(const Check *check, const GltfValue *environment)
         if (strcmp(ENVIRONMENT_TYPES[i].name, type) == 0)
             check_members(check, environment, &ENVIRONMENT_TYPES[i]);
     check_time_and_place(check, environment);
+    bool has_time = tree_member(environment, "when") && tree_member(environment, "where");
+    if ((strcmp(type, "perez") == 0 || strcmp(type, "sky") == 0) && !has_time &&
+        !tree_member(environment, "sun"))
+        check_fails(check, environment,
+                    "has no sun: \"when\" and \"where\", or \"sun\", are wanted");
     if (tree_member(environment, "scale") &&
         tree_member(environment, "horizontal_illuminance_lx"))
         check_fails(check, environment,

@@ -85,6 +85,47 @@ static void read_hdri(GltfFile *file, const GltfValue *extension, Environment *o
                      path, out->hdri.width, out->hdri.height);
 }
 
+static void read_time_and_place(const GltfValue *extension, OutsideInput *out)
+{
+    Error err;
+    double place[3] = {0, 0, 0};
+    const GltfValue *where = tree_member(extension, "where");
+    const char *when = tree_text(extension, "when", "");
+    /* the check has looked at it: a text that is no moment is an error there */
+    out->has_time = *when && where && sky_time_parse(when, "", &out->when, &err);
+    for (int i = 0; i < 3 && where; i++) {
+        const GltfValue *number = tree_item(where, i);
+        if (number) place[i] = number->number;
+    }
+    out->where = (SkyPlace){place[0], place[1], place[2]};
+}
+
+static FloorKind floor_from_text(const char *text)
+{
+    return strcmp(text, "cloud") == 0 ? FLOOR_CLOUD : strcmp(text, "sea") == 0 ? FLOOR_SEA
+                                                                               : FLOOR_LAND;
+}
+
+static OutsideInput read_outside(const GltfValue *extension, EnvironmentKind kind)
+{
+    OutsideInput out = outside_input_default(kind == ENVIRONMENT_CIE     ? OUTSIDE_CIE
+                                             : kind == ENVIRONMENT_PEREZ ? OUTSIDE_PEREZ
+                                                                         : OUTSIDE_CLEAR);
+    out.cie_type = (int)tree_number(extension, "sky", out.cie_type);
+    out.diffuse_lux = tree_number(extension, "diffuse_horizontal_lx", out.diffuse_lux);
+    out.direct_w_m2 = tree_number(extension, "direct_normal_w_m2", 0);
+    out.diffuse_w_m2 = tree_number(extension, "diffuse_horizontal_w_m2", 0);
+    out.turbidity = tree_number(extension, "turbidity", out.turbidity);
+    out.visibility_km = tree_number(extension, "visibility_km", 0);
+    out.ozone_atm_cm = tree_number(extension, "ozone_atm_cm", out.ozone_atm_cm);
+    out.water_cm = tree_number(extension, "water_cm", out.water_cm);
+    out.albedo = tree_number(extension, "albedo", out.albedo);
+    out.floor = floor_from_text(tree_text(extension, "ground", "land"));
+    out.cloud_top_m = tree_number(extension, "cloud_top_m", out.cloud_top_m);
+    read_time_and_place(extension, &out);
+    return out;
+}
+
 void environment_build(GltfFile *file, const GltfValue *extension)
 {
     Vec3 forward = vec3(0, 0, -1);
@@ -98,6 +139,7 @@ void environment_build(GltfFile *file, const GltfValue *extension)
         read_color(file, extension, out.color);
     }
     if (out.kind == ENVIRONMENT_HDRI) read_hdri(file, extension, &out);
+    if (out.kind >= ENVIRONMENT_CIE) out.outside = read_outside(extension, out.kind);
     read_sun(tree_member(extension, "sun"), &out);
     if (tree_floats(extension, "forward", 3, numbers))
         forward = vec3(numbers[0], numbers[1], numbers[2]);

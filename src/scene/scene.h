@@ -17,6 +17,7 @@
 #include "base/vec.h"
 #include "image/texture.h"
 #include "panel/panel.h"
+#include "sky/outside.h"
 #include "spectrum/curve.h"
 
 #define NO_ID (-1)
@@ -122,7 +123,7 @@ typedef struct SceneCamera {
 
 typedef enum EnvironmentKind {
     ENVIRONMENT_NONE, ENVIRONMENT_CONSTANT, ENVIRONMENT_HDRI,
-    ENVIRONMENT_CIE, ENVIRONMENT_PEREZ, ENVIRONMENT_SKY /* parsed and checked; not lit yet */
+    ENVIRONMENT_CIE, ENVIRONMENT_PEREZ, ENVIRONMENT_SKY
 } EnvironmentKind;
 
 /* PARHELION_environment. Angles in radians here. */
@@ -135,6 +136,7 @@ typedef struct Environment {
     float hdri_rotation;
     float hdri_scale;
     float horizontal_illuminance_lx; /* hdri: wanted instead of scale; 0 = use scale */
+    OutsideInput outside;        /* cie, perez, sky: all but the sun below */
     bool  has_sun;
     float sun_azimuth;           /* from north over east */
     float sun_elevation;

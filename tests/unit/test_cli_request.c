@@ -49,12 +49,13 @@ static void values_of_the_surroundings_are_checked(void **state)
         const char       *text;
     } cases[] = {
         {{.environment = "sky:clear"},
-         "--environment sky:clear: sky models are not available in "
-         "this version — use constant:CD_M2 or hdri:FILE"},
+         "--environment sky:clear: where does the sun stand? — add --when and --where, or "
+         "--sun AZ,EL"},
         {{.environment = "constant:-1"},
          "--environment constant:-1: wanted a luminance in cd/m2, "
          "at least 0"},
-        {{.environment = "black"}, "--environment black: wanted constant:CD_M2 or hdri:FILE"},
+        {{.environment = "black"}, "--environment black: wanted sky:clear, cie:N[:LUX], "
+         "perez:DIRECT,DIFFUSE, hdri:FILE or constant:CD_M2"},
         {{.has_hdri_lux = true, .hdri_lux = 9},
          "--hdri-lux: there is no HDRI — add --environment "
          "hdri:FILE"},
@@ -62,7 +63,7 @@ static void values_of_the_surroundings_are_checked(void **state)
          "--sun 100,20: the scene's sun has no illuminance to keep — write "
          "AZ,EL,LUX"},
         {{.sun = "1,95,1000"},
-         "--sun 1,95,1000: wanted off, or AZ,EL,LUX with AZ -360 to 360 and "
+         "--sun 1,95,1000: wanted auto, off, or AZ,EL,LUX with AZ -360 to 360 and "
          "EL -90 to 90 degrees and LUX at least 0"},
         {{.has_forward = true, .forward = {0, 1, 0}},
          "--forward 0,1,0: wanted a vector that is "
@@ -72,7 +73,8 @@ static void values_of_the_surroundings_are_checked(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Scene scene = {0};
         Error err = {0};
-        assert_false(render_change_environment(&cases[i].change, &scene, arena, &err));
+        Problems problems = problems_start(arena);
+        assert_false(environment_change(&cases[i].change, &scene, arena, &problems, &err));
         assert_int_equal(err.code, ERROR_USAGE);
         assert_string_equal(err.text, cases[i].text);
     }
@@ -86,7 +88,8 @@ static void the_line_overrides_single_members_of_the_surroundings(void **state)
     EnvironmentChange change = {.environment = "constant:250", .sun = "90,30",
                                 .has_heading = true, .heading_deg = 180};
     Error             err;
-    assert_true(render_change_environment(&change, &scene, arena, &err));
+    Problems problems = problems_start(arena);
+    assert_true(environment_change(&change, &scene, arena, &problems, &err));
     const Environment *e = &scene.environment;
     assert_int_equal(e->kind, ENVIRONMENT_CONSTANT);
     assert_true(e->luminance_cd_m2 == 250 && e->color[2] == 1);
@@ -96,9 +99,69 @@ static void the_line_overrides_single_members_of_the_surroundings(void **state)
     assert_close(e->heading, PI, 1e-6);
     assert_true(e->forward.z == -1);
     EnvironmentChange off = {.sun = "off"};
-    assert_true(render_change_environment(&off, &scene, arena, &err));
+    assert_true(environment_change(&off, &scene, arena, &problems, &err));
     assert_false(e->has_sun);
     assert_true(e->luminance_cd_m2 == 250);
+}
+
+static void a_sky_is_asked_for_by_its_kind_time_and_place(void **state)
+{
+    Arena   *arena = *state;
+    Problems problems = problems_start(arena);
+    Scene    scene = {0};
+    Error    err;
+    EnvironmentChange clear = {.environment = "sky:clear", .when = "2026-06-21T08:30+02:00",
+                               .where = "48.14,11.58,520", .has_visibility = true,
+                               .visibility_km = 23};
+    assert_true(environment_change(&clear, &scene, arena, &problems, &err));
+    const Environment *e = &scene.environment;
+    assert_int_equal(e->kind, ENVIRONMENT_SKY);
+    assert_true(e->outside.has_time && !e->has_sun && e->outside.when.hour == 8);
+    assert_close(e->outside.where.altitude_m, 520, 1e-12);
+    assert_close(e->outside.visibility_km, 23, 1e-12);
+    EnvironmentChange later = {.when = "2026-06-21T09:30+02:00", .sun = "auto"};
+    assert_true(environment_change(&later, &scene, arena, &problems, &err));
+    assert_true(e->outside.when.hour == 9 && e->outside.where.altitude_m == 520);
+    EnvironmentChange cie = {.environment = "cie:12:15000", .sun = "180,35,90000"};
+    assert_true(environment_change(&cie, &scene, arena, &problems, &err));
+    assert_true(e->kind == ENVIRONMENT_CIE && e->outside.cie_type == 12);
+    assert_true(e->has_sun && e->sun_illuminance_lx == 90000 && e->outside.diffuse_lux == 15000);
+    assert_int_equal(problems.count, 0);
+    EnvironmentChange bare = {.environment = "cie:3"};
+    Scene other = {0};
+    assert_true(environment_change(&bare, &other, arena, &problems, &err));
+    assert_int_equal(problems.count, 1); /* the illuminance that was taken */
+}
+
+static void what_makes_no_sky_is_refused_by_name(void **state)
+{
+    static const struct {
+        EnvironmentChange change;
+        const char       *part;
+    } cases[] = {
+        {{.environment = "sky:clear"}, "where does the sun stand"},
+        {{.environment = "sky:clear", .when = "2026-06-21T08:30+02:00"}, "add --where"},
+        {{.environment = "sky:clear", .where = "48,11"}, "add --when"},
+        {{.environment = "sky:clear", .when = "08:30", .where = "48,11"}, "is no moment"},
+        {{.environment = "sky:clear", .when = "2026-06-21T08:30Z", .where = "100,11"}, "LAT,LON"},
+        {{.environment = "cie:17"}, "1 to 15"},
+        {{.environment = "cie:"}, "1 to 15"},
+        {{.environment = "perez:800"}, "DIRECT,DIFFUSE"},
+        {{.environment = "perez:800,100"}, "where does the sun stand"},
+        {{.when = "2026-06-21T08:30Z", .where = "48,11"}, "no sky that it could change"},
+        {{.environment = "constant:5", .has_turbidity = true, .turbidity = 3}, "no air"},
+        {{.environment = "constant:5", .sun = "auto"}, "--when and --where"},
+        {{.weather = "none.epw"}, "add --when"},
+    };
+    Arena *arena = *state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        Scene    scene = {0};
+        Error    err = {0};
+        Problems problems = problems_start(arena);
+        assert_false(environment_change(&cases[i].change, &scene, arena, &problems, &err));
+        assert_int_equal(err.code, ERROR_USAGE);
+        if (!strstr(err.text, cases[i].part)) fail_msg("%s", err.text);
+    }
 }
 
 static void a_camera_is_found_by_node_then_by_camera_then_by_place(void **state)
@@ -150,6 +213,8 @@ int main(void)
         cmocka_unit_test(values_of_render_are_checked_before_anything_is_read),
         cmocka_unit_test(values_of_the_surroundings_are_checked),
         cmocka_unit_test(the_line_overrides_single_members_of_the_surroundings),
+        cmocka_unit_test(a_sky_is_asked_for_by_its_kind_time_and_place),
+        cmocka_unit_test(what_makes_no_sky_is_refused_by_name),
         cmocka_unit_test(a_camera_is_found_by_node_then_by_camera_then_by_place),
     };
     return cmocka_run_group_tests_name("cli_request", tests, set_up, tear_down);

@@ -1,0 +1,375 @@
+/* parhelion sky: draws a sky and tells its figures. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/file.h"
+#include "base/parallel.h"
+#include "base/units.h"
+#include "cli/environment_options.h"
+#include "image/frame.h"
+#include "light/sky.h"
+#include "plot/sky_plot.h"
+#include "spectrum/photometry.h"
+
+#define ARENA_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
+#define LANE_SETS 8                    /* of 16 wavelengths: enough for smooth spectra */
+#define PATH_STEPS 145                 /* every 10 minutes of a day */
+
+/* One run of the command. */
+typedef struct Work {
+    Cli               cli;
+    EnvironmentChange change;
+    const char       *output;
+    int               size[2]; /* of the EXR */
+    bool              is_dark, is_fisheye;
+    Arena            *arena;
+    Problems          problems;
+    Scene            *scene;
+    Sky               sky;
+    double            turn; /* compass azimuth of the scene's -Z */
+    float            *rgb[3];
+    Wavelengths       lanes[LANE_SETS];
+} Work;
+
+/* ---- the sky, direction by direction ------------------------------------------------------ */
+
+/* A direction of the compass in the scene. */
+static Vec3 scene_direction(const Work *work, double azimuth, double elevation)
+{
+    double a = azimuth - work->turn, c = cos(elevation);
+    return vec3((float)(c * sin(a)), (float)sin(elevation), (float)(-c * cos(a)));
+}
+
+static void sky_rgb(const Work *work, Vec3 direction, float rgb[3])
+{
+    float xyz[3] = {0, 0, 0};
+    for (int k = 0; k < LANE_SETS; k++) {
+        SkySample seen = sky_seen(&work->sky, direction, direction, &work->lanes[k]);
+        spectrum_add_xyz(&work->lanes[k], seen.radiance, xyz);
+    }
+    for (int i = 0; i < 3; i++) xyz[i] *= 1.0f / LANE_SETS;
+    rgb_from_xyz(xyz, rgb);
+}
+
+/* False outside a fisheye's disc. */
+static bool pixel_direction(const Work *work, int x, int y, double *azimuth, double *elevation)
+{
+    double u = (x + 0.5) / work->size[0], v = (y + 0.5) / work->size[1];
+    if (!work->is_fisheye) {
+        *azimuth = 2 * PI * u;
+        *elevation = PI * (0.5 - v);
+        return true;
+    }
+    double dx = 2 * u - 1, dy = 1 - 2 * v, r = sqrt(dx * dx + dy * dy);
+    *azimuth = atan2(dx, dy);
+    *elevation = PI / 2 * (1 - r);
+    return r <= 1;
+}
+
+static void draw_row(void *context, int y, int worker)
+{
+    Work *work = context;
+    (void)worker;
+    for (int x = 0; x < work->size[0]; x++) {
+        double azimuth, elevation;
+        float  rgb[3] = {0, 0, 0};
+        if (pixel_direction(work, x, y, &azimuth, &elevation))
+            sky_rgb(work, scene_direction(work, azimuth, elevation), rgb);
+        for (int i = 0; i < 3; i++)
+            work->rgb[i][(size_t)y * (size_t)work->size[0] + (size_t)x] = rgb[i];
+    }
+}
+
+static void draw(Work *work)
+{
+    size_t count = (size_t)work->size[0] * (size_t)work->size[1];
+    for (int i = 0; i < 3; i++) work->rgb[i] = ARENA_NEW(work->arena, float, count);
+    for (int k = 0; k < LANE_SETS; k++)
+        wavelengths_sample(((float)k + 0.5f) / LANE_SETS, &work->lanes[k]);
+    parallel_for(work->cli.threads, work->size[1], draw_row, work);
+}
+
+/* ---- figures ------------------------------------------------------------------------------- */
+
+/* Of a picture or a constant sky, which have no model: the sky above the horizontal. */
+static double horizontal_lux(const Work *work)
+{
+    double sum = 0;
+    int    rows = 180, columns = 360;
+    for (int j = 0; j < rows; j++) {
+        double low = PI / 2 * j / rows, high = PI / 2 * (j + 1) / rows, middle = (low + high) / 2;
+        double weight = 0.5 * (sin(high) * sin(high) - sin(low) * sin(low)) * 2 * PI / columns;
+        for (int i = 0; i < columns; i++) {
+            float rgb[3];
+            sky_rgb(work, scene_direction(work, 2 * PI * (i + 0.5) / columns, middle), rgb);
+            sum += weight * (double)luminance_from_rgb(rgb);
+        }
+    }
+    return sum;
+}
+
+static OutsideFigures figures_of(const Work *work)
+{
+    float rgb[3];
+    if (work->sky.model) return work->sky.model->outside->figures;
+    OutsideFigures f = {.diffuse_horizontal_lx = horizontal_lux(work)};
+    const Environment *environment = &work->scene->environment;
+    sky_rgb(work, vec3(0, 1, 0), rgb);
+    f.zenith_cd_m2 = (double)luminance_from_rgb(rgb);
+    f.is_sun_up = work->sky.has_sun;
+    if (work->sky.has_sun) {
+        f.sun_azimuth_deg = degrees_from_radians((double)environment->sun_azimuth);
+        f.sun_elevation_deg = degrees_from_radians((double)environment->sun_elevation);
+        f.sun_zenith_deg = 90 - f.sun_elevation_deg;
+        f.direct_normal_lx = (double)environment->sun_illuminance_lx;
+    }
+    f.global_horizontal_lx = f.diffuse_horizontal_lx +
+                             f.direct_normal_lx *
+                                 fmax(0, sin(radians_from_degrees(f.sun_elevation_deg)));
+    return f;
+}
+
+static bool print_json(const Work *work, const OutsideFigures *f, Error *err)
+{
+    json_t *sun = work->sky.model || work->sky.has_sun
+                      ? json_pack("{s:f, s:f, s:f, s:f, s:b, s:f, s:f}", "azimuth_deg",
+                                  f->sun_azimuth_deg, "zenith_deg", f->sun_zenith_deg,
+                                  "elevation_deg", f->sun_elevation_deg, "distance_au",
+                                  f->distance_au, "is_up", (int)f->is_sun_up,
+                                  "true_elevation_deg", f->true_elevation_deg, "refraction_deg",
+                                  f->refraction_deg)
+                      : json_null();
+    json_t *document = json_pack(
+        "{s:o, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:[f,f], s:[f,f], s:f, s:f}", "sun", sun,
+        "direct_normal_lx", f->direct_normal_lx, "diffuse_horizontal_lx",
+        f->diffuse_horizontal_lx, "global_horizontal_lx", f->global_horizontal_lx,
+        "zenith_cd_m2", f->zenith_cd_m2, "direct_normal_w_m2", f->direct_normal_w_m2,
+        "diffuse_horizontal_w_m2", f->diffuse_horizontal_w_m2, "ground_cd_m2", f->floor_cd_m2,
+        "sun_xy", f->sun_xy[0], f->sun_xy[1], "zenith_xy", f->zenith_xy[0], f->zenith_xy[1],
+        "horizon_deg", f->horizon_deg, "air_mass", f->air_mass);
+    if (work->output) json_object_set_new(document, "output", cli_json_text(work->output));
+    return cli_print_json(document, err);
+}
+
+static int figure_lines(const Work *work, const OutsideFigures *f, const char *line[16])
+{
+    Arena *arena = work->arena;
+    int    n = 0;
+    if (work->sky.model || work->sky.has_sun) {
+        line[n++] = arena_format(arena, "sun's azimuth|%.3f°", f->sun_azimuth_deg);
+        line[n++] = arena_format(arena, "sun's elevation|%.3f°%s", f->sun_elevation_deg,
+                                 f->is_sun_up ? "" : " (down)");
+        line[n++] = arena_format(arena, "direct normal|%.0f lx", f->direct_normal_lx);
+    }
+    line[n++] = arena_format(arena, "diffuse horizontal|%.0f lx", f->diffuse_horizontal_lx);
+    line[n++] = arena_format(arena, "global horizontal|%.0f lx", f->global_horizontal_lx);
+    line[n++] = arena_format(arena, "zenith|%.4g cd/m²", f->zenith_cd_m2);
+    if (!work->sky.model) return n;
+    line[n++] = arena_format(arena, "ground below|%.4g cd/m²", f->floor_cd_m2);
+    line[n++] = arena_format(arena, "zenith x, y|%.4f, %.4f", f->zenith_xy[0], f->zenith_xy[1]);
+    if (f->is_sun_up)
+        line[n++] = arena_format(arena, "sun x, y|%.4f, %.4f", f->sun_xy[0], f->sun_xy[1]);
+    if (f->direct_normal_w_m2 > 0)
+        line[n++] = arena_format(arena, "direct normal|%.1f W/m²", f->direct_normal_w_m2);
+    if (f->diffuse_horizontal_w_m2 > 0)
+        line[n++] = arena_format(arena, "diffuse horizontal|%.1f W/m²",
+                                 f->diffuse_horizontal_w_m2);
+    if (f->horizon_deg < -0.01)
+        line[n++] = arena_format(arena, "horizon|%.2f°", f->horizon_deg);
+    return n;
+}
+
+static void print_lines(const char *const *line, int count)
+{
+    for (int i = 0; i < count; i++) {
+        const char *bar = strchr(line[i], '|');
+        printf("%-20.*s %s\n", (int)(bar - line[i]), line[i], bar + 1);
+    }
+}
+
+/* ---- pictures -------------------------------------------------------------------------------- */
+
+static bool write_exr(const Work *work, Error *err)
+{
+    ExrWindow  data = {0, 0, work->size[0], work->size[1]};
+    FrameImage frame = frame_create(work->size[0], work->size[1], data, 3, 8, work->arena);
+    for (int i = 0; i < 3; i++) {
+        char name[2] = {"RGB"[i], 0};
+        memcpy(frame_add_channel(&frame, name, false, work->arena), work->rgb[i],
+               sizeof(float) * frame_pixel_count(&frame));
+    }
+    frame_set_string(&frame, "comments", work->is_fisheye
+                     ? "sky without the sun's disc, cd/m2; plan: north on top, east right, "
+                       "equidistant, the rim is the horizontal"
+                     : "sky without the sun's disc, cd/m2; equirectangular: left edge north, "
+                       "then east, as --environment hdri: takes it", work->arena);
+    return frame_write(work->output, &frame, err);
+}
+
+static const char *kind_text(const Work *work)
+{
+    const OutsideInput *in = &work->scene->environment.outside;
+    switch (work->sky.kind) {
+    case ENVIRONMENT_NONE: return "No sky";
+    case ENVIRONMENT_CONSTANT: return "Uniform sky";
+    case ENVIRONMENT_HDRI: return "Pictured sky";
+    case ENVIRONMENT_CIE: return arena_format(work->arena, "CIE sky %d", in->cie_type);
+    case ENVIRONMENT_PEREZ:
+        return arena_format(work->arena, "Perez sky of %.0f W/m² direct, %.0f W/m² diffuse",
+                            in->direct_w_m2, in->diffuse_w_m2);
+    case ENVIRONMENT_SKY: break;
+    }
+    return in->visibility_km > 0
+               ? arena_format(work->arena, "Clear sky, visibility %.0f km", in->visibility_km)
+               : arena_format(work->arena, "Clear sky, turbidity %.2g", in->turbidity);
+}
+
+static const char *moment_text(const Work *work)
+{
+    const OutsideInput *in = &work->scene->environment.outside;
+    if (work->sky.kind < ENVIRONMENT_CIE || !in->has_time) return "";
+    double zone = fabs(in->when.zone_h);
+    return arena_format(work->arena, "%04d-%02d-%02d %02d:%02d UTC%c%02d:%02d  ·  latitude %.4f°, "
+                        "longitude %.4f°, %.0f m", in->when.year, in->when.month, in->when.day,
+                        in->when.hour, in->when.minute, in->when.zone_h < 0 ? '-' : '+',
+                        (int)zone, (int)((zone - (int)zone) * 60 + 0.5), in->where.latitude_deg,
+                        in->where.longitude_deg, in->where.altitude_m);
+}
+
+/* The sun through the day of the moment, on the clock of its zone. */
+static int sun_path(const Work *work, SkyPlotSun *path)
+{
+    const OutsideInput *in = &work->scene->environment.outside;
+    double pressure, celsius;
+    if (work->sky.kind < ENVIRONMENT_CIE || !in->has_time) return 0;
+    SkyTime midnight = in->when;
+    midnight.hour = midnight.minute = 0;
+    midnight.second = 0;
+    double day = sky_julian_day(&midnight);
+    standard_atmosphere(in->where.altitude_m, &pressure, &celsius);
+    for (int i = 0; i < PATH_STEPS; i++) {
+        double      now = day + i / 144.0;
+        SunPosition p = sun_position(now, sky_delta_t_s(now), &in->where);
+        double      lift = sun_refraction_deg(p.elevation_deg, pressure, celsius);
+        path[i] = (SkyPlotSun){radians_from_degrees(p.azimuth_deg),
+                               radians_from_degrees(p.elevation_deg + lift), NULL};
+        if (i % 12 == 0 && i < 144) path[i].label = arena_format(work->arena, "%02d", i / 6);
+    }
+    return PATH_STEPS;
+}
+
+static bool write_picture(const Work *work, const OutsideFigures *f, bool is_svg, Error *err)
+{
+    size_t      count = (size_t)work->size[0] * (size_t)work->size[1];
+    float      *luminance = ARENA_NEW(work->arena, float, count);
+    const char *line[16];
+    SkyPlotSun  path[PATH_STEPS];
+    PlotBytes   bytes;
+    for (size_t i = 0; i < count; i++)
+        luminance[i] = luminance_from_rgb(
+            (float[3]){work->rgb[0][i], work->rgb[1][i], work->rgb[2][i]});
+    SkyPlot plot = {.luminance = luminance, .width = work->size[0], .height = work->size[1],
+                    .horizon = radians_from_degrees(f->horizon_deg),
+                    .has_sun = f->is_sun_up,
+                    .sun = {radians_from_degrees(f->sun_azimuth_deg),
+                            radians_from_degrees(f->sun_elevation_deg), NULL},
+                    .path = path, .path_count = sun_path(work, path),
+                    .has_heading = work->change.has_heading ||
+                                   work->scene->environment.heading != 0,
+                    .heading = (double)work->scene->environment.heading,
+                    .title = kind_text(work), .subtitle = moment_text(work), .line = line,
+                    .line_count = figure_lines(work, f, line), .is_dark = work->is_dark};
+    return sky_plot_draw(&plot, is_svg, 0, work->arena, &bytes, err) &&
+           file_write(work->output, bytes.data, bytes.size, err);
+}
+
+/* ---- the command ------------------------------------------------------------------------------ */
+
+typedef enum OutputKind { OUTPUT_NONE, OUTPUT_EXR, OUTPUT_PNG, OUTPUT_SVG, OUTPUT_WRONG } OutputKind;
+
+static OutputKind output_kind(const char *path)
+{
+    static const char *const endings[] = {".exr", ".png", ".svg"};
+    if (!path) return OUTPUT_NONE;
+    for (int i = 0; i < 3; i++)
+        if (!strcasecmp(path_ending(path), endings[i])) return (OutputKind)(OUTPUT_EXR + i);
+    return OUTPUT_WRONG;
+}
+
+static bool build(Work *work, Error *err)
+{
+    SceneOptions files = {.paths = work->cli.arguments, .path_count = work->cli.argument_count};
+    Scene       *none = ARENA_NEW(work->arena, Scene, 1);
+    none->environment = (Environment){.color = {1, 1, 1}, .forward = vec3(0, 0, -1),
+                                      .hdri_scale = 1};
+    work->problems = problems_start(work->arena);
+    work->scene = none;
+    if (files.path_count &&
+        !scene_load(&files, work->arena, &work->problems, &work->scene, err))
+        return false;
+    if (!environment_change(&work->change, work->scene, work->arena, &work->problems, err))
+        return false;
+    cli_print_warnings(&work->problems);
+    const Environment *environment = &work->scene->environment;
+    if (environment->kind == ENVIRONMENT_NONE && !environment->has_sun)
+        return error_set(err, ERROR_USAGE, "sky wants a sky: --environment sky:clear --when TIME "
+                         "--where LAT,LON, or a scene that has one");
+    work->turn = (double)environment->heading -
+                 atan2((double)environment->forward.x, -(double)environment->forward.z);
+    return sky_build(environment, work->arena, &work->sky, err);
+}
+
+static bool run(Work *work, OutputKind kind, Error *err)
+{
+    const char *line[16];
+    if (!build(work, err)) return false;
+    if (kind != OUTPUT_EXR) work->is_fisheye = false;
+    draw(work);
+    OutsideFigures figures = figures_of(work);
+    bool ok = kind == OUTPUT_NONE  ? true
+              : kind == OUTPUT_EXR ? write_exr(work, err)
+                                   : write_picture(work, &figures, kind == OUTPUT_SVG, err);
+    if (!ok) return false;
+    if (work->cli.json) return print_json(work, &figures, err);
+    print_lines(line, figure_lines(work, &figures, line));
+    return true;
+}
+
+bool cmd_sky(int argc, char **argv, Error *err)
+{
+    Arena arena = arena_reserve(ARENA_BYTES);
+    Work  work = {.arena = &arena, .size = {0, 0}};
+    int   projection = 0;
+    const Option options[] = {
+        {"-o", OPTION_TEXT, "SKY.exr|.png|.svg",
+         "linear light in cd/m2, or a chart in false colours with the sun's way", &work.output},
+        ENVIRONMENT_OPTIONS(&work.change),
+        {"--projection", OPTION_CHOICE, "equirectangular|fisheye", "of an EXR (charts show both)",
+         &projection},
+        {"--size", OPTION_SIZE, "WxH", "pixels of an EXR (default 1024x512, fisheye 1024x1024)",
+         work.size},
+        {"--dark", OPTION_FLAG, NULL, "a chart on a dark page", &work.is_dark},
+    };
+    const CliCommand command = {
+        "sky", "draw a sky and print its figures", "[SCENE.gltf ...] [-o SKY.exr|.png|.svg]",
+        "parhelion sky --environment sky:clear --when 2026-06-21T08:30+02:00 "
+        "--where 48.14,11.58,520 -o sky.png",
+        options, (int)(sizeof options / sizeof *options), 0, -1};
+    if (!cli_parse(&command, argc, argv, &arena, &work.cli, err)) return false;
+    if (work.cli.help_shown) return true;
+    OutputKind kind = output_kind(work.output);
+    if (kind == OUTPUT_WRONG)
+        return error_set(err, ERROR_USAGE, "-o %s: wanted an ending .exr, .png or .svg",
+                         work.output);
+    work.is_fisheye = projection == 1;
+    if (!work.size[0]) {
+        work.size[0] = 1024;
+        work.size[1] = work.is_fisheye && kind == OUTPUT_EXR ? 1024 : 512;
+    }
+    bool ok = run(&work, kind, err);
+    if (work.scene && work.cli.argument_count) scene_close(work.scene);
+    arena_release(&arena);
+    return ok;
+}

@@ -1,0 +1,29 @@
+/* sky_model.h -- a computed sky (sky/outside.h) as a light: looked up, and sampled by luminance.
+ *
+ * The sphere is cut at the horizon, which may lie below the horizontal, into cells of elevation
+ * and azimuth with constant density: no cell holds both sky and ground.
+ * Threads   const once built.
+ */
+#pragma once
+#include "scene/scene.h"
+
+#define SKY_MODEL_ROWS 64  /* of the sky; as many again below */
+#define SKY_MODEL_COLUMNS 96
+
+typedef struct SkyModel {
+    const Outside *outside;
+    float turn;                                  /* compass azimuth of the scene's -Z */
+    float edge[2 * SKY_MODEL_ROWS + 1];          /* sines of elevations, rising */
+    float row_cdf[2 * SKY_MODEL_ROWS + 1];       /* 0 to 1 */
+    float cdf[2 * SKY_MODEL_ROWS][SKY_MODEL_COLUMNS + 1];
+} SkyModel;
+
+bool sky_model_build(const Environment *environment, float turn, Arena *arena,
+                     const SkyModel **out, Error *err);
+
+/* HOT. Spectral radiance from a direction of the scene, and its density, sr^-1. */
+Spectrum sky_model_seen(const SkyModel *model, Vec3 direction, const Wavelengths *wavelengths,
+                        float *pdf);
+
+/* HOT. */
+Vec3 sky_model_sample(const SkyModel *model, float u0, float u1);

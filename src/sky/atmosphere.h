@@ -1,0 +1,48 @@
+/* atmosphere.h -- the clear sky as an observer sees it: an own spectral scattering atmosphere.
+ *
+ * Light scattered once is marched along every ray through a spherical, layered air (air.h); light
+ * scattered more often comes from flat layers lit by the true beam (diffuse_light.h) at the
+ * ray's local sun angle. Below lies a Lambertian floor: ground, sea or a cloud deck of an
+ * altitude and albedo. What is left out: polarisation, refraction of sky light, clouds above the
+ * observer, the floor's relief; water vapour and oxygen are the caller's (spectrl2.h).
+ *
+ * Frame     elevation from the observer's horizontal, azimuth from the sun's, radians.
+ * Units     radiance in sr^-1 per unit of the sun's spectral irradiance outside the air, at the
+ *           16 wavelengths of air.h.
+ * Memory    the arena's, about 6 MB. Threads: const once built.
+ * Fails     on an observer below the floor or above 60 km.
+ */
+#pragma once
+#include "base/arena.h"
+#include "base/error.h"
+#include "sky/air.h"
+
+typedef struct AtmosphereInput {
+    Air    air;              /* pressure: at sea level; ground_albedo: of the floor */
+    double observer_m, floor_m; /* above sea level */
+    double sun_elevation;    /* radians, as seen: its light is taken to come straight from there */
+    int    threads;
+    int    steps;            /* of a ray; 0: 48 */
+} AtmosphereInput;
+
+typedef struct Atmosphere {
+    AtmosphereInput input;
+    AirOptics optics;
+    double    horizon;      /* elevation of the floor's edge, radians, at most 0 */
+    Spectrum  sun_passing;  /* transmittance from the sun's centre to the observer */
+    Spectrum  floor_exitance; /* light that the floor under the observer sends up, relative */
+    /* [below][row][column]: what molecules and aerosol scatter once, without their phase
+     * functions, and the rest; row 0 touches the horizon */
+    Spectrum *molecules, *aerosol, *rest;
+} Atmosphere;
+
+#define ATMOSPHERE_ROWS 96
+#define ATMOSPHERE_COLUMNS 49 /* azimuths 0 to 180 degrees */
+
+bool atmosphere_build(const AtmosphereInput *input, Arena *arena, Atmosphere *out, Error *err);
+
+/* Sky or floor in a direction; the sun's disc is not part of it. */
+Spectrum atmosphere_radiance(const Atmosphere *atmosphere, float elevation, float azimuth);
+
+/* Irradiance on a horizontal plane from the sky above the horizontal, relative. */
+Spectrum atmosphere_diffuse(const Atmosphere *atmosphere);

@@ -1,0 +1,44 @@
+/* diffuse_light.h -- light that has been scattered more than once, in flat layers of air.
+ *
+ * Successive orders of scattering in a plane-parallel atmosphere over a Lambertian ground, lit
+ * by a sun whose beam takes its true, spherical way (pseudo-spherical; Dahlback and Stamnes 1991):
+ * good until the sun is about 6 degrees below the horizon. Directions: 8 Gauss cosines a side,
+ * azimuth as a cosine series (Chandrasekhar 1960, chapter 6).
+ *
+ * Units     per unit of the sun's spectral irradiance outside the air: sources in sr^-1 m^-1,
+ *           irradiances without unit. Lanes as air.h.
+ * Memory    the arena's. Threads: const once built.
+ */
+#pragma once
+#include "base/arena.h"
+#include "sky/air.h"
+
+#define DIFFUSE_LEVELS 48
+#define DIFFUSE_MODES 6
+#define DIFFUSE_COSINES 17 /* of directions, evenly from -1 to 1 */
+
+typedef struct DiffuseLight {
+    double floor_m;   /* where the ground or the cloud deck is */
+    double sun_cosine;
+    double level_m[DIFFUSE_LEVELS]; /* rising from the floor to the top */
+    /* What is scattered into a direction at a level, m^-1 sr^-1, from light that was scattered
+     * or reflected before: [level][cosine][mode]; sum over modes of source cos(mode * azimuth),
+     * azimuth from the sun's. */
+    Spectrum *source;
+    Spectrum  ground_direct, ground_diffuse; /* irradiance on the floor */
+    Spectrum  top_exitance; /* what leaves for space */
+} DiffuseLight;
+
+typedef struct DiffuseInput {
+    const AirOptics *optics;
+    double floor_m, floor_albedo;
+    double sun_cosine; /* of its angle to the zenith */
+    int    orders;     /* of scattering, at most; 0: until a thousandth is left */
+} DiffuseInput;
+
+void diffuse_light_build(const DiffuseInput *input, Arena *arena, DiffuseLight *out);
+
+/* Source at an altitude towards a direction (cosine to the zenith, cosine of its azimuth from
+ * the sun's). */
+Spectrum diffuse_light_source(const DiffuseLight *light, double altitude_m, float cosine,
+                              float azimuth_cosine);

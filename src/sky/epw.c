@@ -1,0 +1,158 @@
+#include "sky/epw.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+
+#define WEATHER_BYTES ((size_t)64 << 20)
+#define HOURS_MAX 200000
+#define FIELDS_MAX 48
+
+/* A file while its lines are read. */
+typedef struct Reader {
+    const char *file;
+    char       *next; /* rest of the text; NULL at the end */
+    int         line;
+    Arena      *arena;
+} Reader;
+
+/* Fields of the data dictionary, counted from 0. */
+enum {
+    FIELD_DRY_BULB = 6, FIELD_DEW_POINT = 7, FIELD_PRESSURE = 9, FIELD_DIRECT = 14,
+    FIELD_DIFFUSE = 15, FIELD_WATER = 28, FIELD_AEROSOL = 29, FIELDS_LEAST = 16
+};
+
+/* Cuts the next line off and into fields; false at the end. */
+static bool next_line(Reader *reader, char *field[FIELDS_MAX], int *count)
+{
+    if (!reader->next || !*reader->next) return false;
+    char *line = reader->next, *end = strpbrk(line, "\r\n");
+    reader->next = NULL;
+    if (end) {
+        reader->next = end + (end[0] == '\r' && end[1] == '\n' ? 2 : 1);
+        *end = 0;
+    }
+    reader->line++;
+    *count = 0;
+    for (char *at = line; at && *count < FIELDS_MAX;) {
+        field[(*count)++] = at;
+        at = strchr(at, ',');
+        if (at) *at++ = 0;
+    }
+    return true;
+}
+
+static bool bad_line(const Reader *reader, Error *err, const char *found, const char *wanted)
+{
+    return error_at(err, ERROR_INPUT, reader->file,
+                    arena_format(reader->arena, "line %d", reader->line), "found '%.40s', wanted %s",
+                    found, wanted);
+}
+
+static bool number(const Reader *reader, const char *text, double range[2], double *out,
+                   Error *err)
+{
+    char  *after;
+    double value = strtod(text, &after);
+    if (after == text || !isfinite(value) || value < range[0] || value > range[1])
+        return bad_line(reader, err, text,
+                        arena_format(reader->arena, "a number from %g to %g", range[0], range[1]));
+    *out = value;
+    return true;
+}
+
+static bool read_location(Reader *reader, char *field[], int count, Weather *out, Error *err)
+{
+    double *const target[4] = {&out->place.latitude_deg, &out->place.longitude_deg, &out->zone_h,
+                               &out->place.altitude_m};
+    double range[4][2] = {{-90, 90}, {-180, 180}, {-14, 14}, {-500, 9000}};
+    if (count < 10 || strcmp(field[0], "LOCATION"))
+        return bad_line(reader, err, count ? field[0] : "",
+                        "LOCATION,city,...,latitude,longitude,zone,elevation");
+    for (int i = 0; i < 4; i++)
+        if (!number(reader, field[6 + i], range[i], target[i], err)) return false;
+    out->city = arena_string(reader->arena, field[1], strlen(field[1]));
+    return true;
+}
+
+/* 9999 and more stand for a missing value. */
+static double or_missing(const char *text, double missing)
+{
+    double value = strtod(text, NULL);
+    return isfinite(value) && value < missing ? value : -1;
+}
+
+static bool read_hour(Reader *reader, char *field[], int count, const Weather *weather,
+                      WeatherHour *out, Error *err)
+{
+    double when[4], range[4][2] = {{-2000, 6000}, {1, 12}, {1, 31}, {1, 24}};
+    double direct[2] = {0, 9999}, any[2] = {-99, 999900};
+    if (count < FIELDS_LEAST)
+        return bad_line(reader, err, field[0], "a row of at least 16 fields");
+    for (int i = 0; i < 4; i++)
+        if (!number(reader, field[i], range[i], &when[i], err)) return false;
+    if (!number(reader, field[FIELD_DIRECT], direct, &out->direct_normal_w_m2, err) ||
+        !number(reader, field[FIELD_DIFFUSE], direct, &out->diffuse_horizontal_w_m2, err) ||
+        !number(reader, field[FIELD_DRY_BULB], any, &out->dry_bulb_c, err) ||
+        !number(reader, field[FIELD_DEW_POINT], any, &out->dew_point_c, err) ||
+        !number(reader, field[FIELD_PRESSURE], any, &out->pressure_mbar, err))
+        return false;
+    out->pressure_mbar /= 100;
+    out->middle = (SkyTime){(int)when[0], (int)when[1], (int)when[2], (int)when[3] - 1, 30, 0,
+                            weather->zone_h};
+    out->has_light = out->direct_normal_w_m2 < 9999 && out->diffuse_horizontal_w_m2 < 9999;
+    out->precipitable_water_cm = count > FIELD_WATER ? or_missing(field[FIELD_WATER], 999) / 10
+                                                     : -1;
+    out->aerosol_depth = count > FIELD_AEROSOL ? or_missing(field[FIELD_AEROSOL], 0.999) : -1;
+    return true;
+}
+
+bool weather_read(const char *file, Arena *arena, Weather *out, Error *err)
+{
+    FileBytes bytes;
+    char     *field[FIELDS_MAX];
+    int       count;
+    bool      in_data = false;
+    if (!file_read(file, WEATHER_BYTES, arena, &bytes, err)) return false;
+    Reader  reader = {file, arena_string(arena, (const char *)bytes.data, bytes.size), 0, arena};
+    Weather weather = {.file = file};
+    if (!next_line(&reader, field, &count))
+        return error_at(err, ERROR_INPUT, file, "", "is empty, wanted an EPW weather file");
+    if (!read_location(&reader, field, count, &weather, err)) return false;
+    weather.hour = ARENA_NEW(arena, WeatherHour, HOURS_MAX);
+    while (next_line(&reader, field, &count)) {
+        bool is_blank = count == 1 && !field[0][0];
+        if (!in_data) {
+            in_data = !strcmp(field[0], "DATA PERIODS");
+            continue;
+        }
+        if (is_blank) continue;
+        if (weather.count == HOURS_MAX)
+            return bad_line(&reader, err, field[0], "at most 200000 hours");
+        if (!read_hour(&reader, field, count, &weather, &weather.hour[weather.count++], err))
+            return false;
+    }
+    if (!weather.count)
+        return error_at(err, ERROR_INPUT, file, "",
+                        "has no hours, wanted rows behind a line DATA PERIODS");
+    *out = weather;
+    return true;
+}
+
+const WeatherHour *weather_at(const Weather *weather, const SkyTime *time)
+{
+    /* the same moment on the file's own clock */
+    double minutes = time->hour * 60 + time->minute + (weather->zone_h - time->zone_h) * 60;
+    int    shift = (int)floor(minutes / 1440), hour = (int)floor((minutes - shift * 1440) / 60);
+    SkyTime noon = {time->year, time->month, time->day, 12, 0, 0, 0};
+    double  day = sky_julian_day(&noon) + shift;
+    for (int i = 0; i < weather->count; i++) {
+        const SkyTime *at = &weather->hour[i].middle;
+        SkyTime same = {time->year, at->month, at->day, 12, 0, 0, 0};
+        if (at->hour == hour && fabs(sky_julian_day(&same) - day) < 0.5)
+            return &weather->hour[i];
+    }
+    return NULL;
+}

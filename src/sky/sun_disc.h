@@ -1,0 +1,23 @@
+/* sun_disc.h -- the sun's disc as a source: its size, its edge, its spectrum.
+ *
+ * The irradiance on a plane that faces the sun is exact whatever the disc looks like: radiance
+ * is irradiance over pi sin^2 r, shaped by the limb's darkening over its own mean.
+ *
+ * Source    limb darkening: fifth-order fits in mu of Neckel and Labs's kind at the eleven bands
+ *           that Hosek and Wilkie, "Adding a Solar-Radiance Function ..." (2013), print.
+ * Units     radians, nm. Threads: pure functions of constants.
+ */
+#pragma once
+
+#define SUN_RADIUS_KM 695700.0
+#define ASTRONOMICAL_UNIT_KM 149597870.7
+
+/* Angular radius at a distance in au. */
+double sun_angular_radius(double distance_au);
+
+/* Coefficients over mu^0..5 at a wavelength (linear between bands, ends held), divided by the
+ * disc's mean: sum of 2 c_i / (i + 2) is 1. */
+void sun_limb(double nm, double coefficient[6]);
+
+/* Radiance over the disc's mean at mu = sqrt(1 - (sin gamma / sin r)^2). */
+double sun_limb_value(const double coefficient[6], double mu);

@@ -1,0 +1,349 @@
+/* The scattering atmosphere and the skies made of it: energy, known figures, convergence. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/units.h"
+#include "check.h"
+#include "sky/diffuse_light.h"
+#include "sky/outside.h"
+#include "sky/sun_disc.h"
+#include "spectrum/photometry.h"
+
+#define assert_in(value, low, high) assert_true((value) >= (low) && (value) <= (high))
+
+static const Air usual = {1013.25, 1.42, 0.344, 0.1, 1.14, 0.2};
+
+static Atmosphere build(double observer_m, double floor_m, double albedo, double elevation_deg,
+                        Arena *arena)
+{
+    AtmosphereInput input = {usual, observer_m, floor_m, radians_from_degrees(elevation_deg), 2, 0};
+    Atmosphere      atmosphere;
+    Error           err;
+    input.air.ground_albedo = albedo;
+    assert_true(atmosphere_build(&input, arena, &atmosphere, &err));
+    return atmosphere;
+}
+
+static OutsideInput clear_day(const char *when, double altitude_m)
+{
+    OutsideInput input = outside_input_default(OUTSIDE_CLEAR);
+    Error        err;
+    input.has_time = true;
+    input.threads = 2;
+    input.where = (SkyPlace){48.14, 11.58, altitude_m};
+    assert_true(sky_time_parse(when, "", &input.when, &err));
+    return input;
+}
+
+/* ---- columns -------------------------------------------------------------------------------- */
+
+static void columns_add_up_over_altitude_and_slant(void **state)
+{
+    (void)state;
+    AirOptics optics = air_optics(&usual);
+    double    whole[AIR_PARTS], low[AIR_PARTS], high[AIR_PARTS], slant[AIR_PARTS];
+    air_vertical(&optics, 0, AIR_TOP_M, whole);
+    air_vertical(&optics, 0, 9000, low);
+    air_vertical(&optics, 9000, AIR_TOP_M, high);
+    for (int p = 0; p < AIR_PARTS; p++) {
+        assert_near(whole[p], 1, 1e-3);
+        assert_close(low[p] + high[p], whole[p], 1e-12);
+    }
+    assert_true(air_column(&optics, 0, cos(radians_from_degrees(60)), 0, slant));
+    assert_close(slant[AIR_MOLECULES], air_mass(60), 2e-3);
+    assert_true(air_column(&optics, 0, 1e-9, 0, slant));
+    assert_in(slant[AIR_MOLECULES], 34, 42); /* Kasten and Young: 38 */
+    assert_false(air_column(&optics, 1000, -0.5, 0, slant));
+    assert_true(air_column(&optics, 12000, -0.05, 0, slant)); /* over the dipped horizon */
+}
+
+static void density_is_the_columns_derivative(void **state)
+{
+    (void)state;
+    AirOptics optics = air_optics(&usual);
+    for (int p = 0; p < AIR_PARTS; p++) {
+        double sum = 0, step = 25, column[AIR_PARTS];
+        for (double z = 0.5 * step; z < AIR_TOP_M; z += step)
+            sum += step * air_density(&optics, (AirPart)p, z);
+        air_vertical(&optics, 0, AIR_TOP_M, column);
+        assert_close(sum, column[p], 2e-4);
+    }
+}
+
+static void phase_functions_integrate_to_one(void **state)
+{
+    (void)state;
+    double sum[2] = {0, 0};
+    for (int i = 0; i < 20000; i++) {
+        float c = -1 + 2 * ((float)i + 0.5f) / 20000;
+        sum[0] += 2 * PI * 2.0 / 20000 * (double)air_phase_molecules(c);
+        sum[1] += 2 * PI * 2.0 / 20000 * (double)air_phase_aerosol(c);
+    }
+    assert_near(sum[0], 1, 1e-5);
+    assert_near(sum[1], 1, 1e-5);
+}
+
+/* ---- energy --------------------------------------------------------------------------------- */
+
+/* Air that absorbs nothing over a white floor gives back all light: what comes down on the floor,
+ * times 1 - albedo, is what does not leave at the top. */
+static void air_without_absorption_keeps_the_light(void **state)
+{
+    (void)state;
+    Arena     arena = arena_reserve((size_t)1 << 30);
+    Air       air = usual;
+    air.ozone_atm_cm = 0;
+    AirOptics optics = air_optics(&air);
+    optics.scattering[AIR_AEROSOL] = optics.depth[AIR_AEROSOL];
+    for (int white = 0; white <= 1; white++) {
+        DiffuseLight light;
+        DiffuseInput input = {&optics, 0, white, 0.8, 0};
+        Arena scratch = arena;
+        diffuse_light_build(&input, &scratch, &light);
+        for (int k = 0; k < SPECTRUM_LANES; k++) {
+            double down = (double)(light.ground_direct[k] + light.ground_diffuse[k]);
+            double taken = (1 - white) * down, given = (double)light.top_exitance[k];
+            assert_close(taken + given, 0.8, 6e-3);
+        }
+    }
+    arena_release(&arena);
+}
+
+static void orders_of_scattering_add_up_to_the_whole(void **state)
+{
+    (void)state;
+    Arena     arena = arena_reserve((size_t)1 << 30);
+    AirOptics optics = air_optics(&usual);
+    float     before = 0;
+    for (int orders = 1; orders <= 8; orders++) {
+        DiffuseLight light;
+        DiffuseInput input = {&optics, 0, 0.2, 0.7, orders};
+        Arena scratch = arena;
+        diffuse_light_build(&input, &scratch, &light);
+        assert_true(light.ground_diffuse[2] > before);
+        before = light.ground_diffuse[2];
+    }
+    DiffuseLight whole;
+    DiffuseInput input = {&optics, 0, 0.2, 0.7, 0};
+    diffuse_light_build(&input, &arena, &whole);
+    assert_close(before, whole.ground_diffuse[2], 0.01);
+    arena_release(&arena);
+}
+
+/* ---- figures -------------------------------------------------------------------------------- */
+
+static void the_sky_gives_what_spectrl2_says(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve((size_t)2 << 30);
+    static const double zenith_deg[] = {0, 30, 48.2, 60, 75};
+    for (int i = 0; i < 5; i++) {
+        Arena      scratch = arena;
+        Atmosphere a = build(0, 0, 0.2, 90 - zenith_deg[i], &scratch);
+        Spectrl2   s = spectrl2(&usual, zenith_deg[i], 1);
+        Spectrum   diffuse = atmosphere_diffuse(&a);
+        double     sums[2] = {0, 0};
+        for (int k = 3; k < 13; k++) { /* 420 to 680 nm: bands without gases */
+            double nm = (double)AIR_NM[k], outside = spectrl2_read(s.outside, nm);
+            double y = (double)spectral_row(nm).y;
+            sums[0] += y * (double)diffuse[k] * outside;
+            sums[1] += y * spectrl2_read(s.diffuse, nm);
+            if (nm < 580 || (nm > 600 && nm < 660))
+                assert_close((double)a.sun_passing[k], spectrl2_read(s.direct, nm) / outside, 0.01);
+        }
+        printf("sun %4.1f deg from the zenith: diffuse light over SPECTRL2's %.3f\n",
+               zenith_deg[i], sums[0] / sums[1]);
+        assert_in(sums[0] / sums[1], 0.97, 1.13);
+    }
+    arena_release(&arena);
+}
+
+static void steps_and_tables_have_converged(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve((size_t)4 << 30);
+    for (int low = 0; low <= 1; low++) {
+        AtmosphereInput input = {usual, low ? 11000 : 0, 0, low ? 0.03 : 0.7, 2, 0};
+        Atmosphere coarse, fine;
+        Error      err;
+        double     worst = 0;
+        assert_true(atmosphere_build(&input, &arena, &coarse, &err));
+        input.steps = 400;
+        assert_true(atmosphere_build(&input, &arena, &fine, &err));
+        for (float e = -1.5f; e < 1.55f; e += 0.11f)
+            for (float az = 0; az < 3.1f; az += 0.4f) {
+                Spectrum a = atmosphere_radiance(&coarse, e, az);
+                Spectrum b = atmosphere_radiance(&fine, e, az);
+                worst = fmax(worst, fabs((double)(a[8] / b[8]) - 1));
+            }
+        printf("48 steps against 400, observer at %g m: at most %.2f %%\n", input.observer_m,
+               100 * worst);
+        assert_in(worst, 0, 0.02);
+    }
+    arena_release(&arena);
+}
+
+static void the_sky_darkens_with_altitude_and_the_sun_gains(void **state)
+{
+    (void)state;
+    Arena  arena = arena_reserve((size_t)4 << 30);
+    double zenith = 1e9, sun = 0;
+    for (double altitude = 0; altitude <= 15000; altitude += 3000) {
+        Arena      scratch = arena;
+        Atmosphere a = build(altitude, 0, 0.2, 45, &scratch);
+        double     now = (double)atmosphere_radiance(&a, (float)(PI / 2), 0)[8];
+        assert_true(now < zenith && (double)a.sun_passing[8] > sun);
+        zenith = now;
+        sun = (double)a.sun_passing[8];
+    }
+    arena_release(&arena);
+}
+
+static void an_airliner_sees_126_klx_of_sun_and_a_dipped_horizon(void **state)
+{
+    (void)state;
+    Arena        arena = arena_reserve((size_t)2 << 30);
+    OutsideInput input = outside_input_default(OUTSIDE_CLEAR);
+    Outside     *out = arena_alloc(&arena, sizeof *out, 64, 1);
+    Error        err;
+    input.has_sun = true;
+    input.threads = 2;
+    input.sun_elevation = PI / 2;
+    input.where.altitude_m = 10668;
+    input.floor = FLOOR_CLOUD;
+    assert_true(outside_build(&input, &arena, out, &err));
+    assert_close(out->figures.direct_normal_lx, 126092, 0.01);
+    assert_in(out->figures.horizon_deg, -3.1, -2.9);  /* of the deck, 2000 m high */
+    assert_in(out->figures.floor_cd_m2, 24000, 33000); /* AS8034's forward field: 34,300 */
+    assert_true(outside_luminance(out, -0.06f, 1) > 3000);
+    arena_release(&arena);
+}
+
+static void the_drawn_sky_integrates_to_its_stated_illuminance(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve((size_t)4 << 30);
+    for (int kind = 0; kind < 5; kind++) {
+        Arena        scratch = arena;
+        Outside     *out = arena_alloc(&scratch, sizeof *out, 64, 1);
+        OutsideInput input = clear_day("2026-06-21T08:30+02:00", kind == 4 ? 9000 : 520);
+        Error        err;
+        double       sum = 0;
+        input.kind = kind < 2 ? OUTSIDE_CIE : kind < 3 ? OUTSIDE_PEREZ : OUTSIDE_CLEAR;
+        input.cie_type = kind ? 12 : 1;
+        input.diffuse_lux = 12000;
+        input.direct_w_m2 = 700, input.diffuse_w_m2 = 120;
+        assert_true(outside_build(&input, &scratch, out, &err));
+        const int rows = 500, columns = 500;
+        for (int i = 0; i < rows; i++)
+            for (int j = 0; j < columns; j++) {
+                double share = (i + 0.5) / rows, e = PI / 2 * share * share;
+                double step = PI * share / rows;
+                sum += (double)outside_luminance(out, (float)e, (float)(2 * PI * j / columns)) *
+                       sin(e) * cos(e) * step * 2 * PI / columns;
+            }
+        assert_close(sum, out->figures.diffuse_horizontal_lx, 1e-3);
+    }
+    arena_release(&arena);
+}
+
+static void spectral_radiance_has_the_stated_luminance(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve((size_t)2 << 30);
+    for (int kind = 0; kind < 3; kind++) {
+        Arena        scratch = arena;
+        Outside     *out = arena_alloc(&scratch, sizeof *out, 64, 1);
+        OutsideInput input = clear_day("2026-03-21T17:30+01:00", 520);
+        Error        err;
+        double       y = 0, sun = 0;
+        input.kind = (OutsideKind)kind;
+        input.sun_lux = kind == OUTSIDE_CIE ? 50000 : -1;
+        input.direct_w_m2 = 700, input.diffuse_w_m2 = 120;
+        assert_true(outside_build(&input, &scratch, out, &err));
+        for (int i = 0; i < 256; i++) {
+            Wavelengths lanes;
+            wavelengths_sample(((float)i + 0.5f) / 256, &lanes);
+            y += (double)spectrum_sum(outside_radiance(out, 0.6f, 2, &lanes) * lanes.xyz[1]) / 256;
+            for (int r = 0; r < 50; r++) {
+                float share = sqrtf(((float)r + 0.5f) / 50);
+                sun += (double)spectrum_sum(outside_sun(out, share, &lanes) * lanes.xyz[1]) /
+                       (50 * 256);
+            }
+        }
+        assert_close(y, (double)outside_luminance(out, 0.6f, 2), 3e-3);
+        double disc = PI * pow(sin(out->sun_radius), 2);
+        assert_close(sun * disc, out->figures.direct_normal_lx, 3e-3);
+    }
+    arena_release(&arena);
+}
+
+static void twilight_fades_and_night_is_told(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve((size_t)2 << 30);
+    static const double elevation_deg[] = {0, -2, -4, -6};
+    double before = 3000;
+    for (int i = 0; i < 4; i++) {
+        Arena        scratch = arena;
+        Outside     *out = arena_alloc(&scratch, sizeof *out, 64, 1);
+        OutsideInput input = outside_input_default(OUTSIDE_CLEAR);
+        Error        err;
+        input.has_sun = true;
+        input.threads = 2;
+        input.sun_elevation = radians_from_degrees(elevation_deg[i]);
+        assert_true(outside_build(&input, &scratch, out, &err));
+        assert_true(out->figures.diffuse_horizontal_lx < before / 1.5);
+        assert_true(out->figures.diffuse_horizontal_lx > 0.5);
+        assert_int_equal(out->figures.is_sun_up, i == 0);
+        before = out->figures.diffuse_horizontal_lx;
+    }
+    Arena        scratch = arena;
+    Outside     *out = arena_alloc(&scratch, sizeof *out, 64, 1);
+    OutsideInput input = clear_day("2026-06-21T01:00+02:00", 520);
+    Error        err;
+    input.kind = OUTSIDE_PEREZ;
+    input.direct_w_m2 = 0, input.diffuse_w_m2 = 10;
+    assert_false(outside_build(&input, &scratch, out, &err));
+    assert_non_null(strstr(err.text, "below the horizon"));
+    arena_release(&arena);
+}
+
+static void what_makes_no_sky_is_refused(void **state)
+{
+    (void)state;
+    Arena        arena = arena_reserve((size_t)2 << 30);
+    Outside     *out = arena_alloc(&arena, sizeof *out, 64, 1);
+    OutsideInput input = outside_input_default(OUTSIDE_CLEAR);
+    Error        err;
+    assert_false(outside_build(&input, &arena, out, &err));
+    assert_non_null(strstr(err.text, "time and a place"));
+    input.has_sun = true;
+    input.floor = FLOOR_CLOUD;
+    assert_false(outside_build(&input, &arena, out, &err)); /* under the deck */
+    assert_non_null(strstr(err.text, "cloud deck"));
+    input = outside_input_default(OUTSIDE_CIE);
+    input.cie_type = 17;
+    assert_false(outside_build(&input, &arena, out, &err));
+    arena_release(&arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(columns_add_up_over_altitude_and_slant),
+        cmocka_unit_test(density_is_the_columns_derivative),
+        cmocka_unit_test(phase_functions_integrate_to_one),
+        cmocka_unit_test(air_without_absorption_keeps_the_light),
+        cmocka_unit_test(orders_of_scattering_add_up_to_the_whole),
+        cmocka_unit_test(the_sky_gives_what_spectrl2_says),
+        cmocka_unit_test(steps_and_tables_have_converged),
+        cmocka_unit_test(the_sky_darkens_with_altitude_and_the_sun_gains),
+        cmocka_unit_test(an_airliner_sees_126_klx_of_sun_and_a_dipped_horizon),
+        cmocka_unit_test(the_drawn_sky_integrates_to_its_stated_illuminance),
+        cmocka_unit_test(spectral_radiance_has_the_stated_luminance),
+        cmocka_unit_test(twilight_fades_and_night_is_told),
+        cmocka_unit_test(what_makes_no_sky_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
