@@ -24,6 +24,8 @@ run_mutations()
 run_one 'release build' build-release build release all || finish
 run 'all closed forms in frames' image-long \
     python3 tests/image/run.py --all .build/release/parhelion
+run 'daylight through a roof, every point' roof-long \
+    python3 tests/image/roof.py .build/release/parhelion --all
 if run_one 'build by the second compiler' build-clang build clang all; then
     run_units 'unit tests, second compiler' unit-clang .build/clang
     run 'same bits from both compilers' bits-clang \

@@ -24,6 +24,7 @@ if run_one 'release build, warnings are errors' build-release build release all;
         python3 tests/image/marked.py .build/release/parhelion
     run 'displays under sun and sky' reflection \
         python3 tests/image/reflection.py .build/release/parhelion
+    run 'daylight through a roof' roof python3 tests/image/roof.py .build/release/parhelion
     run 'same bits, any threads' bits python3 tests/image/bits.py .build/release/parhelion
 fi
 if run_one 'build with address sanitizer' build-asan build asan all; then

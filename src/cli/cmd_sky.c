@@ -33,7 +33,7 @@ typedef struct Work {
     Wavelengths       lanes[LANE_SETS];
 } Work;
 
-/* ---- the sky, direction by direction ------------------------------------------------------ */
+/* ---- the sky, direction by direction ----------------------------------------------------- */
 
 /* A direction of the compass in the scene. */
 static Vec3 scene_direction(const Work *work, double azimuth, double elevation)
@@ -91,7 +91,7 @@ static void draw(Work *work)
     parallel_for(work->cli.threads, work->size[1], draw_row, work);
 }
 
-/* ---- figures ------------------------------------------------------------------------------- */
+/* ---- figures ----------------------------------------------------------------------------- */
 
 /* Of a picture or a constant sky, which have no model: the sky above the horizontal. */
 static double horizontal_lux(const Work *work)
@@ -99,7 +99,8 @@ static double horizontal_lux(const Work *work)
     double sum = 0;
     int    rows = 180, columns = 360;
     for (int j = 0; j < rows; j++) {
-        double low = PI / 2 * j / rows, high = PI / 2 * (j + 1) / rows, middle = (low + high) / 2;
+        double low = PI / 2 * j / rows, high = PI / 2 * (j + 1) / rows,
+               middle = (low + high) / 2;
         double weight = 0.5 * (sin(high) * sin(high) - sin(low) * sin(low)) * 2 * PI / columns;
         for (int i = 0; i < columns; i++) {
             float rgb[3];
@@ -189,7 +190,7 @@ static void print_lines(const char *const *line, int count)
     }
 }
 
-/* ---- pictures -------------------------------------------------------------------------------- */
+/* ---- pictures ---------------------------------------------------------------------------- */
 
 static bool write_exr(const Work *work, Error *err)
 {
@@ -231,10 +232,12 @@ static const char *moment_text(const Work *work)
     const OutsideInput *in = &work->scene->environment.outside;
     if (work->sky.kind < ENVIRONMENT_CIE || !in->has_time) return "";
     double zone = fabs(in->when.zone_h);
-    return arena_format(work->arena, "%04d-%02d-%02d %02d:%02d UTC%c%02d:%02d  ·  latitude %.4f°, "
-                        "longitude %.4f°, %.0f m", in->when.year, in->when.month, in->when.day,
-                        in->when.hour, in->when.minute, in->when.zone_h < 0 ? '-' : '+',
-                        (int)zone, (int)((zone - (int)zone) * 60 + 0.5), in->where.latitude_deg,
+    return arena_format(work->arena,
+                        "%04d-%02d-%02d %02d:%02d UTC%c%02d:%02d  ·  latitude %.4f°, "
+                        "longitude %.4f°, %.0f m",
+                        in->when.year, in->when.month, in->when.day, in->when.hour,
+                        in->when.minute, in->when.zone_h < 0 ? '-' : '+', (int)zone,
+                        (int)((zone - (int)zone) * 60 + 0.5), in->where.latitude_deg,
                         in->where.longitude_deg, in->where.altitude_m);
 }
 
@@ -285,9 +288,15 @@ static bool write_picture(const Work *work, const OutsideFigures *f, bool is_svg
            file_write(work->output, bytes.data, bytes.size, err);
 }
 
-/* ---- the command ------------------------------------------------------------------------------ */
+/* ---- the command ------------------------------------------------------------------------- */
 
-typedef enum OutputKind { OUTPUT_NONE, OUTPUT_EXR, OUTPUT_PNG, OUTPUT_SVG, OUTPUT_WRONG } OutputKind;
+typedef enum OutputKind {
+    OUTPUT_NONE,
+    OUTPUT_EXR,
+    OUTPUT_PNG,
+    OUTPUT_SVG,
+    OUTPUT_WRONG
+} OutputKind;
 
 static OutputKind output_kind(const char *path)
 {
@@ -314,7 +323,8 @@ static bool build(Work *work, Error *err)
     cli_print_warnings(&work->problems);
     const Environment *environment = &work->scene->environment;
     if (environment->kind == ENVIRONMENT_NONE && !environment->has_sun)
-        return error_set(err, ERROR_USAGE, "sky wants a sky: --environment sky:clear --when TIME "
+        return error_set(err, ERROR_USAGE,
+                         "sky wants a sky: --environment sky:clear --when TIME "
                          "--where LAT,LON, or a scene that has one");
     work->turn = (double)environment->heading -
                  atan2((double)environment->forward.x, -(double)environment->forward.z);
@@ -346,8 +356,8 @@ bool cmd_sky(int argc, char **argv, Error *err)
         {"-o", OPTION_TEXT, "SKY.exr|.png|.svg",
          "linear light in cd/m2, or a chart in false colours with the sun's way", &work.output},
         ENVIRONMENT_OPTIONS(&work.change),
-        {"--projection", OPTION_CHOICE, "equirectangular|fisheye", "of an EXR (charts show both)",
-         &projection},
+        {"--projection", OPTION_CHOICE, "equirectangular|fisheye",
+         "of an EXR (charts show both)", &projection},
         {"--size", OPTION_SIZE, "WxH", "pixels of an EXR (default 1024x512, fisheye 1024x1024)",
          work.size},
         {"--dark", OPTION_FLAG, NULL, "a chart on a dark page", &work.is_dark},

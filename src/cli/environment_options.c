@@ -39,7 +39,7 @@ static void add_input(Change *change, const char *path, uint64_t hash)
     scene->input_count = count + 1;
 }
 
-/* ---- the sky ------------------------------------------------------------------------------ */
+/* ---- the sky ----------------------------------------------------------------------------- */
 
 static bool set_constant(Change *change, const char *text, Error *err)
 {
@@ -74,7 +74,8 @@ static bool set_hdri(Change *change, const char *path, Error *err)
     return true;
 }
 
-/* A model of its own kind keeps what the scene said of it, its time and place whatever it was. */
+/* A model of its own kind keeps what the scene said of it, its time and place whatever it was.
+ */
 static void become(Change *change, EnvironmentKind kind, OutsideKind outside)
 {
     Environment *environment = change->environment;
@@ -101,17 +102,21 @@ static bool set_cie(Change *change, const char *text, Error *err)
     else if (colon || !cli_numbers(copy, 1, number)) number[0] = 0;
     if (!(number[0] >= 1 && number[0] <= 16 && floor(number[0]) == number[0]) ||
         (colon && !has_lux))
-        return error_set(err, ERROR_USAGE, "--environment cie:%s: wanted cie:N or cie:N:LUX with N "
-                         "1 to 15 (16: the traditional overcast sky)", text);
+        return error_set(err, ERROR_USAGE,
+                         "--environment cie:%s: wanted cie:N or cie:N:LUX with N "
+                         "1 to 15 (16: the traditional overcast sky)",
+                         text);
     bool was_cie = change->environment->kind == ENVIRONMENT_CIE;
     become(change, ENVIRONMENT_CIE, OUTSIDE_CIE);
     change->environment->outside.cie_type = (int)number[0];
     if (has_lux) change->environment->outside.diffuse_lux = number[1];
     else if (!was_cie) {
         change->environment->outside.diffuse_lux = CIE_DIFFUSE_LX;
-        problems_add(change->problems, SEVERITY_WARNING, "", "",
-                     "--environment cie:%s says no illuminance: the sky is scaled to %g lx on a "
-                     "horizontal plane (write cie:%s:LUX)", text, CIE_DIFFUSE_LX, text);
+        problems_add(
+            change->problems, SEVERITY_WARNING, "", "",
+            "--environment cie:%s says no illuminance: the sky is scaled to %g lx on a "
+            "horizontal plane (write cie:%s:LUX)",
+            text, CIE_DIFFUSE_LX, text);
     }
     return true;
 }
@@ -120,8 +125,10 @@ static bool set_perez(Change *change, const char *text, Error *err)
 {
     double w_m2[2];
     if (!cli_numbers(text, 2, w_m2) || w_m2[0] < 0 || !(w_m2[1] > 0))
-        return error_set(err, ERROR_USAGE, "--environment perez:%s: wanted perez:DIRECT,DIFFUSE, "
-                         "normal and horizontal irradiance in W/m2", text);
+        return error_set(err, ERROR_USAGE,
+                         "--environment perez:%s: wanted perez:DIRECT,DIFFUSE, "
+                         "normal and horizontal irradiance in W/m2",
+                         text);
     become(change, ENVIRONMENT_PEREZ, OUTSIDE_PEREZ);
     change->environment->outside.direct_w_m2 = w_m2[0];
     change->environment->outside.diffuse_w_m2 = w_m2[1];
@@ -141,7 +148,7 @@ static bool set_sky(Change *change, const char *text, Error *err)
     return true;
 }
 
-/* ---- time, place, weather ------------------------------------------------------------------ */
+/* ---- time, place, weather ---------------------------------------------------------------- */
 
 static bool needs_model(const Change *change, const char *option, Error *err)
 {
@@ -155,8 +162,10 @@ static bool set_place(Change *change, const char *text, Error *err)
     double place[3] = {0, 0, change->environment->outside.where.altitude_m};
     if ((!cli_numbers(text, 3, place) && !cli_numbers(text, 2, place)) ||
         fabs(place[0]) > 90 || fabs(place[1]) > 360 || place[2] < -500 || place[2] > 60000)
-        return error_set(err, ERROR_USAGE, "--where %s: wanted LAT,LON or LAT,LON,ALT: -90 to 90 "
-                         "and -360 to 360 degrees, -500 to 60000 m", text);
+        return error_set(err, ERROR_USAGE,
+                         "--where %s: wanted LAT,LON or LAT,LON,ALT: -90 to 90 "
+                         "and -360 to 360 degrees, -500 to 60000 m",
+                         text);
     change->environment->outside.where = (SkyPlace){place[0], place[1], place[2]};
     return true;
 }
@@ -177,7 +186,8 @@ static bool set_time_and_place(Change *change, Error *err)
     if (!knows_time && !asked->sun && !change->environment->has_sun)
         return error_set(err, ERROR_USAGE, "--where: there is no time yet — add --when TIME");
     if (!knows_place)
-        return error_set(err, ERROR_USAGE, "--when: there is no place yet — add --where LAT,LON");
+        return error_set(err, ERROR_USAGE,
+                         "--when: there is no place yet — add --where LAT,LON");
     outside->has_time = knows_time;
     change->environment->has_sun &= !asked->when; /* a new time moves the sun */
     return true;
@@ -198,11 +208,14 @@ static bool set_weather(Change *change, Error *err)
     if (!weather_read(file, change->arena, &weather, err)) return false;
     if (!change->asked->where) outside->where = weather.place;
     SkyTime when = outside->when;
-    if (change->asked->when && !sky_time_parse(change->asked->when, "", &when, err)) return false;
+    if (change->asked->when && !sky_time_parse(change->asked->when, "", &when, err))
+        return false;
     const WeatherHour *hour = weather_at(&weather, &when);
     if (!hour || !hour->has_light)
-        return error_at(err, ERROR_INPUT, file, "", "has no hour with light for month %d, day %d, "
-                        "%02d:%02d", when.month, when.day, when.hour, when.minute);
+        return error_at(err, ERROR_INPUT, file, "",
+                        "has no hour with light for month %d, day %d, "
+                        "%02d:%02d",
+                        when.month, when.day, when.hour, when.minute);
     if (!(hour->diffuse_horizontal_w_m2 > 0))
         return error_at(err, ERROR_INPUT, file, "", "month %d, day %d, hour %d is dark (0 W/m2 "
                         "diffuse), wanted an hour by day", hour->middle.month, hour->middle.day,
@@ -227,11 +240,12 @@ static bool set_air(Change *change, Error *err)
         change->environment->outside.turbidity = asked->turbidity;
         change->environment->outside.visibility_km = 0;
     }
-    if (asked->has_visibility) change->environment->outside.visibility_km = asked->visibility_km;
+    if (asked->has_visibility)
+        change->environment->outside.visibility_km = asked->visibility_km;
     return true;
 }
 
-/* ---- the sun ------------------------------------------------------------------------------- */
+/* ---- the sun ----------------------------------------------------------------------------- */
 
 static bool set_sun(Change *change, const char *text, Error *err)
 {
@@ -247,15 +261,18 @@ static bool set_sun(Change *change, const char *text, Error *err)
         environment->has_sun = false;
         environment->outside.sun_lux = -1;
         return environment->outside.has_time ||
-               error_set(err, ERROR_USAGE, "--sun auto: there is no time and place — add --when "
+               error_set(err, ERROR_USAGE,
+                         "--sun auto: there is no time and place — add --when "
                          "and --where");
     }
     bool has_lux = cli_numbers(text, 3, sun);
     if ((!has_lux && !cli_numbers(text, 2, sun)) || fabs(sun[0]) > 360 || fabs(sun[1]) > 90 ||
         (has_lux && sun[2] < 0))
-        return error_set(err, ERROR_USAGE,
-                         "--sun %s: wanted auto, off, or AZ,EL,LUX with AZ -360 to 360 and EL -90 "
-                         "to 90 degrees and LUX at least 0", text);
+        return error_set(
+            err, ERROR_USAGE,
+            "--sun %s: wanted auto, off, or AZ,EL,LUX with AZ -360 to 360 and EL -90 "
+            "to 90 degrees and LUX at least 0",
+            text);
     if (!has_lux && !environment->has_sun && !is_model)
         return error_set(
             err, ERROR_USAGE,
@@ -303,8 +320,10 @@ static bool knows_sun(const Change *change, Error *err)
     const Environment *environment = change->environment;
     bool any = environment->kind < ENVIRONMENT_PEREZ || environment->has_sun ||
                environment->outside.has_time;
-    return any || error_set(err, ERROR_USAGE, "--environment %s: where does the sun stand? — add "
-                            "--when and --where, or --sun AZ,EL", change->asked->environment);
+    return any || error_set(err, ERROR_USAGE,
+                            "--environment %s: where does the sun stand? — add "
+                            "--when and --where, or --sun AZ,EL",
+                            change->asked->environment);
 }
 
 bool environment_change(const EnvironmentChange *asked, Scene *scene, Arena *arena,

@@ -4,9 +4,9 @@
  *          to azimuth h; the sky turns, the scene stays.
  * Sun      its irradiance on a plane that faces it is exact whatever its size. Of a model (cie,
  *          perez, sky): the model's spectrum, its limb darkened, cut by the horizon. Else a
- *          uniform disc, L = E / (pi sin^2 r), with the spectrum of a black body of 5500 K, close
- *          to a high sun's direct beam (CIE 1931 x, y = 0.332, 0.341).
- * Threads  const after sky_build.
+ *          uniform disc, L = E / (pi sin^2 r), with the spectrum of a black body of 5500 K,
+ * close to a high sun's direct beam (CIE 1931 x, y = 0.332, 0.341). Threads  const after
+ * sky_build.
  */
 #pragma once
 #include "light/sky_model.h"

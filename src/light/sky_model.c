@@ -38,14 +38,16 @@ static void fill_row(void *context, int row, int worker)
     SkyModel *model = context;
     double    running = 0, cell[SKY_MODEL_COLUMNS];
     (void)worker;
-    for (int j = 0; j < SKY_MODEL_COLUMNS; j++) running += cell[j] = cell_luminance(model, row, j);
+    for (int j = 0; j < SKY_MODEL_COLUMNS; j++)
+        running += cell[j] = cell_luminance(model, row, j);
     /* a hundredth evenly: a cell may be brighter than its nine places say */
     double even = 0.01 * running / SKY_MODEL_COLUMNS + 1e-12, total = running * 1.01 + 1e-9;
     double sum = 0;
     for (int j = 0; j < SKY_MODEL_COLUMNS; j++)
         model->cdf[row][j + 1] = (float)((sum += cell[j] + even) / total);
     model->cdf[row][SKY_MODEL_COLUMNS] = 1;
-    model->row_cdf[row + 1] = (float)(total * (double)(model->edge[row + 1] - model->edge[row]));
+    model->row_cdf[row + 1] =
+        (float)(total * (double)(model->edge[row + 1] - model->edge[row]));
 }
 
 static void sum_rows(SkyModel *model)

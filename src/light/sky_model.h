@@ -1,4 +1,5 @@
-/* sky_model.h -- a computed sky (sky/outside.h) as a light: looked up, and sampled by luminance.
+/* sky_model.h -- a computed sky (sky/outside.h) as a light: looked up, and sampled by
+ * luminance.
  *
  * The sphere is cut at the horizon, which may lie below the horizontal, into cells of elevation
  * and azimuth with constant density: no cell holds both sky and ground.

@@ -5,7 +5,8 @@
 
 static const float *pixel(const SkyPicture *picture, int x, int y)
 {
-    int column = (x + picture->width) % picture->width; /* the picture closes around the horizon */
+    int column =
+        (x + picture->width) % picture->width; /* the picture closes around the horizon */
     int row = y < 0 ? 0 : y >= picture->height ? picture->height - 1 : y;
     return picture->pixels + 4 * ((size_t)row * (size_t)picture->width + (size_t)column);
 }
@@ -15,7 +16,8 @@ static void picture_rgb(const SkyPicture *picture, float x, float y, float rgb[3
 {
     float left = floorf(x - 0.5f), top = floorf(y - 0.5f);
     float s = x - 0.5f - left, t = y - 0.5f - top;
-    const float *a = pixel(picture, (int)left, (int)top), *b = pixel(picture, (int)left + 1, (int)top);
+    const float *a = pixel(picture, (int)left, (int)top),
+                *b = pixel(picture, (int)left + 1, (int)top);
     const float *c = pixel(picture, (int)left, (int)top + 1);
     const float *d = pixel(picture, (int)left + 1, (int)top + 1);
     for (int i = 0; i < 3; i++)
@@ -166,7 +168,8 @@ static float inside_interval(const float *cdf, int i, float u)
 static float picture_pdf(const SkyPicture *picture, int x, int y, float sin_theta)
 {
     const float *columns = picture->column_cdf + (size_t)y * (size_t)(picture->width + 1);
-    float cell = (picture->row_cdf[y + 1] - picture->row_cdf[y]) * (columns[x + 1] - columns[x]);
+    float cell =
+        (picture->row_cdf[y + 1] - picture->row_cdf[y]) * (columns[x + 1] - columns[x]);
     float cells = (float)picture->width * (float)picture->height;
     return sin_theta > 0 ? cell * cells / (2 * PI_F * PI_F * sin_theta) : 0;
 }

@@ -64,6 +64,8 @@ typedef struct Normal {
     double *matrix; /* lower half */
     double *right;  /* unknowns x components */
     double  total;
+    const uint8_t *term; /* the harmonics */
+    int            terms;
 } Normal;
 
 static void add_sample(Normal *normal, const Taps *taps, const float *score, double weight)
@@ -123,8 +125,8 @@ static void solve_normal(const Normal *normal, double *m, double *r)
 }
 
 /* One component's numbers [term][number]. */
-static void solve_component(const Normal *normal, const uint8_t *term, int terms, int component,
-                            const EmissionModel *model, float *numbers, Arena scratch)
+static void solve_component(const Normal *normal, int component, const EmissionModel *model,
+                            float *numbers, Arena scratch)
 {
     size_t n = (size_t)normal->unknowns;
     Normal one = *normal;
@@ -133,7 +135,7 @@ static void solve_component(const Normal *normal, const uint8_t *term, int terms
     memcpy(one.matrix, normal->matrix, n * n * sizeof *one.matrix);
     for (size_t a = 0; a < n; a++)
         right[a] = normal->right[a * (size_t)normal->components + (size_t)component];
-    add_penalties(&one, term, terms, (double)model->score_noise[component],
+    add_penalties(&one, one.term, one.terms, (double)model->score_noise[component],
                   model->samples->rows);
     solve_normal(&one, one.matrix, right);
     for (size_t a = 0; a < n; a++) {
@@ -161,7 +163,7 @@ size_t emission_smooth(const EmissionModel *model, Arena *arena, const void **by
     uint8_t term[PANEL_SPLINE_TERMS_MAX];
     int     terms = choose_terms(samples->azimuths, term), components = rank->components;
     Arena   scratch = arena_reserve((size_t)64 << 20);
-    Normal  normal = {terms * PANEL_SPLINE_NUMBERS, components, NULL, NULL, 0};
+    Normal  normal = {terms * PANEL_SPLINE_NUMBERS, components, NULL, NULL, 0, term, terms};
     size_t  unknowns = (size_t)normal.unknowns;
     normal.matrix = ARENA_NEW(&scratch, double, unknowns * unknowns);
     normal.right = ARENA_NEW(&scratch, double, unknowns * (size_t)components);
@@ -173,10 +175,10 @@ size_t emission_smooth(const EmissionModel *model, Arena *arena, const void **by
     }
     float *numbers = ARENA_NEW(&scratch, float, unknowns * (size_t)components);
     for (int k = 0; k < components; k++)
-        solve_component(&normal, term, terms, k, model, numbers, scratch);
+        solve_component(&normal, k, model, numbers, scratch);
     drop_small_blocks(numbers, terms, components, model->step);
-    size_t size = panel_spline_pack(term, terms, components, numbers, model->step, arena,
-                                    bytes);
+    PanelSplineNumbers all = {term, terms, components, numbers, model->step};
+    size_t             size = panel_spline_pack(&all, arena, bytes);
     arena_release(&scratch);
     return size;
 }

@@ -122,14 +122,24 @@ static double rest_of_fit(const Coder *coder, const VertexSamples *samples, cons
 #define WEAK_RIDGE 1e-9 /* weaker than this they hardly smooth; then */
 #define WORTH 0.7       /* the next must leave so much less */
 
-/* The strongest ridge that leaves no more than the noise, or nothing that matters, or hardly
- * more than a weaker one. */
-static bool fit_values(const Coder *coder, const VertexSamples *samples, int component,
-                       double ridge, Arena scratch, float *values, Error *err)
+/* Where a component's fit begins and what it may leave. */
+typedef struct FitGoal {
+    double ridge, enough;
+} FitGoal;
+
+/* The noise, or nothing that matters. */
+static FitGoal goal_of(const Coder *coder, const float *rest, int component)
 {
-    double enough = fmax(1.2 * (double)coder->model->score_noise[component],
-                         0.1 * (double)coder->model->step[component]);
-    double before = INFINITY;
+    return (FitGoal){ridge_of(coder->model, rest, component),
+                     fmax(1.2 * (double)coder->model->score_noise[component],
+                          0.1 * (double)coder->model->step[component])};
+}
+
+/* The strongest ridge that leaves no more than the goal, or hardly more than a weaker one. */
+static bool fit_values(const Coder *coder, const VertexSamples *samples, FitGoal goal,
+                       Arena scratch, float *values, Error *err)
+{
+    double before = INFINITY, ridge = goal.ridge;
     float *trial = ARENA_NEW(&scratch, float, coder->vertices);
     for (;; ridge /= RIDGE_STEP) {
         Arena work = scratch;
@@ -139,7 +149,7 @@ static bool fit_values(const Coder *coder, const VertexSamples *samples, int com
         double rest = rest_of_fit(coder, samples, trial);
         if (ridge < WEAK_RIDGE && rest > WORTH * before) return true;
         memcpy(values, trial, coder->vertices * sizeof *values);
-        if (ridge == LEAST_RIDGE || rest <= enough) return true;
+        if (ridge == LEAST_RIDGE || rest <= goal.enough) return true;
         before = rest;
     }
 }
@@ -158,8 +168,7 @@ static bool fit_component(Coder *coder, const float *rest, int component, Arena 
         low = fminf(low, one[i]), high = fmaxf(high, one[i]);
     }
     VertexSamples samples = {s->rows, 1, s->direction, one, weight};
-    if (!fit_values(coder, &samples, component, ridge_of(coder->model, rest, component),
-                    scratch, values, err))
+    if (!fit_values(coder, &samples, goal_of(coder, rest, component), scratch, values, err))
         return false;
     for (uint32_t v = 0; v < coder->vertices; v++) /* what nothing measures cannot run away */
         coder->value[v * (uint32_t)n + (uint32_t)component] = clampf(values[v], low, high);

@@ -53,11 +53,20 @@ typedef struct NoiseQuestion {
     bool   is_relative; /* to the mean of the rows */
 } NoiseQuestion;
 
+/* Differences of rows along one of their neighbourhoods. */
+typedef struct DifferenceKind {
+    const int *before; /* the neighbour of each row, -1: none */
+    int        order;
+    bool       in_logs;
+} DifferenceKind;
+
 /* |difference of that order| that ends at a row, over what noise of 1 would make it; of values
  * or, which leaves less of steep functions, of their logarithms. */
-static bool high_difference(const AngleTable *table, const int *before, int row, int order,
-                            bool in_logs, const NoiseQuestion *ask, double *difference)
+static bool high_difference(const AngleTable *table, DifferenceKind kind, int row,
+                            const NoiseQuestion *ask, double *difference)
 {
+    int  order = kind.order;
+    bool in_logs = kind.in_logs;
     double sum = 0, squares = 0, binomial = 1, all = 0;
     for (int k = 0; k <= order; k++) {
         if (row < 0) return false;
@@ -68,7 +77,7 @@ static bool high_difference(const AngleTable *table, const int *before, int row,
         squares += binomial * binomial;
         all += value;
         binomial = binomial * (order - k) / (k + 1);
-        row = before[row];
+        row = kind.before[row];
     }
     double mean = all / (order + 1), found = fabs(sum) / sqrt(squares);
     if (ask->is_relative && !(mean > 0)) return false;
@@ -77,19 +86,19 @@ static bool high_difference(const AngleTable *table, const int *before, int row,
 }
 
 /* Median over rows; 0: too few. */
-static double median_difference(const AngleTable *table, const int *before, int order,
-                                bool in_logs, const NoiseQuestion *ask, Arena scratch)
+static double median_difference(const AngleTable *table, DifferenceKind kind,
+                                const NoiseQuestion *ask, Arena scratch)
 {
     double *list = ARENA_NEW(&scratch, double, table->rows + 1), difference;
     int     count = 0, asked = 0, stride = 1 + table->rows / ASKED;
-    for (int i = order; i < table->rows; i += stride) {
+    for (int i = kind.order; i < table->rows; i += stride) {
         double theta = (double)table->theta[i];
         if (theta < ask->from || theta > ask->to) continue;
         asked++;
-        if (high_difference(table, before, i, order, in_logs, ask, &difference))
+        if (high_difference(table, kind, i, ask, &difference))
             list[count++] = difference;
     }
-    if (count < ENOUGH || (in_logs && 2 * count < asked)) return 0;
+    if (count < ENOUGH || (kind.in_logs && 2 * count < asked)) return 0;
     qsort(list, (size_t)count, sizeof *list, fit_by_value);
     return list[count / 2] / MEDIAN_OF_NORMAL;
 }
@@ -104,8 +113,8 @@ static double least_difference(const AngleTable *table, bool has_logs, const Noi
     fit_neighbours(table, &scratch, &near);
     for (int order = 3; order <= 7; order += 2)
         for (int k = 0; k < (has_logs ? 4 : 2); k++) {
-            double found = median_difference(table, k % 2 ? near.inner : near.ring, order,
-                                             k > 1, ask, scratch);
+            DifferenceKind kind = {k % 2 ? near.inner : near.ring, order, k > 1};
+            double         found = median_difference(table, kind, ask, scratch);
             if (found > 0) least = fmin(least, found);
         }
     return least < INFINITY ? least : 0;

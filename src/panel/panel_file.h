@@ -264,8 +264,9 @@ static inline void panel_add_profile(const PanelProfile *profile, Vec3 d, int fi
 }
 
 /* How wi is chosen for a wo: function azimuth * incidences + incidence of one sampling tree in
- * the specular-following frame of wo's polar angle theta, with an exponent of its own. In the file: the tree, at the next
- * multiple of four bytes uint16 incidences and azimuths, then float theta[incidences]. */
+ * the specular-following frame of wo's polar angle theta, with an exponent of its own. In the
+ * file: the tree, at the next multiple of four bytes uint16 incidences and azimuths, then float
+ * theta[incidences]. */
 #define PANEL_SAMPLING_EXPONENT 2.0f
 typedef struct PanelSampling {
     SamplingTree tree;

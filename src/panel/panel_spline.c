@@ -145,9 +145,11 @@ static void put_block(unsigned char **to, const float *numbers, float scale, int
     }
 }
 
-size_t panel_spline_pack(const uint8_t *term, int terms, int components, const float *numbers,
-                         const float *step, Arena *arena, const void **bytes)
+size_t panel_spline_pack(const PanelSplineNumbers *in, Arena *arena, const void **bytes)
 {
+    const uint8_t *term = in->term;
+    const float   *numbers = in->numbers, *step = in->step;
+    int            terms = in->terms, components = in->components;
     unsigned char *out = ARENA_NEW(arena, unsigned char,
         16 + (size_t)components + (size_t)terms * (1 + (size_t)components *
                                                            (1 + 2 * PANEL_SPLINE_NUMBERS)));

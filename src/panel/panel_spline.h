@@ -54,8 +54,12 @@ void panel_spline_expand(const uint8_t *term, int terms, int components, const f
 
 /* What is stored of such numbers; where a block is not worth a step it stays out, terms without
  * blocks too. step[k]: the coarsest rounding that component k bears. *bytes in the arena. */
-size_t panel_spline_pack(const uint8_t *term, int terms, int components, const float *numbers,
-                         const float *step, Arena *arena, const void **bytes);
+typedef struct PanelSplineNumbers {
+    const uint8_t *term; /* rising */
+    int            terms, components;
+    const float   *numbers, *step;
+} PanelSplineNumbers;
+size_t panel_spline_pack(const PanelSplineNumbers *in, Arena *arena, const void **bytes);
 
 /* Checks and expands stored bytes; *used: how many of them. False: not a spline of so many
  * components. */

@@ -92,7 +92,7 @@ static void paint(const Work *work, Box box, Sample *sample)
     cairo_surface_destroy(image);
 }
 
-/* ---- the chart of the dome -------------------------------------------------------------------- */
+/* ---- the chart of the dome --------------------------------------------------------------- */
 
 static double disc_sample(const Work *work, double x, double y)
 {
@@ -144,8 +144,12 @@ static void disc_compass(const Work *work, const Disc *disc)
         double a = i * PI / 4;
         canvas_text(work->canvas, disc->x + (disc->r + 13) * sin(a),
                     disc->y - (disc->r + 13) * cos(a),
-                    (Letters){.size = i % 2 ? SIZE_TICK : SIZE_TEXT, .ink = work->canvas->theme.ink,
-                              .across = 0.5, .down = 0.5, .is_bold = i % 2 == 0}, names[i]);
+                    (Letters){.size = i % 2 ? SIZE_TICK : SIZE_TEXT,
+                              .ink = work->canvas->theme.ink,
+                              .across = 0.5,
+                              .down = 0.5,
+                              .is_bold = i % 2 == 0},
+                    names[i]);
     }
 }
 
@@ -153,7 +157,8 @@ static void disc_compass(const Work *work, const Disc *disc)
 static void disc_heading(const Work *work, const Disc *disc)
 {
     Canvas *canvas = work->canvas;
-    double  a = work->plot->heading, x[3], y[3], r[3] = {disc->r - 2, disc->r - 18, disc->r - 18};
+    double a = work->plot->heading, x[3], y[3],
+           r[3] = {disc->r - 2, disc->r - 18, disc->r - 18};
     double  turn[3] = {0, 0.04, -0.04};
     for (int i = 0; i < 3; i++) {
         x[i] = disc->x + r[i] * sin(a + turn[i]);
@@ -165,11 +170,15 @@ static void disc_heading(const Work *work, const Disc *disc)
     cairo_close_path(canvas->cr);
     canvas_fill(canvas, ink_hex(0xffffff));
     canvas_text(canvas, disc->x + (disc->r - 26) * sin(a), disc->y - (disc->r - 26) * cos(a),
-                (Letters){.size = SIZE_SMALL, .ink = ink_hex(0xffffff), .across = 0.5, .down = 0.5,
-                          .halo = ink_alpha(ink_hex(0x14181c), 0.6)}, "ahead");
+                (Letters){.size = SIZE_SMALL,
+                          .ink = ink_hex(0xffffff),
+                          .across = 0.5,
+                          .down = 0.5,
+                          .halo = ink_alpha(ink_hex(0x14181c), 0.6)},
+                "ahead");
 }
 
-/* ---- the sun and its way ------------------------------------------------------------------- */
+/* ---- the sun and its way ----------------------------------------------------------------- */
 
 typedef void Place(const void *view, double azimuth, double elevation, double *x, double *y);
 
@@ -178,7 +187,8 @@ static void place_disc(const void *view, double azimuth, double elevation, doubl
     disc_place(view, azimuth, elevation, x, y);
 }
 
-static void place_panorama(const void *view, double azimuth, double elevation, double *x, double *y)
+static void place_panorama(const void *view, double azimuth, double elevation, double *x,
+                           double *y)
 {
     const Box *box = view;
     double turns = azimuth / (2 * PI);
@@ -227,7 +237,7 @@ static void draw_sun(const Work *work, Place *place, const void *view, double wi
     canvas_stroke(canvas, (Stroke){dark, 1, DASH_NONE});
 }
 
-/* ---- the panorama ------------------------------------------------------------------------------ */
+/* ---- the panorama ------------------------------------------------------------------------ */
 
 static double panorama_sample(const Work *work, double x, double y)
 {
@@ -242,7 +252,8 @@ static void draw_panorama(const Work *work, Box box)
     double  x, y;
     paint(work, box, panorama_sample);
     place_panorama(&box, 0, work->plot->horizon, &x, &y);
-    canvas_line(canvas, box.x, y, box.x + box.w, y, (Stroke){ink_hex(0xffffff), 0.9, DASH_LONG});
+    canvas_line(canvas, box.x, y, box.x + box.w, y,
+                (Stroke){ink_hex(0xffffff), 0.9, DASH_LONG});
     for (int i = 0; i < 5; i++) {
         double at = box.x + box.w * i / 4;
         canvas_line(canvas, at, box.y, at, box.y + box.h, thin);
@@ -255,13 +266,15 @@ static void draw_panorama(const Work *work, Box box)
         double at = box.y + box.h * (0.5 - e / 180.0);
         canvas_line(canvas, box.x, at, box.x + box.w, at, thin);
         snprintf(text, sizeof text, "%d°", e);
-        canvas_text(canvas, box.x - 5, at, (Letters){.size = SIZE_TICK, .ink = canvas->theme.soft,
-                                                     .across = 1, .down = 0.5}, text);
+        canvas_text(
+            canvas, box.x - 5, at,
+            (Letters){.size = SIZE_TICK, .ink = canvas->theme.soft, .across = 1, .down = 0.5},
+            text);
     }
     draw_sun(work, place_panorama, &box, box.w / 2);
 }
 
-/* ---- the scale and the figures ------------------------------------------------------------------ */
+/* ---- the scale and the figures ----------------------------------------------------------- */
 
 static double bar_sample(const Work *work, double x, double y)
 {
@@ -295,7 +308,8 @@ static void draw_lines(const Work *work, double x, double y)
         const char *line = work->plot->line[i], *bar = strchr(line, '|');
         size_t      length = bar ? (size_t)(bar - line) : strlen(line);
         double      column = i % 2 ? x + PANORAMA_W / 2 : x, down = y + 17 * (i / 2);
-        canvas_text(canvas, column, down, (Letters){.size = SIZE_TEXT, .ink = canvas->theme.soft},
+        canvas_text(canvas, column, down,
+                    (Letters){.size = SIZE_TEXT, .ink = canvas->theme.soft},
                     arena_string(canvas->arena, line, length));
         if (bar)
             canvas_text(canvas, column + 138, down,
@@ -310,8 +324,9 @@ static void draw_page(Canvas *canvas, const void *context)
     Disc disc = {MARGIN + DISC_R + 22, MARGIN + 94 + DISC_R, DISC_R};
     Box  panorama = {PAGE_W - MARGIN - PANORAMA_W, MARGIN + 72, PANORAMA_W, PANORAMA_W / 2};
     choose_scale(&work);
-    canvas_text(canvas, MARGIN, MARGIN, (Letters){.size = SIZE_HEADING, .ink = canvas->theme.ink,
-                                                  .is_bold = true}, work.plot->title);
+    canvas_text(canvas, MARGIN, MARGIN,
+                (Letters){.size = SIZE_HEADING, .ink = canvas->theme.ink, .is_bold = true},
+                work.plot->title);
     canvas_text(canvas, MARGIN, MARGIN + 27, (Letters){.size = SIZE_TEXT,
                                                        .ink = canvas->theme.soft},
                 work.plot->subtitle);
@@ -325,9 +340,10 @@ static void draw_page(Canvas *canvas, const void *context)
     draw_panorama(&work, panorama);
     draw_scale(&work, (Box){panorama.x, panorama.y + panorama.h + 46, panorama.w, 12});
     draw_lines(&work, panorama.x, panorama.y + panorama.h + 94);
-    canvas_text(canvas, MARGIN, PAGE_H - MARGIN + 8, (Letters){.size = SIZE_TICK,
-        .ink = canvas->theme.soft, .down = 0.5}, "plan of the sky: zenith in the middle, north on "
-        "top, east right");
+    canvas_text(canvas, MARGIN, PAGE_H - MARGIN + 8,
+                (Letters){.size = SIZE_TICK, .ink = canvas->theme.soft, .down = 0.5},
+                "plan of the sky: zenith in the middle, north on "
+                "top, east right");
     canvas_text(canvas, PAGE_W - MARGIN, PAGE_H - MARGIN + 8, (Letters){.size = SIZE_TICK,
         .ink = canvas->theme.soft, .across = 1, .down = 0.5}, "Parhelion " PARHELION_VERSION);
 }

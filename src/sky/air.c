@@ -35,7 +35,7 @@ AirOptics air_optics(const Air *air)
     return o;
 }
 
-/* ---- over altitude ------------------------------------------------------------------------ */
+/* ---- over altitude ----------------------------------------------------------------------- */
 
 /* Pressure over sea-level pressure by the layers of ISO 2533; the column above an altitude is
  * proportional to it (gravity taken as constant). */
@@ -92,7 +92,8 @@ double air_density(const AirOptics *optics, AirPart part, double altitude_m)
 void air_vertical(const AirOptics *optics, double from_m, double to_m, double column[AIR_PARTS])
 {
     for (int p = 0; p < AIR_PARTS; p++)
-        column[p] = share_above(optics, (AirPart)p, from_m) - share_above(optics, (AirPart)p, to_m);
+        column[p] =
+            share_above(optics, (AirPart)p, from_m) - share_above(optics, (AirPart)p, to_m);
 }
 
 /* Spherical shells: the vertical column of each, times its slant, ds/dz = r / sqrt(r^2 - p^2)

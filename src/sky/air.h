@@ -36,7 +36,8 @@ AirOptics air_optics(const Air *air);
 double air_density(const AirOptics *optics, AirPart part, double altitude_m);
 
 /* Columns of all parts between two altitudes, straight up. */
-void air_vertical(const AirOptics *optics, double from_m, double to_m, double column[AIR_PARTS]);
+void air_vertical(const AirOptics *optics, double from_m, double to_m,
+                  double column[AIR_PARTS]);
 
 /* Columns from an altitude to space along a ray whose angle to the zenith has this cosine; no
  * refraction. False: the ray meets the sphere of altitude floor_m. */

@@ -24,7 +24,7 @@ typedef struct Builder {
     Arena       *arena;   /* of the lights: one each */
 } Builder;
 
-/* ---- shared tables -------------------------------------------------------------------------- */
+/* ---- shared tables ----------------------------------------------------------------------- */
 
 /* Cosine of the floor's edge as seen from an altitude. */
 static double edge_cosine(double altitude_m, double floor_m)
@@ -75,7 +75,7 @@ static void fill_light(void *context, int item, int worker)
     diffuse_light_build(&input, &b->arena[item], &b->light[item]);
 }
 
-/* ---- one point ------------------------------------------------------------------------------ */
+/* ---- one point --------------------------------------------------------------------------- */
 
 /* Transmittance from space to a point; below the floor's edge the edge's own. */
 static Spectrum passing_at(const Builder *b, double altitude, double cosine)
@@ -148,7 +148,7 @@ static const DiffuseLight *light_at(const Builder *b, double sun_cosine, float *
     return &b->light[(int)x];
 }
 
-/* ---- one ray -------------------------------------------------------------------------------- */
+/* ---- one ray ----------------------------------------------------------------------------- */
 
 /* Distance to the floor, or else to space. */
 static double ray_length(const Ray *ray, double floor_m, bool *meets_floor)
@@ -194,7 +194,8 @@ static Gathered march(const Builder *b, const Ray *ray)
         for (int p = 0; p < AIR_PARTS; p++)
             depth += a->optics.depth[p] * spectrum_all(density[p] * step);
         for (int k = 0; k < SPECTRUM_LANES; k++) /* mean transmittance inside the step */
-            seen[k] = depth[k] > 0.01f ? (1 - exp_f(-depth[k])) / depth[k] : 1 - 0.5f * depth[k];
+            seen[k] =
+                depth[k] > 0.01f ? (1 - exp_f(-depth[k])) / depth[k] : 1 - 0.5f * depth[k];
         seen *= passing * spectrum_all(step);
         Spectrum beam = beam_at(b, at.altitude, at.sun_cosine) * seen;
         sum.molecules += a->optics.scattering[AIR_MOLECULES] *
@@ -218,7 +219,7 @@ static Gathered march(const Builder *b, const Ray *ray)
     return sum;
 }
 
-/* ---- the table -------------------------------------------------------------------------------- */
+/* ---- the table --------------------------------------------------------------------------- */
 
 static double row_elevation(const Atmosphere *a, bool below, int row)
 {

@@ -1,10 +1,10 @@
 /* atmosphere.h -- the clear sky as an observer sees it: an own spectral scattering atmosphere.
  *
- * Light scattered once is marched along every ray through a spherical, layered air (air.h); light
- * scattered more often comes from flat layers lit by the true beam (diffuse_light.h) at the
- * ray's local sun angle. Below lies a Lambertian floor: ground, sea or a cloud deck of an
- * altitude and albedo. What is left out: polarisation, refraction of sky light, clouds above the
- * observer, the floor's relief; water vapour and oxygen are the caller's (spectrl2.h).
+ * Light scattered once is marched along every ray through a spherical, layered air (air.h);
+ * light scattered more often comes from flat layers lit by the true beam (diffuse_light.h) at
+ * the ray's local sun angle. Below lies a Lambertian floor: ground, sea or a cloud deck of an
+ * altitude and albedo. What is left out: polarisation, refraction of sky light, clouds above
+ * the observer, the floor's relief; water vapour and oxygen are the caller's (spectrl2.h).
  *
  * Frame     elevation from the observer's horizontal, azimuth from the sun's, radians.
  * Units     radiance in sr^-1 per unit of the sun's spectral irradiance outside the air, at the
@@ -20,7 +20,7 @@
 typedef struct AtmosphereInput {
     Air    air;              /* pressure: at sea level; ground_albedo: of the floor */
     double observer_m, floor_m; /* above sea level */
-    double sun_elevation;    /* radians, as seen: its light is taken to come straight from there */
+    double sun_elevation; /* radians, as seen: its light is taken to come straight from there */
     int    threads;
     int    steps;            /* of a ray; 0: 48 */
 } AtmosphereInput;

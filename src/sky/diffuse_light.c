@@ -105,7 +105,8 @@ static void fill_levels(Solver *s)
                                   spectrum_all((float)air_density(o, (AirPart)p, z));
         Spectrum depth = spectrum_all(0);
         bool     lit = air_column(o, z, s->input->sun_cosine, light->floor_m, column);
-        for (int p = 0; p < AIR_PARTS; p++) depth += o->depth[p] * spectrum_all((float)column[p]);
+        for (int p = 0; p < AIR_PARTS; p++)
+            depth += o->depth[p] * spectrum_all((float)column[p]);
         s->beam[k] = lit ? spectrum_exp(-depth) : spectrum_all(0);
         if (!k) continue;
         air_vertical(o, light->level_m[k - 1], z, column);
@@ -147,7 +148,8 @@ static void scatter_again(Solver *s)
     for (int k = 0; k < DIFFUSE_LEVELS; k++)
         for (int m = 0; m < DIFFUSE_MODES; m++)
             for (int i = 0; i < DIRECTIONS; i++) {
-                const float *phase[2] = {s->phase->between[0][m][i], s->phase->between[1][m][i]};
+                const float *phase[2] = {s->phase->between[0][m][i],
+                                         s->phase->between[1][m][i]};
                 s->order_source[slot(k, i, m)] = scattered(s, s->radiance, k, m, phase);
             }
 }
@@ -283,7 +285,7 @@ void diffuse_light_build(const DiffuseInput *input, Arena *arena, DiffuseLight *
     leave_at_top(&s);
 }
 
-/* ---- reading -------------------------------------------------------------------------------- */
+/* ---- reading ----------------------------------------------------------------------------- */
 
 Spectrum diffuse_light_source(const DiffuseLight *light, double altitude_m, float cosine,
                               float azimuth_cosine)
@@ -293,7 +295,7 @@ Spectrum diffuse_light_source(const DiffuseLight *light, double altitude_m, floa
     int    k = (int)at;
     float  t = (float)((altitude_m - light->level_m[k]) /
                        (light->level_m[k + 1] - light->level_m[k]));
-    float  c = clampf((cosine + 1) * 0.5f * (DIFFUSE_COSINES - 1), 0, DIFFUSE_COSINES - 1.0001f);
+    float c = clampf((cosine + 1) * 0.5f * (DIFFUSE_COSINES - 1), 0, DIFFUSE_COSINES - 1.0001f);
     int    i = (int)c;
     float  u = c - (float)i, before = azimuth_cosine, now = 1;
     const Spectrum *low = light->source +

@@ -1,9 +1,9 @@
 /* diffuse_light.h -- light that has been scattered more than once, in flat layers of air.
  *
  * Successive orders of scattering in a plane-parallel atmosphere over a Lambertian ground, lit
- * by a sun whose beam takes its true, spherical way (pseudo-spherical; Dahlback and Stamnes 1991):
- * good until the sun is about 6 degrees below the horizon. Directions: 8 Gauss cosines a side,
- * azimuth as a cosine series (Chandrasekhar 1960, chapter 6).
+ * by a sun whose beam takes its true, spherical way (pseudo-spherical; Dahlback and Stamnes
+ * 1991): good until the sun is about 6 degrees below the horizon. Directions: 8 Gauss cosines a
+ * side, azimuth as a cosine series (Chandrasekhar 1960, chapter 6).
  *
  * Units     per unit of the sun's spectral irradiance outside the air: sources in sr^-1 m^-1,
  *           irradiances without unit. Lanes as air.h.

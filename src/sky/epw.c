@@ -47,8 +47,8 @@ static bool next_line(Reader *reader, char *field[FIELDS_MAX], int *count)
 static bool bad_line(const Reader *reader, Error *err, const char *found, const char *wanted)
 {
     return error_at(err, ERROR_INPUT, reader->file,
-                    arena_format(reader->arena, "line %d", reader->line), "found '%.40s', wanted %s",
-                    found, wanted);
+                    arena_format(reader->arena, "line %d", reader->line),
+                    "found '%.40s', wanted %s", found, wanted);
 }
 
 static bool number(const Reader *reader, const char *text, double range[2], double *out,
@@ -57,16 +57,17 @@ static bool number(const Reader *reader, const char *text, double range[2], doub
     char  *after;
     double value = strtod(text, &after);
     if (after == text || !isfinite(value) || value < range[0] || value > range[1])
-        return bad_line(reader, err, text,
-                        arena_format(reader->arena, "a number from %g to %g", range[0], range[1]));
+        return bad_line(
+            reader, err, text,
+            arena_format(reader->arena, "a number from %g to %g", range[0], range[1]));
     *out = value;
     return true;
 }
 
 static bool read_location(Reader *reader, char *field[], int count, Weather *out, Error *err)
 {
-    double *const target[4] = {&out->place.latitude_deg, &out->place.longitude_deg, &out->zone_h,
-                               &out->place.altitude_m};
+    double *const target[4] = {&out->place.latitude_deg, &out->place.longitude_deg,
+                               &out->zone_h, &out->place.altitude_m};
     double range[4][2] = {{-90, 90}, {-180, 180}, {-14, 14}, {-500, 9000}};
     if (count < 10 || strcmp(field[0], "LOCATION"))
         return bad_line(reader, err, count ? field[0] : "",
@@ -116,7 +117,7 @@ bool weather_read(const char *file, Arena *arena, Weather *out, Error *err)
     int       count;
     bool      in_data = false;
     if (!file_read(file, WEATHER_BYTES, arena, &bytes, err)) return false;
-    Reader  reader = {file, arena_string(arena, (const char *)bytes.data, bytes.size), 0, arena};
+    Reader reader = {file, arena_string(arena, (const char *)bytes.data, bytes.size), 0, arena};
     Weather weather = {.file = file};
     if (!next_line(&reader, field, &count))
         return error_at(err, ERROR_INPUT, file, "", "is empty, wanted an EPW weather file");

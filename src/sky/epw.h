@@ -1,11 +1,10 @@
 /* epw.h -- weather files of EnergyPlus: a place and the direct and diffuse light of every hour.
  *
- * Source    EnergyPlus, Auxiliary Programs: EPW data dictionary. Header line LOCATION, then data
- *           rows of comma-separated fields, hours 1 to 24 of local standard time; a row's values
- *           are those of the hour that ends there, so that the sun stands as at its middle.
- * Memory    the arena's. Threads: const once read.
- * Fails     with file and line, what was found and what was wanted. Missing values (9999) are
- *           told by has_light = false.
+ * Source    EnergyPlus, Auxiliary Programs: EPW data dictionary. Header line LOCATION, then
+ * data rows of comma-separated fields, hours 1 to 24 of local standard time; a row's values are
+ * those of the hour that ends there, so that the sun stands as at its middle. Memory    the
+ * arena's. Threads: const once read. Fails     with file and line, what was found and what was
+ * wanted. Missing values (9999) are told by has_light = false.
  */
 #pragma once
 #include "base/arena.h"

@@ -111,7 +111,7 @@ static Air air_above(const OutsideInput *in)
     return air;
 }
 
-/* ---- spectra ------------------------------------------------------------------------------ */
+/* ---- spectra ----------------------------------------------------------------------------- */
 
 static void curve_from_rows(const double value[SPECTRL2_COUNT], Curve *out)
 {
@@ -169,7 +169,7 @@ static void set_sun(Outside *out, const Curve *irradiance)
         }
 }
 
-/* ---- CIE and Perez ------------------------------------------------------------------------ */
+/* ---- CIE and Perez ----------------------------------------------------------------------- */
 
 /* How clear: 0 the colour of sun and sky together (a white cloud's), 1 the blue sky's. */
 static void sky_spectrum(Outside *out, double clear, const Spectrl2 *ground)
@@ -261,13 +261,14 @@ static bool build_perez(Outside *out, Error *err)
     out->figures.diffuse_horizontal_lx = 1;
     sky_spectrum(out, fmin(1, (state.clearness - 1) / 3.5), &ground);
     /* sky_spectrum told the watts of one lux */
-    out->figures.diffuse_horizontal_lx = in->diffuse_w_m2 / out->figures.diffuse_horizontal_w_m2;
+    out->figures.diffuse_horizontal_lx =
+        in->diffuse_w_m2 / out->figures.diffuse_horizontal_w_m2;
     out->figures.diffuse_horizontal_w_m2 = in->diffuse_w_m2;
     finish_shape(out, &irradiance);
     return true;
 }
 
-/* ---- the clear atmosphere ------------------------------------------------------------------- */
+/* ---- the clear atmosphere ---------------------------------------------------------------- */
 
 static void index_nodes(Outside *out)
 {
@@ -312,8 +313,8 @@ static void weigh_luminance(Outside *out)
     }
 }
 
-/* The sun's spectrum outside the air, less what water vapour and oxygen take: they absorb on the
- * beam's way down, where nearly all scattering happens too (as SPECTRL2 has it). */
+/* The sun's spectrum outside the air, less what water vapour and oxygen take: they absorb on
+ * the beam's way down, where nearly all scattering happens too (as SPECTRL2 has it). */
 static void fill_beam(Outside *out)
 {
     double   gases[SPECTRL2_COUNT];
@@ -359,7 +360,8 @@ static bool build_clear(Outside *out, Arena *arena, Error *err)
     f->global_horizontal_lx = f->diffuse_horizontal_lx +
                               f->direct_normal_lx * fmax(0, sin(out->sun_elevation));
     tell_watts(out, lux);
-    curve_from_relative(out, atmosphere_radiance(&out->atmosphere, (float)(PI / 2), 0), &zenith);
+    curve_from_relative(out, atmosphere_radiance(&out->atmosphere, (float)(PI / 2), 0),
+                        &zenith);
     f->zenith_cd_m2 = curve_luminance(&zenith);
     curve_xy(&zenith, f->zenith_xy);
     return true;
@@ -370,7 +372,8 @@ bool outside_build(const OutsideInput *input, Arena *arena, Outside *out, Error 
     *out = (Outside){.input = *input};
     bool sunless = input->kind == OUTSIDE_CIE && !needs_sun(input);
     if (!input->has_time && !input->has_sun && !sunless)
-        return error_set(err, ERROR_INPUT, "the sky wants a time and a place, or the sun's azimuth "
+        return error_set(err, ERROR_INPUT,
+                         "the sky wants a time and a place, or the sun's azimuth "
                          "and elevation");
     if (sunless && !input->has_time && !input->has_sun) out->input.sun_elevation = PI / 4;
     place_sun(out);
@@ -382,7 +385,7 @@ bool outside_build(const OutsideInput *input, Arena *arena, Outside *out, Error 
     return false;
 }
 
-/* ---- asking ------------------------------------------------------------------------------- */
+/* ---- asking ------------------------------------------------------------------------------ */
 
 static float angle_to_sun(const Outside *out, float elevation, float azimuth)
 {

@@ -2,8 +2,8 @@
  *
  * Three kinds: CIE's general skies and Perez's (a shape times one spectrum, normalised by own
  * quadrature to the diffuse illuminance or irradiance; on the ground only, below the horizon a
- * uniform Lambertian ground lit by sun and sky), and the clear atmosphere (atmosphere.h) for any
- * observer up to 60 km.
+ * uniform Lambertian ground lit by sun and sky), and the clear atmosphere (atmosphere.h) for
+ * any observer up to 60 km.
  *
  * Spectra   sun: SPECTRL2's direct beam; clear skies its diffuse, overcast ones its global
  *           spectrum, between them by clearness. The atmosphere: its own scattering times the

@@ -105,7 +105,8 @@ static PerezState perez_state(const PerezInput *in)
 bool sky_shape_perez(const PerezInput *input, SkyShape *out, PerezState *state, Error *err)
 {
     if (!(input->diffuse_horizontal_w_m2 > 0) || !(input->direct_normal_w_m2 >= 0))
-        return error_set(err, ERROR_INPUT, "a Perez sky wants a diffuse irradiance above 0 and a "
+        return error_set(err, ERROR_INPUT,
+                         "a Perez sky wants a diffuse irradiance above 0 and a "
                          "direct one of at least 0 W/m2, found %g and %g",
                          input->diffuse_horizontal_w_m2, input->direct_normal_w_m2);
     PerezState s = perez_state(input);
@@ -119,7 +120,8 @@ bool sky_shape_perez(const PerezInput *input, SkyShape *out, PerezState *state, 
     }
     if (state) *state = s;
     *out = (SkyShape){v[0], v[1], v[2], v[3], v[4], 0, 0};
-    return v[1] <= 0 || error_set(err, ERROR_INPUT, "the irradiances %g and %g W/m2 are outside "
+    return v[1] <= 0 || error_set(err, ERROR_INPUT,
+                                  "the irradiances %g and %g W/m2 are outside "
                                   "of Perez's skies: the luminance at the horizon is infinite",
                                   input->direct_normal_w_m2, input->diffuse_horizontal_w_m2);
 }

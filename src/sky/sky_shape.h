@@ -35,7 +35,8 @@ typedef struct PerezState {
  * 0.2 where clearness lies between 1.065 and 2.8: the fit has no skies outside. */
 bool sky_shape_perez(const PerezInput *input, SkyShape *out, PerezState *state, Error *err);
 
-/* Relative luminance at cos theta (above 0) and at an angle gamma to the sun. Never negative. */
+/* Relative luminance at cos theta (above 0) and at an angle gamma to the sun. Never negative.
+ */
 double sky_shape_value(const SkyShape *shape, double cos_theta, double gamma);
 
 /* HOT: the same without the C library, so that frames are the same everywhere. */

@@ -3,9 +3,9 @@
  * The irradiance on a plane that faces the sun is exact whatever the disc looks like: radiance
  * is irradiance over pi sin^2 r, shaped by the limb's darkening over its own mean.
  *
- * Source    limb darkening: fifth-order fits in mu of Neckel and Labs's kind at the eleven bands
- *           that Hosek and Wilkie, "Adding a Solar-Radiance Function ..." (2013), print.
- * Units     radians, nm. Threads: pure functions of constants.
+ * Source    limb darkening: fifth-order fits in mu of Neckel and Labs's kind at the eleven
+ * bands that Hosek and Wilkie, "Adding a Solar-Radiance Function ..." (2013), print. Units
+ * radians, nm. Threads: pure functions of constants.
  */
 #pragma once
 

@@ -46,9 +46,10 @@ double sky_julian_day(const SkyTime *time)
 double sky_delta_t_s(double julian_day)
 {
     /* every five years from 1900 to 2025 */
-    static const double measured[] = {
-        -2.72, 3.86, 10.54, 17.20, 21.16, 23.62, 24.02, 23.93, 24.33, 26.77, 29.15, 31.07, 33.15,
-        35.73, 40.18, 45.48, 50.54, 54.34, 56.86, 60.79, 63.83, 64.69, 66.07, 67.64, 69.36, 69.14};
+    static const double measured[] = {-2.72, 3.86,  10.54, 17.20, 21.16, 23.62, 24.02,
+                                      23.93, 24.33, 26.77, 29.15, 31.07, 33.15, 35.73,
+                                      40.18, 45.48, 50.54, 54.34, 56.86, 60.79, 63.83,
+                                      64.69, 66.07, 67.64, 69.36, 69.14};
     double year = 2000 + (julian_day - J2000) / 365.25, u = (year - 1820) / 100;
     if (year < 1900) return -20 + 32 * u * u;
     if (year >= 2050) return -20 + 32 * u * u - 0.5628 * fmax(0, 2150 - year);
@@ -223,7 +224,8 @@ static void horizontal(SunPosition *p, const SkyPlace *place)
     double ch = cos_deg(p->topocentric_hour_angle_deg);
     double sine = sl * sd + cl * cd * ch;
     p->elevation_deg = degrees_from_radians(asin(fmax(-1, fmin(1, sine))));
-    p->azimuth_deg = turn_deg(180 + degrees_from_radians(atan2(sh * cd, ch * cd * sl - sd * cl)));
+    p->azimuth_deg =
+        turn_deg(180 + degrees_from_radians(atan2(sh * cd, ch * cd * sl - sd * cl)));
 }
 
 SunPosition sun_position(double julian_day, double delta_t_s, const SkyPlace *place)
@@ -242,7 +244,7 @@ SunPosition sun_position(double julian_day, double delta_t_s, const SkyPlace *pl
     return p;
 }
 
-/* ---- the air and the horizon -------------------------------------------------------------- */
+/* ---- the air and the horizon ------------------------------------------------------------- */
 
 double sun_refraction_deg(double true_elevation_deg, double pressure_mbar, double celsius)
 {

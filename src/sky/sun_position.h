@@ -54,9 +54,9 @@ typedef struct SkyPlace {
 
 SunPosition sun_position(double julian_day, double delta_t_s, const SkyPlace *place);
 
-/* Refraction that lifts a true elevation, degrees (Saemundsson 1986, as in the report), scaled by
- * pressure and temperature. Its pole below -5 degrees is avoided by holding the last value at
- * -1 degree and fading it out to nothing at -5; SPA itself switches off at -0.83. */
+/* Refraction that lifts a true elevation, degrees (Saemundsson 1986, as in the report), scaled
+ * by pressure and temperature. Its pole below -5 degrees is avoided by holding the last value
+ * at -1 degree and fading it out to nothing at -5; SPA itself switches off at -0.83. */
 double sun_refraction_deg(double true_elevation_deg, double pressure_mbar, double celsius);
 
 /* International standard atmosphere (ISO 2533) to 20 km. */

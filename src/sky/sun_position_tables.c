@@ -1,5 +1,5 @@
-/* Periodic terms of the Earth's motion (NREL/TP-560-34302, tables A4.2 and A4.3, after VSOP87 and
- * the IAU 1980 nutation). */
+/* Periodic terms of the Earth's motion (NREL/TP-560-34302, tables A4.2 and A4.3, after VSOP87
+ * and the IAU 1980 nutation). */
 #include "sky/sun_position_tables.h"
 
 static const OrbitTerm l0[] = {

@@ -1,9 +1,10 @@
-"""sky_maps.py PARHELION [PICTURE.png] -- the scattering atmosphere beside the fitted clear skies.
+"""sky_maps.py PARHELION [PICTURE.png] -- the scattering atmosphere beside fitted clear skies.
 
 Luminance over the dome for suns 15 to 60 degrees high: the own atmosphere, CIE type 12 and
 Perez with the same illuminance or irradiances. Prints, for elevations above 5 degrees and more
-than 10 degrees from the sun, the rms and the mean of the difference relative to the fitted sky; the picture
-shows the maps side by side (plan, north on top, log scale from 500 to 50,000 cd/m2).
+than 10 degrees from the sun, the rms and the mean of the difference relative to the fitted sky;
+the picture shows the maps side by side (plan, north on top, log scale from 500 to 50,000
+cd/m2).
 """
 import json
 import math
@@ -39,7 +40,9 @@ def direction(i, j):
     x, y = 2 * (i + 0.5) / SIDE - 1, 1 - 2 * (j + 0.5) / SIDE
     r = math.hypot(x, y)
     theta = r * math.pi / 2
-    return (math.sin(theta) * x / r, math.sin(theta) * y / r, math.cos(theta)) if r <= 1 else None
+    if r > 1:
+        return None
+    return math.sin(theta) * x / r, math.sin(theta) * y / r, math.cos(theta)
 
 
 def compare(own, other, sun):
@@ -104,12 +107,14 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         for sun in SUNS:
             own, figures = sky(program, folder, "sky:clear", sun)
-            cie, _ = sky(program, folder, f"cie:12:{figures['diffuse_horizontal_lx']:.6g}", sun)
+            lux = figures["diffuse_horizontal_lx"]
+            cie, _ = sky(program, folder, f"cie:12:{lux:.6g}", sun)
             perez, _ = sky(program, folder, f"perez:{figures['direct_normal_w_m2']:.6g},"
                            f"{figures['diffuse_horizontal_w_m2']:.6g}", sun)
             for name, other in (("CIE 12", cie), ("Perez", perez)):
                 rms, mean = compare(own, other, sun)
-                print(f"| {sun} | {name} | {100 * rms:.1f} % | {100 * mean:+.1f} % |", flush=True)
+                print(f"| {sun} | {name} | {100 * rms:.1f} % | {100 * mean:+.1f} % |",
+                      flush=True)
             rows.append((sun, (("atmosphere", own), ("CIE 12", cie), ("Perez", perez))))
     if len(sys.argv) > 2:
         draw(sys.argv[2], rows)

@@ -1,9 +1,9 @@
 """roof.py PARHELION [--all] -- daylight through an opening in the roof, for all 15 CIE skies.
 
-CIE 171:2006, case 5.9: a black room 4 x 4 x 3 m with an opening of 1 x 1 or 4 x 4 m in the middle
-of its roof, the sun 60 degrees high, its sky without its disc. What arrives at points of the wall
-that faces the sun and of the floor is an integral of the sky over the opening, done here by
-quadrature; the path tracer's luxmeter must agree within three standard deviations.
+CIE 171:2006, case 5.9: a black room 4 x 4 x 3 m with an opening of 1 x 1 or 4 x 4 m in the
+middle of its roof, the sun 60 degrees high, its sky without its disc. What arrives at points of
+the wall that faces the sun and of the floor is an integral of the sky over the opening, done
+here by quadrature; the path tracer's luxmeter must agree within three standard deviations.
 """
 import json
 import math

@@ -5,7 +5,8 @@ passed=0 failed=0
 embree=3
 [ -e /usr/include/embree4 ] && embree=4
 flags="-fsyntax-only -Wall -Wextra -Wpedantic -Wno-psabi -Werror -D_GNU_SOURCE
-    -DEMBREE_MAJOR=$embree -Isrc -I. -Ithird_party $(pkg-config --cflags jansson cairo libxml-2.0)"
+    -DEMBREE_MAJOR=$embree -Isrc -I. -Ithird_party
+    $(pkg-config --cflags jansson cairo libxml-2.0)"
 
 # alone LANGUAGE STANDARD HEADER: included twice, because a second time must do no harm
 alone()

@@ -16,7 +16,8 @@ static const Air usual = {1013.25, 1.42, 0.344, 0.1, 1.14, 0.2};
 static Atmosphere build(double observer_m, double floor_m, double albedo, double elevation_deg,
                         Arena *arena)
 {
-    AtmosphereInput input = {usual, observer_m, floor_m, radians_from_degrees(elevation_deg), 2, 0};
+    AtmosphereInput input = {usual, observer_m, floor_m, radians_from_degrees(elevation_deg),
+                             2,     0};
     Atmosphere      atmosphere;
     Error           err;
     input.air.ground_albedo = albedo;
@@ -35,7 +36,7 @@ static OutsideInput clear_day(const char *when, double altitude_m)
     return input;
 }
 
-/* ---- columns -------------------------------------------------------------------------------- */
+/* ---- columns ----------------------------------------------------------------------------- */
 
 static void columns_add_up_over_altitude_and_slant(void **state)
 {
@@ -83,10 +84,10 @@ static void phase_functions_integrate_to_one(void **state)
     assert_near(sum[1], 1, 1e-5);
 }
 
-/* ---- energy --------------------------------------------------------------------------------- */
+/* ---- energy ------------------------------------------------------------------------------ */
 
-/* Air that absorbs nothing over a white floor gives back all light: what comes down on the floor,
- * times 1 - albedo, is what does not leave at the top. */
+/* Air that absorbs nothing over a white floor gives back all light: what comes down on the
+ * floor, times 1 - albedo, is what does not leave at the top. */
 static void air_without_absorption_keeps_the_light(void **state)
 {
     (void)state;
@@ -130,7 +131,7 @@ static void orders_of_scattering_add_up_to_the_whole(void **state)
     arena_release(&arena);
 }
 
-/* ---- figures -------------------------------------------------------------------------------- */
+/* ---- figures ----------------------------------------------------------------------------- */
 
 static void the_sky_gives_what_spectrl2_says(void **state)
 {
@@ -149,7 +150,8 @@ static void the_sky_gives_what_spectrl2_says(void **state)
             sums[0] += y * (double)diffuse[k] * outside;
             sums[1] += y * spectrl2_read(s.diffuse, nm);
             if (nm < 580 || (nm > 600 && nm < 660))
-                assert_close((double)a.sun_passing[k], spectrl2_read(s.direct, nm) / outside, 0.01);
+                assert_close((double)a.sun_passing[k], spectrl2_read(s.direct, nm) / outside,
+                             0.01);
         }
         printf("sun %4.1f deg from the zenith: diffuse light over SPECTRL2's %.3f\n",
                zenith_deg[i], sums[0] / sums[1]);
@@ -264,7 +266,8 @@ static void spectral_radiance_has_the_stated_luminance(void **state)
         for (int i = 0; i < 256; i++) {
             Wavelengths lanes;
             wavelengths_sample(((float)i + 0.5f) / 256, &lanes);
-            y += (double)spectrum_sum(outside_radiance(out, 0.6f, 2, &lanes) * lanes.xyz[1]) / 256;
+            y += (double)spectrum_sum(outside_radiance(out, 0.6f, 2, &lanes) * lanes.xyz[1]) /
+                 256;
             for (int r = 0; r < 50; r++) {
                 float share = sqrtf(((float)r + 0.5f) / 50);
                 sun += (double)spectrum_sum(outside_sun(out, share, &lanes) * lanes.xyz[1]) /

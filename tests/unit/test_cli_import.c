@@ -116,7 +116,7 @@ static void mistakes_have_their_status(void **state)
         {"--symmetry=all", ERROR_USAGE, "symmetry is 'all'"},
         {"--format=bsdf", ERROR_USAGE, "--format 'bsdf' is unknown"},
         {"--section=40", ERROR_USAGE, "section is '40', wanted PATTERN=DEG"},
-        {"--mask=7", ERROR_OUTPUT, "cannot be"},
+        {"--mask=-999", ERROR_OUTPUT, "cannot be"},
         {"--layout=/absent.json", ERROR_INPUT, ""}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         assert_false(RUN(lab, &printed, "@white.txt", cases[i].word, "-o", "@out/M.json"));

@@ -125,7 +125,8 @@ static void a_sky_is_asked_for_by_its_kind_time_and_place(void **state)
     EnvironmentChange cie = {.environment = "cie:12:15000", .sun = "180,35,90000"};
     assert_true(environment_change(&cie, &scene, arena, &problems, &err));
     assert_true(e->kind == ENVIRONMENT_CIE && e->outside.cie_type == 12);
-    assert_true(e->has_sun && e->sun_illuminance_lx == 90000 && e->outside.diffuse_lux == 15000);
+    assert_true(e->has_sun && e->sun_illuminance_lx == 90000 &&
+                e->outside.diffuse_lux == 15000);
     assert_int_equal(problems.count, 0);
     EnvironmentChange bare = {.environment = "cie:3"};
     Scene other = {0};
@@ -143,7 +144,8 @@ static void what_makes_no_sky_is_refused_by_name(void **state)
         {{.environment = "sky:clear", .when = "2026-06-21T08:30+02:00"}, "add --where"},
         {{.environment = "sky:clear", .where = "48,11"}, "add --when"},
         {{.environment = "sky:clear", .when = "08:30", .where = "48,11"}, "is no moment"},
-        {{.environment = "sky:clear", .when = "2026-06-21T08:30Z", .where = "100,11"}, "LAT,LON"},
+        {{.environment = "sky:clear", .when = "2026-06-21T08:30Z", .where = "100,11"},
+         "LAT,LON"},
         {{.environment = "cie:17"}, "1 to 15"},
         {{.environment = "cie:"}, "1 to 15"},
         {{.environment = "perez:800"}, "DIRECT,DIFFUSE"},

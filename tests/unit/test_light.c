@@ -1,74 +1,7 @@
-#include "check.h"
-
-#include "base/units.h"
 #include "light/emitters.h"
-#include "light/light.h"
 #include "light/sky.h"
-#include "scene_builder.h"
+#include "light_fixture.h"
 #include "spectrum/photometry.h"
-
-#define SAMPLES 200000
-
-static float random_unit(uint32_t *state)
-{
-    *state = *state * 747796405u + 2891336453u;
-    return unit_float(hash_u32(*state));
-}
-
-static void random3(uint32_t *state, float u[3])
-{
-    for (int i = 0; i < 3; i++) u[i] = random_unit(state);
-}
-
-/* Mean and standard error of a running sum. */
-typedef struct Mean {
-    double sum, squares;
-    long count;
-} Mean;
-
-static void mean_add(Mean *mean, double value)
-{
-    mean->sum += value;
-    mean->squares += value * value;
-    mean->count++;
-}
-
-static void assert_mean(const char *what, Mean mean, double expected)
-{
-    double value = mean.sum / (double)mean.count;
-    double variance = mean.squares / (double)mean.count - value * value;
-    double sigma = sqrt(fmax(variance, 0) / (double)mean.count) + 1e-6 * fabs(expected);
-    if (!(fabs(value - expected) <= 4 * sigma) || !(sigma < 0.02 * fabs(expected)))
-        fail_msg("%s: %.7g +- %.2g, expected %.7g", what, value, sigma, expected);
-}
-
-/* Illuminance, lx, of one set at `position` on a plane with normal n, by its own samples. */
-static Mean illuminance(const Lights *lights, LightSet set, Vec3 position, Vec3 n)
-{
-    Mean mean = {0};
-    uint32_t random = 11;
-    for (int i = 0; i < SAMPLES; i++) {
-        Wavelengths w;
-        LightSample sample;
-        float u[3], xyz[3] = {0};
-        random3(&random, u);
-        wavelengths_sample(random_unit(&random), &w);
-        if (lights_sample(lights, set, (LitPoint){position, n}, &w, u, &sample)) {
-            float cosine = fmaxf(vec3_dot(n, sample.wi), 0);
-            spectrum_add_xyz(&w, sample.radiance * spectrum_all(cosine / sample.pdf), xyz);
-        }
-        mean_add(&mean, (double)xyz[1]);
-    }
-    return mean;
-}
-
-static const Lights *build(const Scene *scene, Arena *arena)
-{
-    Lights *lights;
-    Error err = {0};
-    if (!lights_build(scene, arena, &lights, &err)) fail_msg("%s", err.text);
-    return lights;
-}
 
 static void the_suns_irradiance_is_exact_whatever_its_size(void **state)
 {
@@ -229,8 +162,8 @@ static void picture_samples_follow_their_density(void **state)
             double phi = 2 * PI * (column + 0.5) / (COLUMNS * FINE) - PI;
             Vec3 d = vec3((float)(sin(theta) * cos(phi)), (float)cos(theta),
                           (float)(sin(theta) * sin(phi)));
-            double share = (double)sky_seen(&sky, d, vec3(0, 1, 0), &lanes).pdf * sin(theta) * PI /
-                           (ROWS * FINE) * 2 * PI / (COLUMNS * FINE);
+            double share = (double)sky_seen(&sky, d, vec3(0, 1, 0), &lanes).pdf * sin(theta) *
+                           PI / (ROWS * FINE) * 2 * PI / (COLUMNS * FINE);
             expected[row / FINE * COLUMNS + column / FINE] += share * COUNT;
             total += share;
         }
@@ -556,140 +489,6 @@ static void an_area_light_gives_its_configuration_factor(void **state)
     arena_release(&arena);
 }
 
-/* ---- skies of a model ----------------------------------------------------------------- */
-
-static Scene *sky_scene(EnvironmentKind kind, double elevation_deg, Arena *arena)
-{
-    Scene *scene = builder_scene(arena);
-    Environment *e = &scene->environment;
-    e->kind = kind;
-    e->outside = outside_input_default(kind == ENVIRONMENT_CIE     ? OUTSIDE_CIE
-                                       : kind == ENVIRONMENT_PEREZ ? OUTSIDE_PEREZ
-                                                                   : OUTSIDE_CLEAR);
-    e->outside.direct_w_m2 = 700;
-    e->outside.diffuse_w_m2 = 120;
-    e->outside.where.altitude_m = 9000;
-    e->outside.floor = FLOOR_SEA;
-    e->has_sun = true;
-    e->sun_azimuth = 1;
-    e->sun_elevation = (float)(elevation_deg * PI / 180);
-    e->sun_illuminance_lx = kind == ENVIRONMENT_CIE ? 50000 : -1;
-    e->heading = 0.4f;
-    return scene;
-}
-
-static void a_modelled_sky_and_its_sun_give_the_stated_illuminance(void **state)
-{
-    (void)state;
-    Arena arena = arena_reserve((size_t)4 << 30);
-    for (int kind = ENVIRONMENT_CIE; kind <= ENVIRONMENT_SKY; kind++) {
-        Arena   scratch = arena;
-        Scene  *scene = sky_scene((EnvironmentKind)kind, 35, &scratch);
-        Outside *out = arena_alloc(&scratch, sizeof *out, 64, 1);
-        OutsideInput input = scene->environment.outside;
-        Error   err;
-        input.has_sun = true;
-        input.sun_elevation = 35 * PI / 180;
-        input.sun_lux = kind == ENVIRONMENT_CIE ? 50000 : -1;
-        assert_true(outside_build(&input, &scratch, out, &err));
-        const Lights *lights = build(scene, &scratch);
-        assert_mean("modelled sky",
-                    illuminance(lights, LIGHTS_SKY, vec3(0, 0, 0), vec3(0, 1, 0)),
-                    out->figures.diffuse_horizontal_lx);
-        assert_mean("its sun", illuminance(lights, LIGHTS_SUN, vec3(0, 0, 0), vec3(0, 1, 0)),
-                    out->figures.direct_normal_lx * sin(35 * PI / 180));
-    }
-    arena_release(&arena);
-}
-
-static void a_half_set_sun_gives_half_its_light(void **state)
-{
-    (void)state;
-    Arena  arena = arena_reserve((size_t)4 << 30);
-    Scene *scene = sky_scene(ENVIRONMENT_SKY, 0, &arena);
-    scene->environment.outside.where.altitude_m = 0; /* the horizon is the horizontal */
-    const Lights *lights = build(scene, &arena);
-    Vec3 facing = vec3((float)sin(0.6), 0, (float)-cos(0.6));
-    Wavelengths lanes;
-    double sum[2] = {0, 0};
-    wavelengths_sample(0.4f, &lanes);
-    for (int i = 0; i < 20000; i++) {
-        const float u[3] = {((float)i + 0.5f) / 20000, (float)((i * 7919) % 20000) / 20000, 0};
-        LightSample sample;
-        LitPoint point = {vec3(0, 0, 0), facing};
-        assert_true(lights_sample(lights, LIGHTS_SUN, point, &lanes, u, &sample));
-        sum[sample.wi.y >= 0] += (double)spectrum_sum(sample.radiance);
-    }
-    assert_true(sum[0] == 0 && sum[1] > 0);
-    arena_release(&arena);
-}
-
-static void modelled_sky_samples_follow_their_density(void **state)
-{
-    (void)state;
-    enum { ROWS = 24, COLUMNS = 24, COUNT = 300000, FINE = 40 };
-    Arena arena = arena_reserve((size_t)4 << 30);
-    Wavelengths lanes;
-    wavelengths_sample(0.3f, &lanes);
-    for (int kind = ENVIRONMENT_CIE; kind <= ENVIRONMENT_SKY; kind++) {
-        static double found[ROWS * COLUMNS], expected[ROWS * COLUMNS];
-        Arena  scratch = arena;
-        Scene *scene = sky_scene((EnvironmentKind)kind, 20, &scratch);
-        Sky    sky;
-        Error  err;
-        uint32_t random = 11;
-        double total = 0, chi2 = 0;
-        int    unlike = 0, cells = 0;
-        memset(found, 0, sizeof found);
-        memset(expected, 0, sizeof expected);
-        assert_true(sky_build(&scene->environment, &scratch, &sky, &err));
-        for (int i = 0; i < COUNT; i++) {
-            SkySample sample;
-            const float u[2] = {random_unit(&random), random_unit(&random)};
-            Vec3 n = vec3(0, 1, 0);
-            assert_true(sky_sample(&sky, n, u, &lanes, &sample));
-            Vec3 d = sample.direction;
-            unlike += !(fabsf(sample.pdf - sky_seen(&sky, d, n, &lanes).pdf) <=
-                        1e-4f * sample.pdf);
-            int row = (int)((double)(d.y + 1) / 2 * ROWS);
-            int column = (int)((atan2((double)d.z, (double)d.x) + PI) / (2 * PI) * COLUMNS);
-            found[(row < ROWS ? row : ROWS - 1) * COLUMNS + column % COLUMNS]++;
-        }
-        for (int row = 0; row < ROWS * FINE; row++)
-            for (int column = 0; column < COLUMNS * FINE; column++) {
-                double y = -1 + 2 * (row + 0.5) / (ROWS * FINE), r = sqrt(1 - y * y);
-                double phi = 2 * PI * (column + 0.5) / (COLUMNS * FINE) - PI;
-                Vec3 d = vec3((float)(r * cos(phi)), (float)y, (float)(r * sin(phi)));
-                double share = (double)sky_seen(&sky, d, vec3(0, 1, 0), &lanes).pdf * 2 /
-                               (ROWS * FINE) * 2 * PI / (COLUMNS * FINE);
-                expected[row / FINE * COLUMNS + column / FINE] += share * COUNT;
-                total += share;
-            }
-        for (int i = 0; i < ROWS * COLUMNS; i++) {
-            if (expected[i] < 10) continue;
-            chi2 += (found[i] - expected[i]) * (found[i] - expected[i]) / expected[i];
-            cells++;
-        }
-        assert_int_equal(unlike, 0);
-        assert_near(total, 1, 5e-3);
-        assert_true(chi2 < cells + 5 * sqrt(2.0 * cells));
-    }
-    arena_release(&arena);
-}
-
-static void a_sky_without_a_sun_to_stand_by_is_refused(void **state)
-{
-    (void)state;
-    Arena arena = arena_reserve((size_t)1 << 30);
-    Scene *scene = sky_scene(ENVIRONMENT_PEREZ, -5, &arena);
-    Lights *lights;
-    Error err;
-    assert_false(lights_build(scene, &arena, &lights, &err));
-    assert_non_null(strstr(err.text, "5.00 degrees below the horizon"));
-    assert_int_equal(err.code, ERROR_INPUT);
-    arena_release(&arena);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -707,10 +506,6 @@ int main(void)
         cmocka_unit_test(point_and_spot_follow_the_inverse_square_and_the_cone),
         cmocka_unit_test(many_lights_are_chosen_without_bias),
         cmocka_unit_test(an_area_light_gives_its_configuration_factor),
-        cmocka_unit_test(a_modelled_sky_and_its_sun_give_the_stated_illuminance),
-        cmocka_unit_test(a_half_set_sun_gives_half_its_light),
-        cmocka_unit_test(modelled_sky_samples_follow_their_density),
-        cmocka_unit_test(a_sky_without_a_sun_to_stand_by_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -486,7 +486,8 @@ static void a_smooth_part_comes_back_as_it_was_packed(void **state)
     for (int i = 0; i < 4 * 5 * PANEL_SPLINE_NUMBERS; i++)
         numbers[i] = (float)(2 * steady_random(&random) - 1);
     const void *bytes;
-    size_t      used, size = panel_spline_pack(term, 4, 5, numbers, step, &arena, &bytes);
+    PanelSplineNumbers all = {term, 4, 5, numbers, step};
+    size_t      used, size = panel_spline_pack(&all, &arena, &bytes);
     PanelSpline exact, stored;
     panel_spline_expand(term, 4, 5, numbers, &arena, &exact);
     assert_true(panel_spline_open(bytes, size, 5, &arena, &stored, &used));

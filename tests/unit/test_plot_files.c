@@ -21,10 +21,10 @@ static Fixture ips, reflects_nothing;
 #define RECIPE_IPS                                                                             \
     "{\"panel\": \"test IPS\", \"refractive_index\": 1.5, \"emission\": {" FIXTURE_SPECTRA     \
     "\"gamma\": 2.2, \"gamma_drop\": 0.2, \"cosine_power\": [1.1, 1.6],"                       \
-    "\"black_cd_m2\": 0.7, \"leak\": 3, \"levels\": [127, 255]},"                          \
+    "\"black_cd_m2\": 0.7, \"leak\": 3, \"levels\": [127, 255]},"                              \
     "\"reflection\": {\"coating\": 0.6, \"coating_blue\": 0.15, \"haze_share\": 0.8,"          \
     "\"haze_width\": 0.09, \"haze_power\": 1.8, \"floor_albedo\": 0.004,"                      \
-    "\"wavelengths_nm\": [450, 650], \"incidence_deg\": [20, 40, 60]},"                         \
+    "\"wavelengths_nm\": [450, 650], \"incidence_deg\": [20, 40, 60]},"                        \
     "\"instrument\": {\"theta_step_deg\": 4, \"phi_step_deg\": 15,"                            \
     "\"brdf_theta_step_deg\": 2, \"brdf_phi_step_deg\": 15, \"fwhm_deg\": 2.5}}"
 

@@ -14,7 +14,7 @@ static const EnergyTable *glass;
 static int build_table(void **state)
 {
     (void)state;
-    arena = arena_reserve(1 << 20);
+    arena = arena_reserve((size_t)1 << 30);
     glass = energy_table_build(1.5f, &arena);
     return 0;
 }

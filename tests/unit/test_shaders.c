@@ -137,7 +137,7 @@ static void add_glass(void)
 static int make_models(void **state)
 {
     (void)state;
-    arena = arena_reserve(1 << 20);
+    arena = arena_reserve((size_t)1 << 30);
     glass = energy_table_build(1.5f, &arena);
     diamond = energy_table_build(2.4f, &arena);
     perfect = energy_table_build(0, &arena);

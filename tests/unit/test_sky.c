@@ -39,13 +39,16 @@ static void the_published_example_holds_at_every_step(void **state)
     SkyTime     time = moment("2003-10-17T12:30:30-07:00");
     SkyPlace    place = {39.742476, -105.1786, 1830.14};
     SunPosition p = sun_position(sky_julian_day(&time), 67, &place);
-    const double steps[][3] = { /* ours, the report's, half a unit of its last digit */
-        {p.julian_day, 2452930.312847, 5e-7}, {p.julian_century, 0.0379277986858, 1e-11},
+    const double steps[][3] = {
+        /* ours, the report's, half a unit of its last digit */
+        {p.julian_day, 2452930.312847, 5e-7},
+        {p.julian_century, 0.0379277986858, 1e-11},
         {p.ephemeris_day, 2452930.313623, 5e-7},
         {p.ephemeris_century, 0.037927819916852, 1e-11},
         {p.ephemeris_millennium, 0.003792781991685, 1e-12},
         {p.heliocentric_longitude_deg, 24.0182616917, 5e-10},
-        {p.heliocentric_latitude_deg, -0.0001011219, 5e-11}, {p.distance_au, 0.9965422974, 5e-11},
+        {p.heliocentric_latitude_deg, -0.0001011219, 5e-11},
+        {p.distance_au, 0.9965422974, 5e-11},
         {p.geocentric_longitude_deg, 204.0182616917, 5e-10},
         {p.geocentric_latitude_deg, 0.0001011219, 5e-11},
         {p.nutation_argument_deg[0], 17185.861179, 5e-6},
@@ -55,15 +58,21 @@ static void the_published_example_holds_at_every_step(void **state)
         {p.nutation_argument_deg[4], 51.686951, 5e-7},
         {p.nutation_longitude_deg, -0.00399840, 5e-9},
         {p.nutation_obliquity_deg, 0.00166657, 5e-9},
-        {p.mean_obliquity_arcsec, 84379.672625, 5e-7}, {p.obliquity_deg, 23.440465, 5e-7},
-        {p.aberration_deg, -0.005711, 5e-7}, {p.apparent_longitude_deg, 204.0085519281, 5e-10},
-        {p.mean_sidereal_deg, 318.515579, 2e-6}, {p.apparent_sidereal_deg, 318.511910, 2e-6},
-        {p.right_ascension_deg, 202.227408, 5e-7}, {p.declination_deg, -9.31434, 5e-6},
-        {p.hour_angle_deg, 11.10590, 5e-6}, {p.parallax_deg, 0.002451, 5e-7},
+        {p.mean_obliquity_arcsec, 84379.672625, 5e-7},
+        {p.obliquity_deg, 23.440465, 5e-7},
+        {p.aberration_deg, -0.005711, 5e-7},
+        {p.apparent_longitude_deg, 204.0085519281, 5e-10},
+        {p.mean_sidereal_deg, 318.515579, 2e-6},
+        {p.apparent_sidereal_deg, 318.511910, 2e-6},
+        {p.right_ascension_deg, 202.227408, 5e-7},
+        {p.declination_deg, -9.31434, 5e-6},
+        {p.hour_angle_deg, 11.10590, 5e-6},
+        {p.parallax_deg, 0.002451, 5e-7},
         {p.parallax_right_ascension_deg, -0.000369, 5e-7},
         {p.topocentric_right_ascension_deg, 202.22704, 5e-6},
         {p.topocentric_declination_deg, -9.316179, 5e-7},
-        {p.topocentric_hour_angle_deg, 11.10627, 5e-6}, {p.elevation_deg, 39.872046, 5e-7},
+        {p.topocentric_hour_angle_deg, 11.10627, 5e-6},
+        {p.elevation_deg, 39.872046, 5e-7},
         {p.azimuth_deg, 194.340241, 5e-7},
         {sun_refraction_deg(p.elevation_deg, 820, 11), 0.016332, 5e-7},
         {90 - p.elevation_deg - sun_refraction_deg(p.elevation_deg, 820, 11), 50.11162, 5e-6}};
@@ -125,7 +134,8 @@ static void an_independent_algorithm_agrees_at_10000_times_and_places(void **sta
         SkyPlace place = {asin(2 * random_unit() - 1) * 180 / PI, 360 * random_unit() - 180, 0};
         double   day = sky_julian_day(&t), other[3];
         SunPosition p = sun_position(day, sky_delta_t_s(day), &place);
-        double e = radians_from_degrees(p.elevation_deg), a = radians_from_degrees(p.azimuth_deg);
+        double e = radians_from_degrees(p.elevation_deg),
+               a = radians_from_degrees(p.azimuth_deg);
         psa_vector(&t, &place, other);
         double dx = cos(e) * sin(a) - other[0], dy = cos(e) * cos(a) - other[1];
         double dz = sin(e) - other[2];
@@ -166,9 +176,17 @@ static void refraction_is_smooth_below_the_horizon_too(void **state)
 static void a_moment_needs_its_zone_and_real_dates(void **state)
 {
     (void)state;
-    static const char *const wrong[] = {"", "2026-06-21", "2026-06-21T08:30", "2026-02-29T08:30Z",
-        "2026-13-01T00:00Z", "2026-06-21T24:00Z", "2026-06-21T08:61Z", "2026-06-21 08:30Z",
-        "2026-06-21T08:30+25:00", "2026-06-21T08:30Zx", "noon"};
+    static const char *const wrong[] = {"",
+                                        "2026-06-21",
+                                        "2026-06-21T08:30",
+                                        "2026-02-29T08:30Z",
+                                        "2026-13-01T00:00Z",
+                                        "2026-06-21T24:00Z",
+                                        "2026-06-21T08:61Z",
+                                        "2026-06-21 08:30Z",
+                                        "2026-06-21T08:30+25:00",
+                                        "2026-06-21T08:30Zx",
+                                        "noon"};
     SkyTime time;
     Error   err;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
@@ -193,7 +211,7 @@ static void the_horizon_dips_and_the_air_thins_with_altitude(void **state)
     assert_near(horizon_dip_deg(12497), 3.59, 0.005);
 }
 
-/* ---- spectra ------------------------------------------------------------------------------ */
+/* ---- spectra ----------------------------------------------------------------------------- */
 
 static void spectrl2_is_the_published_program(void **state)
 {
@@ -232,7 +250,8 @@ static double illuminance(const double *rows)
 {
     double sum = 0;
     for (int i = 0; i < SPECTRAL_COUNT; i++)
-        sum += 683.002 * (double)spectral_table[i].y * spectrl2_read(rows, SPECTRAL_FIRST_NM + i);
+        sum +=
+            683.002 * (double)spectral_table[i].y * spectrl2_read(rows, SPECTRAL_FIRST_NM + i);
     return sum;
 }
 
@@ -264,7 +283,7 @@ static void limb_darkening_keeps_the_irradiance(void **state)
     assert_near(degrees_from_radians(sun_angular_radius(1)), 0.26645, 5e-6);
 }
 
-/* ---- shapes -------------------------------------------------------------------------------- */
+/* ---- shapes ------------------------------------------------------------------------------ */
 
 static void the_cie_skies_have_their_known_illuminance_over_zenith_luminance(void **state)
 {
@@ -284,23 +303,30 @@ static void perez_makes_the_known_skies(void **state)
     (void)state;
     static const double in[4][4] = {{45, 100, 800, 172}, {60, 150, 400, 80}, {45, 250, 0, 80},
                                     {60, 300, 50, 80}};
-    static const double known[4][11] = {
-        {1.411923, 0.106762, 6.317959, 8, -0.951719, -0.150927, 19.394149, -5.435566, 1.240755,
-         0.343562, 1.852569},
-        {1.992764, 0.216951, 2.214625, 5, -0.987590, -0.468529, 12.972326, -3.267055, 0.039785,
-         0.547479, 3.426400},
-        {1.411923, 0.256192, 1, 1, 0.792204, -0.465025, 1.233846, -0.788518, -0.008786, 2.485732,
-         6.872419},
-        {1.992764, 0.433902, 1.075914, 2, -0.916954, -1.448707, 9.902142, -2.835673, 0.043045,
-         1.191873, 5.464208}};
+    static const double known[4][11] = {{1.411923, 0.106762, 6.317959, 8, -0.951719, -0.150927,
+                                         19.394149, -5.435566, 1.240755, 0.343562, 1.852569},
+                                        {1.992764, 0.216951, 2.214625, 5, -0.987590, -0.468529,
+                                         12.972326, -3.267055, 0.039785, 0.547479, 3.426400},
+                                        {1.411923, 0.256192, 1, 1, 0.792204, -0.465025,
+                                         1.233846, -0.788518, -0.008786, 2.485732, 6.872419},
+                                        {1.992764, 0.433902, 1.075914, 2, -0.916954, -1.448707,
+                                         9.902142, -2.835673, 0.043045, 1.191873, 5.464208}};
     for (int i = 0; i < 4; i++) {
         PerezInput input = {radians_from_degrees(in[i][0]), in[i][2], in[i][1], (int)in[i][3]};
         SkyShape   s;
         PerezState p;
         Error      err;
         assert_true(sky_shape_perez(&input, &s, &p, &err));
-        const double ours[11] = {p.air_mass, p.brightness, p.clearness, p.bin, s.a, s.b, s.c, s.d,
-                                 s.e, sky_shape_value(&s, 1, input.sun_zenith),
+        const double ours[11] = {p.air_mass,
+                                 p.brightness,
+                                 p.clearness,
+                                 p.bin,
+                                 s.a,
+                                 s.b,
+                                 s.c,
+                                 s.d,
+                                 s.e,
+                                 sky_shape_value(&s, 1, input.sun_zenith),
                                  sky_shape_integral(&s, input.sun_zenith, 1000)};
         for (int k = 0; k < 10; k++) assert_near(ours[k], known[i][k], 6e-7);
         assert_close(ours[10], known[i][10], 1e-5);
@@ -329,12 +355,13 @@ static void irradiances_without_a_sky_are_refused(void **state)
     assert_non_null(strstr(err.text, "above 0"));
 }
 
-/* ---- weather -------------------------------------------------------------------------------- */
+/* ---- weather ----------------------------------------------------------------------------- */
 
 static const char *write_text(const char *text)
 {
-    static char name[64];
-    strcpy(name, "/tmp/parhelion_weather_XXXXXX");
+    static char name[512];
+    const char *folder = getenv("TMPDIR");
+    snprintf(name, sizeof name, "%s/parhelion_weather_XXXXXX", folder ? folder : P_tmpdir);
     int file = mkstemp(name);
     assert_true(file >= 0 && write(file, text, strlen(text)) == (ssize_t)strlen(text));
     close(file);
