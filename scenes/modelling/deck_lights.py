@@ -32,13 +32,19 @@ FLOODS = [
 PEDESTAL = ("pedestal flood", (0.0, 0.30, 1.62), (0.0, 0.02, -1.0))
 
 
-def lamps(flood_cd, pedestal_cd):
+DOME = ("dome", (0.0, -0.35, 1.70), (0.0, 0.35, -1.0))
+
+
+def lamps(flood_cd, pedestal_cd, dome_cd):
     out = [
         light(name, "spot", flood_cd, place, direction, (20, 85))
         for name, place, direction in FLOODS
     ]
-    name, place, direction = PEDESTAL
-    out.append(light(name, "spot", pedestal_cd, place, direction, (8, 18)))
+    for (name, place, direction), intensity, cone in (
+        (PEDESTAL, pedestal_cd, (8, 18)),
+        (DOME, dome_cd, (40, 75)),
+    ):
+        out.append(light(name, "spot", intensity, place, direction, cone))
     return out
 
 
@@ -96,7 +102,7 @@ def write_scene(folder, name, environment, lights=()):
 
 def write_lights(folder):
     write_scene(folder, "cloud_noon", sky("2026-06-21T12:10+00:00", 70.0))
-    write_scene(folder, "low_sun_left", sky("2026-09-21T06:30+00:00", 200.0))
-    write_scene(folder, "dusk", sky("2026-09-21T05:17+00:00", 100.0), lamps(0.25, 2.0))
+    write_scene(folder, "low_sun_left", sky("2026-09-21T06:35+00:00", 201.0))
+    write_scene(folder, "dusk", sky("2026-09-21T05:17+00:00", 100.0), lamps(0.6, 3.0, 5.0))
     night = {"type": "constant", "luminance": 0.001, "color": [0.62, 0.78, 1.0]}
-    write_scene(folder, "flight_night", night, lamps(0.03, 0.35))
+    write_scene(folder, "flight_night", night, lamps(0.15, 1.0, 0.25))

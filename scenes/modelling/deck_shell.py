@@ -15,8 +15,8 @@ SILL_Z, TOP_Z = 0.900, 1.485
 SILL = [
     (0.0, 1.2454, SILL_Z),
     (0.8208, 0.9684, SILL_Z),
-    (1.0746, 0.2798, 0.849),
-    (1.116, -0.838, 0.849),
+    (1.0969, 0.3097, 0.796),
+    (1.139, -0.827, 0.796),
 ]
 TOP = [(0.0, 0.7625), (0.60, 0.56), (0.807, -0.079), (0.84, -0.97)]
 DEEP = 0.050  # m from the lining to the pane
@@ -217,8 +217,8 @@ def walls(side):
     strip(f"side wall {side}", [sill, floor], "lining grey", side < 0)
     rear = [
         (0, REAR, 0.0),
-        (side * 1.14, REAR, 0.0),
-        (side * 1.14, REAR, 0.849),
+        (side * 1.16, REAR, 0.0),
+        (side * 1.16, REAR, 0.796),
         (side * 0.84, REAR, 1.485),
         (side * 0.64, REAR, 1.76),
         (0, REAR, 1.76),

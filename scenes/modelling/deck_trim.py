@@ -11,7 +11,7 @@ from shapes import frame_matrix, spline, tube
 
 def tablet(kit, side):
     """An electronic flight bag on a ball mount at the side window's sill."""
-    centre = np.array([side * 0.880, 0.470, 0.985])
+    centre = np.array([side * 0.885, 0.455, 0.965])
     towards = np.array([side * -EYE[0], 0.0, 1.12]) - centre
     right = np.cross((0, 0, 1), towards)
     at = frame_matrix(centre, right, np.cross(towards, right))
@@ -24,10 +24,10 @@ def tablet(kit, side):
     back = at @ Matrix.Translation((0, -0.03, -0.024))
     kit.lathe([(0.020, -0.012), (0.022, 0), (0.020, 0.012)], back, "knob", 24)
     path = spline(
-        [back.translation, (side * 0.925, 0.52, 0.925), (side * 0.912, 0.530, 0.835)], 14
+        [back.translation, (side * 0.930, 0.515, 0.895), (side * 0.918, 0.525, 0.805)], 14
     )
     tube(f"tablet arm {side}", path, 0.011, "stick", 12)
-    foot = frame_matrix((side * 0.912, 0.530, 0.822), (1, 0, 0), (0, 1, 0))
+    foot = frame_matrix((side * 0.918, 0.525, 0.790), (1, 0, 0), (0, 1, 0))
     kit.lathe([(0.032, -0.012), (0.032, 0.006), (0.026, 0.012)], foot, "knob", 28)
 
 
