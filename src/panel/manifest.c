@@ -113,6 +113,26 @@ static void split_white(const float xyz[3], float amount[3])
     for (int p = 0; p < 3; p++) amount[p] *= after > 0 ? before / after : 0;
 }
 
+/* How far Rec.709 misses the brightest direction's colour: a primary's table, say, comes back in
+ * another one. Share of X + Y + Z. */
+static double white_miss(const AngleTable *table)
+{
+    const float *brightest = table->value;
+    float  amount[3];
+    double off = 0, sum = 0;
+    for (int i = 1; i < table->rows; i++)
+        if (table->value[3 * i + 1] > brightest[1]) brightest = table->value + 3 * i;
+    split_white(brightest, amount);
+    for (int j = 0; j < 3; j++) {
+        double again = 0;
+        for (int p = 0; p < 3; p++)
+            again += (double)(amount[p] * xyz_from_rgb_matrix[3 * j + p]);
+        off += fabs(again - (double)brightest[j]);
+        sum += (double)brightest[j];
+    }
+    return sum > 0 ? off / sum : 0;
+}
+
 /* One level a primary, from the white table with the black one (if any) left in it once. */
 static void split_white_table(const AngleTable *white, Arena *arena, Measurement *out)
 {
@@ -134,31 +154,7 @@ static void split_white_table(const AngleTable *white, Arena *arena, Measurement
                 value[p][3 * i + j] = amount[p] * xyz_from_rgb_matrix[3 * j + p];
     }
     out->is_white_only = true;
-}
-
-#define NOT_WHITE 0.1 /* of X + Y + Z: more than this off, and Rec.709 cannot carry the colour */
-
-/* A primary's table, say, would come back in another colour. */
-static bool is_white(const AngleTable *table, const char *file, const char *place, Error *err)
-{
-    const float *brightest = table->value;
-    float  amount[3];
-    double off = 0, sum = 0;
-    for (int i = 1; i < table->rows; i++)
-        if (table->value[3 * i + 1] > brightest[1]) brightest = table->value + 3 * i;
-    split_white(brightest, amount);
-    for (int j = 0; j < 3; j++) {
-        double again = 0;
-        for (int p = 0; p < 3; p++)
-            again += (double)(amount[p] * xyz_from_rgb_matrix[3 * j + p]);
-        off += fabs(again - (double)brightest[j]);
-        sum += (double)brightest[j];
-    }
-    if (off <= NOT_WHITE * sum) return true;
-    return error_at(err, ERROR_INPUT, file, place, "its colour (x, y = %.3f, %.3f) lies outside "
-                    "Rec.709, wanted the table of a white pattern; tables of primaries go into a "
-                    "MANIFEST.json as \"red\", \"green\", \"blue\"",
-                    (double)brightest[0] / sum, (double)brightest[1] / sum);
+    out->white_miss = white_miss(white);
 }
 
 static bool read_white(const JsonView *emission, Measurement *out, Error *err)
@@ -172,9 +168,7 @@ static bool read_white(const JsonView *emission, Measurement *out, Error *err)
     if (json_object_get(emission->object, "black"))
         return error_at(err, ERROR_INPUT, emission->file, emission->path,
                         "has both 'white' and 'black'; a white-only set has a black of 0");
-    if (!read_emission_table(emission, "white", "white", &white, err) ||
-        !is_white(&white, emission->file, json_view_path(emission, "white"), err))
-        return false;
+    if (!read_emission_table(emission, "white", "white", &white, err)) return false;
     split_white_table(&white, emission->arena, out);
     return true;
 }
@@ -462,9 +456,7 @@ static bool read_members(const JsonView *root, Measurement *out, Error *err)
 static bool read_lone_table(const char *path, Arena *arena, Measurement *out, Error *err)
 {
     AngleTable white;
-    if (!angle_table_read_xyz(path, "white", arena, &white, err) ||
-        !is_white(&white, path, "", err))
-        return false;
+    if (!angle_table_read_xyz(path, "white", arena, &white, err)) return false;
     split_white_table(&white, arena, out);
     out->panel = path_name(path);
     return true;

@@ -73,8 +73,6 @@ static void tables_name_file_line_and_value(void **state)
         {"theta,phi,X,Y,Z\n5,40,1,x7,1\n", {"line 2", "'x7'", "a finite number"}},
         {"theta,phi,X,Y,Z\n", {"table.csv", "no rows", ""}},
         {"", {"table.csv", "is empty", "a header line"}},
-        {"theta,phi,X,Y,Z\n0,0,28,67,5\n10,0,27,65,5\n",
-         {"table.csv", "outside Rec.709", "a white pattern"}},
         {"theta,phi,Y,x,y\n5,40,10,0.8,0.7\n", {"line 2", "x 0.8, y 0.7", "CIE 1931"}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
