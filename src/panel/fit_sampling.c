@@ -9,7 +9,7 @@
 #define LEVEL 6
 #define PROBE_LEVEL 5             /* at which incidences and azimuths are chosen */
 #define CELLS 1200             /* of two octants, at most */
-#define CELL_VARIANCE 0.012f   /* of the weights at the incidences chosen */
+#define CELL_VARIANCE 0.018f   /* of the weights at the incidences chosen */
 #define BETWEEN_VARIANCE 0.004 /* more of it half way between two of them */
 #define UNIFORM_SHARE 0.004f
 #define LAST_DEG 88.0
