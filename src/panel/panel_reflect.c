@@ -104,7 +104,8 @@ static Cubic azimuth_weights(const PanelReflection *r, float phi)
 /* light: its azimuth in the display's frame. */
 static TableMix table_mix(const PanelReflection *r, float theta, float light)
 {
-    TableMix mix = {.count = {0, 0}};
+    TableMix mix;
+    mix.count[0] = mix.count[1] = 0;
     Cubic    incidence = incidence_weights(r, theta);
     Cubic    azimuth[2] = {azimuth_weights(r, light)};
     int      n = (int)r->azimuths;
@@ -135,16 +136,19 @@ static Spectrum load_16(const float *from)
     return value;
 }
 
-/* Weighted rows of the mixed tables at 16 wavelengths from w on. */
-static inline Spectrum mixed_rows(const PanelReflection *r, const TableMix *mix,
-                                  const float *rows, int w)
+/* Eight at a time: what all instruction sets keep in registers. */
+typedef float Float8 __attribute__((vector_size(32), aligned(4), may_alias));
+
+/* Weighted rows of the mixed tables at 8 wavelengths from w on. */
+static inline Float8 mixed_rows(const PanelReflection *r, const TableMix *mix,
+                                const float *rows, int w)
 {
-    Spectrum sum = spectrum_all(0);
+    Float8 sum = {0};
     for (int turned = 0; turned < 2; turned++)
         for (int i = 0; i < mix->count[turned]; i++) {
             const Term *term = &mix->term[turned][i];
-            sum += spectrum_all(term->weight) *
-                   load_16(rows + term->table * (int)r->padded_wavelengths + w);
+            sum += term->weight *
+                   *(const Float8 *)(rows + term->table * (int)r->padded_wavelengths + w);
         }
     return sum;
 }
@@ -169,8 +173,7 @@ static inline void add_loadings(const PanelReflection *r, const TableMix *mix, i
 }
 
 /* ln (f / F) at all measured wavelengths: padded_wavelengths floats. */
-static void reflection_logs(const Panel *panel, Vec3 stored, const TableMix *mix,
-                            Spectrum *logs)
+static void reflection_logs(const Panel *panel, Vec3 stored, const TableMix *mix, float *logs)
 {
     const PanelReflection *r = panel->reflection;
     float component[COMPONENTS_MAX], coefficient[COEFFICIENTS_MAX];
@@ -182,11 +185,11 @@ static void reflection_logs(const Panel *panel, Vec3 stored, const TableMix *mix
         tree_interpolate(&panel->reflection_tree, at, component);
         add_loadings(r, mix, turned, component, coefficient);
     }
-    for (int w = 0; w < padded; w += SPECTRUM_LANES) {
-        Spectrum sum = mixed_rows(r, mix, r->mean, w);
+    for (int w = 0; w < padded; w += 8) {
+        Float8 sum = mixed_rows(r, mix, r->mean, w);
         for (int k = 0; k < (int)r->coefficients; k++)
-            sum += spectrum_all(coefficient[k]) * load_16(r->basis + k * padded + w);
-        logs[w / SPECTRUM_LANES] = sum;
+            sum += coefficient[k] * *(const Float8 *)(r->basis + k * padded + w);
+        *(Float8 *)(logs + w) = sum;
     }
 }
 
@@ -244,15 +247,15 @@ static Spectrum lobe_over_fresnel(const Panel *panel, const TableMix *mix, Vec3 
                                   const Wavelengths *wavelengths)
 {
     const PanelReflection *r = panel->reflection;
-    Spectrum logs[PADDED_MAX / SPECTRUM_LANES];
-    float    sine = safe_sqrtf(1 - wi.z * wi.z), sigma = mixed_sigma(r, mix);
-    float    square = squared_angle(local, sine, wi.z), inverse = 1 / (sigma * sigma);
+    float logs[PADDED_MAX];
+    float sine = safe_sqrtf(1 - wi.z * wi.z), sigma = mixed_sigma(r, mix);
+    float square = squared_angle(local, sine, wi.z), inverse = 1 / (sigma * sigma);
     if (square * inverse > LOBE_SIGMAS * LOBE_SIGMAS) return spectrum_all(0);
-    for (int w = 0; w < (int)r->padded_wavelengths; w += SPECTRUM_LANES)
-        logs[w / SPECTRUM_LANES] = mixed_rows(r, mix, r->lobe, w);
+    for (int w = 0; w < (int)r->padded_wavelengths; w += 8)
+        *(Float8 *)(logs + w) = mixed_rows(r, mix, r->lobe, w);
     float cosine = wi.z > 0.02f ? wi.z : 0.02f;
     float shape = exp_f(-0.5f * square * inverse) * inverse / (2 * PI_F * cosine);
-    return spectrum_exp(spread(panel, (const float *)logs, wavelengths)) * spectrum_all(shape);
+    return spectrum_exp(spread(panel, logs, wavelengths)) * spectrum_all(shape);
 }
 
 /* ---- beyond the last measured incidence ------------------------------------------------- */
@@ -303,7 +306,7 @@ static Spectrum brdf_beyond(const Panel *panel, Vec3 local, Vec3 wi, float light
                             const Wavelengths *wavelengths)
 {
     const PanelReflection *r = panel->reflection;
-    Spectrum logs[PADDED_MAX / SPECTRUM_LANES];
+    float logs[PADDED_MAX];
     float    sine = safe_sqrtf(1 - wi.z * wi.z), n = r->refractive_index;
     float    sine_last, cosine_last;
     sincos_turns(r->last_theta * (0.5f / PI_F), &sine_last, &cosine_last);
@@ -312,7 +315,7 @@ static Spectrum brdf_beyond(const Panel *panel, Vec3 local, Vec3 wi, float light
     Vec3     from = shifted(r, local, sine);
     reflection_logs(panel, specular_frame_stored(&frame, from), &mix, logs);
     float    last = fresnel(cosine_last, n);
-    Spectrum total = spectrum_exp(spread(panel, (const float *)logs, wavelengths)) *
+    Spectrum total = spectrum_exp(spread(panel, logs, wavelengths)) *
                      spectrum_all(last);
     Spectrum floor = spectrum_min(total, spread(panel, r->floor + mix.term[0][0].table *
                                   (int)r->padded_wavelengths, wavelengths));
@@ -331,7 +334,7 @@ static Spectrum brdf_beyond(const Panel *panel, Vec3 local, Vec3 wi, float light
 Spectrum panel_brdf(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *wavelengths)
 {
     const PanelReflection *r = panel->reflection;
-    Spectrum logs[PADDED_MAX / SPECTRUM_LANES];
+    float logs[PADDED_MAX];
     if (!r || !(wo.z > 0) || !(wi.z > 0)) return spectrum_all(0);
     float theta = panel_polar_angle(wi), light = r->azimuths > 1 ? atan2_f(wi.y, wi.x) : 0;
     Vec3  local = panel_turned(wi, wo);
@@ -339,7 +342,7 @@ Spectrum panel_brdf(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *wav
     SpecularFrame frame = specular_frame(theta, r->frame_exponent);
     TableMix      mix = table_mix(r, theta, light);
     reflection_logs(panel, specular_frame_stored(&frame, local), &mix, logs);
-    Spectrum over = spectrum_exp(spread(panel, (const float *)logs, wavelengths));
+    Spectrum over = spectrum_exp(spread(panel, logs, wavelengths));
     if (r->has_lobe) over += lobe_over_fresnel(panel, &mix, local, wi, wavelengths);
     return over * spectrum_all(fresnel(wi.z, r->refractive_index));
 }
