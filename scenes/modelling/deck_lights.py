@@ -103,6 +103,6 @@ def write_scene(folder, name, environment, lights=()):
 def write_lights(folder):
     write_scene(folder, "cloud_noon", sky("2026-06-21T12:10+00:00", 70.0))
     write_scene(folder, "low_sun_left", sky("2026-09-21T06:35+00:00", 201.0))
-    write_scene(folder, "dusk", sky("2026-09-21T05:17+00:00", 100.0), lamps(0.6, 3.0, 5.0))
+    write_scene(folder, "dusk", sky("2026-09-21T05:17+00:00", 100.0), lamps(1.5, 8.0, 12.0))
     night = {"type": "constant", "luminance": 0.001, "color": [0.62, 0.78, 1.0]}
     write_scene(folder, "flight_night", night, lamps(0.15, 1.0, 0.25))

@@ -42,8 +42,8 @@ DECK = {
     "ink": grey(0.035, 0.8),
     "compass face": grey(0.020, 0.5),
     # what glows
-    "legend": surface((0.62, 0.62, 0.60), 0.6, emission=((1.0, 0.86, 0.66), 0.55)),
-    "legend dim": surface((0.40, 0.40, 0.39), 0.6, emission=((1.0, 0.86, 0.66), 0.18)),
+    "legend": surface((0.62, 0.62, 0.60), 0.6, emission=((1.0, 0.86, 0.66), 1.2)),
+    "legend dim": surface((0.40, 0.40, 0.39), 0.6, emission=((1.0, 0.86, 0.66), 0.35)),
     "lit green": surface((0.03, 0.10, 0.04), 0.5, emission=((0.16, 1.0, 0.30), 9.0)),
     "lit amber": surface((0.12, 0.07, 0.02), 0.5, emission=((1.0, 0.55, 0.06), 9.0)),
     "lit cyan": surface((0.03, 0.09, 0.11), 0.5, emission=((0.20, 0.85, 1.0), 7.0)),
