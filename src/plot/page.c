@@ -1,6 +1,5 @@
 #include "plot/page.h"
 
-#include <cairo-svg.h>
 #include <math.h>
 #include <string.h>
 
@@ -168,119 +167,64 @@ static Box figure_box(const Layout *l, int index)
     return box;
 }
 
-static void draw_page(cairo_t *cr, const PageSpec *spec, const Layout *l, Arena *arena)
+/* A page with its layout, while it is drawn. */
+typedef struct Page {
+    const PageSpec *spec;
+    Layout          layout;
+} Page;
+
+static void draw_page(Canvas *canvas, const void *context)
 {
-    Theme     theme = spec->is_dark ? theme_dark() : theme_light();
-    Canvas    canvas = {cr, theme, fmax(l->scale, 1), arena};
-    FigureMap unused;
-    cairo_rectangle(cr, 0, 0, l->width, l->height);
-    canvas_fill(&canvas, canvas.theme.paper);
-    draw_heading(&canvas, spec, l);
-    for (int i = 0; i < spec->list->count; i++) {
-        figure_draw(&canvas, figure_box(l, i), &spec->list->figure[i], &unused);
-    }
-    draw_legend(&canvas, spec, l);
+    const Page *page = context;
+    FigureMap   unused;
+    draw_heading(canvas, page->spec, &page->layout);
+    for (int i = 0; i < page->spec->list->count; i++)
+        figure_draw(canvas, figure_box(&page->layout, i), &page->spec->list->figure[i], &unused);
+    draw_legend(canvas, page->spec, &page->layout);
 }
 
-/* ---- bytes ------------------------------------------------------------------------------ */
-
-typedef struct Sink {
-    Arena    *arena;
-    PlotBytes bytes;
-    size_t    capacity;
-} Sink;
-
-static cairo_status_t sink_write(void *closure, const unsigned char *data, unsigned length)
+static PictureSpec picture_of(const Page *page, bool is_svg)
 {
-    Sink *sink = closure;
-    if (sink->bytes.size + length + 1 > sink->capacity) {
-        size_t         capacity = 2 * (sink->bytes.size + length) + 65536;
-        unsigned char *bigger = ARENA_NEW(sink->arena, unsigned char, capacity);
-        if (sink->bytes.size > 0) memcpy(bigger, sink->bytes.data, sink->bytes.size);
-        sink->bytes.data = bigger;
-        sink->capacity = capacity;
-    }
-    memcpy(sink->bytes.data + sink->bytes.size, data, length);
-    sink->bytes.size += length;
-    sink->bytes.data[sink->bytes.size] = 0;
-    return CAIRO_STATUS_SUCCESS;
-}
-
-static bool check(cairo_status_t status, Error *err)
-{
-    if (status == CAIRO_STATUS_SUCCESS) return true;
-    return error_set(err, ERROR_LIBRARY, "cairo cannot draw the picture: %s",
-                     cairo_status_to_string(status));
-}
-
-/* Ends the drawing: what went wrong on the way is kept by cairo until now. */
-static bool finish(cairo_t *cr, cairo_surface_t *surface, Error *err)
-{
-    cairo_status_t status = cairo_status(cr);
-    cairo_destroy(cr);
-    cairo_surface_finish(surface);
-    if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface);
-    cairo_surface_destroy(surface);
-    return check(status, err);
-}
-
-static cairo_surface_t *svg_surface(Sink *sink, double width, double height)
-{
-    cairo_surface_t *surface = cairo_svg_surface_create_for_stream(sink_write, sink, width,
-                                                                   height);
-    cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
-    return surface;
+    return (PictureSpec){.width = page->layout.width, .height = page->layout.height,
+                         .scale = page->layout.scale, .is_svg = is_svg,
+                         .is_dark = page->spec->is_dark, .draw = draw_page, .context = page};
 }
 
 bool page_svg(const PageSpec *spec, Arena *arena, PlotBytes *out, Error *err)
 {
-    Layout l = layout_of(spec, 1);
-    /* The sink grows while figures allocate: it has an arena of its own. */
-    Arena  own = arena_reserve((size_t)4 << 30);
-    Sink   sink = {.arena = &own};
-    const char *title = arena_format(arena, "%s, %s", spec->subject->name,
-                                     spec->kind == PLOT_ALL ? "panel plot"
-                                                            : plot_kind_name(spec->kind));
-    cairo_surface_t *surface = svg_surface(&sink, l.width * l.scale, l.height * l.scale);
-    cairo_t         *cr = cairo_create(surface);
-    cairo_scale(cr, l.scale, l.scale);
-    if (l.scale < 1.6) l.scale = 1.6; /* rasters inside are finer than the page's unit */
-    Layout drawn = l;
-    draw_page(cr, spec, &drawn, arena);
-    bool ok = finish(cr, surface, err);
-    if (ok) *out = svg_with_title(svg_with_ids(sink.bytes, "p", false, arena), title, arena);
-    arena_release(&own);
-    return ok;
+    Page        page = {spec, layout_of(spec, 1)};
+    PictureSpec picture = picture_of(&page, true);
+    return picture_draw(&picture, arena, out, err);
 }
 
 bool page_png(const PageSpec *spec, Arena *arena, PlotBytes *out, Error *err)
 {
-    Layout l = layout_of(spec, 2);
-    Sink   sink = {.arena = arena};
-    cairo_surface_t *surface = cairo_image_surface_create(
-        CAIRO_FORMAT_RGB24, (int)(l.width * l.scale + 0.5), (int)(l.height * l.scale + 0.5));
-    cairo_t *cr = cairo_create(surface);
-    cairo_scale(cr, l.scale, l.scale);
-    draw_page(cr, spec, &l, arena);
-    cairo_status_t status = cairo_status(cr);
-    if (status == CAIRO_STATUS_SUCCESS)
-        status = cairo_surface_write_to_png_stream(surface, sink_write, &sink);
-    if (!finish(cr, surface, err) || !check(status, err)) return false;
-    *out = sink.bytes;
-    return true;
+    Page        page = {spec, layout_of(spec, 2)};
+    PictureSpec picture = picture_of(&page, false);
+    return picture_draw(&picture, arena, out, err);
+}
+
+/* One figure, and where its read-out map goes. */
+typedef struct Single {
+    const Figure      *figure;
+    const FigureFrame *frame;
+    FigureMap         *map;
+} Single;
+
+static void draw_single(Canvas *canvas, const void *context)
+{
+    const Single *one = context;
+    Box inside = {4, 4, one->frame->width - 8, one->frame->height - 8};
+    one->figure->draw(canvas, inside, one->figure, one->map);
 }
 
 bool page_figure_svg(const Figure *figure, const FigureFrame *frame, Arena *arena,
                      PlotBytes *out, FigureMap *map, Error *err)
 {
-    Arena own = arena_reserve((size_t)4 << 30);
-    Sink  sink = {.arena = &own};
-    cairo_surface_t *surface = svg_surface(&sink, frame->width, frame->height);
-    cairo_t         *cr = cairo_create(surface);
-    Canvas           canvas = {cr, frame->is_dark ? theme_dark() : theme_light(), 1.6, arena};
-    figure->draw(&canvas, (Box){4, 4, frame->width - 8, frame->height - 8}, figure, map);
-    bool ok = finish(cr, surface, err);
-    if (ok) *out = svg_with_ids(sink.bytes, frame->prefix, true, arena);
-    arena_release(&own);
-    return ok;
+    Single      one = {figure, frame, map};
+    PictureSpec picture = {.width = frame->width, .height = frame->height, .scale = 1,
+                           .is_svg = true, .is_dark = frame->is_dark,
+                           .inline_prefix = frame->prefix, .draw = draw_single,
+                           .context = &one};
+    return picture_draw(&picture, arena, out, err);
 }

@@ -7,7 +7,7 @@
 #pragma once
 #include "base/error.h"
 #include "plot/figure.h"
-#include "plot/svg_text.h"
+#include "plot/picture.h"
 
 typedef struct PageSpec {
     const FigureList *list;

@@ -43,10 +43,12 @@ bool picture_draw(const PictureSpec *spec, Arena *arena, PlotBytes *out, Error *
     cairo_surface_t *surface = open_surface(spec, &sink);
     cairo_t *cr = cairo_create(surface);
     Canvas   canvas = {cr, spec->is_dark ? theme_dark() : theme_light(),
-                       spec->is_svg ? 2 : spec->scale, arena};
+                       spec->is_svg && spec->scale < 2 ? 2 : spec->scale, arena};
     cairo_scale(cr, spec->scale, spec->scale);
-    cairo_rectangle(cr, 0, 0, spec->width, spec->height);
-    canvas_fill(&canvas, canvas.theme.paper);
+    if (!spec->inline_prefix) {
+        cairo_rectangle(cr, 0, 0, spec->width, spec->height);
+        canvas_fill(&canvas, canvas.theme.paper);
+    }
     spec->draw(&canvas, spec->context);
     cairo_status_t status = cairo_status(cr);
     if (status == CAIRO_STATUS_SUCCESS && !spec->is_svg)
@@ -57,7 +59,8 @@ bool picture_draw(const PictureSpec *spec, Arena *arena, PlotBytes *out, Error *
     cairo_surface_destroy(surface);
     bool ok = status == CAIRO_STATUS_SUCCESS;
     if (ok && spec->is_svg) {
-        *out = svg_with_ids(sink.bytes, "p", false, arena);
+        const char *prefix = spec->inline_prefix;
+        *out = svg_with_ids(sink.bytes, prefix ? prefix : "p", prefix != NULL, arena);
     } else if (ok) {
         out->data = ARENA_NEW(arena, unsigned char, sink.bytes.size + 1);
         out->size = sink.bytes.size;

@@ -15,6 +15,7 @@ typedef struct PictureSpec {
     double width, height; /* points */
     double scale;         /* pixels per point */
     bool   is_svg, is_dark;
+    const char  *inline_prefix; /* SVG inside a page of HTML: its ids begin so; NULL: a file */
     PictureDraw *draw;
     const void  *context;
 } PictureSpec;

@@ -352,6 +352,7 @@ bool sky_plot_draw(const SkyPlot *plot, bool is_svg, int width, Arena *arena, Pl
                    Error *err)
 {
     double scale = width > 0 ? width / PAGE_W : is_svg ? 1 : 2;
-    PictureSpec spec = {PAGE_W, PAGE_H, scale, is_svg, plot->is_dark, draw_page, plot};
+    PictureSpec spec = {.width = PAGE_W, .height = PAGE_H, .scale = scale, .is_svg = is_svg,
+                        .is_dark = plot->is_dark, .draw = draw_page, .context = plot};
     return picture_draw(&spec, arena, out, err);
 }
