@@ -121,6 +121,13 @@ static void set_level(Loader *load, int display_id, const char *value)
     display->level = (float)(percent / 100);
 }
 
+/* "*" means every display; later entries speak last, so that one may differ. */
+static bool is_meant(const Material *material, const char *name)
+{
+    if (strcmp(name, "*") == 0) return material->display_id != NO_ID;
+    return strcmp(material->name, name) == 0;
+}
+
 /* Applies one option's list; is_panel: any material may become a display. */
 static void apply(Loader *load, const char *option, const SceneOverride *list, int count,
                   ApplyOverride *set)
@@ -130,7 +137,7 @@ static void apply(Loader *load, const char *option, const SceneOverride *list, i
         bool is_found = false;
         for (int m = 0; m < load->materials.count; m++) {
             const Material *material = list_item(&load->materials, m);
-            if (strcmp(material->name, list[i].material) != 0) continue;
+            if (!is_meant(material, list[i].material)) continue;
             is_found = true;
             if (!is_panel && material->display_id == NO_ID)
                 option_error(load, option,

@@ -189,7 +189,7 @@ typedef struct SceneOptions {
     int content_count;
     const SceneOverride *panels; /* --panel MATERIAL=FILE.panel */
     int panel_count;
-    const SceneOverride *levels; /* --display-level MATERIAL=PERCENT */
+    const SceneOverride *levels; /* --display-level MATERIAL=PERCENT, * for all */
     int level_count;
 } SceneOptions;
 
