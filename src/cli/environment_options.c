@@ -245,6 +245,28 @@ static bool set_air(Change *change, Error *err)
     return true;
 }
 
+static bool set_ground(Change *change, Error *err)
+{
+    static const char *const names[] = {"land", "sea", "cloud"};
+    const char   *text = change->asked->ground;
+    OutsideInput *outside = &change->environment->outside;
+    double        top = outside->cloud_top_m;
+    if (!text) return true;
+    if (change->environment->kind != ENVIRONMENT_SKY)
+        return error_set(err, ERROR_USAGE, "--ground: only a clear sky has a ground to choose — "
+                         "add --environment sky:clear");
+    bool has_top = !strncmp(text, "cloud:", 6);
+    for (int i = 0; i < 3; i++) {
+        if (strcmp(text, names[i]) && !(i == FLOOR_CLOUD && has_top)) continue;
+        if (has_top && (!cli_numbers(text + 6, 1, &top) || top < 0 || top > 20000)) break;
+        outside->floor = (FloorKind)i;
+        outside->cloud_top_m = top;
+        return true;
+    }
+    return error_set(err, ERROR_USAGE, "--ground %s: wanted land, sea, cloud or cloud:TOP with "
+                     "the clouds' top 0 to 20000 m above the sea", text);
+}
+
 /* ---- the sun ----------------------------------------------------------------------------- */
 
 static bool set_sun(Change *change, const char *text, Error *err)
@@ -333,6 +355,7 @@ bool environment_change(const EnvironmentChange *asked, Scene *scene, Arena *are
     return (!asked->environment || set_sky(&change, asked->environment, err)) &&
            set_weather(&change, err) && set_time_and_place(&change, err) &&
            set_illuminance(&change, err) && set_air(&change, err) &&
+           set_ground(&change, err) &&
            (!asked->sun || set_sun(&change, asked->sun, err)) && knows_sun(&change, err) &&
            set_directions(&change, err);
 }

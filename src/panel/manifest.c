@@ -113,8 +113,8 @@ static void split_white(const float xyz[3], float amount[3])
     for (int p = 0; p < 3; p++) amount[p] *= after > 0 ? before / after : 0;
 }
 
-/* How far Rec.709 misses the brightest direction's colour: a primary's table, say, comes back in
- * another one. Share of X + Y + Z. */
+/* How far Rec.709 misses the brightest direction's colour: a primary's table, say, comes back
+ * in another one. Share of X + Y + Z. */
 static double white_miss(const AngleTable *table)
 {
     const float *brightest = table->value;

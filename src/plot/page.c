@@ -179,7 +179,8 @@ static void draw_page(Canvas *canvas, const void *context)
     FigureMap   unused;
     draw_heading(canvas, page->spec, &page->layout);
     for (int i = 0; i < page->spec->list->count; i++)
-        figure_draw(canvas, figure_box(&page->layout, i), &page->spec->list->figure[i], &unused);
+        figure_draw(canvas, figure_box(&page->layout, i), &page->spec->list->figure[i],
+                    &unused);
     draw_legend(canvas, page->spec, &page->layout);
 }
 

@@ -153,6 +153,9 @@ static void what_makes_no_sky_is_refused_by_name(void **state)
         {{.when = "2026-06-21T08:30Z", .where = "48,11"}, "no sky that it could change"},
         {{.environment = "constant:5", .has_turbidity = true, .turbidity = 3}, "no air"},
         {{.environment = "constant:5", .sun = "auto"}, "--when and --where"},
+        {{.environment = "constant:5", .ground = "sea"}, "only a clear sky"},
+        {{.environment = "sky:clear", .sun = "0,9", .ground = "lava"}, "wanted land, sea"},
+        {{.environment = "sky:clear", .sun = "0,9", .ground = "cloud:x"}, "wanted land, sea"},
         {{.weather = "none.epw"}, "add --when"},
     };
     Arena *arena = *state;
