@@ -83,6 +83,22 @@ static bool check_look(const RenderRequest *request, Arena scratch, Error *err)
            develop_picture(&frame, &request->look, &scratch, &picture, &report, err);
 }
 
+/* A sky whose sun is down is no error, but the frame may be darker than was meant. */
+static bool tell_of_night(Work *work)
+{
+    const Environment *environment = &work->scene->environment;
+    if (environment->kind != ENVIRONMENT_SKY) return true;
+    OutsideInput input = environment->outside;
+    input.has_sun = environment->has_sun;
+    input.sun_elevation = (double)environment->sun_elevation;
+    double clearance = outside_sun_clearance_deg(&input);
+    if (clearance < 0)
+        problems_add(&work->problems, SEVERITY_WARNING, "", "",
+                     "the sun is down: its upper rim stands %.2f degrees below the horizon",
+                     -clearance);
+    return true;
+}
+
 static bool load(Work *work, Error *err)
 {
     RenderRequest *request = &work->request;
@@ -91,6 +107,7 @@ static bool load(Work *work, Error *err)
         scene_load(&request->scene, work->arena, &work->problems, &work->scene, err) &&
         environment_change(&request->environment, work->scene, work->arena,
                            &work->problems, err) &&
+        tell_of_night(work) &&
         render_choose_camera(work->scene, request->camera, &work->problems, &work->camera, err);
     cli_print_warnings(&work->problems);
     return loaded;

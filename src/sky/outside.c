@@ -19,6 +19,19 @@ OutsideInput outside_input_default(OutsideKind kind)
 
 /* ---- where the sun stands --------------------------------------------------------------- */
 
+static double floor_albedo(const OutsideInput *in)
+{
+    static const double usual[] = {0.2, 0.06, 0.7};
+    return in->albedo >= 0 ? in->albedo : usual[in->floor];
+}
+
+static double floor_altitude(const OutsideInput *in)
+{
+    if (in->floor == FLOOR_CLOUD) return in->cloud_top_m;
+    bool stands = in->floor == FLOOR_LAND && in->where.altitude_m < ON_THE_GROUND_M;
+    return stands ? fmax(0, in->where.altitude_m) : 0;
+}
+
 static int day_of_year(const SkyTime *time)
 {
     SkyTime first = {time->year, 1, 1, 0, 0, 0, 0}, now = {time->year, time->month, time->day,
@@ -54,6 +67,15 @@ static void place_sun(Outside *out)
     f->air_mass = f->sun_zenith_deg < 90 ? air_mass(f->sun_zenith_deg) : 0;
 }
 
+double outside_sun_clearance_deg(const OutsideInput *input)
+{
+    Outside probe = {.input = *input};
+    place_sun(&probe);
+    double rise = fmax(0, input->where.altitude_m - floor_altitude(input));
+    double dip = input->kind == OUTSIDE_CLEAR ? horizon_dip_deg(rise) : 0;
+    return degrees_from_radians(probe.sun_elevation + probe.sun_radius) + dip;
+}
+
 /* Share of a disc above a line at `above` radii over its centre's height (negative: above). */
 static double share_above_line(double above)
 {
@@ -68,19 +90,6 @@ static double sun_share(const Outside *out)
 }
 
 /* ---- the air ----------------------------------------------------------------------------- */
-
-static double floor_albedo(const OutsideInput *in)
-{
-    static const double usual[] = {0.2, 0.06, 0.7};
-    return in->albedo >= 0 ? in->albedo : usual[in->floor];
-}
-
-static double floor_altitude(const OutsideInput *in)
-{
-    if (in->floor == FLOOR_CLOUD) return in->cloud_top_m;
-    bool stands = in->floor == FLOOR_LAND && in->where.altitude_m < ON_THE_GROUND_M;
-    return stands ? fmax(0, in->where.altitude_m) : 0;
-}
 
 /* Koschmieder's visibility: 3.912 over the extinction at 550 nm, of which molecules take
  * 0.0116 km^-1; the aerosol's scale height is air.h's 1.5 km. */

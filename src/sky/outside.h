@@ -79,6 +79,10 @@ typedef struct Outside {
 
 bool outside_build(const OutsideInput *input, Arena *arena, Outside *out, Error *err);
 
+/* Elevation of the sun's upper rim over the edge of the floor (the dipped horizon), degrees:
+ * below 0 the sun is down. */
+double outside_sun_clearance_deg(const OutsideInput *input);
+
 /* Sky or floor. elevation and azimuth in radians. */
 Spectrum outside_radiance(const Outside *outside, float elevation, float azimuth,
                           const Wavelengths *wavelengths);

@@ -299,6 +299,7 @@ static void twilight_fades_and_night_is_told(void **state)
         assert_true(out->figures.diffuse_horizontal_lx < before / 1.5);
         assert_true(out->figures.diffuse_horizontal_lx > 0.5);
         assert_int_equal(out->figures.is_sun_up, i == 0);
+        assert_int_equal(outside_sun_clearance_deg(&input) > 0, i == 0);
         before = out->figures.diffuse_horizontal_lx;
     }
     Arena        scratch = arena;
