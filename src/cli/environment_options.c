@@ -253,7 +253,8 @@ static bool set_ground(Change *change, Error *err)
     double        top = outside->cloud_top_m;
     if (!text) return true;
     if (change->environment->kind != ENVIRONMENT_SKY)
-        return error_set(err, ERROR_USAGE, "--ground: only a clear sky has a ground to choose — "
+        return error_set(err, ERROR_USAGE,
+                         "--ground: only a clear sky has a ground to choose — "
                          "add --environment sky:clear");
     bool has_top = !strncmp(text, "cloud:", 6);
     for (int i = 0; i < 3; i++) {
