@@ -1,8 +1,8 @@
 """contact_sheet.py PARHELION SCENE.gltf OUT.png [RENDER OPTION...] -- a day's light on a page.
 
 Renders a scene under the clear sky from dawn to dusk (21 June, 48.14 N 11.58 E, heading 90
-unless the options say otherwise) and puts the small pictures side by side with time and sun. Needs
-Debian's python3-cairo. Used to look at what changes with the light; nothing is tested.
+unless the options say otherwise) and puts the small pictures side by side with time and sun.
+Needs Debian's python3-cairo. Used to look at what changes with the light; nothing is tested.
 """
 import json
 import math
