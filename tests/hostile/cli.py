@@ -18,7 +18,7 @@ sys.path.insert(0, os.path.join(ROOT, "tests", "image"))
 from exr import Frame  # noqa: E402
 from report import Report  # noqa: E402
 
-COMMANDS = ("render", "develop", "check", "measure", "panel import", "panel fit", "panel info",
+COMMANDS = ("render", "develop", "check", "measure", "sky", "panel import", "panel fit", "panel info",
             "panel eval", "panel plot", "panel export", "panel simulate")
 
 
@@ -140,6 +140,38 @@ def check_pictures(report, program):
             os.remove(out)
 
 
+SKY = ("--environment", "sky:clear", "--when", "2026-06-21T08:30+02:00", "--where",
+       "48.14,11.58,520")
+
+
+def check_sky(report, program):
+    """Figures, pictures, a picture of a sky that lights again as a picture, and what is refused."""
+    figures = json.loads(program.run("sky", *SKY, "--json").stdout)
+    sun = figures["sun"]
+    report.claim(abs(sun["azimuth_deg"] - 86.9) < 0.01 and abs(sun["elevation_deg"] - 29.49)
+                 < 0.01 and sun["is_up"], f"sky --json: the sun of Munich, {sun}")
+    lux = figures["diffuse_horizontal_lx"]
+    report.claim(10000 < lux < 16000 and 60000 < figures["direct_normal_lx"] < 100000,
+                 f"sky --json: {figures}")
+    report.claim(program.run("sky", *SKY, "-o", program.file("sky.exr")).returncode == 0,
+                 "sky -o .exr")
+    again = json.loads(program.run("sky", "--environment", "hdri:" + program.file("sky.exr"),
+                                   "--json").stdout)
+    report.claim(abs(again["diffuse_horizontal_lx"] / lux - 1) < 0.005,
+                 f"a drawn sky as HDRI: {again['diffuse_horizontal_lx']} lx for {lux}")
+    for name in ("sky.png", "sky.svg"):
+        done = program.run("sky", *SKY, "-o", program.file(name))
+        report.claim(done.returncode == 0 and os.path.getsize(program.file(name)) > 10000, name)
+    report.claim(is_png(program.file("sky.png")), "sky.png is no PNG")
+    claim_status(report, program.run("sky"), 2, "wants a sky")
+    claim_status(report, program.run("sky", *SKY, "-o", "sky.tif"), 2, ".exr, .png or .svg")
+    claim_status(report, program.run("sky", *SKY, "-o", "/absent/sky.exr"), 4)
+    claim_status(report, program.run("sky", "--environment", "perez:800,100", *SKY[2:3],
+                                     "2026-06-21T01:30+02:00", *SKY[4:]), 3, "below the horizon")
+    claim_status(report, program.run("sky", "--weather", "absent.epw", *SKY[2:4]), 3,
+                 "absent.epw")
+
+
 def is_png(path, width=None, height=None):
     if not os.path.exists(path):
         return False
@@ -177,7 +209,7 @@ def main():
         program = Program(os.path.abspath(sys.argv[-1]), folder)
         sound_scene().write(program.file("scene.gltf"))
         for check in (check_usage, check_help, check_inputs, check_outputs, check_answers,
-                      check_pictures):
+                      check_pictures, check_sky):
             try:
                 check(report, program)
             except (ValueError, KeyError, OSError, subprocess.TimeoutExpired) as error:
