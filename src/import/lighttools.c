@@ -36,12 +36,8 @@ typedef struct LightTools {
 
 static bool read_content(LightTools *in, Error *err)
 {
-    const char *word = scan_word(&in->scan);
     in->has_content = true;
-    in->is_xyz = word && !strcasecmp(word, "XYZ");
-    if (in->is_xyz || (word && !strcasecmp(word, "Monochrome"))) return true;
-    return scan_fail(&in->scan, err, "SpectralContent is '%s', wanted Monochrome or XYZ",
-                     word ? word : "");
+    return scan_spectral_content(&in->scan, &in->is_xyz, err);
 }
 
 static bool read_symmetry(LightTools *in, Error *err)

@@ -136,6 +136,15 @@ bool scan_list(Scan *scan, const char *what, int count, double **out, Error *err
     return true;
 }
 
+bool scan_spectral_content(Scan *scan, bool *is_xyz, Error *err)
+{
+    const char *word = scan_word(scan);
+    *is_xyz = word && !strcasecmp(word, "XYZ");
+    if (*is_xyz || (word && !strcasecmp(word, "Monochrome"))) return true;
+    return scan_fail(scan, err, "SpectralContent is '%s', wanted Monochrome or XYZ",
+                     word ? word : "");
+}
+
 bool scan_fail(const Scan *scan, Error *err, const char *format, ...)
 {
     char    text[512], place[32];

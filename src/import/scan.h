@@ -46,6 +46,9 @@ bool scan_count(Scan *scan, const char *what, int most, int *out, Error *err);
 /* `count` numbers into fresh memory. */
 bool scan_list(Scan *scan, const char *what, int count, double **out, Error *err);
 
+/* The word behind a "SpectralContent" keyword of .bsdf texts: Monochrome or XYZ. */
+bool scan_spectral_content(Scan *scan, bool *is_xyz, Error *err);
+
 /* An error at the current line. Always false. */
 bool scan_fail(const Scan *scan, Error *err, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
