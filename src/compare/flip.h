@@ -1,0 +1,49 @@
+/* flip.h -- FLIP and HDR-FLIP: how different two pictures look when one flips between them.
+ *
+ * Source   Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 2020;
+ *          Andersson et al., "Visualizing Errors in Rendered High Dynamic Range Images",
+ *          Eurographics 2021 short papers. Constants as of FLIP 1.6.
+ * Units    maps hold 0 (the same) .. 1. The reference comes first: HDR-FLIP is not symmetric.
+ * Memory   scratch by value. Threads: `threads` of its own for rows; the same bits for any.
+ */
+#pragma once
+#include <stdbool.h>
+
+#include "base/arena.h"
+#include "compare/planes.h"
+
+#define FLIP_PIXELS_PER_DEGREE 67.0206432766 /* 0.7 m from a screen of 0.7 m and 3840 pixels */
+
+typedef enum FlipToneMapper { FLIP_ACES, FLIP_REINHARD, FLIP_HABLE } FlipToneMapper;
+
+typedef struct FlipOptions {
+    double pixels_per_degree; /* 0: FLIP_PIXELS_PER_DEGREE */
+    int    threads;           /* at least 1 */
+    FlipToneMapper tone_mapper; /* HDR */
+    bool   has_range;         /* HDR: the exposures below, else from the reference */
+    double start_ev, stop_ev; /* HDR: light is multiplied by 2^ev; start <= stop */
+    int    exposures;         /* HDR: 0: ceil(stop - start), at least 2 */
+} FlipOptions;
+
+/* Linear Rec.709 0 .. 1. map: width * height values. */
+void flip_ldr(const Planes *reference, const Planes *test, const FlipOptions *options,
+              Arena scratch, float *map);
+
+/* What HDR-FLIP used. */
+typedef struct FlipExposures {
+    double start_ev, stop_ev;
+    int    count;
+} FlipExposures;
+
+/* Linear Rec.709 of any scale; negative values count as 0. For every pixel the greatest
+ * LDR-FLIP of all exposures. The range comes from the whole reference, sun included: where one
+ * is in view, nearly all exposures are black, so give a range. A black reference has no range:
+ * from 0 to 1. exposure_map (may be NULL): the index of the exposure that decided. */
+FlipExposures flip_hdr(const Planes *reference, const Planes *test, const FlipOptions *options,
+                       Arena scratch, float *map, float *exposure_map);
+
+typedef struct FlipSummary {
+    double mean, median, p95, max;
+} FlipSummary;
+
+FlipSummary flip_summary(const float *map, size_t count, PixelMask mask, Arena scratch);
