@@ -46,4 +46,5 @@ typedef struct FlipSummary {
     double mean, median, p95, max;
 } FlipSummary;
 
-FlipSummary flip_summary(const float *map, size_t count, PixelMask mask, Arena scratch);
+/* Over the pixels that count; NaN when none does. */
+FlipSummary flip_summary(const float *map, size_t count, PixelMask mask);
