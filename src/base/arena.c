@@ -6,21 +6,48 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
+/* Threads may still be at work: their libraries' tables must not be taken down under them. */
 static void exit_when_full(size_t bytes_wanted, size_t bytes_left)
 {
     fprintf(stderr, "parhelion: out of memory: %zu bytes wanted, %zu left\n", bytes_wanted,
             bytes_left);
-    exit(3);
+    fflush(stderr);
+    _exit(3);
+}
+
+#define PAGE ((size_t)1 << 16)
+
+static char *map_pages(size_t size)
+{
+    char *memory = mmap(NULL, size, PROT_READ | PROT_WRITE,
+                        MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    return memory == MAP_FAILED ? NULL : memory;
+}
+
+/* Where the address space is limited (ulimit -v, batch systems): half of the largest power of
+ * two that could be had, so that libraries and further arenas find room too. */
+static char *map_part(size_t *size)
+{
+    size_t power = PAGE;
+    while (power <= *size / 2) power *= 2;
+    for (; power >= 2 * PAGE; power /= 2) {
+        char *memory = map_pages(power);
+        if (!memory) continue;
+        munmap(memory + power / 2, power / 2);
+        *size = power / 2;
+        return memory;
+    }
+    return NULL;
 }
 
 Arena arena_reserve(size_t bytes)
 {
-    size_t page = 1u << 16;
-    size_t size = (bytes + page - 1) / page * page;
-    char  *memory = mmap(NULL, size, PROT_READ | PROT_WRITE,
-                         MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    if (memory == MAP_FAILED) exit_when_full(size, 0);
+    size_t size = (bytes + PAGE - 1) / PAGE * PAGE;
+    char  *memory = map_pages(size);
+    if (!memory) memory = map_part(&size);
+    if (!memory) exit_when_full(size, 0);
     return (Arena){.next = memory, .end = memory + size, .on_full = exit_when_full,
                    .begin = memory};
 }

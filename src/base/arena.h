@@ -2,7 +2,8 @@
  *
  * Memory   arena_reserve maps address space; pages cost nothing until they are touched.
  * Threads  one arena belongs to one thread at a time.
- * Fails    running out is one exit path: on_full is called and must not return.
+ * Fails    running out is one exit path: on_full is called and must not return. The one that
+ *          arena_reserve sets says so in a line and ends the process with status 3.
  *
  * A function that keeps memory takes an `Arena *`; one that needs only scratch takes an
  * `Arena` by value: the copy is dropped at return, and the memory is back.  Scratch that was
@@ -22,7 +23,8 @@ typedef struct Arena {
     char *begin;
 } Arena;
 
-/* An arena over `bytes` of fresh address space (rounded up to pages). */
+/* An arena over `bytes` of fresh address space (rounded up to pages); less where the process
+ * may not have so much (ulimit -v). */
 Arena arena_reserve(size_t bytes);
 
 /* Gives the address space back; everything from the arena is gone. */

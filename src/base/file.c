@@ -75,6 +75,39 @@ static bool output_error(const char *path, const char *what, int reason, Error *
     return error_at(err, ERROR_OUTPUT, path, "", "cannot be %s: %s", what, strerror(reason));
 }
 
+/* A device or a pipe takes the bytes itself: a rename would put a file in its place. */
+static bool is_special(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
+}
+
+/* A rename would also replace what its owner has protected. */
+static bool is_protected(const char *path)
+{
+    return access(path, W_OK) != 0 && errno != ENOENT;
+}
+
+bool file_check_writable(const char *path, Error *err)
+{
+    char temporary[4096];
+    struct stat info;
+    if (stat(path, &info) == 0 && S_ISDIR(info.st_mode))
+        return output_error(path, "written", EISDIR, err);
+    if (is_protected(path)) return output_error(path, "written", errno, err);
+    if (is_special(path)) return true;
+    int length = snprintf(temporary, sizeof temporary, "%s.%ld.part", path, (long)getpid());
+    int file = length < (int)sizeof temporary
+                   ? open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600)
+                   : -1;
+    if (file < 0)
+        return output_error(path, "written",
+                            length < (int)sizeof temporary ? errno : ENAMETOOLONG, err);
+    close(file);
+    unlink(temporary);
+    return true;
+}
+
 /* The rename is durable only when the folder is written too; a file system that cannot do
  * that for folders is not a reason to fail. */
 static void sync_folder(const char *path)
@@ -95,6 +128,10 @@ bool file_commit(const char *temporary, const char *path, Error *err)
     bool synced = file >= 0 && fsync(file) == 0;
     int reason = errno;
     if (file >= 0 && close(file) != 0 && synced) {
+        synced = false;
+        reason = errno;
+    }
+    if (synced && is_protected(path)) {
         synced = false;
         reason = errno;
     }
@@ -122,13 +159,6 @@ static bool write_all(int file, const char *bytes, size_t size)
         size -= (size_t)n;
     }
     return true;
-}
-
-/* A device or a pipe takes the bytes itself: a rename would put a file in its place. */
-static bool is_special(const char *path)
-{
-    struct stat info;
-    return stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
 }
 
 static bool write_special(const char *path, const void *bytes, size_t size, Error *err)

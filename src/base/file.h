@@ -28,6 +28,10 @@ bool file_exists(const char *path);
 
 /* ---- writing: temporary name, fsync, rename -------------------------------------------- */
 
+/* Whether `path` could be written, before hours of work: not over a folder, nor over a file that
+ * its owner has write-protected. Leaves nothing behind. */
+bool file_check_writable(const char *path, Error *err);
+
 /* A name beside `path`, for a writer that wants a path; unlike any other process's. */
 char *file_temporary_name(const char *path, Arena *arena);
 

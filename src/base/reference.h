@@ -1,0 +1,23 @@
+/* reference.h -- where a path leads that stands inside a file, and how far it may lead.
+ *
+ * Whoever sends a scene or a measurement set must not be able to make the program read what
+ * they cannot see themselves. So a file may name only what lies, symbolic links followed, in
+ * the parent of its own folder or below; the user may add one more folder (--root DIR). What
+ * the user names on the command line is not limited.
+ *
+ * Memory   paths lie in the arena.
+ * Threads  no shared state.
+ * Fails    ERROR_INPUT with the path as it was written and what is wanted; file and place are
+ *          the caller's to add. What does not exist passes: opening it tells more.
+ */
+#pragma once
+#include "base/arena.h"
+#include "base/error.h"
+
+/* `relative`, decoded, as it stands in the file `from`. root: a folder whose files may be named
+ * as well; NULL: none. */
+bool reference_resolve(const char *from, const char *relative, const char *root, Arena *arena,
+                       const char **out, Error *err);
+
+/* That the folder of --root is there. NULL is fine. */
+bool reference_check_root(const char *root, Error *err);
