@@ -3,6 +3,7 @@
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -33,29 +34,55 @@ static bool check_size(const char *path, const struct stat *info, size_t max_byt
     return true;
 }
 
-bool file_read(const char *path, size_t max_bytes, Arena *arena, FileBytes *out, Error *err)
+/* Opens a regular file of at most max_bytes; -1 after an error. */
+static int open_regular(const char *path, size_t max_bytes, size_t *size, Error *err)
 {
     int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     struct stat info;
     if (file < 0 || fstat(file, &info) != 0) {
         int reason = errno;
         if (file >= 0) close(file);
-        return error_at(err, ERROR_INPUT, path, "", "cannot be opened: %s", strerror(reason));
+        error_at(err, ERROR_INPUT, path, "", "cannot be opened: %s", strerror(reason));
+        return -1;
     }
     if (!check_size(path, &info, max_bytes, err)) {
         close(file);
-        return false;
+        return -1;
     }
-    size_t size = (size_t)info.st_size, got = 0;
+    *size = (size_t)info.st_size;
+    return file;
+}
+
+/* `size` bytes, or what there is; closes the file. */
+static bool read_and_close(int file, const char *path, size_t size, Arena *arena,
+                           FileBytes *out, Error *err)
+{
+    size_t         got = 0;
     unsigned char *bytes = ARENA_NEW(arena, unsigned char, size + 1);
-    bool done = read_all(file, bytes, size, &got);
-    int reason = errno;
+    bool           done = read_all(file, bytes, size, &got);
+    int            reason = errno;
     close(file);
     if (!done)
         return error_at(err, ERROR_INPUT, path, "", "cannot be read: %s", strerror(reason));
     bytes[got] = 0;
     *out = (FileBytes){bytes, got};
     return true;
+}
+
+bool file_read(const char *path, size_t max_bytes, Arena *arena, FileBytes *out, Error *err)
+{
+    size_t size;
+    int    file = open_regular(path, max_bytes, &size, err);
+    return file >= 0 && read_and_close(file, path, size, arena, out, err);
+}
+
+bool file_read_start(const char *path, size_t max_bytes, Arena *arena, FileBytes *out,
+                     Error *err)
+{
+    size_t size;
+    int    file = open_regular(path, SIZE_MAX, &size, err);
+    return file >= 0 && read_and_close(file, path, size < max_bytes ? size : max_bytes, arena,
+                                       out, err);
 }
 
 bool file_exists(const char *path)

@@ -23,6 +23,10 @@ typedef struct FileBytes {
 /* Reads a regular file of at most max_bytes. */
 bool file_read(const char *path, size_t max_bytes, Arena *arena, FileBytes *out, Error *err);
 
+/* Its first bytes: at most max_bytes of them, of a file of any length. */
+bool file_read_start(const char *path, size_t max_bytes, Arena *arena, FileBytes *out,
+                     Error *err);
+
 /* True when something that can be opened for reading stands there. */
 bool file_exists(const char *path);
 

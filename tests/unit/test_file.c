@@ -46,6 +46,25 @@ static void what_was_written_is_read_back(void **state)
     unlink(path);
 }
 
+static void the_start_is_read_of_a_file_of_any_length(void **state)
+{
+    (void)state;
+    Error     err;
+    FileBytes bytes;
+    const char *path = in_folder("long.bin");
+    assert_true(file_write(path, "abcdef", 6, &err));
+    assert_true(file_read_start(path, 4, &arena, &bytes, &err));
+    assert_int_equal(bytes.size, 4);
+    assert_memory_equal(bytes.data, "abcd", 5); /* and a zero behind */
+    assert_true(file_read_start(path, 9, &arena, &bytes, &err));
+    assert_int_equal(bytes.size, 6);
+    unlink(path);
+    assert_false(file_read_start(path, 4, &arena, &bytes, &err));
+    assert_non_null(strstr(err.text, "cannot be opened: No such file"));
+    assert_false(file_read_start(folder, 4, &arena, &bytes, &err));
+    assert_non_null(strstr(err.text, "is a folder, a file is wanted"));
+}
+
 static void a_file_that_cannot_be_written_leaves_nothing(void **state)
 {
     (void)state;
@@ -159,6 +178,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_was_written_is_read_back),
+        cmocka_unit_test(the_start_is_read_of_a_file_of_any_length),
         cmocka_unit_test(a_file_that_cannot_be_written_leaves_nothing),
         cmocka_unit_test(reading_names_what_is_wrong),
         cmocka_unit_test(paths_are_joined_and_measured),
