@@ -30,10 +30,20 @@ double pow_d(double x, double y);
 /* 2^x, as pow_d. */
 double exp2_d(double x);
 
-/* 1.5 ulp up to |x| = 1e5, absolute error 2e-16 |x| / 1e5 beyond. */
+/* 1.5 ulp up to |x| = 1e5, absolute error 2e-16 |x| beyond 1e6. */
 double sin_d(double x);
 double cos_d(double x);
 double tan_d(double x); /* 3 ulp */
+
+static inline float sin_of(float x)
+{
+    return (float)sin_d((double)x);
+}
+
+static inline float cos_of(float x)
+{
+    return (float)cos_d((double)x);
+}
 
 /* 2 ulp; the ranges are the C library's, atan2(0, 0) = 0 included. */
 double atan_d(double x);
@@ -41,8 +51,8 @@ double atan2_d(double y, double x);
 double asin_d(double x); /* of |x| > 1: NaN */
 double acos_d(double x);
 
-/* 1 - erf(x), within 5e-15 of the value for x up to 26, 0 above 27.3: the upper tail of a normal
- * distribution is erfc_d(z / sqrt 2) / 2. */
+/* 1 - erf(x), within 5e-15 of the value for x up to 26, 0 above 27.3: the upper tail of a
+ * normal distribution is erfc_d(z / sqrt 2) / 2. */
 double erfc_d(double x);
 
 /* sqrt(x^2 + y^2), 2 ulp, where the squares neither overflow nor vanish. */

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/mathd.h"
 #include "hemisphere/vertex_code.h"
 #include "hemisphere/vertex_view.h"
 
@@ -119,8 +120,8 @@ static bool refuse_vertex(const Coder *c, uint32_t vertex, Error *err)
     double degrees = 57.29577951308232;
     return error_set(err, ERROR_INPUT,
                      "vertex tree: no stored value is accepted at theta %.2f deg, phi %.2f deg",
-                     degrees * atan2(hypot((double)d.x, (double)d.y), (double)d.z),
-                     degrees * atan2((double)d.y, (double)d.x));
+                     degrees * atan2_d(hypot_d((double)d.x, (double)d.y), (double)d.z),
+                     degrees * atan2_d((double)d.y, (double)d.x));
 }
 
 #define LEAST_EXPONENT (-12)

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/file.h"
+#include "base/mathd.h"
 #include "base/units.h"
 
 #define INCIDENCE_STEP_DEG 10
@@ -19,11 +20,11 @@ HalfAngles half_angles(Direction light, Direction leaving)
     direction_to_degrees(half, &out.half_theta, &out.half_phi);
     double    theta = radians_from_degrees(out.half_theta);
     double    phi = radians_from_degrees(out.half_phi);
-    Direction down = {cos(theta) * cos(phi), cos(theta) * sin(phi), -sin(theta)};
-    Direction around = {-sin(phi), cos(phi), 0};
+    Direction down = {cos_d(theta) * cos_d(phi), cos_d(theta) * sin_d(phi), -sin_d(theta)};
+    Direction around = {-sin_d(phi), cos_d(phi), 0};
     double    x = direction_dot(light, down), y = direction_dot(light, around);
-    out.diff_theta = degrees_from_radians(atan2(hypot(x, y), direction_dot(light, half)));
-    out.diff_phi = degrees_from_radians(atan2(y, x));
+    out.diff_theta = degrees_from_radians(atan2_d(hypot_d(x, y), direction_dot(light, half)));
+    out.diff_phi = degrees_from_radians(atan2_d(y, x));
     if (out.half_phi > 180) out.half_phi -= 360;
     return out;
 }
@@ -54,7 +55,7 @@ static int ring_points(const double *ring, int count, int i)
 {
     double low = i ? ring[i - 1] : 0, high = i + 1 < count ? ring[i + 1] : 90;
     if (ring[i] <= 0) return 1;
-    double points = 360 * sin(radians_from_degrees(ring[i])) / fmax(high - low, 1e-6);
+    double points = 360 * sin_d(radians_from_degrees(ring[i])) / fmax(high - low, 1e-6);
     points = fmin(fmax(points, RING_LEAST), RING_MOST);
     return 4 * (int)ceil(points / 4);
 }

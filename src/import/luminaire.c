@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/mathd.h"
 #include "base/units.h"
 #include "import/import_text.h"
 
@@ -69,7 +70,7 @@ static int expand_planes(const Luminaire *in, Plane *plane)
 static double ring_integral(double a, double b, double at_a, double at_b)
 {
     double slope = (at_b - at_a) / (b - a);
-    return at_a * cos(a) - at_b * cos(b) + slope * (sin(b) - sin(a));
+    return at_a * cos_d(a) - at_b * cos_d(b) + slope * (sin_d(b) - sin_d(a));
 }
 
 /* Of one plane from gamma 0 up to a limit, lm a radian of azimuth. */
@@ -152,7 +153,7 @@ static void fill(const Luminaire *in, const Plane *plane, int count,
     double *value = (double *)table->value;
     for (int i = 0; i < count; i++)
         for (int k = 0; k < in->gammas; k++) {
-            double gamma = in->gamma_deg[k], cosine = cos(radians_from_degrees(gamma));
+            double gamma = in->gamma_deg[k], cosine = cos_d(radians_from_degrees(gamma));
             if (gamma > 90 - 1e-6) break; /* a flat face has no luminance at its horizon */
             size_t at = (size_t)plane[i].source * (size_t)in->gammas + (size_t)k;
             theta[table->rows] = gamma;

@@ -10,6 +10,7 @@
 #include <strings.h>
 
 #include "base/file.h"
+#include "base/mathd.h"
 #include "base/units.h"
 #include "import/importers.h"
 #include "import/scan.h"
@@ -131,7 +132,7 @@ static bool put_row(Mountain *in, ScatterRows *rows, Error *err)
         in->grazing++;
         return true;
     }
-    if (in->has_cosine) one /= cos(radians_from_degrees(theta));
+    if (in->has_cosine) one /= cos_d(radians_from_degrees(theta));
     scatter_put_measured(rows, theta, phi + 180 - in->phi, &one);
     return true;
 }

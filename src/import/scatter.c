@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/mathd.h"
 #include "base/units.h"
 
 /* ---- directions -------------------------------------------------------------------------- */
@@ -12,14 +13,14 @@
 Direction direction_from_degrees(double theta_deg, double phi_deg)
 {
     double theta = radians_from_degrees(theta_deg), phi = radians_from_degrees(phi_deg);
-    return (Direction){sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta)};
+    return (Direction){sin_d(theta) * cos_d(phi), sin_d(theta) * sin_d(phi), cos_d(theta)};
 }
 
 void direction_to_degrees(Direction d, double *theta_deg, double *phi_deg)
 {
-    double across = hypot(d.x, d.y);
-    double phi = degrees_from_radians(atan2(d.y, d.x));
-    *theta_deg = degrees_from_radians(atan2(across, d.z));
+    double across = hypot_d(d.x, d.y);
+    double phi = degrees_from_radians(atan2_d(d.y, d.x));
+    *theta_deg = degrees_from_radians(atan2_d(across, d.z));
     *phi_deg = across < 1e-12 ? 0 : phi < 0 ? phi + 360 : phi;
 }
 
@@ -49,11 +50,11 @@ Direction direction_about_mirror(double incidence_deg, double radial_deg, double
     double    lean = radians_from_degrees(incidence_deg);
     double    radial = radians_from_degrees(radial_deg);
     double    azimuth = radians_from_degrees(azimuth_deg);
-    Direction mirror = {sin(lean), 0, cos(lean)};
-    Direction zero = {-cos(lean), 0, sin(lean)}; /* towards the normal */
+    Direction mirror = {sin_d(lean), 0, cos_d(lean)};
+    Direction zero = {-cos_d(lean), 0, sin_d(lean)}; /* towards the normal */
     Direction side = direction_cross(mirror, zero);
-    Direction tangent = direction_scaled_sum(zero, cos(azimuth), side, sin(azimuth));
-    return direction_scaled_sum(mirror, cos(radial), tangent, sin(radial));
+    Direction tangent = direction_scaled_sum(zero, cos_d(azimuth), side, sin_d(azimuth));
+    return direction_scaled_sum(mirror, cos_d(radial), tangent, sin_d(radial));
 }
 
 /* ---- rows -------------------------------------------------------------------------------- */
@@ -214,7 +215,7 @@ static double integrate_cell(const PolarCell *cell, double axis_deg)
             double value = (1 - v) * ((1 - u) * cell->value[0][0] + u * cell->value[0][1]) +
                            v * ((1 - u) * cell->value[1][0] + u * cell->value[1][1]);
             Direction d = direction_about_mirror(axis_deg, radial, cell->azimuth[0] + v * turn);
-            if (d.z > 0) sum += value * d.z * sin(radians_from_degrees(radial));
+            if (d.z > 0) sum += value * d.z * sin_d(radians_from_degrees(radial));
         }
     if (!across || !around) return 0;
     return sum * radians_from_degrees(width / across) * radians_from_degrees(turn / around);

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/mathd.h"
 #include "base/units.h"
 #include "import/importers.h"
 #include "import/scan.h"
@@ -47,7 +48,7 @@ static void divide_cosine(SpeosTable *table)
         double *value = table->value + (size_t)j * (size_t)table->thetas;
         for (int i = 0; i < table->thetas; i++) {
             if (table->theta_deg[i] <= GRAZING_DEG)
-                value[i] /= cos(radians_from_degrees(table->theta_deg[i]));
+                value[i] /= cos_d(radians_from_degrees(table->theta_deg[i]));
             else
                 value[i] = i ? value[i - 1] : 0;
         }
@@ -233,7 +234,7 @@ static void tell_brighter_back(const Speos *in, ImportSet *set)
         const SpeosTable *table = &in->table[t];
         for (int j = 0; j < table->phis; j++)
             for (int i = 0; i < table->thetas; i++) {
-                double across = cos(radians_from_degrees(table->phi_deg[j]));
+                double across = cos_d(radians_from_degrees(table->phi_deg[j]));
                 if (table->incidence_deg < 20 || table->theta_deg[i] < 20) continue;
                 if (across > 0.7071) front += table->value[j * table->thetas + i];
                 if (across < -0.7071) back += table->value[j * table->thetas + i];

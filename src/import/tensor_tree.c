@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/mathd.h"
 #include "base/units.h"
 #include "import/scatter.h"
 #include "import/window_xml.h"
@@ -107,12 +108,12 @@ static Direction direction_from_square(double u, double v)
         r = b;
         phi = b != 0 ? PI / 2 - PI / 4 * a / b : 0;
     }
-    return (Direction){r * cos(phi), r * sin(phi), sqrt(fmax(0, 1 - r * r))};
+    return (Direction){r * cos_d(phi), r * sin_d(phi), sqrt(fmax(0, 1 - r * r))};
 }
 
 static void square_from_disk(double x, double y, double square[2])
 {
-    double r = hypot(x, y), phi = atan2(y, x), a, b;
+    double r = hypot_d(x, y), phi = atan2_d(y, x), a, b;
     if (phi < -PI / 4) phi += 2 * PI; /* [-pi/4, 7 pi/4) */
     if (phi < PI / 4) {
         a = r;
@@ -198,14 +199,14 @@ static void walk_node(Walk *walk, const TensorNode *node, const double corner[RA
 
 static void place_light(Walk *walk, double incidence_deg, double mirror_deg)
 {
-    double s = sin(radians_from_degrees(incidence_deg));
+    double s = sin_d(radians_from_degrees(incidence_deg));
     double turn = radians_from_degrees(mirror_deg);
     walk->fixed = walk->tree->rank - 2;
     walk->mirror_deg = walk->fixed == 2 ? mirror_deg : 0;
     if (walk->fixed == 1)
         walk->light[0] = fmax(0, 0.5 - 1e-9 - 0.5 * s);
     else
-        square_from_disk(s * cos(turn), s * sin(turn), walk->light);
+        square_from_disk(s * cos_d(turn), s * sin_d(turn), walk->light);
 }
 
 static bool add_light(const TensorTree *tree, double incidence_deg, double mirror_deg,

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/mathd.h"
 #include "base/units.h"
 #include "import/text_reader.h"
 
@@ -106,19 +107,19 @@ static void pair_vector(AnglePair pair, double h, double v, double d[3])
 {
     switch (pair) {
     case ANGLES_PROJECTED: {
-        double x = tan(h), y = tan(v), length = sqrt(x * x + y * y + 1);
+        double x = tan_d(h), y = tan_d(v), length = sqrt(x * x + y * y + 1);
         d[0] = x / length, d[1] = y / length, d[2] = 1 / length;
         return;
     }
     case ANGLES_NORTH_POLAR:
-        d[0] = cos(v) * sin(h), d[1] = sin(v), d[2] = cos(v) * cos(h);
+        d[0] = cos_d(v) * sin_d(h), d[1] = sin_d(v), d[2] = cos_d(v) * cos_d(h);
         return;
     case ANGLES_EAST_POLAR:
-        d[0] = sin(h), d[1] = cos(h) * sin(v), d[2] = cos(h) * cos(v);
+        d[0] = sin_d(h), d[1] = cos_d(h) * sin_d(v), d[2] = cos_d(h) * cos_d(v);
         return;
     default: {
-        double theta = hypot(h, v), scale = theta > 0 ? sin(theta) / theta : 1;
-        d[0] = h * scale, d[1] = v * scale, d[2] = cos(theta);
+        double theta = hypot_d(h, v), scale = theta > 0 ? sin_d(theta) / theta : 1;
+        d[0] = h * scale, d[1] = v * scale, d[2] = cos_d(theta);
         return;
     }
     }
@@ -137,8 +138,8 @@ void text_direction(const TextReader *in, const double raw[2], double *theta_deg
     double d[3], to_radians = in->is_radians ? 1 : PI / 180;
     pair_vector(in->angles, raw[0] * to_radians, raw[1] * to_radians, d);
     if (in->declared->seen_from < 0) d[0] = -d[0];
-    *theta_deg = degrees_from_radians(atan2(hypot(d[0], d[1]), d[2]));
-    *phi_deg = turned(degrees_from_radians(atan2(d[1], d[0])));
+    *theta_deg = degrees_from_radians(atan2_d(hypot_d(d[0], d[1]), d[2]));
+    *phi_deg = turned(degrees_from_radians(atan2_d(d[1], d[0])));
 }
 
 /* ---- values ------------------------------------------------------------------------------ */

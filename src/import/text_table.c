@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/mathd.h"
 #include "base/units.h"
 #include "import/text_reader.h"
 
@@ -156,7 +157,7 @@ static bool emission_values(const TextReader *in, const Channels *channels, int 
 static void reflection_values(const TextReader *in, const Channels *channels, int row,
                               double theta_deg, double *value, bool *is_masked)
 {
-    double cosine = cos(radians_from_degrees(theta_deg));
+    double cosine = cos_d(radians_from_degrees(theta_deg));
     double scale = 1;
     if (in->unit == UNIT_FACTOR)
         scale *=

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/mathd.h"
+
 
 #define PARTS_MAX 12 /* with tiles of their own; the dimmest share one */
 #define FINE_ENOUGH 0.2  /* of the part's mean square extent: a good third of its length */
@@ -292,7 +294,7 @@ static Frame display_frame_of(const Work *work, const Gathering *tile)
         uint32_t cell = work->order[tile->first + i];
         double   d2 = 0;
         for (int k = 0; k < 3; k++)
-            d2 += pow((double)work->position[cell][k] - tile->centre[k], 2);
+            d2 += pow_d((double)work->position[cell][k] - tile->centre[k], 2);
         if (d2 < least) nearest = cell;
         if (d2 < least) least = d2;
     }

@@ -1,5 +1,6 @@
 #include "light/sky.h"
 
+#include "base/mathd.h"
 #include "base/units.h"
 #include "spectrum/photometry.h"
 
@@ -9,9 +10,9 @@
 
 static Vec3 direction_of(float scene_azimuth, float elevation)
 {
-    double c = cos((double)elevation);
-    return vec3((float)(c * sin((double)scene_azimuth)), (float)sin((double)elevation),
-                (float)(-c * cos((double)scene_azimuth)));
+    double c = cos_d((double)elevation);
+    return vec3((float)(c * sin_d((double)scene_azimuth)), (float)sin_d((double)elevation),
+                (float)(-c * cos_d((double)scene_azimuth)));
 }
 
 /* A black body scaled to a luminance of 1 cd m^-2. */
@@ -26,7 +27,7 @@ static void black_body_curve(double kelvin, Curve *out)
 /* A disc of this radius at a place of the sky. */
 static void place_sun(Sky *sky, double radius, float scene_azimuth, float elevation)
 {
-    double half = sin(radius / 2);
+    double half = sin_d(radius / 2);
     sky->has_sun = true;
     sky->sun_direction = vec3_normalize(direction_of(scene_azimuth, elevation));
     sky->sun_radius = (float)radius;
@@ -36,7 +37,7 @@ static void place_sun(Sky *sky, double radius, float scene_azimuth, float elevat
 
 static void build_sun(const Environment *environment, float turn, Sky *sky)
 {
-    double radius = (double)environment->sun_angular_radius, disc = sin(radius);
+    double radius = (double)environment->sun_angular_radius, disc = sin_d(radius);
     place_sun(sky, radius, environment->sun_azimuth - turn, environment->sun_elevation);
     sky->sun_luminance =
         (float)((double)environment->sun_illuminance_lx / (PI * disc * disc));

@@ -1,5 +1,6 @@
 #include "light/sky_model.h"
 
+#include "base/mathd.h"
 #include "base/parallel.h"
 #include "base/units.h"
 
@@ -14,8 +15,8 @@ static void place_edges(SkyModel *model, double horizon)
         double share = (double)i / SKY_MODEL_ROWS, square = share * share;
         double above = horizon + (PI / 2 - horizon) * square;
         double below = horizon - (PI / 2 + horizon) * square;
-        model->edge[SKY_MODEL_ROWS + i] = (float)sin(above);
-        model->edge[SKY_MODEL_ROWS - i] = (float)sin(below);
+        model->edge[SKY_MODEL_ROWS + i] = (float)sin_d(above);
+        model->edge[SKY_MODEL_ROWS - i] = (float)sin_d(below);
     }
 }
 
@@ -28,7 +29,8 @@ static double cell_luminance(const SkyModel *model, int row, int column)
             float t = ((float)i + 0.5f) / 3, u = ((float)column + ((float)j + 0.5f) / 3);
             float sine = lerpf(model->edge[row], model->edge[row + 1], t);
             float azimuth = 2 * PI_F * u / SKY_MODEL_COLUMNS;
-            sum += (double)outside_luminance(model->outside, asinf(sine), azimuth);
+            sum +=
+                (double)outside_luminance(model->outside, (float)asin_d((double)sine), azimuth);
         }
     return sum / 9;
 }

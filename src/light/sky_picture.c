@@ -1,5 +1,6 @@
 #include "light/sky_picture.h"
 
+#include "base/mathd.h"
 #include "base/units.h"
 #include "spectrum/photometry.h"
 
@@ -47,7 +48,7 @@ static double cell_luminance(const SkyPicture *picture, int x, int y)
 static double pixel_solid_angle(const SkyPicture *picture, int y)
 {
     return 2 * PI / picture->width *
-           (cos(PI * y / picture->height) - cos(PI * (y + 1) / picture->height));
+           (cos_d(PI * y / picture->height) - cos_d(PI * (y + 1) / picture->height));
 }
 
 /* guide[k]: the last i with cdf[i] <= k / count (Chen and Asau 1974): one step or two from
@@ -101,10 +102,11 @@ static double horizontal_illuminance(const SkyPicture *picture)
 {
     double sum = 0;
     for (int y = 0; y < picture->height; y++) {
-        double low = sin(PI * y / picture->height), high = sin(PI * (y + 1) / picture->height);
-        double middle = cos(PI * (y + 0.5) / picture->height);
+        double low = sin_d(PI * y / picture->height),
+               high = sin_d(PI * (y + 1) / picture->height);
+        double middle = cos_d(PI * (y + 0.5) / picture->height);
         if (middle <= 0) continue;
-        double end = cos(PI * (y + 1) / picture->height) < 0 ? 1.0 : high;
+        double end = cos_d(PI * (y + 1) / picture->height) < 0 ? 1.0 : high;
         double weight = PI / picture->width * (end * end - low * low); /* cosine-weighted sr */
         for (int x = 0; x < picture->width; x++) sum += weight * cell_luminance(picture, x, y);
     }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/mathd.h"
 #include "base/units.h"
 
 #define SAME_ANGLE 2e-6f /* radians: two rings or azimuths nearer than this are one */
@@ -62,7 +63,7 @@ static float widest_azimuth_gap(const float *phi, int count, bool mirrored)
 /* Evenly spaced rings and azimuths, about as dense as the rows are. */
 static void even_grid(const AngleTable *table, DirectionGrid *grid, Arena *arena)
 {
-    float area = 2 * PI_F * (1 - cosf(table->theta_max));
+    float area = 2 * PI_F * (1 - cos_of(table->theta_max));
     float step = sqrtf(area / (float)table->rows);
     int   thetas = (int)fmaxf(2, ceilf(table->theta_max / step)) + 1;
     int   half = (int)fmaxf(2, ceilf(PI_F / step));
@@ -107,9 +108,9 @@ typedef struct Near {
 
 static void chord_axis(float theta, float phi, float out[3])
 {
-    out[0] = sinf(theta) * cosf(phi);
-    out[1] = sinf(theta) * sinf(phi);
-    out[2] = cosf(theta);
+    out[0] = sin_of(theta) * cos_of(phi);
+    out[1] = sin_of(theta) * sin_of(phi);
+    out[2] = cos_of(theta);
 }
 
 static float squared_chord(const float a[3], const float b[3])
@@ -172,9 +173,9 @@ static void fill_weights(const AngleTable *table, bool mirrored, const float at[
         double phi = (double)folded_phi(table->phi[list[i].row], mirrored);
         double turn = phi - (double)at[1];
         basis[i][0] = 1;
-        basis[i][1] = (theta * cos(turn) - (double)at[0]) / sqrt(scale);
-        basis[i][2] = theta * sin(turn) / sqrt(scale);
-        w[i] = exp(-4 * (double)list[i].distance / scale) + 1e-9;
+        basis[i][1] = (theta * cos_d(turn) - (double)at[0]) / sqrt(scale);
+        basis[i][2] = theta * sin_d(turn) / sqrt(scale);
+        w[i] = exp_d(-4 * (double)list[i].distance / scale) + 1e-9;
         for (int r = 0; r < 3; r++)
             for (int c = 0; c < 3; c++) m[r][c] += w[i] * basis[i][r] * basis[i][c];
         sum += w[i];

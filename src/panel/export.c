@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "base/file.h"
+#include "base/mathd.h"
 #include "base/units.h"
 #include "panel/fit.h"
 #include "panel/table_text.h"
@@ -26,6 +27,7 @@ typedef struct Export {
     const Panel         *panel;
     const ExportOptions *options;
     const char          *folder;
+    bool                 is_white_only; /* fitted to a white table */
     Arena                scratch;
     Progress             progress;
     int                  done;
@@ -64,7 +66,7 @@ static void rings_direction(const Rings *rings, int i, double degrees[2])
 static Vec3 direction_deg(double theta_deg, double phi_deg)
 {
     double t = radians_from_degrees(theta_deg), p = radians_from_degrees(phi_deg);
-    return vec3((float)(sin(t) * cos(p)), (float)(sin(t) * sin(p)), (float)cos(t));
+    return vec3((float)(sin_d(t) * cos_d(p)), (float)(sin_d(t) * sin_d(p)), (float)cos_d(t));
 }
 
 static bool write_file(Export *export, const char *name, const TableText *text, Arena arena)
@@ -119,7 +121,7 @@ static bool write_all_emission(Export *export, json_t *manifest)
 {
     json_t *emission = json_object();
     json_object_set_new(manifest, "emission", emission);
-    if (!panel_info_has_black(export->panel)) {
+    if (export->is_white_only) {
         json_object_set_new(emission, "white", json_string("emission/white.csv"));
         return write_emission(export, (double[]){255, 255, 255}, "emission/white.csv");
     }
@@ -168,10 +170,10 @@ static double image_of_mirror(double fwhm_deg, double incidence_deg, const doubl
 {
     if (!(fwhm_deg > 0)) return 0;
     double a = radians_from_degrees(incidence_deg), b = radians_from_degrees(degrees[0]);
-    double dt = sin(0.5 * (a - b)), dp = sin(0.5 * radians_from_degrees(degrees[1]));
-    double d = 2 * asin(sqrt(fmin(1, dt * dt + sin(a) * sin(b) * dp * dp)));
-    double sigma = radians_from_degrees(fwhm_deg) / sqrt(8 * log(2));
-    return exp(-0.5 * d * d / (sigma * sigma)) / (2 * PI * sigma * sigma * cos(a));
+    double dt = sin_d(0.5 * (a - b)), dp = sin_d(0.5 * radians_from_degrees(degrees[1]));
+    double d = 2 * asin_d(sqrt(fmin(1, dt * dt + sin_d(a) * sin_d(b) * dp * dp)));
+    double sigma = radians_from_degrees(fwhm_deg) / sqrt(8 * log_d(2));
+    return exp_d(-0.5 * d * d / (sigma * sigma)) / (2 * PI * sigma * sigma * cos_d(a));
 }
 
 typedef struct Light {
@@ -267,15 +269,17 @@ static bool write_all_brdf(Export *export, json_t *manifest)
 /* ---- the set --------------------------------------------------------------------------- */
 
 /* What the panel's report says of where it comes from. */
-static bool add_names(const Panel *panel, const char *name, json_t *manifest, Error *err)
+static bool add_names(Export *export, const char *name, json_t *manifest)
 {
     static const char *const keys[] = {"panel", "instrument", "pixels", "size_mm"};
     json_t *report = NULL;
-    if (!panel_report(panel, &report, err)) return false;
+    if (!panel_report(export->panel, &report, export->err)) return false;
+    export->is_white_only = json_is_true(json_object_get(json_object_get(report, "emission"),
+                                                         "white_only"));
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
         json_t *value = json_object_get(report, keys[i]);
-        if (json_is_string(value) || json_is_array(value))
-            json_object_set(manifest, keys[i], value);
+        bool    has_size = json_number_value(json_array_get(value, 0)) > 0;
+        if (json_is_string(value) || has_size) json_object_set(manifest, keys[i], value);
     }
     json_t *note = json_object_get(report, "note");
     json_object_set_new(manifest, "note", json_sprintf("%s%sexported from %s",
@@ -328,7 +332,7 @@ static int count_tables(const Panel *panel)
 static bool write_set(Export *export, const char *name)
 {
     json_t *manifest = json_object();
-    bool ok = make_folders(export) && add_names(export->panel, name, manifest, export->err) &&
+    bool ok = make_folders(export) && add_names(export, name, manifest) &&
               (!panel_info_emits(export->panel) || write_all_emission(export, manifest)) &&
               (!panel_reflects(export->panel) || write_all_brdf(export, manifest)) &&
               write_manifest(export, manifest);
@@ -365,9 +369,9 @@ bool panel_export(const Panel *panel, const char *name, const ExportOptions *opt
     while (length > 1 && folder[length - 1] == '/') length--;
     const char *final = arena_string(&arena, folder, length);
     const char *made = file_temporary_name(final, &arena);
-    Export export = {panel, options, made, arena,
-                     progress_start(options->progress, "export", "tables",
-                                    count_tables(panel)), 0, err};
+    Export export = {.panel = panel, .options = options, .folder = made, .scratch = arena,
+                     .progress = progress_start(options->progress, "export", "tables",
+                                                count_tables(panel)), .err = err};
     bool ok = write_set(&export, name) && put_in_place(made, final, err);
     progress_end(&export.progress, export.done);
     if (!ok) nftw(made, remove_one, 8, FTW_DEPTH | FTW_PHYS);
@@ -411,8 +415,9 @@ bool panel_export_table(const Panel *panel, const char *table, const ExportOptio
 {
     double rgb[3];
     Light  light;
-    Export export = {panel, options, NULL, arena_reserve((size_t)16 << 30),
-                     progress_start(options->progress, "export", "tables", 1), 0, err};
+    Export export = {.panel = panel, .options = options,
+                     .scratch = arena_reserve((size_t)16 << 30), .err = err,
+                     .progress = progress_start(options->progress, "export", "tables", 1)};
     bool   emits = panel_info_emits(panel), ok;
     if (emits && !strcmp(table, "primaries"))
         ok = write_spectra(&export, file);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/mathd.h"
 #include "base/units.h"
 #include "panel/fit_emission_parts.h"
 #include "panel/panel_query.h"
@@ -76,7 +77,8 @@ static double channel_noise(const EmissionModel *model, Arena scratch)
     double *list = ARENA_NEW(&scratch, double, channels);
     for (int c = 0; c < channels; c++) {
         for (int k = 0; k < n; k++)
-            list[c] += pow((double)rank->loading[c * n + k] * (double)model->score_noise[k], 2);
+            list[c] +=
+                pow_d((double)rank->loading[c * n + k] * (double)model->score_noise[k], 2);
         list[c] = sqrt(list[c]);
     }
     qsort(list, (size_t)channels, sizeof *list, fit_by_value);

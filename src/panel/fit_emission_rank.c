@@ -7,6 +7,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/mathd.h"
+#include "base/mathf.h"
 #include "panel/fit_emission_parts.h"
 #include "panel/principal.h"
 
@@ -68,9 +70,9 @@ static bool channel_power(const EmissionSamples *s, int channel, double *power)
     for (int i = 0; i < s->rows; i++) {
         float  sigma, e = added_light(s, i, channel, &sigma);
         double z = (double)s->direction[i].z;
-        if (acos(fmin(1, z)) < 0.8 * s->cone || z < (double)PANEL_LEAST_COS) continue;
+        if (acos_d(fmin(1, z)) < 0.8 * s->cone || z < (double)PANEL_LEAST_COS) continue;
         if (!(e > 5 * sigma)) continue;
-        double u = log(z), v = log((double)e);
+        double u = log_d(z), v = log_d((double)e);
         n++, x += u, y += v, xx += u * u, xy += u * v;
     }
     double spread = n * xx - x * x;
@@ -100,7 +102,7 @@ static float *start_logs(const EmissionSamples *s, float power, double *weight, 
             *to = NAN;
             if (isinf(sigma)) continue;
             float m = fmaxf(s->total[number(s, i, c)], 1e-9f), x = sigma / fmaxf(e, 1e-12f);
-            *to = logf(fmaxf(fmaxf(e, 0.3f * sigma), 1e-9f)) -
+            *to = log_f(fmaxf(fmaxf(e, 0.3f * sigma), 1e-9f)) -
                   emission_fall(power, s->direction[i]);
             sum += (double)*to;
             known++;
@@ -125,10 +127,10 @@ static Wish wish_of(const EmissionSamples *s, int row, int channel, const float 
     size_t at = number(s, row, channel);
     double sigma = (double)s->sigma[at];
     if (isinf(sigma)) return (Wish){0, 0};
-    double e = exp(fmin(60, (double)logs[channel]));
+    double e = exp_d(fmin(60, (double)logs[channel]));
     double rest = (double)s->total[at] - e;
     if (s->black >= 0 && !is_black_channel(s, channel))
-        rest -= exp(fmin(60, (double)logs[s->black + channel % 3]));
+        rest -= exp_d(fmin(60, (double)logs[s->black + channel % 3]));
     double far = fabs(rest) / sigma, weight = e / sigma * (e / sigma);
     if (far > HUBER) weight *= HUBER / far;
     return (Wish){fmin(1, fmax(-1, rest / fmax(e, 1e-30))), weight};
@@ -178,9 +180,9 @@ static double row_equation(const Work *work, size_t at, int channel, double *x, 
     const EmissionRank    *rank = work->rank;
     int    n = rank->components, dark = s->black + channel % 3;
     double sigma = (double)s->sigma[at];
-    double e = exp(fmin(60, (double)work->logs[channel])) / sigma, b = 0;
+    double e = exp_d(fmin(60, (double)work->logs[channel])) / sigma, b = 0;
     if (s->black >= 0 && !is_black_channel(s, channel))
-        b = exp(fmin(60, (double)work->logs[dark])) / sigma;
+        b = exp_d(fmin(60, (double)work->logs[dark])) / sigma;
     for (int k = 0; k < n; k++) {
         x[k] = e * (double)rank->loading[channel * n + k];
         if (b > 0) x[k] += b * (double)rank->loading[dark * n + k];
@@ -377,9 +379,9 @@ static double worst_rest(const Work *work, int *count)
         for (int c = 0; c < s->channels; c++) {
             size_t at = number(s, i, c);
             if (isinf(s->sigma[at]) || !(s->total[at] > 0)) continue;
-            double m = exp((double)work->logs[c]);
+            double m = exp_d((double)work->logs[c]);
             if (s->black >= 0 && !is_black_channel(s, c))
-                m += exp((double)work->logs[s->black + c % 3]);
+                m += exp_d((double)work->logs[s->black + c % 3]);
             double rest = fabs(m - (double)s->total[at]) - 5 * (double)s->sigma[at];
             worst = fmax(worst, rest / (double)s->total[at]);
             *count += rest > 0.25 * s->tolerance * (double)s->total[at];

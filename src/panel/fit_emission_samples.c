@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/mathd.h"
+#include "base/mathf.h"
 #include "base/units.h"
 #include "panel/direction_grid.h"
 #include "panel/fit_emission_parts.h"
@@ -39,7 +41,7 @@ static Resampler start_resampler(const AngleTable *table, Arena *arena)
     int    count = 3 * out.grid.thetas * out.grid.phis;
     for (int i = 0; i < count; i++) most[i % 3] = fmaxf(most[i % 3], cells[i]);
     for (int i = 0; i < count; i++)
-        cells[i] = logf(fmaxf(cells[i], fmaxf(1e-6f * most[i % 3], 1e-9f)));
+        cells[i] = log_f(fmaxf(cells[i], fmaxf(1e-6f * most[i % 3], 1e-9f)));
     out.cells = cells;
     return out;
 }
@@ -50,7 +52,7 @@ static bool resample(const Resampler *from, float theta, float phi, float value[
     GridTaps taps;
     direction_grid_taps(&from->grid, theta, phi, &taps);
     direction_grid_read(&taps, from->cells, 3, value);
-    for (int j = 0; j < 3; j++) value[j] = expf(value[j]);
+    for (int j = 0; j < 3; j++) value[j] = exp_f(value[j]);
     return theta <= from->table->theta_max + 1e-4f;
 }
 
@@ -81,8 +83,9 @@ static void put_row(EmissionSamples *out, int row, int channel, const float valu
         size_t at = (size_t)row * (size_t)out->channels + (size_t)(channel + j);
         double m = (double)value[j], scale = fmax(fabs(m), FIT_NO_LIGHT);
         out->total[at] = value[j];
-        out->sigma[at] = (float)sqrt(pow(noise->relative[j] * m, 2) + pow(noise->dim[j], 2) +
-                                     pow(LEAST_SIGMA * out->tolerance * scale, 2));
+        out->sigma[at] =
+            (float)sqrt(pow_d(noise->relative[j] * m, 2) + pow_d(noise->dim[j], 2) +
+                        pow_d(LEAST_SIGMA * out->tolerance * scale, 2));
     }
 }
 
@@ -186,7 +189,7 @@ static void measure_rows(EmissionSamples *out, Arena scratch)
         double low = fmax(0, 0.5 * (before + theta));
         double high = fmin(PI / 2, 0.5 * (theta + after));
         for (int k = i; k < end; k++)
-            out->area[k] = fmax(1e-9, (cos(low) - cos(high)) / (end - i));
+            out->area[k] = fmax(1e-9, (cos_d(low) - cos_d(high)) / (end - i));
         rings++;
         i = end;
     }

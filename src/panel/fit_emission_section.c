@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/mathd.h"
 #include "panel/fit_emission_parts.h"
 
 static void put(unsigned char **to, const void *from, size_t bytes)
@@ -69,7 +70,7 @@ static PanelEmissionHead section_head(const EmissionModel *model)
 {
     const EmissionSamples *s = model->samples;
     PanelEmissionHead head = {.components = (uint8_t)model->rank->components,
-        .has_black = s->black >= 0, .cone_cos = fmaxf(0, cosf((float)s->cone)),
+        .has_black = s->black >= 0, .cone_cos = fmaxf(0, (float)cos_d(s->cone)),
         .level_power = 2.2f, .cosine_power = model->rank->cosine_power};
     for (int p = 0; p < 3; p++)
         head.level_count[p] = (uint8_t)s->set->primary[p].level_count;

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/mathd.h"
 #include "base/units.h"
 #include "panel/fit_emission_parts.h"
 
@@ -41,13 +42,13 @@ typedef struct Taps {
 
 static void find_taps(const uint8_t *term, int terms, Vec3 d, Taps *out)
 {
-    double theta = atan2(hypot((double)d.x, (double)d.y), (double)d.z);
-    double phi = atan2((double)d.y, (double)d.x);
-    double log_cos = log(fmax((double)PANEL_LEAST_COS, (double)d.z));
+    double theta = atan2_d(hypot_d((double)d.x, (double)d.y), (double)d.z);
+    double phi = atan2_d((double)d.y, (double)d.x);
+    double log_cos = log_d(fmax((double)PANEL_LEAST_COS, (double)d.z));
     out->count = 0;
     for (int t = 0; t < terms; t++) {
         int    m = panel_spline_harmonic(term[t]);
-        double angle = term[t] == 0 ? 1 : term[t] % 2 ? cos(m * phi) : sin(m * phi);
+        double angle = term[t] == 0 ? 1 : term[t] % 2 ? cos_d(m * phi) : sin_d(m * phi);
         PanelSplineTaps taps = panel_spline_taps(m, theta);
         for (int i = 0; i < 5; i++) {
             double w = i < 4 ? (double)taps.weight[i] : log_cos;

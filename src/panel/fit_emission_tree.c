@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/mathd.h"
 #include "base/units.h"
 #include "hemisphere/tree_query.h"
 #include "hemisphere/vertex_tree.h"
@@ -197,7 +198,7 @@ static void find_wanted(Coder *coder)
         for (int k = 0; k < n; k++)
             components[k] += coder->value[(size_t)v * (size_t)n + (size_t)k];
         totals(model, components, d, coder->wanted + v * channels);
-        coder->limit[v] = acos(fmin(1, (double)d.z)) <= reach
+        coder->limit[v] = acos_d(fmin(1, (double)d.z)) <= reach
                               ? 0.75f * (float)model->tolerance : INFINITY;
     }
 }

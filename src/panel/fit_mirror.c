@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/mathd.h"
 #include "base/units.h"
 #include "panel/fit_parts.h"
 
@@ -44,8 +45,8 @@ typedef struct Model {
 
 static double angle_to(double theta, double phi, double incidence)
 {
-    double dt = sin(0.5 * (theta - incidence)), dp = sin(0.5 * phi);
-    return 2 * asin(sqrt(fmin(1, dt * dt + sin(theta) * sin(incidence) * dp * dp)));
+    double dt = sin_d(0.5 * (theta - incidence)), dp = sin_d(0.5 * phi);
+    return 2 * asin_d(sqrt(fmin(1, dt * dt + sin_d(theta) * sin_d(incidence) * dp * dp)));
 }
 
 static double row_mean(const AngleTable *slice, int row)
@@ -59,11 +60,11 @@ static double row_mean(const AngleTable *slice, int row)
 /* The image of a mirror of reflectance 1 at every spot: a Gaussian of the peak's width. */
 static void set_width(Window *window, double fwhm)
 {
-    double sigma = fwhm / sqrt(8 * log(2));
+    double sigma = fwhm / sqrt(8 * log_d(2));
     for (int i = 0; i < window->count; i++) {
         Spot *spot = &window->spot[i];
-        spot->image = exp(-0.5 * spot->angle * spot->angle / (sigma * sigma)) /
-                      (2 * PI * sigma * sigma * cos(window->incidence));
+        spot->image = exp_d(-0.5 * spot->angle * spot->angle / (sigma * sigma)) /
+                      (2 * PI * sigma * sigma * cos_d(window->incidence));
     }
 }
 
@@ -76,10 +77,10 @@ static Window collect(const AngleTable *slice, double incidence, double reach, A
         double angle = angle_to(theta, phi, incidence), mean = row_mean(slice, i);
         if (theta < radians_from_degrees(60)) window.floor = fmin(window.floor, mean);
         if (angle > reach || window.count == WINDOW_ROWS_MAX) continue;
-        double so = sin(theta), si = sin(incidence), sp = sin(0.5 * phi);
+        double so = sin_d(theta), si = sin_d(incidence), sp = sin_d(0.5 * phi);
         window.spot[window.count++] = (Spot){
             i, 0, (so - si) * (so - si) + 4 * so * si * sp * sp, theta - incidence,
-            sqrt(fit_fresnel(cos(theta)) / fit_fresnel(cos(incidence))), angle, mean};
+            sqrt(fit_fresnel(cos_d(theta)) / fit_fresnel(cos_d(incidence))), angle, mean};
     }
     window.stride = 1 + window.count / ENOUGH_ROWS;
     window.floor = fmax(0, fmin(window.floor, 1e29));
@@ -88,7 +89,7 @@ static Window collect(const AngleTable *slice, double incidence, double reach, A
 
 static double haze_shape(const Model *model, const Spot *spot)
 {
-    return spot->gain * pow(1 + spot->b2 / (model->width * model->width), -model->power);
+    return spot->gain * pow_d(1 + spot->b2 / (model->width * model->width), -model->power);
 }
 
 static double model_haze(const Model *model, const Spot *spot)
@@ -147,17 +148,17 @@ static double solve_window(const Window *window, int wavelength, double floor, M
 /* The best width for a power: golden section over its logarithm. */
 static double best_width(const Window *window, double fwhm, Model *model)
 {
-    double low = log(0.5 * fwhm), high = log(40 * fwhm), rest = 0;
+    double low = log_d(0.5 * fwhm), high = log_d(40 * fwhm), rest = 0;
     for (int i = 0; i < 14; i++) {
         double a = high - 0.618034 * (high - low), b = low + 0.618034 * (high - low);
-        model->width = exp(a);
+        model->width = exp_d(a);
         double left = solve_window(window, -1, window->floor, model);
-        model->width = exp(b);
+        model->width = exp_d(b);
         double right = solve_window(window, -1, window->floor, model);
         if (left < right) high = b;
         else low = a;
     }
-    model->width = exp(0.5 * (low + high));
+    model->width = exp_d(0.5 * (low + high));
     rest = solve_window(window, -1, window->floor, model);
     return rest;
 }
@@ -165,18 +166,18 @@ static double best_width(const Window *window, double fwhm, Model *model)
 /* Width and power of the haze under the image, the same for all wavelengths. */
 static Model choose_haze(const Window *window, double fwhm)
 {
-    double low = log(1.05), high = log(4.0);
+    double low = log_d(1.05), high = log_d(4.0);
     Model  model = {0};
     for (int i = 0; i < 10; i++) {
         double a = high - 0.618034 * (high - low), b = low + 0.618034 * (high - low);
-        model.power = exp(a);
+        model.power = exp_d(a);
         double left = best_width(window, fwhm, &model);
-        model.power = exp(b);
+        model.power = exp_d(b);
         double right = best_width(window, fwhm, &model);
         if (left < right) high = b;
         else low = a;
     }
-    model.power = exp(0.5 * (low + high));
+    model.power = exp_d(0.5 * (low + high));
     best_width(window, fwhm, &model);
     return model;
 }
@@ -230,7 +231,7 @@ void fit_mirror(const AngleTable *slice, double incidence, double fwhm, Arena *a
     if (window.count < 12) return;
     set_width(&window, fwhm);
     Model  model = choose_haze(&window, fwhm);
-    double peak = model.r * 4 * log(2) / (PI * fwhm * fwhm * cos(incidence));
+    double peak = model.r * 4 * log_d(2) / (PI * fwhm * fwhm * cos_d(incidence));
     if (!(peak > 0.05 * (model.a + window.floor))) return; /* no image stands out of the haze */
     window.stride = 1;
     take_out(&window, fwhm, model, reflectance, value);
@@ -266,23 +267,23 @@ static double rest_of_width(Window *window, double fwhm, double haze, Model *mod
 /* The width that leaves the least, by golden section over its logarithm. haze: begins there. */
 static double choose_width(Window *window, const double range[2], double haze, Model *model)
 {
-    double low = log(range[0]), high = log(range[1]);
+    double low = log_d(range[0]), high = log_d(range[1]);
     double a = high - 0.618034 * (high - low), b = low + 0.618034 * (high - low);
-    double left = rest_of_width(window, exp(a), haze, model);
-    double right = rest_of_width(window, exp(b), haze, model);
+    double left = rest_of_width(window, exp_d(a), haze, model);
+    double right = rest_of_width(window, exp_d(b), haze, model);
     for (int i = 0; i < 12; i++) {
         if (left < right) {
             high = b, b = a, right = left;
             a = high - 0.618034 * (high - low);
-            left = rest_of_width(window, exp(a), haze, model);
+            left = rest_of_width(window, exp_d(a), haze, model);
         } else {
             low = a, a = b, left = right;
             b = low + 0.618034 * (high - low);
-            right = rest_of_width(window, exp(b), haze, model);
+            right = rest_of_width(window, exp_d(b), haze, model);
         }
     }
-    rest_of_width(window, exp(0.5 * (low + high)), haze, model);
-    return exp(0.5 * (low + high));
+    rest_of_width(window, exp_d(0.5 * (low + high)), haze, model);
+    return exp_d(0.5 * (low + high));
 }
 
 /* rms of what the model leaves where the peak is the larger part, relative. */
@@ -312,7 +313,7 @@ bool fit_lobe(const AngleTable *slice, double incidence, double noise, Arena *ar
     double fwhm = choose_width(&window, (double[2]){0.5 * guess, 2 * guess}, 2 * guess, &model);
     double rest = solve_window(&window, -1, window.floor, &model);
     double most = LOBE_REST + 2 * noise;
-    double peak = 4 * log(2) / (PI * fwhm * fwhm * cos(incidence));
+    double peak = 4 * log_d(2) / (PI * fwhm * fwhm * cos_d(incidence));
     if (!(model.r * peak > LOBE_HEIGHT * (model.a + window.floor)) || rest > most ||
         core_rest(&window, &model) > most)
         return false;

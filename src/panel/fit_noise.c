@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/mathd.h"
 #include "base/units.h"
 #include "panel/fit_parts.h"
 
@@ -72,7 +73,7 @@ static bool high_difference(const AngleTable *table, DifferenceKind kind, int ro
         if (row < 0) return false;
         double value = value_at(table, row, ask->channel);
         if (in_logs && !(value > 0)) return false;
-        double term = binomial * (in_logs ? log(value) : value);
+        double term = binomial * (in_logs ? log_d(value) : value);
         sum += k % 2 ? -term : term;
         squares += binomial * binomial;
         all += value;

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/mathd.h"
 #include "base/units.h"
 #include "panel/fit_parts.h"
 
@@ -34,7 +35,7 @@ typedef struct Search {
 static double log_of(const Search *search, int row, int channel)
 {
     double value = (double)search->table->value[3 * (size_t)row + (size_t)channel];
-    return log(fmax(value, search->least[channel]));
+    return log_d(fmax(value, search->least[channel]));
 }
 
 /* ln of a value over its ring's median. */
@@ -99,9 +100,9 @@ static bool stands_out(const Search *search, int row, const int near[4])
         Expected expected = expected_of(search, near, j);
         double   value = level_of(search, row, j), ring = (double)search->ring[3 * row + j];
         bool     is_far = expected.count > 0 && fmax(value, expected.level[0]) + ring >
-                                                    log(100 * FIT_NO_LIGHT);
+                                                    log_d(100 * FIT_NO_LIGHT);
         for (int k = 0; k < expected.count; k++) {
-            double dim = search->dim[j] / exp(fmin(value, expected.level[k]) + ring);
+            double dim = search->dim[j] / exp_d(fmin(value, expected.level[k]) + ring);
             double sigma = sqrt(search->noise[j] * search->noise[j] + dim * dim);
             is_far &= fabs(value - expected.level[k]) > fmax(SIGMAS * sigma, expected.limit[k]);
         }
@@ -182,7 +183,7 @@ int fit_find_outliers(const AngleTable *table, uint8_t *is_outlier, FitFlags *fl
         found++;
         add_flag(flags, (FitFlag){table->name, (double)table->theta[i], (double)table->phi[i],
                                   (double)table->value[3 * (size_t)i + 1],
-                                  exp(expected_of(&search, near, 1).level[0] +
+                                  exp_d(expected_of(&search, near, 1).level[0] +
                                       (double)search.ring[3 * (size_t)i + 1])});
     }
     return found;

@@ -1,6 +1,7 @@
 /* Where a fit reads its functions, and the smooth part that the trees leave out. */
 #include <math.h>
 
+#include "base/mathd.h"
 #include "base/units.h"
 #include "hemisphere/geodesic.h"
 #include "panel/fit_parts.h"
@@ -25,8 +26,8 @@ FitPlaces fit_places(int level, int octants, Arena *arena)
         double theta = fmin(radians_from_degrees(0.5 * (i / FIT_RING)), 0.5 * PI - 1e-4);
         double phi = ring_azimuth(&places, i);
         places.direction[places.leaves + i] =
-            vec3((float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)),
-                 (float)cos(theta));
+            vec3((float)(sin_d(theta) * cos_d(phi)), (float)(sin_d(theta) * sin_d(phi)),
+                 (float)cos_d(theta));
     }
     return places;
 }
@@ -34,9 +35,9 @@ FitPlaces fit_places(int level, int octants, Arena *arena)
 /* Factor of a term at an azimuth: 1, cos phi, sin phi, ... or 1, cos phi, cos 2 phi, ... */
 static double term_factor(int term, bool has_sines, double phi)
 {
-    if (!has_sines) return cos(term * phi);
+    if (!has_sines) return cos_d(term * phi);
     int m = (term + 1) / 2;
-    return term % 2 || !term ? cos(m * phi) : sin(m * phi);
+    return term % 2 || !term ? cos_d(m * phi) : sin_d(m * phi);
 }
 
 float *fit_profile(const FitPlaces *places, float *values, int components, int harmonics,

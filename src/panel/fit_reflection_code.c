@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/mathd.h"
 #include "base/parallel.h"
 #include "base/units.h"
 #include "hemisphere/specular_frame.h"
@@ -56,10 +57,10 @@ static void start_tolerances(ReflectionFit *fit)
     int   middle = fit->wavelengths / 2;
     for (int t = 0; t < fit->tables; t++) {
         float  peak = table_peak(fit, t);
-        double fresnel = fit_fresnel(cos(reflect_incidence(fit, t)));
+        double fresnel = fit_fresnel(cos_d(reflect_incidence(fit, t)));
         for (int i = 0; i < fit->places; i++) {
             const float *row = reflect_row(fit, fit->value, i, t);
-            double f = exp((double)row[middle]) * fresnel;
+            double f = exp_d((double)row[middle]) * fresnel;
             double bound = fmax(fit->bound, 5 * reflect_noise(fit->out, t, f)) * PLACE_SHARE;
             if (row[middle] > peak - 1) bound *= PEAK_SHARE;
             place_logs(fit, i, t, logs);
@@ -148,7 +149,7 @@ static double row_error(const Check *check, int t, int row, const SpecularFrame 
     ReflectionFit    *fit = check->fit;
     const AngleTable *haze = &fit->out->haze[t], *kept = &fit->out->kept[t];
     float  component[PANEL_REFLECTION_COMPONENTS_MAX], logs[MEASUREMENT_WAVELENGTHS_MAX];
-    double fresnel = fit_fresnel(cos(reflect_incidence(fit, t))), worst = 0;
+    double fresnel = fit_fresnel(cos_d(reflect_incidence(fit, t))), worst = 0;
     *stored = specular_frame_stored(frame, fit_row_direction(haze, row));
     tree_interpolate(&check->tree, *stored, component);
     reflect_logs(fit, t, component, logs);
@@ -156,7 +157,7 @@ static double row_error(const Check *check, int t, int row, const SpecularFrame 
         size_t at = (size_t)row * (size_t)fit->wavelengths + (size_t)w;
         double f = (double)haze->value[at], all = fmax((double)kept->value[at], f);
         if (f < fit->value_floor[t]) continue;
-        double error = fabs(exp((double)logs[w]) * fresnel - f) / all;
+        double error = fabs(exp_d((double)logs[w]) * fresnel - f) / all;
         worst = fmax(worst, error / fmax(fit->bound, 5 * reflect_noise(fit->out, t, all)));
     }
     return worst;

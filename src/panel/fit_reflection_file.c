@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/mathd.h"
 #include "base/parallel.h"
 #include "base/units.h"
 #include "hemisphere/specular_frame.h"
@@ -58,10 +59,10 @@ typedef struct IntegralPass {
 static double lobe_shape(const ReflectionFit *fit, int table, Vec3 d)
 {
     double theta = reflect_incidence(fit, table), sigma = fit->out->lobe_sigma[table];
-    double x = (double)d.x - sin(theta), y = (double)d.y, z = (double)d.z - cos(theta);
+    double x = (double)d.x - sin_d(theta), y = (double)d.y, z = (double)d.z - cos_d(theta);
     double chord = x * x + y * y + z * z, square = chord * (1 + chord / 12) / (sigma * sigma);
     if (square > LOBE_SQUARE) return 0;
-    return exp(-0.5 * square) / (2 * PI * sigma * sigma * cos(theta));
+    return exp_d(-0.5 * square) / (2 * PI * sigma * sigma * cos_d(theta));
 }
 
 /* By what the lobe must be multiplied so that the sums of haze and lobe over the rows are those
@@ -93,7 +94,7 @@ static void match_integrals(void *context, int t, int worker)
     IntegralPass        *pass = context;
     const ReflectionFit *fit = pass->fit;
     const AngleTable    *table = &fit->out->haze[t];
-    double fresnel = fit_fresnel(cos(reflect_incidence(fit, t)));
+    double fresnel = fit_fresnel(cos_d(reflect_incidence(fit, t)));
     double found[MEASUREMENT_WAVELENGTHS_MAX] = {0}, wanted[MEASUREMENT_WAVELENGTHS_MAX] = {0};
     double room = INTEGRAL_ROOM * fit->bound;
     SpecularFrame frame = specular_frame((float)reflect_incidence(fit, t), fit->k);
@@ -105,14 +106,14 @@ static void match_integrals(void *context, int t, int worker)
         tree_interpolate(&pass->tree, specular_frame_stored(&frame, d), component);
         reflect_logs(fit, t, component, logs);
         for (int w = 0; w < fit->wavelengths; w++) {
-            found[w] += weight * exp((double)logs[w]) * fresnel;
+            found[w] += weight * exp_d((double)logs[w]) * fresnel;
             wanted[w] += weight * (double)table->value[(size_t)i * (size_t)fit->wavelengths +
                                                        (size_t)w];
         }
     }
     if (fit->out->has_lobe) match_lobe(pass, t);
     for (int w = 0; w < fit->wavelengths; w++) {
-        double change = wanted[w] > 0 && found[w] > 0 ? log(wanted[w] / found[w]) : 0;
+        double change = wanted[w] > 0 && found[w] > 0 ? log_d(wanted[w] / found[w]) : 0;
         pass->change[t * fit->wavelengths + w] = fmax(-room, fmin(room, change));
     }
 }
@@ -157,7 +158,7 @@ static void fill_floors(const ReflectionFit *fit, const Section *section)
         for (int w = 0; w < fit->wavelengths; w++) {
             double floor = table_floor(&fit->out->haze[t], w, list);
             shorts(section->layout.floor)[t * fit->wavelengths + w] =
-                stepped(log(floor), (double)section->stored->mean_scale);
+                stepped(log_d(floor), (double)section->stored->mean_scale);
             sum += fit->out->luminous[w] * floor;
         }
         if (t < fit->set->incidence_count) fit->out->floor_y[t] = PI * sum;
@@ -169,7 +170,7 @@ static void fill_floors(const ReflectionFit *fit, const Section *section)
 static double lobe_logarithm(const ReflectionFit *fit, int table, int wavelength)
 {
     double r = fit->out->lobe[table * fit->wavelengths + wavelength];
-    return log(fmax(r, 1e-9) / fit_fresnel(cos(reflect_incidence(fit, table))));
+    return log_d(fmax(r, 1e-9) / fit_fresnel(cos_d(reflect_incidence(fit, table))));
 }
 
 static double largest_lobe(const ReflectionFit *fit)
@@ -189,11 +190,16 @@ static PanelReflectionStored head_of(const ReflectionFit *fit)
     return (PanelReflectionStored){
         .incidences = (uint16_t)fit->set->incidence_count,
         .azimuths = (uint16_t)(fit->tables / fit->set->incidence_count),
-        .components = (uint16_t)fit->components, .coefficients = (uint16_t)fit->coefficients,
-        .wavelengths = (uint16_t)fit->wavelengths, .nodes = NODES,
-        .is_cubic = !fit->options->is_linear_in_incidence, .has_mirror = fit->out->has_mirror,
-        .has_lobe = fit->out->has_lobe, .frame_exponent = fit->k,
-        .refractive_index = (float)FIT_REFRACTIVE_INDEX, .cone_cos = (float)fmax(0, cos(edge)),
+        .components = (uint16_t)fit->components,
+        .coefficients = (uint16_t)fit->coefficients,
+        .wavelengths = (uint16_t)fit->wavelengths,
+        .nodes = NODES,
+        .is_cubic = !fit->options->is_linear_in_incidence,
+        .has_mirror = fit->out->has_mirror,
+        .has_lobe = fit->out->has_lobe,
+        .frame_exponent = fit->k,
+        .refractive_index = (float)FIT_REFRACTIVE_INDEX,
+        .cone_cos = (float)fmax(0, cos_d(edge)),
         .mean_scale = (float)fmax((double)fit->mean_scale, most / 32767),
         .lobe_scale = fit->out->has_lobe ? (float)(largest_lobe(fit) / 32767) : 0};
 }
@@ -297,8 +303,8 @@ static Vec3 light_of(const AlbedoPass *pass, int item)
         : (double)pass->section->layout.node_theta[item - fit->tables] + 1e-5;
     double phi = is_table && fit->set->azimuth_count > 1
                      ? fit->set->azimuth[item / fit->set->incidence_count] : PI;
-    return vec3((float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)),
-                (float)cos(theta));
+    return vec3((float)(sin_d(theta) * cos_d(phi)), (float)(sin_d(theta) * sin_d(phi)),
+                (float)cos_d(theta));
 }
 
 static void haze_albedo(void *context, int item, int worker)
@@ -306,7 +312,7 @@ static void haze_albedo(void *context, int item, int worker)
     AlbedoPass          *pass = context;
     const ReflectionFit *fit = pass->fit;
     Vec3   wi = light_of(pass, item);
-    double s = sqrt((double)(wi.x * wi.x + wi.y * wi.y)), theta = atan2(s, (double)wi.z);
+    double s = sqrt((double)(wi.x * wi.x + wi.y * wi.y)), theta = atan2_d(s, (double)wi.z);
     float  ex = s > 1e-7 ? (float)((double)-wi.x / s) : 1;
     float  ey = s > 1e-7 ? (float)((double)-wi.y / s) : 0;
     SpecularFrame frame = specular_frame((float)theta, 2);
@@ -351,8 +357,8 @@ static double lobe_albedo(const ReflectionFit *fit, const Section *section, int 
     if (!fit->out->has_lobe) return 0;
     if (item < fit->tables) return fit->out->lobe[item * fit->wavelengths + w];
     double theta = (double)section->layout.node_theta[item - fit->tables];
-    return fit->out->lobe[last * fit->wavelengths + w] * fit_fresnel(cos(theta)) /
-           fit_fresnel(cos(fit->set->incidence[last]));
+    return fit->out->lobe[last * fit->wavelengths + w] * fit_fresnel(cos_d(theta)) /
+           fit_fresnel(cos_d(fit->set->incidence[last]));
 }
 
 static double mirror_albedo(const Panel *panel, const ReflectionFit *fit, Vec3 light, int w)
@@ -381,7 +387,7 @@ static void hold_energy(ReflectionFit *fit, const Panel *panel, const Section *s
         else shares(to->node_albedo)[node] = share(both * factor);
         if (!is_table) shares(to->held)[node] = factor < 1 ? share(factor - 1e-5) : 65535;
         else if (factor < 1) {
-            fit->mean[i] += (float)log(factor);
+            fit->mean[i] += (float)log_d(factor);
             if (fit->out->has_lobe) fit->out->lobe[i] *= factor;
         }
     }

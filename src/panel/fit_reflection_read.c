@@ -2,6 +2,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/mathd.h"
+#include "base/mathf.h"
 #include "base/parallel.h"
 #include "base/units.h"
 #include "hemisphere/specular_frame.h"
@@ -45,7 +47,7 @@ static float *log_cells(ReflectionFit *fit, int table)
                                         fit->arena);
     size_t count = (size_t)(grid->thetas * grid->phis) * (size_t)fit->wavelengths;
     float  floor = (float)fit->value_floor[table];
-    for (size_t i = 0; i < count; i++) cells[i] = logf(fmaxf(cells[i], floor));
+    for (size_t i = 0; i < count; i++) cells[i] = log_f(fmaxf(cells[i], floor));
     return cells;
 }
 
@@ -78,7 +80,7 @@ float reflect_read(const ReflectionFit *fit, int table, Vec3 outer, float *logs)
 {
     const DirectionGrid *grid = &fit->grid[table];
     float across = sqrtf(outer.x * outer.x + outer.y * outer.y);
-    float theta = atan2f(across, fmaxf(outer.z, 0)), phi = atan2f(outer.y, outer.x);
+    float theta = atan2_f(across, fmaxf(outer.z, 0)), phi = atan2_f(outer.y, outer.x);
     float last = grid->theta[grid->thetas - 1], beyond = theta - last;
     float inside[MEASUREMENT_WAVELENGTHS_MAX];
     read_at(fit, table, fminf(theta, last), phi, logs);
@@ -99,7 +101,7 @@ static void read_chunk(void *context, int item, int worker)
     (void)worker;
     for (int t = 0; t < fit->tables; t++) {
         double        theta = reflect_incidence(fit, t);
-        float         offset = (float)log(fit_fresnel(cos(theta)));
+        float         offset = (float)log_d(fit_fresnel(cos_d(theta)));
         SpecularFrame frame = specular_frame((float)theta, fit->k);
         for (int i = item * CHUNK; i < last; i++) {
             float *row = reflect_row(fit, fit->value, i, t);

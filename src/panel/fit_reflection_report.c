@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/mathd.h"
 #include "base/parallel.h"
 #include "base/units.h"
 #include "hemisphere/specular_frame.h"
@@ -24,16 +25,16 @@ static Vec3 light_of(const Measurement *set, int table, double *mirror)
     double theta = set->incidence[table % set->incidence_count];
     double phi = set->azimuth_count > 1 ? set->azimuth[table / set->incidence_count] : PI;
     *mirror = phi - PI;
-    return vec3((float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)),
-                (float)cos(theta));
+    return vec3((float)(sin_d(theta) * cos_d(phi)), (float)(sin_d(theta) * sin_d(phi)),
+                (float)cos_d(theta));
 }
 
 /* A row's direction in the display's frame. */
 static Vec3 row_direction(const AngleTable *table, int row, double mirror)
 {
     double theta = (double)table->theta[row], phi = (double)table->phi[row] + mirror;
-    return vec3((float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)),
-                (float)cos(theta));
+    return vec3((float)(sin_d(theta) * cos_d(phi)), (float)(sin_d(theta) * sin_d(phi)),
+                (float)cos_d(theta));
 }
 
 /* One table in the report; values below the floor that zeros are held above do not count. */
@@ -111,9 +112,9 @@ static double reciprocity_defect(const Measurement *set, const Panel *panel)
         for (int b = 0; b < a; b++)
             for (int p = 0; p < 36; p++) {
                 double t = set->incidence[a], u = set->incidence[b], phi = PI * p / 36;
-                Vec3   i = vec3((float)-sin(t), 0, (float)cos(t));
-                Vec3   o = vec3((float)(sin(u) * cos(phi)), (float)(sin(u) * sin(phi)),
-                                (float)cos(u));
+                Vec3   i = vec3((float)-sin_d(t), 0, (float)cos_d(t));
+                Vec3   o = vec3((float)(sin_d(u) * cos_d(phi)), (float)(sin_d(u) * sin_d(phi)),
+                                (float)cos_d(u));
                 double f = (double)panel_brdf(panel, o, i, &wavelengths)[0];
                 double g = (double)panel_brdf(panel, i, o, &wavelengths)[0];
                 squares += 4 * (f - g) * (f - g) / ((f + g) * (f + g));
@@ -129,7 +130,7 @@ static json_t *parts_json(const FitParts *parts, const Panel *panel)
     json_t *list = json_array();
     for (int i = 0; i < parts->set->incidence_count; i++) {
         double theta = parts->set->incidence[i];
-        double haze = (double)panel_haze_albedo(panel, (float)cos(theta));
+        double haze = (double)panel_haze_albedo(panel, (float)cos_d(theta));
         json_t *one = json_pack("{s:f, s:f, s:f, s:f}",
             "incidence_deg", degrees_from_radians(theta), "luminous_reflectance",
             r->mirror_y[i], "haze", fmax(0, haze - r->floor_y[i] - r->lobe_y[i]),
@@ -137,7 +138,7 @@ static json_t *parts_json(const FitParts *parts, const Panel *panel)
         if (r->has_lobe) {
             json_object_set_new(one, "lobe", json_real(r->lobe_y[i]));
             json_object_set_new(one, "lobe_fwhm_deg",
-                json_real(degrees_from_radians(r->lobe_sigma[i] * sqrt(8 * log(2)))));
+                json_real(degrees_from_radians(r->lobe_sigma[i] * sqrt(8 * log_d(2)))));
         }
         json_array_append_new(list, one);
     }

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/mathd.h"
 #include "panel/fit_reflect.h"
 #include "panel/principal.h"
 
@@ -217,7 +218,7 @@ static void fill_scores(ReflectionFit *fit, const double *inverse, const double 
     for (int c = 0; c < n; c++) {
         double squares = 0;
         for (int i = 0; i < channels; i++)
-            squares += pow(weight[i] * (double)fit->loading[i * n + c], 2);
+            squares += pow_d(weight[i] * (double)fit->loading[i * n + c], 2);
         for (int i = 0; i < channels; i++)
             onto[i * n + c] = weight[i] * weight[i] * (double)fit->loading[i * n + c] / squares;
     }

@@ -7,6 +7,7 @@
 #include <xxhash.h>
 
 #include "base/file.h"
+#include "base/mathd.h"
 #include "base/units.h"
 #include "hemisphere/specular_frame.h"
 #include "panel/fit_parts.h"
@@ -14,14 +15,14 @@
 Vec3 fit_row_direction(const AngleTable *table, int row)
 {
     double t = (double)table->theta[row], p = (double)table->phi[row];
-    return vec3((float)(sin(t) * cos(p)), (float)(sin(t) * sin(p)), (float)cos(t));
+    return vec3((float)(sin_d(t) * cos_d(p)), (float)(sin_d(t) * sin_d(p)), (float)cos_d(t));
 }
 
 /* A row's share of the hemisphere, up to a factor: rings and azimuths are about even. */
 double fit_row_weight(const AngleTable *table, int row)
 {
     double t = (double)table->theta[row];
-    return sin(t > 1e-3 ? t : 1e-3) * cos(t);
+    return sin_d(t > 1e-3 ? t : 1e-3) * cos_d(t);
 }
 
 void fit_add_error(FitErrors *errors, double found, double wanted, double scale, double weight)

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/mathd.h"
 #include "base/units.h"
 #include "hemisphere/specular_frame.h"
 #include "panel/fit_parts.h"
@@ -69,9 +70,9 @@ static double area_of(const Work *work, int leaf)
 static void read_function(const Work *work, double theta, double phi, float *integral)
 {
     SpecularFrame frame = specular_frame((float)theta, PANEL_SAMPLING_EXPONENT);
-    double s = sin(theta), total = 0;
-    Vec3   wo = vec3((float)(s * cos(phi)), (float)(s * sin(phi)), (float)cos(theta));
-    float  ex = (float)-cos(phi), ey = (float)-sin(phi);
+    double s = sin_d(theta), total = 0;
+    Vec3   wo = vec3((float)(s * cos_d(phi)), (float)(s * sin_d(phi)), (float)cos_d(theta));
+    float  ex = (float)-cos_d(phi), ey = (float)-sin_d(phi);
     for (int i = 0; i < work->leaves; i++) {
         float    jacobian;
         double   f = 0;

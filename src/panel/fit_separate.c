@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/mathd.h"
 #include "base/parallel.h"
 #include "base/units.h"
 #include "panel/fit_parts.h"
@@ -37,7 +38,7 @@ static void note_lobe(const Measurement *set, const FitReflection *out, FitNotes
 {
     double least = 1e9, most = 0;
     for (int t = 0; t < out->tables; t++) {
-        double fwhm = degrees_from_radians(out->lobe_sigma[t] * sqrt(8 * log(2)));
+        double fwhm = degrees_from_radians(out->lobe_sigma[t] * sqrt(8 * log_d(2)));
         least = fmin(least, fwhm);
         most = fmax(most, fwhm);
     }
@@ -92,7 +93,7 @@ static void find_lobe(void *context, int t, int worker)
     (void)worker;
     pass->has_lobe[t] = fit_lobe(&pass->out->kept[t], incidence_of(pass->set, t),
                                  pass->out->noise[t], &pass->arena[t], &lobe, &pass->table[t]);
-    pass->out->lobe_sigma[t] = lobe.fwhm / sqrt(8 * log(2));
+    pass->out->lobe_sigma[t] = lobe.fwhm / sqrt(8 * log_d(2));
 }
 
 /* Copies what the passes made into the fit's arena. */
@@ -161,7 +162,7 @@ static double median_fwhm_deg(const FitReflection *out, Arena scratch)
     double *list = ARENA_NEW(&scratch, double, out->tables);
     memcpy(list, out->lobe_sigma, sizeof *list * (size_t)out->tables);
     qsort(list, (size_t)out->tables, sizeof *list, fit_by_value);
-    return degrees_from_radians(list[out->tables / 2] * sqrt(8 * log(2)));
+    return degrees_from_radians(list[out->tables / 2] * sqrt(8 * log_d(2)));
 }
 
 void fit_separate(const Measurement *set, const FitOptions *options, Arena *arena,

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/mathd.h"
 #include "base/units.h"
 #include "panel/panel_file.h"
 
@@ -17,7 +18,7 @@ bool panel_info_brdf_is_measured(const Panel *panel, double incidence, double th
 {
     const PanelReflection *r = panel->reflection;
     return r && incidence <= (double)r->last_theta + 1e-6 &&
-           cos(theta) >= (double)r->cone_cos - 1e-6;
+           cos_d(theta) >= (double)r->cone_cos - 1e-6;
 }
 
 int panel_info_incidences(const Panel *panel, double theta[PANEL_INFO_INCIDENCES_MAX])
@@ -29,15 +30,21 @@ int panel_info_incidences(const Panel *panel, double theta[PANEL_INFO_INCIDENCES
     return count;
 }
 
+_Static_assert(PANEL_INFO_AZIMUTHS_MAX >= PANEL_AZIMUTHS_MAX, "room for every azimuth");
+_Static_assert(PANEL_INFO_INCIDENCES_MAX >= PANEL_INCIDENCES_MAX, "and every incidence");
+
 int panel_info_azimuths(const Panel *panel, double phi[PANEL_INFO_AZIMUTHS_MAX])
 {
+    const PanelReflection *r = panel->reflection;
     phi[0] = PI;
-    return panel->reflection ? 1 : 0;
+    if (!r || r->azimuths < 2) return r ? 1 : 0;
+    for (uint32_t i = 0; i < r->azimuths; i++) phi[i] = (double)r->azimuth[i];
+    return (int)r->azimuths;
 }
 
 double panel_info_reflection_cone(const Panel *panel)
 {
-    return panel->reflection ? acos((double)panel->reflection->cone_cos) : 0;
+    return panel->reflection ? acos_d((double)panel->reflection->cone_cos) : 0;
 }
 
 /* ---- emission -------------------------------------------------------------------------- */
@@ -62,7 +69,7 @@ bool panel_info_has_black(const Panel *panel)
 
 double panel_info_emission_cone(const Panel *panel)
 {
-    return panel->emission ? acos((double)panel->emission->cone_cos) : 0;
+    return panel->emission ? acos_d((double)panel->emission->cone_cos) : 0;
 }
 
 const float *panel_info_spectrum(const Panel *panel, int primary)

@@ -19,7 +19,7 @@ bool panel_info_brdf_is_measured(const Panel *panel, double incidence, double th
 int panel_info_incidences(const Panel *panel, double theta[PANEL_INFO_INCIDENCES_MAX]);
 
 /* Azimuths of the light at each of them, radians; 1 (pi): the same from all sides. */
-#define PANEL_INFO_AZIMUTHS_MAX 64
+#define PANEL_INFO_AZIMUTHS_MAX 72
 int panel_info_azimuths(const Panel *panel, double phi[PANEL_INFO_AZIMUTHS_MAX]);
 
 /* The last measured theta of leaving directions. */
@@ -34,7 +34,7 @@ bool panel_info_emits(const Panel *panel);
 #define PANEL_INFO_LEVELS_MAX 64
 int panel_info_levels(const Panel *panel, int primary, double code[PANEL_INFO_LEVELS_MAX]);
 
-/* Was the black pattern measured? False for panels made of a white table. */
+/* Does the black pattern shine? False for panels made of a white table, and for true blacks. */
 bool panel_info_has_black(const Panel *panel);
 
 /* The last measured theta. */

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "base/file.h"
+#include "base/mathd.h"
 #include "base/sampler.h"
 #include "base/units.h"
 #include "panel/table_text.h"
@@ -32,7 +33,7 @@ static double normal_deviate(const RecipeInstrument *instrument, int table, uint
                                            (uint32_t)table), value);
     double u = ((double)hash_u32(h) + 0.5) / 4294967296.0;
     double v = ((double)hash_u32(h ^ 0x5bd1e995u) + 0.5) / 4294967296.0;
-    return sqrt(-2 * log(u)) * cos(2 * PI * v);
+    return sqrt(-2 * log_d(u)) * cos_d(2 * PI * v);
 }
 
 static double noisy(const Instrument *instrument, double value, double absolute, uint32_t index)

@@ -1,6 +1,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/mathd.h"
 #include "base/units.h"
 #include "scene/load.h"
 
@@ -179,8 +180,8 @@ static void add_light(GltfFile *file, const GltfValue *node, const Transform *wo
                           : LIGHT_POINT,
         .position = world->origin,
         .direction = vec3_normalize(vec3_neg(world->z)),
-        .cos_inner = cosf(is_spot ? tree_float(cone, "innerConeAngle", 0) : 0),
-        .cos_outer = cosf(is_spot ? tree_float(cone, "outerConeAngle", PI_F / 4) : PI_F)};
+        .cos_inner = cos_of(is_spot ? tree_float(cone, "innerConeAngle", 0) : 0),
+        .cos_outer = cos_of(is_spot ? tree_float(cone, "outerConeAngle", PI_F / 4) : PI_F)};
     for (int i = 0; i < 3; i++) out->intensity[i] = color[i] * intensity;
     if (!name[0]) name = tree_text(node, "name", "");
     out->name = name[0] ? kept_text(file, name)

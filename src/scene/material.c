@@ -1,5 +1,6 @@
 #include <string.h>
 
+#include "base/mathd.h"
 #include "scene/load.h"
 #include "spectrum/photometry.h"
 
@@ -14,7 +15,7 @@ static void apply_transform(const GltfValue *transform, TextureSlot *slot)
 {
     float offset[2] = {0, 0}, scale[2] = {1, 1};
     float turn = tree_float(transform, "rotation", 0);
-    float c = cosf(turn), s = sinf(turn);
+    float c = cos_of(turn), s = sin_of(turn);
     tree_floats(transform, "offset", 2, offset);
     tree_floats(transform, "scale", 2, scale);
     float matrix[6] = {scale[0] * c,  scale[1] * s, offset[0],

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "base/mathd.h"
 #include "base/units.h"
 
 const float AIR_NM[SPECTRUM_LANES] = {360, 380, 400, 420, 445, 470, 500, 530,
@@ -24,12 +25,12 @@ AirOptics air_optics(const Air *air)
     double layer = fmin(STRATOSPHERIC_DEPTH, air->aerosol_depth);
     o.aerosol_low = air->aerosol_depth > 0 ? 1 - layer / air->aerosol_depth : 0;
     for (int i = 0; i < SPECTRUM_LANES; i++) {
-        double nm = (double)AIR_NM[i], um2 = nm * nm * 1e-6, ln = log(nm / 400);
+        double nm = (double)AIR_NM[i], um2 = nm * nm * 1e-6, ln = log_d(nm / 400);
         double molecules = air->pressure_mbar / 1013 / (um2 * um2 * (115.6406 - 1.3366 / um2));
-        double aerosol = air->aerosol_depth * pow(nm / 500, -air->aerosol_power);
+        double aerosol = air->aerosol_depth * pow_d(nm / 500, -air->aerosol_power);
         o.depth[AIR_MOLECULES][i] = o.scattering[AIR_MOLECULES][i] = (float)molecules;
         o.depth[AIR_AEROSOL][i] = (float)aerosol;
-        o.scattering[AIR_AEROSOL][i] = (float)(aerosol * 0.945 * exp(-0.095 * ln * ln));
+        o.scattering[AIR_AEROSOL][i] = (float)(aerosol * 0.945 * exp_d(-0.095 * ln * ln));
         o.depth[AIR_OZONE][i] = (float)(ozone_absorption[i] * air->ozone_atm_cm);
     }
     return o;
@@ -52,8 +53,8 @@ static double pressure_share(double altitude_m)
         double rise = fmin(altitude_m, top) - layers[i].base_m;
         if (rise <= 0 && i) break;
         share *= layers[i].lapse == 0
-                     ? exp(-g_over_r * rise / t)
-                     : pow(1 + layers[i].lapse * rise / t, -g_over_r / layers[i].lapse);
+                     ? exp_d(-g_over_r * rise / t)
+                     : pow_d(1 + layers[i].lapse * rise / t, -g_over_r / layers[i].lapse);
     }
     return share;
 }
@@ -74,8 +75,8 @@ static double share_above(const AirOptics *optics, AirPart part, double altitude
         return (pressure_share(altitude_m) - top) / (1 - top);
     }
     case AIR_AEROSOL: {
-        double layer = 0.5 * erfc((altitude_m - LAYER_M) / (LAYER_WIDTH_M * sqrt(2)));
-        return optics->aerosol_low * exp(-altitude_m / AEROSOL_SCALE_M) +
+        double layer = 0.5 * erfc_d((altitude_m - LAYER_M) / (LAYER_WIDTH_M * sqrt(2)));
+        return optics->aerosol_low * exp_d(-altitude_m / AEROSOL_SCALE_M) +
                (1 - optics->aerosol_low) * layer;
     }
     default: return tent_above(altitude_m);

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/mathd.h"
 #include "base/parallel.h"
 #include "base/units.h"
 #include "sky/diffuse_light.h"
@@ -70,7 +71,7 @@ static void fill_light(void *context, int item, int worker)
     Builder *b = context;
     const AtmosphereInput *in = &b->atmosphere->input;
     DiffuseInput input = {&b->atmosphere->optics, in->floor_m, in->air.ground_albedo,
-                          cos(b->first_zenith + item * SUN_STEP), 0};
+                          cos_d(b->first_zenith + item * SUN_STEP), 0};
     (void)worker;
     diffuse_light_build(&input, &b->arena[item], &b->light[item]);
 }
@@ -102,7 +103,7 @@ static Spectrum passing_at(const Builder *b, double altitude, double cosine)
 static Spectrum beam_at(const Builder *b, double altitude, double cosine)
 {
     double edge = edge_cosine(altitude, b->atmosphere->input.floor_m);
-    double seen = 0.5 + (acos(edge) - acos(fmax(-1, fmin(1, cosine)))) / (2 * SUN_RADIUS);
+    double seen = 0.5 + (acos_d(edge) - acos_d(fmax(-1, fmin(1, cosine)))) / (2 * SUN_RADIUS);
     if (seen <= 0) return spectrum_all(0);
     return passing_at(b, altitude, cosine) * spectrum_all((float)fmin(1, seen));
 }
@@ -142,7 +143,7 @@ static Place place_at(const Ray *ray, double distance)
 /* The two tables around a sun angle, and how far between them. */
 static const DiffuseLight *light_at(const Builder *b, double sun_cosine, float *t)
 {
-    double x = (acos(fmax(-1, fmin(1, sun_cosine))) - b->first_zenith) / SUN_STEP;
+    double x = (acos_d(fmax(-1, fmin(1, sun_cosine))) - b->first_zenith) / SUN_STEP;
     x = fmax(0, fmin(x, SUN_ANGLES - 1.0001));
     *t = (float)(x - (int)x);
     return &b->light[(int)x];
@@ -238,8 +239,8 @@ static void fill_row(void *context, int item, int worker)
     (void)worker;
     for (int j = 0; j < ATMOSPHERE_COLUMNS; j++) {
         double azimuth = PI * j / (ATMOSPHERE_COLUMNS - 1);
-        Ray ray = {AIR_EARTH_M + a->input.observer_m, {cos(elevation), 0, sin(elevation)},
-                   {cos(sun) * cos(azimuth), cos(sun) * sin(azimuth), sin(sun)}};
+        Ray ray = {AIR_EARTH_M + a->input.observer_m, {cos_d(elevation), 0, sin_d(elevation)},
+                   {cos_d(sun) * cos_d(azimuth), cos_d(sun) * sin_d(azimuth), sin_d(sun)}};
         Gathered g = march(b, &ray);
         size_t   at = (size_t)item * ATMOSPHERE_COLUMNS + (size_t)j;
         a->molecules[at] = g.molecules;
@@ -275,7 +276,7 @@ bool atmosphere_build(const AtmosphereInput *input, Arena *arena, Atmosphere *ou
     out->molecules = spectra(arena, count);
     out->aerosol = spectra(arena, count);
     out->rest = spectra(arena, count);
-    out->horizon = -acos((AIR_EARTH_M + input->floor_m) / (AIR_EARTH_M + input->observer_m));
+    out->horizon = -acos_d((AIR_EARTH_M + input->floor_m) / (AIR_EARTH_M + input->observer_m));
     Arena    scratch = *arena;
     Builder *b = ARENA_NEW(&scratch, Builder, 1);
     b->atmosphere = out;
@@ -285,8 +286,8 @@ bool atmosphere_build(const AtmosphereInput *input, Arena *arena, Atmosphere *ou
     parallel_for(input->threads, COLUMN_HEIGHTS, fill_columns, b);
     build_lights(b, &scratch);
     parallel_for(input->threads, 2 * ATMOSPHERE_ROWS, fill_row, b);
-    out->sun_passing = passing_at(b, input->observer_m, sin(input->sun_elevation));
-    Place under = {input->floor_m, 1, sin(input->sun_elevation), 1};
+    out->sun_passing = passing_at(b, input->observer_m, sin_d(input->sun_elevation));
+    Place under = {input->floor_m, 1, sin_d(input->sun_elevation), 1};
     out->floor_exitance = floor_radiance(b, &under) * spectrum_all(PI_F);
     for (int i = 0; i < SUN_ANGLES; i++) arena_release(&b->arena[i]);
     return true;
@@ -328,7 +329,8 @@ Spectrum atmosphere_diffuse(const Atmosphere *a)
     for (int i = 0; i < rows; i++) {
         double s0 = (double)i / rows, s1 = (i + 1.0) / rows;
         double low = PI / 2 * s0 * s0, high = PI / 2 * s1 * s1;
-        double weight = 0.5 * (sin(high) * sin(high) - sin(low) * sin(low)) * 2 * PI / columns;
+        double weight =
+            0.5 * (sin_d(high) * sin_d(high) - sin_d(low) * sin_d(low)) * 2 * PI / columns;
         for (int j = 0; j < columns; j++)
             sum += spectrum_all((float)weight) *
                    atmosphere_radiance(a, (float)(0.5 * (low + high)),

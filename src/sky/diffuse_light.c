@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/mathd.h"
 #include "base/units.h"
 
 #define SIDE 8 /* Gauss cosines up, and down */
@@ -98,7 +99,7 @@ static void fill_levels(Solver *s)
     DiffuseLight    *light = s->light;
     double height = AIR_TOP_M - light->floor_m, column[AIR_PARTS];
     for (int k = 0; k < DIFFUSE_LEVELS; k++) {
-        double z = light->floor_m + height * pow(k / (DIFFUSE_LEVELS - 1.0), 2.2);
+        double z = light->floor_m + height * pow_d(k / (DIFFUSE_LEVELS - 1.0), 2.2);
         light->level_m[k] = z;
         for (int p = 0; p < 2; p++)
             s->scattering[p][k] = o->scattering[p] *
@@ -291,7 +292,7 @@ Spectrum diffuse_light_source(const DiffuseLight *light, double altitude_m, floa
                               float azimuth_cosine)
 {
     double share = fmax(0, (altitude_m - light->floor_m) / (AIR_TOP_M - light->floor_m));
-    double at = fmin(pow(share, 1 / 2.2) * (DIFFUSE_LEVELS - 1), DIFFUSE_LEVELS - 1.0001);
+    double at = fmin(pow_d(share, 1 / 2.2) * (DIFFUSE_LEVELS - 1), DIFFUSE_LEVELS - 1.0001);
     int    k = (int)at;
     float  t = (float)((altitude_m - light->level_m[k]) /
                        (light->level_m[k + 1] - light->level_m[k]));

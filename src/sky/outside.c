@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/mathd.h"
 #include "base/units.h"
 #include "sky/sun_disc.h"
 #include "spectrum/photometry.h"
@@ -81,7 +82,7 @@ static double share_above_line(double above)
 {
     if (above >= 1) return 1;
     if (above <= -1) return 0;
-    return 0.5 + (above * sqrt(1 - above * above) + asin(above)) / PI;
+    return 0.5 + (above * sqrt(1 - above * above) + asin_d(above)) / PI;
 }
 
 static double sun_share(const Outside *out)
@@ -97,7 +98,7 @@ static double aerosol_depth(const OutsideInput *in)
 {
     if (!(in->visibility_km > 0)) return aerosol_depth_from_turbidity(in->turbidity);
     double at_550 = fmax(0, 3.912 / in->visibility_km - 0.0116) * 1.5;
-    return at_550 * pow(550 / 500.0, 1.14);
+    return at_550 * pow_d(550 / 500.0, 1.14);
 }
 
 static Air sea_level_air(const OutsideInput *in)
@@ -116,7 +117,7 @@ static Air air_above(const OutsideInput *in)
     air_vertical(&optics, altitude, AIR_TOP_M, column);
     air.aerosol_depth *= column[AIR_AEROSOL];
     air.ozone_atm_cm *= column[AIR_OZONE];
-    air.water_cm *= exp(-altitude / WATER_SCALE_M);
+    air.water_cm *= exp_d(-altitude / WATER_SCALE_M);
     return air;
 }
 
@@ -163,7 +164,7 @@ static Spectrl2 ground_spectra(const Outside *out)
 /* The disc's mean radiance from an irradiance, and its figures. */
 static void set_sun(Outside *out, const Curve *irradiance)
 {
-    double sine = sin(out->sun_radius), share = sun_share(out);
+    double sine = sin_d(out->sun_radius), share = sun_share(out);
     out->sun_mean = *irradiance;
     scale_curve(&out->sun_mean, 1 / (PI * sine * sine));
     out->figures.direct_normal_lx = share * curve_luminance(irradiance);
@@ -183,7 +184,7 @@ static void set_sun(Outside *out, const Curve *irradiance)
 /* How clear: 0 the colour of sun and sky together (a white cloud's), 1 the blue sky's. */
 static void sky_spectrum(Outside *out, double clear, const Spectrl2 *ground)
 {
-    double mixed[SPECTRL2_COUNT], cosine = sin(out->sun_elevation);
+    double mixed[SPECTRL2_COUNT], cosine = sin_d(out->sun_elevation);
     for (int i = 0; i < SPECTRL2_COUNT; i++)
         mixed[i] = ground->diffuse[i] + (1 - clear) * fmax(0, cosine) * ground->direct[i];
     curve_from_rows(mixed, &out->sky_curve);
@@ -197,7 +198,7 @@ static void sky_spectrum(Outside *out, double clear, const Spectrl2 *ground)
 /* A uniform Lambertian ground under sun and sky. */
 static void light_floor(Outside *out, const Curve *irradiance)
 {
-    double albedo = floor_albedo(&out->input), sine = fmax(0, sin(out->sun_elevation));
+    double albedo = floor_albedo(&out->input), sine = fmax(0, sin_d(out->sun_elevation));
     out->floor_curve = out->sky_curve;
     scale_curve(&out->floor_curve, albedo / PI * out->figures.diffuse_horizontal_lx);
     add_curve(&out->floor_curve, irradiance, albedo / PI * sine * sun_share(out));
@@ -214,7 +215,7 @@ static void finish_shape(Outside *out, const Curve *irradiance)
     set_sun(out, irradiance);
     light_floor(out, irradiance);
     f->global_horizontal_lx = f->diffuse_horizontal_lx +
-                              f->direct_normal_lx * fmax(0, sin(out->sun_elevation));
+                              f->direct_normal_lx * fmax(0, sin_d(out->sun_elevation));
 }
 
 static bool needs_sun(const OutsideInput *in)
@@ -367,7 +368,7 @@ static bool build_clear(Outside *out, Arena *arena, Error *err)
     f->diffuse_horizontal_lx = relative_luminance(out, atmosphere_diffuse(&out->atmosphere));
     f->floor_cd_m2 = relative_luminance(out, out->atmosphere.floor_exitance) / PI;
     f->global_horizontal_lx = f->diffuse_horizontal_lx +
-                              f->direct_normal_lx * fmax(0, sin(out->sun_elevation));
+                              f->direct_normal_lx * fmax(0, sin_d(out->sun_elevation));
     tell_watts(out, lux);
     curve_from_relative(out, atmosphere_radiance(&out->atmosphere, (float)(PI / 2), 0),
                         &zenith);

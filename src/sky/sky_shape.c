@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/mathd.h"
 #include "base/mathf.h"
 #include "base/units.h"
 
@@ -25,7 +26,7 @@ SkyShape sky_shape_cie(int type)
         {-1, -0.15, 24, -2.8, 0.15}};
     if (type == 16) return (SkyShape){.linear = 2};
     const double *row = table[type - 1];
-    return (SkyShape){row[0], row[1], row[2], row[3], row[4], exp(row[3] * PI / 2), 0};
+    return (SkyShape){row[0], row[1], row[2], row[3], row[4], exp_d(row[3] * PI / 2), 0};
 }
 
 /* Coefficients of a, b, c, d, e for eight ranges of clearness. */
@@ -83,14 +84,14 @@ static int clearness_bin(double clearness)
 static double distance_factor(int day)
 {
     double b = 2 * PI * (day - 1) / 365;
-    return 1.00011 + 0.034221 * cos(b) + 0.00128 * sin(b) + 0.000719 * cos(2 * b) +
-           0.000077 * sin(2 * b);
+    return 1.00011 + 0.034221 * cos_d(b) + 0.00128 * sin_d(b) + 0.000719 * cos_d(2 * b) +
+           0.000077 * sin_d(2 * b);
 }
 
 static PerezState perez_state(const PerezInput *in)
 {
     double z = in->sun_zenith, k = 1.041 * z * z * z;
-    PerezState s = {.air_mass = 1 / (cos(z) + 0.15 * pow(93.885 - degrees_from_radians(z),
+    PerezState s = {.air_mass = 1 / (cos_d(z) + 0.15 * pow_d(93.885 - degrees_from_radians(z),
                                                          -1.253))};
     s.clearness = ((in->diffuse_horizontal_w_m2 + in->direct_normal_w_m2) /
                    in->diffuse_horizontal_w_m2 + k) / (1 + k);
@@ -115,8 +116,8 @@ bool sky_shape_perez(const PerezInput *input, SkyShape *out, PerezState *state, 
     for (int i = 0; i < 5; i++)
         v[i] = row[i][0] + row[i][1] * z + delta * (row[i][2] + row[i][3] * z);
     if (s.bin == 1) {
-        v[2] = exp(pow(delta * (row[2][0] + row[2][1] * z), row[2][2])) - row[2][3];
-        v[3] = -exp(delta * (row[3][0] + row[3][1] * z)) + row[3][2] + delta * row[3][3];
+        v[2] = exp_d(pow_d(delta * (row[2][0] + row[2][1] * z), row[2][2])) - row[2][3];
+        v[3] = -exp_d(delta * (row[3][0] + row[3][1] * z)) + row[3][2] + delta * row[3][3];
     }
     if (state) *state = s;
     *out = (SkyShape){v[0], v[1], v[2], v[3], v[4], 0, 0};
@@ -129,9 +130,9 @@ bool sky_shape_perez(const PerezInput *input, SkyShape *out, PerezState *state, 
 double sky_shape_value(const SkyShape *shape, double cos_theta, double gamma)
 {
     if (shape->linear > 0) return (1 + shape->linear * cos_theta) / 3;
-    double c = cos(gamma);
-    double gradation = 1 + shape->a * exp(shape->b / fmax(cos_theta, 1e-6));
-    double indicatrix = 1 + shape->c * (exp(shape->d * gamma) - shape->offset) +
+    double c = cos_d(gamma);
+    double gradation = 1 + shape->a * exp_d(shape->b / fmax(cos_theta, 1e-6));
+    double indicatrix = 1 + shape->c * (exp_d(shape->d * gamma) - shape->offset) +
                         shape->e * c * c;
     return fmax(0, gradation * indicatrix);
 }
@@ -155,11 +156,11 @@ double sky_shape_integral(const SkyShape *shape, double sun_zenith, int steps)
     for (int i = 0; i < steps; i++) {
         double theta = (i + 0.5) * step, ring = 0;
         for (int j = 0; j < steps; j++) {
-            double cosine = cos(theta) * cos(sun_zenith) +
-                            sin(theta) * sin(sun_zenith) * cos((j + 0.5) * turn);
-            ring += sky_shape_value(shape, cos(theta), acos(fmax(-1, fmin(1, cosine))));
+            double cosine = cos_d(theta) * cos_d(sun_zenith) +
+                            sin_d(theta) * sin_d(sun_zenith) * cos_d((j + 0.5) * turn);
+            ring += sky_shape_value(shape, cos_d(theta), acos_d(fmax(-1, fmin(1, cosine))));
         }
-        sum += ring * cos(theta) * (sin(theta) * 2 * sin(step / 2)) * 2 * turn;
+        sum += ring * cos_d(theta) * (sin_d(theta) * 2 * sin_d(step / 2)) * 2 * turn;
     }
     return sum;
 }

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/mathd.h"
 #include "base/units.h"
 
 typedef struct Band {
@@ -76,14 +77,14 @@ double spectrl2_read(const double *value, double nm)
 
 double air_mass(double apparent_zenith_deg)
 {
-    return 1 / (cos(radians_from_degrees(apparent_zenith_deg)) +
-                0.50572 * pow(96.07995 - apparent_zenith_deg, -1.6364));
+    return 1 / (cos_d(radians_from_degrees(apparent_zenith_deg)) +
+                0.50572 * pow_d(96.07995 - apparent_zenith_deg, -1.6364));
 }
 
 double aerosol_depth_from_turbidity(double turbidity)
 {
     double beta = 0.04608365822050 * turbidity - 0.04586025928522;
-    return fmax(0, beta) * pow(0.5, -1.3);
+    return fmax(0, beta) * pow_d(0.5, -1.3);
 }
 
 /* What passes through a path of relative air mass m. */
@@ -95,26 +96,26 @@ typedef struct Passing {
 static Passing passing(const Band *band, const Air *air, double m, double ozone_mass)
 {
     double um = band->nm / 1000, um2 = um * um, pressed = m * air->pressure_mbar / 1013;
-    double depth = air->aerosol_depth * pow(band->nm / 500, -air->aerosol_power);
-    double ln = log(band->nm / 400), albedo = 0.945 * exp(-0.095 * ln * ln);
+    double depth = air->aerosol_depth * pow_d(band->nm / 500, -air->aerosol_power);
+    double ln = log_d(band->nm / 400), albedo = 0.945 * exp_d(-0.095 * ln * ln);
     double water = band->water * air->water_cm * m, mixed = band->mixed * pressed;
     return (Passing){
-        .rayleigh = exp(-pressed / (um2 * um2 * (115.6406 - 1.3366 / um2))),
-        .water = exp(-0.2385 * water / pow(1 + 20.07 * water, 0.45)),
-        .ozone = exp(-band->ozone * air->ozone_atm_cm * ozone_mass),
-        .mixed = exp(-1.41 * mixed / pow(1 + 118.3 * mixed, 0.45)),
-        .aerosol = exp(-depth * m),
-        .scattered = exp(-albedo * depth * m),
-        .absorbed = exp(-(1 - albedo) * depth * m)};
+        .rayleigh = exp_d(-pressed / (um2 * um2 * (115.6406 - 1.3366 / um2))),
+        .water = exp_d(-0.2385 * water / pow_d(1 + 20.07 * water, 0.45)),
+        .ozone = exp_d(-band->ozone * air->ozone_atm_cm * ozone_mass),
+        .mixed = exp_d(-1.41 * mixed / pow_d(1 + 118.3 * mixed, 0.45)),
+        .aerosol = exp_d(-depth * m),
+        .scattered = exp_d(-albedo * depth * m),
+        .absorbed = exp_d(-(1 - albedo) * depth * m)};
 }
 
 /* Share of aerosol scattering that goes down, for the sun's cosine (asymmetry 0.65). */
 static double downward_share(double cosine)
 {
-    double g = log(1 - 0.65);
+    double g = log_d(1 - 0.65);
     double a = g * (1.459 + g * (0.1595 + 0.4129 * g));
     double b = g * (0.0783 + g * (-0.3824 - 0.5874 * g));
-    return 1 - 0.5 * exp((a + b * cosine) * cosine);
+    return 1 - 0.5 * exp_d((a + b * cosine) * cosine);
 }
 
 /* Reflectance of the air for light from below: everything at air mass 1.8. */
@@ -131,18 +132,18 @@ static double diffuse_at(const Band *band, const Air *air, const Passing *p, dou
 {
     double share = downward_share(cosine), common = outside * cosine * p->ozone * p->mixed *
                                                     p->water * p->absorbed;
-    double rayleigh = common * 0.5 * (1 - pow(p->rayleigh, 0.95));
-    double aerosol = common * pow(p->rayleigh, 1.5) * (1 - p->scattered) * share;
+    double rayleigh = common * 0.5 * (1 - pow_d(p->rayleigh, 0.95));
+    double aerosol = common * pow_d(p->rayleigh, 1.5) * (1 - p->scattered) * share;
     double back = air_reflectance(band, air) * air->ground_albedo;
     double ground = (direct * cosine + rayleigh + aerosol) * back / (1 - back);
-    double lift = band->nm <= 450 ? pow((band->nm + 550) / 1000, 1.8) : 1;
+    double lift = band->nm <= 450 ? pow_d((band->nm + 550) / 1000, 1.8) : 1;
     return (rayleigh + aerosol + ground) * lift;
 }
 
 Spectrl2 spectrl2(const Air *air, double apparent_zenith_deg, double distance_factor)
 {
     Spectrl2 out = {{0}, {0}, {0}};
-    double cosine = cos(radians_from_degrees(apparent_zenith_deg));
+    double cosine = cos_d(radians_from_degrees(apparent_zenith_deg));
     double m = air_mass(fmin(apparent_zenith_deg, 90));
     double layer = 22 / 6370.0; /* ozone stands 22 km high */
     double ozone_mass = (1 + layer) / sqrt(cosine * cosine + 2 * layer);

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "base/mathd.h"
+
 #define BANDS 11
 #define FIRST_NM 320.0
 #define STEP_NM 40.0
@@ -21,7 +23,7 @@ static const double limb[BANDS][6] = {
 
 double sun_angular_radius(double distance_au)
 {
-    return asin(SUN_RADIUS_KM / (ASTRONOMICAL_UNIT_KM * distance_au));
+    return asin_d(SUN_RADIUS_KM / (ASTRONOMICAL_UNIT_KM * distance_au));
 }
 
 void sun_limb(double nm, double coefficient[6])

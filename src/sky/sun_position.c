@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/mathd.h"
 #include "base/units.h"
 #include "sky/sun_position_tables.h"
 
@@ -13,12 +14,12 @@
 
 static double sin_deg(double degrees)
 {
-    return sin(radians_from_degrees(degrees));
+    return sin_d(radians_from_degrees(degrees));
 }
 
 static double cos_deg(double degrees)
 {
-    return cos(radians_from_degrees(degrees));
+    return cos_d(radians_from_degrees(degrees));
 }
 
 static double turn_deg(double degrees)
@@ -115,7 +116,7 @@ static double orbit_sum(const OrbitSeries *series, int powers, double millennium
         double sum = 0;
         for (int i = 0; i < series[p].count; i++) {
             const OrbitTerm *term = &series[p].term[i];
-            sum += term->a * cos(term->b + term->c * millennium);
+            sum += term->a * cos_d(term->b + term->c * millennium);
         }
         total = total * millennium + sum;
     }
@@ -187,9 +188,9 @@ static void equatorial(SunPosition *p)
     double beta = radians_from_degrees(p->geocentric_latitude_deg);
     double se = sin_deg(p->obliquity_deg), ce = cos_deg(p->obliquity_deg);
     p->right_ascension_deg = turn_deg(degrees_from_radians(
-        atan2(sin(lambda) * ce - tan(beta) * se, cos(lambda))));
-    p->declination_deg = degrees_from_radians(asin(sin(beta) * ce +
-                                                   cos(beta) * se * sin(lambda)));
+        atan2_d(sin_d(lambda) * ce - tan_d(beta) * se, cos_d(lambda))));
+    p->declination_deg = degrees_from_radians(asin_d(sin_d(beta) * ce +
+                                                   cos_d(beta) * se * sin_d(lambda)));
 }
 
 /* 3.11 to 3.13: as seen from the place and not from the Earth's centre. */
@@ -199,18 +200,18 @@ static void topocentric(SunPosition *p, const SkyPlace *place)
     p->hour_angle_deg = turn_deg(p->apparent_sidereal_deg + place->longitude_deg -
                                  p->right_ascension_deg);
     p->parallax_deg = 8.794 / (3600 * p->distance_au);
-    double reduced = atan2(EARTH_FLATNESS * sin(latitude), cos(latitude));
+    double reduced = atan2_d(EARTH_FLATNESS * sin_d(latitude), cos_d(latitude));
     double height = place->altitude_m / EARTH_RADIUS_M, xi = sin_deg(p->parallax_deg);
-    double x = cos(reduced) + height * cos(latitude);
-    double y = EARTH_FLATNESS * sin(reduced) + height * sin(latitude);
+    double x = cos_d(reduced) + height * cos_d(latitude);
+    double y = EARTH_FLATNESS * sin_d(reduced) + height * sin_d(latitude);
     double h = radians_from_degrees(p->hour_angle_deg);
     double delta = radians_from_degrees(p->declination_deg);
-    double nearer = cos(delta) - x * xi * cos(h);
-    double shift = atan2(-x * xi * sin(h), nearer);
+    double nearer = cos_d(delta) - x * xi * cos_d(h);
+    double shift = atan2_d(-x * xi * sin_d(h), nearer);
     p->parallax_right_ascension_deg = degrees_from_radians(shift);
     p->topocentric_right_ascension_deg = p->right_ascension_deg + degrees_from_radians(shift);
     p->topocentric_declination_deg =
-        degrees_from_radians(atan2((sin(delta) - y * xi) * cos(shift), nearer));
+        degrees_from_radians(atan2_d((sin_d(delta) - y * xi) * cos_d(shift), nearer));
     p->topocentric_hour_angle_deg = p->hour_angle_deg - degrees_from_radians(shift);
 }
 
@@ -223,9 +224,9 @@ static void horizontal(SunPosition *p, const SkyPlace *place)
     double sh = sin_deg(p->topocentric_hour_angle_deg);
     double ch = cos_deg(p->topocentric_hour_angle_deg);
     double sine = sl * sd + cl * cd * ch;
-    p->elevation_deg = degrees_from_radians(asin(fmax(-1, fmin(1, sine))));
+    p->elevation_deg = degrees_from_radians(asin_d(fmax(-1, fmin(1, sine))));
     p->azimuth_deg =
-        turn_deg(180 + degrees_from_radians(atan2(sh * cd, ch * cd * sl - sd * cl)));
+        turn_deg(180 + degrees_from_radians(atan2_d(sh * cd, ch * cd * sl - sd * cl)));
 }
 
 SunPosition sun_position(double julian_day, double delta_t_s, const SkyPlace *place)
@@ -250,7 +251,7 @@ double sun_refraction_deg(double true_elevation_deg, double pressure_mbar, doubl
 {
     double e = fmax(true_elevation_deg, -1);
     double bend = pressure_mbar / 1010 * 283 / (273 + celsius) * 1.02 /
-                  (60 * tan(radians_from_degrees(e + 10.3 / (e + 5.11))));
+                  (60 * tan_d(radians_from_degrees(e + 10.3 / (e + 5.11))));
     double fade = fmax(0, fmin(1, (true_elevation_deg + 5) / 4));
     return fmax(0, bend) * fade;
 }
@@ -259,8 +260,8 @@ void standard_atmosphere(double altitude_m, double *pressure_mbar, double *celsi
 {
     /* troposphere to 11 km with -6.5 K/km, then isothermal */
     double low = fmax(-500, fmin(altitude_m, 11000)), kelvin = 288.15 - 0.0065 * low;
-    double pressure = 1013.25 * pow(kelvin / 288.15, 5.255876);
-    if (altitude_m > 11000) pressure *= exp(-(fmin(altitude_m, 20000) - 11000) / 6341.62);
+    double pressure = 1013.25 * pow_d(kelvin / 288.15, 5.255876);
+    if (altitude_m > 11000) pressure *= exp_d(-(fmin(altitude_m, 20000) - 11000) / 6341.62);
     *pressure_mbar = pressure;
     *celsius = kelvin - 273.15;
 }
@@ -268,5 +269,5 @@ void standard_atmosphere(double altitude_m, double *pressure_mbar, double *celsi
 double horizon_dip_deg(double altitude_m)
 {
     const double radius = 6371000;
-    return degrees_from_radians(acos(radius / (radius + fmax(0, altitude_m))));
+    return degrees_from_radians(acos_d(radius / (radius + fmax(0, altitude_m))));
 }

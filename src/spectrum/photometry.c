@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/mathd.h"
+
 SpectralRow spectral_row(double nm)
 {
     SpectralRow row = {0};
@@ -60,7 +62,8 @@ double black_body_radiance(double nm, double kelvin)
 {
     const double h = 6.62607015e-34, c = 299792458.0, k = 1.380649e-23;
     double metres = nm * 1e-9;
-    double per_metre = 2 * h * c * c / pow(metres, 5) / expm1(h * c / (metres * k * kelvin));
+    double per_metre =
+        2 * h * c * c / pow_d(metres, 5) / expm1_d(h * c / (metres * k * kelvin));
     return per_metre * 1e-9;
 }
 
