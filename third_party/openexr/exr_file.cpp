@@ -1,5 +1,6 @@
 #include "openexr/exr_file.h"
 
+#include "base/file.h"
 #include "openexr/memory_stream.hpp"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -12,7 +13,10 @@
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfOutputPart.h>
+#include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/OpenEXRConfig.h>
@@ -26,6 +30,8 @@
 
 namespace {
 
+const char  MAGIC[] = "\x76\x2f\x31\x01";
+const char  DAMAGED[] = "damaged OpenEXR file";
 const float NONE_FROM_FILE = 4294967040.0f; /* the float below 2^32: whole "none" */
 
 /* Messages of the library may have several lines. */
@@ -50,14 +56,16 @@ bool guarded(Error *err, ErrorCode code, const char *doing, Body body) noexcept
     }
 }
 
-/* The library's own threads, for as long as one picture is encoded; how many makes no
- * difference to the bytes. */
-struct EncodingThreads {
-    EncodingThreads()
-    {
-        Imf::setGlobalThreadCount(std::min((int)std::thread::hardware_concurrency(), 8));
-    }
-    ~EncodingThreads() { Imf::setGlobalThreadCount(0); }
+int coding_threads()
+{
+    return std::min((int)std::thread::hardware_concurrency(), 8);
+}
+
+/* The library's own threads, for as long as pixels are coded; how many makes no difference to
+ * the bytes. */
+struct CodingThreads {
+    CodingThreads() { Imf::setGlobalThreadCount(coding_threads()); }
+    ~CodingThreads() { Imf::setGlobalThreadCount(0); }
 };
 
 ExrWindow half_open(const Imath::Box2i &box)
@@ -123,13 +131,15 @@ void insert_attribute(Imf::Header *header, const ExrAttribute &a)
 } // namespace
 
 struct ExrReader {
-    MemoryInput                              memory;
+    std::unique_ptr<MemoryInput>             memory; /* none for a file on disk */
     std::unique_ptr<Imf::MultiPartInputFile> file;
     std::vector<ExrChannel>                  channels;
     std::vector<ExrAttribute>                attributes;
     ExrPicture                               picture{};
-
-    ExrReader(const char *name, const void *bytes, size_t size) : memory(name, bytes, size) {}
+    int                                      words_part = 0; /* 0: not asked for */
+    std::vector<const char *>                word_names;
+    std::vector<ExrAttribute>                word_attributes;
+    ExrWords                                 words{};
 };
 
 static bool check_window(const ExrPicture &p, Error *err)
@@ -150,6 +160,23 @@ static bool check_window(const ExrPicture &p, Error *err)
     return true;
 }
 
+/* Attributes that say how a part is stored, not what the picture is. */
+static bool is_of_storage(const std::string &name)
+{
+    return name == "name" || name == "type" || name == "chunkCount";
+}
+
+static std::vector<ExrAttribute> describe_attributes(const Imf::Header &header)
+{
+    std::vector<ExrAttribute> list;
+    for (auto a = header.begin(); a != header.end(); ++a) {
+        ExrAttribute attribute = {a.name(), EXR_STRING, nullptr, {}};
+        if (!is_of_storage(a.name()) && describe_attribute(a.attribute(), &attribute))
+            list.push_back(attribute);
+    }
+    return list;
+}
+
 static bool describe(ExrReader *reader, Error *err)
 {
     const Imf::Header &header = reader->file->header(0);
@@ -163,27 +190,48 @@ static bool describe(ExrReader *reader, Error *err)
                              c.name(), c.channel().xSampling, c.channel().ySampling);
         reader->channels.push_back({c.name(), c.channel().type == Imf::UINT, nullptr});
     }
-    for (auto a = header.begin(); a != header.end(); ++a) {
-        ExrAttribute attribute = {a.name(), EXR_STRING, nullptr, {}};
-        if (describe_attribute(a.attribute(), &attribute))
-            reader->attributes.push_back(attribute);
-    }
+    reader->attributes = describe_attributes(header);
     reader->picture = {half_open(header.displayWindow()), half_open(header.dataWindow()),
                        (int)reader->channels.size(),      reader->channels.data(),
-                       (int)reader->attributes.size(),    reader->attributes.data(), 0, 0};
+                       (int)reader->attributes.size(),    reader->attributes.data(), 0, 0,
+                       nullptr};
     return check_window(reader->picture, err);
+}
+
+static void set_limits()
+{
+    Imf::Header::setMaxImageSize(EXR_MAX_SIDE, EXR_MAX_SIDE);
+    Imf::Header::setMaxTileSize(EXR_MAX_SIDE / 4, EXR_MAX_SIDE / 4);
 }
 
 bool exr_reader_create(const char *name, const void *bytes, size_t size, ExrReader **out,
                        Error *err)
 {
-    if (size < 4 || memcmp(bytes, "\x76\x2f\x31\x01", 4) != 0)
+    if (size < 4 || memcmp(bytes, MAGIC, 4) != 0)
         return error_set(err, ERROR_INPUT, "not an OpenEXR file");
-    return guarded(err, ERROR_INPUT, "damaged OpenEXR file", [&] {
-        Imf::Header::setMaxImageSize(EXR_MAX_SIDE, EXR_MAX_SIDE);
-        Imf::Header::setMaxTileSize(EXR_MAX_SIDE / 4, EXR_MAX_SIDE / 4);
-        auto reader = std::make_unique<ExrReader>(name, bytes, size);
-        reader->file = std::make_unique<Imf::MultiPartInputFile>(reader->memory, 0, false);
+    return guarded(err, ERROR_INPUT, DAMAGED, [&] {
+        set_limits();
+        auto reader = std::make_unique<ExrReader>();
+        reader->memory = std::make_unique<MemoryInput>(name, bytes, size);
+        reader->file = std::make_unique<Imf::MultiPartInputFile>(*reader->memory, 0, false);
+        if (!describe(reader.get(), err)) return false;
+        *out = reader.release();
+        return true;
+    });
+}
+
+bool exr_reader_open(const char *path, ExrReader **out, Error *err)
+{
+    FileBytes start;
+    char      magic[8];
+    Arena     arena = {magic, magic + sizeof magic, nullptr, magic};
+    if (!file_read_start(path, 4, &arena, &start, err)) return false;
+    if (start.size < 4 || memcmp(start.data, MAGIC, 4) != 0)
+        return error_set(err, ERROR_INPUT, "not an OpenEXR file");
+    return guarded(err, ERROR_INPUT, DAMAGED, [&] {
+        set_limits();
+        auto reader = std::make_unique<ExrReader>();
+        reader->file = std::make_unique<Imf::MultiPartInputFile>(path, coding_threads(), false);
         if (!describe(reader.get(), err)) return false;
         *out = reader.release();
         return true;
@@ -211,7 +259,7 @@ static void read_planes(ExrReader *reader, float *const *planes)
 
 bool exr_reader_read(ExrReader *reader, float *const *planes, Error *err)
 {
-    return guarded(err, ERROR_INPUT, "damaged OpenEXR file", [&] {
+    return guarded(err, ERROR_INPUT, DAMAGED, [&] {
         read_planes(reader, planes);
         const ExrPicture &p = reader->picture;
         size_t            count = (size_t)(p.data.x1 - p.data.x0) * (p.data.y1 - p.data.y0);
@@ -220,6 +268,79 @@ bool exr_reader_read(ExrReader *reader, float *const *planes, Error *err)
             std::replace_if(planes[i], planes[i] + count,
                             [](float v) { return v >= NONE_FROM_FILE; }, -1.0f);
         }
+        return true;
+    });
+}
+
+/* ---- words ------------------------------------------------------------------------------- */
+
+static bool describe_words(ExrReader *reader, int part, Error *err)
+{
+    const Imf::Header &header = reader->file->header(part);
+    const Imf::Header &first = reader->file->header(0);
+    bool holds_words = header.type() == Imf::SCANLINEIMAGE
+                       && header.dataWindow() == first.dataWindow()
+                       && header.displayWindow() == first.displayWindow();
+    reader->word_names.clear();
+    for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
+        const Imf::Channel &channel = c.channel();
+        holds_words = holds_words && channel.type == Imf::UINT && channel.xSampling == 1
+                      && channel.ySampling == 1;
+        reader->word_names.push_back(c.name());
+    }
+    if (!holds_words || reader->word_names.size() > EXR_MAX_CHANNELS)
+        return error_set(err, ERROR_INPUT,
+                         "its part \"%s\" does not hold 32-bit words of the picture's pixels",
+                         header.name().c_str());
+    reader->words_part = part;
+    reader->word_attributes = describe_attributes(header);
+    reader->words = {header.name().c_str(),
+                     (int)reader->word_names.size(),
+                     reader->word_names.data(),
+                     nullptr,
+                     (int)reader->word_attributes.size(),
+                     reader->word_attributes.data()};
+    return true;
+}
+
+bool exr_reader_words(ExrReader *reader, const char *name, const ExrWords **out, Error *err)
+{
+    return guarded(err, ERROR_INPUT, DAMAGED, [&] {
+        int part = 1;
+        while (part < reader->file->parts() && reader->file->header(part).name() != name)
+            part++;
+        bool is_there = part < reader->file->parts();
+        if (is_there && !describe_words(reader, part, err)) return false;
+        *out = is_there ? &reader->words : nullptr;
+        return true;
+    });
+}
+
+/* A slice of a frame buffer for rows y0 and on of the words' part: word i of `count`. */
+static Imf::Slice word_slice(const void *values, int i, int count, ExrWindow data, int y0)
+{
+    const size_t pixel = 4 * (size_t)count;
+    return Imf::Slice::Make(Imf::UINT, (const char *)values + 4 * i,
+                            Imath::V2i(data.x0, y0), data.x1 - data.x0, data.y1 - y0, pixel,
+                            pixel * (size_t)(data.x1 - data.x0));
+}
+
+bool exr_reader_read_words(ExrReader *reader, const ExrWords *wanted, int y0, int y1,
+                           void *values, Error *err)
+{
+    return guarded(err, ERROR_INPUT, DAMAGED, [&] {
+        CodingThreads     threads;
+        Imf::FrameBuffer  buffer;
+        Imf::InputPart    part(*reader->file, reader->words_part);
+        const ExrWindow  &data = reader->picture.data;
+        for (int i = 0; i < wanted->count; i++) {
+            if (!part.header().channels().findChannel(wanted->names[i]))
+                return error_set(err, ERROR_INPUT, "its part \"%s\" has no words %s",
+                                 reader->words.name, wanted->names[i]);
+            buffer.insert(wanted->names[i], word_slice(values, i, wanted->count, data, y0));
+        }
+        part.setFrameBuffer(buffer);
+        part.readPixels(y0, y1 - 1);
         return true;
     });
 }
@@ -242,27 +363,73 @@ static std::vector<unsigned> whole_values(const float *values, size_t count)
     return whole;
 }
 
-static void write_picture(const ExrPicture &p, Imf::OStream *stream)
+/* One part on its way into a file. */
+struct OutPart {
+    Imf::Header                        header;
+    Imf::FrameBuffer                   buffer;
+    std::vector<std::vector<unsigned>> whole;
+
+    OutPart(const ExrPicture &p, const ExrAttribute *attributes, int attribute_count)
+        : header(closed(p.display), closed(p.data))
+    {
+        header.compression() = Imf::ZIP_COMPRESSION;
+        for (int i = 0; i < attribute_count; i++) insert_attribute(&header, attributes[i]);
+    }
+};
+
+static OutPart picture_part(const ExrPicture &p)
 {
     const Imath::Box2i window = closed(p.data);
     const size_t       width = (size_t)(p.data.x1 - p.data.x0);
     const size_t       count = width * (size_t)(p.data.y1 - p.data.y0);
-    Imf::Header        header(closed(p.display), window);
-    Imf::FrameBuffer   buffer;
-    std::vector<std::vector<unsigned>> whole((size_t)p.channel_count);
-    header.compression() = Imf::ZIP_COMPRESSION;
-    for (int i = 0; i < p.attribute_count; i++) insert_attribute(&header, p.attributes[i]);
+    OutPart            part(p, p.attributes, p.attribute_count);
+    part.whole.resize((size_t)p.channel_count);
     for (int i = 0; i < p.channel_count; i++) {
-        const ExrChannel &c = p.channels[i];
-        Imf::PixelType    type = c.is_whole ? Imf::UINT : Imf::FLOAT;
-        if (c.is_whole) whole[(size_t)i] = whole_values(c.values, count);
-        const void *values = c.is_whole ? (const void *)whole[(size_t)i].data() : c.values;
-        header.channels().insert(c.name, Imf::Channel(type));
-        buffer.insert(c.name, Imf::Slice::Make(type, values, window));
+        const ExrChannel      &c = p.channels[i];
+        std::vector<unsigned> &whole = part.whole[(size_t)i];
+        Imf::PixelType         type = c.is_whole ? Imf::UINT : Imf::FLOAT;
+        if (c.is_whole) whole = whole_values(c.values, count);
+        const void *values = c.is_whole ? (const void *)whole.data() : c.values;
+        part.header.channels().insert(c.name, Imf::Channel(type));
+        part.buffer.insert(c.name, Imf::Slice::Make(type, values, window));
     }
-    Imf::OutputFile file(*stream, header, Imf::globalThreadCount());
-    file.setFrameBuffer(buffer);
-    file.writePixels((int)(p.data.y1 - p.data.y0));
+    return part;
+}
+
+static OutPart words_part(const ExrPicture &p)
+{
+    const ExrWords &words = *p.words;
+    OutPart         part(p, words.attributes, words.attribute_count);
+    for (int i = 0; i < words.count; i++) {
+        part.header.channels().insert(words.names[i], Imf::Channel(Imf::UINT));
+        part.buffer.insert(words.names[i],
+                           word_slice(words.values, i, words.count, p.data, p.data.y0));
+    }
+    return part;
+}
+
+static void write_picture(const ExrPicture &p, Imf::OStream *stream)
+{
+    OutPart         part = picture_part(p);
+    Imf::OutputFile file(*stream, part.header, Imf::globalThreadCount());
+    file.setFrameBuffer(part.buffer);
+    file.writePixels(p.data.y1 - p.data.y0);
+}
+
+/* The picture comes first: who knows of one part only finds it. */
+static void write_both(const ExrPicture &p, Imf::OStream *stream)
+{
+    OutPart     parts[2] = {picture_part(p), words_part(p)};
+    Imf::Header headers[2] = {parts[0].header, parts[1].header};
+    headers[0].setName("picture");
+    headers[1].setName(p.words->name);
+    for (Imf::Header &header : headers) header.setType(Imf::SCANLINEIMAGE);
+    Imf::MultiPartOutputFile file(*stream, headers, 2, true, Imf::globalThreadCount());
+    for (int i = 0; i < 2; i++) {
+        Imf::OutputPart out(file, i);
+        out.setFrameBuffer(parts[i].buffer);
+        out.writePixels(p.data.y1 - p.data.y0);
+    }
 }
 
 bool exr_encode(const ExrPicture *p, ExrBytes **out, Error *err)
@@ -277,10 +444,11 @@ bool exr_encode(const ExrPicture *p, ExrBytes **out, Error *err)
                          p->display.y0, p->display.x1, p->display.y1);
     }
     return guarded(err, ERROR_LIBRARY, "encoding OpenEXR", [&] {
-        EncodingThreads threads;
+        CodingThreads   threads;
         auto            encoded = std::make_unique<ExrBytes>();
         MemoryOutput    stream(&encoded->bytes);
-        write_picture(*p, &stream);
+        if (p->words) write_both(*p, &stream);
+        else write_picture(*p, &stream);
         *out = encoded.release();
         return true;
     });

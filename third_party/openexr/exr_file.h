@@ -5,7 +5,7 @@
  * Windows  half-open, in pixels; the display window is the whole picture.
  * Memory   readers and encoded bytes are handles with a destroy; planes belong to the caller.
  * Threads  one handle belongs to one thread at a time.
- * Fails    with the library's reason; no file is touched here.
+ * Fails    with the library's reason. Only exr_reader_open touches a file.
  */
 #pragma once
 #include <stddef.h>
@@ -42,6 +42,18 @@ typedef struct ExrAttribute {
     double      values[16]; /* the other kinds */
 } ExrAttribute;
 
+/* 32-bit words of every pixel of a picture, kept as they are in a part of their own, of which
+ * those who want the picture need not know. */
+typedef struct ExrWords {
+    const char         *name;  /* of the part, "film" */
+    int                 count; /* words a pixel */
+    const char *const  *names; /* of the words, all different; files keep them sorted */
+    const void         *values; /* pixel after pixel, row by row: `count` words each; NULL in a
+                                   description */
+    int                 attribute_count;
+    const ExrAttribute *attributes;
+} ExrWords;
+
 typedef struct ExrPicture {
     ExrWindow     display, data; /* for writing, data must lie inside display */
     int           channel_count;
@@ -49,6 +61,7 @@ typedef struct ExrPicture {
     int           attribute_count;
     ExrAttribute *attributes; /* files keep them sorted by name; other kinds are left out */
     int           channel_room, attribute_room; /* what the lists hold; not looked at here */
+    const ExrWords *words;       /* a second part that is written; NULL: none, and when read */
 } ExrPicture;
 
 /* Whole-file limits, refused before memory is taken for pixels. */
@@ -62,13 +75,27 @@ typedef struct ExrReader ExrReader; /* owns C++ objects */
 bool exr_reader_create(const char *name, const void *bytes, size_t size, ExrReader **out,
                        Error *err);
 
-/* Channels without values; lives as long as the reader. */
+/* The same for a file on disk, which is read as pixels are asked for. */
+bool exr_reader_open(const char *path, ExrReader **out, Error *err);
+
+/* Channels without values; lives as long as the reader. What a file says of its parts ("name",
+ * "type", "chunkCount") is not among the attributes. */
 const ExrPicture *exr_reader_picture(const ExrReader *reader);
 
 /* planes: one array of (data window) floats for each channel, in the picture's order; NULL
  * skips a channel. Half, float and unsigned become float. A file cut off or damaged is
  * refused. */
 bool exr_reader_read(ExrReader *reader, float *const *planes, Error *err);
+
+/* The words that a part of this name behind the first one holds; *out is NULL when there is no
+ * such part, and lives as long as the reader. A part that is not of unsigned words in the
+ * picture's windows is refused. */
+bool exr_reader_words(ExrReader *reader, const char *name, const ExrWords **out, Error *err);
+
+/* Rows [y0, y1) of what exr_reader_words found last, pixel after pixel: of each the words of
+ * `wanted`, in its order. values holds them all. */
+bool exr_reader_read_words(ExrReader *reader, const ExrWords *wanted, int y0, int y1,
+                           void *values, Error *err);
 
 void exr_reader_destroy(ExrReader *reader); /* NULL is fine */
 
