@@ -7,7 +7,7 @@
 
 #include "base/progress.h"
 #include "base/units.h"
-#include "cli/render_command.h"
+#include "cli/render_identity.h"
 
 /* ---- the frame --------------------------------------------------------------------------- */
 
@@ -99,6 +99,8 @@ FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
     FrameImage frame = film_to_frame(result->film, room, arena);
     frame_set_string(&frame, "software", "parhelion " PARHELION_VERSION, arena);
     frame_set_string(&frame, "parhelion:commandLine", request->command_line, arena);
+    frame_set_string(&frame, "parhelion:identity",
+                     render_identity(request, scene, camera, result->kernel, arena), arena);
     frame_set_string(&frame, "parhelion:unit", "cd/m2", arena);
     set_inputs(&frame, scene, arena);
     set_sampling(&frame, request, result, arena);

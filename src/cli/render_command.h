@@ -21,10 +21,16 @@ typedef struct RenderRequest {
     EnvironmentChange environment;
     RenderOptions render;
     bool          replays; /* one sample of one pixel, printed */
-    const char   *command_line;
+    const char   *command_line; /* without what leaves every pixel as it is: --threads,
+                                   --json, --quiet, --progress, --checkpoint,
+                                   --checkpoint-interval, --resume */
+    const char   *typed_line;   /* with everything */
 } RenderRequest;
 
 bool render_request_parse(int argc, char **argv, Arena *arena, RenderRequest *out, Error *err);
+
+/* FilmLayer bits as --layers names them, with commas. */
+const char *render_layer_list(unsigned layers, Arena *arena);
 
 /* By a node's name, then a camera's, then an index; NULL: the first. A scene without a camera
  * is framed whole, and a warning says so. */

@@ -66,6 +66,19 @@ static bool parse_layers(const char *list, unsigned *bits, Error *err)
     return true;
 }
 
+const char *render_layer_list(unsigned layers, Arena *arena)
+{
+    const char *list = "";
+    unsigned    named = 0;
+    for (int i = 0; i < LAYER_NAME_COUNT; i++) {
+        unsigned bits = layer_names[i].bits;
+        if ((bits & (bits - 1)) || !(bits & layers) || (bits & named)) continue;
+        list = arena_format(arena, "%s%s%s", list, *list ? "," : "", layer_names[i].name);
+        named |= bits;
+    }
+    return list;
+}
+
 /* ---- single values ----------------------------------------------------------------------- */
 
 /* A:B, half-open. */
@@ -225,11 +238,35 @@ static const char *quote(const char *word, Arena *arena)
     return arena_format(arena, "%s%s'", quoted, rest);
 }
 
-static const char *join_command_line(int argc, char **argv, Arena *arena)
+/* How many words, this one first, leave every pixel as it is: a render that was interrupted and
+ * resumed says the same command line in its frame as one that was not. */
+static int idle_words(const char *word)
+{
+    static const struct {
+        const char *name;
+        bool        has_value;
+    } idle[] = {{"--threads", true}, {"--json", false}, {"--quiet", false},
+                {"--progress", true}, {"--checkpoint", true},
+                {"--checkpoint-interval", true}, {"--resume", false}};
+    size_t length = strcspn(word, "=");
+    for (size_t i = 0; i < sizeof idle / sizeof *idle; i++)
+        if (strlen(idle[i].name) == length && !strncmp(word, idle[i].name, length))
+            return idle[i].has_value && !word[length] ? 2 : 1;
+    return 0;
+}
+
+static const char *join_command_line(int argc, char **argv, bool with_idle, Arena *arena)
 {
     const char *line = "parhelion";
-    for (int i = 0; i < argc; i++)
-        line = arena_format(arena, "%s %s", line, quote(argv[i], arena));
+    bool        has_options = true;
+    for (int i = 0; i < argc; i++) {
+        int idle = with_idle || !has_options ? 0 : idle_words(argv[i]);
+        if (!strcmp(argv[i], "--")) has_options = false;
+        if (idle)
+            i += idle - 1;
+        else
+            line = arena_format(arena, "%s %s", line, quote(argv[i], arena));
+    }
     return line;
 }
 
@@ -291,7 +328,8 @@ static bool parse_line(int argc, char **argv, Arena *arena, Typed *typed,
 
 bool render_request_parse(int argc, char **argv, Arena *arena, RenderRequest *out, Error *err)
 {
-    RenderRequest request = {.command_line = join_command_line(argc, argv, arena)};
+    RenderRequest request = {.command_line = join_command_line(argc, argv, false, arena),
+                             .typed_line = join_command_line(argc, argv, true, arena)};
     Typed         typed = {.size = {DEFAULT_WIDTH, DEFAULT_HEIGHT}, .spp = DEFAULT_SPP,
                            .max_bounces = DEFAULT_BOUNCES};
     if (!parse_line(argc, argv, arena, &typed, &request, err)) return false;

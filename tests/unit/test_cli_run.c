@@ -256,7 +256,7 @@ static void a_frame_says_how_to_make_it_again(void **state)
     FrameImage frame = read_frame("a.exr", arena);
     assert_string_equal(frame_string(&frame, "parhelion:commandLine"),
                         "parhelion render scene.gltf -o a.exr --size 16x12 --spp 3 --seed 9 "
-                        "--quiet --layers id,samples");
+                        "--layers id,samples");
     assert_string_equal(frame_string(&frame, "parhelion:samples"), "0:3");
     assert_string_equal(frame_string(&frame, "parhelion:seed"), "9");
     assert_string_equal(frame_string(&frame, "parhelion:camera"), "eye");
