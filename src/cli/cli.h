@@ -79,6 +79,9 @@ typedef struct Cli {
 bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, Cli *out,
                Error *err);
 
+/* --root's line of help, the same wherever files name others (base/reference.h). */
+#define ROOT_HELP "a folder whose files may be named too (default: parent of a file's folder)"
+
 /* ---- values inside texts --------------------------------------------------------------- */
 
 /* `count` finite numbers with commas and nothing else; false when it is something else. */

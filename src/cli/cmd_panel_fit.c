@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 #include <time.h>
 
+#include "base/reference.h"
 #include "cli/cli.h"
 #include "cli/panel_commands.h"
 #include "panel/fit.h"
@@ -98,13 +99,14 @@ bool cmd_panel_fit(int argc, char **argv, Error *err)
 {
     Arena       arena = arena_reserve(ARENA_BYTES);
     Cli         cli;
-    const char *output = NULL;
+    const char *output = NULL, *root = NULL;
     int         basis = 0, wavelet = 0, weights = 0, incidence = 0;
     long        level = 0;
     double      keep = 0, max_error = 0, frame = 0;
     bool        mask = false, lobe = false;
     const Option options[] = {
         {"-o", OPTION_TEXT, "X.panel", "the file to write", &output, .given = NULL},
+        {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &root, .given = NULL},
         {"--basis", OPTION_CHOICE, "vertex|haar",
          "basis on the hemisphere (default vertex)", &basis, .given = NULL},
         {"--weights", OPTION_CHOICE, "area|equal",
@@ -160,7 +162,8 @@ bool cmd_panel_fit(int argc, char **argv, Error *err)
     }
     Measurement *set = ARENA_NEW(&arena, Measurement, 1);
     json_t      *report = NULL;
-    bool ok = measurement_read(cli.arguments[0], &arena, set, err) &&
+    bool ok = reference_check_root(root, err) &&
+              measurement_read_below(cli.arguments[0], root, &arena, set, err) &&
               panel_fit(set, &fit, output, &arena, &report, err);
     if (ok) add_usage(report);
     if (ok && cli.json) {

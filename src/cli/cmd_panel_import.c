@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/reference.h"
 #include "cli/cli.h"
 #include "cli/panel_commands.h"
 #include "import/import_request.h"
@@ -78,7 +79,7 @@ static void print_summary(const ImportSet *set, const char *manifest, Arena *are
 
 /* What the command line holds before it is put on top of the declaration file. */
 typedef struct Words {
-    const char *output, *layout, *primaries, *panel, *instrument, *format, *symmetry;
+    const char *output, *layout, *root, *primaries, *panel, *instrument, *format, *symmetry;
     CliTexts    roles, skip, list[KEYS_MAX];
     const char *key[KEYS_MAX]; /* of the text tables' keys */
     double      wavelength_nm, area_mm[2];
@@ -107,6 +108,7 @@ static int list_options(Words *words, Option *option, Arena *arena)
         {"--layout", OPTION_TEXT, "DECLARATION.json",
          "all of the following, written once (keys: src/import/README.md)", &words->layout,
          .given = NULL},
+        {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &words->root, .given = NULL},
         {"--role", OPTION_TEXTS, "PATTERN=ROLE", "what files are: red:255, black, white, "
          "brdf:INCIDENCE[:AZIMUTH[:NM]], dark, reference[:INCIDENCE], skip", &words->roles,
          .given = NULL},
@@ -173,6 +175,8 @@ static bool add_keys(const Words *words, TextDeclaration *text, Error *err)
 /* The declaration file first, the command line on top of it. */
 static bool make_request(const Words *words, Arena *arena, ImportRequest *request, Error *err)
 {
+    request->root = words->root;
+    if (!reference_check_root(words->root, err)) return false;
     if (words->layout && !import_request_read(words->layout, arena, request, err)) return false;
     if (!add_keys(words, &request->text, err) ||
         !add_roles(&words->roles, arena, &request->text, err))

@@ -1,6 +1,7 @@
 /* panel plot: pictures of a panel. */
 #include <stdio.h>
 
+#include "base/reference.h"
 #include "base/units.h"
 #include "cli/cli.h"
 #include "cli/panel_commands.h"
@@ -13,7 +14,7 @@
 
 /* What the command line asks for. */
 typedef struct Request {
-    const char *panel, *measured, *picture, *report;
+    const char *panel, *measured, *root, *picture, *report;
     PlotOptions options;
 } Request;
 
@@ -44,7 +45,9 @@ static bool open_and_draw(const Request *request, Arena *arena, json_t *answer, 
 {
     Panel       *panel = NULL;
     Measurement *measured = request->measured ? ARENA_NEW(arena, Measurement, 1) : NULL;
-    if (measured && !measurement_read(request->measured, arena, measured, err)) return false;
+    if (measured && !measurement_read_below(request->measured, request->root, arena, measured,
+                                            err))
+        return false;
     if (!panel_open(request->panel, arena, &panel, err)) return false;
     PlotInput input = {panel, request->panel, measured};
     bool      ok = draw(request, &input, arena, answer, err);
@@ -91,6 +94,7 @@ bool cmd_panel_plot(int argc, char **argv, Error *err)
         {"--measured", OPTION_TEXT, "MANIFEST.json",
          "the set that the panel was fitted from: its points over the curves, and the errors",
          &request.measured, .given = NULL},
+        {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &request.root, .given = NULL},
         {"--report", OPTION_TEXT, "X.html", "one page with every figure and all numbers",
          &request.report, .given = NULL},
         {"--incidence-phi", OPTION_NUMBER, "DEG",
@@ -114,7 +118,7 @@ bool cmd_panel_plot(int argc, char **argv, Error *err)
     request.options.height = size[1];
     request.options.incidence_phi = radians_from_degrees(incidence_phi);
     request.options.threads = cli.threads;
-    bool ok = check_request(&request, err) && run(&request, &cli, &arena, err);
+    bool ok = check_request(&request, err) && reference_check_root(request.root, err) && run(&request, &cli, &arena, err);
     arena_release(&arena);
     return ok;
 }

@@ -7,13 +7,17 @@
 #pragma once
 #include "compare/planes.h"
 
-/* CIE L*a*b* of D65, L* 0 .. 100, from linear Rec.709 where 1 is white. */
-void   lab_from_rgb(const float rgb[3], double lab[3]);
+/* CIE L*a*b* of D65, L* 0 .. 100, from linear Rec.709 where 1 is white. Greys have a* = b* = 0
+ * within 1e-11. */
+void lab_from_rgb(const float rgb[3], double lab[3]);
+
+/* Symmetric within rounding; 0 only for equal colours. */
 double deltae_2000(const double reference[3], const double test[3]);
 
 typedef struct DeltaE {
-    double mean, p95, max; /* over the pixels that count */
+    double mean, p95, max; /* over the pixels that count; NaN when none does */
 } DeltaE;
 
-/* Linear Rec.709 of displayed pictures, 0 .. 1 (developed frames). map: one value a pixel. */
+/* Linear Rec.709 of displayed pictures, 0 .. 1 (developed frames). map: one value a pixel, the
+ * masked ones too. */
 DeltaE deltae_pictures(const Planes *reference, const Planes *test, PixelMask mask, float *map);

@@ -155,9 +155,8 @@ static bool read_others(const JsonView *root, ImportRequest *request, Error *err
               read_flag(root, "isotropic", &request->is_isotropic, err) &&
               read_symmetry(root, &request->symmetry, err) &&
               read_flag(root, "no_black", &request->black_is_zero, err);
-    if (ok && request->primaries)
-        request->primaries = path_beside(root->file, request->primaries, root->arena);
-    return ok;
+    return ok && (!request->primaries || json_view_file(root, "primaries", request->primaries,
+                                                        &request->primaries, err));
 }
 
 bool import_request_read(const char *file, Arena *arena, ImportRequest *request, Error *err)
@@ -168,6 +167,7 @@ bool import_request_read(const char *file, Arena *arena, ImportRequest *request,
     for (int i = 0; i < text_key_count; i++) known[count++] = text_keys[i].key;
     for (int i = 0; i < COUNT(other_keys); i++) known[count++] = other_keys[i];
     if (!json_view_open(file, arena, &root, err)) return false;
+    root.root = request->root;
     bool ok = json_view_check_keys(&root, known, count, err) &&
               read_text_keys(&root, &request->text, err) && read_others(&root, request, err);
     json_view_close(&root);

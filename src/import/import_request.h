@@ -15,6 +15,7 @@ typedef struct ImportRequest {
     ImportOptions   options;  /* options.text is set by import_run */
     TextList        skip;     /* patterns of files to leave out */
     const char     *primaries; /* a file of spectra; NULL: none */
+    const char     *root;      /* --root: where else a declaration may name files; or NULL */
     const char     *panel, *instrument;
     ImportSymmetry  symmetry;
     bool            is_isotropic, black_is_zero;
@@ -22,7 +23,7 @@ typedef struct ImportRequest {
     void           *context;
 } ImportRequest;
 
-/* Reads a declaration file (README: its keys) into a request. */
+/* Reads a declaration file (README: its keys) into a request, whose root is set already. */
 bool import_request_read(const char *file, Arena *arena, ImportRequest *request, Error *err);
 
 /* "none", "left-right", "up-down", "both", "half-turn". */

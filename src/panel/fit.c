@@ -1,6 +1,5 @@
 #include "panel/fit.h"
 
-#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -112,18 +111,6 @@ static bool fit_all_reflection(FitParts *parts, FitReflection *reflection, Arena
            sample_reflection(parts, reflection, arena, err);
 }
 
-/* A fit takes a while: whether its file can be made is found out first. */
-static bool check_output(const char *path, Arena scratch, Error *err)
-{
-    const char *temporary = file_temporary_name(path, &scratch);
-    FILE       *file = fopen(temporary, "wbx");
-    if (!file)
-        return error_at(err, ERROR_OUTPUT, path, "", "cannot be created: %s", strerror(errno));
-    fclose(file);
-    file_discard(temporary);
-    return true;
-}
-
 bool panel_fit(const Measurement *measurement, const FitOptions *options, const char *path,
                Arena *arena, json_t **report, Error *err)
 {
@@ -132,7 +119,7 @@ bool panel_fit(const Measurement *measurement, const FitOptions *options, const 
     FitReflection  *reflection = ARENA_NEW(arena, FitReflection, 1);
     FitParts parts = {.set = measurement, .options = options, .notes = &notes};
     Progress progress = progress_start(options->progress, "fit", "steps", 4);
-    if (!check_output(path, *arena, err)) return false;
+    if (!file_check_writable(path, err)) return false; /* a fit takes a while */
     note_limits(measurement, &notes);
     if (measurement->primary[0].level_count) {
         parts.emission = emission;

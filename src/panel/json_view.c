@@ -1,9 +1,11 @@
 #include "panel/json_view.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+#include "base/file.h"
+#include "base/reference.h"
 
 /* Levenshtein's distance, cut off at 64 letters: keys are short. */
 static int edit_distance(const char *a, const char *b)
@@ -52,12 +54,11 @@ static const char *kind_of(const json_t *value)
 
 bool json_view_open(const char *file, Arena *arena, JsonView *out, Error *err)
 {
-    FILE *stream = fopen(file, "rb");
-    if (!stream)
-        return error_at(err, ERROR_INPUT, file, "", "cannot be opened: %s", strerror(errno));
+    FileBytes bytes;
+    if (!file_read(file, JSON_FILE_BYTES_MAX, arena, &bytes, err)) return false;
     json_error_t fault;
-    json_t *root = json_loadf(stream, JSON_REJECT_DUPLICATES, &fault);
-    fclose(stream);
+    json_t *root = json_loadb((const char *)bytes.data, bytes.size, JSON_REJECT_DUPLICATES,
+                              &fault);
     if (!root) {
         char place[64];
         snprintf(place, sizeof place, "line %d", fault.line);
@@ -69,7 +70,7 @@ bool json_view_open(const char *file, Arena *arena, JsonView *out, Error *err)
         json_decref(root);
         return fails;
     }
-    *out = (JsonView){root, arena_string(arena, file, strlen(file)), "", arena};
+    *out = (JsonView){root, arena_string(arena, file, strlen(file)), "", arena, NULL};
     return true;
 }
 
@@ -111,8 +112,16 @@ bool json_view_child(const JsonView *view, const char *key, bool required, JsonV
         return error_at(err, ERROR_INPUT, view->file, view->path, "key '%s' is missing", key);
     if (value && !json_is_object(value))
         return wrong_kind(view, key, value, "an object", err);
-    *out = (JsonView){value, view->file, json_view_path(view, key), view->arena};
+    *out = (JsonView){value, view->file, json_view_path(view, key), view->arena, view->root};
     return true;
+}
+
+bool json_view_file(const JsonView *view, const char *key, const char *text, const char **out,
+                    Error *err)
+{
+    Error why;
+    return reference_resolve(view->file, text, view->root, view->arena, out, &why) ||
+           error_at(err, why.code, view->file, json_view_path(view, key), "%s", why.text);
 }
 
 static bool in_range(const JsonView *view, const char *key, double value,

@@ -18,9 +18,12 @@ typedef struct JsonView {
     const char *file;   /* as the user named it */
     const char *path;   /* JSON path of the object, "" for the root */
     Arena      *arena;
+    const char *root;   /* a folder whose files it may name besides its own; NULL: none */
 } JsonView;
 
-/* Reads a file that holds one JSON object; duplicate keys are refused. */
+#define JSON_FILE_BYTES_MAX ((size_t)64 << 20)
+
+/* Reads a file that holds one JSON object; duplicate keys are refused. The root is NULL. */
 bool json_view_open(const char *file, Arena *arena, JsonView *out, Error *err);
 void json_view_close(JsonView *root);
 
@@ -48,6 +51,11 @@ bool json_view_numbers(const JsonView *view, const char *key, JsonRange range, d
 
 /* A text; absent: *out keeps its value. */
 bool json_view_text(const JsonView *view, const char *key, const char **out, Error *err);
+
+/* The file that a text under `key` names, as seen from the document's folder
+ * (base/reference.h); the text may differ from the key's own. */
+bool json_view_file(const JsonView *view, const char *key, const char *text, const char **out,
+                    Error *err);
 
 /* JSON path of a member, from the arena. */
 const char *json_view_path(const JsonView *view, const char *key);

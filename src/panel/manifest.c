@@ -20,15 +20,14 @@ static bool read_emission_table(const JsonView *view, const char *key, const cha
 {
     static const char *const components[3] = {"X", "Y", "Z"};
     json_t *value = json_object_get(view->object, key);
-    if (json_is_string(value)) {
-        const char *file = path_beside(view->file, json_string_value(value), view->arena);
-        return angle_table_read_xyz(file, name, view->arena, out, err);
-    }
+    const char *file[3];
+    if (json_is_string(value))
+        return json_view_file(view, key, json_string_value(value), &file[0], err) &&
+               angle_table_read_xyz(file[0], name, view->arena, out, err);
     if (!json_is_object(value))
         return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
                         "wanted a table's path, or an object with X, Y and Z paths");
-    JsonView    grid;
-    const char *file[3];
+    JsonView grid;
     if (!json_view_child(view, key, true, &grid, err) ||
         !json_view_check_keys(&grid, components, 3, err))
         return false;
@@ -37,7 +36,8 @@ static bool read_emission_table(const JsonView *view, const char *key, const cha
         if (!json_is_string(text))
             return error_at(err, ERROR_INPUT, view->file, grid.path,
                             "key '%s' is missing or no text", components[j]);
-        file[j] = path_beside(view->file, json_string_value(text), view->arena);
+        if (!json_view_file(&grid, components[j], json_string_value(text), &file[j], err))
+            return false;
     }
     return angle_table_read_grid(file, name, view->arena, out, err);
 }
@@ -308,8 +308,9 @@ static bool join_wavelengths(const JsonView *view, const char *pattern, SlicePla
     for (size_t w = 0; w < count; w++) {
         AngleTable one;
         place.nm = (double)set->wavelength_nm[w];
-        const char *file = path_beside(view->file, fill_pattern(pattern, place, arena), arena);
-        if (!angle_table_read_brdf(file, &set->wavelength_nm[w], 1, arena, &one, err))
+        const char *file;
+        if (!json_view_file(view, "files", fill_pattern(pattern, place, arena), &file, err) ||
+            !angle_table_read_brdf(file, &set->wavelength_nm[w], 1, arena, &one, err))
             return false;
         if (!w) {
             *out = one;
@@ -343,7 +344,9 @@ static bool read_slice(const JsonView *view, const char *pattern, int index, Mea
     const char *name = out->azimuth_count > 1
         ? arena_format(arena, "brdf %g deg, light from %g deg", place.incidence, place.azimuth)
         : arena_format(arena, "brdf %g deg", place.incidence);
-    const char *file = path_beside(view->file, fill_pattern(pattern, place, arena), arena);
+    const char *file;
+    if (!json_view_file(view, "files", fill_pattern(pattern, place, arena), &file, err))
+        return false;
     if (strstr(pattern, "{wavelength}")
             ? !join_wavelengths(view, pattern, place, out, table, err)
             : !angle_table_read_brdf(file, out->wavelength_nm, out->wavelength_count, arena,
@@ -449,7 +452,8 @@ static bool read_members(const JsonView *root, Measurement *out, Error *err)
                          err) &&
         read_emission(root, out, err) && read_reflection(root, out, err);
     if (!ok || !primaries) return ok;
-    return read_spectra(path_beside(root->file, primaries, root->arena), root->arena, out, err);
+    return json_view_file(root, "primaries", primaries, &primaries, err) &&
+           read_spectra(primaries, root->arena, out, err);
 }
 
 /* A lone CSV: white only. */
@@ -464,6 +468,12 @@ static bool read_lone_table(const char *path, Arena *arena, Measurement *out, Er
 
 bool measurement_read(const char *path, Arena *arena, Measurement *out, Error *err)
 {
+    return measurement_read_below(path, NULL, arena, out, err);
+}
+
+bool measurement_read_below(const char *path, const char *folder, Arena *arena,
+                            Measurement *out, Error *err)
+{
     JsonView     root;
     Measurement *set = ARENA_NEW(arena, Measurement, 1);
     *set = (Measurement){.file = arena_string(arena, path, strlen(path)), .panel = "",
@@ -473,6 +483,7 @@ bool measurement_read(const char *path, Arena *arena, Measurement *out, Error *e
         ok = read_lone_table(path, arena, set, err);
     } else {
         if (!json_view_open(path, arena, &root, err)) return false;
+        root.root = folder;
         ok = read_members(&root, set, err);
         json_view_close(&root);
     }

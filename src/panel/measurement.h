@@ -68,8 +68,13 @@ typedef struct Measurement {
 } Measurement;
 
 /* Reads MANIFEST.json and every table it names; a path that ends in .csv is one white-only
- * table (theta, phi and X, Y, Z or Y, x, y). */
+ * table (theta, phi and X, Y, Z or Y, x, y). Tables lie below the parent of the manifest's
+ * folder. */
 bool measurement_read(const char *path, Arena *arena, Measurement *out, Error *err);
+
+/* The same; tables may also lie below `folder` (--root). NULL: no such folder. */
+bool measurement_read_below(const char *path, const char *folder, Arena *arena,
+                            Measurement *out, Error *err);
 
 /* ---- one table ---------------------------------------------------------------------- */
 

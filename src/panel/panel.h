@@ -4,7 +4,8 @@
  *          Directions are unit vectors that leave the display.
  * Units    emission in CIE XYZ, Y in cd m^-2, or spectral radiance in W m^-2 sr^-1 nm^-1;
  *          reflection in sr^-1, the cosine not included.
- * Memory   the file is memory-mapped and queried in place; panel_close unmaps it.
+ * Memory   the file is read once and queried as it stands; panel_close gives the copy back. A
+ *          file that changes, shrinks or goes away afterwards makes no difference.
  * Threads  a Panel is const after panel_open: any number of threads may query it.
  */
 #pragma once
@@ -19,6 +20,13 @@ typedef struct Panel Panel; /* opaque: the file's layout is private to src/panel
 
 /* Opens and checks a .panel file (version, checksum, every offset). */
 bool panel_open(const char *path, Arena *arena, Panel **out, Error *err);
+
+#define PANEL_FILE_BYTES_MAX ((size_t)256 << 20)
+
+/* The same for a file in memory, aligned to 8 bytes, which stays the caller's and must outlive
+ * the panel. name: of the file, for messages. */
+bool panel_open_memory(const void *data, size_t size, const char *name, Arena *arena,
+                       Panel **out, Error *err);
 void panel_close(Panel *panel); /* NULL is fine */
 
 /* ---- emission ------------------------------------------------------------------------ */

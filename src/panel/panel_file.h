@@ -1,7 +1,7 @@
 /* panel_file.h -- the layout of X.panel and of an opened Panel. Private to src/panel.
  *
  * Little-endian. A header, a table of contents, then the sections, each at a multiple of 8
- * bytes; no pointers, so that a mapped file is queried in place. The checksum (XXH3, 64 bits)
+ * bytes; no pointers, so that a file is queried as it was read. The checksum (XXH3, 64 bits)
  * covers everything behind itself. The version changes whenever a struct below does.
  */
 #pragma once
@@ -281,7 +281,7 @@ static inline size_t panel_sampling_tree_bytes(size_t tree)
 }
 
 struct Panel {
-    void   *map; /* NULL: the bytes belong to somebody else */
+    Arena   copy; /* of the file; empty where the bytes belong to somebody else */
     size_t  size;
     const char *meta;
     size_t      meta_size;

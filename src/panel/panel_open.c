@@ -1,16 +1,12 @@
-/* Opening a panel file: mapping it, and checking everything that a query relies on. */
-#include <errno.h>
-#include <fcntl.h>
+/* Opening a panel file: reading it, and checking everything that a query relies on. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "base/file.h"
 #include "panel/panel_open.h"
 
 #define CHECKSUM_FROM offsetof(PanelHeader, size)
@@ -145,45 +141,34 @@ bool panel_from_bytes(const void *data, size_t size, const char *name, Arena *ar
     return true;
 }
 
-static bool map_file(const char *path, void **map, size_t *size, Error *err)
+bool panel_open_memory(const void *data, size_t size, const char *name, Arena *arena,
+                       Panel **out, Error *err)
 {
-    struct stat status;
-    int file = open(path, O_RDONLY | O_CLOEXEC);
-    if (file < 0)
-        return error_at(err, ERROR_INPUT, path, "", "cannot be opened: %s", strerror(errno));
-    if (fstat(file, &status) || !S_ISREG(status.st_mode) || status.st_size < 1) {
-        close(file);
-        return error_at(err, ERROR_INPUT, path, "",
-                        "is no panel file, wanted one that `panel fit` wrote");
-    }
-    *size = (size_t)status.st_size;
-    *map = mmap(NULL, *size, PROT_READ, MAP_PRIVATE, file, 0);
-    close(file);
-    if (*map == MAP_FAILED)
-        return error_at(err, ERROR_INPUT, path, "", "cannot be mapped: %s", strerror(errno));
+    Panel *panel;
+    if (!panel_from_bytes(data, size, name, arena, &panel, err)) return false;
+    if (panel->reflection && !panel->sampling.incidences)
+        return panel_refuse(&(PanelBytes){data, size, name, err}, "table of contents",
+                            "a reflection stands without its sampling tree");
+    *out = panel;
     return true;
 }
 
+/* A copy, not a mapping: a file that shrinks under a mapping kills the process, and one that
+ * changes would be queried unchecked. */
 bool panel_open(const char *path, Arena *arena, Panel **out, Error *err)
 {
-    void  *map = NULL;
-    size_t size = 0;
-    Panel *panel;
-    if (!map_file(path, &map, &size, err)) return false;
-    if (!panel_from_bytes(map, size, path, arena, &panel, err)) {
-        munmap(map, size);
+    Arena     copy = arena_reserve(PANEL_FILE_BYTES_MAX + 4096);
+    FileBytes bytes;
+    if (!file_read(path, PANEL_FILE_BYTES_MAX, &copy, &bytes, err) ||
+        !panel_open_memory(bytes.data, bytes.size, path, arena, out, err)) {
+        arena_release(&copy);
         return false;
     }
-    panel->map = map;
-    *out = panel;
-    if (!panel->reflection || panel->sampling.incidences) return true;
-    panel_refuse(&(PanelBytes){map, size, path, err}, "table of contents",
-                 "a reflection stands without its sampling tree");
-    panel_close(panel);
-    return false;
+    (*out)->copy = copy;
+    return true;
 }
 
 void panel_close(Panel *panel)
 {
-    if (panel && panel->map) munmap(panel->map, panel->size);
+    if (panel) arena_release(&panel->copy);
 }

@@ -175,13 +175,14 @@ static void open_panel(Loader *load, int id)
     Error err;
     Panel *panel;
     FileBytes bytes;
-    Arena scratch = load->scratch;
     Display *display = list_item(&load->displays, id);
     const DisplayPlace *place = list_item(&load->display_places, id);
     display->panel = find_panel(load, id, display->panel_path);
     if (display->panel) return;
-    if (load_read(load, display->panel_path, &scratch, &bytes, &err) &&
-        panel_open(display->panel_path, load->arena, &panel, &err)) {
+    ARENA_NEW(load->arena, uint64_t, 0); /* the next bytes are aligned as a panel wants it */
+    if (load_read(load, display->panel_path, load->arena, &bytes, &err) &&
+        panel_open_memory(bytes.data, bytes.size, display->panel_path, load->arena, &panel,
+                          &err)) {
         display->panel = panel;
         return;
     }

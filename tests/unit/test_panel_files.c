@@ -336,7 +336,7 @@ static void other_files_are_no_panels(void **state)
     assert_false(panel_open("/no/such.panel", &folder.arena, &panel, &err));
     expect_line(&err, "/no/such.panel", "cannot be opened");
     assert_false(panel_open(folder.folder, &folder.arena, &panel, &err));
-    expect_line(&err, "no panel file", "");
+    expect_line(&err, "is a folder, a file is wanted", "");
     const char *path = fixture_file(&folder, "x.panel", "");
     assert_false(panel_open(path, &folder.arena, &panel, &err));
     expect_line(&err, "x.panel", "is no panel file, wanted one that `panel fit` wrote");
