@@ -29,7 +29,7 @@ static const struct {
     {"all", LAYER_ALL}, {"xyz", LAYER_XYZ}, {"depth", LAYER_DEPTH},
     {"position", LAYER_POSITION}, {"normal", LAYER_NORMAL}, {"albedo", LAYER_ALBEDO},
     {"id", LAYER_ID}, {"uv", LAYER_UV}, {"variance", LAYER_VARIANCE},
-    {"samples", LAYER_SAMPLES}, {"display", LAYER_DISPLAYS},
+    {"halves", LAYER_HALVES}, {"samples", LAYER_SAMPLES}, {"display", LAYER_DISPLAYS},
     {"display.emitted", LAYER_DISPLAY_EMITTED}, {"display.reflected", LAYER_DISPLAY_REFLECTED},
     {"display.white", LAYER_DISPLAY_WHITE}, {"display.black", LAYER_DISPLAY_BLACK},
     {"display.theta", LAYER_DISPLAY_ANGLES}, {"display.phi", LAYER_DISPLAY_ANGLES},

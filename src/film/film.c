@@ -224,7 +224,7 @@ void film_add_sample(Film *film, int x, int y, const FilmSample *sample)
     for (int i = 0; i < 3; i++) sums->xyz[i] += fixed_from_float(sample->xyz[i]);
     add_squares(sums, sample->xyz);
     if (sample->sample_index / BLOCK_SAMPLES % 2) {
-        sums->odd_y += fixed_from_float(sample->xyz[1]);
+        for (int i = 0; i < 3; i++) sums->odd_xyz[i] += fixed_from_float(sample->xyz[i]);
         sums->odd_samples++;
     }
     if (sample->hit) add_features(film, sums, sample);
@@ -260,15 +260,23 @@ static double sigma_of_spread(const double variance_rgb[3])
            0.0722 * sqrt(variance_rgb[2]);
 }
 
-/* Standard error of Y from the difference of two interleaved halves, each a mean of whole
- * blocks whose samples are spread evenly. One difference d of two normal means says sigma only
- * in the mean over pixels, where E|d| = sqrt(2 / pi) sigma_d. */
-static double sigma_of_halves(const PixelSums *sums)
+bool pixel_halves(const PixelSums *sums, double xyz[3])
 {
     double n = (double)sums->samples, odd = (double)sums->odd_samples, even = n - odd;
-    double odd_y = double_from_fixed(sums->odd_y, FIXED_BITS);
-    double even_y = double_from_fixed(sums->xyz[1] - sums->odd_y, FIXED_BITS);
-    return 1.2533141373155003 * fabs(odd_y / odd - even_y / even) * sqrt(odd * even) / n;
+    if (odd < BLOCK_SAMPLES || even < BLOCK_SAMPLES) return false;
+    for (int i = 0; i < 3; i++) {
+        double odd_sum = double_from_fixed(sums->odd_xyz[i], FIXED_BITS);
+        double even_sum = double_from_fixed(sums->xyz[i] - sums->odd_xyz[i], FIXED_BITS);
+        xyz[i] = (odd_sum / odd - even_sum / even) * sqrt(odd * even) / n;
+    }
+    return true;
+}
+
+/* One difference d of two normal means says sigma only in the mean over pixels, where
+ * E|d| = sqrt(2 / pi) sigma_d. */
+static double sigma_of_halves(double difference)
+{
+    return 1.2533141373155003 * fabs(difference);
 }
 
 FilmPixel film_pixel(const Film *film, int x, int y)
@@ -278,9 +286,9 @@ FilmPixel film_pixel(const Film *film, int x, int y)
     for (int i = 0; i < 3 && sums->samples; i++)
         pixel.mean_xyz[i] = double_from_fixed(sums->xyz[i], FIXED_BITS) / (double)sums->samples;
     pixel_variance(sums, pixel.variance_rgb);
-    bool halves = sums->odd_samples >= BLOCK_SAMPLES &&
-                  sums->samples - sums->odd_samples >= BLOCK_SAMPLES;
-    pixel.sigma_y = halves ? sigma_of_halves(sums) : sigma_of_spread(pixel.variance_rgb);
+    double halves[3];
+    pixel.sigma_y = pixel_halves(sums, halves) ? sigma_of_halves(halves[1])
+                                               : sigma_of_spread(pixel.variance_rgb);
     return pixel;
 }
 

@@ -10,7 +10,7 @@
  *            them stay below 2^126 steps in either. Relative to the square a step is 2^-29 or
  *            less for 1e-5 cd m^-2 and more.
  *          A pixel takes at most FILM_SAMPLES_MAX samples; an assertion guards it.
- * Memory   everything comes from `arena`; nothing to free. 192 bytes a pixel, and 48 for each
+ * Memory   everything comes from `arena`; nothing to free. 224 bytes a pixel, and 48 for each
  *          three-component layer.
  * Threads  tiles of different pixels may be filled at the same time; one pixel belongs to one
  *          thread at a time. Reading needs all writers to be done.
@@ -60,9 +60,10 @@ typedef enum FilmLayer {
     LAYER_DISPLAY_BLACK = 1 << 12,
     LAYER_DISPLAY_ANGLES = 1 << 13,
     LAYER_DISPLAY_CONTRAST = 1 << 14,
-    LAYER_ALL = (1 << 15) - 1,
-    LAYER_DISPLAYS = LAYER_ALL & ~(LAYER_DISPLAY_EMITTED - 1),
-    LAYER_FEATURES = LAYER_ALL & ~(LAYER_XYZ | LAYER_VARIANCE | LAYER_SAMPLES)
+    LAYER_HALVES = 1 << 15,
+    LAYER_ALL = (1 << 16) - 1,
+    LAYER_DISPLAYS = (LAYER_HALVES - 1) & ~(LAYER_DISPLAY_EMITTED - 1),
+    LAYER_FEATURES = LAYER_ALL & ~(LAYER_XYZ | LAYER_VARIANCE | LAYER_SAMPLES | LAYER_HALVES)
 } FilmLayer; /* LAYER_FEATURES: those that need the members from `hit` on */
 
 typedef struct FilmRect {
@@ -134,5 +135,8 @@ FilmDropped film_dropped(const Film *film);
  *   display.*   over the samples that saw a display, NaN where none did: emitted, white and
  *       black are means, reflected is the mean of (sample - emitted), so the pixel's mean minus
  *       emitted wherever the whole pixel is display; theta and phi are those of the mean
- *       direction; contrast is the ratio of mean luminances. */
+ *       direction; contrast is the ratio of mean luminances;
+ *   halves   the weighted difference of two interleaved halves of the samples: its square has
+ *       the expectation of the variance of the pixel's mean, without taking samples to be
+ *       independent; NaN below 32 samples. */
 FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena);

@@ -155,6 +155,16 @@ static void read_variance(const Film *film, const PixelSums *sums, float v[3])
     for (int i = 0; i < 3; i++) v[i] = (float)variance[i];
 }
 
+static void read_halves(const Film *film, const PixelSums *sums, float v[3])
+{
+    (void)film;
+    double halves[3];
+    float  xyz[3];
+    if (!pixel_halves(sums, halves)) halves[0] = halves[1] = halves[2] = (double)NAN;
+    for (int i = 0; i < 3; i++) xyz[i] = (float)halves[i];
+    rgb_from_xyz(xyz, v);
+}
+
 static void read_samples(const Film *film, const PixelSums *sums, float v[3])
 {
     (void)film;
@@ -187,6 +197,7 @@ static const struct {
     {LAYER_ALBEDO, "albedo", "RGB", read_albedo},
     {LAYER_UV, "uv", "UV", read_uv},
     {LAYER_VARIANCE, "variance", "RGB", read_variance},
+    {LAYER_HALVES, "halves", "RGB", read_halves},
     {LAYER_DISPLAY_EMITTED, "display.emitted", "RGB", read_emitted},
     {LAYER_DISPLAY_REFLECTED, "display.reflected", "RGB", read_reflected},
     {LAYER_DISPLAY_WHITE, "display.white", "RGB", read_white},

@@ -30,13 +30,13 @@ typedef enum LayerSums {
 typedef struct PixelSums {
     Fixed    xyz[3];
     Fixed    squares[3][2]; /* of linear Rec.709 R, G, B: [0] small, [1] large squares */
-    Fixed    odd_y;        /* Y of the samples in every second block of BLOCK_SAMPLES */
+    Fixed    odd_xyz[3];   /* of the samples in every second block of BLOCK_SAMPLES */
     uint32_t samples, hits, display_hits;
     uint32_t part_sample;    /* lowest sample index that hit; NO_SAMPLE: none */
     int32_t  part_id;
     uint32_t display_sample; /* lowest sample index that saw a display */
     int32_t  display_id;
-    uint32_t odd_samples;  /* how many odd_y holds */
+    uint32_t odd_samples;  /* how many odd_xyz holds */
     Fixed    layers[];
 } PixelSums;
 
@@ -54,6 +54,12 @@ struct Film {
 /* Which of FilmLayer need these sums, and how many numbers they are. */
 unsigned layer_sums_users(LayerSums sums);
 int      layer_sums_size(LayerSums sums);
+
+/* From the difference of two interleaved halves of the samples, each a mean of whole blocks
+ * that are spread evenly: XYZ whose square has the expectation of the variance of the pixel's
+ * mean, without taking samples to be independent. (a - b) sqrt(n_a n_b) / (n_a + n_b), half
+ * the difference for halves of one size. False below 2 BLOCK_SAMPLES: one half is missing. */
+bool pixel_halves(const PixelSums *sums, double xyz[3]);
 
 /* Unbiased variance of the mean of linear Rec.709 R, G, B, (cd m^-2)^2; NaN below 2 samples. */
 void pixel_variance(const PixelSums *sums, double variance[3]);

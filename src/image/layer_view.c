@@ -57,6 +57,7 @@ static const KnownLayer KNOWN[] = {
     {"uv", "UV", SHOW_UV, "", false},
     {"xyz", "XYZ", SHOW_LIGHT, "cd/m^2", true},
     {"variance", "RGB", SHOW_NUMBER, "(cd/m^2)^2", true},
+    {"halves", "RGB", SHOW_NUMBER, "cd/m^2", true},
     {"depth", "Z", SHOW_NUMBER, "m", true},
     {"samples", "N", SHOW_NUMBER, "samples", false},
     {"display.theta", "", SHOW_NUMBER, "deg", false},
@@ -199,6 +200,14 @@ static const float *luminance_variance(const LayerView *view, Arena *arena)
     return out;
 }
 
+/* Of the difference of two halves: how large, whichever half was the brighter one. */
+static const float *luminance_size(const LayerView *view, Arena *arena)
+{
+    float *out = layer_view_luminance(view, arena);
+    for (size_t i = 0; i < pixel_count(view); i++) out[i] = fabsf(out[i]);
+    return out;
+}
+
 bool layer_view_find(const FrameImage *frame, const char *layer, Arena *arena, LayerView *out,
                      Error *err)
 {
@@ -206,7 +215,7 @@ bool layer_view_find(const FrameImage *frame, const char *layer, Arena *arena, L
     long long width = (long long)w.x1 - w.x0, height = (long long)w.y1 - w.y0;
     LayerView view = {.show = SHOW_LIGHT, .unit = ""};
     if (!layer) layer = "";
-    view.has_gaps = !strncmp(layer, "display.", 8);
+    view.has_gaps = !strncmp(layer, "display.", 8) || !strncmp(layer, "halves", 6);
     if (!find_layer(frame, layer, &view)) return unknown_layer(frame, layer, *arena, err);
     if (width < 1 || height < 1 || width * height > MAX_PIXELS || width > 65536)
         return error_set(err, ERROR_INPUT, "a display window of %lld x %lld pixels, at most "
@@ -218,7 +227,8 @@ bool layer_view_find(const FrameImage *frame, const char *layer, Arena *arena, L
     if (view.show == SHOW_LIGHT || view.show == SHOW_REFLECTANCE)
         convert_to_rec709(frame, !strcmp(layer, "xyz"), &view, arena);
     if (view.show == SHOW_NUMBER && view.planes[2])
-        view.planes[0] = luminance_variance(&view, arena);
+        view.planes[0] = strcmp(layer, "halves") ? luminance_variance(&view, arena)
+                                                 : luminance_size(&view, arena);
     *out = view;
     return true;
 }

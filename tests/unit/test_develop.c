@@ -418,12 +418,13 @@ static void every_layer_can_be_looked_at(void **state)
     static const char *const CHANNELS[] = {
         "xyz.X", "xyz.Y", "xyz.Z", "depth.Z", "position.X", "position.Y", "position.Z",
         "normal.X", "normal.Y", "normal.Z", "albedo.R", "albedo.G", "albedo.B", "id.part",
-        "id.display", "uv.U", "uv.V", "variance.R", "variance.G", "variance.B", "samples.N",
+        "id.display", "uv.U", "uv.V", "variance.R", "variance.G", "variance.B", "halves.R",
+        "halves.G", "halves.B", "samples.N",
         "light.sun.R", "light.sun.G", "light.sun.B", "display.emitted.R", "display.emitted.G",
         "display.emitted.B", "display.theta", "display.phi", "display.contrast"};
     static const char *const LAYERS[] = {
         "xyz", "depth", "depth.Z", "position", "normal", "albedo", "id", "id.display", "uv",
-        "variance", "variance.G", "samples", "light.sun", "display.emitted", "display.theta",
+        "variance", "variance.G", "halves", "halves.G", "samples", "light.sun", "display.emitted", "display.theta",
         "display.contrast", "R", "light.sun.B", NULL};
     Arena      arena = arena_reserve(ARENA_BYTES);
     FrameImage frame = uniform_frame(40, 30, 90, &arena);

@@ -345,7 +345,48 @@ static void a_frame_has_the_channels_asked_for_and_no_others(void **state)
     film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
     frame = film_to_frame(film, 0, &arena);
     assert_int_equal(frame.channel_count,
-                     3 + 3 + 1 + 3 + 3 + 3 + 2 + 2 + 3 + 1 + 4 * 3 + 2 + 1);
+                     3 + 3 + 1 + 3 + 3 + 3 + 2 + 2 + 3 + 3 + 1 + 4 * 3 + 2 + 1);
+    arena_release(&arena);
+}
+
+/* 80 samples in blocks of 16, the second and fourth of which are odd: 32 against 48. */
+static void halves_are_the_difference_of_interleaved_blocks(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 22);
+    Film *film = film_create(WIDTH, HEIGHT, whole, LAYER_HALVES, &arena);
+    for (uint32_t i = 80; i-- > 0;) add_grey(film, 0, 0, i, i / 16 % 2 ? 9.0f : 4.0f);
+    for (uint32_t i = 0; i < 31; i++) add_grey(film, 1, 0, i, 4); /* the odd half is short */
+    FrameImage frame = film_to_frame(film, 0, &arena);
+    float      grey[3] = {1, 1, 1}, rgb[3];
+    rgb_from_xyz(grey, rgb);
+    double     half = (9 - 4) * sqrt(32.0 * 48) / 80;
+    assert_close(at(&frame, "halves.R", 0), half * (double)rgb[0], 1e-6);
+    assert_close(at(&frame, "halves.G", 0), half * (double)rgb[1], 1e-6);
+    assert_close(at(&frame, "halves.B", 0), half * (double)rgb[2], 1e-6);
+    assert_close(film_pixel(film, 0, 0).sigma_y, half * sqrt(PI / 2), 1e-6);
+    assert_true(isnan(at(&frame, "halves.G", 1)));
+    arena_release(&arena);
+}
+
+/* Over many pixels of independent samples the square of `halves` is their variance. */
+static void halves_squared_are_the_variance_of_independent_samples(void **state)
+{
+    (void)state;
+    enum { SIDE = 60 };
+    Arena    arena = arena_reserve(1 << 23);
+    FilmRect square = {0, 0, SIDE, SIDE};
+    Film    *film =
+        film_create(SIDE, SIDE, square, LAYER_HALVES | LAYER_VARIANCE, &arena);
+    for (int p = 0; p < SIDE * SIDE; p++)
+        for (uint32_t i = 0; i < 80; i++) add_grey(film, p % SIDE, p / SIDE, i, coin(p, i, 1));
+    FrameImage frame = film_to_frame(film, 0, &arena);
+    double     squares = 0, variance = 0;
+    for (int p = 0; p < SIDE * SIDE; p++) {
+        squares += at(&frame, "halves.G", p) * at(&frame, "halves.G", p);
+        variance += at(&frame, "variance.G", p);
+    }
+    assert_close(squares, variance, 0.08); /* 3 sigma: 3600 squares of a normal number */
     arena_release(&arena);
 }
 
@@ -474,7 +515,7 @@ static void a_crop_is_the_data_window(void **state)
 static void film_bytes_is_what_a_film_takes(void **state)
 {
     (void)state;
-    for (unsigned layers = 0; layers <= LAYER_ALL; layers += 97) {
+    for (unsigned layers = 0; layers <= LAYER_ALL; layers += 193) {
         Arena arena = arena_reserve(1 << 20);
         film_create(WIDTH, HEIGHT, whole, layers, &arena);
         assert_in_range(arena.next - arena.begin, film_bytes(whole, layers),
@@ -499,6 +540,8 @@ int main(void)
         cmocka_unit_test(relative_error_judges_shadows_against_half_the_key),
         cmocka_unit_test(relative_error_of_displays_counts_their_pixels_only),
         cmocka_unit_test(a_frame_has_the_channels_asked_for_and_no_others),
+        cmocka_unit_test(halves_are_the_difference_of_interleaved_blocks),
+        cmocka_unit_test(halves_squared_are_the_variance_of_independent_samples),
         cmocka_unit_test(layers_are_means_over_the_samples_that_hit),
         cmocka_unit_test(features_that_are_not_finite_leave_the_light_alone),
         cmocka_unit_test(contrast_is_the_ratio_of_mean_luminances_with_the_reflection),
