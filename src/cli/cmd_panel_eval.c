@@ -1,16 +1,39 @@
 /* panel info, panel eval: what a panel file says. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "base/units.h"
 #include "cli/cli.h"
 #include "cli/panel_commands.h"
 #include "cli/panel_grid.h"
 #include "cli/panel_question.h"
 #include "panel/csv_table.h"
 #include "panel/fit.h"
+#include "panel/panel_info.h"
 
 #define ARENA_BYTES ((size_t)16 << 30)
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
+
+static json_t *degrees_json(const double *radians, int count)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < count; i++)
+        json_array_append_new(list, json_real(round(degrees_from_radians(radians[i]) * 1e4) /
+                                              1e4));
+    return list;
+}
+
+/* The light's measured incidences, and its azimuths where they matter. */
+static void add_lights(const Panel *panel, json_t *report)
+{
+    double  theta[PANEL_INFO_INCIDENCES_MAX], phi[PANEL_INFO_AZIMUTHS_MAX];
+    int     thetas = panel_info_incidences(panel, theta), phis = panel_info_azimuths(panel, phi);
+    json_t *reflection = json_object_get(report, "reflection");
+    if (!json_is_object(reflection)) return;
+    json_object_set_new(reflection, "incidence_deg", degrees_json(theta, thetas));
+    if (phis > 1) json_object_set_new(reflection, "incidence_phi_deg", degrees_json(phi, phis));
+}
 
 bool cmd_panel_info(int argc, char **argv, Error *err)
 {
@@ -24,6 +47,7 @@ bool cmd_panel_info(int argc, char **argv, Error *err)
     if (cli.help_shown) return true;
     bool ok = panel_open(cli.arguments[0], &arena, &panel, err) &&
               (panel_report(panel, &report, err) || error_in_file(err, cli.arguments[0]));
+    if (ok) add_lights(panel, report);
     if (ok && cli.json) {
         ok = cli_print_json(report, err);
     } else if (ok) {

@@ -26,7 +26,18 @@ static void print_table(const json_t *table)
            100 * json_number_value(json_object_get(table, "extrapolated_share")));
 }
 
-/* "a name": its text or number behind the line's label, for everything a fit has chosen. */
+static void print_numbers(const char *key, const json_t *list)
+{
+    size_t  i;
+    json_t *value;
+    if (!json_is_number(json_array_get(list, 0))) return;
+    printf(" %s", key);
+    json_array_foreach((json_t *)list, i, value)
+        printf("%s%.6g", i ? "," : " ", json_number_value(value));
+    printf(";");
+}
+
+/* "a name": its text or numbers behind the line's label, for everything a fit has chosen. */
 static void print_choices(const char *label, const json_t *choices)
 {
     const char *key;
@@ -37,6 +48,7 @@ static void print_choices(const char *label, const json_t *choices)
         if (json_is_string(value)) printf(" %s %s;", key, json_string_value(value));
         if (json_is_number(value)) printf(" %s %.4g;", key, json_number_value(value));
         if (json_is_boolean(value)) printf(" %s %s;", key, json_is_true(value) ? "yes" : "no");
+        print_numbers(key, value);
     }
     printf("\n");
 }

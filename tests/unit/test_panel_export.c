@@ -5,6 +5,7 @@
 
 #include "panel/csv_table.h"
 #include "panel/export.h"
+#include "panel/panel_info.h"
 
 #define RECIPE                                                                                 \
     "{\"panel\": \"to export\", \"emission\": {" FIXTURE_SPECTRA                               \
@@ -132,6 +133,126 @@ static void the_mirror_part_survives(void **state)
     }
 }
 
+/* ---- azimuths of the light, and a true black ---------------------------------------------- */
+
+/* What the light at (theta_i, phi_i) is scattered by, phi from the mirror direction: brushed
+ * along x; degrees. */
+static double brushed(double theta_i, double phi_i, double theta, double phi)
+{
+    Vec3   light = direction_deg(theta_i, phi_i), to = direction_deg(theta, phi_i - 180 + phi);
+    double x = (double)(to.x + light.x) / 0.4, y = (double)(to.y + light.y) / 0.8;
+    return 0.3 / (double)(light.z + to.z) * pow(1 + x * x + y * y, -1.5) + 0.003;
+}
+
+#define AZIMUTHS 6
+#define BRUSHED                                                                                \
+    "{\"panel\": \"brushed\", \"reflection\": {\"wavelengths_nm\": [550],"                      \
+    "\"incidence_deg\": [20, 50], \"incidence_phi_deg\": [0, 60, 120, 180, 240, 300],"           \
+    "\"files\": \"i{incidence}_a{azimuth}.csv\"}}"
+
+static void write_brushed(Fixture *to)
+{
+    for (int i = 0; i < 2 * AZIMUTHS; i++) {
+        int   incidence = i % 2 ? 50 : 20, azimuth = 60 * (i / 2);
+        char *text = arena_alloc(&to->arena, 1, 1, 1 << 16), *at = text;
+        at += sprintf(at, "theta,phi,550\n");
+        for (int t = 0; t <= 80; t += 5)
+            for (int p = 0; p < (t ? 360 : 1); p += 15)
+                at += sprintf(at, "%d,%d,%.7g\n", t, p, brushed(incidence, azimuth, t, p));
+        fixture_file(to, arena_format(&to->arena, "i%d_a%d.csv", incidence, azimuth), text);
+    }
+}
+
+/* Reads, fits, opens. */
+static void fit_manifest(Fixture *to, const char *manifest)
+{
+    Error      err = {0};
+    FitOptions fit = options();
+    fit.frame_exponent = 1;
+    fit.level = 5;
+    to->set = ARENA_NEW(&to->arena, Measurement, 1);
+    if (!measurement_read(manifest, &to->arena, to->set, &err) ||
+        !panel_fit(to->set, &fit, to->panel_path, &to->arena, &to->report, &err) ||
+        !panel_open(to->panel_path, &to->arena, &to->panel, &err))
+        fail_msg("%s: %s: %s", err.file, err.path, err.text);
+}
+
+/* Largest deviation of a panel from the tables of a set, all azimuths of the light. */
+static double deviation(const Panel *panel, const Measurement *set)
+{
+    Wavelengths w = even_wavelengths(550, 0);
+    double      worst = 0;
+    for (int i = 0; i < set->azimuth_count * set->incidence_count; i++) {
+        const AngleTable *table = &set->brdf[i];
+        double phi = degrees_from_radians(set->azimuth[i / set->incidence_count]);
+        double incidence = degrees_from_radians(set->incidence[i % set->incidence_count]);
+        for (int r = 0; r < table->rows; r++) {
+            Vec3 to = direction_deg(degrees_from_radians((double)table->theta[r]),
+                                    degrees_from_radians((double)table->phi[r]) + phi - 180);
+            double f = (double)panel_brdf(panel, to, direction_deg(incidence, phi), &w)[0];
+            worst = fmax(worst, fabs(f / (double)table->value[r] - 1));
+        }
+    }
+    return worst;
+}
+
+static void every_azimuth_of_the_light_is_exported(void **state)
+{
+    (void)state;
+    Error   err = {0};
+    Fixture from, back;
+    double  phi[PANEL_INFO_AZIMUTHS_MAX];
+    ExportOptions fine = {.theta_step_deg = 5, .phi_step_deg = 15, .mirror_fwhm_deg = 0,
+                          .progress = PROGRESS_NONE};
+    fixture_folder(&from);
+    fixture_folder(&back);
+    write_brushed(&from);
+    fit_manifest(&from, fixture_file(&from, "BRUSHED.json", BRUSHED));
+    assert_int_equal(panel_info_azimuths(from.panel, phi), AZIMUTHS);
+    for (int i = 0; i < AZIMUTHS; i++) assert_near(degrees_from_radians(phi[i]), 60 * i, 1e-4);
+    const char *out = arena_format(&from.arena, "%s/out", from.folder);
+    if (!panel_export(from.panel, "x.panel", &fine, out, &err)) fail_msg("%s", err.text);
+    fit_manifest(&back, arena_format(&from.arena, "%s/MANIFEST.json", out));
+    assert_int_equal(back.set->azimuth_count, AZIMUTHS);
+    /* the tables are what the panel says; the panel is near the source, its fit near both */
+    double written = deviation(from.panel, back.set), source = deviation(from.panel, from.set);
+    double fitted = deviation(back.panel, back.set), both = deviation(back.panel, from.set);
+    if (written > 1e-5 || source > BOUND || fitted > BOUND || both > 2.05 * BOUND)
+        fail_msg("written %.3g source %.3g fitted %.3g both %.3g", written, source, fitted,
+                 both);
+    fixture_end(&back);
+    fixture_end(&from);
+}
+
+#define TRUE_BLACK                                                                             \
+    "{\"panel\": \"no black\", \"emission\": {" FIXTURE_SPECTRA                                \
+    "\"black_cd_m2\": 0, \"levels\": [127, 255]},"                                            \
+    "\"instrument\": {\"theta_step_deg\": 8, \"phi_step_deg\": 30}}"
+
+static void levels_over_a_true_black_are_exported(void **state)
+{
+    (void)state;
+    Error      err = {0};
+    FitOptions fit = options();
+    Fixture    from, back;
+    fixture_start(&from, TRUE_BLACK, &fit);
+    fixture_folder(&back);
+    assert_false(panel_info_has_black(from.panel));
+    const char *out = arena_format(&from.arena, "%s/out", from.folder);
+    if (!panel_export(from.panel, "x.panel", &coarse, out, &err)) fail_msg("%s", err.text);
+    fit_manifest(&back, arena_format(&from.arena, "%s/MANIFEST.json", out));
+    for (int p = 0; p < 3; p++) assert_int_equal(back.set->primary[p].level_count, 2);
+    for (int i = 0; i < 20; i++) {
+        Vec3  d = direction_deg(4 * i, 17 * i);
+        float rgb[3] = {127, 255, (float)(12 * i)}, a[3], b[3];
+        panel_emission_xyz(from.panel, d, rgb, a);
+        panel_emission_xyz(back.panel, d, rgb, b);
+        for (int j = 0; j < 3; j++) assert_close((double)b[j], (double)a[j], BOUND);
+    }
+    fixture_end(&back);
+    fixture_end(&from);
+}
+
 static int entries(const char *path)
 {
     DIR *list = opendir(path);
@@ -205,6 +326,8 @@ int main(void)
         cmocka_unit_test(a_fit_of_the_export_is_within_its_bound),
         cmocka_unit_test(a_fit_of_the_exported_reflection_is_near_its_bound),
         cmocka_unit_test(the_mirror_part_survives),
+        cmocka_unit_test(every_azimuth_of_the_light_is_exported),
+        cmocka_unit_test(levels_over_a_true_black_are_exported),
         cmocka_unit_test(a_folder_with_files_is_left_alone),
         cmocka_unit_test(an_empty_folder_is_filled),
         cmocka_unit_test(single_tables_are_named_as_in_info),

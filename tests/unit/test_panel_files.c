@@ -137,7 +137,7 @@ static int end(void **state)
 static void ask_everything(const Panel *panel)
 {
     Wavelengths w = even_wavelengths(370, 30);
-    double number[PANEL_INFO_LEVELS_MAX];
+    double number[PANEL_INFO_LEVELS_MAX], phi[PANEL_INFO_AZIMUTHS_MAX];
     float  rgb[3] = {255, 90.5f, 3}, u[3] = {0.3f, 0.7f, 0.9f}, xyz[3], pdf;
     float  nm[PANEL_INFO_WAVELENGTHS_MAX];
     for (int i = 0; i < 4; i++) {
@@ -155,7 +155,7 @@ static void ask_everything(const Panel *panel)
     }
     panel_info_wavelengths(panel, nm);
     panel_info_incidences(panel, number);
-    panel_info_azimuths(panel, number);
+    panel_info_azimuths(panel, phi);
 }
 
 static void repair_checksum(unsigned char *bytes, size_t size)
