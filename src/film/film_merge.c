@@ -1,0 +1,247 @@
+#include "film/film_merge.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "film/pixels.h"
+
+/* ---- sums -------------------------------------------------------------------------------- */
+
+#define LEADING_SUMS (offsetof(PixelSums, samples) / sizeof(Fixed))
+
+/* No sum of one sample is beyond 2^96 steps (film.h), so that the sums of any parts that hold
+ * at most FILM_SAMPLES_MAX samples between them stay within 128 bits. */
+static bool sums_in_range(const Fixed *sums, size_t count, uint32_t samples)
+{
+    Fixed most = (Fixed)samples << 96;
+    for (size_t i = 0; i < count; i++)
+        if (sums[i] > most || sums[i] < -most) return false;
+    return true;
+}
+
+static bool pixel_in_range(const PixelSums *sums, size_t layer_numbers, uint32_t most_samples)
+{
+    return sums->samples <= most_samples && sums->hits <= sums->samples &&
+           sums->display_hits <= sums->samples && sums->odd_samples <= sums->samples &&
+           sums_in_range((const Fixed *)(const void *)sums, LEADING_SUMS, sums->samples) &&
+           sums_in_range(sums->layers, layer_numbers, sums->samples);
+}
+
+/* Which id is shown is settled by the lowest sample index. */
+static void add_id(uint32_t *sample, int32_t *id, uint32_t other_sample, int32_t other_id)
+{
+    if (other_sample >= *sample) return;
+    *sample = other_sample;
+    *id = other_id;
+}
+
+static void add_pixel(PixelSums *to, const PixelSums *from, size_t layer_numbers)
+{
+    Fixed       *sums = (Fixed *)(void *)to;
+    const Fixed *others = (const Fixed *)(const void *)from;
+    for (size_t i = 0; i < LEADING_SUMS; i++) sums[i] += others[i];
+    for (size_t i = 0; i < layer_numbers; i++) to->layers[i] += from->layers[i];
+    to->samples += from->samples;
+    to->hits += from->hits;
+    to->display_hits += from->display_hits;
+    to->odd_samples += from->odd_samples;
+    add_id(&to->part_sample, &to->part_id, from->part_sample, from->part_id);
+    add_id(&to->display_sample, &to->display_id, from->display_sample, from->display_id);
+}
+
+bool film_add_pixels(Film *film, FilmRect rect, const void *pixels, uint32_t most_samples,
+                     Error *err)
+{
+    size_t      layer_numbers = (film->stride - sizeof(PixelSums)) / sizeof(Fixed);
+    const char *next = pixels;
+    assert(rect.x0 >= film->crop.x0 && rect.x1 <= film->crop.x1);
+    assert(rect.y0 >= film->crop.y0 && rect.y1 <= film->crop.y1);
+    for (int y = rect.y0; y < rect.y1; y++)
+        for (int x = rect.x0; x < rect.x1; x++, next += film->stride) {
+            const PixelSums *from = (const PixelSums *)(const void *)next;
+            PixelSums       *to = film_sums(film, x, y);
+            if (!pixel_in_range(from, layer_numbers, most_samples) ||
+                from->samples > FILM_SAMPLES_MAX - to->samples)
+                return error_set(err, ERROR_INPUT,
+                                 "damaged sums: pixel %d,%d has sums that %u samples cannot "
+                                 "have made",
+                                 x, y, most_samples);
+            add_pixel(to, from, layer_numbers);
+        }
+    return true;
+}
+
+/* ---- dropped samples --------------------------------------------------------------------- */
+
+/* The order of FilmDropped: by sample, then row, then column. */
+static bool comes_before(const FilmDropped *a, int i, const FilmDropped *b, int j)
+{
+    if (a->first[i].sample_index != b->first[j].sample_index)
+        return a->first[i].sample_index < b->first[j].sample_index;
+    if (a->first[i].y != b->first[j].y) return a->first[i].y < b->first[j].y;
+    return a->first[i].x < b->first[j].x;
+}
+
+void film_add_dropped(Film *film, const FilmDropped *dropped)
+{
+    FilmDropped both = {.count = film->dropped.count + dropped->count};
+    int         i = 0, j = 0;
+    while (both.kept < FILM_DROPPED_KEPT && (i < film->dropped.kept || j < dropped->kept)) {
+        bool mine = j == dropped->kept || (i < film->dropped.kept &&
+                                           comes_before(&film->dropped, i, dropped, j));
+        both.first[both.kept++] = mine ? film->dropped.first[i++] : dropped->first[j++];
+    }
+    film->dropped = both;
+}
+
+/* ---- overlap ----------------------------------------------------------------------------- */
+
+static int larger(int a, int b)
+{
+    return a > b ? a : b;
+}
+
+static int smaller(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+static bool check_overlap(const FilmPart *a, const FilmPart *b, Error *err)
+{
+    FilmRect both = {larger(a->crop.x0, b->crop.x0), larger(a->crop.y0, b->crop.y0),
+                     smaller(a->crop.x1, b->crop.x1), smaller(a->crop.y1, b->crop.y1)};
+    uint32_t first = a->first_sample > b->first_sample ? a->first_sample : b->first_sample;
+    uint32_t end = a->end_sample < b->end_sample ? a->end_sample : b->end_sample;
+    if (both.x0 >= both.x1 || both.y0 >= both.y1 || first >= end) return true;
+    return error_at(err, ERROR_INPUT, b->name, "",
+                    "pixels %d,%d,%d,%d, samples %u:%u are in %s as well — leave one of the "
+                    "two out",
+                    both.x0, both.y0, both.x1, both.y1, first, end, a->name);
+}
+
+/* ---- gaps -------------------------------------------------------------------------------- */
+
+/* What all parts together are to fill. */
+static FilmPart hull(const FilmPart *parts, int count)
+{
+    FilmPart all = parts[0];
+    for (int i = 0; i < count; i++) {
+        const FilmPart *part = &parts[i];
+        all.crop.x0 = smaller(all.crop.x0, part->crop.x0);
+        all.crop.y0 = smaller(all.crop.y0, part->crop.y0);
+        all.crop.x1 = larger(all.crop.x1, part->crop.x1);
+        all.crop.y1 = larger(all.crop.y1, part->crop.y1);
+        if (part->first_sample < all.first_sample) all.first_sample = part->first_sample;
+        if (part->asked_end > all.asked_end) all.asked_end = part->asked_end;
+    }
+    all.end_sample = all.asked_end;
+    return all;
+}
+
+static int compare_ints(const void *a, const void *b)
+{
+    return *(const int *)a < *(const int *)b ? -1 : *(const int *)a > *(const int *)b;
+}
+
+/* Sorts the edges and leaves out repeated ones; returns how many are left. */
+static int sort_edges(int *edges, int count)
+{
+    int kept = 0;
+    qsort(edges, (size_t)count, sizeof *edges, compare_ints);
+    for (int i = 0; i < count; i++)
+        if (!kept || edges[i] != edges[kept - 1]) edges[kept++] = edges[i];
+    return kept;
+}
+
+static int compare_first_samples(const void *a, const void *b)
+{
+    const FilmPart *const *p = a, *const *q = b;
+    return (*p)->first_sample < (*q)->first_sample ? -1
+                                                   : (*p)->first_sample > (*q)->first_sample;
+}
+
+static bool holds(const FilmPart *part, FilmRect rect)
+{
+    return part->crop.x0 <= rect.x0 && part->crop.x1 >= rect.x1 && part->crop.y0 <= rect.y0 &&
+           part->crop.y1 >= rect.y1;
+}
+
+/* The first samples that no part has of a rectangle that no part's edge cuts. */
+static bool find_gap(const FilmPart *const *sorted, int count, FilmRect rect, FilmPart *gap)
+{
+    uint32_t at = gap->first_sample;
+    for (int i = 0; i < count; i++) {
+        const FilmPart *part = sorted[i];
+        if (!holds(part, rect)) continue;
+        if (part->first_sample > at) {
+            gap->end_sample = part->first_sample;
+            break;
+        }
+        at = part->end_sample;
+    }
+    gap->first_sample = at;
+    gap->crop = rect;
+    return at < gap->end_sample;
+}
+
+static bool report_gap(const FilmPart *parts, int count, const FilmPart *gap, Error *err)
+{
+    for (int i = 0; i < count; i++) {
+        const FilmPart *part = &parts[i];
+        if (part->asked_end > part->end_sample && holds(part, gap->crop) &&
+            part->end_sample <= gap->first_sample && part->asked_end > gap->first_sample)
+            return error_at(err, ERROR_INPUT, part->name, "",
+                            "incomplete: it was stopped after samples %u:%u of %u:%u — render "
+                            "the whole part, or what is missing as a part of its own",
+                            part->first_sample, part->end_sample, part->first_sample,
+                            part->asked_end);
+    }
+    return error_set(err, ERROR_INPUT,
+                     "no part has samples %u:%u of pixels %d,%d,%d,%d — add what `render "
+                     "--samples %u:%u --crop %d,%d,%d,%d` makes",
+                     gap->first_sample, gap->end_sample, gap->crop.x0, gap->crop.y0,
+                     gap->crop.x1, gap->crop.y1, gap->first_sample, gap->end_sample,
+                     gap->crop.x0, gap->crop.y0, gap->crop.x1, gap->crop.y1);
+}
+
+/* Looks at every rectangle between neighbouring edges: there are few, and it is only done when
+ * something is known to be missing. */
+static bool name_gap(const FilmPart *parts, int count, const FilmPart *all, Arena scratch,
+                     Error *err)
+{
+    int *xs = ARENA_NEW(&scratch, int, 2 * count), *ys = ARENA_NEW(&scratch, int, 2 * count);
+    const FilmPart **sorted = ARENA_NEW(&scratch, const FilmPart *, count);
+    for (int i = 0; i < count; i++) {
+        sorted[i] = &parts[i];
+        xs[2 * i] = parts[i].crop.x0;
+        xs[2 * i + 1] = parts[i].crop.x1;
+        ys[2 * i] = parts[i].crop.y0;
+        ys[2 * i + 1] = parts[i].crop.y1;
+    }
+    qsort(sorted, (size_t)count, sizeof(*sorted), compare_first_samples);
+    int columns = sort_edges(xs, 2 * count) - 1, rows = sort_edges(ys, 2 * count) - 1;
+    for (int y = 0; y < rows; y++)
+        for (int x = 0; x < columns; x++) {
+            FilmPart gap = *all;
+            FilmRect rect = {xs[x], ys[y], xs[x + 1], ys[y + 1]};
+            if (find_gap(sorted, count, rect, &gap)) return report_gap(parts, count, &gap, err);
+        }
+    return true;
+}
+
+bool film_merge_check(const FilmPart *parts, int count, Arena scratch, FilmPart *out,
+                      Error *err)
+{
+    FilmPart all = hull(parts, count);
+    uint64_t volume = 0;
+    for (int i = 0; i < count; i++) {
+        for (int j = 0; j < i; j++)
+            if (!check_overlap(&parts[j], &parts[i], err)) return false;
+        volume += film_part_volume(&parts[i]);
+    }
+    if (volume != film_part_volume(&all) && !name_gap(parts, count, &all, scratch, err))
+        return false;
+    *out = all;
+    return true;
+}

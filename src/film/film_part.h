@@ -1,0 +1,66 @@
+/* film_part.h -- the film's exact sums as a second part of a frame's file, and back.
+ *
+ * A frame holds means in single precision, which cannot be added up exactly. So a frame that
+ * is a part of another (some samples, some pixels) carries the sums themselves, from which any
+ * number of parts, in any order, make the very film that one run would have made.
+ *
+ * File     an OpenEXR part named "film" of unsigned 32-bit channels, in the picture's windows.
+ *          A sum is a two's complement number of four words, NAME.0 (least) to NAME.3, that
+ *          counts steps (film.h):
+ *            xyz.{X,Y,Z}                     of the samples
+ *            squares.{R,G,B}.{low,high}      of the squares below and above the split
+ *            odd.{X,Y,Z}                     of the samples in every second block
+ *            depth.Z position.{X,Y,Z} normal.{X,Y,Z} albedo.{R,G,B} uv.{U,V}
+ *            emitted reflected white black .{X,Y,Z}, direction.{X,Y,Z}    displays
+ *          and words that are one channel each: samples, hits, displayHits, odd.samples, the
+ *          lowest sample index that hit a part, or saw a display, and which (4294967295: none):
+ *          part.sample, part.id, display.sample, display.id.
+ *          Attributes say the sizes of the steps, the layers, the samples' range, what was
+ *          dropped, what it cost, and a checksum of all of it.
+ * Memory   the arena's; reading takes bands of rows, not the whole part.
+ * Threads  one part belongs to one thread at a time.
+ * Fails    with the reason; the file is the caller's to name.
+ */
+#pragma once
+#include "film/film.h"
+
+typedef struct FilmPart {
+    const char *name;       /* of the file, for messages; not in the file */
+    int         width, height; /* of the whole frame */
+    FilmRect    crop;
+    unsigned    layers;
+    uint32_t    first_sample, end_sample; /* half-open: what every pixel of the crop has had */
+    uint32_t    asked_end;  /* where the run was to end: above end_sample when it was stopped */
+    FilmDropped dropped;
+    uint64_t    paths, camera_rays, bounce_rays, shadow_rays; /* what the samples cost */
+} FilmPart;
+
+/* Pixels times samples. */
+uint64_t film_part_volume(const FilmPart *part);
+
+/* Of a film that has had samples [first_sample, end_sample); name and costs are left empty. */
+FilmPart film_part_of(const Film *film, uint32_t first_sample, uint32_t end_sample);
+
+/* Lets the frame carry the film's sums into its file. The film must stay as it is until the
+ * frame is written. */
+void film_part_attach(FrameImage *frame, const Film *film, const FilmPart *part, Arena *arena);
+
+/* ---- and back ---------------------------------------------------------------------------- */
+
+/* A file that is read band by band. */
+typedef struct FilmPartReader {
+    ExrReader *file;
+    FilmPart   part;
+    uint64_t   checksum, wanted_checksum;
+    int        next_y; /* the row that comes next; part.crop.y1: all is read */
+} FilmPartReader;
+
+/* Refuses frames that carry no sums, and sums that this program does not know. */
+bool film_part_open(const char *path, FilmPartReader *out, Error *err);
+
+/* Adds the next band of rows to a film of the same layers whose crop holds the part's. With the
+ * last band come the dropped samples and the look at the checksum: until then, and after a
+ * failure, the film is worth nothing. */
+bool film_part_add_band(FilmPartReader *from, Film *to, Arena scratch, Error *err);
+
+void film_part_close(FilmPartReader *from);

@@ -1,0 +1,558 @@
+/* Parts of a film: in any split, order and grouping they make the same bits as one film; what
+ * does not make a whole, or is damaged, is refused by name. */
+#include "check.h"
+
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "base/sampler.h"
+#include "film/film_merge.h"
+#include "film/pixels.h"
+
+enum { ARENA_BYTES = 1 << 26, WIDTH = 9, HEIGHT = 23, SAMPLES = 40 };
+
+static const FilmRect whole = {0, 0, WIDTH, HEIGHT};
+static char folder[64] = "parts-XXXXXX";
+static char path[100];
+
+static int make_folder(void **state)
+{
+    (void)state;
+    if (!mkdtemp(folder)) return -1;
+    snprintf(path, sizeof path, "%s/part.exr", folder);
+    return 0;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    unlink(path);
+    return rmdir(folder); /* fails when a test left anything behind */
+}
+
+static void assert_text_has(const Error *err, const char *part)
+{
+    if (!strstr(err->text, part)) fail_msg("\"%s\" lacks \"%s\"", err->text, part);
+    assert_null(strchr(err->text, '\n'));
+}
+
+/* ---- films ------------------------------------------------------------------------------- */
+
+static float random_unit(uint32_t *state)
+{
+    *state = hash_u32(*state + 0x9e3779b9u);
+    return unit_float(*state);
+}
+
+static int random_below(uint32_t *state, int end)
+{
+    return (int)(random_unit(state) * (float)end) % end;
+}
+
+/* What depends on the pixel and the sample alone: over 18 powers of ten, negative ones too, and
+ * some that are dropped. */
+static FilmSample sample_of(int x, int y, uint32_t index)
+{
+    uint32_t   random = hash_combine((uint32_t)(y * WIDTH + x), index);
+    FilmSample s = {.sample_index = index, .hit = random_unit(&random) < 0.9f};
+    for (int i = 0; i < 3; i++) {
+        s.xyz[i] =
+            powf(10, -6 + 18 * random_unit(&random)) * (random_unit(&random) < 0.1f ? -1 : 1);
+        s.position[i] = 100 * random_unit(&random) - 50;
+        s.normal[i] = 2 * random_unit(&random) - 1;
+        s.albedo[i] = random_unit(&random);
+        s.emitted[i] = 500 * random_unit(&random);
+        s.white[i] = 900 * random_unit(&random);
+        s.black[i] = random_unit(&random);
+    }
+    s.depth = random_unit(&random) < 0.02f ? INFINITY : 10 * random_unit(&random);
+    s.uv[0] = random_unit(&random);
+    s.part_id = random_below(&random, 5);
+    s.display_id = random_unit(&random) < 0.5f ? random_below(&random, 3) : -1;
+    s.theta = random_unit(&random);
+    s.phi = 6 * random_unit(&random);
+    if (random_unit(&random) < 0.004f) s.xyz[1] = NAN;
+    return s;
+}
+
+static Film *make_film(FilmRect crop, uint32_t first, uint32_t end, unsigned layers,
+                       Arena *arena)
+{
+    Film *film = film_create(WIDTH, HEIGHT, crop, layers, arena);
+    for (int y = crop.y0; y < crop.y1; y++)
+        for (int x = crop.x0; x < crop.x1; x++)
+            for (uint32_t i = first; i < end; i++) {
+                FilmSample sample = sample_of(x, y, i);
+                film_add_sample(film, x, y, &sample);
+            }
+    return film;
+}
+
+static void assert_same_films(const Film *a, const Film *b)
+{
+    assert_int_equal(a->stride, b->stride);
+    assert_memory_equal(a->pixels, b->pixels, (size_t)(a->crop.x1 - a->crop.x0) *
+                                                  (size_t)(a->crop.y1 - a->crop.y0) *
+                                                  a->stride);
+    assert_memory_equal(&a->dropped, &b->dropped, sizeof a->dropped);
+}
+
+/* A whole film cut at random edges, in random order. */
+typedef struct Cut {
+    FilmRect crop;
+    uint32_t first, end;
+} Cut;
+
+static int cut_up(Cut cuts[27], uint32_t *random)
+{
+    int xs[] = {0, 1 + random_below(random, 3), 4 + random_below(random, 4), WIDTH};
+    int ys[] = {0, 1 + random_below(random, 9), 10 + random_below(random, 10), HEIGHT};
+    int is[] = {0, 1 + random_below(random, 14), 15 + random_below(random, 20), SAMPLES};
+    for (int i = 0; i < 27; i++) {
+        int x = i % 3, y = i / 3 % 3, s = i / 9;
+        Cut cut = {{xs[x], ys[y], xs[x + 1], ys[y + 1]}, (uint32_t)is[s], (uint32_t)is[s + 1]};
+        int place = random_below(random, i + 1);
+        cuts[i] = cuts[place];
+        cuts[place] = cut;
+    }
+    return 27;
+}
+
+/* ---- exactness --------------------------------------------------------------------------- */
+
+static void parts_in_any_split_and_order_make_the_same_bits(void **state)
+{
+    (void)state;
+    Arena    arena = arena_reserve(ARENA_BYTES);
+    uint32_t random = 1;
+    Film    *expected = make_film(whole, 0, SAMPLES, LAYER_ALL, &arena);
+    Error    err = {0};
+    assert_true(expected->dropped.count > FILM_DROPPED_KEPT);
+    for (int round = 0; round < 5; round++) {
+        Arena scratch = arena;
+        Cut   cuts[27];
+        int   count = cut_up(cuts, &random);
+        Film *sum = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &scratch);
+        for (int i = 0; i < count; i++) {
+            Film *part = make_film(cuts[i].crop, cuts[i].first, cuts[i].end, LAYER_ALL,
+                                   &scratch);
+            assert_true(film_add_pixels(sum, part->crop, part->pixels,
+                                        cuts[i].end - cuts[i].first, &err));
+            film_add_dropped(sum, &part->dropped);
+        }
+        assert_same_films(sum, expected);
+    }
+    arena_release(&arena);
+}
+
+/* (a + b) + c against a + (b + c). */
+static void grouping_makes_no_difference(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(ARENA_BYTES);
+    Error err = {0};
+    Film *expected = make_film(whole, 0, SAMPLES, LAYER_DEPTH, &arena);
+    for (int left = 0; left < 2; left++) {
+        Film *part[] = {make_film(whole, 0, 7, LAYER_DEPTH, &arena),
+                        make_film(whole, 7, 30, LAYER_DEPTH, &arena),
+                        make_film(whole, 30, SAMPLES, LAYER_DEPTH, &arena)};
+        Film *inner = part[left ? 0 : 1], *outer = part[left ? 2 : 0];
+        Film *added = part[left ? 1 : 2];
+        assert_true(film_add_pixels(inner, whole, added->pixels, SAMPLES, &err));
+        film_add_dropped(inner, &added->dropped);
+        assert_true(film_add_pixels(outer, whole, inner->pixels, SAMPLES, &err));
+        film_add_dropped(outer, &inner->dropped);
+        assert_same_films(outer, expected);
+    }
+    arena_release(&arena);
+}
+
+/* ---- through files ----------------------------------------------------------------------- */
+
+static void write_part(const Film *film, const FilmPart *part, Arena scratch)
+{
+    FrameImage frame = film_to_frame(film, 0, &scratch);
+    Error      err = {0};
+    film_part_attach(&frame, film, part, &scratch);
+    if (!frame_write(path, &frame, &err)) fail_msg("%s", err.text);
+}
+
+static bool read_part(Film *to, FilmPart *part, Arena scratch, Error *err)
+{
+    FilmPartReader from;
+    bool           ok = true;
+    if (!film_part_open(path, &from, err)) return false;
+    if (from.part.layers != to->layers || from.part.crop.x1 > WIDTH ||
+        from.part.crop.y1 > HEIGHT)
+        ok = error_set(err, ERROR_INPUT, "not the part that was written");
+    while (ok && from.next_y < from.part.crop.y1)
+        ok = film_part_add_band(&from, to, scratch, err);
+    *part = from.part;
+    film_part_close(&from);
+    return ok;
+}
+
+static void files_carry_every_bit(void **state)
+{
+    (void)state;
+    static const unsigned layers[] = {0, LAYER_ALL, LAYER_UV | LAYER_DISPLAY_CONTRAST};
+    static const FilmRect crops[] = {{0, 0, WIDTH, HEIGHT}, {2, 3, 7, 22}, {8, 22, 9, 23}};
+    Arena arena = arena_reserve(ARENA_BYTES);
+    for (int i = 0; i < 9; i++) {
+        Film    *film = make_film(crops[i % 3], 3, SAMPLES, layers[i / 3], &arena);
+        Film    *back = film_create(WIDTH, HEIGHT, crops[i % 3], layers[i / 3], &arena);
+        FilmPart part = film_part_of(film, 3, SAMPLES), found;
+        Error    err = {0};
+        part.asked_end = 99;
+        part.paths = 1;
+        part.camera_rays = 1ull << 63;
+        part.bounce_rays = 3;
+        part.shadow_rays = 4;
+        write_part(film, &part, arena);
+        if (!read_part(back, &found, arena, &err)) fail_msg("%s", err.text);
+        assert_same_films(back, film);
+        assert_string_equal(found.name, path);
+        found.name = part.name;
+        assert_memory_equal(&found, &part, sizeof part);
+    }
+    arena_release(&arena);
+}
+
+/* More than one band: rows of 1.1 MB, of which 48 (three chunks) fit into 64 MB. */
+static void long_parts_are_read_in_bands(void **state)
+{
+    (void)state;
+    enum { WIDE = 5000, HIGH = 64 };
+    Arena    arena = arena_reserve((size_t)1 << 30);
+    FilmRect all = {0, 0, WIDE, HIGH};
+    Film    *film = film_create(WIDE, HIGH, all, 0, &arena);
+    Film    *back = film_create(WIDE, HIGH, all, 0, &arena);
+    for (int p = 0; p < WIDE * HIGH; p += 97) {
+        FilmSample sample = sample_of(p % WIDTH, p % HEIGHT, 0);
+        film_add_sample(film, p % WIDE, p / WIDE, &sample);
+    }
+    FilmPart       part = film_part_of(film, 0, 1);
+    FilmPartReader from;
+    Error          err = {0};
+    int            bands = 0;
+    write_part(film, &part, arena);
+    assert_true(film_part_open(path, &from, &err));
+    for (; from.next_y < HIGH; bands++)
+        if (!film_part_add_band(&from, back, arena, &err)) fail_msg("%s", err.text);
+    film_part_close(&from);
+    assert_int_equal(bands, 2);
+    assert_same_films(back, film);
+    arena_release(&arena);
+}
+
+/* The names are what strangers read: a sample of Y = 1 is 2^48 steps, in word 1. */
+static void words_have_the_names_that_the_header_says(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"xyz.Y.0", "xyz.Y.1", "xyz.Z.3", "samples", "part.id",
+                                        "display.sample", "odd.samples", "odd.X.1", "depth.Z.1",
+                                        "squares.R.high.0", "direction.Z.0", "uv.V.1"};
+    static const uint32_t values[] = {0, 1 << 16, 0xffffffffu, 1, 4, 0xffffffffu, 1, 2 << 16,
+                                      3 << 16, 0, 0, 5 << 16};
+    static const FilmRect one = {0, 0, 1, 1};
+    Arena      arena = arena_reserve(ARENA_BYTES);
+    Film      *film = film_create(1, 1, one, LAYER_ALL, &arena);
+    FilmSample sample = {.sample_index = 16, .xyz = {2, 1, -1}, .hit = true, .depth = 3,
+                         .uv = {0, 5}, .part_id = 4, .display_id = -1};
+    film_add_sample(film, 0, 0, &sample);
+    FilmPart   part = film_part_of(film, 16, 17);
+    ExrReader *reader;
+    const ExrWords *found, wanted = {"film", 12, names, NULL, 0, NULL};
+    uint32_t   read[12];
+    Error      err = {0};
+    write_part(film, &part, arena);
+    assert_true(exr_reader_open(path, &reader, &err));
+    assert_true(exr_reader_words(reader, "film", &found, &err));
+    assert_int_equal(found->count * 4, film->stride);
+    assert_true(exr_reader_read_words(reader, &wanted, 0, 1, read, &err));
+    for (int i = 0; i < 12; i++)
+        if (read[i] != values[i]) fail_msg("%s is %x, not %x", names[i], read[i], values[i]);
+    exr_reader_destroy(reader);
+    arena_release(&arena);
+}
+
+/* ---- damage ------------------------------------------------------------------------------ */
+
+typedef struct Written {
+    Film    *film;
+    FilmPart part;
+    FileBytes bytes;
+} Written;
+
+static Written write_small(Arena *arena)
+{
+    static const FilmRect crop = {2, 3, 6, 20};
+    Error   err = {0};
+    Written w = {.film = make_film(crop, 0, 4, LAYER_DEPTH, arena)};
+    w.part = film_part_of(w.film, 0, 4);
+    write_part(w.film, &w.part, *arena);
+    assert_true(file_read(path, 1 << 24, arena, &w.bytes, &err));
+    return w;
+}
+
+/* Overwrites bytes of the part's file in place. */
+static void patch(size_t at, const void *bytes, size_t size)
+{
+    int file = open(path, O_WRONLY);
+    assert_int_equal(pwrite(file, bytes, size, (off_t)at), size);
+    close(file);
+}
+
+static void a_flipped_bit_is_refused_or_changes_nothing(void **state)
+{
+    (void)state;
+    Arena    arena = arena_reserve(ARENA_BYTES);
+    Written  w = write_small(&arena);
+    uint32_t random = 5;
+    int      refused = 0;
+    for (int i = 0; i < 1500; i++) {
+        Arena    scratch = arena;
+        Error    err = {0};
+        FilmPart found;
+        Film    *back = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH, &scratch);
+        size_t   at = (size_t)random_below(&random, (int)w.bytes.size);
+        unsigned char flipped = w.bytes.data[at] ^ (unsigned char)(1u << (i & 7));
+        patch(at, &flipped, 1);
+        if (!read_part(back, &found, scratch, &err)) {
+            refused++;
+            assert_true(err.text[0] && !strchr(err.text, '\n'));
+        } else {
+            Film *sum = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH, &scratch);
+            film_add_pixels(sum, w.film->crop, w.film->pixels, 4, &err);
+            film_add_dropped(sum, &w.film->dropped);
+            assert_same_films(back, sum);
+            found.name = w.part.name;
+            assert_memory_equal(&found, &w.part, sizeof found);
+        }
+        patch(at, w.bytes.data + at, 1);
+    }
+    print_message("%d of 1500 flipped bits are refused\n", refused);
+    assert_true(refused > 700);
+    arena_release(&arena);
+}
+
+static void every_prefix_is_refused(void **state)
+{
+    (void)state;
+    Arena   arena = arena_reserve(ARENA_BYTES);
+    Written w = write_small(&arena);
+    for (size_t size = w.bytes.size; size > 100; size -= size < 4000 ? 7 : 101) {
+        Arena    scratch = arena;
+        Error    err = {0};
+        FilmPart found;
+        Film    *back = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH, &scratch);
+        assert_int_equal(truncate(path, (off_t)(size - 1)), 0);
+        if (read_part(back, &found, scratch, &err))
+            fail_msg("%zu of %zu bytes were accepted", size - 1, w.bytes.size);
+        assert_text_has(&err, "damaged");
+    }
+    arena_release(&arena);
+}
+
+/* Puts `to` in place of `from` where it stands in the words' part. */
+static void assert_refused(const Written *w, const char *from, const char *to,
+                           const char *message)
+{
+    size_t      length = strlen(from);
+    const char *words = memmem(w->bytes.data, w->bytes.size, "parhelion:askedSamples", 22);
+    size_t      before = (size_t)(words - (const char *)w->bytes.data);
+    const char *place = memmem(words, w->bytes.size - before, from, length);
+    Arena       scratch = arena_reserve(1 << 22);
+    Film       *back = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH, &scratch);
+    Error       err = {0};
+    FilmPart    found;
+    if (!place || strlen(to) != length) fail_msg("no place for %s", to);
+    size_t      at = (size_t)(place - (const char *)w->bytes.data);
+    patch(at, to, length);
+    assert_false(read_part(back, &found, scratch, &err));
+    assert_text_has(&err, message);
+    patch(at, from, length);
+    arena_release(&scratch);
+}
+
+static void what_is_said_of_the_sums_must_hold(void **state)
+{
+    (void)state;
+    Arena   arena = arena_reserve(ARENA_BYTES);
+    Written w = write_small(&arena);
+    assert_refused(&w, "0:4", "0:3", "damaged sums: parhelion:askedSamples cannot be read");
+    assert_refused(&w, "0:4", "0:5", "damaged sums: their checksum is ");
+    assert_refused(&w, "parhelion:askedSamples", "parhelion:askedSomples",
+                   "damaged sums: parhelion:askedSamples cannot be read");
+    assert_refused(&w, " bounce", " bouncy", "damaged sums: parhelion:cost cannot be read");
+    assert_refused(&w, "blocks of 16", "blocks of 17",
+                   "its sums are of another version: \"1: sums");
+    assert_refused(&w, "parhelion:checksum", "parhelion:chacksum",
+                   "damaged sums: parhelion:checksum cannot be read");
+    assert_refused(&w, "parhelion:layers", "parhelion:loyers",
+                   "damaged sums: parhelion:layers cannot be read");
+    arena_release(&arena);
+}
+
+static void another_set_of_layers_does_not_fit_the_words(void **state)
+{
+    (void)state;
+    Arena    arena = arena_reserve(ARENA_BYTES);
+    Film    *film = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH, &arena);
+    FilmPart part = film_part_of(film, 0, 1), found;
+    FrameImage frame = film_to_frame(film, 0, &arena);
+    Error    err = {0};
+    film_part_attach(&frame, film, &part, &arena);
+    ExrWords fewer = *frame.words;
+    fewer.count -= 4;
+    frame.words = &fewer;
+    assert_true(frame_write(path, &frame, &err));
+    assert_false(read_part(film, &found, arena, &err));
+    assert_text_has(&err, "damaged sums: 56 words a pixel, its layers have 60");
+    frame.words = NULL;
+    assert_true(frame_write(path, &frame, &err));
+    assert_false(read_part(film, &found, arena, &err));
+    assert_text_has(&err, "carries no sums, only means: it cannot be merged");
+    arena_release(&arena);
+}
+
+static void sums_that_no_samples_make_are_refused(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(ARENA_BYTES);
+    Film *sum = film_create(WIDTH, HEIGHT, whole, LAYER_UV, &arena);
+    for (int i = 0; i < 7; i++) {
+        Film      *film = make_film(whole, 0, 3, LAYER_UV, &arena);
+        PixelSums *pixel = film_sums(film, 4, 5);
+        Error      err = {0};
+        if (i == 0) pixel->xyz[1] = (Fixed)4 << 96;
+        if (i == 1) pixel->odd_xyz[2] = -((Fixed)4 << 96);
+        if (i == 2) pixel->layers[1] = (Fixed)1 << 126;
+        if (i == 3) pixel->samples = 4;
+        if (i == 4) pixel->hits = 4;
+        if (i == 5) pixel->display_hits = 4;
+        if (i == 6) pixel->odd_samples = 4;
+        assert_false(film_add_pixels(sum, whole, film->pixels, 3, &err));
+        assert_text_has(&err, "damaged sums: pixel 4,5 has sums that 3 samples cannot have");
+    }
+    arena_release(&arena);
+}
+
+/* ---- do they make a whole ---------------------------------------------------------------- */
+
+static FilmPart box(const char *name, FilmRect crop, uint32_t first, uint32_t end)
+{
+    return (FilmPart){.name = name, .width = WIDTH, .height = HEIGHT, .crop = crop,
+                      .first_sample = first, .end_sample = end, .asked_end = end};
+}
+
+static void parts_that_fill_a_box_are_a_whole(void **state)
+{
+    (void)state;
+    Arena    arena = arena_reserve(1 << 20);
+    uint32_t random = 9;
+    for (int round = 0; round < 50; round++) {
+        Cut      cuts[27];
+        FilmPart parts[27], all;
+        Error    err = {0};
+        int      count = cut_up(cuts, &random);
+        for (int i = 0; i < count; i++)
+            parts[i] = box("a.exr", cuts[i].crop, cuts[i].first + 5, cuts[i].end + 5);
+        if (!film_merge_check(parts, count, arena, &all, &err)) fail_msg("%s", err.text);
+        assert_memory_equal(&all.crop, &whole, sizeof whole);
+        assert_int_equal(all.first_sample, 5);
+        assert_int_equal(all.end_sample, SAMPLES + 5);
+        assert_int_equal(all.asked_end, SAMPLES + 5);
+        parts[round % 26] = parts[26]; /* one is missing; another is there twice, at the end */
+        assert_false(film_merge_check(parts, count - 1, arena, &all, &err));
+        assert_text_has(&err, "no part has samples ");
+        assert_false(film_merge_check(parts, count, arena, &all, &err));
+        assert_text_has(&err, "are in a.exr as well");
+    }
+    arena_release(&arena);
+}
+
+static void overlaps_are_named(void **state)
+{
+    (void)state;
+    Arena    arena = arena_reserve(1 << 20);
+    FilmPart parts[] = {box("a.exr", (FilmRect){0, 0, 5, 6}, 0, 4),
+                        box("b.exr", (FilmRect){5, 0, 9, 6}, 0, 4),
+                        box("c.exr", (FilmRect){3, 2, 8, 9}, 3, 9)}, all;
+    Error    err = {0};
+    assert_true(film_merge_check(parts, 2, arena, &all, &err));
+    assert_false(film_merge_check(parts, 3, arena, &all, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_string_equal(err.file, "c.exr");
+    assert_text_has(&err, "pixels 3,2,5,6, samples 3:4 are in a.exr as well — leave one");
+    arena_release(&arena);
+}
+
+static void gaps_are_named(void **state)
+{
+    (void)state;
+    static const FilmRect left = {0, 0, 4, HEIGHT}, right = {4, 0, WIDTH, HEIGHT};
+    Arena    arena = arena_reserve(1 << 20);
+    FilmPart all, parts[] = {box("a.exr", left, 0, 4), box("b.exr", right, 0, 4),
+                             box("c.exr", left, 4, 8), box("d.exr", right, 6, 8)};
+    Error    err = {0};
+    assert_false(film_merge_check(parts, 4, arena, &all, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_string_equal(err.file, "");
+    assert_text_has(&err, "no part has samples 4:6 of pixels 4,0,9,23 — add what `render "
+                          "--samples 4:6 --crop 4,0,9,23` makes");
+    assert_false(film_merge_check(parts, 3, arena, &all, &err));
+    assert_text_has(&err, "no part has samples 4:8 of pixels 4,0,9,23");
+    assert_false(film_merge_check(parts + 1, 2, arena, &all, &err));
+    assert_text_has(&err, "no part has samples 0:4 of pixels 0,0,4,23");
+    parts[0].asked_end = 4;
+    parts[2].end_sample = 5;
+    parts[3].first_sample = 4;
+    parts[2].asked_end = 8;
+    assert_false(film_merge_check(parts, 4, arena, &all, &err));
+    assert_string_equal(err.file, "c.exr");
+    assert_text_has(&err, "incomplete: it was stopped after samples 4:5 of 4:8 — render the "
+                          "whole part");
+    arena_release(&arena);
+}
+
+/* Also when what it was asked for makes the range that all are to have. */
+static void a_part_that_was_stopped_may_be_filled_by_others(void **state)
+{
+    (void)state;
+    Arena    arena = arena_reserve(1 << 20);
+    FilmPart all, parts[] = {box("a.exr", whole, 0, 4), box("b.exr", whole, 4, 6),
+                             box("c.exr", whole, 6, 8)};
+    Error    err = {0};
+    parts[1].asked_end = 8;
+    assert_false(film_merge_check(parts, 2, arena, &all, &err));
+    assert_string_equal(err.file, "b.exr");
+    assert_text_has(&err, "stopped after samples 4:6 of 4:8");
+    assert_true(film_merge_check(parts, 3, arena, &all, &err));
+    assert_int_equal(all.end_sample, 8);
+    arena_release(&arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(parts_in_any_split_and_order_make_the_same_bits),
+        cmocka_unit_test(grouping_makes_no_difference),
+        cmocka_unit_test(files_carry_every_bit),
+        cmocka_unit_test(long_parts_are_read_in_bands),
+        cmocka_unit_test(words_have_the_names_that_the_header_says),
+        cmocka_unit_test(a_flipped_bit_is_refused_or_changes_nothing),
+        cmocka_unit_test(every_prefix_is_refused),
+        cmocka_unit_test(what_is_said_of_the_sums_must_hold),
+        cmocka_unit_test(another_set_of_layers_does_not_fit_the_words),
+        cmocka_unit_test(sums_that_no_samples_make_are_refused),
+        cmocka_unit_test(parts_that_fill_a_box_are_a_whole),
+        cmocka_unit_test(overlaps_are_named),
+        cmocka_unit_test(gaps_are_named),
+        cmocka_unit_test(a_part_that_was_stopped_may_be_filled_by_others),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
