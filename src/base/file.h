@@ -30,13 +30,33 @@ bool file_read_start(const char *path, size_t max_bytes, Arena *arena, FileBytes
 /* True when something that can be opened for reading stands there. */
 bool file_exists(const char *path);
 
-/* ---- writing: temporary name, fsync, rename -------------------------------------------- */
+/* ---- writing: seen when it is whole and on the disk ------------------------------------- */
 
 /* Whether `path` could be written, before hours of work: not over a folder, nor over a file that
  * its owner has write-protected. Leaves nothing behind. */
 bool file_check_writable(const char *path, Error *err);
 
-/* A name beside `path`, for a writer that wants a path; unlike any other process's. */
+/* Bytes in memory become a file. A device or a pipe is written as it stands. */
+bool file_write(const char *path, const void *bytes, size_t size, Error *err);
+
+/* The same piece by piece. Until file_writer_commit nobody sees the file, and where the file
+ * system allows it (O_TMPFILE) it has no name either, so that a process that is killed leaves
+ * nothing. Commit flushes the bytes and the folder to the disk. After a failure, and after
+ * commit or discard, the writer is closed. `path` must outlive it. */
+typedef enum FileKind { FILE_UNNAMED, FILE_NAMED, FILE_SPECIAL } FileKind;
+
+typedef struct FileWriter {
+    const char *path;
+    int         handle;
+    FileKind    kind;
+} FileWriter;
+
+bool file_writer_open(const char *path, FileWriter *out, Error *err);
+bool file_writer_add(FileWriter *writer, const void *bytes, size_t size, Error *err);
+bool file_writer_commit(FileWriter *writer, Error *err);
+void file_writer_discard(FileWriter *writer);
+
+/* A name beside `path`, for a library that wants a path; unlike any other process's. */
 char *file_temporary_name(const char *path, Arena *arena);
 
 /* Makes the temporary file's bytes durable and gives it the final name. On failure it is
@@ -45,9 +65,6 @@ bool file_commit(const char *temporary, const char *path, Error *err);
 
 /* Removes a temporary file after a failure. */
 void file_discard(const char *temporary);
-
-/* All of the above for bytes in memory. A device or a pipe is written as it stands. */
-bool file_write(const char *path, const void *bytes, size_t size, Error *err);
 
 /* ---- names ----------------------------------------------------------------------------- */
 

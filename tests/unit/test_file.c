@@ -2,8 +2,17 @@
  * RFC 2397 say. */
 #include "check.h"
 
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/file.h"
@@ -78,6 +87,126 @@ static void a_file_that_cannot_be_written_leaves_nothing(void **state)
     fclose(file);
     assert_false(file_commit(temporary, in_folder("none/b.bin"), &err));
     assert_false(file_exists(temporary));
+}
+
+/* Names in the folder but "." and "..". */
+static int entries(void)
+{
+    int  count = -2;
+    DIR *list = opendir(folder);
+    assert_non_null(list);
+    while (readdir(list)) count++;
+    closedir(list);
+    return count;
+}
+
+/* What stands in the file at `path`, read anew. */
+static void assert_content(const char *path, const char *wanted)
+{
+    Error     err;
+    FileBytes bytes;
+    assert_true(file_read(path, 100, &arena, &bytes, &err));
+    assert_string_equal((const char *)bytes.data, wanted);
+}
+
+static void nobody_sees_a_file_before_it_is_whole(void **state)
+{
+    (void)state;
+    Error       err;
+    FileWriter  writer;
+    const char *path = in_folder("w.bin");
+    for (int i = 0; i < 2; i++) { /* the second time there is one to replace */
+        assert_true(file_writer_open(path, &writer, &err));
+        assert_true(file_writer_add(&writer, "pie", 3, &err));
+        assert_int_equal(entries(), i);
+        assert_true(file_writer_add(&writer, i ? "ces" : "ce", 2 + (size_t)i, &err));
+        assert_true(file_writer_commit(&writer, &err));
+        assert_int_equal(entries(), 1);
+        assert_content(path, i ? "pieces" : "piece");
+    }
+    assert_true(file_writer_open(path, &writer, &err));
+    assert_true(file_writer_add(&writer, "other", 5, &err));
+    file_writer_discard(&writer);
+    assert_content(path, "pieces");
+    assert_true(file_check_writable(path, &err));
+    assert_int_equal(entries(), 1);
+    unlink(path);
+    char name[300]; /* too long for its temporary names, found before anything is written */
+    memset(name, 'x', sizeof name - 1);
+    name[sizeof name - 1] = '\0';
+    name[250] = '\0';
+    assert_false(file_writer_open(in_folder(name), &writer, &err));
+    assert_string_equal(err.text, "cannot be created: File name too long");
+}
+
+static void what_a_killed_writer_leaves_is_cleared(void **state)
+{
+    (void)state;
+    Error       err;
+    const char *path = in_folder("k.bin");
+    pid_t       child = fork();
+    if (child == 0) {
+        FileWriter writer;
+        if (!file_writer_open(path, &writer, &err)) _exit(1);
+        if (!file_writer_add(&writer, "half", 4, &err)) _exit(1);
+        _exit(0); /* as if killed */
+    }
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_int_equal(status, 0);
+    assert_int_equal(entries(), 0);
+    /* killed between link and rename: both names stand there */
+    const char *left = in_folder("k.bin.parhelion-part");
+    assert_true(file_write(path, "old", 3, &err));
+    assert_int_equal(link(path, left), 0);
+    assert_true(file_write(path, "new", 3, &err));
+    assert_int_equal(entries(), 1);
+    assert_content(path, "new");
+    unlink(path);
+}
+
+/* From here on the process knows no unnamed files. */
+static bool forbid_unnamed_files(void)
+{
+    struct sock_filter steps[] = {
+        BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, nr)),
+        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_openat, 0, 3),
+        BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, args[2])),
+        BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, O_TMPFILE & ~O_DIRECTORY, 0, 1),
+        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EOPNOTSUPP),
+        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW)};
+    struct sock_fprog filter = {sizeof steps / sizeof *steps, steps};
+    return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+           prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
+}
+
+static int write_without_unnamed_files(const char *path)
+{
+    Error      err;
+    FileWriter writer;
+    if (!forbid_unnamed_files()) return 77;
+    if (!file_writer_open(path, &writer, &err) || writer.kind != FILE_NAMED) return 1;
+    if (!file_writer_add(&writer, "name", 4, &err) || entries() != 1) return 2;
+    if (file_exists(path)) return 3;
+    if (!file_writer_commit(&writer, &err) || entries() != 1) return 4;
+    if (!file_writer_open(path, &writer, &err) || entries() != 2) return 5;
+    file_writer_discard(&writer);
+    if (entries() != 1 || file_writer_open(in_folder("no/x"), &writer, &err)) return 6;
+    return 0;
+}
+
+static void file_systems_without_unnamed_files_get_named_ones(void **state)
+{
+    (void)state;
+    const char *path = in_folder("n.bin");
+    pid_t       child = fork();
+    if (child == 0) _exit(write_without_unnamed_files(path));
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 77) skip(); /* no filters here */
+    assert_int_equal(status, 0);
+    assert_content(path, "name");
+    unlink(path);
 }
 
 static void reading_names_what_is_wrong(void **state)
@@ -180,6 +309,9 @@ int main(void)
         cmocka_unit_test(what_was_written_is_read_back),
         cmocka_unit_test(the_start_is_read_of_a_file_of_any_length),
         cmocka_unit_test(a_file_that_cannot_be_written_leaves_nothing),
+        cmocka_unit_test(nobody_sees_a_file_before_it_is_whole),
+        cmocka_unit_test(what_a_killed_writer_leaves_is_cleared),
+        cmocka_unit_test(file_systems_without_unnamed_files_get_named_ones),
         cmocka_unit_test(reading_names_what_is_wrong),
         cmocka_unit_test(paths_are_joined_and_measured),
         cmocka_unit_test(schemes_are_told_from_paths),
