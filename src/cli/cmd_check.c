@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/reference.h"
 #include "base/units.h"
 #include "cli/cli.h"
 #include "scene/scene.h"
@@ -270,21 +271,27 @@ static bool print_json(const Scene *scene, const Problems *problems, Error *err)
 
 bool cmd_check(int argc, char **argv, Error *err)
 {
+    const char *root = NULL;
+    const Option options[] = {
+        {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &root, .given = NULL},
+    };
     const CliCommand command = {"check",
                                 "what is in a scene, and everything that is wrong with it",
                                 "SCENE.gltf|.glb [LIGHTS.gltf|.glb ...]",
                                 "parhelion check scenes/car_dashboard.gltf scenes/noon.gltf",
-                                NULL,
-                                0,
+                                options,
+                                1,
                                 1,
                                 -1};
     Cli cli;
     Arena arena = arena_reserve(ARENA_BYTES);
     bool done = cli_parse(&command, argc, argv, &arena, &cli, err);
+    if (done && !cli.help_shown) done = reference_check_root(root, err);
     if (done && !cli.help_shown) {
         Problems problems = problems_start(&arena);
-        const SceneOptions options = {.paths = cli.arguments, .path_count = cli.argument_count};
-        Scene *scene = scene_survey(&options, &arena, &problems);
+        const SceneOptions files = {
+            .paths = cli.arguments, .path_count = cli.argument_count, .root = root};
+        Scene *scene = scene_survey(&files, &arena, &problems);
         if (cli.json)
             done = print_json(scene, &problems, err);
         else

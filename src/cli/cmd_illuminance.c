@@ -1,6 +1,7 @@
 /* parhelion measure --illuminance: a luxmeter at a point of a scene. */
 #include <stdio.h>
 
+#include "base/reference.h"
 #include "cli/measure_command.h"
 #include "render/illuminance.h"
 #include "scene/scene.h"
@@ -29,7 +30,8 @@ bool measure_illuminance(const Cli *cli, const LuxmeterRequest *request, Arena *
                          Error *err)
 {
     Problems     problems = problems_start(arena);
-    SceneOptions files = {.paths = cli->arguments, .path_count = cli->argument_count};
+    SceneOptions files = {.paths = cli->arguments, .path_count = cli->argument_count,
+                          .root = request->root};
     const double *n = request->place + 3;
     Scene       *scene;
     Illuminance  measured;
@@ -41,6 +43,7 @@ bool measure_illuminance(const Cli *cli, const LuxmeterRequest *request, Arena *
     if (!(vec3_dot(options.point.ns, options.point.ns) > 0.5f))
         return error_set(err, ERROR_USAGE, "--illuminance: the normal (%g, %g, %g) has no "
                          "direction", n[0], n[1], n[2]);
+    if (!reference_check_root(request->root, err)) return false;
     if (!scene_load(&files, arena, &problems, &scene, err)) return false;
     cli_print_warnings(&problems);
     bool ok = illuminance_measure(scene, &options, arena, &measured, err) &&

@@ -29,6 +29,7 @@ static bool parse(int argc, char **argv, Arena *arena, Typed *out, Error *err)
          .low = -1e9, .high = 1e9, .count = 6, .given = &out->luxmeter.given},
         {"--samples", OPTION_INTEGER, "N", "paths for --illuminance (default 262144)",
          .out = &out->luxmeter.samples, .low = 2, .high = 1 << 30},
+        {"--root", OPTION_TEXT, "DIR", ROOT_HELP, .out = &out->luxmeter.root},
     };
     const CliCommand command = {
         "measure", "luminance, colour and contrast of a part of a frame, with 95 % intervals",

@@ -6,6 +6,7 @@
 
 #include "base/file.h"
 #include "base/parallel.h"
+#include "base/reference.h"
 #include "base/units.h"
 #include "cli/environment_options.h"
 #include "image/frame.h"
@@ -24,6 +25,7 @@ typedef struct Work {
     const char       *output;
     int               size[2]; /* of the EXR */
     bool              is_dark, is_fisheye;
+    const char       *root; /* --root, or NULL */
     Arena            *arena;
     Problems          problems;
     Scene            *scene;
@@ -309,12 +311,14 @@ static OutputKind output_kind(const char *path)
 
 static bool build(Work *work, Error *err)
 {
-    SceneOptions files = {.paths = work->cli.arguments, .path_count = work->cli.argument_count};
+    SceneOptions files = {.paths = work->cli.arguments, .path_count = work->cli.argument_count,
+                          .root = work->root};
     Scene       *none = ARENA_NEW(work->arena, Scene, 1);
     none->environment = (Environment){.color = {1, 1, 1}, .forward = vec3(0, 0, -1),
                                       .hdri_scale = 1};
     work->problems = problems_start(work->arena);
     work->scene = none;
+    if (!reference_check_root(work->root, err)) return false;
     if (files.path_count &&
         !scene_load(&files, work->arena, &work->problems, &work->scene, err))
         return false;
@@ -361,6 +365,7 @@ bool cmd_sky(int argc, char **argv, Error *err)
         {"--size", OPTION_SIZE, "WxH", "pixels of an EXR (default 1024x512, fisheye 1024x1024)",
          work.size},
         {"--dark", OPTION_FLAG, NULL, "a chart on a dark page", &work.is_dark},
+        {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &work.root},
     };
     const CliCommand command = {
         "sky", "draw a sky and print its figures", "[SCENE.gltf ...] [-o SKY.exr|.png|.svg]",

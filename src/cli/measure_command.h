@@ -7,6 +7,7 @@ typedef struct LuxmeterRequest {
     bool   given;
     double place[6]; /* x, y, z in metres, then where the head faces */
     long   samples;
+    const char *root; /* --root, or NULL */
 } LuxmeterRequest;
 
 /* Loads cli->arguments as one scene and prints the illuminance there. */

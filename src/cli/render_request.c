@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/reference.h"
 #include "cli/render_command.h"
 
 #define DEFAULT_WIDTH 1280
@@ -184,7 +185,8 @@ static bool check_scene(const Typed *typed, Arena *arena, RenderRequest *request
     scene->content_count = typed->contents.count;
     scene->panel_count = typed->panels.count;
     scene->level_count = typed->levels.count;
-    return parse_overrides("--content", &typed->contents, arena, &scene->contents, err) &&
+    return reference_check_root(scene->root, err) &&
+           parse_overrides("--content", &typed->contents, arena, &scene->contents, err) &&
            parse_overrides("--panel", &typed->panels, arena, &scene->panels, err) &&
            parse_overrides("--display-level", &typed->levels, arena, &scene->levels, err);
 }
@@ -312,6 +314,7 @@ static bool parse_line(int argc, char **argv, Arena *arena, Typed *typed,
          &typed->panels},
         {"--display-level", OPTION_TEXTS, "MATERIAL|*=PERCENT",
          "how bright a display is set (*: all)", &typed->levels},
+        {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &request->scene.root},
         {"--isa", OPTION_TEXT, "NAME", "sse2, avx2, avx512 (default: the processor's best)",
          &request->render.isa},
         {"--replay", OPTION_NUMBERS, "X,Y,SAMPLE", "one sample of one pixel, printed",

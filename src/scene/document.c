@@ -7,6 +7,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "base/reference.h"
 #include "scene/load.h"
 
 /* ---- problems -------------------------------------------------------------------------- */
@@ -86,20 +87,11 @@ bool document_resolve(GltfFile *file, const GltfValue *uri, const char **path)
         file_error(file, uri, "%s", err.text);
         return false;
     }
-    if (!relative[0] || relative[0] == '/' || relative[0] == '\\') {
-        file_error(file, uri, "\"%.200s\" is %s; a path relative to the scene's file is wanted",
-                   relative, relative[0] ? "an absolute path" : "empty");
-        return false;
-    }
-    if (path_climb(relative) > 1) {
-        file_error(file, uri,
-                   "\"%.200s\" leaves the parent of the scene's folder; files are "
-                   "read from there and below only",
-                   relative);
-        return false;
-    }
-    *path = path_beside(file->path, relative, &file->load->scratch);
-    return true;
+    if (reference_resolve(file->path, relative, file->load->options->root,
+                          &file->load->scratch, path, &err))
+        return true;
+    file_error(file, uri, "%s", err.text);
+    return false;
 }
 
 /* ---- a .glb's frame (glTF 2.0, section 4) ---------------------------------------------- */

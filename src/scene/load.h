@@ -90,7 +90,8 @@ bool document_read(GltfFile *file);
 void document_load_buffers(GltfFile *file);
 
 /* The path a URI names, from the scene's folder. False, and reported, when it is not allowed:
- * another scheme, an absolute path, or a place outside the parent of the scene's folder. */
+ * another scheme, an absolute path, or a place where the scene may not look
+ * (base/reference.h). */
 bool document_resolve(GltfFile *file, const GltfValue *uri, const char **path);
 
 /* The bytes of a buffer view; data NULL when there are none. */

@@ -218,7 +218,8 @@ static int read_curve(GltfFile *file, const GltfValue *uri)
     Loader *load = file->load;
     if (!uri || !document_resolve(file, uri, &path)) return NO_ID;
     Curve *curve = list_add(&load->curves, &load->scratch);
-    if (load_read(load, path, &load->scratch, &bytes, &err) && curve_read(path, curve, &err))
+    if (load_read(load, path, &load->scratch, &bytes, &err) &&
+        curve_parse((const char *)bytes.data, path, curve, &err))
         return load->curves.count - 1;
     char line[1024];
     error_line(&err, line, sizeof line);

@@ -185,6 +185,8 @@ typedef struct SceneOverride {
 typedef struct SceneOptions {
     const char *const *paths; /* .gltf or .glb; the first holds the dashboard */
     int path_count;
+    const char *root; /* --root: a folder whose files they may name besides those of their own
+                         folder's parent; NULL: none */
     const SceneOverride *contents; /* --content MATERIAL=IMAGE */
     int content_count;
     const SceneOverride *panels; /* --panel MATERIAL=FILE.panel */

@@ -1,9 +1,10 @@
 #include "spectrum/curve.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/file.h"
 
 #define MAX_POINTS 4096 /* 0.1 nm over the visible range */
 
@@ -68,13 +69,22 @@ static bool add_row(Points *points, const char *path, const char *place, double 
     return true;
 }
 
+/* Copies a line of text, or as much of it as fits, and returns what follows it. */
+static const char *next_line(const char *text, char *line, size_t size)
+{
+    size_t length = strcspn(text, "\n");
+    snprintf(line, size, "%.*s", (int)(length < size ? length : size - 1), text);
+    return text + length + (text[length] == '\n');
+}
+
 /* One line may be a header: the first that is neither blank nor a comment. */
-static bool read_points(FILE *file, const char *path, Points *points, Error *err)
+static bool read_points(const char *text, const char *path, Points *points, Error *err)
 {
     char line[512], place[32];
     bool may_be_header = true;
-    for (int number = 1; fgets(line, sizeof line, file); number++) {
+    for (int number = 1; *text; number++) {
         double nm, value;
+        text = next_line(text, line, sizeof line);
         if (line[0] == '#' || is_blank(line)) continue;
         snprintf(place, sizeof place, "line %d", number);
         if (parse_row(line, &nm, &value)) {
@@ -86,24 +96,28 @@ static bool read_points(FILE *file, const char *path, Points *points, Error *err
         }
         may_be_header = false;
     }
-    if (ferror(file))
-        return error_at(err, ERROR_INPUT, path, NULL, "cannot be read: %s", strerror(errno));
     if (!points->count)
         return error_at(err, ERROR_INPUT, path, NULL, "no rows of nm,value");
     return true;
 }
 
-bool curve_read(const char *path, Curve *out, Error *err)
+bool curve_parse(const char *text, const char *path, Curve *out, Error *err)
 {
-    FILE *file = fopen(path, "r");
-    if (!file)
-        return error_at(err, ERROR_INPUT, path, NULL, "cannot be opened: %s", strerror(errno));
     Points *points = calloc(1, sizeof *points);
-    bool    ok = points ? read_points(file, path, points, err) :
+    bool    ok = points ? read_points(text, path, points, err) :
                           error_at(err, ERROR_MEMORY, path, NULL, "no memory to read it");
     if (ok) curve_from_points(points->nm, points->value, points->count, out);
     free(points);
-    fclose(file);
+    return ok;
+}
+
+bool curve_read(const char *path, Curve *out, Error *err)
+{
+    Arena     arena = arena_reserve(CURVE_FILE_BYTES_MAX + 4096);
+    FileBytes bytes;
+    bool      ok = file_read(path, CURVE_FILE_BYTES_MAX, &arena, &bytes, err) &&
+              curve_parse((const char *)bytes.data, path, out, err);
+    arena_release(&arena);
     return ok;
 }
 

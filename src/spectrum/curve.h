@@ -4,6 +4,8 @@
  *          measured range the end value holds.
  */
 #pragma once
+#include <stddef.h>
+
 #include "base/error.h"
 #include "spectrum/wavelengths.h"
 
@@ -18,8 +20,13 @@ typedef struct Curve {
 /* Linear interpolation of count measured points; nm rises strictly, count >= 1. */
 void curve_from_points(const double *nm, const double *value, int count, Curve *out);
 
+#define CURVE_FILE_BYTES_MAX ((size_t)16 << 20)
+
 /* Reads a CSV of `nm,value` rows (header line and # comments allowed). */
 bool curve_read(const char *path, Curve *out, Error *err);
+
+/* The same for a file in memory, terminated; path: of the file, for messages. */
+bool curve_parse(const char *text, const char *path, Curve *out, Error *err);
 
 /* Value of every lane's wavelength. */
 Spectrum curve_lookup(const Curve *curve, const Wavelengths *wavelengths);

@@ -87,6 +87,7 @@ class TreeBuilder : public nlohmann::json_sax<Json>
     }
     bool string(string_t &value) override
     {
+        if (!is_plain(value)) return false;
         GltfValue v = make(GLTF_STRING);
         v.text = arena_string(arena_, value.data(), value.size());
         return add(v);
@@ -113,6 +114,7 @@ class TreeBuilder : public nlohmann::json_sax<Json>
     }
     bool key(string_t &name) override
     {
+        if (!is_plain(name)) return false;
         if (!open_.back().names.insert(name).second)
             return error_set(err_, ERROR_INPUT,
                              "the name \"%.100s\" stands twice in one object", name.c_str());
@@ -129,7 +131,15 @@ class TreeBuilder : public nlohmann::json_sax<Json>
     Arena *arena_;
     Error *err_;
     std::vector<Open> open_;
+    int count_ = 0;
 
+    bool is_plain(const string_t &text)
+    {
+        if (text.find('\0') == string_t::npos) return true;
+        return error_set(err_, ERROR_INPUT,
+                         "the text \"%.100s\" goes on behind a zero character, which is not "
+                         "taken", text.c_str());
+    }
     static GltfValue make(GltfKind kind)
     {
         GltfValue v{};
@@ -149,6 +159,9 @@ class TreeBuilder : public nlohmann::json_sax<Json>
             root = v;
             return true;
         }
+        if (++count_ > GLTF_MAX_VALUES)
+            return error_set(err_, ERROR_INPUT, "more than %d values in one document",
+                             GLTF_MAX_VALUES);
         Open &parent = open_.back();
         v.index = (int)parent.items.size();
         v.key = parent.value.kind == GLTF_OBJECT ? parent.next_key : nullptr;

@@ -36,9 +36,11 @@ typedef struct GltfValue {
     int count;
 } GltfValue;
 
-#define GLTF_MAX_DEPTH 256 /* of nested arrays and objects */
+#define GLTF_MAX_DEPTH 256        /* of nested arrays and objects */
+#define GLTF_MAX_VALUES (1 << 25) /* in a document: a million nodes have some 20 million */
 
-/* Parses JSON text (no nesting above GLTF_MAX_DEPTH, no name twice in one object). */
+/* Parses JSON text (no nesting above GLTF_MAX_DEPTH, at most GLTF_MAX_VALUES values, no name
+ * twice in one object, no zero character in a name or text: neither may end early). */
 bool gltf_json_parse(const char *text, size_t size, Arena *arena, const GltfValue **root,
                      Error *err);
 
