@@ -92,22 +92,31 @@ static int open_own_name(const char *path)
     return open(name, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
 }
 
-bool file_writer_open(const char *path, FileWriter *out, Error *err)
+/* 0, or errno. */
+static int open_writer(const char *path, FileWriter *out)
 {
-    FileWriter writer = {.path = path, .kind = FILE_SPECIAL};
+    FileWriter writer = {.path = path};
     if (is_special(path)) {
+        writer.kind = FILE_SPECIAL;
         writer.handle = open(path, O_WRONLY | O_CLOEXEC);
-        if (writer.handle < 0) return output_error(path, "written", errno, err);
     } else {
-        if (!fits_name(path)) return output_error(path, "created", ENAMETOOLONG, err);
+        if (!fits_name(path)) return ENAMETOOLONG;
         writer.kind = FILE_UNNAMED;
         writer.handle = open_unnamed(path);
         if (writer.handle < 0 && has_no_unnamed(errno)) {
             writer.kind = FILE_NAMED;
             writer.handle = open_own_name(path);
         }
-        if (writer.handle < 0) return output_error(path, "created", errno, err);
     }
+    *out = writer;
+    return writer.handle < 0 ? errno : 0;
+}
+
+bool file_writer_open(const char *path, FileWriter *out, Error *err)
+{
+    FileWriter writer;
+    int        reason = open_writer(path, &writer);
+    if (reason) return output_error(path, "created", reason, err);
     *out = writer;
     return true;
 }
@@ -214,7 +223,8 @@ bool file_check_writable(const char *path, Error *err)
         return output_error(path, "written", EISDIR, err);
     if (is_protected(path)) return output_error(path, "written", errno, err);
     if (is_special(path)) return true;
-    if (!file_writer_open(path, &writer, err)) return false;
+    int reason = open_writer(path, &writer);
+    if (reason) return output_error(path, "written", reason, err);
     file_writer_discard(&writer);
     return true;
 }
