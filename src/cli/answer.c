@@ -1,4 +1,5 @@
 /* How answers, errors and warnings leave the program. */
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -8,8 +9,10 @@ bool cli_print_json(json_t *document, Error *err)
 {
     bool done = !json_dumpf(document, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) &&
                 fputc('\n', stdout) != EOF && !fflush(stdout);
+    int  reason = errno;
     json_decref(document);
-    return done || error_at(err, ERROR_OUTPUT, "stdout", NULL, "cannot write the answer");
+    return done || error_at(err, ERROR_OUTPUT, "stdout", NULL, "cannot be written: %s",
+                            strerror(reason));
 }
 
 json_t *cli_json_text(const char *text)
@@ -23,6 +26,13 @@ json_t *cli_json_text(const char *text)
     return json_string(plain);
 }
 
+/* Names from files and command lines may hold what a terminal obeys, or end a line. */
+static void make_plain(char *text)
+{
+    for (char *c = text; *c; c++)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?';
+}
+
 void cli_error_line(const Error *error, char *buffer, int size)
 {
     const char *advice = strstr(error->text, " — ");
@@ -31,6 +41,7 @@ void cli_error_line(const Error *error, char *buffer, int size)
     snprintf(buffer, (size_t)size, "parhelion: %s%s%.*s%s%s%s%s", error->file,
              error->file[0] ? ": " : "", length, error->text, has_path ? " (" : "", error->path,
              has_path ? ")" : "", advice ? advice : "");
+    make_plain(buffer);
 }
 
 void cli_report_error(const Error *error, bool json)
@@ -64,9 +75,12 @@ void cli_print_warnings(const Problems *problems)
     for (int i = 0; i < problems->count; i++) {
         const Problem *one = &problems->list[i];
         if (one->severity != SEVERITY_WARNING || is_repeated(problems, i)) continue;
-        fprintf(stderr, "parhelion: warning: %s%s%s%s%s%s\n", one->file,
-                one->file[0] ? ": " : "", one->message, one->path[0] ? " (" : "", one->path,
-                one->path[0] ? ")" : "");
+        char line[2048];
+        snprintf(line, sizeof line, "parhelion: warning: %s%s%s%s%s%s", one->file,
+                 one->file[0] ? ": " : "", one->message, one->path[0] ? " (" : "", one->path,
+                 one->path[0] ? ")" : "");
+        make_plain(line);
+        fprintf(stderr, "%s\n", line);
     }
 }
 

@@ -1,6 +1,4 @@
 /* parhelion render: load, render, write, develop, answer. */
-#include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -21,19 +19,6 @@ typedef struct Work {
 } Work;
 
 /* ---- before ------------------------------------------------------------------------------ */
-
-/* Hours of rendering must not end at a folder that cannot be written. */
-static bool check_writable(const char *path, Arena scratch, Error *err)
-{
-    const char *probe = file_temporary_name(path, &scratch);
-    int         file = open(probe, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-    if (file < 0)
-        return error_at(err, ERROR_OUTPUT, path, NULL, "cannot be written: %s",
-                        strerror(errno));
-    close(file);
-    unlink(probe);
-    return true;
-}
 
 /* What this process may use: the machine's memory, or half of the address space that a batch
  * system grants (the libraries' share is the other half). */
@@ -64,10 +49,11 @@ static bool check_memory(const RenderOptions *options, Error *err)
         crop.x1 - crop.x0, crop.y1 - crop.y0, wanted / 1e9, memory / 1e9);
 }
 
-static bool check_outputs(const RenderRequest *request, Arena scratch, Error *err)
+/* Hours of rendering must not end at a folder that cannot be written. */
+static bool check_outputs(const RenderRequest *request, Error *err)
 {
-    if (request->output && !check_writable(request->output, scratch, err)) return false;
-    return !request->png || check_writable(request->png, scratch, err);
+    if (request->output && !file_check_writable(request->output, err)) return false;
+    return !request->png || file_check_writable(request->png, err);
 }
 
 /* A view that does not exist is found now, on a frame of one pixel. */
@@ -109,6 +95,7 @@ static bool load(Work *work, Error *err)
                            &work->problems, err) &&
         tell_of_night(work) &&
         render_choose_camera(work->scene, request->camera, &work->problems, &work->camera, err);
+    if (loaded) render_tell_of_darkness(work->scene, &work->problems);
     cli_print_warnings(&work->problems);
     return loaded;
 }
@@ -224,7 +211,7 @@ static bool run(Work *work, Error *err)
     RenderResult   result;
     options->snapshot = work->request.replays ? NULL : write_snapshot;
     options->snapshot_user = work;
-    if (!check_memory(options, err) || !check_outputs(&work->request, *work->arena, err) ||
+    if (!check_memory(options, err) || !check_outputs(&work->request, err) ||
         !check_look(&work->request, *work->arena, err) || !load(work, err))
         return false;
     return render_scene(work->scene, &work->camera, options, work->arena, &result, err) &&

@@ -1,5 +1,7 @@
 /* parhelion: physically correct frames of dashboards with measured displays.
  * One table of sub-commands; the exit status is the code of the error. */
+#include <errno.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -66,16 +68,42 @@ static bool asks_for_json(int argc, char **argv)
     return false;
 }
 
+/* A reader who goes away and a limit on files' sizes are errors of the write, with a line and a
+ * status, instead of a death that leaves hours of work nowhere. */
+static void ignore_deadly_signals(void)
+{
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
+}
+
+/* What was printed to a full disk or a closed pipe has not been said. */
+static bool check_stdout(Error *err)
+{
+    errno = 0;
+    if (!fflush(stdout) && !ferror(stdout)) return true;
+    return error_at(err, ERROR_OUTPUT, "stdout", NULL, "cannot be written: %s",
+                    strerror(errno ? errno : EIO));
+}
+
+static int report(const Error *err, bool json)
+{
+    if (err->text[0]) cli_report_error(err, json);
+    return error_exit_status(err->code);
+}
+
 int main(int argc, char **argv)
 {
+    Error err = {0};
+    ignore_deadly_signals();
     if (argc < 2) {
         print_help(stderr);
         return error_exit_status(ERROR_USAGE);
     }
-    if (!strcmp(argv[1], "--version")) return print_version(), 0;
-    if (!strcmp(argv[1], "--help")) return print_help(stdout), 0;
-    Error err = {0};
-    if (run_command(argc, argv, &err)) return 0;
-    if (err.text[0]) cli_report_error(&err, asks_for_json(argc, argv));
-    return error_exit_status(err.code);
+    if (!strcmp(argv[1], "--version"))
+        print_version();
+    else if (!strcmp(argv[1], "--help"))
+        print_help(stdout);
+    else if (!run_command(argc, argv, &err))
+        return report(&err, asks_for_json(argc, argv));
+    return check_stdout(&err) ? 0 : report(&err, false);
 }

@@ -37,6 +37,9 @@ const char *render_layer_list(unsigned layers, Arena *arena);
 bool render_choose_camera(const Scene *scene, const char *wanted, Problems *problems,
                           SceneCamera *out, Error *err);
 
+/* A warning when nothing of the scene can send light: the frame will be black. */
+void render_tell_of_darkness(const Scene *scene, Problems *problems);
+
 /* The film as it stands, with its metadata. */
 FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
                              const SceneCamera *camera, const RenderResult *result,

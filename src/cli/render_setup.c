@@ -1,4 +1,4 @@
-/* The camera that looks at a scene. */
+/* The camera that looks at a scene, and whether there is anything to see. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -51,4 +51,27 @@ bool render_choose_camera(const Scene *scene, const char *wanted, Problems *prob
                                        : "the scene has neither a camera nor triangles: the "
                                          "view is from its origin along -Z");
     return true;
+}
+
+/* ---- light ------------------------------------------------------------------------------- */
+
+static bool has_light(const Scene *scene)
+{
+    const Environment *sky = &scene->environment;
+    if (sky->has_sun || sky->kind > ENVIRONMENT_CONSTANT) return true;
+    if (sky->kind == ENVIRONMENT_CONSTANT && sky->luminance_cd_m2 > 0) return true;
+    for (int i = 0; i < scene->light_count; i++)
+        for (int c = 0; c < 3; c++)
+            if (scene->lights[i].intensity[c] > 0) return true;
+    for (int i = 0; i < scene->part_count; i++)
+        if (scene->materials[scene->parts[i].material_id].is_emitter) return true;
+    return false;
+}
+
+void render_tell_of_darkness(const Scene *scene, Problems *problems)
+{
+    if (!has_light(scene))
+        problems_add(problems, SEVERITY_WARNING, scene->input_count ? scene->inputs[0] : "",
+                     NULL, "nothing gives light, the frame is black — add a file with lights, "
+                     "or --environment");
 }
