@@ -1,13 +1,13 @@
 /* What a render hands back: the frame with its metadata, and the answer on stdout. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <sys/resource.h>
-#include <time.h>
 
 #include "base/progress.h"
 #include "base/units.h"
+#include "cli/frame_outcome.h"
 #include "cli/render_identity.h"
+#include "film/film_part.h"
 
 /* ---- the frame --------------------------------------------------------------------------- */
 
@@ -37,22 +37,6 @@ static void set_camera(FrameImage *frame, const SceneCamera *camera, Arena *aren
         frame_set_number(frame, "parhelion:ymag_m", (double)camera->ymag, arena);
 }
 
-/* The time is left out, so that the same render gives the same file; a build system that sets
- * SOURCE_DATE_EPOCH gets that time (reproducible-builds.org). */
-static void set_time(FrameImage *frame, Arena *arena)
-{
-    const char *epoch = getenv("SOURCE_DATE_EPOCH");
-    if (!epoch) return;
-    char     *end;
-    time_t    seconds = (time_t)strtoll(epoch, &end, 10);
-    struct tm date;
-    char      text[32];
-    if (end == epoch || *end || !gmtime_r(&seconds, &date)) return;
-    strftime(text, sizeof text, "%Y:%m:%d %H:%M:%S", &date);
-    frame_set_string(frame, "capDate", text, arena);
-    frame_set_values(frame, "utcOffset", EXR_FLOAT, (const double[]){0}, arena);
-}
-
 static void set_inputs(FrameImage *frame, const Scene *scene, Arena *arena)
 {
     const char *list = "";
@@ -77,18 +61,31 @@ static void set_sampling(FrameImage *frame, const RenderRequest *request,
                          const RenderResult *result, Arena *arena)
 {
     const RenderOptions *options = &request->render;
-    frame_set_string(frame, "parhelion:samples",
-                     arena_format(arena, "%u:%u", options->first_sample,
-                                  options->first_sample + result->samples),
-                     arena);
+    const FrameOutcome   outcome = {.first_sample = options->first_sample,
+                                    .end_sample = options->first_sample + result->samples,
+                                    .complete = result->complete,
+                                    .relative_error = result->error.frame,
+                                    .dropped_samples = film_dropped(result->film).count};
+    frame_set_outcome(frame, &outcome, arena);
     frame_set_string(frame, "parhelion:isa", result->kernel->isa, arena);
     frame_set_string(frame, "parhelion:seed", arena_format(arena, "%u", options->seed), arena);
     frame_set_whole(frame, "parhelion:maxBounces", options->max_bounces, arena);
     frame_set_whole(frame, "parhelion:unbiased", 1, arena);
-    frame_set_whole(frame, "parhelion:complete", result->complete, arena);
-    frame_set_number(frame, "parhelion:relativeError", result->error.frame, arena);
-    frame_set_number(frame, "parhelion:droppedSamples",
-                     (double)film_dropped(result->film).count, arena);
+}
+
+/* A part carries the film's sums, so that it can be merged with the others. */
+static void attach_sums(FrameImage *frame, const RenderOptions *options,
+                        const RenderResult *result, Arena *arena)
+{
+    const PathStatistics *cost = &result->statistics;
+    uint32_t first = options->first_sample;
+    FilmPart part = film_part_of(result->film, first, first + result->samples);
+    if (!result->complete) part.asked_end = options->end_sample;
+    part.paths = cost->samples;
+    part.camera_rays = cost->camera_rays;
+    part.bounce_rays = cost->bounce_rays;
+    part.shadow_rays = cost->shadow_rays;
+    film_part_attach(frame, result->film, &part, arena);
 }
 
 FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
@@ -105,8 +102,8 @@ FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
     set_inputs(&frame, scene, arena);
     set_sampling(&frame, request, result, arena);
     set_camera(&frame, camera, arena);
-    set_time(&frame, arena);
     set_names(&frame, scene, request->render.layers, arena);
+    if (request->is_part) attach_sums(&frame, &request->render, result, arena);
     return frame;
 }
 

@@ -21,6 +21,7 @@ typedef struct RenderRequest {
     EnvironmentChange environment;
     RenderOptions render;
     bool          replays; /* one sample of one pixel, printed */
+    bool          is_part; /* some samples or pixels only: the frame can be merged */
     const char   *command_line; /* without what leaves every pixel as it is: --threads,
                                    --json, --quiet, --progress, --checkpoint,
                                    --checkpoint-interval, --resume */

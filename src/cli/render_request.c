@@ -227,6 +227,7 @@ static bool check_render(const Typed *typed, RenderRequest *request, Error *err)
     if (typed->has_crop && !parse_crop(typed->crop, options, err)) return false;
     if (typed->has_replay && !parse_replay(typed->replay, options, err)) return false;
     request->replays = typed->has_replay;
+    request->is_part = typed->samples || typed->has_crop;
     return true;
 }
 

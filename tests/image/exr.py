@@ -1,5 +1,5 @@
-"""exr.py -- reads OpenEXR frames without the product's own code: flat, one part, scanlines,
-uncompressed or ZIP. Standard library only."""
+"""exr.py -- reads OpenEXR frames without the product's own code: flat, scanlines, uncompressed
+or ZIP; of several parts the first, and the names of all. Standard library only."""
 import array
 import struct
 import sys
@@ -7,19 +7,22 @@ import zlib
 
 LINES_PER_CHUNK = {0: 1, 2: 1, 3: 16}  # none, ZIPS, ZIP
 HALF, FLOAT = 1, 2
+MULTI_PART = 0x1000
 
 
 class Frame:
     """attributes: name -> bytes; box: x0, y0, x1, y1 half-open; channels: name -> array of
-    32-bit values, row by row from the top."""
+    32-bit values, row by row from the top; parts: the attributes of every part."""
 
     def __init__(self, path):
         with open(path, "rb") as file:
             self.data = file.read()
         magic, version = struct.unpack_from("<II", self.data)
-        if magic != 20000630 or version & 0x1e00:
-            raise ValueError(f"{path}: not a flat OpenEXR file of one part in scanlines")
-        self.attributes, position = read_header(self.data, 8)
+        if magic != 20000630 or version & 0x0a00:
+            raise ValueError(f"{path}: not a flat OpenEXR file in scanlines")
+        self.parts, position = read_headers(self.data, bool(version & MULTI_PART))
+        self.attributes = self.parts[0]
+        self.chunk_head = 4 if version & MULTI_PART else 0  # the part's number
         x0, y0, x1, y1 = struct.unpack("<4i", self.attributes["dataWindow"])
         self.box = x0, y0, x1 + 1, y1 + 1
         self.width, self.height = x1 + 1 - x0, y1 + 1 - y0
@@ -34,6 +37,7 @@ class Frame:
         per_chunk = LINES_PER_CHUNK[compression]
         for i in range((self.height + per_chunk - 1) // per_chunk):
             offset, = struct.unpack_from("<Q", self.data, position + 8 * i)
+            offset += self.chunk_head
             y, size = struct.unpack_from("<iI", self.data, offset)
             first = y - self.box[1]
             lines = min(per_chunk, self.height - first)
@@ -93,6 +97,16 @@ def read_header(data, position):
         attributes[name] = data[position + 4:position + 4 + size]
         position += 4 + size
     return attributes, position + 1
+
+
+def read_headers(data, is_multi_part):
+    """Of every part; where there are several an empty header ends them."""
+    header, position = read_header(data, 8)
+    headers = [header]
+    while is_multi_part and data[position]:
+        header, position = read_header(data, position)
+        headers.append(header)
+    return headers, position + is_multi_part
 
 
 def channel_list(data):
