@@ -1,0 +1,143 @@
+/* The regions' family: the whole frame, displays, and what displays reflect. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "compare/statistic_parts.h"
+
+#define DISPLAY_PREFIX "parhelion:display."
+/* Pixels surer than this share of their light weigh no more for it: a region is more than its
+ * least noisy corner. */
+#define SUREST 0.02
+
+typedef struct Region {
+    int          display; /* id; -1: the frame */
+    NoisyChannel channel;
+    CoinSum      plain, weighted;
+    double       light[2];  /* sums of luminance: reference, test */
+    double       weight;    /* of c times the mean: weighted.sum / weight is the change */
+} Region;
+
+/* ---- which there are --------------------------------------------------------------------- */
+
+static int display_of(const ExrAttribute *a)
+{
+    bool is_display = a->kind == EXR_STRING &&
+                      !strncmp(a->name, DISPLAY_PREFIX, sizeof DISPLAY_PREFIX - 1);
+    return is_display ? atoi(a->name + sizeof DISPLAY_PREFIX - 1) : -1;
+}
+
+static int list_regions(const NoisyPair *pair, const FrameImage *frame, Arena *arena,
+                        Region **regions, const char ***names)
+{
+    int room = 1 + 2 * frame->attribute_count, count = 0;
+    *regions = ARENA_NEW(arena, Region, room);
+    *names = ARENA_NEW(arena, const char *, room);
+    (*names)[count] = "frame";
+    (*regions)[count++] = (Region){.display = -1, .channel = NOISY_LUMINANCE};
+    for (int i = 0; pair->display && i < frame->attribute_count; i++) {
+        int         id = display_of(&frame->attributes[i]);
+        const char *name = frame->attributes[i].text;
+        if (id < 0) continue;
+        (*names)[count] = name;
+        (*regions)[count++] = (Region){.display = id, .channel = NOISY_LUMINANCE};
+        if (!pair->has_reflected) continue;
+        (*names)[count] = arena_format(arena, "%s reflected", name);
+        (*regions)[count++] = (Region){.display = id, .channel = NOISY_REFLECTED};
+    }
+    return count;
+}
+
+/* ---- sums -------------------------------------------------------------------------------- */
+
+/* test = (1 + change) reference is estimated best with the factors mean / variance. The
+ * variance is the frames' own where they state it, for that comes from all samples; it is the
+ * same for d and -d, and so is the mean of both frames. */
+static double factor_of(const NoisyNumber *n)
+{
+    double variance = n->variance;
+    if (isnan(variance)) variance = n->stated;
+    if (isnan(variance)) variance = n->halves + n->difference * n->difference;
+    double least = SUREST * n->mean;
+    variance += least * least;
+    return variance > 0 ? n->mean / variance : 0;
+}
+
+static void add_pixel(const NoisyPair *pair, size_t i, Region *region)
+{
+    NoisyNumber n;
+    if (!noisy_pair_number(pair, i, region->channel, &n)) return;
+    double c = factor_of(&n);
+    coin_sum_add(&region->plain, &n, 1);
+    if (isfinite(c)) {
+        coin_sum_add(&region->weighted, &n, c);
+        region->weight += c * n.mean;
+    }
+    for (int s = 0; s < 2; s++)
+        region->light[s] += noisy_pair_luminance(pair, s, i, region->channel);
+}
+
+static void add_pixels(const NoisyPair *pair, Region *regions, int count)
+{
+    int width = pair->data.x1 - pair->data.x0, height = pair->data.y1 - pair->data.y0;
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            if (!noisy_pair_counts(pair, x, y)) continue;
+            size_t i = noisy_pair_index(pair, x, y);
+            int    display = pair->display ? (int)pair->display[i] : -1;
+            add_pixel(pair, i, &regions[0]);
+            for (int r = 1; display >= 0 && r < count; r++)
+                if (regions[r].display == display) add_pixel(pair, i, &regions[r]);
+        }
+}
+
+/* ---- figures ----------------------------------------------------------------------------- */
+
+/* A difference of d times the mean of both is a ratio of (1 + d / 2) / (1 - d / 2). */
+static double ratio_of(double d)
+{
+    return (1 + d / 2) / (1 - d / 2);
+}
+
+static StatisticRegion figures_of(const Region *region, const char *name, NoiseLaw law)
+{
+    double          n = (double)region->plain.count, d = region->weighted.sum / region->weight;
+    StatisticRegion out = {.name = name, .pixels = region->plain.count,
+                           .reference = region->light[0] / n, .test = region->light[1] / n};
+    bool            is_lit = fabs(region->light[0]) > 0;
+    out.shift = is_lit ? region->light[1] / region->light[0] - 1 : (double)NAN;
+    out.shift_sigma = coin_sum_sigma(&region->plain, law) / fabs(region->light[0]);
+    if (!is_lit) out.shift_sigma = (double)NAN;
+    out.change = fabs(d) < 2 ? ratio_of(d) - 1 : (double)NAN;
+    out.change_sigma = coin_sum_sigma(&region->weighted, law) / region->weight *
+                       ratio_of(d) / (1 - d * d / 4);
+    out.p_value = sidak_p(fmin(coin_sum_p(&region->plain, law),
+                               coin_sum_p(&region->weighted, law)), 2);
+    return out;
+}
+
+void statistic_regions(const NoisyPair *pair, const FrameImage *reference, double level,
+                       Arena *arena, StatisticResult *out)
+{
+    Region      *regions;
+    const char **names;
+    double       least = 1;
+    int          listed = list_regions(pair, reference, arena, &regions, &names), count = 0;
+    add_pixels(pair, regions, listed);
+    out->regions = ARENA_NEW(arena, StatisticRegion, listed);
+    for (int r = 0; r < listed; r++) {
+        if (regions[r].plain.count == 0) continue;
+        out->regions[count] = figures_of(&regions[r], names[r], pair->law);
+        least = fmin(least, out->regions[count++].p_value);
+    }
+    out->region_count = count;
+    if (count == 0) {
+        out->p_regions = 1;
+        out->mean_shift = NAN;
+        return;
+    }
+    out->p_regions = sidak_p(least, count);
+    out->mean_shift = out->regions[0].shift;
+    for (int r = 0; r < count; r++)
+        out->regions[r].moved = out->regions[r].p_value < sidak_level(level, count);
+}
