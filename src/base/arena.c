@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 /* Threads may still be at work: their libraries' tables must not be taken down under them. */
@@ -19,35 +20,27 @@ static void exit_when_full(size_t bytes_wanted, size_t bytes_left)
 
 #define PAGE ((size_t)1 << 16)
 
-static char *map_pages(size_t size)
+/* Address space that the process may still take (ulimit -v, batch systems). */
+static size_t space_left(void)
 {
-    char *memory = mmap(NULL, size, PROT_READ | PROT_WRITE,
-                        MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    return memory == MAP_FAILED ? NULL : memory;
-}
-
-/* Where the address space is limited (ulimit -v, batch systems): half of the largest power of
- * two that could be had, so that libraries and further arenas find room too. */
-static char *map_part(size_t *size)
-{
-    size_t power = PAGE;
-    while (power <= *size / 2) power *= 2;
-    for (; power >= 2 * PAGE; power /= 2) {
-        char *memory = map_pages(power);
-        if (!memory) continue;
-        munmap(memory + power / 2, power / 2);
-        *size = power / 2;
-        return memory;
-    }
-    return NULL;
+    struct rlimit limit;
+    unsigned long pages = 0; /* proc(5), statm: the program's size comes first */
+    if (getrlimit(RLIMIT_AS, &limit) || limit.rlim_cur == RLIM_INFINITY) return SIZE_MAX;
+    FILE *file = fopen("/proc/self/statm", "r");
+    if (file && fscanf(file, "%lu", &pages) != 1) pages = 0;
+    if (file) fclose(file);
+    size_t taken = pages * (size_t)sysconf(_SC_PAGESIZE);
+    return limit.rlim_cur > taken ? (size_t)limit.rlim_cur - taken : 0;
 }
 
 Arena arena_reserve(size_t bytes)
 {
     size_t size = (bytes + PAGE - 1) / PAGE * PAGE;
-    char  *memory = map_pages(size);
-    if (!memory) memory = map_part(&size);
-    if (!memory) exit_when_full(size, 0);
+    size_t most = space_left() / 2 / PAGE * PAGE; /* libraries and further arenas need room */
+    if (size > most) size = most;
+    char *memory = mmap(NULL, size, PROT_READ | PROT_WRITE,
+                        MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (memory == MAP_FAILED) exit_when_full(size, 0);
     return (Arena){.next = memory, .end = memory + size, .on_full = exit_when_full,
                    .begin = memory};
 }

@@ -111,6 +111,23 @@ static void measure_bounds(Scene *scene)
     scene->bounds_max = high;
 }
 
+/* Vertices are 32-bit numbers: so far out, neighbours of the scene's own size lie on few of
+ * them. Edges jump and light leaks, but nothing is wrong with the file. */
+#define FAR_IN_SIZES 10000
+
+static void warn_if_far(const Scene *scene, Loader *load)
+{
+    if (!scene->triangle_count) return;
+    Vec3  low = scene->bounds_min, high = scene->bounds_max;
+    float size = vec3_length(vec3_sub(high, low));
+    float distance = vec3_length(vec3_scale(vec3_add(low, high), 0.5f));
+    if (distance > FAR_IN_SIZES * size)
+        problems_add(load->problems, SEVERITY_WARNING, scene->inputs[0], "",
+                     "the scene is %.3g m large and stands %.3g m from the origin, where "
+                     "coordinates are %.2g m apart: move it nearer",
+                     (double)size, (double)distance, (double)distance * 0x1p-23);
+}
+
 /* A texture that no material shows may have no picture; nobody looks, but it is valid. */
 static void fill_gaps(Scene *scene)
 {
@@ -163,6 +180,7 @@ static Scene *assemble(Loader *load)
     measure_bounds(scene);
     fill_gaps(scene);
     sort_extensions(scene);
+    warn_if_far(scene, load);
     return scene;
 }
 

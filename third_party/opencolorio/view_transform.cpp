@@ -26,6 +26,8 @@ bool guarded(Error *err, ErrorCode code, const char *doing, Body body) noexcept
 {
     try {
         return body();
+    } catch (const std::bad_alloc &) {
+        return error_set(err, ERROR_MEMORY, "%s: out of memory", doing);
     } catch (const std::exception &e) {
         return error_set(err, code, "%s: %s", doing, one_line(e.what()).c_str());
     } catch (...) {

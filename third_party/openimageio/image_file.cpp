@@ -17,6 +17,8 @@ bool guarded(Error *err, const char *doing, Body body) noexcept
 {
     try {
         return body();
+    } catch (const std::bad_alloc &) {
+        return error_set(err, ERROR_MEMORY, "%s: out of memory", doing);
     } catch (const std::exception &e) {
         return error_set(err, ERROR_LIBRARY, "%s: %s", doing, e.what());
     } catch (...) {
