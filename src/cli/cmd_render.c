@@ -3,10 +3,9 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include "base/file.h"
+#include "base/machine.h"
 #include "cli/render_command.h"
 
 /* Everything of one run of the command. */
@@ -20,23 +19,13 @@ typedef struct Work {
 
 /* ---- before ------------------------------------------------------------------------------ */
 
-/* What this process may use: the machine's memory, or half of the address space that a batch
- * system grants (the libraries' share is the other half). */
-static size_t memory_bytes(void)
-{
-    size_t        machine = (size_t)sysconf(_SC_PHYS_PAGES) * (size_t)sysconf(_SC_PAGESIZE);
-    struct rlimit limit;
-    if (getrlimit(RLIMIT_AS, &limit) || limit.rlim_cur == RLIM_INFINITY) return machine;
-    return limit.rlim_cur / 2 < machine ? (size_t)limit.rlim_cur / 2 : machine;
-}
-
 /* Frames that our own reader would refuse, and films that the memory does not hold. */
 static bool check_memory(const RenderOptions *options, Error *err)
 {
     FilmRect crop = options->crop;
     double   pixels = (double)options->width * (double)options->height;
     double   wanted = (double)film_bytes(crop, options->layers);
-    double   memory = (double)memory_bytes();
+    double   memory = (double)machine_memory_bytes();
     if (pixels > EXR_MAX_PIXELS)
         return error_set(err, ERROR_USAGE,
                          "--size %dx%d: %.0f pixels, at most %d are supported", options->width,
@@ -220,7 +209,7 @@ static bool run(Work *work, Error *err)
 
 bool cmd_render(int argc, char **argv, Error *err)
 {
-    Arena arena = arena_reserve(memory_bytes()); /* address space: what is touched counts */
+    Arena arena = arena_reserve(machine_memory_bytes()); /* address space: what is touched counts */
     Work  work = {.arena = &arena};
     bool  done = render_request_parse(argc, argv, &arena, &work.request, err) &&
                 (work.request.cli.help_shown || run(&work, err));

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/reference.h"
+#include "cli/command_line.h"
 #include "cli/render_command.h"
 
 #define DEFAULT_WIDTH 1280
@@ -231,48 +232,6 @@ static bool check_render(const Typed *typed, RenderRequest *request, Error *err)
     return true;
 }
 
-/* One word as a shell would take it again. */
-static const char *quote(const char *word, Arena *arena)
-{
-    const char *quoted = "'", *rest = word;
-    if (*word && !word[strcspn(word, " \t\n'\"\\$&|;<>()*?#!`~{}[]")]) return word;
-    for (const char *mark; (mark = strchr(rest, '\'')); rest = mark + 1)
-        quoted = arena_format(arena, "%s%.*s'\\''", quoted, (int)(mark - rest), rest);
-    return arena_format(arena, "%s%s'", quoted, rest);
-}
-
-/* How many words, this one first, leave every pixel as it is: a render that was interrupted and
- * resumed says the same command line in its frame as one that was not. */
-static int idle_words(const char *word)
-{
-    static const struct {
-        const char *name;
-        bool        has_value;
-    } idle[] = {{"--threads", true}, {"--json", false}, {"--quiet", false},
-                {"--progress", true}, {"--checkpoint", true},
-                {"--checkpoint-interval", true}, {"--resume", false}};
-    size_t length = strcspn(word, "=");
-    for (size_t i = 0; i < sizeof idle / sizeof *idle; i++)
-        if (strlen(idle[i].name) == length && !strncmp(word, idle[i].name, length))
-            return idle[i].has_value && !word[length] ? 2 : 1;
-    return 0;
-}
-
-static const char *join_command_line(int argc, char **argv, bool with_idle, Arena *arena)
-{
-    const char *line = "parhelion";
-    bool        has_options = true;
-    for (int i = 0; i < argc; i++) {
-        int idle = with_idle || !has_options ? 0 : idle_words(argv[i]);
-        if (!strcmp(argv[i], "--")) has_options = false;
-        if (idle)
-            i += idle - 1;
-        else
-            line = arena_format(arena, "%s %s", line, quote(argv[i], arena));
-    }
-    return line;
-}
-
 static bool parse_line(int argc, char **argv, Arena *arena, Typed *typed,
                        RenderRequest *request, Error *err)
 {
@@ -332,8 +291,8 @@ static bool parse_line(int argc, char **argv, Arena *arena, Typed *typed,
 
 bool render_request_parse(int argc, char **argv, Arena *arena, RenderRequest *out, Error *err)
 {
-    RenderRequest request = {.command_line = join_command_line(argc, argv, false, arena),
-                             .typed_line = join_command_line(argc, argv, true, arena)};
+    RenderRequest request = {.command_line = command_line_join(argc, argv, false, arena),
+                             .typed_line = command_line_join(argc, argv, true, arena)};
     Typed         typed = {.size = {DEFAULT_WIDTH, DEFAULT_HEIGHT}, .spp = DEFAULT_SPP,
                            .max_bounces = DEFAULT_BOUNCES};
     if (!parse_line(argc, argv, arena, &typed, &request, err)) return false;

@@ -126,6 +126,8 @@ static bool check_overlap(const FilmPart *a, const FilmPart *b, Error *err)
 static FilmPart hull(const FilmPart *parts, int count)
 {
     FilmPart all = parts[0];
+    all.dropped = (FilmDropped){0};
+    all.paths = all.camera_rays = all.bounce_rays = all.shadow_rays = 0;
     for (int i = 0; i < count; i++) {
         const FilmPart *part = &parts[i];
         all.crop.x0 = smaller(all.crop.x0, part->crop.x0);
@@ -134,6 +136,10 @@ static FilmPart hull(const FilmPart *parts, int count)
         all.crop.y1 = larger(all.crop.y1, part->crop.y1);
         if (part->first_sample < all.first_sample) all.first_sample = part->first_sample;
         if (part->asked_end > all.asked_end) all.asked_end = part->asked_end;
+        all.paths += part->paths;
+        all.camera_rays += part->camera_rays;
+        all.bounce_rays += part->bounce_rays;
+        all.shadow_rays += part->shadow_rays;
     }
     all.end_sample = all.asked_end;
     return all;

@@ -15,7 +15,8 @@ bool film_add_pixels(Film *film, FilmRect rect, const void *pixels, uint32_t mos
 void film_add_dropped(Film *film, const FilmDropped *dropped);
 
 /* Whether the parts, all of one frame and at least one, fill the rectangle around them and one
- * range of samples, each sample of each pixel once. *out is what they make, without its costs.
+ * range of samples, each sample of each pixel once. *out is what they make, without what was
+ * dropped.
  * The error names the two parts that overlap, or the first pixels and samples that are
  * missing, and the part that was stopped before it came to them. */
 bool film_merge_check(const FilmPart *parts, int count, Arena scratch, FilmPart *out,

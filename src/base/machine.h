@@ -1,0 +1,10 @@
+/* machine.h -- what this process may use of the machine.
+ *
+ * Threads  no shared state.  Fails  never.
+ */
+#pragma once
+#include <stddef.h>
+
+/* Bytes: the machine's memory, or half of the address space that a batch system grants (ulimit
+ * -v; the libraries' share is the other half). */
+size_t machine_memory_bytes(void);
