@@ -34,15 +34,13 @@ static double seventh_power_share(double c)
 }
 
 typedef struct Polar {
-    double chroma, hue_deg; /* 0 <= hue < 360; 0 for greys */
+    double chroma, hue_deg; /* 0 <= hue < 360 */
 } Polar;
 
 static Polar polar_of(double a, double b)
 {
-    Polar  polar = {.chroma = sqrt(a * a + b * b)};
     double degrees = degrees_from_radians(atan2_d(b, a));
-    if (polar.chroma > 0) polar.hue_deg = degrees < 0 ? degrees + 360 : degrees;
-    return polar;
+    return (Polar){sqrt(a * a + b * b), degrees < 0 ? degrees + 360 : degrees};
 }
 
 static double cos_deg(double degrees)
@@ -59,24 +57,24 @@ static double sin_deg(double degrees)
 static double hue_step_deg(Polar first, Polar second)
 {
     double step = second.hue_deg - first.hue_deg;
-    if (first.chroma * second.chroma == 0) return 0;
     return step > 180 ? step - 360 : step < -180 ? step + 360 : step;
 }
 
-/* Half way along the shorter arc; a grey has no hue of its own, and the other's counts. */
+/* Half way along the shorter arc. */
 static double mean_hue_deg(Polar first, Polar second)
 {
     double sum = first.hue_deg + second.hue_deg;
-    if (first.chroma * second.chroma == 0) return sum;
     if (fabs(first.hue_deg - second.hue_deg) <= 180) return sum / 2;
     return sum < 360 ? (sum + 360) / 2 : (sum - 360) / 2;
 }
 
-/* Sharma, Wu, Dalal, equations 2 to 22. Hues 180 degrees apart are where the formula jumps. */
+/* Sharma, Wu, Dalal, equations 2 to 22. Hues 180 degrees apart are where the formula jumps.
+ * A grey has no hue; none of the terms with one is left then, since dh is 0. */
 double deltae_2000(const double reference[3], const double test[3])
 {
     const double *r = reference, *t = test;
-    double mean_chroma = (sqrt(r[1] * r[1] + r[2] * r[2]) + sqrt(t[1] * t[1] + t[2] * t[2])) / 2;
+    double mean_chroma =
+        (sqrt(r[1] * r[1] + r[2] * r[2]) + sqrt(t[1] * t[1] + t[2] * t[2])) / 2;
     double stretch = 1 + 0.5 * (1 - sqrt(seventh_power_share(mean_chroma)));
     Polar  pr = polar_of(stretch * r[1], r[2]), pt = polar_of(stretch * t[1], t[2]);
 

@@ -25,7 +25,8 @@ static void work_on_tile(void *context, int item, int worker)
 {
     const Tiles  *tiles = context;
     const Planes *picture = tiles->job->reference;
-    int           x0 = item % tiles->columns * FLIP_TILE, y0 = item / tiles->columns * TILE_ROWS;
+    int           x0 = item % tiles->columns * FLIP_TILE;
+    int           y0 = item / tiles->columns * TILE_ROWS;
     FlipTile      tile = {x0, lower(x0 + FLIP_TILE, picture->width), y0,
                           lower(y0 + TILE_ROWS, picture->height)};
     flip_tile(tiles->job, tile, tiles->scratch[worker]);

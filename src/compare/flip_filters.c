@@ -93,7 +93,7 @@ static void create_features(FlipFilters *filters, double pixels_per_degree, Aren
 FlipFilters flip_filters_create(double pixels_per_degree, Arena *arena)
 {
     const double area = pixels_per_degree * pixels_per_degree;
-    /* three standard deviations of the widest */
+    /* three standard deviations of the widest: 0.135 degrees, the features' are 0.123 */
     const int radius = (int)ceil(3 * sqrt(BLUE_YELLOW[0].b / 2) / PI * pixels_per_degree);
     FlipFilters filters = {
         .radius = radius,
@@ -104,6 +104,5 @@ FlipFilters flip_filters_create(double pixels_per_degree, Arena *arena)
     scale(&filters.red_green, 1 / sum_of(&filters.red_green));
     create_blue_yellow(&filters, pixels_per_degree, radius, arena);
     create_features(&filters, pixels_per_degree, arena);
-    if (filters.gauss.radius > radius) filters.radius = filters.gauss.radius;
     return filters;
 }

@@ -80,6 +80,6 @@ PixelErrors metrics_pixel_errors(const Planes *reference, const Planes *test, Pi
         .mean_shift = shift_of(mean, mean_luminance(test, mask)),
     };
     add_differences(reference, test, mask, mean / 100, &errors);
-    errors.psnr_db = isnan(errors.mse) ? NAN : psnr_db(errors.peak, errors.mse);
+    errors.psnr_db = psnr_db(errors.peak, errors.mse);
     return errors;
 }

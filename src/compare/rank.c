@@ -18,7 +18,7 @@ static const Digit DIGIT_OF_ROUND[3] = {{21, 0x7FF}, {10, 0x7FF}, {0, 0x3FF}};
 /* Unsigned numbers in the order of the floats. */
 static uint32_t ordered_bits(float value)
 {
-    uint32_t bits = bits_from_float(value + 0.0f); /* -0 becomes 0 */
+    uint32_t bits = bits_from_float(value);
     return bits >> 31 ? ~bits : bits | 0x80000000u;
 }
 
