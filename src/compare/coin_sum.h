@@ -30,7 +30,7 @@ typedef struct CoinSum {
 
 /* What the two frames' noise has in common. */
 typedef struct NoiseLaw {
-    bool is_same;      /* as many samples: exchanging the frames changes nothing */
+    bool is_same;      /* exchanging the frames changes nothing */
     bool has_variance; /* NoisyNumber.variance is known and comes from both frames together */
     bool has_halves;
 } NoiseLaw;

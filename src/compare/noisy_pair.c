@@ -7,7 +7,11 @@
 
 #define LAYERS_WANTED "--layers variance,halves,samples"
 /* Sample counts that differ by no more than this share make noise of one shape. */
-#define ONE_LAW 0.1
+#define ONE_COUNT 0.1
+/* So do variances when neither frame has the larger one in more than this share of the pixels
+ * beyond a half, or more than so many standard errors of such a share. */
+#define ONE_SIZE 0.05
+#define ONE_SIZE_ERRORS 5
 
 /* ---- opening ----------------------------------------------------------------------------- */
 
@@ -47,16 +51,34 @@ static double samples_at(const NoisySide *side, size_t i)
     return side->samples ? (double)side->samples[i] : side->samples_of_all;
 }
 
-/* Whether all but a hundredth of the pixels have as many samples in both. */
-static bool has_one_law(const NoisyPair *pair)
+static size_t pixels_of(const NoisyPair *pair)
 {
-    size_t width = (size_t)(pair->data.x1 - pair->data.x0);
-    size_t count = width * (size_t)(pair->data.y1 - pair->data.y0), odd = 0;
+    return (size_t)(pair->data.x1 - pair->data.x0) * (size_t)(pair->data.y1 - pair->data.y0);
+}
+
+/* Whether all but a hundredth of the pixels have as many samples in both. */
+static bool has_one_count(const NoisyPair *pair)
+{
+    size_t count = pixels_of(pair), odd = 0;
     for (size_t i = 0; i < count; i++) {
         double a = samples_at(&pair->side[0], i), b = samples_at(&pair->side[1], i);
-        odd += !(fabs(a - b) <= ONE_LAW * fmax(a, b));
+        odd += !(fabs(a - b) <= ONE_COUNT * fmax(a, b));
     }
     return odd <= count / 100;
+}
+
+/* Whether the noise is about as strong in both: a program that got better at finding light
+ * makes another noise of the same mean. */
+static bool has_one_size(const NoisyPair *pair)
+{
+    double more = 0, less = 0;
+    for (size_t i = 0; pair->has_variance && i < pixels_of(pair); i++) {
+        float a = pair->side[0].variance[1][i], b = pair->side[1].variance[1][i];
+        more += a > b;
+        less += a < b;
+    }
+    double share = fabs(more - less) / 2, all = more + less;
+    return share <= fmax(ONE_SIZE * all, ONE_SIZE_ERRORS * 0.5 * sqrt(all));
 }
 
 static bool same_text(const FrameImage *a, const FrameImage *b, const char *name)
@@ -95,7 +117,8 @@ bool noisy_pair_open(const FrameImage *reference, const FrameImage *test,
                          (b->samples || b->samples_of_all > 0);
     pair.shares_noise = same_text(reference, test, "parhelion:seed") &&
                         same_text(reference, test, "parhelion:samples");
-    pair.law.is_same = pair.knows_samples && has_one_law(&pair);
+    pair.law.is_same = pair.knows_samples && has_one_count(&pair) &&
+                       (pair.shares_noise || has_one_size(&pair));
     pair.law.has_variance = pair.has_variance && pair.knows_samples;
     pair.law.has_halves = pair.has_halves;
     *out = pair;

@@ -18,9 +18,10 @@
  *              not alarm
  *   regions    the frame, every display, what every display reflects: the plain mean, and a
  *              change in proportion with the most certain pixels weighing most
- * Frames of different sample counts have noise of different shapes: the larger of both
- * denominators, and the variance of a sample from both frames together (a reference of few
- * samples that missed all glints knows nothing of them).
+ * Frames of different sample counts, or one of which is noisier all over, have noise of
+ * different shapes: the larger of both denominators, the variance of a sample from both frames
+ * together (a reference of few samples that missed all glints knows nothing of them), times
+ * what the halves show that Sobol points gain; weights come from the pixels around.
  * Frames of one seed and range share their noise: differences are those of the scene, or of
  * paths that rounding turned elsewhere; the same quotients tell whether the mean moved.
  *

@@ -51,23 +51,51 @@ static int list_regions(const NoisyPair *pair, const FrameImage *frame, Arena *a
 /* ---- sums -------------------------------------------------------------------------------- */
 
 /* test = (1 + change) reference is estimated best with the factors mean / variance. The
- * variance is the frames' own where they state it, for that comes from all samples; it is the
- * same for d and -d, and so is the mean of both frames. */
-static double factor_of(const NoisyNumber *n)
+ * variance is the frames' own where they state it, for that comes from all samples. What a
+ * display reflects is the mean of fewer samples at its edges: the difference itself counts. */
+static double factor_of(const NoisyNumber *n, NoisyChannel channel)
 {
-    double variance = n->variance;
+    double variance = n->variance, square = n->difference * n->difference;
     if (isnan(variance)) variance = n->stated;
-    if (isnan(variance)) variance = n->halves + n->difference * n->difference;
+    if (isnan(variance)) variance = n->halves + square;
+    if (channel == NOISY_REFLECTED) variance += square / 2;
     double least = SUREST * n->mean;
     variance += least * least;
     return variance > 0 ? n->mean / variance : 0;
 }
 
+/* The factor that the pixels around have in the mean. */
+static double factor_around(const NoisyPair *pair, size_t i, const Region *region)
+{
+    int    width = pair->data.x1 - pair->data.x0, height = pair->data.y1 - pair->data.y0;
+    int    column = (int)(i % (size_t)width), row = (int)(i / (size_t)width);
+    double mean = 0, variance = 0, count = 0;
+    for (int y = row > 0 ? row - 1 : 0; y <= row + 1 && y < height; y++)
+        for (int x = column > 0 ? column - 1 : 0; x <= column + 1 && x < width; x++) {
+            NoisyNumber n;
+            size_t      k = noisy_pair_index(pair, x, y);
+            bool is_inside = region->display < 0 || (int)pair->display[k] == region->display;
+            if (k == i || !is_inside || !noisy_pair_counts(pair, x, y) ||
+                !noisy_pair_number(pair, k, region->channel, &n))
+                continue;
+            double c = factor_of(&n, region->channel);
+            if (!(c > 0)) continue;
+            mean += n.mean;
+            variance += n.mean / c;
+            count++;
+        }
+    return count > 0 ? mean / variance : 0;
+}
+
+/* Factors must not change when the frames are exchanged, and in noise of two laws they must
+ * not know the pixel itself: a bright sample makes a pixel's own variance large, so that
+ * weighing by it makes noisy frames darker. */
 static void add_pixel(const NoisyPair *pair, size_t i, Region *region)
 {
     NoisyNumber n;
     if (!noisy_pair_number(pair, i, region->channel, &n)) return;
-    double c = factor_of(&n);
+    double c = pair->law.is_same ? factor_of(&n, region->channel)
+                                 : factor_around(pair, i, region);
     coin_sum_add(&region->plain, &n, 1);
     if (isfinite(c)) {
         coin_sum_add(&region->weighted, &n, c);
@@ -101,6 +129,7 @@ static double ratio_of(double d)
 
 static StatisticRegion figures_of(const Region *region, const char *name, NoiseLaw law)
 {
+    if (region->channel == NOISY_REFLECTED && law.is_same) law.has_variance = false;
     double          n = (double)region->plain.count, d = region->weighted.sum / region->weight;
     StatisticRegion out = {.name = name, .pixels = region->plain.count,
                            .reference = region->light[0] / n, .test = region->light[1] / n};
