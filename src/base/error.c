@@ -4,9 +4,16 @@
 #include <stdio.h>
 #include <string.h>
 
+void error_make_plain(char *text)
+{
+    for (; *text; text++)
+        if ((unsigned char)*text < ' ' || *text == 127) *text = '?';
+}
+
 static void copy_text(char *to, size_t size, const char *from)
 {
     snprintf(to, size, "%s", from ? from : "");
+    error_make_plain(to);
 }
 
 bool error_set(Error *err, ErrorCode code, const char *format, ...)
@@ -16,6 +23,7 @@ bool error_set(Error *err, ErrorCode code, const char *format, ...)
     err->code = code;
     err->file[0] = err->path[0] = '\0';
     vsnprintf(err->text, sizeof err->text, format, args);
+    error_make_plain(err->text);
     va_end(args);
     return false;
 }
@@ -29,6 +37,7 @@ bool error_at(Error *err, ErrorCode code, const char *file, const char *path,
     copy_text(err->file, sizeof err->file, file);
     copy_text(err->path, sizeof err->path, path);
     vsnprintf(err->text, sizeof err->text, format, args);
+    error_make_plain(err->text);
     va_end(args);
     return false;
 }
@@ -40,6 +49,7 @@ bool error_prefix(Error *err, const char *format, ...)
     va_list args;
     va_start(args, format);
     vsnprintf(context, sizeof context, format, args);
+    error_make_plain(context);
     va_end(args);
     snprintf(whole, sizeof whole, "%s: %s", context, err->text);
     whole[sizeof err->text - 1] = '\0';

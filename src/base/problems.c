@@ -9,6 +9,13 @@ Problems problems_start(Arena *arena)
     return (Problems){.arena = arena};
 }
 
+static const char *plain_copy(Arena *arena, const char *text)
+{
+    char *copy = arena_string(arena, text ? text : "", text ? strlen(text) : 0);
+    error_make_plain(copy);
+    return copy;
+}
+
 static void append(Problems *problems, Severity severity, const char *file, const char *path,
                    const char *message)
 {
@@ -22,9 +29,7 @@ static void append(Problems *problems, Severity severity, const char *file, cons
         problems->capacity = capacity;
     }
     problems->list[problems->count++] = (Problem){
-        arena_string(arena, file ? file : "", file ? strlen(file) : 0),
-        arena_string(arena, path ? path : "", path ? strlen(path) : 0),
-        arena_string(arena, message, strlen(message)), severity};
+        plain_copy(arena, file), plain_copy(arena, path), plain_copy(arena, message), severity};
     problems->error_count += severity == SEVERITY_ERROR;
 }
 

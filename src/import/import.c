@@ -27,6 +27,7 @@ void import_note(ImportSet *set, const char *format, ...)
     va_start(list, format);
     vsnprintf(text, sizeof text, format, list);
     va_end(list);
+    error_make_plain(text);
     for (int i = 0; i < set->note_count; i++)
         if (!strcmp(set->note[i], text)) return;
     if (set->note_count == IMPORT_NOTES_MAX) {

@@ -386,6 +386,21 @@ static void arena_texts_are_terminated_copies(void **state)
     arena_release(&arena);
 }
 
+/* Bytes made behind scratch, moved to where the scratch began, over each other. */
+static void what_is_kept_lies_where_the_arena_was(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 16), scratch = arena;
+    ARENA_NEW(&scratch, char, 3);
+    char *made = arena_string(&scratch, "0123456789", 10), *before = arena.next;
+    const char *kept = arena_keep(&arena, made, 11, 16);
+    assert_string_equal(kept, "0123456789");
+    assert_int_equal((uintptr_t)kept % 16, 0);
+    assert_in_range(kept - before, 0, 15);
+    assert_true(arena.next >= kept + 11);
+    arena_release(&arena);
+}
+
 /* ---- errors and problems ------------------------------------------------------------- */
 
 static void an_error_s_line_has_file_place_and_text(void **state)
@@ -406,6 +421,25 @@ static void an_error_s_line_has_file_place_and_text(void **state)
     assert_false(error_in_file(&err, "a.exr"));
     error_line(&err, line, sizeof line);
     assert_string_equal(line, "a.exr: full");
+}
+
+/* What a file holds may be quoted; it may neither break the line nor command a terminal. */
+static void a_message_is_one_line_whatever_it_quotes(void **state)
+{
+    (void)state;
+    Error err;
+    char  line[2048];
+    Arena arena = arena_reserve(1 << 16);
+    Problems problems = problems_start(&arena);
+    error_at(&err, ERROR_INPUT, "a\nb", "/x\r", "found \"%s\"", "\033[2J\t\177\n\303\244");
+    error_prefix(&err, "%s", "in\n");
+    error_line(&err, line, sizeof line);
+    assert_string_equal(line, "a?b: /x?: in?: found \"?[2J???\303\244\"");
+    problems_add(&problems, SEVERITY_WARNING, "a\nb", "/x\r", "%s", "c\nd");
+    assert_string_equal(problems.list[0].file, "a?b");
+    assert_string_equal(problems.list[0].path, "/x?");
+    assert_string_equal(problems.list[0].message, "c?d");
+    arena_release(&arena);
 }
 
 static void a_long_error_is_cut_and_stays_a_string(void **state)
@@ -504,7 +538,9 @@ int main(void)
         cmocka_unit_test(scratch_is_back_after_the_call),
         cmocka_unit_test(a_full_arena_says_what_was_wanted_and_left),
         cmocka_unit_test(arena_texts_are_terminated_copies),
+        cmocka_unit_test(what_is_kept_lies_where_the_arena_was),
         cmocka_unit_test(an_error_s_line_has_file_place_and_text),
+        cmocka_unit_test(a_message_is_one_line_whatever_it_quotes),
         cmocka_unit_test(a_long_error_is_cut_and_stays_a_string),
         cmocka_unit_test(exit_statuses_follow_the_codes),
         cmocka_unit_test(problems_keep_their_order_and_their_texts),
