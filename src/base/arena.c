@@ -9,6 +9,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "base/arena_guard.h"
+
 /* Threads may still be at work: their libraries' tables must not be taken down under them. */
 static void exit_when_full(size_t bytes_wanted, size_t bytes_left)
 {
@@ -41,19 +43,25 @@ Arena arena_reserve(size_t bytes)
     char *memory = mmap(NULL, size, PROT_READ | PROT_WRITE,
                         MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (memory == MAP_FAILED) exit_when_full(size, 0);
-    return (Arena){.next = memory, .end = memory + size, .on_full = exit_when_full,
+    Arena arena = {.next = memory, .end = memory + size, .on_full = exit_when_full,
                    .begin = memory};
+    guard_start(&arena);
+    return arena;
 }
 
 void arena_release(Arena *arena)
 {
-    if (arena->begin) munmap(arena->begin, (size_t)(arena->end - arena->begin));
+    if (arena->begin) {
+        guard_end(arena);
+        munmap(arena->begin, (size_t)(arena->end - arena->begin));
+    }
     *arena = (Arena){0};
 }
 
 void *arena_alloc(Arena *arena, size_t size, size_t align, size_t count)
 {
     size_t left = (size_t)(arena->end - arena->next);
+    if (align < GUARD_ALIGN) align = GUARD_ALIGN;
     size_t pad = (size_t)(-(uintptr_t)arena->next) & (align - 1);
     size_t bytes;
     if (__builtin_mul_overflow(size, count, &bytes) || pad > left || bytes > left - pad) {
@@ -62,7 +70,18 @@ void *arena_alloc(Arena *arena, size_t size, size_t align, size_t count)
     }
     char *memory = arena->next + pad;
     arena->next = memory + bytes;
+    guard_open(arena, memory, bytes);
     return bytes ? memset(memory, 0, bytes) : memory;
+}
+
+void *arena_keep(Arena *arena, const void *bytes, size_t size, size_t align)
+{
+    char *memory = arena->next + ((size_t)(-(uintptr_t)arena->next) & (align - 1));
+    arena->next = memory + size;
+    guard_lift(memory, size);
+    memmove(memory, bytes, size);
+    guard_open(arena, memory, size);
+    return memory;
 }
 
 char *arena_string(Arena *arena, const char *text, size_t length)

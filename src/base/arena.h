@@ -33,6 +33,10 @@ void arena_release(Arena *arena);
 /* count * size zeroed bytes; align is a power of two. Never NULL; count 0 is fine. */
 void *arena_alloc(Arena *arena, size_t size, size_t align, size_t count);
 
+/* Keeps what was made in a copy of the arena: moves `size` bytes that lie behind the arena's
+ * start to that start. They may overlap; everything else behind it is gone. */
+void *arena_keep(Arena *arena, const void *bytes, size_t size, size_t align);
+
 /* A copy of a string of `length` bytes, terminated. */
 char *arena_string(Arena *arena, const char *text, size_t length);
 

@@ -46,8 +46,8 @@ bool error_prefix(Error *err, const char *format, ...)
 /* Names the file unless one is named already; returns false. */
 bool error_in_file(Error *err, const char *file);
 
-/* Control characters become '?': what a foreign file holds may be quoted, but a message stays one
- * line and gives a terminal no commands. The functions above do this themselves. */
+/* Control characters become '?': what a foreign file holds may be quoted, but a message stays
+ * one line and gives a terminal no commands. The functions above do this themselves. */
 void error_make_plain(char *text);
 
 /* The whole failure as one line, "FILE: PATH: text". buffer holds at least size chars. */

@@ -315,10 +315,7 @@ bool sampling_tree_build(const SamplingOptions *options, const float *integrals,
         (uint16_t)options->functions, (uint16_t)build.splits,
         (uint32_t)((build.bits.at + 7) / 8)};
     memcpy(build.bits.bytes, &header, sizeof header);
-    char *final = arena->next + (size_t)(-(uintptr_t)arena->next & 15);
-    memmove(final, build.bits.bytes, header.size);
-    arena->next = final + header.size;
-    *blob = final;
+    *blob = arena_keep(arena, build.bits.bytes, header.size, 16);
     return true;
 }
 

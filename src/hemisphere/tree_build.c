@@ -236,9 +236,6 @@ bool tree_build(const TreeOptions *options, const float *leaves, Arena *arena,
     const TreeHeader *header = (const TreeHeader *)(const void *)made;
     size_t            size = header->size;
     if (report) *report = report_of(&choice, header);
-    char *final = arena->next + (size_t)(-(uintptr_t)arena->next & 15);
-    memmove(final, made, size);
-    arena->next = final + size;
-    *blob = final;
+    *blob = arena_keep(arena, made, size, 16);
     return true;
 }
