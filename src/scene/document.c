@@ -241,7 +241,9 @@ void document_load_buffers(GltfFile *file)
         const GltfValue *buffer = &buffers->items[i];
         FileBytes bytes;
         if (!buffer_bytes(file, buffer, &bytes)) continue;
-        size_t wanted = (size_t)tree_number(buffer, "byteLength", 0);
+        const GltfValue *length = tree_member(buffer, "byteLength"); /* checked before */
+        bool   has_length = tree_is_integer(length) && length->number >= 0;
+        size_t wanted = has_length ? (size_t)length->number : 0;
         if (bytes.size < wanted) {
             file_error(file, tree_member(buffer, "byteLength"),
                        "byteLength is %zu, %zu bytes are there", wanted, bytes.size);

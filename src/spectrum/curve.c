@@ -7,6 +7,7 @@
 #include "base/file.h"
 
 #define MAX_POINTS 4096 /* 0.1 nm over the visible range */
+#define VALUE_MAX 1e30
 
 void curve_from_points(const double *nm, const double *value, int count, Curve *out)
 {
@@ -53,10 +54,10 @@ static bool add_row(Points *points, const char *path, const char *place, double 
                     double value, Error *err)
 {
     int n = points->count;
-    if (!isfinite(nm) || !isfinite(value) || !(nm > 0))
+    if (!(nm > 0 && nm < 1e6) || !(fabs(value) <= VALUE_MAX))
         return error_at(err, ERROR_INPUT, path, place,
-                        "wavelength %g nm with value %g: wanted finite numbers, nm above 0", nm,
-                        value);
+                        "wavelength %g nm with value %g: wanted finite numbers, nm above 0, "
+                        "up to %g", nm, value, VALUE_MAX);
     if (n && !(nm > points->nm[n - 1]))
         return error_at(err, ERROR_INPUT, path, place,
                         "wavelength %g nm after %g nm: wanted rising wavelengths", nm,

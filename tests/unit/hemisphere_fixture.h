@@ -117,7 +117,7 @@ static inline void mutate(char *bytes, size_t size, uint32_t *seed)
         size_t at = (size_t)(random_unit(seed) * (float)limit);
         float  kind = random_unit(seed);
         bytes[at] = kind < 0.4f   ? (char)(bytes[at] ^ (1 << (int)(random_unit(seed) * 8)))
-                    : kind < 0.7f ? (char)(random_unit(seed) * 256)
+                    : kind < 0.7f ? (char)(unsigned char)(random_unit(seed) * 256)
                     : kind < 0.8f ? (char)0xff
                     : kind < 0.9f ? (char)0
                                   : (char)(bytes[at] + 1);

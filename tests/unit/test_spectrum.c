@@ -336,6 +336,7 @@ static void a_bad_curve_file_is_refused_with_its_line(void **state)
         {"400,1\n500\n", "line 2: found \"500\", wanted two numbers"},
         {"400,nan\n", "line 1: wavelength 400 nm with value nan: wanted finite numbers"},
         {"-5,1\n", "line 1: wavelength -5 nm with value 1: wanted finite numbers, nm above 0"},
+        {"400,1e31\n", "value 1e+31: wanted finite numbers, nm above 0, up to 1e+30"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         static Curve curve;

@@ -1,0 +1,77 @@
+/* replay.c -- every input of the corpora once, without libFuzzer: fuzz_replay FOLDER...
+ *
+ * A folder holds one folder a target (tests/fuzz/corpus, tests/fuzz/found). Each input is also
+ * mutated a few times by the target's own mutator, so that this code is run as well. Ends with
+ * the process when a claim fails or a sanitizer reports; the input is named before it is run.
+ */
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "harness.h"
+
+enum { MUTATIONS = 2, ROOM = 2 };
+
+/* What a mutator asks for beyond its own changes: here nothing. */
+size_t fuzz_mutate_bytes(uint8_t *data, size_t size, size_t max_size)
+{
+    (void)data;
+    return size < max_size ? size : max_size;
+}
+
+/* In a block of exactly its size, so that the address sanitizer sees a step beyond. */
+static void run_exact(const FuzzTarget *target, const uint8_t *data, size_t size)
+{
+    uint8_t *exact = malloc(size + !size);
+    memcpy(exact, data, size);
+    fuzz_run(target, exact, size);
+    free(exact);
+}
+
+static int replay_file(const FuzzTarget *target, const char *path, Arena arena)
+{
+    Error     err = {0};
+    FileBytes bytes;
+    if (!file_read(path, FUZZ_ARENA_BYTES, &arena, &bytes, &err)) return 0;
+    fprintf(stderr, "%s\n", path);
+    run_exact(target, bytes.data, bytes.size);
+    for (unsigned i = 0; target->mutate && i < MUTATIONS; i++) {
+        size_t   room = ROOM * bytes.size + 64;
+        uint8_t *changed = ARENA_NEW(&arena, uint8_t, room);
+        memcpy(changed, bytes.data, bytes.size);
+        run_exact(target, changed, target->mutate(changed, bytes.size, room, i));
+    }
+    return 1;
+}
+
+static int replay_folder(const FuzzTarget *target, const char *folder, Arena arena)
+{
+    int  count = 0;
+    DIR *inputs = opendir(arena_format(&arena, "%s/%s", folder, target->name));
+    if (!inputs) return 0;
+    for (struct dirent *e; (e = readdir(inputs));)
+        if (e->d_name[0] != '.')
+            count += replay_file(target,
+                                 arena_format(&arena, "%s/%s/%s", folder, target->name,
+                                              e->d_name),
+                                 arena);
+    closedir(inputs);
+    return count;
+}
+
+int main(int argc, char **argv)
+{
+    int   count = 0, empty = 0;
+    Arena arena = arena_reserve(FUZZ_ARENA_BYTES);
+    for (const FuzzTarget *target = fuzz_targets; target->name; target++) {
+        int before = count;
+        for (int i = 1; i < argc; i++) count += replay_folder(target, argv[i], arena);
+        empty += count == before;
+        if (count == before) fprintf(stderr, "%s: no input\n", target->name);
+    }
+    arena_release(&arena);
+    printf("%d inputs, %d targets without one\n", count, empty);
+    return count && !empty ? 0 : 1;
+}

@@ -1,0 +1,92 @@
+/* Panel files: what opens answers every question with finite numbers. */
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "harness.h"
+#include "panel/panel_file.h"
+#include "panel/panel_info.h"
+
+static bool all_in(const float *value, int count, float low)
+{
+    for (int i = 0; i < count; i++)
+        if (!(value[i] >= low && value[i] < INFINITY)) return false;
+    return true;
+}
+
+static Vec3 direction(float theta, float phi)
+{
+    return vec3(sinf(theta) * cosf(phi), sinf(theta) * sinf(phi), cosf(theta));
+}
+
+static void claim_emission(const Panel *panel, Vec3 wo, const Wavelengths *w)
+{
+    const float rgb[3] = {255, 90.5f, 3};
+    float       xyz[3];
+    panel_emission_xyz(panel, wo, rgb, xyz);
+    fuzz_claim(all_in(xyz, 3, 0), "emission is finite and not negative");
+    Spectrum spectrum = panel_emission_spectrum(panel, wo, rgb, w);
+    fuzz_claim(all_in((const float *)&spectrum, SPECTRUM_LANES, -1e30f), "so is its spectrum");
+    fuzz_claim(panel_mean_luminance(panel, rgb) >= 0, "the mean is not negative");
+}
+
+static void claim_reflection(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *w)
+{
+    const float u[3] = {0.3f, 0.7f, 0.9f};
+    float       pdf = 1;
+    Spectrum    brdf = panel_brdf(panel, wo, wi, w), mirror = panel_mirror(panel, wo.z, w);
+    fuzz_claim(all_in((const float *)&brdf, SPECTRUM_LANES, 0) &&
+                   all_in((const float *)&mirror, SPECTRUM_LANES, 0),
+               "reflection is finite and not negative");
+    fuzz_claim(panel_pdf(panel, wo, wi) >= 0, "a density is not negative");
+    if (!panel_sample(panel, wo, u, &wi, &pdf)) return;
+    fuzz_claim(pdf > 0 && isfinite(pdf), "a chosen direction has a density");
+    fuzz_claim(fabsf(vec3_dot(wi, wi) - 1) < 1e-3f, "and unit length");
+}
+
+void fuzz_panel(const uint8_t *data, size_t size, Arena *arena)
+{
+    Error  err = {0};
+    Panel *panel;
+    double number[PANEL_INFO_AZIMUTHS_MAX];
+    float  nm[PANEL_INFO_WAVELENGTHS_MAX];
+    if (!panel_from_bytes(data, size, "x.panel", arena, &panel, &err)) {
+        fuzz_claim_refusal(&err);
+        return;
+    }
+    Wavelengths w;
+    wavelengths_sample(0.4f, &w);
+    for (int i = 0; i < 4; i++) {
+        Vec3 wo = direction(0.5f * (float)i, 1.7f * (float)i);
+        claim_emission(panel, wo, &w);
+        claim_reflection(panel, wo, direction(1.4f - 0.4f * (float)i, (float)i), &w);
+        if (i < 3) panel_info_levels(panel, i, number);
+    }
+    panel_info_wavelengths(panel, nm);
+    panel_info_incidences(panel, number);
+    panel_info_azimuths(panel, number);
+}
+
+/* ---- mutation ---------------------------------------------------------------------------- */
+
+/* As if somebody had written the file with ill intent: size and checksum fit, but for one in
+ * sixteen. */
+size_t fuzz_mutate_panel(uint8_t *data, size_t size, size_t max_size, unsigned seed)
+{
+    uint64_t state = seed;
+    if (fuzz_random(&state) % 8 || size < sizeof(PanelHeader))
+        fuzz_mutate_places(data, size, fuzz_random(&state));
+    else
+        size = fuzz_mutate_bytes(data, size, max_size);
+    if (size < sizeof(PanelHeader) || fuzz_random(&state) % 16 == 0) return size;
+    uint64_t whole = size;
+    memcpy(data, PANEL_MAGIC, 8);
+    memcpy(data + offsetof(PanelHeader, size), &whole, sizeof whole);
+    size_t   from = offsetof(PanelHeader, size);
+    uint64_t checksum = XXH3_64bits(data + from, size - from);
+    memcpy(data + offsetof(PanelHeader, checksum), &checksum, sizeof checksum);
+    return size;
+}

@@ -1,0 +1,41 @@
+/* The targets: one row a reader of the program. */
+#include <string.h>
+
+#include "harness.h"
+
+#define FORMAT(name, size) {"import-" name, fuzz_import, NULL, size, name}
+
+const FuzzTarget fuzz_targets[] = {
+    {"gltf", fuzz_scene, fuzz_mutate_json, 8192, NULL},
+    {"glb", fuzz_scene, fuzz_mutate_glb, 8192, NULL},
+    {"panel", fuzz_panel, fuzz_mutate_panel, 32768, NULL},
+    {"manifest", fuzz_manifest, fuzz_mutate_json, 2048, NULL},
+    {"recipe", fuzz_recipe, fuzz_mutate_json, 2048, NULL},
+    {"declaration", fuzz_declaration, fuzz_mutate_json, 2048, NULL},
+    {"table", fuzz_table, NULL, 1024, NULL},
+    {"primaries", fuzz_primaries, NULL, 1024, NULL},
+    {"curve", fuzz_curve, NULL, 1024, NULL},
+    {"weather", fuzz_weather, NULL, 2048, NULL},
+    {"environment", fuzz_environment, NULL, 256, NULL},
+    {"cli", fuzz_cli, NULL, 256, NULL},
+    {"uri", fuzz_uri, NULL, 256, NULL},
+    {"exr", fuzz_frame, NULL, 4096, NULL},
+    {"image", fuzz_image, NULL, 4096, NULL},
+    {"png", fuzz_image, fuzz_mutate_png, 2048, NULL},
+    {"import-any", fuzz_import_any, NULL, 2048, NULL},
+    {"import-text", fuzz_import_text, NULL, 2048, NULL},
+    FORMAT("eulumdat", 2048),
+    FORMAT("ies", 2048),
+    FORMAT("zemax", 2048),
+    FORMAT("lighttools", 2048),
+    FORMAT("mountain", 1024),
+    FORMAT("fred", 1024),
+    FORMAT("speos", 2048),
+    FORMAT("astm", 2048),
+    FORMAT("ssdd", 2048),
+    FORMAT("window", 8192),
+    FORMAT("rgl", 8192),
+    FORMAT("pbsdf", 8192),
+    FORMAT("merl", 2048),
+    {NULL, NULL, NULL, 0, NULL},
+};
