@@ -1,9 +1,11 @@
 /* parhelion: physically correct frames of dashboards with measured displays.
  * One table of sub-commands; the exit status is the code of the error. */
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "bvh/bvh.h"
 #include "cli/cli.h"
@@ -77,6 +79,15 @@ static void ignore_deadly_signals(void)
     signal(SIGXFSZ, SIG_IGN);
 }
 
+/* Where standard streams are closed, a frame that is opened must not become one of them. */
+static void fill_streams(void)
+{
+    int handle;
+    do handle = open("/dev/null", O_RDWR);
+    while (handle >= 0 && handle <= STDERR_FILENO);
+    if (handle > STDERR_FILENO) close(handle);
+}
+
 /* What was printed to a full disk or a closed pipe has not been said. */
 static bool check_stdout(Error *err)
 {
@@ -96,6 +107,7 @@ int main(int argc, char **argv)
 {
     Error err = {0};
     ignore_deadly_signals();
+    fill_streams();
     if (argc < 2) {
         print_help(stderr);
         return error_exit_status(ERROR_USAGE);
