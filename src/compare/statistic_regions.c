@@ -51,12 +51,14 @@ static int list_regions(const NoisyPair *pair, const FrameImage *frame, Arena *a
 /* ---- sums -------------------------------------------------------------------------------- */
 
 /* test = (1 + change) reference is estimated best with the factors mean / variance. The
- * variance is the frames' own where they state it, for that comes from all samples. What a
- * display reflects is the mean of fewer samples at its edges: the difference itself counts. */
+ * variance is the frames' own where they state it, for that comes from all samples; but not
+ * where the difference says that it is much more (all samples of a pixel were alike by
+ * chance): a factor that shrinks with every difference makes the change too small. What a
+ * display reflects is the mean of fewer samples at its edges: there the difference counts. */
 static double factor_of(const NoisyNumber *n, NoisyChannel channel)
 {
     double variance = n->variance, square = n->difference * n->difference;
-    if (isnan(variance)) variance = n->stated;
+    if (!(variance > 2 * n->stated)) variance = n->stated;
     if (isnan(variance)) variance = n->halves + square;
     if (channel == NOISY_REFLECTED) variance += square / 2;
     double least = SUREST * n->mean;

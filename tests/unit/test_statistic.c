@@ -1,0 +1,656 @@
+/* The statistical test: its level on noise of every kind, its power, its words. */
+#include "check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/sampler.h"
+#include "compare/coin_sum.h"
+#include "compare/statistic.h"
+
+#define WIDTH 48
+#define HEIGHT 32
+#define PIXELS (WIDTH * HEIGHT)
+#define PAIRS 200
+#define FALSE_ALARMS 5 /* of PAIRS at a level of 1 % */
+
+#define assert_text_has(text, part)                                                            \
+    do {                                                                                       \
+        if (!strstr(text, part)) fail_msg("\"%s\" does not say \"%s\"", text, part);           \
+    } while (0)
+
+/* ---- frames of known noise --------------------------------------------------------------- */
+
+typedef struct Random {
+    uint32_t state;
+} Random;
+
+static double unit(Random *random)
+{
+    random->state = hash_u32(random->state + 0x9e3779b9u);
+    return ((double)random->state + 0.5) * 0x1p-32;
+}
+
+/* All of mean 1. */
+typedef enum Noise { NOISE_GAUSSIAN, NOISE_EXPONENTIAL, NOISE_FIREFLIES, NOISE_QUIET } Noise;
+
+static double sample_of(Noise noise, Random *random)
+{
+    switch (noise) {
+    case NOISE_GAUSSIAN: /* sigma 0.5: nearly so, the sum of three uniform numbers */
+        return unit(random) + unit(random) + unit(random) - 0.5;
+    case NOISE_EXPONENTIAL: return -log(unit(random));
+    case NOISE_FIREFLIES: return 0.8 + (unit(random) < 1e-3 ? 200 : 0);
+    default: return 0.9 + 0.2 * unit(random);
+    }
+}
+
+typedef struct Maker {
+    Noise    noise;
+    int      samples;
+    uint32_t seed;
+    double   light[PIXELS]; /* that the mean of a pixel's samples is multiplied by */
+} Maker;
+
+/* Light from 0.1 to 1000 cd m^-2, steps at edges, a black corner. */
+static void plain_scene(Maker *maker)
+{
+    for (int i = 0; i < PIXELS; i++) {
+        int x = i % WIDTH, y = i / WIDTH;
+        maker->light[i] = x < 6 && y < 6 ? 0 : (y > 20 ? 30 : 1) * (x > 30 ? 7 : 0.4) +
+                                                   (x == 10 ? 1000 : 0);
+    }
+}
+
+static float *plane(FrameImage *frame, const char *layer, char letter, Arena *arena)
+{
+    char name[64];
+    snprintf(name, sizeof name, "%s%s%c", layer, layer[0] ? "." : "", letter);
+    return frame_add_channel(frame, name, false, arena);
+}
+
+/* The mean of one pixel's samples, its variance, and half the difference of two halves. */
+static void draw_pixel(const Maker *maker, Random *random, double out[3])
+{
+    double sum = 0, squares = 0, halves = 0, n = maker->samples;
+    for (int s = 0; s < maker->samples; s++) {
+        double value = sample_of(maker->noise, random);
+        sum += value;
+        squares += value * value;
+        halves += s % 2 ? value : -value;
+    }
+    out[0] = sum / n;
+    out[1] = n > 1 ? fmax(squares - sum * sum / n, 0) / (n - 1) / n : (double)NAN;
+    out[2] = halves / n;
+}
+
+/* Grey noise on a colour, as the program's is; a display covers x < 24. */
+static FrameImage make_frame(const Maker *maker, Arena *arena)
+{
+    static const double COLOUR[3] = {1, 0.8, 0.5};
+    ExrWindow  window = {0, 0, WIDTH, HEIGHT};
+    FrameImage frame = frame_create(WIDTH, HEIGHT, window, 24, 8, arena);
+    float     *light[3], *variance[3], *halves[3], *reflected[3];
+    Random     random = {hash_u32(maker->seed)};
+    for (int c = 0; c < 3; c++) {
+        light[c] = plane(&frame, "", "RGB"[c], arena);
+        variance[c] = plane(&frame, "variance", "RGB"[c], arena);
+        halves[c] = plane(&frame, "halves", "RGB"[c], arena);
+        reflected[c] = plane(&frame, "display.reflected", "RGB"[c], arena);
+    }
+    float *samples = frame_add_channel(&frame, "samples.N", true, arena);
+    float *display = frame_add_channel(&frame, "id.display", true, arena);
+    for (int i = 0; i < PIXELS; i++) {
+        double drawn[3];
+        draw_pixel(maker, &random, drawn);
+        display[i] = i % WIDTH < 24 ? 4 : -1;
+        samples[i] = (float)maker->samples;
+        for (int c = 0; c < 3; c++) {
+            double scale = maker->light[i] * COLOUR[c];
+            light[c][i] = (float)(scale * drawn[0]);
+            variance[c][i] = (float)(scale * scale * drawn[1]);
+            halves[c][i] = (float)(scale * drawn[2]);
+            reflected[c][i] = i % WIDTH < 24 ? light[c][i] : NAN;
+        }
+    }
+    frame_set_string(&frame, "parhelion:display.4", "cluster", arena);
+    return frame;
+}
+
+static void without(FrameImage *frame, const char *layer)
+{
+    int kept = 0;
+    for (int i = 0; i < frame->channel_count; i++)
+        if (strncmp(frame->channels[i].name, layer, strlen(layer)) != 0)
+            frame->channels[kept++] = frame->channels[i];
+    frame->channel_count = kept;
+}
+
+static StatisticResult judge(const FrameImage *reference, const FrameImage *test,
+                             PixelMask mask, Arena *arena)
+{
+    StatisticOptions options = {.mask = mask, .reference_name = "a.exr",
+                                .test_name = "b.exr"};
+    StatisticResult  result;
+    Error            err;
+    if (!statistic_compare(reference, test, &options, arena, &result, &err))
+        fail_msg("%s", err.text);
+    return result;
+}
+
+static StatisticResult judge_makers(const Maker *reference, const Maker *test, Arena *arena)
+{
+    FrameImage a = make_frame(reference, arena), b = make_frame(test, arena);
+    return judge(&a, &b, NULL, arena);
+}
+
+/* ---- level ------------------------------------------------------------------------------- */
+
+typedef struct Alarms {
+    int    count;
+    double squares; /* mean square of the frame's shift in its standard errors */
+    double regions, blocks, histogram; /* shares of p below 0.2 */
+} Alarms;
+
+static Alarms count_alarms(Maker *reference, Maker *test)
+{
+    Arena  arena = arena_reserve(1 << 26);
+    Alarms out = {0};
+    for (uint32_t k = 0; k < PAIRS; k++) {
+        Arena scratch = arena;
+        reference->seed = 2 * k;
+        test->seed = 2 * k + 1;
+        StatisticResult r = judge_makers(reference, test, &scratch);
+        double          z = r.regions[0].change / r.regions[0].change_sigma;
+        out.count += r.verdict == STATISTIC_DIFFERENT;
+        out.squares += z * z / PAIRS;
+        out.regions += (r.p_regions < 0.2) / (double)PAIRS;
+        out.blocks += (r.p_blocks < 0.2) / (double)PAIRS;
+        out.histogram += (r.p_histogram < 0.2) / (double)PAIRS;
+    }
+    arena_release(&arena);
+    return out;
+}
+
+static void noise_of_any_kind_keeps_the_level(void **state)
+{
+    (void)state;
+    static const int SAMPLES[] = {1, 2, 8};
+    for (Noise noise = NOISE_GAUSSIAN; noise <= NOISE_FIREFLIES; noise++)
+        for (int s = 0; s < 3; s++) {
+            Maker maker = {.noise = noise, .samples = SAMPLES[s]};
+            plain_scene(&maker);
+            Maker  other = maker;
+            Alarms alarms = count_alarms(&maker, &other);
+            if (alarms.count > FALSE_ALARMS)
+                fail_msg("noise %d, %d samples: %d false alarms of %d", (int)noise, SAMPLES[s],
+                         alarms.count, PAIRS);
+            /* 4 standard errors of 200: sqrt(0.2 * 0.8 / 200) = 0.028 */
+            assert_true(alarms.regions < 0.31 && alarms.blocks < 0.31);
+            assert_true(alarms.histogram < 0.31);
+            if (noise != NOISE_FIREFLIES) /* hardly any: a coin or two */
+                assert_near(alarms.squares, 1, 0.4); /* sqrt(2 / 200) = 0.1 */
+        }
+}
+
+/* A reference of few samples saw hardly a firefly; or it is the test that did not. */
+static void different_sample_counts_keep_the_level(void **state)
+{
+    (void)state;
+    for (Noise noise = NOISE_GAUSSIAN; noise <= NOISE_FIREFLIES; noise++)
+        for (int swap = 0; swap < 2; swap++) {
+            Maker few = {.noise = noise, .samples = 2}, many = {.noise = noise, .samples = 20};
+            plain_scene(&few);
+            plain_scene(&many);
+            Alarms alarms = swap ? count_alarms(&many, &few) : count_alarms(&few, &many);
+            if (alarms.count > FALSE_ALARMS)
+                fail_msg("noise %d: %d false alarms of %d", (int)noise, alarms.count, PAIRS);
+        }
+}
+
+/* A program that finds light better makes less noise of the same mean. */
+static void less_noise_of_the_same_mean_is_no_change(void **state)
+{
+    (void)state;
+    Maker before = {.noise = NOISE_EXPONENTIAL, .samples = 8};
+    Maker after = {.noise = NOISE_GAUSSIAN, .samples = 8};
+    plain_scene(&before);
+    plain_scene(&after);
+    assert_in_range(count_alarms(&before, &after).count, 0, FALSE_ALARMS);
+    after.noise = NOISE_QUIET;
+    assert_in_range(count_alarms(&after, &before).count, 0, FALSE_ALARMS);
+}
+
+static float *channel(FrameImage *frame, const char *layer, char letter)
+{
+    char name[64];
+    snprintf(name, sizeof name, "%s%c", layer, letter);
+    for (int i = 0; i < frame->channel_count; i++)
+        if (!strcmp(frame->channels[i].name, name)) return frame->channels[i].values;
+    fail_msg("no channel %s", name);
+    return NULL;
+}
+
+static void one_glint_in_one_frame_is_noise(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 26);
+    Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 32}, other = maker;
+    int   hit = 14 * WIDTH + 14, alarms = 0;
+    plain_scene(&maker);
+    plain_scene(&other);
+    for (uint32_t k = 0; k < 20; k++) {
+        Arena scratch = arena;
+        maker.seed = 2 * k;
+        other.seed = 2 * k + 1;
+        FrameImage a = make_frame(&maker, &scratch), b = make_frame(&other, &scratch);
+        for (int c = 0; c < 3; c++) { /* one sample of 32 saw the sun: 1e7 cd m^-2 */
+            channel(&b, "", "RGB"[c])[hit] += 1e7f / 32;
+            channel(&b, "variance.", "RGB"[c])[hit] = 1e14f / 32 / 32;
+        }
+        StatisticResult r = judge(&a, &b, NULL, &scratch);
+        alarms += r.verdict == STATISTIC_DIFFERENT;
+        assert_true(r.mean_shift > 1); /* and yet the frame's mean has doubled */
+    }
+    assert_in_range(alarms, 0, 1);
+    arena_release(&arena);
+}
+
+/* ---- power ------------------------------------------------------------------------------- */
+
+/* Gaussian pixels of relative sigma s = 0.5 / 4 in both frames: the best estimate of a change
+ * in proportion has the standard error s sqrt(2 / n). */
+static void a_change_in_proportion_is_measured_as_well_as_can_be(void **state)
+{
+    (void)state;
+    Arena  arena = arena_reserve(1 << 26);
+    Maker  maker = {.noise = NOISE_GAUSSIAN, .samples = 16}, other;
+    double sigma = 0.5 / sqrt(16) * sqrt(2.0 / (PIXELS - 36)), mean = 0, stated = 0;
+    int    found = 0;
+    plain_scene(&maker);
+    other = maker;
+    for (int i = 0; i < PIXELS; i++) other.light[i] *= 1 + 6.2 * sigma;
+    for (uint32_t k = 0; k < 100; k++) {
+        Arena scratch = arena;
+        maker.seed = 2 * k;
+        other.seed = 2 * k + 1;
+        StatisticResult r = judge_makers(&maker, &other, &scratch);
+        mean += r.regions[0].change / 100;
+        stated += r.regions[0].change_sigma / 100;
+        found += r.verdict == STATISTIC_DIFFERENT && r.regions[0].moved;
+        if (r.verdict == STATISTIC_DIFFERENT) assert_text_has(r.reason, " %");
+    }
+    assert_close(stated, sigma, 0.12);
+    assert_near(mean, 6.2 * sigma, 4 * sigma / sqrt(100.0));
+    assert_true(found >= 97); /* 6.2 sigma against a limit of about 3.7 */
+    arena_release(&arena);
+}
+
+static void a_display_is_named_with_how_much_it_moved(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 26);
+    Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 64, .seed = 7}, other = maker;
+    plain_scene(&maker);
+    plain_scene(&other);
+    other.seed = 8;
+    for (int i = 0; i < PIXELS; i++) other.light[i] *= i % WIDTH < 24 ? 1.05 : 1;
+    StatisticResult r = judge_makers(&maker, &other, &arena);
+    assert_int_equal(r.verdict, STATISTIC_DIFFERENT);
+    assert_int_equal(r.region_count, 3);
+    assert_string_equal(r.regions[2].name, "cluster reflected");
+    assert_near(r.regions[1].change, 0.05, 4 * r.regions[1].change_sigma);
+    assert_text_has(r.reason, "display 'cluster': ");
+    arena_release(&arena);
+}
+
+static void a_block_is_named_with_its_place(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 26);
+    Maker maker = {.noise = NOISE_EXPONENTIAL, .samples = 64, .seed = 3}, other = maker;
+    plain_scene(&maker);
+    plain_scene(&other);
+    other.seed = 4;
+    for (int y = 8; y < 16; y++)
+        for (int x = 16; x < 24; x++) other.light[y * WIDTH + x] *= 1.5;
+    StatisticResult r = judge_makers(&maker, &other, &arena);
+    assert_int_equal(r.verdict, STATISTIC_DIFFERENT);
+    assert_text_has(r.reason, "block at x 16..24, y 8..16: ");
+    assert_text_has(r.reason, " %");
+    assert_true(r.block_p[1 * r.blocks_x + 2] < 1e-6f);
+    assert_true(r.block_p[2 * r.blocks_x + 2] > 1e-4f);
+    assert_true(r.fraction_failed > 0);
+    arena_release(&arena);
+}
+
+/* Blocks that got brighter and darker by 1.4 of their standard errors, in turn: none of them
+ * is beyond its limit, no mean moved. */
+static void small_changes_everywhere_are_seen_together(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 27);
+    Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 16};
+    int   found = 0, by_histogram = 0;
+    for (int i = 0; i < PIXELS; i++) maker.light[i] = 10;
+    Maker  other = maker;
+    double error = 0.5 / 4 * sqrt(2.0) / 8;
+    for (int i = 0; i < PIXELS; i++)
+        other.light[i] *= 1 + 2 * error * ((i / 8 + i / WIDTH / 8) % 2 ? 1 : -1);
+    for (uint32_t k = 0; k < 20; k++) {
+        Arena scratch = arena;
+        maker.seed = 2 * k;
+        other.seed = 2 * k + 1;
+        StatisticResult r = judge_makers(&maker, &other, &scratch);
+        found += r.verdict == STATISTIC_DIFFERENT;
+        if (r.p_blocks < 0.0034 || r.p_regions < 0.0034 || r.p_histogram > 0.003) continue;
+        by_histogram++;
+        assert_text_has(r.reason, "small changes all over the frame");
+    }
+    assert_true(found >= 19);
+    assert_true(by_histogram >= 10);
+    arena_release(&arena);
+}
+
+/* ---- pixels without noise, rounding, equality -------------------------------------------- */
+
+static void frames_without_noise_differ_by_a_single_pixel(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 26);
+    Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 64, .seed = 3};
+    plain_scene(&maker);
+    FrameImage a = make_frame(&maker, &arena), b = make_frame(&maker, &arena);
+    for (int side = 0; side < 2; side++)
+        for (int i = 0; i < a.channel_count; i++) {
+            const FrameImage *frame = side ? &b : &a;
+            float            *values = frame->channels[i].values;
+            const char       *name = frame->channels[i].name;
+            bool              is_light = strlen(name) == 1;
+            for (int p = 0; p < PIXELS && (is_light || !strncmp(name, "variance", 8)); p++)
+                values[p] = is_light ? 3 : 0;
+        }
+    StatisticResult r = judge(&a, &b, NULL, &arena);
+    assert_int_equal(r.verdict, STATISTIC_EQUAL);
+    assert_string_equal(r.reason, "");
+    channel(&b, "", 'G')[100] = 3.5f;
+    r = judge(&a, &b, NULL, &arena);
+    assert_int_equal(r.verdict, STATISTIC_DIFFERENT);
+    assert_int_equal(r.differing, 1);
+    arena_release(&arena);
+}
+
+static void rounding_is_no_change(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 26);
+    Maker maker = {.noise = NOISE_QUIET, .samples = 64, .seed = 3};
+    plain_scene(&maker);
+    FrameImage a = make_frame(&maker, &arena), b = make_frame(&maker, &arena);
+    for (int c = 0; c < 3; c++)
+        for (int i = 0; i < PIXELS; i++)
+            channel(&b, "", "RGB"[c])[i] *= 1 + 4e-6f;
+    assert_int_equal(judge(&a, &b, NULL, &arena).verdict, STATISTIC_SAME);
+    frame_set_string(&a, "parhelion:seed", "5", &arena);
+    frame_set_string(&b, "parhelion:seed", "5", &arena);
+    frame_set_string(&a, "parhelion:samples", "0:64", &arena);
+    frame_set_string(&b, "parhelion:samples", "0:64", &arena);
+    StatisticResult r = judge(&a, &b, NULL, &arena);
+    assert_int_equal(r.verdict, STATISTIC_SAME);
+    assert_true(r.shares_noise);
+    assert_text_has(r.reason, "0 of 1536 pixels differ by more than rounding");
+    arena_release(&arena);
+}
+
+/* Frames of one seed: a few paths that went elsewhere are noise, one part in a thousand of all
+ * light is not. */
+static void frames_that_share_their_noise_are_compared_pixel_by_pixel(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 26);
+    Maker maker = {.noise = NOISE_EXPONENTIAL, .samples = 64, .seed = 3};
+    plain_scene(&maker);
+    FrameImage a = make_frame(&maker, &arena), b = make_frame(&maker, &arena);
+    float     *green = channel(&b, "", 'G');
+    frame_set_string(&a, "parhelion:seed", "5", &arena);
+    frame_set_string(&b, "parhelion:seed", "5", &arena);
+    frame_set_string(&a, "parhelion:samples", "0:64", &arena);
+    frame_set_string(&b, "parhelion:samples", "0:64", &arena);
+    for (int i = 300; i < PIXELS; i += 100) green[i] *= i / 100 % 2 ? 1.03f : 0.96f;
+    StatisticResult r = judge(&a, &b, NULL, &arena);
+    assert_int_equal(r.verdict, STATISTIC_SAME);
+    assert_text_has(r.reason, "13 of 1536 pixels differ, the mean did not move");
+    for (int i = 0; i < PIXELS; i++) green[i] *= 1.001f;
+    r = judge(&a, &b, NULL, &arena);
+    assert_int_equal(r.verdict, STATISTIC_DIFFERENT);
+    assert_text_has(r.reason, "one seed and the same samples: 1500 of 1536 pixels differ; ");
+    arena_release(&arena);
+}
+
+/* ---- masks, gaps, words ------------------------------------------------------------------ */
+
+static void what_the_mask_leaves_out_does_not_count(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 26);
+    Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 16, .seed = 3}, other = maker;
+    unsigned char mask[PIXELS];
+    plain_scene(&maker);
+    plain_scene(&other);
+    other.seed = 4;
+    for (int i = 0; i < PIXELS; i++) {
+        mask[i] = i % WIDTH >= 16;
+        if (!mask[i]) other.light[i] *= 2;
+    }
+    FrameImage a = make_frame(&maker, &arena), b = make_frame(&other, &arena);
+    assert_int_equal(judge(&a, &b, NULL, &arena).verdict, STATISTIC_DIFFERENT);
+    channel(&b, "", 'R')[20] = NAN;
+    StatisticResult r = judge(&a, &b, mask, &arena);
+    assert_int_equal(r.verdict, STATISTIC_SAME);
+    assert_int_equal(r.pixels, 32 * HEIGHT - 1);
+    assert_int_equal(r.regions[1].pixels, 8 * HEIGHT - 1);
+    assert_true(isnan(r.block_p[0]) && isnan(r.block_p[1]) && !isnan(r.block_p[2]));
+    memset(mask, 0, sizeof mask);
+    r = judge(&a, &b, mask, &arena);
+    assert_int_equal(r.verdict, STATISTIC_EQUAL);
+    assert_int_equal(r.region_count, 0);
+    assert_near(r.p_value, 1, 0);
+    arena_release(&arena);
+}
+
+/* A crop: the data window lies inside the display window, which the mask covers. */
+static void crops_have_their_place_in_the_frame(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 26);
+    Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 64, .seed = 3}, other = maker;
+    plain_scene(&maker);
+    plain_scene(&other);
+    other.seed = 4;
+    for (int y = 0; y < 8; y++)
+        for (int x = 16; x < 24; x++) other.light[y * WIDTH + x] *= 3;
+    FrameImage a = make_frame(&maker, &arena), b = make_frame(&other, &arena);
+    a.display = b.display = (ExrWindow){0, 0, 100, 100};
+    a.data = b.data = (ExrWindow){50, 60, 50 + WIDTH, 60 + HEIGHT};
+    StatisticResult r = judge(&a, &b, NULL, &arena);
+    assert_text_has(r.reason, "block at x 66..74, y 60..68: ");
+    unsigned char *mask = ARENA_NEW(&arena, unsigned char, 100 * 100);
+    memset(mask, 1, 100 * 100);
+    for (int y = 60; y < 68; y++) memset(mask + y * 100 + 66, 0, 8);
+    r = judge(&a, &b, mask, &arena);
+    assert_int_equal(r.verdict, STATISTIC_SAME);
+    assert_int_equal(r.pixels, PIXELS - 64);
+    arena_release(&arena);
+}
+
+static void either_layer_of_noise_is_enough(void **state)
+{
+    (void)state;
+    static const char *const LEFT_OUT[] = {"variance", "halves", "samples.N"};
+    Arena arena = arena_reserve(1 << 27);
+    for (int k = 0; k < 3; k++)
+        for (int change = 0; change < 2; change++) {
+            Maker maker = {.noise = NOISE_EXPONENTIAL, .samples = 64, .seed = 13};
+            plain_scene(&maker);
+            Maker other = maker;
+            other.seed = 14;
+            for (int i = 0; i < PIXELS; i++) other.light[i] *= change ? 1.05 : 1;
+            FrameImage a = make_frame(&maker, &arena), b = make_frame(&other, &arena);
+            without(&a, LEFT_OUT[k]);
+            without(&b, LEFT_OUT[k]);
+            StatisticResult r = judge(&a, &b, NULL, &arena);
+            assert_int_equal(r.verdict, change ? STATISTIC_DIFFERENT : STATISTIC_SAME);
+            if (k == 2) assert_text_has(r.note, "--layers samples tells");
+        }
+    arena_release(&arena);
+}
+
+static void notes_say_what_would_help(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 26);
+    Maker few = {.noise = NOISE_GAUSSIAN, .samples = 4}, many = {.samples = 16, .seed = 1};
+    plain_scene(&few);
+    plain_scene(&many);
+    FrameImage a = make_frame(&few, &arena), b = make_frame(&many, &arena);
+    assert_string_equal(judge(&a, &b, NULL, &arena).note, "");
+    without(&a, "halves");
+    assert_text_has(judge(&a, &b, NULL, &arena).note, "--layers halves tells");
+    b = make_frame(&many, &arena);
+    a = make_frame(&few, &arena);
+    without(&b, "variance");
+    assert_text_has(judge(&a, &b, NULL, &arena).note, "--layers variance tells");
+    arena_release(&arena);
+}
+
+static void assert_refused(const FrameImage *a, const FrameImage *b, const char *file,
+                           const char *text)
+{
+    StatisticOptions options = {.reference_name = "a.exr", .test_name = "b.exr"};
+    StatisticResult  result;
+    Error            err;
+    Arena            arena = arena_reserve(1 << 26);
+    assert_false(statistic_compare(a, b, &options, &arena, &result, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_string_equal(err.file, file);
+    assert_string_equal(err.text, text);
+    arena_release(&arena);
+}
+
+static void frames_that_do_not_tell_their_noise_are_refused(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 26);
+    Maker maker = {.samples = 4};
+    plain_scene(&maker);
+    FrameImage a = make_frame(&maker, &arena), b = make_frame(&maker, &arena);
+    without(&b, "variance");
+    without(&b, "halves");
+    assert_refused(&a, &b, "b.exr",
+                   "has neither layer variance nor halves, which tell its noise; render it with "
+                   "--layers variance,halves,samples");
+    assert_refused(&b, &a, "a.exr",
+                   "has neither layer variance nor halves, which tell its noise; render it with "
+                   "--layers variance,halves,samples");
+    without(&b, "G");
+    assert_refused(&a, &b, "b.exr", "has no channels R, G, B");
+    b = make_frame(&maker, &arena);
+    b.data = (ExrWindow){1, 0, WIDTH + 1, HEIGHT};
+    assert_refused(&a, &b, "b.exr",
+                   "holds pixels 1,0,49,32, the reference 0,0,48,32: wanted the same");
+    arena_release(&arena);
+}
+
+/* ---- coins ------------------------------------------------------------------------------- */
+
+/* Every one of the 2^12 signs of a sum: as many of them as p says, or fewer, reach as far. */
+static void the_tail_of_coins_is_never_heavier_than_stated(void **state)
+{
+    (void)state;
+    enum { TERMS = 12, SIGNS = 1 << TERMS };
+    static double quotient[SIGNS], p[SIGNS];
+    Random        random = {5};
+    const NoiseLaw law = {.is_same = true};
+    for (int shape = 0; shape < 12; shape++) {
+        double size[TERMS], squares = 0;
+        for (int i = 0; i < TERMS; i++)
+            size[i] = shape == 0 ? 1 : pow(unit(&random), shape % 4) * (i < shape ? 5 : 1);
+        for (int signs = 0; signs < SIGNS; signs++) {
+            CoinSum sum = {0};
+            for (int i = 0; i < TERMS; i++) {
+                NoisyNumber n = {.difference = signs >> i & 1 ? size[i] : -size[i]};
+                coin_sum_add(&sum, &n, 1);
+            }
+            quotient[signs] = coin_sum_quotient(&sum, law);
+            p[signs] = coin_sum_p(&sum, law);
+            squares += quotient[signs] * quotient[signs] / SIGNS;
+        }
+        assert_close(squares, 1, 1e-9);
+        for (int k = 0; k < SIGNS; k += 61) {
+            double reached = 0;
+            for (int signs = 0; signs < SIGNS; signs++)
+                reached += quotient[signs] > quotient[k] - 1e-9;
+            assert_true(reached / SIGNS <= p[k] * (1 + 1e-3));
+        }
+    }
+}
+
+static void the_square_of_coins_has_the_stated_variance(void **state)
+{
+    (void)state;
+    static const double SIZE[4] = {1, 2, 2, 5};
+    double         fourth = 0;
+    const NoiseLaw law = {.is_same = true};
+    CoinSum        sum = {0};
+    for (int signs = 0; signs < 16; signs++) {
+        sum = (CoinSum){0};
+        for (int i = 0; i < 4; i++) {
+            NoisyNumber n = {.difference = signs >> i & 1 ? SIZE[i] : -SIZE[i]};
+            coin_sum_add(&sum, &n, 1);
+        }
+        fourth += pow(coin_sum_quotient(&sum, law), 4) / 16;
+    }
+    assert_close(coin_sum_square_variance(&sum), fourth - 1, 1e-9);
+}
+
+static void tails_have_their_closed_forms(void **state)
+{
+    (void)state;
+    assert_close(2 * normal_tail(1.959964), 0.05, 1e-6);
+    assert_close(normal_tail(6), 9.865876e-10, 1e-6);
+    /* chi square of 2 is exponential: exp(-x / 2); of 100, the table's 5 % and 0.1 % */
+    assert_close(gamma_tail(9.21034, 2, 4), 0.01, 0.1);
+    assert_close(gamma_tail(124.342, 100, 200), 0.05, 0.01);
+    assert_close(gamma_tail(149.449, 100, 200), 0.001, 0.02);
+    assert_near(gamma_tail(90, 100, 200), 1, 0);
+    assert_close(sidak_p(0.01, 3), 1 - pow(0.99, 3), 1e-12);
+    assert_close(sidak_p(1e-12, 1000), 1e-9, 1e-6);
+    assert_near(sidak_p(1, 7), 1, 0);
+    assert_close(sidak_p(sidak_level(0.01, 5000), 5000), 0.01, 1e-9);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(noise_of_any_kind_keeps_the_level),
+        cmocka_unit_test(different_sample_counts_keep_the_level),
+        cmocka_unit_test(less_noise_of_the_same_mean_is_no_change),
+        cmocka_unit_test(one_glint_in_one_frame_is_noise),
+        cmocka_unit_test(a_change_in_proportion_is_measured_as_well_as_can_be),
+        cmocka_unit_test(a_display_is_named_with_how_much_it_moved),
+        cmocka_unit_test(a_block_is_named_with_its_place),
+        cmocka_unit_test(small_changes_everywhere_are_seen_together),
+        cmocka_unit_test(frames_without_noise_differ_by_a_single_pixel),
+        cmocka_unit_test(rounding_is_no_change),
+        cmocka_unit_test(frames_that_share_their_noise_are_compared_pixel_by_pixel),
+        cmocka_unit_test(what_the_mask_leaves_out_does_not_count),
+        cmocka_unit_test(crops_have_their_place_in_the_frame),
+        cmocka_unit_test(either_layer_of_noise_is_enough),
+        cmocka_unit_test(notes_say_what_would_help),
+        cmocka_unit_test(frames_that_do_not_tell_their_noise_are_refused),
+        cmocka_unit_test(the_tail_of_coins_is_never_heavier_than_stated),
+        cmocka_unit_test(the_square_of_coins_has_the_stated_variance),
+        cmocka_unit_test(tails_have_their_closed_forms),
+    };
+    return cmocka_run_group_tests_name("statistic", tests, NULL, NULL);
+}
