@@ -1,5 +1,6 @@
 """bits.py [--small | --against OTHER] PARHELION -- a frame's pixels have the same bits with 1,
-2 and 5 threads, and a crop has those of the whole. --small: one render with 2 threads of the
+2 and 5 threads, and a crop has those of the whole; an instruction set that is asked for gives
+the same bits on a CPU that has more. --small: one render with 2 threads of the
 small scene, for the thread sanitizer. --against: the same bits as another build's.
 """
 import argparse
@@ -15,6 +16,12 @@ from gltf import Scene, png
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
 from report import Report  # noqa: E402
+
+
+# Every kind of modelled sky: their tables are made in double precision before the first ray.
+PLACE = ["--when", "2026-06-21T08:30+02:00", "--where", "48.14,11.58,520"]
+SKIES = [("sky:clear", PLACE), ("cie:12:20000", ["--sun", "120,35"]),
+         ("perez:800,100", PLACE), ("constant:500", ["--sun", "200,30,90000"])]
 
 
 def write_scene(path):
@@ -35,9 +42,14 @@ def write_scene(path):
     scene.write(path)
 
 
-def render(program, scenes, out, options):
+# What the C library is told not to use: its exp, sin ... then round otherwise.
+LESSER_CPU = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2,-AVX512F,-AVX512VL,-ERMS"}
+
+
+def render(program, scenes, out, options, environment=None):
     done = subprocess.run([program, "render", *scenes, "-o", out, "--layers", "all", "--quiet",
-                           *options], capture_output=True, text=True)
+                           *options], capture_output=True, text=True,
+                          env={**os.environ, **(environment or {})})
     if done.returncode != 0:
         print(done.stdout + done.stderr)
         return None
@@ -77,6 +89,17 @@ def compare(report, program, scenes, folder, options):
     print(f"{name}: {digest(whole, whole.box)}")
 
 
+def compare_cpus(report, program, scenes, folder, options):
+    """One instruction set on a CPU that has more and on one that, to the C library, has not."""
+    name, out = os.path.basename(scenes[0]), os.path.join(folder, "frame.exr")
+    options = [*options, "--isa", "sse2"]
+    frames = [render(program, scenes, out, options, environment)
+              for environment in (None, LESSER_CPU)]
+    if report.claim(None not in frames, f"{name}: not rendered"):
+        report.claim(digest(frames[0], None) == digest(frames[1], None),
+                     f"{name} {options}: a lesser CPU gives other bits")
+
+
 def compare_builds(report, programs, scenes, folder, options):
     """Two programs, one picture."""
     name, out = os.path.basename(scenes[0]), os.path.join(folder, "frame.exr")
@@ -100,11 +123,15 @@ def main():
                      for name in ("car_dashboard.gltf", "noon.gltf")]
         works = [([small], ["--size", "96x64", "--spp", "8"]),
                  (dashboard, ["--size", "96x54", "--spp", "4"])]
+        cpus = [([small], ["--size", "48x32", "--spp", "4", "--environment", sky, *more])
+                for sky, more in SKIES]
         if arguments.small:
             frame = render(program, [small], os.path.join(folder, "frame.exr"),
                            ["--size", "32x32", "--spp", "2", "--threads", "2"])
             report.claim(frame is not None, "two threads at once")
-            works = []
+            works = cpus = []
+        for scenes, options in cpus:
+            compare_cpus(report, program, scenes, folder, options)
         for scenes, options in works:
             if arguments.against:
                 other = os.path.abspath(arguments.against)
