@@ -19,7 +19,7 @@
 typedef enum FlipToneMapper { FLIP_ACES, FLIP_REINHARD, FLIP_HABLE } FlipToneMapper;
 
 typedef struct FlipOptions {
-    double pixels_per_degree; /* at least 1; 0: FLIP_PIXELS_PER_DEGREE */
+    double pixels_per_degree; /* 1 .. 1000; 0: FLIP_PIXELS_PER_DEGREE */
     int    threads;           /* at least 1 */
     FlipToneMapper tone_mapper; /* HDR */
     bool   has_range;         /* HDR: the exposures below, else from the reference */

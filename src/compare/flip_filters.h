@@ -24,5 +24,5 @@ typedef struct FlipFilters {
     FlipFilter gauss, slope, curve;
 } FlipFilters;
 
-/* pixels_per_degree: at least 1. */
+/* pixels_per_degree: 1 .. 1000. */
 FlipFilters flip_filters_create(double pixels_per_degree, Arena *arena);

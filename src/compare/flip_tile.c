@@ -74,7 +74,9 @@ FlipJob flip_job_create(const Planes *reference, const Planes *test, double pixe
     hunt_lab(ratios, green);
     apply_matrix(&job.ratios_from_rgb, (const double[3]){0, 0, 1}, ratios);
     hunt_lab(ratios, blue);
-    job.most = pow_d(colour_distance(green, blue), COLOUR_POWER);
+    job.log_most = COLOUR_POWER * log_d(colour_distance(green, blue));
+    job.log_knee = log_d(KNEE);
+    job.log_stretch = log_d(KNEE_MAPPED / KNEE);
     return job;
 }
 
@@ -263,16 +265,18 @@ static void seen_lab(const FlipJob *job, const Filtered *filtered, int x, double
     hunt_lab(ratios, lab);
 }
 
-/* Small differences are stretched: those up to KNEE of the greatest fill 0 .. KNEE_MAPPED. */
-static double colour_difference(const FlipJob *job, const FlipScratch *scratch, int x)
+/* Natural logarithm, since a power of it is wanted; -infinity for equal colours. Small
+ * differences are stretched: those up to KNEE of the greatest fill 0 .. KNEE_MAPPED. */
+static double log_colour_difference(const FlipJob *job, const FlipScratch *scratch, int x)
 {
     double reference[3], test[3];
     seen_lab(job, &scratch->filtered[REFERENCE], x, reference);
     seen_lab(job, &scratch->filtered[TEST], x, test);
-    float  distance = (float)colour_distance(reference, test);
-    double part = (double)pow_f(distance, (float)COLOUR_POWER) / job->most;
-    if (part < KNEE) return part * (KNEE_MAPPED / KNEE);
-    return KNEE_MAPPED + (part - KNEE) * ((1 - KNEE_MAPPED) / (1 - KNEE));
+    double distance = colour_distance(reference, test);
+    double log_part = COLOUR_POWER * (double)log_f((float)distance) - job->log_most;
+    if (log_part < job->log_knee) return log_part + job->log_stretch;
+    double part = (double)exp_f((float)log_part);
+    return (double)log_f((float)(KNEE_MAPPED + (part - KNEE) * (1 - KNEE_MAPPED) / (1 - KNEE)));
 }
 
 static double length(double x, double y)
@@ -297,9 +301,10 @@ static void set_pixels(const FlipJob *job, FlipTile tile, int y, int exposure,
     size_t first = (size_t)y * (size_t)job->reference->width;
     for (int x = tile.x0; x < tile.x1; x++) {
         size_t i = first + (size_t)x;
-        double colour = colour_difference(job, scratch, x - tile.x0);
+        double log_colour = log_colour_difference(job, scratch, x - tile.x0);
+        if (log_colour == (double)-INFINITY) continue;
         double feature = feature_difference(scratch, x - tile.x0);
-        float  value = clampf(pow_f((float)colour, (float)(1 - feature)), 0, 1);
+        float  value = clampf(exp_f((float)((1 - feature) * log_colour)), 0, 1);
         if (value <= job->map[i]) continue;
         job->map[i] = value;
         if (job->exposure_map) job->exposure_map[i] = (float)exposure;

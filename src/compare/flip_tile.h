@@ -23,7 +23,8 @@ typedef struct FlipJob {
     const Planes  *reference, *test;
     FlipFilters    filters;
     ColourMatrix   ratios_from_rgb, rgb_from_ratios;
-    double         most;         /* difference of pure green and pure blue, to the power 0.7 */
+    double         log_most;     /* of the difference of pure green and pure blue, a power */
+    double         log_knee, log_stretch; /* of colour differences, see flip_tile.c */
     bool           is_hdr;
     FlipToneMapper tone_mapper;  /* these three: HDR */
     int            exposures;    /* LDR: 1 */

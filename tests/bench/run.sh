@@ -20,6 +20,7 @@ dashboard='scenes/car_dashboard.gltf scenes/noon.gltf'
 .build/release/bench_tracing "$runs" $dashboard
 .build/release/bench_tracing "$runs" $out/box.gltf
 .build/release/bench_shaders "$runs"
+.build/release/bench_metrics "$runs"
 .build/release/bench_hemisphere
 for panel in ips_cluster oled_centre; do
     echo "panel $panel"
