@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/sampler.h"
-#include "compare/coin_sum.h"
 #include "compare/statistic.h"
 
 #define WIDTH 48
@@ -537,6 +536,10 @@ static void assert_refused(const FrameImage *a, const FrameImage *b, const char 
     arena_release(&arena);
 }
 
+#define TELLS_NOTHING                                                                          \
+    "has neither layer variance nor halves, which tell its noise; "                            \
+    "render it with --layers variance,halves,samples"
+
 static void frames_that_do_not_tell_their_noise_are_refused(void **state)
 {
     (void)state;
@@ -546,12 +549,8 @@ static void frames_that_do_not_tell_their_noise_are_refused(void **state)
     FrameImage a = make_frame(&maker, &arena), b = make_frame(&maker, &arena);
     without(&b, "variance");
     without(&b, "halves");
-    assert_refused(&a, &b, "b.exr",
-                   "has neither layer variance nor halves, which tell its noise; render it with "
-                   "--layers variance,halves,samples");
-    assert_refused(&b, &a, "a.exr",
-                   "has neither layer variance nor halves, which tell its noise; render it with "
-                   "--layers variance,halves,samples");
+    assert_refused(&a, &b, "b.exr", TELLS_NOTHING);
+    assert_refused(&b, &a, "a.exr", TELLS_NOTHING);
     without(&b, "G");
     assert_refused(&a, &b, "b.exr", "has no channels R, G, B");
     b = make_frame(&maker, &arena);
@@ -559,74 +558,6 @@ static void frames_that_do_not_tell_their_noise_are_refused(void **state)
     assert_refused(&a, &b, "b.exr",
                    "holds pixels 1,0,49,32, the reference 0,0,48,32: wanted the same");
     arena_release(&arena);
-}
-
-/* ---- coins ------------------------------------------------------------------------------- */
-
-/* Every one of the 2^12 signs of a sum: as many of them as p says, or fewer, reach as far. */
-static void the_tail_of_coins_is_never_heavier_than_stated(void **state)
-{
-    (void)state;
-    enum { TERMS = 12, SIGNS = 1 << TERMS };
-    static double quotient[SIGNS], p[SIGNS];
-    Random        random = {5};
-    const NoiseLaw law = {.is_same = true};
-    for (int shape = 0; shape < 12; shape++) {
-        double size[TERMS], squares = 0;
-        for (int i = 0; i < TERMS; i++)
-            size[i] = shape == 0 ? 1 : pow(unit(&random), shape % 4) * (i < shape ? 5 : 1);
-        for (int signs = 0; signs < SIGNS; signs++) {
-            CoinSum sum = {0};
-            for (int i = 0; i < TERMS; i++) {
-                NoisyNumber n = {.difference = signs >> i & 1 ? size[i] : -size[i]};
-                coin_sum_add(&sum, &n, 1);
-            }
-            quotient[signs] = coin_sum_quotient(&sum, law);
-            p[signs] = coin_sum_p(&sum, law);
-            squares += quotient[signs] * quotient[signs] / SIGNS;
-        }
-        assert_close(squares, 1, 1e-9);
-        for (int k = 0; k < SIGNS; k += 61) {
-            double reached = 0;
-            for (int signs = 0; signs < SIGNS; signs++)
-                reached += quotient[signs] > quotient[k] - 1e-9;
-            assert_true(reached / SIGNS <= p[k] * (1 + 1e-3));
-        }
-    }
-}
-
-static void the_square_of_coins_has_the_stated_variance(void **state)
-{
-    (void)state;
-    static const double SIZE[4] = {1, 2, 2, 5};
-    double         fourth = 0;
-    const NoiseLaw law = {.is_same = true};
-    CoinSum        sum = {0};
-    for (int signs = 0; signs < 16; signs++) {
-        sum = (CoinSum){0};
-        for (int i = 0; i < 4; i++) {
-            NoisyNumber n = {.difference = signs >> i & 1 ? SIZE[i] : -SIZE[i]};
-            coin_sum_add(&sum, &n, 1);
-        }
-        fourth += pow(coin_sum_quotient(&sum, law), 4) / 16;
-    }
-    assert_close(coin_sum_square_variance(&sum), fourth - 1, 1e-9);
-}
-
-static void tails_have_their_closed_forms(void **state)
-{
-    (void)state;
-    assert_close(2 * normal_tail(1.959964), 0.05, 1e-6);
-    assert_close(normal_tail(6), 9.865876e-10, 1e-6);
-    /* chi square of 2 is exponential: exp(-x / 2); of 100, the table's 5 % and 0.1 % */
-    assert_close(gamma_tail(9.21034, 2, 4), 0.01, 0.1);
-    assert_close(gamma_tail(124.342, 100, 200), 0.05, 0.01);
-    assert_close(gamma_tail(149.449, 100, 200), 0.001, 0.02);
-    assert_near(gamma_tail(90, 100, 200), 1, 0);
-    assert_close(sidak_p(0.01, 3), 1 - pow(0.99, 3), 1e-12);
-    assert_close(sidak_p(1e-12, 1000), 1e-9, 1e-6);
-    assert_near(sidak_p(1, 7), 1, 0);
-    assert_close(sidak_p(sidak_level(0.01, 5000), 5000), 0.01, 1e-9);
 }
 
 int main(void)
@@ -648,9 +579,6 @@ int main(void)
         cmocka_unit_test(either_layer_of_noise_is_enough),
         cmocka_unit_test(notes_say_what_would_help),
         cmocka_unit_test(frames_that_do_not_tell_their_noise_are_refused),
-        cmocka_unit_test(the_tail_of_coins_is_never_heavier_than_stated),
-        cmocka_unit_test(the_square_of_coins_has_the_stated_variance),
-        cmocka_unit_test(tails_have_their_closed_forms),
     };
     return cmocka_run_group_tests_name("statistic", tests, NULL, NULL);
 }
