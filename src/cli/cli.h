@@ -124,3 +124,4 @@ bool cmd_check(int argc, char **argv, Error *err);
 bool cmd_sky(int argc, char **argv, Error *err);
 bool cmd_measure(int argc, char **argv, Error *err);
 bool cmd_merge(int argc, char **argv, Error *err);
+bool cmd_compare(int argc, char **argv, Error *err);

@@ -50,6 +50,7 @@ static const char *chosen_config(const DevelopOptions *options)
 {
     const char *from_environment = getenv("OCIO");
     if (options->config) return options->config;
+    if (options->own_config) return NULL;
     return from_environment && from_environment[0] ? from_environment : NULL;
 }
 

@@ -14,6 +14,7 @@
 typedef struct DevelopOptions {
     const char *exposure; /* NULL "auto"; see exposure.h */
     const char *config;   /* OpenColorIO: a file, else $OCIO, else the project's own */
+    bool        own_config; /* the project's own whatever $OCIO says: the same on any machine */
     const char *display, *view; /* NULL: the configuration's defaults */
     const char *layer;    /* NULL: R, G, B of the frame itself */
     bool        false_colour; /* luminance on a logarithmic scale */

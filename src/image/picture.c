@@ -4,7 +4,6 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/file.h"
 #include "base/mathf.h"
 #include "openimageio/image_file.h"
 
@@ -59,11 +58,12 @@ static void *quantised(const Picture *picture, int bits, Arena *arena)
     return bits == 8 ? (void *)u8 : (void *)u16;
 }
 
-bool picture_write(const char *path, const Picture *picture, PictureFile file, Arena scratch,
-                   Error *err)
+bool picture_encode(const char *path, const Picture *picture, PictureFile file, Arena *arena,
+                    FileBytes *out, Error *err)
 {
     if (!picture_check_name(path, file.bits, err)) return false;
     const char   *format = ending_of(path)->format;
+    Arena         scratch = *arena;
     ImageToEncode image = {
         .width = picture->width,
         .height = picture->height,
@@ -78,9 +78,19 @@ bool picture_write(const char *path, const Picture *picture, PictureFile file, A
     };
     EncodedImage *encoded;
     if (!image_encode(format, &image, &encoded, err)) return error_in_file(err, path);
-    size_t      size;
-    const void *bytes = encoded_image_bytes(encoded, &size);
-    bool        ok = file_write(path, bytes, size, err);
+    size_t         size;
+    const void    *bytes = encoded_image_bytes(encoded, &size);
+    unsigned char *copy = ARENA_NEW(arena, unsigned char, size + 1);
+    memcpy(copy, bytes, size);
     encoded_image_destroy(encoded);
-    return ok;
+    *out = (FileBytes){copy, size};
+    return true;
+}
+
+bool picture_write(const char *path, const Picture *picture, PictureFile file, Arena scratch,
+                   Error *err)
+{
+    FileBytes bytes;
+    return picture_encode(path, picture, file, &scratch, &bytes, err) &&
+           file_write(path, bytes.data, bytes.size, err);
 }

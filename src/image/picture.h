@@ -8,6 +8,7 @@
 #pragma once
 #include "base/arena.h"
 #include "base/error.h"
+#include "base/file.h"
 #include "image/icc_profile.h"
 
 typedef struct Picture {
@@ -34,6 +35,10 @@ typedef struct PictureFile {
  * left after a failure. Codes are rounded to the nearest, without dither. */
 bool picture_write(const char *path, const Picture *picture, PictureFile file, Arena scratch,
                    Error *err);
+
+/* The bytes that picture_write would put into a file of that name, in the arena. */
+bool picture_encode(const char *path, const Picture *picture, PictureFile file, Arena *arena,
+                    FileBytes *out, Error *err);
 
 /* False, with the endings that are supported, when picture_write would refuse the name or the
  * bits: to be asked before long work. */

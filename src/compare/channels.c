@@ -1,0 +1,172 @@
+#include "compare/channels.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Two planes of one channel, and how to look at them. */
+typedef struct Pair {
+    const float *values[2];
+    size_t       count;
+    int          row;         /* values in a row */
+    const FrameImage *frame;  /* NULL: value i is pixel i */
+    int          width;       /* pixels of a row of the display window */
+    bool         is_light, excuses_rims;
+} Pair;
+
+/* NaN is no accident in what the first surface says: there may be none. */
+static bool is_surface_layer(const char *name)
+{
+    static const char *const LAYERS[] = {"display", "depth", "position", "normal", "albedo",
+                                         "uv", "Z", "ZBack"};
+    for (size_t i = 0; i < sizeof LAYERS / sizeof *LAYERS; i++) {
+        size_t length = strlen(LAYERS[i]);
+        if (!strncmp(name, LAYERS[i], length) && (!name[length] || name[length] == '.'))
+            return true;
+    }
+    return false;
+}
+
+/* Is there a finite value beside value i? Then a gap there is the rim of a surface. */
+static bool is_rim(const Pair *pair, const float *values, size_t i)
+{
+    int x = (int)(i % (size_t)pair->row), y = (int)(i / (size_t)pair->row);
+    int rows = (int)(pair->count / (size_t)pair->row);
+    for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < rows; v++)
+        for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < pair->row; u++)
+            if (isfinite(values[(size_t)v * (size_t)pair->row + (size_t)u])) return true;
+    return false;
+}
+
+static bool same_gap(float a, float b)
+{
+    return isnan(a) ? isnan(b) : a == b;
+}
+
+/* A value that is not finite on some side; true when the pixel counts as different. */
+static bool add_gap(const Pair *pair, size_t i, long place, ChannelDifference *out)
+{
+    float a = pair->values[0][i], b = pair->values[1][i];
+    if (pair->is_light) {
+        for (int side = 0; side < 2; side++) {
+            if (isfinite(side ? b : a)) continue;
+            if (out->nonfinite[side]++ > 0) continue;
+            out->first[side][0] = (int)(place % pair->width);
+            out->first[side][1] = (int)(place / pair->width);
+        }
+        return true;
+    }
+    if (same_gap(a, b)) return false;
+    const float *missing = isfinite(a) ? pair->values[1] : pair->values[0];
+    if (!pair->excuses_rims || !is_rim(pair, missing, i)) out->gaps++;
+    return true;
+}
+
+static ChannelDifference compare_channel(const char *name, const Pair *pair,
+                                         const Selection *selection, Channels *all)
+{
+    ChannelDifference out = {.name = name, .is_light = pair->is_light};
+    long              finite = 0;
+    for (size_t i = 0; i < pair->count; i++) {
+        long  place = pair->frame ? selection_place(pair->frame, i) : (long)i;
+        float a = pair->values[0][i], b = pair->values[1][i];
+        bool  is_finite = isfinite(a) && isfinite(b);
+        if (place < 0) continue;
+        if (!selection->counts[place]) {
+            all->left_out[0] += pair->is_light && !isfinite(a);
+            all->left_out[1] += pair->is_light && !isfinite(b);
+            continue;
+        }
+        bool is_different = is_finite ? a != b : add_gap(pair, i, place, &out);
+        if (is_finite) {
+            double distance = fabs((double)b - (double)a);
+            out.mean += distance;
+            out.max = fmax(out.max, distance);
+            finite++;
+        }
+        out.differing += is_different;
+        if (is_different) all->differs[place] = 1;
+    }
+    out.mean = finite ? out.mean / (double)finite : 0;
+    return out;
+}
+
+/* ---- the channels of frames and of pictures ---------------------------------------------- */
+
+static Pair frame_pair(const Subject *reference, const Subject *test, const char *name,
+                       const Structure *structure)
+{
+    const FrameImage *f = &reference->frame;
+    return (Pair){{frame_channel(f, name), frame_channel(&test->frame, name)},
+                  frame_pixel_count(f), f->data.x1 - f->data.x0, f, reference->light.width,
+                  !is_surface_layer(name), !structure->shares_noise};
+}
+
+static void compare_frames(const Subject *reference, const Subject *test,
+                           const Structure *structure, const StructureRules *rules,
+                           const Selection *selection, Channels *out)
+{
+    for (int i = 0; i < reference->frame.channel_count; i++) {
+        const char *name = reference->frame.channels[i].name;
+        Pair        pair = frame_pair(reference, test, name, structure);
+        if (!pair.values[1] || structure_ignores(rules, name)) continue;
+        out->list[out->count++] = compare_channel(name, &pair, selection, out);
+    }
+}
+
+static void compare_codes(const Subject *reference, const Subject *test,
+                          const StructureRules *rules, const Selection *selection,
+                          Channels *out)
+{
+    static const char *const NAMES[4] = {"R", "G", "B", "A"};
+    for (int c = 0; c < 4; c++) {
+        Pair pair = {.count = planes_pixel_count(&reference->codes),
+                     .row = reference->codes.width, .width = reference->codes.width,
+                     .is_light = true};
+        pair.values[0] = c < 3 ? reference->codes.rgb[c] : reference->alpha;
+        pair.values[1] = c < 3 ? test->codes.rgb[c] : test->alpha;
+        if (!pair.values[0] || !pair.values[1] || structure_ignores(rules, NAMES[c])) continue;
+        out->list[out->count++] = compare_channel(NAMES[c], &pair, selection, out);
+    }
+}
+
+Channels channels_compare(const Subject *reference, const Subject *test,
+                          const Structure *structure, const StructureRules *rules,
+                          const Selection *selection, Arena *arena)
+{
+    size_t   pixels = planes_pixel_count(&reference->light);
+    Channels out = {.differs = ARENA_NEW(arena, unsigned char, pixels)};
+    bool     is_frame = reference->kind == SUBJECT_FRAME;
+    out.list = ARENA_NEW(arena, ChannelDifference,
+                         is_frame ? reference->frame.channel_count : 4);
+    if (is_frame)
+        compare_frames(reference, test, structure, rules, selection, &out);
+    else
+        compare_codes(reference, test, rules, selection, &out);
+    for (size_t i = 0; i < pixels; i++) out.differing += out.differs[i];
+    return out;
+}
+
+static void report_nonfinite(const ChannelDifference *c, Lines *reasons)
+{
+    static const char *const SIDES[2] = {"reference", "test"};
+    for (int side = 0; side < 2; side++)
+        if (c->nonfinite[side])
+            lines_add(reasons, "channel %s has %ld values in the %s that are NaN or infinite, "
+                      "the first at pixel %d,%d", c->name, c->nonfinite[side], SIDES[side],
+                      c->first[side][0], c->first[side][1]);
+}
+
+void channels_report(const Channels *channels, Lines *reasons, Lines *notes)
+{
+    for (int i = 0; i < channels->count; i++) {
+        const ChannelDifference *c = &channels->list[i];
+        report_nonfinite(c, reasons);
+        if (c->gaps)
+            lines_add(reasons, "channel %s has %ld values that are NaN or infinite on one side "
+                      "only", c->name, c->gaps);
+    }
+    if (channels->left_out[0] || channels->left_out[1])
+        lines_add(notes, "%ld values of the reference and %ld of the test are NaN or infinite "
+                  "in pixels that do not count", channels->left_out[0],
+                  channels->left_out[1]);
+}

@@ -1,0 +1,38 @@
+/* channels.h -- every channel of two sides, value by value: what differs, what is no number.
+ *
+ * NaN and infinity in light are a fault on whichever side, even on both. In layers of the first
+ * surface (display.*, depth, position, normal, albedo, uv) they mean "nothing there" and must
+ * stand at the same places; frames whose noise differs may disagree at the rim of a surface,
+ * where one pixel was hit by a few samples only.
+ *
+ * Memory   from the arena. Threads: pure.
+ */
+#pragma once
+#include "compare/selection.h"
+#include "compare/structure.h"
+
+typedef struct ChannelDifference {
+    const char *name;
+    bool   is_light;
+    long   differing;     /* pixels whose values are not equal */
+    long   nonfinite[2];  /* of light: in the reference, in the test */
+    int    first[2][2];   /* x, y of the first of those, each side */
+    long   gaps;          /* NaN or infinity on one side only, which nothing excuses */
+    double max, mean;     /* of |test - reference| where both are finite */
+} ChannelDifference;
+
+typedef struct Channels {
+    ChannelDifference *list;
+    int            count;
+    long           differing;    /* pixels of which some channel differs */
+    unsigned char *differs;      /* which: one byte a pixel of the display window */
+    long           left_out[2];  /* pixels without finite light that do not count: see mask */
+} Channels;
+
+/* Both sides have the same pixels. Only channels that both have are looked at. */
+Channels channels_compare(const Subject *reference, const Subject *test,
+                          const Structure *structure, const StructureRules *rules,
+                          const Selection *selection, Arena *arena);
+
+/* Reasons for what always fails; a note for what lies outside the selection. */
+void channels_report(const Channels *channels, Lines *reasons, Lines *notes);

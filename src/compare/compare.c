@@ -1,0 +1,189 @@
+#include "compare/compare.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/progress.h"
+#include "compare/figures.h"
+
+static double level_of(const CompareOptions *options)
+{
+    return options->level > 0 ? options->level : 0.01;
+}
+
+/* What has to be computed: what was asked for, what limits name, what the judge needs. */
+static unsigned groups_of(const CompareOptions *options)
+{
+    unsigned groups = options->groups ? options->groups : GROUP_ALL;
+    for (int i = 0; i < options->threshold_count; i++)
+        groups |= metric_info(options->thresholds[i].metric)->group;
+    if (options->wants_stat || options->threshold_count == 0) groups |= GROUP_STAT;
+    return groups;
+}
+
+/* ---- the judges -------------------------------------------------------------------------- */
+
+static void judge_limits(const CompareOptions *options, Comparison *out)
+{
+    for (int i = 0; i < options->threshold_count; i++) {
+        Threshold         t = options->thresholds[i];
+        const MetricInfo *info = metric_info(t.metric);
+        double            value = out->value[t.metric];
+        if (threshold_holds(t, value)) continue;
+        if (isnan(value))
+            lines_add(&out->reasons, "%s is not known for these files, %s %g is wanted",
+                      info->name, info->is_min ? "at least" : "at most", t.limit);
+        else
+            lines_add(&out->reasons, "%s is %.5g, %s %g is wanted", info->name, value,
+                      info->is_min ? "at least" : "at most", t.limit);
+    }
+}
+
+static void judge_statistic(Comparison *out)
+{
+    if (out->stat.verdict != STATISTIC_DIFFERENT) return;
+    lines_add(&out->reasons, "the mean moved: %s",
+              out->stat.reason[0] ? out->stat.reason : "more than the noise explains");
+}
+
+static void judge_equality(Comparison *out)
+{
+    double share = out->value[METRIC_DIFFERING];
+    if (out->channels.differing == 0) return;
+    lines_add(&out->reasons, "%ld of %ld pixels differ (%.3g %%)", out->channels.differing,
+              out->selection.pixels, 100 * share);
+    lines_add(&out->notes, "no limit was set and there is no noise to judge by, so every pixel "
+              "must be equal; a limit is set by --max flip=0.05 or the like%s",
+              out->reference.kind == SUBJECT_FRAME
+                  ? ", or render with --layers variance,samples" : "");
+}
+
+static void judge(const CompareOptions *options, Comparison *out)
+{
+    out->judged_by = JUDGED_BY_LIMITS;
+    judge_limits(options, out);
+    if (options->wants_stat || (options->threshold_count == 0 && out->has_stat)) {
+        out->judged_by = JUDGED_BY_STATISTIC;
+        judge_statistic(out);
+    } else if (options->threshold_count == 0) {
+        out->judged_by = JUDGED_BY_EQUALITY;
+        judge_equality(out);
+    }
+}
+
+/* ---- sentences --------------------------------------------------------------------------- */
+
+static const char *limits_text(const CompareOptions *options, const Comparison *out,
+                               Arena *arena)
+{
+    const char *text = "";
+    for (int i = 0; i < options->threshold_count; i++) {
+        Threshold         t = options->thresholds[i];
+        const MetricInfo *info = metric_info(t.metric);
+        text = arena_format(arena, "%s%s%s %.4g, %s %g", text, i ? "; " : "", info->name,
+                            out->value[t.metric], info->is_min ? "at least" : "at most",
+                            t.limit);
+    }
+    return text;
+}
+
+static const char *same_verdict(const CompareOptions *options, const Comparison *out,
+                                Arena *arena)
+{
+    if (out->judged_by == JUDGED_BY_EQUALITY || out->channels.differing == 0)
+        return "equal in every pixel";
+    const char *limits = limits_text(options, out, arena);
+    if (out->judged_by == JUDGED_BY_LIMITS) return arena_format(arena, "within the limits (%s)",
+                                                                limits);
+    if (out->stat.verdict == STATISTIC_EQUAL) return "the light is equal in every pixel";
+    return arena_format(arena, "only the noise differs, the mean did not move (p = %.3g at a "
+                        "level of %g)%s%s", out->stat.p_value, level_of(options),
+                        limits[0] ? "; " : "", limits);
+}
+
+static const char *different_verdict(const Comparison *out, Arena *arena)
+{
+    const char *first = out->reasons.list[0];
+    int         more = out->reasons.count - 1;
+    if (more == 0) return first;
+    return arena_format(arena, "%s; and %d more reason%s", first, more, more > 1 ? "s" : "");
+}
+
+/* Whether the mean moved or only the noise: what a reviewer asks first. The statistic's own
+ * verdict has said it already. */
+static const char *mean_sentence(const CompareOptions *options, const Comparison *out,
+                                 Arena *arena)
+{
+    const StatisticResult *s = &out->stat;
+    bool is_said = out->judged_by == JUDGED_BY_STATISTIC &&
+                   (out->same || s->verdict == STATISTIC_DIFFERENT);
+    if (!out->has_pixels || out->channels.differing == 0) return "";
+    if (!out->has_stat)
+        return "Whether the mean moved or only the noise cannot be told: no noise is stated.";
+    if (s->verdict == STATISTIC_EQUAL) return "The light is equal in every pixel.";
+    if (is_said && s->verdict == STATISTIC_SAME) return "";
+    if (s->verdict == STATISTIC_SAME)
+        return arena_format(arena, "Only the noise differs, the mean did not move (p = %.3g at "
+                            "a level of %g).", s->p_value, level_of(options));
+    return arena_format(arena, "%s than the noise explains (p = %.2g at a level of %g)%s.",
+                        is_said ? "That is more" : "The mean moved, more", s->p_value,
+                        level_of(options),
+                        s->shares_noise ? "; both share their seed and samples" : "");
+}
+
+/* ---- the comparison ---------------------------------------------------------------------- */
+
+static void start(const Subject *reference, const Subject *test, Arena *arena, Comparison *out)
+{
+    *out = (Comparison){.reference = *reference, .test = *test, .reasons = {.arena = arena},
+                        .notes = {.arena = arena}, .shown_with = ""};
+    for (int i = 0; i < METRIC_COUNT; i++) out->value[i] = NAN;
+}
+
+static bool compare_pixels(const CompareOptions *options, Arena *arena, Comparison *out,
+                           Error *err)
+{
+    if (!selection_make(&out->reference, &options->selection, arena, &out->selection, err))
+        return false;
+    out->channels = channels_compare(&out->reference, &out->test, &out->structure,
+                                     &options->rules, &out->selection, arena);
+    out->value[METRIC_DIFFERING] =
+        (double)out->channels.differing / (double)out->selection.pixels;
+    channels_report(&out->channels, &out->reasons, &out->notes);
+    if (!figures_measure(options, groups_of(options), arena, out, err)) return false;
+    out->has_pixels = true;
+    judge(options, out);
+    return true;
+}
+
+bool compare_subjects(const Subject *reference, const Subject *test,
+                      const CompareOptions *options, Arena *arena, Comparison *out, Error *err)
+{
+    Comparison made;
+    double     begun = monotonic_seconds();
+    if (!subject_check_kinds(reference, test, err)) return false;
+    start(reference, test, arena, &made);
+    made.structure = structure_compare(reference, test, &options->rules, arena, &made.reasons,
+                                       &made.notes);
+    if (made.structure.same_pixels && !compare_pixels(options, arena, &made, err)) return false;
+    made.same = made.reasons.count == 0;
+    made.verdict = made.same ? same_verdict(options, &made, arena)
+                             : different_verdict(&made, arena);
+    made.mean = mean_sentence(options, &made, arena);
+    made.seconds = monotonic_seconds() - begun;
+    *out = made;
+    return true;
+}
+
+bool compare_files(const char *reference, const char *test, const CompareOptions *options,
+                   Arena *arena, Comparison *out, Error *err)
+{
+    Subject a, b;
+    double  begun = monotonic_seconds();
+    if (!subject_read(reference, arena, &a, err) || !subject_read(test, arena, &b, err))
+        return false;
+    if (!compare_subjects(&a, &b, options, arena, out, err)) return false;
+    out->seconds = monotonic_seconds() - begun;
+    return true;
+}

@@ -1,0 +1,178 @@
+#include "compare/metadata.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define SHOWN 72 /* letters of a value in a line */
+
+/* What decides the picture, by the whole name or, with a dot at the end, by its beginning. */
+static const char *const DECIDING[] = {
+    "chromaticities",      "whiteLuminance",       "adoptedNeutral",    "worldToCamera",
+    "worldToNDC",          "pixelAspectRatio",     "screenWindowWidth", "parhelion:unit",
+    "parhelion:camera",    "parhelion:yfov_deg",   "parhelion:ymag_m",  "parhelion:maxBounces",
+    "parhelion:unbiased",  "parhelion:complete",   "parhelion:part.",   "parhelion:display.",
+};
+
+static bool decides(const char *name)
+{
+    for (size_t i = 0; i < sizeof DECIDING / sizeof *DECIDING; i++) {
+        size_t length = strlen(DECIDING[i]);
+        bool   is_prefix = DECIDING[i][length - 1] == '.';
+        if (!strncmp(name, DECIDING[i], length) && (is_prefix || !name[length])) return true;
+    }
+    return false;
+}
+
+/* ---- values as text ---------------------------------------------------------------------- */
+
+static int value_count(ExrKind kind)
+{
+    switch (kind) {
+    case EXR_STRING: return 0;
+    case EXR_CHROMATICITIES: return 8;
+    case EXR_MATRIX44: return 16;
+    default: return 1;
+    }
+}
+
+static const char *value_text(const ExrAttribute *attribute, Arena *arena)
+{
+    if (!attribute) return NULL;
+    if (attribute->kind == EXR_STRING) return attribute->text ? attribute->text : "";
+    const char *text = "";
+    for (int i = 0; i < value_count(attribute->kind); i++)
+        text = arena_format(arena, "%s%s%.9g", text, i ? " " : "", attribute->values[i]);
+    return text;
+}
+
+/* Numbers by their bits, so that what prints alike and is not still differs. */
+static bool same_value(const ExrAttribute *a, const ExrAttribute *b)
+{
+    if (!a || !b || a->kind != b->kind) return false;
+    if (a->kind == EXR_STRING) return !strcmp(a->text ? a->text : "", b->text ? b->text : "");
+    for (int i = 0; i < value_count(a->kind); i++) {
+        bool both_nan = a->values[i] != a->values[i] && b->values[i] != b->values[i];
+        if (!both_nan && a->values[i] != b->values[i]) return false;
+    }
+    return true;
+}
+
+static MetadataRow row_of(const char *name, const FrameImage *reference, const FrameImage *test,
+                          const StructureRules *rules, Arena *arena)
+{
+    const ExrAttribute *a = frame_attribute(reference, name), *b = frame_attribute(test, name);
+    return (MetadataRow){name, value_text(a, arena), value_text(b, arena), !same_value(a, b),
+                         decides(name), structure_ignores(rules, name)};
+}
+
+MetadataRow *metadata_compare(const FrameImage *reference, const FrameImage *test,
+                              const StructureRules *rules, Arena *arena, int *count)
+{
+    MetadataRow *rows = ARENA_NEW(arena, MetadataRow,
+                                  reference->attribute_count + test->attribute_count);
+    int          n = 0;
+    for (int i = 0; i < reference->attribute_count; i++)
+        rows[n++] = row_of(reference->attributes[i].name, reference, test, rules, arena);
+    for (int i = 0; i < test->attribute_count; i++) {
+        const char *name = test->attributes[i].name;
+        if (!frame_attribute(reference, name))
+            rows[n++] = row_of(name, reference, test, rules, arena);
+    }
+    *count = n;
+    return rows;
+}
+
+/* ---- lines ------------------------------------------------------------------------------- */
+
+/* The line of a text that begins at `at`, from `from` of its letters on, cut to what fits. */
+static void shorten(const char *at, size_t from, char out[SHOWN + 12])
+{
+    size_t length = strcspn(at, "\n");
+    if (from > length) from = length;
+    while (from > 0 && ((unsigned char)at[from] & 0xc0) == 0x80) from--;
+    size_t rest = length - from > SHOWN ? SHOWN : length - from;
+    while (rest > 0 && rest < length - from && ((unsigned char)at[from + rest] & 0xc0) == 0x80)
+        rest--;
+    snprintf(out, SHOWN + 12, "%s%.*s%s", from ? "…" : "", (int)rest, at + from,
+             rest < length - from ? "…" : "");
+}
+
+/* Both values where they begin to differ: the first such line, and of a long one the part from
+ * shortly before. */
+static void shorten_both(const char *a, const char *b, char out_a[SHOWN + 12],
+                         char out_b[SHOWN + 12])
+{
+    size_t line = 0, same = 0;
+    while (a[same] && a[same] == b[same]) {
+        if (a[same] == '\n') line = same + 1;
+        same++;
+    }
+    size_t column = same - line, from = column > SHOWN - 24 ? column - 16 : 0;
+    shorten(a + line, from, out_a);
+    shorten(b + line, from, out_b);
+}
+
+static const char *plain_name(const char *name)
+{
+    return strncmp(name, "parhelion:", 10) ? name : name + 10;
+}
+
+static void add_line(const MetadataRow *row, Lines *to, const char *why)
+{
+    char a[SHOWN + 12], b[SHOWN + 12];
+    if (!row->reference || !row->test) {
+        lines_add(to, "metadata %s is missing in the %s%s", plain_name(row->name),
+                  row->reference ? "test" : "reference", why);
+        return;
+    }
+    shorten_both(row->reference, row->test, a, b);
+    lines_add(to, "metadata %s differs: %s in the reference, %s in the test%s",
+              plain_name(row->name), a, b, why);
+}
+
+/* "HASH  PATH\n" of every input: the path behind the hash of the given length, or NULL. */
+static const char *input_line(const char *list, const char *path, size_t length)
+{
+    while (*list) {
+        size_t      line = strcspn(list, "\n");
+        const char *blank = memchr(list, ' ', line);
+        const char *name = blank && blank + 2 <= list + line ? blank + 2 : list + line;
+        if ((size_t)(list + line - name) == length && !memcmp(name, path, length)) return list;
+        list += line + (list[line] == '\n');
+    }
+    return NULL;
+}
+
+/* Which input files changed, or are on one side only. */
+static void add_inputs(const char *from, const char *other, bool is_reference, Lines *to)
+{
+    for (const char *line = from; *line;) {
+        size_t      length = strcspn(line, "\n"), hash = strcspn(line, " \n");
+        const char *path = hash + 2 <= length ? line + hash + 2 : line + length;
+        size_t      path_length = (size_t)(line + length - path);
+        const char *there = input_line(other, path, path_length);
+        if (!there)
+            lines_add(to, "input %.*s is only in the %s", (int)path_length, path,
+                      is_reference ? "reference" : "test");
+        else if (is_reference && strncmp(line, there, hash) != 0)
+            lines_add(to, "input %.*s has changed", (int)path_length, path);
+        line += length + (line[length] == '\n');
+    }
+}
+
+void metadata_report(const MetadataRow *rows, int count, bool strict, Lines *reasons,
+                     Lines *notes)
+{
+    for (int i = 0; i < count; i++) {
+        const MetadataRow *row = &rows[i];
+        bool               is_reason = row->decides || strict;
+        if (!row->differs || row->is_ignored) continue;
+        if (!strcmp(row->name, "parhelion:inputs") && row->reference && row->test) {
+            add_inputs(row->reference, row->test, true, is_reason ? reasons : notes);
+            add_inputs(row->test, row->reference, false, is_reason ? reasons : notes);
+        } else {
+            add_line(row, is_reason ? reasons : notes,
+                     is_reason && !row->decides ? " (--strict)" : "");
+        }
+    }
+}

@@ -1,0 +1,131 @@
+#include "compare/selection.h"
+
+#include <string.h>
+
+#include "image/image.h"
+#include "image/layer_view.h"
+
+/* The pixels that the subject has, as a window with its origin at the display window's. */
+static ExrWindow extent_of(const Subject *subject)
+{
+    ExrWindow whole = {0, 0, subject->light.width, subject->light.height};
+    if (subject->kind != SUBJECT_FRAME) return whole;
+    const ExrWindow w = subject->frame.display, d = subject->frame.data;
+    return (ExrWindow){d.x0 > w.x0 ? d.x0 - w.x0 : 0, d.y0 > w.y0 ? d.y0 - w.y0 : 0,
+                       d.x1 < w.x1 ? d.x1 - w.x0 : whole.x1,
+                       d.y1 < w.y1 ? d.y1 - w.y0 : whole.y1};
+}
+
+static void leave_out(const Planes *planes, ExrWindow inside, unsigned char *counts)
+{
+    for (int y = 0; y < planes->height; y++)
+        for (int x = 0; x < planes->width; x++)
+            if (x < inside.x0 || x >= inside.x1 || y < inside.y0 || y >= inside.y1)
+                counts[(size_t)y * (size_t)planes->width + (size_t)x] = 0;
+}
+
+static bool apply_region(const Subject *subject, const SelectionRequest *request,
+                         unsigned char *counts, Error *err)
+{
+    ExrWindow e = extent_of(subject), r = request->region;
+    int       left = 0, top = 0;
+    if (subject->kind == SUBJECT_FRAME) {
+        left = subject->frame.display.x0;
+        top = subject->frame.display.y0;
+    }
+    const ExrWindow inside = {r.x0 - left, r.y0 - top, r.x1 - left, r.y1 - top};
+    if (inside.x0 < e.x0 || inside.y0 < e.y0 || inside.x1 > e.x1 || inside.y1 > e.y1 ||
+        r.x0 >= r.x1 || r.y0 >= r.y1)
+        return error_set(err, ERROR_USAGE,
+                         "--region %d,%d,%d,%d: wanted X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 "
+                         "inside the pixels %d,%d,%d,%d of %s",
+                         r.x0, r.y0, r.x1, r.y1, e.x0 + left, e.y0 + top, e.x1 + left,
+                         e.y1 + top, subject->name);
+    leave_out(&subject->light, inside, counts);
+    return true;
+}
+
+/* Any code above 0 in red, green or blue. */
+static bool is_lit(const Image *image, size_t i)
+{
+    for (size_t c = 4 * i; c < 4 * i + 3; c++) {
+        if (image->format == IMAGE_RGBA8 && ((const uint8_t *)image->pixels)[c]) return true;
+        if (image->format == IMAGE_RGBA16 && ((const uint16_t *)image->pixels)[c]) return true;
+        if (image->format == IMAGE_RGBA32F && ((const float *)image->pixels)[c] > 0)
+            return true;
+    }
+    return false;
+}
+
+static bool apply_mask(const Subject *subject, const char *path, Arena scratch,
+                       unsigned char *counts, Error *err)
+{
+    Image         image;
+    const Planes *planes = &subject->light;
+    if (!image_read(path, &scratch, &image, err)) return false;
+    if (image.width != planes->width || image.height != planes->height)
+        return error_at(err, ERROR_INPUT, path, "",
+                        "the mask has %d x %d pixels, %s has %d x %d", image.width,
+                        image.height, subject->name, planes->width, planes->height);
+    for (size_t i = 0; i < planes_pixel_count(planes); i++)
+        if (!is_lit(&image, i)) counts[i] = 0;
+    return true;
+}
+
+static const char *display_names(const FrameImage *frame, Arena *arena)
+{
+    const char *names = "";
+    for (int i = 0; i < frame->attribute_count; i++) {
+        const ExrAttribute *a = &frame->attributes[i];
+        if (a->kind == EXR_STRING && !strncmp(a->name, "parhelion:display.", 18))
+            names = arena_format(arena, "%s%s%s", names, names[0] ? ", " : "", a->text);
+    }
+    return names[0] ? names : "none";
+}
+
+static bool apply_display(const Subject *subject, const char *display, Arena scratch,
+                          unsigned char *counts, Error *err)
+{
+    LayerView view;
+    if (subject->kind != SUBJECT_FRAME)
+        return error_set(err, ERROR_USAGE, "--display %s: a picture does not tell its displays",
+                         display);
+    int id = frame_id_of(&subject->frame, "display", display);
+    if (id < 0)
+        return error_at(err, ERROR_USAGE, subject->name, "",
+                        "has no display \"%s\"; its displays: %s", display,
+                        display_names(&subject->frame, &scratch));
+    if (!frame_channel(&subject->frame, "id.display"))
+        return error_at(err, ERROR_INPUT, subject->name, "",
+                        "has no layer id, which tells the pixels of a display; render it with "
+                        "--layers id,display");
+    if (!layer_view_find(&subject->frame, "id.display", &scratch, &view, err)) return false;
+    for (size_t i = 0; i < planes_pixel_count(&subject->light); i++)
+        if (view.planes[0][i] != (float)id) counts[i] = 0;
+    return true;
+}
+
+bool selection_make(const Subject *reference, const SelectionRequest *request, Arena *arena,
+                    Selection *out, Error *err)
+{
+    Arena     kept = *arena;
+    size_t    count = planes_pixel_count(&reference->light);
+    Selection made = {.counts = ARENA_NEW(&kept, unsigned char, count)};
+    made.is_part = request->mask || request->has_region || request->display;
+    memset(made.counts, 1, count);
+    leave_out(&reference->light, extent_of(reference), made.counts);
+    if (request->has_region && !apply_region(reference, request, made.counts, err))
+        return false;
+    if (request->mask && !apply_mask(reference, request->mask, kept, made.counts, err))
+        return false;
+    if (request->display && !apply_display(reference, request->display, kept, made.counts, err))
+        return false;
+    for (size_t i = 0; i < count; i++) made.pixels += made.counts[i];
+    if (made.pixels == 0)
+        return error_at(err, ERROR_INPUT, reference->name, "",
+                        "no pixel is left to compare: mask, region and display have none in "
+                        "common");
+    *arena = kept;
+    *out = made;
+    return true;
+}

@@ -1,0 +1,118 @@
+#include "compare/structure.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "compare/metadata.h"
+
+static bool begins_with_layer(const char *name, const char *layer)
+{
+    size_t length = strlen(layer);
+    return !strncmp(name, layer, length) && (!name[length] || name[length] == '.');
+}
+
+bool structure_ignores(const StructureRules *rules, const char *name)
+{
+    static const char OWN[] = "parhelion:";
+    const char *plain = strncmp(name, OWN, sizeof OWN - 1) ? name : name + sizeof OWN - 1;
+    for (int i = 0; i < rules->ignored_count; i++)
+        if (begins_with_layer(name, rules->ignored[i]) ||
+            begins_with_layer(plain, rules->ignored[i]))
+            return true;
+    return false;
+}
+
+/* ---- sizes and windows ------------------------------------------------------------------- */
+
+static bool same_window(ExrWindow a, ExrWindow b)
+{
+    return a.x0 == b.x0 && a.y0 == b.y0 && a.x1 == b.x1 && a.y1 == b.y1;
+}
+
+static bool compare_window(const char *what, ExrWindow a, ExrWindow b, Lines *reasons)
+{
+    if (same_window(a, b)) return true;
+    lines_add(reasons, "the %s windows differ: %d,%d,%d,%d in the reference, %d,%d,%d,%d in "
+              "the test", what, a.x0, a.y0, a.x1, a.y1, b.x0, b.y0, b.x1, b.y1);
+    return false;
+}
+
+static bool compare_sizes(const Subject *reference, const Subject *test, Lines *reasons)
+{
+    const Planes *a = &reference->light, *b = &test->light;
+    bool          ok = a->width == b->width && a->height == b->height;
+    if (!ok)
+        lines_add(reasons, "the sizes differ: %dx%d pixels in the reference, %dx%d in the test",
+                  a->width, a->height, b->width, b->height);
+    if (reference->kind != SUBJECT_FRAME) return ok;
+    const FrameImage *f = &reference->frame, *g = &test->frame;
+    bool display_ok = !ok || compare_window("display", f->display, g->display, reasons);
+    bool data_ok = !ok || compare_window("data", f->data, g->data, reasons);
+    return ok && display_ok && data_ok;
+}
+
+/* ---- channels ---------------------------------------------------------------------------- */
+
+/* Names of `from` that `other` lacks, with commas; "" when there is none. */
+static const char *missing_channels(const FrameImage *from, const FrameImage *other,
+                                    const StructureRules *rules, Arena *arena)
+{
+    const char *names = "";
+    for (int i = 0; i < from->channel_count; i++) {
+        const char *name = from->channels[i].name;
+        if (frame_channel(other, name) || structure_ignores(rules, name)) continue;
+        names = arena_format(arena, "%s%s%s", names, names[0] ? ", " : "", name);
+    }
+    return names;
+}
+
+static void compare_channels(const Subject *reference, const Subject *test,
+                             const StructureRules *rules, Arena *arena, Lines *reasons)
+{
+    const char *gone = missing_channels(&reference->frame, &test->frame, rules, arena);
+    const char *more = missing_channels(&test->frame, &reference->frame, rules, arena);
+    if (gone[0]) lines_add(reasons, "channels are missing in the test: %s", gone);
+    if (more[0]) lines_add(reasons, "channels are missing in the reference: %s", more);
+}
+
+static void compare_pictures(const Subject *reference, const Subject *test,
+                             const StructureRules *rules, Lines *reasons, Lines *notes)
+{
+    if (reference->bits != test->bits)
+        lines_add(notes, "the reference has %d bits, the test %d: codes are compared as "
+                  "fractions", reference->bits, test->bits);
+    if (!reference->alpha != !test->alpha && !structure_ignores(rules, "A"))
+        lines_add(reasons, "only the %s is transparent in places (--ignore A leaves that out)",
+                  reference->alpha ? "reference" : "test");
+}
+
+/* ---- noise ------------------------------------------------------------------------------- */
+
+static bool same_text(const Subject *a, const Subject *b, const char *name)
+{
+    const char *x = frame_string(&a->frame, name), *y = frame_string(&b->frame, name);
+    return x && y && !strcmp(x, y);
+}
+
+Structure structure_compare(const Subject *reference, const Subject *test,
+                            const StructureRules *rules, Arena *arena, Lines *reasons,
+                            Lines *notes)
+{
+    Structure out = {.same_pixels = compare_sizes(reference, test, reasons)};
+    if (reference->kind == SUBJECT_PICTURE) {
+        compare_pictures(reference, test, rules, reasons, notes);
+        return out;
+    }
+    compare_channels(reference, test, rules, arena, reasons);
+    out.shares_noise = same_text(reference, test, "parhelion:seed") &&
+                       same_text(reference, test, "parhelion:samples");
+    if (reference->has_metadata && test->has_metadata) {
+        out.metadata = metadata_compare(&reference->frame, &test->frame, rules, arena,
+                                        &out.metadata_count);
+        metadata_report(out.metadata, out.metadata_count, rules->strict, reasons, notes);
+    } else {
+        lines_add(notes, "%s carries no metadata and no unit: its light is taken for cd/m2",
+                  reference->has_metadata ? "the test" : "the reference");
+    }
+    return out;
+}
