@@ -29,31 +29,48 @@ static double power_of_two(int k)
 
 /* ---- exponential and logarithm ---------------------------------------------------------- */
 
-/* ln 2 in two parts; the first has 33 bits, so that k times it is exact. */
+/* ln 2 in two parts; the first has 33 bits, so that up to 2^20 times it is exact. */
 static const double LN2_HIGH = 0x1.62e42fee00000p-1, LN2_LOW = 0x1.a39ef35793c76p-33;
 
-/* exp(r) - 1 for |r| below 0.35: Taylor's series, the term left out is below 4e-18. */
+/* 2^(i/32). */
+static const double POWERS[32] = {
+    0x1.0000000000000p+0, 0x1.059b0d3158574p+0, 0x1.0b5586cf9890fp+0, 0x1.11301d0125b51p+0,
+    0x1.172b83c7d517bp+0, 0x1.1d4873168b9aap+0, 0x1.2387a6e756238p+0, 0x1.29e9df51fdee1p+0,
+    0x1.306fe0a31b715p+0, 0x1.371a7373aa9cbp+0, 0x1.3dea64c123422p+0, 0x1.44e086061892dp+0,
+    0x1.4bfdad5362a27p+0, 0x1.5342b569d4f82p+0, 0x1.5ab07dd485429p+0, 0x1.6247eb03a5585p+0,
+    0x1.6a09e667f3bcdp+0, 0x1.71f75e8ec5f74p+0, 0x1.7a11473eb0187p+0, 0x1.82589994cce13p+0,
+    0x1.8ace5422aa0dbp+0, 0x1.93737b0cdc5e5p+0, 0x1.9c49182a3f090p+0, 0x1.a5503b23e255dp+0,
+    0x1.ae89f995ad3adp+0, 0x1.b7f76f2fb5e47p+0, 0x1.c199bdd85529cp+0, 0x1.cb720dcef9069p+0,
+    0x1.d5818dcfba487p+0, 0x1.dfc97337b9b5fp+0, 0x1.ea4afa2a490dap+0, 0x1.f50765b6e4540p+0};
+
+/* exp(r) - 1: Taylor's series; the term left out is below 2e-17 r for |r| of 0.011 .. */
+static double exp_series_short(double r)
+{
+    return r + r * r * (0.5 + r * (1.0 / 6 + r * (1.0 / 24 + r * (1.0 / 120 + r / 720))));
+}
+
+/* .. and for |r| of 0.35. */
 static double exp_series(double r)
 {
-    double sum = 1.0 / 6227020800; /* 1 / 13! */
     static const double factors[] = {1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800,
                                      1.0 / 362880, 1.0 / 40320, 1.0 / 5040, 1.0 / 720,
                                      1.0 / 120, 1.0 / 24, 1.0 / 6, 0.5};
+    double sum = 1.0 / 6227020800; /* 1 / 13! */
     for (int i = 0; i < 11; i++) sum = sum * r + factors[i];
     return r + r * r * sum;
 }
 
-/* x = k ln 2 + r; exp(x) = 2^k exp(r), in two steps so that subnormal results round once. */
+/* x = (32 k + i) ln 2 / 32 + r; exp(x) = 2^k 2^(i/32) exp(r), the power in two steps so that
+ * subnormal results round once. */
 double exp_d(double x)
 {
     if (!(x > -745.2)) return x != x ? x : 0;
     if (x > 709.782712893384) return INFINITY;
-    double k = floor(x * 1.4426950408889634 + 0.5);
-    double high = x - k * LN2_HIGH, low = k * LN2_LOW, r = high - low;
-    double error = (high - r) - low; /* what r lost */
-    double value = 1 + (exp_series(r) + error);
-    int    first = (int)k / 2, second = (int)k - first;
-    return value * power_of_two(first) * power_of_two(second);
+    double n = floor(x * 46.166241308446828384 + 0.5);
+    double r = (x - n * (LN2_HIGH / 32)) - n * (LN2_LOW / 32);
+    int    whole = (int)n, k = (whole - (whole & 31)) / 32;
+    double power = POWERS[whole & 31], value = power + power * exp_series_short(r);
+    return value * power_of_two(k / 2) * power_of_two(k - k / 2);
 }
 
 double expm1_d(double x)
@@ -65,8 +82,10 @@ double expm1_d(double x)
  * 2 s (1 + s^2/3 + s^4/5 ...), and 2 s = f - s f keeps the leading term exact. */
 static double log_series(double f)
 {
+    static const double factors[] = {2.0 / 23, 2.0 / 21, 2.0 / 19, 2.0 / 17, 2.0 / 15, 2.0 / 13,
+                                     2.0 / 11, 2.0 / 9,  2.0 / 7,  2.0 / 5,  2.0 / 3};
     double s = f / (2 + f), z = s * s, sum = 0;
-    for (int n = 25; n >= 3; n -= 2) sum = (sum + 2.0 / n) * z;
+    for (int i = 0; i < 11; i++) sum = (sum + factors[i]) * z;
     return f - s * (f - sum);
 }
 
@@ -212,8 +231,9 @@ static double atan_of_fraction(double x)
         0.46364760900080611621, 0.55859931534356243597, 0.64350110879328438680,
         0.71882999962162450542, 0.78539816339744830962};
     int    i = (int)(x * 8 + 0.5);
+    static const double factors[] = {1.0 / 13, -1.0 / 11, 1.0 / 9, -1.0 / 7, 1.0 / 5, -1.0 / 3};
     double c = i * 0.125, t = (x - c) / (1 + x * c), z = t * t, sum = 0;
-    for (int n = 15; n >= 3; n -= 2) sum = ((n & 2 ? -1.0 : 1.0) / n + sum) * z;
+    for (int k = 0; k < 6; k++) sum = (sum + factors[k]) * z;
     return eighths[i] + (t + t * sum);
 }
 
