@@ -28,7 +28,8 @@ static json_t *degrees_json(const double *radians, int count)
 static void add_lights(const Panel *panel, json_t *report)
 {
     double  theta[PANEL_INFO_INCIDENCES_MAX], phi[PANEL_INFO_AZIMUTHS_MAX];
-    int     thetas = panel_info_incidences(panel, theta), phis = panel_info_azimuths(panel, phi);
+    int     thetas = panel_info_incidences(panel, theta);
+    int     phis = panel_info_azimuths(panel, phi);
     json_t *reflection = json_object_get(report, "reflection");
     if (!json_is_object(reflection)) return;
     json_object_set_new(reflection, "incidence_deg", degrees_json(theta, thetas));

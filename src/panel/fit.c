@@ -48,6 +48,59 @@ static void note_limits(const Measurement *set, FitNotes *notes)
                  degrees_from_radians(set->incidence[set->incidence_count - 1]));
 }
 
+/* What a file need not say; panel_report says it again. */
+static json_t *unsaid(void)
+{
+    return json_pack("{s:s, s:s, s:[f,f], s:[f,f]}", "instrument", "", "note", "", "pixels",
+                     0.0, 0.0, "size_mm", 0.0, 0.0);
+}
+
+static void leave_unsaid(json_t *meta)
+{
+    const char *key;
+    json_t     *value, *usual = unsaid();
+    json_object_foreach(usual, key, value)
+        if (json_equal(json_object_get(meta, key), value)) json_object_del(meta, key);
+    json_decref(usual);
+}
+
+/* [{a: 1, b: 2}, {a: 3, b: 4}] as {a: [1, 3], b: [2, 4]}: names stand once. */
+static json_t *columns_of(const json_t *rows)
+{
+    json_t     *out = json_object(), *row, *value;
+    const char *key;
+    size_t      i;
+    json_array_foreach((json_t *)rows, i, row)
+        json_object_foreach(row, key, value) {
+            if (!json_object_get(out, key)) json_object_set_new(out, key, json_array());
+            json_array_append(json_object_get(out, key), value);
+        }
+    return out;
+}
+
+static json_t *rows_of(const json_t *columns)
+{
+    json_t     *out = json_array(), *column, *value;
+    const char *key;
+    size_t      i;
+    json_object_foreach((json_t *)columns, key, column)
+        json_array_foreach(column, i, value) {
+            if (i >= json_array_size(out)) json_array_append_new(out, json_object());
+            json_object_set(json_array_get(out, i), key, value);
+        }
+    return out;
+}
+
+/* Puts a changed "mirror" into the report's reflection, if there is one. */
+static void change_mirror(json_t *report, json_t *(*change)(const json_t *))
+{
+    json_t *reflection = json_copy(json_object_get(report, "reflection"));
+    json_t *mirror = json_object_get(reflection, "mirror");
+    if (mirror) json_object_set_new(reflection, "mirror", change(mirror));
+    if (mirror) json_object_set(report, "reflection", reflection);
+    json_decref(reflection);
+}
+
 /* The file with its report: the long lists stay out of it, figures are packed. Its own size
  * is one of the figures. */
 static void *reported_bytes(const FitParts *parts, json_t *document, Arena *arena, size_t *size)
@@ -59,6 +112,8 @@ static void *reported_bytes(const FitParts *parts, json_t *document, Arena *aren
     void    *bytes = NULL;
     json_array_append(rows, json_object_get(document, "total"));
     for (int i = 0; i < 4; i++) json_object_del(meta, apart[i]);
+    leave_unsaid(meta);
+    change_mirror(meta, columns_of);
     char *text = json_dumps(meta, JSON_COMPACT | JSON_REAL_PRECISION(4));
     for (int pass = 0; pass < 2 && text; pass++) {
         whole.figures_size = panel_figures_pack(rows, arena, &whole.figures);
@@ -150,6 +205,11 @@ bool panel_report(const Panel *panel, json_t **report, Error *err)
         json_decref(figures);
         return false;
     }
+    json_t *usual = unsaid();
+    json_object_update_missing(*report, usual);
+    if (json_is_object(json_object_get(json_object_get(*report, "reflection"), "mirror")))
+        change_mirror(*report, rows_of);
+    json_decref(usual);
     size_t rows = json_array_size(figures);
     if (rows) {
         json_object_set(*report, "total", json_array_get(figures, rows - 1));

@@ -7,7 +7,7 @@
 /* One measured table in the report. */
 typedef struct FitTable {
     const char *name;
-    size_t text_bytes, float32_bytes;
+    size_t text_bytes, float32_bytes; /* of the source; float32: values without angles */
     double stored_values, bytes;
     double max_error, rms_error, integral_error, noise, extrapolated;
 } FitTable;

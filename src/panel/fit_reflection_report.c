@@ -95,7 +95,7 @@ void fit_report_reflection_tables(const FitParts *parts, const Panel *panel, jso
     for (int t = 0; t < r->tables; t++) {
         const AngleTable *from = &r->kept[t];
         FitTable one = {.name = from->name, .text_bytes = from->text_bytes,
-            .float32_bytes = (size_t)(2 + from->channels) * sizeof(float) * (size_t)from->rows,
+            .float32_bytes = (size_t)from->channels * sizeof(float) * (size_t)from->rows,
             .stored_values = values, .bytes = bytes, .noise = r->noise[t]};
         fit_finish_errors(&work.errors[t], &one);
         one.extrapolated = (double)panel->reflection->cone_cos;

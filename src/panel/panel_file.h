@@ -266,7 +266,8 @@ static inline void panel_add_profile(const PanelProfile *profile, Vec3 d, int fi
 /* How wi is chosen for a wo: function azimuth * incidences + incidence of one sampling tree in
  * the specular-following frame of wo's polar angle theta, with an exponent of its own. In the
  * file: the tree, at the next multiple of four bytes uint16 incidences and azimuths, then float
- * theta[incidences]. */
+ * theta[incidences]; nothing where a single table is reflected, from which opening the file
+ * makes the same bytes (sampling_make.h). */
 #define PANEL_SAMPLING_EXPONENT 2.0f
 typedef struct PanelSampling {
     SamplingTree tree;
@@ -274,6 +275,11 @@ typedef struct PanelSampling {
     int          azimuths;   /* of wo, evenly over the turn from 0; 1: isotropic */
     const float *theta;      /* radians, rising */
 } PanelSampling;
+
+static inline bool panel_makes_sampling(const PanelReflection *reflection)
+{
+    return reflection->tables == 1;
+}
 
 static inline size_t panel_sampling_tree_bytes(size_t tree)
 {

@@ -8,6 +8,7 @@
 
 #include "base/file.h"
 #include "panel/panel_open.h"
+#include "panel/sampling_make.h"
 
 #define CHECKSUM_FROM offsetof(PanelHeader, size)
 
@@ -106,6 +107,8 @@ static bool finest_level(const PanelBytes *bytes, int *level)
             if (!found) break;
             if (kinds[k] == PANEL_SAMPLING && at.size >= sizeof(SamplingHeader))
                 one = ((const SamplingHeader *)at.data)->level;
+            else if (kinds[k] == PANEL_SAMPLING)
+                one = SAMPLING_MADE_LEVEL;
             else if (kinds[k] != PANEL_SAMPLING && at.size >= sizeof(TreeHeader))
                 one = ((const TreeHeader *)at.data)->level;
             *level = one > *level ? one : *level;

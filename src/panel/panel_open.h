@@ -45,6 +45,7 @@ bool panel_open_reflection(const PanelBytes *bytes, const Geodesic *geodesic, Ar
 bool panel_expand_reflection(const PanelBytes *at, const PanelBytes *tree,
                              const Geodesic *geodesic, Arena *arena, Panel *panel);
 
-/* The sampling tree, expanded into the arena; a file without one leaves *out as it is. */
+/* The sampling tree, expanded into the arena; a file without one leaves the panel as it is.
+ * The reflection is there. */
 bool panel_open_sampling(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
-                         PanelSampling *out);
+                         Panel *panel);

@@ -275,5 +275,5 @@ bool panel_open_reflection(const PanelBytes *bytes, const Geodesic *geodesic, Ar
     if (!found) return true;
     return panel_need_section(bytes, PANEL_REFLECTION_TREE, 0, &tree) &&
            panel_expand_reflection(&at, &tree, geodesic, arena, panel) &&
-           panel_open_sampling(bytes, geodesic, arena, &panel->sampling);
+           panel_open_sampling(bytes, geodesic, arena, panel);
 }

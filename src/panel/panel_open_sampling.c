@@ -3,6 +3,7 @@
 
 #include "base/units.h"
 #include "panel/panel_open.h"
+#include "panel/sampling_make.h"
 
 static bool check_nodes(const PanelBytes *at, const PanelSampling *s)
 {
@@ -23,14 +24,27 @@ static bool check_thetas(const PanelBytes *at, const PanelSampling *s)
            panel_refuse(at, "sampling", "incidences do not rise");
 }
 
+/* What the file leaves out. */
+static bool make_section(const Panel *panel, Arena *arena, PanelBytes *at)
+{
+    SamplingSection made;
+    if (!panel_makes_sampling(panel->reflection))
+        return panel_refuse(at, "sampling", "is empty beside several tables");
+    if (!sampling_make(panel, arena, &made, at->err)) return error_in_file(at->err, at->name);
+    at->data = made.bytes;
+    at->size = made.size;
+    return true;
+}
+
 bool panel_open_sampling(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
-                         PanelSampling *out)
+                         Panel *panel)
 {
     PanelBytes at;
     bool       found;
     uint16_t   counts[2];
     if (!panel_find_section(bytes, PANEL_SAMPLING, 0, &at, &found)) return false;
     if (!found) return true;
+    if (at.size == 0 && !make_section(panel, arena, &at)) return false;
     PanelSampling s = {0};
     if (!sampling_tree_open(at.data, at.size, geodesic, arena, &s.tree, bytes->err))
         return error_prefix(bytes->err, "sampling") || error_in_file(bytes->err, bytes->name);
@@ -44,6 +58,6 @@ bool panel_open_sampling(const PanelBytes *bytes, const Geodesic *geodesic, Aren
     if (at.size != behind + sizeof counts + (size_t)s.incidences * sizeof(float))
         return panel_refuse(&at, "sampling", "has another size than its counts say");
     if (!check_thetas(&at, &s)) return false;
-    *out = s;
+    panel->sampling = s;
     return true;
 }

@@ -83,8 +83,9 @@ class Bench:
         if os.environ.get("PLACES"):
             print(f"  worst: {errors[0].place}", file=sys.stderr)
         if self.wants_haar and basis != "haar":
-            report = self.haar_of_size(manifest, report["file_bytes"], panel)
+            report = self.haar_of_size(manifest, report["file_bytes"], panel, report)
             if report:
+                report["file_bytes"] -= self.less
                 self.row(name, "haar", sizes, report, self.errors(panel, tables, fwhm_deg), 0)
 
     def measure_with_flat(self, name, manifest, limit, fwhm_deg):
@@ -97,23 +98,41 @@ class Bench:
         self.measure(name, with_flat, limit, fwhm_deg)
         self.less = 0
 
-    def haar_of_size(self, manifest, wanted, panel):
-        """The largest share of coefficients whose file is no larger, by bisection."""
-        low, high, best = math.log(1e-5), math.log(0.2), None
-        for _ in range(7):
-            middle = (low + high) / 2
+    def haar_of_size(self, manifest, wanted, panel, like):
+        """The largest share of coefficients found whose file is no larger than wanted bytes:
+        regula falsi on bytes over share, with the level and the frame of the other basis."""
+        options = ["--basis", "haar"]
+        part = like.get("reflection") or like.get("emission")
+        options += ["--level", max(2, min(9, int(part["level"])))]
+        if "frame_exponent" in part:
+            options += ["--frame", part["frame_exponent"]]
+
+        def fit(share):
+            return self.program.fit(manifest, panel, *options, "--keep", f"{share:.6g}")
+
+        low = high = None # (share, bytes, report)
+        share = 0.003
+        for _ in range(6):
             try:
-                report = self.program.fit(manifest, panel, "--basis", "haar", "--keep",
-                                          f"{math.exp(middle):.6g}")
+                report = fit(share)
             except Refused:
                 return None
-            if report["file_bytes"] <= wanted:
-                low, best = middle, math.exp(middle)
+            size = report["file_bytes"] - self.less
+            if size <= wanted:
+                low = (share, size, report)
+                if size > 0.97 * wanted or share >= 1:
+                    break
             else:
-                high = middle
-        if not best:
-            best = math.exp(low)
-        return self.program.fit(manifest, panel, "--basis", "haar", "--keep", f"{best:.6g}")
+                high = (share, size, report)
+            if low and high:
+                t = (wanted - low[1]) / (high[1] - low[1])
+                share = low[0] + min(0.95, max(0.05, t)) * (high[0] - low[0])
+            else:
+                share = min(1, max(1e-5, share * (4 if low else 0.25)))
+                if high and high[0] <= 1e-5:
+                    break
+        best = low or high
+        return best[2] if best[0] == share else fit(best[0])
 
 
 def read_tables(manifest):

@@ -133,7 +133,7 @@ static void the_mirror_part_survives(void **state)
     }
 }
 
-/* ---- azimuths of the light, and a true black ---------------------------------------------- */
+/* ---- azimuths of the light, and a true black --------------------------------------------- */
 
 /* What the light at (theta_i, phi_i) is scattered by, phi from the mirror direction: brushed
  * along x; degrees. */
@@ -146,8 +146,8 @@ static double brushed(double theta_i, double phi_i, double theta, double phi)
 
 #define AZIMUTHS 6
 #define BRUSHED                                                                                \
-    "{\"panel\": \"brushed\", \"reflection\": {\"wavelengths_nm\": [550],"                      \
-    "\"incidence_deg\": [20, 50], \"incidence_phi_deg\": [0, 60, 120, 180, 240, 300],"           \
+    "{\"panel\": \"brushed\", \"reflection\": {\"wavelengths_nm\": [550],"                     \
+    "\"incidence_deg\": [20, 50], \"incidence_phi_deg\": [0, 60, 120, 180, 240, 300],"         \
     "\"files\": \"i{incidence}_a{azimuth}.csv\"}}"
 
 static void write_brushed(Fixture *to)

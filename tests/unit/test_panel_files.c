@@ -35,6 +35,9 @@ static Fixture folder; /* files and what is made of them */
 #define ONLY_REFLECTION                                                                        \
     "{\"panel\": \"dark\", \"reflection\": {\"wavelengths_nm\": [450, 550, 650],"              \
     "\"incidence_deg\": [20, 50], \"files\": \"brdf/i{incidence}.csv\"}}"
+#define ONE_TABLE                                                                              \
+    "{\"panel\": \"one table\", \"reflection\": {\"wavelengths_nm\": [450, 550, 650],"         \
+    "\"incidence_deg\": [20], \"files\": \"brdf/i{incidence}.csv\"}}"
 #define ANISOTROPIC                                                                            \
     "{\"panel\": \"brushed\", \"emission\": {\"white\": \"emission/black.csv\"},"          \
     "\"reflection\": {\"wavelengths_nm\": [450, 550, 650], \"incidence_deg\": [20, 50],"       \
@@ -55,9 +58,11 @@ static Kind kinds[] = {
     {"white only", "{\"emission\": {\"white\": \"emission/black.csv\"}}", FIT_VERTEX, 0,
      NULL},
     {"reflection only", ONLY_REFLECTION, FIT_VERTEX, 0, NULL},
+    {"one table", ONE_TABLE, FIT_VERTEX, 0, NULL}, /* opening makes its sampling */
     {"anisotropic", ANISOTROPIC, FIT_VERTEX, 0, NULL},
     {"anisotropic haar", ANISOTROPIC, FIT_HAAR, 0, NULL},
 };
+#define SLOW_SHARE 8 /* of forged ones, where opening takes tens of milliseconds */
 #define KIND_COUNT ((int)(sizeof kinds / sizeof *kinds))
 
 /* The pattern's tables, one a quarter turn of the light: the same one under four names. */
@@ -282,6 +287,7 @@ static void a_forged_checksum_leads_nobody_astray(void **state)
         const Kind    *kind = &kinds[k];
         unsigned char *copy = malloc(kind->size);
         int            opened = 0, count = mutation_count() / FORGED_SHARE;
+        if (kind->manifest && !strcmp(kind->manifest, ONE_TABLE)) count /= SLOW_SHARE;
         for (int i = 0; i < count; i++) {
             memcpy(copy, kind->bytes, kind->size);
             mutate(copy, kind->size, &random);

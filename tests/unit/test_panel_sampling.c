@@ -10,6 +10,7 @@
 #include "hemisphere/geodesic.h"
 #include "hemisphere/specular_frame.h"
 #include "panel/panel_file.h"
+#include "panel/sampling_make.h"
 #include "shaders/display.h"
 
 typedef struct Case {
@@ -155,16 +156,23 @@ static double stored_density(const Panel *panel, double theta, double phi, Vec3 
            (double)specular_frame_jacobian(&frame, specular_frame_stored(&frame, outer));
 }
 
+static double density_integral(const Panel *panel, double theta, double phi)
+{
+    enum { LEVEL = 6 };
+    double sum = 0;
+    for (uint32_t i = 0; i < geodesic_count(LEVEL); i++)
+        sum += stored_density(panel, theta, phi, geodesic_center(LEVEL, i)) *
+               geodesic_area(LEVEL, i);
+    return sum;
+}
+
 static void the_density_integrates_to_one(void **state)
 {
     (void)state;
-    enum { LEVEL = 6 };
     for (int c = 0; c < case_count; c++)
         for (int k = 0; k < 16; k++) {
-            double theta = radians_from_degrees(0.5 + 5.9 * k), phi = 0.7 * k, sum = 0;
-            for (uint32_t i = 0; i < geodesic_count(LEVEL); i++)
-                sum += stored_density(cases[c].panel, theta, phi, geodesic_center(LEVEL, i)) *
-                       geodesic_area(LEVEL, i);
+            double theta = radians_from_degrees(0.5 + 5.9 * k);
+            double sum = density_integral(cases[c].panel, theta, 0.7 * k);
             if (!(fabs(sum - 1) <= 1e-3))
                 fail_msg("%s at %g degrees: %.6f", cases[c].name, degrees_from_radians(theta),
                          sum);
@@ -446,10 +454,9 @@ static void answers_are_finite_in_every_corner(void **state)
         for (int j = 0; j < count; j++) expect_finite(corner[i], corner[j], &w);
 }
 
-/* Nothing of a reflection without its sampling: the file would light a scene wrongly. */
-static void a_panel_without_its_sampling_is_refused(void **state)
+/* The sampling section of the IPS panel renamed, or emptied, under a checksum that fits. */
+static void expect_forged_is_refused(bool is_emptied, const char *why)
 {
-    (void)state;
     Arena       scratch = ips.arena;
     FileBytes   bytes;
     Error       err = {0};
@@ -463,7 +470,8 @@ static void a_panel_without_its_sampling_is_refused(void **state)
         PanelSection section;
         unsigned char *at = copy + sizeof header + i * sizeof section;
         memcpy(&section, at, sizeof section);
-        if (section.kind == PANEL_SAMPLING) section.index = 1;
+        if (section.kind == PANEL_SAMPLING && is_emptied) section.size = 0;
+        else if (section.kind == PANEL_SAMPLING) section.index = 1;
         memcpy(at, &section, sizeof section);
     }
     size_t from = offsetof(PanelHeader, size);
@@ -472,7 +480,46 @@ static void a_panel_without_its_sampling_is_refused(void **state)
     const char *path = arena_format(&scratch, "%s/without.panel", ips.folder);
     assert_true(file_write(path, copy, bytes.size, &err));
     assert_false(panel_open(path, &scratch, &panel, &err));
-    assert_non_null(strstr(err.text, "without its sampling tree"));
+    if (!strstr(err.text, why)) fail_msg("%s", err.text);
+}
+
+/* Nothing of a reflection without its sampling: the file would light a scene wrongly. */
+static void a_panel_without_its_sampling_is_refused(void **state)
+{
+    (void)state;
+    expect_forged_is_refused(false, "without its sampling tree");
+    expect_forged_is_refused(true, "is empty beside several tables");
+}
+
+/* A file of one table holds no sampling; opening makes what fitting would have stored. */
+static void one_table_is_sampled_without_a_byte_of_the_file(void **state)
+{
+    (void)state;
+    Error        err = {0};
+    FitOptions   options = fit_options_default();
+    Fixture      one;
+    fixture_folder(&one);
+    Measurement *set = one.set = ARENA_NEW(&one.arena, Measurement, 1);
+    *set = *brushed.set;
+    set->incidence_count = set->azimuth_count = 1;
+    set->incidence[0] = radians_from_degrees(23);
+    set->brdf = ARENA_NEW(&one.arena, AngleTable, 1);
+    set->brdf[0] = brushed_table(set->incidence[0], PI, &one.arena);
+    options.level = 5;
+    if (!panel_fit(set, &options, one.panel_path, &one.arena, &one.report, &err) ||
+        !panel_open(one.panel_path, &one.arena, &one.panel, &err))
+        fail_msg("%s: %s: %s", err.file, err.path, err.text);
+    assert_true(one.panel->size < 4096);
+    assert_true(one.panel->sampling.incidences > 1);
+    for (int k = 0; k < 8; k++)
+        assert_near(density_integral(one.panel, radians_from_degrees(0.5 + 11 * k), 0), 1,
+                    1e-3);
+    SamplingSection made[2];
+    for (int i = 0; i < 2; i++)
+        assert_true(sampling_make(one.panel, &one.arena, &made[i], &err));
+    assert_int_equal(made[0].size, made[1].size);
+    assert_memory_equal(made[0].bytes, made[1].bytes, made[0].size);
+    fixture_end(&one);
 }
 
 int main(void)
@@ -485,6 +532,7 @@ int main(void)
         cmocka_unit_test(weights_vary_little_at_every_incidence),
         cmocka_unit_test(answers_are_finite_in_every_corner),
         cmocka_unit_test(weights_average_to_the_albedo),
+        cmocka_unit_test(one_table_is_sampled_without_a_byte_of_the_file),
         cmocka_unit_test(a_panel_without_its_sampling_is_refused),
     };
     return cmocka_run_group_tests(tests, start_panels, end_panels);
