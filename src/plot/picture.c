@@ -1,6 +1,7 @@
 #include "plot/picture.h"
 
 #include <cairo-svg.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct Sink {
@@ -35,10 +36,23 @@ static cairo_surface_t *open_surface(const PictureSpec *spec, Sink *sink)
     return surface;
 }
 
+/* cairo 1.16 crashes where it runs out of memory: it draws only where there is more of it than
+ * a sheet needs. */
+static bool has_room(Error *err)
+{
+    void *volatile room = malloc((size_t)64 << 20); /* volatile: the pair is not left out */
+    free(room);
+    return room || error_set(err, ERROR_MEMORY, "out of memory for a picture");
+}
+
 bool picture_draw(const PictureSpec *spec, Arena *arena, PlotBytes *out, Error *err)
 {
     /* The sink grows while the drawing allocates: it has an arena of its own. */
     Arena own = arena_reserve((size_t)4 << 30);
+    if (!has_room(err)) {
+        arena_release(&own);
+        return false;
+    }
     Sink  sink = {.arena = &own};
     cairo_surface_t *surface = open_surface(spec, &sink);
     cairo_t *cr = cairo_create(surface);
