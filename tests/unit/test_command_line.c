@@ -1,0 +1,88 @@
+/* The command line of a part becomes that of the whole. */
+#include "check.h"
+
+#include <string.h>
+
+#include "cli/command_line.h"
+
+static FilmPart box(FilmRect crop, uint32_t first, uint32_t end)
+{
+    return (FilmPart){.width = 64, .height = 48, .crop = crop, .first_sample = first,
+                      .end_sample = end, .asked_end = end};
+}
+
+static void words_are_quoted_as_a_shell_needs_it(void **state)
+{
+    (void)state;
+    static const char *const words[][2] = {
+        {"plain-1.exr", "plain-1.exr"}, {"", "''"}, {"a b", "'a b'"}, {"$HOME", "'$HOME'"},
+        {"it's", "'it'\\''s'"}, {"'", "''\\'''"}, {"*=50", "'*=50'"}};
+    Arena arena = arena_reserve(1 << 20);
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        assert_string_equal(command_line_word(words[i][0], &arena), words[i][1]);
+    arena_release(&arena);
+}
+
+static void idle_words_are_left_out_on_request(void **state)
+{
+    (void)state;
+    char *words[] = {"render", "a b.gltf", "--threads", "3", "--quiet", "--progress=none",
+                     "--spp", "8", "--checkpoint", "x y", "--resume", "--", "--quiet"};
+    Arena arena = arena_reserve(1 << 20);
+    assert_string_equal(command_line_join(13, words, false, &arena),
+                        "parhelion render 'a b.gltf' --spp 8 -- --quiet");
+    assert_string_equal(command_line_join(13, words, true, &arena),
+                        "parhelion render 'a b.gltf' --threads 3 --quiet --progress=none "
+                        "--spp 8 --checkpoint 'x y' --resume -- --quiet");
+    arena_release(&arena);
+}
+
+static void a_part_s_line_becomes_the_whole_s(void **state)
+{
+    (void)state;
+    static const FilmRect all = {0, 0, 64, 48}, half = {0, 0, 32, 48};
+    static const struct {
+        const char *line;
+        FilmRect    crop;
+        uint32_t    first, end;
+        const char *expected;
+    } cases[] = {
+        {"parhelion render s.gltf -o a.exr --samples 4:8 --seed 3", all, 0, 8,
+         "parhelion render s.gltf -o all.exr --spp 8 --seed 3"},
+        {"parhelion render s.gltf -o a.exr --samples 4:8", all, 4, 16,
+         "parhelion render s.gltf -o all.exr --samples 4:16"},
+        {"parhelion render s.gltf --spp=8 --crop 0,0,5,5 -o=a.exr", all, 0, 8,
+         "parhelion render s.gltf --spp 8 -o all.exr"},
+        {"parhelion render s.gltf --spp 8 --crop=0,0,5,5 -o a.exr", half, 0, 8,
+         "parhelion render s.gltf --spp 8 --crop 0,0,32,48 -o all.exr"},
+        {"parhelion render 'a  b.gltf' -o 'it'\\''s.exr' --samples 0:4 --camera 'x --crop y'",
+         all, 0, 4, "parhelion render 'a  b.gltf' -o all.exr --spp 4 --camera 'x --crop y'"},
+        {"parhelion render s.gltf -o a.exr --png a.png --exposure 3 --view v --display d "
+         "--config=c --false-colour luminance --display-level '*=50' --crop 1,1,2,2",
+         all, 0, 256, "parhelion render s.gltf -o all.exr --display-level '*=50'"},
+        {"parhelion render -o a.exr --samples 0:4 -- --crop -o", all, 0, 4,
+         "parhelion render -o all.exr --spp 4 -- --crop -o"},
+    };
+    Arena arena = arena_reserve(1 << 20);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        FilmPart    whole = box(cases[i].crop, cases[i].first, cases[i].end);
+        const char *line = command_line_of_whole(cases[i].line, &whole, "all.exr", &arena);
+        assert_string_equal(line, cases[i].expected);
+    }
+    FilmPart whole = box(all, 0, 8);
+    assert_string_equal(command_line_of_whole("parhelion render -o a", &whole, "a b", &arena),
+                        "parhelion render -o 'a b'");
+    assert_null(command_line_of_whole("parhelion render s.gltf --noise 0.1 --crop 0,0,1,1",
+                                      &whole, "all.exr", &arena));
+    arena_release(&arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(words_are_quoted_as_a_shell_needs_it),
+        cmocka_unit_test(idle_words_are_left_out_on_request),
+        cmocka_unit_test(a_part_s_line_becomes_the_whole_s),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
