@@ -56,6 +56,9 @@ bool file_writer_add(FileWriter *writer, const void *bytes, size_t size, Error *
 bool file_writer_commit(FileWriter *writer, Error *err);
 void file_writer_discard(FileWriter *writer);
 
+/* Removes a file, and what a process that was killed may have left of its successor. */
+void file_remove(const char *path);
+
 /* A name beside `path`, for a library that wants a path; unlike any other process's. */
 char *file_temporary_name(const char *path, Arena *arena);
 

@@ -229,6 +229,14 @@ bool file_check_writable(const char *path, Error *err)
     return true;
 }
 
+void file_remove(const char *path)
+{
+    char name[PATH_BYTES];
+    handover_name(path, name);
+    unlink(path);
+    unlink(name);
+}
+
 /* ---- for a writer that wants a path of its own ------------------------------------------- */
 
 bool file_commit(const char *temporary, const char *path, Error *err)

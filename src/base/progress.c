@@ -61,7 +61,7 @@ typedef struct Figures {
 static Figures figures(const Progress *progress, double done, double now)
 {
     double elapsed = now - progress->begun_s;
-    double rate = elapsed > 0 ? done / elapsed : 0;
+    double rate = elapsed > 0 ? (done - progress->first) / elapsed : 0;
     double left = progress->total > done ? progress->total - done : 0;
     return (Figures){.fraction = progress->total > 0 ? fmin(1, done / progress->total) : 1,
                      .rate = rate, .elapsed_s = elapsed,

@@ -19,6 +19,7 @@ typedef struct Progress {
     const char  *what;   /* "render": a verb or a file's name */
     const char  *unit;   /* what is counted, for the rate: "samples" */
     double       total;  /* how much there is to do; may be changed between updates */
+    double       first;  /* done before it began: counts for the share, not for the rate */
     double       begun_s, shown_s; /* seconds of the monotonic clock */
     double       interval_s;       /* wanted between two lines */
     bool         has_colour;

@@ -6,7 +6,7 @@
 
 #include "base/file.h"
 #include "base/machine.h"
-#include "cli/render_command.h"
+#include "cli/render_identity.h"
 
 /* Everything of one run of the command. */
 typedef struct Work {
@@ -15,6 +15,7 @@ typedef struct Work {
     Problems      problems;
     Scene        *scene;
     SceneCamera   camera;
+    const char   *identity;
 } Work;
 
 /* ---- before ------------------------------------------------------------------------------ */
@@ -42,6 +43,7 @@ static bool check_memory(const RenderOptions *options, Error *err)
 static bool check_outputs(const RenderRequest *request, Error *err)
 {
     if (request->output && !file_check_writable(request->output, err)) return false;
+    if (!render_check_checkpoint(request, err)) return false;
     return !request->png || file_check_writable(request->png, err);
 }
 
@@ -87,6 +89,17 @@ static bool load(Work *work, Error *err)
     if (loaded) render_tell_of_darkness(work->scene, &work->problems);
     cli_print_warnings(&work->problems);
     return loaded;
+}
+
+static bool identify(Work *work, Error *err)
+{
+    RenderOptions *options = &work->request.render;
+    const Kernel  *kernel;
+    if (!kernel_choose(options->isa, &kernel, err)) return false;
+    work->identity = render_identity(&work->request, work->scene, &work->camera, kernel,
+                                     work->arena);
+    return render_find_checkpoint(&work->request, work->identity, work->arena,
+                                  &options->resume, err);
 }
 
 /* ---- after ------------------------------------------------------------------------------- */
@@ -152,17 +165,39 @@ static void warn_of_noise(Work *work, const RenderResult *result)
                                   error, options->noise, result->samples));
 }
 
-/* The partial frame is written and the answer given: only the line and the status are left. */
-static bool report_interruption(const Work *work, const RenderResult *result, Error *err)
+/* False after a warning: the render is worth more than its checkpoint. */
+static bool keep_checkpoint(Work *work, const RenderResult *so_far)
+{
+    Error err;
+    char  line[2048];
+    if (render_keep_checkpoint(&work->request, work->identity, so_far, *work->arena, &err))
+        return true;
+    error_line(&err, line, (int)sizeof line);
+    warn(work, arena_format(work->arena, "no checkpoint after %u samples a pixel: %s",
+                            so_far->samples, line));
+    return false;
+}
+
+static void keep_checkpoint_meanwhile(void *user, const RenderResult *so_far)
+{
+    keep_checkpoint(user, so_far);
+}
+
+/* The partial frame is written and the answer given: only the line, which may be longer than
+ * an error's text, and the status are left. */
+static bool report_interruption(const Work *work, const RenderResult *result, bool is_kept,
+                                Error *err)
 {
     const RenderOptions *options = &work->request.render;
     bool by_int = result->stopped_by == SIGINT;
-    error_at(
-        err, by_int ? ERROR_INTERRUPTED : ERROR_TERMINATED, work->request.output, NULL,
-        "stopped by %s after %u of %u samples a pixel; the frame is marked incomplete — run "
-        "the same command again for the whole",
-        by_int ? "INT" : "TERM", result->samples, options->end_sample - options->first_sample);
-    cli_report_error(err, false);
+    fprintf(stderr,
+            "parhelion: %s: stopped by %s after %u of %u samples a pixel; the frame is marked "
+            "incomplete — %s%s\n",
+            work->request.output, by_int ? "INT" : "TERM", result->samples,
+            options->end_sample - options->first_sample,
+            is_kept ? "go on with: " : "run the same command again for the whole",
+            is_kept ? work->request.resume_line : "");
+    err->code = by_int ? ERROR_INTERRUPTED : ERROR_TERMINATED;
     err->text[0] = '\0';
     return false;
 }
@@ -181,6 +216,7 @@ static bool develop(const Work *work, const RenderResult *result, Error *err)
     return true;
 }
 
+/* The checkpoint comes first: who stopped the render may not wait for long. */
 static bool hand_over(Work *work, const RenderResult *result, Error *err)
 {
     warn_of_picture(work, result);
@@ -188,10 +224,12 @@ static bool hand_over(Work *work, const RenderResult *result, Error *err)
     warn_of_noise(work, result);
     if (work->request.replays)
         return render_print_replay(&work->request, work->scene, result, work->arena, err);
+    bool is_kept = !result->complete && keep_checkpoint(work, result);
     if (!write_frame(work, result, err)) return false;
+    if (result->complete) render_remove_checkpoint(&work->request);
     if (work->request.png && !develop(work, result, err)) return false;
     if (!render_print_answer(&work->request, result, &work->problems, err)) return false;
-    return result->complete || report_interruption(work, result, err);
+    return result->complete || report_interruption(work, result, is_kept, err);
 }
 
 static bool run(Work *work, Error *err)
@@ -199,9 +237,11 @@ static bool run(Work *work, Error *err)
     RenderOptions *options = &work->request.render;
     RenderResult   result;
     options->snapshot = work->request.replays ? NULL : write_snapshot;
-    options->snapshot_user = work;
+    options->checkpoint = work->request.keeps_checkpoints ? keep_checkpoint_meanwhile : NULL;
+    options->user = work;
     if (!check_memory(options, err) || !check_outputs(&work->request, err) ||
-        !check_look(&work->request, *work->arena, err) || !load(work, err))
+        !check_look(&work->request, *work->arena, err) || !load(work, err) ||
+        !identify(work, err))
         return false;
     return render_scene(work->scene, &work->camera, options, work->arena, &result, err) &&
            hand_over(work, &result, err);
@@ -209,7 +249,8 @@ static bool run(Work *work, Error *err)
 
 bool cmd_render(int argc, char **argv, Error *err)
 {
-    Arena arena = arena_reserve(machine_memory_bytes()); /* address space: what is touched counts */
+    /* address space: what is touched counts */
+    Arena arena = arena_reserve(machine_memory_bytes());
     Work  work = {.arena = &arena};
     bool  done = render_request_parse(argc, argv, &arena, &work.request, err) &&
                 (work.request.cli.help_shown || run(&work, err));

@@ -25,7 +25,10 @@ typedef struct RenderRequest {
     const char   *command_line; /* without what leaves every pixel as it is: --threads,
                                    --json, --quiet, --progress, --checkpoint,
                                    --checkpoint-interval, --resume */
-    const char   *typed_line;   /* with everything */
+    const char   *resume_line;  /* with everything, and --resume */
+    const char   *checkpoint;   /* the file; without --checkpoint OUTPUT.checkpoint */
+    bool          keeps_checkpoints; /* while rendering; else only when it is stopped */
+    bool          resumes;      /* goes on from the checkpoint, if there is one */
 } RenderRequest;
 
 bool render_request_parse(int argc, char **argv, Arena *arena, RenderRequest *out, Error *err);
@@ -45,6 +48,25 @@ void render_tell_of_darkness(const Scene *scene, Problems *problems);
 FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
                              const SceneCamera *camera, const RenderResult *result,
                              Arena *arena);
+
+/* ---- checkpoints ------------------------------------------------------------------------- */
+
+/* Before anything is done: can it be written, and is what stands there a checkpoint? */
+bool render_check_checkpoint(const RenderRequest *request, Error *err);
+
+/* What --resume goes on from; *out is NULL where nothing is there yet, and a line says so. One
+ * of another render, or of other pixels or samples, is refused by what differs. */
+bool render_find_checkpoint(const RenderRequest *request, const char *identity, Arena *arena,
+                            const Checkpoint **out, Error *err);
+
+/* Keeps what is done so far, in place of what was kept before. */
+bool render_keep_checkpoint(const RenderRequest *request, const char *identity,
+                            const RenderResult *so_far, Arena scratch, Error *err);
+
+/* When the finished frame is written. */
+void render_remove_checkpoint(const RenderRequest *request);
+
+/* ---- what is printed --------------------------------------------------------------------- */
 
 /* The command's answer on stdout. */
 bool render_print_answer(const RenderRequest *request, const RenderResult *result,

@@ -11,6 +11,7 @@
 #define DEFAULT_HEIGHT 720
 #define DEFAULT_SPP 256
 #define DEFAULT_BOUNCES 64
+#define DEFAULT_CHECKPOINT_S 60
 
 /* Values as typed, before they are checked against each other. */
 typedef struct Typed {
@@ -19,7 +20,7 @@ typedef struct Typed {
     long        spp, max_bounces, seed;
     double      crop[4], replay[3];
     CliTexts    contents, panels, levels;
-    bool        has_spp, has_crop, has_replay;
+    bool        has_spp, has_crop, has_replay, has_interval;
 } Typed;
 
 /* ---- layers ------------------------------------------------------------------------------ */
@@ -232,6 +233,27 @@ static bool check_render(const Typed *typed, RenderRequest *request, Error *err)
     return true;
 }
 
+/* They are kept while rendering as soon as any of their options is there. */
+static void set_checkpoint(const Typed *typed, Arena *arena, RenderRequest *request)
+{
+    request->keeps_checkpoints =
+        !request->replays && (request->checkpoint || typed->has_interval || request->resumes);
+    if (!request->checkpoint && request->output)
+        request->checkpoint = arena_format(arena, "%s.checkpoint", request->output);
+}
+
+/* --resume stands behind the command's name, so that it stands before any `--`. */
+static const char *resume_line(int argc, char **argv, bool resumes, Arena *arena)
+{
+    char  option[] = "--resume";
+    char **words = ARENA_NEW(arena, char *, argc + 1);
+    if (resumes) return command_line_join(argc, argv, true, arena);
+    words[0] = argv[0];
+    words[1] = option;
+    for (int i = 1; i < argc; i++) words[i + 1] = argv[i];
+    return command_line_join(argc + 1, words, true, arena);
+}
+
 static bool parse_line(int argc, char **argv, Arena *arena, Typed *typed,
                        RenderRequest *request, Error *err)
 {
@@ -277,6 +299,15 @@ static bool parse_line(int argc, char **argv, Arena *arena, Typed *typed,
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &request->scene.root},
         {"--isa", OPTION_TEXT, "NAME", "sse2, avx2, avx512 (default: the processor's best)",
          &request->render.isa},
+        {"--checkpoint", OPTION_TEXT, "FILE",
+         "keep what is done (default FRAME.exr.checkpoint; gone with the finished frame)",
+         &request->checkpoint},
+        {"--checkpoint-interval", OPTION_NUMBER, "SECONDS", "how often (default 60)",
+         &request->render.checkpoint_interval_s, .low = 0, .high = 1e6,
+         .given = &typed->has_interval},
+        {"--resume", OPTION_FLAG, NULL,
+         "go on from the checkpoint, to the same frame bit for bit; without one begin",
+         &request->resumes},
         {"--replay", OPTION_NUMBERS, "X,Y,SAMPLE", "one sample of one pixel, printed",
          typed->replay, .count = 3, .given = &typed->has_replay},
     };
@@ -292,7 +323,7 @@ static bool parse_line(int argc, char **argv, Arena *arena, Typed *typed,
 bool render_request_parse(int argc, char **argv, Arena *arena, RenderRequest *out, Error *err)
 {
     RenderRequest request = {.command_line = command_line_join(argc, argv, false, arena),
-                             .typed_line = command_line_join(argc, argv, true, arena)};
+                             .render.checkpoint_interval_s = DEFAULT_CHECKPOINT_S};
     Typed         typed = {.size = {DEFAULT_WIDTH, DEFAULT_HEIGHT}, .spp = DEFAULT_SPP,
                            .max_bounces = DEFAULT_BOUNCES};
     if (!parse_line(argc, argv, arena, &typed, &request, err)) return false;
@@ -300,6 +331,8 @@ bool render_request_parse(int argc, char **argv, Arena *arena, RenderRequest *ou
         (!check_render(&typed, &request, err) || !check_outputs(&request, err) ||
          !check_scene(&typed, arena, &request, err)))
         return false;
+    set_checkpoint(&typed, arena, &request);
+    request.resume_line = resume_line(argc, argv, request.resumes, arena);
     *out = request;
     return true;
 }

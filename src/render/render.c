@@ -42,7 +42,10 @@ uint32_t render_pass_samples(uint32_t done, size_t pixels)
 {
     size_t   fits = PASS_PATHS / pixels;
     uint32_t most = fits < 1 ? 1 : fits > PASS_SAMPLES_MAX ? PASS_SAMPLES_MAX : (uint32_t)fits;
-    return done < 1 ? 1 : done < most ? done : most;
+    uint32_t end = 0;
+    while (end < most && end <= done) end += end < 1 ? 1 : end;
+    if (end <= done) end += ((done - end) / most + 1) * most;
+    return end - done;
 }
 
 /* ---- one pass ---------------------------------------------------------------------------- */
@@ -84,6 +87,16 @@ static PathStatistics add_counts(const WorkerCounts *counts, int threads)
     return sum;
 }
 
+static PathStatistics with_earlier(PathStatistics sum, const Checkpoint *resume)
+{
+    if (!resume) return sum;
+    sum.samples += resume->done.paths;
+    sum.camera_rays += resume->done.camera_rays;
+    sum.bounce_rays += resume->done.bounce_rays;
+    sum.shadow_rays += resume->done.shadow_rays;
+    return sum;
+}
+
 /* ---- all passes -------------------------------------------------------------------------- */
 
 /* What the passes need and change. */
@@ -92,6 +105,7 @@ typedef struct Run {
     TileJob       job;
     WorkerCounts *counts;
     Progress      progress;
+    double        checkpoint_s; /* when the last one was written, or the run began */
     RenderResult  result;
 } Run;
 
@@ -116,7 +130,9 @@ static void finish_result(Run *run)
 {
     const RenderOptions *options = run->options;
     run->result.seconds = monotonic_seconds() - run->progress.begun_s;
-    run->result.statistics = add_counts(run->counts, options->threads);
+    if (options->resume) run->result.seconds += options->resume->seconds;
+    run->result.statistics = with_earlier(add_counts(run->counts, options->threads),
+                                          options->resume);
 }
 
 static void take_snapshot(Run *run)
@@ -126,7 +142,21 @@ static void take_snapshot(Run *run)
     finish_result(run);
     run->result.error = film_relative_error(run->result.film);
     progress_clear(&run->progress);
-    options->snapshot(options->snapshot_user, &run->result);
+    options->snapshot(options->user, &run->result);
+}
+
+/* One that is being stopped or is complete is left to the caller. The interval begins when the
+ * writing ends. */
+static void keep_checkpoint(Run *run)
+{
+    const RenderOptions *options = run->options;
+    if (!options->checkpoint || run->result.complete || run->result.stopped_by ||
+        monotonic_seconds() - run->checkpoint_s < options->checkpoint_interval_s)
+        return;
+    finish_result(run);
+    progress_clear(&run->progress);
+    options->checkpoint(options->user, &run->result);
+    run->checkpoint_s = monotonic_seconds();
 }
 
 static void run_passes(Run *run)
@@ -136,6 +166,9 @@ static void run_passes(Run *run)
     size_t   pixels = pixel_count(options->crop);
     Pass     pass = {.kernel = run->result.kernel, .job = &run->job, .crop = options->crop,
                      .counts = run->counts, .progress = &run->progress};
+    atomic_store(&pass.paths_done, (uint64_t)run->result.samples * pixels);
+    if (run->result.samples)
+        run->result.complete = noise_reached(run) || run->result.samples == total;
     while (!run->result.complete && !run->result.stopped_by) {
         uint32_t done = run->result.samples, samples = render_pass_samples(done, pixels);
         if (samples > total - done) samples = total - done;
@@ -147,32 +180,51 @@ static void run_passes(Run *run)
         run->result.complete = noise_reached(run) || run->result.samples == total;
         run->result.stopped_by = signals_stop_requested();
         take_snapshot(run);
+        keep_checkpoint(run);
     }
     progress_end(&run->progress, (double)atomic_load(&pass.paths_done));
     finish_result(run);
     run->result.error = film_relative_error(run->result.film);
 }
 
-static void render_film(const PathContext *context, const SceneCamera *scene_camera,
-                        const RenderOptions *options, Arena *arena, RenderResult *out)
+static bool make_film(const RenderOptions *options, Arena *arena, RenderResult *result,
+                      Error *err)
+{
+    const Checkpoint *resume = options->resume;
+    result->film = film_create(options->width, options->height, options->crop, options->layers,
+                               arena);
+    result->has_features = (options->layers & LAYER_FEATURES) || options->noise_of_displays ||
+                           (resume && resume->has_features);
+    if (!resume) return true;
+    result->samples = resume->done.end_sample - resume->done.first_sample;
+    result->resumed_samples = result->samples;
+    return checkpoint_load(resume, result->film, *arena, err);
+}
+
+static bool render_film(const PathContext *context, const SceneCamera *scene_camera,
+                        const RenderOptions *options, Arena *arena, RenderResult *result,
+                        Error *err)
 {
     Camera camera = camera_from_scene(scene_camera, options->width, options->height);
-    Run    run = {.options = options, .result = *out};
-    run.result.film = film_create(options->width, options->height, options->crop,
-                                  options->layers, arena);
-    run.job = (TileJob){
-        .context = context,
-        .camera = &camera,
-        .film = run.result.film,
-        .with_features = (options->layers & LAYER_FEATURES) || options->noise_of_displays,
-        .seed = options->seed};
+    Run    run = {.options = options};
+    double pixels = (double)pixel_count(options->crop);
+    if (!make_film(options, arena, result, err)) return false;
+    run.result = *result;
+    run.job = (TileJob){.context = context,
+                        .camera = &camera,
+                        .film = result->film,
+                        .with_features = result->has_features,
+                        .seed = options->seed};
     run.counts = ARENA_NEW(arena, WorkerCounts, options->threads);
     run.progress = progress_start(options->progress, "render", "samples",
-                                  (double)pixel_count(options->crop) *
+                                  pixels *
                                       (double)(options->end_sample - options->first_sample));
+    run.progress.first = pixels * (double)result->samples;
+    run.checkpoint_s = run.progress.begun_s;
     signals_watch();
     run_passes(&run);
-    *out = run.result;
+    *result = run.result;
+    return true;
 }
 
 bool render_scene(const Scene *scene, const SceneCamera *camera, const RenderOptions *options,
@@ -188,8 +240,8 @@ bool render_scene(const Scene *scene, const SceneCamera *camera, const RenderOpt
     PathContext context = path_context_build(scene, bvh, lights, options->max_bounces, arena);
     RenderResult result = {.kernel = kernel, .refused_pixels = lights_refused_pixels(lights),
                            .build_seconds = monotonic_seconds() - begun_s};
-    render_film(&context, camera, options, arena, &result);
+    bool done = render_film(&context, camera, options, arena, &result, err);
     bvh_destroy(bvh);
-    *out = result;
-    return true;
+    if (done) *out = result;
+    return done;
 }

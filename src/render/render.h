@@ -3,7 +3,8 @@
  * A pass adds a few samples to every pixel: 1, 1, 2, 4 ... up to a number that depends on the
  * count of pixels alone. Only between passes is anything decided (stop, snapshot, noise), so
  * that all pixels have the same number of samples, and the frame is the same for any number
- * of threads.
+ * of threads. Passes end at the same samples wherever a render begins, so that one that goes
+ * on from a checkpoint decides what one without interruption decides.
  *
  * Memory   film and lights come from the arena; Embree's memory is gone on return.
  * Threads  starts `threads` of its own for every pass.
@@ -15,6 +16,7 @@
 #include "camera/camera.h"
 #include "film/film.h"
 #include "path/path.h"
+#include "render/checkpoint.h"
 #include "render/kernel.h"
 
 typedef struct RenderResult RenderResult;
@@ -33,7 +35,10 @@ typedef struct RenderOptions {
     const char *isa;           /* kernel.h's names; NULL: the best there is */
     ProgressMode progress;
     void   (*snapshot)(void *user, const RenderResult *so_far); /* NULL: none */
-    void    *snapshot_user;
+    void   (*checkpoint)(void *user, const RenderResult *so_far); /* NULL: none */
+    double   checkpoint_interval_s; /* at least this between two, after the pass in hand */
+    void    *user;             /* of both */
+    const Checkpoint *resume;  /* what was done before; NULL: nothing. It fits these options */
 } RenderOptions;
 
 #define RENDER_LEAST_SAMPLES 16
@@ -41,10 +46,12 @@ typedef struct RenderOptions {
 struct RenderResult {
     Film          *film;
     const Kernel  *kernel;     /* the one that was used */
-    uint32_t       samples;    /* a pixel */
+    uint32_t       samples;    /* a pixel, with those done before */
+    uint32_t       resumed_samples; /* done before this session; 0: it began */
+    bool           has_features; /* the samples' first surfaces were looked at */
     long           refused_pixels; /* of the surroundings' picture: negative or not finite, 0 */
-    double         seconds;    /* of rendering alone */
-    double         build_seconds; /* of the ray tracer's and the lights' structures */
+    double         seconds;    /* of rendering alone, over all sessions */
+    double         build_seconds; /* of the ray tracer's and the lights' structures, now */
     PathStatistics statistics;
     FilmError      error;
     bool           complete;   /* all samples, or the wanted noise */
@@ -55,7 +62,8 @@ struct RenderResult {
 bool render_scene(const Scene *scene, const SceneCamera *camera, const RenderOptions *options,
                   Arena *arena, RenderResult *out, Error *err);
 
-/* Samples a pixel of the pass that begins after `done` samples, for so many pixels. */
+/* Samples a pixel of the pass that begins after `done` samples, for so many pixels; where no
+ * pass ends at `done`, those that are left of the one that does not. */
 uint32_t render_pass_samples(uint32_t done, size_t pixels);
 
 /* Tiles of a crop, row by row; index counts from 0. */

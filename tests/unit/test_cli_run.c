@@ -413,7 +413,7 @@ static void an_interrupted_render_leaves_a_frame_marked_incomplete(void **state)
     Arena *arena = *state;
     for (int i = 0; i < 2; i++) {
         Outcome o;
-        char    text[64];
+        char    text[64], path[512];
         FILE   *out = tmpfile(), *err = tmpfile();
         pid_t   child = start_long_render("i.exr", out, err);
         kill(child, cases[i].number);
@@ -422,6 +422,10 @@ static void an_interrupted_render_leaves_a_frame_marked_incomplete(void **state)
         read_back(err, o.err, sizeof o.err);
         snprintf(text, sizeof text, "parhelion: i.exr: stopped by %s after ", cases[i].name);
         assert_non_null(strstr(o.err, text));
+        assert_non_null(strstr(o.err, "; the frame is marked incomplete — go on with: "
+                                      "parhelion render --resume scene.gltf -o i.exr"));
+        assert_true(exists("i.exr.checkpoint"));
+        unlink(in_folder(path, "i.exr.checkpoint"));
         assert_non_null(strstr(o.out, "(incomplete)"));
         FrameImage frame = read_frame("i.exr", arena);
         assert_true(whole_attribute(&frame, "parhelion:complete") == 0);

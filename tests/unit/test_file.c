@@ -162,7 +162,9 @@ static void what_a_killed_writer_leaves_is_cleared(void **state)
     assert_true(file_write(path, "new", 3, &err));
     assert_int_equal(entries(), 1);
     assert_content(path, "new");
-    unlink(path);
+    assert_int_equal(link(path, left), 0);
+    file_remove(path);
+    assert_int_equal(entries(), 0);
 }
 
 /* From here on the process knows no unnamed files. */
