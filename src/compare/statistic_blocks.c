@@ -16,20 +16,21 @@ static size_t block_count(const BlockGrid *grid)
     return (size_t)grid->columns * (size_t)grid->rows;
 }
 
+static void add_pixel(const NoisyPair *pair, int x, int y, CoinSum sums[3])
+{
+    if (!noisy_pair_counts(pair, x, y)) return;
+    for (int c = 0; c < 3; c++) {
+        NoisyNumber number;
+        if (noisy_pair_number(pair, noisy_pair_index(pair, x, y), (NoisyChannel)c, &number))
+            coin_sum_add(&sums[c], &number, 1);
+    }
+}
+
 static void add_pixels(const NoisyPair *pair, int width, int height, BlockGrid *grid)
 {
     for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++) {
-            if (!noisy_pair_counts(pair, x, y)) continue;
-            size_t block = (size_t)(y / grid->side) * (size_t)grid->columns +
-                           (size_t)(x / grid->side);
-            for (int c = 0; c < 3; c++) {
-                NoisyNumber number;
-                if (noisy_pair_number(pair, noisy_pair_index(pair, x, y), (NoisyChannel)c,
-                                      &number))
-                    coin_sum_add(&grid->sums[block][c], &number, 1);
-            }
-        }
+        for (int x = 0; x < width; x++)
+            add_pixel(pair, x, y, grid->sums[y / grid->side * grid->columns + x / grid->side]);
 }
 
 void statistic_blocks(const NoisyPair *pair, Arena *arena, BlockGrid grids[2])
@@ -90,39 +91,45 @@ typedef struct Squares {
     double blocks, sum, variance;
 } Squares;
 
-static Squares sum_squares(const BlockGrid *grid, NoiseLaw law)
+static void add_squares(const CoinSum sums[3], NoiseLaw law, Squares *to)
+{
+    double squares = 0, variance = 0, channels = 0;
+    for (int c = 0; c < 3; c++) {
+        if (!(sums[c].square > 0)) continue;
+        double quotient = coin_sum_quotient(&sums[c], law);
+        squares += quotient * quotient;
+        variance = fmax(variance, coin_sum_square_variance(&sums[c]));
+        channels++;
+    }
+    if (channels == 0) return;
+    to->blocks++;
+    to->sum += squares / channels;
+    to->variance += variance;
+}
+
+static Squares squares_of_grid(const BlockGrid *grid, NoiseLaw law)
 {
     Squares out = {0, 0, 0};
-    for (size_t i = 0; i < block_count(grid); i++) {
-        double squares = 0, variance = 0, channels = 0;
-        for (int c = 0; c < 3; c++) {
-            const CoinSum *sum = &grid->sums[i][c];
-            if (!(sum->square > 0)) continue;
-            double quotient = coin_sum_quotient(sum, law);
-            squares += quotient * quotient;
-            variance = fmax(variance, coin_sum_square_variance(sum));
-            channels++;
-        }
-        if (channels == 0) continue;
-        out.blocks++;
-        out.sum += squares / channels;
-        out.variance += variance;
-    }
+    for (size_t i = 0; i < block_count(grid); i++) add_squares(grid->sums[i], law, &out);
     return out;
+}
+
+static double p_of_squares(Squares squares)
+{
+    return gamma_tail(squares.sum, squares.blocks, squares.variance);
 }
 
 BlockFinding statistic_block_finding(const BlockGrid grids[2], NoiseLaw law, double level)
 {
     BlockFinding out = {.mean_square = NAN};
-    double       least = 1;
-    find_least(grids, law, &out);
+    Squares      small = squares_of_grid(&grids[0], law);
+    double       least = p_of_squares(small);
+    find_least(grids, pair->law, &out);
     out.p_least = out.tests > 0 ? sidak_p(out.least, out.tests) : 1;
-    if (out.tests > 0) out.failed = count_failed(grids, law, sidak_level(level, out.tests));
-    for (int g = 0; g < 2; g++) {
-        Squares squares = sum_squares(&grids[g], law);
-        least = fmin(least, gamma_tail(squares.sum, squares.blocks, squares.variance));
-        if (g == 0 && squares.blocks > 0) out.mean_square = squares.sum / squares.blocks;
-    }
+    if (out.tests > 0)
+        out.failed = count_failed(grids, pair->law, sidak_level(level, out.tests));
+    if (small.blocks > 0) out.mean_square = small.sum / small.blocks;
+    least = fmin(least, p_of_squares(squares_of_grid(&grids[1], law)));
     out.p_squares = sidak_p(least, 2);
     return out;
 }

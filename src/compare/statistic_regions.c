@@ -76,7 +76,7 @@ static double factor_around(const NoisyPair *pair, size_t i, const Region *regio
         for (int x = column > 0 ? column - 1 : 0; x <= column + 1 && x < width; x++) {
             NoisyNumber n;
             size_t      k = noisy_pair_index(pair, x, y);
-            bool is_inside = region->display < 0 || (int)pair->display[k] == region->display;
+            bool is_inside = region->display < 0 || pair->display[k] == (float)region->display;
             if (k == i || !is_inside || !noisy_pair_counts(pair, x, y) ||
                 !noisy_pair_number(pair, k, region->channel, &n))
                 continue;
@@ -114,10 +114,10 @@ static void add_pixels(const NoisyPair *pair, Region *regions, int count)
         for (int x = 0; x < width; x++) {
             if (!noisy_pair_counts(pair, x, y)) continue;
             size_t i = noisy_pair_index(pair, x, y);
-            int    display = pair->display ? (int)pair->display[i] : -1;
+            float  display = pair->display ? pair->display[i] : -1;
             add_pixel(pair, i, &regions[0]);
             for (int r = 1; display >= 0 && r < count; r++)
-                if (regions[r].display == display) add_pixel(pair, i, &regions[r]);
+                if ((float)regions[r].display == display) add_pixel(pair, i, &regions[r]);
         }
 }
 
