@@ -124,10 +124,10 @@ BlockFinding statistic_block_finding(const BlockGrid grids[2], NoiseLaw law, dou
     BlockFinding out = {.mean_square = NAN};
     Squares      small = squares_of_grid(&grids[0], law);
     double       least = p_of_squares(small);
-    find_least(grids, pair->law, &out);
+    find_least(grids, law, &out);
     out.p_least = out.tests > 0 ? sidak_p(out.least, out.tests) : 1;
     if (out.tests > 0)
-        out.failed = count_failed(grids, pair->law, sidak_level(level, out.tests));
+        out.failed = count_failed(grids, law, sidak_level(level, out.tests));
     if (small.blocks > 0) out.mean_square = small.sum / small.blocks;
     least = fmin(least, p_of_squares(squares_of_grid(&grids[1], law)));
     out.p_squares = sidak_p(least, 2);
