@@ -26,6 +26,8 @@ run 'all closed forms in frames' image-long \
     python3 tests/image/run.py --all .build/release/parhelion
 run 'daylight through a roof, every point' roof-long \
     python3 tests/image/roof.py .build/release/parhelion --all
+run 'false alarms and power of compare' compare-power \
+    python3 tests/bench/compare_power.py .build/release/parhelion .build/release/bench_statistic
 if run_one 'build by the second compiler' build-clang build clang all; then
     run_units 'unit tests, second compiler' unit-clang .build/clang
     run 'same bits from both compilers' bits-clang \

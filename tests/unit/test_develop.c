@@ -419,13 +419,13 @@ static void every_layer_can_be_looked_at(void **state)
         "xyz.X", "xyz.Y", "xyz.Z", "depth.Z", "position.X", "position.Y", "position.Z",
         "normal.X", "normal.Y", "normal.Z", "albedo.R", "albedo.G", "albedo.B", "id.part",
         "id.display", "uv.U", "uv.V", "variance.R", "variance.G", "variance.B", "halves.R",
-        "halves.G", "halves.B", "samples.N",
-        "light.sun.R", "light.sun.G", "light.sun.B", "display.emitted.R", "display.emitted.G",
-        "display.emitted.B", "display.theta", "display.phi", "display.contrast"};
+        "halves.G", "halves.B", "samples.N", "light.sun.R", "light.sun.G", "light.sun.B",
+        "display.emitted.R", "display.emitted.G", "display.emitted.B", "display.theta",
+        "display.phi", "display.contrast"};
     static const char *const LAYERS[] = {
         "xyz", "depth", "depth.Z", "position", "normal", "albedo", "id", "id.display", "uv",
-        "variance", "variance.G", "halves", "halves.G", "samples", "light.sun", "display.emitted", "display.theta",
-        "display.contrast", "R", "light.sun.B", NULL};
+        "variance", "variance.G", "halves", "halves.G", "samples", "light.sun",
+        "display.emitted", "display.theta", "display.contrast", "R", "light.sun.B", NULL};
     Arena      arena = arena_reserve(ARENA_BYTES);
     FrameImage frame = uniform_frame(40, 30, 90, &arena);
     for (size_t k = 0; k < sizeof CHANNELS / sizeof *CHANNELS; k++) {

@@ -1,0 +1,258 @@
+"""compare_power.py [--pairs N] [--trials N] [--keep DIR] [--threads N] PARHELION
+BENCH_STATISTIC -- the statistical test of two frames on frames of this program: false alarms
+over N pairs of seeds, and how often it finds 1 % more light in a display's reflection, the sun
+0.3 degrees higher, and a missing lamp. Scenes: the car at noon and at night, the flight deck
+under a low sun, a room with a mirror ball, a window, sun and lamps that is made here.
+
+Every pair has two seeds of its own. A quarter of the pairs of the false alarms have frames of
+different sample counts. Claims: false alarms of a level of 1 % (five of 200), and no change
+missed in more than one of a hundred.
+"""
+import argparse
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+sys.path[:0] = [os.path.join(ROOT, "tests", name) for name in ("image", "structure")]
+from gltf import Scene, png  # noqa: E402
+from report import Report  # noqa: E402
+
+SCENES = os.path.join(ROOT, "scenes")
+LAYERS = "variance,halves,samples,display,id"
+SMALL = "96x54"
+
+
+# ---- scenes ---------------------------------------------------------------------------------
+
+class View:
+    """What is rendered: scene files, options, samples a pixel."""
+
+    def __init__(self, name, files, samples, *options):
+        self.name, self.files, self.samples, self.options = name, files, samples, options
+
+
+def in_folder(folder, name):
+    return os.path.join(folder, name)
+
+
+def write_room(path, elevation=10, lamps=2, panel=None):
+    """A display on a desk before a window; a ball that throws the sun about."""
+    scene = Scene()
+    scene.box_inside(scene.lambert(0.6), [-2, 0, -2], [2, 2.5, 6])
+    scene.document["scenes"][0]["nodes"].pop(3)  # the wall at z = 6: the sun comes from there
+    scene.sphere(scene.metal(0.9, 0.05), [-0.6, 0.9, -0.5], 0.25, rings=48)
+    scene.sphere(scene.metal(0.8, 0.3), [0.7, 1, -0.7], 0.3)
+    scene.facing_quad(scene.window(1.52), [0, 1.2, 0.4], [0, 0, 1], 1.5)
+    scene.facing_quad(scene.emitter(300), [1.2, 2.45, 0], [0, -1, 0], 0.4)
+    picture = scene.image("image/png", png(4, 2, [[0, 0, 0, 255, 255, 255, 40, 40, 40, 9, 9, 9],
+                                                  [255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0]]))
+    display = scene.material("cluster", extensions={"PARHELION_display": {
+        "panel": panel or "ips_cluster.panel", "content": {"index": picture}, "level": 0.3}})
+    scene.quad(display, [-0.3, 0.7, -0.4], [0.7, 0, 0], [0, 0.35, -0.1])
+    for k in range(lamps):
+        scene.light("spot", 9000, [-1 + 2 * k, 2.3, 0.5], [0.3 - 0.6 * k, -1, -0.4])
+    scene.environment(type="constant", luminance=500, sun={
+        "azimuth_deg": 170, "elevation_deg": elevation, "illuminance_lx": 70000})
+    scene.view("eye", [0, 1.15, 1], [0, -0.15, -1], 45)
+    scene.write(path)
+
+
+def changed_scene(folder, name, result, change):
+    """A scene file of the project with a change; what it names lies beside it."""
+    with open(os.path.join(SCENES, name), encoding="utf-8") as file:
+        document = json.load(file)
+    change(document)
+    for beside in ("noon_sky.exr", "night.bin"):
+        link = in_folder(folder, beside)
+        if not os.path.exists(link):
+            with open(os.path.join(SCENES, beside), "rb") as original, open(link, "wb") as copy:
+                copy.write(original.read())
+    with open(in_folder(folder, result), "w", encoding="utf-8") as file:
+        json.dump(document, file)
+    return in_folder(folder, result)
+
+
+def raise_sun(document):
+    sun = document["scenes"][0]["extensions"]["PARHELION_environment"]["sun"]
+    sun["elevation_deg"] += 0.3
+
+
+def without_node(name):
+    def change(document):
+        nodes = document["nodes"]
+        index = next(i for i, node in enumerate(nodes) if node.get("name") == name)
+        document["scenes"][0]["nodes"].remove(index)
+    return change
+
+
+# ---- the program ----------------------------------------------------------------------------
+
+class Program:
+    def __init__(self, program, judge, folder, threads):
+        self.program, self.judge = os.path.abspath(program), os.path.abspath(judge)
+        self.folder, self.threads = folder, threads
+
+    def run(self, *arguments):
+        done = subprocess.run([self.program, *map(str, arguments)], capture_output=True,
+                              text=True)
+        if done.returncode != 0:
+            sys.exit(f"{' '.join(map(str, arguments))}: {done.stderr.strip()}")
+
+    def render(self, view, seed, samples=None):
+        out = in_folder(self.folder, f"{view.name.replace(' ', '_')}-{seed}.exr")
+        self.run("render", *view.files, "-o", out, "--seed", seed, "--spp",
+                 samples or view.samples, "--layers", LAYERS, "--quiet", "--threads",
+                 self.threads, *view.options)
+        return out
+
+    def compare(self, reference, test):
+        done = subprocess.run([self.judge, reference, test], capture_output=True, text=True)
+        if done.returncode != 0:
+            sys.exit(done.stderr.strip())
+        os.remove(reference)
+        os.remove(test)
+        return json.loads(done.stdout)
+
+    def panels(self):
+        """A cluster's panel and one that reflects 1 % more: fitted to the same tables, times
+        1.01."""
+        with open(os.path.join(ROOT, "assets", "panels", "ips_cluster.recipe.json"),
+                  encoding="utf-8") as file:
+            recipe = json.load(file)
+        recipe["instrument"].update(theta_step_deg=2, phi_step_deg=6, brdf_theta_step_deg=1,
+                                    brdf_phi_step_deg=3)
+        path, tables = in_folder(self.folder, "recipe.json"), in_folder(self.folder, "tables")
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(recipe, file)
+        self.run("panel", "simulate", path, "-o", tables, "--noise", "off", "--quiet")
+        for name, factor in (("base", 1), ("more", 1.01)):
+            scale_reflection(os.path.join(tables, "brdf"), factor)
+            self.run("panel", "fit", os.path.join(tables, "MANIFEST.json"), "-o",
+                     in_folder(self.folder, f"{name}.panel"), "--quiet")
+
+
+def scale_reflection(folder, factor):
+    for name in os.listdir(folder):
+        path = os.path.join(folder, name)
+        with open(path, encoding="utf-8") as file:
+            head, *rows = file.read().splitlines()
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(head + "\n")
+            for row in rows:
+                values = row.split(",")
+                scaled = [f"{factor * float(v):.9g}" for v in values[2:]]
+                file.write(",".join(values[:2] + scaled) + "\n")
+
+
+# ---- what is measured -----------------------------------------------------------------------
+
+def quiet_views(folder):
+    """Views and how often each is taken."""
+    car = os.path.join(SCENES, "car_dashboard.gltf")
+    return [(View("noon", [car, os.path.join(SCENES, "noon.gltf")], 32, "--size", SMALL), 3),
+            (View("night", [car, os.path.join(SCENES, "night.gltf")], 32, "--size", SMALL), 2),
+            (View("low sun", [os.path.join(SCENES, "cockpit.gltf"),
+                              os.path.join(SCENES, "low_sun_left.gltf")], 16, "--size", SMALL),
+             1),
+            (View("room", [in_folder(folder, "room.gltf")], 64, "--size", SMALL), 2)]
+
+
+def changes(folder):
+    """name, the view before, the view after."""
+    car = os.path.join(SCENES, "car_dashboard.gltf")
+    noon, night = os.path.join(SCENES, "noon.gltf"), os.path.join(SCENES, "night.gltf")
+    higher = changed_scene(folder, "noon.gltf", "higher.gltf", raise_sun)
+    darker = changed_scene(folder, "night.gltf", "darker.gltf", without_node("street lamp 1"))
+    write_room(in_folder(folder, "room_higher.gltf"), elevation=10.3)
+    write_room(in_folder(folder, "room_darker.gltf"), lamps=1)
+    room = in_folder(folder, "room.gltf")
+    # The display fills the view: a frame of 480 x 270 of which only it is rendered.
+    close = ("--size", "480x270", "--crop", "144,148,264,200", "--panel")
+    near = ("--size", "160x90", "--panel")
+
+    def panel(name):
+        return "cluster=" + in_folder(folder, f"{name}.panel")
+    return [("1 % haze, car at noon",
+             View("haze a", [car, noon], 256, *close, panel("base")),
+             View("haze b", [car, noon], 256, *close, panel("more"))),
+            ("1 % haze, room", View("haze c", [room], 256, *near, panel("base")),
+             View("haze d", [room], 256, *near, panel("more"))),
+            ("sun 0.3 degrees, car at noon",
+             View("sun a", [car, noon], 256, "--size", "160x90"),
+             View("sun b", [car, higher], 256, "--size", "160x90")),
+            ("sun 0.3 degrees, room", View("sun c", [room], 256, "--size", SMALL),
+             View("sun d", [in_folder(folder, "room_higher.gltf")], 256, "--size", SMALL)),
+            ("a lamp less, car at night", View("lamp a", [car, night], 64, "--size", SMALL),
+             View("lamp b", [car, darker], 64, "--size", SMALL)),
+            ("a lamp less, room", View("lamp c", [room], 64, "--size", SMALL),
+             View("lamp d", [in_folder(folder, "room_darker.gltf")], 64, "--size", SMALL))]
+
+
+def allowed(tests, share=0.01):
+    """The least count that so many tests of this level exceed in less than 2 % of all cases:
+    5 of 200."""
+    below = count = 0
+    while True:
+        below += math.comb(tests, count) * share**count * (1 - share)**(tests - count)
+        if 1 - below < 0.02:
+            return count
+        count += 1
+
+
+def measure_alarms(program, report, pairs):
+    views = [view for view, weight in quiet_views(program.folder) for _ in range(weight)]
+    alarms, counts = [], {}
+    for k in range(pairs):
+        view = views[k % len(views)]
+        more = view.samples * 2 if k // len(views) % 4 == 3 else view.samples
+        found = program.compare(program.render(view, 2 * k), program.render(view, 2 * k + 1,
+                                                                            more))
+        counts.setdefault(view.name, []).append(found["p"])
+        if found["verdict"] == "different":
+            alarms.append(f"{view.name}, seeds {2 * k} and {2 * k + 1}: {found['reason']}")
+    for name, values in counts.items():
+        print(f"{name:10} {len(values):4} pairs, least p {min(values):.2g}, p below 0.1: "
+              f"{sum(p < 0.1 for p in values) / len(values):.1%}")
+    for alarm in alarms:
+        print("  alarm:", alarm)
+    print(f"false alarms: {len(alarms)} of {pairs} at a level of 1 %")
+    report.claim(len(alarms) <= allowed(pairs), f"{len(alarms)} false alarms of {pairs}")
+
+
+def measure_changes(program, report, trials):
+    for name, before, after in changes(program.folder):
+        results = [program.compare(program.render(before, 5000 + k), program.render(
+            after, 9000 + k)) for k in range(trials)]
+        missed = sum(r["verdict"] != "different" for r in results)
+        worst = max(results, key=lambda r: r["p"])
+        print(f"{name:30} {trials - missed} of {trials} found, greatest p {worst['p']:.2g}, "
+              f"such as: {results[0]['reason']}", flush=True)
+        report.claim(missed <= trials // 100, f"{name}: {missed} of {trials} missed")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--pairs", type=int, default=200)
+    parser.add_argument("--trials", type=int, default=10)
+    parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("program")
+    parser.add_argument("judge", help="bench_statistic")
+    options = parser.parse_args()
+    report = Report()
+    with tempfile.TemporaryDirectory() as folder:
+        program = Program(options.program, options.judge, folder, options.threads)
+        program.panels()
+        write_room(in_folder(folder, "room.gltf"), panel="base.panel")
+        if options.pairs:
+            measure_alarms(program, report, options.pairs)
+        if options.trials:
+            measure_changes(program, report, options.trials)
+    report.finish()
+
+
+if __name__ == "__main__":
+    main()
