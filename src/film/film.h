@@ -137,6 +137,8 @@ FilmDropped film_dropped(const Film *film);
  *       emitted wherever the whole pixel is display; theta and phi are those of the mean
  *       direction; contrast is the ratio of mean luminances;
  *   halves   the weighted difference of two interleaved halves of the samples: its square has
- *       the expectation of the variance of the pixel's mean, without taking samples to be
- *       independent; NaN below 32 samples. */
+ *       the expectation of the variance of the pixel's mean, if the halves are independent.
+ *       Sobol points' halves fill each other's gaps: measured between frames of two seeds, its
+ *       root mean square is 0 to 6 % too large at 32 samples, 12 % at 256 (that of `variance`
+ *       7 to 29 %). NaN below 32 samples. */
 FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena);

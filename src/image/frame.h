@@ -16,9 +16,9 @@
  *   id.part  id.display                   whole numbers, -1 none
  *   uv.{U,V}
  *   variance.{R,G,B}                      variance of the pixel's mean, (cd m^-2)^2
- *   halves.{R,G,B}                        cd m^-2, signed: the square has the expectation of
- *                                         the variance of the pixel's mean, whatever the
- *                                         samples of a pixel have to do with each other
+ *   halves.{R,G,B}                        cd m^-2, signed: from two halves of the samples; the
+ *                                         square is the variance of the pixel's mean in the
+ *                                         mean over pixels (film.h)
  *   samples.N                             whole number
  *   light.NAME.{R,G,B}                    cd m^-2
  *   display.{emitted,reflected,white,black}.{R,G,B}   cd m^-2, NaN off displays
