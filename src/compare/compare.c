@@ -62,7 +62,6 @@ static void judge_equality(Comparison *out)
 static void judge(const CompareOptions *options, Comparison *out)
 {
     out->judged_by = JUDGED_BY_LIMITS;
-    judge_limits(options, out);
     if (options->wants_stat || (options->threshold_count == 0 && out->has_stat)) {
         out->judged_by = JUDGED_BY_STATISTIC;
         judge_statistic(out);
@@ -70,6 +69,7 @@ static void judge(const CompareOptions *options, Comparison *out)
         out->judged_by = JUDGED_BY_EQUALITY;
         judge_equality(out);
     }
+    judge_limits(options, out);
 }
 
 /* ---- sentences --------------------------------------------------------------------------- */

@@ -113,9 +113,11 @@ static void measure_errors(unsigned groups, Arena scratch, Comparison *out)
         out->value[METRIC_RELMSE] = e.rel_mse;
         out->value[METRIC_MAE] = e.mae;
         out->value[METRIC_MAX_DIFFERENCE] = e.max_difference;
+        /* A mean of luminance is one of light. */
+        PixelErrors light = e;
         if (!is_frame)
-            e = metrics_pixel_errors(&out->light[0], &out->light[1], out->mask, 0, scratch);
-        out->value[METRIC_MEAN_SHIFT] = e.mean_shift;
+            light = metrics_pixel_errors(&out->light[0], &out->light[1], out->mask, 0, scratch);
+        out->value[METRIC_MEAN_SHIFT] = light.mean_shift;
     }
     if (groups & GROUP_PSNR) {
         out->value[METRIC_PSNR] = e.psnr_db;

@@ -242,7 +242,7 @@ static void make_deltae(const Comparison *c, int factor, Arena *arena, Shot *out
     out->title = "ΔE2000";
     out->caption = "CIEDE2000 of the displayed colours; 1 is about what can just be seen.";
     out->has_scale = true;
-    out->scale = (ShotScale){.low = 0, .high = most > 2 ? round_up(most) : 2, .unit = "ΔE"};
+    out->scale = (ShotScale){.low = 0, .high = most > 2 ? round_up(most) : 2, .unit = ""};
     set_ticks(&out->scale, " or more", arena);
     out->picture = map_picture(c, c->deltae_map, &out->scale, factor, arena);
 }

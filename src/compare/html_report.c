@@ -110,7 +110,7 @@ static void add_verdict(Markup *html, const Comparison *c)
     }
     if (c->reasons.count > 1) {
         markup_add(html, "<ul class=\"reasons\">\n");
-        for (int i = 0; i < c->reasons.count; i++) {
+        for (int i = 1; i < c->reasons.count; i++) { /* the verdict says the first */
             markup_add(html, "<li>");
             markup_escape(html, c->reasons.list[i]);
             markup_add(html, "</li>\n");

@@ -12,6 +12,7 @@ static const char *value_text(const Comparison *c, Metric metric, double value, 
     const char       *sign = info->is_change && value > 0 ? "+" : "";
     if (isnan(value)) snprintf(text, 64, "–");
     else if (isinf(value)) snprintf(text, 64, "∞");
+    else if (metric == METRIC_P_VALUE) snprintf(text, 64, "%.2g", value);
     else if (!strcmp(info->unit, "%")) snprintf(text, 64, "%s%.4g %%", sign, 100 * value);
     else if (!strcmp(info->unit, "light"))
         snprintf(text, 64, "%.4g%s", value, is_frame ? " cd/m²" : "");
@@ -108,18 +109,20 @@ static void add_figures(Markup *html, const Comparison *c, const CompareOptions 
 
 static void add_regions(Markup *html, const StatisticResult *s)
 {
-    begin_table(html, "Means, tested one by one",
+    begin_table(html, "Means in cd/m², tested one by one",
                 "<th>region</th><th class=\"n\">reference</th><th class=\"n\">test</th>"
-                "<th class=\"n\">change</th><th class=\"n\">p</th><th></th>");
+                "<th class=\"n\">change</th><th class=\"n\" title=\"one factor for all pixels: "
+                "the surer count more\">in proportion</th><th class=\"n\">p</th><th></th>");
     for (int i = 0; i < s->region_count; i++) {
         const StatisticRegion *r = &s->regions[i];
         markup_add(html, "<tr>");
         add_cell(html, r->name);
-        markup_format(html, "<td class=\"n\">%.5g cd/m²</td><td class=\"n\">%.5g cd/m²</td>"
-                      "<td class=\"n\">%+.3g ± %.2g %%</td><td class=\"n\">%.3g</td>"
-                      "<td class=\"%s\">%s</td></tr>\n", r->reference, r->test, 100 * r->shift,
-                      196 * r->shift_sigma, r->p_value, r->moved ? "bad" : "good",
-                      r->moved ? "moved" : "noise");
+        markup_format(html, "<td class=\"n\">%.4g</td><td class=\"n\">%.4g</td>"
+                      "<td class=\"n\">%+.2g ± %.2g %%</td><td class=\"n\">%+.2g ± %.2g %%</td>"
+                      "<td class=\"n\">%.2g</td><td class=\"%s\">%s</td></tr>\n",
+                      r->reference, r->test, 100 * r->shift, 196 * r->shift_sigma,
+                      100 * r->change, 196 * r->change_sigma, r->p_value,
+                      r->moved ? "bad" : "good", r->moved ? "moved" : "noise");
     }
     end_table(html);
 }

@@ -31,13 +31,13 @@ function pixels(shot){
 }
 function said(shot,x,y){
   var d=pixels(shot),i=4*(y*shot.img.naturalWidth+x),f=shot.figure.dataset;
-  if(!f.ramp)return shot.title.toLowerCase()+' '+d[i]+' '+d[i+1]+' '+d[i+2];
+  if(!f.ramp)return shot.title+' '+d[i]+' '+d[i+1]+' '+d[i+2];
   var t=codes[f.ramp][hex(d,i)];
   if(t===undefined)return '';
   var v=+f.low+t*(f.high-f.low),end=t===1||(t===0&&f.ramp==='signed')?' or beyond':'';
   if(f.kind==='p')return 'p '+Math.pow(10,-v).toPrecision(2)+end;
-  return shot.title.toLowerCase()+' '+(f.ramp==='signed'&&v>0?'+':'')+short(v)+
-    (f.unit&&f.unit!==shot.title?' '+f.unit:'')+end;
+  return shot.title+' '+(f.ramp==='signed'&&v>0?'+':'')+short(v)+
+    (f.unit?' '+f.unit:'')+end;
 }
 function build(pair){
   if(pair.dataset.built)return;

@@ -18,8 +18,8 @@ sys.path.insert(0, os.path.join(ROOT, "tests", "image"))
 from exr import Frame  # noqa: E402
 from report import Report  # noqa: E402
 
-COMMANDS = ("render", "develop", "check", "measure", "sky", "panel import", "panel fit",
-            "panel info", "panel eval", "panel plot", "panel export", "panel simulate")
+COMMANDS = ("render", "develop", "check", "measure", "compare", "sky", "panel import",
+            "panel fit", "panel info", "panel eval", "panel plot", "panel export", "panel simulate")
 
 
 class Program:

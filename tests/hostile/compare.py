@@ -1,0 +1,390 @@
+"""compare.py PARHELION -- `parhelion compare` as scripts use it: statuses, messages, JSON,
+JUnit, folders, every kind of picture, and what must fail whatever the limits are.
+"""
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as xml
+
+from mutate import sound_scene
+
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
+sys.path.insert(0, os.path.join(ROOT, "tests", "image"))
+import pictures  # noqa: E402
+from report import Report  # noqa: E402
+
+WIDTH, HEIGHT = 24, 16
+PIXELS = WIDTH * HEIGHT
+NAN = math.nan
+
+
+class Compare:
+    def __init__(self, path, folder):
+        self.path, self.folder = os.path.abspath(path), folder
+
+    def file(self, *names):
+        path = os.path.join(self.folder, *names)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        return path
+
+    def run(self, *arguments):
+        return subprocess.run([self.path, *arguments], capture_output=True, text=True,
+                              timeout=120, cwd=self.folder)
+
+    def compare(self, *arguments):
+        return self.run("compare", *arguments)
+
+    def json(self, *arguments):
+        done = self.compare(*arguments, "--json")
+        return done.returncode, json.loads(done.stdout)
+
+    def frame(self, name, change=None, attributes=None, **more):
+        """A frame of light that rises to the right; change(channels) alters it."""
+        light = [10.0 + i % WIDTH for i in range(PIXELS)]
+        channels = {"R": light, "G": [0.5 * v for v in light], "B": [0.25 * v for v in light],
+                    "display.emitted.R": [NAN if i % WIDTH < 6 else 3.0 for i in range(PIXELS)],
+                    "samples.N": [16] * PIXELS}
+        if change:
+            change(channels)
+        plain = {"parhelion:unit": pictures.text("cd/m2"),
+                 "parhelion:camera": pictures.text("eye"),
+                 "parhelion:seed": pictures.text("1"),
+                 "parhelion:samples": pictures.text("0:16"), **(attributes or {})}
+        pictures.write_exr(self.file(name), WIDTH, HEIGHT, channels,
+                           {key: value for key, value in plain.items() if value}, **more)
+
+    def png(self, name, change=0, bits=8, **more):
+        codes = [(i * 7) % 200 * (1 if bits == 8 else 257) for i in range(3 * PIXELS)]
+        codes[100] += change
+        pictures.write_png(self.file(name), WIDTH, HEIGHT, codes, bits, **more)
+
+
+def put(name, index, value):
+    def change(channels):
+        channels[name] = list(channels[name])
+        channels[name][index] = value
+    return change
+
+
+def told(report, done, status, *words):
+    """An answer: the verdict on stdout, nothing on stderr."""
+    arguments = " ".join(os.path.basename(word) for word in done.args[2:])
+    report.claim(done.returncode == status and not done.stderr
+                 and all(word in done.stdout for word in words),
+                 f"compare {arguments}: status {done.returncode} instead of {status}, or "
+                 f"without {words}: {done.stdout[-300:]} {done.stderr[:300]}")
+
+
+def refused(report, done, status, *words):
+    """A failure: one line on stderr, nothing on stdout."""
+    lines = done.stderr.splitlines()
+    arguments = " ".join(os.path.basename(word) for word in done.args[2:])
+    report.claim(done.returncode == status and len(lines) == 1 and not done.stdout
+                 and lines[0].startswith("parhelion: ") and all(w in lines[0] for w in words),
+                 f"compare {arguments}: status {done.returncode} instead of {status}, or not "
+                 f"one line with {words}: {done.stderr.strip()[:300]} {done.stdout[:100]}")
+
+
+# ---- frames ----------------------------------------------------------------------------------
+
+def check_frames(report, program):
+    program.frame("a.exr")
+    told(report, program.compare("a.exr", "a.exr"), 0, "same: equal in every pixel")
+    program.frame("b.exr", put("G", 30, 99.0))
+    told(report, program.compare("a.exr", "b.exr"), 1, "different: 1 of 384 pixels differ",
+         "--max flip=0.05", "no noise is stated")
+    told(report, program.compare("a.exr", "b.exr", "--max", "mean_shift=0.5"), 0,
+         "same: within")
+    told(report, program.compare("a.exr", "b.exr", "--max", "max_difference=1"), 1,
+         "different: max_difference is")
+    told(report, program.compare("a.exr", "b.exr", "--min", "psnr=99"), 1, "psnr is")
+    told(report, program.compare("a.exr", "b.exr", "--region", "0,0,4,1"), 0)
+
+
+def check_structure(report, program):
+    """What differs whatever the limits are."""
+    loose = ("--max", "differing=1")
+    program.frame("camera.exr", attributes={"parhelion:camera": pictures.text("other")})
+    told(report, program.compare("a.exr", "camera.exr", *loose), 1, "camera differs: eye",
+         "other")
+    program.frame("seed.exr", attributes={"parhelion:seed": pictures.text("2")})
+    told(report, program.compare("a.exr", "seed.exr"), 0, "note: metadata seed differs: 1")
+    told(report, program.compare("a.exr", "seed.exr", "--strict"), 1, "(--strict)")
+    program.frame("layer.exr", lambda c: c.update({"depth.Z": c["R"]}))
+    told(report, program.compare("a.exr", "layer.exr", *loose), 1,
+         "missing in the reference: depth.Z")
+    told(report, program.compare("layer.exr", "a.exr", "--ignore", "depth"), 0)
+    pictures.write_exr(program.file("small.exr"), 2, 2, {c: [1.0] * 4 for c in "RGB"})
+    told(report, program.compare("a.exr", "small.exr", *loose), 1, "sizes differ: 24x16", "2x2")
+    for name, box in (("left.exr", (0, 0, 12, 16)), ("right.exr", (12, 0, 24, 16))):
+        pictures.write_exr(program.file(name), WIDTH, HEIGHT,
+                           {c: [1.0] * 192 for c in "RGB"}, data=box)
+    told(report, program.compare("left.exr", "right.exr", *loose), 1, "data windows differ")
+
+
+def check_numbers(report, program):
+    """NaN against NaN fails in light; off displays it must stand at the same places."""
+    loose = ("--max", "differing=1")
+    program.frame("nan.exr", put("R", 5, NAN))
+    for pair in (("nan.exr", "nan.exr"), ("a.exr", "nan.exr")):
+        told(report, program.compare(*pair, *loose), 1, "channel R has 1 values", "pixel 5,0")
+    told(report, program.compare("nan.exr", "nan.exr", "--region", "6,0,24,16"), 0,
+         "that do not count")
+    program.frame("rim.exr", put("display.emitted.R", 5, 3.0))
+    told(report, program.compare("a.exr", "rim.exr", *loose), 1, "on one side only")
+    other = {"parhelion:seed": pictures.text("2")}
+    program.frame("rim2.exr", put("display.emitted.R", 5, 3.0), other)
+    told(report, program.compare("a.exr", "rim2.exr", *loose), 0)
+    program.frame("hole.exr", put("display.emitted.R", 2, 3.0), other)
+    told(report, program.compare("a.exr", "hole.exr", *loose), 1, "on one side only")
+
+
+# ---- pictures --------------------------------------------------------------------------------
+
+def check_pictures(report, program):
+    program.png("a.png")
+    program.png("b.png", 1)
+    told(report, program.compare("a.png", "a.png"), 0, "equal in every pixel")
+    told(report, program.compare("a.png", "b.png"), 1, "1 of 384 pixels differ")
+    told(report, program.compare("a.png", "b.png", "--max", "flip=0.05", "--min", "ssim=0.9"),
+         0)
+    status, answer = program.json("a.png", "b.png")
+    wanted = 10 * math.log10(3 * PIXELS * 255 ** 2)
+    report.claim(status == 1 and abs(answer["metrics"]["psnr"] - wanted) < 1e-3
+                 and answer["differing_pixels"] == 1,
+                 f"one code of one channel: {answer['metrics']}, wanted {wanted} dB")
+    program.png("a16.png", bits=16)
+    told(report, program.compare("a.png", "a16.png"), 0, "8 bits, the test 16")
+    program.png("b16.png", 1, bits=16)
+    told(report, program.compare("a16.png", "b16.png"), 1, "1 of 384")
+    pictures.write_png(program.file("clear.png"), WIDTH, HEIGHT, [90] * 4 * PIXELS, channels=4)
+    pictures.write_png(program.file("solid.png"), WIDTH, HEIGHT, [90] * 3 * PIXELS)
+    told(report, program.compare("clear.png", "solid.png"), 1, "reference is transparent")
+    values = [float(1 + i % 5) for i in range(3 * PIXELS)]
+    pictures.write_hdr(program.file("a.hdr"), WIDTH, HEIGHT, values)
+    values[7] = 40.0
+    pictures.write_hdr(program.file("b.hdr"), WIDTH, HEIGHT, values)
+    told(report, program.compare("a.hdr", "b.hdr"), 1, "carries no metadata")
+    for ending in ("jpg", "tif"):
+        for name in ("a", "b"):
+            program.run("develop", f"{name}.exr", "-o", f"{name}.{ending}")
+        told(report, program.compare(f"a.{ending}", f"b.{ending}"), 1, "pixels differ")
+    refused(report, program.compare("a.png", "a.exr"), 3, "a.png", "develop")
+    refused(report, program.compare("a.png", "b.png", "--metric", "stat"), 3, "picture")
+
+
+def check_masks(report, program):
+    codes = [255] * 3 * PIXELS
+    codes[99:102] = [0] * 3
+    pictures.write_png(program.file("but33.png"), WIDTH, HEIGHT, codes)
+    told(report, program.compare("a.png", "b.png", "--mask", "but33.png"), 0)
+    pictures.write_png(program.file("none.png"), WIDTH, HEIGHT, [0] * 3 * PIXELS)
+    refused(report, program.compare("a.png", "b.png", "--mask", "none.png"), 3, "no pixel")
+    pictures.write_png(program.file("tiny.png"), 2, 2, [255] * 12)
+    refused(report, program.compare("a.png", "b.png", "--mask", "tiny.png"), 3, "tiny.png",
+            "2 x 2", "24 x 16")
+    refused(report, program.compare("a.png", "b.png", "--display", "x"), 2, "--display x")
+
+
+# ---- the command line ------------------------------------------------------------------------
+
+def check_usage(report, program):
+    pair = ("a.png", "b.png")
+    refused(report, program.compare(*pair, "--max", "flop=1"), 2, "did you mean flip?")
+    refused(report, program.compare(*pair, "--max", "psnr=30"), 2, "say --min psnr=30")
+    refused(report, program.compare(*pair, "--region", "0,0,99,99"), 2, "--region")
+    refused(report, program.compare("a.exr", "a.exr", "--display", "x"), 2, 'display "x"')
+    refused(report, program.compare("a.png", "."), 2, "a folder")
+
+
+def check_files(report, program):
+    refused(report, program.compare("absent.exr", "a.exr"), 3, "absent.exr")
+    with open(program.file("a.exr"), "rb") as file:
+        whole = file.read()
+    for length in (0, 40, len(whole) - 1):
+        with open(program.file("cut.exr"), "wb") as out:
+            out.write(whole[:length])
+        refused(report, program.compare("a.exr", "cut.exr"), 3, "cut.exr")
+    refused(report, program.compare("a.exr", "b.exr", "--junit", "no/such/j.xml"), 4, "j.xml")
+    os.mkdir(program.file("folder.html"))
+    refused(report, program.compare("a.exr", "b.exr", "--report", "folder.html"), 4)
+    left = [name for name in os.listdir(program.folder) if name.startswith("folder.html.")]
+    report.claim(not left, f"a failed report left {left}")
+
+
+def check_json(report, program):
+    status, answer = program.json("a.exr", "b.exr", "--max", "flip=0.9")
+    wanted = {"flip", "flip_p95", "flip_max", "psnr", "ssim", "deltae_mean", "deltae_p95",
+              "deltae_max", "mse", "relmse", "mae", "mean_shift", "differing"}
+    report.claim(status == 0 and answer["same"] is True and answer["reasons"] == []
+                 and wanted <= set(answer["metrics"]) and answer["judged_by"] == "limits",
+                 f"compare --json lacks {wanted - set(answer['metrics'])}: {answer}")
+    limit = answer["limits"][0]
+    report.claim(limit["metric"] == "flip" and limit["holds"] and limit["limit"] == 0.9,
+                 f"limits: {answer['limits']}")
+    status, answer = program.json("a.exr", "a.exr")
+    report.claim(status == 0 and answer["metrics"]["psnr"] is None
+                 and answer["metrics"]["flip"] == 0 and answer["metrics"]["ssim"] == 1,
+                 f"equal frames: {answer['metrics']}")
+    status, answer = program.json("a.exr", "small.exr")
+    report.claim(status == 1 and answer["same"] is False and answer["metrics"] == {}
+                 and "sizes" in answer["reasons"][0], f"different sizes: {answer}")
+    status, answer = program.json("a.exr", "b.exr", "--metric", "mse")
+    report.claim("flip" not in answer["metrics"] and "mse" in answer["metrics"],
+                 f"--metric mse computes {sorted(answer['metrics'])}")
+    status, answer = program.json("absent.exr", "a.exr")
+    report.claim(status == 3 and answer["error"]["status"] == 3, f"an absent file: {answer}")
+
+
+# ---- folders, JUnit, reports -----------------------------------------------------------------
+
+WILD = "we<i>rd & \"q'.png"
+
+
+def make_folders(program):
+    for side in ("ref", "new"):
+        program.png(f"{side}/same.png")
+        program.png(f"{side}/sub/deep.png", 0 if side == "ref" else 9)
+        program.png(f"{side}/{WILD}")
+    program.png("ref/gone.png")
+
+
+def check_folders(report, program):
+    make_folders(program)
+    done = program.compare("ref", "new", "--quiet")
+    told(report, done, 1, "different  sub/deep.png", "same       same.png",
+         "gone.png: is missing in the test", "2 of 4 pairs are the same, 2 differ")
+    os.remove(program.file("ref/gone.png"))
+    program.png("new/sub/deep.png")
+    told(report, program.compare("ref/", "new", "--quiet"), 0, "same: 3 of 3 pairs")
+    program.png("new/extra.png")
+    told(report, program.compare("ref", "new", "--quiet"), 1, "extra.png: is only in the test")
+    told(report, program.compare("ref", "new", "--quiet", "--allow-extra"), 0)
+    program.png("new/same.png", 3)
+    status, answer = program.json("ref", "new", "--quiet")
+    pairs = {pair["name"]: pair for pair in answer["pairs"]}
+    report.claim(status == 1 and answer["same"] is False and answer["different"] == 2
+                 and pairs["same.png"]["same"] is False and pairs[WILD]["same"] is True
+                 and pairs["same.png"]["metrics"]["flip"] > 0, f"folders --json: {answer}")
+    os.mkdir(program.file("empty"))
+    refused(report, program.compare("empty", "empty", "--quiet"), 3, "no picture")
+
+
+def check_broken_pair(report, program):
+    """One unreadable file is named, the others are compared, and the status tells."""
+    with open(program.file("new/same.png"), "wb") as out:
+        out.write(b"\x89PNG\r\n\x1a\nnothing")
+    done = program.compare("ref", "new", "--quiet", "--junit", "j.xml", "--report", "f.html")
+    report.claim(done.returncode == 3 and len(done.stderr.splitlines()) == 1
+                 and "new/same.png" in done.stderr and "1 could not be compared" in done.stdout,
+                 f"a broken pair: {done.returncode} {done.stderr} {done.stdout}")
+    suite = xml.parse(program.file("j.xml")).getroot().find("testsuite")
+    cases = {case.get("name"): case for case in suite.iter("testcase")}
+    report.claim(suite.get("tests") == "4" and suite.get("failures") == "1"
+                 and suite.get("errors") == "1" and WILD in cases
+                 and cases["same.png"].find("error") is not None
+                 and cases["extra.png"].find("failure") is not None
+                 and cases[WILD].find("failure") is None,
+                 f"junit: {suite.attrib} {sorted(cases)}")
+    status, answer = program.json("ref", "new", "--quiet")
+    broken = [pair for pair in answer["pairs"] if pair.get("error")]
+    report.claim(status == 3 and broken[0]["name"] == "same.png"
+                 and broken[0]["error"]["status"] == 3, f"folders --json: {status} {broken}")
+
+
+def check_junit(report, program):
+    told(report, program.compare("a.exr", "b.exr", "--junit", "one.xml"), 1)
+    root = xml.parse(program.file("one.xml")).getroot()
+    case = root.find("testsuite/testcase")
+    named = {p.get("name"): p.get("value") for p in case.iter("property")}
+    report.claim(root.get("failures") == "1"
+                 and "1 of 384" in case.find("failure").get("message")
+                 and float(case.get("time")) >= 0 and float(named["flip"]) > 0,
+                 f"junit of one pair: {xml.tostring(root)[:400]}")
+
+
+def check_report(report, program):
+    program.frame("<b>&.exr", put("G", 30, 99.0),
+                  {"parhelion:commandLine": pictures.text("<script>alert(1)</script>")})
+    told(report, program.compare("a.exr", "<b>&.exr", "--report", "r.html"), 1,
+         "report: r.html")
+    with open(program.file("r.html"), encoding="utf-8") as file:
+        page = file.read()
+    report.claim("<b>&.exr" not in page and "&lt;b&gt;&amp;.exr" in page
+                 and "<script>alert" not in page, "names are not escaped in the report")
+    report.claim(page.count('<img alt=') == 5 and page.count("data:image/png;base64,") == 5,
+                 f"the report holds {page.count('<img alt=')} pictures, 5 wanted")
+    report.claim("http:" not in page and "https:" not in page and "1 of 384" in page,
+                 "the report asks a network, or lacks the verdict")
+    with open(program.file("f.html"), encoding="utf-8") as file:
+        folders = file.read()
+    report.claim("we&lt;i&gt;rd" in folders and folders.count('<strong>') == 4
+                 and "not compared" in folders, "the index of folders is not whole")
+    program.compare("a.exr", "<b>&.exr", "--report", "again.html")
+    with open(program.file("again.html"), encoding="utf-8") as file:
+        report.claim(page == file.read(), "the same comparison gives another report")
+
+
+# ---- noise -----------------------------------------------------------------------------------
+
+def check_noise(report, program):
+    """Two seeds are the same, a brighter lamp is not; by the statistic, without any limit."""
+    scene = sound_scene()
+    scene.write(program.file("scene.gltf"))
+    for name, seed in (("one.exr", 1), ("two.exr", 2)):
+        done = program.run("render", "scene.gltf", "-o", name, "--size", "64x48", "--spp", "32",
+                           "--seed", str(seed), "--layers", "all", "--quiet")
+        report.claim(done.returncode == 0, f"render: {done.stderr}")
+    told(report, program.compare("one.exr", "two.exr"), 0, "only the noise differs",
+         "note: metadata seed differs: 1 in the reference, 2 in the test")
+    told(report, program.compare("one.exr", "two.exr", "--max", "differing=0.001"), 1,
+         "Only the noise differs")
+    status, answer = program.json("one.exr", "two.exr")
+    stat = answer["metrics"]["stat"]
+    report.claim(status == 0 and answer["judged_by"] == "stat" and stat["p_value"] > 0.01
+                 and stat["verdict"] == "same" and stat["regions"][0]["name"] == "frame"
+                 and {"fraction_failed", "mean_shift"} <= set(stat), f"stat: {stat}")
+    brighter(program, "two.exr", "bright.exr", 1.2)
+    status, answer = program.json("one.exr", "bright.exr")
+    report.claim(status == 1 and answer["verdict"].startswith("the mean moved")
+                 and answer["metrics"]["stat"]["verdict"] == "different"
+                 and abs(answer["metrics"]["mean_shift"] - 0.2) < 0.1, f"brighter: {answer}")
+
+
+def brighter(program, name, out, factor):
+    """The same frame with its light times a factor, metadata and all."""
+    frame = pictures.read_exr(program.file(name))
+    for channel in ("R", "G", "B"):
+        frame["channels"][channel] = [factor * v for v in frame["channels"][channel]]
+    for channel in ("variance.R", "variance.G", "variance.B"):
+        frame["channels"][channel] = [factor ** 2 * v for v in frame["channels"][channel]]
+    pictures.write_exr(program.file(out), frame["width"], frame["height"], frame["channels"],
+                       frame["attributes"])
+
+
+def check_limits_of_noise(report, program):
+    refused(report, program.compare("a.exr", "b.exr", "--level", "0.05"), 3)
+    refused(report, program.compare("one.exr", "two.exr", "--level", "0"), 2, "--level")
+
+
+def main():
+    report = Report()
+    with tempfile.TemporaryDirectory() as folder:
+        program = Compare(sys.argv[-1], folder)
+        for check in (check_frames, check_structure, check_numbers, check_pictures, check_masks,
+                      check_usage, check_files, check_json, check_folders, check_broken_pair,
+                      check_junit, check_report, check_noise, check_limits_of_noise):
+            try:
+                check(report, program)
+            except (ValueError, KeyError, IndexError, OSError, AttributeError,
+                    subprocess.TimeoutExpired) as error:
+                report.claim(False, f"{check.__name__}: {type(error).__name__}: {error}")
+    report.finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

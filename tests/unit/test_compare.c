@@ -1,0 +1,337 @@
+/* Two sides of a comparison: what is read, what always differs, limits, which pixels count. */
+#include "compare_fixture.h"
+
+/* ---- reading ----------------------------------------------------------------------------- */
+
+static void a_written_frame_is_read_as_light(void **state)
+{
+    (void)state;
+    Arena       arena = arena_reserve(ARENA_BYTES);
+    Error       err = {0};
+    Subject     made = frame_subject("x", &arena), read, again;
+    const char *path = temporary("a.exr", &arena);
+    assert_true(frame_write(path, &made.frame, &err));
+    assert_true(subject_read(path, &arena, &read, &err));
+    assert_int_equal(read.kind, SUBJECT_FRAME);
+    assert_true(read.has_metadata);
+    for (int i = 0; i < COUNT; i++) assert_near(read.light.rgb[0][i], i, 0);
+    assert_true(subject_read(path, &arena, &again, &err));
+    Comparison c = compared(&read, &again, (CompareOptions){0}, &arena);
+    assert_true(c.same);
+    assert_string_equal(c.verdict, "equal in every pixel");
+    unlink(path);
+    assert_false(subject_read(path, &arena, &read, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    arena_release(&arena);
+}
+
+/* 8-bit codes and the same ones in 16 bits are the same fractions, bit for bit. */
+static void codes_of_8_and_16_bits_agree(void **state)
+{
+    (void)state;
+    Arena   arena = arena_reserve(ARENA_BYTES);
+    Error   err = {0};
+    Picture picture = picture_create(16, 16, &arena);
+    Subject read[2];
+    for (int i = 0; i < 16 * 16 * 3; i++) picture.rgb[i] = (float)(i % 256) / 255;
+    for (int k = 0; k < 2; k++) {
+        const char *path = temporary(k ? "16.png" : "8.png", &arena);
+        PictureFile file = {.bits = k ? 16 : 8, .is_srgb = true};
+        assert_true(picture_write(path, &picture, file, arena, &err));
+        assert_true(subject_read(path, &arena, &read[k], &err));
+        assert_int_equal(read[k].bits, k ? 16 : 8);
+        unlink(path);
+    }
+    for (int i = 0; i < 16 * 16; i++) {
+        assert_true(read[0].codes.rgb[1][i] == read[1].codes.rgb[1][i]);
+        assert_near(srgb_from_linear(read[0].light.rgb[1][i]), read[0].codes.rgb[1][i], 1e-6);
+    }
+    Comparison c = compared(&read[0], &read[1], (CompareOptions){.groups = GROUP_MSE}, &arena);
+    assert_true(c.same && has_note(&c, "8 bits, the test 16"));
+    arena_release(&arena);
+}
+
+static void a_frame_against_a_picture_is_refused(void **state)
+{
+    (void)state;
+    Arena          arena = arena_reserve(ARENA_BYTES);
+    Error          err = {0};
+    Subject        frame = frame_subject("f.exr", &arena);
+    Subject        picture = picture_subject("p.png", 8, &arena);
+    Comparison     c;
+    CompareOptions options = {.threads = 1};
+    for (int k = 0; k < 2; k++) {
+        assert_false(compare_subjects(k ? &picture : &frame, k ? &frame : &picture, &options,
+                                      &arena, &c, &err));
+        assert_int_equal(err.code, ERROR_INPUT);
+        assert_string_equal(err.file, "p.png");
+        assert_non_null(strstr(err.text, "parhelion develop f.exr"));
+    }
+    arena_release(&arena);
+}
+
+/* ---- structure --------------------------------------------------------------------------- */
+
+static void metadata_that_decides_fails_and_the_rest_explains(void **state)
+{
+    (void)state;
+    Arena   arena = arena_reserve(ARENA_BYTES);
+    Subject a = frame_subject("a", &arena), b = frame_subject("b", &arena);
+    frame_set_string(&b.frame, "parhelion:seed", "2", &arena);
+    frame_set_string(&b.frame, "parhelion:inputs", "00ac  a.gltf\n00cc  c.png\n", &arena);
+    Comparison c = compared(&a, &b, LOOSE, &arena);
+    assert_true(c.same);
+    assert_true(has_note(&c, "seed differs: 1 in the reference, 2 in the test"));
+    assert_true(has_note(&c, "input a.gltf has changed"));
+    assert_true(has_note(&c, "input b.png is only in the reference"));
+    assert_true(has_note(&c, "input c.png is only in the test"));
+    CompareOptions strict = LOOSE;
+    strict.rules.strict = true;
+    c = compared(&a, &b, strict, &arena);
+    assert_reason(&c, "seed differs: 1 in the reference, 2 in the test (--strict)");
+    const char *const ignored[] = {"seed", "parhelion:inputs"};
+    strict.rules.ignored = ignored;
+    strict.rules.ignored_count = 2;
+    assert_true(compared(&a, &b, strict, &arena).same);
+    frame_set_whole(&b.frame, "parhelion:maxBounces", 3, &arena);
+    c = compared(&a, &b, LOOSE, &arena);
+    assert_reason(&c, "maxBounces is missing in the reference");
+    frame_set_whole(&a.frame, "parhelion:maxBounces", 2, &arena);
+    c = compared(&a, &b, LOOSE, &arena);
+    assert_reason(&c, "maxBounces differs: 2 in the reference, 3 in the test");
+    arena_release(&arena);
+}
+
+/* Long values are shown where they begin to differ, and never steer a terminal. */
+static void long_values_are_shown_where_they_differ(void **state)
+{
+    (void)state;
+    Arena   arena = arena_reserve(ARENA_BYTES);
+    Subject a = frame_subject("a", &arena), b = frame_subject("b", &arena);
+    char    text[300];
+    memset(text, 'x', sizeof text);
+    text[299] = 0;
+    frame_set_string(&a.frame, "parhelion:commandLine", text, &arena);
+    text[150] = '\033';
+    frame_set_string(&b.frame, "parhelion:commandLine", text, &arena);
+    Comparison c = compared(&a, &b, LOOSE, &arena);
+    assert_true(has_note(&c, "differs: …xxxxxxxxxxxxxxxxx"));
+    assert_true(has_note(&c, "…xxxxxxxxxxxxxxxx xxxx"));
+    assert_true(strlen(c.notes.list[0]) < 300);
+    arena_release(&arena);
+}
+
+static void channels_on_one_side_are_named(void **state)
+{
+    (void)state;
+    Arena   arena = arena_reserve(ARENA_BYTES);
+    Subject a = frame_subject("a", &arena), b = frame_subject("b", &arena);
+    frame_add_channel(&a.frame, "depth.Z", false, &arena);
+    frame_add_channel(&b.frame, "light.sun.R", false, &arena);
+    Comparison c = compared(&a, &b, LOOSE, &arena);
+    assert_reason(&c, "missing in the test: depth.Z");
+    assert_reason(&c, "missing in the reference: light.sun.R");
+    const char *const ignored[] = {"depth.Z", "light"};
+    CompareOptions    options = LOOSE;
+    options.rules = (StructureRules){ignored, 2, false};
+    assert_true(compared(&a, &b, options, &arena).same);
+    options.rules.ignored_count = 1;
+    assert_false(compared(&a, &b, options, &arena).same);
+    arena_release(&arena);
+}
+
+static void windows_and_sizes_must_agree(void **state)
+{
+    (void)state;
+    Arena   arena = arena_reserve(ARENA_BYTES);
+    Subject a = frame_subject("a", &arena), b = frame_subject("b", &arena);
+    b.frame.display = (ExrWindow){1, 0, WIDTH + 1, HEIGHT};
+    Comparison c = compared(&a, &b, LOOSE, &arena);
+    assert_reason(&c, "display windows differ: 0,0,12,8 in the reference, 1,0,13,8 in");
+    assert_false(c.has_pixels);
+    b = frame_subject("b", &arena);
+    b.light.width--;
+    c = compared(&a, &b, LOOSE, &arena);
+    assert_reason(&c, "sizes differ: 12x8 pixels in the reference, 11x8 in the test");
+    arena_release(&arena);
+}
+
+/* ---- NaN and infinity -------------------------------------------------------------------- */
+
+static void what_is_no_number_in_light_always_fails(void **state)
+{
+    (void)state;
+    Arena       arena = arena_reserve(ARENA_BYTES);
+    const float wrong[] = {NAN, INFINITY, -INFINITY};
+    for (int k = 0; k < 9; k++) {
+        Subject a = frame_subject("a", &arena), b = frame_subject("b", &arena);
+        if (k / 3 != 0) channel(&a, "G")[17] = wrong[k % 3];
+        if (k / 3 != 1) channel(&b, "G")[17] = wrong[k % 3];
+        Comparison c = compared(&a, &b, LOOSE, &arena);
+        assert_reason(&c, "channel G has 1 values in the ");
+        assert_reason(&c, "the first at pixel 5,1");
+        assert_true(isfinite(c.value[METRIC_MSE]));
+        CompareOptions part = LOOSE;
+        part.selection.has_region = true;
+        part.selection.region = (ExrWindow){0, 2, WIDTH, HEIGHT};
+        c = compared(&a, &b, part, &arena);
+        assert_true(c.same && has_note(&c, "in pixels that do not count"));
+    }
+    arena_release(&arena);
+}
+
+/* Off displays NaN is legal; frames of other noise may disagree at a rim, and only there. */
+static void gaps_of_surface_layers_must_coincide(void **state)
+{
+    (void)state;
+    Arena   arena = arena_reserve(ARENA_BYTES);
+    Subject a = frame_subject("a", &arena);
+    assert_true(compared(&a, &a, LOOSE, &arena).same);
+    for (int x = 1; x < 4; x += 2) {
+        for (int seed = 1; seed <= 2; seed++) {
+            Subject b = frame_subject("b", &arena);
+            channel(&b, "display.emitted.R")[x] = 5;
+            frame_set_string(&b.frame, "parhelion:seed", seed == 1 ? "1" : "2", &arena);
+            Comparison c = compared(&a, &b, LOOSE, &arena);
+            bool       is_rim = x == 3 && seed == 2;
+            assert_int_equal(c.same, is_rim);
+            if (!is_rim) assert_reason(&c, "display.emitted.R has 1 values that are NaN");
+            c = compared(&b, &a, LOOSE, &arena);
+            assert_int_equal(c.same, is_rim);
+        }
+    }
+    arena_release(&arena);
+}
+
+/* ---- figures and limits ------------------------------------------------------------------ */
+
+static void limits_hold_in_their_direction(void **state)
+{
+    (void)state;
+    assert_true(threshold_holds((Threshold){METRIC_FLIP, 0.1}, 0.1));
+    assert_false(threshold_holds((Threshold){METRIC_FLIP, 0.1}, 0.11));
+    assert_true(threshold_holds((Threshold){METRIC_PSNR, 30}, INFINITY));
+    assert_false(threshold_holds((Threshold){METRIC_PSNR, 30}, 29.9));
+    assert_false(threshold_holds((Threshold){METRIC_MEAN_SHIFT, 0.1}, -0.2));
+    for (int i = 0; i < METRIC_COUNT; i++) {
+        assert_false(threshold_holds((Threshold){(Metric)i, 1e9}, NAN));
+        assert_int_equal(metric_find(metric_info((Metric)i)->name), i);
+    }
+    assert_int_equal(metric_find("flops"), METRIC_COUNT);
+    assert_int_equal(metric_group_find("stat"), GROUP_STAT);
+    assert_int_equal(metric_group_find("mae"), GROUP_MSE);
+    assert_int_equal(metric_group_find("flops"), 0);
+}
+
+/* One code of one channel is off by d: mse = d^2 / (3 n). */
+static void figures_of_pictures_are_those_of_codes(void **state)
+{
+    (void)state;
+    Arena   arena = arena_reserve(ARENA_BYTES);
+    Subject a = picture_subject("a", 8, &arena), b = picture_subject("b", 8, &arena);
+    ((float *)b.codes.rgb[2])[30] += 0.25f;
+    ((float *)b.light.rgb[2])[30] = linear_from_srgb(b.codes.rgb[2][30]);
+    Comparison c = compared(&a, &b, (CompareOptions){0}, &arena);
+    assert_reason(&c, "1 of 96 pixels differ");
+    assert_close(c.value[METRIC_MSE], 0.0625 / (3 * COUNT), 1e-5);
+    assert_close(c.value[METRIC_PSNR], 10 * log10(3 * COUNT / 0.0625), 1e-5);
+    assert_close(c.value[METRIC_DIFFERING], 1.0 / COUNT, 1e-9);
+    assert_true(c.value[METRIC_FLIP] > 0 && c.value[METRIC_SSIM] < 1);
+    assert_true(c.value[METRIC_DELTAE_MAX] > 1 && c.value[METRIC_MEAN_SHIFT] > 0);
+    assert_true(isnan(c.value[METRIC_P_VALUE]));
+    assert_true(has_note(&c, "--max flip=0.05"));
+    c = compared(&a, &a, (CompareOptions){0}, &arena);
+    assert_true(c.same && isinf(c.value[METRIC_PSNR]) && c.value[METRIC_FLIP] == 0);
+    arena_release(&arena);
+}
+
+static void only_what_is_asked_for_is_computed(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(ARENA_BYTES);
+    Subject    a = picture_subject("a", 8, &arena);
+    Comparison c = compared(&a, &a, (CompareOptions){.groups = GROUP_MSE}, &arena);
+    assert_true(isnan(c.value[METRIC_FLIP]) && isnan(c.value[METRIC_PSNR]));
+    assert_near(c.value[METRIC_MSE], 0, 0);
+    const Threshold limit = {METRIC_FLIP, 0.5};
+    c = compared(&a, &a, (CompareOptions){.groups = GROUP_MSE, .thresholds = &limit,
+                                          .threshold_count = 1}, &arena);
+    assert_near(c.value[METRIC_FLIP], 0, 0);
+    const Threshold unknown = {METRIC_CONTRAST_CHANGE, 0.5};
+    c = compared(&a, &a, (CompareOptions){.thresholds = &unknown, .threshold_count = 1},
+                 &arena);
+    assert_reason(&c, "contrast_change is not known for these files, at most 0.5 is wanted");
+    arena_release(&arena);
+}
+
+static void exposures_are_the_ones_of_develop(void **state)
+{
+    (void)state;
+    for (double ev = -4; ev < 20; ev += 3) {
+        assert_near(ev_of_stops(stops_of_ev(ev)), ev, 1e-9);
+        /* What EV e makes middle grey is 0.125 * 2^e cd/m2 (ISO 2720, K = 12.5). */
+        assert_close(0.125 * exp2(ev) * exp2(stops_of_ev(ev)), 0.18, 1e-9);
+    }
+}
+
+/* ---- which pixels count ------------------------------------------------------------------ */
+
+static void a_data_window_places_values(void **state)
+{
+    (void)state;
+    FrameImage frame = {.display = {10, 20, 22, 28}, .data = {14, 18, 24, 26}};
+    assert_int_equal(selection_place(&frame, 0), -1);         /* row 18 is above */
+    assert_int_equal(selection_place(&frame, 20), 4);         /* 14,20 */
+    assert_int_equal(selection_place(&frame, 20 + 7), 11);    /* 21,20 */
+    assert_int_equal(selection_place(&frame, 20 + 8), -1);    /* 22 is outside */
+    assert_int_equal(selection_place(&frame, 30), 12 + 4);
+}
+
+static void regions_select_and_displays_are_known(void **state)
+{
+    (void)state;
+    Arena            arena = arena_reserve(ARENA_BYTES);
+    Error            err = {0};
+    Selection        selection;
+    Subject          a = frame_subject("a.exr", &arena);
+    SelectionRequest request = {.has_region = true, .region = {2, 1, 5, 3}};
+    assert_true(selection_make(&a, &request, &arena, &selection, &err));
+    assert_int_equal(selection.pixels, 6);
+    assert_true(selection.counts[WIDTH + 2] && !selection.counts[WIDTH + 5]);
+    request.region.x1 = WIDTH + 1;
+    assert_false(selection_make(&a, &request, &arena, &selection, &err));
+    assert_non_null(strstr(err.text, "inside the pixels 0,0,12,8 of a.exr"));
+    request = (SelectionRequest){.display = "cluster"};
+    assert_false(selection_make(&a, &request, &arena, &selection, &err));
+    assert_non_null(strstr(err.text, "has no display \"cluster\"; its displays: none"));
+    frame_set_string(&a.frame, "parhelion:display.3", "cluster", &arena);
+    assert_false(selection_make(&a, &request, &arena, &selection, &err));
+    assert_non_null(strstr(err.text, "--layers id,display"));
+    float *id = frame_add_channel(&a.frame, "id.display", true, &arena);
+    for (int i = 0; i < COUNT; i++) id[i] = i < 7 ? 3 : -1;
+    assert_true(selection_make(&a, &request, &arena, &selection, &err));
+    assert_int_equal(selection.pixels, 7);
+    arena_release(&arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_written_frame_is_read_as_light),
+        cmocka_unit_test(codes_of_8_and_16_bits_agree),
+        cmocka_unit_test(a_frame_against_a_picture_is_refused),
+        cmocka_unit_test(metadata_that_decides_fails_and_the_rest_explains),
+        cmocka_unit_test(long_values_are_shown_where_they_differ),
+        cmocka_unit_test(channels_on_one_side_are_named),
+        cmocka_unit_test(windows_and_sizes_must_agree),
+        cmocka_unit_test(what_is_no_number_in_light_always_fails),
+        cmocka_unit_test(gaps_of_surface_layers_must_coincide),
+        cmocka_unit_test(limits_hold_in_their_direction),
+        cmocka_unit_test(figures_of_pictures_are_those_of_codes),
+        cmocka_unit_test(only_what_is_asked_for_is_computed),
+        cmocka_unit_test(exposures_are_the_ones_of_develop),
+        cmocka_unit_test(a_data_window_places_values),
+        cmocka_unit_test(regions_select_and_displays_are_known),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

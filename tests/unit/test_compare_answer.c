@@ -1,0 +1,192 @@
+/* What a comparison is asked and what it answers: options, JSON, JUnit, HTML. */
+#include "compare_fixture.h"
+
+#include <libxml/parser.h>
+
+#include "cli/compare_command.h"
+#include "compare/comparison_json.h"
+#include "compare/html_report.h"
+#include "compare/junit.h"
+
+/* ---- answers ----------------------------------------------------------------------------- */
+
+static const char WILD[] = "a<b>&\"'\x01\xff]]>\xef\xbf\xbf.png";
+
+static void markup_escapes_and_encodes(void **state)
+{
+    (void)state;
+    Markup markup = markup_start();
+    markup_escape(&markup, WILD);
+    markup_add(&markup, " ");
+    markup_escape(&markup, "é…\xf0\x9f\x98\x80\xc0\x80");
+    const char wanted[] = "a&lt;b&gt;&amp;&quot;&#39;??]]&gt;???.png é…\xf0\x9f\x98\x80??";
+    assert_int_equal(markup_size(&markup), sizeof wanted - 1);
+    assert_memory_equal(markup_bytes(&markup), wanted, sizeof wanted - 1);
+    markup_release(&markup);
+    static const char *const PAIRS[][2] = {{"", ""}, {"f", "Zg=="}, {"fo", "Zm8="},
+                                           {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}};
+    for (int i = 0; i < 5; i++) { /* RFC 4648, section 10 */
+        markup = markup_start();
+        markup_base64(&markup, PAIRS[i][0], strlen(PAIRS[i][0]));
+        assert_int_equal(markup_size(&markup), strlen(PAIRS[i][1]));
+        assert_memory_equal(markup_bytes(&markup), PAIRS[i][1], strlen(PAIRS[i][1]));
+        markup_release(&markup);
+    }
+}
+
+static void junit_is_well_formed_whatever_the_names_are(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(ARENA_BYTES);
+    Error      err = {0};
+    Subject    a = picture_subject(WILD, 8, &arena), b = picture_subject("b", 8, &arena);
+    ((float *)b.codes.rgb[0])[3] = 1;
+    Comparison  same = compared(&a, &a, LOOSE, &arena);
+    Comparison  other = compared(&a, &b, (CompareOptions){.groups = GROUP_MSE}, &arena);
+    Junit       junit = junit_start();
+    const char *path = temporary("j.xml", &arena);
+    junit_add(&junit, WILD, &same);
+    junit_add(&junit, WILD, &other);
+    junit_add_failure(&junit, WILD, WILD, true);
+    junit_add_failure(&junit, WILD, WILD, false);
+    assert_true(junit_write(&junit, WILD, path, &err));
+    xmlDoc *document = xmlReadFile(path, NULL, XML_PARSE_NOERROR | XML_PARSE_NONET);
+    assert_non_null(document);
+    xmlNode *suite = xmlFirstElementChild(xmlDocGetRootElement(document));
+    xmlChar *tests = xmlGetProp(suite, (const xmlChar *)"tests");
+    xmlChar *failures = xmlGetProp(suite, (const xmlChar *)"failures");
+    assert_string_equal(tests, "4");
+    assert_string_equal(failures, "2");
+    xmlFree(tests);
+    xmlFree(failures);
+    xmlFreeDoc(document);
+    xmlCleanupParser();
+    unlink(path);
+    junit_release(&junit);
+    assert_false(junit_write(&junit, "s", "/absent/j.xml", &err));
+    assert_int_equal(err.code, ERROR_OUTPUT);
+    arena_release(&arena);
+}
+
+static void json_has_the_promised_keys(void **state)
+{
+    (void)state;
+    Arena          arena = arena_reserve(ARENA_BYTES);
+    Subject        a = picture_subject(WILD, 8, &arena), b = picture_subject("b", 8, &arena);
+    CompareOptions options = {.threads = 1};
+    ((float *)b.codes.rgb[0])[3] = 1;
+    Comparison c = compared(&a, &b, options, &arena);
+    json_t    *json = comparison_json(&c, &options);
+    json_t    *metrics = json_object_get(json, "metrics");
+    static const char *const KEYS[] = {"flip", "flip_p95", "flip_max", "psnr", "ssim",
+                                       "deltae_mean", "deltae_p95", "deltae_max", "mse",
+                                       "relmse", "mae", "mean_shift", "differing"};
+    for (size_t i = 0; i < sizeof KEYS / sizeof *KEYS; i++)
+        if (!json_is_number(json_object_get(metrics, KEYS[i]))) fail_msg("no %s", KEYS[i]);
+    assert_true(json_is_false(json_object_get(json, "same")));
+    assert_int_equal(json_array_size(json_object_get(json, "reasons")), 1);
+    assert_string_equal(json_string_value(json_object_get(json, "judged_by")), "equality");
+    json_decref(json);
+    arena_release(&arena);
+}
+
+/* Whatever a name holds, it stands in the page as text; both sides and three maps are there. */
+static void a_report_is_whole_and_escaped(void **state)
+{
+    (void)state;
+    Arena          arena = arena_reserve(ARENA_BYTES);
+    Error          err = {0};
+    FileBytes      page;
+    CompareOptions options = {.threads = 1};
+    Subject        a = picture_subject(WILD, 8, &arena), b = picture_subject("b", 8, &arena);
+    ((float *)b.codes.rgb[0])[3] = 1;
+    Comparison  c = compared(&a, &b, options, &arena);
+    const char *path = temporary("r.html", &arena);
+    HtmlReport  report = html_report_start(false);
+    assert_true(html_report_add(&report, "b", &c, &options, arena, &err));
+    assert_true(html_report_write(&report, WILD, "b", path, &err));
+    assert_true(file_read(path, 1 << 24, &arena, &page, &err));
+    const char *text = (const char *)page.data;
+    assert_null(strstr(text, "a<b>"));
+    assert_non_null(strstr(text, "a&lt;b&gt;&amp;"));
+    int pictures = 0;
+    for (const char *p = text; (p = strstr(p, "src=\"data:image/png;base64,")); p++) pictures++;
+    assert_int_equal(pictures, 5);
+    assert_non_null(strstr(text, "<b>Different</b>: 1 of 96 pixels differ"));
+    html_report_release(&report);
+    unlink(path);
+    assert_true(html_report_check_name("a.HTML", &err));
+    assert_false(html_report_check_name("a.xml", &err));
+    arena_release(&arena);
+}
+
+/* ---- the command line -------------------------------------------------------------------- */
+
+static void refused(const char *word, const char *value, const char *part)
+{
+    Arena          arena = arena_reserve(ARENA_BYTES);
+    Error          err = {0};
+    CompareRequest request = {0};
+    char *argv[] = {(char *)"compare", (char *)"a", (char *)"b", (char *)word, (char *)value};
+    assert_false(compare_parse(5, argv, &arena, &request, &err));
+    assert_int_equal(err.code, ERROR_USAGE);
+    if (!strstr(err.text, part)) fail_msg("\"%s\" lacks \"%s\"", err.text, part);
+    arena_release(&arena);
+}
+
+static void wrong_options_say_what_is_wanted(void **state)
+{
+    (void)state;
+    refused("--max", "flop=1", "there is no figure flop — did you mean flip?");
+    refused("--max", "qqqqqqqq=1", "flip, psnr, ssim, deltae_mean");
+    refused("--max", "flip", "wanted NAME=VALUE");
+    refused("--max", "flip=x", "x is no number");
+    refused("--max", "flip=nan", "nan is no number");
+    refused("--max", "psnr=30", "psnr is the better the greater it is — say --min psnr=30");
+    refused("--min", "flip=0", "flip is the better the smaller it is — say --max flip=0");
+    refused("--metric", "flips", "did you mean flip?");
+    refused("--metric", "mse,flips", "did you mean flip?");
+    refused("--region", "0,0,1.5,9", "1.5 is no whole number");
+    refused("--exposure-range", "9,3", "--exposure-range 9,3: wanted A,B with A <= B");
+    refused("--exposure", "bright", "--exposure bright");
+    refused("--report", "x.txt", "wanted a name that ends in .html");
+    refused("--level", "0", "--level");
+}
+
+static void limits_and_lists_are_read(void **state)
+{
+    (void)state;
+    Arena          arena = arena_reserve(ARENA_BYTES);
+    Error          err = {0};
+    CompareRequest r = {0};
+    const char *argv[] = {"compare", "a", "b", "--max", "flip=0.5", "--min", "ssim=0.9",
+                          "--max", "mae=2", "--metric", "mse,psnr", "--ignore", "seed",
+                          "--region", "1,2,3,4", "--exposure-range", "3,9"};
+    assert_true(compare_parse(sizeof argv / sizeof *argv, (char **)argv, &arena, &r, &err));
+    assert_int_equal(r.options.threshold_count, 3);
+    assert_int_equal(r.options.thresholds[1].metric, METRIC_MAE);
+    assert_int_equal(r.options.thresholds[2].metric, METRIC_SSIM);
+    assert_int_equal(r.options.groups, GROUP_MSE | GROUP_PSNR);
+    assert_false(r.options.wants_stat);
+    assert_int_equal(r.options.selection.region.y1, 4);
+    assert_true(r.options.has_range && r.options.range_ev[1] == 9);
+    assert_string_equal(r.options.rules.ignored[0], "seed");
+    const char *stat[] = {"compare", "a", "b", "--metric", "stat"};
+    r = (CompareRequest){0};
+    assert_true(compare_parse(5, (char **)stat, &arena, &r, &err));
+    assert_true(r.options.wants_stat);
+    arena_release(&arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(markup_escapes_and_encodes),
+        cmocka_unit_test(junit_is_well_formed_whatever_the_names_are),
+        cmocka_unit_test(json_has_the_promised_keys),
+        cmocka_unit_test(a_report_is_whole_and_escaped),
+        cmocka_unit_test(wrong_options_say_what_is_wanted),
+        cmocka_unit_test(limits_and_lists_are_read),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
