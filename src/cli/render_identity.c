@@ -253,7 +253,7 @@ const char *render_identity_difference(const char *there, const char *here, Aren
     if (!*a && !*b) return NULL;
     /* A line that only one of them has stands before those that both have. */
     size_t name = strcspn(a, "\t\n");
-    bool   is_extra_here = !*a || (*b && value_of(here, a, name) &&
-                                 (strncmp(a, b, name) != 0 || b[name] != '\t'));
+    bool   is_line = a[name] == '\t', is_same_name = !strncmp(a, b, name) && b[name] == '\t';
+    bool   is_extra_here = *b && (!is_line || (!is_same_name && value_of(here, a, name)));
     return difference(is_extra_here ? b : a, there, here, arena);
 }

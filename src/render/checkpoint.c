@@ -14,7 +14,7 @@
 #define MAGIC "PRHLCKPT"
 #define BYTE_ORDER_MARK 0x01020304u
 #define IDENTITY_MAX ((size_t)1 << 24)
-#define BUFFER_BYTES ((size_t)1 << 20)
+#define BUFFER_BYTES ((size_t)1 << 16)
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "numbers go out as they lie");
 

@@ -49,6 +49,21 @@ static void passes_double_and_then_stay(void **state)
     assert_int_equal(render_pass_samples(1000, (size_t)1 << 28), 1);
 }
 
+/* A render that goes on from any number of samples decides where one that began decides. */
+static void passes_end_at_the_same_samples_wherever_one_begins(void **state)
+{
+    (void)state;
+    static const size_t pixels[] = {1, 4096, 600000, (size_t)1280 * 720, (size_t)1 << 23};
+    for (size_t p = 0; p < sizeof pixels / sizeof *pixels; p++) {
+        uint32_t end = 0;
+        for (uint32_t done = 0; done < 1000; done++) {
+            if (done == end) end += render_pass_samples(done, pixels[p]);
+            assert_int_equal(done + render_pass_samples(done, pixels[p]), end);
+        }
+    }
+    assert_int_equal(render_pass_samples(FILM_SAMPLES_MAX - 1, 4096), 2);
+}
+
 /* ---- workers ----------------------------------------------------------------------------- */
 
 #define ITEMS 2000
@@ -174,6 +189,26 @@ static void progress_shows_percent_rate_elapsed_and_remaining(void **state)
     assert_string_equal(text, "");
 }
 
+static void what_was_done_before_counts_for_the_share_alone(void **state)
+{
+    (void)state;
+    char  text[512];
+    FILE *file = tmpfile();
+    int   kept = dup(STDERR_FILENO);
+    assert_non_null(file);
+    dup2(fileno(file), STDERR_FILENO);
+    Progress progress = progress_start(PROGRESS_PLAIN, "render", "samples", 200);
+    progress.first = 100;
+    progress.begun_s -= 10;
+    progress_end(&progress, 150);
+    dup2(kept, STDERR_FILENO);
+    close(kept);
+    text[pread(fileno(file), text, sizeof text - 1, 0)] = '\0';
+    fclose(file);
+    assert_string_equal(text,
+                        "parhelion: render 75%, 5 samples/s, 0:10 elapsed, 0:10 left\n");
+}
+
 static void json_progress_is_one_object_a_line(void **state)
 {
     (void)state;
@@ -203,10 +238,12 @@ int main(void)
         cmocka_unit_test(the_first_interrupt_asks_and_the_second_ends),
         cmocka_unit_test(tiles_cover_every_pixel_of_the_crop_once),
         cmocka_unit_test(passes_double_and_then_stay),
+        cmocka_unit_test(passes_end_at_the_same_samples_wherever_one_begins),
         cmocka_unit_test(every_item_is_done_once_for_any_number_of_threads),
         cmocka_unit_test(no_items_is_no_work),
         cmocka_unit_test(a_snapshot_is_taken_once),
         cmocka_unit_test(progress_shows_percent_rate_elapsed_and_remaining),
+        cmocka_unit_test(what_was_done_before_counts_for_the_share_alone),
         cmocka_unit_test(json_progress_is_one_object_a_line),
         cmocka_unit_test(rates_have_three_digits),
     };

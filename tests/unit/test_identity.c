@@ -1,0 +1,205 @@
+/* What decides a sample's value is in a render's identity, and nothing else; two identities say
+ * where they differ. */
+#include "check.h"
+
+#include <string.h>
+
+#include "cli/render_identity.h"
+
+static int make_arena(void **state)
+{
+    static Arena arena;
+    arena = arena_reserve(1 << 22);
+    *state = &arena;
+    return 0;
+}
+
+static int drop_arena(void **state)
+{
+    arena_release(*state);
+    return 0;
+}
+
+/* ---- what is in it ----------------------------------------------------------------------- */
+
+/* Everything that an identity is made of. */
+typedef struct Subject {
+    RenderRequest request;
+    Scene         scene;
+    SceneCamera   camera;
+    Kernel        kernel;
+    const char   *inputs[2];
+    uint64_t      hashes[2];
+    Texture       texture;
+    unsigned char pixels[4];
+    Display       display;
+    SceneOverride content;
+} Subject;
+
+static void fill(Subject *s)
+{
+    *s = (Subject){
+        .request = {.render = {.width = 64, .height = 36, .max_bounces = 64,
+                               .layers = LAYER_DEPTH | LAYER_ID, .end_sample = 10}},
+        .camera = {.is_perspective = true, .yfov = 0.5f,
+                   .world_from_camera = transform_identity()},
+        .kernel = {.isa = "sse2"},
+        .inputs = {"a/scene.gltf", "panels/ips.panel"},
+        .hashes = {1, 2},
+        .display = {.name = "cluster", .panel_path = "panels/ips.panel", .level = 1},
+        .content = {"cluster", "map.png"}};
+    s->request.scene.contents = &s->content;
+    s->request.scene.content_count = 1;
+    s->texture.image = (Image){1, 1, IMAGE_RGBA8, s->pixels};
+    s->scene.inputs = s->inputs;
+    s->scene.input_hashes = s->hashes;
+    s->scene.input_count = 2;
+    s->scene.textures = &s->texture;
+    s->scene.texture_count = 1;
+    s->scene.displays = &s->display;
+    s->scene.display_count = 1;
+    s->scene.environment = (Environment){.kind = ENVIRONMENT_SKY,
+                                         .outside = outside_input_default(OUTSIDE_CLEAR),
+                                         .forward = {0, 0, -1}};
+    s->scene.environment.outside.has_time = true;
+    s->scene.environment.outside.when = (SkyTime){2026, 6, 21, 8, 30, 0, 2};
+}
+
+typedef struct Change {
+    const char *difference; /* the beginning; NULL: none */
+    void      (*make)(Subject *s);
+} Change;
+
+static void seed(Subject *s) { s->request.render.seed = 7; }
+static void size(Subject *s) { s->request.render.width = 65; }
+static void bounces(Subject *s) { s->request.render.max_bounces = 1; }
+static void layers(Subject *s) { s->request.render.layers |= LAYER_UV; }
+static void isa(Subject *s) { s->kernel.isa = "avx2"; }
+static void content(Subject *s) { s->hashes[0] = 0xabc; }
+static void one_less(Subject *s) { s->scene.input_count = 1; }
+static void picture(Subject *s) { s->pixels[3] = 1; }
+static void level(Subject *s) { s->display.level = nextafterf(1, 2); }
+static void panel(Subject *s) { s->display.panel_path = "other/oled.panel"; }
+static void shown(Subject *s) { s->content.value = "night.png"; }
+static void field(Subject *s) { s->camera.yfov = nextafterf(0.5f, 1); }
+static void place(Subject *s) { s->camera.world_from_camera.origin.y = 1; }
+static void flat(Subject *s) { s->camera.is_perspective = false; }
+static void kind(Subject *s) { s->scene.environment.kind = ENVIRONMENT_NONE; }
+static void air(Subject *s) { s->scene.environment.outside.turbidity += 1e-13; }
+static void minute(Subject *s) { s->scene.environment.outside.when.minute++; }
+static void ground(Subject *s) { s->scene.environment.outside.floor = FLOOR_SEA; }
+static void sun(Subject *s) { s->scene.environment.has_sun = true; }
+static void heading(Subject *s) { s->scene.environment.heading = 1; }
+static void samples(Subject *s) { s->request.render.first_sample = 5; }
+static void more(Subject *s) { s->request.render.end_sample = 500; }
+static void crop(Subject *s) { s->request.render.crop = (FilmRect){0, 0, 3, 3}; }
+static void noise(Subject *s) { s->request.render.noise = 0.1; }
+static void threads(Subject *s) { s->request.render.threads = 9; }
+static void sky_threads(Subject *s) { s->scene.environment.outside.threads = 9; }
+static void output(Subject *s) { s->request.output = "b.exr"; }
+static void folder(Subject *s) { s->inputs[0] = "/elsewhere/scene.gltf"; }
+static void far(Subject *s) { s->camera.zfar = 5; }
+
+static const Change changes[] = {
+    {"isa: sse2 there, avx2 here", isa},
+    {"size: 64x36 there, 65x36 here", size},
+    {"seed: 0 there, 7 here", seed},
+    {"max bounces: 64 there, 1 here", bounces},
+    {"layers: depth,id there, depth,id,uv here", layers},
+    {"input 0: scene.gltf 0000000000000001 there, scene.gltf 0000000000000abc here", content},
+    {"input 1: ips.panel 0000000000000002 there, none here", one_less},
+    {"decoded pictures: ", picture},
+    {"content 0: cluster=map.png there, cluster=night.png here", shown},
+    {"display 0: cluster, level 1, ips.panel 0000000000000002 there, cluster, level "
+     "1.00000012, ips.panel 0000000000000002 here", level},
+    {"display 0: cluster, level 1, ips.panel 0000000000000002 there, cluster, level 1, "
+     "oled.panel here", panel},
+    {"environment: sky there, none here", kind},
+    {"when: 2026-06-21T08:30:0+2h there, 2026-06-21T08:31:0+2h here", minute},
+    {"turbidity: 2.5 there, 2.500000000000", air},
+    {"ground: land there, sea here", ground},
+    {"sun: not set there, set here", sun},
+    {"heading: 0 there, 1 here", heading},
+    {"camera: perspective there, orthographic here", flat},
+    {"camera yfov: 0.5 there, 0.50000006 here", field},
+    {"camera origin: 0 0 0 there, 0 1 0 here", place},
+    {NULL, samples}, {NULL, more}, {NULL, crop}, {NULL, noise}, {NULL, threads},
+    {NULL, sky_threads}, {NULL, output}, {NULL, folder}, {NULL, far},
+};
+
+static const char *identity_of(Subject *s, Arena *arena)
+{
+    return render_identity(&s->request, &s->scene, &s->camera, &s->kernel, arena);
+}
+
+static void what_decides_a_sample_is_in_it_and_nothing_else(void **state)
+{
+    Arena  *arena = *state;
+    Subject one;
+    fill(&one);
+    const char *there = identity_of(&one, arena);
+    const char *begin = "version\t" PARHELION_VERSION "\nisa\tsse2\nray tracer\tEmbree ";
+    assert_ptr_equal(strstr(there, begin), there);
+    for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+        Subject other;
+        fill(&other);
+        changes[i].make(&other);
+        const char *wanted = changes[i].difference;
+        const char *here = identity_of(&other, arena);
+        const char *found = render_identity_difference(there, here, arena);
+        if (!wanted != !found || (wanted && strncmp(found, wanted, strlen(wanted)) != 0))
+            fail_msg("change %zu: \"%s\", wanted \"%s\"", i, found ? found : "none",
+                     wanted ? wanted : "none");
+    }
+}
+
+static void a_name_cannot_begin_a_line(void **state)
+{
+    Arena  *arena = *state;
+    Subject one;
+    fill(&one);
+    one.display.name = "x\nseed\t9";
+    assert_non_null(strstr(identity_of(&one, arena), "display 0\tx?seed?9, level 1, "));
+}
+
+/* ---- comparing --------------------------------------------------------------------------- */
+
+static void the_first_line_that_differs_is_named(void **state)
+{
+    static const struct {
+        const char *there, *here, *text;
+    } cases[] = {
+        {"", "", NULL},
+        {"a\t1\nb\t2\n", "a\t1\nb\t2\n", NULL},
+        {"a\t1\nb\t2\n", "a\t1\nb\t3\n", "b: 2 there, 3 here"},
+        {"a\t1\nb\t2\n", "a\t9\nb\t3\n", "a: 1 there, 9 here"},
+        {"a\t1\nb\t2\n", "a\t1\n", "b: 2 there, none here"},
+        {"a\t1\n", "a\t1\nb\t2\n", "b: none there, 2 here"},
+        {"a\t1\nx\t5\nb\t2\n", "a\t1\nb\t2\n", "x: 5 there, none here"},
+        {"a\t1\nb\t2\n", "a\t1\nx\t5\nb\t2\n", "x: none there, 5 here"},
+        {"a\t1\n", "a\t11\n", "a: 1 there, 11 here"},
+        {"a\t1\n", "aa\t1\n", "a: 1 there, none here"},
+        {"a\t\n", "a\t1\n", "a:  there, 1 here"},
+        {"a", "a\t1\n", "a: none there, 1 here"}, /* from a file: anything may come */
+        {"a\t1", "a\t1\n", NULL},
+        {"\n\n", "a\t1\n", "a: none there, 1 here"},
+    };
+    Arena *arena = *state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const char *text = render_identity_difference(cases[i].there, cases[i].here, arena);
+        if (!text != !cases[i].text || (text && strcmp(text, cases[i].text) != 0))
+            fail_msg("case %zu: \"%s\"", i, text ? text : "none");
+    }
+}
+
+#define CASE(name) cmocka_unit_test_setup_teardown(name, make_arena, drop_arena)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        CASE(what_decides_a_sample_is_in_it_and_nothing_else),
+        CASE(a_name_cannot_begin_a_line),
+        CASE(the_first_line_that_differs_is_named),
+    };
+    return cmocka_run_group_tests_name("identity", tests, NULL, NULL);
+}
