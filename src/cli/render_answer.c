@@ -107,6 +107,10 @@ FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
     return frame;
 }
 
+#define WORST_PIXELS 5         /* in the answer */
+#define WORST_LEAST_SAMPLES 32 /* a line of its own for the worst: from here on, */
+#define WORST_RATIO 20         /* and when it is so many times the frame's mean */
+
 /* ---- the answer -------------------------------------------------------------------------- */
 
 static double peak_memory_bytes(void)
@@ -132,6 +136,19 @@ static json_t *json_number_or_null(double value)
     return isfinite(value) ? json_real(value) : json_null();
 }
 
+static json_t *worst_pixels(const Film *film)
+{
+    FilmWorst worst[WORST_PIXELS];
+    json_t   *list = json_array();
+    int       count = film_worst_pixels(film, WORST_PIXELS, worst);
+    for (int i = 0; i < count; i++)
+        json_array_append_new(
+            list, json_pack("{s:i, s:i, s:o, s:o}", "x", worst[i].x, "y", worst[i].y,
+                            "luminance_cd_m2", json_number_or_null(worst[i].luminance),
+                            "relative_error", json_number_or_null(worst[i].error)));
+    return list;
+}
+
 static json_t *answer_document(const RenderRequest *request, const RenderResult *result,
                                const Problems *problems)
 {
@@ -149,11 +166,25 @@ static json_t *answer_document(const RenderRequest *request, const RenderResult 
         json_number_or_null(result->error.displays), "complete", result->complete, "warnings",
         cli_json_problems(problems, SEVERITY_WARNING));
     json_object_set_new(answer, "isa", json_string(result->kernel->isa));
+    json_object_set_new(answer, "resumed_samples", json_integer(result->resumed_samples));
+    json_object_set_new(answer, "worst_pixels", worst_pixels(result->film));
     json_object_set_new(answer, "rays_by_class",
                         json_pack("{s:I, s:I, s:I}", "camera", (json_int_t)counts->camera_rays,
                                   "bounce", (json_int_t)counts->bounce_rays, "shadow",
                                   (json_int_t)counts->shadow_rays));
     return answer;
+}
+
+/* One pixel far beyond what chance makes of even noise: a caustic, or a lamp that is hardly
+ * found. */
+static void print_worst(const RenderRequest *request, const RenderResult *result)
+{
+    FilmWorst worst;
+    if (result->samples < WORST_LEAST_SAMPLES) return;
+    film_worst_pixels(result->film, 1, &worst);
+    if (!(worst.error > WORST_RATIO * result->error.frame)) return;
+    printf("%s: pixel %d,%d is the noisiest: %.4g cd/m2 with a relative error of %.0f%%\n",
+           request->output, worst.x, worst.y, worst.luminance, 100 * worst.error);
 }
 
 static bool print_line(const RenderRequest *request, const RenderResult *result, Error *err)
@@ -169,6 +200,7 @@ static bool print_line(const RenderRequest *request, const RenderResult *result,
                          result->samples, result->complete ? "" : " (incomplete)",
                          result->seconds, samples, rays, 100 * result->error.frame,
                          peak_memory_bytes() / 1e6);
+    print_worst(request, result);
     if (written < 0 || fflush(stdout))
         return error_at(err, ERROR_OUTPUT, "stdout", NULL, "cannot write the answer");
     return true;

@@ -333,3 +333,28 @@ FilmError film_relative_error(const Film *film)
                        .displays = display_count ? display_sum / (double)display_count
                                                  : (double)NAN};
 }
+
+/* Puts a pixel where it belongs among the `kept` worst; returns how many are kept then. */
+static int keep_worst(FilmWorst *worst, int kept, int most, FilmWorst pixel)
+{
+    int place = kept;
+    while (place > 0 && pixel.error > worst[place - 1].error) place--;
+    if (place == most) return kept;
+    if (kept < most) kept++;
+    for (int i = kept - 1; i > place; i--) worst[i] = worst[i - 1];
+    worst[place] = pixel;
+    return kept;
+}
+
+int film_worst_pixels(const Film *film, int count, FilmWorst *out)
+{
+    double lowest = lowest_luminance(film);
+    int    kept = 0;
+    for (int y = film->crop.y0; y < film->crop.y1; y++)
+        for (int x = film->crop.x0; x < film->crop.x1; x++) {
+            FilmPixel pixel = film_pixel(film, x, y);
+            FilmWorst worst = {x, y, pixel.mean_xyz[1], pixel_error(&pixel, lowest)};
+            kept = keep_worst(out, kept, count, worst);
+        }
+    return kept;
+}

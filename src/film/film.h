@@ -113,6 +113,18 @@ typedef struct FilmError {
 
 FilmError film_relative_error(const Film *film);
 
+/* One pixel's share in it. One sigma of few halves is itself uncertain: the worst of a million
+ * pixels of equal noise is some seven times their mean by chance. */
+typedef struct FilmWorst {
+    int    x, y;
+    double luminance; /* cd m^-2 */
+    double error;     /* sigma / max(Y, Y_low) */
+} FilmWorst;
+
+/* The `count` pixels of the greatest error, the worst first, of equals the first row by row;
+ * returns how many there are. */
+int film_worst_pixels(const Film *film, int count, FilmWorst *out);
+
 /* Samples that were dropped, and where the first of them (by sample, then row, then column)
  * stood: enough to replay them. */
 typedef struct FilmDropped {

@@ -100,21 +100,22 @@ static Fixed number_of(const unsigned char *bytes, int width)
     return (Fixed)(value << free_bits) >> free_bits;
 }
 
-bool film_unpack_row(Film *film, int y, const unsigned char *packed, size_t size,
-                     uint32_t most_samples, Arena scratch, Error *err)
+bool film_unpack_row(Film *film, int y, PackedRow packed, uint32_t most_samples, Arena scratch,
+                     Error *err)
 {
+    const unsigned char *widths = packed.bytes;
     size_t numbers = number_count(film), pixels = row_pixels(film), wanted = numbers;
-    if (size < numbers) return damaged(y, err);
+    if (packed.size < numbers) return damaged(y, err);
     for (size_t n = 0; n < numbers; n++) {
-        if (packed[n] > sizeof(Fixed)) return damaged(y, err);
-        wanted += packed[n] * pixels;
+        if (widths[n] > sizeof(Fixed)) return damaged(y, err);
+        wanted += widths[n] * pixels;
     }
-    if (size != wanted) return damaged(y, err);
+    if (packed.size != wanted) return damaged(y, err);
     Fixed               *row = ARENA_NEW(&scratch, Fixed, numbers * pixels);
-    const unsigned char *next = packed + numbers;
+    const unsigned char *next = widths + numbers;
     for (size_t n = 0; n < numbers; n++)
-        for (size_t i = 0; i < pixels; i++, next += packed[n])
-            row[i * numbers + n] = number_of(next, packed[n]);
+        for (size_t i = 0; i < pixels; i++, next += widths[n])
+            row[i * numbers + n] = number_of(next, widths[n]);
     FilmRect rect = {film->crop.x0, y, film->crop.x1, y + 1};
     return film_add_pixels(film, rect, row, most_samples, err);
 }

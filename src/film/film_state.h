@@ -28,7 +28,12 @@ size_t film_packed_bytes(const Film *film, int y);
 /* Returns how many bytes of `out` were filled. */
 size_t film_pack_row(const Film *film, int y, unsigned char *out);
 
+typedef struct PackedRow {
+    const unsigned char *bytes;
+    size_t               size;
+} PackedRow;
+
 /* Adds a packed row, which came from a film of the same crop and layers, to an empty row.
  * most_samples: what a pixel of it may hold. After a failure the film is worth nothing. */
-bool film_unpack_row(Film *film, int y, const unsigned char *packed, size_t size,
-                     uint32_t most_samples, Arena scratch, Error *err);
+bool film_unpack_row(Film *film, int y, PackedRow packed, uint32_t most_samples, Arena scratch,
+                     Error *err);

@@ -316,8 +316,8 @@ static bool load_rows(Input *input, const Checkpoint *checkpoint, Film *film, Ar
         if (!take(input, &size, sizeof size, err)) return false;
         if (size > most) return damaged_head(input->path, "size of a row", err);
         if (!take(input, row, size, err)) return false;
-        if (!film_unpack_row(film, y, row, size, done->end_sample - done->first_sample, scratch,
-                             err))
+        if (!film_unpack_row(film, y, (PackedRow){row, size},
+                             done->end_sample - done->first_sample, scratch, err))
             return error_in_file(err, input->path);
     }
     film_add_dropped(film, &done->dropped);

@@ -4,6 +4,7 @@ refused by name. --kills: how many SIGKILLs at random moments (default 3). --sma
 one second signal with two threads, for the thread sanitizer.
 """
 import argparse
+import json
 import os
 import random
 import resource
@@ -249,8 +250,16 @@ def check_refusals(work, *options):
     frame, _ = work.reference(*options, "--spp", str(more))
     with open(path, "wb") as file:
         file.write(checkpoint)
-    work.claim_finished(work.run(*options, "--spp", str(more), "--resume"), frame,
-                        "with a larger --spp")
+    done = work.run(*options, "--spp", str(more), "--resume", "--json")
+    answer = json.loads(done.stdout)
+    work.report.claim(answer["resumed_samples"] == more - 7 and answer["samples"] == more and
+                      answer["rays_by_class"]["camera"] == more * 32 * 24,
+                      f"the answer counts one session alone: {done.stdout[:600]}")
+    worst = answer["worst_pixels"]
+    work.report.claim(len(worst) == 5 and answer["relative_error"] < worst[4]["relative_error"]
+                      and worst == sorted(worst, key=lambda one: -one["relative_error"]),
+                      f"worst pixels: {worst}")
+    work.claim_finished(done, frame, "with a larger --spp")
 
 
 # ---- a full disk -------------------------------------------------------------------------

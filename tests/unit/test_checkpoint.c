@@ -120,7 +120,7 @@ static void packed_rows_hold_every_bit(void **state)
         for (int y = crop.y0; y < crop.y1; y++) {
             size_t size = film_pack_row(film, y, row);
             assert_int_equal(size, film_packed_bytes(film, y));
-            assert_true(film_unpack_row(again, y, row, size, SAMPLES, *arena, &err));
+            assert_true(film_unpack_row(again, y, (PackedRow){row, size}, SAMPLES, *arena, &err));
             bytes += size;
         }
         assert_true(bytes < 15 * film_pixel_bytes(film) * 2 / 3);
@@ -138,13 +138,13 @@ static void rows_that_no_film_packs_are_refused(void **state)
     unsigned char *row = ARENA_NEW(arena, unsigned char, max);
     size_t size = film_pack_row(film, 3, row);
     for (size_t cut = 0; cut < size; cut++) {
-        assert_false(film_unpack_row(to, 3, row, cut, SAMPLES, *arena, &err));
+        assert_false(film_unpack_row(to, 3, (PackedRow){row, cut}, SAMPLES, *arena, &err));
         assert_string_equal(err.text, "damaged sums: row 3 is not as a film packs it");
     }
     row[0] = 17;
-    assert_false(film_unpack_row(to, 3, row, size, SAMPLES, *arena, &err));
+    assert_false(film_unpack_row(to, 3, (PackedRow){row, size}, SAMPLES, *arena, &err));
     film_pack_row(film, 3, row);
-    assert_false(film_unpack_row(to, 3, row, size, 7, *arena, &err));
+    assert_false(film_unpack_row(to, 3, (PackedRow){row, size}, 7, *arena, &err));
     assert_string_equal(err.text,
                         "damaged sums: pixel 1,3 has sums that 7 samples cannot have made");
 }

@@ -314,6 +314,33 @@ static void relative_error_of_displays_counts_their_pixels_only(void **state)
     arena_release(&arena);
 }
 
+/* Pixel p swings by p % 4 tenths around 100: of those that swing alike the first comes first. */
+static void the_worst_pixels_come_in_order(void **state)
+{
+    (void)state;
+    Arena     arena = arena_reserve(1 << 20);
+    FilmRect  crop = {2, 1, 6, 4};
+    Film     *film = film_create(8, 5, crop, 0, &arena);
+    FilmWorst worst[20];
+    for (uint32_t i = 0; i < 26; i++)
+        for (int p = 0; p < 12; p++)
+            add_grey(film, 2 + p % 4, 1 + p / 4, i,
+                     100 + 0.1f * (float)(p % 4) * (i % 2 ? 1 : -1));
+    double frame = 0;
+    assert_int_equal(film_worst_pixels(film, 20, worst), 12);
+    for (int i = 0; i < 12; i++) {
+        assert_int_equal(worst[i].x, 5 - i / 3);
+        assert_int_equal(worst[i].y, 1 + i % 3);
+        assert_close(worst[i].luminance, 100, 1e-6);
+        assert_near(worst[i].error, 1e-3 * (3 - i / 3) / 5, 1e-7);
+        frame += worst[i].error / 12;
+    }
+    assert_close(film_relative_error(film).frame, frame, 1e-12);
+    assert_int_equal(film_worst_pixels(film, 2, worst), 2);
+    assert_true(worst[1].x == 5 && worst[1].y == 2);
+    arena_release(&arena);
+}
+
 /* ---- layers ------------------------------------------------------------------------------ */
 
 static double at(const FrameImage *frame, const char *channel, int index)
@@ -539,6 +566,7 @@ int main(void)
         cmocka_unit_test(relative_error_knows_that_even_samples_are_better),
         cmocka_unit_test(relative_error_judges_shadows_against_half_the_key),
         cmocka_unit_test(relative_error_of_displays_counts_their_pixels_only),
+        cmocka_unit_test(the_worst_pixels_come_in_order),
         cmocka_unit_test(a_frame_has_the_channels_asked_for_and_no_others),
         cmocka_unit_test(halves_are_the_difference_of_interleaved_blocks),
         cmocka_unit_test(halves_squared_are_the_variance_of_independent_samples),
