@@ -31,11 +31,13 @@ void fit_note(FitNotes *notes, const char *format, ...)
 static void note_limits(const Measurement *set, FitNotes *notes)
 {
     if (set->is_white_only)
-        fit_note(notes, "white only: XYZ split into non-negative amounts of the Rec.709 "
-                 "primaries, level curve 2.2, black 0");
-    if (set->white_miss > 0.05)
-        fit_note(notes, "white only: the colour lies outside Rec.709 and is shown %.0f %% off "
-                 "(of X + Y + Z); is it the table of a white pattern?", 100 * set->white_miss);
+        fit_note(notes, "white only: XYZ split into %s, level curve 2.2, black 0",
+                 set->white_miss > 0 ? "constant shares of three primaries"
+                                     : "non-negative amounts of the Rec.709 primaries");
+    if (set->white_miss > 0)
+        fit_note(notes, "white only: the colour lies outside Rec.709, by %.1f %% of X + Y + Z: "
+                 "the primaries share the table's own colour instead; is it the table of a "
+                 "white pattern?", 100 * set->white_miss);
     for (int p = 0; p < 3; p++)
         if (set->primary[p].level_count &&
             set->primary[p].level[set->primary[p].level_count - 1] < 255)

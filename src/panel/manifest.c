@@ -113,30 +113,70 @@ static void split_white(const float xyz[3], float amount[3])
     for (int p = 0; p < 3; p++) amount[p] *= after > 0 ? before / after : 0;
 }
 
-/* How far Rec.709 misses the brightest direction's colour: a primary's table, say, comes back
- * in another one. Share of X + Y + Z. */
-static double white_miss(const AngleTable *table)
+/* How far Rec.709 misses a colour, share of X + Y + Z. */
+static double white_miss(const float xyz[3])
 {
-    const float *brightest = table->value;
     float  amount[3];
     double off = 0, sum = 0;
-    for (int i = 1; i < table->rows; i++)
-        if (table->value[3 * i + 1] > brightest[1]) brightest = table->value + 3 * i;
-    split_white(brightest, amount);
+    split_white(xyz, amount);
     for (int j = 0; j < 3; j++) {
         double again = 0;
         for (int p = 0; p < 3; p++)
             again += (double)(amount[p] * xyz_from_rgb_matrix[3 * j + p]);
-        off += fabs(again - (double)brightest[j]);
-        sum += (double)brightest[j];
+        off += fabs(again - (double)xyz[j]);
+        sum += fabs((double)xyz[j]);
     }
     return sum > 0 ? off / sum : 0;
+}
+
+static const float *brightest_row(const AngleTable *table)
+{
+    const float *brightest = table->value;
+    for (int i = 1; i < table->rows; i++)
+        if (table->value[3 * i + 1] > brightest[1]) brightest = table->value + 3 * i;
+    return brightest;
+}
+
+#define OUTSIDE 0.002     /* what a miss may be, where there is light */
+#define LEAST_SHARE 0.01f /* of a primary in a colour outside of Rec.709 */
+
+/* Every colour that shines is one of Rec.709? */
+static bool is_inside(const AngleTable *table)
+{
+    float least = 1e-3f * brightest_row(table)[1];
+    for (int i = 0; i < table->rows; i++)
+        if (table->value[3 * i + 1] > least && white_miss(table->value + 3 * i) > OUTSIDE)
+            return false;
+    return true;
+}
+
+/* Luminous shares of the primaries in the colour nearest to the brightest direction's. */
+static void nearest_shares(const AngleTable *table, float share[3])
+{
+    float sum = 0;
+    split_white(brightest_row(table), share);
+    for (int p = 0; p < 3; p++) sum += share[p] *= xyz_from_rgb_matrix[3 + p];
+    for (int p = 0; p < 3; p++) share[p] = fmaxf(sum > 0 ? share[p] / sum : 1, LEAST_SHARE);
+    sum = share[0] + share[1] + share[2];
+    for (int p = 0; p < 3; p++) share[p] /= sum;
+}
+
+/* What primary p has of a direction's XYZ: in Rec.709's colours; where those cannot carry the
+ * table (one of a saturated primary, say) a constant share of the table's own colour. */
+static void part_of_white(const float xyz[3], const float *share, int p, float part[3])
+{
+    float amount[3];
+    split_white(xyz, amount);
+    for (int j = 0; j < 3; j++)
+        part[j] = share ? share[p] * xyz[j] : amount[p] * xyz_from_rgb_matrix[3 * j + p];
 }
 
 /* One level a primary, from the white table with the black one (if any) left in it once. */
 static void split_white_table(const AngleTable *white, Arena *arena, Measurement *out)
 {
-    float *value[3];
+    float *value[3], share[3];
+    bool   inside = is_inside(white);
+    nearest_shares(white, share);
     for (int p = 0; p < 3; p++) {
         value[p] = ARENA_NEW(arena, float, 3 * (size_t)white->rows);
         out->primary[p].level_count = 1;
@@ -146,15 +186,11 @@ static void split_white_table(const AngleTable *white, Arena *arena, Measurement
         out->primary[p].table[0].value = value[p];
         if (p) out->primary[p].table[0].text_bytes = 0;
     }
-    for (int i = 0; i < white->rows; i++) {
-        float amount[3];
-        split_white(white->value + 3 * i, amount);
+    for (int i = 0; i < white->rows; i++)
         for (int p = 0; p < 3; p++)
-            for (int j = 0; j < 3; j++)
-                value[p][3 * i + j] = amount[p] * xyz_from_rgb_matrix[3 * j + p];
-    }
+            part_of_white(white->value + 3 * i, inside ? NULL : share, p, value[p] + 3 * i);
     out->is_white_only = true;
-    out->white_miss = white_miss(white);
+    out->white_miss = inside ? 0 : white_miss(brightest_row(white));
 }
 
 static bool read_white(const JsonView *emission, Measurement *out, Error *err)

@@ -52,7 +52,8 @@ typedef struct Measurement {
     const char *panel, *instrument, *note;
     double      pixels[2], size_mm[2];
     double      instrument_fwhm_deg; /* width of its own response; 0: not declared */
-    double      white_miss;     /* share of the colour that Rec.709 cannot carry */
+    double      white_miss;     /* 0: Rec.709 carries every colour; else the share of the
+                                   brightest one that it cannot */
     bool        is_white_only;  /* primary tables are the split of a white table */
     bool        has_black;
     AngleTable  black;

@@ -269,23 +269,40 @@ def measure_foreign(bench):
 
 
 REAL = ("display", "bsdf", "photometry")
+TOLD = { # what files do not say themselves, by the ends of their names
+    "viewing_angle_oled_phi0_90.csv": ["--role", "*=white"],
+    ".fred.txt": ["--wavelength", "650"],
+    "BrownVinyl_TIS_validation.bsdf": ["--wavelength", "650"],
+    "EDS10_0-0.txt": ["--wavelength", "550"],
+    "EDS10_10-0.txt": ["--wavelength", "550"],
+    "EDS10_20-90.txt": ["--wavelength", "550"],
+    "MAXWELL_measured_IESNA.ies": ["--area-mm", "300,300"],
+}
+
+
+def import_one(bench, path):
+    """The manifest, and what had to be said."""
+    name = os.path.basename(path)
+    told = next((words for end, words in TOLD.items() if name.endswith(end)), [])
+    manifest = bench.program.file("real", name, "MANIFEST.json")
+    os.makedirs(os.path.dirname(manifest), exist_ok=True)
+    bench.program.run("panel", "import", path, "-o", manifest, *told)
+    return manifest, " ".join(told)
 
 
 def measure_real(bench):
     refused = []
     for folder in REAL:
         for place, _, names in sorted(os.walk(os.path.join(panels.DATA, folder))):
-            for name in sorted(names):
+            for name in sorted(n for n in names if n not in ("README.md", "notes.txt")):
                 path = os.path.join(place, name)
-                manifest = bench.program.file("real", name, "MANIFEST.json")
-                os.makedirs(os.path.dirname(manifest), exist_ok=True)
                 try:
-                    bench.program.run("panel", "import", path, "-o", manifest)
+                    manifest, told = import_one(bench, path)
                 except Refused as error:
                     refused.append(f"{os.path.relpath(path, panels.DATA)}: "
                                    f"{str(error).split(name)[-1].strip(': ')[:150]}")
                     continue
-                bench.measure(os.path.relpath(path, panels.DATA), manifest)
+                bench.measure(f"{os.path.relpath(path, panels.DATA)} {told}".strip(), manifest)
     print("\nnot imported:\n" + "\n".join("- " + line for line in refused))
 
 

@@ -454,6 +454,41 @@ static void a_white_only_table_of_two_sections_becomes_a_panel(void **state)
     fixture_end(&real);
 }
 
+/* A table alone may be any pattern's: colours that no three Rec.709 amounts make come back as
+ * they were measured, mostly from the primary next to them. */
+static void a_lone_table_keeps_a_colour_outside_of_rec_709(void **state)
+{
+    (void)state;
+    Fixture    red;
+    Error      err = {0};
+    FitOptions options = fit_options_default();
+    fixture_folder(&red);
+    char *text = arena_alloc(&red.arena, 1, 1, 1 << 16), *at = text;
+    at += sprintf(at, "theta,phi,X,Y,Z\n");
+    for (int t = 0; t <= 80; t += 10)
+        for (int p = 0; p < (t ? 360 : 1); p += 30)
+            at += sprintf(at, "%d,%d,%g,%g,%g\n", t, p, 233.0 - t, 100 - 0.5 * t,
+                          0.3 + 0.01 * t);
+    red.set = ARENA_NEW(&red.arena, Measurement, 1);
+    if (!measurement_read(fixture_file(&red, "red.csv", text), &red.arena, red.set, &err) ||
+        !panel_fit(red.set, &options, red.panel_path, &red.arena, &red.report, &err) ||
+        !panel_open(red.panel_path, &red.arena, &red.panel, &err))
+        fail_msg("%s", err.text);
+    for (int t = 0; t <= 80; t += 10) {
+        float full[3] = {255, 255, 255}, first[3] = {255, 0, 0}, xyz[3], alone[3];
+        panel_emission_xyz(red.panel, direction_deg(t, 60), full, xyz);
+        panel_emission_xyz(red.panel, direction_deg(t, 60), first, alone);
+        assert_close((double)xyz[0], 233 - t, 0.004);
+        assert_close((double)xyz[1], 100 - 0.5 * t, 0.004);
+        assert_close((double)xyz[2], 0.3 + 0.01 * t, 0.004);
+        assert_true(alone[1] > 0.9f * xyz[1]);
+    }
+    char *report = json_dumps(red.report, 0);
+    assert_non_null(strstr(report, "the primaries share the table's own colour"));
+    free(report);
+    fixture_end(&red);
+}
+
 static void check_shipped(const char *name)
 {
     Error    err = {0};
@@ -518,6 +553,7 @@ int main(void)
         cmocka_unit_test(shipped_panels_say_what_their_recipes_say),
         cmocka_unit_test(a_lobe_at_phi_90_is_seen_from_above),
         cmocka_unit_test(a_true_black_stays_black),
+        cmocka_unit_test(a_lone_table_keeps_a_colour_outside_of_rec_709),
         cmocka_unit_test(a_white_only_table_of_two_sections_becomes_a_panel),
     };
     return cmocka_run_group_tests(tests, start_ips, end_ips);
