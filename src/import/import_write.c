@@ -98,14 +98,18 @@ static bool commit_all(Output *out)
     return true;
 }
 
-/* A laboratory's own file is never written over. */
+/* A laboratory's own file is never written over, and what cannot be is found out before the
+ * first file is. */
 static bool spares_sources(Output *out)
 {
     struct stat source, target;
+    if (!stat(out->manifest, &target) && !file_check_writable(out->manifest, out->err))
+        return false;
     for (int i = 0; i < out->set->count; i++) {
         const char *name = import_table_file(out->set, &out->set->table[i], &out->scratch);
         const char *path = path_beside(out->manifest, name, &out->scratch);
         if (stat(path, &target)) continue;
+        if (!file_check_writable(path, out->err)) return false;
         for (int k = 0; k < out->set->count; k++)
             if (!stat(out->set->table[k].file, &source) && source.st_dev == target.st_dev &&
                 source.st_ino == target.st_ino)

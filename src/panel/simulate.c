@@ -1,6 +1,7 @@
 #include "panel/simulate.h"
 
 #include <errno.h>
+#include <ftw.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -240,12 +241,27 @@ static bool write_manifest(Instrument *instrument)
     return write_text(instrument, "MANIFEST.json", &text, arena);
 }
 
-static bool make_folder(const char *folder, const char *inside, Error *err)
+/* *is_new: it was not there before. */
+static bool make_folder(const char *folder, const char *inside, bool *is_new, Error *err)
 {
     char path[4096];
     snprintf(path, sizeof path, "%s%s%s", folder, *inside ? "/" : "", inside);
-    if (!mkdir(path, 0777) || errno == EEXIST) return true;
+    *is_new = !mkdir(path, 0777);
+    if (*is_new || errno == EEXIST) return true;
     return error_at(err, ERROR_OUTPUT, path, "", "cannot be made: %s", strerror(errno));
+}
+
+static int remove_one(const char *path, const struct stat *status, int kind, struct FTW *walk)
+{
+    (void)status, (void)kind, (void)walk;
+    return remove(path);
+}
+
+static bool make_folders(const char *folder, bool reflects, bool *is_new, Error *err)
+{
+    bool any;
+    return make_folder(folder, "", is_new, err) && make_folder(folder, "emission", &any, err) &&
+           (!reflects || make_folder(folder, "brdf", &any, err));
 }
 
 bool simulate_measurement(const Recipe *recipe, const char *folder, ProgressMode mode,
@@ -254,16 +270,15 @@ bool simulate_measurement(const Recipe *recipe, const char *folder, ProgressMode
     const RecipeReflection *r = &recipe->reflection;
     int slices = r->exists ? r->incidence_count : 0;
     int tables = 1 + 3 * recipe->emission.level_count + slices;
-    if (!make_folder(folder, "", err) || !make_folder(folder, "emission", err) ||
-        (slices && !make_folder(folder, "brdf", err)))
-        return false;
+    bool is_new = false;
     Arena      arena = arena_reserve((size_t)16 << 30);
     Instrument instrument = {recipe, folder, progress_start(mode, "simulate", "tables", tables),
                              0, arena, err};
-    bool ok = write_all_emission(&instrument);
+    bool ok = make_folders(folder, slices > 0, &is_new, err) && write_all_emission(&instrument);
     for (int i = 0; i < slices && ok; i++) ok = write_brdf(&instrument, r->incidence_deg[i]);
     ok = ok && write_spectra(&instrument) && write_manifest(&instrument);
     progress_end(&instrument.progress, instrument.tables_done);
+    if (!ok && is_new) nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS); /* all of it is ours */
     arena_release(&arena);
     return ok;
 }

@@ -1,0 +1,99 @@
+"""fault_memory.py -- address space that is short (ulimit -v): part of faults.py.
+
+Documented in src/base/arena.h: whatever the limit, a command does its work, or one line says
+that memory is short, with status 3. Below what the libraries need to be loaded there is no
+program that could say anything; that limit is found first.
+"""
+import os
+import resource
+
+from fault_files import make_inputs
+
+MEGABYTE = 1 << 20
+
+
+def limited(bench, megabytes, *arguments):
+    return bench.run(*arguments, limits=[(resource.RLIMIT_AS, megabytes * MEGABYTE)])
+
+
+def least(bench):
+    """Megabytes with which the program starts, to 8 MB."""
+    low, high = 64, 4096
+    while high - low > 8:
+        middle = (low + high) // 2
+        if limited(bench, middle, "--version").returncode == 0:
+            high = middle
+        else:
+            low = middle
+    return high
+
+
+def sweep(bench, commands, steps):
+    start = least(bench)
+    ends = {}
+    for step in steps:
+        for name, command in commands:
+            done = limited(bench, start + step, *command)
+            lines = done.stderr.splitlines()
+            what = f"{name} with {start + step} MB"
+            ends.setdefault(name, []).append(done.returncode)
+            bench.claim_sound(done, what) and bench.claim(
+                done.returncode == 0 or done.returncode == 3 and (
+                    name == "check" and "memory" in done.stdout or len(lines) == 1
+                    and lines[0].startswith("parhelion: ")),
+                f"{what}: {done.returncode} {lines[:3]}")
+            part = [n for n in os.listdir(bench.folder) if ".part" in n]
+            bench.claim(not part, f"{what}: left {part}")
+    print(f"  the libraries need {start} MB; " + "; ".join(
+        f"{name}: {statuses}" for name, statuses in ends.items()))
+    return ends
+
+
+def commands_of(bench):
+    scene = bench.file("in", "scene.gltf")
+    return [
+        ("render", ("render", scene, "-o", bench.file("m.exr"), "--size", "64x36", "--spp", "1",
+                    "--quiet", "--threads", "2")),
+        ("develop", ("develop", bench.file("in", "frame.exr"), "-o", bench.file("m.png"))),
+        ("fit", ("panel", "fit", bench.file("in", "white.csv"), "-o", bench.file("m.panel"),
+                 "--quiet")),
+        ("check", ("check", scene, "--json")),
+        ("info", ("panel", "info", bench.file("in", "x.panel"))),
+        ("plot", ("panel", "plot", bench.file("in", "x.panel"), "-o", bench.file("m.svg"),
+                  "--threads", "2")),
+        ("sky", ("sky", "--environment", "cie:1:10000", "-o", bench.file("m_sky.exr"))),
+    ]
+
+
+def check_short_memory(bench):
+    if bench.is_sanitized:
+        return bench.report.skip("limits of address space: the sanitizer takes terabytes of it")
+    make_inputs(bench)
+    ends = sweep(bench, commands_of(bench)[:1], (8, 64, 128, 512))
+    bench.claim(ends["render"][-1] == 0, "half a gigabyte is not enough for a small scene")
+
+
+def check_every_memory(bench):
+    if bench.is_sanitized:
+        return bench.report.skip("limits of address space: the sanitizer takes terabytes of it")
+    make_inputs(bench)
+    ends = sweep(bench, commands_of(bench),
+                 (*range(8, 64, 8), *range(64, 512, 56), 1024, 2048, 4096))
+    for name, statuses in ends.items():
+        bench.claim(statuses[-1] == 0, f"{name} does not work with 4 GB")
+
+
+def check_large_frame(bench):
+    """A film that memory cannot hold is refused before anything is loaded."""
+    make_inputs(bench)
+    done = bench.render(bench.file("in", "scene.gltf"), "--layers", "all", size="32768x8192",
+                        limits=() if bench.is_sanitized else
+                        [(resource.RLIMIT_AS, 4096 * MEGABYTE)])
+    if not bench.is_sanitized:
+        bench.fails(done, 3, "the film of 32768x8192 pixels needs", "--crop")
+    bench.fails(bench.render(bench.file("in", "scene.gltf"), size="65536x65536"), 2,
+                "at most")
+
+
+CHECKS = (check_short_memory, check_large_frame)
+MORE = (check_every_memory,)
