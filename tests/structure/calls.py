@@ -1,0 +1,66 @@
+"""calls.py -- what no source may call: no shell and no other program, no network, no code that is
+loaded while the program runs, and no file that is mapped (one that shrinks would kill us).
+"""
+import re
+import sys
+
+from report import Report, read, sources
+
+FORBIDDEN = {
+    "a shell or another program": "system popen execl execlp execle execv execvp execvpe execve "
+                                  "fexecve fork vfork posix_spawn posix_spawnp",
+    "the network": "socket socketpair connect bind listen accept accept4 sendto recvfrom "
+                   "getaddrinfo gethostbyname getnameinfo",
+    "code that is loaded later": "dlopen dlmopen",
+    "a name that another process can guess": "tmpnam tempnam mktemp tmpfile",
+    "a mapped file": "mmap mmap64 mremap",
+}
+# src/base/arena.c maps memory, and no file: MAP_ANONYMOUS stands in the same call.
+ALLOWED = {("src/base/arena.c", "mmap"): "MAP_ANONYMOUS"}
+HEADERS = re.compile(r'#\s*include\s*[<"](sys/socket|netdb|netinet/|arpa/|spawn|curl)')
+COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*|\"(?:\\.|[^\"\\\n])*\"", re.DOTALL)
+
+
+def code_of(text):
+    """Without comments and strings, line by line as it was."""
+    return COMMENT.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), text)
+
+
+def calls_in(name, text):
+    """(line, function, what it stands for) of every forbidden call. A function of our own of
+    the same name is told by its declaration: a type stands before it."""
+    code = code_of(text)
+    for what, names in FORBIDDEN.items():
+        for match in re.finditer(rf"(?<![\w.>])(?:::\s*)?\b({'|'.join(names.split())})\s*\(", code):
+            before = code[:match.start()].rstrip()
+            is_own = re.search(rf"\b(?:bool|int|void|static\s+\w+)\s+{match[1]}\s*\(", code)
+            word = ALLOWED.get((name, match[1]))
+            end = code.find(";", match.end())
+            if is_own or before.endswith((".", "->")) or word and word in code[match.end():end]:
+                continue
+            yield code.count("\n", 0, match.start()) + 1, match[1], what
+
+
+def check_itself(report):
+    for text, count in (('x = system("ls");', 1), ("/* system() */", 0), ("door->open(x);", 0),
+                        ("std::system(x);", 1), ("static bool connect(int a);\nconnect(1);", 0),
+                        ("mmap(NULL, 1, 2, MAP_ANONYMOUS, -1, 0);", 1), ("filesystem(x);", 0)):
+        found = list(calls_in("x.c", text))
+        report.claim(len(found) == count, f"calls.py: {text!r} has {found}")
+
+
+def main():
+    report, names = Report(), sources(".c", ".h", ".cpp", ".hpp")
+    for what in FORBIDDEN:
+        report.claim_none(f"calls of {what}", [
+            f"{name}:{line}: {function}" for name in names
+            for line, function, kind in calls_in(name, read(name)) if kind == what])
+    report.claim_none("headers of other programs and the network", [
+        f"{name}: {match[0]}" for name in names for match in HEADERS.finditer(read(name))])
+    report.claim(len(names) > 100, f"{len(names)} sources only")
+    check_itself(report)
+    report.finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
