@@ -22,8 +22,8 @@ typedef struct Work {
 
 static Work start(const CompareRequest *request, bool is_folder, Arena *arena)
 {
-    return (Work){.request = request, .arena = arena, .html = html_report_start(is_folder),
-                  .junit = junit_start(), .pairs = json_array()};
+    return (Work){.request = request, .arena = arena, .html = {.is_folder = is_folder},
+                  .pairs = json_array()};
 }
 
 static void end(Work *work)

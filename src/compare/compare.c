@@ -166,6 +166,7 @@ bool compare_subjects(const Subject *reference, const Subject *test,
     start(reference, test, arena, &made);
     made.structure = structure_compare(reference, test, &options->rules, arena, &made.reasons,
                                        &made.notes);
+    if (!figures_develop(options, arena, &made, err)) return false;
     if (made.structure.same_pixels && !compare_pixels(options, arena, &made, err)) return false;
     made.same = made.reasons.count == 0;
     made.verdict = made.same ? same_verdict(options, &made, arena)

@@ -64,10 +64,10 @@ static Planes planes_of(const Picture *picture, Arena *arena)
     return planes;
 }
 
-/* Both frames with the reference's exposure. */
-static bool develop_both(const CompareOptions *options, Arena *arena, Comparison *out,
-                         Error *err)
+/* Both with the reference's exposure. */
+bool figures_develop(const CompareOptions *options, Arena *arena, Comparison *out, Error *err)
 {
+    if (out->reference.kind != SUBJECT_FRAME) return true;
     Subject       *sides[2] = {&out->reference, &out->test};
     DevelopReport  report;
     DevelopOptions develop = {.exposure = options->exposure, .own_config = true};
@@ -270,7 +270,6 @@ bool figures_measure(const CompareOptions *options, unsigned groups, Arena *aren
         return error_at(err, ERROR_INPUT, out->reference.name, "",
                         "is a picture: only frames tell their noise to a statistical test");
     clean_light(out, arena);
-    if (is_frame && !develop_both(options, arena, out, err)) return false;
     if (groups & (GROUP_MSE | GROUP_PSNR)) measure_errors(groups, *arena, out);
     if (groups & GROUP_FLIP) measure_flip(options, arena, out);
     if (groups & GROUP_SSIM)

@@ -2,7 +2,11 @@
 #pragma once
 #include "compare/compare.h"
 
-/* Fills light, mask, developed codes, maps, values, contrasts and the statistic of `out`, whose
- * sides have the same pixels; adds notes. groups: GROUP_... bits. */
+/* Codes of both frames, developed with one exposure: for those who look at them. Pictures have
+ * theirs. */
+bool figures_develop(const CompareOptions *options, Arena *arena, Comparison *out, Error *err);
+
+/* Fills light, mask, maps, values, contrasts and the statistic of `out`, whose sides have the
+ * same pixels; adds notes. groups: GROUP_... bits. */
 bool figures_measure(const CompareOptions *options, unsigned groups, Arena *arena,
                      Comparison *out, Error *err);

@@ -66,10 +66,10 @@ void markup_gradient(Markup *markup, bool is_signed)
 
 /* ---- smaller ----------------------------------------------------------------------------- */
 
-int shot_factor(const Comparison *c, long most)
+int shot_factor(const Planes *planes, long most)
 {
     int    factor = 1;
-    double pixels = (double)planes_pixel_count(&c->light[0]);
+    double pixels = (double)planes_pixel_count(planes);
     while (pixels / ((double)factor * factor) > (double)most) factor++;
     return factor;
 }
@@ -219,6 +219,60 @@ static void make_difference(const Comparison *c, int factor, Arena *arena, Shot 
     out->picture = map_picture(c, difference, &out->scale, factor, arena);
 }
 
+#define BLOCK 8        /* pixels along a side: as the statistical test's small ones */
+#define DARK 0.01f     /* of the mean luminance: darker blocks are taken relative to this */
+
+/* Of the mean luminance of a block, in percent. */
+static float change_of_block(const Comparison *c, Block b, float dark)
+{
+    const Planes *reference = &c->light[0], *test = &c->light[1];
+    float         before = 0, after = 0, pixels = 0;
+    for (int y = b.y0; y < b.y1; y++)
+        for (int x = b.x0; x < b.x1; x++) {
+            size_t i = (size_t)y * (size_t)reference->width + (size_t)x;
+            if (!c->mask[i]) continue;
+            before += luminance_at(reference, i);
+            after += luminance_at(test, i);
+            pixels++;
+        }
+    return pixels > 0 ? 100 * (after - before) / (before + dark * pixels) : 0;
+}
+
+/* Every pixel gets the change of its block; size: the magnitude. */
+static void change_of_blocks(const Comparison *c, float dark, float *change, float *size)
+{
+    const Planes *planes = &c->light[0];
+    size_t        row = ((size_t)planes->width + BLOCK - 1) / BLOCK;
+    size_t        rows = ((size_t)planes->height + BLOCK - 1) / BLOCK;
+    for (size_t k = 0; k < row * rows; k++) {
+        Block b = block_of(planes, BLOCK, k);
+        float value = change_of_block(c, b, dark);
+        for (int y = b.y0; y < b.y1; y++)
+            for (int x = b.x0; x < b.x1; x++) {
+                size_t i = (size_t)y * (size_t)planes->width + (size_t)x;
+                change[i] = value;
+                size[i] = fabsf(value);
+            }
+    }
+}
+
+static void make_blocks(const Comparison *c, int factor, Arena *arena, Shot *out)
+{
+    size_t count = planes_pixel_count(&c->light[0]);
+    float *change = ARENA_NEW(arena, float, count), *size = ARENA_NEW(arena, float, count);
+    float  dark = DARK * (float)mean_luminance(&c->light[0], c->mask);
+    change_of_blocks(c, dark > 0 ? dark : 1, change, size);
+    double most = (double)rank_value(size, count, c->mask, 0.95);
+    double limit = most > 0 ? round_up(most) : 1;
+    out->title = "Blocks";
+    out->caption = "Change of the mean luminance of blocks of 8 x 8 pixels. Noise is a mix of "
+                   "both colours; where the mean moved, one of them fills a region.";
+    out->has_scale = true;
+    out->scale = (ShotScale){.is_signed = true, .low = -limit, .high = limit, .unit = "%"};
+    set_ticks(&out->scale, "", arena);
+    out->picture = map_picture(c, change, &out->scale, factor, arena);
+}
+
 static void make_flip(const Comparison *c, int factor, Arena *arena, Shot *out)
 {
     bool is_frame = c->reference.kind == SUBJECT_FRAME;
@@ -297,6 +351,10 @@ bool shot_make(const Comparison *c, ShotKind kind, int factor, Arena *arena, Sho
     case SHOT_REFERENCE:
     case SHOT_TEST: make_side(c, kind, factor, arena, out); return true;
     case SHOT_DIFFERENCE: make_difference(c, factor, arena, out); return true;
+    case SHOT_BLOCKS:
+        if (c->reference.kind != SUBJECT_FRAME) return false;
+        make_blocks(c, factor, arena, out);
+        return true;
     case SHOT_FLIP:
         if (!c->flip_map) return false;
         make_flip(c, factor, arena, out);

@@ -8,7 +8,8 @@
 #include "compare/markup.h"
 
 typedef enum ShotKind {
-    SHOT_REFERENCE, SHOT_TEST, SHOT_DIFFERENCE, SHOT_FLIP, SHOT_DELTAE, SHOT_P_VALUE, SHOT_COUNT
+    SHOT_REFERENCE, SHOT_TEST, SHOT_DIFFERENCE, SHOT_BLOCKS, SHOT_P_VALUE, SHOT_FLIP,
+    SHOT_DELTAE, SHOT_COUNT
 } ShotKind;
 
 /* What a map's colours mean: low at the left end of the ramp, high at the right. */
@@ -33,7 +34,7 @@ typedef struct Shot {
 bool shot_make(const Comparison *c, ShotKind kind, int factor, Arena *arena, Shot *out);
 
 /* So that no more than `most` pixels are left. */
-int shot_factor(const Comparison *c, long most);
+int shot_factor(const Planes *planes, long most);
 
 /* A small picture of one side (SHOT_REFERENCE, SHOT_TEST), at most `side` pixels wide. */
 Picture shot_thumbnail(const Comparison *c, ShotKind kind, int side, Arena *arena);

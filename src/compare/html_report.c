@@ -13,12 +13,6 @@
 #define FOLDER_PIXELS 1500000L /* of one among many */
 #define THUMBNAIL 240
 
-HtmlReport html_report_start(bool is_folder)
-{
-    return (HtmlReport){.is_folder = is_folder, .index = markup_start(),
-                        .pairs = markup_start()};
-}
-
 void html_report_release(HtmlReport *report)
 {
     markup_release(&report->index);
@@ -59,8 +53,10 @@ static void add_scale(Markup *html, const ShotScale *scale)
 
 static bool add_shot(Markup *html, const Shot *shot, Arena scratch, Error *err)
 {
-    static const char *const KINDS[SHOT_COUNT] = {"reference", "test",   "difference",
-                                                  "flip",      "deltae", "p"};
+    static const char *const KINDS[SHOT_COUNT] = {
+        [SHOT_REFERENCE] = "reference", [SHOT_TEST] = "test", [SHOT_DIFFERENCE] = "difference",
+        [SHOT_BLOCKS] = "blocks",       [SHOT_P_VALUE] = "p", [SHOT_FLIP] = "flip",
+        [SHOT_DELTAE] = "deltae"};
     markup_format(html, "<figure class=\"shot\" data-kind=\"%s\"", KINDS[shot->kind]);
     if (shot->has_scale) {
         markup_format(html, " data-ramp=\"%s\" data-low=\"%.9g\" data-high=\"%.9g\" "
@@ -82,7 +78,7 @@ static bool add_shot(Markup *html, const Shot *shot, Arena scratch, Error *err)
 static bool add_shots(Markup *html, const Comparison *c, long most_pixels, Arena scratch,
                       Error *err)
 {
-    int factor = shot_factor(c, most_pixels);
+    int factor = shot_factor(&c->light[0], most_pixels);
     markup_format(html, "<div class=\"shots\" data-factor=\"%d\">\n", factor);
     for (int kind = 0; kind < SHOT_COUNT; kind++) {
         Shot  shot;
@@ -94,6 +90,22 @@ static bool add_shots(Markup *html, const Comparison *c, long most_pixels, Arena
     if (factor > 1)
         markup_format(html, "<p class=\"sub\">The pictures are reduced to 1 : %d; the figures "
                       "are of all pixels.</p>\n", factor);
+    return true;
+}
+
+/* Sides that have no pixels in common, for those who wonder why. */
+static bool add_both_sides(Markup *html, const Comparison *c, long most_pixels, Arena scratch,
+                           Error *err)
+{
+    markup_add(html, "<div class=\"shots\">\n");
+    for (int kind = SHOT_REFERENCE; kind <= SHOT_TEST; kind++) {
+        Shot          shot;
+        Arena         arena = scratch;
+        const Planes *codes = kind == SHOT_TEST ? &c->test.codes : &c->reference.codes;
+        shot_make(c, (ShotKind)kind, shot_factor(codes, most_pixels), &arena, &shot);
+        if (!add_shot(html, &shot, arena, err)) return false;
+    }
+    markup_add(html, "</div>\n");
     return true;
 }
 
@@ -135,18 +147,15 @@ static bool add_pair(Markup *html, const Comparison *c, const CompareOptions *op
     add_verdict(html, c);
     add_sides(html, c->reference.name, c->test.name);
     html_add_keys(html, c, options);
-    if (c->has_pixels && !add_shots(html, c, most_pixels, scratch, err)) return false;
+    if (c->has_pixels ? !add_shots(html, c, most_pixels, scratch, err)
+                      : !add_both_sides(html, c, most_pixels, scratch, err))
+        return false;
     html_add_tables(html, c, options);
     html_add_notes(html, c);
     return true;
 }
 
 /* ---- folders ----------------------------------------------------------------------------- */
-
-static bool has_thumbnail(const Comparison *c, ShotKind kind)
-{
-    return (kind == SHOT_TEST ? &c->test : &c->reference)->codes.rgb[0] != NULL;
-}
 
 static bool add_card(HtmlReport *report, const char *name, const Comparison *c, Arena scratch,
                      Error *err)
@@ -155,13 +164,10 @@ static bool add_card(HtmlReport *report, const char *name, const Comparison *c, 
     ShotKind kind = c->same ? SHOT_REFERENCE : SHOT_TEST;
     markup_format(html, c->same ? "<div class=\"card same\">"
                                 : "<a class=\"card\" href=\"#pair-%d\">", report->count);
-    if (has_thumbnail(c, kind)) {
-        Picture small = shot_thumbnail(c, kind, THUMBNAIL, &scratch);
-        markup_add(html, "<img alt=\"\" ");
-        if (!markup_picture(html, &small, true, scratch, err)) return false;
-        markup_add(html, ">");
-    }
-    markup_add(html, "<div><strong>");
+    Picture small = shot_thumbnail(c, kind, THUMBNAIL, &scratch);
+    markup_add(html, "<img alt=\"\" ");
+    if (!markup_picture(html, &small, true, scratch, err)) return false;
+    markup_add(html, "><div><strong>");
     markup_escape(html, name);
     markup_format(html, "</strong><em>%s</em>: ", c->same ? "same" : "different");
     markup_escape(html, c->verdict);
@@ -174,7 +180,7 @@ static bool add_card(HtmlReport *report, const char *name, const Comparison *c, 
 static void begin_pair(HtmlReport *report, const char *name)
 {
     markup_format(&report->pairs, "<details class=\"pair\" id=\"pair-%d\"%s><summary>",
-                  report->count, report->different == 0 ? " open" : "");
+                  report->count, report->shown++ == 0 ? " open" : "");
     markup_escape(&report->pairs, name);
     markup_add(&report->pairs, "</summary>\n");
 }
@@ -205,7 +211,7 @@ void html_report_add_failure(HtmlReport *report, const char *name, const char *w
     markup_format(&report->index, "<div class=\"card\" id=\"pair-%d\"><div><strong>",
                   report->count);
     markup_escape(&report->index, name);
-    markup_add(&report->index, "</strong><em>not compared</em>: ");
+    markup_add(&report->index, "</strong><em>failed</em>: ");
     markup_escape(&report->index, why);
     markup_add(&report->index, "</div></div>\n");
     report->count++;
@@ -243,17 +249,17 @@ static void add_index(Markup *html, const HtmlReport *report, const char *refere
     markup_add(html, "<p class=\"sub\" hidden style=\"margin-top:14px\"><label>"
                "<input type=\"checkbox\" id=\"only\"> only what differs</label></p>\n"
                "<div class=\"cards\">\n");
-    markup_add_bytes(html, markup_bytes(&report->index), markup_size(&report->index));
+    markup_append(html, &report->index);
     markup_add(html, "</div>\n");
 }
 
 bool html_report_write(const HtmlReport *report, const char *reference, const char *test,
                        const char *path, Error *err)
 {
-    Markup html = markup_start();
+    Markup html = {0};
     add_head(&html, reference, test);
     if (report->is_folder) add_index(&html, report, reference, test);
-    markup_add_bytes(&html, markup_bytes(&report->pairs), markup_size(&report->pairs));
+    markup_append(&html, &report->pairs);
     markup_add(&html, "<footer>parhelion " PARHELION_VERSION ", compare --report</footer>\n"
                "</main>\n<script>\nvar ramps={\"signed\":\"");
     markup_ramp(&html, true);
@@ -262,7 +268,7 @@ bool html_report_write(const HtmlReport *report, const char *reference, const ch
     markup_add(&html, "\"};\n");
     markup_add(&html, REPORT_TEXT_js);
     markup_add(&html, "</script>\n</body></html>\n");
-    bool ok = file_write(path, markup_bytes(&html), markup_size(&html), err);
+    bool ok = markup_write(&html, path, err);
     markup_release(&html);
     return ok;
 }

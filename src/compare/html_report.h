@@ -11,14 +11,14 @@
 #include "compare/compare.h"
 #include "compare/markup.h"
 
+/* {.is_folder = ...} is empty. */
 typedef struct HtmlReport {
     bool   is_folder;
     Markup index, pairs; /* cards, and what stands below them */
-    int    count, different;
+    int    count, different, shown; /* pairs; of these, below the index */
 } HtmlReport;
 
-HtmlReport html_report_start(bool is_folder);
-void       html_report_release(HtmlReport *report);
+void html_report_release(HtmlReport *report);
 
 /* name: of the pair, as in both folders. The comparison is not kept. */
 bool html_report_add(HtmlReport *report, const char *name, const Comparison *c,

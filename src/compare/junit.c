@@ -2,13 +2,6 @@
 
 #include <math.h>
 
-#include "base/file.h"
-
-Junit junit_start(void)
-{
-    return (Junit){.cases = markup_start()};
-}
-
 void junit_release(Junit *junit)
 {
     markup_release(&junit->cases);
@@ -76,7 +69,7 @@ void junit_add_failure(Junit *junit, const char *name, const char *why, bool is_
 
 bool junit_write(const Junit *junit, const char *suite, const char *path, Error *err)
 {
-    Markup xml = markup_start();
+    Markup xml = {0};
     markup_format(&xml, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"%d\" "
                   "failures=\"%d\" errors=\"%d\" time=\"%.3f\">\n<testsuite name=\"",
                   junit->count, junit->failures, junit->errors, junit->seconds);
@@ -85,9 +78,9 @@ bool junit_write(const Junit *junit, const char *suite, const char *path, Error 
                   "time=\"%.3f\">\n  <properties>\n    <property name=\"software\" "
                   "value=\"parhelion %s\"/>\n  </properties>\n", junit->count, junit->failures,
                   junit->errors, junit->seconds, PARHELION_VERSION);
-    markup_add_bytes(&xml, markup_bytes(&junit->cases), markup_size(&junit->cases));
+    markup_append(&xml, &junit->cases);
     markup_add(&xml, "</testsuite>\n</testsuites>\n");
-    bool ok = file_write(path, markup_bytes(&xml), markup_size(&xml), err);
+    bool ok = markup_write(&xml, path, err);
     markup_release(&xml);
     return ok;
 }

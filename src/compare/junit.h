@@ -8,14 +8,14 @@
 #include "compare/compare.h"
 #include "compare/markup.h"
 
+/* {0} is empty. */
 typedef struct Junit {
     Markup cases;
     int    count, failures, errors;
     double seconds;
 } Junit;
 
-Junit junit_start(void);
-void  junit_release(Junit *junit);
+void junit_release(Junit *junit);
 
 /* A pair that was compared: a test case with its figures, and a failure when it differs. */
 void junit_add(Junit *junit, const char *name, const Comparison *c);

@@ -5,22 +5,49 @@
 #include <stdio.h>
 #include <string.h>
 
-#define MOST_BYTES ((size_t)16 << 30)
+#include "base/file.h"
 
-Markup markup_start(void)
-{
-    return (Markup){arena_reserve(MOST_BYTES)};
-}
+#define MOST_BYTES ((size_t)16 << 30)
+#define PIECE_BYTES ((size_t)1 << 16)
+
+struct MarkupPiece {
+    MarkupPiece *next;
+    size_t       size, capacity;
+    char        *bytes;
+};
 
 void markup_release(Markup *markup)
 {
     arena_release(&markup->own);
+    *markup = (Markup){0};
+}
+
+static void add_piece(Markup *markup, size_t least)
+{
+    if (!markup->own.begin) markup->own = arena_reserve(MOST_BYTES);
+    MarkupPiece *piece = ARENA_NEW(&markup->own, MarkupPiece, 1);
+    piece->capacity = least > PIECE_BYTES ? least : PIECE_BYTES;
+    piece->bytes = ARENA_NEW(&markup->own, char, piece->capacity);
+    if (markup->last) markup->last->next = piece;
+    else markup->first = piece;
+    markup->last = piece;
+}
+
+/* Room for so many bytes, which are taken for written. */
+static char *room_for(Markup *markup, size_t size)
+{
+    MarkupPiece *last = markup->last;
+    if (!last || last->capacity - last->size < size) add_piece(markup, size);
+    last = markup->last;
+    char *room = last->bytes + last->size;
+    last->size += size;
+    markup->size += size;
+    return room;
 }
 
 void markup_add_bytes(Markup *markup, const void *bytes, size_t size)
 {
-    char *to = ARENA_NEW(&markup->own, char, size);
-    if (size) memcpy(to, bytes, size);
+    if (size) memcpy(room_for(markup, size), bytes, size);
 }
 
 void markup_add(Markup *markup, const char *text)
@@ -33,12 +60,19 @@ void markup_format(Markup *markup, const char *format, ...)
     va_list arguments, again;
     va_start(arguments, format);
     va_copy(again, arguments);
-    int   length = vsnprintf(NULL, 0, format, arguments);
-    char *to = ARENA_NEW(&markup->own, char, length + 1);
-    vsnprintf(to, (size_t)length + 1, format, again);
+    size_t length = (size_t)vsnprintf(NULL, 0, format, arguments);
+    char  *to = room_for(markup, length + 1);
+    vsnprintf(to, length + 1, format, again);
     va_end(again);
     va_end(arguments);
-    markup->own.next--; /* the terminator is no part of the text */
+    markup->last->size--; /* the terminator is no part of the text */
+    markup->size--;
+}
+
+void markup_append(Markup *markup, const Markup *other)
+{
+    for (const MarkupPiece *p = other->first; p; p = p->next)
+        markup_add_bytes(markup, p->bytes, p->size);
 }
 
 /* Length of the UTF-8 letter at p (RFC 3629) that XML 1.0 allows, 0 when there is none. */
@@ -78,7 +112,7 @@ void markup_base64(Markup *markup, const void *bytes, size_t size)
     static const char DIGITS[] =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     const unsigned char *from = bytes;
-    char *to = ARENA_NEW(&markup->own, char, (size + 2) / 3 * 4);
+    char *to = room_for(markup, (size + 2) / 3 * 4);
     for (size_t i = 0; i < size; i += 3) {
         size_t   left = size - i;
         unsigned three = (unsigned)from[i] << 16 | (left > 1 ? (unsigned)from[i + 1] << 8 : 0) |
@@ -88,4 +122,23 @@ void markup_base64(Markup *markup, const void *bytes, size_t size)
         *to++ = left > 1 ? DIGITS[three >> 6 & 63] : '=';
         *to++ = left > 2 ? DIGITS[three & 63] : '=';
     }
+}
+
+const char *markup_text(const Markup *markup, Arena *arena)
+{
+    char *text = ARENA_NEW(arena, char, markup->size + 1), *to = text;
+    for (const MarkupPiece *p = markup->first; p; p = p->next) {
+        memcpy(to, p->bytes, p->size);
+        to += p->size;
+    }
+    return text;
+}
+
+bool markup_write(const Markup *markup, const char *path, Error *err)
+{
+    FileWriter writer;
+    if (!file_writer_open(path, &writer, err)) return false;
+    for (const MarkupPiece *p = markup->first; p; p = p->next)
+        if (!file_writer_add(&writer, p->bytes, p->size, err)) return false;
+    return file_writer_commit(&writer, err);
 }

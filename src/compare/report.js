@@ -43,7 +43,7 @@ function build(pair){
   if(pair.dataset.built)return;
   pair.dataset.built=1;
   var box=pair.querySelector('.shots');
-  if(!box)return;
+  if(!box||!box.dataset.factor)return;
   var shots={},maps=[];
   box.querySelectorAll('figure').forEach(function(f){
     var s={figure:f,img:f.querySelector('img'),title:f.querySelector('h3').textContent};
@@ -182,7 +182,7 @@ document.querySelectorAll('a.card').forEach(function(card){
 });
 var only=document.getElementById('only');
 if(only){
-  only.parentNode.hidden=false;
+  only.closest('p').hidden=false;
   only.addEventListener('change',function(){
     document.body.classList.toggle('only',only.checked);
   });

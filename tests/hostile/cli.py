@@ -19,7 +19,8 @@ from exr import Frame  # noqa: E402
 from report import Report  # noqa: E402
 
 COMMANDS = ("render", "develop", "check", "measure", "compare", "sky", "panel import",
-            "panel fit", "panel info", "panel eval", "panel plot", "panel export", "panel simulate")
+            "panel fit", "panel info", "panel eval", "panel plot", "panel export",
+            "panel simulate")
 
 
 class Program:
