@@ -1,0 +1,175 @@
+/* A file leads to its neighbours and not beyond; an output is looked at before work is done;
+ * an arena takes no more than half of a limited address space. */
+#include "check.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "base/reference.h"
+
+/* folder/a/scenes/s.gltf may name what is below folder/a, but nothing in folder/secret. */
+static Arena arena;
+static char folder[256];
+
+static const char *at(const char *name)
+{
+    return arena_format(&arena, "%s/%s", folder, name);
+}
+
+static int start(void **state)
+{
+    (void)state;
+    Error err;
+    const char *base = getenv("TMPDIR");
+    snprintf(folder, sizeof folder, "%s/parhelion-test-XXXXXX", base ? base : P_tmpdir);
+    arena = arena_reserve(1 << 20);
+    if (!mkdtemp(folder)) return -1;
+    for (const char *const *name = (const char *const[]){"a", "a/scenes", "a/beside", "secret",
+                                                         NULL};
+         *name; name++)
+        if (mkdir(at(*name), 0755)) return -1;
+    return file_write(at("secret/x"), "x", 1, &err) && file_write(at("a/beside/x"), "x", 1, &err)
+           && !symlink("../../secret/x", at("a/scenes/out"))
+           && !symlink("../../secret", at("a/scenes/door"))
+           && !symlink("../beside/x", at("a/scenes/near")) ? 0 : -1;
+}
+
+static int end(void **state)
+{
+    (void)state;
+    for (const char *const *name =
+             (const char *const[]){"a/scenes/out", "a/scenes/door", "a/scenes/near",
+                                   "a/beside/x", "secret/x", "a/scenes", "a/beside", "a",
+                                   "secret", "", NULL};
+         *name; name++)
+        remove(at(*name));
+    arena_release(&arena);
+    return 0;
+}
+
+typedef struct Row {
+    const char *relative, *root, *words; /* words NULL: it is taken */
+} Row;
+
+static void a_file_leads_to_its_neighbours_only(void **state)
+{
+    (void)state;
+    static const Row rows[] = {
+        {"../beside/x", NULL, NULL},
+        {"near", NULL, NULL},
+        {"../scenes/../beside/x", NULL, NULL},
+        {"not there", NULL, NULL}, /* opening it tells more */
+        {"out", NULL, "leaves the parent of the folder of the file that names it by a symbolic"},
+        {"door/x", NULL, "by a symbolic link"},
+        {"../../secret/x", NULL, "another folder is added by --root DIR"},
+        {"../../not/there", NULL, "leaves the parent"},
+        {"/etc/passwd", NULL, "\"/etc/passwd\" is an absolute path"},
+        {"\\\\host\\x", NULL, "is an absolute path"},
+        {"..\\x", NULL, "holds a backslash; / is wanted"},
+        {"", NULL, "\"\" is empty; a path relative to the file that names it is wanted"},
+        {"out", "secret", NULL},
+        {"door/x", "secret", NULL},
+        {"../../secret/x", "secret", NULL},
+        {"../../secret/x", "a/beside", "leaves the parent"},
+        {"out", "secre", "by a symbolic link"}, /* no folder of that name */
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        Error       err = {0};
+        const char *path = NULL;
+        const char *root = rows[i].root ? at(rows[i].root) : NULL;
+        bool taken = reference_resolve(at("a/scenes/s.gltf"), rows[i].relative, root, &arena,
+                                       &path, &err);
+        if (taken != !rows[i].words) fail_msg("'%s': %s", rows[i].relative, err.text);
+        if (!taken && !strstr(err.text, rows[i].words))
+            fail_msg("'%s' says: %s", rows[i].relative, err.text);
+        if (taken)
+            assert_string_equal(path, arena_format(&arena, "%s/a/scenes/%s", folder,
+                                                   rows[i].relative));
+    }
+}
+
+/* A file that is named without a folder stands in the folder where the program was started. */
+static void the_folder_may_be_unnamed(void **state)
+{
+    (void)state;
+    char        before[4096];
+    const char *path;
+    Error       err;
+    assert_non_null(getcwd(before, sizeof before));
+    assert_int_equal(chdir(at("a/scenes")), 0);
+    assert_true(reference_resolve("s.gltf", "near", NULL, &arena, &path, &err));
+    assert_string_equal(path, "near");
+    assert_false(reference_resolve("s.gltf", "out", NULL, &arena, &path, &err));
+    assert_int_equal(chdir(before), 0);
+}
+
+static void a_root_must_be_a_folder(void **state)
+{
+    (void)state;
+    Error err = {0};
+    assert_true(reference_check_root(NULL, &err));
+    assert_true(reference_check_root(at("secret"), &err));
+    assert_false(reference_check_root(at("secret/x"), &err));
+    assert_string_equal(err.text, "--root wants a folder: Not a directory");
+    assert_false(reference_check_root(at("nowhere"), &err));
+    assert_string_equal(err.text, "--root wants a folder: No such file or directory");
+    assert_int_equal(err.code, ERROR_INPUT);
+}
+
+static void an_output_is_looked_at_first(void **state)
+{
+    (void)state;
+    Error err = {0};
+    assert_true(file_check_writable(at("new"), &err));
+    assert_int_equal(access(at("new"), F_OK), -1); /* nothing is left */
+    assert_true(file_check_writable(at("secret/x"), &err));
+    assert_true(file_check_writable("/dev/null", &err));
+    assert_false(file_check_writable(at("secret"), &err));
+    assert_string_equal(err.text, "cannot be written: Is a directory");
+    assert_false(file_check_writable(at("nowhere/new"), &err));
+    assert_int_equal(err.code, ERROR_OUTPUT);
+    assert_non_null(strstr(err.text, "No such file or directory"));
+    assert_string_equal(err.file, at("nowhere/new"));
+}
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define LIMITS_WORK 0 /* sanitizers take terabytes of addresses */
+#else
+#define LIMITS_WORK 1
+#endif
+
+/* In a process of its own: the size of an arena of 8 GB where only 2 GB may be had. */
+static void an_arena_leaves_room(void **state)
+{
+    (void)state;
+    if (!LIMITS_WORK) skip();
+    pid_t child = fork();
+    if (child == 0) {
+        const size_t gigabyte = (size_t)1 << 30;
+        struct rlimit limit = {2 * gigabyte, 2 * gigabyte};
+        if (setrlimit(RLIMIT_AS, &limit)) _exit(1);
+        Arena first = arena_reserve(8 * gigabyte), second = arena_reserve(8 * gigabyte);
+        size_t a = (size_t)(first.end - first.begin), b = (size_t)(second.end - second.begin);
+        _exit(a <= gigabyte && a > gigabyte / 2 && b <= a / 2 + 65536 && b > a / 4 ? 0 : 2);
+    }
+    int status = 0;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_int_equal(status, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_file_leads_to_its_neighbours_only),
+        cmocka_unit_test(the_folder_may_be_unnamed),
+        cmocka_unit_test(a_root_must_be_a_folder),
+        cmocka_unit_test(an_output_is_looked_at_first),
+        cmocka_unit_test(an_arena_leaves_room),
+    };
+    return cmocka_run_group_tests(tests, start, end);
+}
