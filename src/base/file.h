@@ -32,8 +32,8 @@ bool file_exists(const char *path);
 
 /* ---- writing: seen when it is whole and on the disk ------------------------------------- */
 
-/* Whether `path` could be written, before hours of work: not over a folder, nor over a file that
- * its owner has write-protected. Leaves nothing behind. */
+/* Whether `path` could be written, before hours of work: not over a folder, nor over a file
+ * that its owner has write-protected. Leaves nothing behind. */
 bool file_check_writable(const char *path, Error *err);
 
 /* Bytes in memory become a file. A device or a pipe is written as it stands. */

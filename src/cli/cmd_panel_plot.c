@@ -118,7 +118,8 @@ bool cmd_panel_plot(int argc, char **argv, Error *err)
     request.options.height = size[1];
     request.options.incidence_phi = radians_from_degrees(incidence_phi);
     request.options.threads = cli.threads;
-    bool ok = check_request(&request, err) && reference_check_root(request.root, err) && run(&request, &cli, &arena, err);
+    bool ok = check_request(&request, err) && reference_check_root(request.root, err) &&
+              run(&request, &cli, &arena, err);
     arena_release(&arena);
     return ok;
 }

@@ -278,7 +278,7 @@ bool simulate_measurement(const Recipe *recipe, const char *folder, ProgressMode
     for (int i = 0; i < slices && ok; i++) ok = write_brdf(&instrument, r->incidence_deg[i]);
     ok = ok && write_spectra(&instrument) && write_manifest(&instrument);
     progress_end(&instrument.progress, instrument.tables_done);
-    if (!ok && is_new) nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS); /* all of it is ours */
+    if (!ok && is_new) nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS); /* all is ours */
     arena_release(&arena);
     return ok;
 }

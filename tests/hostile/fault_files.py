@@ -1,8 +1,8 @@
 """fault_files.py -- disks, folders, permissions, files that change: part of faults.py.
 
-Documented in README (exit statuses) and src/base/file.h: status 4 with the output's name and the
-system's reason when an output cannot be written, status 3 likewise for an input; no half-written
-file, under no name.
+Documented in README.md beside it and in src/base/file.h: status 4 with the output's name and
+the system's reason when an output cannot be written, status 3 likewise for an input; no
+half-written file, under no name.
 """
 import json
 import math
@@ -92,7 +92,8 @@ def check_full_disk(bench):
 
 def check_nearly_full_disk(bench):
     """A page is free: what is larger is begun and cannot be finished."""
-    fill_disk(bench, 4096, ("f.exr", "white.csv", "sim", "set", "plot.svg", "r.html", "sky.png"))
+    fill_disk(bench, 4096, ("f.exr", "white.csv", "sim", "set", "plot.svg", "r.html",
+                            "sky.png"))
 
 
 def check_picture_on_full_disk(bench):
@@ -188,7 +189,8 @@ def check_places(bench):
     bench.fails(bench.run("render", folder, "-o", bench.file("x.exr"), "--quiet"), 3,
                 "is a folder")
     bench.fails(bench.run("panel", "info", folder), 3, "is a folder")
-    bench.fails(bench.run("panel", "fit", folder, "-o", bench.file("y.panel")), 3, "is a folder")
+    bench.fails(bench.run("panel", "fit", folder, "-o", bench.file("y.panel")), 3,
+                "is a folder")
 
 
 def check_special_files(bench):
@@ -198,7 +200,8 @@ def check_special_files(bench):
     os.symlink("/dev/full", full)
     bench.fails(bench.render(bench.file("in", "scene.gltf"), out="full.exr"), 4, FULL)
     os.mkfifo(pipe)
-    for command in (("check", pipe), ("panel", "info", pipe), ("develop", pipe, "-o", bench.file("z.png")),
+    for command in (("check", pipe), ("panel", "info", pipe),
+                    ("develop", pipe, "-o", bench.file("z.png")),
                     ("panel", "fit", pipe, "-o", bench.file("y.panel")),
                     ("panel", "import", pipe, "-o", bench.file("MANIFEST.json")),
                     ("panel", "simulate", pipe, "-o", bench.file("y"))):
@@ -336,7 +339,7 @@ def check_shrinking_while_read(bench):
 
 
 def check_interrupt(bench):
-    """A frame of more samples than anybody waits for, stopped: a frame, and the way to go on."""
+    """A frame of more samples than anybody waits for, stopped: a frame marked incomplete."""
     make_inputs(bench)
     out = bench.file("endless.exr")
     running = subprocess.Popen(

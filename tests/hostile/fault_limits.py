@@ -1,4 +1,4 @@
-"""fault_limits.py -- what files may name, and how large and deep they may be: part of faults.py.
+"""fault_limits.py -- what files may name, how large and deep they may be: part of faults.py.
 
 Documented in src/base/reference.h (--root), src/scene/load.h and the readers' headers.
 """

@@ -1,6 +1,6 @@
-"""faults.py [--all] PARHELION -- disks that are full, folders that may not be written, files that
-change while they are read, memory that runs out, scenes at the edge of sense: each has the
-outcome that its row says, with the exit status, one clear line, and nothing half-written.
+"""faults.py [--all] PARHELION -- disks that are full, folders that may not be written, files
+that change while they are read, memory that runs out, scenes at the edge of sense: each has the
+outcome that README.md says, with the exit status, one clear line, and nothing half-written.
 --all: every fault; else those that fit into the short tests.
 """
 import os

@@ -1,5 +1,5 @@
-"""calls.py -- what no source may call: no shell and no other program, no network, no code that is
-loaded while the program runs, and no file that is mapped (one that shrinks would kill us).
+"""calls.py -- what no source may call: no shell and no other program, no network, no code that
+is loaded while the program runs, and no file that is mapped (one that shrinks would kill us).
 """
 import re
 import sys
@@ -7,8 +7,8 @@ import sys
 from report import Report, read, sources
 
 FORBIDDEN = {
-    "a shell or another program": "system popen execl execlp execle execv execvp execvpe execve "
-                                  "fexecve fork vfork posix_spawn posix_spawnp",
+    "a shell or another program": "system popen execl execlp execle execv execvp execvpe "
+                                  "execve fexecve fork vfork posix_spawn posix_spawnp",
     "the network": "socket socketpair connect bind listen accept accept4 sendto recvfrom "
                    "getaddrinfo gethostbyname getnameinfo",
     "code that is loaded later": "dlopen dlmopen",
@@ -31,7 +31,8 @@ def calls_in(name, text):
     the same name is told by its declaration: a type stands before it."""
     code = code_of(text)
     for what, names in FORBIDDEN.items():
-        for match in re.finditer(rf"(?<![\w.>])(?:::\s*)?\b({'|'.join(names.split())})\s*\(", code):
+        any_name = "|".join(names.split())
+        for match in re.finditer(rf"(?<![\w.>])(?:::\s*)?\b({any_name})\s*\(", code):
             before = code[:match.start()].rstrip()
             is_own = re.search(rf"\b(?:bool|int|void|static\s+\w+)\s+{match[1]}\s*\(", code)
             word = ALLOWED.get((name, match[1]))
