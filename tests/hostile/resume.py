@@ -245,6 +245,9 @@ def check_refusals(work, *options):
         done = work.run(*options, "--resume")
         work.report.claim(part in done.stderr and done.returncode in (3, 4) and
                           contents(path) == broken, f"{name}: {done.stderr[:300]}")
+    done = work.run(*options, "--checkpoint", "frame.exr")
+    work.report.claim(done.returncode == 2 and "--checkpoint frame.exr: the result is to stand "
+                      "there" in done.stderr, f"one name for both: {done.stderr}")
     work.clear()
     # more samples than were asked for at first: on from where it stood
     frame, _ = work.reference(*options, "--spp", str(more))
@@ -307,10 +310,10 @@ def main():
             check_stop(work, *little, "--spp", "64")
             check_second_signal(work)
         else:
-            check_kills(work, arguments.kills, "--size", "64x48", "--spp", "200")
+            check_kills(work, arguments.kills, "--size", "64x48", "--spp", "150")
             check_kills(work, max(1, arguments.kills // 10), "--size", "64x48", "--spp",
                         "100000", "--noise", "0.07")
-            check_stop(work, *little, "--spp", "400", "--layers", "all")
+            check_stop(work, *little, "--spp", "400", "--layers", "all", "--crop", "3,1,31,20")
             check_snapshot(work, *little, "--spp", "400")
             check_second_signal(work)
             check_refusals(work, *little)
