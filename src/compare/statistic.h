@@ -42,7 +42,7 @@ typedef struct StatisticOptions {
 
 /* One part of the frame whose mean is tested for itself. */
 typedef struct StatisticRegion {
-    const char *name;      /* "frame", a display's name, "cluster reflected" */
+    const char *name;      /* "frame", a display's in the reference, "cluster reflected" */
     long    pixels;
     double  reference, test; /* mean luminance, cd m^-2 */
     double  shift;         /* test / reference - 1; NaN for a black reference */
