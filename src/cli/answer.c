@@ -26,13 +26,6 @@ json_t *cli_json_text(const char *text)
     return json_string(plain);
 }
 
-/* Names from files and command lines may hold what a terminal obeys, or end a line. */
-static void make_plain(char *text)
-{
-    for (char *c = text; *c; c++)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?';
-}
-
 void cli_error_line(const Error *error, char *buffer, int size)
 {
     const char *advice = strstr(error->text, " — ");
@@ -41,7 +34,6 @@ void cli_error_line(const Error *error, char *buffer, int size)
     snprintf(buffer, (size_t)size, "parhelion: %s%s%.*s%s%s%s%s", error->file,
              error->file[0] ? ": " : "", length, error->text, has_path ? " (" : "", error->path,
              has_path ? ")" : "", advice ? advice : "");
-    make_plain(buffer);
 }
 
 void cli_report_error(const Error *error, bool json)
@@ -75,12 +67,9 @@ void cli_print_warnings(const Problems *problems)
     for (int i = 0; i < problems->count; i++) {
         const Problem *one = &problems->list[i];
         if (one->severity != SEVERITY_WARNING || is_repeated(problems, i)) continue;
-        char line[2048];
-        snprintf(line, sizeof line, "parhelion: warning: %s%s%s%s%s%s", one->file,
-                 one->file[0] ? ": " : "", one->message, one->path[0] ? " (" : "", one->path,
-                 one->path[0] ? ")" : "");
-        make_plain(line);
-        fprintf(stderr, "%s\n", line);
+        fprintf(stderr, "parhelion: warning: %s%s%s%s%s%s\n", one->file,
+                one->file[0] ? ": " : "", one->message, one->path[0] ? " (" : "", one->path,
+                one->path[0] ? ")" : "");
     }
 }
 
