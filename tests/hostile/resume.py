@@ -312,7 +312,7 @@ def main():
         else:
             check_kills(work, arguments.kills, "--size", "64x48", "--spp", "150")
             check_kills(work, max(1, arguments.kills // 10), "--size", "64x48", "--spp",
-                        "100000", "--noise", "0.07")
+                        "100000", "--noise", "0.07", "--crop", "3,1,60,47")
             check_stop(work, *little, "--spp", "400", "--layers", "all", "--crop", "3,1,31,20")
             check_snapshot(work, *little, "--spp", "400")
             check_second_signal(work)
