@@ -70,10 +70,12 @@ void fuzz_mutate_places(uint8_t *data, size_t size, unsigned seed);
 /* A steady sequence of 32-bit numbers (Steele and Vigna: splitmix). */
 uint32_t fuzz_random(uint64_t *state);
 
-FuzzMutate fuzz_mutate_json, fuzz_mutate_glb, fuzz_mutate_png, fuzz_mutate_panel;
+FuzzMutate fuzz_mutate_json, fuzz_mutate_glb, fuzz_mutate_png, fuzz_mutate_panel,
+    fuzz_mutate_checkpoint;
 
 /* ---- targets ----------------------------------------------------------------------------- */
 
 FuzzRun fuzz_scene, fuzz_panel, fuzz_import, fuzz_import_any, fuzz_import_text,
     fuzz_declaration, fuzz_image, fuzz_frame, fuzz_manifest, fuzz_recipe, fuzz_table,
-    fuzz_weather, fuzz_curve, fuzz_primaries, fuzz_environment, fuzz_cli, fuzz_uri;
+    fuzz_weather, fuzz_curve, fuzz_primaries, fuzz_environment, fuzz_cli, fuzz_uri,
+    fuzz_checkpoint;

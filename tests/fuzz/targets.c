@@ -22,6 +22,7 @@ const FuzzTarget fuzz_targets[] = {
     {"exr", fuzz_frame, NULL, 4096, NULL},
     {"image", fuzz_image, NULL, 4096, NULL},
     {"png", fuzz_image, fuzz_mutate_png, 2048, NULL},
+    {"checkpoint", fuzz_checkpoint, fuzz_mutate_checkpoint, 4096, NULL},
     {"import-any", fuzz_import_any, NULL, 2048, NULL},
     {"import-text", fuzz_import_text, NULL, 2048, NULL},
     FORMAT("eulumdat", 2048),
