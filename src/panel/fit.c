@@ -155,7 +155,7 @@ static bool sample_reflection(const FitParts *parts, FitReflection *reflection, 
     Panel *panel;
     void  *bytes = fit_file_bytes(parts, "{}", arena, &size);
     return panel_from_bytes(bytes, size, "panel", arena, &panel, err) &&
-           fit_sampling(panel, arena, parts->notes, reflection, err);
+           fit_sampling(panel, arena, reflection, err);
 }
 
 /* Haze, floor and mirror of parts->set into *reflection. */

@@ -174,8 +174,7 @@ float *fit_profile(const FitPlaces *places, float *values, int components, int h
 
 /* Third step, once the panel's reflection can be queried: the PANEL_SAMPLING section into
  * *reflection, from what `panel`, which has none yet, says itself. */
-bool fit_sampling(const Panel *panel, Arena *arena, FitNotes *notes, FitReflection *reflection,
-                  Error *err);
+bool fit_sampling(const Panel *panel, Arena *arena, FitReflection *reflection, Error *err);
 
 /* ---- the file and the report ----------------------------------------------------------- */
 

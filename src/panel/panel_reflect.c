@@ -153,23 +153,40 @@ static inline Float8 mixed_rows(const PanelReflection *r, const TableMix *mix,
     return sum;
 }
 
-/* Adds what a component vector of the tree means for the mixed tables. */
+/* Adds what a component vector of the tree means for the mixed tables: 4 * quads coefficients
+ * from k on, quads a constant of 1 to 4 where inlined. Several sums at once: one alone would
+ * wait for itself. */
+static inline void add_quads(const PanelReflection *r, const TableMix *mix, int turned,
+                             const float *component, int quads, int k, float *coefficient)
+{
+    int          stride = (int)r->padded_coefficients, n = (int)r->components;
+    PanelFloat4 *to = (PanelFloat4 *)(coefficient + k);
+    for (int i = 0; i < mix->count[turned]; i++) {
+        const Term  *term = &mix->term[turned][i];
+        const float *row = r->loading + term->table * n * stride + k;
+        PanelFloat4  s0 = {0}, s1 = {0}, s2 = {0}, s3 = {0};
+        for (int c = 0; c < n; c++, row += stride) {
+            const PanelFloat4 *from = (const PanelFloat4 *)row;
+            s0 += component[c] * from[0];
+            if (quads > 1) s1 += component[c] * from[1];
+            if (quads > 2) s2 += component[c] * from[2];
+            if (quads > 3) s3 += component[c] * from[3];
+        }
+        to[0] += term->weight * s0;
+        if (quads > 1) to[1] += term->weight * s1;
+        if (quads > 2) to[2] += term->weight * s2;
+        if (quads > 3) to[3] += term->weight * s3;
+    }
+}
+
 static inline void add_loadings(const PanelReflection *r, const TableMix *mix, int turned,
                                 const float *component, float *coefficient)
 {
-    int padded = (int)r->padded_coefficients, n = (int)r->components;
-    for (int k = 0; k < padded; k += 4) {
-        PanelFloat4 sum = *(PanelFloat4 *)(coefficient + k);
-        for (int i = 0; i < mix->count[turned]; i++) {
-            const Term  *term = &mix->term[turned][i];
-            const float *row = r->loading + term->table * n * padded + k;
-            PanelFloat4  part = {0};
-            for (int c = 0; c < n; c++, row += padded)
-                part += component[c] * *(const PanelFloat4 *)row;
-            sum += term->weight * part;
-        }
-        *(PanelFloat4 *)(coefficient + k) = sum;
-    }
+    int k = 0, padded = (int)r->padded_coefficients;
+    for (; k + 16 <= padded; k += 16) add_quads(r, mix, turned, component, 4, k, coefficient);
+    if (padded - k == 12) add_quads(r, mix, turned, component, 3, k, coefficient);
+    if (padded - k == 8) add_quads(r, mix, turned, component, 2, k, coefficient);
+    if (padded - k == 4) add_quads(r, mix, turned, component, 1, k, coefficient);
 }
 
 /* ln (f / F) at all measured wavelengths: padded_wavelengths floats. */
@@ -193,25 +210,44 @@ static void reflection_logs(const Panel *panel, Vec3 stored, const TableMix *mix
     }
 }
 
-/* Values at the lanes, linear between measured wavelengths; the end value holds outside. */
-static Spectrum spread(const Panel *panel, const float *value, const Wavelengths *wavelengths)
+/* Where the lanes lie among the measured wavelengths: found once a query. */
+typedef struct Lanes {
+    int      interval[SPECTRUM_LANES];
+    Spectrum t; /* in it, 0 to 1: outside, the end value holds */
+    bool     has_one; /* a single wavelength is measured */
+} Lanes;
+
+static Lanes find_lanes(const Panel *panel, const Wavelengths *wavelengths)
 {
     const PanelReflection *r = panel->reflection;
-    Spectrum out;
-    if (r->wavelengths == 1) return spectrum_all(value[0]);
-    for (int i = 0; i < SPECTRUM_LANES; i++) {
+    Lanes lanes;
+    lanes.has_one = r->wavelengths == 1;
+    for (int i = 0; i < SPECTRUM_LANES && !lanes.has_one; i++) {
         float nm = clampf(wavelengths->nm[i], SPECTRAL_FIRST_NM, SPECTRAL_LAST_NM);
         int   n = panel->wavelength_index[(int)(nm - SPECTRAL_FIRST_NM)];
         while (n + 2 < (int)r->wavelengths && r->wavelength_nm[n + 1] <= nm) n++;
         float t = (nm - r->wavelength_nm[n]) * panel->wavelength_scale[n];
-        out[i] = lerpf(value[n], value[n + 1], clampf(t, 0, 1));
+        lanes.interval[i] = n;
+        lanes.t[i] = clampf(t, 0, 1);
     }
-    return out;
+    return lanes;
+}
+
+/* Values at the lanes, linear between measured wavelengths. */
+static Spectrum spread(const float *value, const Lanes *lanes)
+{
+    Spectrum low, high;
+    if (lanes->has_one) return spectrum_all(value[0]);
+    for (int i = 0; i < SPECTRUM_LANES; i++) {
+        low[i] = value[lanes->interval[i]];
+        high[i] = value[lanes->interval[i] + 1];
+    }
+    return low + (high - low) * lanes->t;
 }
 
 /* Rows a and b of padded_wavelengths floats, t from the first to the second. */
 static Spectrum spread_between(const Panel *panel, const float *rows, int first, float t,
-                               const Wavelengths *wavelengths)
+                               const Lanes *lanes)
 {
     int          padded = (int)panel->reflection->padded_wavelengths;
     Spectrum     row[PADDED_MAX / SPECTRUM_LANES];
@@ -219,7 +255,7 @@ static Spectrum spread_between(const Panel *panel, const float *rows, int first,
     for (int w = 0; w < padded; w += SPECTRUM_LANES)
         row[w / SPECTRUM_LANES] =
             load_16(a + w) + (load_16(b + w) - load_16(a + w)) * spectrum_all(t);
-    return spread(panel, (const float *)row, wavelengths);
+    return spread((const float *)row, lanes);
 }
 
 /* ---- the narrow lobe ------------------------------------------------------------------- */
@@ -244,7 +280,7 @@ static float mixed_sigma(const PanelReflection *r, const TableMix *mix)
 
 /* The lobe over F: R / F G(angle) / cos theta_i. */
 static Spectrum lobe_over_fresnel(const Panel *panel, const TableMix *mix, Vec3 local, Vec3 wi,
-                                  const Wavelengths *wavelengths)
+                                  const Lanes *lanes)
 {
     const PanelReflection *r = panel->reflection;
     float logs[PADDED_MAX];
@@ -255,7 +291,7 @@ static Spectrum lobe_over_fresnel(const Panel *panel, const TableMix *mix, Vec3 
         *(Float8 *)(logs + w) = mixed_rows(r, mix, r->lobe, w);
     float cosine = wi.z > 0.02f ? wi.z : 0.02f;
     float shape = exp_f(-0.5f * square * inverse) * inverse / (2 * PI_F * cosine);
-    return spectrum_exp(spread(panel, logs, wavelengths)) * spectrum_all(shape);
+    return spectrum_exp(spread(logs, lanes)) * spectrum_all(shape);
 }
 
 /* ---- beyond the last measured incidence ------------------------------------------------- */
@@ -273,13 +309,21 @@ static Vec3 shifted(const PanelReflection *r, Vec3 local, float sin_theta)
     return vec3(x, y, safe_sqrtf(1 - x * x - y * y));
 }
 
+static Spectrum mirror_at(const Panel *panel, float cos_theta, const Lanes *lanes)
+{
+    float t;
+    int   node = panel_angle_node(acos_f(cos_theta), &t);
+    return spread_between(panel, panel->reflection->mirror, node, t, lanes);
+}
+
 /* Reflectance of the glossy surface: the mirror part's where there is one (the coating is the
  * same), Fresnel's otherwise. Up to a constant. */
-static Spectrum gloss(const Panel *panel, float cosine, const Wavelengths *wavelengths)
+static Spectrum gloss(const Panel *panel, float cosine, const Lanes *lanes)
 {
     const PanelReflection *r = panel->reflection;
     if (!r->has_mirror) return spectrum_all(fresnel(cosine, r->refractive_index));
-    return spectrum_max(panel_mirror(panel, cosine, wavelengths), spectrum_all(1e-6f));
+    if (!(cosine > 0)) return spectrum_all(1e-6f);
+    return spectrum_max(mirror_at(panel, cosine, lanes), spectrum_all(1e-6f));
 }
 
 static Spectrum spectrum_root(Spectrum a)
@@ -290,20 +334,20 @@ static Spectrum spectrum_root(Spectrum a)
 }
 
 /* What the energy leaves room for at an incidence beyond the measured ones. */
-static Spectrum held_factor(const Panel *panel, float theta, const Wavelengths *wavelengths)
+static Spectrum held_factor(const Panel *panel, float theta, const Lanes *lanes)
 {
     const PanelReflection *r = panel->reflection;
     int i = 0;
     if (r->nodes < 2) return spectrum_all(1);
     while (i + 2 < (int)r->nodes && r->node_theta[i + 1] <= theta) i++;
     float t = (theta - r->node_theta[i]) / (r->node_theta[i + 1] - r->node_theta[i]);
-    return spread_between(panel, r->held, i, clampf(t, 0, 1), wavelengths);
+    return spread_between(panel, r->held, i, clampf(t, 0, 1), lanes);
 }
 
 /* The haze moves, its height follows the root of the surface's reflectances at theta_i and
  * theta_o, and the floor follows the light that enters. */
 static Spectrum brdf_beyond(const Panel *panel, Vec3 local, Vec3 wi, float light,
-                            const Wavelengths *wavelengths)
+                            const Lanes *lanes)
 {
     const PanelReflection *r = panel->reflection;
     float logs[PADDED_MAX];
@@ -315,18 +359,18 @@ static Spectrum brdf_beyond(const Panel *panel, Vec3 local, Vec3 wi, float light
     Vec3     from = shifted(r, local, sine);
     reflection_logs(panel, specular_frame_stored(&frame, from), &mix, logs);
     float    last = fresnel(cosine_last, n);
-    Spectrum total = spectrum_exp(spread(panel, logs, wavelengths)) *
+    Spectrum total = spectrum_exp(spread(logs, lanes)) *
                      spectrum_all(last);
-    Spectrum floor = spectrum_min(total, spread(panel, r->floor + mix.term[0][0].table *
-                                  (int)r->padded_wavelengths, wavelengths));
-    Spectrum in = gloss(panel, wi.z, wavelengths) / gloss(panel, cosine_last, wavelengths);
-    Spectrum out = gloss(panel, local.z, wavelengths) / gloss(panel, from.z, wavelengths);
+    Spectrum floor = spectrum_min(total, spread(r->floor + mix.term[0][0].table *
+                                                  (int)r->padded_wavelengths, lanes));
+    Spectrum in = gloss(panel, wi.z, lanes) / gloss(panel, cosine_last, lanes);
+    Spectrum out = gloss(panel, local.z, lanes) / gloss(panel, from.z, lanes);
     float    entering = (1 - fresnel(wi.z, n)) / (1 - last);
     Spectrum haze = (total - floor) * spectrum_root(in * out) + floor * spectrum_all(entering);
     if (r->has_lobe)
-        haze += lobe_over_fresnel(panel, &mix, local, wi, wavelengths) * in *
+        haze += lobe_over_fresnel(panel, &mix, local, wi, lanes) * in *
                 spectrum_all(last);
-    return haze * held_factor(panel, panel_polar_angle(wi), wavelengths);
+    return haze * held_factor(panel, panel_polar_angle(wi), lanes);
 }
 
 /* ---- the queries ------------------------------------------------------------------------ */
@@ -338,12 +382,13 @@ Spectrum panel_brdf(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *wav
     if (!r || !(wo.z > 0) || !(wi.z > 0)) return spectrum_all(0);
     float theta = panel_polar_angle(wi), light = r->azimuths > 1 ? atan2_f(wi.y, wi.x) : 0;
     Vec3  local = panel_turned(wi, wo);
-    if (theta > r->last_theta) return brdf_beyond(panel, local, wi, light, wavelengths);
+    Lanes lanes = find_lanes(panel, wavelengths);
+    if (theta > r->last_theta) return brdf_beyond(panel, local, wi, light, &lanes);
     SpecularFrame frame = specular_frame(theta, r->frame_exponent);
     TableMix      mix = table_mix(r, theta, light);
     reflection_logs(panel, specular_frame_stored(&frame, local), &mix, logs);
-    Spectrum over = spectrum_exp(spread(panel, logs, wavelengths));
-    if (r->has_lobe) over += lobe_over_fresnel(panel, &mix, local, wi, wavelengths);
+    Spectrum over = spectrum_exp(spread(logs, &lanes));
+    if (r->has_lobe) over += lobe_over_fresnel(panel, &mix, local, wi, &lanes);
     return over * spectrum_all(fresnel(wi.z, r->refractive_index));
 }
 
@@ -356,11 +401,10 @@ bool panel_brdf_is_measured(const Panel *panel, Vec3 wo, Vec3 wi)
 
 Spectrum panel_mirror(const Panel *panel, float cos_theta, const Wavelengths *wavelengths)
 {
-    float t;
     if (!panel->reflection || !panel->reflection->has_mirror || !(cos_theta > 0))
         return spectrum_all(0);
-    int node = panel_angle_node(acos_f(cos_theta), &t);
-    return spread_between(panel, panel->reflection->mirror, node, t, wavelengths);
+    Lanes lanes = find_lanes(panel, wavelengths);
+    return mirror_at(panel, cos_theta, &lanes);
 }
 
 float panel_haze_albedo(const Panel *panel, float cos_theta)
