@@ -1,6 +1,7 @@
 #include "compare/channels.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Two planes of one channel, and how to look at them. */
@@ -10,31 +11,52 @@ typedef struct Pair {
     int          row;         /* values in a row */
     const FrameImage *frame;  /* NULL: value i is pixel i */
     int          width;       /* pixels of a row of the display window */
-    bool         is_light, excuses_rims;
+    bool         is_light, is_noise, excuses_rims;
 } Pair;
 
-/* NaN is no accident in what the first surface says: there may be none. */
-static bool is_surface_layer(const char *name)
+static bool is_one_of(const char *name, const char *const *layers, int count)
 {
-    static const char *const LAYERS[] = {"display", "depth", "position", "normal", "albedo",
-                                         "uv", "Z", "ZBack"};
-    for (size_t i = 0; i < sizeof LAYERS / sizeof *LAYERS; i++) {
-        size_t length = strlen(LAYERS[i]);
-        if (!strncmp(name, LAYERS[i], length) && (!name[length] || name[length] == '.'))
+    for (int i = 0; i < count; i++) {
+        size_t length = strlen(layers[i]);
+        if (!strncmp(name, layers[i], length) && (!name[length] || name[length] == '.'))
             return true;
     }
     return false;
 }
 
-/* Is there a finite value beside value i? Then a gap there is the rim of a surface. */
-static bool is_rim(const Pair *pair, const float *values, size_t i)
+/* NaN is no accident in what the first surface says: there may be none. */
+static bool is_surface_layer(const char *name)
+{
+    static const char *const LAYERS[] = {"display", "depth", "position", "normal",
+                                         "albedo",  "uv",    "Z",        "ZBack"};
+    return is_one_of(name, LAYERS, sizeof LAYERS / sizeof *LAYERS);
+}
+
+static bool is_noise_layer(const char *name)
+{
+    static const char *const LAYERS[] = {"variance", "halves"};
+    return is_one_of(name, LAYERS, sizeof LAYERS / sizeof *LAYERS);
+}
+
+/* Is there a value beside value i that is finite (or, wanting a gap, is not)? */
+static bool has_beside(const Pair *pair, const float *values, size_t i, bool wants_finite)
 {
     int x = (int)(i % (size_t)pair->row), y = (int)(i / (size_t)pair->row);
     int rows = (int)(pair->count / (size_t)pair->row);
     for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < rows; v++)
         for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < pair->row; u++)
-            if (isfinite(values[(size_t)v * (size_t)pair->row + (size_t)u])) return true;
+            if (!!isfinite(values[(size_t)v * (size_t)pair->row + (size_t)u]) == wants_finite)
+                return true;
     return false;
+}
+
+/* The rim of a surface runs through or beside this pixel on either side: chance decides whether
+ * a sample hits it. The inside of a surface that came or went is no rim. */
+static bool is_rim(const Pair *pair, size_t i)
+{
+    int missing = isfinite(pair->values[0][i]) ? 1 : 0;
+    return has_beside(pair, pair->values[missing], i, true) ||
+           has_beside(pair, pair->values[1 - missing], i, false);
 }
 
 static bool same_gap(float a, float b)
@@ -56,8 +78,8 @@ static bool add_gap(const Pair *pair, size_t i, long place, ChannelDifference *o
         return true;
     }
     if (same_gap(a, b)) return false;
-    const float *missing = isfinite(a) ? pair->values[1] : pair->values[0];
-    if (!pair->excuses_rims || !is_rim(pair, missing, i)) out->gaps++;
+    bool is_excused = pair->excuses_rims && (pair->is_noise || is_rim(pair, i));
+    if (!is_excused) out->gaps++;
     return true;
 }
 
@@ -98,7 +120,8 @@ static Pair frame_pair(const Subject *reference, const Subject *test, const char
     const FrameImage *f = &reference->frame;
     return (Pair){{frame_channel(f, name), frame_channel(&test->frame, name)},
                   frame_pixel_count(f), f->data.x1 - f->data.x0, f, reference->light.width,
-                  !is_surface_layer(name), !structure->shares_noise};
+                  !is_surface_layer(name) && !is_noise_layer(name), is_noise_layer(name),
+                  !structure->shares_noise};
 }
 
 static void compare_frames(const Subject *reference, const Subject *test,
@@ -156,15 +179,31 @@ static void report_nonfinite(const ChannelDifference *c, Lines *reasons)
                       c->first[side][0], c->first[side][1]);
 }
 
-void channels_report(const Channels *channels, Lines *reasons, Lines *notes)
+/* All channels of a kind of surface have the same gaps: they are said together. */
+static void report_gaps(const Channels *channels, Lines *reasons)
 {
+    char   names[256] = "";
+    long   most = 0;
+    int    count = 0;
+    size_t length = 0;
     for (int i = 0; i < channels->count; i++) {
         const ChannelDifference *c = &channels->list[i];
-        report_nonfinite(c, reasons);
-        if (c->gaps)
-            lines_add(reasons, "channel %s has %ld values that are NaN or infinite on one side "
-                      "only", c->name, c->gaps);
+        if (!c->gaps) continue;
+        if (length + strlen(c->name) + 8 < sizeof names)
+            length += (size_t)snprintf(names + length, sizeof names - length, "%s%s",
+                                       count ? ", " : "", c->name);
+        most = c->gaps > most ? c->gaps : most;
+        count++;
     }
+    if (count)
+        lines_add(reasons, "%d channel%s NaN or infinite on one side only, in up to %ld "
+                  "pixels: %s", count, count > 1 ? "s are" : " is", most, names);
+}
+
+void channels_report(const Channels *channels, Lines *reasons, Lines *notes)
+{
+    for (int i = 0; i < channels->count; i++) report_nonfinite(&channels->list[i], reasons);
+    report_gaps(channels, reasons);
     if (channels->left_out[0] || channels->left_out[1])
         lines_add(notes, "%ld values of the reference and %ld of the test are NaN or infinite "
                   "in pixels that do not count", channels->left_out[0],

@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "image/colour.h"
+
 #define SHOWN 72 /* letters of a value in a line */
 
 /* What decides the picture, by the whole name or, with a dot at the end, by its beginning. */
@@ -57,12 +59,22 @@ static bool same_value(const ExrAttribute *a, const ExrAttribute *b)
     return true;
 }
 
+/* What a file means when it says nothing: writing it down changes no picture. */
+static bool is_default(const ExrAttribute *attribute)
+{
+    if (!strcmp(attribute->name, "chromaticities"))
+        return attribute->kind == EXR_CHROMATICITIES &&
+               chromaticities_are_rec709(attribute->values);
+    return !strcmp(attribute->name, "pixelAspectRatio") && attribute->values[0] == 1;
+}
+
 static MetadataRow row_of(const char *name, const FrameImage *reference, const FrameImage *test,
                           const StructureRules *rules, Arena *arena)
 {
     const ExrAttribute *a = frame_attribute(reference, name), *b = frame_attribute(test, name);
+    bool is_implied = (!a || !b) && is_default(a ? a : b);
     return (MetadataRow){name, value_text(a, arena), value_text(b, arena), !same_value(a, b),
-                         decides(name), structure_ignores(rules, name)};
+                         decides(name) && !is_implied, structure_ignores(rules, name)};
 }
 
 MetadataRow *metadata_compare(const FrameImage *reference, const FrameImage *test,

@@ -123,8 +123,10 @@ bool selection_make(const Subject *reference, const SelectionRequest *request, A
     for (size_t i = 0; i < count; i++) made.pixels += made.counts[i];
     if (made.pixels == 0)
         return error_at(err, ERROR_INPUT, reference->name, "",
-                        "no pixel is left to compare: mask, region and display have none in "
-                        "common");
+                        made.is_part ? "no pixel is left to compare: mask, region and display "
+                                       "have none in common"
+                                     : "no pixel to compare: the data window lies outside the "
+                                       "display window");
     *arena = kept;
     *out = made;
     return true;
