@@ -32,8 +32,7 @@ static bool parse(int argc, char **argv, Work *work, Error *err)
     const Option options[] = {
         {"-o", OPTION_TEXT, "FRAME.exr", "the frame that is written", &work->output},
         {"--part", OPTION_FLAG, NULL,
-         "the frame is to be merged again: keep the exact sums in it (kept anyway where it is "
-         "not a whole frame from sample 0 on)", &work->keeps_sums},
+         "keep the exact sums, so that the frame can be merged again", &work->keeps_sums},
     };
     const CliCommand command = {
         "merge", "make one frame of parts that were rendered with --samples or --crop",
@@ -71,8 +70,8 @@ static bool is_of_the_run(const char *name)
            !strcmp(name, "parhelion:commandLine") || !strcmp(name, "parhelion:parts");
 }
 
-/* The attribute of that name; files keep them sorted, so that it mostly stands at *place, behind
- * the one that was found before. */
+/* The attribute of that name; files keep them sorted, so that it mostly stands at *place,
+ * behind the one that was found before. */
 static const ExrAttribute *find_near(const ExrPicture *picture, const char *name, int *place)
 {
     for (int i = 0; i < picture->attribute_count; i++) {
@@ -304,9 +303,10 @@ static bool print_line(const Work *work, Error *err)
 {
     const FilmPart *whole = &work->whole;
     const FilmRect *crop = &whole->crop;
-    int written = printf("%s: %d parts, pixels %d,%d,%d,%d of %dx%d, samples %u:%u, relative "
+    int written = printf("%s: %d part%s, pixels %d,%d,%d,%d of %dx%d, samples %u:%u, relative "
                          "error %.2f%%%s\n",
-                         work->output, work->cli.argument_count, crop->x0, crop->y0, crop->x1,
+                         work->output, work->cli.argument_count,
+                         work->cli.argument_count == 1 ? "" : "s", crop->x0, crop->y0, crop->x1,
                          crop->y1, whole->width, whole->height, whole->first_sample,
                          whole->end_sample, 100 * work->error.frame,
                          work->keeps_sums ? ", with its sums" : "");

@@ -4,7 +4,9 @@
  * is a part of another (some samples, some pixels) carries the sums themselves, from which any
  * number of parts, in any order, make the very film that one run would have made.
  *
- * File     an OpenEXR part named "film" of unsigned 32-bit channels, in the picture's windows.
+ * File     an OpenEXR part named "film" of unsigned 32-bit channels, behind the part "picture"
+ *          and in its windows. At 64 samples a pixel it takes about 70 bytes a pixel, 150 with
+ *          all layers.
  *          A sum is a two's complement number of four words, NAME.0 (least) to NAME.3, that
  *          counts steps (film.h):
  *            xyz.{X,Y,Z}                     of the samples

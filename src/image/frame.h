@@ -27,6 +27,9 @@
  * Attributes that give the numbers of id.* their names (strings):
  *   "parhelion:part.N"     name of part N
  *   "parhelion:display.N"  name of display N (its material)
+ * A frame of some samples or pixels, that can be merged with others, has a second part in its
+ * file for `words` (film/film_part.h says what they are); readers take the first and leave
+ * `words` NULL.
  */
 #pragma once
 #include "base/arena.h"

@@ -3,14 +3,17 @@ file that one run makes, byte for byte; and what does not make a whole is refuse
 --all: more ways to cut it, and a scene with displays.
 """
 import argparse
+import itertools
 import json
 import os
 import random
+import resource
 import signal
 import struct
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 
 from bits import digest, write_scene
@@ -215,8 +218,8 @@ def check_damage(report, program):
     whole = program.read(b)
     for size in (3, 300, 3000, len(whole) // 3, len(whole) - 1):
         program.write("cut.exr", whole[:size])
-        claim_refused(report, program, [a, "cut.exr"],
-                      "cut.exr: not an OpenEXR" if size < 4 else "cut.exr: damaged OpenEXR file")
+        fault = "not an OpenEXR file" if size < 4 else "damaged OpenEXR file"
+        claim_refused(report, program, [a, "cut.exr"], f"cut.exr: {fault}")
     changed = bytearray(whole)
     changed[len(whole) * 9 // 10] ^= 4
     program.write("cut.exr", changed)
@@ -247,6 +250,43 @@ def check_stopped(report, program):
         claim_refused(report, program, ["stopped.exr"],
                       "stopped.exr: incomplete: it was stopped after samples 0:",
                       " of 0:1000000 — ")
+
+
+def check_changing(report, program):
+    """A name that stands for one part and then for another, over and over."""
+    names, stop = [program.part((0, 3)), program.part((3, 7))], threading.Event()
+
+    def change():
+        for i in itertools.count():
+            if stop.is_set():
+                return
+            os.symlink(names[i % 2], program.file("next"))
+            os.replace(program.file("next"), program.file("changing.exr"))
+    worker = threading.Thread(target=change)
+    worker.start()
+    faults = set()
+    for _ in range(50):
+        done = program.merge(["changing.exr"], "refused.exr")
+        faults.add(done.stderr.strip() if done.returncode else "")
+        if any(faults):
+            break
+    stop.set()
+    worker.join()
+    report.claim(faults - {""} == {"parhelion: changing.exr: has changed while it was merged"},
+                 f"a part that changes: {faults}")
+
+
+def check_memory(report, program):
+    """A film that the memory does not hold: half of what the process may take."""
+    program.run("render", *program.scene, "-o", "large.exr", "--size", "1000x850", "--layers",
+                "all", "--samples", "0:1", "--max-bounces", "0", "--quiet")
+    limit = 1000 << 20
+    done = subprocess.run(
+        [program.path, "merge", "large.exr", "-o", "refused.exr", "--quiet"],
+        capture_output=True, text=True, cwd=program.folder,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+    report.claim(done.returncode == 3 and "the film of 1000x850 pixels needs 0.6 GB, there are "
+                 "0.5 GB — merge fewer parts" in done.stderr, f"large: {done.stderr!r}")
 
 
 def check_line(report, program):
@@ -292,11 +332,13 @@ def main():
         check_foreign(report, program)
         check_damage(report, program)
         check_stopped(report, program)
+        check_changing(report, program)
         check_line(report, program)
         if arguments.all:
             check_splits(report, program, more_splits())
             check_uneven(report, program)
             check_time_and_lines(report, program)
+            check_memory(report, program)
             check_displays(report, program)
     report.finish()
 

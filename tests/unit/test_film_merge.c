@@ -388,12 +388,34 @@ static void what_is_said_of_the_sums_must_hold(void **state)
     assert_refused(&w, "parhelion:askedSamples", "parhelion:askedSomples",
                    "damaged sums: parhelion:askedSamples cannot be read");
     assert_refused(&w, " bounce", " bouncy", "damaged sums: parhelion:cost cannot be read");
+    assert_refused(&w, " shadow rays", " shadow rayz",
+                   "damaged sums: parhelion:cost cannot be read");
     assert_refused(&w, "blocks of 16", "blocks of 17",
                    "its sums are of another version: \"1: sums");
     assert_refused(&w, "parhelion:checksum", "parhelion:chacksum",
                    "damaged sums: parhelion:checksum cannot be read");
     assert_refused(&w, "parhelion:layers", "parhelion:loyers",
                    "damaged sums: parhelion:layers cannot be read");
+    arena_release(&arena);
+}
+
+static void the_checksum_knows_in_which_row_a_sum_stands(void **state)
+{
+    (void)state;
+    Arena       arena = arena_reserve(ARENA_BYTES);
+    const char *checksums[2];
+    for (int y = 0; y < 2; y++) {
+        Film      *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
+        FilmSample sample = sample_of(0, 0, 0);
+        film_add_sample(film, 0, y, &sample);
+        FilmPart   part = film_part_of(film, 0, 1);
+        FrameImage frame = film_to_frame(film, 0, &arena);
+        film_part_attach(&frame, film, &part, &arena);
+        const FrameImage words = {.attribute_count = frame.words->attribute_count,
+                                  .attributes = (ExrAttribute *)frame.words->attributes};
+        checksums[y] = frame_string(&words, "parhelion:checksum");
+    }
+    assert_string_not_equal(checksums[0], checksums[1]);
     arena_release(&arena);
 }
 
@@ -533,6 +555,10 @@ static void a_part_that_was_stopped_may_be_filled_by_others(void **state)
     assert_text_has(&err, "stopped after samples 4:6 of 4:8");
     assert_true(film_merge_check(parts, 3, arena, &all, &err));
     assert_int_equal(all.end_sample, 8);
+    parts[0].end_sample = parts[0].asked_end = 3; /* what is missing first is not b's fault */
+    assert_false(film_merge_check(parts, 2, arena, &all, &err));
+    assert_string_equal(err.file, "");
+    assert_text_has(&err, "no part has samples 3:4 of pixels 0,0,9,23");
     arena_release(&arena);
 }
 
@@ -547,6 +573,7 @@ int main(void)
         cmocka_unit_test(a_flipped_bit_is_refused_or_changes_nothing),
         cmocka_unit_test(every_prefix_is_refused),
         cmocka_unit_test(what_is_said_of_the_sums_must_hold),
+        cmocka_unit_test(the_checksum_knows_in_which_row_a_sum_stands),
         cmocka_unit_test(another_set_of_layers_does_not_fit_the_words),
         cmocka_unit_test(sums_that_no_samples_make_are_refused),
         cmocka_unit_test(parts_that_fill_a_box_are_a_whole),
