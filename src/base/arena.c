@@ -35,10 +35,18 @@ static size_t space_left(void)
     return limit.rlim_cur > taken ? (size_t)limit.rlim_cur - taken : 0;
 }
 
+/* What one arena may have: libraries and further arenas need addresses too, and a file that
+ * asks for more than the machine has shall meet the arena's end, not the system's. */
+static size_t most_bytes(void)
+{
+    size_t machine = (size_t)sysconf(_SC_PHYS_PAGES) * (size_t)sysconf(_SC_PAGESIZE);
+    size_t space = space_left() / 2, memory = machine / 4 * 3;
+    return (space < memory ? space : memory) / PAGE * PAGE;
+}
+
 Arena arena_reserve(size_t bytes)
 {
-    size_t size = (bytes + PAGE - 1) / PAGE * PAGE;
-    size_t most = space_left() / 2 / PAGE * PAGE; /* libraries and further arenas need room */
+    size_t size = (bytes + PAGE - 1) / PAGE * PAGE, most = most_bytes();
     if (size > most) size = most;
     char *memory = mmap(NULL, size, PROT_READ | PROT_WRITE,
                         MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);

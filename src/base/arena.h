@@ -23,8 +23,8 @@ typedef struct Arena {
     char *begin;
 } Arena;
 
-/* An arena over `bytes` of fresh address space (rounded up to pages), but at most over half of
- * what the process may still take (ulimit -v). */
+/* An arena over `bytes` of fresh address space (rounded up to pages), but at most over three
+ * quarters of the machine's memory and half of what the process may still take (ulimit -v). */
 Arena arena_reserve(size_t bytes);
 
 /* Gives the address space back; everything from the arena is gone. */
