@@ -192,17 +192,20 @@ static double common_variance(const double stated[2], double difference, double 
     return common > own || a == b ? common : own;
 }
 
-bool noisy_pair_number(const NoisyPair *pair, size_t i, NoisyChannel channel, NoisyNumber *out)
+bool noisy_pair_number(const NoisyPair *pair, size_t i, NoisyChannel channel, double scale,
+                       NoisyNumber *out)
 {
     const NoisySide *a = &pair->side[0], *b = &pair->side[1];
-    double reference = value_of(pair, 0, i, channel), test = value_of(pair, 1, i, channel);
+    double reference = scale * value_of(pair, 0, i, channel);
+    double test = value_of(pair, 1, i, channel), square = scale * scale;
     if (!isfinite(reference) || !isfinite(test)) return false;
     *out = (NoisyNumber){.difference = test - reference, .mean = 0.5 * (test + reference),
                          .variance = NAN, .stated = NAN, .halves = NAN};
     if (pair->has_halves)
-        out->halves = halves_variance(a, i, channel) + halves_variance(b, i, channel);
+        out->halves = square * halves_variance(a, i, channel) + halves_variance(b, i, channel);
     if (!pair->has_variance) return true;
-    double stated[2] = {stated_variance(a, i, channel), stated_variance(b, i, channel)};
+    double stated[2] = {square * stated_variance(a, i, channel),
+                        stated_variance(b, i, channel)};
     out->stated = stated[0] + stated[1];
     if (pair->knows_samples)
         out->variance = common_variance(stated, out->difference, samples_at(a, i),

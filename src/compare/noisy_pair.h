@@ -45,8 +45,10 @@ static inline size_t noisy_pair_index(const NoisyPair *pair, int x, int y)
     return (size_t)y * (size_t)(pair->data.x1 - pair->data.x0) + (size_t)x;
 }
 
-/* False where the layer has nothing (off displays). */
-bool noisy_pair_number(const NoisyPair *pair, size_t i, NoisyChannel channel, NoisyNumber *out);
+/* scale: what the reference's light is multiplied by first. False where the layer has nothing
+ * (off displays). */
+bool noisy_pair_number(const NoisyPair *pair, size_t i, NoisyChannel channel, double scale,
+                       NoisyNumber *out);
 
 /* Luminance of one side, or of its reflected part; NaN off displays. */
 double noisy_pair_luminance(const NoisyPair *pair, int side, size_t i, NoisyChannel channel);

@@ -48,7 +48,7 @@ typedef struct StatisticRegion {
     double  shift;         /* test / reference - 1; NaN for a black reference */
     double  shift_sigma;   /* its standard error */
     double  change;        /* the best estimate of a change in proportion, and its error: the */
-    double  change_sigma;  /* surer pixels count more */
+    double  change_sigma;  /* surer pixels count more; NaN: it is no proportion */
     double  p_value;       /* two-sided */
     bool    moved;         /* after the correction for how many are tested */
 } StatisticRegion;

@@ -21,7 +21,7 @@ static void add_pixel(const NoisyPair *pair, int x, int y, CoinSum sums[3])
     if (!noisy_pair_counts(pair, x, y)) return;
     for (int c = 0; c < 3; c++) {
         NoisyNumber number;
-        if (noisy_pair_number(pair, noisy_pair_index(pair, x, y), (NoisyChannel)c, &number))
+        if (noisy_pair_number(pair, noisy_pair_index(pair, x, y), (NoisyChannel)c, 1, &number))
             coin_sum_add(&sums[c], &number, 1);
     }
 }

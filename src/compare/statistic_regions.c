@@ -14,8 +14,10 @@ typedef struct Region {
     int          display; /* id; -1: the frame */
     NoisyChannel channel;
     CoinSum      plain, weighted;
-    double       light[2];  /* sums of luminance: reference, test */
-    double       weight;    /* of c times the mean: weighted.sum / weight is the change */
+    double       light[2]; /* sums of luminance: reference, test */
+    double       weight;   /* of c times the mean */
+    double       trial;    /* a change that the reference is given to see what it does ... */
+    double       tried;    /* ... to weighted.sum */
 } Region;
 
 /* ---- which there are --------------------------------------------------------------------- */
@@ -67,7 +69,7 @@ static double factor_of(const NoisyNumber *n, NoisyChannel channel)
 }
 
 /* The factor that the pixels around have in the mean. */
-static double factor_around(const NoisyPair *pair, size_t i, const Region *region)
+static double factor_around(const NoisyPair *pair, size_t i, const Region *region, double scale)
 {
     int    width = pair->data.x1 - pair->data.x0, height = pair->data.y1 - pair->data.y0;
     int    column = (int)(i % (size_t)width), row = (int)(i / (size_t)width);
@@ -78,7 +80,7 @@ static double factor_around(const NoisyPair *pair, size_t i, const Region *regio
             size_t      k = noisy_pair_index(pair, x, y);
             bool is_inside = region->display < 0 || pair->display[k] == (float)region->display;
             if (k == i || !is_inside || !noisy_pair_counts(pair, x, y) ||
-                !noisy_pair_number(pair, k, region->channel, &n))
+                !noisy_pair_number(pair, k, region->channel, scale, &n))
                 continue;
             double c = factor_of(&n, region->channel);
             if (!(c > 0)) continue;
@@ -92,12 +94,18 @@ static double factor_around(const NoisyPair *pair, size_t i, const Region *regio
 /* Factors must not change when the frames are exchanged, and in noise of two laws they must
  * not know the pixel itself: a bright sample makes a pixel's own variance large, so that
  * weighing by it makes noisy frames darker. */
+static double factor(const NoisyPair *pair, size_t i, const Region *region, double scale,
+                     const NoisyNumber *n)
+{
+    return pair->law.is_same ? factor_of(n, region->channel)
+                             : factor_around(pair, i, region, scale);
+}
+
 static void add_pixel(const NoisyPair *pair, size_t i, Region *region)
 {
     NoisyNumber n;
-    if (!noisy_pair_number(pair, i, region->channel, &n)) return;
-    double c = pair->law.is_same ? factor_of(&n, region->channel)
-                                 : factor_around(pair, i, region);
+    if (!noisy_pair_number(pair, i, region->channel, 1, &n)) return;
+    double c = factor(pair, i, region, 1, &n);
     coin_sum_add(&region->plain, &n, 1);
     if (isfinite(c)) {
         coin_sum_add(&region->weighted, &n, c);
@@ -107,7 +115,19 @@ static void add_pixel(const NoisyPair *pair, size_t i, Region *region)
         region->light[s] += noisy_pair_luminance(pair, s, i, region->channel);
 }
 
-static void add_pixels(const NoisyPair *pair, Region *regions, int count)
+/* The weighted sum when the reference's light has changed already by the trial. */
+static void try_pixel(const NoisyPair *pair, size_t i, Region *region)
+{
+    NoisyNumber n;
+    double      scale = 1 + region->trial;
+    if (!noisy_pair_number(pair, i, region->channel, scale, &n)) return;
+    double c = factor(pair, i, region, scale, &n);
+    if (isfinite(c)) region->tried += c * n.difference;
+}
+
+typedef void RegionPixel(const NoisyPair *pair, size_t i, Region *region);
+
+static void for_pixels(const NoisyPair *pair, RegionPixel *work, Region *regions, int count)
 {
     int width = pair->data.x1 - pair->data.x0, height = pair->data.y1 - pair->data.y0;
     for (int y = 0; y < height; y++)
@@ -115,33 +135,47 @@ static void add_pixels(const NoisyPair *pair, Region *regions, int count)
             if (!noisy_pair_counts(pair, x, y)) continue;
             size_t i = noisy_pair_index(pair, x, y);
             float  display = pair->display ? pair->display[i] : -1;
-            add_pixel(pair, i, &regions[0]);
+            work(pair, i, &regions[0]);
             for (int r = 1; display >= 0 && r < count; r++)
-                if ((float)regions[r].display == display) add_pixel(pair, i, &regions[r]);
+                if ((float)regions[r].display == display) work(pair, i, &regions[r]);
         }
 }
 
 /* ---- figures ----------------------------------------------------------------------------- */
 
-/* A difference of d times the mean of both is a ratio of (1 + d / 2) / (1 - d / 2). */
-static double ratio_of(double d)
+/* A difference of d times the mean of both is a ratio of (1 + d / 2) / (1 - d / 2): a first
+ * guess of the change, as factors that depend on the light give brighter frames less weight. */
+#define LEAST_TRIAL 1e-3
+
+static double first_guess(const Region *region)
 {
-    return (1 + d / 2) / (1 - d / 2);
+    double d = region->weighted.sum / region->weight;
+    double guess = fabs(d) < 1 ? (1 + d / 2) / (1 - d / 2) - 1 : 0; /* false for NaN */
+    return fabs(guess) > LEAST_TRIAL ? guess : LEAST_TRIAL;
+}
+
+/* The change that the reference must be given for the weighted sum to vanish: then both frames
+ * are alike, and so are their weights. The sum is taken to be straight between none and the
+ * trial. */
+static void estimate_change(const Region *region, NoiseLaw law, StatisticRegion *out)
+{
+    double slope = (region->weighted.sum - region->tried) / region->trial;
+    bool   is_steep = slope > 0.1 * region->weight; /* else: changes that are no proportion */
+    out->change = is_steep ? region->weighted.sum / slope : (double)NAN;
+    out->change_sigma = is_steep ? coin_sum_sigma(&region->weighted, law) / slope : (double)NAN;
 }
 
 static StatisticRegion figures_of(const Region *region, const char *name, NoiseLaw law)
 {
     if (region->channel == NOISY_REFLECTED && law.is_same) law.has_variance = false;
-    double          n = (double)region->plain.count, d = region->weighted.sum / region->weight;
+    double          n = (double)region->plain.count;
     StatisticRegion out = {.name = name, .pixels = region->plain.count,
                            .reference = region->light[0] / n, .test = region->light[1] / n};
     bool            is_lit = fabs(region->light[0]) > 0;
     out.shift = is_lit ? region->light[1] / region->light[0] - 1 : (double)NAN;
     out.shift_sigma = coin_sum_sigma(&region->plain, law) / fabs(region->light[0]);
     if (!is_lit) out.shift_sigma = (double)NAN;
-    out.change = fabs(d) < 2 ? ratio_of(d) - 1 : (double)NAN;
-    out.change_sigma = coin_sum_sigma(&region->weighted, law) / region->weight *
-                       ratio_of(d) / (1 - d * d / 4);
+    estimate_change(region, law, &out);
     out.p_value = sidak_p(fmin(coin_sum_p(&region->plain, law),
                                coin_sum_p(&region->weighted, law)), 2);
     return out;
@@ -154,7 +188,9 @@ void statistic_regions(const NoisyPair *pair, const FrameImage *reference, doubl
     const char **names;
     double       least = 1;
     int          listed = list_regions(pair, reference, arena, &regions, &names), count = 0;
-    add_pixels(pair, regions, listed);
+    for_pixels(pair, add_pixel, regions, listed);
+    for (int r = 0; r < listed; r++) regions[r].trial = first_guess(&regions[r]);
+    for_pixels(pair, try_pixel, regions, listed);
     out->regions = ARENA_NEW(arena, StatisticRegion, listed);
     for (int r = 0; r < listed; r++) {
         if (regions[r].plain.count == 0) continue;

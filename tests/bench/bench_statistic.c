@@ -2,10 +2,19 @@
  *
  * usage: bench_statistic REFERENCE.exr TEST.exr [LEVEL]
  */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "compare/statistic.h"
+
+static void print_number(double value, const char *after)
+{
+    if (isfinite(value))
+        printf("%.4g%s", value, after);
+    else
+        printf("null%s", after);
+}
 
 static void print_result(const StatisticResult *r)
 {
@@ -19,8 +28,10 @@ static void print_result(const StatisticResult *r)
            r->shares_noise ? "true" : "false", r->differing, r->pixels, r->reason, r->note);
     for (int i = 0; i < r->region_count; i++) {
         const StatisticRegion *g = &r->regions[i];
-        printf("%s\"%s\": [%.4g, %.4g, %.4g, %.4g, %.4g]", i ? ", " : "", g->name, g->shift,
-               g->shift_sigma, g->change, g->change_sigma, g->p_value);
+        const double figures[] = {g->shift, g->shift_sigma, g->change, g->change_sigma};
+        printf("%s\"%s\": [", i ? ", " : "", g->name);
+        for (int k = 0; k < 4; k++) print_number(figures[k], ", ");
+        print_number(g->p_value, "]");
     }
     printf("}}\n");
 }

@@ -186,10 +186,10 @@ def changes(folder):
              View("sun b", [car, higher], 256, "--size", "160x90")),
             ("sun 0.3 degrees, room", View("sun c", [room], 256, "--size", SMALL),
              View("sun d", [in_folder(folder, "room_higher.gltf")], 256, "--size", SMALL)),
-            ("a lamp less, car at night", View("lamp a", [car, night], 64, "--size", SMALL),
-             View("lamp b", [car, darker], 64, "--size", SMALL)),
-            ("a lamp less, room", View("lamp c", [room], 64, "--size", SMALL),
-             View("lamp d", [in_folder(folder, "room_darker.gltf")], 64, "--size", SMALL))]
+            ("a lamp less, car at night", View("lamp a", [car, night], 256, "--size", SMALL),
+             View("lamp b", [car, darker], 256, "--size", SMALL)),
+            ("a lamp less, room", View("lamp c", [room], 256, "--size", SMALL),
+             View("lamp d", [in_folder(folder, "room_darker.gltf")], 256, "--size", SMALL))]
 
 
 def allowed(tests, share=0.01):

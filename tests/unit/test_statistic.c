@@ -1,147 +1,8 @@
-/* The statistical test: its level on noise of every kind, its power, its words. */
-#include "check.h"
+/* The statistical test: its level on noise of every kind, masks, frames without noise. */
+#include "statistic_fixture.h"
 
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/sampler.h"
-#include "compare/statistic.h"
-
-#define WIDTH 48
-#define HEIGHT 32
-#define PIXELS (WIDTH * HEIGHT)
-#define PAIRS 200
-#define FALSE_ALARMS 5 /* of PAIRS at a level of 1 % */
-
-#define assert_text_has(text, part)                                                            \
-    do {                                                                                       \
-        if (!strstr(text, part)) fail_msg("\"%s\" does not say \"%s\"", text, part);           \
-    } while (0)
-
-/* ---- frames of known noise --------------------------------------------------------------- */
-
-typedef struct Random {
-    uint32_t state;
-} Random;
-
-static double unit(Random *random)
-{
-    random->state = hash_u32(random->state + 0x9e3779b9u);
-    return ((double)random->state + 0.5) * 0x1p-32;
-}
-
-/* All of mean 1. */
-typedef enum Noise { NOISE_GAUSSIAN, NOISE_EXPONENTIAL, NOISE_FIREFLIES, NOISE_QUIET } Noise;
-
-static double sample_of(Noise noise, Random *random)
-{
-    switch (noise) {
-    case NOISE_GAUSSIAN: /* sigma 0.5: nearly so, the sum of three uniform numbers */
-        return unit(random) + unit(random) + unit(random) - 0.5;
-    case NOISE_EXPONENTIAL: return -log(unit(random));
-    case NOISE_FIREFLIES: return 0.8 + (unit(random) < 1e-3 ? 200 : 0);
-    default: return 0.9 + 0.2 * unit(random);
-    }
-}
-
-typedef struct Maker {
-    Noise    noise;
-    int      samples;
-    uint32_t seed;
-    double   light[PIXELS]; /* that the mean of a pixel's samples is multiplied by */
-} Maker;
-
-/* Light from 0.1 to 1000 cd m^-2, steps at edges, a black corner. */
-static void plain_scene(Maker *maker)
-{
-    for (int i = 0; i < PIXELS; i++) {
-        int x = i % WIDTH, y = i / WIDTH;
-        maker->light[i] = x < 6 && y < 6 ? 0 : (y > 20 ? 30 : 1) * (x > 30 ? 7 : 0.4) +
-                                                   (x == 10 ? 1000 : 0);
-    }
-}
-
-static float *plane(FrameImage *frame, const char *layer, char letter, Arena *arena)
-{
-    char name[64];
-    snprintf(name, sizeof name, "%s%s%c", layer, layer[0] ? "." : "", letter);
-    return frame_add_channel(frame, name, false, arena);
-}
-
-/* The mean of one pixel's samples, its variance, and half the difference of two halves. */
-static void draw_pixel(const Maker *maker, Random *random, double out[3])
-{
-    double sum = 0, squares = 0, halves = 0, n = maker->samples;
-    for (int s = 0; s < maker->samples; s++) {
-        double value = sample_of(maker->noise, random);
-        sum += value;
-        squares += value * value;
-        halves += s % 2 ? value : -value;
-    }
-    out[0] = sum / n;
-    out[1] = n > 1 ? fmax(squares - sum * sum / n, 0) / (n - 1) / n : (double)NAN;
-    out[2] = halves / n;
-}
-
-/* Grey noise on a colour, as the program's is; a display covers x < 24. */
-static FrameImage make_frame(const Maker *maker, Arena *arena)
-{
-    static const double COLOUR[3] = {1, 0.8, 0.5};
-    ExrWindow  window = {0, 0, WIDTH, HEIGHT};
-    FrameImage frame = frame_create(WIDTH, HEIGHT, window, 24, 8, arena);
-    float     *light[3], *variance[3], *halves[3], *reflected[3];
-    Random     random = {hash_u32(maker->seed)};
-    for (int c = 0; c < 3; c++) {
-        light[c] = plane(&frame, "", "RGB"[c], arena);
-        variance[c] = plane(&frame, "variance", "RGB"[c], arena);
-        halves[c] = plane(&frame, "halves", "RGB"[c], arena);
-        reflected[c] = plane(&frame, "display.reflected", "RGB"[c], arena);
-    }
-    float *samples = frame_add_channel(&frame, "samples.N", true, arena);
-    float *display = frame_add_channel(&frame, "id.display", true, arena);
-    for (int i = 0; i < PIXELS; i++) {
-        double drawn[3];
-        draw_pixel(maker, &random, drawn);
-        display[i] = i % WIDTH < 24 ? 4 : -1;
-        samples[i] = (float)maker->samples;
-        for (int c = 0; c < 3; c++) {
-            double scale = maker->light[i] * COLOUR[c];
-            light[c][i] = (float)(scale * drawn[0]);
-            variance[c][i] = (float)(scale * scale * drawn[1]);
-            halves[c][i] = (float)(scale * drawn[2]);
-            reflected[c][i] = i % WIDTH < 24 ? light[c][i] : NAN;
-        }
-    }
-    frame_set_string(&frame, "parhelion:display.4", "cluster", arena);
-    return frame;
-}
-
-static void without(FrameImage *frame, const char *layer)
-{
-    int kept = 0;
-    for (int i = 0; i < frame->channel_count; i++)
-        if (strncmp(frame->channels[i].name, layer, strlen(layer)) != 0)
-            frame->channels[kept++] = frame->channels[i];
-    frame->channel_count = kept;
-}
-
-static StatisticResult judge(const FrameImage *reference, const FrameImage *test,
-                             PixelMask mask, Arena *arena)
-{
-    StatisticOptions options = {.mask = mask, .reference_name = "a.exr",
-                                .test_name = "b.exr"};
-    StatisticResult  result;
-    Error            err;
-    if (!statistic_compare(reference, test, &options, arena, &result, &err))
-        fail_msg("%s", err.text);
-    return result;
-}
-
-static StatisticResult judge_makers(const Maker *reference, const Maker *test, Arena *arena)
-{
-    FrameImage a = make_frame(reference, arena), b = make_frame(test, arena);
-    return judge(&a, &b, NULL, arena);
-}
+#define PAIRS 100
+#define FALSE_ALARMS 3 /* of PAIRS at a level of 1 %: more come in 2 % of all cases */
 
 /* ---- level ------------------------------------------------------------------------------- */
 
@@ -160,7 +21,7 @@ static Alarms count_alarms(Maker *reference, Maker *test)
         reference->seed = 2 * k;
         test->seed = 2 * k + 1;
         StatisticResult r = judge_makers(reference, test, &scratch);
-        double          z = r.regions[0].change / r.regions[0].change_sigma;
+        double          z = r.regions[0].shift / r.regions[0].shift_sigma;
         out.count += r.verdict == STATISTIC_DIFFERENT;
         out.squares += z * z / PAIRS;
         out.regions += (r.p_regions < 0.2) / (double)PAIRS;
@@ -184,11 +45,11 @@ static void noise_of_any_kind_keeps_the_level(void **state)
             if (alarms.count > FALSE_ALARMS)
                 fail_msg("noise %d, %d samples: %d false alarms of %d", (int)noise, SAMPLES[s],
                          alarms.count, PAIRS);
-            /* 4 standard errors of 200: sqrt(0.2 * 0.8 / 200) = 0.028 */
-            assert_true(alarms.regions < 0.31 && alarms.blocks < 0.31);
-            assert_true(alarms.histogram < 0.31);
+            /* 4 standard errors of 100: sqrt(0.2 * 0.8 / 100) = 0.04 */
+            assert_true(alarms.regions < 0.36 && alarms.blocks < 0.36);
+            assert_true(alarms.histogram < 0.36);
             if (noise != NOISE_FIREFLIES) /* hardly any: a coin or two */
-                assert_near(alarms.squares, 1, 0.4); /* sqrt(2 / 200) = 0.1 */
+                assert_near(alarms.squares, 1, 0.57); /* 4 sqrt(2 / 100) */
         }
 }
 
@@ -252,102 +113,6 @@ static void one_glint_in_one_frame_is_noise(void **state)
         assert_true(r.mean_shift > 1); /* and yet the frame's mean has doubled */
     }
     assert_in_range(alarms, 0, 1);
-    arena_release(&arena);
-}
-
-/* ---- power ------------------------------------------------------------------------------- */
-
-/* Gaussian pixels of relative sigma s = 0.5 / 4 in both frames: the best estimate of a change
- * in proportion has the standard error s sqrt(2 / n). */
-static void a_change_in_proportion_is_measured_as_well_as_can_be(void **state)
-{
-    (void)state;
-    Arena  arena = arena_reserve(1 << 26);
-    Maker  maker = {.noise = NOISE_GAUSSIAN, .samples = 16}, other;
-    double sigma = 0.5 / sqrt(16) * sqrt(2.0 / (PIXELS - 36)), mean = 0, stated = 0;
-    int    found = 0;
-    plain_scene(&maker);
-    other = maker;
-    for (int i = 0; i < PIXELS; i++) other.light[i] *= 1 + 6.2 * sigma;
-    for (uint32_t k = 0; k < 100; k++) {
-        Arena scratch = arena;
-        maker.seed = 2 * k;
-        other.seed = 2 * k + 1;
-        StatisticResult r = judge_makers(&maker, &other, &scratch);
-        mean += r.regions[0].change / 100;
-        stated += r.regions[0].change_sigma / 100;
-        found += r.verdict == STATISTIC_DIFFERENT && r.regions[0].moved;
-        if (r.verdict == STATISTIC_DIFFERENT) assert_text_has(r.reason, " %");
-    }
-    assert_close(stated, sigma, 0.12);
-    assert_near(mean, 6.2 * sigma, 4 * sigma / sqrt(100.0));
-    assert_true(found >= 97); /* 6.2 sigma against a limit of about 3.7 */
-    arena_release(&arena);
-}
-
-static void a_display_is_named_with_how_much_it_moved(void **state)
-{
-    (void)state;
-    Arena arena = arena_reserve(1 << 26);
-    Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 64, .seed = 7}, other = maker;
-    plain_scene(&maker);
-    plain_scene(&other);
-    other.seed = 8;
-    for (int i = 0; i < PIXELS; i++) other.light[i] *= i % WIDTH < 24 ? 1.05 : 1;
-    StatisticResult r = judge_makers(&maker, &other, &arena);
-    assert_int_equal(r.verdict, STATISTIC_DIFFERENT);
-    assert_int_equal(r.region_count, 3);
-    assert_string_equal(r.regions[2].name, "cluster reflected");
-    assert_near(r.regions[1].change, 0.05, 4 * r.regions[1].change_sigma);
-    assert_text_has(r.reason, "display 'cluster': ");
-    arena_release(&arena);
-}
-
-static void a_block_is_named_with_its_place(void **state)
-{
-    (void)state;
-    Arena arena = arena_reserve(1 << 26);
-    Maker maker = {.noise = NOISE_EXPONENTIAL, .samples = 64, .seed = 3}, other = maker;
-    plain_scene(&maker);
-    plain_scene(&other);
-    other.seed = 4;
-    for (int y = 8; y < 16; y++)
-        for (int x = 16; x < 24; x++) other.light[y * WIDTH + x] *= 1.5;
-    StatisticResult r = judge_makers(&maker, &other, &arena);
-    assert_int_equal(r.verdict, STATISTIC_DIFFERENT);
-    assert_text_has(r.reason, "block at x 16..24, y 8..16: ");
-    assert_text_has(r.reason, " %");
-    assert_true(r.block_p[1 * r.blocks_x + 2] < 1e-6f);
-    assert_true(r.block_p[2 * r.blocks_x + 2] > 1e-4f);
-    assert_true(r.fraction_failed > 0);
-    arena_release(&arena);
-}
-
-/* Blocks that got brighter and darker by 1.4 of their standard errors, in turn: none of them
- * is beyond its limit, no mean moved. */
-static void small_changes_everywhere_are_seen_together(void **state)
-{
-    (void)state;
-    Arena arena = arena_reserve(1 << 27);
-    Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 16};
-    int   found = 0, by_histogram = 0;
-    for (int i = 0; i < PIXELS; i++) maker.light[i] = 10;
-    Maker  other = maker;
-    double error = 0.5 / 4 * sqrt(2.0) / 8;
-    for (int i = 0; i < PIXELS; i++)
-        other.light[i] *= 1 + 2 * error * ((i / 8 + i / WIDTH / 8) % 2 ? 1 : -1);
-    for (uint32_t k = 0; k < 20; k++) {
-        Arena scratch = arena;
-        maker.seed = 2 * k;
-        other.seed = 2 * k + 1;
-        StatisticResult r = judge_makers(&maker, &other, &scratch);
-        found += r.verdict == STATISTIC_DIFFERENT;
-        if (r.p_blocks < 0.0034 || r.p_regions < 0.0034 || r.p_histogram > 0.003) continue;
-        by_histogram++;
-        assert_text_has(r.reason, "small changes all over the frame");
-    }
-    assert_true(found >= 19);
-    assert_true(by_histogram >= 10);
     arena_release(&arena);
 }
 
@@ -567,10 +332,6 @@ int main(void)
         cmocka_unit_test(different_sample_counts_keep_the_level),
         cmocka_unit_test(less_noise_of_the_same_mean_is_no_change),
         cmocka_unit_test(one_glint_in_one_frame_is_noise),
-        cmocka_unit_test(a_change_in_proportion_is_measured_as_well_as_can_be),
-        cmocka_unit_test(a_display_is_named_with_how_much_it_moved),
-        cmocka_unit_test(a_block_is_named_with_its_place),
-        cmocka_unit_test(small_changes_everywhere_are_seen_together),
         cmocka_unit_test(frames_without_noise_differ_by_a_single_pixel),
         cmocka_unit_test(rounding_is_no_change),
         cmocka_unit_test(frames_that_share_their_noise_are_compared_pixel_by_pixel),

@@ -1,0 +1,132 @@
+/* The statistical test: how small a change it finds, and what it says of it. */
+#include "statistic_fixture.h"
+
+/* Gaussian pixels of relative sigma s = 0.5 / 4 in both frames: the best estimate of a change
+ * in proportion has the standard error s sqrt(2 / n). */
+static void a_change_in_proportion_is_measured_as_well_as_can_be(void **state)
+{
+    (void)state;
+    Arena  arena = arena_reserve(1 << 26);
+    Maker  maker = {.noise = NOISE_GAUSSIAN, .samples = 16}, other;
+    double sigma = 0.5 / sqrt(16) * sqrt(2.0 / (PIXELS - 36)), mean = 0, stated = 0;
+    int    found = 0;
+    plain_scene(&maker);
+    other = maker;
+    for (int i = 0; i < PIXELS; i++) other.light[i] *= 1 + 6.2 * sigma;
+    for (uint32_t k = 0; k < 100; k++) {
+        Arena scratch = arena;
+        maker.seed = 2 * k;
+        other.seed = 2 * k + 1;
+        StatisticResult r = judge_makers(&maker, &other, &scratch);
+        mean += r.regions[0].change / 100;
+        stated += r.regions[0].change_sigma / 100;
+        found += r.verdict == STATISTIC_DIFFERENT && r.regions[0].moved;
+        if (r.verdict == STATISTIC_DIFFERENT) assert_text_has(r.reason, " %");
+    }
+    assert_close(stated, sigma, 0.12);
+    assert_near(mean, 6.2 * sigma, 4 * sigma / sqrt(100.0));
+    assert_true(found >= 97); /* 6.2 sigma against a limit of about 3.7 */
+    arena_release(&arena);
+}
+
+/* Weighing by the pixel's own variance makes bright pixels count less; the estimate knows. */
+static void a_change_is_estimated_without_bias_in_skewed_noise(void **state)
+{
+    (void)state;
+    Arena  arena = arena_reserve(1 << 26);
+    Maker  maker = {.noise = NOISE_EXPONENTIAL, .samples = 16}, other;
+    double mean = 0, squares = 0, stated = 0;
+    plain_scene(&maker);
+    other = maker;
+    for (int i = 0; i < PIXELS; i++) other.light[i] *= 1.05;
+    for (uint32_t k = 0; k < 100; k++) {
+        Arena scratch = arena;
+        maker.seed = 2 * k;
+        other.seed = 2 * k + 1;
+        StatisticRegion frame = judge_makers(&maker, &other, &scratch).regions[0];
+        mean += frame.change / 100;
+        stated += frame.change_sigma / 100;
+        squares += (frame.change - 0.05) * (frame.change - 0.05) / 100;
+    }
+    assert_near(mean, 0.05, 4 * stated / sqrt(100.0));
+    assert_close(sqrt(squares), stated, 0.28); /* 4 / sqrt(2 * 100) */
+    arena_release(&arena);
+}
+
+static void a_display_is_named_with_how_much_it_moved(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 26);
+    Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 64, .seed = 7}, other = maker;
+    plain_scene(&maker);
+    plain_scene(&other);
+    other.seed = 8;
+    for (int i = 0; i < PIXELS; i++) other.light[i] *= i % WIDTH < 24 ? 1.05 : 1;
+    StatisticResult r = judge_makers(&maker, &other, &arena);
+    assert_int_equal(r.verdict, STATISTIC_DIFFERENT);
+    assert_int_equal(r.region_count, 3);
+    assert_string_equal(r.regions[2].name, "cluster reflected");
+    assert_near(r.regions[1].change, 0.05, 4 * r.regions[1].change_sigma);
+    assert_text_has(r.reason, "display 'cluster': ");
+    arena_release(&arena);
+}
+
+static void a_block_is_named_with_its_place(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 26);
+    Maker maker = {.noise = NOISE_EXPONENTIAL, .samples = 64, .seed = 3}, other = maker;
+    plain_scene(&maker);
+    plain_scene(&other);
+    other.seed = 4;
+    for (int y = 8; y < 16; y++)
+        for (int x = 16; x < 24; x++) other.light[y * WIDTH + x] *= 1.5;
+    StatisticResult r = judge_makers(&maker, &other, &arena);
+    assert_int_equal(r.verdict, STATISTIC_DIFFERENT);
+    assert_text_has(r.reason, "block at x 16..24, y 8..16: ");
+    assert_text_has(r.reason, " %");
+    assert_true(r.block_p[1 * r.blocks_x + 2] < 1e-6f);
+    assert_true(r.block_p[2 * r.blocks_x + 2] > 1e-4f);
+    assert_true(r.fraction_failed > 0);
+    arena_release(&arena);
+}
+
+/* Blocks that got brighter and darker by 1.4 of their standard errors, in turn: none of them
+ * is beyond its limit, no mean moved. */
+static void small_changes_everywhere_are_seen_together(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 27);
+    Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 16};
+    int   found = 0, by_histogram = 0;
+    for (int i = 0; i < PIXELS; i++) maker.light[i] = 10;
+    Maker  other = maker;
+    double error = 0.5 / 4 * sqrt(2.0) / 8;
+    for (int i = 0; i < PIXELS; i++)
+        other.light[i] *= 1 + 2 * error * ((i / 8 + i / WIDTH / 8) % 2 ? 1 : -1);
+    for (uint32_t k = 0; k < 20; k++) {
+        Arena scratch = arena;
+        maker.seed = 2 * k;
+        other.seed = 2 * k + 1;
+        StatisticResult r = judge_makers(&maker, &other, &scratch);
+        found += r.verdict == STATISTIC_DIFFERENT;
+        if (r.p_blocks < 0.0034 || r.p_regions < 0.0034 || r.p_histogram > 0.003) continue;
+        by_histogram++;
+        assert_text_has(r.reason, "small changes all over the frame");
+    }
+    assert_true(found >= 19);
+    assert_true(by_histogram >= 10);
+    arena_release(&arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_change_in_proportion_is_measured_as_well_as_can_be),
+        cmocka_unit_test(a_change_is_estimated_without_bias_in_skewed_noise),
+        cmocka_unit_test(a_display_is_named_with_how_much_it_moved),
+        cmocka_unit_test(a_block_is_named_with_its_place),
+        cmocka_unit_test(small_changes_everywhere_are_seen_together),
+    };
+    return cmocka_run_group_tests_name("statistic_power", tests, NULL, NULL);
+}
