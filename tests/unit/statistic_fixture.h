@@ -128,7 +128,7 @@ static inline void without(FrameImage *frame, const char *layer)
 }
 
 static inline StatisticResult judge(const FrameImage *reference, const FrameImage *test,
-                             PixelMask mask, Arena *arena)
+                                    PixelMask mask, Arena *arena)
 {
     StatisticOptions options = {.mask = mask, .reference_name = "a.exr",
                                 .test_name = "b.exr"};
@@ -139,7 +139,8 @@ static inline StatisticResult judge(const FrameImage *reference, const FrameImag
     return result;
 }
 
-static inline StatisticResult judge_makers(const Maker *reference, const Maker *test, Arena *arena)
+static inline StatisticResult judge_makers(const Maker *reference, const Maker *test,
+                                           Arena *arena)
 {
     FrameImage a = make_frame(reference, arena), b = make_frame(test, arena);
     return judge(&a, &b, NULL, arena);
