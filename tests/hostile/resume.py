@@ -30,6 +30,8 @@ def write_scene(path):
     scene.box_inside(scene.lambert(0.7), [-2, 0, -2], [2, 2.5, 2])
     scene.facing_quad(scene.emitter(500), [0, 2.49, 0], [0, -1, 0], 0.8)
     scene.sphere(scene.metal(0.8, 0.3), [-0.7, 0.5, -0.8], 0.5, rings=8)
+    scene.quad(scene.material("screen", pbrMetallicRoughness={"metallicFactor": 0}),
+               [-1, 0.5, -1.9], [2, 0, 0], [0, 1.5, 0])
     scene.view("eye", [0, 1.2, 1.9], [0, -0.1, -1], 60)
     scene.write(path)
 
@@ -174,7 +176,7 @@ def check_snapshot(work, *options):
 
 def check_second_signal(work):
     """While the first signal waits for its pass, the second ends the process at once."""
-    running = work.start("--size", "1200x900", "--spp", "100000", "--threads", "2",
+    running = work.start("--size", "600x450", "--spp", "100000", "--threads", "1",
                          "--checkpoint-interval", "0")
     work.wait_for("frame.exr.checkpoint")
     before = contents(work.path("frame.exr.checkpoint"))
@@ -249,6 +251,15 @@ def check_refusals(work, *options):
     work.report.claim(done.returncode == 2 and "--checkpoint frame.exr: the result is to stand "
                       "there" in done.stderr, f"one name for both: {done.stderr}")
     work.clear()
+    one, _ = work.reference(*options, "--spp", "1")
+    with open(path, "wb") as file:
+        file.write(checkpoint)
+    for changed, line in (((), "a checkpoint is there; this render begins from the start"),
+                          (("--resume",), "no checkpoint is there: the render begins from")):
+        done = work.run(*options, "--spp", "1", *changed)
+        work.report.claim(f"parhelion: frame.exr.checkpoint: {line}" in done.stderr,
+                          f"{changed}: not told: {done.stderr[:300]}")
+        work.claim_finished(done, one, f"from the start, {changed}")
     # more samples than were asked for at first: on from where it stood
     frame, _ = work.reference(*options, "--spp", str(more))
     with open(path, "wb") as file:
@@ -265,6 +276,39 @@ def check_refusals(work, *options):
     work.claim_finished(done, frame, "with a larger --spp")
 
 
+def other_file(name):
+    with open(os.path.join(ROOT, "assets", *name.split("/")), "rb") as file:
+        return file.read()
+
+
+def check_inputs(work, *options):
+    """Every file that is read decides: another one under the same name is another render."""
+    skies = []
+    for seed in "12":
+        skies.append(work.reference(*options, "--spp", "1", "--seed", seed)[0])
+    scene = contents(work.path("scene.gltf"))
+    files = {"scene.gltf": (scene, scene + b"\n"), "sky.exr": skies,
+             "a.panel": (other_file("panels/ips_cluster.panel"),
+                         other_file("panels/oled_centre.panel")),
+             "a.png": (other_file("content/cluster.png"), other_file("content/centre.png"))}
+    for name, (one, _) in files.items():
+        with open(work.path(name), "wb") as file:
+            file.write(one)
+    options = (*options, "--panel", "screen=a.panel", "--content", "screen=a.png",
+               "--environment", "hdri:sky.exr")
+    stop_without_options(work, *options)
+    for name, (one, other) in files.items():
+        with open(work.path(name), "wb") as file:
+            file.write(other)
+        done = work.run(*options, "--spp", "1000000", "--resume")
+        work.report.claim(done.returncode == 3 and "is of another render: input " in done.stderr
+                          and f": {name} " in done.stderr,
+                          f"another {name} is taken: {done.stderr[:300]}")
+        with open(work.path(name), "wb") as file:
+            file.write(one)
+    work.clear()
+
+
 # ---- a full disk -------------------------------------------------------------------------
 
 def limit_files():
@@ -274,7 +318,7 @@ def limit_files():
 def check_full_disk(work, *options):
     """No room for a checkpoint: told each time, the old one stays, the frame is finished."""
     frame, _ = work.reference(*options)
-    running = work.start(*options, "--checkpoint-interval", "0")
+    running = work.start(*options, "--checkpoint-interval", "0", "--threads", "1")
     work.wait_for("frame.exr.checkpoint")
     running.kill()
     running.communicate(timeout=PATIENCE_S)
@@ -317,6 +361,7 @@ def main():
             check_snapshot(work, *little, "--spp", "400")
             check_second_signal(work)
             check_refusals(work, *little)
+            check_inputs(work, *little)
             check_full_disk(work, *little, "--spp", "400")
     report.finish()
 

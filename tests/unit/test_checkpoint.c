@@ -120,7 +120,8 @@ static void packed_rows_hold_every_bit(void **state)
         for (int y = crop.y0; y < crop.y1; y++) {
             size_t size = film_pack_row(film, y, row);
             assert_int_equal(size, film_packed_bytes(film, y));
-            assert_true(film_unpack_row(again, y, (PackedRow){row, size}, SAMPLES, *arena, &err));
+            PackedRow packed = {row, size};
+            assert_true(film_unpack_row(again, y, packed, SAMPLES, *arena, &err));
             bytes += size;
         }
         assert_true(bytes < 15 * film_pixel_bytes(film) * 2 / 3);

@@ -2,7 +2,9 @@
  * where they differ. */
 #include "check.h"
 
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/render_identity.h"
 
@@ -192,6 +194,38 @@ static void the_first_line_that_differs_is_named(void **state)
     }
 }
 
+/* ---- a checkpoint of another program ----------------------------------------------------- */
+
+static void another_version_is_refused_by_name(void **state)
+{
+    Arena     *arena = *state;
+    Error      err = {0};
+    char       path[] = "identity-XXXXXX";
+    Film      *film = film_create(2, 1, (FilmRect){0, 0, 2, 1}, 0, arena);
+    FilmSample sample = {.xyz = {1, 1, 1}};
+    film_add_sample(film, 0, 0, &sample);
+    film_add_sample(film, 1, 0, &sample);
+    Checkpoint what = {.path = path, .identity = "version\t0.0.9\nseed\t0\n",
+                       .done = film_part_of(film, 0, 1)};
+    close(mkstemp(path));
+    assert_true(checkpoint_write(&what, film, *arena, &err));
+    const RenderRequest request = {
+        .cli = {.quiet = true}, .checkpoint = path, .resumes = true,
+        .render = {.crop = {0, 0, 2, 1}, .end_sample = 9}};
+    const Checkpoint *found;
+    const char       *here = "version\t" PARHELION_VERSION "\nseed\t0\n";
+    bool done = render_find_checkpoint(&request, here, arena, &found, &err);
+    bool same = render_find_checkpoint(&request, what.identity, arena, &found, &err);
+    unlink(path);
+    assert_false(done);
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_string_equal(err.file, path);
+    assert_string_equal(err.text,
+                        "is of another render: version: 0.0.9 there, " PARHELION_VERSION
+                        " here — leave out --resume to begin anew");
+    assert_true(same && found);
+}
+
 #define CASE(name) cmocka_unit_test_setup_teardown(name, make_arena, drop_arena)
 
 int main(void)
@@ -200,6 +234,7 @@ int main(void)
         CASE(what_decides_a_sample_is_in_it_and_nothing_else),
         CASE(a_name_cannot_begin_a_line),
         CASE(the_first_line_that_differs_is_named),
+        CASE(another_version_is_refused_by_name),
     };
     return cmocka_run_group_tests_name("identity", tests, NULL, NULL);
 }
