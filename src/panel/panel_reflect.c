@@ -31,11 +31,15 @@ typedef struct Term {
     float weight;
 } Term;
 
+typedef struct Terms {
+    int  count;
+    Term term[16];
+} Terms;
+
 /* Tables that are read at the stored direction, and those that are read at the direction
  * turned by 180 degrees (incidences from beyond the normal). */
 typedef struct TableMix {
-    int  count[2];
-    Term term[2][16];
+    Terms side[2];
 } TableMix;
 
 /* Weights of up to four neighbours. first: of the first one, may be -1 (weight 0). */
@@ -105,7 +109,7 @@ static Cubic azimuth_weights(const PanelReflection *r, float phi)
 static TableMix table_mix(const PanelReflection *r, float theta, float light)
 {
     TableMix mix;
-    mix.count[0] = mix.count[1] = 0;
+    mix.side[0].count = mix.side[1].count = 0;
     Cubic    incidence = incidence_weights(r, theta);
     Cubic    azimuth[2] = {azimuth_weights(r, light)};
     int      n = (int)r->azimuths;
@@ -117,10 +121,10 @@ static TableMix table_mix(const PanelReflection *r, float theta, float light)
         const Cubic *around = &azimuth[step->is_turned];
         for (int a = 0; a < 4; a++) {
             if (around->weight[a] == 0) continue;
-            int at = (around->first + a + n) % n;
-            mix.term[step->is_turned][mix.count[step->is_turned]++] =
-                (Term){at * (int)r->incidences + step->incidence,
-                       incidence.weight[k] * around->weight[a]};
+            int    at = (around->first + a + n) % n;
+            Terms *side = &mix.side[step->is_turned];
+            side->term[side->count++] = (Term){at * (int)r->incidences + step->incidence,
+                                               incidence.weight[k] * around->weight[a]};
         }
     }
     return mix;
@@ -145,8 +149,8 @@ static inline Float8 mixed_rows(const PanelReflection *r, const TableMix *mix,
 {
     Float8 sum = {0};
     for (int turned = 0; turned < 2; turned++)
-        for (int i = 0; i < mix->count[turned]; i++) {
-            const Term *term = &mix->term[turned][i];
+        for (int i = 0; i < mix->side[turned].count; i++) {
+            const Term *term = &mix->side[turned].term[i];
             sum += term->weight *
                    *(const Float8 *)(rows + term->table * (int)r->padded_wavelengths + w);
         }
@@ -156,13 +160,13 @@ static inline Float8 mixed_rows(const PanelReflection *r, const TableMix *mix,
 /* Adds what a component vector of the tree means for the mixed tables: 4 * quads coefficients
  * from k on, quads a constant of 1 to 4 where inlined. Several sums at once: one alone would
  * wait for itself. */
-static inline void add_quads(const PanelReflection *r, const TableMix *mix, int turned,
+static inline void add_quads(const PanelReflection *r, const Terms *terms,
                              const float *component, int quads, int k, float *coefficient)
 {
     int          stride = (int)r->padded_coefficients, n = (int)r->components;
     PanelFloat4 *to = (PanelFloat4 *)(coefficient + k);
-    for (int i = 0; i < mix->count[turned]; i++) {
-        const Term  *term = &mix->term[turned][i];
+    for (int i = 0; i < terms->count; i++) {
+        const Term  *term = &terms->term[i];
         const float *row = r->loading + term->table * n * stride + k;
         PanelFloat4  s0 = {0}, s1 = {0}, s2 = {0}, s3 = {0};
         for (int c = 0; c < n; c++, row += stride) {
@@ -179,14 +183,14 @@ static inline void add_quads(const PanelReflection *r, const TableMix *mix, int 
     }
 }
 
-static inline void add_loadings(const PanelReflection *r, const TableMix *mix, int turned,
+static inline void add_loadings(const PanelReflection *r, const Terms *terms,
                                 const float *component, float *coefficient)
 {
     int k = 0, padded = (int)r->padded_coefficients;
-    for (; k + 16 <= padded; k += 16) add_quads(r, mix, turned, component, 4, k, coefficient);
-    if (padded - k == 12) add_quads(r, mix, turned, component, 3, k, coefficient);
-    if (padded - k == 8) add_quads(r, mix, turned, component, 2, k, coefficient);
-    if (padded - k == 4) add_quads(r, mix, turned, component, 1, k, coefficient);
+    for (; k + 16 <= padded; k += 16) add_quads(r, terms, component, 4, k, coefficient);
+    if (padded - k == 12) add_quads(r, terms, component, 3, k, coefficient);
+    if (padded - k == 8) add_quads(r, terms, component, 2, k, coefficient);
+    if (padded - k == 4) add_quads(r, terms, component, 1, k, coefficient);
 }
 
 /* ln (f / F) at all measured wavelengths: padded_wavelengths floats. */
@@ -197,10 +201,10 @@ static void reflection_logs(const Panel *panel, Vec3 stored, const TableMix *mix
     int   padded = (int)r->padded_wavelengths;
     for (int k = 0; k < (int)r->padded_coefficients; k++) coefficient[k] = 0;
     for (int turned = 0; turned < 2; turned++) {
-        if (!mix->count[turned]) continue;
+        if (!mix->side[turned].count) continue;
         Vec3 at = turned ? vec3(-stored.x, -stored.y, stored.z) : stored;
         tree_interpolate(&panel->reflection_tree, at, component);
-        add_loadings(r, mix, turned, component, coefficient);
+        add_loadings(r, &mix->side[turned], component, coefficient);
     }
     for (int w = 0; w < padded; w += 8) {
         Float8 sum = mixed_rows(r, mix, r->mean, w);
@@ -273,8 +277,10 @@ static float mixed_sigma(const PanelReflection *r, const TableMix *mix)
 {
     float sum = 0;
     for (int turned = 0; turned < 2; turned++)
-        for (int i = 0; i < mix->count[turned]; i++)
-            sum += mix->term[turned][i].weight * r->lobe_sigma[mix->term[turned][i].table];
+        for (int i = 0; i < mix->side[turned].count; i++) {
+            const Term *term = &mix->side[turned].term[i];
+            sum += term->weight * r->lobe_sigma[term->table];
+        }
     return sum > 1e-4f ? sum : 1e-4f;
 }
 
@@ -359,10 +365,9 @@ static Spectrum brdf_beyond(const Panel *panel, Vec3 local, Vec3 wi, float light
     Vec3     from = shifted(r, local, sine);
     reflection_logs(panel, specular_frame_stored(&frame, from), &mix, logs);
     float    last = fresnel(cosine_last, n);
-    Spectrum total = spectrum_exp(spread(logs, lanes)) *
-                     spectrum_all(last);
-    Spectrum floor = spectrum_min(total, spread(r->floor + mix.term[0][0].table *
-                                                  (int)r->padded_wavelengths, lanes));
+    Spectrum total = spectrum_exp(spread(logs, lanes)) * spectrum_all(last);
+    int      row = mix.side[0].term[0].table * (int)r->padded_wavelengths;
+    Spectrum floor = spectrum_min(total, spread(r->floor + row, lanes));
     Spectrum in = gloss(panel, wi.z, lanes) / gloss(panel, cosine_last, lanes);
     Spectrum out = gloss(panel, local.z, lanes) / gloss(panel, from.z, lanes);
     float    entering = (1 - fresnel(wi.z, n)) / (1 - last);
