@@ -314,7 +314,7 @@ static void relative_error_of_displays_counts_their_pixels_only(void **state)
     arena_release(&arena);
 }
 
-/* Pixel p swings by p % 4 tenths around 100: of those that swing alike the first comes first. */
+/* Pixel p swings by p % 4 tenths around 100: of equals the first comes first. */
 static void the_worst_pixels_come_in_order(void **state)
 {
     (void)state;
