@@ -1,6 +1,7 @@
 /* parhelion compare: are two frames, pictures or folders of them the same? */
 #include <stdio.h>
 
+#include "base/file.h"
 #include "cli/compare_command.h"
 #include "compare/comparison_json.h"
 #include "compare/folders.h"
@@ -176,11 +177,14 @@ static bool compare_folders(Work *work, Error *err)
 
 static bool compare(const CompareRequest *request, Arena *arena, Error *err)
 {
-    bool has_folder = is_folder(request->reference), both = has_folder;
-    if (is_folder(request->test) != has_folder)
+    bool both = is_folder(request->reference);
+    if (is_folder(request->test) != both)
         return error_set(err, ERROR_USAGE, "%s is a folder and %s is not: wanted two files or "
-                         "two folders", has_folder ? request->reference : request->test,
-                         has_folder ? request->test : request->reference);
+                         "two folders", both ? request->reference : request->test,
+                         both ? request->test : request->reference);
+    if ((request->report && !file_check_writable(request->report, err)) ||
+        (request->junit && !file_check_writable(request->junit, err)))
+        return false;
     Work work = start(request, both, arena);
     bool ok = both ? compare_folders(&work, err) : compare_two(&work, err);
     end(&work);

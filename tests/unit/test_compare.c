@@ -43,7 +43,10 @@ static void codes_of_8_and_16_bits_agree(void **state)
         unlink(path);
     }
     for (int i = 0; i < 16 * 16; i++) {
-        assert_true(read[0].codes.rgb[1][i] == read[1].codes.rgb[1][i]);
+        for (int c = 0; c < 3; c++) {
+            assert_true(read[0].codes.rgb[c][i] == read[1].codes.rgb[c][i]);
+            assert_near(read[0].codes.rgb[c][i], picture.rgb[3 * i + c], 1e-6);
+        }
         assert_near(srgb_from_linear(read[0].light.rgb[1][i]), read[0].codes.rgb[1][i], 1e-6);
     }
     Comparison c = compared(&read[0], &read[1], (CompareOptions){.groups = GROUP_MSE}, &arena);
