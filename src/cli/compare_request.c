@@ -120,8 +120,8 @@ bool compare_parse(int argc, char **argv, Arena *arena, CompareRequest *out, Err
         {"--max", OPTION_TEXTS, "METRIC=VALUE",
          "different when a figure is above: flip, flip_p95, flip_max, deltae_mean, deltae_p95, "
          "deltae_max, mse, relmse, mae, max_difference, mean_shift, differing, "
-         "fraction_failed, contrast_change (changes and shares: 0.01 is 1 %); may be given many "
-         "times", .out = &typed.at_most},
+         "fraction_failed, contrast_change (changes and shares: 0.01 is 1 %); may be given "
+         "many times", .out = &typed.at_most},
         {"--min", OPTION_TEXTS, "METRIC=VALUE", "or below: psnr, ssim, p_value",
          .out = &typed.at_least},
         {"--metric", OPTION_TEXTS, "flip|mse|psnr|ssim|deltae|stat|contrast",
