@@ -2,27 +2,48 @@
  * allocations. Private to arena.c.
  *
  * Builds for fuzzing define ARENA_GUARD (CMakeLists.txt): then some bytes behind every
- * allocation are poisoned, and the first word of an arena's memory tells how far that reached,
- * through copies of the arena as well. In every other build all of this is nothing.
+ * allocation are poisoned, and a mark at the beginning of an arena's memory tells how far that
+ * reached, through copies of the arena as well. In every other build all of this is nothing.
  */
 #pragma once
+#include <stdbool.h>
+
 #include "base/arena.h"
 
 #ifdef ARENA_GUARD
 #include <sanitizer/asan_interface.h>
 
-enum { GUARD_ALIGN = 8, GUARD_BYTES = 32 };
+enum { GUARD_ALIGN = 8, GUARD_BYTES = 32, GUARD_LEAST = 4096 };
 
-/* A fresh arena: takes the word. */
+/* What stands at the beginning of an arena's memory. */
+typedef struct GuardMark {
+    char  *reached;
+    size_t tag; /* the mark's address with some bits turned: arena_reserve made this arena */
+} GuardMark;
+
+#define GUARD_TAG ((size_t)0x67756172643f7a21)
+
+/* NULL for an arena over memory that is somebody else's: it has no guards. */
+static inline GuardMark *guard_mark(const Arena *arena)
+{
+    GuardMark *mark = (GuardMark *)(void *)arena->begin;
+    bool is_large = mark && arena->end - arena->begin >= GUARD_LEAST;
+    return is_large && mark->tag == ((size_t)mark ^ GUARD_TAG) ? mark : NULL;
+}
+
+/* A fresh arena: takes the mark's place. */
 static inline void guard_start(Arena *arena)
 {
-    *(char **)(void *)arena->begin = arena->next += GUARD_BYTES;
+    GuardMark *mark = (GuardMark *)(void *)arena->begin;
+    arena->next += GUARD_BYTES;
+    *mark = (GuardMark){arena->next, (size_t)mark ^ GUARD_TAG};
 }
 
 /* `bytes` at `memory` are handed out; the arena's next is behind them. */
 static inline void guard_open(Arena *arena, char *memory, size_t bytes)
 {
-    char **reached = (char **)(void *)arena->begin;
+    GuardMark *mark = guard_mark(arena);
+    if (!mark) return;
     size_t left = (size_t)(arena->end - arena->next);
     __asan_unpoison_memory_region(memory, bytes);
     arena->next += -(size_t)arena->next & (GUARD_ALIGN - 1) & left;
@@ -30,7 +51,7 @@ static inline void guard_open(Arena *arena, char *memory, size_t bytes)
     size_t guard = left < GUARD_BYTES ? left : GUARD_BYTES;
     __asan_poison_memory_region(arena->next, guard);
     arena->next += guard;
-    if (arena->begin && *reached < arena->next) *reached = arena->next;
+    if (mark->reached < arena->next) mark->reached = arena->next;
 }
 
 /* Nothing in these bytes is guarded any more. */
@@ -42,8 +63,9 @@ static inline void guard_lift(char *memory, size_t bytes)
 /* Before the memory goes back: whoever gets it next may touch it. */
 static inline void guard_end(Arena *arena)
 {
-    char *reached = *(char **)(void *)arena->begin;
-    __asan_unpoison_memory_region(arena->begin, (size_t)(reached - arena->begin));
+    GuardMark *mark = guard_mark(arena);
+    if (mark)
+        __asan_unpoison_memory_region(arena->begin, (size_t)(mark->reached - arena->begin));
 }
 #else
 enum { GUARD_ALIGN = 1 };

@@ -284,6 +284,28 @@ static void refuses_every_prefix(void **state)
     arena_release(&arena);
 }
 
+/* The library would take memory for what a file says, before it finds that it is not there. */
+static void an_attribute_larger_than_the_file_is_refused(void **state)
+{
+    (void)state;
+    Arena      arena = arena_reserve(ARENA_BYTES);
+    FrameImage frame = make_frame(5, 20, (ExrWindow){0, 0, 5, 20}, &arena), back;
+    FileBytes  whole;
+    Error      err = {0};
+    static const char HEAD[] = "parhelion:version\0string";
+    assert_true(frame_write(in_folder("whole.exr"), &frame, &err));
+    assert_true(file_read(in_folder("whole.exr"), ARENA_BYTES, &arena, &whole, &err));
+    unsigned char *bytes = ARENA_NEW(&arena, unsigned char, whole.size);
+    memcpy(bytes, whole.data, whole.size);
+    unsigned char *size = (unsigned char *)memmem(bytes, whole.size, HEAD, sizeof HEAD) +
+                          sizeof HEAD;
+    size[3] = 0x70;
+    assert_false(frame_read_memory(bytes, whole.size, "large.exr", &arena, &back, &err));
+    assert_text_has(&err, "attribute \"parhelion:version\" has 1879048195 bytes, the file");
+    assert_string_equal(err.file, "large.exr");
+    arena_release(&arena);
+}
+
 static void survives_flipped_bits(void **state)
 {
     (void)state;
@@ -398,6 +420,7 @@ int main(void)
         cmocka_unit_test(a_device_that_is_full_says_so),
         cmocka_unit_test(a_missing_folder_and_a_bad_window_are_told),
         cmocka_unit_test(refuses_every_prefix),
+        cmocka_unit_test(an_attribute_larger_than_the_file_is_refused),
         cmocka_unit_test(survives_flipped_bits),
         cmocka_unit_test(damaged_files_are_read_or_refused),
         cmocka_unit_test(what_cannot_be_shown_flat_is_refused),

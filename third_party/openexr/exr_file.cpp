@@ -1,6 +1,9 @@
 #include "openexr/exr_file.h"
 
+#include <sys/stat.h>
+
 #include "base/file.h"
+#include "openexr/exr_header.h"
 #include "openexr/memory_stream.hpp"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -56,9 +59,11 @@ bool guarded(Error *err, ErrorCode code, const char *doing, Body body) noexcept
     }
 }
 
+/* 0: this thread alone, which is also what a single processor does best. */
 int coding_threads()
 {
-    return std::min((int)std::thread::hardware_concurrency(), 8);
+    int processors = (int)std::thread::hardware_concurrency();
+    return processors > 1 ? std::min(processors, 8) : 0;
 }
 
 /* The library's own threads, for as long as pixels are coded; how many makes no difference to
@@ -204,11 +209,29 @@ static void set_limits()
     Imf::Header::setMaxTileSize(EXR_MAX_SIDE / 4, EXR_MAX_SIDE / 4);
 }
 
-bool exr_reader_create(const char *name, const void *bytes, size_t size, ExrReader **out,
-                       Error *err)
+static bool check_start(const void *bytes, size_t size, size_t file_size, Error *err)
 {
     if (size < 4 || memcmp(bytes, MAGIC, 4) != 0)
         return error_set(err, ERROR_INPUT, "not an OpenEXR file");
+    return exr_check_header((const unsigned char *)bytes, size, file_size, err);
+}
+
+static bool check_file(const char *path, Error *err)
+{
+    struct stat info;
+    FileBytes   start;
+    Arena       arena = arena_reserve(EXR_HEADER_BYTES + (1 << 16));
+    bool        ok = file_read_start(path, EXR_HEADER_BYTES, &arena, &start, err) &&
+              check_start(start.data, start.size,
+                          stat(path, &info) ? start.size : (size_t)info.st_size, err);
+    arena_release(&arena);
+    return ok;
+}
+
+bool exr_reader_create(const char *name, const void *bytes, size_t size, ExrReader **out,
+                       Error *err)
+{
+    if (!check_start(bytes, size, size, err)) return false;
     return guarded(err, ERROR_INPUT, DAMAGED, [&] {
         set_limits();
         auto reader = std::make_unique<ExrReader>();
@@ -222,12 +245,7 @@ bool exr_reader_create(const char *name, const void *bytes, size_t size, ExrRead
 
 bool exr_reader_open(const char *path, ExrReader **out, Error *err)
 {
-    FileBytes start;
-    char      magic[8];
-    Arena     arena = {magic, magic + sizeof magic, nullptr, magic};
-    if (!file_read_start(path, 4, &arena, &start, err)) return false;
-    if (start.size < 4 || memcmp(start.data, MAGIC, 4) != 0)
-        return error_set(err, ERROR_INPUT, "not an OpenEXR file");
+    if (!check_file(path, err)) return false;
     return guarded(err, ERROR_INPUT, DAMAGED, [&] {
         set_limits();
         auto reader = std::make_unique<ExrReader>();
