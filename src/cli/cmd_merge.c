@@ -1,4 +1,5 @@
 /* parhelion merge: parts of a frame become the frame, with the bits of one run. */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -311,7 +312,8 @@ static bool print_line(const Work *work, Error *err)
                          whole->end_sample, 100 * work->error.frame,
                          work->keeps_sums ? ", with its sums" : "");
     if (written < 0 || fflush(stdout))
-        return error_at(err, ERROR_OUTPUT, "stdout", NULL, "cannot write the answer");
+        return error_at(err, ERROR_OUTPUT, "stdout", NULL, "cannot be written: %s",
+                        strerror(errno));
     return true;
 }
 

@@ -1,6 +1,8 @@
 /* What a render hands back: the frame with its metadata, and the answer on stdout. */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 #include <sys/resource.h>
 
 #include "base/progress.h"
@@ -202,7 +204,8 @@ static bool print_line(const RenderRequest *request, const RenderResult *result,
                          peak_memory_bytes() / 1e6);
     print_worst(request, result);
     if (written < 0 || fflush(stdout))
-        return error_at(err, ERROR_OUTPUT, "stdout", NULL, "cannot write the answer");
+        return error_at(err, ERROR_OUTPUT, "stdout", NULL, "cannot be written: %s",
+                        strerror(errno));
     return true;
 }
 

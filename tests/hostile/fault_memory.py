@@ -4,10 +4,12 @@ Documented in src/base/arena.h: whatever the limit, a command does its work, or 
 that memory is short, with status 3. Below what the libraries need to be loaded there is no
 program that could say anything; that limit is found first.
 """
+import json
 import os
 import resource
 
 from fault_files import make_inputs
+from fault_limits import huge_png
 
 MEGABYTE = 1 << 20
 
@@ -95,5 +97,26 @@ def check_large_frame(bench):
                 "at most")
 
 
+def check_many_large_buffers(bench):
+    """A small scene that names one large file again and again, and pictures that are small as
+    files and large as texels: the arena's end is met, not the machine's."""
+    if bench.is_sanitized:
+        return bench.report.skip("limits of address space: the sanitizer takes terabytes of it")
+    with open(bench.file("hog.bin"), "wb") as file:
+        file.truncate(512 * MEGABYTE)
+    huge_png(bench.file("hog.png"), 8192, 8192, True)
+    buffers = {"buffers": [{"uri": "hog.bin", "byteLength": 4}] * 16}
+    pictures = {"images": [{"uri": "hog.png"}] * 16,
+                "textures": [{"source": i} for i in range(16)],
+                "materials": [{"emissiveTexture": {"index": i}} for i in range(16)]}
+    for members in (buffers, pictures):
+        scene = bench.file("hog.gltf")
+        with open(scene, "w") as file:
+            json.dump({"asset": {"version": "2.0"}, **members}, file)
+        done = limited(bench, 4096, "render", scene, "-o", bench.file("m.exr"), "--quiet",
+                       "--size", "8x8", "--spp", "1")
+        bench.fails(done, 3, warnings=True, what=f"16 large {min(members)}")
+
+
 CHECKS = (check_short_memory, check_large_frame)
-MORE = (check_every_memory,)
+MORE = (check_every_memory, check_many_large_buffers)
