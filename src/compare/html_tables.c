@@ -182,33 +182,52 @@ void html_add_tables(Markup *html, const Comparison *c, const CompareOptions *op
 
 /* ---- notes and metadata ------------------------------------------------------------------ */
 
+/* Of any length: it scrolls in its cell. NULL: there is none. */
+static void add_value(Markup *html, const char *value)
+{
+    markup_add(html, "<td><div class=\"long\">");
+    markup_escape(html, value ? value : "–");
+    markup_add(html, "</div></td>");
+}
+
 static void add_metadata_rows(Markup *html, const Structure *structure, bool differing)
 {
     for (int i = 0; i < structure->metadata_count; i++) {
         const MetadataRow *row = &structure->metadata[i];
         if (row->differs != differing) continue;
         markup_format(html, "<tr%s>", differing ? "" : " class=\"same\"");
-        add_cell(html, row->name);
-        add_cell(html, row->reference ? row->reference : "–");
-        add_cell(html, row->test ? row->test : "–");
+        add_cell(html, strncmp(row->name, "parhelion:", 10) ? row->name : row->name + 10);
+        add_value(html, row->reference);
+        add_value(html, row->test);
         add_cell(html, !differing ? "" : row->is_ignored ? "ignored"
                                        : row->decides    ? "decides" : "explains");
         markup_add(html, "</tr>\n");
     }
 }
 
+static int differing_rows(const Structure *structure)
+{
+    int count = 0;
+    for (int i = 0; i < structure->metadata_count; i++) count += structure->metadata[i].differs;
+    return count;
+}
+
+static void add_metadata_table(Markup *html, const Structure *structure, bool differing)
+{
+    markup_add(html, "<div class=\"wide\"><table class=\"meta\"><thead><tr><th>metadata</th>"
+               "<th>reference</th><th>test</th><th></th></tr></thead><tbody>\n");
+    add_metadata_rows(html, structure, differing);
+    markup_add(html, "</tbody></table></div>\n");
+}
+
 static void add_metadata(Markup *html, const Structure *structure)
 {
-    static const char HEADER[] = "<div class=\"wide\"><table class=\"meta\"><thead><tr>"
-                                 "<th>metadata</th><th>reference</th><th>test</th><th></th>"
-                                 "</tr></thead><tbody>\n";
-    markup_add(html, HEADER);
-    add_metadata_rows(html, structure, true);
-    markup_add(html, "</tbody></table></div>\n<details><summary>metadata that is the same"
-               "</summary>\n");
-    markup_add(html, HEADER);
-    add_metadata_rows(html, structure, false);
-    markup_add(html, "</tbody></table></div></details>\n");
+    int differing = differing_rows(structure);
+    if (differing > 0) add_metadata_table(html, structure, true);
+    if (differing == structure->metadata_count) return;
+    markup_add(html, "<details><summary>metadata that is the same</summary>\n");
+    add_metadata_table(html, structure, false);
+    markup_add(html, "</details>\n");
 }
 
 void html_add_notes(Markup *html, const Comparison *c)
