@@ -74,7 +74,7 @@ def writers(bench, folder):
 def fill_disk(bench, free, names):
     make_inputs(bench)
     disk = bench.file("small")
-    if not os.path.isdir(disk) and not bench.disks.small(disk, 64):
+    if disk not in bench.disks.mounted and not bench.disks.small(disk, 64):
         return bench.report.skip("a full disk: this process may not mount one")
     with open(os.path.join(disk, "filler"), "wb") as file:
         file.write(bytes(65536 - free))
