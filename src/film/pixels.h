@@ -57,8 +57,9 @@ int      layer_sums_size(LayerSums sums);
 
 /* From the difference of two interleaved halves of the samples, each a mean of whole blocks
  * that are spread evenly: XYZ whose square has the expectation of the variance of the pixel's
- * mean, as if the halves were independent, but not the samples. (a - b) sqrt(n_a n_b) / (n_a + n_b), half
- * the difference for halves of one size. False below 2 BLOCK_SAMPLES: one half is missing. */
+ * mean, as if the halves were independent, but not the samples:
+ * (a - b) sqrt(n_a n_b) / (n_a + n_b), half the difference for halves of one size. False below
+ * 2 BLOCK_SAMPLES: one half is missing. */
 bool pixel_halves(const PixelSums *sums, double xyz[3]);
 
 /* Unbiased variance of the mean of linear Rec.709 R, G, B, (cd m^-2)^2; NaN below 2 samples. */
