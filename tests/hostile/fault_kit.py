@@ -140,4 +140,5 @@ class Bench:
     def leaves(self, before, folder, what):
         """Nothing was made and nothing changed there."""
         after = tree(folder)
-        return self.claim(after == before, f"{what}: left {sorted(set(after) ^ set(before))[:4]}")
+        return self.claim(after == before,
+                          f"{what}: left {sorted(set(after) ^ set(before))[:4]}")
