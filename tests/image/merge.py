@@ -218,7 +218,7 @@ def check_damage(report, program):
     whole = program.read(b)
     for size in (3, 300, 3000, len(whole) // 3, len(whole) - 1):
         program.write("cut.exr", whole[:size])
-        fault = "not an OpenEXR file" if size < 4 else "damaged OpenEXR file"
+        fault = "not an OpenEXR file" if size < 4 else "damaged"
         claim_refused(report, program, [a, "cut.exr"], f"cut.exr: {fault}")
     changed = bytearray(whole)
     changed[len(whole) * 9 // 10] ^= 4
