@@ -39,8 +39,9 @@ def in_folder(folder, name):
     return os.path.join(folder, name)
 
 
-def write_room(path, elevation=10, lamps=2, panel=None):
-    """A display on a desk before a window; a ball that throws the sun about."""
+def write_room(path, elevation=10, lamps=2):
+    """A display on a desk before a window; a ball that throws the sun about. Its panel is that
+    of Program.panels, beside it."""
     scene = Scene()
     scene.box_inside(scene.lambert(0.6), [-2, 0, -2], [2, 2.5, 6])
     scene.document["scenes"][0]["nodes"].pop(3)  # the wall at z = 6: the sun comes from there
@@ -51,7 +52,7 @@ def write_room(path, elevation=10, lamps=2, panel=None):
     picture = scene.image("image/png", png(4, 2, [[0, 0, 0, 255, 255, 255, 40, 40, 40, 9, 9, 9],
                                                   [255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0]]))
     display = scene.material("cluster", extensions={"PARHELION_display": {
-        "panel": panel or "ips_cluster.panel", "content": {"index": picture}, "level": 0.3}})
+        "panel": "base.panel", "content": {"index": picture}, "level": 0.3}})
     scene.quad(display, [-0.3, 0.7, -0.4], [0.7, 0, 0], [0, 0.35, -0.1])
     for k in range(lamps):
         scene.light("spot", 9000, [-1 + 2 * k, 2.3, 0.5], [0.3 - 0.6 * k, -1, -0.4])
@@ -246,7 +247,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         program = Program(options.program, options.judge, folder, options.threads)
         program.panels()
-        write_room(in_folder(folder, "room.gltf"), panel="base.panel")
+        write_room(in_folder(folder, "room.gltf"))
         if options.pairs:
             measure_alarms(program, report, options.pairs)
         if options.trials:
