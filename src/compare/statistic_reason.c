@@ -28,6 +28,30 @@ static const StatisticRegion *surest_region(const StatisticResult *r)
     return best;
 }
 
+/* Whether the change in proportion says what the plain mean says, only surer. */
+static bool is_proportional(const StatisticRegion *region)
+{
+    double apart = fabs(region->change - region->shift);
+    return apart < 3 * (region->shift_sigma + region->change_sigma); /* false for NaN */
+}
+
+static void tell_shift(const StatisticRegion *region, char *text, size_t size)
+{
+    bool is_surer = fabs(region->change) / region->change_sigma >
+                    fabs(region->shift) / region->shift_sigma;
+    if (isnan(region->shift))
+        append(text, size, "%.3g cd/m2 instead of 0", region->test);
+    else if (is_surer && is_proportional(region))
+        append(text, size, "%+.3g %% +- %.2g %%", 100 * region->change,
+               100 * region->change_sigma);
+    else
+        append(text, size, "%+.3g %% +- %.2g %%", 100 * region->shift,
+               100 * region->shift_sigma);
+    if (is_surer && !is_proportional(region))
+        append(text, size, ", its surest pixels %+.3g %% +- %.2g %%", 100 * region->change,
+               100 * region->change_sigma);
+}
+
 /* "display 'cluster': reflected light +1.02 % +- 0.21 %" */
 static void tell_region(const StatisticRegion *region, bool is_frame, char *text, size_t size)
 {
@@ -35,23 +59,13 @@ static void tell_region(const StatisticRegion *region, bool is_frame, char *text
     size_t length = strlen(region->name), tail = sizeof REFLECTED - 1;
     bool   is_reflected = !is_frame && length > tail &&
                         !strcmp(region->name + length - tail, REFLECTED);
-    bool   plain = fabs(region->shift) / region->shift_sigma >
-                 fabs(region->change) / region->change_sigma;
+    if (is_reflected) length -= tail;
     if (is_frame)
         append(text, size, "the frame");
     else
-        append(text, size, "display '%.*s'",
-               (int)(is_reflected ? length - tail : length) < 60
-                   ? (int)(is_reflected ? length - tail : length) : 60, region->name);
+        append(text, size, "display '%.*s'", (int)(length < 60 ? length : 60), region->name);
     append(text, size, ": %s ", is_reflected ? "reflected light" : "mean luminance");
-    if (isnan(region->shift))
-        append(text, size, "%.3g cd/m2 instead of 0", region->test);
-    else if (plain || isnan(region->change))
-        append(text, size, "%+.3g %% +- %.2g %%", 100 * region->shift,
-               100 * region->shift_sigma);
-    else
-        append(text, size, "%+.3g %% +- %.2g %%", 100 * region->change,
-               100 * region->change_sigma);
+    tell_shift(region, text, size);
 }
 
 /* "block at x 120..128, y 40..48: green -12.1 %" in pixels of the display window. */
