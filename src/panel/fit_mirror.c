@@ -26,6 +26,7 @@ typedef struct Spot {
     double tilt;  /* theta - incidence */
     double gain;  /* sqrt(F(theta) / F(incidence)) */
     double angle; /* to the mirror direction */
+    double leaving; /* what the surface lets out: 1 - F(theta) */
     double mean;  /* over the wavelengths */
 } Spot;
 
@@ -33,11 +34,11 @@ typedef struct Window {
     Spot  *spot;
     int    count, stride; /* stride: of the rows that a solution counts */
     double incidence;
-    double floor; /* of the slice, mean over the wavelengths */
+    double floor; /* of the slice, mean over the wavelengths, over `leaving` */
     const AngleTable *slice;
 } Window;
 
-/* f = R image + (a + t tilt) haze + floor. */
+/* f = R image + (a + t tilt) haze + floor leaving. */
 typedef struct Model {
     double width, power;   /* haze = gain (1 + b2 / width^2)^-power */
     double r, a, t;
@@ -75,12 +76,15 @@ static Window collect(const AngleTable *slice, double incidence, double reach, A
     for (int i = 0; i < slice->rows; i++) {
         double theta = (double)slice->theta[i], phi = (double)slice->phi[i];
         double angle = angle_to(theta, phi, incidence), mean = row_mean(slice, i);
-        if (theta < radians_from_degrees(60)) window.floor = fmin(window.floor, mean);
+        double leaving = 1 - fit_fresnel(cos_d(theta));
+        if (theta < radians_from_degrees(60))
+            window.floor = fmin(window.floor, mean / leaving);
         if (angle > reach || window.count == WINDOW_ROWS_MAX) continue;
         double so = sin_d(theta), si = sin_d(incidence), sp = sin_d(0.5 * phi);
         window.spot[window.count++] = (Spot){
             i, 0, (so - si) * (so - si) + 4 * so * si * sp * sp, theta - incidence,
-            sqrt(fit_fresnel(cos_d(theta)) / fit_fresnel(cos_d(incidence))), angle, mean};
+            sqrt(fit_fresnel(cos_d(theta)) / fit_fresnel(cos_d(incidence))), angle, leaving,
+            mean};
     }
     window.stride = 1 + window.count / ENOUGH_ROWS;
     window.floor = fmax(0, fmin(window.floor, 1e29));
@@ -128,7 +132,7 @@ static double solve_window(const Window *window, int wavelength, double floor, M
     for (int i = 0; i < window->count; i += window->stride) {
         const Spot *spot = &window->spot[i];
         double f = spot_value(window, spot, wavelength), shape = haze_shape(model, spot);
-        double basis[4] = {spot->image, shape, shape * spot->tilt, f - floor};
+        double basis[4] = {spot->image, shape, shape * spot->tilt, f - floor * spot->leaving};
         double weight = 1 / ((fabs(f) + 1e-5) * (fabs(f) + 1e-5));
         for (int r = 0; r < 3; r++)
             for (int c = 0; c < 4; c++) m[r][c] += weight * basis[r] * basis[c];
@@ -138,8 +142,8 @@ static double solve_window(const Window *window, int wavelength, double floor, M
     for (int i = 0; i < window->count; i += window->stride) {
         const Spot *spot = &window->spot[i];
         double f = spot_value(window, spot, wavelength);
-        double rest = (f - floor - model->r * spot->image - model_haze(model, spot)) /
-                      (fabs(f) + 1e-5);
+        double rest = (f - floor * spot->leaving - model->r * spot->image -
+                       model_haze(model, spot)) / (fabs(f) + 1e-5);
         squares += rest * rest;
     }
     return sqrt(squares * window->stride / window->count);
@@ -149,7 +153,7 @@ static double solve_window(const Window *window, int wavelength, double floor, M
 static double best_width(const Window *window, double fwhm, Model *model)
 {
     double low = log_d(0.5 * fwhm), high = log_d(40 * fwhm), rest = 0;
-    for (int i = 0; i < 14; i++) {
+    for (int i = 0; i < 26; i++) {
         double a = high - 0.618034 * (high - low), b = low + 0.618034 * (high - low);
         model->width = exp_d(a);
         double left = solve_window(window, -1, window->floor, model);
@@ -168,7 +172,7 @@ static Model choose_haze(const Window *window, double fwhm)
 {
     double low = log_d(1.05), high = log_d(4.0);
     Model  model = {0};
-    for (int i = 0; i < 10; i++) {
+    for (int i = 0; i < 18; i++) {
         double a = high - 0.618034 * (high - low), b = low + 0.618034 * (high - low);
         model.power = exp_d(a);
         double left = best_width(window, fwhm, &model);
@@ -185,10 +189,13 @@ static Model choose_haze(const Window *window, double fwhm)
 static double channel_floor(const AngleTable *slice, int channel)
 {
     double least = 1e30;
-    for (int i = 0; i < slice->rows; i++)
-        if ((double)slice->theta[i] < radians_from_degrees(60))
+    for (int i = 0; i < slice->rows; i++) {
+        double theta = (double)slice->theta[i];
+        if (theta < radians_from_degrees(60))
             least = fmin(least, (double)slice->value[(size_t)i * (size_t)slice->channels +
-                                                     (size_t)channel]);
+                                                     (size_t)channel] /
+                                    (1 - fit_fresnel(cos_d(theta))));
+    }
     return fmax(0, fmin(least, 1e29));
 }
 
@@ -204,7 +211,7 @@ static void take_out(const Window *window, double fwhm, Model model, double *ref
         for (int i = 0; i < window->count; i++) {
             const Spot *spot = &window->spot[i];
             float *at = value + (size_t)spot->row * (size_t)size + w;
-            double haze = fmax(model_haze(&model, spot) + floor, 0);
+            double haze = fmax(model_haze(&model, spot) + floor * spot->leaving, 0);
             double peak = reflectance[w] * spot->image;
             bool   in_core = spot->angle < CORE_FWHMS * fwhm || haze < CORE_SHARE * peak;
             *at = (float)(in_core ? haze : (double)*at - peak);
@@ -292,7 +299,8 @@ static double core_rest(const Window *window, const Model *model)
     double squares = 0, count = 0;
     for (int i = 0; i < window->count; i++) {
         const Spot *spot = &window->spot[i];
-        double haze = model_haze(model, spot) + window->floor, peak = model->r * spot->image;
+        double haze = model_haze(model, spot) + window->floor * spot->leaving;
+        double peak = model->r * spot->image;
         if (peak < haze) continue;
         double rest = (spot->mean - haze - peak) / (haze + peak);
         squares += rest * rest;
