@@ -142,34 +142,55 @@ static void add_line(const MetadataRow *row, Lines *to, const char *why)
               plain_name(row->name), a, b, why);
 }
 
-/* "HASH  PATH\n" of every input: the path behind the hash of the given length, or NULL. */
-static const char *input_line(const char *list, const char *path, size_t length)
+/* One line "HASH  PATH" of the list of inputs. */
+typedef struct InputLine {
+    const char *hash, *name; /* name: behind the path's last slash */
+    int         hash_length, name_length;
+} InputLine;
+
+/* The line at *list, which moves on to the next one; false at the end. */
+static bool next_input(const char **list, InputLine *out)
 {
-    while (*list) {
-        size_t      line = strcspn(list, "\n");
-        const char *blank = memchr(list, ' ', line);
-        const char *name = blank && blank + 2 <= list + line ? blank + 2 : list + line;
-        if ((size_t)(list + line - name) == length && !memcmp(name, path, length)) return list;
-        list += line + (list[line] == '\n');
-    }
-    return NULL;
+    const char *line = *list;
+    size_t      length = strcspn(line, "\n"), hash = strcspn(line, " \n");
+    if (!*line) return false;
+    const char *end = line + length, *name = hash + 2 <= length ? line + hash + 2 : end;
+    for (const char *mark = name; mark < end; mark++)
+        if (*mark == '/') name = mark + 1;
+    *out = (InputLine){line, name, (int)hash, (int)(end - name)};
+    *list = *end ? end + 1 : end;
+    return true;
 }
 
-/* Which input files changed, or are on one side only. */
+/* Whether the list has a file of this name, in whatever folder; *same: with these contents. */
+static bool has_input(const char *list, const InputLine *wanted, bool *same)
+{
+    InputLine line;
+    bool      found = false;
+    *same = false;
+    while (!*same && next_input(&list, &line)) {
+        if (line.name_length != wanted->name_length ||
+            memcmp(line.name, wanted->name, (size_t)line.name_length) != 0)
+            continue;
+        found = true;
+        *same = line.hash_length == wanted->hash_length &&
+                !memcmp(line.hash, wanted->hash, (size_t)line.hash_length);
+    }
+    return found;
+}
+
+/* Which input files changed, or are on one side only. Folders make no difference: two checkouts
+ * of one scene have the same inputs. */
 static void add_inputs(const char *from, const char *other, bool is_reference, Lines *to)
 {
-    for (const char *line = from; *line;) {
-        size_t      length = strcspn(line, "\n"), hash = strcspn(line, " \n");
-        const char *path = hash + 2 <= length ? line + hash + 2 : line + length;
-        size_t      path_length = (size_t)(line + length - path);
-        const char *there = input_line(other, path, path_length);
-        if (!there)
-            lines_add(to, "input %.*s is only in the %s", (int)path_length, path,
+    InputLine line;
+    bool      same;
+    while (next_input(&from, &line))
+        if (!has_input(other, &line, &same))
+            lines_add(to, "input %.*s is only in the %s", line.name_length, line.name,
                       is_reference ? "reference" : "test");
-        else if (is_reference && strncmp(line, there, hash) != 0)
-            lines_add(to, "input %.*s has changed", (int)path_length, path);
-        line += length + (line[length] == '\n');
-    }
+        else if (is_reference && !same)
+            lines_add(to, "input %.*s has changed", line.name_length, line.name);
 }
 
 void metadata_report(const MetadataRow *rows, int count, bool strict, Lines *reasons,
