@@ -1,6 +1,7 @@
 #!/bin/sh
-# long.sh -- what takes too long for run.sh: every closed form, thousands of broken models and
-# panels under the address sanitizer, and the second compiler.
+# long.sh -- what takes too long for run.sh: every closed form, two hundred pairs of frames that
+# only differ in noise, a hundred kills, every fault, thousands of broken models and panels under
+# the address sanitizer, five minutes of fuzzing, and the second compiler.
 cd "$(dirname "$0")/.." || exit 1
 sh third_party/install.sh --tests || exit 1
 . tests/steps.sh
@@ -28,6 +29,11 @@ run 'daylight through a roof, every point' roof-long \
     python3 tests/image/roof.py .build/release/parhelion --all
 run 'false alarms and power of compare' compare-power \
     python3 tests/bench/compare_power.py .build/release/parhelion .build/release/bench_statistic
+run 'a hundred kills' resume-long \
+    python3 tests/hostile/resume.py --kills 100 .build/release/parhelion
+run 'parts of every kind' merge-long \
+    python3 tests/image/merge.py --all .build/release/parhelion
+run 'every fault' faults-long python3 tests/hostile/faults.py --all .build/release/parhelion
 if run_one 'build by the second compiler' build-clang build clang all; then
     run_units 'unit tests, second compiler' unit-clang .build/clang
     run 'same bits from both compilers' bits-clang \
@@ -41,8 +47,14 @@ if run_one 'build for this processor only' build-native build_native; then
 fi
 if run_one 'build with address sanitizer' build-asan build asan all; then
     export UBSAN_OPTIONS=print_stacktrace=1
+    run_units 'unit tests, address sanitizer' unit-asan .build/asan --timeout 3600
     run_mutations
+    run 'every fault, address sanitizer' faults-asan \
+        python3 tests/hostile/faults.py --all .build/asan/parhelion
     run 'thousands of broken models' hostile-long \
         python3 tests/hostile/run.py --all .build/asan/parhelion
+fi
+if run_one 'build for fuzzing' build-fuzz build fuzz fuzz; then
+    run 'five minutes of fuzzing' fuzz python3 tests/fuzz/run.py .build/fuzz
 fi
 finish

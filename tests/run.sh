@@ -10,9 +10,11 @@ run 'folders include what they may' layers python3 tests/structure/layers.py
 run 'sizes and contents of the sources' source python3 tests/structure/source.py
 run 'the README names what is there' readme python3 tests/structure/readme.py
 run 'scenes hold to their schemas' schemas python3 tests/structure/schemas.py
+run 'no shell, no network, no mapped file' calls python3 tests/structure/calls.py
 
 if run_one 'release build, warnings are errors' build-release build release all; then
     run 'libraries keep no state' globals sh tests/structure/globals.sh .build/release
+    run 'no function that differs by CPU' libm sh tests/structure/libm.sh .build/release
     run_units 'unit tests' unit .build/release
     run 'the command line' cli python3 tests/hostile/cli.py .build/release/parhelion
     run 'panel commands' panel-commands \
@@ -26,6 +28,13 @@ if run_one 'release build, warnings are errors' build-release build release all;
         python3 tests/image/reflection.py .build/release/parhelion
     run 'daylight through a roof' roof python3 tests/image/roof.py .build/release/parhelion
     run 'same bits, any threads' bits python3 tests/image/bits.py .build/release/parhelion
+    run 'same bits, any parts' merge python3 tests/image/merge.py .build/release/parhelion
+    run 'same bits, killed and resumed' resume \
+        python3 tests/hostile/resume.py .build/release/parhelion
+    run 'golden frames' golden python3 tests/image/golden.py .build/release/parhelion
+    run 'comparisons' compare python3 tests/hostile/compare.py .build/release/parhelion
+    run 'faults and their outcomes' faults \
+        python3 tests/hostile/faults.py .build/release/parhelion
 fi
 if run_one 'build with address sanitizer' build-asan build asan all; then
     export UBSAN_OPTIONS=print_stacktrace=1
@@ -34,10 +43,12 @@ if run_one 'build with address sanitizer' build-asan build asan all; then
         python3 tests/hostile/run.py .build/asan/parhelion
 fi
 if run_one 'build with thread sanitizer' build-tsan \
-    build tsan parhelion test_base test_render; then
+    build tsan parhelion test_base test_render test_checkpoint; then
     export TSAN_OPTIONS=ignore_noninstrumented_modules=1
-    run_units 'unit tests, thread sanitizer' unit-tsan .build/tsan -R '^(base|render)$'
+    run_units 'unit tests, thread sanitizer' unit-tsan .build/tsan -R '^(base|render|checkpoint)$'
     run 'two threads, thread sanitizer' tsan \
         python3 tests/image/bits.py --small .build/tsan/parhelion
+    run 'checkpoint and interrupt, the same' tsan-resume \
+        python3 tests/hostile/resume.py --small .build/tsan/parhelion
 fi
 finish
