@@ -236,6 +236,19 @@ static void spread_means(PanelEmission *e, const double *mean_y)
     e->black_mean_y = e->has_black ? (float)mean_y[e->channels / 3 - 1] : 0;
 }
 
+/* Whether the curve over codes can be followed without leaving single precision, and nowhere
+ * divides nothing by nothing. */
+#define MEAN_Y_MAX 1e18f
+
+static bool means_fit(const PanelEmission *e)
+{
+    for (int p = 0; p < 3; p++)
+        for (int code = 1; code < 256; code++)
+            if (!(e->mean_y[p][code] >= 1 / MEAN_Y_MAX && e->mean_y[p][code] <= MEAN_Y_MAX))
+                return false;
+    return e->black_mean_y >= 0 && e->black_mean_y <= MEAN_Y_MAX;
+}
+
 /* Means over the hemisphere, and where the colours lie. */
 static void survey(Panel *panel, PanelEmission *e, Arena *arena, PanelPrimaries *primaries)
 {
@@ -337,6 +350,7 @@ bool panel_open_emission(const PanelBytes *bytes, const Geodesic *geodesic, Aren
     expand_codes(e, arena);
     panel->emission = e;
     survey(panel, e, arena, primaries);
+    if (!means_fit(e)) return panel_refuse(&at, "emission", "a mean luminance is out of range");
     black_spectrum(panel, primaries);
     panel->primaries = primaries;
     return true;
