@@ -20,19 +20,6 @@ from report import Report  # noqa: E402
 TIMEOUT_S = 120
 SANITIZERS = ("AddressSanitizer", "runtime error:", "LeakSanitizer", "ThreadSanitizer")
 
-# The validator looks at things that make no difference to a picture: animations, names,
-# properties that nobody reads. A model with no other fault may be taken without a word.
-HARMLESS = (
-    "ANIMATION", "ACCESSOR_MIN_MISMATCH", "ACCESSOR_MAX_MISMATCH", "ACCESSOR_ELEMENT_OUT_OF",
-    "EMPTY_ENTITY", "UNEXPECTED_EXTENSION_OBJECT", "UNDECLARED_EXTENSION", "DUPLICATE_ELEMENTS",
-    "BUFFER_VIEW_TARGET_OVERRIDE", "MESH_PRIMITIVE_INVALID_ATTRIBUTE", "NON_REQUIRED_EXTENSION",
-    "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_UNSIGNED_INT", "ACCESSOR_NORMALIZED_INVALID",
-    "ACCESSOR_INDEX_PRIMITIVE_RESTART", "UNUSED_EXTENSION_REQUIRED", "MESH_PRIMITIVE_INDEXED_",
-    "IMAGE_MIME_TYPE_INVALID")
-# Objects of which the same holds, whatever is wrong with them.
-UNREAD = ("/animations", "/extensions/KHR_materials_variants", "KHR_materials_variants",
-          "KHR_animation_pointer", "KHR_materials_anisotropy", "KHR_materials_iridescence")
-
 # Models of other collections that must be refused, and a word that the refusal must hold.
 REFUSED = {
     "tinygltf/models/BoundsChecking/invalid-buffer-index.gltf": "buffer",
@@ -106,16 +93,13 @@ def claim_loads(report, name, check, render):
 
 
 def faults_in(path):
-    """The validator's errors that matter; None when it has no report."""
+    """The validator's errors; None when it has no report on the model."""
     try:
         with open(path + ".report.json", encoding="utf-8") as file:
             messages = json.load(file)["issues"]["messages"]
     except OSError:
         return None
-    errors = [m for m in messages if m["severity"] == 0]
-    matter = [m for m in errors if not m["code"].startswith(HARMLESS)
-              and not any(word in m.get("pointer", "") for word in UNREAD)]
-    return {"valid": not errors, "matter": matter}
+    return [m for m in messages if m["severity"] == 0]
 
 
 def names_extension(check):
@@ -134,14 +118,27 @@ def judge(report, path, outcome):
     if name in REFUSED:
         text = " ".join(p.get("message", "") for p in problems_of(check))
         report.claim(check[0] == 3 and REFUSED[name] in text, f"{name}: not refused: {text}")
-    elif faults is None or faults["valid"]:
+    elif not faults:
         if check[0] != 3 or not names_extension(check):
             claim_loads(report, name, check, render)
-    elif faults["matter"]:
-        first = faults["matter"][0]
+    else:
         report.claim(check[0] == 3 or problems_of(check),
-                     f"{name}: taken without a word, though {first.get('pointer')}: "
-                     f"{first['message']}")
+                     f"{name}: taken without a word, though {faults[0].get('pointer')}: "
+                     f"{faults[0]['message']}")
+
+
+def print_figures(paths, outcomes):
+    """How many of the validator's models were refused, reported and taken."""
+    count = dict.fromkeys(("refused", "reported", "silent", "valid", "valid and refused"), 0)
+    for path, (check, _) in zip(paths, outcomes):
+        faults = faults_in(path)
+        if faults:
+            count["refused" if check[0] == 3 else
+                  "reported" if problems_of(check) else "silent"] += 1
+        elif faults is not None:
+            count["valid and refused" if check[0] == 3 else "valid"] += 1
+    print(f"{len(paths)} foreign models; of {sum(count.values())} with the validator's report: "
+          + ", ".join(f"{number} {what}" for what, number in count.items()))
 
 
 def models():
@@ -170,8 +167,10 @@ def main():
         check_mutations(report, program, folder, 4000 if "--all" in sys.argv else 120)
         if os.path.isdir(DATA):
             paths = models()
-            for path, outcome in zip(paths, run_all(program, paths, folder)):
+            outcomes = run_all(program, paths, folder)
+            for path, outcome in zip(paths, outcomes):
                 judge(report, path, outcome)
+            print_figures(paths, outcomes)
         else:
             report.skip("foreign models: the shared data is not beside the checkout")
     report.finish()
