@@ -13,7 +13,7 @@
 #ifdef ARENA_GUARD
 #include <sanitizer/asan_interface.h>
 
-enum { GUARD_ALIGN = 8, GUARD_BYTES = 32, GUARD_LEAST = 4096 };
+enum { GUARD_ALIGN = 8, GUARD_BYTES = 32 };
 
 /* What stands at the beginning of an arena's memory. */
 typedef struct GuardMark {
@@ -27,8 +27,8 @@ typedef struct GuardMark {
 static inline GuardMark *guard_mark(const Arena *arena)
 {
     GuardMark *mark = (GuardMark *)(void *)arena->begin;
-    bool is_large = mark && arena->end - arena->begin >= GUARD_LEAST;
-    return is_large && mark->tag == ((size_t)mark ^ GUARD_TAG) ? mark : NULL;
+    bool has_room = mark && arena->end - arena->begin >= (ptrdiff_t)sizeof *mark;
+    return has_room && mark->tag == ((size_t)mark ^ GUARD_TAG) ? mark : NULL;
 }
 
 /* A fresh arena: takes the mark's place. */

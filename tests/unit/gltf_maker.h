@@ -14,7 +14,7 @@
 /* One folder a test program; removed with what lies in it by maker_end. */
 typedef struct Maker {
     char folder[256];
-    Arena arena;
+    Arena arena, fresh; /* as it is, and as a test finds it */
     int file_count, most_files;
 } Maker;
 
@@ -26,7 +26,7 @@ static int maker_start(void **state)
     const char *base = getenv("TMPDIR");
     snprintf(maker.folder, sizeof maker.folder, "%s/parhelion-test-XXXXXX",
              base ? base : P_tmpdir);
-    maker.arena = arena_reserve(MAKER_ARENA_BYTES);
+    maker.arena = maker.fresh = arena_reserve(MAKER_ARENA_BYTES);
     return mkdtemp(maker.folder) ? 0 : -1;
 }
 
@@ -50,7 +50,7 @@ static int maker_end(void **state)
 static inline int maker_reset(void **state)
 {
     (void)state;
-    maker.arena.next = maker.arena.begin;
+    maker.arena = maker.fresh;
     maker.file_count = 0;
     return 0;
 }
