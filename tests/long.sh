@@ -1,7 +1,7 @@
 #!/bin/sh
-# long.sh -- what takes too long for run.sh: every closed form, two hundred pairs of frames that
-# only differ in noise, a hundred kills, every fault, thousands of broken models and panels under
-# the address sanitizer, five minutes of fuzzing, and the second compiler.
+# long.sh -- what takes too long for run.sh: every closed form, two hundred pairs of frames of
+# other noise, a hundred kills, every fault, thousands of broken models and panels under the
+# address sanitizer, five minutes of fuzzing, and the second compiler.
 cd "$(dirname "$0")/.." || exit 1
 sh third_party/install.sh --tests || exit 1
 . tests/steps.sh

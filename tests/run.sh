@@ -45,7 +45,8 @@ fi
 if run_one 'build with thread sanitizer' build-tsan \
     build tsan parhelion test_base test_render test_checkpoint; then
     export TSAN_OPTIONS=ignore_noninstrumented_modules=1
-    run_units 'unit tests, thread sanitizer' unit-tsan .build/tsan -R '^(base|render|checkpoint)$'
+    run_units 'unit tests, thread sanitizer' unit-tsan .build/tsan \
+        -R '^(base|render|checkpoint)$'
     run 'two threads, thread sanitizer' tsan \
         python3 tests/image/bits.py --small .build/tsan/parhelion
     run 'checkpoint and interrupt, the same' tsan-resume \

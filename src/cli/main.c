@@ -9,7 +9,7 @@
 
 #include "bvh/bvh.h"
 #include "cli/cli.h"
-#include "render/kernel.h"
+#include "render/render.h"
 
 typedef struct Command {
     const char *name;
@@ -36,8 +36,9 @@ static void print_version(void)
     const Kernel *kernel;
     Error         err;
     bool          chosen = kernel_choose(NULL, &kernel, &err);
-    printf("parhelion %s\ninstruction set: %s\nlibraries: %s, %s\n", PARHELION_VERSION,
-           chosen ? kernel->isa : "none", bvh_library(), LIBRARY_VERSIONS);
+    printf("parhelion %s\nsources: %s\ninstruction set: %s\nlibraries: %s, %s\n",
+           PARHELION_VERSION, SOURCES_HASH, chosen ? kernel->isa : "none", bvh_library(),
+           LIBRARY_VERSIONS);
 }
 
 static void print_help(FILE *out)

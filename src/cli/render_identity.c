@@ -202,6 +202,7 @@ const char *render_identity(const RenderRequest *request, const Scene *scene,
     const RenderOptions *options = &request->render;
     Text text = {.arena = arena};
     line(&text, "version", "%s", PARHELION_VERSION);
+    line(&text, "sources", "%s", SOURCES_HASH);
     line(&text, "isa", "%s", kernel->isa);
     line(&text, "ray tracer", "%s", bvh_library());
     line(&text, "size", "%dx%d", options->width, options->height);

@@ -5,6 +5,7 @@
  * when they are.
  *
  *     version<TAB>0.1.0
+ *     sources<TAB>0123456789ab
  *     ray tracer<TAB>Embree 3.13.5
  *     input 0<TAB>dashboard.gltf 0123456789abcdef
  *     ...

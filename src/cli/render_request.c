@@ -303,7 +303,7 @@ static bool parse_line(int argc, char **argv, Arena *arena, Typed *typed,
          "keep what is done, here (default FRAME.exr.checkpoint); INT and TERM always do; gone "
          "with the finished frame",
          &request->checkpoint},
-        {"--checkpoint-interval", OPTION_NUMBER, "SECONDS", "how often, after the pass in hand (default 60)",
+        {"--checkpoint-interval", OPTION_NUMBER, "SECONDS", "how often (default 60)",
          &request->render.checkpoint_interval_s, .low = 0, .high = 1e6,
          .given = &typed->has_interval},
         {"--resume", OPTION_FLAG, NULL,

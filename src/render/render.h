@@ -43,6 +43,10 @@ typedef struct RenderOptions {
 
 #define RENDER_LEAST_SAMPLES 16
 
+/* Twelve hexadecimal digits that change with every source file that decides a pixel: two builds
+ * of one version that may differ are told apart. Made by hash_sources.cmake. */
+extern const char SOURCES_HASH[];
+
 struct RenderResult {
     Film          *film;
     const Kernel  *kernel;     /* the one that was used */

@@ -10,7 +10,7 @@ names="$names|cosh|tanh|cbrt|erf|erfc|hypot|tgamma|lgamma"
 for name in base spectrum hemisphere sky image panel import scene bvh light camera path film \
     render shaders; do
     library=$build/lib$name.a
-    [ -e "$library" ] || { echo "FAILED there is no $library"; failed=$((failed + 1)); continue; }
+    [ -e "$library" ] || { echo "FAILED no $library"; failed=$((failed + 1)); continue; }
     # The pictures that people look at are developed elsewhere: exposure and false colours.
     bad=$(nm -A --undefined-only "$library" 2>/dev/null |
         grep -v 'exposure\.c\|false_colour\.c' |

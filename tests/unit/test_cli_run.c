@@ -230,7 +230,7 @@ static void version_and_help_need_nothing(void **state)
     Outcome o;
     RUN(&o, "--version");
     assert_int_equal(o.status, 0);
-    assert_non_null(strstr(o.out, "parhelion " PARHELION_VERSION "\ninstruction set: "));
+    assert_non_null(strstr(o.out, "parhelion " PARHELION_VERSION "\nsources: "));
     assert_non_null(strstr(o.out, "Embree "));
     assert_non_null(strstr(o.out, "OpenColorIO "));
     RUN(&o, "--help");

@@ -89,7 +89,8 @@ static void metadata_that_decides_fails_and_the_rest_explains(void **state)
     assert_true(has_note(&c, "input b.png is only in the reference"));
     assert_true(has_note(&c, "input c.png is only in the test"));
     frame_set_string(&a.frame, "parhelion:inputs", "00aa  here/a.gltf\n00bb  b.png\n", &arena);
-    frame_set_string(&b.frame, "parhelion:inputs", "00aa  /there/a.gltf\n00bd  b.png\n", &arena);
+    frame_set_string(&b.frame, "parhelion:inputs", "00aa  /there/a.gltf\n00bd  b.png\n",
+                     &arena);
     c = compared(&a, &b, LOOSE, &arena);
     assert_false(has_note(&c, "a.gltf"));
     assert_true(has_note(&c, "input b.png has changed"));

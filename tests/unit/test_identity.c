@@ -140,7 +140,9 @@ static void what_decides_a_sample_is_in_it_and_nothing_else(void **state)
     Subject one;
     fill(&one);
     const char *there = identity_of(&one, arena);
-    const char *begin = "version\t" PARHELION_VERSION "\nisa\tsse2\nray tracer\tEmbree ";
+    const char *begin = arena_format(
+        arena, "version\t%s\nsources\t%s\nisa\tsse2\nray tracer\tEmbree ", PARHELION_VERSION,
+        SOURCES_HASH);
     assert_ptr_equal(strstr(there, begin), there);
     for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
         Subject other;

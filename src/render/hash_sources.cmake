@@ -1,0 +1,18 @@
+# Writes the C file OUTPUT with a number that changes with everything that decides a pixel:
+# cmake -DROOT=... -DOUTPUT=... -P hash_sources.cmake
+set(folders base spectrum hemisphere sky image panel scene bvh light camera path film render)
+set(patterns ${ROOT}/shaders/*.[ch] ${ROOT}/third_party/*/*.[ch]pp ${ROOT}/third_party/*/*.h)
+foreach(folder ${folders})
+  list(APPEND patterns ${ROOT}/src/${folder}/*.[ch])
+endforeach()
+file(GLOB files RELATIVE ${ROOT} ${patterns})
+list(SORT files)
+set(all "")
+foreach(file ${files})
+  file(SHA256 ${ROOT}/${file} hash)
+  string(APPEND all "${hash} ${file}\n")
+endforeach()
+string(SHA256 hash "${all}")
+string(SUBSTRING ${hash} 0 12 hash)
+file(WRITE ${OUTPUT}
+  "extern const char SOURCES_HASH[];\nconst char SOURCES_HASH[] = \"${hash}\";\n")
