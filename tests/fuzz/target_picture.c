@@ -53,5 +53,6 @@ void fuzz_frame(const uint8_t *data, size_t size, Arena *arena)
     if (!frame_rgb(&frame, "", rgb)) return;
     Measurement    figures;
     MeasureRequest request = {.frame_name = "frame.exr"};
+    small.end = arena->end;
     if (!measure_frame(&frame, &request, small, &figures, &err)) fuzz_claim_refusal(&err);
 }

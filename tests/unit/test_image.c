@@ -138,6 +138,24 @@ static void every_kind_of_png_becomes_rgba(void **state)
     arena_release(&arena);
 }
 
+/* A kilobyte of header may not take a gigabyte. */
+static void user_data_larger_than_a_dpx_is_refused(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(ARENA_BYTES);
+    Image image;
+    Error err = {0};
+    unsigned char little[64] = "XPDS", big[64] = "SDPX";
+    little[35] = big[32] = 0x58;
+    assert_false(image_read_memory(little, 64, "a.dpx", &arena, &image, &err));
+    assert_text_has(&err, "1476395008 bytes of user data are stated, the file has 64");
+    assert_false(image_read_memory(big, 64, "a.dpx", &arena, &image, &err));
+    assert_text_has(&err, "1476395008 bytes of user data are stated, the file has 64");
+    assert_false(image_read_memory(big, 35, "a.dpx", &arena, &image, &err));
+    assert_text_has(&err, "damaged dpx picture: cut off in its header");
+    arena_release(&arena);
+}
+
 static void alpha_stays_straight(void **state)
 {
     (void)state;
@@ -469,6 +487,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_kind_of_png_becomes_rgba),
+        cmocka_unit_test(user_data_larger_than_a_dpx_is_refused),
         cmocka_unit_test(alpha_stays_straight),
         cmocka_unit_test(sixteen_bits_stay_sixteen_bits),
         cmocka_unit_test(a_frame_without_colours_is_no_picture),
