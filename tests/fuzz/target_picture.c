@@ -8,6 +8,7 @@
 
 /* A small file may announce a large picture: this much memory and no more. */
 #define IMAGE_BYTES ((size_t)1 << 18)
+#define SHOWN_PIXELS ((size_t)1 << 20)
 #define FRAME_BYTES ((size_t)5 << 18) /* reading keeps a megabyte for names */
 
 static Arena small_arena(const Arena *arena, size_t bytes)
@@ -50,7 +51,9 @@ void fuzz_frame(const uint8_t *data, size_t size, Arena *arena)
             sum += (double)frame.channels[c].values[i];
     fuzz_claim(sum < 0 || !(sum < 0), "pixels can be read");
     frame_id_of(&frame, "display", "cluster");
-    if (!frame_rgb(&frame, "", rgb)) return;
+    const ExrWindow shown = frame.display; /* figures are taken over all of it */
+    size_t shown_pixels = (size_t)(shown.x1 - shown.x0) * (size_t)(shown.y1 - shown.y0);
+    if (shown_pixels > SHOWN_PIXELS || !frame_rgb(&frame, "", rgb)) return;
     Measurement    figures;
     MeasureRequest request = {.frame_name = "frame.exr"};
     small.end = arena->end;

@@ -147,17 +147,24 @@ struct ExrReader {
     ExrWords                                 words{};
 };
 
-static bool check_window(const ExrPicture &p, Error *err)
+static bool check_window(const char *which, const ExrWindow &window, Error *err)
 {
-    long long width = (long long)p.data.x1 - p.data.x0;
-    long long height = (long long)p.data.y1 - p.data.y0;
+    long long width = (long long)window.x1 - window.x0;
+    long long height = (long long)window.y1 - window.y0;
     if (width < 1 || height < 1 || width > EXR_MAX_SIDE || height > EXR_MAX_SIDE
         || width * height > EXR_MAX_PIXELS) {
         return error_set(err, ERROR_INPUT,
-                         "a data window of %lld x %lld pixels; at most %d along a side and %d "
+                         "a %s window of %lld x %lld pixels; at most %d along a side and %d "
                          "in all are supported",
-                         width, height, EXR_MAX_SIDE, EXR_MAX_PIXELS);
+                         which, width, height, EXR_MAX_SIDE, EXR_MAX_PIXELS);
     }
+    return true;
+}
+
+static bool check_picture(const ExrPicture &p, Error *err)
+{
+    if (!check_window("data", p.data, err) || !check_window("display", p.display, err))
+        return false;
     if (p.channel_count < 1 || p.channel_count > EXR_MAX_CHANNELS) {
         return error_set(err, ERROR_INPUT, "%d channels, 1 to %d are supported",
                          p.channel_count, EXR_MAX_CHANNELS);
@@ -200,7 +207,7 @@ static bool describe(ExrReader *reader, Error *err)
                        (int)reader->channels.size(),      reader->channels.data(),
                        (int)reader->attributes.size(),    reader->attributes.data(), 0, 0,
                        nullptr};
-    return check_window(reader->picture, err);
+    return check_picture(reader->picture, err);
 }
 
 static void set_limits()
@@ -452,7 +459,7 @@ static void write_both(const ExrPicture &p, Imf::OStream *stream)
 
 bool exr_encode(const ExrPicture *p, ExrBytes **out, Error *err)
 {
-    if (!check_window(*p, err)) return false;
+    if (!check_picture(*p, err)) return false;
     if (p->data.x0 < p->display.x0 || p->data.y0 < p->display.y0 || p->data.x1 > p->display.x1
         || p->data.y1 > p->display.y1) {
         return error_set(err, ERROR_OUTPUT,
