@@ -16,9 +16,18 @@ if run_one 'release build, warnings are errors' build-release build release all;
     run 'libraries keep no state' globals sh tests/structure/globals.sh .build/release
     run 'no function that differs by CPU' libm sh tests/structure/libm.sh .build/release
     run_units 'unit tests' unit .build/release
-    run 'the command line' cli python3 tests/hostile/cli.py .build/release/parhelion
-    run 'panel commands' panel-commands \
+    start 'the command line' cli python3 tests/hostile/cli.py .build/release/parhelion
+    start 'comparisons' compare python3 tests/hostile/compare.py .build/release/parhelion
+    gather
+    start 'faults and their outcomes' faults \
+        python3 tests/hostile/faults.py .build/release/parhelion
+    start 'panel commands' panel-commands \
         python3 tests/hostile/panel_commands.py .build/release/parhelion
+    gather
+    start 'same bits, any parts' merge python3 tests/image/merge.py .build/release/parhelion
+    start 'same bits, killed and resumed' resume \
+        python3 tests/hostile/resume.py .build/release/parhelion
+    gather
     run 'closed forms in frames' image python3 tests/image/run.py .build/release/parhelion
     run 'displays against their panels' display \
         python3 tests/image/display.py .build/release/parhelion
@@ -28,17 +37,11 @@ if run_one 'release build, warnings are errors' build-release build release all;
         python3 tests/image/reflection.py .build/release/parhelion
     run 'daylight through a roof' roof python3 tests/image/roof.py .build/release/parhelion
     run 'same bits, any threads' bits python3 tests/image/bits.py .build/release/parhelion
-    run 'same bits, any parts' merge python3 tests/image/merge.py .build/release/parhelion
-    run 'same bits, killed and resumed' resume \
-        python3 tests/hostile/resume.py .build/release/parhelion
     run 'golden frames' golden python3 tests/image/golden.py .build/release/parhelion
-    run 'comparisons' compare python3 tests/hostile/compare.py .build/release/parhelion
-    run 'faults and their outcomes' faults \
-        python3 tests/hostile/faults.py .build/release/parhelion
 fi
 if run_one 'build with address sanitizer' build-asan build asan all; then
     export UBSAN_OPTIONS=print_stacktrace=1
-    run_units 'unit tests, address sanitizer' unit-asan .build/asan
+    run_units 'unit tests, address sanitizer' unit-asan .build/asan -LE heavy
     run 'malformed and foreign models' hostile \
         python3 tests/hostile/run.py .build/asan/parhelion
 fi

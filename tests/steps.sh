@@ -52,6 +52,33 @@ run()
     return $status
 }
 
+# start NAME LOG COMMAND...: as run, but beside others; gather waits for them and reports.
+# For steps that mostly wait for one small program after the other.
+started=
+start()
+{
+    name=$1 beside=$2
+    shift 2
+    printf '%s' "$name" >"$logs/$beside.name"
+    ( begun=$(date +%s)
+      "$@" >"$logs/$beside.log" 2>&1
+      echo "$? $(($(date +%s) - begun))" >"$logs/$beside.end" ) &
+    started="$started $beside"
+}
+
+gather()
+{
+    wait
+    for beside in $started; do
+        log=$logs/$beside.log
+        read -r status seconds <"$logs/$beside.end"
+        # shellcheck disable=SC2046
+        set -- $(counts "$log")
+        report "$(cat "$logs/$beside.name")" "$status" "$seconds" "${1:-0}" "${2:-0}" "${3:-0}"
+    done
+    started=
+}
+
 # run_one NAME LOG COMMAND...: a step that is one claim
 run_one()
 {
