@@ -17,9 +17,11 @@
 #define ELLIPSE_WORTH 0.7   /* and an ellipse of what a circle leaves */
 #define BACKGROUND 9        /* terms */
 #define UNKNOWNS_MAX (PANEL_BEAM_KNOTS_MAX + BACKGROUND)
+#define EVEN_SHARE 1e-5     /* of the samples' weight: third differences against it */
 #define BEND 0.1            /* second differences of coefficients that are expected */
 #define CORE_LEAST_DEG 0.01
 #define CORE_MOST_DEG 2.0
+#define CORE_STEPS 1.5      /* of the samples: less, and no sample would tell the first knots */
 #define TURN_MOST 60.0      /* of narrow^2 */
 
 /* The samples around a beam in the tangent plane of a centre, in units of chord. */
@@ -195,22 +197,31 @@ static void add_line(const Line *line, double weight, Equations *out)
 {
     for (int a = 0; a < line->count; a++) {
         double *row = out->matrix + (size_t)line->at[a] * (size_t)out->unknowns;
-        for (int b = 0; b <= a; b++) row[line->at[b]] += weight * line->value[a] * line->value[b];
+        double  w = weight * line->value[a];
+        for (int b = 0; b <= a; b++) row[line->at[b]] += w * line->value[b];
     }
 }
 
-/* Second differences, the last ones against the zeros behind. */
-static void add_bends(const Window *w, Equations *out)
+/* Adds weight times the squares of differences of neighbouring coefficients. */
+static void add_differences(const double *difference, int count, double weight, Equations *out)
 {
-    double doubt = w->model->noise / BEND;
-    double weight = w->total * (1e-9 + doubt * doubt / (1 + w->count));
-    static const double difference[3] = {1, -2, 1};
     size_t n = (size_t)out->unknowns;
     for (int i = 0; i < out->knots; i++)
-        for (int a = 0; a < 3 && i + a < out->knots; a++)
+        for (int a = 0; a < count && i + a < out->knots; a++)
             for (int b = 0; b <= a; b++)
                 out->matrix[(size_t)(i + a) * n + (size_t)(i + b)] +=
                     weight * difference[a] * difference[b];
+}
+
+/* Coefficients that samples do not tell, or only through noise, are even ones; the last
+ * differences are against the zeros behind. */
+static void add_bends(const Window *w, Equations *out)
+{
+    static const double second[3] = {1, -2, 1}, third[4] = {1, -3, 3, -1};
+    double doubt = w->model->noise / BEND;
+    size_t n = (size_t)out->unknowns;
+    add_differences(second, 3, w->total * doubt * doubt / (1 + w->count), out);
+    add_differences(third, 4, w->total * EVEN_SHARE, out);
     for (size_t i = 0; i < n; i++) out->matrix[i * n + i] += w->total * 1e-12;
 }
 
@@ -291,7 +302,7 @@ static bool improve(Search *search, const Shape *shape)
 static void choose_core(Search *search)
 {
     Shape  shape = search->best;
-    double core = fmax(chord_of(CORE_LEAST_DEG), 0.7 * search->window->step);
+    double core = fmax(chord_of(CORE_LEAST_DEG), CORE_STEPS * search->window->step);
     for (; core < chord_of(CORE_MOST_DEG); core *= sqrt(2)) {
         shape.core = core;
         improve(search, &shape);
@@ -450,8 +461,8 @@ void emission_note_beams(const EmissionModel *model, FitNotes *notes)
 {
     for (int b = 0; b < model->beams; b++) {
         Vec3 c = model->beam[b].view.centre;
-        fit_note(notes, "emission: the beam at theta %.2f, phi %.2f deg, whose logarithm is down "
-                 "by half %.2f deg from there, has a profile of its own",
+        fit_note(notes, "emission: the beam at theta %.2f, phi %.2f deg, whose logarithm is "
+                 "down by half %.2f deg from there, has a profile of its own",
                  degrees_from_radians((double)panel_polar_angle(c)),
                  degrees_from_radians(atan2_d((double)c.y, (double)c.x)),
                  degrees_from_radians(model->beam[b].half_width));

@@ -184,7 +184,8 @@ bool emission_smooth(EmissionModel *model, Arena *arena)
         Taps  taps;
         float work[PANEL_COMPONENTS_MAX];
         find_taps(term, terms, samples->direction[i], &taps);
-        add_sample(&normal, &taps, bare_scores(model, i, work), (double)rank->belief[i] * samples->area[i]);
+        add_sample(&normal, &taps, bare_scores(model, i, work),
+                   (double)rank->belief[i] * samples->area[i]);
     }
     float *numbers = ARENA_NEW(&scratch, float, unknowns * (size_t)components);
     for (int k = 0; k < components; k++)

@@ -403,21 +403,28 @@ typedef struct Start {
     int    worst;
 } Start;
 
-static bool start(EmissionModel *model, int level, const FitOptions *options,
-                  const double (*dim)[3], Arena *arena, Start *out, Error *err)
+/* What a start is made of. */
+typedef struct Plan {
+    EmissionModel *model;
+    const double (*dim)[3]; /* of FitEmission */
+    int            level, threads;
+} Plan;
+
+static bool start(const Plan *plan, Arena *arena, Start *out, Error *err)
 {
+    EmissionModel *model = plan->model;
     *out = (Start){.rest = rest_at_samples(model, arena)};
-    if (!start_coder(model, level, out->rest, arena, &out->coder, err)) return false;
-    find_floor(model, dim, out->coder.floor);
-    out->coder.threads = options->threads;
+    if (!start_coder(model, plan->level, out->rest, arena, &out->coder, err)) return false;
+    find_floor(model, plan->dim, out->coder.floor);
+    out->coder.threads = plan->threads;
     out->uncoded = uncoded_error(&out->coder, &out->worst);
     return true;
 }
 
 /* A beam at the worst row, of the reach that leaves less. *found: there is one. */
-static bool add_beam(EmissionModel *model, int level, const FitOptions *options,
-                     const double (*dim)[3], Arena *arena, Start *best, bool *found, Error *err)
+static bool add_beam(const Plan *plan, Arena *arena, Start *best, bool *found, Error *err)
 {
+    EmissionModel *model = plan->model;
     static const double reach[2] = {10, 30};
     const EmissionModel before = *model;
     EmissionModel       chosen = before;
@@ -429,7 +436,7 @@ static bool add_beam(EmissionModel *model, int level, const FitOptions *options,
         if (!emission_find_beam(model, worst, reach[i], arena)) continue;
         if (!emission_smooth(model, arena))
             return error_set(err, ERROR_INPUT, "emission: the smooth part cannot be stored");
-        if (!start(model, level, options, dim, arena, &one, err)) return false;
+        if (!start(plan, arena, &one, err)) return false;
         if (!*found || one.uncoded < best->uncoded) *best = one, chosen = *model;
         *found = true;
         if (best->uncoded < BEAM_ENOUGH * model->tolerance) break;
@@ -440,11 +447,11 @@ static bool add_beam(EmissionModel *model, int level, const FitOptions *options,
 
 /* Where triangles miss samples by far, narrow beams are looked for; they stay if the tree is
  * much better off with them. */
-static bool start_with_beams(EmissionModel *model, int level, const FitOptions *options,
-                             const double (*dim)[3], Arena *arena, Start *out, Error *err)
+static bool start_with_beams(const Plan *plan, Arena *arena, Start *out, Error *err)
 {
+    EmissionModel *model = plan->model;
     double gate = fmax(BEAM_GATE, 4 * model->tolerance);
-    if (!start(model, level, options, dim, arena, out, err)) return false;
+    if (!start(plan, arena, out, err)) return false;
     if (out->uncoded <= gate) return true;
     EmissionModel plain = *model;
     EmissionRank  rank = *model->rank; /* whose scores change */
@@ -453,7 +460,7 @@ static bool start_with_beams(EmissionModel *model, int level, const FitOptions *
     model->rank->score = ARENA_NEW(arena, float, scores);
     memcpy(model->rank->score, rank.score, scores * sizeof *rank.score);
     for (bool found = true; found && out->uncoded > gate && model->beams < PANEL_BEAMS_MAX;)
-        if (!add_beam(model, level, options, dim, arena, out, &found, err)) return false;
+        if (!add_beam(plan, arena, out, &found, err)) return false;
     if (model->beams && out->uncoded < BEAM_WORTH * bare.uncoded) return true;
     *model = plain;
     *model->rank = rank;
@@ -467,9 +474,8 @@ bool emission_tree(EmissionModel *model, const FitOptions *options, Arena *arena
     int    level = start_level(model->samples, options), missed = 0;
     Start  first;
     Coder  coder, finer;
-    if (!start_with_beams(model, level, options, (const double (*)[3])out->dim, arena,
-                          &first, err))
-        return false;
+    Plan   plan = {model, (const double (*)[3])out->dim, level, options->threads};
+    if (!start_with_beams(&plan, arena, &first, err)) return false;
     emission_note_beams(model, notes);
     float *rest = first.rest;
     double uncoded = first.uncoded;

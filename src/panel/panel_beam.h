@@ -1,5 +1,5 @@
-/* panel_beam.h -- narrow beams of an emission: profiles of the components over the distance from
- * a centre, which no tree of triangles resolves. Private to src/panel.
+/* panel_beam.h -- narrow beams of an emission: profiles of the components over the distance
+ * from a centre, which no tree of triangles resolves. Private to src/panel.
  *
  * A beam adds to component k a cubic B-spline over u = ln(1 + r^2 / core^2), r the chord from
  * the centre, longer along `narrow`: r^2 = |v|^2 + (narrow . v)^2, v = direction - centre.

@@ -58,8 +58,8 @@ typedef struct PanelSection {
 /* Natural logarithms of tristimulus values in cd m^-2. A channel is one of X, Y, Z of one
  * table: red's levels rising, then green's, blue's, then (if any) the black pattern's. At a
  * direction, ln E[channel] = mean[channel] + cosine_power ln cos theta + sum over components of
- * loading[channel][component] * (spline + tree's + beams' component). E is what a level adds to the
- * black pattern, or the black pattern itself.
+ * loading[channel][component] * (spline + tree's + beams' component). E is what a level adds
+ * to the black pattern, or the black pattern itself.
  *
  * Section   PanelEmissionHead | uint16 level[tables without black], 1/256 of a code | int16
  *           mean[channels], 2^-PANEL_MEAN_BITS | uint8 exponent[components], the step of

@@ -279,7 +279,7 @@ static bool means_fit(const PanelEmission *e)
 #define BEAM_RADII 160
 #define BEAM_TURNS 32
 
-/* The nearest other beam's centre has this direction: each beam integrates what is its own. */
+/* No other beam is nearer: each one's light is taken on its own rings. */
 static bool is_nearest(const PanelEmission *e, int beam, Vec3 d)
 {
     float own = panel_beam_place(&e->beam[beam], d);
@@ -290,31 +290,40 @@ static bool is_nearest(const PanelEmission *e, int beam, Vec3 d)
     return true;
 }
 
-/* What the beams add to the light over the hemisphere, on rings around every centre: even in
- * the profile's own variable, a ring's area is pi times the change of the chord's square. */
+/* What one direction of a beam adds to the light, w steradians. */
+static void add_beam_direction(const Panel *panel, Vec3 d, double w, float *logs, double *light)
+{
+    const PanelEmission *e = panel->emission;
+    for (int with = 0; with < 2; with++) { /* with the beams last: the logarithms stay */
+        channel_logs(panel, d, with, logs);
+        for (int c = 1; c < e->channels; c += 3)
+            light[c / 3] += (with ? w : -w) * (double)d.z * (double)exp_f(logs[c]);
+    }
+}
+
+/* What a beam adds to the light over the hemisphere, on rings around its centre: even in the
+ * profile's own variable; a ring's area is pi times the change of the chord's square. */
 static void add_beam_light(const Panel *panel, int beam, float *logs, Clouds *clouds,
                            double *light)
 {
     const PanelEmission *e = panel->emission;
     const PanelBeam     *b = &e->beam[beam];
     Frame  frame = frame_from_z(b->centre);
-    double step = (double)PANEL_BEAM_STEP * b->knots / BEAM_RADII;
+    double step = (double)PANEL_BEAM_STEP * b->knots / BEAM_RADII, inner = 0;
     double core = (double)b->core * (double)b->core;
-    for (int i = 0; i < BEAM_RADII * BEAM_TURNS; i++) {
-        int    ring = i / BEAM_TURNS;
-        double inner = core * (exp_d(step * ring) - 1);
+    for (int ring = 0; ring < BEAM_RADII; ring++) {
         double outer = core * (exp_d(step * (ring + 1)) - 1), mid = 0.5 * (inner + outer);
-        double turn = 2 * PI * (i % BEAM_TURNS + 0.5) / BEAM_TURNS;
-        double across = sqrt(fmax(0, mid * (1 - 0.25 * mid)));
-        Vec3   d = frame_to_world(&frame, vec3((float)(across * cos_d(turn)),
-            (float)(across * sin_d(turn)), (float)(1 - 0.5 * mid)));
-        if (mid > 2 || d.z <= 0 || !is_nearest(e, beam, d)) continue;
-        double w = PI / BEAM_TURNS * (outer - inner) * (double)d.z;
-        channel_logs(panel, d, true, logs);
-        if (d.z >= e->cone_cos && i % 5 == 0) add_colours(e, logs, clouds);
-        for (int c = 1; c < e->channels; c += 3) light[c / 3] += w * (double)exp_f(logs[c]);
-        channel_logs(panel, d, false, logs);
-        for (int c = 1; c < e->channels; c += 3) light[c / 3] -= w * (double)exp_f(logs[c]);
+        double area = PI * (outer - inner), across = sqrt(fmax(0, mid * (1 - 0.25 * mid)));
+        if (mid > 2) return;
+        for (int i = 0; i < BEAM_TURNS; i++) {
+            double turn = 2 * PI * (i + 0.5) / BEAM_TURNS;
+            Vec3   d = frame_to_world(&frame, vec3((float)(across * cos_d(turn)),
+                (float)(across * sin_d(turn)), (float)(1 - 0.5 * mid)));
+            if (d.z <= 0 || !is_nearest(e, beam, d)) continue;
+            add_beam_direction(panel, d, area / BEAM_TURNS, logs, light);
+            if (d.z >= e->cone_cos && i % 4 == 0) add_colours(e, logs, clouds);
+        }
+        inner = outer;
     }
 }
 
@@ -325,7 +334,7 @@ static void survey(Panel *panel, PanelEmission *e, Arena *arena, PanelPrimaries 
     float  *logs = ARENA_NEW(arena, float, e->channels);
     double *mean_y = ARENA_NEW(arena, double, e->channels / 3), weight = 0;
     Clouds  clouds = {.count = {0}};
-    start_clouds(e, directions + e->beams * BEAM_RADII * BEAM_TURNS / 5 + 1, arena, &clouds);
+    start_clouds(e, directions + e->beams * BEAM_RADII * BEAM_TURNS / 4, arena, &clouds);
     for (int i = 0; i < directions; i++) {
         Vec3   d = geodesic_center(MEAN_LEVEL, (uint32_t)i);
         double w = geodesic_area(MEAN_LEVEL, (uint32_t)i) * (double)d.z;
