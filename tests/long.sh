@@ -22,7 +22,17 @@ run_mutations()
     unset PARHELION_MUTATIONS
 }
 
+# run_beams: every profile of a narrow beam
+run_beams()
+{
+    PARHELION_BEAMS=all
+    export PARHELION_BEAMS
+    run_units 'every narrow beam' beams-long .build/release -R '^panel_beam$'
+    unset PARHELION_BEAMS
+}
+
 run_one 'release build' build-release build release all || finish
+run_beams
 run 'all closed forms in frames' image-long \
     python3 tests/image/run.py --all .build/release/parhelion
 run 'daylight through a roof, every point' roof-long \

@@ -110,7 +110,6 @@ static bool build_model(const Measurement *set, const FitOptions *options, Arena
 {
     EmissionSamples *samples = ARENA_NEW(arena, EmissionSamples, 1);
     EmissionRank    *rank = ARENA_NEW(arena, EmissionRank, 1);
-    size_t           used;
     samples->tolerance = options->bound > 0 ? (double)options->bound : TOLERANCE;
     emission_gather(set, out->has_black, out->outlier, arena, notes, samples);
     emission_rank(samples, arena, rank);
@@ -120,9 +119,7 @@ static bool build_model(const Measurement *set, const FitOptions *options, Arena
     model->tolerance = choose_tolerance(model, options);
     emission_round(model);
     choose_steps(model, arena);
-    model->spline_size = emission_smooth(model, arena, &model->spline_bytes);
-    return panel_spline_open(model->spline_bytes, model->spline_size, rank->components, arena,
-                             &model->spline, &used);
+    return emission_smooth(model, arena);
 }
 
 bool fit_emission(const Measurement *set, const FitOptions *options, Arena *arena,

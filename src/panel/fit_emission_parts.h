@@ -43,12 +43,25 @@ typedef struct EmissionRank {
 
 void emission_rank(const EmissionSamples *samples, Arena *arena, EmissionRank *out);
 
+/* Scores anew; of rows within a chord of a direction for what they measure alone: those of a
+ * narrow beam are far above the variance that the rank expects. */
+void emission_free_scores(const EmissionSamples *samples, Vec3 centre, double chord,
+                          Arena scratch, EmissionRank *rank);
+
 /* ln E of all channels from components; fall included. */
 void emission_logs(const EmissionRank *rank, int channels, const float *components, float fall,
                    float *logs);
 
 /* cosine_power ln cos theta as queries have it. */
 float emission_fall(float cosine_power, Vec3 direction);
+
+/* A beam as stored, and as it will be read again. */
+typedef struct EmissionBeam {
+    const void *bytes;
+    size_t      size;
+    PanelBeam   view;
+    double      half_width; /* radians: where the logarithm is down by half */
+} EmissionBeam;
 
 /* What the stages before the tree have fixed. Everything is as it will be read again. */
 typedef struct EmissionModel {
@@ -57,14 +70,25 @@ typedef struct EmissionModel {
     const void   *spline_bytes;
     size_t        spline_size;
     PanelSpline   spline;
+    int           beams;
+    EmissionBeam  beam[PANEL_BEAMS_MAX];
     float        *step;      /* per component: what rounding may cost */
     float        *score_noise; /* per component, of a row's score */
     double        tolerance; /* relative to M */
     double        noise;     /* of the channels after the components pooled it, a median */
 } EmissionModel;
 
-/* The smooth part of the scores as stored bytes (panel_spline.h). Returns their number. */
-size_t emission_smooth(const EmissionModel *model, Arena *arena, const void **bytes);
+/* The smooth part of what the beams leave of the scores, into the model. False: it cannot be
+ * stored. */
+bool emission_smooth(EmissionModel *model, Arena *arena);
+
+/* A narrow beam on or near a row, into the model, if there is one. reach: degrees from its
+ * centre to where it ends. Scores change: they need no longer be near a variance of 1. */
+bool emission_find_beam(EmissionModel *model, int row, double reach, Arena *arena);
+void emission_note_beams(const EmissionModel *model, FitNotes *notes);
+
+/* Adds the beams to components (PANEL_COMPONENTS_MAX floats). */
+void emission_add_beams(const EmissionModel *model, Vec3 direction, float *components);
 
 /* Rounds means and loadings to what the section holds. */
 void emission_round(EmissionModel *model);

@@ -204,9 +204,9 @@ static double step_length(const EmissionRank *rank, int channels, const double *
     return most > 1 ? 1 / most : 1;
 }
 
-/* New scores of a row; the prior is that they are of variance 1. Returns the information that
- * the row has on its components, a mean. */
-static double improve_row(const Work *work, int row)
+/* New scores of a row; the prior (1: that they are of variance 1) is 1/variance. Returns the
+ * information that the row has on its components, a mean. */
+static double improve_row(const Work *work, int row, double prior)
 {
     const EmissionSamples *s = work->samples;
     EmissionRank *rank = work->rank;
@@ -224,8 +224,8 @@ static double improve_row(const Work *work, int row)
     }
     for (int k = 0; k < n; k++) {
         trace += matrix[k * n + k];
-        matrix[k * n + k] += 1;
-        step[k] -= (double)score[k];
+        matrix[k * n + k] += prior;
+        step[k] -= prior * (double)score[k];
     }
     solve(matrix, step, n);
     double length = step_length(rank, s->channels, step);
@@ -412,12 +412,12 @@ static void improve(const Work *work, const double *weight)
     int stride = 1 + s->rows / ASKED_ROWS;
     straighten(s, weight, work->rank);
     for (int step = 0; step < ITERATIONS; step++) {
-        for (int i = 0; i < s->rows; i += stride) improve_row(work, i);
+        for (int i = 0; i < s->rows; i += stride) improve_row(work, i, 1);
         for (int c = s->channels - 1; c >= 0; c--) improve_channel(work, c, stride);
     }
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < s->rows; i++)
-            work->rank->belief[i] = (float)improve_row(work, i);
+            work->rank->belief[i] = (float)improve_row(work, i, 1);
     straighten(s, weight, work->rank);
 }
 
@@ -490,4 +490,20 @@ void emission_rank(const EmissionSamples *s, Arena *arena, EmissionRank *out)
         }
     }
     settle_belief(s, out, scratch);
+}
+
+#define FREE_PRIOR 1e-4
+#define FREE_PASSES 6
+
+void emission_free_scores(const EmissionSamples *s, Vec3 centre, double chord, Arena scratch,
+                          EmissionRank *rank)
+{
+    int  missed;
+    Work work = {s, rank, ARENA_NEW(&scratch, float, s->channels)};
+    for (int i = 0; i < s->rows; i++) {
+        Vec3   v = vec3_sub(s->direction[i], centre);
+        double prior = (double)vec3_dot(v, v) > chord * chord ? 1 : FREE_PRIOR;
+        for (int pass = 0; pass < FREE_PASSES; pass++) improve_row(&work, i, prior);
+    }
+    rank->worst = worst_rest(&work, &missed);
 }

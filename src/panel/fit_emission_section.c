@@ -70,7 +70,8 @@ static PanelEmissionHead section_head(const EmissionModel *model)
 {
     const EmissionSamples *s = model->samples;
     PanelEmissionHead head = {.components = (uint8_t)model->rank->components,
-        .has_black = s->black >= 0, .cone_cos = fmaxf(0, (float)cos_d(s->cone)),
+        .has_black = s->black >= 0, .beams = (uint8_t)model->beams,
+        .cone_cos = fmaxf(0, (float)cos_d(s->cone)),
         .level_power = 2.2f, .cosine_power = model->rank->cosine_power};
     for (int p = 0; p < 3; p++)
         head.level_count[p] = (uint8_t)s->set->primary[p].level_count;
@@ -100,6 +101,7 @@ const void *emission_section(const EmissionModel *model, Arena *arena, size_t *s
     size_t channels = (size_t)model->samples->channels;
     size_t most = sizeof(PanelEmissionHead) + 4 * channels +
                   (size_t)model->rank->components * (2 + 2 * channels) + model->spline_size;
+    for (int b = 0; b < model->beams; b++) most += model->beam[b].size;
     unsigned char    *bytes = ARENA_NEW(arena, unsigned char, most), *at = bytes;
     PanelEmissionHead head = section_head(model);
     put(&at, &head, sizeof head);
@@ -110,6 +112,7 @@ const void *emission_section(const EmissionModel *model, Arena *arena, size_t *s
     }
     put_loadings(&at, model);
     put(&at, model->spline_bytes, model->spline_size);
+    for (int b = 0; b < model->beams; b++) put(&at, model->beam[b].bytes, model->beam[b].size);
     *size = (size_t)(at - bytes);
     return bytes;
 }

@@ -157,7 +157,19 @@ static void drop_small_blocks(float *numbers, int terms, int components, const f
     }
 }
 
-size_t emission_smooth(const EmissionModel *model, Arena *arena, const void **bytes)
+/* A row's scores without the beams. */
+static const float *bare_scores(const EmissionModel *model, int row, float *work)
+{
+    int          n = model->rank->components;
+    const float *score = model->rank->score + (size_t)row * (size_t)n;
+    if (!model->beams) return score;
+    memset(work, 0, sizeof *work * PANEL_COMPONENTS_MAX);
+    emission_add_beams(model, model->samples->direction[row], work);
+    for (int k = 0; k < n; k++) work[k] = score[k] - work[k];
+    return work;
+}
+
+bool emission_smooth(EmissionModel *model, Arena *arena)
 {
     const EmissionSamples *samples = model->samples;
     const EmissionRank    *rank = model->rank;
@@ -169,9 +181,10 @@ size_t emission_smooth(const EmissionModel *model, Arena *arena, const void **by
     normal.matrix = ARENA_NEW(&scratch, double, unknowns * unknowns);
     normal.right = ARENA_NEW(&scratch, double, unknowns * (size_t)components);
     for (int i = 0; i < samples->rows; i++) {
-        Taps taps;
+        Taps  taps;
+        float work[PANEL_COMPONENTS_MAX];
         find_taps(term, terms, samples->direction[i], &taps);
-        add_sample(&normal, &taps, rank->score + (size_t)i * (size_t)components,
+        add_sample(&normal, &taps, bare_scores(model, i, work),
                    (double)rank->belief[i] * samples->area[i]);
     }
     float *numbers = ARENA_NEW(&scratch, float, unknowns * (size_t)components);
@@ -179,7 +192,9 @@ size_t emission_smooth(const EmissionModel *model, Arena *arena, const void **by
         solve_component(&normal, k, model, numbers, scratch);
     drop_small_blocks(numbers, terms, components, model->step);
     PanelSplineNumbers all = {term, terms, components, numbers, model->step};
-    size_t             size = panel_spline_pack(&all, arena, bytes);
+    size_t             used;
+    model->spline_size = panel_spline_pack(&all, arena, &model->spline_bytes);
     arena_release(&scratch);
-    return size;
+    return panel_spline_open(model->spline_bytes, model->spline_size, components, arena,
+                             &model->spline, &used);
 }

@@ -12,6 +12,10 @@
 
 #define LEVEL_MOST 9
 #define ROUNDS 10
+#define BEAM_GATE 0.02 /* relative error of triangles that makes worth looking for a beam */
+#define BEAM_WORTH 0.7   /* and that must go down so far */
+#define NO_NOISE 0.02    /* of the tolerance: beams then keep it without pardon for noise */
+#define BEAM_ENOUGH 0.25 /* of the tolerance: no other reach is tried */
 
 /* Where a tree is coded and what it is held to. */
 typedef struct Coder {
@@ -26,6 +30,7 @@ typedef struct Coder {
     float           *limit;     /* vertices: relative; INFINITY: anything will do */
     float           *floor;     /* channels: errors count relative to no less than this */
     float           *work;      /* channels */
+    double           pardon;    /* sigmas of noise that a sample may miss by besides */
     int              threads;
 } Coder;
 
@@ -43,6 +48,7 @@ static void totals(const EmissionModel *model, const float *components, Vec3 dir
 static void add_smooth(const EmissionModel *model, Vec3 d, float *components)
 {
     panel_spline_add(&model->spline, d, log_f(clampf(d.z, PANEL_LEAST_COS, 1)), components);
+    emission_add_beams(model, d, components);
 }
 
 static bool is_close(const float *m, const float *wanted, const float *floor, int channels,
@@ -215,7 +221,7 @@ static bool start_coder(EmissionModel *model, int level, const float *rest, Aren
 {
     size_t n = (size_t)model->rank->components, channels = (size_t)model->samples->channels;
     *out = (Coder){.model = model, .geodesic = geodesic_create(level, arena),
-                   .lattice = {level, 4}};
+                   .lattice = {level, 4}, .pardon = 5};
     size_t count = out->vertices = vertex_count(out->lattice);
     out->direction = ARENA_NEW(arena, Vec3, count);
     out->smooth = ARENA_NEW(arena, float, count * (size_t)model->spline.stride);
@@ -234,8 +240,8 @@ static bool start_coder(EmissionModel *model, int level, const float *rest, Aren
 /* ---- against the samples ---------------------------------------------------------------- */
 
 /* The largest relative error beyond noise of vertex values that are not coded yet: what no
- * tightening mends. */
-static double uncoded_error(const Coder *coder)
+ * tightening mends. *row: where. */
+static double uncoded_error(const Coder *coder, int *row)
 {
     const EmissionModel   *model = coder->model;
     const EmissionSamples *s = model->samples;
@@ -255,7 +261,8 @@ static double uncoded_error(const Coder *coder)
             float  m = s->total[number], sigma = s->sigma[number];
             if (isinf(sigma)) continue;
             float scale = fmaxf(m, coder->floor[c]);
-            worst = fmax(worst, (double)((fabsf(coder->work[c] - m) - 5 * sigma) / scale));
+            double miss = (double)((fabsf(coder->work[c] - m) - 5 * sigma) / scale);
+            if (miss > worst) worst = miss, *row = i;
         }
     }
     return worst;
@@ -284,7 +291,7 @@ static int tighten(Coder *coder, const Tree *tree)
             size_t number = (size_t)i * (size_t)s->channels + (size_t)c;
             float  m = s->total[number], sigma = s->sigma[number];
             if (isinf(sigma)) continue;
-            float miss = fabsf(coder->work[c] - m) - 5 * sigma;
+            float miss = fabsf(coder->work[c] - m) - (float)coder->pardon * sigma;
             excess = fmaxf(excess, miss / fmaxf(m, coder->floor[c]));
         }
         if (!(excess > (float)model->tolerance)) continue;
@@ -388,22 +395,98 @@ static int start_level(const EmissionSamples *s, const FitOptions *options)
     return s->step_deg < 1.5 ? 7 : s->step_deg < 3 ? 6 : 5;
 }
 
+/* The tree's coder at a level, and what it leaves uncoded at the worst row. */
+typedef struct Start {
+    Coder  coder;
+    float *rest;
+    double uncoded;
+    int    worst;
+} Start;
+
+/* What a start is made of. */
+typedef struct Plan {
+    EmissionModel *model;
+    const double (*dim)[3]; /* of FitEmission */
+    int            level, threads;
+} Plan;
+
+static bool start(const Plan *plan, Arena *arena, Start *out, Error *err)
+{
+    EmissionModel *model = plan->model;
+    *out = (Start){.rest = rest_at_samples(model, arena)};
+    if (!start_coder(model, plan->level, out->rest, arena, &out->coder, err)) return false;
+    find_floor(model, plan->dim, out->coder.floor);
+    out->coder.threads = plan->threads;
+    out->uncoded = uncoded_error(&out->coder, &out->worst);
+    return true;
+}
+
+/* A beam at the worst row, of the reach that leaves less. *found: there is one. */
+static bool add_beam(const Plan *plan, Arena *arena, Start *best, bool *found, Error *err)
+{
+    EmissionModel *model = plan->model;
+    static const double reach[2] = {10, 30};
+    const EmissionModel before = *model;
+    EmissionModel       chosen = before;
+    int                 worst = best->worst;
+    *found = false;
+    for (int i = 0; i < 2; i++) {
+        Start one;
+        *model = before;
+        if (!emission_find_beam(model, worst, reach[i], arena)) continue;
+        if (!emission_smooth(model, arena))
+            return error_set(err, ERROR_INPUT, "emission: the smooth part cannot be stored");
+        if (!start(plan, arena, &one, err)) return false;
+        if (!*found || one.uncoded < best->uncoded) *best = one, chosen = *model;
+        *found = true;
+        if (best->uncoded < BEAM_ENOUGH * model->tolerance) break;
+    }
+    *model = chosen;
+    return true;
+}
+
+/* Where triangles miss samples by far, narrow beams are looked for; they stay if the tree is
+ * much better off with them. */
+static bool start_with_beams(const Plan *plan, Arena *arena, Start *out, Error *err)
+{
+    EmissionModel *model = plan->model;
+    double gate = fmax(BEAM_GATE, 4 * model->tolerance);
+    if (!start(plan, arena, out, err)) return false;
+    if (out->uncoded <= gate) return true;
+    EmissionModel plain = *model;
+    EmissionRank  rank = *model->rank; /* whose scores change */
+    Start         bare = *out;
+    size_t        scores = (size_t)model->samples->rows * (size_t)rank.components;
+    model->rank->score = ARENA_NEW(arena, float, scores);
+    memcpy(model->rank->score, rank.score, scores * sizeof *rank.score);
+    for (bool found = true; found && out->uncoded > gate && model->beams < PANEL_BEAMS_MAX;)
+        if (!add_beam(plan, arena, out, &found, err)) return false;
+    if (model->beams && out->uncoded < BEAM_WORTH * bare.uncoded) return true;
+    *model = plain;
+    *model->rank = rank;
+    *out = bare;
+    return true;
+}
+
 bool emission_tree(EmissionModel *model, const FitOptions *options, Arena *arena,
                    FitNotes *notes, FitEmission *out, Error *err)
 {
-    float *rest = rest_at_samples(model, arena);
     int    level = start_level(model->samples, options), missed = 0;
-    double uncoded = INFINITY;
+    Start  first;
     Coder  coder, finer;
-    if (!start_coder(model, level, rest, arena, &coder, err)) return false;
-    find_floor(model, (const double (*)[3])out->dim, coder.floor);
-    coder.threads = options->threads;
-    uncoded = uncoded_error(&coder);
+    Plan   plan = {model, (const double (*)[3])out->dim, level, options->threads};
+    if (!start_with_beams(&plan, arena, &first, err)) return false;
+    emission_note_beams(model, notes);
+    float *rest = first.rest;
+    double uncoded = first.uncoded;
+    coder = first.coder;
+    if (model->beams && model->noise < NO_NOISE * model->tolerance) coder.pardon = 0;
     while (!options->level && uncoded > 0.5 * model->tolerance && level < LEVEL_MOST) {
         if (!start_coder(model, level + 1, rest, arena, &finer, err)) return false;
         finer.floor = coder.floor;
         finer.threads = coder.threads;
-        double next = uncoded_error(&finer);
+        finer.pardon = coder.pardon;
+        double next = uncoded_error(&finer, &first.worst);
         if (next > 0.8 * uncoded) break;
         coder = finer;
         uncoded = next;

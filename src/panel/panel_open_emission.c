@@ -2,6 +2,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/mathd.h"
+#include "base/units.h"
 #include "hemisphere/tree_query.h"
 #include "panel/panel_bend.h"
 #include "panel/panel_open.h"
@@ -79,7 +81,7 @@ static bool read_head(const PanelBytes *at, Rest *rest, PanelEmission *e)
     *e = (PanelEmission){.components = head.components, .has_black = head.has_black != 0,
                          .stride = (head.components + 3) / 4 * 4, .cone_cos = head.cone_cos,
                          .level_power = head.level_power, .cosine_power = head.cosine_power,
-                         .channels = head.has_black ? 3 : 0};
+                         .channels = head.has_black ? 3 : 0, .beams = head.beams};
     for (int p = 0; p < 3; p++) {
         e->level_count[p] = head.level_count[p];
         e->channels += 3 * e->level_count[p];
@@ -88,6 +90,8 @@ static bool read_head(const PanelBytes *at, Rest *rest, PanelEmission *e)
     }
     if (head.has_black > 1 || e->components < 1 || e->components > PANEL_COMPONENTS_MAX)
         return panel_refuse(at, "emission", "component count out of range");
+    if (e->beams > PANEL_BEAMS_MAX)
+        return panel_refuse(at, "emission", "beam count out of range");
     if (!(e->cone_cos >= 0 && e->cone_cos <= 1) ||
         !(e->level_power > 0 && e->level_power < 10) ||
         !(e->cosine_power >= 0 && e->cosine_power < 10))
@@ -104,15 +108,33 @@ static bool check_levels(const PanelBytes *at, const PanelEmission *e)
     return true;
 }
 
+static bool take_spline(Rest *rest, PanelEmission *e, Arena *arena)
+{
+    size_t used = 0;
+    if (!panel_spline_open(rest->at, rest->size, e->components, arena, &e->spline, &used))
+        return false;
+    rest->at += used, rest->size -= used;
+    return true;
+}
+
+static bool take_beams(Rest *rest, PanelEmission *e, Arena *arena)
+{
+    for (int b = 0; b < e->beams; b++) {
+        size_t used = 0;
+        if (!panel_beam_open(rest->at, rest->size, e->components, arena, &e->beam[b], &used))
+            return false;
+        rest->at += used, rest->size -= used;
+    }
+    return true;
+}
+
 static bool read_section(const PanelBytes *at, Arena *arena, PanelEmission *e)
 {
-    Rest   rest = {at->data, at->size};
-    size_t used = 0;
+    Rest rest = {at->data, at->size};
     if (!read_head(at, &rest, e)) return false;
     if (!take_levels(&rest, e) || !take_means(&rest, e, arena) ||
         !take_loadings(&rest, e, arena) ||
-        !panel_spline_open(rest.at, rest.size, e->components, arena, &e->spline, &used) ||
-        used != rest.size)
+        !take_spline(&rest, e, arena) || !take_beams(&rest, e, arena) || rest.size != 0)
         return panel_refuse(at, "emission", "has another size than its counts say");
     return check_levels(at, e);
 }
@@ -173,12 +195,17 @@ static void expand_codes(PanelEmission *e, Arena *arena)
 
 #define MEAN_LEVEL 4 /* of the triangles that a mean is taken over */
 
-/* ln E of the channels at a direction. */
-static void channel_logs(const Panel *panel, Vec3 direction, float *logs)
+/* ln E of the channels at a direction; with_beams: a beam may lie between the directions of a
+ * coarse grid, and is then left out. */
+static void channel_logs(const Panel *panel, Vec3 direction, bool with_beams, float *logs)
 {
     const PanelEmission *e = panel->emission;
-    float components[PANEL_COMPONENTS_MAX];
+    float components[PANEL_COMPONENTS_MAX], beams[PANEL_COMPONENTS_MAX] = {0};
     float fall = panel_emission_components(panel, direction, components);
+    for (int b = 0; b < e->beams && !with_beams; b++)
+        panel_beam_add(&e->beam[b], direction, beams);
+    for (int k = 0; k < e->components && e->beams && !with_beams; k++)
+        components[k] -= beams[k];
     for (int c = 0; c < e->channels; c++) {
         logs[c] = fall + e->mean[c];
         for (int k = 0; k < e->components; k++)
@@ -249,6 +276,57 @@ static bool means_fit(const PanelEmission *e)
     return e->black_mean_y >= 0 && e->black_mean_y <= MEAN_Y_MAX;
 }
 
+#define BEAM_RADII 160
+#define BEAM_TURNS 32
+
+/* No other beam is nearer: each one's light is taken on its own rings. */
+static bool is_nearest(const PanelEmission *e, int beam, Vec3 d)
+{
+    float own = panel_beam_place(&e->beam[beam], d);
+    for (int b = 0; b < e->beams; b++) {
+        float other = panel_beam_place(&e->beam[b], d);
+        if (other < own || (other == own && b < beam)) return false;
+    }
+    return true;
+}
+
+/* What one direction of a beam adds to the light, w steradians. */
+static void add_beam_direction(const Panel *panel, Vec3 d, double w, float *logs, double *light)
+{
+    const PanelEmission *e = panel->emission;
+    for (int with = 0; with < 2; with++) { /* with the beams last: the logarithms stay */
+        channel_logs(panel, d, with, logs);
+        for (int c = 1; c < e->channels; c += 3)
+            light[c / 3] += (with ? w : -w) * (double)d.z * (double)exp_f(logs[c]);
+    }
+}
+
+/* What a beam adds to the light over the hemisphere, on rings around its centre: even in the
+ * profile's own variable; a ring's area is pi times the change of the chord's square. */
+static void add_beam_light(const Panel *panel, int beam, float *logs, Clouds *clouds,
+                           double *light)
+{
+    const PanelEmission *e = panel->emission;
+    const PanelBeam     *b = &e->beam[beam];
+    Frame  frame = frame_from_z(b->centre);
+    double step = (double)PANEL_BEAM_STEP * b->knots / BEAM_RADII, inner = 0;
+    double core = (double)b->core * (double)b->core;
+    for (int ring = 0; ring < BEAM_RADII; ring++) {
+        double outer = core * (exp_d(step * (ring + 1)) - 1), mid = 0.5 * (inner + outer);
+        double area = PI * (outer - inner), across = sqrt(fmax(0, mid * (1 - 0.25 * mid)));
+        if (mid > 2) return;
+        for (int i = 0; i < BEAM_TURNS; i++) {
+            double turn = 2 * PI * (i + 0.5) / BEAM_TURNS;
+            Vec3   d = frame_to_world(&frame, vec3((float)(across * cos_d(turn)),
+                (float)(across * sin_d(turn)), (float)(1 - 0.5 * mid)));
+            if (d.z <= 0 || !is_nearest(e, beam, d)) continue;
+            add_beam_direction(panel, d, area / BEAM_TURNS, logs, light);
+            if (d.z >= e->cone_cos && i % 4 == 0) add_colours(e, logs, clouds);
+        }
+        inner = outer;
+    }
+}
+
 /* Means over the hemisphere, and where the colours lie. */
 static void survey(Panel *panel, PanelEmission *e, Arena *arena, PanelPrimaries *primaries)
 {
@@ -256,15 +334,16 @@ static void survey(Panel *panel, PanelEmission *e, Arena *arena, PanelPrimaries 
     float  *logs = ARENA_NEW(arena, float, e->channels);
     double *mean_y = ARENA_NEW(arena, double, e->channels / 3), weight = 0;
     Clouds  clouds = {.count = {0}};
-    start_clouds(e, directions, arena, &clouds);
+    start_clouds(e, directions + e->beams * BEAM_RADII * BEAM_TURNS / 4, arena, &clouds);
     for (int i = 0; i < directions; i++) {
         Vec3   d = geodesic_center(MEAN_LEVEL, (uint32_t)i);
         double w = geodesic_area(MEAN_LEVEL, (uint32_t)i) * (double)d.z;
-        channel_logs(panel, d, logs);
+        channel_logs(panel, d, false, logs);
         weight += w;
         for (int c = 1; c < e->channels; c += 3) mean_y[c / 3] += w * (double)exp_f(logs[c]);
         if (d.z >= e->cone_cos) add_colours(e, logs, &clouds);
     }
+    for (int b = 0; b < e->beams; b++) add_beam_light(panel, b, logs, &clouds, mean_y);
     for (int t = 0; t < e->channels / 3; t++) mean_y[t] /= weight;
     spread_means(e, mean_y);
     for (int p = 0; p < 4; p++)

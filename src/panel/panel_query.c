@@ -36,6 +36,30 @@ void panel_spline_add(const PanelSpline *spline, Vec3 d, float log_cos, float *o
     }
 }
 
+float panel_beam_place(const PanelBeam *beam, Vec3 direction)
+{
+    Vec3  v = vec3_sub(direction, beam->centre); /* a cosine near 1 would tell too little */
+    float along = vec3_dot(beam->narrow, v);
+    float squares = vec3_dot(v, v) + along * along;
+    return log_f(1 + squares * beam->core_squares) * (1 / PANEL_BEAM_STEP);
+}
+
+void panel_beam_add(const PanelBeam *beam, Vec3 direction, float *out)
+{
+    float at = panel_beam_place(beam, direction), weight[4];
+    if (!(at >= 0 && at < (float)beam->knots)) return;
+    int knot = (int)at, stride = beam->stride;
+    if (knot > beam->knots - 1) knot = beam->knots - 1;
+    const float *row = beam->coefficient + knot * stride;
+    panel_beam_weights(at - (float)knot, weight);
+    for (int k = 0; k < stride; k += 4)
+        *(PanelFloat4 *)(out + k) +=
+            *(const PanelFloat4 *)(row + k) * weight[0] +
+            *(const PanelFloat4 *)(row + stride + k) * weight[1] +
+            *(const PanelFloat4 *)(row + 2 * stride + k) * weight[2] +
+            *(const PanelFloat4 *)(row + 3 * stride + k) * weight[3];
+}
+
 float panel_emission_components(const Panel *panel, Vec3 direction, float *components)
 {
     const PanelEmission *e = panel->emission;
@@ -43,6 +67,7 @@ float panel_emission_components(const Panel *panel, Vec3 direction, float *compo
     tree_interpolate(&panel->emission_tree, direction, components);
     float log_cos = log_f(clampf(direction.z, PANEL_LEAST_COS, 1));
     panel_spline_add(&e->spline, direction, log_cos, components);
+    for (int b = 0; b < e->beams; b++) panel_beam_add(&e->beam[b], direction, components);
     return e->cosine_power * log_cos;
 }
 
@@ -101,7 +126,8 @@ bool panel_emission_xyz(const Panel *panel, Vec3 direction, const float rgb[3], 
     if (!panel->emission || !(direction.z > 0)) return false;
     source_logs(panel, direction, rgb, logs);
     memcpy(&all, logs, sizeof all);
-    all = spectrum_exp(all);
+    /* e^80 cd m^-2 is more than any display sends: a forged file stays finite. */
+    all = spectrum_exp(spectrum_min(all, spectrum_all(80)));
     memcpy(logs, &all, sizeof all);
     PanelFloat4 sum = (logs[0] + logs[1]) + (logs[2] + logs[3]);
     for (int j = 0; j < 3; j++) xyz[j] = sum[j];

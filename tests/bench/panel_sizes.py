@@ -259,7 +259,7 @@ def measure_single(bench):
     for name in SIMULATED:
         bench.measure(f"{name} haze at 30 deg, 550 nm alone, 88x360", one_brdf(bench, name))
     bench.measure("peak of 0.5 deg on haze, reflection", peak_brdf(bench), 0.03)
-    bench.measure("beam of 0.5 deg, emission", peak_emission(bench))
+    bench.measure("beam of 0.5 deg, emission", peak_emission(bench), 0.03)
 
 
 # ---- files of others -------------------------------------------------------------------------

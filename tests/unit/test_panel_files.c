@@ -59,6 +59,7 @@ static Kind kinds[] = {
      NULL},
     {"reflection only", ONLY_REFLECTION, FIT_VERTEX, 0, NULL},
     {"one table", ONE_TABLE, FIT_VERTEX, 0, NULL}, /* opening makes its sampling */
+    {"beam", "{\"emission\": {\"white\": \"emission/beam.csv\"}}", FIT_VERTEX, 0, NULL},
     {"anisotropic", ANISOTROPIC, FIT_VERTEX, 0, NULL},
     {"anisotropic haar", ANISOTROPIC, FIT_HAAR, 0, NULL},
 };
@@ -80,6 +81,22 @@ static void copy_azimuths(void)
             fixture_file(&folder, arena_format(&folder.arena, "brdf/i%d_a%d.csv", incidences[i],
                                                a), (const char *)bytes.data);
     }
+}
+
+/* A narrow beam at 20 degrees, a thousand times as bright as what it stands on. */
+static void write_beam(void)
+{
+    FILE *file = fopen(arena_format(&folder.arena, "%s/emission/beam.csv", folder.folder), "w");
+    assert_non_null(file);
+    fprintf(file, "theta,phi,X,Y,Z\n");
+    for (double t = 0; t <= 80; t += t > 17.9 && t < 22 ? 0.25 : 2)
+        for (double p = 0; p < 360; p += t == 0 ? 360 : p < 4 || p > 355.9 ? 0.5 : 8) {
+            Vec3   v = vec3_sub(direction_deg(t, p), direction_deg(20, 0));
+            double r = degrees_from_radians(sqrt((double)vec3_dot(v, v)));
+            double y = 1 + 1000 * exp(-2.77 * r * r);
+            fprintf(file, "%g,%g,%.6g,%.6g,%.6g\n", t, p, 0.95 * y, y, 1.09 * y);
+        }
+    assert_int_equal(fclose(file), 0);
 }
 
 static const char *manifest_of(const Kind *kind)
@@ -124,6 +141,7 @@ static int start(void **state)
         !simulate_measurement(&folder.recipe, folder.folder, PROGRESS_NONE, &err))
         fail_msg("%s: %s", err.path, err.text);
     copy_azimuths();
+    write_beam();
     for (int i = 0; i < KIND_COUNT; i++) fit_kind(&kinds[i]);
     return 0;
 }
