@@ -243,10 +243,10 @@ def check_stopped(report, program):
              "--layers", "all", "--samples", "0:1000000", "--quiet"], cwd=program.folder,
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         time.sleep(delay)
-        work.send_signal(signal.SIGINT)
-        if work.wait() == 130:
+        work.send_signal(signal.SIGTERM)  # not INT: a shell's background jobs ignore it
+        if work.wait(timeout=120) == 143:
             break
-    if report.claim(work.returncode == 130, f"interrupted: status {work.returncode}"):
+    if report.claim(work.returncode == 143, f"interrupted: status {work.returncode}"):
         claim_refused(report, program, ["stopped.exr"],
                       "stopped.exr: incomplete: it was stopped after samples 0:",
                       " of 0:1000000 — ")
