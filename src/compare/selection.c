@@ -72,17 +72,6 @@ static bool apply_mask(const Subject *subject, const char *path, Arena scratch,
     return true;
 }
 
-static const char *display_names(const FrameImage *frame, Arena *arena)
-{
-    const char *names = "";
-    for (int i = 0; i < frame->attribute_count; i++) {
-        const ExrAttribute *a = &frame->attributes[i];
-        if (a->kind == EXR_STRING && !strncmp(a->name, "parhelion:display.", 18))
-            names = arena_format(arena, "%s%s%s", names, names[0] ? ", " : "", a->text);
-    }
-    return names[0] ? names : "none";
-}
-
 static bool apply_display(const Subject *subject, const char *display, Arena scratch,
                           unsigned char *counts, Error *err)
 {
@@ -94,7 +83,7 @@ static bool apply_display(const Subject *subject, const char *display, Arena scr
     if (id < 0)
         return error_at(err, ERROR_USAGE, subject->name, "",
                         "has no display \"%s\"; its displays: %s", display,
-                        display_names(&subject->frame, &scratch));
+                        frame_display_names(&subject->frame, &scratch));
     if (!frame_channel(&subject->frame, "id.display"))
         return error_at(err, ERROR_INPUT, subject->name, "",
                         "has no layer id, which tells the pixels of a display; render it with "

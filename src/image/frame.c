@@ -134,6 +134,17 @@ int frame_id_of(const FrameImage *frame, const char *what, const char *name)
     return -1;
 }
 
+const char *frame_display_names(const FrameImage *frame, Arena *arena)
+{
+    const char *names = "";
+    for (int i = 0; i < frame->attribute_count; i++) {
+        const ExrAttribute *a = &frame->attributes[i];
+        if (a->kind == EXR_STRING && !strncmp(a->name, "parhelion:display.", 18))
+            names = arena_format(arena, "%s%s%s", names, names[0] ? ", " : "", a->text);
+    }
+    return names[0] ? names : "none";
+}
+
 bool frame_write(const char *path, const FrameImage *frame, Error *err)
 {
     ExrBytes *encoded;

@@ -77,6 +77,9 @@ bool frame_rgb(const FrameImage *frame, const char *layer, const float *rgb[3]);
  * "display" or "part". */
 int frame_id_of(const FrameImage *frame, const char *what, const char *name);
 
+/* The names of all displays with commas, "none" without any: for messages. */
+const char *frame_display_names(const FrameImage *frame, Arena *arena);
+
 /* OpenEXR, ZIP, the same bytes for the same frame; written under a temporary name beside
  * `path`, flushed to the disk, then renamed: after a failure nothing is left. */
 bool frame_write(const char *path, const FrameImage *frame, Error *err);

@@ -51,17 +51,6 @@ static bool raw_layer(const FrameImage *frame, const char *layer, Arena *arena, 
     return true;
 }
 
-static const char *display_names(const FrameImage *frame, Arena *arena)
-{
-    const char *names = "";
-    for (int i = 0; i < frame->attribute_count; i++) {
-        const ExrAttribute *a = &frame->attributes[i];
-        if (a->kind == EXR_STRING && !strncmp(a->name, "parhelion:display.", 18))
-            names = arena_format(arena, "%s%s%s", names, names[0] ? ", " : "", a->text);
-    }
-    return names[0] ? names : "none";
-}
-
 static bool find_display(const FrameImage *frame, const char *display, Arena *arena, int *id,
                          const float **plane, Error *err)
 {
@@ -69,7 +58,7 @@ static bool find_display(const FrameImage *frame, const char *display, Arena *ar
     *id = frame_id_of(frame, "display", display);
     if (*id < 0)
         return error_set(err, ERROR_USAGE, "has no display \"%s\"; its displays: %s", display,
-                         display_names(frame, arena));
+                         frame_display_names(frame, arena));
     if (!frame_channel(frame, "id.display"))
         return error_set(err, ERROR_INPUT,
                          "has no layer id, which tells the pixels of a display; render it with "
