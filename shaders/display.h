@@ -3,7 +3,7 @@
  * The user page is on top of display.c. Frame: the display's own (panel.h). Units: bsdf.h.
  */
 #pragma once
-#include "panel/panel.h"
+#include "panel/query/panel.h"
 #include "shaders/bsdf_sample.h"
 
 typedef struct DisplaySurface {

@@ -4,7 +4,7 @@
 
 #include "base/reference.h"
 #include "base/units.h"
-#include "cli/cli.h"
+#include "cli/options/cli.h"
 #include "scene/scene.h"
 
 #define ARENA_BYTES ((size_t)64 << 30) /* address space; pages come when touched */

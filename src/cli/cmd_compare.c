@@ -3,10 +3,10 @@
 
 #include "base/file.h"
 #include "cli/compare_command.h"
-#include "compare/comparison_json.h"
+#include "compare/report/comparison_json.h"
 #include "compare/folders.h"
-#include "compare/html_report.h"
-#include "compare/junit.h"
+#include "compare/report/html_report.h"
+#include "compare/report/junit.h"
 
 #define MEMORY_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
 

@@ -1,7 +1,7 @@
 /* parhelion develop: from a frame to a picture that people look at. */
 #include <stdio.h>
 
-#include "cli/cli.h"
+#include "cli/options/cli.h"
 #include "image/develop.h"
 #include "image/exposure.h"
 

@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "base/reference.h"
 #include "base/units.h"
-#include "cli/environment_options.h"
+#include "cli/options/environment_options.h"
 #include "image/frame.h"
 #include "light/sky.h"
 #include "plot/sky_plot.h"

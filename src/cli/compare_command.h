@@ -1,6 +1,6 @@
 /* compare_command.h -- the parts of `parhelion compare`; private to src/cli. */
 #pragma once
-#include "cli/cli.h"
+#include "cli/options/cli.h"
 #include "compare/compare.h"
 
 typedef struct CompareRequest {

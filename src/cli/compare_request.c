@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "cli/compare_command.h"
-#include "compare/html_report.h"
+#include "compare/report/html_report.h"
 #include "image/exposure.h"
 
 #define EV_MOST 60

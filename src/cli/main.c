@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "bvh/bvh.h"
-#include "cli/cli.h"
+#include "cli/options/cli.h"
 #include "render/render.h"
 
 typedef struct Command {

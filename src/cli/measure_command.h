@@ -1,6 +1,6 @@
 /* measure_command.h -- the parts of `parhelion measure`; private to src/cli. */
 #pragma once
-#include "cli/cli.h"
+#include "cli/options/cli.h"
 
 /* A luxmeter in a scene. */
 typedef struct LuxmeterRequest {

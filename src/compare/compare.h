@@ -14,9 +14,9 @@
  */
 #pragma once
 #include "compare/channels.h"
-#include "compare/flip.h"
-#include "compare/metrics.h"
-#include "compare/statistic.h"
+#include "compare/metrics/flip.h"
+#include "compare/metrics/metrics.h"
+#include "compare/statistic/statistic.h"
 #include "compare/thresholds.h"
 #include "image/measure.h"
 #include "image/picture.h"

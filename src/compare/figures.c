@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/mathd.h"
-#include "compare/deltae.h"
-#include "compare/ssim.h"
+#include "compare/metrics/deltae.h"
+#include "compare/metrics/ssim.h"
 #include "image/develop.h"
 #include "image/exposure.h"
 

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "compare/subject.h"
+#include "compare/input.h"
 
 #define MOST_LEVELS 64 /* of folders in folders: links may go round in circles */
 

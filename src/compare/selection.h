@@ -6,7 +6,7 @@
  *          is not there, and when nothing is left.
  */
 #pragma once
-#include "compare/subject.h"
+#include "compare/input.h"
 
 typedef struct SelectionRequest {
     const char *mask;    /* a picture's file: black is left out; NULL: none */

@@ -8,7 +8,7 @@
  */
 #pragma once
 #include "compare/lines.h"
-#include "compare/subject.h"
+#include "compare/input.h"
 
 typedef struct StructureRules {
     const char *const *ignored; /* metadata keys, channels, layers: left out */

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/mathf.h"
-#include "image/lettering.h"
+#include "image/stroke_font.h"
 
 static const float NOTHING[3] = {0.10f, 0.10f, 0.11f}; /* pixels without a value */
 static const float GROUND[3] = {0.05f, 0.05f, 0.055f}; /* behind the scale */

@@ -6,7 +6,8 @@
 #include <string.h>
 
 #include "base/file.h"
-#include "panel/json_view.h"
+#include "import/importers.h"
+#include "text/json_view.h"
 
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 #define KEYS_MAX 64

@@ -5,7 +5,7 @@
  * Fails    with the file, the JSON path, what was found and what was wanted.
  */
 #pragma once
-#include "import/import_text.h"
+#include "import/text/import_text.h"
 
 /* Called with the number of files done. */
 typedef void ImportStep(void *context, int done);

@@ -2,6 +2,16 @@
  * mark first, text of any layout last. */
 #include "import/importers.h"
 
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "text/json_view.h"
+
+#define HEAD_BYTES 4096
+#define FORMATS_MAX 64
+
 const Importer *const importers[] = {
     &importer_fred, &importer_mountain, &importer_zemax, &importer_lighttools,
     &importer_speos, &importer_astm, &importer_ssdd, &importer_window,
@@ -10,3 +20,51 @@ const Importer *const importers[] = {
     &importer_text,
     NULL,
 };
+
+/* ---- which importer ---------------------------------------------------------------------- */
+
+static const Importer *importer_named(const char *name, Error *err)
+{
+    const char *names[FORMATS_MAX];
+    int         count = 0;
+    for (int i = 0; importers[i] && i < FORMATS_MAX; i++) {
+        if (!strcmp(importers[i]->name, name)) return importers[i];
+        names[count++] = importers[i]->name;
+    }
+    error_set(err, ERROR_USAGE, "--format '%s' is unknown; the nearest one is '%s'", name,
+              nearest_word(name, names, count));
+    return NULL;
+}
+
+static bool read_head(const char *file, char *head, size_t *size, Error *err)
+{
+    struct stat info; /* a pipe would be waited for */
+    if (!stat(file, &info) && !S_ISREG(info.st_mode))
+        return error_at(err, ERROR_INPUT, file, "", "is %s, a file is wanted",
+                        S_ISDIR(info.st_mode) ? "a folder" : "not a regular file");
+    FILE *stream = fopen(file, "rb");
+    if (!stream)
+        return error_at(err, ERROR_INPUT, file, "", "cannot be opened: %s", strerror(errno));
+    *size = fread(head, 1, HEAD_BYTES, stream);
+    head[*size] = 0;
+    bool ok = !ferror(stream);
+    fclose(stream);
+    return ok || error_at(err, ERROR_INPUT, file, "", "cannot be read");
+}
+
+bool import_file(const char *file, const ImportOptions *options, ImportSet *set, Error *err)
+{
+    char   head[HEAD_BYTES + 1];
+    size_t size = 0;
+    if (!read_head(file, head, &size, err)) return false;
+    if (!size) return error_at(err, ERROR_INPUT, file, "", "is empty");
+    if (options->format) {
+        const Importer *importer = importer_named(options->format, err);
+        return importer && importer->read(file, options, set, err);
+    }
+    for (int i = 0; importers[i]; i++)
+        if (importers[i]->recognises(file, head, size))
+            return importers[i]->read(file, options, set, err);
+    return error_at(err, ERROR_INPUT, file, "",
+                    "is of no format that is known here — name one with --format");
+}

@@ -1,7 +1,7 @@
 /* importers.h -- one row a foreign format; each stands in the file of its name.
  */
 #pragma once
-#include "import/import.h"
+#include "import/set/import.h"
 
 /* ---- scatter ----------------------------------------------------------------------------- */
 extern const Importer importer_zemax, importer_lighttools, importer_mountain, importer_fred,
@@ -13,3 +13,9 @@ extern const Importer importer_eulumdat, importer_ies;
 
 /* ---- columns and matrices ---------------------------------------------------------------- */
 extern const Importer importer_text;
+
+/* All importers (importers.c), in the order in which they are asked; ends with a NULL. */
+extern const Importer *const importers[];
+
+/* Reads a file with the importer that --format names, or that recognises it. */
+bool import_file(const char *file, const ImportOptions *options, ImportSet *set, Error *err);

@@ -1,4 +1,4 @@
-/* sky_model.h -- a computed sky (sky/outside.h) as a light: looked up, and sampled by
+/* sky_model.h -- a computed sky (sky/daylight.h) as a light: looked up, and sampled by
  * luminance.
  *
  * The sphere is cut at the horizon, which may lie below the horizontal, into cells of elevation

@@ -7,7 +7,7 @@
 #include "base/sampler.h"
 #include "bvh/bvh.h"
 #include "light/light.h"
-#include "path/choice.h"
+#include "path/light_selection.h"
 #include "path/surface.h"
 
 /* Which estimators reach the light; all three agree in the mean (a test). */

@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "base/units.h"
-#include "plot/colour_map.h"
-#include "plot/picture.h"
-#include "plot/ticks.h"
+#include "plot/draw/colour_map.h"
+#include "plot/draw/picture.h"
+#include "plot/draw/ticks.h"
 
 #define PAGE_W 1120.0
 #define PAGE_H 620.0

@@ -8,7 +8,7 @@
  */
 #pragma once
 #include "base/error.h"
-#include "plot/svg_text.h"
+#include "plot/draw/svg_text.h"
 
 typedef struct SkyPlotSun {
     double      azimuth, elevation;

@@ -3,7 +3,7 @@
  * File     all numbers little endian:
  *            a head of fixed size   magic, version, sizes; which pixels and samples of which
  *                                   film; what they cost; which samples were dropped
- *            the identity           what decides a sample's value (cli/render_identity.h)
+ *            the identity           what decides a sample (cli/render/render_identity.h)
  *            one block a row        its size, 4 bytes, and the packed sums (film_state.h)
  *            a checksum             XXH3, 64 bits, of everything before
  *          Only the program version that wrote it, on a machine of the same byte order, reads

@@ -1,11 +1,12 @@
 # Writes the C file OUTPUT with a number that changes with everything that decides a pixel:
 # cmake -DROOT=... -DOUTPUT=... -P hash_sources.cmake
-set(folders base spectrum hemisphere sky image panel scene bvh light camera path film render)
+set(folders base text spectrum hemisphere sky image panel scene bvh light camera path film kernel
+  render)
 set(patterns ${ROOT}/shaders/*.[ch] ${ROOT}/third_party/*/*.[ch]pp ${ROOT}/third_party/*/*.h)
 foreach(folder ${folders})
   list(APPEND patterns ${ROOT}/src/${folder}/*.[ch])
 endforeach()
-file(GLOB files RELATIVE ${ROOT} ${patterns})
+file(GLOB_RECURSE files RELATIVE ${ROOT} ${patterns})
 list(SORT files)
 set(all "")
 foreach(file ${files})

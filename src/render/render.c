@@ -7,7 +7,7 @@
 #include "bvh/bvh.h"
 #include "light/light.h"
 #include "render/signals.h"
-#include "render/tile.h"
+#include "kernel/tile.h"
 
 #define TILE_SIDE 16                /* pixels: a few milliseconds of work */
 #define PASS_PATHS ((size_t)1 << 22) /* of one pass at most, where a pixel gets more than one */

@@ -17,7 +17,7 @@
 #include "film/film.h"
 #include "path/path.h"
 #include "render/checkpoint.h"
-#include "render/kernel.h"
+#include "kernel/kernel.h"
 
 typedef struct RenderResult RenderResult;
 

@@ -16,8 +16,8 @@
 #include "base/problems.h"
 #include "base/vec.h"
 #include "image/texture.h"
-#include "panel/panel.h"
-#include "sky/outside.h"
+#include "panel/query/panel.h"
+#include "sky/daylight.h"
 #include "spectrum/curve.h"
 
 #define NO_ID (-1)

@@ -15,8 +15,8 @@
 
 #include "base/sampler.h"
 #include "base/units.h"
-#include "panel/panel.h"
-#include "panel/recipe.h"
+#include "panel/query/panel.h"
+#include "panel/set/synthetic_panel.h"
 
 #define BANDS 46
 #define GRID_EVERY 4 /* directions that tell the grid's own error */

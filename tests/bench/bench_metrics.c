@@ -8,10 +8,10 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "compare/deltae.h"
-#include "compare/flip.h"
-#include "compare/metrics.h"
-#include "compare/ssim.h"
+#include "compare/metrics/deltae.h"
+#include "compare/metrics/flip.h"
+#include "compare/metrics/metrics.h"
+#include "compare/metrics/ssim.h"
 
 enum { WIDTH = 1920, HEIGHT = 1080, PIXELS = WIDTH * HEIGHT, MAX_RUNS = 99 };
 

@@ -20,7 +20,7 @@
 
 #include "base/sampler.h"
 #include "tests/bench/flat_tables.h"
-#include "panel/panel.h"
+#include "panel/query/panel.h"
 
 #define CALLS (1 << 17)
 #define MAX_RUNS 99

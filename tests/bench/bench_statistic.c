@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "compare/statistic.h"
+#include "compare/statistic/statistic.h"
 
 static void print_number(double value, const char *after)
 {

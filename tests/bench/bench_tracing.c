@@ -9,7 +9,7 @@
 #include <time.h>
 
 #include "film/film.h"
-#include "render/kernel.h"
+#include "kernel/kernel.h"
 #include "scene/scene.h"
 
 #define WIDTH 320

@@ -412,7 +412,7 @@ def imported(program, name):
     return out
 
 
-# ---- the closed form of a recipe (src/panel/recipe.h) ----------------------------------------
+# ---- the closed form of a recipe (src/panel/set/synthetic_panel.h) ---------------------------
 
 def fresnel(c, n):
     t = math.sqrt(1 - (1 - c * c) / (n * n))

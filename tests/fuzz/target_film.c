@@ -5,7 +5,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "cli/render_identity.h"
+#include "cli/render/render_identity.h"
 #include "film/film_merge.h"
 #include "harness.h"
 #include "render/checkpoint.h"

@@ -4,7 +4,7 @@
 
 #include "harness.h"
 #include "import/import_request.h"
-#include "panel/measurement.h"
+#include "panel/set/measurement.h"
 
 #define FILES_MAX 8
 #define FILE_MARK "=== "     /* begins a line that names the next file */

@@ -5,8 +5,8 @@
 
 #include "harness.h"
 #include "import/import_request.h"
-#include "panel/measurement.h"
-#include "panel/recipe.h"
+#include "panel/set/measurement.h"
+#include "panel/set/synthetic_panel.h"
 
 /* ---- tables that a manifest may name ----------------------------------------------------- */
 

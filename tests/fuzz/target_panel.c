@@ -7,8 +7,8 @@
 #include <xxhash.h>
 
 #include "harness.h"
-#include "panel/panel_file.h"
-#include "panel/panel_info.h"
+#include "panel/query/panel_file.h"
+#include "panel/query/panel_info.h"
 
 static bool all_in(const float *value, int count, float low)
 {

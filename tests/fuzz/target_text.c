@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/file.h"
-#include "cli/environment_options.h"
+#include "cli/options/environment_options.h"
 #include "harness.h"
 #include "sky/epw.h"
 #include "spectrum/curve.h"

@@ -20,7 +20,9 @@ def allowed_includes():
 
 
 def folder_of(name, table):
-    return next((folder for folder in table if name.startswith(folder + "/")), None)
+    """The folder with the longest name that the file stands in."""
+    return max((folder for folder in table if name.startswith(folder + "/")), key=len,
+               default=None)
 
 
 def resolve(including, header):
@@ -60,7 +62,7 @@ def downwards(table):
     faults, seen = [], []
     for folder, may in table.items():
         for entry in may:
-            is_below = entry in seen or os.path.dirname(entry) in seen
+            is_below = entry in seen or entry.endswith(".h") and os.path.dirname(entry) in seen
             if entry[0] != "<" and not entry.startswith("third_party/") and not is_below:
                 faults.append(f"layers.txt: {folder} names {entry}, which does not lie below")
         seen.append(folder)

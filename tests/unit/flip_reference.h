@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "compare/planes.h"
+#include "compare/metrics/planes.h"
 
 enum { SLOW_RADIUS_MAX = 40 };
 

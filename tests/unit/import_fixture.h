@@ -8,7 +8,7 @@
 
 #include "base/file.h"
 #include "check.h"
-#include "import/import.h"
+#include "import/set/import.h"
 #include "import/importers.h"
 
 typedef struct Fixture {

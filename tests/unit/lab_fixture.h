@@ -9,7 +9,7 @@
 #include "base/file.h"
 #include "check.h"
 #include "import/import_request.h"
-#include "panel/measurement.h"
+#include "panel/set/measurement.h"
 
 typedef struct Lab {
     Arena          arena;

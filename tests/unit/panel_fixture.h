@@ -9,10 +9,10 @@
 #include "base/file.h"
 #include "base/units.h"
 #include "check.h"
-#include "panel/fit.h"
-#include "panel/measurement.h"
-#include "panel/panel.h"
-#include "panel/simulate.h"
+#include "panel/fit/fit.h"
+#include "panel/set/measurement.h"
+#include "panel/query/panel.h"
+#include "panel/set/simulate.h"
 
 typedef struct Fixture {
     Arena        arena;

@@ -3,7 +3,7 @@
 #include <stdint.h>
 
 #include "base/arena.h"
-#include "compare/planes.h"
+#include "compare/metrics/planes.h"
 
 enum { FIXTURE_ARENA_BYTES = 1 << 28 };
 

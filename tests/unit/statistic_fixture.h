@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "base/sampler.h"
-#include "compare/statistic.h"
+#include "compare/statistic/statistic.h"
 
 #define WIDTH 48
 #define HEIGHT 32

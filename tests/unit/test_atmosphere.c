@@ -5,7 +5,7 @@
 #include "base/units.h"
 #include "check.h"
 #include "sky/diffuse_light.h"
-#include "sky/outside.h"
+#include "sky/daylight.h"
 #include "sky/sun_disc.h"
 #include "spectrum/photometry.h"
 

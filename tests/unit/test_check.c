@@ -4,7 +4,7 @@
 #include <fcntl.h>
 #include <jansson.h>
 
-#include "cli/cli.h"
+#include "cli/options/cli.h"
 #include "gltf_maker.h"
 
 typedef struct Outcome {

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "cli/cli.h"
+#include "cli/options/cli.h"
 #include "base/parallel.h"
 
 /* Everything that an option can be. */

@@ -5,7 +5,7 @@
 #include <jansson.h>
 
 #include "base/units.h"
-#include "cli/panel_commands.h"
+#include "cli/panel/panel_commands.h"
 
 #define TABLE "theta;phi;L\n0;0;1,5\n30;0;2,5\n30;90;3,5\n40;0;-999\n"
 

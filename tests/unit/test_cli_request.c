@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/units.h"
-#include "cli/render_command.h"
+#include "cli/render/render_command.h"
 
 static void values_of_render_are_checked_before_anything_is_read(void **state)
 {

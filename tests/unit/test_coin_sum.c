@@ -2,7 +2,7 @@
 #include "check.h"
 
 #include "base/sampler.h"
-#include "compare/coin_sum.h"
+#include "compare/statistic/sign_flip.h"
 
 static double unit(uint32_t *state)
 {

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "cli/command_line.h"
+#include "cli/render/command_line.h"
 
 static FilmPart box(FilmRect crop, uint32_t first, uint32_t end)
 {

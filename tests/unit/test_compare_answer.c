@@ -4,9 +4,9 @@
 #include <libxml/parser.h>
 
 #include "cli/compare_command.h"
-#include "compare/comparison_json.h"
-#include "compare/html_report.h"
-#include "compare/junit.h"
+#include "compare/report/comparison_json.h"
+#include "compare/report/html_report.h"
+#include "compare/report/junit.h"
 
 /* ---- answers ----------------------------------------------------------------------------- */
 

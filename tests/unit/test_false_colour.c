@@ -6,7 +6,7 @@
 #include "image/colour.h"
 #include "image/false_colour.h"
 #include "image/icc_profile.h"
-#include "image/lettering.h"
+#include "image/stroke_font.h"
 
 enum { ARENA_BYTES = 1 << 28 };
 

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compare/flip.h"
-#include "compare/flip_filters.h"
+#include "compare/metrics/flip.h"
+#include "compare/metrics/flip_filters.h"
 #include "planes_fixture.h"
 #include "flip_reference.h"
 

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/render_identity.h"
+#include "cli/render/render_identity.h"
 
 static int make_arena(void **state)
 {

@@ -1,6 +1,6 @@
 /* Scatter as tables: ASTM, SSDD, Speos in text and binary. */
-#include "import/half_angle.h"
-#include "import/lz4_block.h"
+#include "import/scatter/half_angle.h"
+#include "import/scatter/lz4_block.h"
 #include "import_fixture.h"
 
 #define PI 3.14159265358979323846

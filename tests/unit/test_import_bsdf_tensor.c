@@ -1,5 +1,5 @@
 /* Scatter in binary files: RGL and KAIST tensor files, MERL. */
-#include "import/half_angle.h"
+#include "import/scatter/half_angle.h"
 #include "import_fixture.h"
 
 #define PI 3.14159265358979323846

@@ -1,7 +1,7 @@
 /* What a file is: by an option, by its own words, by its name. */
 #include "lab_fixture.h"
 
-#include "import/role.h"
+#include "import/set/role.h"
 
 static void names_tell_the_pattern_or_the_light(void **state)
 {

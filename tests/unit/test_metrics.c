@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compare/deltae.h"
-#include "compare/lab.h"
-#include "compare/metrics.h"
-#include "compare/rank.h"
-#include "compare/ssim.h"
+#include "compare/metrics/deltae.h"
+#include "compare/metrics/lab.h"
+#include "compare/metrics/metrics.h"
+#include "compare/metrics/rank.h"
+#include "compare/metrics/ssim.h"
 #include "planes_fixture.h"
 
 /* ---- ranks ---- */

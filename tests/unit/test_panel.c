@@ -1,7 +1,8 @@
 /* What a fitted panel says against the closed truth that its tables were made of. */
 #include "panel_fixture.h"
 
-#include "panel/panel_file.h"
+#include "panel/query/panel_file.h"
+#include "panel/query/panel_report.h"
 #include "spectrum/spectral_table.h"
 
 static Fixture ips;

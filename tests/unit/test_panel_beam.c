@@ -4,7 +4,7 @@
  * PARHELION_BEAMS in the environment: all of them; tests/long.sh asks for that. */
 #include "panel_fixture.h"
 
-#include "panel/panel_file.h"
+#include "panel/query/panel_file.h"
 
 #define WIDTH 0.5    /* degrees, full width at half maximum */
 #define BOUND 0.02   /* relative, at every sample */

@@ -1,8 +1,8 @@
 /* Emission of fitted panels against closed truth: bounds, noise, grids, levels, sizes. */
 #include "panel_fixture.h"
 
-#include "panel/panel_figures.h"
-#include "panel/panel_file.h"
+#include "panel/query/panel_report.h"
+#include "panel/query/panel_file.h"
 
 #define COARSE "\"theta_step_deg\": 4, \"phi_step_deg\": 10"
 #define CHECK_EMISSION "\"gamma\": 2.2, \"gamma_drop\": 0.2, \"cosine_power\": [1.1, 1.6],"  \
@@ -514,8 +514,8 @@ static void stated_figures_are_never_rounded_down(void **state)
             "max_error", 0.001 * i + 0.00012345, "source_bytes_float32", (json_int_t)(977 * i),
             "bytes", 12.5 * i + 1));
     const void *bytes;
-    size_t      size = panel_figures_pack(tables, &arena, &bytes);
-    json_t     *back = panel_figures_open(bytes, size);
+    size_t      size = panel_report_pack_tables(tables, &arena, &bytes);
+    json_t     *back = panel_report_open_tables(bytes, size);
     assert_non_null(back);
     for (size_t i = 0; i < 50; i++) {
         json_t *a = json_array_get(tables, i), *b = json_array_get(back, i);
@@ -526,7 +526,7 @@ static void stated_figures_are_never_rounded_down(void **state)
                                json_object_get(b, "source_bytes_float32")));
         assert_non_null(json_object_get(b, "ratio"));
     }
-    for (size_t cut = 0; cut < size; cut++) assert_null(panel_figures_open(bytes, cut));
+    for (size_t cut = 0; cut < size; cut++) assert_null(panel_report_open_tables(bytes, cut));
     json_decref(tables);
     json_decref(back);
     arena_release(&arena);

@@ -3,9 +3,9 @@
 
 #include <dirent.h>
 
-#include "panel/csv_table.h"
-#include "panel/export.h"
-#include "panel/panel_info.h"
+#include "text/csv_table.h"
+#include "panel/set/export.h"
+#include "panel/query/panel_info.h"
 
 #define RECIPE                                                                                 \
     "{\"panel\": \"to export\", \"emission\": {" FIXTURE_SPECTRA                               \

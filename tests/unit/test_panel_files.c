@@ -12,8 +12,8 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "panel/panel_file.h"
-#include "panel/panel_info.h"
+#include "panel/query/panel_file.h"
+#include "panel/query/panel_info.h"
 
 #define MUTATIONS 2400
 #define FORGED_SHARE 4 /* one in so many has a checksum that fits: it is opened, at some ms */

@@ -9,8 +9,8 @@
 #include "base/sampler.h"
 #include "hemisphere/geodesic.h"
 #include "hemisphere/specular_frame.h"
-#include "panel/panel_file.h"
-#include "panel/sampling_make.h"
+#include "panel/query/panel_file.h"
+#include "panel/query/sampling_make.h"
 #include "shaders/display.h"
 
 typedef struct Case {

@@ -5,14 +5,14 @@
 #include <string.h>
 
 #include "base/units.h"
-#include "plot/chart.h"
-#include "plot/colour_map.h"
-#include "plot/contour.h"
-#include "plot/field.h"
-#include "plot/polar.h"
-#include "plot/svg_text.h"
-#include "plot/text.h"
-#include "plot/ticks.h"
+#include "plot/draw/chart.h"
+#include "plot/draw/colour_map.h"
+#include "plot/draw/contour.h"
+#include "plot/draw/field.h"
+#include "plot/draw/polar.h"
+#include "plot/draw/svg_text.h"
+#include "text/text.h"
+#include "plot/draw/ticks.h"
 
 /* The leak sanitizer asks for this: the font library keeps what it has found until the end. */
 const char *__lsan_default_suppressions(void);

@@ -4,9 +4,9 @@
 #include <ctype.h>
 #include <dirent.h>
 
-#include "cli/panel_commands.h"
+#include "cli/panel/panel_commands.h"
 #include "image/image.h"
-#include "plot/plot.h"
+#include "plot/panel/plot.h"
 
 /* The leak sanitizer asks for this: the font library keeps what it has found until the end. */
 const char *__lsan_default_suppressions(void);

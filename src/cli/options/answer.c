@@ -1,0 +1,89 @@
+/* How answers, errors and warnings leave the program. */
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/options/cli.h"
+
+bool cli_print_json(json_t *document, Error *err)
+{
+    bool done = !json_dumpf(document, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) &&
+                fputc('\n', stdout) != EOF && !fflush(stdout);
+    int  reason = errno;
+    json_decref(document);
+    return done || error_at(err, ERROR_OUTPUT, "stdout", NULL, "cannot be written: %s",
+                            strerror(reason));
+}
+
+json_t *cli_json_text(const char *text)
+{
+    char    plain[2048];
+    json_t *string = json_string(text);
+    if (string) return string;
+    snprintf(plain, sizeof plain, "%s", text);
+    for (char *c = plain; *c; c++)
+        if ((unsigned char)*c >= 0x80) *c = '?';
+    return json_string(plain);
+}
+
+void cli_error_line(const Error *error, char *buffer, int size)
+{
+    const char *advice = strstr(error->text, " — ");
+    int         length = advice ? (int)(advice - error->text) : (int)strlen(error->text);
+    bool        has_path = error->path[0] != '\0';
+    snprintf(buffer, (size_t)size, "parhelion: %s%s%.*s%s%s%s%s", error->file,
+             error->file[0] ? ": " : "", length, error->text, has_path ? " (" : "", error->path,
+             has_path ? ")" : "", advice ? advice : "");
+}
+
+void cli_report_error(const Error *error, bool json)
+{
+    char line[2048];
+    cli_error_line(error, line, (int)sizeof line);
+    fprintf(stderr, "%s\n", line);
+    if (!json) return;
+    json_t *document = json_pack(
+        "{s:{s:i, s:o, s:o, s:o}}", "error", "status", error_exit_status(error->code), "file",
+        cli_json_text(error->file), "path", cli_json_text(error->path), "message",
+        cli_json_text(error->text));
+    Error ignored;
+    cli_print_json(document, &ignored);
+}
+
+static bool is_repeated(const Problems *problems, int index)
+{
+    const Problem *one = &problems->list[index];
+    for (int i = 0; i < index; i++) {
+        const Problem *other = &problems->list[i];
+        if (!strcmp(one->message, other->message) && !strcmp(one->path, other->path) &&
+            !strcmp(one->file, other->file))
+            return true;
+    }
+    return false;
+}
+
+void cli_print_warnings(const Problems *problems)
+{
+    for (int i = 0; i < problems->count; i++) {
+        const Problem *one = &problems->list[i];
+        if (one->severity != SEVERITY_WARNING || is_repeated(problems, i)) continue;
+        fprintf(stderr, "parhelion: warning: %s%s%s%s%s%s\n", one->file,
+                one->file[0] ? ": " : "", one->message, one->path[0] ? " (" : "", one->path,
+                one->path[0] ? ")" : "");
+    }
+}
+
+json_t *cli_json_problems(const Problems *problems, Severity severity)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < problems->count; i++) {
+        const Problem *one = &problems->list[i];
+        if (one->severity != severity || is_repeated(problems, i)) continue;
+        const char *severity_name = severity == SEVERITY_ERROR ? "error" : "warning";
+        json_array_append_new(
+            list, json_pack("{s:o, s:o, s:s, s:o}", "file", cli_json_text(one->file), "path",
+                            cli_json_text(one->path), "severity", severity_name, "message",
+                            cli_json_text(one->message)));
+    }
+    return list;
+}

@@ -1,0 +1,355 @@
+#include "cli/options/cli.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/parallel.h"
+
+#define NUMBERS_MAX 8
+#define SIZE_MAX_PIXELS 65536
+#define NAMES_MAX 64 /* options of one command, the common ones included */
+
+/* One run of cli_parse. */
+typedef struct Parser {
+    const CliCommand *command;
+    const Option     *common;
+    int               common_count;
+    int               argc, next; /* next: the first argument that is not read yet */
+    char            **argv;
+    Arena            *arena;
+    Error            *err;
+} Parser;
+
+/* ---- words ------------------------------------------------------------------------------- */
+
+/* Levenshtein's distance, of words up to 63 letters; longer ones are far from everything. */
+static int edit_distance(const char *a, const char *b)
+{
+    int rows[2][64], length_a = (int)strlen(a), length_b = (int)strlen(b);
+    if (length_a > 63 || length_b > 63) return 64;
+    for (int j = 0; j <= length_b; j++) rows[0][j] = j;
+    for (int i = 1; i <= length_a; i++) {
+        const int *above = rows[(i - 1) & 1];
+        int       *row = rows[i & 1];
+        row[0] = i;
+        for (int j = 1; j <= length_b; j++) {
+            int best = above[j - 1] + (a[i - 1] != b[j - 1]);
+            if (above[j] + 1 < best) best = above[j] + 1;
+            if (row[j - 1] + 1 < best) best = row[j - 1] + 1;
+            row[j] = best;
+        }
+    }
+    return rows[length_a & 1][length_b];
+}
+
+const char *cli_nearest(const char *word, const char *const *words, int count)
+{
+    const char *nearest = NULL;
+    size_t      dashes = strspn(word, "-");
+    int         limit = (int)(strlen(word) - dashes) / 3 + 1; /* a third of the letters */
+    for (int i = 0; i < count; i++) {
+        bool begins = strlen(word) > dashes + 1 && !strncmp(word, words[i], strlen(word));
+        int  distance = begins ? 0 : edit_distance(word, words[i]);
+        if (distance > limit) continue;
+        nearest = words[i];
+        limit = distance - 1;
+    }
+    return nearest;
+}
+
+/* ---- one value --------------------------------------------------------------------------- */
+
+bool cli_numbers(const char *text, int count, double *out)
+{
+    double values[NUMBERS_MAX];
+    for (int i = 0; i < count; i++) {
+        char *end;
+        if (*text == ' ' || *text == '\t' || *text == '\n') return false;
+        values[i] = strtod(text, &end);
+        if (end == text || !isfinite(values[i])) return false;
+        if (*end != (i + 1 < count ? ',' : '\0')) return false;
+        text = end + 1;
+    }
+    memcpy(out, values, sizeof *out * (size_t)count);
+    return true;
+}
+
+bool cli_name_value(const char *option, const char *text, Arena *arena, const char **name,
+                    const char **value, Error *err)
+{
+    const char *equals = strchr(text, '=');
+    if (!equals || equals == text || !equals[1])
+        return error_set(err, ERROR_USAGE, "%s %s: wanted NAME=VALUE, both not empty", option,
+                         text);
+    *name = arena_string(arena, text, (size_t)(equals - text));
+    *value = equals + 1;
+    return true;
+}
+
+static bool has_limits(const Option *option)
+{
+    return option->low != 0 || option->high != 0;
+}
+
+static bool bad_value(const Parser *in, const Option *option, const char *text,
+                      const char *wanted)
+{
+    return error_set(in->err, ERROR_USAGE, "%s %s: wanted %s (%s)", option->name, text, wanted,
+                     option->value);
+}
+
+/* "2147483647", "0.5", "1e-06": whole numbers in full. */
+static void print_number(char buffer[32], double value)
+{
+    bool is_whole = value == floor(value) && fabs(value) < 1e15;
+    snprintf(buffer, 32, is_whole ? "%.0f" : "%.9g", value);
+}
+
+static bool inside_limits(const Parser *in, const Option *option, double value)
+{
+    char found[32], low[32], high[32];
+    if (!has_limits(option) || (value >= option->low && value <= option->high)) return true;
+    print_number(found, value);
+    print_number(low, option->low);
+    print_number(high, option->high);
+    if (isinf(option->high))
+        return error_set(in->err, ERROR_USAGE, "%s: %s is out of range, wanted at least %s",
+                         option->name, found, low);
+    return error_set(in->err, ERROR_USAGE, "%s: %s is out of range, wanted %s to %s",
+                     option->name, found, low, high);
+}
+
+static bool read_numbers(const Parser *in, const Option *option, const char *text, int count)
+{
+    double values[NUMBERS_MAX];
+    char   wanted[64] = "a number";
+    if (count > 1) snprintf(wanted, sizeof wanted, "%d numbers with commas between", count);
+    if (!cli_numbers(text, count, values)) return bad_value(in, option, text, wanted);
+    for (int i = 0; i < count; i++)
+        if (!inside_limits(in, option, values[i])) return false;
+    memcpy(option->out, values, sizeof *values * (size_t)count);
+    return true;
+}
+
+static bool read_integer(const Parser *in, const Option *option, const char *text)
+{
+    char *end;
+    errno = 0;
+    long value = strtol(text, &end, 10);
+    if (end == text || *end || errno || *text == ' ')
+        return bad_value(in, option, text, "a whole number");
+    if (!inside_limits(in, option, (double)value)) return false;
+    *(long *)option->out = value;
+    return true;
+}
+
+static bool read_size(const Parser *in, const Option *option, const char *text)
+{
+    char *end_w, *end_h = NULL;
+    long  width = strtol(text, &end_w, 10);
+    long  height = *end_w == 'x' ? strtol(end_w + 1, &end_h, 10) : 0;
+    bool  reads = end_w != text && end_h && end_h != end_w + 1 && !*end_h;
+    if (!reads || width < 1 || height < 1 || width > SIZE_MAX_PIXELS ||
+        height > SIZE_MAX_PIXELS)
+        return bad_value(in, option, text,
+                         "a size in pixels such as 1280x720, each 1 to 65536");
+    ((int *)option->out)[0] = (int)width;
+    ((int *)option->out)[1] = (int)height;
+    return true;
+}
+
+static bool read_choice(const Parser *in, const Option *option, const char *text)
+{
+    const char *name = option->value;
+    for (int index = 0;; index++) {
+        size_t length = strcspn(name, "|");
+        if (strlen(text) == length && !strncmp(text, name, length)) {
+            *(int *)option->out = index;
+            return true;
+        }
+        if (!name[length]) return bad_value(in, option, text, "one of these");
+        name += length + 1;
+    }
+}
+
+static void append_text(CliTexts *texts, const char *text, Arena *arena)
+{
+    if (texts->count == texts->capacity) {
+        int          capacity = texts->capacity ? 2 * texts->capacity : 8;
+        const char **list = ARENA_NEW(arena, const char *, capacity);
+        if (texts->count) memcpy(list, texts->list, sizeof *list * (size_t)texts->count);
+        texts->list = list;
+        texts->capacity = capacity;
+    }
+    texts->list[texts->count++] = text;
+}
+
+static bool read_value(const Parser *in, const Option *option, const char *text)
+{
+    switch (option->kind) {
+    case OPTION_FLAG: *(bool *)option->out = true; return true;
+    case OPTION_TEXT:
+        if (!*text) return bad_value(in, option, "''", "a text that is not empty");
+        *(const char **)option->out = text;
+        return true;
+    case OPTION_NUMBER: return read_numbers(in, option, text, 1);
+    case OPTION_NUMBERS: return read_numbers(in, option, text, option->count);
+    case OPTION_INTEGER: return read_integer(in, option, text);
+    case OPTION_SIZE: return read_size(in, option, text);
+    case OPTION_CHOICE: return read_choice(in, option, text);
+    case OPTION_TEXTS: append_text(option->out, text, in->arena); return true;
+    }
+    return false;
+}
+
+/* ---- the whole line ---------------------------------------------------------------------- */
+
+static const Option *find_option(const Parser *in, const char *name, size_t length)
+{
+    for (int i = 0; i < in->command->option_count + in->common_count; i++) {
+        const Option *option = i < in->command->option_count
+                                   ? &in->command->options[i]
+                                   : &in->common[i - in->command->option_count];
+        if (strlen(option->name) == length && !strncmp(option->name, name, length))
+            return option;
+    }
+    return NULL;
+}
+
+static bool unknown_option(const Parser *in, const char *name, size_t length)
+{
+    const char *names[NAMES_MAX];
+    int         count = 0;
+    for (int i = 0; i < in->command->option_count && count < NAMES_MAX; i++)
+        names[count++] = in->command->options[i].name;
+    for (int i = 0; i < in->common_count && count < NAMES_MAX; i++)
+        names[count++] = in->common[i].name;
+    char        word[64];
+    snprintf(word, sizeof word, "%.*s", (int)length, name);
+    const char *nearest = cli_nearest(word, names, count);
+    return error_set(in->err, ERROR_USAGE,
+                     "unknown option %.*s — %s%s%s`parhelion %s --help` lists what there is",
+                     (int)length, name, nearest ? "did you mean " : "", nearest ? nearest : "",
+                     nearest ? "? " : "", in->command->name);
+}
+
+/* The option at in->argv[in->next], and its value. */
+static bool read_option(Parser *in)
+{
+    const char   *text = in->argv[in->next++];
+    size_t        length = strcspn(text, "=");
+    const Option *option = find_option(in, text, length);
+    if (!option) return unknown_option(in, text, length);
+    const char *value = text[length] ? text + length + 1 : NULL;
+    if (option->kind == OPTION_FLAG) {
+        if (value)
+            return error_set(in->err, ERROR_USAGE, "%s takes no value, found %s", option->name,
+                             value);
+    } else if (!value) {
+        if (in->next == in->argc)
+            return error_set(in->err, ERROR_USAGE, "%s needs a value: %s, %s", option->name,
+                             option->value, option->help);
+        value = in->argv[in->next++];
+    }
+    if (!read_value(in, option, value)) return false;
+    if (option->given) *option->given = true;
+    return true;
+}
+
+static bool count_arguments(const Parser *in, int count)
+{
+    const CliCommand *command = in->command;
+    if (count < command->min_arguments)
+        return error_set(in->err, ERROR_USAGE, "too few arguments — usage: parhelion %s %s",
+                         command->name, command->usage);
+    if (command->max_arguments >= 0 && count > command->max_arguments)
+        return error_set(in->err, ERROR_USAGE, "too many arguments — usage: parhelion %s %s",
+                         command->name, command->usage);
+    return true;
+}
+
+static void print_options(const Option *options, int count)
+{
+    for (int i = 0; i < count; i++) {
+        const Option *option = &options[i];
+        char          left[256];
+        snprintf(left, sizeof left, "%s%s%s", option->name, option->value ? " " : "",
+                 option->value ? option->value : "");
+        if (strlen(left) <= 30)
+            printf("  %-30s  %s\n", left, option->help);
+        else
+            printf("  %s\n  %-30s  %s\n", left, "", option->help);
+    }
+}
+
+static void print_help(const Parser *in)
+{
+    const CliCommand *command = in->command;
+    printf("parhelion %s: %s\n\nusage: parhelion %s %s\n\n", command->name, command->summary,
+           command->name, command->usage);
+    print_options(command->options, command->option_count);
+    if (command->option_count) printf("\n");
+    print_options(in->common, in->common_count);
+    printf("\nexample:\n  %s\n", command->example);
+}
+
+static bool read_line(Parser *in, CliTexts *arguments)
+{
+    bool only_arguments = false;
+    while (in->next < in->argc) {
+        const char *text = in->argv[in->next];
+        if (!only_arguments && !strcmp(text, "--")) {
+            only_arguments = true;
+            in->next++;
+        } else if (!only_arguments && text[0] == '-' && text[1]) {
+            if (!read_option(in)) return false;
+        } else {
+            append_text(arguments, in->argv[in->next++], in->arena);
+        }
+    }
+    return true;
+}
+
+static bool asks_for_help(int argc, char **argv)
+{
+    for (int i = 1; i < argc && strcmp(argv[i], "--"); i++)
+        if (!strcmp(argv[i], "--help")) return true;
+    return false;
+}
+
+bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, Cli *out,
+               Error *err)
+{
+    Cli  cli = {0};
+    int  progress = PROGRESS_AUTO;
+    long threads = parallel_default_threads();
+    const Option common[] = {
+        {"--json", OPTION_FLAG, NULL, "the answer as one JSON document on stdout", &cli.json,
+         0, 0, 0, NULL},
+        {"--quiet", OPTION_FLAG, NULL, "no progress", &cli.quiet, 0, 0, 0, NULL},
+        {"--progress", OPTION_CHOICE, "auto|bar|plain|json|none",
+         "how progress is shown on stderr (default auto)", &progress, 0, 0, 0, NULL},
+        {"--threads", OPTION_INTEGER, "N", "threads (default: what the scheduler allows)",
+         &threads, 1, PARALLEL_THREADS_MAX, 0, NULL},
+        {"--help", OPTION_FLAG, NULL, "this text", &cli.help_shown, 0, 0, 0, NULL},
+    };
+    Parser in = {command, common, (int)(sizeof common / sizeof *common), argc, 1, argv, arena,
+                 err};
+    CliTexts arguments = {0};
+    if (asks_for_help(argc, argv)) {
+        print_help(&in);
+        cli.help_shown = true;
+    } else if (!read_line(&in, &arguments) || !count_arguments(&in, arguments.count)) {
+        return false;
+    }
+    cli.progress = cli.quiet ? PROGRESS_NONE : (ProgressMode)progress;
+    cli.threads = (int)threads;
+    cli.arguments = arguments.list;
+    cli.argument_count = arguments.count;
+    *out = cli;
+    return true;
+}

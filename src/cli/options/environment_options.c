@@ -1,0 +1,362 @@
+#include "cli/options/environment_options.h"
+
+#include <math.h>
+#include <string.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "base/file.h"
+#include "base/units.h"
+#include "sky/epw.h"
+
+#define HDRI_BYTES_MAX ((size_t)4 << 30)
+#define SUN_RADIUS_DEG 0.26645 /* half the Sun's mean angular diameter */
+#define CIE_DIFFUSE_LX 10000.0
+
+/* One command line's changes while they are made. */
+typedef struct Change {
+    const EnvironmentChange *asked;
+    Environment *environment;
+    Scene       *scene;
+    Arena       *arena;
+    Problems    *problems;
+} Change;
+
+static void add_input(Change *change, const char *path, uint64_t hash)
+{
+    Scene       *scene = change->scene;
+    int          count = scene->input_count;
+    const char **inputs = ARENA_NEW(change->arena, const char *, count + 1);
+    uint64_t    *hashes = ARENA_NEW(change->arena, uint64_t, count + 1);
+    for (int i = 0; i < count; i++) {
+        inputs[i] = scene->inputs[i];
+        hashes[i] = scene->input_hashes[i];
+    }
+    inputs[count] = path;
+    hashes[count] = hash;
+    scene->inputs = inputs;
+    scene->input_hashes = hashes;
+    scene->input_count = count + 1;
+}
+
+/* ---- the sky ----------------------------------------------------------------------------- */
+
+static bool set_constant(Change *change, const char *text, Error *err)
+{
+    double luminance;
+    if (!cli_numbers(text, 1, &luminance) || luminance < 0)
+        return error_set(err, ERROR_USAGE,
+                         "--environment constant:%s: wanted a luminance in cd/m2, at least 0",
+                         text);
+    change->environment->kind = ENVIRONMENT_CONSTANT;
+    change->environment->luminance_cd_m2 = (float)luminance;
+    for (int i = 0; i < 3; i++) change->environment->color[i] = 1;
+    return true;
+}
+
+static bool set_hdri(Change *change, const char *path, Error *err)
+{
+    Environment *environment = change->environment;
+    FileBytes    bytes;
+    Image        image;
+    if (!file_read(path, HDRI_BYTES_MAX, change->arena, &bytes, err) ||
+        !image_read_memory(bytes.data, bytes.size, path, change->arena, &image, err))
+        return false;
+    if (image.format != IMAGE_RGBA32F)
+        return error_at(err, ERROR_INPUT, path, NULL,
+                        "holds display codes, wanted linear light — an OpenEXR or Radiance HDR "
+                        "picture");
+    if (environment->kind != ENVIRONMENT_HDRI) environment->hdri_scale = 1;
+    environment->kind = ENVIRONMENT_HDRI;
+    environment->hdri_path = path;
+    environment->hdri = image;
+    add_input(change, path, XXH3_64bits(bytes.data, bytes.size));
+    return true;
+}
+
+/* A model of its own kind keeps what the scene said of it, its time and place whatever it was.
+ */
+static void become(Change *change, EnvironmentKind kind, OutsideKind outside)
+{
+    Environment *environment = change->environment;
+    OutsideInput old = environment->outside;
+    bool         was_model = environment->kind >= ENVIRONMENT_CIE;
+    if (environment->kind != kind) {
+        environment->outside = outside_input_default(outside);
+        if (was_model) {
+            environment->outside.has_time = old.has_time;
+            environment->outside.when = old.when;
+            environment->outside.where = old.where;
+        }
+    }
+    environment->kind = kind;
+}
+
+static bool set_cie(Change *change, const char *text, Error *err)
+{
+    double number[2] = {0, -1};
+    bool   has_lux = false;
+    char  *copy = arena_string(change->arena, text, strlen(text)), *colon = strchr(copy, ':');
+    if (colon) *colon = ',';
+    if (cli_numbers(copy, 2, number)) has_lux = number[1] >= 0;
+    else if (colon || !cli_numbers(copy, 1, number)) number[0] = 0;
+    if (!(number[0] >= 1 && number[0] <= 16 && floor(number[0]) == number[0]) ||
+        (colon && !has_lux))
+        return error_set(err, ERROR_USAGE,
+                         "--environment cie:%s: wanted cie:N or cie:N:LUX with N "
+                         "1 to 15 (16: the traditional overcast sky)",
+                         text);
+    bool was_cie = change->environment->kind == ENVIRONMENT_CIE;
+    become(change, ENVIRONMENT_CIE, OUTSIDE_CIE);
+    change->environment->outside.cie_type = (int)number[0];
+    if (has_lux) change->environment->outside.diffuse_lux = number[1];
+    else if (!was_cie) {
+        change->environment->outside.diffuse_lux = CIE_DIFFUSE_LX;
+        problems_add(
+            change->problems, SEVERITY_WARNING, "", "",
+            "--environment cie:%s says no illuminance: the sky is scaled to %g lx on a "
+            "horizontal plane (write cie:%s:LUX)",
+            text, CIE_DIFFUSE_LX, text);
+    }
+    return true;
+}
+
+static bool set_perez(Change *change, const char *text, Error *err)
+{
+    double w_m2[2];
+    if (!cli_numbers(text, 2, w_m2) || w_m2[0] < 0 || !(w_m2[1] > 0))
+        return error_set(err, ERROR_USAGE,
+                         "--environment perez:%s: wanted perez:DIRECT,DIFFUSE, "
+                         "normal and horizontal irradiance in W/m2",
+                         text);
+    become(change, ENVIRONMENT_PEREZ, OUTSIDE_PEREZ);
+    change->environment->outside.direct_w_m2 = w_m2[0];
+    change->environment->outside.diffuse_w_m2 = w_m2[1];
+    return true;
+}
+
+static bool set_sky(Change *change, const char *text, Error *err)
+{
+    if (!strncmp(text, "constant:", 9)) return set_constant(change, text + 9, err);
+    if (!strncmp(text, "hdri:", 5) && text[5]) return set_hdri(change, text + 5, err);
+    if (!strncmp(text, "cie:", 4)) return set_cie(change, text + 4, err);
+    if (!strncmp(text, "perez:", 6)) return set_perez(change, text + 6, err);
+    if (strcmp(text, "sky:clear"))
+        return error_set(err, ERROR_USAGE, "--environment %s: wanted sky:clear, cie:N[:LUX], "
+                         "perez:DIRECT,DIFFUSE, hdri:FILE or constant:CD_M2", text);
+    become(change, ENVIRONMENT_SKY, OUTSIDE_CLEAR);
+    return true;
+}
+
+/* ---- time, place, weather ---------------------------------------------------------------- */
+
+static bool needs_model(const Change *change, const char *option, Error *err)
+{
+    return change->environment->kind >= ENVIRONMENT_CIE ||
+           error_set(err, ERROR_USAGE, "%s: there is no sky that it could change — add "
+                     "--environment sky:clear, or cie: or perez:", option);
+}
+
+static bool set_place(Change *change, const char *text, Error *err)
+{
+    double place[3] = {0, 0, change->environment->outside.where.altitude_m};
+    if ((!cli_numbers(text, 3, place) && !cli_numbers(text, 2, place)) ||
+        fabs(place[0]) > 90 || fabs(place[1]) > 360 || place[2] < -500 || place[2] > 60000)
+        return error_set(err, ERROR_USAGE,
+                         "--where %s: wanted LAT,LON or LAT,LON,ALT: -90 to 90 "
+                         "and -360 to 360 degrees, -500 to 60000 m",
+                         text);
+    change->environment->outside.where = (SkyPlace){place[0], place[1], place[2]};
+    return true;
+}
+
+static bool set_time_and_place(Change *change, Error *err)
+{
+    const EnvironmentChange *asked = change->asked;
+    OutsideInput *outside = &change->environment->outside;
+    if (!asked->when && !asked->where) return true;
+    if (!needs_model(change, asked->when ? "--when" : "--where", err)) return false;
+    if (asked->when && !sky_time_parse(asked->when, "", &outside->when, err)) {
+        err->code = ERROR_USAGE;
+        return error_prefix(err, "--when");
+    }
+    if (asked->where && !set_place(change, asked->where, err)) return false;
+    bool knows_place = asked->where || outside->has_time || asked->weather;
+    bool knows_time = asked->when || outside->has_time;
+    if (!knows_time && !asked->sun && !change->environment->has_sun)
+        return error_set(err, ERROR_USAGE, "--where: there is no time yet — add --when TIME");
+    if (!knows_place)
+        return error_set(err, ERROR_USAGE,
+                         "--when: there is no place yet — add --where LAT,LON");
+    outside->has_time = knows_time;
+    change->environment->has_sun &= !asked->when; /* a new time moves the sun */
+    return true;
+}
+
+static bool set_weather(Change *change, Error *err)
+{
+    Weather       weather;
+    OutsideInput *outside = &change->environment->outside;
+    const char   *file = change->asked->weather;
+    if (!file) return true;
+    if (change->environment->kind != ENVIRONMENT_PEREZ && change->asked->environment)
+        return error_set(err, ERROR_USAGE, "--weather makes a Perez sky: it excludes "
+                         "--environment %s", change->asked->environment);
+    become(change, ENVIRONMENT_PEREZ, OUTSIDE_PEREZ);
+    if (!change->asked->when && !outside->has_time)
+        return error_set(err, ERROR_USAGE, "--weather: there is no time yet — add --when TIME");
+    if (!weather_read(file, change->arena, &weather, err)) return false;
+    if (!change->asked->where) outside->where = weather.place;
+    SkyTime when = outside->when;
+    if (change->asked->when && !sky_time_parse(change->asked->when, "", &when, err))
+        return false;
+    const WeatherHour *hour = weather_at(&weather, &when);
+    if (!hour || !hour->has_light)
+        return error_at(err, ERROR_INPUT, file, "",
+                        "has no hour with light for month %d, day %d, "
+                        "%02d:%02d",
+                        when.month, when.day, when.hour, when.minute);
+    if (!(hour->diffuse_horizontal_w_m2 > 0))
+        return error_at(err, ERROR_INPUT, file, "", "month %d, day %d, hour %d is dark (0 W/m2 "
+                        "diffuse), wanted an hour by day", hour->middle.month, hour->middle.day,
+                        hour->middle.hour + 1);
+    outside->direct_w_m2 = hour->direct_normal_w_m2;
+    outside->diffuse_w_m2 = hour->diffuse_horizontal_w_m2;
+    FileBytes bytes;
+    if (!file_read(file, HDRI_BYTES_MAX, change->arena, &bytes, err)) return false;
+    add_input(change, file, XXH3_64bits(bytes.data, bytes.size));
+    return true;
+}
+
+static bool set_air(Change *change, Error *err)
+{
+    const EnvironmentChange *asked = change->asked;
+    if (!asked->has_turbidity && !asked->has_visibility) return true;
+    if (change->environment->kind != ENVIRONMENT_SKY)
+        return error_set(err, ERROR_USAGE, "--%s: there is no air to set — add "
+                         "--environment sky:clear",
+                         asked->has_turbidity ? "turbidity" : "visibility");
+    if (asked->has_turbidity) {
+        change->environment->outside.turbidity = asked->turbidity;
+        change->environment->outside.visibility_km = 0;
+    }
+    if (asked->has_visibility)
+        change->environment->outside.visibility_km = asked->visibility_km;
+    return true;
+}
+
+static bool set_ground(Change *change, Error *err)
+{
+    static const char *const names[] = {"land", "sea", "cloud"};
+    const char   *text = change->asked->ground;
+    OutsideInput *outside = &change->environment->outside;
+    double        top = outside->cloud_top_m;
+    if (!text) return true;
+    if (change->environment->kind != ENVIRONMENT_SKY)
+        return error_set(err, ERROR_USAGE,
+                         "--ground: only a clear sky has a ground to choose — "
+                         "add --environment sky:clear");
+    bool has_top = !strncmp(text, "cloud:", 6);
+    for (int i = 0; i < 3; i++) {
+        if (strcmp(text, names[i]) && !(i == FLOOR_CLOUD && has_top)) continue;
+        if (has_top && (!cli_numbers(text + 6, 1, &top) || top < 0 || top > 20000)) break;
+        outside->floor = (FloorKind)i;
+        outside->cloud_top_m = top;
+        return true;
+    }
+    return error_set(err, ERROR_USAGE, "--ground %s: wanted land, sea, cloud or cloud:TOP with "
+                     "the clouds' top 0 to 20000 m above the sea", text);
+}
+
+/* ---- the sun ----------------------------------------------------------------------------- */
+
+static bool set_sun(Change *change, const char *text, Error *err)
+{
+    Environment *environment = change->environment;
+    bool   is_model = environment->kind >= ENVIRONMENT_CIE;
+    double sun[3] = {0, 0, environment->has_sun ? (double)environment->sun_illuminance_lx : -1};
+    if (!strcmp(text, "off")) {
+        environment->has_sun = false;
+        environment->outside.sun_lux = 0;
+        return true;
+    }
+    if (!strcmp(text, "auto")) {
+        environment->has_sun = false;
+        environment->outside.sun_lux = -1;
+        return environment->outside.has_time ||
+               error_set(err, ERROR_USAGE,
+                         "--sun auto: there is no time and place — add --when "
+                         "and --where");
+    }
+    bool has_lux = cli_numbers(text, 3, sun);
+    if ((!has_lux && !cli_numbers(text, 2, sun)) || fabs(sun[0]) > 360 || fabs(sun[1]) > 90 ||
+        (has_lux && sun[2] < 0))
+        return error_set(
+            err, ERROR_USAGE,
+            "--sun %s: wanted auto, off, or AZ,EL,LUX with AZ -360 to 360 and EL -90 "
+            "to 90 degrees and LUX at least 0",
+            text);
+    if (!has_lux && !environment->has_sun && !is_model)
+        return error_set(
+            err, ERROR_USAGE,
+            "--sun %s: the scene's sun has no illuminance to keep — write AZ,EL,LUX", text);
+    environment->has_sun = true;
+    environment->sun_azimuth = (float)radians_from_degrees(sun[0]);
+    environment->sun_elevation = (float)radians_from_degrees(sun[1]);
+    environment->sun_illuminance_lx = (float)sun[2];
+    if (!(environment->sun_angular_radius > 0))
+        environment->sun_angular_radius = (float)radians_from_degrees(SUN_RADIUS_DEG);
+    return true;
+}
+
+static bool set_directions(Change *change, Error *err)
+{
+    const EnvironmentChange *asked = change->asked;
+    Environment *environment = change->environment;
+    if (asked->has_heading)
+        environment->heading = (float)radians_from_degrees(asked->heading_deg);
+    if (vec3_length(environment->forward) == 0) environment->forward = vec3(0, 0, -1);
+    if (!asked->has_forward) return true;
+    Vec3 forward = vec3((float)asked->forward[0], (float)asked->forward[1],
+                        (float)asked->forward[2]);
+    if (forward.x == 0 && forward.z == 0)
+        return error_set(err, ERROR_USAGE,
+                         "--forward %g,%g,%g: wanted a vector that is not vertical",
+                         asked->forward[0], asked->forward[1], asked->forward[2]);
+    environment->forward = forward;
+    return true;
+}
+
+static bool set_illuminance(Change *change, Error *err)
+{
+    if (!change->asked->has_hdri_lux) return true;
+    if (change->environment->kind != ENVIRONMENT_HDRI)
+        return error_set(err, ERROR_USAGE,
+                         "--hdri-lux: there is no HDRI — add --environment hdri:FILE");
+    change->environment->horizontal_illuminance_lx = (float)change->asked->hdri_lux;
+    return true;
+}
+
+/* A sky that is computed wants to know where the sun stands. */
+static bool knows_sun(const Change *change, Error *err)
+{
+    const Environment *environment = change->environment;
+    bool any = environment->kind < ENVIRONMENT_PEREZ || environment->has_sun ||
+               environment->outside.has_time;
+    return any || error_set(err, ERROR_USAGE,
+                            "--environment %s: where does the sun stand? — add "
+                            "--when and --where, or --sun AZ,EL",
+                            change->asked->environment);
+}
+
+bool environment_change(const EnvironmentChange *asked, Scene *scene, Arena *arena,
+                        Problems *problems, Error *err)
+{
+    Change change = {asked, &scene->environment, scene, arena, problems};
+    return (!asked->environment || set_sky(&change, asked->environment, err)) &&
+           set_weather(&change, err) && set_time_and_place(&change, err) &&
+           set_illuminance(&change, err) && set_air(&change, err) &&
+           set_ground(&change, err) &&
+           (!asked->sun || set_sun(&change, asked->sun, err)) && knows_sun(&change, err) &&
+           set_directions(&change, err);
+}

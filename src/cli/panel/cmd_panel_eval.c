@@ -1,0 +1,230 @@
+/* panel info, panel eval: what a panel file says. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/units.h"
+#include "cli/options/cli.h"
+#include "cli/panel/panel_commands.h"
+#include "cli/panel/panel_grid.h"
+#include "cli/panel/panel_question.h"
+#include "text/csv_table.h"
+#include "panel/fit/fit.h"
+#include "panel/query/panel_report.h"
+#include "panel/query/panel_info.h"
+
+#define ARENA_BYTES ((size_t)16 << 30)
+#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
+
+static json_t *degrees_json(const double *radians, int count)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < count; i++)
+        json_array_append_new(list, json_real(round(degrees_from_radians(radians[i]) * 1e4) /
+                                              1e4));
+    return list;
+}
+
+/* The light's measured incidences, and its azimuths where they matter. */
+static void add_lights(const Panel *panel, json_t *report)
+{
+    double  theta[PANEL_INFO_INCIDENCES_MAX], phi[PANEL_INFO_AZIMUTHS_MAX];
+    int     thetas = panel_info_incidences(panel, theta);
+    int     phis = panel_info_azimuths(panel, phi);
+    json_t *reflection = json_object_get(report, "reflection");
+    if (!json_is_object(reflection)) return;
+    json_object_set_new(reflection, "incidence_deg", degrees_json(theta, thetas));
+    if (phis > 1) json_object_set_new(reflection, "incidence_phi_deg", degrees_json(phi, phis));
+}
+
+bool cmd_panel_info(int argc, char **argv, Error *err)
+{
+    Arena   arena = arena_reserve(ARENA_BYTES);
+    Cli     cli;
+    Panel  *panel = NULL;
+    json_t *report = NULL;
+    const CliCommand command = {"panel info", "what a panel file holds, its sizes and errors",
+        "X.panel", "parhelion panel info assets/panels/ips_cluster.panel", NULL, 0, 1, 1};
+    if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
+    if (cli.help_shown) return true;
+    bool ok = panel_open(cli.arguments[0], &arena, &panel, err) &&
+              (panel_report(panel, &report, err) || error_in_file(err, cli.arguments[0]));
+    if (ok) add_lights(panel, report);
+    if (ok && cli.json) {
+        ok = cli_print_json(report, err);
+    } else if (ok) {
+        panel_print_report(report);
+        json_decref(report);
+    }
+    panel_close(panel);
+    arena_release(&arena);
+    return ok;
+}
+
+/* What is asked for, and how the answer shall look. */
+typedef struct Request {
+    PanelQuestion question;
+    const char   *batch, *grid;
+    bool          has_theta, has_rgb, has_incidence, wants_csv;
+    int           layout, quantity; /* indices of the choices; layout: list, matrix */
+} Request;
+
+/* ---- many rows at once ----------------------------------------------------------------- */
+
+static bool fill_question(const CsvTable *csv, int row, Arena *arena, PanelQuestion *q,
+                          Error *err)
+{
+    for (int c = 0; c < csv->columns; c++) {
+        double *to = panel_question_member(q, csv->name[c]);
+        if (!to)
+            return error_at(err, ERROR_INPUT, csv->file, "header line",
+                            "column '%s' is unknown, wanted theta, phi, r, g, b, incidence, "
+                            "incidence_phi or wavelength", csv->name[c]);
+        *to = (double)csv->cell[(size_t)row * (size_t)csv->columns + (size_t)c];
+    }
+    if (panel_question_check(q, err)) return true;
+    return error_at(err, ERROR_INPUT, csv->file, csv_table_place(csv, row, arena), "%s",
+                    arena_string(arena, err->text, strlen(err->text)));
+}
+
+static bool answer_batch(const Panel *panel, const Request *request, const Cli *cli,
+                         Arena *arena, Error *err)
+{
+    CsvTable       csv;
+    PanelQuestion *list;
+    if (!csv_table_read(request->batch, arena, &csv, err)) return false;
+    list = ARENA_NEW(arena, PanelQuestion, csv.rows);
+    for (int i = 0; i < csv.rows; i++) {
+        list[i] = request->question;
+        if (!fill_question(&csv, i, arena, &list[i], err)) return false;
+    }
+    json_t *answers = json_array();
+    if (request->wants_csv) panel_answer_csv_header(panel, &list[0], stdout);
+    for (int i = 0; i < csv.rows; i++) {
+        if (request->wants_csv)
+            panel_answer_csv(panel, &list[i], stdout);
+        else if (cli->json)
+            json_array_append_new(answers, panel_answer_json(panel, &list[i]));
+        else
+            panel_answer_print(panel, &list[i]);
+    }
+    if (cli->json) return cli_print_json(answers, err);
+    json_decref(answers);
+    return true;
+}
+
+/* ---- one answer ------------------------------------------------------------------------ */
+
+static bool answer_one(const Panel *panel, const Request *request, const Cli *cli, Error *err)
+{
+    const PanelQuestion *q = &request->question;
+    if (cli->json) return cli_print_json(panel_answer_json(panel, q), err);
+    if (request->wants_csv) {
+        panel_answer_csv_header(panel, q, stdout);
+        panel_answer_csv(panel, q, stdout);
+    } else {
+        panel_answer_print(panel, q);
+    }
+    return true;
+}
+
+static bool answer_grid(const Panel *panel, const Request *request, const Cli *cli, Error *err)
+{
+    PanelGrid       grid;
+    PanelGridFormat format = cli->json ? PANEL_GRID_JSON
+                             : request->layout ? PANEL_GRID_MATRIX : PANEL_GRID_LIST;
+    return panel_grid_parse(request->grid, &grid, err) &&
+           panel_grid_print(panel, &request->question, &grid, format, request->quantity, err);
+}
+
+static bool answer(const char *path, const Request *request, const Cli *cli, Arena *arena,
+                   Error *err)
+{
+    Panel *panel = NULL;
+    bool   ok;
+    if (!panel_open(path, arena, &panel, err)) return false;
+    if (request->question.is_brdf && !panel_reflects(panel))
+        ok = error_at(err, ERROR_INPUT, path, "",
+                      "has no reflection data; fit a set with a 'reflection' entry");
+    else if (request->grid)
+        ok = answer_grid(panel, request, cli, err);
+    else if (request->batch)
+        ok = answer_batch(panel, request, cli, arena, err);
+    else
+        ok = answer_one(panel, request, cli, err);
+    panel_close(panel);
+    return ok;
+}
+
+static bool check_request(const Request *request, const Cli *cli, Error *err)
+{
+    const PanelQuestion *q = &request->question;
+    PanelGrid grid;
+    if (request->wants_csv && cli->json)
+        return error_set(err, ERROR_USAGE, "--csv and --json exclude each other");
+    if (request->batch && request->grid)
+        return error_set(err, ERROR_USAGE, "--batch and --grid exclude each other");
+    if (request->grid && !panel_grid_parse(request->grid, &grid, err)) return false;
+    if (request->batch) return true;
+    if (!request->grid && !request->has_theta)
+        return error_set(err, ERROR_USAGE, "panel eval wants --theta T (or --grid, --batch)");
+    if (!q->is_brdf && !request->has_rgb)
+        return error_set(err, ERROR_USAGE, "panel eval wants --rgb R,G,B (or --brdf)");
+    if (q->is_brdf && !request->has_incidence)
+        return error_set(err, ERROR_USAGE, "panel eval --brdf wants --incidence T");
+    if (request->grid && request->layout && q->is_brdf && !(q->wavelength_nm > 0))
+        return error_set(err, ERROR_USAGE, "a matrix of --brdf wants --wavelength NM");
+    return true;
+}
+
+bool cmd_panel_eval(int argc, char **argv, Error *err)
+{
+    Arena   arena = arena_reserve(ARENA_BYTES);
+    Cli     cli;
+    Request r = {.question = {.rgb = {255, 255, 255}, .incidence_phi = 180}, .quantity = 1};
+    PanelQuestion *q = &r.question;
+    const Option   options[] = {
+        {"--theta", OPTION_NUMBER, "DEG", "angle from the normal, degrees", &q->theta, 0, 90, 0,
+         &r.has_theta},
+        {"--phi", OPTION_NUMBER, "DEG", "azimuth, degrees: 0 right, 90 up (default 0)", &q->phi,
+         -360, 360, .given = NULL},
+        {"--rgb", OPTION_NUMBERS, "R,G,B", "the pixel's codes, 0 to 255", q->rgb, 0, 255, 3,
+         &r.has_rgb},
+        {"--brdf", OPTION_FLAG, NULL, "reflection (sr^-1, no cosine) instead of emission",
+         &q->is_brdf, .given = NULL},
+        {"--incidence", OPTION_NUMBER, "DEG", "angle of the light from the normal, degrees",
+         &q->incidence, 0, 90, 0, &r.has_incidence},
+        {"--incidence-phi", OPTION_NUMBER, "DEG",
+         "azimuth of the light, degrees (default 180: the mirror direction is at phi 0)",
+         &q->incidence_phi, -360, 360, .given = NULL},
+        {"--wavelength", OPTION_NUMBER, "NM",
+         "one wavelength, nm, instead of all measured ones", &q->wavelength_nm, 360, 830,
+         .given = NULL},
+        {"--grid", OPTION_TEXT, "T0:T1:DT,P0:P1:DP",
+         "theta and phi from, to, step, degrees, instead of one direction", &r.grid,
+         .given = NULL},
+        {"--layout", OPTION_CHOICE, "list|matrix",
+         "of a grid: rows theta,phi,values, or theta down and phi across (default list)",
+         &r.layout, .given = NULL},
+        {"--quantity", OPTION_CHOICE, PANEL_QUANTITIES,
+         "in a matrix: X, Y, Z in cd/m2, u' or v' (default Y); brdf in sr^-1 with --brdf",
+         &r.quantity, .given = NULL},
+        {"--batch", OPTION_TEXT, "FILE.csv",
+         "one question a row; columns theta, phi, r, g, b, incidence, ...", &r.batch,
+         .given = NULL},
+        {"--csv", OPTION_FLAG, NULL,
+         "answers as comma-separated rows: XYZ in cd/m2, or sr^-1 a wavelength in nm",
+         &r.wants_csv, .given = NULL},
+    };
+    const CliCommand command = {"panel eval",
+        "what a panel emits (cd/m2) or reflects (sr^-1) in one direction, or on a grid",
+        "X.panel --theta T --phi P --rgb R,G,B | --brdf --incidence T --theta T --phi P",
+        "parhelion panel eval assets/panels/ips_cluster.panel --theta 30 --phi 0 "
+        "--rgb 255,255,255", options, COUNT(options), 1, 1};
+    if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
+    if (cli.help_shown) return true;
+    bool ok = check_request(&r, &cli, err) &&
+              answer(cli.arguments[0], &r, &cli, &arena, err);
+    arena_release(&arena);
+    return ok;
+}

@@ -1,0 +1,76 @@
+/* panel export: a panel's tables written back. */
+#include <stdio.h>
+
+#include "cli/options/cli.h"
+#include "cli/panel/panel_commands.h"
+#include "panel/set/export.h"
+
+#define ARENA_BYTES ((size_t)16 << 30)
+#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
+
+typedef struct Request {
+    ExportOptions options;
+    const char   *output, *table;
+} Request;
+
+static bool export_from(const char *path, const Request *request, Arena *arena, Error *err)
+{
+    Panel *panel = NULL;
+    if (!panel_open(path, arena, &panel, err)) return false;
+    bool ok = request->table
+        ? panel_export_table(panel, request->table, &request->options, request->output, err)
+        : panel_export(panel, path, &request->options, request->output, err);
+    panel_close(panel);
+    return ok;
+}
+
+static bool print_done(const Request *request, const Cli *cli, Error *err)
+{
+    if (cli->json)
+        return cli_print_json(json_pack("{s:o}", "output", cli_json_text(request->output)),
+                              err);
+    if (!cli->quiet)
+        printf("%s%s\n", request->output, request->table ? "" : "/MANIFEST.json");
+    return true;
+}
+
+bool cmd_panel_export(int argc, char **argv, Error *err)
+{
+    Arena   arena = arena_reserve(ARENA_BYTES);
+    Cli     cli;
+    Request r = {.options = {.mirror_fwhm_deg = -1}};
+    const Option options[] = {
+        {"-o", OPTION_TEXT, "DIR|TABLE.csv",
+         "a new or empty folder for MANIFEST.json and its tables, or one table's file",
+         &r.output, .given = NULL},
+        {"--table", OPTION_TEXT, "NAME",
+         "one table: black, white CODE, red CODE, ..., primaries, brdf DEG [at DEG]", &r.table,
+         .given = NULL},
+        {"--theta-step", OPTION_NUMBER, "DEG",
+         "between rings, degrees (default 1, of reflection 0.5)", &r.options.theta_step_deg,
+         0.05, 30, .given = NULL},
+        {"--phi-step", OPTION_NUMBER, "DEG",
+         "between azimuths, degrees (default 3, of reflection 1)", &r.options.phi_step_deg,
+         0.05, 90, .given = NULL},
+        {"--extrapolate", OPTION_FLAG, NULL,
+         "to 90 degrees instead of the measured cone only", &r.options.extrapolates,
+         .given = NULL},
+        {"--mirror-fwhm", OPTION_NUMBER, "DEG",
+         "draw the mirror part as an instrument so wide sees it (default 2.4 steps; 0: not)",
+         &r.options.mirror_fwhm_deg, 0, 10, .given = NULL},
+    };
+    const CliCommand command = {"panel export",
+        "a panel's tables written back: XYZ in cd/m2, BRDF in sr^-1, angles in degrees",
+        "X.panel -o DIR | --table NAME -o TABLE.csv",
+        "parhelion panel export assets/panels/ips_cluster.panel --table 'red 255' -o red.csv",
+        options, COUNT(options), 1, 1};
+    if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
+    if (cli.help_shown) return true;
+    if (!r.output)
+        return error_set(err, ERROR_USAGE,
+                         "panel export wants -o DIR (or --table NAME -o TABLE.csv)");
+    r.options.progress = cli.progress;
+    bool ok = export_from(cli.arguments[0], &r, &arena, err) && print_done(&r, &cli, err);
+    arena_release(&arena);
+    return ok;
+}

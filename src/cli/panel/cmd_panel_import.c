@@ -1,0 +1,247 @@
+/* panel import: the files of a laboratory as one measurement set. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/reference.h"
+#include "cli/options/cli.h"
+#include "cli/panel/panel_commands.h"
+#include "import/importers.h"
+#include "import/import_request.h"
+
+#define ARENA_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
+#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
+
+static void show_progress(void *context, int done)
+{
+    progress_update(context, done);
+}
+
+/* Reads every file and makes the set; the bar ends before anything else is printed. */
+static bool read_files(const Cli *cli, ImportRequest *request, ImportSet *set, Error *err)
+{
+    Progress progress = progress_start(cli->progress, "import", "files", cli->argument_count);
+    request->step = show_progress;
+    request->context = &progress;
+    bool ok = import_run(cli->arguments, cli->argument_count, request, set, err);
+    if (ok) progress_end(&progress, cli->argument_count);
+    else progress_clear(&progress);
+    return ok;
+}
+
+/* ---- the summary ------------------------------------------------------------------------- */
+
+static json_t *table_summary(const ImportSet *set, const ImportTable *table, Arena *arena)
+{
+    json_t *one = json_pack("{s:s, s:o, s:i, s:i, s:i}", "file",
+        import_table_file(set, table, arena), "from", cli_json_text(table->file), "rows",
+        table->rows, "channels", table->channels, "masked", table->masked);
+    json_t *list = json_array();
+    for (int i = 0; table->masked_theta_deg && i < table->masked; i++)
+        json_array_append_new(list, json_pack("[f,f]", table->masked_theta_deg[i],
+                                              table->masked_phi_deg[i]));
+    json_object_set_new(one, "not_measured", list);
+    return one;
+}
+
+static json_t *summary(const ImportSet *set, const char *manifest, Arena *arena)
+{
+    json_t *tables = json_array(), *notes = json_array();
+    double  rows = 0, masked = 0;
+    for (int i = 0; i < set->count; i++) {
+        json_array_append_new(tables, table_summary(set, &set->table[i], arena));
+        rows += set->table[i].rows;
+        masked += set->table[i].masked;
+    }
+    for (int i = 0; i < set->note_count; i++)
+        json_array_append_new(notes, cli_json_text(set->note[i]));
+    return json_pack("{s:o, s:o, s:f, s:f, s:o}", "manifest", cli_json_text(manifest), "tables",
+                     tables, "rows", rows, "masked", masked, "notes", notes);
+}
+
+static void print_summary(const ImportSet *set, const char *manifest, Arena *arena)
+{
+    double rows = 0, masked = 0;
+    printf("%-32s %10s %9s %7s  %s\n", "table", "directions", "values", "masked", "from");
+    for (int i = 0; i < set->count; i++) {
+        const ImportTable *table = &set->table[i];
+        printf("%-32s %10d %9.0f %7d  %s\n", import_table_file(set, table, arena), table->rows,
+               (double)table->rows * table->channels, table->masked, table->file);
+        rows += table->rows;
+        masked += table->masked;
+    }
+    for (int i = 0; i < set->note_count; i++) printf("note: %s\n", set->note[i]);
+    printf("%s: %d tables, %.0f directions, %.0f masked\n", manifest, set->count, rows, masked);
+}
+
+/* ---- options ----------------------------------------------------------------------------- */
+
+#define KEYS_MAX 32
+#define OPTIONS_MAX (KEYS_MAX + 16)
+
+/* What the command line holds before it is put on top of the declaration file. */
+typedef struct Words {
+    const char *output, *layout, *root, *primaries, *panel, *instrument, *format, *symmetry;
+    CliTexts    roles, skip, list[KEYS_MAX];
+    const char *key[KEYS_MAX]; /* of the text tables' keys */
+    double      wavelength_nm, area_mm[2];
+    bool        has_area, is_isotropic, black_is_zero;
+} Words;
+
+/* "azimuth_zero" is the option --azimuth-zero. */
+static const char *option_name(const char *key, Arena *arena)
+{
+    char *name = arena_format(arena, "--%s", key);
+    for (char *c = name; *c; c++)
+        if (*c == '_') *c = '-';
+    return name;
+}
+
+static bool is_list(const char *key)
+{
+    return !strcmp(key, "comment") || !strcmp(key, "mask") || !strcmp(key, "section");
+}
+
+static int list_options(Words *words, Option *option, Arena *arena)
+{
+    const Option fixed[] = {
+        {"-o", OPTION_TEXT, "MANIFEST.json", "the set to write, with its tables beside it",
+         &words->output, .given = NULL},
+        {"--layout", OPTION_TEXT, "DECLARATION.json",
+         "all of the following, written once (keys: src/import/README.md)", &words->layout,
+         .given = NULL},
+        {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &words->root, .given = NULL},
+        {"--role", OPTION_TEXTS, "PATTERN=ROLE", "what files are: red:255, black, white, "
+         "brdf:INCIDENCE[:AZIMUTH[:NM]], dark, reference[:INCIDENCE], skip", &words->roles,
+         .given = NULL},
+        {"--skip", OPTION_TEXTS, "PATTERN", "files to leave out", &words->skip, .given = NULL},
+        {"--format", OPTION_TEXT, "NAME", "the files' format (default: told by each file)",
+         &words->format, .given = NULL},
+        {"--wavelength", OPTION_NUMBER, "NM", "of reflection files that do not say theirs",
+         &words->wavelength_nm, 360, 830, .given = NULL},
+        {"--primaries", OPTION_TEXT, "FILE", "spectra: columns nm, red, green, blue",
+         &words->primaries, .given = NULL},
+        {"--area-mm", OPTION_NUMBERS, "W,H", "luminous area for luminaire files",
+         words->area_mm, 1e-3, 1e6, 2, &words->has_area},
+        {"--isotropic", OPTION_FLAG, NULL, "the light's azimuth makes no difference",
+         &words->is_isotropic, .given = NULL},
+        {"--symmetry", OPTION_TEXT, "left-right|up-down|both|half-turn",
+         "of the sample: fills what was not measured", &words->symmetry, .given = NULL},
+        {"--no-black", OPTION_FLAG, NULL, "the black pattern was subtracted already",
+         &words->black_is_zero, .given = NULL},
+        {"--panel", OPTION_TEXT, "NAME", "the panel's name in the manifest", &words->panel,
+         .given = NULL},
+        {"--instrument", OPTION_TEXT, "NAME", "the instrument's name in the manifest",
+         &words->instrument, .given = NULL},
+    };
+    int count = COUNT(fixed);
+    memcpy(option, fixed, sizeof fixed);
+    for (int i = 0; i < text_key_count && i < KEYS_MAX; i++) {
+        bool many = is_list(text_keys[i].key);
+        option[count++] = (Option){option_name(text_keys[i].key, arena),
+                                   many ? OPTION_TEXTS : OPTION_TEXT, text_keys[i].values,
+                                   text_keys[i].help,
+                                   many ? (void *)&words->list[i] : (void *)&words->key[i],
+                                   .given = NULL};
+    }
+    return count;
+}
+
+static bool add_roles(const CliTexts *roles, Arena *arena, TextDeclaration *text, Error *err)
+{
+    double most = text->level_max > 0 ? text->level_max : 255;
+    for (int i = 0; i < roles->count; i++) {
+        const char *pattern, *role;
+        Role        parsed;
+        if (!cli_name_value("--role", roles->list[i], arena, &pattern, &role, err) ||
+            !role_parse(role, most, &parsed, err))
+            return false;
+        if (text->role_count == TEXT_ENTRIES_MAX)
+            return error_set(err, ERROR_USAGE, "--role is given too often");
+        text->role[text->role_count++] = (RoleRow){pattern, role};
+    }
+    return true;
+}
+
+static bool add_keys(const Words *words, TextDeclaration *text, Error *err)
+{
+    for (int i = 0; i < text_key_count; i++) {
+        const char *key = text_keys[i].key;
+        if (words->key[i] && !text_declare(text, key, words->key[i], err)) return false;
+        for (int k = 0; k < words->list[i].count; k++)
+            if (!text_declare(text, key, words->list[i].list[k], err)) return false;
+    }
+    return true;
+}
+
+/* The declaration file first, the command line on top of it. */
+static bool make_request(const Words *words, Arena *arena, ImportRequest *request, Error *err)
+{
+    request->root = words->root;
+    if (!reference_check_root(words->root, err)) return false;
+    if (words->layout && !import_request_read(words->layout, arena, request, err)) return false;
+    if (!add_keys(words, &request->text, err) ||
+        !add_roles(&words->roles, arena, &request->text, err))
+        return false;
+    for (int i = 0; i < words->skip.count; i++) {
+        if (request->skip.count == TEXT_ENTRIES_MAX)
+            return error_set(err, ERROR_USAGE, "--skip is given too often");
+        request->skip.text[request->skip.count++] = words->skip.list[i];
+    }
+    if (words->symmetry && !import_symmetry_named(words->symmetry, &request->symmetry, err))
+        return false;
+    if (words->format) request->options.format = words->format;
+    if (words->wavelength_nm > 0) request->options.wavelength_nm = words->wavelength_nm;
+    if (words->has_area)
+        memcpy(request->options.area_mm, words->area_mm, sizeof request->options.area_mm);
+    if (words->primaries) request->primaries = words->primaries;
+    if (words->panel) request->panel = words->panel;
+    if (words->instrument) request->instrument = words->instrument;
+    request->is_isotropic |= words->is_isotropic;
+    request->black_is_zero |= words->black_is_zero;
+    return true;
+}
+
+/* ---- the command ------------------------------------------------------------------------- */
+
+static void print_formats(void)
+{
+    printf("\nformats:\n");
+    for (int i = 0; importers[i]; i++)
+        printf("  %-12s %s\n", importers[i]->name, importers[i]->summary);
+}
+
+static bool run(const Cli *cli, const Words *words, Arena *arena, Error *err)
+{
+    ImportRequest *request = ARENA_NEW(arena, ImportRequest, 1);
+    ImportSet      set = import_set(arena);
+    if (!make_request(words, arena, request, err) || !read_files(cli, request, &set, err) ||
+        !import_write(&set, words->output, err))
+        return false;
+    if (cli->json) return cli_print_json(summary(&set, words->output, arena), err);
+    print_summary(&set, words->output, arena);
+    return true;
+}
+
+bool cmd_panel_import(int argc, char **argv, Error *err)
+{
+    Arena  arena = arena_reserve(ARENA_BYTES);
+    Cli    cli;
+    Words *words = ARENA_NEW(&arena, Words, 1);
+    Option options[OPTIONS_MAX];
+    int    count = list_options(words, options, &arena);
+    const CliCommand command = {"panel import",
+        "the files that laboratories have as one measurement set",
+        "FILE... -o MANIFEST.json [options]",
+        "parhelion panel import ips_cluster/emission/*.csv ips_cluster/brdf/*.csv "
+        "-o again/MANIFEST.json", options, count, 1, -1};
+    if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
+    if (cli.help_shown) {
+        print_formats();
+        return true;
+    }
+    if (!words->output)
+        return error_set(err, ERROR_USAGE, "panel import wants -o MANIFEST.json");
+    bool ok = run(&cli, words, &arena, err);
+    arena_release(&arena);
+    return ok;
+}

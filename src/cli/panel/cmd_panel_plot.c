@@ -1,0 +1,125 @@
+/* panel plot: pictures of a panel. */
+#include <stdio.h>
+
+#include "base/reference.h"
+#include "base/units.h"
+#include "cli/options/cli.h"
+#include "cli/panel/panel_commands.h"
+#include "plot/panel/plot.h"
+
+#define ARENA_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
+#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
+#define LEAST_SIZE 160
+#define LARGEST_SIZE 20000
+
+/* What the command line asks for. */
+typedef struct Request {
+    const char *panel, *measured, *root, *picture, *report;
+    PlotOptions options;
+} Request;
+
+static void note_file(json_t *answer, const char *key, const char *path, int figures)
+{
+    json_object_set_new(answer, key, json_pack("{s:o, s:i}", "file", cli_json_text(path),
+                                               "figures", figures));
+}
+
+static bool draw(const Request *request, const PlotInput *input, Arena *arena, json_t *answer,
+                 Error *err)
+{
+    int count = 0;
+    if (request->picture) {
+        if (!plot_write(input, &request->options, request->picture, arena, &count, err))
+            return false;
+        note_file(answer, "picture", request->picture, count);
+    }
+    if (request->report) {
+        if (!plot_write_report(input, &request->options, request->report, arena, &count, err))
+            return false;
+        note_file(answer, "report", request->report, count);
+    }
+    return true;
+}
+
+static bool open_and_draw(const Request *request, Arena *arena, json_t *answer, Error *err)
+{
+    Panel       *panel = NULL;
+    Measurement *measured = request->measured ? ARENA_NEW(arena, Measurement, 1) : NULL;
+    if (measured && !measurement_read_below(request->measured, request->root, arena, measured,
+                                            err))
+        return false;
+    if (!panel_open(request->panel, arena, &panel, err)) return false;
+    PlotInput input = {panel, request->panel, measured};
+    bool      ok = draw(request, &input, arena, answer, err);
+    panel_close(panel);
+    return ok;
+}
+
+static bool check_request(const Request *request, Error *err)
+{
+    int w = request->options.width, h = request->options.height;
+    if (!request->picture && !request->report)
+        return error_set(err, ERROR_USAGE,
+                         "panel plot wants -o X.svg, -o X.png or --report X.html");
+    if (w > 0 && (w < LEAST_SIZE || h < LEAST_SIZE || w > LARGEST_SIZE || h > LARGEST_SIZE))
+        return error_set(err, ERROR_USAGE, "--size is %dx%d, wanted %d to %d each way", w, h,
+                         LEAST_SIZE, LARGEST_SIZE);
+    return true;
+}
+
+static bool run(const Request *request, const Cli *cli, Arena *arena, Error *err)
+{
+    json_t *answer = json_object();
+    if (!open_and_draw(request, arena, answer, err)) {
+        json_decref(answer);
+        return false;
+    }
+    if (cli->json) return cli_print_json(answer, err);
+    json_decref(answer);
+    return true;
+}
+
+bool cmd_panel_plot(int argc, char **argv, Error *err)
+{
+    Arena   arena = arena_reserve(ARENA_BYTES);
+    Cli     cli;
+    Request request = {0};
+    int     kind = 0, size[2] = {0, 0};
+    double  incidence_phi = 180;
+    const Option options[] = {
+        {"-o", OPTION_TEXT, "X.svg|X.png", "the picture to write", &request.picture,
+         .given = NULL},
+        {"--kind", OPTION_CHOICE, PLOT_KINDS, "what to draw (default all: one sheet)", &kind,
+         .given = NULL},
+        {"--measured", OPTION_TEXT, "MANIFEST.json",
+         "the set that the panel was fitted from: its points over the curves, and the errors",
+         &request.measured, .given = NULL},
+        {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &request.root, .given = NULL},
+        {"--report", OPTION_TEXT, "X.html", "one page with every figure and all numbers",
+         &request.report, .given = NULL},
+        {"--incidence-phi", OPTION_NUMBER, "DEG",
+         "azimuth of the light for reflection (default 180: from the left)", &incidence_phi,
+         -360, 360, .given = NULL},
+        {"--size", OPTION_SIZE, "WxH", "of the picture, pixels (default: as it needs)", size,
+         .given = NULL},
+        {"--dark", OPTION_FLAG, NULL, "light lines on a dark ground", &request.options.is_dark,
+         .given = NULL},
+    };
+    const CliCommand command = {"panel plot",
+        "pictures of a panel: luminance, contrast, colour, grey levels, reflection, fit",
+        "X.panel -o X.svg|X.png [--kind KIND] [--measured MANIFEST.json] | --report X.html",
+        "parhelion panel plot assets/panels/ips_cluster.panel --kind luminance "
+        "-o luminance.png", options, COUNT(options), 1, 1};
+    if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
+    if (cli.help_shown) return true;
+    request.panel = cli.arguments[0];
+    request.options.kind = (PlotKind)kind;
+    request.options.width = size[0];
+    request.options.height = size[1];
+    request.options.incidence_phi = radians_from_degrees(incidence_phi);
+    request.options.threads = cli.threads;
+    bool ok = check_request(&request, err) && reference_check_root(request.root, err) &&
+              run(&request, &cli, &arena, err);
+    arena_release(&arena);
+    return ok;
+}

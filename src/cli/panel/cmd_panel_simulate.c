@@ -1,0 +1,92 @@
+/* panel simulate: a virtual instrument measures a recipe's panel. */
+
+#include "base/units.h"
+#include "cli/options/cli.h"
+#include "cli/panel/panel_commands.h"
+#include "panel/set/simulate.h"
+
+#define ARENA_BYTES ((size_t)16 << 30)
+#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
+
+/* The closed truth at one direction: what a perfect fit would say. */
+static bool print_truth(const Recipe *recipe, const double at[5], Error *err)
+{
+    double  xyz[3], angles[2] = {radians_from_degrees(at[0]), radians_from_degrees(at[1])};
+    json_t *brdf = json_array(), *mirror = json_array(), *nm = json_array();
+    truth_black_xyz(recipe, angles, xyz);
+    for (int p = 0; p < 3; p++) {
+        double add[3];
+        truth_emission_xyz(recipe, p, at[2 + p], angles, add);
+        for (int j = 0; j < 3; j++) xyz[j] += add[j];
+    }
+    json_t *document = json_pack("{s:f, s:f, s:[f,f,f], s:[f,f,f]}", "theta_deg", at[0],
+                                 "phi_deg", at[1], "rgb", at[2], at[3], at[4], "XYZ", xyz[0],
+                                 xyz[1], xyz[2]);
+    for (int w = 0; w < recipe->reflection.wavelength_count && recipe->reflection.exists; w++) {
+        double l = recipe->reflection.wavelength_nm[w];
+        json_array_append_new(nm, json_real(l));
+        json_array_append_new(brdf, json_real(truth_brdf(recipe, angles[0], angles[0], 0, l)));
+        json_array_append_new(mirror, json_real(truth_mirror(recipe, angles[0], l)));
+    }
+    json_object_set_new(document, "wavelengths_nm", nm);
+    json_object_set_new(document, "brdf_at_mirror_sr", brdf);
+    json_object_set_new(document, "mirror", mirror);
+    return cli_print_json(document, err);
+}
+
+static void switch_noise_off(RecipeInstrument *instrument)
+{
+    instrument->noise_relative = instrument->noise_cd_m2 = instrument->noise_brdf_sr = 0;
+}
+
+/* So many rings, the normal not counted, and azimuths. */
+static bool set_grid(RecipeInstrument *instrument, const int grid[2], Error *err)
+{
+    double theta = instrument->theta_max_deg / grid[0], phi = 360.0 / grid[1];
+    if (theta < 0.05 || phi < 0.05)
+        return error_set(err, ERROR_USAGE,
+                         "--grid %dx%d has steps of %.3g x %.3g degrees, wanted at least 0.05",
+                         grid[0], grid[1], theta, phi);
+    instrument->theta_step_deg = instrument->brdf_theta_step_deg = theta;
+    instrument->phi_step_deg = instrument->brdf_phi_step_deg = phi;
+    return true;
+}
+
+bool cmd_panel_simulate(int argc, char **argv, Error *err)
+{
+    Arena       arena = arena_reserve(ARENA_BYTES);
+    Cli         cli;
+    Recipe      recipe;
+    const char *folder = NULL;
+    double      at[5];
+    int         noise = 0, grid[2] = {0, 0};
+    bool        wants_truth = false, has_grid = false;
+    const Option options[] = {
+        {"-o", OPTION_TEXT, "DIR", "folder for MANIFEST.json and its tables", &folder,
+         .given = NULL},
+        {"--truth", OPTION_NUMBERS, "THETA,PHI,R,G,B",
+         "print the recipe's exact value instead: degrees and codes", at, -360, 360, 5,
+         &wants_truth},
+        {"--noise", OPTION_CHOICE, "recipe|off", "the instrument's noise (default recipe)",
+         &noise, .given = NULL},
+        {"--grid", OPTION_SIZE, "RINGSxAZIMUTHS",
+         "directions of every table up to the cone, instead of the recipe's steps", grid,
+         .given = &has_grid},
+    };
+    const CliCommand command = {"panel simulate",
+        "a virtual Fourier-optics instrument measures a recipe's panel: cd/m2, sr^-1, degrees",
+        "RECIPE.json -o DIR",
+        "parhelion panel simulate assets/panels/ips_cluster.recipe.json -o ips_cluster",
+        options, COUNT(options), 1, 1};
+    if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
+    if (cli.help_shown) return true;
+    if (!folder && !wants_truth)
+        return error_set(err, ERROR_USAGE, "panel simulate wants -o DIR");
+    bool ok = recipe_read(cli.arguments[0], &arena, &recipe, err);
+    if (ok && noise) switch_noise_off(&recipe.instrument);
+    if (ok && has_grid) ok = set_grid(&recipe.instrument, grid, err);
+    if (ok && wants_truth) ok = print_truth(&recipe, at, err);
+    if (ok && folder) ok = simulate_measurement(&recipe, folder, cli.progress, err);
+    arena_release(&arena);
+    return ok;
+}

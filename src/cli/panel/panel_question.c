@@ -1,0 +1,176 @@
+#include "cli/panel/panel_question.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/units.h"
+
+#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
+
+Vec3 panel_direction(double theta_deg, double phi_deg)
+{
+    double t = radians_from_degrees(theta_deg), p = radians_from_degrees(phi_deg);
+    return vec3((float)(sin(t) * cos(p)), (float)(sin(t) * sin(p)), (float)cos(t));
+}
+
+double *panel_question_member(PanelQuestion *q, const char *name)
+{
+    struct { const char *name; double *to; } members[] = {
+        {"theta", &q->theta}, {"phi", &q->phi}, {"r", &q->rgb[0]}, {"g", &q->rgb[1]},
+        {"b", &q->rgb[2]}, {"incidence", &q->incidence}, {"incidence_phi", &q->incidence_phi},
+        {"wavelength", &q->wavelength_nm}};
+    for (int i = 0; i < COUNT(members); i++)
+        if (!strcmp(members[i].name, name)) return members[i].to;
+    return NULL;
+}
+
+bool panel_question_check(const PanelQuestion *q, Error *err)
+{
+    if (q->is_brdf && !(q->incidence >= 0 && q->incidence <= 90))
+        return error_set(err, ERROR_USAGE, "incidence is %g, wanted 0 to 90 degrees",
+                         q->incidence);
+    if (!(q->theta >= 0 && q->theta <= 90))
+        return error_set(err, ERROR_USAGE, "theta is %g, wanted 0 to 90 degrees", q->theta);
+    for (int i = 0; i < 3; i++)
+        if (!(q->rgb[i] >= 0 && q->rgb[i] <= 255))
+            return error_set(err, ERROR_USAGE, "a code is %g, wanted 0 to 255", q->rgb[i]);
+    return true;
+}
+
+bool panel_ask_emission(const Panel *panel, const PanelQuestion *q, float xyz[3])
+{
+    float rgb[3] = {(float)q->rgb[0], (float)q->rgb[1], (float)q->rgb[2]};
+    return panel_emission_xyz(panel, panel_direction(q->theta, q->phi), rgb, xyz);
+}
+
+void panel_ask_reflection(const Panel *panel, const PanelQuestion *q, PanelReflected *out)
+{
+    Vec3 wo = panel_direction(q->theta, q->phi);
+    Vec3 wi = panel_direction(q->incidence, q->incidence_phi);
+    out->count = panel_info_wavelengths(panel, out->nm);
+    if (q->wavelength_nm > 0) {
+        out->nm[0] = (float)q->wavelength_nm;
+        out->count = 1;
+    }
+    for (int first = 0; first < out->count; first += SPECTRUM_LANES) {
+        Wavelengths wavelengths = {0};
+        int last = out->count - 1;
+        for (int i = 0; i < SPECTRUM_LANES; i++)
+            wavelengths.nm[i] = out->nm[first + i < last ? first + i : last];
+        Spectrum f = panel_brdf(panel, wo, wi, &wavelengths);
+        Spectrum r = panel_mirror(panel, wi.z, &wavelengths);
+        for (int i = 0; i < SPECTRUM_LANES && first + i <= last; i++) {
+            out->brdf[first + i] = f[i];
+            out->mirror[first + i] = r[i];
+        }
+    }
+    out->is_measured = panel_info_brdf_is_measured(panel, radians_from_degrees(q->incidence),
+                                                   radians_from_degrees(q->theta));
+}
+
+/* ---- JSON ------------------------------------------------------------------------------ */
+
+static json_t *emission_json(const Panel *panel, const PanelQuestion *q)
+{
+    float  xyz[3];
+    bool   measured = panel_ask_emission(panel, q, xyz);
+    double x = (double)xyz[0], y = (double)xyz[1], z = (double)xyz[2], d = x + 15 * y + 3 * z;
+    return json_pack("{s:f, s:f, s:[f,f,f], s:[f,f,f], s:f, s:[f,f], s:b}",
+        "theta_deg", q->theta, "phi_deg", q->phi, "rgb", q->rgb[0], q->rgb[1], q->rgb[2],
+        "XYZ", x, y, z, "luminance_cd_m2", y,
+        "uv", d > 0 ? 4 * x / d : 0, d > 0 ? 9 * y / d : 0,
+        "extrapolated", (int)!measured);
+}
+
+static json_t *reflection_json(const Panel *panel, const PanelQuestion *q)
+{
+    json_t *nm = json_array(), *brdf = json_array(), *mirror = json_array();
+    PanelReflected r;
+    panel_ask_reflection(panel, q, &r);
+    for (int i = 0; i < r.count; i++) {
+        json_array_append_new(nm, json_real((double)r.nm[i]));
+        json_array_append_new(brdf, json_real((double)r.brdf[i]));
+        json_array_append_new(mirror, json_real((double)r.mirror[i]));
+    }
+    return json_pack("{s:f, s:f, s:f, s:f, s:o, s:o, s:o, s:b}", "incidence_deg", q->incidence,
+        "incidence_phi_deg", q->incidence_phi, "theta_deg", q->theta, "phi_deg", q->phi,
+        "wavelengths_nm", nm, "brdf_sr", brdf, "mirror", mirror,
+        "extrapolated", (int)!r.is_measured);
+}
+
+json_t *panel_answer_json(const Panel *panel, const PanelQuestion *q)
+{
+    return q->is_brdf ? reflection_json(panel, q) : emission_json(panel, q);
+}
+
+/* ---- text ------------------------------------------------------------------------------ */
+
+static void print_emission(const Panel *panel, const PanelQuestion *q)
+{
+    float  xyz[3];
+    bool   measured = panel_ask_emission(panel, q, xyz);
+    double x = (double)xyz[0], y = (double)xyz[1], z = (double)xyz[2], d = x + 15 * y + 3 * z;
+    printf("%.6g cd/m2  XYZ %.6g %.6g %.6g  u'v' %.4f %.4f%s\n", y, x, y, z,
+           d > 0 ? 4 * x / d : 0, d > 0 ? 9 * y / d : 0, measured ? "" : "  (extrapolated)");
+}
+
+static void print_reflection(const Panel *panel, const PanelQuestion *q)
+{
+    PanelReflected r;
+    panel_ask_reflection(panel, q, &r);
+    for (int i = 0; i < r.count; i++)
+        printf("%g nm  %.6g sr^-1  mirror %.6g%s\n", (double)r.nm[i], (double)r.brdf[i],
+               (double)r.mirror[i], r.is_measured ? "" : "  (extrapolated)");
+}
+
+void panel_answer_print(const Panel *panel, const PanelQuestion *q)
+{
+    if (q->is_brdf)
+        print_reflection(panel, q);
+    else
+        print_emission(panel, q);
+}
+
+/* ---- CSV ------------------------------------------------------------------------------- */
+
+void panel_answer_csv_header(const Panel *panel, const PanelQuestion *q, FILE *out)
+{
+    float nm[PANEL_INFO_WAVELENGTHS_MAX];
+    if (!q->is_brdf) {
+        fputs("theta,phi,r,g,b,X,Y,Z,measured\n", out);
+        return;
+    }
+    fputs("theta,phi,incidence,incidence_phi,measured", out);
+    int count = panel_info_wavelengths(panel, nm);
+    for (int i = 0; i < count && !(q->wavelength_nm > 0); i++)
+        fprintf(out, ",%.9g", (double)nm[i]);
+    fputs(q->wavelength_nm > 0 ? ",wavelength,brdf,mirror\n" : "\n", out);
+}
+
+static void csv_reflection(const Panel *panel, const PanelQuestion *q, FILE *out)
+{
+    PanelReflected r;
+    panel_ask_reflection(panel, q, &r);
+    fprintf(out, "%.10g,%.10g,%.10g,%.10g,%d", q->theta, q->phi, q->incidence,
+            q->incidence_phi, (int)r.is_measured);
+    if (q->wavelength_nm > 0) {
+        fprintf(out, ",%.10g,%.9g,%.9g\n", q->wavelength_nm, (double)r.brdf[0],
+                (double)r.mirror[0]);
+        return;
+    }
+    for (int i = 0; i < r.count; i++) fprintf(out, ",%.9g", (double)r.brdf[i]);
+    fputc('\n', out);
+}
+
+void panel_answer_csv(const Panel *panel, const PanelQuestion *q, FILE *out)
+{
+    float xyz[3];
+    if (q->is_brdf) {
+        csv_reflection(panel, q, out);
+        return;
+    }
+    bool measured = panel_ask_emission(panel, q, xyz);
+    fprintf(out, "%.10g,%.10g,%g,%g,%g,%.9g,%.9g,%.9g,%d\n", q->theta, q->phi, q->rgb[0],
+            q->rgb[1], q->rgb[2], (double)xyz[0], (double)xyz[1], (double)xyz[2],
+            (int)measured);
+}

@@ -1,0 +1,48 @@
+/* panel_question.h -- one question to a panel, and its answer as JSON, text or a row of CSV.
+ *
+ * Units    degrees; codes 0 to 255; XYZ with Y in cd m^-2; BRDF in sr^-1 without the cosine;
+ *          mirror reflectance without unit; nm.
+ * Fails    with the member's name, what was found and what was wanted.
+ */
+#pragma once
+#include <jansson.h>
+#include <stdio.h>
+
+#include "base/error.h"
+#include "panel/query/panel_info.h"
+
+typedef struct PanelQuestion {
+    double theta, phi, rgb[3];
+    double incidence, incidence_phi;
+    bool   is_brdf;
+    double wavelength_nm; /* 0: all measured ones */
+} PanelQuestion;
+
+/* A reflection's answer. */
+typedef struct PanelReflected {
+    int   count;
+    float nm[PANEL_INFO_WAVELENGTHS_MAX];
+    float brdf[PANEL_INFO_WAVELENGTHS_MAX], mirror[PANEL_INFO_WAVELENGTHS_MAX];
+    bool  is_measured;
+} PanelReflected;
+
+/* Unit vector of a direction in degrees. */
+Vec3 panel_direction(double theta_deg, double phi_deg);
+
+/* The member that an option or a column of that name fills; NULL: there is none. */
+double *panel_question_member(PanelQuestion *question, const char *name);
+
+bool panel_question_check(const PanelQuestion *question, Error *err);
+
+/* True where the value is measured. */
+bool panel_ask_emission(const Panel *panel, const PanelQuestion *question, float xyz[3]);
+void panel_ask_reflection(const Panel *panel, const PanelQuestion *question,
+                          PanelReflected *out);
+
+/* A new document (cli.md: panel eval --json). */
+json_t *panel_answer_json(const Panel *panel, const PanelQuestion *question);
+void    panel_answer_print(const Panel *panel, const PanelQuestion *question);
+
+/* A header line, and then rows, of the question and its answer. */
+void panel_answer_csv_header(const Panel *panel, const PanelQuestion *question, FILE *out);
+void panel_answer_csv(const Panel *panel, const PanelQuestion *question, FILE *out);

@@ -1,0 +1,335 @@
+/* parhelion merge: parts of a frame become the frame, with the bits of one run. */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/machine.h"
+#include "cli/options/cli.h"
+#include "cli/render/command_line.h"
+#include "cli/render/frame_outcome.h"
+#include "cli/render/render_identity.h"
+#include "film/film_merge.h"
+
+typedef struct Work {
+    Cli         cli;
+    const char *output;
+    bool        keeps_sums;   /* --part */
+    const char *own_line;     /* this command's */
+    Arena      *arena;
+    FilmPart   *parts;        /* one an argument */
+    FilmPart    whole;        /* what they make */
+    const char **lines;       /* the parts' command lines */
+    const char *identity;     /* of the first; the others have the same */
+    FrameImage  common;       /* attributes that all parts have; no channels */
+    Film       *film;
+    FilmError   error;
+    double      seconds;
+} Work;
+
+static bool parse(int argc, char **argv, Work *work, Error *err)
+{
+    const Option options[] = {
+        {"-o", OPTION_TEXT, "FRAME.exr", "the frame that is written", &work->output},
+        {"--part", OPTION_FLAG, NULL,
+         "keep the exact sums, so that the frame can be merged again", &work->keeps_sums},
+    };
+    const CliCommand command = {
+        "merge", "make one frame of parts that were rendered with --samples or --crop",
+        "PART.exr ... -o FRAME.exr", "parhelion merge part1.exr part2.exr -o frame.exr",
+        options, sizeof options / sizeof *options, 1, -1};
+    if (!cli_parse(&command, argc, argv, work->arena, &work->cli, err)) return false;
+    if (work->cli.help_shown) return true;
+    if (!work->output) return error_set(err, ERROR_USAGE, "no output — add -o FRAME.exr");
+    if (strcmp(path_ending(work->output), ".exr") != 0)
+        return error_set(err, ERROR_USAGE, "-o %s: wanted a name that ends in .exr",
+                         work->output);
+    work->own_line = command_line_join(argc, argv, false, work->arena);
+    return file_check_writable(work->output, err);
+}
+
+/* ---- what the parts say of themselves ---------------------------------------------------- */
+
+static bool same_attribute(const ExrAttribute *a, const ExrAttribute *b)
+{
+    if (!b || a->kind != b->kind) return false;
+    return a->kind == EXR_STRING ? !strcmp(a->text, b->text)
+                                 : !memcmp(a->values, b->values, sizeof a->values);
+}
+
+static void set_attribute(FrameImage *frame, const ExrAttribute *a, Arena *arena)
+{
+    if (a->kind == EXR_STRING) frame_set_string(frame, a->name, a->text, arena);
+    else frame_set_values(frame, a->name, a->kind, a->values, arena);
+}
+
+/* Time is not the parts', but that of the merge. */
+static bool is_of_the_run(const char *name)
+{
+    return !strcmp(name, "capDate") || !strcmp(name, "utcOffset") ||
+           !strcmp(name, "parhelion:commandLine") || !strcmp(name, "parhelion:parts");
+}
+
+/* The attribute of that name; files keep them sorted, so that it mostly stands at *place,
+ * behind the one that was found before. */
+static const ExrAttribute *find_near(const ExrPicture *picture, const char *name, int *place)
+{
+    for (int i = 0; i < picture->attribute_count; i++) {
+        int at = (*place + i) % picture->attribute_count;
+        if (strcmp(picture->attributes[at].name, name) != 0) continue;
+        *place = at + 1;
+        return &picture->attributes[at];
+    }
+    return NULL;
+}
+
+/* Keeps of the common attributes what this part says as well. */
+static void keep_common(FrameImage *common, const ExrPicture *picture)
+{
+    int kept = 0, place = 0;
+    for (int i = 0; i < common->attribute_count; i++)
+        if (same_attribute(&common->attributes[i],
+                           find_near(picture, common->attributes[i].name, &place)))
+            common->attributes[kept++] = common->attributes[i];
+    common->attribute_count = kept;
+}
+
+static void copy_attributes(FrameImage *common, const ExrPicture *picture, Arena *arena)
+{
+    *common = (FrameImage){.attribute_room = picture->attribute_count,
+                           .attributes = ARENA_NEW(arena, ExrAttribute,
+                                                   picture->attribute_count)};
+    for (int i = 0; i < picture->attribute_count; i++)
+        if (!is_of_the_run(picture->attributes[i].name))
+            set_attribute(common, &picture->attributes[i], arena);
+}
+
+static bool check_identity(Work *work, const FilmPart *part, const FilmPart *first,
+                           const char *identity, Error *err)
+{
+    if (!identity)
+        return error_set(err, ERROR_INPUT, "does not say what it was rendered from "
+                                           "(parhelion:identity is missing)");
+    if (!work->identity) work->identity = arena_string(work->arena, identity, strlen(identity));
+    const char *difference = render_identity_difference(work->identity, identity, work->arena);
+    if (difference)
+        return error_set(err, ERROR_INPUT,
+                         "is of another frame than %s: %s — merge parts of one scene, camera, "
+                         "size, seed and program only",
+                         first->name, difference);
+    if (part->width != first->width || part->height != first->height ||
+        part->layers != first->layers)
+        return error_set(err, ERROR_INPUT,
+                         "damaged sums: of %dx%d pixels and layers %x, those of %s of %dx%d "
+                         "and %x",
+                         part->width, part->height, part->layers, first->name, first->width,
+                         first->height, first->layers);
+    return true;
+}
+
+static bool look_at(Work *work, int i, Error *err)
+{
+    FilmPartReader from;
+    if (!film_part_open(work->cli.arguments[i], &from, err)) return false;
+    const ExrPicture *picture = exr_reader_picture(from.file);
+    const char *line = frame_string(picture, "parhelion:commandLine");
+    work->parts[i] = from.part;
+    work->lines[i] = arena_string(work->arena, line ? line : "", line ? strlen(line) : 0);
+    bool belongs = check_identity(work, &from.part, &work->parts[0],
+                                  frame_string(picture, "parhelion:identity"), err);
+    if (belongs && i == 0) copy_attributes(&work->common, picture, work->arena);
+    if (belongs && i > 0) keep_common(&work->common, picture);
+    film_part_close(&from);
+    return belongs;
+}
+
+static bool look_at_all(Work *work, Error *err)
+{
+    int count = work->cli.argument_count;
+    work->parts = ARENA_NEW(work->arena, FilmPart, count);
+    work->lines = ARENA_NEW(work->arena, const char *, count);
+    for (int i = 0; i < count; i++)
+        if (!look_at(work, i, err)) return error_in_file(err, work->cli.arguments[i]);
+    return film_merge_check(work->parts, count, *work->arena, &work->whole, err);
+}
+
+/* ---- adding up --------------------------------------------------------------------------- */
+
+static bool check_memory(const Work *work, Error *err)
+{
+    const FilmPart *whole = &work->whole;
+    double wanted = (double)film_bytes(whole->crop, whole->layers);
+    double memory = (double)machine_memory_bytes();
+    if (wanted < memory) return true;
+    return error_set(err, ERROR_MEMORY,
+                     "the film of %dx%d pixels needs %.1f GB, there are %.1f GB — merge fewer "
+                     "parts at a time",
+                     whole->crop.x1 - whole->crop.x0, whole->crop.y1 - whole->crop.y0,
+                     wanted / 1e9, memory / 1e9);
+}
+
+static bool same_part(const FilmPart *a, const FilmPart *b)
+{
+    return a->layers == b->layers && a->first_sample == b->first_sample &&
+           a->end_sample == b->end_sample && !memcmp(&a->crop, &b->crop, sizeof a->crop);
+}
+
+static double pixels_in(FilmRect rect)
+{
+    return (double)(rect.x1 - rect.x0) * (double)(rect.y1 - rect.y0);
+}
+
+/* *done: pixels of the parts before. */
+static bool add_part(Work *work, int i, Progress *progress, double *done, Error *err)
+{
+    FilmPartReader from;
+    if (!film_part_open(work->cli.arguments[i], &from, err)) return false;
+    const FilmRect *crop = &from.part.crop;
+    bool ok = same_part(&from.part, &work->parts[i]) ||
+              error_set(err, ERROR_INPUT, "has changed while it was merged");
+    while (ok && from.next_y < crop->y1) {
+        ok = film_part_add_band(&from, work->film, *work->arena, err);
+        FilmRect read = {crop->x0, crop->y0, crop->x1, from.next_y};
+        progress_update(progress, *done + pixels_in(read));
+    }
+    *done += pixels_in(*crop);
+    film_part_close(&from);
+    return ok;
+}
+
+static bool add_all(Work *work, Error *err)
+{
+    const FilmPart *whole = &work->whole;
+    double          total = 0, done = 0;
+    work->film = film_create(whole->width, whole->height, whole->crop, whole->layers,
+                             work->arena);
+    for (int i = 0; i < work->cli.argument_count; i++) total += pixels_in(work->parts[i].crop);
+    Progress progress = progress_start(work->cli.progress, "merge", "pixels", total);
+    for (int i = 0; i < work->cli.argument_count; i++)
+        if (!add_part(work, i, &progress, &done, err)) {
+            progress_clear(&progress);
+            return error_in_file(err, work->cli.arguments[i]);
+        }
+    progress_end(&progress, done);
+    work->seconds = monotonic_seconds() - progress.begun_s;
+    work->error = film_relative_error(work->film);
+    return true;
+}
+
+/* ---- the frame --------------------------------------------------------------------------- */
+
+/* The command of one run, when the parts' agree on it. */
+static const char *line_of_whole(const Work *work, Arena *arena)
+{
+    const char *first = NULL;
+    for (int i = 0; i < work->cli.argument_count; i++) {
+        const char *line = work->lines[i];
+        if (strncmp(line, "parhelion render ", 17) != 0) return NULL;
+        line = command_line_of_whole(line, &work->whole, work->output, arena);
+        if (!line || (first && strcmp(first, line) != 0)) return NULL;
+        if (!first) first = line;
+    }
+    return first;
+}
+
+static const char *list_lines(const Work *work, Arena *arena)
+{
+    size_t length = 1;
+    for (int i = 0; i < work->cli.argument_count; i++) length += strlen(work->lines[i]) + 1;
+    char *list = ARENA_NEW(arena, char, length), *end = list;
+    for (int i = 0; i < work->cli.argument_count; i++) {
+        end = stpcpy(end, work->lines[i]);
+        *end++ = '\n';
+    }
+    return list;
+}
+
+static void set_lines(const Work *work, FrameImage *frame, Arena *arena)
+{
+    const char *line = line_of_whole(work, arena);
+    frame_set_string(frame, "parhelion:commandLine", line ? line : work->own_line, arena);
+    if (!line) frame_set_string(frame, "parhelion:parts", list_lines(work, arena), arena);
+}
+
+/* What no further part can be added to, as far as one can know. */
+static bool is_whole(const Work *work)
+{
+    const FilmPart *whole = &work->whole;
+    return whole->first_sample == 0 && whole->crop.x0 == 0 && whole->crop.y0 == 0 &&
+           whole->crop.x1 == whole->width && whole->crop.y1 == whole->height;
+}
+
+static bool write_frame(Work *work, Error *err)
+{
+    Arena           *arena = work->arena;
+    const FilmPart  *whole = &work->whole;
+    const FrameOutcome outcome = {.first_sample = whole->first_sample,
+                                  .end_sample = whole->end_sample, .complete = true,
+                                  .relative_error = work->error.frame,
+                                  .dropped_samples = film_dropped(work->film).count};
+    FrameImage frame = film_to_frame(work->film, work->common.attribute_count + 8, arena);
+    for (int i = 0; i < work->common.attribute_count; i++)
+        set_attribute(&frame, &work->common.attributes[i], arena);
+    frame_set_outcome(&frame, &outcome, arena);
+    set_lines(work, &frame, arena);
+    work->keeps_sums = work->keeps_sums || !is_whole(work);
+    work->whole.dropped = film_dropped(work->film);
+    if (work->keeps_sums) film_part_attach(&frame, work->film, whole, arena);
+    return frame_write(work->output, &frame, err);
+}
+
+/* ---- the answer -------------------------------------------------------------------------- */
+
+static bool print_json(const Work *work, Error *err)
+{
+    const FilmPart *whole = &work->whole;
+    json_t *answer = json_pack(
+        "{s:o, s:i, s:[i,i], s:[i,i,i,i], s:[I,I], s:I, s:f, s:I, s:o, s:b, s:b}", "output",
+        cli_json_text(work->output), "parts", work->cli.argument_count, "size", whole->width,
+        whole->height, "window", whole->crop.x0, whole->crop.y0, whole->crop.x1,
+        whole->crop.y1, "sample_range", (json_int_t)whole->first_sample,
+        (json_int_t)whole->end_sample, "samples",
+        (json_int_t)(whole->end_sample - whole->first_sample), "seconds", work->seconds,
+        "nonfinite_samples", (json_int_t)whole->dropped.count, "relative_error",
+        isfinite(work->error.frame) ? json_real(work->error.frame) : json_null(), "complete",
+        true, "is_part", work->keeps_sums);
+    json_object_set_new(answer, "rays",
+                        json_integer((json_int_t)(whole->camera_rays + whole->bounce_rays +
+                                                  whole->shadow_rays)));
+    return cli_print_json(answer, err);
+}
+
+static bool print_line(const Work *work, Error *err)
+{
+    const FilmPart *whole = &work->whole;
+    const FilmRect *crop = &whole->crop;
+    int written = printf("%s: %d part%s, pixels %d,%d,%d,%d of %dx%d, samples %u:%u, relative "
+                         "error %.2f%%%s\n",
+                         work->output, work->cli.argument_count,
+                         work->cli.argument_count == 1 ? "" : "s", crop->x0, crop->y0, crop->x1,
+                         crop->y1, whole->width, whole->height, whole->first_sample,
+                         whole->end_sample, 100 * work->error.frame,
+                         work->keeps_sums ? ", with its sums" : "");
+    if (written < 0 || fflush(stdout))
+        return error_at(err, ERROR_OUTPUT, "stdout", NULL, "cannot be written: %s",
+                        strerror(errno));
+    return true;
+}
+
+static bool merge(Work *work, Error *err)
+{
+    return look_at_all(work, err) && check_memory(work, err) && add_all(work, err) &&
+           write_frame(work, err) &&
+           (work->cli.json ? print_json(work, err) : print_line(work, err));
+}
+
+bool cmd_merge(int argc, char **argv, Error *err)
+{
+    Arena arena = arena_reserve(machine_memory_bytes()); /* what is touched counts */
+    Work  work = {.arena = &arena};
+    bool  done = parse(argc, argv, &work, err) &&
+                (work.cli.help_shown || merge(&work, err));
+    arena_release(&arena);
+    return done;
+}

@@ -1,0 +1,260 @@
+/* parhelion render: load, render, write, develop, answer. */
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/machine.h"
+#include "cli/render/render_identity.h"
+
+/* Everything of one run of the command. */
+typedef struct Work {
+    RenderRequest request;
+    Arena        *arena;
+    Problems      problems;
+    Scene        *scene;
+    SceneCamera   camera;
+    const char   *identity;
+} Work;
+
+/* ---- before ------------------------------------------------------------------------------ */
+
+/* Frames that our own reader would refuse, and films that the memory does not hold. */
+static bool check_memory(const RenderOptions *options, Error *err)
+{
+    FilmRect crop = options->crop;
+    double   pixels = (double)options->width * (double)options->height;
+    double   wanted = (double)film_bytes(crop, options->layers);
+    double   memory = (double)machine_memory_bytes();
+    if (pixels > EXR_MAX_PIXELS)
+        return error_set(err, ERROR_USAGE,
+                         "--size %dx%d: %.0f pixels, at most %d are supported", options->width,
+                         options->height, pixels, EXR_MAX_PIXELS);
+    if (wanted < memory) return true;
+    return error_set(
+        err, ERROR_MEMORY,
+        "the film of %dx%d pixels needs %.1f GB, there are %.1f GB — use --crop or "
+        "fewer --layers",
+        crop.x1 - crop.x0, crop.y1 - crop.y0, wanted / 1e9, memory / 1e9);
+}
+
+/* Hours of rendering must not end at a folder that cannot be written. */
+static bool check_outputs(const RenderRequest *request, Error *err)
+{
+    if (request->output && !file_check_writable(request->output, err)) return false;
+    if (!render_check_checkpoint(request, err)) return false;
+    return !request->png || file_check_writable(request->png, err);
+}
+
+/* A view that does not exist is found now, on a frame of one pixel. */
+static bool check_look(const RenderRequest *request, Arena scratch, Error *err)
+{
+    if (!request->png) return true;
+    FrameImage    frame = frame_create(1, 1, (ExrWindow){0, 0, 1, 1}, 3, 0, &scratch);
+    Picture       picture;
+    DevelopReport report;
+    for (const char *name = "RGB"; *name; name++)
+        frame_add_channel(&frame, arena_format(&scratch, "%c", *name), false, &scratch)[0] = 1;
+    return picture_check_name(request->png, 8, err) &&
+           develop_picture(&frame, &request->look, &scratch, &picture, &report, err);
+}
+
+/* A sky whose sun is down is no error, but the frame may be darker than was meant. */
+static bool tell_of_night(Work *work)
+{
+    const Environment *environment = &work->scene->environment;
+    if (environment->kind != ENVIRONMENT_SKY) return true;
+    OutsideInput input = environment->outside;
+    input.has_sun = environment->has_sun;
+    input.sun_elevation = (double)environment->sun_elevation;
+    double clearance = outside_sun_clearance_deg(&input);
+    if (clearance < 0)
+        problems_add(&work->problems, SEVERITY_WARNING, "", "",
+                     "the sun is down: its upper rim stands %.2f degrees below the horizon",
+                     -clearance);
+    return true;
+}
+
+static bool load(Work *work, Error *err)
+{
+    RenderRequest *request = &work->request;
+    work->problems = problems_start(work->arena);
+    bool loaded =
+        scene_load(&request->scene, work->arena, &work->problems, &work->scene, err) &&
+        environment_change(&request->environment, work->scene, work->arena,
+                           &work->problems, err) &&
+        tell_of_night(work) &&
+        render_choose_camera(work->scene, request->camera, &work->problems, &work->camera, err);
+    if (loaded) render_tell_of_darkness(work->scene, &work->problems);
+    cli_print_warnings(&work->problems);
+    return loaded;
+}
+
+static bool identify(Work *work, Error *err)
+{
+    RenderOptions *options = &work->request.render;
+    const Kernel  *kernel;
+    if (!kernel_choose(options->isa, &kernel, err)) return false;
+    work->identity = render_identity(&work->request, work->scene, &work->camera, kernel,
+                                     work->arena);
+    return render_find_checkpoint(&work->request, work->identity, work->arena,
+                                  &options->resume, err);
+}
+
+/* ---- after ------------------------------------------------------------------------------- */
+
+static bool write_frame(const Work *work, const RenderResult *result, Error *err)
+{
+    Arena      scratch = *work->arena;
+    FrameImage frame = render_make_frame(&work->request, work->scene, &work->camera, result,
+                                         &scratch);
+    return frame_write(work->request.output, &frame, err);
+}
+
+static void write_snapshot(void *user, const RenderResult *so_far)
+{
+    const Work *work = user;
+    Error       err;
+    if (write_frame(work, so_far, &err))
+        fprintf(stderr, "parhelion: %s: snapshot after %u samples a pixel\n",
+                work->request.output, so_far->samples);
+    else
+        cli_report_error(&err, false);
+}
+
+/* On stderr at once, and among the answer's warnings. */
+static void warn(Work *work, const char *text)
+{
+    fprintf(stderr, "parhelion: warning: %s\n", text);
+    problems_add(&work->problems, SEVERITY_WARNING, "", "", "%s", text);
+}
+
+static void warn_of_dropped(Work *work, const RenderResult *result)
+{
+    FilmDropped dropped = film_dropped(result->film);
+    if (!dropped.count || work->request.replays) return;
+    warn(work, arena_format(work->arena,
+                            "%llu samples were not finite and are left out; to see the first "
+                            "again: %s --replay %d,%d,%u",
+                            (unsigned long long)dropped.count, work->request.command_line,
+                            dropped.first[0].x, dropped.first[0].y,
+                            dropped.first[0].sample_index));
+}
+
+/* A picture that the scene names was cleaned, and told of, when it was loaded. */
+static void warn_of_picture(Work *work, const RenderResult *result)
+{
+    if (!result->refused_pixels || work->request.replays) return;
+    warn(work, arena_format(work->arena,
+                            "--environment %s: %ld pixels have negative values or values that "
+                            "are not finite, which count as 0",
+                            work->request.environment.environment, result->refused_pixels));
+}
+
+static void warn_of_noise(Work *work, const RenderResult *result)
+{
+    const RenderOptions *options = &work->request.render;
+    double error = options->noise_of_displays ? result->error.displays : result->error.frame;
+    if (!(options->noise > 0) || !result->complete || error <= options->noise) return;
+    warn(work, isnan(error)
+                   ? "no display is in view: --noise display:R had nothing to go by"
+                   : arena_format(work->arena,
+                                  "the relative error is %.3g, not the %.3g of --noise, after "
+                                  "all %u samples a pixel",
+                                  error, options->noise, result->samples));
+}
+
+/* False after a warning: the render is worth more than its checkpoint. */
+static bool keep_checkpoint(Work *work, const RenderResult *so_far)
+{
+    Error err;
+    char  line[2048];
+    if (render_keep_checkpoint(&work->request, work->identity, so_far, *work->arena, &err))
+        return true;
+    error_line(&err, line, (int)sizeof line);
+    warn(work, arena_format(work->arena, "no checkpoint after %u samples a pixel: %s",
+                            so_far->samples, line));
+    return false;
+}
+
+static void keep_checkpoint_meanwhile(void *user, const RenderResult *so_far)
+{
+    keep_checkpoint(user, so_far);
+}
+
+/* The partial frame is written and the answer given: only the line, which may be longer than
+ * an error's text, and the status are left. */
+static bool report_interruption(const Work *work, const RenderResult *result, bool is_kept,
+                                Error *err)
+{
+    const RenderOptions *options = &work->request.render;
+    bool by_int = result->stopped_by == SIGINT;
+    fprintf(stderr,
+            "parhelion: %s: stopped by %s after %u of %u samples a pixel; the frame is marked "
+            "incomplete — %s%s\n",
+            work->request.output, by_int ? "INT" : "TERM", result->samples,
+            options->end_sample - options->first_sample,
+            is_kept ? "go on with: " : "run the same command again for the whole",
+            is_kept ? work->request.resume_line : "");
+    err->code = by_int ? ERROR_INTERRUPTED : ERROR_TERMINATED;
+    err->text[0] = '\0';
+    return false;
+}
+
+static bool develop(const Work *work, const RenderResult *result, Error *err)
+{
+    Arena         scratch = *work->arena;
+    DevelopReport report;
+    FrameImage    frame = render_make_frame(&work->request, work->scene, &work->camera, result,
+                                            &scratch);
+    if (!develop_frame(&frame, &work->request.look, work->request.png, scratch, &report, err))
+        return false;
+    if (work->request.cli.json || !report.is_developed) return true;
+    printf("%s: %s, %s, middle grey %.4g cd/m2, %s\n", work->request.png, report.display,
+           report.view, report.grey_cd_m2, report.config);
+    return true;
+}
+
+/* The checkpoint comes first: who stopped the render may not wait for long. */
+static bool hand_over(Work *work, const RenderResult *result, Error *err)
+{
+    warn_of_picture(work, result);
+    warn_of_dropped(work, result);
+    warn_of_noise(work, result);
+    if (work->request.replays)
+        return render_print_replay(&work->request, work->scene, result, work->arena, err);
+    bool is_kept = !result->complete && keep_checkpoint(work, result);
+    if (!write_frame(work, result, err)) return false;
+    if (result->complete) render_remove_checkpoint(&work->request);
+    if (work->request.png && !develop(work, result, err)) return false;
+    if (!render_print_answer(&work->request, result, &work->problems, err)) return false;
+    return result->complete || report_interruption(work, result, is_kept, err);
+}
+
+static bool run(Work *work, Error *err)
+{
+    RenderOptions *options = &work->request.render;
+    RenderResult   result;
+    options->snapshot = work->request.replays ? NULL : write_snapshot;
+    options->checkpoint = work->request.keeps_checkpoints ? keep_checkpoint_meanwhile : NULL;
+    options->user = work;
+    if (!check_memory(options, err) || !check_outputs(&work->request, err) ||
+        !check_look(&work->request, *work->arena, err) || !load(work, err) ||
+        !identify(work, err))
+        return false;
+    return render_scene(work->scene, &work->camera, options, work->arena, &result, err) &&
+           hand_over(work, &result, err);
+}
+
+bool cmd_render(int argc, char **argv, Error *err)
+{
+    /* address space: what is touched counts */
+    Arena arena = arena_reserve(machine_memory_bytes());
+    Work  work = {.arena = &arena};
+    bool  done = render_request_parse(argc, argv, &arena, &work.request, err) &&
+                (work.request.cli.help_shown || run(&work, err));
+    scene_close(work.scene);
+    arena_release(&arena);
+    return done;
+}

@@ -1,0 +1,278 @@
+/* What a render hands back: the frame with its metadata, and the answer on stdout. */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/resource.h>
+
+#include "base/progress.h"
+#include "base/units.h"
+#include "cli/render/frame_outcome.h"
+#include "cli/render/render_identity.h"
+#include "film/film_part.h"
+
+/* ---- the frame --------------------------------------------------------------------------- */
+
+/* For row vectors, as OpenEXR has it: p_camera = p_world * M. Zeros are all positive. */
+static void set_world_to_camera(FrameImage *frame, const Transform *t, Arena *arena)
+{
+    const Vec3 axes[3] = {t->x, t->y, t->z};
+    double     matrix[16] = {[15] = 1};
+    for (int i = 0; i < 3; i++) {
+        matrix[i] = 0.0 + (double)axes[i].x;
+        matrix[4 + i] = 0.0 + (double)axes[i].y;
+        matrix[8 + i] = 0.0 + (double)axes[i].z;
+        matrix[12 + i] = 0.0 - (double)vec3_dot(t->origin, axes[i]);
+    }
+    frame_set_values(frame, "worldToCamera", EXR_MATRIX44, matrix, arena);
+}
+
+static void set_camera(FrameImage *frame, const SceneCamera *camera, Arena *arena)
+{
+    set_world_to_camera(frame, &camera->world_from_camera, arena);
+    frame_set_string(frame, "parhelion:camera",
+                     camera->node_name[0] ? camera->node_name : camera->camera_name, arena);
+    if (camera->is_perspective)
+        frame_set_number(frame, "parhelion:yfov_deg",
+                         degrees_from_radians((double)camera->yfov), arena);
+    else
+        frame_set_number(frame, "parhelion:ymag_m", (double)camera->ymag, arena);
+}
+
+static void set_inputs(FrameImage *frame, const Scene *scene, Arena *arena)
+{
+    const char *list = "";
+    for (int i = 0; i < scene->input_count; i++)
+        list = arena_format(arena, "%s%016llx  %s\n", list,
+                            (unsigned long long)scene->input_hashes[i], scene->inputs[i]);
+    frame_set_string(frame, "parhelion:inputs", list, arena);
+}
+
+/* Which names the numbers of id.part and id.display stand for. */
+static void set_names(FrameImage *frame, const Scene *scene, unsigned layers, Arena *arena)
+{
+    for (int i = 0; (layers & LAYER_ID) && i < scene->part_count; i++)
+        frame_set_string(frame, arena_format(arena, "parhelion:part.%d", i),
+                         scene->parts[i].name, arena);
+    for (int i = 0; (layers & (LAYER_ID | LAYER_DISPLAYS)) && i < scene->display_count; i++)
+        frame_set_string(frame, arena_format(arena, "parhelion:display.%d", i),
+                         scene->displays[i].name, arena);
+}
+
+static void set_sampling(FrameImage *frame, const RenderRequest *request,
+                         const RenderResult *result, Arena *arena)
+{
+    const RenderOptions *options = &request->render;
+    const FrameOutcome   outcome = {.first_sample = options->first_sample,
+                                    .end_sample = options->first_sample + result->samples,
+                                    .complete = result->complete,
+                                    .relative_error = result->error.frame,
+                                    .dropped_samples = film_dropped(result->film).count};
+    frame_set_outcome(frame, &outcome, arena);
+    frame_set_string(frame, "parhelion:isa", result->kernel->isa, arena);
+    frame_set_string(frame, "parhelion:seed", arena_format(arena, "%u", options->seed), arena);
+    frame_set_whole(frame, "parhelion:maxBounces", options->max_bounces, arena);
+    frame_set_whole(frame, "parhelion:unbiased", 1, arena);
+}
+
+/* A part carries the film's sums, so that it can be merged with the others. */
+static void attach_sums(FrameImage *frame, const RenderOptions *options,
+                        const RenderResult *result, Arena *arena)
+{
+    const PathStatistics *cost = &result->statistics;
+    uint32_t first = options->first_sample;
+    FilmPart part = film_part_of(result->film, first, first + result->samples);
+    if (!result->complete) part.asked_end = options->end_sample;
+    part.paths = cost->samples;
+    part.camera_rays = cost->camera_rays;
+    part.bounce_rays = cost->bounce_rays;
+    part.shadow_rays = cost->shadow_rays;
+    film_part_attach(frame, result->film, &part, arena);
+}
+
+FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
+                             const SceneCamera *camera, const RenderResult *result,
+                             Arena *arena)
+{
+    int        room = 32 + scene->part_count + scene->display_count;
+    FrameImage frame = film_to_frame(result->film, room, arena);
+    frame_set_string(&frame, "software", "parhelion " PARHELION_VERSION, arena);
+    frame_set_string(&frame, "parhelion:commandLine", request->command_line, arena);
+    frame_set_string(&frame, "parhelion:identity",
+                     render_identity(request, scene, camera, result->kernel, arena), arena);
+    frame_set_string(&frame, "parhelion:unit", "cd/m2", arena);
+    set_inputs(&frame, scene, arena);
+    set_sampling(&frame, request, result, arena);
+    set_camera(&frame, camera, arena);
+    set_names(&frame, scene, request->render.layers, arena);
+    if (request->is_part) attach_sums(&frame, &request->render, result, arena);
+    return frame;
+}
+
+#define WORST_PIXELS 5         /* in the answer */
+#define WORST_LEAST_SAMPLES 32 /* a line of its own for the worst: from here on, */
+#define WORST_RATIO 20         /* and when it is so many times the frame's mean */
+
+/* ---- the answer -------------------------------------------------------------------------- */
+
+static double peak_memory_bytes(void)
+{
+    struct rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    return 1024.0 * (double)usage.ru_maxrss;
+}
+
+static double ray_count(const PathStatistics *statistics)
+{
+    return (double)statistics->camera_rays + (double)statistics->bounce_rays +
+           (double)statistics->shadow_rays;
+}
+
+static double per_second(double count, double seconds)
+{
+    return seconds > 0 ? count / seconds : 0;
+}
+
+static json_t *json_number_or_null(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+static json_t *worst_pixels(const Film *film)
+{
+    FilmWorst worst[WORST_PIXELS];
+    json_t   *list = json_array();
+    int       count = film_worst_pixels(film, WORST_PIXELS, worst);
+    for (int i = 0; i < count; i++)
+        json_array_append_new(
+            list, json_pack("{s:i, s:i, s:o, s:o}", "x", worst[i].x, "y", worst[i].y,
+                            "luminance_cd_m2", json_number_or_null(worst[i].luminance),
+                            "relative_error", json_number_or_null(worst[i].error)));
+    return list;
+}
+
+static json_t *answer_document(const RenderRequest *request, const RenderResult *result,
+                               const Problems *problems)
+{
+    const PathStatistics *counts = &result->statistics;
+    json_t *answer = json_pack(
+        "{s:o, s:[i,i], s:I, s:f, s:f, s:I, s:f, s:f, s:I, s:I, s:o, s:o, s:b, s:o}", "output",
+        cli_json_text(request->output), "size", request->render.width, request->render.height,
+        "samples", (json_int_t)result->samples, "seconds", result->seconds, "build_seconds",
+        result->build_seconds, "rays", (json_int_t)ray_count(counts), "samples_per_s",
+        per_second((double)counts->samples, result->seconds), "rays_per_s",
+        per_second(ray_count(counts), result->seconds), "peak_memory_bytes",
+        (json_int_t)peak_memory_bytes(), "nonfinite_samples",
+        (json_int_t)film_dropped(result->film).count, "relative_error",
+        json_number_or_null(result->error.frame), "relative_error_displays",
+        json_number_or_null(result->error.displays), "complete", result->complete, "warnings",
+        cli_json_problems(problems, SEVERITY_WARNING));
+    json_object_set_new(answer, "isa", json_string(result->kernel->isa));
+    json_object_set_new(answer, "resumed_samples", json_integer(result->resumed_samples));
+    json_object_set_new(answer, "worst_pixels", worst_pixels(result->film));
+    json_object_set_new(answer, "rays_by_class",
+                        json_pack("{s:I, s:I, s:I}", "camera", (json_int_t)counts->camera_rays,
+                                  "bounce", (json_int_t)counts->bounce_rays, "shadow",
+                                  (json_int_t)counts->shadow_rays));
+    return answer;
+}
+
+/* One pixel far beyond what chance makes of even noise: a caustic, or a lamp that is hardly
+ * found. */
+static void print_worst(const RenderRequest *request, const RenderResult *result)
+{
+    FilmWorst worst;
+    if (result->samples < WORST_LEAST_SAMPLES) return;
+    film_worst_pixels(result->film, 1, &worst);
+    if (!(worst.error > WORST_RATIO * result->error.frame)) return;
+    printf("%s: pixel %d,%d is the noisiest: %.4g cd/m2 with a relative error of %.0f%%\n",
+           request->output, worst.x, worst.y, worst.luminance, 100 * worst.error);
+}
+
+static bool print_line(const RenderRequest *request, const RenderResult *result, Error *err)
+{
+    const PathStatistics *counts = &result->statistics;
+    char samples[32], rays[32];
+    rate_text(per_second((double)counts->samples, result->seconds), samples,
+              (int)sizeof samples);
+    rate_text(per_second(ray_count(counts), result->seconds), rays, (int)sizeof rays);
+    int written = printf("%s: %dx%d, %u samples a pixel%s, %.1f s, %ssamples/s, %srays/s, "
+                         "relative error %.2f%%, peak memory %.0f MB\n",
+                         request->output, request->render.width, request->render.height,
+                         result->samples, result->complete ? "" : " (incomplete)",
+                         result->seconds, samples, rays, 100 * result->error.frame,
+                         peak_memory_bytes() / 1e6);
+    print_worst(request, result);
+    if (written < 0 || fflush(stdout))
+        return error_at(err, ERROR_OUTPUT, "stdout", NULL, "cannot be written: %s",
+                        strerror(errno));
+    return true;
+}
+
+bool render_print_answer(const RenderRequest *request, const RenderResult *result,
+                         const Problems *problems, Error *err)
+{
+    return request->cli.json ? cli_print_json(answer_document(request, result, problems), err)
+                             : print_line(request, result, err);
+}
+
+/* ---- replay ------------------------------------------------------------------------------ */
+
+static double value_of(const FrameImage *frame, const char *channel)
+{
+    const float *values = frame_channel(frame, channel);
+    return values ? (double)values[0] : (double)NAN;
+}
+
+static json_t *triple(const FrameImage *frame, const char *a, const char *b, const char *c)
+{
+    return json_pack("[o,o,o]", json_number_or_null(value_of(frame, a)),
+                     json_number_or_null(value_of(frame, b)),
+                     json_number_or_null(value_of(frame, c)));
+}
+
+static json_t *name_or_null(const char *name)
+{
+    return name ? cli_json_text(name) : json_null();
+}
+
+static const char *part_name(const Scene *scene, int id)
+{
+    return id >= 0 && id < scene->part_count ? scene->parts[id].name : NULL;
+}
+
+static const char *display_name(const Scene *scene, int id)
+{
+    return id >= 0 && id < scene->display_count ? scene->displays[id].name : NULL;
+}
+
+bool render_print_replay(const RenderRequest *request, const Scene *scene,
+                         const RenderResult *result, Arena *arena, Error *err)
+{
+    const RenderOptions *options = &request->render;
+    FrameImage  frame = film_to_frame(result->film, 0, arena);
+    bool        is_finite = film_dropped(result->film).count == 0;
+    const char *part = part_name(scene, (int)value_of(&frame, "id.part"));
+    const char *display = display_name(scene, (int)value_of(&frame, "id.display"));
+    if (request->cli.json)
+        return cli_print_json(
+            json_pack("{s:i, s:i, s:I, s:b, s:o, s:o, s:o, s:o, s:o}", "x", options->crop.x0,
+                      "y", options->crop.y0, "sample", (json_int_t)options->first_sample,
+                      "finite", is_finite, "XYZ", triple(&frame, "xyz.X", "xyz.Y", "xyz.Z"),
+                      "RGB", triple(&frame, "R", "G", "B"), "depth_m",
+                      json_number_or_null(value_of(&frame, "depth.Z")), "part",
+                      name_or_null(part), "display", name_or_null(display)),
+            err);
+    printf("pixel %d,%d sample %u: ", options->crop.x0, options->crop.y0,
+           options->first_sample);
+    if (is_finite)
+        printf("XYZ %.9g %.9g %.9g cd/m2, RGB %.9g %.9g %.9g\n", value_of(&frame, "xyz.X"),
+               value_of(&frame, "xyz.Y"), value_of(&frame, "xyz.Z"), value_of(&frame, "R"),
+               value_of(&frame, "G"), value_of(&frame, "B"));
+    else
+        printf("not finite\n");
+    if (part)
+        printf("first surface: %s%s%s at %.6g m\n", part, display ? ", display " : "",
+               display ? display : "", value_of(&frame, "depth.Z"));
+    return true;
+}

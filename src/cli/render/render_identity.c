@@ -1,0 +1,260 @@
+#include "cli/render/render_identity.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "base/file.h"
+#include "bvh/bvh.h"
+
+/* ---- lines ------------------------------------------------------------------------------- */
+
+typedef struct Text {
+    char  *bytes; /* terminated */
+    size_t size, capacity;
+    Arena *arena;
+} Text;
+
+static void append(Text *text, const char *bytes, size_t size)
+{
+    if (text->size + size + 1 > text->capacity) {
+        size_t capacity = 2 * text->capacity + size + 4096;
+        char  *grown = ARENA_NEW(text->arena, char, capacity);
+        if (text->size) memcpy(grown, text->bytes, text->size);
+        text->bytes = grown;
+        text->capacity = capacity;
+    }
+    memcpy(text->bytes + text->size, bytes, size);
+    text->size += size;
+    text->bytes[text->size] = '\0';
+}
+
+static void line(Text *text, const char *name, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* A name of a file or a material may hold anything: control characters become '?', so that a
+ * line stays a line. */
+static void line(Text *text, const char *name, const char *format, ...)
+{
+    char    value[1024];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(value, sizeof value, format, args);
+    va_end(args);
+    for (char *c = value; *c; c++)
+        if ((unsigned char)*c < ' ') *c = '?';
+    append(text, name, strlen(name));
+    append(text, "\t", 1);
+    append(text, value, strlen(value));
+    append(text, "\n", 1);
+}
+
+static void number_line(Text *text, const char *name, double value)
+{
+    line(text, name, "%.17g", value);
+}
+
+static void float_line(Text *text, const char *name, float value)
+{
+    line(text, name, "%.9g", (double)value);
+}
+
+static void vector_line(Text *text, const char *name, Vec3 v)
+{
+    line(text, name, "%.9g %.9g %.9g", (double)v.x, (double)v.y, (double)v.z);
+}
+
+/* ---- files and what is made of them ------------------------------------------------------ */
+
+static const char *input_name(const Scene *scene, const char *path, Arena *arena)
+{
+    for (int i = 0; i < scene->input_count; i++)
+        if (!strcmp(scene->inputs[i], path))
+            return arena_format(arena, "%s %016llx", path_name(path),
+                                (unsigned long long)scene->input_hashes[i]);
+    return path_name(path);
+}
+
+static size_t image_bytes(const Image *image)
+{
+    static const size_t value_bytes[] = {
+        [IMAGE_RGBA8] = 1, [IMAGE_RGBA16] = 2, [IMAGE_RGBA32F] = 4};
+    return (size_t)image->width * (size_t)image->height * 4 * value_bytes[image->format];
+}
+
+static uint64_t image_hash(const Image *image, uint64_t seed)
+{
+    return image->pixels ? XXH3_64bits_withSeed(image->pixels, image_bytes(image), seed) : seed;
+}
+
+/* Pictures as they were decoded: another library may decode a JPEG a little differently. */
+static uint64_t decoded_pictures(const Scene *scene)
+{
+    uint64_t hash = image_hash(&scene->environment.hdri, 0);
+    for (int i = 0; i < scene->texture_count; i++) {
+        const Image *image = &scene->textures[i].image;
+        if (i && image->pixels == scene->textures[i - 1].image.pixels) continue;
+        hash = image_hash(image, hash);
+    }
+    return hash;
+}
+
+static void add_files(Text *text, const Scene *scene)
+{
+    for (int i = 0; i < scene->input_count; i++)
+        line(text, arena_format(text->arena, "input %d", i), "%s %016llx",
+             path_name(scene->inputs[i]), (unsigned long long)scene->input_hashes[i]);
+    line(text, "decoded pictures", "%016llx", (unsigned long long)decoded_pictures(scene));
+}
+
+/* What the command line put into the scene: contents, then displays as they are. */
+static void add_displays(Text *text, const RenderRequest *request, const Scene *scene)
+{
+    Arena *arena = text->arena;
+    for (int i = 0; i < request->scene.content_count; i++) {
+        const SceneOverride *content = &request->scene.contents[i];
+        line(text, arena_format(arena, "content %d", i), "%s=%s", content->material,
+             input_name(scene, content->value, arena));
+    }
+    for (int i = 0; i < scene->display_count; i++) {
+        const Display *display = &scene->displays[i];
+        line(text, arena_format(arena, "display %d", i), "%s, level %.9g, %s", display->name,
+             (double)display->level, input_name(scene, display->panel_path, arena));
+    }
+}
+
+/* ---- the surroundings -------------------------------------------------------------------- */
+
+static const char *const environment_names[] = {
+    [ENVIRONMENT_NONE] = "none", [ENVIRONMENT_CONSTANT] = "constant",
+    [ENVIRONMENT_HDRI] = "hdri", [ENVIRONMENT_CIE] = "cie",
+    [ENVIRONMENT_PEREZ] = "perez", [ENVIRONMENT_SKY] = "sky"};
+static const char *const floor_names[] = {
+    [FLOOR_LAND] = "land", [FLOOR_SEA] = "sea", [FLOOR_CLOUD] = "cloud"};
+
+static void add_outside(Text *text, const OutsideInput *outside)
+{
+    const SkyTime *when = &outside->when;
+    if (outside->has_time) {
+        line(text, "when", "%04d-%02d-%02dT%02d:%02d:%.17g%+.17gh", when->year, when->month,
+             when->day, when->hour, when->minute, when->second, when->zone_h);
+        line(text, "where", "%.17g,%.17g,%.17g", outside->where.latitude_deg,
+             outside->where.longitude_deg, outside->where.altitude_m);
+    }
+    number_line(text, "sky sun lux", outside->sun_lux);
+    line(text, "sky type", "%d", outside->cie_type);
+    number_line(text, "sky lux", outside->diffuse_lux);
+    number_line(text, "direct W/m2", outside->direct_w_m2);
+    number_line(text, "diffuse W/m2", outside->diffuse_w_m2);
+    number_line(text, "turbidity", outside->turbidity);
+    number_line(text, "visibility km", outside->visibility_km);
+    number_line(text, "ozone atm-cm", outside->ozone_atm_cm);
+    number_line(text, "water cm", outside->water_cm);
+    number_line(text, "albedo", outside->albedo);
+    line(text, "ground", "%s", floor_names[outside->floor]);
+    number_line(text, "cloud top m", outside->cloud_top_m);
+}
+
+static void add_environment(Text *text, const Scene *scene)
+{
+    const Environment *environment = &scene->environment;
+    line(text, "environment", "%s", environment_names[environment->kind]);
+    float_line(text, "environment cd/m2", environment->luminance_cd_m2);
+    line(text, "environment colour", "%.9g %.9g %.9g", (double)environment->color[0],
+         (double)environment->color[1], (double)environment->color[2]);
+    if (environment->kind == ENVIRONMENT_HDRI) {
+        line(text, "hdri", "%s", input_name(scene, environment->hdri_path, text->arena));
+        float_line(text, "hdri rotation", environment->hdri_rotation);
+        float_line(text, "hdri scale", environment->hdri_scale);
+        float_line(text, "hdri lux", environment->horizontal_illuminance_lx);
+    }
+    if (environment->kind >= ENVIRONMENT_CIE) add_outside(text, &environment->outside);
+    line(text, "sun", "%s", environment->has_sun ? "set" : "not set");
+    if (environment->has_sun) {
+        float_line(text, "sun azimuth", environment->sun_azimuth);
+        float_line(text, "sun elevation", environment->sun_elevation);
+        float_line(text, "sun lux", environment->sun_illuminance_lx);
+    }
+    float_line(text, "sun radius", environment->sun_angular_radius);
+    float_line(text, "heading", environment->heading);
+    vector_line(text, "forward", environment->forward);
+}
+
+/* ---- all of it --------------------------------------------------------------------------- */
+
+static void add_camera(Text *text, const SceneCamera *camera)
+{
+    const Transform *t = &camera->world_from_camera;
+    line(text, "camera", "%s", camera->is_perspective ? "perspective" : "orthographic");
+    float_line(text, camera->is_perspective ? "camera yfov" : "camera ymag",
+               camera->is_perspective ? camera->yfov : camera->ymag);
+    vector_line(text, "camera x", t->x);
+    vector_line(text, "camera y", t->y);
+    vector_line(text, "camera z", t->z);
+    vector_line(text, "camera origin", t->origin);
+}
+
+const char *render_identity(const RenderRequest *request, const Scene *scene,
+                            const SceneCamera *camera, const Kernel *kernel, Arena *arena)
+{
+    const RenderOptions *options = &request->render;
+    Text text = {.arena = arena};
+    line(&text, "version", "%s", PARHELION_VERSION);
+    line(&text, "sources", "%s", SOURCES_HASH);
+    line(&text, "isa", "%s", kernel->isa);
+    line(&text, "ray tracer", "%s", bvh_library());
+    line(&text, "size", "%dx%d", options->width, options->height);
+    line(&text, "seed", "%u", options->seed);
+    line(&text, "max bounces", "%d", options->max_bounces);
+    line(&text, "layers", "%s", render_layer_list(options->layers, arena));
+    add_files(&text, scene);
+    add_displays(&text, request, scene);
+    add_environment(&text, scene);
+    add_camera(&text, camera);
+    return text.bytes;
+}
+
+/* ---- comparing --------------------------------------------------------------------------- */
+
+/* The value of the line of this name, up to its end; NULL: there is none. */
+static const char *value_of(const char *text, const char *name, size_t length)
+{
+    for (const char *at = text; *at; at += strcspn(at, "\n") + 1) {
+        if (!strncmp(at, name, length) && at[length] == '\t') return at + length + 1;
+        if (!at[strcspn(at, "\n")]) break;
+    }
+    return NULL;
+}
+
+static const char *value_text(const char *value, Arena *arena)
+{
+    return value ? arena_string(arena, value, strcspn(value, "\n")) : "none";
+}
+
+static const char *difference(const char *line_begin, const char *there, const char *here,
+                              Arena *arena)
+{
+    size_t length = strcspn(line_begin, "\t\n");
+    return arena_format(arena, "%.*s: %s there, %s here", (int)length, line_begin,
+                        value_text(value_of(there, line_begin, length), arena),
+                        value_text(value_of(here, line_begin, length), arena));
+}
+
+const char *render_identity_difference(const char *there, const char *here, Arena *arena)
+{
+    const char *a = there, *b = here;
+    while (*a && *b) {
+        size_t length = strcspn(a, "\n");
+        if (length != strcspn(b, "\n") || memcmp(a, b, length) != 0) break;
+        a += length + (a[length] == '\n');
+        b += length + (b[length] == '\n');
+    }
+    if (!*a && !*b) return NULL;
+    /* A line that only one of them has stands before those that both have. */
+    size_t name = strcspn(a, "\t\n");
+    bool   is_line = a[name] == '\t', is_same_name = !strncmp(a, b, name) && b[name] == '\t';
+    bool   is_extra_here = *b && (!is_line || (!is_same_name && value_of(here, a, name)));
+    return difference(is_extra_here ? b : a, there, here, arena);
+}

@@ -1,0 +1,339 @@
+/* What the user typed after `parhelion render`. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/reference.h"
+#include "cli/render/command_line.h"
+#include "cli/render/render_command.h"
+
+#define DEFAULT_WIDTH 1280
+#define DEFAULT_HEIGHT 720
+#define DEFAULT_SPP 256
+#define DEFAULT_BOUNCES 64
+#define DEFAULT_CHECKPOINT_S 60
+
+/* Values as typed, before they are checked against each other. */
+typedef struct Typed {
+    const char *samples, *noise, *layers;
+    int         size[2], false_colour;
+    long        spp, max_bounces, seed;
+    double      crop[4], replay[3];
+    CliTexts    contents, panels, levels;
+    bool        has_spp, has_crop, has_replay, has_interval;
+} Typed;
+
+/* ---- layers ------------------------------------------------------------------------------ */
+
+static const struct {
+    const char *name;
+    unsigned    bits;
+} layer_names[] = {
+    {"all", LAYER_ALL}, {"xyz", LAYER_XYZ}, {"depth", LAYER_DEPTH},
+    {"position", LAYER_POSITION}, {"normal", LAYER_NORMAL}, {"albedo", LAYER_ALBEDO},
+    {"id", LAYER_ID}, {"uv", LAYER_UV}, {"variance", LAYER_VARIANCE},
+    {"halves", LAYER_HALVES}, {"samples", LAYER_SAMPLES}, {"display", LAYER_DISPLAYS},
+    {"display.emitted", LAYER_DISPLAY_EMITTED}, {"display.reflected", LAYER_DISPLAY_REFLECTED},
+    {"display.white", LAYER_DISPLAY_WHITE}, {"display.black", LAYER_DISPLAY_BLACK},
+    {"display.theta", LAYER_DISPLAY_ANGLES}, {"display.phi", LAYER_DISPLAY_ANGLES},
+    {"display.contrast", LAYER_DISPLAY_CONTRAST},
+};
+
+#define LAYER_NAME_COUNT (int)(sizeof layer_names / sizeof *layer_names)
+
+static bool add_layer(const char *name, unsigned *bits, Error *err)
+{
+    const char *names[LAYER_NAME_COUNT];
+    for (int i = 0; i < LAYER_NAME_COUNT; i++) {
+        names[i] = layer_names[i].name;
+        if (strcmp(name, names[i])) continue;
+        *bits |= layer_names[i].bits;
+        return true;
+    }
+    const char *nearest = cli_nearest(name, names, LAYER_NAME_COUNT);
+    return error_set(err, ERROR_USAGE, "--layers: no layer is named '%s' — %s%s%s", name,
+                     nearest ? "did you mean " : "wanted all, or names such as depth,normal",
+                     nearest ? nearest : "", nearest ? "?" : "");
+}
+
+static bool parse_layers(const char *list, unsigned *bits, Error *err)
+{
+    while (list) {
+        char        name[64] = "";
+        const char *comma = strchr(list, ',');
+        size_t      length = comma ? (size_t)(comma - list) : strlen(list);
+        memcpy(name, list, length < sizeof name ? length : sizeof name - 1);
+        if (!add_layer(name, bits, err)) return false;
+        list = comma ? comma + 1 : NULL;
+    }
+    return true;
+}
+
+const char *render_layer_list(unsigned layers, Arena *arena)
+{
+    const char *list = "";
+    unsigned    named = 0;
+    for (int i = 0; i < LAYER_NAME_COUNT; i++) {
+        unsigned bits = layer_names[i].bits;
+        if ((bits & (bits - 1)) || !(bits & layers) || (bits & named)) continue;
+        list = arena_format(arena, "%s%s%s", list, *list ? "," : "", layer_names[i].name);
+        named |= bits;
+    }
+    return list;
+}
+
+/* ---- single values ----------------------------------------------------------------------- */
+
+/* A:B, half-open. */
+static bool parse_samples(const char *text, RenderOptions *options, Error *err)
+{
+    char         *end = NULL;
+    unsigned long first = strtoul(text, &end, 10);
+    unsigned long last = *end == ':' ? strtoul(end + 1, &end, 10) : 0;
+    if (strchr(text, '-') || *end || first >= last || last > FILM_SAMPLES_MAX)
+        return error_set(err, ERROR_USAGE,
+                         "--samples %s: wanted A:B, whole numbers with 0 <= A < B <= %u", text,
+                         FILM_SAMPLES_MAX);
+    options->first_sample = (uint32_t)first;
+    options->end_sample = (uint32_t)last;
+    return true;
+}
+
+/* R, or display:R. */
+static bool parse_noise(const char *text, RenderOptions *options, Error *err)
+{
+    bool   of_displays = !strncmp(text, "display:", 8);
+    double noise;
+    if (!cli_numbers(text + (of_displays ? 8 : 0), 1, &noise) || !(noise > 0 && noise < 1))
+        return error_set(
+            err, ERROR_USAGE,
+            "--noise %s: wanted a relative error above 0 and below 1, such as 0.05 "
+            "or display:0.01",
+            text);
+    options->noise = noise;
+    options->noise_of_displays = of_displays;
+    return true;
+}
+
+static bool is_whole(double value)
+{
+    return value == floor(value) && fabs(value) < 0x1p31;
+}
+
+static bool parse_crop(const double crop[4], RenderOptions *options, Error *err)
+{
+    for (int i = 0; i < 4; i++)
+        if (!is_whole(crop[i]))
+            return error_set(err, ERROR_USAGE, "--crop: %g is no whole number of pixels",
+                             crop[i]);
+    FilmRect rect = {(int)crop[0], (int)crop[1], (int)crop[2], (int)crop[3]};
+    if (rect.x0 < 0 || rect.y0 < 0 || rect.x0 >= rect.x1 || rect.y0 >= rect.y1 ||
+        rect.x1 > options->width || rect.y1 > options->height)
+        return error_set(
+            err, ERROR_USAGE,
+            "--crop %d,%d,%d,%d: wanted X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 inside "
+            "the frame of %dx%d pixels",
+            rect.x0, rect.y0, rect.x1, rect.y1, options->width, options->height);
+    options->crop = rect;
+    return true;
+}
+
+/* X,Y,SAMPLE: becomes a crop of one pixel and a range of one sample. */
+static bool parse_replay(const double replay[3], RenderOptions *options, Error *err)
+{
+    if (!is_whole(replay[0]) || !is_whole(replay[1]) || !is_whole(replay[2]) || replay[0] < 0 ||
+        replay[1] < 0 || replay[2] < 0 || replay[0] >= options->width ||
+        replay[1] >= options->height)
+        return error_set(err, ERROR_USAGE,
+                         "--replay %g,%g,%g: wanted X,Y,SAMPLE with the pixel inside the frame "
+                         "of %dx%d pixels",
+                         replay[0], replay[1], replay[2], options->width, options->height);
+    int x = (int)replay[0], y = (int)replay[1];
+    options->crop = (FilmRect){x, y, x + 1, y + 1};
+    options->first_sample = (uint32_t)replay[2];
+    options->end_sample = options->first_sample + 1;
+    options->noise = 0;
+    options->threads = 1;
+    options->layers = LAYER_ALL;
+    options->progress = PROGRESS_NONE;
+    return true;
+}
+
+static bool parse_overrides(const char *option, const CliTexts *texts, Arena *arena,
+                            const SceneOverride **out, Error *err)
+{
+    SceneOverride *list = ARENA_NEW(arena, SceneOverride, texts->count);
+    for (int i = 0; i < texts->count; i++)
+        if (!cli_name_value(option, texts->list[i], arena, &list[i].material, &list[i].value,
+                            err))
+            return false;
+    *out = list;
+    return true;
+}
+
+static bool ends_with(const char *text, const char *ending)
+{
+    size_t length = strlen(text), tail = strlen(ending);
+    return length > tail && !strcmp(text + length - tail, ending);
+}
+
+/* ---- all of them ------------------------------------------------------------------------- */
+
+static bool check_scene(const Typed *typed, Arena *arena, RenderRequest *request, Error *err)
+{
+    SceneOptions *scene = &request->scene;
+    scene->paths = request->cli.arguments;
+    scene->path_count = request->cli.argument_count;
+    scene->content_count = typed->contents.count;
+    scene->panel_count = typed->panels.count;
+    scene->level_count = typed->levels.count;
+    return reference_check_root(scene->root, err) &&
+           parse_overrides("--content", &typed->contents, arena, &scene->contents, err) &&
+           parse_overrides("--panel", &typed->panels, arena, &scene->panels, err) &&
+           parse_overrides("--display-level", &typed->levels, arena, &scene->levels, err);
+}
+
+static bool check_outputs(const RenderRequest *request, Error *err)
+{
+    const DevelopOptions *look = &request->look;
+    if (!request->png && (look->exposure || look->config || look->display || look->view ||
+                          look->false_colour))
+        return error_set(err, ERROR_USAGE,
+                         "a look is asked for, but no picture — add --png FILE");
+    if (request->replays) return true;
+    if (!request->output)
+        return error_set(err, ERROR_USAGE, "no output — add -o FRAME.exr");
+    if (!ends_with(request->output, ".exr"))
+        return error_set(err, ERROR_USAGE, "-o %s: wanted a name that ends in .exr",
+                         request->output);
+    return true;
+}
+
+static bool check_render(const Typed *typed, RenderRequest *request, Error *err)
+{
+    RenderOptions *options = &request->render;
+    options->width = typed->size[0];
+    options->height = typed->size[1];
+    options->crop = (FilmRect){0, 0, options->width, options->height};
+    options->end_sample = (uint32_t)typed->spp;
+    options->max_bounces = (int)typed->max_bounces;
+    options->seed = (uint32_t)typed->seed;
+    options->threads = request->cli.threads;
+    options->progress = request->cli.progress;
+    if (typed->has_spp && typed->samples)
+        return error_set(err, ERROR_USAGE, "--spp and --samples exclude each other — --samples "
+                                           "0:N is --spp N");
+    if (typed->samples && !parse_samples(typed->samples, options, err)) return false;
+    if (typed->noise && !parse_noise(typed->noise, options, err)) return false;
+    if (typed->layers && !parse_layers(typed->layers, &options->layers, err)) return false;
+    if (typed->has_crop && !parse_crop(typed->crop, options, err)) return false;
+    if (typed->has_replay && !parse_replay(typed->replay, options, err)) return false;
+    request->replays = typed->has_replay;
+    request->is_part = typed->samples || typed->has_crop;
+    return true;
+}
+
+/* They are kept while rendering as soon as any of their options is there. */
+static void set_checkpoint(const Typed *typed, Arena *arena, RenderRequest *request)
+{
+    request->keeps_checkpoints =
+        !request->replays && (request->checkpoint || typed->has_interval || request->resumes);
+    if (!request->checkpoint && request->output)
+        request->checkpoint = arena_format(arena, "%s.checkpoint", request->output);
+}
+
+/* --resume stands behind the command's name, so that it stands before any `--`. */
+static const char *resume_line(int argc, char **argv, bool resumes, Arena *arena)
+{
+    char  option[] = "--resume";
+    char **words = ARENA_NEW(arena, char *, argc + 1);
+    if (resumes) return command_line_join(argc, argv, true, arena);
+    words[0] = argv[0];
+    words[1] = option;
+    for (int i = 1; i < argc; i++) words[i + 1] = argv[i];
+    return command_line_join(argc + 1, words, true, arena);
+}
+
+static bool parse_line(int argc, char **argv, Arena *arena, Typed *typed,
+                       RenderRequest *request, Error *err)
+{
+    EnvironmentChange *outside = &request->environment;
+    const Option options[] = {
+        {"-o", OPTION_TEXT, "FRAME.exr", "the frame that is written", &request->output},
+        {"--png", OPTION_TEXT, "FILE", "develop the frame as well (PNG, JPEG, TIFF by ending)",
+         &request->png},
+        {"--exposure", OPTION_TEXT, "auto|EV|white:CD_M2", "of the picture (default auto)",
+         &request->look.exposure},
+        {"--config", OPTION_TEXT, "FILE", "OpenColorIO configuration (default $OCIO, else own)",
+         &request->look.config},
+        {"--display", OPTION_TEXT, "NAME", "the configuration's display",
+         &request->look.display},
+        {"--view", OPTION_TEXT, "NAME", "the configuration's view", &request->look.view},
+        {"--false-colour", OPTION_CHOICE, "luminance", "show luminance on a scale of colours",
+         &typed->false_colour, .given = &request->look.false_colour},
+        {"--camera", OPTION_TEXT, "NAME|INDEX", "node's or camera's name, or place (default 0)",
+         &request->camera},
+        {"--size", OPTION_SIZE, "WxH", "pixels of the whole frame (default 1280x720)",
+         typed->size},
+        {"--spp", OPTION_INTEGER, "N", "samples a pixel, at most (default 256)", &typed->spp,
+         .low = 1, .high = FILM_SAMPLES_MAX, .given = &typed->has_spp},
+        {"--noise", OPTION_TEXT, "R|display:R",
+         "stop at this relative error of the frame, or of its displays", &typed->noise},
+        {"--max-bounces", OPTION_INTEGER, "N",
+         "0 emission only, 1 adds direct light (default 64)", &typed->max_bounces, .low = 0,
+         .high = 100000},
+        {"--seed", OPTION_INTEGER, "N", "another set of random numbers (default 0)",
+         &typed->seed, .low = 0, .high = 4294967295.0},
+        {"--crop", OPTION_NUMBERS, "X0,Y0,X1,Y1", "only these pixels, half-open, from top left",
+         typed->crop, .count = 4, .given = &typed->has_crop},
+        {"--samples", OPTION_TEXT, "A:B", "only these sample indices, half-open",
+         &typed->samples},
+        {"--layers", OPTION_TEXT, "LIST", "all, or names with commas: xyz,depth,normal,...",
+         &typed->layers},
+        ENVIRONMENT_OPTIONS(outside),
+        {"--content", OPTION_TEXTS, "MATERIAL=IMAGE", "what a display shows", &typed->contents},
+        {"--panel", OPTION_TEXTS, "MATERIAL=FILE.panel", "makes a material a display",
+         &typed->panels},
+        {"--display-level", OPTION_TEXTS, "MATERIAL|*=PERCENT",
+         "how bright a display is set (*: all)", &typed->levels},
+        {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &request->scene.root},
+        {"--isa", OPTION_TEXT, "NAME", "sse2, avx2, avx512 (default: the processor's best)",
+         &request->render.isa},
+        {"--checkpoint", OPTION_TEXT, "FILE",
+         "keep what is done, here (default FRAME.exr.checkpoint); INT and TERM always do; gone "
+         "with the finished frame",
+         &request->checkpoint},
+        {"--checkpoint-interval", OPTION_NUMBER, "SECONDS", "how often (default 60)",
+         &request->render.checkpoint_interval_s, .low = 0, .high = 1e6,
+         .given = &typed->has_interval},
+        {"--resume", OPTION_FLAG, NULL,
+         "go on from the checkpoint, to the same frame bit for bit; without one begin",
+         &request->resumes},
+        {"--replay", OPTION_NUMBERS, "X,Y,SAMPLE", "one sample of one pixel, printed",
+         typed->replay, .count = 3, .given = &typed->has_replay},
+    };
+    const CliCommand command = {
+        "render", "render a scene to a linear, photometric EXR",
+        "SCENE.gltf|.glb [LIGHTS.gltf|.glb ...] -o FRAME.exr",
+        "parhelion render scenes/car_dashboard.gltf scenes/noon.gltf -o noon.exr "
+        "--png noon.png --spp 64",
+        options, (int)(sizeof options / sizeof *options), 1, -1};
+    return cli_parse(&command, argc, argv, arena, &request->cli, err);
+}
+
+bool render_request_parse(int argc, char **argv, Arena *arena, RenderRequest *out, Error *err)
+{
+    RenderRequest request = {.command_line = command_line_join(argc, argv, false, arena),
+                             .render.checkpoint_interval_s = DEFAULT_CHECKPOINT_S};
+    Typed         typed = {.size = {DEFAULT_WIDTH, DEFAULT_HEIGHT}, .spp = DEFAULT_SPP,
+                           .max_bounces = DEFAULT_BOUNCES};
+    if (!parse_line(argc, argv, arena, &typed, &request, err)) return false;
+    if (!request.cli.help_shown &&
+        (!check_render(&typed, &request, err) || !check_outputs(&request, err) ||
+         !check_scene(&typed, arena, &request, err)))
+        return false;
+    set_checkpoint(&typed, arena, &request);
+    request.resume_line = resume_line(argc, argv, request.resumes, arena);
+    *out = request;
+    return true;
+}

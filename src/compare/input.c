@@ -1,0 +1,143 @@
+#include "compare/input.h"
+
+#include <string.h>
+#include <strings.h>
+
+#include "base/file.h"
+#include "base/mathf.h"
+#include "image/image.h"
+#include "image/layer_view.h"
+
+#define MAX_FILE_BYTES ((size_t)4 << 30)
+
+static const char *const ENDINGS[] = {".exr", ".png",  ".jpg", ".jpeg", ".hdr", ".pic", ".tif",
+                                      ".tiff", ".webp", ".bmp", ".tga",  ".gif", ".dpx", ".pgm",
+                                      ".ppm"};
+
+bool subject_has_known_ending(const char *path)
+{
+    for (size_t i = 0; i < sizeof ENDINGS / sizeof *ENDINGS; i++)
+        if (!strcasecmp(path_ending(path), ENDINGS[i])) return true;
+    return false;
+}
+
+float linear_from_srgb(float code)
+{
+    return code <= 0.04045f ? code / 12.92f : pow_f((code + 0.055f) / 1.055f, 2.4f);
+}
+
+float srgb_from_linear(float light)
+{
+    return light <= 0.0031308f ? 12.92f * light : 1.055f * pow_f(light, 1 / 2.4f) - 0.055f;
+}
+
+/* ---- light ------------------------------------------------------------------------------- */
+
+static bool view_light(Subject *subject, Arena *arena, Error *err)
+{
+    LayerView view;
+    if (!layer_view_find(&subject->frame, NULL, arena, &view, err))
+        return error_in_file(err, subject->name);
+    subject->light = (Planes){view.width, view.height,
+                              {view.planes[0], view.planes[1], view.planes[2]}};
+    return true;
+}
+
+static bool read_frame(FileBytes bytes, Arena *arena, Subject *subject, Error *err)
+{
+    subject->kind = SUBJECT_FRAME;
+    subject->has_metadata = true;
+    return frame_read_memory(bytes.data, bytes.size, subject->name, arena, &subject->frame,
+                             err) &&
+           view_light(subject, arena, err);
+}
+
+/* Floats without metadata become a frame of R, G, B, and A where it says something. */
+static bool frame_from_floats(const Image *image, Arena *arena, Subject *subject, Error *err)
+{
+    const float *rgba = image->pixels;
+    size_t       count = (size_t)image->width * (size_t)image->height;
+    bool         has_alpha = false;
+    for (size_t i = 0; i < count && !has_alpha; i++) has_alpha = rgba[4 * i + 3] != 1;
+    subject->kind = SUBJECT_FRAME;
+    subject->frame = frame_create(image->width, image->height,
+                                  (ExrWindow){0, 0, image->width, image->height}, 4, 0, arena);
+    for (size_t c = 0; c < (has_alpha ? 4u : 3u); c++) {
+        const char name[2] = {"RGBA"[c], 0};
+        float     *plane = frame_add_channel(&subject->frame, name, false, arena);
+        for (size_t i = 0; i < count; i++) plane[i] = rgba[4 * i + c];
+    }
+    return view_light(subject, arena, err);
+}
+
+/* ---- pictures ---------------------------------------------------------------------------- */
+
+static float code_at(const Image *image, size_t index)
+{
+    if (image->format == IMAGE_RGBA8)
+        return (float)((const uint8_t *)image->pixels)[index] / 255.0f;
+    return (float)((const uint16_t *)image->pixels)[index] / 65535.0f;
+}
+
+static void read_codes(const Image *image, Arena *arena, Subject *subject)
+{
+    size_t count = (size_t)image->width * (size_t)image->height;
+    subject->kind = SUBJECT_PICTURE;
+    subject->bits = image->format == IMAGE_RGBA8 ? 8 : 16;
+    subject->light = subject->codes = (Planes){image->width, image->height, {NULL}};
+    for (size_t c = 0; c < 3; c++) {
+        float *codes = ARENA_NEW(arena, float, count), *light = ARENA_NEW(arena, float, count);
+        for (size_t i = 0; i < count; i++) {
+            codes[i] = code_at(image, 4 * i + c);
+            light[i] = linear_from_srgb(codes[i]);
+        }
+        subject->codes.rgb[c] = codes;
+        subject->light.rgb[c] = light;
+    }
+    bool has_alpha = false;
+    for (size_t i = 0; i < count && !has_alpha; i++) has_alpha = code_at(image, 4 * i + 3) != 1;
+    if (!has_alpha) return;
+    float *alpha = ARENA_NEW(arena, float, count);
+    for (size_t i = 0; i < count; i++) alpha[i] = code_at(image, 4 * i + 3);
+    subject->alpha = alpha;
+}
+
+static bool read_picture(FileBytes bytes, Arena *arena, Subject *subject, Error *err)
+{
+    Image image;
+    if (!image_read_memory(bytes.data, bytes.size, subject->name, arena, &image, err))
+        return false;
+    if (image.format == IMAGE_RGBA32F) return frame_from_floats(&image, arena, subject, err);
+    read_codes(&image, arena, subject);
+    return true;
+}
+
+/* ---- both -------------------------------------------------------------------------------- */
+
+bool subject_read(const char *path, Arena *arena, Subject *out, Error *err)
+{
+    static const unsigned char EXR[4] = {0x76, 0x2f, 0x31, 0x01};
+    Arena     file = arena_reserve(MAX_FILE_BYTES + 4096);
+    FileBytes bytes;
+    Subject   subject = {.name = path};
+    bool      ok = file_read(path, MAX_FILE_BYTES, &file, &bytes, err);
+    if (ok && bytes.size >= sizeof EXR && !memcmp(bytes.data, EXR, sizeof EXR))
+        ok = read_frame(bytes, arena, &subject, err);
+    else if (ok)
+        ok = read_picture(bytes, arena, &subject, err);
+    arena_release(&file);
+    if (ok) *out = subject;
+    return ok;
+}
+
+bool subject_check_kinds(const Subject *reference, const Subject *test, Error *err)
+{
+    if (reference->kind == test->kind) return true;
+    const Subject *frame = reference->kind == SUBJECT_FRAME ? reference : test;
+    const Subject *picture = frame == reference ? test : reference;
+    return error_at(err, ERROR_INPUT, picture->name, "",
+                    "is a picture of display codes, but %s is light in cd/m2: they have no "
+                    "scale in common — compare frame with frame, or develop the frame first: "
+                    "parhelion develop %s -o FRAME.png",
+                    frame->name, frame->name);
+}

@@ -1,0 +1,23 @@
+/* deltae.h -- CIEDE2000 colour differences.
+ *
+ * Source   CIE 142-2001; Sharma, Wu, Dalal, "The CIEDE2000 color-difference formula", Color
+ *          Research and Application 30 (2005), with its 34 test pairs. kL = kC = kH = 1.
+ * Threads  pure.
+ */
+#pragma once
+#include "compare/metrics/planes.h"
+
+/* CIE L*a*b* of D65, L* 0 .. 100, from linear Rec.709 where 1 is white. Greys have a* = b* = 0
+ * within 1e-11. */
+void lab_from_rgb(const float rgb[3], double lab[3]);
+
+/* Symmetric within rounding; 0 only for equal colours. */
+double deltae_2000(const double reference[3], const double test[3]);
+
+typedef struct DeltaE {
+    double mean, p95, max; /* over the pixels that count; NaN when none does */
+} DeltaE;
+
+/* Linear Rec.709 of displayed pictures, 0 .. 1 (developed frames). map: one value a pixel, the
+ * masked ones too. */
+DeltaE deltae_pictures(const Planes *reference, const Planes *test, PixelMask mask, float *map);

@@ -1,0 +1,11 @@
+/* rank.h -- medians and percentiles without sorting and without memory.
+ *
+ * Values must be finite; negative ones are fine.
+ * Threads  pure.
+ */
+#pragma once
+#include "compare/metrics/planes.h"
+
+/* The least of the values that count such that at least `fraction` (0 .. 1) of them are not
+ * above it: 0 is the least of all, 1 the greatest. NaN when none counts. */
+float rank_value(const float *values, size_t count, PixelMask mask, double fraction);

@@ -1,0 +1,193 @@
+#include "compare/report/comparison_json.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+
+json_t *json_of_text(const char *text)
+{
+    json_t *string = json_string(text);
+    if (string) return string;
+    char *plain = strdup(text);
+    for (char *c = plain; c && *c; c++)
+        if ((unsigned char)*c >= 0x80) *c = '?';
+    string = json_string(plain ? plain : "");
+    free(plain);
+    return string;
+}
+
+/* JSON has no NaN. */
+static json_t *number(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+static json_t *texts(const Lines *lines)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < lines->count; i++)
+        json_array_append_new(list, json_of_text(lines->list[i]));
+    return list;
+}
+
+/* ---- figures ----------------------------------------------------------------------------- */
+
+static json_t *regions_json(const StatisticResult *s)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < s->region_count; i++) {
+        const StatisticRegion *r = &s->regions[i];
+        json_array_append_new(
+            list, json_pack("{s:o, s:I, s:o, s:o, s:o, s:o, s:o, s:b}", "name",
+                            json_of_text(r->name), "pixels", (json_int_t)r->pixels,
+                            "reference_cd_m2", number(r->reference), "test_cd_m2",
+                            number(r->test), "shift", number(r->shift), "shift_sigma",
+                            number(r->shift_sigma), "p_value", number(r->p_value), "moved",
+                            r->moved));
+    }
+    return list;
+}
+
+static json_t *stat_json(const StatisticResult *s)
+{
+    static const char *const VERDICTS[] = {[STATISTIC_EQUAL] = "equal",
+                                           [STATISTIC_SAME] = "same",
+                                           [STATISTIC_DIFFERENT] = "different"};
+    return json_pack("{s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:b, s:i, s:o, s:o}", "p_value",
+                     number(s->p_value), "fraction_failed", number(s->fraction_failed),
+                     "mean_shift", number(s->mean_shift), "verdict", VERDICTS[s->verdict],
+                     "p_blocks", number(s->p_blocks), "p_histogram", number(s->p_histogram),
+                     "p_regions", number(s->p_regions), "shares_noise", s->shares_noise,
+                     "block_side", s->block_side, "regions", regions_json(s), "reason",
+                     json_of_text(s->reason));
+}
+
+static json_t *interval(Measured figure)
+{
+    if (!isfinite(figure.half_width) || !isfinite(figure.value)) return json_null();
+    return json_pack("[f,f]", figure.value - figure.half_width,
+                     figure.value + figure.half_width);
+}
+
+static json_t *pair_of(double a, double b)
+{
+    return json_pack("[o,o]", number(a), number(b));
+}
+
+static json_t *contrast_json(const Comparison *c)
+{
+    json_t *object = json_object();
+    for (int i = 0; i < c->contrast_count; i++) {
+        const ContrastChange *d = &c->contrasts[i];
+        const Measurement    *a = &d->reference, *b = &d->test;
+        json_t *name = json_of_text(d->display);
+        json_t *entry = json_pack(
+            "{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "reference", number(a->contrast.value),
+            "test", number(b->contrast.value), "ratio", number(d->ratio.value),
+            "ratio_interval", interval(d->ratio), "white_cd_m2", pair_of(a->white, b->white),
+            "black_cd_m2", pair_of(a->black, b->black), "reflected_cd_m2",
+            pair_of(a->reflected, b->reflected));
+        json_object_set_new(object, json_string_value(name), entry);
+        json_decref(name);
+    }
+    return object;
+}
+
+static json_t *metrics_json(const Comparison *c)
+{
+    json_t *metrics = json_object();
+    for (int i = 0; i < METRIC_COUNT; i++) {
+        bool is_stat = metric_info((Metric)i)->group == GROUP_STAT;
+        if (!isnan(c->value[i]) && !is_stat)
+            json_object_set_new(metrics, metric_info((Metric)i)->name, number(c->value[i]));
+    }
+    if (!isnan(c->value[METRIC_PSNR]))
+        json_object_set_new(metrics, "psnr_peak", number(c->psnr_peak));
+    if (c->flip_map && c->reference.kind == SUBJECT_FRAME)
+        json_object_set_new(metrics, "flip_exposures",
+                            json_pack("{s:o, s:o, s:i}", "low_ev",
+                                      number(ev_of_stops(c->exposures.stop_ev)), "high_ev",
+                                      number(ev_of_stops(c->exposures.start_ev)), "count",
+                                      c->exposures.count));
+    if (c->has_stat) json_object_set_new(metrics, "stat", stat_json(&c->stat));
+    if (c->contrast_count > 0) json_object_set_new(metrics, "contrast", contrast_json(c));
+    return metrics;
+}
+
+/* ---- the rest ---------------------------------------------------------------------------- */
+
+static json_t *limits_json(const Comparison *c, const CompareOptions *options)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < options->threshold_count; i++) {
+        Threshold         t = options->thresholds[i];
+        const MetricInfo *info = metric_info(t.metric);
+        double            value = c->value[t.metric];
+        json_array_append_new(list, json_pack("{s:s, s:s, s:f, s:o, s:b}", "metric", info->name,
+                                              "kind", info->is_min ? "min" : "max", "limit",
+                                              t.limit, "value", number(value), "holds",
+                                              threshold_holds(t, value)));
+    }
+    return list;
+}
+
+static json_t *channels_json(const Channels *channels)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < channels->count; i++) {
+        const ChannelDifference *c = &channels->list[i];
+        json_array_append_new(
+            list, json_pack("{s:o, s:I, s:o, s:o, s:[I,I], s:I}", "name", json_of_text(c->name),
+                            "differing", (json_int_t)c->differing, "mean", number(c->mean),
+                            "max", number(c->max), "nonfinite", (json_int_t)c->nonfinite[0],
+                            (json_int_t)c->nonfinite[1], "gaps", (json_int_t)c->gaps));
+    }
+    return list;
+}
+
+static json_t *metadata_json(const Structure *structure)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < structure->metadata_count; i++) {
+        const MetadataRow *row = &structure->metadata[i];
+        if (!row->differs) continue;
+        json_array_append_new(
+            list, json_pack("{s:o, s:o, s:o, s:b, s:b}", "name", json_of_text(row->name),
+                            "reference", row->reference ? json_of_text(row->reference)
+                                                        : json_null(),
+                            "test", row->test ? json_of_text(row->test) : json_null(),
+                            "decides", row->decides, "ignored", row->is_ignored));
+    }
+    return list;
+}
+
+json_t *comparison_json(const Comparison *c, const CompareOptions *options)
+{
+    static const char *const JUDGES[] = {[JUDGED_BY_LIMITS] = "limits",
+                                         [JUDGED_BY_STATISTIC] = "stat",
+                                         [JUDGED_BY_EQUALITY] = "equality"};
+    json_t *out = json_pack("{s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "same", c->same,
+                            "reference", json_of_text(c->reference.name), "test",
+                            json_of_text(c->test.name), "verdict", json_of_text(c->verdict),
+                            "mean", json_of_text(c->mean), "metrics", metrics_json(c), "limits",
+                            limits_json(c, options), "reasons", texts(&c->reasons), "notes",
+                            texts(&c->notes));
+    json_object_set_new(out, "kind", json_string(c->reference.kind == SUBJECT_FRAME
+                                                     ? "frame" : "picture"));
+    json_object_set_new(out, "metadata", metadata_json(&c->structure));
+    json_object_set_new(out, "seconds", json_real(c->seconds));
+    if (!c->has_pixels) return out;
+    json_object_set_new(out, "judged_by", json_string(JUDGES[c->judged_by]));
+    json_object_set_new(out, "size", json_pack("[i,i]", c->reference.light.width,
+                                               c->reference.light.height));
+    json_object_set_new(out, "pixels", json_integer((json_int_t)c->selection.pixels));
+    json_object_set_new(out, "differing_pixels",
+                        json_integer((json_int_t)c->channels.differing));
+    json_object_set_new(out, "channels", channels_json(&c->channels));
+    if (c->reference.kind == SUBJECT_FRAME) {
+        json_object_set_new(out, "shown_ev", number(c->shown_ev));
+        json_object_set_new(out, "shown_with", json_of_text(c->shown_with));
+    }
+    return out;
+}

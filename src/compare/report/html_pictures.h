@@ -1,0 +1,50 @@
+/* html_pictures.h -- the pictures of a report: both sides and the maps of their difference,
+ * each with its scale; private to the report.
+ *
+ * Memory   pictures come from the arena that is passed in. Threads: pure.
+ */
+#pragma once
+#include "compare/compare.h"
+#include "page/markup.h"
+
+typedef enum ShotKind {
+    SHOT_REFERENCE, SHOT_TEST, SHOT_DIFFERENCE, SHOT_BLOCKS, SHOT_P_VALUE, SHOT_FLIP,
+    SHOT_DELTAE, SHOT_COUNT
+} ShotKind;
+
+/* What a map's colours mean: low at the left end of the ramp, high at the right. */
+typedef struct ShotScale {
+    bool        is_signed; /* the ramp with a neutral middle */
+    double      low, high;
+    const char *unit;      /* "" none */
+    const char *ticks[5];  /* evenly spaced along the ramp */
+    const char *also;      /* the same scale in another unit; NULL: none */
+} ShotScale;
+
+typedef struct Shot {
+    ShotKind    kind;
+    const char *title, *caption;
+    bool        has_scale;
+    ShotScale   scale;
+    Picture     picture;
+} Shot;
+
+/* False when this comparison has no such picture. factor: this many pixels along a side become
+ * one, so that a report stays small: light is averaged, of a map the greatest value stays. */
+bool shot_make(const Comparison *c, ShotKind kind, int factor, Arena *arena, Shot *out);
+
+/* So that no more than `most` pixels are left. */
+int shot_factor(const Planes *planes, long most);
+
+/* A small picture of one side (SHOT_REFERENCE, SHOT_TEST), at most `side` pixels wide. */
+Picture shot_thumbnail(const Comparison *c, ShotKind kind, int side, Arena *arena);
+
+/* src="data:..." of a picture, JPEG or PNG. */
+bool markup_picture(Markup *markup, const Picture *picture, bool is_jpeg, Arena scratch,
+                    Error *err);
+
+/* The colours of both ramps from left to right, as "rrggbb" 256 times. */
+void markup_ramp(Markup *markup, bool is_signed);
+
+/* style="background:linear-gradient(...)" of a ramp. */
+void markup_gradient(Markup *markup, bool is_signed);

@@ -1,0 +1,35 @@
+/* html_report.h -- a comparison as one self-contained HTML file, for those who look at it.
+ *
+ * It needs no network, and shows its pictures without script too. A report of two files holds
+ * one pair; a report of folders begins with an index of all pairs and shows those that differ.
+ *
+ * Memory   a report owns the address space of its text: html_report_release gives it back.
+ * Threads  one thread at a time.
+ * Fails    when the file cannot be written; nothing is left of it then.
+ */
+#pragma once
+#include "compare/compare.h"
+#include "page/markup.h"
+
+/* {.is_folder = ...} is empty. */
+typedef struct HtmlReport {
+    bool   is_folder;
+    Markup index, pairs; /* cards, and what stands below them */
+    int    count, different, shown; /* pairs; of these, below the index */
+} HtmlReport;
+
+void html_report_release(HtmlReport *report);
+
+/* name: of the pair, as in both folders. The comparison is not kept. */
+bool html_report_add(HtmlReport *report, const char *name, const Comparison *c,
+                     const CompareOptions *options, Arena scratch, Error *err);
+
+/* A pair that could not be compared, and why: a file is missing or unreadable. */
+void html_report_add_failure(HtmlReport *report, const char *name, const char *why);
+
+/* reference, test: the two files or folders. */
+bool html_report_write(const HtmlReport *report, const char *reference, const char *test,
+                       const char *path, Error *err);
+
+/* False for a name that is no HTML file's: to be asked before long work. */
+bool html_report_check_name(const char *path, Error *err);

@@ -1,0 +1,85 @@
+/* statistic.h -- did the mean move, or is it only the noise?
+ *
+ * Every pixel gives one difference, test minus reference. Pixels are independent: each has its
+ * own random numbers. If only the noise differs, a difference is as likely to be d as -d, for
+ * exchanging the two frames changes nothing. So, with any factors c that do not change by
+ * that exchange (areas, or weights made of both frames alike), the sum of c d divided by the
+ * root of the sum of (c d)^2 is a sum of fair coins: its square has the expectation 1 exactly
+ * and its tail lies below 3.18 times the normal one, whatever the noise: fireflies, glints,
+ * edges (Bentkus and Dzindzalieta 2015, "A tight Gaussian bound for weighted sums of
+ * Rademacher random variables", Bernoulli 21(2)). It needs no estimate of the noise, and what
+ * scrambled Sobol points gain over independent ones counts. A second quotient has the root of
+ * the summed variances, as if samples were independent and of one kind in both frames, below:
+ * it sees what changed in a few pixels, of which the first cannot be sure.
+ * Three families make the verdict, each with the same share of the level (Sidak):
+ *   blocks     of 8 x 8 and 32 x 32 pixels, each channel: the least p after Sidak's correction
+ *   histogram  too many small p among the blocks: the mean square of the first quotient is
+ *              above 1. Small changes all over the frame; noise that is less than stated does
+ *              not alarm
+ *   regions    the frame, every display, what every display reflects: the plain mean, and a
+ *              change in proportion with the most certain pixels weighing most
+ * Frames of different sample counts, or one of which is noisier all over, have noise of
+ * different shapes: the larger of both denominators, the variance of a sample from both frames
+ * together (a reference of few samples that missed all glints knows nothing of them), times
+ * what the halves show that Sobol points gain; weights come from the pixels around.
+ * Frames of one seed and range share their noise: differences are those of the scene, or of
+ * paths that rounding turned elsewhere; the same quotients tell whether the mean moved.
+ *
+ * Units    linear Rec.709 in cd m^-2; probabilities 0 .. 1.
+ * Memory   maps come from the arena.
+ * Threads  pure.
+ * Fails    when the frames lack the layers that it needs: the text says what to render again.
+ */
+#pragma once
+#include "compare/metrics/planes.h"
+#include "image/frame.h"
+
+typedef struct StatisticOptions {
+    double level;       /* of the whole verdict: the share of false alarms; 0: 0.01 */
+    PixelMask mask;     /* over the display window; NULL: every pixel */
+    const char *reference_name, *test_name; /* for messages */
+} StatisticOptions;
+
+/* One part of the frame whose mean is tested for itself. */
+typedef struct StatisticRegion {
+    const char *name;      /* "frame", a display's in the reference, "cluster reflected" */
+    long    pixels;
+    double  reference, test; /* mean luminance, cd m^-2 */
+    double  shift;         /* test / reference - 1; NaN for a black reference */
+    double  shift_sigma;   /* its standard error */
+    double  change;        /* the best estimate of a change in proportion, and its error: the */
+    double  change_sigma;  /* surer pixels count more; NaN: it is no proportion */
+    double  p_value;       /* two-sided */
+    bool    moved;         /* after the correction for how many are tested */
+} StatisticRegion;
+
+typedef enum StatisticVerdict {
+    STATISTIC_EQUAL,    /* R, G, B are the same bit for bit */
+    STATISTIC_SAME,     /* only the noise differs */
+    STATISTIC_DIFFERENT /* the mean moved */
+} StatisticVerdict;
+
+typedef struct StatisticResult {
+    StatisticVerdict verdict;
+    double p_value;         /* of the whole: small is different */
+    double fraction_failed; /* of blocks x channels beyond the corrected level */
+    double mean_shift;      /* of the frame's mean luminance, a ratio minus 1 */
+    double p_blocks, p_histogram, p_regions; /* the three parts that p_value is made of */
+    double mean_square;     /* of the blocks' quotients: 1 when only the noise differs */
+    long   pixels;          /* that were looked at */
+    long   differing;       /* of these, beyond rounding (1e-5) in some channel */
+    bool   shares_noise;    /* one seed: see above */
+    int    block_side;      /* pixels */
+    int    blocks_x, blocks_y; /* from the data window's corner */
+    float *block_p;         /* blocks_x * blocks_y: the least p of the block's channels; NaN
+                               where the mask leaves nothing */
+    StatisticRegion *regions;
+    int    region_count;
+    char   reason[256];     /* in words, where it moved and how much; without a move, what
+                               differs between frames that share their noise, or "" */
+    char   note[256];       /* what makes the test weaker than it could be, or "" */
+} StatisticResult;
+
+bool statistic_compare(const FrameImage *reference, const FrameImage *test,
+                       const StatisticOptions *options, Arena *arena, StatisticResult *out,
+                       Error *err);

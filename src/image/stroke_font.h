@@ -1,0 +1,18 @@
+/* stroke_font.h -- writes numbers and units into a picture, smooth at any size.
+ *
+ * Letters are strokes on a grid, drawn with a round pen. There are the figures, small letters
+ * (capitals show as small ones) and ".:-+/%()"; "^2" is a raised two; anything else is a box.
+ */
+#pragma once
+#include "image/picture.h"
+
+typedef struct Lettering {
+    float height;    /* pixels, of a figure */
+    float colour[3]; /* codes */
+} Lettering;
+
+/* x: left end, y: middle line of the digits, both in pixels. */
+void lettering_draw(Picture *picture, Lettering lettering, float x, float y, const char *text);
+
+/* Width in pixels. */
+float lettering_width(Lettering lettering, const char *text);

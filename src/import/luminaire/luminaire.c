@@ -1,0 +1,191 @@
+#include "import/luminaire/luminaire.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/mathd.h"
+#include "base/units.h"
+#include "import/text/import_text.h"
+
+#define ROUND_PLANES 36
+
+typedef struct Plane {
+    double c_deg;
+    int    source; /* index of the stored plane */
+} Plane;
+
+/* ---- all planes -------------------------------------------------------------------------- */
+
+static double turned(double degrees)
+{
+    double angle = fmod(degrees, 360);
+    return angle < 0 ? angle + 360 : angle;
+}
+
+static bool is_there(const Plane *plane, int count, double c_deg)
+{
+    for (int i = 0; i < count; i++)
+        if (fabs(remainder(plane[i].c_deg - c_deg, 360)) < 1e-6) return true;
+    return false;
+}
+
+static void sort_planes(Plane *plane, int count)
+{
+    for (int i = 1; i < count; i++)
+        for (int k = i; k > 0 && plane[k].c_deg < plane[k - 1].c_deg; k--) {
+            Plane swap = plane[k];
+            plane[k] = plane[k - 1];
+            plane[k - 1] = swap;
+        }
+}
+
+/* The stored planes and their mirror images, each azimuth once. */
+static int expand_planes(const Luminaire *in, Plane *plane)
+{
+    int count = 0;
+    if (in->is_round) {
+        for (int i = 0; i < ROUND_PLANES; i++)
+            plane[count++] = (Plane){i * 360.0 / ROUND_PLANES, 0};
+        return count;
+    }
+    for (int i = 0; i < in->planes; i++) {
+        double c = turned(in->c_deg[i]);
+        if (!is_there(plane, count, c)) plane[count++] = (Plane){c, i};
+    }
+    for (int m = 0; m < 2; m++) {
+        int stored = count;
+        for (int i = 0; i < stored && in->mirror_deg[m] >= 0; i++) {
+            double c = turned(2 * in->mirror_deg[m] - plane[i].c_deg);
+            if (!is_there(plane, count, c)) plane[count++] = (Plane){c, plane[i].source};
+        }
+    }
+    sort_planes(plane, count);
+    return count;
+}
+
+/* ---- flux -------------------------------------------------------------------------------- */
+
+/* Integral of I sin(gamma) between two gammas (radians), I linear between them. */
+static double ring_integral(double a, double b, double at_a, double at_b)
+{
+    double slope = (at_b - at_a) / (b - a);
+    return at_a * cos_d(a) - at_b * cos_d(b) + slope * (sin_d(b) - sin_d(a));
+}
+
+/* Of one plane from gamma 0 up to a limit, lm a radian of azimuth. */
+static double plane_flux(const Luminaire *in, int plane, double limit_deg)
+{
+    const double *intensity = in->intensity_cd + (size_t)plane * (size_t)in->gammas;
+    double sum = 0, limit = radians_from_degrees(limit_deg);
+    for (int i = 1; i < in->gammas; i++) {
+        double a = radians_from_degrees(in->gamma_deg[i - 1]);
+        double b = radians_from_degrees(in->gamma_deg[i]), at_b = intensity[i];
+        if (a >= limit) break;
+        if (b > limit) {
+            at_b = intensity[i - 1] + (at_b - intensity[i - 1]) * (limit - a) / (b - a);
+            b = limit;
+        }
+        sum += ring_integral(a, b, intensity[i - 1], at_b);
+    }
+    return sum;
+}
+
+/* Each plane stands for half the way to its neighbours. */
+static double total_flux(const Luminaire *in, const Plane *plane, int count, double limit_deg)
+{
+    double sum = 0;
+    for (int i = 0; i < count; i++) {
+        double before = i ? plane[i - 1].c_deg : plane[count - 1].c_deg - 360;
+        double after = i + 1 < count ? plane[i + 1].c_deg : plane[0].c_deg + 360;
+        double width = count > 1 ? radians_from_degrees((after - before) / 2) : 2 * PI;
+        sum += width * plane_flux(in, plane[i].source, limit_deg);
+    }
+    return sum;
+}
+
+static bool note_flux(const Luminaire *in, const Plane *plane, int count, ImportSet *set,
+                      Error *err)
+{
+    const char *name = path_name(in->file);
+    double front = total_flux(in, plane, count, 90), all = total_flux(in, plane, count, 180);
+    if (!(front > 0))
+        return error_at(err, ERROR_INPUT, in->file, "",
+                        "shines nothing within 90 degrees of gamma 0, wanted a luminaire that "
+                        "lights in front of its face");
+    import_note(set, "%s: the intensities add up to %.6g lm in front of the face", name, front);
+    if (all > front * (1 + 1e-9))
+        import_note(set, "%s: %.3g%% of the flux goes beyond 90 degrees and is left out", name,
+                    100 * (all - front) / all);
+    if (in->stated_lm > 0)
+        import_note(set, "%s: %.6g lm in all directions, the file states %.6g lm (%s): ratio "
+                    "%.4f", name, all, in->stated_lm, in->stated_as, all / in->stated_lm);
+    else
+        import_note(set, "%s: %.6g lm in all directions; the file states none (absolute)",
+                    name, all);
+    return true;
+}
+
+/* ---- the table --------------------------------------------------------------------------- */
+
+static bool find_area(const Luminaire *in, const ImportOptions *options, double *area_m2,
+                      Error *err)
+{
+    double given = options->area_mm[0] * options->area_mm[1] * 1e-6;
+    *area_m2 = given > 0 ? given : in->area_m2;
+    return *area_m2 > 0 || error_at(err, ERROR_INPUT, in->file, "",
+                                    "states no luminous area, which luminance needs — give it "
+                                    "with --area-mm W,H");
+}
+
+static double phi_of(const ImportOptions *options, double c_deg)
+{
+    const TextDeclaration *d = options->text;
+    double zero = d && d->has_azimuth_zero ? d->azimuth_zero_deg : 0;
+    int    sense = d && d->azimuth_sense ? d->azimuth_sense : -1;
+    return turned(zero + sense * c_deg);
+}
+
+static void fill(const Luminaire *in, const Plane *plane, int count,
+                 const ImportOptions *options, double area_m2, ImportTable *table)
+{
+    double *theta = (double *)table->theta_deg, *phi = (double *)table->phi_deg;
+    double *value = (double *)table->value;
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < in->gammas; k++) {
+            double gamma = in->gamma_deg[k], cosine = cos_d(radians_from_degrees(gamma));
+            if (gamma > 90 - 1e-6) break; /* a flat face has no luminance at its horizon */
+            size_t at = (size_t)plane[i].source * (size_t)in->gammas + (size_t)k;
+            theta[table->rows] = gamma;
+            phi[table->rows] = phi_of(options, plane[i].c_deg);
+            value[table->rows++] = in->intensity_cd[at] / (area_m2 * cosine);
+        }
+}
+
+bool luminaire_add(const Luminaire *in, const ImportOptions *options, ImportSet *set,
+                   Error *err)
+{
+    Arena *arena = set->arena;
+    Plane *plane = ARENA_NEW(arena, Plane, 4 * (size_t)in->planes + ROUND_PLANES);
+    int    count = expand_planes(in, plane);
+    size_t most = (size_t)count * (size_t)in->gammas;
+    double area_m2;
+    if (most > IMPORT_ROWS_MAX)
+        return error_at(err, ERROR_INPUT, in->file, "", "has %zu directions, wanted at most %d",
+                        most, IMPORT_ROWS_MAX);
+    if (!find_area(in, options, &area_m2, err) || !note_flux(in, plane, count, set, err))
+        return false;
+    ImportTable table = {.source = IMPORT_WHITE, .file = in->file, .level = 255, .channels = 1,
+                         .component = 'Y', .theta_deg = ARENA_NEW(arena, double, most),
+                         .phi_deg = ARENA_NEW(arena, double, most),
+                         .value = ARENA_NEW(arena, double, most)};
+    fill(in, plane, count, options, area_m2, &table);
+    import_note(set,
+                "%s: luminance is intensity over %.6g mm2 times the cosine; C-planes run %s as "
+                "the viewer sees them",
+                path_name(in->file), area_m2 * 1e6,
+                phi_of(options, 90) == turned(phi_of(options, 0) + 90) ? "counter-clockwise"
+                                                                       : "clockwise");
+    if (in->name && !set->panel) set->panel = in->name;
+    return import_add(set, &table, err);
+}

@@ -1,0 +1,317 @@
+/* Speos' measured scatter (.anisotropicbsdf, .brdf) and its simplest model (.simplescattering).
+ *
+ * The tables are PROPORTIONAL to the BRDF, or to BRDF times the cosine of the leaving angle;
+ * the spectrum gives the directional-hemispherical reflectance R(nm) at the incidence i0 where
+ * it was measured, so brdf = value * R / H(i0) with H the integral of value * cos (between two
+ * incidences R / H is interpolated; below the first one the first one counts). In a .brdf
+ * every table has its own reflectance: brdf = value * R / H. */
+#include "import/scatter/speos.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/mathd.h"
+#include "base/units.h"
+#include "import/scatter/scan.h"
+#include "import/scatter/scatter.h"
+#include "panel/set/measurement.h"
+
+/* Nearer to the horizon a value cannot be divided by its cosine. */
+#define GRAZING_DEG 89.95
+/* The panel's wavelengths. */
+#define FIRST_NM 360.0
+#define LAST_NM 830.0
+
+void speos_turn(SpeosTable *table, const double *rows)
+{
+    for (int i = 0; i < table->thetas; i++)
+        for (int j = 0; j < table->phis; j++)
+            table->value[j * table->thetas + i] = rows[i * table->phis + j];
+}
+
+bool speos_check_table(const char *file, const SpeosTable *table, Error *err)
+{
+    const double theta[] = {0, 90}, phi[] = {0, 360};
+    return angles_check(file, "theta", table->theta_deg, table->thetas, theta, err) &&
+           angles_check(file, "phi", table->phi_deg, table->phis, phi, err);
+}
+
+/* ---- scale ------------------------------------------------------------------------------- */
+
+/* Divides the cosine out. At the horizon the value of the last theta before it is repeated: it
+ * only closes the integral, and is not imported. */
+static void divide_cosine(SpeosTable *table)
+{
+    for (int j = 0; j < table->phis; j++) {
+        double *value = table->value + (size_t)j * (size_t)table->thetas;
+        for (int i = 0; i < table->thetas; i++) {
+            if (table->theta_deg[i] <= GRAZING_DEG)
+                value[i] /= cos_d(radians_from_degrees(table->theta_deg[i]));
+            else
+                value[i] = i ? value[i - 1] : 0;
+        }
+    }
+}
+
+static double integral_of(const SpeosTable *table, Arena scratch)
+{
+    PolarGrid grid = {table->thetas, table->phis, table->theta_deg, table->phi_deg,
+                      table->value, 0, false};
+    return polar_grid_integral(&grid, scratch);
+}
+
+/* The two tables of the anisotropy angle nearest to the spectrum's, whose incidences enclose
+ * its theta; the same twice outside them. */
+static void find_reference(const Speos *in, const SpeosTable *out[2])
+{
+    double nearest = 1e9;
+    for (int i = 0; i < in->tables; i++)
+        nearest = fmin(nearest, fabs(in->table[i].anisotropy_deg - in->spectrum_phi_deg));
+    out[0] = out[1] = NULL;
+    for (int i = 0; i < in->tables; i++) {
+        const SpeosTable *table = &in->table[i];
+        double lean = table->incidence_deg, wanted = in->spectrum_theta_deg;
+        if (fabs(table->anisotropy_deg - in->spectrum_phi_deg) > nearest + 1e-9) continue;
+        if (lean <= wanted && (!out[0] || lean > out[0]->incidence_deg)) out[0] = table;
+        if (lean >= wanted && (!out[1] || lean < out[1]->incidence_deg)) out[1] = table;
+    }
+    if (!out[0]) out[0] = out[1];
+    if (!out[1]) out[1] = out[0];
+}
+
+/* What makes of a value and a reflectance a BRDF. */
+static bool find_scale(const Speos *in, Arena scratch, double *scale, Error *err)
+{
+    const SpeosTable *table[2];
+    find_reference(in, table);
+    double low = integral_of(table[0], scratch), high = integral_of(table[1], scratch);
+    if (!(low > 0 && high > 0))
+        return error_at(err, ERROR_INPUT, in->file, "", "the table at incidence %g integrates "
+                        "to %g, wanted above 0", table[0]->incidence_deg, low > 0 ? high : low);
+    double span = table[1]->incidence_deg - table[0]->incidence_deg;
+    double u = span > 0 ? (in->spectrum_theta_deg - table[0]->incidence_deg) / span : 0;
+    *scale = (1 - u) / low + u / high;
+    return true;
+}
+
+/* ---- the spectrum ------------------------------------------------------------------------ */
+
+static double percent_at(const Speos *in, double nm)
+{
+    int last = in->spectrum_count - 1;
+    if (nm <= in->spectrum_nm[0]) return in->spectrum_percent[0];
+    for (int i = 1; i <= last; i++) {
+        double low = in->spectrum_nm[i - 1], high = in->spectrum_nm[i];
+        if (nm > high) continue;
+        double u = (nm - low) / (high - low);
+        return (1 - u) * in->spectrum_percent[i - 1] + u * in->spectrum_percent[i];
+    }
+    return in->spectrum_percent[last];
+}
+
+/* The file's wavelengths that a panel has, and its ends where the file goes beyond them. */
+static int choose_bands(const Speos *in, ImportSet *set, float *nm)
+{
+    int    count = 0, last = in->spectrum_count - 1;
+    double first_nm = in->spectrum_nm[0], last_nm = in->spectrum_nm[last];
+    bool   before = first_nm < FIRST_NM && last_nm >= FIRST_NM;
+    bool   after = last_nm > LAST_NM && first_nm <= LAST_NM;
+    if (before) nm[count++] = (float)FIRST_NM;
+    for (int i = 0; i <= last && count < MEASUREMENT_WAVELENGTHS_MAX - 1; i++) {
+        double one = in->spectrum_nm[i];
+        if (one >= FIRST_NM && one <= LAST_NM && !(before && one == FIRST_NM) &&
+            !(after && one == LAST_NM))
+            nm[count++] = (float)one;
+    }
+    if (after) nm[count++] = (float)LAST_NM;
+    if (before || after)
+        import_note(set, "%s: the spectrum goes from %g to %g nm; it is cut (by straight "
+                    "lines) to %g to %g nm", path_name(in->file), first_nm, last_nm,
+                    FIRST_NM, LAST_NM);
+    return count;
+}
+
+static bool check_spectrum(const Speos *in, Error *err)
+{
+    for (int i = 0; i < in->spectrum_count; i++) {
+        double nm = in->spectrum_nm[i], percent = in->spectrum_percent[i];
+        if (!(nm > 0) || (i && !(nm > in->spectrum_nm[i - 1])))
+            return error_at(err, ERROR_INPUT, in->file, "", "the spectrum has %g nm, wanted "
+                            "rising wavelengths", nm);
+        if (!(percent >= 0))
+            return error_at(err, ERROR_INPUT, in->file, "", "the spectrum is %g%% at %g nm, "
+                            "wanted 0 or more", percent, nm);
+    }
+    return true;
+}
+
+/* ---- tables ------------------------------------------------------------------------------ */
+
+typedef struct SpeosBands {
+    int          count;
+    const float *nm;
+    double       factor[MEASUREMENT_WAVELENGTHS_MAX]; /* of the values */
+} SpeosBands;
+
+static void put_rows(const Speos *in, const SpeosTable *table, const double *factor,
+                     ScatterRows *rows)
+{
+    double value[MEASUREMENT_WAVELENGTHS_MAX];
+    for (int i = 0; i < table->thetas; i++)
+        for (int j = 0; j < table->phis; j++) {
+            bool is_again = table->phi_deg[j] == 360 && table->phi_deg[0] == 0;
+            if (is_again || (!in->is_bsdf && table->theta_deg[i] > GRAZING_DEG)) continue;
+            for (int c = 0; c < rows->channels; c++)
+                value[c] = table->value[j * table->thetas + i] * factor[c];
+            scatter_put_measured(rows, table->theta_deg[i], table->phi_deg[j], value);
+        }
+}
+
+static bool add_table(const Speos *in, const SpeosTable *table, const SpeosBands *bands,
+                      ImportSet *set, Error *err)
+{
+    ScatterRows rows = scatter_rows(set->arena, table->thetas * table->phis, bands->count);
+    put_rows(in, table, bands->factor, &rows);
+    /* The mirror direction lies `anisotropy` before the vector, which is at phi 0. */
+    ScatterLight light = {table->incidence_deg, 180 - table->anisotropy_deg};
+    return scatter_add(set, in->file, &rows, light, bands->nm, err);
+}
+
+static bool add_scaled(const Speos *in, ImportSet *set, Error *err)
+{
+    float     *nm = ARENA_NEW(set->arena, float, MEASUREMENT_WAVELENGTHS_MAX);
+    SpeosBands bands = {.nm = nm};
+    double     scale = 0;
+    if (!check_spectrum(in, err) || !find_scale(in, *set->arena, &scale, err)) return false;
+    bands.count = choose_bands(in, set, nm);
+    if (!bands.count)
+        return error_at(err, ERROR_INPUT, in->file, "", "the spectrum goes from %g to %g nm, "
+                        "wanted some of %g to %g nm", in->spectrum_nm[0],
+                        in->spectrum_nm[in->spectrum_count - 1], FIRST_NM, LAST_NM);
+    for (int c = 0; c < bands.count; c++)
+        bands.factor[c] = percent_at(in, (double)nm[c]) / 100 * scale;
+    for (int i = 0; i < in->tables; i++) {
+        const SpeosTable *table = &in->table[i];
+        bool is_again = table->anisotropy_deg == 360 && in->table[0].anisotropy_deg == 0;
+        if (table->incidence_deg >= 90 || is_again) continue;
+        if (!add_table(in, table, &bands, set, err)) return false;
+    }
+    import_note(set, "%s: relative values scaled to %g%% directional-hemispherical reflectance "
+                "at incidence %g and %g nm, as the file states", path_name(in->file),
+                percent_at(in, (double)nm[0]), in->spectrum_theta_deg, (double)nm[0]);
+    return true;
+}
+
+static bool add_spectral(const Speos *in, ImportSet *set, Error *err)
+{
+    TotalsNote totals = {{0}, 0};
+    for (int i = 0; i < in->tables; i++) {
+        const SpeosTable *table = &in->table[i];
+        float            *nm = ARENA_NEW(set->arena, float, 1);
+        double            total = integral_of(table, *set->arena);
+        if (!(total > 0))
+            return error_at(err, ERROR_INPUT, in->file, "", "the table at incidence %g and %g "
+                            "nm integrates to %g, wanted above 0", table->incidence_deg,
+                            table->nm, total);
+        SpeosBands bands = {1, nm, {table->percent / 100 / total}};
+        *nm = (float)table->nm;
+        totals_add(&totals, table->incidence_deg, table->percent / 100, total);
+        if (!add_table(in, table, &bands, set, err)) return false;
+    }
+    import_note(set, "%s: every table is scaled to the reflectance that the file states",
+                path_name(in->file));
+    totals_tell(&totals, in->file, set);
+    return true;
+}
+
+/* Compares the quarters around phi 0 and around phi 180, beyond 20 degrees. */
+static void tell_brighter_back(const Speos *in, ImportSet *set)
+{
+    double front = 0, back = 0;
+    for (int t = 0; t < in->tables; t++) {
+        const SpeosTable *table = &in->table[t];
+        for (int j = 0; j < table->phis; j++)
+            for (int i = 0; i < table->thetas; i++) {
+                double across = cos_d(radians_from_degrees(table->phi_deg[j]));
+                if (table->incidence_deg < 20 || table->theta_deg[i] < 20) continue;
+                if (across > 0.7071) front += table->value[j * table->thetas + i];
+                if (across < -0.7071) back += table->value[j * table->thetas + i];
+            }
+    }
+    if (back > 1.2 * front)
+        import_note(set, "%s: brighter towards the light (phi 180) than towards the mirror "
+                    "direction (phi 0): a retroreflector, or a file that counts phi from the "
+                    "light", path_name(in->file));
+}
+
+/* ---- .simplescattering ------------------------------------------------------------------- */
+
+/* Four numbers of which the second is the Lambertian share in percent; the order of the others
+ * is not public, so they must leave nothing beside it. */
+static bool read_simple(const char *file, ImportSet *set, Error *err)
+{
+    Scan   scan;
+    double number[4];
+    if (!scan_open(file, set->arena, &scan, err)) return false;
+    scan_line(&scan);
+    scan_line(&scan); /* title and comment */
+    if (!scan_accept(&scan, "Reflection"))
+        return scan_fail(&scan, err, "the surface's kind is '%.40s', wanted Reflection",
+                         scan_peek(&scan) ? scan_peek(&scan) : "");
+    for (int i = 0; i < 4; i++)
+        if (!scan_number(&scan, "a share in percent", &number[i], err)) return false;
+    if (number[0] != 0 || number[2] != 0 || !(number[1] > 0 && number[1] <= 100))
+        return scan_fail(&scan, err, "the shares are %g, %g and %g%%; only a Lambertian "
+                         "surface (0, above 0, 0) is known here", number[0], number[1],
+                         number[2]);
+    double brdf = number[1] / 100 / PI;
+    float *nm = ARENA_NEW(set->arena, float, 1);
+    *nm = PHOTOPIC_NM;
+    for (int lean = 0; lean <= 80; lean += 20) {
+        ScatterRows rows = scatter_rows(set->arena, 19 * 24, 1);
+        scatter_put(&rows, 0, 0, &brdf);
+        for (int i = 1; i < 19; i++)
+            for (int j = 0; j < 24; j++) scatter_put(&rows, i * 5, j * 15, &brdf);
+        if (!scatter_add(set, file, &rows, (ScatterLight){lean, 180}, nm, err)) return false;
+    }
+    import_note(set, "%s: a Lambertian surface of %g%%, the same at every wavelength (one band "
+                "at %g nm), on a grid of theta 5 x phi 15 degrees at incidences 0 to 80",
+                path_name(file), number[1], (double)*nm);
+    return true;
+}
+
+/* ---- which form -------------------------------------------------------------------------- */
+
+static bool read_speos(const char *file, const ImportOptions *options, ImportSet *set,
+                       Error *err)
+{
+    (void)options;
+    Scan  scan;
+    Speos in;
+    Arena scratch = *set->arena;
+    if (!scan_open(file, &scratch, &scan, err)) return false;
+    const char *title = scan_line(&scan);
+    if (!title || strncmp(title, "OPTIS - ", 8))
+        return scan_fail(&scan, err, "the first line is '%.40s', wanted OPTIS - ...",
+                         title ? title : "");
+    if (strstr(title, "Simple scattering")) return read_simple(file, set, err);
+    bool is_binary = scan.next < scan.end && *scan.next == '1';
+    bool ok = is_binary ? speos_read_binary(file, set->arena, &in, err)
+                        : speos_read_text(file, set->arena, &in, err);
+    if (!ok) return false;
+    for (int i = 0; !in.is_bsdf && i < in.tables; i++) divide_cosine(&in.table[i]);
+    if (in.has_transmission)
+        import_note(set, "%s: transmission is left out", path_name(file));
+    tell_brighter_back(&in, set);
+    return in.is_spectral ? add_spectral(&in, set, err) : add_scaled(&in, set, err);
+}
+
+static bool is_speos(const char *file, const char *head, size_t head_size)
+{
+    (void)file;
+    return head_size > 8 && !memcmp(head, "OPTIS - ", 8) && strstr(head, "surface file");
+}
+
+const Importer importer_speos = {"speos", "Speos .anisotropicbsdf, .brdf, .simplescattering",
+                                 is_speos, read_speos};

@@ -1,0 +1,118 @@
+/* import.h -- files that laboratories have, as one measurement set of this project.
+ *
+ * An importer reads one foreign file and adds the tables that it holds to an ImportSet, in this
+ * project's conventions; import_write writes the set as MANIFEST.json and its tables.
+ *
+ * Frame     degrees, as in the files: theta from the normal, phi 0 right (the viewer's), 90 up,
+ *           counter-clockwise. In a reflection table phi counts from the mirror direction: the
+ *           light comes from 180 (leaving azimuth + 180 - the light's azimuth).
+ * Units     XYZ in cd m^-2; BRDF in sr^-1 without the cosine; nm.
+ * Memory    the arena's. Threads: one set per thread.
+ * Fails     with the file, the line or the place inside it, what was found and what was wanted.
+ */
+#pragma once
+#include "base/arena.h"
+#include "base/error.h"
+
+#define IMPORT_TABLES_MAX 4096
+#define IMPORT_NOTES_MAX 64
+#define IMPORT_FILE_BYTES_MAX ((size_t)1 << 30) /* for file_read: no foreign file is larger */
+#define IMPORT_ROWS_MAX 8000000 /* directions of one table */
+
+typedef enum ImportSource {
+    IMPORT_RED, IMPORT_GREEN, IMPORT_BLUE, IMPORT_BLACK, IMPORT_WHITE, /* emission: XYZ */
+    IMPORT_REFLECTION, /* a channel a wavelength */
+    /* for import_complete, which takes them out of the set: */
+    IMPORT_DARK,     /* what the instrument reads without light; subtracted from every table */
+    IMPORT_REFERENCE /* signal of a white reference of known reflectance: signals are divided */
+} ImportSource;
+
+typedef struct ImportTable {
+    ImportSource  source;
+    const char   *file;              /* where it comes from */
+    double        level;             /* emission: grey level, (0, 255]; black 0, white 255 */
+    double        incidence_deg;     /* reflection: [0, 90) */
+    double        incidence_phi_deg; /* reflection: the light's azimuth, [0, 360); 180 for
+                                        isotropic data, or the only azimuth measured */
+    int           rows, channels;    /* channels: 3 (X, Y, Z), or wavelength_count */
+    char          component;         /* emission: 0, or one of 'X', 'Y', 'Z' with one channel:
+                                        files of the same source and level are joined; Y alone
+                                        is luminance without colour */
+    bool          is_section;        /* directions of one azimuth: sections of the same source
+                                        or light are put together */
+    bool          is_any_light;      /* reference: serves every light */
+    bool          is_signal;         /* reflection, reference: no BRDF yet but a signal, to be
+                                        divided by the reference's */
+    const float  *wavelength_nm;     /* reflection: channels of them, rising. Tables of the same
+                                        light and directions at other wavelengths are joined */
+    const double *theta_deg, *phi_deg; /* rows; theta in [0, 90], any phi */
+    const double *value;             /* rows x channels */
+    int           masked;            /* directions marked as not measured: left out */
+    const double *masked_theta_deg, *masked_phi_deg; /* masked of them, or NULL: not told */
+} ImportTable;
+
+/* Spectra of the primaries, relative. */
+typedef struct ImportSpectra {
+    int           rows;     /* 0: none */
+    const double *nm;       /* rising */
+    const double *value[4]; /* red, green, blue, black (may be NULL) */
+} ImportSpectra;
+
+/* What the user declares of the sample: what was not measured is filled from its image. */
+typedef enum ImportSymmetry {
+    IMPORT_NO_SYMMETRY, IMPORT_LEFT_RIGHT, IMPORT_UP_DOWN, IMPORT_BOTH, IMPORT_HALF_TURN
+} ImportSymmetry;
+
+typedef struct ImportSet {
+    Arena        *arena;
+    ImportTable  *table;             /* room for IMPORT_TABLES_MAX */
+    int           count;
+    bool          is_anisotropic;    /* reflection depends on the light's azimuth; tables of
+                                        several azimuths make it so */
+    bool          is_isotropic;      /* the user says that it does not, whatever the tables */
+    ImportSymmetry symmetry;
+    bool          black_is_zero;     /* the user says that the black pattern was subtracted */
+    const char   *panel, *instrument; /* names for the manifest; NULL: the file's */
+    double        white_reflectance; /* of the reference: Lambertian, 0 to 1 (default 1) */
+    ImportSpectra spectra;
+    const char   *note[IMPORT_NOTES_MAX]; /* one line each: assumed, converted, left out */
+    int           note_count;
+} ImportSet;
+
+ImportSet import_set(Arena *arena);
+
+/* Copies the table's fields (not its arrays) into the set. Refuses angles out of range, numbers
+ * that are not finite, wavelengths that do not rise. */
+bool import_add(ImportSet *set, const ImportTable *table, Error *err);
+
+/* A note that stands there already is not repeated. */
+void import_note(ImportSet *set, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Makes of the tables a set: joins X, Y and Z and wavelengths that lie in several tables, takes
+ * the mean where one direction stands twice, gives normal incidence to every azimuth of the
+ * light, and checks what import_write needs. */
+bool import_complete(ImportSet *set, Error *err);
+
+/* Writes the tables beside MANIFEST.json (folders emission/ and brdf/), then the manifest. The
+ * set is complete. Nothing half-written stays. */
+bool import_write(const ImportSet *set, const char *manifest, Error *err);
+
+/* The file's name of a table in the set: "emission/red_031.csv", "brdf/i30_a180.csv". */
+const char *import_table_file(const ImportSet *set, const ImportTable *table, Arena *arena);
+
+/* ---- what the user declared -------------------------------------------------------------- */
+
+typedef struct ImportOptions {
+    const char *format;      /* name of an importer; NULL: told by the file itself */
+    double      wavelength_nm; /* for files that do not say; 0: not given */
+    double      area_mm[2];  /* luminous area for luminaire files; 0: the file's */
+    const void *text;        /* the text importer's declaration (import_text.h); NULL: none */
+} ImportOptions;
+
+/* One importer: `recognises` looks at the first bytes and the name, `read` adds the tables. */
+typedef struct Importer {
+    const char *name;    /* for --format: "zemax", "mountain", "klems", ... */
+    const char *summary; /* one line for --help */
+    bool (*recognises)(const char *file, const char *head, size_t head_size);
+    bool (*read)(const char *file, const ImportOptions *options, ImportSet *set, Error *err);
+} Importer;

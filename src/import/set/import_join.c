@@ -1,0 +1,293 @@
+/* Tables joined and cleaned by their directions. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "import/set/import_parts.h"
+
+/* A direction in steps of SAME_ANGLE_DEG, and its row. */
+typedef struct Place {
+    long theta, phi;
+    int  row;
+} Place;
+
+#define STEPS(degrees) lround((degrees) / SAME_ANGLE_DEG)
+
+static int by_place(const void *a, const void *b)
+{
+    const Place *p = a, *q = b;
+    if (p->theta != q->theta) return p->theta < q->theta ? -1 : 1;
+    if (p->phi != q->phi) return p->phi < q->phi ? -1 : 1;
+    return p->row < q->row ? -1 : p->row > q->row;
+}
+
+static bool same_place(const Place *a, const Place *b)
+{
+    return a->theta == b->theta && a->phi == b->phi;
+}
+
+static Place *sorted_places(const ImportTable *table, Arena *arena)
+{
+    Place *place = ARENA_NEW(arena, Place, table->rows);
+    long   turn = STEPS(360.0);
+    for (int i = 0; i < table->rows; i++) {
+        long phi = STEPS(table->phi_deg[i]) % turn;
+        place[i] = (Place){STEPS(table->theta_deg[i]), phi < 0 ? phi + turn : phi, i};
+    }
+    qsort(place, (size_t)table->rows, sizeof *place, by_place);
+    return place;
+}
+
+/* ---- joining ----------------------------------------------------------------------------- */
+
+static void sort_parts(const ImportSet *set, const int *part, int count, int *sorted)
+{
+    memcpy(sorted, part, sizeof *sorted * (size_t)count);
+    if (set->table[part[0]].source != IMPORT_REFLECTION) return;
+    for (int i = 1; i < count; i++)
+        for (int k = i; k > 0 && set->table[sorted[k]].wavelength_nm[0] <
+                                     set->table[sorted[k - 1]].wavelength_nm[0]; k--) {
+            int swap = sorted[k];
+            sorted[k] = sorted[k - 1];
+            sorted[k - 1] = swap;
+        }
+}
+
+static bool join_wavelengths(const ImportSet *set, const int *part, int count, float *nm,
+                             Error *err)
+{
+    int filled = 0;
+    for (int k = 0; k < count; k++) {
+        const ImportTable *table = &set->table[part[k]];
+        for (int c = 0; c < table->channels; c++) {
+            nm[filled] = table->wavelength_nm[c];
+            if (filled && !(nm[filled] > nm[filled - 1]))
+                return error_at(err, ERROR_INPUT, table->file, "",
+                                "has light from incidence %g, azimuth %g degrees at %g nm, and "
+                                "so has %s", table->incidence_deg, table->incidence_phi_deg,
+                                (double)nm[filled], set->table[part[k ? k - 1 : 0]].file);
+            filled++;
+        }
+    }
+    return true;
+}
+
+typedef struct Joiner {
+    const ImportSet *set;
+    const int       *part;
+    int              count, channels;
+    Place          **place;
+    int             *at; /* one position in each part's places */
+} Joiner;
+
+/* Moves every part to the first place not before the one of part 0; false when one ends or
+ * lacks it (then *missing). */
+static bool align(Joiner *join, const Place *wanted)
+{
+    bool all = true;
+    for (int k = 1; k < join->count; k++) {
+        const ImportTable *table = &join->set->table[join->part[k]];
+        int *at = &join->at[k];
+        while (*at < table->rows && by_place(&(Place){join->place[k][*at].theta,
+                                                      join->place[k][*at].phi, 0},
+                                             &(Place){wanted->theta, wanted->phi, 0}) < 0)
+            (*at)++;
+        all &= *at < table->rows && same_place(&join->place[k][*at], wanted);
+    }
+    return all;
+}
+
+static void copy_row(const Joiner *join, int first_row, double *value)
+{
+    for (int k = 0; k < join->count; k++) {
+        const ImportTable *table = &join->set->table[join->part[k]];
+        int    row = k ? join->place[k][join->at[k]].row : first_row;
+        size_t size = (size_t)table->channels;
+        memcpy(value, table->value + (size_t)row * size, sizeof *value * size);
+        value += size;
+    }
+}
+
+static void join_rows(Joiner *join, Arena *arena, ImportTable *joined)
+{
+    const ImportTable *first = &join->set->table[join->part[0]];
+    double *theta = ARENA_NEW(arena, double, first->rows);
+    double *phi = ARENA_NEW(arena, double, first->rows);
+    double *value = ARENA_NEW(arena, double, (size_t)first->rows * (size_t)join->channels);
+    int     rows = 0;
+    for (int i = 0; i < first->rows; i++) {
+        int row = join->place[0][i].row;
+        if (!align(join, &join->place[0][i])) continue;
+        theta[rows] = first->theta_deg[row];
+        phi[rows] = first->phi_deg[row];
+        copy_row(join, row, value + (size_t)rows * (size_t)join->channels);
+        rows++;
+    }
+    joined->theta_deg = theta;
+    joined->phi_deg = phi;
+    joined->value = value;
+    joined->rows = rows;
+    joined->channels = join->channels;
+}
+
+bool import_join_tables(ImportSet *set, const int *part, int count, ImportTable *joined,
+                        Error *err)
+{
+    int   *sorted = ARENA_NEW(set->arena, int, count), most = 0;
+    Joiner join = {.set = set, .part = sorted, .count = count,
+                   .place = ARENA_NEW(set->arena, Place *, count),
+                   .at = ARENA_NEW(set->arena, int, count)};
+    sort_parts(set, part, count, sorted);
+    *joined = set->table[sorted[0]];
+    joined->masked = 0;
+    for (int k = 0; k < count; k++) {
+        const ImportTable *table = &set->table[sorted[k]];
+        join.place[k] = sorted_places(table, set->arena);
+        join.channels += table->channels;
+        most = table->rows > most ? table->rows : most;
+        if (table->masked > joined->masked) {
+            joined->masked = table->masked;
+            joined->masked_theta_deg = table->masked_theta_deg;
+            joined->masked_phi_deg = table->masked_phi_deg;
+        }
+    }
+    float *nm = ARENA_NEW(set->arena, float, join.channels);
+    if (joined->source == IMPORT_REFLECTION) {
+        if (!join_wavelengths(set, sorted, count, nm, err)) return false;
+        joined->wavelength_nm = nm;
+    }
+    join_rows(&join, set->arena, joined);
+    if (2 * joined->rows < most)
+        return error_at(err, ERROR_INPUT, set->table[sorted[count - 1]].file, "",
+                        "and %s share %d of %d directions, wanted the same directions in the "
+                        "files of one table", joined->file, joined->rows, most);
+    if (joined->rows < most)
+        import_note(set,
+                    "%s: %d directions are not in every file of the table and are left out",
+                    path_name(joined->file), most - joined->rows);
+    return true;
+}
+
+static void append_rows(const ImportTable *from, size_t rows, size_t masked, ImportTable *to)
+{
+    size_t size = (size_t)from->channels, count = (size_t)from->rows;
+    memcpy((double *)to->theta_deg + rows, from->theta_deg, sizeof(double) * count);
+    memcpy((double *)to->phi_deg + rows, from->phi_deg, sizeof(double) * count);
+    memcpy((double *)to->value + rows * size, from->value, sizeof(double) * count * size);
+    if (!from->masked || !from->masked_theta_deg) return;
+    count = (size_t)from->masked;
+    memcpy((double *)to->masked_theta_deg + masked, from->masked_theta_deg,
+           sizeof(double) * count);
+    memcpy((double *)to->masked_phi_deg + masked, from->masked_phi_deg, sizeof(double) * count);
+}
+
+void import_append_tables(ImportSet *set, const int *part, int count, ImportTable *joined)
+{
+    size_t rows = 0, masked = 0, size = (size_t)set->table[part[0]].channels;
+    for (int k = 0; k < count; k++) {
+        rows += (size_t)set->table[part[k]].rows;
+        masked += (size_t)set->table[part[k]].masked;
+    }
+    *joined = set->table[part[0]];
+    joined->theta_deg = ARENA_NEW(set->arena, double, rows);
+    joined->phi_deg = ARENA_NEW(set->arena, double, rows);
+    joined->value = ARENA_NEW(set->arena, double, rows * size);
+    joined->masked_theta_deg = ARENA_NEW(set->arena, double, masked);
+    joined->masked_phi_deg = ARENA_NEW(set->arena, double, masked);
+    joined->rows = joined->masked = 0;
+    for (int k = 0; k < count; k++) {
+        const ImportTable *from = &set->table[part[k]];
+        append_rows(from, (size_t)joined->rows, (size_t)joined->masked, joined);
+        joined->rows += from->rows;
+        joined->masked += from->masked;
+    }
+}
+
+void import_remove_tables(ImportSet *set, const int *part, int count, int keep)
+{
+    int kept = 0;
+    for (int i = 0; i < set->count; i++) {
+        bool listed = false;
+        for (int k = 0; k < count; k++) listed |= part[k] == i && i != keep;
+        if (!listed) set->table[kept++] = set->table[i];
+    }
+    set->count = kept;
+}
+
+int *import_match_rows(const ImportTable *table, const ImportTable *other, Arena *arena)
+{
+    Place *from = sorted_places(table, arena), *to = sorted_places(other, arena);
+    int   *match = ARENA_NEW(arena, int, table->rows);
+    for (int i = 0, k = 0; i < table->rows; i++) {
+        Place wanted = {from[i].theta, from[i].phi, 0};
+        while (k < other->rows && (to[k].theta < wanted.theta ||
+                                   (to[k].theta == wanted.theta && to[k].phi < wanted.phi)))
+            k++;
+        match[from[i].row] = k < other->rows && same_place(&to[k], &wanted) ? to[k].row : -1;
+    }
+    return match;
+}
+
+/* ---- a direction once -------------------------------------------------------------------- */
+
+/* How many rows are repetitions; leader[row] is the first row of the same direction. */
+static int find_repeats(const ImportTable *table, Arena scratch, int *leader)
+{
+    Place *place = sorted_places(table, &scratch);
+    int    repeats = 0;
+    for (int i = 0; i < table->rows; i++) {
+        bool again = i && place[i].theta && same_place(&place[i], &place[i - 1]);
+        leader[place[i].row] = again ? leader[place[i - 1].row] : place[i].row;
+        repeats += again;
+    }
+    return repeats;
+}
+
+static void take_means(ImportTable *table, const int *leader, int rows, Arena *arena)
+{
+    size_t  size = (size_t)table->channels;
+    double *theta = ARENA_NEW(arena, double, rows), *phi = ARENA_NEW(arena, double, rows);
+    double *value = ARENA_NEW(arena, double, (size_t)rows * size);
+    int    *place = ARENA_NEW(arena, int, table->rows), *count = ARENA_NEW(arena, int, rows);
+    int     filled = 0;
+    for (int i = 0; i < table->rows; i++) {
+        if (leader[i] == i) {
+            place[i] = filled++;
+            theta[place[i]] = table->theta_deg[i];
+            phi[place[i]] = table->phi_deg[i];
+        }
+        int to = place[leader[i]];
+        count[to]++;
+        for (size_t c = 0; c < size; c++)
+            value[(size_t)to * size + c] += table->value[(size_t)i * size + c];
+    }
+    for (int i = 0; i < rows; i++)
+        for (size_t c = 0; c < size && count[i] > 1; c++)
+            value[(size_t)i * size + c] /= count[i];
+    table->theta_deg = theta;
+    table->phi_deg = phi;
+    table->value = value;
+    table->rows = rows;
+}
+
+void import_merge_directions(ImportSet *set)
+{
+    int total = 0, tables = 0;
+    for (int i = 0; i < set->count; i++) {
+        ImportTable *table = &set->table[i];
+        Arena scratch = *set->arena;
+        int  *leader = ARENA_NEW(&scratch, int, table->rows);
+        int   repeats = find_repeats(table, scratch, leader);
+        if (!repeats) continue;
+        int *kept = ARENA_NEW(set->arena, int, table->rows);
+        find_repeats(table, *set->arena, kept);
+        take_means(table, kept, table->rows - repeats, set->arena);
+        total += repeats;
+        tables++;
+    }
+    if (total)
+        import_note(set,
+                    "%d directions of %d tables stood more than once: their mean was taken",
+                    total, tables);
+}

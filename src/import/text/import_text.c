@@ -1,0 +1,220 @@
+/* Text of any layout: columns or matrices, as the user and the file declare it. */
+#include "import/text/import_text.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "import/text/text_reader.h"
+
+/* ---- what the file is -------------------------------------------------------------------- */
+
+static bool not_told(TextReader *in, bool is_ambiguous)
+{
+    const char *wanted =
+        in->is_reflection ? "brdf:INCIDENCE" : "red:255 (or green, blue, black, white)";
+    return error_at(in->err, ERROR_INPUT, in->file, "",
+                    "%s %s — say it with --role %s=%s", is_ambiguous ? "tells more than one"
+                    : "does not tell, by its contents or its name,",
+                    in->is_reflection ? is_ambiguous ? "angle of incidence"
+                                                     : "the light's angle of incidence"
+                    : is_ambiguous ? "pattern" : "which pattern it shows",
+                    path_name(in->file), wanted);
+}
+
+static bool fits_kind(const TextReader *in, const Role *role)
+{
+    bool is_light = role->source == IMPORT_REFLECTION || role->source == IMPORT_REFERENCE;
+    return role->source == IMPORT_DARK || is_light == in->is_reflection;
+}
+
+static bool declared_role(TextReader *in, const char *text)
+{
+    double most = in->declared->level_max > 0 ? in->declared->level_max : 255;
+    if (!role_parse(text, most, &in->role, in->err)) return false;
+    if (!fits_kind(in, &in->role))
+        return error_at(in->err, ERROR_INPUT, in->file, "", "holds %s, and its role is '%s'",
+                        in->is_reflection ? "reflection" : "luminances", text);
+    if (in->role.has_incidence && in->column[QUANTITY_INCIDENCE] >= 0)
+        return error_at(in->err, ERROR_INPUT, in->file, "",
+                        "has the angle of incidence in a column, and its role is '%s'", text);
+    bool is_reflection = in->role.source == IMPORT_REFLECTION;
+    if (is_reflection && !in->role.has_incidence && in->column[QUANTITY_INCIDENCE] < 0)
+        return not_told(in, false);
+    return true;
+}
+
+/* "R_031" of ".../R_031.csv". */
+static const char *name_without_ending(TextReader *in)
+{
+    const char *name = path_name(in->file), *ending = path_ending(in->file);
+    size_t      length = strlen(name) - strlen(ending);
+    return arena_string(in->set->arena, name, length ? length : strlen(name));
+}
+
+/* The role of a reflection table whose own text says the incidence. */
+static Role said_light(const TextReader *in)
+{
+    return (Role){.is_told = in->said.has_incidence, .source = IMPORT_REFLECTION,
+                  .has_incidence = in->said.has_incidence,
+                  .incidence_deg = in->said.incidence_deg,
+                  .wavelength_nm = in->said.wavelength_nm};
+}
+
+static bool told_twice(TextReader *in, const Role *said, const Role *named)
+{
+    Arena *arena = in->set->arena;
+    return error_at(in->err, ERROR_INPUT, in->file, in->said.words_line >= 0 ?
+                    text_place(in->said.words_line, arena) : "",
+                    "is %s by its contents and %s by its name — say which with --role %s=...",
+                    role_text(said, arena), role_text(named, arena), path_name(in->file));
+}
+
+bool text_find_role(TextReader *in)
+{
+    double most = in->declared->level_max > 0 ? in->declared->level_max : 255;
+    bool   is_mixed[2] = {false, false};
+    bool   by_column = in->is_reflection ? in->column[QUANTITY_INCIDENCE] >= 0
+                                         : in->column[QUANTITY_CODE_R] >= 0;
+    const char *text = text_declared_role(in->declared, in->file);
+    if (text) return declared_role(in, text);
+    Role said = in->is_reflection ? said_light(in)
+                                  : role_from_words(in->said.words, most, &is_mixed[0]);
+    Role named = role_from_words(name_without_ending(in), most, &is_mixed[1]);
+    if (named.is_told && !fits_kind(in, &named)) named = (Role){.is_told = false};
+    in->role = said.is_told ? said : named;
+    if (by_column) {
+        in->role.source = IMPORT_REFLECTION;
+        return true;
+    }
+    if (said.is_told && named.is_told && !role_agrees(&said, &named))
+        return told_twice(in, &said, &named);
+    if (said.is_told && named.is_told) { /* each may know what the other leaves open */
+        if (!said.has_level && named.has_level) in->role.level = named.level;
+        if (!said.component) in->role.component = named.component;
+        if (!said.has_azimuth && named.has_azimuth) {
+            in->role.has_azimuth = true;
+            in->role.azimuth_deg = named.azimuth_deg;
+        }
+        if (!(said.wavelength_nm > 0)) in->role.wavelength_nm = named.wavelength_nm;
+    }
+    return in->role.is_told || not_told(in, is_mixed[0] || (!said.is_told && is_mixed[1]));
+}
+
+/* ---- columns ----------------------------------------------------------------------------- */
+
+static void index_columns(TextReader *in)
+{
+    for (int q = 0; q < QUANTITY_COUNT; q++) in->column[q] = -1;
+    for (int c = in->raw->columns - 1; c >= 0; c--)
+        in->column[in->raw->column[c].name.quantity] = c;
+}
+
+/* A matrix without a label: --quantity says what it holds, or a component in role or name. */
+static bool name_unlabelled(TextReader *in)
+{
+    int c = in->column[QUANTITY_NONE];
+    if (c < 0) return true;
+    ColumnName *name = &in->raw->column[c].name;
+    const char *told = in->declared->quantity,
+               *role = text_declared_role(in->declared, in->file);
+    double most = in->declared->level_max > 0 ? in->declared->level_max : 255;
+    bool   is_mixed;
+    Role   named = role_from_words(name_without_ending(in), most, &is_mixed);
+    if (role && !role_parse(role, most, &named, in->err)) return false;
+    if (told) {
+        *name = column_name((TextCell){told, (int)strlen(told)});
+    } else if (named.is_told && named.source == IMPORT_REFLECTION) {
+        name->quantity = QUANTITY_REFLECTION;
+    } else if (named.component) {
+        name->quantity = (Quantity)(QUANTITY_X + named.component - 'X');
+    } else {
+        return error_at(in->err, ERROR_INPUT, in->file, "",
+                        "does not say what its matrix holds — say --quantity X, Y, Z, L or "
+                        "brdf, or the component in the role, as --role %s=red:255:X",
+                        path_name(in->file));
+    }
+    index_columns(in);
+    return true;
+}
+
+/* Luminance or reflection; both, or codes without all three, are refused. */
+static bool find_kind(TextReader *in)
+{
+    bool emission = false;
+    for (int q = QUANTITY_X; q <= QUANTITY_VPRIME; q++) emission |= in->column[q] >= 0;
+    in->is_reflection = in->column[QUANTITY_REFLECTION] >= 0;
+    if (emission == in->is_reflection)
+        return error_at(in->err, ERROR_INPUT, in->file, "header line",
+                        emission ? "has columns of luminance and of reflection, wanted one "
+                                   "kind — skip some with --columns"
+                                 : "has no column of luminance or reflection — name them with "
+                                   "--columns");
+    int codes = 0;
+    for (int q = QUANTITY_CODE_R; q <= QUANTITY_CODE_B; q++) codes += in->column[q] >= 0;
+    if (codes && codes < 3)
+        return error_at(in->err, ERROR_INPUT, in->file, "header line",
+                        "has %d of the three columns R, G and B", codes);
+    in->is_section = in->column[QUANTITY_THETA] >= 0 && in->column[QUANTITY_PHI] < 0;
+    if (in->is_section && !text_declared_section(in->declared, in->file, &in->section_phi))
+        return error_at(in->err, ERROR_INPUT, in->file, "header line",
+                        "has theta but no azimuth — say the section's azimuth with --section "
+                        "%s=DEG", path_name(in->file));
+    bool has_polar = in->column[QUANTITY_THETA] >= 0;
+    bool has_pair = in->column[QUANTITY_HORIZONTAL] >= 0 && in->column[QUANTITY_VERTICAL] >= 0;
+    return has_polar != has_pair ||
+           error_at(in->err, ERROR_INPUT, in->file, "header line",
+                    "has %s, wanted one pair of angles", has_polar ? "theta and phi and also a "
+                    "horizontal and a vertical angle" : "no pair of angles");
+}
+
+static bool check_sayings(TextReader *in)
+{
+    double told = in->options->wavelength_nm, said = in->said.wavelength_nm;
+    if (told > 0 && said > 0 && fabs(told - said) > 1e-3)
+        return error_at(in->err, ERROR_INPUT, in->file, "",
+                        "says a wavelength of %g nm, and --wavelength says %g", said, told);
+    return true;
+}
+
+/* ---- the importer ------------------------------------------------------------------------ */
+
+static void note_names(TextReader *in)
+{
+    if (in->said.panel && !in->set->panel) in->set->panel = in->said.panel;
+    if (in->said.instrument && !in->set->instrument) in->set->instrument = in->said.instrument;
+    if (in->said.unused_columns)
+        import_note(in->set, "%s: %d columns with other names are not used",
+                    path_name(in->file), in->said.unused_columns);
+}
+
+static bool read_text(const char *file, const ImportOptions *options, ImportSet *set,
+                      Error *err)
+{
+    static const TextDeclaration nothing;
+    TextReader in = {.file = file, .options = options, .set = set, .err = err,
+                     .declared = options->text ? options->text : &nothing,
+                     .raw = ARENA_NEW(set->arena, RawTable, 1)};
+    if (!text_scan(file, in.declared, set->arena, in.raw, &in.said, err)) return false;
+    index_columns(&in);
+    if (!name_unlabelled(&in) || !find_kind(&in) || !check_sayings(&in) ||
+        !text_find_role(&in) || !text_settle(&in))
+        return false;
+    note_names(&in);
+    return text_add_tables(&in);
+}
+
+/* Text holds no zero bytes but as half of UTF-16's; DOS ends it with a control-Z. */
+static bool is_text(const char *file, const char *head, size_t size)
+{
+    (void)file;
+    size_t zeros = 0, odd = 0;
+    for (size_t i = 0; i < size; i++) {
+        zeros += head[i] == 0;
+        odd += head[i] > 0 && head[i] < ' ' && !strchr("\t\r\n\f\x1A", head[i]);
+    }
+    return odd == 0 && (zeros == 0 || zeros * 5 > size * 2);
+}
+
+const Importer importer_text = {"text", "columns and matrices of any layout, as declared",
+                              is_text, read_text};

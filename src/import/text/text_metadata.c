@@ -1,0 +1,144 @@
+/* What a file says of itself in the lines around its numbers. */
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "import/text/text_scan.h"
+
+#define COUNT(list) (sizeof(list) / sizeof *(list))
+#define KEY_LENGTH 48
+
+typedef struct KeyValue {
+    char     key[KEY_LENGTH]; /* lower case; blanks and underscores left out */
+    TextLine value;
+} KeyValue;
+
+/* "Sample;blue 127", "Unit: cd/m2", "level = 255". No separator: the key is empty. */
+static KeyValue cut_key(TextLine line)
+{
+    KeyValue pair = {.value = line};
+    int      i = 0, n = 0;
+    while (i < line.length && !strchr(":;=,\t", line.text[i])) i++;
+    if (i == line.length) return pair;
+    for (int k = 0; k < i && n < KEY_LENGTH - 1; k++)
+        if (!strchr(" _-[]\"", line.text[k]))
+            pair.key[n++] = (char)tolower((unsigned char)line.text[k]);
+    while (i < line.length && strchr(":;=,\t \"", line.text[i])) i++;
+    pair.value = (TextLine){line.text + i, line.length - i};
+    while (pair.value.length && strchr(";,\t \"", pair.value.text[pair.value.length - 1]))
+        pair.value.length--;
+    return pair;
+}
+
+static bool key_is(const KeyValue *pair, const char *const *names, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!strcmp(pair->key, names[i])) return true;
+    return false;
+}
+
+/* The number at the value's beginning, with a decimal point or comma. */
+static bool value_number(const KeyValue *pair, double *out)
+{
+    char digits[32] = {0}, *after;
+    for (int i = 0; i < pair->value.length && i < 31; i++)
+        digits[i] = pair->value.text[i] == ',' ? '.' : pair->value.text[i];
+    *out = strtod(digits, &after);
+    return after != digits && *out >= -1e6 && *out <= 1e6;
+}
+
+static void said_azimuth(TextSaid *said, TextLine line, int index)
+{
+    bool about = line_has(line, "azim") || line_has(line, "phi") ||
+                 line_has(line, "clockwise") || line_has(line, "orientation");
+    if (!about) return;
+    AzimuthWords words = azimuth_words(line);
+    if (words.has_zero) {
+        said->azimuth.has_zero = true;
+        said->azimuth.zero_deg = words.zero_deg;
+        said->zero_line = index;
+    }
+    if (words.has_sense) {
+        said->azimuth.has_sense = true;
+        said->azimuth.sense = words.sense;
+        said->sense_line = index;
+    }
+    if (words.has_side) {
+        said->azimuth.has_side = true;
+        said->azimuth.is_behind = words.is_behind;
+        said->side_line = index;
+    }
+}
+
+static void said_units(TextSaid *said, const KeyValue *pair, int index)
+{
+    static const char *const unit_keys[] = {"unit", "units", "einheit", "valueunit",
+                                            "luminanceunit"};
+    static const char *const angle_keys[] = {"angleunit", "angleunits", "angles", "angle",
+                                             "winkel"};
+    if (key_is(pair, unit_keys, COUNT(unit_keys)) || !pair->key[0]) { /* or the unit alone */
+        ValueUnit unit = value_unit((TextCell){pair->value.text, pair->value.length});
+        if (unit != UNIT_AUTO) {
+            said->unit = unit;
+            said->unit_line = index;
+        }
+    }
+    if (key_is(pair, angle_keys, COUNT(angle_keys))) {
+        AngleUnit unit = line_has(pair->value, "rad") ? ANGLE_RADIANS
+                         : line_has(pair->value, "deg") ? ANGLE_DEGREES : ANGLE_AUTO;
+        if (unit != ANGLE_AUTO) {
+            said->angle = unit;
+            said->angle_line = index;
+        }
+    }
+}
+
+static void said_pattern(TextSaid *said, const KeyValue *pair, int index)
+{
+    static const char *const keys[] = {"sample", "pattern", "testpattern", "colour", "color",
+        "farbe", "muster", "stimulus", "content", "image", "primary", "level", "greylevel",
+        "graylevel", "grey", "gray", "code", "rgb"};
+    if (!key_is(pair, keys, COUNT(keys))) return;
+    size_t length = strlen(said->words);
+    snprintf(said->words + length, sizeof said->words - length, "%s%.*s", length ? " " : "",
+             pair->value.length, pair->value.text);
+    said->words_line = index;
+}
+
+static void said_light(TextSaid *said, const KeyValue *pair)
+{
+    static const char *const incidence[] = {"incidence", "angleofincidence", "incidenceangle",
+        "thetai", "aoi", "thetain", "incidencedeg"};
+    static const char *const wavelength[] = {"wavelength", "wavelengthnm", "lambda"};
+    double number;
+    if (key_is(pair, incidence, COUNT(incidence)) && value_number(pair, &number)) {
+        said->has_incidence = true;
+        said->incidence_deg = number;
+    }
+    if (key_is(pair, wavelength, COUNT(wavelength)) && value_number(pair, &number) &&
+        number >= 100 && number <= 20000)
+        said->wavelength_nm = number;
+}
+
+static void said_names(TextSaid *said, const KeyValue *pair, Arena *arena)
+{
+    static const char *const panel[] = {"panel", "display", "device", "dut", "model"};
+    static const char *const instrument[] = {"instrument", "messger\xC3\xA4t", "conoscope"};
+    if (pair->value.length < 1 || pair->value.length > 200) return;
+    char *value = arena_string(arena, pair->value.text, (size_t)pair->value.length);
+    if (key_is(pair, panel, COUNT(panel)) && !said->panel) said->panel = value;
+    if (key_is(pair, instrument, COUNT(instrument)) && !said->instrument)
+        said->instrument = value;
+}
+
+void text_said_line(TextSaid *said, TextLine line, int index, Arena *arena)
+{
+    KeyValue pair = cut_key(line);
+    said_azimuth(said, line, index);
+    said_units(said, &pair, index);
+    if (!pair.key[0]) return;
+    said_pattern(said, &pair, index);
+    said_light(said, &pair);
+    said_names(said, &pair, arena);
+}

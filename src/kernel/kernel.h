@@ -1,0 +1,19 @@
+/* kernel.h -- the hot part of the program, built once for each instruction set.
+ *
+ * Everything between a tile and its film samples (KERNEL_SOURCES of the build) is compiled for
+ * several instruction sets; one is chosen when a render starts, together with Embree's. All of
+ * them compute the same bits, but Embree's do not: pin the name to compare machines.
+ * No vector type crosses this seam by value.
+ */
+#pragma once
+#include "kernel/tile.h"
+
+typedef struct Kernel {
+    const char *isa; /* "sse2", "avx2", "avx512"; "native" on other processors */
+    /* rect: inside the film's crop, pixels of the whole frame. Adds to *statistics. */
+    void (*render)(const TileJob *job, FilmRect rect, PathStatistics *statistics);
+} Kernel;
+
+/* isa: a name from above, or NULL for the best that this processor and program have. Fails,
+ * naming what there is, on another name or on one that the processor lacks. */
+bool kernel_choose(const char *isa, const Kernel **out, Error *err);

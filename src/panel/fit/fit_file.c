@@ -1,0 +1,84 @@
+/* A panel file's bytes (layout: panel_file.h). */
+#include <string.h>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "panel/fit/fit_parts.h"
+
+struct FitWriter {
+    unsigned char *bytes; /* the sections; offsets count from here until the end */
+    size_t         size, capacity;
+    PanelSection   section[PANEL_SECTIONS_MAX];
+    uint32_t       count;
+    Arena         *arena;
+};
+
+static size_t rounded(size_t size)
+{
+    return (size + PANEL_ALIGN - 1) / PANEL_ALIGN * PANEL_ALIGN;
+}
+
+static void make_room(FitWriter *writer, size_t bytes)
+{
+    if (writer->size + bytes <= writer->capacity) return;
+    writer->capacity = 2 * (writer->size + bytes);
+    unsigned char *grown = arena_alloc(writer->arena, 1, 64, writer->capacity);
+    if (writer->size) memcpy(grown, writer->bytes, writer->size);
+    writer->bytes = grown;
+}
+
+void fit_write_section(FitWriter *writer, PanelSectionKind kind, uint32_t index,
+                       const FitPiece *piece, int pieces)
+{
+    size_t begin = rounded(writer->size);
+    make_room(writer, PANEL_ALIGN);
+    writer->size = begin;
+    for (int i = 0; i < pieces; i++) {
+        make_room(writer, piece[i].size);
+        if (piece[i].size) memcpy(writer->bytes + writer->size, piece[i].data, piece[i].size);
+        writer->size += piece[i].size;
+    }
+    writer->section[writer->count++] = (PanelSection){
+        (uint16_t)kind, (uint16_t)index, (uint32_t)(writer->size - begin), begin};
+}
+
+static void write_emission(FitWriter *writer, const FitParts *parts)
+{
+    const FitEmission *e = parts->emission;
+    FitPiece section = {e->section, e->section_size}, tree = {e->tree, tree_size(e->tree)};
+    FitPiece primaries = {parts->primaries, parts->primaries_size};
+    fit_write_section(writer, PANEL_EMISSION, 0, &section, 1);
+    fit_write_section(writer, PANEL_EMISSION_TREE, 0, &tree, 1);
+    fit_write_section(writer, PANEL_PRIMARIES, 0, &primaries, 1);
+}
+
+/* Header and table of contents in front of the sections. */
+static void *finish(FitWriter *writer, size_t *size)
+{
+    size_t toc = writer->count * sizeof *writer->section;
+    size_t front = rounded(sizeof(PanelHeader) + toc);
+    unsigned char *bytes = arena_alloc(writer->arena, 1, 64, front + writer->size);
+    for (uint32_t i = 0; i < writer->count; i++) writer->section[i].offset += front;
+    PanelHeader header = {.magic = PANEL_MAGIC, .version = PANEL_VERSION,
+                          .size = front + writer->size, .section_count = writer->count};
+    memcpy(bytes, &header, sizeof header);
+    memcpy(bytes + sizeof header, writer->section, toc);
+    memcpy(bytes + front, writer->bytes, writer->size);
+    size_t from = offsetof(PanelHeader, size);
+    header.checksum = XXH3_64bits(bytes + from, header.size - from);
+    memcpy(bytes, &header, sizeof header);
+    *size = header.size;
+    return bytes;
+}
+
+void *fit_file_bytes(const FitParts *parts, const char *meta, Arena *arena, size_t *size)
+{
+    FitWriter writer = {.arena = arena};
+    FitPiece  text = {meta, strlen(meta)}, figures = {parts->figures, parts->figures_size};
+    fit_write_section(&writer, PANEL_META, 0, &text, 1);
+    if (parts->figures) fit_write_section(&writer, PANEL_FIGURES, 0, &figures, 1);
+    if (parts->emission) write_emission(&writer, parts);
+    if (parts->reflection) fit_write_reflection(&writer, parts->reflection);
+    return finish(&writer, size);
+}

@@ -1,0 +1,44 @@
+/* panel_info.h -- what commands and reports want to know of an opened panel.
+ *
+ * Units    radians, nm. Threads: any number. Fails: never.
+ */
+#pragma once
+#include "panel/query/panel.h"
+
+#define PANEL_INFO_WAVELENGTHS_MAX 256
+
+/* The measured wavelengths of the reflection, rising; returns how many (0: none). */
+int panel_info_wavelengths(const Panel *panel, float nm[PANEL_INFO_WAVELENGTHS_MAX]);
+
+/* Within the measured incidences (the mirrored range below the first included) and the cone
+ * of measured leaving directions? */
+bool panel_info_brdf_is_measured(const Panel *panel, double incidence, double theta);
+
+/* Incidences of the light that were measured, radians, rising; returns how many. */
+#define PANEL_INFO_INCIDENCES_MAX 64
+int panel_info_incidences(const Panel *panel, double theta[PANEL_INFO_INCIDENCES_MAX]);
+
+/* Azimuths of the light at each of them, radians; 1 (pi): the same from all sides. */
+#define PANEL_INFO_AZIMUTHS_MAX 72
+int panel_info_azimuths(const Panel *panel, double phi[PANEL_INFO_AZIMUTHS_MAX]);
+
+/* The last measured theta of leaving directions. */
+double panel_info_reflection_cone(const Panel *panel);
+
+/* ---- emission -------------------------------------------------------------------------- */
+
+/* Something was measured that it emits? */
+bool panel_info_emits(const Panel *panel);
+
+/* The measured codes of primary 0..2, rising, without 0; returns how many. */
+#define PANEL_INFO_LEVELS_MAX 64
+int panel_info_levels(const Panel *panel, int primary, double code[PANEL_INFO_LEVELS_MAX]);
+
+/* Does the black pattern shine? False for panels made of a white table, and for true blacks. */
+bool panel_info_has_black(const Panel *panel);
+
+/* The last measured theta. */
+double panel_info_emission_cone(const Panel *panel);
+
+/* Spectral radiance of primary 0..2 at 1 cd m^-2, every nm from SPECTRAL_FIRST_NM. */
+const float *panel_info_spectrum(const Panel *panel, int primary);

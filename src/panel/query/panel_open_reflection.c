@@ -1,0 +1,279 @@
+/* Opening a panel file: what it reflects, expanded for queries. */
+#include <math.h>
+#include <string.h>
+
+#include "base/mathd.h"
+#include "panel/query/panel_open.h"
+#include "panel/query/panel_reflection_layout.h"
+
+static bool check_counts(const PanelBytes *at, const PanelReflectionStored *s)
+{
+    uint32_t tables = (uint32_t)s->incidences * s->azimuths;
+    if (s->incidences < 1 || s->incidences > PANEL_INCIDENCES_MAX || s->azimuths < 1 ||
+        s->azimuths > PANEL_AZIMUTHS_MAX || tables > PANEL_TABLES_MAX || s->components < 1 ||
+        s->components > PANEL_REFLECTION_COMPONENTS_MAX || s->coefficients < 1 ||
+        s->coefficients > PANEL_COEFFICIENTS_MAX || s->wavelengths < 1 ||
+        s->wavelengths > PANEL_WAVELENGTHS_MAX || s->nodes > PANEL_NODES_MAX)
+        return panel_refuse(at, "reflection", "a count is out of range");
+    if (s->is_cubic > 1 || s->has_mirror > 1 || s->has_lobe > 1)
+        return panel_refuse(at, "reflection", "a switch is neither 0 nor 1");
+    if (!(s->frame_exponent >= 1 && s->frame_exponent <= 4) ||
+        !(s->refractive_index >= 1 && s->refractive_index <= 4) ||
+        !(s->cone_cos >= 0 && s->cone_cos <= 1) ||
+        !(s->mean_scale >= 0 && s->mean_scale <= 0.01f) ||
+        !(s->lobe_scale >= 0 && s->lobe_scale <= 0.01f))
+        return panel_refuse(at, "reflection", "frame, refractive index, cone or scale out of "
+                                              "range");
+    return true;
+}
+
+static bool in_range(const float *value, uint32_t count, float low, float high)
+{
+    for (uint32_t i = 0; i < count; i++)
+        if (!(value[i] >= low && value[i] <= high)) return false;
+    return true;
+}
+
+static bool check_axes(const PanelBytes *at, const PanelReflectionStored *s,
+                       const ReflectionLayout *from)
+{
+    if (!panel_rising(from->incidence, s->incidences) ||
+        !in_range(from->incidence, s->incidences, 0, 1.5708f) ||
+        !panel_rising(from->azimuth, s->azimuths) ||
+        !in_range(from->azimuth, s->azimuths, 0, 6.2832f))
+        return panel_refuse(at, "reflection", "incidences or azimuths do not rise");
+    if (!panel_rising(from->wavelength_nm, s->wavelengths) ||
+        !in_range(from->wavelength_nm, s->wavelengths, 1, 1e5f))
+        return panel_refuse(at, "reflection", "wavelengths do not rise");
+    if (!panel_rising(from->node_theta, s->nodes) ||
+        !in_range(from->node_theta, s->nodes, 0, 1.5709f))
+        return panel_refuse(at, "reflection", "incidences beyond the measured do not rise");
+    if (!in_range(from->basis_scale, s->coefficients, 0, 1e6f) ||
+        !in_range(from->loading_scale, s->components, 0, 1e6f) ||
+        (s->has_lobe && !in_range(from->lobe_sigma,
+                                  (uint32_t)s->incidences * s->azimuths, 1e-4f, 1)))
+        return panel_refuse(at, "reflection", "a scale or width is out of range");
+    return true;
+}
+
+/* ---- expansion --------------------------------------------------------------------------- */
+
+/* rows x wavelengths numbers of 16 bits to padded rows. */
+static float *expand_rows(const PanelReflection *r, const int16_t *from, uint32_t rows,
+                          float scale, Arena *arena)
+{
+    float *out = ARENA_NEW(arena, float, (size_t)rows * r->padded_wavelengths);
+    for (uint32_t i = 0; i < rows; i++)
+        for (uint32_t w = 0; w < r->wavelengths; w++)
+            out[i * r->padded_wavelengths + w] = scale * (float)from[i * r->wavelengths + w];
+    return out;
+}
+
+static float *expand_shares(const PanelReflection *r, const uint16_t *from, uint32_t rows,
+                            Arena *arena)
+{
+    float *out = ARENA_NEW(arena, float, (size_t)rows * r->padded_wavelengths);
+    for (uint32_t i = 0; i < rows; i++)
+        for (uint32_t w = 0; w < r->wavelengths; w++)
+            out[i * r->padded_wavelengths + w] =
+                (float)from[i * r->wavelengths + w] / 65535.0f;
+    return out;
+}
+
+static void exponentiate(float *rows, const PanelReflection *r, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t w = 0; w < r->wavelengths; w++)
+            rows[i * r->padded_wavelengths + w] = exp_f(rows[i * r->padded_wavelengths + w]);
+}
+
+static void expand_basis(const PanelReflectionStored *s, const ReflectionLayout *from,
+                         PanelReflection *r, Arena *arena)
+{
+    float *basis = ARENA_NEW(arena, float, r->coefficients * r->padded_wavelengths);
+    float *loading = ARENA_NEW(arena, float,
+                               r->tables * r->components * r->padded_coefficients);
+    for (uint32_t k = 0; k < r->coefficients; k++)
+        for (uint32_t w = 0; w < r->wavelengths; w++)
+            basis[k * r->padded_wavelengths + w] =
+                from->basis_scale[k] * (float)from->basis[k * s->wavelengths + w];
+    for (uint32_t t = 0; t < r->tables; t++)
+        for (uint32_t k = 0; k < r->coefficients; k++)
+            for (uint32_t c = 0; c < r->components; c++)
+                loading[(t * r->components + c) * r->padded_coefficients + k] =
+                    from->loading_scale[c] *
+                    (float)from->loading[(t * r->coefficients + k) * r->components + c];
+    r->basis = basis;
+    r->loading = loading;
+}
+
+/* Measured incidences, and before them up to two seen from the other side of the normal. */
+static void name_steps(const ReflectionLayout *from, PanelReflection *r)
+{
+    int n = (int)r->incidences, first = from->incidence[0] > 1e-6f ? 0 : 1;
+    for (int i = first + 1; i >= first; i--)
+        if (i < n)
+            r->step[r->steps++] = (PanelIncidence){-from->incidence[i], i, true};
+    for (int i = 0; i < n; i++)
+        r->step[r->steps++] = (PanelIncidence){from->incidence[i], i, false};
+}
+
+static double fresnel(double c, double n)
+{
+    double t = sqrt(fmax(0, 1 - (1 - c * c) / (n * n)));
+    double s = (c - n * t) / (c + n * t), p = (n * c - t) / (n * c + t);
+    return 0.5 * (s * s + p * p);
+}
+
+/* R / F over the measured incidences, straight lines in F; beyond the last one the line goes
+ * on (a coating loses its effect towards grazing), held between half the last ratio and 1. */
+static double mirror_ratio(const PanelReflection *r, const ReflectionLayout *from,
+                           uint32_t wavelength, double here)
+{
+    uint32_t m = r->incidences, i = 0;
+    double   n = (double)r->refractive_index, f[2], ratio[2];
+    while (i + 2 < m && fresnel(cos_d((double)from->incidence[i + 1]), n) < here) i++;
+    for (uint32_t k = 0; k < 2; k++) {
+        uint32_t j = i + k < m ? i + k : m - 1;
+        f[k] = fresnel(cos_d((double)from->incidence[j]), n);
+        ratio[k] = from->mirror[j * r->wavelengths + wavelength] / 65535.0 / f[k];
+    }
+    if (m < 2 || here <= f[0] || !(f[1] - f[0] > 1e-6)) return ratio[here > f[0] && m > 1];
+    double value = ratio[0] + (ratio[1] - ratio[0]) * (here - f[0]) / (f[1] - f[0]);
+    return fmin(1, fmax(value, 0.5 * fmin(ratio[0], ratio[1])));
+}
+
+static void expand_mirror(const ReflectionLayout *from, PanelReflection *r, Arena *arena)
+{
+    float *mirror = ARENA_NEW(arena, float, (size_t)PANEL_ANGLES * r->padded_wavelengths);
+    for (uint32_t a = 0; a < PANEL_ANGLES; a++) {
+        double f = fresnel(cos_d(a * 0.0087266462599716), (double)r->refractive_index);
+        for (uint32_t w = 0; w < r->wavelengths; w++)
+            mirror[a * r->padded_wavelengths + w] =
+                (float)fmin(1, f * mirror_ratio(r, from, w, f));
+    }
+    r->mirror = mirror;
+}
+
+/* Luminous mean of a row of shares. */
+static double luminous(const PanelReflection *r, const uint16_t *row)
+{
+    double sum = 0, total = 0;
+    for (uint32_t w = 0; w < r->wavelengths; w++) {
+        double y = panel_luminous_weight(r->wavelength_nm[w]);
+        sum += y * row[w] / 65535.0;
+        total += y;
+    }
+    return sum / total;
+}
+
+/* Haze albedo over F between the measured incidences, and between the nodes beyond. */
+static void expand_albedo(const ReflectionLayout *from, PanelReflection *r)
+{
+    double theta[PANEL_INCIDENCES_MAX + PANEL_NODES_MAX], ratio[COUNT_OF(theta)];
+    double n = (double)r->refractive_index;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < r->incidences; i++, count++) {
+        ratio[count] = 0;
+        for (uint32_t a = 0; a < r->azimuths; a++)
+            ratio[count] += luminous(r, from->albedo +
+                                     (a * r->incidences + i) * r->wavelengths) / r->azimuths;
+        theta[count] = (double)from->incidence[i];
+    }
+    for (uint32_t i = 1; i < r->nodes; i++, count++) {
+        ratio[count] = luminous(r, from->node_albedo + i * r->wavelengths);
+        theta[count] = (double)from->node_theta[i];
+    }
+    for (uint32_t i = 0; i < count; i++) ratio[i] /= fresnel(cos_d(theta[i]), n);
+    for (uint32_t a = 0, i = 0; a < PANEL_ANGLES; a++) {
+        double here = a * 0.0087266462599716;
+        while (i + 2 < count && theta[i + 1] <= here) i++;
+        uint32_t next = i + 1 < count ? i + 1 : i;
+        double t = next > i ? (here - theta[i]) / (theta[next] - theta[i]) : 0;
+        t = fmin(1, fmax(0, t));
+        r->haze_albedo[a] = (float)fmin(1, fresnel(cos_d(here), n) *
+                                           (ratio[i] + t * (ratio[next] - ratio[i])));
+    }
+}
+
+static PanelReflection *expand(const PanelReflectionStored *s, const ReflectionLayout *from,
+                               Arena *arena)
+{
+    PanelReflection *r = ARENA_NEW(arena, PanelReflection, 1);
+    *r = (PanelReflection){
+        .incidences = s->incidences, .azimuths = s->azimuths,
+        .tables = (uint32_t)s->incidences * s->azimuths, .components = s->components,
+        .coefficients = s->coefficients,
+        .padded_coefficients = (s->coefficients + 3u) / 4 * 4, .wavelengths = s->wavelengths,
+        .padded_wavelengths = (s->wavelengths + 15u) / 16 * 16,
+        .nodes = s->nodes, .is_cubic = s->is_cubic, .has_mirror = s->has_mirror,
+        .has_lobe = s->has_lobe, .frame_exponent = s->frame_exponent,
+        .refractive_index = s->refractive_index, .cone_cos = s->cone_cos,
+        .first_theta = from->incidence[0], .last_theta = from->incidence[s->incidences - 1]};
+    memcpy(r->azimuth, from->azimuth, sizeof(float) * s->azimuths);
+    memcpy(r->wavelength_nm, from->wavelength_nm, sizeof(float) * s->wavelengths);
+    memcpy(r->node_theta, from->node_theta, sizeof(float) * s->nodes);
+    name_steps(from, r);
+    r->mean = expand_rows(r, from->mean, r->tables, s->mean_scale, arena);
+    float *floor = expand_rows(r, from->floor, r->tables, s->mean_scale, arena);
+    exponentiate(floor, r, r->tables);
+    r->floor = floor;
+    expand_basis(s, from, r, arena);
+    if (s->has_lobe) {
+        r->lobe = expand_rows(r, from->lobe, r->tables, s->lobe_scale, arena);
+        r->lobe_sigma = from->lobe_sigma;
+    }
+    r->held = expand_shares(r, from->held, s->nodes, arena);
+    if (s->has_mirror) expand_mirror(from, r, arena);
+    expand_albedo(from, r);
+    return r;
+}
+
+/* ---- the sections ------------------------------------------------------------------------ */
+
+/* For every whole nm the interval of measured wavelengths that holds it. */
+static void index_wavelengths(Panel *panel)
+{
+    const PanelReflection *r = panel->reflection;
+    int last = 0, intervals = (int)r->wavelengths - 1;
+    for (int i = 0; i < SPECTRAL_COUNT; i++) {
+        while (last + 1 < intervals &&
+               r->wavelength_nm[last + 1] <= (float)(SPECTRAL_FIRST_NM + i))
+            last++;
+        panel->wavelength_index[i] = (int16_t)last;
+    }
+    for (int i = 0; i < intervals; i++)
+        panel->wavelength_scale[i] = 1 / (r->wavelength_nm[i + 1] - r->wavelength_nm[i]);
+}
+
+bool panel_expand_reflection(const PanelBytes *at, const PanelBytes *tree,
+                             const Geodesic *geodesic, Arena *arena, Panel *panel)
+{
+    ReflectionLayout from;
+    const PanelReflectionStored *s = (const PanelReflectionStored *)at->data;
+    if (at->size < sizeof *s) return panel_refuse(at, "reflection", "is too short");
+    if (!check_counts(at, s)) return false;
+    if (reflection_layout(s, &from) != at->size)
+        return panel_refuse(at, "reflection", "has another size than its counts say");
+    if (!check_axes(at, s, &from)) return false;
+    if (!tree_open(tree->data, tree->size, geodesic, &panel->reflection_tree, at->err))
+        return error_prefix(at->err, "reflection tree") || error_in_file(at->err, at->name);
+    if (panel->reflection_tree.components != (int)s->components ||
+        panel->reflection_tree.octants != (s->azimuths > 1 ? 4 : 2))
+        return panel_refuse(at, "reflection", "does not fit its tree");
+    panel->reflection = expand(s, &from, arena);
+    index_wavelengths(panel);
+    return true;
+}
+
+bool panel_open_reflection(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
+                           Panel *panel)
+{
+    PanelBytes at, tree;
+    bool  found;
+    if (!panel_find_section(bytes, PANEL_REFLECTION, 0, &at, &found)) return false;
+    if (!found) return true;
+    return panel_need_section(bytes, PANEL_REFLECTION_TREE, 0, &tree) &&
+           panel_expand_reflection(&at, &tree, geodesic, arena, panel) &&
+           panel_open_sampling(bytes, geodesic, arena, panel);
+}

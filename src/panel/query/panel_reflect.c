@@ -1,0 +1,422 @@
+/* HOT: what a panel reflects. No allocation, no lock, no libm. */
+#include <string.h>
+
+#include "base/units.h"
+#include "hemisphere/specular_frame.h"
+#include "hemisphere/tree_query.h"
+#include "panel/query/panel_slices.h"
+
+#define PADDED_MAX ((PANEL_WAVELENGTHS_MAX + 15) / 16 * 16)
+#define COEFFICIENTS_MAX ((PANEL_COEFFICIENTS_MAX + 3) / 4 * 4)
+#define COMPONENTS_MAX ((PANEL_REFLECTION_COMPONENTS_MAX + 3) / 4 * 4)
+#define LOBE_SIGMAS 6.5f /* exp(-21): nothing beyond */
+
+bool panel_reflects(const Panel *panel)
+{
+    return panel->reflection != NULL;
+}
+
+/* Unpolarised Fresnel reflectance, exact. */
+static float fresnel(float c, float n)
+{
+    float t = safe_sqrtf(1 - (1 - c * c) / (n * n));
+    float s = (c - n * t) / (c + n * t), p = (n * c - t) / (n * c + t);
+    return 0.5f * (s * s + p * p);
+}
+
+/* ---- which tables an angle of incidence is made of -------------------------------------- */
+
+typedef struct Term {
+    int   table;
+    float weight;
+} Term;
+
+typedef struct Terms {
+    int  count;
+    Term term[16];
+} Terms;
+
+/* Tables that are read at the stored direction, and those that are read at the direction
+ * turned by 180 degrees (incidences from beyond the normal). */
+typedef struct TableMix {
+    Terms side[2];
+} TableMix;
+
+/* Weights of up to four neighbours. first: of the first one, may be -1 (weight 0). */
+typedef struct Cubic {
+    int   first;
+    float weight[4];
+} Cubic;
+
+/* Cubic Hermite between x1 and x2 with the slopes of parabolas through three; where a
+ * neighbour is missing the other end's parabola serves, and a straight line where both are.
+ * Weights may be negative: they are for logarithms only. x: four abscissae, those missing are
+ * not read. */
+static void hermite_weights(const float x[4], bool has_left, bool has_right, float u,
+                            float w[4])
+{
+    float h = x[2] - x[1], u2 = u * u, u3 = u2 * u;
+    float a = (u3 - 2 * u2 + u) * h, b = (u3 - u2) * h; /* of the slopes at the two ends */
+    float h0 = has_left ? x[1] - x[0] : 0, h2 = has_right ? x[3] - x[2] : 0;
+    /* with divided differences d0, d1, d2 the slope at x1 is (h d0 + h0 d1) / (h0 + h); at an
+     * end without neighbour the parabola's: 2 d1 less the slope at the other end */
+    float a0 = has_left ? a * h / (h0 + h) : 0, a1 = a - a0;
+    float b2 = has_right ? b * h / (h + h2) : 0, b1 = b - b2;
+    if (!has_right && has_left) b1 = b * (2 - h0 / (h0 + h)), a0 -= b * h / (h0 + h);
+    if (!has_left && has_right) a1 = a * (2 - h2 / (h + h2)), b2 -= a * h / (h + h2);
+    w[0] = has_left ? -a0 / h0 : 0;
+    w[3] = has_right ? b2 / h2 : 0;
+    w[1] = 2 * u3 - 3 * u2 + 1 - w[0] - (a1 + b1) / h;
+    w[2] = 3 * u2 - 2 * u3 - w[3] + (a1 + b1) / h;
+}
+
+static Cubic incidence_weights(const PanelReflection *r, float theta)
+{
+    int i = 0, n = (int)r->steps;
+    if (n == 1) return (Cubic){-1, {0, 1, 0, 0}};
+    while (i + 2 < n && r->step[i + 1].theta <= theta) i++;
+    float span = r->step[i + 1].theta - r->step[i].theta, x[4] = {0};
+    float u = clampf((theta - r->step[i].theta) / span, 0, 1);
+    Cubic cubic = {i - 1, {0, 1 - u, u, 0}};
+    if (!r->is_cubic || n < 3) return cubic;
+    for (int k = 0; k < 4; k++)
+        if (i - 1 + k >= 0 && i - 1 + k < n) x[k] = r->step[i - 1 + k].theta;
+    hermite_weights(x, i > 0, i + 2 < n, u, cubic.weight);
+    return cubic;
+}
+
+/* phi in radians; azimuths repeat after a turn. Linear over fewer than four. */
+static Cubic azimuth_weights(const PanelReflection *r, float phi)
+{
+    int   n = (int)r->azimuths, i = -1;
+    float x[4];
+    if (n == 1) return (Cubic){-1, {0, 1, 0, 0}};
+    phi -= 2 * PI_F * (float)(int)(phi / (2 * PI_F));
+    if (phi < 0) phi += 2 * PI_F;
+    while (i + 1 < n && r->azimuth[i + 1] <= phi) i++;
+    for (int k = 0; k < 4; k++) {
+        int j = i - 1 + k, turn = j < 0 ? -1 : j >= n ? 1 : 0;
+        x[k] = j - turn * n >= 0 && j - turn * n < n
+                   ? r->azimuth[j - turn * n] + 2 * PI_F * (float)turn : 0;
+    }
+    float u = clampf((phi - x[1]) / (x[2] - x[1]), 0, 1);
+    Cubic cubic = {i - 1, {0, 1 - u, u, 0}};
+    if (n >= 4) hermite_weights(x, true, true, u, cubic.weight);
+    return cubic;
+}
+
+/* light: its azimuth in the display's frame. */
+static TableMix table_mix(const PanelReflection *r, float theta, float light)
+{
+    TableMix mix;
+    mix.side[0].count = mix.side[1].count = 0;
+    Cubic    incidence = incidence_weights(r, theta);
+    Cubic    azimuth[2] = {azimuth_weights(r, light)};
+    int      n = (int)r->azimuths;
+    if (n > 1) azimuth[1] = azimuth_weights(r, light + PI_F);
+    else azimuth[1] = azimuth[0];
+    for (int k = 0; k < 4; k++) {
+        if (incidence.weight[k] == 0) continue;
+        const PanelIncidence *step = &r->step[incidence.first + k];
+        const Cubic *around = &azimuth[step->is_turned];
+        for (int a = 0; a < 4; a++) {
+            if (around->weight[a] == 0) continue;
+            int    at = (around->first + a + n) % n;
+            Terms *side = &mix.side[step->is_turned];
+            side->term[side->count++] = (Term){at * (int)r->incidences + step->incidence,
+                                               incidence.weight[k] * around->weight[a]};
+        }
+    }
+    return mix;
+}
+
+/* ---- logarithms ------------------------------------------------------------------------ */
+
+/* A row of 16 floats that need not be aligned. */
+static Spectrum load_16(const float *from)
+{
+    Spectrum value;
+    memcpy(&value, from, sizeof value);
+    return value;
+}
+
+/* Eight at a time: what all instruction sets keep in registers. */
+typedef float Float8 __attribute__((vector_size(32), aligned(4), may_alias));
+
+/* Weighted rows of the mixed tables at 8 wavelengths from w on. */
+static inline Float8 mixed_rows(const PanelReflection *r, const TableMix *mix,
+                                const float *rows, int w)
+{
+    Float8 sum = {0};
+    for (int turned = 0; turned < 2; turned++)
+        for (int i = 0; i < mix->side[turned].count; i++) {
+            const Term *term = &mix->side[turned].term[i];
+            sum += term->weight *
+                   *(const Float8 *)(rows + term->table * (int)r->padded_wavelengths + w);
+        }
+    return sum;
+}
+
+/* Adds what a component vector of the tree means for the mixed tables: 4 * quads coefficients
+ * from k on, quads a constant of 1 to 4 where inlined. Several sums at once: one alone would
+ * wait for itself. */
+static inline void add_quads(const PanelReflection *r, const Terms *terms,
+                             const float *component, int quads, int k, float *coefficient)
+{
+    int          stride = (int)r->padded_coefficients, n = (int)r->components;
+    PanelFloat4 *to = (PanelFloat4 *)(coefficient + k);
+    for (int i = 0; i < terms->count; i++) {
+        const Term  *term = &terms->term[i];
+        const float *row = r->loading + term->table * n * stride + k;
+        PanelFloat4  s0 = {0}, s1 = {0}, s2 = {0}, s3 = {0};
+        for (int c = 0; c < n; c++, row += stride) {
+            const PanelFloat4 *from = (const PanelFloat4 *)row;
+            s0 += component[c] * from[0];
+            if (quads > 1) s1 += component[c] * from[1];
+            if (quads > 2) s2 += component[c] * from[2];
+            if (quads > 3) s3 += component[c] * from[3];
+        }
+        to[0] += term->weight * s0;
+        if (quads > 1) to[1] += term->weight * s1;
+        if (quads > 2) to[2] += term->weight * s2;
+        if (quads > 3) to[3] += term->weight * s3;
+    }
+}
+
+static inline void add_loadings(const PanelReflection *r, const Terms *terms,
+                                const float *component, float *coefficient)
+{
+    int k = 0, padded = (int)r->padded_coefficients;
+    for (; k + 16 <= padded; k += 16) add_quads(r, terms, component, 4, k, coefficient);
+    if (padded - k == 12) add_quads(r, terms, component, 3, k, coefficient);
+    if (padded - k == 8) add_quads(r, terms, component, 2, k, coefficient);
+    if (padded - k == 4) add_quads(r, terms, component, 1, k, coefficient);
+}
+
+/* ln (f / F) at all measured wavelengths: padded_wavelengths floats. */
+static void reflection_logs(const Panel *panel, Vec3 stored, const TableMix *mix, float *logs)
+{
+    const PanelReflection *r = panel->reflection;
+    float component[COMPONENTS_MAX], coefficient[COEFFICIENTS_MAX];
+    int   padded = (int)r->padded_wavelengths;
+    for (int k = 0; k < (int)r->padded_coefficients; k++) coefficient[k] = 0;
+    for (int turned = 0; turned < 2; turned++) {
+        if (!mix->side[turned].count) continue;
+        Vec3 at = turned ? vec3(-stored.x, -stored.y, stored.z) : stored;
+        tree_interpolate(&panel->reflection_tree, at, component);
+        add_loadings(r, &mix->side[turned], component, coefficient);
+    }
+    for (int w = 0; w < padded; w += 8) {
+        Float8 sum = mixed_rows(r, mix, r->mean, w);
+        for (int k = 0; k < (int)r->coefficients; k++)
+            sum += coefficient[k] * *(const Float8 *)(r->basis + k * padded + w);
+        *(Float8 *)(logs + w) = sum;
+    }
+}
+
+/* Where the lanes lie among the measured wavelengths: found once a query. */
+typedef struct Lanes {
+    int      interval[SPECTRUM_LANES];
+    Spectrum t; /* in it, 0 to 1: outside, the end value holds */
+    bool     has_one; /* a single wavelength is measured */
+} Lanes;
+
+static Lanes find_lanes(const Panel *panel, const Wavelengths *wavelengths)
+{
+    const PanelReflection *r = panel->reflection;
+    Lanes lanes;
+    lanes.has_one = r->wavelengths == 1;
+    for (int i = 0; i < SPECTRUM_LANES && !lanes.has_one; i++) {
+        float nm = clampf(wavelengths->nm[i], SPECTRAL_FIRST_NM, SPECTRAL_LAST_NM);
+        int   n = panel->wavelength_index[(int)(nm - SPECTRAL_FIRST_NM)];
+        while (n + 2 < (int)r->wavelengths && r->wavelength_nm[n + 1] <= nm) n++;
+        float t = (nm - r->wavelength_nm[n]) * panel->wavelength_scale[n];
+        lanes.interval[i] = n;
+        lanes.t[i] = clampf(t, 0, 1);
+    }
+    return lanes;
+}
+
+/* Values at the lanes, linear between measured wavelengths. */
+static Spectrum spread(const float *value, const Lanes *lanes)
+{
+    Spectrum low, high;
+    if (lanes->has_one) return spectrum_all(value[0]);
+    for (int i = 0; i < SPECTRUM_LANES; i++) {
+        low[i] = value[lanes->interval[i]];
+        high[i] = value[lanes->interval[i] + 1];
+    }
+    return low + (high - low) * lanes->t;
+}
+
+/* Rows a and b of padded_wavelengths floats, t from the first to the second. */
+static Spectrum spread_between(const Panel *panel, const float *rows, int first, float t,
+                               const Lanes *lanes)
+{
+    int          padded = (int)panel->reflection->padded_wavelengths;
+    Spectrum     row[PADDED_MAX / SPECTRUM_LANES];
+    const float *a = rows + first * padded, *b = t > 0 ? a + padded : a;
+    for (int w = 0; w < padded; w += SPECTRUM_LANES)
+        row[w / SPECTRUM_LANES] =
+            load_16(a + w) + (load_16(b + w) - load_16(a + w)) * spectrum_all(t);
+    return spread((const float *)row, lanes);
+}
+
+/* ---- the narrow lobe ------------------------------------------------------------------- */
+
+/* Squared angle between a local direction (light at azimuth 180) and the mirror direction; the
+ * chord stands for the angle up to the third order, and the series adds the next one. */
+static float squared_angle(Vec3 local, float sin_theta, float cos_theta)
+{
+    float x = local.x - sin_theta, y = local.y, z = local.z - cos_theta;
+    float chord = x * x + y * y + z * z;
+    return chord * (1 + chord * (1.0f / 12));
+}
+
+static float mixed_sigma(const PanelReflection *r, const TableMix *mix)
+{
+    float sum = 0;
+    for (int turned = 0; turned < 2; turned++)
+        for (int i = 0; i < mix->side[turned].count; i++) {
+            const Term *term = &mix->side[turned].term[i];
+            sum += term->weight * r->lobe_sigma[term->table];
+        }
+    return sum > 1e-4f ? sum : 1e-4f;
+}
+
+/* The lobe over F: R / F G(angle) / cos theta_i. */
+static Spectrum lobe_over_fresnel(const Panel *panel, const TableMix *mix, Vec3 local, Vec3 wi,
+                                  const Lanes *lanes)
+{
+    const PanelReflection *r = panel->reflection;
+    float logs[PADDED_MAX];
+    float sine = safe_sqrtf(1 - wi.z * wi.z), sigma = mixed_sigma(r, mix);
+    float square = squared_angle(local, sine, wi.z), inverse = 1 / (sigma * sigma);
+    if (square * inverse > LOBE_SIGMAS * LOBE_SIGMAS) return spectrum_all(0);
+    for (int w = 0; w < (int)r->padded_wavelengths; w += 8)
+        *(Float8 *)(logs + w) = mixed_rows(r, mix, r->lobe, w);
+    float cosine = wi.z > 0.02f ? wi.z : 0.02f;
+    float shape = exp_f(-0.5f * square * inverse) * inverse / (2 * PI_F * cosine);
+    return spectrum_exp(spread(logs, lanes)) * spectrum_all(shape);
+}
+
+/* ---- beyond the last measured incidence ------------------------------------------------- */
+
+/* Where the last measured incidence is read for one beyond it, by the invariance of scatter
+ * from surfaces of low slope (Harvey): in the projection on the panel's plane the haze only
+ * moves. Directions that come to lie outside the measured cone are held at its edge. */
+static Vec3 shifted(const PanelReflection *r, Vec3 local, float sin_theta)
+{
+    float sine_last, cosine_last;
+    sincos_turns(r->last_theta * (0.5f / PI_F), &sine_last, &cosine_last);
+    float x = local.x - sin_theta + sine_last, y = local.y;
+    float edge = safe_sqrtf(1 - r->cone_cos * r->cone_cos), length = safe_sqrtf(x * x + y * y);
+    if (length > edge) x *= edge / length, y *= edge / length;
+    return vec3(x, y, safe_sqrtf(1 - x * x - y * y));
+}
+
+static Spectrum mirror_at(const Panel *panel, float cos_theta, const Lanes *lanes)
+{
+    float t;
+    int   node = panel_angle_node(acos_f(cos_theta), &t);
+    return spread_between(panel, panel->reflection->mirror, node, t, lanes);
+}
+
+/* Reflectance of the glossy surface: the mirror part's where there is one (the coating is the
+ * same), Fresnel's otherwise. Up to a constant. */
+static Spectrum gloss(const Panel *panel, float cosine, const Lanes *lanes)
+{
+    const PanelReflection *r = panel->reflection;
+    if (!r->has_mirror) return spectrum_all(fresnel(cosine, r->refractive_index));
+    if (!(cosine > 0)) return spectrum_all(1e-6f);
+    return spectrum_max(mirror_at(panel, cosine, lanes), spectrum_all(1e-6f));
+}
+
+static Spectrum spectrum_root(Spectrum a)
+{
+    Spectrum root;
+    for (int i = 0; i < SPECTRUM_LANES; i++) root[i] = safe_sqrtf(a[i]);
+    return root;
+}
+
+/* What the energy leaves room for at an incidence beyond the measured ones. */
+static Spectrum held_factor(const Panel *panel, float theta, const Lanes *lanes)
+{
+    const PanelReflection *r = panel->reflection;
+    int i = 0;
+    if (r->nodes < 2) return spectrum_all(1);
+    while (i + 2 < (int)r->nodes && r->node_theta[i + 1] <= theta) i++;
+    float t = (theta - r->node_theta[i]) / (r->node_theta[i + 1] - r->node_theta[i]);
+    return spread_between(panel, r->held, i, clampf(t, 0, 1), lanes);
+}
+
+/* The haze moves, its height follows the root of the surface's reflectances at theta_i and
+ * theta_o, and the floor follows the light that enters. */
+static Spectrum brdf_beyond(const Panel *panel, Vec3 local, Vec3 wi, float light,
+                            const Lanes *lanes)
+{
+    const PanelReflection *r = panel->reflection;
+    float logs[PADDED_MAX];
+    float    sine = safe_sqrtf(1 - wi.z * wi.z), n = r->refractive_index;
+    float    sine_last, cosine_last;
+    sincos_turns(r->last_theta * (0.5f / PI_F), &sine_last, &cosine_last);
+    SpecularFrame frame = specular_frame(r->last_theta, r->frame_exponent);
+    TableMix mix = table_mix(r, r->last_theta, light);
+    Vec3     from = shifted(r, local, sine);
+    reflection_logs(panel, specular_frame_stored(&frame, from), &mix, logs);
+    float    last = fresnel(cosine_last, n);
+    Spectrum total = spectrum_exp(spread(logs, lanes)) * spectrum_all(last);
+    int      row = mix.side[0].term[0].table * (int)r->padded_wavelengths;
+    Spectrum floor = spectrum_min(total, spread(r->floor + row, lanes));
+    Spectrum in = gloss(panel, wi.z, lanes) / gloss(panel, cosine_last, lanes);
+    Spectrum out = gloss(panel, local.z, lanes) / gloss(panel, from.z, lanes);
+    float    entering = (1 - fresnel(wi.z, n)) / (1 - last);
+    Spectrum haze = (total - floor) * spectrum_root(in * out) + floor * spectrum_all(entering);
+    if (r->has_lobe)
+        haze += lobe_over_fresnel(panel, &mix, local, wi, lanes) * in *
+                spectrum_all(last);
+    return haze * held_factor(panel, panel_polar_angle(wi), lanes);
+}
+
+/* ---- the queries ------------------------------------------------------------------------ */
+
+Spectrum panel_brdf(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *wavelengths)
+{
+    const PanelReflection *r = panel->reflection;
+    float logs[PADDED_MAX];
+    if (!r || !(wo.z > 0) || !(wi.z > 0)) return spectrum_all(0);
+    float theta = panel_polar_angle(wi), light = r->azimuths > 1 ? atan2_f(wi.y, wi.x) : 0;
+    Vec3  local = panel_turned(wi, wo);
+    Lanes lanes = find_lanes(panel, wavelengths);
+    if (theta > r->last_theta) return brdf_beyond(panel, local, wi, light, &lanes);
+    SpecularFrame frame = specular_frame(theta, r->frame_exponent);
+    TableMix      mix = table_mix(r, theta, light);
+    reflection_logs(panel, specular_frame_stored(&frame, local), &mix, logs);
+    Spectrum over = spectrum_exp(spread(logs, &lanes));
+    if (r->has_lobe) over += lobe_over_fresnel(panel, &mix, local, wi, &lanes);
+    return over * spectrum_all(fresnel(wi.z, r->refractive_index));
+}
+
+bool panel_brdf_is_measured(const Panel *panel, Vec3 wo, Vec3 wi)
+{
+    const PanelReflection *r = panel->reflection;
+    return r && wi.z > 0 && wo.z >= r->cone_cos &&
+           panel_polar_angle(wi) <= r->last_theta + 1e-5f;
+}
+
+Spectrum panel_mirror(const Panel *panel, float cos_theta, const Wavelengths *wavelengths)
+{
+    if (!panel->reflection || !panel->reflection->has_mirror || !(cos_theta > 0))
+        return spectrum_all(0);
+    Lanes lanes = find_lanes(panel, wavelengths);
+    return mirror_at(panel, cos_theta, &lanes);
+}
+
+float panel_haze_albedo(const Panel *panel, float cos_theta)
+{
+    float t;
+    if (!panel->reflection || !(cos_theta > 0)) return 0;
+    int node = panel_angle_node(acos_f(cos_theta), &t);
+    const float *albedo = panel->reflection->haze_albedo;
+    return lerpf(albedo[node], albedo[node + 1], t);
+}

@@ -1,0 +1,26 @@
+/* panel_report.h -- what a fit found, as a panel file keeps it: JSON without what goes without
+ * saying, and its tables in a few bytes a number.
+ *
+ * Stored     uint16 rows, uint8 columns | per column: uint8 kind, uint8 length, its key | per
+ *            row: uint8 length, its name | numbers row by row: kind 'i' uint32, 'f' float32,
+ *            'h' the upper half of a float32, rounded away from 0 (so that a stated error is
+ *            never too small). A number that is absent is NaN, an absent integer UINT32_MAX.
+ *            "ratio" and "ratio_text" follow from the bytes and are not stored.
+ */
+#pragma once
+#include <jansson.h>
+
+#include "panel/query/panel.h"
+
+/* tables: objects of a "name" and numbers. Returns the size of *bytes in the arena. */
+size_t panel_report_pack_tables(const json_t *tables, Arena *arena, const void **bytes);
+
+/* A new array of such objects; NULL: the bytes are damaged. */
+json_t *panel_report_open_tables(const void *bytes, size_t size);
+
+/* The JSON text that a file keeps of a report without its tables, which it changes; the
+ * caller's to free, NULL when memory is out. */
+char *panel_report_text(json_t *report);
+
+/* The report inside a panel file; the caller's to release. */
+bool panel_report(const Panel *panel, json_t **report, Error *err);

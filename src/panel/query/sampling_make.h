@@ -1,0 +1,23 @@
+/* sampling_make.h -- the sampling section that follows from what a panel says when its
+ * reflection is queried: at which incidences and azimuths a tree of directions is wanted, and
+ * the tree.
+ * Private to src/panel.
+ *
+ * The same bytes on every machine. Some milliseconds for each incidence and azimuth; a panel
+ * of one table, for which the section would be half of the file, has it made when opened.
+ * Memory    the section's bytes in the arena.
+ * Fails     as sampling_tree_build.
+ */
+#pragma once
+#include "panel/query/panel.h"
+
+#define SAMPLING_MADE_LEVEL 6
+
+typedef struct SamplingSection {
+    const void *bytes;
+    size_t      size;
+    int         incidences, azimuths;
+} SamplingSection;
+
+/* panel: its reflection can be queried, its sampling need not be there. */
+bool sampling_make(const Panel *panel, Arena *arena, SamplingSection *out, Error *err);

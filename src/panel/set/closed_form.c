@@ -1,0 +1,111 @@
+/* The closed forms of recipe.h. */
+#include "base/mathd.h"
+#include "panel/set/synthetic_panel.h"
+
+#include <math.h>
+
+#include "base/units.h"
+
+double fresnel_unpolarised(double cos_theta, double n)
+{
+    double c = fabs(cos_theta) > 1 ? 1 : fabs(cos_theta);
+    double t = sqrt(1 - (1 - c * c) / (n * n));
+    double s = (c - n * t) / (c + n * t), p = (n * c - t) / (n * c + t);
+    return 0.5 * (s * s + p * p);
+}
+
+double truth_spectrum(const RecipePrimary *primary, double nm)
+{
+    double sum = 0;
+    for (int i = 0; i < primary->peak_count; i++) {
+        double d = (nm - primary->peak_nm[i]) / primary->fwhm_nm[i];
+        sum += primary->weight[i] * exp_d(-4 * log_d(2) * d * d);
+    }
+    return sum;
+}
+
+/* Angle between two directions, exact also when it is small. */
+static double angle_between(const double a[2], const double b[2])
+{
+    double dt = sin_d(0.5 * (a[0] - b[0])), dp = sin_d(0.5 * (a[1] - b[1]));
+    double h = dt * dt + sin_d(a[0]) * sin_d(b[0]) * dp * dp;
+    return 2 * asin_d(sqrt(h > 1 ? 1 : h));
+}
+
+/* A of recipe.h. */
+static double angular_falloff(const Recipe *recipe, const double angles[2])
+{
+    const RecipeEmission *e = &recipe->emission;
+    double n = recipe->refractive_index, c = cos_d(angles[0]), cp = cos_d(angles[1]);
+    double power = e->cosine_power[0] * cp * cp + e->cosine_power[1] * (1 - cp * cp);
+    double through = (1 - fresnel_unpolarised(c, n)) / (1 - fresnel_unpolarised(1, n));
+    double lobe = 0;
+    if (e->lobe_gain > 0) {
+        double d = angle_between(angles, (double[2]){e->lobe_theta, e->lobe_phi});
+        lobe = e->lobe_gain * exp_d(-0.5 * d * d / (e->lobe_width * e->lobe_width));
+    }
+    return pow_d(c > 0 ? c : 0, power) * through * (1 + lobe);
+}
+
+void truth_emission_xyz(const Recipe *recipe, int primary, double code,
+                        const double angles[2], double xyz[3])
+{
+    const RecipeEmission *e = &recipe->emission;
+    const RecipePrimary  *p = &e->primary[primary];
+    double s = sin_d(angles[0]) * sin_d(angles[0]);
+    double level = code > 0 ? pow_d(code / 255, e->gamma - e->gamma_drop * s) : 0;
+    double a = angular_falloff(recipe, angles);
+    for (int j = 0; j < 3; j++) xyz[j] = p->white_xyz[j] * level * a * exp_d(p->shift[j] * s);
+}
+
+void truth_black_xyz(const Recipe *recipe, const double angles[2], double xyz[3])
+{
+    const RecipeEmission *e = &recipe->emission;
+    double white[3] = {0, 0, 0};
+    double s = sin_d(angles[0]) * sin_d(angles[0]), diagonal = sin_d(2 * angles[1]);
+    double value = e->black_cd_m2 * angular_falloff(recipe, angles) *
+                   (1 + e->leak * s * s * diagonal * diagonal);
+    for (int p = 0; p < 3; p++)
+        for (int j = 0; j < 3; j++) white[j] += e->primary[p].white_xyz[j];
+    for (int j = 0; j < 3; j++) xyz[j] = value * white[j] / white[1];
+}
+
+/* R of recipe.h. */
+static double coated_reflectance(const Recipe *recipe, double cos_theta, double nm)
+{
+    double f = fresnel_unpolarised(cos_theta, recipe->refractive_index);
+    double d = (nm - 550) / 150;
+    double c = recipe->reflection.coating + recipe->reflection.coating_blue * d * d;
+    if (c > 1) c = 1;
+    return f * (c + (1 - c) * f);
+}
+
+double truth_mirror(const Recipe *recipe, double theta, double nm)
+{
+    return (1 - recipe->reflection.haze_share) * coated_reflectance(recipe, cos_d(theta), nm);
+}
+
+double truth_brdf(const Recipe *recipe, double theta_i, double theta_o, double phi, double nm)
+{
+    const RecipeReflection *r = &recipe->reflection;
+    double n = recipe->refractive_index, ci = cos_d(theta_i), co = cos_d(theta_o);
+    if (ci <= 0 || co <= 0) return 0;
+    double si = sin_d(theta_i), so = sin_d(theta_o), w2 = r->haze_width * r->haze_width;
+    double sp = sin_d(0.5 * phi);
+    double b2 = (so - si) * (so - si) + 4 * so * si * sp * sp;
+    double k = (r->haze_power - 1) / (PI * w2) * pow_d(1 + b2 / w2, -r->haze_power);
+    double gloss = sqrt(coated_reflectance(recipe, ci, nm) *
+                        coated_reflectance(recipe, co, nm));
+    double under = (1 - fresnel_unpolarised(ci, n)) * (1 - fresnel_unpolarised(co, n));
+    return r->haze_share * gloss * k + r->floor_albedo / PI * under;
+}
+
+double truth_instrument_brdf(const Recipe *recipe, double theta_i, double theta_o, double phi,
+                             double nm)
+{
+    double sigma = radians_from_degrees(recipe->instrument.fwhm_deg) / sqrt(8 * log_d(2));
+    double d = angle_between((double[2]){theta_o, phi}, (double[2]){theta_i, 0});
+    double image = exp_d(-0.5 * d * d / (sigma * sigma)) / (2 * PI * sigma * sigma);
+    return truth_brdf(recipe, theta_i, theta_o, phi, nm) +
+           truth_mirror(recipe, theta_i, nm) * image / cos_d(theta_i);
+}

@@ -1,0 +1,435 @@
+#include "panel/set/export.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <ftw.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "base/mathd.h"
+#include "base/units.h"
+#include "panel/query/panel_report.h"
+#include "panel/set/table_text.h"
+#include "spectrum/spectral_table.h"
+
+#define ROW_BYTES 128 /* of an emission row or a comment, at most */
+#define COMMENT_BYTES 1024
+#define STEPS_OF_FWHM 2.4 /* how well the mirror's image is sampled */
+
+static const char *const primary_names[3] = {"red", "green", "blue"};
+
+typedef struct Export {
+    const Panel         *panel;
+    const ExportOptions *options;
+    const char          *folder;
+    bool                 is_white_only; /* fitted to a white table */
+    Arena                scratch;
+    Progress             progress;
+    int                  done;
+    Error               *err;
+} Export;
+
+/* Rings of directions; the normal stands once. */
+typedef struct Rings {
+    double theta_step, phi_step, theta_max; /* degrees */
+    int    rings, azimuths;
+} Rings;
+
+static Rings rings_of(const ExportOptions *options, double cone, bool is_reflection)
+{
+    double theta = options->theta_step_deg, phi = options->phi_step_deg;
+    Rings  rings = {theta > 0 ? theta : is_reflection ? 0.5 : 1,
+                    phi > 0 ? phi : is_reflection ? 1 : 3, 90, 0, 0};
+    if (!options->extrapolates) rings.theta_max = degrees_from_radians(cone);
+    rings.rings = (int)(rings.theta_max / rings.theta_step + 1e-4);
+    rings.azimuths = (int)round(360 / rings.phi_step);
+    rings.phi_step = 360.0 / rings.azimuths;
+    return rings;
+}
+
+static int rings_count(const Rings *rings)
+{
+    return 1 + rings->rings * rings->azimuths;
+}
+
+static void rings_direction(const Rings *rings, int i, double degrees[2])
+{
+    degrees[0] = i ? ((i - 1) / rings->azimuths + 1) * rings->theta_step : 0;
+    degrees[1] = i ? (i - 1) % rings->azimuths * rings->phi_step : 0;
+}
+
+static Vec3 direction_deg(double theta_deg, double phi_deg)
+{
+    double t = radians_from_degrees(theta_deg), p = radians_from_degrees(phi_deg);
+    return vec3((float)(sin_d(t) * cos_d(p)), (float)(sin_d(t) * sin_d(p)), (float)cos_d(t));
+}
+
+static bool write_file(Export *export, const char *name, const TableText *text, Arena arena)
+{
+    const char *path = export->folder
+        ? arena_format(&arena, "%s/%s", export->folder, name) : name;
+    bool ok = file_write(path, text->begin, text->size, export->err);
+    progress_update(&export->progress, ++export->done);
+    return ok;
+}
+
+/* ---- emission -------------------------------------------------------------------------- */
+
+static bool write_emission(Export *export, const double rgb[3], const char *name)
+{
+    Arena     arena = export->scratch;
+    Rings     rings = rings_of(export->options, panel_info_emission_cone(export->panel), false);
+    size_t    rows = (size_t)rings_count(&rings) + 2;
+    TableText text = table_text(&arena, rows * ROW_BYTES + COMMENT_BYTES);
+    float     codes[3] = {(float)rgb[0], (float)rgb[1], (float)rgb[2]}, xyz[3];
+    table_text_add(&text, "# codes %.10g,%.10g,%.10g; theta and phi in degrees; CIE 1931 XYZ, "
+                   "Y in cd/m2, black not subtracted\ntheta,phi,X,Y,Z\n", rgb[0], rgb[1],
+                   rgb[2]);
+    for (int i = 0; i < rings_count(&rings); i++) {
+        double degrees[2];
+        rings_direction(&rings, i, degrees);
+        panel_emission_xyz(export->panel, direction_deg(degrees[0], degrees[1]), codes, xyz);
+        table_text_add(&text, "%.10g,%.10g,%.9g,%.9g,%.9g\n", degrees[0], degrees[1],
+                       (double)xyz[0], (double)xyz[1], (double)xyz[2]);
+    }
+    return write_file(export, name, &text, arena);
+}
+
+static bool write_spectra(Export *export, const char *name)
+{
+    Arena     arena = export->scratch;
+    TableText text = table_text(&arena, (SPECTRAL_COUNT + 2) * (size_t)ROW_BYTES +
+                                COMMENT_BYTES);
+    table_text_add(&text, "# spectral radiance in W m^-2 sr^-1 nm^-1 at 1 cd/m2 on the axis; "
+                   "wavelength in nm\nnm,red,green,blue\n");
+    for (int i = 0; i < SPECTRAL_COUNT; i++) {
+        table_text_add(&text, "%d", SPECTRAL_FIRST_NM + i);
+        for (int p = 0; p < 3; p++)
+            table_text_add(&text, ",%.9g",
+                           (double)panel_info_spectrum(export->panel, p)[i]);
+        table_text_add(&text, "\n");
+    }
+    return write_file(export, name, &text, arena);
+}
+
+static bool write_all_emission(Export *export, json_t *manifest)
+{
+    json_t *emission = json_object();
+    json_object_set_new(manifest, "emission", emission);
+    if (export->is_white_only) {
+        json_object_set_new(emission, "white", json_string("emission/white.csv"));
+        return write_emission(export, (double[]){255, 255, 255}, "emission/white.csv");
+    }
+    json_object_set_new(emission, "black", json_string("emission/black.csv"));
+    bool ok = write_emission(export, (double[]){0, 0, 0}, "emission/black.csv");
+    for (int p = 0; p < 3 && ok; p++) {
+        double  code[PANEL_INFO_LEVELS_MAX];
+        json_t *levels = json_object();
+        int     count = panel_info_levels(export->panel, p, code);
+        json_object_set_new(emission, primary_names[p], levels);
+        for (int i = 0; i < count && ok; i++) {
+            double rgb[3] = {0, 0, 0};
+            char   file[64], level[32];
+            snprintf(file, sizeof file, "emission/%s_%03g.csv", primary_names[p], code[i]);
+            snprintf(level, sizeof level, "%.10g", code[i]);
+            rgb[p] = code[i];
+            json_object_set_new(levels, level, json_string(file));
+            ok = write_emission(export, rgb, file);
+        }
+    }
+    json_object_set_new(manifest, "primaries", json_string("primaries.csv"));
+    return ok && write_spectra(export, "primaries.csv");
+}
+
+/* ---- reflection ------------------------------------------------------------------------ */
+
+/* Width of the instrument that is said to have seen the mirror part; 0: left out. */
+static double mirror_fwhm(const Export *export)
+{
+    Rings  rings = rings_of(export->options, 0, true);
+    double fwhm = export->options->mirror_fwhm_deg;
+    if (fwhm < 0) fwhm = STEPS_OF_FWHM * fmax(rings.theta_step, 0.5 * rings.phi_step);
+    float  nm[PANEL_INFO_WAVELENGTHS_MAX];
+    int    count = panel_info_wavelengths(export->panel, nm);
+    for (int first = 0; first < count; first++) {
+        Wavelengths w = {0};
+        for (int i = 0; i < SPECTRUM_LANES; i++) w.nm[i] = nm[first];
+        if (panel_mirror(export->panel, 0.8f, &w)[0] > 0) return fwhm;
+    }
+    return 0;
+}
+
+/* A mirror's image of reflectance 1 at so many degrees from its centre, sr^-1: a normal
+ * distribution of the instrument's width over the sphere, divided by the cosine. */
+static double image_of_mirror(double fwhm_deg, double incidence_deg, const double degrees[2])
+{
+    if (!(fwhm_deg > 0)) return 0;
+    double a = radians_from_degrees(incidence_deg), b = radians_from_degrees(degrees[0]);
+    double dt = sin_d(0.5 * (a - b)), dp = sin_d(0.5 * radians_from_degrees(degrees[1]));
+    double d = 2 * asin_d(sqrt(fmin(1, dt * dt + sin_d(a) * sin_d(b) * dp * dp)));
+    double sigma = radians_from_degrees(fwhm_deg) / sqrt(8 * log_d(2));
+    return exp_d(-0.5 * d * d / (sigma * sigma)) / (2 * PI * sigma * sigma * cos_d(a));
+}
+
+typedef struct Light {
+    double theta_deg, phi_deg;
+} Light;
+
+/* One row; phi counts from the mirror direction, the light is at 180. */
+static void add_row(const Export *export, const Light *light, double fwhm_deg,
+                    const double degrees[2], TableText *text)
+{
+    float  nm[PANEL_INFO_WAVELENGTHS_MAX];
+    int    count = panel_info_wavelengths(export->panel, nm);
+    double image = image_of_mirror(fwhm_deg, light->theta_deg, degrees);
+    Vec3   wi = direction_deg(light->theta_deg, light->phi_deg);
+    Vec3   wo = direction_deg(degrees[0], light->phi_deg - 180 + degrees[1]);
+    table_text_add(text, "%.10g,%.10g", degrees[0], degrees[1]);
+    for (int first = 0; first < count; first += SPECTRUM_LANES) {
+        Wavelengths w = {0};
+        for (int i = 0; i < SPECTRUM_LANES; i++)
+            w.nm[i] = nm[first + i < count ? first + i : count - 1];
+        Spectrum f = panel_brdf(export->panel, wo, wi, &w);
+        Spectrum r = panel_mirror(export->panel, wi.z, &w);
+        for (int i = 0; i < SPECTRUM_LANES && first + i < count; i++)
+            table_text_add(text, ",%.9g", (double)f[i] + image * (double)r[i]);
+    }
+    table_text_add(text, "\n");
+}
+
+static bool write_brdf(Export *export, const Light *light, double fwhm_deg, const char *name)
+{
+    float     nm[PANEL_INFO_WAVELENGTHS_MAX];
+    int       count = panel_info_wavelengths(export->panel, nm);
+    Arena     arena = export->scratch;
+    double    cone = panel_info_reflection_cone(export->panel);
+    Rings     rings = rings_of(export->options, cone, true);
+    size_t    rows = (size_t)rings_count(&rings) + 2;
+    TableText text = table_text(&arena, rows * (48 + 16 * (size_t)count) + COMMENT_BYTES);
+    table_text_add(&text, "# light from theta %.10g, phi %.10g; angles in degrees, phi from "
+                   "the mirror direction; sr^-1 without the cosine; columns in nm\n",
+                   light->theta_deg, light->phi_deg);
+    table_text_add(&text, "# the mirror part %s\ntheta,phi",
+                   fwhm_deg > 0 ? "as the instrument that the manifest declares sees it"
+                                : "(a delta) is not in these numbers");
+    for (int i = 0; i < count; i++) table_text_add(&text, ",%.9g", (double)nm[i]);
+    table_text_add(&text, "\n");
+    for (int i = 0; i < rings_count(&rings); i++) {
+        double degrees[2];
+        rings_direction(&rings, i, degrees);
+        add_row(export, light, fwhm_deg, degrees, &text);
+    }
+    return write_file(export, name, &text, arena);
+}
+
+static double tidy_degrees(double radians)
+{
+    return round(degrees_from_radians(radians) * 1e4) / 1e4;
+}
+
+static bool write_all_brdf(Export *export, json_t *manifest)
+{
+    double  theta[PANEL_INFO_INCIDENCES_MAX], phi[PANEL_INFO_AZIMUTHS_MAX];
+    float   nm[PANEL_INFO_WAVELENGTHS_MAX];
+    int     thetas = panel_info_incidences(export->panel, theta), nms;
+    int     phis = panel_info_azimuths(export->panel, phi);
+    json_t *reflection = json_object(), *incidences = json_array(), *azimuths = json_array();
+    json_t *wavelengths = json_array();
+    double  fwhm = mirror_fwhm(export);
+    bool    ok = true;
+    nms = panel_info_wavelengths(export->panel, nm);
+    for (int i = 0; i < nms; i++) json_array_append_new(wavelengths, json_real((double)nm[i]));
+    for (int i = 0; i < thetas; i++)
+        json_array_append_new(incidences, json_real(tidy_degrees(theta[i])));
+    for (int i = 0; i < phis; i++)
+        json_array_append_new(azimuths, json_real(tidy_degrees(phi[i])));
+    json_object_set_new(reflection, "wavelengths_nm", wavelengths);
+    json_object_set_new(reflection, "incidence_deg", incidences);
+    if (phis > 1) json_object_set(reflection, "incidence_phi_deg", azimuths);
+    json_decref(azimuths);
+    json_object_set_new(reflection, "files", json_string(phis > 1
+        ? "brdf/i{incidence}_a{azimuth}.csv" : "brdf/i{incidence}.csv"));
+    json_object_set_new(manifest, "reflection", reflection);
+    if (fwhm > 0) json_object_set_new(manifest, "instrument_fwhm_deg", json_real(fwhm));
+    for (int i = 0; i < thetas * phis && ok; i++) {
+        Light light = {tidy_degrees(theta[i / phis]), tidy_degrees(phi[i % phis])};
+        char  azimuth[32] = "", file[80];
+        if (phis > 1) snprintf(azimuth, sizeof azimuth, "_a%.10g", light.phi_deg);
+        snprintf(file, sizeof file, "brdf/i%.10g%s.csv", light.theta_deg, azimuth);
+        ok = write_brdf(export, &light, fwhm, file);
+    }
+    return ok;
+}
+
+/* ---- the set --------------------------------------------------------------------------- */
+
+/* What the panel's report says of where it comes from. */
+static bool add_names(Export *export, const char *name, json_t *manifest)
+{
+    static const char *const keys[] = {"panel", "instrument", "pixels", "size_mm"};
+    json_t *report = NULL;
+    if (!panel_report(export->panel, &report, export->err)) return false;
+    export->is_white_only = json_is_true(json_object_get(json_object_get(report, "emission"),
+                                                         "white_only"));
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+        json_t *value = json_object_get(report, keys[i]);
+        bool    has_size = json_number_value(json_array_get(value, 0)) > 0;
+        if (json_is_string(value) || has_size) json_object_set(manifest, keys[i], value);
+    }
+    json_t *note = json_object_get(report, "note");
+    json_object_set_new(manifest, "note", json_sprintf("%s%sexported from %s",
+        json_is_string(note) ? json_string_value(note) : "",
+        json_is_string(note) && *json_string_value(note) ? "; " : "", path_name(name)));
+    json_decref(report);
+    return true;
+}
+
+static bool write_manifest(Export *export, const json_t *manifest)
+{
+    Arena arena = export->scratch;
+    char *text = json_dumps(manifest, JSON_INDENT(2) | JSON_REAL_PRECISION(9));
+    if (!text) return error_set(export->err, ERROR_MEMORY, "no memory for the manifest");
+    TableText with_end = {arena_format(&arena, "%s\n", text), strlen(text) + 1, 0};
+    free(text);
+    return write_file(export, "MANIFEST.json", &with_end, arena);
+}
+
+static bool make_folders(const Export *export)
+{
+    static const char *const inside[] = {"", "/emission", "/brdf"};
+    const bool wanted[] = {true, panel_info_emits(export->panel),
+                           panel_reflects(export->panel)};
+    for (int i = 0; i < 3; i++) {
+        char path[4096];
+        snprintf(path, sizeof path, "%s%s", export->folder, inside[i]);
+        if (wanted[i] && mkdir(path, 0777))
+            return error_at(export->err, ERROR_OUTPUT, path, "", "cannot be made: %s",
+                            strerror(errno));
+    }
+    return true;
+}
+
+static int remove_one(const char *path, const struct stat *status, int kind, struct FTW *walk)
+{
+    (void)status, (void)kind, (void)walk;
+    return remove(path);
+}
+
+static int count_tables(const Panel *panel)
+{
+    double number[PANEL_INFO_INCIDENCES_MAX], phi[PANEL_INFO_AZIMUTHS_MAX];
+    int    count = 1 + panel_info_incidences(panel, number) * panel_info_azimuths(panel, phi);
+    if (panel_info_emits(panel)) count += 2;
+    for (int p = 0; p < 3; p++) count += panel_info_levels(panel, p, number);
+    return count;
+}
+
+static bool write_set(Export *export, const char *name)
+{
+    json_t *manifest = json_object();
+    bool ok = make_folders(export) && add_names(export, name, manifest) &&
+              (!panel_info_emits(export->panel) || write_all_emission(export, manifest)) &&
+              (!panel_reflects(export->panel) || write_all_brdf(export, manifest)) &&
+              write_manifest(export, manifest);
+    json_decref(manifest);
+    return ok;
+}
+
+static bool is_new_or_empty(const char *folder, Error *err)
+{
+    struct stat status;
+    int         entries = 0;
+    DIR        *list = opendir(folder);
+    if (!list && stat(folder, &status)) return true;
+    while (list && readdir(list)) entries++;
+    if (list) closedir(list);
+    if (list && entries <= 2) return true; /* . and .. */
+    return error_at(err, ERROR_OUTPUT, folder, "",
+                    "holds something already, wanted a new or an empty folder");
+}
+
+/* The finished folder takes the place of a new or an empty one at once. */
+static bool put_in_place(const char *made, const char *folder, Error *err)
+{
+    return !rename(made, folder) ||
+           error_at(err, ERROR_OUTPUT, folder, "", "cannot be made: %s", strerror(errno));
+}
+
+bool panel_export(const Panel *panel, const char *name, const ExportOptions *options,
+                  const char *folder, Error *err)
+{
+    if (!is_new_or_empty(folder, err)) return false;
+    Arena  arena = arena_reserve((size_t)16 << 30);
+    size_t length = strlen(folder);
+    while (length > 1 && folder[length - 1] == '/') length--;
+    const char *final = arena_string(&arena, folder, length);
+    const char *made = file_temporary_name(final, &arena);
+    Export export = {.panel = panel, .options = options, .folder = made, .scratch = arena,
+                     .progress = progress_start(options->progress, "export", "tables",
+                                                count_tables(panel)), .err = err};
+    bool ok = write_set(&export, name) && put_in_place(made, final, err);
+    progress_end(&export.progress, export.done);
+    if (!ok) nftw(made, remove_one, 8, FTW_DEPTH | FTW_PHYS);
+    arena_release(&arena);
+    return ok;
+}
+
+/* ---- one table ------------------------------------------------------------------------- */
+
+/* Codes of "black", "white 255", "green 31". */
+static bool emission_codes(const char *table, double rgb[3])
+{
+    char   word[8], after;
+    double code = 0;
+    rgb[0] = rgb[1] = rgb[2] = 0;
+    if (!strcmp(table, "black")) return true;
+    if (sscanf(table, "%7[a-z] %lf%c", word, &code, &after) != 2 || !(code >= 0 && code <= 255))
+        return false;
+    for (int p = 0; p < 3; p++)
+        if (!strcmp(word, "white") || !strcmp(word, primary_names[p])) rgb[p] = code;
+    return rgb[0] + rgb[1] + rgb[2] > 0;
+}
+
+/* Light of "brdf 30", "brdf 30 deg", "brdf 30 at 90", "brdf 30 deg, light from 90 deg". */
+static bool brdf_light(const char *table, Light *light)
+{
+    int length = 0;
+    *light = (Light){0, 180};
+    if (sscanf(table, "brdf %lf%n", &light->theta_deg, &length) != 1) return false;
+    table += length;
+    if (!strncmp(table, " deg", 4)) table += 4;
+    length = 0;
+    if (*table && sscanf(table, ", light from %lf deg%n", &light->phi_deg, &length) != 1)
+        sscanf(table, " at %lf%n", &light->phi_deg, &length);
+    if (*table && (!length || table[length])) return false;
+    return light->theta_deg >= 0 && light->theta_deg < 90 && fabs(light->phi_deg) <= 360;
+}
+
+bool panel_export_table(const Panel *panel, const char *table, const ExportOptions *options,
+                        const char *file, Error *err)
+{
+    double rgb[3];
+    Light  light;
+    Export export = {.panel = panel, .options = options,
+                     .scratch = arena_reserve((size_t)16 << 30), .err = err,
+                     .progress = progress_start(options->progress, "export", "tables", 1)};
+    bool   emits = panel_info_emits(panel), ok;
+    if (emits && !strcmp(table, "primaries"))
+        ok = write_spectra(&export, file);
+    else if (emits && emission_codes(table, rgb))
+        ok = write_emission(&export, rgb, file);
+    else if (panel_reflects(panel) && brdf_light(table, &light))
+        ok = write_brdf(&export, &light, fmax(0, options->mirror_fwhm_deg), file);
+    else
+        ok = error_set(err, ERROR_USAGE,
+                       "--table '%s' is no table of this panel, wanted black, white CODE, "
+                       "red|green|blue CODE, primaries or brdf DEG [at DEG]", table);
+    progress_end(&export.progress, export.done);
+    arena_release(&export.scratch);
+    return ok;
+}

@@ -1,0 +1,528 @@
+/* MANIFEST.json: which tables a measurement set has, and the set as a whole. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/units.h"
+#include "text/csv_table.h"
+#include "text/json_view.h"
+#include "panel/set/measurement.h"
+
+#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
+
+static const char *const primary_names[3] = {"red", "green", "blue"};
+
+/* Reads the table that `value` names: a CSV's path, or {"X": ..., "Y": ..., "Z": ...}. */
+static bool read_emission_table(const JsonView *view, const char *key, const char *name,
+                                AngleTable *out, Error *err)
+{
+    static const char *const components[3] = {"X", "Y", "Z"};
+    json_t *value = json_object_get(view->object, key);
+    const char *file[3];
+    if (json_is_string(value))
+        return json_view_file(view, key, json_string_value(value), &file[0], err) &&
+               angle_table_read_xyz(file[0], name, view->arena, out, err);
+    if (!json_is_object(value))
+        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
+                        "wanted a table's path, or an object with X, Y and Z paths");
+    JsonView grid;
+    if (!json_view_child(view, key, true, &grid, err) ||
+        !json_view_check_keys(&grid, components, 3, err))
+        return false;
+    for (int j = 0; j < 3; j++) {
+        json_t *text = json_object_get(grid.object, components[j]);
+        if (!json_is_string(text))
+            return error_at(err, ERROR_INPUT, view->file, grid.path,
+                            "key '%s' is missing or no text", components[j]);
+        if (!json_view_file(&grid, components[j], json_string_value(text), &file[j], err))
+            return false;
+    }
+    return angle_table_read_grid(file, name, view->arena, out, err);
+}
+
+typedef struct LevelKey {
+    double      level;
+    const char *key;
+} LevelKey;
+
+static int by_level(const void *a, const void *b)
+{
+    double p = ((const LevelKey *)a)->level, q = ((const LevelKey *)b)->level;
+    return p < q ? -1 : p > q;
+}
+
+static bool read_level_keys(const JsonView *view, LevelKey *keys, int *count, Error *err)
+{
+    const char *key;
+    json_t     *value;
+    *count = 0;
+    json_object_foreach(view->object, key, value) {
+        char  *after;
+        double level = strtod(key, &after);
+        if (after == key || *after || !(level > 0 && level <= 255))
+            return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
+                            "is no grey level, wanted a number above 0 and up to 255");
+        if (*count == MEASUREMENT_LEVELS_MAX)
+            return error_at(err, ERROR_INPUT, view->file, view->path,
+                            "has more than %d levels", MEASUREMENT_LEVELS_MAX);
+        keys[(*count)++] = (LevelKey){level, key};
+    }
+    qsort(keys, (size_t)*count, sizeof *keys, by_level);
+    return *count || error_at(err, ERROR_INPUT, view->file, view->path,
+                              "has no grey levels, wanted at least \"255\"");
+}
+
+static bool read_primary(const JsonView *emission, int index, MeasuredPrimary *out, Error *err)
+{
+    JsonView view;
+    LevelKey keys[MEASUREMENT_LEVELS_MAX];
+    int      count;
+    if (!json_view_child(emission, primary_names[index], true, &view, err) ||
+        !read_level_keys(&view, keys, &count, err))
+        return false;
+    for (int i = 0; i < count; i++) {
+        const char *name = arena_format(view.arena, "%s %03g", primary_names[index],
+                                        keys[i].level);
+        if (i && keys[i].level == keys[i - 1].level)
+            return error_at(err, ERROR_INPUT, view.file, json_view_path(&view, keys[i].key),
+                            "is the same grey level as '%s'", keys[i - 1].key);
+        if (!read_emission_table(&view, keys[i].key, name, &out->table[i], err)) return false;
+        out->level[i] = keys[i].level;
+    }
+    out->level_count = count;
+    return true;
+}
+
+/* ---- white-only tables ---------------------------------------------------------------- */
+
+/* XYZ as non-negative amounts of the Rec.709 primaries: amounts below zero become zero and
+ * the luminance is kept. */
+static void split_white(const float xyz[3], float amount[3])
+{
+    float before = 0, after = 0;
+    for (int p = 0; p < 3; p++) {
+        amount[p] = 0;
+        for (int j = 0; j < 3; j++) amount[p] += rgb_from_xyz_matrix[3 * p + j] * xyz[j];
+        float weight = xyz_from_rgb_matrix[3 + p];
+        before += amount[p] * weight;
+        amount[p] = amount[p] > 0 ? amount[p] : 0;
+        after += amount[p] * weight;
+    }
+    for (int p = 0; p < 3; p++) amount[p] *= after > 0 ? before / after : 0;
+}
+
+/* How far Rec.709 misses a colour, share of X + Y + Z. */
+static double white_miss(const float xyz[3])
+{
+    float  amount[3];
+    double off = 0, sum = 0;
+    split_white(xyz, amount);
+    for (int j = 0; j < 3; j++) {
+        double again = 0;
+        for (int p = 0; p < 3; p++)
+            again += (double)(amount[p] * xyz_from_rgb_matrix[3 * j + p]);
+        off += fabs(again - (double)xyz[j]);
+        sum += fabs((double)xyz[j]);
+    }
+    return sum > 0 ? off / sum : 0;
+}
+
+static const float *brightest_row(const AngleTable *table)
+{
+    const float *brightest = table->value;
+    for (int i = 1; i < table->rows; i++)
+        if (table->value[3 * i + 1] > brightest[1]) brightest = table->value + 3 * i;
+    return brightest;
+}
+
+#define OUTSIDE 0.002     /* what a miss may be, where there is light */
+#define LEAST_SHARE 0.01f /* of a primary in a colour outside of Rec.709 */
+
+/* Every colour that shines is one of Rec.709? */
+static bool is_inside(const AngleTable *table)
+{
+    float least = 1e-3f * brightest_row(table)[1];
+    for (int i = 0; i < table->rows; i++)
+        if (table->value[3 * i + 1] > least && white_miss(table->value + 3 * i) > OUTSIDE)
+            return false;
+    return true;
+}
+
+/* Luminous shares of the primaries in the colour nearest to the brightest direction's. */
+static void nearest_shares(const AngleTable *table, float share[3])
+{
+    float sum = 0;
+    split_white(brightest_row(table), share);
+    for (int p = 0; p < 3; p++) sum += share[p] *= xyz_from_rgb_matrix[3 + p];
+    for (int p = 0; p < 3; p++) share[p] = fmaxf(sum > 0 ? share[p] / sum : 1, LEAST_SHARE);
+    sum = share[0] + share[1] + share[2];
+    for (int p = 0; p < 3; p++) share[p] /= sum;
+}
+
+/* What primary p has of a direction's XYZ: in Rec.709's colours; where those cannot carry the
+ * table (one of a saturated primary, say) a constant share of the table's own colour. */
+static void part_of_white(const float xyz[3], const float *share, int p, float part[3])
+{
+    float amount[3];
+    split_white(xyz, amount);
+    for (int j = 0; j < 3; j++)
+        part[j] = share ? share[p] * xyz[j] : amount[p] * xyz_from_rgb_matrix[3 * j + p];
+}
+
+/* One level a primary, from the white table with the black one (if any) left in it once. */
+static void split_white_table(const AngleTable *white, Arena *arena, Measurement *out)
+{
+    float *value[3], share[3];
+    bool   inside = is_inside(white);
+    nearest_shares(white, share);
+    for (int p = 0; p < 3; p++) {
+        value[p] = ARENA_NEW(arena, float, 3 * (size_t)white->rows);
+        out->primary[p].level_count = 1;
+        out->primary[p].level[0] = 255;
+        out->primary[p].table[0] = *white;
+        out->primary[p].table[0].name = arena_format(arena, "%s 255", primary_names[p]);
+        out->primary[p].table[0].value = value[p];
+        if (p) out->primary[p].table[0].text_bytes = 0;
+    }
+    for (int i = 0; i < white->rows; i++)
+        for (int p = 0; p < 3; p++)
+            part_of_white(white->value + 3 * i, inside ? NULL : share, p, value[p] + 3 * i);
+    out->is_white_only = true;
+    out->white_miss = inside ? 0 : white_miss(brightest_row(white));
+}
+
+static bool read_white(const JsonView *emission, Measurement *out, Error *err)
+{
+    AngleTable white;
+    for (int p = 0; p < 3; p++)
+        if (json_object_get(emission->object, primary_names[p]))
+            return error_at(err, ERROR_INPUT, emission->file, emission->path,
+                            "has both 'white' and '%s', wanted either the white table or the "
+                            "three primaries", primary_names[p]);
+    if (json_object_get(emission->object, "black"))
+        return error_at(err, ERROR_INPUT, emission->file, emission->path,
+                        "has both 'white' and 'black'; a white-only set has a black of 0");
+    if (!read_emission_table(emission, "white", "white", &white, err)) return false;
+    split_white_table(&white, emission->arena, out);
+    return true;
+}
+
+static bool read_emission(const JsonView *root, Measurement *out, Error *err)
+{
+    static const char *const keys[] = {"black", "red", "green", "blue", "white"};
+    JsonView view;
+    bool needed = !json_object_get(root->object, "reflection");
+    if (!json_view_child(root, "emission", needed, &view, err)) return false;
+    if (!view.object) return true; /* a surface that only reflects */
+    if (!json_view_check_keys(&view, keys, COUNT(keys), err)) return false;
+    if (json_object_get(view.object, "white")) return read_white(&view, out, err);
+    if (!json_object_get(view.object, "black"))
+        return error_at(err, ERROR_INPUT, view.file, view.path,
+                        "key 'black' is missing: the black pattern's table");
+    if (!read_emission_table(&view, "black", "black", &out->black, err)) return false;
+    out->has_black = true;
+    for (int p = 0; p < 3; p++)
+        if (!read_primary(&view, p, &out->primary[p], err)) return false;
+    return true;
+}
+
+/* ---- spectra --------------------------------------------------------------------------- */
+
+/* Linear between measured wavelengths, zero outside them. */
+static void resample_spectrum(const CsvTable *csv, int nm_column, int column, float *out)
+{
+    size_t width = (size_t)csv->columns;
+    int    last = 0;
+    for (int i = 0; i < SPECTRAL_COUNT; i++) {
+        float nm = (float)(SPECTRAL_FIRST_NM + i);
+        while (last + 2 < csv->rows &&
+               csv->cell[(size_t)(last + 1) * width + (size_t)nm_column] <= nm)
+            last++;
+        const float *a = csv->cell + (size_t)last * width;
+        const float *b = csv->rows > 1 ? a + width : a;
+        float t = b[nm_column] > a[nm_column] ? (nm - a[nm_column]) /
+                                                (b[nm_column] - a[nm_column]) : 0;
+        float value = a[column] + (b[column] - a[column]) * t;
+        out[i] = t >= 0 && t <= 1 && value > 0 ? value : 0;
+    }
+}
+
+static bool check_spectra(const CsvTable *csv, int nm_column, Arena *arena, Error *err)
+{
+    for (int i = 0; i < csv->rows; i++) {
+        const float *row = csv->cell + (size_t)i * (size_t)csv->columns;
+        if (i && !(row[nm_column] > row[nm_column - csv->columns]))
+            return error_at(err, ERROR_INPUT, csv->file, csv_table_place(csv, i, arena),
+                            "wavelength %g follows %g, wanted rising wavelengths",
+                            (double)row[nm_column], (double)row[nm_column - csv->columns]);
+    }
+    return true;
+}
+
+static bool spectrum_has_light(const float *spectrum)
+{
+    for (int i = 0; i < SPECTRAL_COUNT; i++)
+        if (spectrum[i] > 0 && spectral_table[i].y > 0) return true;
+    return false;
+}
+
+static bool read_spectra(const char *file, Arena *arena, Measurement *out, Error *err)
+{
+    static const char *const known[] = {"nm", "red", "green", "blue", "black"};
+    CsvTable csv;
+    if (!csv_table_read(file, arena, &csv, err)) return false;
+    for (int c = 0; c < csv.columns; c++) {
+        bool found = false;
+        for (int i = 0; i < COUNT(known); i++) found |= !strcmp(csv.name[c], known[i]);
+        if (!found)
+            return error_at(err, ERROR_INPUT, file, "header line",
+                            "column '%s' is unknown; the nearest known one is '%s'",
+                            csv.name[c], nearest_word(csv.name[c], known, COUNT(known)));
+    }
+    int nm = csv_table_column(&csv, "nm");
+    for (int i = 0; i < 4; i++)
+        if (csv_table_column(&csv, known[i]) < 0)
+            return error_at(err, ERROR_INPUT, file, "header line", "has no column '%s'",
+                            known[i]);
+    if (!check_spectra(&csv, nm, arena, err)) return false;
+    for (int p = 0; p < 3; p++) {
+        resample_spectrum(&csv, nm, csv_table_column(&csv, primary_names[p]),
+                          out->spectrum[p]);
+        if (!spectrum_has_light(out->spectrum[p]))
+            return error_at(err, ERROR_INPUT, file, "", "column '%s' holds no light between "
+                            "360 and 830 nm", primary_names[p]);
+    }
+    out->has_spectra = true;
+    return true;
+}
+
+/* ---- reflection ------------------------------------------------------------------------ */
+
+/* What a file's name is made of; nm negative: of all wavelengths. */
+typedef struct SlicePlace {
+    double incidence, azimuth, nm; /* degrees, degrees, nm */
+} SlicePlace;
+
+/* The pattern with {incidence}, {azimuth} and {wavelength} replaced. */
+static const char *fill_pattern(const char *pattern, SlicePlace place, Arena *arena)
+{
+    const struct {
+        const char *word;
+        double      value;
+    } known[] = {{"{incidence}", place.incidence}, {"{azimuth}", place.azimuth},
+                 {"{wavelength}", place.nm}};
+    const char *text = "";
+    while (*pattern) {
+        int k = 0;
+        while (k < COUNT(known) && strncmp(pattern, known[k].word, strlen(known[k].word))) k++;
+        if (k == COUNT(known)) {
+            text = arena_format(arena, "%s%c", text, *pattern++);
+            continue;
+        }
+        text = arena_format(arena, "%s%.10g", text, known[k].value);
+        pattern += strlen(known[k].word);
+    }
+    return text;
+}
+
+static bool same_directions(const AngleTable *a, const AngleTable *b)
+{
+    return a->rows == b->rows &&
+           !memcmp(a->theta, b->theta, sizeof *a->theta * (size_t)a->rows) &&
+           !memcmp(a->phi, b->phi, sizeof *a->phi * (size_t)a->rows);
+}
+
+/* One file a wavelength becomes one table. */
+static bool join_wavelengths(const JsonView *view, const char *pattern, SlicePlace place,
+                             const Measurement *set, AngleTable *out, Error *err)
+{
+    Arena *arena = view->arena;
+    float *value = NULL;
+    size_t count = (size_t)set->wavelength_count;
+    for (size_t w = 0; w < count; w++) {
+        AngleTable one;
+        place.nm = (double)set->wavelength_nm[w];
+        const char *file;
+        if (!json_view_file(view, "files", fill_pattern(pattern, place, arena), &file, err) ||
+            !angle_table_read_brdf(file, &set->wavelength_nm[w], 1, arena, &one, err))
+            return false;
+        if (!w) {
+            *out = one;
+            out->text_bytes = 0;
+            value = ARENA_NEW(arena, float, count * (size_t)one.rows);
+        } else if (!same_directions(out, &one)) {
+            return error_at(err, ERROR_INPUT, file, "", "has other directions than the table "
+                            "of %g nm, wanted the same at every wavelength",
+                            (double)set->wavelength_nm[0]);
+        }
+        out->text_bytes += one.text_bytes;
+        for (size_t i = 0; i < (size_t)one.rows; i++) value[i * count + w] = one.value[i];
+    }
+    out->value = value;
+    out->channels = set->wavelength_count;
+    return true;
+}
+
+static double whole_degrees(double radians)
+{
+    return round(degrees_from_radians(radians) * 1e9) / 1e9;
+}
+
+static bool read_slice(const JsonView *view, const char *pattern, int index, Measurement *out,
+                       Error *err)
+{
+    Arena      *arena = view->arena;
+    AngleTable *table = &out->brdf[index];
+    SlicePlace  place = {whole_degrees(out->incidence[index % out->incidence_count]),
+                         whole_degrees(out->azimuth[index / out->incidence_count]), -1};
+    const char *name = out->azimuth_count > 1
+        ? arena_format(arena, "brdf %g deg, light from %g deg", place.incidence, place.azimuth)
+        : arena_format(arena, "brdf %g deg", place.incidence);
+    const char *file;
+    if (!json_view_file(view, "files", fill_pattern(pattern, place, arena), &file, err))
+        return false;
+    if (strstr(pattern, "{wavelength}")
+            ? !join_wavelengths(view, pattern, place, out, table, err)
+            : !angle_table_read_brdf(file, out->wavelength_nm, out->wavelength_count, arena,
+                                     table, err))
+        return false;
+    table->name = name;
+    return true;
+}
+
+static bool read_slices(const JsonView *view, const char *pattern, Measurement *out, Error *err)
+{
+    int count = out->incidence_count * out->azimuth_count;
+    if (count > MEASUREMENT_TABLES_MAX)
+        return error_at(err, ERROR_INPUT, view->file, view->path, "%d incidences times "
+                        "azimuths, wanted at most %d", count, MEASUREMENT_TABLES_MAX);
+    out->brdf = ARENA_NEW(view->arena, AngleTable, count);
+    for (int i = 0; i < count; i++)
+        if (!read_slice(view, pattern, i, out, err)) return false;
+    return true;
+}
+
+static bool check_rising(const JsonView *view, const char *key, const double *value, int count,
+                         Error *err)
+{
+    for (int i = 1; i < count; i++)
+        if (!(value[i] > value[i - 1]))
+            return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
+                            "%g follows %g, wanted rising values", value[i], value[i - 1]);
+    return count > 0 || error_at(err, ERROR_INPUT, view->file, view->path,
+                                 "key '%s' is missing", key);
+}
+
+/* Azimuths of the light of an anisotropic panel, all around it; absent: isotropic. */
+static bool read_azimuths(const JsonView *view, const char *pattern, Measurement *out,
+                          Error *err)
+{
+    double degrees[MEASUREMENT_AZIMUTHS_MAX];
+    int    count = 0;
+    out->azimuth_count = 1;
+    out->azimuth[0] = 0;
+    if (!json_view_numbers(view, "incidence_phi_deg", (JsonRange){0, 359.999, COUNT(degrees)},
+                           degrees, &count, err))
+        return false;
+    if (!count) return true;
+    if (!check_rising(view, "incidence_phi_deg", degrees, count, err)) return false;
+    if (count < 2)
+        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "incidence_phi_deg"),
+                        "holds one azimuth, wanted several, or none for an isotropic panel");
+    if (!strstr(pattern, "{azimuth}"))
+        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "files"),
+                        "wanted a pattern that holds {azimuth}, because incidence_phi_deg is "
+                        "there");
+    out->azimuth_count = count;
+    for (int i = 0; i < count; i++) out->azimuth[i] = radians_from_degrees(degrees[i]);
+    return true;
+}
+
+static bool read_reflection(const JsonView *root, Measurement *out, Error *err)
+{
+    static const char *const keys[] = {"wavelengths_nm", "incidence_deg", "incidence_phi_deg",
+                                       "files"};
+    JsonView    view;
+    const char *pattern = NULL;
+    double      nm[MEASUREMENT_WAVELENGTHS_MAX], degrees[MEASUREMENT_INCIDENCES_MAX];
+    int         nm_count = 0, count = 0;
+    if (!json_view_child(root, "reflection", false, &view, err)) return false;
+    if (!view.object) return true;
+    if (!json_view_check_keys(&view, keys, COUNT(keys), err) ||
+        !json_view_numbers(&view, "wavelengths_nm", (JsonRange){360, 830, COUNT(nm)},
+                           nm, &nm_count, err) ||
+        !json_view_numbers(&view, "incidence_deg", (JsonRange){0, 89, COUNT(degrees)},
+                           degrees, &count, err) ||
+        !json_view_text(&view, "files", &pattern, err) ||
+        !check_rising(&view, "wavelengths_nm", nm, nm_count, err) ||
+        !check_rising(&view, "incidence_deg", degrees, count, err))
+        return false;
+    if (!pattern || !strstr(pattern, "{incidence}"))
+        return error_at(err, ERROR_INPUT, view.file, json_view_path(&view, "files"),
+                        "wanted a pattern that holds {incidence}");
+    out->incidence_count = count;
+    out->wavelength_count = nm_count;
+    for (int i = 0; i < nm_count; i++) out->wavelength_nm[i] = (float)nm[i];
+    for (int i = 0; i < count; i++) out->incidence[i] = radians_from_degrees(degrees[i]);
+    return read_azimuths(&view, pattern, out, err) && read_slices(&view, pattern, out, err);
+}
+
+static bool read_members(const JsonView *root, Measurement *out, Error *err)
+{
+    static const char *const keys[] = {"panel", "instrument", "note", "pixels", "size_mm",
+        "instrument_fwhm_deg", "emission", "primaries", "reflection"};
+    int         two = 2;
+    const char *primaries = NULL;
+    bool ok = json_view_check_keys(root, keys, COUNT(keys), err) &&
+        json_view_text(root, "panel", &out->panel, err) &&
+        json_view_text(root, "instrument", &out->instrument, err) &&
+        json_view_text(root, "note", &out->note, err) &&
+        json_view_text(root, "primaries", &primaries, err) &&
+        json_view_numbers(root, "pixels", (JsonRange){1, 65536, 2},
+                           out->pixels, &two, err) &&
+        json_view_numbers(root, "size_mm", (JsonRange){1, 1e5, 2},
+                           out->size_mm, &two, err) &&
+        json_view_number(root, "instrument_fwhm_deg", 0.05, 15, &out->instrument_fwhm_deg,
+                         err) &&
+        read_emission(root, out, err) && read_reflection(root, out, err);
+    if (!ok || !primaries) return ok;
+    return json_view_file(root, "primaries", primaries, &primaries, err) &&
+           read_spectra(primaries, root->arena, out, err);
+}
+
+/* A lone CSV: white only. */
+static bool read_lone_table(const char *path, Arena *arena, Measurement *out, Error *err)
+{
+    AngleTable white;
+    if (!angle_table_read_xyz(path, "white", arena, &white, err)) return false;
+    split_white_table(&white, arena, out);
+    out->panel = path_name(path);
+    return true;
+}
+
+bool measurement_read(const char *path, Arena *arena, Measurement *out, Error *err)
+{
+    return measurement_read_below(path, NULL, arena, out, err);
+}
+
+bool measurement_read_below(const char *path, const char *folder, Arena *arena,
+                            Measurement *out, Error *err)
+{
+    JsonView     root;
+    Measurement *set = ARENA_NEW(arena, Measurement, 1);
+    *set = (Measurement){.file = arena_string(arena, path, strlen(path)), .panel = "",
+                         .instrument = "", .note = ""};
+    bool ok;
+    if (!strcmp(path_ending(path), ".csv")) {
+        ok = read_lone_table(path, arena, set, err);
+    } else {
+        if (!json_view_open(path, arena, &root, err)) return false;
+        root.root = folder;
+        ok = read_members(&root, set, err);
+        json_view_close(&root);
+    }
+    if (ok) *out = *set;
+    return ok;
+}

@@ -1,0 +1,284 @@
+#include "panel/set/simulate.h"
+
+#include <errno.h>
+#include <ftw.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/file.h"
+#include "base/mathd.h"
+#include "base/sampler.h"
+#include "base/units.h"
+#include "panel/set/table_text.h"
+#include "spectrum/spectral_table.h"
+
+#define ROW_BYTES 96 /* of an emission row, at most */
+
+static const char *const primary_names[3] = {"red", "green", "blue"};
+
+typedef struct Instrument {
+    const Recipe *recipe;
+    const char   *folder;
+    Progress      progress;
+    int           tables_done;
+    Arena         scratch;
+    Error        *err;
+} Instrument;
+
+/* A normal deviate by Box and Muller from two hashes of (seed, table, value). */
+static double normal_deviate(const RecipeInstrument *instrument, int table, uint32_t value)
+{
+    uint32_t h = hash_combine(hash_combine(hash_u32((uint32_t)instrument->seed),
+                                           (uint32_t)table), value);
+    double u = ((double)hash_u32(h) + 0.5) / 4294967296.0;
+    double v = ((double)hash_u32(h ^ 0x5bd1e995u) + 0.5) / 4294967296.0;
+    return sqrt(-2 * log_d(u)) * cos_d(2 * PI * v);
+}
+
+static double noisy(const Instrument *instrument, double value, double absolute, uint32_t index)
+{
+    const RecipeInstrument *i = &instrument->recipe->instrument;
+    if (i->noise_relative == 0 && absolute == 0) return value;
+    int table = instrument->tables_done;
+    return value * (1 + i->noise_relative * normal_deviate(i, table, 2 * index)) +
+           absolute * normal_deviate(i, table, 2 * index + 1);
+}
+
+static bool write_text(const Instrument *instrument, const char *name, const TableText *text,
+                       Arena arena)
+{
+    const char *path = arena_format(&arena, "%s/%s", instrument->folder, name);
+    return file_write(path, text->begin, text->size, instrument->err);
+}
+
+/* Directions of a grid: theta from one step (0 stands apart) to the cone, all azimuths. */
+typedef struct Grid {
+    double theta_step_deg, phi_step_deg;
+    int    thetas, phis;
+} Grid;
+
+static Grid grid_of(double theta_max_deg, double theta_step_deg, double phi_step_deg)
+{
+    int phis = (int)round(360 / phi_step_deg);
+    return (Grid){theta_step_deg, 360.0 / phis, (int)(theta_max_deg / theta_step_deg + 1e-9),
+                  phis};
+}
+
+/* Direction i of the grid in degrees; 0 is the normal. */
+static void grid_direction(const Grid *grid, int i, double degrees[2])
+{
+    degrees[0] = i ? ((i - 1) / grid->phis + 1) * grid->theta_step_deg : 0;
+    degrees[1] = i ? (i - 1) % grid->phis * grid->phi_step_deg : 0;
+}
+
+static int grid_count(const Grid *grid)
+{
+    return 1 + grid->thetas * grid->phis;
+}
+
+/* ---- emission -------------------------------------------------------------------------- */
+
+/* primary -1: the black pattern. */
+static bool write_emission(Instrument *instrument, int primary, double level)
+{
+    const Recipe *recipe = instrument->recipe;
+    Arena arena = instrument->scratch;
+    Grid  grid = grid_of(recipe->instrument.theta_max_deg, recipe->instrument.theta_step_deg,
+                         recipe->instrument.phi_step_deg);
+    TableText text = table_text(&arena, (size_t)(grid_count(&grid) + 2) * ROW_BYTES);
+    table_text_add(&text, "theta,phi,X,Y,Z\n");
+    for (int i = 0; i < grid_count(&grid); i++) {
+        double degrees[2], xyz[3], add[3] = {0, 0, 0};
+        grid_direction(&grid, i, degrees);
+        double angles[2] = {radians_from_degrees(degrees[0]), radians_from_degrees(degrees[1])};
+        truth_black_xyz(recipe, angles, xyz);
+        if (primary >= 0) truth_emission_xyz(recipe, primary, level, angles, add);
+        table_text_add(&text, "%.10g,%.10g", degrees[0], degrees[1]);
+        for (int j = 0; j < 3; j++)
+            table_text_add(&text, ",%.6g", noisy(instrument, xyz[j] + add[j],
+                                           recipe->instrument.noise_cd_m2,
+                                           (uint32_t)(3 * i + j)));
+        table_text_add(&text, "\n");
+    }
+    const char *name = primary < 0 ? "emission/black.csv"
+        : arena_format(&arena, "emission/%s_%03g.csv", primary_names[primary], level);
+    bool ok = write_text(instrument, name, &text, arena);
+    progress_update(&instrument->progress, ++instrument->tables_done);
+    return ok;
+}
+
+static bool write_all_emission(Instrument *instrument)
+{
+    const RecipeEmission *emission = &instrument->recipe->emission;
+    bool ok = write_emission(instrument, -1, 0);
+    for (int p = 0; p < 3 && ok; p++)
+        for (int i = 0; i < emission->level_count && ok; i++)
+            ok = write_emission(instrument, p, emission->level[i]);
+    return ok;
+}
+
+/* ---- reflection ------------------------------------------------------------------------ */
+
+static void add_brdf_row(Instrument *instrument, TableText *text, double incidence,
+                         const double degrees[2], uint32_t index)
+{
+    const Recipe *recipe = instrument->recipe;
+    const RecipeReflection *r = &recipe->reflection;
+    table_text_add(text, "%.10g,%.10g", degrees[0], degrees[1]);
+    for (int w = 0; w < r->wavelength_count; w++) {
+        double value = truth_instrument_brdf(recipe, incidence,
+            radians_from_degrees(degrees[0]), radians_from_degrees(degrees[1]),
+            r->wavelength_nm[w]);
+        table_text_add(text, ",%.5g", noisy(instrument, value, recipe->instrument.noise_brdf_sr,
+                                      index * (uint32_t)r->wavelength_count + (uint32_t)w));
+    }
+    table_text_add(text, "\n");
+}
+
+static bool write_brdf(Instrument *instrument, double incidence_deg)
+{
+    const Recipe *recipe = instrument->recipe;
+    const RecipeReflection *r = &recipe->reflection;
+    Arena arena = instrument->scratch;
+    Grid  grid = grid_of(recipe->instrument.theta_max_deg,
+                         recipe->instrument.brdf_theta_step_deg,
+                         recipe->instrument.brdf_phi_step_deg);
+    size_t row_bytes = 48 + 16 * (size_t)r->wavelength_count;
+    TableText text = table_text(&arena, (size_t)(grid_count(&grid) + 2) * row_bytes);
+    table_text_add(&text, "theta,phi");
+    for (int w = 0; w < r->wavelength_count; w++)
+        table_text_add(&text, ",%.10g", r->wavelength_nm[w]);
+    table_text_add(&text, "\n");
+    for (int i = 0; i < grid_count(&grid); i++) {
+        double degrees[2];
+        grid_direction(&grid, i, degrees);
+        add_brdf_row(instrument, &text, radians_from_degrees(incidence_deg), degrees,
+                     (uint32_t)i);
+    }
+    const char *name = arena_format(&arena, "brdf/i%.10g.csv", incidence_deg);
+    bool ok = write_text(instrument, name, &text, arena);
+    progress_update(&instrument->progress, ++instrument->tables_done);
+    return ok;
+}
+
+/* ---- spectra and manifest -------------------------------------------------------------- */
+
+static bool write_spectra(Instrument *instrument)
+{
+    Arena arena = instrument->scratch;
+    TableText text = table_text(&arena, (SPECTRAL_COUNT + 1) * (size_t)ROW_BYTES);
+    table_text_add(&text, "nm,red,green,blue\n");
+    for (int i = 0; i < SPECTRAL_COUNT; i++) {
+        int nm = SPECTRAL_FIRST_NM + i;
+        table_text_add(&text, "%d", nm);
+        for (int p = 0; p < 3; p++)
+            table_text_add(&text, ",%.6g",
+                     truth_spectrum(&instrument->recipe->emission.primary[p], nm));
+        table_text_add(&text, "\n");
+    }
+    return write_text(instrument, "primaries.csv", &text, arena);
+}
+
+static void add_quoted(TableText *text, const char *key, const char *value)
+{
+    table_text_add(text, "  \"%s\": \"", key);
+    for (; *value; value++) {
+        if (*value == '"' || *value == '\\') table_text_add(text, "\\");
+        if ((unsigned char)*value >= ' ') table_text_add(text, "%c", *value);
+    }
+    table_text_add(text, "\",\n");
+}
+
+static void add_list(TableText *text, const char *key, const double *value, int count)
+{
+    table_text_add(text, "\"%s\": [", key);
+    for (int i = 0; i < count; i++) table_text_add(text, "%s%.10g", i ? ", " : "", value[i]);
+    table_text_add(text, "]");
+}
+
+static void add_emission(TableText *text, const RecipeEmission *emission)
+{
+    table_text_add(text, "  \"emission\": {\n    \"black\": \"emission/black.csv\"");
+    for (int p = 0; p < 3; p++) {
+        table_text_add(text, ",\n    \"%s\": {", primary_names[p]);
+        for (int i = 0; i < emission->level_count; i++)
+            table_text_add(text, "%s\"%g\": \"emission/%s_%03g.csv\"", i ? ", " : "",
+                     emission->level[i], primary_names[p], emission->level[i]);
+        table_text_add(text, "}");
+    }
+    table_text_add(text, "\n  },\n");
+}
+
+static bool write_manifest(Instrument *instrument)
+{
+    const Recipe *recipe = instrument->recipe;
+    Arena arena = instrument->scratch;
+    TableText text = table_text(&arena, 1u << 18);
+    table_text_add(&text, "{\n");
+    add_quoted(&text, "panel", recipe->panel);
+    table_text_add(&text, "  \"instrument\": \"simulated Fourier optics, %g deg\",\n",
+             recipe->instrument.theta_max_deg);
+    add_quoted(&text, "note", recipe->note);
+    table_text_add(&text, "  \"instrument_fwhm_deg\": %g,\n  ", recipe->instrument.fwhm_deg);
+    add_list(&text, "pixels", recipe->pixels, 2);
+    table_text_add(&text, ",\n  ");
+    add_list(&text, "size_mm", recipe->size_mm, 2);
+    table_text_add(&text, ",\n");
+    add_emission(&text, &recipe->emission);
+    table_text_add(&text, "  \"primaries\": \"primaries.csv\"");
+    if (recipe->reflection.exists) {
+        table_text_add(&text, ",\n  \"reflection\": {");
+        add_list(&text, "wavelengths_nm", recipe->reflection.wavelength_nm,
+                 recipe->reflection.wavelength_count);
+        table_text_add(&text, ",\n    ");
+        add_list(&text, "incidence_deg", recipe->reflection.incidence_deg,
+                 recipe->reflection.incidence_count);
+        table_text_add(&text, ",\n    \"files\": \"brdf/i{incidence}.csv\"}");
+    }
+    table_text_add(&text, "\n}\n");
+    return write_text(instrument, "MANIFEST.json", &text, arena);
+}
+
+/* *is_new: it was not there before. */
+static bool make_folder(const char *folder, const char *inside, bool *is_new, Error *err)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s%s%s", folder, *inside ? "/" : "", inside);
+    *is_new = !mkdir(path, 0777);
+    if (*is_new || errno == EEXIST) return true;
+    return error_at(err, ERROR_OUTPUT, path, "", "cannot be made: %s", strerror(errno));
+}
+
+static int remove_one(const char *path, const struct stat *status, int kind, struct FTW *walk)
+{
+    (void)status, (void)kind, (void)walk;
+    return remove(path);
+}
+
+static bool make_folders(const char *folder, bool reflects, bool *is_new, Error *err)
+{
+    bool any;
+    return make_folder(folder, "", is_new, err) && make_folder(folder, "emission", &any, err) &&
+           (!reflects || make_folder(folder, "brdf", &any, err));
+}
+
+bool simulate_measurement(const Recipe *recipe, const char *folder, ProgressMode mode,
+                          Error *err)
+{
+    const RecipeReflection *r = &recipe->reflection;
+    int slices = r->exists ? r->incidence_count : 0;
+    int tables = 1 + 3 * recipe->emission.level_count + slices;
+    bool is_new = false;
+    Arena      arena = arena_reserve((size_t)16 << 30);
+    Instrument instrument = {recipe, folder, progress_start(mode, "simulate", "tables", tables),
+                             0, arena, err};
+    bool ok = make_folders(folder, slices > 0, &is_new, err) && write_all_emission(&instrument);
+    for (int i = 0; i < slices && ok; i++) ok = write_brdf(&instrument, r->incidence_deg[i]);
+    ok = ok && write_spectra(&instrument) && write_manifest(&instrument);
+    progress_end(&instrument.progress, instrument.tables_done);
+    if (!ok && is_new) nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS); /* all is ours */
+    arena_release(&arena);
+    return ok;
+}

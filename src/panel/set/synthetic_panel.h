@@ -1,0 +1,109 @@
+/* synthetic_panel.h -- a synthetic panel whose every value is known in closed form.
+ *
+ * A recipe stands where a laboratory's panel would stand: `panel simulate` measures it with a
+ * virtual instrument, and tests compare what a fit says with the truth below.
+ *
+ * Frame    the display's: theta from the normal, phi 0 right, 90 up (radians here).
+ * Units    XYZ with Y in cd m^-2; BRDF in sr^-1 without the cosine; angles in files in degrees.
+ * Threads  a Recipe is const once it is read.
+ *
+ * Emission, primary p, level g, tristimulus component j (s = sin^2 theta):
+ *   E_pj = W_pj (g/255)^(gamma - gamma_drop s) A exp(shift_pj s)
+ *   A    = cos(theta)^(n_h cos^2 phi + n_v sin^2 phi) T(theta)/T(0) (1 + lobe)
+ *   lobe = gain exp(-d^2 / (2 width^2)), d the angle to the lobe's direction
+ *   M_black = B white_j/white_Y A (1 + leak s^2 sin^2(2 phi))
+ * T = 1 - F, F the unpolarised Fresnel reflectance for the cover's refractive index. W_p is
+ * the primary's spectrum (a sum of Gaussians) seen by the CIE 1931 observer, scaled to its
+ * luminance at full level.
+ *
+ * Reflection, beta the projection of a unit direction on the panel's plane (Harvey's
+ * shift-invariant scatter, in the ABC form of Church and Takacs):
+ *   R(theta, l) = F (c + (1 - c) F), c = coating + coating_blue ((l - 550 nm) / 150 nm)^2
+ *   haze   = share sqrt(R(theta_i) R(theta_o)) K(|beta_o - beta_mirror|)
+ *   K(b)   = (s - 1) / (pi w^2) (1 + (b/w)^2)^-s      (its integral over the plane is one)
+ *   mirror = (1 - share) R(theta)                      (the delta part)
+ *   floor  = rho / pi (1 - F(theta_i)) (1 - F(theta_o))
+ * Reciprocal, and never more than R + rho.
+ */
+#pragma once
+#include "base/arena.h"
+#include "base/error.h"
+
+#define RECIPE_PEAKS_MAX 8
+#define RECIPE_LEVELS_MAX 32
+#define RECIPE_INCIDENCES_MAX 24
+#define RECIPE_WAVELENGTHS_MAX 128
+
+typedef struct RecipePrimary {
+    double luminance_cd_m2; /* of this primary alone at level 255 on the axis */
+    double shift[3];        /* exponents of X, Y, Z over sin^2 theta */
+    int    peak_count;
+    double peak_nm[RECIPE_PEAKS_MAX], fwhm_nm[RECIPE_PEAKS_MAX], weight[RECIPE_PEAKS_MAX];
+    double white_xyz[3];    /* W_p above, cd m^-2 */
+} RecipePrimary;
+
+typedef struct RecipeEmission {
+    RecipePrimary primary[3];
+    double gamma, gamma_drop;
+    double cosine_power[2];  /* n_h, n_v */
+    double black_cd_m2, leak;
+    double lobe_theta, lobe_phi, lobe_width, lobe_gain; /* radians; gain 0: none */
+    int    level_count;
+    double level[RECIPE_LEVELS_MAX]; /* measured codes, rising, without 0 */
+} RecipeEmission;
+
+typedef struct RecipeReflection {
+    bool   exists;
+    double coating, coating_blue;
+    double haze_share, haze_width, haze_power; /* w without unit, s above 1 */
+    double floor_albedo;
+    int    incidence_count, wavelength_count;
+    double incidence_deg[RECIPE_INCIDENCES_MAX];
+    double wavelength_nm[RECIPE_WAVELENGTHS_MAX];
+} RecipeReflection;
+
+/* The virtual instrument. Noise: value (1 + relative n) + absolute n', n normal. */
+typedef struct RecipeInstrument {
+    double theta_max_deg, theta_step_deg, phi_step_deg;
+    double brdf_theta_step_deg, brdf_phi_step_deg;
+    double fwhm_deg; /* how wide a mirror image of a point looks */
+    double noise_relative, noise_cd_m2, noise_brdf_sr;
+    double seed;
+} RecipeInstrument;
+
+typedef struct Recipe {
+    const char *panel, *note;
+    double pixels[2], size_mm[2];
+    double refractive_index;
+    RecipeEmission   emission;
+    RecipeReflection reflection;
+    RecipeInstrument instrument;
+} Recipe;
+
+/* Reads and checks a recipe; unknown keys are errors. Texts live in the arena. */
+bool recipe_read(const char *file, Arena *arena, Recipe *out, Error *err);
+
+/* ---- the truth ------------------------------------------------------------------------- */
+
+/* Unpolarised Fresnel reflectance of a surface of refractive index n. */
+double fresnel_unpolarised(double cos_theta, double n);
+
+/* Spectral shape of a primary, relative. */
+double truth_spectrum(const RecipePrimary *primary, double nm);
+
+/* E_p above: what level `code` of primary 0..2 adds to the black pattern. */
+void truth_emission_xyz(const Recipe *recipe, int primary, double code,
+                        const double angles[2], double xyz[3]);
+
+/* M_black above. angles: theta, phi. */
+void truth_black_xyz(const Recipe *recipe, const double angles[2], double xyz[3]);
+
+/* Haze and floor. The light comes from azimuth pi, phi is the leaving azimuth. */
+double truth_brdf(const Recipe *recipe, double theta_i, double theta_o, double phi, double nm);
+
+/* The delta part's reflectance. */
+double truth_mirror(const Recipe *recipe, double theta, double nm);
+
+/* What the instrument reads: truth_brdf plus the mirror's image as wide as the instrument. */
+double truth_instrument_brdf(const Recipe *recipe, double theta_i, double theta_o, double phi,
+                             double nm);

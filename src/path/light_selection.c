@@ -1,0 +1,85 @@
+#include "path/light_selection.h"
+
+#include "light/emission.h"
+
+#define POINTS 64        /* of every part, for every set */
+#define GENEROSITY 4.0f  /* a set with a quarter of a part's light is sampled at every hit */
+#define LEAST 0.1f       /* and none less often than this */
+
+static bool always_passes(void *user, const Hit *hit)
+{
+    (void)user;
+    (void)hit;
+    return true; /* holes and windows: their colour does not matter here */
+}
+
+/* Illuminance (lx) that one sample of the set gives at a point that faces n. */
+static double sample_illuminance(const Bvh *bvh, const Lights *lights, LightSet set,
+                                 Vec3 position, Vec3 n, Sampler *sampler)
+{
+    Wavelengths wavelengths;
+    LightSample light;
+    float xyz[3] = {0};
+    Vec2  u01 = sampler_2d(sampler), u2 = sampler_2d(sampler);
+    const float u[3] = {u01.x, u01.y, u2.x};
+    wavelengths_sample(u2.y, &wavelengths);
+    if (!lights_sample(lights, set, (LitPoint){position, n}, &wavelengths, u, &light)) return 0;
+    float cosine = vec3_dot(n, light.wi);
+    if (!(cosine > 0)) return 0;
+    Ray ray = {ray_offset_origin(position, n, light.wi), light.wi, 0, light.distance * 0.999f};
+    if (bvh_occluded(bvh, ray, always_passes, NULL)) return 0;
+    spectrum_add_xyz(&wavelengths, light.radiance * spectrum_all(cosine / light.pdf), xyz);
+    return isfinite(xyz[1]) ? (double)xyz[1] : 0;
+}
+
+/* Mean over points spread over the part's triangles and both of their sides. */
+static double part_illuminance(const Scene *scene, const Bvh *bvh, const Lights *lights,
+                               LightSet set, int part_id)
+{
+    const Part *part = &scene->parts[part_id];
+    double sum = 0;
+    for (uint32_t i = 0; i < POINTS; i++) {
+        Sampler  sampler = sampler_start((uint32_t)set, part_id, 0, i);
+        Vec2     at = sampler_2d(&sampler);
+        uint32_t triangle = (uint32_t)((uint64_t)part->triangle_count * i / POINTS);
+        float    u = at.x, v = at.y;
+        if (u + v > 1) {
+            u = 1 - u;
+            v = 1 - v;
+        }
+        TrianglePoint point = triangle_point(scene, part->first_triangle + triangle, u, v);
+        Vec3 n = i & 1 ? vec3_neg(point.ng) : point.ng;
+        sum += sample_illuminance(bvh, lights, set, point.position, n, &sampler);
+    }
+    return sum / POINTS;
+}
+
+static void weigh_part(const Scene *scene, const Bvh *bvh, const Lights *lights, int part_id,
+                       float prob[LIGHT_SETS])
+{
+    double lx[LIGHT_SETS] = {0}, total = 0;
+    for (int set = 0; set < LIGHT_SETS; set++) {
+        if (!lights_has(lights, (LightSet)set)) continue;
+        lx[set] = part_illuminance(scene, bvh, lights, (LightSet)set, part_id);
+        total += lx[set];
+    }
+    for (int set = 0; set < LIGHT_SETS; set++) {
+        if (!lights_has(lights, (LightSet)set)) continue;
+        float wanted = total > 0 ? GENEROSITY * (float)(lx[set] / total) : 1;
+        prob[set] = clampf(wanted, LEAST, 1);
+    }
+}
+
+LightChoice choice_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
+                         Arena *arena)
+{
+    LightChoice choice;
+    choice.prob = (float(*)[LIGHT_SETS])ARENA_NEW(arena, float,
+                                                  LIGHT_SETS * ((size_t)scene->part_count + 1));
+    for (int set = 0; set < LIGHT_SETS; set++)
+        choice.all[set] = lights_has(lights, (LightSet)set) ? 1.0f : 0.0f;
+    for (int part = 0; part < scene->part_count; part++)
+        if (scene->parts[part].triangle_count)
+            weigh_part(scene, bvh, lights, part, choice.prob[part]);
+    return choice;
+}

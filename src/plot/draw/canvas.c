@@ -1,0 +1,221 @@
+#include "plot/draw/canvas.h"
+
+#include <math.h>
+#include <string.h>
+
+#define FACE "DejaVu Sans"
+#define FACE_WIDTH 0.92 /* the face is drawn a little narrower than it is cut */
+
+Ink ink_hex(unsigned rgb)
+{
+    return (Ink){(rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0, 1};
+}
+
+Ink ink_alpha(Ink ink, double alpha)
+{
+    ink.alpha = alpha;
+    return ink;
+}
+
+Ink ink_mix(Ink a, Ink b, double t)
+{
+    return (Ink){a.red + t * (b.red - a.red), a.green + t * (b.green - a.green),
+                 a.blue + t * (b.blue - a.blue), a.alpha + t * (b.alpha - a.alpha)};
+}
+
+Theme theme_light(void)
+{
+    return (Theme){
+        .paper = ink_hex(0xffffff), .ink = ink_hex(0x1b2128), .soft = ink_hex(0x57616b),
+        .faint = ink_hex(0x98a1a9), .grid = ink_hex(0xe7eaed),
+        .primary = {ink_hex(0xc7362b), ink_hex(0x1e8a4f), ink_hex(0x2858c6)},
+        .accent = ink_hex(0xc77a12)};
+}
+
+Theme theme_dark(void)
+{
+    return (Theme){
+        .paper = ink_hex(0x14181c), .ink = ink_hex(0xeef1f3), .soft = ink_hex(0xadb5bd),
+        .faint = ink_hex(0x6f7881), .grid = ink_hex(0x2b3238),
+        .primary = {ink_hex(0xff7a6e), ink_hex(0x5fcf90), ink_hex(0x7fa6ff)},
+        .accent = ink_hex(0xf0b35a), .is_dark = true};
+}
+
+/* ---- letters ---------------------------------------------------------------------------- */
+
+static void set_face(Canvas *canvas, double size, bool is_bold)
+{
+    cairo_matrix_t matrix;
+    cairo_select_font_face(canvas->cr, FACE, CAIRO_FONT_SLANT_NORMAL,
+                           is_bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_matrix_init_scale(&matrix, size * FACE_WIDTH, size);
+    cairo_set_font_matrix(canvas->cr, &matrix);
+}
+
+double canvas_text_width(Canvas *canvas, double size, bool is_bold, const char *text)
+{
+    cairo_text_extents_t extents;
+    set_face(canvas, size, is_bold);
+    cairo_text_extents(canvas->cr, text, &extents);
+    return extents.x_advance;
+}
+
+void canvas_text(Canvas *canvas, double x, double y, Letters letters, const char *text)
+{
+    double width = canvas_text_width(canvas, letters.size, letters.is_bold, text);
+    double rise = 0.73 * letters.size; /* height of a capital of this face */
+    cairo_t *cr = canvas->cr;
+    cairo_save(cr);
+    cairo_translate(cr, x, y);
+    cairo_rotate(cr, letters.angle);
+    cairo_move_to(cr, -letters.across * width, rise * (1 - letters.down));
+    if (letters.halo.alpha > 0) {
+        cairo_text_path(cr, text);
+        cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+        canvas_stroke(canvas, (Stroke){letters.halo, 0.28 * letters.size, DASH_NONE});
+        cairo_move_to(cr, -letters.across * width, rise * (1 - letters.down));
+    }
+    cairo_set_source_rgba(cr, letters.ink.red, letters.ink.green, letters.ink.blue,
+                          letters.ink.alpha);
+    cairo_show_text(cr, text);
+    cairo_new_path(cr);
+    cairo_restore(cr);
+}
+
+/* Bytes of the UTF-8 letter at `text`. */
+static size_t letter_bytes(const char *text)
+{
+    size_t n = 1;
+    while (((unsigned char)text[n] & 0xC0) == 0x80) n++;
+    return n;
+}
+
+const char *canvas_fit_text(Canvas *canvas, double size, bool is_bold, double width,
+                            const char *text)
+{
+    if (canvas_text_width(canvas, size, is_bold, text) <= width) return text;
+    size_t fits = 0;
+    for (size_t n = 0; text[n]; n += letter_bytes(text + n)) {
+        const char *cut = arena_format(canvas->arena, "%.*s…", (int)n, text);
+        if (canvas_text_width(canvas, size, is_bold, cut) > width) break;
+        fits = n;
+    }
+    while (fits > 0 && text[fits - 1] == ' ') fits--;
+    return arena_format(canvas->arena, "%.*s…", (int)fits, text);
+}
+
+double canvas_paragraph(Canvas *canvas, Box box, Letters letters, const char *text)
+{
+    double y = box.y, leading = 1.42 * letters.size;
+    while (*text) {
+        size_t end = 0;
+        for (size_t n = 0;; n++) {
+            if (text[n] && text[n] != ' ') continue;
+            char *part = arena_string(canvas->arena, text, n);
+            double width = canvas_text_width(canvas, letters.size, letters.is_bold, part);
+            if (end > 0 && width > box.w) break;
+            end = n;
+            if (!text[n]) break;
+        }
+        canvas_text(canvas, box.x, y, letters, arena_string(canvas->arena, text, end));
+        y += leading;
+        text += end;
+        while (*text == ' ') text++;
+    }
+    return y;
+}
+
+/* ---- lines and areas -------------------------------------------------------------------- */
+
+void canvas_stroke(Canvas *canvas, Stroke stroke)
+{
+    static const struct { int count; double length[2]; } DASHES[] = {
+        [DASH_NONE] = {0, {0}}, [DASH_LONG] = {2, {7, 3}}, [DASH_SHORT] = {2, {3.2, 2.2}},
+        [DASH_DOT] = {2, {0.1, 2.6}}};
+    cairo_t *cr = canvas->cr;
+    double   scale = stroke.width > 1 ? sqrt(stroke.width) : 1, length[2];
+    for (int i = 0; i < 2; i++) length[i] = DASHES[stroke.dash].length[i] * scale;
+    cairo_set_dash(cr, length, DASHES[stroke.dash].count, 0);
+    cairo_set_line_cap(cr, stroke.dash == DASH_DOT ? CAIRO_LINE_CAP_ROUND
+                                                   : CAIRO_LINE_CAP_BUTT);
+    cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_line_width(cr, stroke.width);
+    cairo_set_source_rgba(cr, stroke.ink.red, stroke.ink.green, stroke.ink.blue,
+                          stroke.ink.alpha);
+    cairo_stroke(cr);
+}
+
+void canvas_fill(Canvas *canvas, Ink ink)
+{
+    cairo_set_source_rgba(canvas->cr, ink.red, ink.green, ink.blue, ink.alpha);
+    cairo_fill(canvas->cr);
+}
+
+/* Distance of point i from the segment a b. */
+static double distance_from(const double *x, const double *y, int i, int a, int b)
+{
+    double dx = x[b] - x[a], dy = y[b] - y[a], px = x[i] - x[a], py = y[i] - y[a];
+    double length2 = dx * dx + dy * dy;
+    double t = length2 > 0 ? fmin(fmax((px * dx + py * dy) / length2, 0), 1) : 0;
+    return hypot(px - t * dx, py - t * dy);
+}
+
+/* Douglas and Peucker 1973: a stretch is straight when no point is off by more than the
+ * tolerance; else its furthest point is kept and both halves are looked at. */
+static void keep_points(const double *x, const double *y, int count, bool *is_kept, int *stack)
+{
+    int depth = 0;
+    stack[depth++] = 0;
+    stack[depth++] = count - 1;
+    is_kept[0] = is_kept[count - 1] = true;
+    while (depth > 0) {
+        int    b = stack[--depth], a = stack[--depth], furthest = -1;
+        double most = 0.04;
+        for (int i = a + 1; i < b; i++) {
+            double d = distance_from(x, y, i, a, b);
+            if (d <= most) continue;
+            most = d;
+            furthest = i;
+        }
+        if (furthest < 0) continue;
+        is_kept[furthest] = true;
+        stack[depth++] = a;
+        stack[depth++] = furthest;
+        stack[depth++] = furthest;
+        stack[depth++] = b;
+    }
+}
+
+void canvas_polyline(Canvas *canvas, const double *x, const double *y, int count)
+{
+    if (count < 2) return;
+    Arena scratch = *canvas->arena;
+    bool *is_kept = ARENA_NEW(&scratch, bool, count);
+    keep_points(x, y, count, is_kept, ARENA_NEW(&scratch, int, 2 * count + 4));
+    cairo_move_to(canvas->cr, x[0], y[0]);
+    for (int i = 1; i < count; i++)
+        if (is_kept[i]) cairo_line_to(canvas->cr, x[i], y[i]);
+}
+
+void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1, Stroke stroke)
+{
+    cairo_move_to(canvas->cr, x0, y0);
+    cairo_line_to(canvas->cr, x1, y1);
+    canvas_stroke(canvas, stroke);
+}
+
+void canvas_hatch(Canvas *canvas, Box area)
+{
+    cairo_t *cr = canvas->cr;
+    cairo_rectangle(cr, area.x, area.y, area.w, area.h);
+    canvas_fill(canvas, ink_alpha(canvas->theme.paper, 0.55));
+    cairo_save(cr);
+    cairo_rectangle(cr, area.x, area.y, area.w, area.h);
+    cairo_clip(cr);
+    for (double at = -area.h; at < area.w; at += 5) {
+        cairo_move_to(cr, area.x + at, area.y + area.h);
+        cairo_line_to(cr, area.x + at + area.h, area.y);
+    }
+    canvas_stroke(canvas, (Stroke){ink_alpha(canvas->theme.soft, 0.55), 0.6, DASH_NONE});
+    cairo_restore(cr);
+}

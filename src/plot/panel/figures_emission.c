@@ -1,0 +1,158 @@
+/* Polar maps of what the panel emits: luminance, contrast, colour shift. */
+#include <math.h>
+
+#include "base/units.h"
+#include "plot/panel/figure.h"
+#include "plot/draw/ticks.h"
+
+static const char *at_angles(Arena *arena, double theta, double phi)
+{
+    double degrees = degrees_from_radians(phi);
+    if (theta < radians_from_degrees(0.75)) return "at the normal";
+    return arena_format(arena, "at θ %.0f°, φ %.0f°", degrees_from_radians(theta),
+                        degrees < -0.5 ? degrees + 360 : fabs(degrees));
+}
+
+static void note_map(FigureMap *out, const PolarMap *map, PolarPlace place)
+{
+    *out = (FigureMap){.kind = FIGURE_POLAR, .disc = place, .field = *map->field,
+                       .unit = map->unit};
+}
+
+/* Round levels inside (low, high), not so near the ends or the strong level that they say
+ * nothing. */
+static void choose_levels(PolarMap *map, double low, double high, int most)
+{
+    Ticks ticks = ticks_linear(low, high, most);
+    map->step = ticks.step;
+    for (int i = 0; i < ticks.count; i++)
+        if (ticks.value[i] > low + 0.02 * (high - low) &&
+            ticks.value[i] < high - 0.005 * (high - low) &&
+            !(fabs(ticks.value[i] - map->strong) < 0.045 * (high - low)))
+            map->level[map->level_count++] = ticks.value[i];
+    if (isfinite(map->strong)) map->level[map->level_count++] = map->strong;
+}
+
+/* ---- luminance -------------------------------------------------------------------------- */
+
+static void draw_luminance(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+{
+    const Subject *s = figure->subject;
+    const Field   *field = &s->xyz[figure->index][1];
+    FieldRange     range = field_range(field, s->cone);
+    double low = range.low > 0.6 * range.high ? range.low : 0;
+    PolarMap map = {.field = field, .map = MAP_AMOUNT, .low = low, .high = range.high,
+                    .strong = NAN, .theta_measured = s->cone, .unit = "cd/m²"};
+    double half = 0.5 * (double)s->normal[figure->index][1];
+    if (figure->index != PATTERN_BLACK && range.low < half && half < range.high) {
+        map.strong = half;
+        map.strong_text = "½";
+    }
+    choose_levels(&map, fmax(range.low, low), range.high, 8);
+    note_map(out, &map, polar_draw(canvas, box, &map));
+}
+
+static void add_luminance(FigureList *list, const Subject *s, Pattern pattern)
+{
+    FieldRange range = field_range(&s->xyz[pattern][1], s->cone);
+    char       normal[32], high[32];
+    if (!(range.high > 0)) return;
+    double      at_normal = (double)s->normal[pattern][1];
+    const char *subtitle = arena_format(s->arena, "%s cd/m² at the normal%s%s%s%s",
+        figure_text(at_normal, normal), range.high > 1.002 * at_normal ? ", at most " : "",
+        range.high > 1.002 * at_normal ? figure_text(range.high, high) : "",
+        range.high > 1.002 * at_normal ? " " : "", range.high > 1.002 * at_normal
+        ? at_angles(s->arena, range.theta, range.phi) : "");
+    figure_add(list, &(Figure){PLOT_LUMINANCE,
+        arena_format(s->arena, "Luminance, %s", pattern == PATTERN_WHITE ? "white" :
+                     pattern == PATTERN_RED ? "red" : pattern == PATTERN_GREEN ? "green" :
+                     pattern == PATTERN_BLUE ? "blue" : "black"),
+        subtitle, "Luminance in cd/m² over the viewing hemisphere: θ from the normal outwards, "
+        "φ counter-clockwise from the viewer's right. The strong ring, where there is one, is "
+        "half the luminance of the normal.", draw_luminance, s, pattern,
+        SHEET_ALWAYS, pattern != PATTERN_WHITE && pattern != PATTERN_BLACK});
+}
+
+/* Beyond it black is next to nothing and high ratios are noise: they do not set the colours. */
+#define GRAZING (80 * PI / 180)
+
+/* ---- contrast --------------------------------------------------------------------------- */
+
+static void draw_contrast(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+{
+    static const double LEVELS[] = {2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000,
+                                    20000, 50000, 100000};
+    const Subject *s = figure->subject;
+    Field      *field = ARENA_NEW(canvas->arena, Field, 1);
+    *field = subject_contrast(s, canvas->arena);
+    FieldRange  range = field_range(field, fmin(s->cone, GRAZING));
+    range.low = fmin(range.low, field_range(field, s->cone).low);
+    PolarMap    map = {.field = field, .map = MAP_RATIO, .is_log = true, .strong = NAN,
+                       .low = round_down(fmax(range.low, range.high / 1e5)),
+                       .high = round_up(range.high), .theta_measured = s->cone, .unit = ": 1"};
+    if (map.high < 2 * map.low) map.low = map.high / 2;
+    for (int i = 0; i < 15; i++)
+        if (LEVELS[i] > range.low && LEVELS[i] < range.high)
+            map.level[map.level_count++] = LEVELS[i];
+    note_map(out, &map, polar_draw(canvas, box, &map));
+}
+
+static void add_contrast(FigureList *list, const Subject *s)
+{
+    Field      field = subject_contrast(s, s->arena);
+    FieldRange range = field_range(&field, s->cone);
+    char       normal[32], low[32];
+    double at_normal = (double)(s->normal[PATTERN_WHITE][1] / s->normal[PATTERN_BLACK][1]);
+    figure_add(list, &(Figure){PLOT_CONTRAST, "Contrast ratio",
+        arena_format(s->arena, "white over black: %s at the normal, at least %s",
+                     figure_text(at_normal, normal), figure_text(range.low, low)),
+        "Luminance of white over that of black in a dark room, logarithmic colours.",
+        draw_contrast, s, 0, SHEET_ALWAYS, false});
+}
+
+/* ---- colour shift ----------------------------------------------------------------------- */
+
+static const double SHIFT_LEVELS[] = {0.002, 0.005, 0.01, 0.02, 0.04, 0.06, 0.08, 0.1, 0.15,
+                                      0.2, 0.3};
+
+static void draw_shift(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+{
+    const Subject *s = figure->subject;
+    Field      *field = ARENA_NEW(canvas->arena, Field, 1);
+    *field = subject_shift(s, (Pattern)figure->index, canvas->arena);
+    FieldRange  range = field_range(field, s->cone);
+    PolarMap    map = {.field = field, .map = MAP_DIFFERENCE, .strong = NAN,
+                       .high = fmax(range.high, 0.005), .theta_measured = s->cone,
+                       .unit = "Δu′v′"};
+    for (int i = 0; i < 11; i++)
+        if (SHIFT_LEVELS[i] < range.high && SHIFT_LEVELS[i] > range.high / 12)
+            map.level[map.level_count++] = SHIFT_LEVELS[i];
+    note_map(out, &map, polar_draw(canvas, box, &map));
+}
+
+static void add_shift(FigureList *list, const Subject *s, Pattern pattern)
+{
+    Field      field = subject_shift(s, pattern, s->arena);
+    FieldRange range = field_range(&field, s->cone);
+    char       high[32];
+    figure_add(list, &(Figure){PLOT_COLOUR_SHIFT,
+        arena_format(s->arena, "Colour shift, %s", pattern == PATTERN_WHITE ? "white" :
+                     pattern == PATTERN_RED ? "red" : pattern == PATTERN_GREEN ? "green"
+                                                                              : "blue"),
+        arena_format(s->arena, "Δu′v′ from the normal, at most %s %s",
+                     figure_text(range.high, high),
+                     at_angles(s->arena, range.theta, range.phi)),
+        "Distance Δu′v′ in the CIE 1976 chromaticity plane between the colour at an angle and "
+        "the colour at the normal.", draw_shift, s, pattern,
+        pattern == PATTERN_WHITE ? SHEET_ALWAYS : SHEET_NEVER, pattern != PATTERN_WHITE});
+}
+
+void figures_add_emission(FigureList *list, const Subject *s)
+{
+    if (!s->emits) return;
+    add_luminance(list, s, PATTERN_WHITE);
+    for (int p = PATTERN_RED; p <= PATTERN_BLACK; p++) add_luminance(list, s, (Pattern)p);
+    if (s->has_black) add_contrast(list, s);
+    add_shift(list, s, PATTERN_WHITE);
+    for (int p = PATTERN_RED; p <= PATTERN_BLUE; p++) add_shift(list, s, (Pattern)p);
+}

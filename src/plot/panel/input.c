@@ -1,0 +1,215 @@
+#include "plot/panel/input.h"
+
+#include <math.h>
+
+#include "base/file.h"
+#include "base/parallel.h"
+#include "base/units.h"
+#include "text/text.h"
+#include "spectrum/photometry.h"
+
+#define SIDE 301 /* grid of the maps: 0.6 degrees a step */
+
+static Vec3 direction(double theta, double phi)
+{
+    double limit = PI / 2 - 1e-4;
+    theta = fmin(fmax(theta, -limit), limit);
+    return vec3((float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)),
+                (float)cos(theta));
+}
+
+const char *pattern_name(Pattern pattern)
+{
+    static const char *const NAMES[] = {"White", "Red", "Green", "Blue", "Black"};
+    return NAMES[pattern];
+}
+
+void pattern_codes(Pattern pattern, float rgb[3])
+{
+    for (int c = 0; c < 3; c++)
+        rgb[c] = pattern == PATTERN_WHITE || (int)pattern == 1 + c ? 255.0f : 0.0f;
+}
+
+void uv_of(const double xyz[3], double uv[2])
+{
+    double d = xyz[0] + 15 * xyz[1] + 3 * xyz[2];
+    uv[0] = d > 0 ? 4 * xyz[0] / d : NAN;
+    uv[1] = d > 0 ? 9 * xyz[1] / d : NAN;
+}
+
+bool subject_xyz(const Subject *subject, double theta, double phi, const float rgb[3],
+                 double xyz[3])
+{
+    float found[3];
+    Vec3  d = direction(theta, phi);
+    bool  measured = panel_emission_xyz(subject->source.panel, d, rgb, found);
+    for (int c = 0; c < 3; c++) xyz[c] = (double)found[c];
+    return measured;
+}
+
+/* ---- sampling, row by row over the threads ---------------------------------------------- */
+
+static void sample_emission_row(void *context, int item, int worker)
+{
+    Subject *s = context;
+    Pattern  pattern = (Pattern)(item / SIDE);
+    int      row = item % SIDE;
+    float    rgb[3], xyz[3];
+    (void)worker;
+    pattern_codes(pattern, rgb);
+    for (int column = 0; column < SIDE; column++) {
+        Vec3 d = field_direction(&s->xyz[pattern][0], row, column);
+        panel_emission_xyz(s->source.panel, d, rgb, xyz);
+        for (int c = 0; c < 3; c++) s->xyz[pattern][c].value[row * SIDE + column] = xyz[c];
+    }
+}
+
+static void sample_emission(Subject *s)
+{
+    for (int p = 0; p < PATTERN_COUNT; p++) {
+        float rgb[3];
+        pattern_codes((Pattern)p, rgb);
+        panel_emission_xyz(s->source.panel, vec3(0, 0, 1), rgb, s->normal[p]);
+        for (int c = 0; c < 3 && s->source.wants_maps; c++)
+            s->xyz[p][c] = field_new(SIDE, PI / 2, s->arena);
+    }
+    if (s->source.wants_maps)
+        parallel_for(s->source.threads, PATTERN_COUNT * SIDE, sample_emission_row, s);
+    s->has_black = s->normal[PATTERN_BLACK][1] > 0;
+    s->cone = panel_info_emission_cone(s->source.panel);
+    if (s->cone > radians_from_degrees(89.9)) s->cone = PI / 2;
+}
+
+static void look_at_reflection(Subject *s)
+{
+    s->wavelength_count = panel_info_wavelengths(s->source.panel, s->wavelength_nm);
+    double azimuths[PANEL_INFO_AZIMUTHS_MAX];
+    s->incidence_count = panel_info_incidences(s->source.panel, s->incidence);
+    if (s->incidence_count > 0) s->last_incidence = s->incidence[s->incidence_count - 1];
+    s->is_anisotropic = panel_info_azimuths(s->source.panel, azimuths) > 1;
+    s->brdf_cone = panel_info_reflection_cone(s->source.panel);
+    s->has_mirror = subject_mirror(s, radians_from_degrees(5), 0) > 1e-7;
+}
+
+Subject *subject_new(const SubjectSource *source, Arena *arena)
+{
+    Subject    *s = ARENA_NEW(arena, Subject, 1);
+    const char *name = json_string_value(json_object_get(source->report, "panel"));
+    s->source = *source;
+    s->arena = arena;
+    s->file_name = text_clean(path_name(source->file), arena);
+    s->name = name && *name ? text_clean(name, arena) : s->file_name;
+    s->is_white_only = json_is_true(json_object_get(
+        json_object_get(source->report, "emission"), "white_only"));
+    s->emits = panel_info_emits(source->panel);
+    s->reflects = panel_reflects(source->panel);
+    if (s->emits) sample_emission(s);
+    if (s->reflects) look_at_reflection(s);
+    return s;
+}
+
+Field subject_contrast(const Subject *s, Arena *arena)
+{
+    Field field = field_new(SIDE, PI / 2, arena);
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        float white = s->xyz[PATTERN_WHITE][1].value[i];
+        float black = s->xyz[PATTERN_BLACK][1].value[i];
+        if (black > 0) field.value[i] = white / black;
+    }
+    return field;
+}
+
+Field subject_shift(const Subject *s, Pattern pattern, Arena *arena)
+{
+    Field  field = field_new(SIDE, PI / 2, arena);
+    double at_normal[2], uv[2], xyz[3];
+    for (int c = 0; c < 3; c++) xyz[c] = (double)s->normal[pattern][c];
+    uv_of(xyz, at_normal);
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        for (int c = 0; c < 3; c++) xyz[c] = (double)s->xyz[pattern][c].value[i];
+        uv_of(xyz, uv);
+        field.value[i] = (float)hypot(uv[0] - at_normal[0], uv[1] - at_normal[1]);
+    }
+    return field;
+}
+
+/* ---- reflection ------------------------------------------------------------------------- */
+
+/* Sixteen wavelengths from 420 to 690 nm, 18 nm apart, or all of them nm. */
+static Wavelengths lanes(double nm)
+{
+    Wavelengths wavelengths = {0};
+    for (int i = 0; i < SPECTRUM_LANES; i++)
+        wavelengths.nm[i] = nm > 0 ? (float)nm : 420 + 18 * (float)i;
+    return wavelengths;
+}
+
+/* The eye's mean of the lanes. */
+static double luminous_mean(Spectrum value, const Wavelengths *wavelengths)
+{
+    double sum = 0, weights = 0;
+    for (int i = 0; i < SPECTRUM_LANES; i++) {
+        double weight = (double)spectral_row((double)wavelengths->nm[i]).y;
+        sum += weight * (double)value[i];
+        weights += weight;
+    }
+    return sum / weights;
+}
+
+static double brdf(const Subject *s, double incidence, Vec3 wo, double nm)
+{
+    Wavelengths wavelengths = lanes(nm);
+    Vec3        wi = direction(incidence, s->source.incidence_phi);
+    Spectrum    f = panel_brdf(s->source.panel, wo, wi, &wavelengths);
+    return nm > 0 ? (double)f[0] : luminous_mean(f, &wavelengths);
+}
+
+/* The azimuth of the panel from one that counts from the mirror direction. */
+static double panel_phi(const Subject *s, double phi)
+{
+    return phi + s->source.incidence_phi - PI;
+}
+
+double subject_brdf(const Subject *s, double incidence, double theta, double phi)
+{
+    return brdf(s, incidence, direction(theta, panel_phi(s, phi)), 0);
+}
+
+double subject_brdf_at(const Subject *s, double incidence, double theta, double phi, double nm)
+{
+    return brdf(s, incidence, direction(theta, panel_phi(s, phi)), nm);
+}
+
+typedef struct BrdfWork {
+    const Subject *subject;
+    Field          field;
+    double         incidence;
+} BrdfWork;
+
+static void sample_brdf_row(void *context, int row, int worker)
+{
+    const BrdfWork *work = context;
+    double turn = panel_phi(work->subject, 0);
+    (void)worker;
+    for (int column = 0; column < work->field.side; column++) {
+        Vec3 d = field_direction(&work->field, row, column);
+        Vec3 wo = vec3(d.x * (float)cos(turn) - d.y * (float)sin(turn),
+                       d.x * (float)sin(turn) + d.y * (float)cos(turn), d.z);
+        work->field.value[row * work->field.side + column] =
+            (float)brdf(work->subject, work->incidence, wo, 0);
+    }
+}
+
+Field subject_brdf_field(const Subject *subject, double incidence, Arena *arena)
+{
+    BrdfWork work = {subject, field_new(SIDE, PI / 2, arena), incidence};
+    parallel_for(subject->source.threads, SIDE, sample_brdf_row, &work);
+    return work.field;
+}
+
+double subject_mirror(const Subject *subject, double theta, double nm)
+{
+    Wavelengths wavelengths = lanes(nm);
+    Spectrum r = panel_mirror(subject->source.panel, (float)cos(theta), &wavelengths);
+    return nm > 0 ? (double)r[0] : luminous_mean(r, &wavelengths);
+}

@@ -1,0 +1,80 @@
+/* input.h -- the panel that is drawn, asked once for everything that several figures need.
+ *
+ * Frame    the display's: phi 0 right, 90 up. A polar map's rim is the horizon.
+ * Units    radians, cd m^-2, sr^-1, nm.
+ * Memory   the arena's. Threads: the sampling uses `threads`; then const.
+ */
+#pragma once
+#include <jansson.h>
+
+#include "panel/set/measurement.h"
+#include "panel/query/panel.h"
+#include "panel/query/panel_info.h"
+#include "plot/draw/field.h"
+
+typedef enum Pattern {
+    PATTERN_WHITE, PATTERN_RED, PATTERN_GREEN, PATTERN_BLUE, PATTERN_BLACK, PATTERN_COUNT
+} Pattern;
+
+/* What of the panel is drawn. */
+typedef struct SubjectSource {
+    const Panel       *panel;
+    const char        *file;     /* as the user named it */
+    const json_t      *report;   /* panel_report's */
+    const Measurement *measured; /* NULL: none given */
+    double             incidence_phi; /* azimuth of the light, radians; PI: from the left */
+    bool               wants_maps;    /* samples emission over the hemisphere */
+    int                threads;
+} SubjectSource;
+
+typedef struct Subject {
+    SubjectSource source;
+    const char *name, *file_name; /* of the panel, and of its file without folders */
+    bool   emits, has_black, reflects, has_mirror;
+    bool   is_white_only;       /* its primaries and levels are assumed, not measured */
+    double cone;                /* emission is measured up to this theta */
+    float  normal[PATTERN_COUNT][3];  /* XYZ at the normal */
+    Field  xyz[PATTERN_COUNT][3];     /* over the hemisphere; without maps empty */
+    int    wavelength_count;    /* of the measured reflection */
+    float  wavelength_nm[PANEL_INFO_WAVELENGTHS_MAX];
+    int    incidence_count;     /* of the light, measured, rising */
+    double incidence[PANEL_INFO_INCIDENCES_MAX], last_incidence;
+    bool   is_anisotropic;      /* reflection depends on the light's azimuth */
+    double brdf_cone;           /* leaving theta measured up to here */
+    Arena *arena;
+} Subject;
+
+Subject *subject_new(const SubjectSource *source, Arena *arena);
+
+const char *pattern_name(Pattern pattern);
+void pattern_codes(Pattern pattern, float rgb[3]);
+
+/* ---- emission --------------------------------------------------------------------------- */
+
+/* XYZ at an angle; true where measured. Negative theta: the opposite azimuth. */
+bool subject_xyz(const Subject *subject, double theta, double phi, const float rgb[3],
+                 double xyz[3]);
+
+/* Luminance of white over that of black; NaN where black is nothing. */
+Field subject_contrast(const Subject *subject, Arena *arena);
+
+/* Distance in the u'v' plane from the colour at the normal. */
+Field subject_shift(const Subject *subject, Pattern pattern, Arena *arena);
+
+void uv_of(const double xyz[3], double uv[2]);
+
+/* ---- reflection ------------------------------------------------------------------------- */
+
+/* BRDF, sr^-1, weighted over wavelength as the eye weighs equal-energy light; the leaving
+ * direction's phi counts from the mirror direction. */
+double subject_brdf(const Subject *subject, double incidence, double theta, double phi);
+
+/* At one wavelength. */
+double subject_brdf_at(const Subject *subject, double incidence, double theta, double phi,
+                       double nm);
+
+/* The same over the hemisphere. */
+Field subject_brdf_field(const Subject *subject, double incidence, Arena *arena);
+
+/* Mirror reflectance, weighted by the eye (nm 0) or at a wavelength. */
+double subject_mirror(const Subject *subject, double theta, double nm);

@@ -1,0 +1,281 @@
+/* The report: one HTML file with every figure and every number of a panel. */
+#include <math.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/units.h"
+#include "plot/panel/page.h"
+#include "plot/panel/report_page.h"
+#include "plot/panel/report_tables.h"
+#include "plot/draw/ticks.h"
+
+#define FIGURE_WIDTH 420
+#define FIGURE_HEIGHT 344
+
+/* ---- what a figure tells the pointer ---------------------------------------------------- */
+
+#define READ_ROWS 46    /* every 2 degrees of theta */
+#define READ_COLUMNS 60 /* every 6 degrees of phi */
+
+static void add_polar_values(Text *html, const FigureMap *map)
+{
+    const Field *field = &map->field;
+    text_format(html, "{\"kind\":\"polar\",\"x\":%.2f,\"y\":%.2f,\"r\":%.2f,\"rim\":%g,"
+                "\"rows\":%d,\"columns\":%d,\"unit\":\"", map->disc.x, map->disc.y,
+                map->disc.radius, degrees_from_radians(field->theta_rim), READ_ROWS,
+                READ_COLUMNS);
+    text_add_escaped(html, map->unit);
+    text_add(html, "\",\"v\":[");
+    for (int i = 0; i < READ_ROWS; i++)
+        for (int j = 0; j < READ_COLUMNS; j++) {
+            double column, row;
+            field_place(field, field->theta_rim * i / (READ_ROWS - 1),
+                        2 * PI * j / READ_COLUMNS, &column, &row);
+            double v = field_at(field, column, row);
+            if (i + j > 0) text_add(html, ",");
+            if (isfinite(v)) text_format(html, "%.4g", v);
+            else text_add(html, "null");
+        }
+    text_add(html, "]}");
+}
+
+/* An axis's name without its unit and explanation. */
+static const char *short_name(Arena *arena, const char *title)
+{
+    return arena_string(arena, title, strcspn(title, ",("));
+}
+
+static void add_chart_values(Text *html, const FigureMap *map)
+{
+    text_format(html, "{\"kind\":\"chart\",\"x\":%.2f,\"y\":%.2f,\"w\":%.2f,\"h\":%.2f,"
+                "\"low\":[%.9g,%.9g],\"high\":[%.9g,%.9g],\"log\":[%d,%d],\"names\":[\"",
+                map->plot.x, map->plot.y, map->plot.w, map->plot.h, map->low[0], map->low[1],
+                map->high[0], map->high[1], map->is_log[0], map->is_log[1]);
+    text_add_escaped(html, short_name(html->arena, map->axis[0]));
+    text_add(html, "\",\"");
+    text_add_escaped(html, short_name(html->arena, map->axis[1]));
+    text_add(html, "\"]}");
+}
+
+/* figure: the index-th of its list; a caption that the one before has is not said again. */
+static bool add_figure(Text *html, const Figure *figure, int index, bool is_dark, Error *err)
+{
+    PlotBytes   svg = {0};
+    FigureMap   map = {0};
+    FigureFrame frame = {FIGURE_WIDTH, FIGURE_HEIGHT,
+                         arena_format(html->arena, "f%d-", index), is_dark};
+    if (!page_figure_svg(figure, &frame, html->arena, &svg, &map, err)) return false;
+    text_add(html, "<figure data-map='");
+    if (map.kind == FIGURE_POLAR) add_polar_values(html, &map);
+    else add_chart_values(html, &map);
+    text_add(html, "'>\n<h3>");
+    text_add_escaped(html, figure->title);
+    text_add(html, "</h3>\n<p>");
+    text_add_escaped(html, figure->subtitle);
+    text_add(html, "</p>\n");
+    text_add_bytes(html, svg.data, svg.size);
+    text_add(html, "<div class=\"read\"></div>\n");
+    bool is_said = index > 0 && !strcmp(figure[-1].caption, figure->caption);
+    if (!is_said) {
+        text_add(html, "<figcaption>");
+        text_add_escaped(html, figure->caption);
+        text_add(html, "</figcaption>\n");
+    }
+    text_add(html, "</figure>\n");
+    return true;
+}
+
+/* ---- the figures under their headings --------------------------------------------------- */
+
+static const struct { PlotKind first, last; const char *title; } CHAPTERS[] = {
+    {PLOT_LUMINANCE, PLOT_COLOUR_SHIFT, "Luminance, contrast and colour over the hemisphere"},
+    {PLOT_SECTIONS, PLOT_SECTIONS, "Sections"},
+    {PLOT_GREY_LEVELS, PLOT_GREY_LEVELS, "Grey levels"},
+    {PLOT_CHROMATICITY, PLOT_SPECTRA, "Colour"},
+    {PLOT_BRDF, PLOT_MIRROR, "Reflection"},
+    {PLOT_FIT, PLOT_FIT, "Measured against fitted"}};
+
+static bool is_in_chapter(const Figure *figure, int chapter)
+{
+    if (figure->kind == PLOT_GREY_LEVELS) return chapter == 2;
+    return figure->kind >= CHAPTERS[chapter].first && figure->kind <= CHAPTERS[chapter].last;
+}
+
+static bool add_chapters(Text *html, const FigureList *list, bool is_dark, Error *err)
+{
+    for (int chapter = 0; chapter < (int)(sizeof CHAPTERS / sizeof *CHAPTERS); chapter++) {
+        bool is_open = false;
+        for (int i = 0; i < list->count; i++) {
+            if (!is_in_chapter(&list->figure[i], chapter)) continue;
+            if (!is_open)
+                text_format(html, "<h2>%s</h2>\n<div class=\"figures\">\n",
+                            CHAPTERS[chapter].title);
+            is_open = true;
+            if (!add_figure(html, &list->figure[i], i, is_dark, err)) return false;
+        }
+        if (is_open) text_add(html, "</div>\n");
+    }
+    return true;
+}
+
+/* ---- the figures of merit --------------------------------------------------------------- */
+
+static void add_key(Text *html, const char *value, const char *name)
+{
+    text_add(html, "<div><b>");
+    text_add_escaped(html, value);
+    text_add(html, "</b><span>");
+    text_add_escaped(html, name);
+    text_add(html, "</span></div>\n");
+}
+
+static void add_emission_keys(Text *html, const Subject *s)
+{
+    char   text[32];
+    double white = (double)s->normal[PATTERN_WHITE][1], uv[2], xyz[3];
+    double black = (double)s->normal[PATTERN_BLACK][1];
+    for (int c = 0; c < 3; c++) xyz[c] = (double)s->normal[PATTERN_WHITE][c];
+    uv_of(xyz, uv);
+    add_key(html, arena_format(html->arena, "%s cd/m²", figure_text(white, text)),
+            "white at the normal");
+    if (s->has_black) {
+        add_key(html, arena_format(html->arena, "%s cd/m²", figure_text(black, text)),
+                "black at the normal");
+        add_key(html, arena_format(html->arena, "%s : 1", figure_text(white / black, text)),
+                "contrast ratio at the normal, dark room");
+    }
+    add_key(html, arena_format(html->arena, "%.4f  %.4f", uv[0], uv[1]),
+            "u′ v′ of white at the normal");
+    Field field = subject_shift(s, PATTERN_WHITE, html->arena);
+    double limit = fmin(s->cone, radians_from_degrees(60));
+    add_key(html, figure_text(field_range(&field, limit).high, text),
+            arena_format(html->arena, "largest Δu′v′ of white within θ %.3g°",
+                         degrees_from_radians(limit)));
+}
+
+static double largest_error(const json_t *report, bool is_reflection)
+{
+    size_t  i;
+    json_t *table;
+    double  most = 0;
+    json_array_foreach(json_object_get(report, "tables"), i, table) {
+        const char *name = json_string_value(json_object_get(table, "name"));
+        if (name && !strncmp(name, "brdf", 4) == is_reflection)
+            most = fmax(most, json_number_value(json_object_get(table, "max_error")));
+    }
+    return most;
+}
+
+static void add_file_keys(Text *html, const Subject *s)
+{
+    char          text[32];
+    const json_t *total = json_object_get(s->source.report, "total");
+    double bytes = json_number_value(json_object_get(total, "bytes"));
+    double source = json_number_value(json_object_get(total, "source_bytes_float32"));
+    if (bytes > 0 && source > 0)
+        add_key(html, arena_format(html->arena, "%s %%",
+                                   figure_text(100 * bytes / source, text)),
+                "file size over the source's float32 values");
+    for (int part = 0; part < 2; part++) {
+        double error = largest_error(s->source.report, part == 1);
+        if (error > 0)
+            add_key(html, arena_format(html->arena, "%s %%", figure_text(100 * error, text)),
+                    part ? "largest error of a reflection sample"
+                         : "largest error of an emission sample");
+    }
+}
+
+static double haze_percent(const Subject *s)
+{
+    float cosine = (float)cos(radians_from_degrees(10));
+    return 100 * (double)panel_haze_albedo(s->source.panel, cosine);
+}
+
+static void add_keys(Text *html, const Subject *s)
+{
+    char text[32];
+    text_add(html, "<div class=\"key\">\n");
+    if (s->emits) add_emission_keys(html, s);
+    if (s->has_mirror)
+        add_key(html, arena_format(html->arena, "%s %%",
+                                   figure_text(100 * subject_mirror(s, 0, 0), text)),
+                "mirror reflectance at the normal");
+    if (s->reflects)
+        add_key(html, arena_format(html->arena, "%s %%", figure_text(haze_percent(s), text)),
+                "diffuse reflectance (haze and floor), light at 10°");
+    add_file_keys(html, s);
+    text_add(html, "</div>\n");
+}
+
+/* ---- the page --------------------------------------------------------------------------- */
+
+static void add_head(Text *html, const Subject *s, bool is_dark)
+{
+    const char *note = json_string_value(json_object_get(s->source.report, "note"));
+    text_add(html, "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+             "<title>");
+    text_add_escaped(html, s->name);
+    text_format(html, "</title>\n<style>\n%s</style></head>\n<body%s><main>\n<h1>",
+                REPORT_STYLE, is_dark ? " class=\"dark\"" : "");
+    text_add_escaped(html, s->name);
+    text_add(html, "</h1>\n<p class=\"sub\">");
+    text_add_escaped(html, s->file_name);
+    text_add(html, note && *note ? " · " : "");
+    text_add_escaped(html, note);
+    text_add(html, "</p>\n");
+}
+
+static void add_legend(Text *html, const Subject *s)
+{
+    text_add(html, "<p class=\"sub\" style=\"margin-top:18px\">Angles: θ from the normal, φ "
+             "counter-clockwise from the viewer's right.");
+    if (s->emits && s->cone < PI / 2 - 1e-3)
+        text_format(html, " Emission was measured up to θ %.4g°; hatched regions beyond it are "
+                    "extrapolated.", degrees_from_radians(s->cone));
+    if (s->reflects)
+        text_format(html, " Reflection was measured up to an incidence of %.4g° and a leaving "
+                    "angle of %.4g°.", degrees_from_radians(s->last_incidence),
+                    degrees_from_radians(s->brdf_cone));
+    text_add(html, "</p>\n");
+}
+
+static bool add_page(Text *html, const Subject *s, const FigureList *list, bool is_dark,
+                     Error *err)
+{
+    add_head(html, s, is_dark);
+    add_keys(html, s);
+    add_legend(html, s);
+    if (!add_chapters(html, list, is_dark, err)) return false;
+    text_add(html, "<h2>Sizes and errors</h2>\n<p class=\"sub\" style=\"margin-bottom:12px\">"
+             "Errors are relative to the measured values; trees are shared by tables, whose "
+             "part is an even share.</p>\n");
+    report_add_tables(html, s->source.report);
+    text_add(html, "<h2>Choices and provenance</h2>\n");
+    report_add_choices(html, s->source.report);
+    report_add_notes(html, s->source.report);
+    text_format(html, "<footer>Parhelion %s, panel plot --report</footer>\n</main>\n<script>\n"
+                "%s</script>\n</body></html>\n", PARHELION_VERSION, REPORT_SCRIPT);
+    return true;
+}
+
+bool plot_write_report(const PlotInput *input, const PlotOptions *options, const char *path,
+                       Arena *arena, int *figures, Error *err)
+{
+    json_t     *report = NULL;
+    Text        html = {.arena = arena};
+    const char *ending = path_ending(path);
+    if (strcmp(ending, ".html") && strcmp(ending, ".htm"))
+        return error_set(err, ERROR_USAGE, "--report is '%s', wanted a name that ends in .html",
+                         path);
+    PlotOptions all = *options;
+    all.kind = PLOT_ALL;
+    Subject *subject = plot_subject(input, &all, arena, &report, err);
+    if (!subject) return false;
+    FigureList *list = plot_figures(subject, PLOT_ALL, arena);
+    bool ok = add_page(&html, subject, list, options->is_dark, err) &&
+              file_write(path, html.data, html.size, err);
+    if (ok) *figures = list->count;
+    json_decref(report);
+    return ok;
+}

@@ -1,0 +1,452 @@
+#include "sky/daylight.h"
+
+#include <math.h>
+
+#include "base/mathd.h"
+#include "base/units.h"
+#include "sky/sun_disc.h"
+#include "spectrum/photometry.h"
+
+#define WATER_SCALE_M 2000.0  /* of water vapour over altitude */
+#define ON_THE_GROUND_M 2500.0 /* an observer on land below this stands on the ground */
+#define INTEGRAL_STEPS 1000
+
+OutsideInput outside_input_default(OutsideKind kind)
+{
+    return (OutsideInput){.kind = kind, .sun_lux = -1, .cie_type = 12, .diffuse_lux = 10000,
+                          .turbidity = 2.5, .ozone_atm_cm = 0.34, .water_cm = 1.4,
+                          .albedo = -1, .cloud_top_m = 2000, .threads = 1};
+}
+
+/* ---- where the sun stands --------------------------------------------------------------- */
+
+static double floor_albedo(const OutsideInput *in)
+{
+    static const double usual[] = {0.2, 0.06, 0.7};
+    return in->albedo >= 0 ? in->albedo : usual[in->floor];
+}
+
+static double floor_altitude(const OutsideInput *in)
+{
+    if (in->floor == FLOOR_CLOUD) return in->cloud_top_m;
+    bool stands = in->floor == FLOOR_LAND && in->where.altitude_m < ON_THE_GROUND_M;
+    return stands ? fmax(0, in->where.altitude_m) : 0;
+}
+
+static int day_of_year(const SkyTime *time)
+{
+    SkyTime first = {time->year, 1, 1, 0, 0, 0, 0}, now = {time->year, time->month, time->day,
+                                                           0, 0, 0, 0};
+    return (int)(sky_julian_day(&now) - sky_julian_day(&first) + 1.5);
+}
+
+static void place_sun(Outside *out)
+{
+    const OutsideInput *in = &out->input;
+    OutsideFigures *f = &out->figures;
+    double pressure, celsius;
+    f->distance_au = 1;
+    out->sun_azimuth = in->sun_azimuth;
+    out->sun_elevation = in->sun_elevation;
+    f->true_elevation_deg = degrees_from_radians(in->sun_elevation);
+    if (in->has_time) {
+        double day = sky_julian_day(&in->when);
+        SunPosition p = sun_position(day, sky_delta_t_s(day), &in->where);
+        standard_atmosphere(in->where.altitude_m, &pressure, &celsius);
+        f->distance_au = p.distance_au;
+        if (!in->has_sun) {
+            f->true_elevation_deg = p.elevation_deg;
+            f->refraction_deg = sun_refraction_deg(p.elevation_deg, pressure, celsius);
+            out->sun_azimuth = radians_from_degrees(p.azimuth_deg);
+            out->sun_elevation = radians_from_degrees(p.elevation_deg + f->refraction_deg);
+        }
+    }
+    out->sun_radius = sun_angular_radius(f->distance_au);
+    f->sun_azimuth_deg = degrees_from_radians(out->sun_azimuth);
+    f->sun_elevation_deg = degrees_from_radians(out->sun_elevation);
+    f->sun_zenith_deg = 90 - f->sun_elevation_deg;
+    f->air_mass = f->sun_zenith_deg < 90 ? air_mass(f->sun_zenith_deg) : 0;
+}
+
+double outside_sun_clearance_deg(const OutsideInput *input)
+{
+    Outside probe = {.input = *input};
+    place_sun(&probe);
+    double rise = fmax(0, input->where.altitude_m - floor_altitude(input));
+    double dip = input->kind == OUTSIDE_CLEAR ? horizon_dip_deg(rise) : 0;
+    return degrees_from_radians(probe.sun_elevation + probe.sun_radius) + dip;
+}
+
+/* Share of a disc above a line at `above` radii over its centre's height (negative: above). */
+static double share_above_line(double above)
+{
+    if (above >= 1) return 1;
+    if (above <= -1) return 0;
+    return 0.5 + (above * sqrt(1 - above * above) + asin_d(above)) / PI;
+}
+
+static double sun_share(const Outside *out)
+{
+    return share_above_line((out->sun_elevation - out->horizon) / out->sun_radius);
+}
+
+/* ---- the air ----------------------------------------------------------------------------- */
+
+/* Koschmieder's visibility: 3.912 over the extinction at 550 nm, of which molecules take
+ * 0.0116 km^-1; the aerosol's scale height is air.h's 1.5 km. */
+static double aerosol_depth(const OutsideInput *in)
+{
+    if (!(in->visibility_km > 0)) return aerosol_depth_from_turbidity(in->turbidity);
+    double at_550 = fmax(0, 3.912 / in->visibility_km - 0.0116) * 1.5;
+    return at_550 * pow_d(550 / 500.0, 1.14);
+}
+
+static Air sea_level_air(const OutsideInput *in)
+{
+    return (Air){1013.25, in->water_cm, in->ozone_atm_cm, aerosol_depth(in), 1.14,
+                 floor_albedo(in)};
+}
+
+/* What lies above an altitude, for SPECTRL2. */
+static Air air_above(const OutsideInput *in)
+{
+    Air       air = sea_level_air(in);
+    double    celsius, column[AIR_PARTS], altitude = fmax(0, in->where.altitude_m);
+    AirOptics optics = air_optics(&air);
+    standard_atmosphere(in->where.altitude_m, &air.pressure_mbar, &celsius);
+    air_vertical(&optics, altitude, AIR_TOP_M, column);
+    air.aerosol_depth *= column[AIR_AEROSOL];
+    air.ozone_atm_cm *= column[AIR_OZONE];
+    air.water_cm *= exp_d(-altitude / WATER_SCALE_M);
+    return air;
+}
+
+/* ---- spectra ----------------------------------------------------------------------------- */
+
+static void curve_from_rows(const double value[SPECTRL2_COUNT], Curve *out)
+{
+    for (int i = 0; i < CURVE_COUNT; i++)
+        out->value[i] = (float)spectrl2_read(value, CURVE_FIRST_NM + i);
+}
+
+static double curve_luminance(const Curve *curve)
+{
+    return luminance_cd_m2(curve->value, CURVE_COUNT, CURVE_FIRST_NM, 1);
+}
+
+static void scale_curve(Curve *curve, double factor)
+{
+    for (int i = 0; i < CURVE_COUNT; i++) curve->value[i] *= (float)factor;
+}
+
+static void add_curve(Curve *to, const Curve *from, double factor)
+{
+    for (int i = 0; i < CURVE_COUNT; i++) to->value[i] += (float)factor * from->value[i];
+}
+
+static void curve_xy(const Curve *curve, double xy[2])
+{
+    double xyz[3];
+    xyz_from_radiance(curve->value, CURVE_COUNT, CURVE_FIRST_NM, 1, xyz);
+    double sum = xyz[0] + xyz[1] + xyz[2];
+    xy[0] = sum > 0 ? xyz[0] / sum : 0;
+    xy[1] = sum > 0 ? xyz[1] / sum : 0;
+}
+
+/* SPECTRL2 for the sun where it stands, above the horizon at least a little. */
+static Spectrl2 ground_spectra(const Outside *out)
+{
+    Air air = air_above(&out->input);
+    double d = out->figures.distance_au;
+    return spectrl2(&air, fmin(89, out->figures.sun_zenith_deg), 1 / (d * d));
+}
+
+/* The disc's mean radiance from an irradiance, and its figures. */
+static void set_sun(Outside *out, const Curve *irradiance)
+{
+    double sine = sin_d(out->sun_radius), share = sun_share(out);
+    out->sun_mean = *irradiance;
+    scale_curve(&out->sun_mean, 1 / (PI * sine * sine));
+    out->figures.direct_normal_lx = share * curve_luminance(irradiance);
+    out->figures.is_sun_up = share > 0;
+    out->has_sun = share > 0 && out->figures.direct_normal_lx > 0;
+    curve_xy(irradiance, out->figures.sun_xy);
+    for (int k = 0; k < 6; k++)
+        for (int i = 0; i < CURVE_COUNT; i++) {
+            double c[6];
+            sun_limb(CURVE_FIRST_NM + i, c);
+            out->limb[k].value[i] = (float)c[k];
+        }
+}
+
+/* ---- CIE and Perez ----------------------------------------------------------------------- */
+
+/* How clear: 0 the colour of sun and sky together (a white cloud's), 1 the blue sky's. */
+static void sky_spectrum(Outside *out, double clear, const Spectrl2 *ground)
+{
+    double mixed[SPECTRL2_COUNT], cosine = sin_d(out->sun_elevation);
+    for (int i = 0; i < SPECTRL2_COUNT; i++)
+        mixed[i] = ground->diffuse[i] + (1 - clear) * fmax(0, cosine) * ground->direct[i];
+    curve_from_rows(mixed, &out->sky_curve);
+    out->figures.diffuse_horizontal_w_m2 = out->figures.diffuse_horizontal_lx *
+                                           spectrl2_total(mixed) /
+                                           curve_luminance(&out->sky_curve);
+    scale_curve(&out->sky_curve, 1 / curve_luminance(&out->sky_curve));
+    curve_xy(&out->sky_curve, out->figures.zenith_xy);
+}
+
+/* A uniform Lambertian ground under sun and sky. */
+static void light_floor(Outside *out, const Curve *irradiance)
+{
+    double albedo = floor_albedo(&out->input), sine = fmax(0, sin_d(out->sun_elevation));
+    out->floor_curve = out->sky_curve;
+    scale_curve(&out->floor_curve, albedo / PI * out->figures.diffuse_horizontal_lx);
+    add_curve(&out->floor_curve, irradiance, albedo / PI * sine * sun_share(out));
+    out->figures.floor_cd_m2 = curve_luminance(&out->floor_curve);
+}
+
+static void finish_shape(Outside *out, const Curve *irradiance)
+{
+    OutsideFigures *f = &out->figures;
+    double integral = sky_shape_integral(&out->shape, PI / 2 - out->sun_elevation,
+                                         INTEGRAL_STEPS);
+    out->shape_scale = (float)(f->diffuse_horizontal_lx / integral);
+    f->zenith_cd_m2 = (double)outside_luminance(out, (float)(PI / 2), 0);
+    set_sun(out, irradiance);
+    light_floor(out, irradiance);
+    f->global_horizontal_lx = f->diffuse_horizontal_lx +
+                              f->direct_normal_lx * fmax(0, sin_d(out->sun_elevation));
+}
+
+static bool needs_sun(const OutsideInput *in)
+{
+    int type = in->cie_type;
+    return in->kind == OUTSIDE_PEREZ || !(type == 1 || type == 3 || type == 5 || type == 16);
+}
+
+static bool check_sun_up(const Outside *out, Error *err)
+{
+    if (!needs_sun(&out->input) || out->sun_elevation > 0) return true;
+    return error_set(err, ERROR_INPUT, "the sun stands %.2f degrees below the horizon "
+                     "(azimuth %.2f): this sky model has no night, wanted a time by day or the "
+                     "type \"sky\"", -out->figures.sun_elevation_deg,
+                     out->figures.sun_azimuth_deg);
+}
+
+static bool build_cie(Outside *out, Error *err)
+{
+    const OutsideInput *in = &out->input;
+    static const double clear[16] = {0, 0, 0, 0, 0, 0, 0.3, 0.5, 0.3, 0.5, 0.8, 1, 1, 1, 1, 0};
+    Curve irradiance;
+    if (in->cie_type < 1 || in->cie_type > 16)
+        return error_set(err, ERROR_INPUT, "CIE sky %d is unknown, wanted 1 to 15, or 16 (the "
+                         "traditional overcast sky)", in->cie_type);
+    if (!check_sun_up(out, err)) return false;
+    Spectrl2 ground = ground_spectra(out);
+    out->shape = sky_shape_cie(in->cie_type);
+    out->figures.diffuse_horizontal_lx = in->diffuse_lux;
+    curve_from_rows(ground.direct, &irradiance);
+    double lux = curve_luminance(&irradiance);
+    scale_curve(&irradiance, in->sun_lux > 0 && lux > 0 ? in->sun_lux / lux : 0);
+    out->figures.direct_normal_w_m2 = in->sun_lux > 0 ? spectrl2_total(ground.direct) *
+                                                            in->sun_lux / lux : 0;
+    sky_spectrum(out, clear[in->cie_type - 1], &ground);
+    finish_shape(out, &irradiance);
+    return true;
+}
+
+static bool build_perez(Outside *out, Error *err)
+{
+    const OutsideInput *in = &out->input;
+    PerezState state;
+    Curve      irradiance;
+    if (!check_sun_up(out, err)) return false;
+    PerezInput input = {PI / 2 - out->sun_elevation, in->direct_w_m2, in->diffuse_w_m2,
+                        in->has_time ? day_of_year(&in->when) : 80};
+    if (!sky_shape_perez(&input, &out->shape, &state, err)) return false;
+    Spectrl2 ground = ground_spectra(out);
+    curve_from_rows(ground.direct, &irradiance);
+    scale_curve(&irradiance, in->direct_w_m2 / spectrl2_total(ground.direct));
+    out->figures.direct_normal_w_m2 = in->direct_w_m2;
+    out->figures.diffuse_horizontal_lx = 1;
+    sky_spectrum(out, fmin(1, (state.clearness - 1) / 3.5), &ground);
+    /* sky_spectrum told the watts of one lux */
+    out->figures.diffuse_horizontal_lx =
+        in->diffuse_w_m2 / out->figures.diffuse_horizontal_w_m2;
+    out->figures.diffuse_horizontal_w_m2 = in->diffuse_w_m2;
+    finish_shape(out, &irradiance);
+    return true;
+}
+
+/* ---- the clear atmosphere ---------------------------------------------------------------- */
+
+static void index_nodes(Outside *out)
+{
+    int k = 0;
+    for (int i = 0; i < CURVE_COUNT; i++) {
+        while (k + 2 < SPECTRUM_LANES && AIR_NM[k + 1] <= (float)(CURVE_FIRST_NM + i)) k++;
+        out->node[i] = (uint8_t)k;
+    }
+}
+
+static float node_share(int node, float nm)
+{
+    return (nm - AIR_NM[node]) / (AIR_NM[node + 1] - AIR_NM[node]);
+}
+
+/* A relative quantity at 16 wavelengths times the beam outside, every nm. */
+static void curve_from_relative(const Outside *out, Spectrum relative, Curve *curve)
+{
+    for (int i = 0; i < CURVE_COUNT; i++) {
+        int   k = out->node[i];
+        float t = node_share(k, (float)(CURVE_FIRST_NM + i));
+        curve->value[i] = lerpf(relative[k], relative[k + 1], t) * out->beam.value[i];
+    }
+}
+
+static double relative_luminance(const Outside *out, Spectrum relative)
+{
+    double sum = 0;
+    for (int i = 0; i < SPECTRUM_LANES; i++)
+        sum += (double)relative[i] * (double)out->luminance_weight[i];
+    return sum;
+}
+
+static void weigh_luminance(Outside *out)
+{
+    for (int k = 0; k < SPECTRUM_LANES; k++) {
+        Spectrum unit = spectrum_all(0);
+        Curve    curve;
+        unit[k] = 1;
+        curve_from_relative(out, unit, &curve);
+        out->luminance_weight[k] = (float)curve_luminance(&curve);
+    }
+}
+
+/* The sun's spectrum outside the air, less what water vapour and oxygen take: they absorb on
+ * the beam's way down, where nearly all scattering happens too (as SPECTRL2 has it). */
+static void fill_beam(Outside *out)
+{
+    double   gases[SPECTRL2_COUNT];
+    Air      air = air_above(&out->input);
+    Spectrl2 ground = ground_spectra(out);
+    spectrl2_gases(&air, fmin(89, out->figures.sun_zenith_deg), gases);
+    for (int i = 0; i < SPECTRL2_COUNT; i++) gases[i] *= ground.outside[i];
+    curve_from_rows(gases, &out->beam);
+}
+
+/* Irradiances from 300 to 4000 nm by SPECTRL2's ratio of watts to lux. */
+static void tell_watts(Outside *out, double beam_lux)
+{
+    OutsideFigures *f = &out->figures;
+    Spectrl2 ground = ground_spectra(out);
+    Curve    diffuse;
+    curve_from_rows(ground.diffuse, &diffuse);
+    if (beam_lux > 0)
+        f->direct_normal_w_m2 = spectrl2_total(ground.direct) * f->direct_normal_lx / beam_lux;
+    f->diffuse_horizontal_w_m2 = spectrl2_total(ground.diffuse) * f->diffuse_horizontal_lx /
+                                 curve_luminance(&diffuse);
+}
+
+static bool build_clear(Outside *out, Arena *arena, Error *err)
+{
+    const OutsideInput *in = &out->input;
+    OutsideFigures     *f = &out->figures;
+    AtmosphereInput input = {sea_level_air(in), fmax(0, in->where.altitude_m),
+                             floor_altitude(in), out->sun_elevation, in->threads, 0};
+    Curve irradiance, zenith;
+    if (!atmosphere_build(&input, arena, &out->atmosphere, err)) return false;
+    out->horizon = out->atmosphere.horizon;
+    f->horizon_deg = degrees_from_radians(out->horizon);
+    fill_beam(out);
+    index_nodes(out);
+    weigh_luminance(out);
+    curve_from_relative(out, out->atmosphere.sun_passing, &irradiance);
+    double lux = curve_luminance(&irradiance);
+    if (in->sun_lux >= 0 && lux > 0) scale_curve(&irradiance, in->sun_lux / lux);
+    set_sun(out, &irradiance);
+    f->diffuse_horizontal_lx = relative_luminance(out, atmosphere_diffuse(&out->atmosphere));
+    f->floor_cd_m2 = relative_luminance(out, out->atmosphere.floor_exitance) / PI;
+    f->global_horizontal_lx = f->diffuse_horizontal_lx +
+                              f->direct_normal_lx * fmax(0, sin_d(out->sun_elevation));
+    tell_watts(out, lux);
+    curve_from_relative(out, atmosphere_radiance(&out->atmosphere, (float)(PI / 2), 0),
+                        &zenith);
+    f->zenith_cd_m2 = curve_luminance(&zenith);
+    curve_xy(&zenith, f->zenith_xy);
+    return true;
+}
+
+bool outside_build(const OutsideInput *input, Arena *arena, Outside *out, Error *err)
+{
+    *out = (Outside){.input = *input};
+    bool sunless = input->kind == OUTSIDE_CIE && !needs_sun(input);
+    if (!input->has_time && !input->has_sun && !sunless)
+        return error_set(err, ERROR_INPUT,
+                         "the sky wants a time and a place, or the sun's azimuth "
+                         "and elevation");
+    if (sunless && !input->has_time && !input->has_sun) out->input.sun_elevation = PI / 4;
+    place_sun(out);
+    switch (input->kind) {
+    case OUTSIDE_CIE: return build_cie(out, err);
+    case OUTSIDE_PEREZ: return build_perez(out, err);
+    case OUTSIDE_CLEAR: return build_clear(out, arena, err);
+    }
+    return false;
+}
+
+/* ---- asking ------------------------------------------------------------------------------ */
+
+static float angle_to_sun(const Outside *out, float elevation, float azimuth)
+{
+    float sun = (float)out->sun_elevation, turn = azimuth - (float)out->sun_azimuth, s[3], c[3];
+    sincos_turns(elevation * (0.5f * INV_PI_F), &s[0], &c[0]);
+    sincos_turns(sun * (0.5f * INV_PI_F), &s[1], &c[1]);
+    sincos_turns(turn * (0.5f * INV_PI_F), &s[2], &c[2]);
+    return acos_f(clampf(s[0] * s[1] + c[0] * c[1] * c[2], -1, 1));
+}
+
+static float shape_luminance(const Outside *out, float elevation, float azimuth)
+{
+    float sine, cosine;
+    sincos_turns(elevation * (0.5f * INV_PI_F), &sine, &cosine);
+    return out->shape_scale *
+           sky_shape_at(&out->shape, sine, angle_to_sun(out, elevation, azimuth));
+}
+
+float outside_luminance(const Outside *out, float elevation, float azimuth)
+{
+    if (out->input.kind == OUTSIDE_CLEAR)
+        return (float)relative_luminance(
+            out, atmosphere_radiance(&out->atmosphere, elevation,
+                                     azimuth - (float)out->sun_azimuth));
+    if (elevation < 0) return (float)out->figures.floor_cd_m2;
+    return shape_luminance(out, elevation, azimuth);
+}
+
+Spectrum outside_radiance(const Outside *out, float elevation, float azimuth,
+                          const Wavelengths *wavelengths)
+{
+    if (out->input.kind != OUTSIDE_CLEAR) {
+        if (elevation < 0) return curve_lookup(&out->floor_curve, wavelengths);
+        return curve_lookup(&out->sky_curve, wavelengths) *
+               spectrum_all(shape_luminance(out, elevation, azimuth));
+    }
+    Spectrum at = atmosphere_radiance(&out->atmosphere, elevation,
+                                      azimuth - (float)out->sun_azimuth), value;
+    for (int i = 0; i < SPECTRUM_LANES; i++) {
+        float nm = wavelengths->nm[i];
+        int   k = out->node[(int)clampf(nm - CURVE_FIRST_NM, 0, CURVE_COUNT - 1)];
+        value[i] = lerpf(at[k], at[k + 1], node_share(k, nm));
+    }
+    return value * curve_lookup(&out->beam, wavelengths);
+}
+
+Spectrum outside_sun(const Outside *out, float share, const Wavelengths *wavelengths)
+{
+    float    mu = safe_sqrtf(1 - share * share);
+    Spectrum value = spectrum_all(0);
+    for (int k = 5; k >= 0; k--)
+        value = value * spectrum_all(mu) + curve_lookup(&out->limb[k], wavelengths);
+    return spectrum_max(value, spectrum_all(0)) * curve_lookup(&out->sun_mean, wavelengths);
+}

@@ -1,0 +1,94 @@
+/* daylight.h -- the sun and the sky of a place, a time and a weather, ready to be asked.
+ *
+ * Three kinds: CIE's general skies and Perez's (a shape times one spectrum, normalised by own
+ * quadrature to the diffuse illuminance or irradiance; on the ground only, below the horizon a
+ * uniform Lambertian ground lit by sun and sky), and the clear atmosphere (atmosphere.h) for
+ * any observer up to 60 km.
+ *
+ * Spectra   sun: SPECTRL2's direct beam; clear skies its diffuse, overcast ones its global
+ *           spectrum, between them by clearness. The atmosphere: its own scattering times the
+ *           sun's spectrum outside the air and what water vapour and oxygen let through.
+ * Frame     azimuth from north over east, elevation from the horizontal, radians; the sun's
+ *           elevation here is the apparent one (refraction lifts it).
+ * Units     spectral radiance in W m^-2 sr^-1 nm^-1, 360..830 nm; lx; cd m^-2.
+ * Memory    the arena's. Threads: const once built; HOT: outside_radiance, outside_sun.
+ * Fails     on inputs that make no sky, naming the member.
+ */
+#pragma once
+#include "base/arena.h"
+#include "base/error.h"
+#include "sky/atmosphere.h"
+#include "sky/sky_shape.h"
+#include "sky/sun_position.h"
+#include "spectrum/curve.h"
+
+typedef enum OutsideKind { OUTSIDE_CIE, OUTSIDE_PEREZ, OUTSIDE_CLEAR } OutsideKind;
+
+typedef enum FloorKind { FLOOR_LAND, FLOOR_SEA, FLOOR_CLOUD } FloorKind;
+
+typedef struct OutsideInput {
+    OutsideKind kind;
+    bool     has_time, has_sun;  /* one of them at least, except for uniform and overcast CIE */
+    SkyTime  when;
+    SkyPlace where;
+    double   sun_azimuth, sun_elevation; /* has_sun: apparent; overrides the time's */
+    double   sun_lux;            /* direct normal; negative: the model's own */
+    int      cie_type;           /* 1..16 */
+    double   diffuse_lux;        /* CIE: horizontal */
+    double   direct_w_m2, diffuse_w_m2; /* Perez: normal, horizontal */
+    double   turbidity;          /* or, when above 0, visibility_km at 550 nm instead */
+    double   visibility_km;
+    double   ozone_atm_cm, water_cm, albedo; /* albedo below 0: the floor's own */
+    FloorKind floor;
+    double   cloud_top_m;
+    int      threads;
+} OutsideInput;
+
+OutsideInput outside_input_default(OutsideKind kind);
+
+/* For people and scripts. */
+typedef struct OutsideFigures {
+    double sun_azimuth_deg, sun_elevation_deg, sun_zenith_deg; /* apparent */
+    double true_elevation_deg, refraction_deg, distance_au, horizon_deg;
+    double direct_normal_lx, diffuse_horizontal_lx, global_horizontal_lx;
+    double direct_normal_w_m2, diffuse_horizontal_w_m2; /* 300..4000 nm */
+    double zenith_cd_m2, sun_xy[2], zenith_xy[2], floor_cd_m2;
+    double air_mass;
+    bool   is_sun_up; /* part of its disc at least */
+} OutsideFigures;
+
+typedef struct Outside {
+    OutsideInput   input;
+    OutsideFigures figures;
+    double   horizon;     /* elevation of the edge between sky and floor, radians */
+    /* CIE, Perez */
+    SkyShape shape;
+    float    shape_scale; /* cd m^-2 per unit of the shape */
+    Curve    sky_curve, floor_curve; /* spectral radiance of 1 cd m^-2; of the floor, whole */
+    /* clear */
+    Atmosphere atmosphere;
+    Curve    beam;        /* spectral irradiance outside the air, less what gases take */
+    uint8_t  node[CURVE_COUNT]; /* lane of air.h below each nm */
+    float    luminance_weight[SPECTRUM_LANES]; /* luminance of a relative radiance */
+    /* the sun */
+    bool     has_sun;
+    double   sun_azimuth, sun_elevation, sun_radius;
+    Curve    sun_mean;    /* disc's mean radiance */
+    Curve    limb[6];     /* sun_disc.h's coefficients, every nm */
+} Outside;
+
+bool outside_build(const OutsideInput *input, Arena *arena, Outside *out, Error *err);
+
+/* Elevation of the sun's upper rim over the edge of the floor (the dipped horizon), degrees:
+ * below 0 the sun is down. */
+double outside_sun_clearance_deg(const OutsideInput *input);
+
+/* Sky or floor. elevation and azimuth in radians. */
+Spectrum outside_radiance(const Outside *outside, float elevation, float azimuth,
+                          const Wavelengths *wavelengths);
+
+/* Its luminance, cd m^-2. */
+float outside_luminance(const Outside *outside, float elevation, float azimuth);
+
+/* Radiance of the disc at a sine of the angle to its centre over the sine of its radius. */
+Spectrum outside_sun(const Outside *outside, float share, const Wavelengths *wavelengths);

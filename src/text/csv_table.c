@@ -1,0 +1,160 @@
+#include "text/csv_table.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+
+#define FILE_BYTES_MAX ((size_t)4 << 30)
+
+typedef struct Scan {
+    const char *next, *end; /* of the text */
+    int         line;
+    Arena      *arena;
+    Error      *err;
+} Scan;
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\r';
+}
+
+static bool is_separator(char c)
+{
+    return c == ',' || c == ';' || c == '\t';
+}
+
+static const char *place_of(const Scan *scan)
+{
+    return arena_format(scan->arena, "line %d", scan->line);
+}
+
+/* Moves to the next line that holds something; false at the end. *stop is its end. */
+static bool next_line(Scan *scan, const char **begin, const char **stop)
+{
+    while (scan->next < scan->end) {
+        const char *start = scan->next;
+        const char *feed = memchr(start, '\n', (size_t)(scan->end - start));
+        *stop = feed ? feed : scan->end;
+        scan->next = feed ? feed + 1 : scan->end;
+        scan->line++;
+        while (start < *stop && is_blank(*start)) start++;
+        if (start < *stop && *start != '#') {
+            *begin = start;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* A byte order mark, which spreadsheets like to write, is no part of the first name. */
+static const char *skip_mark(const char *text, const char *stop)
+{
+    return stop - text >= 3 && !memcmp(text, "\xEF\xBB\xBF", 3) ? text + 3 : text;
+}
+
+static bool read_names(Scan *scan, CsvTable *table, Error *err)
+{
+    const char *text, *stop;
+    if (!next_line(scan, &text, &stop))
+        return error_at(err, ERROR_INPUT, table->file, "",
+                        "is empty, wanted a header line and rows of numbers");
+    text = skip_mark(text, stop);
+    table->name = ARENA_NEW(scan->arena, const char *, CSV_COLUMNS_MAX);
+    while (table->columns < CSV_COLUMNS_MAX) {
+        const char *cell = text;
+        while (text < stop && !is_separator(*text)) text++;
+        const char *last = text;
+        while (cell < last && is_blank(*cell)) cell++;
+        while (last > cell && is_blank(last[-1])) last--;
+        table->name[table->columns++] =
+            arena_string(scan->arena, cell, (size_t)(last - cell));
+        if (text == stop) return true;
+        text++;
+    }
+    return error_at(err, ERROR_INPUT, table->file, place_of(scan),
+                    "has more than %d columns", CSV_COLUMNS_MAX);
+}
+
+static bool bad_cell(const Scan *scan, const CsvTable *table, int column, const char *text,
+                     const char *stop)
+{
+    int length = 0;
+    while (text + length < stop && !is_separator(text[length]) && length < 40) length++;
+    return error_at(scan->err, ERROR_INPUT, table->file, place_of(scan),
+                    "column '%s' holds '%.*s', wanted a finite number", table->name[column],
+                    length, text);
+}
+
+static bool read_row(Scan *scan, const CsvTable *table, const char *text, const char *stop,
+                     float *cell)
+{
+    for (int c = 0; c < table->columns; c++) {
+        char *after;
+        while (text < stop && is_blank(*text)) text++;
+        if (text >= stop || is_separator(*text))
+            return bad_cell(scan, table, c, text, stop);
+        cell[c] = strtof(text, &after);
+        if (after == text || after > stop || !isfinite(cell[c]))
+            return bad_cell(scan, table, c, text, stop);
+        text = after;
+        while (text < stop && is_blank(*text)) text++;
+        bool is_last = c == table->columns - 1;
+        if (is_last ? text != stop : text == stop)
+            return error_at(scan->err, ERROR_INPUT, table->file, place_of(scan),
+                            "has %s cells than the header's %d columns",
+                            is_last ? "more" : "fewer", table->columns);
+        if (!is_last && !is_separator(*text)) return bad_cell(scan, table, c, text, stop);
+        text++;
+    }
+    return true;
+}
+
+static int count_lines(const char *text, const char *end)
+{
+    int count = 1;
+    while ((text = memchr(text, '\n', (size_t)(end - text)))) {
+        count++;
+        text++;
+    }
+    return count;
+}
+
+bool csv_table_read(const char *file, Arena *arena, CsvTable *out, Error *err)
+{
+    FileBytes bytes;
+    if (!file_read(file, FILE_BYTES_MAX, arena, &bytes, err)) return false;
+    const char *text = (const char *)bytes.data;
+    Scan     scan = {text, text + bytes.size, 0, arena, err};
+    CsvTable table = {.file = file, .bytes = bytes.size};
+    if (!read_names(&scan, &table, err)) return false;
+    int    most = count_lines(scan.next, scan.end);
+    float *cell = ARENA_NEW(arena, float, (size_t)most * (size_t)table.columns);
+    int   *line = ARENA_NEW(arena, int, most);
+    const char *begin, *stop;
+    while (next_line(&scan, &begin, &stop)) {
+        float *row = cell + (size_t)table.rows * (size_t)table.columns;
+        if (!read_row(&scan, &table, begin, stop, row)) return false;
+        line[table.rows++] = scan.line;
+    }
+    if (!table.rows)
+        return error_at(err, ERROR_INPUT, file, "", "has a header line but no rows");
+    table.cell = cell;
+    table.line = line;
+    *out = table;
+    return true;
+}
+
+int csv_table_column(const CsvTable *table, const char *name)
+{
+    for (int c = 0; c < table->columns; c++)
+        if (!strcmp(table->name[c], name)) return c;
+    return -1;
+}
+
+const char *csv_table_place(const CsvTable *table, int row, Arena *arena)
+{
+    return arena_format(arena, "line %d", table->line[row]);
+}
