@@ -1,6 +1,5 @@
 /* Scatter as tables: ASTM, SSDD, Speos in text and binary. */
 #include "import/scatter/half_angle.h"
-#include "import/scatter/lz4_block.h"
 #include "import_fixture.h"
 
 #define PI 3.14159265358979323846
@@ -375,18 +374,37 @@ static void a_real_measurement_of_speos_has_its_values(void **state)
     assert_close(value_at(table_at(f, 40, 180), 45, 90, 0), 1 / PI, 1e-12);
 }
 
-static void lz4_blocks_that_are_not_sound_are_refused(void **state)
+/* The anisotropy angles 0 and 90 as a block with a match (thirteen zeros), its bytes written
+ * over the plain block of speos_binary. */
+static bool reads_packed(Fixture *f, const unsigned char *block, size_t packed)
 {
-    (void)state;
-    unsigned char out[64];
-    const unsigned char good[] = {0x14, 'a', 1, 0, 0x50, 'b', 'c', 'd', 'e', 'f'};
-    assert_true(lz4_block_decode(good, sizeof good, out, 14));
-    assert_memory_equal(out, "aaaaaaaaabcdef", 14);
-    assert_false(lz4_block_decode(good, sizeof good, out, 13));
-    assert_false(lz4_block_decode(good, sizeof good, out, 15));
-    for (size_t n = 0; n < sizeof good; n++) assert_false(lz4_block_decode(good, n, out, 14));
-    const unsigned char far[] = {0x14, 'a', 2, 0, 0x50, 'b', 'c', 'd', 'e', 'f'};
-    assert_false(lz4_block_decode(far, sizeof far, out, 14));
+    enum { BLOCK = 125, PLAIN = 18 }; /* u32 packed bytes, then so many of them */
+    unsigned char bytes[4096], *at = bytes + BLOCK;
+    size_t        size = speos_binary(bytes);
+    memmove(at + 4 + packed, at + 4 + PLAIN, size - BLOCK - 4 - PLAIN);
+    put_u32(&at, (unsigned)packed);
+    memcpy(at, block, packed);
+    return fixture_read(f, bytes, size - PLAIN + packed, "speos");
+}
+
+static void packed_blocks_that_are_not_sound_are_refused(void **state)
+{
+    enum { MATCH = 0, OFFSET = 2 };
+    const unsigned char good[] = {0x16, 0, 1, 0, 0x50, 0, 0, 0x80, 0x56, 0x40};
+    Fixture *f = *state;
+    assert_true(reads_packed(f, good, sizeof good));
+    assert_int_equal(f->set.count, 4);
+    table_at(f, 50, 90);
+    for (size_t n = 0; n < sizeof good; n++) assert_false(reads_packed(f, good, n));
+    static const struct { int at; unsigned char value; } wrong[] = {
+        {MATCH, 0x15}, {MATCH, 0x17}, {MATCH, 0x1F}, {OFFSET, 2}};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        unsigned char block[sizeof good];
+        memcpy(block, good, sizeof good);
+        block[wrong[i].at] = wrong[i].value;
+        assert_false(reads_packed(f, block, sizeof block));
+        assert_string_equal(f->err.text, "a packed block is not sound");
+    }
 }
 
 int main(void)
@@ -405,7 +423,7 @@ int main(void)
         fixture_case(speos_binary_holds_what_its_text_would),
         fixture_case(speos_binary_refusals),
         fixture_case(a_real_measurement_of_speos_has_its_values),
-        cmocka_unit_test(lz4_blocks_that_are_not_sound_are_refused),
+        fixture_case(packed_blocks_that_are_not_sound_are_refused),
     };
     return cmocka_run_group_tests_name("import_bsdf_tables", tests, NULL, NULL);
 }

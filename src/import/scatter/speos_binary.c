@@ -10,11 +10,11 @@
  *   for each light: u32 thetas, u32 phis, block thetas, block phis, block values
  *   for each light 4 x f64 (settings of an interpolation), u8, f64
  *   block: u64 bytes, u32 bytes, u32 packed bytes, packed bytes;  text: u32 length, bytes */
+#include <lz4.h>
 #include <math.h>
 #include <string.h>
 
 #include "import/scatter/byte_scan.h"
-#include "import/scatter/lz4_block.h"
 #include "import/scatter/speos.h"
 
 #define SETTINGS_PER_LIGHT 4
@@ -88,7 +88,9 @@ static bool read_block(SpeosBinary *in, size_t count, double **out, Error *err)
         return byte_scan_fail(&in->scan, err, "a block of %u bytes cannot hold %llu", packed,
                               (unsigned long long)bytes);
     unsigned char *raw = ARENA_NEW(in->arena, unsigned char, bytes);
-    if (!lz4_block_decode(block, packed, raw, (size_t)bytes))
+    /* No file is larger than an int: IMPORT_FILE_BYTES_MAX, and 8 SPEOS_ANGLES_MAX^2. */
+    if (LZ4_decompress_safe((const char *)block, (char *)raw, (int)packed, (int)bytes) !=
+        (int)bytes)
         return byte_scan_fail(&in->scan, err, "a packed block is not sound");
     *out = ARENA_NEW(in->arena, double, count);
     for (size_t i = 0; i < count; i++) {
