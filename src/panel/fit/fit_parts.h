@@ -149,27 +149,6 @@ bool fit_lobe(const AngleTable *slice, double incidence, double noise, Arena *ar
 double fit_fresnel(double cos_theta);
 #define FIT_REFRACTIVE_INDEX 1.5
 
-/* ---- where functions are read ----------------------------------------------------------- */
-
-/* The centres of a level's triangles (the first `octants`), and behind them, for the mean over
- * azimuths, PANEL_ANGLES rings of FIT_RING directions each. */
-#define FIT_RING 72
-typedef struct FitPlaces {
-    int     level, octants, leaves, count;
-    Vec3   *direction;
-    double *area; /* of the triangles, sr; 0 on rings */
-} FitPlaces;
-
-/* octants 2: the half with y >= 0, rings over azimuths 0..180 degrees only. */
-FitPlaces fit_places(int level, int octants, Arena *arena);
-
-/* The values of a profile (PanelProfile) with so many harmonics from the rings of `values`
- * (count x components), which it takes out of the leaves' values. */
-#define FIT_EMISSION_HARMONICS 4
-#define FIT_REFLECTION_HARMONICS 2
-float *fit_profile(const FitPlaces *places, float *values, int components, int harmonics,
-                   Arena *arena);
-
 /* ---- sampling --------------------------------------------------------------------------- */
 
 /* Third step, once the panel's reflection can be queried: the PANEL_SAMPLING section into

@@ -28,7 +28,6 @@ _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "files are queried in 
 #define PANEL_COEFFICIENTS_MAX 32 /* spectral, per slice */
 #define PANEL_ANGLES 181 /* nodes of tables over theta: 0, 0.5, ... 90 degrees */
 #define PANEL_BEND_SIDE 17
-#define PANEL_HARMONICS_MAX 8
 
 typedef struct PanelHeader {
     char     magic[8]; /* PANEL_MAGIC, without its zero */
@@ -218,54 +217,7 @@ static inline float panel_polar_angle(Vec3 d)
     return atan2_f(safe_sqrtf(d.x * d.x + d.y * d.y), d.z);
 }
 
-/* The smooth part of a tree's components, a Fourier series over the azimuth whose terms are
- * tables over theta: values[angle][term][component], terms 1, cos phi, (sin phi,) cos 2 phi ...
- * It leaves to the tree what is fine or irregular; interpolation between leaves is of first
- * order, and the smooth part, steep towards the horizon, would suffer most of it. */
-typedef struct PanelProfile {
-    const float *values;
-    int          width;     /* components */
-    int          harmonics;
-    bool         has_sines; /* false: symmetric in y */
-} PanelProfile;
-
-static inline int panel_profile_terms(int harmonics, bool has_sines)
-{
-    return 1 + (has_sines ? 2 : 1) * harmonics;
-}
-
 typedef float PanelFloat4 __attribute__((vector_size(16), aligned(4), may_alias));
-
-static inline void panel_add_row(const float *row, int stride, float t, float factor, int count,
-                                 float *out)
-{
-    float near = factor * (1 - t), far = factor * t;
-    int   i = 0;
-    for (; i + 4 <= count; i += 4)
-        *(PanelFloat4 *)(out + i) += *(const PanelFloat4 *)(row + i) * near +
-                                     *(const PanelFloat4 *)(row + i + stride) * far;
-    for (; i < count; i++) out[i] += near * row[i] + far * row[i + stride];
-}
-
-/* Adds components first .. first + count - 1 at a direction to out. */
-static inline void panel_add_profile(const PanelProfile *profile, Vec3 d, int first, int count,
-                                     float *out)
-{
-    float t, s = safe_sqrtf(d.x * d.x + d.y * d.y);
-    float cos_1 = s > 0 ? d.x / s : 1, sin_1 = s > 0 ? d.y / s : 0, c = 1, sine = 0;
-    int   terms = panel_profile_terms(profile->harmonics, profile->has_sines);
-    int   stride = terms * profile->width;
-    const float *row = profile->values + panel_angle_node(atan2_f(s, d.z), &t) * stride + first;
-    panel_add_row(row, stride, t, 1, count, out);
-    for (int m = 1; m <= profile->harmonics; m++) {
-        float next = c * cos_1 - sine * sin_1;
-        sine = sine * cos_1 + c * sin_1;
-        c = next;
-        panel_add_row(row += profile->width, stride, t, c, count, out);
-        if (profile->has_sines)
-            panel_add_row(row += profile->width, stride, t, sine, count, out);
-    }
-}
 
 /* How wi is chosen for a wo: function azimuth * incidences + incidence of one sampling tree in
  * the specular-following frame of wo's polar angle theta, with an exponent of its own. In the
