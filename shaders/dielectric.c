@@ -22,7 +22,7 @@
  */
 #include "shaders/dielectric.h"
 
-#include "shaders/fresnel.h"
+#include "spectrum/fresnel.h"
 #include "shaders/microfacet.h"
 
 static Fresnel window_face(const ThinWindow *window, float cosine)

@@ -1,6 +1,6 @@
 #include "shaders/energy.h"
 
-#include "shaders/fresnel.h"
+#include "spectrum/fresnel.h"
 #include "shaders/microfacet.h"
 
 /* Points of the midpoint rule over the unit square of facets; half the turn is enough. They
@@ -13,7 +13,7 @@ static float fresnel_shape(float ior, float cosine)
 {
     if (!(ior > 1)) return 0;
     float f0 = fresnel_normal(ior);
-    return (fresnel_mean(fresnel_dielectric(cosine, ior, NULL)) - f0) / (1 - f0);
+    return (fresnel_unpolarised(cosine, ior) - f0) / (1 - f0);
 }
 
 static Vec3 direction_at(float cosine)

@@ -34,7 +34,7 @@
 #include "shaders/metallic_roughness.h"
 
 #include "base/units.h"
-#include "shaders/fresnel.h"
+#include "spectrum/fresnel.h"
 #include "shaders/microfacet.h"
 
 #define COAT_IOR 1.5f
@@ -89,7 +89,7 @@ static float fresnel_shape(float ior, float cosine)
 {
     if (!(ior > 1)) return 0;
     float f0 = fresnel_normal(ior);
-    return (fresnel_mean(fresnel_dielectric(cosine, ior, NULL)) - f0) / (1 - f0);
+    return (fresnel_unpolarised(cosine, ior) - f0) / (1 - f0);
 }
 
 static inline Spectrum boundary_reflectance(const MetallicRoughness *m, const Boundary *b,
@@ -209,7 +209,7 @@ static float coat_tilt(const MetallicRoughness *m, Vec3 wo, Vec3 wi)
 
 static float coat_facet(float cosine)
 {
-    return fresnel_mean(fresnel_dielectric(cosine, COAT_IOR, NULL));
+    return fresnel_unpolarised(cosine, COAT_IOR);
 }
 
 /* Into and out of the coat's own frame. */

@@ -1,5 +1,6 @@
 /* Laws of fitted reflections, on tables made from closed forms: no files are read. */
 #include "panel_fixture.h"
+#include "spectrum/fresnel.h"
 
 #define INCIDENCES 5
 #define WAVELENGTHS 16
@@ -98,7 +99,7 @@ static FitOptions quick(void)
 
 static double fresnel(double c)
 {
-    return fresnel_unpolarised(c, 1.5);
+    return fresnel_unpolarised_d(c, 1.5);
 }
 
 /* Haze of the ABC form and a floor, bluer in the haze. */

@@ -5,7 +5,7 @@
 #include "base/sampler.h"
 #include "base/units.h"
 #include "shaders/bsdf.h"
-#include "shaders/fresnel.h"
+#include "spectrum/fresnel.h"
 #include "shaders/microfacet.h"
 
 static Arena arena;

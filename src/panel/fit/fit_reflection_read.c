@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "hemisphere/specular_frame.h"
 #include "panel/fit/fit_reflect.h"
+#include "spectrum/fresnel.h"
 
 #define FLOOR_SHARE 1e-6 /* of a table's largest value: values below it are held there */
 #define FLOOR_LEAST 1e-8 /* sr^-1 */
@@ -17,10 +18,7 @@
 
 double fit_fresnel(double cos_theta)
 {
-    double n = FIT_REFRACTIVE_INDEX, c = fmin(1, fmax(0, cos_theta));
-    double t = sqrt(1 - (1 - c * c) / (n * n));
-    double s = (c - n * t) / (c + n * t), p = (n * c - t) / (n * c + t);
-    return 0.5 * (s * s + p * p);
+    return fresnel_unpolarised_d(fmin(1, fmax(0, cos_theta)), FIT_REFRACTIVE_INDEX);
 }
 
 double reflect_noise(const FitReflection *out, int table, double f)

@@ -5,6 +5,7 @@
 #include "base/mathd.h"
 #include "panel/query/panel_open.h"
 #include "panel/query/panel_reflection_layout.h"
+#include "spectrum/fresnel.h"
 
 static bool check_counts(const PanelBytes *at, const PanelReflectionStored *s)
 {
@@ -118,13 +119,6 @@ static void name_steps(const ReflectionLayout *from, PanelReflection *r)
         r->step[r->steps++] = (PanelIncidence){from->incidence[i], i, false};
 }
 
-static double fresnel(double c, double n)
-{
-    double t = sqrt(fmax(0, 1 - (1 - c * c) / (n * n)));
-    double s = (c - n * t) / (c + n * t), p = (n * c - t) / (n * c + t);
-    return 0.5 * (s * s + p * p);
-}
-
 /* R / F over the measured incidences, straight lines in F; beyond the last one the line goes
  * on (a coating loses its effect towards grazing), held between half the last ratio and 1. */
 static double mirror_ratio(const PanelReflection *r, const ReflectionLayout *from,
@@ -132,10 +126,12 @@ static double mirror_ratio(const PanelReflection *r, const ReflectionLayout *fro
 {
     uint32_t m = r->incidences, i = 0;
     double   n = (double)r->refractive_index, f[2], ratio[2];
-    while (i + 2 < m && fresnel(cos_d((double)from->incidence[i + 1]), n) < here) i++;
+    while (i + 2 < m &&
+           fresnel_unpolarised_d(cos_d((double)from->incidence[i + 1]), n) < here)
+        i++;
     for (uint32_t k = 0; k < 2; k++) {
         uint32_t j = i + k < m ? i + k : m - 1;
-        f[k] = fresnel(cos_d((double)from->incidence[j]), n);
+        f[k] = fresnel_unpolarised_d(cos_d((double)from->incidence[j]), n);
         ratio[k] = from->mirror[j * r->wavelengths + wavelength] / 65535.0 / f[k];
     }
     if (m < 2 || here <= f[0] || !(f[1] - f[0] > 1e-6)) return ratio[here > f[0] && m > 1];
@@ -147,7 +143,8 @@ static void expand_mirror(const ReflectionLayout *from, PanelReflection *r, Aren
 {
     float *mirror = ARENA_NEW(arena, float, (size_t)PANEL_ANGLES * r->padded_wavelengths);
     for (uint32_t a = 0; a < PANEL_ANGLES; a++) {
-        double f = fresnel(cos_d(a * 0.0087266462599716), (double)r->refractive_index);
+        double f = fresnel_unpolarised_d(cos_d(a * 0.0087266462599716),
+                                         (double)r->refractive_index);
         for (uint32_t w = 0; w < r->wavelengths; w++)
             mirror[a * r->padded_wavelengths + w] =
                 (float)fmin(1, f * mirror_ratio(r, from, w, f));
@@ -184,14 +181,14 @@ static void expand_albedo(const ReflectionLayout *from, PanelReflection *r)
         ratio[count] = luminous(r, from->node_albedo + i * r->wavelengths);
         theta[count] = (double)from->node_theta[i];
     }
-    for (uint32_t i = 0; i < count; i++) ratio[i] /= fresnel(cos_d(theta[i]), n);
+    for (uint32_t i = 0; i < count; i++) ratio[i] /= fresnel_unpolarised_d(cos_d(theta[i]), n);
     for (uint32_t a = 0, i = 0; a < PANEL_ANGLES; a++) {
         double here = a * 0.0087266462599716;
         while (i + 2 < count && theta[i + 1] <= here) i++;
         uint32_t next = i + 1 < count ? i + 1 : i;
         double t = next > i ? (here - theta[i]) / (theta[next] - theta[i]) : 0;
         t = fmin(1, fmax(0, t));
-        r->haze_albedo[a] = (float)fmin(1, fresnel(cos_d(here), n) *
+        r->haze_albedo[a] = (float)fmin(1, fresnel_unpolarised_d(cos_d(here), n) *
                                            (ratio[i] + t * (ratio[next] - ratio[i])));
     }
 }

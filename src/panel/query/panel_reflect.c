@@ -5,6 +5,7 @@
 #include "hemisphere/specular_frame.h"
 #include "hemisphere/tree_query.h"
 #include "panel/query/panel_slices.h"
+#include "spectrum/fresnel.h"
 
 #define PADDED_MAX ((PANEL_WAVELENGTHS_MAX + 15) / 16 * 16)
 #define COEFFICIENTS_MAX ((PANEL_COEFFICIENTS_MAX + 3) / 4 * 4)
@@ -14,14 +15,6 @@
 bool panel_reflects(const Panel *panel)
 {
     return panel->reflection != NULL;
-}
-
-/* Unpolarised Fresnel reflectance, exact. */
-static float fresnel(float c, float n)
-{
-    float t = safe_sqrtf(1 - (1 - c * c) / (n * n));
-    float s = (c - n * t) / (c + n * t), p = (n * c - t) / (n * c + t);
-    return 0.5f * (s * s + p * p);
 }
 
 /* ---- which tables an angle of incidence is made of -------------------------------------- */
@@ -327,7 +320,7 @@ static Spectrum mirror_at(const Panel *panel, float cos_theta, const Lanes *lane
 static Spectrum gloss(const Panel *panel, float cosine, const Lanes *lanes)
 {
     const PanelReflection *r = panel->reflection;
-    if (!r->has_mirror) return spectrum_all(fresnel(cosine, r->refractive_index));
+    if (!r->has_mirror) return spectrum_all(fresnel_unpolarised(cosine, r->refractive_index));
     if (!(cosine > 0)) return spectrum_all(1e-6f);
     return spectrum_max(mirror_at(panel, cosine, lanes), spectrum_all(1e-6f));
 }
@@ -364,13 +357,13 @@ static Spectrum brdf_beyond(const Panel *panel, Vec3 local, Vec3 wi, float light
     TableMix mix = table_mix(r, r->last_theta, light);
     Vec3     from = shifted(r, local, sine);
     reflection_logs(panel, specular_frame_stored(&frame, from), &mix, logs);
-    float    last = fresnel(cosine_last, n);
+    float    last = fresnel_unpolarised(cosine_last, n);
     Spectrum total = spectrum_exp(spread(logs, lanes)) * spectrum_all(last);
     int      row = mix.side[0].term[0].table * (int)r->padded_wavelengths;
     Spectrum floor = spectrum_min(total, spread(r->floor + row, lanes));
     Spectrum in = gloss(panel, wi.z, lanes) / gloss(panel, cosine_last, lanes);
     Spectrum out = gloss(panel, local.z, lanes) / gloss(panel, from.z, lanes);
-    float    entering = (1 - fresnel(wi.z, n)) / (1 - last);
+    float    entering = (1 - fresnel_unpolarised(wi.z, n)) / (1 - last);
     Spectrum haze = (total - floor) * spectrum_root(in * out) + floor * spectrum_all(entering);
     if (r->has_lobe)
         haze += lobe_over_fresnel(panel, &mix, local, wi, lanes) * in *
@@ -394,7 +387,7 @@ Spectrum panel_brdf(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *wav
     reflection_logs(panel, specular_frame_stored(&frame, local), &mix, logs);
     Spectrum over = spectrum_exp(spread(logs, &lanes));
     if (r->has_lobe) over += lobe_over_fresnel(panel, &mix, local, wi, &lanes);
-    return over * spectrum_all(fresnel(wi.z, r->refractive_index));
+    return over * spectrum_all(fresnel_unpolarised(wi.z, r->refractive_index));
 }
 
 bool panel_brdf_is_measured(const Panel *panel, Vec3 wo, Vec3 wi)

@@ -1,17 +1,15 @@
 /* The closed forms of recipe.h. */
-#include "base/mathd.h"
-#include "panel/set/synthetic_panel.h"
-
 #include <math.h>
 
+#include "base/mathd.h"
 #include "base/units.h"
+#include "panel/set/synthetic_panel.h"
+#include "spectrum/fresnel.h"
 
-double fresnel_unpolarised(double cos_theta, double n)
+/* F of the cover, held where rounding leaves the range of a cosine. */
+static double cover_fresnel(const Recipe *recipe, double cosine)
 {
-    double c = fabs(cos_theta) > 1 ? 1 : fabs(cos_theta);
-    double t = sqrt(1 - (1 - c * c) / (n * n));
-    double s = (c - n * t) / (c + n * t), p = (n * c - t) / (n * c + t);
-    return 0.5 * (s * s + p * p);
+    return fresnel_unpolarised_d(fmin(1, fabs(cosine)), recipe->refractive_index);
 }
 
 double truth_spectrum(const RecipePrimary *primary, double nm)
@@ -36,9 +34,9 @@ static double angle_between(const double a[2], const double b[2])
 static double angular_falloff(const Recipe *recipe, const double angles[2])
 {
     const RecipeEmission *e = &recipe->emission;
-    double n = recipe->refractive_index, c = cos_d(angles[0]), cp = cos_d(angles[1]);
+    double c = cos_d(angles[0]), cp = cos_d(angles[1]);
     double power = e->cosine_power[0] * cp * cp + e->cosine_power[1] * (1 - cp * cp);
-    double through = (1 - fresnel_unpolarised(c, n)) / (1 - fresnel_unpolarised(1, n));
+    double through = (1 - cover_fresnel(recipe, c)) / (1 - cover_fresnel(recipe, 1));
     double lobe = 0;
     if (e->lobe_gain > 0) {
         double d = angle_between(angles, (double[2]){e->lobe_theta, e->lobe_phi});
@@ -73,7 +71,7 @@ void truth_black_xyz(const Recipe *recipe, const double angles[2], double xyz[3]
 /* R of recipe.h. */
 static double coated_reflectance(const Recipe *recipe, double cos_theta, double nm)
 {
-    double f = fresnel_unpolarised(cos_theta, recipe->refractive_index);
+    double f = cover_fresnel(recipe, cos_theta);
     double d = (nm - 550) / 150;
     double c = recipe->reflection.coating + recipe->reflection.coating_blue * d * d;
     if (c > 1) c = 1;
@@ -88,7 +86,7 @@ double truth_mirror(const Recipe *recipe, double theta, double nm)
 double truth_brdf(const Recipe *recipe, double theta_i, double theta_o, double phi, double nm)
 {
     const RecipeReflection *r = &recipe->reflection;
-    double n = recipe->refractive_index, ci = cos_d(theta_i), co = cos_d(theta_o);
+    double ci = cos_d(theta_i), co = cos_d(theta_o);
     if (ci <= 0 || co <= 0) return 0;
     double si = sin_d(theta_i), so = sin_d(theta_o), w2 = r->haze_width * r->haze_width;
     double sp = sin_d(0.5 * phi);
@@ -96,7 +94,7 @@ double truth_brdf(const Recipe *recipe, double theta_i, double theta_o, double p
     double k = (r->haze_power - 1) / (PI * w2) * pow_d(1 + b2 / w2, -r->haze_power);
     double gloss = sqrt(coated_reflectance(recipe, ci, nm) *
                         coated_reflectance(recipe, co, nm));
-    double under = (1 - fresnel_unpolarised(ci, n)) * (1 - fresnel_unpolarised(co, n));
+    double under = (1 - cover_fresnel(recipe, ci)) * (1 - cover_fresnel(recipe, co));
     return r->haze_share * gloss * k + r->floor_albedo / PI * under;
 }
 

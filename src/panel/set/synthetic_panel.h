@@ -85,9 +85,6 @@ bool recipe_read(const char *file, Arena *arena, Recipe *out, Error *err);
 
 /* ---- the truth ------------------------------------------------------------------------- */
 
-/* Unpolarised Fresnel reflectance of a surface of refractive index n. */
-double fresnel_unpolarised(double cos_theta, double n);
-
 /* Spectral shape of a primary, relative. */
 double truth_spectrum(const RecipePrimary *primary, double nm);
 

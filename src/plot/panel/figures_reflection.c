@@ -5,6 +5,7 @@
 #include "plot/draw/chart.h"
 #include "plot/panel/figure.h"
 #include "plot/draw/ticks.h"
+#include "spectrum/fresnel.h"
 
 #define INCIDENCES_SHOWN 7
 
@@ -206,26 +207,18 @@ static void draw_map(Canvas *canvas, Box box, const Figure *figure, FigureMap *o
 
 #define MIRROR_POINTS 179
 
-/* Unpolarised reflectance of a smooth boundary (Fresnel). */
-static double fresnel(double theta, double n)
-{
-    double c = cos(theta), t = sqrt(1 - (1 - c * c) / (n * n));
-    double s = (c - n * t) / (c + n * t), p = (n * c - t) / (n * c + t);
-    return 0.5 * (s * s + p * p);
-}
-
 static void draw_mirror(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
 {
     static const double NM[] = {0, 450, 550, 650};
     static const char *const NAMES[] = {"photopic", "450 nm", "550 nm", "650 nm"};
     const Subject *s = figure->subject;
     double deg[MIRROR_POINTS], value[4][MIRROR_POINTS], glass[2][MIRROR_POINTS], low = 1;
-    double normal = subject_mirror(s, 0, 0) / fresnel(0, 1.5);
+    double normal = subject_mirror(s, 0, 0) / fresnel_unpolarised_d(1, 1.5);
     for (int i = 0; i < MIRROR_POINTS; i++) {
         deg[i] = i * 0.5;
         double theta = radians_from_degrees(deg[i]);
         for (int k = 0; k < 4; k++) value[k][i] = subject_mirror(s, theta, NM[k]);
-        glass[0][i] = fresnel(theta, 1.5);
+        glass[0][i] = fresnel_unpolarised_d(cos(theta), 1.5);
         glass[1][i] = normal * glass[0][i];
         if (value[0][i] > 0) low = fmin(low, value[0][i]);
     }

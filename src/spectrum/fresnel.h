@@ -5,6 +5,8 @@
  * Threads  pure functions.
  */
 #pragma once
+#include <math.h>
+
 #include "spectrum/spectrum.h"
 
 /* Reflectance of light polarised across (s) and along (p) the plane of incidence. */
@@ -29,6 +31,21 @@ static inline Fresnel fresnel_dielectric(float cosine, float eta, float *cosine_
 static inline float fresnel_mean(Fresnel face)
 {
     return 0.5f * (face.s + face.p);
+}
+
+static inline float fresnel_unpolarised(float cosine, float eta)
+{
+    return fresnel_mean(fresnel_dielectric(cosine, eta, NULL));
+}
+
+/* The same in double precision, for what is made before the first ray. cosine in [0, 1];
+ * behind the critical angle 1. */
+static inline double fresnel_unpolarised_d(double cosine, double eta)
+{
+    double behind = sqrt(fmax(0, 1 - (1 - cosine * cosine) / (eta * eta)));
+    double s = (cosine - eta * behind) / (cosine + eta * behind);
+    double p = (eta * cosine - behind) / (eta * cosine + behind);
+    return 0.5 * (s * s + p * p);
 }
 
 /* Reflectance at normal incidence. */
