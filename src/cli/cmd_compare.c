@@ -11,7 +11,7 @@
 #define MEMORY_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
 
 /* What is collected on the way, for every kind of answer. */
-typedef struct Work {
+typedef struct CompareRun {
     const CompareRequest *request;
     Arena     *arena;
     HtmlReport html;
@@ -19,37 +19,37 @@ typedef struct Work {
     json_t    *pairs; /* of folders */
     int        count, different, failed; /* failed: could not be compared */
     ErrorCode  first_failure;
-} Work;
+} CompareRun;
 
-static Work start(const CompareRequest *request, bool is_folder, Arena *arena)
+static CompareRun start(const CompareRequest *request, bool is_folder, Arena *arena)
 {
-    return (Work){.request = request, .arena = arena, .html = {.is_folder = is_folder},
+    return (CompareRun){.request = request, .arena = arena, .html = {.is_folder = is_folder},
                   .pairs = json_array()};
 }
 
-static void end(Work *work)
+static void end(CompareRun *run)
 {
-    html_report_release(&work->html);
-    junit_release(&work->junit);
-    json_decref(work->pairs);
+    html_report_release(&run->html);
+    junit_release(&run->junit);
+    json_decref(run->pairs);
 }
 
-static bool collect(Work *work, const char *name, const Comparison *c, Arena scratch,
+static bool collect(CompareRun *run, const char *name, const Comparison *c, Arena scratch,
                     Error *err)
 {
-    work->count++;
-    work->different += !c->same;
-    if (work->request->junit) junit_add(&work->junit, name, c);
-    return !work->request->report ||
-           html_report_add(&work->html, name, c, &work->request->options, scratch, err);
+    run->count++;
+    run->different += !c->same;
+    if (run->request->junit) junit_add(&run->junit, name, c);
+    return !run->request->report ||
+           html_report_add(&run->html, name, c, &run->request->options, scratch, err);
 }
 
-static bool write_files(const Work *work, Error *err)
+static bool write_files(const CompareRun *run, Error *err)
 {
-    const CompareRequest *r = work->request;
-    if (r->report && !html_report_write(&work->html, r->reference, r->test, r->report, err))
+    const CompareRequest *r = run->request;
+    if (r->report && !html_report_write(&run->html, r->reference, r->test, r->report, err))
         return false;
-    return !r->junit || junit_write(&work->junit, "parhelion compare", r->junit, err);
+    return !r->junit || junit_write(&run->junit, "parhelion compare", r->junit, err);
 }
 
 /* The answer is on stdout: nothing more is to be said. */
@@ -61,12 +61,12 @@ static bool answered(ErrorCode code, Error *err)
 
 /* ---- two files --------------------------------------------------------------------------- */
 
-static bool compare_two(Work *work, Error *err)
+static bool compare_two(CompareRun *run, Error *err)
 {
-    const CompareRequest *r = work->request;
+    const CompareRequest *r = run->request;
     Comparison            c;
-    if (!compare_files(r->reference, r->test, &r->options, work->arena, &c, err)) return false;
-    if (!collect(work, r->test, &c, *work->arena, err) || !write_files(work, err)) return false;
+    if (!compare_files(r->reference, r->test, &r->options, run->arena, &c, err)) return false;
+    if (!collect(run, r->test, &c, *run->arena, err) || !write_files(run, err)) return false;
     if (r->cli.json) {
         if (!cli_print_json(comparison_json(&c, &r->options), err)) return false;
     } else {
@@ -77,102 +77,102 @@ static bool compare_two(Work *work, Error *err)
 
 /* ---- two folders ------------------------------------------------------------------------- */
 
-static void add_pair_json(Work *work, const char *name, json_t *pair)
+static void add_pair_json(CompareRun *run, const char *name, json_t *pair)
 {
     json_object_set_new(pair, "name", json_of_text(name));
-    json_array_append_new(work->pairs, pair);
+    json_array_append_new(run->pairs, pair);
 }
 
 /* A file that is on one side only. */
-static void add_missing(Work *work, const char *name, const char *why)
+static void add_missing(CompareRun *run, const char *name, const char *why)
 {
-    work->count++;
-    work->different++;
-    if (work->request->junit) junit_add_failure(&work->junit, name, why, false);
-    if (work->request->report) html_report_add_failure(&work->html, name, why);
-    if (!work->request->cli.json) printf("%-10s %s: %s\n", "different", name, why);
-    add_pair_json(work, name, json_pack("{s:b, s:o, s:[o], s:[]}", "same", 0, "verdict",
+    run->count++;
+    run->different++;
+    if (run->request->junit) junit_add_failure(&run->junit, name, why, false);
+    if (run->request->report) html_report_add_failure(&run->html, name, why);
+    if (!run->request->cli.json) printf("%-10s %s: %s\n", "different", name, why);
+    add_pair_json(run, name, json_pack("{s:b, s:o, s:[o], s:[]}", "same", 0, "verdict",
                                         json_of_text(why), "reasons", json_of_text(why),
                                         "notes"));
 }
 
 /* A pair that cannot be compared: said on stderr, and the others go on. */
-static void add_failed(Work *work, const char *name, const Error *error)
+static void add_failed(CompareRun *run, const char *name, const Error *error)
 {
     char line[2048];
-    work->count++;
-    work->failed++;
-    if (work->first_failure == ERROR_NONE) work->first_failure = error->code;
+    run->count++;
+    run->failed++;
+    if (run->first_failure == ERROR_NONE) run->first_failure = error->code;
     cli_error_line(error, line, (int)sizeof line);
     fprintf(stderr, "%s\n", line);
-    if (work->request->junit) junit_add_failure(&work->junit, name, line, true);
-    if (work->request->report) html_report_add_failure(&work->html, name, line);
-    if (!work->request->cli.json) printf("%-10s %s: see the error\n", "failed", name);
-    add_pair_json(work, name,
+    if (run->request->junit) junit_add_failure(&run->junit, name, line, true);
+    if (run->request->report) html_report_add_failure(&run->html, name, line);
+    if (!run->request->cli.json) printf("%-10s %s: see the error\n", "failed", name);
+    add_pair_json(run, name,
                   json_pack("{s:b, s:[o], s:[], s:{s:i, s:o, s:o}}", "same", 0, "reasons",
                             json_of_text(line), "notes", "error", "status",
                             error_exit_status(error->code), "file", json_of_text(error->file),
                             "message", json_of_text(error->text)));
 }
 
-static bool add_compared(Work *work, const FolderPair *pair, Arena arena, Error *err)
+static bool add_compared(CompareRun *run, const FolderPair *pair, Arena arena, Error *err)
 {
-    const CompareRequest *r = work->request;
+    const CompareRequest *r = run->request;
     Comparison            c;
     Error                 why;
     if (!compare_files(pair->reference, pair->test, &r->options, &arena, &c, &why)) {
-        add_failed(work, pair->name, &why);
+        add_failed(run, pair->name, &why);
         return true;
     }
-    if (!collect(work, pair->name, &c, arena, err)) return false;
-    if (r->cli.json) add_pair_json(work, pair->name, comparison_json(&c, &r->options));
+    if (!collect(run, pair->name, &c, arena, err)) return false;
+    if (r->cli.json) add_pair_json(run, pair->name, comparison_json(&c, &r->options));
     else compare_print_line(pair->name, &c);
     return true;
 }
 
-static bool add_pair(Work *work, const FolderPair *pair, Error *err)
+static bool add_pair(CompareRun *run, const FolderPair *pair, Error *err)
 {
-    if (pair->reference && pair->test) return add_compared(work, pair, *work->arena, err);
-    if (pair->reference) add_missing(work, pair->name, "is missing in the test");
-    else if (!work->request->allow_extra)
-        add_missing(work, pair->name,
+    if (pair->reference && pair->test) return add_compared(run, pair, *run->arena, err);
+    if (pair->reference) add_missing(run, pair->name, "is missing in the test");
+    else if (!run->request->allow_extra)
+        add_missing(run, pair->name,
                     "is only in the test (--allow-extra lets that pass)");
     return true;
 }
 
-static bool print_total(const Work *work, Error *err)
+static bool print_total(const CompareRun *run, Error *err)
 {
-    int same = work->count - work->different - work->failed;
-    if (work->request->cli.json)
+    int same = run->count - run->different - run->failed;
+    if (run->request->cli.json)
         return cli_print_json(json_pack("{s:b, s:i, s:i, s:i, s:i, s:O}", "same",
-                                        same == work->count, "total", work->count, "equal",
-                                        same, "different", work->different, "failed",
-                                        work->failed, "pairs", work->pairs),
+                                        same == run->count, "total", run->count, "equal",
+                                        same, "different", run->different, "failed",
+                                        run->failed, "pairs", run->pairs),
                               err);
-    if (work->request->report) printf("report: %s\n", work->request->report);
-    printf("%s: %d of %d pairs are the same", same == work->count ? "same" : "different", same,
-           work->count);
-    if (work->different) printf(", %d differ", work->different);
-    if (work->failed) printf(", %d could not be compared", work->failed);
+    if (run->request->report) printf("report: %s\n", run->request->report);
+    printf("%s: %d of %d pairs are the same", same == run->count ? "same" : "different", same,
+           run->count);
+    if (run->different) printf(", %d differ", run->different);
+    if (run->failed) printf(", %d could not be compared", run->failed);
     printf("\n");
     return true;
 }
 
-static bool compare_folders(Work *work, Error *err)
+static bool compare_folders(CompareRun *run, Error *err)
 {
-    const CompareRequest *r = work->request;
+    const CompareRequest *r = run->request;
     FolderPairs           pairs;
-    if (!folders_match(r->reference, r->test, work->arena, &pairs, err)) return false;
+    if (!folders_match(r->reference, r->test, run->arena, &pairs, err)) return false;
     Progress progress = progress_start(r->cli.progress, "compare", "pairs", pairs.count);
     for (int i = 0; i < pairs.count; i++) {
         progress_clear(&progress);
-        if (!add_pair(work, &pairs.list[i], err)) return false;
+        if (!add_pair(run, &pairs.list[i], err)) return false;
         progress_update(&progress, i + 1);
     }
     progress_end(&progress, pairs.count);
-    if (!write_files(work, err) || !print_total(work, err)) return false;
-    if (work->failed) return answered(work->first_failure, err);
-    return answered(work->different ? ERROR_DIFFERENT : ERROR_NONE, err);
+    if (!write_files(run, err) || !print_total(run, err)) return false;
+    if (run->failed) return answered(run->first_failure, err);
+    return answered(run->different ? ERROR_DIFFERENT : ERROR_NONE, err);
 }
 
 static bool compare(const CompareRequest *request, Arena *arena, Error *err)
@@ -185,9 +185,9 @@ static bool compare(const CompareRequest *request, Arena *arena, Error *err)
     if ((request->report && !file_check_writable(request->report, err)) ||
         (request->junit && !file_check_writable(request->junit, err)))
         return false;
-    Work work = start(request, both, arena);
-    bool ok = both ? compare_folders(&work, err) : compare_two(&work, err);
-    end(&work);
+    CompareRun run = start(request, both, arena);
+    bool       ok = both ? compare_folders(&run, err) : compare_two(&run, err);
+    end(&run);
     return ok;
 }
 

@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "cli/compare_command.h"
+#include "compare/metrics.h"
 
 static bool is_known(const Comparison *c, Metric metric)
 {
@@ -14,7 +15,7 @@ static void print_flip(const Comparison *c)
     if (!is_known(c, METRIC_FLIP)) return;
     printf("%-12s %.4g, median %.4g, p95 %.4g, max %.4g", "flip", c->value[METRIC_FLIP],
            c->value[METRIC_FLIP_MEDIAN], c->value[METRIC_FLIP_P95], c->value[METRIC_FLIP_MAX]);
-    if (c->reference.kind == SUBJECT_FRAME)
+    if (c->reference.kind == INPUT_FRAME)
         printf(" (%d exposures, EV %.1f to %.1f)", c->exposures.count,
                ev_of_stops(c->exposures.stop_ev), ev_of_stops(c->exposures.start_ev));
     printf("\n");
@@ -22,7 +23,7 @@ static void print_flip(const Comparison *c)
 
 static void print_errors(const Comparison *c)
 {
-    const char *unit = c->reference.kind == SUBJECT_FRAME ? " cd/m2" : "";
+    const char *unit = c->reference.kind == INPUT_FRAME ? " cd/m2" : "";
     if (is_known(c, METRIC_MEAN_SHIFT))
         printf("%-12s %+.4g %%\n", "mean_shift", 100 * c->value[METRIC_MEAN_SHIFT]);
     if (is_known(c, METRIC_MSE))

@@ -10,11 +10,11 @@
 #define EV_MOST 60
 
 /* Lists as they were typed. */
-typedef struct Typed {
+typedef struct CompareWords {
     CliTexts metrics, at_most, at_least, ignored;
     double   region[4];
     bool     has_level;
-} Typed;
+} CompareWords;
 
 /* ---- names of figures -------------------------------------------------------------------- */
 
@@ -65,14 +65,15 @@ static bool read_limit(const char *text, bool is_min, Arena *arena, Threshold *o
            error_set(err, ERROR_USAGE, "%s %s: %s is no number", option, text, value);
 }
 
-static bool read_limits(const Typed *typed, Arena *arena, CompareOptions *out, Error *err)
+static bool read_limits(const CompareWords *words, Arena *arena, CompareOptions *out,
+                        Error *err)
 {
-    int        room = typed->at_most.count + typed->at_least.count;
+    int        room = words->at_most.count + words->at_least.count;
     Threshold *list = ARENA_NEW(arena, Threshold, room);
     for (int i = 0; i < room; i++) {
-        bool        is_min = i >= typed->at_most.count;
-        const char *text = is_min ? typed->at_least.list[i - typed->at_most.count]
-                                  : typed->at_most.list[i];
+        bool        is_min = i >= words->at_most.count;
+        const char *text = is_min ? words->at_least.list[i - words->at_most.count]
+                                  : words->at_most.list[i];
         if (!read_limit(text, is_min, arena, &list[i], err)) return false;
     }
     out->thresholds = list;
@@ -82,9 +83,9 @@ static bool read_limits(const Typed *typed, Arena *arena, CompareOptions *out, E
 
 /* ---- the rest ---------------------------------------------------------------------------- */
 
-static bool read_region(const Typed *typed, SelectionRequest *out, Error *err)
+static bool read_region(const CompareWords *words, SelectionRequest *out, Error *err)
 {
-    const double *r = typed->region;
+    const double *r = words->region;
     for (int i = 0; i < 4 && out->has_region; i++)
         if (r[i] != floor(r[i]))
             return error_set(err, ERROR_USAGE, "--region: %g is no whole number of pixels",
@@ -93,49 +94,49 @@ static bool read_region(const Typed *typed, SelectionRequest *out, Error *err)
     return true;
 }
 
-static bool finish(const Typed *typed, Arena *arena, CompareRequest *out, Error *err)
+static bool finish(const CompareWords *words, Arena *arena, CompareRequest *out, Error *err)
 {
     CompareOptions *o = &out->options;
     ExposureRequest unused;
     out->reference = out->cli.arguments[0];
     out->test = out->cli.arguments[1];
-    o->wants_stat = typed->has_level;
+    o->wants_stat = words->has_level;
     o->threads = out->cli.threads;
-    o->rules.ignored = typed->ignored.list;
-    o->rules.ignored_count = typed->ignored.count;
+    o->rules.ignored = words->ignored.list;
+    o->rules.ignored_count = words->ignored.count;
     if (o->has_range && o->range_ev[0] > o->range_ev[1])
         return error_set(err, ERROR_USAGE, "--exposure-range %g,%g: wanted A,B with A <= B",
                          o->range_ev[0], o->range_ev[1]);
     return (!o->exposure || exposure_parse(o->exposure, &unused, err)) &&
            (!out->report || html_report_check_name(out->report, err)) &&
-           read_region(typed, &o->selection, err) &&
-           read_groups(&typed->metrics, arena, o, err) && read_limits(typed, arena, o, err);
+           read_region(words, &o->selection, err) &&
+           read_groups(&words->metrics, arena, o, err) && read_limits(words, arena, o, err);
 }
 
 bool compare_parse(int argc, char **argv, Arena *arena, CompareRequest *out, Error *err)
 {
-    Typed           typed = {0};
+    CompareWords words = {0};
     CompareOptions *o = &out->options;
     const Option options[] = {
         {"--max", OPTION_TEXTS, "METRIC=VALUE",
          "different when a figure is above: flip, flip_p95, flip_max, deltae_mean, deltae_p95, "
          "deltae_max, mse, relmse, mae, max_difference, mean_shift, differing, "
          "fraction_failed, contrast_change (changes and shares: 0.01 is 1 %); may be given "
-         "many times", .out = &typed.at_most},
+         "many times", .out = &words.at_most},
         {"--min", OPTION_TEXTS, "METRIC=VALUE", "or below: psnr, ssim, p_value",
-         .out = &typed.at_least},
+         .out = &words.at_least},
         {"--metric", OPTION_TEXTS, "flip|mse|psnr|ssim|deltae|stat|contrast",
-         "compute these only (default: all)", .out = &typed.metrics},
+         "compute these only (default: all)", .out = &words.metrics},
         {"--level", OPTION_NUMBER, "P",
          "share of false alarms of the statistical test (default 0.01), which then judges "
          "besides the limits", .out = &o->level, .low = 1e-12, .high = 0.5,
-         .given = &typed.has_level},
+         .given = &words.has_level},
         {"--report", OPTION_TEXT, "OUT.html", "one page to look at it", .out = &out->report},
         {"--junit", OPTION_TEXT, "FILE.xml", "the answer for a CI service", .out = &out->junit},
         {"--mask", OPTION_TEXT, "FILE.png", "a picture of the same size: black is left out",
          .out = &o->selection.mask},
         {"--region", OPTION_NUMBERS, "X0,Y0,X1,Y1",
-         "pixels, half-open, the origin at the top left (default: all)", .out = typed.region,
+         "pixels, half-open, the origin at the top left (default: all)", .out = words.region,
          .low = -65536, .high = 65536, .count = 4, .given = &o->selection.has_region},
         {"--display", OPTION_TEXT, "NAME",
          "only pixels that show this display (its material's name)",
@@ -149,7 +150,7 @@ bool compare_parse(int argc, char **argv, Arena *arena, CompareRequest *out, Err
          "reference)", .out = &o->exposure},
         {"--ignore", OPTION_TEXTS, "NAME",
          "leave out a metadata key, a channel or a layer; may be given many times",
-         .out = &typed.ignored},
+         .out = &words.ignored},
         {"--strict", OPTION_FLAG, NULL,
          "different program, seed, samples, inputs ... are failures too",
          .out = &o->rules.strict},
@@ -162,5 +163,5 @@ bool compare_parse(int argc, char **argv, Arena *arena, CompareRequest *out, Err
         "parhelion compare before.exr after.exr --max flip=0.05 --report after.html",
         options, sizeof options / sizeof *options, 2, 2};
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
-    return out->cli.help_shown || finish(&typed, arena, out, err);
+    return out->cli.help_shown || finish(&words, arena, out, err);
 }

@@ -84,7 +84,7 @@ static bool add_gap(const Pair *pair, size_t i, long place, ChannelDifference *o
 }
 
 static ChannelDifference compare_channel(const char *name, const Pair *pair,
-                                         const Selection *selection, Channels *all)
+                                         const Selection *selection, ChannelDifferences *all)
 {
     ChannelDifference out = {.name = name, .is_light = pair->is_light};
     long              finite = 0;
@@ -114,8 +114,8 @@ static ChannelDifference compare_channel(const char *name, const Pair *pair,
 
 /* ---- the channels of frames and of pictures ---------------------------------------------- */
 
-static Pair frame_pair(const Subject *reference, const Subject *test, const char *name,
-                       const Structure *structure)
+static Pair frame_pair(const CompareInput *reference, const CompareInput *test,
+                       const char *name, const Structure *structure)
 {
     const FrameImage *f = &reference->frame;
     return (Pair){{frame_channel(f, name), frame_channel(&test->frame, name)},
@@ -124,21 +124,21 @@ static Pair frame_pair(const Subject *reference, const Subject *test, const char
                   !structure->shares_noise};
 }
 
-static void compare_frames(const Subject *reference, const Subject *test,
-                           const Structure *structure, const StructureRules *rules,
-                           const Selection *selection, Channels *out)
+static void compare_frames(const CompareInput *reference, const CompareInput *test,
+                           const Structure *structure, const CompareRules *rules,
+                           const Selection *selection, ChannelDifferences *out)
 {
     for (int i = 0; i < reference->frame.channel_count; i++) {
         const char *name = reference->frame.channels[i].name;
         Pair        pair = frame_pair(reference, test, name, structure);
-        if (!pair.values[1] || structure_ignores(rules, name)) continue;
+        if (!pair.values[1] || metadata_ignores(rules, name)) continue;
         out->list[out->count++] = compare_channel(name, &pair, selection, out);
     }
 }
 
-static void compare_codes(const Subject *reference, const Subject *test,
-                          const StructureRules *rules, const Selection *selection,
-                          Channels *out)
+static void compare_codes(const CompareInput *reference, const CompareInput *test,
+                          const CompareRules *rules, const Selection *selection,
+                          ChannelDifferences *out)
 {
     static const char *const NAMES[4] = {"R", "G", "B", "A"};
     for (int c = 0; c < 4; c++) {
@@ -147,18 +147,18 @@ static void compare_codes(const Subject *reference, const Subject *test,
                      .is_light = true};
         pair.values[0] = c < 3 ? reference->codes.rgb[c] : reference->alpha;
         pair.values[1] = c < 3 ? test->codes.rgb[c] : test->alpha;
-        if (!pair.values[0] || !pair.values[1] || structure_ignores(rules, NAMES[c])) continue;
+        if (!pair.values[0] || !pair.values[1] || metadata_ignores(rules, NAMES[c])) continue;
         out->list[out->count++] = compare_channel(NAMES[c], &pair, selection, out);
     }
 }
 
-Channels channels_compare(const Subject *reference, const Subject *test,
-                          const Structure *structure, const StructureRules *rules,
-                          const Selection *selection, Arena *arena)
+ChannelDifferences channels_compare(const CompareInput *reference, const CompareInput *test,
+                                    const Structure *structure, const CompareRules *rules,
+                                    const Selection *selection, Arena *arena)
 {
-    size_t   pixels = planes_pixel_count(&reference->light);
-    Channels out = {.differs = ARENA_NEW(arena, unsigned char, pixels)};
-    bool     is_frame = reference->kind == SUBJECT_FRAME;
+    size_t             pixels = planes_pixel_count(&reference->light);
+    ChannelDifferences out = {.differs = ARENA_NEW(arena, unsigned char, pixels)};
+    bool               is_frame = reference->kind == INPUT_FRAME;
     out.list = ARENA_NEW(arena, ChannelDifference,
                          is_frame ? reference->frame.channel_count : 4);
     if (is_frame)
@@ -180,7 +180,7 @@ static void report_nonfinite(const ChannelDifference *c, Lines *reasons)
 }
 
 /* All channels of a kind of surface have the same gaps: they are said together. */
-static void report_gaps(const Channels *channels, Lines *reasons)
+static void report_gaps(const ChannelDifferences *channels, Lines *reasons)
 {
     char   names[256] = "";
     long   most = 0;
@@ -200,7 +200,7 @@ static void report_gaps(const Channels *channels, Lines *reasons)
                   "pixels: %s", count, count > 1 ? "s are" : " is", most, names);
 }
 
-void channels_report(const Channels *channels, Lines *reasons, Lines *notes)
+void channels_report(const ChannelDifferences *channels, Lines *reasons, Lines *notes)
 {
     for (int i = 0; i < channels->count; i++) report_nonfinite(&channels->list[i], reasons);
     report_gaps(channels, reasons);

@@ -22,18 +22,18 @@ typedef struct ChannelDifference {
     double max, mean;     /* of |test - reference| where both are finite */
 } ChannelDifference;
 
-typedef struct Channels {
+typedef struct ChannelDifferences {
     ChannelDifference *list;
     int            count;
     long           differing;    /* pixels of which some channel differs */
     unsigned char *differs;      /* which: one byte a pixel of the display window */
     long           left_out[2];  /* pixels without finite light that do not count: see mask */
-} Channels;
+} ChannelDifferences;
 
 /* Both sides have the same pixels. Only channels that both have are looked at. */
-Channels channels_compare(const Subject *reference, const Subject *test,
-                          const Structure *structure, const StructureRules *rules,
-                          const Selection *selection, Arena *arena);
+ChannelDifferences channels_compare(const CompareInput *reference, const CompareInput *test,
+                                    const Structure *structure, const CompareRules *rules,
+                                    const Selection *selection, Arena *arena);
 
 /* Reasons for what always fails; a note for what lies outside the selection. */
-void channels_report(const Channels *channels, Lines *reasons, Lines *notes);
+void channels_report(const ChannelDifferences *channels, Lines *reasons, Lines *notes);

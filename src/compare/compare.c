@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/progress.h"
-#include "compare/figures.h"
+#include "compare/metrics.h"
 
 static double level_of(const CompareOptions *options)
 {
@@ -55,7 +55,7 @@ static void judge_equality(Comparison *out)
               out->selection.pixels, 100 * share);
     lines_add(&out->notes, "no limit was set and there is no noise to judge by, so every pixel "
               "must be equal; a limit is set by --max flip=0.05 or the like%s",
-              out->reference.kind == SUBJECT_FRAME
+              out->reference.kind == INPUT_FRAME
                   ? ", or render with --layers variance,samples" : "");
 }
 
@@ -134,7 +134,8 @@ static const char *mean_sentence(const CompareOptions *options, const Comparison
 
 /* ---- the comparison ---------------------------------------------------------------------- */
 
-static void start(const Subject *reference, const Subject *test, Arena *arena, Comparison *out)
+static void start(const CompareInput *reference, const CompareInput *test, Arena *arena,
+                  Comparison *out)
 {
     *out = (Comparison){.reference = *reference, .test = *test, .reasons = {.arena = arena},
                         .notes = {.arena = arena}, .shown_with = ""};
@@ -151,22 +152,22 @@ static bool compare_pixels(const CompareOptions *options, Arena *arena, Comparis
     out->value[METRIC_DIFFERING] =
         (double)out->channels.differing / (double)out->selection.pixels;
     channels_report(&out->channels, &out->reasons, &out->notes);
-    if (!figures_measure(options, groups_of(options), arena, out, err)) return false;
+    if (!metrics_measure(options, groups_of(options), arena, out, err)) return false;
     out->has_pixels = true;
     judge(options, out);
     return true;
 }
 
-bool compare_subjects(const Subject *reference, const Subject *test,
-                      const CompareOptions *options, Arena *arena, Comparison *out, Error *err)
+bool compare_inputs(const CompareInput *reference, const CompareInput *test,
+                    const CompareOptions *options, Arena *arena, Comparison *out, Error *err)
 {
     Comparison made;
     double     begun = monotonic_seconds();
-    if (!subject_check_kinds(reference, test, err)) return false;
+    if (!input_check_kinds(reference, test, err)) return false;
     start(reference, test, arena, &made);
     made.structure = structure_compare(reference, test, &options->rules, arena, &made.reasons,
                                        &made.notes);
-    if (!figures_develop(options, arena, &made, err)) return false;
+    if (!metrics_develop(options, arena, &made, err)) return false;
     if (made.structure.same_pixels && !compare_pixels(options, arena, &made, err)) return false;
     made.same = made.reasons.count == 0;
     made.verdict = made.same ? same_verdict(options, &made, arena)
@@ -180,11 +181,11 @@ bool compare_subjects(const Subject *reference, const Subject *test,
 bool compare_files(const char *reference, const char *test, const CompareOptions *options,
                    Arena *arena, Comparison *out, Error *err)
 {
-    Subject a, b;
-    double  begun = monotonic_seconds();
-    if (!subject_read(reference, arena, &a, err) || !subject_read(test, arena, &b, err))
+    CompareInput a, b;
+    double       begun = monotonic_seconds();
+    if (!input_read(reference, arena, &a, err) || !input_read(test, arena, &b, err))
         return false;
-    if (!compare_subjects(&a, &b, options, arena, out, err)) return false;
+    if (!compare_inputs(&a, &b, options, arena, out, err)) return false;
     out->seconds = monotonic_seconds() - begun;
     return true;
 }

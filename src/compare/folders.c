@@ -7,14 +7,9 @@
 #include <sys/stat.h>
 
 #include "compare/input.h"
+#include "compare/lines.h"
 
 #define MOST_LEVELS 64 /* of folders in folders: links may go round in circles */
-
-typedef struct Names {
-    Arena       *arena;
-    const char **list; /* relative to the folder */
-    int          count, capacity;
-} Names;
 
 bool is_folder(const char *path)
 {
@@ -22,20 +17,8 @@ bool is_folder(const char *path)
     return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
-static void add_name(Names *names, const char *name)
-{
-    if (names->count == names->capacity) {
-        int          capacity = 2 * names->capacity + 64;
-        const char **list = ARENA_NEW(names->arena, const char *, capacity);
-        if (names->count) memcpy(list, names->list, sizeof *list * (size_t)names->count);
-        names->list = list;
-        names->capacity = capacity;
-    }
-    names->list[names->count++] = name;
-}
-
 /* below: "" or "sub/folder/". */
-static bool list_folder(const char *top, const char *below, int level, Names *names, Error *err)
+static bool list_folder(const char *top, const char *below, int level, Lines *names, Error *err)
 {
     const char *path = arena_format(names->arena, "%s/%s", top, below);
     if (level > MOST_LEVELS)
@@ -52,8 +35,8 @@ static bool list_folder(const char *top, const char *below, int level, Names *na
         if (is_folder(arena_format(names->arena, "%s/%s", top, name)))
             ok = list_folder(top, arena_format(names->arena, "%s/", name), level + 1, names,
                              err);
-        else if (subject_has_known_ending(name))
-            add_name(names, name);
+        else if (input_has_known_ending(name))
+            lines_put(names, name);
     }
     closedir(folder);
     return ok;
@@ -64,9 +47,9 @@ static int by_name(const void *a, const void *b)
     return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
-static bool sorted_names(const char *top, Arena *arena, Names *out, Error *err)
+static bool sorted_names(const char *top, Arena *arena, Lines *out, Error *err)
 {
-    *out = (Names){.arena = arena};
+    *out = (Lines){.arena = arena};
     if (!list_folder(top, "", 0, out, err)) return false;
     if (out->count > 1) qsort(out->list, (size_t)out->count, sizeof *out->list, by_name);
     return true;
@@ -83,7 +66,7 @@ static const char *trimmed(const char *path, Arena *arena)
 bool folders_match(const char *reference, const char *test, Arena *arena, FolderPairs *out,
                    Error *err)
 {
-    Names a, b;
+    Lines a, b;
     reference = trimmed(reference, arena);
     test = trimmed(test, arena);
     if (!sorted_names(reference, arena, &a, err) || !sorted_names(test, arena, &b, err))

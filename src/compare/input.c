@@ -14,7 +14,7 @@ static const char *const ENDINGS[] = {".exr", ".png",  ".jpg", ".jpeg", ".hdr", 
                                       ".tiff", ".webp", ".bmp", ".tga",  ".gif", ".dpx", ".pgm",
                                       ".ppm"};
 
-bool subject_has_known_ending(const char *path)
+bool input_has_known_ending(const char *path)
 {
     for (size_t i = 0; i < sizeof ENDINGS / sizeof *ENDINGS; i++)
         if (!strcasecmp(path_ending(path), ENDINGS[i])) return true;
@@ -33,41 +33,41 @@ float srgb_from_linear(float light)
 
 /* ---- light ------------------------------------------------------------------------------- */
 
-static bool view_light(Subject *subject, Arena *arena, Error *err)
+static bool view_light(CompareInput *input, Arena *arena, Error *err)
 {
     LayerView view;
-    if (!layer_view_find(&subject->frame, NULL, arena, &view, err))
-        return error_in_file(err, subject->name);
-    subject->light = (Planes){view.width, view.height,
+    if (!layer_view_find(&input->frame, NULL, arena, &view, err))
+        return error_in_file(err, input->name);
+    input->light = (Planes){view.width, view.height,
                               {view.planes[0], view.planes[1], view.planes[2]}};
     return true;
 }
 
-static bool read_frame(FileBytes bytes, Arena *arena, Subject *subject, Error *err)
+static bool read_frame(FileBytes bytes, Arena *arena, CompareInput *input, Error *err)
 {
-    subject->kind = SUBJECT_FRAME;
-    subject->has_metadata = true;
-    return frame_read_memory(bytes.data, bytes.size, subject->name, arena, &subject->frame,
+    input->kind = INPUT_FRAME;
+    input->has_metadata = true;
+    return frame_read_memory(bytes.data, bytes.size, input->name, arena, &input->frame,
                              err) &&
-           view_light(subject, arena, err);
+           view_light(input, arena, err);
 }
 
 /* Floats without metadata become a frame of R, G, B, and A where it says something. */
-static bool frame_from_floats(const Image *image, Arena *arena, Subject *subject, Error *err)
+static bool frame_from_floats(const Image *image, Arena *arena, CompareInput *input, Error *err)
 {
     const float *rgba = image->pixels;
     size_t       count = (size_t)image->width * (size_t)image->height;
     bool         has_alpha = false;
     for (size_t i = 0; i < count && !has_alpha; i++) has_alpha = rgba[4 * i + 3] != 1;
-    subject->kind = SUBJECT_FRAME;
-    subject->frame = frame_create(image->width, image->height,
+    input->kind = INPUT_FRAME;
+    input->frame = frame_create(image->width, image->height,
                                   (ExrWindow){0, 0, image->width, image->height}, 4, 0, arena);
     for (size_t c = 0; c < (has_alpha ? 4u : 3u); c++) {
         const char name[2] = {"RGBA"[c], 0};
-        float     *plane = frame_add_channel(&subject->frame, name, false, arena);
+        float     *plane = frame_add_channel(&input->frame, name, false, arena);
         for (size_t i = 0; i < count; i++) plane[i] = rgba[4 * i + c];
     }
-    return view_light(subject, arena, err);
+    return view_light(input, arena, err);
 }
 
 /* ---- pictures ---------------------------------------------------------------------------- */
@@ -79,62 +79,62 @@ static float code_at(const Image *image, size_t index)
     return (float)((const uint16_t *)image->pixels)[index] / 65535.0f;
 }
 
-static void read_codes(const Image *image, Arena *arena, Subject *subject)
+static void read_codes(const Image *image, Arena *arena, CompareInput *input)
 {
     size_t count = (size_t)image->width * (size_t)image->height;
-    subject->kind = SUBJECT_PICTURE;
-    subject->bits = image->format == IMAGE_RGBA8 ? 8 : 16;
-    subject->light = subject->codes = (Planes){image->width, image->height, {NULL}};
+    input->kind = INPUT_PICTURE;
+    input->bits = image->format == IMAGE_RGBA8 ? 8 : 16;
+    input->light = input->codes = (Planes){image->width, image->height, {NULL}};
     for (size_t c = 0; c < 3; c++) {
         float *codes = ARENA_NEW(arena, float, count), *light = ARENA_NEW(arena, float, count);
         for (size_t i = 0; i < count; i++) {
             codes[i] = code_at(image, 4 * i + c);
             light[i] = linear_from_srgb(codes[i]);
         }
-        subject->codes.rgb[c] = codes;
-        subject->light.rgb[c] = light;
+        input->codes.rgb[c] = codes;
+        input->light.rgb[c] = light;
     }
     bool has_alpha = false;
     for (size_t i = 0; i < count && !has_alpha; i++) has_alpha = code_at(image, 4 * i + 3) != 1;
     if (!has_alpha) return;
     float *alpha = ARENA_NEW(arena, float, count);
     for (size_t i = 0; i < count; i++) alpha[i] = code_at(image, 4 * i + 3);
-    subject->alpha = alpha;
+    input->alpha = alpha;
 }
 
-static bool read_picture(FileBytes bytes, Arena *arena, Subject *subject, Error *err)
+static bool read_picture(FileBytes bytes, Arena *arena, CompareInput *input, Error *err)
 {
     Image image;
-    if (!image_read_memory(bytes.data, bytes.size, subject->name, arena, &image, err))
+    if (!image_read_memory(bytes.data, bytes.size, input->name, arena, &image, err))
         return false;
-    if (image.format == IMAGE_RGBA32F) return frame_from_floats(&image, arena, subject, err);
-    read_codes(&image, arena, subject);
+    if (image.format == IMAGE_RGBA32F) return frame_from_floats(&image, arena, input, err);
+    read_codes(&image, arena, input);
     return true;
 }
 
 /* ---- both -------------------------------------------------------------------------------- */
 
-bool subject_read(const char *path, Arena *arena, Subject *out, Error *err)
+bool input_read(const char *path, Arena *arena, CompareInput *out, Error *err)
 {
     static const unsigned char EXR[4] = {0x76, 0x2f, 0x31, 0x01};
-    Arena     file = arena_reserve(MAX_FILE_BYTES + 4096);
-    FileBytes bytes;
-    Subject   subject = {.name = path};
-    bool      ok = file_read(path, MAX_FILE_BYTES, &file, &bytes, err);
+    Arena                      file = arena_reserve(MAX_FILE_BYTES + 4096);
+    FileBytes                  bytes;
+    CompareInput               input = {.name = path};
+    bool                       ok = file_read(path, MAX_FILE_BYTES, &file, &bytes, err);
     if (ok && bytes.size >= sizeof EXR && !memcmp(bytes.data, EXR, sizeof EXR))
-        ok = read_frame(bytes, arena, &subject, err);
+        ok = read_frame(bytes, arena, &input, err);
     else if (ok)
-        ok = read_picture(bytes, arena, &subject, err);
+        ok = read_picture(bytes, arena, &input, err);
     arena_release(&file);
-    if (ok) *out = subject;
+    if (ok) *out = input;
     return ok;
 }
 
-bool subject_check_kinds(const Subject *reference, const Subject *test, Error *err)
+bool input_check_kinds(const CompareInput *reference, const CompareInput *test, Error *err)
 {
     if (reference->kind == test->kind) return true;
-    const Subject *frame = reference->kind == SUBJECT_FRAME ? reference : test;
-    const Subject *picture = frame == reference ? test : reference;
+    const CompareInput *frame = reference->kind == INPUT_FRAME ? reference : test;
+    const CompareInput *picture = frame == reference ? test : reference;
     return error_at(err, ERROR_INPUT, picture->name, "",
                     "is a picture of display codes, but %s is light in cd/m2: they have no "
                     "scale in common — compare frame with frame, or develop the frame first: "

@@ -12,27 +12,27 @@
 #include "compare/metrics/planes.h"
 #include "image/frame.h"
 
-typedef enum SubjectKind { SUBJECT_FRAME, SUBJECT_PICTURE } SubjectKind;
+typedef enum InputKind { INPUT_FRAME, INPUT_PICTURE } InputKind;
 
-typedef struct Subject {
+typedef struct CompareInput {
     const char *name; /* the file as the user named it */
-    SubjectKind kind;
+    InputKind kind;
     Planes      light; /* linear Rec.709: cd m^-2, or 0 .. 1; NaN outside a data window */
     Planes      codes; /* sRGB codes 0 .. 1; of frames once they are developed */
     bool        has_metadata; /* OpenEXR */
     FrameImage  frame;        /* frames: channels, windows, attributes */
     int         bits;         /* pictures: 8 or 16 */
     const float *alpha;       /* pictures: 0 .. 1; NULL when all of it is 1 */
-} Subject;
+} CompareInput;
 
-bool subject_read(const char *path, Arena *arena, Subject *out, Error *err);
+bool input_read(const char *path, Arena *arena, CompareInput *out, Error *err);
 
 /* False, and what to do about it, for a frame against a picture. */
-bool subject_check_kinds(const Subject *reference, const Subject *test, Error *err);
+bool input_check_kinds(const CompareInput *reference, const CompareInput *test, Error *err);
 
 /* The linear light of an sRGB code (IEC 61966-2-1), and back; both 0 .. 1. */
 float linear_from_srgb(float code);
 float srgb_from_linear(float light);
 
-/* True when subject_read would try it, by the name's ending. */
-bool subject_has_known_ending(const char *path);
+/* True when input_read would try it, by the name's ending. */
+bool input_has_known_ending(const char *path);

@@ -1,4 +1,4 @@
-/* lines.h -- a list of sentences that grows: reasons, notes, warnings.
+/* lines.h -- a list of texts that grows: reasons, notes, names of files.
  *
  * Memory   the list and its texts grow in its arena. Threads: one thread at a time.
  */
@@ -11,4 +11,8 @@ typedef struct Lines {
     int          count, capacity;
 } Lines;
 
+/* As it is; it is not copied. */
+void lines_put(Lines *lines, const char *text);
+
+/* A sentence for people, without control characters, cut at 2047 bytes. */
 void lines_add(Lines *lines, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -7,6 +7,25 @@
 
 #define SHOWN 72 /* letters of a value in a line */
 
+/* ---- what is left out and what decides --------------------------------------------------- */
+
+static bool begins_with_layer(const char *name, const char *layer)
+{
+    size_t length = strlen(layer);
+    return !strncmp(name, layer, length) && (!name[length] || name[length] == '.');
+}
+
+bool metadata_ignores(const CompareRules *rules, const char *name)
+{
+    static const char OWN[] = "parhelion:";
+    const char *plain = strncmp(name, OWN, sizeof OWN - 1) ? name : name + sizeof OWN - 1;
+    for (int i = 0; i < rules->ignored_count; i++)
+        if (begins_with_layer(name, rules->ignored[i]) ||
+            begins_with_layer(plain, rules->ignored[i]))
+            return true;
+    return false;
+}
+
 /* What decides the picture, by the whole name or, with a dot at the end, by its beginning. */
 static const char *const DECIDING[] = {
     "chromaticities",      "whiteLuminance",       "adoptedNeutral",    "worldToCamera",
@@ -69,16 +88,16 @@ static bool is_default(const ExrAttribute *attribute)
 }
 
 static MetadataRow row_of(const char *name, const FrameImage *reference, const FrameImage *test,
-                          const StructureRules *rules, Arena *arena)
+                          const CompareRules *rules, Arena *arena)
 {
     const ExrAttribute *a = frame_attribute(reference, name), *b = frame_attribute(test, name);
     bool is_implied = (!a || !b) && is_default(a ? a : b);
     return (MetadataRow){name, value_text(a, arena), value_text(b, arena), !same_value(a, b),
-                         decides(name) && !is_implied, structure_ignores(rules, name)};
+                         decides(name) && !is_implied, metadata_ignores(rules, name)};
 }
 
 MetadataRow *metadata_compare(const FrameImage *reference, const FrameImage *test,
-                              const StructureRules *rules, Arena *arena, int *count)
+                              const CompareRules *rules, Arena *arena, int *count)
 {
     MetadataRow *rows = ARENA_NEW(arena, MetadataRow,
                                   reference->attribute_count + test->attribute_count);

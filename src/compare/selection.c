@@ -5,12 +5,12 @@
 #include "image/image.h"
 #include "image/layer_view.h"
 
-/* The pixels that the subject has, as a window with its origin at the display window's. */
-static ExrWindow extent_of(const Subject *subject)
+/* The pixels that the input has, as a window with its origin at the display window's. */
+static ExrWindow extent_of(const CompareInput *input)
 {
-    ExrWindow whole = {0, 0, subject->light.width, subject->light.height};
-    if (subject->kind != SUBJECT_FRAME) return whole;
-    const ExrWindow w = subject->frame.display, d = subject->frame.data;
+    ExrWindow whole = {0, 0, input->light.width, input->light.height};
+    if (input->kind != INPUT_FRAME) return whole;
+    const ExrWindow w = input->frame.display, d = input->frame.data;
     return (ExrWindow){d.x0 > w.x0 ? d.x0 - w.x0 : 0, d.y0 > w.y0 ? d.y0 - w.y0 : 0,
                        d.x1 < w.x1 ? d.x1 - w.x0 : whole.x1,
                        d.y1 < w.y1 ? d.y1 - w.y0 : whole.y1};
@@ -24,14 +24,14 @@ static void leave_out(const Planes *planes, ExrWindow inside, unsigned char *cou
                 counts[(size_t)y * (size_t)planes->width + (size_t)x] = 0;
 }
 
-static bool apply_region(const Subject *subject, const SelectionRequest *request,
+static bool apply_region(const CompareInput *input, const SelectionRequest *request,
                          unsigned char *counts, Error *err)
 {
-    ExrWindow e = extent_of(subject), r = request->region;
+    ExrWindow e = extent_of(input), r = request->region;
     int       left = 0, top = 0;
-    if (subject->kind == SUBJECT_FRAME) {
-        left = subject->frame.display.x0;
-        top = subject->frame.display.y0;
+    if (input->kind == INPUT_FRAME) {
+        left = input->frame.display.x0;
+        top = input->frame.display.y0;
     }
     const ExrWindow inside = {r.x0 - left, r.y0 - top, r.x1 - left, r.y1 - top};
     if (inside.x0 < e.x0 || inside.y0 < e.y0 || inside.x1 > e.x1 || inside.y1 > e.y1 ||
@@ -40,8 +40,8 @@ static bool apply_region(const Subject *subject, const SelectionRequest *request
                          "--region %d,%d,%d,%d: wanted X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 "
                          "inside the pixels %d,%d,%d,%d of %s",
                          r.x0, r.y0, r.x1, r.y1, e.x0 + left, e.y0 + top, e.x1 + left,
-                         e.y1 + top, subject->name);
-    leave_out(&subject->light, inside, counts);
+                         e.y1 + top, input->name);
+    leave_out(&input->light, inside, counts);
     return true;
 }
 
@@ -57,45 +57,45 @@ static bool is_lit(const Image *image, size_t i)
     return false;
 }
 
-static bool apply_mask(const Subject *subject, const char *path, Arena scratch,
+static bool apply_mask(const CompareInput *input, const char *path, Arena scratch,
                        unsigned char *counts, Error *err)
 {
     Image         image;
-    const Planes *planes = &subject->light;
+    const Planes *planes = &input->light;
     if (!image_read(path, &scratch, &image, err)) return false;
     if (image.width != planes->width || image.height != planes->height)
         return error_at(err, ERROR_INPUT, path, "",
                         "the mask has %d x %d pixels, %s has %d x %d", image.width,
-                        image.height, subject->name, planes->width, planes->height);
+                        image.height, input->name, planes->width, planes->height);
     for (size_t i = 0; i < planes_pixel_count(planes); i++)
         if (!is_lit(&image, i)) counts[i] = 0;
     return true;
 }
 
-static bool apply_display(const Subject *subject, const char *display, Arena scratch,
+static bool apply_display(const CompareInput *input, const char *display, Arena scratch,
                           unsigned char *counts, Error *err)
 {
     LayerView view;
-    if (subject->kind != SUBJECT_FRAME)
+    if (input->kind != INPUT_FRAME)
         return error_set(err, ERROR_USAGE, "--display %s: a picture does not tell its displays",
                          display);
-    int id = frame_id_of(&subject->frame, "display", display);
+    int id = frame_id_of(&input->frame, "display", display);
     if (id < 0)
-        return error_at(err, ERROR_USAGE, subject->name, "",
+        return error_at(err, ERROR_USAGE, input->name, "",
                         "has no display \"%s\"; its displays: %s", display,
-                        frame_display_names(&subject->frame, &scratch));
-    if (!frame_channel(&subject->frame, "id.display"))
-        return error_at(err, ERROR_INPUT, subject->name, "",
+                        frame_display_names(&input->frame, &scratch));
+    if (!frame_channel(&input->frame, "id.display"))
+        return error_at(err, ERROR_INPUT, input->name, "",
                         "has no layer id, which tells the pixels of a display; render it with "
                         "--layers id,display");
-    if (!layer_view_find(&subject->frame, "id.display", &scratch, &view, err)) return false;
-    for (size_t i = 0; i < planes_pixel_count(&subject->light); i++)
+    if (!layer_view_find(&input->frame, "id.display", &scratch, &view, err)) return false;
+    for (size_t i = 0; i < planes_pixel_count(&input->light); i++)
         if (view.planes[0][i] != (float)id) counts[i] = 0;
     return true;
 }
 
-bool selection_make(const Subject *reference, const SelectionRequest *request, Arena *arena,
-                    Selection *out, Error *err)
+bool selection_make(const CompareInput *reference, const SelectionRequest *request,
+                    Arena *arena, Selection *out, Error *err)
 {
     Arena     kept = *arena;
     size_t    count = planes_pixel_count(&reference->light);

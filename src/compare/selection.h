@@ -22,8 +22,8 @@ typedef struct Selection {
 } Selection;
 
 /* Both sides have the same size and data window. */
-bool selection_make(const Subject *reference, const SelectionRequest *request, Arena *arena,
-                    Selection *out, Error *err);
+bool selection_make(const CompareInput *reference, const SelectionRequest *request,
+                    Arena *arena, Selection *out, Error *err);
 
 /* Pixels of the display window that the data window holds, for every value of a channel: where
  * channel value i lies, or -1 outside. */

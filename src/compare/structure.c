@@ -1,26 +1,6 @@
 #include "compare/structure.h"
 
-#include <stdio.h>
 #include <string.h>
-
-#include "compare/metadata.h"
-
-static bool begins_with_layer(const char *name, const char *layer)
-{
-    size_t length = strlen(layer);
-    return !strncmp(name, layer, length) && (!name[length] || name[length] == '.');
-}
-
-bool structure_ignores(const StructureRules *rules, const char *name)
-{
-    static const char OWN[] = "parhelion:";
-    const char *plain = strncmp(name, OWN, sizeof OWN - 1) ? name : name + sizeof OWN - 1;
-    for (int i = 0; i < rules->ignored_count; i++)
-        if (begins_with_layer(name, rules->ignored[i]) ||
-            begins_with_layer(plain, rules->ignored[i]))
-            return true;
-    return false;
-}
 
 /* ---- sizes and windows ------------------------------------------------------------------- */
 
@@ -37,14 +17,15 @@ static bool compare_window(const char *what, ExrWindow a, ExrWindow b, Lines *re
     return false;
 }
 
-static bool compare_sizes(const Subject *reference, const Subject *test, Lines *reasons)
+static bool compare_sizes(const CompareInput *reference, const CompareInput *test,
+                          Lines *reasons)
 {
     const Planes *a = &reference->light, *b = &test->light;
     bool          ok = a->width == b->width && a->height == b->height;
     if (!ok)
         lines_add(reasons, "the sizes differ: %dx%d pixels in the reference, %dx%d in the test",
                   a->width, a->height, b->width, b->height);
-    if (reference->kind != SUBJECT_FRAME) return ok;
+    if (reference->kind != INPUT_FRAME) return ok;
     const FrameImage *f = &reference->frame, *g = &test->frame;
     bool display_ok = !ok || compare_window("display", f->display, g->display, reasons);
     bool data_ok = !ok || compare_window("data", f->data, g->data, reasons);
@@ -55,19 +36,19 @@ static bool compare_sizes(const Subject *reference, const Subject *test, Lines *
 
 /* Names of `from` that `other` lacks, with commas; "" when there is none. */
 static const char *missing_channels(const FrameImage *from, const FrameImage *other,
-                                    const StructureRules *rules, Arena *arena)
+                                    const CompareRules *rules, Arena *arena)
 {
     const char *names = "";
     for (int i = 0; i < from->channel_count; i++) {
         const char *name = from->channels[i].name;
-        if (frame_channel(other, name) || structure_ignores(rules, name)) continue;
+        if (frame_channel(other, name) || metadata_ignores(rules, name)) continue;
         names = arena_format(arena, "%s%s%s", names, names[0] ? ", " : "", name);
     }
     return names;
 }
 
-static void compare_channels(const Subject *reference, const Subject *test,
-                             const StructureRules *rules, Arena *arena, Lines *reasons)
+static void compare_channels(const CompareInput *reference, const CompareInput *test,
+                             const CompareRules *rules, Arena *arena, Lines *reasons)
 {
     const char *gone = missing_channels(&reference->frame, &test->frame, rules, arena);
     const char *more = missing_channels(&test->frame, &reference->frame, rules, arena);
@@ -75,31 +56,31 @@ static void compare_channels(const Subject *reference, const Subject *test,
     if (more[0]) lines_add(reasons, "channels are missing in the reference: %s", more);
 }
 
-static void compare_pictures(const Subject *reference, const Subject *test,
-                             const StructureRules *rules, Lines *reasons, Lines *notes)
+static void compare_pictures(const CompareInput *reference, const CompareInput *test,
+                             const CompareRules *rules, Lines *reasons, Lines *notes)
 {
     if (reference->bits != test->bits)
         lines_add(notes, "the reference has %d bits, the test %d: codes are compared as "
                   "fractions", reference->bits, test->bits);
-    if (!reference->alpha != !test->alpha && !structure_ignores(rules, "A"))
+    if (!reference->alpha != !test->alpha && !metadata_ignores(rules, "A"))
         lines_add(reasons, "only the %s is transparent in places (--ignore A leaves that out)",
                   reference->alpha ? "reference" : "test");
 }
 
 /* ---- noise ------------------------------------------------------------------------------- */
 
-static bool same_text(const Subject *a, const Subject *b, const char *name)
+static bool same_text(const CompareInput *a, const CompareInput *b, const char *name)
 {
     const char *x = frame_string(&a->frame, name), *y = frame_string(&b->frame, name);
     return x && y && !strcmp(x, y);
 }
 
-Structure structure_compare(const Subject *reference, const Subject *test,
-                            const StructureRules *rules, Arena *arena, Lines *reasons,
+Structure structure_compare(const CompareInput *reference, const CompareInput *test,
+                            const CompareRules *rules, Arena *arena, Lines *reasons,
                             Lines *notes)
 {
     Structure out = {.same_pixels = compare_sizes(reference, test, reasons)};
-    if (reference->kind == SUBJECT_PICTURE) {
+    if (reference->kind == INPUT_PICTURE) {
         compare_pictures(reference, test, rules, reasons, notes);
         return out;
     }

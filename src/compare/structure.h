@@ -7,21 +7,8 @@
  * Fails    never: what differs is said.
  */
 #pragma once
-#include "compare/lines.h"
 #include "compare/input.h"
-
-typedef struct StructureRules {
-    const char *const *ignored; /* metadata keys, channels, layers: left out */
-    int  ignored_count;
-    bool strict; /* every difference of metadata is a reason */
-} StructureRules;
-
-/* One metadata key of either side. */
-typedef struct MetadataRow {
-    const char *name;
-    const char *reference, *test; /* NULL where there is none */
-    bool        differs, decides, is_ignored;
-} MetadataRow;
+#include "compare/metadata.h"
 
 typedef struct Structure {
     bool         same_pixels; /* one size, and frames one data window */
@@ -30,10 +17,6 @@ typedef struct Structure {
     int          metadata_count;
 } Structure;
 
-Structure structure_compare(const Subject *reference, const Subject *test,
-                            const StructureRules *rules, Arena *arena, Lines *reasons,
+Structure structure_compare(const CompareInput *reference, const CompareInput *test,
+                            const CompareRules *rules, Arena *arena, Lines *reasons,
                             Lines *notes);
-
-/* Does one of the rules leave this channel or key out? A layer's name means all its channels,
- * and "parhelion:" need not be said. */
-bool structure_ignores(const StructureRules *rules, const char *name);

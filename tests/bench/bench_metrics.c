@@ -10,7 +10,7 @@
 
 #include "compare/metrics/deltae.h"
 #include "compare/metrics/flip.h"
-#include "compare/metrics/metrics.h"
+#include "compare/metrics/pixel_errors.h"
 #include "compare/metrics/ssim.h"
 
 enum { WIDTH = 1920, HEIGHT = 1080, PIXELS = WIDTH * HEIGHT, MAX_RUNS = 99 };
@@ -51,7 +51,7 @@ static void work_deltae(Inputs *in)
 
 static void work_errors(Inputs *in)
 {
-    in->sink += metrics_pixel_errors(&in->reference, &in->test, NULL, true, in->scratch).mse;
+    in->sink += pixel_errors_measure(&in->reference, &in->test, NULL, true, in->scratch).mse;
 }
 
 /* Waves of colour with noise of their own. */

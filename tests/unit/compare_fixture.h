@@ -11,7 +11,7 @@ enum { WIDTH = 12, HEIGHT = 8, COUNT = WIDTH * HEIGHT };
 #define ARENA_BYTES ((size_t)1 << 30)
 
 /* A frame whose red is i, green i / 2, blue 1, with metadata and a layer of a display. */
-static inline Subject frame_subject(const char *name, Arena *arena)
+static inline CompareInput frame_input(const char *name, Arena *arena)
 {
     FrameImage frame = frame_create(WIDTH, HEIGHT, (ExrWindow){0, 0, WIDTH, HEIGHT}, 5, 8,
                                     arena);
@@ -30,42 +30,48 @@ static inline Subject frame_subject(const char *name, Arena *arena)
     frame_set_string(&frame, "parhelion:seed", "1", arena);
     frame_set_string(&frame, "parhelion:samples", "0:16", arena);
     frame_set_string(&frame, "parhelion:inputs", "00aa  a.gltf\n00bb  b.png\n", arena);
-    return (Subject){.name = name, .kind = SUBJECT_FRAME, .has_metadata = true,
-                     .light = {WIDTH, HEIGHT, {r, g, b}}, .frame = frame};
+    return (CompareInput){.name = name,
+                          .kind = INPUT_FRAME,
+                          .has_metadata = true,
+                          .light = {WIDTH, HEIGHT, {r, g, b}},
+                          .frame = frame};
 }
 
-static inline float *channel(const Subject *subject, const char *name)
+static inline float *channel(const CompareInput *input, const char *name)
 {
-    for (int i = 0; i < subject->frame.channel_count; i++)
-        if (!strcmp(subject->frame.channels[i].name, name))
-            return subject->frame.channels[i].values;
+    for (int i = 0; i < input->frame.channel_count; i++)
+        if (!strcmp(input->frame.channels[i].name, name))
+            return input->frame.channels[i].values;
     fail_msg("no channel %s", name);
     return NULL;
 }
 
-static inline Subject picture_subject(const char *name, int bits, Arena *arena)
+static inline CompareInput picture_input(const char *name, int bits, Arena *arena)
 {
-    Subject subject = {.name = name, .kind = SUBJECT_PICTURE, .bits = bits,
-                       .light = {WIDTH, HEIGHT, {NULL}}, .codes = {WIDTH, HEIGHT, {NULL}}};
+    CompareInput input = {.name = name,
+                          .kind = INPUT_PICTURE,
+                          .bits = bits,
+                          .light = {WIDTH, HEIGHT, {NULL}},
+                          .codes = {WIDTH, HEIGHT, {NULL}}};
     for (int c = 0; c < 3; c++) {
         float *codes = ARENA_NEW(arena, float, COUNT), *light = ARENA_NEW(arena, float, COUNT);
         for (int i = 0; i < COUNT; i++) {
             codes[i] = (float)((i * 5 + c) % 256) / 255;
             light[i] = linear_from_srgb(codes[i]);
         }
-        subject.codes.rgb[c] = codes;
-        subject.light.rgb[c] = light;
+        input.codes.rgb[c] = codes;
+        input.light.rgb[c] = light;
     }
-    return subject;
+    return input;
 }
 
-static inline Comparison compared(const Subject *a, const Subject *b, CompareOptions options,
-                           Arena *arena)
+static inline Comparison compared(const CompareInput *a, const CompareInput *b,
+                                  CompareOptions options, Arena *arena)
 {
     Comparison c;
     Error      err = {0};
     options.threads = 1;
-    if (!compare_subjects(a, b, &options, arena, &c, &err)) fail_msg("%s", err.text);
+    if (!compare_inputs(a, b, &options, arena, &c, &err)) fail_msg("%s", err.text);
     return c;
 }
 

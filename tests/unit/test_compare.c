@@ -1,26 +1,27 @@
 /* Two sides of a comparison: what is read, what always differs, limits, which pixels count. */
 #include "compare_fixture.h"
+#include "compare/metrics.h"
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
 static void a_written_frame_is_read_as_light(void **state)
 {
     (void)state;
-    Arena       arena = arena_reserve(ARENA_BYTES);
-    Error       err = {0};
-    Subject     made = frame_subject("x", &arena), read, again;
-    const char *path = temporary("a.exr", &arena);
+    Arena        arena = arena_reserve(ARENA_BYTES);
+    Error        err = {0};
+    CompareInput made = frame_input("x", &arena), read, again;
+    const char  *path = temporary("a.exr", &arena);
     assert_true(frame_write(path, &made.frame, &err));
-    assert_true(subject_read(path, &arena, &read, &err));
-    assert_int_equal(read.kind, SUBJECT_FRAME);
+    assert_true(input_read(path, &arena, &read, &err));
+    assert_int_equal(read.kind, INPUT_FRAME);
     assert_true(read.has_metadata);
     for (int i = 0; i < COUNT; i++) assert_near(read.light.rgb[0][i], i, 0);
-    assert_true(subject_read(path, &arena, &again, &err));
+    assert_true(input_read(path, &arena, &again, &err));
     Comparison c = compared(&read, &again, (CompareOptions){0}, &arena);
     assert_true(c.same);
     assert_string_equal(c.verdict, "equal in every pixel");
     unlink(path);
-    assert_false(subject_read(path, &arena, &read, &err));
+    assert_false(input_read(path, &arena, &read, &err));
     assert_int_equal(err.code, ERROR_INPUT);
     arena_release(&arena);
 }
@@ -29,16 +30,16 @@ static void a_written_frame_is_read_as_light(void **state)
 static void codes_of_8_and_16_bits_agree(void **state)
 {
     (void)state;
-    Arena   arena = arena_reserve(ARENA_BYTES);
-    Error   err = {0};
-    Picture picture = picture_create(16, 16, &arena);
-    Subject read[2];
+    Arena        arena = arena_reserve(ARENA_BYTES);
+    Error        err = {0};
+    Picture      picture = picture_create(16, 16, &arena);
+    CompareInput read[2];
     for (int i = 0; i < 16 * 16 * 3; i++) picture.rgb[i] = (float)(i % 256) / 255;
     for (int k = 0; k < 2; k++) {
         const char *path = temporary(k ? "16.png" : "8.png", &arena);
         PictureFile file = {.bits = k ? 16 : 8, .is_srgb = true};
         assert_true(picture_write(path, &picture, file, arena, &err));
-        assert_true(subject_read(path, &arena, &read[k], &err));
+        assert_true(input_read(path, &arena, &read[k], &err));
         assert_int_equal(read[k].bits, k ? 16 : 8);
         unlink(path);
     }
@@ -59,13 +60,13 @@ static void a_frame_against_a_picture_is_refused(void **state)
     (void)state;
     Arena          arena = arena_reserve(ARENA_BYTES);
     Error          err = {0};
-    Subject        frame = frame_subject("f.exr", &arena);
-    Subject        picture = picture_subject("p.png", 8, &arena);
+    CompareInput   frame = frame_input("f.exr", &arena);
+    CompareInput   picture = picture_input("p.png", 8, &arena);
     Comparison     c;
     CompareOptions options = {.threads = 1};
     for (int k = 0; k < 2; k++) {
-        assert_false(compare_subjects(k ? &picture : &frame, k ? &frame : &picture, &options,
-                                      &arena, &c, &err));
+        assert_false(compare_inputs(k ? &picture : &frame, k ? &frame : &picture, &options,
+                                    &arena, &c, &err));
         assert_int_equal(err.code, ERROR_INPUT);
         assert_string_equal(err.file, "p.png");
         assert_non_null(strstr(err.text, "parhelion develop f.exr"));
@@ -78,8 +79,8 @@ static void a_frame_against_a_picture_is_refused(void **state)
 static void metadata_that_decides_fails_and_the_rest_explains(void **state)
 {
     (void)state;
-    Arena   arena = arena_reserve(ARENA_BYTES);
-    Subject a = frame_subject("a", &arena), b = frame_subject("b", &arena);
+    Arena        arena = arena_reserve(ARENA_BYTES);
+    CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
     frame_set_string(&b.frame, "parhelion:seed", "2", &arena);
     frame_set_string(&b.frame, "parhelion:inputs", "00ac  a.gltf\n00cc  c.png\n", &arena);
     Comparison c = compared(&a, &b, LOOSE, &arena);
@@ -116,8 +117,8 @@ static void what_is_implied_need_not_be_said(void **state)
 {
     (void)state;
     static const double XYZ[8] = {1, 0, 0, 1, 0, 0, 1 / 3.0, 1 / 3.0};
-    Arena   arena = arena_reserve(ARENA_BYTES);
-    Subject a = frame_subject("a", &arena), b = frame_subject("b", &arena);
+    Arena               arena = arena_reserve(ARENA_BYTES);
+    CompareInput        a = frame_input("a", &arena), b = frame_input("b", &arena);
     for (int i = 0; i < a.frame.attribute_count; i++)
         if (!strcmp(a.frame.attributes[i].name, "chromaticities"))
             a.frame.attributes[i].name = "elsewhere";
@@ -133,9 +134,9 @@ static void what_is_implied_need_not_be_said(void **state)
 static void long_values_are_shown_where_they_differ(void **state)
 {
     (void)state;
-    Arena   arena = arena_reserve(ARENA_BYTES);
-    Subject a = frame_subject("a", &arena), b = frame_subject("b", &arena);
-    char    text[300];
+    Arena        arena = arena_reserve(ARENA_BYTES);
+    CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
+    char         text[300];
     memset(text, 'x', sizeof text);
     text[299] = 0;
     frame_set_string(&a.frame, "parhelion:commandLine", text, &arena);
@@ -151,8 +152,8 @@ static void long_values_are_shown_where_they_differ(void **state)
 static void channels_on_one_side_are_named(void **state)
 {
     (void)state;
-    Arena   arena = arena_reserve(ARENA_BYTES);
-    Subject a = frame_subject("a", &arena), b = frame_subject("b", &arena);
+    Arena        arena = arena_reserve(ARENA_BYTES);
+    CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
     frame_add_channel(&a.frame, "depth.Z", false, &arena);
     frame_add_channel(&b.frame, "light.sun.R", false, &arena);
     Comparison c = compared(&a, &b, LOOSE, &arena);
@@ -160,7 +161,7 @@ static void channels_on_one_side_are_named(void **state)
     assert_reason(&c, "missing in the reference: light.sun.R");
     const char *const ignored[] = {"depth.Z", "light"};
     CompareOptions    options = LOOSE;
-    options.rules = (StructureRules){ignored, 2, false};
+    options.rules = (CompareRules){ignored, 2, false};
     assert_true(compared(&a, &b, options, &arena).same);
     options.rules.ignored_count = 1;
     assert_false(compared(&a, &b, options, &arena).same);
@@ -170,13 +171,13 @@ static void channels_on_one_side_are_named(void **state)
 static void windows_and_sizes_must_agree(void **state)
 {
     (void)state;
-    Arena   arena = arena_reserve(ARENA_BYTES);
-    Subject a = frame_subject("a", &arena), b = frame_subject("b", &arena);
+    Arena        arena = arena_reserve(ARENA_BYTES);
+    CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
     b.frame.display = (ExrWindow){1, 0, WIDTH + 1, HEIGHT};
     Comparison c = compared(&a, &b, LOOSE, &arena);
     assert_reason(&c, "display windows differ: 0,0,12,8 in the reference, 1,0,13,8 in");
     assert_false(c.has_pixels);
-    b = frame_subject("b", &arena);
+    b = frame_input("b", &arena);
     b.light.width--;
     c = compared(&a, &b, LOOSE, &arena);
     assert_reason(&c, "sizes differ: 12x8 pixels in the reference, 11x8 in the test");
@@ -191,7 +192,7 @@ static void what_is_no_number_in_light_always_fails(void **state)
     Arena       arena = arena_reserve(ARENA_BYTES);
     const float wrong[] = {NAN, INFINITY, -INFINITY};
     for (int k = 0; k < 9; k++) {
-        Subject a = frame_subject("a", &arena), b = frame_subject("b", &arena);
+        CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
         if (k / 3 != 0) channel(&a, "G")[17] = wrong[k % 3];
         if (k / 3 != 1) channel(&b, "G")[17] = wrong[k % 3];
         Comparison c = compared(&a, &b, LOOSE, &arena);
@@ -212,12 +213,12 @@ static void what_is_no_number_in_light_always_fails(void **state)
 static void gaps_of_surface_layers_must_coincide(void **state)
 {
     (void)state;
-    Arena   arena = arena_reserve(ARENA_BYTES);
-    Subject a = frame_subject("a", &arena);
+    Arena        arena = arena_reserve(ARENA_BYTES);
+    CompareInput a = frame_input("a", &arena);
     assert_true(compared(&a, &a, LOOSE, &arena).same);
     for (int area = 0; area < 2; area++) {
         for (int seed = 1; seed <= 2; seed++) {
-            Subject b = frame_subject("b", &arena);
+            CompareInput b = frame_input("b", &arena);
             float  *shown = channel(&b, "display.emitted.R");
             if (!area) shown[3] = shown[4 * WIDTH + 1] = 5;
             for (int i = 0; i < 9 && area; i++) shown[(i / 3 + 2) * WIDTH + i % 3] = 5;
@@ -235,8 +236,8 @@ static void gaps_of_surface_layers_must_coincide(void **state)
 static void noise_may_be_unknown(void **state)
 {
     (void)state;
-    Arena   arena = arena_reserve(ARENA_BYTES);
-    Subject a = frame_subject("a", &arena), b = frame_subject("b", &arena);
+    Arena        arena = arena_reserve(ARENA_BYTES);
+    CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
     frame_add_channel(&a.frame, "halves.R", false, &arena)[7] = NAN;
     frame_add_channel(&b.frame, "halves.R", false, &arena);
     frame_set_string(&b.frame, "parhelion:samples", "0:17", &arena);
@@ -272,8 +273,8 @@ static void limits_hold_in_their_direction(void **state)
 static void figures_of_pictures_are_those_of_codes(void **state)
 {
     (void)state;
-    Arena   arena = arena_reserve(ARENA_BYTES);
-    Subject a = picture_subject("a", 8, &arena), b = picture_subject("b", 8, &arena);
+    Arena        arena = arena_reserve(ARENA_BYTES);
+    CompareInput a = picture_input("a", 8, &arena), b = picture_input("b", 8, &arena);
     ((float *)b.codes.rgb[2])[30] += 0.25f;
     ((float *)b.light.rgb[2])[30] = linear_from_srgb(b.codes.rgb[2][30]);
     Comparison c = compared(&a, &b, (CompareOptions){0}, &arena);
@@ -293,9 +294,9 @@ static void figures_of_pictures_are_those_of_codes(void **state)
 static void only_what_is_asked_for_is_computed(void **state)
 {
     (void)state;
-    Arena      arena = arena_reserve(ARENA_BYTES);
-    Subject    a = picture_subject("a", 8, &arena);
-    Comparison c = compared(&a, &a, (CompareOptions){.groups = GROUP_MSE}, &arena);
+    Arena        arena = arena_reserve(ARENA_BYTES);
+    CompareInput a = picture_input("a", 8, &arena);
+    Comparison   c = compared(&a, &a, (CompareOptions){.groups = GROUP_MSE}, &arena);
     assert_true(isnan(c.value[METRIC_FLIP]) && isnan(c.value[METRIC_PSNR]));
     assert_near(c.value[METRIC_MSE], 0, 0);
     const Threshold limit = {METRIC_FLIP, 0.5};
@@ -338,7 +339,7 @@ static void regions_select_and_displays_are_known(void **state)
     Arena            arena = arena_reserve(ARENA_BYTES);
     Error            err = {0};
     Selection        selection;
-    Subject          a = frame_subject("a.exr", &arena);
+    CompareInput     a = frame_input("a.exr", &arena);
     SelectionRequest request = {.has_region = true, .region = {2, 1, 5, 3}};
     assert_true(selection_make(&a, &request, &arena, &selection, &err));
     assert_int_equal(selection.pixels, 6);

@@ -39,9 +39,9 @@ static void markup_escapes_and_encodes(void **state)
 static void junit_is_well_formed_whatever_the_names_are(void **state)
 {
     (void)state;
-    Arena      arena = arena_reserve(ARENA_BYTES);
-    Error      err = {0};
-    Subject    a = picture_subject(WILD, 8, &arena), b = picture_subject("b", 8, &arena);
+    Arena        arena = arena_reserve(ARENA_BYTES);
+    Error        err = {0};
+    CompareInput a = picture_input(WILD, 8, &arena), b = picture_input("b", 8, &arena);
     ((float *)b.codes.rgb[0])[3] = 1;
     Comparison  same = compared(&a, &a, LOOSE, &arena);
     Comparison  other = compared(&a, &b, (CompareOptions){.groups = GROUP_MSE}, &arena);
@@ -74,7 +74,7 @@ static void json_has_the_promised_keys(void **state)
 {
     (void)state;
     Arena          arena = arena_reserve(ARENA_BYTES);
-    Subject        a = picture_subject(WILD, 8, &arena), b = picture_subject("b", 8, &arena);
+    CompareInput   a = picture_input(WILD, 8, &arena), b = picture_input("b", 8, &arena);
     CompareOptions options = {.threads = 1};
     ((float *)b.codes.rgb[0])[3] = 1;
     Comparison c = compared(&a, &b, options, &arena);
@@ -100,7 +100,7 @@ static void a_report_is_whole_and_escaped(void **state)
     Error          err = {0};
     FileBytes      page;
     CompareOptions options = {.threads = 1};
-    Subject        a = picture_subject(WILD, 8, &arena), b = picture_subject("b", 8, &arena);
+    CompareInput   a = picture_input(WILD, 8, &arena), b = picture_input("b", 8, &arena);
     ((float *)b.codes.rgb[0])[3] = 1;
     Comparison  c = compared(&a, &b, options, &arena);
     const char *path = temporary("r.html", &arena);

@@ -7,25 +7,6 @@
 #include "compare/metrics/lab.h"
 #include "compare/metrics/rank.h"
 
-static ColourMatrix ratios_from_rgb(void)
-{
-    return relative_to_white(xyz_from_primaries(REC709_CHROMATICITIES));
-}
-
-static void lab_of(const ColourMatrix *from_rgb, const float rgb[3], double lab[3])
-{
-    const double exact[3] = {(double)rgb[0], (double)rgb[1], (double)rgb[2]};
-    double ratios[3];
-    apply_matrix(from_rgb, exact, ratios);
-    lab_from_ratios(ratios, lab);
-}
-
-void lab_from_rgb(const float rgb[3], double lab[3])
-{
-    const ColourMatrix from_rgb = ratios_from_rgb();
-    lab_of(&from_rgb, rgb, lab);
-}
-
 /* c^7 / (c^7 + 25^7) */
 static double seventh_power_share(double c)
 {
@@ -101,14 +82,14 @@ static double pixel_difference(const ColourMatrix *from_rgb, const float referen
 {
     double lab_reference[3], lab_test[3];
     if (!memcmp(reference, test, 3 * sizeof *test)) return 0;
-    lab_of(from_rgb, reference, lab_reference);
-    lab_of(from_rgb, test, lab_test);
+    lab_from_rgb(from_rgb, reference, lab_reference);
+    lab_from_rgb(from_rgb, test, lab_test);
     return deltae_2000(lab_reference, lab_test);
 }
 
 DeltaE deltae_pictures(const Planes *reference, const Planes *test, PixelMask mask, float *map)
 {
-    const ColourMatrix from_rgb = ratios_from_rgb();
+    const ColourMatrix from_rgb = relative_to_white(xyz_from_primaries(REC709_CHROMATICITIES));
     size_t count = planes_pixel_count(reference), members = 0;
     double sum = 0;
     for (size_t i = 0; i < count; i++) {

@@ -7,10 +7,6 @@
 #pragma once
 #include "compare/metrics/planes.h"
 
-/* CIE L*a*b* of D65, L* 0 .. 100, from linear Rec.709 where 1 is white. Greys have a* = b* = 0
- * within 1e-11. */
-void lab_from_rgb(const float rgb[3], double lab[3]);
-
 /* Symmetric within rounding; 0 only for equal colours. */
 double deltae_2000(const double reference[3], const double test[3]);
 

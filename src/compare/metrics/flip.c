@@ -84,21 +84,12 @@ static bool find_luminances(const Planes *picture, Arena scratch, double *median
     return true;
 }
 
-/* Where the tone curve reaches 0.85. */
-static double bright_input(FlipToneMapper mapper)
-{
-    const double *p = FLIP_TONE_CURVES[mapper], t = 0.85;
-    double a = p[0] - t * p[3], b = p[1] - t * p[4], c = p[2] - t * p[5];
-    if (a == 0) return -c / b;
-    return (-b + sqrt(b * b - 4 * a * c)) / (2 * a);
-}
-
 /* The brightest light just so at 0.85, and the median just so. */
 static FlipExposures find_exposures(const Planes *reference, const FlipOptions *options,
                                     Arena scratch)
 {
     FlipExposures range = {options->start_ev, options->stop_ev, options->exposures};
-    double        median, most, bright = bright_input(options->tone_mapper);
+    double        median, most, bright = flip_tone_input(options->tone_mapper, 0.85);
     if (!options->has_range) {
         bool has_light = find_luminances(reference, scratch, &median, &most);
         range.start_ev = has_light ? log2_d(bright / most) : 0;

@@ -12,11 +12,10 @@
 #include <stdbool.h>
 
 #include "base/arena.h"
+#include "compare/metrics/flip_tone.h"
 #include "compare/metrics/planes.h"
 
 #define FLIP_PIXELS_PER_DEGREE 67.0206432766 /* 0.7 m from a screen of 0.7 m and 3840 pixels */
-
-typedef enum FlipToneMapper { FLIP_ACES, FLIP_REINHARD, FLIP_HABLE } FlipToneMapper;
 
 typedef struct FlipOptions {
     double pixels_per_degree; /* 1 .. 1000; 0: FLIP_PIXELS_PER_DEGREE */

@@ -10,12 +10,6 @@
 #define KNEE          0.4  /* of the greatest colour difference ... */
 #define KNEE_MAPPED   0.95 /* ... is mapped to this */
 
-const double FLIP_TONE_CURVES[3][6] = {
-    [FLIP_ACES] = {0.36 * 2.51, 0.6 * 0.03, 0, 0.36 * 2.43, 0.6 * 0.59, 0.14},
-    [FLIP_REINHARD] = {0, 1, 0, 0, 1, 1},
-    [FLIP_HABLE] = {0.231683, 0.013791, 0, 0.18, 0.3, 0.018},
-};
-
 /* sRGB to XYZ as FLIP has it, in 1 / 73733382; only ratios to white are needed. */
 static const ColourMatrix FLIP_XYZ_FROM_RGB = {{{30406656, 26366430, 13305225},
                                                {15678432, 52732860, 5322090},
@@ -95,21 +89,6 @@ static double clamp_unit(double value)
     return value > 1 ? 1 : value > 0 ? value : 0;
 }
 
-static double tone_curve(const double p[6], double x)
-{
-    return (p[0] * x * x + p[1] * x + p[2]) / (p[3] * x * x + p[4] * x + p[5]);
-}
-
-static void tone_map(FlipToneMapper mapper, double rgb[3])
-{
-    if (mapper == FLIP_REINHARD) {
-        double luminance = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-        for (int c = 0; c < 3; c++) rgb[c] /= 1 + luminance;
-    } else {
-        for (int c = 0; c < 3; c++) rgb[c] = tone_curve(FLIP_TONE_CURVES[mapper], rgb[c]);
-    }
-}
-
 /* Pixel i as a display of the exposure shows it, 0 .. 1. */
 static void displayed_rgb(const FlipJob *job, const Planes *planes, size_t i, double gain,
                           double rgb[3])
@@ -120,7 +99,7 @@ static void displayed_rgb(const FlipJob *job, const Planes *planes, size_t i, do
     }
     if (job->is_hdr) {
         for (int c = 0; c < 3; c++) rgb[c] *= gain;
-        tone_map(job->tone_mapper, rgb);
+        flip_tone_map(job->tone_mapper, rgb);
     }
     for (int c = 0; c < 3; c++) rgb[c] = clamp_unit(rgb[c]);
 }

@@ -9,15 +9,12 @@
  * Threads  a job is read only; tiles do not share pixels of the maps.
  */
 #pragma once
-#include "compare/metrics/flip.h"
 #include "compare/metrics/flip_filters.h"
+#include "compare/metrics/flip_tone.h"
+#include "compare/metrics/planes.h"
 #include "image/colour.h"
 
 enum { FLIP_TILE = 128 }; /* columns */
-
-/* The fitted curves (p0 x^2 + p1 x + p2) / (p3 x^2 + p4 x + p5) of FLIP 1.6. Reinhard's is one
- * of luminance, the others are of each channel for itself. */
-extern const double FLIP_TONE_CURVES[3][6];
 
 typedef struct FlipJob {
     const Planes  *reference, *test;

@@ -55,3 +55,14 @@ static inline ColourMatrix relative_to_white(ColourMatrix xyz_from_rgb)
     }
     return xyz_from_rgb;
 }
+
+/* ratios_from_rgb: relative_to_white's; rgb is linear, 1 is white. Greys have a* = b* = 0
+ * within 1e-11. */
+static inline void lab_from_rgb(const ColourMatrix *ratios_from_rgb, const float rgb[3],
+                                double lab[3])
+{
+    const double exact[3] = {(double)rgb[0], (double)rgb[1], (double)rgb[2]};
+    double ratios[3];
+    apply_matrix(ratios_from_rgb, exact, ratios);
+    lab_from_ratios(ratios, lab);
+}

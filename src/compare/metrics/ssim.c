@@ -9,13 +9,13 @@ enum { WEIGHT, R, T, RR, TT, RT, MOMENTS };
 
 /* The windows' sums along x of the last rows, row y at y % TAPS; then those along y are taken
  * over them. */
-typedef struct Window {
+typedef struct SsimWindow {
     const Planes *reference, *test;
     PixelMask     mask;
     double        weights[TAPS];
     double       *rows[TAPS]; /* width * MOMENTS each */
     double       *line;       /* the row's own moments: width * MOMENTS */
-} Window;
+} SsimWindow;
 
 static double luma(const Planes *planes, size_t i)
 {
@@ -23,7 +23,7 @@ static double luma(const Planes *planes, size_t i)
            0.114 * (double)planes->rgb[2][i];
 }
 
-static void set_line(const Window *window, int y)
+static void set_line(const SsimWindow *window, int y)
 {
     int width = window->reference->width;
     for (int x = 0; x < width; x++) {
@@ -41,7 +41,7 @@ static void set_line(const Window *window, int y)
 }
 
 /* Row y, summed along x. */
-static void filter_row(const Window *window, int y)
+static void filter_row(const SsimWindow *window, int y)
 {
     int     width = window->reference->width;
     double *row = window->rows[y % TAPS];
@@ -69,7 +69,7 @@ static double similarity(const double sums[MOMENTS])
     return (2 * r * t + c1) * (2 * rt + c2) / ((r * r + t * t + c1) * (rr + tt + c2));
 }
 
-static double pixel_similarity(const Window *window, int x, int y)
+static double pixel_similarity(const SsimWindow *window, int x, int y)
 {
     int    height = window->reference->height;
     int    first = y < RADIUS ? -y : -RADIUS;
@@ -82,12 +82,12 @@ static double pixel_similarity(const Window *window, int x, int y)
     return similarity(sums);
 }
 
-static Window window_create(const Planes *reference, const Planes *test, PixelMask mask,
-                            Arena *arena)
+static SsimWindow window_create(const Planes *reference, const Planes *test, PixelMask mask,
+                                Arena *arena)
 {
     const double sigma = 1.5;
-    size_t values = (size_t)reference->width * MOMENTS;
-    Window window = {.reference = reference, .test = test, .mask = mask};
+    size_t       values = (size_t)reference->width * MOMENTS;
+    SsimWindow   window = {.reference = reference, .test = test, .mask = mask};
     for (int k = -RADIUS; k <= RADIUS; k++) {
         window.weights[k + RADIUS] = exp_d(-k * k / (2 * sigma * sigma));
         window.rows[k + RADIUS] = ARENA_NEW(arena, double, values);
@@ -99,9 +99,9 @@ static Window window_create(const Planes *reference, const Planes *test, PixelMa
 double ssim_mean(const Planes *reference, const Planes *test, PixelMask mask, float *map,
                  Arena scratch)
 {
-    const Window window = window_create(reference, test, mask, &scratch);
-    double       sum = 0, members = 0;
-    int          filtered = 0; /* rows so far */
+    const SsimWindow window = window_create(reference, test, mask, &scratch);
+    double           sum = 0, members = 0;
+    int              filtered = 0; /* rows so far */
     for (int y = 0; y < reference->height; y++) {
         for (; filtered < reference->height && filtered <= y + RADIUS; filtered++)
             filter_row(&window, filtered);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "compare/metrics.h"
 
 json_t *json_of_text(const char *text)
 {
@@ -104,7 +105,7 @@ static json_t *metrics_json(const Comparison *c)
     }
     if (!isnan(c->value[METRIC_PSNR]))
         json_object_set_new(metrics, "psnr_peak", number(c->psnr_peak));
-    if (c->flip_map && c->reference.kind == SUBJECT_FRAME)
+    if (c->flip_map && c->reference.kind == INPUT_FRAME)
         json_object_set_new(metrics, "flip_exposures",
                             json_pack("{s:o, s:o, s:i}", "low_ev",
                                       number(ev_of_stops(c->exposures.stop_ev)), "high_ev",
@@ -132,7 +133,7 @@ static json_t *limits_json(const Comparison *c, const CompareOptions *options)
     return list;
 }
 
-static json_t *channels_json(const Channels *channels)
+static json_t *channels_json(const ChannelDifferences *channels)
 {
     json_t *list = json_array();
     for (int i = 0; i < channels->count; i++) {
@@ -173,7 +174,7 @@ json_t *comparison_json(const Comparison *c, const CompareOptions *options)
                             "mean", json_of_text(c->mean), "metrics", metrics_json(c), "limits",
                             limits_json(c, options), "reasons", texts(&c->reasons), "notes",
                             texts(&c->notes));
-    json_object_set_new(out, "kind", json_string(c->reference.kind == SUBJECT_FRAME
+    json_object_set_new(out, "kind", json_string(c->reference.kind == INPUT_FRAME
                                                      ? "frame" : "picture"));
     json_object_set_new(out, "metadata", metadata_json(&c->structure));
     json_object_set_new(out, "seconds", json_real(c->seconds));
@@ -185,7 +186,7 @@ json_t *comparison_json(const Comparison *c, const CompareOptions *options)
     json_object_set_new(out, "differing_pixels",
                         json_integer((json_int_t)c->channels.differing));
     json_object_set_new(out, "channels", channels_json(&c->channels));
-    if (c->reference.kind == SUBJECT_FRAME) {
+    if (c->reference.kind == INPUT_FRAME) {
         json_object_set_new(out, "shown_ev", number(c->shown_ev));
         json_object_set_new(out, "shown_with", json_of_text(c->shown_with));
     }

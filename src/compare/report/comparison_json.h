@@ -5,7 +5,7 @@
 #pragma once
 #include <jansson.h>
 
-#include "compare/compare.h"
+#include "compare/comparison.h"
 
 /* {"same", "verdict", "mean", "metrics": {...}, "limits", "reasons", "notes", ...}. A figure
  * that was not computed has no key; an infinite one (psnr of equal pictures) is null. */

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "compare/metrics.h"
 #include "compare/metrics/rank.h"
 #include "image/false_colour.h"
 
@@ -75,15 +76,15 @@ int shot_factor(const Planes *planes, long most)
 }
 
 /* One picture's pixel and the pixels that become it. */
-typedef struct Block {
+typedef struct PixelBlock {
     int x0, y0, x1, y1;
-} Block;
+} PixelBlock;
 
-static Block block_of(const Planes *planes, int factor, size_t i)
+static PixelBlock block_of(const Planes *planes, int factor, size_t i)
 {
     int row = (planes->width + factor - 1) / factor;
     int x = (int)(i % (size_t)row) * factor, y = (int)(i / (size_t)row) * factor;
-    return (Block){x, y, x + factor < planes->width ? x + factor : planes->width,
+    return (PixelBlock){x, y, x + factor < planes->width ? x + factor : planes->width,
                    y + factor < planes->height ? y + factor : planes->height};
 }
 
@@ -102,7 +103,7 @@ static Picture side_picture(const Planes *codes, int factor, Arena *arena)
 {
     Picture out = small_picture(codes, factor, arena);
     for (size_t i = 0; i < picture_pixels(&out); i++) {
-        Block b = block_of(codes, factor, i);
+        PixelBlock b = block_of(codes, factor, i);
         for (size_t c = 0; c < 3; c++) {
             float sum = 0;
             for (int y = b.y0; y < b.y1; y++)
@@ -122,7 +123,7 @@ Picture shot_thumbnail(const Comparison *c, ShotKind kind, int side, Arena *aren
 }
 
 /* The value of greatest magnitude in a block; NaN when none counts there. */
-static float extreme_of(const Planes *planes, const float *map, PixelMask mask, Block b)
+static float extreme_of(const Planes *planes, const float *map, PixelMask mask, PixelBlock b)
 {
     float extreme = NAN;
     for (int y = b.y0; y < b.y1; y++)
@@ -196,7 +197,7 @@ static void make_difference(const Comparison *c, int factor, Arena *arena, Shot 
     const Planes *a = &c->light[0], *b = &c->light[1];
     size_t        count = planes_pixel_count(a);
     float *difference = ARENA_NEW(arena, float, count), *size = ARENA_NEW(arena, float, count);
-    bool   is_frame = c->reference.kind == SUBJECT_FRAME;
+    bool   is_frame = c->reference.kind == INPUT_FRAME;
     for (size_t i = 0; i < count; i++) {
         difference[i] = luminance_at(b, i) - luminance_at(a, i);
         if (!is_frame) difference[i] *= 100;
@@ -223,7 +224,7 @@ static void make_difference(const Comparison *c, int factor, Arena *arena, Shot 
 #define DARK 0.01f     /* of the mean luminance: darker blocks are taken relative to this */
 
 /* Of the mean luminance of a block, in percent. */
-static float change_of_block(const Comparison *c, Block b, float dark)
+static float change_of_block(const Comparison *c, PixelBlock b, float dark)
 {
     const Planes *reference = &c->light[0], *test = &c->light[1];
     float         before = 0, after = 0, pixels = 0;
@@ -245,8 +246,8 @@ static void change_of_blocks(const Comparison *c, float dark, float *change, flo
     size_t        row = ((size_t)planes->width + BLOCK - 1) / BLOCK;
     size_t        rows = ((size_t)planes->height + BLOCK - 1) / BLOCK;
     for (size_t k = 0; k < row * rows; k++) {
-        Block b = block_of(planes, BLOCK, k);
-        float value = change_of_block(c, b, dark);
+        PixelBlock b = block_of(planes, BLOCK, k);
+        float      value = change_of_block(c, b, dark);
         for (int y = b.y0; y < b.y1; y++)
             for (int x = b.x0; x < b.x1; x++) {
                 size_t i = (size_t)y * (size_t)planes->width + (size_t)x;
@@ -275,7 +276,7 @@ static void make_blocks(const Comparison *c, int factor, Arena *arena, Shot *out
 
 static void make_flip(const Comparison *c, int factor, Arena *arena, Shot *out)
 {
-    bool is_frame = c->reference.kind == SUBJECT_FRAME;
+    bool is_frame = c->reference.kind == INPUT_FRAME;
     out->title = "FLIP";
     out->caption = "What an eye notices when one picture is flipped for the other.";
     if (is_frame)
@@ -334,10 +335,10 @@ static void make_p_values(const Comparison *c, int factor, Arena *arena, Shot *o
 
 static void make_side(const Comparison *c, ShotKind kind, int factor, Arena *arena, Shot *out)
 {
-    bool           is_reference = kind == SHOT_REFERENCE;
-    const Subject *side = is_reference ? &c->reference : &c->test;
+    bool                is_reference = kind == SHOT_REFERENCE;
+    const CompareInput *side = is_reference ? &c->reference : &c->test;
     out->title = is_reference ? "Reference" : "Test";
-    out->caption = c->reference.kind == SUBJECT_PICTURE
+    out->caption = c->reference.kind == INPUT_PICTURE
                        ? arena_format(arena, "%s, %d bits", side->name, side->bits)
                        : arena_format(arena, "%s, developed at EV %.2f", side->name,
                                       c->shown_ev);
@@ -352,7 +353,7 @@ bool shot_make(const Comparison *c, ShotKind kind, int factor, Arena *arena, Sho
     case SHOT_TEST: make_side(c, kind, factor, arena, out); return true;
     case SHOT_DIFFERENCE: make_difference(c, factor, arena, out); return true;
     case SHOT_BLOCKS:
-        if (c->reference.kind != SUBJECT_FRAME) return false;
+        if (c->reference.kind != INPUT_FRAME) return false;
         make_blocks(c, factor, arena, out);
         return true;
     case SHOT_FLIP:

@@ -4,7 +4,7 @@
  * Memory   pictures come from the arena that is passed in. Threads: pure.
  */
 #pragma once
-#include "compare/compare.h"
+#include "compare/comparison.h"
 #include "page/markup.h"
 
 typedef enum ShotKind {

@@ -8,7 +8,7 @@
  * Fails    when the file cannot be written; nothing is left of it then.
  */
 #pragma once
-#include "compare/compare.h"
+#include "compare/comparison.h"
 #include "page/markup.h"
 
 /* {.is_folder = ...} is empty. */

@@ -8,7 +8,7 @@
 static const char *value_text(const Comparison *c, Metric metric, double value, char text[64])
 {
     const MetricInfo *info = metric_info(metric);
-    bool              is_frame = c->reference.kind == SUBJECT_FRAME;
+    bool              is_frame = c->reference.kind == INPUT_FRAME;
     const char       *sign = info->is_change && value > 0 ? "+" : "";
     if (isnan(value)) snprintf(text, 64, "–");
     else if (isinf(value)) snprintf(text, 64, "∞");
@@ -147,7 +147,7 @@ static void add_displays(Markup *html, const Comparison *c)
     end_table(html);
 }
 
-static void add_channels(Markup *html, const Channels *channels)
+static void add_channels(Markup *html, const ChannelDifferences *channels)
 {
     begin_table(html, "",
                 "<th>channel</th><th class=\"n\">pixels</th><th class=\"n\">mean</th>"

@@ -1,7 +1,7 @@
 /* html_tables.h -- figures, regions, displays and metadata of a pair as tables; private to the
  * report. */
 #pragma once
-#include "compare/compare.h"
+#include "compare/comparison.h"
 #include "page/markup.h"
 
 /* The few figures that are looked at first. */

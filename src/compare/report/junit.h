@@ -5,7 +5,7 @@
  * Fails    when the file cannot be written.
  */
 #pragma once
-#include "compare/compare.h"
+#include "compare/comparison.h"
 #include "page/markup.h"
 
 /* {0} is empty. */

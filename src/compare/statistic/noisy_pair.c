@@ -217,7 +217,7 @@ bool noisy_pair_differs(const NoisyPair *pair, size_t i)
 {
     for (int c = 0; c < 3; c++) {
         double a = (double)pair->side[0].light[c][i], b = (double)pair->side[1].light[c][i];
-        if (fabs(a - b) > COIN_SUM_ROUNDING * fmax(fabs(a), fabs(b))) return true;
+        if (fabs(a - b) > SIGN_FLIP_ROUNDING * fmax(fabs(a), fabs(b))) return true;
     }
     return false;
 }

@@ -8,7 +8,7 @@
  */
 #pragma once
 #include "compare/statistic/sign_flip.h"
-#include "compare/statistic/statistic.h"
+#include "compare/statistic/statistic_result.h"
 
 typedef enum NoisyChannel {
     NOISY_R, NOISY_G, NOISY_B, NOISY_LUMINANCE,

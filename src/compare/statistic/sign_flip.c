@@ -5,8 +5,8 @@
 #include "base/mathd.h"
 
 /* 1 / (4 Q(sqrt 2)), Bentkus and Dzindzalieta's constant. */
-#define COIN_CONSTANT 3.1786
-/* From so many terms of one size on the normal tail stands for that of their coins: the fourth
+#define BENTKUS_CONSTANT 3.1786
+/* From so many terms of one size on the normal tail stands for that of their signs: the fourth
  * cumulant of the sum is -2 / terms, so its tail is the thinner one; that it comes in steps
  * makes it 1.6 times the normal one at the worst place of 16 equal terms. */
 #define MANY_TERMS 16
@@ -17,7 +17,7 @@
 #define MANY_PIXELS 100
 #define LEAST_GAIN 0.1
 
-void coin_sum_add(CoinSum *sum, const NoisyNumber *number, double c)
+void sign_flip_add(SignFlipSum *sum, const NoisyNumber *number, double c)
 {
     double term = c * number->difference, square = term * term;
     sum->count++;
@@ -30,7 +30,7 @@ void coin_sum_add(CoinSum *sum, const NoisyNumber *number, double c)
     sum->light += fabs(c * number->mean);
 }
 
-void coin_sum_join(CoinSum *sum, const CoinSum *other)
+void sign_flip_join(SignFlipSum *sum, const SignFlipSum *other)
 {
     sum->count += other->count;
     sum->sum += other->sum;
@@ -46,7 +46,7 @@ void coin_sum_join(CoinSum *sum, const CoinSum *other)
 
 /* Of noise of two laws: the larger of what is seen between the frames and what a sample's
  * variance in both together lets expect, times the share of it that the halves show. */
-static double larger_variance(const CoinSum *sum, NoiseLaw law)
+static double larger_variance(const SignFlipSum *sum, NoiseLaw law)
 {
     double expected = law.has_variance ? sum->variance : sum->stated;
     if (isnan(expected)) expected = sum->halves;
@@ -57,20 +57,20 @@ static double larger_variance(const CoinSum *sum, NoiseLaw law)
     return expected > sum->square ? expected : sum->square; /* false for NaN */
 }
 
-static double variance_of(const CoinSum *sum, NoiseLaw law)
+static double variance_of(const SignFlipSum *sum, NoiseLaw law)
 {
     return law.is_same ? sum->square : larger_variance(sum, law);
 }
 
-double coin_sum_sigma(const CoinSum *sum, NoiseLaw law)
+double sign_flip_sigma(const SignFlipSum *sum, NoiseLaw law)
 {
     return sqrt(variance_of(sum, law));
 }
 
 /* How far the sum is beyond rounding. */
-static double reach(const CoinSum *sum)
+static double reach(const SignFlipSum *sum)
 {
-    double far = fabs(sum->sum) - COIN_SUM_ROUNDING * sum->light;
+    double far = fabs(sum->sum) - SIGN_FLIP_ROUNDING * sum->light;
     return far > 0 ? far : 0;
 }
 
@@ -79,19 +79,19 @@ static double quotient(double reach, double variance)
     return reach > 0 ? reach / sqrt(variance) : 0;
 }
 
-double coin_sum_quotient(const CoinSum *sum, NoiseLaw law)
+double sign_flip_quotient(const SignFlipSum *sum, NoiseLaw law)
 {
     return quotient(reach(sum), variance_of(sum, law));
 }
 
 /* How many terms of one size would spread like these. */
-static double terms(const CoinSum *sum)
+static double terms(const SignFlipSum *sum)
 {
     return sum->fourth > 0 ? sum->square * sum->square / sum->fourth : 0;
 }
 
-/* With fair coins e, E (sum of a e)^4 = 3 (sum of a^2)^2 - 2 (sum of a^4). */
-double coin_sum_square_variance(const CoinSum *sum)
+/* With random signs e, E (sum of a e)^4 = 3 (sum of a^2)^2 - 2 (sum of a^4). */
+double sign_flip_square_variance(const SignFlipSum *sum)
 {
     double count = terms(sum);
     return count > 1 ? 2 - 2 / count : 0;
@@ -117,14 +117,14 @@ static double bounded(double p)
     return p < 1 ? p : 1;
 }
 
-double coin_sum_p(const CoinSum *sum, NoiseLaw law)
+double sign_flip_p(const SignFlipSum *sum, NoiseLaw law)
 {
     double far = reach(sum);
     if (!(far > 0)) return 1;
-    double p = 2 * normal_tail(coin_sum_quotient(sum, law));
-    if (!law.is_same || terms(sum) < MANY_TERMS) p = bounded(COIN_CONSTANT * p);
+    double p = 2 * normal_tail(sign_flip_quotient(sum, law));
+    if (!law.is_same || terms(sum) < MANY_TERMS) p = bounded(BENTKUS_CONSTANT * p);
     if (!law.is_same || !law.has_variance || terms(sum) >= SURE_TERMS) return p;
-    double expected = COIN_CONSTANT * 2 * normal_tail(quotient(far, sum->variance));
+    double expected = BENTKUS_CONSTANT * 2 * normal_tail(quotient(far, sum->variance));
     return bounded(2 * (expected < p ? expected : p));
 }
 

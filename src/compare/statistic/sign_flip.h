@@ -1,6 +1,7 @@
-/* sign_flip.h -- sums of independent differences, and how likely the noise makes them.
+/* sign_flip.h -- the sign-flip test: sums of independent differences, and how likely the noise
+ * makes them.
  *
- * statistic.h has the reasons. Sums of disjoint pixels add up.
+ * src/compare/README.md has the reasons. Sums of disjoint pixels add up.
  *
  * Units    whatever the differences have; c is a factor that exchanging the frames leaves as
  *          it is.
@@ -18,7 +19,7 @@ typedef struct NoisyNumber {
     double halves;     /* the same from their halves; NaN: not known */
 } NoisyNumber;
 
-typedef struct CoinSum {
+typedef struct SignFlipSum {
     long   count;    /* of pixels */
     double sum;      /* of c d */
     double square;   /* of (c d)^2 */
@@ -26,7 +27,7 @@ typedef struct CoinSum {
     double variance; /* of c^2 times NoisyNumber's variance, stated, halves */
     double stated, halves;
     double light;    /* of c times the size of the mean */
-} CoinSum;
+} SignFlipSum;
 
 /* What the two frames' noise has in common. */
 typedef struct NoiseLaw {
@@ -35,25 +36,25 @@ typedef struct NoiseLaw {
     bool has_halves;
 } NoiseLaw;
 
-void coin_sum_add(CoinSum *sum, const NoisyNumber *number, double c);
-void coin_sum_join(CoinSum *sum, const CoinSum *other);
+void sign_flip_add(SignFlipSum *sum, const NoisyNumber *number, double c);
+void sign_flip_join(SignFlipSum *sum, const SignFlipSum *other);
 
 /* A shift of the light by less than this share is rounding, not a move. */
-#define COIN_SUM_ROUNDING 1e-5
+#define SIGN_FLIP_ROUNDING 1e-5
 
 /* The first quotient's size, with the larger denominator for noise of two laws; 0 without any
  * difference. */
-double coin_sum_quotient(const CoinSum *sum, NoiseLaw law);
+double sign_flip_quotient(const SignFlipSum *sum, NoiseLaw law);
 
-/* Variance of the square of that quotient over its coins: 2 minus twice the share that the
+/* Variance of the square of that quotient over its signs: 2 minus twice the share that the
  * largest terms have; 0 for a single pixel. */
-double coin_sum_square_variance(const CoinSum *sum);
+double sign_flip_square_variance(const SignFlipSum *sum);
 
 /* How likely the sum is as large or larger, of either sign; never too small: see above. */
-double coin_sum_p(const CoinSum *sum, NoiseLaw law);
+double sign_flip_p(const SignFlipSum *sum, NoiseLaw law);
 
 /* Standard error of `sum` when only the noise differs. */
-double coin_sum_sigma(const CoinSum *sum, NoiseLaw law);
+double sign_flip_sigma(const SignFlipSum *sum, NoiseLaw law);
 
 /* Of the least of `count` independent p-values. */
 double sidak_p(double least, double count);

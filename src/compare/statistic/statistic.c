@@ -4,7 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "compare/statistic/statistic_parts.h"
+#include "compare/statistic/statistic_blocks.h"
+#include "compare/statistic/statistic_reason.h"
+#include "compare/statistic/statistic_regions.h"
 
 #define LEVEL 0.01
 #define FAMILIES 3

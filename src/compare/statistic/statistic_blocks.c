@@ -1,12 +1,11 @@
-/* The blocks' family: where the mean moved, and whether it did a little everywhere. */
-#include <math.h>
+#include "compare/statistic/statistic_blocks.h"
 
-#include "compare/statistic/statistic_parts.h"
+#include <math.h>
 
 static BlockGrid make_grid(int width, int height, int side, Arena *arena)
 {
     BlockGrid grid = {side, (width + side - 1) / side, (height + side - 1) / side, NULL};
-    grid.sums = arena_alloc(arena, sizeof *grid.sums, _Alignof(CoinSum),
+    grid.sums = arena_alloc(arena, sizeof *grid.sums, _Alignof(SignFlipSum),
                             (size_t)grid.columns * (size_t)grid.rows);
     return grid;
 }
@@ -16,13 +15,13 @@ static size_t block_count(const BlockGrid *grid)
     return (size_t)grid->columns * (size_t)grid->rows;
 }
 
-static void add_pixel(const NoisyPair *pair, int x, int y, CoinSum sums[3])
+static void add_pixel(const NoisyPair *pair, int x, int y, SignFlipSum sums[3])
 {
     if (!noisy_pair_counts(pair, x, y)) return;
     for (int c = 0; c < 3; c++) {
         NoisyNumber number;
         if (noisy_pair_number(pair, noisy_pair_index(pair, x, y), (NoisyChannel)c, 1, &number))
-            coin_sum_add(&sums[c], &number, 1);
+            sign_flip_add(&sums[c], &number, 1);
     }
 }
 
@@ -41,9 +40,9 @@ void statistic_blocks(const NoisyPair *pair, Arena *arena, BlockGrid grids[2])
     add_pixels(pair, width, height, &grids[0]);
     for (int y = 0; y < grids[0].rows; y++)
         for (int x = 0; x < grids[0].columns; x++) {
-            CoinSum *to = grids[1].sums[y / WIDE_BLOCK * grids[1].columns + x / WIDE_BLOCK];
+            SignFlipSum *to = grids[1].sums[y / WIDE_BLOCK * grids[1].columns + x / WIDE_BLOCK];
             for (int c = 0; c < 3; c++)
-                coin_sum_join(&to[c], &grids[0].sums[y * grids[0].columns + x][c]);
+                sign_flip_join(&to[c], &grids[0].sums[y * grids[0].columns + x][c]);
         }
 }
 
@@ -52,7 +51,7 @@ void statistic_blocks(const NoisyPair *pair, Arena *arena, BlockGrid grids[2])
 float statistic_block_p(const BlockGrid *grid, int index, NoiseLaw law)
 {
     double least = 1;
-    for (int c = 0; c < 3; c++) least = fmin(least, coin_sum_p(&grid->sums[index][c], law));
+    for (int c = 0; c < 3; c++) least = fmin(least, sign_flip_p(&grid->sums[index][c], law));
     return grid->sums[index][0].count ? (float)least : NAN;
 }
 
@@ -63,7 +62,7 @@ static void find_least(const BlockGrid grids[2], NoiseLaw law, BlockFinding *out
         for (size_t i = 0; i < block_count(&grids[g]); i++)
             for (int c = 0; c < 3; c++) {
                 if (!grids[g].sums[i][c].count) continue;
-                double p = coin_sum_p(&grids[g].sums[i][c], law);
+                double p = sign_flip_p(&grids[g].sums[i][c], law);
                 out->tests++;
                 if (!(p < out->least)) continue;
                 out->least = p;
@@ -79,7 +78,7 @@ static double count_failed(const BlockGrid grids[2], NoiseLaw law, double level)
     for (int g = 0; g < 2; g++)
         for (size_t i = 0; i < block_count(&grids[g]); i++)
             for (int c = 0; c < 3; c++)
-                failed += coin_sum_p(&grids[g].sums[i][c], law) < level;
+                failed += sign_flip_p(&grids[g].sums[i][c], law) < level;
     return failed;
 }
 
@@ -91,14 +90,14 @@ typedef struct Squares {
     double blocks, sum, variance;
 } Squares;
 
-static void add_squares(const CoinSum sums[3], NoiseLaw law, Squares *to)
+static void add_squares(const SignFlipSum sums[3], NoiseLaw law, Squares *to)
 {
     double squares = 0, variance = 0, channels = 0;
     for (int c = 0; c < 3; c++) {
         if (!(sums[c].square > 0)) continue;
-        double quotient = coin_sum_quotient(&sums[c], law);
+        double quotient = sign_flip_quotient(&sums[c], law);
         squares += quotient * quotient;
-        variance = fmax(variance, coin_sum_square_variance(&sums[c]));
+        variance = fmax(variance, sign_flip_square_variance(&sums[c]));
         channels++;
     }
     if (channels == 0) return;

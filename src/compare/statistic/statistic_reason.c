@@ -1,10 +1,9 @@
-/* The test's answer in words. */
+#include "compare/statistic/statistic_reason.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-
-#include "compare/statistic/statistic_parts.h"
 
 static const char *const CHANNELS[3] = {"red", "green", "blue"};
 
@@ -72,12 +71,12 @@ static void tell_region(const StatisticRegion *region, bool is_frame, char *text
 static void tell_block(const NoisyPair *pair, const BlockGrid *grid, const BlockFinding *found,
                        char *text, size_t size)
 {
-    const ExrWindow d = pair->data, w = pair->display_window;
-    const CoinSum  *sum = &grid->sums[found->index][found->channel];
-    int    x = d.x0 - w.x0 + found->index % grid->columns * grid->side;
-    int    y = d.y0 - w.y0 + found->index / grid->columns * grid->side;
-    int    right = d.x1 - w.x0, bottom = d.y1 - w.y0;
-    double change = sum->light > 0 ? sum->sum / (sum->light - 0.5 * sum->sum) : 0;
+    const ExrWindow    d = pair->data, w = pair->display_window;
+    const SignFlipSum *sum = &grid->sums[found->index][found->channel];
+    int                x = d.x0 - w.x0 + found->index % grid->columns * grid->side;
+    int                y = d.y0 - w.y0 + found->index / grid->columns * grid->side;
+    int                right = d.x1 - w.x0, bottom = d.y1 - w.y0;
+    double             change = sum->light > 0 ? sum->sum / (sum->light - 0.5 * sum->sum) : 0;
     append(text, size, "block at x %d..%d, y %d..%d: %s ", x,
            x + grid->side < right ? x + grid->side : right, y,
            y + grid->side < bottom ? y + grid->side : bottom, CHANNELS[found->channel]);

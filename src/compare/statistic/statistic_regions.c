@@ -1,9 +1,8 @@
-/* The regions' family: the whole frame, displays, and what displays reflect. */
+#include "compare/statistic/statistic_regions.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "compare/statistic/statistic_parts.h"
 
 #define DISPLAY_PREFIX "parhelion:display."
 /* Pixels surer than this share of their light weigh no more for it: a region is more than its
@@ -13,7 +12,7 @@
 typedef struct Region {
     int          display; /* id; -1: the frame */
     NoisyChannel channel;
-    CoinSum      plain, weighted;
+    SignFlipSum  plain, weighted;
     double       light[2]; /* sums of luminance: reference, test */
     double       weight;   /* of c times the mean */
     double       trial;    /* a change that the reference is given to see what it does ... */
@@ -106,9 +105,9 @@ static void add_pixel(const NoisyPair *pair, size_t i, Region *region)
     NoisyNumber n;
     if (!noisy_pair_number(pair, i, region->channel, 1, &n)) return;
     double c = factor(pair, i, region, 1, &n);
-    coin_sum_add(&region->plain, &n, 1);
+    sign_flip_add(&region->plain, &n, 1);
     if (isfinite(c)) {
-        coin_sum_add(&region->weighted, &n, c);
+        sign_flip_add(&region->weighted, &n, c);
         region->weight += c * n.mean;
     }
     for (int s = 0; s < 2; s++)
@@ -162,7 +161,8 @@ static void estimate_change(const Region *region, NoiseLaw law, StatisticRegion 
     double slope = (region->weighted.sum - region->tried) / region->trial;
     bool   is_steep = slope > 0.1 * region->weight; /* else: changes that are no proportion */
     out->change = is_steep ? region->weighted.sum / slope : (double)NAN;
-    out->change_sigma = is_steep ? coin_sum_sigma(&region->weighted, law) / slope : (double)NAN;
+    out->change_sigma = (double)NAN;
+    if (is_steep) out->change_sigma = sign_flip_sigma(&region->weighted, law) / slope;
 }
 
 static StatisticRegion figures_of(const Region *region, const char *name, NoiseLaw law)
@@ -173,11 +173,11 @@ static StatisticRegion figures_of(const Region *region, const char *name, NoiseL
                            .reference = region->light[0] / n, .test = region->light[1] / n};
     bool            is_lit = fabs(region->light[0]) > 0;
     out.shift = is_lit ? region->light[1] / region->light[0] - 1 : (double)NAN;
-    out.shift_sigma = coin_sum_sigma(&region->plain, law) / fabs(region->light[0]);
+    out.shift_sigma = sign_flip_sigma(&region->plain, law) / fabs(region->light[0]);
     if (!is_lit) out.shift_sigma = (double)NAN;
     estimate_change(region, law, &out);
-    out.p_value = sidak_p(fmin(coin_sum_p(&region->plain, law),
-                               coin_sum_p(&region->weighted, law)), 2);
+    out.p_value = sidak_p(fmin(sign_flip_p(&region->plain, law),
+                               sign_flip_p(&region->weighted, law)), 2);
     return out;
 }
 

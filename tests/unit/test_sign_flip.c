@@ -1,4 +1,4 @@
-/* Sums of coins: their tails and the corrections for many tests. */
+/* The sign-flip test: its tails and the corrections for many tests. */
 #include "check.h"
 
 #include "base/sampler.h"
@@ -11,7 +11,7 @@ static double unit(uint32_t *state)
 }
 
 /* Every one of the 2^12 signs of a sum: as many of them as p says, or fewer, reach as far. */
-static void the_tail_of_coins_is_never_heavier_than_stated(void **state)
+static void the_tail_of_random_signs_is_never_heavier_than_stated(void **state)
 {
     (void)state;
     enum { TERMS = 12, SIGNS = 1 << TERMS };
@@ -23,13 +23,13 @@ static void the_tail_of_coins_is_never_heavier_than_stated(void **state)
         for (int i = 0; i < TERMS; i++)
             size[i] = shape == 0 ? 1 : pow(unit(&random), shape % 4) * (i < shape ? 5 : 1);
         for (int signs = 0; signs < SIGNS; signs++) {
-            CoinSum sum = {0};
+            SignFlipSum sum = {0};
             for (int i = 0; i < TERMS; i++) {
                 NoisyNumber n = {.difference = signs >> i & 1 ? size[i] : -size[i]};
-                coin_sum_add(&sum, &n, 1);
+                sign_flip_add(&sum, &n, 1);
             }
-            quotient[signs] = coin_sum_quotient(&sum, law);
-            p[signs] = coin_sum_p(&sum, law);
+            quotient[signs] = sign_flip_quotient(&sum, law);
+            p[signs] = sign_flip_p(&sum, law);
             squares += quotient[signs] * quotient[signs] / SIGNS;
         }
         assert_close(squares, 1, 1e-9);
@@ -42,22 +42,22 @@ static void the_tail_of_coins_is_never_heavier_than_stated(void **state)
     }
 }
 
-static void the_square_of_coins_has_the_stated_variance(void **state)
+static void the_square_of_random_signs_has_the_stated_variance(void **state)
 {
     (void)state;
     static const double SIZE[4] = {1, 2, 2, 5};
-    double         fourth = 0;
-    const NoiseLaw law = {.is_same = true};
-    CoinSum        sum = {0};
+    double              fourth = 0;
+    const NoiseLaw      law = {.is_same = true};
+    SignFlipSum         sum = {0};
     for (int signs = 0; signs < 16; signs++) {
-        sum = (CoinSum){0};
+        sum = (SignFlipSum){0};
         for (int i = 0; i < 4; i++) {
             NoisyNumber n = {.difference = signs >> i & 1 ? SIZE[i] : -SIZE[i]};
-            coin_sum_add(&sum, &n, 1);
+            sign_flip_add(&sum, &n, 1);
         }
-        fourth += pow(coin_sum_quotient(&sum, law), 4) / 16;
+        fourth += pow(sign_flip_quotient(&sum, law), 4) / 16;
     }
-    assert_close(coin_sum_square_variance(&sum), fourth - 1, 1e-9);
+    assert_close(sign_flip_square_variance(&sum), fourth - 1, 1e-9);
 }
 
 static void tails_have_their_closed_forms(void **state)
@@ -79,9 +79,9 @@ static void tails_have_their_closed_forms(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_tail_of_coins_is_never_heavier_than_stated),
-        cmocka_unit_test(the_square_of_coins_has_the_stated_variance),
+        cmocka_unit_test(the_tail_of_random_signs_is_never_heavier_than_stated),
+        cmocka_unit_test(the_square_of_random_signs_has_the_stated_variance),
         cmocka_unit_test(tails_have_their_closed_forms),
     };
-    return cmocka_run_group_tests_name("coin_sum", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("sign_flip", tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
-/* statistic_parts.h -- the families of statistic.h's test; private to src/compare.
+/* statistic_blocks.h -- the blocks' family of the test: where the mean moved, and whether it did
+ * a little everywhere.
  *
  * Memory   from the arena that is passed in.
  * Threads  pure.
@@ -14,7 +15,7 @@
 typedef struct BlockGrid {
     int side;   /* pixels */
     int columns, rows;
-    CoinSum (*sums)[3]; /* R, G, B; a count of 0: nothing of it counts */
+    SignFlipSum (*sums)[3]; /* R, G, B; a count of 0: nothing of it counts */
 } BlockGrid;
 
 typedef struct BlockFinding {
@@ -32,12 +33,3 @@ BlockFinding statistic_block_finding(const BlockGrid grids[2], NoiseLaw law, dou
 
 /* The least p of a block's channels; NaN where nothing counts. */
 float statistic_block_p(const BlockGrid *grid, int index, NoiseLaw law);
-
-/* Fills regions, region_count, mean_shift and p_regions of `out`; level is the family's. The
- * names are those of the frame's attributes. */
-void statistic_regions(const NoisyPair *pair, const FrameImage *reference, double level,
-                       Arena *arena, StatisticResult *out);
-
-/* Fills `reason` of a result that is otherwise complete. */
-void statistic_reason(const NoisyPair *pair, const BlockGrid grids[2],
-                      const BlockFinding *found, double level, StatisticResult *out);

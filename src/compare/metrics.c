@@ -1,4 +1,4 @@
-#include "compare/figures.h"
+#include "compare/metrics.h"
 
 #include <math.h>
 #include <string.h>
@@ -65,10 +65,10 @@ static Planes planes_of(const Picture *picture, Arena *arena)
 }
 
 /* Both with the reference's exposure. */
-bool figures_develop(const CompareOptions *options, Arena *arena, Comparison *out, Error *err)
+bool metrics_develop(const CompareOptions *options, Arena *arena, Comparison *out, Error *err)
 {
-    if (out->reference.kind != SUBJECT_FRAME) return true;
-    Subject       *sides[2] = {&out->reference, &out->test};
+    if (out->reference.kind != INPUT_FRAME) return true;
+    CompareInput       *sides[2] = {&out->reference, &out->test};
     DevelopReport  report;
     DevelopOptions develop = {.exposure = options->exposure, .own_config = true};
     for (int side = 0; side < 2; side++) {
@@ -104,10 +104,10 @@ static Planes shown_light(const Planes *codes, Arena *arena)
 
 static void measure_errors(unsigned groups, Arena scratch, Comparison *out)
 {
-    bool          is_frame = out->reference.kind == SUBJECT_FRAME;
+    bool          is_frame = out->reference.kind == INPUT_FRAME;
     const Planes *a = is_frame ? &out->light[0] : &out->reference.codes;
     const Planes *b = is_frame ? &out->light[1] : &out->test.codes;
-    PixelErrors   e = metrics_pixel_errors(a, b, out->mask, is_frame, scratch);
+    PixelErrors   e = pixel_errors_measure(a, b, out->mask, is_frame, scratch);
     if (groups & GROUP_MSE) {
         out->value[METRIC_MSE] = e.mse;
         out->value[METRIC_RELMSE] = e.rel_mse;
@@ -116,7 +116,7 @@ static void measure_errors(unsigned groups, Arena scratch, Comparison *out)
         /* A mean of luminance is one of light. */
         PixelErrors light = e;
         if (!is_frame)
-            light = metrics_pixel_errors(&out->light[0], &out->light[1], out->mask, 0, scratch);
+            light = pixel_errors_measure(&out->light[0], &out->light[1], out->mask, 0, scratch);
         out->value[METRIC_MEAN_SHIFT] = light.mean_shift;
     }
     if (groups & GROUP_PSNR) {
@@ -145,7 +145,7 @@ static void measure_flip(const CompareOptions *options, Arena *arena, Comparison
         flip.start_ev = stops_of_ev(options->range_ev[1]);
         flip.stop_ev = stops_of_ev(options->range_ev[0]);
     }
-    if (out->reference.kind == SUBJECT_FRAME) {
+    if (out->reference.kind == INPUT_FRAME) {
         out->exposures = flip_hdr(&out->light[0], &out->light[1], &flip, *arena, out->flip_map,
                                   NULL);
         if (!options->has_range) note_silly_range(out);
@@ -161,7 +161,7 @@ static void measure_flip(const CompareOptions *options, Arena *arena, Comparison
 
 static void measure_colour(Arena *arena, Comparison *out)
 {
-    bool is_frame = out->reference.kind == SUBJECT_FRAME;
+    bool is_frame = out->reference.kind == INPUT_FRAME;
     out->deltae_map = ARENA_NEW(arena, float, planes_pixel_count(&out->light[0]));
     Arena  scratch = *arena;
     Planes a = is_frame ? shown_light(&out->reference.codes, &scratch) : out->light[0];
@@ -263,10 +263,10 @@ static bool measure_statistic(const CompareOptions *options, Arena *arena, Compa
     return true;
 }
 
-bool figures_measure(const CompareOptions *options, unsigned groups, Arena *arena,
+bool metrics_measure(const CompareOptions *options, unsigned groups, Arena *arena,
                      Comparison *out, Error *err)
 {
-    bool is_frame = out->reference.kind == SUBJECT_FRAME;
+    bool is_frame = out->reference.kind == INPUT_FRAME;
     if (options->wants_stat && !is_frame)
         return error_at(err, ERROR_INPUT, out->reference.name, "",
                         "is a picture: only frames tell their noise to a statistical test");

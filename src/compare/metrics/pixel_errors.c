@@ -1,4 +1,4 @@
-#include "compare/metrics/metrics.h"
+#include "compare/metrics/pixel_errors.h"
 
 #include <math.h>
 
@@ -71,7 +71,7 @@ static double psnr_db(double peak, double mse)
     return peak > 0 ? 10 * log10_d(peak * peak / mse) : peak <= 0 ? -INFINITY : NAN;
 }
 
-PixelErrors metrics_pixel_errors(const Planes *reference, const Planes *test, PixelMask mask,
+PixelErrors pixel_errors_measure(const Planes *reference, const Planes *test, PixelMask mask,
                                  bool is_light, Arena scratch)
 {
     double      mean = mean_luminance(reference, mask);

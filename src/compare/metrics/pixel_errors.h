@@ -26,5 +26,5 @@ typedef struct PixelErrors {
 } PixelErrors;
 
 /* is_light: the planes are cd m^-2. */
-PixelErrors metrics_pixel_errors(const Planes *reference, const Planes *test, PixelMask mask,
+PixelErrors pixel_errors_measure(const Planes *reference, const Planes *test, PixelMask mask,
                                  bool is_light, Arena scratch);

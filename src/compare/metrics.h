@@ -1,0 +1,22 @@
+/* metrics.h -- computes what a comparison asks for: metrics, their maps, contrasts, the test.
+ *
+ * Memory   from the arena that is passed in.
+ * Threads  `threads` of the options for FLIP.
+ * Fails    for a frame that cannot be developed, and without noise layers for a test that was
+ *          asked for.
+ */
+#pragma once
+#include "compare/comparison.h"
+
+/* Codes of both frames, developed with one exposure: for those who look at them. Pictures have
+ * theirs. */
+bool metrics_develop(const CompareOptions *options, Arena *arena, Comparison *out, Error *err);
+
+/* Fills light, mask, maps, values, contrasts and the statistic of `out`, whose sides have the
+ * same pixels; adds notes. groups: GROUP_... bits. */
+bool metrics_measure(const CompareOptions *options, unsigned groups, Arena *arena,
+                     Comparison *out, Error *err);
+
+/* EV of a factor 2^stops of light, and back: 18 % grey of exposure.h becomes 0.18. */
+double ev_of_stops(double stops);
+double stops_of_ev(double ev);
