@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 #include "import/importers.h"
+#include "import/set/import_complete.h"
 #include "text/json_view.h"
 
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))

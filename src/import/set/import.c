@@ -8,6 +8,13 @@
 
 #include "base/file.h"
 
+const char *import_source_name(ImportSource source)
+{
+    static const char *const names[] = {"red", "green", "blue", "black", "white", "reflection",
+                                        "dark", "reference"};
+    return names[source];
+}
+
 ImportSet import_set(Arena *arena)
 {
     return (ImportSet){.arena = arena, .white_reflectance = 1,

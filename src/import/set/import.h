@@ -18,6 +18,7 @@
 #define IMPORT_NOTES_MAX 64
 #define IMPORT_FILE_BYTES_MAX ((size_t)1 << 30) /* for file_read: no foreign file is larger */
 #define IMPORT_ROWS_MAX 8000000 /* directions of one table */
+#define SAME_ANGLE_DEG 1e-4     /* angles nearer than this are the same one */
 
 typedef enum ImportSource {
     IMPORT_RED, IMPORT_GREEN, IMPORT_BLUE, IMPORT_BLACK, IMPORT_WHITE, /* emission: XYZ */
@@ -26,6 +27,9 @@ typedef enum ImportSource {
     IMPORT_DARK,     /* what the instrument reads without light; subtracted from every table */
     IMPORT_REFERENCE /* signal of a white reference of known reflectance: signals are divided */
 } ImportSource;
+
+/* "red", "black", "reflection". */
+const char *import_source_name(ImportSource source);
 
 typedef struct ImportTable {
     ImportSource  source;
@@ -87,11 +91,6 @@ bool import_add(ImportSet *set, const ImportTable *table, Error *err);
 
 /* A note that stands there already is not repeated. */
 void import_note(ImportSet *set, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-/* Makes of the tables a set: joins X, Y and Z and wavelengths that lie in several tables, takes
- * the mean where one direction stands twice, gives normal incidence to every azimuth of the
- * light, and checks what import_write needs. */
-bool import_complete(ImportSet *set, Error *err);
 
 /* Writes the tables beside MANIFEST.json (folders emission/ and brdf/), then the manifest. The
  * set is complete. Nothing half-written stays. */

@@ -1,10 +1,12 @@
-/* Tables joined and cleaned by their directions. */
+#include "import/set/import_join.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/file.h"
-#include "import/set/import_parts.h"
+
+#define SAME_NM 1e-3f
 
 /* A direction in steps of SAME_ANGLE_DEG, and its row. */
 typedef struct Place {
@@ -37,6 +39,28 @@ static Place *sorted_places(const ImportTable *table, Arena *arena)
     }
     qsort(place, (size_t)table->rows, sizeof *place, by_place);
     return place;
+}
+
+bool import_same_channels(const ImportTable *a, const ImportTable *b)
+{
+    bool same = a->channels == b->channels && a->component == b->component &&
+                !a->wavelength_nm == !b->wavelength_nm;
+    for (int c = 0; same && a->wavelength_nm && c < a->channels; c++)
+        same = fabsf(a->wavelength_nm[c] - b->wavelength_nm[c]) < SAME_NM;
+    return same;
+}
+
+int *import_match_rows(const ImportTable *table, const ImportTable *other, Arena *arena)
+{
+    int   *match = ARENA_NEW(arena, int, table->rows);
+    Arena  scratch = *arena;
+    Place *from = sorted_places(table, &scratch), *to = sorted_places(other, &scratch);
+    for (int i = 0, k = 0; i < table->rows; i++) {
+        Place wanted = {from[i].theta, from[i].phi, 0};
+        while (k < other->rows && by_place(&to[k], &wanted) < 0) k++;
+        match[from[i].row] = k < other->rows && same_place(&to[k], &wanted) ? to[k].row : -1;
+    }
+    return match;
 }
 
 /* ---- joining ----------------------------------------------------------------------------- */
@@ -77,52 +101,38 @@ typedef struct Joiner {
     const ImportSet *set;
     const int       *part;
     int              count, channels;
-    Place          **place;
-    int             *at; /* one position in each part's places */
+    int            **match; /* for each part but the first: its row of each row of that one */
 } Joiner;
 
-/* Moves every part to the first place not before the one of part 0; false when one ends or
- * lacks it (then *missing). */
-static bool align(Joiner *join, const Place *wanted)
-{
-    bool all = true;
-    for (int k = 1; k < join->count; k++) {
-        const ImportTable *table = &join->set->table[join->part[k]];
-        int *at = &join->at[k];
-        while (*at < table->rows && by_place(&(Place){join->place[k][*at].theta,
-                                                      join->place[k][*at].phi, 0},
-                                             &(Place){wanted->theta, wanted->phi, 0}) < 0)
-            (*at)++;
-        all &= *at < table->rows && same_place(&join->place[k][*at], wanted);
-    }
-    return all;
-}
-
-static void copy_row(const Joiner *join, int first_row, double *value)
+/* False when a part lacks the direction. */
+static bool copy_row(const Joiner *join, int first_row, double *value)
 {
     for (int k = 0; k < join->count; k++) {
         const ImportTable *table = &join->set->table[join->part[k]];
-        int    row = k ? join->place[k][join->at[k]].row : first_row;
+        int    row = k ? join->match[k][first_row] : first_row;
         size_t size = (size_t)table->channels;
+        if (row < 0) return false;
         memcpy(value, table->value + (size_t)row * size, sizeof *value * size);
         value += size;
     }
+    return true;
 }
 
-static void join_rows(Joiner *join, Arena *arena, ImportTable *joined)
+static void join_rows(const Joiner *join, Arena *arena, ImportTable *joined)
 {
     const ImportTable *first = &join->set->table[join->part[0]];
+    size_t  size = (size_t)join->channels;
     double *theta = ARENA_NEW(arena, double, first->rows);
     double *phi = ARENA_NEW(arena, double, first->rows);
-    double *value = ARENA_NEW(arena, double, (size_t)first->rows * (size_t)join->channels);
+    double *value = ARENA_NEW(arena, double, (size_t)first->rows * size);
+    Arena   scratch = *arena;
+    Place  *place = sorted_places(first, &scratch);
     int     rows = 0;
     for (int i = 0; i < first->rows; i++) {
-        int row = join->place[0][i].row;
-        if (!align(join, &join->place[0][i])) continue;
+        int row = place[i].row;
+        if (!copy_row(join, row, value + (size_t)rows * size)) continue;
         theta[rows] = first->theta_deg[row];
-        phi[rows] = first->phi_deg[row];
-        copy_row(join, row, value + (size_t)rows * (size_t)join->channels);
-        rows++;
+        phi[rows++] = first->phi_deg[row];
     }
     joined->theta_deg = theta;
     joined->phi_deg = phi;
@@ -136,14 +146,13 @@ bool import_join_tables(ImportSet *set, const int *part, int count, ImportTable 
 {
     int   *sorted = ARENA_NEW(set->arena, int, count), most = 0;
     Joiner join = {.set = set, .part = sorted, .count = count,
-                   .place = ARENA_NEW(set->arena, Place *, count),
-                   .at = ARENA_NEW(set->arena, int, count)};
+                   .match = ARENA_NEW(set->arena, int *, count)};
     sort_parts(set, part, count, sorted);
     *joined = set->table[sorted[0]];
     joined->masked = 0;
     for (int k = 0; k < count; k++) {
         const ImportTable *table = &set->table[sorted[k]];
-        join.place[k] = sorted_places(table, set->arena);
+        if (k) join.match[k] = import_match_rows(&set->table[sorted[0]], table, set->arena);
         join.channels += table->channels;
         most = table->rows > most ? table->rows : most;
         if (table->masked > joined->masked) {
@@ -215,18 +224,12 @@ void import_remove_tables(ImportSet *set, const int *part, int count, int keep)
     set->count = kept;
 }
 
-int *import_match_rows(const ImportTable *table, const ImportTable *other, Arena *arena)
+void import_remove_source(ImportSet *set, ImportSource source)
 {
-    Place *from = sorted_places(table, arena), *to = sorted_places(other, arena);
-    int   *match = ARENA_NEW(arena, int, table->rows);
-    for (int i = 0, k = 0; i < table->rows; i++) {
-        Place wanted = {from[i].theta, from[i].phi, 0};
-        while (k < other->rows && (to[k].theta < wanted.theta ||
-                                   (to[k].theta == wanted.theta && to[k].phi < wanted.phi)))
-            k++;
-        match[from[i].row] = k < other->rows && same_place(&to[k], &wanted) ? to[k].row : -1;
-    }
-    return match;
+    int kept = 0;
+    for (int i = 0; i < set->count; i++)
+        if (set->table[i].source != source) set->table[kept++] = set->table[i];
+    set->count = kept;
 }
 
 /* ---- a direction once -------------------------------------------------------------------- */
@@ -276,15 +279,13 @@ void import_merge_directions(ImportSet *set)
     int total = 0, tables = 0;
     for (int i = 0; i < set->count; i++) {
         ImportTable *table = &set->table[i];
-        Arena scratch = *set->arena;
-        int  *leader = ARENA_NEW(&scratch, int, table->rows);
-        int   repeats = find_repeats(table, scratch, leader);
-        if (!repeats) continue;
-        int *kept = ARENA_NEW(set->arena, int, table->rows);
-        find_repeats(table, *set->arena, kept);
-        take_means(table, kept, table->rows - repeats, set->arena);
+        Arena before = *set->arena;
+        int  *leader = ARENA_NEW(set->arena, int, table->rows);
+        int   repeats = find_repeats(table, *set->arena, leader);
+        if (repeats) take_means(table, leader, table->rows - repeats, set->arena);
+        else *set->arena = before;
         total += repeats;
-        tables++;
+        tables += repeats > 0;
     }
     if (total)
         import_note(set,

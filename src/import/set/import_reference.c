@@ -1,25 +1,14 @@
-/* What an instrument reads without light, and white references: taken out of the set again. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
+#include "import/set/import_reference.h"
 
-#include "base/units.h"
+#include <math.h>
+
 #include "base/file.h"
-#include "import/set/import_parts.h"
-#include "spectrum/spectral_table.h"
+#include "base/units.h"
+#include "import/set/import_join.h"
 
 static bool is_helper(const ImportTable *table)
 {
     return table->source == IMPORT_DARK || table->source == IMPORT_REFERENCE;
-}
-
-static bool same_channels(const ImportTable *a, const ImportTable *b)
-{
-    bool same = a->channels == b->channels && a->component == b->component &&
-                !a->wavelength_nm == !b->wavelength_nm;
-    for (int c = 0; same && a->wavelength_nm && c < a->channels; c++)
-        same = fabsf(a->wavelength_nm[c] - b->wavelength_nm[c]) < 1e-3f;
-    return same;
 }
 
 static bool same_light(const ImportTable *a, const ImportTable *b)
@@ -34,7 +23,7 @@ static bool find_helper(const ImportSet *set, const ImportTable *table, ImportSo
     const ImportTable *found[2] = {NULL, NULL};
     for (int i = 0; i < set->count; i++) {
         const ImportTable *one = &set->table[i];
-        if (one->source != source || !same_channels(one, table)) continue;
+        if (one->source != source || !import_same_channels(one, table)) continue;
         bool any = source == IMPORT_DARK || one->is_any_light;
         if (!any && !same_light(one, table)) continue;
         if (found[any])
@@ -129,7 +118,7 @@ static bool is_used(const ImportSet *set, const ImportTable *helper)
 {
     for (int i = 0; i < set->count; i++) {
         const ImportTable *table = &set->table[i];
-        if (!is_helper(table) && same_channels(table, helper) &&
+        if (!is_helper(table) && import_same_channels(table, helper) &&
             (helper->source == IMPORT_DARK || helper->is_any_light ||
              same_light(table, helper)))
             return true;
@@ -152,51 +141,7 @@ bool import_apply_references(ImportSet *set, Error *err)
         if (set->table[i].is_signal && set->table[i].source == IMPORT_REFLECTION &&
             !divide_reference(set, &set->table[i], err))
             return false;
-    int kept = 0;
-    for (int i = 0; i < set->count; i++)
-        if (!is_helper(&set->table[i])) set->table[kept++] = set->table[i];
-    set->count = kept;
+    import_remove_source(set, IMPORT_DARK);
+    import_remove_source(set, IMPORT_REFERENCE);
     return true;
-}
-
-/* ---- luminance without colour ------------------------------------------------------------ */
-
-/* X/Y and Z/Y of a spectrum, by the trapezoidal rule over its own wavelengths. */
-static bool spectrum_ratios(const ImportSpectra *spectra, const double *value, double ratio[2])
-{
-    double sum[3] = {0, 0, 0};
-    for (int i = 1; i < spectra->rows; i++) {
-        double step = spectra->nm[i] - spectra->nm[i - 1];
-        for (int k = i - 1; k <= i; k++) {
-            int at = (int)lround(spectra->nm[k]) - SPECTRAL_FIRST_NM;
-            if (at < 0 || at >= SPECTRAL_COUNT) continue;
-            sum[0] += 0.5 * step * value[k] * (double)spectral_table[at].x;
-            sum[1] += 0.5 * step * value[k] * (double)spectral_table[at].y;
-            sum[2] += 0.5 * step * value[k] * (double)spectral_table[at].z;
-        }
-    }
-    if (!(sum[1] > 0)) return false;
-    ratio[0] = sum[0] / sum[1];
-    ratio[1] = sum[2] / sum[1];
-    return true;
-}
-
-void import_add_colour(ImportSet *set, ImportTable *table)
-{
-    double ratio[2] = {0.95047, 1.08883}; /* D65, CIE 15 */
-    bool   measured = table->source <= IMPORT_BLUE && set->spectra.rows &&
-                      spectrum_ratios(&set->spectra, set->spectra.value[table->source], ratio);
-    double *value = ARENA_NEW(set->arena, double, 3 * (size_t)table->rows);
-    for (size_t i = 0; i < (size_t)table->rows; i++) {
-        value[3 * i] = ratio[0] * table->value[i];
-        value[3 * i + 1] = table->value[i];
-        value[3 * i + 2] = ratio[1] * table->value[i];
-    }
-    table->value = value;
-    table->channels = 3;
-    table->component = 0;
-    import_note(set, measured ? "luminance alone was measured: the colour is that of the "
-                                "primaries' spectra at every angle"
-                              : "luminance alone was measured: the colour is taken as D65 "
-                                "(x 0.3127, y 0.3290) at every angle");
 }

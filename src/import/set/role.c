@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "import/set/import_parts.h"
 
 #define WORDS_MAX 64
 #define WORD_LENGTH 24
