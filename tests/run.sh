@@ -14,6 +14,7 @@ run 'no shell, no network, no mapped file' calls python3 tests/structure/calls.p
 
 if run_one 'release build, warnings are errors' build-release build release all; then
     run 'libraries keep no state' globals sh tests/structure/globals.sh .build/release
+    run 'kernels keep their vectors' kernels python3 tests/structure/kernels.py .build/release
     run 'no function that differs by CPU' libm sh tests/structure/libm.sh .build/release
     run_units 'unit tests' unit .build/release
     start 'the command line' cli python3 tests/hostile/cli.py .build/release/parhelion

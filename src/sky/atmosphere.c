@@ -206,10 +206,10 @@ static Gathered march(const Builder *b, const Ray *ray)
         const DiffuseLight *light = light_at(b, at.sun_cosine, &t);
         /* the source sends towards the eye: against the ray */
         float c = (float)-at.cosine, z = (float)-at.azimuth_cosine;
-        sum.rest += seen * (diffuse_light_source(&light[0], at.altitude, c, z) *
-                                spectrum_all(1 - t) +
-                            diffuse_light_source(&light[1], at.altitude, c, z) *
-                                spectrum_all(t));
+        Spectrum source[2];
+        diffuse_light_source(&light[0], at.altitude, c, z, &source[0]);
+        diffuse_light_source(&light[1], at.altitude, c, z, &source[1]);
+        sum.rest += seen * (source[0] * spectrum_all(1 - t) + source[1] * spectrum_all(t));
         passing *= spectrum_exp(-depth);
         from = to;
     }

@@ -288,8 +288,8 @@ void diffuse_light_build(const DiffuseInput *input, Arena *arena, DiffuseLight *
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
-Spectrum diffuse_light_source(const DiffuseLight *light, double altitude_m, float cosine,
-                              float azimuth_cosine)
+void diffuse_light_source(const DiffuseLight *light, double altitude_m, float cosine,
+                          float azimuth_cosine, Spectrum *out)
 {
     double share = fmax(0, (altitude_m - light->floor_m) / (AIR_TOP_M - light->floor_m));
     double at = fmin(pow_d(share, 1 / 2.2) * (DIFFUSE_LEVELS - 1), DIFFUSE_LEVELS - 1.0001);
@@ -312,5 +312,5 @@ Spectrum diffuse_light_source(const DiffuseLight *light, double altitude_m, floa
         before = now;
         now = next;
     }
-    return sum;
+    *out = sum;
 }

@@ -39,6 +39,6 @@ typedef struct DiffuseInput {
 void diffuse_light_build(const DiffuseInput *input, Arena *arena, DiffuseLight *out);
 
 /* Source at an altitude towards a direction (cosine to the zenith, cosine of its azimuth from
- * the sun's). */
-Spectrum diffuse_light_source(const DiffuseLight *light, double altitude_m, float cosine,
-                              float azimuth_cosine);
+ * the sun's). By pointer, because every build of the hot sources calls this one. */
+void diffuse_light_source(const DiffuseLight *light, double altitude_m, float cosine,
+                          float azimuth_cosine, Spectrum *out);
