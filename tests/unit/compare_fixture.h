@@ -1,9 +1,6 @@
 /* compare_fixture.h -- small frames and pictures to compare, and what is said about them. */
 #pragma once
-#include "check.h"
-
-#include <string.h>
-#include <unistd.h>
+#include "fixture.h"
 
 #include "compare/compare.h"
 
@@ -94,8 +91,3 @@ static inline bool has_note(const Comparison *c, const char *part)
 static const Threshold ANYTHING = {METRIC_DIFFERING, 1};
 static const CompareOptions LOOSE = {.groups = GROUP_MSE, .thresholds = &ANYTHING,
                                      .threshold_count = 1};
-
-static inline const char *temporary(const char *name, Arena *arena)
-{
-    return arena_format(arena, "%s/parhelion-compare-%d-%s", P_tmpdir, (int)getpid(), name);
-}

@@ -1,7 +1,7 @@
 /* light_fixture.h -- what tests of lights share: random numbers, means with their error, and
  * the illuminance that a set of lights gives by its own samples. */
 #pragma once
-#include "check.h"
+#include "fixture.h"
 
 #include "base/units.h"
 #include "light/light.h"

@@ -3,10 +3,7 @@
  * Memory   frames come from the arena that is passed in.
  */
 #pragma once
-#include "check.h"
-
-#include <stdlib.h>
-#include <string.h>
+#include "fixture.h"
 
 #include "base/sampler.h"
 #include "compare/statistic/statistic.h"
@@ -14,11 +11,6 @@
 #define WIDTH 48
 #define HEIGHT 32
 #define PIXELS (WIDTH * HEIGHT)
-
-#define assert_text_has(text, part)                                                            \
-    do {                                                                                       \
-        if (!strstr(text, part)) fail_msg("\"%s\" does not say \"%s\"", text, part);           \
-    } while (0)
 
 /* ---- frames of known noise --------------------------------------------------------------- */
 

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/units.h"
-#include "check.h"
+#include "fixture.h"
 #include "sky/diffuse_light.h"
 #include "sky/daylight.h"
 #include "sky/sun_disc.h"
@@ -90,8 +90,7 @@ static void phase_functions_integrate_to_one(void **state)
  * floor, times 1 - albedo, is what does not leave at the top. */
 static void air_without_absorption_keeps_the_light(void **state)
 {
-    (void)state;
-    Arena     arena = arena_reserve((size_t)1 << 30);
+    Arena     arena = test_arena(state);
     Air       air = usual;
     air.ozone_atm_cm = 0;
     AirOptics optics = air_optics(&air);
@@ -107,13 +106,11 @@ static void air_without_absorption_keeps_the_light(void **state)
             assert_close(taken + given, 0.8, 6e-3);
         }
     }
-    arena_release(&arena);
 }
 
 static void orders_of_scattering_add_up_to_the_whole(void **state)
 {
-    (void)state;
-    Arena     arena = arena_reserve((size_t)1 << 30);
+    Arena     arena = test_arena(state);
     AirOptics optics = air_optics(&usual);
     float     before = 0;
     for (int orders = 1; orders <= 8; orders++) {
@@ -128,15 +125,13 @@ static void orders_of_scattering_add_up_to_the_whole(void **state)
     DiffuseInput input = {&optics, 0, 0.2, 0.7, 0};
     diffuse_light_build(&input, &arena, &whole);
     assert_close(before, whole.ground_diffuse[2], 0.01);
-    arena_release(&arena);
 }
 
 /* ---- figures ----------------------------------------------------------------------------- */
 
 static void the_sky_gives_what_spectrl2_says(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve((size_t)2 << 30);
+    Arena arena = test_arena(state);
     static const double zenith_deg[] = {0, 30, 48.2, 60, 75};
     for (int i = 0; i < 5; i++) {
         Arena      scratch = arena;
@@ -157,13 +152,11 @@ static void the_sky_gives_what_spectrl2_says(void **state)
                zenith_deg[i], sums[0] / sums[1]);
         assert_in(sums[0] / sums[1], 0.97, 1.13);
     }
-    arena_release(&arena);
 }
 
 static void steps_and_tables_have_converged(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve((size_t)4 << 30);
+    Arena arena = test_arena(state);
     for (int low = 0; low <= 1; low++) {
         AtmosphereInput input = {usual, low ? 11000 : 0, 0, low ? 0.03 : 0.7, 2, 0};
         Atmosphere coarse, fine;
@@ -182,13 +175,11 @@ static void steps_and_tables_have_converged(void **state)
                100 * worst);
         assert_in(worst, 0, 0.02);
     }
-    arena_release(&arena);
 }
 
 static void the_sky_darkens_with_altitude_and_the_sun_gains(void **state)
 {
-    (void)state;
-    Arena  arena = arena_reserve((size_t)4 << 30);
+    Arena  arena = test_arena(state);
     double zenith = 1e9, sun = 0;
     for (double altitude = 0; altitude <= 15000; altitude += 3000) {
         Arena      scratch = arena;
@@ -198,13 +189,11 @@ static void the_sky_darkens_with_altitude_and_the_sun_gains(void **state)
         zenith = now;
         sun = (double)a.sun_passing[8];
     }
-    arena_release(&arena);
 }
 
 static void an_airliner_sees_126_klx_of_sun_and_a_dipped_horizon(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve((size_t)2 << 30);
+    Arena        arena = test_arena(state);
     OutsideInput input = outside_input_default(OUTSIDE_CLEAR);
     Outside     *out = arena_alloc(&arena, sizeof *out, 64, 1);
     Error        err;
@@ -218,13 +207,11 @@ static void an_airliner_sees_126_klx_of_sun_and_a_dipped_horizon(void **state)
     assert_in(out->figures.horizon_deg, -3.1, -2.9);  /* of the deck, 2000 m high */
     assert_in(out->figures.floor_cd_m2, 24000, 33000); /* AS8034's forward field: 34,300 */
     assert_true(outside_luminance(out, -0.06f, 1) > 3000);
-    arena_release(&arena);
 }
 
 static void the_drawn_sky_integrates_to_its_stated_illuminance(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve((size_t)4 << 30);
+    Arena arena = test_arena(state);
     for (int kind = 0; kind < 5; kind++) {
         Arena        scratch = arena;
         Outside     *out = arena_alloc(&scratch, sizeof *out, 64, 1);
@@ -246,13 +233,11 @@ static void the_drawn_sky_integrates_to_its_stated_illuminance(void **state)
             }
         assert_close(sum, out->figures.diffuse_horizontal_lx, 1e-3);
     }
-    arena_release(&arena);
 }
 
 static void spectral_radiance_has_the_stated_luminance(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve((size_t)2 << 30);
+    Arena arena = test_arena(state);
     for (int kind = 0; kind < 3; kind++) {
         Arena        scratch = arena;
         Outside     *out = arena_alloc(&scratch, sizeof *out, 64, 1);
@@ -278,13 +263,11 @@ static void spectral_radiance_has_the_stated_luminance(void **state)
         double disc = PI * pow(sin(out->sun_radius), 2);
         assert_close(sun * disc, out->figures.direct_normal_lx, 3e-3);
     }
-    arena_release(&arena);
 }
 
 static void twilight_fades_and_night_is_told(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve((size_t)2 << 30);
+    Arena arena = test_arena(state);
     static const double elevation_deg[] = {0, -2, -4, -6};
     double before = 3000;
     for (int i = 0; i < 4; i++) {
@@ -310,13 +293,11 @@ static void twilight_fades_and_night_is_told(void **state)
     input.direct_w_m2 = 0, input.diffuse_w_m2 = 10;
     assert_false(outside_build(&input, &scratch, out, &err));
     assert_non_null(strstr(err.text, "below the horizon"));
-    arena_release(&arena);
 }
 
 static void what_makes_no_sky_is_refused(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve((size_t)2 << 30);
+    Arena        arena = test_arena(state);
     Outside     *out = arena_alloc(&arena, sizeof *out, 64, 1);
     OutsideInput input = outside_input_default(OUTSIDE_CLEAR);
     Error        err;
@@ -329,7 +310,6 @@ static void what_makes_no_sky_is_refused(void **state)
     input = outside_input_default(OUTSIDE_CIE);
     input.cie_type = 17;
     assert_false(outside_build(&input, &arena, out, &err));
-    arena_release(&arena);
 }
 
 int main(void)
@@ -349,5 +329,5 @@ int main(void)
         cmocka_unit_test(twilight_fades_and_night_is_told),
         cmocka_unit_test(what_makes_no_sky_is_refused),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_arena, drop_arena);
 }

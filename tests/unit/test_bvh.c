@@ -1,4 +1,4 @@
-#include "check.h"
+#include "fixture.h"
 
 #include "base/sampler.h"
 #include "bvh/bvh.h"
@@ -65,13 +65,12 @@ static int hits(const Scene *scene, uint32_t triangle, Ray ray, double *t)
 
 static void the_nearest_of_all_triangles_is_hit(void **state)
 {
-    Arena arena = arena_reserve(1 << 28);
+    Arena arena = test_arena(state);
     Scene *scene = soup(&arena, 300, 100);
     Bvh *bvh;
     Error err;
     int disagree = 0;
     uint32_t random = 3;
-    (void)state;
     assert_true(bvh_create(scene, 1, NULL, &bvh, &err));
     for (int i = 0; i < 3000; i++) {
         Ray ray = {random_point(&random, 3), vec3_normalize(random_point(&random, 2)), 0,
@@ -86,7 +85,6 @@ static void the_nearest_of_all_triangles_is_hit(void **state)
     }
     assert_true(disagree <= 3); /* rays through an edge may differ by rounding */
     bvh_destroy(bvh);
-    arena_release(&arena);
 }
 
 typedef struct Asked {
@@ -107,8 +105,7 @@ static bool half_passes(void *user, const Hit *hit)
 
 static void a_shadow_ray_asks_every_window_once(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 28);
+    Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
     Material window = builder_material(1);
     Bvh *bvh;
@@ -127,13 +124,11 @@ static void a_shadow_ray_asks_every_window_once(void **state)
     ray.t_max = 30; /* now the opaque wall stands in the way */
     assert_true(bvh_occluded(bvh, ray, half_passes, &asked));
     bvh_destroy(bvh);
-    arena_release(&arena);
 }
 
 static void rays_that_are_not_finite_hit_nothing_and_light_nothing(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 28);
+    Arena arena = test_arena(state);
     Scene *scene = soup(&arena, 50, 0);
     Bvh *bvh;
     Error err;
@@ -153,13 +148,11 @@ static void rays_that_are_not_finite_hit_nothing_and_light_nothing(void **state)
         assert_true(bvh_occluded(bvh, bad[i], NULL, NULL));
     }
     bvh_destroy(bvh);
-    arena_release(&arena);
 }
 
 static void an_empty_scene_is_hit_nowhere(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 28);
+    Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
     Bvh *bvh;
     Error err;
@@ -168,7 +161,6 @@ static void an_empty_scene_is_hit_nowhere(void **state)
     assert_false(bvh_intersect(bvh, (Ray){vec3(0, 0, 0), vec3(0, 0, 1), 0, INFINITY}, &hit));
     bvh_destroy(bvh);
     bvh_destroy(NULL);
-    arena_release(&arena);
 }
 
 int main(void)
@@ -179,5 +171,5 @@ int main(void)
         cmocka_unit_test(rays_that_are_not_finite_hit_nothing_and_light_nothing),
         cmocka_unit_test(an_empty_scene_is_hit_nowhere),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_arena, drop_arena);
 }

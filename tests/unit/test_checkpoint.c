@@ -1,56 +1,34 @@
 /* What a checkpoint keeps is what it gives back; whatever is not whole is refused in one line
  * that says why. */
-#include "check.h"
+#include "fixture.h"
 
-#include <dirent.h>
 #include <signal.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <unistd.h>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "base/file.h"
 #include "base/sampler.h"
 #include "film/film_state.h"
 #include "film/pixels.h"
 #include "render/checkpoint.h"
 
-enum { ARENA_BYTES = 1 << 26, WIDTH = 7, HEIGHT = 5, FIRST = 3, SAMPLES = 40 };
+enum { WIDTH = 7, HEIGHT = 5, FIRST = 3, SAMPLES = 40 };
 
 static const FilmRect crop = {1, 2, 6, 5};
-static char folder[64] = "checkpoint-XXXXXX";
-static char path[100];
+static char path[2 * FOLDER_BYTES];
 
-static int make_folder(void **state)
+static int make_checkpoint_path(void **state)
 {
-    (void)state;
-    if (!mkdtemp(folder)) return -1;
-    snprintf(path, sizeof path, "%s/a.checkpoint", folder);
+    if (make_folder(state)) return -1;
+    snprintf(path, sizeof path, "%s", in_folder("a.checkpoint"));
     return 0;
 }
 
-static int remove_folder(void **state)
+static int remove_checkpoint(void **state)
 {
-    (void)state;
     unlink(path);
-    return rmdir(folder); /* fails when a test left anything behind */
-}
-
-static int make_arena(void **state)
-{
-    static Arena arena;
-    arena = arena_reserve(ARENA_BYTES);
-    *state = &arena;
-    return 0;
-}
-
-static int drop_arena(void **state)
-{
-    arena_release(*state);
-    return 0;
+    return remove_folder(state);
 }
 
 /* ---- films ------------------------------------------------------------------------------- */
@@ -365,8 +343,8 @@ static void what_is_no_file_is_no_checkpoint(void **state)
     assert_false(checkpoint_open(path, arena, &found, &err));
     assert_string_equal(err.text, "is not a checkpoint");
     unlink(path);
-    assert_false(checkpoint_is_there(folder));
-    assert_false(checkpoint_open(folder, arena, &found, &err));
+    assert_false(checkpoint_is_there(test_folder()));
+    assert_false(checkpoint_open(test_folder(), arena, &found, &err));
     assert_string_equal(err.text, "is not a checkpoint");
 }
 
@@ -395,28 +373,22 @@ static void a_full_disk_leaves_the_old_one_untouched(void **state)
         assert_int_equal(now.size, old.size);
         assert_memory_equal(now.data, old.data, old.size);
     }
-    int  names = 0;
-    DIR *list = opendir(folder);
-    assert_non_null(list);
-    while (readdir(list)) names++;
-    closedir(list);
-    assert_int_equal(names, 3); /* ".", ".." and the old one */
+    assert_int_equal(files_in_folder(), 1); /* the old one */
 }
-
-#define CASE(name) cmocka_unit_test_setup_teardown(name, make_arena, drop_arena)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        CASE(packed_rows_hold_every_bit),
-        CASE(rows_that_no_film_packs_are_refused),
-        CASE(what_is_kept_comes_back),
-        CASE(it_fits_the_same_pixels_and_as_many_samples_or_more),
-        CASE(every_prefix_is_refused),
-        CASE(every_changed_byte_is_refused),
-        CASE(each_fault_has_its_line),
-        CASE(what_is_no_file_is_no_checkpoint),
-        CASE(a_full_disk_leaves_the_old_one_untouched),
+        cmocka_unit_test(packed_rows_hold_every_bit),
+        cmocka_unit_test(rows_that_no_film_packs_are_refused),
+        cmocka_unit_test(what_is_kept_comes_back),
+        cmocka_unit_test(it_fits_the_same_pixels_and_as_many_samples_or_more),
+        cmocka_unit_test(every_prefix_is_refused),
+        cmocka_unit_test(every_changed_byte_is_refused),
+        cmocka_unit_test(each_fault_has_its_line),
+        cmocka_unit_test(what_is_no_file_is_no_checkpoint),
+        cmocka_unit_test(a_full_disk_leaves_the_old_one_untouched),
     };
-    return cmocka_run_group_tests_name("checkpoint", tests, make_folder, remove_folder);
+    return cmocka_run_group_tests_name("checkpoint", tests, make_checkpoint_path,
+                                       remove_checkpoint);
 }

@@ -1,7 +1,5 @@
 /* The option parser: values, and the text of every error. */
-#include "check.h"
-
-#include <string.h>
+#include "fixture.h"
 
 #include "cli/options/cli.h"
 #include "base/parallel.h"
@@ -264,20 +262,6 @@ static void warnings_are_listed_once_each(void **state)
     json_decref(errors);
 }
 
-static int set_up(void **state)
-{
-    static Arena arena;
-    arena = arena_reserve(1 << 22);
-    *state = &arena;
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    arena_release(*state);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -293,5 +277,5 @@ int main(void)
         cmocka_unit_test(an_error_line_puts_the_place_before_the_advice),
         cmocka_unit_test(warnings_are_listed_once_each),
     };
-    return cmocka_run_group_tests_name("cli", tests, set_up, tear_down);
+    return cmocka_run_group_tests_name("cli", tests, make_arena, drop_arena);
 }

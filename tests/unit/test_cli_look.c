@@ -1,19 +1,10 @@
 /* develop and measure as scripts use them: exit statuses, answers, what is left behind. */
-#include "check.h"
+#include "fixture.h"
 
 #include <jansson.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include "base/file.h"
 #include "image/frame.h"
 #include "image/image.h"
-
-enum { ARENA_BYTES = 1 << 26 };
-
-static char folder[64] = "look-XXXXXX";
 
 typedef struct Outcome {
     int  status;
@@ -25,20 +16,13 @@ static Outcome run(const char *words)
 {
     Outcome outcome;
     char    line[1024];
-    snprintf(line, sizeof line, "cd %s && unset OCIO && %s %s %s", folder, PROGRAM, words,
-             strstr(words, "2>&1") ? "" : "2>/dev/null");
+    snprintf(line, sizeof line, "cd %s && unset OCIO && %s %s %s", test_folder(), PROGRAM,
+             words, strstr(words, "2>&1") ? "" : "2>/dev/null");
     FILE  *pipe = popen(line, "r");
     size_t size = fread(outcome.out, 1, sizeof outcome.out - 1, pipe);
     outcome.out[size] = '\0';
     outcome.status = WEXITSTATUS(pclose(pipe));
     return outcome;
-}
-
-static const char *in_folder(const char *name)
-{
-    static char path[200];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    return path;
 }
 
 static void add(FrameImage *frame, const char *name, float left, float right, Arena *arena)
@@ -47,15 +31,22 @@ static void add(FrameImage *frame, const char *name, float left, float right, Ar
     for (int i = 0; i < 12 * 8; i++) plane[i] = i % 12 < 6 ? left : right;
 }
 
+static int remove_pictures(void **state)
+{
+    static const char *const NAMES[] = {"f.exr", "a.png", "b.png", "c.tif", "d.jpg", "e.png"};
+    for (size_t i = 0; i < sizeof NAMES / sizeof *NAMES; i++) unlink(in_folder(NAMES[i]));
+    return remove_folder(state);
+}
+
 /* A display of 100 cd/m2 at the left, a wall of 300 cd/m2 at the right. */
 static int write_frame(void **state)
 {
     static const char *const DISPLAY[] = {"white", "black", "reflected"};
     static const float       LEVELS[] = {400, 1, 4};
-    Arena      arena = arena_reserve(ARENA_BYTES);
+    if (make_folder(state)) return -1;
+    Arena      arena = test_arena(state);
     FrameImage frame = frame_create(12, 8, (ExrWindow){0, 0, 12, 8}, 20, 5, &arena);
     Error      err = {0};
-    (void)state;
     for (int c = 0; c < 3; c++) {
         char name[64];
         add(&frame, (char[]){"RGB"[c], 0}, 100, 300, &arena);
@@ -68,17 +59,7 @@ static int write_frame(void **state)
     }
     add(&frame, "id.display", 0, -1, &arena);
     frame_set_string(&frame, "parhelion:display.0", "cluster", &arena);
-    if (!mkdtemp(folder) || !frame_write(in_folder("f.exr"), &frame, &err)) return -1;
-    arena_release(&arena);
-    return 0;
-}
-
-static int remove_folder(void **state)
-{
-    static const char *const NAMES[] = {"f.exr", "a.png", "b.png", "c.tif", "d.jpg", "e.png"};
-    (void)state;
-    for (size_t i = 0; i < sizeof NAMES / sizeof *NAMES; i++) unlink(in_folder(NAMES[i]));
-    return rmdir(folder); /* fails when anything else was left behind */
+    return frame_write(in_folder("f.exr"), &frame, &err) ? 0 : -1;
 }
 
 static json_t *answer(const Outcome *outcome)
@@ -98,9 +79,8 @@ static double number(const json_t *document, const char *key)
 
 static void develop_writes_what_it_says(void **state)
 {
-    (void)state;
     Outcome o = run("develop f.exr -o a.png --exposure white:500 --view untonemapped");
-    Arena   arena = arena_reserve(ARENA_BYTES);
+    Arena   arena = test_arena(state);
     Image   image;
     Error   err = {0};
     assert_int_equal(o.status, 0);
@@ -111,7 +91,6 @@ static void develop_writes_what_it_says(void **state)
     /* 100/500 and 300/500 through the sRGB curve */
     assert_int_equal(((const uint8_t *)image.pixels)[0], 124);
     assert_int_equal(((const uint8_t *)image.pixels)[4 * 11], 203);
-    arena_release(&arena);
 }
 
 static void develop_answers_in_json(void **state)
@@ -216,5 +195,5 @@ int main(void)
         cmocka_unit_test(measure_gives_the_figures_of_a_display),
         cmocka_unit_test(measure_gives_the_figures_of_a_region),
     };
-    return cmocka_run_group_tests(tests, write_frame, remove_folder);
+    return cmocka_run_group_tests(tests, write_frame, remove_pictures);
 }

@@ -1,7 +1,5 @@
 /* What the user types after `parhelion render`, and what it does to a scene. */
-#include "check.h"
-
-#include <string.h>
+#include "fixture.h"
 
 #include "base/units.h"
 #include "cli/render/render_command.h"
@@ -198,20 +196,6 @@ static void a_camera_is_found_by_node_then_by_camera_then_by_place(void **state)
     assert_true(found.yfov > 0 && found.world_from_camera.origin.z == 0);
 }
 
-static int set_up(void **state)
-{
-    static Arena arena;
-    arena = arena_reserve(1 << 22);
-    *state = &arena;
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    arena_release(*state);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -222,5 +206,5 @@ int main(void)
         cmocka_unit_test(what_makes_no_sky_is_refused_by_name),
         cmocka_unit_test(a_camera_is_found_by_node_then_by_camera_then_by_place),
     };
-    return cmocka_run_group_tests_name("cli_request", tests, set_up, tear_down);
+    return cmocka_run_group_tests_name("cli_request", tests, make_arena, drop_arena);
 }

@@ -1,15 +1,10 @@
 /* The program as its users start it: exit statuses, outputs, interruption. */
-#include "check.h"
+#include "fixture.h"
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <jansson.h>
 #include <signal.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "image/frame.h"
 
@@ -42,8 +37,6 @@ typedef struct Outcome {
     char out[16384], err[16384];
 } Outcome;
 
-static char folder[256];
-
 /* ---- running ----------------------------------------------------------------------------- */
 
 static pid_t start(const char *const *words, int out, int err)
@@ -52,7 +45,7 @@ static pid_t start(const char *const *words, int out, int err)
     for (int i = 0; words[i]; i++) argv[i + 1] = (char *)(uintptr_t)words[i];
     pid_t child = fork();
     if (child != 0) return child;
-    if (chdir(folder)) _exit(99);
+    if (chdir(test_folder())) _exit(99);
     dup2(out, STDOUT_FILENO);
     dup2(err, STDERR_FILENO);
     execv(PROGRAM, argv);
@@ -85,25 +78,17 @@ static void run(const char *const *words, Outcome *outcome)
 
 #define RUN(outcome, ...) run((const char *const[]){__VA_ARGS__, NULL}, (outcome))
 
-static char *in_folder(char path[512], const char *name)
-{
-    snprintf(path, 512, "%s/%s", folder, name);
-    return path;
-}
-
 static FrameImage read_frame(const char *name, Arena *arena)
 {
-    char       path[512];
     FrameImage frame = {0};
     Error      err = {0};
-    if (!frame_read(in_folder(path, name), arena, &frame, &err)) fail_msg("%s", err.text);
+    if (!frame_read(in_folder(name), arena, &frame, &err)) fail_msg("%s", err.text);
     return frame;
 }
 
 static bool exists(const char *name)
 {
-    char path[512];
-    return access(in_folder(path, name), F_OK) == 0;
+    return access(in_folder(name), F_OK) == 0;
 }
 
 static double whole_attribute(const FrameImage *frame, const char *name)
@@ -192,23 +177,20 @@ static void a_missing_input_is_status_3_and_named(void **state)
 
 static void a_picture_with_negative_light_is_told_of(void **state)
 {
-    (void)state;
     Outcome    o;
     Error      err = {0};
-    Arena      arena = arena_reserve(1 << 22);
+    Arena      arena = test_arena(state);
     FrameImage picture = frame_create(8, 4, (ExrWindow){0, 0, 8, 4}, 3, 8, &arena);
     for (int c = 0; c < 3; c++) {
         float *values = frame_add_channel(&picture, c == 0 ? "R" : c == 1 ? "G" : "B", false,
                                           &arena);
         for (int i = 0; i < 32; i++) values[i] = c == 1 && i % 16 == 3 ? -1.0f : 10.0f;
     }
-    char path[512];
-    assert_true(frame_write(in_folder(path, "negative.exr"), &picture, &err));
+    assert_true(frame_write(in_folder("negative.exr"), &picture, &err));
     RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--size", "4x4", "--spp", "1",
         "--environment", "hdri:negative.exr");
     if (o.status) fail_msg("%s", o.err);
     assert_non_null(strstr(o.err, "hdri:negative.exr: 2 pixels have negative values"));
-    arena_release(&arena);
 }
 
 static void an_output_that_cannot_be_written_is_status_4_at_once(void **state)
@@ -413,7 +395,7 @@ static void an_interrupted_render_leaves_a_frame_marked_incomplete(void **state)
     Arena *arena = *state;
     for (int i = 0; i < 2; i++) {
         Outcome o;
-        char    text[64], path[512];
+        char    text[64];
         FILE   *out = tmpfile(), *err = tmpfile();
         pid_t   child = start_long_render("i.exr", out, err);
         kill(child, cases[i].number);
@@ -425,7 +407,7 @@ static void an_interrupted_render_leaves_a_frame_marked_incomplete(void **state)
         assert_non_null(strstr(o.err, "; the frame is marked incomplete — go on with: "
                                       "parhelion render --resume scene.gltf -o i.exr"));
         assert_true(exists("i.exr.checkpoint"));
-        unlink(in_folder(path, "i.exr.checkpoint"));
+        unlink(in_folder("i.exr.checkpoint"));
         assert_non_null(strstr(o.out, "(incomplete)"));
         FrameImage frame = read_frame("i.exr", arena);
         assert_true(whole_attribute(&frame, "parhelion:complete") == 0);
@@ -467,15 +449,6 @@ static void usr1_writes_a_snapshot_and_goes_on(void **state)
 
 /* ---- the folder -------------------------------------------------------------------------- */
 
-static void write_text(const char *name, const char *text)
-{
-    char  path[512];
-    FILE *file = fopen(in_folder(path, name), "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
-}
-
 /* The scene with its camera node taken off the list. */
 static void write_blind_scene(void)
 {
@@ -484,32 +457,15 @@ static void write_blind_scene(void)
     memcpy(text, scene_text, sizeof text);
     nodes = strstr(text, "[0,1,2]");
     memcpy(nodes, "[0,1]  ", 7);
-    write_text("blind.gltf", text);
+    write_text(in_folder("blind.gltf"), text);
 }
 
-static int set_up(void **state)
+static int write_scenes(void **state)
 {
-    static Arena arena;
-    const char  *base = getenv("TMPDIR");
-    snprintf(folder, sizeof folder, "%s/parhelion_cli_XXXXXX", base ? base : P_tmpdir);
-    if (!mkdtemp(folder)) return -1;
-    write_text("scene.gltf", scene_text);
+    if (make_folder(state)) return -1;
+    write_text(in_folder("scene.gltf"), scene_text);
     write_blind_scene();
-    arena = arena_reserve((size_t)1 << 28);
-    *state = &arena;
     return 0;
-}
-
-static int tear_down(void **state)
-{
-    DIR *listing = opendir(folder);
-    for (struct dirent *entry; listing && (entry = readdir(listing));) {
-        char path[512];
-        if (entry->d_name[0] != '.') unlink(in_folder(path, entry->d_name));
-    }
-    if (listing) closedir(listing);
-    arena_release(*state);
-    return rmdir(folder);
 }
 
 int main(void)
@@ -534,5 +490,5 @@ int main(void)
         cmocka_unit_test(a_second_signal_ends_at_once_and_leaves_nothing),
         cmocka_unit_test(usr1_writes_a_snapshot_and_goes_on),
     };
-    return cmocka_run_group_tests_name("cli_run", tests, set_up, tear_down);
+    return cmocka_run_group_tests_name("cli_run", tests, write_scenes, clear_folder);
 }

@@ -1,5 +1,5 @@
 /* The command line of a part becomes that of the whole. */
-#include "check.h"
+#include "fixture.h"
 
 #include <string.h>
 
@@ -13,33 +13,28 @@ static FilmPart box(FilmRect crop, uint32_t first, uint32_t end)
 
 static void words_are_quoted_as_a_shell_needs_it(void **state)
 {
-    (void)state;
     static const char *const words[][2] = {
         {"plain-1.exr", "plain-1.exr"}, {"", "''"}, {"a b", "'a b'"}, {"$HOME", "'$HOME'"},
         {"it's", "'it'\\''s'"}, {"'", "''\\'''"}, {"*=50", "'*=50'"}};
-    Arena arena = arena_reserve(1 << 20);
+    Arena arena = test_arena(state);
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         assert_string_equal(command_line_word(words[i][0], &arena), words[i][1]);
-    arena_release(&arena);
 }
 
 static void idle_words_are_left_out_on_request(void **state)
 {
-    (void)state;
     char *words[] = {"render", "a b.gltf", "--threads", "3", "--quiet", "--progress=none",
                      "--spp", "8", "--checkpoint", "x y", "--resume", "--", "--quiet"};
-    Arena arena = arena_reserve(1 << 20);
+    Arena arena = test_arena(state);
     assert_string_equal(command_line_join(13, words, false, &arena),
                         "parhelion render 'a b.gltf' --spp 8 -- --quiet");
     assert_string_equal(command_line_join(13, words, true, &arena),
                         "parhelion render 'a b.gltf' --threads 3 --quiet --progress=none "
                         "--spp 8 --checkpoint 'x y' --resume -- --quiet");
-    arena_release(&arena);
 }
 
 static void a_part_s_line_becomes_the_whole_s(void **state)
 {
-    (void)state;
     static const FilmRect all = {0, 0, 64, 48}, half = {0, 0, 32, 48};
     static const struct {
         const char *line;
@@ -63,7 +58,7 @@ static void a_part_s_line_becomes_the_whole_s(void **state)
         {"parhelion render -o a.exr --samples 0:4 -- --crop -o", all, 0, 4,
          "parhelion render -o all.exr --spp 4 -- --crop -o"},
     };
-    Arena arena = arena_reserve(1 << 20);
+    Arena arena = test_arena(state);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         FilmPart    whole = box(cases[i].crop, cases[i].first, cases[i].end);
         const char *line = command_line_of_whole(cases[i].line, &whole, "all.exr", &arena);
@@ -74,7 +69,6 @@ static void a_part_s_line_becomes_the_whole_s(void **state)
                         "parhelion render -o 'a b'");
     assert_null(command_line_of_whole("parhelion render s.gltf --noise 0.1 --crop 0,0,1,1",
                                       &whole, "all.exr", &arena));
-    arena_release(&arena);
 }
 
 int main(void)
@@ -84,5 +78,5 @@ int main(void)
         cmocka_unit_test(idle_words_are_left_out_on_request),
         cmocka_unit_test(a_part_s_line_becomes_the_whole_s),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_arena, drop_arena);
 }

@@ -6,11 +6,10 @@
 
 static void a_written_frame_is_read_as_light(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(ARENA_BYTES);
+    Arena        arena = test_arena(state);
     Error        err = {0};
     CompareInput made = frame_input("x", &arena), read, again;
-    const char  *path = temporary("a.exr", &arena);
+    const char  *path = in_folder("a.exr");
     assert_true(frame_write(path, &made.frame, &err));
     assert_true(input_read(path, &arena, &read, &err));
     assert_int_equal(read.kind, INPUT_FRAME);
@@ -23,20 +22,18 @@ static void a_written_frame_is_read_as_light(void **state)
     unlink(path);
     assert_false(input_read(path, &arena, &read, &err));
     assert_int_equal(err.code, ERROR_INPUT);
-    arena_release(&arena);
 }
 
 /* 8-bit codes and the same ones in 16 bits are the same fractions, bit for bit. */
 static void codes_of_8_and_16_bits_agree(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(ARENA_BYTES);
+    Arena        arena = test_arena(state);
     Error        err = {0};
     Picture      picture = picture_create(16, 16, &arena);
     CompareInput read[2];
     for (int i = 0; i < 16 * 16 * 3; i++) picture.rgb[i] = (float)(i % 256) / 255;
     for (int k = 0; k < 2; k++) {
-        const char *path = temporary(k ? "16.png" : "8.png", &arena);
+        const char *path = in_folder(k ? "16.png" : "8.png");
         PictureFile file = {.bits = k ? 16 : 8, .is_srgb = true};
         assert_true(picture_write(path, &picture, file, arena, &err));
         assert_true(input_read(path, &arena, &read[k], &err));
@@ -52,13 +49,11 @@ static void codes_of_8_and_16_bits_agree(void **state)
     }
     Comparison c = compared(&read[0], &read[1], (CompareOptions){.groups = GROUP_MSE}, &arena);
     assert_true(c.same && has_note(&c, "8 bits, the test 16"));
-    arena_release(&arena);
 }
 
 static void a_frame_against_a_picture_is_refused(void **state)
 {
-    (void)state;
-    Arena          arena = arena_reserve(ARENA_BYTES);
+    Arena          arena = test_arena(state);
     Error          err = {0};
     CompareInput   frame = frame_input("f.exr", &arena);
     CompareInput   picture = picture_input("p.png", 8, &arena);
@@ -71,15 +66,13 @@ static void a_frame_against_a_picture_is_refused(void **state)
         assert_string_equal(err.file, "p.png");
         assert_non_null(strstr(err.text, "parhelion develop f.exr"));
     }
-    arena_release(&arena);
 }
 
 /* ---- structure --------------------------------------------------------------------------- */
 
 static void metadata_that_decides_fails_and_the_rest_explains(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(ARENA_BYTES);
+    Arena        arena = test_arena(state);
     CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
     frame_set_string(&b.frame, "parhelion:seed", "2", &arena);
     frame_set_string(&b.frame, "parhelion:inputs", "00ac  a.gltf\n00cc  c.png\n", &arena);
@@ -109,15 +102,13 @@ static void metadata_that_decides_fails_and_the_rest_explains(void **state)
     frame_set_whole(&a.frame, "parhelion:maxBounces", 2, &arena);
     c = compared(&a, &b, LOOSE, &arena);
     assert_reason(&c, "maxBounces differs: 2 in the reference, 3 in the test");
-    arena_release(&arena);
 }
 
 /* A file that does not tell its primaries has those of Rec.709. */
 static void what_is_implied_need_not_be_said(void **state)
 {
-    (void)state;
     static const double XYZ[8] = {1, 0, 0, 1, 0, 0, 1 / 3.0, 1 / 3.0};
-    Arena               arena = arena_reserve(ARENA_BYTES);
+    Arena               arena = test_arena(state);
     CompareInput        a = frame_input("a", &arena), b = frame_input("b", &arena);
     for (int i = 0; i < a.frame.attribute_count; i++)
         if (!strcmp(a.frame.attributes[i].name, "chromaticities"))
@@ -127,14 +118,12 @@ static void what_is_implied_need_not_be_said(void **state)
     frame_set_values(&b.frame, "chromaticities", EXR_CHROMATICITIES, XYZ, &arena);
     c = compared(&a, &b, LOOSE, &arena);
     assert_reason(&c, "chromaticities is missing");
-    arena_release(&arena);
 }
 
 /* Long values are shown where they begin to differ, and never steer a terminal. */
 static void long_values_are_shown_where_they_differ(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(ARENA_BYTES);
+    Arena        arena = test_arena(state);
     CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
     char         text[300];
     memset(text, 'x', sizeof text);
@@ -146,13 +135,11 @@ static void long_values_are_shown_where_they_differ(void **state)
     assert_true(has_note(&c, "differs: …xxxxxxxxxxxxxxxxx"));
     assert_true(has_note(&c, "…xxxxxxxxxxxxxxxx xxxx"));
     assert_true(strlen(c.notes.list[0]) < 300);
-    arena_release(&arena);
 }
 
 static void channels_on_one_side_are_named(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(ARENA_BYTES);
+    Arena        arena = test_arena(state);
     CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
     frame_add_channel(&a.frame, "depth.Z", false, &arena);
     frame_add_channel(&b.frame, "light.sun.R", false, &arena);
@@ -165,13 +152,11 @@ static void channels_on_one_side_are_named(void **state)
     assert_true(compared(&a, &b, options, &arena).same);
     options.rules.ignored_count = 1;
     assert_false(compared(&a, &b, options, &arena).same);
-    arena_release(&arena);
 }
 
 static void windows_and_sizes_must_agree(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(ARENA_BYTES);
+    Arena        arena = test_arena(state);
     CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
     b.frame.display = (ExrWindow){1, 0, WIDTH + 1, HEIGHT};
     Comparison c = compared(&a, &b, LOOSE, &arena);
@@ -181,15 +166,13 @@ static void windows_and_sizes_must_agree(void **state)
     b.light.width--;
     c = compared(&a, &b, LOOSE, &arena);
     assert_reason(&c, "sizes differ: 12x8 pixels in the reference, 11x8 in the test");
-    arena_release(&arena);
 }
 
 /* ---- NaN and infinity -------------------------------------------------------------------- */
 
 static void what_is_no_number_in_light_always_fails(void **state)
 {
-    (void)state;
-    Arena       arena = arena_reserve(ARENA_BYTES);
+    Arena       arena = test_arena(state);
     const float wrong[] = {NAN, INFINITY, -INFINITY};
     for (int k = 0; k < 9; k++) {
         CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
@@ -205,15 +188,13 @@ static void what_is_no_number_in_light_always_fails(void **state)
         c = compared(&a, &b, part, &arena);
         assert_true(c.same && has_note(&c, "in pixels that do not count"));
     }
-    arena_release(&arena);
 }
 
 /* Off displays NaN is legal. Frames of other noise may disagree at a rim (one pixel beside the
  * display), and where a sliver shows; not about an area, here of 3 x 3 pixels. */
 static void gaps_of_surface_layers_must_coincide(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(ARENA_BYTES);
+    Arena        arena = test_arena(state);
     CompareInput a = frame_input("a", &arena);
     assert_true(compared(&a, &a, LOOSE, &arena).same);
     for (int area = 0; area < 2; area++) {
@@ -229,14 +210,12 @@ static void gaps_of_surface_layers_must_coincide(void **state)
             assert_int_equal(compared(&b, &a, LOOSE, &arena).same, !area && seed == 2);
         }
     }
-    arena_release(&arena);
 }
 
 /* Too few samples to tell the noise are no fault of the light. */
 static void noise_may_be_unknown(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(ARENA_BYTES);
+    Arena        arena = test_arena(state);
     CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
     frame_add_channel(&a.frame, "halves.R", false, &arena)[7] = NAN;
     frame_add_channel(&b.frame, "halves.R", false, &arena);
@@ -246,7 +225,6 @@ static void noise_may_be_unknown(void **state)
     frame_set_string(&b.frame, "parhelion:samples", "0:16", &arena);
     Comparison c = compared(&a, &b, LOOSE, &arena);
     assert_reason(&c, "in up to 1 pixels: halves.R");
-    arena_release(&arena);
 }
 
 /* ---- figures and limits ------------------------------------------------------------------ */
@@ -272,8 +250,7 @@ static void limits_hold_in_their_direction(void **state)
 /* One code of one channel is off by d: mse = d^2 / (3 n). */
 static void figures_of_pictures_are_those_of_codes(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(ARENA_BYTES);
+    Arena        arena = test_arena(state);
     CompareInput a = picture_input("a", 8, &arena), b = picture_input("b", 8, &arena);
     ((float *)b.codes.rgb[2])[30] += 0.25f;
     ((float *)b.light.rgb[2])[30] = linear_from_srgb(b.codes.rgb[2][30]);
@@ -288,13 +265,11 @@ static void figures_of_pictures_are_those_of_codes(void **state)
     assert_true(has_note(&c, "--max flip=0.05"));
     c = compared(&a, &a, (CompareOptions){0}, &arena);
     assert_true(c.same && isinf(c.value[METRIC_PSNR]) && c.value[METRIC_FLIP] == 0);
-    arena_release(&arena);
 }
 
 static void only_what_is_asked_for_is_computed(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(ARENA_BYTES);
+    Arena        arena = test_arena(state);
     CompareInput a = picture_input("a", 8, &arena);
     Comparison   c = compared(&a, &a, (CompareOptions){.groups = GROUP_MSE}, &arena);
     assert_true(isnan(c.value[METRIC_FLIP]) && isnan(c.value[METRIC_PSNR]));
@@ -307,7 +282,6 @@ static void only_what_is_asked_for_is_computed(void **state)
     c = compared(&a, &a, (CompareOptions){.thresholds = &unknown, .threshold_count = 1},
                  &arena);
     assert_reason(&c, "contrast_change is not known for these files, at most 0.5 is wanted");
-    arena_release(&arena);
 }
 
 static void exposures_are_the_ones_of_develop(void **state)
@@ -335,8 +309,7 @@ static void a_data_window_places_values(void **state)
 
 static void regions_select_and_displays_are_known(void **state)
 {
-    (void)state;
-    Arena            arena = arena_reserve(ARENA_BYTES);
+    Arena            arena = test_arena(state);
     Error            err = {0};
     Selection        selection;
     CompareInput     a = frame_input("a.exr", &arena);
@@ -357,7 +330,6 @@ static void regions_select_and_displays_are_known(void **state)
     for (int i = 0; i < COUNT; i++) id[i] = i < 7 ? 3 : -1;
     assert_true(selection_make(&a, &request, &arena, &selection, &err));
     assert_int_equal(selection.pixels, 7);
-    arena_release(&arena);
 }
 
 int main(void)
@@ -381,5 +353,5 @@ int main(void)
         cmocka_unit_test(a_data_window_places_values),
         cmocka_unit_test(regions_select_and_displays_are_known),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -14,8 +14,7 @@ static const char WILD[] = "a<b>&\"'\x01\xff]]>\xef\xbf\xbf.png";
 
 static void markup_escapes_and_encodes(void **state)
 {
-    (void)state;
-    Arena  arena = arena_reserve(ARENA_BYTES);
+    Arena  arena = test_arena(state);
     Markup markup = {0};
     markup_escape(&markup, WILD);
     markup_add(&markup, " ");
@@ -33,20 +32,18 @@ static void markup_escapes_and_encodes(void **state)
         assert_memory_equal(markup_text(&markup, &arena), PAIRS[i][1], strlen(PAIRS[i][1]));
         markup_release(&markup);
     }
-    arena_release(&arena);
 }
 
 static void junit_is_well_formed_whatever_the_names_are(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(ARENA_BYTES);
+    Arena        arena = test_arena(state);
     Error        err = {0};
     CompareInput a = picture_input(WILD, 8, &arena), b = picture_input("b", 8, &arena);
     ((float *)b.codes.rgb[0])[3] = 1;
     Comparison  same = compared(&a, &a, LOOSE, &arena);
     Comparison  other = compared(&a, &b, (CompareOptions){.groups = GROUP_MSE}, &arena);
     Junit       junit = {0};
-    const char *path = temporary("j.xml", &arena);
+    const char *path = in_folder("j.xml");
     junit_add(&junit, WILD, &same);
     junit_add(&junit, WILD, &other);
     junit_add_failure(&junit, WILD, WILD, true);
@@ -67,13 +64,11 @@ static void junit_is_well_formed_whatever_the_names_are(void **state)
     junit_release(&junit);
     assert_false(junit_write(&junit, "s", "/absent/j.xml", &err));
     assert_int_equal(err.code, ERROR_OUTPUT);
-    arena_release(&arena);
 }
 
 static void json_has_the_promised_keys(void **state)
 {
-    (void)state;
-    Arena          arena = arena_reserve(ARENA_BYTES);
+    Arena          arena = test_arena(state);
     CompareInput   a = picture_input(WILD, 8, &arena), b = picture_input("b", 8, &arena);
     CompareOptions options = {.threads = 1};
     ((float *)b.codes.rgb[0])[3] = 1;
@@ -89,21 +84,19 @@ static void json_has_the_promised_keys(void **state)
     assert_int_equal(json_array_size(json_object_get(json, "reasons")), 1);
     assert_string_equal(json_string_value(json_object_get(json, "judged_by")), "equality");
     json_decref(json);
-    arena_release(&arena);
 }
 
 /* Whatever a name holds, it stands in the page as text; both sides and three maps are there. */
 static void a_report_is_whole_and_escaped(void **state)
 {
-    (void)state;
-    Arena          arena = arena_reserve(ARENA_BYTES);
+    Arena          arena = test_arena(state);
     Error          err = {0};
     FileBytes      page;
     CompareOptions options = {.threads = 1};
     CompareInput   a = picture_input(WILD, 8, &arena), b = picture_input("b", 8, &arena);
     ((float *)b.codes.rgb[0])[3] = 1;
     Comparison  c = compared(&a, &b, options, &arena);
-    const char *path = temporary("r.html", &arena);
+    const char *path = in_folder("r.html");
     HtmlReport  report = {.is_folder = false};
     assert_true(html_report_add(&report, "b", &c, &options, arena, &err));
     assert_true(html_report_write(&report, WILD, WILD, path, &err));
@@ -119,7 +112,6 @@ static void a_report_is_whole_and_escaped(void **state)
     unlink(path);
     assert_true(html_report_check_name("a.HTML", &err));
     assert_false(html_report_check_name("a.xml", &err));
-    arena_release(&arena);
 }
 
 /* ---- the command line -------------------------------------------------------------------- */
@@ -157,8 +149,7 @@ static void wrong_options_say_what_is_wanted(void **state)
 
 static void limits_and_lists_are_read(void **state)
 {
-    (void)state;
-    Arena          arena = arena_reserve(ARENA_BYTES);
+    Arena          arena = test_arena(state);
     Error          err = {0};
     CompareRequest r = {0};
     const char *argv[] = {"compare", "a", "b", "--max", "flip=0.5", "--min", "ssim=0.9",
@@ -177,7 +168,6 @@ static void limits_and_lists_are_read(void **state)
     r = (CompareRequest){0};
     assert_true(compare_parse(5, (char **)stat, &arena, &r, &err));
     assert_true(r.options.wants_stat);
-    arena_release(&arena);
 }
 
 int main(void)
@@ -190,5 +180,5 @@ int main(void)
         cmocka_unit_test(wrong_options_say_what_is_wanted),
         cmocka_unit_test(limits_and_lists_are_read),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

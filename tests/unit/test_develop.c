@@ -1,14 +1,9 @@
 /* Developing: exposure, views, layers and the picture files. */
-#include "check.h"
+#include "fixture.h"
 
-#include <dirent.h>
 #include <signal.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
-#include "base/file.h"
 #include "image/develop.h"
 #include "image/exposure.h"
 #include "image/false_colour.h"
@@ -18,49 +13,6 @@
 enum { ARENA_BYTES = 1 << 28 };
 
 extern const char OWN_OCIO_CONFIG[];
-
-static char folder[64] = "pictures-XXXXXX";
-
-static int make_folder(void **state)
-{
-    (void)state;
-    unsetenv("OCIO");
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int files_in_folder(void)
-{
-    DIR *dir = opendir(folder);
-    int  count = 0;
-    while (readdir(dir)) count++;
-    closedir(dir);
-    return count - 2;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    DIR *dir = opendir(folder);
-    for (struct dirent *e; (e = readdir(dir));) {
-        char path[400];
-        snprintf(path, sizeof path, "%s/%s", folder, e->d_name);
-        if (e->d_name[0] != '.') unlink(path);
-    }
-    closedir(dir);
-    return rmdir(folder);
-}
-
-static const char *in_folder(const char *name)
-{
-    static char path[200];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    return path;
-}
-
-static void assert_text_has(const Error *err, const char *part)
-{
-    if (!strstr(err->text, part)) fail_msg("\"%s\" lacks \"%s\"", err->text, part);
-}
 
 /* Every pixel of R, G, B holds cd_m2 of D65. */
 static FrameImage uniform_frame(int width, int height, float cd_m2, Arena *arena)
@@ -149,11 +101,11 @@ static void wrong_names_are_told_with_the_right_ones(void **state)
     Error          err = {0};
     ViewRequest    request = {NULL, OWN_OCIO_CONFIG, "CRT", NULL};
     assert_false(view_transform_create(&request, &transform, &err));
-    assert_text_has(&err, "sRGB, Display P3, Rec.1886");
+    assert_error_has(&err, "sRGB, Display P3, Rec.1886");
     request.display = "sRGB";
     request.view = "beautiful";
     assert_false(view_transform_create(&request, &transform, &err));
-    assert_text_has(&err, "photographic, ACES SDR, untonemapped, raw");
+    assert_error_has(&err, "photographic, ACES SDR, untonemapped, raw");
     assert_int_equal(err.code, ERROR_USAGE);
     request = (ViewRequest){"no/such.ocio", OWN_OCIO_CONFIG, NULL, NULL};
     assert_false(view_transform_create(&request, &transform, &err));
@@ -178,7 +130,7 @@ static void a_configuration_without_interchange_is_refused(void **state)
     assert_true(file_write(path, TEXT, sizeof TEXT - 1, &err));
     ViewRequest request = {path, OWN_OCIO_CONFIG, NULL, NULL};
     assert_false(view_transform_create(&request, &transform, &err));
-    assert_text_has(&err, "aces_interchange");
+    assert_error_has(&err, "aces_interchange");
     assert_string_equal(err.file, path);
 }
 
@@ -195,7 +147,7 @@ static void a_configuration_that_is_too_new_is_refused(void **state)
     assert_true(file_write(path, newer, strlen(newer), &err));
     ViewRequest request = {path, OWN_OCIO_CONFIG, NULL, NULL};
     assert_false(view_transform_create(&request, &transform, &err));
-    assert_text_has(&err, "2.9");
+    assert_error_has(&err, "2.9");
     assert_null(strchr(err.text, '\n'));
     free(text);
 }
@@ -203,12 +155,11 @@ static void a_configuration_that_is_too_new_is_refused(void **state)
 /* The studios' own ACES configuration agrees with ours. */
 static void a_users_configuration_is_entered_by_its_interchange_role(void **state)
 {
-    (void)state;
     char path[512];
     snprintf(path, sizeof path, "%s/ocio/cg-config-v1.0.0_aces-v1.3_ocio-v2.1.ocio",
              SHARED_DATA_DIR);
     if (!file_exists(path)) skip();
-    Arena         arena = arena_reserve(ARENA_BYTES);
+    Arena         arena = test_arena(state);
     FrameImage    frame = uniform_frame(2, 2, 18, &arena);
     DevelopReport report;
     Picture p = develop(&frame, (DevelopOptions){.config = path, .exposure = "white:100"},
@@ -220,7 +171,6 @@ static void a_users_configuration_is_entered_by_its_interchange_role(void **stat
     unsetenv("OCIO");
     assert_near(p.rgb[0], 0.355954, 1e-4);
     assert_non_null(strstr(report.config, "cg-config"));
-    arena_release(&arena);
 }
 
 /* ---- exposure ---------------------------------------------------------------------------- */
@@ -274,7 +224,7 @@ static void bad_exposures_are_told(void **state)
         Error           err = {0};
         assert_false(exposure_parse(BAD[i], &request, &err));
         assert_int_equal(err.code, ERROR_USAGE);
-        assert_text_has(&err, "wanted auto, an exposure value");
+        assert_error_has(&err, "wanted auto, an exposure value");
     }
 }
 
@@ -282,8 +232,7 @@ static void bad_exposures_are_told(void **state)
 
 static void a_frame_becomes_the_codes_it_should(void **state)
 {
-    (void)state;
-    Arena          arena = arena_reserve(ARENA_BYTES);
+    Arena          arena = test_arena(state);
     FrameImage     frame = uniform_frame(8, 5, 90, &arena);
     DevelopOptions options = {.exposure = "white:500", .view = "untonemapped"};
     Error          err = {0};
@@ -304,30 +253,26 @@ static void a_frame_becomes_the_codes_it_should(void **state)
     assert_true(develop_frame(&frame, &options, in_folder("a.jpg"), arena, NULL, &err));
     assert_true(image_read(in_folder("a.jpg"), &arena, &image, &err));
     assert_near(((const uint8_t *)image.pixels)[0], 255 * 0.461356, 2);
-    arena_release(&arena);
 }
 
 static void the_same_frame_makes_the_same_picture_file(void **state)
 {
-    (void)state;
-    Arena          arena = arena_reserve(ARENA_BYTES);
+    Arena          arena = test_arena(state);
     FrameImage     frame = uniform_frame(8, 5, 90, &arena);
     DevelopOptions options = {.false_colour = true};
     FileBytes      bytes[2];
     Error          err = {0};
     for (int i = 0; i < 2; i++) {
         assert_true(develop_frame(&frame, &options, in_folder("same.png"), arena, NULL, &err));
-        assert_true(file_read(in_folder("same.png"), ARENA_BYTES, &arena, &bytes[i], &err));
+        bytes[i] = read_bytes(in_folder("same.png"), &arena);
     }
     assert_int_equal(bytes[0].size, bytes[1].size);
     assert_memory_equal(bytes[0].data, bytes[1].data, bytes[0].size);
-    arena_release(&arena);
 }
 
 static void a_range_makes_frames_comparable(void **state)
 {
-    (void)state;
-    Arena          arena = arena_reserve(ARENA_BYTES);
+    Arena          arena = test_arena(state);
     FrameImage     frame = uniform_frame(8, 5, 90, &arena);
     DevelopOptions options = {.false_colour = true, .range = {0.9, 900}};
     DevelopReport  report;
@@ -339,17 +284,15 @@ static void a_range_makes_frames_comparable(void **state)
     assert_string_equal(report.scale, "0.9 to 900 cd/m^2, logarithmic");
     options.range[0] = 0;
     assert_false(develop_picture(&frame, &options, &arena, &p, NULL, &err));
-    assert_text_has(&err, "--range 0,900: wanted LOW,HIGH with LOW < HIGH and LOW above 0");
+    assert_error_has(&err, "--range 0,900: wanted LOW,HIGH with LOW < HIGH and LOW above 0");
     options.false_colour = false;
     assert_false(develop_picture(&frame, &options, &arena, &p, NULL, &err));
-    assert_text_has(&err, "only false colours have a range");
-    arena_release(&arena);
+    assert_error_has(&err, "only false colours have a range");
 }
 
 static void what_is_not_finite_is_cleaned_and_counted(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(ARENA_BYTES);
+    Arena      arena = test_arena(state);
     FrameImage frame = uniform_frame(4, 1, 90, &arena);
     frame.channels[0].values[0] = NAN;
     frame.channels[1].values[1] = INFINITY;
@@ -358,13 +301,11 @@ static void what_is_not_finite_is_cleaned_and_counted(void **state)
     Picture p = develop(&frame, (DevelopOptions){.view = "ACES SDR"}, &arena, &report);
     assert_int_equal(report.nonfinite_pixels, 3);
     for (int i = 0; i < 12; i++) assert_true(isfinite(p.rgb[i]));
-    arena_release(&arena);
 }
 
 static void a_crop_stands_in_its_frame(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(ARENA_BYTES);
+    Arena      arena = test_arena(state);
     FrameImage frame = uniform_frame(4, 2, 90, &arena);
     frame.display = (ExrWindow){0, 0, 10, 6};
     frame.data = (ExrWindow){3, 1, 7, 3};
@@ -378,13 +319,11 @@ static void a_crop_stands_in_its_frame(void **state)
             bool inside = x >= 3 && x < 7 && y >= 1 && y < 3;
             assert_true((picture_pixel(&p, x, y)[1] > 0.3f) == inside);
         }
-    arena_release(&arena);
 }
 
 static void a_picture_that_fails_leaves_nothing(void **state)
 {
-    (void)state;
-    Arena          arena = arena_reserve(ARENA_BYTES);
+    Arena          arena = test_arena(state);
     FrameImage     frame = uniform_frame(64, 64, 90, &arena);
     DevelopOptions options = {.bits = 16};
     Error          err = {0};
@@ -404,17 +343,15 @@ static void a_picture_that_fails_leaves_nothing(void **state)
     assert_false(develop_frame(&frame, &options, "no/such/a.png", arena, NULL, &err));
     assert_int_equal(err.code, ERROR_OUTPUT);
     assert_false(develop_frame(&frame, &options, in_folder("a.jpg"), arena, NULL, &err));
-    assert_text_has(&err, "a JPEG holds 8");
+    assert_error_has(&err, "a JPEG holds 8");
     assert_false(develop_frame(&frame, &options, in_folder("a.exr"), arena, NULL, &err));
-    assert_text_has(&err, "ends in .png, .jpg");
-    arena_release(&arena);
+    assert_error_has(&err, "ends in .png, .jpg");
 }
 
 /* ---- layers ------------------------------------------------------------------------------ */
 
 static void every_layer_can_be_looked_at(void **state)
 {
-    (void)state;
     static const char *const CHANNELS[] = {
         "xyz.X", "xyz.Y", "xyz.Z", "depth.Z", "position.X", "position.Y", "position.Z",
         "normal.X", "normal.Y", "normal.Z", "albedo.R", "albedo.G", "albedo.B", "id.part",
@@ -426,7 +363,7 @@ static void every_layer_can_be_looked_at(void **state)
         "xyz", "depth", "depth.Z", "position", "normal", "albedo", "id", "id.display", "uv",
         "variance", "variance.G", "halves", "halves.G", "samples", "light.sun",
         "display.emitted", "display.theta", "display.contrast", "R", "light.sun.B", NULL};
-    Arena      arena = arena_reserve(ARENA_BYTES);
+    Arena      arena = test_arena(state);
     FrameImage frame = uniform_frame(40, 30, 90, &arena);
     for (size_t k = 0; k < sizeof CHANNELS / sizeof *CHANNELS; k++) {
         float *plane = frame_add_channel(&frame, CHANNELS[k], false, &arena);
@@ -443,13 +380,11 @@ static void every_layer_can_be_looked_at(void **state)
         }
         if (LAYERS[k]) assert_true(greatest - least > 0.3f); /* one sees something */
     }
-    arena_release(&arena);
 }
 
 static void directions_and_albedo_have_their_closed_forms(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(ARENA_BYTES);
+    Arena      arena = test_arena(state);
     FrameImage frame = uniform_frame(2, 1, 90, &arena);
     for (int c = 0; c < 3; c++) {
         char normal[] = "normal.X", albedo[] = "albedo.R";
@@ -462,13 +397,11 @@ static void directions_and_albedo_have_their_closed_forms(void **state)
     assert_true(p.rgb[0] == 0 && p.rgb[1] == 0.5f && p.rgb[2] == 1);
     p = develop(&frame, (DevelopOptions){.layer = "albedo"}, &arena, NULL);
     assert_near(p.rgb[0], 0.461356, 1e-5);
-    arena_release(&arena);
 }
 
 static void a_grey_frame_is_light_as_well(void **state)
 {
-    (void)state;
-    Arena         arena = arena_reserve(ARENA_BYTES);
+    Arena         arena = test_arena(state);
     FrameImage    frame = frame_create(1, 1, (ExrWindow){0, 0, 1, 1}, 1, 0, &arena);
     DevelopReport report;
     Picture       picture;
@@ -477,19 +410,17 @@ static void a_grey_frame_is_light_as_well(void **state)
     depth[0] = 1;
     DevelopOptions plain = {0};
     assert_false(develop_picture(&frame, &plain, &arena, &picture, &report, &err));
-    assert_text_has(&err, "has no channels R, G, B or Y; it has: depth");
+    assert_error_has(&err, "has no channels R, G, B or Y; it has: depth");
     frame_add_channel(&frame, "Y", false, &arena)[0] = 18;
     picture = develop(&frame, (DevelopOptions){.exposure = "white:100", .view = "untonemapped"},
                       &arena, &report);
     assert_near(picture.rgb[0], 0.461356, 1e-5);
     assert_near(picture.rgb[2], 0.461356, 1e-5);
-    arena_release(&arena);
 }
 
 static void an_unknown_layer_is_told_with_those_there_are(void **state)
 {
-    (void)state;
-    Arena          arena = arena_reserve(ARENA_BYTES);
+    Arena          arena = test_arena(state);
     FrameImage     frame = uniform_frame(2, 1, 90, &arena);
     DevelopOptions options = {.layer = "norml", .frame_name = "f.exr"};
     Picture        picture;
@@ -497,12 +428,11 @@ static void an_unknown_layer_is_told_with_those_there_are(void **state)
     frame_add_channel(&frame, "normal.X", false, &arena);
     frame_add_channel(&frame, "display.theta", false, &arena);
     assert_false(develop_picture(&frame, &options, &arena, &picture, NULL, &err));
-    assert_text_has(&err, "has no layer \"norml\"; it has: R, G, B, normal, display.theta");
+    assert_error_has(&err, "has no layer \"norml\"; it has: R, G, B, normal, display.theta");
     assert_string_equal(err.file, "f.exr");
     options = (DevelopOptions){.layer = "display.theta", .false_colour = true};
     assert_false(develop_picture(&frame, &options, &arena, &picture, NULL, &err));
-    assert_text_has(&err, "is not light");
-    arena_release(&arena);
+    assert_error_has(&err, "is not light");
 }
 
 int main(void)
@@ -529,5 +459,6 @@ int main(void)
         cmocka_unit_test(a_grey_frame_is_light_as_well),
         cmocka_unit_test(an_unknown_layer_is_told_with_those_there_are),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    unsetenv("OCIO");
+    return cmocka_run_group_tests(tests, make_folder, clear_folder);
 }

@@ -1,45 +1,13 @@
 /* The second part of a picture's file: words come back bit for bit, and the picture does not
  * know of them. */
-#include "check.h"
+#include "fixture.h"
 
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-#include "base/file.h"
 #include "image/frame.h"
 
-enum { ARENA_BYTES = 1 << 26, WIDTH = 11, HEIGHT = 37, WORDS = 5 };
+enum { WIDTH = 11, HEIGHT = 37, WORDS = 5 };
 
 static const char *const NAMES[WORDS] = {"sum.Y.0", "sum.Y.1", "count", "a.0", "sum.X.0"};
 static const ExrWindow CROP = {3, 5, 3 + WIDTH, 5 + HEIGHT};
-
-static char folder[64] = "words-XXXXXX";
-
-static int make_folder(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    return rmdir(folder); /* fails when a test left anything behind */
-}
-
-static const char *in_folder(const char *name)
-{
-    static char path[200];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    return path;
-}
-
-static void assert_text_has(const Error *err, const char *part)
-{
-    if (!strstr(err->text, part)) fail_msg("\"%s\" lacks \"%s\"", err->text, part);
-    assert_null(strchr(err->text, '\n'));
-}
 
 /* Noise over all bits, which ZIP cannot make shorter, and some zeros, which it can. */
 static uint32_t *make_values(Arena *arena)
@@ -92,8 +60,7 @@ static ExrReader *open_bytes(FileBytes file)
 
 static void every_word_comes_back_in_the_order_asked_for(void **state)
 {
-    (void)state;
-    Arena           arena = arena_reserve(ARENA_BYTES);
+    Arena           arena = test_arena(state);
     const ExrWords *words = make_words(&arena), *found;
     const uint32_t *written = words->values;
     ExrReader      *reader = open_bytes(encode(words, &arena));
@@ -120,13 +87,11 @@ static void every_word_comes_back_in_the_order_asked_for(void **state)
         }
     }
     exr_reader_destroy(reader);
-    arena_release(&arena);
 }
 
 static void attributes_of_the_words_are_their_own(void **state)
 {
-    (void)state;
-    Arena           arena = arena_reserve(ARENA_BYTES);
+    Arena           arena = test_arena(state);
     ExrReader      *reader = open_bytes(encode(make_words(&arena), &arena));
     const ExrWords *found;
     Error           err = {0};
@@ -143,13 +108,11 @@ static void attributes_of_the_words_are_their_own(void **state)
     assert_true(exr_reader_words(reader, "picture", &found, &err)); /* the first is no words */
     assert_null(found);
     exr_reader_destroy(reader);
-    arena_release(&arena);
 }
 
 static void the_picture_is_the_same_with_and_without(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(ARENA_BYTES);
+    Arena      arena = test_arena(state);
     FileBytes  with = encode(make_words(&arena), &arena), without = encode(NULL, &arena);
     FileBytes  again = encode(make_words(&arena), &arena);
     FrameImage a, b;
@@ -166,13 +129,11 @@ static void the_picture_is_the_same_with_and_without(void **state)
     assert_null(a.words);
     assert_int_equal(with.size, again.size);
     assert_memory_equal(with.data, again.data, with.size);
-    arena_release(&arena);
 }
 
 static void a_file_on_disk_is_read_too(void **state)
 {
-    (void)state;
-    Arena           arena = arena_reserve(ARENA_BYTES);
+    Arena           arena = test_arena(state);
     const ExrWords *words = make_words(&arena), *found;
     FileBytes       file = encode(words, &arena);
     ExrReader      *reader;
@@ -188,10 +149,9 @@ static void a_file_on_disk_is_read_too(void **state)
     assert_true(exr_reader_words(reader, "film", &found, &err));
     assert_int_equal(truncate(in_folder("a.exr"), (off_t)file.size - 100), 0);
     assert_false(exr_reader_read_words(reader, words, CROP.y0, CROP.y1, rows, &err));
-    assert_text_has(&err, "damaged OpenEXR file");
+    assert_error_has(&err, "damaged OpenEXR file");
     exr_reader_destroy(reader);
     unlink(in_folder("a.exr"));
-    arena_release(&arena);
 }
 
 /* ---- what is broken is refused ----------------------------------------------------------- */
@@ -213,8 +173,7 @@ static bool read_all(const void *bytes, size_t size, const ExrWords *words, uint
 
 static void every_prefix_is_refused(void **state)
 {
-    (void)state;
-    Arena           arena = arena_reserve(ARENA_BYTES);
+    Arena           arena = test_arena(state);
     const ExrWords *words = make_words(&arena);
     FileBytes       file = encode(words, &arena);
     uint32_t       *rows = ARENA_NEW(&arena, uint32_t, WIDTH * HEIGHT * WORDS);
@@ -227,13 +186,11 @@ static void every_prefix_is_refused(void **state)
         assert_true(err.text[0] && !strchr(err.text, '\n'));
         free(exact);
     }
-    arena_release(&arena);
 }
 
 static void flipped_bits_are_survived(void **state)
 {
-    (void)state;
-    Arena           arena = arena_reserve(ARENA_BYTES);
+    Arena           arena = test_arena(state);
     const ExrWords *words = make_words(&arena);
     FileBytes       file = encode(words, &arena);
     uint32_t       *rows = ARENA_NEW(&arena, uint32_t, WIDTH * HEIGHT * WORDS), seed = 1;
@@ -245,13 +202,11 @@ static void flipped_bits_are_survived(void **state)
         bytes[(seed >> 8) % (i % 4 ? 2000 : file.size)] ^= (unsigned char)(1u << (seed & 7));
         if (!read_all(bytes, file.size, words, rows, &err)) assert_null(strchr(err.text, '\n'));
     }
-    arena_release(&arena);
 }
 
 static void a_part_of_another_kind_is_refused(void **state)
 {
-    (void)state;
-    Arena           arena = arena_reserve(ARENA_BYTES);
+    Arena           arena = test_arena(state);
     FileBytes       file = encode(make_words(&arena), &arena);
     unsigned char  *bytes = (unsigned char *)file.data;
     unsigned char  *entry = memmem(bytes, file.size, "count\0\0\0\0\0", 10); /* UINT is 0 */
@@ -261,27 +216,24 @@ static void a_part_of_another_kind_is_refused(void **state)
     entry[6] = 2; /* FLOAT */
     ExrReader *reader = open_bytes(file);
     assert_false(exr_reader_words(reader, "film", &found, &err));
-    assert_text_has(&err,
+    assert_error_has(&err,
                     "its part \"film\" does not hold 32-bit words of the picture's pixels");
     exr_reader_destroy(reader);
-    arena_release(&arena);
 }
 
 static void a_word_that_is_missing_is_named(void **state)
 {
-    (void)state;
     static const char *const names[] = {"count", "sum.Z.0"};
     const ExrWords  wanted = {"film", 2, names, NULL, 0, NULL};
-    Arena           arena = arena_reserve(ARENA_BYTES);
+    Arena           arena = test_arena(state);
     uint32_t       *rows = ARENA_NEW(&arena, uint32_t, WIDTH * HEIGHT * 2);
     ExrReader      *reader = open_bytes(encode(make_words(&arena), &arena));
     const ExrWords *found;
     Error           err = {0};
     assert_true(exr_reader_words(reader, "film", &found, &err));
     assert_false(exr_reader_read_words(reader, &wanted, CROP.y0, CROP.y1, rows, &err));
-    assert_text_has(&err, "its part \"film\" has no words sum.Z.0");
+    assert_error_has(&err, "its part \"film\" has no words sum.Z.0");
     exr_reader_destroy(reader);
-    arena_release(&arena);
 }
 
 static void what_is_no_openexr_file_is_told(void **state)
@@ -290,14 +242,14 @@ static void what_is_no_openexr_file_is_told(void **state)
     ExrReader *reader;
     Error      err = {0};
     assert_false(exr_reader_open("no/such.exr", &reader, &err));
-    assert_text_has(&err, "No such file");
+    assert_error_has(&err, "No such file");
     assert_string_equal(err.file, "no/such.exr");
     assert_true(file_write(in_folder("a.txt"), "hello", 5, &err));
     assert_false(exr_reader_open(in_folder("a.txt"), &reader, &err));
-    assert_text_has(&err, "not an OpenEXR file");
+    assert_error_has(&err, "not an OpenEXR file");
     assert_true(file_write(in_folder("a.txt"), "\x76\x2f\x31\x01", 4, &err));
     assert_false(exr_reader_open(in_folder("a.txt"), &reader, &err));
-    assert_text_has(&err, "damaged OpenEXR file");
+    assert_error_has(&err, "damaged OpenEXR file");
     unlink(in_folder("a.txt"));
 }
 

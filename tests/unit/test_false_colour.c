@@ -1,14 +1,10 @@
 /* False colours, their scale and its letters; colour spaces from primaries. */
-#include "check.h"
-
-#include <string.h>
+#include "fixture.h"
 
 #include "image/colour.h"
 #include "image/false_colour.h"
 #include "image/icc_profile.h"
 #include "image/stroke_font.h"
-
-enum { ARENA_BYTES = 1 << 28 };
 
 static double luminance_of_code(const float srgb[3])
 {
@@ -38,8 +34,7 @@ static void false_colours_grow_lighter_all_the_way(void **state)
 
 static void false_colours_show_the_value_by_the_scale(void **state)
 {
-    (void)state;
-    Arena       arena = arena_reserve(ARENA_BYTES);
+    Arena       arena = test_arena(state);
     const float values[6] = {0.1f, 1, 10, 100, 1000, NAN};
     ScaleRange  range = {0.1f, 1000, true};
     Picture     p = false_colour_picture(values, 6, 1, range, "cd/m^2", &arena);
@@ -52,15 +47,13 @@ static void false_colours_show_the_value_by_the_scale(void **state)
     }
     assert_true(scale_position(range, -1) == 0 && scale_position(range, 0) == 0);
     assert_true(scale_position(range, INFINITY) == 1);
-    arena_release(&arena);
 }
 
 static void a_scale_has_round_ends_around_the_values(void **state)
 {
-    (void)state;
     enum { N = 10000 };
     static float values[N];
-    Arena        arena = arena_reserve(ARENA_BYTES);
+    Arena        arena = test_arena(state);
     for (int i = 0; i < N; i++) values[i] = (float)exp(log(0.03) + i * log(7000 / 0.03) / N);
     ScaleRange r = scale_range_of(values, N, true, arena);
     assert_close(r.low, 0.05, 1e-5); /* the 5th percentile is 0.056 */
@@ -75,14 +68,12 @@ static void a_scale_has_round_ends_around_the_values(void **state)
     values[0] = NAN;
     r = scale_range_of(values, 1, true, arena);
     assert_true(r.low > 0 && r.high > r.low);
-    arena_release(&arena);
 }
 
 static void letters_are_drawn_as_wide_as_they_are_said_to_be(void **state)
 {
-    (void)state;
     static const char TEXT[] = "0123456789.-+/:%()abcdefghijklmnopqrstuvwxyz";
-    Arena     arena = arena_reserve(ARENA_BYTES);
+    Arena     arena = test_arena(state);
     Lettering lettering = {24, {1, 1, 1}};
     for (size_t i = 0; i + 1 < sizeof TEXT; i++) {
         char    text[2] = {TEXT[i], 0};
@@ -100,7 +91,6 @@ static void letters_are_drawn_as_wide_as_they_are_said_to_be(void **state)
     assert_near(lettering_width(lettering, "00"), 2 * lettering_width(lettering, "0"), 1e-3);
     assert_near(lettering_width(lettering, "1"), lettering_width(lettering, "8"), 1e-3);
     assert_true(lettering_width(lettering, "^2") < lettering_width(lettering, "2"));
-    arena_release(&arena);
 }
 
 /* ---- colour spaces ----------------------------------------------------------------------- */
@@ -142,11 +132,10 @@ static double icc_value(IccProfile profile, const char *tag, int i)
 /* The columns of sRGB adapted to D50, as the ICC's own sRGB profiles have them. */
 static void the_profile_holds_the_published_primaries(void **state)
 {
-    (void)state;
     static const char *const TAGS[3] = {"rXYZ", "gXYZ", "bXYZ"};
     static const double      WANT[3][3] = {
         {0.4361, 0.2225, 0.0139}, {0.3851, 0.7169, 0.0971}, {0.1431, 0.0606, 0.7141}};
-    Arena      arena = arena_reserve(ARENA_BYTES);
+    Arena      arena = test_arena(state);
     IccProfile p = icc_profile_create(REC709_CHROMATICITIES, ICC_CURVE_SRGB, "test", &arena);
     assert_int_equal(u32_at(p.bytes), p.size);
     for (int c = 0; c < 3; c++) {
@@ -158,7 +147,6 @@ static void the_profile_holds_the_published_primaries(void **state)
         assert_near(sum, icc_value(p, "wtpt", c), 1e-4);
     }
     assert_near(icc_value(p, "gTRC", 1), 2.4, 1e-4); /* behind the curve's kind */
-    arena_release(&arena);
 }
 
 int main(void)
@@ -171,5 +159,5 @@ int main(void)
         cmocka_unit_test(primaries_give_the_published_matrix),
         cmocka_unit_test(the_profile_holds_the_published_primaries),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_arena, drop_arena);
 }

@@ -1,49 +1,18 @@
 /* Files are read whole or not at all, written whole or not at all; URIs mean what RFC 3986 and
  * RFC 2397 say. */
-#include "check.h"
+#include "fixture.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <linux/filter.h>
 #include <linux/seccomp.h>
 #include <stddef.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include "base/file.h"
-
-static Arena arena;
-static char folder[256];
-
-static int start(void **state)
-{
-    (void)state;
-    const char *base = getenv("TMPDIR");
-    snprintf(folder, sizeof folder, "%s/parhelion-test-XXXXXX", base ? base : P_tmpdir);
-    arena = arena_reserve(1 << 24);
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    arena_release(&arena);
-    return rmdir(folder); /* fails when a test left anything behind */
-}
-
-static const char *in_folder(const char *name)
-{
-    return arena_format(&arena, "%s/%s", folder, name);
-}
 
 static void what_was_written_is_read_back(void **state)
 {
-    (void)state;
+    Arena arena = test_arena(state);
     Error err;
     FileBytes bytes;
     const char *path = in_folder("a.bin");
@@ -57,7 +26,7 @@ static void what_was_written_is_read_back(void **state)
 
 static void the_start_is_read_of_a_file_of_any_length(void **state)
 {
-    (void)state;
+    Arena arena = test_arena(state);
     Error     err;
     FileBytes bytes;
     const char *path = in_folder("long.bin");
@@ -70,13 +39,13 @@ static void the_start_is_read_of_a_file_of_any_length(void **state)
     unlink(path);
     assert_false(file_read_start(path, 4, &arena, &bytes, &err));
     assert_non_null(strstr(err.text, "cannot be opened: No such file"));
-    assert_false(file_read_start(folder, 4, &arena, &bytes, &err));
+    assert_false(file_read_start(test_folder(), 4, &arena, &bytes, &err));
     assert_non_null(strstr(err.text, "is a folder, a file is wanted"));
 }
 
 static void a_file_that_cannot_be_written_leaves_nothing(void **state)
 {
-    (void)state;
+    Arena arena = test_arena(state);
     Error err;
     assert_false(file_write(in_folder("none/a.bin"), "x", 1, &err));
     assert_int_equal(err.code, ERROR_OUTPUT);
@@ -89,23 +58,12 @@ static void a_file_that_cannot_be_written_leaves_nothing(void **state)
     assert_false(file_exists(temporary));
 }
 
-/* Names in the folder but "." and "..". */
-static int entries(void)
-{
-    int  count = -2;
-    DIR *list = opendir(folder);
-    assert_non_null(list);
-    while (readdir(list)) count++;
-    closedir(list);
-    return count;
-}
-
 /* What stands in the file at `path`, read anew. */
 static void assert_content(const char *path, const char *wanted)
 {
     Error     err;
     FileBytes bytes;
-    assert_true(file_read(path, 100, &arena, &bytes, &err));
+    assert_true(file_read(path, 100, test_memory(), &bytes, &err));
     assert_string_equal((const char *)bytes.data, wanted);
 }
 
@@ -118,10 +76,10 @@ static void nobody_sees_a_file_before_it_is_whole(void **state)
     for (int i = 0; i < 2; i++) { /* the second time there is one to replace */
         assert_true(file_writer_open(path, &writer, &err));
         assert_true(file_writer_add(&writer, "pie", 3, &err));
-        assert_int_equal(entries(), i);
+        assert_int_equal(files_in_folder(), i);
         assert_true(file_writer_add(&writer, i ? "ces" : "ce", 2 + (size_t)i, &err));
         assert_true(file_writer_commit(&writer, &err));
-        assert_int_equal(entries(), 1);
+        assert_int_equal(files_in_folder(), 1);
         assert_content(path, i ? "pieces" : "piece");
     }
     assert_true(file_writer_open(path, &writer, &err));
@@ -129,7 +87,7 @@ static void nobody_sees_a_file_before_it_is_whole(void **state)
     file_writer_discard(&writer);
     assert_content(path, "pieces");
     assert_true(file_check_writable(path, &err));
-    assert_int_equal(entries(), 1);
+    assert_int_equal(files_in_folder(), 1);
     unlink(path);
     char name[300]; /* too long for its temporary names, found before anything is written */
     memset(name, 'x', sizeof name - 1);
@@ -154,17 +112,17 @@ static void what_a_killed_writer_leaves_is_cleared(void **state)
     int status;
     assert_int_equal(waitpid(child, &status, 0), child);
     assert_int_equal(status, 0);
-    assert_int_equal(entries(), 0);
+    assert_int_equal(files_in_folder(), 0);
     /* killed between link and rename: both names stand there */
     const char *left = in_folder("k.bin.parhelion-part");
     assert_true(file_write(path, "old", 3, &err));
     assert_int_equal(link(path, left), 0);
     assert_true(file_write(path, "new", 3, &err));
-    assert_int_equal(entries(), 1);
+    assert_int_equal(files_in_folder(), 1);
     assert_content(path, "new");
     assert_int_equal(link(path, left), 0);
     file_remove(path);
-    assert_int_equal(entries(), 0);
+    assert_int_equal(files_in_folder(), 0);
 }
 
 /* From here on the process knows no unnamed files. */
@@ -188,12 +146,12 @@ static int write_without_unnamed_files(const char *path)
     FileWriter writer;
     if (!forbid_unnamed_files()) return 77;
     if (!file_writer_open(path, &writer, &err) || writer.kind != FILE_NAMED) return 1;
-    if (!file_writer_add(&writer, "name", 4, &err) || entries() != 1) return 2;
+    if (!file_writer_add(&writer, "name", 4, &err) || files_in_folder() != 1) return 2;
     if (file_exists(path)) return 3;
-    if (!file_writer_commit(&writer, &err) || entries() != 1) return 4;
-    if (!file_writer_open(path, &writer, &err) || entries() != 2) return 5;
+    if (!file_writer_commit(&writer, &err) || files_in_folder() != 1) return 4;
+    if (!file_writer_open(path, &writer, &err) || files_in_folder() != 2) return 5;
     file_writer_discard(&writer);
-    if (entries() != 1 || file_writer_open(in_folder("no/x"), &writer, &err)) return 6;
+    if (files_in_folder() != 1 || file_writer_open(in_folder("no/x"), &writer, &err)) return 6;
     return 0;
 }
 
@@ -213,14 +171,14 @@ static void file_systems_without_unnamed_files_get_named_ones(void **state)
 
 static void reading_names_what_is_wrong(void **state)
 {
-    (void)state;
+    Arena arena = test_arena(state);
     Error err;
     FileBytes bytes;
     const char *path = in_folder("c.bin");
     assert_false(file_read(path, 100, &arena, &bytes, &err));
     assert_string_equal(err.file, path);
     assert_string_equal(err.text, "cannot be opened: No such file or directory");
-    assert_false(file_read(folder, 100, &arena, &bytes, &err));
+    assert_false(file_read(test_folder(), 100, &arena, &bytes, &err));
     assert_string_equal(err.text, "is a folder, a file is wanted");
     assert_true(file_write(path, "12345", 5, &err));
     assert_false(file_read(path, 4, &arena, &bytes, &err));
@@ -230,7 +188,7 @@ static void reading_names_what_is_wrong(void **state)
 
 static void paths_are_joined_and_measured(void **state)
 {
-    (void)state;
+    Arena arena = test_arena(state);
     assert_string_equal(path_beside("a/b/c.gltf", "d.bin", &arena), "a/b/d.bin");
     assert_string_equal(path_beside("c.gltf", "d.bin", &arena), "d.bin");
     assert_string_equal(path_beside("a/c.gltf", "/d.bin", &arena), "/d.bin");
@@ -258,7 +216,7 @@ static void schemes_are_told_from_paths(void **state)
 
 static void percent_escapes_are_taken_out(void **state)
 {
-    (void)state;
+    Arena arena = test_arena(state);
     Error err;
     char *text;
     assert_true(uri_decode("a%20b%c3%A9c", &arena, &text, &err));
@@ -272,7 +230,7 @@ static void percent_escapes_are_taken_out(void **state)
 /* RFC 4648, section 10. */
 static void base64_data_are_decoded(void **state)
 {
-    (void)state;
+    Arena arena = test_arena(state);
     static const char *const ENCODED[] = {"",         "Zg==",     "Zm8=",     "Zm9v",
                                           "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy", "Zm9vYg"};
     static const char *const PLAIN[] = {"",     "f",     "fo",     "foo",
@@ -295,7 +253,7 @@ static void base64_data_are_decoded(void **state)
 
 static void broken_data_uris_are_refused(void **state)
 {
-    (void)state;
+    Arena arena = test_arena(state);
     static const char *const BROKEN[] = {
         "data:text/plain;base64", "data:;base64,Z",        "data:;base64,Zm9*",
         "data:a/b;;base64,Zg==",  "data:;base64,Zg==Zg==", "file:,x"};
@@ -321,5 +279,5 @@ int main(void)
         cmocka_unit_test(base64_data_are_decoded),
         cmocka_unit_test(broken_data_uris_are_refused),
     };
-    return cmocka_run_group_tests_name("file", tests, start, end);
+    return cmocka_run_group_tests_name("file", tests, make_folder, remove_folder);
 }

@@ -1,5 +1,5 @@
 /* The film: exact sums, variance, layers. */
-#include "check.h"
+#include "fixture.h"
 
 #include <string.h>
 
@@ -65,9 +65,8 @@ static void assert_same_frames(const FrameImage *a, const FrameImage *b)
 
 static void any_order_of_adding_gives_the_same_bits(void **state)
 {
-    (void)state;
     enum { COUNT = 500 };
-    Arena      arena = arena_reserve(1 << 24);
+    Arena      arena = test_arena(state);
     FilmSample samples[COUNT];
     uint32_t   random = 1;
     for (uint32_t i = 0; i < COUNT; i++) samples[i] = random_sample(&random, i);
@@ -86,14 +85,12 @@ static void any_order_of_adding_gives_the_same_bits(void **state)
         FrameImage found = film_to_frame(shuffled, 0, &arena);
         assert_same_frames(&expected, &found);
     }
-    arena_release(&arena);
 }
 
 static void the_mean_is_that_of_long_doubles(void **state)
 {
-    (void)state;
     static const float scales[] = {1e-6f, 1e-2f, 1, 1e4f, 1e12f};
-    Arena    arena = arena_reserve(1 << 22);
+    Arena    arena = test_arena(state);
     uint32_t random = 7;
     for (size_t k = 0; k < sizeof scales / sizeof *scales; k++) {
         Film       *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
@@ -111,29 +108,25 @@ static void the_mean_is_that_of_long_doubles(void **state)
         for (int i = 0; i < 3; i++)
             assert_close(pixel.mean_xyz[i], (double)(sum[i] / count), 1e-12);
     }
-    arena_release(&arena);
 }
 
 static void a_millionth_candela_survives_beside_a_tera_candela(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 20);
+    Arena arena = test_arena(state);
     Film *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
     add_grey(film, 0, 0, 0, 1e12f);
     add_grey(film, 0, 0, 1, 1e-6f);
     add_grey(film, 0, 0, 2, -1e12f);
     assert_close(film_pixel(film, 0, 0).mean_xyz[1], (double)1e-6f / 3, 1e-12);
-    arena_release(&arena);
 }
 
 /* The worst sample's steps, times the most samples a pixel takes, fit 128 bits: white, and the
  * colours that have the largest R, G and B; just below the split of the squares, too. */
 static void the_largest_sums_do_not_overflow(void **state)
 {
-    (void)state;
     static const float worst[][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, 1}, {1, -1, 1}};
     static const float sizes[] = {0x1p47f, 0x1.3p16f, 0x1.ep16f};
-    Arena arena = arena_reserve(1 << 22);
+    Arena arena = test_arena(state);
     for (size_t k = 0; k < sizeof worst / sizeof *worst * 3; k++) {
         Film      *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
         FilmSample s = {.display_id = -1};
@@ -149,13 +142,11 @@ static void the_largest_sums_do_not_overflow(void **state)
                                                     (Fixed)FILM_SAMPLES_MAX, &product));
         }
     }
-    arena_release(&arena);
 }
 
 static void losses_are_counted_and_the_smallest_kept_in_any_order(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 20);
+    Arena arena = test_arena(state);
     Film *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
     static const float bad[] = {NAN, INFINITY, -INFINITY, 0x1.8p47f};
     for (int i = 0; i < 40; i++) {
@@ -173,7 +164,6 @@ static void losses_are_counted_and_the_smallest_kept_in_any_order(void **state)
     }
     assert_close(film_pixel(film, 0, 0).mean_xyz[1], 5, 1e-15);
     assert_int_equal(film_pixel(film, 0, 0).samples, 1);
-    arena_release(&arena);
 }
 
 /* ---- variance and error ------------------------------------------------------------------ */
@@ -181,9 +171,8 @@ static void losses_are_counted_and_the_smallest_kept_in_any_order(void **state)
 /* n samples, half of them a, half b: the variance of the mean is (a-b)^2 / 4 / (n-1). */
 static void variance_has_its_closed_form_at_every_scale(void **state)
 {
-    (void)state;
     static const float scales[] = {1e-5f, 1, 1e4f, 1e9f, 1e13f};
-    Arena arena = arena_reserve(1 << 20);
+    Arena arena = test_arena(state);
     for (size_t k = 0; k < sizeof scales / sizeof *scales; k++) {
         Film *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
         float low = scales[k], high = 3 * scales[k], xyz[3] = {1, 1, 1}, rgb[3];
@@ -196,13 +185,11 @@ static void variance_has_its_closed_form_at_every_scale(void **state)
             assert_close(pixel.variance_rgb[i], range * range / 4 / (n - 1), 1e-5);
         }
     }
-    arena_release(&arena);
 }
 
 static void variance_spans_both_windows_of_squares(void **state)
 {
-    (void)state;
-    Arena  arena = arena_reserve(1 << 20);
+    Arena  arena = test_arena(state);
     Film  *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
     float  values[] = {1, 100, 8000, 200000, 1e6f};
     double sum = 0, squares = 0;
@@ -216,20 +203,17 @@ static void variance_spans_both_windows_of_squares(void **state)
     }
     assert_close(film_pixel(film, 0, 0).variance_rgb[1], (squares - sum * sum / 5) / 4 / 5,
                  1e-6);
-    arena_release(&arena);
 }
 
 static void variance_needs_two_samples(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 20);
+    Arena arena = test_arena(state);
     Film *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
     assert_true(isnan(film_pixel(film, 0, 0).variance_rgb[0]));
     add_grey(film, 0, 0, 0, 1);
     assert_true(isnan(film_pixel(film, 0, 0).variance_rgb[0]));
     add_grey(film, 0, 0, 1, 1);
     assert_near(film_pixel(film, 0, 0).variance_rgb[0], 0, 1e-15);
-    arena_release(&arena);
 }
 
 /* A coin that is the same for every machine: 1 or 3 times the value. */
@@ -266,36 +250,31 @@ static void relative_error_is_the_mean_of_sigma_over_luminance(void **state)
 /* Samples whose errors cancel within every block: the mean is sure, whatever their spread. */
 static void relative_error_knows_that_even_samples_are_better(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 20);
+    Arena arena = test_arena(state);
     Film *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
     for (int p = 0; p < WIDTH * HEIGHT; p++)
         for (uint32_t i = 0; i < 64; i++)
             add_grey(film, p % WIDTH, p / WIDTH, i, i % 2 ? 1.0f : 3.0f);
     assert_near(film_relative_error(film).frame, 0, 1e-12);
     assert_close(film_pixel(film, 0, 0).variance_rgb[1] / pow(0.948, 2), 1.0 / 63, 0.01);
-    arena_release(&arena);
 }
 
 /* Five pixels of 100 without noise and one of 1 with sigma 0.1: judged against half the key. */
 static void relative_error_judges_shadows_against_half_the_key(void **state)
 {
-    (void)state;
-    Arena  arena = arena_reserve(1 << 20);
+    Arena  arena = test_arena(state);
     Film  *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
     double key = pow(100, 5.0 / 6);
     for (uint32_t i = 0; i < 26; i++)
         for (int p = 0; p < WIDTH * HEIGHT; p++)
             add_grey(film, p % WIDTH, p / WIDTH, i, p ? 100 : i % 2 ? 0.5f : 1.5f);
     assert_close(film_relative_error(film).frame, 0.1 / (key / 2) / 6, 1e-3);
-    arena_release(&arena);
 }
 
 static void relative_error_of_displays_counts_their_pixels_only(void **state)
 {
-    (void)state;
     enum { SIDE = 100 };
-    Arena    arena = arena_reserve(1 << 23);
+    Arena    arena = test_arena(state);
     FilmRect square = {0, 0, SIDE, SIDE};
     Film    *film = film_create(SIDE, SIDE, square, 0, &arena);
     for (int p = 0; p < SIDE * SIDE; p++)
@@ -311,14 +290,12 @@ static void relative_error_of_displays_counts_their_pixels_only(void **state)
     assert_close(error.frame, 0.5 * 0.5 / sqrt(64), 0.03);
     assert_int_equal(film_pixel(film, 0, 1).display_id, 4);
     assert_int_equal(film_pixel(film, SIDE - 1, 1).display_id, -1);
-    arena_release(&arena);
 }
 
 /* Pixel p swings by p % 4 tenths around 100: of equals the first comes first. */
 static void the_worst_pixels_come_in_order(void **state)
 {
-    (void)state;
-    Arena     arena = arena_reserve(1 << 20);
+    Arena     arena = test_arena(state);
     FilmRect  crop = {2, 1, 6, 4};
     Film     *film = film_create(8, 5, crop, 0, &arena);
     FilmWorst worst[20];
@@ -338,7 +315,6 @@ static void the_worst_pixels_come_in_order(void **state)
     assert_close(film_relative_error(film).frame, frame, 1e-12);
     assert_int_equal(film_worst_pixels(film, 2, worst), 2);
     assert_true(worst[1].x == 5 && worst[1].y == 2);
-    arena_release(&arena);
 }
 
 /* ---- layers ------------------------------------------------------------------------------ */
@@ -360,8 +336,7 @@ static FilmSample display_sample(uint32_t index, float theta, float phi)
 
 static void a_frame_has_the_channels_asked_for_and_no_others(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(1 << 22);
+    Arena      arena = test_arena(state);
     Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH | LAYER_ID, &arena);
     FrameImage frame = film_to_frame(film, 0, &arena);
     assert_int_equal(frame.channel_count, 6);
@@ -373,14 +348,12 @@ static void a_frame_has_the_channels_asked_for_and_no_others(void **state)
     frame = film_to_frame(film, 0, &arena);
     assert_int_equal(frame.channel_count,
                      3 + 3 + 1 + 3 + 3 + 3 + 2 + 2 + 3 + 3 + 1 + 4 * 3 + 2 + 1);
-    arena_release(&arena);
 }
 
 /* 80 samples in blocks of 16, the second and fourth of which are odd: 32 against 48. */
 static void halves_are_the_difference_of_interleaved_blocks(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 22);
+    Arena arena = test_arena(state);
     Film *film = film_create(WIDTH, HEIGHT, whole, LAYER_HALVES, &arena);
     for (uint32_t i = 80; i-- > 0;) add_grey(film, 0, 0, i, i / 16 % 2 ? 9.0f : 4.0f);
     for (uint32_t i = 0; i < 31; i++) add_grey(film, 1, 0, i, 4); /* the odd half is short */
@@ -393,15 +366,13 @@ static void halves_are_the_difference_of_interleaved_blocks(void **state)
     assert_close(at(&frame, "halves.B", 0), half * (double)rgb[2], 1e-6);
     assert_close(film_pixel(film, 0, 0).sigma_y, half * sqrt(PI / 2), 1e-6);
     assert_true(isnan(at(&frame, "halves.G", 1)));
-    arena_release(&arena);
 }
 
 /* Over many pixels of independent samples the square of `halves` is their variance. */
 static void halves_squared_are_the_variance_of_independent_samples(void **state)
 {
-    (void)state;
     enum { SIDE = 60 };
-    Arena    arena = arena_reserve(1 << 23);
+    Arena    arena = test_arena(state);
     FilmRect square = {0, 0, SIDE, SIDE};
     Film    *film =
         film_create(SIDE, SIDE, square, LAYER_HALVES | LAYER_VARIANCE, &arena);
@@ -414,13 +385,11 @@ static void halves_squared_are_the_variance_of_independent_samples(void **state)
         variance += at(&frame, "variance.G", p);
     }
     assert_close(squares, variance, 0.08); /* 3 sigma: 3600 squares of a normal number */
-    arena_release(&arena);
 }
 
 static void layers_are_means_over_the_samples_that_hit(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(1 << 22);
+    Arena      arena = test_arena(state);
     Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
     FilmSample near_hit = {.sample_index = 5, .hit = true, .depth = 1, .position = {1, 2, 3},
                            .normal = {0, 1, 0}, .albedo = {1, 0, 0}, .uv = {0.25f, 0},
@@ -447,13 +416,11 @@ static void layers_are_means_over_the_samples_that_hit(void **state)
     assert_true(at(&frame, "id.part", 0) == -1);
     assert_true(at(&frame, "id.display", 1) == -1);
     assert_true(at(&frame, "R", 0) == 0);
-    arena_release(&arena);
 }
 
 static void features_that_are_not_finite_leave_the_light_alone(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(1 << 22);
+    Arena      arena = test_arena(state);
     Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
     FilmSample s = {
         .xyz = {4, 4, 4}, .hit = true, .depth = NAN, .part_id = 1, .display_id = -1};
@@ -463,13 +430,11 @@ static void features_that_are_not_finite_leave_the_light_alone(void **state)
     assert_true(isnan(at(&frame, "depth.Z", 0)));
     assert_true(at(&frame, "id.part", 0) == -1);
     assert_int_equal(film_dropped(film).count, 0);
-    arena_release(&arena);
 }
 
 static void contrast_is_the_ratio_of_mean_luminances_with_the_reflection(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(1 << 22);
+    Arena      arena = test_arena(state);
     Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
     FilmSample s = display_sample(0, 0.5f, 1);
     film_add_sample(film, 0, 0, &s);
@@ -489,13 +454,11 @@ static void contrast_is_the_ratio_of_mean_luminances_with_the_reflection(void **
     assert_close(at(&frame, "display.theta", 0), degrees_from_radians(0.5), 1e-5);
     assert_close(at(&frame, "display.phi", 0), degrees_from_radians(1), 1e-5);
     assert_true(at(&frame, "id.display", 0) == 1);
-    arena_release(&arena);
 }
 
 static void phi_is_averaged_as_a_direction(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(1 << 22);
+    Arena      arena = test_arena(state);
     Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_DISPLAY_ANGLES, &arena);
     float      turn = (float)(2 * PI);
     FilmSample before = display_sample(0, 0.3f, turn - 0.02f);
@@ -504,13 +467,11 @@ static void phi_is_averaged_as_a_direction(void **state)
     film_add_sample(film, 0, 0, &after);
     FrameImage frame = film_to_frame(film, 0, &arena);
     assert_close(at(&frame, "display.phi", 0), degrees_from_radians(0.01), 1e-3);
-    arena_release(&arena);
 }
 
 static void a_pixel_half_on_a_display_reports_the_display_half(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(1 << 22);
+    Arena      arena = test_arena(state);
     Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
     FilmSample on = display_sample(1, 0.1f, 0), off = {.xyz = {9, 9, 9}, .hit = true,
                                                        .depth = 4, .display_id = -1};
@@ -519,13 +480,11 @@ static void a_pixel_half_on_a_display_reports_the_display_half(void **state)
     FrameImage frame = film_to_frame(film, 0, &arena);
     assert_close(at(&frame, "display.contrast", 0), (380.0 + 20) / 20, 1e-6);
     assert_close(at(&frame, "depth.Z", 0), 3, 1e-6);
-    arena_release(&arena);
 }
 
 static void a_crop_is_the_data_window(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(1 << 22);
+    Arena      arena = test_arena(state);
     FilmRect   crop = {1, 1, 3, 2};
     Film      *film = film_create(WIDTH, HEIGHT, crop, LAYER_XYZ, &arena);
     add_grey(film, 2, 1, 0, 8);
@@ -536,7 +495,6 @@ static void a_crop_is_the_data_window(void **state)
     assert_int_equal(frame.display.y1, HEIGHT);
     assert_int_equal(frame_pixel_count(&frame), 2);
     assert_close(at(&frame, "xyz.X", 1), 8, 1e-7);
-    arena_release(&arena);
 }
 
 static void film_bytes_is_what_a_film_takes(void **state)
@@ -578,5 +536,5 @@ int main(void)
         cmocka_unit_test(a_crop_is_the_data_window),
         cmocka_unit_test(film_bytes_is_what_a_film_takes),
     };
-    return cmocka_run_group_tests_name("film", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("film", tests, make_arena, drop_arena);
 }

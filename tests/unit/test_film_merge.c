@@ -1,42 +1,29 @@
 /* Parts of a film: in any split, order and grouping they make the same bits as one film; what
  * does not make a whole, or is damaged, is refused by name. */
-#include "check.h"
+#include "fixture.h"
 
 #include <fcntl.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
-#include "base/file.h"
 #include "base/sampler.h"
 #include "film/film_merge.h"
 #include "film/pixels.h"
 
-enum { ARENA_BYTES = 1 << 26, WIDTH = 9, HEIGHT = 23, SAMPLES = 40 };
+enum { WIDTH = 9, HEIGHT = 23, SAMPLES = 40 };
 
 static const FilmRect whole = {0, 0, WIDTH, HEIGHT};
-static char folder[64] = "parts-XXXXXX";
-static char path[100];
+static char path[2 * FOLDER_BYTES];
 
-static int make_folder(void **state)
+static int make_part_path(void **state)
 {
-    (void)state;
-    if (!mkdtemp(folder)) return -1;
-    snprintf(path, sizeof path, "%s/part.exr", folder);
+    if (make_folder(state)) return -1;
+    snprintf(path, sizeof path, "%s", in_folder("part.exr"));
     return 0;
 }
 
-static int remove_folder(void **state)
+static int remove_part(void **state)
 {
-    (void)state;
     unlink(path);
-    return rmdir(folder); /* fails when a test left anything behind */
-}
-
-static void assert_text_has(const Error *err, const char *part)
-{
-    if (!strstr(err->text, part)) fail_msg("\"%s\" lacks \"%s\"", err->text, part);
-    assert_null(strchr(err->text, '\n'));
+    return remove_folder(state);
 }
 
 /* ---- films ------------------------------------------------------------------------------- */
@@ -125,8 +112,7 @@ static int cut_up(Cut cuts[27], uint32_t *random)
 
 static void parts_in_any_split_and_order_make_the_same_bits(void **state)
 {
-    (void)state;
-    Arena    arena = arena_reserve(ARENA_BYTES);
+    Arena    arena = test_arena(state);
     uint32_t random = 1;
     Film    *expected = make_film(whole, 0, SAMPLES, LAYER_ALL, &arena);
     Error    err = {0};
@@ -145,14 +131,12 @@ static void parts_in_any_split_and_order_make_the_same_bits(void **state)
         }
         assert_same_films(sum, expected);
     }
-    arena_release(&arena);
 }
 
 /* (a + b) + c against a + (b + c). */
 static void grouping_makes_no_difference(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(ARENA_BYTES);
+    Arena arena = test_arena(state);
     Error err = {0};
     Film *expected = make_film(whole, 0, SAMPLES, LAYER_DEPTH, &arena);
     for (int left = 0; left < 2; left++) {
@@ -167,7 +151,6 @@ static void grouping_makes_no_difference(void **state)
         film_add_dropped(outer, &inner->dropped);
         assert_same_films(outer, expected);
     }
-    arena_release(&arena);
 }
 
 /* ---- through files ----------------------------------------------------------------------- */
@@ -197,10 +180,9 @@ static bool read_part(Film *to, FilmPart *part, Arena scratch, Error *err)
 
 static void files_carry_every_bit(void **state)
 {
-    (void)state;
     static const unsigned layers[] = {0, LAYER_ALL, LAYER_UV | LAYER_DISPLAY_CONTRAST};
     static const FilmRect crops[] = {{0, 0, WIDTH, HEIGHT}, {2, 3, 7, 22}, {8, 22, 9, 23}};
-    Arena arena = arena_reserve(ARENA_BYTES);
+    Arena arena = test_arena(state);
     for (int i = 0; i < 9; i++) {
         Film    *film = make_film(crops[i % 3], 3, SAMPLES, layers[i / 3], &arena);
         Film    *back = film_create(WIDTH, HEIGHT, crops[i % 3], layers[i / 3], &arena);
@@ -218,15 +200,13 @@ static void files_carry_every_bit(void **state)
         found.name = part.name;
         assert_memory_equal(&found, &part, sizeof part);
     }
-    arena_release(&arena);
 }
 
 /* More than one band: rows of 1.1 MB, of which 48 (three chunks) fit into 64 MB. */
 static void long_parts_are_read_in_bands(void **state)
 {
-    (void)state;
     enum { WIDE = 5000, HIGH = 64 };
-    Arena    arena = arena_reserve((size_t)1 << 30);
+    Arena    arena = test_arena(state);
     FilmRect all = {0, 0, WIDE, HIGH};
     Film    *film = film_create(WIDE, HIGH, all, 0, &arena);
     Film    *back = film_create(WIDE, HIGH, all, 0, &arena);
@@ -245,20 +225,18 @@ static void long_parts_are_read_in_bands(void **state)
     film_part_close(&from);
     assert_int_equal(bands, 2);
     assert_same_films(back, film);
-    arena_release(&arena);
 }
 
 /* The names are what strangers read: a sample of Y = 1 is 2^48 steps, in word 1. */
 static void words_have_the_names_that_the_header_says(void **state)
 {
-    (void)state;
     static const char *const names[] = {"xyz.Y.0", "xyz.Y.1", "xyz.Z.3", "samples", "part.id",
                                         "display.sample", "odd.samples", "odd.X.1", "depth.Z.1",
                                         "squares.R.high.0", "direction.Z.0", "uv.V.1"};
     static const uint32_t values[] = {0, 1 << 16, 0xffffffffu, 1, 4, 0xffffffffu, 1, 2 << 16,
                                       3 << 16, 0, 0, 5 << 16};
     static const FilmRect one = {0, 0, 1, 1};
-    Arena      arena = arena_reserve(ARENA_BYTES);
+    Arena      arena = test_arena(state);
     Film      *film = film_create(1, 1, one, LAYER_ALL, &arena);
     FilmSample sample = {.sample_index = 16, .xyz = {2, 1, -1}, .hit = true, .depth = 3,
                          .uv = {0, 5}, .part_id = 4, .display_id = -1};
@@ -276,7 +254,6 @@ static void words_have_the_names_that_the_header_says(void **state)
     for (int i = 0; i < 12; i++)
         if (read[i] != values[i]) fail_msg("%s is %x, not %x", names[i], read[i], values[i]);
     exr_reader_destroy(reader);
-    arena_release(&arena);
 }
 
 /* ---- damage ------------------------------------------------------------------------------ */
@@ -308,8 +285,7 @@ static void patch(size_t at, const void *bytes, size_t size)
 
 static void a_flipped_bit_is_refused_or_changes_nothing(void **state)
 {
-    (void)state;
-    Arena    arena = arena_reserve(ARENA_BYTES);
+    Arena    arena = test_arena(state);
     Written  w = write_small(&arena);
     uint32_t random = 5;
     int      refused = 0;
@@ -336,13 +312,11 @@ static void a_flipped_bit_is_refused_or_changes_nothing(void **state)
     }
     print_message("%d of 1500 flipped bits are refused\n", refused);
     assert_true(refused > 700);
-    arena_release(&arena);
 }
 
 static void every_prefix_is_refused(void **state)
 {
-    (void)state;
-    Arena   arena = arena_reserve(ARENA_BYTES);
+    Arena   arena = test_arena(state);
     Written w = write_small(&arena);
     for (size_t size = w.bytes.size; size > 100; size -= size < 4000 ? 7 : 101) {
         Arena    scratch = arena;
@@ -352,9 +326,8 @@ static void every_prefix_is_refused(void **state)
         assert_int_equal(truncate(path, (off_t)(size - 1)), 0);
         if (read_part(back, &found, scratch, &err))
             fail_msg("%zu of %zu bytes were accepted", size - 1, w.bytes.size);
-        assert_text_has(&err, "damaged");
+        assert_error_has(&err, "damaged");
     }
-    arena_release(&arena);
 }
 
 /* Puts `to` in place of `from` where it stands in the words' part. */
@@ -373,15 +346,14 @@ static void assert_refused(const Written *w, const char *from, const char *to,
     size_t      at = (size_t)(place - (const char *)w->bytes.data);
     patch(at, to, length);
     assert_false(read_part(back, &found, scratch, &err));
-    assert_text_has(&err, message);
+    assert_error_has(&err, message);
     patch(at, from, length);
     arena_release(&scratch);
 }
 
 static void what_is_said_of_the_sums_must_hold(void **state)
 {
-    (void)state;
-    Arena   arena = arena_reserve(ARENA_BYTES);
+    Arena   arena = test_arena(state);
     Written w = write_small(&arena);
     assert_refused(&w, "0:4", "0:3", "damaged sums: parhelion:askedSamples cannot be read");
     assert_refused(&w, "0:4", "0:5", "damaged sums: their checksum is ");
@@ -396,13 +368,11 @@ static void what_is_said_of_the_sums_must_hold(void **state)
                    "damaged sums: parhelion:checksum cannot be read");
     assert_refused(&w, "parhelion:layers", "parhelion:loyers",
                    "damaged sums: parhelion:layers cannot be read");
-    arena_release(&arena);
 }
 
 static void the_checksum_knows_in_which_row_a_sum_stands(void **state)
 {
-    (void)state;
-    Arena       arena = arena_reserve(ARENA_BYTES);
+    Arena       arena = test_arena(state);
     const char *checksums[2];
     for (int y = 0; y < 2; y++) {
         Film      *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
@@ -416,13 +386,11 @@ static void the_checksum_knows_in_which_row_a_sum_stands(void **state)
         checksums[y] = frame_string(&words, "parhelion:checksum");
     }
     assert_string_not_equal(checksums[0], checksums[1]);
-    arena_release(&arena);
 }
 
 static void another_set_of_layers_does_not_fit_the_words(void **state)
 {
-    (void)state;
-    Arena    arena = arena_reserve(ARENA_BYTES);
+    Arena    arena = test_arena(state);
     Film    *film = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH, &arena);
     FilmPart part = film_part_of(film, 0, 1), found;
     FrameImage frame = film_to_frame(film, 0, &arena);
@@ -433,18 +401,16 @@ static void another_set_of_layers_does_not_fit_the_words(void **state)
     frame.words = &fewer;
     assert_true(frame_write(path, &frame, &err));
     assert_false(read_part(film, &found, arena, &err));
-    assert_text_has(&err, "damaged sums: 56 words a pixel, its layers have 60");
+    assert_error_has(&err, "damaged sums: 56 words a pixel, its layers have 60");
     frame.words = NULL;
     assert_true(frame_write(path, &frame, &err));
     assert_false(read_part(film, &found, arena, &err));
-    assert_text_has(&err, "carries no sums, only means: it cannot be merged");
-    arena_release(&arena);
+    assert_error_has(&err, "carries no sums, only means: it cannot be merged");
 }
 
 static void sums_that_no_samples_make_are_refused(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(ARENA_BYTES);
+    Arena arena = test_arena(state);
     Film *sum = film_create(WIDTH, HEIGHT, whole, LAYER_UV, &arena);
     for (int i = 0; i < 7; i++) {
         Film      *film = make_film(whole, 0, 3, LAYER_UV, &arena);
@@ -458,9 +424,8 @@ static void sums_that_no_samples_make_are_refused(void **state)
         if (i == 5) pixel->display_hits = 4;
         if (i == 6) pixel->odd_samples = 4;
         assert_false(film_add_pixels(sum, whole, film->pixels, 3, &err));
-        assert_text_has(&err, "damaged sums: pixel 4,5 has sums that 3 samples cannot have");
+        assert_error_has(&err, "damaged sums: pixel 4,5 has sums that 3 samples cannot have");
     }
-    arena_release(&arena);
 }
 
 /* ---- do they make a whole ---------------------------------------------------------------- */
@@ -473,8 +438,7 @@ static FilmPart box(const char *name, FilmRect crop, uint32_t first, uint32_t en
 
 static void parts_that_fill_a_box_are_a_whole(void **state)
 {
-    (void)state;
-    Arena    arena = arena_reserve(1 << 20);
+    Arena    arena = test_arena(state);
     uint32_t random = 9;
     for (int round = 0; round < 50; round++) {
         Cut      cuts[27];
@@ -490,17 +454,15 @@ static void parts_that_fill_a_box_are_a_whole(void **state)
         assert_int_equal(all.asked_end, SAMPLES + 5);
         parts[round % 26] = parts[26]; /* one is missing; another is there twice, at the end */
         assert_false(film_merge_check(parts, count - 1, arena, &all, &err));
-        assert_text_has(&err, "no part has samples ");
+        assert_error_has(&err, "no part has samples ");
         assert_false(film_merge_check(parts, count, arena, &all, &err));
-        assert_text_has(&err, "are in a.exr as well");
+        assert_error_has(&err, "are in a.exr as well");
     }
-    arena_release(&arena);
 }
 
 static void overlaps_are_named(void **state)
 {
-    (void)state;
-    Arena    arena = arena_reserve(1 << 20);
+    Arena    arena = test_arena(state);
     FilmPart parts[] = {box("a.exr", (FilmRect){0, 0, 5, 6}, 0, 4),
                         box("b.exr", (FilmRect){5, 0, 9, 6}, 0, 4),
                         box("c.exr", (FilmRect){3, 2, 8, 9}, 3, 9)}, all;
@@ -509,57 +471,52 @@ static void overlaps_are_named(void **state)
     assert_false(film_merge_check(parts, 3, arena, &all, &err));
     assert_int_equal(err.code, ERROR_INPUT);
     assert_string_equal(err.file, "c.exr");
-    assert_text_has(&err, "pixels 3,2,5,6, samples 3:4 are in a.exr as well — leave one");
-    arena_release(&arena);
+    assert_error_has(&err, "pixels 3,2,5,6, samples 3:4 are in a.exr as well — leave one");
 }
 
 static void gaps_are_named(void **state)
 {
-    (void)state;
     static const FilmRect left = {0, 0, 4, HEIGHT}, right = {4, 0, WIDTH, HEIGHT};
-    Arena    arena = arena_reserve(1 << 20);
+    Arena    arena = test_arena(state);
     FilmPart all, parts[] = {box("a.exr", left, 0, 4), box("b.exr", right, 0, 4),
                              box("c.exr", left, 4, 8), box("d.exr", right, 6, 8)};
     Error    err = {0};
     assert_false(film_merge_check(parts, 4, arena, &all, &err));
     assert_int_equal(err.code, ERROR_INPUT);
     assert_string_equal(err.file, "");
-    assert_text_has(&err, "no part has samples 4:6 of pixels 4,0,9,23 — add what `render "
+    assert_error_has(&err, "no part has samples 4:6 of pixels 4,0,9,23 — add what `render "
                           "--samples 4:6 --crop 4,0,9,23` makes");
     assert_false(film_merge_check(parts, 3, arena, &all, &err));
-    assert_text_has(&err, "no part has samples 4:8 of pixels 4,0,9,23");
+    assert_error_has(&err, "no part has samples 4:8 of pixels 4,0,9,23");
     assert_false(film_merge_check(parts + 1, 2, arena, &all, &err));
-    assert_text_has(&err, "no part has samples 0:4 of pixels 0,0,4,23");
+    assert_error_has(&err, "no part has samples 0:4 of pixels 0,0,4,23");
     parts[0].asked_end = 4;
     parts[2].end_sample = 5;
     parts[3].first_sample = 4;
     parts[2].asked_end = 8;
     assert_false(film_merge_check(parts, 4, arena, &all, &err));
     assert_string_equal(err.file, "c.exr");
-    assert_text_has(&err, "incomplete: it was stopped after samples 4:5 of 4:8 — render the "
+    assert_error_has(&err, "incomplete: it was stopped after samples 4:5 of 4:8 — render the "
                           "whole part");
-    arena_release(&arena);
 }
 
 /* Also when what it was asked for makes the range that all are to have. */
 static void a_part_that_was_stopped_may_be_filled_by_others(void **state)
 {
-    (void)state;
-    Arena    arena = arena_reserve(1 << 20);
+    Arena    arena = test_arena(state);
     FilmPart all, parts[] = {box("a.exr", whole, 0, 4), box("b.exr", whole, 4, 6),
                              box("c.exr", whole, 6, 8)};
     Error    err = {0};
     parts[1].asked_end = 8;
     assert_false(film_merge_check(parts, 2, arena, &all, &err));
     assert_string_equal(err.file, "b.exr");
-    assert_text_has(&err, "stopped after samples 4:6 of 4:8");
+    assert_error_has(&err, "stopped after samples 4:6 of 4:8");
     assert_true(film_merge_check(parts, 3, arena, &all, &err));
     assert_int_equal(all.end_sample, 8);
     parts[0].end_sample = parts[0].asked_end = 3; /* what is missing first is not b's fault */
     assert_false(film_merge_check(parts, 2, arena, &all, &err));
     assert_string_equal(err.file, "");
-    assert_text_has(&err, "no part has samples 3:4 of pixels 0,0,9,23");
-    arena_release(&arena);
+    assert_error_has(&err, "no part has samples 3:4 of pixels 0,0,9,23");
 }
 
 int main(void)
@@ -581,5 +538,5 @@ int main(void)
         cmocka_unit_test(gaps_are_named),
         cmocka_unit_test(a_part_that_was_stopped_may_be_filled_by_others),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_part_path, remove_part);
 }

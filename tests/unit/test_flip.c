@@ -1,5 +1,5 @@
 /* FLIP and HDR-FLIP: closed forms, symmetries, and a slow twin that shares no line with it. */
-#include "check.h"
+#include "fixture.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -36,8 +36,7 @@ static void assert_all_near(const float *map, size_t count, double expected, dou
 
 static void equal_pictures_have_none(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas scene = canvas_scene(150, 40, 0.3, 1, &arena);
     const size_t count = planes_pixel_count(&scene.planes);
     assert_all_near(ldr_map(&scene, &scene, &arena), count, 0, 0);
@@ -46,7 +45,6 @@ static void equal_pictures_have_none(void **state)
     flip_hdr(&scene.planes, &scene.planes, &DEFAULTS, arena, map, which);
     assert_all_near(map, count, 0, 0);
     assert_all_near(which, count, 0, 0);
-    arena_release(&arena);
 }
 
 typedef struct UniformPair {
@@ -83,11 +81,9 @@ static void even_surfaces_follow_the_closed_form(void **state)
 
 static void light_beyond_the_display_is_clamped(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas a = canvas_uniform(0, 1, 0, &arena), b = canvas_uniform(-3, 7, -1, &arena);
     assert_near(mean_of(&a, &b, arena), 0, 0);
-    arena_release(&arena);
 }
 
 /* Every pixel of a picture against its slow twin. */
@@ -123,35 +119,30 @@ static void noise_agrees_with_the_slow_twin(void **state)
 
 static void other_screens_agree_with_the_slow_twin(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(14, 11, 0.2, 1, &arena);
     const Canvas t = canvas_scene(14, 11, 0.2, 2, &arena);
     assert_near(worst_against_slow(&r, &t, 10, arena), 0, 5e-6);
     assert_near(worst_against_slow(&r, &t, 40, arena), 0, 5e-6);
     assert_near(worst_against_slow(&r, &t, 120, arena), 0, 5e-6);
-    arena_release(&arena);
 }
 
 /* Lighter everywhere by the same: edges that did not change must not show as changed. (Their
  * difference goes through a square root, which makes 1e-4 of a float's 1e-8.) */
 static void unchanged_edges_agree_with_the_slow_twin(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas noisy = canvas_scene(24, 18, 0.1, 1, &arena);
     const Canvas r = canvas_scaled(&noisy, 0.5, &arena), t = canvas_scaled(&r, 1, &arena);
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < 24 * 18; i++) t.rgb[c][i] += 0.25f;
     assert_near(worst_against_slow(&r, &t, FLIP_PIXELS_PER_DEGREE, arena), 0, 5e-6);
-    arena_release(&arena);
 }
 
 /* The borders of tiles lie at 128: pixels about them. */
 static void tiles_have_no_seams(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(140, 135, 0.2, 1, &arena);
     const Canvas t = canvas_scene(140, 135, 0.2, 2, &arena);
     const float *map = ldr_map(&r, &t, &arena);
@@ -165,13 +156,11 @@ static void tiles_have_no_seams(void **state)
         assert_near(map[i * 140 + i], slanting, 5e-6);
     }
     free(slow);
-    arena_release(&arena);
 }
 
 static void threads_change_no_bit(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(260, 140, 0.2, 1, &arena);
     const Canvas t = canvas_scene(260, 140, 0.2, 2, &arena);
     const size_t bytes = planes_pixel_count(&r.planes) * sizeof(float);
@@ -183,18 +172,15 @@ static void threads_change_no_bit(void **state)
         flip_ldr(&r.planes, &t.planes, &options, arena, many);
         assert_memory_equal(one, many, bytes);
     }
-    arena_release(&arena);
 }
 
 static void reference_and_test_may_change_places(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(40, 30, 0.4, 1, &arena);
     const Canvas t = canvas_scene(40, 30, 0.4, 2, &arena);
     assert_memory_equal(ldr_map(&r, &t, &arena), ldr_map(&t, &r, &arena),
                         planes_pixel_count(&r.planes) * sizeof(float));
-    arena_release(&arena);
 }
 
 static Canvas transposed(const Canvas *source, Arena *arena)
@@ -210,21 +196,18 @@ static Canvas transposed(const Canvas *source, Arena *arena)
 
 static void rows_and_columns_may_change_places(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(40, 25, 0.2, 1, &arena);
     const Canvas t = canvas_scene(40, 25, 0.2, 2, &arena);
     const Canvas rt = transposed(&r, &arena), tt = transposed(&t, &arena);
     const float *map = ldr_map(&r, &t, &arena), *turned = ldr_map(&rt, &tt, &arena);
     for (int y = 0; y < 25; y++)
         for (int x = 0; x < 40; x++) assert_near(map[y * 40 + x], turned[x * 25 + y], 1e-6);
-    arena_release(&arena);
 }
 
 static void more_difference_gives_more(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas grey = canvas_uniform(0.2f, 0.2f, 0.2f, &arena);
     const Canvas clean = canvas_scene(60, 50, 0, 1, &arena);
     double       last_step = 0, last_noise = 0;
@@ -238,14 +221,12 @@ static void more_difference_gives_more(void **state)
         last_step = step;
         last_noise = noise;
     }
-    arena_release(&arena);
 }
 
 /* Colours of a cube's corners, at random: the most that a picture can do. */
 static void nothing_leaves_0_to_1(void **state)
 {
-    (void)state;
-    Arena    arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena    arena = test_arena(state);
     uint64_t seed = 5;
     Canvas   pictures[2];
     for (int p = 0; p < 2; p++) {
@@ -258,18 +239,15 @@ static void nothing_leaves_0_to_1(void **state)
     const FlipSummary all = flip_summary(map, 90 * 70, NULL);
     for (int i = 0; i < 90 * 70; i++) assert_true(map[i] >= 0 && map[i] <= 1);
     assert_true(all.max > 0.5 && all.median < all.p95 && all.p95 < all.max);
-    arena_release(&arena);
 }
 
 static void one_pixel_is_a_picture(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas a = canvas_create(1, 1, &arena), b = canvas_create(1, 1, &arena);
     canvas_fill(&a, 0, 1, 0);
     canvas_fill(&b, 0, 0, 1);
     assert_near(mean_of(&a, &b, arena), 1, 1e-6);
-    arena_release(&arena);
 }
 
 static double sum_of_filter(const FlipFilter *f)
@@ -281,7 +259,6 @@ static double sum_of_filter(const FlipFilter *f)
 
 static void filters_keep_their_sums(void **state)
 {
-    (void)state;
     const double screens[] = {1, 4, 30, FLIP_PIXELS_PER_DEGREE, 300};
     for (int i = 0; i < 5; i++) {
         Arena             arena = arena_reserve(1 << 20);
@@ -297,10 +274,9 @@ static void filters_keep_their_sums(void **state)
         assert_near(sum_of_filter(&f.curve), f.slope.radius ? 0 : -1, 1e-14);
         arena_release(&arena);
     }
-    Arena arena = arena_reserve(1 << 20);
+    Arena arena = test_arena(state);
     assert_int_equal(flip_filters_create(FLIP_PIXELS_PER_DEGREE, &arena).radius, 10);
     assert_int_equal(flip_filters_create(FLIP_PIXELS_PER_DEGREE, &arena).gauss.radius, 9);
-    arena_release(&arena);
 }
 
 static void a_summary_keeps_to_its_mask(void **state)
@@ -408,8 +384,7 @@ static void one_exposure_is_the_tone_mapped_picture(void **state)
 /* Three exposures against each for itself. */
 static void the_greatest_exposure_counts(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(150, 40, 0.2, 1, &arena);
     const Canvas t = canvas_scene(150, 40, 0.2, 2, &arena);
     const size_t count = planes_pixel_count(&r.planes);
@@ -430,7 +405,6 @@ static void the_greatest_exposure_counts(void **state)
         decided[(int)which[i]]++;
     }
     assert_true(decided[0] && decided[1] && decided[2]);
-    arena_release(&arena);
 }
 
 /* 100 pixels: 1 of 800, 49 of 100 and 50 of 2 cd/m2: of the two in the middle the greater is
@@ -468,32 +442,27 @@ static FlipExposures range_of(const Canvas *reference, Arena arena)
 
 static void an_even_reference_has_one_exposure(void **state)
 {
-    (void)state;
-    Arena         arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena         arena = test_arena(state);
     const Canvas  r = canvas_uniform(7, 7, 7, &arena);
     FlipExposures used = range_of(&r, arena);
     assert_int_equal(used.count, 1);
     assert_near(slow_tone(FLIP_ACES, 7 * exp2(used.start_ev)), 0.85, 1e-6);
-    arena_release(&arena);
 }
 
 /* The authors' median would be 0 here, and their range endless. */
 static void black_halves_leave_the_median_of_the_rest(void **state)
 {
-    (void)state;
-    Arena  arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena  arena = test_arena(state);
     Canvas r = known_luminances(&arena);
     for (int c = 0; c < 3; c++)
         for (int i = 40; i < 100; i++) r.rgb[c][i] = 0;
     FlipExposures used = range_of(&r, arena);
     assert_near(used.stop_ev - used.start_ev, 3, 1e-6);
-    arena_release(&arena);
 }
 
 static void a_black_reference_has_a_range(void **state)
 {
-    (void)state;
-    Arena         arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena         arena = test_arena(state);
     const Canvas  black = canvas_uniform(0, 0, 0, &arena);
     const Canvas  grey = canvas_uniform(0.3f, 0.3f, 0.3f, &arena);
     float        *map = new_map(&black.planes, &arena);
@@ -504,26 +473,22 @@ static void a_black_reference_has_a_range(void **state)
     assert_near(used.stop_ev, 1, 0);
     assert_int_equal(used.count, 2);
     assert_all_near(map, planes_pixel_count(&black.planes), expected, 2e-6);
-    arena_release(&arena);
 }
 
 static void negative_light_is_black(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas a = canvas_uniform(5, 0, 5, &arena), b = canvas_uniform(5, -9, 5, &arena);
     float       *map = new_map(&a.planes, &arena);
     FlipExposures of_a = flip_hdr(&a.planes, &b.planes, &DEFAULTS, arena, map, NULL);
     assert_all_near(map, planes_pixel_count(&a.planes), 0, 0);
     assert_near(range_of(&b, arena).start_ev, of_a.start_ev, 0);
-    arena_release(&arena);
 }
 
 /* The range goes with the reference, so the unit of light does not matter. */
 static void the_unit_of_light_does_not_matter(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(40, 30, 0.2, 1, &arena);
     const Canvas t = canvas_scene(40, 30, 0.2, 2, &arena);
     const Canvas r8 = canvas_scaled(&r, 4096, &arena), t8 = canvas_scaled(&t, 4096, &arena);
@@ -534,14 +499,12 @@ static void the_unit_of_light_does_not_matter(void **state)
     assert_int_equal(a.count, b.count);
     for (int i = 0; i < 40 * 30; i++) assert_near(small[i], large[i], 1e-6);
     assert_true(flip_summary(small, 40 * 30, NULL).mean > 0.05);
-    arena_release(&arena);
 }
 
 /* Light as strong as a float can hold must not become NaN in a tone curve. */
 static void the_strongest_light_is_white(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas r = canvas_uniform(1, 1, 1, &arena);
     const Canvas t = canvas_uniform(3e38f, 3e38f, 3e38f, &arena);
     float       *map = new_map(&r.planes, &arena);
@@ -549,7 +512,6 @@ static void the_strongest_light_is_white(void **state)
     flip_hdr(&r.planes, &t.planes, &DEFAULTS, arena, map, NULL);
     assert_all_near(map, planes_pixel_count(&r.planes),
                     slow_colour_difference((double[3]){a, a, a}, white), 2e-6);
-    arena_release(&arena);
 }
 
 int main(void)
@@ -581,5 +543,5 @@ int main(void)
         cmocka_unit_test(the_unit_of_light_does_not_matter),
         cmocka_unit_test(the_strongest_light_is_white),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_arena, drop_arena);
 }

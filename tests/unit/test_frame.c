@@ -1,61 +1,12 @@
 /* Frames: what is written is read, whole or not at all. */
-#include "check.h"
+#include "fixture.h"
 
-#include <dirent.h>
 #include <sched.h>
 #include <signal.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-#include "base/file.h"
 #include "image/frame.h"
-
-enum { ARENA_BYTES = 1 << 28 };
-
-static char folder[64] = "frames-XXXXXX";
-
-static int make_folder(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int files_in_folder(void)
-{
-    DIR *dir = opendir(folder);
-    int  count = 0;
-    while (readdir(dir)) count++;
-    closedir(dir);
-    return count - 2;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    DIR *dir = opendir(folder);
-    for (struct dirent *e; (e = readdir(dir));) {
-        char path[400];
-        snprintf(path, sizeof path, "%s/%s", folder, e->d_name);
-        if (e->d_name[0] != '.') unlink(path);
-    }
-    closedir(dir);
-    return rmdir(folder);
-}
-
-static const char *in_folder(const char *name)
-{
-    static char path[200];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    return path;
-}
-
-static void assert_text_has(const Error *err, const char *part)
-{
-    if (!strstr(err->text, part)) fail_msg("\"%s\" lacks \"%s\"", err->text, part);
-}
 
 /* Noise, which ZIP cannot make shorter, besides values that are no ordinary numbers. */
 static void fill(float *values, size_t count, unsigned seed)
@@ -113,9 +64,8 @@ static void assert_same_channels(const FrameImage *a, const FrameImage *b)
 
 static void every_bit_comes_back(void **state)
 {
-    (void)state;
     static const int SIZES[][2] = {{1, 1}, {7, 3}, {64, 33}, {200, 70}};
-    Arena arena = arena_reserve(ARENA_BYTES);
+    Arena arena = test_arena(state);
     for (int i = 0; i < 4; i++) {
         int w = SIZES[i][0], h = SIZES[i][1];
         FrameImage frame = make_frame(w, h, (ExrWindow){0, 0, w, h}, &arena);
@@ -123,26 +73,22 @@ static void every_bit_comes_back(void **state)
         assert_memory_equal(&back.display, &frame.display, sizeof frame.display);
         assert_same_channels(&frame, &back);
     }
-    arena_release(&arena);
 }
 
 static void a_crop_keeps_its_place(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(ARENA_BYTES);
+    Arena      arena = test_arena(state);
     ExrWindow  crop = {13, 5, 40, 30};
     FrameImage frame = make_frame(64, 48, crop, &arena), back = write_and_read(&frame, &arena);
     assert_memory_equal(&back.data, &crop, sizeof crop);
     assert_int_equal(back.display.x1, 64);
     assert_int_equal(back.display.y1, 48);
     assert_same_channels(&frame, &back);
-    arena_release(&arena);
 }
 
 static void attributes_come_back(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(ARENA_BYTES);
+    Arena      arena = test_arena(state);
     FrameImage frame = make_frame(4, 4, (ExrWindow){0, 0, 4, 4}, &arena);
     FrameImage back = write_and_read(&frame, &arena);
     assert_string_equal(frame_string(&back, "parhelion:version"), "new");
@@ -163,26 +109,22 @@ static void attributes_come_back(void **state)
     assert_int_equal(frame_id_of(&back, "display", "cluster"), 3);
     assert_int_equal(frame_id_of(&back, "display", "clust"), -1);
     assert_int_equal(frame_id_of(&back, "part", "cluster"), -1);
-    arena_release(&arena);
 }
 
 static void layers_are_found_by_name(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(ARENA_BYTES);
+    Arena        arena = test_arena(state);
     FrameImage   frame = make_frame(4, 4, (ExrWindow){0, 0, 4, 4}, &arena);
     const float *rgb[3];
     assert_true(frame_rgb(&frame, "", rgb));
     assert_ptr_equal(rgb[1], frame_channel(&frame, "G"));
     assert_false(frame_rgb(&frame, "variance", rgb));
     assert_null(frame_channel(&frame, "depth"));
-    arena_release(&arena);
 }
 
 static void the_same_frame_makes_the_same_bytes(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(ARENA_BYTES);
+    Arena      arena = test_arena(state);
     FrameImage frame = make_frame(90, 400, (ExrWindow){0, 0, 90, 400}, &arena);
     FileBytes  bytes[2];
     Error      err = {0};
@@ -194,20 +136,18 @@ static void the_same_frame_makes_the_same_bytes(void **state)
     for (int i = 0; i < 2; i++) {
         sched_setaffinity(0, sizeof one, i ? &one : &all); /* then with one thread */
         assert_true(frame_write(in_folder("same.exr"), &frame, &err));
-        assert_true(file_read(in_folder("same.exr"), ARENA_BYTES, &arena, &bytes[i], &err));
+        bytes[i] = read_bytes(in_folder("same.exr"), &arena);
     }
     sched_setaffinity(0, sizeof all, &all);
     assert_int_equal(bytes[0].size, bytes[1].size);
     assert_memory_equal(bytes[0].data, bytes[1].data, bytes[0].size);
-    arena_release(&arena);
 }
 
 /* ---- writing that fails ------------------------------------------------------------------ */
 
 static void a_full_disk_leaves_nothing(void **state)
 {
-    (void)state;
-    Arena         arena = arena_reserve(ARENA_BYTES);
+    Arena         arena = test_arena(state);
     FrameImage    frame = make_frame(90, 40, (ExrWindow){0, 0, 90, 40}, &arena);
     struct rlimit before, small;
     Error         err = {0};
@@ -221,31 +161,27 @@ static void a_full_disk_leaves_nothing(void **state)
     setrlimit(RLIMIT_FSIZE, &before);
     assert_false(done);
     assert_int_equal(err.code, ERROR_OUTPUT);
-    assert_text_has(&err, "cannot be written");
+    assert_error_has(&err, "cannot be written");
     assert_non_null(strstr(err.file, "full.exr"));
     assert_int_equal(files_in_folder(), files);
-    arena_release(&arena);
 }
 
 static void a_device_that_is_full_says_so(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(ARENA_BYTES);
+    Arena      arena = test_arena(state);
     FrameImage frame = make_frame(90, 40, (ExrWindow){0, 0, 90, 40}, &arena);
     Error      err = {0};
     struct stat info;
     if (stat("/dev/full", &info) != 0 || !S_ISCHR(info.st_mode)) skip();
     assert_false(frame_write("/dev/full", &frame, &err));
-    assert_text_has(&err, "No space left");
+    assert_error_has(&err, "No space left");
     assert_int_equal(stat("/dev/full", &info), 0);
     assert_true(S_ISCHR(info.st_mode));
-    arena_release(&arena);
 }
 
 static void a_missing_folder_and_a_bad_window_are_told(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(ARENA_BYTES);
+    Arena      arena = test_arena(state);
     FrameImage frame = make_frame(9, 4, (ExrWindow){0, 0, 9, 4}, &arena);
     Error      err = {0};
     assert_false(frame_write("no/such/folder/a.exr", &frame, &err));
@@ -253,22 +189,20 @@ static void a_missing_folder_and_a_bad_window_are_told(void **state)
     assert_string_equal(err.file, "no/such/folder/a.exr");
     frame.data.x1 = 10;
     assert_false(frame_write(in_folder("window.exr"), &frame, &err));
-    assert_text_has(&err, "not inside the display window");
+    assert_error_has(&err, "not inside the display window");
     assert_false(file_exists(in_folder("window.exr")));
-    arena_release(&arena);
 }
 
 /* ---- reading what is broken -------------------------------------------------------------- */
 
 static void refuses_every_prefix(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(ARENA_BYTES);
+    Arena      arena = test_arena(state);
     FrameImage frame = make_frame(5, 20, (ExrWindow){0, 0, 5, 20}, &arena), back;
     FileBytes  whole;
     Error      err = {0};
     assert_true(frame_write(in_folder("whole.exr"), &frame, &err));
-    assert_true(file_read(in_folder("whole.exr"), ARENA_BYTES, &arena, &whole, &err));
+    whole = read_bytes(in_folder("whole.exr"), &arena);
     for (size_t size = 0; size < whole.size; size++) {
         Arena before = arena;
         unsigned char *exact = malloc(size + (size == 0)); /* so that ASan sees a step beyond */
@@ -281,41 +215,37 @@ static void refuses_every_prefix(void **state)
         assert_ptr_equal(arena.next, before.next);
         free(exact);
     }
-    arena_release(&arena);
 }
 
 /* The library would take memory for what a file says, before it finds that it is not there. */
 static void an_attribute_larger_than_the_file_is_refused(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(ARENA_BYTES);
+    Arena      arena = test_arena(state);
     FrameImage frame = make_frame(5, 20, (ExrWindow){0, 0, 5, 20}, &arena), back;
     FileBytes  whole;
     Error      err = {0};
     static const char HEAD[] = "parhelion:version\0string";
     assert_true(frame_write(in_folder("whole.exr"), &frame, &err));
-    assert_true(file_read(in_folder("whole.exr"), ARENA_BYTES, &arena, &whole, &err));
+    whole = read_bytes(in_folder("whole.exr"), &arena);
     unsigned char *bytes = ARENA_NEW(&arena, unsigned char, whole.size);
     memcpy(bytes, whole.data, whole.size);
     unsigned char *size = (unsigned char *)memmem(bytes, whole.size, HEAD, sizeof HEAD) +
                           sizeof HEAD;
     size[3] = 0x70;
     assert_false(frame_read_memory(bytes, whole.size, "large.exr", &arena, &back, &err));
-    assert_text_has(&err, "attribute \"parhelion:version\" has 1879048195 bytes, the file");
+    assert_error_has(&err, "attribute \"parhelion:version\" has 1879048195 bytes, the file");
     assert_string_equal(err.file, "large.exr");
-    arena_release(&arena);
 }
 
 static void survives_flipped_bits(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(ARENA_BYTES);
+    Arena      arena = test_arena(state);
     FrameImage frame = make_frame(5, 20, (ExrWindow){0, 0, 5, 20}, &arena), back;
     FileBytes  whole;
     Error      err = {0};
     unsigned   seed = 1;
     assert_true(frame_write(in_folder("whole.exr"), &frame, &err));
-    assert_true(file_read(in_folder("whole.exr"), ARENA_BYTES, &arena, &whole, &err));
+    whole = read_bytes(in_folder("whole.exr"), &arena);
     unsigned char *bytes = ARENA_NEW(&arena, unsigned char, whole.size);
     for (int i = 0; i < 3000; i++) {
         Arena scratch = arena;
@@ -326,7 +256,6 @@ static void survives_flipped_bits(void **state)
         if (!frame_read_memory(bytes, whole.size, "flipped.exr", &scratch, &back, &err))
             assert_true(err.text[0] && !strchr(err.text, '\n'));
     }
-    arena_release(&arena);
 }
 
 /* The corpus of the library's own makers: files found by fuzzing. */
@@ -359,52 +288,46 @@ static void damaged_files_are_read_or_refused(void **state)
 
 static void what_cannot_be_shown_flat_is_refused(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(ARENA_BYTES);
+    Arena      arena = test_arena(state);
     FrameImage frame;
     Error      err = {0};
     char       path[512];
     assert_false(frame_read_memory("hello, world", 12, "a.txt", &arena, &frame, &err));
-    assert_text_has(&err, "not an OpenEXR file");
+    assert_error_has(&err, "not an OpenEXR file");
     assert_false(frame_read("no/such.exr", &arena, &frame, &err));
-    assert_text_has(&err, "No such file");
+    assert_error_has(&err, "No such file");
     snprintf(path, sizeof path, "%s/exr/LuminanceChroma/Garden.exr", SHARED_DATA_DIR);
     if (!file_exists(path)) skip();
     assert_true(frame_read(path, &arena, &frame, &err)); /* luminance only: one plain channel */
-    arena_release(&arena);
 }
 
 /* The sampling of channel G in the header becomes 2 x 2, as in luminance-chroma coding. */
 static void coarse_channels_are_refused(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(ARENA_BYTES);
+    Arena      arena = test_arena(state);
     FrameImage frame = make_frame(8, 4, (ExrWindow){0, 0, 8, 4}, &arena), back;
     FileBytes  file;
     Error      err = {0};
     assert_true(frame_write(in_folder("fine.exr"), &frame, &err));
-    assert_true(file_read(in_folder("fine.exr"), ARENA_BYTES, &arena, &file, &err));
+    file = read_bytes(in_folder("fine.exr"), &arena);
     unsigned char *bytes = ARENA_NEW(&arena, unsigned char, file.size), *entry;
     memcpy(bytes, file.data, file.size);
     entry = memmem(bytes, file.size, "\0G\0\2\0\0\0", 7); /* name, then FLOAT */
     assert_non_null(entry);
     entry[11] = entry[15] = 2;
     assert_false(frame_read_memory(bytes, file.size, "coarse.exr", &arena, &back, &err));
-    assert_text_has(&err, "channel G is sampled every 2 x 2 pixels");
-    arena_release(&arena);
+    assert_error_has(&err, "channel G is sampled every 2 x 2 pixels");
 }
 
 static void a_file_larger_than_the_arena_is_refused(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(ARENA_BYTES), small = arena_reserve(1 << 21);
+    Arena      arena = test_arena(state), small = arena_reserve(1 << 21);
     FrameImage frame = make_frame(300, 300, (ExrWindow){0, 0, 300, 300}, &arena), back;
     Error      err = {0};
     assert_true(frame_write(in_folder("large.exr"), &frame, &err));
     assert_false(frame_read(in_folder("large.exr"), &small, &back, &err));
     assert_int_equal(err.code, ERROR_MEMORY);
-    assert_text_has(&err, "8 channels of 90000 pixels");
-    arena_release(&arena);
+    assert_error_has(&err, "8 channels of 90000 pixels");
     arena_release(&small);
 }
 
@@ -427,5 +350,5 @@ int main(void)
         cmocka_unit_test(coarse_channels_are_refused),
         cmocka_unit_test(a_file_larger_than_the_arena_is_refused),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_folder, clear_folder);
 }

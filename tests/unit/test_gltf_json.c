@@ -1,31 +1,14 @@
 /* The door to tinygltf, seen from C: values know their place, and nothing foreign comes out. */
-#include "check.h"
-
-#include <string.h>
+#include "fixture.h"
 
 #include "scene/tree.h"
-
-static Arena arena;
-
-static int start(void **state)
-{
-    (void)state;
-    arena = arena_reserve(1 << 26);
-    return 0;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    arena_release(&arena);
-    return 0;
-}
 
 static const GltfValue *parse(const char *text)
 {
     Error err;
     const GltfValue *root = NULL;
-    if (!gltf_json_parse(text, strlen(text), &arena, &root, &err)) fail_msg("%s", err.text);
+    if (!gltf_json_parse(text, strlen(text), test_memory(), &root, &err))
+        fail_msg("%s", err.text);
     return root;
 }
 
@@ -93,7 +76,7 @@ static bool parses_depth(int depth)
     char text[1024];
     memset(text, '[', (size_t)depth);
     memset(text + depth, ']', (size_t)depth);
-    bool done = gltf_json_parse(text, 2 * (size_t)depth, &arena, &root, &err);
+    bool done = gltf_json_parse(text, 2 * (size_t)depth, test_memory(), &root, &err);
     if (!done) assert_string_equal(err.text, "JSON nested deeper than 256 levels");
     return done;
 }
@@ -111,18 +94,19 @@ static void faults_name_line_and_column(void **state)
     Error err;
     const GltfValue *root;
     static const char TEXT[] = "{\n  \"a\" \"b\"}";
-    assert_false(gltf_json_parse(TEXT, sizeof TEXT - 1, &arena, &root, &err));
+    assert_false(gltf_json_parse(TEXT, sizeof TEXT - 1, test_memory(), &root, &err));
     assert_non_null(strstr(err.text, "not valid JSON: parse error at line 2, column 9"));
-    assert_false(gltf_json_parse("{\"a\":1,\"a\":2}", 13, &arena, &root, &err));
+    assert_false(gltf_json_parse("{\"a\":1,\"a\":2}", 13, test_memory(), &root, &err));
     assert_string_equal(err.text, "the name \"a\" stands twice in one object");
-    assert_false(gltf_json_parse("\"\xff\"", 3, &arena, &root, &err)); /* no UTF-8 */
+    assert_false(gltf_json_parse("\"\xff\"", 3, test_memory(), &root, &err)); /* no UTF-8 */
 }
 
 static GltfData data_of(const char *text)
 {
     Error err;
     GltfData data = {0};
-    if (!gltf_json_data(text, strlen(text), &arena, &data, &err)) fail_msg("%s", err.text);
+    if (!gltf_json_data(text, strlen(text), test_memory(), &data, &err))
+        fail_msg("%s", err.text);
     return data;
 }
 
@@ -162,11 +146,11 @@ static void what_tinygltf_refuses_comes_back_as_an_error(void **state)
     Error err;
     GltfData data = {.view_count = 77};
     static const char TEXT[] = "{\"bufferViews\":[{\"buffer\":0}]}";
-    assert_false(gltf_json_data(TEXT, sizeof TEXT - 1, &arena, &data, &err));
+    assert_false(gltf_json_data(TEXT, sizeof TEXT - 1, test_memory(), &data, &err));
     assert_int_equal(err.code, ERROR_LIBRARY);
     assert_non_null(strstr(err.text, "tinygltf: "));
     assert_int_equal(data.view_count, 77);                     /* outputs stay as they were */
-    assert_false(gltf_json_data("{", 1, &arena, &data, &err)); /* an exception inside */
+    assert_false(gltf_json_data("{", 1, test_memory(), &data, &err)); /* an exception inside */
     assert_non_null(strstr(err.text, "parse error"));
 }
 
@@ -181,5 +165,5 @@ int main(void)
         cmocka_unit_test(accessors_come_as_plain_arrays),
         cmocka_unit_test(what_tinygltf_refuses_comes_back_as_an_error),
     };
-    return cmocka_run_group_tests_name("gltf_json", tests, start, end);
+    return cmocka_run_group_tests_name("gltf_json", tests, make_arena, drop_arena);
 }

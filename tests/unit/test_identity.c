@@ -1,26 +1,8 @@
 /* What decides a sample's value is in a render's identity, and nothing else; two identities say
  * where they differ. */
-#include "check.h"
-
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
+#include "fixture.h"
 
 #include "cli/render/render_identity.h"
-
-static int make_arena(void **state)
-{
-    static Arena arena;
-    arena = arena_reserve(1 << 22);
-    *state = &arena;
-    return 0;
-}
-
-static int drop_arena(void **state)
-{
-    arena_release(*state);
-    return 0;
-}
 
 /* ---- what is in it ----------------------------------------------------------------------- */
 
@@ -202,14 +184,13 @@ static void another_version_is_refused_by_name(void **state)
 {
     Arena     *arena = *state;
     Error      err = {0};
-    char       path[] = "identity-XXXXXX";
+    const char *path = in_folder("a.checkpoint");
     Film      *film = film_create(2, 1, (FilmRect){0, 0, 2, 1}, 0, arena);
     FilmSample sample = {.xyz = {1, 1, 1}};
     film_add_sample(film, 0, 0, &sample);
     film_add_sample(film, 1, 0, &sample);
     Checkpoint what = {.path = path, .identity = "version\t0.0.9\nseed\t0\n",
                        .done = film_part_of(film, 0, 1)};
-    close(mkstemp(path));
     assert_true(checkpoint_write(&what, film, *arena, &err));
     const RenderRequest request = {
         .cli = {.quiet = true}, .checkpoint = path, .resumes = true,
@@ -228,15 +209,13 @@ static void another_version_is_refused_by_name(void **state)
     assert_true(same && found);
 }
 
-#define CASE(name) cmocka_unit_test_setup_teardown(name, make_arena, drop_arena)
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        CASE(what_decides_a_sample_is_in_it_and_nothing_else),
-        CASE(a_name_cannot_begin_a_line),
-        CASE(the_first_line_that_differs_is_named),
-        CASE(another_version_is_refused_by_name),
+        cmocka_unit_test(what_decides_a_sample_is_in_it_and_nothing_else),
+        cmocka_unit_test(a_name_cannot_begin_a_line),
+        cmocka_unit_test(the_first_line_that_differs_is_named),
+        cmocka_unit_test(another_version_is_refused_by_name),
     };
-    return cmocka_run_group_tests_name("identity", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("identity", tests, make_folder, remove_folder);
 }

@@ -1,21 +1,9 @@
 /* Pictures: what is decoded is what the file says; broken files are refused. */
-#include "check.h"
+#include "fixture.h"
 
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-#include "base/file.h"
 #include "image/frame.h"
 #include "image/image.h"
 #include "openimageio/image_file.h"
-
-enum { ARENA_BYTES = 1 << 28 };
-
-static void assert_text_has(const Error *err, const char *part)
-{
-    if (!strstr(err->text, part)) fail_msg("\"%s\" lacks \"%s\"", err->text, part);
-}
 
 /* ---- PNG files made by hand, so that every kind of them can be had ----------------------- */
 
@@ -117,8 +105,7 @@ static void assert_pixel8(const Image *image, int at, int r, int g, int b, int a
 
 static void every_kind_of_png_becomes_rgba(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(ARENA_BYTES);
+    Arena arena = test_arena(state);
     const unsigned char grey[] = {0, 7, 200}, bits[] = {0, 0xa0};
     Image i = read_png(make_png((PngKind){2, 1, 8, 0, NULL, 0}, grey, 3), &arena);
     assert_pixel8(&i, 1, 200, 200, 200, 255);
@@ -135,42 +122,36 @@ static void every_kind_of_png_becomes_rgba(void **state)
     i = read_png(make_png((PngKind){8, 1, 1, 0, NULL, 0}, bits, 2), &arena);
     assert_pixel8(&i, 0, 255, 255, 255, 255);
     assert_pixel8(&i, 1, 0, 0, 0, 255);
-    arena_release(&arena);
 }
 
 /* A kilobyte of header may not take a gigabyte. */
 static void user_data_larger_than_a_dpx_is_refused(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(ARENA_BYTES);
+    Arena arena = test_arena(state);
     Image image;
     Error err = {0};
     unsigned char little[64] = "XPDS", big[64] = "SDPX";
     little[35] = big[32] = 0x58;
     assert_false(image_read_memory(little, 64, "a.dpx", &arena, &image, &err));
-    assert_text_has(&err, "1476395008 bytes of user data are stated, the file has 64");
+    assert_error_has(&err, "1476395008 bytes of user data are stated, the file has 64");
     assert_false(image_read_memory(big, 64, "a.dpx", &arena, &image, &err));
-    assert_text_has(&err, "1476395008 bytes of user data are stated, the file has 64");
+    assert_error_has(&err, "1476395008 bytes of user data are stated, the file has 64");
     assert_false(image_read_memory(big, 35, "a.dpx", &arena, &image, &err));
-    assert_text_has(&err, "damaged dpx picture: cut off in its header");
-    arena_release(&arena);
+    assert_error_has(&err, "damaged dpx picture: cut off in its header");
 }
 
 static void alpha_stays_straight(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(ARENA_BYTES);
+    Arena arena = test_arena(state);
     unsigned char row[] = {0, 200, 100, 50, 128, 200, 100, 50, 0};
     Image i = read_png(make_png((PngKind){2, 1, 8, 6, NULL, 0}, row, 9), &arena);
     assert_pixel8(&i, 0, 200, 100, 50, 128);
     assert_pixel8(&i, 1, 200, 100, 50, 0);
-    arena_release(&arena);
 }
 
 static void sixteen_bits_stay_sixteen_bits(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(ARENA_BYTES);
+    Arena arena = test_arena(state);
     unsigned char row[] = {0, 0x12, 0x34, 0xff, 0xfe, 0, 1};
     Image i = read_png(make_png((PngKind){1, 1, 16, 2, NULL, 0}, row, 7), &arena);
     const uint16_t *p = i.pixels;
@@ -179,15 +160,13 @@ static void sixteen_bits_stay_sixteen_bits(void **state)
     assert_int_equal(p[1], 0xfffe);
     assert_int_equal(p[2], 1);
     assert_int_equal(p[3], 65535);
-    arena_release(&arena);
 }
 
 /* ---- what must be refused ------------------------------------------------------------ */
 
 static void a_frame_without_colours_is_no_picture(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(ARENA_BYTES);
+    Arena      arena = test_arena(state);
     FrameImage frame = frame_create(2, 2, (ExrWindow){0, 0, 2, 2}, 1, 0, &arena);
     char       path[] = "depth-XXXXXX";
     Image      image;
@@ -196,26 +175,23 @@ static void a_frame_without_colours_is_no_picture(void **state)
     frame_add_channel(&frame, "depth.Z", false, &arena);
     assert_true(frame_write(path, &frame, &err));
     assert_false(image_read(path, &arena, &image, &err));
-    assert_text_has(&err, "no channel R; R, G, B or Y are wanted");
+    assert_error_has(&err, "no channel R; R, G, B or Y are wanted");
     unlink(path);
-    arena_release(&arena);
 }
 
 static void refuses_a_bomb_before_decoding_it(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(ARENA_BYTES), before = arena;
+    Arena arena = test_arena(state), before = arena;
     Image image = {.width = -7};
     Error err = {0};
     const PngKind bomb = {40000, 40000, 8, 0, NULL, 0};
     const Bytes  *png = make_png(bomb, (unsigned char[]){0}, 1);
     assert_false(image_read_memory(png->data, png->size, "bomb.png", &arena, &image, &err));
-    assert_text_has(&err, "40000 x 40000 pixels");
-    assert_text_has(&err, "at most");
+    assert_error_has(&err, "40000 x 40000 pixels");
+    assert_error_has(&err, "at most");
     assert_string_equal(err.file, "bomb.png");
     assert_int_equal(image.width, -7);
     assert_ptr_equal(arena.next, before.next);
-    arena_release(&arena);
 }
 
 static void says_when_memory_is_too_small(void **state)
@@ -227,14 +203,13 @@ static void says_when_memory_is_too_small(void **state)
     const Bytes *png = make_png((PngKind){2000, 2000, 8, 6, NULL, 0}, (unsigned char[]){0}, 1);
     assert_false(image_read_memory(png->data, png->size, "big.png", &arena, &image, &err));
     assert_int_equal(err.code, ERROR_MEMORY);
-    assert_text_has(&err, "MB are left");
+    assert_error_has(&err, "MB are left");
     arena_release(&arena);
 }
 
 static void refuses_every_prefix_of_a_png(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(ARENA_BYTES), before = arena;
+    Arena arena = test_arena(state), before = arena;
     unsigned char row[] = {0, 200, 100, 50, 128, 9, 9, 9, 0};
     Bytes png = *make_png((PngKind){2, 1, 8, 6, NULL, 0}, row, 9);
     for (size_t size = 0; size < png.size; size++) {
@@ -249,16 +224,14 @@ static void refuses_every_prefix_of_a_png(void **state)
         assert_ptr_equal(arena.next, before.next);
         free(exact);
     }
-    arena_release(&arena);
 }
 
 /* Every prefix of what this program writes, and of a Radiance picture. */
 static void refuses_every_prefix_of_other_formats(void **state)
 {
-    (void)state;
     static const char HDR[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n12341234";
     static const char *const FORMATS[] = {"jpeg", "tiff", "hdr"};
-    Arena   arena = arena_reserve(ARENA_BYTES), scratch;
+    Arena   arena = test_arena(state), scratch;
     uint8_t codes[8 * 8 * 3];
     for (size_t i = 0; i < sizeof codes; i++) codes[i] = (uint8_t)(i * 37);
     for (int f = 0; f < 3; f++) {
@@ -281,34 +254,30 @@ static void refuses_every_prefix_of_other_formats(void **state)
         }
         encoded_image_destroy(encoded);
     }
-    arena_release(&arena);
 }
 
 static void names_what_cannot_be_read(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(ARENA_BYTES);
+    Arena arena = test_arena(state);
     Image image;
     Error err = {0};
     assert_false(image_read_memory("hello, world", 12, "a.txt", &arena, &image, &err));
-    assert_text_has(&err, "not a picture that can be read");
+    assert_error_has(&err, "not a picture that can be read");
     assert_false(image_read("no/such/file.png", &arena, &image, &err));
     assert_string_equal(err.file, "no/such/file.png");
-    assert_text_has(&err, "No such file");
+    assert_error_has(&err, "No such file");
     assert_int_equal(err.code, ERROR_INPUT);
     assert_false(image_read("/", &arena, &image, &err));
-    assert_text_has(&err, "folder");
-    arena_release(&arena);
+    assert_error_has(&err, "folder");
 }
 
 /* ---- other formats ----------------------------------------------------------------------- */
 
 static void reads_radiance_pictures(void **state)
 {
-    (void)state;
     static const char HDR[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n"
                               "\x80\x40\x20\x81\x80\x80\x80\x8b";
-    Arena arena = arena_reserve(ARENA_BYTES);
+    Arena arena = test_arena(state);
     Image image;
     Error err = {0};
     assert_true(image_read_memory(HDR, sizeof HDR - 1, "a.hdr", &arena, &image, &err));
@@ -319,14 +288,12 @@ static void reads_radiance_pictures(void **state)
     assert_close(p[2], 0.25, 0.02);
     assert_close(p[4], 1024, 0.01);
     assert_true(p[3] == 1 && p[7] == 1);
-    arena_release(&arena);
 }
 
 static void what_is_encoded_reads_back(void **state)
 {
-    (void)state;
     static const char *const FORMATS[] = {"png", "tiff"};
-    Arena arena = arena_reserve(ARENA_BYTES);
+    Arena arena = test_arena(state);
     for (int k = 0; k < 4; k++) {
         uint16_t codes[12];
         for (int i = 0; i < 12; i++) codes[i] = (uint16_t)(i * 5461);
@@ -349,7 +316,6 @@ static void what_is_encoded_reads_back(void **state)
         }
         encoded_image_destroy(encoded);
     }
-    arena_release(&arena);
 }
 
 static void the_same_picture_makes_the_same_bytes(void **state)
@@ -380,17 +346,16 @@ static void the_same_picture_makes_the_same_bytes(void **state)
         encoded_image_destroy(encoded[1][f]);
     }
     assert_false(image_encode("nonsense", &in, &encoded[0][0], &err));
-    assert_text_has(&err, "nonsense");
+    assert_error_has(&err, "nonsense");
 }
 
 /* Whatever comes of it: no crash, and one line of reasons when it is refused. */
 static void survives_flipped_bits(void **state)
 {
-    (void)state;
     static const char *const FORMATS[] = {"png", "jpeg", "tiff"};
     uint8_t  codes[16 * 16 * 3];
     unsigned seed = 3;
-    Arena    arena = arena_reserve(ARENA_BYTES);
+    Arena    arena = test_arena(state);
     for (size_t i = 0; i < sizeof codes; i++) codes[i] = (uint8_t)(i * i >> 3);
     for (int f = 0; f < 3; f++) {
         ImageToEncode in = {.width = 16, .height = 16, .channels = 3, .type = PIXEL_U8,
@@ -414,7 +379,6 @@ static void survives_flipped_bits(void **state)
         }
         encoded_image_destroy(encoded);
     }
-    arena_release(&arena);
 }
 
 /* ---- environment pictures ------------------------------------------------------------ */
@@ -433,33 +397,28 @@ static Image read_shared(const char *name, Arena *arena)
 
 static void negative_values_of_environments_are_kept(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(ARENA_BYTES);
+    Arena arena = test_arena(state);
     Image image = read_shared("hdri/blender/interior.exr", &arena);
     const float *p = image.pixels;
     long negative = 0;
     for (int i = 0; i < image.width * image.height * 4; i++) negative += p[i] < 0;
     assert_int_equal(image.width, 1024);
     assert_int_equal(negative, 8980);
-    arena_release(&arena);
 }
 
 static void the_orientation_picture_can_be_read(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(ARENA_BYTES);
+    Arena arena = test_arena(state);
     Image image = read_shared("hdri/openexr-env/OrientationLatLong.exr", &arena);
     const float *p = image.pixels;
     assert_int_equal(image.width, 1024);
     assert_int_equal(image.height, 512);
     for (int i = 0; i < 1024 * 512 * 4; i++) assert_true(p[i] >= 0 && p[i] <= 1);
-    arena_release(&arena);
 }
 
 static void a_data_window_is_placed_in_the_display_window(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(ARENA_BYTES);
+    Arena arena = test_arena(state);
     Image whole = read_shared("exr/DisplayWindow/t01.exr", &arena);
     Image part = read_shared("exr/DisplayWindow/t05.exr", &arena); /* shows 30,20 .. 370,280 */
     assert_int_equal(part.width, 340);
@@ -467,20 +426,17 @@ static void a_data_window_is_placed_in_the_display_window(void **state)
     const float *a = whole.pixels, *b = part.pixels;
     for (int y = 0; y < 260; y++)
         assert_memory_equal(a + ((y + 20) * 400 + 30) * 4, b + y * 340 * 4, 340 * 16);
-    arena_release(&arena);
 }
 
 /* The same scene is stored once in Rec.709 and once as XYZ. */
 static void the_primaries_of_a_file_are_honoured(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(ARENA_BYTES);
+    Arena arena = test_arena(state);
     Image a = read_shared("exr/Chromaticities/Rec709.exr", &arena);
     Image b = read_shared("exr/Chromaticities/XYZ.exr", &arena);
     const float *p = a.pixels, *q = b.pixels;
     for (int i = 0; i < a.width * a.height * 4; i++)
         assert_near(q[i], p[i], 0.004 + 0.01 * (double)fabsf(p[i])); /* both are halves */
-    arena_release(&arena);
 }
 
 int main(void)
@@ -505,5 +461,5 @@ int main(void)
         cmocka_unit_test(a_data_window_is_placed_in_the_display_window),
         cmocka_unit_test(the_primaries_of_a_file_are_honoured),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_arena, drop_arena);
 }

@@ -29,8 +29,7 @@ static void the_suns_irradiance_is_exact_whatever_its_size(void **state)
 
 static void the_heading_turns_the_sun_and_not_the_scene(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 26);
+    Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
     Sky sky;
     Error err;
@@ -45,13 +44,11 @@ static void the_heading_turns_the_sun_and_not_the_scene(void **state)
     scene->environment.forward = vec3(1, 0, 0);
     assert_true(sky_build(&scene->environment, &arena, &sky, &err));
     assert_near(sky.sun_direction.x, 1, 1e-6);
-    arena_release(&arena);
 }
 
 static void a_uniform_sky_of_luminance_l_gives_pi_l(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 28);
+    Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
     scene->environment.kind = ENVIRONMENT_CONSTANT;
     scene->environment.luminance_cd_m2 = 1000;
@@ -59,7 +56,6 @@ static void a_uniform_sky_of_luminance_l_gives_pi_l(void **state)
     const Lights *lights = build(scene, &arena);
     assert_mean("uniform sky", illuminance(lights, LIGHTS_SKY, vec3(0, 0, 0), vec3(0, 1, 0)),
                 PI * 1000);
-    arena_release(&arena);
 }
 
 /* A picture with a soft gradient, a small sun, a dark half and a negative pixel. */
@@ -83,22 +79,19 @@ static Scene *picture_scene(Arena *arena, int width, int height)
 
 static void a_picture_can_be_scaled_to_an_illuminance(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 28);
+    Arena arena = test_arena(state);
     Scene *scene = picture_scene(&arena, 64, 32);
     scene->environment.horizontal_illuminance_lx = 15000;
     const Lights *lights = build(scene, &arena);
     assert_int_equal(lights_refused_pixels(lights), 1);
     assert_mean("scaled picture", illuminance(lights, LIGHTS_SKY, vec3(0, 0, 0), vec3(0, 1, 0)),
                 15000);
-    arena_release(&arena);
 }
 
 /* North is the left edge, east a quarter, south (+Z) the middle; rotation adds to azimuth. */
 static void a_picture_hangs_the_right_way_round(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 26);
+    Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
     float pixels[8 * 4 * 4] = {0}; /* 8 columns, 4 rows: column 0 north, 2 east ... */
     Sky sky;
@@ -122,15 +115,13 @@ static void a_picture_hangs_the_right_way_round(void **state)
                          1e-2);
         }
     }
-    arena_release(&arena);
 }
 
 /* Pearson's test of a sampler against its density, both over a grid of directions. */
 static void picture_samples_follow_their_density(void **state)
 {
-    (void)state;
     enum { ROWS = 16, COLUMNS = 32, COUNT = 400000, FINE = 24 };
-    Arena arena = arena_reserve(1 << 28);
+    Arena arena = test_arena(state);
     Scene *scene = picture_scene(&arena, 64, 32);
     Sky sky;
     Error err;
@@ -176,7 +167,6 @@ static void picture_samples_follow_their_density(void **state)
     }
     assert_true(cells > 100);
     assert_true(chi2 < cells + 4 * sqrt(2.0 * cells));
-    arena_release(&arena);
 }
 
 /* Pearson's sum for counts that should all be the same. */
@@ -197,9 +187,8 @@ static void assert_equal_cells(const char *what, const int *counts, int cells, i
 
 static void sun_samples_are_uniform_on_the_disc_and_never_off_it(void **state)
 {
-    (void)state;
     enum { RINGS = 8, SECTORS = 16 };
-    Arena    arena = arena_reserve(1 << 26);
+    Arena    arena = test_arena(state);
     Scene   *scene = builder_scene(&arena);
     Sky      sky;
     Error    err;
@@ -222,7 +211,6 @@ static void sun_samples_are_uniform_on_the_disc_and_never_off_it(void **state)
     }
     assert_equal_cells("sun", counts, RINGS * SECTORS, SAMPLES);
     assert_close(sky.sun_solid_angle, 2 * PI * (1 - cos((double)sky.sun_radius)), 1e-4);
-    arena_release(&arena);
 }
 
 /* ---- emitters ---------------------------------------------------------------------------- */
@@ -281,22 +269,19 @@ static const Vec3 LIT[] = {{0, 0, 0}, {3, 1.9f, 0.2f}, {8, 2.001f, 1}, {-50, -20
 
 static void densities_of_emitters_integrate_to_one_from_anywhere(void **state)
 {
-    (void)state;
-    Arena    arena = arena_reserve(1 << 28);
+    Arena    arena = test_arena(state);
     Scene   *scene = lamp_scene(&arena);
     Emitters emitters = emitters_build(scene, &arena);
     assert_int_equal(emitters.count, 6);
     for (size_t i = 0; i < sizeof LIT / sizeof *LIT; i++)
         assert_close(emitter_total(&emitters, scene, LIT[i]), 1, 1e-4);
-    arena_release(&arena);
 }
 
 /* Points fall into strips of every triangle as the density says. */
 static void emitter_samples_follow_their_density(void **state)
 {
-    (void)state;
     enum { STRIPS = 9, TRIANGLES = 6, FINE = 64 };
-    Arena    arena = arena_reserve(1 << 28);
+    Arena    arena = test_arena(state);
     Scene   *scene = lamp_scene(&arena);
     Emitters emitters = emitters_build(scene, &arena);
     uint32_t random = 8;
@@ -335,14 +320,12 @@ static void emitter_samples_follow_their_density(void **state)
         if (!(chi < cells + 4.5 * sqrt(2.0 * cells)))
             fail_msg("from point %zu: chi-square %.1f over %d strips", p, chi, cells);
     }
-    arena_release(&arena);
 }
 
 /* From far away the choice is by power; from near it is the lamp at hand. */
 static void emitters_are_chosen_by_what_they_send_to_the_point(void **state)
 {
-    (void)state;
-    Arena    arena = arena_reserve(1 << 28);
+    Arena    arena = test_arena(state);
     Scene   *scene = builder_scene(&arena);
     uint32_t random = 3;
     for (int lamp = 0; lamp < 2; lamp++) {
@@ -366,15 +349,13 @@ static void emitters_are_chosen_by_what_they_send_to_the_point(void **state)
         double ratio = chosen[1] / (double)chosen[0];
         if (!(ratio >= low[k] && ratio <= high[k])) fail_msg("ratio %g", ratio);
     }
-    arena_release(&arena);
 }
 
 /* Lit texels are found in proportion to their light. */
 static void bright_texels_are_chosen_more_often(void **state)
 {
-    (void)state;
     enum { SIDE = 64 };
-    Arena    arena = arena_reserve(1 << 28);
+    Arena    arena = test_arena(state);
     Scene   *scene = builder_scene(&arena);
     uint32_t random = 21;
     int      lit = 0;
@@ -402,13 +383,11 @@ static void bright_texels_are_chosen_more_often(void **state)
     print_message("texels with 81%% of the light take %.0f%% of the samples, 1.6%% by area\n",
                   100.0 * lit / SAMPLES);
     assert_true(lit > SAMPLES / 2);
-    arena_release(&arena);
 }
 
 static void point_and_spot_follow_the_inverse_square_and_the_cone(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 26);
+    Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
     scene->lights[scene->light_count++] = (PunctualLight){
         .kind = LIGHT_POINT, .position = {0, 3, 0}, .intensity = {1000, 1000, 1000}};
@@ -427,13 +406,11 @@ static void point_and_spot_follow_the_inverse_square_and_the_cone(void **state)
         "on the cone's edge",
         illuminance(lights, LIGHTS_PUNCTUAL, vec3((float)(3 * tan(0.3)), 0, 0), vec3(0, 1, 0)),
         1000.0 / 9 * pow(cos(0.3), 3) * ramp * ramp);
-    arena_release(&arena);
 }
 
 static void many_lights_are_chosen_without_bias(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 26);
+    Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
     double expected = 0;
     for (int i = 0; i < 50; i++) {
@@ -449,14 +426,12 @@ static void many_lights_are_chosen_without_bias(void **state)
         "fifty lamps",
         illuminance(build(scene, &arena), LIGHTS_PUNCTUAL, vec3(0, 0, 0), vec3(0, 1, 0)),
         expected);
-    arena_release(&arena);
 }
 
 /* A square of half side a at height h over the point: E = L * 4 * (corner factor). */
 static void an_area_light_gives_its_configuration_factor(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 28);
+    Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
     Material lamp = builder_material(0);
     lamp.is_emitter = true;
@@ -486,7 +461,6 @@ static void an_area_light_gives_its_configuration_factor(void **state)
     assert_false(lights_sample(lights, LIGHTS_EMITTERS,
                                (LitPoint){vec3(0, 4, 0), vec3(0, -1, 0)}, &w, u,
                                &sample)); /* its back is dark */
-    arena_release(&arena);
 }
 
 int main(void)
@@ -507,5 +481,5 @@ int main(void)
         cmocka_unit_test(many_lights_are_chosen_without_bias),
         cmocka_unit_test(an_area_light_gives_its_configuration_factor),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_arena, drop_arena);
 }

@@ -24,8 +24,7 @@ static Scene *sky_scene(EnvironmentKind kind, double elevation_deg, Arena *arena
 
 static void a_modelled_sky_and_its_sun_give_the_stated_illuminance(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve((size_t)4 << 30);
+    Arena arena = test_arena(state);
     for (int kind = ENVIRONMENT_CIE; kind <= ENVIRONMENT_SKY; kind++) {
         Arena   scratch = arena;
         Scene  *scene = sky_scene((EnvironmentKind)kind, 35, &scratch);
@@ -43,13 +42,11 @@ static void a_modelled_sky_and_its_sun_give_the_stated_illuminance(void **state)
         assert_mean("its sun", illuminance(lights, LIGHTS_SUN, vec3(0, 0, 0), vec3(0, 1, 0)),
                     out->figures.direct_normal_lx * sin(35 * PI / 180));
     }
-    arena_release(&arena);
 }
 
 static void a_half_set_sun_gives_half_its_light(void **state)
 {
-    (void)state;
-    Arena  arena = arena_reserve((size_t)4 << 30);
+    Arena  arena = test_arena(state);
     Scene *scene = sky_scene(ENVIRONMENT_SKY, 0, &arena);
     scene->environment.outside.where.altitude_m = 0; /* the horizon is the horizontal */
     const Lights *lights = build(scene, &arena);
@@ -65,14 +62,12 @@ static void a_half_set_sun_gives_half_its_light(void **state)
         sum[sample.wi.y >= 0] += (double)spectrum_sum(sample.radiance);
     }
     assert_true(sum[0] == 0 && sum[1] > 0);
-    arena_release(&arena);
 }
 
 static void modelled_sky_samples_follow_their_density(void **state)
 {
-    (void)state;
     enum { ROWS = 24, COLUMNS = 24, COUNT = 300000, FINE = 40 };
-    Arena arena = arena_reserve((size_t)4 << 30);
+    Arena arena = test_arena(state);
     Wavelengths lanes;
     wavelengths_sample(0.3f, &lanes);
     for (int kind = ENVIRONMENT_CIE; kind <= ENVIRONMENT_SKY; kind++) {
@@ -118,20 +113,17 @@ static void modelled_sky_samples_follow_their_density(void **state)
         assert_near(total, 1, 5e-3);
         assert_true(chi2 < cells + 5 * sqrt(2.0 * cells));
     }
-    arena_release(&arena);
 }
 
 static void a_sky_without_a_sun_to_stand_by_is_refused(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve((size_t)1 << 30);
+    Arena arena = test_arena(state);
     Scene *scene = sky_scene(ENVIRONMENT_PEREZ, -5, &arena);
     Lights *lights;
     Error err;
     assert_false(lights_build(scene, &arena, &lights, &err));
     assert_non_null(strstr(err.text, "5.00 degrees below the horizon"));
     assert_int_equal(err.code, ERROR_INPUT);
-    arena_release(&arena);
 }
 
 int main(void)
@@ -142,5 +134,5 @@ int main(void)
         cmocka_unit_test(modelled_sky_samples_follow_their_density),
         cmocka_unit_test(a_sky_without_a_sun_to_stand_by_is_refused),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_arena, drop_arena);
 }

@@ -1,16 +1,7 @@
 /* Figures of a part of a frame, and their intervals. */
-#include "check.h"
-
-#include <string.h>
+#include "fixture.h"
 
 #include "image/measure.h"
-
-enum { ARENA_BYTES = 1 << 28 };
-
-static void assert_text_has(const Error *err, const char *part)
-{
-    if (!strstr(err->text, part)) fail_msg("\"%s\" lacks \"%s\"", err->text, part);
-}
 
 /* Every pixel of R, G, B holds cd_m2 of D65. */
 static FrameImage uniform_frame(int width, int height, float cd_m2, Arena *arena)
@@ -46,8 +37,7 @@ static void add_layer(FrameImage *frame, const char *layer, float value, Arena *
 
 static void a_region_has_the_mean_of_its_pixels(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(ARENA_BYTES);
+    Arena      arena = test_arena(state);
     FrameImage frame = uniform_frame(10, 10, 100, &arena);
     for (int c = 0; c < 3; c++) frame.channels[c].values[0] = 500;
     MeasureRequest corner = {.has_region = true, .region = {0, 0, 2, 2}};
@@ -65,28 +55,24 @@ static void a_region_has_the_mean_of_its_pixels(void **state)
     m = measure(&frame, corner, arena);
     assert_int_equal(m.pixels, 3);
     assert_int_equal(m.nonfinite, 1);
-    arena_release(&arena);
 }
 
 /* 100 pixels whose means have a variance of 4 each: 1.96 * 2 / sqrt(100). */
 static void intervals_follow_from_the_variance_layer(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(ARENA_BYTES);
+    Arena      arena = test_arena(state);
     FrameImage frame = uniform_frame(10, 10, 100, &arena);
     add_layer(&frame, "variance", 4, &arena);
     Measurement m = measure(&frame, (MeasureRequest){0}, arena);
     assert_close(m.luminance.half_width, 1.959964 * 0.2, 1e-4);
     assert_true(m.x.half_width > 0 && m.x.half_width < 0.01);
-    arena_release(&arena);
 }
 
 /* With channels that are independent and normal the interval of x holds 95 of 100 times. */
 static void the_interval_of_chromaticity_covers(void **state)
 {
-    (void)state;
     enum { TRIALS = 2000 };
-    Arena    arena = arena_reserve(ARENA_BYTES);
+    Arena    arena = test_arena(state);
     unsigned seed = 7;
     int      inside = 0;
     double   truth = 0;
@@ -107,13 +93,11 @@ static void the_interval_of_chromaticity_covers(void **state)
         else inside += fabs(m.x.value - truth) <= m.x.half_width;
     }
     assert_near(inside / (double)TRIALS, 0.95, 0.02);
-    arena_release(&arena);
 }
 
 static void a_display_has_its_contrast(void **state)
 {
-    (void)state;
-    Arena      arena = arena_reserve(ARENA_BYTES);
+    Arena      arena = test_arena(state);
     FrameImage frame = uniform_frame(10, 10, 100, &arena);
     add_layer(&frame, "variance", 4, &arena);
     add_layer(&frame, "display.white", 400, &arena);
@@ -130,31 +114,28 @@ static void a_display_has_its_contrast(void **state)
     assert_close(m.contrast.half_width, 1.959964 * 399.6 / (20.4 * 20.4) * 2 / sqrt(50), 1e-3);
     m = measure(&frame, (MeasureRequest){.display = "centre"}, arena);
     assert_int_equal(m.pixels, 10);
-    arena_release(&arena);
 }
 
 static void what_cannot_be_measured_is_told(void **state)
 {
-    (void)state;
-    Arena          arena = arena_reserve(ARENA_BYTES);
+    Arena          arena = test_arena(state);
     FrameImage     frame = uniform_frame(10, 10, 100, &arena);
     MeasureRequest request = {"f.exr", true, {5, 5, 11, 8}, NULL};
     Measurement    m;
     Error          err = {0};
     assert_false(measure_frame(&frame, &request, arena, &m, &err));
-    assert_text_has(&err, "inside the frame's pixels 0,0,10,10");
+    assert_error_has(&err, "inside the frame's pixels 0,0,10,10");
     frame_set_string(&frame, "parhelion:display.1", "cluster", &arena);
     request = (MeasureRequest){.frame_name = "f.exr", .display = "claster"};
     assert_false(measure_frame(&frame, &request, arena, &m, &err));
-    assert_text_has(&err, "its displays: cluster");
+    assert_error_has(&err, "its displays: cluster");
     request.display = "cluster";
     assert_false(measure_frame(&frame, &request, arena, &m, &err));
-    assert_text_has(&err, "--layers id");
+    assert_error_has(&err, "--layers id");
     float *id = frame_add_channel(&frame, "id.display", true, &arena);
     for (int i = 0; i < 100; i++) id[i] = -1;
     assert_false(measure_frame(&frame, &request, arena, &m, &err));
-    assert_text_has(&err, "no pixel to measure on display cluster");
-    arena_release(&arena);
+    assert_error_has(&err, "no pixel to measure on display cluster");
 }
 
 int main(void)
@@ -166,5 +147,5 @@ int main(void)
         cmocka_unit_test(a_display_has_its_contrast),
         cmocka_unit_test(what_cannot_be_measured_is_told),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_arena, drop_arena);
 }

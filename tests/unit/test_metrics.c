@@ -1,5 +1,5 @@
 /* Pixel errors, SSIM, CIEDE2000 and ranks. */
-#include "check.h"
+#include "fixture.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -58,8 +58,7 @@ static PixelErrors errors_of(const Canvas *r, const Canvas *t, PixelMask mask, b
 
 static void equal_pictures_have_no_error(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas scene = canvas_scene(50, 40, 0.3, 1, &arena);
     PixelErrors  e = errors_of(&scene, &scene, NULL, false, arena);
     assert_near(e.mae, 0, 0);
@@ -69,14 +68,12 @@ static void equal_pictures_have_no_error(void **state)
     assert_near(e.mean_shift, 0, 0);
     assert_true(isinf(e.psnr_db) && e.psnr_db > 0);
     assert_near(e.peak, 1, 0);
-    arena_release(&arena);
 }
 
 /* Grey 0.5 against grey 0.75: e is a hundredth of 0.5. */
 static void even_pictures_follow_the_closed_forms(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas r = canvas_uniform(0.5f, 0.5f, 0.5f, &arena);
     const Canvas t = canvas_uniform(0.75f, 0.75f, 0.75f, &arena);
     PixelErrors  e = errors_of(&r, &t, NULL, false, arena);
@@ -86,14 +83,12 @@ static void even_pictures_follow_the_closed_forms(void **state)
     assert_close(e.max_difference, 0.25, 1e-12);
     assert_close(e.psnr_db, 12.041199826559248, 1e-12);
     assert_close(e.mean_shift, 0.5, 1e-6);
-    arena_release(&arena);
 }
 
 /* One channel in one pixel of 108 is off. */
 static void one_pixel_is_one_of_all(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas r = canvas_uniform(1, 1, 1, &arena), t = canvas_uniform(1, 1, 1, &arena);
     t.rgb[2][17] = -2;
     PixelErrors e = errors_of(&r, &t, NULL, false, arena);
@@ -102,14 +97,12 @@ static void one_pixel_is_one_of_all(void **state)
     assert_close(e.rel_mse, 9 / 1.0001 / (3.0 * 108), 1e-6);
     assert_near(e.max_difference, 3, 0);
     assert_close(e.mean_shift, -3 * 0.0722 / 108, 1e-3);
-    arena_release(&arena);
 }
 
 /* 999 of 1000 pixels are not above 40: the sun of 1e9 does not set the peak of a frame. */
 static void a_frame_has_its_own_peak(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas r = canvas_create(50, 20, &arena), t = canvas_create(50, 20, &arena);
     canvas_fill(&r, 40, 40, 40);
     canvas_fill(&t, 42, 42, 42);
@@ -119,13 +112,11 @@ static void a_frame_has_its_own_peak(void **state)
     assert_close(e.mse, 4 * 0.999, 1e-12);
     assert_close(e.psnr_db, 10 * log10(1600 / (4 * 0.999)), 1e-6);
     assert_near(errors_of(&r, &t, NULL, false, arena).peak, 1, 0);
-    arena_release(&arena);
 }
 
 static void errors_grow_with_the_unit_of_light(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(50, 40, 0.3, 1, &arena);
     const Canvas t = canvas_scene(50, 40, 0.3, 2, &arena);
     const Canvas r4 = canvas_scaled(&r, 4, &arena), t4 = canvas_scaled(&t, 4, &arena);
@@ -137,13 +128,11 @@ static void errors_grow_with_the_unit_of_light(void **state)
     assert_close(b.psnr_db, a.psnr_db, 1e-6);
     assert_close(b.peak, 4 * a.peak, 1e-6);
     assert_true(a.rel_mse > 0.01);
-    arena_release(&arena);
 }
 
 static void a_black_reference_is_told_apart(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas black = canvas_uniform(0, 0, 0, &arena);
     const Canvas grey = canvas_uniform(1, 1, 1, &arena);
     PixelErrors  same = errors_of(&black, &black, NULL, true, arena);
@@ -155,14 +144,12 @@ static void a_black_reference_is_told_apart(void **state)
     assert_true(isinf(other.mean_shift));
     assert_true(isinf(other.psnr_db) && other.psnr_db < 0);
     assert_near(other.peak, 0, 0);
-    arena_release(&arena);
 }
 
 /* Whatever stands behind the mask: not one bit of any figure changes. */
 static void masked_pixels_count_for_nothing(void **state)
 {
-    (void)state;
-    Arena          arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena          arena = test_arena(state);
     const Canvas   r = canvas_scene(40, 30, 0.3, 1, &arena);
     const Canvas   t = canvas_scene(40, 30, 0.3, 2, &arena);
     const Canvas   spoilt = canvas_scene(40, 30, 0.3, 2, &arena);
@@ -186,13 +173,11 @@ static void masked_pixels_count_for_nothing(void **state)
     assert_memory_equal(&e, &f, sizeof e);
     assert_true(a.mse > 0.01 && e.mean > 1);
     assert_true(errors_of(&r, &spoilt, NULL, true, arena).mse > 2 * a.mse);
-    arena_release(&arena);
 }
 
 static void no_pixel_gives_no_number(void **state)
 {
-    (void)state;
-    Arena          arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena          arena = test_arena(state);
     const Canvas   r = canvas_uniform(1, 2, 3, &arena);
     unsigned char *mask = ARENA_NEW(&arena, unsigned char, 12 * 9);
     float          map[12 * 9];
@@ -204,7 +189,6 @@ static void no_pixel_gives_no_number(void **state)
     assert_true(isnan(d.mean) && isnan(d.p95) && isnan(d.max));
     assert_true(isnan(ssim_mean(&r.planes, &r.planes, mask, map, arena)));
     for (int i = 0; i < 12 * 9; i++) assert_near(map[i], 1, 0);
-    arena_release(&arena);
 }
 
 /* ---- SSIM ---- */
@@ -216,20 +200,17 @@ static double ssim_of(const Canvas *r, const Canvas *t, Arena arena)
 
 static void equal_pictures_are_similar(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas scene = canvas_scene(50, 40, 0.3, 1, &arena);
     float       *map = ARENA_NEW(&arena, float, 50 * 40);
     assert_near(ssim_mean(&scene.planes, &scene.planes, NULL, map, arena), 1, 0);
     for (int i = 0; i < 50 * 40; i++) assert_near(map[i], 1, 0);
-    arena_release(&arena);
 }
 
 /* A hole in a picture is no part of it, not a black one. */
 static void holes_do_not_show(void **state)
 {
-    (void)state;
-    Arena         arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena         arena = test_arena(state);
     const Canvas  r = canvas_uniform(0.5f, 0.5f, 0.5f, &arena);
     const Canvas  t = canvas_uniform(0.25f, 0.25f, 0.25f, &arena);
     unsigned char mask[12 * 9];
@@ -237,21 +218,18 @@ static void holes_do_not_show(void **state)
     for (int i = 0; i < 12 * 9; i++) mask[i] = i % 12 > 3 && i % 7 != 0;
     ssim_mean(&r.planes, &t.planes, mask, map, arena);
     for (int i = 0; i < 12 * 9; i++) assert_close(map[i], 0.2501 / 0.3126, 1e-6);
-    arena_release(&arena);
 }
 
 /* No contrast: what is left is (2 r t + C1) / (r^2 + t^2 + C1). */
 static void even_pictures_differ_by_luminance(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas r = canvas_uniform(0.5f, 0.5f, 0.5f, &arena);
     const Canvas t = canvas_uniform(0.25f, 0.25f, 0.25f, &arena);
     assert_close(ssim_of(&r, &t, arena), 0.2501 / 0.3126, 1e-12);
     const Canvas red = canvas_uniform(1, 0, 0, &arena), blue = canvas_uniform(0, 0, 1, &arena);
     double a = 0.299, b = 0.114, expected = (2 * a * b + 1e-4) / (a * a + b * b + 1e-4);
     assert_close(ssim_of(&red, &blue, arena), expected, 1e-12);
-    arena_release(&arena);
 }
 
 /* A pattern of greys about the same mean, with half of the contrast: wherever the window's mean
@@ -259,8 +237,7 @@ static void even_pictures_differ_by_luminance(void **state)
  * the window sees all of the mean but 1e-3 of the amplitude. */
 static void contrast_counts_by_its_own_term(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas r = canvas_create(41, 41, &arena), t = canvas_create(41, 41, &arena);
     float       *map = ARENA_NEW(&arena, float, 41 * 41);
     for (int i = 0; i < 41 * 41; i++)
@@ -272,7 +249,6 @@ static void contrast_counts_by_its_own_term(void **state)
     ssim_mean(&r.planes, &t.planes, NULL, map, arena);
     double v = 0.0625, expected = (v + 9e-4) / (v + v / 4 + 9e-4); /* 2 cov = 2 v / 2 */
     assert_near(map[20 * 41 + 20], expected, 1e-5);
-    arena_release(&arena);
 }
 
 static double direct_ssim(const Canvas *r, const Canvas *t, int px, int py)
@@ -305,8 +281,7 @@ static double direct_ssim(const Canvas *r, const Canvas *t, int px, int py)
 
 static void windows_agree_with_direct_sums(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(31, 23, 0.2, 1, &arena);
     const Canvas t = canvas_scene(31, 23, 0.2, 2, &arena);
     float       *map = ARENA_NEW(&arena, float, 31 * 23);
@@ -319,7 +294,6 @@ static void windows_agree_with_direct_sums(void **state)
         }
     assert_close(mean, sum / (31 * 23), 1e-10);
     assert_true(mean > 0.2 && mean < 0.95);
-    arena_release(&arena);
 }
 
 /* ---- colours ---- */
@@ -435,8 +409,7 @@ static void the_file_of_pairs_agrees(void **state)
 /* White against grey: only the lightness term, (100 - L) / SL, is there. */
 static void pictures_have_their_difference(void **state)
 {
-    (void)state;
-    Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+    Arena        arena = test_arena(state);
     const Canvas white = canvas_uniform(1, 1, 1, &arena);
     const Canvas mixed = canvas_uniform(1, 1, 1, &arena);
     float        map[12 * 9];
@@ -450,7 +423,6 @@ static void pictures_have_their_difference(void **state)
     assert_close(d.p95, expected, 1e-6); /* ten of 108 are more than a twentieth */
     assert_near(map[10], 0, 0);
     assert_close(map[9], expected, 1e-6);
-    arena_release(&arena);
 }
 
 int main(void)
@@ -477,5 +449,5 @@ int main(void)
         cmocka_unit_test(the_file_of_pairs_agrees),
         cmocka_unit_test(pictures_have_their_difference),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_arena, drop_arena);
 }

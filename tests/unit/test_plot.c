@@ -1,8 +1,5 @@
 /* The parts of a picture: contour lines, ticks, colours, polar maps, documents. */
-#include "check.h"
-
-#include <stdlib.h>
-#include <string.h>
+#include "fixture.h"
 
 #include "base/units.h"
 #include "plot/draw/chart.h"
@@ -21,28 +18,12 @@ const char *__lsan_default_suppressions(void)
     return "leak:libfontconfig";
 }
 
-static Arena arena;
-
-static int start(void **state)
-{
-    (void)state;
-    arena = arena_reserve((size_t)2 << 30);
-    return 0;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    arena_release(&arena);
-    return 0;
-}
-
 /* ---- contour lines ---------------------------------------------------------------------- */
 
 /* theta itself: its lines are circles around the centre. */
 static Field theta_field(int side)
 {
-    Field field = field_new(side, PI / 2, &arena);
+    Field field = field_new(side, PI / 2, test_memory());
     for (int row = 0; row < side; row++)
         for (int column = 0; column < side; column++) {
             double x = column - (side - 1) / 2.0, y = row - (side - 1) / 2.0;
@@ -58,7 +39,8 @@ static void a_function_of_theta_has_circles(void **state)
     enum { SIDE = 301 };
     Field field = theta_field(SIDE);
     for (int deg = 10; deg <= 80; deg += 10) {
-        ContourSet set = contour_lines(field.value, SIDE, radians_from_degrees(deg), &arena);
+        ContourSet set =
+            contour_lines(field.value, SIDE, radians_from_degrees(deg), test_memory());
         assert_int_equal(set.count, 1);
         assert_true(set.line[0].is_closed);
         for (int i = 0; i < set.line[0].count; i++) {
@@ -73,13 +55,13 @@ static void lines_lie_on_their_level(void **state)
 {
     (void)state;
     enum { SIDE = 61 };
-    Field field = field_new(SIDE, PI / 2, &arena);
+    Field field = field_new(SIDE, PI / 2, test_memory());
     for (int i = 0; i < SIDE * SIDE; i++)
         field.value[i] = (float)(sin(0.21 * (i % SIDE)) * cos(0.17 * (i / SIDE)) +
                                  0.01 * (i % 7));
     for (int k = -6; k <= 6; k++) {
         double     level = 0.13 * k + 0.003;
-        ContourSet set = contour_lines(field.value, SIDE, level, &arena);
+        ContourSet set = contour_lines(field.value, SIDE, level, test_memory());
         for (int n = 0; n < set.count; n++)
             for (int i = 0; i < set.line[n].count; i++) {
                 ContourPoint p = set.line[n].point[i];
@@ -106,7 +88,7 @@ static void every_crossing_is_on_one_line(void **state)
             crossings += c + 1 < SIDE && here != (value[row * SIDE + c + 1] >= 0.5f);
             crossings += row + 1 < SIDE && here != (value[(row + 1) * SIDE + c] >= 0.5f);
         }
-    ContourSet set = contour_lines(value, SIDE, 0.5, &arena);
+    ContourSet set = contour_lines(value, SIDE, 0.5, test_memory());
     for (int i = 0; i < set.count; i++)
         points += set.line[i].count - (set.line[i].is_closed ? 1 : 0);
     assert_int_equal(points, crossings);
@@ -119,7 +101,7 @@ static void holes_have_no_lines(void **state)
     Field field = theta_field(SIDE);
     for (int row = 0; row < SIDE; row++)
         for (int c = 0; c < 20; c++) field.value[row * SIDE + c] = NAN;
-    ContourSet set = contour_lines(field.value, SIDE, PI / 4, &arena);
+    ContourSet set = contour_lines(field.value, SIDE, PI / 4, test_memory());
     assert_int_equal(set.count, 1);
     assert_false(set.line[0].is_closed);
     for (int i = 0; i < set.line[0].count; i++) assert_true(set.line[0].point[i].x >= 20);
@@ -269,7 +251,8 @@ static Picture8 picture_start(void)
 {
     Picture8 picture = {cairo_image_surface_create(CAIRO_FORMAT_RGB24, SIZE * SCALE,
                                                    SIZE * SCALE), {0}};
-    picture.canvas = (Canvas){cairo_create(picture.surface), theme_light(), SCALE, &arena};
+    picture.canvas =
+        (Canvas){cairo_create(picture.surface), theme_light(), SCALE, test_memory()};
     cairo_scale(picture.canvas.cr, SCALE, SCALE);
     cairo_rectangle(picture.canvas.cr, 0, 0, SIZE, SIZE);
     canvas_fill(&picture.canvas, picture.canvas.theme.paper);
@@ -327,7 +310,7 @@ static void the_ring_of_50_degrees_is_at_five_ninths(void **state)
 static void what_was_not_measured_is_dimmed_and_hatched(void **state)
 {
     (void)state;
-    Field field = field_new(61, PI / 2, &arena);
+    Field field = field_new(61, PI / 2, test_memory());
     for (int i = 0; i < 61 * 61; i++) field.value[i] = 0.1f;
     PolarMap map = {.field = &field, .map = MAP_AMOUNT, .high = 1, .strong = NAN,
                     .theta_measured = radians_from_degrees(50), .unit = ""};
@@ -354,7 +337,7 @@ static void what_was_not_measured_is_dimmed_and_hatched(void **state)
 static void a_grid_point_looks_where_it_stands(void **state)
 {
     (void)state;
-    Field field = field_new(91, PI / 2, &arena);
+    Field field = field_new(91, PI / 2, test_memory());
     for (int deg = 0; deg < 360; deg += 30) {
         double column, row, phi = radians_from_degrees(deg);
         field_place(&field, radians_from_degrees(60), phi, &column, &row);
@@ -376,7 +359,7 @@ static void quantiles_and_ranges_agree(void **state)
     assert_near(range.low, 0, 1e-6);
     assert_near(range.high, radians_from_degrees(45), 0.02);
     /* the area inside theta grows as its square on this map */
-    assert_near(field_quantile(&field, PI / 2, 0.25, arena), PI / 4, 0.02);
+    assert_near(field_quantile(&field, PI / 2, 0.25, *test_memory()), PI / 4, 0.02);
 }
 
 /* ---- charts and documents --------------------------------------------------------------- */
@@ -405,7 +388,7 @@ static void ids_are_renamed_alike_and_apart(void **state)
                   "<use xlink:href=\"#glyph0-1\"/><g clip-path=\"url(#clip7)\"/>"
                   "<path d=\"M 1.23456 2.000001 L 3 4.5\"/></svg>";
     PlotBytes in = {(unsigned char *)text, sizeof text - 1};
-    PlotBytes out = svg_with_ids(in, "a", true, &arena);
+    PlotBytes out = svg_with_ids(in, "a", true, test_memory());
     assert_string_equal((char *)out.data,
         "<svg><g id=\"a0\"/><clipPath id=\"a1\"/><use xlink:href=\"#a0\"/>"
         "<g clip-path=\"url(#a1)\"/><path d=\"M 1.234 2 L 3 4.5\"/></svg>");
@@ -417,7 +400,7 @@ static void a_drawing_has_a_title(void **state)
     (void)state;
     char      text[] = "<?xml version=\"1.0\"?>\n<svg width=\"1px\">\n<g/></svg>";
     PlotBytes out = svg_with_title((PlotBytes){(unsigned char *)text, sizeof text - 1}, "a & b",
-                                   &arena);
+                                   test_memory());
     assert_string_equal((char *)out.data, "<?xml version=\"1.0\"?>\n<svg width=\"1px\">\n"
                         "<title>a &amp; b</title>\n<g/></svg>");
     assert_int_equal(out.size, strlen((char *)out.data));
@@ -426,7 +409,7 @@ static void a_drawing_has_a_title(void **state)
 static void texts_are_escaped(void **state)
 {
     (void)state;
-    Text text = {.arena = &arena};
+    Text text = {.arena = test_memory()};
     text_add_escaped(&text, "a<b>&\"c'");
     text_add_escaped(&text, NULL);
     assert_string_equal(text.data, "a&lt;b&gt;&amp;&quot;c&#39;");
@@ -436,17 +419,19 @@ static void texts_are_escaped(void **state)
 static void names_become_utf8(void **state)
 {
     (void)state;
-    assert_string_equal(text_clean("display é µ ₂ 𝄞.panel", &arena), "display é µ ₂ 𝄞.panel");
-    assert_string_equal(text_clean("a\xff\xc3(\xe2\x82" "b\n\xc0\x80", &arena), "a?\?(?\?b???");
-    assert_string_equal(text_clean("\xed\xa0\x80", &arena), "???"); /* a surrogate */
-    assert_string_equal(text_clean("\xf0\x9d", &arena), "??");       /* cut short */
+    assert_string_equal(text_clean("display é µ ₂ 𝄞.panel", test_memory()),
+                        "display é µ ₂ 𝄞.panel");
+    assert_string_equal(text_clean("a\xff\xc3(\xe2\x82" "b\n\xc0\x80", test_memory()),
+                        "a?\?(?\?b???");
+    assert_string_equal(text_clean("\xed\xa0\x80", test_memory()), "???"); /* a surrogate */
+    assert_string_equal(text_clean("\xf0\x9d", test_memory()), "??");       /* cut short */
 }
 
 static void data_without_spread_have_a_picture(void **state)
 {
     (void)state;
     Picture8 picture = picture_start();
-    Field    field = field_new(31, PI / 2, &arena);
+    Field    field = field_new(31, PI / 2, test_memory());
     for (int pass = 0; pass < 3; pass++) {
         for (int i = 0; i < 31 * 31; i++) field.value[i] = pass == 2 ? NAN : 0;
         polar_draw(&picture.canvas, (Box){0, 0, SIZE, SIZE},
@@ -486,5 +471,5 @@ int main(void)
         cmocka_unit_test(names_become_utf8),
         cmocka_unit_test(data_without_spread_have_a_picture),
     };
-    return cmocka_run_group_tests(tests, start, end);
+    return cmocka_run_group_tests(tests, make_arena, drop_arena);
 }

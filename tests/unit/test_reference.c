@@ -1,57 +1,25 @@
 /* A file leads to its neighbours and not beyond; an output is looked at before work is done;
  * an arena takes no more than half of a limited address space. */
-#include "check.h"
+#include "fixture.h"
 
-#include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include "base/file.h"
 #include "base/reference.h"
 
 /* folder/a/scenes/s.gltf may name what is below folder/a, but nothing in folder/secret. */
-static Arena arena;
-static char folder[256];
-
-static const char *at(const char *name)
+static int make_tree(void **state)
 {
-    return arena_format(&arena, "%s/%s", folder, name);
-}
-
-static int start(void **state)
-{
-    (void)state;
-    Error err;
-    const char *base = getenv("TMPDIR");
-    snprintf(folder, sizeof folder, "%s/parhelion-test-XXXXXX", base ? base : P_tmpdir);
-    arena = arena_reserve(1 << 20);
-    if (!mkdtemp(folder)) return -1;
-    for (const char *const *name = (const char *const[]){"a", "a/scenes", "a/beside", "secret",
-                                                         NULL};
-         *name; name++)
-        if (mkdir(at(*name), 0755)) return -1;
-    bool made = file_write(at("secret/x"), "x", 1, &err) &&
-                file_write(at("a/beside/x"), "x", 1, &err) &&
-                !symlink("../../secret/x", at("a/scenes/out")) &&
-                !symlink("../../secret", at("a/scenes/door")) &&
-                !symlink("../beside/x", at("a/scenes/near"));
+    static const char *const FOLDERS[] = {"a", "a/scenes", "a/beside", "secret"};
+    if (make_folder(state)) return -1;
+    for (int i = 0; i < 4; i++)
+        if (mkdir(in_folder(FOLDERS[i]), 0755)) return -1;
+    write_text(in_folder("secret/x"), "x");
+    write_text(in_folder("a/beside/x"), "x");
+    bool made = !symlink("../../secret/x", in_folder("a/scenes/out")) &&
+                !symlink("../../secret", in_folder("a/scenes/door")) &&
+                !symlink("../beside/x", in_folder("a/scenes/near"));
     return made ? 0 : -1;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    for (const char *const *name =
-             (const char *const[]){"a/scenes/out", "a/scenes/door", "a/scenes/near",
-                                   "a/beside/x", "secret/x", "a/scenes", "a/beside", "a",
-                                   "secret", "", NULL};
-         *name; name++)
-        remove(at(*name));
-    arena_release(&arena);
-    return 0;
 }
 
 typedef struct Row {
@@ -60,7 +28,7 @@ typedef struct Row {
 
 static void a_file_leads_to_its_neighbours_only(void **state)
 {
-    (void)state;
+    Arena arena = test_arena(state);
     static const Row rows[] = {
         {"../beside/x", NULL, NULL},
         {"near", NULL, NULL},
@@ -83,14 +51,14 @@ static void a_file_leads_to_its_neighbours_only(void **state)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         Error       err = {0};
         const char *path = NULL;
-        const char *root = rows[i].root ? at(rows[i].root) : NULL;
-        bool taken = reference_resolve(at("a/scenes/s.gltf"), rows[i].relative, root, &arena,
-                                       &path, &err);
+        const char *root = rows[i].root ? in_folder(rows[i].root) : NULL;
+        bool taken = reference_resolve(in_folder("a/scenes/s.gltf"), rows[i].relative, root,
+                                       &arena, &path, &err);
         if (taken != !rows[i].words) fail_msg("'%s': %s", rows[i].relative, err.text);
         if (!taken && !strstr(err.text, rows[i].words))
             fail_msg("'%s' says: %s", rows[i].relative, err.text);
         if (taken)
-            assert_string_equal(path, arena_format(&arena, "%s/a/scenes/%s", folder,
+            assert_string_equal(path, arena_format(&arena, "%s/a/scenes/%s", test_folder(),
                                                    rows[i].relative));
     }
 }
@@ -98,12 +66,12 @@ static void a_file_leads_to_its_neighbours_only(void **state)
 /* A file that is named without a folder stands in the folder where the program was started. */
 static void the_folder_may_be_unnamed(void **state)
 {
-    (void)state;
+    Arena arena = test_arena(state);
     char        before[4096];
     const char *path;
     Error       err;
     assert_non_null(getcwd(before, sizeof before));
-    assert_int_equal(chdir(at("a/scenes")), 0);
+    assert_int_equal(chdir(in_folder("a/scenes")), 0);
     assert_true(reference_resolve("s.gltf", "near", NULL, &arena, &path, &err));
     assert_string_equal(path, "near");
     assert_false(reference_resolve("s.gltf", "out", NULL, &arena, &path, &err));
@@ -115,10 +83,10 @@ static void a_root_must_be_a_folder(void **state)
     (void)state;
     Error err = {0};
     assert_true(reference_check_root(NULL, &err));
-    assert_true(reference_check_root(at("secret"), &err));
-    assert_false(reference_check_root(at("secret/x"), &err));
+    assert_true(reference_check_root(in_folder("secret"), &err));
+    assert_false(reference_check_root(in_folder("secret/x"), &err));
     assert_string_equal(err.text, "--root wants a folder: Not a directory");
-    assert_false(reference_check_root(at("nowhere"), &err));
+    assert_false(reference_check_root(in_folder("nowhere"), &err));
     assert_string_equal(err.text, "--root wants a folder: No such file or directory");
     assert_int_equal(err.code, ERROR_INPUT);
 }
@@ -127,16 +95,16 @@ static void an_output_is_looked_at_first(void **state)
 {
     (void)state;
     Error err = {0};
-    assert_true(file_check_writable(at("new"), &err));
-    assert_int_equal(access(at("new"), F_OK), -1); /* nothing is left */
-    assert_true(file_check_writable(at("secret/x"), &err));
+    assert_true(file_check_writable(in_folder("new"), &err));
+    assert_int_equal(access(in_folder("new"), F_OK), -1); /* nothing is left */
+    assert_true(file_check_writable(in_folder("secret/x"), &err));
     assert_true(file_check_writable("/dev/null", &err));
-    assert_false(file_check_writable(at("secret"), &err));
+    assert_false(file_check_writable(in_folder("secret"), &err));
     assert_string_equal(err.text, "cannot be written: Is a directory");
-    assert_false(file_check_writable(at("nowhere/new"), &err));
+    assert_false(file_check_writable(in_folder("nowhere/new"), &err));
     assert_int_equal(err.code, ERROR_OUTPUT);
     assert_non_null(strstr(err.text, "No such file or directory"));
-    assert_string_equal(err.file, at("nowhere/new"));
+    assert_string_equal(err.file, in_folder("nowhere/new"));
 }
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -148,12 +116,12 @@ static void an_output_is_looked_at_first(void **state)
 /* In a process of its own: the size of an arena of 8 GB where only 2 GB may be had. */
 static void an_arena_leaves_room(void **state)
 {
-    (void)state;
     if (!LIMITS_WORK) skip();
     pid_t child = fork();
     if (child == 0) {
         const size_t gigabyte = (size_t)1 << 30;
         struct rlimit limit = {2 * gigabyte, 2 * gigabyte};
+        drop_arena(state);
         if (setrlimit(RLIMIT_AS, &limit)) _exit(1);
         Arena first = arena_reserve(8 * gigabyte), second = arena_reserve(8 * gigabyte);
         size_t a = (size_t)(first.end - first.begin), b = (size_t)(second.end - second.begin);
@@ -173,5 +141,5 @@ int main(void)
         cmocka_unit_test(an_output_is_looked_at_first),
         cmocka_unit_test(an_arena_leaves_room),
     };
-    return cmocka_run_group_tests(tests, start, end);
+    return cmocka_run_group_tests(tests, make_tree, clear_folder);
 }

@@ -1,11 +1,8 @@
 /* Sun position, the sun's spectrum, sky shapes, weather files. */
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
 #include "base/units.h"
-#include "check.h"
+#include "fixture.h"
 #include "sky/epw.h"
 #include "sky/sky_shape.h"
 #include "sky/spectrl2.h"
@@ -357,17 +354,6 @@ static void irradiances_without_a_sky_are_refused(void **state)
 
 /* ---- weather ----------------------------------------------------------------------------- */
 
-static const char *write_text(const char *text)
-{
-    static char name[512];
-    const char *folder = getenv("TMPDIR");
-    snprintf(name, sizeof name, "%s/parhelion_weather_XXXXXX", folder ? folder : P_tmpdir);
-    int file = mkstemp(name);
-    assert_true(file >= 0 && write(file, text, strlen(text)) == (ssize_t)strlen(text));
-    close(file);
-    return name;
-}
-
 static const char weather_text[] =
     "LOCATION,Testville,-,NLD,Data,062400,52.30,4.77,1.0,-2.0\r\n"
     "COMMENTS 1,none\r\nDATA PERIODS,1,1,Data,Sunday, 6/ 1,6/30\r\n"
@@ -376,9 +362,9 @@ static const char weather_text[] =
 
 static void a_weather_file_tells_place_and_hours(void **state)
 {
-    (void)state;
-    Arena       arena = arena_reserve((size_t)1 << 30);
-    const char *name = write_text(weather_text);
+    Arena       arena = test_arena(state);
+    const char *name = in_folder("weather.epw");
+    write_text(name, weather_text);
     Weather     w;
     Error       err;
     assert_true(weather_read(name, &arena, &w, &err));
@@ -396,13 +382,11 @@ static void a_weather_file_tells_place_and_hours(void **state)
     assert_non_null(hour);
     assert_near(hour->direct_normal_w_m2, 410.5, 1e-9);
     assert_true(weather_at(&w, &later) != hour && !weather_at(&w, &other));
-    arena_release(&arena);
 }
 
 static void every_prefix_of_a_weather_file_is_read_or_refused_by_line(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve((size_t)4 << 30);
+    Arena arena = test_arena(state);
     for (size_t n = 0; n < sizeof weather_text - 1; n++) {
         char    text[sizeof weather_text];
         Arena   scratch = arena;
@@ -410,18 +394,17 @@ static void every_prefix_of_a_weather_file_is_read_or_refused_by_line(void **sta
         Error   err;
         memcpy(text, weather_text, n);
         text[n] = 0;
-        const char *name = write_text(text);
+        const char *name = in_folder("weather.epw");
+        write_text(name, text);
         if (!weather_read(name, &scratch, &w, &err))
             assert_true(err.code == ERROR_INPUT && strstr(err.text, "wanted"));
         unlink(name);
     }
-    arena_release(&arena);
 }
 
 static void a_real_year_has_8760_hours(void **state)
 {
-    (void)state;
-    Arena   arena = arena_reserve((size_t)1 << 30);
+    Arena   arena = test_arena(state);
     Weather w;
     Error   err;
     double  direct = 0;
@@ -434,7 +417,6 @@ static void a_real_year_has_8760_hours(void **state)
     assert_int_equal(w.count, 8760);
     for (int i = 0; i < w.count; i++) direct += w.hour[i].direct_normal_w_m2;
     assert_in(direct / 1000, 500, 1500); /* kWh m^-2 of a northern year */
-    arena_release(&arena);
 }
 
 int main(void)
@@ -458,5 +440,5 @@ int main(void)
         cmocka_unit_test(every_prefix_of_a_weather_file_is_read_or_refused_by_line),
         cmocka_unit_test(a_real_year_has_8760_hours),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

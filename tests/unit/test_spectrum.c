@@ -1,8 +1,5 @@
 /* Colour from spectra: one observer, one normalisation, no bias from sampling wavelengths. */
-#include "check.h"
-
-#include <stdlib.h>
-#include <string.h>
+#include "fixture.h"
 
 #include "base/units.h"
 #include "spectrum/curve.h"
@@ -298,23 +295,12 @@ static void a_curve_passes_through_its_points_and_holds_its_ends(void **state)
     }
 }
 
-/* Writes a temporary file; the caller removes it. */
-static void write_text(char path[64], const char *text)
-{
-    snprintf(path, 64, "%s/parhelion_curve_XXXXXX", P_tmpdir);
-    int fd = mkstemp(path);
-    assert_true(fd >= 0);
-    FILE *file = fdopen(fd, "w");
-    fputs(text, file);
-    fclose(file);
-}
-
 static void a_curve_file_may_have_comments_and_a_header(void **state)
 {
     (void)state;
     static Curve curve;
     Error        err;
-    char         path[64];
+    const char  *path = in_folder("curve.csv");
     write_text(path, "# glass\nnm,transmittance\n\n400,0.5\r\n500 ; 0.75\n600\t0.25");
     assert_true(curve_read(path, &curve, &err));
     remove(path);
@@ -341,7 +327,8 @@ static void a_bad_curve_file_is_refused_with_its_line(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         static Curve curve;
         Error        err;
-        char         path[64], line[2048];
+        char         line[2048];
+        const char  *path = in_folder("curve.csv");
         write_text(path, cases[i].text);
         assert_false(curve_read(path, &curve, &err));
         remove(path);
@@ -417,5 +404,5 @@ int main(void)
         cmocka_unit_test(a_bad_curve_file_is_refused_with_its_line),
         cmocka_unit_test(lane_operations_agree_with_loops),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -93,8 +93,7 @@ static float *channel(FrameImage *frame, const char *layer, char letter)
 
 static void one_glint_in_one_frame_is_noise(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 26);
+    Arena arena = test_arena(state);
     Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 32}, other = maker;
     int   hit = 14 * WIDTH + 14, alarms = 0;
     plain_scene(&maker);
@@ -113,15 +112,13 @@ static void one_glint_in_one_frame_is_noise(void **state)
         assert_true(r.mean_shift > 1); /* and yet the frame's mean has doubled */
     }
     assert_in_range(alarms, 0, 1);
-    arena_release(&arena);
 }
 
 /* ---- pixels without noise, rounding, equality -------------------------------------------- */
 
 static void frames_without_noise_differ_by_a_single_pixel(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 26);
+    Arena arena = test_arena(state);
     Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 64, .seed = 3};
     plain_scene(&maker);
     FrameImage a = make_frame(&maker, &arena), b = make_frame(&maker, &arena);
@@ -141,13 +138,11 @@ static void frames_without_noise_differ_by_a_single_pixel(void **state)
     r = judge(&a, &b, NULL, &arena);
     assert_int_equal(r.verdict, STATISTIC_DIFFERENT);
     assert_int_equal(r.differing, 1);
-    arena_release(&arena);
 }
 
 static void rounding_is_no_change(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 26);
+    Arena arena = test_arena(state);
     Maker maker = {.noise = NOISE_QUIET, .samples = 64, .seed = 3};
     plain_scene(&maker);
     FrameImage a = make_frame(&maker, &arena), b = make_frame(&maker, &arena);
@@ -163,15 +158,13 @@ static void rounding_is_no_change(void **state)
     assert_int_equal(r.verdict, STATISTIC_SAME);
     assert_true(r.shares_noise);
     assert_text_has(r.reason, "0 of 1536 pixels differ by more than rounding");
-    arena_release(&arena);
 }
 
 /* Frames of one seed: a few paths that went elsewhere are noise, one part in a thousand of all
  * light is not. */
 static void frames_that_share_their_noise_are_compared_pixel_by_pixel(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 26);
+    Arena arena = test_arena(state);
     Maker maker = {.noise = NOISE_EXPONENTIAL, .samples = 64, .seed = 3};
     plain_scene(&maker);
     FrameImage a = make_frame(&maker, &arena), b = make_frame(&maker, &arena);
@@ -188,15 +181,13 @@ static void frames_that_share_their_noise_are_compared_pixel_by_pixel(void **sta
     r = judge(&a, &b, NULL, &arena);
     assert_int_equal(r.verdict, STATISTIC_DIFFERENT);
     assert_text_has(r.reason, "one seed and the same samples: 1500 of 1536 pixels differ; ");
-    arena_release(&arena);
 }
 
 /* ---- masks, gaps, words ------------------------------------------------------------------ */
 
 static void what_the_mask_leaves_out_does_not_count(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 26);
+    Arena arena = test_arena(state);
     Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 16, .seed = 3}, other = maker;
     unsigned char mask[PIXELS];
     plain_scene(&maker);
@@ -219,14 +210,12 @@ static void what_the_mask_leaves_out_does_not_count(void **state)
     assert_int_equal(r.verdict, STATISTIC_EQUAL);
     assert_int_equal(r.region_count, 0);
     assert_near(r.p_value, 1, 0);
-    arena_release(&arena);
 }
 
 /* A crop: the data window lies inside the display window, which the mask covers. */
 static void crops_have_their_place_in_the_frame(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 26);
+    Arena arena = test_arena(state);
     Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 64, .seed = 3}, other = maker;
     plain_scene(&maker);
     plain_scene(&other);
@@ -244,14 +233,12 @@ static void crops_have_their_place_in_the_frame(void **state)
     r = judge(&a, &b, mask, &arena);
     assert_int_equal(r.verdict, STATISTIC_SAME);
     assert_int_equal(r.pixels, PIXELS - 64);
-    arena_release(&arena);
 }
 
 static void either_layer_of_noise_is_enough(void **state)
 {
-    (void)state;
     static const char *const LEFT_OUT[] = {"variance", "halves", "samples.N"};
-    Arena arena = arena_reserve(1 << 27);
+    Arena arena = test_arena(state);
     for (int k = 0; k < 3; k++)
         for (int change = 0; change < 2; change++) {
             Maker maker = {.noise = NOISE_EXPONENTIAL, .samples = 64, .seed = 13};
@@ -266,13 +253,11 @@ static void either_layer_of_noise_is_enough(void **state)
             assert_int_equal(r.verdict, change ? STATISTIC_DIFFERENT : STATISTIC_SAME);
             if (k == 2) assert_text_has(r.note, "--layers samples tells");
         }
-    arena_release(&arena);
 }
 
 static void notes_say_what_would_help(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 26);
+    Arena arena = test_arena(state);
     Maker few = {.noise = NOISE_GAUSSIAN, .samples = 4}, many = {.samples = 16, .seed = 1};
     plain_scene(&few);
     plain_scene(&many);
@@ -284,7 +269,6 @@ static void notes_say_what_would_help(void **state)
     a = make_frame(&few, &arena);
     without(&b, "variance");
     assert_text_has(judge(&a, &b, NULL, &arena).note, "--layers variance tells");
-    arena_release(&arena);
 }
 
 static void assert_refused(const FrameImage *a, const FrameImage *b, const char *file,
@@ -307,8 +291,7 @@ static void assert_refused(const FrameImage *a, const FrameImage *b, const char 
 
 static void frames_that_do_not_tell_their_noise_are_refused(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 26);
+    Arena arena = test_arena(state);
     Maker maker = {.samples = 4};
     plain_scene(&maker);
     FrameImage a = make_frame(&maker, &arena), b = make_frame(&maker, &arena);
@@ -322,7 +305,6 @@ static void frames_that_do_not_tell_their_noise_are_refused(void **state)
     b.data = (ExrWindow){1, 0, WIDTH + 1, HEIGHT};
     assert_refused(&a, &b, "b.exr",
                    "holds pixels 1,0,49,32, the reference 0,0,48,32: wanted the same");
-    arena_release(&arena);
 }
 
 int main(void)
@@ -341,5 +323,5 @@ int main(void)
         cmocka_unit_test(notes_say_what_would_help),
         cmocka_unit_test(frames_that_do_not_tell_their_noise_are_refused),
     };
-    return cmocka_run_group_tests_name("statistic", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("statistic", tests, make_arena, drop_arena);
 }

@@ -5,8 +5,7 @@
  * in proportion has the standard error s sqrt(2 / n). */
 static void a_change_in_proportion_is_measured_as_well_as_can_be(void **state)
 {
-    (void)state;
-    Arena  arena = arena_reserve(1 << 26);
+    Arena  arena = test_arena(state);
     Maker  maker = {.noise = NOISE_GAUSSIAN, .samples = 16}, other;
     double sigma = 0.5 / sqrt(16) * sqrt(2.0 / (PIXELS - 36)), mean = 0, stated = 0;
     int    found = 0;
@@ -26,14 +25,12 @@ static void a_change_in_proportion_is_measured_as_well_as_can_be(void **state)
     assert_close(stated, sigma, 0.12);
     assert_near(mean, 6.2 * sigma, 4 * sigma / sqrt(100.0));
     assert_true(found >= 97); /* 6.2 sigma against a limit of about 3.7 */
-    arena_release(&arena);
 }
 
 /* Weighing by the pixel's own variance makes bright pixels count less; the estimate knows. */
 static void a_change_is_estimated_without_bias_in_skewed_noise(void **state)
 {
-    (void)state;
-    Arena  arena = arena_reserve(1 << 26);
+    Arena  arena = test_arena(state);
     Maker  maker = {.noise = NOISE_EXPONENTIAL, .samples = 16}, other;
     double mean = 0, squares = 0, stated = 0;
     plain_scene(&maker);
@@ -50,13 +47,11 @@ static void a_change_is_estimated_without_bias_in_skewed_noise(void **state)
     }
     assert_near(mean, 0.05, 4 * stated / sqrt(100.0));
     assert_close(sqrt(squares), stated, 0.28); /* 4 / sqrt(2 * 100) */
-    arena_release(&arena);
 }
 
 static void a_display_is_named_with_how_much_it_moved(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 26);
+    Arena arena = test_arena(state);
     Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 64, .seed = 7}, other = maker;
     plain_scene(&maker);
     plain_scene(&other);
@@ -68,13 +63,11 @@ static void a_display_is_named_with_how_much_it_moved(void **state)
     assert_string_equal(r.regions[2].name, "cluster reflected");
     assert_near(r.regions[1].change, 0.05, 4 * r.regions[1].change_sigma);
     assert_text_has(r.reason, "display 'cluster': ");
-    arena_release(&arena);
 }
 
 static void a_block_is_named_with_its_place(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 26);
+    Arena arena = test_arena(state);
     Maker maker = {.noise = NOISE_EXPONENTIAL, .samples = 64, .seed = 3}, other = maker;
     plain_scene(&maker);
     plain_scene(&other);
@@ -88,15 +81,13 @@ static void a_block_is_named_with_its_place(void **state)
     assert_true(r.block_p[1 * r.blocks_x + 2] < 1e-6f);
     assert_true(r.block_p[2 * r.blocks_x + 2] > 1e-4f);
     assert_true(r.fraction_failed > 0);
-    arena_release(&arena);
 }
 
 /* Blocks that got brighter and darker by 1.4 of their standard errors, in turn: none of them
  * is beyond its limit, no mean moved. */
 static void small_changes_everywhere_are_seen_together(void **state)
 {
-    (void)state;
-    Arena arena = arena_reserve(1 << 27);
+    Arena arena = test_arena(state);
     Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 16};
     int   found = 0, by_histogram = 0;
     for (int i = 0; i < PIXELS; i++) maker.light[i] = 10;
@@ -116,7 +107,6 @@ static void small_changes_everywhere_are_seen_together(void **state)
     }
     assert_true(found >= 19);
     assert_true(by_histogram >= 10);
-    arena_release(&arena);
 }
 
 int main(void)
@@ -128,5 +118,5 @@ int main(void)
         cmocka_unit_test(a_block_is_named_with_its_place),
         cmocka_unit_test(small_changes_everywhere_are_seen_together),
     };
-    return cmocka_run_group_tests_name("statistic_power", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("statistic_power", tests, make_arena, drop_arena);
 }

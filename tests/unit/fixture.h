@@ -1,0 +1,180 @@
+/* fixture.h -- what tests of any module stand on: a temporary folder, memory, texts of errors.
+ *
+ * A test is a program of its own, so one folder and one arena serve it: make_folder or
+ * make_arena as the group's setup, remove_folder, clear_folder or drop_arena at its end.
+ *
+ * Memory   a test's copy of the arena (test_arena) is dropped with all that it took.
+ */
+#pragma once
+#include "check.h"
+
+#include <dirent.h>
+#include <ftw.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/file.h"
+
+/* ---- memory ------------------------------------------------------------------------------ */
+
+/* The program's arena: what is taken from it stays to the program's end. */
+static inline Arena *test_memory(void)
+{
+    static Arena arena;
+    return &arena;
+}
+
+/* The test's copy of it. */
+static inline Arena test_arena(void **state)
+{
+    return *(Arena *)*state;
+}
+
+static inline int make_arena(void **state)
+{
+    *test_memory() = arena_reserve((size_t)4 << 30);
+    *state = test_memory();
+    return 0;
+}
+
+static inline int drop_arena(void **state)
+{
+    arena_release(*state);
+    return 0;
+}
+
+/* ---- folders ----------------------------------------------------------------------------- */
+
+enum { FOLDER_BYTES = 512 };
+
+static inline bool folder_create_below(const char *base, char path[FOLDER_BYTES])
+{
+    snprintf(path, FOLDER_BYTES, "%s/parhelion-test-XXXXXX", base);
+    return mkdtemp(path) != NULL;
+}
+
+static inline bool folder_create(char path[FOLDER_BYTES])
+{
+    const char *base = getenv("TMPDIR");
+    return folder_create_below(base ? base : P_tmpdir, path);
+}
+
+static inline int folder_remove_entry(const char *path, const struct stat *status, int kind,
+                                      struct FTW *walk)
+{
+    (void)status, (void)kind, (void)walk;
+    return remove(path);
+}
+
+/* With all that lies in it; 0 when it is gone. */
+static inline int folder_destroy(const char *path)
+{
+    return nftw(path, folder_remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+}
+
+/* Names in it but "." and "..". */
+static inline int folder_count(const char *path)
+{
+    int  count = -2;
+    DIR *list = opendir(path);
+    assert_non_null(list);
+    while (readdir(list)) count++;
+    closedir(list);
+    return count;
+}
+
+/* ---- the program's own folder ------------------------------------------------------------ */
+
+static inline char *test_folder(void)
+{
+    static char path[FOLDER_BYTES];
+    return path;
+}
+
+/* And an arena. */
+static inline int make_folder(void **state)
+{
+    make_arena(state);
+    return folder_create(test_folder()) ? 0 : -1;
+}
+
+/* Fails when a test left anything behind. */
+static inline int remove_folder(void **state)
+{
+    drop_arena(state);
+    return rmdir(test_folder());
+}
+
+static inline int clear_folder(void **state)
+{
+    drop_arena(state);
+    return folder_destroy(test_folder());
+}
+
+static inline int files_in_folder(void)
+{
+    return folder_count(test_folder());
+}
+
+/* The path of a name in it; good until the eighth call after this one. */
+static inline const char *in_folder(const char *name)
+{
+    static char paths[8][2 * FOLDER_BYTES];
+    static int  next;
+    char       *path = paths[next++ % 8];
+    snprintf(path, sizeof paths[0], "%s/%s", test_folder(), name);
+    return path;
+}
+
+/* ---- files ------------------------------------------------------------------------------- */
+
+static inline void write_bytes(const char *path, const void *bytes, size_t size)
+{
+    Error err = {0};
+    if (!file_write(path, bytes, size, &err)) fail_msg("%s: %s", path, err.text);
+}
+
+static inline void write_text(const char *path, const char *text)
+{
+    write_bytes(path, text, strlen(text));
+}
+
+static inline FileBytes read_bytes(const char *path, Arena *arena)
+{
+    FileBytes bytes = {0};
+    Error     err = {0};
+    if (!file_read(path, (size_t)1 << 28, arena, &bytes, &err))
+        fail_msg("%s: %s", path, err.text);
+    return bytes;
+}
+
+/* A zero byte stands behind a file's bytes, so a text file is a string. */
+static inline const char *read_text(const char *path, Arena *arena)
+{
+    return (const char *)read_bytes(path, arena).data;
+}
+
+/* ---- texts ------------------------------------------------------------------------------- */
+
+#define assert_text_has(text, part)                                                            \
+    do {                                                                                       \
+        const char *text_ = (text), *part_ = (part);                                           \
+        if (!strstr(text_, part_)) fail_msg("\"%s\" lacks \"%s\"", text_, part_);              \
+    } while (0)
+
+/* A message is one line. */
+#define assert_error_has(err, part)                                                            \
+    do {                                                                                       \
+        assert_text_has((err)->text, part);                                                    \
+        assert_null(strchr((err)->text, '\n'));                                                \
+    } while (0)
+
+/* Words that may be told in one of several lines (notes, reasons, warnings). */
+static inline bool lines_have(const char *const *line, int count, const char *part)
+{
+    for (int i = 0; i < count; i++)
+        if (strstr(line[i], part)) return true;
+    return false;
+}
