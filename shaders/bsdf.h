@@ -1,4 +1,4 @@
-/* bsdf.h -- how one surface point scatters light: the one door to all surface models.
+/* bsdf.h -- how one surface point scatters light, whatever its model.
  *
  * Frame    local: +z is the shading normal on the side of wo's surface (wo.z > 0 always holds
  *          for surfaces that do not transmit). wo points to the eye, wi to the light; both
@@ -6,29 +6,34 @@
  * Units    eval in sr^-1 WITHOUT the cosine; pdf in sr^-1; weight without unit.
  * Threads  plain values.
  *
- * Each model is one file in shaders/, its user page on top; bsdf.c is the table of contents.
+ * Each model is one file in shaders/, its user page on top.
  */
 #pragma once
-#include "shaders/bsdf_sample.h"
+#include "shaders/bsdf_model.h"
 #include "shaders/dielectric.h"
 #include "shaders/display.h"
 #include "shaders/metallic_roughness.h"
 
+/* Every model once: MODEL(KIND, name, Parameters) makes the kind BSDF_KIND, the member `name` of
+ * Bsdf, and the row of bsdf.c's table for `name_model`, which the model's file defines. */
+#define BSDF_MODELS(MODEL)                                                                     \
+    MODEL(METALLIC_ROUGHNESS, metallic_roughness, MetallicRoughness)                           \
+    MODEL(THIN_WINDOW, thin_window, ThinWindow)                                                \
+    MODEL(DIELECTRIC, dielectric, Dielectric)                                                  \
+    MODEL(DISPLAY, display, DisplaySurface)
+
+#define BSDF_KIND(KIND, name, Parameters) BSDF_##KIND,
+#define BSDF_MEMBER(KIND, name, Parameters) Parameters name;
+
 typedef enum BsdfKind {
-    BSDF_BLACK,              /* absorbs everything (unlit materials, backs of displays) */
-    BSDF_METALLIC_ROUGHNESS, /* glTF's model with specular, clear coat, thin transmission */
-    BSDF_THIN_WINDOW,        /* a smooth slab: reflects, and lets light pass straight */
-    BSDF_DIELECTRIC,         /* the boundary of a solid: reflects and refracts */
-    BSDF_DISPLAY             /* a measured panel: mirror, haze, floor */
+    BSDF_BLACK, /* absorbs everything (unlit materials, backs of displays) */
+    BSDF_MODELS(BSDF_KIND)
 } BsdfKind;
 
 typedef struct Bsdf {
     BsdfKind kind;
     union {
-        MetallicRoughness metallic_roughness;
-        ThinWindow        thin_window;
-        Dielectric        dielectric;
-        DisplaySurface    display; /* frame: the display's (+x right, +y up), +z the normal */
+        BSDF_MODELS(BSDF_MEMBER)
     };
 } Bsdf;
 

@@ -40,8 +40,9 @@ Spectrum thin_window_transmittance(const ThinWindow *window, float cosine)
     return window->tint * spectrum_all(1 - fresnel_slab(window_face(window, cosine)));
 }
 
-bool thin_window_sample(const ThinWindow *window, Vec3 wo, const float u[3], BsdfSample *sample)
+static bool window_sample(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample)
 {
+    const ThinWindow *window = parameters;
     float cosine = fabsf(wo.z);
     float reflected = fresnel_slab(window_face(window, cosine));
     float through = (1 - reflected) * spectrum_mean(window->tint);
@@ -60,6 +61,20 @@ bool thin_window_sample(const ThinWindow *window, Vec3 wo, const float u[3], Bsd
                            .weight = window->tint * spectrum_all((1 - reflected) / (1 - prob))};
     return true;
 }
+
+static Spectrum window_pass(const void *parameters, Vec3 wo)
+{
+    return thin_window_transmittance(parameters, fabsf(wo.z));
+}
+
+static Spectrum window_albedo(const void *parameters, Vec3 wo)
+{
+    return thin_window_reflectance(parameters, fabsf(wo.z)) +
+           thin_window_transmittance(parameters, fabsf(wo.z));
+}
+
+const BsdfModel thin_window_model = {.sample = window_sample, .pass = window_pass,
+                                     .albedo = window_albedo};
 
 /* Directions as seen from wo's side: z > 0 is that side; eta is the other side's index over
  * this side's. */
@@ -123,8 +138,9 @@ static Spectrum eval_transmitted(const Dielectric *d, const Side *s, float *pdf)
     return d->tint * spectrum_all((1 - f) * lobe * out * spread);
 }
 
-Spectrum dielectric_eval(const Dielectric *d, Vec3 wo, Vec3 wi, float *pdf)
+static Spectrum solid_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf)
 {
+    const Dielectric *d = parameters;
     *pdf = 0;
     if (is_delta(d) || wo.z == 0 || wi.z == 0) return spectrum_all(0);
     Side s = side_of(d, wo, wi);
@@ -151,8 +167,9 @@ static void smooth_part(const Dielectric *d, const Side *s, bool reflects, float
     if (!reflects) sample->weight *= d->tint;
 }
 
-bool dielectric_sample(const Dielectric *d, Vec3 wo, const float u[3], BsdfSample *sample)
+static bool solid_sample(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample)
 {
+    const Dielectric *d = parameters;
     if (wo.z == 0) return false;
     Side  s = side_of(d, wo, wo);
     bool  smooth = is_delta(d);
@@ -178,7 +195,17 @@ bool dielectric_sample(const Dielectric *d, Vec3 wo, const float u[3], BsdfSampl
     return true;
 }
 
-bool dielectric_scatters(const Dielectric *d)
+static bool solid_scatters(const void *parameters)
 {
-    return !is_delta(d);
+    return !is_delta(parameters);
 }
+
+static Spectrum solid_albedo(const void *parameters, Vec3 wo)
+{
+    (void)parameters;
+    (void)wo;
+    return spectrum_all(1);
+}
+
+const BsdfModel dielectric_model = {.eval = solid_eval, .sample = solid_sample,
+                                    .scatters = solid_scatters, .albedo = solid_albedo};

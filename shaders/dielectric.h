@@ -3,7 +3,7 @@
  * The user page is on top of dielectric.c. Frame and units: bsdf.h.
  */
 #pragma once
-#include "shaders/bsdf_sample.h"
+#include "shaders/bsdf_model.h"
 
 /* A smooth pane with two parallel faces: a mirror image, and light straight through. */
 typedef struct ThinWindow {
@@ -13,8 +13,7 @@ typedef struct ThinWindow {
 
 Spectrum thin_window_reflectance(const ThinWindow *window, float cosine);
 Spectrum thin_window_transmittance(const ThinWindow *window, float cosine); /* tint included */
-bool     thin_window_sample(const ThinWindow *window, Vec3 wo, const float u[3],
-                            BsdfSample *sample);
+extern const BsdfModel thin_window_model;
 
 /* Where a solid ends. The frame's +z is the outside: wo.z < 0 is an eye inside the solid. */
 typedef struct Dielectric {
@@ -23,6 +22,4 @@ typedef struct Dielectric {
     float    alpha; /* GGX, [0, 1]; below SMOOTH_ALPHA smooth */
 } Dielectric;
 
-Spectrum dielectric_eval(const Dielectric *d, Vec3 wo, Vec3 wi, float *pdf);
-bool     dielectric_sample(const Dielectric *d, Vec3 wo, const float u[3], BsdfSample *sample);
-bool     dielectric_scatters(const Dielectric *d);
+extern const BsdfModel dielectric_model;

@@ -30,8 +30,9 @@ static bool reflects(const DisplaySurface *display, Vec3 wo)
     return wo.z > 0 && panel_reflects(display->panel);
 }
 
-Spectrum display_eval(const DisplaySurface *display, Vec3 wo, Vec3 wi, float *pdf)
+static Spectrum model_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf)
 {
+    const DisplaySurface *display = parameters;
     *pdf = 0;
     if (!reflects(display, wo) || !(wi.z > 0)) return spectrum_all(0);
     Spectrum mirror;
@@ -40,9 +41,9 @@ Spectrum display_eval(const DisplaySurface *display, Vec3 wo, Vec3 wi, float *pd
     return panel_brdf(display->panel, wo, wi, display->wavelengths);
 }
 
-bool display_sample(const DisplaySurface *display, Vec3 wo, const float u[3],
-                    BsdfSample *sample)
+static bool model_sample(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample)
 {
+    const DisplaySurface *display = parameters;
     if (!reflects(display, wo)) return false;
     Spectrum mirror;
     float    prob = mirror_prob(display, wo, &mirror);
@@ -62,14 +63,19 @@ bool display_sample(const DisplaySurface *display, Vec3 wo, const float u[3],
     return true;
 }
 
-bool display_scatters(const DisplaySurface *display)
+static bool model_scatters(const void *parameters)
 {
+    const DisplaySurface *display = parameters;
     return panel_reflects(display->panel);
 }
 
-Spectrum display_albedo(const DisplaySurface *display, Vec3 wo)
+static Spectrum model_albedo(const void *parameters, Vec3 wo)
 {
+    const DisplaySurface *display = parameters;
     if (!reflects(display, wo)) return spectrum_all(0);
     return panel_mirror(display->panel, wo.z, display->wavelengths) +
            spectrum_all(panel_haze_albedo(display->panel, wo.z));
 }
+
+const BsdfModel display_model = {.eval = model_eval, .sample = model_sample,
+                                 .scatters = model_scatters, .albedo = model_albedo};

@@ -37,8 +37,6 @@
 #include "spectrum/fresnel.h"
 #include "shaders/microfacet.h"
 
-#define COAT_IOR 1.5f
-
 /* The non-metal's reflectance is f0 + rise * shape(angle). */
 typedef struct Boundary {
     Spectrum f0, rise;
@@ -193,7 +191,7 @@ static float coat_cosine(const MetallicRoughness *m, Vec3 w)
 static float coat_albedo(const MetallicRoughness *m, Vec3 w)
 {
     if (!(m->clearcoat > 0)) return 0;
-    float  f0 = fresnel_normal(COAT_IOR);
+    float  f0 = fresnel_normal(CLEARCOAT_IOR);
     Energy e = energy_directional(m->clearcoat_energy, coat_cosine(m, w), m->clearcoat_alpha);
     return m->clearcoat * (f0 * e.all + (1 - f0) * e.shape);
 }
@@ -209,7 +207,7 @@ static float coat_tilt(const MetallicRoughness *m, Vec3 wo, Vec3 wi)
 
 static float coat_facet(float cosine)
 {
-    return fresnel_unpolarised(cosine, COAT_IOR);
+    return fresnel_unpolarised(cosine, CLEARCOAT_IOR);
 }
 
 /* Into and out of the coat's own frame. */
@@ -319,8 +317,9 @@ static Spectrum eval_view(const View *view, Vec3 wi, float *pdf)
     return f;
 }
 
-Spectrum metallic_roughness_eval(const MetallicRoughness *m, Vec3 wo, Vec3 wi, float *pdf)
+static Spectrum model_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf)
 {
+    const MetallicRoughness *m = parameters;
     *pdf = 0;
     if (!(wo.z > 0) || wi.z == 0) return spectrum_all(0);
     View view = view_from(m, wo);
@@ -355,8 +354,9 @@ static bool sample_smooth_base(const View *view, BsdfSample *sample)
     return sample_smooth(sample, wi, value, view->choices.mirror);
 }
 
-Spectrum metallic_roughness_pass(const MetallicRoughness *m, Vec3 wo)
+static Spectrum model_pass(const void *parameters, Vec3 wo)
 {
+    const MetallicRoughness *m = parameters;
     if (!is_smooth(m->alpha) || !(m->transmission > 0) || !(wo.z > 0)) return spectrum_all(0);
     Boundary b = boundary_of(m);
     float    coat = 1 - coat_albedo(m, wo);
@@ -389,9 +389,9 @@ static Vec3 sample_rough(const View *view, const float u[3])
     return vec3(up.x, up.y, -up.z);
 }
 
-bool metallic_roughness_sample(const MetallicRoughness *m, Vec3 wo, const float u[3],
-                               BsdfSample *sample)
+static bool model_sample(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample)
 {
+    const MetallicRoughness *m = parameters;
     if (!(wo.z > 0)) return false;
     View    view = view_from(m, wo);
     Choices c = view.choices;
@@ -402,7 +402,7 @@ bool metallic_roughness_sample(const MetallicRoughness *m, Vec3 wo, const float 
     if (by_coat && is_smooth(m->clearcoat_alpha)) return sample_smooth_coat(&view, sample);
     if (by_mirror && is_smooth(m->alpha)) return sample_smooth_base(&view, sample);
     if (by_pane && is_smooth(m->alpha)) {
-        sample_smooth(sample, vec3_neg(wo), metallic_roughness_pass(m, wo), c.through);
+        sample_smooth(sample, vec3_neg(wo), model_pass(m, wo), c.through);
         return sample->passes = true;
     }
     Vec3 wi = sample_rough(&view, u);
@@ -414,15 +414,17 @@ bool metallic_roughness_sample(const MetallicRoughness *m, Vec3 wo, const float 
     return true;
 }
 
-bool metallic_roughness_scatters(const MetallicRoughness *m)
+static bool model_scatters(const void *parameters)
 {
+    const MetallicRoughness *m = parameters;
     bool has_base = (1 - m->metallic) * (1 - m->transmission) > 0;
     bool has_coat = m->clearcoat > 0 && !is_smooth(m->clearcoat_alpha);
     return has_base || has_coat || !is_smooth(m->alpha);
 }
 
-Spectrum metallic_roughness_albedo(const MetallicRoughness *m, Vec3 wo)
+static Spectrum model_albedo(const void *parameters, Vec3 wo)
 {
+    const MetallicRoughness *m = parameters;
     if (!(wo.z > 0)) return spectrum_all(0);
     Energy   e = energy_directional(m->energy, wo.z, m->alpha);
     Boundary b = boundary_of(m);
@@ -436,3 +438,7 @@ Spectrum metallic_roughness_albedo(const MetallicRoughness *m, Vec3 wo)
     float    coat = coat_albedo(m, wo);
     return spectrum_all(coat) + mixed * spectrum_all(1 - coat);
 }
+
+const BsdfModel metallic_roughness_model = {.eval = model_eval, .sample = model_sample,
+                                            .pass = model_pass, .scatters = model_scatters,
+                                            .albedo = model_albedo};

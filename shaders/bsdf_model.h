@@ -1,0 +1,28 @@
+/* bsdf_model.h -- what a surface model is to the rest of the program: its functions.
+ *
+ * Each model's file defines one const BsdfModel; the list in bsdf.h takes it in. `parameters`
+ * points at the model's own struct. A function that is NULL is that of a surface which absorbs
+ * everything. Frame, units and sense of directions are those of bsdf.h, as is what each
+ * function promises.
+ */
+#pragma once
+#include "base/vec.h"
+#include "spectrum/spectrum.h"
+
+/* One chosen direction of scattered light. */
+typedef struct BsdfSample {
+    Vec3     wi;
+    Spectrum weight;   /* eval * |cos wi| / pdf */
+    float    pdf;      /* sr^-1 of eval's part; probability of the choice when is_delta */
+    bool     is_delta; /* light sampling can never produce this direction */
+    bool     passes;   /* went straight through (wi = -wo): shadow rays pass here too, so it is
+                          no scattering event for multiple importance sampling */
+} BsdfSample;
+
+typedef struct BsdfModel {
+    Spectrum (*eval)(const void *parameters, Vec3 wo, Vec3 wi, float *pdf);
+    bool     (*sample)(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample);
+    Spectrum (*pass)(const void *parameters, Vec3 wo);
+    bool     (*scatters)(const void *parameters);
+    Spectrum (*albedo)(const void *parameters, Vec3 wo);
+} BsdfModel;
