@@ -70,16 +70,16 @@ static void weigh_part(const Scene *scene, const Bvh *bvh, const Lights *lights,
     }
 }
 
-LightChoice choice_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
-                         Arena *arena)
+LightSelection light_selection_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
+                                     Arena *arena)
 {
-    LightChoice choice;
-    choice.prob = (float(*)[LIGHT_SETS])ARENA_NEW(arena, float,
+    LightSelection selection;
+    selection.prob = (float(*)[LIGHT_SETS])ARENA_NEW(arena, float,
                                                   LIGHT_SETS * ((size_t)scene->part_count + 1));
     for (int set = 0; set < LIGHT_SETS; set++)
-        choice.all[set] = lights_has(lights, (LightSet)set) ? 1.0f : 0.0f;
+        selection.all[set] = lights_has(lights, (LightSet)set) ? 1.0f : 0.0f;
     for (int part = 0; part < scene->part_count; part++)
         if (scene->parts[part].triangle_count)
-            weigh_part(scene, bvh, lights, part, choice.prob[part]);
-    return choice;
+            weigh_part(scene, bvh, lights, part, selection.prob[part]);
+    return selection;
 }

@@ -4,23 +4,23 @@
  * set that gives a part little is then asked less often there, and counts more when it is: in
  * the sun a display is a candle, at night it is all there is.
  *
- * Memory   from the arena. Threads: const after choice_build.
+ * Memory   from the arena. Threads: const after light_selection_build.
  */
 #pragma once
 #include "bvh/bvh.h"
 #include "light/light.h"
 
-typedef struct LightChoice {
+typedef struct LightSelection {
     float (*prob)[LIGHT_SETS]; /* of sampling a set, one row a part; 0: the set is empty */
     float all[LIGHT_SETS];     /* where no part is known: 1 for every set that has lights */
-} LightChoice;
+} LightSelection;
 
 /* The same for any number of threads and on every machine whose rays hit the same. */
-LightChoice choice_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
-                         Arena *arena);
+LightSelection light_selection_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
+                                     Arena *arena);
 
 /* part_id may be NO_ID. */
-static inline const float *choice_of_part(const LightChoice *choice, int part_id)
+static inline const float *light_selection_of_part(const LightSelection *selection, int part_id)
 {
-    return part_id == NO_ID ? choice->all : choice->prob[part_id];
+    return part_id == NO_ID ? selection->all : selection->prob[part_id];
 }

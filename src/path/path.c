@@ -7,9 +7,29 @@
 #define DEEP_BOUNCE 2
 #define DEEP_SHARE 0.4f
 #define ROULETTE_FIRST_BOUNCE 2
-#define PANE_SHARE 0.5f /* of the samples that follow what a pane itself shows */
-#define SPLITS 2        /* panes along a camera ray that are followed both ways */
+#define SHEET_SHARE 0.5f /* of the samples that follow what a thin sheet itself shows */
+#define SPLITS 2         /* thin sheets along a camera ray that are followed both ways */
 #define PASSES_MAX 512 /* windows and holes along one path: more is a closed loop of rounding */
+
+/* Light that a path has found. Most of it is radiance per lane; a display that is seen by ways
+ * on which nothing depended on wavelength keeps its measured XYZ: lanes would only blur it. */
+typedef struct Gathered {
+    Spectrum radiance; /* W m^-2 sr^-1 nm^-1 per lane */
+    float    xyz[3];   /* cd m^-2 */
+} Gathered;
+
+static void gathered_add(Gathered *sum, const Gathered *more)
+{
+    sum->radiance += more->radiance;
+    for (int i = 0; i < 3; i++) sum->xyz[i] += more->xyz[i];
+}
+
+static void gathered_to_xyz(const Gathered *gathered, const Wavelengths *wavelengths,
+                            float xyz[3])
+{
+    for (int i = 0; i < 3; i++) xyz[i] = gathered->xyz[i];
+    spectrum_add_xyz(wavelengths, gathered->radiance, xyz);
+}
 
 /* One path on its way. */
 typedef struct Walk {
@@ -19,24 +39,26 @@ typedef struct Walk {
     PathStatistics    *statistics;
     Ray      ray;
     Spectrum throughput; /* what the path so far lets through, per lane */
-    Spectrum radiance;   /* found so far */
-    float    xyz[3];     /* found so far, of displays whose measured XYZ arrives unchanged */
+    Gathered gathered;   /* found so far */
+    PathResult *first;   /* waits for the first surface; NULL: recorded, or nobody asks */
     float    straight;   /* m since the last scattering vertex (windows do not scatter) */
     Vec3     last_position, last_ns; /* of that vertex */
     int      last_part_id;
     float    last_pdf;   /* with which it chose the direction, sr^-1 */
     bool     last_is_delta; /* no light sample could have found what comes now */
     int      bounce;     /* scattering vertices so far */
-    int      splits_left; /* panes that may still be followed both ways */
+    int      splits_left; /* thin sheets that may still be followed both ways */
     int      medium_id;  /* material of the solid that the ray is in; NO_ID: air */
 } Walk;
 
 /* ---- weights ---------------------------------------------------------------------------- */
 
 /* With which probability a vertex of the part at `bounce` samples this set of lights. */
-static float set_probability(const LightChoice *choice, int part_id, LightSet set, int bounce)
+static float set_probability(const LightSelection *selection, int part_id, LightSet set,
+                             int bounce)
 {
-    return choice_of_part(choice, part_id)[set] * (bounce < DEEP_BOUNCE ? 1 : DEEP_SHARE);
+    float share = bounce < DEEP_BOUNCE ? 1 : DEEP_SHARE;
+    return light_selection_of_part(selection, part_id)[set] * share;
 }
 
 /* The power heuristic (Veach 1997, 9.2.4) for two strategies. */
@@ -53,7 +75,8 @@ static float emission_weight(const Walk *walk, LightSet set, float light_pdf)
     const PathContext *context = walk->context;
     if (walk->last_is_delta || context->strategy == PATH_BSDF_ONLY) return 1;
     if (context->strategy == PATH_LIGHTS_ONLY) return 0;
-    float prob = set_probability(&context->choice, walk->last_part_id, set, walk->bounce - 1);
+    float prob =
+        set_probability(&context->selection, walk->last_part_id, set, walk->bounce - 1);
     return mis_weight(walk->last_pdf, prob * light_pdf);
 }
 
@@ -67,7 +90,7 @@ static void add_distant(Walk *walk)
                    radiance, pdf);
     for (int set = LIGHTS_SUN; set <= LIGHTS_SKY; set++) {
         float weight = emission_weight(walk, (LightSet)set, pdf[set]);
-        walk->radiance += walk->throughput * radiance[set] * spectrum_all(weight);
+        walk->gathered.radiance += walk->throughput * radiance[set] * spectrum_all(weight);
     }
 }
 
@@ -82,7 +105,7 @@ static void add_display_xyz(Walk *walk, const Surface *surface, Vec3 wo, float w
     display_codes(scene, display, &surface->point, codes);
     panel_emission_xyz(display->panel, local, codes, xyz);
     for (int i = 0; i < 3; i++)
-        walk->xyz[i] += walk->throughput[0] * weight * display->level * xyz[i];
+        walk->gathered.xyz[i] += walk->throughput[0] * weight * display->level * xyz[i];
 }
 
 /* Of the light samples of the last vertex; nothing asks for it behind a mirror. */
@@ -105,9 +128,9 @@ static void add_emitted(Walk *walk, const Surface *surface, const Hit *hit, Vec3
         add_display_xyz(walk, surface, wo, weight);
         return;
     }
-    walk->radiance += walk->throughput * spectrum_all(weight) *
-                      triangle_emission(scene, hit->triangle, &surface->point, wo,
-                                        walk->wavelengths);
+    walk->gathered.radiance += walk->throughput * spectrum_all(weight) *
+                               triangle_emission(scene, hit->triangle, &surface->point, wo,
+                                                 walk->wavelengths);
 }
 
 /* ---- light samples ---------------------------------------------------------------------- */
@@ -119,8 +142,8 @@ typedef struct ShadowQuestion {
     Hit      last; /* the one that was passed last */
 } ShadowQuestion;
 
-/* A ray through the edge that two triangles share meets both: that is one pane, not two. */
-static bool is_same_pane(const Scene *scene, const Hit *a, const Hit *b)
+/* A ray through the edge that two triangles share meets both: that is one sheet, not two. */
+static bool is_same_sheet(const Scene *scene, const Hit *a, const Hit *b)
 {
     return fabsf(a->t - b->t) <= 2e-6f * a->t &&
            scene->triangles[a->triangle].part_id == scene->triangles[b->triangle].part_id;
@@ -130,7 +153,7 @@ static bool passes(void *user, const Hit *hit)
 {
     ShadowQuestion *question = user;
     const PathContext *context = question->walk->context;
-    if (is_same_pane(context->scene, hit, &question->last)) return true;
+    if (is_same_sheet(context->scene, hit, &question->last)) return true;
     question->last = *hit;
     question->passed *= surface_pass(context->scene, context->tables, hit, question->direction,
                                      question->walk->wavelengths);
@@ -164,7 +187,8 @@ static void add_light_sample(Walk *walk, const Surface *surface, Vec3 wo, LightS
     LightSample light;
     Vec2  u01 = sampler_2d(walk->sampler), u2 = sampler_2d(walk->sampler);
     float u[3] = {u01.x, u01.y, u2.x};
-    float set_prob = set_probability(&context->choice, surface->part_id, set, walk->bounce);
+    float set_prob =
+        set_probability(&context->selection, surface->part_id, set, walk->bounce);
     if (u2.y >= set_prob) return;
     LitPoint point = {surface->position, surface->frame.z};
     if (!lights_sample(context->lights, set, point, walk->wavelengths, u, &light))
@@ -180,7 +204,7 @@ static void add_light_sample(Walk *walk, const Surface *surface, Vec3 wo, LightS
     if (spectrum_is_zero(share)) return;
     if (!light.is_delta && context->strategy == PATH_MIS)
         share *= spectrum_all(mis_weight(light.pdf * set_prob, bsdf_pdf));
-    walk->radiance += share * visibility(walk, surface, light.wi, light.distance);
+    walk->gathered.radiance += share * visibility(walk, surface, light.wi, light.distance);
 }
 
 static void add_light_samples(Walk *walk, const Surface *surface, Vec3 wo)
@@ -271,13 +295,14 @@ static bool next_hit(Walk *walk, Hit *hit)
     return true;
 }
 
-static void keep_first(const Hit *hit, float distance, Vec3 wo, PathResult *out)
+static void record_first(Walk *walk, const Hit *hit, float distance, Vec3 wo)
 {
-    if (out->hit) return;
-    out->hit = true;
-    out->first = *hit;
-    out->first.t = distance;
-    out->direction = vec3_neg(wo);
+    if (!walk->first) return;
+    walk->first->hit = true;
+    walk->first->first = *hit;
+    walk->first->first.t = distance;
+    walk->first->direction = vec3_neg(wo);
+    walk->first = NULL;
 }
 
 /* What happens at a surface that is there. */
@@ -298,34 +323,32 @@ static Step reflect_window(Walk *walk, const Surface *surface, Vec3 wo)
     return turn(walk, surface, wo, &mirror);
 }
 
-static void walk_path(Walk *walk, PathResult *out);
+static void walk_path(Walk *walk);
 
-/* What the pane itself shows to the eye: its mirror image, or what of it is not a hole. */
-static void add_pane(Walk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
+/* What the sheet itself shows to the eye: its mirror image, or what of it is not a hole. */
+static void add_sheet(Walk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
 {
-    PathResult ignored = {.hit = true};
-    Walk pane = *walk;
-    pane.splits_left = 0;
-    pane.radiance = spectrum_all(0);
-    for (int i = 0; i < 3; i++) pane.xyz[i] = 0;
-    pane.throughput *= spectrum_all(surface->alpha / PANE_SHARE);
-    Step step = surface->alpha < 1 ? shade(&pane, surface, hit, wo)
-                                   : reflect_window(&pane, surface, wo);
-    if (step != STEP_ENDED) walk_path(&pane, &ignored);
-    walk->radiance += pane.radiance;
-    for (int i = 0; i < 3; i++) walk->xyz[i] += pane.xyz[i];
+    Walk sheet = *walk;
+    sheet.splits_left = 0;
+    sheet.first = NULL;
+    sheet.gathered = (Gathered){.radiance = spectrum_all(0)};
+    sheet.throughput *= spectrum_all(surface->alpha / SHEET_SHARE);
+    Step step = surface->alpha < 1 ? shade(&sheet, surface, hit, wo)
+                                   : reflect_window(&sheet, surface, wo);
+    if (step != STEP_ENDED) walk_path(&sheet);
+    gathered_add(&walk->gathered, &sheet.gathered);
 }
 
-/* The first panes that the eye looks through are followed both ways, the pane itself in every
- * second sample. By chance, one sample in twelve would show the cabin's mirror image and not
- * the street: noise that everyone sees. False: this is no such pane. */
-static bool look_through(Walk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
+/* The first thin sheets (windows, holes) that the eye looks through are followed both ways, the
+ * sheet itself in every second sample. By chance, one sample in twelve would show the cabin's
+ * mirror image and not the street: noise that everyone sees. False: this is no such sheet. */
+static bool split(Walk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
 {
     bool is_hole = surface->alpha > 0 && surface->alpha < 1;
     bool is_window = surface->alpha >= 1 && surface->bsdf.kind == BSDF_THIN_WINDOW;
     if (walk->bounce || !walk->splits_left || !(is_hole || is_window)) return false;
     walk->splits_left--;
-    if (sampler_1d(walk->sampler) < PANE_SHARE) add_pane(walk, surface, hit, wo);
+    if (sampler_1d(walk->sampler) < SHEET_SHARE) add_sheet(walk, surface, hit, wo);
     walk->throughput *=
         is_hole ? spectrum_all(1 - surface->alpha)
                 : thin_window_transmittance(&surface->bsdf.thin_window,
@@ -335,7 +358,7 @@ static bool look_through(Walk *walk, const Surface *surface, const Hit *hit, Vec
 }
 
 /* The loop: what is hit, what it emits, what the lights send it, where the path goes on. */
-static void walk_path(Walk *walk, PathResult *out)
+static void walk_path(Walk *walk)
 {
     const PathContext *context = walk->context;
     for (int steps = 0; steps < PASSES_MAX + context->max_bounces; steps++) {
@@ -348,13 +371,13 @@ static void walk_path(Walk *walk, PathResult *out)
         Vec3  wo = vec3_neg(walk->ray.direction);
         float distance = walk->straight;
         surface_at(context->scene, context->tables, &hit, wo, walk->wavelengths, &surface);
-        if (look_through(walk, &surface, &hit, wo)) continue;
+        if (split(walk, &surface, &hit, wo)) continue;
         if (surface.alpha < 1 && sampler_1d(walk->sampler) >= surface.alpha) {
             go_on_behind(walk, &surface);
             continue;
         }
         Step step = shade(walk, &surface, &hit, wo);
-        if (step != STEP_PASSED) keep_first(&hit, distance, wo, out);
+        if (step != STEP_PASSED) record_first(walk, &hit, distance, wo);
         if (step == STEP_ENDED) return;
     }
 }
@@ -364,7 +387,7 @@ PathContext path_context_build(const Scene *scene, const Bvh *bvh, const Lights 
 {
     return (PathContext){.scene = scene, .bvh = bvh, .lights = lights,
                          .tables = surface_tables_build(scene, arena),
-                         .choice = choice_build(scene, bvh, lights, arena),
+                         .selection = light_selection_build(scene, bvh, lights, arena),
                          .max_bounces = max_bounces, .strategy = PATH_MIS};
 }
 
@@ -374,36 +397,31 @@ static Walk walk_start(const PathContext *context, const Wavelengths *wavelength
     statistics->samples++;
     return (Walk){.context = context, .wavelengths = wavelengths, .sampler = sampler,
                   .statistics = statistics, .throughput = spectrum_all(1),
-                  .radiance = spectrum_all(0), .last_ns = vec3(0, 0, 1), .last_is_delta = true,
-                  .last_part_id = NO_ID, .splits_left = SPLITS, .medium_id = NO_ID};
-}
-
-static void walk_xyz(Walk *walk, float xyz[3])
-{
-    spectrum_add_xyz(walk->wavelengths, walk->radiance, walk->xyz);
-    for (int i = 0; i < 3; i++) xyz[i] = walk->xyz[i];
+                  .gathered.radiance = spectrum_all(0), .last_ns = vec3(0, 0, 1),
+                  .last_is_delta = true, .last_part_id = NO_ID, .splits_left = SPLITS,
+                  .medium_id = NO_ID};
 }
 
 void path_trace(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
                 Sampler *sampler, PathResult *out, PathStatistics *statistics)
 {
     Walk walk = walk_start(context, wavelengths, sampler, statistics);
-    walk.ray = ray;
     *out = (PathResult){.hit = false};
-    walk_path(&walk, out);
-    walk_xyz(&walk, out->xyz);
+    walk.ray = ray;
+    walk.first = out;
+    walk_path(&walk);
+    gathered_to_xyz(&walk.gathered, wavelengths, out->xyz);
 }
 
 void path_illuminance(const PathContext *context, LitPoint point,
                       const Wavelengths *wavelengths, Sampler *sampler, float xyz_lx[3],
                       PathStatistics *statistics)
 {
-    Walk       walk = walk_start(context, wavelengths, sampler, statistics);
-    PathResult ignored = {.hit = true};
-    Surface    head;
+    Walk    walk = walk_start(context, wavelengths, sampler, statistics);
+    Surface head;
     surface_white(context->tables, point.position, point.ns, &head);
     walk.throughput = spectrum_all(PI_F);
     add_light_samples(&walk, &head, point.ns);
-    if (scatter(&walk, &head, point.ns) == STEP_SCATTERED) walk_path(&walk, &ignored);
-    walk_xyz(&walk, xyz_lx);
+    if (scatter(&walk, &head, point.ns) == STEP_SCATTERED) walk_path(&walk);
+    gathered_to_xyz(&walk.gathered, wavelengths, xyz_lx);
 }

@@ -18,7 +18,7 @@ typedef struct PathContext {
     const Bvh           *bvh;
     const Lights        *lights;
     const SurfaceTables *tables;
-    LightChoice          choice;
+    LightSelection       selection;
     int                  max_bounces; /* 0: emission only, 1: plus direct light */
     PathStrategy         strategy;
 } PathContext;

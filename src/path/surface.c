@@ -2,7 +2,6 @@
 
 #include "shaders/microfacet.h"
 
-#define COAT_IOR 1.5f
 /* A shading normal is bent until the eye is above its plane by this much. */
 #define LOWEST_COSINE 1e-3f
 
@@ -15,10 +14,10 @@ const SurfaceTables *surface_tables_build(const Scene *scene, Arena *arena)
 {
     SurfaceTables *tables = ARENA_NEW(arena, SurfaceTables, 1);
     tables->of_material = ARENA_NEW(arena, const EnergyTable *, scene->material_count + 1);
-    tables->of_coat = energy_table_build(COAT_IOR, arena);
+    tables->of_coat = energy_table_build(CLEARCOAT_IOR, arena);
     for (int i = 0; i < scene->material_count; i++) {
         float ior = scene->materials[i].ior;
-        const EnergyTable *table = ior == COAT_IOR ? tables->of_coat : NULL;
+        const EnergyTable *table = ior == CLEARCOAT_IOR ? tables->of_coat : NULL;
         for (int j = 0; j < i && !table; j++)
             if (scene->materials[j].ior == ior) table = tables->of_material[j];
         tables->of_material[i] = table ? table : energy_table_build(ior, arena);
