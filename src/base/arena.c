@@ -82,6 +82,16 @@ void *arena_alloc(Arena *arena, size_t size, size_t align, size_t count)
     return bytes ? memset(memory, 0, bytes) : memory;
 }
 
+void *arena_grow(Arena *arena, void *bytes, size_t size, size_t wanted, size_t align)
+{
+    if (bytes && (char *)bytes + size == arena->next) {
+        arena_alloc(arena, 1, 1, wanted - size);
+        return bytes;
+    }
+    void *bigger = arena_alloc(arena, 1, align, wanted);
+    return bytes ? memcpy(bigger, bytes, size) : bigger;
+}
+
 void *arena_keep(Arena *arena, const void *bytes, size_t size, size_t align)
 {
     char *memory = arena->next + ((size_t)(-(uintptr_t)arena->next) & (align - 1));

@@ -37,6 +37,10 @@ void *arena_alloc(Arena *arena, size_t size, size_t align, size_t count);
  * start to that start. They may overlap; everything else behind it is gone. */
 void *arena_keep(Arena *arena, const void *bytes, size_t size, size_t align);
 
+/* The first `size` bytes of an allocation with room for `wanted` of them, the new ones zero: at
+ * the same place when it is the arena's last, else copied. NULL is an empty allocation. */
+void *arena_grow(Arena *arena, void *bytes, size_t size, size_t wanted, size_t align);
+
 /* A copy of a string of `length` bytes, terminated. */
 char *arena_string(Arena *arena, const char *text, size_t length);
 
@@ -50,3 +54,8 @@ char *arena_format(Arena *arena, const char *format, ...)
 
 #define ARENA_NEW(arena, Type, count) \
     ((Type *)arena_alloc((arena), sizeof(Type), _Alignof(Type), (size_t)(count)))
+
+/* A list of `count` items with room for `wanted` of them. */
+#define ARENA_GROW(arena, Type, list, count, wanted)                                           \
+    ((Type *)arena_grow((arena), (list), sizeof(Type) * (size_t)(count),                       \
+                        sizeof(Type) * (size_t)(wanted), _Alignof(Type)))

@@ -1,4 +1,5 @@
-/* The half of file.h that writes. */
+#include "base/file_write.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>

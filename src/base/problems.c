@@ -21,12 +21,9 @@ static void append(Problems *problems, Severity severity, const char *file, cons
 {
     Arena *arena = problems->arena;
     if (problems->count == problems->capacity) {
-        int      capacity = problems->capacity ? 2 * problems->capacity : 16;
-        Problem *list = ARENA_NEW(arena, Problem, capacity);
-        if (problems->count)
-            memcpy(list, problems->list, sizeof *list * (size_t)problems->count);
-        problems->list = list;
-        problems->capacity = capacity;
+        problems->capacity = problems->capacity ? 2 * problems->capacity : 16;
+        problems->list = ARENA_GROW(arena, Problem, problems->list, problems->count,
+                                    problems->capacity);
     }
     problems->list[problems->count++] = (Problem){
         plain_copy(arena, file), plain_copy(arena, path), plain_copy(arena, message), severity};

@@ -6,6 +6,7 @@
 #include "base/units.h"
 #include "cli/options/cli.h"
 #include "scene/scene.h"
+#include "text/json_text.h"
 
 #define ARENA_BYTES ((size_t)64 << 30) /* address space; pages come when touched */
 
@@ -177,8 +178,8 @@ static json_t *json_displays(const Scene *scene)
         json_t *size =
             content ? json_pack("[i,i]", content->width, content->height) : json_null();
         json_array_append_new(list,
-                              json_pack("{s:o, s:o, s:o, s:f}", "name", cli_json_text(d->name),
-                                        "panel", cli_json_text(d->panel_path), "content_size",
+                              json_pack("{s:o, s:o, s:o, s:f}", "name", json_text(d->name),
+                                        "panel", json_text(d->panel_path), "content_size",
                                         size, "level", (double)d->level));
     }
     return list;
@@ -195,7 +196,7 @@ static json_t *json_lights(const Scene *scene)
     for (int i = 0; i < scene->light_count; i++) {
         const PunctualLight *light = &scene->lights[i];
         json_array_append_new(
-            list, json_pack("{s:o, s:s, s:o, s:s}", "name", cli_json_text(light->name), "type",
+            list, json_pack("{s:o, s:s, s:o, s:s}", "name", json_text(light->name), "type",
                             light_kind(light->kind), "intensity", json_rgb(light->intensity),
                             "unit", light_unit(light->kind)));
     }
@@ -203,7 +204,7 @@ static json_t *json_lights(const Scene *scene)
         const Material *m = &scene->materials[i];
         if (!m->is_emitter || m->display_id != NO_ID || m->unlit) continue;
         json_array_append_new(list,
-                              json_pack("{s:o, s:s, s:o, s:s}", "name", cli_json_text(m->name),
+                              json_pack("{s:o, s:s, s:o, s:s}", "name", json_text(m->name),
                                         "type", "emissive", "intensity",
                                         json_rgb(m->emissive_cd_m2), "unit", "cd/m2"));
     }
@@ -216,7 +217,7 @@ static json_t *json_environment(const Environment *e)
     if (e->kind == ENVIRONMENT_CONSTANT)
         json_object_set_new(out, "luminance_cd_m2", json_real((double)e->luminance_cd_m2));
     if (e->kind == ENVIRONMENT_HDRI)
-        json_object_set_new(out, "file", cli_json_text(e->hdri_path));
+        json_object_set_new(out, "file", json_text(e->hdri_path));
     if (e->has_sun)
         json_object_set_new(out, "sun",
                             json_pack("{s:f, s:f, s:f}", "azimuth_deg", degrees(e->sun_azimuth),
@@ -230,8 +231,8 @@ static json_t *json_cameras(const Scene *scene)
     json_t *list = json_array();
     for (int i = 0; i < scene->camera_count; i++) {
         const SceneCamera *c = &scene->cameras[i];
-        json_t *camera = json_pack("{s:o, s:o, s:s}", "node", cli_json_text(c->node_name),
-                                   "name", cli_json_text(c->camera_name), "type",
+        json_t *camera = json_pack("{s:o, s:o, s:s}", "node", json_text(c->node_name),
+                                   "name", json_text(c->camera_name), "type",
                                    c->is_perspective ? "perspective" : "orthographic");
         if (c->is_perspective)
             json_object_set_new(camera, "yfov_deg", json_real(degrees(c->yfov)));
@@ -246,7 +247,7 @@ static json_t *json_extensions(const Scene *scene)
 {
     json_t *list = json_array();
     for (int i = 0; i < scene->extension_count; i++)
-        json_array_append_new(list, cli_json_text(scene->extensions[i]));
+        json_array_append_new(list, json_text(scene->extensions[i]));
     return list;
 }
 

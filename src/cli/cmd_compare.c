@@ -1,7 +1,7 @@
 /* parhelion compare: are two frames, pictures or folders of them the same? */
 #include <stdio.h>
 
-#include "base/file.h"
+#include "base/file_write.h"
 #include "cli/compare_command.h"
 #include "compare/report/comparison_json.h"
 #include "compare/folders.h"

@@ -4,6 +4,7 @@
 #include "cli/options/cli.h"
 #include "image/develop.h"
 #include "image/exposure.h"
+#include "text/json_text.h"
 
 #define MEMORY_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
 
@@ -59,17 +60,17 @@ static bool parse(int argc, char **argv, Arena *arena, Typed *out, Error *err)
 
 static bool print_json(const Typed *typed, const DevelopReport *r, Error *err)
 {
-    json_t *answer = json_pack("{s:o, s:[i,i], s:I}", "output", cli_json_text(typed->output),
+    json_t *answer = json_pack("{s:o, s:[i,i], s:I}", "output", json_text(typed->output),
                                "size", r->width, r->height, "nonfinite_pixels",
                                (json_int_t)r->nonfinite_pixels);
     if (r->is_developed) {
-        json_object_set_new(answer, "config", cli_json_text(r->config));
-        json_object_set_new(answer, "display", cli_json_text(r->display));
-        json_object_set_new(answer, "view", cli_json_text(r->view));
+        json_object_set_new(answer, "config", json_text(r->config));
+        json_object_set_new(answer, "display", json_text(r->display));
+        json_object_set_new(answer, "view", json_text(r->view));
         json_object_set_new(answer, "exposure_ev", json_real(r->ev));
         json_object_set_new(answer, "middle_grey_cd_m2", json_real(r->grey_cd_m2));
     } else if (r->scale[0]) {
-        json_object_set_new(answer, "scale", cli_json_text(r->scale));
+        json_object_set_new(answer, "scale", json_text(r->scale));
     }
     return cli_print_json(answer, err);
 }

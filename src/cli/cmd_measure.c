@@ -5,6 +5,7 @@
 
 #include "cli/measure_command.h"
 #include "image/measure.h"
+#include "text/json_text.h"
 
 #define MEMORY_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
 
@@ -122,7 +123,7 @@ static bool print_json(const Typed *typed, const Measurement *m, Error *err)
 {
     const MeasureRequest *r = &typed->request;
     json_t *answer = json_pack(
-        "{s:o, s:I, s:I, s:[o,o,o], s:o, s:o, s:o, s:o}", "frame", cli_json_text(r->frame_name),
+        "{s:o, s:I, s:I, s:[o,o,o], s:o, s:o, s:o, s:o}", "frame", json_text(r->frame_name),
         "pixels", (json_int_t)m->pixels, "nonfinite_pixels", (json_int_t)m->nonfinite, "XYZ",
         number(m->xyz[0]), number(m->xyz[1]), number(m->xyz[2]), "luminance_cd_m2",
         number(m->luminance.value), "luminance_interval", interval(m->luminance),
@@ -133,7 +134,7 @@ static bool print_json(const Typed *typed, const Measurement *m, Error *err)
     set_pair(answer, "uv_interval", interval(m->u), interval(m->v));
     json_object_set_new(answer, "contrast", json_contrast(m));
     json_object_set_new(answer, "missing_layers", missing(m));
-    if (r->display) json_object_set_new(answer, "display", cli_json_text(r->display));
+    if (r->display) json_object_set_new(answer, "display", json_text(r->display));
     if (r->has_region)
         json_object_set_new(answer, "region", json_pack("[i,i,i,i]", r->region.x0, r->region.y0,
                                                         r->region.x1, r->region.y1));

@@ -5,6 +5,7 @@
 #include <strings.h>
 
 #include "base/file.h"
+#include "base/file_write.h"
 #include "base/parallel.h"
 #include "base/reference.h"
 #include "base/units.h"
@@ -13,6 +14,7 @@
 #include "light/sky.h"
 #include "plot/sky_plot.h"
 #include "spectrum/photometry.h"
+#include "text/json_text.h"
 
 #define ARENA_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
 #define LANE_SETS 8                    /* of 16 wavelengths: enough for smooth spectra */
@@ -152,7 +154,7 @@ static bool print_json(const Work *work, const OutsideFigures *f, Error *err)
         "diffuse_horizontal_w_m2", f->diffuse_horizontal_w_m2, "ground_cd_m2", f->floor_cd_m2,
         "sun_xy", f->sun_xy[0], f->sun_xy[1], "zenith_xy", f->zenith_xy[0], f->zenith_xy[1],
         "horizon_deg", f->horizon_deg, "air_mass", f->air_mass);
-    if (work->output) json_object_set_new(document, "output", cli_json_text(work->output));
+    if (work->output) json_object_set_new(document, "output", json_text(work->output));
     return cli_print_json(document, err);
 }
 

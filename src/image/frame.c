@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/file_write.h"
 #include "image/colour.h"
 
 #define MAX_FILE_BYTES ((size_t)4 << 30)

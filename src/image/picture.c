@@ -4,6 +4,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/file_write.h"
 #include "base/mathf.h"
 #include "openimageio/image_file.h"
 

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include "text/json_view.h"
+#include "text/nearest_word.h"
 
 #define HEAD_BYTES 4096
 #define FORMATS_MAX 64

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/file.h"
+#include "base/file_write.h"
 
 #define MOST_BYTES ((size_t)16 << 30)
 #define PIECE_BYTES ((size_t)1 << 16)

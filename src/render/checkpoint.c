@@ -7,7 +7,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "base/file.h"
+#include "base/file_write.h"
 #include "film/film_merge.h"
 #include "film/film_state.h"
 

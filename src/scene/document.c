@@ -9,6 +9,7 @@
 
 #include "base/reference.h"
 #include "scene/load.h"
+#include "text/uri.h"
 
 /* ---- problems -------------------------------------------------------------------------- */
 

@@ -3,6 +3,7 @@
 #include <strings.h>
 
 #include "scene/load.h"
+#include "text/uri.h"
 
 /* ---- which images do the materials show? ----------------------------------------------- */
 

@@ -1,10 +1,13 @@
 #include "scene/schema.h"
 
-#include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "text/nearest_word.h"
+
+#define MEMBERS_MAX 64 /* of one object that are compared with an unknown one */
 
 /* ---- problems -------------------------------------------------------------------------- */
 
@@ -237,37 +240,12 @@ static void check_value(const Check *check, const GltfValue *value, const Rule *
 
 /* ---- objects --------------------------------------------------------------------------- */
 
-/* Edits (insert, delete, replace) from one short word to another. */
-static int edit_distance(const char *a, const char *b)
-{
-    int row[64], length = (int)strlen(b);
-    if (length > 62 || strlen(a) > 62) return INT_MAX;
-    for (int j = 0; j <= length; j++) row[j] = j;
-    for (int i = 1; a[i - 1]; i++) {
-        int before = row[0];
-        row[0] = i;
-        for (int j = 1; j <= length; j++) {
-            int replace = before + (a[i - 1] != b[j - 1]);
-            int other = 1 + (row[j] < row[j - 1] ? row[j] : row[j - 1]);
-            before = row[j];
-            row[j] = replace < other ? replace : other;
-        }
-    }
-    return row[length];
-}
-
 static const char *nearest_name(const Schema *schema, const char *name)
 {
-    const char *best = NULL;
-    int least = 4;
-    for (int i = 0; i < schema->rule_count; i++) {
-        int distance = edit_distance(name, schema->rules[i].name);
-        if (distance < least) {
-            least = distance;
-            best = schema->rules[i].name;
-        }
-    }
-    return best;
+    const char *names[MEMBERS_MAX];
+    int count = schema->rule_count < MEMBERS_MAX ? schema->rule_count : MEMBERS_MAX;
+    for (int i = 0; i < count; i++) names[i] = schema->rules[i].name;
+    return nearest_word_within(name, names, count, 3);
 }
 
 static const Rule *find_rule(const Schema *schema, const char *name)

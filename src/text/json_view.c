@@ -6,33 +6,7 @@
 
 #include "base/file.h"
 #include "base/reference.h"
-
-/* Levenshtein's distance, cut off at 64 letters: keys are short. */
-static int edit_distance(const char *a, const char *b)
-{
-    int row[65];
-    int length_b = (int)strnlen(b, 64);
-    for (int j = 0; j <= length_b; j++) row[j] = j;
-    for (int i = 1; i <= 64 && a[i - 1]; i++) {
-        int diagonal = row[0];
-        row[0] = i;
-        for (int j = 1; j <= length_b; j++) {
-            int change = diagonal + (a[i - 1] != b[j - 1]);
-            int gap = (row[j] < row[j - 1] ? row[j] : row[j - 1]) + 1;
-            diagonal = row[j];
-            row[j] = change < gap ? change : gap;
-        }
-    }
-    return row[length_b];
-}
-
-const char *nearest_word(const char *word, const char *const *known, int count)
-{
-    int best = 0;
-    for (int i = 1; i < count; i++)
-        if (edit_distance(word, known[i]) < edit_distance(word, known[best])) best = i;
-    return known[best];
-}
+#include "text/nearest_word.h"
 
 const char *json_view_path(const JsonView *view, const char *key)
 {

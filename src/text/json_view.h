@@ -59,6 +59,3 @@ bool json_view_file(const JsonView *view, const char *key, const char *text, con
 
 /* JSON path of a member, from the arena. */
 const char *json_view_path(const JsonView *view, const char *key);
-
-/* The known word that is nearest to `word` by edits. */
-const char *nearest_word(const char *word, const char *const *known, int count);

@@ -1,12 +1,15 @@
-/* text.h -- a text that grows, for documents.
+/* text.h -- a text that grows, for documents and tables.
  *
- * Memory   the arena's; what is outgrown stays there until the arena goes.
- * Threads  one at a time. Fails: never.
+ * Memory   the arena's. While nothing else is taken from the arena the text grows where it
+ *          stands; else what is outgrown stays there until the arena goes.
+ * Threads  one at a time.
+ * Fails    never but in text_write.
  */
 #pragma once
 #include <stddef.h>
 
 #include "base/arena.h"
+#include "base/error.h"
 
 typedef struct Text {
     Arena *arena;
@@ -18,9 +21,8 @@ void text_add(Text *text, const char *string);
 void text_add_bytes(Text *text, const void *bytes, size_t size);
 void text_format(Text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* A copy in which every byte that is no UTF-8, and every control character, is a '?': names of
- * files may hold anything. */
-const char *text_clean(const char *string, Arena *arena);
+/* Room for `size` bytes at the end, which the caller fills. */
+char *text_extend(Text *text, size_t size);
 
-/* With &, <, > and both quotes as HTML names. NULL adds nothing. */
-void text_add_escaped(Text *text, const char *string);
+/* The text becomes a file (base/file_write.h). */
+bool text_write(const Text *text, const char *path, Error *err);

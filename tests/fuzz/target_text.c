@@ -7,6 +7,8 @@
 #include "harness.h"
 #include "sky/epw.h"
 #include "spectrum/curve.h"
+#include "text/uri.h"
+#include "text/json_text.h"
 
 #define ARGUMENTS_MAX 32
 
@@ -143,7 +145,7 @@ void fuzz_cli(const uint8_t *data, size_t size, Arena *arena)
             fuzz_claim_refusal(&err);
     for (int i = 0; i < cli.argument_count; i++) {
         SkyTime time;
-        json_decref(cli_json_text(cli.arguments[i]));
+        json_decref(json_text(cli.arguments[i]));
         if (!sky_time_parse(cli.arguments[i], "--when", &time, &err)) fuzz_claim_refusal(&err);
     }
 }

@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "base/file.h"
+#include "base/file_write.h"
 
 /* ---- memory ------------------------------------------------------------------------------ */
 

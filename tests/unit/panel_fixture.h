@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/file.h"
+#include "base/file_write.h"
 #include "base/units.h"
 #include "check.h"
 #include "panel/fit/fit.h"

@@ -309,6 +309,21 @@ static void alias_tables_know_their_exact_probabilities(void **state)
 
 /* ---- arena --------------------------------------------------------------------------- */
 
+static void a_list_grows_at_its_place_or_moves(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 20);
+    int  *list = ARENA_GROW(&arena, int, NULL, 0, 3);
+    for (int i = 0; i < 3; i++) list[i] = i + 1;
+    int *longer = ARENA_GROW(&arena, int, list, 3, 100);
+    assert_int_equal(longer[3], 0);
+    arena_alloc(&arena, 1, 1, 1);
+    int *moved = ARENA_GROW(&arena, int, longer, 100, 200);
+    assert_ptr_not_equal(moved, longer);
+    for (int i = 0; i < 200; i++) assert_int_equal(moved[i], i < 3 ? i + 1 : 0);
+    arena_release(&arena);
+}
+
 static void arena_memory_is_aligned_and_zeroed(void **state)
 {
     (void)state;
@@ -535,6 +550,7 @@ int main(void)
         cmocka_unit_test(numbers_depend_on_nothing_but_their_place),
         cmocka_unit_test(alias_tables_know_their_exact_probabilities),
         cmocka_unit_test(arena_memory_is_aligned_and_zeroed),
+        cmocka_unit_test(a_list_grows_at_its_place_or_moves),
         cmocka_unit_test(scratch_is_back_after_the_call),
         cmocka_unit_test(a_full_arena_says_what_was_wanted_and_left),
         cmocka_unit_test(arena_texts_are_terminated_copies),

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/render/command_line.h"
+#include "text/escape.h"
 
 static FilmPart box(FilmRect crop, uint32_t first, uint32_t end)
 {
@@ -18,7 +19,7 @@ static void words_are_quoted_as_a_shell_needs_it(void **state)
         {"it's", "'it'\\''s'"}, {"'", "''\\'''"}, {"*=50", "'*=50'"}};
     Arena arena = test_arena(state);
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        assert_string_equal(command_line_word(words[i][0], &arena), words[i][1]);
+        assert_string_equal(escape_shell(words[i][0], &arena), words[i][1]);
 }
 
 static void idle_words_are_left_out_on_request(void **state)

@@ -10,6 +10,8 @@
 #include <sys/prctl.h>
 #include <sys/syscall.h>
 
+#include "text/uri.h"
+
 static void what_was_written_is_read_back(void **state)
 {
     Arena arena = test_arena(state);

@@ -6,6 +6,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "base/file_write.h"
 #include "base/sampler.h"
 #include "hemisphere/geodesic.h"
 #include "hemisphere/specular_frame.h"

@@ -8,7 +8,6 @@
 #include "plot/draw/field.h"
 #include "plot/draw/polar.h"
 #include "plot/draw/svg_text.h"
-#include "text/text.h"
 #include "plot/draw/ticks.h"
 
 /* The leak sanitizer asks for this: the font library keeps what it has found until the end. */
@@ -406,27 +405,6 @@ static void a_drawing_has_a_title(void **state)
     assert_int_equal(out.size, strlen((char *)out.data));
 }
 
-static void texts_are_escaped(void **state)
-{
-    (void)state;
-    Text text = {.arena = test_memory()};
-    text_add_escaped(&text, "a<b>&\"c'");
-    text_add_escaped(&text, NULL);
-    assert_string_equal(text.data, "a&lt;b&gt;&amp;&quot;c&#39;");
-}
-
-/* Names of files may be anything; cairo and a browser want UTF-8. */
-static void names_become_utf8(void **state)
-{
-    (void)state;
-    assert_string_equal(text_clean("display é µ ₂ 𝄞.panel", test_memory()),
-                        "display é µ ₂ 𝄞.panel");
-    assert_string_equal(text_clean("a\xff\xc3(\xe2\x82" "b\n\xc0\x80", test_memory()),
-                        "a?\?(?\?b???");
-    assert_string_equal(text_clean("\xed\xa0\x80", test_memory()), "???"); /* a surrogate */
-    assert_string_equal(text_clean("\xf0\x9d", test_memory()), "??");       /* cut short */
-}
-
 static void data_without_spread_have_a_picture(void **state)
 {
     (void)state;
@@ -467,8 +445,6 @@ int main(void)
         cmocka_unit_test(axes_put_values_where_they_belong),
         cmocka_unit_test(ids_are_renamed_alike_and_apart),
         cmocka_unit_test(a_drawing_has_a_title),
-        cmocka_unit_test(texts_are_escaped),
-        cmocka_unit_test(names_become_utf8),
         cmocka_unit_test(data_without_spread_have_a_picture),
     };
     return cmocka_run_group_tests(tests, make_arena, drop_arena);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/options/cli.h"
+#include "text/json_text.h"
 
 bool cli_print_json(json_t *document, Error *err)
 {
@@ -13,17 +14,6 @@ bool cli_print_json(json_t *document, Error *err)
     json_decref(document);
     return done || error_at(err, ERROR_OUTPUT, "stdout", NULL, "cannot be written: %s",
                             strerror(reason));
-}
-
-json_t *cli_json_text(const char *text)
-{
-    char    plain[2048];
-    json_t *string = json_string(text);
-    if (string) return string;
-    snprintf(plain, sizeof plain, "%s", text);
-    for (char *c = plain; *c; c++)
-        if ((unsigned char)*c >= 0x80) *c = '?';
-    return json_string(plain);
 }
 
 void cli_error_line(const Error *error, char *buffer, int size)
@@ -44,8 +34,8 @@ void cli_report_error(const Error *error, bool json)
     if (!json) return;
     json_t *document = json_pack(
         "{s:{s:i, s:o, s:o, s:o}}", "error", "status", error_exit_status(error->code), "file",
-        cli_json_text(error->file), "path", cli_json_text(error->path), "message",
-        cli_json_text(error->text));
+        json_text(error->file), "path", json_text(error->path), "message",
+        json_text(error->text));
     Error ignored;
     cli_print_json(document, &ignored);
 }
@@ -81,9 +71,9 @@ json_t *cli_json_problems(const Problems *problems, Severity severity)
         if (one->severity != severity || is_repeated(problems, i)) continue;
         const char *severity_name = severity == SEVERITY_ERROR ? "error" : "warning";
         json_array_append_new(
-            list, json_pack("{s:o, s:o, s:s, s:o}", "file", cli_json_text(one->file), "path",
-                            cli_json_text(one->path), "severity", severity_name, "message",
-                            cli_json_text(one->message)));
+            list, json_pack("{s:o, s:o, s:s, s:o}", "file", json_text(one->file), "path",
+                            json_text(one->path), "severity", severity_name, "message",
+                            json_text(one->message)));
     }
     return list;
 }

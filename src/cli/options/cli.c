@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/parallel.h"
+#include "text/nearest_word.h"
 
 #define NUMBERS_MAX 8
 #define SIZE_MAX_PIXELS 65536
@@ -26,39 +27,12 @@ typedef struct Parser {
 
 /* ---- words ------------------------------------------------------------------------------- */
 
-/* Levenshtein's distance, of words up to 63 letters; longer ones are far from everything. */
-static int edit_distance(const char *a, const char *b)
-{
-    int rows[2][64], length_a = (int)strlen(a), length_b = (int)strlen(b);
-    if (length_a > 63 || length_b > 63) return 64;
-    for (int j = 0; j <= length_b; j++) rows[0][j] = j;
-    for (int i = 1; i <= length_a; i++) {
-        const int *above = rows[(i - 1) & 1];
-        int       *row = rows[i & 1];
-        row[0] = i;
-        for (int j = 1; j <= length_b; j++) {
-            int best = above[j - 1] + (a[i - 1] != b[j - 1]);
-            if (above[j] + 1 < best) best = above[j] + 1;
-            if (row[j - 1] + 1 < best) best = row[j - 1] + 1;
-            row[j] = best;
-        }
-    }
-    return rows[length_a & 1][length_b];
-}
-
 const char *cli_nearest(const char *word, const char *const *words, int count)
 {
-    const char *nearest = NULL;
-    size_t      dashes = strspn(word, "-");
-    int         limit = (int)(strlen(word) - dashes) / 3 + 1; /* a third of the letters */
-    for (int i = 0; i < count; i++) {
-        bool begins = strlen(word) > dashes + 1 && !strncmp(word, words[i], strlen(word));
-        int  distance = begins ? 0 : edit_distance(word, words[i]);
-        if (distance > limit) continue;
-        nearest = words[i];
-        limit = distance - 1;
-    }
-    return nearest;
+    size_t dashes = strspn(word, "-"), letters = strlen(word) - dashes;
+    for (int i = 0; i < count; i++)
+        if (letters > 1 && !strncmp(word, words[i], strlen(word))) return words[i];
+    return nearest_word_within(word, words, count, (int)letters / 3 + 1);
 }
 
 /* ---- one value --------------------------------------------------------------------------- */

@@ -99,9 +99,6 @@ const char *cli_nearest(const char *word, const char *const *words, int count);
 /* Prints the document to stdout with a newline, and releases it. False: stdout is full. */
 bool cli_print_json(json_t *document, Error *err);
 
-/* A text as JSON, whatever its bytes: those that are not UTF-8 become '?'. */
-json_t *cli_json_text(const char *text);
-
 /* `parhelion: FILE: what is wrong (where) — what to do`: one line in buffer, no newline. */
 void cli_error_line(const Error *error, char *buffer, int size);
 

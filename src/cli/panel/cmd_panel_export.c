@@ -4,6 +4,7 @@
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
 #include "panel/set/export.h"
+#include "text/json_text.h"
 
 #define ARENA_BYTES ((size_t)16 << 30)
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
@@ -27,7 +28,7 @@ static bool export_from(const char *path, const Request *request, Arena *arena, 
 static bool print_done(const Request *request, const Cli *cli, Error *err)
 {
     if (cli->json)
-        return cli_print_json(json_pack("{s:o}", "output", cli_json_text(request->output)),
+        return cli_print_json(json_pack("{s:o}", "output", json_text(request->output)),
                               err);
     if (!cli->quiet)
         printf("%s%s\n", request->output, request->table ? "" : "/MANIFEST.json");

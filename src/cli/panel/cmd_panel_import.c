@@ -7,6 +7,7 @@
 #include "cli/panel/panel_commands.h"
 #include "import/importers.h"
 #include "import/import_request.h"
+#include "text/json_text.h"
 
 #define ARENA_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
@@ -33,7 +34,7 @@ static bool read_files(const Cli *cli, ImportRequest *request, ImportSet *set, E
 static json_t *table_summary(const ImportSet *set, const ImportTable *table, Arena *arena)
 {
     json_t *one = json_pack("{s:s, s:o, s:i, s:i, s:i}", "file",
-        import_table_file(set, table, arena), "from", cli_json_text(table->file), "rows",
+        import_table_file(set, table, arena), "from", json_text(table->file), "rows",
         table->rows, "channels", table->channels, "masked", table->masked);
     json_t *list = json_array();
     for (int i = 0; table->masked_theta_deg && i < table->masked; i++)
@@ -53,8 +54,8 @@ static json_t *summary(const ImportSet *set, const char *manifest, Arena *arena)
         masked += set->table[i].masked;
     }
     for (int i = 0; i < set->note_count; i++)
-        json_array_append_new(notes, cli_json_text(set->note[i]));
-    return json_pack("{s:o, s:o, s:f, s:f, s:o}", "manifest", cli_json_text(manifest), "tables",
+        json_array_append_new(notes, json_text(set->note[i]));
+    return json_pack("{s:o, s:o, s:f, s:f, s:o}", "manifest", json_text(manifest), "tables",
                      tables, "rows", rows, "masked", masked, "notes", notes);
 }
 

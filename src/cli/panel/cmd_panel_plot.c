@@ -6,6 +6,7 @@
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
 #include "plot/panel/plot.h"
+#include "text/json_text.h"
 
 #define ARENA_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
@@ -20,7 +21,7 @@ typedef struct Request {
 
 static void note_file(json_t *answer, const char *key, const char *path, int figures)
 {
-    json_object_set_new(answer, key, json_pack("{s:o, s:i}", "file", cli_json_text(path),
+    json_object_set_new(answer, key, json_pack("{s:o, s:i}", "file", json_text(path),
                                                "figures", figures));
 }
 

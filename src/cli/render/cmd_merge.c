@@ -5,12 +5,14 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/file_write.h"
 #include "base/machine.h"
 #include "cli/options/cli.h"
 #include "cli/render/command_line.h"
 #include "cli/render/frame_outcome.h"
 #include "cli/render/render_identity.h"
 #include "film/film_merge.h"
+#include "text/json_text.h"
 
 typedef struct Work {
     Cli         cli;
@@ -286,7 +288,7 @@ static bool print_json(const Work *work, Error *err)
     const FilmPart *whole = &work->whole;
     json_t *answer = json_pack(
         "{s:o, s:i, s:[i,i], s:[i,i,i,i], s:[I,I], s:I, s:f, s:I, s:o, s:b, s:b}", "output",
-        cli_json_text(work->output), "parts", work->cli.argument_count, "size", whole->width,
+        json_text(work->output), "parts", work->cli.argument_count, "size", whole->width,
         whole->height, "window", whole->crop.x0, whole->crop.y0, whole->crop.x1,
         whole->crop.y1, "sample_range", (json_int_t)whole->first_sample,
         (json_int_t)whole->end_sample, "samples",

@@ -2,16 +2,9 @@
 
 #include <string.h>
 
-/* ---- words ------------------------------------------------------------------------------- */
+#include "text/escape.h"
 
-const char *command_line_word(const char *word, Arena *arena)
-{
-    const char *quoted = "'", *rest = word;
-    if (*word && !word[strcspn(word, " \t\n'\"\\$&|;<>()*?#!`~{}[]")]) return word;
-    for (const char *mark; (mark = strchr(rest, '\'')); rest = mark + 1)
-        quoted = arena_format(arena, "%s%.*s'\\''", quoted, (int)(mark - rest), rest);
-    return arena_format(arena, "%s%s'", quoted, rest);
-}
+/* ---- words ------------------------------------------------------------------------------- */
 
 /* How many words, this one first, leave every pixel as it is: a render that was interrupted and
  * resumed says the same command line in its frame as one that was not. */
@@ -40,7 +33,7 @@ const char *command_line_join(int argc, char **argv, bool with_idle, Arena *aren
         if (idle)
             i += idle - 1;
         else
-            line = arena_format(arena, "%s %s", line, command_line_word(argv[i], arena));
+            line = arena_format(arena, "%s %s", line, escape_shell(argv[i], arena));
     }
     return line;
 }
@@ -73,7 +66,7 @@ typedef const char *Rewrite(Rewriting *to); /* "": the option is left out */
 
 static const char *write_output(Rewriting *to)
 {
-    return arena_format(to->arena, " -o %s", command_line_word(to->output, to->arena));
+    return arena_format(to->arena, " -o %s", escape_shell(to->output, to->arena));
 }
 
 static const char *write_samples(Rewriting *to)

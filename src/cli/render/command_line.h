@@ -6,9 +6,6 @@
 #pragma once
 #include "film/film_part.h"
 
-/* One word, quoted where a shell would need it. */
-const char *command_line_word(const char *word, Arena *arena);
-
 /* "parhelion " and all words; without idle ones are left out that change no pixel: threads,
  * progress, checkpoints. */
 const char *command_line_join(int argc, char **argv, bool with_idle, Arena *arena);

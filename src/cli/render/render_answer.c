@@ -10,6 +10,7 @@
 #include "cli/render/frame_outcome.h"
 #include "cli/render/render_identity.h"
 #include "film/film_part.h"
+#include "text/json_text.h"
 
 /* ---- the frame --------------------------------------------------------------------------- */
 
@@ -157,7 +158,7 @@ static json_t *answer_document(const RenderRequest *request, const RenderResult 
     const PathStatistics *counts = &result->statistics;
     json_t *answer = json_pack(
         "{s:o, s:[i,i], s:I, s:f, s:f, s:I, s:f, s:f, s:I, s:I, s:o, s:o, s:b, s:o}", "output",
-        cli_json_text(request->output), "size", request->render.width, request->render.height,
+        json_text(request->output), "size", request->render.width, request->render.height,
         "samples", (json_int_t)result->samples, "seconds", result->seconds, "build_seconds",
         result->build_seconds, "rays", (json_int_t)ray_count(counts), "samples_per_s",
         per_second((double)counts->samples, result->seconds), "rays_per_s",
@@ -233,7 +234,7 @@ static json_t *triple(const FrameImage *frame, const char *a, const char *b, con
 
 static json_t *name_or_null(const char *name)
 {
-    return name ? cli_json_text(name) : json_null();
+    return name ? json_text(name) : json_null();
 }
 
 static const char *part_name(const Scene *scene, int id)

@@ -8,28 +8,9 @@
 
 #include "base/file.h"
 #include "bvh/bvh.h"
+#include "text/text.h"
 
 /* ---- lines ------------------------------------------------------------------------------- */
-
-typedef struct Text {
-    char  *bytes; /* terminated */
-    size_t size, capacity;
-    Arena *arena;
-} Text;
-
-static void append(Text *text, const char *bytes, size_t size)
-{
-    if (text->size + size + 1 > text->capacity) {
-        size_t capacity = 2 * text->capacity + size + 4096;
-        char  *grown = ARENA_NEW(text->arena, char, capacity);
-        if (text->size) memcpy(grown, text->bytes, text->size);
-        text->bytes = grown;
-        text->capacity = capacity;
-    }
-    memcpy(text->bytes + text->size, bytes, size);
-    text->size += size;
-    text->bytes[text->size] = '\0';
-}
 
 static void line(Text *text, const char *name, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
@@ -45,10 +26,7 @@ static void line(Text *text, const char *name, const char *format, ...)
     va_end(args);
     for (char *c = value; *c; c++)
         if ((unsigned char)*c < ' ') *c = '?';
-    append(text, name, strlen(name));
-    append(text, "\t", 1);
-    append(text, value, strlen(value));
-    append(text, "\n", 1);
+    text_format(text, "%s\t%s\n", name, value);
 }
 
 static void number_line(Text *text, const char *name, double value)
@@ -213,7 +191,7 @@ const char *render_identity(const RenderRequest *request, const Scene *scene,
     add_displays(&text, request, scene);
     add_environment(&text, scene);
     add_camera(&text, camera);
-    return text.bytes;
+    return text.data;
 }
 
 /* ---- comparing --------------------------------------------------------------------------- */

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/file_write.h"
 #include "cli/render/render_identity.h"
 
 /* Hours of rendering must not end at a checkpoint that cannot be written, and a slip of the

@@ -10,8 +10,10 @@
 #include <unistd.h>
 
 #include "base/file.h"
+#include "base/file_write.h"
 #include "import/set/import.h"
 #include "import/set/import_parts.h"
+#include "text/json_text.h"
 
 #define SCRATCH_BYTES ((size_t)256 << 20)
 
@@ -262,17 +264,6 @@ static json_t *reflection_object(const ImportSet *set)
     return object;
 }
 
-/* Bytes that are not UTF-8 (a Latin-1 name of a file) become '?'. */
-static json_t *text_value(const char *text, Arena *arena)
-{
-    json_t *string = json_string(text);
-    if (string) return string;
-    char *plain = arena_string(arena, text, strlen(text));
-    for (char *c = plain; *c; c++)
-        if ((unsigned char)*c >= 0x80) *c = '?';
-    return json_string(plain);
-}
-
 /* What the files say; else the name of the folder they come from, or of the only file. */
 static const char *panel_name(Output *out)
 {
@@ -291,10 +282,10 @@ static json_t *manifest_object(Output *out)
     for (int i = 0; i < set->note_count; i++)
         note = arena_format(&out->scratch, "%s%s%s", note, i ? "; " : "", set->note[i]);
     json_t *root = json_object(), *emission = emission_object(out);
-    json_object_set_new(root, "panel", text_value(panel_name(out), &out->scratch));
+    json_object_set_new(root, "panel", json_text(panel_name(out)));
     if (set->instrument)
-        json_object_set_new(root, "instrument", text_value(set->instrument, &out->scratch));
-    if (*note) json_object_set_new(root, "note", text_value(note, &out->scratch));
+        json_object_set_new(root, "instrument", json_text(set->instrument));
+    if (*note) json_object_set_new(root, "note", json_text(note));
     if (json_object_size(emission)) json_object_set(root, "emission", emission);
     json_decref(emission);
     if (set->spectra.rows)

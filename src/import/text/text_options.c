@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "import/text/import_text.h"
 #include "text/json_view.h"
+#include "text/nearest_word.h"
 
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/file.h"
+#include "base/file_write.h"
 #include "base/parallel.h"
 #include "base/units.h"
 #include "panel/fit/fit_parts.h"

@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "text/csv_table.h"
 #include "text/json_view.h"
+#include "text/nearest_word.h"
 #include "panel/set/measurement.h"
 
 /* Directions nearer than this are the same one. */

@@ -11,14 +11,13 @@
 #include <unistd.h>
 
 #include "base/file.h"
+#include "base/file_write.h"
 #include "base/mathd.h"
 #include "base/units.h"
 #include "panel/query/panel_report.h"
-#include "panel/set/table_text.h"
+#include "text/text.h"
 #include "spectrum/spectral_table.h"
 
-#define ROW_BYTES 128 /* of an emission row or a comment, at most */
-#define COMMENT_BYTES 1024
 #define STEPS_OF_FWHM 2.4 /* how well the mirror's image is sampled */
 
 static const char *const primary_names[3] = {"red", "green", "blue"};
@@ -69,11 +68,11 @@ static Vec3 direction_deg(double theta_deg, double phi_deg)
     return vec3((float)(sin_d(t) * cos_d(p)), (float)(sin_d(t) * sin_d(p)), (float)cos_d(t));
 }
 
-static bool write_file(Export *export, const char *name, const TableText *text, Arena arena)
+static bool write_file(Export *export, const char *name, const Text *text, Arena arena)
 {
     const char *path = export->folder
         ? arena_format(&arena, "%s/%s", export->folder, name) : name;
-    bool ok = file_write(path, text->begin, text->size, export->err);
+    bool ok = text_write(text, path, export->err);
     progress_update(&export->progress, ++export->done);
     return ok;
 }
@@ -84,18 +83,17 @@ static bool write_emission(Export *export, const double rgb[3], const char *name
 {
     Arena     arena = export->scratch;
     Rings     rings = rings_of(export->options, panel_info_emission_cone(export->panel), false);
-    size_t    rows = (size_t)rings_count(&rings) + 2;
-    TableText text = table_text(&arena, rows * ROW_BYTES + COMMENT_BYTES);
+    Text text = {.arena = &arena};
     float     codes[3] = {(float)rgb[0], (float)rgb[1], (float)rgb[2]}, xyz[3];
-    table_text_add(&text, "# codes %.10g,%.10g,%.10g; theta and phi in degrees; CIE 1931 XYZ, "
-                   "Y in cd/m2, black not subtracted\ntheta,phi,X,Y,Z\n", rgb[0], rgb[1],
-                   rgb[2]);
+    text_format(&text, "# codes %.10g,%.10g,%.10g; theta and phi in degrees; CIE 1931 XYZ, "
+                "Y in cd/m2, black not subtracted\ntheta,phi,X,Y,Z\n", rgb[0], rgb[1],
+                rgb[2]);
     for (int i = 0; i < rings_count(&rings); i++) {
         double degrees[2];
         rings_direction(&rings, i, degrees);
         panel_emission_xyz(export->panel, direction_deg(degrees[0], degrees[1]), codes, xyz);
-        table_text_add(&text, "%.10g,%.10g,%.9g,%.9g,%.9g\n", degrees[0], degrees[1],
-                       (double)xyz[0], (double)xyz[1], (double)xyz[2]);
+        text_format(&text, "%.10g,%.10g,%.9g,%.9g,%.9g\n", degrees[0], degrees[1],
+                    (double)xyz[0], (double)xyz[1], (double)xyz[2]);
     }
     return write_file(export, name, &text, arena);
 }
@@ -103,16 +101,15 @@ static bool write_emission(Export *export, const double rgb[3], const char *name
 static bool write_spectra(Export *export, const char *name)
 {
     Arena     arena = export->scratch;
-    TableText text = table_text(&arena, (SPECTRAL_COUNT + 2) * (size_t)ROW_BYTES +
-                                COMMENT_BYTES);
-    table_text_add(&text, "# spectral radiance in W m^-2 sr^-1 nm^-1 at 1 cd/m2 on the axis; "
-                   "wavelength in nm\nnm,red,green,blue\n");
+    Text text = {.arena = &arena};
+    text_format(&text, "# spectral radiance in W m^-2 sr^-1 nm^-1 at 1 cd/m2 on the axis; "
+                "wavelength in nm\nnm,red,green,blue\n");
     for (int i = 0; i < SPECTRAL_COUNT; i++) {
-        table_text_add(&text, "%d", SPECTRAL_FIRST_NM + i);
+        text_format(&text, "%d", SPECTRAL_FIRST_NM + i);
         for (int p = 0; p < 3; p++)
-            table_text_add(&text, ",%.9g",
-                           (double)panel_info_spectrum(export->panel, p)[i]);
-        table_text_add(&text, "\n");
+            text_format(&text, ",%.9g",
+                        (double)panel_info_spectrum(export->panel, p)[i]);
+        text_add(&text, "\n");
     }
     return write_file(export, name, &text, arena);
 }
@@ -182,14 +179,14 @@ typedef struct Light {
 
 /* One row; phi counts from the mirror direction, the light is at 180. */
 static void add_row(const Export *export, const Light *light, double fwhm_deg,
-                    const double degrees[2], TableText *text)
+                    const double degrees[2], Text *text)
 {
     float  nm[PANEL_INFO_WAVELENGTHS_MAX];
     int    count = panel_info_wavelengths(export->panel, nm);
     double image = image_of_mirror(fwhm_deg, light->theta_deg, degrees);
     Vec3   wi = direction_deg(light->theta_deg, light->phi_deg);
     Vec3   wo = direction_deg(degrees[0], light->phi_deg - 180 + degrees[1]);
-    table_text_add(text, "%.10g,%.10g", degrees[0], degrees[1]);
+    text_format(text, "%.10g,%.10g", degrees[0], degrees[1]);
     for (int first = 0; first < count; first += SPECTRUM_LANES) {
         Wavelengths w = {0};
         for (int i = 0; i < SPECTRUM_LANES; i++)
@@ -197,9 +194,9 @@ static void add_row(const Export *export, const Light *light, double fwhm_deg,
         Spectrum f = panel_brdf(export->panel, wo, wi, &w);
         Spectrum r = panel_mirror(export->panel, wi.z, &w);
         for (int i = 0; i < SPECTRUM_LANES && first + i < count; i++)
-            table_text_add(text, ",%.9g", (double)f[i] + image * (double)r[i]);
+            text_format(text, ",%.9g", (double)f[i] + image * (double)r[i]);
     }
-    table_text_add(text, "\n");
+    text_add(text, "\n");
 }
 
 static bool write_brdf(Export *export, const Light *light, double fwhm_deg, const char *name)
@@ -209,16 +206,15 @@ static bool write_brdf(Export *export, const Light *light, double fwhm_deg, cons
     Arena     arena = export->scratch;
     double    cone = panel_info_reflection_cone(export->panel);
     Rings     rings = rings_of(export->options, cone, true);
-    size_t    rows = (size_t)rings_count(&rings) + 2;
-    TableText text = table_text(&arena, rows * (48 + 16 * (size_t)count) + COMMENT_BYTES);
-    table_text_add(&text, "# light from theta %.10g, phi %.10g; angles in degrees, phi from "
-                   "the mirror direction; sr^-1 without the cosine; columns in nm\n",
-                   light->theta_deg, light->phi_deg);
-    table_text_add(&text, "# the mirror part %s\ntheta,phi",
-                   fwhm_deg > 0 ? "as the instrument that the manifest declares sees it"
-                                : "(a delta) is not in these numbers");
-    for (int i = 0; i < count; i++) table_text_add(&text, ",%.9g", (double)nm[i]);
-    table_text_add(&text, "\n");
+    Text text = {.arena = &arena};
+    text_format(&text, "# light from theta %.10g, phi %.10g; angles in degrees, phi from "
+                "the mirror direction; sr^-1 without the cosine; columns in nm\n",
+                light->theta_deg, light->phi_deg);
+    text_format(&text, "# the mirror part %s\ntheta,phi",
+                fwhm_deg > 0 ? "as the instrument that the manifest declares sees it"
+                             : "(a delta) is not in these numbers");
+    for (int i = 0; i < count; i++) text_format(&text, ",%.9g", (double)nm[i]);
+    text_add(&text, "\n");
     for (int i = 0; i < rings_count(&rings); i++) {
         double degrees[2];
         rings_direction(&rings, i, degrees);
@@ -294,7 +290,8 @@ static bool write_manifest(Export *export, const json_t *manifest)
     Arena arena = export->scratch;
     char *text = json_dumps(manifest, JSON_INDENT(2) | JSON_REAL_PRECISION(9));
     if (!text) return error_set(export->err, ERROR_MEMORY, "no memory for the manifest");
-    TableText with_end = {arena_format(&arena, "%s\n", text), strlen(text) + 1, 0};
+    Text with_end = {.arena = &arena};
+    text_format(&with_end, "%s\n", text);
     free(text);
     return write_file(export, "MANIFEST.json", &with_end, arena);
 }

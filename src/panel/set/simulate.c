@@ -7,14 +7,12 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/file.h"
 #include "base/mathd.h"
 #include "base/sampler.h"
 #include "base/units.h"
-#include "panel/set/table_text.h"
+#include "text/text.h"
 #include "spectrum/spectral_table.h"
 
-#define ROW_BYTES 96 /* of an emission row, at most */
 
 static const char *const primary_names[3] = {"red", "green", "blue"};
 
@@ -46,11 +44,11 @@ static double noisy(const Instrument *instrument, double value, double absolute,
            absolute * normal_deviate(i, table, 2 * index + 1);
 }
 
-static bool write_text(const Instrument *instrument, const char *name, const TableText *text,
+static bool write_text(const Instrument *instrument, const char *name, const Text *text,
                        Arena arena)
 {
     const char *path = arena_format(&arena, "%s/%s", instrument->folder, name);
-    return file_write(path, text->begin, text->size, instrument->err);
+    return text_write(text, path, instrument->err);
 }
 
 /* Directions of a grid: theta from one step (0 stands apart) to the cone, all azimuths. */
@@ -87,20 +85,20 @@ static bool write_emission(Instrument *instrument, int primary, double level)
     Arena arena = instrument->scratch;
     Grid  grid = grid_of(recipe->instrument.theta_max_deg, recipe->instrument.theta_step_deg,
                          recipe->instrument.phi_step_deg);
-    TableText text = table_text(&arena, (size_t)(grid_count(&grid) + 2) * ROW_BYTES);
-    table_text_add(&text, "theta,phi,X,Y,Z\n");
+    Text text = {.arena = &arena};
+    text_add(&text, "theta,phi,X,Y,Z\n");
     for (int i = 0; i < grid_count(&grid); i++) {
         double degrees[2], xyz[3], add[3] = {0, 0, 0};
         grid_direction(&grid, i, degrees);
         double angles[2] = {radians_from_degrees(degrees[0]), radians_from_degrees(degrees[1])};
         truth_black_xyz(recipe, angles, xyz);
         if (primary >= 0) truth_emission_xyz(recipe, primary, level, angles, add);
-        table_text_add(&text, "%.10g,%.10g", degrees[0], degrees[1]);
+        text_format(&text, "%.10g,%.10g", degrees[0], degrees[1]);
         for (int j = 0; j < 3; j++)
-            table_text_add(&text, ",%.6g", noisy(instrument, xyz[j] + add[j],
-                                           recipe->instrument.noise_cd_m2,
-                                           (uint32_t)(3 * i + j)));
-        table_text_add(&text, "\n");
+            text_format(&text, ",%.6g", noisy(instrument, xyz[j] + add[j],
+                                        recipe->instrument.noise_cd_m2,
+                                        (uint32_t)(3 * i + j)));
+        text_add(&text, "\n");
     }
     const char *name = primary < 0 ? "emission/black.csv"
         : arena_format(&arena, "emission/%s_%03g.csv", primary_names[primary], level);
@@ -121,20 +119,20 @@ static bool write_all_emission(Instrument *instrument)
 
 /* ---- reflection ------------------------------------------------------------------------ */
 
-static void add_brdf_row(Instrument *instrument, TableText *text, double incidence,
+static void add_brdf_row(Instrument *instrument, Text *text, double incidence,
                          const double degrees[2], uint32_t index)
 {
     const Recipe *recipe = instrument->recipe;
     const RecipeReflection *r = &recipe->reflection;
-    table_text_add(text, "%.10g,%.10g", degrees[0], degrees[1]);
+    text_format(text, "%.10g,%.10g", degrees[0], degrees[1]);
     for (int w = 0; w < r->wavelength_count; w++) {
         double value = truth_instrument_brdf(recipe, incidence,
             radians_from_degrees(degrees[0]), radians_from_degrees(degrees[1]),
             r->wavelength_nm[w]);
-        table_text_add(text, ",%.5g", noisy(instrument, value, recipe->instrument.noise_brdf_sr,
-                                      index * (uint32_t)r->wavelength_count + (uint32_t)w));
+        text_format(text, ",%.5g", noisy(instrument, value, recipe->instrument.noise_brdf_sr,
+                                   index * (uint32_t)r->wavelength_count + (uint32_t)w));
     }
-    table_text_add(text, "\n");
+    text_add(text, "\n");
 }
 
 static bool write_brdf(Instrument *instrument, double incidence_deg)
@@ -145,12 +143,11 @@ static bool write_brdf(Instrument *instrument, double incidence_deg)
     Grid  grid = grid_of(recipe->instrument.theta_max_deg,
                          recipe->instrument.brdf_theta_step_deg,
                          recipe->instrument.brdf_phi_step_deg);
-    size_t row_bytes = 48 + 16 * (size_t)r->wavelength_count;
-    TableText text = table_text(&arena, (size_t)(grid_count(&grid) + 2) * row_bytes);
-    table_text_add(&text, "theta,phi");
+    Text text = {.arena = &arena};
+    text_add(&text, "theta,phi");
     for (int w = 0; w < r->wavelength_count; w++)
-        table_text_add(&text, ",%.10g", r->wavelength_nm[w]);
-    table_text_add(&text, "\n");
+        text_format(&text, ",%.10g", r->wavelength_nm[w]);
+    text_add(&text, "\n");
     for (int i = 0; i < grid_count(&grid); i++) {
         double degrees[2];
         grid_direction(&grid, i, degrees);
@@ -168,76 +165,76 @@ static bool write_brdf(Instrument *instrument, double incidence_deg)
 static bool write_spectra(Instrument *instrument)
 {
     Arena arena = instrument->scratch;
-    TableText text = table_text(&arena, (SPECTRAL_COUNT + 1) * (size_t)ROW_BYTES);
-    table_text_add(&text, "nm,red,green,blue\n");
+    Text text = {.arena = &arena};
+    text_add(&text, "nm,red,green,blue\n");
     for (int i = 0; i < SPECTRAL_COUNT; i++) {
         int nm = SPECTRAL_FIRST_NM + i;
-        table_text_add(&text, "%d", nm);
+        text_format(&text, "%d", nm);
         for (int p = 0; p < 3; p++)
-            table_text_add(&text, ",%.6g",
-                     truth_spectrum(&instrument->recipe->emission.primary[p], nm));
-        table_text_add(&text, "\n");
+            text_format(&text, ",%.6g",
+                  truth_spectrum(&instrument->recipe->emission.primary[p], nm));
+        text_add(&text, "\n");
     }
     return write_text(instrument, "primaries.csv", &text, arena);
 }
 
-static void add_quoted(TableText *text, const char *key, const char *value)
+static void add_quoted(Text *text, const char *key, const char *value)
 {
-    table_text_add(text, "  \"%s\": \"", key);
+    text_format(text, "  \"%s\": \"", key);
     for (; *value; value++) {
-        if (*value == '"' || *value == '\\') table_text_add(text, "\\");
-        if ((unsigned char)*value >= ' ') table_text_add(text, "%c", *value);
+        if (*value == '"' || *value == '\\') text_add(text, "\\");
+        if ((unsigned char)*value >= ' ') text_format(text, "%c", *value);
     }
-    table_text_add(text, "\",\n");
+    text_add(text, "\",\n");
 }
 
-static void add_list(TableText *text, const char *key, const double *value, int count)
+static void add_list(Text *text, const char *key, const double *value, int count)
 {
-    table_text_add(text, "\"%s\": [", key);
-    for (int i = 0; i < count; i++) table_text_add(text, "%s%.10g", i ? ", " : "", value[i]);
-    table_text_add(text, "]");
+    text_format(text, "\"%s\": [", key);
+    for (int i = 0; i < count; i++) text_format(text, "%s%.10g", i ? ", " : "", value[i]);
+    text_add(text, "]");
 }
 
-static void add_emission(TableText *text, const RecipeEmission *emission)
+static void add_emission(Text *text, const RecipeEmission *emission)
 {
-    table_text_add(text, "  \"emission\": {\n    \"black\": \"emission/black.csv\"");
+    text_add(text, "  \"emission\": {\n    \"black\": \"emission/black.csv\"");
     for (int p = 0; p < 3; p++) {
-        table_text_add(text, ",\n    \"%s\": {", primary_names[p]);
+        text_format(text, ",\n    \"%s\": {", primary_names[p]);
         for (int i = 0; i < emission->level_count; i++)
-            table_text_add(text, "%s\"%g\": \"emission/%s_%03g.csv\"", i ? ", " : "",
-                     emission->level[i], primary_names[p], emission->level[i]);
-        table_text_add(text, "}");
+            text_format(text, "%s\"%g\": \"emission/%s_%03g.csv\"", i ? ", " : "",
+                  emission->level[i], primary_names[p], emission->level[i]);
+        text_add(text, "}");
     }
-    table_text_add(text, "\n  },\n");
+    text_add(text, "\n  },\n");
 }
 
 static bool write_manifest(Instrument *instrument)
 {
     const Recipe *recipe = instrument->recipe;
     Arena arena = instrument->scratch;
-    TableText text = table_text(&arena, 1u << 18);
-    table_text_add(&text, "{\n");
+    Text text = {.arena = &arena};
+    text_add(&text, "{\n");
     add_quoted(&text, "panel", recipe->panel);
-    table_text_add(&text, "  \"instrument\": \"simulated Fourier optics, %g deg\",\n",
-             recipe->instrument.theta_max_deg);
+    text_format(&text, "  \"instrument\": \"simulated Fourier optics, %g deg\",\n",
+          recipe->instrument.theta_max_deg);
     add_quoted(&text, "note", recipe->note);
-    table_text_add(&text, "  \"instrument_fwhm_deg\": %g,\n  ", recipe->instrument.fwhm_deg);
+    text_format(&text, "  \"instrument_fwhm_deg\": %g,\n  ", recipe->instrument.fwhm_deg);
     add_list(&text, "pixels", recipe->pixels, 2);
-    table_text_add(&text, ",\n  ");
+    text_add(&text, ",\n  ");
     add_list(&text, "size_mm", recipe->size_mm, 2);
-    table_text_add(&text, ",\n");
+    text_add(&text, ",\n");
     add_emission(&text, &recipe->emission);
-    table_text_add(&text, "  \"primaries\": \"primaries.csv\"");
+    text_add(&text, "  \"primaries\": \"primaries.csv\"");
     if (recipe->reflection.exists) {
-        table_text_add(&text, ",\n  \"reflection\": {");
+        text_add(&text, ",\n  \"reflection\": {");
         add_list(&text, "wavelengths_nm", recipe->reflection.wavelength_nm,
                  recipe->reflection.wavelength_count);
-        table_text_add(&text, ",\n    ");
+        text_add(&text, ",\n    ");
         add_list(&text, "incidence_deg", recipe->reflection.incidence_deg,
                  recipe->reflection.incidence_count);
-        table_text_add(&text, ",\n    \"files\": \"brdf/i{incidence}.csv\"}");
+        text_add(&text, ",\n    \"files\": \"brdf/i{incidence}.csv\"}");
     }
-    table_text_add(&text, "\n}\n");
+    text_add(&text, "\n}\n");
     return write_text(instrument, "MANIFEST.json", &text, arena);
 }
 

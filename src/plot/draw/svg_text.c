@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "text/escape.h"
 #include "text/text.h"
 
 /* Names seen so far, in a table with open addressing. */
@@ -113,7 +114,7 @@ PlotBytes svg_with_title(PlotBytes svg, const char *title, Arena *arena)
     if (!body) return svg;
     text_add_bytes(&out, begin, (size_t)(body + 1 - begin));
     text_add(&out, "\n<title>");
-    text_add_escaped(&out, title);
+    escape_markup(&out, title);
     text_add(&out, "</title>");
     text_add_bytes(&out, body + 1, svg.size - (size_t)(body + 1 - begin));
     return (PlotBytes){(unsigned char *)out.data, out.size};

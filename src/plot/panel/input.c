@@ -5,7 +5,7 @@
 #include "base/file.h"
 #include "base/parallel.h"
 #include "base/units.h"
-#include "text/text.h"
+#include "text/utf8.h"
 #include "spectrum/photometry.h"
 
 #define SIDE 301 /* grid of the maps: 0.6 degrees a step */
@@ -97,8 +97,8 @@ Subject *subject_new(const SubjectSource *source, Arena *arena)
     const char *name = json_string_value(json_object_get(source->report, "panel"));
     s->source = *source;
     s->arena = arena;
-    s->file_name = text_clean(path_name(source->file), arena);
-    s->name = name && *name ? text_clean(name, arena) : s->file_name;
+    s->file_name = utf8_replace(path_name(source->file), arena);
+    s->name = name && *name ? utf8_replace(name, arena) : s->file_name;
     s->is_white_only = json_is_true(json_object_get(
         json_object_get(source->report, "emission"), "white_only"));
     s->emits = panel_info_emits(source->panel);

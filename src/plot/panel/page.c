@@ -5,7 +5,7 @@
 
 #include "base/file.h"
 #include "base/units.h"
-#include "text/text.h"
+#include "text/utf8.h"
 
 #define MARGIN 40.0
 #define GUTTER 34.0
@@ -98,7 +98,7 @@ static void draw_heading(Canvas *canvas, const PageSpec *spec, const Layout *l)
                                     instrument ? instrument : "");
     canvas_text(canvas, MARGIN, MARGIN + 27, (Letters){.size = SIZE_TEXT, .ink = t->soft},
                 canvas_fit_text(canvas, SIZE_TEXT, false, width,
-                                text_clean(line, canvas->arena)));
+                                utf8_replace(line, canvas->arena)));
     canvas_line(canvas, MARGIN, MARGIN + 46, l->width - MARGIN, MARGIN + 46,
                 (Stroke){t->faint, 0.7, DASH_NONE});
 }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/file_write.h"
 #include "panel/fit/fit.h"
 #include "panel/query/panel_report.h"
 #include "plot/panel/page.h"

@@ -3,11 +3,13 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/file_write.h"
 #include "base/units.h"
 #include "plot/panel/page.h"
 #include "plot/panel/report_page.h"
 #include "plot/panel/report_tables.h"
 #include "plot/draw/ticks.h"
+#include "text/escape.h"
 
 #define FIGURE_WIDTH 420
 #define FIGURE_HEIGHT 344
@@ -24,7 +26,7 @@ static void add_polar_values(Text *html, const FigureMap *map)
                 "\"rows\":%d,\"columns\":%d,\"unit\":\"", map->disc.x, map->disc.y,
                 map->disc.radius, degrees_from_radians(field->theta_rim), READ_ROWS,
                 READ_COLUMNS);
-    text_add_escaped(html, map->unit);
+    escape_markup(html, map->unit);
     text_add(html, "\",\"v\":[");
     for (int i = 0; i < READ_ROWS; i++)
         for (int j = 0; j < READ_COLUMNS; j++) {
@@ -51,9 +53,9 @@ static void add_chart_values(Text *html, const FigureMap *map)
                 "\"low\":[%.9g,%.9g],\"high\":[%.9g,%.9g],\"log\":[%d,%d],\"names\":[\"",
                 map->plot.x, map->plot.y, map->plot.w, map->plot.h, map->low[0], map->low[1],
                 map->high[0], map->high[1], map->is_log[0], map->is_log[1]);
-    text_add_escaped(html, short_name(html->arena, map->axis[0]));
+    escape_markup(html, short_name(html->arena, map->axis[0]));
     text_add(html, "\",\"");
-    text_add_escaped(html, short_name(html->arena, map->axis[1]));
+    escape_markup(html, short_name(html->arena, map->axis[1]));
     text_add(html, "\"]}");
 }
 
@@ -69,16 +71,16 @@ static bool add_figure(Text *html, const Figure *figure, int index, bool is_dark
     if (map.kind == FIGURE_POLAR) add_polar_values(html, &map);
     else add_chart_values(html, &map);
     text_add(html, "'>\n<h3>");
-    text_add_escaped(html, figure->title);
+    escape_markup(html, figure->title);
     text_add(html, "</h3>\n<p>");
-    text_add_escaped(html, figure->subtitle);
+    escape_markup(html, figure->subtitle);
     text_add(html, "</p>\n");
     text_add_bytes(html, svg.data, svg.size);
     text_add(html, "<div class=\"read\"></div>\n");
     bool is_said = index > 0 && !strcmp(figure[-1].caption, figure->caption);
     if (!is_said) {
         text_add(html, "<figcaption>");
-        text_add_escaped(html, figure->caption);
+        escape_markup(html, figure->caption);
         text_add(html, "</figcaption>\n");
     }
     text_add(html, "</figure>\n");
@@ -123,9 +125,9 @@ static bool add_chapters(Text *html, const FigureList *list, bool is_dark, Error
 static void add_key(Text *html, const char *value, const char *name)
 {
     text_add(html, "<div><b>");
-    text_add_escaped(html, value);
+    escape_markup(html, value);
     text_add(html, "</b><span>");
-    text_add_escaped(html, name);
+    escape_markup(html, name);
     text_add(html, "</span></div>\n");
 }
 
@@ -215,14 +217,14 @@ static void add_head(Text *html, const Subject *s, bool is_dark)
     text_add(html, "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
              "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
              "<title>");
-    text_add_escaped(html, s->name);
+    escape_markup(html, s->name);
     text_format(html, "</title>\n<style>\n%s</style></head>\n<body%s><main>\n<h1>",
                 REPORT_STYLE, is_dark ? " class=\"dark\"" : "");
-    text_add_escaped(html, s->name);
+    escape_markup(html, s->name);
     text_add(html, "</h1>\n<p class=\"sub\">");
-    text_add_escaped(html, s->file_name);
+    escape_markup(html, s->file_name);
     text_add(html, note && *note ? " · " : "");
-    text_add_escaped(html, note);
+    escape_markup(html, note);
     text_add(html, "</p>\n");
 }
 

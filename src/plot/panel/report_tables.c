@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "plot/draw/ticks.h"
+#include "text/escape.h"
 
 /* How a number is written. */
 typedef enum Style { STYLE_PLAIN, STYLE_BYTES, STYLE_SHARE, STYLE_RATIO } Style;
@@ -50,7 +51,7 @@ static void add_name(Text *html, const char *name)
 {
     for (const char *c = name; *c; c++) {
         char one[2] = {*c == '_' ? ' ' : *c, 0};
-        text_add_escaped(html, one);
+        escape_markup(html, one);
     }
 }
 
@@ -81,7 +82,7 @@ static void add_value(Text *html, const json_t *value, Style style)
 {
     size_t  i;
     json_t *item;
-    if (json_is_string(value)) text_add_escaped(html, json_string_value(value));
+    if (json_is_string(value)) escape_markup(html, json_string_value(value));
     else if (json_is_boolean(value)) text_add(html, json_is_true(value) ? "yes" : "no");
     else if (json_is_number(value)) add_number(html, json_number_value(value), style);
     json_array_foreach(value, i, item) {

@@ -1,0 +1,10 @@
+/* json_text.h -- a text of any bytes as a value of a JSON document.
+ *
+ * Memory   the caller's reference (jansson). Threads: no shared state.
+ */
+#pragma once
+#include <jansson.h>
+
+/* Bytes beyond ASCII become '?' in a text that is not UTF-8: names of files may hold
+ * anything. */
+json_t *json_text(const char *text);

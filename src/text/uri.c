@@ -1,0 +1,94 @@
+#include "text/uri.h"
+
+#include <ctype.h>
+#include <string.h>
+#include <strings.h>
+
+#include "text/base64.h"
+
+size_t uri_scheme_length(const char *uri)
+{
+    size_t length = 0;
+    if (!isalpha((unsigned char)uri[0])) return 0;
+    while (isalnum((unsigned char)uri[length]) ||
+           strchr("+-.", uri[length] ? uri[length] : ' '))
+        length++;
+    return uri[length] == ':' ? length : 0;
+}
+
+bool uri_is_data(const char *uri)
+{
+    return strncasecmp(uri, "data:", 5) == 0;
+}
+
+static int hex_digit(char c)
+{
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+    return -1;
+}
+
+/* `length` characters of `text` to `out`, which holds as many; *size is what came out. */
+static bool percent_decode(const char *text, size_t length, char *out, size_t *size, Error *err)
+{
+    *size = 0;
+    for (size_t i = 0; i < length; i++) {
+        char c = text[i];
+        if (c == '%') {
+            int high = length - i > 2 ? hex_digit(text[i + 1]) : -1;
+            int low = high >= 0 ? hex_digit(text[i + 2]) : -1;
+            if (low < 0)
+                return error_set(err, ERROR_INPUT,
+                                 "broken escape \"%.3s\" in a URI, %% and two hexadecimal "
+                                 "digits are wanted",
+                                 text + i);
+            c = (char)(high * 16 + low);
+            i += 2;
+        }
+        out[(*size)++] = c;
+    }
+    return true;
+}
+
+bool uri_decode(const char *uri, Arena *arena, char **out, Error *err)
+{
+    size_t length = strlen(uri), size;
+    char *text = ARENA_NEW(arena, char, length + 1);
+    if (!percent_decode(uri, length, text, &size, err)) return false;
+    if (memchr(text, 0, size))
+        return error_set(err, ERROR_INPUT, "a URI holds an encoded zero byte");
+    *out = text;
+    return true;
+}
+
+/* type/subtype;name=value;...;base64: no part between semicolons may be empty. */
+static bool check_media_type(const char *head, size_t length, Error *err)
+{
+    for (size_t i = 0; i < length; i++)
+        if (head[i] == ';' && (i + 1 == length || head[i + 1] == ';'))
+            return error_set(err, ERROR_INPUT, "the data: URI has an empty part in \"%.*s\"",
+                             (int)(length < 80 ? length : 80), head);
+    return true;
+}
+
+bool data_uri_decode(const char *uri, Arena *arena, FileBytes *out, const char **media_type,
+                     Error *err)
+{
+    const char *comma = uri_is_data(uri) ? strchr(uri, ',') : NULL;
+    if (!comma)
+        return error_set(err, ERROR_INPUT, "the data: URI has no comma before its data");
+    size_t head = (size_t)(comma - uri), length = strlen(comma + 1), size;
+    if (!check_media_type(uri, head, err)) return false;
+    bool is_base64 = head >= 12 && strncasecmp(comma - 7, ";base64", 7) == 0;
+    unsigned char *bytes = ARENA_NEW(arena, unsigned char, length + 1);
+    if (is_base64) {
+        if (!base64_decode(comma + 1, length, bytes, &size, err)) return false;
+    } else if (!percent_decode(comma + 1, length, (char *)bytes, &size, err)) {
+        return false;
+    }
+    bytes[size] = 0;
+    if (media_type) *media_type = arena_string(arena, uri + 5, strcspn(uri + 5, ";,"));
+    *out = (FileBytes){bytes, size};
+    return true;
+}

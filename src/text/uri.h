@@ -1,0 +1,21 @@
+/* uri.h -- takes URIs apart (RFC 3986) and decodes those that hold data (RFC 2397).
+ *
+ * Memory   what is decoded lies in the arena, with a zero byte behind it.
+ * Threads  no shared state.
+ * Fails    with what is broken; file and place are the caller's to add.
+ */
+#pragma once
+#include "base/arena.h"
+#include "base/error.h"
+#include "base/file.h"
+
+/* The length of the scheme before its colon, 0 when there is none ("C:/x" counts as one). */
+size_t uri_scheme_length(const char *uri);
+bool uri_is_data(const char *uri);
+
+/* Percent-decoding. A broken escape or an encoded zero byte is an error. */
+bool uri_decode(const char *uri, Arena *arena, char **out, Error *err);
+
+/* The bytes of a data: URI; *media_type (may be NULL) is its type, "" if it has none. */
+bool data_uri_decode(const char *uri, Arena *arena, FileBytes *out, const char **media_type,
+                     Error *err);

@@ -1,0 +1,177 @@
+/* Texts that grow, escapes, characters of UTF-8, base64 and the nearest word. */
+#include "check.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "text/base64.h"
+#include "text/escape.h"
+#include "text/json_text.h"
+#include "text/nearest_word.h"
+#include "text/text.h"
+#include "text/utf8.h"
+
+static Arena arena;
+
+static void a_text_grows_where_it_stands(void **state)
+{
+    (void)state;
+    Text text = {.arena = &arena};
+    text_format(&text, "%d", 1);
+    const char *place = text.data;
+    for (int i = 0; i < 100000; i++) text_format(&text, "%d", i % 10);
+    assert_int_equal(text.size, 100001);
+    assert_ptr_equal(text.data, place);
+    assert_string_equal(text.data + 99992, "123456789");
+}
+
+static void a_text_moves_when_something_lies_behind_it(void **state)
+{
+    (void)state;
+    Text a = {.arena = &arena}, b = {.arena = &arena};
+    char line[3001];
+    memset(line, 'x', 3000);
+    line[3000] = 0;
+    for (int i = 0; i < 5; i++) {
+        text_format(&a, "%s%d", line, i);
+        text_add(&b, line);
+        text_add_bytes(&b, line, 0);
+    }
+    assert_int_equal(a.size, 5 * 3001);
+    assert_int_equal(strlen(a.data), a.size);
+    assert_int_equal(strlen(b.data), 5 * 3000);
+    assert_int_equal(a.data[4 * 3001 - 1], '3');
+    assert_int_equal(strspn(b.data, "x"), b.size);
+}
+
+static void a_text_becomes_a_file(void **state)
+{
+    (void)state;
+    Text      text = {.arena = &arena};
+    FileBytes bytes;
+    Error     err;
+    char      path[] = "/tmp/test_text_XXXXXX";
+    int       handle = mkstemp(path);
+    assert_true(handle >= 0);
+    close(handle);
+    assert_true(text_write(&text, path, &err));
+    assert_true(file_read(path, 100, &arena, &bytes, &err));
+    assert_int_equal(bytes.size, 0);
+    text_add(&text, "line\n");
+    assert_true(text_write(&text, path, &err));
+    assert_true(file_read(path, 100, &arena, &bytes, &err));
+    assert_string_equal((const char *)bytes.data, "line\n");
+    remove(path);
+    assert_false(text_write(&text, "/nowhere/at/all", &err));
+}
+
+static void texts_are_escaped(void **state)
+{
+    (void)state;
+    Text text = {.arena = &arena};
+    escape_markup(&text, "a<b>&\"c'");
+    escape_markup(&text, NULL);
+    assert_string_equal(text.data, "a&lt;b&gt;&amp;&quot;c&#39;");
+    text = (Text){.arena = &arena};
+    escape_markup(&text, "é\t\x01\x7f\xff\xef\xbf\xbf.");
+    assert_string_equal(text.data, "é\t????.");
+}
+
+static void words_are_quoted_for_a_shell(void **state)
+{
+    (void)state;
+    assert_string_equal(escape_shell("a/b-c.gltf", &arena), "a/b-c.gltf");
+    assert_string_equal(escape_shell("", &arena), "''");
+    assert_string_equal(escape_shell("a b", &arena), "'a b'");
+    assert_string_equal(escape_shell("it's", &arena), "'it'\\''s'");
+}
+
+/* Names of files may be anything; cairo and a browser want UTF-8. */
+static void names_become_utf8(void **state)
+{
+    (void)state;
+    assert_string_equal(utf8_replace("display é µ ₂ 𝄞.panel", &arena), "display é µ ₂ 𝄞.panel");
+    assert_string_equal(utf8_replace("a\xff\xc3(\xe2\x82" "b\n\xc0\x80", &arena), "a?\?(?\?b???");
+    assert_string_equal(utf8_replace("\xed\xa0\x80", &arena), "???"); /* a surrogate */
+    assert_string_equal(utf8_replace("\xf0\x9d", &arena), "??");       /* cut short */
+}
+
+static void characters_make_the_round_trip(void **state)
+{
+    (void)state;
+    static const unsigned CODES[] = {0,      0x41,   0x7f,   0x80,    0x7ff,   0x800,
+                                     0xd7ff, 0xe000, 0xffff, 0x10000, 0x10ffff};
+    for (size_t i = 0; i < sizeof CODES / sizeof *CODES; i++) {
+        char     bytes[UTF8_BYTES_MAX];
+        unsigned code = 1;
+        int      length = utf8_encode(CODES[i], bytes);
+        assert_int_equal(utf8_decode(bytes, (size_t)length, &code), length);
+        assert_int_equal(code, CODES[i]);
+        assert_int_equal(utf8_decode(bytes, (size_t)length - 1, &code), 0);
+        for (int j = 0; j < length; j++) assert_int_equal(utf8_continues(bytes[j]), j > 0);
+    }
+}
+
+static void any_text_becomes_json(void **state)
+{
+    (void)state;
+    json_t *good = json_text("é"), *bad = json_text("a\xc3\xa9\xff");
+    assert_string_equal(json_string_value(good), "é");
+    assert_string_equal(json_string_value(bad), "a???");
+    json_decref(good);
+    json_decref(bad);
+}
+
+/* RFC 4648, section 10. */
+static void base64_makes_the_round_trip(void **state)
+{
+    (void)state;
+    static const char *const DIGITS[] = {"",         "Zg==",     "Zm8=",    "Zm9v",
+                                         "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"};
+    for (size_t i = 0; i < 7; i++) {
+        Text          text = {.arena = &arena};
+        unsigned char bytes[8];
+        size_t        size;
+        Error         err;
+        base64_encode(&text, "foobar", i);
+        assert_string_equal(text.data, DIGITS[i]);
+        assert_true(base64_decode(text.data, text.size, bytes, &size, &err));
+        assert_int_equal(size, i);
+        assert_memory_equal(bytes, "foobar", i);
+    }
+}
+
+static void the_nearest_word_is_found(void **state)
+{
+    (void)state;
+    static const char *const words[] = {"wavelengths", "incidence_deg", "files"};
+    assert_string_equal(nearest_word("file", words, 3), "files");
+    assert_string_equal(nearest_word("incidence", words, 3), "incidence_deg");
+    assert_null(nearest_word_within("zebra", words, 3, 3));
+    assert_string_equal(nearest_word_within("fules", words, 3, 1), "files");
+    char word[200] = "";
+    memset(word, 'w', sizeof word - 1);
+    assert_null(nearest_word_within(word, words, 3, 150));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_text_grows_where_it_stands),
+        cmocka_unit_test(a_text_moves_when_something_lies_behind_it),
+        cmocka_unit_test(a_text_becomes_a_file),
+        cmocka_unit_test(texts_are_escaped),
+        cmocka_unit_test(words_are_quoted_for_a_shell),
+        cmocka_unit_test(names_become_utf8),
+        cmocka_unit_test(characters_make_the_round_trip),
+        cmocka_unit_test(any_text_becomes_json),
+        cmocka_unit_test(base64_makes_the_round_trip),
+        cmocka_unit_test(the_nearest_word_is_found),
+    };
+    arena = arena_reserve((size_t)1 << 26);
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    arena_release(&arena);
+    return failed;
+}
