@@ -1,11 +1,6 @@
 /* Texts that grow, escapes, characters of UTF-8, base64 and the nearest word. */
-#include "check.h"
+#include "fixture.h"
 
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-#include "base/file.h"
 #include "text/base64.h"
 #include "text/escape.h"
 #include "text/json_text.h"
@@ -13,11 +8,9 @@
 #include "text/text.h"
 #include "text/utf8.h"
 
-static Arena arena;
-
 static void a_text_grows_where_it_stands(void **state)
 {
-    (void)state;
+    Arena arena = test_arena(state);
     Text text = {.arena = &arena};
     text_format(&text, "%d", 1);
     const char *place = text.data;
@@ -29,7 +22,7 @@ static void a_text_grows_where_it_stands(void **state)
 
 static void a_text_moves_when_something_lies_behind_it(void **state)
 {
-    (void)state;
+    Arena arena = test_arena(state);
     Text a = {.arena = &arena}, b = {.arena = &arena};
     char line[3001];
     memset(line, 'x', 3000);
@@ -48,14 +41,11 @@ static void a_text_moves_when_something_lies_behind_it(void **state)
 
 static void a_text_becomes_a_file(void **state)
 {
-    (void)state;
+    Arena arena = test_arena(state);
     Text      text = {.arena = &arena};
     FileBytes bytes;
     Error     err;
-    char      path[] = "test_text_XXXXXX";
-    int       handle = mkstemp(path);
-    assert_true(handle >= 0);
-    close(handle);
+    const char *path = in_folder("text");
     assert_true(text_write(&text, path, &err));
     assert_true(file_read(path, 100, &arena, &bytes, &err));
     assert_int_equal(bytes.size, 0);
@@ -63,13 +53,13 @@ static void a_text_becomes_a_file(void **state)
     assert_true(text_write(&text, path, &err));
     assert_true(file_read(path, 100, &arena, &bytes, &err));
     assert_string_equal((const char *)bytes.data, "line\n");
-    remove(path);
+    unlink(path);
     assert_false(text_write(&text, "/nowhere/at/all", &err));
 }
 
 static void texts_are_escaped(void **state)
 {
-    (void)state;
+    Arena arena = test_arena(state);
     Text text = {.arena = &arena};
     escape_markup(&text, "a<b>&\"c'");
     escape_markup(&text, NULL);
@@ -82,7 +72,7 @@ static void texts_are_escaped(void **state)
 /* Names of files may be anything; cairo and a browser want UTF-8. */
 static void names_become_utf8(void **state)
 {
-    (void)state;
+    Arena arena = test_arena(state);
     assert_string_equal(utf8_replace("display é µ ₂ 𝄞.panel", &arena), "display é µ ₂ 𝄞.panel");
     assert_string_equal(utf8_replace("a\xff\xc3(\xe2\x82" "b\n\xc0\x80", &arena),
                         "a?\?(?\?b???");
@@ -119,7 +109,7 @@ static void any_text_becomes_json(void **state)
 /* RFC 4648, section 10. */
 static void base64_makes_the_round_trip(void **state)
 {
-    (void)state;
+    Arena arena = test_arena(state);
     static const char *const DIGITS[] = {"",         "Zg==",     "Zm8=",    "Zm9v",
                                          "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"};
     for (size_t i = 0; i < 7; i++) {
@@ -161,8 +151,5 @@ int main(void)
         cmocka_unit_test(base64_makes_the_round_trip),
         cmocka_unit_test(the_nearest_word_is_found),
     };
-    arena = arena_reserve((size_t)1 << 26);
-    int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    arena_release(&arena);
-    return failed;
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
