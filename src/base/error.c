@@ -16,29 +16,33 @@ static void copy_text(char *to, size_t size, const char *from)
     error_make_plain(to);
 }
 
+bool error_at_list(Error *err, ErrorCode code, const char *file, const char *path,
+                   const char *format, va_list list)
+{
+    err->code = code;
+    copy_text(err->file, sizeof err->file, file);
+    copy_text(err->path, sizeof err->path, path);
+    vsnprintf(err->text, sizeof err->text, format, list);
+    error_make_plain(err->text);
+    return false;
+}
+
 bool error_set(Error *err, ErrorCode code, const char *format, ...)
 {
-    va_list args;
-    va_start(args, format);
-    err->code = code;
-    err->file[0] = err->path[0] = '\0';
-    vsnprintf(err->text, sizeof err->text, format, args);
-    error_make_plain(err->text);
-    va_end(args);
+    va_list list;
+    va_start(list, format);
+    error_at_list(err, code, NULL, NULL, format, list);
+    va_end(list);
     return false;
 }
 
 bool error_at(Error *err, ErrorCode code, const char *file, const char *path,
               const char *format, ...)
 {
-    va_list args;
-    va_start(args, format);
-    err->code = code;
-    copy_text(err->file, sizeof err->file, file);
-    copy_text(err->path, sizeof err->path, path);
-    vsnprintf(err->text, sizeof err->text, format, args);
-    error_make_plain(err->text);
-    va_end(args);
+    va_list list;
+    va_start(list, format);
+    error_at_list(err, code, file, path, format, list);
+    va_end(list);
     return false;
 }
 

@@ -5,6 +5,7 @@
  * never share one.
  */
 #pragma once
+#include <stdarg.h>
 #include <stdbool.h>
 
 #ifdef __cplusplus
@@ -38,6 +39,8 @@ bool error_set(Error *err, ErrorCode code, const char *format, ...)
 /* As error_set, naming the file and the place inside it (NULL or "" = none). */
 bool error_at(Error *err, ErrorCode code, const char *file, const char *path,
               const char *format, ...) __attribute__((format(printf, 5, 6)));
+bool error_at_list(Error *err, ErrorCode code, const char *file, const char *path,
+                   const char *format, va_list list) __attribute__((format(printf, 5, 0)));
 
 /* Puts "context: " in front of the text; keeps the rest; returns false. */
 bool error_prefix(Error *err, const char *format, ...)

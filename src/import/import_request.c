@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 #include "import/importers.h"
+#include "import/primaries.h"
 #include "import/set/import_complete.h"
 #include "text/json_view.h"
 
@@ -34,19 +35,19 @@ static const char *plain_text(const JsonView *view, const json_t *value)
                                  : NULL;
 }
 
-static bool declare_one(const JsonView *view, const char *key, const json_t *value,
-                        TextDeclaration *text, Error *err)
+static bool set_one(const JsonView *view, const char *key, const json_t *value,
+                        TextOptions *text, Error *err)
 {
     const char *plain = plain_text(view, value);
     if (!plain) return wrong_kind(view, key, "a text or a number", err);
-    return text_declare(text, key, plain, err) ||
+    return text_options_set(text, key, plain, err) ||
            error_at(err, ERROR_INPUT, view->file, json_view_path(view, key), "%s",
                     arena_string(view->arena, err->text, strlen(err->text)));
 }
 
 /* "columns": ["theta", "phi"] is as good as "theta,phi"; other lists add entry by entry. */
-static bool declare_list(const JsonView *view, const char *key, const json_t *list,
-                         TextDeclaration *text, Error *err)
+static bool set_list(const JsonView *view, const char *key, const json_t *list,
+                         TextOptions *text, Error *err)
 {
     size_t      i;
     json_t     *value;
@@ -57,26 +58,26 @@ static bool declare_list(const JsonView *view, const char *key, const json_t *li
         if (!plain) return wrong_kind(view, key, "texts or numbers", err);
         if (is_columns)
             joined = arena_format(view->arena, "%s%s%s", joined, i ? "," : "", plain);
-        else if (!declare_one(view, key, value, text, err)) return false;
+        else if (!set_one(view, key, value, text, err)) return false;
     }
-    return !is_columns || text_declare(text, key, joined, err) ||
+    return !is_columns || text_options_set(text, key, joined, err) ||
            error_in_file(err, view->file);
 }
 
-static bool read_text_keys(const JsonView *view, TextDeclaration *text, Error *err)
+static bool read_text_keys(const JsonView *view, TextOptions *text, Error *err)
 {
     for (int i = 0; i < text_key_count; i++) {
         const char   *key = text_keys[i].key;
         const json_t *value = json_object_get(view->object, key);
         if (!value) continue;
-        if (json_is_array(value) ? !declare_list(view, key, value, text, err)
-                                 : !declare_one(view, key, value, text, err))
+        if (json_is_array(value) ? !set_list(view, key, value, text, err)
+                                 : !set_one(view, key, value, text, err))
             return false;
     }
     return true;
 }
 
-static bool read_roles(const JsonView *root, TextDeclaration *text, Error *err)
+static bool read_roles(const JsonView *root, TextOptions *text, Error *err)
 {
     JsonView    view;
     const char *pattern;
@@ -178,9 +179,9 @@ bool import_request_read(const char *file, Arena *arena, ImportRequest *request,
 
 /* ---- the import -------------------------------------------------------------------------- */
 
-bool import_is_skipped(const ImportRequest *request, const char *file)
+bool import_request_skips(const ImportRequest *request, const char *file)
 {
-    const char *role = text_declared_role(&request->text, file);
+    const char *role = text_options_role(&request->text, file);
     if (role && !strcmp(role, "skip")) return true;
     for (int i = 0; i < request->skip.count; i++)
         if (!fnmatch(request->skip.text[i], file, 0) ||
@@ -198,7 +199,7 @@ static bool read_files(const char *const *file, int count, const ImportRequest *
     int           refused = 0, skipped = 0;
     options.text = &request->text;
     for (int i = 0; i < count; i++) {
-        bool is_skipped = import_is_skipped(request, file[i]);
+        bool is_skipped = import_request_skips(request, file[i]);
         skipped += is_skipped;
         if (!is_skipped && !import_file(file[i], &options, set, &one) && !refused++) *err = one;
         if (refused && one.code != ERROR_INPUT) break;
@@ -222,7 +223,7 @@ bool import_run(const char *const *file, int count, const ImportRequest *request
     set->black_is_zero = request->black_is_zero;
     if (request->text.white_reflectance > 0)
         set->white_reflectance = request->text.white_reflectance;
-    if (request->primaries && !import_primaries(request->primaries, &request->text, set, err))
+    if (request->primaries && !primaries_read(request->primaries, &request->text, set, err))
         return false;
     return read_files(file, count, request, set, err) && import_complete(set, err);
 }

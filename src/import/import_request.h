@@ -5,13 +5,13 @@
  * Fails    with the file, the JSON path, what was found and what was wanted.
  */
 #pragma once
-#include "import/text/import_text.h"
+#include "import/text/text_options.h"
 
 /* Called with the number of files done. */
 typedef void ImportStep(void *context, int done);
 
 typedef struct ImportRequest {
-    TextDeclaration text;
+    TextOptions text;
     ImportOptions   options;  /* options.text is set by import_run */
     TextList        skip;     /* patterns of files to leave out */
     const char     *primaries; /* a file of spectra; NULL: none */
@@ -29,12 +29,8 @@ bool import_request_read(const char *file, Arena *arena, ImportRequest *request,
 /* "none", "left-right", "up-down", "both", "half-turn". */
 bool import_symmetry_named(const char *name, ImportSymmetry *out, Error *err);
 
-/* Does a pattern of the list fit the file's name or path? */
-bool import_is_skipped(const ImportRequest *request, const char *file);
-
-/* Reads the primaries' spectra: a column of wavelengths and red, green, blue (and black). */
-bool import_primaries(const char *file, const TextDeclaration *declared, ImportSet *set,
-                      Error *err);
+/* Is the file left out, by a pattern of the list or by its role? */
+bool import_request_skips(const ImportRequest *request, const char *file);
 
 /* Reads all files with what the request says and completes the set. */
 bool import_run(const char *const *file, int count, const ImportRequest *request,

@@ -1,14 +1,12 @@
-/* Spectra of the primaries: one column of wavelengths, one each for red, green and blue. */
-#include <ctype.h>
+#include "import/primaries.h"
+
 #include <string.h>
 #include <strings.h>
-
-#include "import/import_request.h"
 
 #define COUNT(list) (sizeof(list) / sizeof *(list))
 #define COLUMNS 5 /* wavelength, red, green, blue, black */
 
-typedef struct Spectra {
+typedef struct PrimariesFile {
     const TextFile *text;
     TextDialect     dialect;
     ImportSet      *set;
@@ -18,7 +16,7 @@ typedef struct Spectra {
     int             cells;           /* of the header */
     double         *value[COLUMNS];
     int             rows;
-} Spectra;
+} PrimariesFile;
 
 static int column_of(TextCell cell)
 {
@@ -40,7 +38,7 @@ static bool is_comment(TextLine line)
 }
 
 /* The first line that names wavelengths and the three primaries. */
-static bool find_header(Spectra *in, int *at)
+static bool find_header(PrimariesFile *in, int *at)
 {
     for (*at = 0; *at < in->text->count; (*at)++) {
         if (is_comment(in->text->line[*at])) continue;
@@ -58,7 +56,7 @@ static bool find_header(Spectra *in, int *at)
                     "has no columns of wavelength, red, green and blue");
 }
 
-static bool read_row(Spectra *in, int at)
+static bool read_row(PrimariesFile *in, int at)
 {
     const char *place = text_place(at, in->set->arena);
     if (text_cells(in->text->line[at], in->dialect.delimiter, in->cell) != in->cells)
@@ -84,13 +82,12 @@ static bool read_row(Spectra *in, int at)
     return true;
 }
 
-bool import_primaries(const char *file, const TextDeclaration *declared, ImportSet *set,
-                      Error *err)
+bool primaries_read(const char *file, const TextOptions *options, ImportSet *set, Error *err)
 {
     TextFile text;
     int      at;
-    if (!text_file_read(file, declared->encoding, set->arena, &text, err)) return false;
-    Spectra in = {.text = &text, .dialect = declared->dialect, .set = set, .err = err,
+    if (!text_file_read(file, options->encoding, set->arena, &text, err)) return false;
+    PrimariesFile in = {.text = &text, .dialect = options->dialect, .set = set, .err = err,
                   .cell = ARENA_NEW(set->arena, TextCell, TEXT_CELLS_MAX)};
     if (!text_find_dialect(&text, 0, *set->arena, &in.dialect, err)) return false;
     if (!find_header(&in, &at)) return false;

@@ -4,6 +4,7 @@
 
 #include "harness.h"
 #include "import/import_request.h"
+#include "import/primaries.h"
 #include "panel/set/measurement.h"
 
 #define FILES_MAX 8
@@ -94,7 +95,7 @@ void fuzz_import_any(const uint8_t *data, size_t size, Arena *arena)
 static void declare_line(ImportRequest *request, char *line)
 {
     Error err = {0};
-    TextDeclaration *text = &request->text;
+    TextOptions *text = &request->text;
     char *value = strchr(line, ' ');
     if (!value) return;
     *value++ = 0;
@@ -108,7 +109,7 @@ static void declare_line(ImportRequest *request, char *line)
     } else if (!strcmp(line, "set")) {
         request->is_isotropic = strchr(value, 'i') != NULL;
         request->black_is_zero = strchr(value, 'b') != NULL;
-    } else if (!text_declare(text, line, value, &err)) {
+    } else if (!text_options_set(text, line, value, &err)) {
         fuzz_claim_refusal(&err);
     }
 }
@@ -162,9 +163,9 @@ void fuzz_primaries(const uint8_t *data, size_t size, Arena *arena)
 {
     Error            err = {0};
     ImportSet        set = import_set(arena);
-    TextDeclaration *declared = ARENA_NEW(arena, TextDeclaration, 1);
+    TextOptions *options = ARENA_NEW(arena, TextOptions, 1);
     const char      *path = fuzz_file("primaries.csv", data, size, arena);
-    if (!import_primaries(path, declared, &set, &err)) {
+    if (!primaries_read(path, options, &set, &err)) {
         fuzz_claim_refusal(&err);
         return;
     }

@@ -92,8 +92,8 @@ void fuzz_declaration(const uint8_t *data, size_t size, Arena *arena)
         return;
     }
     fuzz_claim(request->text.role_count <= TEXT_ENTRIES_MAX, "roles fit");
-    import_is_skipped(request, "lab/white_255.csv");
-    text_declared_role(&request->text, "lab/white_255.csv");
+    import_request_skips(request, "lab/white_255.csv");
+    text_options_role(&request->text, "lab/white_255.csv");
 }
 
 /* A table of directions: luminances, and a reflection of three wavelengths. */

@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "check.h"
 #include "import/import_request.h"
+#include "import/primaries.h"
 #include "panel/set/measurement.h"
 
 typedef struct Lab {
@@ -40,13 +41,13 @@ static inline void lab_write(Lab *lab, const char *name, const char *text)
 
 static inline void lab_declare(Lab *lab, const char *key, const char *value)
 {
-    if (!text_declare(&lab->request->text, key, value, &lab->err))
+    if (!text_options_set(&lab->request->text, key, value, &lab->err))
         fail_msg("%s", lab->err.text);
 }
 
 static inline void lab_role(Lab *lab, const char *pattern, const char *role)
 {
-    TextDeclaration *text = &lab->request->text;
+    TextOptions *text = &lab->request->text;
     text->role[text->role_count++] = (RoleRow){pattern, role};
 }
 

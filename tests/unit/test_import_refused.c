@@ -115,12 +115,12 @@ static void contradictions_of_file_and_user(void **state)
         {"unit", "fL", "white.csv: line 2: says cd/m2, and --unit says otherwise"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Lab *lab = *state;
-        lab->request->text = (TextDeclaration){.layout = LAYOUT_AUTO};
+        lab->request->text = (TextOptions){.layout = LAYOUT_AUTO};
         lab_declare(lab, cases[i].key, cases[i].value);
         refuse(lab, SAYS, cases[i].message);
     }
     Lab *lab = *state;
-    lab->request->text = (TextDeclaration){.layout = LAYOUT_AUTO};
+    lab->request->text = (TextOptions){.layout = LAYOUT_AUTO};
     lab_declare(lab, "azimuth_zero", "top");
     lab_declare(lab, "azimuth_sense", "cw");
     lab_declare(lab, "unit", "nit");
@@ -135,11 +135,11 @@ static void contradictions_of_file_and_user(void **state)
 static void declarations_that_are_wrong(void **state)
 {
     Lab *lab = *state;
-    TextDeclaration *text = &lab->request->text;
-    assert_false(text_declare(text, "azimuth_zreo", "top", &lab->err));
+    TextOptions *text = &lab->request->text;
+    assert_false(text_options_set(text, "azimuth_zreo", "top", &lab->err));
     assert_string_equal(lab->err.text, "'azimuth_zreo' is no key of a declaration; the nearest "
                                        "one is 'azimuth_zero'");
-    assert_false(text_declare(text, "azimuth_zero", "north", &lab->err));
+    assert_false(text_options_set(text, "azimuth_zero", "north", &lab->err));
     assert_string_equal(lab->err.text, "azimuth_zero is 'north', wanted "
                                        "right|top|left|bottom|DEG");
     static const char *const wrong[][2] = {{"delimiter", "|"}, {"unit", "lux"}, {"table", ""},
@@ -147,9 +147,9 @@ static void declarations_that_are_wrong(void **state)
         {"quantity", "u"}, {"white_reflectance", "0"}, {"encoding", "ebcdic"}, {"columns", ""},
         {"light_azimuth", "x"}, {"angles", "type C"}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
-        if (text_declare(text, wrong[i][0], wrong[i][1], &lab->err))
+        if (text_options_set(text, wrong[i][0], wrong[i][1], &lab->err))
             fail_msg("%s = '%s' is taken", wrong[i][0], wrong[i][1]);
-    lab->request->text = (TextDeclaration){.layout = LAYOUT_AUTO};
+    lab->request->text = (TextOptions){.layout = LAYOUT_AUTO};
     lab_declare(lab, "columns", "theta,phi,X,Y,Q");
     refuse(lab, "0,0,1,2,3\n",
            "--columns: 'Q' is no name of a column, wanted theta, phi, X, Y, Z, L, x, y, u', "

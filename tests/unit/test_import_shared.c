@@ -195,7 +195,7 @@ static void every_primaries_file_is_read(void **state)
         const char *path = arena_format(&lab->arena, "%s/%s_primaries.csv", DISPLAY, names[i]);
         if (!file_exists(path)) skip();
         lab->set = import_set(&lab->arena);
-        if (!import_primaries(path, &lab->request->text, &lab->set, &lab->err))
+        if (!primaries_read(path, &lab->request->text, &lab->set, &lab->err))
             fail_msg("%s", lab->err.text);
         assert_near(lab->set.spectra.nm[0], 380, 0);
     }

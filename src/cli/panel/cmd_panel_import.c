@@ -147,7 +147,7 @@ static int list_options(Words *words, Option *option, Arena *arena)
     return count;
 }
 
-static bool add_roles(const CliTexts *roles, Arena *arena, TextDeclaration *text, Error *err)
+static bool add_roles(const CliTexts *roles, Arena *arena, TextOptions *text, Error *err)
 {
     double most = text->level_max > 0 ? text->level_max : 255;
     for (int i = 0; i < roles->count; i++) {
@@ -163,13 +163,13 @@ static bool add_roles(const CliTexts *roles, Arena *arena, TextDeclaration *text
     return true;
 }
 
-static bool add_keys(const Words *words, TextDeclaration *text, Error *err)
+static bool add_keys(const Words *words, TextOptions *text, Error *err)
 {
     for (int i = 0; i < text_key_count; i++) {
         const char *key = text_keys[i].key;
-        if (words->key[i] && !text_declare(text, key, words->key[i], err)) return false;
+        if (words->key[i] && !text_options_set(text, key, words->key[i], err)) return false;
         for (int k = 0; k < words->list[i].count; k++)
-            if (!text_declare(text, key, words->list[i].list[k], err)) return false;
+            if (!text_options_set(text, key, words->list[i].list[k], err)) return false;
     }
     return true;
 }

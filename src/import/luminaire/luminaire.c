@@ -6,7 +6,7 @@
 #include "base/file.h"
 #include "base/mathd.h"
 #include "base/units.h"
-#include "import/text/import_text.h"
+#include "import/text/text_options.h"
 
 #define ROUND_PLANES 36
 
@@ -140,7 +140,7 @@ static bool find_area(const Luminaire *in, const ImportOptions *options, double 
 
 static double phi_of(const ImportOptions *options, double c_deg)
 {
-    const TextDeclaration *d = options->text;
+    const TextOptions *d = options->text;
     double zero = d && d->has_azimuth_zero ? d->azimuth_zero_deg : 0;
     int    sense = d && d->azimuth_sense ? d->azimuth_sense : -1;
     return turned(zero + sense * c_deg);

@@ -99,13 +99,13 @@ bool import_write(const ImportSet *set, const char *manifest, Error *err);
 /* The file's name of a table in the set: "emission/red_031.csv", "brdf/i30_a180.csv". */
 const char *import_table_file(const ImportSet *set, const ImportTable *table, Arena *arena);
 
-/* ---- what the user declared -------------------------------------------------------------- */
+/* ---- what the user says ------------------------------------------------------------------ */
 
 typedef struct ImportOptions {
     const char *format;      /* name of an importer; NULL: told by the file itself */
     double      wavelength_nm; /* for files that do not say; 0: not given */
     double      area_mm[2];  /* luminous area for luminaire files; 0: the file's */
-    const void *text;        /* the text importer's declaration (import_text.h); NULL: none */
+    const struct TextOptions *text; /* of text tables (text_options.h); NULL: none */
 } ImportOptions;
 
 /* One importer: `recognises` looks at the first bytes and the name, `read` adds the tables. */

@@ -1,11 +1,11 @@
-/* Text of any layout: columns or matrices, as the user and the file declare it. */
-#include "import/text/import_text.h"
-
+/* Text of any layout: columns or matrices, as the user and the file say it. */
 #include <math.h>
 #include <string.h>
 
 #include "base/file.h"
-#include "import/text/text_reader.h"
+#include "import/text/text_conventions.h"
+#include "import/text/text_scan.h"
+#include "import/text/text_table.h"
 
 /* ---- what the file is -------------------------------------------------------------------- */
 
@@ -28,9 +28,9 @@ static bool fits_kind(const TextReader *in, const Role *role)
     return role->source == IMPORT_DARK || is_light == in->is_reflection;
 }
 
-static bool declared_role(TextReader *in, const char *text)
+static bool role_from_option(TextReader *in, const char *text)
 {
-    double most = in->declared->level_max > 0 ? in->declared->level_max : 255;
+    double most = in->options->level_max > 0 ? in->options->level_max : 255;
     if (!role_parse(text, most, &in->role, in->err)) return false;
     if (!fits_kind(in, &in->role))
         return error_at(in->err, ERROR_INPUT, in->file, "", "holds %s, and its role is '%s'",
@@ -53,52 +53,52 @@ static const char *name_without_ending(TextReader *in)
 }
 
 /* The role of a reflection table whose own text says the incidence. */
-static Role said_light(const TextReader *in)
+static Role stated_light(const TextReader *in)
 {
-    return (Role){.is_told = in->said.has_incidence, .source = IMPORT_REFLECTION,
-                  .has_incidence = in->said.has_incidence,
-                  .incidence_deg = in->said.incidence_deg,
-                  .wavelength_nm = in->said.wavelength_nm};
+    return (Role){.is_told = in->metadata.has_incidence, .source = IMPORT_REFLECTION,
+                  .has_incidence = in->metadata.has_incidence,
+                  .incidence_deg = in->metadata.incidence_deg,
+                  .wavelength_nm = in->metadata.wavelength_nm};
 }
 
-static bool told_twice(TextReader *in, const Role *said, const Role *named)
+static bool told_twice(TextReader *in, const Role *stated, const Role *named)
 {
     Arena *arena = in->set->arena;
-    return error_at(in->err, ERROR_INPUT, in->file, in->said.words_line >= 0 ?
-                    text_place(in->said.words_line, arena) : "",
+    return error_at(in->err, ERROR_INPUT, in->file, in->metadata.words_line >= 0 ?
+                    text_place(in->metadata.words_line, arena) : "",
                     "is %s by its contents and %s by its name — say which with --role %s=...",
-                    role_text(said, arena), role_text(named, arena), path_name(in->file));
+                    role_text(stated, arena), role_text(named, arena), path_name(in->file));
 }
 
-bool text_find_role(TextReader *in)
+static bool find_role(TextReader *in)
 {
-    double most = in->declared->level_max > 0 ? in->declared->level_max : 255;
+    double most = in->options->level_max > 0 ? in->options->level_max : 255;
     bool   is_mixed[2] = {false, false};
     bool   by_column = in->is_reflection ? in->column[QUANTITY_INCIDENCE] >= 0
                                          : in->column[QUANTITY_CODE_R] >= 0;
-    const char *text = text_declared_role(in->declared, in->file);
-    if (text) return declared_role(in, text);
-    Role said = in->is_reflection ? said_light(in)
-                                  : role_from_words(in->said.words, most, &is_mixed[0]);
+    const char *text = text_options_role(in->options, in->file);
+    if (text) return role_from_option(in, text);
+    Role stated = in->is_reflection ? stated_light(in)
+                                  : role_from_words(in->metadata.words, most, &is_mixed[0]);
     Role named = role_from_words(name_without_ending(in), most, &is_mixed[1]);
     if (named.is_told && !fits_kind(in, &named)) named = (Role){.is_told = false};
-    in->role = said.is_told ? said : named;
+    in->role = stated.is_told ? stated : named;
     if (by_column) {
         in->role.source = IMPORT_REFLECTION;
         return true;
     }
-    if (said.is_told && named.is_told && !role_agrees(&said, &named))
-        return told_twice(in, &said, &named);
-    if (said.is_told && named.is_told) { /* each may know what the other leaves open */
-        if (!said.has_level && named.has_level) in->role.level = named.level;
-        if (!said.component) in->role.component = named.component;
-        if (!said.has_azimuth && named.has_azimuth) {
+    if (stated.is_told && named.is_told && !role_agrees(&stated, &named))
+        return told_twice(in, &stated, &named);
+    if (stated.is_told && named.is_told) { /* each may know what the other leaves open */
+        if (!stated.has_level && named.has_level) in->role.level = named.level;
+        if (!stated.component) in->role.component = named.component;
+        if (!stated.has_azimuth && named.has_azimuth) {
             in->role.has_azimuth = true;
             in->role.azimuth_deg = named.azimuth_deg;
         }
-        if (!(said.wavelength_nm > 0)) in->role.wavelength_nm = named.wavelength_nm;
+        if (!(stated.wavelength_nm > 0)) in->role.wavelength_nm = named.wavelength_nm;
     }
-    return in->role.is_told || not_told(in, is_mixed[0] || (!said.is_told && is_mixed[1]));
+    return in->role.is_told || not_told(in, is_mixed[0] || (!stated.is_told && is_mixed[1]));
 }
 
 /* ---- columns ----------------------------------------------------------------------------- */
@@ -106,7 +106,7 @@ bool text_find_role(TextReader *in)
 static void index_columns(TextReader *in)
 {
     for (int q = 0; q < QUANTITY_COUNT; q++) in->column[q] = -1;
-    for (int c = in->raw->columns - 1; c >= 0; c--)
+    for (int c = in->raw->rows.width - 1; c >= 0; c--)
         in->column[in->raw->column[c].name.quantity] = c;
 }
 
@@ -116,9 +116,9 @@ static bool name_unlabelled(TextReader *in)
     int c = in->column[QUANTITY_NONE];
     if (c < 0) return true;
     ColumnName *name = &in->raw->column[c].name;
-    const char *told = in->declared->quantity,
-               *role = text_declared_role(in->declared, in->file);
-    double most = in->declared->level_max > 0 ? in->declared->level_max : 255;
+    const char *told = in->options->quantity,
+               *role = text_options_role(in->options, in->file);
+    double most = in->options->level_max > 0 ? in->options->level_max : 255;
     bool   is_mixed;
     Role   named = role_from_words(name_without_ending(in), most, &is_mixed);
     if (role && !role_parse(role, most, &named, in->err)) return false;
@@ -156,7 +156,7 @@ static bool find_kind(TextReader *in)
         return error_at(in->err, ERROR_INPUT, in->file, "header line",
                         "has %d of the three columns R, G and B", codes);
     in->is_section = in->column[QUANTITY_THETA] >= 0 && in->column[QUANTITY_PHI] < 0;
-    if (in->is_section && !text_declared_section(in->declared, in->file, &in->section_phi))
+    if (in->is_section && !text_options_section(in->options, in->file, &in->section_phi))
         return error_at(in->err, ERROR_INPUT, in->file, "header line",
                         "has theta but no azimuth — say the section's azimuth with --section "
                         "%s=DEG", path_name(in->file));
@@ -168,12 +168,12 @@ static bool find_kind(TextReader *in)
                     "horizontal and a vertical angle" : "no pair of angles");
 }
 
-static bool check_sayings(TextReader *in)
+static bool check_wavelength(TextReader *in)
 {
-    double told = in->options->wavelength_nm, said = in->said.wavelength_nm;
-    if (told > 0 && said > 0 && fabs(told - said) > 1e-3)
+    double told = in->import->wavelength_nm, stated = in->metadata.wavelength_nm;
+    if (told > 0 && stated > 0 && fabs(told - stated) > 1e-3)
         return error_at(in->err, ERROR_INPUT, in->file, "",
-                        "says a wavelength of %g nm, and --wavelength says %g", said, told);
+                        "says a wavelength of %g nm, and --wavelength says %g", stated, told);
     return true;
 }
 
@@ -181,27 +181,27 @@ static bool check_sayings(TextReader *in)
 
 static void note_names(TextReader *in)
 {
-    if (in->said.panel && !in->set->panel) in->set->panel = in->said.panel;
-    if (in->said.instrument && !in->set->instrument) in->set->instrument = in->said.instrument;
-    if (in->said.unused_columns)
+    if (!in->set->panel) in->set->panel = in->metadata.panel;
+    if (!in->set->instrument) in->set->instrument = in->metadata.instrument;
+    if (in->metadata.unused_columns)
         import_note(in->set, "%s: %d columns with other names are not used",
-                    path_name(in->file), in->said.unused_columns);
+                    path_name(in->file), in->metadata.unused_columns);
 }
 
 static bool read_text(const char *file, const ImportOptions *options, ImportSet *set,
                       Error *err)
 {
-    static const TextDeclaration nothing;
-    TextReader in = {.file = file, .options = options, .set = set, .err = err,
-                     .declared = options->text ? options->text : &nothing,
-                     .raw = ARENA_NEW(set->arena, RawTable, 1)};
-    if (!text_scan(file, in.declared, set->arena, in.raw, &in.said, err)) return false;
+    static const TextOptions nothing;
+    TextReader in = {.file = file, .import = options, .set = set, .err = err,
+                     .options = options->text ? options->text : &nothing,
+                     .raw = ARENA_NEW(set->arena, NamedRows, 1)};
+    if (!text_scan(file, in.options, set->arena, in.raw, &in.metadata, err)) return false;
     index_columns(&in);
-    if (!name_unlabelled(&in) || !find_kind(&in) || !check_sayings(&in) ||
-        !text_find_role(&in) || !text_settle(&in))
+    if (!name_unlabelled(&in) || !find_kind(&in) || !check_wavelength(&in) ||
+        !find_role(&in) || !text_conventions_find(&in))
         return false;
     note_names(&in);
-    return text_add_tables(&in);
+    return text_table_add(&in);
 }
 
 /* Text holds no zero bytes but as half of UTF-16's; DOS ends it with a control-Z. */

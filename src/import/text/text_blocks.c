@@ -4,8 +4,6 @@
 #include <string.h>
 #include <strings.h>
 
-#include "import/text/text_scan.h"
-
 /* ---- labels ------------------------------------------------------------------------------ */
 
 static bool is_label_key(TextCell cell)
@@ -74,26 +72,13 @@ bool text_blocks_begin(TextBlocks *blocks, const TextCell *cell, int count, char
 double *text_blocks_row(TextBlocks *blocks, int line, Error *err)
 {
     TextBlock *block = &blocks->block[blocks->count - 1];
-    size_t     width = (size_t)blocks->across + 1;
-    if ((double)block->down * (double)blocks->across >= IMPORT_ROWS_MAX) {
+    if ((double)block->down.count * (double)blocks->across >= IMPORT_ROWS_MAX) {
         error_at(err, ERROR_INPUT, blocks->text->file, text_place(line, blocks->arena),
                  "is one row too many, wanted at most %d directions", IMPORT_ROWS_MAX);
         return NULL;
     }
-    if (block->down == block->capacity) {
-        int     capacity = block->capacity ? 2 * block->capacity : 128;
-        double *cell = ARENA_NEW(blocks->arena, double, (size_t)capacity * width);
-        int    *row_line = ARENA_NEW(blocks->arena, int, capacity);
-        if (block->down) {
-            memcpy(cell, block->cell, sizeof *cell * width * (size_t)block->down);
-            memcpy(row_line, block->row_line, sizeof *row_line * (size_t)block->down);
-        }
-        block->cell = cell;
-        block->row_line = row_line;
-        block->capacity = capacity;
-    }
-    block->row_line[block->down] = line;
-    return block->cell + (size_t)block->down++ * width;
+    block->down.width = blocks->across + 1;
+    return text_rows_add(&block->down, line, blocks->arena);
 }
 
 /* ---- which angle runs down --------------------------------------------------------------- */
@@ -110,8 +95,8 @@ static void corner_names(const char *corner, ColumnName name[2])
 static double largest_down(const TextBlock *block, int across)
 {
     double most = 0;
-    for (int i = 0; i < block->down; i++)
-        most = fmax(most, fabs(block->cell[(size_t)i * (size_t)(across + 1)]));
+    for (int i = 0; i < block->down.count; i++)
+        most = fmax(most, fabs(block->down.cell[(size_t)i * (size_t)(across + 1)]));
     return most;
 }
 
@@ -161,7 +146,7 @@ static bool choose_layout(const TextBlocks *blocks, const ColumnName name[2], Ta
 {
     const TextBlock *block = &blocks->block[0];
     const char *at = text_place(block->line, blocks->arena);
-    TableLayout told = blocks->declared->layout, found = corner_layout(name);
+    TableLayout told = blocks->options->layout, found = corner_layout(name);
     if (told != LAYOUT_AUTO && found != LAYOUT_AUTO && told != found)
         return error_at(err, ERROR_INPUT, blocks->text->file, at,
                         "the corner '%s' says that %s runs down, and --table says the other",
@@ -179,17 +164,17 @@ static bool same_grid(const TextBlocks *blocks, const TextBlock *block, Error *e
 {
     const TextBlock *first = &blocks->block[0];
     size_t width = (size_t)blocks->across + 1;
-    bool   same = block->down == first->down &&
+    bool   same = block->down.count == first->down.count &&
                   !memcmp(block->angle, first->angle, sizeof(double) * (width - 1));
-    for (size_t i = 0; same && i < (size_t)block->down; i++)
-        same = block->cell[i * width] == first->cell[i * width];
+    for (size_t i = 0; same && i < (size_t)block->down.count; i++)
+        same = block->down.cell[i * width] == first->down.cell[i * width];
     return same || error_at(err, ERROR_INPUT, blocks->text->file,
                             text_place(block->line, blocks->arena),
                             "begins a matrix over other angles than the one of %s, wanted one "
                             "grid in a file", text_place(first->line, blocks->arena));
 }
 
-static bool add_quantities(const TextBlocks *blocks, RawTable *out, Error *err)
+static bool add_quantities(const TextBlocks *blocks, NamedRows *out, Error *err)
 {
     for (int b = 0; b < blocks->count; b++) {
         const TextBlock *block = &blocks->block[b];
@@ -202,53 +187,53 @@ static bool add_quantities(const TextBlocks *blocks, RawTable *out, Error *err)
                                 "begins a matrix of the same quantity (%s) as %s — label each, "
                                 "as [X], [Y], [Z] or [550 nm]", block->label ? block->label :
                                 "no label", text_place(blocks->block[k].line, blocks->arena));
-        out->column[out->columns++] =
-            (RawColumn){block->name, block->label ? block->label : "", 0};
+        out->column[out->rows.width++] =
+            (NamedColumn){block->name, block->label ? block->label : "", 0};
     }
     return true;
 }
 
-static void fill_rows(const TextBlocks *blocks, bool first_down, RawTable *out)
+static void fill_rows(const TextBlocks *blocks, bool first_down, NamedRows *out)
 {
     const TextBlock *first = &blocks->block[0];
-    size_t width = (size_t)blocks->across + 1, columns = (size_t)out->columns;
-    for (int i = 0; i < first->down; i++)
+    size_t width = (size_t)blocks->across + 1, columns = (size_t)out->rows.width;
+    for (int i = 0; i < first->down.count; i++)
         for (int k = 0; k < blocks->across; k++) {
             size_t  at = (size_t)i * width;
-            double *row = out->cell + (size_t)out->rows * columns;
-            row[first_down ? 0 : 1] = first->cell[at];
+            double *row = out->rows.cell + (size_t)out->rows.count * columns;
+            row[first_down ? 0 : 1] = first->down.cell[at];
             row[first_down ? 1 : 0] = first->angle[k];
             for (int b = 0; b < blocks->count; b++)
-                row[2 + b] = blocks->block[b].cell[at + 1 + (size_t)k];
-            out->line[out->rows++] = first->row_line[i];
+                row[2 + b] = blocks->block[b].down.cell[at + 1 + (size_t)k];
+            out->rows.line[out->rows.count++] = first->down.line[i];
         }
 }
 
-bool text_blocks_finish(TextBlocks *blocks, RawTable *out, Error *err)
+bool text_blocks_finish(TextBlocks *blocks, NamedRows *out, Error *err)
 {
     ColumnName  corner[2];
     TableLayout layout;
     const TextBlock *first = &blocks->block[0];
     corner_names(first->corner, corner);
-    if (!first->down)
+    if (!first->down.count)
         return error_at(err, ERROR_INPUT, blocks->text->file,
                         text_place(first->line, blocks->arena), "is a matrix without rows");
     if (!choose_layout(blocks, corner, &layout, err)) return false;
     bool      is_pair = layout >= LAYOUT_HORIZONTAL_DOWN;
     bool      first_down = layout == LAYOUT_THETA_DOWN || layout == LAYOUT_HORIZONTAL_DOWN;
     AngleUnit angle = corner[0].angle != ANGLE_AUTO ? corner[0].angle : corner[1].angle;
-    out->columns = 2;
+    out->rows.width = 2;
     ColumnName name[2] = {
         {.quantity = is_pair ? QUANTITY_HORIZONTAL : QUANTITY_THETA, .angle = angle},
         {.quantity = is_pair ? QUANTITY_VERTICAL : QUANTITY_PHI, .angle = angle}};
-    for (int i = 0; i < 2; i++) out->column[i] = (RawColumn){name[i], "angle", 0};
+    for (int i = 0; i < 2; i++) out->column[i] = (NamedColumn){name[i], "angle", 0};
     if (!add_quantities(blocks, out, err)) return false;
-    size_t rows = (size_t)first->down * (size_t)blocks->across;
+    size_t rows = (size_t)first->down.count * (size_t)blocks->across;
     if (rows > IMPORT_ROWS_MAX)
         return error_at(err, ERROR_INPUT, blocks->text->file, "",
                         "has %zu directions, wanted at most %d", rows, IMPORT_ROWS_MAX);
-    out->cell = ARENA_NEW(blocks->arena, double, rows * (size_t)out->columns);
-    out->line = ARENA_NEW(blocks->arena, int, rows);
+    out->rows.cell = ARENA_NEW(blocks->arena, double, rows * (size_t)out->rows.width);
+    out->rows.line = ARENA_NEW(blocks->arena, int, rows);
     fill_rows(blocks, first_down, out);
     return true;
 }

@@ -3,7 +3,8 @@
  * Memory   the arena's. Threads: one scan each.
  */
 #pragma once
-#include "import/text/import_text.h"
+#include "import/text/text_options.h"
+#include "import/text/text_rows.h"
 
 #define TEXT_BLOCKS_MAX 512
 
@@ -12,20 +13,17 @@ typedef struct TextBlock {
     const char *label;
     const char *corner;
     int         line;  /* index of its head */
-    int         down, capacity;
     double     *angle; /* of the head: across */
-    double     *cell;  /* down x (1 + across) */
-    int        *row_line;
+    TextRows    down;  /* the angle of each, then its values */
 } TextBlock;
 
 typedef struct TextBlocks {
-    const TextFile        *text;
-    const TextDeclaration *declared;
+    const TextFile    *text;
+    const TextOptions *options;
     Arena      *arena;
     TextBlock  *block; /* TEXT_BLOCKS_MAX of them once there is one */
     int         count, across;
-    int         header_cells; /* of a list: the cells that a row has */
-    ColumnName  label;        /* for the block to come */
+    ColumnName  label; /* of the block to come */
     const char *label_text;
 } TextBlocks;
 
@@ -40,5 +38,4 @@ bool text_blocks_begin(TextBlocks *blocks, const TextCell *cell, int count, char
 double *text_blocks_row(TextBlocks *blocks, int line, Error *err);
 
 /* Checks that all blocks have one grid and makes rows of them: theta, phi, quantities. */
-struct RawTable;
-bool text_blocks_finish(TextBlocks *blocks, struct RawTable *out, Error *err);
+bool text_blocks_finish(TextBlocks *blocks, NamedRows *out, Error *err);

@@ -1,17 +1,16 @@
-/* Which units, angles and azimuths hold: what the file says and what the user declares must not
- * contradict each other. */
+#include "import/text/text_conventions.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "base/mathd.h"
 #include "base/units.h"
-#include "import/text/text_reader.h"
 
-static bool contradicts(TextReader *in, int line, const char *said, const char *option)
+static bool contradicts(TextReader *in, int line, const char *stated, const char *option)
 {
     return error_at(in->err, ERROR_INPUT, in->file,
                     line >= 0 ? text_place(line, in->set->arena) : "header line",
-                    "says %s, and %s says otherwise", said, option);
+                    "says %s, and %s says otherwise", stated, option);
 }
 
 /* ---- azimuths ---------------------------------------------------------------------------- */
@@ -22,22 +21,24 @@ static double turned(double degrees)
     return angle < 0 ? angle + 360 : angle;
 }
 
-static bool settle_azimuths(TextReader *in)
+static bool find_azimuths(TextReader *in)
 {
-    const TextDeclaration *d = in->declared;
-    const AzimuthWords    *said = &in->said.azimuth;
-    bool is_behind = said->has_side ? said->is_behind : d->seen_from < 0;
-    if (said->has_zero && d->has_azimuth_zero &&
-        fabs(turned(said->zero_deg) - turned(d->azimuth_zero_deg)) > 1e-6)
-        return contradicts(in, in->said.zero_line, "where azimuth 0 points", "--azimuth-zero");
-    if (said->has_sense && d->azimuth_sense && said->sense != d->azimuth_sense)
-        return contradicts(in, in->said.sense_line, "how azimuths run", "--azimuth-sense");
-    if (said->has_side && d->seen_from && said->is_behind != (d->seen_from < 0))
-        return contradicts(in, in->said.side_line, "from which side", "--azimuth-seen-from");
-    bool knows_zero = said->has_zero || d->has_azimuth_zero;
-    bool knows_sense = said->has_sense || d->azimuth_sense;
-    in->zero_deg = said->has_zero ? said->zero_deg : d->azimuth_zero_deg;
-    in->sense = said->has_sense ? said->sense : d->azimuth_sense < 0 ? -1 : 1;
+    const TextOptions *d = in->options;
+    const AzimuthWords    *stated = &in->metadata.azimuth;
+    bool is_behind = stated->has_side ? stated->is_behind : d->seen_from < 0;
+    if (stated->has_zero && d->has_azimuth_zero &&
+        fabs(turned(stated->zero_deg) - turned(d->azimuth_zero_deg)) > 1e-6)
+        return contradicts(in, in->metadata.zero_line, "where azimuth 0 points",
+                           "--azimuth-zero");
+    if (stated->has_sense && d->azimuth_sense && stated->sense != d->azimuth_sense)
+        return contradicts(in, in->metadata.sense_line, "how azimuths run", "--azimuth-sense");
+    if (stated->has_side && d->seen_from && stated->is_behind != (d->seen_from < 0))
+        return contradicts(in, in->metadata.side_line, "from which side",
+                           "--azimuth-seen-from");
+    bool knows_zero = stated->has_zero || d->has_azimuth_zero;
+    bool knows_sense = stated->has_sense || d->azimuth_sense;
+    in->zero_deg = stated->has_zero ? stated->zero_deg : d->azimuth_zero_deg;
+    in->sense = stated->has_sense ? stated->sense : d->azimuth_sense < 0 ? -1 : 1;
     if (is_behind) { /* left and right change places */
         in->zero_deg = 180 - in->zero_deg;
         in->sense = -in->sense;
@@ -51,7 +52,7 @@ static bool settle_azimuths(TextReader *in)
     return true;
 }
 
-double text_azimuth(const TextReader *in, double raw)
+double text_conventions_azimuth(const TextReader *in, double raw)
 {
     double degrees = in->is_radians ? degrees_from_radians(raw) : raw;
     return turned(in->zero_deg + in->sense * degrees);
@@ -62,19 +63,20 @@ double text_azimuth(const TextReader *in, double raw)
 static double largest(const TextReader *in, int column)
 {
     double most = 0;
-    size_t width = (size_t)in->raw->columns;
-    for (size_t i = 0; i < (size_t)in->raw->rows; i++)
-        most = fmax(most, fabs(in->raw->cell[i * width + (size_t)column]));
+    size_t width = (size_t)in->raw->rows.width;
+    for (size_t i = 0; i < (size_t)in->raw->rows.count; i++)
+        most = fmax(most, fabs(in->raw->rows.cell[i * width + (size_t)column]));
     return most;
 }
 
-static bool settle_angle_unit(TextReader *in, int column)
+static bool find_angle_unit(TextReader *in, int column)
 {
-    AngleUnit header = in->raw->column[column].name.angle, said = in->said.angle;
-    AngleUnit told = in->declared->angle_unit;
-    AngleUnit file = header != ANGLE_AUTO ? header : said;
+    AngleUnit header = in->raw->column[column].name.angle, stated = in->metadata.angle;
+    AngleUnit told = in->options->angle_unit;
+    AngleUnit file = header != ANGLE_AUTO ? header : stated;
     if (file != ANGLE_AUTO && told != ANGLE_AUTO && file != told)
-        return contradicts(in, in->said.angle_line, "the unit of its angles", "--angle-unit");
+        return contradicts(in, in->metadata.angle_line, "the unit of its angles",
+                           "--angle-unit");
     AngleUnit unit = file != ANGLE_AUTO ? file : told;
     double    most = largest(in, column);
     if (unit == ANGLE_AUTO && most > 0 && most <= 1.6)
@@ -85,10 +87,10 @@ static bool settle_angle_unit(TextReader *in, int column)
     return true;
 }
 
-static bool settle_angles(TextReader *in)
+static bool find_angles(TextReader *in)
 {
     bool      is_pair = in->column[QUANTITY_THETA] < 0;
-    AnglePair told = in->declared->angles;
+    AnglePair told = in->options->angles;
     int       column = in->column[is_pair ? QUANTITY_HORIZONTAL : QUANTITY_THETA];
     if (is_pair && (told == ANGLES_AUTO || told == ANGLES_POLAR))
         return error_at(in->err, ERROR_INPUT, in->file, "header line",
@@ -99,7 +101,7 @@ static bool settle_angles(TextReader *in)
                         "has theta and phi, and --angles declares a horizontal and a vertical "
                         "angle");
     in->angles = is_pair ? told : ANGLES_POLAR;
-    return settle_angle_unit(in, column);
+    return find_angle_unit(in, column);
 }
 
 /* Unit vector of two angles in radians, x right and y up as the file means them. */
@@ -125,19 +127,19 @@ static void pair_vector(AnglePair pair, double h, double v, double d[3])
     }
 }
 
-void text_direction(const TextReader *in, const double raw[2], double *theta_deg,
+void text_conventions_direction(const TextReader *in, const double raw[2], double *theta_deg,
                     double *phi_deg)
 {
     double to_degrees = in->is_radians ? 180 / PI : 1;
     if (in->angles == ANGLES_POLAR) {
         double theta = raw[0] * to_degrees;
         *theta_deg = fabs(theta);
-        *phi_deg = turned(text_azimuth(in, raw[1]) + (theta < 0 ? 180 : 0));
+        *phi_deg = turned(text_conventions_azimuth(in, raw[1]) + (theta < 0 ? 180 : 0));
         return;
     }
     double d[3], to_radians = in->is_radians ? 1 : PI / 180;
     pair_vector(in->angles, raw[0] * to_radians, raw[1] * to_radians, d);
-    if (in->declared->seen_from < 0) d[0] = -d[0];
+    if (in->options->seen_from < 0) d[0] = -d[0];
     *theta_deg = degrees_from_radians(atan2_d(hypot_d(d[0], d[1]), d[2]));
     *phi_deg = turned(degrees_from_radians(atan2_d(d[1], d[0])));
 }
@@ -158,7 +160,7 @@ static bool fits_kind(ValueUnit unit, bool is_reflection)
 static bool header_unit(TextReader *in, ValueUnit *out)
 {
     *out = UNIT_AUTO;
-    for (int c = 0; c < in->raw->columns; c++) {
+    for (int c = 0; c < in->raw->rows.width; c++) {
         ValueUnit unit = canonical(in->raw->column[c].name.unit);
         if (!fits_kind(unit, in->is_reflection)) continue;
         if (*out != UNIT_AUTO && *out != unit)
@@ -170,19 +172,21 @@ static bool header_unit(TextReader *in, ValueUnit *out)
     return true;
 }
 
-static bool settle_unit(TextReader *in)
+static bool find_unit(TextReader *in)
 {
-    ValueUnit header, said = canonical(in->said.unit), told = canonical(in->declared->unit);
+    ValueUnit header, stated = canonical(in->metadata.unit);
+    ValueUnit told = canonical(in->options->unit);
     if (!header_unit(in, &header)) return false;
-    if (!fits_kind(said, in->is_reflection)) said = UNIT_AUTO;
+    if (!fits_kind(stated, in->is_reflection)) stated = UNIT_AUTO;
     if (!fits_kind(told, in->is_reflection)) told = UNIT_AUTO;
-    ValueUnit file = header != UNIT_AUTO ? header : said;
-    if (header != UNIT_AUTO && said != UNIT_AUTO && header != said)
-        return contradicts(in, in->said.unit_line, value_unit_name(said), "the header line");
+    ValueUnit file = header != UNIT_AUTO ? header : stated;
+    if (header != UNIT_AUTO && stated != UNIT_AUTO && header != stated)
+        return contradicts(in, in->metadata.unit_line, value_unit_name(stated),
+                           "the header line");
     /* "brdf" heads values of any scattering unit in practice: there the user has the word */
-    bool is_loose = header == UNIT_BRDF && said == UNIT_AUTO;
+    bool is_loose = header == UNIT_BRDF && stated == UNIT_AUTO;
     if (file != UNIT_AUTO && told != UNIT_AUTO && file != told && !is_loose)
-        return contradicts(in, in->said.unit_line, value_unit_name(file), "--unit");
+        return contradicts(in, in->metadata.unit_line, value_unit_name(file), "--unit");
     in->unit = told != UNIT_AUTO ? told : file;
     if (in->unit != UNIT_AUTO) return true;
     in->unit = in->is_reflection ? UNIT_BRDF : UNIT_CD_M2;
@@ -192,7 +196,7 @@ static bool settle_unit(TextReader *in)
     return true;
 }
 
-bool text_settle(TextReader *in)
+bool text_conventions_find(TextReader *in)
 {
-    return settle_azimuths(in) && settle_angles(in) && settle_unit(in);
+    return find_azimuths(in) && find_angles(in) && find_unit(in);
 }

@@ -10,7 +10,6 @@
 
 #include "base/arena.h"
 #include "base/error.h"
-#include "base/file.h"
 
 typedef enum TextEncoding {
     ENCODING_AUTO, ENCODING_UTF8, ENCODING_LATIN1, ENCODING_UTF16LE, ENCODING_UTF16BE
@@ -31,10 +30,6 @@ typedef struct TextFile {
  * (UTF-16), then whether the bytes are UTF-8; else Latin-1. */
 bool text_file_read(const char *file, TextEncoding encoding, Arena *arena, TextFile *out,
                     Error *err);
-
-/* The same of bytes in memory. */
-bool text_decode(const char *file, FileBytes bytes, TextEncoding encoding, Arena *arena,
-                 TextFile *out, Error *err);
 
 /* "line 12". */
 const char *text_place(int line_index, Arena *arena);

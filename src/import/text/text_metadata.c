@@ -1,10 +1,9 @@
-/* What a file says of itself in the lines around its numbers. */
+#include "import/text/text_metadata.h"
+
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "import/text/text_scan.h"
 
 #define COUNT(list) (sizeof(list) / sizeof *(list))
 #define KEY_LENGTH 48
@@ -48,30 +47,30 @@ static bool value_number(const KeyValue *pair, double *out)
     return after != digits && *out >= -1e6 && *out <= 1e6;
 }
 
-static void said_azimuth(TextSaid *said, TextLine line, int index)
+static void read_azimuth(TextMetadata *metadata, TextLine line, int index)
 {
     bool about = line_has(line, "azim") || line_has(line, "phi") ||
                  line_has(line, "clockwise") || line_has(line, "orientation");
     if (!about) return;
     AzimuthWords words = azimuth_words(line);
     if (words.has_zero) {
-        said->azimuth.has_zero = true;
-        said->azimuth.zero_deg = words.zero_deg;
-        said->zero_line = index;
+        metadata->azimuth.has_zero = true;
+        metadata->azimuth.zero_deg = words.zero_deg;
+        metadata->zero_line = index;
     }
     if (words.has_sense) {
-        said->azimuth.has_sense = true;
-        said->azimuth.sense = words.sense;
-        said->sense_line = index;
+        metadata->azimuth.has_sense = true;
+        metadata->azimuth.sense = words.sense;
+        metadata->sense_line = index;
     }
     if (words.has_side) {
-        said->azimuth.has_side = true;
-        said->azimuth.is_behind = words.is_behind;
-        said->side_line = index;
+        metadata->azimuth.has_side = true;
+        metadata->azimuth.is_behind = words.is_behind;
+        metadata->side_line = index;
     }
 }
 
-static void said_units(TextSaid *said, const KeyValue *pair, int index)
+static void read_units(TextMetadata *metadata, const KeyValue *pair, int index)
 {
     static const char *const unit_keys[] = {"unit", "units", "einheit", "valueunit",
                                             "luminanceunit"};
@@ -80,65 +79,71 @@ static void said_units(TextSaid *said, const KeyValue *pair, int index)
     if (key_is(pair, unit_keys, COUNT(unit_keys)) || !pair->key[0]) { /* or the unit alone */
         ValueUnit unit = value_unit((TextCell){pair->value.text, pair->value.length});
         if (unit != UNIT_AUTO) {
-            said->unit = unit;
-            said->unit_line = index;
+            metadata->unit = unit;
+            metadata->unit_line = index;
         }
     }
     if (key_is(pair, angle_keys, COUNT(angle_keys))) {
         AngleUnit unit = line_has(pair->value, "rad") ? ANGLE_RADIANS
                          : line_has(pair->value, "deg") ? ANGLE_DEGREES : ANGLE_AUTO;
         if (unit != ANGLE_AUTO) {
-            said->angle = unit;
-            said->angle_line = index;
+            metadata->angle = unit;
+            metadata->angle_line = index;
         }
     }
 }
 
-static void said_pattern(TextSaid *said, const KeyValue *pair, int index)
+static void read_pattern(TextMetadata *metadata, const KeyValue *pair, int index)
 {
     static const char *const keys[] = {"sample", "pattern", "testpattern", "colour", "color",
         "farbe", "muster", "stimulus", "content", "image", "primary", "level", "greylevel",
         "graylevel", "grey", "gray", "code", "rgb"};
     if (!key_is(pair, keys, COUNT(keys))) return;
-    size_t length = strlen(said->words);
-    snprintf(said->words + length, sizeof said->words - length, "%s%.*s", length ? " " : "",
-             pair->value.length, pair->value.text);
-    said->words_line = index;
+    size_t length = strlen(metadata->words);
+    snprintf(metadata->words + length, sizeof metadata->words - length, "%s%.*s",
+             length ? " " : "", pair->value.length, pair->value.text);
+    metadata->words_line = index;
 }
 
-static void said_light(TextSaid *said, const KeyValue *pair)
+static void read_light(TextMetadata *metadata, const KeyValue *pair)
 {
     static const char *const incidence[] = {"incidence", "angleofincidence", "incidenceangle",
         "thetai", "aoi", "thetain", "incidencedeg"};
     static const char *const wavelength[] = {"wavelength", "wavelengthnm", "lambda"};
     double number;
     if (key_is(pair, incidence, COUNT(incidence)) && value_number(pair, &number)) {
-        said->has_incidence = true;
-        said->incidence_deg = number;
+        metadata->has_incidence = true;
+        metadata->incidence_deg = number;
     }
     if (key_is(pair, wavelength, COUNT(wavelength)) && value_number(pair, &number) &&
         number >= 100 && number <= 20000)
-        said->wavelength_nm = number;
+        metadata->wavelength_nm = number;
 }
 
-static void said_names(TextSaid *said, const KeyValue *pair, Arena *arena)
+static void read_names(TextMetadata *metadata, const KeyValue *pair, Arena *arena)
 {
     static const char *const panel[] = {"panel", "display", "device", "dut", "model"};
     static const char *const instrument[] = {"instrument", "messger\xC3\xA4t", "conoscope"};
     if (pair->value.length < 1 || pair->value.length > 200) return;
     char *value = arena_string(arena, pair->value.text, (size_t)pair->value.length);
-    if (key_is(pair, panel, COUNT(panel)) && !said->panel) said->panel = value;
-    if (key_is(pair, instrument, COUNT(instrument)) && !said->instrument)
-        said->instrument = value;
+    if (key_is(pair, panel, COUNT(panel)) && !metadata->panel) metadata->panel = value;
+    if (key_is(pair, instrument, COUNT(instrument)) && !metadata->instrument)
+        metadata->instrument = value;
 }
 
-void text_said_line(TextSaid *said, TextLine line, int index, Arena *arena)
+TextMetadata text_metadata(void)
+{
+    return (TextMetadata){.zero_line = -1, .sense_line = -1, .side_line = -1, .unit_line = -1,
+                          .angle_line = -1, .words_line = -1};
+}
+
+void text_metadata_read_line(TextMetadata *metadata, TextLine line, int index, Arena *arena)
 {
     KeyValue pair = cut_key(line);
-    said_azimuth(said, line, index);
-    said_units(said, &pair, index);
+    read_azimuth(metadata, line, index);
+    read_units(metadata, &pair, index);
     if (!pair.key[0]) return;
-    said_pattern(said, &pair, index);
-    said_light(said, &pair);
-    said_names(said, &pair, arena);
+    read_pattern(metadata, &pair, index);
+    read_light(metadata, &pair);
+    read_names(metadata, &pair, arena);
 }

@@ -1,11 +1,11 @@
-/* One key of a declaration, from the command line or from a file. */
+#include "import/text/text_options.h"
+
 #include <fnmatch.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/file.h"
-#include "import/text/import_text.h"
 #include "text/json_view.h"
 #include "text/nearest_word.h"
 
@@ -92,26 +92,26 @@ static bool section_azimuth(const char *value, size_t *pattern_length, double *p
     return true;
 }
 
-bool text_declared_section(const TextDeclaration *declared, const char *file, double *phi)
+bool text_options_section(const TextOptions *options, const char *file, double *phi)
 {
-    for (int i = declared->section.count - 1; i >= 0; i--) {
+    for (int i = options->section.count - 1; i >= 0; i--) {
         char   pattern[512];
         size_t length = 0;
-        if (!section_azimuth(declared->section.text[i], &length, phi)) continue;
-        snprintf(pattern, sizeof pattern, "%.*s", (int)length, declared->section.text[i]);
+        if (!section_azimuth(options->section.text[i], &length, phi)) continue;
+        snprintf(pattern, sizeof pattern, "%.*s", (int)length, options->section.text[i]);
         if (!fnmatch(pattern, file, 0) || !fnmatch(pattern, path_name(file), 0)) return true;
     }
     return false;
 }
 
-static bool set_section(TextDeclaration *d, const char *value)
+static bool set_section(TextOptions *d, const char *value)
 {
     size_t length;
     double phi;
     return section_azimuth(value, &length, &phi) && add_entry(&d->section, value);
 }
 
-static bool set_azimuth_zero(TextDeclaration *d, const char *value)
+static bool set_azimuth_zero(TextOptions *d, const char *value)
 {
     static const double sides[] = {0, 90, 180, 270};
     int side = choice_of("right|top|left|bottom", value);
@@ -120,14 +120,14 @@ static bool set_azimuth_zero(TextDeclaration *d, const char *value)
     return d->has_azimuth_zero;
 }
 
-static bool set_unit(TextDeclaration *d, const char *value)
+static bool set_unit(TextOptions *d, const char *value)
 {
     d->unit = value_unit((TextCell){value, (int)strlen(value)});
     if (!strcmp(value, "brdf-cos")) d->unit = UNIT_BRDF_COS;
     return d->unit != UNIT_AUTO;
 }
 
-static bool set_quantity(TextDeclaration *d, const char *value)
+static bool set_quantity(TextOptions *d, const char *value)
 {
     ColumnName name = column_name((TextCell){value, (int)strlen(value)});
     d->quantity = value;
@@ -143,7 +143,7 @@ static bool set_count(int *out, const char *value, double most)
 }
 
 /* Keys with a choice: 0 when the value is none of them. */
-static bool set_choice(TextDeclaration *d, const TextKey *key, const char *value)
+static bool set_choice(TextOptions *d, const TextKey *key, const char *value)
 {
     static const char delimiters[] = ",;\t ", decimals[] = ".,";
     int choice = choice_of(key->values, value);
@@ -159,7 +159,7 @@ static bool set_choice(TextDeclaration *d, const TextKey *key, const char *value
     return true;
 }
 
-static bool set_key(TextDeclaration *d, const TextKey *key, const char *value)
+static bool set_key(TextOptions *d, const TextKey *key, const char *value)
 {
     const char *name = key->key;
     if (!strcmp(name, "columns")) return d->columns = value, *value != 0;
@@ -178,16 +178,16 @@ static bool set_key(TextDeclaration *d, const TextKey *key, const char *value)
     return set_choice(d, key, value);
 }
 
-bool text_declare(TextDeclaration *declaration, const char *key, const char *value, Error *err)
+bool text_options_set(TextOptions *options, const char *key, const char *value, Error *err)
 {
     const TextKey *row = key_named(key, err);
-    return row && (set_key(declaration, row, value) || bad_value(row, value, err));
+    return row && (set_key(options, row, value) || bad_value(row, value, err));
 }
 
-const char *text_declared_role(const TextDeclaration *declaration, const char *file)
+const char *text_options_role(const TextOptions *options, const char *file)
 {
-    for (int i = declaration->role_count - 1; i >= 0; i--) {
-        const RoleRow *row = &declaration->role[i];
+    for (int i = options->role_count - 1; i >= 0; i--) {
+        const RoleRow *row = &options->role[i];
         if (!fnmatch(row->pattern, file, 0) || !fnmatch(row->pattern, path_name(file), 0))
             return row->role;
     }

@@ -1,6 +1,7 @@
 #include "import/text/text_scan.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <string.h>
 
 #include "import/text/text_blocks.h"
@@ -12,32 +13,40 @@ typedef enum State {
     STATE_DONE    /* behind the last row of a list */
 } State;
 
-typedef struct Scan {
+typedef struct TextScan {
     const TextFile        *text;
-    const TextDeclaration *declared;
+    const TextOptions *options;
     TextDialect dialect;
     Arena      *arena;
     Error      *err;
-    TextSaid   *said;
-    RawTable   *table;
+    TextMetadata   *metadata;
+    NamedRows   *table;
     TextBlocks  blocks;
     State       state;
     int         at;         /* index of the current line */
     TextCell   *cell;       /* of the current line */
     int         count;
     bool        has_header; /* the table's columns are known */
-} Scan;
+    int         header_cells;
+} TextScan;
 
-static const char *place(const Scan *scan)
+/* An error at the current line. Always false. */
+__attribute__((format(printf, 2, 3))) static bool bad_line(const TextScan *scan,
+                                                           const char *format, ...)
 {
-    return text_place(scan->at, scan->arena);
+    va_list list;
+    va_start(list, format);
+    error_at_list(scan->err, ERROR_INPUT, scan->text->file, text_place(scan->at, scan->arena),
+                  format, list);
+    va_end(list);
+    return false;
 }
 
 /* ---- cells ------------------------------------------------------------------------------- */
 
-static bool is_declared_mask(const Scan *scan, TextCell cell, double value, bool is_number)
+static bool is_users_mask(const TextScan *scan, TextCell cell, double value, bool is_number)
 {
-    const TextList *mask = &scan->declared->mask;
+    const TextList *mask = &scan->options->mask;
     for (int i = 0; i < mask->count; i++) {
         double marked;
         TextCell text = {mask->text[i], (int)strlen(mask->text[i])};
@@ -49,32 +58,31 @@ static bool is_declared_mask(const Scan *scan, TextCell cell, double value, bool
 }
 
 /* A number, or NAN for a mark of what was not measured. */
-static bool read_cell(const Scan *scan, TextCell cell, double *out)
+static bool read_cell(const TextScan *scan, TextCell cell, double *out)
 {
     double value = NAN;
     bool   is_number = text_number(cell, scan->dialect.decimal, &value);
-    if (!is_number && !text_is_masked(cell) && !is_declared_mask(scan, cell, 0, false))
+    if (!is_number && !text_is_masked(cell) && !is_users_mask(scan, cell, 0, false))
         return false;
-    *out = is_number && !is_declared_mask(scan, cell, value, true) ? value : NAN;
+    *out = is_number && !is_users_mask(scan, cell, value, true) ? value : NAN;
     return true;
 }
 
-static bool bad_cell(const Scan *scan, TextCell cell, const char *column)
+static bool bad_cell(const TextScan *scan, TextCell cell, const char *column)
 {
-    return error_at(scan->err, ERROR_INPUT, scan->text->file, place(scan),
-                    "column '%s' holds '%.*s', wanted a number or a mark of what was not "
+    return bad_line(scan, "column '%s' holds '%.*s', wanted a number or a mark of what was not "
                     "measured (---, NaN, or one given as --mask)", column,
                     cell.length < 40 ? cell.length : 40, cell.text);
 }
 
-static bool is_number(const Scan *scan, TextCell cell)
+static bool is_number(const TextScan *scan, TextCell cell)
 {
     double value;
     return text_number(cell, scan->dialect.decimal, &value);
 }
 
 /* Numbers and marks, at least one number. */
-static bool is_row(const Scan *scan, const TextCell *cell, int count)
+static bool is_row(const TextScan *scan, const TextCell *cell, int count)
 {
     int    numbers = 0;
     double value;
@@ -87,37 +95,18 @@ static bool is_row(const Scan *scan, const TextCell *cell, int count)
 
 /* ---- rows of a list ---------------------------------------------------------------------- */
 
-static double *new_row(Scan *scan)
+static bool add_list_row(TextScan *scan)
 {
-    RawTable *table = scan->table;
-    if (table->rows == table->capacity) {
-        int     capacity = table->capacity ? 2 * table->capacity : 1024;
-        size_t  size = (size_t)table->columns * (size_t)table->rows;
-        double *cell = ARENA_NEW(scan->arena, double, (size_t)capacity *(size_t)table->columns);
-        int    *line = ARENA_NEW(scan->arena, int, capacity);
-        if (size) memcpy(cell, table->cell, sizeof *cell * size);
-        if (size) memcpy(line, table->line, sizeof *line * (size_t)table->rows);
-        table->cell = cell;
-        table->line = line;
-        table->capacity = capacity;
-    }
-    table->line[table->rows] = scan->at;
-    return table->cell + (size_t)table->rows++ * (size_t)table->columns;
-}
-
-static bool add_list_row(Scan *scan)
-{
-    RawTable *table = scan->table;
-    int       wanted = scan->blocks.header_cells;
+    NamedRows *table = scan->table;
+    int       wanted = scan->header_cells;
     bool      has_final = scan->count == wanted + 1 && !scan->cell[wanted].length;
     if (scan->count != wanted && !has_final)
-        return error_at(scan->err, ERROR_INPUT, scan->text->file, place(scan),
-                        "has %d cells, wanted %d as the columns are", scan->count, wanted);
-    if (table->rows >= IMPORT_ROWS_MAX)
-        return error_at(scan->err, ERROR_INPUT, scan->text->file, place(scan),
-                        "is one row too many, wanted at most %d", IMPORT_ROWS_MAX);
-    double *row = new_row(scan);
-    for (int c = 0; c < table->columns; c++) {
+        return bad_line(scan, "has %d cells, wanted %d as the columns are", scan->count,
+                        wanted);
+    if (table->rows.count >= IMPORT_ROWS_MAX)
+        return bad_line(scan, "is one row too many, wanted at most %d", IMPORT_ROWS_MAX);
+    double *row = text_rows_add(&table->rows, scan->at, scan->arena);
+    for (int c = 0; c < table->rows.width; c++) {
         TextCell cell = scan->cell[table->column[c].from];
         if (!read_cell(scan, cell, &row[c])) return bad_cell(scan, cell, table->column[c].text);
     }
@@ -126,19 +115,17 @@ static bool add_list_row(Scan *scan)
 
 /* ---- headers ----------------------------------------------------------------------------- */
 
-static bool add_column(Scan *scan, ColumnName name, const char *text, int from)
+static bool add_column(TextScan *scan, ColumnName name, const char *text, int from)
 {
-    RawTable *table = scan->table;
-    for (int c = 0; c < table->columns; c++)
+    NamedRows *table = scan->table;
+    for (int c = 0; c < table->rows.width; c++)
         if (table->column[c].name.quantity == name.quantity &&
             table->column[c].name.wavelength_nm == name.wavelength_nm)
-            return error_at(scan->err, ERROR_INPUT, scan->text->file, place(scan),
-                            "columns '%s' and '%s' name the same quantity — say which is which "
-                            "with --columns (- skips one)", table->column[c].text, text);
-    if (table->columns == TEXT_COLUMNS_MAX)
-        return error_at(scan->err, ERROR_INPUT, scan->text->file, place(scan),
-                        "has more than %d columns", TEXT_COLUMNS_MAX);
-    table->column[table->columns++] = (RawColumn){name, text, from};
+            return bad_line(scan, "columns '%s' and '%s' name the same quantity — say which is "
+                            "which with --columns (- skips one)", table->column[c].text, text);
+    if (table->rows.width == TEXT_COLUMNS_MAX)
+        return bad_line(scan, "has more than %d columns", TEXT_COLUMNS_MAX);
+    table->column[table->rows.width++] = (NamedColumn){name, text, from};
     return true;
 }
 
@@ -167,11 +154,11 @@ static bool has_section(const TextCell *cell, int count)
 
 /* Fourier-optics instruments call theta the incidence; where luminances stand and no theta,
  * that is what is meant. */
-static void rename_incidence(RawTable *table)
+static void rename_incidence(NamedRows *table)
 {
-    RawColumn *incidence = NULL;
+    NamedColumn *incidence = NULL;
     bool       emission = false, has_theta = false;
-    for (int c = 0; c < table->columns; c++) {
+    for (int c = 0; c < table->rows.width; c++) {
         Quantity quantity = table->column[c].name.quantity;
         emission |= quantity >= QUANTITY_X && quantity <= QUANTITY_VPRIME;
         has_theta |= quantity == QUANTITY_THETA;
@@ -181,22 +168,21 @@ static void rename_incidence(RawTable *table)
 }
 
 /* The cells of a header as columns; names that are not known are not used. */
-static bool read_header(Scan *scan, const TextCell *cell, int count, bool from_user)
+static bool read_header(TextScan *scan, const TextCell *cell, int count, bool from_user)
 {
-    scan->table->columns = 0;
-    scan->blocks.header_cells = count;
+    scan->table->rows.width = 0;
+    scan->header_cells = count;
     for (int i = 0; i < count; i++) {
         const char *text = arena_string(scan->arena, cell[i].text, (size_t)cell[i].length);
         ColumnName  name = column_name(cell[i]);
         if (name.is_ambiguous)
-            return error_at(scan->err, ERROR_INPUT, scan->text->file, place(scan),
-                            "column '%s' may be CIE 1960 or 1976 — name the columns with "
+            return bad_line(scan, "column '%s' may be CIE 1960 or 1976 — name the columns with "
                             "--columns, u' and v' for 1976", text);
         if (name.quantity == QUANTITY_NONE && from_user && strcmp(text, "-") != 0)
             return error_set(scan->err, ERROR_USAGE, "--columns: '%s' is no name of a column, "
                              "wanted theta, phi, X, Y, Z, L, x, y, u', v', a wavelength, "
                              "incidence, ... or -", text);
-        scan->said->unused_columns += name.quantity == QUANTITY_NONE;
+        scan->metadata->unused_columns += name.quantity == QUANTITY_NONE;
         if (name.quantity != QUANTITY_NONE && !add_column(scan, name, text, i)) return false;
     }
     rename_incidence(scan->table);
@@ -204,27 +190,27 @@ static bool read_header(Scan *scan, const TextCell *cell, int count, bool from_u
     return true;
 }
 
-static bool read_declared_columns(Scan *scan)
+static bool read_users_columns(TextScan *scan)
 {
     TextCell *cell = ARENA_NEW(scan->arena, TextCell, TEXT_CELLS_MAX);
-    TextLine  line = {scan->declared->columns, (int)strlen(scan->declared->columns)};
+    TextLine  line = {scan->options->columns, (int)strlen(scan->options->columns)};
     int       count = text_cells(line, ',', cell);
     if (count < 0) return error_set(scan->err, ERROR_USAGE, "--columns has too many names");
     if (!has_direction(cell, count) && !has_section(cell, count))
         return error_set(scan->err, ERROR_USAGE,
                          "--columns '%s' has no two angles, wanted theta and phi, or "
                          "horizontal and vertical",
-                         scan->declared->columns);
+                         scan->options->columns);
     return read_header(scan, cell, count, true);
 }
 
 /* ---- lines ------------------------------------------------------------------------------- */
 
 /* How many characters begin a comment; 0: it is none. */
-static int comment_length(const Scan *scan, TextLine line)
+static int comment_length(const TextScan *scan, TextLine line)
 {
     static const char *const known[] = {"#", "!", "%", "//"};
-    const TextList *more = &scan->declared->comment;
+    const TextList *more = &scan->options->comment;
     for (int i = 0; i < 4 + more->count; i++) {
         const char *begin = i < 4 ? known[i] : more->text[i - 4];
         int         length = (int)strlen(begin);
@@ -234,21 +220,21 @@ static int comment_length(const Scan *scan, TextLine line)
 }
 
 /* A comment may hold the header: "# theta phi X Y Z". */
-static bool read_comment(Scan *scan, TextLine line, int begin)
+static bool read_comment(TextScan *scan, TextLine line, int begin)
 {
     while (begin < line.length && strchr("#!%/ \t", line.text[begin])) begin++;
     TextLine rest = {line.text + begin, line.length - begin};
     int      count = text_cells(rest, scan->dialect.delimiter, scan->cell);
-    bool     may_head = scan->state == STATE_BEFORE && !scan->declared->columns && count > 2;
+    bool     may_head = scan->state == STATE_BEFORE && !scan->options->columns && count > 2;
     if (may_head && has_direction(scan->cell, count))
         return read_header(scan, scan->cell, count, false);
-    text_said_line(scan->said, rest, scan->at, scan->arena);
+    text_metadata_read_line(scan->metadata, rest, scan->at, scan->arena);
     return true;
 }
 
 /* The next line that holds something is a row of as many numbers: what stands above may be a
  * matrix's head. */
-static bool row_follows(const Scan *scan, int count)
+static bool row_follows(const TextScan *scan, int count)
 {
     Arena     scratch = *scan->arena;
     TextCell *cell = ARENA_NEW(&scratch, TextCell, TEXT_CELLS_MAX);
@@ -260,7 +246,7 @@ static bool row_follows(const Scan *scan, int count)
 }
 
 /* A corner, then rising or falling angles, then rows under them. */
-static bool is_matrix_head(const Scan *scan)
+static bool is_matrix_head(const TextScan *scan)
 {
     int    count = scan->count - (scan->count > 2 && !scan->cell[scan->count - 1].length);
     double last = 0, value, step = 0;
@@ -274,25 +260,24 @@ static bool is_matrix_head(const Scan *scan)
     return row_follows(scan, scan->count);
 }
 
-static bool begin_block(Scan *scan)
+static bool begin_block(TextScan *scan)
 {
     scan->state = STATE_BLOCK;
     return text_blocks_begin(&scan->blocks, scan->cell, scan->count, scan->dialect.decimal,
                              scan->at, scan->err);
 }
 
-static bool numbers_without_names(Scan *scan)
+static bool numbers_without_names(TextScan *scan)
 {
-    return error_at(scan->err, ERROR_INPUT, scan->text->file, place(scan),
-                    "begins numbers that no header names — name them with --columns "
+    return bad_line(scan, "begins numbers that no header names — name them with --columns "
                     "theta,phi,..., or say --table theta-down or phi-down for a matrix");
 }
 
 /* The first row of numbers: of which layout is it? */
-static bool begin_rows(Scan *scan)
+static bool begin_rows(TextScan *scan)
 {
-    bool is_matrix = scan->declared->layout >= LAYOUT_THETA_DOWN;
-    bool may_head = scan->declared->layout != LAYOUT_LIST && !scan->declared->columns;
+    bool is_matrix = scan->options->layout >= LAYOUT_THETA_DOWN;
+    bool may_head = scan->options->layout != LAYOUT_LIST && !scan->options->columns;
     if (is_matrix && scan->count > 1) return begin_block(scan);
     if (may_head && is_matrix_head(scan)) return begin_block(scan); /* an empty corner */
     if (scan->has_header && !scan->blocks.count) {
@@ -302,14 +287,13 @@ static bool begin_rows(Scan *scan)
     return numbers_without_names(scan);
 }
 
-static bool add_block_row(Scan *scan)
+static bool add_block_row(TextScan *scan)
 {
     TextBlocks *blocks = &scan->blocks;
     int     wanted = blocks->across + 1;
     bool    has_final = scan->count == wanted + 1 && !scan->cell[wanted].length;
     if (scan->count != wanted && !has_final)
-        return error_at(scan->err, ERROR_INPUT, scan->text->file, place(scan),
-                        "has %d cells, wanted %d as the head of the matrix", scan->count,
+        return bad_line(scan, "has %d cells, wanted %d as the head of the matrix", scan->count,
                         wanted);
     double *value = text_blocks_row(blocks, scan->at, scan->err);
     if (!value) return false;
@@ -321,7 +305,7 @@ static bool add_block_row(Scan *scan)
 }
 
 /* A line of units under the header: "deg;deg;fL;fL;fL". False: it is none. */
-static bool read_units(Scan *scan)
+static bool read_units(TextScan *scan)
 {
     int known = 0, filled = 0;
     for (int i = 0; i < scan->count; i++) {
@@ -330,9 +314,9 @@ static bool read_units(Scan *scan)
         known += angle_unit(text) != ANGLE_AUTO || value_unit(scan->cell[i]) != UNIT_AUTO;
         filled += *text != 0;
     }
-    if (scan->count != scan->blocks.header_cells || !known || 2 * known < filled) return false;
-    for (int c = 0; c < scan->table->columns; c++) {
-        RawColumn  *column = &scan->table->column[c];
+    if (scan->count != scan->header_cells || !known || 2 * known < filled) return false;
+    for (int c = 0; c < scan->table->rows.width; c++) {
+        NamedColumn  *column = &scan->table->column[c];
         TextCell    cell = scan->cell[column->from];
         const char *text = arena_string(scan->arena, cell.text, (size_t)cell.length);
         if (column->name.angle == ANGLE_AUTO) column->name.angle = angle_unit(text);
@@ -342,18 +326,18 @@ static bool read_units(Scan *scan)
 }
 
 /* A row may also hold text, in columns that are not used. */
-static bool begins_row(const Scan *scan)
+static bool begins_row(const TextScan *scan)
 {
     int first =
         scan->has_header && scan->state != STATE_BLOCK ? scan->table->column[0].from : 0;
     return first < scan->count && is_number(scan, scan->cell[first]);
 }
 
-static bool read_text_line(Scan *scan, TextLine line)
+static bool read_text_line(TextScan *scan, TextLine line)
 {
     bool begins_with_number = begins_row(scan);
     if (scan->state == STATE_BEFORE && begins_with_number && scan->has_header &&
-        !scan->blocks.count && scan->count == scan->blocks.header_cells)
+        !scan->blocks.count && scan->count == scan->header_cells)
         return begin_rows(scan);
     if (scan->state == STATE_LIST) {
         if (begins_with_number) return add_list_row(scan);
@@ -364,19 +348,19 @@ static bool read_text_line(Scan *scan, TextLine line)
         scan->state = STATE_BEFORE;
     }
     if (scan->state == STATE_BEFORE && scan->has_header && read_units(scan)) return true;
-    bool is_open = scan->state == STATE_BEFORE && !scan->declared->columns;
-    if (is_open && is_matrix_head(scan) && scan->declared->layout != LAYOUT_LIST)
+    bool is_open = scan->state == STATE_BEFORE && !scan->options->columns;
+    if (is_open && is_matrix_head(scan) && scan->options->layout != LAYOUT_LIST)
         return begin_block(scan);
     bool is_header = has_direction(scan->cell, scan->count) ||
                      (!scan->has_header && has_section(scan->cell, scan->count));
     if (is_open && !scan->blocks.count && is_header)
         return read_header(scan, scan->cell, scan->count, false);
     if (is_open && text_blocks_label(&scan->blocks, scan->cell, scan->count)) return true;
-    text_said_line(scan->said, line, scan->at, scan->arena);
+    text_metadata_read_line(scan->metadata, line, scan->at, scan->arena);
     return true;
 }
 
-static bool read_row(Scan *scan)
+static bool read_row(TextScan *scan)
 {
     switch (scan->state) {
     case STATE_LIST:   return add_list_row(scan);
@@ -385,19 +369,17 @@ static bool read_row(Scan *scan)
     case STATE_BEFORE: return begin_rows(scan);
     case STATE_DONE:   break;
     }
-    return error_at(scan->err, ERROR_INPUT, scan->text->file, place(scan),
-                    "holds numbers again behind the end of the table");
+    return bad_line(scan, "holds numbers again behind the end of the table");
 }
 
-static bool read_line(Scan *scan)
+static bool read_line(TextScan *scan)
 {
     TextLine line = scan->text->line[scan->at];
     int      comment = comment_length(scan, line);
     if (comment) return read_comment(scan, line, comment);
     scan->count = text_cells(line, scan->dialect.delimiter, scan->cell);
     if (scan->count < 0)
-        return error_at(scan->err, ERROR_INPUT, scan->text->file, place(scan),
-                        "has more than %d cells", TEXT_CELLS_MAX);
+        return bad_line(scan, "has more than %d cells", TEXT_CELLS_MAX);
     bool is_empty = true;
     for (int i = 0; i < scan->count; i++) is_empty &= !scan->cell[i].length;
     if (is_empty) {
@@ -407,23 +389,22 @@ static bool read_line(Scan *scan)
     return is_row(scan, scan->cell, scan->count) ? read_row(scan) : read_text_line(scan, line);
 }
 
-bool text_scan(const char *file, const TextDeclaration *declared, Arena *arena, RawTable *out,
-               TextSaid *said, Error *err)
+bool text_scan(const char *file, const TextOptions *options, Arena *arena, NamedRows *out,
+               TextMetadata *metadata, Error *err)
 {
     TextFile text;
-    if (!text_file_read(file, declared->encoding, arena, &text, err)) return false;
-    *out = (RawTable){.file = file};
-    *said = (TextSaid){.zero_line = -1, .sense_line = -1, .side_line = -1, .unit_line = -1,
-                       .angle_line = -1, .words_line = -1};
-    Scan scan = {.text = &text, .declared = declared, .dialect = declared->dialect,
-                 .arena = arena, .err = err, .said = said, .table = out,
+    if (!text_file_read(file, options->encoding, arena, &text, err)) return false;
+    *out = (NamedRows){.file = file};
+    *metadata = text_metadata();
+    TextScan scan = {.text = &text, .options = options, .dialect = options->dialect,
+                 .arena = arena, .err = err, .metadata = metadata, .table = out,
                  .cell = ARENA_NEW(arena, TextCell, TEXT_CELLS_MAX)};
-    scan.blocks = (TextBlocks){.text = &text, .declared = declared, .arena = arena};
-    if (!text_find_dialect(&text, declared->skip_lines, *arena, &scan.dialect, err))
+    scan.blocks = (TextBlocks){.text = &text, .options = options, .arena = arena};
+    if (!text_find_dialect(&text, options->skip_lines, *arena, &scan.dialect, err))
         return false;
-    if (declared->columns && !read_declared_columns(&scan)) return false;
-    for (scan.at = declared->skip_lines; scan.at < text.count; scan.at++)
+    if (options->columns && !read_users_columns(&scan)) return false;
+    for (scan.at = options->skip_lines; scan.at < text.count; scan.at++)
         if (!read_line(&scan)) return false;
     if (scan.blocks.count && !text_blocks_finish(&scan.blocks, out, err)) return false;
-    return out->rows > 0 || error_at(err, ERROR_INPUT, file, "", "has no row of numbers");
+    return out->rows.count > 0 || error_at(err, ERROR_INPUT, file, "", "has no row of numbers");
 }

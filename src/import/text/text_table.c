@@ -1,4 +1,5 @@
-/* Raw rows, settled, as tables of the set. */
+#include "import/text/text_table.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,34 +7,34 @@
 #include "base/file.h"
 #include "base/mathd.h"
 #include "base/units.h"
-#include "import/text/text_reader.h"
+#include "import/text/text_conventions.h"
 
 #define CHANNELS_MAX TEXT_COLUMNS_MAX
 #define DIRECTIONS_MIN 3 /* fewer are no angular table */
 #define KEYS_MAX 3
 
 /* The rows of one pattern or light: what they share in the columns that tell it. */
-typedef struct Group {
+typedef struct RowGroup {
     double key[KEYS_MAX];
     int    row;
-} Group;
+} RowGroup;
 
-typedef struct Channels {
+typedef struct TextChannels {
     int       count;
     int       column[CHANNELS_MAX]; /* of reflection, by rising wavelength */
     float     nm[CHANNELS_MAX];
     char      component; /* emission of one component */
     Quantity  source[3]; /* emission: the three columns to take */
-} Channels;
+} TextChannels;
 
 static double cell_of(const TextReader *in, int row, int column)
 {
-    return in->raw->cell[(size_t)row * (size_t)in->raw->columns + (size_t)column];
+    return in->raw->rows.cell[(size_t)row * (size_t)in->raw->rows.width + (size_t)column];
 }
 
 static const char *row_place(const TextReader *in, int row)
 {
-    return text_place(in->raw->line[row], in->set->arena);
+    return text_place(in->raw->rows.line[row], in->set->arena);
 }
 
 /* ---- which channels ---------------------------------------------------------------------- */
@@ -43,7 +44,7 @@ static bool has(const TextReader *in, Quantity quantity)
     return in->column[quantity] >= 0;
 }
 
-static bool emission_channels(TextReader *in, Channels *out)
+static bool emission_channels(TextReader *in, TextChannels *out)
 {
     Quantity luminance = has(in, QUANTITY_Y) ? QUANTITY_Y : QUANTITY_LUMINANCE;
     static const char letters[] = "XYZ";
@@ -84,13 +85,13 @@ static float column_wavelength(const TextReader *in, int column)
     double nm = in->raw->column[column].name.wavelength_nm;
     if (nm > 0) return (float)nm;
     if (in->role.wavelength_nm > 0) return (float)in->role.wavelength_nm;
-    return (float)(in->said.wavelength_nm > 0 ? in->said.wavelength_nm
-                                              : in->options->wavelength_nm);
+    return (float)(in->metadata.wavelength_nm > 0 ? in->metadata.wavelength_nm
+                                              : in->import->wavelength_nm);
 }
 
-static bool reflection_channels(TextReader *in, Channels *out)
+static bool reflection_channels(TextReader *in, TextChannels *out)
 {
-    for (int c = 0; c < in->raw->columns; c++) {
+    for (int c = 0; c < in->raw->rows.width; c++) {
         if (in->raw->column[c].name.quantity != QUANTITY_REFLECTION) continue;
         float nm = column_wavelength(in, c);
         if (!(nm > 0) && !has(in, QUANTITY_WAVELENGTH))
@@ -137,7 +138,7 @@ static bool xyz_from_chromaticity(const TextReader *in, int row, bool is_uv, dou
 }
 
 /* False: an error. *is_masked: a value is marked as not measured. */
-static bool emission_values(const TextReader *in, const Channels *channels, int row,
+static bool emission_values(const TextReader *in, const TextChannels *channels, int row,
                             double *value, bool *is_masked)
 {
     double scale = value_unit_cd_m2(in->unit);
@@ -154,14 +155,14 @@ static bool emission_values(const TextReader *in, const Channels *channels, int 
 }
 
 /* To sr^-1 without the cosine. Of a cosine-corrected value at the horizon nothing is left. */
-static void reflection_values(const TextReader *in, const Channels *channels, int row,
+static void reflection_values(const TextReader *in, const TextChannels *channels, int row,
                               double theta_deg, double *value, bool *is_masked)
 {
     double cosine = cos_d(radians_from_degrees(theta_deg));
     double scale = 1;
     if (in->unit == UNIT_FACTOR)
         scale *=
-            (in->declared->white_reflectance > 0 ? in->declared->white_reflectance : 1) / PI;
+            (in->options->white_reflectance > 0 ? in->options->white_reflectance : 1) / PI;
     if (in->unit == UNIT_BRDF_COS) {
         *is_masked |= cosine < 1e-3;
         scale /= cosine < 1e-3 ? 1 : cosine;
@@ -175,10 +176,10 @@ static void reflection_values(const TextReader *in, const Channels *channels, in
 
 /* ---- one table --------------------------------------------------------------------------- */
 
-typedef struct Filling {
+typedef struct TableRows {
     double *theta, *phi, *value, *masked_theta, *masked_phi;
     int     beyond; /* directions beyond 90 degrees */
-} Filling;
+} TableRows;
 
 static bool row_angles(const TextReader *in, int row, double *theta, double *phi)
 {
@@ -191,7 +192,7 @@ static bool row_angles(const TextReader *in, int row, double *theta, double *phi
     if (isnan(raw[0]) || isnan(raw[1]))
         return error_at(in->err, ERROR_INPUT, in->file, row_place(in, row),
                         "has no angle, wanted two numbers");
-    text_direction(in, raw, theta, phi);
+    text_conventions_direction(in, raw, theta, phi);
     if (!(*theta <= 180 + 1e-6))
         return error_at(in->err, ERROR_INPUT, in->file, row_place(in, row),
                         "theta is %g, wanted -90 to 90 degrees", raw[0]);
@@ -201,8 +202,8 @@ static bool row_angles(const TextReader *in, int row, double *theta, double *phi
     return true;
 }
 
-static bool fill_row(const TextReader *in, const Channels *channels, int row,
-                     const ImportTable *light, ImportTable *table, Filling *to)
+static bool fill_row(const TextReader *in, const TextChannels *channels, int row,
+                     const ImportTable *light, ImportTable *table, TableRows *to)
 {
     double theta, phi, *value = to->value + (size_t)table->rows * (size_t)channels->count;
     bool   is_masked = false;
@@ -225,11 +226,11 @@ static bool fill_row(const TextReader *in, const Channels *channels, int row,
     return true;
 }
 
-static bool fill_table(TextReader *in, const Channels *channels, const Group *group, int count,
-                       ImportTable *table)
+static bool fill_table(TextReader *in, const TextChannels *channels, const RowGroup *group,
+                       int count, ImportTable *table)
 {
     Arena  *arena = in->set->arena;
-    Filling to = {.theta = ARENA_NEW(arena, double, count),
+    TableRows to = {.theta = ARENA_NEW(arena, double, count),
                   .phi = ARENA_NEW(arena, double, count),
                   .masked_theta = ARENA_NEW(arena, double, count),
                   .masked_phi = ARENA_NEW(arena, double, count)};
@@ -259,17 +260,17 @@ static bool fill_table(TextReader *in, const Channels *channels, const Group *gr
 
 static int by_key(const void *a, const void *b)
 {
-    const Group *p = a, *q = b;
+    const RowGroup *p = a, *q = b;
     for (int k = 0; k < KEYS_MAX; k++)
         if (p->key[k] != q->key[k]) return p->key[k] < q->key[k] ? -1 : 1;
     return p->row < q->row ? -1 : p->row > q->row;
 }
 
-static Group *group_rows(TextReader *in, const Quantity keys[KEYS_MAX])
+static RowGroup *group_rows(TextReader *in, const Quantity keys[KEYS_MAX])
 {
-    Group *group = ARENA_NEW(in->set->arena, Group, in->raw->rows);
+    RowGroup *group = ARENA_NEW(in->set->arena, RowGroup, in->raw->rows.count);
     bool   any = false;
-    for (int i = 0; i < in->raw->rows; i++) {
+    for (int i = 0; i < in->raw->rows.count; i++) {
         group[i].row = i;
         for (int k = 0; k < KEYS_MAX; k++) {
             int column = in->column[keys[k]];
@@ -283,11 +284,11 @@ static Group *group_rows(TextReader *in, const Quantity keys[KEYS_MAX])
             }
         }
     }
-    if (any) qsort(group, (size_t)in->raw->rows, sizeof *group, by_key);
+    if (any) qsort(group, (size_t)in->raw->rows.count, sizeof *group, by_key);
     return group;
 }
 
-static int group_length(const Group *group, int left)
+static int group_length(const RowGroup *group, int left)
 {
     int count = 1;
     while (count < left && !memcmp(group[count].key, group->key, sizeof group->key)) count++;
@@ -295,9 +296,9 @@ static int group_length(const Group *group, int left)
 }
 
 /* Codes as the panel showed them: one primary, black or white. */
-static bool codes_role(TextReader *in, const Group *group, Role *role)
+static bool codes_role(TextReader *in, const RowGroup *group, Role *role)
 {
-    double most = in->declared->level_max > 0 ? in->declared->level_max : 255;
+    double most = in->options->level_max > 0 ? in->options->level_max : 255;
     int    lit = 0;
     *role = (Role){.is_told = true, .source = IMPORT_BLACK, .has_level = true};
     for (int p = 0; p < 3; p++)
@@ -317,17 +318,17 @@ static bool codes_role(TextReader *in, const Group *group, Role *role)
                     group->key[0], group->key[1], group->key[2]);
 }
 
-static void light_of(const TextReader *in, const Group *group, ImportTable *table)
+static void light_of(const TextReader *in, const RowGroup *group, ImportTable *table)
 {
     bool   has_column = has(in, QUANTITY_INCIDENCE), has_azimuth = has(in, QUANTITY_LIGHT_PHI);
     double incidence = has_column ? group->key[0] * (in->is_radians ? 180 / PI : 1)
                                   : in->role.incidence_deg;
     double azimuth = 180;
     if (has_azimuth) {
-        azimuth = text_azimuth(in, group->key[1]);
-    } else if (in->role.has_azimuth || in->declared->has_light_azimuth) {
+        azimuth = text_conventions_azimuth(in, group->key[1]);
+    } else if (in->role.has_azimuth || in->options->has_light_azimuth) {
         double raw = in->role.has_azimuth ? in->role.azimuth_deg
-                                          : in->declared->light_azimuth_deg;
+                                          : in->options->light_azimuth_deg;
         azimuth = fmod(in->zero_deg + in->sense * raw + 720, 360);
     } else {
         import_note(in->set, "reflection azimuths are taken to count from the mirror "
@@ -339,26 +340,27 @@ static void light_of(const TextReader *in, const Group *group, ImportTable *tabl
     table->incidence_phi_deg = fmod(azimuth, 360);
 }
 
-static void emission_of(const TextReader *in, const Role *role, const Channels *channels,
+static void emission_of(const TextReader *in, const Role *role, const TextChannels *channels,
                         ImportTable *table)
 {
-    double most = in->declared->level_max > 0 ? in->declared->level_max : 255;
+    double most = in->options->level_max > 0 ? in->options->level_max : 255;
     table->level = role->source == IMPORT_BLACK ? 0
                    : role->source == IMPORT_WHITE ? 255 : role->level * 255 / most;
     table->component = channels->component;
 }
 
-static bool add_group(TextReader *in, const Channels *channels, const Group *group, int count)
+static bool add_group(TextReader *in, const TextChannels *channels, const RowGroup *group,
+                      int count)
 {
     Role        role = in->role;
-    Channels   *own = (Channels *)channels;
+    TextChannels *own = (TextChannels *)channels;
     ImportTable table = {.file = in->file, .is_section = in->is_section};
     if (has(in, QUANTITY_CODE_R) && !codes_role(in, group, &role)) return false;
     table.source = role.source;
     if (in->is_reflection) {
         light_of(in, group, &table);
         if (has(in, QUANTITY_WAVELENGTH)) {
-            own = ARENA_NEW(in->set->arena, Channels, 1);
+            own = ARENA_NEW(in->set->arena, TextChannels, 1);
             *own = *channels;
             own->nm[0] = (float)group->key[2];
         }
@@ -370,18 +372,18 @@ static bool add_group(TextReader *in, const Channels *channels, const Group *gro
     return fill_table(in, own, group, count, &table);
 }
 
-bool text_add_tables(TextReader *in)
+bool text_table_add(TextReader *in)
 {
     static const Quantity codes[] = {QUANTITY_CODE_R, QUANTITY_CODE_G, QUANTITY_CODE_B};
     static const Quantity lights[] = {QUANTITY_INCIDENCE, QUANTITY_LIGHT_PHI,
                                       QUANTITY_WAVELENGTH};
-    Channels *channels = ARENA_NEW(in->set->arena, Channels, 1);
+    TextChannels *channels = ARENA_NEW(in->set->arena, TextChannels, 1);
     bool ok = in->is_reflection ? reflection_channels(in, channels)
                                 : emission_channels(in, channels);
-    Group *group = ok ? group_rows(in, in->is_reflection ? lights : codes) : NULL;
+    RowGroup *group = ok ? group_rows(in, in->is_reflection ? lights : codes) : NULL;
     if (!group) return false;
-    for (int i = 0; i < in->raw->rows;) {
-        int count = group_length(group + i, in->raw->rows - i);
+    for (int i = 0; i < in->raw->rows.count;) {
+        int count = group_length(group + i, in->raw->rows.count - i);
         if (!add_group(in, channels, group + i, count)) return false;
         i += count;
     }

@@ -1,4 +1,4 @@
-/* import_text.h -- what a laboratory declares of its text tables: layout, units, azimuths.
+/* text_options.h -- what a user says of text tables: layout, units, azimuths, roles.
  *
  * Every member has a value for "not told"; what the file itself says is then taken, and where
  * neither says it, either this project's own convention holds (azimuth 0 right, counter-
@@ -43,7 +43,7 @@ typedef struct TextList {
     int         count;
 } TextList;
 
-typedef struct TextDeclaration {
+typedef struct TextOptions {
     TableLayout  layout;
     const char  *columns;     /* "theta,phi,X,Y,Z"; "-" skips one; NULL: the header says */
     const char  *quantity;    /* of a matrix: "X", "L", "brdf", ...; NULL: not told */
@@ -65,20 +65,20 @@ typedef struct TextDeclaration {
     double       level_max;          /* the panel's highest code; 0: 255 */
     RoleRow      role[TEXT_ENTRIES_MAX];
     int          role_count;
-} TextDeclaration;
+} TextOptions;
 
-/* Sets one key of a declaration ("azimuth_zero", "top") from text. A list's key adds. */
-bool text_declare(TextDeclaration *declaration, const char *key, const char *value, Error *err);
-
-/* All keys that text_declare knows, with their values and meaning: for help and the README. */
+/* All keys, with their values and meaning: for the command line, help and the README. */
 typedef struct TextKey {
     const char *key, *values, *help;
 } TextKey;
 extern const TextKey text_keys[];
 extern const int     text_key_count;
 
+/* Sets one key ("azimuth_zero", "top") from text. A list's key adds. */
+bool text_options_set(TextOptions *options, const char *key, const char *value, Error *err);
+
 /* The azimuth that --section gives to a file with theta alone; false: none. */
-bool text_declared_section(const TextDeclaration *declared, const char *file, double *phi);
+bool text_options_section(const TextOptions *options, const char *file, double *phi);
 
 /* The role that --role gives to a file; NULL: none. */
-const char *text_declared_role(const TextDeclaration *declaration, const char *file);
+const char *text_options_role(const TextOptions *options, const char *file);
