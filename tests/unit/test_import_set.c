@@ -5,6 +5,7 @@
 
 #include "base/units.h"
 #include "import/importers.h"
+#include "import/set/import_write.h"
 
 #define TABLE "theta,phi,X,Y,Z\n0,0,1,2,3\n40,90,4,5,6\n60,0,.123456789,8,9\n"
 #define BRDF "theta,phi,450nm,550nm\n0,0,1,2\n30,0,3,4\n30,90,5,6\n60,180,7,8\n"

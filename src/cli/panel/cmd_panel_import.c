@@ -5,8 +5,9 @@
 #include "base/reference.h"
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
-#include "import/importers.h"
 #include "import/import_request.h"
+#include "import/importers.h"
+#include "import/set/import_write.h"
 #include "text/json_text.h"
 
 #define ARENA_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */

@@ -92,13 +92,6 @@ bool import_add(ImportSet *set, const ImportTable *table, Error *err);
 /* A note that stands there already is not repeated. */
 void import_note(ImportSet *set, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Writes the tables beside MANIFEST.json (folders emission/ and brdf/), then the manifest. The
- * set is complete. Nothing half-written stays. */
-bool import_write(const ImportSet *set, const char *manifest, Error *err);
-
-/* The file's name of a table in the set: "emission/red_031.csv", "brdf/i30_a180.csv". */
-const char *import_table_file(const ImportSet *set, const ImportTable *table, Arena *arena);
-
 /* ---- what the user says ------------------------------------------------------------------ */
 
 typedef struct ImportOptions {

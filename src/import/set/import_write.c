@@ -1,31 +1,20 @@
-/* The set as MANIFEST.json and its tables: all of them under temporary names first, then all
- * renamed, the manifest last. */
-#include <errno.h>
+#include "import/set/import_write.h"
+
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/file.h"
-#include "base/file_write.h"
-#include "import/set/import.h"
-#include "import/set/import_parts.h"
+#include "panel/set/set_writer.h"
 #include "text/json_text.h"
-
-#define SCRATCH_BYTES ((size_t)256 << 20)
 
 typedef struct Output {
     const ImportSet *set;
-    const char      *manifest;
+    SetWriter        writer;
     Arena            scratch;
-    const char     **path, **temporary; /* of what is written so far */
-    int              count;
-    const char      *folder[3]; /* made here: removed again on failure when empty */
-    int              folder_count;
-    Error           *err;
 } Output;
 
 const char *import_table_file(const ImportSet *set, const ImportTable *table, Arena *arena)
@@ -41,81 +30,19 @@ const char *import_table_file(const ImportSet *set, const ImportTable *table, Ar
     return arena_format(arena, "brdf/i%.10g.csv", table->incidence_deg);
 }
 
-/* ---- files ------------------------------------------------------------------------------- */
-
-static bool make_folder(Output *out, const char *path)
+/* A laboratory's own file is never written over. */
+static bool spares_sources(const Output *out)
 {
-    if (!mkdir(path, 0777)) {
-        out->folder[out->folder_count++] = path;
-        return true;
-    }
-    return errno == EEXIST || error_at(out->err, ERROR_OUTPUT, path, "", "cannot be made: %s",
-                                       strerror(errno));
-}
-
-/* The manifest's own folder, when it is not there, and those of its tables. */
-static bool make_folders(Output *out, bool emission, bool reflection)
-{
-    const char *name = path_name(out->manifest);
-    size_t      length = (size_t)(name - out->manifest);
-    if (length > 1 &&
-        !make_folder(out, arena_string(&out->scratch, out->manifest, length - 1)))
-        return false;
-    return (!emission || make_folder(out, path_beside(out->manifest, "emission",
-                                                      &out->scratch))) &&
-           (!reflection || make_folder(out, path_beside(out->manifest, "brdf", &out->scratch)));
-}
-
-static FILE *begin_file(Output *out, const char *path)
-{
-    const char *temporary = file_temporary_name(path, &out->scratch);
-    FILE       *stream = fopen(temporary, "wb");
-    if (!stream) {
-        error_at(out->err, ERROR_OUTPUT, path, "", "cannot be written: %s", strerror(errno));
-        return NULL;
-    }
-    out->path[out->count] = path;
-    out->temporary[out->count++] = temporary;
-    return stream;
-}
-
-static bool end_file(Output *out, FILE *stream)
-{
-    bool ok = !ferror(stream);
-    ok = !fclose(stream) && ok;
-    return ok || error_at(out->err, ERROR_OUTPUT, out->path[out->count - 1], "",
-                          "cannot be written: %s", strerror(errno));
-}
-
-static void undo(Output *out)
-{
-    for (int i = 0; i < out->count; i++) file_discard(out->temporary[i]);
-    for (int i = out->folder_count - 1; i >= 0; i--) rmdir(out->folder[i]);
-}
-
-static bool commit_all(Output *out)
-{
-    for (int i = 0; i < out->count; i++)
-        if (!file_commit(out->temporary[i], out->path[i], out->err)) return false;
-    return true;
-}
-
-/* A laboratory's own file is never written over, and what cannot be is found out before the
- * first file is. */
-static bool spares_sources(Output *out)
-{
+    Arena       arena = out->scratch;
     struct stat source, target;
-    if (!stat(out->manifest, &target) && !file_check_writable(out->manifest, out->err))
-        return false;
     for (int i = 0; i < out->set->count; i++) {
-        const char *name = import_table_file(out->set, &out->set->table[i], &out->scratch);
-        const char *path = path_beside(out->manifest, name, &out->scratch);
+        const char *name = import_table_file(out->set, &out->set->table[i], &arena);
+        const char *path = path_beside(out->writer.manifest, name, &arena);
         if (stat(path, &target)) continue;
-        if (!file_check_writable(path, out->err)) return false;
         for (int k = 0; k < out->set->count; k++)
             if (!stat(out->set->table[k].file, &source) && source.st_dev == target.st_dev &&
                 source.st_ino == target.st_ino)
-                return error_at(out->err, ERROR_OUTPUT, path, "",
+                return error_at(out->writer.err, ERROR_OUTPUT, path, "",
                                 "is one of the files to import and would be written over — "
                                 "choose another folder for the manifest");
     }
@@ -125,15 +52,15 @@ static bool spares_sources(Output *out)
 /* ---- tables ------------------------------------------------------------------------------ */
 
 /* The fewest of 6 to 9 digits that give the same float again. */
-static void print_value(FILE *stream, double value)
+static void add_value(Text *text, double value)
 {
-    char  text[40];
+    char  shortest[40];
     float wanted = (float)value;
     for (int digits = 6; digits <= 9; digits++) {
-        snprintf(text, sizeof text, "%.*g", digits, (double)wanted);
-        if (digits == 9 || strtof(text, NULL) == wanted) break;
+        snprintf(shortest, sizeof shortest, "%.*g", digits, (double)wanted);
+        if (digits == 9 || strtof(shortest, NULL) == wanted) break;
     }
-    fprintf(stream, ",%s", text);
+    text_format(text, ",%s", shortest);
 }
 
 static double wrapped(double phi_deg)
@@ -142,59 +69,58 @@ static double wrapped(double phi_deg)
     return phi < 0 ? phi + 360 : phi + 0; /* no negative zero */
 }
 
-static void print_rows(FILE *stream, const ImportTable *table)
+static void add_rows(Text *text, const ImportTable *table)
 {
     size_t size = (size_t)table->channels;
     for (int i = 0; i < table->rows; i++) {
-        fprintf(stream, "%.9g,%.9g", table->theta_deg[i], wrapped(table->phi_deg[i]));
+        text_format(text, "%.9g,%.9g", table->theta_deg[i], wrapped(table->phi_deg[i]));
         for (size_t c = 0; c < size; c++)
-            print_value(stream, table->value[(size_t)i * size + c]);
-        fputc('\n', stream);
+            add_value(text, table->value[(size_t)i * size + c]);
+        text_add(text, "\n");
     }
 }
 
-static void print_masked(FILE *stream, const ImportTable *table)
+static void add_masked(Text *text, const ImportTable *table)
 {
     if (table->masked)
-        fprintf(stream, "# %d directions are marked as not measured\n", table->masked);
+        text_format(text, "# %d directions are marked as not measured\n", table->masked);
     for (int i = 0; table->masked_theta_deg && i < table->masked; i++)
-        fprintf(stream, "# not measured: theta %.9g phi %.9g\n", table->masked_theta_deg[i],
-                wrapped(table->masked_phi_deg[i]));
+        text_format(text, "# not measured: theta %.9g phi %.9g\n",
+                    table->masked_theta_deg[i], wrapped(table->masked_phi_deg[i]));
 }
 
 static bool write_table(Output *out, const ImportTable *table)
 {
-    const char *name = import_table_file(out->set, table, &out->scratch);
-    FILE       *stream = begin_file(out, path_beside(out->manifest, name, &out->scratch));
-    if (!stream) return false;
+    Arena arena = out->scratch;
+    Text  text = {.arena = &arena};
     if (table->source == IMPORT_REFLECTION) {
-        fputs("theta,phi", stream);
+        text_add(&text, "theta,phi");
         for (int c = 0; c < table->channels; c++)
-            fprintf(stream, ",%.9g", (double)table->wavelength_nm[c]);
-        fputc('\n', stream);
+            text_format(&text, ",%.9g", (double)table->wavelength_nm[c]);
+        text_add(&text, "\n");
     } else {
-        fputs("theta,phi,X,Y,Z\n", stream);
+        text_add(&text, "theta,phi,X,Y,Z\n");
     }
-    fprintf(stream, "# from %s\n", path_name(table->file));
-    print_masked(stream, table);
-    print_rows(stream, table);
-    return end_file(out, stream);
+    text_format(&text, "# from %s\n", path_name(table->file));
+    add_masked(&text, table);
+    add_rows(&text, table);
+    return set_writer_add(&out->writer, import_table_file(out->set, table, &arena), &text);
 }
 
 static bool write_spectra(Output *out)
 {
     const ImportSpectra *spectra = &out->set->spectra;
+    Arena arena = out->scratch;
+    Text  text = {.arena = &arena};
     if (!spectra->rows) return true;
-    FILE *stream = begin_file(out, path_beside(out->manifest, "primaries.csv", &out->scratch));
-    if (!stream) return false;
-    fprintf(stream, "nm,red,green,blue%s\n", spectra->value[3] ? ",black" : "");
+    text_format(&text, "nm,red,green,blue%s\n", spectra->value[3] ? ",black" : "");
     for (int i = 0; i < spectra->rows; i++) {
-        fprintf(stream, "%.9g", spectra->nm[i]);
+        text_format(&text, "%.9g", spectra->nm[i]);
         for (int p = 0; p < 4 && spectra->value[p]; p++)
-            print_value(stream, spectra->value[p][i]);
-        fputc('\n', stream);
+            add_value(&text, spectra->value[p][i]);
+        text_add(&text, "\n");
     }
-    return end_file(out, stream);
+    return set_writer_add(&out->writer, "primaries.csv", &text);
 }
 
 /* ---- the manifest ------------------------------------------------------------------------ */
@@ -297,35 +223,22 @@ static json_t *manifest_object(Output *out)
 
 static bool write_manifest(Output *out)
 {
-    FILE *stream = begin_file(out, out->manifest);
-    if (!stream) return false;
     json_t *root = manifest_object(out);
-    bool    ok = !json_dumpf(root, stream, JSON_INDENT(2) | JSON_REAL_PRECISION(12));
-    fputc('\n', stream);
+    bool    ok = set_writer_add_manifest(&out->writer, root, 12);
     json_decref(root);
-    return end_file(out, stream) && (ok || error_at(out->err, ERROR_OUTPUT, out->manifest, "",
-                                                    "cannot be written"));
-}
-
-static bool has_source(const ImportSet *set, bool reflection)
-{
-    for (int i = 0; i < set->count; i++)
-        if ((set->table[i].source == IMPORT_REFLECTION) == reflection) return true;
-    return false;
+    return ok;
 }
 
 bool import_write(const ImportSet *set, const char *manifest, Error *err)
 {
-    Arena  arena = arena_reserve(SCRATCH_BYTES);
-    Output out = {.set = set, .manifest = manifest, .err = err};
-    out.path = ARENA_NEW(&arena, const char *, set->count + 2);
-    out.temporary = ARENA_NEW(&arena, const char *, set->count + 2);
+    Output out = {.set = set};
+    if (!set_writer_open(manifest, &out.writer, err)) return false;
+    Arena arena = arena_reserve((size_t)16 << 30);
     out.scratch = arena;
-    bool ok = spares_sources(&out) &&
-              make_folders(&out, has_source(set, false), has_source(set, true));
+    bool ok = spares_sources(&out);
     for (int i = 0; i < set->count && ok; i++) ok = write_table(&out, &set->table[i]);
-    ok = ok && write_spectra(&out) && write_manifest(&out) && commit_all(&out);
-    if (!ok) undo(&out);
+    ok = ok && write_spectra(&out) && write_manifest(&out);
+    ok = set_writer_close(&out.writer, ok);
     arena_release(&arena);
     return ok;
 }

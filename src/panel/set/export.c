@@ -1,21 +1,17 @@
 #include "panel/set/export.h"
 
 #include <dirent.h>
-#include <errno.h>
-#include <ftw.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/file.h"
-#include "base/file_write.h"
 #include "base/mathd.h"
 #include "base/units.h"
 #include "panel/query/panel_report.h"
-#include "text/text.h"
+#include "panel/set/polar_grid.h"
+#include "panel/set/set_writer.h"
 #include "spectrum/spectral_table.h"
 
 #define STEPS_OF_FWHM 2.4 /* how well the mirror's image is sampled */
@@ -25,7 +21,7 @@ static const char *const primary_names[3] = {"red", "green", "blue"};
 typedef struct Export {
     const Panel         *panel;
     const ExportOptions *options;
-    const char          *folder;
+    SetWriter           *writer;        /* NULL: one table alone */
     bool                 is_white_only; /* fitted to a white table */
     Arena                scratch;
     Progress             progress;
@@ -33,33 +29,13 @@ typedef struct Export {
     Error               *err;
 } Export;
 
-/* Rings of directions; the normal stands once. */
-typedef struct Rings {
-    double theta_step, phi_step, theta_max; /* degrees */
-    int    rings, azimuths;
-} Rings;
-
-static Rings rings_of(const ExportOptions *options, double cone, bool is_reflection)
+static PolarGrid grid_of(const ExportOptions *options, double cone, bool is_reflection)
 {
     double theta = options->theta_step_deg, phi = options->phi_step_deg;
-    Rings  rings = {theta > 0 ? theta : is_reflection ? 0.5 : 1,
-                    phi > 0 ? phi : is_reflection ? 1 : 3, 90, 0, 0};
-    if (!options->extrapolates) rings.theta_max = degrees_from_radians(cone);
-    rings.rings = (int)(rings.theta_max / rings.theta_step + 1e-4);
-    rings.azimuths = (int)round(360 / rings.phi_step);
-    rings.phi_step = 360.0 / rings.azimuths;
-    return rings;
-}
-
-static int rings_count(const Rings *rings)
-{
-    return 1 + rings->rings * rings->azimuths;
-}
-
-static void rings_direction(const Rings *rings, int i, double degrees[2])
-{
-    degrees[0] = i ? ((i - 1) / rings->azimuths + 1) * rings->theta_step : 0;
-    degrees[1] = i ? (i - 1) % rings->azimuths * rings->phi_step : 0;
+    double edge = options->extrapolates ? 90 : degrees_from_radians(cone);
+    if (!(theta > 0)) theta = is_reflection ? 0.5 : 1;
+    if (!(phi > 0)) phi = is_reflection ? 1 : 3;
+    return polar_grid(theta, phi, (int)(edge / theta + 1e-4));
 }
 
 static Vec3 direction_deg(double theta_deg, double phi_deg)
@@ -68,11 +44,10 @@ static Vec3 direction_deg(double theta_deg, double phi_deg)
     return vec3((float)(sin_d(t) * cos_d(p)), (float)(sin_d(t) * sin_d(p)), (float)cos_d(t));
 }
 
-static bool write_file(Export *export, const char *name, const Text *text, Arena arena)
+static bool write_table(Export *export, const char *name, const Text *text)
 {
-    const char *path = export->folder
-        ? arena_format(&arena, "%s/%s", export->folder, name) : name;
-    bool ok = text_write(text, path, export->err);
+    bool ok = export->writer ? set_writer_add(export->writer, name, text)
+                             : text_write(text, name, export->err);
     progress_update(&export->progress, ++export->done);
     return ok;
 }
@@ -82,36 +57,36 @@ static bool write_file(Export *export, const char *name, const Text *text, Arena
 static bool write_emission(Export *export, const double rgb[3], const char *name)
 {
     Arena     arena = export->scratch;
-    Rings     rings = rings_of(export->options, panel_info_emission_cone(export->panel), false);
-    Text text = {.arena = &arena};
+    PolarGrid grid = grid_of(export->options, panel_info_emission_cone(export->panel), false);
+    Text      text = {.arena = &arena};
     float     codes[3] = {(float)rgb[0], (float)rgb[1], (float)rgb[2]}, xyz[3];
     text_format(&text, "# codes %.10g,%.10g,%.10g; theta and phi in degrees; CIE 1931 XYZ, "
-                "Y in cd/m2, black not subtracted\ntheta,phi,X,Y,Z\n", rgb[0], rgb[1],
-                rgb[2]);
-    for (int i = 0; i < rings_count(&rings); i++) {
+                   "Y in cd/m2, black not subtracted\ntheta,phi,X,Y,Z\n", rgb[0], rgb[1],
+                   rgb[2]);
+    for (int i = 0; i < polar_grid_count(&grid); i++) {
         double degrees[2];
-        rings_direction(&rings, i, degrees);
+        polar_grid_direction(&grid, i, degrees);
         panel_emission_xyz(export->panel, direction_deg(degrees[0], degrees[1]), codes, xyz);
         text_format(&text, "%.10g,%.10g,%.9g,%.9g,%.9g\n", degrees[0], degrees[1],
-                    (double)xyz[0], (double)xyz[1], (double)xyz[2]);
+                       (double)xyz[0], (double)xyz[1], (double)xyz[2]);
     }
-    return write_file(export, name, &text, arena);
+    return write_table(export, name, &text);
 }
 
 static bool write_spectra(Export *export, const char *name)
 {
     Arena     arena = export->scratch;
-    Text text = {.arena = &arena};
+    Text      text = {.arena = &arena};
     text_format(&text, "# spectral radiance in W m^-2 sr^-1 nm^-1 at 1 cd/m2 on the axis; "
-                "wavelength in nm\nnm,red,green,blue\n");
+                   "wavelength in nm\nnm,red,green,blue\n");
     for (int i = 0; i < SPECTRAL_COUNT; i++) {
         text_format(&text, "%d", SPECTRAL_FIRST_NM + i);
         for (int p = 0; p < 3; p++)
             text_format(&text, ",%.9g",
-                        (double)panel_info_spectrum(export->panel, p)[i]);
+                           (double)panel_info_spectrum(export->panel, p)[i]);
         text_add(&text, "\n");
     }
-    return write_file(export, name, &text, arena);
+    return write_table(export, name, &text);
 }
 
 static bool write_all_emission(Export *export, json_t *manifest)
@@ -148,9 +123,9 @@ static bool write_all_emission(Export *export, json_t *manifest)
 /* Width of the instrument that is said to have seen the mirror part; 0: left out. */
 static double mirror_fwhm(const Export *export)
 {
-    Rings  rings = rings_of(export->options, 0, true);
+    PolarGrid grid = grid_of(export->options, 0, true);
     double fwhm = export->options->mirror_fwhm_deg;
-    if (fwhm < 0) fwhm = STEPS_OF_FWHM * fmax(rings.theta_step, 0.5 * rings.phi_step);
+    if (fwhm < 0) fwhm = STEPS_OF_FWHM * fmax(grid.theta_step, 0.5 * grid.phi_step);
     float  nm[PANEL_INFO_WAVELENGTHS_MAX];
     int    count = panel_info_wavelengths(export->panel, nm);
     for (int first = 0; first < count; first++) {
@@ -205,22 +180,22 @@ static bool write_brdf(Export *export, const Light *light, double fwhm_deg, cons
     int       count = panel_info_wavelengths(export->panel, nm);
     Arena     arena = export->scratch;
     double    cone = panel_info_reflection_cone(export->panel);
-    Rings     rings = rings_of(export->options, cone, true);
-    Text text = {.arena = &arena};
+    PolarGrid grid = grid_of(export->options, cone, true);
+    Text      text = {.arena = &arena};
     text_format(&text, "# light from theta %.10g, phi %.10g; angles in degrees, phi from "
-                "the mirror direction; sr^-1 without the cosine; columns in nm\n",
-                light->theta_deg, light->phi_deg);
+                   "the mirror direction; sr^-1 without the cosine; columns in nm\n",
+                   light->theta_deg, light->phi_deg);
     text_format(&text, "# the mirror part %s\ntheta,phi",
-                fwhm_deg > 0 ? "as the instrument that the manifest declares sees it"
-                             : "(a delta) is not in these numbers");
+                   fwhm_deg > 0 ? "as the instrument that the manifest declares sees it"
+                                : "(a delta) is not in these numbers");
     for (int i = 0; i < count; i++) text_format(&text, ",%.9g", (double)nm[i]);
     text_add(&text, "\n");
-    for (int i = 0; i < rings_count(&rings); i++) {
+    for (int i = 0; i < polar_grid_count(&grid); i++) {
         double degrees[2];
-        rings_direction(&rings, i, degrees);
+        polar_grid_direction(&grid, i, degrees);
         add_row(export, light, fwhm_deg, degrees, &text);
     }
-    return write_file(export, name, &text, arena);
+    return write_table(export, name, &text);
 }
 
 static double tidy_degrees(double radians)
@@ -285,38 +260,6 @@ static bool add_names(Export *export, const char *name, json_t *manifest)
     return true;
 }
 
-static bool write_manifest(Export *export, const json_t *manifest)
-{
-    Arena arena = export->scratch;
-    char *text = json_dumps(manifest, JSON_INDENT(2) | JSON_REAL_PRECISION(9));
-    if (!text) return error_set(export->err, ERROR_MEMORY, "no memory for the manifest");
-    Text with_end = {.arena = &arena};
-    text_format(&with_end, "%s\n", text);
-    free(text);
-    return write_file(export, "MANIFEST.json", &with_end, arena);
-}
-
-static bool make_folders(const Export *export)
-{
-    static const char *const inside[] = {"", "/emission", "/brdf"};
-    const bool wanted[] = {true, panel_info_emits(export->panel),
-                           panel_reflects(export->panel)};
-    for (int i = 0; i < 3; i++) {
-        char path[4096];
-        snprintf(path, sizeof path, "%s%s", export->folder, inside[i]);
-        if (wanted[i] && mkdir(path, 0777))
-            return error_at(export->err, ERROR_OUTPUT, path, "", "cannot be made: %s",
-                            strerror(errno));
-    }
-    return true;
-}
-
-static int remove_one(const char *path, const struct stat *status, int kind, struct FTW *walk)
-{
-    (void)status, (void)kind, (void)walk;
-    return remove(path);
-}
-
 static int count_tables(const Panel *panel)
 {
     double number[PANEL_INFO_INCIDENCES_MAX], phi[PANEL_INFO_AZIMUTHS_MAX];
@@ -329,11 +272,12 @@ static int count_tables(const Panel *panel)
 static bool write_set(Export *export, const char *name)
 {
     json_t *manifest = json_object();
-    bool ok = make_folders(export) && add_names(export, name, manifest) &&
+    bool ok = add_names(export, name, manifest) &&
               (!panel_info_emits(export->panel) || write_all_emission(export, manifest)) &&
               (!panel_reflects(export->panel) || write_all_brdf(export, manifest)) &&
-              write_manifest(export, manifest);
+              set_writer_add_manifest(export->writer, manifest, 9);
     json_decref(manifest);
+    progress_update(&export->progress, ++export->done);
     return ok;
 }
 
@@ -350,28 +294,24 @@ static bool is_new_or_empty(const char *folder, Error *err)
                     "holds something already, wanted a new or an empty folder");
 }
 
-/* The finished folder takes the place of a new or an empty one at once. */
-static bool put_in_place(const char *made, const char *folder, Error *err)
-{
-    return !rename(made, folder) ||
-           error_at(err, ERROR_OUTPUT, folder, "", "cannot be made: %s", strerror(errno));
-}
-
 bool panel_export(const Panel *panel, const char *name, const ExportOptions *options,
                   const char *folder, Error *err)
 {
+    SetWriter writer;
     if (!is_new_or_empty(folder, err)) return false;
     Arena  arena = arena_reserve((size_t)16 << 30);
     size_t length = strlen(folder);
     while (length > 1 && folder[length - 1] == '/') length--;
-    const char *final = arena_string(&arena, folder, length);
-    const char *made = file_temporary_name(final, &arena);
-    Export export = {.panel = panel, .options = options, .folder = made, .scratch = arena,
-                     .progress = progress_start(options->progress, "export", "tables",
-                                                count_tables(panel)), .err = err};
-    bool ok = write_set(&export, name) && put_in_place(made, final, err);
-    progress_end(&export.progress, export.done);
-    if (!ok) nftw(made, remove_one, 8, FTW_DEPTH | FTW_PHYS);
+    bool ok = set_writer_open(arena_format(&arena, "%.*s/MANIFEST.json", (int)length, folder),
+                              &writer, err);
+    if (ok) {
+        Export export = {.panel = panel, .options = options, .writer = &writer,
+                         .scratch = arena, .err = err,
+                         .progress = progress_start(options->progress, "export", "tables",
+                                                    count_tables(panel))};
+        ok = set_writer_close(&writer, write_set(&export, name));
+        progress_end(&export.progress, export.done);
+    }
     arena_release(&arena);
     return ok;
 }

@@ -1,28 +1,23 @@
 #include "panel/set/simulate.h"
 
-#include <errno.h>
-#include <ftw.h>
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
-#include <sys/stat.h>
 
+#include "base/file.h"
 #include "base/mathd.h"
 #include "base/sampler.h"
 #include "base/units.h"
-#include "text/text.h"
+#include "panel/set/polar_grid.h"
+#include "panel/set/set_writer.h"
 #include "spectrum/spectral_table.h"
-
 
 static const char *const primary_names[3] = {"red", "green", "blue"};
 
 typedef struct Instrument {
     const Recipe *recipe;
-    const char   *folder;
+    SetWriter     writer;
     Progress      progress;
     int           tables_done;
     Arena         scratch;
-    Error        *err;
 } Instrument;
 
 /* A normal deviate by Box and Muller from two hashes of (seed, table, value). */
@@ -44,36 +39,17 @@ static double noisy(const Instrument *instrument, double value, double absolute,
            absolute * normal_deviate(i, table, 2 * index + 1);
 }
 
-static bool write_text(const Instrument *instrument, const char *name, const Text *text,
-                       Arena arena)
+static bool write_table(Instrument *instrument, const char *name, const Text *text)
 {
-    const char *path = arena_format(&arena, "%s/%s", instrument->folder, name);
-    return text_write(text, path, instrument->err);
+    bool ok = set_writer_add(&instrument->writer, name, text);
+    progress_update(&instrument->progress, ++instrument->tables_done);
+    return ok;
 }
 
-/* Directions of a grid: theta from one step (0 stands apart) to the cone, all azimuths. */
-typedef struct Grid {
-    double theta_step_deg, phi_step_deg;
-    int    thetas, phis;
-} Grid;
-
-static Grid grid_of(double theta_max_deg, double theta_step_deg, double phi_step_deg)
+static PolarGrid grid_of(const Instrument *instrument, double theta_step, double phi_step)
 {
-    int phis = (int)round(360 / phi_step_deg);
-    return (Grid){theta_step_deg, 360.0 / phis, (int)(theta_max_deg / theta_step_deg + 1e-9),
-                  phis};
-}
-
-/* Direction i of the grid in degrees; 0 is the normal. */
-static void grid_direction(const Grid *grid, int i, double degrees[2])
-{
-    degrees[0] = i ? ((i - 1) / grid->phis + 1) * grid->theta_step_deg : 0;
-    degrees[1] = i ? (i - 1) % grid->phis * grid->phi_step_deg : 0;
-}
-
-static int grid_count(const Grid *grid)
-{
-    return 1 + grid->thetas * grid->phis;
+    double theta_max = instrument->recipe->instrument.theta_max_deg;
+    return polar_grid(theta_step, phi_step, (int)(theta_max / theta_step + 1e-9));
 }
 
 /* ---- emission -------------------------------------------------------------------------- */
@@ -83,28 +59,26 @@ static bool write_emission(Instrument *instrument, int primary, double level)
 {
     const Recipe *recipe = instrument->recipe;
     Arena arena = instrument->scratch;
-    Grid  grid = grid_of(recipe->instrument.theta_max_deg, recipe->instrument.theta_step_deg,
-                         recipe->instrument.phi_step_deg);
-    Text text = {.arena = &arena};
+    Text  text = {.arena = &arena};
+    PolarGrid grid = grid_of(instrument, recipe->instrument.theta_step_deg,
+                             recipe->instrument.phi_step_deg);
     text_add(&text, "theta,phi,X,Y,Z\n");
-    for (int i = 0; i < grid_count(&grid); i++) {
+    for (int i = 0; i < polar_grid_count(&grid); i++) {
         double degrees[2], xyz[3], add[3] = {0, 0, 0};
-        grid_direction(&grid, i, degrees);
+        polar_grid_direction(&grid, i, degrees);
         double angles[2] = {radians_from_degrees(degrees[0]), radians_from_degrees(degrees[1])};
         truth_black_xyz(recipe, angles, xyz);
         if (primary >= 0) truth_emission_xyz(recipe, primary, level, angles, add);
         text_format(&text, "%.10g,%.10g", degrees[0], degrees[1]);
         for (int j = 0; j < 3; j++)
             text_format(&text, ",%.6g", noisy(instrument, xyz[j] + add[j],
-                                        recipe->instrument.noise_cd_m2,
-                                        (uint32_t)(3 * i + j)));
+                                           recipe->instrument.noise_cd_m2,
+                                           (uint32_t)(3 * i + j)));
         text_add(&text, "\n");
     }
     const char *name = primary < 0 ? "emission/black.csv"
         : arena_format(&arena, "emission/%s_%03g.csv", primary_names[primary], level);
-    bool ok = write_text(instrument, name, &text, arena);
-    progress_update(&instrument->progress, ++instrument->tables_done);
-    return ok;
+    return write_table(instrument, name, &text);
 }
 
 static bool write_all_emission(Instrument *instrument)
@@ -130,7 +104,7 @@ static void add_brdf_row(Instrument *instrument, Text *text, double incidence,
             radians_from_degrees(degrees[0]), radians_from_degrees(degrees[1]),
             r->wavelength_nm[w]);
         text_format(text, ",%.5g", noisy(instrument, value, recipe->instrument.noise_brdf_sr,
-                                   index * (uint32_t)r->wavelength_count + (uint32_t)w));
+                                      index * (uint32_t)r->wavelength_count + (uint32_t)w));
     }
     text_add(text, "\n");
 }
@@ -140,24 +114,21 @@ static bool write_brdf(Instrument *instrument, double incidence_deg)
     const Recipe *recipe = instrument->recipe;
     const RecipeReflection *r = &recipe->reflection;
     Arena arena = instrument->scratch;
-    Grid  grid = grid_of(recipe->instrument.theta_max_deg,
-                         recipe->instrument.brdf_theta_step_deg,
-                         recipe->instrument.brdf_phi_step_deg);
-    Text text = {.arena = &arena};
+    Text  text = {.arena = &arena};
+    PolarGrid grid = grid_of(instrument, recipe->instrument.brdf_theta_step_deg,
+                             recipe->instrument.brdf_phi_step_deg);
     text_add(&text, "theta,phi");
     for (int w = 0; w < r->wavelength_count; w++)
         text_format(&text, ",%.10g", r->wavelength_nm[w]);
     text_add(&text, "\n");
-    for (int i = 0; i < grid_count(&grid); i++) {
+    for (int i = 0; i < polar_grid_count(&grid); i++) {
         double degrees[2];
-        grid_direction(&grid, i, degrees);
+        polar_grid_direction(&grid, i, degrees);
         add_brdf_row(instrument, &text, radians_from_degrees(incidence_deg), degrees,
                      (uint32_t)i);
     }
     const char *name = arena_format(&arena, "brdf/i%.10g.csv", incidence_deg);
-    bool ok = write_text(instrument, name, &text, arena);
-    progress_update(&instrument->progress, ++instrument->tables_done);
-    return ok;
+    return write_table(instrument, name, &text);
 }
 
 /* ---- spectra and manifest -------------------------------------------------------------- */
@@ -165,17 +136,17 @@ static bool write_brdf(Instrument *instrument, double incidence_deg)
 static bool write_spectra(Instrument *instrument)
 {
     Arena arena = instrument->scratch;
-    Text text = {.arena = &arena};
+    Text  text = {.arena = &arena};
     text_add(&text, "nm,red,green,blue\n");
     for (int i = 0; i < SPECTRAL_COUNT; i++) {
         int nm = SPECTRAL_FIRST_NM + i;
         text_format(&text, "%d", nm);
         for (int p = 0; p < 3; p++)
             text_format(&text, ",%.6g",
-                  truth_spectrum(&instrument->recipe->emission.primary[p], nm));
+                     truth_spectrum(&instrument->recipe->emission.primary[p], nm));
         text_add(&text, "\n");
     }
-    return write_text(instrument, "primaries.csv", &text, arena);
+    return set_writer_add(&instrument->writer, "primaries.csv", &text);
 }
 
 static void add_quoted(Text *text, const char *key, const char *value)
@@ -202,7 +173,7 @@ static void add_emission(Text *text, const RecipeEmission *emission)
         text_format(text, ",\n    \"%s\": {", primary_names[p]);
         for (int i = 0; i < emission->level_count; i++)
             text_format(text, "%s\"%g\": \"emission/%s_%03g.csv\"", i ? ", " : "",
-                  emission->level[i], primary_names[p], emission->level[i]);
+                     emission->level[i], primary_names[p], emission->level[i]);
         text_add(text, "}");
     }
     text_add(text, "\n  },\n");
@@ -212,11 +183,11 @@ static bool write_manifest(Instrument *instrument)
 {
     const Recipe *recipe = instrument->recipe;
     Arena arena = instrument->scratch;
-    Text text = {.arena = &arena};
+    Text  text = {.arena = &arena};
     text_add(&text, "{\n");
     add_quoted(&text, "panel", recipe->panel);
     text_format(&text, "  \"instrument\": \"simulated Fourier optics, %g deg\",\n",
-          recipe->instrument.theta_max_deg);
+             recipe->instrument.theta_max_deg);
     add_quoted(&text, "note", recipe->note);
     text_format(&text, "  \"instrument_fwhm_deg\": %g,\n  ", recipe->instrument.fwhm_deg);
     add_list(&text, "pixels", recipe->pixels, 2);
@@ -235,47 +206,28 @@ static bool write_manifest(Instrument *instrument)
         text_add(&text, ",\n    \"files\": \"brdf/i{incidence}.csv\"}");
     }
     text_add(&text, "\n}\n");
-    return write_text(instrument, "MANIFEST.json", &text, arena);
-}
-
-/* *is_new: it was not there before. */
-static bool make_folder(const char *folder, const char *inside, bool *is_new, Error *err)
-{
-    char path[4096];
-    snprintf(path, sizeof path, "%s%s%s", folder, *inside ? "/" : "", inside);
-    *is_new = !mkdir(path, 0777);
-    if (*is_new || errno == EEXIST) return true;
-    return error_at(err, ERROR_OUTPUT, path, "", "cannot be made: %s", strerror(errno));
-}
-
-static int remove_one(const char *path, const struct stat *status, int kind, struct FTW *walk)
-{
-    (void)status, (void)kind, (void)walk;
-    return remove(path);
-}
-
-static bool make_folders(const char *folder, bool reflects, bool *is_new, Error *err)
-{
-    bool any;
-    return make_folder(folder, "", is_new, err) && make_folder(folder, "emission", &any, err) &&
-           (!reflects || make_folder(folder, "brdf", &any, err));
+    return set_writer_add(&instrument->writer, "MANIFEST.json", &text);
 }
 
 bool simulate_measurement(const Recipe *recipe, const char *folder, ProgressMode mode,
                           Error *err)
 {
     const RecipeReflection *r = &recipe->reflection;
-    int slices = r->exists ? r->incidence_count : 0;
-    int tables = 1 + 3 * recipe->emission.level_count + slices;
-    bool is_new = false;
+    int        slices = r->exists ? r->incidence_count : 0;
+    int        tables = 1 + 3 * recipe->emission.level_count + slices;
+    Instrument instrument = {.recipe = recipe};
     Arena      arena = arena_reserve((size_t)16 << 30);
-    Instrument instrument = {recipe, folder, progress_start(mode, "simulate", "tables", tables),
-                             0, arena, err};
-    bool ok = make_folders(folder, slices > 0, &is_new, err) && write_all_emission(&instrument);
-    for (int i = 0; i < slices && ok; i++) ok = write_brdf(&instrument, r->incidence_deg[i]);
-    ok = ok && write_spectra(&instrument) && write_manifest(&instrument);
-    progress_end(&instrument.progress, instrument.tables_done);
-    if (!ok && is_new) nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS); /* all is ours */
+    bool       ok = set_writer_open(arena_format(&arena, "%s/MANIFEST.json", folder),
+                                    &instrument.writer, err);
+    if (ok) {
+        instrument.progress = progress_start(mode, "simulate", "tables", tables);
+        instrument.scratch = arena;
+        ok = write_all_emission(&instrument);
+        for (int i = 0; i < slices && ok; i++) ok = write_brdf(&instrument, r->incidence_deg[i]);
+        ok = ok && write_spectra(&instrument) && write_manifest(&instrument);
+        ok = set_writer_close(&instrument.writer, ok);
+        progress_end(&instrument.progress, instrument.tables_done);
+    }
     arena_release(&arena);
     return ok;
 }

@@ -1,0 +1,39 @@
+/* set_writer.h -- a measurement set becomes files: all of them or none.
+ *
+ * Every file is written under a temporary name beside its own. Only when all are there do they
+ * get their names, in the order in which they were added: the manifest comes last, so that
+ * whoever finds one finds its tables. On any failure what was made here goes again, folders
+ * too; a file that stood there before is then as it was, unless its successor has its name
+ * already.
+ *
+ * Memory   its own arena, from open to close. Threads: one at a time.
+ * Fails    with the file or folder that cannot be made or written, and the system's reason.
+ */
+#pragma once
+#include <jansson.h>
+
+#include "base/error.h"
+#include "text/text.h"
+
+typedef struct SetWriter {
+    const char       *manifest;
+    struct SetFile   *first, *last;
+    struct SetFolder *made; /* the latest first */
+    Arena             arena;
+    Error            *err;
+} SetWriter;
+
+/* Refuses when a manifest stands there that may not be replaced. `manifest` and `err` must
+ * outlive the writer. After a failure there is nothing to close. */
+bool set_writer_open(const char *manifest, SetWriter *out, Error *err);
+
+/* name: as the manifest names it, "emission/black.csv". Its folder and the manifest's are made
+ * when absent; a name that was added already is written again. */
+bool set_writer_add(SetWriter *writer, const char *name, const Text *text);
+
+/* The manifest, indented, numbers with so many digits. */
+bool set_writer_add_manifest(SetWriter *writer, const json_t *root, int digits);
+
+/* is_whole: all that was wanted has been added. False, and nothing left, when it is not, or
+ * when a file cannot get its name. */
+bool set_writer_close(SetWriter *writer, bool is_whole);
