@@ -223,7 +223,8 @@ bool simulate_measurement(const Recipe *recipe, const char *folder, ProgressMode
         instrument.progress = progress_start(mode, "simulate", "tables", tables);
         instrument.scratch = arena;
         ok = write_all_emission(&instrument);
-        for (int i = 0; i < slices && ok; i++) ok = write_brdf(&instrument, r->incidence_deg[i]);
+        for (int i = 0; i < slices && ok; i++)
+            ok = write_brdf(&instrument, r->incidence_deg[i]);
         ok = ok && write_spectra(&instrument) && write_manifest(&instrument);
         ok = set_writer_close(&instrument.writer, ok);
         progress_end(&instrument.progress, instrument.tables_done);
