@@ -1,41 +1,11 @@
 /* A measurement set is written whole or not at all, whatever stood in its place. */
-#include "check.h"
+#include "fixture.h"
 
-#include <dirent.h>
 #include <signal.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-#include "base/file.h"
-#include "base/file_write.h"
 #include "panel/set/set_writer.h"
-
-static Arena arena;
-static char  folder[256];
-
-static int start(void **state)
-{
-    (void)state;
-    const char *base = getenv("TMPDIR");
-    snprintf(folder, sizeof folder, "%s/parhelion-test-XXXXXX", base ? base : P_tmpdir);
-    arena = arena_reserve(1 << 24);
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    arena_release(&arena);
-    return rmdir(folder); /* fails when a test left anything behind */
-}
-
-static const char *in_folder(const char *name)
-{
-    return arena_format(&arena, "%s/%s", folder, name);
-}
 
 static bool stands(const char *name)
 {
@@ -45,16 +15,8 @@ static bool stands(const char *name)
 
 static bool holds(const char *name, const char *wanted)
 {
-    Error     err;
-    FileBytes bytes;
-    return file_read(in_folder(name), 1000, &arena, &bytes, &err) &&
-           !strcmp((const char *)bytes.data, wanted);
-}
-
-static void put(const char *name, const char *content)
-{
-    Error err;
-    assert_true(file_write(in_folder(name), content, strlen(content), &err));
+    Arena arena = *test_memory();
+    return !strcmp(read_text(in_folder(name), &arena), wanted);
 }
 
 /* Everything below the folder but "." and "..". */
@@ -65,14 +27,16 @@ static int entries_below(const char *path)
     DIR           *list = opendir(path);
     for (; list && (entry = readdir(list));)
         if (*entry->d_name != '.')
-            count += 1 + entries_below(arena_format(&arena, "%s/%s", path, entry->d_name));
+            count += 1 + entries_below(arena_format(test_memory(), "%s/%s", path,
+                                                    entry->d_name));
     if (list) closedir(list);
     return count;
 }
 
 static bool add(SetWriter *writer, const char *name, const char *content)
 {
-    Text text = {.arena = &arena};
+    Arena arena = *test_memory();
+    Text  text = {.arena = &arena};
     text_add(&text, content);
     return set_writer_add(writer, name, &text);
 }
@@ -101,7 +65,7 @@ static void refused(const char *name, const char *reason)
     assert_false(write_all(&err));
     assert_int_equal(err.code, ERROR_OUTPUT);
     assert_string_equal(err.file, in_folder(name));
-    if (!strstr(err.text, reason)) fail_msg("'%s', wanted '%s'", err.text, reason);
+    assert_error_has(&err, reason);
 }
 
 static void remove_all(void)
@@ -125,10 +89,10 @@ static void a_whole_set_has_its_names_at_the_end(void **state)
     assert_true(holds("set/emission/black.csv", "black"));
     assert_true(holds("set/brdf/i30.csv", "again"));
     assert_true(holds("set/MANIFEST.json", "{\n  \"third\": 0.333\n}\n"));
-    assert_int_equal(entries_below(folder), 6);
+    assert_int_equal(entries_below(test_folder()), 6);
     assert_true(write_all(&err)); /* over what stands there */
     assert_true(holds("set/brdf/i30.csv", "reflection"));
-    assert_int_equal(entries_below(folder), 6);
+    assert_int_equal(entries_below(test_folder()), 6);
     remove_all();
 }
 
@@ -140,20 +104,20 @@ static void a_set_that_is_not_whole_goes_again(void **state)
     assert_true(set_writer_open(in_folder("set/MANIFEST.json"), &writer, &err));
     assert_true(add_all(&writer));
     assert_false(set_writer_close(&writer, false));
-    assert_int_equal(entries_below(folder), 0);
+    assert_int_equal(entries_below(test_folder()), 0);
 }
 
 static void a_file_where_a_folder_is_wanted_is_named(void **state)
 {
     (void)state;
-    put("set", "a file");
+    write_text(in_folder("set"), "a file");
     refused("set/emission", "cannot be made: Not a directory");
     assert_true(holds("set", "a file"));
     assert_int_equal(remove(in_folder("set")), 0);
     assert_int_equal(mkdir(in_folder("set"), 0777), 0);
-    put("set/brdf", "a file");
+    write_text(in_folder("set/brdf"), "a file");
     refused("set/brdf/i30.csv", "cannot be written: Not a directory");
-    assert_int_equal(entries_below(folder), 2);
+    assert_int_equal(entries_below(test_folder()), 2);
     assert_int_equal(remove(in_folder("set/brdf")), 0);
     assert_int_equal(rmdir(in_folder("set")), 0);
 }
@@ -165,10 +129,10 @@ static void a_folder_where_a_file_is_wanted_is_named(void **state)
     assert_true(write_all(&err));
     assert_int_equal(remove(in_folder("set/brdf/i30.csv")), 0);
     assert_int_equal(mkdir(in_folder("set/brdf/i30.csv"), 0777), 0);
-    put("set/emission/black.csv", "the older one");
+    write_text(in_folder("set/emission/black.csv"), "the older one");
     refused("set/brdf/i30.csv", "cannot be written: Is a directory");
     assert_true(holds("set/emission/black.csv", "the older one"));
-    assert_int_equal(entries_below(folder), 6);
+    assert_int_equal(entries_below(test_folder()), 6);
     assert_int_equal(remove(in_folder("set/MANIFEST.json")), 0);
     assert_int_equal(mkdir(in_folder("set/MANIFEST.json"), 0777), 0);
     refused("set/MANIFEST.json", "cannot be written: Is a directory");
@@ -186,7 +150,7 @@ static void names_that_were_given_are_taken_back(void **state)
     assert_int_equal(mkdir(in_folder("set/brdf/i30.csv"), 0777), 0);
     assert_false(set_writer_close(&writer, true));
     assert_string_equal(err.file, in_folder("set/brdf/i30.csv"));
-    assert_int_equal(entries_below(folder), 3); /* what is in the way, and its folders */
+    assert_int_equal(entries_below(test_folder()), 3); /* what is in the way, and its folders */
     assert_int_equal(remove(in_folder("set/brdf/i30.csv")), 0);
     assert_int_equal(rmdir(in_folder("set/brdf")), 0);
     assert_int_equal(rmdir(in_folder("set")), 0);
@@ -198,7 +162,7 @@ static void a_full_disk_leaves_what_stood_there(void **state)
     Error         err = {0};
     struct rlimit before, limit;
     assert_true(write_all(&err));
-    put("set/emission/black.csv", "old");
+    write_text(in_folder("set/emission/black.csv"), "old");
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
     limit = (struct rlimit){8, before.rlim_max}; /* black.csv fits, i30.csv does not */
     signal(SIGXFSZ, SIG_IGN);
@@ -207,9 +171,9 @@ static void a_full_disk_leaves_what_stood_there(void **state)
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
     assert_false(ok);
     assert_string_equal(err.file, in_folder("set/brdf/i30.csv"));
-    assert_non_null(strstr(err.text, "cannot be written: File too large"));
+    assert_error_has(&err, "cannot be written: File too large");
     assert_true(holds("set/emission/black.csv", "old"));
-    assert_int_equal(entries_below(folder), 6);
+    assert_int_equal(entries_below(test_folder()), 6);
     remove_all();
 }
 
@@ -234,5 +198,5 @@ int main(void)
         cmocka_unit_test(a_full_disk_leaves_what_stood_there),
         cmocka_unit_test(a_read_only_folder_is_named),
     };
-    return cmocka_run_group_tests(tests, start, end);
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
