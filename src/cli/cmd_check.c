@@ -5,7 +5,7 @@
 #include "base/reference.h"
 #include "base/units.h"
 #include "cli/options/cli.h"
-#include "scene/scene.h"
+#include "scene/load/scene_load.h"
 #include "text/json_text.h"
 
 #define ARENA_BYTES ((size_t)64 << 30) /* address space; pages come when touched */

@@ -4,7 +4,7 @@
 #include "base/reference.h"
 #include "cli/measure_command.h"
 #include "render/illuminance.h"
-#include "scene/scene.h"
+#include "scene/load/scene_load.h"
 #include "spectrum/photometry.h"
 
 static bool print_illuminance(const Cli *cli, const IlluminanceOptions *options,

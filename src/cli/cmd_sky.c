@@ -13,6 +13,7 @@
 #include "image/frame.h"
 #include "light/sky.h"
 #include "plot/sky_plot.h"
+#include "scene/load/scene_load.h"
 #include "spectrum/photometry.h"
 #include "text/json_text.h"
 

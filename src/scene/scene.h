@@ -1,8 +1,8 @@
 /* scene.h -- what the user described, as plain arrays with ids.
  *
- * Filled by scene_load, checked once, then const. Elements refer to each other by id; NO_ID
- * is "none". Everything is in world space (metres, +Y up): node trees are flattened, skins and
- * morph targets are at rest pose.
+ * Filled by scene_load (load/scene_load.h), checked once, then const. Elements refer to each
+ * other by id; NO_ID is "none". Everything is in world space (metres, +Y up): node trees are
+ * flattened, skins and morph targets are at rest pose.
  *
  * Memory   everything lives in the arena given to scene_load, and dies with it; the panels are
  *          closed by scene_close.
@@ -194,15 +194,3 @@ typedef struct SceneOptions {
     const SceneOverride *levels; /* --display-level MATERIAL=PERCENT, * for all */
     int level_count;
 } SceneOptions;
-
-/* Loads and checks everything; every fault and every warning goes to *problems, with file and
- * JSON path. False (and *err = the first error) when there is an error. */
-bool scene_load(const SceneOptions *options, Arena *arena, Problems *problems, Scene **out,
-                Error *err);
-
-/* As scene_load, for a report: *problems holds everything that is wrong, and the Scene (never
- * NULL) is as much as could be read. Only one without errors may be rendered. */
-Scene *scene_survey(const SceneOptions *options, Arena *arena, Problems *problems);
-
-/* Closes the panels. NULL is fine. */
-void scene_close(Scene *scene);

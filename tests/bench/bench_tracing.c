@@ -10,7 +10,7 @@
 
 #include "film/film.h"
 #include "kernel/kernel.h"
-#include "scene/scene.h"
+#include "scene/load/scene_load.h"
 
 #define WIDTH 320
 #define HEIGHT 180

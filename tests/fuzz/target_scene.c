@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "harness.h"
-#include "scene/scene.h"
+#include "scene/load/scene_load.h"
 
 static bool is_id(int id, int count)
 {

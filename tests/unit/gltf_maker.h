@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "base/file.h"
-#include "scene/scene.h"
+#include "scene/load/scene_load.h"
 
 #define MAKER_ARENA_BYTES ((size_t)1 << 30)
 

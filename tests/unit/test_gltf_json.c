@@ -1,7 +1,7 @@
 /* The door to tinygltf, seen from C: values know their place, and nothing foreign comes out. */
 #include "fixture.h"
 
-#include "scene/tree.h"
+#include "scene/gltf/tree.h"
 
 static const GltfValue *parse(const char *text)
 {

@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 
 #include "base/file.h"
-#include "scene/scene.h"
+#include "scene/load/scene_load.h"
 
 #define CORPUS SHARED_DATA_DIR "/gltf"
 

@@ -7,6 +7,7 @@
 #include "base/file_write.h"
 #include "base/machine.h"
 #include "cli/render/render_identity.h"
+#include "scene/load/scene_load.h"
 
 /* Everything of one run of the command. */
 typedef struct Work {

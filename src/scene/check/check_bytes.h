@@ -1,0 +1,6 @@
+/* check_bytes.h -- buffer views and accessors: everything lies inside its buffer. */
+#pragma once
+#include "scene/check/check.h"
+
+void check_buffer_view(const DocumentCheck *check, const GltfValue *view);
+void check_accessor(const DocumentCheck *check, const GltfValue *accessor);

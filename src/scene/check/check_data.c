@@ -1,0 +1,236 @@
+/* The bytes behind the accessors: finite, within their bounds, indices that exist. */
+#include "scene/check/check_data.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "scene/gltf/accessor.h"
+#include "scene/gltf/document.h"
+
+/* ---- numbers --------------------------------------------------------------------------- */
+
+/* Reports the first number that is not finite. */
+static bool check_finite(GltfFile *file, const GltfValue *value, const GltfAccessor *accessor,
+                         const float *numbers)
+{
+    size_t total = accessor->count * (size_t)accessor->component_count;
+    for (size_t i = 0; i < total; i++) {
+        if (isfinite(numbers[i])) continue;
+        file_error(file, value, "element %zu has the component %g; finite numbers are wanted",
+                   i / (size_t)accessor->component_count, (double)numbers[i]);
+        return false;
+    }
+    return true;
+}
+
+/* Bounds that are off show that a file was edited by hand; nothing here depends on them. */
+static void check_bounds(GltfFile *file, const GltfValue *value, const GltfAccessor *accessor,
+                         const float *numbers)
+{
+    int n = accessor->component_count;
+    for (int side = 0; side < 2; side++) {
+        float declared[16];
+        if (!tree_floats(value, side ? "max" : "min", n, declared)) continue;
+        for (int c = 0; c < n; c++) {
+            float extreme = numbers[c];
+            for (size_t i = 1; i < accessor->count; i++) {
+                float number = numbers[i * (size_t)n + (size_t)c];
+                if (side ? number > extreme : number < extreme) extreme = number;
+            }
+            if (fabsf(extreme - declared[c]) <= 1e-4f * fmaxf(1, fabsf(extreme))) continue;
+            file_warning(file, &tree_member(value, side ? "max" : "min")->items[c],
+                         "is %g, the %s value there is %g", (double)declared[c],
+                         side ? "greatest" : "smallest", (double)extreme);
+            return;
+        }
+    }
+}
+
+static void check_sparse_order(GltfFile *file, const GltfValue *value,
+                               const GltfAccessor *accessor)
+{
+    const uint32_t *indices = accessor_sparse_indices(file, accessor);
+    for (size_t i = 0; indices && i < accessor->sparse_count; i++) {
+        if (indices[i] >= accessor->count) {
+            file_error(file, tree_member(value, "sparse"),
+                       "index %zu is %u, the accessor has %zu "
+                       "elements",
+                       i, indices[i], accessor->count);
+            return;
+        }
+        if (i && indices[i] <= indices[i - 1]) {
+            file_error(file, tree_member(value, "sparse"),
+                       "index %zu is %u after %u; indices that "
+                       "rise are wanted",
+                       i, indices[i], indices[i - 1]);
+            return;
+        }
+    }
+}
+
+static void check_one(GltfFile *file, int id)
+{
+    const GltfValue *value = tree_element(file->root, "accessors", id);
+    const GltfAccessor *accessor = accessor_get(file, id);
+    if (!accessor->sparse_count && accessor->buffer_view < 0) return; /* zeros */
+    if (accessor->sparse_count) check_sparse_order(file, value, accessor);
+    const float *numbers = accessor_raw_floats(file, id);
+    if (check_finite(file, value, accessor, numbers))
+        check_bounds(file, value, accessor, numbers);
+}
+
+/* ---- indices --------------------------------------------------------------------------- */
+
+static int attribute(const GltfValue *primitive, const char *name)
+{
+    return tree_int(tree_member(primitive, "attributes"), name, NO_ID);
+}
+
+static void check_vertex_indices(GltfFile *file, const GltfValue *primitive)
+{
+    const GltfAccessor *indices = accessor_get(file, tree_int(primitive, "indices", NO_ID));
+    const GltfAccessor *position = accessor_get(file, attribute(primitive, "POSITION"));
+    if (!indices || !position) return;
+    const uint32_t *list = accessor_integers(file, tree_int(primitive, "indices", NO_ID));
+    size_t wrong = 0, first = 0, restart = 0;
+    uint32_t greatest =
+        (uint32_t)(0xFFFFFFFFu >> (32 - 8 * component_size(indices->component_type)));
+    for (size_t i = indices->count; i-- > 0;)
+        if (list[i] >= position->count) {
+            wrong++;
+            first = i;
+        } else if (list[i] == greatest) {
+            restart++;
+        }
+    if (restart)
+        file_warning(file, tree_member(primitive, "indices"),
+                     "the greatest index of its type, %u, "
+                     "stands there %zu times: glTF reserves it",
+                     greatest, restart);
+    if (wrong)
+        file_error(file, tree_member(primitive, "indices"),
+                   "index %zu is %u, the primitive has "
+                   "%zu vertices (%zu such indices)",
+                   first, list[first], position->count, wrong);
+}
+
+static void check_joint_indices(GltfFile *file, const GltfValue *node,
+                                const GltfValue *primitive)
+{
+    const GltfValue *skin = tree_element(file->root, "skins", tree_int(node, "skin", NO_ID));
+    uint32_t count = (uint32_t)tree_count(skin, "joints");
+    for (int n = 0; n < 8 && count; n++) {
+        char name[24];
+        snprintf(name, sizeof name, "JOINTS_%d", n);
+        const GltfAccessor *accessor = accessor_get(file, attribute(primitive, name));
+        if (!accessor) return;
+        const uint32_t *joints = accessor_integers(file, attribute(primitive, name));
+        for (size_t i = 0; i < 4 * accessor->count; i++) {
+            if (joints[i] < count) continue;
+            file_error(file, tree_member(tree_member(primitive, "attributes"), name),
+                       "vertex %zu names joint %u, the skin has %u joints", i / 4, joints[i],
+                       count);
+            return;
+        }
+    }
+}
+
+static void check_primitives(GltfFile *file)
+{
+    const GltfValue *meshes = tree_member(file->root, "meshes");
+    for (int m = 0; meshes && m < meshes->count; m++) {
+        const GltfValue *list = tree_member(&meshes->items[m], "primitives");
+        for (int p = 0; list && p < list->count; p++) {
+            Arena saved = file->load->scratch;
+            check_vertex_indices(file, &list->items[p]);
+            file->load->scratch = saved;
+        }
+    }
+}
+
+static void check_skinned_nodes(GltfFile *file)
+{
+    const GltfValue *nodes = tree_member(file->root, "nodes");
+    for (int i = 0; nodes && i < nodes->count; i++) {
+        const GltfValue *node = &nodes->items[i];
+        const GltfValue *mesh =
+            tree_element(file->root, "meshes", tree_int(node, "mesh", NO_ID));
+        const GltfValue *list = tree_member(mesh, "primitives");
+        for (int p = 0; list && tree_member(node, "skin") && p < list->count; p++) {
+            Arena saved = file->load->scratch;
+            check_joint_indices(file, node, &list->items[p]);
+            file->load->scratch = saved;
+        }
+    }
+}
+
+/* ---- matrices and quaternions ---------------------------------------------------------- */
+
+static void check_bind_matrices(GltfFile *file, const GltfValue *skin)
+{
+    int id = tree_int(skin, "inverseBindMatrices", NO_ID);
+    const GltfAccessor *accessor = accessor_get(file, id);
+    if (!accessor || accessor->component_count != 16) return;
+    const float *m = accessor_floats(file, id);
+    for (size_t i = 0; i < accessor->count; i++, m += 16)
+        if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) {
+            file_warning(file, tree_member(skin, "inverseBindMatrices"),
+                         "the last row of matrix "
+                         "%zu is (%g, %g, %g, %g), which is not used",
+                         i, (double)m[3], (double)m[7], (double)m[11], (double)m[15]);
+            return;
+        }
+}
+
+static bool is_unit(const float q[4])
+{
+    float square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+    return fabsf(sqrtf(square) - 1) <= 5e-3f;
+}
+
+static void check_turns(GltfFile *file, const GltfValue *animation, const GltfValue *channel)
+{
+    const GltfValue *target = tree_member(channel, "target");
+    const GltfValue *sampler =
+        tree_item(tree_member(animation, "samplers"), tree_int(channel, "sampler", NO_ID));
+    int id = tree_int(sampler, "output", NO_ID);
+    bool is_cubic = strcmp(tree_text(sampler, "interpolation", "LINEAR"), "CUBICSPLINE") == 0;
+    const GltfAccessor *accessor = accessor_get(file, id);
+    if (!accessor || accessor->component_count != 4 ||
+        strcmp(tree_text(target, "path", ""), "rotation") != 0)
+        return;
+    const float *q = accessor_floats(file, id);
+    for (size_t i = is_cubic; i < accessor->count; i += is_cubic ? 3 : 1)
+        if (!is_unit(q + 4 * i)) {
+            file_warning(file, channel, "quaternion %zu of the rotation is not of length 1", i);
+            return;
+        }
+}
+
+static void check_matrices(GltfFile *file)
+{
+    const GltfValue *skins = tree_member(file->root, "skins");
+    const GltfValue *animations = tree_member(file->root, "animations");
+    Arena saved = file->load->scratch;
+    for (int i = 0; skins && i < skins->count; i++) check_bind_matrices(file, &skins->items[i]);
+    for (int a = 0; animations && a < animations->count; a++) {
+        const GltfValue *channels = tree_member(&animations->items[a], "channels");
+        for (int c = 0; channels && c < channels->count; c++) {
+            check_turns(file, &animations->items[a], &channels->items[c]);
+            file->load->scratch = saved;
+        }
+    }
+    file->load->scratch = saved;
+}
+
+void check_data(GltfFile *file)
+{
+    for (int i = 0; i < file->data.accessor_count; i++) {
+        Arena saved = file->load->scratch;
+        check_one(file, i);
+        file->load->scratch = saved;
+    }
+    check_primitives(file);
+    check_skinned_nodes(file);
+    check_matrices(file);
+}

@@ -1,0 +1,218 @@
+/* What tables cannot say about the document's small objects. */
+#include "scene/check/check_document.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* "major.minor", digits only; false when the text is anything else. */
+static bool parse_version(const char *text, long *major, long *minor)
+{
+    char *end;
+    if (text[0] < '0' || text[0] > '9') return false;
+    *major = strtol(text, &end, 10);
+    if (*end != '.' || end[1] < '0' || end[1] > '9') return false;
+    *minor = strtol(end + 1, &end, 10);
+    return *end == '\0';
+}
+
+static void check_version(const DocumentCheck *check, const GltfValue *value, bool is_minimum)
+{
+    long major, minor;
+    if (!value || value->kind != GLTF_STRING) return;
+    if (!parse_version(value->text, &major, &minor))
+        check_fails(check, value, "is \"%.40s\", a version like \"2.0\" is wanted",
+                    value->text);
+    else if (major != 2 || (is_minimum && minor > 0))
+        check_fails(check, value, "is \"%.40s\", version 2.0 is read", value->text);
+}
+
+void check_asset(const DocumentCheck *check, const GltfValue *asset)
+{
+    check_version(check, tree_member(asset, "version"), false);
+    check_version(check, tree_member(asset, "minVersion"), true);
+}
+
+void check_animation_pointer(const DocumentCheck *check, const GltfValue *extension)
+{
+    const GltfValue *target = extension->parent ? extension->parent->parent : NULL;
+    if (tree_member(target, "node"))
+        check_warns(check, extension, "a target with a pointer has a node as well");
+}
+
+/* ---- pictures -------------------------------------------------------------------------- */
+
+void check_image(const DocumentCheck *check, const GltfValue *image)
+{
+    const GltfValue *uri = tree_member(image, "uri");
+    const GltfValue *view = tree_member(image, "bufferView");
+    if ((uri != NULL) == (view != NULL))
+        check_fails(check, image, "has %s; either \"uri\" or \"bufferView\" is wanted",
+                    uri ? "both" : "neither");
+    if (view && !tree_member(image, "mimeType"))
+        check_warns(check, image, "\"mimeType\" is missing beside \"bufferView\"");
+    const GltfValue *target =
+        tree_element(check->file->root, "bufferViews", tree_int(image, "bufferView", NO_ID));
+    if (tree_member(target, "byteStride"))
+        check_warns(check, view, "the buffer view of a picture has a byteStride");
+}
+
+/* ---- cameras and lights ---------------------------------------------------------------- */
+
+static void check_depths(const DocumentCheck *check, const GltfValue *kind)
+{
+    const GltfValue *zfar = tree_member(kind, "zfar");
+    double near = tree_number(kind, "znear", 0);
+    if (zfar && zfar->number <= near)
+        check_fails(check, zfar, "is %g, more than znear (%g) is wanted", zfar->number, near);
+}
+
+void check_camera(const DocumentCheck *check, const GltfValue *camera)
+{
+    const char *type = tree_text(camera, "type", "");
+    const GltfValue *eye = tree_member(camera, "perspective");
+    const GltfValue *flat = tree_member(camera, "orthographic");
+    if (eye && flat)
+        check_fails(check, camera, "has \"perspective\" and \"orthographic\"; one is wanted");
+    if ((strcmp(type, "perspective") == 0 && !eye) ||
+        (strcmp(type, "orthographic") == 0 && !flat))
+        check_fails(check, camera, "\"%s\" is missing", type);
+    check_depths(check, eye);
+    check_depths(check, flat);
+    if (tree_number(eye, "yfov", 1) >= 3.14159265358979)
+        check_warns(check, tree_member(eye, "yfov"), "is %g rad, less than pi is wanted",
+                    tree_number(eye, "yfov", 1));
+    for (int i = 0; i < 2; i++) {
+        const GltfValue *mag = tree_member(flat, i ? "ymag" : "xmag");
+        if (mag && mag->kind == GLTF_NUMBER && mag->number == 0)
+            check_fails(check, mag, "is 0, half the picture's size in metres is wanted");
+        if (mag && mag->number < 0)
+            check_warns(check, mag, "is %g, a positive number is wanted: its size is taken",
+                        mag->number);
+    }
+}
+
+void check_light(const DocumentCheck *check, const GltfValue *light)
+{
+    const GltfValue *type = tree_member(light, "type"), *cone = tree_member(light, "spot");
+    double inner = tree_number(cone, "innerConeAngle", 0);
+    double outer = tree_number(cone, "outerConeAngle", 0.7853981633974483);
+    if (type && strcmp(type->text, "point") != 0 && strcmp(type->text, "spot") != 0 &&
+        strcmp(type->text, "directional") != 0)
+        check_warns(check, type,
+                    "is \"%.40s\", one of point|spot|directional is wanted: the light "
+                    "is skipped",
+                    type->text);
+    if (type && strcmp(type->text, "spot") == 0 && !cone)
+        check_fails(check, light, "\"spot\" is missing");
+    if (cone && inner >= outer)
+        check_fails(check, cone, "the inner cone angle %g is not below the outer one %g", inner,
+                    outer);
+}
+
+/* ---- ours ------------------------------------------------------------------------------ */
+
+void check_display(const DocumentCheck *check, const GltfValue *display)
+{
+    const SceneOptions *options = check->file->load->options;
+    const GltfValue *material = display->parent ? display->parent->parent : NULL;
+    const char *name = tree_text(material, "name", "");
+    if (tree_member(display, "panel")) return;
+    for (int i = 0; i < options->panel_count; i++)
+        if (strcmp(options->panels[i].material, name) == 0) return;
+    check_fails(check, display, "\"panel\" is missing, and --panel names none");
+}
+
+/* What an environment of a type must have, and what else it may have. */
+typedef struct EnvironmentType {
+    const char *name;
+    const char *needed[2];
+    const char *allowed; /* "|a|b|", the needed ones included */
+} EnvironmentType;
+
+static const EnvironmentType ENVIRONMENT_TYPES[] = {
+    {"constant", {"luminance", NULL}, "|luminance|color|"},
+    {"hdri", {"uri", NULL}, "|uri|rotation_deg|scale|horizontal_illuminance_lx|"},
+    {"cie", {"sky", "diffuse_horizontal_lx"}, "|sky|diffuse_horizontal_lx|"},
+    {"perez",
+     {"direct_normal_w_m2", "diffuse_horizontal_w_m2"},
+     "|direct_normal_w_m2|diffuse_horizontal_w_m2|when|where|"},
+    {"sky",
+     {NULL, NULL},
+     "|when|where|turbidity|visibility_km|ozone_atm_cm|water_cm|albedo|ground|cloud_top_m|"},
+};
+
+static void check_members(const DocumentCheck *check, const GltfValue *environment,
+                          const EnvironmentType *type)
+{
+    static const char COMMON[] = "|type|heading_deg|forward|sun|extensions|extras|name|";
+    for (int i = 0; i < 2 && type->needed[i]; i++)
+        if (!tree_member(environment, type->needed[i]))
+            check_fails(check, environment,
+                        "\"%s\" is missing in an environment of type \"%s\"", type->needed[i],
+                        type->name);
+    for (int i = 0; i < environment->count; i++) {
+        char word[80];
+        snprintf(word, sizeof word, "|%.70s|", environment->items[i].key);
+        if (!strstr(COMMON, word) && !strstr(type->allowed, word))
+            check_warns(check, &environment->items[i],
+                        "has no meaning for an environment of type "
+                        "\"%s\" and is skipped",
+                        type->name);
+    }
+}
+
+/* ISO 8601 with minutes, and seconds if wanted, and the offset from UTC. */
+static bool is_moment(const char *text)
+{
+    int year, month, day, hour, minute, second = 0, used = 0, more = 0, off_hour, off_minute,
+                                        tail;
+    if (sscanf(text, "%4d-%2d-%2dT%2d:%2d%n", &year, &month, &day, &hour, &minute, &used) !=
+            5 ||
+        used != 16)
+        return false;
+    if (sscanf(text + used, ":%2d%n", &second, &more) == 1 && more == 3) used += more;
+    if (month < 1 || month > 12 || day < 1 || day > 31 || hour < 0 || hour > 24 || minute < 0 ||
+        minute > 59 || second < 0 || second > 60)
+        return false;
+    if (strcmp(text + used, "Z") == 0) return true;
+    return (text[used] == '+' || text[used] == '-') &&
+           sscanf(text + used + 1, "%2d:%2d%n", &off_hour, &off_minute, &tail) == 2 &&
+           tail == 5 && text[used + 6] == '\0' && off_hour <= 14 && off_minute <= 59;
+}
+
+static void check_time_and_place(const DocumentCheck *check, const GltfValue *environment)
+{
+    const GltfValue *when = tree_member(environment, "when");
+    const GltfValue *where = tree_member(environment, "where");
+    const GltfValue *latitude = tree_item(where, 0), *longitude = tree_item(where, 1);
+    if (when && when->kind == GLTF_STRING && !is_moment(when->text))
+        check_fails(check, when,
+                    "is \"%.60s\", a time like \"2026-06-21T08:30+02:00\" is wanted",
+                    when->text);
+    if (latitude && !(fabs(latitude->number) <= 90))
+        check_fails(check, latitude, "is %g, a latitude from -90 to 90 degrees is wanted",
+                    latitude->number);
+    if (longitude && !(fabs(longitude->number) <= 360))
+        check_fails(check, longitude, "is %g, a longitude from -360 to 360 degrees is wanted",
+                    longitude->number);
+}
+
+void check_environment(const DocumentCheck *check, const GltfValue *environment)
+{
+    const char *type = tree_text(environment, "type", "");
+    for (size_t i = 0; i < sizeof ENVIRONMENT_TYPES / sizeof *ENVIRONMENT_TYPES; i++)
+        if (strcmp(ENVIRONMENT_TYPES[i].name, type) == 0)
+            check_members(check, environment, &ENVIRONMENT_TYPES[i]);
+    check_time_and_place(check, environment);
+    bool has_time = tree_member(environment, "when") && tree_member(environment, "where");
+    if ((strcmp(type, "perez") == 0 || strcmp(type, "sky") == 0) && !has_time &&
+        !tree_member(environment, "sun"))
+        check_fails(check, environment,
+                    "has no sun: \"when\" and \"where\", or \"sun\", are wanted");
+    if (tree_member(environment, "scale") &&
+        tree_member(environment, "horizontal_illuminance_lx"))
+        check_fails(check, environment,
+                    "has \"scale\" and \"horizontal_illuminance_lx\"; one of "
+                    "them is wanted");
+}

@@ -1,0 +1,11 @@
+/* check_document.h -- what tables cannot say about a document's small objects. */
+#pragma once
+#include "scene/check/check.h"
+
+void check_asset(const DocumentCheck *check, const GltfValue *asset);
+void check_image(const DocumentCheck *check, const GltfValue *image);
+void check_camera(const DocumentCheck *check, const GltfValue *camera);
+void check_light(const DocumentCheck *check, const GltfValue *light);
+void check_display(const DocumentCheck *check, const GltfValue *display);
+void check_environment(const DocumentCheck *check, const GltfValue *environment);
+void check_animation_pointer(const DocumentCheck *check, const GltfValue *extension);

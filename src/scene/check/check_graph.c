@@ -1,0 +1,205 @@
+/* What tables cannot say about nodes, scenes and skins. */
+#include "scene/check/check_graph.h"
+
+#include <string.h>
+
+static const GltfValue *mesh_of(const DocumentCheck *check, const GltfValue *node)
+{
+    return tree_element(check->file->root, "meshes", tree_int(node, "mesh", NO_ID));
+}
+
+static const GltfValue *first_primitive(const GltfValue *mesh)
+{
+    return tree_item(tree_member(mesh, "primitives"), 0);
+}
+
+/* ---- nodes ----------------------------------------------------------------------------- */
+
+static void check_matrix(const DocumentCheck *check, const GltfValue *node)
+{
+    static const char *const PARTS[] = {"translation", "rotation", "scale"};
+    float matrix[16];
+    for (int i = 0; i < 3; i++)
+        if (tree_member(node, PARTS[i]))
+            check_fails(check, node, "has \"matrix\" and \"%s\"; one way is wanted", PARTS[i]);
+    if (!tree_floats(node, "matrix", 16, matrix)) return;
+    if (matrix[3] != 0 || matrix[7] != 0 || matrix[11] != 0 || matrix[15] != 1)
+        check_fails(check, tree_member(node, "matrix"),
+                    "the last row is (%g, %g, %g, %g), "
+                    "(0, 0, 0, 1) is wanted",
+                    (double)matrix[3], (double)matrix[7], (double)matrix[11],
+                    (double)matrix[15]);
+}
+
+static void check_rotation(const DocumentCheck *check, const GltfValue *node)
+{
+    float q[4];
+    if (!tree_floats(node, "rotation", 4, q)) return;
+    float length = sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    if (!(fabsf(length - 1) <= 5e-3f)) /* what quantised exports still keep */
+        check_fails(check, tree_member(node, "rotation"),
+                    "the quaternion's length is %g, 1 is "
+                    "wanted",
+                    (double)length);
+}
+
+static void check_weights(const DocumentCheck *check, const GltfValue *owner,
+                          const GltfValue *mesh)
+{
+    const GltfValue *weights = tree_member(owner, "weights");
+    int targets = tree_count(first_primitive(mesh), "targets");
+    if (weights && weights->kind == GLTF_ARRAY && weights->count != targets)
+        check_fails(check, weights, "has %d weights, the mesh has %d morph targets",
+                    weights->count, targets);
+}
+
+void check_node(const DocumentCheck *check, const GltfValue *node)
+{
+    const GltfValue *mesh = mesh_of(check, node), *skin = tree_member(node, "skin");
+    if (tree_member(node, "matrix")) check_matrix(check, node);
+    check_rotation(check, node);
+    if (skin && !tree_member(node, "mesh")) check_warns(check, skin, "a skin without a mesh");
+    if (tree_member(node, "weights") && !tree_member(node, "mesh"))
+        check_warns(check, tree_member(node, "weights"), "morph weights without a mesh");
+    if (mesh) check_weights(check, node, mesh);
+    const GltfValue *primitive = first_primitive(mesh);
+    if (skin && primitive && !tree_member(tree_member(primitive, "attributes"), "JOINTS_0"))
+        check_warns(check, node, "has a skin, but its mesh names no joints: it is not bent");
+}
+
+void check_mesh(const DocumentCheck *check, const GltfValue *mesh)
+{
+    const GltfValue *primitives = tree_member(mesh, "primitives");
+    int targets = tree_count(first_primitive(mesh), "targets");
+    check_weights(check, mesh, mesh);
+    for (int i = 1; primitives && i < primitives->count; i++)
+        if (tree_count(&primitives->items[i], "targets") != targets)
+            check_fails(check, &primitives->items[i],
+                        "has %d morph targets, the mesh's first "
+                        "primitive has %d",
+                        tree_count(&primitives->items[i], "targets"), targets);
+}
+
+void check_skin(const DocumentCheck *check, const GltfValue *skin)
+{
+    const GltfValue *value = tree_member(skin, "inverseBindMatrices");
+    const GltfValue *accessor = tree_element(check->file->root, "accessors",
+                                             tree_int(skin, "inverseBindMatrices", NO_ID));
+    int joints = tree_count(skin, "joints");
+    if (!joints && tree_member(skin, "joints")) check_fails(check, skin, "has no joints");
+    if (!accessor) return;
+    if (strcmp(tree_text(accessor, "type", ""), "MAT4") != 0 ||
+        tree_int(accessor, "componentType", 0) != 5126)
+        check_fails(check, value, "refers to an accessor of %s, MAT4 of floats is wanted",
+                    tree_text(accessor, "type", "nothing"));
+    if (tree_number(accessor, "count", 0) < joints)
+        check_fails(check, value, "has %g matrices for %d joints",
+                    tree_number(accessor, "count", 0), joints);
+    const GltfValue *view =
+        tree_element(check->file->root, "bufferViews", tree_int(accessor, "bufferView", NO_ID));
+    if (tree_member(view, "byteStride"))
+        check_warns(check, value, "the buffer view of inverse bind matrices has a byteStride");
+}
+
+/* ---- the tree of nodes: one parent at most, and no way back ---------------------------- */
+
+static int index_of(const GltfValue *value, int count)
+{
+    bool is_index = tree_is_integer(value) && value->number >= 0 && value->number < count;
+    return is_index ? (int)value->number : NO_ID;
+}
+
+static void find_parents(const DocumentCheck *check, const GltfValue *nodes, int *parent)
+{
+    for (int i = 0; i < nodes->count; i++) parent[i] = NO_ID;
+    for (int i = 0; i < nodes->count; i++) {
+        const GltfValue *children = tree_member(&nodes->items[i], "children");
+        for (int c = 0; children && c < children->count; c++) {
+            int child = index_of(&children->items[c], nodes->count);
+            if (child == NO_ID) continue;
+            if (parent[child] != NO_ID && parent[child] != i)
+                check_fails(check, &children->items[c],
+                            "node %d has two parents, nodes %d and %d", child, parent[child],
+                            i);
+            parent[child] = i;
+        }
+    }
+}
+
+/* Walks up from every node; a walk that meets its own trail has found a circle. */
+static void find_cycles(const DocumentCheck *check, const GltfValue *nodes, const int *parent,
+                        int *trail)
+{
+    for (int i = 0; i < nodes->count; i++) {
+        int node = i;
+        while (node != NO_ID && !trail[node]) {
+            trail[node] = i + 1;
+            node = parent[node];
+        }
+        if (node != NO_ID && trail[node] == i + 1)
+            check_fails(check, &nodes->items[node], "the node is its own descendant");
+    }
+}
+
+static void check_roots(const DocumentCheck *check, const GltfValue *root, const int *parent,
+                        int count)
+{
+    const GltfValue *scenes = tree_member(root, "scenes");
+    for (int s = 0; scenes && s < scenes->count; s++) {
+        const GltfValue *list = tree_member(&scenes->items[s], "nodes");
+        for (int i = 0; list && i < list->count; i++) {
+            int node = index_of(&list->items[i], count);
+            if (node != NO_ID && parent[node] != NO_ID)
+                check_fails(check, &list->items[i],
+                            "node %d is a child of node %d, a scene lists "
+                            "roots only",
+                            node, parent[node]);
+        }
+    }
+}
+
+static int root_of(const int *parent, int node, int count)
+{
+    for (int step = 0; step < count && parent[node] != NO_ID; step++) node = parent[node];
+    return node;
+}
+
+/* A skin's joints belong into the scene that shows it; elsewhere they stand all the same. */
+static void check_joints(const DocumentCheck *check, const GltfValue *root, const int *parent)
+{
+    const GltfValue *nodes = tree_member(root, "nodes"), *scenes = tree_member(root, "scenes");
+    for (int i = 0; scenes && i < nodes->count; i++) {
+        const GltfValue *skin =
+            tree_element(root, "skins", tree_int(&nodes->items[i], "skin", -1));
+        int joint = index_of(tree_item(tree_member(skin, "joints"), 0), nodes->count);
+        if (joint == NO_ID) continue;
+        int own = root_of(parent, i, nodes->count), far = root_of(parent, joint, nodes->count);
+        bool is_shown = false, is_complete = false;
+        for (int s = 0; s < scenes->count; s++) {
+            const GltfValue *list = tree_member(&scenes->items[s], "nodes");
+            bool has_own = false, has_far = false;
+            for (int k = 0; list && k < list->count; k++) {
+                has_own |= index_of(&list->items[k], nodes->count) == own;
+                has_far |= index_of(&list->items[k], nodes->count) == far;
+            }
+            is_shown |= has_own;
+            is_complete |= has_own && has_far;
+        }
+        if (is_shown && !is_complete)
+            check_warns(check, &nodes->items[i],
+                        "the scene that shows this skin lacks its joints");
+    }
+}
+
+void check_hierarchy(const DocumentCheck *check, const GltfValue *root)
+{
+    const GltfValue *nodes = tree_member(root, "nodes");
+    Arena scratch = check->file->load->scratch;
+    if (!nodes || nodes->kind != GLTF_ARRAY) return;
+    int before = check->file->load->problems->error_count;
+    int *parent = ARENA_NEW(&scratch, int, nodes->count);
+    find_parents(check, nodes, parent);
+    find_cycles(check, nodes, parent, ARENA_NEW(&scratch, int, nodes->count));
+    check_roots(check, root, parent, nodes->count);
+    if (check->file->load->problems->error_count == before) check_joints(check, root, parent);
+}

@@ -1,0 +1,250 @@
+/* What tables cannot say about primitives: formats, counts and names of attributes. */
+#include "scene/check/check_mesh.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What an attribute may be made of. Component types as bits: 1 << (code - 5120). */
+typedef struct Format {
+    const char *prefix; /* "TEXCOORD_": a number follows; "POSITION": the whole name */
+    const char *types;
+    unsigned components, quantized; /* the latter with KHR_mesh_quantization */
+    bool is_normalized;             /* integers must be */
+} Format;
+
+enum { MOST_ATTRIBUTES = 256 }; /* pairs of them are compared */
+
+enum { BYTE = 1, UBYTE = 2, SHORT = 4, USHORT = 8, UINT = 32, FLOATS = 64 };
+
+static const Format FORMATS[] = {
+    {"POSITION", "VEC3", FLOATS, FLOATS | BYTE | UBYTE | SHORT | USHORT, false},
+    {"NORMAL", "VEC3", FLOATS, FLOATS | BYTE | SHORT, true},
+    {"TANGENT", "VEC4", FLOATS, FLOATS | BYTE | SHORT, true},
+    {"TEXCOORD_", "VEC2", FLOATS | UBYTE | USHORT, FLOATS | BYTE | UBYTE | SHORT | USHORT,
+     false},
+    {"COLOR_", "VEC3|VEC4", FLOATS | UBYTE | USHORT, FLOATS | UBYTE | USHORT, true},
+    {"JOINTS_", "VEC4", UBYTE | USHORT, UBYTE | USHORT, false},
+    {"WEIGHTS_", "VEC4", FLOATS | UBYTE | USHORT, FLOATS | UBYTE | USHORT, true},
+};
+
+/* The number behind the prefix; -1 when the name does not match. A whole name gives 0. */
+static int match(const Format *format, const char *name)
+{
+    size_t length = strlen(format->prefix);
+    if (strncmp(name, format->prefix, length) != 0) return -1;
+    const char *rest = name + length;
+    if (format->prefix[length - 1] != '_') return rest[0] ? -1 : 0;
+    size_t digits = strspn(rest, "0123456789");
+    if (!digits || digits > 4 || rest[digits] || (rest[0] == '0' && digits > 1)) return -1;
+    return atoi(rest);
+}
+
+static const Format *format_of(const char *name)
+{
+    for (size_t i = 0; i < sizeof FORMATS / sizeof *FORMATS; i++)
+        if (match(&FORMATS[i], name) >= 0) return &FORMATS[i];
+    return NULL;
+}
+
+static const GltfValue *accessor_of(const DocumentCheck *check, const GltfValue *reference)
+{
+    if (!tree_is_integer(reference) || reference->number < 0 || reference->number > 1e9)
+        return NULL;
+    return tree_element(check->file->root, "accessors", (int)reference->number);
+}
+
+static bool is_quantized(const DocumentCheck *check)
+{
+    const GltfValue *used = tree_member(check->file->root, "extensionsUsed");
+    for (int i = 0; used && i < used->count; i++)
+        if (strcmp(used->items[i].text, "KHR_mesh_quantization") == 0) return true;
+    return false;
+}
+
+static bool is_type(const char *types, const char *type)
+{
+    return strcmp(types, type) == 0 ||
+           (strcmp(types, "VEC3|VEC4") == 0 &&
+            (strcmp(type, "VEC3") == 0 || strcmp(type, "VEC4") == 0));
+}
+
+/* Displacements have no sign for a bitangent and may be signed integers throughout. */
+static void check_format(const DocumentCheck *check, const GltfValue *attribute, bool is_target)
+{
+    const Format *format = format_of(attribute->key);
+    const GltfValue *accessor = accessor_of(check, attribute);
+    if (!accessor) return;
+    int code = tree_int(accessor, "componentType", 0);
+    unsigned bit = code >= 5120 && code <= 5126 ? 1u << (code - 5120) : 0;
+    const char *type = tree_text(accessor, "type", "");
+    if (!format) {
+        if (attribute->key[0] != '_')
+            check_warns(check, attribute, "\"%.60s\" is no attribute that glTF knows",
+                        attribute->key);
+        else if (bit == UINT)
+            check_warns(check, attribute, "attributes cannot be of 32-bit integers");
+        return;
+    }
+    unsigned allowed = is_quantized(check) ? format->quantized : format->components;
+    const char *types = is_target && format->types[3] == '4' ? "VEC3" : format->types;
+    if (is_target) allowed |= BYTE | SHORT;
+    if (!is_type(types, type) || !(bit & allowed))
+        check_fails(check, attribute,
+                    "%s is %s of component type %d, which glTF does not allow "
+                    "(%s is wanted)",
+                    attribute->key, type, code, types);
+    else if (format->is_normalized && bit != FLOATS &&
+             !tree_boolean(accessor, "normalized", false))
+        check_fails(check, attribute, "%s is made of integers that are not normalised",
+                    attribute->key);
+}
+
+static void check_count(const DocumentCheck *check, const GltfValue *attribute, double wanted)
+{
+    double count = tree_number(accessor_of(check, attribute), "count", wanted);
+    if (wanted >= 0 && count != wanted)
+        check_fails(check, attribute, "%s has %.0f elements, POSITION has %.0f", attribute->key,
+                    count, wanted);
+}
+
+/* TEXCOORD_1 without TEXCOORD_0, JOINTS_1 without WEIGHTS_1 ... */
+static void check_numbering(const DocumentCheck *check, const GltfValue *attributes)
+{
+    int joints = 0, weights = 0;
+    for (size_t f = 3; f < sizeof FORMATS / sizeof *FORMATS; f++) {
+        int count = 0, highest = -1;
+        for (int i = 0; i < attributes->count; i++) {
+            int number = match(&FORMATS[f], attributes->items[i].key);
+            count += number >= 0;
+            if (number > highest) highest = number;
+        }
+        if (highest + 1 != count)
+            check_warns(check, attributes, "the numbers of %s... do not run from 0 to %d",
+                        FORMATS[f].prefix, count - 1);
+        if (f == 5) joints = count;
+        if (f == 6) weights = count;
+    }
+    if (joints != weights)
+        check_warns(check, attributes, "%d sets of JOINTS and %d of WEIGHTS", joints, weights);
+}
+
+static const GltfValue *view_of(const DocumentCheck *check, const GltfValue *reference)
+{
+    return tree_element(check->file->root, "bufferViews",
+                        tree_int(accessor_of(check, reference), "bufferView", NO_ID));
+}
+
+/* Interleaved attributes need a stride; vertices and indices do not share a view. */
+static void check_views(const DocumentCheck *check, const GltfValue *attributes,
+                        const GltfValue *indices)
+{
+    const GltfValue *index_view = view_of(check, indices);
+    for (int i = 0; i < attributes->count; i++) {
+        const GltfValue *view = view_of(check, &attributes->items[i]);
+        if (!view) continue;
+        if (view == index_view || tree_int(view, "target", 34962) == 34963)
+            check_warns(check, &attributes->items[i],
+                        "vertices stand in a buffer view for indices");
+        for (int k = 0; k < i; k++)
+            if (view == view_of(check, &attributes->items[k]) &&
+                !tree_member(view, "byteStride") &&
+                attributes->items[i].number != attributes->items[k].number) {
+                check_warns(check, &attributes->items[i],
+                            "shares a buffer view with %s, which "
+                            "has no byteStride",
+                            attributes->items[k].key);
+                break;
+            }
+    }
+    if (tree_member(index_view, "byteStride"))
+        check_warns(check, indices, "the buffer view of indices has a byteStride");
+    if (tree_int(index_view, "target", 34963) == 34962)
+        check_warns(check, indices, "indices stand in a buffer view for vertices");
+}
+
+static void check_indices(const DocumentCheck *check, const GltfValue *indices)
+{
+    const GltfValue *accessor = accessor_of(check, indices);
+    int code = tree_int(accessor, "componentType", 0);
+    bool is_unsigned = code == 5121 || code == 5123 || code == 5125;
+    if (!accessor) return;
+    if (strcmp(tree_text(accessor, "type", ""), "SCALAR") != 0 || !is_unsigned)
+        check_fails(check, indices,
+                    "are %s of component type %d, SCALAR of 5121, 5123 or 5125 is "
+                    "wanted",
+                    tree_text(accessor, "type", "?"), code);
+    else if (tree_boolean(accessor, "normalized", false))
+        check_fails(check, indices, "are normalised, which indices cannot be");
+}
+
+static void check_targets(const DocumentCheck *check, const GltfValue *primitive, double count)
+{
+    const GltfValue *targets = tree_member(primitive, "targets");
+    const GltfValue *base = tree_member(primitive, "attributes");
+    if (!targets) return;
+    if (targets->kind != GLTF_ARRAY || !targets->count) {
+        check_fails(check, targets, "an array of morph targets is wanted");
+        return;
+    }
+    for (int t = 0; t < targets->count; t++) {
+        const GltfValue *target = &targets->items[t];
+        if (target->kind != GLTF_OBJECT || !target->count) {
+            check_fails(check, target, "an object of attributes is wanted");
+            continue;
+        }
+        for (int i = 0; i < target->count; i++) {
+            const GltfValue *attribute = &target->items[i];
+            if (!accessor_of(check, attribute))
+                check_fails(check, attribute, "an index into accessors is wanted");
+            if (!tree_member(base, attribute->key))
+                check_warns(check, attribute, "%s displaces what the primitive does not have",
+                            attribute->key);
+            const GltfValue *view = view_of(check, attribute);
+            if (tree_int(view, "target", 34962) == 34963 ||
+                (view && view == view_of(check, tree_member(primitive, "indices"))))
+                check_warns(check, attribute, "vertices stand in a buffer view for indices");
+            check_format(check, attribute, true);
+            check_count(check, attribute, count);
+        }
+    }
+}
+
+static void check_mode(const DocumentCheck *check, const GltfValue *primitive, double vertices)
+{
+    static const int LEAST[] = {1, 2, 2, 2, 3, 3, 3};
+    int mode = tree_int(primitive, "mode", 4);
+    double count =
+        tree_number(accessor_of(check, tree_member(primitive, "indices")), "count", vertices);
+    if (mode < 0 || mode > 6 || count < 0) return;
+    bool is_odd = (mode == 4 && fmod(count, 3) != 0) || (mode == 1 && fmod(count, 2) != 0);
+    if (count < LEAST[mode] || is_odd)
+        check_warns(check, primitive, "%.0f corners do not make whole primitives of mode %d",
+                    count, mode);
+}
+
+void check_primitive(const DocumentCheck *check, const GltfValue *primitive)
+{
+    const GltfValue *attributes = tree_member(primitive, "attributes");
+    const GltfValue *indices = tree_member(primitive, "indices");
+    if (!attributes || attributes->kind != GLTF_OBJECT) return;
+    if (attributes->count > MOST_ATTRIBUTES) {
+        check_fails(check, attributes, "has %d attributes, at most %d are read",
+                    attributes->count, MOST_ATTRIBUTES);
+        return;
+    }
+    const GltfValue *position = tree_member(attributes, "POSITION");
+    double count = tree_number(accessor_of(check, position), "count", -1);
+    if (!position) check_warns(check, attributes, "has no POSITION: the primitive is skipped");
+    for (int i = 0; i < attributes->count; i++) {
+        check_format(check, &attributes->items[i], false);
+        check_count(check, &attributes->items[i], count);
+    }
+    if (tree_member(attributes, "TANGENT") && !tree_member(attributes, "NORMAL"))
+        check_warns(check, attributes, "has TANGENT without NORMAL: both are made anew");
+    check_numbering(check, attributes);
+    check_views(check, attributes, indices);
+    if (indices) check_indices(check, indices);
+    check_mode(check, primitive, count);
+    check_targets(check, primitive, count);
+}

@@ -1,0 +1,60 @@
+/* rule.h -- what a glTF document must look like, as tables.
+ *
+ * The tables (schema_core.c, schema_extensions.c) say for every object which members it may
+ * have, of which kind and range, and which list an index refers to. What tables cannot say
+ * (cycles, bounds, agreement between objects) is in the check_*.c files.
+ */
+#pragma once
+#include "scene/check/check.h"
+
+typedef enum RuleKind {
+    RULE_NUMBER,  /* min .. max */
+    RULE_INTEGER, /* min .. max */
+    RULE_BOOLEAN,
+    RULE_TEXT,
+    RULE_CHOICE,  /* a text among the words of `of`, "a|b|c" */
+    RULE_CODE,    /* an integer among the numbers of `of`, "1|2|3" */
+    RULE_INDEX,   /* a place in the list that `of` names */
+    RULE_INDICES, /* an array of such places, none twice */
+    RULE_NUMBERS, /* an array of least .. most numbers, each in min .. max */
+    RULE_TEXTS,   /* an array of texts, none twice */
+    RULE_OBJECT,  /* as `schema` says */
+    RULE_OBJECTS, /* an array of such objects */
+    RULE_MAP,     /* an object whose members are all indices into `of` */
+    RULE_ANY
+} RuleKind;
+
+enum {
+    RULE_REQUIRED = 1,
+    RULE_ABOVE_MIN = 2, /* min itself is not allowed */
+    RULE_MAY_BE_EMPTY = 4,
+    RULE_WARNS = 8,      /* this member and what is below it only warn */
+    RULE_HAS_RANGE = 16, /* min and max hold; otherwise any number will do */
+    RULE_FROM_MIN = 32   /* min holds, there is no max */
+};
+
+typedef struct Rule {
+    const char *name;
+    RuleKind kind;
+    unsigned flags;
+    double min, max;
+    int least, most; /* items of an array; most 0: as many as there are */
+    const char *of;
+    const struct Schema *schema;
+} Rule;
+
+typedef struct Schema {
+    const char *name; /* "node": what extensions are asked by, and what messages say */
+    const Rule *rules;
+    int rule_count;
+    bool is_ours; /* PARHELION_*: an unknown member is an error, not a warning */
+    /* NULL: the table says all. */
+    void (*more)(const DocumentCheck *check, const GltfValue *value);
+} Schema;
+
+/* An extension on one kind of object. */
+typedef struct ExtensionRule {
+    const char *name;
+    const char *host;     /* the name of the schema it may stand on */
+    const Schema *schema; /* NULL: its content is not looked into */
+} ExtensionRule;

@@ -1,0 +1,306 @@
+#include "scene/check/schema.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/check/schema_extensions.h"
+#include "text/nearest_word.h"
+
+#define MEMBERS_MAX 64 /* of one object that are compared with an unknown one */
+
+/* What stands there, for "is ..., ... is wanted". */
+static const char *describe(const GltfValue *value, char *buffer, size_t size)
+{
+    switch (value->kind) {
+    case GLTF_NULL: return "null";
+    case GLTF_BOOLEAN: return value->number != 0 ? "true" : "false";
+    case GLTF_NUMBER: snprintf(buffer, size, "%.16g", value->number); return buffer;
+    case GLTF_STRING: snprintf(buffer, size, "\"%.80s\"", value->text); return buffer;
+    case GLTF_ARRAY: snprintf(buffer, size, "an array of %d", value->count); return buffer;
+    case GLTF_OBJECT: return "an object";
+    }
+    return "";
+}
+
+static void fails_as(const DocumentCheck *check, const GltfValue *value, const char *wanted)
+{
+    char found[128];
+    check_fails(check, value, "is %s, %s is wanted", describe(value, found, sizeof found),
+                wanted);
+}
+
+/* ---- single values --------------------------------------------------------------------- */
+
+static bool has_range(const Rule *rule)
+{
+    return rule->flags & (RULE_HAS_RANGE | RULE_FROM_MIN);
+}
+
+static bool in_range(const Rule *rule, double number)
+{
+    if (!has_range(rule)) return true;
+    if (rule->flags & RULE_ABOVE_MIN ? !(number > rule->min) : !(number >= rule->min))
+        return false;
+    return rule->flags & RULE_FROM_MIN || number <= rule->max;
+}
+
+static void check_number(const DocumentCheck *check, const GltfValue *value, const Rule *rule)
+{
+    bool is_integer = rule->kind == RULE_INTEGER;
+    bool is_kind = is_integer ? tree_is_integer(value) : value->kind == GLTF_NUMBER;
+    const char *noun = is_integer ? "an integer" : "a number";
+    char wanted[128];
+    if (is_kind && in_range(rule, value->number)) return;
+    if (!has_range(rule))
+        snprintf(wanted, sizeof wanted, "%s", noun);
+    else if (rule->flags & RULE_FROM_MIN)
+        snprintf(wanted, sizeof wanted, "%s %s %.16g", noun,
+                 rule->flags & RULE_ABOVE_MIN ? "above" : "of at least", rule->min);
+    else
+        snprintf(wanted, sizeof wanted, "%s %s %.16g %s %.16g", noun,
+                 rule->flags & RULE_ABOVE_MIN ? "above" : "from", rule->min,
+                 rule->flags & RULE_ABOVE_MIN ? "and up to" : "to", rule->max);
+    fails_as(check, value, wanted);
+}
+
+/* Whether `text` is one of the words of "a|b|c". */
+static bool is_among(const char *words, const char *text)
+{
+    size_t length = strlen(text);
+    for (const char *word = words; *word;) {
+        size_t size = strcspn(word, "|");
+        if (size == length && strncmp(word, text, size) == 0) return true;
+        word += size + (word[size] == '|');
+    }
+    return false;
+}
+
+static void check_choice(const DocumentCheck *check, const GltfValue *value, const Rule *rule)
+{
+    char text[32], wanted[160];
+    bool is_code = rule->kind == RULE_CODE;
+    if (is_code && tree_is_integer(value)) {
+        snprintf(text, sizeof text, "%.0f", value->number);
+        if (is_among(rule->of, text)) return;
+    }
+    if (!is_code && value->kind == GLTF_STRING && is_among(rule->of, value->text)) return;
+    snprintf(wanted, sizeof wanted, "one of %s", rule->of);
+    fails_as(check, value, wanted);
+}
+
+/* The list a rule refers to: "nodes", or "extensions/NAME/list" below the document. */
+static const GltfValue *referred_list(const GltfFile *file, const char *path)
+{
+    const GltfValue *value = file->root;
+    while (value && *path) {
+        char name[64];
+        size_t size = strcspn(path, "/");
+        snprintf(name, sizeof name, "%.*s", (int)size, path);
+        value = tree_member(value, name);
+        path += size + (path[size] == '/');
+    }
+    return value && value->kind == GLTF_ARRAY ? value : NULL;
+}
+
+static void check_index(const DocumentCheck *check, const GltfValue *value, const char *of)
+{
+    const GltfValue *list = referred_list(check->file, of);
+    const char *slash = strrchr(of, '/'), *noun = slash ? slash + 1 : of;
+    int count = list ? list->count : 0;
+    char wanted[96];
+    if (tree_is_integer(value) && value->number >= 0 && value->number < count) return;
+    if (tree_is_integer(value) && value->number >= 0)
+        check_fails(check, value, "is %.0f, but there %s %d in %s", value->number,
+                    count == 1 ? "is" : "are", count, noun);
+    else {
+        snprintf(wanted, sizeof wanted, "an index into %s", noun);
+        fails_as(check, value, wanted);
+    }
+}
+
+/* ---- arrays ---------------------------------------------------------------------------- */
+
+static bool is_same(const GltfValue *a, const GltfValue *b)
+{
+    return a->kind == b->kind && a->number == b->number && strcmp(a->text, b->text) == 0;
+}
+
+/* Quadratic, so only for lists of a length that people write. */
+static void check_unique(const DocumentCheck *check, const GltfValue *array)
+{
+    for (int i = 1; i < array->count && i < 2000; i++)
+        for (int k = 0; k < i; k++)
+            if (is_same(&array->items[i], &array->items[k])) {
+                check_warns(check, &array->items[i], "stands twice in the list");
+                break;
+            }
+}
+
+static bool check_array(const DocumentCheck *check, const GltfValue *value, const Rule *rule)
+{
+    char wanted[96];
+    if (value->kind != GLTF_ARRAY) {
+        fails_as(check, value, "an array");
+        return false;
+    }
+    bool is_short = value->count < rule->least,
+         is_long = rule->most && value->count > rule->most;
+    if (is_short || is_long) {
+        if (rule->least == rule->most)
+            snprintf(wanted, sizeof wanted, "an array of %d", rule->least);
+        else
+            snprintf(wanted, sizeof wanted, "an array of %d to %d", rule->least, rule->most);
+        fails_as(check, value, wanted);
+    } else if (!value->count && !(rule->flags & RULE_MAY_BE_EMPTY)) {
+        check_warns(check, value, "is empty, which glTF does not allow");
+    }
+    return true;
+}
+
+static void check_value(const DocumentCheck *check, const GltfValue *value, const Rule *rule);
+
+static void check_items(const DocumentCheck *check, const GltfValue *array, const Rule *rule)
+{
+    static const RuleKind ITEM[] = {[RULE_INDICES] = RULE_INDEX,
+                                    [RULE_NUMBERS] = RULE_NUMBER,
+                                    [RULE_TEXTS] = RULE_TEXT,
+                                    [RULE_OBJECTS] = RULE_OBJECT};
+    Rule item = *rule;
+    if (!check_array(check, array, rule)) return;
+    item.kind = ITEM[rule->kind];
+    for (int i = 0; i < array->count; i++) check_value(check, &array->items[i], &item);
+    if (rule->kind == RULE_INDICES || rule->kind == RULE_TEXTS) check_unique(check, array);
+}
+
+static void check_map(const DocumentCheck *check, const GltfValue *value, const Rule *rule)
+{
+    if (value->kind != GLTF_OBJECT) {
+        fails_as(check, value, "an object");
+        return;
+    }
+    if (!value->count) check_warns(check, value, "is empty, which glTF does not allow");
+    for (int i = 0; i < value->count; i++) check_index(check, &value->items[i], rule->of);
+}
+
+static void check_value(const DocumentCheck *check, const GltfValue *value, const Rule *rule)
+{
+    DocumentCheck inner = *check;
+    if (rule->flags & RULE_WARNS) inner.severity = SEVERITY_WARNING;
+    switch (rule->kind) {
+    case RULE_NUMBER:
+    case RULE_INTEGER: check_number(&inner, value, rule); break;
+    case RULE_BOOLEAN:
+        if (value->kind != GLTF_BOOLEAN) fails_as(&inner, value, "true or false");
+        break;
+    case RULE_TEXT:
+        if (value->kind != GLTF_STRING) fails_as(&inner, value, "a text");
+        break;
+    case RULE_CHOICE:
+    case RULE_CODE: check_choice(&inner, value, rule); break;
+    case RULE_INDEX: check_index(&inner, value, rule->of); break;
+    case RULE_OBJECT: schema_check(&inner, value, rule->schema); break;
+    case RULE_MAP: check_map(&inner, value, rule); break;
+    case RULE_INDICES:
+    case RULE_NUMBERS:
+    case RULE_TEXTS:
+    case RULE_OBJECTS: check_items(&inner, value, rule); break;
+    case RULE_ANY: break;
+    }
+}
+
+/* ---- objects --------------------------------------------------------------------------- */
+
+static const char *nearest_name(const Schema *schema, const char *name)
+{
+    const char *names[MEMBERS_MAX];
+    int count = schema->rule_count < MEMBERS_MAX ? schema->rule_count : MEMBERS_MAX;
+    for (int i = 0; i < count; i++) names[i] = schema->rules[i].name;
+    return nearest_word_within(name, names, count, 3);
+}
+
+static const Rule *find_rule(const Schema *schema, const char *name)
+{
+    for (int i = 0; i < schema->rule_count; i++)
+        if (strcmp(schema->rules[i].name, name) == 0) return &schema->rules[i];
+    return NULL;
+}
+
+static void check_unknown(const DocumentCheck *check, const GltfValue *member,
+                          const Schema *schema)
+{
+    const char *near = nearest_name(schema, member->key);
+    char hint[100] = "";
+    if (near) snprintf(hint, sizeof hint, "; is \"%s\" meant?", near);
+    if (schema->is_ours)
+        check_fails(check, member, "is no member of %s%s", schema->name, hint);
+    else
+        check_warns(check, member, "is no member of glTF's %s and is skipped%s", schema->name,
+                    hint);
+}
+
+static bool is_declared(const GltfFile *file, const char *extension)
+{
+    const GltfValue *used = tree_member(file->root, "extensionsUsed");
+    for (int i = 0; used && used->kind == GLTF_ARRAY && i < used->count; i++)
+        if (strcmp(used->items[i].text, extension) == 0) return true;
+    return false;
+}
+
+static void check_extension(const DocumentCheck *check, const GltfValue *extension,
+                            const char *host)
+{
+    bool is_known = false;
+    DocumentCheck inner = *check;
+    const ExtensionRule *rule = extension_rule(extension->key, host, &is_known);
+    if (!is_declared(check->file, extension->key))
+        check_warns(check, extension, "%s is used but not listed in extensionsUsed",
+                    extension->key);
+    if (extension->kind != GLTF_OBJECT) {
+        fails_as(check, extension, "an object");
+        return;
+    }
+    if (!rule && is_known)
+        check_warns(check, extension, "%s has no meaning on a %s and is skipped",
+                    extension->key, host);
+    if (!extension_is_supported(extension->key)) inner.severity = SEVERITY_WARNING;
+    if (rule && rule->schema) schema_check(&inner, extension, rule->schema);
+}
+
+static void check_common(const DocumentCheck *check, const GltfValue *member,
+                         const Schema *schema)
+{
+    if (strcmp(member->key, "extras") == 0) return;
+    if (strcmp(member->key, "name") == 0) {
+        if (member->kind != GLTF_STRING) fails_as(check, member, "a text");
+        return;
+    }
+    if (strcmp(member->key, "extensions") != 0) {
+        check_unknown(check, member, schema);
+        return;
+    }
+    if (member->kind != GLTF_OBJECT) fails_as(check, member, "an object");
+    for (int i = 0; member->kind == GLTF_OBJECT && i < member->count; i++)
+        check_extension(check, &member->items[i], schema->name);
+}
+
+void schema_check(const DocumentCheck *check, const GltfValue *value, const Schema *schema)
+{
+    if (value->kind != GLTF_OBJECT) {
+        fails_as(check, value, "an object");
+        return;
+    }
+    for (int i = 0; i < schema->rule_count; i++) {
+        const Rule *rule = &schema->rules[i];
+        if (rule->flags & RULE_REQUIRED && !tree_member(value, rule->name))
+            check_fails(check, value, "\"%s\" is missing", rule->name);
+    }
+    for (int i = 0; i < value->count; i++) {
+        const Rule *rule = find_rule(schema, value->items[i].key);
+        if (rule)
+            check_value(check, &value->items[i], rule);
+        else
+            check_common(check, &value->items[i], schema);
+    }
+    if (schema->more) schema->more(check, value);
+}

@@ -1,0 +1,25 @@
+/* accessor.h -- the numbers behind a glTF accessor, of documents that passed the check.
+ *
+ * Memory   arrays lie in the loader's scratch.
+ */
+#pragma once
+#include "scene/gltf/loader.h"
+
+/* NULL: there is no such accessor. */
+const GltfAccessor *accessor_get(const GltfFile *file, int accessor);
+
+/* Bytes of one element, columns of matrices padded to four bytes. */
+size_t accessor_element_size(const GltfAccessor *accessor);
+/* The same without the padding behind the last column, which a buffer need not have. */
+size_t accessor_element_extent(const GltfAccessor *accessor);
+size_t component_size(int component_type); /* 0: no such type */
+
+/* count x component_count numbers; normalised integers become [0,1] or [-1,1]. Matrices lose
+ * their padding. */
+float *accessor_floats(GltfFile *file, int accessor);
+/* The same for integers that are not normalised: indices, joints. */
+uint32_t *accessor_integers(GltfFile *file, int accessor);
+/* As accessor_floats, but normalised integers stay what they are: min and max count these. */
+float *accessor_raw_floats(GltfFile *file, int accessor);
+/* Where the sparse values go; NULL when the bytes are missing. */
+uint32_t *accessor_sparse_indices(GltfFile *file, const GltfAccessor *accessor);

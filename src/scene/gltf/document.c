@@ -1,0 +1,267 @@
+#include "scene/gltf/document.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "base/reference.h"
+#include "text/uri.h"
+
+/* ---- problems -------------------------------------------------------------------------- */
+
+static void report(GltfFile *file, Severity severity, const GltfValue *at, const char *format,
+                   va_list args)
+{
+    char message[1024], pointer[256];
+    vsnprintf(message, sizeof message, format, args);
+    tree_pointer(at, pointer, sizeof pointer);
+    problems_add(file->load->problems, severity, file->path, pointer, "%s", message);
+}
+
+void file_error(GltfFile *file, const GltfValue *at, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    report(file, SEVERITY_ERROR, at, format, args);
+    va_end(args);
+}
+
+void file_warning(GltfFile *file, const GltfValue *at, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    report(file, SEVERITY_WARNING, at, format, args);
+    va_end(args);
+}
+
+/* A fault in a .glb's frame, which has no JSON pointer. */
+static bool frame_error(GltfFile *file, const char *place, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+static bool frame_error(GltfFile *file, const char *place, const char *format, ...)
+{
+    char message[1024];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(message, sizeof message, format, args);
+    va_end(args);
+    problems_add(file->load->problems, SEVERITY_ERROR, file->path, place, "%s", message);
+    return false;
+}
+
+/* ---- files ----------------------------------------------------------------------------- */
+
+static void note_input(Loader *load, const char *path, FileBytes bytes)
+{
+    for (int i = 0; i < load->inputs.count; i++)
+        if (strcmp(*(const char **)list_item(&load->inputs, i), path) == 0) return;
+    *(const char **)list_add(&load->inputs, &load->scratch) =
+        arena_string(load->arena, path, strlen(path));
+    *(uint64_t *)list_add(&load->input_hashes, &load->scratch) =
+        XXH3_64bits(bytes.data, bytes.size);
+}
+
+bool load_read(Loader *load, const char *path, Arena *arena, FileBytes *out, Error *err)
+{
+    if (!file_read(path, LOAD_MAX_FILE_BYTES, arena, out, err)) return false;
+    note_input(load, path, *out);
+    return true;
+}
+
+bool document_resolve(GltfFile *file, const GltfValue *uri, const char **path)
+{
+    Error err;
+    char *relative;
+    size_t scheme = uri_scheme_length(uri->text);
+    if (scheme) {
+        file_error(file, uri,
+                   "the URI's scheme is \"%.*s:\"; only data: and relative paths are "
+                   "read",
+                   (int)(scheme < 40 ? scheme : 40), uri->text);
+        return false;
+    }
+    if (!uri_decode(uri->text, &file->load->scratch, &relative, &err)) {
+        file_error(file, uri, "%s", err.text);
+        return false;
+    }
+    if (reference_resolve(file->path, relative, file->load->options->root,
+                          &file->load->scratch, path, &err))
+        return true;
+    file_error(file, uri, "%s", err.text);
+    return false;
+}
+
+/* ---- a .glb's frame (glTF 2.0, section 4) ---------------------------------------------- */
+
+enum { GLB_HEADER = 12, CHUNK_HEADER = 8, CHUNK_JSON = 0x4E4F534A, CHUNK_BIN = 0x004E4942 };
+
+static uint32_t u32_at(const unsigned char *bytes)
+{
+    return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 |
+           (uint32_t)bytes[3] << 24;
+}
+
+static bool take_chunk(GltfFile *file, const char *place, int number, uint32_t type,
+                       FileBytes chunk)
+{
+    if (number == 0 && type != CHUNK_JSON)
+        return frame_error(file, place,
+                           "the first chunk's type is 0x%08x, JSON (0x4e4f534a) is "
+                           "wanted",
+                           type);
+    if (number > 0 && type == CHUNK_JSON)
+        return frame_error(file, place, "a second JSON chunk; one is wanted");
+    if (type == CHUNK_BIN && number != 1)
+        return frame_error(file, place, "a BIN chunk as number %d; it may only be the second",
+                           number + 1);
+    if (type == CHUNK_JSON) {
+        file->json = (const char *)chunk.data;
+        file->json_size = chunk.size;
+    } else if (type == CHUNK_BIN) {
+        file->bin = chunk;
+    } else {
+        problems_add(file->load->problems, SEVERITY_WARNING, file->path, place,
+                     "chunk of unknown type 0x%08x is skipped", type);
+    }
+    return true;
+}
+
+static bool read_chunks(GltfFile *file, FileBytes bytes, size_t length)
+{
+    size_t at = GLB_HEADER;
+    for (int number = 0; at < length; number++) {
+        char place[64];
+        snprintf(place, sizeof place, "byte %zu", at);
+        if (length - at < CHUNK_HEADER)
+            return frame_error(file, place, "%zu bytes left, a chunk's header has 8",
+                               length - at);
+        uint32_t size = u32_at(bytes.data + at), type = u32_at(bytes.data + at + 4);
+        at += CHUNK_HEADER;
+        if (size > length - at)
+            return frame_error(file, place, "the chunk has %u bytes, %zu are left", size,
+                               length - at);
+        if (size % 4)
+            return frame_error(file, place, "the chunk has %u bytes, a multiple of 4 is wanted",
+                               size);
+        if (!take_chunk(file, place, number, type, (FileBytes){bytes.data + at, size}))
+            return false;
+        at += size;
+    }
+    return true;
+}
+
+static bool read_glb(GltfFile *file, FileBytes bytes)
+{
+    file->is_binary = true;
+    if (bytes.size < GLB_HEADER)
+        return frame_error(file, "byte 0", "%zu bytes, a .glb's header has 12", bytes.size);
+    if (memcmp(bytes.data, "glTF", 4) != 0)
+        return frame_error(file, "byte 0", "starts with 0x%08x, \"glTF\" is wanted",
+                           u32_at(bytes.data));
+    uint32_t version = u32_at(bytes.data + 4), length = u32_at(bytes.data + 8);
+    if (version != 2)
+        return frame_error(file, "byte 4", "version %u of the container, 2 is wanted", version);
+    if (length > bytes.size)
+        return frame_error(file, "byte 8", "the length is %u, the file has %zu bytes", length,
+                           bytes.size);
+    if (length < GLB_HEADER + CHUNK_HEADER)
+        return frame_error(file, "byte 8", "the length is %u, at least 20 is wanted", length);
+    if (length < bytes.size)
+        problems_add(file->load->problems, SEVERITY_WARNING, file->path, "byte 8",
+                     "the length is %u, the file has %zu bytes: the rest is skipped", length,
+                     bytes.size);
+    return read_chunks(file, bytes, length);
+}
+
+bool document_read(GltfFile *file)
+{
+    Error err;
+    FileBytes bytes;
+    Loader *load = file->load;
+    if (!load_read(load, file->path, &load->scratch, &bytes, &err)) {
+        problems_add_error(load->problems, &err);
+        return false;
+    }
+    bool is_glb = strcasecmp(path_ending(file->path), ".glb") == 0 ||
+                  (bytes.size >= 4 && memcmp(bytes.data, "glTF", 4) == 0);
+    if (is_glb && !read_glb(file, bytes)) return false;
+    if (!is_glb) {
+        file->json = (const char *)bytes.data;
+        file->json_size = bytes.size;
+    }
+    if (file->json_size > LOAD_MAX_JSON_BYTES) {
+        file_error(file, NULL, "the JSON has %zu bytes, at most %zu are read", file->json_size,
+                   LOAD_MAX_JSON_BYTES);
+        return false;
+    }
+    if (!gltf_json_parse(file->json, file->json_size, &load->scratch, &file->root, &err)) {
+        file_error(file, NULL, "%s", err.text);
+        return false;
+    }
+    if (file->root->kind == GLTF_OBJECT) return true;
+    file_error(file, NULL, "the document is no JSON object");
+    return false;
+}
+
+/* ---- buffers --------------------------------------------------------------------------- */
+
+static bool buffer_bytes(GltfFile *file, const GltfValue *buffer, FileBytes *out)
+{
+    Error err;
+    const char *path;
+    Arena *scratch = &file->load->scratch;
+    const GltfValue *uri = tree_member(buffer, "uri");
+    if (uri && uri->kind != GLTF_STRING) return false; /* reported by the check */
+    if (!uri) {
+        *out = buffer->index == 0 ? file->bin : (FileBytes){0};
+        if (file->is_binary && buffer->index == 0 && !out->data)
+            file_error(file, buffer, "the buffer has no uri and the file no BIN chunk");
+        return out->data != NULL;
+    }
+    if (uri_is_data(uri->text)) {
+        if (data_uri_decode(uri->text, scratch, out, NULL, &err)) return true;
+        file_error(file, uri, "%s", err.text);
+        return false;
+    }
+    if (!document_resolve(file, uri, &path)) return false;
+    if (load_read(file->load, path, scratch, out, &err)) return true;
+    file_error(file, uri, "%s: %s", path, err.text);
+    return false;
+}
+
+void document_load_buffers(GltfFile *file)
+{
+    const GltfValue *buffers = tree_member(file->root, "buffers");
+    int count = buffers && buffers->kind == GLTF_ARRAY ? buffers->count : 0;
+    file->buffers = ARENA_NEW(&file->load->scratch, FileBytes, count);
+    for (int i = 0; i < count; i++) {
+        const GltfValue *buffer = &buffers->items[i];
+        FileBytes bytes;
+        if (!buffer_bytes(file, buffer, &bytes)) continue;
+        const GltfValue *length = tree_member(buffer, "byteLength"); /* checked before */
+        bool   has_length = tree_is_integer(length) && length->number >= 0;
+        size_t wanted = has_length ? (size_t)length->number : 0;
+        if (bytes.size < wanted) {
+            file_error(file, tree_member(buffer, "byteLength"),
+                       "byteLength is %zu, %zu bytes are there", wanted, bytes.size);
+            continue;
+        }
+        if (file->is_binary && !tree_member(buffer, "uri") && bytes.size - wanted > 3)
+            file_warning(file, buffer, "the BIN chunk has %zu bytes more than byteLength",
+                         bytes.size - wanted);
+        file->buffers[i] = (FileBytes){bytes.data, wanted};
+    }
+}
+
+FileBytes document_view(const GltfFile *file, int view)
+{
+    const GltfBufferView *v = &file->data.views[view];
+    FileBytes bytes = file->buffers[v->buffer];
+    if (!bytes.data) return bytes;
+    return (FileBytes){bytes.data + v->offset, v->length};
+}

@@ -1,0 +1,30 @@
+/* document.h -- a .gltf or .glb file: its JSON, its buffers, the files that it names.
+ *
+ * Memory   documents, buffers and paths lie in the loader's scratch.
+ * Fails    into the loader's problems, with file and JSON pointer.
+ */
+#pragma once
+#include "scene/gltf/loader.h"
+
+/* A fault or warning at a place of the document (NULL: the file as a whole). */
+void file_error(GltfFile *file, const GltfValue *at, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+void file_warning(GltfFile *file, const GltfValue *at, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Reads a file, hashes it and notes it among the scene's inputs. */
+bool load_read(Loader *load, const char *path, Arena *arena, FileBytes *out, Error *err);
+
+/* Reads and parses a .gltf or .glb. False when there is no document to check. */
+bool document_read(GltfFile *file);
+
+/* Fills file->buffers; what is missing or short is reported. */
+void document_load_buffers(GltfFile *file);
+
+/* The path a URI names, from the scene's folder. False, and reported, when it is not allowed:
+ * another scheme, an absolute path, or a place where the scene may not look
+ * (base/reference.h). */
+bool document_resolve(GltfFile *file, const GltfValue *uri, const char **path);
+
+/* The bytes of a buffer view; data NULL when there are none. */
+FileBytes document_view(const GltfFile *file, int view);

@@ -1,0 +1,61 @@
+/* loader.h -- a scene on its way from its files to its arrays.
+ *
+ * One Loader makes one Scene of several GltfFiles, each of them in four steps: read the
+ * document (gltf/document.c), check it completely (check/), load what it refers to
+ * (load/image.c), and build world-space arrays (load/graph.c, load/primitive.c ...).
+ * A file with errors is not built, but the next one is still checked.
+ *
+ * Memory   what the Scene keeps lies in `arena`; everything else in `scratch`.
+ */
+#pragma once
+#include "base/file.h"
+#include "scene/gltf/list.h"
+#include "scene/gltf/tree.h"
+#include "scene/scene.h"
+
+/* Limits: more than these is refused with a clear line. */
+#define LOAD_MAX_FILE_BYTES ((size_t)4 << 30)
+#define LOAD_MAX_JSON_BYTES ((size_t)1 << 30)
+#define LOAD_MAX_ELEMENTS ((size_t)1 << 27)       /* of one accessor, and vertices in all */
+#define LOAD_SCRATCH_BYTES ((size_t)64 << 30)     /* address space; pages come when touched */
+#define LOAD_MAX_EMPTY_ELEMENTS ((size_t)1 << 22) /* of an accessor without bytes behind it */
+
+/* Where a display was described, and where its panel's name stands ("--panel" for the command
+ * line's). */
+typedef struct DisplayPlace {
+    const char *file, *pointer;
+} DisplayPlace;
+
+typedef struct Loader {
+    Arena *arena;
+    Arena scratch;
+    Problems *problems;
+    const SceneOptions *options;
+    Environment environment;
+    ItemList parts;     /* PartDraft */
+    ItemList materials; /* Material */
+    ItemList material_uv_sets; /* int[2] a material: the TEXCOORD_n of its Vertex.uv slots */
+    ItemList textures, displays, lights, cameras, curves;
+    ItemList display_places; /* DisplayPlace, one a display */
+    ItemList inputs;         /* const char * */
+    ItemList input_hashes;   /* uint64_t */
+    ItemList extensions;     /* const char * */
+    size_t vertex_total;
+    int ignored_occlusion_count;
+} Loader;
+
+typedef struct GltfFile {
+    Loader *load;
+    const char *path; /* as the user named it */
+    const GltfValue *root;
+    const char *json;
+    size_t json_size;
+    bool is_binary;     /* a .glb */
+    FileBytes bin;      /* its BIN chunk; data NULL without one */
+    FileBytes *buffers; /* data NULL: could not be had */
+    GltfData data;
+    Transform *world_from_node;
+    int material_base, texture_base;     /* first id of this file's */
+    int default_material_id;             /* NO_ID until it is needed */
+    int skipped_count, degenerate_count; /* primitives; triangles */
+} GltfFile;

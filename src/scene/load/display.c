@@ -1,0 +1,240 @@
+#include "scene/load/display.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/gltf/document.h"
+#include "scene/load/image.h"
+#include "scene/load/part_draft.h"
+#include "scene/load/texture_slot.h"
+
+static const char *kept(Loader *load, const char *text)
+{
+    return arena_string(load->arena, text, strlen(text));
+}
+
+static int add_display(Loader *load, Display display, const char *file, const char *pointer)
+{
+    Material *material = list_item(&load->materials, display.material_id);
+    *(Display *)list_add(&load->displays, &load->scratch) = display;
+    *(DisplayPlace *)list_add(&load->display_places, &load->scratch) =
+        (DisplayPlace){file, kept(load, pointer)};
+    return material->display_id = load->displays.count - 1;
+}
+
+void display_build(GltfFile *file, const GltfValue *extension, int material_id)
+{
+    Loader *load = file->load;
+    const char *path = "";
+    char pointer[256];
+    const GltfValue *panel = tree_member(extension, "panel");
+    const Material *material = list_item(&load->materials, material_id);
+    if (panel && !document_resolve(file, panel, &path)) return;
+    tree_pointer(panel ? panel : extension, pointer, sizeof pointer);
+    add_display(load,
+                (Display){.name = material->name,
+                          .material_id = material_id,
+                          .panel_path = kept(load, path),
+                          .content = texture_slot(file, tree_member(extension, "content")),
+                          .level = tree_float(extension, "level", 1)},
+                file->path, pointer);
+}
+
+/* ---- the command line's overrides ------------------------------------------------------ */
+
+static bool option_error(Loader *load, const char *option, const char *format, const char *a,
+                         const char *b)
+{
+    char message[1024];
+    snprintf(message, sizeof message, format, a, b);
+    problems_add(load->problems, SEVERITY_ERROR, option, "", "%s", message);
+    return false;
+}
+
+/* Reports that no material has this name; says which names there are. */
+static void report_unknown(Loader *load, const char *option, const char *name)
+{
+    char names[600] = "";
+    for (int i = 0; i < load->materials.count; i++) {
+        const Material *m = list_item(&load->materials, i);
+        size_t length = strlen(names);
+        if (length + strlen(m->name) + 8 > sizeof names) break;
+        snprintf(names + length, sizeof names - length, "%s\"%s\"", length ? ", " : "",
+                 m->name);
+    }
+    option_error(load, option, "no material is named \"%.200s\"; the scene has %s", name,
+                 names[0] ? names : "none");
+}
+
+/* A material that was no display becomes one: it shows what it emitted. */
+static int make_display(Loader *load, int material_id)
+{
+    Material *m = list_item(&load->materials, material_id);
+    if (m->display_id != NO_ID) return m->display_id;
+    return add_display(load,
+                       (Display){.name = m->name,
+                                 .material_id = material_id,
+                                 .panel_path = "",
+                                 .content = m->emissive_texture,
+                                 .level = 1},
+                       "--panel", "");
+}
+
+typedef void ApplyOverride(Loader *load, int display_id, const char *value);
+
+static void set_panel(Loader *load, int display_id, const char *value)
+{
+    Display *display = list_item(&load->displays, display_id);
+    display->panel_path = kept(load, value);
+    *(DisplayPlace *)list_item(&load->display_places, display_id) =
+        (DisplayPlace){"--panel", ""};
+}
+
+static void set_content(Loader *load, int display_id, const char *value)
+{
+    Error err;
+    Image image;
+    Display *display = list_item(&load->displays, display_id);
+    if (!load_image(load, value, &image, &err)) {
+        option_error(load, "--content", "%.300s: %.600s", value, err.text);
+        return;
+    }
+    Texture texture = {.wrap_u = WRAP_CLAMP, .wrap_v = WRAP_CLAMP, .nearest = true};
+    if (display->content.texture_id == NO_ID)
+        display->content = (TextureSlot){.uv_from_uv = {1, 0, 0, 0, 1, 0}};
+    else /* another picture on the same sampler */
+        texture = *(const Texture *)list_item(&load->textures, display->content.texture_id);
+    texture.image = image;
+    display->content.texture_id = texture_add(load, texture);
+}
+
+static void set_level(Loader *load, int display_id, const char *value)
+{
+    char *end;
+    double percent = strtod(value, &end);
+    if (end == value || (*end && strcmp(end, "%") != 0) || !(percent >= 0 && percent <= 1e6)) {
+        option_error(load, "--display-level",
+                     "\"%.100s\" is no percentage; a number from 0 up is "
+                     "wanted%s",
+                     value, "");
+        return;
+    }
+    Display *display = list_item(&load->displays, display_id);
+    display->level = (float)(percent / 100);
+}
+
+/* "*" means every display; later entries speak last, so that one may differ. */
+static bool is_meant(const Material *material, const char *name)
+{
+    if (strcmp(name, "*") == 0) return material->display_id != NO_ID;
+    return strcmp(material->name, name) == 0;
+}
+
+/* Applies one option's list; is_panel: any material may become a display. */
+static void apply(Loader *load, const char *option, const SceneOverride *list, int count,
+                  ApplyOverride *set)
+{
+    bool is_panel = set == set_panel;
+    for (int i = 0; i < count; i++) {
+        bool is_found = false;
+        for (int m = 0; m < load->materials.count; m++) {
+            const Material *material = list_item(&load->materials, m);
+            if (!is_meant(material, list[i].material)) continue;
+            is_found = true;
+            if (!is_panel && material->display_id == NO_ID)
+                option_error(load, option,
+                             "material \"%.200s\" is no display; --panel makes it "
+                             "one%s",
+                             material->name, "");
+            else
+                set(load, make_display(load, m), list[i].value);
+        }
+        if (!is_found) report_unknown(load, option, list[i].material);
+    }
+}
+
+void displays_override(Loader *load)
+{
+    const SceneOptions *o = load->options;
+    apply(load, "--panel", o->panels, o->panel_count, set_panel);
+    apply(load, "--content", o->contents, o->content_count, set_content);
+    apply(load, "--display-level", o->levels, o->level_count, set_level);
+}
+
+/* ---- what is checked when all files are read ------------------------------------------- */
+
+static const Panel *find_panel(const Loader *load, int before, const char *path)
+{
+    for (int i = 0; i < before; i++) {
+        const Display *display = list_item(&load->displays, i);
+        if (strcmp(display->panel_path, path) == 0) return display->panel;
+    }
+    return NULL;
+}
+
+static void open_panel(Loader *load, int id)
+{
+    Error err;
+    Panel *panel;
+    FileBytes bytes;
+    Display *display = list_item(&load->displays, id);
+    const DisplayPlace *place = list_item(&load->display_places, id);
+    display->panel = find_panel(load, id, display->panel_path);
+    if (display->panel) return;
+    ARENA_NEW(load->arena, uint64_t, 0); /* the next bytes are aligned as a panel wants it */
+    if (load_read(load, display->panel_path, load->arena, &bytes, &err) &&
+        panel_open_memory(bytes.data, bytes.size, display->panel_path, load->arena, &panel,
+                          &err)) {
+        display->panel = panel;
+        return;
+    }
+    problems_add(load->problems, SEVERITY_ERROR, place->file, place->pointer,
+                 "display \"%s\": %s: %s", display->name, display->panel_path, err.text);
+}
+
+static void check_content(Loader *load, int id)
+{
+    const Display *display = list_item(&load->displays, id);
+    const DisplayPlace *place = list_item(&load->display_places, id);
+    if (display->content.texture_id == NO_ID)
+        problems_add(load->problems, SEVERITY_WARNING, place->file, place->pointer,
+                     "display \"%s\" has no content: it shows full white", display->name);
+}
+
+/* The content's coordinates fix the panel's right and up, so they must not be mirrored. */
+static void check_coordinates(Loader *load, const PartDraft *draft)
+{
+    const Material *material = list_item(&load->materials, draft->part.material_id);
+    if (material->display_id == NO_ID) return;
+    const Display *display = list_item(&load->displays, material->display_id);
+    TextureSlot slot = display->content;
+    int counts[3] = {0};
+    for (uint32_t t = 0; t < draft->triangle_count; t++) {
+        const uint32_t *index = draft->indices + 3 * (size_t)t;
+        const Vertex *const v[3] = {&draft->vertices[index[0]], &draft->vertices[index[1]],
+                                    &draft->vertices[index[2]]};
+        Vec3 right;
+        counts[triangle_tangent(&slot, v, &right)]++;
+    }
+    if (counts[2])
+        file_error(draft->file, draft->primitive,
+                   "display \"%s\": the texture coordinates of %d "
+                   "triangles are mirrored, seen from the front",
+                   display->name, counts[2]);
+    if (counts[0])
+        file_error(draft->file, draft->primitive,
+                   "display \"%s\": the texture coordinates of %d "
+                   "triangles span no area: right and up are unknown",
+                   display->name, counts[0]);
+}
+
+void displays_finish(Loader *load)
+{
+    for (int i = 0; i < load->displays.count; i++) {
+        open_panel(load, i);
+        check_content(load, i);
+    }
+    for (int i = 0; i < load->parts.count; i++)
+        check_coordinates(load, list_item(&load->parts, i));
+}

@@ -1,0 +1,13 @@
+/* display.h -- materials that are displays. */
+#pragma once
+#include "scene/gltf/loader.h"
+
+/* The material's PARHELION_display. */
+void display_build(GltfFile *file, const GltfValue *extension, int material_id);
+
+/* The command line's --panel, --content and --display-level. */
+void displays_override(Loader *load);
+
+/* What can be checked only when all files are read: panels that open, coordinates that are not
+ * mirrored. */
+void displays_finish(Loader *load);

@@ -1,0 +1,156 @@
+#include "scene/load/environment.h"
+
+#include <string.h>
+
+#include "base/units.h"
+#include "scene/gltf/document.h"
+#include "scene/load/image.h"
+#include "spectrum/photometry.h"
+
+static float radians(const GltfValue *object, const char *name)
+{
+    return (float)radians_from_degrees(tree_number(object, name, 0));
+}
+
+static EnvironmentKind kind_from_text(const char *type)
+{
+    static const char *const NAMES[] = {"none", "constant", "hdri", "cie", "perez", "sky"};
+    for (int i = 1; i <= ENVIRONMENT_SKY; i++)
+        if (strcmp(type, NAMES[i]) == 0) return (EnvironmentKind)i;
+    return ENVIRONMENT_NONE;
+}
+
+/* A colour tells the hue only: its luminance is taken off. */
+static void read_color(GltfFile *file, const GltfValue *extension, float out[3])
+{
+    float color[3] = {1, 1, 1};
+    tree_floats(extension, "color", 3, color);
+    float luminance = luminance_from_rgb(color);
+    if (!(luminance > 0)) {
+        file_error(file, tree_member(extension, "color"),
+                   "the colour is black; a colour of "
+                   "positive luminance is wanted (luminance 0 makes it dark)");
+        luminance = 1;
+    }
+    for (int i = 0; i < 3; i++) out[i] = color[i] / luminance;
+}
+
+static void read_sun(const GltfValue *sun, Environment *out)
+{
+    out->sun_angular_radius = (float)radians_from_degrees(0.26645);
+    if (!sun) return;
+    out->has_sun = true;
+    out->sun_azimuth = radians(sun, "azimuth_deg");
+    out->sun_elevation = radians(sun, "elevation_deg");
+    out->sun_illuminance_lx = tree_float(sun, "illuminance_lx", 0);
+    if (tree_member(sun, "angular_radius_deg"))
+        out->sun_angular_radius = radians(sun, "angular_radius_deg");
+}
+
+/* Light is not negative: such pixels (ringing of a filter, say) and NaN count as 0. */
+static void clean_pixels(GltfFile *file, const GltfValue *uri, const Image *image)
+{
+    float *values = (float *)image->pixels;
+    size_t count = (size_t)image->width * (size_t)image->height, negative = 0, broken = 0;
+    for (size_t i = 0; i < 4 * count; i++) {
+        if (i % 4 == 3 || (values[i] >= 0 && isfinite(values[i]))) continue;
+        if (isfinite(values[i]))
+            negative++;
+        else
+            broken++;
+        values[i] = 0;
+    }
+    if (negative) file_warning(file, uri, "%zu negative values count as 0", negative);
+    if (broken) file_warning(file, uri, "%zu values that are not finite count as 0", broken);
+}
+
+static void read_hdri(GltfFile *file, const GltfValue *extension, Environment *out)
+{
+    Error err;
+    const char *path;
+    const GltfValue *uri = tree_member(extension, "uri");
+    out->hdri_rotation = radians(extension, "rotation_deg");
+    out->hdri_scale = tree_float(extension, "scale", 1);
+    out->horizontal_illuminance_lx = tree_float(extension, "horizontal_illuminance_lx", 0);
+    if (!uri || !document_resolve(file, uri, &path)) return;
+    out->hdri_path = arena_string(file->load->arena, path, strlen(path));
+    if (!load_image(file->load, path, &out->hdri, &err))
+        file_error(file, uri, "%s: %s", path, err.text);
+    else if (out->hdri.format != IMAGE_RGBA32F)
+        file_error(file, uri,
+                   "%s holds integer codes; a picture of floats (EXR, HDR) is wanted", path);
+    else
+        clean_pixels(file, uri, &out->hdri);
+    if (out->hdri.width != 2 * out->hdri.height)
+        file_warning(file, uri,
+                     "%s has %dx%d pixels; an equirectangular picture is twice as wide "
+                     "as high",
+                     path, out->hdri.width, out->hdri.height);
+}
+
+static void read_time_and_place(const GltfValue *extension, OutsideInput *out)
+{
+    Error err;
+    double place[3] = {0, 0, 0};
+    const GltfValue *where = tree_member(extension, "where");
+    const char *when = tree_text(extension, "when", "");
+    /* the check has looked at it: a text that is no moment is an error there */
+    out->has_time = *when && where && sky_time_parse(when, "", &out->when, &err);
+    for (int i = 0; i < 3 && where; i++) {
+        const GltfValue *number = tree_item(where, i);
+        if (number) place[i] = number->number;
+    }
+    out->where = (SkyPlace){place[0], place[1], place[2]};
+}
+
+static FloorKind floor_from_text(const char *text)
+{
+    return strcmp(text, "cloud") == 0 ? FLOOR_CLOUD : strcmp(text, "sea") == 0 ? FLOOR_SEA
+                                                                               : FLOOR_LAND;
+}
+
+static OutsideInput read_outside(const GltfValue *extension, EnvironmentKind kind)
+{
+    OutsideInput out = outside_input_default(kind == ENVIRONMENT_CIE     ? OUTSIDE_CIE
+                                             : kind == ENVIRONMENT_PEREZ ? OUTSIDE_PEREZ
+                                                                         : OUTSIDE_CLEAR);
+    out.cie_type = (int)tree_number(extension, "sky", out.cie_type);
+    out.diffuse_lux = tree_number(extension, "diffuse_horizontal_lx", out.diffuse_lux);
+    out.direct_w_m2 = tree_number(extension, "direct_normal_w_m2", 0);
+    out.diffuse_w_m2 = tree_number(extension, "diffuse_horizontal_w_m2", 0);
+    out.turbidity = tree_number(extension, "turbidity", out.turbidity);
+    out.visibility_km = tree_number(extension, "visibility_km", 0);
+    out.ozone_atm_cm = tree_number(extension, "ozone_atm_cm", out.ozone_atm_cm);
+    out.water_cm = tree_number(extension, "water_cm", out.water_cm);
+    out.albedo = tree_number(extension, "albedo", out.albedo);
+    out.floor = floor_from_text(tree_text(extension, "ground", "land"));
+    out.cloud_top_m = tree_number(extension, "cloud_top_m", out.cloud_top_m);
+    read_time_and_place(extension, &out);
+    return out;
+}
+
+void environment_build(GltfFile *file, const GltfValue *extension)
+{
+    Vec3 forward = vec3(0, 0, -1);
+    float numbers[3];
+    Environment out = {.kind = kind_from_text(tree_text(extension, "type", "")),
+                       .color = {1, 1, 1},
+                       .hdri_path = "",
+                       .hdri_scale = 1};
+    if (out.kind == ENVIRONMENT_CONSTANT) {
+        out.luminance_cd_m2 = tree_float(extension, "luminance", 0);
+        read_color(file, extension, out.color);
+    }
+    if (out.kind == ENVIRONMENT_HDRI) read_hdri(file, extension, &out);
+    if (out.kind >= ENVIRONMENT_CIE) out.outside = read_outside(extension, out.kind);
+    read_sun(tree_member(extension, "sun"), &out);
+    if (tree_floats(extension, "forward", 3, numbers))
+        forward = vec3(numbers[0], numbers[1], numbers[2]);
+    if (vec3_length(forward) > 0)
+        forward = vec3_normalize(forward);
+    else
+        file_error(file, tree_member(extension, "forward"), "the vector is zero");
+    out.forward = forward;
+    out.heading = radians(extension, "heading_deg");
+    file->load->environment = out;
+}

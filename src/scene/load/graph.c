@@ -1,0 +1,247 @@
+#include "scene/load/graph.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mathd.h"
+#include "base/units.h"
+#include "scene/gltf/document.h"
+#include "scene/load/environment.h"
+#include "scene/load/primitive.h"
+
+/* ---- transforms ------------------------------------------------------------------------ */
+
+static Transform from_matrix(const float m[16])
+{
+    return (Transform){vec3(m[0], m[1], m[2]), vec3(m[4], m[5], m[6]), vec3(m[8], m[9], m[10]),
+                       vec3(m[12], m[13], m[14])};
+}
+
+/* T R S; q = (x, y, z, w) is a unit quaternion to within rounding: it is normalised here. */
+static Transform from_trs(const float t[3], const float q[4], const float s[3])
+{
+    float n = sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    float k = n > 0 ? 1 / n : 0;
+    float x = q[0] * k, y = q[1] * k, z = q[2] * k, w = n > 0 ? q[3] * k : 1.0f;
+    Vec3 a = vec3(1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y));
+    Vec3 b = vec3(2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x));
+    Vec3 c = vec3(2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y));
+    return (Transform){vec3_scale(a, s[0]), vec3_scale(b, s[1]), vec3_scale(c, s[2]),
+                       vec3(t[0], t[1], t[2])};
+}
+
+static Transform parent_from_node(const GltfValue *node)
+{
+    float matrix[16], t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
+    if (tree_floats(node, "matrix", 16, matrix)) return from_matrix(matrix);
+    tree_floats(node, "translation", 3, t);
+    tree_floats(node, "rotation", 4, q);
+    tree_floats(node, "scale", 3, s);
+    return from_trs(t, q, s);
+}
+
+/* ---- the order of nodes ---------------------------------------------------------------- */
+
+/* Parents before children, siblings in the file's order, below the nodes of `roots` (an array
+ * of node indices). The check has made sure that this is a tree. */
+typedef struct NodeOrder {
+    int *nodes;
+    int *stack;
+    bool *is_seen;
+    int count, capacity;
+    bool skips_hidden;
+} NodeOrder;
+
+/* KHR_node_visibility: the node and everything below it. */
+static bool is_hidden(const GltfValue *node)
+{
+    return !tree_boolean(tree_extension(node, "KHR_node_visibility"), "visible", true);
+}
+
+static NodeOrder order_start(GltfFile *file, int node_count)
+{
+    Arena *scratch = &file->load->scratch;
+    return (NodeOrder){ARENA_NEW(scratch, int, node_count),
+                       ARENA_NEW(scratch, int, node_count),
+                       ARENA_NEW(scratch, bool, node_count),
+                       0,
+                       node_count,
+                       false};
+}
+
+static void order_below(NodeOrder *order, const GltfValue *nodes, int root)
+{
+    int depth = 0;
+    if (root < 0 || root >= order->capacity || order->is_seen[root]) return;
+    order->stack[depth++] = root;
+    order->is_seen[root] = true;
+    while (depth) {
+        int node = order->stack[--depth];
+        const GltfValue *children = tree_member(&nodes->items[node], "children");
+        if (order->skips_hidden && is_hidden(&nodes->items[node])) continue;
+        order->nodes[order->count++] = node;
+        for (int i = children ? children->count : 0; i-- > 0;) {
+            int child = (int)children->items[i].number;
+            if (child < 0 || child >= order->capacity || order->is_seen[child]) continue;
+            order->is_seen[child] = true;
+            order->stack[depth++] = child;
+        }
+    }
+}
+
+static int *parents_of(GltfFile *file, const GltfValue *nodes)
+{
+    int *parent = ARENA_NEW(&file->load->scratch, int, nodes->count);
+    for (int i = 0; i < nodes->count; i++) parent[i] = NO_ID;
+    for (int i = 0; i < nodes->count; i++) {
+        const GltfValue *children = tree_member(&nodes->items[i], "children");
+        for (int c = 0; children && c < children->count; c++) {
+            int child = (int)children->items[c].number;
+            if (child >= 0 && child < nodes->count) parent[child] = i;
+        }
+    }
+    return parent;
+}
+
+static void place_nodes(GltfFile *file, const GltfValue *nodes, const int *parent)
+{
+    NodeOrder order = order_start(file, nodes->count);
+    file->world_from_node = ARENA_NEW(&file->load->scratch, Transform, nodes->count);
+    for (int i = 0; i < nodes->count; i++)
+        if (parent[i] == NO_ID) order_below(&order, nodes, i);
+    for (int i = 0; i < order.count; i++) {
+        int node = order.nodes[i];
+        Transform local = parent_from_node(&nodes->items[node]);
+        file->world_from_node[node] =
+            parent[node] == NO_ID
+                ? local
+                : transform_compose(&file->world_from_node[parent[node]], &local);
+    }
+}
+
+/* The nodes of the scene to show: the file's default, else its first, else every root. */
+static NodeOrder nodes_of_scene(GltfFile *file, const GltfValue *nodes, const int *parent)
+{
+    NodeOrder order = order_start(file, nodes->count);
+    order.skips_hidden = true;
+    const GltfValue *scene =
+        tree_element(file->root, "scenes", tree_int(file->root, "scene", 0));
+    const GltfValue *roots = tree_member(scene, "nodes");
+    if (!scene) {
+        file_warning(file, NULL, "the file has no scene; all its nodes are shown");
+        for (int i = 0; i < nodes->count; i++)
+            if (parent[i] == NO_ID) order_below(&order, nodes, i);
+    }
+    for (int i = 0; roots && i < roots->count; i++)
+        order_below(&order, nodes, (int)roots->items[i].number);
+    return order;
+}
+
+/* ---- cameras and lights ---------------------------------------------------------------- */
+
+static const char *kept_text(GltfFile *file, const char *text)
+{
+    return arena_string(file->load->arena, text, strlen(text));
+}
+
+static void add_camera(GltfFile *file, const GltfValue *node, const Transform *world)
+{
+    const GltfValue *camera =
+        tree_element(file->root, "cameras", tree_int(node, "camera", NO_ID));
+    if (!camera) return;
+    const GltfValue *eye = tree_member(camera, "perspective");
+    const GltfValue *flat = tree_member(camera, "orthographic");
+    float xmag = fabsf(tree_float(flat, "xmag", 1)), ymag = fabsf(tree_float(flat, "ymag", 1));
+    *(SceneCamera *)list_add(&file->load->cameras, &file->load->scratch) =
+        (SceneCamera){.node_name = kept_text(file, tree_text(node, "name", "")),
+                      .camera_name = kept_text(file, tree_text(camera, "name", "")),
+                      .is_perspective = eye != NULL,
+                      .yfov = tree_float(eye, "yfov", 0),
+                      .ymag = ymag,
+                      .aspect = eye ? tree_float(eye, "aspectRatio", 0) : xmag / ymag,
+                      .znear = tree_float(eye ? eye : flat, "znear", 0),
+                      .zfar = tree_float(eye ? eye : flat, "zfar", INFINITY),
+                      .world_from_camera = {vec3_normalize(world->x), vec3_normalize(world->y),
+                                            vec3_normalize(world->z), world->origin}};
+}
+
+static void add_light(GltfFile *file, const GltfValue *node, const Transform *world)
+{
+    const GltfValue *lights =
+        tree_member(tree_extension(file->root, "KHR_lights_punctual"), "lights");
+    const GltfValue *light = tree_item(
+        lights, tree_int(tree_extension(node, "KHR_lights_punctual"), "light", NO_ID));
+    const char *type = tree_text(light, "type", ""), *name = tree_text(light, "name", "");
+    bool is_spot = strcmp(type, "spot") == 0, is_beam = strcmp(type, "directional") == 0;
+    if (!light || (!is_spot && !is_beam && strcmp(type, "point") != 0)) return;
+    const GltfValue *cone = tree_member(light, "spot");
+    float color[3] = {1, 1, 1}, intensity = tree_float(light, "intensity", 1);
+    tree_floats(light, "color", 3, color);
+    PunctualLight *out = list_add(&file->load->lights, &file->load->scratch);
+    *out = (PunctualLight){
+        .kind = is_spot   ? LIGHT_SPOT
+                : is_beam ? LIGHT_DIRECTIONAL
+                          : LIGHT_POINT,
+        .position = world->origin,
+        .direction = vec3_normalize(vec3_neg(world->z)),
+        .cos_inner = cos_of(is_spot ? tree_float(cone, "innerConeAngle", 0) : 0),
+        .cos_outer = cos_of(is_spot ? tree_float(cone, "outerConeAngle", PI_F / 4) : PI_F)};
+    for (int i = 0; i < 3; i++) out->intensity[i] = color[i] * intensity;
+    if (!name[0]) name = tree_text(node, "name", "");
+    out->name = name[0] ? kept_text(file, name)
+                        : arena_format(file->load->arena, "light %d", light->index);
+}
+
+/* ---- all of it ------------------------------------------------------------------------- */
+
+static void add_mesh(GltfFile *file, const GltfValue *node, const Transform *world)
+{
+    const GltfValue *mesh = tree_element(file->root, "meshes", tree_int(node, "mesh", NO_ID));
+    const GltfValue *primitives = tree_member(mesh, "primitives");
+    for (int i = 0; primitives && i < primitives->count; i++)
+        primitive_build(file, node, world, mesh, &primitives->items[i]);
+}
+
+static void build_environment(GltfFile *file)
+{
+    const GltfValue *scene =
+        tree_element(file->root, "scenes", tree_int(file->root, "scene", 0));
+    const GltfValue *extension = tree_extension(scene, "PARHELION_environment");
+    if (extension) environment_build(file, extension);
+}
+
+static void warn_of_skipped(GltfFile *file)
+{
+    int animations = tree_count(file->root, "animations");
+    if (animations)
+        file_warning(file, tree_member(file->root, "animations"),
+                     "%d animation%s skipped: the pose at rest is shown", animations,
+                     animations == 1 ? "" : "s");
+    if (file->skipped_count)
+        file_warning(file, tree_member(file->root, "meshes"),
+                     "%d primitive%s of points or lines skipped: only triangles are shown",
+                     file->skipped_count, file->skipped_count == 1 ? "" : "s");
+    if (file->degenerate_count)
+        file_warning(file, tree_member(file->root, "meshes"),
+                     "%d triangle%s without area dropped", file->degenerate_count,
+                     file->degenerate_count == 1 ? "" : "s");
+}
+
+void graph_build(GltfFile *file)
+{
+    const GltfValue *nodes = tree_member(file->root, "nodes");
+    build_environment(file);
+    if (nodes) {
+        const int *parent = parents_of(file, nodes);
+        place_nodes(file, nodes, parent);
+        NodeOrder order = nodes_of_scene(file, nodes, parent);
+        for (int i = 0; i < order.count; i++) {
+            const GltfValue *node = &nodes->items[order.nodes[i]];
+            const Transform *world = &file->world_from_node[order.nodes[i]];
+            add_camera(file, node, world);
+            add_light(file, node, world);
+            add_mesh(file, node, world);
+        }
+    }
+    warn_of_skipped(file);
+}

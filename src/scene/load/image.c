@@ -1,0 +1,150 @@
+#include "scene/load/image.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+#include "scene/gltf/document.h"
+#include "text/uri.h"
+
+/* ---- which images do the materials show? ----------------------------------------------- */
+
+/* Marks the textures that any textureInfo below `value` names. */
+static void mark_textures(const GltfValue *value, bool *is_used, int count)
+{
+    int index = value->kind == GLTF_OBJECT ? tree_int(value, "index", NO_ID) : NO_ID;
+    if (index >= 0 && index < count) is_used[index] = true;
+    for (int i = 0; i < value->count; i++) mark_textures(&value->items[i], is_used, count);
+}
+
+static bool *used_images(GltfFile *file, const GltfValue *textures, int image_count)
+{
+    Arena *scratch = &file->load->scratch;
+    int count = textures ? textures->count : 0;
+    bool *texture_used = ARENA_NEW(scratch, bool, count);
+    bool *image_used = ARENA_NEW(scratch, bool, image_count);
+    const GltfValue *materials = tree_member(file->root, "materials");
+    if (materials) mark_textures(materials, texture_used, count);
+    for (int i = 0; i < count; i++) {
+        int source = tree_int(&textures->items[i], "source", NO_ID);
+        if (texture_used[i] && source >= 0 && source < image_count) image_used[source] = true;
+    }
+    return image_used;
+}
+
+/* ---- bytes ----------------------------------------------------------------------------- */
+
+static const char *sniffed_type(FileBytes bytes)
+{
+    static const unsigned char PNG[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+    if (bytes.size >= 8 && memcmp(bytes.data, PNG, 8) == 0) return "image/png";
+    if (bytes.size >= 3 && memcmp(bytes.data, "\xFF\xD8\xFF", 3) == 0) return "image/jpeg";
+    if (bytes.size >= 12 && memcmp(bytes.data, "RIFF", 4) == 0 &&
+        memcmp(bytes.data + 8, "WEBP", 4) == 0)
+        return "image/webp";
+    if (bytes.size >= 12 && memcmp(bytes.data + 1, "KTX 20", 6) == 0) return "image/ktx2";
+    return "";
+}
+
+/* What the bytes are against what the file says they are. Only PNG and JPEG are core glTF. */
+static void check_type(GltfFile *file, const GltfValue *image, const char *declared,
+                       FileBytes bytes)
+{
+    const char *found = sniffed_type(bytes);
+    if (declared[0] && found[0] && strcasecmp(declared, found) != 0)
+        file_warning(file, image, "the bytes are %s, the file says %.60s", found, declared);
+    if (found[0] && strcmp(found, "image/png") != 0 && strcmp(found, "image/jpeg") != 0)
+        file_warning(file, image, "%s needs an extension; image/png or image/jpeg is wanted",
+                     found);
+}
+
+/* The encoded bytes, a name for messages and the media type that is declared. */
+static bool image_bytes(GltfFile *file, const GltfValue *image, FileBytes *bytes,
+                        const char **name, const char **declared)
+{
+    Error err;
+    Arena *scratch = &file->load->scratch;
+    const GltfValue *uri = tree_member(image, "uri");
+    char pointer[64];
+    tree_pointer(image, pointer, sizeof pointer);
+    *name = arena_string(scratch, pointer, strlen(pointer));
+    *declared = tree_text(image, "mimeType", "");
+    if (!uri) {
+        int view = tree_int(image, "bufferView", NO_ID);
+        *bytes = view >= 0 && view < file->data.view_count ? document_view(file, view)
+                                                           : (FileBytes){0};
+        if (!bytes->data) file_error(file, image, "its bytes are missing");
+        return bytes->data != NULL;
+    }
+    if (uri_is_data(uri->text)) {
+        if (data_uri_decode(uri->text, scratch, bytes, declared, &err)) return true;
+        file_error(file, uri, "%s", err.text);
+        return false;
+    }
+    if (!document_resolve(file, uri, name)) return false;
+    if (load_read(file->load, *name, scratch, bytes, &err)) return true;
+    file_error(file, uri, "%s: %s", *name, err.text);
+    return false;
+}
+
+static void load_one_image(GltfFile *file, const GltfValue *image, bool is_used, Image *out)
+{
+    Error err;
+    FileBytes bytes;
+    const char *name, *declared;
+    if (!image_bytes(file, image, &bytes, &name, &declared)) return;
+    check_type(file, image, declared, bytes);
+    if (image_read_memory(bytes.data, bytes.size, name, file->load->arena, out, &err)) return;
+    *out = (Image){0};
+    if (is_used)
+        file_error(file, image, "cannot be decoded: %s", err.text);
+    else
+        file_warning(file, image, "cannot be decoded (no material shows it): %s", err.text);
+}
+
+/* ---- textures -------------------------------------------------------------------------- */
+
+static TextureWrap wrap_from_gl(int code)
+{
+    return code == 33071 ? WRAP_CLAMP : code == 33648 ? WRAP_MIRROR : WRAP_REPEAT;
+}
+
+int texture_add(Loader *load, Texture texture)
+{
+    *(Texture *)list_add(&load->textures, &load->scratch) = texture;
+    return load->textures.count - 1;
+}
+
+void images_load(GltfFile *file)
+{
+    const GltfValue *images = tree_member(file->root, "images");
+    const GltfValue *textures = tree_member(file->root, "textures");
+    int image_count = images ? images->count : 0;
+    Image *decoded = ARENA_NEW(&file->load->scratch, Image, image_count);
+    bool *is_used = used_images(file, textures, image_count);
+    for (int i = 0; i < image_count; i++)
+        load_one_image(file, &images->items[i], is_used[i], &decoded[i]);
+    file->texture_base = file->load->textures.count;
+    for (int i = 0; textures && i < textures->count; i++) {
+        const GltfValue *texture = &textures->items[i];
+        const GltfValue *sampler =
+            tree_element(file->root, "samplers", tree_int(texture, "sampler", NO_ID));
+        int source = tree_int(texture, "source", NO_ID);
+        texture_add(
+            file->load,
+            (Texture){
+                .image = source >= 0 && source < image_count ? decoded[source] : (Image){0},
+                .wrap_u = wrap_from_gl(tree_int(sampler, "wrapS", 10497)),
+                .wrap_v = wrap_from_gl(tree_int(sampler, "wrapT", 10497)),
+                .nearest = tree_int(sampler, "magFilter", 9729) == 9728,
+            });
+    }
+}
+
+bool load_image(Loader *load, const char *path, Image *out, Error *err)
+{
+    FileBytes bytes;
+    if (!load_read(load, path, &load->scratch, &bytes, err)) return false;
+    if (image_read_memory(bytes.data, bytes.size, path, load->arena, out, err)) return true;
+    return error_in_file(err, path);
+}

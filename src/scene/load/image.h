@@ -1,0 +1,12 @@
+/* image.h -- a file's images and textures. */
+#pragma once
+#include "scene/gltf/loader.h"
+
+/* The textures of the file, in its order; an image that no material shows may be broken. */
+void images_load(GltfFile *file);
+
+/* The texture's id. */
+int texture_add(Loader *load, Texture texture);
+
+/* Reads an image file, decoded into the scene's memory. */
+bool load_image(Loader *load, const char *path, Image *out, Error *err);

@@ -1,0 +1,211 @@
+#include "scene/load/material.h"
+
+#include <string.h>
+
+#include "scene/gltf/document.h"
+#include "scene/load/display.h"
+#include "scene/load/texture_slot.h"
+#include "spectrum/photometry.h"
+
+/* ---- core ------------------------------------------------------------------------------ */
+
+static Material default_material(const char *name)
+{
+    TextureSlot none = texture_slot_none();
+    return (Material){.name = name,
+                      .base_color = {1, 1, 1, 1},
+                      .metallic = 1,
+                      .roughness = 1,
+                      .base_color_texture = none,
+                      .metallic_roughness_texture = none,
+                      .normal_texture = none,
+                      .emissive_texture = none,
+                      .specular_texture = none,
+                      .specular_color_texture = none,
+                      .transmission_texture = none,
+                      .clearcoat_texture = none,
+                      .clearcoat_roughness_texture = none,
+                      .clearcoat_normal_texture = none,
+                      .normal_scale = 1,
+                      .clearcoat_normal_scale = 1,
+                      .alpha_cutoff = 0.5f,
+                      .ior = 1.5f,
+                      .specular = 1,
+                      .specular_color = {1, 1, 1},
+                      .attenuation_color = {1, 1, 1},
+                      .attenuation_distance_m = INFINITY,
+                      .display_id = NO_ID,
+                      .base_color_curve_id = NO_ID,
+                      .specular_curve_id = NO_ID,
+                      .transmission_curve_id = NO_ID,
+                      .emission_curve_id = NO_ID};
+}
+
+static AlphaMode alpha_mode(const char *text)
+{
+    return strcmp(text, "MASK") == 0    ? ALPHA_MASK
+           : strcmp(text, "BLEND") == 0 ? ALPHA_BLEND
+                                        : ALPHA_OPAQUE;
+}
+
+static void read_core(GltfFile *file, const GltfValue *value, Material *m)
+{
+    const GltfValue *pbr = tree_member(value, "pbrMetallicRoughness");
+    const GltfValue *normal = tree_member(value, "normalTexture");
+    tree_floats(pbr, "baseColorFactor", 4, m->base_color);
+    m->base_color_texture = texture_slot(file, tree_member(pbr, "baseColorTexture"));
+    m->metallic = tree_float(pbr, "metallicFactor", 1);
+    m->roughness = tree_float(pbr, "roughnessFactor", 1);
+    m->metallic_roughness_texture =
+        texture_slot(file, tree_member(pbr, "metallicRoughnessTexture"));
+    m->normal_texture = texture_slot(file, normal);
+    m->normal_scale = tree_float(normal, "scale", 1);
+    m->emissive_texture = texture_slot(file, tree_member(value, "emissiveTexture"));
+    tree_floats(value, "emissiveFactor", 3, m->emissive_cd_m2);
+    m->alpha_mode = alpha_mode(tree_text(value, "alphaMode", "OPAQUE"));
+    m->alpha_cutoff = tree_float(value, "alphaCutoff", 0.5f);
+    m->double_sided = tree_boolean(value, "doubleSided", false);
+    if (tree_member(value, "occlusionTexture")) file->load->ignored_occlusion_count++;
+}
+
+/* ---- extensions ------------------------------------------------------------------------ */
+
+static void read_clearcoat(GltfFile *file, const GltfValue *coat, Material *m)
+{
+    const GltfValue *normal = tree_member(coat, "clearcoatNormalTexture");
+    m->clearcoat = tree_float(coat, "clearcoatFactor", 0);
+    m->clearcoat_texture = texture_slot(file, tree_member(coat, "clearcoatTexture"));
+    m->clearcoat_roughness = tree_float(coat, "clearcoatRoughnessFactor", 0);
+    m->clearcoat_roughness_texture =
+        texture_slot(file, tree_member(coat, "clearcoatRoughnessTexture"));
+    m->clearcoat_normal_texture = texture_slot(file, normal);
+    m->clearcoat_normal_scale = tree_float(normal, "scale", 1);
+}
+
+static void read_volume(const GltfValue *volume, Material *m)
+{
+    m->is_solid = tree_float(volume, "thicknessFactor", 0) > 0;
+    m->attenuation_distance_m = tree_float(volume, "attenuationDistance", INFINITY);
+    tree_floats(volume, "attenuationColor", 3, m->attenuation_color);
+}
+
+static void read_extensions(GltfFile *file, const GltfValue *value, Material *m)
+{
+    const GltfValue *specular = tree_extension(value, "KHR_materials_specular");
+    const GltfValue *transmission = tree_extension(value, "KHR_materials_transmission");
+    float strength = tree_float(tree_extension(value, "KHR_materials_emissive_strength"),
+                                "emissiveStrength", 1);
+    for (int i = 0; i < 3; i++) m->emissive_cd_m2[i] *= strength;
+    m->unlit = tree_extension(value, "KHR_materials_unlit") != NULL;
+    m->ior = tree_float(tree_extension(value, "KHR_materials_ior"), "ior", 1.5f);
+    m->specular = tree_float(specular, "specularFactor", 1);
+    tree_floats(specular, "specularColorFactor", 3, m->specular_color);
+    m->specular_texture = texture_slot(file, tree_member(specular, "specularTexture"));
+    m->specular_color_texture =
+        texture_slot(file, tree_member(specular, "specularColorTexture"));
+    m->transmission = tree_float(transmission, "transmissionFactor", 0);
+    m->transmission_texture =
+        texture_slot(file, tree_member(transmission, "transmissionTexture"));
+    read_clearcoat(file, tree_extension(value, "KHR_materials_clearcoat"), m);
+    read_volume(tree_extension(value, "KHR_materials_volume"), m);
+}
+
+static int read_curve(GltfFile *file, const GltfValue *uri)
+{
+    Error err;
+    FileBytes bytes;
+    const char *path;
+    Loader *load = file->load;
+    if (!uri || !document_resolve(file, uri, &path)) return NO_ID;
+    Curve *curve = list_add(&load->curves, &load->scratch);
+    if (load_read(load, path, &load->scratch, &bytes, &err) &&
+        curve_parse((const char *)bytes.data, path, curve, &err))
+        return load->curves.count - 1;
+    char line[1024];
+    error_line(&err, line, sizeof line);
+    file_error(file, uri, "%s", line);
+    return NO_ID;
+}
+
+/* An emission spectrum tells the colour; emissiveFactor and its strength tell how much. */
+static void make_unit_luminance(GltfFile *file, const GltfValue *at, int curve_id)
+{
+    Curve *curve = list_item(&file->load->curves, curve_id);
+    double luminance = luminance_cd_m2(curve->value, CURVE_COUNT, CURVE_FIRST_NM, 1);
+    if (!(luminance > 0)) {
+        file_error(file, at, "the emission spectrum has no visible light");
+        return;
+    }
+    for (int i = 0; i < CURVE_COUNT; i++)
+        curve->value[i] = (float)((double)curve->value[i] / luminance);
+}
+
+static void read_spectra(GltfFile *file, const GltfValue *spectrum, Material *m)
+{
+    m->base_color_curve_id = read_curve(file, tree_member(spectrum, "baseColor"));
+    m->transmission_curve_id = read_curve(file, tree_member(spectrum, "transmission"));
+    m->specular_curve_id = read_curve(file, tree_member(spectrum, "specular"));
+    m->emission_curve_id = read_curve(file, tree_member(spectrum, "emission"));
+    if (m->emission_curve_id != NO_ID)
+        make_unit_luminance(file, tree_member(spectrum, "emission"), m->emission_curve_id);
+}
+
+/* ---- all of them ----------------------------------------------------------------------- */
+
+static bool any_positive(const float rgb[3])
+{
+    return rgb[0] > 0 || rgb[1] > 0 || rgb[2] > 0;
+}
+
+void material_derive_flags(Material *m)
+{
+    m->is_emitter = any_positive(m->emissive_cd_m2) || m->display_id != NO_ID ||
+                    (m->unlit && any_positive(m->base_color));
+    m->lets_light_through = m->display_id == NO_ID && (m->alpha_mode != ALPHA_OPAQUE ||
+                                                       (m->transmission > 0 && !m->is_solid));
+}
+
+static int add_material(Loader *load, Material material, const int sets[SCENE_UV_SETS])
+{
+    *(Material *)list_add(&load->materials, &load->scratch) = material;
+    memcpy(list_add(&load->material_uv_sets, &load->scratch), sets, 2 * sizeof *sets);
+    return load->materials.count - 1;
+}
+
+static void build_material(GltfFile *file, const GltfValue *value)
+{
+    Loader *load = file->load;
+    const char *name = tree_text(value, "name", "");
+    Material m =
+        default_material(name[0] ? arena_string(load->arena, name, strlen(name))
+                                 : arena_format(load->arena, "material %d", value->index));
+    int id = load->materials.count, sets[SCENE_UV_SETS];
+    const GltfValue *display = tree_extension(value, "PARHELION_display");
+    read_core(file, value, &m);
+    read_extensions(file, value, &m);
+    read_spectra(file, tree_extension(value, "PARHELION_spectrum"), &m);
+    add_material(load, m, (int[SCENE_UV_SETS]){0, 1});
+    if (display) display_build(file, display, id);
+    Material *added = list_item(&load->materials, id);
+    Display *shown =
+        added->display_id == NO_ID ? NULL : list_item(&load->displays, added->display_id);
+    texture_slots_place(file, value, added, shown ? &shown->content : NULL, sets);
+    memcpy(list_item(&load->material_uv_sets, id), sets, sizeof sets);
+}
+
+void materials_build(GltfFile *file)
+{
+    const GltfValue *materials = tree_member(file->root, "materials");
+    file->material_base = file->load->materials.count;
+    file->default_material_id = NO_ID;
+    for (int i = 0; materials && i < materials->count; i++)
+        build_material(file, &materials->items[i]);
+}
+
+int material_default(GltfFile *file)
+{
+    if (file->default_material_id == NO_ID)
+        file->default_material_id =
+            add_material(file->load, default_material("default"), (int[SCENE_UV_SETS]){0, 1});
+    return file->default_material_id;
+}

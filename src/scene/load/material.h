@@ -1,0 +1,12 @@
+/* material.h -- a file's materials. */
+#pragma once
+#include "scene/gltf/loader.h"
+
+/* All of them, with the displays among them. */
+void materials_build(GltfFile *file);
+
+/* The id of glTF's default material, which the file gets when it first needs it. */
+int material_default(GltfFile *file);
+
+/* What follows from the other members, when all that may change them is done. */
+void material_derive_flags(Material *material);

@@ -1,0 +1,303 @@
+#include "scene/load/scene_load.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/check/check.h"
+#include "scene/check/check_data.h"
+#include "scene/check/check_graph.h"
+#include "scene/check/schema.h"
+#include "scene/check/schema_core.h"
+#include "scene/check/schema_extensions.h"
+#include "scene/gltf/document.h"
+#include "scene/gltf/list.h"
+#include "scene/gltf/loader.h"
+#include "scene/gltf/tree.h"
+#include "scene/load/display.h"
+#include "scene/load/graph.h"
+#include "scene/load/image.h"
+#include "scene/load/material.h"
+#include "scene/load/part_draft.h"
+
+/* ---- materials that say BLEND or MASK but are opaque everywhere ------------------------ */
+
+/* Exporters mark whole models so; asking such surfaces at every ray costs time for nothing. */
+
+static bool has_full_alpha(const Image *image)
+{
+    size_t count = (size_t)image->width * (size_t)image->height;
+    for (size_t i = 3; i < 4 * count; i += 4) {
+        if (image->format == IMAGE_RGBA8 && ((const uint8_t *)image->pixels)[i] < 255)
+            return false;
+        if (image->format == IMAGE_RGBA16 && ((const uint16_t *)image->pixels)[i] < 65535)
+            return false;
+        if (image->format == IMAGE_RGBA32F && !(((const float *)image->pixels)[i] >= 1))
+            return false;
+    }
+    return true;
+}
+
+static bool has_opaque_colors(const Loader *load, int material_id)
+{
+    for (int i = 0; i < load->parts.count; i++) {
+        const PartDraft *draft = list_item(&load->parts, i);
+        if (draft->part.material_id != material_id) continue;
+        for (uint32_t v = 0; v < draft->vertex_count; v++)
+            if (draft->vertices[v].color[3] < 65535) return false;
+    }
+    return true;
+}
+
+static void find_opaque_materials(Loader *load)
+{
+    for (int i = 0; i < load->materials.count; i++) {
+        Material *m = list_item(&load->materials, i);
+        int texture = m->base_color_texture.texture_id;
+        if (m->alpha_mode == ALPHA_OPAQUE || m->base_color[3] < 1) continue;
+        if (m->alpha_mode == ALPHA_MASK && m->alpha_cutoff > 1) continue;
+        if (texture != NO_ID &&
+            !has_full_alpha(&((const Texture *)list_item(&load->textures, texture))->image))
+            continue;
+        if (!has_opaque_colors(load, i)) continue;
+        m->alpha_mode = ALPHA_OPAQUE;
+    }
+}
+
+/* ---- from drafts to arrays ------------------------------------------------------------- */
+
+static bool lets_through(const Loader *load, const PartDraft *draft)
+{
+    const Material *material = list_item(&load->materials, draft->part.material_id);
+    return material->lets_light_through;
+}
+
+static void append_part(Scene *scene, const PartDraft *draft)
+{
+    Part *part = &scene->parts[scene->part_count];
+    *part = draft->part;
+    part->first_triangle = scene->triangle_count;
+    part->triangle_count = draft->triangle_count;
+    memcpy(scene->vertices + scene->vertex_count, draft->vertices,
+           sizeof *draft->vertices * (size_t)draft->vertex_count);
+    for (uint32_t t = 0; t < draft->triangle_count; t++) {
+        Triangle *triangle = &scene->triangles[scene->triangle_count++];
+        triangle->part_id = (uint32_t)scene->part_count;
+        for (int c = 0; c < 3; c++)
+            triangle->vertex[c] =
+                scene->vertex_count + draft->indices[3 * (size_t)t + (size_t)c];
+    }
+    scene->vertex_count += draft->vertex_count;
+    scene->part_count++;
+}
+
+static void join_parts(const Loader *load, Scene *scene)
+{
+    size_t vertices = 0, triangles = 0;
+    for (int i = 0; i < load->parts.count; i++) {
+        const PartDraft *draft = list_item(&load->parts, i);
+        vertices += draft->vertex_count;
+        triangles += draft->triangle_count;
+    }
+    scene->vertices = arena_alloc(load->arena, sizeof(Vertex), 64, vertices);
+    scene->triangles = ARENA_NEW(load->arena, Triangle, triangles);
+    scene->parts = ARENA_NEW(load->arena, Part, load->parts.count);
+    for (int pass = 0; pass < 2; pass++) { /* opaque ones first */
+        for (int i = 0; i < load->parts.count; i++) {
+            const PartDraft *draft = list_item(&load->parts, i);
+            if (lets_through(load, draft) == (pass == 1)) append_part(scene, draft);
+        }
+        if (pass == 0) scene->opaque_count = scene->triangle_count;
+    }
+}
+
+static void measure_bounds(Scene *scene)
+{
+    Vec3 low = vec3(INFINITY, INFINITY, INFINITY), high = vec3_neg(low);
+    for (uint32_t t = 0; t < scene->triangle_count; t++)
+        for (int c = 0; c < 3; c++) {
+            const float *p = scene->vertices[scene->triangles[t].vertex[c]].position;
+            low = vec3(fminf(low.x, p[0]), fminf(low.y, p[1]), fminf(low.z, p[2]));
+            high = vec3(fmaxf(high.x, p[0]), fmaxf(high.y, p[1]), fmaxf(high.z, p[2]));
+        }
+    scene->bounds_min = low;
+    scene->bounds_max = high;
+}
+
+/* Vertices are 32-bit numbers: so far out, neighbours of the scene's own size lie on few of
+ * them. Edges jump and light leaks, but nothing is wrong with the file. */
+#define FAR_IN_SIZES 10000
+
+static void warn_if_far(const Scene *scene, Loader *load)
+{
+    if (!scene->triangle_count) return;
+    Vec3  low = scene->bounds_min, high = scene->bounds_max;
+    float size = vec3_length(vec3_sub(high, low));
+    float distance = vec3_length(vec3_scale(vec3_add(low, high), 0.5f));
+    if (distance > FAR_IN_SIZES * size)
+        problems_add(load->problems, SEVERITY_WARNING, scene->inputs[0], "",
+                     "the scene is %.3g m large and stands %.3g m from the origin, where "
+                     "coordinates are %.2g m apart: move it nearer",
+                     (double)size, (double)distance, (double)distance * 0x1p-23);
+}
+
+/* A texture that no material shows may have no picture; nobody looks, but it is valid. */
+static void fill_gaps(Scene *scene)
+{
+    static const unsigned char WHITE[4] = {255, 255, 255, 255};
+    for (int i = 0; i < scene->texture_count; i++)
+        if (scene->textures[i].image.width == 0)
+            scene->textures[i].image = (Image){1, 1, IMAGE_RGBA8, WHITE};
+}
+
+static int compare_text(const void *a, const void *b)
+{
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+static void sort_extensions(Scene *scene)
+{
+    int kept = 0;
+    const char **list = scene->extensions;
+    if (scene->extension_count)
+        qsort(list, (size_t)scene->extension_count, sizeof *list, compare_text);
+    for (int i = 0; i < scene->extension_count; i++)
+        if (i == 0 || strcmp(list[i], list[kept - 1]) != 0) list[kept++] = list[i];
+    scene->extension_count = kept;
+}
+
+static Scene *assemble(Loader *load)
+{
+    Arena *arena = load->arena;
+    Scene *scene = ARENA_NEW(arena, Scene, 1);
+    *scene = (Scene){.materials = list_copy(&load->materials, arena),
+                     .material_count = load->materials.count,
+                     .textures = list_copy(&load->textures, arena),
+                     .texture_count = load->textures.count,
+                     .displays = list_copy(&load->displays, arena),
+                     .display_count = load->displays.count,
+                     .lights = list_copy(&load->lights, arena),
+                     .light_count = load->lights.count,
+                     .cameras = list_copy(&load->cameras, arena),
+                     .camera_count = load->cameras.count,
+                     .curves = list_copy(&load->curves, arena),
+                     .curve_count = load->curves.count,
+                     .inputs = list_copy(&load->inputs, arena),
+                     .input_hashes = list_copy(&load->input_hashes, arena),
+                     .input_count = load->inputs.count,
+                     .extensions = list_copy(&load->extensions, arena),
+                     .extension_count = load->extensions.count,
+                     .environment = load->environment,
+                     .ignored_occlusion_count = load->ignored_occlusion_count};
+    join_parts(load, scene);
+    measure_bounds(scene);
+    fill_gaps(scene);
+    sort_extensions(scene);
+    warn_if_far(scene, load);
+    return scene;
+}
+
+/* ---- reading --------------------------------------------------------------------------- */
+
+static void note_extensions(GltfFile *file)
+{
+    const GltfValue *used = tree_member(file->root, "extensionsUsed");
+    for (int i = 0; used && i < used->count; i++)
+        *(const char **)list_add(&file->load->extensions, &file->load->scratch) =
+            arena_string(file->load->arena, used->items[i].text, strlen(used->items[i].text));
+}
+
+static void check_structure(GltfFile *file)
+{
+    const DocumentCheck check = {file, SEVERITY_ERROR};
+    schema_check(&check, file->root, &SCHEMA_ROOT);
+    check_extensions(&check, file->root);
+    check_hierarchy(&check, file->root);
+    document_load_buffers(file);
+}
+
+static bool read_data(GltfFile *file)
+{
+    Error err;
+    if (gltf_json_data(file->json, file->json_size, &file->load->scratch, &file->data, &err))
+        return true;
+    file_error(file, NULL, "%s", err.text);
+    return false;
+}
+
+/* One file: read, check, and, when nothing is wrong, build. */
+static void load_file(Loader *load, const char *path)
+{
+    const Problems *problems = load->problems;
+    int before = problems->error_count;
+    GltfFile *file = ARENA_NEW(&load->scratch, GltfFile, 1);
+    *file = (GltfFile){.load = load, .path = arena_string(load->arena, path, strlen(path))};
+    if (!document_read(file)) return;
+    note_extensions(file);
+    check_structure(file);
+    if (problems->error_count > before || !read_data(file)) return;
+    check_data(file);
+    if (problems->error_count > before) return;
+    images_load(file);
+    materials_build(file);
+    graph_build(file);
+}
+
+static Loader loader_start(const SceneOptions *options, Arena *arena, Problems *problems)
+{
+    return (Loader){.arena = arena,
+                    .scratch = arena_reserve(LOAD_SCRATCH_BYTES),
+                    .problems = problems,
+                    .options = options,
+                    .environment = {.color = {1, 1, 1},
+                                    .hdri_path = "",
+                                    .hdri_scale = 1,
+                                    .forward = {0, 0, -1}},
+                    .parts = list_of(sizeof(PartDraft)),
+                    .materials = list_of(sizeof(Material)),
+                    .material_uv_sets = list_of(sizeof(int[SCENE_UV_SETS])),
+                    .textures = list_of(sizeof(Texture)),
+                    .displays = list_of(sizeof(Display)),
+                    .lights = list_of(sizeof(PunctualLight)),
+                    .cameras = list_of(sizeof(SceneCamera)),
+                    .curves = list_of(sizeof(Curve)),
+                    .display_places = list_of(sizeof(DisplayPlace)),
+                    .inputs = list_of(sizeof(const char *)),
+                    .input_hashes = list_of(sizeof(uint64_t)),
+                    .extensions = list_of(sizeof(const char *))};
+}
+
+Scene *scene_survey(const SceneOptions *options, Arena *arena, Problems *problems)
+{
+    Loader load = loader_start(options, arena, problems);
+    for (int i = 0; i < options->path_count; i++) load_file(&load, options->paths[i]);
+    displays_override(&load);
+    displays_finish(&load);
+    find_opaque_materials(&load);
+    for (int i = 0; i < load.materials.count; i++)
+        material_derive_flags(list_item(&load.materials, i));
+    Scene *scene = assemble(&load);
+    arena_release(&load.scratch);
+    return scene;
+}
+
+bool scene_load(const SceneOptions *options, Arena *arena, Problems *problems, Scene **out,
+                Error *err)
+{
+    Scene *scene = scene_survey(options, arena, problems);
+    if (problems_verdict(problems, err)) {
+        *out = scene;
+        return true;
+    }
+    scene_close(scene);
+    return false;
+}
+
+void scene_close(Scene *scene)
+{
+    for (int i = 0; scene && i < scene->display_count; i++) {
+        const Display *displays = scene->displays;
+        bool is_first = true; /* displays of one file share its panel */
+        for (int k = 0; k < i; k++) is_first &= displays[k].panel != displays[i].panel;
+        if (is_first) panel_close((Panel *)displays[i].panel);
+    }
+}

@@ -1,0 +1,100 @@
+#include "scene/load/texture_slot.h"
+
+#include <string.h>
+
+#include "base/mathd.h"
+#include "scene/gltf/document.h"
+
+TextureSlot texture_slot_none(void)
+{
+    return (TextureSlot){.texture_id = NO_ID, .uv_from_uv = {1, 0, 0, 0, 1, 0}};
+}
+
+/* KHR_texture_transform: uv' = T R S uv, where R is a turn by -rotation in the (u, v) plane as
+ * the extension writes it: u' = sx cos u + sy sin v + ox, v' = -sx sin u + sy cos v + oy. */
+static void apply_transform(const GltfValue *transform, TextureSlot *slot)
+{
+    float offset[2] = {0, 0}, scale[2] = {1, 1};
+    float turn = tree_float(transform, "rotation", 0);
+    float c = cos_of(turn), s = sin_of(turn);
+    tree_floats(transform, "offset", 2, offset);
+    tree_floats(transform, "scale", 2, scale);
+    float matrix[6] = {scale[0] * c,  scale[1] * s, offset[0],
+                       -scale[0] * s, scale[1] * c, offset[1]};
+    memcpy(slot->uv_from_uv, matrix, sizeof matrix);
+    slot->uv_set = tree_int(transform, "texCoord", slot->uv_set);
+}
+
+TextureSlot texture_slot(GltfFile *file, const GltfValue *info)
+{
+    TextureSlot slot = texture_slot_none();
+    int index = tree_int(info, "index", NO_ID);
+    if (index < 0) return slot;
+    slot.texture_id = file->texture_base + index;
+    slot.uv_set = tree_int(info, "texCoord", 0);
+    const GltfValue *transform = tree_extension(info, "KHR_texture_transform");
+    if (transform) apply_transform(transform, &slot);
+    const Texture *texture = list_item(&file->load->textures, slot.texture_id);
+    if (texture->image.width > 0) return slot;
+    if (!tree_member(tree_element(file->root, "textures", index), "source"))
+        file_warning(file, info, "texture %d has no PNG or JPEG source: it is left out", index);
+    return texture_slot_none();
+}
+
+/* ---- which uv sets does a material need? ----------------------------------------------- */
+
+void texture_slots_of(Material *m, TextureSlot *slots[MATERIAL_SLOTS])
+{
+    TextureSlot *all[] = {&m->base_color_texture, &m->metallic_roughness_texture,
+                          &m->normal_texture, &m->emissive_texture, &m->specular_texture,
+                          &m->specular_color_texture, &m->transmission_texture,
+                          &m->clearcoat_texture, &m->clearcoat_roughness_texture,
+                          &m->clearcoat_normal_texture};
+    memcpy(slots, all, sizeof all);
+}
+
+/* Puts a set among the two; false when both are taken by others. */
+static bool claim_set(int sets[SCENE_UV_SETS], int set)
+{
+    for (int i = 0; i < SCENE_UV_SETS; i++) {
+        if (sets[i] == NO_ID) sets[i] = set;
+        if (sets[i] == set) return true;
+    }
+    return false;
+}
+
+/* Vertex.uv has two places: the smallest set that is used first, or set 0 where it fits, so
+ * that uv[0] is what every viewer would show. */
+static void order_sets(int sets[SCENE_UV_SETS])
+{
+    if (sets[1] == NO_ID && sets[0] > 0) sets[1] = 0;
+    if (sets[0] == NO_ID) sets[0] = 0;
+    if (sets[1] != NO_ID && sets[1] < sets[0]) {
+        int first = sets[1];
+        sets[1] = sets[0];
+        sets[0] = first;
+    }
+    if (sets[1] == NO_ID) sets[1] = 1;
+}
+
+void texture_slots_place(GltfFile *file, const GltfValue *value, Material *material,
+                         TextureSlot *content, int sets[SCENE_UV_SETS])
+{
+    TextureSlot *slots[MATERIAL_SLOTS + 1];
+    texture_slots_of(material, slots);
+    slots[MATERIAL_SLOTS] = content;
+    sets[0] = sets[1] = NO_ID;
+    for (int i = 0; i <= MATERIAL_SLOTS; i++) {
+        if (!slots[i] || slots[i]->texture_id == NO_ID) continue;
+        if (!claim_set(sets, slots[i]->uv_set)) {
+            file_error(file, value,
+                       "the textures of \"%s\" use TEXCOORD_%d, _%d and _%d; at most "
+                       "two sets are carried",
+                       material->name, sets[0], sets[1], slots[i]->uv_set);
+            return;
+        }
+    }
+    order_sets(sets);
+    for (int i = 0; i <= MATERIAL_SLOTS; i++)
+        if (slots[i]) slots[i]->uv_set = slots[i]->uv_set == sets[1];
+}

@@ -1,0 +1,23 @@
+/* texture_slot.h -- the textures of a material, and the coordinates that each is read with.
+ *
+ * A file may have many sets of coordinates; a Vertex has SCENE_UV_SETS of them.
+ */
+#pragma once
+#include "scene/gltf/loader.h"
+
+TextureSlot texture_slot_none(void);
+
+/* Reads {"index", "texCoord", KHR_texture_transform}; none where `info` is NULL. The uv_set is
+ * still the file's TEXCOORD number. */
+TextureSlot texture_slot(GltfFile *file, const GltfValue *info);
+
+#define MATERIAL_SLOTS 10
+
+/* All slots of a material but a display's content. */
+void texture_slots_of(Material *material, TextureSlot *slots[MATERIAL_SLOTS]);
+
+/* Turns the TEXCOORD numbers of the material's slots (and of a display's content, which may be
+ * NULL) into places in Vertex.uv; sets[i]: which number uv[i] holds. More than two are an error
+ * at `value`. */
+void texture_slots_place(GltfFile *file, const GltfValue *value, Material *material,
+                         TextureSlot *content, int sets[SCENE_UV_SETS]);
