@@ -14,8 +14,8 @@
 #include "shaders/display.h"
 #include "shaders/metallic_roughness.h"
 
-/* Every model once: MODEL(KIND, name, Parameters) makes the kind BSDF_KIND, the member `name` of
- * Bsdf, and the row of bsdf.c's table for `name_model`, which the model's file defines. */
+/* Every model once: MODEL(KIND, name, Parameters) makes the kind BSDF_KIND, the member `name`
+ * of Bsdf, and the row of bsdf.c's table for `name_model`, which the model's file defines. */
 #define BSDF_MODELS(MODEL)                                                                     \
     MODEL(METALLIC_ROUGHNESS, metallic_roughness, MetallicRoughness)                           \
     MODEL(THIN_WINDOW, thin_window, ThinWindow)                                                \
