@@ -6,27 +6,18 @@
 
 #include "base/file.h"
 #include "base/units.h"
-#include "import/luminaire/luminaire.h"
-#include "import/text/text_lines.h"
+#include "import/luminaire/luminaire_scan.h"
 
-typedef struct Ldt {
-    TextFile text;
-    int      at; /* index of the next line */
-    Arena   *arena;
-    Error   *err;
-} Ldt;
-
-static bool next_line(Ldt *in, const char *what, TextLine *out)
+static bool next_line(LuminaireScan *in, const char *what, TextLine *out)
 {
-    if (in->at >= in->text.count)
-        return error_at(in->err, ERROR_INPUT, in->text.file, text_place(in->at, in->arena),
-                        "the file ends before %s", what);
-    *out = in->text.line[in->at++];
-    return true;
+    bool is_there = ++in->line < in->text.count;
+    *out = is_there ? in->text.line[in->line] : (TextLine){0};
+    return is_there || luminaire_scan_fail(in, "the file ends before %s", what);
 }
 
 /* A number at the beginning of a line; some writers put a decimal comma or a unit behind. */
-static bool next_number(Ldt *in, const char *what, double low, double high, double *out)
+static bool next_number(LuminaireScan *in, const char *what, double low, double high,
+                        double *out)
 {
     TextLine line;
     char     digits[40] = {0}, *after;
@@ -35,23 +26,12 @@ static bool next_number(Ldt *in, const char *what, double low, double high, doub
         digits[i] = line.text[i] == ',' ? '.' : line.text[i];
     *out = strtod(digits, &after);
     if (after == digits || !(*out >= low && *out <= high))
-        return error_at(in->err, ERROR_INPUT, in->text.file, text_place(in->at - 1, in->arena),
-                        "%s is '%.*s', wanted a number from %g to %g", what,
-                        line.length < 40 ? line.length : 40, line.text, low, high);
+        return luminaire_scan_fail(in, "%s is '%.*s', wanted a number from %g to %g", what,
+                                   line.length < 40 ? line.length : 40, line.text, low, high);
     return true;
 }
 
-static bool next_count(Ldt *in, const char *what, int low, int high, int *out)
-{
-    double value;
-    if (!next_number(in, what, low, high, &value)) return false;
-    *out = (int)value;
-    return value == floor(value) ||
-           error_at(in->err, ERROR_INPUT, in->text.file, text_place(in->at - 1, in->arena),
-                    "%s is %g, wanted a whole number", what, value);
-}
-
-static bool skip_lines(Ldt *in, const char *what, int count)
+static bool skip_lines(LuminaireScan *in, const char *what, int count)
 {
     TextLine line;
     for (int i = 0; i < count; i++)
@@ -59,26 +39,27 @@ static bool skip_lines(Ldt *in, const char *what, int count)
     return true;
 }
 
-typedef struct Head {
+typedef struct EulumdatHead {
     int    symmetry, planes, gammas, lamp_sets;
     double length_mm, width_mm; /* luminous area; width 0: a circle */
     double output_ratio, factor, flux_lm;
     bool   is_absolute;
-} Head;
+} EulumdatHead;
 
-static bool read_head(Ldt *in, Head *head, const char **name)
+static bool read_head(LuminaireScan *in, EulumdatHead *head, const char **name)
 {
     TextLine line;
     double   ignored;
     int      type;
     bool ok =
         skip_lines(in, "the maker's name", 1) &&
-        next_count(in, "the type of luminaire", 0, 4, &type) &&
-        next_count(in, "the symmetry", 0, 4, &head->symmetry) &&
-        next_count(in, "the number of C-planes", 1, LUMINAIRE_ANGLES_MAX, &head->planes) &&
+        luminaire_scan_count(in, "the type of luminaire", 0, 4, &type) &&
+        luminaire_scan_count(in, "the symmetry", 0, 4, &head->symmetry) &&
+        luminaire_scan_count(in, "the number of C-planes", 1, LUMINAIRE_ANGLES_MAX,
+                             &head->planes) &&
         next_number(in, "the step of the C-planes", 0, 360, &ignored) &&
-        next_count(in, "the number of angles a plane", 2, LUMINAIRE_ANGLES_MAX,
-                   &head->gammas) &&
+        luminaire_scan_count(in, "the number of angles a plane", 2, LUMINAIRE_ANGLES_MAX,
+                             &head->gammas) &&
         next_number(in, "the step of the angles", 0, 180, &ignored) &&
         skip_lines(in, "the report's number", 1) &&
         next_line(in, "the luminaire's name", &line) &&
@@ -90,19 +71,19 @@ static bool read_head(Ldt *in, Head *head, const char **name)
         next_number(in, "the light output ratio", 0, 1000, &head->output_ratio) &&
         next_number(in, "the conversion factor", 0, 1e6, &head->factor) &&
         next_number(in, "the tilt", -360, 360, &ignored) &&
-        next_count(in, "the number of lamp sets", 0, 20, &head->lamp_sets);
+        luminaire_scan_count(in, "the number of lamp sets", 0, 20, &head->lamp_sets);
     if (ok && line.length) *name = arena_string(in->arena, line.text, (size_t)line.length);
     return ok;
 }
 
 /* Six lines a set: number of lamps (negative: absolute photometry), type, flux, colour,
  * rendering, watts. Sets are alternatives; intensities are per 1000 lm of the first. */
-static bool read_lamps(Ldt *in, Head *head)
+static bool read_lamps(LuminaireScan *in, EulumdatHead *head)
 {
     for (int i = 0; i < head->lamp_sets; i++) {
         int    lamps;
         double flux;
-        if (!next_count(in, "the number of lamps", -1000000, 1000000, &lamps) ||
+        if (!luminaire_scan_count(in, "the number of lamps", -1000000, 1000000, &lamps) ||
             !skip_lines(in, "the lamp's type", 1) ||
             !next_number(in, "the lamps' flux", 0, 1e9, &flux) ||
             !skip_lines(in, "the lamp's data", 3))
@@ -111,12 +92,13 @@ static bool read_lamps(Ldt *in, Head *head)
         if (!i) head->is_absolute = lamps < 0;
     }
     return head->flux_lm > 0 ||
-           error_at(in->err, ERROR_INPUT, in->text.file, text_place(in->at - 1, in->arena),
-                    "the lamps' flux is 0 lm, wanted the flux that the intensities belong to");
+           luminaire_scan_fail(in, "the lamps' flux is 0 lm, wanted the flux that the "
+                               "intensities belong to");
 }
 
 /* Which planes are stored: all; one; C0 to C180; C270 over C0 to C90; C0 to C90. */
-static bool stored_planes(Ldt *in, const Head *head, int *first, int *count, Luminaire *out)
+static bool stored_planes(LuminaireScan *in, const EulumdatHead *head, int *first, int *count,
+                          Luminaire *out)
 {
     static const int quarters[5] = {4, 0, 2, 2, 1};
     out->mirror_deg[0] = out->mirror_deg[1] = -1;
@@ -135,53 +117,29 @@ static bool stored_planes(Ldt *in, const Head *head, int *first, int *count, Lum
                             head->planes, head->symmetry == 2 ? 2 : 4, head->symmetry);
 }
 
-static bool read_angles(Ldt *in, const char *what, int count, double most, double *angle)
-{
-    for (int i = 0; i < count; i++) {
-        if (!next_number(in, what, 0, most, &angle[i])) return false;
-        if (i && !(angle[i] > angle[i - 1]))
-            return error_at(in->err, ERROR_INPUT, in->text.file,
-                            text_place(in->at - 1, in->arena),
-                            "%s %g follows %g, wanted rising angles", what, angle[i],
-                            angle[i - 1]);
-    }
-    return true;
-}
-
-static bool read_intensities(Ldt *in, const Head *head, Luminaire *out)
-{
-    double scale = head->flux_lm / 1000 * (head->factor > 0 ? head->factor : 1);
-    size_t total = (size_t)out->planes * (size_t)out->gammas;
-    out->intensity_cd = ARENA_NEW(in->arena, double, total);
-    for (size_t i = 0; i < total; i++) {
-        if (!next_number(in, "an intensity", -1e9, 1e9, &out->intensity_cd[i])) return false;
-        out->intensity_cd[i] *= scale;
-    }
-    return true;
-}
-
-static bool read_planes(Ldt *in, const Head *head, Luminaire *out)
+static bool read_planes(LuminaireScan *in, const EulumdatHead *head, Luminaire *out)
 {
     double *c = ARENA_NEW(in->arena, double, head->planes + 1);
     int     first;
     out->gammas = head->gammas;
     out->gamma_deg = ARENA_NEW(in->arena, double, head->gammas);
     if (!stored_planes(in, head, &first, &out->planes, out) ||
-        !read_angles(in, "the C-plane", head->planes, 360, c) ||
-        !read_angles(in, "the angle", head->gammas, 180, out->gamma_deg))
+        !luminaire_scan_angles(in, "the C-plane", head->planes, 360, c) ||
+        !luminaire_scan_angles(in, "the angle", head->gammas, 180, out->gamma_deg))
         return false;
     out->c_deg = ARENA_NEW(in->arena, double, out->planes);
     for (int i = 0; i < out->planes; i++) out->c_deg[i] = c[(first + i) % head->planes];
-    return read_intensities(in, head, out);
+    double scale = head->flux_lm / 1000 * (head->factor > 0 ? head->factor : 1);
+    return luminaire_scan_intensities(in, scale, out);
 }
 
 static bool read_eulumdat(const char *file, const ImportOptions *options, ImportSet *set,
                           Error *err)
 {
-    Ldt       in = {.arena = set->arena, .err = err};
-    Head      head = {0};
-    Luminaire luminaire = {.file = file};
-    if (!text_file_read(file, ENCODING_AUTO, set->arena, &in.text, err) ||
+    LuminaireScan in;
+    EulumdatHead  head = {0};
+    Luminaire     luminaire = {.file = file};
+    if (!luminaire_scan_open(file, next_number, set, &in, err) ||
         !read_head(&in, &head, &luminaire.name) || !read_lamps(&in, &head) ||
         !skip_lines(&in, "the direct ratios", 10) || !read_planes(&in, &head, &luminaire))
         return false;

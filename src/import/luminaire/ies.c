@@ -7,26 +7,17 @@
 
 #include "base/file.h"
 #include "base/units.h"
-#include "import/luminaire/luminaire.h"
-#include "import/text/text_lines.h"
+#include "import/luminaire/luminaire_scan.h"
 #include "import/text/text_names.h"
 
 #define METRES_A_FOOT 0.3048
-
-typedef struct Ies {
-    TextFile    text;
-    int         line;       /* index of the line that is being read */
-    const char *next, *end; /* in it */
-    Arena      *arena;
-    Error      *err;
-} Ies;
 
 static bool is_gap(char c)
 {
     return c == ' ' || c == '\t' || c == ',' || c == '\r';
 }
 
-static void begin_line(Ies *in, int line)
+static void begin_line(LuminaireScan *in, int line)
 {
     in->line = line;
     if (line >= in->text.count) return;
@@ -35,7 +26,7 @@ static void begin_line(Ies *in, int line)
 }
 
 /* The next word of this or a later line. */
-static bool next_word(Ies *in, const char *what, TextCell *word)
+static bool next_word(LuminaireScan *in, const char *what, TextCell *word)
 {
     for (; in->line < in->text.count; begin_line(in, in->line + 1)) {
         while (in->next < in->end && is_gap(*in->next)) in->next++;
@@ -45,33 +36,22 @@ static bool next_word(Ies *in, const char *what, TextCell *word)
         *word = (TextCell){begin, (int)(in->next - begin)};
         return true;
     }
-    return error_at(in->err, ERROR_INPUT, in->text.file, text_place(in->line, in->arena),
-                    "the file ends before %s", what);
+    return luminaire_scan_fail(in, "the file ends before %s", what);
 }
 
-static bool next_number(Ies *in, const char *what, double low, double high, double *out)
+static bool next_number(LuminaireScan *in, const char *what, double low, double high,
+                        double *out)
 {
     TextCell word;
     if (!next_word(in, what, &word)) return false;
     if (text_number(word, '.', out) && *out >= low && *out <= high) return true;
-    return error_at(in->err, ERROR_INPUT, in->text.file, text_place(in->line, in->arena),
-                    "%s is '%.*s', wanted a number from %g to %g", what,
-                    word.length < 40 ? word.length : 40, word.text, low, high);
-}
-
-static bool next_count(Ies *in, const char *what, int low, int high, int *out)
-{
-    double value;
-    if (!next_number(in, what, low, high, &value)) return false;
-    *out = (int)value;
-    return value == floor(value) ||
-           error_at(in->err, ERROR_INPUT, in->text.file, text_place(in->line, in->arena),
-                    "%s is %g, wanted a whole number", what, value);
+    return luminaire_scan_fail(in, "%s is '%.*s', wanted a number from %g to %g", what,
+                               word.length < 40 ? word.length : 40, word.text, low, high);
 }
 
 /* ---- head -------------------------------------------------------------------------------- */
 
-static const char *keyword_value(const Ies *in, TextLine line, const char *keyword)
+static const char *keyword_value(const LuminaireScan *in, TextLine line, const char *keyword)
 {
     int length = (int)strlen(keyword);
     if (line.length <= length || strncasecmp(line.text, keyword, (size_t)length) != 0)
@@ -82,7 +62,7 @@ static const char *keyword_value(const Ies *in, TextLine line, const char *keywo
 }
 
 /* Keywords up to the line TILT=; the luminaire's name is one of them. */
-static bool read_keywords(Ies *in, const char **name, const char **tilt)
+static bool read_keywords(LuminaireScan *in, const char **name, const char **tilt)
 {
     for (int i = 0; i < in->text.count; i++) {
         TextLine    line = in->text.line[i];
@@ -97,38 +77,38 @@ static bool read_keywords(Ies *in, const char **name, const char **tilt)
 }
 
 /* A lamp's loss when the luminaire is tilted; untilted, as here, its factor is 1. */
-static bool skip_tilt(Ies *in, const char *tilt, ImportSet *set)
+static bool skip_tilt(LuminaireScan *in, const char *tilt, ImportSet *set)
 {
     int    geometry, pairs;
     double ignored;
     if (!strcasecmp(tilt, "NONE")) return true;
     import_note(set, "%s: tilt factors are not applied", path_name(in->text.file));
     if (strcasecmp(tilt, "INCLUDE") != 0) return true;
-    if (!next_count(in, "the lamp's geometry", 1, 3, &geometry) ||
-        !next_count(in, "the number of tilts", 1, LUMINAIRE_ANGLES_MAX, &pairs))
+    if (!luminaire_scan_count(in, "the lamp's geometry", 1, 3, &geometry) ||
+        !luminaire_scan_count(in, "the number of tilts", 1, LUMINAIRE_ANGLES_MAX, &pairs))
         return false;
     for (int i = 0; i < 2 * pairs; i++)
         if (!next_number(in, "a tilt factor", -1e6, 1e6, &ignored)) return false;
     return true;
 }
 
-typedef struct Head {
+typedef struct IesHead {
     int    lamps, gammas, planes, type, units;
     double lumens, multiplier, size[3], ballast, lamp_factor, watts;
-} Head;
+} IesHead;
 
-static bool read_head(Ies *in, Head *head)
+static bool read_head(LuminaireScan *in, IesHead *head)
 {
     static const char *const types[] = {"", "C", "B", "A"};
-    bool ok = next_count(in, "the number of lamps", 0, 1000000, &head->lamps) &&
+    bool ok = luminaire_scan_count(in, "the number of lamps", 0, 1000000, &head->lamps) &&
               next_number(in, "the lumens a lamp", -1, 1e9, &head->lumens) &&
               next_number(in, "the candela multiplier", 1e-12, 1e9, &head->multiplier) &&
-              next_count(in, "the number of vertical angles", 2, LUMINAIRE_ANGLES_MAX,
-                         &head->gammas) &&
-              next_count(in, "the number of horizontal angles", 1, LUMINAIRE_ANGLES_MAX,
-                         &head->planes) &&
-              next_count(in, "the photometric type", 1, 3, &head->type) &&
-              next_count(in, "the units of length", 1, 2, &head->units) &&
+              luminaire_scan_count(in, "the number of vertical angles", 2, LUMINAIRE_ANGLES_MAX,
+                                   &head->gammas) &&
+              luminaire_scan_count(in, "the number of horizontal angles", 1,
+                                   LUMINAIRE_ANGLES_MAX, &head->planes) &&
+              luminaire_scan_count(in, "the photometric type", 1, 3, &head->type) &&
+              luminaire_scan_count(in, "the units of length", 1, 2, &head->units) &&
               next_number(in, "the width", -1e5, 1e5, &head->size[0]) &&
               next_number(in, "the length", -1e5, 1e5, &head->size[1]) &&
               next_number(in, "the height", -1e5, 1e5, &head->size[2]) &&
@@ -136,14 +116,13 @@ static bool read_head(Ies *in, Head *head)
               next_number(in, "the ballast-lamp factor", 1e-6, 1e6, &head->lamp_factor) &&
               next_number(in, "the watts", -1e9, 1e9, &head->watts);
     if (ok && head->type != 1)
-        return error_at(in->err, ERROR_INPUT, in->text.file, text_place(in->line, in->arena),
-                        "is photometry of type %s (%d), wanted type C (1)", types[head->type],
-                        head->type);
+        return luminaire_scan_fail(in, "is photometry of type %s (%d), wanted type C (1)",
+                                   types[head->type], head->type);
     return ok;
 }
 
 /* The opening as LM-63 codes it: negative sizes are diameters. The sides are not looked at. */
-static double opening_m2(const Head *head)
+static double opening_m2(const IesHead *head)
 {
     double unit = head->units == 1 ? METRES_A_FOOT : 1;
     double w = head->size[0] * unit, l = head->size[1] * unit;
@@ -154,21 +133,8 @@ static double opening_m2(const Head *head)
 
 /* ---- angles and intensities -------------------------------------------------------------- */
 
-static bool read_angles(Ies *in, const char *what, int count, double most, double *angle)
-{
-    for (int i = 0; i < count; i++) {
-        if (!next_number(in, what, 0, most, &angle[i])) return false;
-        if (i && !(angle[i] > angle[i - 1]))
-            return error_at(in->err, ERROR_INPUT, in->text.file,
-                            text_place(in->line, in->arena),
-                            "%s %g follows %g, wanted rising angles", what, angle[i],
-                            angle[i - 1]);
-    }
-    return true;
-}
-
 /* The range of horizontal angles tells the symmetry. */
-static bool find_symmetry(Ies *in, Luminaire *out)
+static bool find_symmetry(LuminaireScan *in, Luminaire *out)
 {
     double first = out->c_deg[0], last = out->c_deg[out->planes - 1];
     out->mirror_deg[0] = out->mirror_deg[1] = -1;
@@ -179,31 +145,17 @@ static bool find_symmetry(Ies *in, Luminaire *out)
     if (first == 90 && last == 270) out->mirror_deg[0] = 90;
     bool is_whole = first == 0 && last > 180; /* 345 or 360 */
     return out->mirror_deg[0] >= 0 || is_whole ||
-           error_at(in->err, ERROR_INPUT, in->text.file, text_place(in->line, in->arena),
-                    "horizontal angles go from %g to %g, wanted 0, 0 to 90, 0 to 180, 90 to "
-                    "270 or 0 to 360 degrees",
-                    first, last);
-}
-
-static bool read_candela(Ies *in, const Head *head, Luminaire *out)
-{
-    double scale = head->multiplier * head->ballast * head->lamp_factor;
-    size_t total = (size_t)out->planes * (size_t)out->gammas;
-    out->intensity_cd = ARENA_NEW(in->arena, double, total);
-    for (size_t i = 0; i < total; i++) {
-        if (!next_number(in, "an intensity", -1e9, 1e9, &out->intensity_cd[i])) return false;
-        out->intensity_cd[i] *= scale;
-    }
-    return true;
+           luminaire_scan_fail(in, "horizontal angles go from %g to %g, wanted 0, 0 to 90, 0 "
+                               "to 180, 90 to 270 or 0 to 360 degrees", first, last);
 }
 
 static bool read_ies(const char *file, const ImportOptions *options, ImportSet *set, Error *err)
 {
-    Ies         in = {.arena = set->arena, .err = err};
-    Head        head = {0};
-    Luminaire   out = {.file = file};
-    const char *tilt = "";
-    if (!text_file_read(file, ENCODING_AUTO, set->arena, &in.text, err) ||
+    LuminaireScan in;
+    IesHead       head = {0};
+    Luminaire     out = {.file = file};
+    const char   *tilt = "";
+    if (!luminaire_scan_open(file, next_number, set, &in, err) ||
         !read_keywords(&in, &out.name, &tilt) || !skip_tilt(&in, tilt, set) ||
         !read_head(&in, &head))
         return false;
@@ -211,9 +163,11 @@ static bool read_ies(const char *file, const ImportOptions *options, ImportSet *
     out.gammas = head.gammas;
     out.c_deg = ARENA_NEW(set->arena, double, head.planes);
     out.gamma_deg = ARENA_NEW(set->arena, double, head.gammas);
-    if (!read_angles(&in, "the vertical angle", head.gammas, 180, out.gamma_deg) ||
-        !read_angles(&in, "the horizontal angle", head.planes, 360, out.c_deg) ||
-        !find_symmetry(&in, &out) || !read_candela(&in, &head, &out))
+    if (!luminaire_scan_angles(&in, "the vertical angle", head.gammas, 180, out.gamma_deg) ||
+        !luminaire_scan_angles(&in, "the horizontal angle", head.planes, 360, out.c_deg) ||
+        !find_symmetry(&in, &out) ||
+        !luminaire_scan_intensities(&in, head.multiplier * head.ballast * head.lamp_factor,
+                                    &out))
         return false;
     out.area_m2 = opening_m2(&head);
     out.stated_lm = head.lumens > 0 ? head.lamps * head.lumens * head.ballast * head.lamp_factor
@@ -221,8 +175,7 @@ static bool read_ies(const char *file, const ImportOptions *options, ImportSet *
     out.stated_as = "of its lamps; the ratio is the luminaire's efficiency";
     if (head.size[2] != 0)
         import_note(set, "%s: luminous sides (height %g) are taken into the flat opening",
-                    path_name(file),
-                    head.size[2]);
+                    path_name(file), head.size[2]);
     return luminaire_add(&out, options, set, err);
 }
 

@@ -146,29 +146,20 @@ static bool read_header(Astm *in, Error *err)
 
 /* ---- rows -------------------------------------------------------------------------------- */
 
-static int count_lines(const Scan *scan)
-{
-    int lines = 1;
-    for (const char *c = scan->next; c < scan->end && lines < IMPORT_ROWS_MAX; c++)
-        lines += *c == '\n';
-    return lines;
-}
-
 /* A file that was cut must show: NUM_POINTS, or else a line end after the last row. */
 static bool check_whole(const Astm *in, Error *err)
 {
     if (in->stated_rows && in->rows != in->stated_rows)
         return scan_fail(&in->scan, err, "there are %d rows, and NUM_POINTS is %d", in->rows,
                          in->stated_rows);
-    if (in->scan.end[-1] != '\n')
-        return scan_fail(&in->scan, err, "the last line has no line end: the file may be cut");
+    if (!scan_check_end(&in->scan, err)) return false;
     return in->rows || scan_fail(&in->scan, err, "the file ends before its first row");
 }
 
 static bool read_rows(Astm *in, Error *err)
 {
     size_t columns = (size_t)in->columns;
-    int    most = count_lines(&in->scan);
+    int    most = scan_lines_left(&in->scan);
     if (columns > (size_t)(in->scan.end - in->scan.next) + 1)
         return scan_fail(&in->scan, err, "the file ends before its first row");
     in->scan.commas = true;
@@ -193,7 +184,7 @@ static bool read_rows(Astm *in, Error *err)
 }
 
 /* Radians become degrees; a missing azimuth of the light is 180, of the leaving direction 0. */
-static bool settle_angles(Astm *in, ImportSet *set, Error *err)
+static bool convert_angles(Astm *in, ImportSet *set, Error *err)
 {
     static const double most[ANGLES] = {THETA_RADIANS_MAX, PHI_RADIANS_MAX, THETA_RADIANS_MAX,
                                         PHI_RADIANS_MAX};
@@ -250,7 +241,7 @@ static void put_row(const Astm *in, int row, ScatterLight light, ScatterRows *ro
     scatter_put_measured(rows, fabs(theta), phi + 180 - light.azimuth_deg, value);
 }
 
-static bool add_tables(const Astm *in, ImportSet *set, Error *err)
+static bool add_tables(const Astm *in, const float *nm, ImportSet *set, Error *err)
 {
     int           count = 0, *group = ARENA_NEW(set->arena, int, in->rows);
     ScatterLight *light = ARENA_NEW(set->arena, ScatterLight, LIGHTS_MAX);
@@ -269,37 +260,33 @@ static bool add_tables(const Astm *in, ImportSet *set, Error *err)
     for (int g = 0; g < count; g++) rows[g] = scatter_rows(set->arena, size[g], in->channels);
     for (int i = 0; i < in->rows; i++) put_row(in, i, light[group[i]], &rows[group[i]]);
     for (int g = 0; g < count; g++)
-        if (!scatter_add(set, in->scan.file, &rows[g], light[g], in->nm, err)) return false;
+        if (!scatter_add(set, in->scan.file, &rows[g], light[g], nm, err)) return false;
     return true;
 }
 
-static bool name_bands(Astm *in, const ImportOptions *options, ImportSet *set, Error *err)
+static const float *name_bands(const Astm *in, const ImportOptions *options, ImportSet *set,
+                               Error *err)
 {
     const char *file = in->scan.file;
-    if (in->nm) return true;
-    in->nm = ARENA_NEW(set->arena, float, RGB_BANDS);
-    if (in->is_rgb) {
-        memcpy(in->nm, scatter_rgb_bands(file, set), sizeof *in->nm * RGB_BANDS);
-        return true;
-    }
-    if (!in->is_xyz) return scatter_wavelength(options, file, in->nm, err);
-    in->nm[0] = scatter_photopic(options, file, set);
-    import_note(set, "%s: of X, Y and Z only Y is taken", path_name(file));
-    return true;
+    if (in->nm) return in->nm;
+    if (in->is_rgb) return scatter_rgb_bands(file, set);
+    return in->is_xyz ? scatter_xyz(options, file, set)
+                      : scatter_wavelength(options, file, set, err);
 }
 
 static bool read_astm(const char *file, const ImportOptions *options, ImportSet *set,
                       Error *err)
 {
-    Astm in = {.columns = 0};
+    Astm         in = {.columns = 0};
+    const float *nm;
     if (!scan_open(file, set->arena, &in.scan, err) || !read_header(&in, err) ||
-        !read_rows(&in, err) || !settle_angles(&in, set, err) ||
-        !name_bands(&in, options, set, err))
+        !read_rows(&in, err) || !convert_angles(&in, set, err) ||
+        !(nm = name_bands(&in, options, set, err)))
         return false;
     if (in.channels > MEASUREMENT_WAVELENGTHS_MAX)
         return error_at(err, ERROR_INPUT, file, "", "has %d wavelengths, wanted at most %d",
                         in.channels, MEASUREMENT_WAVELENGTHS_MAX);
-    return add_tables(&in, set, err);
+    return add_tables(&in, nm, set, err);
 }
 
 static bool is_astm(const char *file, const char *head, size_t head_size)

@@ -20,10 +20,9 @@ bool byte_scan_open(const char *file, Arena *arena, ByteScan *out, Error *err);
 /* The next `count` bytes, or NULL. */
 const unsigned char *byte_scan_take(ByteScan *scan, size_t count);
 
-bool byte_scan_u8(ByteScan *scan, uint8_t *out);
-bool byte_scan_u16(ByteScan *scan, uint16_t *out);
-bool byte_scan_u32(ByteScan *scan, uint32_t *out);
-bool byte_scan_u64(ByteScan *scan, uint64_t *out);
+/* An unsigned number of so many bytes, at most 8. */
+bool byte_scan_uint(ByteScan *scan, size_t bytes, uint64_t *out);
+
 bool byte_scan_double(ByteScan *scan, double *out);
 
 /* An error at the current byte. Always false. */
@@ -31,5 +30,6 @@ bool byte_scan_fail(const ByteScan *scan, Error *err, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 /* Numbers at any address. */
-float  float_from_bytes(const unsigned char *bytes);
-double double_from_bytes(const unsigned char *bytes);
+uint64_t uint_from_bytes(const unsigned char *bytes, size_t size);
+float    float_from_bytes(const unsigned char *bytes);
+double   double_from_bytes(const unsigned char *bytes);

@@ -18,7 +18,7 @@ typedef struct Fred {
     double       mirror_phi;
     ScatterRows  rows;
     bool         has_light;
-    float       *nm;
+    const float *nm;
 } Fred;
 
 static bool read_format(Fred *in, char *line, Error *err)
@@ -147,19 +147,12 @@ static bool read_lines(Fred *in, ImportSet *set, Error *err)
     }
 }
 
-/* A file that was cut inside a number could pass: the last line must be a whole one. */
-static bool check_end(const Fred *in, Error *err)
-{
-    if (in->scan.end[-1] == '\n') return true;
-    return scan_fail(&in->scan, err, "the last line has no line end: the file may be cut");
-}
-
 static bool read_fred(const char *file, const ImportOptions *options, ImportSet *set,
                       Error *err)
 {
-    Fred in = {.scale = 1, .nm = ARENA_NEW(set->arena, float, 1)};
-    if (!scan_open(file, set->arena, &in.scan, err) || !check_end(&in, err) ||
-        !scatter_wavelength(options, file, in.nm, err) || !read_lines(&in, set, err))
+    Fred in = {.scale = 1};
+    if (!scan_open(file, set->arena, &in.scan, err) || !scan_check_end(&in.scan, err) ||
+        !(in.nm = scatter_wavelength(options, file, set, err)) || !read_lines(&in, set, err))
         return false;
     if (!in.has_light)
         return scan_fail(&in.scan, err, "the file ends before the two angles of the light");

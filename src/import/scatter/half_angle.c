@@ -6,9 +6,6 @@
 #include "base/mathd.h"
 #include "base/units.h"
 
-#define INCIDENCE_STEP_DEG 10
-#define INCIDENCE_LAST_DEG 80
-#define AZIMUTH_STEP_DEG 30
 #define RING_GAP_DEG 2.5
 #define RING_LEAST 12
 #define RING_MOST 72
@@ -32,6 +29,22 @@ HalfAngles half_angles(Direction light, Direction leaving)
 Direction half_angle_mirror(Direction light, Direction half)
 {
     return direction_scaled_sum(half, 2 * direction_dot(light, half), light, -1);
+}
+
+AngleInterval angle_interval(const double *list, int count, double x, double period)
+{
+    int last = count - 1;
+    if (period > 0 && count > 1 && (x < list[0] || x > list[last])) {
+        double gap = list[0] + period - list[last];
+        double past = x > list[last] ? x - list[last] : x + period - list[last];
+        return (AngleInterval){last, 0, gap > 0 ? fmin(past / gap, 1) : 0};
+    }
+    if (x <= list[0]) return (AngleInterval){0, 0, 0};
+    if (x >= list[last]) return (AngleInterval){last, last, 0};
+    int high = 1;
+    while (list[high] < x) high++;
+    return (AngleInterval){high - 1, high,
+                           (x - list[high - 1]) / (list[high] - list[high - 1])};
 }
 
 /* The source's rings and, between two that are far apart, more. */

@@ -22,6 +22,15 @@ Direction half_angle_mirror(Direction light, Direction half);
 typedef bool (*BrdfFunction)(const void *data, Direction light, Direction leaving,
                              double *value);
 
+/* Where a value stands between two entries of a list. */
+typedef struct AngleInterval {
+    int    low, high;
+    double weight; /* of high */
+} AngleInterval;
+
+/* Of x in a rising list; the ends hold, unless the list goes round after `period` (0: not). */
+AngleInterval angle_interval(const double *list, int count, double x, double period);
+
 typedef struct BrdfSource {
     const char   *file;
     BrdfFunction  function;

@@ -5,11 +5,12 @@
  * A surface is isotropic when the matrix does not change under every turn that maps both the
  * incident and the leaving latitude onto itself. Otherwise light comes from every azimuth of
  * the finest latitude, and a coarser latitude answers with the patch that holds it. */
+#include "import/scatter/klems.h"
+
 #include <math.h>
 
 #include "base/file.h"
 #include "import/scatter/scatter.h"
-#include "import/scatter/window_xml.h"
 
 #define ISOTROPY_TOLERANCE 1e-3 /* of the largest value */
 

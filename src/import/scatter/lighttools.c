@@ -14,10 +14,10 @@
 #define ANGLES_MAX 4096
 #define LIGHT_AZIMUTH_DEG 90.0
 
-typedef struct Block {
+typedef struct LightToolsBlock {
     double aoi, poi, nm, tis; /* degrees, nm */
     bool   is_front, is_reflection, is_y;
-} Block;
+} LightToolsBlock;
 
 typedef struct LightTools {
     Scan    scan;
@@ -33,23 +33,11 @@ typedef struct LightTools {
 
 /* ---- header ------------------------------------------------------------------------------ */
 
-static bool read_content(LightTools *in, Error *err)
-{
-    in->has_content = true;
-    return scan_spectral_content(&in->scan, &in->is_xyz, err);
-}
-
 static bool read_symmetry(LightTools *in, Error *err)
 {
     const char *word = scan_word(&in->scan);
     if (word && !strncasecmp(word, "Asymmetric", 10)) return true;
     return scan_fail(&in->scan, err, "Symmetry is '%s', wanted Asymmetric", word ? word : "");
-}
-
-static bool read_angles(LightTools *in, const char *what, int *count, double **list, Error *err)
-{
-    return scan_count(&in->scan, what, ANGLES_MAX, count, err) &&
-           scan_list(&in->scan, what, *count, list, err);
 }
 
 /* Entries that say nothing of the values (Source, ...) are passed over with their line. */
@@ -61,11 +49,13 @@ static bool read_header(LightTools *in, Error *err)
         if (scan_accept(scan, "Symmetry"))
             ok = read_symmetry(in, err);
         else if (scan_accept(scan, "SpectralContent"))
-            ok = read_content(in, err);
+            ok = in->has_content = scan_spectral_content(scan, &in->is_xyz, err);
         else if (scan_accept(scan, "ScatterAzimuth"))
-            ok = read_angles(in, "ScatterAzimuth", &in->azimuths, &in->azimuth, err);
+            ok = scan_counted_list(scan, "ScatterAzimuth", ANGLES_MAX, &in->azimuths,
+                                   &in->azimuth, err);
         else if (scan_accept(scan, "ScatterRadial"))
-            ok = read_angles(in, "ScatterRadial", &in->radials, &in->radial, err);
+            ok = scan_counted_list(scan, "ScatterRadial", ANGLES_MAX, &in->radials,
+                                   &in->radial, err);
         else if (!scan_peek(scan))
             return scan_fail(scan, err, "the file ends in its header, wanted DataBegin");
         else
@@ -95,7 +85,7 @@ static bool read_choice(LightTools *in, const char *what, const char *const choi
                      choice[0], choice[1]);
 }
 
-static bool read_tristimulus(LightTools *in, Block *block, Error *err)
+static bool read_tristimulus(LightTools *in, LightToolsBlock *block, Error *err)
 {
     const char *word = scan_word(&in->scan);
     block->is_y = word && !strcasecmp(word, "TrisY");
@@ -106,11 +96,11 @@ static bool read_tristimulus(LightTools *in, Block *block, Error *err)
 }
 
 /* Up to and with the TIS, whose values follow; *found is false at the end of the data. */
-static bool read_block_head(LightTools *in, Block *block, bool *found, Error *err)
+static bool read_block_head(LightTools *in, LightToolsBlock *block, bool *found, Error *err)
 {
     static const char *const sides[] = {"Front", "Back"}, *const kinds[] = {"BRDF", "BTDF"};
     Scan *scan = &in->scan;
-    *block = (Block){.is_front = true, .is_reflection = true, .is_y = true};
+    *block = (LightToolsBlock){.is_front = true, .is_reflection = true, .is_y = true};
     *found = false;
     for (bool begun = false;; begun = true) {
         bool ok;
@@ -149,21 +139,8 @@ static bool read_values(LightTools *in, Error *err)
     return true;
 }
 
-static bool block_wavelength(LightTools *in, const Block *block, const ImportOptions *options,
-                             ImportSet *set, float *out, Error *err)
-{
-    if (in->is_xyz) {
-        *out = scatter_photopic(options, in->scan.file, set);
-        return true;
-    }
-    if (options->wavelength_nm > 0 || !(block->nm > 0))
-        return scatter_wavelength(options, in->scan.file, out, err);
-    *out = (float)block->nm;
-    return true;
-}
-
-static bool add_block(LightTools *in, const Block *block, const float *nm, ImportSet *set,
-                      TotalsNote *totals, Error *err)
+static bool add_block(LightTools *in, const LightToolsBlock *block, const float *nm,
+                      ImportSet *set, TotalsNote *totals, Error *err)
 {
     int         radials = in->radials;
     ScatterRows rows = scatter_rows(set->arena, in->azimuths * radials, 1);
@@ -186,16 +163,17 @@ static bool add_block(LightTools *in, const Block *block, const float *nm, Impor
 static bool read_block(LightTools *in, const ImportOptions *options, ImportSet *set,
                        TotalsNote *totals, Error *err)
 {
-    Block  block;
-    bool   found;
-    float *nm = ARENA_NEW(set->arena, float, 1);
+    LightToolsBlock block;
+    bool            found;
     if (!read_block_head(in, &block, &found, err) || !found || !read_values(in, err))
         return false;
     in->back += !block.is_front;
     in->transmitted += block.is_front && !block.is_reflection;
     if (!block.is_front || !block.is_reflection || !block.is_y) return true;
-    return block_wavelength(in, &block, options, set, nm, err) &&
-           add_block(in, &block, nm, set, totals, err);
+    const char  *file = in->scan.file;
+    const float *nm = in->is_xyz ? scatter_photopic(options, file, set)
+                                 : scatter_told_wavelength(block.nm, options, file, set, err);
+    return nm && add_block(in, &block, nm, set, totals, err);
 }
 
 static bool tell(const LightTools *in, ImportSet *set, Error *err)

@@ -24,12 +24,12 @@ typedef struct Merl {
 
 static bool read_side(ByteScan *scan, int *out, Error *err)
 {
-    uint32_t side;
-    if (!byte_scan_u32(scan, &side))
+    uint64_t side;
+    if (!byte_scan_uint(scan, 4, &side))
         return byte_scan_fail(scan, err, "the file ends inside its header");
     if (side < 1 || side > SIDE_MAX)
         return byte_scan_fail(scan, err, "a side is %u cells, wanted 1 to %d (MERL: 90, 90, "
-                              "180)", side, SIDE_MAX);
+                              "180)", (unsigned)side, SIDE_MAX);
     *out = (int)side;
     return true;
 }

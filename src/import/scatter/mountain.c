@@ -136,14 +136,6 @@ static bool put_row(Mountain *in, ScatterRows *rows, Error *err)
     return true;
 }
 
-static int count_rows(const Scan *scan)
-{
-    int lines = 1;
-    for (const char *c = scan->next; c < scan->end && lines < IMPORT_ROWS_MAX; c++)
-        lines += *c == '\n';
-    return lines;
-}
-
 static bool read_rows(Mountain *in, ScatterRows *rows, Error *err)
 {
     while (scan_peek(&in->scan)) {
@@ -194,7 +186,6 @@ static ScatterRows join_pattern(ImportSet *set, const ScatterRows *rows, Scatter
 static void tell(const Mountain *in, ImportSet *set)
 {
     const char *name = path_name(in->scan.file);
-    if (in->is_xyz) import_note(set, "%s: of X, Y and Z only Y is taken", name);
     if (in->has_cosine)
         import_note(set, "%s: the values hold the cosine of the leaving angle and are divided "
                     "by it", name);
@@ -210,14 +201,13 @@ static bool read_mountain(const char *file, const ImportOptions *options, Import
                           Error *err)
 {
     Mountain in = {.is_xyz = false};
-    float   *nm = ARENA_NEW(set->arena, float, 1);
     if (!scan_open(file, set->arena, &in.scan, err)) return false;
-    if (in.scan.next < in.scan.end && in.scan.end[-1] != '\n')
-        return scan_fail(&in.scan, err, "the last line has no line end: the file may be cut");
+    if (in.scan.next < in.scan.end && !scan_check_end(&in.scan, err)) return false;
     if (!read_header(&in, set, err)) return false;
-    ScatterRows rows = scatter_rows(set->arena, count_rows(&in.scan), 1);
+    ScatterRows rows = scatter_rows(set->arena, scan_lines_left(&in.scan), 1);
     if (!read_rows(&in, &rows, err)) return false;
-    *nm = scatter_photopic(options, file, set);
+    const float *nm = in.is_xyz ? scatter_xyz(options, file, set)
+                                : scatter_photopic(options, file, set);
     tell(&in, set);
     ScatterLight light = {in.theta, in.phi};
     rows = join_pattern(set, &rows, light, *nm);

@@ -74,35 +74,22 @@ static bool find_matrix(Pbsdf *in, Error *err)
     return true;
 }
 
-typedef struct Between {
-    int    low;
-    double weight; /* of low + 1 */
-} Between;
-
-static Between between(const double *list, int count, double x)
-{
-    int low = 0;
-    while (low + 2 < count && list[low + 1] <= x) low++;
-    double u = (x - list[low]) / (list[low + 1] - list[low]);
-    return (Between){low, fmin(fmax(u, 0), 1)};
-}
-
 static bool evaluate(const void *data, Direction light, Direction leaving, double *value)
 {
     const Pbsdf *in = data;
     HalfAngles   h = half_angles(light, leaving);
     double       phi = h.diff_phi < in->angle[0][0] ? h.diff_phi + 360 : h.diff_phi;
-    Between at[3] = {between(in->angle[0], in->count[0], phi),
-                     between(in->angle[1], in->count[1], h.diff_theta),
-                     between(in->angle[2], in->count[2], h.half_theta)};
+    AngleInterval at[3] = {angle_interval(in->angle[0], in->count[0], phi, 0),
+                           angle_interval(in->angle[1], in->count[1], h.diff_theta, 0),
+                           angle_interval(in->angle[2], in->count[2], h.half_theta, 0)};
     for (int c = 0; c < in->channels; c++) value[c] = 0;
     for (int corner = 0; corner < 8; corner++) {
         size_t index = 0;
         double weight = 1;
         for (int a = 0; a < 3; a++) {
-            int side = corner >> a & 1;
-            index = index * (size_t)in->count[a] + (size_t)(at[a].low + side);
-            weight *= side ? at[a].weight : 1 - at[a].weight;
+            bool is_high = corner >> a & 1;
+            index = index * (size_t)in->count[a] + (size_t)(is_high ? at[a].high : at[a].low);
+            weight *= is_high ? at[a].weight : 1 - at[a].weight;
         }
         for (int c = 0; weight > 0 && c < in->channels; c++)
             value[c] += weight * tensor_value(in->matrix, (index * (size_t)in->channels +
@@ -136,10 +123,7 @@ static bool read_pbsdf(const char *file, const ImportOptions *options, ImportSet
 static bool is_pbsdf(const char *file, const char *head, size_t head_size)
 {
     (void)file;
-    if (head_size < 18 || memcmp(head, "tensor_file", 12)) return false;
-    for (size_t i = 18; i + 7 <= head_size; i++)
-        if (!memcmp(head + i, "theta_d", 7)) return true;
-    return false;
+    return tensor_file_head_has(head, head_size, "theta_d");
 }
 
 const Importer importer_pbsdf = {"pbsdf", "KAIST polarimetric BRDF, tensor file (.pbsdf)",

@@ -13,7 +13,7 @@
 
 #include "base/file.h"
 #include "base/units.h"
-#include "import/scatter/scatter.h"
+#include "import/scatter/half_angle.h"
 #include "import/scatter/tensor_file.h"
 #include "panel/set/measurement.h"
 
@@ -209,8 +209,7 @@ static void put_node(const Rgl *in, const RglLight *light, size_t j, size_t i, d
     Direction half = direction_from_degrees(
         degrees_from_radians(theta_m),
         degrees_from_radians(phi_m + (in->is_isotropic ? light->azimuth : 0)));
-    double    along = 2 * direction_dot(light->direction, half);
-    Direction leaving = direction_scaled_sum(half, along, light->direction, -1);
+    Direction leaving = half_angle_mirror(light->direction, half);
     direction_to_degrees(leaving, &theta_deg, &phi_deg);
     if (theta_deg > GRAZING_DEG) return;
     if (in->has_jacobian) scale = bilinear(in->ndf, u[0], u[1]) / (4 * light->sigma);
@@ -294,14 +293,10 @@ static bool read_rgl(const char *file, const ImportOptions *options, ImportSet *
     return true;
 }
 
-/* "vndf" among the names of the fields, which stand at the file's beginning. */
 static bool is_rgl(const char *file, const char *head, size_t head_size)
 {
     (void)file;
-    if (head_size < 18 || memcmp(head, "tensor_file", 12)) return false;
-    for (size_t i = 18; i + 4 <= head_size; i++)
-        if (!memcmp(head + i, "vndf", 4)) return true;
-    return false;
+    return tensor_file_head_has(head, head_size, "vndf");
 }
 
 const Importer importer_rgl = {"rgl", "RGL material database, tensor file (.bsdf)", is_rgl,

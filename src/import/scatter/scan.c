@@ -136,6 +136,12 @@ bool scan_list(Scan *scan, const char *what, int count, double **out, Error *err
     return true;
 }
 
+bool scan_counted_list(Scan *scan, const char *what, int most, int *count, double **out,
+                       Error *err)
+{
+    return scan_count(scan, what, most, count, err) && scan_list(scan, what, *count, out, err);
+}
+
 bool scan_spectral_content(Scan *scan, bool *is_xyz, Error *err)
 {
     const char *word = scan_word(scan);
@@ -145,15 +151,29 @@ bool scan_spectral_content(Scan *scan, bool *is_xyz, Error *err)
                      word ? word : "");
 }
 
+int scan_lines_left(const Scan *scan)
+{
+    int lines = 1;
+    for (const char *c = scan->next; c < scan->end && lines < IMPORT_ROWS_MAX; c++)
+        lines += *c == '\n';
+    return lines;
+}
+
+bool scan_check_end(const Scan *scan, Error *err)
+{
+    return scan->end[-1] == '\n' ||
+           scan_fail(scan, err, "the last line has no line end: the file may be cut");
+}
+
 bool scan_fail(const Scan *scan, Error *err, const char *format, ...)
 {
-    char    text[512], place[32];
+    char    place[32];
     va_list list;
-    va_start(list, format);
-    vsnprintf(text, sizeof text, format, list);
-    va_end(list);
     snprintf(place, sizeof place, "line %d", scan->line);
-    return error_at(err, ERROR_INPUT, scan->file, place, "%s", text);
+    va_start(list, format);
+    error_at_list(err, ERROR_INPUT, scan->file, place, format, list);
+    va_end(list);
+    return false;
 }
 
 bool scan_head_has(const char *head, size_t size, const char *line_start)

@@ -46,8 +46,18 @@ bool scan_count(Scan *scan, const char *what, int most, int *out, Error *err);
 /* `count` numbers into fresh memory. */
 bool scan_list(Scan *scan, const char *what, int count, double **out, Error *err);
 
+/* scan_count and as many numbers. */
+bool scan_counted_list(Scan *scan, const char *what, int most, int *count, double **out,
+                       Error *err);
+
 /* The word behind a "SpectralContent" keyword of .bsdf texts: Monochrome or XYZ. */
 bool scan_spectral_content(Scan *scan, bool *is_xyz, Error *err);
+
+/* The lines from here to the end, one that has no end as well; no more than rows of a table. */
+int scan_lines_left(const Scan *scan);
+
+/* A file that was cut inside a number could pass: the last line must be a whole one. */
+bool scan_check_end(const Scan *scan, Error *err);
 
 /* An error at the current line. Always false. */
 bool scan_fail(const Scan *scan, Error *err, const char *format, ...)

@@ -24,7 +24,7 @@ void direction_to_degrees(Direction d, double *theta_deg, double *phi_deg)
     *phi_deg = across < 1e-12 ? 0 : phi < 0 ? phi + 360 : phi;
 }
 
-Direction direction_cross(Direction a, Direction b)
+static Direction cross(Direction a, Direction b)
 {
     return (Direction){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
@@ -52,7 +52,7 @@ Direction direction_about_mirror(double incidence_deg, double radial_deg, double
     double    azimuth = radians_from_degrees(azimuth_deg);
     Direction mirror = {sin_d(lean), 0, cos_d(lean)};
     Direction zero = {-cos_d(lean), 0, sin_d(lean)}; /* towards the normal */
-    Direction side = direction_cross(mirror, zero);
+    Direction side = cross(mirror, zero);
     Direction tangent = direction_scaled_sum(zero, cos_d(azimuth), side, sin_d(azimuth));
     return direction_scaled_sum(mirror, cos_d(radial), tangent, sin_d(radial));
 }
@@ -84,13 +84,6 @@ void scatter_put(ScatterRows *rows, double theta_deg, double phi_deg, const doub
     rows->phi_deg[row] = phi_deg;
     memcpy(rows->value + (size_t)row * (size_t)rows->channels, value,
            sizeof *value * (size_t)rows->channels);
-}
-
-void scatter_put_direction(ScatterRows *rows, Direction d, const double *value)
-{
-    double theta_deg, phi_deg;
-    direction_to_degrees(d, &theta_deg, &phi_deg);
-    scatter_put(rows, theta_deg, phi_deg, value);
 }
 
 void scatter_mask(ScatterRows *rows, double theta_deg, double phi_deg)
@@ -164,22 +157,42 @@ bool scatter_add(ImportSet *set, const char *file, const ScatterRows *rows,
 
 /* ---- wavelengths ------------------------------------------------------------------------- */
 
-bool scatter_wavelength(const ImportOptions *options, const char *file, float *out, Error *err)
+const float *scatter_band(double nm, ImportSet *set)
 {
-    if (!(options->wavelength_nm > 0))
-        return error_at(err, ERROR_INPUT, file, "",
-                        "does not say the wavelength of its values — give it as --wavelength "
-                        "NM");
-    *out = (float)options->wavelength_nm;
-    return true;
+    float *band = ARENA_NEW(set->arena, float, 1);
+    *band = (float)nm;
+    return band;
 }
 
-float scatter_photopic(const ImportOptions *options, const char *file, ImportSet *set)
+const float *scatter_wavelength(const ImportOptions *options, const char *file, ImportSet *set,
+                                Error *err)
 {
-    if (options->wavelength_nm > 0) return (float)options->wavelength_nm;
+    return scatter_told_wavelength(0, options, file, set, err);
+}
+
+const float *scatter_told_wavelength(double told_nm, const ImportOptions *options,
+                                     const char *file, ImportSet *set, Error *err)
+{
+    double nm = options->wavelength_nm > 0 ? options->wavelength_nm : told_nm;
+    if (nm > 0) return scatter_band(nm, set);
+    error_at(err, ERROR_INPUT, file, "", "does not say the wavelength of its values — give it "
+             "as --wavelength NM");
+    return NULL;
+}
+
+const float *scatter_photopic(const ImportOptions *options, const char *file, ImportSet *set)
+{
+    if (options->wavelength_nm > 0) return scatter_band(options->wavelength_nm, set);
     import_note(set, "%s: photopic values (weighted with the eye's sensitivity) stand as one "
                 "band at %g nm", path_name(file), (double)PHOTOPIC_NM);
-    return PHOTOPIC_NM;
+    return scatter_band((double)PHOTOPIC_NM, set);
+}
+
+const float *scatter_xyz(const ImportOptions *options, const char *file, ImportSet *set)
+{
+    const float *band = scatter_photopic(options, file, set);
+    import_note(set, "%s: of X, Y and Z only Y is taken", path_name(file));
+    return band;
 }
 
 const float *scatter_rgb_bands(const char *file, ImportSet *set)

@@ -15,7 +15,6 @@ typedef struct Direction {
 
 Direction direction_from_degrees(double theta_deg, double phi_deg);
 void      direction_to_degrees(Direction d, double *theta_deg, double *phi_deg);
-Direction direction_cross(Direction a, Direction b);
 double    direction_dot(Direction a, Direction b);
 Direction direction_scaled_sum(Direction a, double s, Direction b, double t); /* s a + t b */
 Direction direction_unit(Direction a);
@@ -41,7 +40,6 @@ ScatterRows scatter_rows(Arena *arena, int capacity, int channels);
 
 /* Adds one; `value` holds the channels. Beyond 90 degrees it is counted and left out. */
 void scatter_put(ScatterRows *rows, double theta_deg, double phi_deg, const double *value);
-void scatter_put_direction(ScatterRows *rows, Direction d, const double *value);
 void scatter_mask(ScatterRows *rows, double theta_deg, double phi_deg);
 
 /* As scatter_put, any turn of phi; values that are all exactly 0 mark a direction that was not
@@ -60,14 +58,30 @@ typedef struct ScatterLight {
 bool scatter_add(ImportSet *set, const char *file, const ScatterRows *rows,
                  ScatterLight light, const float *wavelength_nm, Error *err);
 
+/* Incidences and azimuths at which a BRDF that is known everywhere is read: 0, 10, ... 80 and,
+ * when it is anisotropic, every 30 degrees. */
+#define INCIDENCE_STEP_DEG 10
+#define INCIDENCE_LAST_DEG 80
+#define AZIMUTH_STEP_DEG 30
+
 /* ---- wavelengths ------------------------------------------------------------------------- */
 
-/* --wavelength, or an error that asks for it. */
-bool scatter_wavelength(const ImportOptions *options, const char *file, float *out, Error *err);
+/* One band. */
+const float *scatter_band(double nm, ImportSet *set);
 
-/* Photopic values (CIE Y) stand at one wavelength, and a note says so; --wavelength wins. */
+/* --wavelength, or an error that asks for it (NULL). */
+const float *scatter_wavelength(const ImportOptions *options, const char *file, ImportSet *set,
+                                Error *err);
+
+/* The wavelength that a file tells (0: it does not), unless --wavelength is given. */
+const float *scatter_told_wavelength(double told_nm, const ImportOptions *options,
+                                     const char *file, ImportSet *set, Error *err);
+
+/* Photopic values (CIE Y) stand at one wavelength, and a note says so; --wavelength wins. Of
+ * X, Y and Z another note says that Y alone is taken. */
 #define PHOTOPIC_NM 555.0f
-float scatter_photopic(const ImportOptions *options, const char *file, ImportSet *set);
+const float *scatter_photopic(const ImportOptions *options, const char *file, ImportSet *set);
+const float *scatter_xyz(const ImportOptions *options, const char *file, ImportSet *set);
 
 /* RGB values stand as three bands near the dominant wavelengths of the primaries of Rec. 709,
  * blue first since wavelengths rise; a note says so. */

@@ -5,8 +5,6 @@
  * it was measured, so brdf = value * R / H(i0) with H the integral of value * cos (between two
  * incidences R / H is interpolated; below the first one the first one counts). In a .brdf
  * every table has its own reflectance: brdf = value * R / H. */
-#include "import/scatter/speos.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -15,6 +13,8 @@
 #include "base/units.h"
 #include "import/scatter/scan.h"
 #include "import/scatter/scatter.h"
+#include "import/scatter/speos_binary.h"
+#include "import/scatter/speos_text.h"
 #include "panel/set/measurement.h"
 
 /* Nearer to the horizon a value cannot be divided by its cosine. */
@@ -22,20 +22,6 @@
 /* The panel's wavelengths. */
 #define FIRST_NM 360.0
 #define LAST_NM 830.0
-
-void speos_turn(SpeosTable *table, const double *rows)
-{
-    for (int i = 0; i < table->thetas; i++)
-        for (int j = 0; j < table->phis; j++)
-            table->value[j * table->thetas + i] = rows[i * table->phis + j];
-}
-
-bool speos_check_table(const char *file, const SpeosTable *table, Error *err)
-{
-    const double theta[] = {0, 90}, phi[] = {0, 360};
-    return angles_check(file, "theta", table->theta_deg, table->thetas, theta, err) &&
-           angles_check(file, "phi", table->phi_deg, table->phis, phi, err);
-}
 
 /* ---- scale ------------------------------------------------------------------------------- */
 
@@ -52,13 +38,6 @@ static void divide_cosine(SpeosTable *table)
                 value[i] = i ? value[i - 1] : 0;
         }
     }
-}
-
-static double integral_of(const SpeosTable *table, Arena scratch)
-{
-    PolarGrid grid = {table->thetas, table->phis, table->theta_deg, table->phi_deg,
-                      table->value, 0, false};
-    return polar_grid_integral(&grid, scratch);
 }
 
 /* The two tables of the anisotropy angle nearest to the spectrum's, whose incidences enclose
@@ -85,7 +64,8 @@ static bool find_scale(const Speos *in, Arena scratch, double *scale, Error *err
 {
     const SpeosTable *table[2];
     find_reference(in, table);
-    double low = integral_of(table[0], scratch), high = integral_of(table[1], scratch);
+    double low = speos_table_integral(table[0], scratch);
+    double high = speos_table_integral(table[1], scratch);
     if (!(low > 0 && high > 0))
         return error_at(err, ERROR_INPUT, in->file, "", "the table at incidence %g integrates "
                         "to %g, wanted above 0", table[0]->incidence_deg, low > 0 ? high : low);
@@ -208,14 +188,12 @@ static bool add_spectral(const Speos *in, ImportSet *set, Error *err)
     TotalsNote totals = {{0}, 0};
     for (int i = 0; i < in->tables; i++) {
         const SpeosTable *table = &in->table[i];
-        float            *nm = ARENA_NEW(set->arena, float, 1);
-        double            total = integral_of(table, *set->arena);
+        double            total = speos_table_integral(table, *set->arena);
         if (!(total > 0))
             return error_at(err, ERROR_INPUT, in->file, "", "the table at incidence %g and %g "
                             "nm integrates to %g, wanted above 0", table->incidence_deg,
                             table->nm, total);
-        SpeosBands bands = {1, nm, {table->percent / 100 / total}};
-        *nm = (float)table->nm;
+        SpeosBands bands = {1, scatter_band(table->nm, set), {table->percent / 100 / total}};
         totals_add(&totals, table->incidence_deg, table->percent / 100, total);
         if (!add_table(in, table, &bands, set, err)) return false;
     }
@@ -266,8 +244,7 @@ static bool read_simple(const char *file, ImportSet *set, Error *err)
                          "surface (0, above 0, 0) is known here", number[0], number[1],
                          number[2]);
     double brdf = number[1] / 100 / PI;
-    float *nm = ARENA_NEW(set->arena, float, 1);
-    *nm = PHOTOPIC_NM;
+    const float *nm = scatter_band((double)PHOTOPIC_NM, set);
     for (int lean = 0; lean <= 80; lean += 20) {
         ScatterRows rows = scatter_rows(set->arena, 19 * 24, 1);
         scatter_put(&rows, 0, 0, &brdf);
@@ -297,8 +274,8 @@ static bool read_speos(const char *file, const ImportOptions *options, ImportSet
                          title ? title : "");
     if (strstr(title, "Simple scattering")) return read_simple(file, set, err);
     bool is_binary = scan.next < scan.end && *scan.next == '1';
-    bool ok = is_binary ? speos_read_binary(file, set->arena, &in, err)
-                        : speos_read_text(file, set->arena, &in, err);
+    bool ok = is_binary ? speos_binary_read(file, set->arena, &in, err)
+                        : speos_text_read(file, set->arena, &in, err);
     if (!ok) return false;
     for (int i = 0; !in.is_bsdf && i < in.tables; i++) divide_cosine(&in.table[i]);
     if (in.has_transmission)

@@ -10,12 +10,13 @@
  *   for each light: u32 thetas, u32 phis, block thetas, block phis, block values
  *   for each light 4 x f64 (settings of an interpolation), u8, f64
  *   block: u64 bytes, u32 bytes, u32 packed bytes, packed bytes;  text: u32 length, bytes */
+#include "import/scatter/speos_binary.h"
+
 #include <lz4.h>
 #include <math.h>
 #include <string.h>
 
 #include "import/scatter/byte_scan.h"
-#include "import/scatter/speos.h"
 
 #define SETTINGS_PER_LIGHT 4
 
@@ -32,30 +33,28 @@ static bool cut(const SpeosBinary *in, Error *err, const char *what)
     return byte_scan_fail(&in->scan, err, "the file ends inside %s", what);
 }
 
-static bool expect_u32(SpeosBinary *in, uint32_t wanted, Error *err)
+static bool read_uint(SpeosBinary *in, size_t bytes, const char *what, uint64_t *out,
+                      Error *err)
 {
-    uint32_t found;
-    if (!byte_scan_u32(&in->scan, &found)) return cut(in, err, "its header");
-    return found == wanted ||
-           byte_scan_fail(&in->scan, err, "a field of the header is %u, and only %u is known "
-                          "here — save the file as text", found, wanted);
+    return byte_scan_uint(&in->scan, bytes, out) || cut(in, err, what);
 }
 
-static bool expect_u8(SpeosBinary *in, uint8_t wanted, Error *err)
+static bool expect(SpeosBinary *in, size_t bytes, unsigned wanted, Error *err)
 {
-    uint8_t found;
-    if (!byte_scan_u8(&in->scan, &found)) return cut(in, err, "its header");
+    uint64_t found;
+    if (!read_uint(in, bytes, "its header", &found, err)) return false;
     return found == wanted ||
-           byte_scan_fail(&in->scan, err, "a field of the header is %d, and only %d is known "
-                          "here — save the file as text", found, wanted);
+           byte_scan_fail(&in->scan, err, "a field of the header is %u, and only %u is known "
+                          "here — save the file as text", (unsigned)found, wanted);
 }
 
 static bool read_flag(SpeosBinary *in, bool *out, Error *err)
 {
-    uint8_t found;
-    if (!byte_scan_u8(&in->scan, &found)) return cut(in, err, "its header");
+    uint64_t found;
+    if (!read_uint(in, 1, "its header", &found, err)) return false;
     *out = found == 1;
-    return found <= 1 || byte_scan_fail(&in->scan, err, "a flag is %d, wanted 0 or 1", found);
+    return found <= 1 ||
+           byte_scan_fail(&in->scan, err, "a flag is %d, wanted 0 or 1", (int)found);
 }
 
 static bool read_double(SpeosBinary *in, const char *what, double *out, Error *err)
@@ -66,27 +65,26 @@ static bool read_double(SpeosBinary *in, const char *what, double *out, Error *e
 
 static bool skip_text(SpeosBinary *in, Error *err)
 {
-    uint32_t length;
-    if (!byte_scan_u32(&in->scan, &length) || !byte_scan_take(&in->scan, length))
-        return cut(in, err, "a text");
-    return true;
+    uint64_t length;
+    return (byte_scan_uint(&in->scan, 4, &length) &&
+            byte_scan_take(&in->scan, (size_t)length)) || cut(in, err, "a text");
 }
 
 /* `count` doubles, packed. What the block yields is bounded by what LZ4 can (255 a byte). */
 static bool read_block(SpeosBinary *in, size_t count, double **out, Error *err)
 {
-    uint64_t bytes;
-    uint32_t again, packed;
+    uint64_t bytes, again, packed;
     const unsigned char *block;
-    if (!byte_scan_u64(&in->scan, &bytes) || !byte_scan_u32(&in->scan, &again) ||
-        !byte_scan_u32(&in->scan, &packed) || !(block = byte_scan_take(&in->scan, packed)))
+    if (!byte_scan_uint(&in->scan, 8, &bytes) || !byte_scan_uint(&in->scan, 4, &again) ||
+        !byte_scan_uint(&in->scan, 4, &packed) ||
+        !(block = byte_scan_take(&in->scan, (size_t)packed)))
         return cut(in, err, "a block of numbers");
     if (bytes != count * sizeof(double) || again != bytes)
         return byte_scan_fail(&in->scan, err, "a block has %llu bytes, wanted %zu",
                               (unsigned long long)bytes, count * sizeof(double));
     if (bytes / 255 > packed)
-        return byte_scan_fail(&in->scan, err, "a block of %u bytes cannot hold %llu", packed,
-                              (unsigned long long)bytes);
+        return byte_scan_fail(&in->scan, err, "a block of %u bytes cannot hold %llu",
+                              (unsigned)packed, (unsigned long long)bytes);
     unsigned char *raw = ARENA_NEW(in->arena, unsigned char, bytes);
     /* No file is larger than an int: IMPORT_FILE_BYTES_MAX, and 8 SPEOS_ANGLES_MAX^2. */
     if (LZ4_decompress_safe((const char *)block, (char *)raw, (int)packed, (int)bytes) !=
@@ -103,10 +101,10 @@ static bool read_block(SpeosBinary *in, size_t count, double **out, Error *err)
 
 static bool read_count(SpeosBinary *in, const char *what, int *out, Error *err)
 {
-    uint32_t count;
-    if (!byte_scan_u32(&in->scan, &count)) return cut(in, err, what);
+    uint64_t count;
+    if (!read_uint(in, 4, what, &count, err)) return false;
     if (count < 1 || count > SPEOS_ANGLES_MAX)
-        return byte_scan_fail(&in->scan, err, "%s is %u, wanted 1 to %d", what, count,
+        return byte_scan_fail(&in->scan, err, "%s is %u, wanted 1 to %d", what, (unsigned)count,
                               SPEOS_ANGLES_MAX);
     *out = (int)count;
     return true;
@@ -123,7 +121,7 @@ static bool read_header(SpeosBinary *in, Error *err)
     if (!start || memcmp(start, title, sizeof title - 1))
         return error_at(err, ERROR_INPUT, out->file, "", "is binary and not of version 9.0, "
                         "the only one that is known here — save the file as text");
-    if (!expect_u32(in, 3, err) || !expect_u32(in, 1, err) || !expect_u8(in, 0, err))
+    if (!expect(in, 4, 3, err) || !expect(in, 4, 1, err) || !expect(in, 1, 0, err))
         return false;
     for (int i = 0; i < 3; i++)
         if (!read_double(in, "the anisotropy vector", &value, err)) return false;
@@ -141,7 +139,7 @@ static bool read_header(SpeosBinary *in, Error *err)
             return byte_scan_fail(&in->scan, err, "a field of the header is %g, and only 1 is "
                                   "known here — save the file as text", value);
     }
-    return read_flag(in, &out->is_bsdf, err) && expect_u8(in, 0, err);
+    return read_flag(in, &out->is_bsdf, err) && expect(in, 1, 0, err);
 }
 
 static bool read_lights(SpeosBinary *in, Error *err)
@@ -195,11 +193,11 @@ static bool read_table(SpeosBinary *in, SpeosTable *table, Error *err)
         !read_block(in, (size_t)table->thetas * (size_t)table->phis, &rows, err))
         return false;
     table->value = ARENA_NEW(in->arena, double, (size_t)table->thetas * (size_t)table->phis);
-    speos_turn(table, rows);
-    return speos_check_table(in->out->file, table, err);
+    speos_table_turn(table, rows);
+    return speos_table_check(in->out->file, table, err);
 }
 
-bool speos_read_binary(const char *file, Arena *arena, Speos *out, Error *err)
+bool speos_binary_read(const char *file, Arena *arena, Speos *out, Error *err)
 {
     SpeosBinary in = {.arena = arena, .out = out};
     *out = (Speos){.file = file, .table = ARENA_NEW(arena, SpeosTable, SPEOS_TABLES_MAX)};

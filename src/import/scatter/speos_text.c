@@ -1,9 +1,10 @@
 /* The text form of Speos' .anisotropicbsdf and .brdf, version 8 and later, as the manual of
  * Speos Labs tells its rows. */
+#include "import/scatter/speos_text.h"
+
 #include <string.h>
 
 #include "import/scatter/scan.h"
-#include "import/scatter/speos.h"
 
 typedef struct SpeosText {
     Scan   scan;
@@ -39,12 +40,6 @@ static bool skip_description(SpeosText *in, Error *err)
     return true;
 }
 
-static bool read_counted(SpeosText *in, const char *what, int *count, double **list, Error *err)
-{
-    return scan_count(&in->scan, what, SPEOS_ANGLES_MAX, count, err) &&
-           scan_list(&in->scan, what, *count, list, err);
-}
-
 static bool read_table(SpeosText *in, SpeosTable *table, Error *err)
 {
     Scan *scan = &in->scan;
@@ -65,8 +60,8 @@ static bool read_table(SpeosText *in, SpeosTable *table, Error *err)
                 return false;
     }
     table->value = ARENA_NEW(in->arena, double, size);
-    speos_turn(table, rows);
-    return speos_check_table(scan->file, table, err);
+    speos_table_turn(table, rows);
+    return speos_table_check(scan->file, table, err);
 }
 
 /* The rest of the file is transmission, which is not read, or nothing. */
@@ -74,11 +69,21 @@ static bool check_end(const SpeosText *in, Error *err)
 {
     const Scan *scan = &in->scan;
     const char *word = scan_peek(scan);
-    if (scan->end[-1] != '\n')
-        return scan_fail(scan, err, "the last line has no line end: the file may be cut");
+    if (!scan_check_end(scan, err)) return false;
     if (word && strcmp(word, "End") && !in->out->has_transmission)
         return scan_fail(scan, err, "'%.40s' follows the last table", word);
     return true;
+}
+
+static bool read_kind(SpeosText *in, Error *err)
+{
+    Speos *out = in->out;
+    if (!read_flag(in, "the flag of reflection", &out->has_reflection, err) ||
+        !read_flag(in, "the flag of transmission", &out->has_transmission, err) ||
+        !read_flag(in, "the kind of value", &out->is_bsdf, err))
+        return false;
+    return out->has_reflection || scan_fail(&in->scan, err, "there is transmission only: a "
+                                            "display panel is opaque");
 }
 
 /* ---- .anisotropicbsdf -------------------------------------------------------------------- */
@@ -88,7 +93,9 @@ static bool add_lights(SpeosText *in, double anisotropy_deg, Error *err)
     int     count;
     double *incidence;
     Speos  *out = in->out;
-    if (!read_counted(in, "the number of incidences", &count, &incidence, err)) return false;
+    if (!scan_counted_list(&in->scan, "the number of incidences", SPEOS_ANGLES_MAX, &count,
+                           &incidence, err))
+        return false;
     if (out->tables + count > SPEOS_TABLES_MAX)
         return scan_fail(&in->scan, err, "there are more than %d tables", SPEOS_TABLES_MAX);
     for (int i = 0; i < count; i++)
@@ -102,7 +109,8 @@ static bool read_lights(SpeosText *in, bool is_kept, Error *err)
 {
     int     count, tables = in->out->tables;
     double *anisotropy;
-    if (!read_counted(in, "the number of anisotropy angles", &count, &anisotropy, err))
+    if (!scan_counted_list(&in->scan, "the number of anisotropy angles", SPEOS_ANGLES_MAX,
+                           &count, &anisotropy, err))
         return false;
     for (int i = 0; i < count; i++)
         if (!add_lights(in, anisotropy[i], err)) return false;
@@ -138,14 +146,7 @@ static bool read_anisotropic(SpeosText *in, Error *err)
     Speos   ignored = {.file = out->file};
     for (int i = 0; i < 3; i++)
         if (!scan_number(&in->scan, "the anisotropy vector", &vector, err)) return false;
-    if (!read_flag(in, "the flag of reflection", &out->has_reflection, err) ||
-        !read_flag(in, "the flag of transmission", &out->has_transmission, err) ||
-        !read_flag(in, "the kind of value", &out->is_bsdf, err))
-        return false;
-    if (!out->has_reflection)
-        return scan_fail(&in->scan, err, "there is transmission only: a display panel is "
-                         "opaque");
-    if (!read_lights(in, true, err)) return false;
+    if (!read_kind(in, err) || !read_lights(in, true, err)) return false;
     if (out->has_transmission && !read_lights(in, false, err)) return false;
     if (!read_spectrum(in, err)) return false;
     if (out->has_transmission) {
@@ -167,13 +168,8 @@ static bool read_brdf(SpeosText *in, Error *err)
     double *incidence, *nm;
     Speos  *out = in->out;
     Scan   *scan = &in->scan;
-    if (!read_flag(in, "the flag of reflection", &out->has_reflection, err) ||
-        !read_flag(in, "the flag of transmission", &out->has_transmission, err) ||
-        !read_flag(in, "the kind of value", &out->is_bsdf, err))
-        return false;
-    if (!out->has_reflection)
-        return scan_fail(scan, err, "there is transmission only: a display panel is opaque");
-    if (!scan_count(scan, "the number of incidences", SPEOS_ANGLES_MAX, &incidences, err) ||
+    if (!read_kind(in, err) ||
+        !scan_count(scan, "the number of incidences", SPEOS_ANGLES_MAX, &incidences, err) ||
         !scan_count(scan, "the number of wavelengths", SPEOS_ANGLES_MAX, &wavelengths, err))
         return false;
     if (incidences > SPEOS_TABLES_MAX / wavelengths)
@@ -193,7 +189,7 @@ static bool read_brdf(SpeosText *in, Error *err)
     return true;
 }
 
-bool speos_read_text(const char *file, Arena *arena, Speos *out, Error *err)
+bool speos_text_read(const char *file, Arena *arena, Speos *out, Error *err)
 {
     SpeosText in = {.arena = arena, .out = out};
     *out = (Speos){.file = file, .table = ARENA_NEW(arena, SpeosTable, SPEOS_TABLES_MAX)};

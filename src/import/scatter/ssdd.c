@@ -42,15 +42,15 @@ typedef struct Ssdd {
 
 /* ---- metadata ---------------------------------------------------------------------------- */
 
-typedef struct List {
+typedef struct SsddList {
     int     count;
     double *number;
-} List;
+} SsddList;
 
 /* The numbers of the rest of a line. */
-static bool read_list(Ssdd *in, char *text, const char *what, List *out, Error *err)
+static bool read_list(Ssdd *in, char *text, const char *what, SsddList *out, Error *err)
 {
-    *out = (List){0, ARENA_NEW(in->scan.arena, double, strlen(text) / 2 + 1)};
+    *out = (SsddList){0, ARENA_NEW(in->scan.arena, double, strlen(text) / 2 + 1)};
     for (char *at = text, *word; (word = strtok_r(at, " \t", &at)); out->count++) {
         double *one = &out->number[out->count];
         if (*word == '#') break;
@@ -66,7 +66,7 @@ static bool read_list(Ssdd *in, char *text, const char *what, List *out, Error *
 
 static bool read_wavelengths(Ssdd *in, char *text, Error *err)
 {
-    List list;
+    SsddList list;
     if (!read_list(in, text, "WAVELENGTH_LIST", &list, err)) return false;
     if (list.count > MEASUREMENT_WAVELENGTHS_MAX)
         return scan_fail(&in->scan, err, "WAVELENGTH_LIST has %d numbers, wanted at most %d",
@@ -147,7 +147,7 @@ static bool read_param(Ssdd *in, char *line, Error *err)
     for (int i = 0; i < PARAMS; i++) {
         char *text = value_of(line, names[i]);
         if (!text) continue;
-        List list;
+        SsddList list;
         if (!read_list(in, text, names[i], &list, err)) return false;
         in->param[i] = list.number;
         in->count[i] = list.count;
@@ -244,22 +244,16 @@ static int file_channel(const Ssdd *in, int c)
     return in->colour == COLOUR_XYZ ? 1 : in->colour == COLOUR_RGB ? 2 - c : c;
 }
 
-static bool name_bands(Ssdd *in, const ImportOptions *options, ImportSet *set, const float **nm,
-                       Error *err)
+static const float *name_bands(const Ssdd *in, const ImportOptions *options, ImportSet *set,
+                               Error *err)
 {
     const char *file = in->scan.file;
-    *nm = in->nm;
-    if (in->colour == COLOUR_SPECTRUM) return true;
-    if (in->colour == COLOUR_RGB) {
-        *nm = scatter_rgb_bands(file, set);
-        return true;
+    switch (in->colour) {
+    case COLOUR_RGB:  return scatter_rgb_bands(file, set);
+    case COLOUR_XYZ:  return scatter_xyz(options, file, set);
+    case COLOUR_MONO: return scatter_wavelength(options, file, set, err);
+    default:          return in->nm;
     }
-    float *one = ARENA_NEW(set->arena, float, 1);
-    *nm = one;
-    if (in->colour == COLOUR_MONO) return scatter_wavelength(options, file, one, err);
-    *one = scatter_photopic(options, file, set);
-    import_note(set, "%s: of X, Y and Z only Y is taken", path_name(file));
-    return true;
 }
 
 static size_t node(const Ssdd *in, const int at[PARAMS])
@@ -325,27 +319,6 @@ static bool add_grid(const Ssdd *in, const float *nm, ImportSet *set, Error *err
 
 /* ---- half and difference angles ---------------------------------------------------------- */
 
-typedef struct Between {
-    int    low, high;
-    double weight; /* of high */
-} Between;
-
-/* Where x stands in a rising list; the ends hold, unless the list goes round. */
-static Between between(const double *list, int count, double x, double period)
-{
-    int last = count - 1;
-    if (period > 0 && count > 1 && (x < list[0] || x > list[last])) {
-        double gap = list[0] + period - list[last];
-        double past = x > list[last] ? x - list[last] : x + period - list[last];
-        return (Between){last, 0, gap > 0 ? fmin(past / gap, 1) : 0};
-    }
-    if (x <= list[0]) return (Between){0, 0, 0};
-    if (x >= list[last]) return (Between){last, last, 0};
-    int high = 1;
-    while (list[high] < x) high++;
-    return (Between){high - 1, high, (x - list[high - 1]) / (list[high] - list[high - 1])};
-}
-
 static double reduced_diff_phi(const Ssdd *in, double phi)
 {
     double turn = fmod(phi + 720, in->is_reciprocal ? 180 : 360);
@@ -358,11 +331,11 @@ static bool evaluate(const void *data, Direction light, Direction leaving, doubl
     const Ssdd *in = data;
     HalfAngles  h = half_angles(light, leaving);
     double period = in->is_mirrored ? 0 : in->is_reciprocal ? 180 : 360;
-    Between side[PARAMS] = {
-        between(in->param[0], in->count[0], h.half_theta, 0),
-        between(in->param[1], in->count[1], fmod(h.half_phi + 360, 360), 360),
-        between(in->param[2], in->count[2], h.diff_theta, 0),
-        between(in->param[3], in->count[3], reduced_diff_phi(in, h.diff_phi), period)};
+    AngleInterval side[PARAMS] = {
+        angle_interval(in->param[0], in->count[0], h.half_theta, 0),
+        angle_interval(in->param[1], in->count[1], fmod(h.half_phi + 360, 360), 360),
+        angle_interval(in->param[2], in->count[2], h.diff_theta, 0),
+        angle_interval(in->param[3], in->count[3], reduced_diff_phi(in, h.diff_phi), period)};
     int channels = kept_channels(in);
     for (int c = 0; c < channels; c++) value[c] = 0;
     for (int corner = 0; corner < 1 << PARAMS; corner++) {
@@ -403,13 +376,13 @@ static bool check_ranges(const Ssdd *in, Error *err)
 
 static bool add_block(Ssdd *in, const ImportOptions *options, ImportSet *set, Error *err)
 {
-    const float *nm;
     if (!in->is_brdf) {
         import_note(set, "%s: a block of transmission or of mirror reflectance is left out",
                     path_name(in->scan.file));
         return true;
     }
-    if (!check_ranges(in, err) || !name_bands(in, options, set, &nm, err)) return false;
+    const float *nm = check_ranges(in, err) ? name_bands(in, options, set, err) : NULL;
+    if (!nm) return false;
     return in->system == SYSTEM_HALF ? add_half(in, nm, set, err) : add_grid(in, nm, set, err);
 }
 

@@ -23,13 +23,10 @@ static size_t type_size(int type)
 double tensor_value(const TensorField *field, size_t i)
 {
     const unsigned char *at = field->data + i * type_size(field->type);
-    uint64_t whole = 0;
     switch (field->type) {
     case TENSOR_F32: return (double)float_from_bytes(at);
     case TENSOR_F64: return double_from_bytes(at);
-    default:
-        for (size_t b = type_size(field->type); b-- > 0;) whole = whole << 8 | at[b];
-        return (double)whole;
+    default: return (double)uint_from_bytes(at, type_size(field->type));
     }
 }
 
@@ -62,46 +59,52 @@ static bool place_data(const ByteScan *scan, TensorField *field, uint64_t offset
 
 static bool read_field(ByteScan *scan, Arena *arena, TensorField *field, Error *err)
 {
-    uint16_t length, rank;
-    uint8_t  type;
-    uint64_t offset, side;
+    uint64_t length, rank, type, offset, side;
     const unsigned char *name;
-    if (!byte_scan_u16(scan, &length) || !(name = byte_scan_take(scan, length)) ||
-        !byte_scan_u16(scan, &rank) || !byte_scan_u8(scan, &type) ||
-        !byte_scan_u64(scan, &offset))
+    if (!byte_scan_uint(scan, 2, &length) || !(name = byte_scan_take(scan, (size_t)length)) ||
+        !byte_scan_uint(scan, 2, &rank) || !byte_scan_uint(scan, 1, &type) ||
+        !byte_scan_uint(scan, 8, &offset))
         return byte_scan_fail(scan, err, "the file ends inside its list of fields");
-    *field = (TensorField){.name = arena_string(arena, (const char *)name, length),
-                           .type = type, .rank = rank};
-    if (rank > TENSOR_RANK_MAX)
+    *field = (TensorField){.name = arena_string(arena, (const char *)name, (size_t)length),
+                           .type = (int)type, .rank = (int)rank};
+    if (field->rank > TENSOR_RANK_MAX)
         return byte_scan_fail(scan, err, "field '%.40s' has %d dimensions, wanted at most %d",
-                              field->name, rank, TENSOR_RANK_MAX);
-    for (int d = 0; d < rank; d++) {
-        if (!byte_scan_u64(scan, &side))
+                              field->name, field->rank, TENSOR_RANK_MAX);
+    for (int d = 0; d < field->rank; d++) {
+        if (!byte_scan_uint(scan, 8, &side))
             return byte_scan_fail(scan, err, "the file ends inside its list of fields");
         field->shape[d] = (size_t)side;
     }
     return place_data(scan, field, offset, err);
 }
 
+bool tensor_file_head_has(const char *head, size_t size, const char *name)
+{
+    size_t first = sizeof MAGIC + 6, length = strlen(name); /* behind version and count */
+    if (size < first || memcmp(head, MAGIC, sizeof MAGIC)) return false;
+    for (size_t i = first; i + length <= size; i++)
+        if (!memcmp(head + i, name, length)) return true;
+    return false;
+}
+
 bool tensor_file_open(const char *file, Arena *arena, TensorFile *out, Error *err)
 {
     ByteScan scan;
-    uint16_t version;
-    uint32_t count;
+    uint64_t version, count;
     *out = (TensorFile){.file = file};
     if (!byte_scan_open(file, arena, &scan, err)) return false;
     const unsigned char *magic = byte_scan_take(&scan, sizeof MAGIC);
     if (!magic || memcmp(magic, MAGIC, sizeof MAGIC))
         return error_at(err, ERROR_INPUT, file, "", "is no tensor file: it does not begin with "
                         "'tensor_file'");
-    if (!byte_scan_u16(&scan, &version) || !byte_scan_u32(&scan, &count))
+    if (!byte_scan_uint(&scan, 2, &version) || !byte_scan_uint(&scan, 4, &count))
         return byte_scan_fail(&scan, err, "the file ends inside its header");
     if (version != 1)
-        return byte_scan_fail(&scan, err, "the version is %d.%d, wanted 1.0", version & 255,
-                              version >> 8);
+        return byte_scan_fail(&scan, err, "the version is %d.%d, wanted 1.0",
+                              (int)version & 255, (int)version >> 8);
     if (count > TENSOR_FIELDS_MAX)
-        return byte_scan_fail(&scan, err, "there are %u fields, wanted at most %d", count,
-                              TENSOR_FIELDS_MAX);
+        return byte_scan_fail(&scan, err, "there are %u fields, wanted at most %d",
+                              (unsigned)count, TENSOR_FIELDS_MAX);
     for (; out->fields < (int)count; out->fields++)
         if (!read_field(&scan, arena, &out->field[out->fields], err)) return false;
     return true;

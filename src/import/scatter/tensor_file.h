@@ -29,6 +29,9 @@ typedef struct TensorFile {
     int         fields;
 } TensorFile;
 
+/* Do the first bytes of a file hold this name among its fields? */
+bool tensor_file_head_has(const char *head, size_t size, const char *name);
+
 bool tensor_file_open(const char *file, Arena *arena, TensorFile *out, Error *err);
 
 /* NULL: none of that name. */

@@ -7,6 +7,8 @@
  * A node is "{" 2^rank nodes "}" (bit d of a child's number is its side along dimension d), or
  * "{" numbers "}", a grid of equal steps along each dimension, the last dimension fastest.
  * Rows stand at the centres of the tree's own squares (large ones cut to 1/32 of the side). */
+#include "import/scatter/tensor_tree.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -14,14 +16,10 @@
 #include "base/mathd.h"
 #include "base/units.h"
 #include "import/scatter/scatter.h"
-#include "import/scatter/window_xml.h"
 
 #define DEPTH_MAX 14
 #define RANK_MAX 4
 #define CELL_MOST (1.0 / 32)
-#define INCIDENCE_STEP_DEG 10
-#define INCIDENCE_LAST_DEG 80
-#define AZIMUTH_STEP_DEG 30
 
 typedef struct TensorNode {
     struct TensorNode *child; /* 2^rank of them, or NULL: a grid */
@@ -134,16 +132,16 @@ static void square_from_disk(double x, double y, double square[2])
 
 /* ---- one direction of light -------------------------------------------------------------- */
 
-typedef struct Walk {
+typedef struct TreeWalk {
     const TensorTree *tree;
     int          fixed;           /* coordinates of the light: rank - 2 */
     double       light[RANK_MAX]; /* in [0, 1) */
     double       mirror_deg;      /* subtracted from the leaving azimuth */
     ScatterRows *rows;            /* NULL: only count */
     int          count;
-} Walk;
+} TreeWalk;
 
-static void put_square(Walk *walk, double u, double v, double side, double value)
+static void put_square(TreeWalk *walk, double u, double v, double side, double value)
 {
     int cuts = (int)fmax(1, ceil(side / CELL_MOST - 1e-9));
     walk->count += cuts * cuts;
@@ -160,7 +158,7 @@ static void put_square(Walk *walk, double u, double v, double side, double value
 }
 
 /* The steps of a grid that hold the light. */
-static void walk_grid(Walk *walk, const TensorNode *node, const double corner[RANK_MAX],
+static void walk_grid(TreeWalk *walk, const TensorNode *node, const double corner[RANK_MAX],
                       double side)
 {
     int    steps = 1 << node->log2_side;
@@ -177,7 +175,7 @@ static void walk_grid(Walk *walk, const TensorNode *node, const double corner[RA
                        corner[walk->fixed + 1] + side * j / steps, side / steps, *value);
 }
 
-static void walk_node(Walk *walk, const TensorNode *node, const double corner[RANK_MAX],
+static void walk_node(TreeWalk *walk, const TensorNode *node, const double corner[RANK_MAX],
                       double side)
 {
     int rank = walk->tree->rank;
@@ -197,7 +195,7 @@ static void walk_node(Walk *walk, const TensorNode *node, const double corner[RA
     }
 }
 
-static void place_light(Walk *walk, double incidence_deg, double mirror_deg)
+static void place_light(TreeWalk *walk, double incidence_deg, double mirror_deg)
 {
     double s = sin_d(radians_from_degrees(incidence_deg));
     double turn = radians_from_degrees(mirror_deg);
@@ -213,7 +211,7 @@ static bool add_light(const TensorTree *tree, double incidence_deg, double mirro
                       const float *nm, ImportSet *set, Error *err)
 {
     const double origin[RANK_MAX] = {0};
-    Walk walk = {.tree = tree};
+    TreeWalk walk = {.tree = tree};
     place_light(&walk, incidence_deg, mirror_deg);
     walk_node(&walk, &tree->root, origin, 1);
     if (walk.count > IMPORT_ROWS_MAX)

@@ -283,27 +283,3 @@ bool window_xml_read(const char *file, ImportSet *set, WindowXml *out, Error *er
     xmlFreeDoc(in.tree);
     return ok;
 }
-
-/* ---- the importer ------------------------------------------------------------------------ */
-
-static bool read_window(const char *file, const ImportOptions *options, ImportSet *set,
-                        Error *err)
-{
-    WindowXml in;
-    float    *nm = ARENA_NEW(set->arena, float, 1);
-    if (!window_xml_read(file, set, &in, err)) return false;
-    *nm = scatter_photopic(options, file, set);
-    if (!set->panel) set->panel = in.panel;
-    bool is_matrix = in.structure == WINDOW_COLUMNS || in.structure == WINDOW_ROWS;
-    return is_matrix ? klems_add(&in, nm, set, err) : tensor_tree_add(&in, nm, set, err);
-}
-
-static bool is_window(const char *file, const char *head, size_t head_size)
-{
-    (void)file;
-    (void)head_size;
-    return strstr(head, "<WindowElement") != NULL;
-}
-
-const Importer importer_window = {
-    "window", "WINDOW / Radiance BSDF as XML: Klems or tensor tree", is_window, read_window};

@@ -36,7 +36,3 @@ typedef struct WindowXml {
 
 /* Photopic reflection at the front, or at the back (with a note) when that is all there is. */
 bool window_xml_read(const char *file, ImportSet *set, WindowXml *out, Error *err);
-
-/* Add the tables. */
-bool klems_add(const WindowXml *in, const float *nm, ImportSet *set, Error *err);
-bool tensor_tree_add(const WindowXml *in, const float *nm, ImportSet *set, Error *err);

@@ -43,12 +43,6 @@ static bool read_symmetry(Zemax *in, Error *err)
                      "or ASymmetrical4D", word ? word : "");
 }
 
-static bool read_content(Zemax *in, Error *err)
-{
-    in->has_content = true;
-    return scan_spectral_content(&in->scan, &in->is_xyz, err);
-}
-
 static bool read_type(Zemax *in, Error *err)
 {
     const char *word = scan_word(&in->scan);
@@ -57,12 +51,6 @@ static bool read_type(Zemax *in, Error *err)
         return scan_fail(&in->scan, err, "ScatterType is BTDF: transmission, and a display "
                          "panel is opaque");
     return scan_fail(&in->scan, err, "ScatterType is '%s', wanted BRDF", word ? word : "");
-}
-
-static bool read_angles(Zemax *in, const char *what, int *count, double **list, Error *err)
-{
-    return scan_count(&in->scan, what, ANGLES_MAX, count, err) &&
-           scan_list(&in->scan, what, *count, list, err);
 }
 
 /* Reads one entry; *done at the first word of the data. */
@@ -76,16 +64,21 @@ static bool read_entry(Zemax *in, bool *done, Error *err)
     if (scan_accept(scan, "Source"))
         return scan_word(scan) || scan_fail(scan, err, "the file ends after Source");
     if (scan_accept(scan, "Symmetry")) return read_symmetry(in, err);
-    if (scan_accept(scan, "SpectralContent")) return read_content(in, err);
+    if (scan_accept(scan, "SpectralContent"))
+        return in->has_content = scan_spectral_content(scan, &in->is_xyz, err);
     if (scan_accept(scan, "ScatterType")) return read_type(in, err);
     if (scan_accept(scan, "SampleRotation"))
-        return read_angles(in, "SampleRotation", &in->rotations, &in->rotation, err);
+        return scan_counted_list(scan, "SampleRotation", ANGLES_MAX, &in->rotations,
+                                 &in->rotation, err);
     if (scan_accept(scan, "AngleOfIncidence"))
-        return read_angles(in, "AngleOfIncidence", &in->incidences, &in->incidence, err);
+        return scan_counted_list(scan, "AngleOfIncidence", ANGLES_MAX, &in->incidences,
+                                 &in->incidence, err);
     if (scan_accept(scan, "ScatterAzimuth"))
-        return read_angles(in, "ScatterAzimuth", &in->azimuths, &in->azimuth, err);
+        return scan_counted_list(scan, "ScatterAzimuth", ANGLES_MAX, &in->azimuths,
+                                 &in->azimuth, err);
     if (scan_accept(scan, "ScatterRadial"))
-        return read_angles(in, "ScatterRadial", &in->radials, &in->radial, err);
+        return scan_counted_list(scan, "ScatterRadial", ANGLES_MAX, &in->radials,
+                                 &in->radial, err);
     if (!word) return scan_fail(scan, err, "the file ends in its header, wanted DataBegin");
     return scan_fail(scan, err, "'%.40s' is no entry of this format's header", word);
 }
@@ -227,21 +220,15 @@ static double comment_wavelength(const char *text, const char *end)
     return 0;
 }
 
-static bool find_wavelength(const Zemax *in, const ImportOptions *options, ImportSet *set,
-                            const char *text, float *out, Error *err)
+static const float *find_wavelength(const Zemax *in, const ImportOptions *options,
+                                    ImportSet *set, const char *text, Error *err)
 {
     const char *file = in->scan.file;
-    if (in->is_xyz) {
-        *out = scatter_photopic(options, file, set);
-        import_note(set, "%s: of X, Y and Z only Y is taken", path_name(file));
-        return true;
-    }
+    if (in->is_xyz) return scatter_xyz(options, file, set);
     double told = comment_wavelength(text, in->scan.end);
-    if (options->wavelength_nm > 0 || !(told > 0))
-        return scatter_wavelength(options, file, out, err);
-    import_note(set, "%s: %g nm is read from the file's comments", path_name(file), told);
-    *out = (float)told;
-    return true;
+    if (!(options->wavelength_nm > 0) && told > 0)
+        import_note(set, "%s: %g nm is read from the file's comments", path_name(file), told);
+    return scatter_told_wavelength(told, options, file, set, err);
 }
 
 /* ---- tables ------------------------------------------------------------------------------ */
@@ -287,15 +274,13 @@ static bool add_block(Zemax *in, int rotation, int incidence, const float *nm, I
     return scatter_add(set, in->scan.file, &rows, light, nm, err);
 }
 
-static bool add_tables(Zemax *in, float nm, ImportSet *set, Error *err)
+static bool add_tables(Zemax *in, const float *nm, ImportSet *set, Error *err)
 {
-    float *kept_nm = ARENA_NEW(set->arena, float, 1);
-    *kept_nm = nm;
     int  last = in->rotations - 1; /* a whole turn may end with its beginning */
     bool closes = last > 0 && in->rotation[last] - in->rotation[0] == 360;
     for (int r = 0; r <= last - closes; r++)
         for (int i = 0; i < in->incidences; i++)
-            if (!add_block(in, r, i, kept_nm, set, err)) return false;
+            if (!add_block(in, r, i, nm, set, err)) return false;
     totals_tell(&in->totals, in->scan.file, set);
     if (in->rotations > 1)
         import_note(set, "%s: a sample turned by S counter-clockwise is taken as light from "
@@ -306,14 +291,15 @@ static bool add_tables(Zemax *in, float nm, ImportSet *set, Error *err)
 static bool read_zemax(const char *file, const ImportOptions *options, ImportSet *set,
                        Error *err)
 {
-    Zemax in = {.rotations = 0};
-    float nm;
+    Zemax        in = {.rotations = 0};
+    const float *nm;
     if (!scan_open(file, set->arena, &in.scan, err)) return false;
     const char *text = in.scan.next;
     for (bool done = false; !done;)
         if (!read_entry(&in, &done, err)) return false;
     return check_header(&in, err) && read_data(&in, err) &&
-           find_wavelength(&in, options, set, text, &nm, err) && add_tables(&in, nm, set, err);
+           (nm = find_wavelength(&in, options, set, text, err)) &&
+           add_tables(&in, nm, set, err);
 }
 
 static bool is_zemax(const char *file, const char *head, size_t head_size)

@@ -9,33 +9,33 @@
 #define SAME_NM 1e-3f
 
 /* A direction in steps of SAME_ANGLE_DEG, and its row. */
-typedef struct Place {
+typedef struct RowPlace {
     long theta, phi;
     int  row;
-} Place;
+} RowPlace;
 
 #define STEPS(degrees) lround((degrees) / SAME_ANGLE_DEG)
 
 static int by_place(const void *a, const void *b)
 {
-    const Place *p = a, *q = b;
+    const RowPlace *p = a, *q = b;
     if (p->theta != q->theta) return p->theta < q->theta ? -1 : 1;
     if (p->phi != q->phi) return p->phi < q->phi ? -1 : 1;
     return p->row < q->row ? -1 : p->row > q->row;
 }
 
-static bool same_place(const Place *a, const Place *b)
+static bool same_place(const RowPlace *a, const RowPlace *b)
 {
     return a->theta == b->theta && a->phi == b->phi;
 }
 
-static Place *sorted_places(const ImportTable *table, Arena *arena)
+static RowPlace *sorted_places(const ImportTable *table, Arena *arena)
 {
-    Place *place = ARENA_NEW(arena, Place, table->rows);
+    RowPlace *place = ARENA_NEW(arena, RowPlace, table->rows);
     long   turn = STEPS(360.0);
     for (int i = 0; i < table->rows; i++) {
         long phi = STEPS(table->phi_deg[i]) % turn;
-        place[i] = (Place){STEPS(table->theta_deg[i]), phi < 0 ? phi + turn : phi, i};
+        place[i] = (RowPlace){STEPS(table->theta_deg[i]), phi < 0 ? phi + turn : phi, i};
     }
     qsort(place, (size_t)table->rows, sizeof *place, by_place);
     return place;
@@ -54,9 +54,9 @@ int *import_match_rows(const ImportTable *table, const ImportTable *other, Arena
 {
     int   *match = ARENA_NEW(arena, int, table->rows);
     Arena  scratch = *arena;
-    Place *from = sorted_places(table, &scratch), *to = sorted_places(other, &scratch);
+    RowPlace *from = sorted_places(table, &scratch), *to = sorted_places(other, &scratch);
     for (int i = 0, k = 0; i < table->rows; i++) {
-        Place wanted = {from[i].theta, from[i].phi, 0};
+        RowPlace wanted = {from[i].theta, from[i].phi, 0};
         while (k < other->rows && by_place(&to[k], &wanted) < 0) k++;
         match[from[i].row] = k < other->rows && same_place(&to[k], &wanted) ? to[k].row : -1;
     }
@@ -126,7 +126,7 @@ static void join_rows(const Joiner *join, Arena *arena, ImportTable *joined)
     double *phi = ARENA_NEW(arena, double, first->rows);
     double *value = ARENA_NEW(arena, double, (size_t)first->rows * size);
     Arena   scratch = *arena;
-    Place  *place = sorted_places(first, &scratch);
+    RowPlace  *place = sorted_places(first, &scratch);
     int     rows = 0;
     for (int i = 0; i < first->rows; i++) {
         int row = place[i].row;
@@ -237,7 +237,7 @@ void import_remove_source(ImportSet *set, ImportSource source)
 /* How many rows are repetitions; leader[row] is the first row of the same direction. */
 static int find_repeats(const ImportTable *table, Arena scratch, int *leader)
 {
-    Place *place = sorted_places(table, &scratch);
+    RowPlace *place = sorted_places(table, &scratch);
     int    repeats = 0;
     for (int i = 0; i < table->rows; i++) {
         bool again = i && place[i].theta && same_place(&place[i], &place[i - 1]);

@@ -10,10 +10,10 @@
 #define WORDS_MAX 64
 #define WORD_LENGTH 24
 
-typedef struct Word {
+typedef struct RoleWord {
     char   text[WORD_LENGTH]; /* lower case; empty for a number */
     double number;
-} Word;
+} RoleWord;
 
 /* ---- "red:255:X" ------------------------------------------------------------------------- */
 
@@ -116,11 +116,11 @@ static bool is_letter(char c)
 }
 
 /* Runs of letters, and numbers with a point between digits. */
-static int cut_words(const char *text, Word *word)
+static int cut_words(const char *text, RoleWord *word)
 {
     int count = 0;
     while (*text && count < WORDS_MAX) {
-        word[count] = (Word){0};
+        word[count] = (RoleWord){0};
         if (isdigit((unsigned char)*text)) {
             char digits[WORD_LENGTH] = {0};
             for (int n = 0; isdigit((unsigned char)*text) ||
@@ -146,7 +146,7 @@ static bool is_one_of(const char *word, const char *const *list)
 }
 
 /* The pattern that a word names; a single letter counts only before a number. */
-static int colour_of(const Word *word, bool before_number)
+static int colour_of(const RoleWord *word, bool before_number)
 {
     static const char *const words[5][5] = {
         {"red", "rot", "rouge", NULL}, {"green", "gruen", "gr\xC3\xBCn", "vert", NULL},
@@ -161,7 +161,7 @@ static int colour_of(const Word *word, bool before_number)
 }
 
 typedef struct WordReader {
-    const Word *word;
+    const RoleWord *word;
     int         count;
     Role        role;
     int         colours, lights; /* how many of each were found */
@@ -209,7 +209,7 @@ static bool has_loose_number(const WordReader *in, int i)
 static void read_words(WordReader *in)
 {
     for (int i = 0; i < in->count; i++) {
-        const Word *word = &in->word[i];
+        const RoleWord *word = &in->word[i];
         if (!word->text[0]) {
             if (i + 1 < in->count && !strcmp(in->word[i + 1].text, "nm"))
                 in->role.wavelength_nm = word->number;
@@ -237,7 +237,7 @@ static void read_words(WordReader *in)
 
 Role role_from_words(const char *words, double level_max, bool *is_ambiguous)
 {
-    Word       word[WORDS_MAX];
+    RoleWord       word[WORDS_MAX];
     WordReader in = {.word = word, .count = cut_words(words, word)};
     read_words(&in);
     Role *role = &in.role;

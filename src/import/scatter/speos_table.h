@@ -1,4 +1,4 @@
-/* speos.h -- what a Speos scatter file holds, from its text or its binary form.
+/* speos_table.h -- what a Speos scatter file holds, from its text or its binary form.
  *
  * Frame     phi 0 is the mirror direction ("the theoretical specular direction is always
  *           (theta_i, 0)"); an anisotropy angle is the azimuth from the mirror direction to the
@@ -30,14 +30,11 @@ typedef struct Speos {
 #define SPEOS_ANGLES_MAX 4096
 #define SPEOS_TABLES_MAX 4096
 
-bool speos_read_text(const char *file, Arena *arena, Speos *out, Error *err);
-
-/* Known from one public file of version 9.0: every field that is not understood must have the
- * value that it has there. */
-bool speos_read_binary(const char *file, Arena *arena, Speos *out, Error *err);
-
 /* Are the angles of a table rising and in range? */
-bool speos_check_table(const char *file, const SpeosTable *table, Error *err);
+bool speos_table_check(const char *file, const SpeosTable *table, Error *err);
 
 /* Rows down in theta, as the files have them, to phis x thetas. */
-void speos_turn(SpeosTable *table, const double *rows);
+void speos_table_turn(SpeosTable *table, const double *rows);
+
+/* The table's integral of value * cos. */
+double speos_table_integral(const SpeosTable *table, Arena scratch);

@@ -1,0 +1,41 @@
+/* luminaire_scan.h -- the numbers of a luminaire file one after the other, as its format writes
+ * them.
+ *
+ * Memory   the set's arena. Threads: no shared state.
+ * Fails    with the file, the line, what was found and what was wanted.
+ */
+#pragma once
+#include "import/luminaire/luminaire.h"
+#include "import/text/text_lines.h"
+
+typedef struct LuminaireScan LuminaireScan;
+
+/* The next number; `what` names it in a message. */
+typedef bool LuminaireNumber(LuminaireScan *scan, const char *what, double low, double high,
+                             double *out);
+
+struct LuminaireScan {
+    LuminaireNumber *number;
+    TextFile         text;
+    int              line;       /* index of the line that is read; -1: none yet */
+    const char      *next, *end; /* in it: for a format whose numbers share lines */
+    Arena           *arena;
+    Error           *err;
+};
+
+bool luminaire_scan_open(const char *file, LuminaireNumber *number, ImportSet *set,
+                         LuminaireScan *out, Error *err);
+
+/* A whole number. */
+bool luminaire_scan_count(LuminaireScan *scan, const char *what, int low, int high, int *out);
+
+/* Rising angles from 0 to `most` degrees. */
+bool luminaire_scan_angles(LuminaireScan *scan, const char *what, int count, double most,
+                           double *angle);
+
+/* planes x gammas intensities, times `scale`. */
+bool luminaire_scan_intensities(LuminaireScan *scan, double scale, Luminaire *out);
+
+/* An error at the current line. Always false. */
+bool luminaire_scan_fail(const LuminaireScan *scan, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));

@@ -1,0 +1,10 @@
+/* klems.h -- a BSDF matrix over patches of the hemisphere as tables.
+ *
+ * Memory   the set's arena. Threads: one set per thread.
+ * Fails    with the file, the line, what was found and what was wanted.
+ */
+#pragma once
+#include "import/scatter/window_xml.h"
+
+/* nm: the one wavelength of the values; it stays. */
+bool klems_add(const WindowXml *in, const float *nm, ImportSet *set, Error *err);
