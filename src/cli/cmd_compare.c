@@ -7,6 +7,7 @@
 #include "compare/folders.h"
 #include "compare/report/html_report.h"
 #include "compare/report/junit.h"
+#include "text/json_text.h"
 
 #define MEMORY_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
 
@@ -21,16 +22,17 @@ typedef struct CompareRun {
     ErrorCode  first_failure;
 } CompareRun;
 
-static CompareRun start(const CompareRequest *request, bool is_folder, Arena *arena)
+static void start(const CompareRequest *request, bool is_folder, Arena *arena, CompareRun *run)
 {
-    return (CompareRun){.request = request, .arena = arena, .html = {.is_folder = is_folder},
-                  .pairs = json_array()};
+    *run = (CompareRun){.request = request, .arena = arena, .pairs = json_array()};
+    if (request->report) html_report_start(&run->html, is_folder);
+    if (request->junit) junit_start(&run->junit);
 }
 
 static void end(CompareRun *run)
 {
-    html_report_release(&run->html);
-    junit_release(&run->junit);
+    if (run->request->report) html_report_release(&run->html);
+    if (run->request->junit) junit_release(&run->junit);
     json_decref(run->pairs);
 }
 
@@ -79,7 +81,7 @@ static bool compare_two(CompareRun *run, Error *err)
 
 static void add_pair_json(CompareRun *run, const char *name, json_t *pair)
 {
-    json_object_set_new(pair, "name", json_of_text(name));
+    json_object_set_new(pair, "name", json_text(name));
     json_array_append_new(run->pairs, pair);
 }
 
@@ -92,7 +94,7 @@ static void add_missing(CompareRun *run, const char *name, const char *why)
     if (run->request->report) html_report_add_failure(&run->html, name, why);
     if (!run->request->cli.json) printf("%-10s %s: %s\n", "different", name, why);
     add_pair_json(run, name, json_pack("{s:b, s:o, s:[o], s:[]}", "same", 0, "verdict",
-                                        json_of_text(why), "reasons", json_of_text(why),
+                                        json_text(why), "reasons", json_text(why),
                                         "notes"));
 }
 
@@ -110,9 +112,9 @@ static void add_failed(CompareRun *run, const char *name, const Error *error)
     if (!run->request->cli.json) printf("%-10s %s: see the error\n", "failed", name);
     add_pair_json(run, name,
                   json_pack("{s:b, s:[o], s:[], s:{s:i, s:o, s:o}}", "same", 0, "reasons",
-                            json_of_text(line), "notes", "error", "status",
-                            error_exit_status(error->code), "file", json_of_text(error->file),
-                            "message", json_of_text(error->text)));
+                            json_text(line), "notes", "error", "status",
+                            error_exit_status(error->code), "file", json_text(error->file),
+                            "message", json_text(error->text)));
 }
 
 static bool add_compared(CompareRun *run, const FolderPair *pair, Arena arena, Error *err)
@@ -185,7 +187,8 @@ static bool compare(const CompareRequest *request, Arena *arena, Error *err)
     if ((request->report && !file_check_writable(request->report, err)) ||
         (request->junit && !file_check_writable(request->junit, err)))
         return false;
-    CompareRun run = start(request, both, arena);
+    CompareRun run;
+    start(request, both, arena, &run);
     bool       ok = both ? compare_folders(&run, err) : compare_two(&run, err);
     end(&run);
     return ok;

@@ -7,6 +7,8 @@
 #include "compare/report/comparison_json.h"
 #include "compare/report/html_report.h"
 #include "compare/report/junit.h"
+#include "text/base64.h"
+#include "text/escape.h"
 
 /* ---- answers ----------------------------------------------------------------------------- */
 
@@ -14,23 +16,21 @@ static const char WILD[] = "a<b>&\"'\x01\xff]]>\xef\xbf\xbf.png";
 
 static void markup_escapes_and_encodes(void **state)
 {
-    Arena  arena = test_arena(state);
-    Markup markup = {0};
-    markup_escape(&markup, WILD);
-    markup_add(&markup, " ");
-    markup_escape(&markup, "é…\xf0\x9f\x98\x80\xc0\x80");
+    Arena arena = test_arena(state);
+    Text  text = {.arena = &arena};
+    escape_markup(&text, WILD);
+    text_add(&text, " ");
+    escape_markup(&text, "é…\xf0\x9f\x98\x80\xc0\x80");
     const char wanted[] = "a&lt;b&gt;&amp;&quot;&#39;??]]&gt;???.png é…\xf0\x9f\x98\x80??";
-    assert_int_equal(markup.size, sizeof wanted - 1);
-    assert_memory_equal(markup_text(&markup, &arena), wanted, sizeof wanted - 1);
-    markup_release(&markup);
+    assert_int_equal(text.size, sizeof wanted - 1);
+    assert_memory_equal(text.data, wanted, sizeof wanted - 1);
     static const char *const PAIRS[][2] = {{"", ""}, {"f", "Zg=="}, {"fo", "Zm8="},
                                            {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}};
     for (int i = 0; i < 5; i++) { /* RFC 4648, section 10 */
-        markup = (Markup){0};
-        markup_base64(&markup, PAIRS[i][0], strlen(PAIRS[i][0]));
-        assert_int_equal(markup.size, strlen(PAIRS[i][1]));
-        assert_memory_equal(markup_text(&markup, &arena), PAIRS[i][1], strlen(PAIRS[i][1]));
-        markup_release(&markup);
+        text = (Text){.arena = &arena};
+        base64_encode(&text, PAIRS[i][0], strlen(PAIRS[i][0]));
+        assert_int_equal(text.size, strlen(PAIRS[i][1]));
+        assert_memory_equal(text.data, PAIRS[i][1], strlen(PAIRS[i][1]));
     }
 }
 
@@ -42,7 +42,8 @@ static void junit_is_well_formed_whatever_the_names_are(void **state)
     ((float *)b.codes.rgb[0])[3] = 1;
     Comparison  same = compared(&a, &a, LOOSE, &arena);
     Comparison  other = compared(&a, &b, (CompareOptions){.groups = GROUP_MSE}, &arena);
-    Junit       junit = {0};
+    Junit       junit;
+    junit_start(&junit);
     const char *path = in_folder("j.xml");
     junit_add(&junit, WILD, &same);
     junit_add(&junit, WILD, &other);
@@ -97,7 +98,8 @@ static void a_report_is_whole_and_escaped(void **state)
     ((float *)b.codes.rgb[0])[3] = 1;
     Comparison  c = compared(&a, &b, options, &arena);
     const char *path = in_folder("r.html");
-    HtmlReport  report = {.is_folder = false};
+    HtmlReport  report;
+    html_report_start(&report, false);
     assert_true(html_report_add(&report, "b", &c, &options, arena, &err));
     assert_true(html_report_write(&report, WILD, WILD, path, &err));
     assert_true(file_read(path, 1 << 24, &arena, &page, &err));

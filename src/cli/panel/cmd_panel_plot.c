@@ -6,6 +6,7 @@
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
 #include "plot/panel/plot.h"
+#include "plot/panel/report.h"
 #include "text/json_text.h"
 
 #define ARENA_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */

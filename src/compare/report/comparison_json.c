@@ -1,22 +1,10 @@
 #include "compare/report/comparison_json.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "compare/metrics.h"
-
-json_t *json_of_text(const char *text)
-{
-    json_t *string = json_string(text);
-    if (string) return string;
-    char *plain = strdup(text);
-    for (char *c = plain; c && *c; c++)
-        if ((unsigned char)*c >= 0x80) *c = '?';
-    string = json_string(plain ? plain : "");
-    free(plain);
-    return string;
-}
+#include "text/json_text.h"
 
 /* JSON has no NaN. */
 static json_t *number(double value)
@@ -28,7 +16,7 @@ static json_t *texts(const Lines *lines)
 {
     json_t *list = json_array();
     for (int i = 0; i < lines->count; i++)
-        json_array_append_new(list, json_of_text(lines->list[i]));
+        json_array_append_new(list, json_text(lines->list[i]));
     return list;
 }
 
@@ -41,7 +29,7 @@ static json_t *regions_json(const StatisticResult *s)
         const StatisticRegion *r = &s->regions[i];
         json_array_append_new(
             list, json_pack("{s:o, s:I, s:o, s:o, s:o, s:o, s:o, s:b}", "name",
-                            json_of_text(r->name), "pixels", (json_int_t)r->pixels,
+                            json_text(r->name), "pixels", (json_int_t)r->pixels,
                             "reference_cd_m2", number(r->reference), "test_cd_m2",
                             number(r->test), "shift", number(r->shift), "shift_sigma",
                             number(r->shift_sigma), "p_value", number(r->p_value), "moved",
@@ -61,7 +49,7 @@ static json_t *stat_json(const StatisticResult *s)
                      "p_blocks", number(s->p_blocks), "p_histogram", number(s->p_histogram),
                      "p_regions", number(s->p_regions), "shares_noise", s->shares_noise,
                      "block_side", s->block_side, "regions", regions_json(s), "reason",
-                     json_of_text(s->reason));
+                     json_text(s->reason));
 }
 
 static json_t *interval(Measured figure)
@@ -82,7 +70,7 @@ static json_t *contrast_json(const Comparison *c)
     for (int i = 0; i < c->contrast_count; i++) {
         const ContrastChange *d = &c->contrasts[i];
         const Measurement    *a = &d->reference, *b = &d->test;
-        json_t *name = json_of_text(d->display);
+        json_t *name = json_text(d->display);
         json_t *entry = json_pack(
             "{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "reference", number(a->contrast.value),
             "test", number(b->contrast.value), "ratio", number(d->ratio.value),
@@ -139,7 +127,7 @@ static json_t *channels_json(const ChannelDifferences *channels)
     for (int i = 0; i < channels->count; i++) {
         const ChannelDifference *c = &channels->list[i];
         json_array_append_new(
-            list, json_pack("{s:o, s:I, s:o, s:o, s:[I,I], s:I}", "name", json_of_text(c->name),
+            list, json_pack("{s:o, s:I, s:o, s:o, s:[I,I], s:I}", "name", json_text(c->name),
                             "differing", (json_int_t)c->differing, "mean", number(c->mean),
                             "max", number(c->max), "nonfinite", (json_int_t)c->nonfinite[0],
                             (json_int_t)c->nonfinite[1], "gaps", (json_int_t)c->gaps));
@@ -154,10 +142,10 @@ static json_t *metadata_json(const Structure *structure)
         const MetadataRow *row = &structure->metadata[i];
         if (!row->differs) continue;
         json_array_append_new(
-            list, json_pack("{s:o, s:o, s:o, s:b, s:b}", "name", json_of_text(row->name),
-                            "reference", row->reference ? json_of_text(row->reference)
+            list, json_pack("{s:o, s:o, s:o, s:b, s:b}", "name", json_text(row->name),
+                            "reference", row->reference ? json_text(row->reference)
                                                         : json_null(),
-                            "test", row->test ? json_of_text(row->test) : json_null(),
+                            "test", row->test ? json_text(row->test) : json_null(),
                             "decides", row->decides, "ignored", row->is_ignored));
     }
     return list;
@@ -169,9 +157,9 @@ json_t *comparison_json(const Comparison *c, const CompareOptions *options)
                                          [JUDGED_BY_STATISTIC] = "stat",
                                          [JUDGED_BY_EQUALITY] = "equality"};
     json_t *out = json_pack("{s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "same", c->same,
-                            "reference", json_of_text(c->reference.name), "test",
-                            json_of_text(c->test.name), "verdict", json_of_text(c->verdict),
-                            "mean", json_of_text(c->mean), "metrics", metrics_json(c), "limits",
+                            "reference", json_text(c->reference.name), "test",
+                            json_text(c->test.name), "verdict", json_text(c->verdict),
+                            "mean", json_text(c->mean), "metrics", metrics_json(c), "limits",
                             limits_json(c, options), "reasons", texts(&c->reasons), "notes",
                             texts(&c->notes));
     json_object_set_new(out, "kind", json_string(c->reference.kind == INPUT_FRAME
@@ -188,7 +176,7 @@ json_t *comparison_json(const Comparison *c, const CompareOptions *options)
     json_object_set_new(out, "channels", channels_json(&c->channels));
     if (c->reference.kind == INPUT_FRAME) {
         json_object_set_new(out, "shown_ev", number(c->shown_ev));
-        json_object_set_new(out, "shown_with", json_of_text(c->shown_with));
+        json_object_set_new(out, "shown_with", json_text(c->shown_with));
     }
     return out;
 }

@@ -42,27 +42,28 @@ static int code_of(float value)
     return (int)(value * 255 + 0.5f);
 }
 
-void markup_ramp(Markup *markup, bool is_signed)
+static void add_colour(Text *text, const char *before, const float srgb[3])
+{
+    text_format(text, "%s%02x%02x%02x", before, code_of(srgb[0]), code_of(srgb[1]),
+                code_of(srgb[2]));
+}
+
+void shot_ramp_digits(Text *text, bool is_signed)
 {
     Ramp ramp;
     make_ramp(is_signed, &ramp);
-    for (int i = 0; i < RAMP_COLOURS; i++)
-        markup_format(markup, "%02x%02x%02x", code_of(ramp.colour[i][0]),
-                      code_of(ramp.colour[i][1]), code_of(ramp.colour[i][2]));
+    for (int i = 0; i < RAMP_COLOURS; i++) add_colour(text, "", ramp.colour[i]);
 }
 
-void markup_gradient(Markup *markup, bool is_signed)
+void shot_ramp_gradient(Text *html, bool is_signed)
 {
     enum { STOPS = 16 };
     Ramp ramp;
     make_ramp(is_signed, &ramp);
-    markup_add(markup, "style=\"background:linear-gradient(to right");
-    for (int i = 0; i <= STOPS; i++) {
-        const float *colour = ramp.colour[i * (RAMP_COLOURS - 1) / STOPS];
-        markup_format(markup, ",#%02x%02x%02x", code_of(colour[0]), code_of(colour[1]),
-                      code_of(colour[2]));
-    }
-    markup_add(markup, ")\"");
+    text_add(html, "style=\"background:linear-gradient(to right");
+    for (int i = 0; i <= STOPS; i++)
+        add_colour(html, ",#", ramp.colour[i * (RAMP_COLOURS - 1) / STOPS]);
+    text_add(html, ")\"");
 }
 
 /* ---- smaller ----------------------------------------------------------------------------- */
@@ -371,17 +372,4 @@ bool shot_make(const Comparison *c, ShotKind kind, int factor, Arena *arena, Sho
     case SHOT_COUNT: break;
     }
     return false;
-}
-
-bool markup_picture(Markup *markup, const Picture *picture, bool is_jpeg, Arena scratch,
-                    Error *err)
-{
-    FileBytes   bytes;
-    PictureFile file = {.bits = 8, .is_srgb = true};
-    if (!picture_encode(is_jpeg ? "a.jpg" : "a.png", picture, file, &scratch, &bytes, err))
-        return error_prefix(err, "a picture of the report");
-    markup_format(markup, "src=\"data:image/%s;base64,", is_jpeg ? "jpeg" : "png");
-    markup_base64(markup, bytes.data, bytes.size);
-    markup_add(markup, "\"");
-    return true;
 }

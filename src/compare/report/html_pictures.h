@@ -5,7 +5,8 @@
  */
 #pragma once
 #include "compare/comparison.h"
-#include "page/markup.h"
+#include "image/picture.h"
+#include "text/text.h"
 
 typedef enum ShotKind {
     SHOT_REFERENCE, SHOT_TEST, SHOT_DIFFERENCE, SHOT_BLOCKS, SHOT_P_VALUE, SHOT_FLIP,
@@ -39,12 +40,8 @@ int shot_factor(const Planes *planes, long most);
 /* A small picture of one side (SHOT_REFERENCE, SHOT_TEST), at most `side` pixels wide. */
 Picture shot_thumbnail(const Comparison *c, ShotKind kind, int side, Arena *arena);
 
-/* src="data:..." of a picture, JPEG or PNG. */
-bool markup_picture(Markup *markup, const Picture *picture, bool is_jpeg, Arena scratch,
-                    Error *err);
-
-/* The colours of both ramps from left to right, as "rrggbb" 256 times. */
-void markup_ramp(Markup *markup, bool is_signed);
+/* The colours of a ramp from left to right, as "rrggbb" 256 times. */
+void shot_ramp_digits(Text *text, bool is_signed);
 
 /* style="background:linear-gradient(...)" of a ramp. */
-void markup_gradient(Markup *markup, bool is_signed);
+void shot_ramp_gradient(Text *html, bool is_signed);

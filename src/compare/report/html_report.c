@@ -1,22 +1,37 @@
 #include "compare/report/html_report.h"
 
 #include <math.h>
-#include <string.h>
+#include <stdio.h>
 #include <strings.h>
 
 #include "base/file.h"
-#include "compare/report/html_page.h"
 #include "compare/report/html_pictures.h"
 #include "compare/report/html_tables.h"
+#include "page/page.h"
+#include "text/escape.h"
 
 #define PAIR_PIXELS 4000000L   /* of a picture in a report of two files */
 #define FOLDER_PIXELS 1500000L /* of one among many */
 #define THUMBNAIL 240
+#define MOST_BYTES ((size_t)16 << 30) /* of address space for each text */
+#define FRAME_BYTES ((size_t)1 << 28) /* for what stands around the pairs */
+
+/* report.css and report.js beside this file; the build embeds them. */
+extern const char COMPARE_STYLE[], COMPARE_SCRIPT[];
+
+/* The index and the pairs grow side by side, each in an arena of its own. */
+void html_report_start(HtmlReport *report, bool is_folder)
+{
+    *report = (HtmlReport){.is_folder = is_folder};
+    for (int i = 0; i < 2; i++) report->own[i] = arena_reserve(MOST_BYTES);
+    report->index.arena = &report->own[0];
+    report->pairs.arena = &report->own[1];
+}
 
 void html_report_release(HtmlReport *report)
 {
-    markup_release(&report->index);
-    markup_release(&report->pairs);
+    for (int i = 0; i < 2; i++) arena_release(&report->own[i]);
+    *report = (HtmlReport){0};
 }
 
 bool html_report_check_name(const char *path, Error *err)
@@ -28,76 +43,67 @@ bool html_report_check_name(const char *path, Error *err)
 
 /* ---- one pair ---------------------------------------------------------------------------- */
 
-static void add_scale(Markup *html, const ShotScale *scale)
+static void add_scale(Text *html, const ShotScale *scale)
 {
-    markup_add(html, "<div class=\"scale\"><i ");
-    markup_gradient(html, scale->is_signed);
-    markup_add(html, "></i><div>");
+    bool names_unit = scale->is_signed && scale->unit[0];
+    text_add(html, "<div class=\"scale\"><i ");
+    shot_ramp_gradient(html, scale->is_signed);
+    text_add(html, "></i><div>");
     for (int i = 0; i < 5; i++) {
-        markup_add(html, "<span>");
-        markup_escape(html, scale->ticks[i]);
-        if (i == 4 && scale->is_signed && scale->unit[0]) {
-            markup_add(html, " ");
-            markup_escape(html, scale->unit);
-        }
-        markup_add(html, "</span>");
+        text_add(html, "<span>");
+        escape_markup(html, scale->ticks[i]);
+        text_add(html, i == 4 && names_unit ? " " : "");
+        escape_markup(html, i == 4 && names_unit ? scale->unit : "");
+        text_add(html, "</span>");
     }
-    markup_add(html, "</div>");
-    if (scale->also) {
-        markup_add(html, "<div><span>");
-        markup_escape(html, scale->also);
-        markup_add(html, "</span></div>");
-    }
-    markup_add(html, "</div>");
+    text_add(html, "</div>");
+    if (scale->also) page_element(html, "div", scale->also);
+    text_add(html, "</div>");
 }
 
-static bool add_shot(Markup *html, const Shot *shot, Arena scratch, Error *err)
+static bool add_shot(Text *html, const Shot *shot, Arena scratch, Error *err)
 {
     static const char *const KINDS[SHOT_COUNT] = {
         [SHOT_REFERENCE] = "reference", [SHOT_TEST] = "test", [SHOT_DIFFERENCE] = "difference",
         [SHOT_BLOCKS] = "blocks",       [SHOT_P_VALUE] = "p", [SHOT_FLIP] = "flip",
         [SHOT_DELTAE] = "deltae"};
-    markup_format(html, "<figure class=\"shot\" data-kind=\"%s\"", KINDS[shot->kind]);
-    if (shot->has_scale) {
-        markup_format(html, " data-ramp=\"%s\" data-low=\"%.9g\" data-high=\"%.9g\" "
-                      "data-unit=\"", shot->scale.is_signed ? "signed" : "plain",
-                      shot->scale.low, shot->scale.high);
-        markup_escape(html, shot->scale.unit);
-        markup_add(html, "\"");
-    }
-    markup_format(html, "><h3>%s</h3><img alt=\"%s\" ", shot->title, shot->title);
-    if (!markup_picture(html, &shot->picture, false, scratch, err)) return false;
-    markup_add(html, ">");
+    text_format(html, "<figure class=\"shot\" data-kind=\"%s\"", KINDS[shot->kind]);
+    if (shot->has_scale)
+        text_format(html, " data-ramp=\"%s\" data-low=\"%.9g\" data-high=\"%.9g\" "
+                    "data-unit=\"%s\"", shot->scale.is_signed ? "signed" : "plain",
+                    shot->scale.low, shot->scale.high, shot->scale.unit);
+    text_add(html, ">");
+    page_element(html, "h3", shot->title);
+    if (!page_picture(html, shot->title, &shot->picture, false, scratch, err)) return false;
     if (shot->has_scale) add_scale(html, &shot->scale);
-    markup_add(html, "<figcaption>");
-    markup_escape(html, shot->caption);
-    markup_add(html, "</figcaption></figure>\n");
+    page_element(html, "figcaption", shot->caption);
+    text_add(html, "</figure>\n");
     return true;
 }
 
-static bool add_shots(Markup *html, const Comparison *c, long most_pixels, Arena scratch,
+static bool add_shots(Text *html, const Comparison *c, long most_pixels, Arena scratch,
                       Error *err)
 {
     int factor = shot_factor(&c->light[0], most_pixels);
-    markup_format(html, "<div class=\"shots\" data-factor=\"%d\">\n", factor);
+    text_format(html, "<div class=\"shots\" data-factor=\"%d\">\n", factor);
     for (int kind = 0; kind < SHOT_COUNT; kind++) {
         Shot  shot;
         Arena arena = scratch;
         if (!shot_make(c, (ShotKind)kind, factor, &arena, &shot)) continue;
         if (!add_shot(html, &shot, arena, err)) return false;
     }
-    markup_add(html, "</div>\n");
+    text_add(html, "</div>\n");
     if (factor > 1)
-        markup_format(html, "<p class=\"sub\">The pictures are reduced to 1 : %d; the figures "
-                      "are of all pixels.</p>\n", factor);
+        text_format(html, "<p class=\"sub\">The pictures are reduced to 1 : %d; the metrics "
+                    "are of all pixels.</p>\n", factor);
     return true;
 }
 
 /* Sides that have no pixels in common, for those who wonder why. */
-static bool add_both_sides(Markup *html, const Comparison *c, long most_pixels, Arena scratch,
+static bool add_both_sides(Text *html, const Comparison *c, long most_pixels, Arena scratch,
                            Error *err)
 {
-    markup_add(html, "<div class=\"shots\">\n");
+    text_add(html, "<div class=\"shots\">\n");
     for (int kind = SHOT_REFERENCE; kind <= SHOT_TEST; kind++) {
         Shot          shot;
         Arena         arena = scratch;
@@ -105,43 +111,38 @@ static bool add_both_sides(Markup *html, const Comparison *c, long most_pixels, 
         shot_make(c, (ShotKind)kind, shot_factor(codes, most_pixels), &arena, &shot);
         if (!add_shot(html, &shot, arena, err)) return false;
     }
-    markup_add(html, "</div>\n");
+    text_add(html, "</div>\n");
     return true;
 }
 
-static void add_verdict(Markup *html, const Comparison *c)
+/* <h1> begins: what follows is the verdict's sentence. */
+static void begin_verdict(Text *html, bool is_same)
 {
-    markup_format(html, "<div class=\"verdict %s\"><h1><b>%s</b>: ",
-                  c->same ? "same" : "different", c->same ? "Same" : "Different");
-    markup_escape(html, c->verdict);
-    markup_add(html, "</h1>\n");
-    if (c->mean[0]) {
-        markup_add(html, "<p class=\"mean\">");
-        markup_escape(html, c->mean);
-        markup_add(html, "</p>\n");
-    }
-    if (c->reasons.count > 1) {
-        markup_add(html, "<ul class=\"reasons\">\n");
-        for (int i = 1; i < c->reasons.count; i++) { /* the verdict says the first */
-            markup_add(html, "<li>");
-            markup_escape(html, c->reasons.list[i]);
-            markup_add(html, "</li>\n");
-        }
-        markup_add(html, "</ul>\n");
-    }
-    markup_add(html, "</div>\n");
+    text_format(html, "<div class=\"verdict %s\"><h1><b>%s</b>: ",
+                is_same ? "same" : "different", is_same ? "Same" : "Different");
 }
 
-static void add_sides(Markup *html, const char *reference, const char *test)
+static void add_verdict(Text *html, const Comparison *c)
 {
-    markup_add(html, "<p class=\"sub\">reference ");
-    markup_escape(html, reference);
-    markup_add(html, " · test ");
-    markup_escape(html, test);
-    markup_add(html, "</p>\n");
+    begin_verdict(html, c->same);
+    escape_markup(html, c->verdict);
+    text_add(html, "</h1>\n");
+    if (c->mean[0]) page_element(html, "p class=\"mean\"", c->mean);
+    if (c->reasons.count > 1) /* the verdict says the first */
+        page_list(html, "reasons", c->reasons.list + 1, c->reasons.count - 1);
+    text_add(html, "</div>\n");
 }
 
-static bool add_pair(Markup *html, const Comparison *c, const CompareOptions *options,
+static void add_sides(Text *html, const char *reference, const char *test)
+{
+    text_add(html, "<p class=\"sub\">reference ");
+    escape_markup(html, reference);
+    text_add(html, " · test ");
+    escape_markup(html, test);
+    text_add(html, "</p>\n");
+}
+
+static bool add_pair(Text *html, const Comparison *c, const CompareOptions *options,
                      long most_pixels, Arena scratch, Error *err)
 {
     add_verdict(html, c);
@@ -157,32 +158,39 @@ static bool add_pair(Markup *html, const Comparison *c, const CompareOptions *op
 
 /* ---- folders ----------------------------------------------------------------------------- */
 
+/* What a card says below its picture; `more` is markup. */
+static void add_card_text(Text *html, const char *name, const char *answer, const char *why,
+                          const char *more)
+{
+    text_add(html, "<div><strong>");
+    escape_markup(html, name);
+    text_format(html, "</strong><em>%s</em>: ", answer);
+    escape_markup(html, why);
+    text_format(html, "%s</div>", more);
+}
+
 static bool add_card(HtmlReport *report, const char *name, const Comparison *c, Arena scratch,
                      Error *err)
 {
-    Markup  *html = &report->index;
+    char     flip[64] = "";
+    Text    *html = &report->index;
     ShotKind kind = c->same ? SHOT_REFERENCE : SHOT_TEST;
-    markup_format(html, c->same ? "<div class=\"card same\">"
-                                : "<a class=\"card\" href=\"#pair-%d\">", report->count);
-    Picture small = shot_thumbnail(c, kind, THUMBNAIL, &scratch);
-    markup_add(html, "<img alt=\"\" ");
-    if (!markup_picture(html, &small, true, scratch, err)) return false;
-    markup_add(html, "><div><strong>");
-    markup_escape(html, name);
-    markup_format(html, "</strong><em>%s</em>: ", c->same ? "same" : "different");
-    markup_escape(html, c->verdict);
+    Picture  small = shot_thumbnail(c, kind, THUMBNAIL, &scratch);
+    text_format(html, c->same ? "<div class=\"card same\">"
+                              : "<a class=\"card\" href=\"#pair-%d\">", report->count);
+    if (!page_picture(html, "", &small, true, scratch, err)) return false;
     if (!isnan(c->value[METRIC_FLIP]))
-        markup_format(html, "<br>FLIP %.3g", c->value[METRIC_FLIP]);
-    markup_add(html, c->same ? "</div></div>\n" : "</div></a>\n");
+        snprintf(flip, sizeof flip, "<br>FLIP %.3g", c->value[METRIC_FLIP]);
+    add_card_text(html, name, c->same ? "same" : "different", c->verdict, flip);
+    text_add(html, c->same ? "</div>\n" : "</a>\n");
     return true;
 }
 
 static void begin_pair(HtmlReport *report, const char *name)
 {
-    markup_format(&report->pairs, "<details class=\"pair\" id=\"pair-%d\"%s><summary>",
-                  report->count, report->shown++ == 0 ? " open" : "");
-    markup_escape(&report->pairs, name);
-    markup_add(&report->pairs, "</summary>\n");
+    text_format(&report->pairs, "<details class=\"pair\" id=\"pair-%d\"%s>", report->count,
+                report->shown++ == 0 ? " open" : "");
+    page_element(&report->pairs, "summary", name);
 }
 
 bool html_report_add(HtmlReport *report, const char *name, const Comparison *c,
@@ -190,15 +198,15 @@ bool html_report_add(HtmlReport *report, const char *name, const Comparison *c,
 {
     bool ok = true;
     if (!report->is_folder) {
-        markup_add(&report->pairs, "<section class=\"pair\">\n");
+        text_add(&report->pairs, "<section class=\"pair\">\n");
         ok = add_pair(&report->pairs, c, options, PAIR_PIXELS, scratch, err);
-        markup_add(&report->pairs, "</section>\n");
+        text_add(&report->pairs, "</section>\n");
     } else {
         ok = add_card(report, name, c, scratch, err);
         if (ok && !c->same) {
             begin_pair(report, name);
             ok = add_pair(&report->pairs, c, options, FOLDER_PIXELS, scratch, err);
-            markup_add(&report->pairs, "</details>\n");
+            text_add(&report->pairs, "</details>\n");
         }
     }
     report->count++;
@@ -208,67 +216,62 @@ bool html_report_add(HtmlReport *report, const char *name, const Comparison *c,
 
 void html_report_add_failure(HtmlReport *report, const char *name, const char *why)
 {
-    markup_format(&report->index, "<div class=\"card\" id=\"pair-%d\"><div><strong>",
-                  report->count);
-    markup_escape(&report->index, name);
-    markup_add(&report->index, "</strong><em>failed</em>: ");
-    markup_escape(&report->index, why);
-    markup_add(&report->index, "</div></div>\n");
+    text_format(&report->index, "<div class=\"card\" id=\"pair-%d\">", report->count);
+    add_card_text(&report->index, name, "failed", why, "");
+    text_add(&report->index, "</div>\n");
     report->count++;
     report->different++;
 }
 
 /* ---- the page ---------------------------------------------------------------------------- */
 
-static void add_head(Markup *html, const char *reference, const char *test)
+static void begin_page(Text *html, const char *reference, const char *test)
 {
-    markup_add(html, "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-               "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-               "<title>");
-    markup_escape(html, path_name(test));
-    markup_add(html, " against ");
-    markup_escape(html, path_name(reference));
-    markup_add(html, "</title>\n<style>\n");
-    markup_add(html, REPORT_TEXT_css);
-    markup_add(html, "</style></head>\n<body><main>\n");
+    page_begin(html, &(PageHead){.title = arena_format(html->arena, "%s against %s",
+                                                       path_name(test), path_name(reference)),
+                                 .style = COMPARE_STYLE});
 }
 
-static void add_index(Markup *html, const HtmlReport *report, const char *reference,
-                      const char *test)
+static void begin_index(Text *html, const HtmlReport *report, const char *reference,
+                        const char *test)
 {
-    markup_format(html, "<div class=\"verdict %s\"><h1><b>%s</b>: ",
-                  report->different ? "different" : "same",
-                  report->different ? "Different" : "Same");
+    begin_verdict(html, report->different == 0);
     if (report->different)
-        markup_format(html, "%d of %d pairs differ", report->different, report->count);
+        text_format(html, "%d of %d pairs differ", report->different, report->count);
     else
-        markup_format(html, "%s %d pair%s", report->count == 1 ? "the" : "all", report->count,
-                      report->count == 1 ? "" : "s");
-    markup_add(html, "</h1></div>\n");
+        text_format(html, "%s %d pair%s", report->count == 1 ? "the" : "all", report->count,
+                    report->count == 1 ? "" : "s");
+    text_add(html, "</h1></div>\n");
     add_sides(html, reference, test);
-    markup_add(html, "<p class=\"sub\" hidden style=\"margin-top:14px\"><label>"
-               "<input type=\"checkbox\" id=\"only\"> only what differs</label></p>\n"
-               "<div class=\"cards\">\n");
-    markup_append(html, &report->index);
-    markup_add(html, "</div>\n");
+    text_add(html, "<p class=\"sub only-differing\" hidden><label>"
+             "<input type=\"checkbox\" id=\"only\"> only what differs</label></p>\n"
+             "<div class=\"cards\">\n");
+}
+
+static void end_page(Text *html)
+{
+    Text ramps = {.arena = html->arena};
+    text_add(&ramps, "var ramps={\"signed\":\"");
+    shot_ramp_digits(&ramps, true);
+    text_add(&ramps, "\",\"plain\":\"");
+    shot_ramp_digits(&ramps, false);
+    text_add(&ramps, "\"};\n");
+    page_end(html, "compare --report", (const char *const[]){ramps.data, COMPARE_SCRIPT, NULL});
 }
 
 bool html_report_write(const HtmlReport *report, const char *reference, const char *test,
                        const char *path, Error *err)
 {
-    Markup html = {0};
-    add_head(&html, reference, test);
-    if (report->is_folder) add_index(&html, report, reference, test);
-    markup_append(&html, &report->pairs);
-    markup_add(&html, "<footer>parhelion " PARHELION_VERSION ", compare --report</footer>\n"
-               "</main>\n<script>\nvar ramps={\"signed\":\"");
-    markup_ramp(&html, true);
-    markup_add(&html, "\",\"plain\":\"");
-    markup_ramp(&html, false);
-    markup_add(&html, "\"};\n");
-    markup_add(&html, REPORT_TEXT_js);
-    markup_add(&html, "</script>\n</body></html>\n");
-    bool ok = markup_write(&html, path, err);
-    markup_release(&html);
+    Arena arena = arena_reserve(FRAME_BYTES);
+    Text  begin = {.arena = &arena}, between = {.arena = &arena}, end = {.arena = &arena};
+    begin_page(&begin, reference, test);
+    if (report->is_folder) {
+        begin_index(&begin, report, reference, test);
+        text_add(&between, "</div>\n");
+    }
+    end_page(&end);
+    const Text *const parts[] = {&begin, &report->index, &between, &report->pairs, &end};
+    bool ok = page_write(parts, 5, path, err);
+    arena_release(&arena);
     return ok;
 }

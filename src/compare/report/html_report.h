@@ -9,15 +9,17 @@
  */
 #pragma once
 #include "compare/comparison.h"
-#include "page/markup.h"
+#include "text/text.h"
 
-/* {.is_folder = ...} is empty. */
 typedef struct HtmlReport {
-    bool   is_folder;
-    Markup index, pairs; /* cards, and what stands below them */
-    int    count, different, shown; /* pairs; of these, below the index */
+    bool  is_folder;
+    Arena own[2];       /* of the two texts */
+    Text  index, pairs; /* cards, and what stands below them */
+    int   count, different, shown; /* pairs; of these, below the index */
 } HtmlReport;
 
+/* The report must stay where it is until it is released. */
+void html_report_start(HtmlReport *report, bool is_folder);
 void html_report_release(HtmlReport *report);
 
 /* name: of the pair, as in both folders. The comparison is not kept. */

@@ -4,7 +4,11 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A figure as people read it: "0.0123", "1.2 %", "12.3 cd/m²". */
+#include "page/page.h"
+
+#define COUNT_OF(list) ((int)(sizeof(list) / sizeof *(list)))
+
+/* A metric as people read it: "0.0123", "1.2 %", "12.3 cd/m²". */
 static const char *value_text(const Comparison *c, Metric metric, double value, char text[64])
 {
     const MetricInfo *info = metric_info(metric);
@@ -29,217 +33,194 @@ static const Threshold *limit_of(const CompareOptions *options, Metric metric)
     return NULL;
 }
 
-/* ---- first figures ----------------------------------------------------------------------- */
+/* ---- what is looked at first ------------------------------------------------------------- */
 
-static void add_key(Markup *html, const Comparison *c, const CompareOptions *options,
+static void add_key(Text *html, const Comparison *c, const CompareOptions *options,
                     Metric metric)
 {
-    char             text[64];
-    const Threshold *limit = limit_of(options, metric);
-    double           value = c->value[metric];
+    char              text[64], wanted[64], name[192];
+    const Threshold  *limit = limit_of(options, metric);
+    const MetricInfo *info = metric_info(metric);
+    double            value = c->value[metric];
     if (isnan(value) && !limit) return;
-    bool is_over = limit && !threshold_holds(*limit, value);
-    markup_format(html, "<div%s><b>", is_over ? " class=\"over\"" : "");
-    markup_escape(html, value_text(c, metric, value, text));
-    markup_add(html, "</b><span>");
-    markup_escape(html, metric_info(metric)->label);
-    if (limit) {
-        markup_add(html, metric_info(metric)->is_min ? ", at least " : ", at most ");
-        markup_escape(html, value_text(c, metric, limit->limit, text));
-    }
-    markup_add(html, "</span></div>\n");
+    snprintf(name, sizeof name, "%s%s%s", info->label,
+             !limit ? "" : info->is_min ? ", at least " : ", at most ",
+             limit ? value_text(c, metric, limit->limit, wanted) : "");
+    page_key(html, value_text(c, metric, value, text), name,
+             limit && !threshold_holds(*limit, value));
 }
 
-void html_add_keys(Markup *html, const Comparison *c, const CompareOptions *options)
+void html_add_keys(Text *html, const Comparison *c, const CompareOptions *options)
 {
     static const Metric KEYS[] = {METRIC_MEAN_SHIFT,  METRIC_P_VALUE, METRIC_FLIP,
                                   METRIC_DELTAE_MEAN, METRIC_PSNR,    METRIC_SSIM,
                                   METRIC_CONTRAST_CHANGE};
     if (!c->has_pixels) return;
-    markup_add(html, "<div class=\"key\">\n");
-    for (size_t i = 0; i < sizeof KEYS / sizeof *KEYS; i++) add_key(html, c, options, KEYS[i]);
-    markup_add(html, "</div>\n");
+    page_keys_begin(html);
+    for (int i = 0; i < COUNT_OF(KEYS); i++) add_key(html, c, options, KEYS[i]);
+    page_keys_end(html);
 }
 
 /* ---- tables ------------------------------------------------------------------------------ */
 
-static void add_cell(Markup *html, const char *text)
+static void add_metrics(Text *html, const Comparison *c, const CompareOptions *options)
 {
-    markup_add(html, "<td>");
-    markup_escape(html, text);
-    markup_add(html, "</td>");
-}
-
-static void begin_table(Markup *html, const char *title, const char *header)
-{
-    if (title[0]) markup_format(html, "<h3>%s</h3>", title);
-    markup_format(html, "<div class=\"wide\"><table><thead><tr>%s</tr></thead><tbody>\n",
-                  header);
-}
-
-static void end_table(Markup *html)
-{
-    markup_add(html, "</tbody></table></div>\n");
-}
-
-static void add_figures(Markup *html, const Comparison *c, const CompareOptions *options)
-{
-    begin_table(html, "Figures", "<th>figure</th><th class=\"n\">value</th>"
-                "<th class=\"n\">limit</th><th></th>");
+    static const PageColumn COLUMNS[] = {
+        {"metric", false, NULL}, {"value", true, NULL}, {"limit", true, NULL},
+        {"", false, NULL}};
+    page_table_begin(html, "Metrics", "", COLUMNS, COUNT_OF(COLUMNS));
     for (int i = 0; i < METRIC_COUNT; i++) {
-        char             value[64], wanted[64];
+        char             text[64];
         const Threshold *limit = limit_of(options, (Metric)i);
         const MetricInfo *info = metric_info((Metric)i);
         if (isnan(c->value[i]) && !limit) continue;
         bool holds = !limit || threshold_holds(*limit, c->value[i]);
-        markup_add(html, "<tr><td>");
-        markup_escape(html, info->label);
-        markup_format(html, "</td><td class=\"n%s\">", holds ? "" : " bad");
-        markup_escape(html, value_text(c, (Metric)i, c->value[i], value));
-        markup_add(html, "</td><td class=\"n\">");
-        if (limit) {
-            markup_add(html, info->is_min ? "≥ " : "≤ ");
-            markup_escape(html, value_text(c, (Metric)i, limit->limit, wanted));
-        }
-        markup_format(html, "</td><td class=\"%s\">%s</td></tr>\n", holds ? "good" : "bad",
-                      limit ? holds ? "within" : "beyond" : "");
+        page_row_begin(html, "");
+        page_cell(html, "", info->label);
+        page_cell(html, holds ? "n" : "n bad", value_text(c, (Metric)i, c->value[i], text));
+        if (limit)
+            page_cell_format(html, "n", "%s %s", info->is_min ? "≥" : "≤",
+                             value_text(c, (Metric)i, limit->limit, text));
+        else
+            page_cell(html, "", "");
+        page_cell(html, holds ? "good" : "bad", !limit ? "" : holds ? "within" : "beyond");
+        page_row_end(html);
     }
-    end_table(html);
+    page_table_end(html);
 }
 
-static void add_regions(Markup *html, const StatisticResult *s)
+static void add_regions(Text *html, const StatisticResult *s)
 {
-    begin_table(html, "Means in cd/m², tested one by one",
-                "<th>region</th><th class=\"n\">reference</th><th class=\"n\">test</th>"
-                "<th class=\"n\">change</th><th class=\"n\" title=\"one factor for all pixels: "
-                "the surer count more\">in proportion</th><th class=\"n\">p</th><th></th>");
+    static const PageColumn COLUMNS[] = {
+        {"region", false, NULL}, {"reference", true, NULL}, {"test", true, NULL},
+        {"change", true, NULL},
+        {"in proportion", true, "one factor for all pixels: the surer count more"},
+        {"p", true, NULL}, {"", false, NULL}};
+    page_table_begin(html, "Means in cd/m², tested one by one", "", COLUMNS, COUNT_OF(COLUMNS));
     for (int i = 0; i < s->region_count; i++) {
         const StatisticRegion *r = &s->regions[i];
-        markup_add(html, "<tr>");
-        add_cell(html, r->name);
-        markup_format(html, "<td class=\"n\">%.4g</td><td class=\"n\">%.4g</td>"
-                      "<td class=\"n\">%+.2g ± %.2g %%</td><td class=\"n\">%+.2g ± %.2g %%</td>"
-                      "<td class=\"n\">%.2g</td><td class=\"%s\">%s</td></tr>\n",
-                      r->reference, r->test, 100 * r->shift, 196 * r->shift_sigma,
-                      100 * r->change, 196 * r->change_sigma, r->p_value,
-                      r->moved ? "bad" : "good", r->moved ? "moved" : "noise");
+        page_row_begin(html, "");
+        page_cell(html, "", r->name);
+        page_cell_format(html, "n", "%.4g", r->reference);
+        page_cell_format(html, "n", "%.4g", r->test);
+        page_cell_format(html, "n", "%+.2g ± %.2g %%", 100 * r->shift, 196 * r->shift_sigma);
+        page_cell_format(html, "n", "%+.2g ± %.2g %%", 100 * r->change, 196 * r->change_sigma);
+        page_cell_format(html, "n", "%.2g", r->p_value);
+        page_cell(html, r->moved ? "bad" : "good", r->moved ? "moved" : "noise");
+        page_row_end(html);
     }
-    end_table(html);
+    page_table_end(html);
 }
 
-static void add_displays(Markup *html, const Comparison *c)
+static void add_contrast_change(Text *html, const ContrastChange *change)
 {
-    begin_table(html, "Contrast of the displays",
-                "<th>display</th><th class=\"n\">reference</th><th class=\"n\">test</th>"
-                "<th class=\"n\">change</th><th class=\"n\">reflected, cd/m²</th>");
+    double ratio = 100 * (change->ratio.value - 1);
+    if (isnan(change->ratio.half_width))
+        page_cell_format(html, "n", "%+.3g %%", ratio);
+    else
+        page_cell_format(html, "n", "%+.3g ± %.2g %%", ratio, 100 * change->ratio.half_width);
+}
+
+static void add_displays(Text *html, const Comparison *c)
+{
+    static const PageColumn COLUMNS[] = {
+        {"display", false, NULL}, {"reference", true, NULL}, {"test", true, NULL},
+        {"change", true, NULL}, {"reflected, cd/m²", true, NULL}};
+    page_table_begin(html, "Contrast of the displays", "", COLUMNS, COUNT_OF(COLUMNS));
     for (int i = 0; i < c->contrast_count; i++) {
         const ContrastChange *d = &c->contrasts[i];
-        markup_add(html, "<tr>");
-        add_cell(html, d->display);
-        markup_format(html, "<td class=\"n\">%.4g : 1</td><td class=\"n\">%.4g : 1</td>",
-                      d->reference.contrast.value, d->test.contrast.value);
-        markup_format(html, "<td class=\"n\">%+.3g", 100 * (d->ratio.value - 1));
-        if (!isnan(d->ratio.half_width))
-            markup_format(html, " ± %.2g", 100 * d->ratio.half_width);
-        markup_format(html, " %%</td><td class=\"n\">%.4g → %.4g</td></tr>\n",
-                      d->reference.reflected, d->test.reflected);
+        page_row_begin(html, "");
+        page_cell(html, "", d->display);
+        page_cell_format(html, "n", "%.4g : 1", d->reference.contrast.value);
+        page_cell_format(html, "n", "%.4g : 1", d->test.contrast.value);
+        add_contrast_change(html, d);
+        page_cell_format(html, "n", "%.4g → %.4g", d->reference.reflected, d->test.reflected);
+        page_row_end(html);
     }
-    end_table(html);
+    page_table_end(html);
 }
 
-static void add_channels(Markup *html, const ChannelDifferences *channels)
+static void add_channels(Text *html, const ChannelDifferences *channels)
 {
-    begin_table(html, "",
-                "<th>channel</th><th class=\"n\">pixels</th><th class=\"n\">mean</th>"
-                "<th class=\"n\">greatest</th><th class=\"n\">not finite</th>");
+    static const PageColumn COLUMNS[] = {
+        {"channel", false, NULL}, {"pixels", true, NULL}, {"mean", true, NULL},
+        {"greatest", true, NULL}, {"not finite", true, NULL}};
+    page_table_begin(html, "", "", COLUMNS, COUNT_OF(COLUMNS));
     for (int i = 0; i < channels->count; i++) {
         const ChannelDifference *c = &channels->list[i];
         long wrong = c->nonfinite[0] + c->nonfinite[1] + c->gaps;
         if (c->differing == 0) continue;
-        markup_add(html, "<tr>");
-        add_cell(html, c->name);
-        markup_format(html, "<td class=\"n\">%ld</td><td class=\"n\">%.4g</td>"
-                      "<td class=\"n\">%.4g</td><td class=\"n%s\">%ld</td></tr>\n",
-                      c->differing, c->mean, c->max, wrong ? " bad" : "", wrong);
+        page_row_begin(html, "");
+        page_cell(html, "", c->name);
+        page_cell_format(html, "n", "%ld", c->differing);
+        page_cell_format(html, "n", "%.4g", c->mean);
+        page_cell_format(html, "n", "%.4g", c->max);
+        page_cell_format(html, wrong ? "n bad" : "n", "%ld", wrong);
+        page_row_end(html);
     }
-    end_table(html);
+    page_table_end(html);
 }
 
-void html_add_tables(Markup *html, const Comparison *c, const CompareOptions *options)
+void html_add_tables(Text *html, const Comparison *c, const CompareOptions *options)
 {
     if (!c->has_pixels) return;
-    markup_add(html, "<div class=\"tables\"><div>\n");
-    add_figures(html, c, options);
-    markup_add(html, "</div><div>\n");
+    text_add(html, "<div class=\"tables\"><div>\n");
+    add_metrics(html, c, options);
+    text_add(html, "</div><div>\n");
     if (c->has_stat && c->stat.region_count > 0) add_regions(html, &c->stat);
     if (c->contrast_count > 0) add_displays(html, c);
-    markup_add(html, "</div></div>\n");
+    text_add(html, "</div></div>\n");
     if (c->channels.differing == 0) return;
-    markup_add(html, "<details><summary>channels that differ</summary>\n");
+    page_more_begin(html, "channels that differ");
     add_channels(html, &c->channels);
-    markup_add(html, "</details>\n");
+    page_more_end(html);
 }
 
 /* ---- notes and metadata ------------------------------------------------------------------ */
 
-/* Of any length: it scrolls in its cell. NULL: there is none. */
-static void add_value(Markup *html, const char *value)
+static void add_metadata_row(Text *html, const MetadataRow *row)
 {
-    markup_add(html, "<td><div class=\"long\">");
-    markup_escape(html, value ? value : "–");
-    markup_add(html, "</div></td>");
+    page_row_begin(html, row->differs ? "" : "same");
+    page_cell(html, "", strncmp(row->name, "parhelion:", 10) ? row->name : row->name + 10);
+    page_cell_long(html, row->reference ? row->reference : "–");
+    page_cell_long(html, row->test ? row->test : "–");
+    page_cell(html, "", !row->differs    ? ""
+                        : row->is_ignored ? "ignored"
+                        : row->decides    ? "decides"
+                                          : "explains");
+    page_row_end(html);
 }
 
-static void add_metadata_rows(Markup *html, const Structure *structure, bool differing)
+/* Of the rows that differ or of those that do not. */
+static void add_metadata_table(Text *html, const Structure *structure, bool differing)
 {
-    for (int i = 0; i < structure->metadata_count; i++) {
-        const MetadataRow *row = &structure->metadata[i];
-        if (row->differs != differing) continue;
-        markup_format(html, "<tr%s>", differing ? "" : " class=\"same\"");
-        add_cell(html, strncmp(row->name, "parhelion:", 10) ? row->name : row->name + 10);
-        add_value(html, row->reference);
-        add_value(html, row->test);
-        add_cell(html, !differing ? "" : row->is_ignored ? "ignored"
-                                       : row->decides    ? "decides" : "explains");
-        markup_add(html, "</tr>\n");
-    }
+    static const PageColumn COLUMNS[] = {
+        {"metadata", false, NULL}, {"reference", false, NULL}, {"test", false, NULL},
+        {"", false, NULL}};
+    page_table_begin(html, "", "meta", COLUMNS, COUNT_OF(COLUMNS));
+    for (int i = 0; i < structure->metadata_count; i++)
+        if (structure->metadata[i].differs == differing)
+            add_metadata_row(html, &structure->metadata[i]);
+    page_table_end(html);
 }
 
-static int differing_rows(const Structure *structure)
+static void add_metadata(Text *html, const Structure *structure)
 {
-    int count = 0;
-    for (int i = 0; i < structure->metadata_count; i++) count += structure->metadata[i].differs;
-    return count;
-}
-
-static void add_metadata_table(Markup *html, const Structure *structure, bool differing)
-{
-    markup_add(html, "<div class=\"wide\"><table class=\"meta\"><thead><tr><th>metadata</th>"
-               "<th>reference</th><th>test</th><th></th></tr></thead><tbody>\n");
-    add_metadata_rows(html, structure, differing);
-    markup_add(html, "</tbody></table></div>\n");
-}
-
-static void add_metadata(Markup *html, const Structure *structure)
-{
-    int differing = differing_rows(structure);
+    int differing = 0;
+    for (int i = 0; i < structure->metadata_count; i++)
+        differing += structure->metadata[i].differs;
     if (differing > 0) add_metadata_table(html, structure, true);
     if (differing == structure->metadata_count) return;
-    markup_add(html, "<details><summary>metadata that is the same</summary>\n");
+    page_more_begin(html, "metadata that is the same");
     add_metadata_table(html, structure, false);
-    markup_add(html, "</details>\n");
+    page_more_end(html);
 }
 
-void html_add_notes(Markup *html, const Comparison *c)
+void html_add_notes(Text *html, const Comparison *c)
 {
     if (c->notes.count > 0) {
-        markup_add(html, "<h3>Notes</h3>\n<ul class=\"notes\">\n");
-        for (int i = 0; i < c->notes.count; i++) {
-            markup_add(html, "<li>");
-            markup_escape(html, c->notes.list[i]);
-            markup_add(html, "</li>\n");
-        }
-        markup_add(html, "</ul>\n");
+        page_element(html, "h3", "Notes");
+        page_list(html, "notes", c->notes.list, c->notes.count);
     }
     if (c->structure.metadata_count > 0) add_metadata(html, &c->structure);
 }

@@ -6,18 +6,20 @@
  */
 #pragma once
 #include "compare/comparison.h"
-#include "page/markup.h"
+#include "text/text.h"
 
-/* {0} is empty. */
 typedef struct Junit {
-    Markup cases;
+    Arena  own; /* of the text */
+    Text   cases;
     int    count, failures, errors;
     double seconds;
 } Junit;
 
+/* It must stay where it is until it is released. */
+void junit_start(Junit *junit);
 void junit_release(Junit *junit);
 
-/* A pair that was compared: a test case with its figures, and a failure when it differs. */
+/* A pair that was compared: a test case with its metrics, and a failure when it differs. */
 void junit_add(Junit *junit, const char *name, const Comparison *c);
 
 /* A pair that was not: is_error for an input that cannot be read, else a failure. */

@@ -1,6 +1,6 @@
 /* Looking at a pair: slider, blink, side by side, maps, zoom, values under the pointer. Needs
    `ramps`, {"signed": "rrggbb...", "plain": "rrggbb..."}. Without script the pictures stand one
-   beside the other. Embedded by the build. */
+   beside the other. Embedded by the build, behind page.js. */
 (function(){
 function el(tag,name,parent,text){
   var e=document.createElement(tag);if(name)e.className=name;if(text)e.textContent=text;
@@ -29,7 +29,7 @@ function pixels(shot){
   shot.data=g.getImageData(0,0,c.width,c.height).data;
   return shot.data;
 }
-function said(shot,x,y){
+function valueAt(shot,x,y){
   var d=pixels(shot),i=4*(y*shot.img.naturalWidth+x),f=shot.figure.dataset;
   if(!f.ramp)return shot.title+' '+d[i]+' '+d[i+1]+' '+d[i+2];
   var t=codes[f.ramp][hex(d,i)];
@@ -161,7 +161,7 @@ function build(pair){
       var y=Math.floor((event.clientY-r.top)/r.height*h);
       if(x<0||y<0||x>=w||y>=h){read.textContent='';return;}
       read.textContent=['pixel '+x*factor+', '+y*factor].concat(
-        ['reference','test'].concat(maps).map(function(k){return said(shots[k],x,y);})
+        ['reference','test'].concat(maps).map(function(k){return valueAt(shots[k],x,y);})
           .filter(Boolean)).join('  \u00b7  ');
     });
     v.canvas.addEventListener('pointerleave',function(){read.textContent='';});
@@ -173,12 +173,6 @@ function build(pair){
 document.querySelectorAll('.pair').forEach(function(pair){
   if(pair.tagName!=='DETAILS'||pair.open)build(pair);
   pair.addEventListener('toggle',function(){if(pair.open)build(pair);});
-});
-document.querySelectorAll('a.card').forEach(function(card){
-  card.addEventListener('click',function(){
-    var pair=document.getElementById((card.getAttribute('href')||'').slice(1));
-    if(pair)pair.open=true;
-  });
 });
 var only=document.getElementById('only');
 if(only){

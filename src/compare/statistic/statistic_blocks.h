@@ -1,5 +1,5 @@
-/* statistic_blocks.h -- the blocks' family of the test: where the mean moved, and whether it did
- * a little everywhere.
+/* statistic_blocks.h -- the blocks' family of the test: where the mean moved, and whether it
+ * did a little everywhere.
  *
  * Memory   from the arena that is passed in.
  * Threads  pure.

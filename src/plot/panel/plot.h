@@ -41,7 +41,3 @@ typedef struct PlotInput {
 /* By the ending of path: .svg or .png. *figures: how many it shows. */
 bool plot_write(const PlotInput *input, const PlotOptions *options, const char *path,
                 Arena *arena, int *figures, Error *err);
-
-/* One HTML file with all figures and the panel's figures as tables; needs nothing else. */
-bool plot_write_report(const PlotInput *input, const PlotOptions *options, const char *path,
-                       Arena *arena, int *figures, Error *err);

@@ -1,18 +1,23 @@
-/* The report: one HTML file with every figure and every number of a panel. */
+#include "plot/panel/report.h"
+
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/file.h"
-#include "base/file_write.h"
 #include "base/units.h"
-#include "plot/panel/page.h"
-#include "plot/panel/report_page.h"
-#include "plot/panel/report_tables.h"
+#include "page/page.h"
 #include "plot/draw/ticks.h"
+#include "plot/panel/page.h"
+#include "plot/panel/report_tables.h"
 #include "text/escape.h"
 
 #define FIGURE_WIDTH 420
 #define FIGURE_HEIGHT 344
+#define PAGE_BYTES ((size_t)4 << 30) /* of address space, for the text */
+
+/* report.css and report.js beside this file; the build embeds them. */
+extern const char PANEL_STYLE[], PANEL_SCRIPT[];
 
 /* ---- what a figure tells the pointer ---------------------------------------------------- */
 
@@ -47,42 +52,37 @@ static const char *short_name(Arena *arena, const char *title)
     return arena_string(arena, title, strcspn(title, ",("));
 }
 
-static void add_chart_values(Text *html, const FigureMap *map)
+static void add_chart_values(Text *html, const FigureMap *map, Arena *arena)
 {
     text_format(html, "{\"kind\":\"chart\",\"x\":%.2f,\"y\":%.2f,\"w\":%.2f,\"h\":%.2f,"
                 "\"low\":[%.9g,%.9g],\"high\":[%.9g,%.9g],\"log\":[%d,%d],\"names\":[\"",
                 map->plot.x, map->plot.y, map->plot.w, map->plot.h, map->low[0], map->low[1],
                 map->high[0], map->high[1], map->is_log[0], map->is_log[1]);
-    escape_markup(html, short_name(html->arena, map->axis[0]));
+    escape_markup(html, short_name(arena, map->axis[0]));
     text_add(html, "\",\"");
-    escape_markup(html, short_name(html->arena, map->axis[1]));
+    escape_markup(html, short_name(arena, map->axis[1]));
     text_add(html, "\"]}");
 }
 
-/* figure: the index-th of its list; a caption that the one before has is not said again. */
-static bool add_figure(Text *html, const Figure *figure, int index, bool is_dark, Error *err)
+/* figure: the index-th of its list; a caption that the one before has is not repeated. */
+static bool add_figure(Text *html, const Figure *figure, int index, bool is_dark, Arena *arena,
+                       Error *err)
 {
     PlotBytes   svg = {0};
     FigureMap   map = {0};
-    FigureFrame frame = {FIGURE_WIDTH, FIGURE_HEIGHT,
-                         arena_format(html->arena, "f%d-", index), is_dark};
-    if (!page_figure_svg(figure, &frame, html->arena, &svg, &map, err)) return false;
-    text_add(html, "<figure data-map='");
+    FigureFrame frame = {FIGURE_WIDTH, FIGURE_HEIGHT, arena_format(arena, "f%d-", index),
+                         is_dark};
+    if (!page_figure_svg(figure, &frame, arena, &svg, &map, err)) return false;
+    text_format(html, "<figure class=\"ground%s\" data-map='", is_dark ? " night" : "");
     if (map.kind == FIGURE_POLAR) add_polar_values(html, &map);
-    else add_chart_values(html, &map);
-    text_add(html, "'>\n<h3>");
-    escape_markup(html, figure->title);
-    text_add(html, "</h3>\n<p>");
-    escape_markup(html, figure->subtitle);
-    text_add(html, "</p>\n");
+    else add_chart_values(html, &map, arena);
+    text_add(html, "'>\n");
+    page_element(html, "h3", figure->title);
+    page_element(html, "p", figure->subtitle);
     text_add_bytes(html, svg.data, svg.size);
     text_add(html, "<div class=\"read\"></div>\n");
-    bool is_said = index > 0 && !strcmp(figure[-1].caption, figure->caption);
-    if (!is_said) {
-        text_add(html, "<figcaption>");
-        escape_markup(html, figure->caption);
-        text_add(html, "</figcaption>\n");
-    }
+    if (index == 0 || strcmp(figure[-1].caption, figure->caption) != 0)
+        page_element(html, "figcaption", figure->caption);
     text_add(html, "</figure>\n");
     return true;
 }
@@ -103,56 +103,60 @@ static bool is_in_chapter(const Figure *figure, int chapter)
     return figure->kind >= CHAPTERS[chapter].first && figure->kind <= CHAPTERS[chapter].last;
 }
 
-static bool add_chapters(Text *html, const FigureList *list, bool is_dark, Error *err)
+static bool add_chapters(Text *html, const FigureList *list, bool is_dark, Arena *arena,
+                         Error *err)
 {
     for (int chapter = 0; chapter < (int)(sizeof CHAPTERS / sizeof *CHAPTERS); chapter++) {
         bool is_open = false;
         for (int i = 0; i < list->count; i++) {
             if (!is_in_chapter(&list->figure[i], chapter)) continue;
-            if (!is_open)
-                text_format(html, "<h2>%s</h2>\n<div class=\"figures\">\n",
-                            CHAPTERS[chapter].title);
+            if (!is_open) {
+                page_element(html, "h2", CHAPTERS[chapter].title);
+                text_add(html, "<div class=\"figures\">\n");
+            }
             is_open = true;
-            if (!add_figure(html, &list->figure[i], i, is_dark, err)) return false;
+            if (!add_figure(html, &list->figure[i], i, is_dark, arena, err)) return false;
         }
         if (is_open) text_add(html, "</div>\n");
     }
     return true;
 }
 
-/* ---- the figures of merit --------------------------------------------------------------- */
+/* ---- the values looked at first --------------------------------------------------------- */
 
-static void add_key(Text *html, const char *value, const char *name)
+/* A value and its unit, above its name. */
+static void add_key(Text *html, double value, const char *unit, const char *name)
 {
-    text_add(html, "<div><b>");
-    escape_markup(html, value);
-    text_add(html, "</b><span>");
-    escape_markup(html, name);
-    text_add(html, "</span></div>\n");
+    char number[32], text[64];
+    snprintf(text, sizeof text, "%s %s", figure_text(value, number), unit);
+    page_key(html, text, name, false);
 }
 
-static void add_emission_keys(Text *html, const Subject *s)
+static void add_shift_keys(Text *html, const Subject *s, Arena *arena)
 {
-    char   text[32];
-    double white = (double)s->normal[PATTERN_WHITE][1], uv[2], xyz[3];
-    double black = (double)s->normal[PATTERN_BLACK][1];
+    char   text[64];
+    double uv[2], xyz[3];
     for (int c = 0; c < 3; c++) xyz[c] = (double)s->normal[PATTERN_WHITE][c];
     uv_of(xyz, uv);
-    add_key(html, arena_format(html->arena, "%s cd/m²", figure_text(white, text)),
-            "white at the normal");
-    if (s->has_black) {
-        add_key(html, arena_format(html->arena, "%s cd/m²", figure_text(black, text)),
-                "black at the normal");
-        add_key(html, arena_format(html->arena, "%s : 1", figure_text(white / black, text)),
-                "contrast ratio at the normal, dark room");
-    }
-    add_key(html, arena_format(html->arena, "%.4f  %.4f", uv[0], uv[1]),
-            "u′ v′ of white at the normal");
-    Field field = subject_shift(s, PATTERN_WHITE, html->arena);
+    snprintf(text, sizeof text, "%.4f  %.4f", uv[0], uv[1]);
+    page_key(html, text, "u′ v′ of white at the normal", false);
+    Field  field = subject_shift(s, PATTERN_WHITE, arena);
     double limit = fmin(s->cone, radians_from_degrees(60));
-    add_key(html, figure_text(field_range(&field, limit).high, text),
-            arena_format(html->arena, "largest Δu′v′ of white within θ %.3g°",
-                         degrees_from_radians(limit)));
+    page_key(html, figure_text(field_range(&field, limit).high, text),
+             arena_format(arena, "largest Δu′v′ of white within θ %.3g°",
+                          degrees_from_radians(limit)), false);
+}
+
+static void add_emission_keys(Text *html, const Subject *s, Arena *arena)
+{
+    double white = (double)s->normal[PATTERN_WHITE][1];
+    double black = (double)s->normal[PATTERN_BLACK][1];
+    add_key(html, white, "cd/m²", "white at the normal");
+    if (s->has_black) {
+        add_key(html, black, "cd/m²", "black at the normal");
+        add_key(html, white / black, ": 1", "contrast ratio at the normal, dark room");
+    }
+    add_shift_keys(html, s, arena);
 }
 
 static double largest_error(const json_t *report, bool is_reflection)
@@ -170,20 +174,16 @@ static double largest_error(const json_t *report, bool is_reflection)
 
 static void add_file_keys(Text *html, const Subject *s)
 {
-    char          text[32];
     const json_t *total = json_object_get(s->source.report, "total");
     double bytes = json_number_value(json_object_get(total, "bytes"));
     double source = json_number_value(json_object_get(total, "source_bytes_float32"));
     if (bytes > 0 && source > 0)
-        add_key(html, arena_format(html->arena, "%s %%",
-                                   figure_text(100 * bytes / source, text)),
-                "file size over the source's float32 values");
+        add_key(html, 100 * bytes / source, "%", "file size over the source's float32 values");
     for (int part = 0; part < 2; part++) {
         double error = largest_error(s->source.report, part == 1);
         if (error > 0)
-            add_key(html, arena_format(html->arena, "%s %%", figure_text(100 * error, text)),
-                    part ? "largest error of a reflection sample"
-                         : "largest error of an emission sample");
+            add_key(html, 100 * error, "%", part ? "largest error of a reflection sample"
+                                                 : "largest error of an emission sample");
     }
 }
 
@@ -193,20 +193,17 @@ static double haze_percent(const Subject *s)
     return 100 * (double)panel_haze_albedo(s->source.panel, cosine);
 }
 
-static void add_keys(Text *html, const Subject *s)
+static void add_keys(Text *html, const Subject *s, Arena *arena)
 {
-    char text[32];
-    text_add(html, "<div class=\"key\">\n");
-    if (s->emits) add_emission_keys(html, s);
+    page_keys_begin(html);
+    if (s->emits) add_emission_keys(html, s, arena);
     if (s->has_mirror)
-        add_key(html, arena_format(html->arena, "%s %%",
-                                   figure_text(100 * subject_mirror(s, 0, 0), text)),
-                "mirror reflectance at the normal");
+        add_key(html, 100 * subject_mirror(s, 0, 0), "%", "mirror reflectance at the normal");
     if (s->reflects)
-        add_key(html, arena_format(html->arena, "%s %%", figure_text(haze_percent(s), text)),
-                "diffuse reflectance (haze and floor), light at 10°");
+        add_key(html, haze_percent(s), "%",
+                "diffuse reflectance (haze and lambertian part), light at 10°");
     add_file_keys(html, s);
-    text_add(html, "</div>\n");
+    page_keys_end(html);
 }
 
 /* ---- the page --------------------------------------------------------------------------- */
@@ -214,14 +211,9 @@ static void add_keys(Text *html, const Subject *s)
 static void add_head(Text *html, const Subject *s, bool is_dark)
 {
     const char *note = json_string_value(json_object_get(s->source.report, "note"));
-    text_add(html, "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-             "<title>");
-    escape_markup(html, s->name);
-    text_format(html, "</title>\n<style>\n%s</style></head>\n<body%s><main>\n<h1>",
-                REPORT_STYLE, is_dark ? " class=\"dark\"" : "");
-    escape_markup(html, s->name);
-    text_add(html, "</h1>\n<p class=\"sub\">");
+    page_begin(html, &(PageHead){s->name, PANEL_STYLE, is_dark});
+    page_element(html, "h1", s->name);
+    text_add(html, "<p class=\"sub\">");
     escape_markup(html, s->file_name);
     text_add(html, note && *note ? " · " : "");
     escape_markup(html, note);
@@ -230,7 +222,7 @@ static void add_head(Text *html, const Subject *s, bool is_dark)
 
 static void add_legend(Text *html, const Subject *s)
 {
-    text_add(html, "<p class=\"sub\" style=\"margin-top:18px\">Angles: θ from the normal, φ "
+    text_add(html, "<p class=\"sub legend\">Angles: θ from the normal, φ "
              "counter-clockwise from the viewer's right.");
     if (s->emits && s->cone < PI / 2 - 1e-3)
         text_format(html, " Emission was measured up to θ %.4g°; hatched regions beyond it are "
@@ -243,21 +235,20 @@ static void add_legend(Text *html, const Subject *s)
 }
 
 static bool add_page(Text *html, const Subject *s, const FigureList *list, bool is_dark,
-                     Error *err)
+                     Arena *arena, Error *err)
 {
     add_head(html, s, is_dark);
-    add_keys(html, s);
+    add_keys(html, s, arena);
     add_legend(html, s);
-    if (!add_chapters(html, list, is_dark, err)) return false;
-    text_add(html, "<h2>Sizes and errors</h2>\n<p class=\"sub\" style=\"margin-bottom:12px\">"
-             "Errors are relative to the measured values; trees are shared by tables, whose "
-             "part is an even share.</p>\n");
-    report_add_tables(html, s->source.report);
-    text_add(html, "<h2>Choices and provenance</h2>\n");
-    report_add_choices(html, s->source.report);
-    report_add_notes(html, s->source.report);
-    text_format(html, "<footer>Parhelion %s, panel plot --report</footer>\n</main>\n<script>\n"
-                "%s</script>\n</body></html>\n", PARHELION_VERSION, REPORT_SCRIPT);
+    if (!add_chapters(html, list, is_dark, arena, err)) return false;
+    page_element(html, "h2", "Sizes and errors");
+    page_element(html, "p class=\"sub\"", "Errors are relative to the measured values; trees "
+                 "are shared by tables, whose part is an even share.");
+    report_add_tables(html, s->source.report, *arena);
+    page_element(html, "h2", "Choices and provenance");
+    report_add_choices(html, s->source.report, *arena);
+    report_add_notes(html, s->source.report, *arena);
+    page_end(html, "panel plot --report", (const char *const[]){PANEL_SCRIPT, NULL});
     return true;
 }
 
@@ -265,7 +256,6 @@ bool plot_write_report(const PlotInput *input, const PlotOptions *options, const
                        Arena *arena, int *figures, Error *err)
 {
     json_t     *report = NULL;
-    Text        html = {.arena = arena};
     const char *ending = path_ending(path);
     if (strcmp(ending, ".html") && strcmp(ending, ".htm"))
         return error_set(err, ERROR_USAGE, "--report is '%s', wanted a name that ends in .html",
@@ -275,9 +265,12 @@ bool plot_write_report(const PlotInput *input, const PlotOptions *options, const
     Subject *subject = plot_subject(input, &all, arena, &report, err);
     if (!subject) return false;
     FigureList *list = plot_figures(subject, PLOT_ALL, arena);
-    bool ok = add_page(&html, subject, list, options->is_dark, err) &&
-              file_write(path, html.data, html.size, err);
+    Arena       own = arena_reserve(PAGE_BYTES);
+    Text        html = {.arena = &own};
+    bool ok = add_page(&html, subject, list, options->is_dark, arena, err) &&
+              text_write(&html, path, err);
     if (ok) *figures = list->count;
+    arena_release(&own);
     json_decref(report);
     return ok;
 }

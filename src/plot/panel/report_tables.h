@@ -11,10 +11,10 @@
 #include "text/text.h"
 
 /* The table of tables with its totals. */
-void report_add_tables(Text *html, const json_t *report);
+void report_add_tables(Text *html, const json_t *report, Arena scratch);
 
 /* Everything else but the notes: choices, sizes, provenance. */
-void report_add_choices(Text *html, const json_t *report);
+void report_add_choices(Text *html, const json_t *report, Arena scratch);
 
 /* The notes as a list; nothing when there are none. */
-void report_add_notes(Text *html, const json_t *report);
+void report_add_notes(Text *html, const json_t *report, Arena scratch);
