@@ -1,32 +1,15 @@
 #include "panel/fit/fit.h"
 
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/file_write.h"
-#include "base/parallel.h"
 #include "base/units.h"
-#include "panel/fit/fit_parts.h"
+#include "panel/fit/emission/emission_spectra.h"
+#include "panel/fit/fit_report.h"
+#include "panel/fit/fit_table.h"
 #include "panel/query/panel_report.h"
-
-FitOptions fit_options_default(void)
-{
-    return (FitOptions){.max_error = 0.003f, .wavelet = WAVELET_CDF53, .weights = HAAR_AREA,
-                        .threads = 1, .progress = PROGRESS_NONE};
-}
-
-void fit_note(FitNotes *notes, const char *format, ...)
-{
-    char    text[512];
-    va_list args;
-    va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
-    va_end(args);
-    if (notes->count < 32)
-        notes->text[notes->count++] = arena_string(notes->arena, text, strlen(text));
-}
+#include "panel/query/sampling_make.h"
 
 static void note_limits(const Measurement *set, FitNotes *notes)
 {
@@ -50,8 +33,8 @@ static void note_limits(const Measurement *set, FitNotes *notes)
                  degrees_from_radians(set->incidence[set->incidence_count - 1]));
 }
 
-/* The file with its report: the long lists stay out of it, figures are packed. Its own size
- * is one of the figures. */
+/* The file with its report: the long lists stay out of it, its tables are packed. Its own
+ * size is one of the numbers. */
 static void *reported_bytes(const FitParts *parts, json_t *document, Arena *arena, size_t *size)
 {
     static const char *const apart[] = {"tables", "total", "outliers", "holes"};
@@ -63,9 +46,9 @@ static void *reported_bytes(const FitParts *parts, json_t *document, Arena *aren
     for (int i = 0; i < 4; i++) json_object_del(meta, apart[i]);
     char *text = panel_report_text(meta);
     for (int pass = 0; pass < 2 && text; pass++) {
-        whole.figures_size = panel_report_pack_tables(rows, arena, &whole.figures);
+        whole.tables_size = panel_report_pack_tables(rows, arena, &whole.tables);
         bytes = fit_file_bytes(&whole, text, arena, size);
-        fit_report_size(json_object_get(document, "total"), *size);
+        fit_table_set_file_size(json_object_get(document, "total"), *size);
     }
     free(text);
     json_decref(rows);
@@ -81,7 +64,7 @@ static bool finish_file(const FitParts *parts, const char *path, Arena *arena, j
     Panel *panel;
     void  *bytes = fit_file_bytes(parts, "{}", arena, &size);
     if (!panel_from_bytes(bytes, size, path, arena, &panel, err)) return false;
-    json_t *document = fit_measure(parts, panel, size);
+    json_t *document = fit_report_measure(parts, panel, size);
     bytes = reported_bytes(parts, document, arena, &size);
     if (!bytes) error_set(err, ERROR_MEMORY, "the report does not fit into memory");
     if (!bytes || !file_write(path, bytes, size, err)) {
@@ -92,47 +75,48 @@ static bool finish_file(const FitParts *parts, const char *path, Arena *arena, j
     return true;
 }
 
-/* How the reflection is sampled follows from what it says when it is queried. */
-static bool sample_reflection(const FitParts *parts, FitReflection *reflection, Arena *arena,
+/* The sampling, a section of the file or the promise that opening makes it, follows from what
+ * the reflection says when it is queried. */
+static bool sample_reflection(const FitParts *parts, ReflectionResult *reflection, Arena *arena,
                               Error *err)
 {
     size_t size;
     Panel *panel;
+    SamplingSection made = {.bytes = ""};
     void  *bytes = fit_file_bytes(parts, "{}", arena, &size);
-    return panel_from_bytes(bytes, size, "panel", arena, &panel, err) &&
-           fit_sampling(panel, arena, reflection, err);
-}
-
-/* Haze, floor and mirror of parts->set into *reflection. */
-static bool fit_all_reflection(FitParts *parts, FitReflection *reflection, Arena *arena,
-                               Error *err)
-{
-    parts->reflection = reflection;
-    fit_separate(parts->set, parts->options, arena, parts->notes, reflection);
-    return fit_reflection(parts->set, parts->options, arena, parts->notes, reflection, err) &&
-           sample_reflection(parts, reflection, arena, err);
+    if (!panel_from_bytes(bytes, size, "panel", arena, &panel, err)) return false;
+    if (!panel_makes_sampling(panel->reflection) && !sampling_make(panel, arena, &made, err))
+        return false;
+    reflection->sampling = made.bytes;
+    reflection->sampling_size = made.size;
+    return true;
 }
 
 bool panel_fit(const Measurement *measurement, const FitOptions *options, const char *path,
                Arena *arena, json_t **report, Error *err)
 {
     FitNotes        notes = {.arena = arena};
-    FitEmission    *emission = ARENA_NEW(arena, FitEmission, 1);
-    FitReflection  *reflection = ARENA_NEW(arena, FitReflection, 1);
+    EmissionResult    *emission = ARENA_NEW(arena, EmissionResult, 1);
+    ReflectionResult  *reflection = ARENA_NEW(arena, ReflectionResult, 1);
     FitParts parts = {.set = measurement, .options = options, .notes = &notes};
     Progress progress = progress_start(options->progress, "fit", "steps", 4);
     if (!file_check_writable(path, err)) return false; /* a fit takes a while */
     note_limits(measurement, &notes);
     if (measurement->primary[0].level_count) {
         parts.emission = emission;
-        if (!fit_emission(measurement, options, arena, &notes, emission, err)) return false;
+        if (!emission_fit(measurement, options, arena, &notes, emission, err)) return false;
     }
     progress_update(&progress, 1);
     if (parts.emission)
-        parts.primaries = fit_spectra(measurement, &notes, arena, &parts.primaries_size);
+        parts.primaries = emission_spectra_write(measurement, &notes, arena,
+                                                 &parts.primaries_size);
     progress_update(&progress, 2);
-    if (measurement->incidence_count && !fit_all_reflection(&parts, reflection, arena, err))
-        return false;
+    if (measurement->incidence_count) {
+        parts.reflection = reflection;
+        if (!reflection_fit(measurement, options, arena, &notes, reflection, err) ||
+            !sample_reflection(&parts, reflection, arena, err))
+            return false;
+    }
     progress_update(&progress, 3);
     bool ok = finish_file(&parts, path, arena, report, err);
     progress_end(&progress, 4);

@@ -13,35 +13,8 @@
 #pragma once
 #include <jansson.h>
 
-#include "base/progress.h"
-#include "hemisphere/haar.h"
-#include "hemisphere/wavelet1d.h"
+#include "panel/fit/common/fit_options.h"
 #include "panel/set/measurement.h"
-
-typedef enum FitBasis { FIT_VERTEX = 0, FIT_HAAR = 1 } FitBasis; /* on the hemisphere */
-
-/* Exactly one of keep_share and max_error is above 0; the others have 0 for "choose". */
-typedef struct FitOptions {
-    int         level;      /* of the trees; 0: what the samples need */
-    float       keep_share; /* stored rows over leaves, (0, 1] */
-    float       max_error;  /* relative, of each tree component */
-    float       bound;      /* relative error allowed at every measured sample; 0: 2 %, and
-                               2.5 % of noisy tables. Noise allows its own 5 sigma anyway */
-    FitBasis    basis;
-    bool        mask_outliers; /* hot and dead pixels of emission tables are never followed;
-                                   with this no error counts them either */
-    bool        has_wavelet; /* along the wavelengths; else a few principal spectra */
-    WaveletKind wavelet;
-    HaarWeights weights;
-    bool        lobe_is_mirror; /* a peak on the haze is the instrument's image of the mirror,
-                                   its width the instrument's, where that is not declared */
-    float       frame_exponent; /* k of the specular-following frame; 0: choose */
-    bool        is_linear_in_incidence; /* over two slices instead of cubic over four */
-    int         threads;    /* at least 1; the bytes do not depend on it */
-    ProgressMode progress;
-} FitOptions;
-
-FitOptions fit_options_default(void);
 
 /* Fits, checks against the tables and writes the file at once (nothing half-written stays).
  * *report: what `panel info` shows, owned by the caller (json_decref). */

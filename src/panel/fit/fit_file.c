@@ -1,18 +1,24 @@
-/* A panel file's bytes (layout: panel_file.h). */
+/* Layout: panel_file.h. */
+#include "panel/fit/fit_file.h"
+
 #include <string.h>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "panel/fit/fit_parts.h"
+/* Sections are written one after the other, each of pieces that follow each other. */
+typedef struct FitPiece {
+    const void *data;
+    size_t      size;
+} FitPiece;
 
-struct FitWriter {
+typedef struct FitWriter {
     unsigned char *bytes; /* the sections; offsets count from here until the end */
     size_t         size, capacity;
     PanelSection   section[PANEL_SECTIONS_MAX];
     uint32_t       count;
     Arena         *arena;
-};
+} FitWriter;
 
 static size_t rounded(size_t size)
 {
@@ -28,8 +34,8 @@ static void make_room(FitWriter *writer, size_t bytes)
     writer->bytes = grown;
 }
 
-void fit_write_section(FitWriter *writer, PanelSectionKind kind, uint32_t index,
-                       const FitPiece *piece, int pieces)
+static void write_section(FitWriter *writer, PanelSectionKind kind, uint32_t index,
+                   const FitPiece *piece, int pieces)
 {
     size_t begin = rounded(writer->size);
     make_room(writer, PANEL_ALIGN);
@@ -45,12 +51,22 @@ void fit_write_section(FitWriter *writer, PanelSectionKind kind, uint32_t index,
 
 static void write_emission(FitWriter *writer, const FitParts *parts)
 {
-    const FitEmission *e = parts->emission;
-    FitPiece section = {e->section, e->section_size}, tree = {e->tree, tree_size(e->tree)};
+    const EmissionResult *e = parts->emission;
+    FitPiece section = {e->section, e->section_size};
+    FitPiece tree = {e->tree.bytes, tree_size(e->tree.bytes)};
     FitPiece primaries = {parts->primaries, parts->primaries_size};
-    fit_write_section(writer, PANEL_EMISSION, 0, &section, 1);
-    fit_write_section(writer, PANEL_EMISSION_TREE, 0, &tree, 1);
-    fit_write_section(writer, PANEL_PRIMARIES, 0, &primaries, 1);
+    write_section(writer, PANEL_EMISSION, 0, &section, 1);
+    write_section(writer, PANEL_EMISSION_TREE, 0, &tree, 1);
+    write_section(writer, PANEL_PRIMARIES, 0, &primaries, 1);
+}
+
+static void write_reflection(FitWriter *writer, const ReflectionResult *r)
+{
+    FitPiece section = {r->section.bytes, r->section.size};
+    FitPiece tree = {r->tree, tree_size(r->tree)}, sampling = {r->sampling, r->sampling_size};
+    write_section(writer, PANEL_REFLECTION, 0, &section, 1);
+    write_section(writer, PANEL_REFLECTION_TREE, 0, &tree, 1);
+    if (r->sampling) write_section(writer, PANEL_SAMPLING, 0, &sampling, 1);
 }
 
 /* Header and table of contents in front of the sections. */
@@ -75,10 +91,10 @@ static void *finish(FitWriter *writer, size_t *size)
 void *fit_file_bytes(const FitParts *parts, const char *meta, Arena *arena, size_t *size)
 {
     FitWriter writer = {.arena = arena};
-    FitPiece  text = {meta, strlen(meta)}, figures = {parts->figures, parts->figures_size};
-    fit_write_section(&writer, PANEL_META, 0, &text, 1);
-    if (parts->figures) fit_write_section(&writer, PANEL_FIGURES, 0, &figures, 1);
+    FitPiece  text = {meta, strlen(meta)}, tables = {parts->tables, parts->tables_size};
+    write_section(&writer, PANEL_META, 0, &text, 1);
+    if (parts->tables) write_section(&writer, PANEL_FIGURES, 0, &tables, 1);
     if (parts->emission) write_emission(&writer, parts);
-    if (parts->reflection) fit_write_reflection(&writer, parts->reflection);
+    if (parts->reflection) write_reflection(&writer, parts->reflection);
     return finish(&writer, size);
 }

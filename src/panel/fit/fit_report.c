@@ -1,4 +1,5 @@
-/* How well a fitted panel says again what was measured (design: panel, section 8). */
+#include "panel/fit/fit_report.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,43 +8,11 @@
 #include <xxhash.h>
 
 #include "base/file.h"
-#include "base/mathd.h"
 #include "base/units.h"
-#include "hemisphere/specular_frame.h"
-#include "panel/fit/fit_parts.h"
-
-Vec3 fit_row_direction(const AngleTable *table, int row)
-{
-    double t = (double)table->theta[row], p = (double)table->phi[row];
-    return vec3((float)(sin_d(t) * cos_d(p)), (float)(sin_d(t) * sin_d(p)), (float)cos_d(t));
-}
-
-/* A row's share of the hemisphere, up to a factor: rings and azimuths are about even. */
-double fit_row_weight(const AngleTable *table, int row)
-{
-    double t = (double)table->theta[row];
-    return sin_d(t > 1e-3 ? t : 1e-3) * cos_d(t);
-}
-
-void fit_add_error(FitErrors *errors, double found, double wanted, double scale, double weight)
-{
-    double relative = fabs(found - wanted) / scale;
-    errors->max = fmax(errors->max, relative);
-    errors->squares += relative * relative;
-    errors->count += 1;
-    errors->integral += weight * found;
-    errors->integral_source += weight * wanted;
-    errors->l2 += weight * (found - wanted) * (found - wanted);
-    errors->l2_source += weight * wanted * wanted;
-}
-
-void fit_finish_errors(const FitErrors *errors, FitTable *out)
-{
-    out->max_error = errors->max;
-    out->rms_error = sqrt(errors->squares / fmax(1, errors->count));
-    out->integral_error = errors->integral_source > 0
-                              ? errors->integral / errors->integral_source - 1 : 0;
-}
+#include "hemisphere/geodesic.h"
+#include "panel/fit/common/table_rows.h"
+#include "panel/fit/fit_report_reflection.h"
+#include "panel/query/panel_query.h"
 
 /* Relative to the measured value itself, or to 20 times what is noise even without light, or
  * to what no meter sees. */
@@ -54,95 +23,42 @@ static void measure_emission(const AngleTable *table, const Panel *panel, const 
     for (int i = 0; i < table->rows; i++) {
         const float *m = table->value + 3 * i;
         float  xyz[3];
-        Vec3   d = fit_row_direction(table, i);
-        double weight = fit_row_weight(table, i);
+        Vec3   d = table_row_direction(table, i);
+        double weight = table_row_weight(table, i);
         if (!(d.z > 0) || (masked && masked[i])) continue;
         panel_emission_xyz(panel, d, rgb, xyz);
         for (int j = 0; j < 3; j++)
-            fit_add_error(&errors, (double)xyz[j], (double)m[j],
-                          fmax(fmax(20 * dim[j], FIT_NO_LIGHT), (double)m[j]),
-                          j == 1 ? weight : 0);
+            fit_table_add_error(&errors, (double)xyz[j], (double)m[j],
+                                fmax(fmax(20 * dim[j], EMISSION_NO_LIGHT), (double)m[j]),
+                                j == 1 ? weight : 0);
     }
-    fit_finish_errors(&errors, out);
+    fit_table_finish(&errors, out);
     out->extrapolated = (double)panel->emission->cone_cos; /* share of the hemisphere's sr */
 }
 
-static double ratio_of(double bytes, double stored)
+static size_t emission_bytes(const EmissionResult *e)
 {
-    return stored > 0 ? bytes / stored : 0;
-}
-
-static json_t *table_json(const FitTable *t)
-{
-    return json_pack("{s:s, s:I, s:I, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}",
-                     "name", t->name, "source_bytes_text", (json_int_t)t->text_bytes,
-                     "source_bytes_float32", (json_int_t)t->float32_bytes,
-                     "stored_values", t->stored_values, "bytes", t->bytes,
-                     "ratio", ratio_of((double)t->float32_bytes, t->bytes),
-                     "ratio_text", ratio_of((double)t->text_bytes, t->bytes),
-                     "max_error", t->max_error, "rms_error", t->rms_error,
-                     "integral_error", t->integral_error, "noise", t->noise,
-                     "extrapolated_share", t->extrapolated);
-}
-
-void fit_report_size(json_t *total, size_t file_bytes)
-{
-    double bytes = (double)file_bytes;
-    double binary = json_number_value(json_object_get(total, "source_bytes_float32"));
-    double text = json_number_value(json_object_get(total, "source_bytes_text"));
-    json_object_set_new(total, "bytes", json_real(bytes));
-    json_object_set_new(total, "ratio", json_real(ratio_of(binary, bytes)));
-    json_object_set_new(total, "ratio_text", json_real(ratio_of(text, bytes)));
-}
-
-void fit_add_table(json_t *tables, FitTable *total, const FitTable *one)
-{
-    json_array_append_new(tables, table_json(one));
-    total->text_bytes += one->text_bytes;
-    total->float32_bytes += one->float32_bytes;
-    total->stored_values += one->stored_values;
-    total->max_error = fmax(total->max_error, one->max_error);
-    total->rms_error = fmax(total->rms_error, one->rms_error);
-    total->integral_error = fmax(total->integral_error, fabs(one->integral_error));
-    total->noise = fmax(total->noise, one->noise);
-    total->extrapolated = fmax(total->extrapolated, one->extrapolated);
-}
-
-static size_t emission_bytes(const FitEmission *e)
-{
-    return e->section_size + tree_size(e->tree);
-}
-
-static const AngleTable *table_at(const FitParts *parts, int index, float rgb[3])
-{
-    rgb[0] = rgb[1] = rgb[2] = 0;
-    for (int p = 0; p < 3; p++) {
-        const MeasuredPrimary *from = &parts->set->primary[p];
-        if (index < from->level_count) {
-            rgb[p] = (float)from->level[index];
-            return &from->table[index];
-        }
-        index -= from->level_count;
-    }
-    return &parts->set->black;
+    return e->section_size + tree_size(e->tree.bytes);
 }
 
 static void add_emission_tables(const FitParts *parts, const Panel *panel, json_t *tables,
                                 FitTable *total)
 {
-    const FitEmission *e = parts->emission;
+    const EmissionResult *e = parts->emission;
     for (int i = 0; i < e->table_count; i++) {
-        float rgb[3];
-        const AngleTable *from = table_at(parts, i, rgb);
+        EmissionTable of = emission_samples_table(parts->set, true, i);
+        const AngleTable *from = of.table;
+        float rgb[3] = {0, 0, 0};
+        if (of.primary < 3) rgb[of.primary] = of.code;
         FitTable one = {.name = from->name, .text_bytes = from->text_bytes,
                         .float32_bytes = parts->set->is_white_only && i
                                              ? 0 : 3 * sizeof(float) * (size_t)from->rows,
-                        .stored_values = (double)e->tree_report.stored_values / e->table_count,
+                        .stored_values = (double)e->tree.report.stored_values / e->table_count,
                         .bytes = (double)emission_bytes(e) / e->table_count,
                         .noise = e->noise[i]};
         measure_emission(from, panel, rgb, e->dim[i], e->is_masked ? e->outlier[i] : NULL,
                          &one);
-        fit_add_table(tables, total, &one);
+        fit_table_append(tables, total, &one);
     }
 }
 
@@ -172,12 +88,12 @@ static int count_falling(const Panel *panel)
 /* What was chosen for the emission, and what it takes. */
 static json_t *describe_emission(const FitParts *parts, const FitTable *total, int falling)
 {
-    const FitEmission *e = parts->emission;
+    const EmissionResult *e = parts->emission;
     double bytes = (double)emission_bytes(e);
     return json_pack("{s:s, s:i, s:i, s:f, s:f, s:f, s:f, s:b, s:b, s:I, s:I, s:f, s:i, s:i,"
                      " s:i}",
         "basis", parts->options->basis == FIT_HAAR ? "haar" : "vertex",
-        "level", e->level, "components", e->components, "tolerance", e->tolerance,
+        "level", e->tree.level, "components", e->components, "tolerance", e->tolerance,
         "bound", total->max_error, "rank_error", e->rank_worst,
         "cone_deg", degrees_from_radians(e->cone), "black", (int)e->has_black,
         "white_only", (int)parts->set->is_white_only,
@@ -187,11 +103,11 @@ static json_t *describe_emission(const FitParts *parts, const FitTable *total, i
         "outliers", e->outlier_count, "holes", e->hole_count, "falling_codes", falling);
 }
 
-static json_t *flags_json(const FitFlags *flags, bool has_values)
+static json_t *flags_json(const EmissionFlags *flags, bool has_values)
 {
     json_t *list = json_array();
-    for (int i = 0; i < flags->count && i < FIT_FLAGS_MAX; i++) {
-        const FitFlag *f = &flags->flag[i];
+    for (int i = 0; i < flags->count && i < EMISSION_FLAGS_MAX; i++) {
+        const EmissionFlag *f = &flags->flag[i];
         json_t *one = json_pack("{s:s, s:f, s:f}", "table", f->table, "theta_deg",
                                 degrees_from_radians(f->theta), "phi_deg",
                                 degrees_from_radians(f->phi));
@@ -234,7 +150,7 @@ static uint64_t source_hash(const Measurement *set)
     return XXH3_64bits_digest(&hash);
 }
 
-json_t *fit_measure(const FitParts *parts, const Panel *panel, size_t file_bytes)
+json_t *fit_report_measure(const FitParts *parts, const Panel *panel, size_t file_bytes)
 {
     const Measurement *set = parts->set;
     json_t  *tables = json_array();
@@ -265,7 +181,7 @@ json_t *fit_measure(const FitParts *parts, const Panel *panel, size_t file_bytes
         fit_report_reflection(parts, panel, out);
     }
     json_object_set_new(out, "tables", tables);
-    json_object_set_new(out, "total", table_json(&total));
+    json_object_set_new(out, "total", fit_table_json(&total));
     json_object_set_new(out, "notes", notes_json(parts->notes));
     return out;
 }

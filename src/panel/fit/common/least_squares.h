@@ -1,0 +1,15 @@
+/* least_squares.h -- normal equations, solved by Cholesky's factors.
+ *
+ * Matrices are n x n, symmetric and positive definite, row after row; only the lower half is
+ * read and written. Threads: pure functions. Fails: never; a pivot that rounding made negative
+ * counts as 1e-150.
+ */
+#pragma once
+#include <stddef.h>
+
+/* The matrix becomes its lower factor L, matrix = L L^T. */
+void least_squares_factor(double *matrix, size_t n);
+
+/* Solves L L^T x = right; x into right. Returns right^T x: by how much the squares of what is
+ * fitted go down. */
+double least_squares_solve(const double *factor, double *right, size_t n);

@@ -1,0 +1,11 @@
+/* sort.h -- numbers in rising order. None of them is NaN. */
+#pragma once
+
+void sort_floats(float *value, int count);
+void sort_doubles(double *value, int count);
+
+/* Sorts; then the value that half of the others are below. count: at least 1. */
+double sort_median(double *value, int count);
+
+/* Sorts floats and keeps those more than `apart` above the one kept before; how many. */
+int sort_distinct(float *value, int count, float apart);

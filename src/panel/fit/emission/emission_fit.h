@@ -1,0 +1,29 @@
+/* emission_fit.h -- from the tables of an emission to the sections of a panel file.
+ *
+ * Samples at common directions -> few components for all tables -> smooth part and beams ->
+ * tree of the rest.
+ * Memory   the arena's. Threads: options->threads; the bytes do not depend on how many.
+ * Fails    when smooth part or tree cannot be stored (ERROR_INPUT).
+ */
+#pragma once
+#include "panel/fit/emission/emission_outliers.h"
+#include "panel/fit/emission/emission_tree.h"
+
+typedef struct EmissionResult {
+    const void   *section; /* as in the file */
+    size_t        section_size;
+    EmissionTree  tree;
+    int           components, table_count;
+    bool          has_black;
+    double        cone, tolerance; /* cone: radians */
+    double        rank_worst; /* relative error that the components leave at the worst sample */
+    double        noise[EMISSION_TABLES_MAX];  /* relative, per table; last: black */
+    double        dim[EMISSION_TABLES_MAX][3]; /* cd m^-2, per table and channel */
+    uint8_t      *outlier[EMISSION_TABLES_MAX]; /* per row */
+    bool          is_masked; /* outliers count nowhere */
+    int           outlier_count, hole_count;
+    EmissionFlags outliers, holes;
+} EmissionResult;
+
+bool emission_fit(const Measurement *set, const FitOptions *options, Arena *arena,
+                  FitNotes *notes, EmissionResult *out, Error *err);

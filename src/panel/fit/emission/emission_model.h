@@ -1,0 +1,40 @@
+/* emission_model.h -- what the stages before the tree have fixed of an emission: components,
+ * smooth part and beams, everything as it will be read again from the file.
+ *
+ * Threads  pure functions of a constant model. Fails: never.
+ */
+#pragma once
+#include "panel/fit/emission/emission_rank.h"
+
+/* A beam as stored, and as it will be read again. */
+typedef struct EmissionBeam {
+    const void *bytes;
+    size_t      size;
+    PanelBeam   view;
+    double      half_width; /* radians: where the logarithm is down by half */
+} EmissionBeam;
+
+typedef struct EmissionModel {
+    const EmissionSamples *samples;
+    EmissionRank *rank;      /* means and loadings are rounded */
+    const void   *spline_bytes;
+    size_t        spline_size;
+    PanelSpline   spline;
+    int           beams;
+    EmissionBeam  beam[PANEL_BEAMS_MAX];
+    float        *step;      /* per component: what rounding may cost */
+    float        *score_noise; /* per component, of a row's score */
+    const double (*dim)[3];  /* noise without light of every table's X, Y, Z, cd m^-2 */
+    double        tolerance; /* relative to M */
+    double        noise;     /* of the channels after the components pooled it, a median */
+} EmissionModel;
+
+/* Adds spline and beams to components (PANEL_COMPONENTS_MAX floats). */
+void emission_model_add_smooth(const EmissionModel *model, Vec3 direction, float *components);
+
+/* A row's scores without the beams (PANEL_COMPONENTS_MAX floats). */
+void emission_model_bare_scores(const EmissionModel *model, int row, float *out);
+
+/* M of all channels from components. */
+void emission_model_totals(const EmissionModel *model, const float *components, Vec3 direction,
+                           float *m);

@@ -1,0 +1,47 @@
+/* emission_samples.h -- all tables of an emission at common directions, with what noise makes
+ * of every number.
+ *
+ * A channel is one of X, Y, Z of one table, in the order of PanelEmission: the levels of red,
+ * rising, green's, blue's, then the black pattern's.
+ * Units    cd m^-2, radians. Memory: the arena's. Threads: const once gathered. Fails: never.
+ */
+#pragma once
+#include "panel/fit/common/fit_note.h"
+#include "panel/query/panel_file.h"
+#include "panel/set/measurement.h"
+
+#define EMISSION_NO_LIGHT 1e-4 /* cd m^-2: what is less counts relative to this */
+#define EMISSION_TABLES_MAX (3 * PANEL_LEVELS_MAX + 1)
+
+/* Every table's totals M at the rows of the table that has the most. */
+typedef struct EmissionSamples {
+    const Measurement *set;
+    const AngleTable  *master;
+    int     rows, channels;
+    int     black;    /* the black pattern's first channel, -1: none */
+    Vec3   *direction;
+    double *area;     /* of a row, up to a factor */
+    float  *total;    /* rows x channels, cd m^-2 */
+    float  *sigma;    /* rows x channels: what a deviation is measured in; INFINITY: unknown */
+    double  cone;     /* radians: the narrowest table's */
+    double  step_deg; /* about how far apart neighbours are */
+    int     azimuths; /* on a ring */
+    double  tolerance; /* relative to M */
+} EmissionSamples;
+
+typedef struct EmissionTable {
+    const AngleTable *table;   /* NULL: none */
+    int               primary; /* 3: black */
+    int               level;   /* of the primary */
+    float             code;    /* that level shows; 0: black */
+} EmissionTable;
+
+/* Table `index` of a set in the order of channels; has_black: the pattern is one of them. */
+EmissionTable emission_samples_table(const Measurement *set, bool has_black, int index);
+
+/* outlier[table]: rows that are not to be believed, or NULL. tolerance: as in *out. */
+void emission_samples_gather(const Measurement *set, bool has_black, uint8_t *const *outlier,
+                             double tolerance, Arena *arena, EmissionSamples *out);
+
+/* What the samples' grid does not say. */
+void emission_samples_note(const EmissionSamples *samples, Arena scratch, FitNotes *notes);

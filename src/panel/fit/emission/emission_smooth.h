@@ -1,0 +1,7 @@
+/* emission_smooth.h -- the smooth part of an emission's components: cubic B-splines in theta
+ * times harmonics of the azimuth (panel_spline.h). */
+#pragma once
+#include "panel/fit/emission/emission_model.h"
+
+/* Of what the beams leave of the scores, into the model. False: it cannot be stored. */
+bool emission_smooth_fit(EmissionModel *model, Arena *arena);

@@ -1,0 +1,486 @@
+/* The tree of what the smooth part leaves: vertex values by least squares, coded so that every
+ * channel of every table keeps the tolerance at every sample. */
+#include "panel/fit/emission/emission_tree.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/mathd.h"
+#include "base/units.h"
+#include "hemisphere/tree_query.h"
+#include "hemisphere/vertex_tree.h"
+#include "panel/fit/emission/emission_beam.h"
+#include "panel/fit/emission/emission_smooth.h"
+
+#define LEVEL_MOST 9
+#define ROUNDS 10
+#define BEAM_GATE 0.02 /* relative error of triangles that makes worth looking for a beam */
+#define BEAM_WORTH 0.7   /* and that must go down so far */
+#define NO_NOISE 0.02    /* of the tolerance: beams then keep it without pardon for noise */
+#define BEAM_ENOUGH 0.25 /* of the tolerance: no other reach is tried */
+
+/* Where a tree is coded and what it is held to. */
+typedef struct EmissionCoder {
+    EmissionModel   *model;
+    const Geodesic  *geodesic;
+    VertexLattice    lattice;
+    uint32_t         vertices;
+    Vec3            *direction; /* of vertices */
+    float           *smooth;    /* vertices x stride: the spline there */
+    float           *value;     /* vertices x components: the rest */
+    float           *wanted;    /* vertices x channels: M in cd m^-2 */
+    float           *limit;     /* vertices: relative; INFINITY: anything will do */
+    float           *floor;     /* channels: errors count relative to no less than this */
+    float           *work;      /* channels */
+    double           pardon;    /* sigmas of noise that a sample may miss by besides */
+    int              threads;
+} EmissionCoder;
+
+static bool is_close(const float *m, const float *wanted, const float *floor, int channels,
+                     float limit)
+{
+    for (int c = 0; c < channels; c++) /* what has run away beyond the cone is nobody's wish */
+        if (!(fabsf(m[c] - wanted[c]) <= limit * fmaxf(wanted[c], floor[c])) &&
+            isfinite(wanted[c]))
+            return false;
+    return true;
+}
+
+static bool accepts(const void *context, uint32_t vertex, const float *reconstructed)
+{
+    const EmissionCoder *coder = context;
+    const EmissionModel *model = coder->model;
+    int    n = model->rank->components, channels = model->samples->channels;
+    float  components[PANEL_COMPONENTS_MAX], m[3 * EMISSION_TABLES_MAX];
+    if (isinf(coder->limit[vertex])) return true;
+    memcpy(components, coder->smooth + (size_t)vertex * (size_t)model->spline.stride,
+           sizeof *components * (size_t)model->spline.stride);
+    for (int k = 0; k < n; k++) components[k] += reconstructed[k];
+    emission_model_totals(model, components, coder->direction[vertex], m);
+    return is_close(m, coder->wanted + (size_t)vertex * (size_t)channels,
+                    coder->floor, channels, coder->limit[vertex]);
+}
+
+/* ---- vertex values --------------------------------------------------------------------- */
+
+/* Scores less the smooth part, rows x components. */
+static float *rest_at_samples(const EmissionModel *model, Arena *arena)
+{
+    const EmissionSamples *s = model->samples;
+    int    n = model->rank->components;
+    float *rest = ARENA_NEW(arena, float, (size_t)s->rows * (size_t)n);
+    for (int i = 0; i < s->rows; i++) {
+        float components[PANEL_COMPONENTS_MAX] = {0};
+        emission_model_add_smooth(model, s->direction[i], components);
+        for (int k = 0; k < n; k++)
+            rest[i * n + k] = model->rank->score[i * n + k] - components[k];
+    }
+    return rest;
+}
+
+/* What is known of curvature: noise^2 / (rows * the rest's expected curvature^2) is where a
+ * detail's own evidence and the expectation that it is small weigh the same. */
+static double ridge_of(const EmissionModel *model, const float *rest, int component)
+{
+    const EmissionSamples *s = model->samples;
+    int    n = model->rank->components;
+    double sum = 0, area = 0, noise = (double)model->score_noise[component];
+    for (int i = 0; i < s->rows; i++) {
+        double r = (double)rest[i * n + component];
+        sum += s->area[i] * r * r;
+        area += s->area[i];
+    }
+    double variance = fmax(sum / area - noise * noise, 0.01 * noise * noise + 1e-12);
+    return noise * noise / (s->rows * 6 * variance);
+}
+
+/* rms of what vertex values leave of the samples, weighted as they are. */
+static double rest_of_fit(const EmissionCoder *coder, const VertexSamples *samples,
+                          const float *values)
+{
+    double sum = 0, total = 0;
+    for (int i = 0; i < samples->count; i++) {
+        VertexPoint at = vertex_find(coder->geodesic, coder->lattice, samples->direction[i]);
+        double rest = (double)samples->value[i], w = (double)samples->weight[i];
+        for (int q = 0; q < 3; q++)
+            rest -= (double)at.weight[q] * (double)values[at.vertex[q]];
+        sum += w * rest * rest;
+        total += w;
+    }
+    return sqrt(sum / total);
+}
+
+#define RIDGE_STEP 32.0
+#define LEAST_RIDGE 1e-12
+#define WEAK_RIDGE 1e-9 /* weaker than this they hardly smooth; then */
+#define WORTH 0.7       /* the next must leave so much less */
+
+/* Where a component's fit begins and what it may leave. */
+typedef struct FitGoal {
+    double ridge, enough;
+} FitGoal;
+
+/* The noise, or nothing that matters. */
+static FitGoal goal_of(const EmissionCoder *coder, const float *rest, int component)
+{
+    return (FitGoal){ridge_of(coder->model, rest, component),
+                     fmax(1.2 * (double)coder->model->score_noise[component],
+                          0.1 * (double)coder->model->step[component])};
+}
+
+/* The strongest ridge that leaves no more than the goal, or hardly more than a weaker one. */
+static bool fit_values(const EmissionCoder *coder, const VertexSamples *samples, FitGoal goal,
+                       Arena scratch, float *values, Error *err)
+{
+    double before = INFINITY, ridge = goal.ridge;
+    float *trial = ARENA_NEW(&scratch, float, coder->vertices);
+    for (;; ridge /= RIDGE_STEP) {
+        Arena work = scratch;
+        ridge = fmax(ridge, LEAST_RIDGE);
+        if (!vertex_fit(coder->lattice, samples, ridge, &work, trial, err))
+            return false;
+        double rest = rest_of_fit(coder, samples, trial);
+        if (ridge < WEAK_RIDGE && rest > WORTH * before) return true;
+        memcpy(values, trial, coder->vertices * sizeof *values);
+        if (ridge == LEAST_RIDGE || rest <= goal.enough) return true;
+        before = rest;
+    }
+}
+
+static bool fit_component(EmissionCoder *coder, const float *rest, int component, Arena scratch,
+                          Error *err)
+{
+    const EmissionSamples *s = coder->model->samples;
+    int    n = coder->model->rank->components;
+    float *one = ARENA_NEW(&scratch, float, s->rows);
+    float *weight = ARENA_NEW(&scratch, float, s->rows);
+    float *values = ARENA_NEW(&scratch, float, coder->vertices), low = INFINITY, high = -low;
+    for (int i = 0; i < s->rows; i++) {
+        one[i] = rest[i * n + component];
+        weight[i] = coder->model->rank->belief[i] * (float)s->area[i];
+        low = fminf(low, one[i]), high = fmaxf(high, one[i]);
+    }
+    VertexSamples samples = {s->rows, 1, s->direction, one, weight};
+    if (!fit_values(coder, &samples, goal_of(coder, rest, component), scratch, values, err))
+        return false;
+    for (uint32_t v = 0; v < coder->vertices; v++) /* what nothing measures cannot run away */
+        coder->value[v * (uint32_t)n + (uint32_t)component] = clampf(values[v], low, high);
+    return true;
+}
+
+/* ---- the lattice ------------------------------------------------------------------------ */
+
+static double cell_of(int level)
+{
+    return PI / 2 / (1 << level);
+}
+
+static void find_wanted(EmissionCoder *coder)
+{
+    const EmissionModel *model = coder->model;
+    int    n = model->rank->components, stride = model->spline.stride;
+    size_t channels = (size_t)model->samples->channels;
+    double reach = model->samples->cone + cell_of(coder->lattice.level);
+    for (uint32_t v = 0; v < coder->vertices; v++) {
+        Vec3   d = coder->direction[v];
+        float *smooth = coder->smooth + (size_t)v * (size_t)stride;
+        float  components[PANEL_COMPONENTS_MAX];
+        emission_model_add_smooth(model, d, smooth);
+        memcpy(components, smooth, sizeof *smooth * (size_t)stride);
+        for (int k = 0; k < n; k++)
+            components[k] += coder->value[(size_t)v * (size_t)n + (size_t)k];
+        emission_model_totals(model, components, d, coder->wanted + v * channels);
+        coder->limit[v] = acos_d(fmin(1, (double)d.z)) <= reach
+                              ? 0.75f * (float)model->tolerance : INFINITY;
+    }
+}
+
+/* About the level below which an error of a channel is noise anyway. */
+static void find_floor(const EmissionModel *model, float *floor)
+{
+    for (int c = 0; c < model->samples->channels; c++)
+        floor[c] = (float)fmax(20 * model->dim[c / 3][c % 3], EMISSION_NO_LIGHT);
+}
+
+static bool start_coder(EmissionModel *model, int level, const float *rest, Arena *arena,
+                        EmissionCoder *out, Error *err)
+{
+    size_t n = (size_t)model->rank->components, channels = (size_t)model->samples->channels;
+    *out = (EmissionCoder){.model = model, .geodesic = geodesic_create(level, arena),
+                           .lattice = {level, 4}, .pardon = 5};
+    size_t count = out->vertices = vertex_count(out->lattice);
+    out->direction = ARENA_NEW(arena, Vec3, count);
+    out->smooth = ARENA_NEW(arena, float, count * (size_t)model->spline.stride);
+    out->value = ARENA_NEW(arena, float, count * n);
+    out->wanted = ARENA_NEW(arena, float, count * channels);
+    out->limit = ARENA_NEW(arena, float, count);
+    out->floor = ARENA_NEW(arena, float, channels);
+    out->work = ARENA_NEW(arena, float, channels);
+    vertex_directions(out->lattice, out->direction);
+    for (size_t k = 0; k < n; k++)
+        if (!fit_component(out, rest, (int)k, *arena, err)) return false;
+    find_wanted(out);
+    return true;
+}
+
+/* ---- against the samples ---------------------------------------------------------------- */
+
+/* The largest relative error beyond noise of vertex values that are not coded yet: what no
+ * tightening mends. *row: where. */
+static double uncoded_error(const EmissionCoder *coder, int *row)
+{
+    const EmissionModel   *model = coder->model;
+    const EmissionSamples *s = model->samples;
+    int    n = model->rank->components;
+    double worst = 0;
+    for (int i = 0; i < s->rows; i++) {
+        VertexPoint at = vertex_find(coder->geodesic, coder->lattice, s->direction[i]);
+        float components[PANEL_COMPONENTS_MAX] = {0};
+        emission_model_add_smooth(model, s->direction[i], components);
+        for (int q = 0; q < 3; q++)
+            for (int k = 0; k < n; k++)
+                components[k] += at.weight[q] * coder->value[at.vertex[q] * (uint32_t)n +
+                                                             (uint32_t)k];
+        emission_model_totals(model, components, s->direction[i], coder->work);
+        for (int c = 0; c < s->channels; c++) {
+            size_t number = (size_t)i * (size_t)s->channels + (size_t)c;
+            float  m = s->total[number], sigma = s->sigma[number];
+            if (isinf(sigma)) continue;
+            float scale = fmaxf(m, coder->floor[c]);
+            double miss = (double)((fabsf(coder->work[c] - m) - 5 * sigma) / scale);
+            if (miss > worst) worst = miss, *row = i;
+        }
+    }
+    return worst;
+}
+
+/* The coded tree's components at a row. */
+static void coded_components(const EmissionModel *model, const Tree *tree, Vec3 d,
+                             float *components)
+{
+    memset(components, 0, sizeof *components * PANEL_COMPONENTS_MAX);
+    tree_interpolate(tree, d, components);
+    emission_model_add_smooth(model, d, components);
+}
+
+/* How many samples the tree misses; the limits of the vertices around them are tightened. */
+static int tighten(EmissionCoder *coder, const Tree *tree)
+{
+    const EmissionModel   *model = coder->model;
+    const EmissionSamples *s = model->samples;
+    int missed = 0;
+    for (int i = 0; i < s->rows; i++) {
+        float components[PANEL_COMPONENTS_MAX], excess = 0;
+        coded_components(model, tree, s->direction[i], components);
+        emission_model_totals(model, components, s->direction[i], coder->work);
+        for (int c = 0; c < s->channels; c++) {
+            size_t number = (size_t)i * (size_t)s->channels + (size_t)c;
+            float  m = s->total[number], sigma = s->sigma[number];
+            if (isinf(sigma)) continue;
+            float miss = fabsf(coder->work[c] - m) - (float)coder->pardon * sigma;
+            excess = fmaxf(excess, miss / fmaxf(m, coder->floor[c]));
+        }
+        if (!(excess > (float)model->tolerance)) continue;
+        missed++;
+        VertexPoint at = vertex_find(coder->geodesic, coder->lattice, s->direction[i]);
+        for (int q = 0; q < 3; q++) {
+            float *limit = &coder->limit[at.vertex[q]];
+            *limit = fmaxf(0.05f * (float)model->tolerance,
+                           fminf(0.6f * *limit, 0.6f * (float)model->tolerance));
+        }
+    }
+    return missed;
+}
+
+static bool code_once(EmissionCoder *coder, Arena *arena, EmissionTree *out, Tree *tree,
+                      Error *err)
+{
+    EmissionModel *model = coder->model;
+    VertexTreeOptions options = {coder->lattice, model->rank->components, accepts, coder,
+                                 model->step, coder->threads};
+    return (vertex_tree_build(&options, coder->value, arena, &out->bytes, &out->report,
+                              err) &&
+            tree_open(out->bytes, tree_size(out->bytes), coder->geodesic, tree, err)) ||
+           error_prefix(err, "emission");
+}
+
+/* Codes, checks all samples, tightens around those that it misses, and codes again. */
+static bool code_tree(EmissionCoder *coder, Arena *arena, EmissionTree *out, Error *err)
+{
+    int   before = INT32_MAX;
+    Tree  tree;
+    Error unheard;
+    for (int round = 0; round < ROUNDS; round++) {
+        const void *good = out->bytes;
+        if (!code_once(coder, arena, out, &tree, round ? &unheard : err)) {
+            out->bytes = good; /* finer than the coder can: the last one stands */
+            return round > 0;
+        }
+        out->missed = tighten(coder, &tree);
+        if (out->missed == 0 || (round > 3 && out->missed >= before)) return true;
+        before = out->missed;
+    }
+    return true;
+}
+
+/* The finest tolerance at which no more than a share of the vertices keeps its details. */
+static bool code_share(EmissionCoder *coder, double share, Arena *arena, EmissionTree *out,
+                       Error *err)
+{
+    double low = 1e-5, high = 1;
+    Tree   tree;
+    for (int step = 0; step < 12; step++) {
+        coder->model->tolerance = sqrt(low * high);
+        find_wanted(coder);
+        if (!code_once(coder, arena, out, &tree, err)) return false;
+        if ((double)out->report.stored_rows > share * coder->vertices)
+            low = coder->model->tolerance;
+        else
+            high = coder->model->tolerance;
+    }
+    coder->model->tolerance = high;
+    find_wanted(coder);
+    return code_once(coder, arena, out, &tree, err);
+}
+
+/* ---- Haar ------------------------------------------------------------------------------ */
+
+/* The same function as means over triangles. */
+static bool code_haar(const EmissionCoder *coder, const FitOptions *options, Arena *arena,
+                      EmissionTree *out, Error *err)
+{
+    const EmissionModel *model = coder->model;
+    int    n = model->rank->components, level = coder->lattice.level;
+    size_t leaves = geodesic_count(level);
+    float *values = ARENA_NEW(arena, float, leaves * (size_t)n), scale[PANEL_COMPONENTS_MAX];
+    for (size_t i = 0; i < leaves; i++) {
+        VertexPoint at = vertex_find(coder->geodesic, coder->lattice,
+                                     geodesic_center(level, (uint32_t)i));
+        for (int q = 0; q < 3; q++)
+            for (int k = 0; k < n; k++)
+                values[i * (size_t)n + (size_t)k] +=
+                    at.weight[q] * coder->value[at.vertex[q] * (uint32_t)n + (uint32_t)k];
+    }
+    for (int k = 0; k < n; k++) {
+        scale[k] = 1e-6f;
+        for (int c = 0; c < model->samples->channels; c++)
+            scale[k] = fmaxf(scale[k], fabsf(model->rank->loading[c * n + k]));
+    }
+    TreeOptions tree = {.shape = {level, 4, n, options->weights},
+                        .keep_share = options->keep_share,
+                        .max_error = options->keep_share > 0
+                                         ? 0 : (float)(model->tolerance / sqrt((double)n)),
+                        .component_scale = scale, .rows = TREE_ROWS_INT16};
+    return tree_build(&tree, values, arena, &out->bytes, &out->report, err) ||
+           error_prefix(err, "emission");
+}
+
+/* ---- all -------------------------------------------------------------------------------- */
+
+static int start_level(const EmissionSamples *s, const FitOptions *options)
+{
+    if (options->level) return options->level;
+    return s->step_deg < 1.5 ? 7 : s->step_deg < 3 ? 6 : 5;
+}
+
+/* The tree's coder at a level, and what it leaves uncoded at the worst row. */
+typedef struct Start {
+    EmissionCoder  coder;
+    float *rest;
+    double uncoded;
+    int    worst;
+} Start;
+
+/* What a start is made of. */
+typedef struct Plan {
+    EmissionModel *model;
+    int            level, threads;
+} Plan;
+
+static bool start(const Plan *plan, Arena *arena, Start *out, Error *err)
+{
+    EmissionModel *model = plan->model;
+    *out = (Start){.rest = rest_at_samples(model, arena)};
+    if (!start_coder(model, plan->level, out->rest, arena, &out->coder, err)) return false;
+    find_floor(model, out->coder.floor);
+    out->coder.threads = plan->threads;
+    out->uncoded = uncoded_error(&out->coder, &out->worst);
+    return true;
+}
+
+/* A beam at the worst row, of the reach that leaves less. *found: there is one. */
+static bool add_beam(const Plan *plan, Arena *arena, Start *best, bool *found, Error *err)
+{
+    EmissionModel *model = plan->model;
+    static const double reach[2] = {10, 30};
+    const EmissionModel before = *model;
+    EmissionModel       chosen = before;
+    int                 worst = best->worst;
+    *found = false;
+    for (int i = 0; i < 2; i++) {
+        Start one;
+        *model = before;
+        if (!emission_beam_find(model, worst, reach[i], arena)) continue;
+        if (!emission_smooth_fit(model, arena))
+            return error_set(err, ERROR_INPUT, "emission: the smooth part cannot be stored");
+        if (!start(plan, arena, &one, err)) return false;
+        if (!*found || one.uncoded < best->uncoded) *best = one, chosen = *model;
+        *found = true;
+        if (best->uncoded < BEAM_ENOUGH * model->tolerance) break;
+    }
+    *model = chosen;
+    return true;
+}
+
+/* Where triangles miss samples by far, narrow beams are looked for; they stay if the tree is
+ * much better off with them. */
+static bool start_with_beams(const Plan *plan, Arena *arena, Start *out, Error *err)
+{
+    EmissionModel *model = plan->model;
+    double gate = fmax(BEAM_GATE, 4 * model->tolerance);
+    if (!start(plan, arena, out, err)) return false;
+    if (out->uncoded <= gate) return true;
+    EmissionModel plain = *model;
+    EmissionRank  rank = *model->rank; /* whose scores change */
+    Start         bare = *out;
+    size_t        scores = (size_t)model->samples->rows * (size_t)rank.components;
+    model->rank->score = ARENA_NEW(arena, float, scores);
+    memcpy(model->rank->score, rank.score, scores * sizeof *rank.score);
+    for (bool found = true; found && out->uncoded > gate && model->beams < PANEL_BEAMS_MAX;)
+        if (!add_beam(plan, arena, out, &found, err)) return false;
+    if (model->beams && out->uncoded < BEAM_WORTH * bare.uncoded) return true;
+    *model = plain;
+    *model->rank = rank;
+    *out = bare;
+    return true;
+}
+
+bool emission_tree_build(EmissionModel *model, const FitOptions *options, Arena *arena,
+                         EmissionTree *out, Error *err)
+{
+    int    level = start_level(model->samples, options);
+    Start  first;
+    EmissionCoder  coder, finer;
+    Plan   plan = {model, level, options->threads};
+    if (!start_with_beams(&plan, arena, &first, err)) return false;
+    float *rest = first.rest;
+    double uncoded = first.uncoded;
+    coder = first.coder;
+    if (model->beams && model->noise < NO_NOISE * model->tolerance) coder.pardon = 0;
+    while (!options->level && uncoded > 0.5 * model->tolerance && level < LEVEL_MOST) {
+        if (!start_coder(model, level + 1, rest, arena, &finer, err)) return false;
+        finer.floor = coder.floor;
+        finer.threads = coder.threads;
+        finer.pardon = coder.pardon;
+        double next = uncoded_error(&finer, &first.worst);
+        if (next > 0.8 * uncoded) break;
+        coder = finer;
+        uncoded = next;
+        level++;
+    }
+    out->level = level;
+    if (options->basis == FIT_HAAR) return code_haar(&coder, options, arena, out, err);
+    if (options->keep_share > 0)
+        return code_share(&coder, (double)options->keep_share, arena, out, err);
+    return code_tree(&coder, arena, out, err);
+}

@@ -1,0 +1,21 @@
+/* emission_tree.h -- the tree of what the smooth part leaves of an emission, coded so that the
+ * tolerance holds at every sample that it can hold at.
+ *
+ * Memory   the arena's. Threads: options->threads; the bytes do not depend on how many.
+ * Fails    with what the coder cannot store (ERROR_INPUT).
+ */
+#pragma once
+#include "hemisphere/tree.h"
+#include "panel/fit/common/fit_options.h"
+#include "panel/fit/emission/emission_model.h"
+
+typedef struct EmissionTree {
+    const void *bytes; /* as in the file */
+    TreeReport  report;
+    int         level;
+    int         missed; /* samples beyond tolerance and noise */
+} EmissionTree;
+
+/* Where triangles miss the samples by far the model gets beams. */
+bool emission_tree_build(EmissionModel *model, const FitOptions *options, Arena *arena,
+                         EmissionTree *out, Error *err);

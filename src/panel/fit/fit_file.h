@@ -1,0 +1,22 @@
+/* fit_file.h -- a panel file's bytes from what the fit made of a measurement.
+ *
+ * Memory   the arena's. Threads: one at a time. Fails: never.
+ */
+#pragma once
+#include "panel/fit/emission/emission_fit.h"
+#include "panel/fit/reflection/reflection_fit.h"
+
+typedef struct FitParts {
+    const Measurement      *set;
+    const FitOptions       *options;
+    const EmissionResult   *emission; /* NULL: none */
+    const void             *primaries; /* the section */
+    size_t                  primaries_size;
+    const ReflectionResult *reflection; /* NULL: none */
+    FitNotes               *notes;
+    const void             *tables; /* of the report, packed (panel_report.h); NULL: not yet */
+    size_t                  tables_size;
+} FitParts;
+
+/* The file's bytes with this meta text; *size bytes in the arena, aligned to 64. */
+void *fit_file_bytes(const FitParts *parts, const char *meta, Arena *arena, size_t *size);

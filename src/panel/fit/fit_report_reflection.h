@@ -1,0 +1,11 @@
+/* fit_report_reflection.h -- the reflection in the report of a fit. */
+#pragma once
+#include "panel/fit/fit_file.h"
+#include "panel/fit/fit_table.h"
+
+/* The tables' rows. */
+void fit_report_reflection_tables(const FitParts *parts, const Panel *panel, json_t *tables,
+                                  FitTable *total);
+
+/* What was chosen, and the parts at every incidence, as "reflection" in *out. */
+void fit_report_reflection(const FitParts *parts, const Panel *panel, json_t *out);

@@ -1,0 +1,63 @@
+#include "panel/fit/fit_table.h"
+
+#include <math.h>
+
+void fit_table_add_error(FitErrors *errors, double found, double wanted, double scale,
+                         double weight)
+{
+    double relative = fabs(found - wanted) / scale;
+    errors->max = fmax(errors->max, relative);
+    errors->squares += relative * relative;
+    errors->count += 1;
+    errors->integral += weight * found;
+    errors->integral_source += weight * wanted;
+}
+
+void fit_table_finish(const FitErrors *errors, FitTable *out)
+{
+    out->max_error = errors->max;
+    out->rms_error = sqrt(errors->squares / fmax(1, errors->count));
+    out->integral_error = errors->integral_source > 0
+                              ? errors->integral / errors->integral_source - 1 : 0;
+}
+
+static double ratio_of(double bytes, double stored)
+{
+    return stored > 0 ? bytes / stored : 0;
+}
+
+json_t *fit_table_json(const FitTable *t)
+{
+    return json_pack("{s:s, s:I, s:I, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}",
+                     "name", t->name, "source_bytes_text", (json_int_t)t->text_bytes,
+                     "source_bytes_float32", (json_int_t)t->float32_bytes,
+                     "stored_values", t->stored_values, "bytes", t->bytes,
+                     "ratio", ratio_of((double)t->float32_bytes, t->bytes),
+                     "ratio_text", ratio_of((double)t->text_bytes, t->bytes),
+                     "max_error", t->max_error, "rms_error", t->rms_error,
+                     "integral_error", t->integral_error, "noise", t->noise,
+                     "extrapolated_share", t->extrapolated);
+}
+
+void fit_table_set_file_size(json_t *total, size_t file_bytes)
+{
+    double bytes = (double)file_bytes;
+    double binary = json_number_value(json_object_get(total, "source_bytes_float32"));
+    double text = json_number_value(json_object_get(total, "source_bytes_text"));
+    json_object_set_new(total, "bytes", json_real(bytes));
+    json_object_set_new(total, "ratio", json_real(ratio_of(binary, bytes)));
+    json_object_set_new(total, "ratio_text", json_real(ratio_of(text, bytes)));
+}
+
+void fit_table_append(json_t *tables, FitTable *total, const FitTable *one)
+{
+    json_array_append_new(tables, fit_table_json(one));
+    total->text_bytes += one->text_bytes;
+    total->float32_bytes += one->float32_bytes;
+    total->stored_values += one->stored_values;
+    total->max_error = fmax(total->max_error, one->max_error);
+    total->rms_error = fmax(total->rms_error, one->rms_error);
+    total->integral_error = fmax(total->integral_error, fabs(one->integral_error));
+    total->noise = fmax(total->noise, one->noise);
+    total->extrapolated = fmax(total->extrapolated, one->extrapolated);
+}

@@ -1,0 +1,30 @@
+/* fit_table.h -- how well a panel says one measured table again, as a row of the report. */
+#pragma once
+#include <jansson.h>
+#include <stddef.h>
+
+typedef struct FitTable {
+    const char *name;
+    size_t text_bytes, float32_bytes; /* of the source; float32: values without angles */
+    double stored_values, bytes;
+    double max_error, rms_error, integral_error, noise, extrapolated;
+} FitTable;
+
+/* Deviations of a panel from a table, summed up. */
+typedef struct FitErrors {
+    double max, squares, count, integral, integral_source;
+} FitErrors;
+
+/* scale: what the error is relative to. */
+void fit_table_add_error(FitErrors *errors, double found, double wanted, double scale,
+                         double weight);
+void fit_table_finish(const FitErrors *errors, FitTable *out);
+
+/* A new object of the report. */
+json_t *fit_table_json(const FitTable *table);
+
+/* One more row of the report, and into its total. */
+void fit_table_append(json_t *tables, FitTable *total, const FitTable *one);
+
+/* Puts the file's size into the report's total. */
+void fit_table_set_file_size(json_t *total, size_t file_bytes);

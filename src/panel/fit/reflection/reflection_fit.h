@@ -1,0 +1,27 @@
+/* reflection_fit.h -- from the tables of a reflection to the sections of a panel file.
+ *
+ * Mirror, lobe and haze told apart -> the haze's logarithm in the specular-following frame ->
+ * few spectra and few components for all tables -> one tree -> section, integrals as measured
+ * and energy held.
+ * Memory   the arena's. Threads: options->threads; the bytes do not depend on how many.
+ * Fails    when the tree cannot be stored (ERROR_INPUT).
+ */
+#pragma once
+#include "panel/fit/reflection/reflection_section.h"
+
+typedef struct ReflectionResult {
+    ReflectionParts   parts;
+    ReflectionSection section;
+    const void       *tree;
+    TreeReport        tree_report;
+    const void       *sampling; /* the section's bytes; NULL: not yet built */
+    size_t            sampling_size;
+    int               masked; /* values below the least that counts */
+    double            bound, worst; /* error that was aimed at; largest error over it */
+    int               level, components, coefficients;
+    float             frame_exponent;
+} ReflectionResult;
+
+/* All but the sampling, which follows from what the panel says when it is queried. */
+bool reflection_fit(const Measurement *set, const FitOptions *options, Arena *arena,
+                    FitNotes *notes, ReflectionResult *out, Error *err);

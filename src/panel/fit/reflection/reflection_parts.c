@@ -1,0 +1,222 @@
+#include "panel/fit/reflection/reflection_parts.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/mathd.h"
+#include "base/parallel.h"
+#include "base/units.h"
+#include "panel/fit/common/sort.h"
+#include "panel/fit/common/table_noise.h"
+#include "panel/fit/reflection/reflection_peak.h"
+#include "panel/query/panel_reflection_layout.h"
+
+double reflection_parts_noise(const ReflectionParts *parts, int table, double f)
+{
+    double dim = f > 0 ? parts->dim_noise[table] / f : 0;
+    return sqrt(parts->noise[table] * parts->noise[table] + dim * dim);
+}
+
+double reflection_parts_most_noise(const ReflectionParts *parts)
+{
+    double most = 0;
+    for (int t = 0; t < parts->tables; t++) most = fmax(most, parts->noise[t]);
+    return most;
+}
+
+double reflection_parts_fwhm_deg(const ReflectionParts *parts, int table)
+{
+    return degrees_from_radians(parts->lobe_sigma[table] * sqrt(8 * log_d(2)));
+}
+
+static void luminous_weights(const Measurement *set, double *luminous)
+{
+    double total = 0;
+    for (int w = 0; w < set->wavelength_count; w++)
+        total += luminous[w] = panel_luminous_weight(set->wavelength_nm[w]);
+    for (int w = 0; w < set->wavelength_count; w++) luminous[w] /= total;
+}
+
+static void note_mirror(const Measurement *set, const ReflectionParts *out, FitNotes *notes)
+{
+    int last = set->incidence_count - 1;
+    if (out->has_mirror)
+        fit_note(notes, "a mirror image as wide as the instrument (%g deg) was moved to the "
+                 "mirror part: luminous reflectance %.4f at %g deg, %.4f at %g deg",
+                 set->instrument_fwhm_deg, out->mirror_y[0],
+                 degrees_from_radians(set->incidence[0]), out->mirror_y[last],
+                 degrees_from_radians(set->incidence[last]));
+    else if (set->instrument_fwhm_deg > 0)
+        fit_note(notes, "no image as narrow as the instrument (%g deg) stands out of the haze: "
+                 "no mirror part", set->instrument_fwhm_deg);
+    else
+        fit_note(notes, "the instrument's width is not declared (instrument_fwhm_deg): no "
+                 "mirror part was separated");
+}
+
+static void note_lobe(const Measurement *set, const ReflectionParts *out, FitNotes *notes)
+{
+    double least = 1e9, most = 0;
+    for (int t = 0; t < out->tables; t++) {
+        double fwhm = reflection_parts_fwhm_deg(out, t);
+        least = fmin(least, fwhm);
+        most = fmax(most, fwhm);
+    }
+    fit_note(notes, "a peak of %.2f to %.2f deg full width stands on the haze and is kept as a "
+             "lobe of its own: luminous reflectance %.4f at %g deg%s", least, most,
+             out->lobe_y[0], degrees_from_radians(set->incidence[0]),
+             set->instrument_fwhm_deg > 0 ? "" : "; if that is the instrument's own width, say "
+             "so (instrument_fwhm_deg) and it becomes the mirror part");
+}
+
+/* ---- one table after the other ----------------------------------------------------------- */
+
+typedef struct PartsPass {
+    const Measurement *set;
+    ReflectionParts     *out;
+    AngleTable        *table; /* of the next part */
+    bool              *has_lobe;
+    Arena             *arena; /* per table */
+} PartsPass;
+
+#define TABLE_BYTES ((size_t)4 << 30) /* address space of one table's scratch */
+
+static double *row_of(double *all, const Measurement *set, int table)
+{
+    return all + table * set->wavelength_count;
+}
+
+static double incidence_of(const Measurement *set, int table)
+{
+    return set->incidence[table % set->incidence_count];
+}
+
+static void find_mirror(void *context, int t, int worker)
+{
+    PartsPass              *pass = context;
+    const Measurement *set = pass->set;
+    ReflectionParts     *out = pass->out;
+    double fwhm = radians_from_degrees(set->instrument_fwhm_deg);
+    (void)worker;
+    out->noise[t] = table_noise_relative(&set->brdf[t], set->wavelength_count / 2,
+                                         pass->arena[t]);
+    out->dim_noise[t] = table_noise_dim(&set->brdf[t], set->wavelength_count / 2,
+                                        pass->arena[t]);
+    pass->table[t] = set->brdf[t];
+    if (fwhm > 0)
+        reflection_peak_take_mirror(&set->brdf[t], incidence_of(set, t), fwhm, &pass->arena[t],
+                                    row_of(out->reflectance, set, t), &pass->table[t]);
+}
+
+static void find_lobe(void *context, int t, int worker)
+{
+    PartsPass    *pass = context;
+    ReflectionLobe  lobe = {.reflectance = row_of(pass->out->lobe, pass->set, t)};
+    (void)worker;
+    pass->has_lobe[t] = reflection_peak_take_lobe(&pass->out->kept[t],
+                                                  incidence_of(pass->set, t),
+                                                  pass->out->noise[t], &pass->arena[t], &lobe,
+                                                  &pass->table[t]);
+    pass->out->lobe_sigma[t] = lobe.fwhm / sqrt(8 * log_d(2));
+}
+
+/* Copies what the passes made into the fit's arena. */
+static void keep_table(AngleTable *to, const AngleTable *from, const AngleTable *before,
+                       Arena *arena)
+{
+    size_t count = (size_t)from->rows * (size_t)from->channels;
+    *to = *from;
+    if (from->value == before->value) return;
+    float *value = ARENA_NEW(arena, float, count);
+    memcpy(value, from->value, sizeof *value * count);
+    to->value = value;
+}
+
+static double luminous_mean(const ReflectionParts *out, const Measurement *set, double *all,
+                            int t)
+{
+    double sum = 0;
+    for (int w = 0; w < set->wavelength_count; w++)
+        sum += out->luminous[w] * row_of(all, set, t)[w];
+    return sum;
+}
+
+static void separate_mirror(PartsPass *pass, int threads, Arena *arena)
+{
+    ReflectionParts *out = pass->out;
+    parallel_for(threads, out->tables, find_mirror, pass);
+    for (int t = 0; t < out->tables; t++) {
+        keep_table(&out->kept[t], &pass->table[t], &pass->set->brdf[t], arena);
+        out->has_mirror |= luminous_mean(out, pass->set, out->reflectance, t) > 0;
+        if (t < pass->set->incidence_count)
+            out->mirror_y[t] = luminous_mean(out, pass->set, out->reflectance, t);
+    }
+}
+
+/* A lobe is one only when all tables show it: between them it is interpolated. */
+static void separate_lobe(PartsPass *pass, int threads, Arena *arena)
+{
+    ReflectionParts *out = pass->out;
+    out->has_lobe = true;
+    parallel_for(threads, out->tables, find_lobe, pass);
+    for (int t = 0; t < out->tables; t++) out->has_lobe &= pass->has_lobe[t];
+    for (int t = 0; t < out->tables; t++) {
+        if (out->has_lobe) keep_table(&out->haze[t], &pass->table[t], &out->kept[t], arena);
+        else out->haze[t] = out->kept[t];
+        if (t < pass->set->incidence_count)
+            out->lobe_y[t] = luminous_mean(out, pass->set, out->lobe, t);
+    }
+}
+
+/* The lobe is the instrument's image of the mirror: the user says so. */
+static void take_lobe_for_mirror(ReflectionParts *out)
+{
+    double *none = out->reflectance;
+    out->reflectance = out->lobe;
+    out->lobe = none;
+    out->has_mirror = true;
+    out->has_lobe = false;
+    for (int t = 0; t < out->tables; t++) out->kept[t] = out->haze[t];
+    memcpy(out->mirror_y, out->lobe_y, sizeof out->mirror_y);
+    memset(out->lobe_y, 0, sizeof out->lobe_y);
+}
+
+static double median_fwhm_deg(const ReflectionParts *out, Arena scratch)
+{
+    double *list = ARENA_NEW(&scratch, double, out->tables);
+    memcpy(list, out->lobe_sigma, sizeof *list * (size_t)out->tables);
+    return degrees_from_radians(sort_median(list, out->tables) * sqrt(8 * log_d(2)));
+}
+
+void reflection_parts_separate(const Measurement *set, const FitOptions *options, Arena *arena,
+                               FitNotes *notes, ReflectionParts *out)
+{
+    int    tables = set->incidence_count * (set->azimuth_count > 1 ? set->azimuth_count : 1);
+    size_t rows = (size_t)tables * (size_t)set->wavelength_count;
+    PartsPass   pass = {.set = set, .out = out};
+    out->tables = tables;
+    out->kept = ARENA_NEW(arena, AngleTable, tables);
+    out->haze = ARENA_NEW(arena, AngleTable, tables);
+    out->noise = ARENA_NEW(arena, double, tables);
+    out->dim_noise = ARENA_NEW(arena, double, tables);
+    out->reflectance = ARENA_NEW(arena, double, rows);
+    out->lobe = ARENA_NEW(arena, double, rows);
+    out->lobe_sigma = ARENA_NEW(arena, double, tables);
+    pass.table = ARENA_NEW(arena, AngleTable, tables);
+    pass.has_lobe = ARENA_NEW(arena, bool, tables);
+    pass.arena = ARENA_NEW(arena, Arena, tables);
+    luminous_weights(set, out->luminous);
+    for (int t = 0; t < tables; t++) pass.arena[t] = arena_reserve(TABLE_BYTES);
+    separate_mirror(&pass, options->threads, arena);
+    separate_lobe(&pass, options->threads, arena);
+    for (int t = 0; t < tables; t++) arena_release(&pass.arena[t]);
+    if (out->has_lobe && options->lobe_is_mirror && !(set->instrument_fwhm_deg > 0)) {
+        take_lobe_for_mirror(out);
+        fit_note(notes, "as asked, the peak on the haze counts as the mirror's image: the "
+                 "instrument's width is then %.2f deg (an estimate, not declared)",
+                 median_fwhm_deg(out, *arena));
+    } else {
+        note_mirror(set, out, notes);
+    }
+    if (out->has_lobe) note_lobe(set, out, notes);
+}

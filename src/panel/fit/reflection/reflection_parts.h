@@ -1,0 +1,39 @@
+/* reflection_parts.h -- the parts of a reflection told apart: mirror, lobe, and what is left
+ * for the haze.
+ *
+ * Tables   one a measured incidence and azimuth of the light: azimuth * incidences + incidence;
+ *          rows over wavelengths.
+ * Memory   the arena's. Threads: options->threads; results do not depend on how many.
+ * Fails    never.
+ */
+#pragma once
+#include "panel/fit/common/fit_note.h"
+#include "panel/fit/common/fit_options.h"
+#include "panel/set/measurement.h"
+
+typedef struct ReflectionParts {
+    int         tables;
+    AngleTable *kept;        /* what is left without the mirror */
+    AngleTable *haze;        /* and without the lobe */
+    double     *noise;       /* relative, per table */
+    double     *dim_noise;   /* sr^-1, per table */
+    double     *reflectance; /* of the mirror, [table][wavelength] */
+    double     *lobe;        /* the same of the lobe */
+    double     *lobe_sigma;  /* radians, per table */
+    double      mirror_y[MEASUREMENT_INCIDENCES_MAX]; /* luminous, of the first azimuth */
+    double      lobe_y[MEASUREMENT_INCIDENCES_MAX];
+    double      luminous[MEASUREMENT_WAVELENGTHS_MAX]; /* observer's weight, sum 1 */
+    bool        has_mirror, has_lobe;
+} ReflectionParts;
+
+void reflection_parts_separate(const Measurement *set, const FitOptions *options, Arena *arena,
+                               FitNotes *notes, ReflectionParts *out);
+
+/* Relative noise of a table's value f. */
+double reflection_parts_noise(const ReflectionParts *parts, int table, double f);
+
+/* That of the noisiest table. */
+double reflection_parts_most_noise(const ReflectionParts *parts);
+
+/* Full width at half of the lobe's maximum in a table, degrees. */
+double reflection_parts_fwhm_deg(const ReflectionParts *parts, int table);

@@ -1,0 +1,14 @@
+/* reflection_read.h -- reflection tables as logarithms at any direction of the
+ * specular-following frame. */
+#pragma once
+#include "panel/fit/reflection/reflection_model.h"
+
+/* The grids of all tables and the logarithms on their cells: once. */
+void reflection_read_tables(ReflectionModel *model);
+
+/* Places of a level, and all tables' values there. */
+void reflection_read_places(ReflectionModel *model, int level);
+
+/* Below this a table's values have no logarithm that counts: zeros, and noise that went below
+ * them. sr^-1 */
+double reflection_read_least(const AngleTable *table);

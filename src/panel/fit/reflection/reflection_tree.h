@@ -1,0 +1,12 @@
+/* reflection_tree.h -- the reflection's tree, and whether what it says again is good enough at
+ * every place and at every measured sample. */
+#pragma once
+#include "panel/fit/reflection/reflection_model.h"
+
+typedef struct ReflectionMisses {
+    int    samples, misses; /* samples beyond their bound */
+    double worst;           /* largest error over its bound */
+} ReflectionMisses;
+
+/* The tree; what samples and places miss by is mended as far as the level lets it be. */
+bool reflection_tree_build(ReflectionModel *model, ReflectionMisses *misses, Error *err);
