@@ -1,20 +1,16 @@
 /* import_fixture.h -- for tests of importers of scatter: a foreign file in a temporary folder,
  * read by one importer; rows looked up by direction. */
 #pragma once
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-#include "base/file.h"
-#include "check.h"
+#include "fixture.h"
 #include "import/set/import.h"
 #include "import/importers.h"
 
 typedef struct Fixture {
     Arena         arena;
-    char          folder[256];
-    char          file[288];
+    char          folder[FOLDER_BYTES];
+    char          file[FOLDER_BYTES + 32];
     ImportOptions options;
     ImportSet     set;
     Error         err;
@@ -24,9 +20,7 @@ static inline int fixture_setup(void **state)
 {
     Fixture *f = calloc(1, sizeof *f);
     f->arena = arena_reserve((size_t)4 << 30);
-    const char *base = getenv("TMPDIR");
-    snprintf(f->folder, sizeof f->folder, "%s/parhelion-test-XXXXXX", base ? base : P_tmpdir);
-    if (!mkdtemp(f->folder)) return -1;
+    if (!folder_create(f->folder)) return -1;
     snprintf(f->file, sizeof f->file, "%s/sample", f->folder);
     f->options.wavelength_nm = 550;
     *state = f;
@@ -36,8 +30,7 @@ static inline int fixture_setup(void **state)
 static inline int fixture_teardown(void **state)
 {
     Fixture *f = *state;
-    remove(f->file);
-    rmdir(f->folder);
+    folder_destroy(f->folder);
     arena_release(&f->arena);
     free(f);
     return 0;
@@ -45,10 +38,7 @@ static inline int fixture_teardown(void **state)
 
 static inline void fixture_write(Fixture *f, const void *bytes, size_t size)
 {
-    FILE *stream = fopen(f->file, "wb");
-    assert_non_null(stream);
-    assert_int_equal(fwrite(bytes, 1, size, stream), size);
-    fclose(stream);
+    write_bytes(f->file, bytes, size);
 }
 
 /* Reads `file` by the importer that recognises it, which must be `name`. */

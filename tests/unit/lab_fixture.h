@@ -1,20 +1,13 @@
 /* lab_fixture.h -- a laboratory's files in a temporary folder, imported as a user would. */
 #pragma once
-#define _XOPEN_SOURCE 700
-#include <ftw.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-#include "base/file.h"
-#include "check.h"
+#include "fixture.h"
 #include "import/import_request.h"
 #include "import/primaries.h"
 #include "panel/set/measurement.h"
 
 typedef struct Lab {
     Arena          arena;
-    char           folder[512];
+    char           folder[FOLDER_BYTES];
     ImportRequest *request;
     const char    *file[64];
     int            count;
@@ -25,10 +18,7 @@ typedef struct Lab {
 static inline void lab_write_bytes(Lab *lab, const char *name, const void *bytes, size_t size)
 {
     const char *path = arena_format(&lab->arena, "%s/%s", lab->folder, name);
-    FILE *stream = fopen(path, "wb");
-    assert_non_null(stream);
-    assert_int_equal(fwrite(bytes, 1, size, stream), size);
-    assert_int_equal(fclose(stream), 0);
+    write_bytes(path, bytes, size);
     for (int i = 0; i < lab->count; i++)
         if (!strcmp(lab->file[i], path)) return;
     lab->file[lab->count++] = path;
@@ -78,13 +68,6 @@ static inline void lab_refused(Lab *lab, const char *message)
     assert_string_equal(line, message);
 }
 
-static inline int lab_remove(const char *path, const struct stat *status, int kind,
-                             struct FTW *walk)
-{
-    (void)status, (void)kind, (void)walk;
-    return remove(path);
-}
-
 static inline int lab_setup(void **state)
 {
     Lab *lab = calloc(1, sizeof *lab);
@@ -92,15 +75,14 @@ static inline int lab_setup(void **state)
     if (!base) base = !access("/dev/shm", W_OK) ? "/dev/shm" : P_tmpdir;
     lab->arena = arena_reserve((size_t)16 << 30);
     lab->request = ARENA_NEW(&lab->arena, ImportRequest, 1);
-    snprintf(lab->folder, sizeof lab->folder, "%s/parhelion_lab_XXXXXX", base);
     *state = lab;
-    return mkdtemp(lab->folder) ? 0 : -1;
+    return folder_create_below(base, lab->folder) ? 0 : -1;
 }
 
 static inline int lab_teardown(void **state)
 {
     Lab *lab = *state;
-    nftw(lab->folder, lab_remove, 16, FTW_DEPTH | FTW_PHYS);
+    folder_destroy(lab->folder);
     arena_release(&lab->arena);
     free(lab);
     return 0;

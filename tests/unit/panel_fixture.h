@@ -1,15 +1,7 @@
 /* panel_fixture.h -- small synthetic panels for tests: recipe, measurement set, fit, panel. */
 #pragma once
-#define _XOPEN_SOURCE 700
-#include <ftw.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-#include "base/file.h"
-#include "base/file_write.h"
 #include "base/units.h"
-#include "check.h"
+#include "fixture.h"
 #include "panel/fit/fit.h"
 #include "panel/set/measurement.h"
 #include "panel/query/panel.h"
@@ -17,8 +9,8 @@
 
 typedef struct Fixture {
     Arena        arena;
-    char         folder[512];
-    char         panel_path[600];
+    char         folder[FOLDER_BYTES];
+    char         panel_path[FOLDER_BYTES + 32];
     Recipe       recipe;
     Measurement *set;
     Panel       *panel;
@@ -44,57 +36,84 @@ typedef struct Fixture {
     "\"instrument\": {\"theta_step_deg\": 2, \"phi_step_deg\": 6, \"brdf_theta_step_deg\": 1," \
     "\"brdf_phi_step_deg\": 3, \"fwhm_deg\": 2.5}}"
 
-static inline int fixture_remove(const char *path, const struct stat *status, int kind,
-                                 struct FTW *walk)
+static inline char *fixture_path(Fixture *fixture, const char *name)
 {
-    (void)status, (void)kind, (void)walk;
-    return remove(path);
+    return arena_format(&fixture->arena, "%s/%s", fixture->folder, name);
 }
 
 /* Writes a text into the fixture's folder and returns its path. */
 static inline const char *fixture_file(Fixture *fixture, const char *name, const char *text)
 {
-    Error err = {0};
-    const char *path = arena_format(&fixture->arena, "%s/%s", fixture->folder, name);
-    if (!file_write(path, text, strlen(text), &err)) fail_msg("%s", err.text);
+    const char *path = fixture_path(fixture, name);
+    write_text(path, text);
     return path;
 }
 
 static inline void fixture_folder(Fixture *fixture)
 {
     memset(fixture, 0, sizeof *fixture);
-    fixture->arena = arena_reserve((size_t)16 << 30);
-    const char *base = getenv("TMPDIR");
-    snprintf(fixture->folder, sizeof fixture->folder, "%s/parhelion_panel_XXXXXX",
-             base ? base : P_tmpdir);
-    assert_non_null(mkdtemp(fixture->folder));
+    fixture->arena = arena_reserve((size_t)64 << 30);
+    assert_true(folder_create(fixture->folder));
     snprintf(fixture->panel_path, sizeof fixture->panel_path, "%s/test.panel", fixture->folder);
+}
+
+/* Recipe text to its files in the fixture's folder; the path of their manifest. */
+static inline const char *fixture_simulate(Fixture *fixture, const char *recipe)
+{
+    Error err = {0};
+    fixture_folder(fixture);
+    const char *path = fixture_file(fixture, "recipe.json", recipe);
+    if (!recipe_read(path, &fixture->arena, &fixture->recipe, &err) ||
+        !simulate_measurement(&fixture->recipe, fixture->folder, PROGRESS_NONE, &err))
+        fail_msg("%s: %s: %s", err.file, err.path, err.text);
+    return fixture_path(fixture, "MANIFEST.json");
+}
+
+static inline void fixture_read(Fixture *fixture, const char *manifest)
+{
+    Error err = {0};
+    fixture->set = ARENA_NEW(&fixture->arena, Measurement, 1);
+    if (!measurement_read(manifest, &fixture->arena, fixture->set, &err))
+        fail_msg("%s: %s: %s", err.file, err.path, err.text);
+}
+
+/* The measurement to an opened panel. */
+static inline void fixture_fit(Fixture *fixture, const FitOptions *options)
+{
+    Error err = {0};
+    if (!panel_fit(fixture->set, options, fixture->panel_path, &fixture->arena,
+                   &fixture->report, &err) ||
+        !panel_open(fixture->panel_path, &fixture->arena, &fixture->panel, &err))
+        fail_msg("%s: %s: %s", err.file, err.path, err.text);
+}
+
+/* Recipe text to a measurement that has been read back. */
+static inline void fixture_measure(Fixture *fixture, const char *recipe)
+{
+    fixture_read(fixture, fixture_simulate(fixture, recipe));
 }
 
 /* Recipe text to a fitted, opened panel. */
 static inline void fixture_start(Fixture *fixture, const char *recipe,
                                  const FitOptions *options)
 {
-    Error err = {0};
-    fixture_folder(fixture);
-    const char *path = fixture_file(fixture, "recipe.json", recipe);
-    const char *manifest = arena_format(&fixture->arena, "%s/MANIFEST.json", fixture->folder);
-    fixture->set = ARENA_NEW(&fixture->arena, Measurement, 1);
-    if (!recipe_read(path, &fixture->arena, &fixture->recipe, &err) ||
-        !simulate_measurement(&fixture->recipe, fixture->folder, PROGRESS_NONE, &err) ||
-        !measurement_read(manifest, &fixture->arena, fixture->set, &err) ||
-        !panel_fit(fixture->set, options, fixture->panel_path, &fixture->arena,
-                   &fixture->report, &err) ||
-        !panel_open(fixture->panel_path, &fixture->arena, &fixture->panel, &err))
-        fail_msg("%s: %s: %s", err.file, err.path, err.text);
+    fixture_measure(fixture, recipe);
+    fixture_fit(fixture, options);
 }
 
 static inline void fixture_end(Fixture *fixture)
 {
     panel_close(fixture->panel);
     json_decref(fixture->report);
-    nftw(fixture->folder, fixture_remove, 16, FTW_DEPTH | FTW_PHYS);
+    folder_destroy(fixture->folder);
     arena_release(&fixture->arena);
+}
+
+/* Of a group of tests whose state is their one fixture. */
+static inline int fixture_group_end(void **state)
+{
+    fixture_end(*state);
+    return 0;
 }
 
 /* Unit vector of a direction in degrees. */
@@ -118,4 +137,24 @@ static inline Wavelengths even_wavelengths(float first_nm, float step_nm)
     for (int i = 0; i < SPECTRUM_LANES; i++)
         wavelengths.nm[i] = first_nm + step_nm * (float)i;
     return wavelengths;
+}
+
+/* The recipe's XYZ for a pixel; angles in radians. */
+static inline void true_xyz(const Recipe *recipe, const double angles[2],
+                            const float rgb[3], double xyz[3])
+{
+    double add[3];
+    truth_black_xyz(recipe, angles, xyz);
+    for (int p = 0; p < 3; p++) {
+        truth_emission_xyz(recipe, p, (double)rgb[p], angles, add);
+        for (int j = 0; j < 3; j++) xyz[j] += add[j];
+    }
+}
+
+/* Between XYZ, in u'v'. */
+static inline double chromaticity_distance(const double a[3], const float b[3])
+{
+    double da = a[0] + 15 * a[1] + 3 * a[2];
+    double db = (double)b[0] + 15 * (double)b[1] + 3 * (double)b[2];
+    return hypot(4 * a[0] / da - 4 * (double)b[0] / db, 9 * a[1] / da - 9 * (double)b[1] / db);
 }

@@ -18,17 +18,10 @@ static Fixture narrow;
 
 static int start_narrow(void **state)
 {
-    (void)state;
+    *state = &narrow;
     FitOptions options = fit_options_default();
     options.level = 5;
     fixture_start(&narrow, NARROW, &options);
-    return 0;
-}
-
-static int end_narrow(void **state)
-{
-    (void)state;
-    fixture_end(&narrow);
     return 0;
 }
 
@@ -190,5 +183,5 @@ int main(void)
         cmocka_unit_test(displays_are_chosen_by_angle_and_by_content),
         cmocka_unit_test(every_strategy_finds_the_same_light_of_displays),
     };
-    return cmocka_run_group_tests(tests, start_narrow, end_narrow);
+    return cmocka_run_group_tests(tests, start_narrow, fixture_group_end);
 }

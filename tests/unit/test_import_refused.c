@@ -7,69 +7,83 @@ static void refuse(Lab *lab, const char *text, const char *message)
     lab_refused(lab, message);
 }
 
+typedef struct Refusal {
+    const char *text, *message;
+} Refusal;
+
+#define REFUSE_ALL(lab, rows)                                                                  \
+    for (size_t i_ = 0; i_ < sizeof(rows) / sizeof *(rows); i_++)                              \
+    refuse(lab, (rows)[i_].text, (rows)[i_].message)
+
 static void cells_and_rows_that_do_not_fit(void **state)
 {
     Lab *lab = *state;
-    refuse(lab, "theta,phi,X,Y,Z\n0,0,1,2,3\n10,0,1,abc,3\n",
-           "white.csv: line 3: column 'Y' holds 'abc', wanted a number or a mark of what was "
-           "not measured (---, NaN, or one given as --mask)");
-    refuse(lab, "theta,phi,X,Y,Z\n0,0,1,2,3\n10,0,1,2\n",
-           "white.csv: line 3: has 4 cells, wanted 5 as the columns are");
-    refuse(lab, "theta,phi,X,Y,Z\n0,0,1,2,3\n10,0,1,2,3,4\n",
-           "white.csv: line 3: has 6 cells, wanted 5 as the columns are");
-    refuse(lab, "theta,phi,X,Y,Z\n0,0,1,2,3\n10,---,1,2,3\n20,0,1,2,3\n",
-           "white.csv: line 3: has no angle, wanted two numbers");
-    refuse(lab, "theta,phi,X,Y,Z\n0,0,1,2,3\nend\n10,0,1,2,3\n",
-           "white.csv: line 4: holds numbers again behind the end of the table");
-    refuse(lab, "theta,phi,X,Y,Z\n0,0,1e999,2,3\n",
-           "white.csv: line 2: column 'X' holds '1e999', wanted a number or a mark of what was "
-           "not measured (---, NaN, or one given as --mask)");
-    refuse(lab, "0,0,1,2,3\n10,0,1,2,3\n",
-           "white.csv: line 1: begins numbers that no header names — name them with --columns "
-           "theta,phi,..., or say --table theta-down or phi-down for a matrix");
-    refuse(lab, "theta,phi,X,Y,Z\n",
-           "white.csv: has no row of numbers — say how they are written with --delimiter and "
-           "--decimal, or name the file's --format");
-    refuse(lab, "theta,phi,X,Y,Z\n0,0,1,2,3\n190,0,1,2,3\n20,0,1,2,3\n",
-           "white.csv: line 3: theta is 190, wanted -90 to 90 degrees");
-    refuse(lab, "theta,phi,Y,x,y\n0,0,1,0.3,0.3\n10,0,1,0.7,0.5\n20,0,1,.3,.3\n",
-           "white.csv: line 3: chromaticity is 0.7, 0.5, wanted a point of the CIE diagram");
-    refuse(lab, "", "white.csv: is empty");
-    refuse(lab, "theta,phi,L\n0,0,1\n10,0,1\n",
-           "white.csv: line 2: begins a table of 2 measured directions, wanted an angular "
-           "table of at least 3 — leave the file out (--role FILE=skip) if it is none");
+    static const Refusal rows[] = {
+        {"theta,phi,X,Y,Z\n0,0,1,2,3\n10,0,1,abc,3\n",
+         "white.csv: line 3: column 'Y' holds 'abc', wanted a number or a mark of what was "
+         "not measured (---, NaN, or one given as --mask)"},
+        {"theta,phi,X,Y,Z\n0,0,1,2,3\n10,0,1,2\n",
+         "white.csv: line 3: has 4 cells, wanted 5 as the columns are"},
+        {"theta,phi,X,Y,Z\n0,0,1,2,3\n10,0,1,2,3,4\n",
+         "white.csv: line 3: has 6 cells, wanted 5 as the columns are"},
+        {"theta,phi,X,Y,Z\n0,0,1,2,3\n10,---,1,2,3\n20,0,1,2,3\n",
+         "white.csv: line 3: has no angle, wanted two numbers"},
+        {"theta,phi,X,Y,Z\n0,0,1,2,3\nend\n10,0,1,2,3\n",
+         "white.csv: line 4: holds numbers again behind the end of the table"},
+        {"theta,phi,X,Y,Z\n0,0,1e999,2,3\n",
+         "white.csv: line 2: column 'X' holds '1e999', wanted a number or a mark of what was "
+         "not measured (---, NaN, or one given as --mask)"},
+        {"0,0,1,2,3\n10,0,1,2,3\n",
+         "white.csv: line 1: begins numbers that no header names — name them with --columns "
+         "theta,phi,..., or say --table theta-down or phi-down for a matrix"},
+        {"theta,phi,X,Y,Z\n",
+         "white.csv: has no row of numbers — say how they are written with --delimiter and "
+         "--decimal, or name the file's --format"},
+        {"theta,phi,X,Y,Z\n0,0,1,2,3\n190,0,1,2,3\n20,0,1,2,3\n",
+         "white.csv: line 3: theta is 190, wanted -90 to 90 degrees"},
+        {"theta,phi,Y,x,y\n0,0,1,0.3,0.3\n10,0,1,0.7,0.5\n20,0,1,.3,.3\n",
+         "white.csv: line 3: chromaticity is 0.7, 0.5, wanted a point of the CIE diagram"},
+        {"", "white.csv: is empty"},
+        {"theta,phi,L\n0,0,1\n10,0,1\n",
+         "white.csv: line 2: begins a table of 2 measured directions, wanted an angular "
+         "table of at least 3 — leave the file out (--role FILE=skip) if it is none"},
+    };
+    REFUSE_ALL(lab, rows);
 }
 
 static void headers_that_do_not_say_enough(void **state)
 {
     Lab *lab = *state;
-    refuse(lab, "theta,phi,X,Y\n0,0,1,2\n10,0,1,2\n20,0,1,2\n",
-           "white.csv: header line: has not what makes a colour: X, Y, Z; or luminance with x, "
-           "y or u', v'; or luminance alone — name the columns with --columns");
-    refuse(lab, "theta,phi,CCT\n0,0,1\n10,0,1\n",
-           "white.csv: header line: has no column of luminance or reflection — name them with "
-           "--columns");
-    refuse(lab, "theta,phi,L,u,v\n0,0,1,.2,.3\n",
-           "white.csv: line 1: column 'u' may be CIE 1960 or 1976 — name the columns with "
-           "--columns, u' and v' for 1976");
-    refuse(lab, "theta,phi,phi_out,L\n0,0,0,1\n10,0,0,1\n",
-           "white.csv: line 1: columns 'phi' and 'phi_out' name the same quantity — say which "
-           "is which with --columns (- skips one)");
-    refuse(lab, "theta,phi,L,550nm\n0,0,0,1\n10,0,0,1\n",
-           "white.csv: header line: has columns of luminance and of reflection, wanted one "
-           "kind — skip some with --columns");
-    refuse(lab, "theta_H,theta_V,L\n0,0,1\n10,0,1\n20,0,1\n",
-           "white.csv: header line: has a horizontal and a vertical angle — say which with "
-           "--angles projected, equidistant, north-polar or east-polar");
-    refuse(lab, "theta,phi,L\n0,0,1\n0.5,0,1\n1.5,3,1\n",
-           "white.csv: has angles up to 1.5: radians, or a cone of so many degrees — say "
-           "--angle-unit rad or deg");
-    refuse(lab, "theta,phi,X (nit),Y (fL),Z (fL)\n0,0,1,1,1\n10,0,1,1,1\n20,0,1,1,1\n",
-           "white.csv: header line: has columns in cd/m2 and in fL, wanted one unit");
-    refuse(lab, "R,G,B,theta,phi,L\n10,20,0,0,0,1\n10,20,0,10,0,1\n10,20,0,20,0,1\n",
-           "white.csv: line 2: the codes 10, 20, 0 are a mixture, wanted one primary at a "
-           "time, black or white — leave the file out (--role FILE=skip) if it is no table of "
-           "one pattern");
+    static const Refusal rows[] = {
+        {"theta,phi,X,Y\n0,0,1,2\n10,0,1,2\n20,0,1,2\n",
+         "white.csv: header line: has not what makes a colour: X, Y, Z; or luminance with x, "
+         "y or u', v'; or luminance alone — name the columns with --columns"},
+        {"theta,phi,CCT\n0,0,1\n10,0,1\n",
+         "white.csv: header line: has no column of luminance or reflection — name them with "
+         "--columns"},
+        {"theta,phi,L,u,v\n0,0,1,.2,.3\n",
+         "white.csv: line 1: column 'u' may be CIE 1960 or 1976 — name the columns with "
+         "--columns, u' and v' for 1976"},
+        {"theta,phi,phi_out,L\n0,0,0,1\n10,0,0,1\n",
+         "white.csv: line 1: columns 'phi' and 'phi_out' name the same quantity — say which "
+         "is which with --columns (- skips one)"},
+        {"theta,phi,L,550nm\n0,0,0,1\n10,0,0,1\n",
+         "white.csv: header line: has columns of luminance and of reflection, wanted one "
+         "kind — skip some with --columns"},
+        {"theta_H,theta_V,L\n0,0,1\n10,0,1\n20,0,1\n",
+         "white.csv: header line: has a horizontal and a vertical angle — say which with "
+         "--angles projected, equidistant, north-polar or east-polar"},
+        {"theta,phi,L\n0,0,1\n0.5,0,1\n1.5,3,1\n",
+         "white.csv: has angles up to 1.5: radians, or a cone of so many degrees — say "
+         "--angle-unit rad or deg"},
+        {"theta,phi,X (nit),Y (fL),Z (fL)\n0,0,1,1,1\n10,0,1,1,1\n20,0,1,1,1\n",
+         "white.csv: header line: has columns in cd/m2 and in fL, wanted one unit"},
+        {"R,G,B,theta,phi,L\n10,20,0,0,0,1\n10,20,0,10,0,1\n10,20,0,20,0,1\n",
+         "white.csv: line 2: the codes 10, 20, 0 are a mixture, wanted one primary at a "
+         "time, black or white — leave the file out (--role FILE=skip) if it is no table of "
+         "one pattern"},
+    };
+    REFUSE_ALL(lab, rows);
     lab->count = 0;
     lab_write(lab, "BRDF_20.csv", "theta,phi,brdf\n0,0,1\n10,0,1\n20,0,1\n");
     lab_refused(lab, "BRDF_20.csv: header line: does not say the wavelength of 'brdf' — say it "
@@ -79,24 +93,26 @@ static void headers_that_do_not_say_enough(void **state)
 static void matrices_that_do_not_say_enough(void **state)
 {
     Lab *lab = *state;
-    refuse(lab, "L\n,0,30\n0,10,20\n60,10,30\n",
-           "white.csv: line 2: does not tell whether theta runs down or across — say --table "
-           "theta-down or phi-down");
-    refuse(lab, "theta\\phi,0,120\n0,10,20\n60,10,30\n",
-           "white.csv: does not say what its matrix holds — say --quantity X, Y, Z, L or brdf, "
-           "or the component in the role, as --role white.csv=red:255:X");
-    refuse(lab, "[X]\ntheta\\phi,0,120\n0,1,2\n\n[X]\ntheta\\phi,0,120\n0,1,2\n",
-           "white.csv: line 6: begins a matrix of the same quantity (X) as line 2 — label "
-           "each, as [X], [Y], [Z] or [550 nm]");
-    refuse(lab,
-           "[X]\ntheta\\phi,0,120\n0,1,2\n30,1,2\n\n[Y]\ntheta\\phi,0,120\n0,1,2\n20,1,2\n",
-           "white.csv: line 7: begins a matrix over other angles than the one of line 2, "
-           "wanted one grid in a file");
-    refuse(lab, "[L]\ntheta\\phi,0,120\n0,1,2\n30,1\n",
-           "white.csv: line 4: has 2 cells, wanted 3 as the head of the matrix");
-    refuse(lab, "[L]\ntheta\\phi,0,120\n0,1,2\n30,1,x\n",
-           "white.csv: line 4: column 'matrix' holds 'x', wanted a number or a mark of what "
-           "was not measured (---, NaN, or one given as --mask)");
+    static const Refusal rows[] = {
+        {"L\n,0,30\n0,10,20\n60,10,30\n",
+         "white.csv: line 2: does not tell whether theta runs down or across — say --table "
+         "theta-down or phi-down"},
+        {"theta\\phi,0,120\n0,10,20\n60,10,30\n",
+         "white.csv: does not say what its matrix holds — say --quantity X, Y, Z, L or brdf, "
+         "or the component in the role, as --role white.csv=red:255:X"},
+        {"[X]\ntheta\\phi,0,120\n0,1,2\n\n[X]\ntheta\\phi,0,120\n0,1,2\n",
+         "white.csv: line 6: begins a matrix of the same quantity (X) as line 2 — label "
+         "each, as [X], [Y], [Z] or [550 nm]"},
+        {"[X]\ntheta\\phi,0,120\n0,1,2\n30,1,2\n\n[Y]\ntheta\\phi,0,120\n0,1,2\n20,1,2\n",
+         "white.csv: line 7: begins a matrix over other angles than the one of line 2, "
+         "wanted one grid in a file"},
+        {"[L]\ntheta\\phi,0,120\n0,1,2\n30,1\n",
+         "white.csv: line 4: has 2 cells, wanted 3 as the head of the matrix"},
+        {"[L]\ntheta\\phi,0,120\n0,1,2\n30,1,x\n",
+         "white.csv: line 4: column 'matrix' holds 'x', wanted a number or a mark of what "
+         "was not measured (---, NaN, or one given as --mask)"},
+    };
+    REFUSE_ALL(lab, rows);
     lab_declare(lab, "table", "phi-down");
     refuse(lab, "[L]\ntheta\\phi,0,120\n0,1,2\n30,1,2\n",
            "white.csv: line 2: the corner 'theta\\phi' says that theta runs down, and --table "

@@ -12,34 +12,17 @@ static int start_ips(void **state)
     (void)state;
     FitOptions options = fit_options_default();
     options.threads = 2;
+    *state = &ips;
     fixture_start(&ips, FIXTURE_IPS, &options);
     return 0;
 }
 
-static int end_ips(void **state)
-{
-    (void)state;
-    fixture_end(&ips);
-    return 0;
-}
-
 /* The recipe's XYZ for a pixel. */
-static void true_xyz(const Recipe *recipe, double theta_deg, double phi_deg, const float rgb[3],
-                     double xyz[3])
+static void true_xyz_deg(const Recipe *recipe, double theta_deg, double phi_deg,
+                         const float rgb[3], double xyz[3])
 {
-    double angles[2] = {radians_from_degrees(theta_deg), radians_from_degrees(phi_deg)}, add[3];
-    truth_black_xyz(recipe, angles, xyz);
-    for (int p = 0; p < 3; p++) {
-        truth_emission_xyz(recipe, p, (double)rgb[p], angles, add);
-        for (int j = 0; j < 3; j++) xyz[j] += add[j];
-    }
-}
-
-static double chromaticity_distance(const double a[3], const float b[3])
-{
-    double da = a[0] + 15 * a[1] + 3 * a[2];
-    double db = (double)b[0] + 15 * (double)b[1] + 3 * (double)b[2];
-    return hypot(4 * a[0] / da - 4 * (double)b[0] / db, 9 * a[1] / da - 9 * (double)b[1] / db);
+    double angles[2] = {radians_from_degrees(theta_deg), radians_from_degrees(phi_deg)};
+    true_xyz(recipe, angles, rgb, xyz);
 }
 
 static json_t *table_of(const char *name)
@@ -96,7 +79,7 @@ static void emission_follows_the_truth_between_samples_and_levels(void **state)
         float  rgb[3], xyz[3];
         double truth[3];
         for (int p = 0; p < 3; p++) rgb[p] = (float)(255 * steady_random(&random));
-        true_xyz(&ips.recipe, theta, phi, rgb, truth);
+        true_xyz_deg(&ips.recipe, theta, phi, rgb, truth);
         assert_true(panel_emission_xyz(ips.panel, direction_deg(theta, phi), rgb, xyz));
         double bound = theta < 70 ? 0.006 : 0.03;
         if (!(fabs((double)xyz[1] - truth[1]) <= bound * truth[1]) ||
@@ -114,7 +97,7 @@ static void black_is_counted_once(void **state)
         Vec3   d = direction_deg(10.0 * i, 33.0 * i);
         float  black[3], white[3], one[3], dark[3] = {0, 0, 0}, rgb[3] = {200, 130, 60};
         double truth[3];
-        true_xyz(&ips.recipe, 10.0 * i, 33.0 * i, dark, truth);
+        true_xyz_deg(&ips.recipe, 10.0 * i, 33.0 * i, dark, truth);
         panel_emission_xyz(ips.panel, d, dark, black);
         panel_emission_xyz(ips.panel, d, rgb, white);
         assert_close(black[1], truth[1], 0.01);
@@ -373,7 +356,7 @@ static void a_fit_gives_the_same_bytes_again(void **state)
     FitOptions options = fit_options_default();
     FileBytes  before, after;
     json_t    *report;
-    const char *path = arena_format(&ips.arena, "%s/again.panel", ips.folder);
+    const char *path = fixture_path(&ips, "again.panel");
     options.frame_exponent = ips.panel->reflection->frame_exponent; /* what was chosen */
     if (!panel_fit(ips.set, &options, path, &ips.arena, &report, &err) ||
         !file_read(ips.panel_path, (size_t)1 << 30, &ips.arena, &before, &err) ||
@@ -422,7 +405,7 @@ static void a_true_black_stays_black(void **state)
     panel_emission_xyz(oled.panel, direction_deg(30, 40), rgb, xyz);
     assert_true(black[1] == 0);
     double truth[3];
-    true_xyz(&oled.recipe, 30, 40, rgb, truth);
+    true_xyz_deg(&oled.recipe, 30, 40, rgb, truth);
     assert_close(xyz[1], truth[1], 0.005);
     fixture_end(&oled);
 }
@@ -435,14 +418,10 @@ static void a_white_only_table_of_two_sections_becomes_a_panel(void **state)
     const char *path = SHARED_DATA_DIR "/display/viewing_angle_oled_phi0_90.csv";
     if (!file_exists(path)) skip();
     Fixture    real;
-    Error      err = {0};
     FitOptions options = fit_options_default();
     fixture_folder(&real);
-    real.set = ARENA_NEW(&real.arena, Measurement, 1);
-    if (!measurement_read(path, &real.arena, real.set, &err) ||
-        !panel_fit(real.set, &options, real.panel_path, &real.arena, &real.report, &err) ||
-        !panel_open(real.panel_path, &real.arena, &real.panel, &err))
-        fail_msg("%s", err.text);
+    fixture_read(&real, path);
+    fixture_fit(&real, &options);
     for (int i = 0; i < 5; i++) {
         float rgb[3] = {255, 255, 255}, xyz[3];
         panel_emission_xyz(real.panel, direction_deg(seen[i].theta, seen[i].phi), rgb, xyz);
@@ -461,7 +440,6 @@ static void a_lone_table_keeps_a_colour_outside_of_rec_709(void **state)
 {
     (void)state;
     Fixture    red;
-    Error      err = {0};
     FitOptions options = fit_options_default();
     fixture_folder(&red);
     char *text = arena_alloc(&red.arena, 1, 1, 1 << 16), *at = text;
@@ -470,11 +448,8 @@ static void a_lone_table_keeps_a_colour_outside_of_rec_709(void **state)
         for (int p = 0; p < (t ? 360 : 1); p += 30)
             at += sprintf(at, "%d,%d,%g,%g,%g\n", t, p, 233.0 - t, 100 - 0.5 * t,
                           0.3 + 0.01 * t);
-    red.set = ARENA_NEW(&red.arena, Measurement, 1);
-    if (!measurement_read(fixture_file(&red, "red.csv", text), &red.arena, red.set, &err) ||
-        !panel_fit(red.set, &options, red.panel_path, &red.arena, &red.report, &err) ||
-        !panel_open(red.panel_path, &red.arena, &red.panel, &err))
-        fail_msg("%s", err.text);
+    fixture_read(&red, fixture_file(&red, "red.csv", text));
+    fixture_fit(&red, &options);
     for (int t = 0; t <= 80; t += 10) {
         float full[3] = {255, 255, 255}, first[3] = {255, 0, 0}, xyz[3], alone[3];
         panel_emission_xyz(red.panel, direction_deg(t, 60), full, xyz);
@@ -510,7 +485,7 @@ static void check_shipped(const char *name)
         double truth[3];
         float  rgb[3], xyz[3];
         for (int p = 0; p < 3; p++) rgb[p] = (float)(20 + 235 * steady_random(&random));
-        true_xyz(&recipe, theta, phi, rgb, truth);
+        true_xyz_deg(&recipe, theta, phi, rgb, truth);
         panel_emission_xyz(panel, direction_deg(theta, phi), rgb, xyz);
         assert_close(xyz[1], truth[1], 0.01);
         assert_true(chromaticity_distance(truth, xyz) < 0.002);
@@ -557,5 +532,5 @@ int main(void)
         cmocka_unit_test(a_lone_table_keeps_a_colour_outside_of_rec_709),
         cmocka_unit_test(a_white_only_table_of_two_sections_becomes_a_panel),
     };
-    return cmocka_run_group_tests(tests, start_ips, end_ips);
+    return cmocka_run_group_tests(tests, start_ips, fixture_group_end);
 }

@@ -127,18 +127,14 @@ static void write_table(const Beam *b, const Grid *g, const char *path)
 
 static void fit_beam(Fixture *f, const Beam *b)
 {
-    Error      err = {0};
     Grid       grid = grid_of(b);
     FitOptions options = fit_options_default();
     options.bound = BOUND;
     fixture_folder(f);
-    const char *path = arena_format(&f->arena, "%s/beam.csv", f->folder);
+    const char *path = fixture_path(f, "beam.csv");
     write_table(b, &grid, path);
-    f->set = ARENA_NEW(&f->arena, Measurement, 1);
-    if (!measurement_read(path, &f->arena, f->set, &err) ||
-        !panel_fit(f->set, &options, f->panel_path, &f->arena, &f->report, &err) ||
-        !panel_open(f->panel_path, &f->arena, &f->panel, &err))
-        fail_msg("%s: %s: %s", err.file, err.path, err.text);
+    fixture_read(f, path);
+    fixture_fit(f, &options);
 }
 
 static double miss(const Fixture *f, const Beam *b, double theta, double phi)

@@ -23,17 +23,10 @@ static Fixture fixture;
 
 static int start(void **state)
 {
-    (void)state;
+    *state = &fixture;
     FitOptions options = fit_options_default();
     options.bound = (float)BOUND;
     fixture_start(&fixture, RECIPE, &options);
-    return 0;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    fixture_end(&fixture);
     return 0;
 }
 
@@ -106,5 +99,5 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_bound_holds_between_the_samples),
     };
-    return cmocka_run_group_tests(tests, start, end);
+    return cmocka_run_group_tests(tests, start, fixture_group_end);
 }

@@ -22,24 +22,6 @@ static const char *const recipes[] = {
            COARSE),
 };
 
-static void true_xyz(const Recipe *recipe, const double angles[2], const float rgb[3],
-                     double xyz[3])
-{
-    double add[3];
-    truth_black_xyz(recipe, angles, xyz);
-    for (int p = 0; p < 3; p++) {
-        truth_emission_xyz(recipe, p, (double)rgb[p], angles, add);
-        for (int j = 0; j < 3; j++) xyz[j] += add[j];
-    }
-}
-
-static double chromaticity_distance(const double a[3], const float b[3])
-{
-    double da = a[0] + 15 * a[1] + 3 * a[2];
-    double db = (double)b[0] + 15 * (double)b[1] + 3 * (double)b[2];
-    return hypot(4 * a[0] / da - 4 * (double)b[0] / db, 9 * a[1] / da - 9 * (double)b[1] / db);
-}
-
 typedef struct Misses {
     double luminance, colour; /* relative; u'v' */
 } Misses;
@@ -62,28 +44,6 @@ static Misses misses(const Fixture *f, double theta, double code, int count)
         most.colour = fmax(most.colour, chromaticity_distance(truth, xyz));
     }
     return most;
-}
-
-/* The recipe's measurement without a fit. */
-static void measure(Fixture *f, const char *recipe)
-{
-    Error err = {0};
-    fixture_folder(f);
-    const char *path = fixture_file(f, "recipe.json", recipe);
-    const char *manifest = arena_format(&f->arena, "%s/MANIFEST.json", f->folder);
-    f->set = ARENA_NEW(&f->arena, Measurement, 1);
-    if (!recipe_read(path, &f->arena, &f->recipe, &err) ||
-        !simulate_measurement(&f->recipe, f->folder, PROGRESS_NONE, &err) ||
-        !measurement_read(manifest, &f->arena, f->set, &err))
-        fail_msg("%s: %s: %s", err.file, err.path, err.text);
-}
-
-static void fit(Fixture *f, const FitOptions *options)
-{
-    Error err = {0};
-    if (!panel_fit(f->set, options, f->panel_path, &f->arena, &f->report, &err) ||
-        !panel_open(f->panel_path, &f->arena, &f->panel, &err))
-        fail_msg("%s: %s: %s", err.file, err.path, err.text);
 }
 
 static double emission_figure(const Fixture *f, const char *key)
@@ -134,8 +94,8 @@ static int start_all(void **state)
     (void)state;
     for (int r = 0; r < 4; r++) {
         FitOptions options = fit_options_default();
-        measure(&fitted[r], recipes[r]);
-        fit(&fitted[r], &options);
+        fixture_measure(&fitted[r], recipes[r]);
+        fixture_fit(&fitted[r], &options);
     }
     return 0;
 }
@@ -154,8 +114,8 @@ static void every_sample_keeps_the_bound_that_was_asked_for(void **state)
         Fixture    f;
         FitOptions options = fit_options_default();
         options.bound = r % 2 ? 0.005f : 0.02f;
-        measure(&f, recipes[r]);
-        fit(&f, &options);
+        fixture_measure(&f, recipes[r]);
+        fixture_fit(&f, &options);
         double worst = worst_of_all(&f), said = emission_figure(&f, "bound");
         if (!(worst <= (double)options.bound) || !(worst <= said * 1.01 + 1e-5))
             fail_msg("recipe %d: %g, asked for %g, said %g", r, worst, (double)options.bound,
@@ -199,11 +159,13 @@ static void noise_is_smoothed_not_stored(void **state)
     (void)state;
     Fixture    clean, noisy;
     FitOptions options = fit_options_default();
-    measure(&clean, RECIPE(FOUR CHECK_EMISSION, "\"theta_step_deg\": 2, \"phi_step_deg\": 5"));
-    fit(&clean, &options);
-    measure(&noisy, RECIPE(FOUR CHECK_EMISSION, "\"theta_step_deg\": 2, \"phi_step_deg\": 5,"
-                                           "\"noise_relative\": 0.003"));
-    fit(&noisy, &options);
+    fixture_measure(&clean,
+                    RECIPE(FOUR CHECK_EMISSION, "\"theta_step_deg\": 2, \"phi_step_deg\": 5"));
+    fixture_fit(&clean, &options);
+    fixture_measure(&noisy,
+                    RECIPE(FOUR CHECK_EMISSION, "\"theta_step_deg\": 2, \"phi_step_deg\": 5,"
+                                                "\"noise_relative\": 0.003"));
+    fixture_fit(&noisy, &options);
     Misses m = misses(&noisy, 75, 31, 5000);
     if (!(m.luminance < 0.005) || !(m.colour < 0.001))
         fail_msg("luminance %g, u'v' %g", m.luminance, m.colour);
@@ -223,15 +185,15 @@ static void sets_and_lone_tables_take_few_bytes(void **state)
     Error      err = {0};
     FitOptions options = fit_options_default();
     options.bound = 0.02f;
-    measure(&f, RECIPE(CHECK_EMISSION, "\"theta_step_deg\": 2, \"phi_step_deg\": 5"));
-    fit(&f, &options);
+    fixture_measure(&f, RECIPE(CHECK_EMISSION, "\"theta_step_deg\": 2, \"phi_step_deg\": 5"));
+    fixture_fit(&f, &options);
     assert_true(worst_of_all(&f) <= 0.02);
     assert_true(emission_figure(&f, "share_of_source") < 0.008);
-    const char *lone = arena_format(&f.arena, "%s/emission/green_255.csv", f.folder);
+    const char *lone = fixture_path(&f, "emission/green_255.csv");
     json_decref(f.report);
     panel_close(f.panel);
     if (!measurement_read(lone, &f.arena, f.set, &err)) fail_msg("%s", err.text);
-    fit(&f, &options);
+    fixture_fit(&f, &options);
     assert_true(emission_figure(&f, "share_of_source") < 0.015);
     fixture_end(&f);
 }
@@ -262,14 +224,14 @@ static void hot_pixels_are_found_listed_and_not_followed(void **state)
     Fixture    f;
     FitOptions options = fit_options_default();
     int        hot[][3] = {{0, 2, 100}, {1, 3, 555}, {2, 1, 640}, {1, 0, 2}};
-    measure(&f, RECIPE(FOUR CHECK_EMISSION, COARSE ", \"noise_relative\": 0.01"));
+    fixture_measure(&f, RECIPE(FOUR CHECK_EMISSION, COARSE ", \"noise_relative\": 0.01"));
     for (int i = 0; i < 4; i++) {
         AngleTable *t = table_of(&f, hot[i][0], hot[i][1]);
         float      *value = (float *)t->value + 3 * hot[i][2];
         for (int j = 0; j < 3; j++) value[j] *= i == 2 ? 0.2f : 8;
     }
     options.mask_outliers = true;
-    fit(&f, &options);
+    fixture_fit(&f, &options);
     json_t *list = json_object_get(f.report, "outliers");
     assert_int_equal(json_array_size(list), 4);
     for (size_t i = 0; i < 4; i++) {
@@ -298,9 +260,9 @@ static void holes_are_listed_and_filled_by_what_is_known(void **state)
     (void)state;
     Fixture    f;
     FitOptions options = fit_options_default();
-    measure(&f, RECIPE(FOUR CHECK_EMISSION, COARSE));
+    fixture_measure(&f, RECIPE(FOUR CHECK_EMISSION, COARSE));
     for (int i = 0; i < 6; i++) drop_row(table_of(&f, i % 3, i % 4), 150 + 40 * i);
-    fit(&f, &options);
+    fixture_fit(&f, &options);
     assert_int_equal(json_array_size(json_object_get(f.report, "holes")), 6);
     assert_true(emission_figure(&f, "outliers") == 0);
     Misses m = misses(&f, 80, 20, 4000);
@@ -313,12 +275,13 @@ static void tables_may_have_grids_of_their_own(void **state)
     (void)state;
     Fixture    f, other;
     FitOptions options = fit_options_default();
-    measure(&f, RECIPE(FOUR CHECK_EMISSION, COARSE));
-    measure(&other, RECIPE(FOUR CHECK_EMISSION, "\"theta_step_deg\": 3, \"phi_step_deg\": 7.5,"
-                                           "\"theta_max_deg\": 78"));
+    fixture_measure(&f, RECIPE(FOUR CHECK_EMISSION, COARSE));
+    fixture_measure(&other,
+                    RECIPE(FOUR CHECK_EMISSION, "\"theta_step_deg\": 3, \"phi_step_deg\": 7.5,"
+                                                "\"theta_max_deg\": 78"));
     for (int i = 0; i < 2; i++) *table_of(&f, 1, i) = *table_of(&other, 1, i);
     f.set->black = other.set->black;
-    fit(&f, &options);
+    fixture_fit(&f, &options);
     Misses m = misses(&f, 75, 20, 4000);
     if (!(m.luminance < 0.02) || !(m.colour < 0.004))
         fail_msg("luminance %g, u'v' %g", m.luminance, m.colour);
@@ -335,7 +298,7 @@ static void two_sections_are_met_where_they_were_measured(void **state)
     Fixture    f;
     FitOptions options = fit_options_default();
     options.bound = 0.01f;
-    measure(&f, RECIPE("\"cosine_power\": [1.1, 1.6], \"black_cd_m2\": 0.2",
+    fixture_measure(&f, RECIPE("\"cosine_power\": [1.1, 1.6], \"black_cd_m2\": 0.2",
                        "\"theta_step_deg\": 4, \"phi_step_deg\": 30"));
     for (int p = 0; p < 4; p++)
         for (int i = 0; i < (p < 3 ? f.set->primary[p].level_count : 1); i++) {
@@ -343,7 +306,7 @@ static void two_sections_are_met_where_they_were_measured(void **state)
             for (int row = t->rows - 1; row > 0; row--)
                 if (fabs(remainder((double)t->phi[row], PI / 2)) > 0.1) drop_row(t, row);
         }
-    fit(&f, &options);
+    fixture_fit(&f, &options);
     assert_true(worst_of_all(&f) <= 0.01);
     assert_true(emission_figure(&f, "outliers") == 0);
     fixture_end(&f);
@@ -355,8 +318,8 @@ static void both_bases_answer_the_same_query(void **state)
     Fixture    haar;
     FitOptions options = fit_options_default();
     options.basis = FIT_HAAR;
-    measure(&haar, recipes[3]);
-    fit(&haar, &options);
+    fixture_measure(&haar, recipes[3]);
+    fixture_fit(&haar, &options);
     Misses m = misses(&haar, 75, 20, 4000);
     if (!(m.luminance < 0.015) || !(m.colour < 0.002))
         fail_msg("luminance %g, u'v' %g", m.luminance, m.colour);
@@ -371,17 +334,18 @@ static void a_surface_that_only_reflects_emits_nothing(void **state)
     Error      err = {0};
     FitOptions options = fit_options_default();
     options.frame_exponent = 1;
-    measure(&f, "{\"panel\": \"p\", \"emission\": {" FIXTURE_SPECTRA "\"levels\": [255]},"
-                "\"reflection\": {\"haze_share\": 1, \"haze_width\": 0.4,"
-                "\"floor_albedo\": 0.02, \"incidence_deg\": [20, 40],"
-                "\"wavelengths_nm\": [550]},"
-                "\"instrument\": {\"theta_step_deg\": 8, \"phi_step_deg\": 30,"
-                "\"brdf_theta_step_deg\": 8, \"brdf_phi_step_deg\": 20, \"fwhm_deg\": 2}}");
+    fixture_measure(&f,
+                    "{\"panel\": \"p\", \"emission\": {" FIXTURE_SPECTRA "\"levels\": [255]},"
+                    "\"reflection\": {\"haze_share\": 1, \"haze_width\": 0.4,"
+                    "\"floor_albedo\": 0.02, \"incidence_deg\": [20, 40],"
+                    "\"wavelengths_nm\": [550]},"
+                    "\"instrument\": {\"theta_step_deg\": 8, \"phi_step_deg\": 30,"
+                    "\"brdf_theta_step_deg\": 8, \"brdf_phi_step_deg\": 20, \"fwhm_deg\": 2}}");
     const char *manifest = fixture_file(&f, "reflects.json",
         "{\"panel\": \"matt\", \"reflection\": {\"wavelengths_nm\": [550],"
         "\"incidence_deg\": [20, 40], \"files\": \"brdf/i{incidence}.csv\"}}");
     if (!measurement_read(manifest, &f.arena, f.set, &err)) fail_msg("%s", err.text);
-    fit(&f, &options);
+    fixture_fit(&f, &options);
     float rgb[3] = {255, 255, 255}, xyz[3];
     assert_false(panel_emission_xyz(f.panel, direction_deg(20, 0), rgb, xyz));
     assert_true(xyz[0] == 0 && xyz[1] == 0 && xyz[2] == 0);
@@ -400,7 +364,7 @@ static void a_level_left_out_is_predicted(void **state)
     for (int left = 1; left <= 6; left += 5) {
         Fixture    f;
         FitOptions options = fit_options_default();
-        measure(&f, recipes[0]);
+        fixture_measure(&f, recipes[0]);
         double code = f.set->primary[0].level[left];
         for (int p = 0; p < 3; p++) {
             MeasuredPrimary *from = &f.set->primary[p];
@@ -410,7 +374,7 @@ static void a_level_left_out_is_predicted(void **state)
             }
             from->level_count--;
         }
-        fit(&f, &options);
+        fixture_fit(&f, &options);
         for (int i = 0; i < 200; i++) {
             double angles[2] = {radians_from_degrees(0.37 * i), 0.7 * i}, truth[3];
             float  rgb[3] = {(float)code, (float)code, (float)code}, xyz[3];

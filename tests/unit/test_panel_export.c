@@ -1,8 +1,6 @@
 /* A panel's tables written back say what the panel says, and a fit of them says it again. */
 #include "panel_fixture.h"
 
-#include <dirent.h>
-
 #include "text/csv_table.h"
 #include "panel/set/export.h"
 #include "panel/query/panel_info.h"
@@ -40,10 +38,9 @@ static int start(void **state)
     const char *manifest = arena_format(&again.arena, "%s/MANIFEST.json", folder);
     again.set = ARENA_NEW(&again.arena, Measurement, 1);
     if (!panel_export(first.panel, first.panel_path, &coarse, folder, &err) ||
-        !measurement_read(manifest, &again.arena, again.set, &err) ||
-        !panel_fit(again.set, &fit, again.panel_path, &again.arena, &again.report, &err) ||
-        !panel_open(again.panel_path, &again.arena, &again.panel, &err))
+        !measurement_read(manifest, &again.arena, again.set, &err))
         fail_msg("%s: %s: %s", err.file, err.path, err.text);
+    fixture_fit(&again, &fit);
     return 0;
 }
 
@@ -166,15 +163,11 @@ static void write_brushed(Fixture *to)
 /* Reads, fits, opens. */
 static void fit_manifest(Fixture *to, const char *manifest)
 {
-    Error      err = {0};
     FitOptions fit = options();
     fit.frame_exponent = 1;
     fit.level = 5;
-    to->set = ARENA_NEW(&to->arena, Measurement, 1);
-    if (!measurement_read(manifest, &to->arena, to->set, &err) ||
-        !panel_fit(to->set, &fit, to->panel_path, &to->arena, &to->report, &err) ||
-        !panel_open(to->panel_path, &to->arena, &to->panel, &err))
-        fail_msg("%s: %s: %s", err.file, err.path, err.text);
+    fixture_read(to, manifest);
+    fixture_fit(to, &fit);
 }
 
 /* Largest deviation of a panel from the tables of a set, all azimuths of the light. */
@@ -210,7 +203,7 @@ static void every_azimuth_of_the_light_is_exported(void **state)
     fit_manifest(&from, fixture_file(&from, "BRUSHED.json", BRUSHED));
     assert_int_equal(panel_info_azimuths(from.panel, phi), AZIMUTHS);
     for (int i = 0; i < AZIMUTHS; i++) assert_near(degrees_from_radians(phi[i]), 60 * i, 1e-4);
-    const char *out = arena_format(&from.arena, "%s/out", from.folder);
+    const char *out = fixture_path(&from, "out");
     if (!panel_export(from.panel, "x.panel", &fine, out, &err)) fail_msg("%s", err.text);
     fit_manifest(&back, arena_format(&from.arena, "%s/MANIFEST.json", out));
     assert_int_equal(back.set->azimuth_count, AZIMUTHS);
@@ -238,7 +231,7 @@ static void levels_over_a_true_black_are_exported(void **state)
     fixture_start(&from, TRUE_BLACK, &fit);
     fixture_folder(&back);
     assert_false(panel_info_has_black(from.panel));
-    const char *out = arena_format(&from.arena, "%s/out", from.folder);
+    const char *out = fixture_path(&from, "out");
     if (!panel_export(from.panel, "x.panel", &coarse, out, &err)) fail_msg("%s", err.text);
     fit_manifest(&back, arena_format(&from.arena, "%s/MANIFEST.json", out));
     for (int p = 0; p < 3; p++) assert_int_equal(back.set->primary[p].level_count, 2);
@@ -253,40 +246,31 @@ static void levels_over_a_true_black_are_exported(void **state)
     fixture_end(&from);
 }
 
-static int entries(const char *path)
-{
-    DIR *list = opendir(path);
-    int  count = 0;
-    while (list && readdir(list)) count++;
-    if (list) closedir(list);
-    return count - 2;
-}
-
 static void a_folder_with_files_is_left_alone(void **state)
 {
     (void)state;
     Error err = {0};
-    int   before = entries(first.folder);
+    int   before = folder_count(first.folder);
     assert_false(panel_export(first.panel, "x.panel", &coarse, first.folder, &err));
     assert_int_equal(err.code, ERROR_OUTPUT);
     assert_string_equal(err.file, first.folder);
     assert_non_null(strstr(err.text, "holds something already"));
-    assert_int_equal(entries(first.folder), before);
+    assert_int_equal(folder_count(first.folder), before);
     assert_false(panel_export(first.panel, "x.panel", &coarse, "/no/such/place", &err));
     assert_int_equal(err.code, ERROR_OUTPUT);
-    assert_int_equal(entries(first.folder), before);
+    assert_int_equal(folder_count(first.folder), before);
 }
 
 static void an_empty_folder_is_filled(void **state)
 {
     (void)state;
     Error       err = {0};
-    const char *empty = arena_format(&first.arena, "%s/empty", first.folder);
+    const char *empty = fixture_path(&first, "empty");
     ExportOptions wide = {.theta_step_deg = 30, .phi_step_deg = 90, .extrapolates = true,
                           .progress = PROGRESS_NONE};
     assert_int_equal(mkdir(empty, 0777), 0);
     assert_true(panel_export(first.panel, "x.panel", &wide, empty, &err));
-    assert_int_equal(entries(empty), 4); /* manifest, primaries, emission, brdf */
+    assert_int_equal(folder_count(empty), 4); /* manifest, primaries, emission, brdf */
     CsvTable table;
     assert_true(csv_table_read(arena_format(&first.arena, "%s/emission/black.csv", empty),
                                &first.arena, &table, &err));
@@ -299,7 +283,7 @@ static void single_tables_are_named_as_in_info(void **state)
     static const struct { const char *name; int columns; } tables[] = {
         {"black", 5}, {"white 255", 5}, {"red 127.5", 5}, {"brdf 20 deg", 5}, {"brdf 33", 5},
         {"brdf 20 at 90", 5}, {"primaries", 4}};
-    const char *file = arena_format(&first.arena, "%s/one.csv", first.folder);
+    const char *file = fixture_path(&first, "one.csv");
     Error       err = {0};
     for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
         CsvTable  csv;

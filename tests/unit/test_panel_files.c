@@ -86,7 +86,7 @@ static void copy_azimuths(void)
 /* A narrow beam at 20 degrees, a thousand times as bright as what it stands on. */
 static void write_beam(void)
 {
-    FILE *file = fopen(arena_format(&folder.arena, "%s/emission/beam.csv", folder.folder), "w");
+    FILE *file = fopen(fixture_path(&folder, "emission/beam.csv"), "w");
     assert_non_null(file);
     fprintf(file, "theta,phi,X,Y,Z\n");
     for (double t = 0; t <= 80; t += t > 17.9 && t < 22 ? 0.25 : 2)
@@ -102,7 +102,7 @@ static void write_beam(void)
 static const char *manifest_of(const Kind *kind)
 {
     if (kind->manifest) return fixture_file(&folder, "OTHER.json", kind->manifest);
-    return arena_format(&folder.arena, "%s/MANIFEST.json", folder.folder);
+    return fixture_path(&folder, "MANIFEST.json");
 }
 
 static FitOptions small_options(FitBasis basis)
@@ -133,23 +133,11 @@ static void fit_kind(Kind *kind)
 
 static int start(void **state)
 {
-    (void)state;
-    Error err = {0};
-    fixture_folder(&folder);
-    const char *path = fixture_file(&folder, "recipe.json", SMALL_RECIPE);
-    if (!recipe_read(path, &folder.arena, &folder.recipe, &err) ||
-        !simulate_measurement(&folder.recipe, folder.folder, PROGRESS_NONE, &err))
-        fail_msg("%s: %s", err.path, err.text);
+    *state = &folder;
+    fixture_simulate(&folder, SMALL_RECIPE);
     copy_azimuths();
     write_beam();
     for (int i = 0; i < KIND_COUNT; i++) fit_kind(&kinds[i]);
-    return 0;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    fixture_end(&folder);
     return 0;
 }
 
@@ -421,7 +409,7 @@ static int status_with(size_t bytes, bool fits, const char *output)
 static void running_out_of_memory_is_a_clean_end(void **state)
 {
     (void)state;
-    const char *output = arena_format(&folder.arena, "%s/memory.panel", folder.folder);
+    const char *output = fixture_path(&folder, "memory.panel");
     for (int fits = 0; fits < 2; fits++) {
         int  full = 0, status = FULL_STATUS;
         for (size_t bytes = 1u << 16; status == FULL_STATUS && bytes < (size_t)8 << 30;
@@ -449,5 +437,5 @@ int main(void)
         cmocka_unit_test(an_unwritable_output_is_named),
         cmocka_unit_test(running_out_of_memory_is_a_clean_end),
     };
-    return cmocka_run_group_tests(tests, start, end);
+    return cmocka_run_group_tests(tests, start, fixture_group_end);
 }

@@ -11,22 +11,19 @@ typedef double Surface(double theta_i, double phi_i, double theta, double phi, d
 
 /* A set of tables in memory. */
 typedef struct Tables {
-    Measurement  set;
     double       incidence_deg[INCIDENCES];
     int          incidences, azimuths, wavelengths;
     double       theta_step, phi_step, theta_max; /* degrees */
+    double       instrument_fwhm_deg;
     Surface     *surface;
 } Tables;
 
 typedef struct Fitted {
-    Arena   arena;
-    char    folder[512];
+    Fixture fit;
     Tables  tables;
-    Panel  *panel;
-    json_t *report;
 } Fitted;
 
-static AngleTable make_table(const Tables *t, int index, Arena *arena)
+static AngleTable make_table(const Tables *t, const Measurement *set, int index, Arena *arena)
 {
     int    thetas = (int)(t->theta_max / t->theta_step) + 1, phis = (int)(360 / t->phi_step);
     int    rows = (thetas - 1) * phis + 1, n = 0;
@@ -38,19 +35,20 @@ static AngleTable make_table(const Tables *t, int index, Arena *arena)
             phi[n] = (float)radians_from_degrees(k * t->phi_step);
             for (int w = 0; w < t->wavelengths; w++)
                 value[n * t->wavelengths + w] = (float)t->surface(
-                    t->set.incidence[index % t->incidences],
-                    t->set.azimuth[index / t->incidences], (double)theta[n], (double)phi[n],
-                    (double)t->set.wavelength_nm[w]);
+                    set->incidence[index % t->incidences],
+                    set->azimuth[index / t->incidences], (double)theta[n], (double)phi[n],
+                    (double)set->wavelength_nm[w]);
         }
     return (AngleTable){.name = "table", .rows = rows, .channels = t->wavelengths,
                         .theta = theta, .phi = phi, .value = value,
                         .theta_max = theta[rows - 1]};
 }
 
-static void make_tables(Tables *t, Arena *arena)
+static Measurement *make_set(const Tables *t, Arena *arena)
 {
-    Measurement *set = &t->set;
+    Measurement *set = ARENA_NEW(arena, Measurement, 1);
     set->file = set->panel = set->instrument = set->note = "";
+    set->instrument_fwhm_deg = t->instrument_fwhm_deg;
     set->incidence_count = t->incidences;
     set->wavelength_count = t->wavelengths;
     set->azimuth_count = t->azimuths;
@@ -60,30 +58,16 @@ static void make_tables(Tables *t, Arena *arena)
     for (int i = 0; i < t->azimuths; i++) set->azimuth[i] = 2 * PI * i / t->azimuths;
     for (int w = 0; w < t->wavelengths; w++) set->wavelength_nm[w] = (float)(400 + 20 * w);
     for (int i = 0; i < t->incidences * t->azimuths; i++)
-        set->brdf[i] = make_table(t, i, arena);
+        set->brdf[i] = make_table(t, set, i, arena);
+    return set;
 }
 
 static void fit_tables(Fitted *f, Tables tables, const FitOptions *options)
 {
-    Error err = {0};
-    const char *base = getenv("TMPDIR");
-    *f = (Fitted){.arena = arena_reserve((size_t)64 << 30), .tables = tables};
-    snprintf(f->folder, sizeof f->folder, "%s/parhelion_reflection_XXXXXX",
-             base ? base : P_tmpdir);
-    assert_non_null(mkdtemp(f->folder));
-    make_tables(&f->tables, &f->arena);
-    const char *path = arena_format(&f->arena, "%s/test.panel", f->folder);
-    if (!panel_fit(&f->tables.set, options, path, &f->arena, &f->report, &err) ||
-        !panel_open(path, &f->arena, &f->panel, &err))
-        fail_msg("%s: %s: %s", err.file, err.path, err.text);
-}
-
-static void end_fit(Fitted *f)
-{
-    panel_close(f->panel);
-    json_decref(f->report);
-    nftw(f->folder, fixture_remove, 16, FTW_DEPTH | FTW_PHYS);
-    arena_release(&f->arena);
+    fixture_folder(&f->fit);
+    f->tables = tables;
+    f->fit.set = make_set(&tables, &f->fit.arena);
+    fixture_fit(&f->fit, options);
 }
 
 /* What most laws need: one frame, no search for it. */
@@ -148,6 +132,29 @@ static const Tables HAZY = {.incidence_deg = {5, 20, 35, 50, 65}, .incidences = 
                             .azimuths = 1, .wavelengths = WAVELENGTHS, .theta_step = 2,
                             .phi_step = 6, .theta_max = 84, .surface = hazy};
 
+/* Where it differs from HAZY, fitted with `options`; a zero keeps what HAZY has. */
+typedef struct Grid {
+    int    incidences, azimuths, wavelengths;
+    double theta_step, phi_step, theta_max; /* degrees */
+    double instrument_fwhm_deg;
+} Grid;
+
+static Fitted fit_surface(Surface *surface, Grid grid, FitOptions options)
+{
+    Fitted f;
+    Tables tables = HAZY;
+    tables.surface = surface;
+    tables.instrument_fwhm_deg = grid.instrument_fwhm_deg;
+    if (grid.incidences) tables.incidences = grid.incidences;
+    if (grid.azimuths) tables.azimuths = grid.azimuths;
+    if (grid.wavelengths) tables.wavelengths = grid.wavelengths;
+    if (grid.theta_step > 0) tables.theta_step = grid.theta_step;
+    if (grid.phi_step > 0) tables.phi_step = grid.phi_step;
+    if (grid.theta_max > 0) tables.theta_max = grid.theta_max;
+    fit_tables(&f, tables, &options);
+    return f;
+}
+
 static Fitted shared; /* of HAZY, with what `fit` chooses */
 
 /* ---- laws -------------------------------------------------------------------------------- */
@@ -162,7 +169,7 @@ static double largest_error(const Fitted *f, double incidence_deg, double phi_i,
     Vec3   light = direction_deg(incidence_deg, degrees_from_radians(phi_i));
     for (double a = between; a <= t->theta_max; a += 2 * t->theta_step)
         for (double p = between; p < 360; p += 3 * t->phi_step) {
-            Spectrum v = panel_brdf(f->panel,
+            Spectrum v = panel_brdf(f->fit.panel,
                                     direction_deg(a, p + degrees_from_radians(phi_i) - 180),
                                     light, &w);
             for (int k = 0; k < t->wavelengths; k++) {
@@ -193,8 +200,8 @@ static void between_incidences_the_peak_has_moved_and_keeps_its_height(void **st
         double theta_i = radians_from_degrees(incidence);
         Vec3   light = direction_deg(incidence, 180);
         for (double a = incidence - 8; a < incidence + 8; a += 0.05) {
-            double f = (double)panel_brdf(shared.panel, direction_deg(fabs(a), a < 0 ? 180 : 0),
-                                          light, &w)[8];
+            double f = (double)panel_brdf(
+                shared.fit.panel, direction_deg(fabs(a), a < 0 ? 180 : 0), light, &w)[8];
             double t = hazy(theta_i, PI, radians_from_degrees(fabs(a)), a < 0 ? PI : 0, 560);
             if (f > best) best = f, at = a;
             truth = fmax(truth, t);
@@ -209,11 +216,11 @@ static void light_from_any_azimuth_reads_the_same(void **state)
     (void)state;
     Wavelengths w = even_wavelengths(400, 20);
     for (double turn = 0; turn < 360; turn += 37) {
-        Spectrum a = panel_brdf(shared.panel, direction_deg(40, 12), direction_deg(30, 180),
+        Spectrum a = panel_brdf(shared.fit.panel, direction_deg(40, 12), direction_deg(30, 180),
                                 &w);
-        Spectrum b = panel_brdf(shared.panel, direction_deg(40, 12 + turn),
+        Spectrum b = panel_brdf(shared.fit.panel, direction_deg(40, 12 + turn),
                                 direction_deg(30, 180 + turn), &w);
-        Spectrum c = panel_brdf(shared.panel, direction_deg(40, turn - 12),
+        Spectrum c = panel_brdf(shared.fit.panel, direction_deg(40, turn - 12),
                                 direction_deg(30, 180 + turn), &w);
         assert_close(b[5], a[5], 1e-3);
         assert_close(c[5], a[5], 1e-3);
@@ -224,9 +231,9 @@ static void at_the_normal_the_azimuth_does_not_matter(void **state)
 {
     (void)state;
     Wavelengths w = even_wavelengths(400, 20);
-    Spectrum a = panel_brdf(shared.panel, direction_deg(9, 0), direction_deg(0, 0), &w);
+    Spectrum a = panel_brdf(shared.fit.panel, direction_deg(9, 0), direction_deg(0, 0), &w);
     for (double p = 0; p < 360; p += 30) {
-        Spectrum b = panel_brdf(shared.panel, direction_deg(9, p), direction_deg(0, 0), &w);
+        Spectrum b = panel_brdf(shared.fit.panel, direction_deg(9, p), direction_deg(0, 0), &w);
         assert_close(b[8], a[8], 0.02);
         assert_close(b[8], hazy(0, 0, radians_from_degrees(9), 0, 560), 0.03);
     }
@@ -236,8 +243,9 @@ static void wavelengths_between_the_measured_ones_lie_between_their_values(void 
 {
     (void)state;
     Wavelengths at = even_wavelengths(400, 20), between = even_wavelengths(410, 20);
-    Spectrum a = panel_brdf(shared.panel, direction_deg(30, 20), direction_deg(35, 180), &at);
-    Spectrum b = panel_brdf(shared.panel, direction_deg(30, 20), direction_deg(35, 180),
+    Spectrum a =
+        panel_brdf(shared.fit.panel, direction_deg(30, 20), direction_deg(35, 180), &at);
+    Spectrum b = panel_brdf(shared.fit.panel, direction_deg(30, 20), direction_deg(35, 180),
                             &between);
     for (int i = 0; i < 15; i++) {
         assert_true(b[i] <= fmaxf(a[i], a[i + 1]) * 1.0001f);
@@ -253,13 +261,15 @@ static void extrapolation_is_continuous_and_flagged(void **state)
     for (double theta = 0; theta < 84; theta += 7)
         for (double phi = 0; phi <= 180; phi += 45) {
             Vec3     out = direction_deg(theta, phi);
-            Spectrum a = panel_brdf(shared.panel, out, direction_deg(64.99, 180), &w);
-            Spectrum b = panel_brdf(shared.panel, out, direction_deg(65.01, 180), &w);
+            Spectrum a = panel_brdf(shared.fit.panel, out, direction_deg(64.99, 180), &w);
+            Spectrum b = panel_brdf(shared.fit.panel, out, direction_deg(65.01, 180), &w);
             for (int k = 0; k < SPECTRUM_LANES; k++) assert_close(b[k], a[k], 0.01);
-            assert_true(panel_brdf_is_measured(shared.panel, out, direction_deg(64.9, 180)));
-            assert_false(panel_brdf_is_measured(shared.panel, out, direction_deg(65.1, 180)));
+            assert_true(
+                panel_brdf_is_measured(shared.fit.panel, out, direction_deg(64.9, 180)));
+            assert_false(
+                panel_brdf_is_measured(shared.fit.panel, out, direction_deg(65.1, 180)));
         }
-    assert_false(panel_brdf_is_measured(shared.panel, direction_deg(86, 0),
+    assert_false(panel_brdf_is_measured(shared.fit.panel, direction_deg(86, 0),
                                         direction_deg(30, 180)));
 }
 
@@ -268,7 +278,7 @@ static void beyond_the_measured_incidences_haze_follows_fresnel(void **state)
     (void)state;
     Wavelengths w = even_wavelengths(400, 20);
     for (double theta = 68; theta <= 80; theta += 4) {
-        Spectrum f = panel_brdf(shared.panel, direction_deg(theta, 0),
+        Spectrum f = panel_brdf(shared.fit.panel, direction_deg(theta, 0),
                                 direction_deg(theta, 180), &w);
         double angle = radians_from_degrees(theta);
         double truth = hazy(angle, PI, angle, 0, 560);
@@ -294,16 +304,11 @@ static double albedo_at(const Panel *panel, double incidence_deg, int lane)
 static void a_white_furnace_gives_no_more_than_it_gets(void **state)
 {
     (void)state;
-    Tables     tables = HAZY;
-    FitOptions options = quick();
-    Fitted     f;
-    tables.surface = white;
-    tables.wavelengths = 2;
-    fit_tables(&f, tables, &options);
+    Fitted f = fit_surface(white, (Grid){.wavelengths = 2}, quick());
     for (double i = 0; i < 90; i += 8.9)
-        if (!(albedo_at(f.panel, i, 0) <= 1.001))
-            fail_msg("%g degrees: %.5f", i, albedo_at(f.panel, i, 0));
-    end_fit(&f);
+        if (!(albedo_at(f.fit.panel, i, 0) <= 1.001))
+            fail_msg("%g degrees: %.5f", i, albedo_at(f.fit.panel, i, 0));
+    fixture_end(&f.fit);
 }
 
 static void the_albedo_is_the_integral(void **state)
@@ -312,12 +317,13 @@ static void the_albedo_is_the_integral(void **state)
     const char *const key = "integral_error";
     size_t  i;
     json_t *table;
-    json_array_foreach(json_object_get(shared.report, "tables"), i, table)
+    json_array_foreach(json_object_get(shared.fit.report, "tables"), i, table)
         assert_near(json_number_value(json_object_get(table, key)), 0, 1e-3);
     for (double theta = 5; theta <= 65; theta += 15) { /* the luminous mean is near 560 nm */
-        double albedo = albedo_at(shared.panel, theta, 8);
-        assert_close(panel_haze_albedo(shared.panel, (float)cos(radians_from_degrees(theta))),
-                     albedo, 0.02);
+        double albedo = albedo_at(shared.fit.panel, theta, 8);
+        assert_close(
+            panel_haze_albedo(shared.fit.panel, (float)cos(radians_from_degrees(theta))),
+            albedo, 0.02);
     }
 }
 
@@ -338,20 +344,16 @@ static void every_spectral_basis_and_both_hemispherical_ones_hold_the_bound(void
                  {"cdf97 spectra", FIT_VERTEX, true, WAVELET_CDF97, 0.0205},
                  {"haar tree", FIT_HAAR, false, WAVELET_HAAR, 0.25}};
     for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
-        Tables     tables = HAZY;
         FitOptions options = quick();
-        Fitted     f;
-        tables.incidences = 2;
-        tables.phi_step = 12;
-        tables.theta_step = 3;
-        tables.wavelengths = 8;
         options.basis = CASES[i].basis;
         options.has_wavelet = CASES[i].has_wavelet;
         options.wavelet = CASES[i].wavelet;
-        fit_tables(&f, tables, &options);
+        Fitted f = fit_surface(
+            hazy, (Grid){.incidences = 2, .phi_step = 12, .theta_step = 3, .wavelengths = 8},
+            options);
         double worst = fmax(largest_error(&f, 5, PI, 0), largest_error(&f, 20, PI, 0));
         if (!(worst <= CASES[i].most)) fail_msg("%s: %.4f", CASES[i].name, worst);
-        end_fit(&f);
+        fixture_end(&f.fit);
     }
 }
 
@@ -359,86 +361,72 @@ static void every_spectral_basis_and_both_hemispherical_ones_hold_the_bound(void
 
 static const json_t *part_at(const Fitted *f, size_t incidence)
 {
-    return json_array_get(json_object_get(json_object_get(f->report, "reflection"), "mirror"),
-                          incidence);
+    return json_array_get(
+        json_object_get(json_object_get(f->fit.report, "reflection"), "mirror"), incidence);
 }
 
 static void a_lobe_on_haze_is_told_apart_and_stays_one_lobe_between_incidences(void **state)
 {
     (void)state;
-    Tables     tables = HAZY;
-    FitOptions options = quick();
-    Fitted     f;
-    tables.surface = lobed;
-    tables.wavelengths = 3;
-    tables.theta_step = 1;
-    tables.phi_step = 3;
-    fit_tables(&f, tables, &options);
+    Fitted f =
+        fit_surface(lobed, (Grid){.wavelengths = 3, .theta_step = 1, .phi_step = 3}, quick());
     for (size_t i = 0; i < INCIDENCES; i++) {
         const json_t *part = part_at(&f, i);
-        double r = LOBE_SHARE * fresnel(cos(f.tables.set.incidence[i]));
+        double r = LOBE_SHARE * fresnel(cos(f.fit.set->incidence[i]));
         assert_close(json_number_value(json_object_get(part, "lobe_fwhm_deg")), LOBE_FWHM_DEG,
                      0.01);
         assert_close(json_number_value(json_object_get(part, "lobe")), r, 0.02);
     }
     for (double incidence = 12; incidence < 60; incidence += 15) {
         Wavelengths w = even_wavelengths(400, 20);
-        Spectrum v = panel_brdf(f.panel, direction_deg(incidence, 0),
+        Spectrum v = panel_brdf(f.fit.panel, direction_deg(incidence, 0),
                                 direction_deg(incidence, 180), &w);
         double theta = radians_from_degrees(incidence);
         assert_close(v[2], lobed(theta, PI, theta, 0, 440), 0.015);
     }
-    end_fit(&f);
+    fixture_end(&f.fit);
 }
 
 static void an_image_as_wide_as_the_instrument_becomes_the_mirror(void **state)
 {
     (void)state;
-    Tables     tables = HAZY;
-    FitOptions options = quick();
-    Fitted     f;
     Wavelengths w = even_wavelengths(400, 20);
-    tables.surface = lobed;
-    tables.wavelengths = 4;
-    tables.incidences = 3;
-    tables.theta_step = 1;
-    tables.phi_step = 3;
-    tables.set.instrument_fwhm_deg = LOBE_FWHM_DEG;
-    fit_tables(&f, tables, &options);
+    Fitted f = fit_surface(lobed,
+                           (Grid){.wavelengths = 4,
+                                  .incidences = 3,
+                                  .theta_step = 1,
+                                  .phi_step = 3,
+                                  .instrument_fwhm_deg = LOBE_FWHM_DEG},
+                           quick());
     for (int i = 0; i < 3; i++) {
-        double c = cos(f.tables.set.incidence[i]);
-        assert_close(panel_mirror(f.panel, (float)c, &w)[1], LOBE_SHARE * fresnel(c), 0.02);
-        Spectrum v = panel_brdf(f.panel, direction_deg(HAZY.incidence_deg[i], 0),
+        double c = cos(f.fit.set->incidence[i]);
+        assert_close(panel_mirror(f.fit.panel, (float)c, &w)[1], LOBE_SHARE * fresnel(c), 0.02);
+        Spectrum v = panel_brdf(f.fit.panel, direction_deg(HAZY.incidence_deg[i], 0),
                                 direction_deg(HAZY.incidence_deg[i], 180), &w);
-        double theta = f.tables.set.incidence[i];
+        double theta = f.fit.set->incidence[i];
         assert_close(v[1], hazy(theta, PI, theta, 0, 420), 0.05);
     }
-    end_fit(&f);
+    fixture_end(&f.fit);
 }
 
 static void a_lobe_becomes_the_mirror_only_when_asked(void **state)
 {
     (void)state;
-    Tables      tables = HAZY;
     FitOptions  options = quick();
-    Fitted      f;
     Wavelengths w = even_wavelengths(400, 20);
-    tables.surface = lobed;
-    tables.wavelengths = 1;
-    tables.incidences = 2;
-    tables.theta_step = 1;
-    tables.phi_step = 3;
     options.lobe_is_mirror = true;
-    fit_tables(&f, tables, &options);
+    Fitted f = fit_surface(
+        lobed, (Grid){.wavelengths = 1, .incidences = 2, .theta_step = 1, .phi_step = 3},
+        options);
     for (int i = 0; i < 2; i++) {
-        double theta = f.tables.set.incidence[i];
-        assert_close(panel_mirror(f.panel, (float)cos(theta), &w)[0],
+        double theta = f.fit.set->incidence[i];
+        assert_close(panel_mirror(f.fit.panel, (float)cos(theta), &w)[0],
                      LOBE_SHARE * fresnel(cos(theta)), 0.02);
-        Spectrum v = panel_brdf(f.panel, direction_deg(HAZY.incidence_deg[i], 0),
+        Spectrum v = panel_brdf(f.fit.panel, direction_deg(HAZY.incidence_deg[i], 0),
                                 direction_deg(HAZY.incidence_deg[i], 180), &w);
         assert_close(v[0], hazy(theta, PI, theta, 0, 400), 0.05);
     }
-    end_fit(&f);
+    fixture_end(&f.fit);
 }
 
 /* ---- azimuths of the light --------------------------------------------------------------- */
@@ -446,43 +434,35 @@ static void a_lobe_becomes_the_mirror_only_when_asked(void **state)
 static void a_brushed_surface_is_told_between_azimuths(void **state)
 {
     (void)state;
-    Tables     tables = HAZY;
-    FitOptions options = quick();
-    Fitted     f;
-    tables.surface = brushed;
-    tables.wavelengths = 1;
-    tables.azimuths = 16;
-    tables.incidences = 2;
-    tables.theta_step = 3;
-    tables.phi_step = 9;
-    tables.theta_max = 81;
-    fit_tables(&f, tables, &options);
+    Fitted f = fit_surface(brushed,
+                           (Grid){.wavelengths = 1,
+                                  .azimuths = 16,
+                                  .incidences = 2,
+                                  .theta_step = 3,
+                                  .phi_step = 9,
+                                  .theta_max = 81},
+                           quick());
     for (int a = 0; a < 16; a += 5) {
         double at = largest_error(&f, 20, 2 * PI * a / 16, 0);
         double between = largest_error(&f, 20, 2 * PI * (a + 0.5) / 16, 0);
         if (!(at <= 0.0205)) fail_msg("azimuth %.1f: %.4f", 22.5 * a, at);
         if (!(between <= 0.06)) fail_msg("azimuth %.2f: %.4f", 22.5 * (a + 0.5), between);
     }
-    end_fit(&f);
+    fixture_end(&f.fit);
 }
 
 static void an_isotropic_surface_stored_with_azimuths_answers_the_same(void **state)
 {
     (void)state;
-    Tables     tables = HAZY;
-    FitOptions options = quick();
-    Fitted     f;
-    tables.wavelengths = 1;
-    tables.azimuths = 4;
-    tables.incidences = 3;
-    fit_tables(&f, tables, &options);
+    Fitted f =
+        fit_surface(hazy, (Grid){.wavelengths = 1, .azimuths = 4, .incidences = 3}, quick());
     for (double turn = 0; turn < 360; turn += 51) {
         double worst = largest_error(&f, 20, radians_from_degrees(turn), 0);
         if (!(worst <= 0.0205)) fail_msg("turned by %g: %.4f", turn, worst);
         worst = largest_error(&f, 3, radians_from_degrees(turn), 0);
         if (!(worst <= 0.05)) fail_msg("near the normal, turned by %g: %.4f", turn, worst);
     }
-    end_fit(&f);
+    fixture_end(&f.fit);
 }
 
 /* ---- zeros ------------------------------------------------------------------------------- */
@@ -495,38 +475,25 @@ static double with_zeros(double theta_i, double phi_i, double theta, double phi,
 static void zeros_and_negative_values_are_held_counted_and_told(void **state)
 {
     (void)state;
-    Tables     tables = HAZY;
-    FitOptions options = quick();
-    Fitted     f;
-    tables.surface = with_zeros;
-    tables.wavelengths = 1;
-    tables.incidences = 1;
-    fit_tables(&f, tables, &options);
-    json_t *reflection = json_object_get(f.report, "reflection");
+    Fitted f = fit_surface(with_zeros, (Grid){.wavelengths = 1, .incidences = 1}, quick());
+    json_t *reflection = json_object_get(f.fit.report, "reflection");
     long    masked = 0;
-    for (int i = 0; i < f.tables.set.brdf[0].rows; i++)
-        masked += f.tables.set.brdf[0].value[i] < 0;
+    for (int i = 0; i < f.fit.set->brdf[0].rows; i++)
+        masked += f.fit.set->brdf[0].value[i] < 0;
     assert_true(masked > 0);
     assert_int_equal(json_integer_value(json_object_get(reflection, "zeros_masked")), masked);
     Wavelengths w = even_wavelengths(400, 20);
     for (double a = 0; a < 90; a += 3)
-        assert_true(panel_brdf(f.panel, direction_deg(a, 180), direction_deg(5, 180), &w)[0] >
-                    0);
-    end_fit(&f);
+        assert_true(
+            panel_brdf(f.fit.panel, direction_deg(a, 180), direction_deg(5, 180), &w)[0] > 0);
+    fixture_end(&f.fit);
 }
 
 static int start(void **state)
 {
     FitOptions options = fit_options_default();
-    (void)state;
+    *state = &shared.fit;
     fit_tables(&shared, HAZY, &options);
-    return 0;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    end_fit(&shared);
     return 0;
 }
 
@@ -550,5 +517,5 @@ int main(void)
         cmocka_unit_test(an_isotropic_surface_stored_with_azimuths_answers_the_same),
         cmocka_unit_test(zeros_and_negative_values_are_held_counted_and_told),
     };
-    return cmocka_run_group_tests(tests, start, end);
+    return cmocka_run_group_tests(tests, start, fixture_group_end);
 }

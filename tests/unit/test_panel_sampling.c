@@ -70,7 +70,6 @@ static AngleTable brushed_table(double theta_i, double phi_i, Arena *arena)
 /* Four incidences by eight azimuths of the light. */
 static void start_brushed(const FitOptions *options)
 {
-    Error err = {0};
     fixture_folder(&brushed);
     Measurement *set = brushed.set = ARENA_NEW(&brushed.arena, Measurement, 1);
     set->file = set->panel = set->instrument = set->note = "";
@@ -84,9 +83,7 @@ static void start_brushed(const FitOptions *options)
     for (int t = 0; t < 32; t++)
         set->brdf[t] = brushed_table(set->incidence[t % 4], set->azimuth[t / 4],
                                      &brushed.arena);
-    if (!panel_fit(set, options, brushed.panel_path, &brushed.arena, &brushed.report, &err) ||
-        !panel_open(brushed.panel_path, &brushed.arena, &brushed.panel, &err))
-        fail_msg("%s: %s: %s", err.file, err.path, err.text);
+    fixture_fit(&brushed, options);
 }
 
 static int start_panels(void **state)
@@ -507,9 +504,7 @@ static void one_table_is_sampled_without_a_byte_of_the_file(void **state)
     set->brdf = ARENA_NEW(&one.arena, AngleTable, 1);
     set->brdf[0] = brushed_table(set->incidence[0], PI, &one.arena);
     options.level = 5;
-    if (!panel_fit(set, &options, one.panel_path, &one.arena, &one.report, &err) ||
-        !panel_open(one.panel_path, &one.arena, &one.panel, &err))
-        fail_msg("%s: %s: %s", err.file, err.path, err.text);
+    fixture_fit(&one, &options);
     assert_true(one.panel->size < 4096);
     assert_true(one.panel->sampling.incidences > 1);
     for (int k = 0; k < 8; k++)

@@ -6,15 +6,8 @@ static Fixture folder; /* a folder for files, nothing fitted */
 
 static int start(void **state)
 {
-    (void)state;
+    *state = &folder;
     fixture_folder(&folder);
-    return 0;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    fixture_end(&folder);
     return 0;
 }
 
@@ -256,5 +249,5 @@ int main(void)
         cmocka_unit_test(other_layouts_say_the_same),
         cmocka_unit_test(one_file_a_wavelength_is_one_table),
     };
-    return cmocka_run_group_tests(tests, start, end);
+    return cmocka_run_group_tests(tests, start, fixture_group_end);
 }

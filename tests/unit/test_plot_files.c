@@ -2,7 +2,6 @@
 #include "panel_fixture.h"
 
 #include <ctype.h>
-#include <dirent.h>
 
 #include "cli/panel/panel_commands.h"
 #include "image/image.h"
@@ -55,11 +54,6 @@ static int end(void **state)
     return 0;
 }
 
-static char *in_folder(Fixture *fixture, const char *name)
-{
-    return arena_format(&fixture->arena, "%s/%s", fixture->folder, name);
-}
-
 /* Runs `panel plot` with these arguments; a list that ends in NULL. */
 static bool run(Error *err, ...)
 {
@@ -77,7 +71,7 @@ static bool run(Error *err, ...)
     do {                                                                                       \
         assert_false(run(&(err), __VA_ARGS__, NULL));                                          \
         assert_int_equal((err).code, code_wanted);                                             \
-        if (!strstr((err).text, part)) fail_msg("'%s' lacks '%s'", (err).text, part);          \
+        assert_text_has((err).text, part);                                                     \
     } while (0)
 
 #define RUN_OK(...)                                                                            \
@@ -85,15 +79,6 @@ static bool run(Error *err, ...)
         Error e_;                                                                              \
         if (!run(&e_, __VA_ARGS__, NULL)) fail_msg("%s: %s", e_.file, e_.text);                \
     } while (0)
-
-static FileBytes bytes_of(Fixture *fixture, const char *name)
-{
-    Error     err = {0};
-    FileBytes bytes = {0};
-    if (!file_read(in_folder(fixture, name), (size_t)1 << 28, &fixture->arena, &bytes, &err))
-        fail_msg("%s: %s", err.file, err.text);
-    return bytes;
-}
 
 /* Tags nest, attributes are quoted, no stray & or <. Returns the number of elements. */
 static int assert_well_formed(const char *p)
@@ -182,9 +167,10 @@ static void every_kind_draws_svg(void **state)
     (void)state;
     for (int kind = 0; kind < PLOT_KIND_COUNT; kind++) {
         if (kind == PLOT_FIT) continue;
-        RUN_OK(ips.panel_path, "-o", in_folder(&ips, "k.svg"), "--kind",
+        RUN_OK(ips.panel_path, "-o", fixture_path(&ips, "k.svg"), "--kind",
                plot_kind_name((PlotKind)kind));
-        const char *svg = (const char *)bytes_of(&ips, "k.svg").data;
+        const char *svg =
+            (const char *)read_bytes(fixture_path(&ips, "k.svg"), &ips.arena).data;
         assert_true(assert_well_formed(svg) > 100);
         assert_non_null(strstr(svg, "<svg "));
         assert_ids_are_whole(svg);
@@ -207,17 +193,17 @@ static void png_opens_with_the_size_asked_for(void **state)
     (void)state;
     Error err = {0};
     Image image;
-    RUN_OK(ips.panel_path, "-o", in_folder(&ips, "s.png"), "--size", "801x603", "--kind",
+    RUN_OK(ips.panel_path, "-o", fixture_path(&ips, "s.png"), "--size", "801x603", "--kind",
            "sections");
-    if (!image_read(in_folder(&ips, "s.png"), &ips.arena, &image, &err))
+    if (!image_read(fixture_path(&ips, "s.png"), &ips.arena, &image, &err))
         fail_msg("%s", err.text);
     assert_int_equal(image.width, 801);
     assert_int_equal(image.height, 603);
     const unsigned char *pixel = image.pixels;
     assert_int_equal(pixel[0], 255); /* light ground */
-    RUN_OK(ips.panel_path, "-o", in_folder(&ips, "d.png"), "--size", "640x480", "--dark",
+    RUN_OK(ips.panel_path, "-o", fixture_path(&ips, "d.png"), "--size", "640x480", "--dark",
            "--kind", "luminance");
-    assert_true(image_read(in_folder(&ips, "d.png"), &ips.arena, &image, &err));
+    assert_true(image_read(fixture_path(&ips, "d.png"), &ips.arena, &image, &err));
     pixel = image.pixels;
     assert_true(pixel[0] < 40);
 }
@@ -225,9 +211,11 @@ static void png_opens_with_the_size_asked_for(void **state)
 static void the_fit_shows_samples_over_curves(void **state)
 {
     (void)state;
-    RUN_OK(ips.panel_path, "-o", in_folder(&ips, "f.svg"), "--kind", "fit", "--measured",
-           in_folder(&ips, "MANIFEST.json"));
-    assert_true(assert_well_formed((const char *)bytes_of(&ips, "f.svg").data) > 500);
+    RUN_OK(ips.panel_path, "-o", fixture_path(&ips, "f.svg"), "--kind", "fit", "--measured",
+           fixture_path(&ips, "MANIFEST.json"));
+    assert_true(assert_well_formed(
+                    (const char *)read_bytes(fixture_path(&ips, "f.svg"), &ips.arena).data) >
+                500);
 }
 
 static void the_same_call_writes_the_same_bytes(void **state)
@@ -239,9 +227,10 @@ static void the_same_call_writes_the_same_bytes(void **state)
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 2; k++)
             RUN_OK(fixture->panel_path, i == 2 ? "--report" : "-o",
-                   in_folder(fixture, NAMES[i][k]), "--size", "640x480", "--kind",
+                   fixture_path(fixture, NAMES[i][k]), "--size", "640x480", "--kind",
                    "luminance", "--threads", k ? "2" : "1");
-        FileBytes a = bytes_of(fixture, NAMES[i][0]), b = bytes_of(fixture, NAMES[i][1]);
+        FileBytes a = read_bytes(fixture_path(fixture, NAMES[i][0]), &fixture->arena);
+        FileBytes b = read_bytes(fixture_path(fixture, NAMES[i][1]), &fixture->arena);
         assert_int_equal(a.size, b.size);
         assert_memory_equal(a.data, b.data, a.size);
     }
@@ -252,9 +241,11 @@ static void the_same_call_writes_the_same_bytes(void **state)
 static void the_report_stands_alone(void **state)
 {
     (void)state;
-    RUN_OK(reflects_nothing.panel_path, "--report", in_folder(&reflects_nothing, "r.html"),
-           "--measured", in_folder(&reflects_nothing, "MANIFEST.json"));
-    const char *html = (const char *)bytes_of(&reflects_nothing, "r.html").data;
+    RUN_OK(reflects_nothing.panel_path, "--report", fixture_path(&reflects_nothing, "r.html"),
+           "--measured", fixture_path(&reflects_nothing, "MANIFEST.json"));
+    const char *html = (const char *)read_bytes(fixture_path(&reflects_nothing, "r.html"),
+                                                &reflects_nothing.arena)
+                           .data;
     assert_null(strstr(html, "src="));
     assert_null(strstr(html, "<link"));
     assert_null(strstr(html, "@import"));
@@ -272,8 +263,8 @@ static void the_report_stands_alone(void **state)
 static void the_report_is_well_formed(void **state)
 {
     (void)state;
-    RUN_OK(ips.panel_path, "--report", in_folder(&ips, "w.html"));
-    char *html = (char *)bytes_of(&ips, "w.html").data;
+    RUN_OK(ips.panel_path, "--report", fixture_path(&ips, "w.html"));
+    char *html = (char *)read_bytes(fixture_path(&ips, "w.html"), &ips.arena).data;
     char *script = strstr(html, "<script>"), *after = strstr(html, "</script>");
     assert_true(script && after && script < after);
     memset(script, ' ', (size_t)(after - script) + strlen("</script>"));
@@ -289,12 +280,13 @@ static void a_wrong_command_line_says_what_is_wanted(void **state)
 {
     (void)state;
     Error       err;
-    const char *svg = in_folder(&ips, "e.svg"), *panel = ips.panel_path;
+    const char *svg = fixture_path(&ips, "e.svg"), *panel = ips.panel_path;
     RUN_FAILS(err, ERROR_USAGE, "luminanz", panel, "-o", svg, "--kind", "luminanz");
     RUN_FAILS(err, ERROR_USAGE, "contrast", panel, "-o", svg, "--kind", "luminanz");
     RUN_FAILS(err, ERROR_USAGE, "wants -o X.svg", panel);
-    RUN_FAILS(err, ERROR_USAGE, ".svg or .png", panel, "-o", in_folder(&ips, "e.pdf"));
-    RUN_FAILS(err, ERROR_USAGE, "ends in .html", panel, "--report", in_folder(&ips, "e.txt"));
+    RUN_FAILS(err, ERROR_USAGE, ".svg or .png", panel, "-o", fixture_path(&ips, "e.pdf"));
+    RUN_FAILS(err, ERROR_USAGE, "ends in .html", panel, "--report",
+              fixture_path(&ips, "e.txt"));
     RUN_FAILS(err, ERROR_USAGE, "--size is 20x20, wanted 160 to 20000", panel, "-o", svg,
               "--size", "20x20");
     RUN_FAILS(err, ERROR_USAGE, "--measured MANIFEST.json", panel, "-o", svg, "--kind", "fit");
@@ -306,13 +298,13 @@ static void what_a_panel_lacks_is_said(void **state)
     (void)state;
     Error       err;
     const char *panel = reflects_nothing.panel_path;
-    const char *svg = in_folder(&reflects_nothing, "e.svg");
+    const char *svg = fixture_path(&reflects_nothing, "e.svg");
     RUN_FAILS(err, ERROR_INPUT, "has no reflection data, wanted for --kind brdf-map", panel,
               "-o", svg, "--kind", "brdf-map");
     assert_string_equal(err.file, panel);
     RUN_FAILS(err, ERROR_INPUT, "its black emits nothing", panel, "-o", svg, "--kind",
               "contrast");
-    RUN_FAILS(err, ERROR_INPUT, "", in_folder(&ips, "none.panel"), "-o", svg);
+    RUN_FAILS(err, ERROR_INPUT, "", fixture_path(&ips, "none.panel"), "-o", svg);
     assert_false(file_exists(svg));
     RUN_OK(panel, "-o", svg);
 }
@@ -325,7 +317,8 @@ static void a_panel_that_only_reflects_is_drawn(void **state)
     json_t      *report = NULL;
     FitOptions   options = fit_options_default();
     Measurement *set = ARENA_NEW(&ips.arena, Measurement, 1);
-    const char  *panel = in_folder(&ips, "paper.panel"), *svg = in_folder(&ips, "paper.svg");
+    const char *panel = fixture_path(&ips, "paper.panel"),
+               *svg = fixture_path(&ips, "paper.svg");
     const char  *manifest = fixture_file(&ips, "PAPER.json",
         "{\"panel\": \"paper\", \"reflection\": {\"wavelengths_nm\": [450, 650],"
         " \"incidence_deg\": [20, 40, 60], \"files\": \"brdf/i{incidence}.csv\"}}");
@@ -335,7 +328,8 @@ static void a_panel_that_only_reflects_is_drawn(void **state)
         !panel_fit(set, &options, panel, &ips.arena, &report, &err))
         fail_msg("%s: %s: %s", err.file, err.path, err.text);
     json_decref(report);
-    RUN_OK(panel, "-o", svg, "--report", in_folder(&ips, "paper.html"), "--measured", manifest);
+    RUN_OK(panel, "-o", svg, "--report", fixture_path(&ips, "paper.html"), "--measured",
+           manifest);
     RUN_FAILS(err, ERROR_INPUT, "has no emission data, wanted for --kind sections", panel, "-o",
               svg, "--kind", "sections");
 }
@@ -355,12 +349,12 @@ static void a_target_that_cannot_be_written_leaves_nothing(void **state)
     (void)state;
     Error err;
     int   before = files_in(ips.folder);
-    RUN_FAILS(err, ERROR_OUTPUT, "", ips.panel_path, "-o", in_folder(&ips, "none/x.png"),
+    RUN_FAILS(err, ERROR_OUTPUT, "", ips.panel_path, "-o", fixture_path(&ips, "none/x.png"),
               "--kind", "mirror");
-    RUN_FAILS(err, ERROR_OUTPUT, "", ips.panel_path, "-o", in_folder(&ips, "none/x.svg"),
+    RUN_FAILS(err, ERROR_OUTPUT, "", ips.panel_path, "-o", fixture_path(&ips, "none/x.svg"),
               "--kind", "mirror");
     RUN_FAILS(err, ERROR_OUTPUT, "", ips.panel_path, "--report",
-              in_folder(&ips, "none/x.html"));
+              fixture_path(&ips, "none/x.html"));
     assert_int_equal(files_in(ips.folder), before);
 }
 
