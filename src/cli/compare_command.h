@@ -14,7 +14,7 @@ typedef struct CompareRequest {
 /* True with cli.help_shown when only help was asked for. */
 bool compare_parse(int argc, char **argv, Arena *arena, CompareRequest *out, Error *err);
 
-/* Figures, notes and the verdict of two files. */
+/* Metrics, notes and the verdict of two files. */
 void compare_print_pair(const CompareRequest *request, const Comparison *c);
 
 /* One line for a pair of two folders. */

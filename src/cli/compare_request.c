@@ -16,7 +16,7 @@ typedef struct CompareWords {
     bool     has_level;
 } CompareWords;
 
-/* ---- names of figures -------------------------------------------------------------------- */
+/* ---- names of metrics -------------------------------------------------------------------- */
 
 static const char *nearest_metric(const char *name)
 {

@@ -100,7 +100,7 @@ static Planes shown_light(const Planes *codes, Arena *arena)
     return planes;
 }
 
-/* ---- figures ----------------------------------------------------------------------------- */
+/* ---- metrics ----------------------------------------------------------------------------- */
 
 static void measure_errors(unsigned groups, Arena scratch, Comparison *out)
 {
@@ -195,9 +195,9 @@ static FrameImage masked_frame(const FrameImage *frame, PixelMask mask, Arena *a
     return out;
 }
 
-static double relative(Measured figure)
+static double relative(Measured measured)
 {
-    return figure.half_width / figure.value;
+    return measured.half_width / measured.value;
 }
 
 static ContrastChange contrast_change(const char *display, const FrameImage frames[2],

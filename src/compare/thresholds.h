@@ -1,4 +1,4 @@
-/* thresholds.h -- the figures of a comparison by name, and the limits that a user sets.
+/* thresholds.h -- the metrics of a comparison by name, and the limits that a user sets.
  *
  * Threads  pure functions. Fails: never.
  */
@@ -52,7 +52,7 @@ typedef struct Threshold {
 /* METRIC_COUNT for a name that there is not. */
 Metric metric_find(const char *name);
 
-/* The group of a group's name or of a figure's; 0 for neither. */
+/* The group of a group's name or of a metric's; 0 for neither. */
 unsigned metric_group_find(const char *name);
 
 /* NaN is within no limit. */

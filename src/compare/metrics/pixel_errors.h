@@ -1,4 +1,4 @@
-/* metrics.h -- figures of the difference between two pictures of one size.
+/* pixel_errors.h -- metrics of the difference between two pictures of one size.
  *
  * Pictures must be finite: whoever calls has looked for NaN and infinity first.
  * Masked pixels count for nothing; no pixel at all gives NaN.

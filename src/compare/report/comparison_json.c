@@ -20,7 +20,7 @@ static json_t *texts(const Lines *lines)
     return list;
 }
 
-/* ---- figures ----------------------------------------------------------------------------- */
+/* ---- metrics ----------------------------------------------------------------------------- */
 
 static json_t *regions_json(const StatisticResult *s)
 {
@@ -52,11 +52,11 @@ static json_t *stat_json(const StatisticResult *s)
                      json_text(s->reason));
 }
 
-static json_t *interval(Measured figure)
+static json_t *interval(Measured range)
 {
-    if (!isfinite(figure.half_width) || !isfinite(figure.value)) return json_null();
-    return json_pack("[f,f]", figure.value - figure.half_width,
-                     figure.value + figure.half_width);
+    if (!isfinite(range.half_width) || !isfinite(range.value)) return json_null();
+    return json_pack("[f,f]", range.value - range.half_width,
+                     range.value + range.half_width);
 }
 
 static json_t *pair_of(double a, double b)
