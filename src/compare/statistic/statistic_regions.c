@@ -140,7 +140,7 @@ static void for_pixels(const NoisyPair *pair, RegionPixel *work, Region *regions
         }
 }
 
-/* ---- metrics ----------------------------------------------------------------------------- */
+/* ---- estimates --------------------------------------------------------------------------- */
 
 /* A difference of d times the mean of both is a ratio of (1 + d / 2) / (1 - d / 2): a first
  * guess of the change, as factors that depend on the light give brighter frames less weight. */
