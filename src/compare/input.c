@@ -4,9 +4,9 @@
 #include <strings.h>
 
 #include "base/file.h"
-#include "base/mathf.h"
 #include "image/image.h"
 #include "image/layer_view.h"
+#include "image/srgb.h"
 
 #define MAX_FILE_BYTES ((size_t)4 << 30)
 
@@ -19,16 +19,6 @@ bool input_has_known_ending(const char *path)
     for (size_t i = 0; i < sizeof ENDINGS / sizeof *ENDINGS; i++)
         if (!strcasecmp(path_ending(path), ENDINGS[i])) return true;
     return false;
-}
-
-float linear_from_srgb(float code)
-{
-    return code <= 0.04045f ? code / 12.92f : pow_f((code + 0.055f) / 1.055f, 2.4f);
-}
-
-float srgb_from_linear(float light)
-{
-    return light <= 0.0031308f ? 12.92f * light : 1.055f * pow_f(light, 1 / 2.4f) - 0.055f;
 }
 
 /* ---- light ------------------------------------------------------------------------------- */

@@ -30,9 +30,5 @@ bool input_read(const char *path, Arena *arena, CompareInput *out, Error *err);
 /* False, and what to do about it, for a frame against a picture. */
 bool input_check_kinds(const CompareInput *reference, const CompareInput *test, Error *err);
 
-/* The linear light of an sRGB code (IEC 61966-2-1), and back; both 0 .. 1. */
-float linear_from_srgb(float code);
-float srgb_from_linear(float light);
-
 /* True when input_read would try it, by the name's ending. */
 bool input_has_known_ending(const char *path);

@@ -8,6 +8,7 @@
 #include "compare/metrics/ssim.h"
 #include "image/develop.h"
 #include "image/exposure.h"
+#include "image/srgb.h"
 
 #define SILLY_STOPS 12 /* of HDR-FLIP's own range: only a sun is that far above the median */
 

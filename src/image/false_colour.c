@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/mathf.h"
+#include "image/srgb.h"
 #include "image/stroke_font.h"
 
 static const float NOTHING[3] = {0.10f, 0.10f, 0.11f}; /* pixels without a value */
@@ -33,11 +34,6 @@ static bool is_inside(const float rgb[3])
     for (int c = 0; c < 3; c++)
         if (!(rgb[c] >= 0 && rgb[c] <= 1)) return false;
     return true;
-}
-
-static float srgb_from_linear(float v)
-{
-    return v <= 0.0031308f ? 12.92f * v : 1.055f * pow_f(v, 1 / 2.4f) - 0.055f;
 }
 
 /* CIE 1976 lightness L* above 8 to luminance. */

@@ -9,6 +9,7 @@
 #include "base/mathf.h"
 #include "image/colour.h"
 #include "image/false_colour.h"
+#include "image/srgb.h"
 
 #define MAX_PIXELS ((long long)1 << 28)
 
@@ -244,12 +245,6 @@ float *layer_view_luminance(const LayerView *view, Arena *arena)
 
 /* ---- pictures ------------------------------------------------------------------------ */
 
-static float srgb_from_linear(float v)
-{
-    v = clampf(v, 0, 1);
-    return v <= 0.0031308f ? 12.92f * v : 1.055f * pow_f(v, 1 / 2.4f) - 0.055f;
-}
-
 /* Colours far apart for numbers that follow each other: the golden angle around the hues. */
 static void id_colour(float id, float rgb[3])
 {
@@ -288,7 +283,7 @@ static float shown(LayerShow show, float value, ScaleRange extent)
 {
     if (!isfinite(value)) return 0;
     switch (show) {
-    case SHOW_REFLECTANCE: return srgb_from_linear(value);
+    case SHOW_REFLECTANCE: return srgb_from_linear(clampf(value, 0, 1));
     case SHOW_DIRECTION: return 0.5f + 0.5f * value;
     case SHOW_POSITION: return scale_position(extent, value);
     case SHOW_UV: return value - floorf(value);

@@ -1,6 +1,6 @@
 #include "image/texture.h"
 
-#include "base/mathf.h"
+#include "image/srgb.h"
 
 /* IEC 61966-2-1: c/12.92 up to 0.04045, then ((c + 0.055)/1.055)^2.4, for c = code/255. */
 static const float LINEAR_FROM_SRGB8[256] = {
@@ -57,11 +57,6 @@ static const float LINEAR_FROM_SRGB8[256] = {
     0.955973353f, 0.964686248f, 0.97344529f, 0.98225055f, 0.991102097f,
     1.0f,
 };
-
-static float linear_from_srgb(float c)
-{
-    return c <= 0.04045f ? c * (1 / 12.92f) : pow_f((c + 0.055f) * (1 / 1.055f), 2.4f);
-}
 
 /* Where a coordinate falls in [0, 1] after wrapping. Coordinates beyond 2^22 have no texel of
  * their own any more; they and NaN fall on 0. */
@@ -159,7 +154,7 @@ static inline float mixed_srgb8(const Footprint *f, const uint8_t *p)
 static float mixed_srgb16(const Footprint *f, const uint16_t *p)
 {
     float linear[4];
-    for (int k = 0; k < 4; k++) linear[k] = linear_from_srgb((float)p[f->at[k]] / 65535.0f);
+    for (int k = 0; k < 4; k++) linear[k] = linear_from_srgb_texel((float)p[f->at[k]] / 65535.0f);
     return mixed(f, linear[0], linear[1], linear[2], linear[3]);
 }
 

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdint.h>
 
+#include "image/srgb.h"
+
 /* Ten colours of each map, evenly along it, as 0xRRGGBB. Viridis and inferno: van der Walt and
  * Smith 2015 (matplotlib, CC0). Cividis: Nunez, Anderton and Renslow 2018, "Optimizing
  * colormaps with consideration for color vision deficiency". The other two are our own. */
@@ -19,17 +21,6 @@ static const uint32_t ANCHORS[MAP_COUNT][10] = {
                     0xd68869, 0xb9543e, 0x8e2323},
 };
 
-static double linear_from_srgb(double v)
-{
-    return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
-}
-
-static double srgb_from_linear(double v)
-{
-    v = v < 0 ? 0 : v > 1 ? 1 : v;
-    return v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1 / 2.4) - 0.055;
-}
-
 /* IEC 61966-2-1's luminance, then CIE 1976. */
 static double lightness_of_linear(const double rgb[3])
 {
@@ -40,7 +31,7 @@ static double lightness_of_linear(const double rgb[3])
 double lightness_from_srgb(const double srgb[3])
 {
     double rgb[3];
-    for (int c = 0; c < 3; c++) rgb[c] = linear_from_srgb(srgb[c]);
+    for (int c = 0; c < 3; c++) rgb[c] = linear_from_srgb_d(srgb[c]);
     return lightness_of_linear(rgb);
 }
 
@@ -48,7 +39,7 @@ static void anchor(ColourMap map, int i, double rgb[3])
 {
     i = i < 0 ? 0 : i > 9 ? 9 : i;
     for (int c = 0; c < 3; c++)
-        rgb[c] = linear_from_srgb((double)(ANCHORS[map][i] >> (16 - 8 * c) & 255) / 255);
+        rgb[c] = linear_from_srgb_d((double)(ANCHORS[map][i] >> (16 - 8 * c) & 255) / 255);
 }
 
 /* Cube roots of linear light, a cheap near-perceptual space, Catmull-Rom between anchors. */
@@ -102,7 +93,8 @@ void colour_map_at(ColourMap map, double t, double srgb[3])
     double rgb[3];
     smooth_colour(map, t, rgb);
     set_lightness(rgb, wanted_lightness(map, t));
-    for (int c = 0; c < 3; c++) srgb[c] = srgb_from_linear(rgb[c]);
+    for (int c = 0; c < 3; c++)
+        srgb[c] = srgb_from_linear_d(rgb[c] < 0 ? 0 : rgb[c] > 1 ? 1 : rgb[c]);
 }
 
 int colour_map_wants_light_ink(ColourMap map, double t)
