@@ -237,14 +237,6 @@ static double atan_of_fraction(double x)
     return eighths[i] + (t + t * sum);
 }
 
-double atan_d(double x)
-{
-    double size = fabs(x);
-    double angle = size <= 1 ? atan_of_fraction(size)
-                             : PI / 2 - (atan_of_fraction(1 / size) - 6.123233995736766e-17);
-    return x != x ? x : x < 0 ? -angle : angle;
-}
-
 double atan2_d(double y, double x)
 {
     double ax = fabs(x), ay = fabs(y);

@@ -46,7 +46,6 @@ static inline float cos_of(float x)
 }
 
 /* 2 ulp; the ranges are the C library's, atan2(0, 0) = 0 included. */
-double atan_d(double x);
 double atan2_d(double y, double x);
 double asin_d(double x); /* of |x| > 1: NaN */
 double acos_d(double x);

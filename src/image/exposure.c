@@ -87,7 +87,18 @@ static double mean_log2(const Histogram *h, double low, double high)
     return sum / weight;
 }
 
-double exposure_auto_grey(const float *luminance_cd_m2, size_t count, Arena scratch)
+/* The luminance that becomes middle grey by `auto`, made for a cabin with the day outside:
+ *
+ *   key   the geometric mean of the darker pixels: those between the 5th and the 60th
+ *         percentile of all that are above zero. The view through the windows is brighter
+ *         than the cabin by orders of magnitude and has no say.
+ *   shown at 0.12 rather than 0.18 (trim is dark, and shall look it): grey = key * 0.18/0.12.
+ *   guard at night the key is close to nothing and the displays would burn out: grey is at
+ *         least p99 / G with G = 16 max(1, sqrt(p99 / 300 cd/m2)); the 99th percentile stays
+ *         within four stops above middle grey at night, six to seven by day.
+ *
+ * Not finite and not positive values do not count; without any other the answer is 1. */
+static double auto_grey(const float *luminance_cd_m2, size_t count, Arena scratch)
 {
     const Histogram *h = histogram_of(luminance_cd_m2, count, &scratch);
     if (h->total == 0) return 1;
@@ -105,5 +116,5 @@ double exposure_grey(ExposureRequest request, const float *luminance_cd_m2, size
     case EXPOSURE_WHITE: return request.value * MIDDLE_GREY;
     case EXPOSURE_AUTO: break;
     }
-    return exposure_auto_grey(luminance_cd_m2, count, scratch);
+    return auto_grey(luminance_cd_m2, count, scratch);
 }

@@ -29,19 +29,6 @@ typedef struct ExposureRequest {
 /* "auto", a number of EV, or "white:CD_M2". */
 bool exposure_parse(const char *text, ExposureRequest *out, Error *err);
 
-/* The luminance that becomes middle grey by `auto`, made for a cabin with the day outside:
- *
- *   key   the geometric mean of the darker pixels: those between the 5th and the 60th
- *         percentile of all that are above zero. The view through the windows is brighter
- *         than the cabin by orders of magnitude and has no say.
- *   shown at 0.12 rather than 0.18 (trim is dark, and shall look it): grey = key * 0.18/0.12.
- *   guard at night the key is close to nothing and the displays would burn out: grey is at
- *         least p99 / G with G = 16 max(1, sqrt(p99 / 300 cd/m2)); the 99th percentile stays
- *         within four stops above middle grey at night, six to seven by day.
- *
- * Not finite and not positive values do not count; without any other the answer is 1. */
-double exposure_auto_grey(const float *luminance_cd_m2, size_t count, Arena scratch);
-
 /* What a request makes middle grey, cd m^-2. */
 double exposure_grey(ExposureRequest request, const float *luminance_cd_m2, size_t count,
                      Arena scratch);

@@ -130,7 +130,7 @@ float scale_position(ScaleRange range, float value)
 /* ---- the picture --------------------------------------------------------------------- */
 
 typedef struct ScaleLayout {
-    Lettering lettering;
+    StrokeFont font;
     int       left, right, top, bottom; /* the coloured bar, half-open */
     int       width;                    /* of the whole strip beside the values */
 } ScaleLayout;
@@ -140,7 +140,7 @@ static ScaleLayout lay_out(int width, int height)
     float letter = clampf((float)height / 45, 8, 40);
     int   margin = (int)(letter * 1.2f);
     return (ScaleLayout){
-        .lettering = {letter, {INK[0], INK[1], INK[2]}},
+        .font = {letter, {INK[0], INK[1], INK[2]}},
         .left = width + margin,
         .right = width + margin + (int)(letter * 1.8f),
         .top = (int)(letter * 3.4f),
@@ -174,7 +174,7 @@ static float position_y(const ScaleLayout *s, ScaleRange range, float value)
 static void draw_tick(Picture *picture, const ScaleLayout *s, float y, bool is_labelled,
                       float value)
 {
-    float letter = s->lettering.height;
+    float letter = s->font.height;
     int   thick = letter > 14 ? 2 : 1, row = (int)(y - (float)thick * 0.5f + 0.5f);
     int   length = (int)(letter * (is_labelled ? 0.7f : 0.4f));
     fill(picture, s->right, row, s->right + length, row + thick, INK);
@@ -186,7 +186,7 @@ static void draw_tick(Picture *picture, const ScaleLayout *s, float y, bool is_l
         snprintf(text, sizeof text, "%.0fe%d", (double)value / pow(10, decade), decade);
     else
         snprintf(text, sizeof text, decade > 3 ? "%.0f" : "%.4g", (double)value);
-    lettering_draw(picture, s->lettering, (float)s->right + letter, y, text);
+    stroke_font_draw(picture, s->font, (float)s->right + letter, y, text);
 }
 
 /* Decades are labelled; 2 and 5 as well where there is room; 3 to 9 are marked. */
@@ -194,13 +194,13 @@ static void draw_log_ticks(Picture *picture, const ScaleLayout *s, ScaleRange ra
 {
     float decades = log_f(range.high / range.low) / 2.302585f;
     float room = (float)(s->bottom - s->top) / decades; /* pixels a decade */
-    bool  all = room > 8 * s->lettering.height;
+    bool  all = room > 8 * s->font.height;
     int   first = (int)floor(log10((double)range.low) - 0.01);
     for (int e = first; e < first + 9; e++) {
         for (int m = 1; m < 10; m++) {
             float value = (float)(m * pow(10, e));
             if (value < range.low * 0.999f || value > range.high * 1.001f) continue;
-            if (m != 1 && room < 4 * s->lettering.height) continue;
+            if (m != 1 && room < 4 * s->font.height) continue;
             draw_tick(picture, s, position_y(s, range, value),
                       m == 1 || (all && (m == 2 || m == 5)), value);
         }
@@ -220,7 +220,7 @@ static void draw_scale(Picture *picture, int width, ScaleRange range, const char
 {
     ScaleLayout s = lay_out(width, picture->height);
     fill(picture, width, 0, picture->width, picture->height, GROUND);
-    lettering_draw(picture, s.lettering, (float)s.left, s.lettering.height * 1.7f, unit);
+    stroke_font_draw(picture, s.font, (float)s.left, s.font.height * 1.7f, unit);
     if (s.bottom - s.top < 2) return;
     draw_bar(picture, &s);
     if (range.is_log) draw_log_ticks(picture, &s, range);

@@ -27,7 +27,7 @@ ScaleRange scale_range_of(const float *values, size_t count, bool is_log, Arena 
 float scale_position(ScaleRange range, float value);
 
 /* values: width x height, row 0 at the top; what is not a number (NaN) stays dark grey. The
- * picture is wider than the values by the scale at its right. unit: as lettering.h can write
+ * picture is wider than the values by the scale at its right. unit: as stroke_font.h can write
  * it, "cd/m^2". */
 Picture false_colour_picture(const float *values, int width, int height, ScaleRange range,
                              const char *unit, Arena *arena);

@@ -158,28 +158,17 @@ static void draw_glyph(Picture *picture, char glyph, float scale, float x, float
     }
 }
 
-/* Draws when picture is not NULL; returns the advance in pixels. */
-static float lay_out(Picture *picture, Lettering lettering, float x, float y, const char *text)
+float stroke_font_draw(Picture *picture, StrokeFont font, float x, float y, const char *text)
 {
-    float scale = lettering.height / 6, start = x;
+    float scale = font.height / 6, start = x;
     for (; *text; text++) {
         bool raised = text[0] == '^' && text[1] != '\0';
         if (raised) text++;
         float size = raised ? scale * RAISED : scale, lift = raised ? 3.2f * scale : 0;
         char  glyph = glyph_of(*text);
         if (*text != ' ' && picture)
-            draw_glyph(picture, glyph, size, x, y + 3 * scale - lift, lettering.colour);
+            draw_glyph(picture, glyph, size, x, y + 3 * scale - lift, font.colour);
         x += *text == ' ' ? SPACE_WIDTH * size : (glyph_width(glyph) + GAP) * size;
     }
     return x - start;
-}
-
-void lettering_draw(Picture *picture, Lettering lettering, float x, float y, const char *text)
-{
-    lay_out(picture, lettering, x, y, text);
-}
-
-float lettering_width(Lettering lettering, const char *text)
-{
-    return lay_out(NULL, lettering, 0, 0, text);
 }

@@ -6,13 +6,11 @@
 #pragma once
 #include "image/picture.h"
 
-typedef struct Lettering {
+typedef struct StrokeFont {
     float height;    /* pixels, of a figure */
     float colour[3]; /* codes */
-} Lettering;
+} StrokeFont;
 
-/* x: left end, y: middle line of the digits, both in pixels. */
-void lettering_draw(Picture *picture, Lettering lettering, float x, float y, const char *text);
-
-/* Width in pixels. */
-float lettering_width(Lettering lettering, const char *text);
+/* x: left end, y: middle line of the digits, both in pixels. Returns the text's width in pixels;
+ * without a picture nothing else is done. */
+float stroke_font_draw(Picture *picture, StrokeFont font, float x, float y, const char *text);

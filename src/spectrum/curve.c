@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/file.h"
-
 #define MAX_POINTS 4096 /* 0.1 nm over the visible range */
 #define VALUE_MAX 1e30
 
@@ -109,16 +107,6 @@ bool curve_parse(const char *text, const char *path, Curve *out, Error *err)
                           error_at(err, ERROR_MEMORY, path, NULL, "no memory to read it");
     if (ok) curve_from_points(points->nm, points->value, points->count, out);
     free(points);
-    return ok;
-}
-
-bool curve_read(const char *path, Curve *out, Error *err)
-{
-    Arena     arena = arena_reserve(CURVE_FILE_BYTES_MAX + 4096);
-    FileBytes bytes;
-    bool      ok = file_read(path, CURVE_FILE_BYTES_MAX, &arena, &bytes, err) &&
-              curve_parse((const char *)bytes.data, path, out, err);
-    arena_release(&arena);
     return ok;
 }
 

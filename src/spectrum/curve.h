@@ -22,10 +22,8 @@ void curve_from_points(const double *nm, const double *value, int count, Curve *
 
 #define CURVE_FILE_BYTES_MAX ((size_t)16 << 20)
 
-/* Reads a CSV of `nm,value` rows (header line and # comments allowed). */
-bool curve_read(const char *path, Curve *out, Error *err);
-
-/* The same for a file in memory, terminated; path: of the file, for messages. */
+/* A CSV of `nm,value` rows (header line and # comments allowed) in memory, terminated; path: of
+ * the file, for messages. */
 bool curve_parse(const char *text, const char *path, Curve *out, Error *err);
 
 /* Value of every lane's wavelength. */

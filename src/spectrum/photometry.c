@@ -97,20 +97,3 @@ void xy_from_xyz(const float xyz[3], float xy[2])
     xy[0] = from[0] / sum;
     xy[1] = from[1] / sum;
 }
-
-/* CIE 15: u' = 4X / (X + 15Y + 3Z), v' = 9Y / (X + 15Y + 3Z). */
-void uv_from_xyz(const float xyz[3], float uv[2])
-{
-    const float *from = xyz[0] + 15 * xyz[1] + 3 * xyz[2] > 0 ? xyz : d65_white_xyz;
-    float sum = from[0] + 15 * from[1] + 3 * from[2];
-    uv[0] = 4 * from[0] / sum;
-    uv[1] = 9 * from[1] / sum;
-}
-
-void xyz_from_xyY(const float xyY[3], float xyz[3])
-{
-    float scale = xyY[2] / xyY[1];
-    xyz[0] = xyY[0] * scale;
-    xyz[1] = xyY[2];
-    xyz[2] = (1 - xyY[0] - xyY[1]) * scale;
-}

@@ -35,9 +35,5 @@ void xyz_from_rgb(const float rgb[3], float xyz[3]);
 /* Luminance of linear Rec.709 (0.2127, 0.7152, 0.0722: Y of the primaries under our D65). */
 float luminance_from_rgb(const float rgb[3]);
 
-/* Chromaticity (x, y) and (u', v') of CIE 1976. Black has the chromaticity of D65. */
+/* Chromaticity (x, y). Black has the chromaticity of D65. */
 void xy_from_xyz(const float xyz[3], float xy[2]);
-void uv_from_xyz(const float xyz[3], float uv[2]);
-
-/* XYZ of chromaticity (x, y), y > 0, and luminance Y. */
-void xyz_from_xyY(const float xyY[3], float xyz[3]);

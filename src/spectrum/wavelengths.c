@@ -33,10 +33,3 @@ void wavelengths_sample(float offset, Wavelengths *out)
         out->nm[i] = (float)(SPECTRAL_FIRST_NM + cell) + t;
     }
 }
-
-float wavelengths_pdf(float nm)
-{
-    if (!(nm >= SPECTRAL_FIRST_NM && nm < SPECTRAL_LAST_NM)) return 0;
-    int cell = (int)nm - SPECTRAL_FIRST_NM;
-    return (wavelength_steps[cell + 1] - wavelength_steps[cell]) * 0x1p-24f;
-}

@@ -20,9 +20,6 @@ typedef struct Wavelengths {
 /* offset: in [0, 1). */
 void wavelengths_sample(float offset, Wavelengths *out);
 
-/* Density of the sampled wavelengths at nm, in nm^-1; integrates to one over 360..830. */
-float wavelengths_pdf(float nm);
-
 /* Reflectance of a linear Rec.709 colour (each in [0, 1]; the result then lies there too). */
 static inline Spectrum spectrum_from_rgb(const Wavelengths *w, const float rgb[3])
 {

@@ -3,6 +3,7 @@
 #include "fixture.h"
 
 #include "compare/compare.h"
+#include "image/srgb.h"
 
 enum { WIDTH = 12, HEIGHT = 8, COUNT = WIDTH * HEIGHT };
 #define ARENA_BYTES ((size_t)1 << 30)

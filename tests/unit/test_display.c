@@ -6,6 +6,14 @@
 #include "scene_builder.h"
 #include "spectrum/photometry.h"
 
+/* CIE 15: u' = 4X / (X + 15Y + 3Z), v' = 9Y / (X + 15Y + 3Z). */
+static void uv_from_xyz(const float xyz[3], float uv[2])
+{
+    float sum = xyz[0] + 15 * xyz[1] + 3 * xyz[2];
+    uv[0] = 4 * xyz[0] / sum;
+    uv[1] = 9 * xyz[1] / sum;
+}
+
 static const char *const PANELS[] = {PROJECT_DIR "/assets/panels/ips_cluster.panel",
                                      PROJECT_DIR "/assets/panels/oled_centre.panel"};
 #define PANEL_COUNT 2

@@ -394,17 +394,6 @@ static void ids_are_renamed_alike_and_apart(void **state)
     assert_int_equal(out.size, strlen((char *)out.data));
 }
 
-static void a_drawing_has_a_title(void **state)
-{
-    (void)state;
-    char      text[] = "<?xml version=\"1.0\"?>\n<svg width=\"1px\">\n<g/></svg>";
-    PlotBytes out = svg_with_title((PlotBytes){(unsigned char *)text, sizeof text - 1}, "a & b",
-                                   test_memory());
-    assert_string_equal((char *)out.data, "<?xml version=\"1.0\"?>\n<svg width=\"1px\">\n"
-                        "<title>a &amp; b</title>\n<g/></svg>");
-    assert_int_equal(out.size, strlen((char *)out.data));
-}
-
 static void data_without_spread_have_a_picture(void **state)
 {
     (void)state;
@@ -444,7 +433,6 @@ int main(void)
         cmocka_unit_test(quantiles_and_ranges_agree),
         cmocka_unit_test(axes_put_values_where_they_belong),
         cmocka_unit_test(ids_are_renamed_alike_and_apart),
-        cmocka_unit_test(a_drawing_has_a_title),
         cmocka_unit_test(data_without_spread_have_a_picture),
     };
     return cmocka_run_group_tests(tests, make_arena, drop_arena);

@@ -84,7 +84,7 @@ static void illuminant_a_is_a_black_body_of_2856_kelvin(void **state)
 static void d65_has_its_chromaticity(void **state)
 {
     (void)state;
-    float d65[SPECTRAL_COUNT], xyz[3], xy[2], uv[2];
+    float d65[SPECTRAL_COUNT], xyz[3], xy[2];
     double sum[3];
     for (int i = 0; i < SPECTRAL_COUNT; i++) d65[i] = spectral_table[i].d65;
     xyz_from_radiance(d65, SPECTRAL_COUNT, 360, 1, sum);
@@ -95,9 +95,14 @@ static void d65_has_its_chromaticity(void **state)
     xy_from_xyz(xyz, xy);
     assert_near(xy[0], 0.312727, 3e-6);
     assert_near(xy[1], 0.329023, 3e-6);
-    uv_from_xyz(xyz, uv);
-    assert_near(uv[0], 4 * 0.312727 / (-2 * 0.312727 + 12 * 0.329023 + 3), 1e-5);
-    assert_near(uv[1], 9 * 0.329023 / (-2 * 0.312727 + 12 * 0.329023 + 3), 1e-5);
+}
+
+/* What wavelengths_sample draws from, nm^-1. */
+static float wavelengths_pdf(float nm)
+{
+    if (!(nm >= SPECTRAL_FIRST_NM && nm < SPECTRAL_LAST_NM)) return 0;
+    int cell = (int)nm - SPECTRAL_FIRST_NM;
+    return (wavelength_steps[cell + 1] - wavelength_steps[cell]) * 0x1p-24f;
 }
 
 static void wavelengths_cover_the_range_once(void **state)
@@ -230,9 +235,6 @@ static void rec709_primaries_are_where_the_standard_has_them(void **state)
         assert_near(seen[1], xy[p][1], 1e-6);
         rgb_from_xyz(xyz, back);
         for (int c = 0; c < 3; c++) assert_near(back[c], rgb[c], 1e-6);
-        float xyY[3] = {seen[0], seen[1], xyz[1]}, again[3];
-        xyz_from_xyY(xyY, again);
-        for (int c = 0; c < 3; c++) assert_near(again[c], xyz[c], 1e-6);
     }
     float white[3] = {1, 1, 1}, xyz[3];
     xyz_from_rgb(white, xyz);
@@ -244,11 +246,9 @@ static void rec709_primaries_are_where_the_standard_has_them(void **state)
 static void black_has_the_chromaticity_of_d65(void **state)
 {
     (void)state;
-    float xy[2], uv[2];
+    float xy[2];
     xy_from_xyz((float[]){0, 0, 0}, xy);
-    uv_from_xyz((float[]){0, 0, 0}, uv);
     assert_near(xy[0], 0.312727, 1e-5);
-    assert_near(uv[0], 0.197833, 2e-5);
 }
 
 static void the_observer_is_the_published_table(void **state)
@@ -293,6 +293,16 @@ static void a_curve_passes_through_its_points_and_holds_its_ends(void **state)
             assert_near(looked_up[k], curve.value[cell] * (1 - t) + next * t, 1e-5);
         }
     }
+}
+
+static bool curve_read(const char *path, Curve *out, Error *err)
+{
+    FileBytes bytes;
+    Arena     arena = arena_reserve(1 << 20);
+    bool      ok = file_read(path, 1 << 16, &arena, &bytes, err) &&
+              curve_parse((const char *)bytes.data, path, out, err);
+    arena_release(&arena);
+    return ok;
 }
 
 static void a_curve_file_may_have_comments_and_a_header(void **state)

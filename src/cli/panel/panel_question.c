@@ -7,7 +7,8 @@
 
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
-Vec3 panel_direction(double theta_deg, double phi_deg)
+/* Unit vector of a direction in degrees. */
+static Vec3 panel_direction(double theta_deg, double phi_deg)
 {
     double t = radians_from_degrees(theta_deg), p = radians_from_degrees(phi_deg);
     return vec3((float)(sin(t) * cos(p)), (float)(sin(t) * sin(p)), (float)cos(t));

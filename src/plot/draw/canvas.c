@@ -104,27 +104,6 @@ const char *canvas_fit_text(Canvas *canvas, double size, bool is_bold, double wi
     return arena_format(canvas->arena, "%.*s…", (int)fits, text);
 }
 
-double canvas_paragraph(Canvas *canvas, Box box, Letters letters, const char *text)
-{
-    double y = box.y, leading = 1.42 * letters.size;
-    while (*text) {
-        size_t end = 0;
-        for (size_t n = 0;; n++) {
-            if (text[n] && text[n] != ' ') continue;
-            char *part = arena_string(canvas->arena, text, n);
-            double width = canvas_text_width(canvas, letters.size, letters.is_bold, part);
-            if (end > 0 && width > box.w) break;
-            end = n;
-            if (!text[n]) break;
-        }
-        canvas_text(canvas, box.x, y, letters, arena_string(canvas->arena, text, end));
-        y += leading;
-        text += end;
-        while (*text == ' ') text++;
-    }
-    return y;
-}
-
 /* ---- lines and areas -------------------------------------------------------------------- */
 
 void canvas_stroke(Canvas *canvas, Stroke stroke)

@@ -61,9 +61,6 @@ double canvas_text_width(Canvas *canvas, double size, bool is_bold, const char *
 const char *canvas_fit_text(Canvas *canvas, double size, bool is_bold, double width,
                             const char *text);
 
-/* Lines of text within `width`, broken at blanks; returns the y below the last. */
-double canvas_paragraph(Canvas *canvas, Box box, Letters letters, const char *text);
-
 /* ---- lines and areas -------------------------------------------------------------------- */
 
 typedef enum Dash { DASH_NONE, DASH_LONG, DASH_SHORT, DASH_DOT } Dash;

@@ -182,17 +182,6 @@ void chart_dot(Chart *chart, double x, double y, double radius, Ink ink)
     canvas_fill(chart->canvas, ink);
 }
 
-void chart_mark_y(Chart *chart, double y, Stroke stroke, const char *text)
-{
-    Box    p = chart->plot;
-    double at = chart_y(chart, y);
-    if (at < p.y || at > p.y + p.h) return;
-    canvas_line(chart->canvas, p.x, at, p.x + p.w, at, stroke);
-    canvas_text(chart->canvas, p.x + 5, at - 3,
-                (Letters){.size = SIZE_SMALL, .ink = stroke.ink, .down = 1,
-                          .halo = chart->canvas->theme.paper}, text);
-}
-
 void chart_mark_x(Chart *chart, double x, Stroke stroke, const char *text)
 {
     Box    p = chart->plot;

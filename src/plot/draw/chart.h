@@ -51,7 +51,6 @@ void chart_name_curve(Chart *chart, const double *x, const double *y, int count,
 
 void chart_dot(Chart *chart, double x, double y, double radius, Ink ink);
 /* A line across the plot at a value, with a word on it. */
-void chart_mark_y(Chart *chart, double y, Stroke stroke, const char *text);
 void chart_mark_x(Chart *chart, double x, Stroke stroke, const char *text);
 
 /* From x0 to x1 nothing was measured. */

@@ -18,7 +18,7 @@ typedef struct PolarMap {
     bool         is_cut;    /* values above `high` have its colour: the scale has an arrow */
     int          level_count;
     double       level[POLAR_LEVELS_MAX]; /* of the lines */
-    double       step;      /* between levels, for their lettering; 0: figures as they are */
+    double       step;      /* between levels, for their labels; 0: figures as they are */
     double       strong;    /* a level drawn strongly, NaN: none */
     const char  *strong_text;
     double       theta_measured; /* beyond it: hatched */

@@ -5,9 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "text/escape.h"
-#include "text/text.h"
-
 /* Names seen so far, in a table with open addressing. */
 typedef struct Names {
     const char **name;
@@ -104,18 +101,4 @@ PlotBytes svg_with_ids(PlotBytes svg, const char *prefix, bool is_inline, Arena 
     }
     *to = 0;
     return (PlotBytes){(unsigned char *)out, (size_t)(to - out)};
-}
-
-PlotBytes svg_with_title(PlotBytes svg, const char *title, Arena *arena)
-{
-    const char *begin = (const char *)svg.data, *tag = strstr(begin, "<svg ");
-    const char *body = tag ? strchr(tag, '>') : NULL;
-    Text        out = {.arena = arena};
-    if (!body) return svg;
-    text_add_bytes(&out, begin, (size_t)(body + 1 - begin));
-    text_add(&out, "\n<title>");
-    escape_markup(&out, title);
-    text_add(&out, "</title>");
-    text_add_bytes(&out, body + 1, svg.size - (size_t)(body + 1 - begin));
-    return (PlotBytes){(unsigned char *)out.data, out.size};
 }

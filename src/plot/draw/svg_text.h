@@ -16,9 +16,6 @@ typedef struct PlotBytes {
     size_t         size;
 } PlotBytes;
 
-/* A copy with an escaped <title>, by which readers and browsers name the drawing. */
-PlotBytes svg_with_title(PlotBytes svg, const char *title, Arena *arena);
-
 /* A copy with the ids renamed and the coordinates of paths cut to thousandths. is_inline:
  * without the XML declaration. */
 PlotBytes svg_with_ids(PlotBytes svg, const char *prefix, bool is_inline, Arena *arena);

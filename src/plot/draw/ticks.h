@@ -1,4 +1,4 @@
-/* ticks.h -- round numbers for axes, contour lines and colour bars, and their lettering.
+/* ticks.h -- round numbers for axes, contour lines and colour bars, and their labels.
  *
  * Threads  pure functions.
  */
