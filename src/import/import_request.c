@@ -87,7 +87,7 @@ static bool read_roles(const JsonView *root, TextOptions *text, Error *err)
     json_object_foreach(view.object, pattern, value) {
         const char *role = plain_text(&view, value);
         Role        parsed;
-        double      most = text->level_max > 0 ? text->level_max : 255;
+        double      most = text_options_level_max(text);
         if (!role) return wrong_kind(&view, pattern, "a role", err);
         if (!role_parse(role, most, &parsed, err))
             return error_at(err, ERROR_INPUT, view.file, json_view_path(&view, pattern), "%s",

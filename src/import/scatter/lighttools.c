@@ -151,8 +151,8 @@ static bool add_block(LightTools *in, const LightToolsBlock *block, const float 
         for (int i = 0; i < radials; i++)
             scatter_put_measured(&rows, in->radial[i], in->azimuth[j] + 180 - light,
                                  &in->value[j * radials + i]);
-    PolarGrid grid = {radials, in->azimuths, in->radial, in->azimuth, in->value, 0, false};
-    totals_add(totals, block->aoi, block->tis, polar_grid_integral(&grid, *set->arena));
+    ScatterGrid grid = {radials, in->azimuths, in->radial, in->azimuth, in->value, 0, false};
+    totals_add(totals, block->aoi, block->tis, scatter_grid_integral(&grid, *set->arena));
     in->several_planes |= in->kept && block->poi != in->first_plane;
     in->first_plane = block->poi;
     in->kept++;

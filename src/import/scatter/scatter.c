@@ -234,7 +234,7 @@ static double integrate_cell(const PolarCell *cell, double axis_deg)
     return sum * radians_from_degrees(width / across) * radians_from_degrees(turn / around);
 }
 
-double polar_grid_integral(const PolarGrid *grid, Arena scratch)
+double scatter_grid_integral(const ScatterGrid *grid, Arena scratch)
 {
     int     count = grid->azimuths;
     double *azimuth = ARENA_NEW(&scratch, double, count + 1), sum = 0;

@@ -91,17 +91,17 @@ const float *scatter_rgb_bands(const char *file, ImportSet *set);
 /* ---- grids ------------------------------------------------------------------------------- */
 
 /* Values on radial x azimuth about an axis that leans by axis_deg from the normal. */
-typedef struct PolarGrid {
+typedef struct ScatterGrid {
     int           radials, azimuths;
     const double *radial_deg, *azimuth_deg; /* rising */
     const double *value;                    /* azimuths x radials */
     double        axis_deg;
     bool          is_half; /* azimuths 0 to 180, the other half is their mirror image */
-} PolarGrid;
+} ScatterGrid;
 
 /* Integral of value * cos(angle from the normal) over the upper hemisphere, bilinear between
  * the nodes; nothing beyond them (a full turn of azimuths is closed). */
-double polar_grid_integral(const PolarGrid *grid, Arena scratch);
+double scatter_grid_integral(const ScatterGrid *grid, Arena scratch);
 
 /* "10 deg 0.0387 (0.0391), ...": stated and integrated totals for one note. */
 typedef struct TotalsNote {

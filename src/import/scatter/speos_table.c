@@ -18,7 +18,7 @@ bool speos_table_check(const char *file, const SpeosTable *table, Error *err)
 
 double speos_table_integral(const SpeosTable *table, Arena scratch)
 {
-    PolarGrid grid = {table->thetas, table->phis, table->theta_deg, table->phi_deg,
+    ScatterGrid grid = {table->thetas, table->phis, table->theta_deg, table->phi_deg,
                       table->value, 0, false};
-    return polar_grid_integral(&grid, scratch);
+    return scatter_grid_integral(&grid, scratch);
 }

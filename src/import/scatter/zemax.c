@@ -267,9 +267,9 @@ static bool add_block(Zemax *in, int rotation, int incidence, const float *nm, I
     double        lean = in->incidence[incidence];
     ScatterRows   rows = scatter_rows(set->arena, 2 * in->azimuths * in->radials + 1, 1);
     for (int i = 0; i < in->radials; i++) put_radial(in, &rows, value, lean, i);
-    PolarGrid grid = {in->radials, in->azimuths, in->radial, in->azimuth, value, lean,
+    ScatterGrid grid = {in->radials, in->azimuths, in->radial, in->azimuth, value, lean,
                       in->is_half};
-    totals_add(&in->totals, lean, in->tis[block], polar_grid_integral(&grid, *set->arena));
+    totals_add(&in->totals, lean, in->tis[block], scatter_grid_integral(&grid, *set->arena));
     ScatterLight light = {lean, in->rotations > 1 ? 180 - in->rotation[rotation] : 180};
     return scatter_add(set, in->scan.file, &rows, light, nm, err);
 }

@@ -81,10 +81,7 @@ static bool parse_pattern(const char *const *field, int count, double level_max,
 bool role_parse(const char *text, double level_max, Role *out, Error *err)
 {
     static const char *const names[] = {"red", "green", "blue", "black", "white", "brdf",
-                                        "dark", "reference"};
-    static const ImportSource sources[] = {IMPORT_RED, IMPORT_GREEN, IMPORT_BLUE, IMPORT_BLACK,
-                                           IMPORT_WHITE, IMPORT_REFLECTION, IMPORT_DARK,
-                                           IMPORT_REFERENCE};
+                                        "dark", "reference"}; /* as ImportSource */
     char        copy[128];
     const char *field[4] = {0};
     int         count = cut_fields(text, copy, sizeof copy, field);
@@ -96,7 +93,7 @@ bool role_parse(const char *text, double level_max, Role *out, Error *err)
     }
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         if (strcmp(field[0], names[i]) != 0) continue;
-        role.source = sources[i];
+        role.source = (ImportSource)i;
         bool is_light = role.source == IMPORT_REFLECTION || role.source == IMPORT_REFERENCE;
         bool ok = role.source == IMPORT_DARK ? count == 1
                   : is_light ? parse_light(field, count, &role)

@@ -30,7 +30,7 @@ static bool fits_kind(const TextReader *in, const Role *role)
 
 static bool role_from_option(TextReader *in, const char *text)
 {
-    double most = in->options->level_max > 0 ? in->options->level_max : 255;
+    double most = text_options_level_max(in->options);
     if (!role_parse(text, most, &in->role, in->err)) return false;
     if (!fits_kind(in, &in->role))
         return error_at(in->err, ERROR_INPUT, in->file, "", "holds %s, and its role is '%s'",
@@ -72,7 +72,7 @@ static bool told_twice(TextReader *in, const Role *stated, const Role *named)
 
 static bool find_role(TextReader *in)
 {
-    double most = in->options->level_max > 0 ? in->options->level_max : 255;
+    double most = text_options_level_max(in->options);
     bool   is_mixed[2] = {false, false};
     bool   by_column = in->is_reflection ? in->column[QUANTITY_INCIDENCE] >= 0
                                          : in->column[QUANTITY_CODE_R] >= 0;
@@ -118,7 +118,7 @@ static bool name_unlabelled(TextReader *in)
     ColumnName *name = &in->raw->column[c].name;
     const char *told = in->options->quantity,
                *role = text_options_role(in->options, in->file);
-    double most = in->options->level_max > 0 ? in->options->level_max : 255;
+    double most = text_options_level_max(in->options);
     bool   is_mixed;
     Role   named = role_from_words(name_without_ending(in), most, &is_mixed);
     if (role && !role_parse(role, most, &named, in->err)) return false;

@@ -9,6 +9,7 @@
 
 #include "base/file.h"
 #include "import/set/import.h"
+#include "text/utf8.h"
 
 #define CELL_DIGITS_MAX 60
 #define DEGREE_SIGN "\xC2\xB0"
@@ -19,40 +20,9 @@
 /* Writes one character as UTF-8; blanks and minus signs of typographers become plain ones. */
 static char *put_character(char *to, unsigned code)
 {
-    if (code == 0xA0 || code == 0x2007 || code == 0x202F || code == 0x1A) code = ' ';
+    if (code == 0xA0 || code == 0x2007 || code == 0x202F || code == 0x1A || !code) code = ' ';
     if (code == 0x2212) code = '-';
-    if (code < 0x80) {
-        *to++ = (char)(code ? code : ' ');
-    } else if (code < 0x800) {
-        *to++ = (char)(0xC0 | code >> 6);
-        *to++ = (char)(0x80 | (code & 0x3F));
-    } else if (code < 0x10000) {
-        *to++ = (char)(0xE0 | code >> 12);
-        *to++ = (char)(0x80 | (code >> 6 & 0x3F));
-        *to++ = (char)(0x80 | (code & 0x3F));
-    } else {
-        *to++ = (char)(0xF0 | code >> 18);
-        *to++ = (char)(0x80 | (code >> 12 & 0x3F));
-        *to++ = (char)(0x80 | (code >> 6 & 0x3F));
-        *to++ = (char)(0x80 | (code & 0x3F));
-    }
-    return to;
-}
-
-/* The length of a well-formed UTF-8 sequence and its code; 0 when it is not one. */
-static int utf8_sequence(const unsigned char *at, size_t left, unsigned *code)
-{
-    static const unsigned least[5] = {0, 0, 0x80, 0x800, 0x10000};
-    int length = at[0] < 0x80 ? 1 : at[0] >> 5 == 6 ? 2 : at[0] >> 4 == 14 ? 3
-                 : at[0] >> 3 == 30 ? 4 : 0;
-    if (!length || (size_t)length > left) return 0;
-    *code = length == 1 ? at[0] : at[0] & (0xFFu >> (length + 1));
-    for (int i = 1; i < length; i++) {
-        if (at[i] >> 6 != 2) return 0;
-        *code = *code << 6 | (at[i] & 0x3Fu);
-    }
-    bool is_valid = *code >= least[length] && *code < 0x110000 && *code >> 11 != 0x1B;
-    return is_valid ? length : 0;
+    return to + utf8_encode(code, to);
 }
 
 static TextEncoding find_encoding(const unsigned char *bytes, size_t size, size_t *mark)
@@ -67,7 +37,7 @@ static TextEncoding find_encoding(const unsigned char *bytes, size_t size, size_
     if (zeros[0] > seen / 4 && !zeros[1]) return ENCODING_UTF16BE;
     unsigned code;
     for (size_t i = 0; i < size;) {
-        int length = utf8_sequence(bytes + i, size - i, &code);
+        int length = utf8_decode((const char *)bytes + i, size - i, &code);
         if (!length) return ENCODING_LATIN1;
         i += (size_t)length;
     }
@@ -94,8 +64,8 @@ static char *decode(const unsigned char *bytes, size_t size, TextEncoding encodi
             if (size - i < 2) break;
             i += utf16_character(bytes + i, size - i, encoding == ENCODING_UTF16BE, &code);
         } else {
-            int length =
-                encoding == ENCODING_UTF8 ? utf8_sequence(bytes + i, size - i, &code) : 0;
+            int length = encoding == ENCODING_UTF8
+                             ? utf8_decode((const char *)bytes + i, size - i, &code) : 0;
             if (!length) code = bytes[i]; /* Latin-1, or a broken byte of UTF-8 */
             i += length ? (size_t)length : 1;
         }

@@ -77,6 +77,12 @@ extern const int     text_key_count;
 /* Sets one key ("azimuth_zero", "top") from text. A list's key adds. */
 bool text_options_set(TextOptions *options, const char *key, const char *value, Error *err);
 
+/* The panel's highest code. */
+static inline double text_options_level_max(const TextOptions *options)
+{
+    return options->level_max > 0 ? options->level_max : 255;
+}
+
 /* The azimuth that --section gives to a file with theta alone; false: none. */
 bool text_options_section(const TextOptions *options, const char *file, double *phi);
 

@@ -298,7 +298,7 @@ static int group_length(const RowGroup *group, int left)
 /* Codes as the panel showed them: one primary, black or white. */
 static bool codes_role(TextReader *in, const RowGroup *group, Role *role)
 {
-    double most = in->options->level_max > 0 ? in->options->level_max : 255;
+    double most = text_options_level_max(in->options);
     int    lit = 0;
     *role = (Role){.is_told = true, .source = IMPORT_BLACK, .has_level = true};
     for (int p = 0; p < 3; p++)
@@ -343,7 +343,7 @@ static void light_of(const TextReader *in, const RowGroup *group, ImportTable *t
 static void emission_of(const TextReader *in, const Role *role, const TextChannels *channels,
                         ImportTable *table)
 {
-    double most = in->options->level_max > 0 ? in->options->level_max : 255;
+    double most = text_options_level_max(in->options);
     table->level = role->source == IMPORT_BLACK ? 0
                    : role->source == IMPORT_WHITE ? 255 : role->level * 255 / most;
     table->component = channels->component;
