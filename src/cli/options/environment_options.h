@@ -20,7 +20,6 @@ typedef struct EnvironmentChange {
 } EnvironmentChange;
 
 /* Rows of an option table. */
-/* clang-format off */
 #define ENVIRONMENT_OPTIONS(change)                                                            \
     {"--environment", OPTION_TEXT, "KIND",                                                     \
      "sky:clear, cie:1..15[:LX], perez:DNI,DHI (W/m2), hdri:FILE or constant:CD_M2",           \
@@ -47,7 +46,6 @@ typedef struct EnvironmentChange {
      (change)->forward, .count = 3, .given = &(change)->has_forward},                          \
     {"--heading", OPTION_NUMBER, "DEG", "compass heading of the vehicle",                      \
      &(change)->heading_deg, .low = -360, .high = 360, .given = &(change)->has_heading}
-/* clang-format on */
 
 /* Overrides single members of the scene's environment; a file that is read joins the scene's
  * inputs. What was taken as a default goes to *problems as a warning. */
