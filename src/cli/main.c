@@ -1,5 +1,5 @@
 /* parhelion: physically correct frames of dashboards with measured displays.
- * One table of sub-commands; the exit status is the code of the error. */
+ * The sub-commands stand in commands.c; the exit status is the code of the error. */
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -8,28 +8,10 @@
 #include <unistd.h>
 
 #include "bvh/bvh.h"
+#include "cli/cmd_help.h"
+#include "cli/commands.h"
 #include "cli/options/cli.h"
 #include "render/render.h"
-
-typedef struct Command {
-    const char *name;
-    const char *summary;
-    bool (*run)(int argc, char **argv, Error *err);
-} Command;
-
-static const Command commands[] = {
-    {"render", "render a scene to a linear, photometric EXR", cmd_render},
-    {"develop", "make a picture of a frame", cmd_develop},
-    {"panel", "fit, look into and evaluate a measured display panel", cmd_panel},
-    {"sky", "draw the sky of a place and time, and print its figures", cmd_sky},
-    {"check", "what is in a scene, and everything that is wrong with it", cmd_check},
-    {"compare", "are two frames, pictures or folders the same, given their noise?",
-     cmd_compare},
-    {"merge", "make one frame of parts of it, with the bits of one run", cmd_merge},
-    {"measure", "luminance, colour and contrast of a part of a frame", cmd_measure},
-};
-
-#define COMMAND_COUNT (int)(sizeof commands / sizeof *commands)
 
 static void print_version(void)
 {
@@ -41,20 +23,11 @@ static void print_version(void)
            LIBRARY_VERSIONS);
 }
 
-static void print_help(FILE *out)
-{
-    fprintf(out, "parhelion: physically correct frames of dashboards with measured displays\n\n"
-                 "usage: parhelion COMMAND ... | --help | --version\n\n");
-    for (int i = 0; i < COMMAND_COUNT; i++)
-        fprintf(out, "  %-10s %s\n", commands[i].name, commands[i].summary);
-    fprintf(out, "\nparhelion COMMAND --help tells the options of each, with an example.\n");
-}
-
 static bool unknown_command(const char *name, Error *err)
 {
-    const char *names[COMMAND_COUNT];
-    for (int i = 0; i < COMMAND_COUNT; i++) names[i] = commands[i].name;
-    const char *nearest = cli_nearest(name, names, COMMAND_COUNT);
+    const char *names[32];
+    for (int i = 0; i < command_count; i++) names[i] = command_table[i].name;
+    const char *nearest = cli_nearest(name, names, command_count);
     return error_set(
         err, ERROR_USAGE, "unknown command %s — %s%s%s`parhelion --help` lists them", name,
         nearest ? "did you mean " : "", nearest ? nearest : "", nearest ? "? " : "");
@@ -62,8 +35,9 @@ static bool unknown_command(const char *name, Error *err)
 
 static bool run_command(int argc, char **argv, Error *err)
 {
-    for (int i = 0; i < COMMAND_COUNT; i++)
-        if (!strcmp(argv[1], commands[i].name)) return commands[i].run(argc - 1, argv + 1, err);
+    for (int i = 0; i < command_count; i++)
+        if (!strcmp(argv[1], command_table[i].name))
+            return command_table[i].run(argc - 1, argv + 1, err);
     return unknown_command(argv[1], err);
 }
 
@@ -112,13 +86,13 @@ int main(int argc, char **argv)
     ignore_deadly_signals();
     fill_streams();
     if (argc < 2) {
-        print_help(stderr);
+        cmd_help_print(stderr);
         return error_exit_status(ERROR_USAGE);
     }
     if (!strcmp(argv[1], "--version"))
         print_version();
     else if (!strcmp(argv[1], "--help"))
-        print_help(stdout);
+        cmd_help_print(stdout);
     else if (!run_command(argc, argv, &err))
         return report(&err, asks_for_json(argc, argv));
     return check_stdout(&err) ? 0 : report(&err, false);

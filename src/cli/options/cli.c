@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/parallel.h"
+#include "cli/options/guides.h"
 #include "text/nearest_word.h"
 
 #define NUMBERS_MAX 8
@@ -260,6 +261,12 @@ static void print_options(const Option *options, int count)
     }
 }
 
+void cli_print_guide(const char *command)
+{
+    const Guide *guide = guide_of_command(command);
+    if (guide) printf("\nguide: parhelion help %s\n", guide->name);
+}
+
 static void print_help(const Parser *in)
 {
     const CliCommand *command = in->command;
@@ -269,6 +276,8 @@ static void print_help(const Parser *in)
     if (command->option_count) printf("\n");
     print_options(in->common, in->common_count);
     printf("\nexample:\n  %s\n", command->example);
+    if (command->print_more) command->print_more();
+    cli_print_guide(command->name);
 }
 
 static bool read_line(Parser *in, CliTexts *arguments)

@@ -62,6 +62,7 @@ typedef struct CliCommand {
     const Option *options;
     int           option_count;
     int           min_arguments, max_arguments; /* max -1: any number */
+    void        (*print_more)(void); /* what the help tells below the example; NULL: nothing */
 } CliCommand;
 
 /* What cli_parse found besides the values. */
@@ -94,6 +95,9 @@ bool cli_name_value(const char *option, const char *text, Arena *arena, const ch
 /* The word of the list that is nearest to `word` by edits, NULL when none is close. */
 const char *cli_nearest(const char *word, const char *const *words, int count);
 
+/* The last line of a command's help: the guide (cli/options/guides.h) that names it, if any. */
+void cli_print_guide(const char *command);
+
 /* ---- what leaves the program ------------------------------------------------------------ */
 
 /* Prints the document to stdout with a newline, and releases it. False: stdout is full. */
@@ -111,7 +115,7 @@ void cli_print_warnings(const Problems *problems);
 /* The same warnings as a JSON list of {"file","path","severity","message"}. */
 json_t *cli_json_problems(const Problems *problems, Severity severity);
 
-/* ---- the commands: one row each in main.c ----------------------------------------------- */
+/* ---- the commands: one row each in commands.c -------------------------------------------- */
 
 /* argv[0] is the command's name. True: exit status 0; else the status of err->code. */
 bool cmd_render(int argc, char **argv, Error *err);
@@ -122,3 +126,4 @@ bool cmd_sky(int argc, char **argv, Error *err);
 bool cmd_measure(int argc, char **argv, Error *err);
 bool cmd_merge(int argc, char **argv, Error *err);
 bool cmd_compare(int argc, char **argv, Error *err);
+bool cmd_help(int argc, char **argv, Error *err);

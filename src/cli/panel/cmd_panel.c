@@ -28,6 +28,7 @@ static void print_help(void)
     for (int i = 0; i < COMMAND_COUNT; i++)
         printf("  %-10s %s\n", commands[i].name, commands[i].summary);
     printf("\nexample: parhelion panel info assets/panels/ips_cluster.panel\n");
+    cli_print_guide("panel");
 }
 
 bool cmd_panel(int argc, char **argv, Error *err)

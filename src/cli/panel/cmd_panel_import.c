@@ -235,12 +235,9 @@ bool cmd_panel_import(int argc, char **argv, Error *err)
         "the files that laboratories have as one measurement set",
         "FILE... -o MANIFEST.json [options]",
         "parhelion panel import ips_cluster/emission/*.csv ips_cluster/brdf/*.csv "
-        "-o again/MANIFEST.json", options, count, 1, -1};
+        "-o again/MANIFEST.json", options, count, 1, -1, print_formats};
     if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
-    if (cli.help_shown) {
-        print_formats();
-        return true;
-    }
+    if (cli.help_shown) return true;
     if (!words->output)
         return error_set(err, ERROR_USAGE, "panel import wants -o MANIFEST.json");
     bool ok = run(&cli, words, &arena, err);

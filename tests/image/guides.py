@@ -1,0 +1,131 @@
+"""guides.py PARHELION [PAGE ...] -- the guides and the README do what they say.
+
+Every ```sh block of assets/guides/*.md and of README.md (but for the set-up scripts, which
+tests/run.sh and the demo are) runs as written, each page in a folder of its own where scenes/
+and assets/ lie. A command ends with status 0, or with the one that the page states behind it:
+`# status 1`. What it is to write is there afterwards, and so is every file that a page names.
+"""
+import glob
+import os
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
+from readme import exists, named_paths  # noqa: E402
+from report import Report, read  # noqa: E402
+
+SET_UP = ("sh scenes/demo.sh", "sh tests/run.sh", "cd .build/release && alias ")
+OUTPUTS = ("-o", "--png", "--report", "--junit")
+COMMANDS = ("render", "develop", "check", "measure", "compare", "merge", "sky", "help", "panel",
+            "panel import", "panel fit", "panel info", "panel eval", "panel plot",
+            "panel export", "panel simulate")
+COLUMNS = 96
+
+
+def commands(text):
+    """(command, status) of every shell block, continuation lines joined."""
+    found = []
+    for block in re.findall(r"^```sh\n(.*?)^```", text, re.M | re.S):
+        for line in block.replace("\\\n", " ").splitlines():
+            match = re.search(r"#\s*status (\d+)", line)
+            command = line.split(" #")[0].strip()
+            if command and not command.startswith(SET_UP):
+                found.append((re.sub(r"\s+", " ", command), int(match[1]) if match else 0))
+    return found
+
+
+def outputs(command):
+    words = shlex.split(command)
+    return [after for word, after in zip(words, words[1:]) if word in OUTPUTS]
+
+
+def run_page(program, name, text):
+    """(claim, message) of every command of a page, in order; it ends at the first failure."""
+    claims = []
+    with tempfile.TemporaryDirectory(prefix="guide-") as folder:
+        os.mkdir(os.path.join(folder, "bin"))
+        os.symlink(os.path.abspath(program), os.path.join(folder, "bin", "parhelion"))
+        for shared in ("scenes", "assets"):
+            os.symlink(os.path.join(ROOT, shared), os.path.join(folder, shared))
+        path = os.path.join(folder, "bin") + os.pathsep + os.environ["PATH"]
+        for command, status in commands(text):
+            done = subprocess.run(["sh", "-c", command], cwd=folder, capture_output=True,
+                                  text=True, env={**os.environ, "PATH": path}, timeout=600)
+            claims.append((done.returncode == status,
+                           f"{name}: status {done.returncode} instead of {status}: {command}\n"
+                           f"{done.stderr.strip()[-500:]}"))
+            if done.returncode != status:
+                break
+            claims += [(os.path.exists(os.path.join(folder, file)),
+                        f"{name}: {file} was not written: {command}")
+                       for file in outputs(command)]
+    return claims
+
+
+def check_pages(report, program, pages):
+    with ThreadPoolExecutor(2) as pool:
+        for claims in pool.map(lambda page: run_page(program, page, read(page)), pages):
+            for holds, message in claims:
+                report.claim(holds, message)
+    for page in pages:
+        for path in named_paths(read(page)):
+            report.claim(exists(path), f"{page} names {path}, which is not there")
+
+
+def run(program, *arguments):
+    return subprocess.run([program, *arguments], capture_output=True, text=True, timeout=60)
+
+
+def check_help(report, program, guides):
+    """`help` shows each page as it is, and every command's help ends with the page that fits."""
+    listed = run(program, "help")
+    report.claim(listed.returncode == 0 and listed.stdout == run(program, "--help").stdout,
+                 "`help` and `--help` differ")
+    for page in guides:
+        name = os.path.basename(page)[:-len(".md")]
+        text = read(page)
+        long_lines = [line for line in text.splitlines() if len(line) > COLUMNS]
+        report.claim(not long_lines, f"{page}: too long: {long_lines}")
+        report.claim(text.startswith("# "), f"{page} begins with no title")
+        report.claim(run(program, "help", name).stdout == text, f"`help {name}` is not {page}")
+        report.claim(f"  {name} " in listed.stdout, f"`help` does not list {name}")
+    for command in COMMANDS:
+        done = run(program, *command.split(), "--help")
+        last = done.stdout.splitlines()[-1]
+        named = re.fullmatch(r"guide: parhelion help ([\w-]+)", last)
+        report.claim(named and f"assets/guides/{named[1]}.md" in guides,
+                     f"{command} --help ends with no guide: {last}")
+        report.claim(run(program, "help", *command.split()).stdout == done.stdout,
+                     f"`help {command}` is not its --help")
+    wrong = run(program, "help", "comparin")
+    report.claim(wrong.returncode == 2 and "did you mean comparing?" in wrong.stderr
+                 and len(wrong.stderr.splitlines()) == 1, "an unknown guide: " + wrong.stderr)
+
+
+def check_can_fail(report, program):
+    page = "```sh\nparhelion develop missing.exr -o a.png\n```\n"
+    report.claim(not all(holds for holds, _ in run_page(program, "made up", page)),
+                 "a command that fails passes for one that works")
+    report.claim(commands("```sh\na \\\n  b   # status 1\n```\n") == [("a b", 1)],
+                 "lines are not joined, or statuses not read")
+
+
+def main():
+    report = Report()
+    program = os.path.abspath(sys.argv[1])
+    guides = [os.path.relpath(path, ROOT)
+              for path in sorted(glob.glob(os.path.join(ROOT, "assets/guides/*.md")))]
+    report.claim(len(guides) >= 5, "assets/guides holds too few pages")
+    check_can_fail(report, program)
+    check_help(report, program, guides)
+    check_pages(report, program, sys.argv[2:] or ["README.md", *guides])
+    report.finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
