@@ -32,8 +32,8 @@ def main():
     licence = read("LICENSE")
     report.claim("Apache License" in licence and "Version 2.0" in licence,
                  "LICENSE is not Apache-2.0")
-    allowed = {"CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "assets",
-               "scenes", "shaders", "src", "tests", "third_party"}
+    allowed = {"CMakeLists.txt", "CMakePresets.json", "CONTRIBUTING.md", "LICENSE", "README.md",
+               "assets", "scenes", "shaders", "src", "tests", "third_party"}
     top = {name for name in os.listdir(ROOT) if not name.startswith(".")}
     report.claim(top == allowed, f"the top level holds {sorted(top ^ allowed)} more or less")
     report.finish()
