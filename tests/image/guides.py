@@ -82,7 +82,7 @@ def run(program, *arguments):
 
 
 def check_help(report, program, guides):
-    """`help` shows each page as it is, and every command's help ends with the page that fits."""
+    """`help` shows each page as is, and every command's help ends with the page that fits."""
     listed = run(program, "help")
     report.claim(listed.returncode == 0 and listed.stdout == run(program, "--help").stdout,
                  "`help` and `--help` differ")
