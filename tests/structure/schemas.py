@@ -1,9 +1,16 @@
-"""schemas.py -- the shipped scenes hold to the schemas of our own glTF extensions."""
+"""schemas.py [PARHELION] -- files hold to the schemas of assets/schemas, and wrong ones do not.
+
+Shipped scenes against those of our glTF extensions; shipped recipes, and with the program the
+manifest that it writes, against those of the formats. Program and schema refuse alike.
+"""
+import copy
 import glob
 import json
 import os
 import re
+import subprocess
 import sys
+import tempfile
 
 from report import ROOT, Report
 
@@ -60,8 +67,97 @@ def check_can_fail(report, known):
                      f"the schema of {name} takes an unknown key")
 
 
+# ---- formats ---------------------------------------------------------------------------------
+
+SPECTRUM = {"peaks_nm": [550], "fwhm_nm": [30], "weights": [1]}
+RECIPE = {"emission": {"red": SPECTRUM, "green": SPECTRUM, "blue": SPECTRUM, "levels": [255]},
+          "reflection": {"incidence_deg": [30], "wavelengths_nm": [550]},
+          "instrument": {"theta_step_deg": 10, "phi_step_deg": 30}}
+DECLARATION = {"delimiter": "semicolon", "decimal": "comma", "azimuth_zero": "top",
+               "azimuth_sense": "cw", "mask": [-999], "level_max": 255, "skip": ["log_*"],
+               "columns": ["theta", "phi", "X", "Y", "Z"], "roles": {"m01*.txt": "black"},
+               "isotropic": True, "symmetry": "both", "area_mm": [10, 20], "instrument": "C"}
+WRONG_RECIPES = [("emission/red/peaks_nm", []), ("emission/red/peaks_nm", None),
+                 ("emission/green", None), ("emission/gama", 2.2), ("emission/gamma", 9),
+                 ("instrument/theta_step_deg", 20), ("reflection/haze_share", 1.5),
+                 ("emission/levels", [300]), ("panel", 7), ("emission", None)]
+WRONG_DECLARATIONS = [("delimiter", "pipe"), ("azimuth_zero", "north"), ("azimut_zero", "top"),
+                      ("level_max", 0), ("skip", "log_*"), ("isotropic", "yes"),
+                      ("symmetry", "round"), ("wavelength_nm", 200)]
+WRONG_MANIFESTS = [("emission/black", None), ("emission/red", {}), ("emission/red/300", "a"),
+                   ("emission/white", "white.csv"), ("emission/purple", "a.csv"),
+                   ("reflection/files", "brdf/i10.csv"), ("reflection/incidence_deg", [95]),
+                   ("reflection/wavelengths_nm", None), ("reflection/incidence_phi_deg", [0]),
+                   ("instrument_fwhm_deg", 40), ("pannel", "x")]
+
+
+def changed(document, path, value):
+    """A copy with one member set, or taken away where the value is None."""
+    document = copy.deepcopy(document)
+    *folders, last = path.split("/")
+    inside = document
+    for name in folders:
+        inside = inside[name]
+    if value is None:
+        del inside[last]
+    else:
+        inside[last] = value
+    return document
+
+
+def refuses(program, command, folder, document):
+    """The program's answer to a document as the file that the command reads."""
+    path = os.path.join(folder, "document.json")
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(document, file)
+    words = [word.replace("DOCUMENT", path).replace("FOLDER", folder) for word in command]
+    return subprocess.run([program, *words, "--quiet"], capture_output=True, text=True,
+                          timeout=120)
+
+
+def check_format(report, validator, good, wrong, try_program):
+    """The schema takes the good document and none of the wrong ones; so does the program."""
+    report.claim_none("a good document", [error.message for error in
+                                          validator.iter_errors(good)])
+    done = try_program(good)
+    report.claim(done is None or done.returncode == 0,
+                 f"the program refuses a good document: {done and done.stderr}")
+    for path, value in wrong:
+        document = changed(good, path, value)
+        report.claim(not validator.is_valid(document), f"the schema takes {path}: {value}")
+        done = try_program(document)
+        report.claim(done is None or done.returncode in (2, 3),
+                     f"the program takes {path}: {value}")
+
+
+def check_formats(report, program, folder, schema_of):
+    def trying(*command):
+        return lambda document: refuses(program, command, folder, document) if program else None
+    recipes, sets = schema_of("synthetic_panel"), schema_of("measurement_set")
+    for recipe in sorted(glob.glob(os.path.join(ROOT, "assets/panels/*.recipe.json"))):
+        report.claim_none(f"{os.path.relpath(recipe, ROOT)} against its schema",
+                          [error.message for error in recipes.iter_errors(load(recipe))])
+    check_format(report, recipes, RECIPE, WRONG_RECIPES,
+                 trying("panel", "simulate", "DOCUMENT", "-o", "FOLDER/set"))
+    if not program:
+        report.skip("a manifest against its schema: no program was given")
+        return
+    # The set of the last good recipe lies where the manifests are looked for.
+    refuses(program, ("panel", "simulate", "DOCUMENT", "-o", "FOLDER"), folder, RECIPE)
+    check_format(report, sets, load(os.path.join(folder, "MANIFEST.json")), WRONG_MANIFESTS,
+                 trying("panel", "fit", "DOCUMENT", "-o", "FOLDER/a.panel"))
+    with open(os.path.join(folder, "m01.txt"), "w", encoding="utf-8") as file:
+        file.write("0;0;1,5;2;1\n5;0;1;2,5;1\n5;90;1;2;1\n5;180;1;2;1\n5;270;1;2,5;1\n")
+    check_format(report, schema_of("import_declaration"), DECLARATION, WRONG_DECLARATIONS,
+                 lambda document: refuses(
+                     program, ("panel", "import", "FOLDER/m01.txt", "--layout", "DOCUMENT",
+                               "--role", "m01.txt=white", "-o", "FOLDER/again/MANIFEST.json"),
+                     folder, document))
+
+
 def main():
     report = Report()
+    program = os.path.abspath(sys.argv[1]) if len(sys.argv) > 1 else None
     try:
         import jsonschema
     except ImportError:
@@ -78,6 +174,13 @@ def main():
     for name in ("PARHELION_display", "PARHELION_environment"):
         report.claim(name in known, f"assets/schemas holds no valid schema of {name}")
     check_can_fail(report, known)
+    def schema_of(name):
+        schema = load(os.path.join(ROOT, f"assets/schemas/{name}.schema.json"))
+        validator = jsonschema.validators.validator_for(schema)
+        validator.check_schema(schema)
+        return validator(schema)
+    with tempfile.TemporaryDirectory(prefix="schemas-") as folder:
+        check_formats(report, program, folder, schema_of)
     scenes = sorted(glob.glob(os.path.join(ROOT, "scenes/**/*.gltf"), recursive=True))
     report.claim(bool(scenes), "scenes holds no .gltf")
     for scene in scenes:
