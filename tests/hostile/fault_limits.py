@@ -1,6 +1,6 @@
 """fault_limits.py -- what files may name, how large and deep they may be: part of faults.py.
 
-Documented in src/base/reference.h (--root), src/scene/load.h and the readers' headers.
+Documented in src/base/reference.h (--root), src/scene/gltf/loader.h and the readers' headers.
 """
 import json
 import os
