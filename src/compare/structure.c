@@ -1,6 +1,6 @@
 #include "compare/structure.h"
 
-#include <string.h>
+#include "compare/statistic/noisy_pair.h"
 
 /* ---- sizes and windows ------------------------------------------------------------------- */
 
@@ -67,13 +67,7 @@ static void compare_pictures(const CompareInput *reference, const CompareInput *
                   reference->alpha ? "reference" : "test");
 }
 
-/* ---- noise ------------------------------------------------------------------------------- */
-
-static bool same_text(const CompareInput *a, const CompareInput *b, const char *name)
-{
-    const char *x = frame_string(&a->frame, name), *y = frame_string(&b->frame, name);
-    return x && y && !strcmp(x, y);
-}
+/* ---- both ------------------------------------------------------------------------------- */
 
 Structure structure_compare(const CompareInput *reference, const CompareInput *test,
                             const CompareRules *rules, Arena *arena, Lines *reasons,
@@ -85,8 +79,7 @@ Structure structure_compare(const CompareInput *reference, const CompareInput *t
         return out;
     }
     compare_channels(reference, test, rules, arena, reasons);
-    out.shares_noise = same_text(reference, test, "parhelion:seed") &&
-                       same_text(reference, test, "parhelion:samples");
+    out.shares_noise = noisy_pair_shares_noise(&reference->frame, &test->frame);
     if (reference->has_metadata && test->has_metadata) {
         out.metadata = metadata_compare(&reference->frame, &test->frame, rules, arena,
                                         &out.metadata_count);

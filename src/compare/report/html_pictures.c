@@ -193,7 +193,7 @@ static double mean_luminance(const Planes *planes, PixelMask mask)
     return sum / pixels;
 }
 
-static void make_difference(const Comparison *c, int factor, Arena *arena, Shot *out)
+static const float *make_difference(const Comparison *c, Arena *arena, Shot *out)
 {
     const Planes *a = &c->light[0], *b = &c->light[1];
     size_t        count = planes_pixel_count(a);
@@ -211,14 +211,13 @@ static void make_difference(const Comparison *c, int factor, Arena *arena, Shot 
     out->title = "Difference";
     out->caption = "Luminance of the test less that of the reference: red is brighter, blue "
                    "darker.";
-    out->has_scale = true;
     out->scale = (ShotScale){.is_signed = true, .low = -limit, .high = limit,
                              .unit = is_frame ? "cd/m²" : "% of white"};
     set_ticks(&out->scale, "", arena);
     if (is_frame && mean > 0)
         out->scale.also = arena_format(arena, "±%.3g %% of the reference's mean luminance, "
                                        "%.4g cd/m²", 100 * limit / mean, mean);
-    out->picture = map_picture(c, difference, &out->scale, factor, arena);
+    return difference;
 }
 
 #define BLOCK 8        /* pixels along a side: as the statistical test's small ones */
@@ -258,7 +257,7 @@ static void change_of_blocks(const Comparison *c, float dark, float *change, flo
     }
 }
 
-static void make_blocks(const Comparison *c, int factor, Arena *arena, Shot *out)
+static const float *make_blocks(const Comparison *c, Arena *arena, Shot *out)
 {
     size_t count = planes_pixel_count(&c->light[0]);
     float *change = ARENA_NEW(arena, float, count), *size = ARENA_NEW(arena, float, count);
@@ -269,13 +268,12 @@ static void make_blocks(const Comparison *c, int factor, Arena *arena, Shot *out
     out->title = "Blocks";
     out->caption = "Change of the mean luminance of blocks of 8 x 8 pixels. Noise is a mix of "
                    "both colours; where the mean moved, one of them fills a region.";
-    out->has_scale = true;
     out->scale = (ShotScale){.is_signed = true, .low = -limit, .high = limit, .unit = "%"};
     set_ticks(&out->scale, "", arena);
-    out->picture = map_picture(c, change, &out->scale, factor, arena);
+    return change;
 }
 
-static void make_flip(const Comparison *c, int factor, Arena *arena, Shot *out)
+static const float *make_flip(const Comparison *c, Arena *arena, Shot *out)
 {
     bool is_frame = c->reference.kind == INPUT_FRAME;
     out->title = "FLIP";
@@ -285,28 +283,26 @@ static void make_flip(const Comparison *c, int factor, Arena *arena, Shot *out)
             arena, "What an eye notices when one picture is flipped for the other: the worst "
             "of %d exposures, EV %.1f to %.1f.", c->exposures.count,
             ev_of_stops(c->exposures.stop_ev), ev_of_stops(c->exposures.start_ev));
-    out->has_scale = true;
     out->scale = (ShotScale){.low = 0, .high = 1, .unit = ""};
     set_ticks(&out->scale, "", arena);
-    out->picture = map_picture(c, c->flip_map, &out->scale, factor, arena);
+    return c->flip_map;
 }
 
-static void make_deltae(const Comparison *c, int factor, Arena *arena, Shot *out)
+static const float *make_deltae(const Comparison *c, Arena *arena, Shot *out)
 {
     size_t count = planes_pixel_count(&c->light[0]);
     double most = (double)rank_value(c->deltae_map, count, c->mask, 0.995);
     out->title = "ΔE2000";
     out->caption = "CIEDE2000 of the displayed colours; 1 is about what can just be seen.";
-    out->has_scale = true;
     out->scale = (ShotScale){.low = 0, .high = most > 2 ? round_up(most) : 2, .unit = ""};
     set_ticks(&out->scale, " or more", arena);
-    out->picture = map_picture(c, c->deltae_map, &out->scale, factor, arena);
+    return c->deltae_map;
 }
 
 #define P_DECADES 6
 
 /* -log10 p of the block that each pixel lies in. */
-static void make_p_values(const Comparison *c, int factor, Arena *arena, Shot *out)
+static const float *make_p_values(const Comparison *c, Arena *arena, Shot *out)
 {
     static const char *const TICKS[5] = {"p = 1", "0.03", "0.001", "3e-5", "1e-6 or less"};
     const StatisticResult *s = &c->stat;
@@ -326,10 +322,9 @@ static void make_p_values(const Comparison *c, int factor, Arena *arena, Shot *o
         arena, "How likely the noise alone makes blocks of %d x %d pixels differ by so much. "
         "Noise gives every p as often as any other: bright patches are a change.",
         s->block_side, s->block_side);
-    out->has_scale = true;
     out->scale = (ShotScale){.low = 0, .high = P_DECADES, .unit = "decades below 1"};
     memcpy(out->scale.ticks, TICKS, sizeof TICKS);
-    out->picture = map_picture(c, map, &out->scale, factor, arena);
+    return map;
 }
 
 /* ---- the shots --------------------------------------------------------------------------- */
@@ -346,30 +341,31 @@ static void make_side(const Comparison *c, ShotKind kind, int factor, Arena *are
     out->picture = side_picture(&side->codes, factor, arena);
 }
 
+/* Fills title, caption and scale; NULL when this comparison has no such map. */
+static const float *make_map(const Comparison *c, ShotKind kind, Arena *arena, Shot *out)
+{
+    bool has_p = c->has_stat && c->stat.block_p && c->stat.block_side >= 1;
+    bool is_frame = c->reference.kind == INPUT_FRAME;
+    switch (kind) {
+    case SHOT_DIFFERENCE: return make_difference(c, arena, out);
+    case SHOT_BLOCKS: return is_frame ? make_blocks(c, arena, out) : NULL;
+    case SHOT_FLIP: return c->flip_map ? make_flip(c, arena, out) : NULL;
+    case SHOT_DELTAE: return c->deltae_map ? make_deltae(c, arena, out) : NULL;
+    case SHOT_P_VALUE: return has_p ? make_p_values(c, arena, out) : NULL;
+    default: return NULL;
+    }
+}
+
 bool shot_make(const Comparison *c, ShotKind kind, int factor, Arena *arena, Shot *out)
 {
     *out = (Shot){.kind = kind};
-    switch (kind) {
-    case SHOT_REFERENCE:
-    case SHOT_TEST: make_side(c, kind, factor, arena, out); return true;
-    case SHOT_DIFFERENCE: make_difference(c, factor, arena, out); return true;
-    case SHOT_BLOCKS:
-        if (c->reference.kind != INPUT_FRAME) return false;
-        make_blocks(c, factor, arena, out);
+    if (kind == SHOT_REFERENCE || kind == SHOT_TEST) {
+        make_side(c, kind, factor, arena, out);
         return true;
-    case SHOT_FLIP:
-        if (!c->flip_map) return false;
-        make_flip(c, factor, arena, out);
-        return true;
-    case SHOT_DELTAE:
-        if (!c->deltae_map) return false;
-        make_deltae(c, factor, arena, out);
-        return true;
-    case SHOT_P_VALUE:
-        if (!c->has_stat || !c->stat.block_p || c->stat.block_side < 1) return false;
-        make_p_values(c, factor, arena, out);
-        return true;
-    case SHOT_COUNT: break;
     }
-    return false;
+    const float *map = make_map(c, kind, arena, out);
+    if (!map) return false;
+    out->has_scale = true;
+    out->picture = map_picture(c, map, &out->scale, factor, arena);
+    return true;
 }

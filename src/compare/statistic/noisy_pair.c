@@ -87,6 +87,12 @@ static bool same_text(const FrameImage *a, const FrameImage *b, const char *name
     return one && other && !strcmp(one, other);
 }
 
+bool noisy_pair_shares_noise(const FrameImage *reference, const FrameImage *test)
+{
+    return same_text(reference, test, "parhelion:seed") &&
+           same_text(reference, test, "parhelion:samples");
+}
+
 static bool check_windows(const FrameImage *reference, const FrameImage *test,
                           const StatisticOptions *options, Error *err)
 {
@@ -115,8 +121,7 @@ bool noisy_pair_open(const FrameImage *reference, const FrameImage *test,
     pair.has_halves = a->halves[0] && b->halves[0];
     pair.knows_samples = (a->samples || a->samples_of_all > 0) &&
                          (b->samples || b->samples_of_all > 0);
-    pair.shares_noise = same_text(reference, test, "parhelion:seed") &&
-                        same_text(reference, test, "parhelion:samples");
+    pair.shares_noise = noisy_pair_shares_noise(reference, test);
     pair.law.is_same = pair.knows_samples && has_one_count(&pair) &&
                        (pair.shares_noise || has_one_size(&pair));
     pair.law.has_variance = pair.has_variance && pair.knows_samples;

@@ -32,6 +32,9 @@ typedef struct NoisyPair {
     bool      shares_noise;
 } NoisyPair;
 
+/* Whether both say that they have one seed and the same samples. */
+bool noisy_pair_shares_noise(const FrameImage *reference, const FrameImage *test);
+
 bool noisy_pair_open(const FrameImage *reference, const FrameImage *test,
                      const StatisticOptions *options, NoisyPair *out, Error *err);
 
