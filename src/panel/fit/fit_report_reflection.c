@@ -22,7 +22,8 @@ static Vec3 row_direction(const AngleTable *table, int row, double mirror)
     return table_direction((double)table->theta[row], (double)table->phi[row] + mirror);
 }
 
-/* One table in the report; values below the floor that zeros are held above do not count. */
+/* One table in the report; values below the least one that zeros are held above do not
+ * count. */
 typedef struct TableWork {
     const Measurement   *set;
     const ReflectionResult *reflection;

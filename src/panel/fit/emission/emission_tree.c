@@ -30,17 +30,17 @@ typedef struct EmissionCoder {
     float           *value;     /* vertices x components: the rest */
     float           *wanted;    /* vertices x channels: M in cd m^-2 */
     float           *limit;     /* vertices: relative; INFINITY: anything will do */
-    float           *floor;     /* channels: errors count relative to no less than this */
+    float           *least;     /* channels: errors count relative to no less than this */
     float           *work;      /* channels */
     double           pardon;    /* sigmas of noise that a sample may miss by besides */
     int              threads;
 } EmissionCoder;
 
-static bool is_close(const float *m, const float *wanted, const float *floor, int channels,
+static bool is_close(const float *m, const float *wanted, const float *least, int channels,
                      float limit)
 {
     for (int c = 0; c < channels; c++) /* what has run away beyond the cone is nobody's wish */
-        if (!(fabsf(m[c] - wanted[c]) <= limit * fmaxf(wanted[c], floor[c])) &&
+        if (!(fabsf(m[c] - wanted[c]) <= limit * fmaxf(wanted[c], least[c])) &&
             isfinite(wanted[c]))
             return false;
     return true;
@@ -58,7 +58,7 @@ static bool accepts(const void *context, uint32_t vertex, const float *reconstru
     for (int k = 0; k < n; k++) components[k] += reconstructed[k];
     emission_model_totals(model, components, coder->direction[vertex], m);
     return is_close(m, coder->wanted + (size_t)vertex * (size_t)channels,
-                    coder->floor, channels, coder->limit[vertex]);
+                    coder->least, channels, coder->limit[vertex]);
 }
 
 /* ---- vertex values --------------------------------------------------------------------- */
@@ -196,10 +196,10 @@ static void find_wanted(EmissionCoder *coder)
 }
 
 /* About the level below which an error of a channel is noise anyway. */
-static void find_floor(const EmissionModel *model, float *floor)
+static void find_least(const EmissionModel *model, float *least)
 {
     for (int c = 0; c < model->samples->channels; c++)
-        floor[c] = (float)fmax(20 * model->dim[c / 3][c % 3], EMISSION_NO_LIGHT);
+        least[c] = (float)fmax(20 * model->dim[c / 3][c % 3], EMISSION_NO_LIGHT);
 }
 
 static bool start_coder(EmissionModel *model, int level, const float *rest, Arena *arena,
@@ -214,7 +214,7 @@ static bool start_coder(EmissionModel *model, int level, const float *rest, Aren
     out->value = ARENA_NEW(arena, float, count * n);
     out->wanted = ARENA_NEW(arena, float, count * channels);
     out->limit = ARENA_NEW(arena, float, count);
-    out->floor = ARENA_NEW(arena, float, channels);
+    out->least = ARENA_NEW(arena, float, channels);
     out->work = ARENA_NEW(arena, float, channels);
     vertex_directions(out->lattice, out->direction);
     for (size_t k = 0; k < n; k++)
@@ -246,7 +246,7 @@ static double uncoded_error(const EmissionCoder *coder, int *row)
             size_t number = (size_t)i * (size_t)s->channels + (size_t)c;
             float  m = s->total[number], sigma = s->sigma[number];
             if (isinf(sigma)) continue;
-            float scale = fmaxf(m, coder->floor[c]);
+            float scale = fmaxf(m, coder->least[c]);
             double miss = (double)((fabsf(coder->work[c] - m) - 5 * sigma) / scale);
             if (miss > worst) worst = miss, *row = i;
         }
@@ -278,7 +278,7 @@ static int tighten(EmissionCoder *coder, const Tree *tree)
             float  m = s->total[number], sigma = s->sigma[number];
             if (isinf(sigma)) continue;
             float miss = fabsf(coder->work[c] - m) - (float)coder->pardon * sigma;
-            excess = fmaxf(excess, miss / fmaxf(m, coder->floor[c]));
+            excess = fmaxf(excess, miss / fmaxf(m, coder->least[c]));
         }
         if (!(excess > (float)model->tolerance)) continue;
         missed++;
@@ -402,7 +402,7 @@ static bool start(const Plan *plan, Arena *arena, Start *out, Error *err)
     EmissionModel *model = plan->model;
     *out = (Start){.rest = rest_at_samples(model, arena)};
     if (!start_coder(model, plan->level, out->rest, arena, &out->coder, err)) return false;
-    find_floor(model, out->coder.floor);
+    find_least(model, out->coder.least);
     out->coder.threads = plan->threads;
     out->uncoded = uncoded_error(&out->coder, &out->worst);
     return true;
@@ -469,7 +469,7 @@ bool emission_tree_build(EmissionModel *model, const FitOptions *options, Arena 
     if (model->beams && model->noise < NO_NOISE * model->tolerance) coder.pardon = 0;
     while (!options->level && uncoded > 0.5 * model->tolerance && level < LEVEL_MOST) {
         if (!start_coder(model, level + 1, rest, arena, &finer, err)) return false;
-        finer.floor = coder.floor;
+        finer.least = coder.least;
         finer.threads = coder.threads;
         finer.pardon = coder.pardon;
         double next = uncoded_error(&finer, &first.worst);

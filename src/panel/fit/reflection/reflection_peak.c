@@ -39,7 +39,7 @@ typedef struct PeakWindow {
     const AngleTable *slice;
 } PeakWindow;
 
-/* f = R image + (a + t tilt) haze + floor leaving. */
+/* f = R image + (a + t tilt) haze + lambertian leaving. */
 typedef struct PeakModel {
     double width, power;   /* haze = gain (1 + b2 / width^2)^-power */
     double r, a, t;

@@ -18,8 +18,8 @@
 #define LOBE_SQUARE 42.25   /* of the distance over sigma: where queries end the lobe */
 #define ALBEDO_MOST 0.995   /* haze, lobe and mirror together */
 #define ALBEDO_LEVEL 6
-#define LAMBERTIAN_QUANTILE 100  /* one row in so many is dimmer than the floor */
-#define LAMBERTIAN_DEG 60.0      /* rows further from the normal say nothing of the floor */
+#define LAMBERTIAN_QUANTILE 100 /* one row in so many is dimmer than the lambertian part */
+#define LAMBERTIAN_DEG 60.0     /* rows further from the normal say nothing of it */
 #define NODES 7
 #define FAR 1.13 /* radians: where measurements usually end before; else nodes are even */
 
@@ -137,7 +137,7 @@ static bool settle_integrals(ReflectionModel *model, Error *err)
     return true;
 }
 
-/* ---- the floor --------------------------------------------------------------------------- */
+/* ---- the lambertian part ----------------------------------------------------------------- */
 
 /* What is left far from the peak: nearly the least value inside 60 degrees. */
 static double lambertian_of(const AngleTable *table, int wavelength, double *list)
@@ -158,10 +158,10 @@ static void fill_lambertian(const ReflectionModel *model, const SectionDraft *se
         Arena   scratch = *model->arena;
         double *list = ARENA_NEW(&scratch, double, model->parts->haze[t].rows), sum = 0;
         for (int w = 0; w < model->wavelengths; w++) {
-            double floor = lambertian_of(&model->parts->haze[t], w, list);
+            double value = lambertian_of(&model->parts->haze[t], w, list);
             shorts(section->layout.floor)[t * model->wavelengths + w] =
-                stepped(log_d(floor), (double)section->stored->mean_scale);
-            sum += model->parts->luminous[w] * floor;
+                stepped(log_d(value), (double)section->stored->mean_scale);
+            sum += model->parts->luminous[w] * value;
         }
         if (t < model->set->incidence_count) section->out->lambertian_y[t] = PI * sum;
     }
