@@ -1,8 +1,8 @@
 """pointers.py -- comments, pages and scripts point only to what is in the repository.
 
 A word that looks like a path of ours (src/..., assets/..., panel/query/panel.h, README.md) must
-name a file or a folder: from the root, from the file's own folder, from src, or, of a lone name,
-any file of that name. Nothing may point to a design that lies elsewhere.
+name a file or a folder: from the root, from the file's own folder, from src, or any file whose
+path ends so. Nothing may point to a design that lies elsewhere.
 """
 import os
 import re
