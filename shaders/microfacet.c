@@ -11,13 +11,6 @@ float ggx_density(Vec3 normal, float alpha)
     return a2 / (PI_F * d * d);
 }
 
-float ggx_lambda(Vec3 direction, float alpha)
-{
-    float tangent2 = (direction.x * direction.x + direction.y * direction.y) /
-                     (direction.z * direction.z);
-    return 0.5f * (sqrtf(1 + alpha * alpha * tangent2) - 1);
-}
-
 /* |z| (1 + 2 Lambda), which stays finite at the horizon. */
 static float stretched_length(Vec3 w, float alpha)
 {

@@ -23,9 +23,6 @@ static inline bool is_smooth(float alpha)
 /* Normals per solid angle and projected area, sr^-1. */
 float ggx_density(Vec3 normal, float alpha);
 
-/* Smith's Lambda of a direction, z not 0. */
-float ggx_lambda(Vec3 direction, float alpha);
-
 /* D G2 / (4 |wo.z| |wi.z|): a mirror-like lobe of reflectance 1, sr^-1. wo, wi and half on
  * the same side, half = normalised wo + wi. */
 float ggx_reflection(Vec3 wo, Vec3 wi, Vec3 half, float alpha);

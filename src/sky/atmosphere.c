@@ -118,17 +118,17 @@ static void density_at(const Builder *b, double altitude, float density[AIR_PART
 }
 
 /* A ray in the plane of x and z, the observer on the z axis; the sun anywhere. */
-typedef struct Ray {
+typedef struct AirRay {
     double radius;          /* of the observer */
     double direction[3], sun[3];
-} Ray;
+} AirRay;
 
 /* What the local zenith makes of the ray at a distance. */
-typedef struct Place {
+typedef struct AirPoint {
     double altitude, cosine, sun_cosine, azimuth_cosine;
-} Place;
+} AirPoint;
 
-static Place place_at(const Ray *ray, double distance)
+static AirPoint place_at(const AirRay *ray, double distance)
 {
     double x = distance * ray->direction[0], z = ray->radius + distance * ray->direction[2];
     double r = sqrt(x * x + z * z), ux = x / r, uz = z / r;
@@ -137,7 +137,7 @@ static Place place_at(const Ray *ray, double distance)
     double across = ray->direction[0] * ray->sun[0] + ray->direction[2] * ray->sun[2] - c * s;
     double norm = sqrt(fmax(0, 1 - c * c) * fmax(0, 1 - s * s));
     double azimuth = norm > 1e-12 ? across / norm : 1;
-    return (Place){r - AIR_EARTH_M, c, s, fmax(-1, fmin(1, azimuth))};
+    return (AirPoint){r - AIR_EARTH_M, c, s, fmax(-1, fmin(1, azimuth))};
 }
 
 /* The two tables around a sun angle, and how far between them. */
@@ -152,7 +152,7 @@ static const DiffuseLight *light_at(const Builder *b, double sun_cosine, float *
 /* ---- one ray ----------------------------------------------------------------------------- */
 
 /* Distance to the floor, or else to space. */
-static double ray_length(const Ray *ray, double floor_m, bool *meets_floor)
+static double ray_length(const AirRay *ray, double floor_m, bool *meets_floor)
 {
     double r = ray->radius, b = r * ray->direction[2];
     double floor = AIR_EARTH_M + floor_m, top = AIR_EARTH_M + AIR_TOP_M;
@@ -162,7 +162,7 @@ static double ray_length(const Ray *ray, double floor_m, bool *meets_floor)
     return -b + sqrt(fmax(0, b * b - r * r + top * top));
 }
 
-static Spectrum floor_radiance(const Builder *b, const Place *at)
+static Spectrum floor_radiance(const Builder *b, const AirPoint *at)
 {
     float t;
     const DiffuseLight *light = light_at(b, at->sun_cosine, &t);
@@ -178,7 +178,7 @@ typedef struct Gathered {
     Spectrum molecules, aerosol, rest;
 } Gathered;
 
-static Gathered march(const Builder *b, const Ray *ray)
+static Gathered march(const Builder *b, const AirRay *ray)
 {
     const Atmosphere *a = b->atmosphere;
     int      steps = a->input.steps;
@@ -188,7 +188,7 @@ static Gathered march(const Builder *b, const Ray *ray)
     Gathered sum = {none, none, none};
     for (int i = 0; i < steps; i++) {
         double share = (i + 1.0) / steps, to = length * share * share;
-        Place  at = place_at(ray, 0.5 * (from + to));
+        AirPoint  at = place_at(ray, 0.5 * (from + to));
         float  density[AIR_PARTS], t, step = (float)(to - from);
         density_at(b, at.altitude, density);
         Spectrum depth = none, seen;
@@ -214,7 +214,7 @@ static Gathered march(const Builder *b, const Ray *ray)
         from = to;
     }
     if (meets_floor) {
-        Place end = place_at(ray, length);
+        AirPoint end = place_at(ray, length);
         sum.rest += passing * floor_radiance(b, &end);
     }
     return sum;
@@ -239,8 +239,9 @@ static void fill_row(void *context, int item, int worker)
     (void)worker;
     for (int j = 0; j < ATMOSPHERE_COLUMNS; j++) {
         double azimuth = PI * j / (ATMOSPHERE_COLUMNS - 1);
-        Ray ray = {AIR_EARTH_M + a->input.observer_m, {cos_d(elevation), 0, sin_d(elevation)},
-                   {cos_d(sun) * cos_d(azimuth), cos_d(sun) * sin_d(azimuth), sin_d(sun)}};
+        AirRay ray = {AIR_EARTH_M + a->input.observer_m,
+                      {cos_d(elevation), 0, sin_d(elevation)},
+                      {cos_d(sun) * cos_d(azimuth), cos_d(sun) * sin_d(azimuth), sin_d(sun)}};
         Gathered g = march(b, &ray);
         size_t   at = (size_t)item * ATMOSPHERE_COLUMNS + (size_t)j;
         a->molecules[at] = g.molecules;
@@ -287,7 +288,7 @@ bool atmosphere_build(const AtmosphereInput *input, Arena *arena, Atmosphere *ou
     build_lights(b, &scratch);
     parallel_for(input->threads, 2 * ATMOSPHERE_ROWS, fill_row, b);
     out->sun_passing = passing_at(b, input->observer_m, sin_d(input->sun_elevation));
-    Place under = {input->floor_m, 1, sin_d(input->sun_elevation), 1};
+    AirPoint under = {input->floor_m, 1, sin_d(input->sun_elevation), 1};
     out->floor_exitance = floor_radiance(b, &under) * spectrum_all(PI_F);
     for (int i = 0; i < SUN_ANGLES; i++) arena_release(&b->arena[i]);
     return true;

@@ -11,12 +11,12 @@
 #define FIELDS_MAX 48
 
 /* A file while its lines are read. */
-typedef struct Reader {
+typedef struct EpwReader {
     const char *file;
     char       *next; /* rest of the text; NULL at the end */
     int         line;
     Arena      *arena;
-} Reader;
+} EpwReader;
 
 /* Fields of the data dictionary, counted from 0. */
 enum {
@@ -25,7 +25,7 @@ enum {
 };
 
 /* Cuts the next line off and into fields; false at the end. */
-static bool next_line(Reader *reader, char *field[FIELDS_MAX], int *count)
+static bool next_line(EpwReader *reader, char *field[FIELDS_MAX], int *count)
 {
     if (!reader->next || !*reader->next) return false;
     char *line = reader->next, *end = strpbrk(line, "\r\n");
@@ -44,14 +44,14 @@ static bool next_line(Reader *reader, char *field[FIELDS_MAX], int *count)
     return true;
 }
 
-static bool bad_line(const Reader *reader, Error *err, const char *found, const char *wanted)
+static bool bad_line(const EpwReader *reader, Error *err, const char *found, const char *wanted)
 {
     return error_at(err, ERROR_INPUT, reader->file,
                     arena_format(reader->arena, "line %d", reader->line),
                     "found '%.40s', wanted %s", found, wanted);
 }
 
-static bool number(const Reader *reader, const char *text, double range[2], double *out,
+static bool number(const EpwReader *reader, const char *text, double range[2], double *out,
                    Error *err)
 {
     char  *after;
@@ -64,7 +64,7 @@ static bool number(const Reader *reader, const char *text, double range[2], doub
     return true;
 }
 
-static bool read_location(Reader *reader, char *field[], int count, Weather *out, Error *err)
+static bool read_location(EpwReader *reader, char *field[], int count, Weather *out, Error *err)
 {
     double *const target[4] = {&out->place.latitude_deg, &out->place.longitude_deg,
                                &out->zone_h, &out->place.altitude_m};
@@ -85,7 +85,7 @@ static double or_missing(const char *text, double missing)
     return isfinite(value) && value < missing ? value : -1;
 }
 
-static bool read_hour(Reader *reader, char *field[], int count, const Weather *weather,
+static bool read_hour(EpwReader *reader, char *field[], int count, const Weather *weather,
                       WeatherHour *out, Error *err)
 {
     double when[4], range[4][2] = {{-2000, 6000}, {1, 12}, {1, 31}, {1, 24}};
@@ -117,7 +117,8 @@ bool weather_read(const char *file, Arena *arena, Weather *out, Error *err)
     int       count;
     bool      in_data = false;
     if (!file_read(file, WEATHER_BYTES, arena, &bytes, err)) return false;
-    Reader reader = {file, arena_string(arena, (const char *)bytes.data, bytes.size), 0, arena};
+    char     *text = arena_string(arena, (const char *)bytes.data, bytes.size);
+    EpwReader reader = {file, text, 0, arena};
     Weather weather = {.file = file};
     if (!next_line(&reader, field, &count))
         return error_at(err, ERROR_INPUT, file, "", "is empty, wanted an EPW weather file");

@@ -36,10 +36,3 @@ void sun_limb(double nm, double coefficient[6])
     }
     for (int k = 0; k < 6; k++) coefficient[k] /= mean;
 }
-
-double sun_limb_value(const double coefficient[6], double mu)
-{
-    double value = 0;
-    for (int k = 5; k >= 0; k--) value = value * mu + coefficient[k];
-    return fmax(0, value);
-}

@@ -18,6 +18,3 @@ double sun_angular_radius(double distance_au);
 /* Coefficients over mu^0..5 at a wavelength (linear between bands, ends held), divided by the
  * disc's mean: sum of 2 c_i / (i + 2) is 1. */
 void sun_limb(double nm, double coefficient[6]);
-
-/* Radiance over the disc's mean at mu = sqrt(1 - (sin gamma / sin r)^2). */
-double sun_limb_value(const double coefficient[6], double mu);

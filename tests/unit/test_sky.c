@@ -263,6 +263,14 @@ static void the_direct_beam_is_that_of_astm_g173_within_2_percent(void **state)
     assert_close(illuminance(s.direct), 97143, 0.02);
 }
 
+/* Radiance over the disc's mean at mu = sqrt(1 - (sin gamma / sin r)^2). */
+static double sun_limb_value(const double coefficient[6], double mu)
+{
+    double value = 0;
+    for (int k = 5; k >= 0; k--) value = value * mu + coefficient[k];
+    return fmax(0, value);
+}
+
 static void limb_darkening_keeps_the_irradiance(void **state)
 {
     (void)state;

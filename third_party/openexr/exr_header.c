@@ -8,13 +8,13 @@
 
 enum { FIRST_HEADER = 8, VERSION_AT = 5, MULTIPART = 0x10 };
 
-typedef struct Place {
+typedef struct HeaderPlace {
     const unsigned char *bytes;
     size_t at, size;
-} Place;
+} HeaderPlace;
 
 /* False when the text's end is not there. */
-static bool skip_text(Place *place)
+static bool skip_text(HeaderPlace *place)
 {
     const unsigned char *from = place->bytes + place->at;
     const unsigned char *end = memchr(from, 0, place->size - place->at);
@@ -22,7 +22,7 @@ static bool skip_text(Place *place)
     return end != NULL;
 }
 
-static bool read_size(Place *place, uint32_t *out)
+static bool read_size(HeaderPlace *place, uint32_t *out)
 {
     if (place->size - place->at < 4) return false;
     const unsigned char *b = place->bytes + place->at;
@@ -33,7 +33,7 @@ static bool read_size(Place *place, uint32_t *out)
 
 bool exr_check_header(const unsigned char *bytes, size_t size, size_t file_size, Error *err)
 {
-    Place place = {bytes, FIRST_HEADER, size};
+    HeaderPlace place = {bytes, FIRST_HEADER, size};
     bool  is_multipart = size > VERSION_AT && bytes[VERSION_AT] & MULTIPART;
     bool  is_empty = true; /* the header so far */
     while (place.at < size) {
