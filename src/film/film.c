@@ -4,42 +4,17 @@
 #include <math.h>
 
 #include "base/mathf.h"
+#include "film/film_add.h"
 #include "film/pixels.h"
 #include "spectrum/spectral_table.h"
 
 /* ---- layout ------------------------------------------------------------------------------ */
 
-static const struct {
-    unsigned users;
-    int      size;
-} layer_sums[SUMS_COUNT] = {
-    [SUMS_DEPTH] = {LAYER_DEPTH, 1},
-    [SUMS_POSITION] = {LAYER_POSITION, 3},
-    [SUMS_NORMAL] = {LAYER_NORMAL, 3},
-    [SUMS_ALBEDO] = {LAYER_ALBEDO, 3},
-    [SUMS_UV] = {LAYER_UV, 2},
-    [SUMS_EMITTED] = {LAYER_DISPLAY_EMITTED, 3},
-    [SUMS_REFLECTED] = {LAYER_DISPLAY_REFLECTED | LAYER_DISPLAY_CONTRAST, 3},
-    [SUMS_WHITE] = {LAYER_DISPLAY_WHITE | LAYER_DISPLAY_CONTRAST, 3},
-    [SUMS_BLACK] = {LAYER_DISPLAY_BLACK | LAYER_DISPLAY_CONTRAST, 3},
-    [SUMS_DIRECTION] = {LAYER_DISPLAY_ANGLES, 3},
-};
-
-unsigned layer_sums_users(LayerSums sums)
-{
-    return layer_sums[sums].users;
-}
-
-int layer_sums_size(LayerSums sums)
-{
-    return layer_sums[sums].size;
-}
-
 static size_t pixel_bytes(unsigned layers)
 {
     size_t numbers = 0;
     for (int i = 0; i < SUMS_COUNT; i++)
-        if (layers & layer_sums[i].users) numbers += (size_t)layer_sums[i].size;
+        if (layers & layer_sums_users(i)) numbers += (size_t)layer_sums_size(i);
     return sizeof(PixelSums) + numbers * sizeof(Fixed);
 }
 
@@ -65,9 +40,9 @@ Film *film_create(int width, int height, FilmRect crop, unsigned layers, Arena *
     film->stride = pixel_bytes(layers);
     int next = 0;
     for (int i = 0; i < SUMS_COUNT; i++) {
-        bool is_kept = (layers & layer_sums[i].users) != 0;
+        bool is_kept = (layers & layer_sums_users(i)) != 0;
         film->first[i] = is_kept ? next : -1;
-        if (is_kept) next += layer_sums[i].size;
+        if (is_kept) next += layer_sums_size(i);
     }
     film->pixels = arena_alloc(arena, film->stride, _Alignof(PixelSums), pixel_count(crop));
     pthread_mutex_init(&film->lock, NULL);
@@ -102,30 +77,11 @@ static bool in_range(const float *values, int count)
     return true;
 }
 
-static bool comes_before(uint32_t sample, int x, int y, const FilmDropped *dropped, int other)
-{
-    if (sample != dropped->first[other].sample_index)
-        return sample < dropped->first[other].sample_index;
-    if (y != dropped->first[other].y) return y < dropped->first[other].y;
-    return x < dropped->first[other].x;
-}
-
-/* Keeps the smallest few, sorted, whatever the order they come in. */
 static void drop_sample(Film *film, int x, int y, uint32_t sample)
 {
+    const FilmDropped dropped = {.count = 1, .kept = 1, .first = {{sample, x, y}}};
     pthread_mutex_lock(&film->lock);
-    FilmDropped *dropped = &film->dropped;
-    int          place = dropped->kept;
-    dropped->count++;
-    while (place > 0 && comes_before(sample, x, y, dropped, place - 1)) place--;
-    if (place < FILM_DROPPED_KEPT) {
-        if (dropped->kept < FILM_DROPPED_KEPT) dropped->kept++;
-        for (int i = dropped->kept - 1; i > place; i--)
-            dropped->first[i] = dropped->first[i - 1];
-        dropped->first[place].sample_index = sample;
-        dropped->first[place].x = x;
-        dropped->first[place].y = y;
-    }
+    film_add_dropped(film, &dropped);
     pthread_mutex_unlock(&film->lock);
 }
 
@@ -148,7 +104,7 @@ static void add_layer(const Film *film, PixelSums *sums, LayerSums layer, const 
 {
     int first = film->first[layer];
     if (first < 0) return;
-    for (int i = 0; i < layer_sums[layer].size; i++)
+    for (int i = 0; i < layer_sums_size(layer); i++)
         sums->layers[first + i] += fixed_from_float(values[i]);
 }
 
@@ -237,39 +193,11 @@ FilmDropped film_dropped(const Film *film)
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
-/* (sum of squares - (sum)^2 / n) / (n - 1) / n for each of R, G, B. */
-void pixel_variance(const PixelSums *sums, double variance[3])
-{
-    double n = (double)sums->samples, xyz[3];
-    for (int i = 0; i < 3; i++) xyz[i] = double_from_fixed(sums->xyz[i], FIXED_BITS);
-    for (int i = 0; i < 3; i++) {
-        const float *row = rgb_from_xyz_matrix + 3 * i;
-        double       sum = (double)row[0] * xyz[0] + (double)row[1] * xyz[1] +
-                     (double)row[2] * xyz[2];
-        double squares = double_from_fixed(sums->squares[i][0], SQUARE_LOW_BITS) +
-                         double_from_fixed(sums->squares[i][1], SQUARE_HIGH_BITS);
-        double spread = squares - sum * sum / n;
-        variance[i] = n < 2 ? (double)NAN : spread > 0 ? spread / (n - 1) / n : 0;
-    }
-}
-
 /* From the samples' spread, as if they were independent: the most it can be. */
 static double sigma_of_spread(const double variance_rgb[3])
 {
     return 0.2126 * sqrt(variance_rgb[0]) + 0.7152 * sqrt(variance_rgb[1]) +
            0.0722 * sqrt(variance_rgb[2]);
-}
-
-bool pixel_halves(const PixelSums *sums, double xyz[3])
-{
-    double n = (double)sums->samples, odd = (double)sums->odd_samples, even = n - odd;
-    if (odd < BLOCK_SAMPLES || even < BLOCK_SAMPLES) return false;
-    for (int i = 0; i < 3; i++) {
-        double odd_sum = double_from_fixed(sums->odd_xyz[i], FIXED_BITS);
-        double even_sum = double_from_fixed(sums->xyz[i] - sums->odd_xyz[i], FIXED_BITS);
-        xyz[i] = (odd_sum / odd - even_sum / even) * sqrt(odd * even) / n;
-    }
-    return true;
 }
 
 /* One difference d of two normal means says sigma only in the mean over pixels, where

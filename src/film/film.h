@@ -17,60 +17,8 @@
  * Fails    never; a sample that is not finite or beyond 2^47 is counted and dropped.
  */
 #pragma once
-#include <stdbool.h>
-#include <stdint.h>
-
 #include "base/arena.h"
-#include "image/frame.h"
-
-#define FILM_SAMPLES_MAX 0x7fffffffu
-#define FILM_DROPPED_KEPT 8
-
-/* What one sample of one pixel saw. Everything that belongs to a display is of the FIRST
- * surface the camera ray met (windows passed straight through do not count). */
-typedef struct FilmSample {
-    uint32_t sample_index; /* of the pixel: settles which id is shown, and the replay hint */
-    float xyz[3];          /* cd m^-2 */
-    bool  hit;             /* the camera ray met a surface; else depth .. uv are unset */
-    float depth;           /* m, along the ray */
-    float position[3];     /* m, world */
-    float normal[3];       /* unit, world, shading */
-    float albedo[3];       /* linear Rec.709 */
-    float uv[2];           /* uv set 0 */
-    int   part_id;         /* scene part, -1 where nothing was hit */
-    int   display_id;      /* scene display, -1 off displays; else: */
-    float emitted[3];      /* XYZ, cd m^-2: what the panel itself sends to the eye */
-    float white[3], black[3]; /* XYZ it would send for full white and for black */
-    float theta, phi;      /* radians, display frame, phi in [0, 2 pi) */
-} FilmSample;
-
-typedef enum FilmLayer {
-    LAYER_XYZ = 1 << 0,
-    LAYER_DEPTH = 1 << 1,
-    LAYER_POSITION = 1 << 2,
-    LAYER_NORMAL = 1 << 3,
-    LAYER_ALBEDO = 1 << 4,
-    LAYER_ID = 1 << 5,
-    LAYER_UV = 1 << 6,
-    LAYER_VARIANCE = 1 << 7,
-    LAYER_SAMPLES = 1 << 8,
-    LAYER_DISPLAY_EMITTED = 1 << 9,
-    LAYER_DISPLAY_REFLECTED = 1 << 10,
-    LAYER_DISPLAY_WHITE = 1 << 11,
-    LAYER_DISPLAY_BLACK = 1 << 12,
-    LAYER_DISPLAY_ANGLES = 1 << 13,
-    LAYER_DISPLAY_CONTRAST = 1 << 14,
-    LAYER_HALVES = 1 << 15,
-    LAYER_ALL = (1 << 16) - 1,
-    LAYER_DISPLAYS = (LAYER_HALVES - 1) & ~(LAYER_DISPLAY_EMITTED - 1),
-    LAYER_FEATURES = LAYER_ALL & ~(LAYER_XYZ | LAYER_VARIANCE | LAYER_SAMPLES | LAYER_HALVES)
-} FilmLayer; /* LAYER_FEATURES: those that need the members from `hit` on */
-
-typedef struct FilmRect {
-    int x0, y0, x1, y1; /* half-open, pixels of the whole frame */
-} FilmRect;
-
-typedef struct Film Film; /* opaque: the accumulators are private to src/film */
+#include "film/film_sample.h"
 
 /* width, height: the whole frame, at least 1; crop: the part that is kept, not empty and
  * inside the frame; layers: a set of FilmLayer bits. */
@@ -125,32 +73,5 @@ typedef struct FilmWorst {
  * returns how many there are. */
 int film_worst_pixels(const Film *film, int count, FilmWorst *out);
 
-/* Samples that were dropped, and where the first of them (by sample, then row, then column)
- * stood: enough to replay them. */
-typedef struct FilmDropped {
-    uint64_t count;
-    int      kept; /* entries below */
-    struct {
-        uint32_t sample_index;
-        int      x, y;
-    } first[FILM_DROPPED_KEPT];
-} FilmDropped;
-
+/* Samples that were dropped. */
 FilmDropped film_dropped(const Film *film);
-
-/* The frame as frame.h describes it, with R, G, B and the layers asked for. Rules:
- *   depth, position, normal, albedo, uv   mean over the samples that hit something (a mean of
- *       unit normals is shorter than one across an edge); NaN where none did. A sample whose
- *       features are not finite counts as a miss here, not for the light;
- *   id.part, id.display   of the lowest sample index that hit a part, or saw a display; -1;
- *       id.display comes with every layer of displays;
- *   display.*   over the samples that saw a display, NaN where none did: emitted, white and
- *       black are means, reflected is the mean of (sample - emitted), so the pixel's mean minus
- *       emitted wherever the whole pixel is display; theta and phi are those of the mean
- *       direction; contrast is the ratio of mean luminances;
- *   halves   the weighted difference of two interleaved halves of the samples: its square has
- *       the expectation of the variance of the pixel's mean, if the halves are independent.
- *       Sobol points' halves fill each other's gaps: measured between frames of two seeds, its
- *       root mean square is 0 to 6 % too large at 32 samples, 12 % at 256 (that of `variance`
- *       7 to 29 %). NaN below 32 samples. */
-FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena);

@@ -6,7 +6,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "film/film_merge.h"
+#include "film/film_add.h"
 #include "film/pixels.h"
 
 #define PART_NAME "film"
@@ -53,7 +53,7 @@ static const struct {
 #define COUNT_NAMES (sizeof count_names / sizeof *count_names)
 _Static_assert(SUM_NAMES * sizeof(Fixed) == offsetof(PixelSums, samples) &&
                    SUM_NAMES * sizeof(Fixed) + COUNT_NAMES * 4 == sizeof(PixelSums),
-               "a new member of PixelSums has no name here, and is not added in film_merge.c");
+               "a new member of PixelSums has no name here, and is not added in film_add.c");
 
 typedef struct NameList {
     const char **names;

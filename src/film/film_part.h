@@ -25,6 +25,7 @@
  */
 #pragma once
 #include "film/film.h"
+#include "image/frame.h"
 
 typedef struct FilmPart {
     const char *name;       /* of the file, for messages; not in the file */

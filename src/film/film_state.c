@@ -3,7 +3,7 @@
 #include <assert.h>
 #include <string.h>
 
-#include "film/film_merge.h"
+#include "film/film_add.h"
 #include "film/pixels.h"
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the lower bytes come first");

@@ -14,6 +14,7 @@
  * Fails    on rows that no film packs, and on sums that no samples make.
  */
 #pragma once
+#include "base/error.h"
 #include "film/film.h"
 
 /* Bytes of a pixel's sums, not packed. */

@@ -5,8 +5,9 @@
  */
 #pragma once
 #include <pthread.h>
+#include <stddef.h>
 
-#include "film/film.h"
+#include "film/film_sample.h"
 
 __extension__ typedef __int128 Fixed;
 

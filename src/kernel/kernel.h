@@ -6,7 +6,19 @@
  * No vector type crosses this seam by value.
  */
 #pragma once
-#include "kernel/tile.h"
+#include "camera/camera.h"
+#include "film/film.h"
+#include "path/path.h"
+
+/* Work on a rectangle of pixels: the seam between the render loop and the kernel. */
+typedef struct TileJob {
+    const PathContext *context;
+    const Camera      *camera;
+    Film    *film;
+    bool     with_features; /* fill the layers of the first surface, not only the colour */
+    uint32_t seed;
+    uint32_t first_sample, end_sample; /* half-open */
+} TileJob;
 
 typedef struct Kernel {
     const char *isa; /* "sse2", "avx2", "avx512"; "native" on other processors */

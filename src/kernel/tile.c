@@ -1,5 +1,7 @@
 #include "kernel/kernel.h"
 
+#include "path/path_features.h"
+
 static void copy3(float to[3], const float from[3])
 {
     for (int i = 0; i < 3; i++) to[i] = from[i];

@@ -18,7 +18,7 @@ typedef struct Gathering {
     double   power, centre[3], spread2, normal[3], whole_spread2;
 } Gathering;
 
-typedef struct Work {
+typedef struct TileWork {
     const Scene    *scene;
     const Emitters *emitters;
     const double   *weight;
@@ -27,14 +27,14 @@ typedef struct Work {
     float         (*position)[3]; /* of every cell's centroid */
     Gathering       tile[EMITTER_TILES_MAX];
     int             count;
-} Work;
+} TileWork;
 
 static const Part *part_of(const Scene *scene, uint32_t triangle)
 {
     return &scene->parts[scene->triangles[triangle].part_id];
 }
 
-static TrianglePoint cell_point(const Work *work, uint32_t cell)
+static TrianglePoint cell_point(const TileWork *work, uint32_t cell)
 {
     const Emitter *e = &work->emitters->emitters[work->emitters->cell_emitter[cell]];
     EmitterCell at = emitter_cell(e, cell);
@@ -43,7 +43,7 @@ static TrianglePoint cell_point(const Work *work, uint32_t cell)
                           ((float)at.j + inside) * step);
 }
 
-static void find_positions(Work *work)
+static void find_positions(TileWork *work)
 {
     for (uint32_t c = 0; c < work->emitters->cell_count; c++) {
         Vec3 p = cell_point(work, c).position;
@@ -53,14 +53,14 @@ static void find_positions(Work *work)
     }
 }
 
-static Vec3 emitter_normal(const Work *work, uint32_t cell)
+static Vec3 emitter_normal(const TileWork *work, uint32_t cell)
 {
     const Emitter *e = &work->emitters->emitters[work->emitters->cell_emitter[cell]];
     return triangle_point(work->scene, e->triangle, 1 / 3.0f, 1 / 3.0f).ng;
 }
 
 /* Power, centre, extent and mean normal of a tile's cells. */
-static void measure(const Work *work, Gathering *tile)
+static void measure(const TileWork *work, Gathering *tile)
 {
     double squares = 0;
     uint32_t emitter = UINT32_MAX;
@@ -102,7 +102,7 @@ static int by_power(const void *a, const void *b)
 }
 
 /* One tile a part, the strongest first. Cells of a part follow each other. */
-static Gathering *tiles_of_parts(const Work *work, Arena *arena, int *count)
+static Gathering *tiles_of_parts(const TileWork *work, Arena *arena, int *count)
 {
     const Emitters *e = work->emitters;
     Gathering *all = ARENA_NEW(arena, Gathering, work->scene->part_count);
@@ -124,7 +124,7 @@ static Gathering *tiles_of_parts(const Work *work, Arena *arena, int *count)
 }
 
 /* The order of cells by part, the strongest parts first; the dimmest become one tile. */
-static void start_tiles(Work *work, Arena scratch)
+static void start_tiles(TileWork *work, Arena scratch)
 {
     int        parts;
     uint32_t   next = 0;
@@ -149,7 +149,7 @@ static void start_tiles(Work *work, Arena scratch)
     }
 }
 
-static int longest_axis(const Work *work, const Gathering *tile)
+static int longest_axis(const TileWork *work, const Gathering *tile)
 {
     float low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     int   axis = 0;
@@ -165,7 +165,7 @@ static int longest_axis(const Work *work, const Gathering *tile)
 }
 
 /* At the centre, across the longest side. False: one half would be empty. */
-static bool split(Work *work, int t)
+static bool split(TileWork *work, int t)
 {
     Gathering *tile = &work->tile[t];
     uint32_t  *order = work->order + tile->first, below = 0;
@@ -191,7 +191,7 @@ static bool split(Work *work, int t)
     return false;
 }
 
-static void split_tiles(Work *work)
+static void split_tiles(TileWork *work)
 {
     bool is_done[EMITTER_TILES_MAX] = {false};
     while (work->count < EMITTER_TILES_MAX) {
@@ -214,7 +214,7 @@ static void split_tiles(Work *work)
 /* ---- directions of displays -------------------------------------------------------------- */
 
 /* Codes of the content, each standing for the same share of the light. */
-static void choose_codes(const Work *work, int part_id, float codes[PROFILE_CODES][3])
+static void choose_codes(const TileWork *work, int part_id, float codes[PROFILE_CODES][3])
 {
     const Part     *part = &work->scene->parts[part_id];
     const Material *material = &work->scene->materials[part->material_id];
@@ -244,7 +244,7 @@ static Vec3 node_direction(int i, int j)
     return vec3_normalize(vec3(x, y, fmaxf(0, 1 - fabsf(x) - fabsf(y))));
 }
 
-static const EmitterProfile *profile_of(const Work *work, int part_id, Arena *arena)
+static const EmitterProfile *profile_of(const TileWork *work, int part_id, Arena *arena)
 {
     const Material *material =
         &work->scene->materials[work->scene->parts[part_id].material_id];
@@ -277,14 +277,14 @@ static const EmitterProfile *lambert(Arena *arena)
 
 /* ---- all of it -------------------------------------------------------------------------- */
 
-static bool is_display(const Work *work, int part_id)
+static bool is_display(const TileWork *work, int part_id)
 {
     if (part_id == NO_ID) return false;
     return work->scene->materials[work->scene->parts[part_id].material_id].display_id != NO_ID;
 }
 
 /* The display's frame at the cell nearest to the tile's centre. */
-static Frame display_frame_of(const Work *work, const Gathering *tile)
+static Frame display_frame_of(const TileWork *work, const Gathering *tile)
 {
     const Part     *part = &work->scene->parts[tile->part_id];
     const Material *material = &work->scene->materials[part->material_id];
@@ -305,7 +305,7 @@ static Frame display_frame_of(const Work *work, const Gathering *tile)
                          &point);
 }
 
-static bool shines_both_ways(const Work *work, const Gathering *tile)
+static bool shines_both_ways(const TileWork *work, const Gathering *tile)
 {
     uint32_t cell = work->order[tile->first];
     const Emitter  *e = &work->emitters->emitters[work->emitters->cell_emitter[cell]];
@@ -324,7 +324,7 @@ static void set_frame(EmitterTiles *tiles, int t, Frame frame)
     }
 }
 
-static void finish_tile(const Work *work, int t, EmitterTiles *tiles)
+static void finish_tile(const TileWork *work, int t, EmitterTiles *tiles)
 {
     const Gathering *from = &work->tile[t];
     Vec3  normal = vec3((float)from->normal[0], (float)from->normal[1], (float)from->normal[2]);
@@ -340,7 +340,7 @@ static void finish_tile(const Work *work, int t, EmitterTiles *tiles)
     set_frame(tiles, t, is_display(work, from->part_id) ? display_frame_of(work, from) : frame);
 }
 
-static double cell_area(const Work *work, const Emitter *e)
+static double cell_area(const TileWork *work, const Emitter *e)
 {
     const uint32_t *v = work->scene->triangles[e->triangle].vertex;
     Vec3 p[3];
@@ -353,7 +353,7 @@ static double cell_area(const Work *work, const Emitter *e)
 }
 
 /* The choice among a tile's cells, and what they know of it. */
-static void finish_cells(const Work *work, int t, Arena *arena, Emitters *emitters)
+static void finish_cells(const TileWork *work, int t, Arena *arena, Emitters *emitters)
 {
     const Gathering *from = &work->tile[t];
     double *weight = ARENA_NEW(arena, double, from->count);
@@ -371,7 +371,7 @@ static void finish_cells(const Work *work, int t, Arena *arena, Emitters *emitte
     }
 }
 
-static void choose_profiles(const Work *work, Arena *arena, EmitterTiles *tiles)
+static void choose_profiles(const TileWork *work, Arena *arena, EmitterTiles *tiles)
 {
     const EmitterProfile  *plain = lambert(arena);
     const EmitterProfile **of_part = ARENA_NEW(arena, const EmitterProfile *,
@@ -388,7 +388,7 @@ static void choose_profiles(const Work *work, Arena *arena, EmitterTiles *tiles)
 void emitter_tiles_build(const Scene *scene, const double *weight, Arena *arena,
                          Emitters *emitters)
 {
-    Work     work = {.scene = scene, .emitters = emitters, .weight = weight};
+    TileWork     work = {.scene = scene, .emitters = emitters, .weight = weight};
     uint32_t cells = emitters->cell_count;
     work.order = ARENA_NEW(arena, uint32_t, cells);
     work.choices = ARENA_NEW(arena, EmitterChoice, cells);

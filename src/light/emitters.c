@@ -1,5 +1,5 @@
 /* HOT: choosing a point of an emitter. No allocation, no lock, no libm. */
-#include "light/emitter_tiles.h"
+#include "light/emitters.h"
 
 #define BELOW_ONE 0x1.fffffep-1f
 #define BLIND_SHARE 0.1f /* of the samples that do not look where the lit point is */

@@ -6,7 +6,7 @@
  * display's directions as its panel emits them), a cell inside it by area and content, and the
  * position is uniform on the cell.
  *
- * Units    pdf_area in m^-2. Threads: const after emitters_build.
+ * Units    pdf_area in m^-2. Threads: const after emitters_build (emitters_build.h).
  */
 #pragma once
 #include "base/alias.h"
@@ -49,6 +49,23 @@ typedef struct Emitter {
     int      side;
 } Emitter;
 
+/* A cell's place in its triangle. Cells stand in columns along u: column i holds
+ * 2 (side - i) - 1 of them, upright ones and those turned over in turns. */
+typedef struct EmitterCell {
+    int  side, i, j;
+    bool is_turned;
+} EmitterCell;
+
+static inline EmitterCell emitter_cell(const Emitter *emitter, uint32_t cell)
+{
+    int side = emitter->side, index = (int)(cell - emitter->first_cell);
+    int i = side - (int)sqrtf((float)(side * side - index));
+    while (i > 0 && 2 * side * i - i * i > index) i--;
+    while (2 * side * (i + 1) - (i + 1) * (i + 1) <= index) i++;
+    int in_column = index - (2 * side * i - i * i);
+    return (EmitterCell){side, i, in_column / 2, in_column % 2};
+}
+
 typedef struct Emitters {
     int          count;      /* of emissive triangles; 0: nothing emits */
     Emitter     *emitters;
@@ -59,8 +76,6 @@ typedef struct Emitters {
     float       *cell_pdf_area; /* as in EmitterChoice */
     EmitterTiles *tiles;
 } Emitters;
-
-Emitters emitters_build(const Scene *scene, Arena *arena);
 
 /* A point of an emitter. */
 typedef struct EmitterPoint {

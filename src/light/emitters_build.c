@@ -1,8 +1,9 @@
 /* Before the first path: cells of emitters, their light, and the tiles they are gathered in. */
-#include "light/emitter_tiles.h"
+#include "light/emitters_build.h"
 
 #include <math.h>
 
+#include "light/emitter_tiles.h"
 #include "spectrum/photometry.h"
 
 #define CELLS_OF_PICTURE 32768 /* about, of a part with content or an emissive texture */
@@ -30,17 +31,17 @@ static void fill_codes(const Display *display, CodeTable *table)
 }
 
 /* How the light of one part is read. */
-typedef struct Reader {
+typedef struct EmissionReader {
     const Scene       *scene;
     const Material    *material;
     const TextureSlot *slot; /* texture_id NO_ID: the same everywhere */
     CodeTable         *codes;
     double             plain; /* luminance where the slot has no texture */
-} Reader;
+} EmissionReader;
 
-static Reader reader_of(const Scene *scene, const Material *material, CodeTable *codes)
+static EmissionReader reader_of(const Scene *scene, const Material *material, CodeTable *codes)
 {
-    Reader reader = {.scene = scene, .material = material, .codes = codes};
+    EmissionReader reader = {.scene = scene, .material = material, .codes = codes};
     if (material->display_id == NO_ID) {
         const float *factor = material->unlit ? material->base_color : material->emissive_cd_m2;
         reader.slot =
@@ -56,7 +57,7 @@ static Reader reader_of(const Scene *scene, const Material *material, CodeTable 
     return reader;
 }
 
-static double luminance_at(const Reader *reader, Vec2 uv)
+static double luminance_at(const EmissionReader *reader, Vec2 uv)
 {
     if (reader->slot->texture_id == NO_ID) return reader->plain;
     const Texture *texture = &reader->scene->textures[reader->slot->texture_id];
@@ -91,7 +92,7 @@ typedef struct Corner {
     Vec2 at, along_u, along_v;
 } Corner;
 
-static Corner uv_corner(const Reader *reader, uint32_t triangle)
+static Corner uv_corner(const EmissionReader *reader, uint32_t triangle)
 {
     Vec2 uv[3];
     for (int i = 0; i < 3; i++) {
@@ -115,7 +116,7 @@ static Vec2 lattice_point(int i)
 }
 
 /* Root of the mean square luminance of a cell whose lower corner is at column i, row j. */
-static double cell_luminance(const Reader *reader, const Corner *corner,
+static double cell_luminance(const EmissionReader *reader, const Corner *corner,
                              const EmitterCell *cell, int points)
 {
     double squares = 0;
@@ -133,7 +134,7 @@ static double cell_luminance(const Reader *reader, const Corner *corner,
 }
 
 /* Points a cell, about two a texel. */
-static int points_of(const Reader *reader, const Corner *corner, int side)
+static int points_of(const EmissionReader *reader, const Corner *corner, int side)
 {
     if (reader->slot->texture_id == NO_ID) return 1;
     const Image *image = &reader->scene->textures[reader->slot->texture_id].image;
@@ -144,7 +145,8 @@ static int points_of(const Reader *reader, const Corner *corner, int side)
 }
 
 /* Luminances of an emitter's cells, in order. */
-static void read_emitter(const Reader *reader, const Emitter *emitter, double *luminance)
+static void read_emitter(const EmissionReader *reader, const Emitter *emitter,
+                         double *luminance)
 {
     Corner corner = uv_corner(reader, emitter->triangle);
     int    side = emitter->side, points = points_of(reader, &corner, side), n = 0;
@@ -197,7 +199,7 @@ static void read_part(const Scene *scene, int part_id, const Emitters *emitters,
 {
     const Part *part = &scene->parts[part_id];
     CodeTable   codes;
-    Reader      reader = reader_of(scene, &scene->materials[part->material_id], &codes);
+    EmissionReader      reader = reader_of(scene, &scene->materials[part->material_id], &codes);
     bool both_sides = reader.material->double_sided && reader.material->display_id == NO_ID;
     const Emitter *first = &emitters->emitters[emitters->first_of_part[part_id]];
     double sum = 0, total = 0;

@@ -3,7 +3,7 @@
 #include "base/alias.h"
 #include "base/units.h"
 #include "light/emission.h"
-#include "light/emitters.h"
+#include "light/emitters_build.h"
 #include "light/sky.h"
 #include "spectrum/photometry.h"
 

@@ -13,18 +13,18 @@
 
 /* Light that a path has found. Most of it is radiance per lane; a display that is seen by ways
  * on which nothing depended on wavelength keeps its measured XYZ: lanes would only blur it. */
-typedef struct Gathered {
+typedef struct PathLight {
     Spectrum radiance; /* W m^-2 sr^-1 nm^-1 per lane */
     float    xyz[3];   /* cd m^-2 */
-} Gathered;
+} PathLight;
 
-static void gathered_add(Gathered *sum, const Gathered *more)
+static void gathered_add(PathLight *sum, const PathLight *more)
 {
     sum->radiance += more->radiance;
     for (int i = 0; i < 3; i++) sum->xyz[i] += more->xyz[i];
 }
 
-static void gathered_to_xyz(const Gathered *gathered, const Wavelengths *wavelengths,
+static void gathered_to_xyz(const PathLight *gathered, const Wavelengths *wavelengths,
                             float xyz[3])
 {
     for (int i = 0; i < 3; i++) xyz[i] = gathered->xyz[i];
@@ -32,14 +32,14 @@ static void gathered_to_xyz(const Gathered *gathered, const Wavelengths *wavelen
 }
 
 /* One path on its way. */
-typedef struct Walk {
+typedef struct PathWalk {
     const PathContext *context;
     const Wavelengths *wavelengths;
     Sampler           *sampler;
     PathStatistics    *statistics;
     Ray      ray;
     Spectrum throughput; /* what the path so far lets through, per lane */
-    Gathered gathered;   /* found so far */
+    PathLight gathered;   /* found so far */
     PathResult *first;   /* waits for the first surface; NULL: recorded, or nobody asks */
     float    straight;   /* m since the last scattering vertex (windows do not scatter) */
     Vec3     last_position, last_ns; /* of that vertex */
@@ -49,7 +49,7 @@ typedef struct Walk {
     int      bounce;     /* scattering vertices so far */
     int      splits_left; /* thin sheets that may still be followed both ways */
     int      medium_id;  /* material of the solid that the ray is in; NO_ID: air */
-} Walk;
+} PathWalk;
 
 /* ---- weights ---------------------------------------------------------------------------- */
 
@@ -70,7 +70,7 @@ static float mis_weight(float pdf, float other)
 
 /* How much of emitted light that the last vertex met by chance is counted: the rest belongs to
  * its light samples, which find the same light with density light_pdf. */
-static float emission_weight(const Walk *walk, LightSet set, float light_pdf)
+static float emission_weight(const PathWalk *walk, LightSet set, float light_pdf)
 {
     const PathContext *context = walk->context;
     if (walk->last_is_delta || context->strategy == PATH_BSDF_ONLY) return 1;
@@ -82,7 +82,7 @@ static float emission_weight(const Walk *walk, LightSet set, float light_pdf)
 
 /* ---- emitted light ---------------------------------------------------------------------- */
 
-static void add_distant(Walk *walk)
+static void add_distant(PathWalk *walk)
 {
     Spectrum radiance[2];
     float    pdf[2];
@@ -95,7 +95,7 @@ static void add_distant(Walk *walk)
 }
 
 /* A display seen along a path on which nothing depended on wavelength: its measured XYZ. */
-static void add_display_xyz(Walk *walk, const Surface *surface, Vec3 wo, float weight)
+static void add_display_xyz(PathWalk *walk, const Surface *surface, Vec3 wo, float weight)
 {
     const Scene   *scene = walk->context->scene;
     int            display_id = scene->materials[surface->material_id].display_id;
@@ -109,7 +109,7 @@ static void add_display_xyz(Walk *walk, const Surface *surface, Vec3 wo, float w
 }
 
 /* Of the light samples of the last vertex; nothing asks for it behind a mirror. */
-static float emitter_pdf(const Walk *walk, const Surface *surface, const Hit *hit)
+static float emitter_pdf(const PathWalk *walk, const Surface *surface, const Hit *hit)
 {
     Hit seen = {walk->straight, hit->u, hit->v, hit->triangle};
     if (walk->last_is_delta) return 0;
@@ -117,7 +117,7 @@ static float emitter_pdf(const Walk *walk, const Surface *surface, const Hit *hi
                               walk->ray.direction, surface->ng);
 }
 
-static void add_emitted(Walk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
+static void add_emitted(PathWalk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
 {
     if (!surface->emits) return;
     const Scene *scene = walk->context->scene;
@@ -136,7 +136,7 @@ static void add_emitted(Walk *walk, const Surface *surface, const Hit *hit, Vec3
 /* ---- light samples ---------------------------------------------------------------------- */
 
 typedef struct ShadowQuestion {
-    const Walk *walk;
+    const PathWalk *walk;
     Vec3     direction;
     Spectrum passed;
     Hit      last; /* the one that was passed last */
@@ -161,7 +161,7 @@ static bool passes(void *user, const Hit *hit)
 }
 
 /* Share of light that arrives at the surface from `distance` away along wi. */
-static Spectrum visibility(Walk *walk, const Surface *surface, Vec3 wi, float distance)
+static Spectrum visibility(PathWalk *walk, const Surface *surface, Vec3 wi, float distance)
 {
     Vec3  origin = ray_offset_origin(surface->position, surface->ng, wi);
     Vec3  moved = vec3_sub(origin, surface->position);
@@ -181,7 +181,7 @@ static bool sides_agree(const Surface *surface, Vec3 local_wi, Vec3 wi, Vec3 loc
            (vec3_dot(wi, surface->ng) * vec3_dot(wo, surface->ng) > 0);
 }
 
-static void add_light_sample(Walk *walk, const Surface *surface, Vec3 wo, LightSet set)
+static void add_light_sample(PathWalk *walk, const Surface *surface, Vec3 wo, LightSet set)
 {
     const PathContext *context = walk->context;
     LightSample light;
@@ -207,7 +207,7 @@ static void add_light_sample(Walk *walk, const Surface *surface, Vec3 wo, LightS
     walk->gathered.radiance += share * visibility(walk, surface, light.wi, light.distance);
 }
 
-static void add_light_samples(Walk *walk, const Surface *surface, Vec3 wo)
+static void add_light_samples(PathWalk *walk, const Surface *surface, Vec3 wo)
 {
     if (!bsdf_scatters(&surface->bsdf)) return;
     for (int set = 0; set < LIGHT_SETS; set++)
@@ -218,7 +218,7 @@ static void add_light_samples(Walk *walk, const Surface *surface, Vec3 wo)
 /* ---- the walk --------------------------------------------------------------------------- */
 
 /* Goes straight on behind the surface: a hole or a window. */
-static void go_on_behind(Walk *walk, const Surface *surface)
+static void go_on_behind(PathWalk *walk, const Surface *surface)
 {
     Vec3 direction = walk->ray.direction;
     walk->ray = (Ray){ray_offset_origin(surface->position, surface->ng, direction), direction,
@@ -226,7 +226,7 @@ static void go_on_behind(Walk *walk, const Surface *surface)
 }
 
 /* Beer's law inside a solid: the material's colour is what is left after its distance. */
-static void absorb(Walk *walk, float distance)
+static void absorb(PathWalk *walk, float distance)
 {
     const Material *m = &walk->context->scene->materials[walk->medium_id];
     if (!isfinite(m->attenuation_distance_m)) return;
@@ -237,7 +237,7 @@ static void absorb(Walk *walk, float distance)
 
 /* Ends dim paths; what survives is made stronger, so that the mean stays (Arvo and Kirk 1990).
  * The square root spares the light that reaches shadows by way of dark leather. */
-static bool roulette(Walk *walk)
+static bool roulette(PathWalk *walk)
 {
     if (walk->bounce < ROULETTE_FIRST_BOUNCE) return true;
     float survival = fminf(sqrtf(spectrum_max_lane(walk->throughput)), 0.95f);
@@ -249,7 +249,7 @@ static bool roulette(Walk *walk)
 typedef enum Step { STEP_ENDED, STEP_PASSED, STEP_SCATTERED } Step;
 
 /* Turns the path into direction next->wi (local) at a scattering vertex. */
-static Step turn(Walk *walk, const Surface *surface, Vec3 wo, const BsdfSample *next)
+static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSample *next)
 {
     Vec3 wi = frame_to_world(&surface->frame, next->wi);
     Vec3 local_wo = frame_to_local(&surface->frame, wo);
@@ -269,7 +269,7 @@ static Step turn(Walk *walk, const Surface *surface, Vec3 wo, const BsdfSample *
 }
 
 /* Chooses where the path goes from the surface. Windows can be passed after the last bounce. */
-static Step scatter(Walk *walk, const Surface *surface, Vec3 wo)
+static Step scatter(PathWalk *walk, const Surface *surface, Vec3 wo)
 {
     Vec2  u01 = sampler_2d(walk->sampler), u2 = sampler_2d(walk->sampler);
     float u[3] = {u01.x, u01.y, u2.x};
@@ -286,7 +286,7 @@ static Step scatter(Walk *walk, const Surface *surface, Vec3 wo)
     return turn(walk, surface, wo, &next);
 }
 
-static bool next_hit(Walk *walk, Hit *hit)
+static bool next_hit(PathWalk *walk, Hit *hit)
 {
     *(walk->bounce ? &walk->statistics->bounce_rays : &walk->statistics->camera_rays) += 1;
     if (!bvh_intersect(walk->context->bvh, walk->ray, hit)) return false;
@@ -295,7 +295,7 @@ static bool next_hit(Walk *walk, Hit *hit)
     return true;
 }
 
-static void record_first(Walk *walk, const Hit *hit, float distance, Vec3 wo)
+static void record_first(PathWalk *walk, const Hit *hit, float distance, Vec3 wo)
 {
     if (!walk->first) return;
     walk->first->hit = true;
@@ -306,14 +306,14 @@ static void record_first(Walk *walk, const Hit *hit, float distance, Vec3 wo)
 }
 
 /* What happens at a surface that is there. */
-static Step shade(Walk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
+static Step shade(PathWalk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
 {
     add_emitted(walk, surface, hit, wo);
     if (walk->bounce < walk->context->max_bounces) add_light_samples(walk, surface, wo);
     return scatter(walk, surface, wo);
 }
 
-static Step reflect_window(Walk *walk, const Surface *surface, Vec3 wo)
+static Step reflect_window(PathWalk *walk, const Surface *surface, Vec3 wo)
 {
     Vec3 local_wo = frame_to_local(&surface->frame, wo);
     BsdfSample mirror = {.wi = vec3(-local_wo.x, -local_wo.y, local_wo.z), .is_delta = true,
@@ -323,15 +323,15 @@ static Step reflect_window(Walk *walk, const Surface *surface, Vec3 wo)
     return turn(walk, surface, wo, &mirror);
 }
 
-static void walk_path(Walk *walk);
+static void walk_path(PathWalk *walk);
 
 /* What the sheet itself shows to the eye: its mirror image, or what of it is not a hole. */
-static void add_sheet(Walk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
+static void add_sheet(PathWalk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
 {
-    Walk sheet = *walk;
+    PathWalk sheet = *walk;
     sheet.splits_left = 0;
     sheet.first = NULL;
-    sheet.gathered = (Gathered){.radiance = spectrum_all(0)};
+    sheet.gathered = (PathLight){.radiance = spectrum_all(0)};
     sheet.throughput *= spectrum_all(surface->alpha / SHEET_SHARE);
     Step step = surface->alpha < 1 ? shade(&sheet, surface, hit, wo)
                                    : reflect_window(&sheet, surface, wo);
@@ -342,7 +342,7 @@ static void add_sheet(Walk *walk, const Surface *surface, const Hit *hit, Vec3 w
 /* The first thin sheets (windows, holes) that the eye looks through are followed both ways, the
  * sheet itself in every second sample. By chance, one sample in twelve would show the cabin's
  * mirror image and not the street: noise that everyone sees. False: this is no such sheet. */
-static bool split(Walk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
+static bool split(PathWalk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
 {
     bool is_hole = surface->alpha > 0 && surface->alpha < 1;
     bool is_window = surface->alpha >= 1 && surface->bsdf.kind == BSDF_THIN_WINDOW;
@@ -358,7 +358,7 @@ static bool split(Walk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
 }
 
 /* The loop: what is hit, what it emits, what the lights send it, where the path goes on. */
-static void walk_path(Walk *walk)
+static void walk_path(PathWalk *walk)
 {
     const PathContext *context = walk->context;
     for (int steps = 0; steps < PASSES_MAX + context->max_bounces; steps++) {
@@ -391,11 +391,11 @@ PathContext path_context_build(const Scene *scene, const Bvh *bvh, const Lights 
                          .max_bounces = max_bounces, .strategy = PATH_MIS};
 }
 
-static Walk walk_start(const PathContext *context, const Wavelengths *wavelengths,
+static PathWalk walk_start(const PathContext *context, const Wavelengths *wavelengths,
                        Sampler *sampler, PathStatistics *statistics)
 {
     statistics->samples++;
-    return (Walk){.context = context, .wavelengths = wavelengths, .sampler = sampler,
+    return (PathWalk){.context = context, .wavelengths = wavelengths, .sampler = sampler,
                   .statistics = statistics, .throughput = spectrum_all(1),
                   .gathered.radiance = spectrum_all(0), .last_ns = vec3(0, 0, 1),
                   .last_is_delta = true, .last_part_id = NO_ID, .splits_left = SPLITS,
@@ -405,7 +405,7 @@ static Walk walk_start(const PathContext *context, const Wavelengths *wavelength
 void path_trace(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
                 Sampler *sampler, PathResult *out, PathStatistics *statistics)
 {
-    Walk walk = walk_start(context, wavelengths, sampler, statistics);
+    PathWalk walk = walk_start(context, wavelengths, sampler, statistics);
     *out = (PathResult){.hit = false};
     walk.ray = ray;
     walk.first = out;
@@ -417,7 +417,7 @@ void path_illuminance(const PathContext *context, LitPoint point,
                       const Wavelengths *wavelengths, Sampler *sampler, float xyz_lx[3],
                       PathStatistics *statistics)
 {
-    Walk    walk = walk_start(context, wavelengths, sampler, statistics);
+    PathWalk    walk = walk_start(context, wavelengths, sampler, statistics);
     Surface head;
     surface_white(context->tables, point.position, point.ns, &head);
     walk.throughput = spectrum_all(PI_F);

@@ -8,7 +8,7 @@
 #include <xxhash.h>
 
 #include "base/file_write.h"
-#include "film/film_merge.h"
+#include "film/film_add.h"
 #include "film/film_state.h"
 
 #define MAGIC "PRHLCKPT"
@@ -19,7 +19,7 @@
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "numbers go out as they lie");
 
 /* The file's first bytes; every member lies where its size puts it. */
-typedef struct Head {
+typedef struct CheckpointHead {
     char     magic[8];
     uint32_t byte_order, version;
     uint64_t file_bytes, identity_bytes;
@@ -32,15 +32,16 @@ typedef struct Head {
         int32_t  x, y;
     } dropped[FILM_DROPPED_KEPT];
     uint32_t dropped_kept, zero;
-} Head;
+} CheckpointHead;
 
-_Static_assert(sizeof(Head) == 8 + 8 + 16 + 24 + 24 + 40 + 8 + 12 * FILM_DROPPED_KEPT + 8,
+_Static_assert(sizeof(CheckpointHead) ==
+                   8 + 8 + 16 + 24 + 24 + 40 + 8 + 12 * FILM_DROPPED_KEPT + 8,
                "the head has no gaps");
 
-static Head head_of(const Checkpoint *what, size_t pixel_bytes)
+static CheckpointHead head_of(const Checkpoint *what, size_t pixel_bytes)
 {
     const FilmPart *done = &what->done;
-    Head head = {.byte_order = BYTE_ORDER_MARK, .version = CHECKPOINT_VERSION,
+    CheckpointHead head = {.byte_order = BYTE_ORDER_MARK, .version = CHECKPOINT_VERSION,
                  .identity_bytes = strlen(what->identity),
                  .width = done->width, .height = done->height,
                  .crop = {done->crop.x0, done->crop.y0, done->crop.x1, done->crop.y1},
@@ -82,20 +83,20 @@ bool checkpoint_is_there(const char *path)
 /* ---- writing ----------------------------------------------------------------------------- */
 
 /* A file and the checksum of what went through. */
-typedef struct Output {
+typedef struct CheckpointOutput {
     FileWriter   writer;
     XXH3_state_t hash;
-} Output;
+} CheckpointOutput;
 
-static bool add(Output *output, const void *bytes, size_t size, Error *err)
+static bool add(CheckpointOutput *output, const void *bytes, size_t size, Error *err)
 {
     XXH3_64bits_update(&output->hash, bytes, size);
     return file_writer_add(&output->writer, bytes, size, err);
 }
 
 /* Each row stands behind its size. */
-static bool add_rows(Output *output, const Film *film, FilmRect crop, unsigned char *buffer,
-                     Error *err)
+static bool add_rows(CheckpointOutput *output, const Film *film, FilmRect crop,
+                     unsigned char *buffer, Error *err)
 {
     for (int y = crop.y0; y < crop.y1; y++) {
         uint32_t size = (uint32_t)film_pack_row(film, y, buffer + sizeof size);
@@ -115,11 +116,11 @@ static uint64_t bytes_of_rows(const Film *film, FilmRect crop)
 
 bool checkpoint_write(const Checkpoint *what, const Film *film, Arena scratch, Error *err)
 {
-    Output         output;
+    CheckpointOutput         output;
     FilmRect       crop = what->done.crop;
     unsigned char *buffer = ARENA_NEW(&scratch, unsigned char,
                                       sizeof(uint32_t) + film_packed_bytes_max(film));
-    Head           head = head_of(what, film_pixel_bytes(film));
+    CheckpointHead           head = head_of(what, film_pixel_bytes(film));
     head.file_bytes = sizeof head + head.identity_bytes + bytes_of_rows(film, crop) +
                       sizeof(uint64_t);
     XXH3_64bits_reset(&output.hash);
@@ -193,7 +194,7 @@ static bool damaged_head(const char *path, const char *what, Error *err)
 }
 
 /* What must be known before any other byte means anything. */
-static bool check_kind(const Input *input, const Head *head, size_t got, Error *err)
+static bool check_kind(const Input *input, const CheckpointHead *head, size_t got, Error *err)
 {
     if (got < sizeof head->magic || memcmp(head->magic, MAGIC, sizeof head->magic) != 0)
         return error_at(err, ERROR_INPUT, input->path, "", "is not a checkpoint");
@@ -209,7 +210,7 @@ static bool check_kind(const Input *input, const Head *head, size_t got, Error *
                     head->version, CHECKPOINT_VERSION);
 }
 
-static bool check_length(const Input *input, const Head *head, Error *err)
+static bool check_length(const Input *input, const CheckpointHead *head, Error *err)
 {
     uint64_t there = 0;
     if (fseeko(input->file, 0, SEEK_END) == 0) there = (uint64_t)ftello(input->file);
@@ -220,7 +221,7 @@ static bool check_length(const Input *input, const Head *head, Error *err)
                     (unsigned long long)there, (unsigned long long)head->file_bytes);
 }
 
-static bool check_head(const Input *input, const Head *head, Error *err)
+static bool check_head(const Input *input, const CheckpointHead *head, Error *err)
 {
     const int32_t *crop = head->crop;
     if (crop[0] < 0 || crop[1] < 0 || crop[0] >= crop[2] || crop[1] >= crop[3] ||
@@ -237,7 +238,8 @@ static bool check_head(const Input *input, const Head *head, Error *err)
            damaged_head(input->path, "identity", err);
 }
 
-static Checkpoint checkpoint_of(const char *path, const Head *head, const char *identity)
+static Checkpoint checkpoint_of(const char *path, const CheckpointHead *head,
+                                const char *identity)
 {
     Checkpoint out = {
         .path = path, .identity = identity, .seconds = head->seconds,
@@ -259,7 +261,7 @@ static Checkpoint checkpoint_of(const char *path, const Head *head, const char *
 
 static bool read_all(Input *input, Arena *arena, Checkpoint *out, Error *err)
 {
-    Head   head = {0};
+    CheckpointHead   head = {0};
     size_t got = fread(&head, 1, sizeof head, input->file);
     if (!check_kind(input, &head, got, err) || !check_length(input, &head, err)) return false;
     XXH3_64bits_update(&input->hash, &head, sizeof head);

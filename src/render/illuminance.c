@@ -4,14 +4,14 @@
 
 #define CHUNK 1024 /* samples of one piece of work; pieces are added in order */
 
-typedef struct Sums {
+typedef struct IlluminanceSums {
     double xyz[3], squares;
-} Sums;
+} IlluminanceSums;
 
 typedef struct Meter {
     const PathContext        *context;
     const IlluminanceOptions *options;
-    Sums                     *sums; /* one a chunk */
+    IlluminanceSums                     *sums; /* one a chunk */
 } Meter;
 
 static void measure_chunk(void *user, int chunk, int worker)
@@ -20,7 +20,7 @@ static void measure_chunk(void *user, int chunk, int worker)
     const Meter *meter = user;
     const IlluminanceOptions *options = meter->options;
     PathStatistics statistics = {0};
-    Sums *sums = &meter->sums[chunk];
+    IlluminanceSums *sums = &meter->sums[chunk];
     long  begin = (long)chunk * CHUNK, end = begin + CHUNK;
     for (long i = begin; i < end && i < options->samples; i++) {
         Sampler     sampler = sampler_start(options->seed, 0, 0, (uint32_t)i);
@@ -34,7 +34,7 @@ static void measure_chunk(void *user, int chunk, int worker)
     }
 }
 
-static Illuminance add_chunks(const Sums *sums, int chunks, double samples)
+static Illuminance add_chunks(const IlluminanceSums *sums, int chunks, double samples)
 {
     Illuminance total = {0};
     double squares = 0;
@@ -56,7 +56,7 @@ bool illuminance_measure(const Scene *scene, const IlluminanceOptions *options, 
     if (!lights_build(scene, arena, &lights, err)) return false;
     if (!bvh_create(scene, options->threads, NULL, &bvh, err)) return false;
     PathContext context = path_context_build(scene, bvh, lights, options->max_bounces, arena);
-    Meter meter = {&context, options, ARENA_NEW(arena, Sums, chunks)};
+    Meter meter = {&context, options, ARENA_NEW(arena, IlluminanceSums, chunks)};
     parallel_for(options->threads, chunks, measure_chunk, &meter);
     bvh_destroy(bvh);
     *out = add_chunks(meter.sums, chunks, (double)options->samples);

@@ -7,7 +7,6 @@
 #include "bvh/bvh.h"
 #include "light/light.h"
 #include "render/signals.h"
-#include "kernel/tile.h"
 
 #define TILE_SIDE 16                /* pixels: a few milliseconds of work */
 #define PASS_PATHS ((size_t)1 << 22) /* of one pass at most, where a pixel gets more than one */
@@ -55,18 +54,18 @@ typedef struct WorkerCounts {
     _Alignas(128) PathStatistics statistics;
 } WorkerCounts;
 
-typedef struct Pass {
+typedef struct RenderPass {
     const Kernel  *kernel;
     const TileJob *job;
     FilmRect       crop;
     WorkerCounts  *counts;      /* one a worker */
     atomic_ullong  paths_done;  /* of all passes */
     Progress      *progress;    /* worker 0's */
-} Pass;
+} RenderPass;
 
 static void render_one_tile(void *context, int item, int worker)
 {
-    Pass    *pass = context;
+    RenderPass    *pass = context;
     FilmRect rect = render_tile(pass->crop, item);
     pass->kernel->render(pass->job, rect, &pass->counts[worker].statistics);
     uint64_t paths = pixel_count(rect) *
@@ -164,8 +163,8 @@ static void run_passes(Run *run)
     const RenderOptions *options = run->options;
     uint32_t total = options->end_sample - options->first_sample;
     size_t   pixels = pixel_count(options->crop);
-    Pass     pass = {.kernel = run->result.kernel, .job = &run->job, .crop = options->crop,
-                     .counts = run->counts, .progress = &run->progress};
+    RenderPass pass = {.kernel = run->result.kernel, .job = &run->job, .crop = options->crop,
+                       .counts = run->counts, .progress = &run->progress};
     atomic_store(&pass.paths_done, (uint64_t)run->result.samples * pixels);
     if (run->result.samples)
         run->result.complete = noise_reached(run) || run->result.samples == total;

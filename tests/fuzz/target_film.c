@@ -6,6 +6,7 @@
 #include <xxhash.h>
 
 #include "cli/render/render_identity.h"
+#include "film/film_frame.h"
 #include "film/film_merge.h"
 #include "harness.h"
 #include "render/checkpoint.h"

@@ -2,7 +2,7 @@
 #include "check.h"
 
 #include "base/units.h"
-#include "path/path.h"
+#include "path/path_features.h"
 #include "scene_builder.h"
 #include "spectrum/photometry.h"
 

@@ -2,7 +2,7 @@
 #include "panel_fixture.h"
 
 #include "base/sampler.h"
-#include "light/emitters.h"
+#include "light/emitters_build.h"
 #include "path/path.h"
 #include "scene_builder.h"
 #include "spectrum/photometry.h"

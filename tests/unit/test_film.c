@@ -5,6 +5,7 @@
 
 #include "base/sampler.h"
 #include "base/units.h"
+#include "film/film_frame.h"
 #include "film/pixels.h"
 #include "spectrum/photometry.h"
 

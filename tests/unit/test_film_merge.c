@@ -5,6 +5,8 @@
 #include <fcntl.h>
 
 #include "base/sampler.h"
+#include "film/film_add.h"
+#include "film/film_frame.h"
 #include "film/film_merge.h"
 #include "film/pixels.h"
 

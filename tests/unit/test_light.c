@@ -1,4 +1,4 @@
-#include "light/emitters.h"
+#include "light/emitters_build.h"
 #include "light/sky.h"
 #include "light_fixture.h"
 #include "spectrum/photometry.h"

@@ -11,6 +11,7 @@
 #include "cli/render/command_line.h"
 #include "cli/render/frame_outcome.h"
 #include "cli/render/render_identity.h"
+#include "film/film_frame.h"
 #include "film/film_merge.h"
 #include "text/json_text.h"
 

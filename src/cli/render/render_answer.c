@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "cli/render/frame_outcome.h"
 #include "cli/render/render_identity.h"
+#include "film/film_frame.h"
 #include "film/film_part.h"
 #include "text/json_text.h"
 

@@ -1,4 +1,5 @@
-/* The film as a frame: means of the sums, one channel after the other. */
+#include "film/film_frame.h"
+
 #include <math.h>
 
 #include "base/mathf.h"
@@ -9,20 +10,20 @@
 #define CHANNELS_MAX 64
 
 /* One pass over the pixels fills the channels of one layer. */
-typedef struct Filling {
+typedef struct ChannelFill {
     const Film *film;
     FrameImage *frame;
     Arena      *arena;
-} Filling;
+} ChannelFill;
 
 /* Channels of one layer: up to three planes of floats. */
-typedef struct Planes {
+typedef struct LayerPlanes {
     float *of[3];
-} Planes;
+} LayerPlanes;
 
-static Planes add_planes(const Filling *to, const char *layer, const char *letters)
+static LayerPlanes add_planes(const ChannelFill *to, const char *layer, const char *letters)
 {
-    Planes planes = {{NULL}};
+    LayerPlanes planes = {{NULL}};
     for (int i = 0; letters[i] && i < 3; i++) {
         const char *name = *layer ? arena_format(to->arena, "%s.%c", layer, letters[i])
                                   : arena_format(to->arena, "%c", letters[i]);
@@ -31,9 +32,10 @@ static Planes add_planes(const Filling *to, const char *layer, const char *lette
     return planes;
 }
 
+/* What a pixel shows: three numbers at most. */
 typedef void PixelReader(const Film *film, const PixelSums *sums, float values[3]);
 
-static void fill(const Filling *to, Planes planes, PixelReader *read)
+static void fill(const ChannelFill *to, LayerPlanes planes, PixelReader *read)
 {
     const Film *film = to->film;
     size_t      index = 0;
@@ -59,14 +61,23 @@ static void mean_layer(const Film *film, const PixelSums *sums, LayerSums layer,
     mean_of(sums->layers + film->first[layer], layer_sums_size(layer), count, out);
 }
 
-static void mean_layer_rgb(const Film *film, const PixelSums *sums, LayerSums layer, float *out)
+/* A layer that is a mean of its sums; of displays the sums are XYZ and the layer RGB. */
+static void fill_mean(const ChannelFill *to, LayerPlanes planes, LayerSums layer)
 {
-    float xyz[3];
-    mean_layer(film, sums, layer, xyz);
-    rgb_from_xyz(xyz, out);
+    const Film *film = to->film;
+    size_t      index = 0;
+    for (int y = film->crop.y0; y < film->crop.y1; y++)
+        for (int x = film->crop.x0; x < film->crop.x1; x++, index++) {
+            float mean[3], rgb[3];
+            mean_layer(film, film_sums(film, x, y), layer, mean);
+            if (layer >= SUMS_FIRST_DISPLAY) rgb_from_xyz(mean, rgb);
+            const float *values = layer >= SUMS_FIRST_DISPLAY ? rgb : mean;
+            for (int i = 0; i < 3; i++)
+                if (planes.of[i]) planes.of[i][index] = values[i];
+        }
 }
 
-/* ---- one reader a layer ------------------------------------------------------------------ */
+/* ---- what is more than a mean ------------------------------------------------------------ */
 
 static void read_xyz(const Film *film, const PixelSums *sums, float v[3])
 {
@@ -80,51 +91,6 @@ static void read_rgb(const Film *film, const PixelSums *sums, float v[3])
     float xyz[3];
     read_xyz(film, sums, xyz);
     rgb_from_xyz(xyz, v);
-}
-
-static void read_depth(const Film *film, const PixelSums *sums, float v[3])
-{
-    mean_layer(film, sums, SUMS_DEPTH, v);
-}
-
-static void read_position(const Film *film, const PixelSums *sums, float v[3])
-{
-    mean_layer(film, sums, SUMS_POSITION, v);
-}
-
-static void read_normal(const Film *film, const PixelSums *sums, float v[3])
-{
-    mean_layer(film, sums, SUMS_NORMAL, v);
-}
-
-static void read_albedo(const Film *film, const PixelSums *sums, float v[3])
-{
-    mean_layer(film, sums, SUMS_ALBEDO, v);
-}
-
-static void read_uv(const Film *film, const PixelSums *sums, float v[3])
-{
-    mean_layer(film, sums, SUMS_UV, v);
-}
-
-static void read_emitted(const Film *film, const PixelSums *sums, float v[3])
-{
-    mean_layer_rgb(film, sums, SUMS_EMITTED, v);
-}
-
-static void read_reflected(const Film *film, const PixelSums *sums, float v[3])
-{
-    mean_layer_rgb(film, sums, SUMS_REFLECTED, v);
-}
-
-static void read_white(const Film *film, const PixelSums *sums, float v[3])
-{
-    mean_layer_rgb(film, sums, SUMS_WHITE, v);
-}
-
-static void read_black(const Film *film, const PixelSums *sums, float v[3])
-{
-    mean_layer_rgb(film, sums, SUMS_BLACK, v);
 }
 
 /* theta and phi of the mean direction, degrees; phi in [0, 360). */
@@ -188,25 +154,38 @@ static void read_part_id(const Film *film, const PixelSums *sums, float v[3])
 static const struct {
     unsigned     layer;
     const char  *name, *letters;
-    PixelReader *read;
+    PixelReader *read; /* NULL: a mean of */
+    LayerSums    mean;
 } layer_channels[] = {
-    {LAYER_XYZ, "xyz", "XYZ", read_xyz},
-    {LAYER_DEPTH, "depth", "Z", read_depth},
-    {LAYER_POSITION, "position", "XYZ", read_position},
-    {LAYER_NORMAL, "normal", "XYZ", read_normal},
-    {LAYER_ALBEDO, "albedo", "RGB", read_albedo},
-    {LAYER_UV, "uv", "UV", read_uv},
-    {LAYER_VARIANCE, "variance", "RGB", read_variance},
-    {LAYER_HALVES, "halves", "RGB", read_halves},
-    {LAYER_DISPLAY_EMITTED, "display.emitted", "RGB", read_emitted},
-    {LAYER_DISPLAY_REFLECTED, "display.reflected", "RGB", read_reflected},
-    {LAYER_DISPLAY_WHITE, "display.white", "RGB", read_white},
-    {LAYER_DISPLAY_BLACK, "display.black", "RGB", read_black},
+    {LAYER_XYZ, "xyz", "XYZ", read_xyz, 0},
+    {LAYER_DEPTH, "depth", "Z", NULL, SUMS_DEPTH},
+    {LAYER_POSITION, "position", "XYZ", NULL, SUMS_POSITION},
+    {LAYER_NORMAL, "normal", "XYZ", NULL, SUMS_NORMAL},
+    {LAYER_ALBEDO, "albedo", "RGB", NULL, SUMS_ALBEDO},
+    {LAYER_UV, "uv", "UV", NULL, SUMS_UV},
+    {LAYER_VARIANCE, "variance", "RGB", read_variance, 0},
+    {LAYER_HALVES, "halves", "RGB", read_halves, 0},
+    {LAYER_DISPLAY_EMITTED, "display.emitted", "RGB", NULL, SUMS_EMITTED},
+    {LAYER_DISPLAY_REFLECTED, "display.reflected", "RGB", NULL, SUMS_REFLECTED},
+    {LAYER_DISPLAY_WHITE, "display.white", "RGB", NULL, SUMS_WHITE},
+    {LAYER_DISPLAY_BLACK, "display.black", "RGB", NULL, SUMS_BLACK},
 };
 
-static Planes add_named(const Filling *to, const char *first, const char *second, bool is_whole)
+static void add_layers(const ChannelFill *to)
 {
-    Planes planes = {{NULL}};
+    for (size_t i = 0; i < sizeof layer_channels / sizeof *layer_channels; i++) {
+        if (!(to->film->layers & layer_channels[i].layer)) continue;
+        LayerPlanes planes =
+            add_planes(to, layer_channels[i].name, layer_channels[i].letters);
+        if (layer_channels[i].read) fill(to, planes, layer_channels[i].read);
+        else fill_mean(to, planes, layer_channels[i].mean);
+    }
+}
+
+static LayerPlanes add_named(const ChannelFill *to, const char *first, const char *second,
+                             bool is_whole)
+{
+    LayerPlanes planes = {{NULL}};
     planes.of[0] = frame_add_channel(to->frame, first, is_whole, to->arena);
     if (second) planes.of[1] = frame_add_channel(to->frame, second, is_whole, to->arena);
     return planes;
@@ -217,12 +196,9 @@ FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena)
     ExrWindow  data = {film->crop.x0, film->crop.y0, film->crop.x1, film->crop.y1};
     FrameImage frame = frame_create(film->width, film->height, data, CHANNELS_MAX,
                                     attribute_room, arena);
-    Filling    to = {film, &frame, arena};
+    ChannelFill    to = {film, &frame, arena};
     fill(&to, add_planes(&to, "", "RGB"), read_rgb);
-    for (size_t i = 0; i < sizeof layer_channels / sizeof *layer_channels; i++)
-        if (film->layers & layer_channels[i].layer)
-            fill(&to, add_planes(&to, layer_channels[i].name, layer_channels[i].letters),
-                 layer_channels[i].read);
+    add_layers(&to);
     if (film->layers & LAYER_SAMPLES)
         fill(&to, add_named(&to, "samples.N", NULL, true), read_samples);
     if (film->layers & LAYER_ID)

@@ -1,5 +1,6 @@
+#include "path/path_features.h"
+
 #include "base/units.h"
-#include "path/path.h"
 #include "spectrum/photometry.h"
 
 /* Reflectance under D65 as linear Rec.709: the mean over paths is exact. */

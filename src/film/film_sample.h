@@ -1,0 +1,64 @@
+/* film_sample.h -- what a film takes: samples, layers, rectangles. Units and ranges: film.h. */
+#pragma once
+#include <stdbool.h>
+#include <stdint.h>
+
+#define FILM_SAMPLES_MAX 0x7fffffffu
+#define FILM_DROPPED_KEPT 8
+
+/* What one sample of one pixel saw. Everything that belongs to a display is of the FIRST
+ * surface the camera ray met (windows passed straight through do not count). */
+typedef struct FilmSample {
+    uint32_t sample_index; /* of the pixel: settles which id is shown, and the replay hint */
+    float xyz[3];          /* cd m^-2 */
+    bool  hit;             /* the camera ray met a surface; else depth .. uv are unset */
+    float depth;           /* m, along the ray */
+    float position[3];     /* m, world */
+    float normal[3];       /* unit, world, shading */
+    float albedo[3];       /* linear Rec.709 */
+    float uv[2];           /* uv set 0 */
+    int   part_id;         /* scene part, -1 where nothing was hit */
+    int   display_id;      /* scene display, -1 off displays; else: */
+    float emitted[3];      /* XYZ, cd m^-2: what the panel itself sends to the eye */
+    float white[3], black[3]; /* XYZ it would send for full white and for black */
+    float theta, phi;      /* radians, display frame, phi in [0, 2 pi) */
+} FilmSample;
+
+typedef enum FilmLayer {
+    LAYER_XYZ = 1 << 0,
+    LAYER_DEPTH = 1 << 1,
+    LAYER_POSITION = 1 << 2,
+    LAYER_NORMAL = 1 << 3,
+    LAYER_ALBEDO = 1 << 4,
+    LAYER_ID = 1 << 5,
+    LAYER_UV = 1 << 6,
+    LAYER_VARIANCE = 1 << 7,
+    LAYER_SAMPLES = 1 << 8,
+    LAYER_DISPLAY_EMITTED = 1 << 9,
+    LAYER_DISPLAY_REFLECTED = 1 << 10,
+    LAYER_DISPLAY_WHITE = 1 << 11,
+    LAYER_DISPLAY_BLACK = 1 << 12,
+    LAYER_DISPLAY_ANGLES = 1 << 13,
+    LAYER_DISPLAY_CONTRAST = 1 << 14,
+    LAYER_HALVES = 1 << 15,
+    LAYER_ALL = (1 << 16) - 1,
+    LAYER_DISPLAYS = (LAYER_HALVES - 1) & ~(LAYER_DISPLAY_EMITTED - 1),
+    LAYER_FEATURES = LAYER_ALL & ~(LAYER_XYZ | LAYER_VARIANCE | LAYER_SAMPLES | LAYER_HALVES)
+} FilmLayer; /* LAYER_FEATURES: those that need the members from `hit` on */
+
+typedef struct FilmRect {
+    int x0, y0, x1, y1; /* half-open, pixels of the whole frame */
+} FilmRect;
+
+typedef struct Film Film; /* opaque: the accumulators are private to src/film */
+
+/* Samples that were dropped, and where the first of them (by sample, then row, then column)
+ * stood: enough to replay them. */
+typedef struct FilmDropped {
+    uint64_t count;
+    int      kept; /* entries below */
+    struct {
+        uint32_t sample_index;
+        int      x, y;
+    } first[FILM_DROPPED_KEPT];
+} FilmDropped;

@@ -1,0 +1,59 @@
+#include "film/pixels.h"
+
+#include <math.h>
+
+#include "spectrum/spectral_table.h"
+
+static const struct {
+    unsigned users;
+    int      size;
+} layer_sums[SUMS_COUNT] = {
+    [SUMS_DEPTH] = {LAYER_DEPTH, 1},
+    [SUMS_POSITION] = {LAYER_POSITION, 3},
+    [SUMS_NORMAL] = {LAYER_NORMAL, 3},
+    [SUMS_ALBEDO] = {LAYER_ALBEDO, 3},
+    [SUMS_UV] = {LAYER_UV, 2},
+    [SUMS_EMITTED] = {LAYER_DISPLAY_EMITTED, 3},
+    [SUMS_REFLECTED] = {LAYER_DISPLAY_REFLECTED | LAYER_DISPLAY_CONTRAST, 3},
+    [SUMS_WHITE] = {LAYER_DISPLAY_WHITE | LAYER_DISPLAY_CONTRAST, 3},
+    [SUMS_BLACK] = {LAYER_DISPLAY_BLACK | LAYER_DISPLAY_CONTRAST, 3},
+    [SUMS_DIRECTION] = {LAYER_DISPLAY_ANGLES, 3},
+};
+
+unsigned layer_sums_users(LayerSums sums)
+{
+    return layer_sums[sums].users;
+}
+
+int layer_sums_size(LayerSums sums)
+{
+    return layer_sums[sums].size;
+}
+
+/* (sum of squares - (sum)^2 / n) / (n - 1) / n for each of R, G, B. */
+void pixel_variance(const PixelSums *sums, double variance[3])
+{
+    double n = (double)sums->samples, xyz[3];
+    for (int i = 0; i < 3; i++) xyz[i] = double_from_fixed(sums->xyz[i], FIXED_BITS);
+    for (int i = 0; i < 3; i++) {
+        const float *row = rgb_from_xyz_matrix + 3 * i;
+        double       sum = (double)row[0] * xyz[0] + (double)row[1] * xyz[1] +
+                     (double)row[2] * xyz[2];
+        double squares = double_from_fixed(sums->squares[i][0], SQUARE_LOW_BITS) +
+                         double_from_fixed(sums->squares[i][1], SQUARE_HIGH_BITS);
+        double spread = squares - sum * sum / n;
+        variance[i] = n < 2 ? (double)NAN : spread > 0 ? spread / (n - 1) / n : 0;
+    }
+}
+
+bool pixel_halves(const PixelSums *sums, double xyz[3])
+{
+    double n = (double)sums->samples, odd = (double)sums->odd_samples, even = n - odd;
+    if (odd < BLOCK_SAMPLES || even < BLOCK_SAMPLES) return false;
+    for (int i = 0; i < 3; i++) {
+        double odd_sum = double_from_fixed(sums->odd_xyz[i], FIXED_BITS);
+        double even_sum = double_from_fixed(sums->xyz[i] - sums->odd_xyz[i], FIXED_BITS);
+        xyz[i] = (odd_sum / odd - even_sum / even) * sqrt(odd * even) / n;
+    }
+    return true;
+}

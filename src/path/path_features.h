@@ -1,0 +1,18 @@
+/* path_features.h -- what the layers of a frame show of the first surface of a path. */
+#pragma once
+#include "path/path.h"
+
+typedef struct PathFeatures {
+    float depth;       /* m along the ray */
+    Vec3  position;    /* m, world */
+    Vec3  normal;      /* unit, world, shading */
+    float albedo[3];   /* linear Rec.709 */
+    float uv[2];
+    int   part_id;
+    int   display_id;  /* NO_ID off displays; else: */
+    float emitted[3], white[3], black[3]; /* XYZ, cd m^-2: sent; for full white; for black */
+    float theta, phi;  /* radians, display frame, phi in [0, 2 pi) */
+} PathFeatures;
+
+void path_features(const PathContext *context, const PathResult *result,
+                   const Wavelengths *wavelengths, PathFeatures *out);
