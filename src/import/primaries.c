@@ -20,15 +20,12 @@ typedef struct PrimariesFile {
 
 static int column_of(TextCell cell)
 {
-    static const char *const names[COLUMNS][5] = {
-        {"nm", "wavelength", "wavelength_nm", "lambda", "wavelength (nm)"},
+    static const char *const names[COLUMNS][6] = {
+        {"nm", "wavelength", "wavelength_nm", "lambda", "wavelength (nm)", NULL},
         {"red", "r", "rot", "rouge", NULL}, {"green", "g", "gruen", "vert", NULL},
         {"blue", "b", "blau", "bleu", NULL}, {"black", "k", "schwarz", "noir", NULL}};
     for (int c = 0; c < COLUMNS; c++)
-        for (size_t i = 0; i < 5 && names[c][i]; i++)
-            if ((int)strlen(names[c][i]) == cell.length &&
-                !strncasecmp(names[c][i], cell.text, (size_t)cell.length))
-                return c;
+        if (text_cell_find(names[c], cell) >= 0) return c;
     return -1;
 }
 

@@ -14,6 +14,7 @@
 #include "base/units.h"
 #include "import/scatter/scan.h"
 #include "import/scatter/scatter.h"
+#include "import/set/word_list.h"
 #include "panel/set/measurement.h"
 
 #define COLUMNS_MAX (4 + MEASUREMENT_WAVELENGTHS_MAX)
@@ -24,7 +25,7 @@
 typedef enum AstmColumn { THETA_I, PHI_I, THETA_S, PHI_S, ANGLES } AstmColumn;
 
 typedef struct Astm {
-    Scan    scan;
+    WordScan scan;
     int     columns, rows, stated_rows;
     int     angle[ANGLES];        /* column of each, -1: none */
     int     value[COLUMNS_MAX];   /* columns of the channels, in the order of the table */
@@ -49,13 +50,10 @@ static bool is_wavelength(const char *name, double *nm)
 
 static bool note_angle(Astm *in, const char *name, int column)
 {
-    static const char *const names[] = {"theta_i", "phi_i", "theta_s", "phi_s"};
-    for (int i = 0; i < ANGLES; i++)
-        if (!strcasecmp(name, names[i])) {
-            in->angle[i] = column;
-            return true;
-        }
-    return false;
+    static const char *const names[] = {"theta_i", "phi_i", "theta_s", "phi_s", NULL};
+    int which = word_list_find(names, name);
+    if (which >= 0) in->angle[which] = column;
+    return which >= 0;
 }
 
 /* Wavelengths rise in a table: by insertion. */

@@ -12,7 +12,7 @@
 #include "import/scatter/scatter.h"
 
 typedef struct Fred {
-    Scan         scan;
+    WordScan     scan;
     double       scale;
     ScatterLight light; /* of the rows that are being read */
     double       mirror_phi;

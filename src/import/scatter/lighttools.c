@@ -20,7 +20,7 @@ typedef struct LightToolsBlock {
 } LightToolsBlock;
 
 typedef struct LightTools {
-    Scan    scan;
+    WordScan scan;
     int     azimuths, radials;
     double *azimuth, *radial; /* degrees */
     bool    is_xyz, has_content;
@@ -43,7 +43,7 @@ static bool read_symmetry(LightTools *in, Error *err)
 /* Entries that say nothing of the values (Source, ...) are passed over with their line. */
 static bool read_header(LightTools *in, Error *err)
 {
-    Scan *scan = &in->scan;
+    WordScan *scan = &in->scan;
     while (!scan_accept(scan, "DataBegin")) {
         bool ok = true;
         if (scan_accept(scan, "Symmetry"))
@@ -99,7 +99,7 @@ static bool read_tristimulus(LightTools *in, LightToolsBlock *block, Error *err)
 static bool read_block_head(LightTools *in, LightToolsBlock *block, bool *found, Error *err)
 {
     static const char *const sides[] = {"Front", "Back"}, *const kinds[] = {"BRDF", "BTDF"};
-    Scan *scan = &in->scan;
+    WordScan *scan = &in->scan;
     *block = (LightToolsBlock){.is_front = true, .is_reflection = true, .is_y = true};
     *found = false;
     for (bool begun = false;; begun = true) {

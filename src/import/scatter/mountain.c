@@ -19,7 +19,7 @@
 #define GRAZING_DEG 89.9
 
 typedef struct Mountain {
-    Scan   scan;
+    WordScan scan;
     double theta, phi; /* of the light, degrees */
     bool   has_theta, has_phi, has_format, has_cosine, is_xyz;
     int    transmitted, grazing; /* rows left out */
@@ -92,7 +92,7 @@ static bool read_entry(Mountain *in, const char *line, ImportSet *set, Error *er
 
 static bool read_header(Mountain *in, ImportSet *set, Error *err)
 {
-    Scan after = in->scan;
+    WordScan after = in->scan;
     for (const char *line; (line = scan_line(&after)) && (*line == '#' || !*line);) {
         if (*line && !read_entry(in, line, set, err)) return false;
         in->scan = after;

@@ -13,24 +13,24 @@
 #define BYTE_ORDER_MARK "\xEF\xBB\xBF"
 #define WORD_SHOWN_MAX 40 /* of a word in a message */
 
-bool scan_open(const char *file, Arena *arena, Scan *out, Error *err)
+bool scan_open(const char *file, Arena *arena, WordScan *out, Error *err)
 {
     FileBytes bytes;
     if (!file_read(file, IMPORT_FILE_BYTES_MAX, arena, &bytes, err)) return false;
     const char *text = (const char *)bytes.data;
     size_t mark = bytes.size >= 3 && !memcmp(text, BYTE_ORDER_MARK, 3) ? 3 : 0;
-    *out = (Scan){.file = file, .next = text + mark, .end = text + bytes.size, .line = 1,
+    *out = (WordScan){.file = file, .next = text + mark, .end = text + bytes.size, .line = 1,
                   .comment = '#', .arena = arena};
     return true;
 }
 
-static bool is_separator(const Scan *scan, char c)
+static bool is_separator(const WordScan *scan, char c)
 {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n' || (c == ',' && scan->commas);
 }
 
 /* To the next word; a comment mark counts at the beginning of a word. */
-static void skip(Scan *scan)
+static void skip(WordScan *scan)
 {
     while (scan->next < scan->end) {
         char c = *scan->next;
@@ -45,7 +45,7 @@ static void skip(Scan *scan)
     }
 }
 
-const char *scan_word(Scan *scan)
+const char *scan_word(WordScan *scan)
 {
     skip(scan);
     const char *begin = scan->next;
@@ -54,9 +54,9 @@ const char *scan_word(Scan *scan)
     return arena_string(scan->arena, begin, (size_t)(scan->next - begin));
 }
 
-const char *scan_peek(const Scan *scan)
+const char *scan_peek(const WordScan *scan)
 {
-    Scan copy = *scan;
+    WordScan copy = *scan;
     return scan_word(&copy);
 }
 
@@ -65,7 +65,7 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-const char *scan_line(Scan *scan)
+const char *scan_line(WordScan *scan)
 {
     if (scan->next >= scan->end) return NULL;
     const char *begin = scan->next;
@@ -78,9 +78,9 @@ const char *scan_line(Scan *scan)
     return arena_string(scan->arena, begin, (size_t)(stop - begin));
 }
 
-bool scan_accept(Scan *scan, const char *word)
+bool scan_accept(WordScan *scan, const char *word)
 {
-    Scan        copy = *scan;
+    WordScan    copy = *scan;
     const char *found = scan_word(&copy);
     if (!found || strcasecmp(found, word)) return false;
     *scan = copy;
@@ -97,7 +97,7 @@ bool scan_to_number(const char *word, double *out)
 }
 
 /* No word of a number is longer: what is longer is not copied. */
-bool scan_number(Scan *scan, const char *what, double *out, Error *err)
+bool scan_number(WordScan *scan, const char *what, double *out, Error *err)
 {
     char text[64];
     skip(scan);
@@ -112,7 +112,7 @@ bool scan_number(Scan *scan, const char *what, double *out, Error *err)
     return scan_fail(scan, err, "%s is '%.*s', wanted a number", what, WORD_SHOWN_MAX, text);
 }
 
-bool scan_count(Scan *scan, const char *what, int most, int *out, Error *err)
+bool scan_count(WordScan *scan, const char *what, int most, int *out, Error *err)
 {
     double value;
     if (!scan_number(scan, what, &value, err)) return false;
@@ -127,7 +127,7 @@ bool scan_count(Scan *scan, const char *what, int most, int *out, Error *err)
     return true;
 }
 
-bool scan_list(Scan *scan, const char *what, int count, double **out, Error *err)
+bool scan_list(WordScan *scan, const char *what, int count, double **out, Error *err)
 {
     double *list = ARENA_NEW(scan->arena, double, count);
     for (int i = 0; i < count; i++)
@@ -136,13 +136,13 @@ bool scan_list(Scan *scan, const char *what, int count, double **out, Error *err
     return true;
 }
 
-bool scan_counted_list(Scan *scan, const char *what, int most, int *count, double **out,
+bool scan_counted_list(WordScan *scan, const char *what, int most, int *count, double **out,
                        Error *err)
 {
     return scan_count(scan, what, most, count, err) && scan_list(scan, what, *count, out, err);
 }
 
-bool scan_spectral_content(Scan *scan, bool *is_xyz, Error *err)
+bool scan_spectral_content(WordScan *scan, bool *is_xyz, Error *err)
 {
     const char *word = scan_word(scan);
     *is_xyz = word && !strcasecmp(word, "XYZ");
@@ -151,7 +151,7 @@ bool scan_spectral_content(Scan *scan, bool *is_xyz, Error *err)
                      word ? word : "");
 }
 
-int scan_lines_left(const Scan *scan)
+int scan_lines_left(const WordScan *scan)
 {
     int lines = 1;
     for (const char *c = scan->next; c < scan->end && lines < IMPORT_ROWS_MAX; c++)
@@ -159,13 +159,13 @@ int scan_lines_left(const Scan *scan)
     return lines;
 }
 
-bool scan_check_end(const Scan *scan, Error *err)
+bool scan_check_end(const WordScan *scan, Error *err)
 {
     return scan->end[-1] == '\n' ||
            scan_fail(scan, err, "the last line has no line end: the file may be cut");
 }
 
-bool scan_fail(const Scan *scan, Error *err, const char *format, ...)
+bool scan_fail(const WordScan *scan, Error *err, const char *format, ...)
 {
     char    place[32];
     va_list list;

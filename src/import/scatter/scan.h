@@ -12,55 +12,55 @@
 #include "base/arena.h"
 #include "base/error.h"
 
-typedef struct Scan {
+typedef struct WordScan {
     const char *file;
     const char *next, *end; /* the text; *end is 0 */
     int         line;       /* of `next`, from 1 */
     char        comment;    /* 0: none */
     bool        commas;     /* a comma separates words, too */
     Arena      *arena;
-} Scan;
+} WordScan;
 
 /* Reads the file (a byte order mark is passed over); '#' is the comment mark. */
-bool scan_open(const char *file, Arena *arena, Scan *out, Error *err);
+bool scan_open(const char *file, Arena *arena, WordScan *out, Error *err);
 
 /* The next word in the arena; NULL at the end. Comments between words are passed over. */
-const char *scan_word(Scan *scan);
+const char *scan_word(WordScan *scan);
 
 /* As scan_word, without moving. */
-const char *scan_peek(const Scan *scan);
+const char *scan_peek(const WordScan *scan);
 
 /* The rest of the line, blanks around it removed, in the arena; NULL at the end of the file.
  * Comment marks mean nothing here. */
-const char *scan_line(Scan *scan);
+const char *scan_line(WordScan *scan);
 
 /* Moves when the next word is this one (case does not matter). */
-bool scan_accept(Scan *scan, const char *word);
+bool scan_accept(WordScan *scan, const char *word);
 
 /* A finite number; `what` names it in the message. */
-bool scan_number(Scan *scan, const char *what, double *out, Error *err);
+bool scan_number(WordScan *scan, const char *what, double *out, Error *err);
 
 /* A whole number from 1 to `most`, no larger than the rest of the file could hold as words. */
-bool scan_count(Scan *scan, const char *what, int most, int *out, Error *err);
+bool scan_count(WordScan *scan, const char *what, int most, int *out, Error *err);
 
 /* `count` numbers into fresh memory. */
-bool scan_list(Scan *scan, const char *what, int count, double **out, Error *err);
+bool scan_list(WordScan *scan, const char *what, int count, double **out, Error *err);
 
 /* scan_count and as many numbers. */
-bool scan_counted_list(Scan *scan, const char *what, int most, int *count, double **out,
+bool scan_counted_list(WordScan *scan, const char *what, int most, int *count, double **out,
                        Error *err);
 
 /* The word behind a "SpectralContent" keyword of .bsdf texts: Monochrome or XYZ. */
-bool scan_spectral_content(Scan *scan, bool *is_xyz, Error *err);
+bool scan_spectral_content(WordScan *scan, bool *is_xyz, Error *err);
 
 /* The lines from here to the end, one that has no end as well; no more than rows of a table. */
-int scan_lines_left(const Scan *scan);
+int scan_lines_left(const WordScan *scan);
 
 /* A file that was cut inside a number could pass: the last line must be a whole one. */
-bool scan_check_end(const Scan *scan, Error *err);
+bool scan_check_end(const WordScan *scan, Error *err);
 
 /* An error at the current line. Always false. */
-bool scan_fail(const Scan *scan, Error *err, const char *format, ...)
+bool scan_fail(const WordScan *scan, Error *err, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 /* The whole word as a finite number. */

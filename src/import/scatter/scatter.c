@@ -75,10 +75,7 @@ ScatterRows scatter_rows(Arena *arena, int capacity, int channels)
 
 void scatter_put(ScatterRows *rows, double theta_deg, double phi_deg, const double *value)
 {
-    if (theta_deg > 90 + HORIZON_SLACK_DEG) {
-        rows->below++;
-        return;
-    }
+    if (theta_deg > 90 + HORIZON_SLACK_DEG) return;
     int row = rows->rows++;
     rows->theta_deg[row] = theta_deg > 90 ? 90 : theta_deg;
     rows->phi_deg[row] = phi_deg;

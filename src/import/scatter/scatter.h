@@ -32,13 +32,12 @@ typedef struct ScatterRows {
     double *theta_deg, *phi_deg, *value; /* value: rows x channels */
     int     masked;                      /* directions marked as not measured */
     double *masked_theta_deg, *masked_phi_deg;
-    int     below;                       /* directions under the surface: left out */
 } ScatterRows;
 
 /* Room for `capacity` directions. */
 ScatterRows scatter_rows(Arena *arena, int capacity, int channels);
 
-/* Adds one; `value` holds the channels. Beyond 90 degrees it is counted and left out. */
+/* Adds one; `value` holds the channels. Beyond 90 degrees it is left out. */
 void scatter_put(ScatterRows *rows, double theta_deg, double phi_deg, const double *value);
 void scatter_mask(ScatterRows *rows, double theta_deg, double phi_deg);
 

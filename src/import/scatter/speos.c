@@ -229,7 +229,7 @@ static void tell_brighter_back(const Speos *in, ImportSet *set)
  * is not public, so they must leave nothing beside it. */
 static bool read_simple(const char *file, ImportSet *set, Error *err)
 {
-    Scan   scan;
+    WordScan scan;
     double number[4];
     if (!scan_open(file, set->arena, &scan, err)) return false;
     scan_line(&scan);
@@ -264,7 +264,7 @@ static bool read_speos(const char *file, const ImportOptions *options, ImportSet
                        Error *err)
 {
     (void)options;
-    Scan  scan;
+    WordScan scan;
     Speos in;
     Arena scratch = *set->arena;
     if (!scan_open(file, &scratch, &scan, err)) return false;

@@ -7,7 +7,7 @@
 #include "import/scatter/scan.h"
 
 typedef struct SpeosText {
-    Scan   scan;
+    WordScan scan;
     Arena *arena;
     Speos *out;
 } SpeosText;
@@ -28,7 +28,7 @@ static bool read_flag(SpeosText *in, const char *what, bool *out, Error *err)
 static bool skip_description(SpeosText *in, Error *err)
 {
     double length;
-    Scan  *scan = &in->scan;
+    WordScan  *scan = &in->scan;
     if (!scan_number(scan, "the length of the description", &length, err)) return false;
     scan_line(scan);
     if (!(length >= 0 && length <= (double)(scan->end - scan->next)))
@@ -42,7 +42,7 @@ static bool skip_description(SpeosText *in, Error *err)
 
 static bool read_table(SpeosText *in, SpeosTable *table, Error *err)
 {
-    Scan *scan = &in->scan;
+    WordScan *scan = &in->scan;
     if (!scan_count(scan, "the number of thetas", SPEOS_ANGLES_MAX, &table->thetas, err) ||
         !scan_count(scan, "the number of phis", SPEOS_ANGLES_MAX, &table->phis, err))
         return false;
@@ -67,7 +67,7 @@ static bool read_table(SpeosText *in, SpeosTable *table, Error *err)
 /* The rest of the file is transmission, which is not read, or nothing. */
 static bool check_end(const SpeosText *in, Error *err)
 {
-    const Scan *scan = &in->scan;
+    const WordScan *scan = &in->scan;
     const char *word = scan_peek(scan);
     if (!scan_check_end(scan, err)) return false;
     if (word && strcmp(word, "End") && !in->out->has_transmission)
@@ -121,7 +121,7 @@ static bool read_lights(SpeosText *in, bool is_kept, Error *err)
 static bool read_spectrum(SpeosText *in, Error *err)
 {
     Speos *out = in->out;
-    Scan  *scan = &in->scan;
+    WordScan  *scan = &in->scan;
     if (!scan_number(scan, "the spectrum's theta", &out->spectrum_theta_deg, err) ||
         !scan_number(scan, "the spectrum's phi", &out->spectrum_phi_deg, err))
         return false;
@@ -167,7 +167,7 @@ static bool read_brdf(SpeosText *in, Error *err)
     int     incidences, wavelengths;
     double *incidence, *nm;
     Speos  *out = in->out;
-    Scan   *scan = &in->scan;
+    WordScan   *scan = &in->scan;
     if (!read_kind(in, err) ||
         !scan_count(scan, "the number of incidences", SPEOS_ANGLES_MAX, &incidences, err) ||
         !scan_count(scan, "the number of wavelengths", SPEOS_ANGLES_MAX, &wavelengths, err))

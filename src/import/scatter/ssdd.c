@@ -13,6 +13,7 @@
 #include "import/scatter/byte_scan.h"
 #include "import/scatter/half_angle.h"
 #include "import/scatter/scan.h"
+#include "import/set/word_list.h"
 #include "panel/set/measurement.h"
 
 #define PARAMS 4
@@ -27,7 +28,7 @@ typedef enum SsddColour {
 } SsddColour;
 
 typedef struct Ssdd {
-    Scan       scan;
+    WordScan   scan;
     bool       is_brdf, is_table; /* is_table: BRDF or BTDF, not specular data */
     SsddSystem system;
     SsddColour colour;
@@ -77,20 +78,12 @@ static bool read_wavelengths(Ssdd *in, char *text, Error *err)
     return true;
 }
 
-/* The index of a word in a list that ends with NULL. */
-static int index_of(const char *word, const char *const *list)
-{
-    for (int i = 0; list[i]; i++)
-        if (!strcasecmp(word, list[i])) return i;
-    return -1;
-}
-
 static bool read_system(Ssdd *in, const char *text, Error *err)
 {
     static const char *const names[] = {"spherical_coordinate_system",
                                         "specular_coordinate_system",
                                         "half_difference_coordinate_system", NULL};
-    int at = index_of(text, names);
+    int at = word_list_find(names, text);
     in->system = (SsddSystem)(SYSTEM_SPHERICAL + at);
     return at >= 0 || scan_fail(&in->scan, err, "PARAM_TYPE '%.40s' is not known here", text);
 }
@@ -98,7 +91,7 @@ static bool read_system(Ssdd *in, const char *text, Error *err)
 static bool read_colour(Ssdd *in, const char *text, Error *err)
 {
     static const char *const names[] = {"monochrome", "rgb", "xyz", "spectrum", NULL};
-    int at = index_of(text, names);
+    int at = word_list_find(names, text);
     if (at < 0)
         return scan_fail(&in->scan, err, "COLOR_MODEL is '%.40s', wanted monochrome, rgb, xyz "
                          "or spectrum", text);
@@ -125,7 +118,7 @@ static bool start_block(Ssdd *in, const char *text, Error *err)
 {
     static const char *const names[] = {"brdf", "btdf", "specular_reflectance",
                                         "specular_transmittance", NULL};
-    int kind = index_of(text, names);
+    int kind = word_list_find(names, text);
     *in = (Ssdd){.scan = in->scan, .is_brdf = kind == 0, .is_table = kind == 0 || kind == 1};
     return kind >= 0 || scan_fail(&in->scan, err, "DATA_TYPE '%.40s' is not known here", text);
 }
@@ -176,7 +169,7 @@ static bool read_entry(Ssdd *in, char *line, const char **mode, Error *err)
 
 static bool check_metadata(Ssdd *in, Error *err)
 {
-    Scan *scan = &in->scan;
+    WordScan *scan = &in->scan;
     if (in->colour == COLOUR_NONE) return scan_fail(scan, err, "the block has no COLOR_MODEL");
     if (in->colour == COLOUR_SPECTRUM && !in->nm)
         return scan_fail(scan, err, "the block has no WAVELENGTH_LIST");

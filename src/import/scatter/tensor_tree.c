@@ -35,7 +35,7 @@ typedef struct TensorTree {
 
 /* ---- text -------------------------------------------------------------------------------- */
 
-static char next_mark(Scan *text)
+static char next_mark(WordScan *text)
 {
     while (text->next < text->end && strchr(" \t\r\n,", *text->next)) {
         text->line += *text->next == '\n';
@@ -44,7 +44,7 @@ static char next_mark(Scan *text)
     return text->next < text->end ? *text->next : 0;
 }
 
-static bool take_mark(Scan *text, char mark, Error *err)
+static bool take_mark(WordScan *text, char mark, Error *err)
 {
     char found = next_mark(text);
     if (found != mark)
@@ -55,15 +55,15 @@ static bool take_mark(Scan *text, char mark, Error *err)
 }
 
 /* Numbers up to the closing brace; how many must be a power of 2^rank. */
-static bool read_grid(Scan *text, int rank, TensorNode *node, Error *err)
+static bool read_grid(WordScan *text, int rank, TensorNode *node, Error *err)
 {
     const char *stop = strchr(text->next, '}');
     if (!stop) return scan_fail(text, err, "the text ends inside the tensor tree, wanted '}'");
-    Scan   inside = *text;
+    WordScan inside = *text;
     size_t count = 0;
     double one;
     inside.end = stop;
-    for (Scan counted = inside; next_mark(&counted); count++)
+    for (WordScan counted = inside; next_mark(&counted); count++)
         if (!scan_number(&counted, "a number of the tensor tree", &one, err)) return false;
     while (count > (size_t)1 << (rank * node->log2_side)) node->log2_side++;
     if (count != (size_t)1 << (rank * node->log2_side))
@@ -78,7 +78,7 @@ static bool read_grid(Scan *text, int rank, TensorNode *node, Error *err)
     return true;
 }
 
-static bool read_node(Scan *text, int rank, int depth, TensorNode *node, Error *err)
+static bool read_node(WordScan *text, int rank, int depth, TensorNode *node, Error *err)
 {
     if (depth > DEPTH_MAX)
         return scan_fail(text, err, "the tensor tree is deeper than %d", DEPTH_MAX);
@@ -273,7 +273,7 @@ static bool is_isotropic(const TensorTree *tree)
 
 bool tensor_tree_add(const WindowXml *in, const float *nm, ImportSet *set, Error *err)
 {
-    Scan       text = in->data;
+    WordScan   text = in->data;
     TensorTree tree = {.file = in->file, .rank = in->structure == WINDOW_TREE3 ? 3 : 4};
     if (!read_node(&text, tree.rank, 0, &tree.root, err)) return false;
     if (next_mark(&text)) return scan_fail(&text, err, "more text follows the tensor tree");

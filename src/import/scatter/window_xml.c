@@ -13,6 +13,7 @@
 
 #include "base/file.h"
 #include "import/scatter/scatter.h"
+#include "import/set/word_list.h"
 
 #define BASES_MAX 16
 
@@ -225,14 +226,15 @@ static xmlNode *choose_block(const Document *in, const xmlNode *layer, ImportSet
 
 static bool read_structure(const Document *in, const xmlNode *layer, WindowXml *out, Error *err)
 {
-    static const char *const names[] = {"Columns", "Rows", "TensorTree3", "TensorTree4"};
+    static const char *const names[] = {"Columns", "Rows", "TensorTree3", "TensorTree4",
+                                        NULL};
     const xmlNode *definition = child(layer, "DataDefinition");
     const char    *name = text_of(in, definition, "IncidentDataStructure");
-    for (int i = 0; i < 4; i++)
-        if (!strcasecmp(name, names[i])) {
-            out->structure = (WindowStructure)i;
-            return true;
-        }
+    int            found = word_list_find(names, name);
+    if (found >= 0) {
+        out->structure = (WindowStructure)found;
+        return true;
+    }
     return fail_at(in, definition ? definition : layer, err,
                    arena_format(in->arena, "IncidentDataStructure is '%.40s'", name),
                    "Columns, Rows, TensorTree3 or TensorTree4");
@@ -243,7 +245,7 @@ static bool take_data(Document *in, const xmlNode *block, WindowXml *out, Error 
     const xmlNode *data = child(block, "ScatteringData");
     if (!data) return fail_at(in, block, err, "the block has no ScatteringData", "numbers");
     const char *text = text_of(in, block, "ScatteringData");
-    out->data = (Scan){.file = in->file, .next = text, .end = text + strlen(text),
+    out->data = (WordScan){.file = in->file, .next = text, .end = text + strlen(text),
                        .line = (int)xmlGetLineNo(data), .commas = true, .arena = in->arena};
     if (out->structure == WINDOW_COLUMNS || out->structure == WINDOW_ROWS)
         return find_basis(in, block, "ColumnAngleBasis", &out->incident, err) &&

@@ -30,7 +30,7 @@ typedef struct WindowXml {
     const char     *file;
     WindowStructure structure;
     WindowBasis     incident, leaving; /* of a matrix */
-    Scan            data;              /* the text of the scattering data */
+    WordScan        data;              /* the text of the scattering data */
     const char     *panel;             /* its name; NULL: none */
 } WindowXml;
 

@@ -12,14 +12,13 @@
 #include "base/file.h"
 #include "import/scatter/scan.h"
 #include "import/scatter/scatter.h"
+#include "import/set/word_list.h"
 
 #define ANGLES_MAX 4096
 #define BLOCKS_MAX 4096 /* sample rotations x incidences */
 
-typedef enum Component { COMPONENT_MONO, COMPONENT_X, COMPONENT_Y, COMPONENT_Z } Component;
-
 typedef struct Zemax {
-    Scan    scan;
+    WordScan scan;
     int     rotations, incidences, azimuths, radials;
     double *rotation, *incidence, *azimuth, *radial; /* degrees */
     bool    is_half, has_symmetry, is_xyz, has_content;
@@ -56,7 +55,7 @@ static bool read_type(Zemax *in, Error *err)
 /* Reads one entry; *done at the first word of the data. */
 static bool read_entry(Zemax *in, bool *done, Error *err)
 {
-    Scan       *scan = &in->scan;
+    WordScan       *scan = &in->scan;
     const char *word = scan_peek(scan);
     *done = word && (!strcasecmp(word, "Monochrome") || !strcasecmp(word, "DataBegin") ||
                      !strncasecmp(word, "Tristimulus", 11));
@@ -85,7 +84,7 @@ static bool read_entry(Zemax *in, bool *done, Error *err)
 
 static bool check_header(const Zemax *in, Error *err)
 {
-    const Scan *scan = &in->scan;
+    const WordScan *scan = &in->scan;
     const char *missing = !in->has_symmetry  ? "Symmetry"
                           : !in->has_content ? "SpectralContent"
                           : !in->rotations   ? "SampleRotation"
@@ -143,25 +142,18 @@ static bool allocate(Zemax *in, Error *err)
     return true;
 }
 
-static bool read_component(const char *word, Component *component)
-{
-    static const char *const names[] = {"Monochrome", "TristimulusX", "TristimulusY",
-                                        "TristimulusZ"};
-    for (int i = 0; i < 4; i++)
-        if (!strcasecmp(word, names[i])) {
-            *component = (Component)i;
-            return true;
-        }
-    return false;
-}
-
 static bool read_data(Zemax *in, Error *err)
 {
-    Component component = COMPONENT_MONO, kept = in->is_xyz ? COMPONENT_Y : COMPONENT_MONO;
-    bool      is_ended = false;
+    static const char *const components[] = {"Monochrome", "TristimulusX", "TristimulusY",
+                                             "TristimulusZ", NULL};
+    int  component = 0, found, kept = in->is_xyz ? 2 : 0; /* Y of X, Y and Z */
+    bool is_ended = false;
     if (!allocate(in, err)) return false;
     for (const char *word; (word = scan_word(&in->scan));) {
-        if (read_component(word, &component) || !strcasecmp(word, "DataBegin")) {
+        if ((found = word_list_find(components, word)) >= 0) {
+            component = found;
+            is_ended = false;
+        } else if (!strcasecmp(word, "DataBegin")) {
             is_ended = false;
         } else if (!strcasecmp(word, "DataEnd")) {
             is_ended = true;

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "import/set/word_list.h"
+
 
 #define WORDS_MAX 64
 #define WORD_LENGTH 24
@@ -135,13 +137,6 @@ static int cut_words(const char *text, RoleWord *word)
     return count;
 }
 
-static bool is_one_of(const char *word, const char *const *list)
-{
-    for (; *list; list++)
-        if (!strcmp(word, *list)) return true;
-    return false;
-}
-
 /* The pattern that a word names; a single letter counts only before a number. */
 static int colour_of(const RoleWord *word, bool before_number)
 {
@@ -151,7 +146,7 @@ static int colour_of(const RoleWord *word, bool before_number)
         {"white", "weiss", "wei\xC3\x9F", "blanc", NULL}};
     static const char letters[] = "rgbkw";
     for (int c = 0; c < 5; c++) {
-        if (is_one_of(word->text, words[c])) return c;
+        if (word_list_find(words[c], word->text) >= 0) return c;
         if (before_number && word->text[0] == letters[c] && !word->text[1]) return c;
     }
     return -1;
@@ -179,18 +174,18 @@ static bool read_light_word(WordReader *in, int i)
     static const char *const wavelength[] = {"w", "wl", "wave", "wavelength", "lambda", NULL};
     const char *text = in->word[i].text;
     double      number = in->word[i + 1].number;
-    if (is_one_of(text, incidence) && number < 90) {
+    if (word_list_find(incidence, text) >= 0 && number < 90) {
         in->role.incidence_deg = number;
         in->role.has_incidence = true;
         in->lights++;
         return true;
     }
-    if (in->lights && is_one_of(text, azimuth) && number <= 360) {
+    if (in->lights && word_list_find(azimuth, text) >= 0 && number <= 360) {
         in->role.azimuth_deg = number;
         in->role.has_azimuth = true;
         return true;
     }
-    if (in->lights && is_one_of(text, wavelength) && number >= 300 && number < 3000) {
+    if (in->lights && word_list_find(wavelength, text) >= 0 && number >= 300 && number < 3000) {
         in->role.wavelength_nm = number;
         return true;
     }

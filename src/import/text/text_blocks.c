@@ -9,12 +9,8 @@
 static bool is_label_key(TextCell cell)
 {
     static const char *const keys[] = {"component", "channel", "data", "quantity", "value",
-                                       "tristimulus", "block"};
-    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
-        if ((int)strlen(keys[i]) == cell.length &&
-            !strncasecmp(keys[i], cell.text, (size_t)cell.length))
-            return true;
-    return false;
+                                       "tristimulus", "block", NULL};
+    return text_cell_find(keys, cell) >= 0;
 }
 
 static TextCell without_brackets(TextCell cell)

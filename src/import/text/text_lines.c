@@ -185,6 +185,15 @@ int text_cells(TextLine line, char delimiter, TextCell *cell)
     }
 }
 
+int text_cell_find(const char *const *list, TextCell cell)
+{
+    for (int i = 0; list[i]; i++)
+        if ((int)strlen(list[i]) == cell.length &&
+            !strncasecmp(list[i], cell.text, (size_t)cell.length))
+            return i;
+    return -1;
+}
+
 bool text_number(TextCell cell, char decimal, double *out)
 {
     char plain[CELL_DIGITS_MAX + 1], *after;
@@ -213,15 +222,10 @@ bool text_number(TextCell cell, char decimal, double *out)
 bool text_is_masked(TextCell cell)
 {
     static const char *const words[] = {"nan", "n/a", "na", "#n/a", "null", "none", "-nan",
-                                        "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind", "inf"};
+                                        "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind", "inf", NULL};
     bool only_marks = true;
     for (int i = 0; i < cell.length; i++) only_marks &= strchr("-*?", cell.text[i]) != NULL;
-    if (only_marks) return true;
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if ((int)strlen(words[i]) == cell.length &&
-            !strncasecmp(words[i], cell.text, (size_t)cell.length))
-            return true;
-    return false;
+    return only_marks || text_cell_find(words, cell) >= 0;
 }
 
 /* ---- which delimiter, which decimal sign ------------------------------------------------- */

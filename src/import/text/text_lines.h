@@ -53,6 +53,9 @@ typedef struct TextCell {
  * counts. Returns the number of cells, or -1 when there are too many. */
 int text_cells(TextLine line, char delimiter, TextCell *cell);
 
+/* Its place among words in any case, in a list that ends with NULL, or -1. */
+int text_cell_find(const char *const *list, TextCell cell);
+
 /* A decimal number and nothing else (but a degree sign), with this decimal sign. */
 bool text_number(TextCell cell, char decimal, double *out);
 

@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
+#include "import/set/word_list.h"
+
 #define KEY_LENGTH 48
 
 typedef struct KeyValue {
@@ -30,11 +31,9 @@ static KeyValue cut_key(TextLine line)
     return pair;
 }
 
-static bool key_is(const KeyValue *pair, const char *const *names, size_t count)
+static bool key_is(const KeyValue *pair, const char *const *names)
 {
-    for (size_t i = 0; i < count; i++)
-        if (!strcmp(pair->key, names[i])) return true;
-    return false;
+    return word_list_find(names, pair->key) >= 0;
 }
 
 /* The number at the value's beginning, with a decimal point or comma. */
@@ -73,17 +72,17 @@ static void read_azimuth(TextMetadata *metadata, TextLine line, int index)
 static void read_units(TextMetadata *metadata, const KeyValue *pair, int index)
 {
     static const char *const unit_keys[] = {"unit", "units", "einheit", "valueunit",
-                                            "luminanceunit"};
+                                            "luminanceunit", NULL};
     static const char *const angle_keys[] = {"angleunit", "angleunits", "angles", "angle",
-                                             "winkel"};
-    if (key_is(pair, unit_keys, COUNT(unit_keys)) || !pair->key[0]) { /* or the unit alone */
+                                             "winkel", NULL};
+    if (key_is(pair, unit_keys) || !pair->key[0]) { /* or the unit alone */
         ValueUnit unit = value_unit((TextCell){pair->value.text, pair->value.length});
         if (unit != UNIT_AUTO) {
             metadata->unit = unit;
             metadata->unit_line = index;
         }
     }
-    if (key_is(pair, angle_keys, COUNT(angle_keys))) {
+    if (key_is(pair, angle_keys)) {
         AngleUnit unit = line_has(pair->value, "rad") ? ANGLE_RADIANS
                          : line_has(pair->value, "deg") ? ANGLE_DEGREES : ANGLE_AUTO;
         if (unit != ANGLE_AUTO) {
@@ -97,8 +96,8 @@ static void read_pattern(TextMetadata *metadata, const KeyValue *pair, int index
 {
     static const char *const keys[] = {"sample", "pattern", "testpattern", "colour", "color",
         "farbe", "muster", "stimulus", "content", "image", "primary", "level", "greylevel",
-        "graylevel", "grey", "gray", "code", "rgb"};
-    if (!key_is(pair, keys, COUNT(keys))) return;
+        "graylevel", "grey", "gray", "code", "rgb", NULL};
+    if (!key_is(pair, keys)) return;
     size_t length = strlen(metadata->words);
     snprintf(metadata->words + length, sizeof metadata->words - length, "%s%.*s",
              length ? " " : "", pair->value.length, pair->value.text);
@@ -108,26 +107,26 @@ static void read_pattern(TextMetadata *metadata, const KeyValue *pair, int index
 static void read_light(TextMetadata *metadata, const KeyValue *pair)
 {
     static const char *const incidence[] = {"incidence", "angleofincidence", "incidenceangle",
-        "thetai", "aoi", "thetain", "incidencedeg"};
-    static const char *const wavelength[] = {"wavelength", "wavelengthnm", "lambda"};
+        "thetai", "aoi", "thetain", "incidencedeg", NULL};
+    static const char *const wavelength[] = {"wavelength", "wavelengthnm", "lambda", NULL};
     double number;
-    if (key_is(pair, incidence, COUNT(incidence)) && value_number(pair, &number)) {
+    if (key_is(pair, incidence) && value_number(pair, &number)) {
         metadata->has_incidence = true;
         metadata->incidence_deg = number;
     }
-    if (key_is(pair, wavelength, COUNT(wavelength)) && value_number(pair, &number) &&
+    if (key_is(pair, wavelength) && value_number(pair, &number) &&
         number >= 100 && number <= 20000)
         metadata->wavelength_nm = number;
 }
 
 static void read_names(TextMetadata *metadata, const KeyValue *pair, Arena *arena)
 {
-    static const char *const panel[] = {"panel", "display", "device", "dut", "model"};
-    static const char *const instrument[] = {"instrument", "messger\xC3\xA4t", "conoscope"};
+    static const char *const panel[] = {"panel", "display", "device", "dut", "model", NULL};
+    static const char *const instrument[] = {"instrument", "messger\xC3\xA4t", "conoscope", NULL};
     if (pair->value.length < 1 || pair->value.length > 200) return;
     char *value = arena_string(arena, pair->value.text, (size_t)pair->value.length);
-    if (key_is(pair, panel, COUNT(panel)) && !metadata->panel) metadata->panel = value;
-    if (key_is(pair, instrument, COUNT(instrument)) && !metadata->instrument)
+    if (key_is(pair, panel) && !metadata->panel) metadata->panel = value;
+    if (key_is(pair, instrument) && !metadata->instrument)
         metadata->instrument = value;
 }
 
