@@ -1,4 +1,3 @@
-/* The declaration file, and a whole import. */
 #include "import/import_request.h"
 
 #include <fnmatch.h>

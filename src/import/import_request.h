@@ -1,5 +1,5 @@
-/* import_request.h -- everything that a user declares for an import, on the command line or in
- * a declaration file that a laboratory writes once.
+/* import_request.h -- everything that a user asks of an import, on the command line or in a file
+ * of options that a laboratory writes once.
  *
  * Memory   texts from the arena or the caller's. Threads: one at a time.
  * Fails    with the file, the JSON path, what was found and what was wanted.
@@ -15,7 +15,7 @@ typedef struct ImportRequest {
     ImportOptions   options;  /* options.text is set by import_run */
     TextList        skip;     /* patterns of files to leave out */
     const char     *primaries; /* a file of spectra; NULL: none */
-    const char     *root;      /* --root: where else a declaration may name files; or NULL */
+    const char     *root;      /* --root: where else such a file may name files; or NULL */
     const char     *panel, *instrument;
     ImportSymmetry  symmetry;
     bool            is_isotropic, black_is_zero;
@@ -23,7 +23,7 @@ typedef struct ImportRequest {
     void           *context;
 } ImportRequest;
 
-/* Reads a declaration file (README: its keys) into a request, whose root is set already. */
+/* Reads a file of options (README: its keys) into a request, whose root is set already. */
 bool import_request_read(const char *file, Arena *arena, ImportRequest *request, Error *err);
 
 /* "none", "left-right", "up-down", "both", "half-turn". */

@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/mathd.h"
 #include "base/units.h"
+#include "import/set/import_rows.h"
 #include "import/text/text_options.h"
 
 #define ROUND_PLANES 36
@@ -147,18 +148,15 @@ static double phi_of(const ImportOptions *options, double c_deg)
 }
 
 static void fill(const Luminaire *in, const Plane *plane, int count,
-                 const ImportOptions *options, double area_m2, ImportTable *table)
+                 const ImportOptions *options, double area_m2, ImportRows *rows)
 {
-    double *theta = (double *)table->theta_deg, *phi = (double *)table->phi_deg;
-    double *value = (double *)table->value;
     for (int i = 0; i < count; i++)
         for (int k = 0; k < in->gammas; k++) {
             double gamma = in->gamma_deg[k], cosine = cos_d(radians_from_degrees(gamma));
             if (gamma > 90 - 1e-6) break; /* a flat face has no luminance at its horizon */
             size_t at = (size_t)plane[i].source * (size_t)in->gammas + (size_t)k;
-            theta[table->rows] = gamma;
-            phi[table->rows] = phi_of(options, plane[i].c_deg);
-            value[table->rows++] = in->intensity_cd[at] / (area_m2 * cosine);
+            double luminance = in->intensity_cd[at] / (area_m2 * cosine);
+            import_rows_put(rows, gamma, phi_of(options, plane[i].c_deg), &luminance);
         }
 }
 
@@ -175,11 +173,11 @@ bool luminaire_add(const Luminaire *in, const ImportOptions *options, ImportSet 
                         most, IMPORT_ROWS_MAX);
     if (!find_area(in, options, &area_m2, err) || !note_flux(in, plane, count, set, err))
         return false;
-    ImportTable table = {.source = IMPORT_WHITE, .file = in->file, .level = 255, .channels = 1,
-                         .component = 'Y', .theta_deg = ARENA_NEW(arena, double, most),
-                         .phi_deg = ARENA_NEW(arena, double, most),
-                         .value = ARENA_NEW(arena, double, most)};
-    fill(in, plane, count, options, area_m2, &table);
+    ImportTable table = {.source = IMPORT_WHITE, .file = in->file, .level = 255,
+                         .component = 'Y'};
+    ImportRows  rows = import_rows(arena, (int)most, 0, 1);
+    fill(in, plane, count, options, area_m2, &rows);
+    import_rows_give_measured(&rows, &table);
     import_note(set,
                 "%s: luminance is intensity over %.6g mm2 times the cosine; C-planes run %s as "
                 "the viewer sees them",

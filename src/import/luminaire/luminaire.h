@@ -3,7 +3,7 @@
  * L(theta, phi) = I(gamma, C) / (A cos theta), theta = gamma: the luminous area A is taken as a
  * flat opening that looks along gamma = 0 (CIE 121, type C photometry). C-planes are counted
  * counter-clockwise in the plan, that is from behind: a viewer in front of the panel sees
- * them run clockwise from the right, phi = -C, unless a declaration says otherwise.
+ * them run clockwise from the right, phi = -C, unless an option says otherwise.
  *
  * Units    degrees, candela, square metres, lumens.
  * Memory   the arena's. Threads: no shared state.

@@ -229,7 +229,7 @@ static bool same_light(ScatterLight a, ScatterLight b)
            fabs(remainder(a.azimuth_deg - b.azimuth_deg, 360)) < 1e-4;
 }
 
-static void put_row(const Astm *in, int row, ScatterLight light, ScatterRows *rows)
+static void put_row(const Astm *in, int row, ScatterLight light, ImportRows *rows)
 {
     double value[MEASUREMENT_WAVELENGTHS_MAX];
     double theta = angle_of(in, row, THETA_S, 0), phi = angle_of(in, row, PHI_S, 0);
@@ -254,7 +254,7 @@ static bool add_tables(const Astm *in, const float *nm, ImportSet *set, Error *e
         if (g == count) light[count++] = one;
         size[group[i] = g]++;
     }
-    ScatterRows *rows = ARENA_NEW(set->arena, ScatterRows, count);
+    ImportRows *rows = ARENA_NEW(set->arena, ImportRows, count);
     for (int g = 0; g < count; g++) rows[g] = scatter_rows(set->arena, size[g], in->channels);
     for (int i = 0; i < in->rows; i++) put_row(in, i, light[group[i]], &rows[group[i]]);
     for (int g = 0; g < count; g++)

@@ -16,7 +16,7 @@ typedef struct Fred {
     double       scale;
     ScatterLight light; /* of the rows that are being read */
     double       mirror_phi;
-    ScatterRows  rows;
+    ImportRows   rows;
     bool         has_light;
     const float *nm;
 } Fred;

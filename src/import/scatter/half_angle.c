@@ -77,7 +77,7 @@ static int ring_points(const double *ring, int count, int i)
 static bool add_light(const BrdfSource *source, ScatterLight at, const double *ring, int count,
                       ImportSet *set, Error *err)
 {
-    ScatterRows rows = scatter_rows(set->arena, count * RING_MOST, source->channels);
+    ImportRows rows = scatter_rows(set->arena, count * RING_MOST, source->channels);
     Direction   light = direction_from_degrees(at.incidence_deg, at.azimuth_deg);
     double     *value = ARENA_NEW(set->arena, double, source->channels);
     for (int i = 0; i < count; i++) {

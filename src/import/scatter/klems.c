@@ -115,7 +115,7 @@ static bool add_light(const Klems *k, int latitude, double mirror_deg, const flo
 {
     const WindowBasis *out = &k->in->leaving;
     int         incident = patch_at(&k->in->incident, latitude, mirror_deg);
-    ScatterRows rows = scatter_rows(set->arena, out->patches, 1);
+    ImportRows rows = scatter_rows(set->arena, out->patches, 1);
     for (int o = 0, leaving = 0; o < out->latitudes; o++)
         for (int piece = 0; piece < out->pieces[o]; piece++, leaving++) {
             double one = value_at(k, incident, leaving);

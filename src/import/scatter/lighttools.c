@@ -143,7 +143,7 @@ static bool add_block(LightTools *in, const LightToolsBlock *block, const float 
                       ImportSet *set, TotalsNote *totals, Error *err)
 {
     int         radials = in->radials;
-    ScatterRows rows = scatter_rows(set->arena, in->azimuths * radials, 1);
+    ImportRows rows = scatter_rows(set->arena, in->azimuths * radials, 1);
     double      light = LIGHT_AZIMUTH_DEG + block->poi;
     if (!(block->aoi >= 0 && block->aoi < 90))
         return scan_fail(&in->scan, err, "AOI is %g, wanted 0 to below 90 degrees", block->aoi);

@@ -110,7 +110,7 @@ static bool read_header(Mountain *in, ImportSet *set, Error *err)
     return true;
 }
 
-static bool put_row(Mountain *in, ScatterRows *rows, Error *err)
+static bool put_row(Mountain *in, ImportRows *rows, Error *err)
 {
     double theta, phi, value[3];
     int    numbers = in->is_xyz ? 3 : 1;
@@ -136,7 +136,7 @@ static bool put_row(Mountain *in, ScatterRows *rows, Error *err)
     return true;
 }
 
-static bool read_rows(Mountain *in, ScatterRows *rows, Error *err)
+static bool read_rows(Mountain *in, ImportRows *rows, Error *err)
 {
     while (scan_peek(&in->scan)) {
         if (rows->rows + rows->masked == rows->capacity)
@@ -157,28 +157,19 @@ static bool is_light(const ImportTable *table, ScatterLight light, float nm)
            fabs(remainder(turn, 360)) < 1e-4 && fabsf(table->wavelength_nm[0] - nm) < 1e-3f;
 }
 
-static void append_rows(ScatterRows *all, const ScatterRows *rows)
-{
-    for (int i = 0; i < rows->rows; i++)
-        scatter_put(all, rows->theta_deg[i], rows->phi_deg[i], &rows->value[i]);
-    for (int i = 0; i < rows->masked; i++)
-        scatter_mask(all, rows->masked_theta_deg[i], rows->masked_phi_deg[i]);
-}
-
 /* Files with light from one direction and other sampling patterns are one table. */
-static ScatterRows join_pattern(ImportSet *set, const ScatterRows *rows, ScatterLight light,
+static ImportRows join_pattern(ImportSet *set, const ImportRows *rows, ScatterLight light,
                                 float nm)
 {
     int i = 0;
     while (i < set->count && !is_light(&set->table[i], light, nm)) i++;
     if (i == set->count) return *rows;
     const ImportTable *table = &set->table[i];
-    ScatterRows all = scatter_rows(set->arena, table->rows + table->masked + rows->capacity, 1);
-    for (int r = 0; r < table->rows; r++)
-        scatter_put(&all, table->theta_deg[r], table->phi_deg[r], &table->value[r]);
-    for (int r = 0; r < table->masked && table->masked_theta_deg; r++)
-        scatter_mask(&all, table->masked_theta_deg[r], table->masked_phi_deg[r]);
-    append_rows(&all, rows);
+    ImportTable        more = {.channels = 1};
+    ImportRows all = scatter_rows(set->arena, table->rows + table->masked + rows->capacity, 1);
+    import_rows_append(&all, table);
+    import_rows_give(rows, &more);
+    import_rows_append(&all, &more);
     set->table[i] = set->table[--set->count];
     return all;
 }
@@ -204,7 +195,7 @@ static bool read_mountain(const char *file, const ImportOptions *options, Import
     if (!scan_open(file, set->arena, &in.scan, err)) return false;
     if (in.scan.next < in.scan.end && !scan_check_end(&in.scan, err)) return false;
     if (!read_header(&in, set, err)) return false;
-    ScatterRows rows = scatter_rows(set->arena, scan_lines_left(&in.scan), 1);
+    ImportRows rows = scatter_rows(set->arena, scan_lines_left(&in.scan), 1);
     if (!read_rows(&in, &rows, err)) return false;
     const float *nm = in.is_xyz ? scatter_xyz(options, file, set)
                                 : scatter_photopic(options, file, set);

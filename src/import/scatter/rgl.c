@@ -199,7 +199,7 @@ typedef struct RglLight {
 } RglLight;
 
 static void put_node(const Rgl *in, const RglLight *light, size_t j, size_t i, double *value,
-                     ScatterRows *rows)
+                     ImportRows *rows)
 {
     size_t    height = in->values->shape[3], width = in->values->shape[4];
     size_t    plane = height * width;
@@ -243,7 +243,7 @@ static bool add_light(const Rgl *in, int phi, int theta, const float *nm, Import
                         "above 0", light.sigma, lean);
     Arena   before = *set->arena;
     size_t  height = in->values->shape[3], width = in->values->shape[4];
-    ScatterRows rows = scatter_rows(set->arena, (int)(height * width), in->channels);
+    ImportRows rows = scatter_rows(set->arena, (int)(height * width), in->channels);
     Arena   scratch = *set->arena;
     double *value = ARENA_NEW(&scratch, double, in->channels);
     if (!make_warp(in, phi, theta, &light.warp, &scratch, err)) return false;

@@ -59,35 +59,23 @@ Direction direction_about_mirror(double incidence_deg, double radial_deg, double
 
 /* ---- rows -------------------------------------------------------------------------------- */
 
-ScatterRows scatter_rows(Arena *arena, int capacity, int channels)
+ImportRows scatter_rows(Arena *arena, int capacity, int channels)
 {
-    size_t values = (size_t)capacity * (size_t)channels;
-    return (ScatterRows){.arena = arena, .capacity = capacity, .channels = channels,
-                         .theta_deg = ARENA_NEW(arena, double, capacity),
-                         .phi_deg = ARENA_NEW(arena, double, capacity),
-                         .value = ARENA_NEW(arena, double, values),
-                         .masked_theta_deg = ARENA_NEW(arena, double, capacity),
-                         .masked_phi_deg = ARENA_NEW(arena, double, capacity)};
+    return import_rows(arena, capacity, capacity, channels);
 }
 
 /* Rounding at the horizon must not lose it. */
 #define HORIZON_SLACK_DEG 1e-6
 
-void scatter_put(ScatterRows *rows, double theta_deg, double phi_deg, const double *value)
+void scatter_put(ImportRows *rows, double theta_deg, double phi_deg, const double *value)
 {
-    if (theta_deg > 90 + HORIZON_SLACK_DEG) return;
-    int row = rows->rows++;
-    rows->theta_deg[row] = theta_deg > 90 ? 90 : theta_deg;
-    rows->phi_deg[row] = phi_deg;
-    memcpy(rows->value + (size_t)row * (size_t)rows->channels, value,
-           sizeof *value * (size_t)rows->channels);
+    if (theta_deg <= 90 + HORIZON_SLACK_DEG)
+        import_rows_put(rows, theta_deg > 90 ? 90 : theta_deg, phi_deg, value);
 }
 
-void scatter_mask(ScatterRows *rows, double theta_deg, double phi_deg)
+void scatter_mask(ImportRows *rows, double theta_deg, double phi_deg)
 {
-    if (theta_deg > 90 + HORIZON_SLACK_DEG) return;
-    rows->masked_theta_deg[rows->masked] = theta_deg;
-    rows->masked_phi_deg[rows->masked++] = phi_deg;
+    if (theta_deg <= 90 + HORIZON_SLACK_DEG) import_rows_mask(rows, theta_deg, phi_deg);
 }
 
 static double whole_turn(double phi_deg)
@@ -97,7 +85,7 @@ static double whole_turn(double phi_deg)
     return phi >= 360 ? 0 : phi; /* a rounding below 0 */
 }
 
-void scatter_put_measured(ScatterRows *rows, double theta_deg, double phi_deg,
+void scatter_put_measured(ImportRows *rows, double theta_deg, double phi_deg,
                           const double *value)
 {
     bool any = false;
@@ -136,7 +124,7 @@ static bool is_spared(ImportSet *set, const char *file, ScatterLight light, floa
     return false;
 }
 
-bool scatter_add(ImportSet *set, const char *file, const ScatterRows *rows,
+bool scatter_add(ImportSet *set, const char *file, const ImportRows *rows,
                  ScatterLight light, const float *wavelength_nm, Error *err)
 {
     double azimuth = whole_turn(light.azimuth_deg);
@@ -144,11 +132,8 @@ bool scatter_add(ImportSet *set, const char *file, const ScatterRows *rows,
     if (light.incidence_deg > 0 && is_turned(set, azimuth)) set->is_anisotropic = true;
     ImportTable table = {.source = IMPORT_REFLECTION, .file = file,
                          .incidence_deg = light.incidence_deg, .incidence_phi_deg = azimuth,
-                         .rows = rows->rows, .channels = rows->channels,
-                         .wavelength_nm = wavelength_nm, .theta_deg = rows->theta_deg,
-                         .phi_deg = rows->phi_deg, .value = rows->value,
-                         .masked = rows->masked, .masked_theta_deg = rows->masked_theta_deg,
-                         .masked_phi_deg = rows->masked_phi_deg};
+                         .wavelength_nm = wavelength_nm};
+    import_rows_give(rows, &table);
     return import_add(set, &table, err);
 }
 

@@ -6,7 +6,7 @@
  * Memory    the arena's. Threads: one set per thread.
  */
 #pragma once
-#include "import/set/import.h"
+#include "import/set/import_rows.h"
 
 /* A unit vector, away from the surface. */
 typedef struct Direction {
@@ -26,24 +26,16 @@ Direction direction_about_mirror(double incidence_deg, double radial_deg, double
 
 /* ---- rows of a table --------------------------------------------------------------------- */
 
-typedef struct ScatterRows {
-    Arena  *arena;
-    int     rows, capacity, channels;
-    double *theta_deg, *phi_deg, *value; /* value: rows x channels */
-    int     masked;                      /* directions marked as not measured */
-    double *masked_theta_deg, *masked_phi_deg;
-} ScatterRows;
-
-/* Room for `capacity` directions. */
-ScatterRows scatter_rows(Arena *arena, int capacity, int channels);
+/* Room for `capacity` directions, measured or not. */
+ImportRows scatter_rows(Arena *arena, int capacity, int channels);
 
 /* Adds one; `value` holds the channels. Beyond 90 degrees it is left out. */
-void scatter_put(ScatterRows *rows, double theta_deg, double phi_deg, const double *value);
-void scatter_mask(ScatterRows *rows, double theta_deg, double phi_deg);
+void scatter_put(ImportRows *rows, double theta_deg, double phi_deg, const double *value);
+void scatter_mask(ImportRows *rows, double theta_deg, double phi_deg);
 
 /* As scatter_put, any turn of phi; values that are all exactly 0 mark a direction that was not
  * measured. */
-void scatter_put_measured(ScatterRows *rows, double theta_deg, double phi_deg,
+void scatter_put_measured(ImportRows *rows, double theta_deg, double phi_deg,
                           const double *value);
 
 typedef struct ScatterLight {
@@ -52,9 +44,9 @@ typedef struct ScatterLight {
 } ScatterLight;
 
 /* Adds the rows as a table. Light from a second azimuth makes the set anisotropic, or is left
- * out (with a note) when the user declared the set isotropic. Negative
+ * out (with a note) when the user calls the set isotropic. Negative
  * values stay: they are noise below the zero of the instrument. */
-bool scatter_add(ImportSet *set, const char *file, const ScatterRows *rows,
+bool scatter_add(ImportSet *set, const char *file, const ImportRows *rows,
                  ScatterLight light, const float *wavelength_nm, Error *err);
 
 /* Incidences and azimuths at which a BRDF that is known everywhere is read: 0, 10, ... 80 and,

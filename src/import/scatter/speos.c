@@ -135,7 +135,7 @@ typedef struct SpeosBands {
 } SpeosBands;
 
 static void put_rows(const Speos *in, const SpeosTable *table, const double *factor,
-                     ScatterRows *rows)
+                     ImportRows *rows)
 {
     double value[MEASUREMENT_WAVELENGTHS_MAX];
     for (int i = 0; i < table->thetas; i++)
@@ -151,7 +151,7 @@ static void put_rows(const Speos *in, const SpeosTable *table, const double *fac
 static bool add_table(const Speos *in, const SpeosTable *table, const SpeosBands *bands,
                       ImportSet *set, Error *err)
 {
-    ScatterRows rows = scatter_rows(set->arena, table->thetas * table->phis, bands->count);
+    ImportRows rows = scatter_rows(set->arena, table->thetas * table->phis, bands->count);
     put_rows(in, table, bands->factor, &rows);
     /* The mirror direction lies `anisotropy` before the vector, which is at phi 0. */
     ScatterLight light = {table->incidence_deg, 180 - table->anisotropy_deg};
@@ -246,7 +246,7 @@ static bool read_simple(const char *file, ImportSet *set, Error *err)
     double brdf = number[1] / 100 / PI;
     const float *nm = scatter_band((double)PHOTOPIC_NM, set);
     for (int lean = 0; lean <= 80; lean += 20) {
-        ScatterRows rows = scatter_rows(set->arena, 19 * 24, 1);
+        ImportRows rows = scatter_rows(set->arena, 19 * 24, 1);
         scatter_put(&rows, 0, 0, &brdf);
         for (int i = 1; i < 19; i++)
             for (int j = 0; j < 24; j++) scatter_put(&rows, i * 5, j * 15, &brdf);

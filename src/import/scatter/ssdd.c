@@ -258,7 +258,7 @@ static size_t node(const Ssdd *in, const int at[PARAMS])
 
 /* ---- angles of grid systems -------------------------------------------------------------- */
 
-static void put_node(const Ssdd *in, ScatterRows *rows, const int at[PARAMS], bool is_image)
+static void put_node(const Ssdd *in, ImportRows *rows, const int at[PARAMS], bool is_image)
 {
     double value[MEASUREMENT_WAVELENGTHS_MAX];
     double lean = in->param[0][at[0]], turn = in->param[1][at[1]];
@@ -279,7 +279,7 @@ static bool add_light(const Ssdd *in, int i0, int i1, const float *nm, ImportSet
                       Error *err)
 {
     int         last = in->count[3] - 1;
-    ScatterRows rows = scatter_rows(set->arena, 2 * in->count[2] * in->count[3],
+    ImportRows rows = scatter_rows(set->arena, 2 * in->count[2] * in->count[3],
                                     kept_channels(in));
     bool        closes = last > 0 && in->param[3][0] == 0 && in->param[3][last] == 360;
     for (int i3 = 0; i3 <= last - closes; i3++)

@@ -137,7 +137,7 @@ typedef struct TreeWalk {
     int          fixed;           /* coordinates of the light: rank - 2 */
     double       light[RANK_MAX]; /* in [0, 1) */
     double       mirror_deg;      /* subtracted from the leaving azimuth */
-    ScatterRows *rows;            /* NULL: only count */
+    ImportRows *rows;            /* NULL: only count */
     int          count;
 } TreeWalk;
 
@@ -217,7 +217,7 @@ static bool add_light(const TensorTree *tree, double incidence_deg, double mirro
     if (walk.count > IMPORT_ROWS_MAX)
         return error_at(err, ERROR_INPUT, tree->file, "", "has more than %d leaving directions",
                         IMPORT_ROWS_MAX);
-    ScatterRows rows = scatter_rows(set->arena, walk.count, 1);
+    ImportRows rows = scatter_rows(set->arena, walk.count, 1);
     walk.rows = &rows;
     walk_node(&walk, &tree->root, origin, 1);
     return scatter_add(set, tree->file, &rows,

@@ -225,7 +225,7 @@ static const float *find_wavelength(const Zemax *in, const ImportOptions *option
 
 /* ---- tables ------------------------------------------------------------------------------ */
 
-static void put_about_mirror(ScatterRows *rows, double incidence_deg, double radial_deg,
+static void put_about_mirror(ImportRows *rows, double incidence_deg, double radial_deg,
                              double azimuth_deg, const double *value)
 {
     double theta_deg, phi_deg;
@@ -235,7 +235,7 @@ static void put_about_mirror(ScatterRows *rows, double incidence_deg, double rad
 }
 
 /* Every azimuth tells the mirror direction's value again: their mean is taken. */
-static void put_radial(const Zemax *in, ScatterRows *rows, const double *value,
+static void put_radial(const Zemax *in, ImportRows *rows, const double *value,
                        double incidence_deg, int i)
 {
     double at_mirror = 0, radial = in->radial[i];
@@ -257,7 +257,7 @@ static bool add_block(Zemax *in, int rotation, int incidence, const float *nm, I
     int           block = rotation * in->incidences + incidence;
     const double *value = in->value + block_size(in) * (size_t)block;
     double        lean = in->incidence[incidence];
-    ScatterRows   rows = scatter_rows(set->arena, 2 * in->azimuths * in->radials + 1, 1);
+    ImportRows    rows = scatter_rows(set->arena, 2 * in->azimuths * in->radials + 1, 1);
     for (int i = 0; i < in->radials; i++) put_radial(in, &rows, value, lean, i);
     ScatterGrid grid = {in->radials, in->azimuths, in->radial, in->azimuth, value, lean,
                       in->is_half};

@@ -62,7 +62,7 @@ typedef struct ImportSpectra {
     const double *value[4]; /* red, green, blue, black (may be NULL) */
 } ImportSpectra;
 
-/* What the user declares of the sample: what was not measured is filled from its image. */
+/* What the user says of the sample: what was not measured is filled from its image. */
 typedef enum ImportSymmetry {
     IMPORT_NO_SYMMETRY, IMPORT_LEFT_RIGHT, IMPORT_UP_DOWN, IMPORT_BOTH, IMPORT_HALF_TURN
 } ImportSymmetry;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "import/set/import_rows.h"
 
 #define SAME_NM 1e-3f
 
@@ -118,27 +119,19 @@ static bool copy_row(const Joiner *join, int first_row, double *value)
     return true;
 }
 
+/* `joined` keeps what it holds of directions that were not measured. */
 static void join_rows(const Joiner *join, Arena *arena, ImportTable *joined)
 {
     const ImportTable *first = &join->set->table[join->part[0]];
-    size_t  size = (size_t)join->channels;
-    double *theta = ARENA_NEW(arena, double, first->rows);
-    double *phi = ARENA_NEW(arena, double, first->rows);
-    double *value = ARENA_NEW(arena, double, (size_t)first->rows * size);
-    Arena   scratch = *arena;
+    ImportRows rows = import_rows(arena, first->rows, 0, join->channels);
+    Arena      scratch = *arena;
     RowPlace  *place = sorted_places(first, &scratch);
-    int     rows = 0;
     for (int i = 0; i < first->rows; i++) {
         int row = place[i].row;
-        if (!copy_row(join, row, value + (size_t)rows * size)) continue;
-        theta[rows] = first->theta_deg[row];
-        phi[rows++] = first->phi_deg[row];
+        if (copy_row(join, row, import_rows_next(&rows)))
+            import_rows_end(&rows, first->theta_deg[row], first->phi_deg[row]);
     }
-    joined->theta_deg = theta;
-    joined->phi_deg = phi;
-    joined->value = value;
-    joined->rows = rows;
-    joined->channels = join->channels;
+    import_rows_give_measured(&rows, joined);
 }
 
 bool import_join_tables(ImportSet *set, const int *part, int count, ImportTable *joined,
@@ -178,39 +171,17 @@ bool import_join_tables(ImportSet *set, const int *part, int count, ImportTable 
     return true;
 }
 
-static void append_rows(const ImportTable *from, size_t rows, size_t masked, ImportTable *to)
-{
-    size_t size = (size_t)from->channels, count = (size_t)from->rows;
-    memcpy((double *)to->theta_deg + rows, from->theta_deg, sizeof(double) * count);
-    memcpy((double *)to->phi_deg + rows, from->phi_deg, sizeof(double) * count);
-    memcpy((double *)to->value + rows * size, from->value, sizeof(double) * count * size);
-    if (!from->masked || !from->masked_theta_deg) return;
-    count = (size_t)from->masked;
-    memcpy((double *)to->masked_theta_deg + masked, from->masked_theta_deg,
-           sizeof(double) * count);
-    memcpy((double *)to->masked_phi_deg + masked, from->masked_phi_deg, sizeof(double) * count);
-}
-
 void import_append_tables(ImportSet *set, const int *part, int count, ImportTable *joined)
 {
-    size_t rows = 0, masked = 0, size = (size_t)set->table[part[0]].channels;
+    int rows = 0, masked = 0;
     for (int k = 0; k < count; k++) {
-        rows += (size_t)set->table[part[k]].rows;
-        masked += (size_t)set->table[part[k]].masked;
+        rows += set->table[part[k]].rows;
+        masked += set->table[part[k]].masked;
     }
+    ImportRows all = import_rows(set->arena, rows, masked, set->table[part[0]].channels);
+    for (int k = 0; k < count; k++) import_rows_append(&all, &set->table[part[k]]);
     *joined = set->table[part[0]];
-    joined->theta_deg = ARENA_NEW(set->arena, double, rows);
-    joined->phi_deg = ARENA_NEW(set->arena, double, rows);
-    joined->value = ARENA_NEW(set->arena, double, rows * size);
-    joined->masked_theta_deg = ARENA_NEW(set->arena, double, masked);
-    joined->masked_phi_deg = ARENA_NEW(set->arena, double, masked);
-    joined->rows = joined->masked = 0;
-    for (int k = 0; k < count; k++) {
-        const ImportTable *from = &set->table[part[k]];
-        append_rows(from, (size_t)joined->rows, (size_t)joined->masked, joined);
-        joined->rows += from->rows;
-        joined->masked += from->masked;
-    }
+    import_rows_give(&all, joined);
 }
 
 void import_remove_tables(ImportSet *set, const int *part, int count, int keep)
@@ -249,29 +220,23 @@ static int find_repeats(const ImportTable *table, Arena scratch, int *leader)
 
 static void take_means(ImportTable *table, const int *leader, int rows, Arena *arena)
 {
-    size_t  size = (size_t)table->channels;
-    double *theta = ARENA_NEW(arena, double, rows), *phi = ARENA_NEW(arena, double, rows);
-    double *value = ARENA_NEW(arena, double, (size_t)rows * size);
-    int    *place = ARENA_NEW(arena, int, table->rows), *count = ARENA_NEW(arena, int, rows);
-    int     filled = 0;
+    size_t     size = (size_t)table->channels;
+    ImportRows means = import_rows(arena, rows, 0, table->channels);
+    int       *place = ARENA_NEW(arena, int, table->rows), *count = ARENA_NEW(arena, int, rows);
     for (int i = 0; i < table->rows; i++) {
         if (leader[i] == i) {
-            place[i] = filled++;
-            theta[place[i]] = table->theta_deg[i];
-            phi[place[i]] = table->phi_deg[i];
+            place[i] = means.rows;
+            import_rows_end(&means, table->theta_deg[i], table->phi_deg[i]);
         }
         int to = place[leader[i]];
         count[to]++;
         for (size_t c = 0; c < size; c++)
-            value[(size_t)to * size + c] += table->value[(size_t)i * size + c];
+            means.value[(size_t)to * size + c] += table->value[(size_t)i * size + c];
     }
     for (int i = 0; i < rows; i++)
         for (size_t c = 0; c < size && count[i] > 1; c++)
-            value[(size_t)i * size + c] /= count[i];
-    table->theta_deg = theta;
-    table->phi_deg = phi;
-    table->value = value;
-    table->rows = rows;
+            means.value[(size_t)i * size + c] /= count[i];
+    import_rows_give_measured(&means, table);
 }
 
 void import_merge_directions(ImportSet *set)

@@ -1,9 +1,9 @@
 #include "import/set/import_lights.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "import/set/import_join.h"
+#include "import/set/import_rows.h"
 #include "panel/set/measurement.h"
 
 /* Light that has an azimuth, and light along the normal. */
@@ -76,30 +76,17 @@ static int images_of(ImportSymmetry symmetry, MirrorImage image[2])
 static void mirror_rows(ImportSet *set, ImportTable *table, MirrorImage image)
 {
     ImportTable mirrored = *table;
-    size_t      size = (size_t)table->channels;
-    int         rows = table->rows;
-    double     *phi = ARENA_NEW(set->arena, double, 2 * (size_t)rows);
-    double     *theta = ARENA_NEW(set->arena, double, 2 * (size_t)rows);
-    double     *value = ARENA_NEW(set->arena, double, 2 * size * (size_t)rows);
-    for (int i = 0; i < rows; i++) phi[i] = image_of(image, table->phi_deg[i]);
+    ImportRows  all = import_rows(set->arena, 2 * table->rows, table->masked, table->channels);
+    double     *phi = ARENA_NEW(set->arena, double, table->rows);
+    for (int i = 0; i < table->rows; i++) phi[i] = image_of(image, table->phi_deg[i]);
     mirrored.phi_deg = phi;
     int *match = import_match_rows(&mirrored, table, set->arena);
-    memcpy(theta, table->theta_deg, sizeof *theta * (size_t)rows);
-    memcpy(value, table->value, sizeof *value * size * (size_t)rows);
-    double *all = ARENA_NEW(set->arena, double, 2 * (size_t)rows);
-    memcpy(all, table->phi_deg, sizeof *all * (size_t)rows);
-    int count = rows;
-    for (int i = 0; i < rows; i++) {
-        if (match[i] >= 0 || table->theta_deg[i] < SAME_ANGLE_DEG) continue;
-        theta[count] = table->theta_deg[i];
-        all[count] = phi[i];
-        memcpy(value + size * (size_t)count++, table->value + size * (size_t)i,
-               sizeof *value * size);
-    }
-    table->theta_deg = theta;
-    table->phi_deg = all;
-    table->value = value;
-    table->rows = count;
+    import_rows_append(&all, table);
+    for (int i = 0; i < table->rows; i++)
+        if (match[i] < 0 && table->theta_deg[i] >= SAME_ANGLE_DEG)
+            import_rows_put(&all, table->theta_deg[i], phi[i],
+                            table->value + (size_t)table->channels * (size_t)i);
+    import_rows_give_measured(&all, table);
 }
 
 static bool has_light(const ImportSet *set, double incidence, double azimuth)

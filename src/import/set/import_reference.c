@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/units.h"
 #include "import/set/import_join.h"
+#include "import/set/import_rows.h"
 
 static bool is_helper(const ImportTable *table)
 {
@@ -61,34 +62,27 @@ static int *helper_rows(ImportSet *set, const ImportTable *table, const ImportTa
 static bool combine(ImportSet *set, ImportTable *table, const ImportTable *helper,
                     Combine *how, double scale, Error *err)
 {
-    size_t  size = (size_t)table->channels;
-    int    *match = helper_rows(set, table, helper), kept = 0;
-    double *theta = ARENA_NEW(set->arena, double, table->rows);
-    double *phi = ARENA_NEW(set->arena, double, table->rows);
-    double *value = ARENA_NEW(set->arena, double, (size_t)table->rows * size);
+    size_t     size = (size_t)table->channels;
+    int       *match = helper_rows(set, table, helper);
+    ImportRows kept = import_rows(set->arena, table->rows, 0, table->channels);
     for (int i = 0; i < table->rows; i++) {
-        double *row = value + (size_t)kept * size;
+        double *row = import_rows_next(&kept);
         bool    is_finite = match[i] >= 0;
         for (size_t c = 0; c < size && is_finite; c++) {
             row[c] = table->value[(size_t)i * size + c];
             how(&row[c], helper->value[(size_t)match[i] * size + c], scale);
             is_finite = isfinite(row[c]);
         }
-        if (!is_finite) continue;
-        theta[kept] = table->theta_deg[i];
-        phi[kept++] = table->phi_deg[i];
+        if (is_finite) import_rows_end(&kept, table->theta_deg[i], table->phi_deg[i]);
     }
-    if (kept < table->rows)
+    if (kept.rows < table->rows)
         import_note(set, "%s: %d of %d directions are not in %s and are left out",
-                    path_name(table->file), table->rows - kept, table->rows,
+                    path_name(table->file), table->rows - kept.rows, table->rows,
                     path_name(helper->file));
-    if (!kept)
+    if (!kept.rows)
         return error_at(err, ERROR_INPUT, helper->file, "", "has none of the directions of %s",
                         table->file);
-    table->theta_deg = theta;
-    table->phi_deg = phi;
-    table->value = value;
-    table->rows = kept;
+    import_rows_give_measured(&kept, table);
     return true;
 }
 

@@ -222,7 +222,8 @@ bool text_number(TextCell cell, char decimal, double *out)
 bool text_is_masked(TextCell cell)
 {
     static const char *const words[] = {"nan", "n/a", "na", "#n/a", "null", "none", "-nan",
-                                        "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind", "inf", NULL};
+                                        "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind", "inf",
+                                        NULL};
     bool only_marks = true;
     for (int i = 0; i < cell.length; i++) only_marks &= strchr("-*?", cell.text[i]) != NULL;
     return only_marks || text_cell_find(words, cell) >= 0;

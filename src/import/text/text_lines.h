@@ -62,7 +62,7 @@ bool text_number(TextCell cell, char decimal, double *out);
 /* Marks of a value that was not measured: nothing, "---", "NaN", "n/a", "***". */
 bool text_is_masked(TextCell cell);
 
-/* Finds what the user did not declare: the delimiter and decimal sign under which most lines
+/* Finds what the user did not say: the delimiter and decimal sign under which most lines
  * are rows of numbers. */
 bool text_find_dialect(const TextFile *text, int first_line, Arena scratch,
                        TextDialect *dialect, Error *err);

@@ -122,7 +122,8 @@ static void read_light(TextMetadata *metadata, const KeyValue *pair)
 static void read_names(TextMetadata *metadata, const KeyValue *pair, Arena *arena)
 {
     static const char *const panel[] = {"panel", "display", "device", "dut", "model", NULL};
-    static const char *const instrument[] = {"instrument", "messger\xC3\xA4t", "conoscope", NULL};
+    static const char *const instrument[] = {"instrument", "messger\xC3\xA4t", "conoscope",
+                                             NULL};
     if (pair->value.length < 1 || pair->value.length > 200) return;
     char *value = arena_string(arena, pair->value.text, (size_t)pair->value.length);
     if (key_is(pair, panel) && !metadata->panel) metadata->panel = value;

@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "base/mathd.h"
 #include "base/units.h"
+#include "import/set/import_rows.h"
 #include "import/text/text_conventions.h"
 
 #define CHANNELS_MAX TEXT_COLUMNS_MAX
@@ -176,11 +177,6 @@ static void reflection_values(const TextReader *in, const TextChannels *channels
 
 /* ---- one table --------------------------------------------------------------------------- */
 
-typedef struct TableRows {
-    double *theta, *phi, *value, *masked_theta, *masked_phi;
-    int     beyond; /* directions beyond 90 degrees */
-} TableRows;
-
 static bool row_angles(const TextReader *in, int row, double *theta, double *phi)
 {
     bool   is_pair = in->column[QUANTITY_THETA] < 0;
@@ -202,45 +198,37 @@ static bool row_angles(const TextReader *in, int row, double *theta, double *phi
     return true;
 }
 
+/* *beyond counts directions beyond 90 degrees. */
 static bool fill_row(const TextReader *in, const TextChannels *channels, int row,
-                     const ImportTable *light, ImportTable *table, TableRows *to)
+                     const ImportTable *light, ImportRows *to, int *beyond)
 {
-    double theta, phi, *value = to->value + (size_t)table->rows * (size_t)channels->count;
+    double theta, phi, *value = import_rows_next(to);
     bool   is_masked = false;
     if (!row_angles(in, row, &theta, &phi)) return false;
     if (in->is_reflection) phi = fmod(phi + 540 - light->incidence_phi_deg, 360);
     if (theta > 90 + 1e-6) {
-        to->beyond++;
+        (*beyond)++;
         return true;
     }
     theta = theta > 90 ? 90 : theta;
     if (in->is_reflection) reflection_values(in, channels, row, theta, value, &is_masked);
     else if (!emission_values(in, channels, row, value, &is_masked)) return false;
-    if (is_masked) {
-        to->masked_theta[table->masked] = theta;
-        to->masked_phi[table->masked++] = phi;
-        return true;
-    }
-    to->theta[table->rows] = theta;
-    to->phi[table->rows++] = phi;
+    if (is_masked) import_rows_mask(to, theta, phi);
+    else import_rows_end(to, theta, phi);
     return true;
 }
 
 static bool fill_table(TextReader *in, const TextChannels *channels, const RowGroup *group,
                        int count, ImportTable *table)
 {
-    Arena  *arena = in->set->arena;
-    TableRows to = {.theta = ARENA_NEW(arena, double, count),
-                  .phi = ARENA_NEW(arena, double, count),
-                  .masked_theta = ARENA_NEW(arena, double, count),
-                  .masked_phi = ARENA_NEW(arena, double, count)};
-    to.value = ARENA_NEW(arena, double, (size_t)count * (size_t)channels->count);
-    table->channels = channels->count;
+    ImportRows to = import_rows(in->set->arena, count, count, channels->count);
+    int        beyond = 0;
     for (int i = 0; i < count; i++)
-        if (!fill_row(in, channels, group[i].row, table, table, &to)) return false;
-    if (to.beyond)
+        if (!fill_row(in, channels, group[i].row, table, &to, &beyond)) return false;
+    import_rows_give(&to, table);
+    if (beyond)
         import_note(in->set, "%s: %d of %d directions lie beyond 90 degrees and are left out",
-                    path_name(in->file), to.beyond, count);
+                    path_name(in->file), beyond, count);
     bool is_helper = table->source == IMPORT_DARK || table->source == IMPORT_REFERENCE;
     if (table->rows < (is_helper ? 1 : DIRECTIONS_MIN))
         return error_at(in->err, ERROR_INPUT, in->file, row_place(in, group[0].row),
@@ -248,11 +236,6 @@ static bool fill_table(TextReader *in, const TextChannels *channels, const RowGr
                         "at least %d — leave the file out (--role FILE=skip) if it is none",
                         table->rows, table->rows == 1 ? "" : "s",
                         is_helper ? 1 : DIRECTIONS_MIN);
-    table->theta_deg = to.theta;
-    table->phi_deg = to.phi;
-    table->value = to.value;
-    table->masked_theta_deg = to.masked_theta;
-    table->masked_phi_deg = to.masked_phi;
     return import_add(in->set, table, in->err);
 }
 
