@@ -1,5 +1,5 @@
-/* import_request.h -- everything that a user asks of an import, on the command line or in a file
- * of options that a laboratory writes once.
+/* import_request.h -- everything that a user asks of an import, on the command line or in a
+ * file of options that a laboratory writes once.
  *
  * Memory   texts from the arena or the caller's. Threads: one at a time.
  * Fails    with the file, the JSON path, what was found and what was wanted.

@@ -11,11 +11,11 @@
 #include "panel/set/set_writer.h"
 #include "text/json_text.h"
 
-typedef struct Output {
+typedef struct SetOutput {
     const ImportSet *set;
     SetWriter        writer;
     Arena            scratch;
-} Output;
+} SetOutput;
 
 const char *import_table_file(const ImportSet *set, const ImportTable *table, Arena *arena)
 {
@@ -31,7 +31,7 @@ const char *import_table_file(const ImportSet *set, const ImportTable *table, Ar
 }
 
 /* A laboratory's own file is never written over. */
-static bool spares_sources(const Output *out)
+static bool spares_sources(const SetOutput *out)
 {
     Arena       arena = out->scratch;
     struct stat source, target;
@@ -89,7 +89,7 @@ static void add_masked(Text *text, const ImportTable *table)
                     table->masked_theta_deg[i], wrapped(table->masked_phi_deg[i]));
 }
 
-static bool write_table(Output *out, const ImportTable *table)
+static bool write_table(SetOutput *out, const ImportTable *table)
 {
     Arena arena = out->scratch;
     Text  text = {.arena = &arena};
@@ -107,7 +107,7 @@ static bool write_table(Output *out, const ImportTable *table)
     return set_writer_add(&out->writer, import_table_file(out->set, table, &arena), &text);
 }
 
-static bool write_spectra(Output *out)
+static bool write_spectra(SetOutput *out)
 {
     const ImportSpectra *spectra = &out->set->spectra;
     Arena arena = out->scratch;
@@ -125,7 +125,7 @@ static bool write_spectra(Output *out)
 
 /* ---- the manifest ------------------------------------------------------------------------ */
 
-static json_t *emission_object(Output *out)
+static json_t *emission_object(SetOutput *out)
 {
     json_t *emission = json_object();
     for (int i = 0; i < out->set->count; i++) {
@@ -191,7 +191,7 @@ static json_t *reflection_object(const ImportSet *set)
 }
 
 /* What the files say; else the name of the folder they come from, or of the only file. */
-static const char *panel_name(Output *out)
+static const char *panel_name(SetOutput *out)
 {
     const char *file = out->set->table[0].file, *name = path_name(file);
     if (out->set->panel) return out->set->panel;
@@ -201,7 +201,7 @@ static const char *panel_name(Output *out)
     return *name && *name != '.' ? name : path_name(file);
 }
 
-static json_t *manifest_object(Output *out)
+static json_t *manifest_object(SetOutput *out)
 {
     const ImportSet *set = out->set;
     const char *note = "";
@@ -221,7 +221,7 @@ static json_t *manifest_object(Output *out)
     return root;
 }
 
-static bool write_manifest(Output *out)
+static bool write_manifest(SetOutput *out)
 {
     json_t *root = manifest_object(out);
     bool    ok = set_writer_add_manifest(&out->writer, root, 12);
@@ -231,7 +231,7 @@ static bool write_manifest(Output *out)
 
 bool import_write(const ImportSet *set, const char *manifest, Error *err)
 {
-    Output out = {.set = set};
+    SetOutput out = {.set = set};
     if (!set_writer_open(manifest, &out.writer, err)) return false;
     Arena arena = arena_reserve((size_t)16 << 30);
     out.scratch = arena;
