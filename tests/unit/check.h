@@ -1,4 +1,9 @@
-/* check.h -- what every unit test includes: cmocka with its prerequisites, and closeness. */
+/* check.h -- what every unit test includes: cmocka with its prerequisites, the list of a
+ * program's cases, and closeness.
+ *
+ * TEST(name) { ... } is a case that gets `void **state`; run_cases runs all of a program's in
+ * the order of its file.
+ */
 #pragma once
 #include <math.h>
 #include <setjmp.h>
@@ -6,8 +11,53 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include <cmocka.h>
+
+enum { TEST_CASES_MAX = 128 };
+
+typedef struct TestCases {
+    struct CMUnitTest test[TEST_CASES_MAX];
+    int               line[TEST_CASES_MAX], count;
+} TestCases;
+
+static inline TestCases *test_cases(void)
+{
+    static TestCases cases;
+    return &cases;
+}
+
+/* Keeps the cases in the order of their lines, which a linker need not keep. */
+static inline void test_add(struct CMUnitTest test, int line)
+{
+    TestCases *cases = test_cases();
+    int        at = cases->count++;
+    if (at == TEST_CASES_MAX) abort();
+    for (; at > 0 && cases->line[at - 1] > line; at--) {
+        cases->test[at] = cases->test[at - 1];
+        cases->line[at] = cases->line[at - 1];
+    }
+    cases->test[at] = test;
+    cases->line[at] = line;
+}
+
+#define TEST_WITH(name, set_up, tear_down)                                                     \
+    static void name(void **state);                                                            \
+    __attribute__((constructor)) static void name##_is_a_case(void)                            \
+    {                                                                                          \
+        test_add((struct CMUnitTest){#name, name, set_up, tear_down, NULL}, __LINE__);         \
+    }                                                                                          \
+    static void name(void **state)
+
+#define TEST(name) TEST_WITH(name, NULL, NULL)
+
+static inline int run_cases(CMFixtureFunction set_up, CMFixtureFunction tear_down)
+{
+    TestCases *cases = test_cases();
+    return _cmocka_run_group_tests("tests", cases->test, (size_t)cases->count, set_up,
+                                   tear_down);
+}
 
 /* Relative; also fails on NaN. An expected zero needs assert_near. */
 #define assert_close(actual, expected, relative)                                               \

@@ -124,4 +124,4 @@ static inline void mutate(char *bytes, size_t size, uint32_t *seed)
     }
 }
 
-#define CASE(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+#define HEMISPHERE_TEST(name) TEST_WITH(name, set_up, tear_down)

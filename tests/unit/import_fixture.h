@@ -181,5 +181,4 @@ static inline const char *shared_bsdf(Fixture *f, const char *name)
     return path;
 }
 
-#define fixture_case(test)                                                                     \
-    cmocka_unit_test_setup_teardown(test, fixture_setup, fixture_teardown)
+#define FIXTURE_TEST(name) TEST_WITH(name, fixture_setup, fixture_teardown)

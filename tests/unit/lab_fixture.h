@@ -118,4 +118,4 @@ static inline bool lab_noted(const Lab *lab, const char *words)
     return false;
 }
 
-#define lab_case(test) cmocka_unit_test_setup_teardown(test, lab_setup, lab_teardown)
+#define LAB_TEST(name) TEST_WITH(name, lab_setup, lab_teardown)

@@ -38,7 +38,7 @@ static OutsideInput clear_day(const char *when, double altitude_m)
 
 /* ---- columns ----------------------------------------------------------------------------- */
 
-static void columns_add_up_over_altitude_and_slant(void **state)
+TEST(columns_add_up_over_altitude_and_slant)
 {
     (void)state;
     AirOptics optics = air_optics(&usual);
@@ -58,7 +58,7 @@ static void columns_add_up_over_altitude_and_slant(void **state)
     assert_true(air_column(&optics, 12000, -0.05, 0, slant)); /* over the dipped horizon */
 }
 
-static void density_is_the_columns_derivative(void **state)
+TEST(density_is_the_columns_derivative)
 {
     (void)state;
     AirOptics optics = air_optics(&usual);
@@ -71,7 +71,7 @@ static void density_is_the_columns_derivative(void **state)
     }
 }
 
-static void phase_functions_integrate_to_one(void **state)
+TEST(phase_functions_integrate_to_one)
 {
     (void)state;
     double sum[2] = {0, 0};
@@ -88,7 +88,7 @@ static void phase_functions_integrate_to_one(void **state)
 
 /* Air that absorbs nothing over a white floor gives back all light: what comes down on the
  * floor, times 1 - albedo, is what does not leave at the top. */
-static void air_without_absorption_keeps_the_light(void **state)
+TEST(air_without_absorption_keeps_the_light)
 {
     Arena     arena = test_arena(state);
     Air       air = usual;
@@ -108,7 +108,7 @@ static void air_without_absorption_keeps_the_light(void **state)
     }
 }
 
-static void orders_of_scattering_add_up_to_the_whole(void **state)
+TEST(orders_of_scattering_add_up_to_the_whole)
 {
     Arena     arena = test_arena(state);
     AirOptics optics = air_optics(&usual);
@@ -129,7 +129,7 @@ static void orders_of_scattering_add_up_to_the_whole(void **state)
 
 /* ---- figures ----------------------------------------------------------------------------- */
 
-static void the_sky_gives_what_spectrl2_says(void **state)
+TEST(the_sky_gives_what_spectrl2_says)
 {
     Arena arena = test_arena(state);
     static const double zenith_deg[] = {0, 30, 48.2, 60, 75};
@@ -154,7 +154,7 @@ static void the_sky_gives_what_spectrl2_says(void **state)
     }
 }
 
-static void steps_and_tables_have_converged(void **state)
+TEST(steps_and_tables_have_converged)
 {
     Arena arena = test_arena(state);
     for (int low = 0; low <= 1; low++) {
@@ -177,7 +177,7 @@ static void steps_and_tables_have_converged(void **state)
     }
 }
 
-static void the_sky_darkens_with_altitude_and_the_sun_gains(void **state)
+TEST(the_sky_darkens_with_altitude_and_the_sun_gains)
 {
     Arena  arena = test_arena(state);
     double zenith = 1e9, sun = 0;
@@ -191,7 +191,7 @@ static void the_sky_darkens_with_altitude_and_the_sun_gains(void **state)
     }
 }
 
-static void an_airliner_sees_126_klx_of_sun_and_a_dipped_horizon(void **state)
+TEST(an_airliner_sees_126_klx_of_sun_and_a_dipped_horizon)
 {
     Arena        arena = test_arena(state);
     OutsideInput input = outside_input_default(OUTSIDE_CLEAR);
@@ -209,7 +209,7 @@ static void an_airliner_sees_126_klx_of_sun_and_a_dipped_horizon(void **state)
     assert_true(outside_luminance(out, -0.06f, 1) > 3000);
 }
 
-static void the_drawn_sky_integrates_to_its_stated_illuminance(void **state)
+TEST(the_drawn_sky_integrates_to_its_stated_illuminance)
 {
     Arena arena = test_arena(state);
     for (int kind = 0; kind < 5; kind++) {
@@ -235,7 +235,7 @@ static void the_drawn_sky_integrates_to_its_stated_illuminance(void **state)
     }
 }
 
-static void spectral_radiance_has_the_stated_luminance(void **state)
+TEST(spectral_radiance_has_the_stated_luminance)
 {
     Arena arena = test_arena(state);
     for (int kind = 0; kind < 3; kind++) {
@@ -265,7 +265,7 @@ static void spectral_radiance_has_the_stated_luminance(void **state)
     }
 }
 
-static void twilight_fades_and_night_is_told(void **state)
+TEST(twilight_fades_and_night_is_told)
 {
     Arena arena = test_arena(state);
     static const double elevation_deg[] = {0, -2, -4, -6};
@@ -295,7 +295,7 @@ static void twilight_fades_and_night_is_told(void **state)
     assert_non_null(strstr(err.text, "below the horizon"));
 }
 
-static void what_makes_no_sky_is_refused(void **state)
+TEST(what_makes_no_sky_is_refused)
 {
     Arena        arena = test_arena(state);
     Outside     *out = arena_alloc(&arena, sizeof *out, 64, 1);
@@ -314,20 +314,5 @@ static void what_makes_no_sky_is_refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(columns_add_up_over_altitude_and_slant),
-        cmocka_unit_test(density_is_the_columns_derivative),
-        cmocka_unit_test(phase_functions_integrate_to_one),
-        cmocka_unit_test(air_without_absorption_keeps_the_light),
-        cmocka_unit_test(orders_of_scattering_add_up_to_the_whole),
-        cmocka_unit_test(the_sky_gives_what_spectrl2_says),
-        cmocka_unit_test(steps_and_tables_have_converged),
-        cmocka_unit_test(the_sky_darkens_with_altitude_and_the_sun_gains),
-        cmocka_unit_test(an_airliner_sees_126_klx_of_sun_and_a_dipped_horizon),
-        cmocka_unit_test(the_drawn_sky_integrates_to_its_stated_illuminance),
-        cmocka_unit_test(spectral_radiance_has_the_stated_luminance),
-        cmocka_unit_test(twilight_fades_and_night_is_told),
-        cmocka_unit_test(what_makes_no_sky_is_refused),
-    };
-    return cmocka_run_group_tests(tests, make_arena, drop_arena);
+    return run_cases(make_arena, drop_arena);
 }

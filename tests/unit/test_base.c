@@ -15,7 +15,7 @@
 
 /* ---- mathf --------------------------------------------------------------------------- */
 
-static void sine_and_cosine_are_within_their_stated_error(void **state)
+TEST(sine_and_cosine_are_within_their_stated_error)
 {
     (void)state;
     double most = 0;
@@ -33,7 +33,7 @@ static void sine_and_cosine_are_within_their_stated_error(void **state)
     assert_true(fabsf(sine) < 1e-15f && cosine == 1);
 }
 
-static void exponential_is_within_its_stated_error(void **state)
+TEST(exponential_is_within_its_stated_error)
 {
     (void)state;
     double most = 0;
@@ -45,7 +45,7 @@ static void exponential_is_within_its_stated_error(void **state)
     assert_true(exp_f(0) == 1 && exp_f(-1000) == 0 && isinf(exp_f(1000)) && isnan(exp_f(NAN)));
 }
 
-static void logarithm_is_within_its_stated_error(void **state)
+TEST(logarithm_is_within_its_stated_error)
 {
     (void)state;
     double most = 0;
@@ -58,7 +58,7 @@ static void logarithm_is_within_its_stated_error(void **state)
     assert_true(log_f(1) == 0 && isinf(log_f(0)) && log_f(0) < 0);
 }
 
-static void powers_are_within_their_stated_error(void **state)
+TEST(powers_are_within_their_stated_error)
 {
     (void)state;
     for (int e = -40; e <= 40; e++)
@@ -71,7 +71,7 @@ static void powers_are_within_their_stated_error(void **state)
     assert_true(pow_f(0, 2) == 0 && pow_f(-1, 2) == 0);
 }
 
-static void inverse_tangent_and_cosine_are_within_their_stated_error(void **state)
+TEST(inverse_tangent_and_cosine_are_within_their_stated_error)
 {
     (void)state;
     double most = 0;
@@ -90,7 +90,7 @@ static void inverse_tangent_and_cosine_are_within_their_stated_error(void **stat
     assert_near(acos_f(1 - 0x1p-24f), acos(1 - 0x1p-24), 1e-9);
 }
 
-static void roots_and_clamps_hold_at_their_ends(void **state)
+TEST(roots_and_clamps_hold_at_their_ends)
 {
     (void)state;
     assert_true(safe_sqrtf(-1) == 0 && safe_sqrtf(4) == 2 && safe_sqrtf(NAN) == 0);
@@ -116,7 +116,7 @@ static void assert_vector(Vec3 a, Vec3 b, double within)
     assert_near(vec3_length(vec3_sub(a, b)), 0, within);
 }
 
-static void frames_are_orthonormal_and_right_handed(void **state)
+TEST(frames_are_orthonormal_and_right_handed)
 {
     (void)state;
     uint32_t seed = 5;
@@ -142,7 +142,7 @@ static Transform random_transform(uint32_t *seed)
                        random_vector(seed)};
 }
 
-static void composed_transforms_act_one_after_the_other(void **state)
+TEST(composed_transforms_act_one_after_the_other)
 {
     (void)state;
     uint32_t seed = 9;
@@ -160,7 +160,7 @@ static void composed_transforms_act_one_after_the_other(void **state)
     }
 }
 
-static void transformed_normals_stay_normal_and_outside(void **state)
+TEST(transformed_normals_stay_normal_and_outside)
 {
     (void)state;
     uint32_t seed = 21;
@@ -175,7 +175,7 @@ static void transformed_normals_stay_normal_and_outside(void **state)
     }
 }
 
-static void the_zero_vector_has_no_direction(void **state)
+TEST(the_zero_vector_has_no_direction)
 {
     (void)state;
     assert_vector(vec3_normalize(vec3(0, 0, 0)), vec3(0, 0, 0), 0);
@@ -206,7 +206,7 @@ static void assert_net(int x, int dimension, uint32_t first, int log_count)
     }
 }
 
-static void every_pair_is_a_0_2_sequence_over_a_pixel_s_samples(void **state)
+TEST(every_pair_is_a_0_2_sequence_over_a_pixel_s_samples)
 {
     (void)state;
     for (int x = 0; x < 6; x++)
@@ -225,7 +225,7 @@ static double grid_deviate(const double histogram[256], int count)
     return (cbrt(chi2 / 255) - (1 - v)) / sqrt(v);
 }
 
-static void pairs_are_independent_of_each_other(void **state)
+TEST(pairs_are_independent_of_each_other)
 {
     (void)state;
     for (int other = 1; other < 8; other++) {
@@ -241,7 +241,7 @@ static void pairs_are_independent_of_each_other(void **state)
     }
 }
 
-static void neighbouring_pixels_and_seeds_are_independent(void **state)
+TEST(neighbouring_pixels_and_seeds_are_independent)
 {
     (void)state;
     for (int step = 1; step < 5; step++) {
@@ -257,7 +257,7 @@ static void neighbouring_pixels_and_seeds_are_independent(void **state)
     }
 }
 
-static void numbers_depend_on_nothing_but_their_place(void **state)
+TEST(numbers_depend_on_nothing_but_their_place)
 {
     (void)state;
     for (uint32_t i = 0; i < 100; i++) {
@@ -292,7 +292,7 @@ static void assert_probabilities_exact(const double *weights, int count)
     arena_release(&arena);
 }
 
-static void alias_tables_know_their_exact_probabilities(void **state)
+TEST(alias_tables_know_their_exact_probabilities)
 {
     (void)state;
     static double weights[100000];
@@ -309,7 +309,7 @@ static void alias_tables_know_their_exact_probabilities(void **state)
 
 /* ---- arena --------------------------------------------------------------------------- */
 
-static void a_list_grows_at_its_place_or_moves(void **state)
+TEST(a_list_grows_at_its_place_or_moves)
 {
     (void)state;
     Arena arena = arena_reserve(1 << 20);
@@ -324,7 +324,7 @@ static void a_list_grows_at_its_place_or_moves(void **state)
     arena_release(&arena);
 }
 
-static void arena_memory_is_aligned_and_zeroed(void **state)
+TEST(arena_memory_is_aligned_and_zeroed)
 {
     (void)state;
     Arena arena = arena_reserve(1 << 20);
@@ -348,7 +348,7 @@ static char *scratch_of(Arena scratch)
     return memory;
 }
 
-static void scratch_is_back_after_the_call(void **state)
+TEST(scratch_is_back_after_the_call)
 {
     (void)state;
     Arena arena = arena_reserve(1 << 16);
@@ -367,7 +367,7 @@ static void note_full(size_t bytes_wanted, size_t bytes_left)
     longjmp(when_full, 1);
 }
 
-static void a_full_arena_says_what_was_wanted_and_left(void **state)
+TEST(a_full_arena_says_what_was_wanted_and_left)
 {
     (void)state;
     Arena arena = arena_reserve(1 << 16);
@@ -388,7 +388,7 @@ static void a_full_arena_says_what_was_wanted_and_left(void **state)
     arena_release(&arena);
 }
 
-static void arena_texts_are_terminated_copies(void **state)
+TEST(arena_texts_are_terminated_copies)
 {
     (void)state;
     Arena arena = arena_reserve(1 << 16);
@@ -402,7 +402,7 @@ static void arena_texts_are_terminated_copies(void **state)
 }
 
 /* Bytes made behind scratch, moved to where the scratch began, over each other. */
-static void what_is_kept_lies_where_the_arena_was(void **state)
+TEST(what_is_kept_lies_where_the_arena_was)
 {
     (void)state;
     Arena arena = arena_reserve(1 << 16), scratch = arena;
@@ -418,7 +418,7 @@ static void what_is_kept_lies_where_the_arena_was(void **state)
 
 /* ---- errors and problems ------------------------------------------------------------- */
 
-static void an_error_s_line_has_file_place_and_text(void **state)
+TEST(an_error_s_line_has_file_place_and_text)
 {
     (void)state;
     Error err;
@@ -439,7 +439,7 @@ static void an_error_s_line_has_file_place_and_text(void **state)
 }
 
 /* What a file holds may be quoted; it may neither break the line nor command a terminal. */
-static void a_message_is_one_line_whatever_it_quotes(void **state)
+TEST(a_message_is_one_line_whatever_it_quotes)
 {
     (void)state;
     Error err;
@@ -457,7 +457,7 @@ static void a_message_is_one_line_whatever_it_quotes(void **state)
     arena_release(&arena);
 }
 
-static void a_long_error_is_cut_and_stays_a_string(void **state)
+TEST(a_long_error_is_cut_and_stays_a_string)
 {
     (void)state;
     Error err;
@@ -473,7 +473,7 @@ static void a_long_error_is_cut_and_stays_a_string(void **state)
     assert_int_equal(strlen(line), sizeof line - 1);
 }
 
-static void exit_statuses_follow_the_codes(void **state)
+TEST(exit_statuses_follow_the_codes)
 {
     (void)state;
     assert_int_equal(error_exit_status(ERROR_NONE), 0);
@@ -487,7 +487,7 @@ static void exit_statuses_follow_the_codes(void **state)
     assert_int_equal(error_exit_status(ERROR_TERMINATED), 143);
 }
 
-static void problems_keep_their_order_and_their_texts(void **state)
+TEST(problems_keep_their_order_and_their_texts)
 {
     (void)state;
     Arena    arena = arena_reserve(1 << 20);
@@ -517,7 +517,7 @@ static void problems_keep_their_order_and_their_texts(void **state)
     arena_release(&arena);
 }
 
-static void a_single_error_is_its_own_verdict(void **state)
+TEST(a_single_error_is_its_own_verdict)
 {
     (void)state;
     Arena    arena = arena_reserve(1 << 16);
@@ -533,34 +533,5 @@ static void a_single_error_is_its_own_verdict(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sine_and_cosine_are_within_their_stated_error),
-        cmocka_unit_test(exponential_is_within_its_stated_error),
-        cmocka_unit_test(logarithm_is_within_its_stated_error),
-        cmocka_unit_test(powers_are_within_their_stated_error),
-        cmocka_unit_test(inverse_tangent_and_cosine_are_within_their_stated_error),
-        cmocka_unit_test(roots_and_clamps_hold_at_their_ends),
-        cmocka_unit_test(frames_are_orthonormal_and_right_handed),
-        cmocka_unit_test(composed_transforms_act_one_after_the_other),
-        cmocka_unit_test(transformed_normals_stay_normal_and_outside),
-        cmocka_unit_test(the_zero_vector_has_no_direction),
-        cmocka_unit_test(every_pair_is_a_0_2_sequence_over_a_pixel_s_samples),
-        cmocka_unit_test(pairs_are_independent_of_each_other),
-        cmocka_unit_test(neighbouring_pixels_and_seeds_are_independent),
-        cmocka_unit_test(numbers_depend_on_nothing_but_their_place),
-        cmocka_unit_test(alias_tables_know_their_exact_probabilities),
-        cmocka_unit_test(arena_memory_is_aligned_and_zeroed),
-        cmocka_unit_test(a_list_grows_at_its_place_or_moves),
-        cmocka_unit_test(scratch_is_back_after_the_call),
-        cmocka_unit_test(a_full_arena_says_what_was_wanted_and_left),
-        cmocka_unit_test(arena_texts_are_terminated_copies),
-        cmocka_unit_test(what_is_kept_lies_where_the_arena_was),
-        cmocka_unit_test(an_error_s_line_has_file_place_and_text),
-        cmocka_unit_test(a_message_is_one_line_whatever_it_quotes),
-        cmocka_unit_test(a_long_error_is_cut_and_stays_a_string),
-        cmocka_unit_test(exit_statuses_follow_the_codes),
-        cmocka_unit_test(problems_keep_their_order_and_their_texts),
-        cmocka_unit_test(a_single_error_is_its_own_verdict),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

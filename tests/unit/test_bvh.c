@@ -63,7 +63,7 @@ static int hits(const Scene *scene, uint32_t triangle, Ray ray, double *t)
     return u >= 0 && v >= 0 && u + v <= 1 && *t > 0;
 }
 
-static void the_nearest_of_all_triangles_is_hit(void **state)
+TEST(the_nearest_of_all_triangles_is_hit)
 {
     Arena arena = test_arena(state);
     Scene *scene = soup(&arena, 300, 100);
@@ -103,7 +103,7 @@ static bool half_passes(void *user, const Hit *hit)
     return true;
 }
 
-static void a_shadow_ray_asks_every_window_once(void **state)
+TEST(a_shadow_ray_asks_every_window_once)
 {
     Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
@@ -126,7 +126,7 @@ static void a_shadow_ray_asks_every_window_once(void **state)
     bvh_destroy(bvh);
 }
 
-static void rays_that_are_not_finite_hit_nothing_and_light_nothing(void **state)
+TEST(rays_that_are_not_finite_hit_nothing_and_light_nothing)
 {
     Arena arena = test_arena(state);
     Scene *scene = soup(&arena, 50, 0);
@@ -150,7 +150,7 @@ static void rays_that_are_not_finite_hit_nothing_and_light_nothing(void **state)
     bvh_destroy(bvh);
 }
 
-static void an_empty_scene_is_hit_nowhere(void **state)
+TEST(an_empty_scene_is_hit_nowhere)
 {
     Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
@@ -165,11 +165,5 @@ static void an_empty_scene_is_hit_nowhere(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_nearest_of_all_triangles_is_hit),
-        cmocka_unit_test(a_shadow_ray_asks_every_window_once),
-        cmocka_unit_test(rays_that_are_not_finite_hit_nothing_and_light_nothing),
-        cmocka_unit_test(an_empty_scene_is_hit_nowhere),
-    };
-    return cmocka_run_group_tests(tests, make_arena, drop_arena);
+    return run_cases(make_arena, drop_arena);
 }

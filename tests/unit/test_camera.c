@@ -8,7 +8,7 @@ static SceneCamera perspective(float yfov)
                          .world_from_camera = transform_identity()};
 }
 
-static void the_middle_of_the_film_looks_along_minus_z(void **state)
+TEST(the_middle_of_the_film_looks_along_minus_z)
 {
     (void)state;
     SceneCamera scene_camera = perspective(0.8f);
@@ -19,7 +19,7 @@ static void the_middle_of_the_film_looks_along_minus_z(void **state)
     assert_close(ray.direction.z, -1, 1e-6);
 }
 
-static void the_upper_edge_is_half_the_field_of_view_up(void **state)
+TEST(the_upper_edge_is_half_the_field_of_view_up)
 {
     (void)state;
     for (int degrees = 5; degrees <= 150; degrees += 5) {
@@ -31,7 +31,7 @@ static void the_upper_edge_is_half_the_field_of_view_up(void **state)
     }
 }
 
-static void the_width_follows_the_frame_and_left_is_left(void **state)
+TEST(the_width_follows_the_frame_and_left_is_left)
 {
     (void)state;
     SceneCamera scene_camera = perspective(0.8f);
@@ -42,7 +42,7 @@ static void the_width_follows_the_frame_and_left_is_left(void **state)
     assert_close(vec3_length(left.direction), 1, 1e-6);
 }
 
-static void an_orthographic_ray_starts_on_the_film(void **state)
+TEST(an_orthographic_ray_starts_on_the_film)
 {
     (void)state;
     SceneCamera scene_camera = {.ymag = 1.5f, .world_from_camera = transform_identity()};
@@ -57,11 +57,5 @@ static void an_orthographic_ray_starts_on_the_film(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_middle_of_the_film_looks_along_minus_z),
-        cmocka_unit_test(the_upper_edge_is_half_the_field_of_view_up),
-        cmocka_unit_test(the_width_follows_the_frame_and_left_is_left),
-        cmocka_unit_test(an_orthographic_ray_starts_on_the_film),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

@@ -51,7 +51,7 @@ static const char *lit_scene(void)
         "{'KHR_lights_punctual':{'light':0}}}]");
 }
 
-static void people_read_everything_with_its_unit(void **state)
+TEST_WITH(people_read_everything_with_its_unit, maker_reset, NULL)
 {
     (void)state;
     Outcome outcome = run(lit_scene(), NULL);
@@ -70,7 +70,7 @@ static void people_read_everything_with_its_unit(void **state)
             fail_msg("no \"%s\" in\n%s", LINES[i], outcome.text);
 }
 
-static void scripts_read_one_document(void **state)
+TEST_WITH(scripts_read_one_document, maker_reset, NULL)
 {
     (void)state;
     Outcome outcome = run(lit_scene(), "--json");
@@ -87,7 +87,7 @@ static void scripts_read_one_document(void **state)
     json_decref(document);
 }
 
-static void all_problems_are_told_and_the_status_is_3(void **state)
+TEST_WITH(all_problems_are_told_and_the_status_is_3, maker_reset, NULL)
 {
     (void)state;
     const char *path = maker_gltf(NULL, 0, "'nodes':[{'mesh':5},{'camera':1,'colour':2}]");
@@ -111,10 +111,5 @@ static void all_problems_are_told_and_the_status_is_3(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(people_read_everything_with_its_unit, maker_reset),
-        cmocka_unit_test_setup(scripts_read_one_document, maker_reset),
-        cmocka_unit_test_setup(all_problems_are_told_and_the_status_is_3, maker_reset),
-    };
-    return cmocka_run_group_tests_name("check", tests, maker_start, maker_end);
+    return run_cases(maker_start, maker_end);
 }

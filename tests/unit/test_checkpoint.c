@@ -81,7 +81,7 @@ static void assert_same_films(const Film *a, const Film *b)
 
 /* ---- rows -------------------------------------------------------------------------------- */
 
-static void packed_rows_hold_every_bit(void **state)
+TEST(packed_rows_hold_every_bit)
 {
     Arena *arena = *state;
     Error  err;
@@ -108,7 +108,7 @@ static void packed_rows_hold_every_bit(void **state)
     }
 }
 
-static void rows_that_no_film_packs_are_refused(void **state)
+TEST(rows_that_no_film_packs_are_refused)
 {
     Arena *arena = *state;
     Error  err;
@@ -151,7 +151,7 @@ static void write_one(Arena *arena)
     if (!checkpoint_write(&what, film, *arena, &err)) fail_msg("%s", err.text);
 }
 
-static void what_is_kept_comes_back(void **state)
+TEST(what_is_kept_comes_back)
 {
     Arena     *arena = *state;
     Error      err = {0};
@@ -176,7 +176,7 @@ static void what_is_kept_comes_back(void **state)
     assert_same_films(film, again);
 }
 
-static void it_fits_the_same_pixels_and_as_many_samples_or_more(void **state)
+TEST(it_fits_the_same_pixels_and_as_many_samples_or_more)
 {
     Arena     *arena = *state;
     Error      err = {0};
@@ -236,7 +236,7 @@ static bool goes_on(Arena scratch, Error *err)
     return done;
 }
 
-static void every_prefix_is_refused(void **state)
+TEST(every_prefix_is_refused)
 {
     Arena *arena = *state;
     Error  err;
@@ -254,7 +254,7 @@ static void every_prefix_is_refused(void **state)
     assert_true(goes_on(*arena, &err));
 }
 
-static void every_changed_byte_is_refused(void **state)
+TEST(every_changed_byte_is_refused)
 {
     Arena   *arena = *state;
     Error    err;
@@ -283,7 +283,7 @@ enum { AT_ORDER = 8, AT_VERSION = 12, AT_BYTES = 16, AT_IDENTITY = 24, AT_CROP =
        AT_FIRST = 64, AT_ASKED = 72, AT_DROPPED = 112, AT_SECONDS = 120, AT_KEPT = 224,
        HEAD_BYTES = 232 };
 
-static void each_fault_has_its_line(void **state)
+TEST(each_fault_has_its_line)
 {
     static const struct {
         size_t      at;
@@ -330,7 +330,7 @@ static void each_fault_has_its_line(void **state)
     assert_true(goes_on(*arena, &err));
 }
 
-static void what_is_no_file_is_no_checkpoint(void **state)
+TEST(what_is_no_file_is_no_checkpoint)
 {
     Arena     *arena = *state;
     Error      err;
@@ -350,7 +350,7 @@ static void what_is_no_file_is_no_checkpoint(void **state)
 
 /* ---- a full disk ------------------------------------------------------------------------- */
 
-static void a_full_disk_leaves_the_old_one_untouched(void **state)
+TEST(a_full_disk_leaves_the_old_one_untouched)
 {
     Arena        *arena = *state;
     Error         err;
@@ -378,17 +378,5 @@ static void a_full_disk_leaves_the_old_one_untouched(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(packed_rows_hold_every_bit),
-        cmocka_unit_test(rows_that_no_film_packs_are_refused),
-        cmocka_unit_test(what_is_kept_comes_back),
-        cmocka_unit_test(it_fits_the_same_pixels_and_as_many_samples_or_more),
-        cmocka_unit_test(every_prefix_is_refused),
-        cmocka_unit_test(every_changed_byte_is_refused),
-        cmocka_unit_test(each_fault_has_its_line),
-        cmocka_unit_test(what_is_no_file_is_no_checkpoint),
-        cmocka_unit_test(a_full_disk_leaves_the_old_one_untouched),
-    };
-    return cmocka_run_group_tests_name("checkpoint", tests, make_checkpoint_path,
-                                       remove_checkpoint);
+    return run_cases(make_checkpoint_path, remove_checkpoint);
 }

@@ -73,7 +73,7 @@ static bool parse(const char *const *words, Arena *arena, Values *out)
 
 #define WORDS(...) ((const char *const[]){__VA_ARGS__, NULL})
 
-static void values_come_after_the_option_or_after_an_equals_sign(void **state)
+TEST(values_come_after_the_option_or_after_an_equals_sign)
 {
     Arena *arena = *state;
     Values v;
@@ -93,7 +93,7 @@ static void values_come_after_the_option_or_after_an_equals_sign(void **state)
     assert_true(v.numbers[0] == 1 && v.numbers[1] == -20 && v.numbers[2] == 0.5);
 }
 
-static void what_is_left_out_keeps_its_value(void **state)
+TEST(what_is_left_out_keeps_its_value)
 {
     Arena *arena = *state;
     Values v;
@@ -106,7 +106,7 @@ static void what_is_left_out_keeps_its_value(void **state)
     assert_false(v.cli.json);
 }
 
-static void every_command_has_the_common_options(void **state)
+TEST(every_command_has_the_common_options)
 {
     Arena *arena = *state;
     Values v;
@@ -119,7 +119,7 @@ static void every_command_has_the_common_options(void **state)
     assert_int_equal(v.cli.progress, PROGRESS_NONE);
 }
 
-static void repeatable_options_keep_their_order(void **state)
+TEST(repeatable_options_keep_their_order)
 {
     Arena *arena = *state;
     Values v;
@@ -130,7 +130,7 @@ static void repeatable_options_keep_their_order(void **state)
     assert_string_equal(v.texts.list[2], "c=3");
 }
 
-static void two_dashes_end_the_options_and_one_dash_is_an_argument(void **state)
+TEST(two_dashes_end_the_options_and_one_dash_is_an_argument)
 {
     Arena *arena = *state;
     Values v;
@@ -141,7 +141,7 @@ static void two_dashes_end_the_options_and_one_dash_is_an_argument(void **state)
     assert_string_equal(v.cli.arguments[1], "--flag");
 }
 
-static void errors_name_the_option_the_value_and_what_is_wanted(void **state)
+TEST(errors_name_the_option_the_value_and_what_is_wanted)
 {
     static const struct {
         const char *words[4], *text;
@@ -192,7 +192,7 @@ static void errors_name_the_option_the_value_and_what_is_wanted(void **state)
     }
 }
 
-static void help_wins_over_everything_else_on_the_line(void **state)
+TEST(help_wins_over_everything_else_on_the_line)
 {
     Arena *arena = *state;
     Values v;
@@ -200,7 +200,7 @@ static void help_wins_over_everything_else_on_the_line(void **state)
     assert_true(v.cli.help_shown);
 }
 
-static void pairs_are_cut_at_the_first_equals_sign(void **state)
+TEST(pairs_are_cut_at_the_first_equals_sign)
 {
     Arena      *arena = *state;
     const char *name, *value;
@@ -214,7 +214,7 @@ static void pairs_are_cut_at_the_first_equals_sign(void **state)
     assert_false(cli_name_value("--content", "x=", arena, &name, &value, &err));
 }
 
-static void the_nearest_word_is_near_or_there_is_none(void **state)
+TEST(the_nearest_word_is_near_or_there_is_none)
 {
     (void)state;
     static const char *const words[] = {"render", "develop", "panel", "check", "measure"};
@@ -225,7 +225,7 @@ static void the_nearest_word_is_near_or_there_is_none(void **state)
     assert_null(cli_nearest("", words, 5));
 }
 
-static void an_error_line_puts_the_place_before_the_advice(void **state)
+TEST(an_error_line_puts_the_place_before_the_advice)
 {
     (void)state;
     Error err;
@@ -243,7 +243,7 @@ static void an_error_line_puts_the_place_before_the_advice(void **state)
     assert_string_equal(line, "parhelion: no output");
 }
 
-static void warnings_are_listed_once_each(void **state)
+TEST(warnings_are_listed_once_each)
 {
     Arena   *arena = *state;
     Problems problems = problems_start(arena);
@@ -264,18 +264,5 @@ static void warnings_are_listed_once_each(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(values_come_after_the_option_or_after_an_equals_sign),
-        cmocka_unit_test(what_is_left_out_keeps_its_value),
-        cmocka_unit_test(every_command_has_the_common_options),
-        cmocka_unit_test(repeatable_options_keep_their_order),
-        cmocka_unit_test(two_dashes_end_the_options_and_one_dash_is_an_argument),
-        cmocka_unit_test(errors_name_the_option_the_value_and_what_is_wanted),
-        cmocka_unit_test(help_wins_over_everything_else_on_the_line),
-        cmocka_unit_test(pairs_are_cut_at_the_first_equals_sign),
-        cmocka_unit_test(the_nearest_word_is_near_or_there_is_none),
-        cmocka_unit_test(an_error_line_puts_the_place_before_the_advice),
-        cmocka_unit_test(warnings_are_listed_once_each),
-    };
-    return cmocka_run_group_tests_name("cli", tests, make_arena, drop_arena);
+    return run_cases(make_arena, drop_arena);
 }

@@ -48,7 +48,7 @@ static const Measurement *read_set(Lab *lab)
     return set;
 }
 
-static void options_reach_the_files(void **state)
+LAB_TEST(options_reach_the_files)
 {
     Lab        *lab = *state;
     const char *printed;
@@ -69,7 +69,7 @@ static void options_reach_the_files(void **state)
     assert_non_null(strstr(printed, "out/M.json: 1 tables, 3 directions, 1 masked"));
 }
 
-static void the_command_line_stands_above_the_declaration(void **state)
+LAB_TEST(the_command_line_stands_above_the_declaration)
 {
     Lab        *lab = *state;
     const char *printed;
@@ -84,7 +84,7 @@ static void the_command_line_stands_above_the_declaration(void **state)
     assert_close(sum, 1.5, 1e-5);
 }
 
-static void the_answer_is_one_json_document(void **state)
+LAB_TEST(the_answer_is_one_json_document)
 {
     Lab         *lab = *state;
     const char  *printed;
@@ -103,7 +103,7 @@ static void the_answer_is_one_json_document(void **state)
     json_decref(answer);
 }
 
-static void mistakes_have_their_status(void **state)
+LAB_TEST(mistakes_have_their_status)
 {
     Lab        *lab = *state;
     const char *printed;
@@ -133,11 +133,5 @@ static void mistakes_have_their_status(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        lab_case(options_reach_the_files),
-        lab_case(the_command_line_stands_above_the_declaration),
-        lab_case(the_answer_is_one_json_document),
-        lab_case(mistakes_have_their_status),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

@@ -77,7 +77,7 @@ static double number(const json_t *document, const char *key)
     return json_number_value(value);
 }
 
-static void develop_writes_what_it_says(void **state)
+TEST(develop_writes_what_it_says)
 {
     Outcome o = run("develop f.exr -o a.png --exposure white:500 --view untonemapped");
     Arena   arena = test_arena(state);
@@ -93,7 +93,7 @@ static void develop_writes_what_it_says(void **state)
     assert_int_equal(((const uint8_t *)image.pixels)[4 * 11], 203);
 }
 
-static void develop_answers_in_json(void **state)
+TEST(develop_answers_in_json)
 {
     (void)state;
     Outcome o = run("develop f.exr -o b.png --exposure 10 --json");
@@ -112,7 +112,7 @@ static void develop_answers_in_json(void **state)
     json_decref(j);
 }
 
-static void other_endings_work(void **state)
+TEST(other_endings_work)
 {
     (void)state;
     assert_int_equal(run("develop f.exr -o c.tif --bits 16").status, 0);
@@ -120,7 +120,7 @@ static void other_endings_work(void **state)
     assert_true(file_exists(in_folder("c.tif")) && file_exists(in_folder("d.jpg")));
 }
 
-static void wrong_uses_have_their_status(void **state)
+TEST(wrong_uses_have_their_status)
 {
     (void)state;
     assert_int_equal(run("develop f.exr").status, 2);
@@ -143,7 +143,7 @@ static void wrong_uses_have_their_status(void **state)
                                "directory\n");
 }
 
-static void help_tells_the_options(void **state)
+TEST(help_tells_the_options)
 {
     (void)state;
     Outcome o = run("develop --help");
@@ -154,7 +154,7 @@ static void help_tells_the_options(void **state)
     assert_non_null(strstr(o.out, "--region X0,Y0,X1,Y1"));
 }
 
-static void measure_gives_the_figures_of_a_display(void **state)
+TEST(measure_gives_the_figures_of_a_display)
 {
     (void)state;
     Outcome o = run("measure f.exr --display cluster --json");
@@ -171,7 +171,7 @@ static void measure_gives_the_figures_of_a_display(void **state)
     json_decref(j);
 }
 
-static void measure_gives_the_figures_of_a_region(void **state)
+TEST(measure_gives_the_figures_of_a_region)
 {
     (void)state;
     Outcome o = run("measure f.exr --region 6,0,12,8 --json");
@@ -186,14 +186,5 @@ static void measure_gives_the_figures_of_a_region(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(develop_writes_what_it_says),
-        cmocka_unit_test(develop_answers_in_json),
-        cmocka_unit_test(other_endings_work),
-        cmocka_unit_test(wrong_uses_have_their_status),
-        cmocka_unit_test(help_tells_the_options),
-        cmocka_unit_test(measure_gives_the_figures_of_a_display),
-        cmocka_unit_test(measure_gives_the_figures_of_a_region),
-    };
-    return cmocka_run_group_tests(tests, write_frame, remove_pictures);
+    return run_cases(write_frame, remove_pictures);
 }

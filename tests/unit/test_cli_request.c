@@ -4,7 +4,7 @@
 #include "base/units.h"
 #include "cli/render/render_command.h"
 
-static void values_of_render_are_checked_before_anything_is_read(void **state)
+TEST(values_of_render_are_checked_before_anything_is_read)
 {
     static const struct {
         const char *option, *value, *text;
@@ -40,7 +40,7 @@ static void values_of_render_are_checked_before_anything_is_read(void **state)
     }
 }
 
-static void values_of_the_surroundings_are_checked(void **state)
+TEST(values_of_the_surroundings_are_checked)
 {
     static const struct {
         EnvironmentChange change;
@@ -78,7 +78,7 @@ static void values_of_the_surroundings_are_checked(void **state)
     }
 }
 
-static void the_line_overrides_single_members_of_the_surroundings(void **state)
+TEST(the_line_overrides_single_members_of_the_surroundings)
 {
     Arena            *arena = *state;
     Scene             scene = {.environment = {.has_sun = true, .sun_illuminance_lx = 5000,
@@ -102,7 +102,7 @@ static void the_line_overrides_single_members_of_the_surroundings(void **state)
     assert_true(e->luminance_cd_m2 == 250);
 }
 
-static void a_sky_is_asked_for_by_its_kind_time_and_place(void **state)
+TEST(a_sky_is_asked_for_by_its_kind_time_and_place)
 {
     Arena   *arena = *state;
     Problems problems = problems_start(arena);
@@ -132,7 +132,7 @@ static void a_sky_is_asked_for_by_its_kind_time_and_place(void **state)
     assert_int_equal(problems.count, 1); /* the illuminance that was taken */
 }
 
-static void what_makes_no_sky_is_refused_by_name(void **state)
+TEST(what_makes_no_sky_is_refused_by_name)
 {
     static const struct {
         EnvironmentChange change;
@@ -167,7 +167,7 @@ static void what_makes_no_sky_is_refused_by_name(void **state)
     }
 }
 
-static void a_camera_is_found_by_node_then_by_camera_then_by_place(void **state)
+TEST(a_camera_is_found_by_node_then_by_camera_then_by_place)
 {
     SceneCamera cameras[] = {{.node_name = "left", .camera_name = "1"},
                              {.node_name = "right", .camera_name = "left"},
@@ -198,13 +198,5 @@ static void a_camera_is_found_by_node_then_by_camera_then_by_place(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(values_of_render_are_checked_before_anything_is_read),
-        cmocka_unit_test(values_of_the_surroundings_are_checked),
-        cmocka_unit_test(the_line_overrides_single_members_of_the_surroundings),
-        cmocka_unit_test(a_sky_is_asked_for_by_its_kind_time_and_place),
-        cmocka_unit_test(what_makes_no_sky_is_refused_by_name),
-        cmocka_unit_test(a_camera_is_found_by_node_then_by_camera_then_by_place),
-    };
-    return cmocka_run_group_tests_name("cli_request", tests, make_arena, drop_arena);
+    return run_cases(make_arena, drop_arena);
 }

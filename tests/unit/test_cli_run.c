@@ -109,7 +109,7 @@ static void assert_same_pixels(const FrameImage *a, const FrameImage *b)
 
 /* ---- exit statuses ----------------------------------------------------------------------- */
 
-static void a_wrong_line_is_status_2(void **state)
+TEST(a_wrong_line_is_status_2)
 {
     (void)state;
     Outcome o;
@@ -131,7 +131,7 @@ static void a_wrong_line_is_status_2(void **state)
     assert_false(exists("a.exr"));
 }
 
-static void an_hdri_that_is_missing_or_not_linear_is_named(void **state)
+TEST(an_hdri_that_is_missing_or_not_linear_is_named)
 {
     (void)state;
     Outcome o;
@@ -144,7 +144,7 @@ static void an_hdri_that_is_missing_or_not_linear_is_named(void **state)
     assert_false(exists("a.exr"));
 }
 
-static void a_frame_too_large_is_refused_before_it_fills_the_memory(void **state)
+TEST(a_frame_too_large_is_refused_before_it_fills_the_memory)
 {
     (void)state;
     Outcome o;
@@ -160,7 +160,7 @@ static void a_frame_too_large_is_refused_before_it_fills_the_memory(void **state
                                   "there are "));
 }
 
-static void a_missing_input_is_status_3_and_named(void **state)
+TEST(a_missing_input_is_status_3_and_named)
 {
     (void)state;
     Outcome o;
@@ -175,7 +175,7 @@ static void a_missing_input_is_status_3_and_named(void **state)
     json_decref(answer);
 }
 
-static void a_picture_with_negative_light_is_told_of(void **state)
+TEST(a_picture_with_negative_light_is_told_of)
 {
     Outcome    o;
     Error      err = {0};
@@ -193,7 +193,7 @@ static void a_picture_with_negative_light_is_told_of(void **state)
     assert_non_null(strstr(o.err, "hdri:negative.exr: 2 pixels have negative values"));
 }
 
-static void an_output_that_cannot_be_written_is_status_4_at_once(void **state)
+TEST(an_output_that_cannot_be_written_is_status_4_at_once)
 {
     (void)state;
     Outcome o;
@@ -206,7 +206,7 @@ static void an_output_that_cannot_be_written_is_status_4_at_once(void **state)
     assert_int_equal(o.status, 4);
 }
 
-static void version_and_help_need_nothing(void **state)
+TEST(version_and_help_need_nothing)
 {
     (void)state;
     Outcome o;
@@ -226,7 +226,7 @@ static void version_and_help_need_nothing(void **state)
 
 /* ---- frames ------------------------------------------------------------------------------ */
 
-static void a_frame_says_how_to_make_it_again(void **state)
+TEST(a_frame_says_how_to_make_it_again)
 {
     Arena  *arena = *state;
     Outcome o;
@@ -252,7 +252,7 @@ static void a_frame_says_how_to_make_it_again(void **state)
     assert_true(frame_channel(&frame, "samples.N")[5] == 3);
 }
 
-static void the_time_is_told_when_the_build_system_fixes_it(void **state)
+TEST(the_time_is_told_when_the_build_system_fixes_it)
 {
     Arena  *arena = *state;
     Outcome o;
@@ -263,7 +263,7 @@ static void the_time_is_told_when_the_build_system_fixes_it(void **state)
     assert_string_equal(frame_string(&frame, "capDate"), "1970:01:02 00:00:00");
 }
 
-static void threads_do_not_change_a_bit_and_a_crop_is_a_part(void **state)
+TEST(threads_do_not_change_a_bit_and_a_crop_is_a_part)
 {
     Arena  *arena = *state;
     Outcome o;
@@ -283,7 +283,7 @@ static void threads_do_not_change_a_bit_and_a_crop_is_a_part(void **state)
                             frame_channel(&crop, "G") + (y - 9) * 24, 24 * sizeof(float));
 }
 
-static void a_replayed_sample_is_the_one_that_was_rendered(void **state)
+TEST(a_replayed_sample_is_the_one_that_was_rendered)
 {
     Arena  *arena = *state;
     Outcome o;
@@ -301,7 +301,7 @@ static void a_replayed_sample_is_the_one_that_was_rendered(void **state)
     json_decref(answer);
 }
 
-static void noise_stops_before_spp(void **state)
+TEST(noise_stops_before_spp)
 {
     Arena  *arena = *state;
     Outcome o;
@@ -322,7 +322,7 @@ static void noise_stops_before_spp(void **state)
     assert_close(whole_attribute(&frame, "parhelion:relativeError"), error, 1e-6);
 }
 
-static void noise_that_is_not_reached_is_said(void **state)
+TEST(noise_that_is_not_reached_is_said)
 {
     (void)state;
     Outcome o;
@@ -342,7 +342,7 @@ static void noise_that_is_not_reached_is_said(void **state)
     json_decref(answer);
 }
 
-static void a_picture_is_developed_as_well(void **state)
+TEST(a_picture_is_developed_as_well)
 {
     (void)state;
     Outcome o;
@@ -353,7 +353,7 @@ static void a_picture_is_developed_as_well(void **state)
     assert_non_null(strstr(o.out, "p.png: "));
 }
 
-static void a_scene_without_a_camera_is_framed_whole_with_a_warning(void **state)
+TEST(a_scene_without_a_camera_is_framed_whole_with_a_warning)
 {
     (void)state;
     Outcome o;
@@ -386,7 +386,7 @@ static pid_t start_long_render(const char *output, FILE *out, FILE *err)
     return child;
 }
 
-static void an_interrupted_render_leaves_a_frame_marked_incomplete(void **state)
+TEST(an_interrupted_render_leaves_a_frame_marked_incomplete)
 {
     static const struct {
         int         number, status;
@@ -415,7 +415,7 @@ static void an_interrupted_render_leaves_a_frame_marked_incomplete(void **state)
     }
 }
 
-static void a_second_signal_ends_at_once_and_leaves_nothing(void **state)
+TEST(a_second_signal_ends_at_once_and_leaves_nothing)
 {
     (void)state;
     FILE *out = tmpfile(), *err = tmpfile();
@@ -431,7 +431,7 @@ static void a_second_signal_ends_at_once_and_leaves_nothing(void **state)
     fclose(err);
 }
 
-static void usr1_writes_a_snapshot_and_goes_on(void **state)
+TEST(usr1_writes_a_snapshot_and_goes_on)
 {
     Arena *arena = *state;
     FILE  *out = tmpfile(), *err = tmpfile();
@@ -470,25 +470,5 @@ static int write_scenes(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_wrong_line_is_status_2),
-        cmocka_unit_test(an_hdri_that_is_missing_or_not_linear_is_named),
-        cmocka_unit_test(a_frame_too_large_is_refused_before_it_fills_the_memory),
-        cmocka_unit_test(a_missing_input_is_status_3_and_named),
-        cmocka_unit_test(a_picture_with_negative_light_is_told_of),
-        cmocka_unit_test(an_output_that_cannot_be_written_is_status_4_at_once),
-        cmocka_unit_test(version_and_help_need_nothing),
-        cmocka_unit_test(a_frame_says_how_to_make_it_again),
-        cmocka_unit_test(the_time_is_told_when_the_build_system_fixes_it),
-        cmocka_unit_test(threads_do_not_change_a_bit_and_a_crop_is_a_part),
-        cmocka_unit_test(a_replayed_sample_is_the_one_that_was_rendered),
-        cmocka_unit_test(noise_stops_before_spp),
-        cmocka_unit_test(noise_that_is_not_reached_is_said),
-        cmocka_unit_test(a_picture_is_developed_as_well),
-        cmocka_unit_test(a_scene_without_a_camera_is_framed_whole_with_a_warning),
-        cmocka_unit_test(an_interrupted_render_leaves_a_frame_marked_incomplete),
-        cmocka_unit_test(a_second_signal_ends_at_once_and_leaves_nothing),
-        cmocka_unit_test(usr1_writes_a_snapshot_and_goes_on),
-    };
-    return cmocka_run_group_tests_name("cli_run", tests, write_scenes, clear_folder);
+    return run_cases(write_scenes, clear_folder);
 }

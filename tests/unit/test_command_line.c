@@ -12,7 +12,7 @@ static FilmPart box(FilmRect crop, uint32_t first, uint32_t end)
                       .end_sample = end, .asked_end = end};
 }
 
-static void words_are_quoted_as_a_shell_needs_it(void **state)
+TEST(words_are_quoted_as_a_shell_needs_it)
 {
     static const char *const words[][2] = {
         {"plain-1.exr", "plain-1.exr"}, {"", "''"}, {"a b", "'a b'"}, {"$HOME", "'$HOME'"},
@@ -22,7 +22,7 @@ static void words_are_quoted_as_a_shell_needs_it(void **state)
         assert_string_equal(escape_shell(words[i][0], &arena), words[i][1]);
 }
 
-static void idle_words_are_left_out_on_request(void **state)
+TEST(idle_words_are_left_out_on_request)
 {
     char *words[] = {"render", "a b.gltf", "--threads", "3", "--quiet", "--progress=none",
                      "--spp", "8", "--checkpoint", "x y", "--resume", "--", "--quiet"};
@@ -34,7 +34,7 @@ static void idle_words_are_left_out_on_request(void **state)
                         "--spp 8 --checkpoint 'x y' --resume -- --quiet");
 }
 
-static void a_part_s_line_becomes_the_whole_s(void **state)
+TEST(a_part_s_line_becomes_the_whole_s)
 {
     static const FilmRect all = {0, 0, 64, 48}, half = {0, 0, 32, 48};
     static const struct {
@@ -74,10 +74,5 @@ static void a_part_s_line_becomes_the_whole_s(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(words_are_quoted_as_a_shell_needs_it),
-        cmocka_unit_test(idle_words_are_left_out_on_request),
-        cmocka_unit_test(a_part_s_line_becomes_the_whole_s),
-    };
-    return cmocka_run_group_tests(tests, make_arena, drop_arena);
+    return run_cases(make_arena, drop_arena);
 }

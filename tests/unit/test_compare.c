@@ -4,7 +4,7 @@
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
-static void a_written_frame_is_read_as_light(void **state)
+TEST(a_written_frame_is_read_as_light)
 {
     Arena        arena = test_arena(state);
     Error        err = {0};
@@ -25,7 +25,7 @@ static void a_written_frame_is_read_as_light(void **state)
 }
 
 /* 8-bit codes and the same ones in 16 bits are the same fractions, bit for bit. */
-static void codes_of_8_and_16_bits_agree(void **state)
+TEST(codes_of_8_and_16_bits_agree)
 {
     Arena        arena = test_arena(state);
     Error        err = {0};
@@ -51,7 +51,7 @@ static void codes_of_8_and_16_bits_agree(void **state)
     assert_true(c.same && has_note(&c, "8 bits, the test 16"));
 }
 
-static void a_frame_against_a_picture_is_refused(void **state)
+TEST(a_frame_against_a_picture_is_refused)
 {
     Arena          arena = test_arena(state);
     Error          err = {0};
@@ -70,7 +70,7 @@ static void a_frame_against_a_picture_is_refused(void **state)
 
 /* ---- structure --------------------------------------------------------------------------- */
 
-static void metadata_that_decides_fails_and_the_rest_explains(void **state)
+TEST(metadata_that_decides_fails_and_the_rest_explains)
 {
     Arena        arena = test_arena(state);
     CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
@@ -105,7 +105,7 @@ static void metadata_that_decides_fails_and_the_rest_explains(void **state)
 }
 
 /* A file that does not tell its primaries has those of Rec.709. */
-static void what_is_implied_need_not_be_said(void **state)
+TEST(what_is_implied_need_not_be_said)
 {
     static const double XYZ[8] = {1, 0, 0, 1, 0, 0, 1 / 3.0, 1 / 3.0};
     Arena               arena = test_arena(state);
@@ -121,7 +121,7 @@ static void what_is_implied_need_not_be_said(void **state)
 }
 
 /* Long values are shown where they begin to differ, and never steer a terminal. */
-static void long_values_are_shown_where_they_differ(void **state)
+TEST(long_values_are_shown_where_they_differ)
 {
     Arena        arena = test_arena(state);
     CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
@@ -137,7 +137,7 @@ static void long_values_are_shown_where_they_differ(void **state)
     assert_true(strlen(c.notes.list[0]) < 300);
 }
 
-static void channels_on_one_side_are_named(void **state)
+TEST(channels_on_one_side_are_named)
 {
     Arena        arena = test_arena(state);
     CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
@@ -154,7 +154,7 @@ static void channels_on_one_side_are_named(void **state)
     assert_false(compared(&a, &b, options, &arena).same);
 }
 
-static void windows_and_sizes_must_agree(void **state)
+TEST(windows_and_sizes_must_agree)
 {
     Arena        arena = test_arena(state);
     CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
@@ -170,7 +170,7 @@ static void windows_and_sizes_must_agree(void **state)
 
 /* ---- NaN and infinity -------------------------------------------------------------------- */
 
-static void what_is_no_number_in_light_always_fails(void **state)
+TEST(what_is_no_number_in_light_always_fails)
 {
     Arena       arena = test_arena(state);
     const float wrong[] = {NAN, INFINITY, -INFINITY};
@@ -192,7 +192,7 @@ static void what_is_no_number_in_light_always_fails(void **state)
 
 /* Off displays NaN is legal. Frames of other noise may disagree at a rim (one pixel beside the
  * display), and where a sliver shows; not about an area, here of 3 x 3 pixels. */
-static void gaps_of_surface_layers_must_coincide(void **state)
+TEST(gaps_of_surface_layers_must_coincide)
 {
     Arena        arena = test_arena(state);
     CompareInput a = frame_input("a", &arena);
@@ -213,7 +213,7 @@ static void gaps_of_surface_layers_must_coincide(void **state)
 }
 
 /* Too few samples to tell the noise are no fault of the light. */
-static void noise_may_be_unknown(void **state)
+TEST(noise_may_be_unknown)
 {
     Arena        arena = test_arena(state);
     CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
@@ -229,7 +229,7 @@ static void noise_may_be_unknown(void **state)
 
 /* ---- figures and limits ------------------------------------------------------------------ */
 
-static void limits_hold_in_their_direction(void **state)
+TEST(limits_hold_in_their_direction)
 {
     (void)state;
     assert_true(threshold_holds((Threshold){METRIC_FLIP, 0.1}, 0.1));
@@ -248,7 +248,7 @@ static void limits_hold_in_their_direction(void **state)
 }
 
 /* One code of one channel is off by d: mse = d^2 / (3 n). */
-static void figures_of_pictures_are_those_of_codes(void **state)
+TEST(figures_of_pictures_are_those_of_codes)
 {
     Arena        arena = test_arena(state);
     CompareInput a = picture_input("a", 8, &arena), b = picture_input("b", 8, &arena);
@@ -267,7 +267,7 @@ static void figures_of_pictures_are_those_of_codes(void **state)
     assert_true(c.same && isinf(c.value[METRIC_PSNR]) && c.value[METRIC_FLIP] == 0);
 }
 
-static void only_what_is_asked_for_is_computed(void **state)
+TEST(only_what_is_asked_for_is_computed)
 {
     Arena        arena = test_arena(state);
     CompareInput a = picture_input("a", 8, &arena);
@@ -284,7 +284,7 @@ static void only_what_is_asked_for_is_computed(void **state)
     assert_reason(&c, "contrast_change is not known for these files, at most 0.5 is wanted");
 }
 
-static void exposures_are_the_ones_of_develop(void **state)
+TEST(exposures_are_the_ones_of_develop)
 {
     (void)state;
     for (double ev = -4; ev < 20; ev += 3) {
@@ -296,7 +296,7 @@ static void exposures_are_the_ones_of_develop(void **state)
 
 /* ---- which pixels count ------------------------------------------------------------------ */
 
-static void a_data_window_places_values(void **state)
+TEST(a_data_window_places_values)
 {
     (void)state;
     FrameImage frame = {.display = {10, 20, 22, 28}, .data = {14, 18, 24, 26}};
@@ -307,7 +307,7 @@ static void a_data_window_places_values(void **state)
     assert_int_equal(selection_place(&frame, 30), 12 + 4);
 }
 
-static void regions_select_and_displays_are_known(void **state)
+TEST(regions_select_and_displays_are_known)
 {
     Arena            arena = test_arena(state);
     Error            err = {0};
@@ -334,24 +334,5 @@ static void regions_select_and_displays_are_known(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_written_frame_is_read_as_light),
-        cmocka_unit_test(codes_of_8_and_16_bits_agree),
-        cmocka_unit_test(a_frame_against_a_picture_is_refused),
-        cmocka_unit_test(metadata_that_decides_fails_and_the_rest_explains),
-        cmocka_unit_test(what_is_implied_need_not_be_said),
-        cmocka_unit_test(long_values_are_shown_where_they_differ),
-        cmocka_unit_test(channels_on_one_side_are_named),
-        cmocka_unit_test(windows_and_sizes_must_agree),
-        cmocka_unit_test(what_is_no_number_in_light_always_fails),
-        cmocka_unit_test(gaps_of_surface_layers_must_coincide),
-        cmocka_unit_test(noise_may_be_unknown),
-        cmocka_unit_test(limits_hold_in_their_direction),
-        cmocka_unit_test(figures_of_pictures_are_those_of_codes),
-        cmocka_unit_test(only_what_is_asked_for_is_computed),
-        cmocka_unit_test(exposures_are_the_ones_of_develop),
-        cmocka_unit_test(a_data_window_places_values),
-        cmocka_unit_test(regions_select_and_displays_are_known),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return run_cases(make_folder, remove_folder);
 }

@@ -14,7 +14,7 @@
 
 static const char WILD[] = "a<b>&\"'\x01\xff]]>\xef\xbf\xbf.png";
 
-static void markup_escapes_and_encodes(void **state)
+TEST(markup_escapes_and_encodes)
 {
     Arena arena = test_arena(state);
     Text  text = {.arena = &arena};
@@ -34,7 +34,7 @@ static void markup_escapes_and_encodes(void **state)
     }
 }
 
-static void junit_is_well_formed_whatever_the_names_are(void **state)
+TEST(junit_is_well_formed_whatever_the_names_are)
 {
     Arena        arena = test_arena(state);
     Error        err = {0};
@@ -67,7 +67,7 @@ static void junit_is_well_formed_whatever_the_names_are(void **state)
     assert_int_equal(err.code, ERROR_OUTPUT);
 }
 
-static void json_has_the_promised_keys(void **state)
+TEST(json_has_the_promised_keys)
 {
     Arena          arena = test_arena(state);
     CompareInput   a = picture_input(WILD, 8, &arena), b = picture_input("b", 8, &arena);
@@ -88,7 +88,7 @@ static void json_has_the_promised_keys(void **state)
 }
 
 /* Whatever a name holds, it stands in the page as text; both sides and three maps are there. */
-static void a_report_is_whole_and_escaped(void **state)
+TEST(a_report_is_whole_and_escaped)
 {
     Arena          arena = test_arena(state);
     Error          err = {0};
@@ -130,7 +130,7 @@ static void refused(const char *word, const char *value, const char *part)
     arena_release(&arena);
 }
 
-static void wrong_options_say_what_is_wanted(void **state)
+TEST(wrong_options_say_what_is_wanted)
 {
     (void)state;
     refused("--max", "flop=1", "there is no figure flop — did you mean flip?");
@@ -149,7 +149,7 @@ static void wrong_options_say_what_is_wanted(void **state)
     refused("--level", "0", "--level");
 }
 
-static void limits_and_lists_are_read(void **state)
+TEST(limits_and_lists_are_read)
 {
     Arena          arena = test_arena(state);
     Error          err = {0};
@@ -174,13 +174,5 @@ static void limits_and_lists_are_read(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(markup_escapes_and_encodes),
-        cmocka_unit_test(junit_is_well_formed_whatever_the_names_are),
-        cmocka_unit_test(json_has_the_promised_keys),
-        cmocka_unit_test(a_report_is_whole_and_escaped),
-        cmocka_unit_test(wrong_options_say_what_is_wanted),
-        cmocka_unit_test(limits_and_lists_are_read),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return run_cases(make_folder, remove_folder);
 }

@@ -58,7 +58,7 @@ static float grey_through(const char *display, const char *view, float grey)
     return rgb[1];
 }
 
-static void middle_grey_has_the_known_codes(void **state)
+TEST(middle_grey_has_the_known_codes)
 {
     (void)state;
     assert_near(grey_through("sRGB", "untonemapped", 0.18f), 0.461356, 2e-6);
@@ -70,7 +70,7 @@ static void middle_grey_has_the_known_codes(void **state)
     assert_near(grey_through(NULL, NULL, 0.4f), grey_through("sRGB", "photographic", 0.4f), 0);
 }
 
-static void untonemapped_is_the_srgb_curve(void **state)
+TEST(untonemapped_is_the_srgb_curve)
 {
     (void)state;
     for (int i = 0; i <= 1000; i++)
@@ -79,7 +79,7 @@ static void untonemapped_is_the_srgb_curve(void **state)
 }
 
 /* L = m x^c / (x^c + b), as the configuration's comment says. */
-static void photographic_is_its_formula(void **state)
+TEST(photographic_is_its_formula)
 {
     (void)state;
     const double c = 1.2, g = pow(0.18, c), w = pow(0.18 * 256, c);
@@ -94,7 +94,7 @@ static void photographic_is_its_formula(void **state)
     assert_near(grey_through("sRGB", "photographic", 1e6f), 1, 1e-5);
 }
 
-static void wrong_names_are_told_with_the_right_ones(void **state)
+TEST(wrong_names_are_told_with_the_right_ones)
 {
     (void)state;
     ViewTransform *transform = NULL;
@@ -115,7 +115,7 @@ static void wrong_names_are_told_with_the_right_ones(void **state)
 }
 
 /* A configuration that does not say what its colours mean. */
-static void a_configuration_without_interchange_is_refused(void **state)
+TEST(a_configuration_without_interchange_is_refused)
 {
     (void)state;
     static const char TEXT[] =
@@ -135,7 +135,7 @@ static void a_configuration_without_interchange_is_refused(void **state)
 }
 
 /* A newer version than the library knows is refused in one line. */
-static void a_configuration_that_is_too_new_is_refused(void **state)
+TEST(a_configuration_that_is_too_new_is_refused)
 {
     (void)state;
     char        *text = strdup(OWN_OCIO_CONFIG), *version = strstr(text, "version: 2\n");
@@ -153,7 +153,7 @@ static void a_configuration_that_is_too_new_is_refused(void **state)
 }
 
 /* The studios' own ACES configuration agrees with ours. */
-static void a_users_configuration_is_entered_by_its_interchange_role(void **state)
+TEST(a_users_configuration_is_entered_by_its_interchange_role)
 {
     char path[512];
     snprintf(path, sizeof path, "%s/ocio/cg-config-v1.0.0_aces-v1.3_ocio-v2.1.ocio",
@@ -186,7 +186,7 @@ static double grey_of(const char *text, const float *luminance, size_t count)
     return grey;
 }
 
-static void exposure_follows_its_closed_forms(void **state)
+TEST(exposure_follows_its_closed_forms)
 {
     (void)state;
     enum { N = 10000 };
@@ -205,7 +205,7 @@ static void exposure_follows_its_closed_forms(void **state)
     assert_close(grey_of("auto", luminance, N), 30000 / (16 * 10.0), 1e-4);
 }
 
-static void what_is_not_light_has_no_say_in_exposure(void **state)
+TEST(what_is_not_light_has_no_say_in_exposure)
 {
     (void)state;
     const float odd[] = {37, NAN, -5, INFINITY, 0, 37}, nothing[] = {NAN, 0, -1};
@@ -214,7 +214,7 @@ static void what_is_not_light_has_no_say_in_exposure(void **state)
     assert_true(grey_of("auto", nothing, 0) == 1);
 }
 
-static void bad_exposures_are_told(void **state)
+TEST(bad_exposures_are_told)
 {
     (void)state;
     static const char *const BAD[] = {"", "bright", "white:", "white:0", "white:-3",
@@ -230,7 +230,7 @@ static void bad_exposures_are_told(void **state)
 
 /* ---- pictures ---------------------------------------------------------------------------- */
 
-static void a_frame_becomes_the_codes_it_should(void **state)
+TEST(a_frame_becomes_the_codes_it_should)
 {
     Arena          arena = test_arena(state);
     FrameImage     frame = uniform_frame(8, 5, 90, &arena);
@@ -255,7 +255,7 @@ static void a_frame_becomes_the_codes_it_should(void **state)
     assert_near(((const uint8_t *)image.pixels)[0], 255 * 0.461356, 2);
 }
 
-static void the_same_frame_makes_the_same_picture_file(void **state)
+TEST(the_same_frame_makes_the_same_picture_file)
 {
     Arena          arena = test_arena(state);
     FrameImage     frame = uniform_frame(8, 5, 90, &arena);
@@ -270,7 +270,7 @@ static void the_same_frame_makes_the_same_picture_file(void **state)
     assert_memory_equal(bytes[0].data, bytes[1].data, bytes[0].size);
 }
 
-static void a_range_makes_frames_comparable(void **state)
+TEST(a_range_makes_frames_comparable)
 {
     Arena          arena = test_arena(state);
     FrameImage     frame = uniform_frame(8, 5, 90, &arena);
@@ -290,7 +290,7 @@ static void a_range_makes_frames_comparable(void **state)
     assert_error_has(&err, "only false colours have a range");
 }
 
-static void what_is_not_finite_is_cleaned_and_counted(void **state)
+TEST(what_is_not_finite_is_cleaned_and_counted)
 {
     Arena      arena = test_arena(state);
     FrameImage frame = uniform_frame(4, 1, 90, &arena);
@@ -303,7 +303,7 @@ static void what_is_not_finite_is_cleaned_and_counted(void **state)
     for (int i = 0; i < 12; i++) assert_true(isfinite(p.rgb[i]));
 }
 
-static void a_crop_stands_in_its_frame(void **state)
+TEST(a_crop_stands_in_its_frame)
 {
     Arena      arena = test_arena(state);
     FrameImage frame = uniform_frame(4, 2, 90, &arena);
@@ -321,7 +321,7 @@ static void a_crop_stands_in_its_frame(void **state)
         }
 }
 
-static void a_picture_that_fails_leaves_nothing(void **state)
+TEST(a_picture_that_fails_leaves_nothing)
 {
     Arena          arena = test_arena(state);
     FrameImage     frame = uniform_frame(64, 64, 90, &arena);
@@ -350,7 +350,7 @@ static void a_picture_that_fails_leaves_nothing(void **state)
 
 /* ---- layers ------------------------------------------------------------------------------ */
 
-static void every_layer_can_be_looked_at(void **state)
+TEST(every_layer_can_be_looked_at)
 {
     static const char *const CHANNELS[] = {
         "xyz.X", "xyz.Y", "xyz.Z", "depth.Z", "position.X", "position.Y", "position.Z",
@@ -382,7 +382,7 @@ static void every_layer_can_be_looked_at(void **state)
     }
 }
 
-static void directions_and_albedo_have_their_closed_forms(void **state)
+TEST(directions_and_albedo_have_their_closed_forms)
 {
     Arena      arena = test_arena(state);
     FrameImage frame = uniform_frame(2, 1, 90, &arena);
@@ -399,7 +399,7 @@ static void directions_and_albedo_have_their_closed_forms(void **state)
     assert_near(p.rgb[0], 0.461356, 1e-5);
 }
 
-static void a_grey_frame_is_light_as_well(void **state)
+TEST(a_grey_frame_is_light_as_well)
 {
     Arena         arena = test_arena(state);
     FrameImage    frame = frame_create(1, 1, (ExrWindow){0, 0, 1, 1}, 1, 0, &arena);
@@ -418,7 +418,7 @@ static void a_grey_frame_is_light_as_well(void **state)
     assert_near(picture.rgb[2], 0.461356, 1e-5);
 }
 
-static void an_unknown_layer_is_told_with_those_there_are(void **state)
+TEST(an_unknown_layer_is_told_with_those_there_are)
 {
     Arena          arena = test_arena(state);
     FrameImage     frame = uniform_frame(2, 1, 90, &arena);
@@ -437,28 +437,6 @@ static void an_unknown_layer_is_told_with_those_there_are(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(middle_grey_has_the_known_codes),
-        cmocka_unit_test(untonemapped_is_the_srgb_curve),
-        cmocka_unit_test(photographic_is_its_formula),
-        cmocka_unit_test(wrong_names_are_told_with_the_right_ones),
-        cmocka_unit_test(a_configuration_without_interchange_is_refused),
-        cmocka_unit_test(a_configuration_that_is_too_new_is_refused),
-        cmocka_unit_test(a_users_configuration_is_entered_by_its_interchange_role),
-        cmocka_unit_test(exposure_follows_its_closed_forms),
-        cmocka_unit_test(what_is_not_light_has_no_say_in_exposure),
-        cmocka_unit_test(bad_exposures_are_told),
-        cmocka_unit_test(a_frame_becomes_the_codes_it_should),
-        cmocka_unit_test(the_same_frame_makes_the_same_picture_file),
-        cmocka_unit_test(a_range_makes_frames_comparable),
-        cmocka_unit_test(what_is_not_finite_is_cleaned_and_counted),
-        cmocka_unit_test(a_crop_stands_in_its_frame),
-        cmocka_unit_test(a_picture_that_fails_leaves_nothing),
-        cmocka_unit_test(every_layer_can_be_looked_at),
-        cmocka_unit_test(directions_and_albedo_have_their_closed_forms),
-        cmocka_unit_test(a_grey_frame_is_light_as_well),
-        cmocka_unit_test(an_unknown_layer_is_told_with_those_there_are),
-    };
     unsetenv("OCIO");
-    return cmocka_run_group_tests(tests, make_folder, clear_folder);
+    return run_cases(make_folder, clear_folder);
 }

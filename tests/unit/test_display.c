@@ -103,7 +103,7 @@ static Seen look(const World *world, Vec3 at, Vec3 towards, int count)
 }
 
 /* 3 primaries x 9 levels x 25 directions in a black room. */
-static void a_frame_shows_what_the_panel_emits(void **state)
+TEST(a_frame_shows_what_the_panel_emits)
 {
     (void)state;
     for (int p = 0; p < PANEL_COUNT; p++) {
@@ -134,7 +134,7 @@ static void a_frame_shows_what_the_panel_emits(void **state)
 }
 
 /* Light of the display on a white wall: the spectral way must carry the same luminance. */
-static void the_display_lights_a_wall_with_its_measured_luminance(void **state)
+TEST(the_display_lights_a_wall_with_its_measured_luminance)
 {
     (void)state;
     World world = world_open(PANELS[0]);
@@ -176,7 +176,7 @@ static void the_display_lights_a_wall_with_its_measured_luminance(void **state)
 }
 
 /* A picture whose four corners differ is seen upright and not mirrored. */
-static void the_picture_stands_upright(void **state)
+TEST(the_picture_stands_upright)
 {
     (void)state;
     World world = world_open(PANELS[0]);
@@ -198,7 +198,7 @@ static void the_picture_stands_upright(void **state)
 }
 
 /* phi as someone facing the display sees it: 0 right, 90 up; and it turns with the picture. */
-static void angles_are_those_of_someone_who_faces_the_display(void **state)
+TEST(angles_are_those_of_someone_who_faces_the_display)
 {
     (void)state;
     World world = world_open(PANELS[0]);
@@ -267,7 +267,7 @@ static Spectrum reflected_sky(const World *world, const Wavelengths *w, const vo
     return sum * spectrum_from_rgb_emission(w, rgb);
 }
 
-static void a_display_under_a_uniform_sky_reflects_its_brdfs_integral(void **state)
+TEST(a_display_under_a_uniform_sky_reflects_its_brdfs_integral)
 {
     (void)state;
     for (int p = 0; p < PANEL_COUNT; p++) {
@@ -315,7 +315,7 @@ static Spectrum reflected_sun(const World *world, const Wavelengths *w, const vo
     return sum;
 }
 
-static void a_display_under_the_sun_reflects_its_brdf_over_the_disc(void **state)
+TEST(a_display_under_the_sun_reflects_its_brdf_over_the_disc)
 {
     (void)state;
     for (int p = 0; p < PANEL_COUNT; p++)
@@ -360,13 +360,5 @@ static void a_display_under_the_sun_reflects_its_brdf_over_the_disc(void **state
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_frame_shows_what_the_panel_emits),
-        cmocka_unit_test(the_display_lights_a_wall_with_its_measured_luminance),
-        cmocka_unit_test(the_picture_stands_upright),
-        cmocka_unit_test(angles_are_those_of_someone_who_faces_the_display),
-        cmocka_unit_test(a_display_under_a_uniform_sky_reflects_its_brdfs_integral),
-        cmocka_unit_test(a_display_under_the_sun_reflects_its_brdf_over_the_disc),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

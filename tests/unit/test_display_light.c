@@ -116,7 +116,7 @@ static Estimate illuminance(const Scene *scene, const Emitters *emitters, bool i
     return (Estimate){mean, squares / COUNT / (mean * mean) - 1};
 }
 
-static void displays_are_chosen_by_angle_and_by_content(void **state)
+TEST(displays_are_chosen_by_angle_and_by_content)
 {
     (void)state;
     for (int has_content = 0; has_content < 2; has_content++) {
@@ -137,7 +137,7 @@ static void displays_are_chosen_by_angle_and_by_content(void **state)
 }
 
 /* The same light, whether light samples, the wall's own samples or both find it. */
-static void every_strategy_finds_the_same_light_of_displays(void **state)
+TEST(every_strategy_finds_the_same_light_of_displays)
 {
     (void)state;
     static const PathStrategy strategies[] = {PATH_LIGHTS_ONLY, PATH_BSDF_ONLY, PATH_MIS};
@@ -179,9 +179,5 @@ static void every_strategy_finds_the_same_light_of_displays(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(displays_are_chosen_by_angle_and_by_content),
-        cmocka_unit_test(every_strategy_finds_the_same_light_of_displays),
-    };
-    return cmocka_run_group_tests(tests, start_narrow, fixture_group_end);
+    return run_cases(start_narrow, fixture_group_end);
 }

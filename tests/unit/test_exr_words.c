@@ -58,7 +58,7 @@ static ExrReader *open_bytes(FileBytes file)
 
 /* ---- what is written is read ------------------------------------------------------------- */
 
-static void every_word_comes_back_in_the_order_asked_for(void **state)
+TEST(every_word_comes_back_in_the_order_asked_for)
 {
     Arena           arena = test_arena(state);
     const ExrWords *words = make_words(&arena), *found;
@@ -89,7 +89,7 @@ static void every_word_comes_back_in_the_order_asked_for(void **state)
     exr_reader_destroy(reader);
 }
 
-static void attributes_of_the_words_are_their_own(void **state)
+TEST(attributes_of_the_words_are_their_own)
 {
     Arena           arena = test_arena(state);
     ExrReader      *reader = open_bytes(encode(make_words(&arena), &arena));
@@ -110,7 +110,7 @@ static void attributes_of_the_words_are_their_own(void **state)
     exr_reader_destroy(reader);
 }
 
-static void the_picture_is_the_same_with_and_without(void **state)
+TEST(the_picture_is_the_same_with_and_without)
 {
     Arena      arena = test_arena(state);
     FileBytes  with = encode(make_words(&arena), &arena), without = encode(NULL, &arena);
@@ -131,7 +131,7 @@ static void the_picture_is_the_same_with_and_without(void **state)
     assert_memory_equal(with.data, again.data, with.size);
 }
 
-static void a_file_on_disk_is_read_too(void **state)
+TEST(a_file_on_disk_is_read_too)
 {
     Arena           arena = test_arena(state);
     const ExrWords *words = make_words(&arena), *found;
@@ -171,7 +171,7 @@ static bool read_all(const void *bytes, size_t size, const ExrWords *words, uint
     return ok;
 }
 
-static void every_prefix_is_refused(void **state)
+TEST(every_prefix_is_refused)
 {
     Arena           arena = test_arena(state);
     const ExrWords *words = make_words(&arena);
@@ -188,7 +188,7 @@ static void every_prefix_is_refused(void **state)
     }
 }
 
-static void flipped_bits_are_survived(void **state)
+TEST(flipped_bits_are_survived)
 {
     Arena           arena = test_arena(state);
     const ExrWords *words = make_words(&arena);
@@ -204,7 +204,7 @@ static void flipped_bits_are_survived(void **state)
     }
 }
 
-static void a_part_of_another_kind_is_refused(void **state)
+TEST(a_part_of_another_kind_is_refused)
 {
     Arena           arena = test_arena(state);
     FileBytes       file = encode(make_words(&arena), &arena);
@@ -221,7 +221,7 @@ static void a_part_of_another_kind_is_refused(void **state)
     exr_reader_destroy(reader);
 }
 
-static void a_word_that_is_missing_is_named(void **state)
+TEST(a_word_that_is_missing_is_named)
 {
     static const char *const names[] = {"count", "sum.Z.0"};
     const ExrWords  wanted = {"film", 2, names, NULL, 0, NULL};
@@ -236,7 +236,7 @@ static void a_word_that_is_missing_is_named(void **state)
     exr_reader_destroy(reader);
 }
 
-static void what_is_no_openexr_file_is_told(void **state)
+TEST(what_is_no_openexr_file_is_told)
 {
     (void)state;
     ExrReader *reader;
@@ -255,16 +255,5 @@ static void what_is_no_openexr_file_is_told(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_word_comes_back_in_the_order_asked_for),
-        cmocka_unit_test(attributes_of_the_words_are_their_own),
-        cmocka_unit_test(the_picture_is_the_same_with_and_without),
-        cmocka_unit_test(a_file_on_disk_is_read_too),
-        cmocka_unit_test(every_prefix_is_refused),
-        cmocka_unit_test(flipped_bits_are_survived),
-        cmocka_unit_test(a_part_of_another_kind_is_refused),
-        cmocka_unit_test(a_word_that_is_missing_is_named),
-        cmocka_unit_test(what_is_no_openexr_file_is_told),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return run_cases(make_folder, remove_folder);
 }

@@ -17,7 +17,7 @@ static double luminance_of_code(const float srgb[3])
     return y;
 }
 
-static void false_colours_grow_lighter_all_the_way(void **state)
+TEST(false_colours_grow_lighter_all_the_way)
 {
     (void)state;
     double last = -1;
@@ -32,7 +32,7 @@ static void false_colours_grow_lighter_all_the_way(void **state)
     assert_true(last > 0.8);
 }
 
-static void false_colours_show_the_value_by_the_scale(void **state)
+TEST(false_colours_show_the_value_by_the_scale)
 {
     Arena       arena = test_arena(state);
     const float values[6] = {0.1f, 1, 10, 100, 1000, NAN};
@@ -49,7 +49,7 @@ static void false_colours_show_the_value_by_the_scale(void **state)
     assert_true(scale_position(range, INFINITY) == 1);
 }
 
-static void a_scale_has_round_ends_around_the_values(void **state)
+TEST(a_scale_has_round_ends_around_the_values)
 {
     enum { N = 10000 };
     static float values[N];
@@ -70,7 +70,7 @@ static void a_scale_has_round_ends_around_the_values(void **state)
     assert_true(r.low > 0 && r.high > r.low);
 }
 
-static void letters_are_drawn_as_wide_as_they_are_said_to_be(void **state)
+TEST(letters_are_drawn_as_wide_as_they_are_said_to_be)
 {
     static const char TEXT[] = "0123456789.-+/:%()abcdefghijklmnopqrstuvwxyz";
     Arena     arena = test_arena(state);
@@ -98,7 +98,7 @@ static void letters_are_drawn_as_wide_as_they_are_said_to_be(void **state)
 
 /* ---- colour spaces ----------------------------------------------------------------------- */
 
-static void primaries_give_the_published_matrix(void **state)
+TEST(primaries_give_the_published_matrix)
 {
     (void)state;
     /* ITU-R BT.709 with D65, as in IEC 61966-2-1 to four digits. */
@@ -133,7 +133,7 @@ static double icc_value(IccProfile profile, const char *tag, int i)
 }
 
 /* The columns of sRGB adapted to D50, as the ICC's own sRGB profiles have them. */
-static void the_profile_holds_the_published_primaries(void **state)
+TEST(the_profile_holds_the_published_primaries)
 {
     static const char *const TAGS[3] = {"rXYZ", "gXYZ", "bXYZ"};
     static const double      WANT[3][3] = {
@@ -154,13 +154,5 @@ static void the_profile_holds_the_published_primaries(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(false_colours_grow_lighter_all_the_way),
-        cmocka_unit_test(false_colours_show_the_value_by_the_scale),
-        cmocka_unit_test(a_scale_has_round_ends_around_the_values),
-        cmocka_unit_test(letters_are_drawn_as_wide_as_they_are_said_to_be),
-        cmocka_unit_test(primaries_give_the_published_matrix),
-        cmocka_unit_test(the_profile_holds_the_published_primaries),
-    };
-    return cmocka_run_group_tests(tests, make_arena, drop_arena);
+    return run_cases(make_arena, drop_arena);
 }

@@ -12,7 +12,7 @@
 
 #include "text/uri.h"
 
-static void what_was_written_is_read_back(void **state)
+TEST(what_was_written_is_read_back)
 {
     Arena arena = test_arena(state);
     Error err;
@@ -26,7 +26,7 @@ static void what_was_written_is_read_back(void **state)
     unlink(path);
 }
 
-static void the_start_is_read_of_a_file_of_any_length(void **state)
+TEST(the_start_is_read_of_a_file_of_any_length)
 {
     Arena arena = test_arena(state);
     Error     err;
@@ -45,7 +45,7 @@ static void the_start_is_read_of_a_file_of_any_length(void **state)
     assert_non_null(strstr(err.text, "is a folder, a file is wanted"));
 }
 
-static void a_file_that_cannot_be_written_leaves_nothing(void **state)
+TEST(a_file_that_cannot_be_written_leaves_nothing)
 {
     Arena arena = test_arena(state);
     Error err;
@@ -69,7 +69,7 @@ static void assert_content(const char *path, const char *wanted)
     assert_string_equal((const char *)bytes.data, wanted);
 }
 
-static void nobody_sees_a_file_before_it_is_whole(void **state)
+TEST(nobody_sees_a_file_before_it_is_whole)
 {
     (void)state;
     Error       err;
@@ -99,7 +99,7 @@ static void nobody_sees_a_file_before_it_is_whole(void **state)
     assert_string_equal(err.text, "cannot be created: File name too long");
 }
 
-static void what_a_killed_writer_leaves_is_cleared(void **state)
+TEST(what_a_killed_writer_leaves_is_cleared)
 {
     (void)state;
     Error       err;
@@ -157,7 +157,7 @@ static int write_without_unnamed_files(const char *path)
     return 0;
 }
 
-static void file_systems_without_unnamed_files_get_named_ones(void **state)
+TEST(file_systems_without_unnamed_files_get_named_ones)
 {
     (void)state;
     const char *path = in_folder("n.bin");
@@ -171,7 +171,7 @@ static void file_systems_without_unnamed_files_get_named_ones(void **state)
     unlink(path);
 }
 
-static void reading_names_what_is_wrong(void **state)
+TEST(reading_names_what_is_wrong)
 {
     Arena arena = test_arena(state);
     Error err;
@@ -188,7 +188,7 @@ static void reading_names_what_is_wrong(void **state)
     unlink(path);
 }
 
-static void paths_are_joined_and_measured(void **state)
+TEST(paths_are_joined_and_measured)
 {
     Arena arena = test_arena(state);
     assert_string_equal(path_beside("a/b/c.gltf", "d.bin", &arena), "a/b/d.bin");
@@ -204,7 +204,7 @@ static void paths_are_joined_and_measured(void **state)
     assert_int_equal(path_climb("..a/..b"), 0);
 }
 
-static void schemes_are_told_from_paths(void **state)
+TEST(schemes_are_told_from_paths)
 {
     (void)state;
     assert_int_equal(uri_scheme_length("http://x"), 4);
@@ -216,7 +216,7 @@ static void schemes_are_told_from_paths(void **state)
     assert_false(uri_is_data("date:,x"));
 }
 
-static void percent_escapes_are_taken_out(void **state)
+TEST(percent_escapes_are_taken_out)
 {
     Arena arena = test_arena(state);
     Error err;
@@ -230,7 +230,7 @@ static void percent_escapes_are_taken_out(void **state)
 }
 
 /* RFC 4648, section 10. */
-static void base64_data_are_decoded(void **state)
+TEST(base64_data_are_decoded)
 {
     Arena arena = test_arena(state);
     static const char *const ENCODED[] = {"",         "Zg==",     "Zm8=",     "Zm9v",
@@ -253,7 +253,7 @@ static void base64_data_are_decoded(void **state)
     assert_string_equal(type, "");
 }
 
-static void broken_data_uris_are_refused(void **state)
+TEST(broken_data_uris_are_refused)
 {
     Arena arena = test_arena(state);
     static const char *const BROKEN[] = {
@@ -267,19 +267,5 @@ static void broken_data_uris_are_refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_was_written_is_read_back),
-        cmocka_unit_test(the_start_is_read_of_a_file_of_any_length),
-        cmocka_unit_test(a_file_that_cannot_be_written_leaves_nothing),
-        cmocka_unit_test(nobody_sees_a_file_before_it_is_whole),
-        cmocka_unit_test(what_a_killed_writer_leaves_is_cleared),
-        cmocka_unit_test(file_systems_without_unnamed_files_get_named_ones),
-        cmocka_unit_test(reading_names_what_is_wrong),
-        cmocka_unit_test(paths_are_joined_and_measured),
-        cmocka_unit_test(schemes_are_told_from_paths),
-        cmocka_unit_test(percent_escapes_are_taken_out),
-        cmocka_unit_test(base64_data_are_decoded),
-        cmocka_unit_test(broken_data_uris_are_refused),
-    };
-    return cmocka_run_group_tests_name("file", tests, make_folder, remove_folder);
+    return run_cases(make_folder, remove_folder);
 }

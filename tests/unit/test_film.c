@@ -64,7 +64,7 @@ static void assert_same_frames(const FrameImage *a, const FrameImage *b)
 
 /* ---- exactness --------------------------------------------------------------------------- */
 
-static void any_order_of_adding_gives_the_same_bits(void **state)
+TEST(any_order_of_adding_gives_the_same_bits)
 {
     enum { COUNT = 500 };
     Arena      arena = test_arena(state);
@@ -88,7 +88,7 @@ static void any_order_of_adding_gives_the_same_bits(void **state)
     }
 }
 
-static void the_mean_is_that_of_long_doubles(void **state)
+TEST(the_mean_is_that_of_long_doubles)
 {
     static const float scales[] = {1e-6f, 1e-2f, 1, 1e4f, 1e12f};
     Arena    arena = test_arena(state);
@@ -111,7 +111,7 @@ static void the_mean_is_that_of_long_doubles(void **state)
     }
 }
 
-static void a_millionth_candela_survives_beside_a_tera_candela(void **state)
+TEST(a_millionth_candela_survives_beside_a_tera_candela)
 {
     Arena arena = test_arena(state);
     Film *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
@@ -123,7 +123,7 @@ static void a_millionth_candela_survives_beside_a_tera_candela(void **state)
 
 /* The worst sample's steps, times the most samples a pixel takes, fit 128 bits: white, and the
  * colours that have the largest R, G and B; just below the split of the squares, too. */
-static void the_largest_sums_do_not_overflow(void **state)
+TEST(the_largest_sums_do_not_overflow)
 {
     static const float worst[][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, 1}, {1, -1, 1}};
     static const float sizes[] = {0x1p47f, 0x1.3p16f, 0x1.ep16f};
@@ -145,7 +145,7 @@ static void the_largest_sums_do_not_overflow(void **state)
     }
 }
 
-static void losses_are_counted_and_the_smallest_kept_in_any_order(void **state)
+TEST(losses_are_counted_and_the_smallest_kept_in_any_order)
 {
     Arena arena = test_arena(state);
     Film *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
@@ -170,7 +170,7 @@ static void losses_are_counted_and_the_smallest_kept_in_any_order(void **state)
 /* ---- variance and error ------------------------------------------------------------------ */
 
 /* n samples, half of them a, half b: the variance of the mean is (a-b)^2 / 4 / (n-1). */
-static void variance_has_its_closed_form_at_every_scale(void **state)
+TEST(variance_has_its_closed_form_at_every_scale)
 {
     static const float scales[] = {1e-5f, 1, 1e4f, 1e9f, 1e13f};
     Arena arena = test_arena(state);
@@ -188,7 +188,7 @@ static void variance_has_its_closed_form_at_every_scale(void **state)
     }
 }
 
-static void variance_spans_both_windows_of_squares(void **state)
+TEST(variance_spans_both_windows_of_squares)
 {
     Arena  arena = test_arena(state);
     Film  *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
@@ -206,7 +206,7 @@ static void variance_spans_both_windows_of_squares(void **state)
                  1e-6);
 }
 
-static void variance_needs_two_samples(void **state)
+TEST(variance_needs_two_samples)
 {
     Arena arena = test_arena(state);
     Film *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
@@ -223,7 +223,7 @@ static float coin(int pixel, uint32_t index, float value)
     return value * (hash_combine((uint32_t)pixel, index) & 1 ? 1.0f : 3.0f);
 }
 
-static void relative_error_is_the_mean_of_sigma_over_luminance(void **state)
+TEST(relative_error_is_the_mean_of_sigma_over_luminance)
 {
     (void)state;
     enum { SIDE = 100 };
@@ -249,7 +249,7 @@ static void relative_error_is_the_mean_of_sigma_over_luminance(void **state)
 }
 
 /* Samples whose errors cancel within every block: the mean is sure, whatever their spread. */
-static void relative_error_knows_that_even_samples_are_better(void **state)
+TEST(relative_error_knows_that_even_samples_are_better)
 {
     Arena arena = test_arena(state);
     Film *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
@@ -261,7 +261,7 @@ static void relative_error_knows_that_even_samples_are_better(void **state)
 }
 
 /* Five pixels of 100 without noise and one of 1 with sigma 0.1: judged against half the key. */
-static void relative_error_judges_shadows_against_half_the_key(void **state)
+TEST(relative_error_judges_shadows_against_half_the_key)
 {
     Arena  arena = test_arena(state);
     Film  *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
@@ -272,7 +272,7 @@ static void relative_error_judges_shadows_against_half_the_key(void **state)
     assert_close(film_relative_error(film).frame, 0.1 / (key / 2) / 6, 1e-3);
 }
 
-static void relative_error_of_displays_counts_their_pixels_only(void **state)
+TEST(relative_error_of_displays_counts_their_pixels_only)
 {
     enum { SIDE = 100 };
     Arena    arena = test_arena(state);
@@ -294,7 +294,7 @@ static void relative_error_of_displays_counts_their_pixels_only(void **state)
 }
 
 /* Pixel p swings by p % 4 tenths around 100: of equals the first comes first. */
-static void the_worst_pixels_come_in_order(void **state)
+TEST(the_worst_pixels_come_in_order)
 {
     Arena     arena = test_arena(state);
     FilmRect  crop = {2, 1, 6, 4};
@@ -335,7 +335,7 @@ static FilmSample display_sample(uint32_t index, float theta, float phi)
                         .black = {0, 0, 0}, .theta = theta, .phi = phi};
 }
 
-static void a_frame_has_the_channels_asked_for_and_no_others(void **state)
+TEST(a_frame_has_the_channels_asked_for_and_no_others)
 {
     Arena      arena = test_arena(state);
     Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH | LAYER_ID, &arena);
@@ -352,7 +352,7 @@ static void a_frame_has_the_channels_asked_for_and_no_others(void **state)
 }
 
 /* 80 samples in blocks of 16, the second and fourth of which are odd: 32 against 48. */
-static void halves_are_the_difference_of_interleaved_blocks(void **state)
+TEST(halves_are_the_difference_of_interleaved_blocks)
 {
     Arena arena = test_arena(state);
     Film *film = film_create(WIDTH, HEIGHT, whole, LAYER_HALVES, &arena);
@@ -370,7 +370,7 @@ static void halves_are_the_difference_of_interleaved_blocks(void **state)
 }
 
 /* Over many pixels of independent samples the square of `halves` is their variance. */
-static void halves_squared_are_the_variance_of_independent_samples(void **state)
+TEST(halves_squared_are_the_variance_of_independent_samples)
 {
     enum { SIDE = 60 };
     Arena    arena = test_arena(state);
@@ -388,7 +388,7 @@ static void halves_squared_are_the_variance_of_independent_samples(void **state)
     assert_close(squares, variance, 0.08); /* 3 sigma: 3600 squares of a normal number */
 }
 
-static void layers_are_means_over_the_samples_that_hit(void **state)
+TEST(layers_are_means_over_the_samples_that_hit)
 {
     Arena      arena = test_arena(state);
     Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
@@ -419,7 +419,7 @@ static void layers_are_means_over_the_samples_that_hit(void **state)
     assert_true(at(&frame, "R", 0) == 0);
 }
 
-static void features_that_are_not_finite_leave_the_light_alone(void **state)
+TEST(features_that_are_not_finite_leave_the_light_alone)
 {
     Arena      arena = test_arena(state);
     Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
@@ -433,7 +433,7 @@ static void features_that_are_not_finite_leave_the_light_alone(void **state)
     assert_int_equal(film_dropped(film).count, 0);
 }
 
-static void contrast_is_the_ratio_of_mean_luminances_with_the_reflection(void **state)
+TEST(contrast_is_the_ratio_of_mean_luminances_with_the_reflection)
 {
     Arena      arena = test_arena(state);
     Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
@@ -457,7 +457,7 @@ static void contrast_is_the_ratio_of_mean_luminances_with_the_reflection(void **
     assert_true(at(&frame, "id.display", 0) == 1);
 }
 
-static void phi_is_averaged_as_a_direction(void **state)
+TEST(phi_is_averaged_as_a_direction)
 {
     Arena      arena = test_arena(state);
     Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_DISPLAY_ANGLES, &arena);
@@ -470,7 +470,7 @@ static void phi_is_averaged_as_a_direction(void **state)
     assert_close(at(&frame, "display.phi", 0), degrees_from_radians(0.01), 1e-3);
 }
 
-static void a_pixel_half_on_a_display_reports_the_display_half(void **state)
+TEST(a_pixel_half_on_a_display_reports_the_display_half)
 {
     Arena      arena = test_arena(state);
     Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
@@ -483,7 +483,7 @@ static void a_pixel_half_on_a_display_reports_the_display_half(void **state)
     assert_close(at(&frame, "depth.Z", 0), 3, 1e-6);
 }
 
-static void a_crop_is_the_data_window(void **state)
+TEST(a_crop_is_the_data_window)
 {
     Arena      arena = test_arena(state);
     FilmRect   crop = {1, 1, 3, 2};
@@ -498,7 +498,7 @@ static void a_crop_is_the_data_window(void **state)
     assert_close(at(&frame, "xyz.X", 1), 8, 1e-7);
 }
 
-static void film_bytes_is_what_a_film_takes(void **state)
+TEST(film_bytes_is_what_a_film_takes)
 {
     (void)state;
     for (unsigned layers = 0; layers <= LAYER_ALL; layers += 193) {
@@ -512,30 +512,5 @@ static void film_bytes_is_what_a_film_takes(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(any_order_of_adding_gives_the_same_bits),
-        cmocka_unit_test(the_mean_is_that_of_long_doubles),
-        cmocka_unit_test(a_millionth_candela_survives_beside_a_tera_candela),
-        cmocka_unit_test(the_largest_sums_do_not_overflow),
-        cmocka_unit_test(losses_are_counted_and_the_smallest_kept_in_any_order),
-        cmocka_unit_test(variance_has_its_closed_form_at_every_scale),
-        cmocka_unit_test(variance_spans_both_windows_of_squares),
-        cmocka_unit_test(variance_needs_two_samples),
-        cmocka_unit_test(relative_error_is_the_mean_of_sigma_over_luminance),
-        cmocka_unit_test(relative_error_knows_that_even_samples_are_better),
-        cmocka_unit_test(relative_error_judges_shadows_against_half_the_key),
-        cmocka_unit_test(relative_error_of_displays_counts_their_pixels_only),
-        cmocka_unit_test(the_worst_pixels_come_in_order),
-        cmocka_unit_test(a_frame_has_the_channels_asked_for_and_no_others),
-        cmocka_unit_test(halves_are_the_difference_of_interleaved_blocks),
-        cmocka_unit_test(halves_squared_are_the_variance_of_independent_samples),
-        cmocka_unit_test(layers_are_means_over_the_samples_that_hit),
-        cmocka_unit_test(features_that_are_not_finite_leave_the_light_alone),
-        cmocka_unit_test(contrast_is_the_ratio_of_mean_luminances_with_the_reflection),
-        cmocka_unit_test(phi_is_averaged_as_a_direction),
-        cmocka_unit_test(a_pixel_half_on_a_display_reports_the_display_half),
-        cmocka_unit_test(a_crop_is_the_data_window),
-        cmocka_unit_test(film_bytes_is_what_a_film_takes),
-    };
-    return cmocka_run_group_tests_name("film", tests, make_arena, drop_arena);
+    return run_cases(make_arena, drop_arena);
 }

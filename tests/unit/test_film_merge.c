@@ -112,7 +112,7 @@ static int cut_up(Cut cuts[27], uint32_t *random)
 
 /* ---- exactness --------------------------------------------------------------------------- */
 
-static void parts_in_any_split_and_order_make_the_same_bits(void **state)
+TEST(parts_in_any_split_and_order_make_the_same_bits)
 {
     Arena    arena = test_arena(state);
     uint32_t random = 1;
@@ -136,7 +136,7 @@ static void parts_in_any_split_and_order_make_the_same_bits(void **state)
 }
 
 /* (a + b) + c against a + (b + c). */
-static void grouping_makes_no_difference(void **state)
+TEST(grouping_makes_no_difference)
 {
     Arena arena = test_arena(state);
     Error err = {0};
@@ -180,7 +180,7 @@ static bool read_part(Film *to, FilmPart *part, Arena scratch, Error *err)
     return ok;
 }
 
-static void files_carry_every_bit(void **state)
+TEST(files_carry_every_bit)
 {
     static const unsigned layers[] = {0, LAYER_ALL, LAYER_UV | LAYER_DISPLAY_CONTRAST};
     static const FilmRect crops[] = {{0, 0, WIDTH, HEIGHT}, {2, 3, 7, 22}, {8, 22, 9, 23}};
@@ -205,7 +205,7 @@ static void files_carry_every_bit(void **state)
 }
 
 /* More than one band: rows of 1.1 MB, of which 48 (three chunks) fit into 64 MB. */
-static void long_parts_are_read_in_bands(void **state)
+TEST(long_parts_are_read_in_bands)
 {
     enum { WIDE = 5000, HIGH = 64 };
     Arena    arena = test_arena(state);
@@ -230,7 +230,7 @@ static void long_parts_are_read_in_bands(void **state)
 }
 
 /* The names are what strangers read: a sample of Y = 1 is 2^48 steps, in word 1. */
-static void words_have_the_names_that_the_header_says(void **state)
+TEST(words_have_the_names_that_the_header_says)
 {
     static const char *const names[] = {"xyz.Y.0", "xyz.Y.1", "xyz.Z.3", "samples", "part.id",
                                         "display.sample", "odd.samples", "odd.X.1", "depth.Z.1",
@@ -285,7 +285,7 @@ static void patch(size_t at, const void *bytes, size_t size)
     close(file);
 }
 
-static void a_flipped_bit_is_refused_or_changes_nothing(void **state)
+TEST(a_flipped_bit_is_refused_or_changes_nothing)
 {
     Arena    arena = test_arena(state);
     Written  w = write_small(&arena);
@@ -316,7 +316,7 @@ static void a_flipped_bit_is_refused_or_changes_nothing(void **state)
     assert_true(refused > 700);
 }
 
-static void every_prefix_is_refused(void **state)
+TEST(every_prefix_is_refused)
 {
     Arena   arena = test_arena(state);
     Written w = write_small(&arena);
@@ -353,7 +353,7 @@ static void assert_refused(const Written *w, const char *from, const char *to,
     arena_release(&scratch);
 }
 
-static void what_is_said_of_the_sums_must_hold(void **state)
+TEST(what_is_said_of_the_sums_must_hold)
 {
     Arena   arena = test_arena(state);
     Written w = write_small(&arena);
@@ -372,7 +372,7 @@ static void what_is_said_of_the_sums_must_hold(void **state)
                    "damaged sums: parhelion:layers cannot be read");
 }
 
-static void the_checksum_knows_in_which_row_a_sum_stands(void **state)
+TEST(the_checksum_knows_in_which_row_a_sum_stands)
 {
     Arena       arena = test_arena(state);
     const char *checksums[2];
@@ -390,7 +390,7 @@ static void the_checksum_knows_in_which_row_a_sum_stands(void **state)
     assert_string_not_equal(checksums[0], checksums[1]);
 }
 
-static void another_set_of_layers_does_not_fit_the_words(void **state)
+TEST(another_set_of_layers_does_not_fit_the_words)
 {
     Arena    arena = test_arena(state);
     Film    *film = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH, &arena);
@@ -410,7 +410,7 @@ static void another_set_of_layers_does_not_fit_the_words(void **state)
     assert_error_has(&err, "carries no sums, only means: it cannot be merged");
 }
 
-static void sums_that_no_samples_make_are_refused(void **state)
+TEST(sums_that_no_samples_make_are_refused)
 {
     Arena arena = test_arena(state);
     Film *sum = film_create(WIDTH, HEIGHT, whole, LAYER_UV, &arena);
@@ -438,7 +438,7 @@ static FilmPart box(const char *name, FilmRect crop, uint32_t first, uint32_t en
                       .first_sample = first, .end_sample = end, .asked_end = end};
 }
 
-static void parts_that_fill_a_box_are_a_whole(void **state)
+TEST(parts_that_fill_a_box_are_a_whole)
 {
     Arena    arena = test_arena(state);
     uint32_t random = 9;
@@ -462,7 +462,7 @@ static void parts_that_fill_a_box_are_a_whole(void **state)
     }
 }
 
-static void overlaps_are_named(void **state)
+TEST(overlaps_are_named)
 {
     Arena    arena = test_arena(state);
     FilmPart parts[] = {box("a.exr", (FilmRect){0, 0, 5, 6}, 0, 4),
@@ -476,7 +476,7 @@ static void overlaps_are_named(void **state)
     assert_error_has(&err, "pixels 3,2,5,6, samples 3:4 are in a.exr as well — leave one");
 }
 
-static void gaps_are_named(void **state)
+TEST(gaps_are_named)
 {
     static const FilmRect left = {0, 0, 4, HEIGHT}, right = {4, 0, WIDTH, HEIGHT};
     Arena    arena = test_arena(state);
@@ -503,7 +503,7 @@ static void gaps_are_named(void **state)
 }
 
 /* Also when what it was asked for makes the range that all are to have. */
-static void a_part_that_was_stopped_may_be_filled_by_others(void **state)
+TEST(a_part_that_was_stopped_may_be_filled_by_others)
 {
     Arena    arena = test_arena(state);
     FilmPart all, parts[] = {box("a.exr", whole, 0, 4), box("b.exr", whole, 4, 6),
@@ -523,22 +523,5 @@ static void a_part_that_was_stopped_may_be_filled_by_others(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parts_in_any_split_and_order_make_the_same_bits),
-        cmocka_unit_test(grouping_makes_no_difference),
-        cmocka_unit_test(files_carry_every_bit),
-        cmocka_unit_test(long_parts_are_read_in_bands),
-        cmocka_unit_test(words_have_the_names_that_the_header_says),
-        cmocka_unit_test(a_flipped_bit_is_refused_or_changes_nothing),
-        cmocka_unit_test(every_prefix_is_refused),
-        cmocka_unit_test(what_is_said_of_the_sums_must_hold),
-        cmocka_unit_test(the_checksum_knows_in_which_row_a_sum_stands),
-        cmocka_unit_test(another_set_of_layers_does_not_fit_the_words),
-        cmocka_unit_test(sums_that_no_samples_make_are_refused),
-        cmocka_unit_test(parts_that_fill_a_box_are_a_whole),
-        cmocka_unit_test(overlaps_are_named),
-        cmocka_unit_test(gaps_are_named),
-        cmocka_unit_test(a_part_that_was_stopped_may_be_filled_by_others),
-    };
-    return cmocka_run_group_tests(tests, make_part_path, remove_part);
+    return run_cases(make_part_path, remove_part);
 }

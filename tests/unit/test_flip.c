@@ -34,7 +34,7 @@ static void assert_all_near(const float *map, size_t count, double expected, dou
     for (size_t i = 0; i < count; i++) assert_near(map[i], expected, absolute);
 }
 
-static void equal_pictures_have_none(void **state)
+TEST(equal_pictures_have_none)
 {
     Arena        arena = test_arena(state);
     const Canvas scene = canvas_scene(150, 40, 0.3, 1, &arena);
@@ -66,7 +66,7 @@ static const UniformPair PAIRS[] = {
 };
 
 /* Even surfaces have no edges: what is left is the colour difference, in closed form. */
-static void even_surfaces_follow_the_closed_form(void **state)
+TEST(even_surfaces_follow_the_closed_form)
 {
     (void)state;
     for (size_t i = 0; i < sizeof PAIRS / sizeof *PAIRS; i++) {
@@ -79,7 +79,7 @@ static void even_surfaces_follow_the_closed_form(void **state)
     }
 }
 
-static void light_beyond_the_display_is_clamped(void **state)
+TEST(light_beyond_the_display_is_clamped)
 {
     Arena        arena = test_arena(state);
     const Canvas a = canvas_uniform(0, 1, 0, &arena), b = canvas_uniform(-3, 7, -1, &arena);
@@ -104,7 +104,7 @@ static double worst_against_slow(const Canvas *r, const Canvas *t, double ppd, A
     return worst;
 }
 
-static void noise_agrees_with_the_slow_twin(void **state)
+TEST(noise_agrees_with_the_slow_twin)
 {
     (void)state;
     const double noises[] = {0.5, 0.1, 0.001};
@@ -117,7 +117,7 @@ static void noise_agrees_with_the_slow_twin(void **state)
     }
 }
 
-static void other_screens_agree_with_the_slow_twin(void **state)
+TEST(other_screens_agree_with_the_slow_twin)
 {
     Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(14, 11, 0.2, 1, &arena);
@@ -129,7 +129,7 @@ static void other_screens_agree_with_the_slow_twin(void **state)
 
 /* Lighter everywhere by the same: edges that did not change must not show as changed. (Their
  * difference goes through a square root, which makes 1e-4 of a float's 1e-8.) */
-static void unchanged_edges_agree_with_the_slow_twin(void **state)
+TEST(unchanged_edges_agree_with_the_slow_twin)
 {
     Arena        arena = test_arena(state);
     const Canvas noisy = canvas_scene(24, 18, 0.1, 1, &arena);
@@ -140,7 +140,7 @@ static void unchanged_edges_agree_with_the_slow_twin(void **state)
 }
 
 /* The borders of tiles lie at 128: pixels about them. */
-static void tiles_have_no_seams(void **state)
+TEST(tiles_have_no_seams)
 {
     Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(140, 135, 0.2, 1, &arena);
@@ -158,7 +158,7 @@ static void tiles_have_no_seams(void **state)
     free(slow);
 }
 
-static void threads_change_no_bit(void **state)
+TEST(threads_change_no_bit)
 {
     Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(260, 140, 0.2, 1, &arena);
@@ -174,7 +174,7 @@ static void threads_change_no_bit(void **state)
     }
 }
 
-static void reference_and_test_may_change_places(void **state)
+TEST(reference_and_test_may_change_places)
 {
     Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(40, 30, 0.4, 1, &arena);
@@ -194,7 +194,7 @@ static Canvas transposed(const Canvas *source, Arena *arena)
     return out;
 }
 
-static void rows_and_columns_may_change_places(void **state)
+TEST(rows_and_columns_may_change_places)
 {
     Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(40, 25, 0.2, 1, &arena);
@@ -205,7 +205,7 @@ static void rows_and_columns_may_change_places(void **state)
         for (int x = 0; x < 40; x++) assert_near(map[y * 40 + x], turned[x * 25 + y], 1e-6);
 }
 
-static void more_difference_gives_more(void **state)
+TEST(more_difference_gives_more)
 {
     Arena        arena = test_arena(state);
     const Canvas grey = canvas_uniform(0.2f, 0.2f, 0.2f, &arena);
@@ -224,7 +224,7 @@ static void more_difference_gives_more(void **state)
 }
 
 /* Colours of a cube's corners, at random: the most that a picture can do. */
-static void nothing_leaves_0_to_1(void **state)
+TEST(nothing_leaves_0_to_1)
 {
     Arena    arena = test_arena(state);
     uint64_t seed = 5;
@@ -241,7 +241,7 @@ static void nothing_leaves_0_to_1(void **state)
     assert_true(all.max > 0.5 && all.median < all.p95 && all.p95 < all.max);
 }
 
-static void one_pixel_is_a_picture(void **state)
+TEST(one_pixel_is_a_picture)
 {
     Arena        arena = test_arena(state);
     const Canvas a = canvas_create(1, 1, &arena), b = canvas_create(1, 1, &arena);
@@ -257,7 +257,7 @@ static double sum_of_filter(const FlipFilter *f)
     return sum;
 }
 
-static void filters_keep_their_sums(void **state)
+TEST(filters_keep_their_sums)
 {
     const double screens[] = {1, 4, 30, FLIP_PIXELS_PER_DEGREE, 300};
     for (int i = 0; i < 5; i++) {
@@ -279,7 +279,7 @@ static void filters_keep_their_sums(void **state)
     assert_int_equal(flip_filters_create(FLIP_PIXELS_PER_DEGREE, &arena).gauss.radius, 9);
 }
 
-static void a_summary_keeps_to_its_mask(void **state)
+TEST(a_summary_keeps_to_its_mask)
 {
     (void)state;
     float         map[100];
@@ -314,7 +314,7 @@ static double slow_tone(FlipToneMapper mapper, double x)
 static const FlipToneMapper MAPPERS[] = {FLIP_ACES, FLIP_REINHARD, FLIP_HABLE};
 
 /* Greys: the tone curves of all three are those of one number. */
-static void even_light_follows_the_closed_form(void **state)
+TEST(even_light_follows_the_closed_form)
 {
     (void)state;
     for (int m = 0; m < 3; m++) {
@@ -360,7 +360,7 @@ static Canvas tone_mapped(const Canvas *source, double ev, FlipToneMapper mapper
 }
 
 /* Not to the last bit: here the tone-mapped pictures are rounded to floats. */
-static void one_exposure_is_the_tone_mapped_picture(void **state)
+TEST(one_exposure_is_the_tone_mapped_picture)
 {
     (void)state;
     for (int m = 0; m < 3; m++) {
@@ -382,7 +382,7 @@ static void one_exposure_is_the_tone_mapped_picture(void **state)
 }
 
 /* Three exposures against each for itself. */
-static void the_greatest_exposure_counts(void **state)
+TEST(the_greatest_exposure_counts)
 {
     Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(150, 40, 0.2, 1, &arena);
@@ -417,7 +417,7 @@ static Canvas known_luminances(Arena *arena)
     return canvas;
 }
 
-static void the_range_shows_the_brightest_and_the_median(void **state)
+TEST(the_range_shows_the_brightest_and_the_median)
 {
     (void)state;
     for (int m = 0; m < 3; m++) {
@@ -440,7 +440,7 @@ static FlipExposures range_of(const Canvas *reference, Arena arena)
     return flip_hdr(&reference->planes, &reference->planes, &DEFAULTS, arena, map, NULL);
 }
 
-static void an_even_reference_has_one_exposure(void **state)
+TEST(an_even_reference_has_one_exposure)
 {
     Arena         arena = test_arena(state);
     const Canvas  r = canvas_uniform(7, 7, 7, &arena);
@@ -450,7 +450,7 @@ static void an_even_reference_has_one_exposure(void **state)
 }
 
 /* The authors' median would be 0 here, and their range endless. */
-static void black_halves_leave_the_median_of_the_rest(void **state)
+TEST(black_halves_leave_the_median_of_the_rest)
 {
     Arena  arena = test_arena(state);
     Canvas r = known_luminances(&arena);
@@ -460,7 +460,7 @@ static void black_halves_leave_the_median_of_the_rest(void **state)
     assert_near(used.stop_ev - used.start_ev, 3, 1e-6);
 }
 
-static void a_black_reference_has_a_range(void **state)
+TEST(a_black_reference_has_a_range)
 {
     Arena         arena = test_arena(state);
     const Canvas  black = canvas_uniform(0, 0, 0, &arena);
@@ -475,7 +475,7 @@ static void a_black_reference_has_a_range(void **state)
     assert_all_near(map, planes_pixel_count(&black.planes), expected, 2e-6);
 }
 
-static void negative_light_is_black(void **state)
+TEST(negative_light_is_black)
 {
     Arena        arena = test_arena(state);
     const Canvas a = canvas_uniform(5, 0, 5, &arena), b = canvas_uniform(5, -9, 5, &arena);
@@ -486,7 +486,7 @@ static void negative_light_is_black(void **state)
 }
 
 /* The range goes with the reference, so the unit of light does not matter. */
-static void the_unit_of_light_does_not_matter(void **state)
+TEST(the_unit_of_light_does_not_matter)
 {
     Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(40, 30, 0.2, 1, &arena);
@@ -502,7 +502,7 @@ static void the_unit_of_light_does_not_matter(void **state)
 }
 
 /* Light as strong as a float can hold must not become NaN in a tone curve. */
-static void the_strongest_light_is_white(void **state)
+TEST(the_strongest_light_is_white)
 {
     Arena        arena = test_arena(state);
     const Canvas r = canvas_uniform(1, 1, 1, &arena);
@@ -516,32 +516,5 @@ static void the_strongest_light_is_white(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(equal_pictures_have_none),
-        cmocka_unit_test(even_surfaces_follow_the_closed_form),
-        cmocka_unit_test(light_beyond_the_display_is_clamped),
-        cmocka_unit_test(noise_agrees_with_the_slow_twin),
-        cmocka_unit_test(other_screens_agree_with_the_slow_twin),
-        cmocka_unit_test(unchanged_edges_agree_with_the_slow_twin),
-        cmocka_unit_test(tiles_have_no_seams),
-        cmocka_unit_test(threads_change_no_bit),
-        cmocka_unit_test(reference_and_test_may_change_places),
-        cmocka_unit_test(rows_and_columns_may_change_places),
-        cmocka_unit_test(more_difference_gives_more),
-        cmocka_unit_test(nothing_leaves_0_to_1),
-        cmocka_unit_test(one_pixel_is_a_picture),
-        cmocka_unit_test(filters_keep_their_sums),
-        cmocka_unit_test(a_summary_keeps_to_its_mask),
-        cmocka_unit_test(even_light_follows_the_closed_form),
-        cmocka_unit_test(one_exposure_is_the_tone_mapped_picture),
-        cmocka_unit_test(the_greatest_exposure_counts),
-        cmocka_unit_test(the_range_shows_the_brightest_and_the_median),
-        cmocka_unit_test(an_even_reference_has_one_exposure),
-        cmocka_unit_test(black_halves_leave_the_median_of_the_rest),
-        cmocka_unit_test(a_black_reference_has_a_range),
-        cmocka_unit_test(negative_light_is_black),
-        cmocka_unit_test(the_unit_of_light_does_not_matter),
-        cmocka_unit_test(the_strongest_light_is_white),
-    };
-    return cmocka_run_group_tests(tests, make_arena, drop_arena);
+    return run_cases(make_arena, drop_arena);
 }

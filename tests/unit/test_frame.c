@@ -62,7 +62,7 @@ static void assert_same_channels(const FrameImage *a, const FrameImage *b)
     }
 }
 
-static void every_bit_comes_back(void **state)
+TEST(every_bit_comes_back)
 {
     static const int SIZES[][2] = {{1, 1}, {7, 3}, {64, 33}, {200, 70}};
     Arena arena = test_arena(state);
@@ -75,7 +75,7 @@ static void every_bit_comes_back(void **state)
     }
 }
 
-static void a_crop_keeps_its_place(void **state)
+TEST(a_crop_keeps_its_place)
 {
     Arena      arena = test_arena(state);
     ExrWindow  crop = {13, 5, 40, 30};
@@ -86,7 +86,7 @@ static void a_crop_keeps_its_place(void **state)
     assert_same_channels(&frame, &back);
 }
 
-static void attributes_come_back(void **state)
+TEST(attributes_come_back)
 {
     Arena      arena = test_arena(state);
     FrameImage frame = make_frame(4, 4, (ExrWindow){0, 0, 4, 4}, &arena);
@@ -111,7 +111,7 @@ static void attributes_come_back(void **state)
     assert_int_equal(frame_id_of(&back, "part", "cluster"), -1);
 }
 
-static void layers_are_found_by_name(void **state)
+TEST(layers_are_found_by_name)
 {
     Arena        arena = test_arena(state);
     FrameImage   frame = make_frame(4, 4, (ExrWindow){0, 0, 4, 4}, &arena);
@@ -122,7 +122,7 @@ static void layers_are_found_by_name(void **state)
     assert_null(frame_channel(&frame, "depth"));
 }
 
-static void the_same_frame_makes_the_same_bytes(void **state)
+TEST(the_same_frame_makes_the_same_bytes)
 {
     Arena      arena = test_arena(state);
     FrameImage frame = make_frame(90, 400, (ExrWindow){0, 0, 90, 400}, &arena);
@@ -145,7 +145,7 @@ static void the_same_frame_makes_the_same_bytes(void **state)
 
 /* ---- writing that fails ------------------------------------------------------------------ */
 
-static void a_full_disk_leaves_nothing(void **state)
+TEST(a_full_disk_leaves_nothing)
 {
     Arena         arena = test_arena(state);
     FrameImage    frame = make_frame(90, 40, (ExrWindow){0, 0, 90, 40}, &arena);
@@ -166,7 +166,7 @@ static void a_full_disk_leaves_nothing(void **state)
     assert_int_equal(files_in_folder(), files);
 }
 
-static void a_device_that_is_full_says_so(void **state)
+TEST(a_device_that_is_full_says_so)
 {
     Arena      arena = test_arena(state);
     FrameImage frame = make_frame(90, 40, (ExrWindow){0, 0, 90, 40}, &arena);
@@ -179,7 +179,7 @@ static void a_device_that_is_full_says_so(void **state)
     assert_true(S_ISCHR(info.st_mode));
 }
 
-static void a_missing_folder_and_a_bad_window_are_told(void **state)
+TEST(a_missing_folder_and_a_bad_window_are_told)
 {
     Arena      arena = test_arena(state);
     FrameImage frame = make_frame(9, 4, (ExrWindow){0, 0, 9, 4}, &arena);
@@ -195,7 +195,7 @@ static void a_missing_folder_and_a_bad_window_are_told(void **state)
 
 /* ---- reading what is broken -------------------------------------------------------------- */
 
-static void refuses_every_prefix(void **state)
+TEST(refuses_every_prefix)
 {
     Arena      arena = test_arena(state);
     FrameImage frame = make_frame(5, 20, (ExrWindow){0, 0, 5, 20}, &arena), back;
@@ -218,7 +218,7 @@ static void refuses_every_prefix(void **state)
 }
 
 /* The library would take memory for what a file says, before it finds that it is not there. */
-static void an_attribute_larger_than_the_file_is_refused(void **state)
+TEST(an_attribute_larger_than_the_file_is_refused)
 {
     Arena      arena = test_arena(state);
     FrameImage frame = make_frame(5, 20, (ExrWindow){0, 0, 5, 20}, &arena), back;
@@ -237,7 +237,7 @@ static void an_attribute_larger_than_the_file_is_refused(void **state)
     assert_string_equal(err.file, "large.exr");
 }
 
-static void survives_flipped_bits(void **state)
+TEST(survives_flipped_bits)
 {
     Arena      arena = test_arena(state);
     FrameImage frame = make_frame(5, 20, (ExrWindow){0, 0, 5, 20}, &arena), back;
@@ -259,7 +259,7 @@ static void survives_flipped_bits(void **state)
 }
 
 /* The corpus of the library's own makers: files found by fuzzing. */
-static void damaged_files_are_read_or_refused(void **state)
+TEST(damaged_files_are_read_or_refused)
 {
     (void)state;
     char name[200], path[600];
@@ -286,7 +286,7 @@ static void damaged_files_are_read_or_refused(void **state)
     assert_true(total > 50 && refused > total / 2);
 }
 
-static void what_cannot_be_shown_flat_is_refused(void **state)
+TEST(what_cannot_be_shown_flat_is_refused)
 {
     Arena      arena = test_arena(state);
     FrameImage frame;
@@ -302,7 +302,7 @@ static void what_cannot_be_shown_flat_is_refused(void **state)
 }
 
 /* The sampling of channel G in the header becomes 2 x 2, as in luminance-chroma coding. */
-static void coarse_channels_are_refused(void **state)
+TEST(coarse_channels_are_refused)
 {
     Arena      arena = test_arena(state);
     FrameImage frame = make_frame(8, 4, (ExrWindow){0, 0, 8, 4}, &arena), back;
@@ -319,7 +319,7 @@ static void coarse_channels_are_refused(void **state)
     assert_error_has(&err, "channel G is sampled every 2 x 2 pixels");
 }
 
-static void a_file_larger_than_the_arena_is_refused(void **state)
+TEST(a_file_larger_than_the_arena_is_refused)
 {
     Arena      arena = test_arena(state), small = arena_reserve(1 << 21);
     FrameImage frame = make_frame(300, 300, (ExrWindow){0, 0, 300, 300}, &arena), back;
@@ -333,22 +333,5 @@ static void a_file_larger_than_the_arena_is_refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_bit_comes_back),
-        cmocka_unit_test(a_crop_keeps_its_place),
-        cmocka_unit_test(attributes_come_back),
-        cmocka_unit_test(layers_are_found_by_name),
-        cmocka_unit_test(the_same_frame_makes_the_same_bytes),
-        cmocka_unit_test(a_full_disk_leaves_nothing),
-        cmocka_unit_test(a_device_that_is_full_says_so),
-        cmocka_unit_test(a_missing_folder_and_a_bad_window_are_told),
-        cmocka_unit_test(refuses_every_prefix),
-        cmocka_unit_test(an_attribute_larger_than_the_file_is_refused),
-        cmocka_unit_test(survives_flipped_bits),
-        cmocka_unit_test(damaged_files_are_read_or_refused),
-        cmocka_unit_test(what_cannot_be_shown_flat_is_refused),
-        cmocka_unit_test(coarse_channels_are_refused),
-        cmocka_unit_test(a_file_larger_than_the_arena_is_refused),
-    };
-    return cmocka_run_group_tests(tests, make_folder, clear_folder);
+    return run_cases(make_folder, clear_folder);
 }

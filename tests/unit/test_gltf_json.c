@@ -12,7 +12,7 @@ static const GltfValue *parse(const char *text)
     return root;
 }
 
-static void values_keep_their_kind_and_order(void **state)
+TEST(values_keep_their_kind_and_order)
 {
     (void)state;
     const GltfValue *root = parse(
@@ -33,7 +33,7 @@ static void values_keep_their_kind_and_order(void **state)
     assert_null(z->items[0].key);
 }
 
-static void values_know_their_place(void **state)
+TEST(values_know_their_place)
 {
     (void)state;
     char pointer[64];
@@ -47,7 +47,7 @@ static void values_know_their_place(void **state)
     assert_string_equal(pointer, "/a~1");
 }
 
-static void readers_take_the_default_for_what_is_not_there(void **state)
+TEST(readers_take_the_default_for_what_is_not_there)
 {
     (void)state;
     float numbers[2] = {7, 8};
@@ -81,14 +81,14 @@ static bool parses_depth(int depth)
     return done;
 }
 
-static void nesting_has_a_limit(void **state)
+TEST(nesting_has_a_limit)
 {
     (void)state;
     assert_true(parses_depth(GLTF_MAX_DEPTH));
     assert_false(parses_depth(GLTF_MAX_DEPTH + 1));
 }
 
-static void faults_name_line_and_column(void **state)
+TEST(faults_name_line_and_column)
 {
     (void)state;
     Error err;
@@ -110,7 +110,7 @@ static GltfData data_of(const char *text)
     return data;
 }
 
-static void accessors_come_as_plain_arrays(void **state)
+TEST(accessors_come_as_plain_arrays)
 {
     (void)state;
     GltfData data =
@@ -140,7 +140,7 @@ static void accessors_come_as_plain_arrays(void **state)
     assert_int_equal(data.accessor_count, 0);
 }
 
-static void what_tinygltf_refuses_comes_back_as_an_error(void **state)
+TEST(what_tinygltf_refuses_comes_back_as_an_error)
 {
     (void)state;
     Error err;
@@ -156,14 +156,5 @@ static void what_tinygltf_refuses_comes_back_as_an_error(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(values_keep_their_kind_and_order),
-        cmocka_unit_test(values_know_their_place),
-        cmocka_unit_test(readers_take_the_default_for_what_is_not_there),
-        cmocka_unit_test(nesting_has_a_limit),
-        cmocka_unit_test(faults_name_line_and_column),
-        cmocka_unit_test(accessors_come_as_plain_arrays),
-        cmocka_unit_test(what_tinygltf_refuses_comes_back_as_an_error),
-    };
-    return cmocka_run_group_tests_name("gltf_json", tests, make_arena, drop_arena);
+    return run_cases(make_arena, drop_arena);
 }

@@ -5,7 +5,7 @@
 #include "hemisphere/wavelet1d.h"
 /* ---- geodesic ---------------------------------------------------------------------------- */
 
-static void a_level_has_4_to_the_level_plus_1_triangles(void **state)
+HEMISPHERE_TEST(a_level_has_4_to_the_level_plus_1_triangles)
 {
     Fixture *f = *state;
     for (int level = 0; level <= 6; level++) {
@@ -22,7 +22,7 @@ static void a_level_has_4_to_the_level_plus_1_triangles(void **state)
     }
 }
 
-static void areas_of_a_level_sum_to_the_hemisphere(void **state)
+HEMISPHERE_TEST(areas_of_a_level_sum_to_the_hemisphere)
 {
     Fixture *f = *state;
     for (int level = 0; level <= 8; level++) {
@@ -35,7 +35,7 @@ static void areas_of_a_level_sum_to_the_hemisphere(void **state)
     }
 }
 
-static void children_cover_their_father_exactly(void **state)
+HEMISPHERE_TEST(children_cover_their_father_exactly)
 {
     (void)state;
     for (int level = 0; level < 6; level++)
@@ -46,7 +46,7 @@ static void children_cover_their_father_exactly(void **state)
         }
 }
 
-static void tables_agree_with_geometry(void **state)
+HEMISPHERE_TEST(tables_agree_with_geometry)
 {
     Fixture *f = *state;
     for (int level = 0; level < LEVEL; level++)
@@ -65,7 +65,7 @@ static void tables_agree_with_geometry(void **state)
         }
 }
 
-static void the_leaf_of_a_leafs_centre_is_that_leaf(void **state)
+HEMISPHERE_TEST(the_leaf_of_a_leafs_centre_is_that_leaf)
 {
     Fixture *f = *state;
     for (int level = 0; level <= LEVEL; level++)
@@ -76,7 +76,7 @@ static void the_leaf_of_a_leafs_centre_is_that_leaf(void **state)
         }
 }
 
-static void a_found_leaf_holds_its_direction(void **state)
+HEMISPHERE_TEST(a_found_leaf_holds_its_direction)
 {
     Fixture *f = *state;
     uint32_t seed = 1;
@@ -99,14 +99,14 @@ static void a_found_leaf_holds_its_direction(void **state)
     }
 }
 
-static void ids_below_half_have_y_of_at_least_0(void **state)
+HEMISPHERE_TEST(ids_below_half_have_y_of_at_least_0)
 {
     (void)state;
     for (uint32_t id = 0; id < geodesic_count(4); id++)
         assert_int_equal(geodesic_center(4, id).y > 0, id < geodesic_count(4) / 2);
 }
 
-static void mirrored_directions_have_mirrored_leaves(void **state)
+HEMISPHERE_TEST(mirrored_directions_have_mirrored_leaves)
 {
     Fixture *f = *state;
     uint32_t seed = 2;
@@ -119,7 +119,7 @@ static void mirrored_directions_have_mirrored_leaves(void **state)
 }
 
 /* Two triangles touch in an edge when they share exactly two corners. */
-static void neighbours_share_an_edge_and_are_neighbours_of_each_other(void **state)
+HEMISPHERE_TEST(neighbours_share_an_edge_and_are_neighbours_of_each_other)
 {
     (void)state;
     const int level = 4;
@@ -142,7 +142,7 @@ static void neighbours_share_an_edge_and_are_neighbours_of_each_other(void **sta
     assert_int_equal(borders, 4 * 3 * (1 << level));
 }
 
-static void sampling_a_triangle_is_uniform_and_inverts(void **state)
+HEMISPHERE_TEST(sampling_a_triangle_is_uniform_and_inverts)
 {
     Fixture *f = *state;
     uint32_t seed = 3;
@@ -179,7 +179,7 @@ static void sampling_a_triangle_is_uniform_and_inverts(void **state)
 /* ---- Haar
  * ------------------------------------------------------------------------------------ */
 
-static void the_haar_transform_inverts_exactly(void **state)
+HEMISPHERE_TEST(the_haar_transform_inverts_exactly)
 {
     Fixture *f = *state;
     for (int octants = 2; octants <= 4; octants += 2)
@@ -198,7 +198,7 @@ static void the_haar_transform_inverts_exactly(void **state)
         }
 }
 
-static void area_weighted_octant_means_are_integral_means(void **state)
+HEMISPHERE_TEST(area_weighted_octant_means_are_integral_means)
 {
     Fixture  *f = *state;
     Arena     scratch = f->arena;
@@ -213,7 +213,7 @@ static void area_weighted_octant_means_are_integral_means(void **state)
     for (uint32_t q = 0; q < 4; q++) assert_close(values[q * octant], sum[q] / (PI / 2), 1e-6);
 }
 
-static void equal_weights_give_plain_means(void **state)
+HEMISPHERE_TEST(equal_weights_give_plain_means)
 {
     Fixture  *f = *state;
     Arena     scratch = f->arena;
@@ -231,7 +231,7 @@ static void equal_weights_give_plain_means(void **state)
 }
 
 /* Dropping one detail changes the square integral by (detail * norm)^2. */
-static void norms_say_what_a_detail_is_worth(void **state)
+HEMISPHERE_TEST(norms_say_what_a_detail_is_worth)
 {
     Fixture *f = *state;
     for (size_t w = 0; w < 2; w++) {
@@ -259,7 +259,7 @@ static void norms_say_what_a_detail_is_worth(void **state)
 
 static const WaveletKind KINDS[] = {WAVELET_HAAR, WAVELET_CDF53, WAVELET_CDF97};
 
-static void one_dimensional_wavelets_invert_at_every_length(void **state)
+HEMISPHERE_TEST(one_dimensional_wavelets_invert_at_every_length)
 {
     (void)state;
     uint32_t seed = 4;
@@ -273,7 +273,7 @@ static void one_dimensional_wavelets_invert_at_every_length(void **state)
         }
 }
 
-static void constants_have_no_details(void **state)
+HEMISPHERE_TEST(constants_have_no_details)
 {
     (void)state;
     for (size_t k = 0; k < 3; k++)
@@ -287,7 +287,7 @@ static void constants_have_no_details(void **state)
 }
 
 /* A change at one end reaches only a few coefficients at the other (the coarse ones). */
-static void finest_details_are_local(void **state)
+HEMISPHERE_TEST(finest_details_are_local)
 {
     (void)state;
     for (size_t k = 0; k < 3; k++)
@@ -303,7 +303,7 @@ static void finest_details_are_local(void **state)
 }
 
 /* Vanishing moments: straight lines for 5/3, cubics for 9/7, away from the ends. */
-static void smooth_rows_have_small_details(void **state)
+HEMISPHERE_TEST(smooth_rows_have_small_details)
 {
     (void)state;
     float line[64], cubic[64];
@@ -318,7 +318,7 @@ static void smooth_rows_have_small_details(void **state)
     for (int i = 35; i < 61; i++) assert_near(cubic[i], 0, 1e-6);
 }
 
-static void wavelet_norms_are_positive_and_haars_are_known(void **state)
+HEMISPHERE_TEST(wavelet_norms_are_positive_and_haars_are_known)
 {
     (void)state;
     float norms[8];
@@ -335,7 +335,7 @@ static void wavelet_norms_are_positive_and_haars_are_known(void **state)
 
 static const float EXPONENTS[] = {1, 2, 1.5f};
 
-static void the_specular_frame_round_trips(void **state)
+HEMISPHERE_TEST(the_specular_frame_round_trips)
 {
     (void)state;
     uint32_t seed = 10;
@@ -353,7 +353,7 @@ static void the_specular_frame_round_trips(void **state)
         }
 }
 
-static void the_horizon_stays_the_horizon_and_the_peak_is_the_pole(void **state)
+HEMISPHERE_TEST(the_horizon_stays_the_horizon_and_the_peak_is_the_pole)
 {
     (void)state;
     for (int k = 0; k < 3; k++)
@@ -374,7 +374,7 @@ static void the_horizon_stays_the_horizon_and_the_peak_is_the_pole(void **state)
 }
 
 /* J is the area of the image of a small stored square over that of the square. */
-static void the_jacobian_agrees_with_differences(void **state)
+HEMISPHERE_TEST(the_jacobian_agrees_with_differences)
 {
     (void)state;
     uint32_t seed = 11;
@@ -394,7 +394,7 @@ static void the_jacobian_agrees_with_differences(void **state)
     }
 }
 
-static void both_at_once_agrees_with_one_by_one(void **state)
+HEMISPHERE_TEST(both_at_once_agrees_with_one_by_one)
 {
     (void)state;
     uint32_t seed = 19;
@@ -410,7 +410,7 @@ static void both_at_once_agrees_with_one_by_one(void **state)
 }
 
 /* The integral of J over the stored hemisphere is the outer hemisphere. */
-static void the_jacobian_integrates_to_the_hemisphere(void **state)
+HEMISPHERE_TEST(the_jacobian_integrates_to_the_hemisphere)
 {
     Fixture *f = *state;
     for (int k = 0; k < 3; k++)
@@ -428,31 +428,5 @@ static void the_jacobian_integrates_to_the_hemisphere(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        CASE(a_level_has_4_to_the_level_plus_1_triangles),
-        CASE(areas_of_a_level_sum_to_the_hemisphere),
-        CASE(children_cover_their_father_exactly),
-        CASE(tables_agree_with_geometry),
-        CASE(the_leaf_of_a_leafs_centre_is_that_leaf),
-        CASE(a_found_leaf_holds_its_direction),
-        CASE(ids_below_half_have_y_of_at_least_0),
-        CASE(mirrored_directions_have_mirrored_leaves),
-        CASE(neighbours_share_an_edge_and_are_neighbours_of_each_other),
-        CASE(sampling_a_triangle_is_uniform_and_inverts),
-        CASE(the_haar_transform_inverts_exactly),
-        CASE(area_weighted_octant_means_are_integral_means),
-        CASE(equal_weights_give_plain_means),
-        CASE(norms_say_what_a_detail_is_worth),
-        CASE(one_dimensional_wavelets_invert_at_every_length),
-        CASE(constants_have_no_details),
-        CASE(finest_details_are_local),
-        CASE(smooth_rows_have_small_details),
-        CASE(wavelet_norms_are_positive_and_haars_are_known),
-        CASE(the_specular_frame_round_trips),
-        CASE(the_horizon_stays_the_horizon_and_the_peak_is_the_pole),
-        CASE(the_jacobian_agrees_with_differences),
-        CASE(both_at_once_agrees_with_one_by_one),
-        CASE(the_jacobian_integrates_to_the_hemisphere),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

@@ -32,7 +32,7 @@ static void try_tree(const Fixture *f, const char *blob, size_t size, int *opene
     free(copy);
 }
 
-static void mutated_trees_are_refused_or_harmless(void **state)
+HEMISPHERE_TEST(mutated_trees_are_refused_or_harmless)
 {
     Fixture *f = *state;
     f->geodesic = geodesic_create(3, &f->arena); /* not a level more than the tree's */
@@ -63,7 +63,7 @@ static void mutated_trees_are_refused_or_harmless(void **state)
 }
 
 /* A header with fewer levels than the nodes have, and one with fewer rows. */
-static void trees_deeper_than_their_header_are_refused(void **state)
+HEMISPHERE_TEST(trees_deeper_than_their_header_are_refused)
 {
     Fixture    *f = *state;
     HaarShape   shape = {3, 4, 1, HAAR_AREA};
@@ -90,7 +90,7 @@ static void trees_deeper_than_their_header_are_refused(void **state)
     assert_non_null(strstr(err.text, "row count is"));
 }
 
-static void a_bad_header_is_named(void **state)
+HEMISPHERE_TEST(a_bad_header_is_named)
 {
     Fixture    *f = *state;
     HaarShape   shape = {3, 4, 1, HAAR_AREA};
@@ -120,10 +120,5 @@ static void a_bad_header_is_named(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        CASE(mutated_trees_are_refused_or_harmless),
-        CASE(trees_deeper_than_their_header_are_refused),
-        CASE(a_bad_header_is_named),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

@@ -25,7 +25,7 @@ static VertexSamples smooth_samples(int count, float lowest, Arena *arena)
     return (VertexSamples){count, 2, d, value, NULL};
 }
 
-static void fits_recover_smooth_functions(void **state)
+HEMISPHERE_TEST(fits_recover_smooth_functions)
 {
     Fixture      *f = *state;
     VertexLattice l = {5, 4};
@@ -41,7 +41,7 @@ static void fits_recover_smooth_functions(void **state)
 }
 
 /* No samples below 53 degrees: the values go on smoothly and stay in sight. */
-static void fits_stay_smooth_in_gaps(void **state)
+HEMISPHERE_TEST(fits_stay_smooth_in_gaps)
 {
     Fixture      *f = *state;
     VertexLattice l = {5, 4};
@@ -57,7 +57,7 @@ static void fits_stay_smooth_in_gaps(void **state)
             if ((x | y) & 1) assert_near(values[2 * vertex_index(l, x, y)], 0, 0.01);
 }
 
-static void fits_of_constants_are_constant(void **state)
+HEMISPHERE_TEST(fits_of_constants_are_constant)
 {
     Fixture      *f = *state;
     VertexLattice l = {4, 2};
@@ -72,7 +72,7 @@ static void fits_of_constants_are_constant(void **state)
 }
 
 /* Weights of 0 hide samples; mirrored samples of half lattices are one. */
-static void fits_weigh_and_mirror(void **state)
+HEMISPHERE_TEST(fits_weigh_and_mirror)
 {
     Fixture      *f = *state;
     VertexLattice l = {3, 2};
@@ -85,7 +85,7 @@ static void fits_weigh_and_mirror(void **state)
     for (uint32_t i = 0; i < vertex_count(l); i++) assert_near(values[i], 2, 1e-3);
 }
 
-static void fits_refuse_what_is_no_number(void **state)
+HEMISPHERE_TEST(fits_refuse_what_is_no_number)
 {
     Fixture      *f = *state;
     VertexLattice l = {2, 4};
@@ -107,12 +107,5 @@ static void fits_refuse_what_is_no_number(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        CASE(fits_recover_smooth_functions),
-        CASE(fits_stay_smooth_in_gaps),
-        CASE(fits_of_constants_are_constant),
-        CASE(fits_weigh_and_mirror),
-        CASE(fits_refuse_what_is_no_number),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

@@ -40,7 +40,7 @@ static SamplingMix mix_of(int functions)
     return (SamplingMix){4, {2, 0, 1, 2}, {0.5f, 0, 0.375f, 0.125f}};
 }
 
-static void the_pdf_integrates_to_1(void **state)
+HEMISPHERE_TEST(the_pdf_integrates_to_1)
 {
     Fixture *f = *state;
     for (int variant = 0; variant < 12; variant++) {
@@ -65,7 +65,7 @@ static SamplingResult draw(const SamplingTree *tree, const SamplingMix *mix, uin
     return sampling_tree_sample(tree, mix, u);
 }
 
-static void samples_follow_the_pdf(void **state)
+HEMISPHERE_TEST(samples_follow_the_pdf)
 {
     Fixture  *f = *state;
     uint32_t  seed = 12;
@@ -105,7 +105,7 @@ static void samples_follow_the_pdf(void **state)
     }
 }
 
-static void the_density_is_positive_where_the_function_is(void **state)
+HEMISPHERE_TEST(the_density_is_positive_where_the_function_is)
 {
     Fixture        *f = *state;
     uint32_t        seed = 13;
@@ -127,7 +127,7 @@ static void the_density_is_positive_where_the_function_is(void **state)
 
 /* Numbers at the ends of their range put directions on the cells' edges, where rounding could
  * find the neighbour, whose density may be 0. */
-static void samples_on_edges_keep_a_density(void **state)
+HEMISPHERE_TEST(samples_on_edges_keep_a_density)
 {
     Fixture        *f = *state;
     SamplingMix     only = sampling_only(0);
@@ -143,7 +143,7 @@ static void samples_on_edges_keep_a_density(void **state)
 }
 
 /* Importance sampling beats cosine sampling by far on a narrow peak. */
-static void weights_of_importance_samples_vary_little(void **state)
+HEMISPHERE_TEST(weights_of_importance_samples_vary_little)
 {
     Fixture        *f = *state;
     uint32_t        seed = 14;
@@ -169,7 +169,7 @@ static void weights_of_importance_samples_vary_little(void **state)
 }
 
 /* As few cells as a variance asks for, and the variance is what is then measured. */
-static void cells_are_spent_until_the_variance_is_reached(void **state)
+HEMISPHERE_TEST(cells_are_spent_until_the_variance_is_reached)
 {
     Fixture     *f = *state;
     uint32_t     last = 0;
@@ -199,7 +199,7 @@ static void cells_are_spent_until_the_variance_is_reached(void **state)
 }
 
 /* Functions that are alike cost little more than one of them. */
-static void functions_that_are_alike_take_few_bytes(void **state)
+HEMISPHERE_TEST(functions_that_are_alike_take_few_bytes)
 {
     Fixture        *f = *state;
     const void     *one, *four;
@@ -251,7 +251,7 @@ static const void *small_blob(Fixture *f, Arena *arena, size_t *size)
     return blob;
 }
 
-static void mutated_sampling_trees_are_refused_or_harmless(void **state)
+HEMISPHERE_TEST(mutated_sampling_trees_are_refused_or_harmless)
 {
     Fixture    *f = *state;
     uint32_t    seed = 16;
@@ -278,7 +278,7 @@ static void assert_refused(const Fixture *f, const void *blob, size_t size, cons
     if (!strstr(err.text, text)) fail_msg("%s, wanted %s", err.text, text);
 }
 
-static void what_does_not_fit_the_header_is_named(void **state)
+HEMISPHERE_TEST(what_does_not_fit_the_header_is_named)
 {
     Fixture        *f = *state;
     size_t          size;
@@ -303,7 +303,7 @@ static void what_does_not_fit_the_header_is_named(void **state)
     assert_refused(f, blob, size - 1, "number of bytes");
 }
 
-static void functions_that_cannot_be_sampled_are_named(void **state)
+HEMISPHERE_TEST(functions_that_cannot_be_sampled_are_named)
 {
     Fixture        *f = *state;
     float           integrals[16] = {0};
@@ -326,17 +326,5 @@ static void functions_that_cannot_be_sampled_are_named(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        CASE(the_pdf_integrates_to_1),
-        CASE(samples_follow_the_pdf),
-        CASE(the_density_is_positive_where_the_function_is),
-        CASE(samples_on_edges_keep_a_density),
-        CASE(weights_of_importance_samples_vary_little),
-        CASE(mutated_sampling_trees_are_refused_or_harmless),
-        CASE(what_does_not_fit_the_header_is_named),
-        CASE(cells_are_spent_until_the_variance_is_reached),
-        CASE(functions_that_are_alike_take_few_bytes),
-        CASE(functions_that_cannot_be_sampled_are_named),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

@@ -4,7 +4,7 @@
 #include "hemisphere/tree_query.h"
 /* ---- compressed trees -------------------------------------------------------------------- */
 
-static void a_query_equals_the_inverted_tree_at_every_leaf(void **state)
+HEMISPHERE_TEST(a_query_equals_the_inverted_tree_at_every_leaf)
 {
     Fixture *f = *state;
     for (int variant = 0; variant < 8; variant++) {
@@ -37,7 +37,7 @@ static void a_query_equals_the_inverted_tree_at_every_leaf(void **state)
     }
 }
 
-static void a_tree_with_everything_kept_is_its_source(void **state)
+HEMISPHERE_TEST(a_tree_with_everything_kept_is_its_source)
 {
     Fixture    *f = *state;
     HaarShape   shape = {5, 4, 3, HAAR_AREA};
@@ -54,7 +54,7 @@ static void a_tree_with_everything_kept_is_its_source(void **state)
 }
 
 /* With everything kept, 16 bits are the only error; it is reported, and small. */
-static void quantisation_is_part_of_the_report(void **state)
+HEMISPHERE_TEST(quantisation_is_part_of_the_report)
 {
     Fixture    *f = *state;
     HaarShape   shape = {5, 4, 1, HAAR_AREA};
@@ -99,13 +99,13 @@ static void check_8_bits(Fixture *f, TreeRowFormat rows)
     }
 }
 
-static void fine_details_take_8_bits(void **state)
+HEMISPHERE_TEST(fine_details_take_8_bits)
 {
     check_8_bits(*state, TREE_ROWS_INT16);
     check_8_bits(*state, TREE_ROWS_BLOCKS);
 }
 
-static void blocks_of_components_are_kept_by_themselves(void **state)
+HEMISPHERE_TEST(blocks_of_components_are_kept_by_themselves)
 {
     Fixture    *f = *state;
     HaarShape   shape = {6, 2, 19, HAAR_AREA};
@@ -135,7 +135,7 @@ static void blocks_of_components_are_kept_by_themselves(void **state)
     }
 }
 
-static void a_share_of_blocks_is_a_share(void **state)
+HEMISPHERE_TEST(a_share_of_blocks_is_a_share)
 {
     Fixture    *f = *state;
     HaarShape   shape = {5, 4, 19, HAAR_EQUAL};
@@ -178,7 +178,7 @@ static Detail *sorted_details(const float *coefficients, const float *norms, uin
 /* The error is what dropping the smallest normalised details gives. Families of three details
  * are orthogonal to each other; inside one, the square error is sum a_i d_i^2 +
  * (sum a_i d_i)^2 / a_0, at most three times the sum of squares of normalised details. */
-static void thresholding_keeps_the_l2_bound(void **state)
+HEMISPHERE_TEST(thresholding_keeps_the_l2_bound)
 {
     Fixture  *f = *state;
     HaarShape shape = {6, 4, 1, HAAR_AREA};
@@ -214,7 +214,7 @@ static void thresholding_keeps_the_l2_bound(void **state)
 }
 
 /* Pruning whole triangles first needs fewer rows than a share with the same largest error. */
-static void an_error_bound_costs_fewer_rows_than_significance_alone(void **state)
+HEMISPHERE_TEST(an_error_bound_costs_fewer_rows_than_significance_alone)
 {
     Fixture    *f = *state;
     HaarShape   shape = {6, 4, 3, HAAR_AREA};
@@ -228,7 +228,7 @@ static void an_error_bound_costs_fewer_rows_than_significance_alone(void **state
     assert_true(by_share.max_error > 2.2f);
 }
 
-static void an_error_bound_holds_at_every_leaf(void **state)
+HEMISPHERE_TEST(an_error_bound_holds_at_every_leaf)
 {
     Fixture *f = *state;
     for (int rows = 0; rows < 2; rows++) {
@@ -252,7 +252,7 @@ static void an_error_bound_holds_at_every_leaf(void **state)
     }
 }
 
-static void an_unreachable_bound_is_refused_in_words(void **state)
+HEMISPHERE_TEST(an_unreachable_bound_is_refused_in_words)
 {
     Fixture    *f = *state;
     Arena       scratch = f->arena;
@@ -281,7 +281,7 @@ static void an_unreachable_bound_is_refused_in_words(void **state)
 }
 
 /* Every mean of the tree is the exact mean of its leaves. */
-static void a_mean_at_any_level_is_the_mean_of_its_leaves(void **state)
+HEMISPHERE_TEST(a_mean_at_any_level_is_the_mean_of_its_leaves)
 {
     Fixture    *f = *state;
     HaarShape   shape = {6, 4, 1, HAAR_AREA};
@@ -352,7 +352,7 @@ static void check_interpolation(Fixture *f, int level, int directions)
     }
 }
 
-static void interpolation_follows_its_definition(void **state)
+HEMISPHERE_TEST(interpolation_follows_its_definition)
 {
     for (int level = 0; level < 3; level++) check_interpolation(*state, level, 100);
     check_interpolation(*state, 3, 400);
@@ -360,7 +360,7 @@ static void interpolation_follows_its_definition(void **state)
 
 /* Where a tree ends early, the answer must not depend on the short ways that are then taken:
  * the same values, with every detail stored. */
-static void a_small_tree_interpolates_like_its_expansion(void **state)
+HEMISPHERE_TEST(a_small_tree_interpolates_like_its_expansion)
 {
     Fixture    *f = *state;
     HaarShape   shape = {5, 4, 1, HAAR_AREA};
@@ -382,7 +382,7 @@ static void a_small_tree_interpolates_like_its_expansion(void **state)
 }
 
 /* A tree of 2 octants is the tree of 4 of the function mirrored at y = 0. */
-static void half_trees_equal_whole_trees_of_symmetric_functions(void **state)
+HEMISPHERE_TEST(half_trees_equal_whole_trees_of_symmetric_functions)
 {
     Fixture    *f = *state;
     HaarShape   half = {5, 2, 1, HAAR_AREA}, whole = {5, 4, 1, HAAR_AREA};
@@ -406,7 +406,7 @@ static void half_trees_equal_whole_trees_of_symmetric_functions(void **state)
     }
 }
 
-static void interpolation_keeps_centres_and_constants(void **state)
+HEMISPHERE_TEST(interpolation_keeps_centres_and_constants)
 {
     Fixture    *f = *state;
     HaarShape   shape = {6, 4, 3, HAAR_AREA};
@@ -440,7 +440,7 @@ static Vec3 on_half_circle(int line, float turns)
 }
 
 /* Steps of 4e-5 radian across many edges never jump; the piecewise constant value does. */
-static void interpolation_is_continuous(void **state)
+HEMISPHERE_TEST(interpolation_is_continuous)
 {
     Fixture    *f = *state;
     HaarShape   shape = {6, 4, 1, HAAR_AREA};
@@ -468,23 +468,5 @@ static void interpolation_is_continuous(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        CASE(a_query_equals_the_inverted_tree_at_every_leaf),
-        CASE(a_tree_with_everything_kept_is_its_source),
-        CASE(quantisation_is_part_of_the_report),
-        CASE(fine_details_take_8_bits),
-        CASE(blocks_of_components_are_kept_by_themselves),
-        CASE(a_share_of_blocks_is_a_share),
-        CASE(thresholding_keeps_the_l2_bound),
-        CASE(an_error_bound_costs_fewer_rows_than_significance_alone),
-        CASE(an_error_bound_holds_at_every_leaf),
-        CASE(an_unreachable_bound_is_refused_in_words),
-        CASE(a_mean_at_any_level_is_the_mean_of_its_leaves),
-        CASE(interpolation_follows_its_definition),
-        CASE(a_small_tree_interpolates_like_its_expansion),
-        CASE(half_trees_equal_whole_trees_of_symmetric_functions),
-        CASE(interpolation_keeps_centres_and_constants),
-        CASE(interpolation_is_continuous),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

@@ -10,7 +10,7 @@ static const VertexLattice LATTICES[] = {{0, 4}, {1, 2}, {3, 4}, {4, 2}, {6, 4},
 
 /* ---- the lattice ------------------------------------------------------------------------- */
 
-static void indices_are_one_to_one_with_directions(void **state)
+HEMISPHERE_TEST(indices_are_one_to_one_with_directions)
 {
     Fixture *f = *state;
     for (int i = 0; i < LATTICE_COUNT; i++) {
@@ -34,7 +34,7 @@ static void indices_are_one_to_one_with_directions(void **state)
     }
 }
 
-static void mirrored_points_are_one_vertex(void **state)
+HEMISPHERE_TEST(mirrored_points_are_one_vertex)
 {
     (void)state;
     VertexLattice l = {5, 2};
@@ -44,7 +44,7 @@ static void mirrored_points_are_one_vertex(void **state)
 }
 
 /* Corners of geodesic triangles, from whichever triangle or octant, are lattice points. */
-static void corners_of_triangles_are_lattice_points(void **state)
+HEMISPHERE_TEST(corners_of_triangles_are_lattice_points)
 {
     Fixture *f = *state;
     for (int level = 0; level <= 6; level++)
@@ -63,7 +63,7 @@ static void corners_of_triangles_are_lattice_points(void **state)
 
 /* sum of weight * vertex points at the direction: the weights are those of the triangle's
  * plane. */
-static void weights_are_barycentric(void **state)
+HEMISPHERE_TEST(weights_are_barycentric)
 {
     Fixture *f = *state;
     for (int i = 0; i < LATTICE_COUNT; i++) {
@@ -87,7 +87,7 @@ static void weights_are_barycentric(void **state)
     }
 }
 
-static void details_and_values_are_inverse(void **state)
+HEMISPHERE_TEST(details_and_values_are_inverse)
 {
     Fixture *f = *state;
     for (int i = 0; i < LATTICE_COUNT; i++) {
@@ -104,7 +104,7 @@ static void details_and_values_are_inverse(void **state)
 }
 
 /* <values of h, x> = <h, gather x> */
-static void gathering_is_the_transpose(void **state)
+HEMISPHERE_TEST(gathering_is_the_transpose)
 {
     Fixture      *f = *state;
     VertexLattice l = {5, 2};
@@ -220,7 +220,7 @@ static uint32_t stored_in(const Tree *tree)
     return sum;
 }
 
-static void every_vertex_keeps_its_bound(void **state)
+HEMISPHERE_TEST(every_vertex_keeps_its_bound)
 {
     Fixture *f = *state;
     for (int i = 0; i < EXAMPLE_COUNT; i++) {
@@ -241,7 +241,7 @@ static void every_vertex_keeps_its_bound(void **state)
 }
 
 /* Queries are the barycentric interpolation of the vertices' values, never outside them. */
-static void queries_interpolate_the_vertices(void **state)
+HEMISPHERE_TEST(queries_interpolate_the_vertices)
 {
     Fixture *f = *state;
     for (int i = 0; i < EXAMPLE_COUNT; i++) {
@@ -281,7 +281,7 @@ static void assert_small_step(const Tree *tree, Vec3 d, Vec3 step, float slope)
 }
 
 /* Everywhere, across octants, and where the tree's depth changes. */
-static void trees_are_continuous(void **state)
+HEMISPHERE_TEST(trees_are_continuous)
 {
     Fixture *f = *state;
     for (int i = 0; i < EXAMPLE_COUNT; i++) {
@@ -313,7 +313,7 @@ static void trees_are_continuous(void **state)
     }
 }
 
-static void half_trees_are_mirror_symmetric(void **state)
+HEMISPHERE_TEST(half_trees_are_mirror_symmetric)
 {
     Fixture      *f = *state;
     const Example e = {{5, 2}, 5, PEAKED, 0.01f};
@@ -330,7 +330,7 @@ static void half_trees_are_mirror_symmetric(void **state)
     }
 }
 
-static void ranges_of_components_are_parts_of_the_whole(void **state)
+HEMISPHERE_TEST(ranges_of_components_are_parts_of_the_whole)
 {
     Fixture      *f = *state;
     const Example e = {{4, 4}, 40, NOISE, 0.02f};
@@ -351,7 +351,7 @@ static void ranges_of_components_are_parts_of_the_whole(void **state)
 }
 
 /* Coarser levels interpolate between coarser vertices; the finest level is the value. */
-static void levels_of_detail_end_in_the_value(void **state)
+HEMISPHERE_TEST(levels_of_detail_end_in_the_value)
 {
     Fixture      *f = *state;
     const Example e = {{6, 4}, 3, PEAKED, 0.002f};
@@ -378,7 +378,7 @@ static void levels_of_detail_end_in_the_value(void **state)
     assert_memory_equal(leaves + 3 * 4711, value, sizeof value);
 }
 
-static void odd_directions_are_answered(void **state)
+HEMISPHERE_TEST(odd_directions_are_answered)
 {
     Fixture   *f = *state;
     const Vec3 odd[] = {{0, 0, 0}, {0, 0, -1}, {1, 0, 0}, {0, -1, 0}, {0.5f, 0.5f, -0.7f},
@@ -398,7 +398,7 @@ static void odd_directions_are_answered(void **state)
 }
 
 /* Storing vertices pays: few of them, in few bytes. */
-static void smooth_functions_take_few_bytes(void **state)
+HEMISPHERE_TEST(smooth_functions_take_few_bytes)
 {
     Fixture      *f = *state;
     const Example e = {{7, 4}, 4, SMOOTH, 0.01f};
@@ -431,7 +431,7 @@ static void assert_refused(const VertexTreeOptions *options, const float *values
     assert_ptr_equal(blob, arena);
 }
 
-static void what_cannot_be_stored_is_refused(void **state)
+HEMISPHERE_TEST(what_cannot_be_stored_is_refused)
 {
     Fixture          *f = *state;
     VertexLattice     l = {3, 4};
@@ -481,7 +481,7 @@ static const void *example_blob(Fixture *f, const Example *e)
     return blob;
 }
 
-static void every_prefix_is_refused(void **state)
+HEMISPHERE_TEST(every_prefix_is_refused)
 {
     Fixture *f = *state;
     for (size_t i = 0; i < sizeof BLOBS / sizeof *BLOBS; i++) {
@@ -496,7 +496,7 @@ static void every_prefix_is_refused(void **state)
     }
 }
 
-static void mutated_blobs_are_refused_or_harmless(void **state)
+HEMISPHERE_TEST(mutated_blobs_are_refused_or_harmless)
 {
     Fixture *f = *state;
     uint32_t seed = 2024, opened = 0;
@@ -523,7 +523,7 @@ static void mutated_blobs_are_refused_or_harmless(void **state)
     assert_true(opened < 20000);
 }
 
-static void a_bad_header_is_named(void **state)
+HEMISPHERE_TEST(a_bad_header_is_named)
 {
     Fixture    *f = *state;
     const void *blob = example_blob(f, &BLOBS[0]);
@@ -549,25 +549,5 @@ static void a_bad_header_is_named(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        CASE(indices_are_one_to_one_with_directions),
-        CASE(mirrored_points_are_one_vertex),
-        CASE(corners_of_triangles_are_lattice_points),
-        CASE(weights_are_barycentric),
-        CASE(details_and_values_are_inverse),
-        CASE(gathering_is_the_transpose),
-        CASE(every_vertex_keeps_its_bound),
-        CASE(queries_interpolate_the_vertices),
-        CASE(trees_are_continuous),
-        CASE(half_trees_are_mirror_symmetric),
-        CASE(ranges_of_components_are_parts_of_the_whole),
-        CASE(levels_of_detail_end_in_the_value),
-        CASE(odd_directions_are_answered),
-        CASE(smooth_functions_take_few_bytes),
-        CASE(what_cannot_be_stored_is_refused),
-        CASE(every_prefix_is_refused),
-        CASE(mutated_blobs_are_refused_or_harmless),
-        CASE(a_bad_header_is_named),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

@@ -116,7 +116,7 @@ static const char *identity_of(Subject *s, Arena *arena)
     return render_identity(&s->request, &s->scene, &s->camera, &s->kernel, arena);
 }
 
-static void what_decides_a_sample_is_in_it_and_nothing_else(void **state)
+TEST(what_decides_a_sample_is_in_it_and_nothing_else)
 {
     Arena  *arena = *state;
     Subject one;
@@ -139,7 +139,7 @@ static void what_decides_a_sample_is_in_it_and_nothing_else(void **state)
     }
 }
 
-static void a_name_cannot_begin_a_line(void **state)
+TEST(a_name_cannot_begin_a_line)
 {
     Arena  *arena = *state;
     Subject one;
@@ -150,7 +150,7 @@ static void a_name_cannot_begin_a_line(void **state)
 
 /* ---- comparing --------------------------------------------------------------------------- */
 
-static void the_first_line_that_differs_is_named(void **state)
+TEST(the_first_line_that_differs_is_named)
 {
     static const struct {
         const char *there, *here, *text;
@@ -180,7 +180,7 @@ static void the_first_line_that_differs_is_named(void **state)
 
 /* ---- a checkpoint of another program ----------------------------------------------------- */
 
-static void another_version_is_refused_by_name(void **state)
+TEST(another_version_is_refused_by_name)
 {
     Arena     *arena = *state;
     Error      err = {0};
@@ -211,11 +211,5 @@ static void another_version_is_refused_by_name(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_decides_a_sample_is_in_it_and_nothing_else),
-        cmocka_unit_test(a_name_cannot_begin_a_line),
-        cmocka_unit_test(the_first_line_that_differs_is_named),
-        cmocka_unit_test(another_version_is_refused_by_name),
-    };
-    return cmocka_run_group_tests_name("identity", tests, make_folder, remove_folder);
+    return run_cases(make_folder, remove_folder);
 }

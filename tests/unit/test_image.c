@@ -103,7 +103,7 @@ static void assert_pixel8(const Image *image, int at, int r, int g, int b, int a
     for (int c = 0; c < 4; c++) assert_int_equal(p[c], want[c]);
 }
 
-static void every_kind_of_png_becomes_rgba(void **state)
+TEST(every_kind_of_png_becomes_rgba)
 {
     Arena arena = test_arena(state);
     const unsigned char grey[] = {0, 7, 200}, bits[] = {0, 0xa0};
@@ -125,7 +125,7 @@ static void every_kind_of_png_becomes_rgba(void **state)
 }
 
 /* A kilobyte of header may not take a gigabyte. */
-static void user_data_larger_than_a_dpx_is_refused(void **state)
+TEST(user_data_larger_than_a_dpx_is_refused)
 {
     Arena arena = test_arena(state);
     Image image;
@@ -140,7 +140,7 @@ static void user_data_larger_than_a_dpx_is_refused(void **state)
     assert_error_has(&err, "damaged dpx picture: cut off in its header");
 }
 
-static void alpha_stays_straight(void **state)
+TEST(alpha_stays_straight)
 {
     Arena arena = test_arena(state);
     unsigned char row[] = {0, 200, 100, 50, 128, 200, 100, 50, 0};
@@ -149,7 +149,7 @@ static void alpha_stays_straight(void **state)
     assert_pixel8(&i, 1, 200, 100, 50, 0);
 }
 
-static void sixteen_bits_stay_sixteen_bits(void **state)
+TEST(sixteen_bits_stay_sixteen_bits)
 {
     Arena arena = test_arena(state);
     unsigned char row[] = {0, 0x12, 0x34, 0xff, 0xfe, 0, 1};
@@ -164,7 +164,7 @@ static void sixteen_bits_stay_sixteen_bits(void **state)
 
 /* ---- what must be refused ------------------------------------------------------------ */
 
-static void a_frame_without_colours_is_no_picture(void **state)
+TEST(a_frame_without_colours_is_no_picture)
 {
     Arena      arena = test_arena(state);
     FrameImage frame = frame_create(2, 2, (ExrWindow){0, 0, 2, 2}, 1, 0, &arena);
@@ -179,7 +179,7 @@ static void a_frame_without_colours_is_no_picture(void **state)
     unlink(path);
 }
 
-static void refuses_a_bomb_before_decoding_it(void **state)
+TEST(refuses_a_bomb_before_decoding_it)
 {
     Arena arena = test_arena(state), before = arena;
     Image image = {.width = -7};
@@ -194,7 +194,7 @@ static void refuses_a_bomb_before_decoding_it(void **state)
     assert_ptr_equal(arena.next, before.next);
 }
 
-static void says_when_memory_is_too_small(void **state)
+TEST(says_when_memory_is_too_small)
 {
     (void)state;
     Arena arena = arena_reserve(1 << 20);
@@ -207,7 +207,7 @@ static void says_when_memory_is_too_small(void **state)
     arena_release(&arena);
 }
 
-static void refuses_every_prefix_of_a_png(void **state)
+TEST(refuses_every_prefix_of_a_png)
 {
     Arena arena = test_arena(state), before = arena;
     unsigned char row[] = {0, 200, 100, 50, 128, 9, 9, 9, 0};
@@ -227,7 +227,7 @@ static void refuses_every_prefix_of_a_png(void **state)
 }
 
 /* Every prefix of what this program writes, and of a Radiance picture. */
-static void refuses_every_prefix_of_other_formats(void **state)
+TEST(refuses_every_prefix_of_other_formats)
 {
     static const char HDR[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n12341234";
     static const char *const FORMATS[] = {"jpeg", "tiff", "hdr"};
@@ -256,7 +256,7 @@ static void refuses_every_prefix_of_other_formats(void **state)
     }
 }
 
-static void names_what_cannot_be_read(void **state)
+TEST(names_what_cannot_be_read)
 {
     Arena arena = test_arena(state);
     Image image;
@@ -273,7 +273,7 @@ static void names_what_cannot_be_read(void **state)
 
 /* ---- other formats ----------------------------------------------------------------------- */
 
-static void reads_radiance_pictures(void **state)
+TEST(reads_radiance_pictures)
 {
     static const char HDR[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n"
                               "\x80\x40\x20\x81\x80\x80\x80\x8b";
@@ -290,7 +290,7 @@ static void reads_radiance_pictures(void **state)
     assert_true(p[3] == 1 && p[7] == 1);
 }
 
-static void what_is_encoded_reads_back(void **state)
+TEST(what_is_encoded_reads_back)
 {
     static const char *const FORMATS[] = {"png", "tiff"};
     Arena arena = test_arena(state);
@@ -318,7 +318,7 @@ static void what_is_encoded_reads_back(void **state)
     }
 }
 
-static void the_same_picture_makes_the_same_bytes(void **state)
+TEST(the_same_picture_makes_the_same_bytes)
 {
     (void)state;
     static const char *const FORMATS[] = {"png", "jpeg", "tiff"};
@@ -350,7 +350,7 @@ static void the_same_picture_makes_the_same_bytes(void **state)
 }
 
 /* Whatever comes of it: no crash, and one line of reasons when it is refused. */
-static void survives_flipped_bits(void **state)
+TEST(survives_flipped_bits)
 {
     static const char *const FORMATS[] = {"png", "jpeg", "tiff"};
     uint8_t  codes[16 * 16 * 3];
@@ -395,7 +395,7 @@ static Image read_shared(const char *name, Arena *arena)
     return image;
 }
 
-static void negative_values_of_environments_are_kept(void **state)
+TEST(negative_values_of_environments_are_kept)
 {
     Arena arena = test_arena(state);
     Image image = read_shared("hdri/blender/interior.exr", &arena);
@@ -406,7 +406,7 @@ static void negative_values_of_environments_are_kept(void **state)
     assert_int_equal(negative, 8980);
 }
 
-static void the_orientation_picture_can_be_read(void **state)
+TEST(the_orientation_picture_can_be_read)
 {
     Arena arena = test_arena(state);
     Image image = read_shared("hdri/openexr-env/OrientationLatLong.exr", &arena);
@@ -416,7 +416,7 @@ static void the_orientation_picture_can_be_read(void **state)
     for (int i = 0; i < 1024 * 512 * 4; i++) assert_true(p[i] >= 0 && p[i] <= 1);
 }
 
-static void a_data_window_is_placed_in_the_display_window(void **state)
+TEST(a_data_window_is_placed_in_the_display_window)
 {
     Arena arena = test_arena(state);
     Image whole = read_shared("exr/DisplayWindow/t01.exr", &arena);
@@ -429,7 +429,7 @@ static void a_data_window_is_placed_in_the_display_window(void **state)
 }
 
 /* The same scene is stored once in Rec.709 and once as XYZ. */
-static void the_primaries_of_a_file_are_honoured(void **state)
+TEST(the_primaries_of_a_file_are_honoured)
 {
     Arena arena = test_arena(state);
     Image a = read_shared("exr/Chromaticities/Rec709.exr", &arena);
@@ -441,25 +441,5 @@ static void the_primaries_of_a_file_are_honoured(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_kind_of_png_becomes_rgba),
-        cmocka_unit_test(user_data_larger_than_a_dpx_is_refused),
-        cmocka_unit_test(alpha_stays_straight),
-        cmocka_unit_test(sixteen_bits_stay_sixteen_bits),
-        cmocka_unit_test(a_frame_without_colours_is_no_picture),
-        cmocka_unit_test(refuses_a_bomb_before_decoding_it),
-        cmocka_unit_test(says_when_memory_is_too_small),
-        cmocka_unit_test(refuses_every_prefix_of_a_png),
-        cmocka_unit_test(refuses_every_prefix_of_other_formats),
-        cmocka_unit_test(names_what_cannot_be_read),
-        cmocka_unit_test(reads_radiance_pictures),
-        cmocka_unit_test(what_is_encoded_reads_back),
-        cmocka_unit_test(the_same_picture_makes_the_same_bytes),
-        cmocka_unit_test(survives_flipped_bits),
-        cmocka_unit_test(negative_values_of_environments_are_kept),
-        cmocka_unit_test(the_orientation_picture_can_be_read),
-        cmocka_unit_test(a_data_window_is_placed_in_the_display_window),
-        cmocka_unit_test(the_primaries_of_a_file_are_honoured),
-    };
-    return cmocka_run_group_tests(tests, make_arena, drop_arena);
+    return run_cases(make_arena, drop_arena);
 }

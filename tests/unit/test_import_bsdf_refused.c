@@ -31,7 +31,7 @@ static void check_refusals(Fixture *f, const Importer *importer, const Refusal *
     "SampleRotation 1\n0\nAngleOfIncidence 1\n30\nScatterAzimuth 1\n0\nScatterRadial 1\n10\n"  \
     "Monochrome\nDataBegin\n"
 
-static void zemax_refusals(void **state)
+FIXTURE_TEST(zemax_refusals)
 {
     static const Refusal rows[] = {
         {"SpectralContent RGB", "line 1: SpectralContent is 'RGB', wanted Monochrome or XYZ"},
@@ -65,7 +65,7 @@ static void zemax_refusals(void **state)
 #define LIGHTTOOLS                                                                             \
     "SpectralContent Monochrome\nScatterAzimuth 1\n0\nScatterRadial 1\n0\nDataBegin\n"
 
-static void lighttools_refusals(void **state)
+FIXTURE_TEST(lighttools_refusals)
 {
     static const Refusal rows[] = {
         {"SpectralContent RGB", "SpectralContent is 'RGB', wanted Monochrome or XYZ"},
@@ -83,7 +83,7 @@ static void lighttools_refusals(void **state)
     CHECK(importer_lighttools, rows);
 }
 
-static void fred_refusals(void **state)
+FIXTURE_TEST(fred_refusals)
 {
     static const Refusal rows[] = {
         {"type bsdf_data\nformat scale=0\n", "line 2: scale is '0', wanted a number above 0"},
@@ -97,7 +97,7 @@ static void fred_refusals(void **state)
     CHECK(importer_fred, rows);
 }
 
-static void mountain_refusals(void **state)
+FIXTURE_TEST(mountain_refusals)
 {
     static const Refusal rows[] = {
         {"#intheta steep\n", "line 1: intheta is ' steep', wanted degrees"},
@@ -119,7 +119,7 @@ static void mountain_refusals(void **state)
     CHECK(importer_mountain, rows);
 }
 
-static void astm_refusals(void **state)
+FIXTURE_TEST(astm_refusals)
 {
     static const Refusal rows[] = {
         {"VARS theta_i,theta_s\n", "VARS names no column of values"},
@@ -140,7 +140,7 @@ static void astm_refusals(void **state)
 #define SSDD_GRID                                                                              \
     SSDD "PARAM_TYPE spherical_coordinate_system\nPARAM0_LIST 0\nPARAM2_LIST 0\nPARAM3_LIST 0\n"
 
-static void ssdd_refusals(void **state)
+FIXTURE_TEST(ssdd_refusals)
 {
     static const Refusal rows[] = {
         {"VERSION 0.2\nDATA_TYPE bssrdf\n", "DATA_TYPE 'bssrdf' is not known here"},
@@ -172,7 +172,7 @@ static void ssdd_refusals(void **state)
 #define SPEOS_ZERO "2 2\n0 180\n0 0 0\n80 0 0\n"
 #define SPEOS_ONE "2 2\n0 180\n0 1 1\n80 1 1\n"
 
-static void speos_refusals(void **state)
+FIXTURE_TEST(speos_refusals)
 {
     static const Refusal rows[] = {
         {"nothing\n", "the first line is 'nothing', wanted OPTIS - ..."},
@@ -207,7 +207,7 @@ static void speos_refusals(void **state)
     low high "</ThetaBounds></AngleBasisBlock></AngleBasis>"
 #define XML_DATA(text) "<ScatteringData>" text "</ScatteringData>"
 
-static void xml_refusals(void **state)
+FIXTURE_TEST(xml_refusals)
 {
     static const Refusal rows[] = {
         {"<Window/>", "the document is not of this kind, wanted WindowElement / Optical"},
@@ -246,11 +246,5 @@ static void xml_refusals(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        fixture_case(zemax_refusals),    fixture_case(lighttools_refusals),
-        fixture_case(fred_refusals),     fixture_case(mountain_refusals),
-        fixture_case(astm_refusals),     fixture_case(ssdd_refusals),
-        fixture_case(speos_refusals),    fixture_case(xml_refusals),
-    };
-    return cmocka_run_group_tests_name("import_bsdf_refused", tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

@@ -13,7 +13,7 @@
     "0.5,0,0.5,3.141592653589793,7,1\n0.5,0,0.25,1.5707963267948966,8,2\n"                     \
     "0.5,0,0,0,9,3\n1.0,0,1.0,-3.141592653589793,10,4\n"
 
-static void astm_mirror_lies_opposite_the_light(void **state)
+FIXTURE_TEST(astm_mirror_lies_opposite_the_light)
 {
     Fixture *f = *state;
     assert_reads(f, ASTM, "astm");
@@ -30,7 +30,7 @@ static void astm_mirror_lies_opposite_the_light(void **state)
     assert_false(f->set.is_anisotropic);
 }
 
-static void astm_in_plane_lists_and_degrees(void **state)
+FIXTURE_TEST(astm_in_plane_lists_and_degrees)
 {
     Fixture *f = *state;
     assert_reads(f, "VARS theta_i,theta_s,brdf\n30,30,5\n30,-60,6\n", "astm");
@@ -44,7 +44,7 @@ static void astm_in_plane_lists_and_degrees(void **state)
     assert_noted(f, "blue, green and red stand as three bands at 465, 550 and 612 nm");
 }
 
-static void astm_errors_name_the_line(void **state)
+FIXTURE_TEST(astm_errors_name_the_line)
 {
     Fixture        *f = *state;
     const Importer *i = &importer_astm;
@@ -68,7 +68,7 @@ static void astm_errors_name_the_line(void **state)
 #define SSDD_HEAD                                                                              \
     "VERSION 0.2\n\nDATA_TYPE brdf\nCOLOR_MODEL spectrum\nWAVELENGTH_LIST 450 650\n"
 
-static void ssdd_spherical_angles_and_their_order(void **state)
+FIXTURE_TEST(ssdd_spherical_angles_and_their_order)
 {
     Fixture *f = *state;
     assert_reads(f, SSDD_HEAD "PARAM_TYPE spherical_coordinate_system\nPARAM0_LIST 20 40\n"
@@ -82,7 +82,7 @@ static void ssdd_spherical_angles_and_their_order(void **state)
     assert_near(value_at(table_at(f, 20, 180), 30, 90, 0), 15, 0);
 }
 
-static void ssdd_specular_angles_count_from_the_mirror_direction(void **state)
+FIXTURE_TEST(ssdd_specular_angles_count_from_the_mirror_direction)
 {
     Fixture *f = *state;
     assert_reads(f, "VERSION 0.2\nDATA_TYPE btdf\nCOLOR_MODEL monochrome\n"
@@ -105,7 +105,7 @@ static void ssdd_specular_angles_count_from_the_mirror_direction(void **state)
 
 /* Linear in each angle, so that the interpolation is exact: brdf = 1 + theta_h / 90 +
  * 2 theta_d / 90 (phi_d does not matter). Binary. */
-static void ssdd_half_difference_angles_are_evaluated(void **state)
+FIXTURE_TEST(ssdd_half_difference_angles_are_evaluated)
 {
     Fixture *f = *state;
     char     bytes[512] = "VERSION 0.2\nDATA_TYPE brdf\nCOLOR_MODEL monochrome\n"
@@ -135,7 +135,7 @@ static void ssdd_half_difference_angles_are_evaluated(void **state)
     assert_prefixes_refused(f, bytes, size, 1, &importer_ssdd);
 }
 
-static void ssdd_errors_name_the_line(void **state)
+FIXTURE_TEST(ssdd_errors_name_the_line)
 {
     Fixture        *f = *state;
     const Importer *i = &importer_ssdd;
@@ -172,7 +172,7 @@ static char *speos_text(Arena *arena, bool is_bsdf)
     return arena_format(arena, "%sEnd of file\n", text);
 }
 
-static void speos_values_are_scaled_to_the_stated_reflectance(void **state)
+FIXTURE_TEST(speos_values_are_scaled_to_the_stated_reflectance)
 {
     Fixture *f = *state;
     for (int is_bsdf = 0; is_bsdf < 2; is_bsdf++) {
@@ -192,7 +192,7 @@ static void speos_values_are_scaled_to_the_stated_reflectance(void **state)
     }
 }
 
-static void speos_spectral_tables_have_their_own_reflectance(void **state)
+FIXTURE_TEST(speos_spectral_tables_have_their_own_reflectance)
 {
     Fixture *f = *state;
     assert_reads(f, "OPTIS - BRDF surface file v8.0\n0\nComment\n0\n\n1 0\n1\n1 2\n30\n"
@@ -205,7 +205,7 @@ static void speos_spectral_tables_have_their_own_reflectance(void **state)
     assert_close(value_at(&f->set.table[1], 45, 180, 0), 0.2 / PI, 1e-4);
 }
 
-static void speos_errors_name_the_line(void **state)
+FIXTURE_TEST(speos_errors_name_the_line)
 {
     Fixture        *f = *state;
     const Importer *i = &importer_speos;
@@ -302,7 +302,7 @@ static size_t speos_binary(unsigned char *bytes)
     return (size_t)(at - bytes);
 }
 
-static void speos_binary_holds_what_its_text_would(void **state)
+FIXTURE_TEST(speos_binary_holds_what_its_text_would)
 {
     Fixture      *f = *state;
     unsigned char bytes[4096];
@@ -320,7 +320,7 @@ static void speos_binary_holds_what_its_text_would(void **state)
                                      "save the file as text");
 }
 
-static void speos_binary_refusals(void **state)
+FIXTURE_TEST(speos_binary_refusals)
 {
     static const struct {
         int         at; /* byte */
@@ -358,7 +358,7 @@ static void speos_binary_refusals(void **state)
 
 /* Worked out from the file by an independent reading: the table at 5 degrees has 0.172308 at
  * (30, 0), times cosine; H(5) = 0.61736, H(10) = 0.62309 and R(6) = 62.27%. */
-static void a_real_measurement_of_speos_has_its_values(void **state)
+FIXTURE_TEST(a_real_measurement_of_speos_has_its_values)
 {
     Fixture    *f = *state;
     const char *file = shared_bsdf(f, "speos/R_test.anisotropicbsdf");
@@ -387,7 +387,7 @@ static bool reads_packed(Fixture *f, const unsigned char *block, size_t packed)
     return fixture_read(f, bytes, size - PLAIN + packed, "speos");
 }
 
-static void packed_blocks_that_are_not_sound_are_refused(void **state)
+FIXTURE_TEST(packed_blocks_that_are_not_sound_are_refused)
 {
     enum { MATCH = 0, OFFSET = 2 };
     const unsigned char good[] = {0x16, 0, 1, 0, 0x50, 0, 0, 0x80, 0x56, 0x40};
@@ -409,21 +409,5 @@ static void packed_blocks_that_are_not_sound_are_refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        fixture_case(astm_mirror_lies_opposite_the_light),
-        fixture_case(astm_in_plane_lists_and_degrees),
-        fixture_case(astm_errors_name_the_line),
-        fixture_case(ssdd_spherical_angles_and_their_order),
-        fixture_case(ssdd_specular_angles_count_from_the_mirror_direction),
-        fixture_case(ssdd_half_difference_angles_are_evaluated),
-        fixture_case(ssdd_errors_name_the_line),
-        fixture_case(speos_values_are_scaled_to_the_stated_reflectance),
-        fixture_case(speos_spectral_tables_have_their_own_reflectance),
-        fixture_case(speos_errors_name_the_line),
-        fixture_case(speos_binary_holds_what_its_text_would),
-        fixture_case(speos_binary_refusals),
-        fixture_case(a_real_measurement_of_speos_has_its_values),
-        fixture_case(packed_blocks_that_are_not_sound_are_refused),
-    };
-    return cmocka_run_group_tests_name("import_bsdf_tables", tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

@@ -118,7 +118,7 @@ static double leaning(double theta_o, int channel)
     return 1 + theta_o + 100 * channel;
 }
 
-static void rgl_values_lose_their_cosine(void **state)
+FIXTURE_TEST(rgl_values_lose_their_cosine)
 {
     Fixture *f = *state;
     Builder *b = malloc(sizeof *b);
@@ -136,7 +136,7 @@ static void rgl_values_lose_their_cosine(void **state)
 
 /* Node i = 1 lies at s.x = 1/4, u.x = 1/2: theta_m = 22.5 degrees. With light at 30 degrees and
  * the half vector on its side the light leaves at 15 degrees, towards the light. */
-static void rgl_samples_are_warped_to_half_vectors(void **state)
+FIXTURE_TEST(rgl_samples_are_warped_to_half_vectors)
 {
     Fixture *f = *state;
     Builder *b = malloc(sizeof *b);
@@ -152,7 +152,7 @@ static void rgl_samples_are_warped_to_half_vectors(void **state)
     free(b);
 }
 
-static void rgl_errors_name_the_field(void **state)
+FIXTURE_TEST(rgl_errors_name_the_field)
 {
     Fixture        *f = *state;
     const Importer *i = &importer_rgl;
@@ -198,7 +198,7 @@ static void build_but(Builder *b, Field other)
     }
 }
 
-static void rgl_refusals(void **state)
+FIXTURE_TEST(rgl_refusals)
 {
     const struct {
         Field       field;
@@ -235,7 +235,7 @@ static void rgl_refusals(void **state)
 }
 
 /* Half a turn of azimuths is a symmetry that is not read. */
-static void rgl_of_a_symmetric_material_is_refused(void **state)
+FIXTURE_TEST(rgl_of_a_symmetric_material_is_refused)
 {
     static double ones[3 * 2 * 4] = {0};
     Fixture *f = *state;
@@ -259,7 +259,7 @@ static void rgl_of_a_symmetric_material_is_refused(void **state)
     free(b);
 }
 
-static void tensor_files_that_are_not_sound_are_refused(void **state)
+FIXTURE_TEST(tensor_files_that_are_not_sound_are_refused)
 {
     static const struct {
         size_t      at; /* byte */
@@ -312,7 +312,7 @@ static void build_pbsdf(Builder *b, bool has_angles)
         put(b->bytes + 18 + 2 + 7 + 11, 0, 8);
 }
 
-static void kaist_first_element_is_evaluated(void **state)
+FIXTURE_TEST(kaist_first_element_is_evaluated)
 {
     Fixture *f = *state;
     Builder *b = malloc(sizeof *b);
@@ -336,7 +336,7 @@ static void kaist_first_element_is_evaluated(void **state)
     free(b);
 }
 
-static void the_real_reduced_file_says_why_it_is_not_read(void **state)
+FIXTURE_TEST(the_real_reduced_file_says_why_it_is_not_read)
 {
     Fixture *f = *state;
     assert_false(fixture_read_file(f, shared_bsdf(f, "mitsuba/spectralon_lowres.pbsdf"),
@@ -375,7 +375,7 @@ static bool inside(double x)
     return part > 1e-6 && part < 1 - 1e-6;
 }
 
-static void merl_cells_are_found_by_half_and_difference_angles(void **state)
+FIXTURE_TEST(merl_cells_are_found_by_half_and_difference_angles)
 {
     Fixture       *f = *state;
     const int      side[3] = {30, 30, 60};
@@ -404,7 +404,7 @@ static void merl_cells_are_found_by_half_and_difference_angles(void **state)
 }
 
 /* The narrowest cell of theta_h is 0.011 degrees: the rows near the mirror direction follow. */
-static void merl_of_full_size_and_its_unmeasured_cells(void **state)
+FIXTURE_TEST(merl_of_full_size_and_its_unmeasured_cells)
 {
     Fixture       *f = *state;
     const int      side[3] = {90, 90, 180};
@@ -425,7 +425,7 @@ static void merl_of_full_size_and_its_unmeasured_cells(void **state)
     free(bytes);
 }
 
-static void merl_errors_name_the_byte(void **state)
+FIXTURE_TEST(merl_errors_name_the_byte)
 {
     assert_refused(*state, "abc", &importer_merl, "byte 0: the file ends inside its header");
     Fixture *f = *state;
@@ -453,7 +453,7 @@ static void merl_errors_name_the_byte(void **state)
 
 /* ---- workbooks --------------------------------------------------------------------------- */
 
-static void a_workbook_is_refused_with_what_to_give_instead(void **state)
+FIXTURE_TEST(a_workbook_is_refused_with_what_to_give_instead)
 {
     static const char magic[] = "\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1 workbook";
     Fixture *f = *state;
@@ -467,19 +467,5 @@ static void a_workbook_is_refused_with_what_to_give_instead(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        fixture_case(rgl_values_lose_their_cosine),
-        fixture_case(rgl_samples_are_warped_to_half_vectors),
-        fixture_case(rgl_errors_name_the_field),
-        fixture_case(rgl_refusals),
-        fixture_case(rgl_of_a_symmetric_material_is_refused),
-        fixture_case(tensor_files_that_are_not_sound_are_refused),
-        fixture_case(kaist_first_element_is_evaluated),
-        fixture_case(the_real_reduced_file_says_why_it_is_not_read),
-        fixture_case(merl_cells_are_found_by_half_and_difference_angles),
-        fixture_case(merl_of_full_size_and_its_unmeasured_cells),
-        fixture_case(merl_errors_name_the_byte),
-        fixture_case(a_workbook_is_refused_with_what_to_give_instead),
-    };
-    return cmocka_run_group_tests_name("import_bsdf_tensor", tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

@@ -15,7 +15,7 @@
     "TIS 0.5\n9 1 2\n9 3 4\n9 5 6\n"                                                           \
     "TIS 0.6\n19 11 12\n19 13 14\n19 15 16\nDataEnd\n"
 
-static void zemax_angles_count_from_the_mirror_direction(void **state)
+FIXTURE_TEST(zemax_angles_count_from_the_mirror_direction)
 {
     Fixture *f = *state;
     f->options.wavelength_nm = 0;
@@ -40,7 +40,7 @@ static void zemax_angles_count_from_the_mirror_direction(void **state)
     assert_false(f->set.is_anisotropic);
 }
 
-static void zemax_wavelength_stands_in_the_comments(void **state)
+FIXTURE_TEST(zemax_wavelength_stands_in_the_comments)
 {
     static const char *const line[] = {"# laser, 532nm wide", "#Wavelength (nm) = 532.0"};
     Fixture *f = *state;
@@ -55,7 +55,7 @@ static void zemax_wavelength_stands_in_the_comments(void **state)
     }
 }
 
-static void zemax_azimuth_runs_counter_clockwise(void **state)
+FIXTURE_TEST(zemax_azimuth_runs_counter_clockwise)
 {
     Fixture *f = *state;
     assert_reads(f, "Source Measured\nSymmetry ASymmetrical\nSpectralContent Monochrome\n"
@@ -71,7 +71,7 @@ static void zemax_azimuth_runs_counter_clockwise(void **state)
     assert_int_equal(t->rows, 5);
 }
 
-static void zemax_sample_rotations_are_azimuths_of_the_light(void **state)
+FIXTURE_TEST(zemax_sample_rotations_are_azimuths_of_the_light)
 {
     Fixture *f = *state;
     assert_reads(f, "Symmetry ASymmetrical4D\nSpectralContent Monochrome\nScatterType BRDF\n"
@@ -97,7 +97,7 @@ static void zemax_sample_rotations_are_azimuths_of_the_light(void **state)
     assert_near(value_at(table_at(f, 30, 0), 20, 0, 0), 8, 0);
 }
 
-static void zemax_of_xyz_keeps_y(void **state)
+FIXTURE_TEST(zemax_of_xyz_keeps_y)
 {
     Fixture *f = *state;
     f->options.wavelength_nm = 0;
@@ -112,7 +112,7 @@ static void zemax_of_xyz_keeps_y(void **state)
 }
 
 /* A Lambertian surface of reflectance 0.6: brdf 0.6 / pi about any mirror direction. */
-static void zemax_totals_are_told_beside_the_tables_own(void **state)
+FIXTURE_TEST(zemax_totals_are_told_beside_the_tables_own)
 {
     Fixture *f = *state;
     char     text[16384];
@@ -132,7 +132,7 @@ static void zemax_totals_are_told_beside_the_tables_own(void **state)
         assert_close(f->set.table[0].value[i], 0.190986, 1e-12);
 }
 
-static void zemax_zeros_are_directions_without_a_measurement(void **state)
+FIXTURE_TEST(zemax_zeros_are_directions_without_a_measurement)
 {
     Fixture *f = *state;
     assert_reads(f, "Symmetry PlaneSymmetrical\nSpectralContent Monochrome\nScatterType BRDF\n"
@@ -144,7 +144,7 @@ static void zemax_zeros_are_directions_without_a_measurement(void **state)
     assert_close(f->set.table[0].masked_theta_deg[0], 20, 1e-9);
 }
 
-static void zemax_errors_name_the_line(void **state)
+FIXTURE_TEST(zemax_errors_name_the_line)
 {
     Fixture        *f = *state;
     const Importer *z = &importer_zemax;
@@ -166,13 +166,13 @@ static void zemax_errors_name_the_line(void **state)
                    "does not say the wavelength of its values — give it as --wavelength NM");
 }
 
-static void zemax_prefixes_are_refused(void **state)
+FIXTURE_TEST(zemax_prefixes_are_refused)
 {
     assert_prefixes_refused(*state, ZEMAX, strlen(ZEMAX) - 1, 1, &importer_zemax);
 }
 
 /* Values read off the file: line 39 is azimuth 0 of incidence 10, line 47 azimuth 80. */
-static void a_real_black_coating_of_zemax_has_its_values(void **state)
+FIXTURE_TEST(a_real_black_coating_of_zemax_has_its_values)
 {
     Fixture *f = *state;
     f->options.wavelength_nm = 0;
@@ -198,7 +198,7 @@ static void a_real_black_coating_of_zemax_has_its_values(void **state)
     "30 0\n0 0 1\n30 0 4\n30 90 2\n60 180 3\n"                                                 \
     "50 0\n50 0 5\n-20 0 6\n"
 
-static void fred_angles_count_from_the_mirrors_azimuth(void **state)
+FIXTURE_TEST(fred_angles_count_from_the_mirrors_azimuth)
 {
     Fixture *f = *state;
     assert_reads(f, FRED, "fred");
@@ -215,7 +215,7 @@ static void fred_angles_count_from_the_mirrors_azimuth(void **state)
     assert_near(value_at(t, 20, 90, 0), 8, 0);
 }
 
-static void fred_errors_name_the_line(void **state)
+FIXTURE_TEST(fred_errors_name_the_line)
 {
     Fixture        *f = *state;
     const Importer *i = &importer_fred;
@@ -233,7 +233,7 @@ static void fred_errors_name_the_line(void **state)
                    "line 3: incidence 30 has no row of theta, phi and value");
 }
 
-static void real_tables_of_fred_have_their_values(void **state)
+FIXTURE_TEST(real_tables_of_fred_have_their_values)
 {
     Fixture    *f = *state;
     const char *file = shared_bsdf(f, "loft-rt300s/AnoBlackEC1onAlum_fullAz.fred.txt");
@@ -258,7 +258,7 @@ static void real_tables_of_fred_have_their_values(void **state)
     "#sample_name \"pane\"\n#format: theta phi DSF\n#incident_angle 30 90\n"                   \
     "30 270 0.5\n60 90 0.25\n0 0 0.125\n120 0 0.5\n"
 
-static void mountain_light_comes_from_the_incident_angle(void **state)
+FIXTURE_TEST(mountain_light_comes_from_the_incident_angle)
 {
     Fixture *f = *state;
     assert_reads(f, MOUNTAIN, "mountain");
@@ -274,7 +274,7 @@ static void mountain_light_comes_from_the_incident_angle(void **state)
     assert_near(value_at(table_at(f, 20, 0), 20, 0, 0), 2, 0);
 }
 
-static void mountain_patterns_of_one_light_are_one_table(void **state)
+FIXTURE_TEST(mountain_patterns_of_one_light_are_one_table)
 {
     Fixture *f = *state;
     assert_reads(f, MOUNTAIN, "mountain");
@@ -290,7 +290,7 @@ static void mountain_patterns_of_one_light_are_one_table(void **state)
 }
 
 /* DSF = rho / pi cos theta: the table is rho / pi. */
-static void mountain_lambertian_loses_its_cosine(void **state)
+FIXTURE_TEST(mountain_lambertian_loses_its_cosine)
 {
     Fixture *f = *state;
     char     text[4096];
@@ -302,7 +302,7 @@ static void mountain_lambertian_loses_its_cosine(void **state)
         assert_close(f->set.table[0].value[i], 0.4 / PI, 1e-7);
 }
 
-static void mountain_errors_name_the_line(void **state)
+FIXTURE_TEST(mountain_errors_name_the_line)
 {
     Fixture        *f = *state;
     const Importer *i = &importer_mountain;
@@ -332,7 +332,7 @@ static void mountain_errors_name_the_line(void **state)
     "AOI 30\nPOI 0\nSide Back\nWavelength 600\nScatterType BRDF\nTIS 0.5\n"                    \
     "8 8 8 8 8 8 8 8\nDataEnd\n"
 
-static void lighttools_mirror_lies_opposite_the_light(void **state)
+FIXTURE_TEST(lighttools_mirror_lies_opposite_the_light)
 {
     Fixture *f = *state;
     f->options.wavelength_nm = 0;
@@ -347,7 +347,7 @@ static void lighttools_mirror_lies_opposite_the_light(void **state)
     assert_noted(f, "left out are 1 blocks of the back and 1 of transmission");
 }
 
-static void lighttools_errors_name_the_line(void **state)
+FIXTURE_TEST(lighttools_errors_name_the_line)
 {
     Fixture        *f = *state;
     const Importer *i = &importer_lighttools;
@@ -364,26 +364,5 @@ static void lighttools_errors_name_the_line(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        fixture_case(zemax_angles_count_from_the_mirror_direction),
-        fixture_case(zemax_wavelength_stands_in_the_comments),
-        fixture_case(zemax_azimuth_runs_counter_clockwise),
-        fixture_case(zemax_sample_rotations_are_azimuths_of_the_light),
-        fixture_case(zemax_of_xyz_keeps_y),
-        fixture_case(zemax_totals_are_told_beside_the_tables_own),
-        fixture_case(zemax_zeros_are_directions_without_a_measurement),
-        fixture_case(zemax_errors_name_the_line),
-        fixture_case(zemax_prefixes_are_refused),
-        fixture_case(a_real_black_coating_of_zemax_has_its_values),
-        fixture_case(fred_angles_count_from_the_mirrors_azimuth),
-        fixture_case(fred_errors_name_the_line),
-        fixture_case(real_tables_of_fred_have_their_values),
-        fixture_case(mountain_light_comes_from_the_incident_angle),
-        fixture_case(mountain_patterns_of_one_light_are_one_table),
-        fixture_case(mountain_lambertian_loses_its_cosine),
-        fixture_case(mountain_errors_name_the_line),
-        fixture_case(lighttools_mirror_lies_opposite_the_light),
-        fixture_case(lighttools_errors_name_the_line),
-    };
-    return cmocka_run_group_tests_name("import_bsdf_text", tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

@@ -67,7 +67,7 @@ static double rotating(int row, int column)
     return 10 * lat_in + lat_out + 0.5 * cos(2 * PI * ((double)out / outs - (double)in / ins));
 }
 
-static void klems_lambertian_is_isotropic(void **state)
+FIXTURE_TEST(klems_lambertian_is_isotropic)
 {
     Fixture *f = *state;
     f->options.wavelength_nm = 0;
@@ -83,7 +83,7 @@ static void klems_lambertian_is_isotropic(void **state)
     assert_string_equal(f->set.panel, "pane");
 }
 
-static void klems_columns_are_incident_and_rows_leaving(void **state)
+FIXTURE_TEST(klems_columns_are_incident_and_rows_leaving)
 {
     Fixture *f = *state;
     assert_reads(f, document(&f->arena, "Columns", "Reflection Front", quarter_bases,
@@ -101,7 +101,7 @@ static void klems_columns_are_incident_and_rows_leaving(void **state)
     assert_near(value_at(table_at(f, 18, 270), 36.5, 0, 0), 1 + 12 + 300, 0);
 }
 
-static void klems_turning_together_is_isotropic(void **state)
+FIXTURE_TEST(klems_turning_together_is_isotropic)
 {
     Fixture *f = *state;
     assert_reads(f, document(&f->arena, "Columns", "Reflection Back", quarter_bases,
@@ -113,7 +113,7 @@ static void klems_turning_together_is_isotropic(void **state)
     assert_noted(f, "Reflection Back is taken");
 }
 
-static void klems_bases_of_the_files_own(void **state)
+FIXTURE_TEST(klems_bases_of_the_files_own)
 {
     Fixture *f = *state;
     assert_reads(f, "<WindowElement><Optical><Layer><DataDefinition>"
@@ -140,7 +140,7 @@ static void klems_bases_of_the_files_own(void **state)
 
 /* Rank 3, a grid of 2 x 2 x 2: the first dimension is (1 - sin theta) / 2, so that above 30
  * degrees of incidence... all real light lies in its first half; the last one runs fastest. */
-static void tensor_tree_of_rank_3(void **state)
+FIXTURE_TEST(tensor_tree_of_rank_3)
 {
     Fixture *f = *state;
     assert_reads(f, document(&f->arena, "TensorTree3", "Reflection Front", tree_basis,
@@ -156,7 +156,7 @@ static void tensor_tree_of_rank_3(void **state)
 }
 
 /* The first dimension of a branch is the lowest bit of the child's number. */
-static void tensor_tree_branches_and_depth(void **state)
+FIXTURE_TEST(tensor_tree_branches_and_depth)
 {
     Fixture *f = *state;
     assert_reads(f, document(&f->arena, "TensorTree3", "Reflection Front", tree_basis,
@@ -172,7 +172,7 @@ static void tensor_tree_branches_and_depth(void **state)
     assert_near(t->value[row_at(t, 40, 45, 3)], 5, 0);
 }
 
-static void tensor_tree_lambertian_is_isotropic(void **state)
+FIXTURE_TEST(tensor_tree_lambertian_is_isotropic)
 {
     Fixture *f = *state;
     assert_reads(f, document(&f->arena, "TensorTree4", "Reflection Front", tree_basis,
@@ -183,7 +183,7 @@ static void tensor_tree_lambertian_is_isotropic(void **state)
     assert_close(sum / f->set.table[3].rows * PI, 0.25 * PI, 1e-12);
 }
 
-static void a_tensor_tree_of_rank_4_has_its_values(void **state)
+FIXTURE_TEST(a_tensor_tree_of_rank_4_has_its_values)
 {
     Fixture    *f = *state;
     const char *file = shared_bsdf(f, "window-xml/simple_tensor_d2_refl.xml");
@@ -203,7 +203,7 @@ static void a_tensor_tree_of_rank_4_has_its_values(void **state)
 
 /* ---- real files and refusals ------------------------------------------------------------- */
 
-static void a_real_klems_file_has_its_spot(void **state)
+FIXTURE_TEST(a_real_klems_file_has_its_spot)
 {
     Fixture    *f = *state;
     const char *file = shared_bsdf(f, "window-xml/simple_klems_spot_front_refl.xml");
@@ -221,7 +221,7 @@ static void a_real_klems_file_has_its_spot(void **state)
     assert_near(t->value[brightest_row(t)], 0, 0);
 }
 
-static void files_without_reflection_are_refused(void **state)
+FIXTURE_TEST(files_without_reflection_are_refused)
 {
     Fixture    *f = *state;
     const char *file = shared_bsdf(f, "window-xml/simple_klems_spot_trans.xml");
@@ -239,7 +239,7 @@ static void files_without_reflection_are_refused(void **state)
                         "opaque");
 }
 
-static void xml_errors_name_the_line(void **state)
+FIXTURE_TEST(xml_errors_name_the_line)
 {
     Fixture        *f = *state;
     const Importer *i = &importer_window;
@@ -271,18 +271,5 @@ static void xml_errors_name_the_line(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        fixture_case(klems_lambertian_is_isotropic),
-        fixture_case(klems_columns_are_incident_and_rows_leaving),
-        fixture_case(klems_turning_together_is_isotropic),
-        fixture_case(klems_bases_of_the_files_own),
-        fixture_case(tensor_tree_of_rank_3),
-        fixture_case(tensor_tree_branches_and_depth),
-        fixture_case(tensor_tree_lambertian_is_isotropic),
-        fixture_case(a_tensor_tree_of_rank_4_has_its_values),
-        fixture_case(a_real_klems_file_has_its_spot),
-        fixture_case(files_without_reflection_are_refused),
-        fixture_case(xml_errors_name_the_line),
-    };
-    return cmocka_run_group_tests_name("import_bsdf_xml", tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

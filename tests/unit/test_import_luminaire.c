@@ -42,7 +42,7 @@ static const ImportTable *import_ldt(Lab *lab, const Ldt *ldt)
 }
 
 /* 100 cd/klm, 2000 lm, 0.02 m2: 10,000 cd/m2 everywhere; flux pi I0 = 628 lm of 1600. */
-static void a_lambertian_luminaire_is_equally_bright_everywhere(void **state)
+LAB_TEST(a_lambertian_luminaire_is_equally_bright_everywhere)
 {
     Lab *lab = *state;
     const ImportTable *white = import_ldt(lab, &plain);
@@ -53,7 +53,7 @@ static void a_lambertian_luminaire_is_equally_bright_everywhere(void **state)
     assert_string_equal(lab->set.panel, "Lamp 7");
 }
 
-static void area_factor_and_absolute_flux_count(void **state)
+LAB_TEST(area_factor_and_absolute_flux_count)
 {
     Lab *lab = *state;
     Ldt  round = plain, factor = plain, absolute = plain;
@@ -69,7 +69,7 @@ static void area_factor_and_absolute_flux_count(void **state)
 }
 
 /* Brightness of each quarter plane, in units of the first stored plane's. */
-static void symmetries_fill_the_other_planes(void **state)
+LAB_TEST(symmetries_fill_the_other_planes)
 {
     static const struct { int symmetry, stored; double at[4]; } cases[] = {
         {0, 4, {1, 2, 3, 4}}, {1, 1, {1, 1, 1, 1}},
@@ -94,7 +94,7 @@ static void symmetries_fill_the_other_planes(void **state)
     assert_close(lab_value(import_ldt(lab, &ldt), 45, 180, 1), 20000, 1e-6);
 }
 
-static void eulumdat_is_refused_with_its_line(void **state)
+LAB_TEST(eulumdat_is_refused_with_its_line)
 {
     Lab *lab = *state;
     Ldt  no_area = plain, odd = plain, dark = plain;
@@ -132,7 +132,7 @@ static void no_prefix_is_taken(Lab *lab, const char *name, const char *text, siz
     }
 }
 
-static void a_cut_eulumdat_is_refused(void **state)
+LAB_TEST(a_cut_eulumdat_is_refused)
 {
     Lab  *lab = *state;
     Ldt   small = plain;
@@ -159,7 +159,7 @@ static const ImportTable *import_ies(Lab *lab, const char *text)
     return lab_table(lab, IMPORT_WHITE, 255);
 }
 
-static void intensity_over_area_times_cosine_is_luminance(void **state)
+LAB_TEST(intensity_over_area_times_cosine_is_luminance)
 {
     Lab *lab = *state;
     const ImportTable *white = import_ies(lab, IES_HEAD "1 400 2 4 1 1 2 .5 .2 0\n"
@@ -171,7 +171,7 @@ static void intensity_over_area_times_cosine_is_luminance(void **state)
     assert_true(lab_noted(lab, "the file states 440 lm"));
 }
 
-static void sizes_may_be_feet_and_circles(void **state)
+LAB_TEST(sizes_may_be_feet_and_circles)
 {
     static const struct { const char *sizes; double area_m2; } cases[] = {
         {"2 .5 .2 0", 0.1}, {"1 1 2 0", 2 * 0.3048 * 0.3048}, {"2 -.2 -.2 0", PI * 0.01},
@@ -184,7 +184,7 @@ static void sizes_may_be_feet_and_circles(void **state)
     }
 }
 
-static void the_range_of_horizontal_angles_tells_the_symmetry(void **state)
+LAB_TEST(the_range_of_horizontal_angles_tells_the_symmetry)
 {
     static const struct { const char *planes; double at[4]; } cases[] = {
         {"2 1 2 1 1 0\n1 1 9\n" GAMMAS "0 90\n" PLANE_1 PLANE_2, {1, 2, 1, 2}},
@@ -204,7 +204,7 @@ static void the_range_of_horizontal_angles_tells_the_symmetry(void **state)
     }
 }
 
-static void tilts_are_passed_over_and_light_behind_is_told(void **state)
+LAB_TEST(tilts_are_passed_over_and_light_behind_is_told)
 {
     Lab *lab = *state;
     const ImportTable *white = import_ies(lab,
@@ -217,7 +217,7 @@ static void tilts_are_passed_over_and_light_behind_is_told(void **state)
     assert_true(lab_noted(lab, "1256.64 lm in all directions, the file states 1000 lm"));
 }
 
-static void ies_is_refused_with_its_line(void **state)
+LAB_TEST(ies_is_refused_with_its_line)
 {
     static const struct { const char *text, *message;
     } cases[] = {{"IESNA91\n1 1 1\n", "lamp.ies: has no line TILT="},
@@ -252,7 +252,7 @@ static void ies_is_refused_with_its_line(void **state)
     }
 }
 
-static void a_cut_ies_is_refused(void **state)
+LAB_TEST(a_cut_ies_is_refused)
 {
     static const char text[] = IES_HEAD "1 -1 1 4 1 1 2 1 1 0\n1 1 9\n" GAMMAS "0\n100 86 50 ";
     no_prefix_is_taken(*state, "lamp.ies", text, sizeof text);
@@ -280,7 +280,7 @@ static double lumens_noted(const Lab *lab)
 }
 
 /* The flux that the tables add up to beside what the file, its name or its lamp's line says. */
-static void real_luminaires_add_up_to_their_lumens(void **state)
+LAB_TEST(real_luminaires_add_up_to_their_lumens)
 {
     static const struct { const char *name; double ratio, lumens, within; } cases[] = {
         {"FL_MAX_900W_SYM60.ldt", 1, 0, 0.002}, {"road_luminaire.ldt", 1, 0, 0.005},
@@ -307,19 +307,5 @@ static void real_luminaires_add_up_to_their_lumens(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        lab_case(a_lambertian_luminaire_is_equally_bright_everywhere),
-        lab_case(area_factor_and_absolute_flux_count),
-        lab_case(symmetries_fill_the_other_planes),
-        lab_case(eulumdat_is_refused_with_its_line),
-        lab_case(a_cut_eulumdat_is_refused),
-        lab_case(intensity_over_area_times_cosine_is_luminance),
-        lab_case(sizes_may_be_feet_and_circles),
-        lab_case(the_range_of_horizontal_angles_tells_the_symmetry),
-        lab_case(tilts_are_passed_over_and_light_behind_is_told),
-        lab_case(ies_is_refused_with_its_line),
-        lab_case(a_cut_ies_is_refused),
-        lab_case(real_luminaires_add_up_to_their_lumens),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

@@ -15,7 +15,7 @@ typedef struct Refusal {
     for (size_t i_ = 0; i_ < sizeof(rows) / sizeof *(rows); i_++)                              \
     refuse(lab, (rows)[i_].text, (rows)[i_].message)
 
-static void cells_and_rows_that_do_not_fit(void **state)
+LAB_TEST(cells_and_rows_that_do_not_fit)
 {
     Lab *lab = *state;
     static const Refusal rows[] = {
@@ -51,7 +51,7 @@ static void cells_and_rows_that_do_not_fit(void **state)
     REFUSE_ALL(lab, rows);
 }
 
-static void headers_that_do_not_say_enough(void **state)
+LAB_TEST(headers_that_do_not_say_enough)
 {
     Lab *lab = *state;
     static const Refusal rows[] = {
@@ -90,7 +90,7 @@ static void headers_that_do_not_say_enough(void **state)
                      "with --wavelength NM or --role FILE=brdf:INCIDENCE:AZIMUTH:NM");
 }
 
-static void matrices_that_do_not_say_enough(void **state)
+LAB_TEST(matrices_that_do_not_say_enough)
 {
     Lab *lab = *state;
     static const Refusal rows[] = {
@@ -121,7 +121,7 @@ static void matrices_that_do_not_say_enough(void **state)
 
 #define SAYS "Azimuth;0 = 12 o'clock; clockwise\nUnit;cd/m2\ntheta;phi;L\n0;0;1\n9;0;1\n8;0;1\n"
 
-static void contradictions_of_file_and_user(void **state)
+LAB_TEST(contradictions_of_file_and_user)
 {
     static const struct { const char *key, *value, *message; } cases[] = {
         {"azimuth_zero", "right",
@@ -148,7 +148,7 @@ static void contradictions_of_file_and_user(void **state)
            "otherwise");
 }
 
-static void declarations_that_are_wrong(void **state)
+LAB_TEST(declarations_that_are_wrong)
 {
     Lab *lab = *state;
     TextOptions *text = &lab->request->text;
@@ -216,7 +216,7 @@ static void run_quietly(Lab *lab, const void *bytes, size_t size)
     lab->arena = before;
 }
 
-static void every_prefix_is_refused_or_valid(void **state)
+LAB_TEST(every_prefix_is_refused_or_valid)
 {
     Lab *lab = *state;
     lab_write(lab, "white.csv", "");
@@ -227,7 +227,7 @@ static void every_prefix_is_refused_or_valid(void **state)
     }
 }
 
-static void no_changed_byte_crashes(void **state)
+LAB_TEST(no_changed_byte_crashes)
 {
     Lab     *lab = *state;
     char     bytes[1024];
@@ -246,7 +246,7 @@ static void no_changed_byte_crashes(void **state)
     }
 }
 
-static void hostile_sizes_are_bounded(void **state)
+LAB_TEST(hostile_sizes_are_bounded)
 {
     Lab  *lab = *state;
     char *wide = ARENA_NEW(&lab->arena, char, 20000);
@@ -266,15 +266,5 @@ static void hostile_sizes_are_bounded(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        lab_case(cells_and_rows_that_do_not_fit),
-        lab_case(headers_that_do_not_say_enough),
-        lab_case(matrices_that_do_not_say_enough),
-        lab_case(contradictions_of_file_and_user),
-        lab_case(declarations_that_are_wrong),
-        lab_case(every_prefix_is_refused_or_valid),
-        lab_case(no_changed_byte_crashes),
-        lab_case(hostile_sizes_are_bounded),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

@@ -3,7 +3,7 @@
 
 #include "import/set/role.h"
 
-static void names_tell_the_pattern_or_the_light(void **state)
+TEST(names_tell_the_pattern_or_the_light)
 {
     (void)state;
     static const struct { const char *name; ImportSource source; double number;
@@ -39,7 +39,7 @@ static void names_tell_the_pattern_or_the_light(void **state)
     }
 }
 
-static void names_tell_the_rest_too(void **state)
+TEST(names_tell_the_rest_too)
 {
     (void)state;
     bool mixed;
@@ -54,7 +54,7 @@ static void names_tell_the_rest_too(void **state)
     assert_near(role_from_words("R_1023", 1023, &mixed).level, 1023, 0);
 }
 
-static void what_a_name_does_not_tell_is_not_guessed(void **state)
+TEST(what_a_name_does_not_tell_is_not_guessed)
 {
     (void)state;
     static const struct { const char *name; bool is_ambiguous;
@@ -71,7 +71,7 @@ static void what_a_name_does_not_tell_is_not_guessed(void **state)
     }
 }
 
-static void a_role_is_written_with_colons(void **state)
+TEST(a_role_is_written_with_colons)
 {
     (void)state;
     Role  role;
@@ -98,7 +98,7 @@ static void a_role_is_written_with_colons(void **state)
 
 #define TABLE "theta,phi,X,Y,Z\n0,0,1,2,3\n10,0,1,2,3\n20,0,1,2,3\n"
 
-static void a_files_own_words_tell_its_pattern(void **state)
+LAB_TEST(a_files_own_words_tell_its_pattern)
 {
     Lab *lab = *state;
     lab_write(lab, "m1.csv", "Sample: blue 127\n" TABLE);
@@ -112,7 +112,7 @@ static void a_files_own_words_tell_its_pattern(void **state)
     lab_table(lab, IMPORT_BLACK, 0);
 }
 
-static void words_and_name_must_not_contradict(void **state)
+LAB_TEST(words_and_name_must_not_contradict)
 {
     Lab *lab = *state;
     lab_write(lab, "red_255.csv", "Sample: blue 127\n" TABLE);
@@ -123,7 +123,7 @@ static void words_and_name_must_not_contradict(void **state)
     lab_table(lab, IMPORT_WHITE, 255);
 }
 
-static void a_file_that_does_not_tell_is_named_with_the_option(void **state)
+LAB_TEST(a_file_that_does_not_tell_is_named_with_the_option)
 {
     Lab *lab = *state;
     lab_write(lab, "m1.csv", TABLE);
@@ -142,7 +142,7 @@ static void a_file_that_does_not_tell_is_named_with_the_option(void **state)
                      "--role BRDF_20-90.csv=brdf:INCIDENCE");
 }
 
-static void one_message_counts_all_refused_files(void **state)
+LAB_TEST(one_message_counts_all_refused_files)
 {
     Lab *lab = *state;
     lab_write(lab, "m1.csv", TABLE);
@@ -154,7 +154,7 @@ static void one_message_counts_all_refused_files(void **state)
                      "white); 2 more files are refused");
 }
 
-static void levels_scale_from_the_panels_highest_code(void **state)
+LAB_TEST(levels_scale_from_the_panels_highest_code)
 {
     Lab *lab = *state;
     lab_declare(lab, "level_max", "1023");
@@ -168,7 +168,7 @@ static void levels_scale_from_the_panels_highest_code(void **state)
     lab_table(lab, IMPORT_RED, 255);
 }
 
-static void files_are_left_out_as_asked(void **state)
+LAB_TEST(files_are_left_out_as_asked)
 {
     Lab *lab = *state;
     lab_write(lab, "white.csv", TABLE);
@@ -182,17 +182,5 @@ static void files_are_left_out_as_asked(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names_tell_the_pattern_or_the_light),
-        cmocka_unit_test(names_tell_the_rest_too),
-        cmocka_unit_test(what_a_name_does_not_tell_is_not_guessed),
-        cmocka_unit_test(a_role_is_written_with_colons),
-        lab_case(a_files_own_words_tell_its_pattern),
-        lab_case(words_and_name_must_not_contradict),
-        lab_case(a_file_that_does_not_tell_is_named_with_the_option),
-        lab_case(one_message_counts_all_refused_files),
-        lab_case(levels_scale_from_the_panels_highest_code),
-        lab_case(files_are_left_out_as_asked),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

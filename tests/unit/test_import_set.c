@@ -39,7 +39,7 @@ static Measurement *read_back(Lab *lab)
     return NULL;
 }
 
-static void what_is_written_reads_as_it_was_to_the_last_bit(void **state)
+LAB_TEST(what_is_written_reads_as_it_was_to_the_last_bit)
 {
     Lab *lab = *state;
     write_primaries(lab);
@@ -66,7 +66,7 @@ static void what_is_written_reads_as_it_was_to_the_last_bit(void **state)
     assert_near(set->brdf[0].value[2 * set->brdf[0].rows - 1], 8, 0);
 }
 
-static void any_float_survives_the_text(void **state)
+LAB_TEST(any_float_survives_the_text)
 {
     Lab     *lab = *state;
     char    *text = ARENA_NEW(&lab->arena, char, 1 << 20);
@@ -98,7 +98,7 @@ static void any_float_survives_the_text(void **state)
     }
 }
 
-static void anisotropic_tables_are_named_by_azimuth(void **state)
+LAB_TEST(anisotropic_tables_are_named_by_azimuth)
 {
     Lab *lab = *state;
     lab_write(lab, "i0.csv", BRDF);
@@ -115,7 +115,7 @@ static void anisotropic_tables_are_named_by_azimuth(void **state)
     assert_true(file_exists(path_beside(manifest, "brdf/i0_a90.csv", &lab->arena)));
 }
 
-static void a_black_that_was_subtracted_is_written_as_zero(void **state)
+LAB_TEST(a_black_that_was_subtracted_is_written_as_zero)
 {
     Lab *lab = *state;
     write_primaries(lab);
@@ -128,7 +128,7 @@ static void a_black_that_was_subtracted_is_written_as_zero(void **state)
     lab_refused(lab, "black.csv: is a black pattern, and --no-black says that there is none");
 }
 
-static void what_a_set_needs_is_said(void **state)
+LAB_TEST(what_a_set_needs_is_said)
 {
     Lab *lab = *state;
     lab_refused(lab, "the files hold no table of a panel");
@@ -173,7 +173,7 @@ static void what_a_set_needs_is_said(void **state)
                      "light");
 }
 
-static void what_cannot_be_noise_below_zero_is_refused(void **state)
+LAB_TEST(what_cannot_be_noise_below_zero_is_refused)
 {
     Lab *lab = *state;
     lab_write(lab, "white.csv", "theta,phi,L\n0,0,100\n30,90,-0.4\n40,0,90\n");
@@ -189,7 +189,7 @@ static void what_cannot_be_noise_below_zero_is_refused(void **state)
                      "(noise below zero)");
 }
 
-static void wavelengths_that_nobody_sees_are_left_out(void **state)
+LAB_TEST(wavelengths_that_nobody_sees_are_left_out)
 {
     Lab *lab = *state;
     lab_write(lab, "i10.csv",
@@ -203,7 +203,7 @@ static void wavelengths_that_nobody_sees_are_left_out(void **state)
                      "nm");
 }
 
-static void a_declared_symmetry_fills_what_was_not_measured(void **state)
+LAB_TEST(a_declared_symmetry_fills_what_was_not_measured)
 {
     Lab *lab = *state;
     lab_write(lab, "white.csv", "theta,phi,L\n0,0,9\n30,0,1\n30,30,2\n30,90,3\n");
@@ -221,7 +221,7 @@ static void a_declared_symmetry_fills_what_was_not_measured(void **state)
 }
 
 /* The sample's image is the sample: light and leaving direction mirrored, the same value. */
-static void mirrored_lights_keep_the_mirrored_values(void **state)
+LAB_TEST(mirrored_lights_keep_the_mirrored_values)
 {
     Lab *lab = *state;
     static const char text[] = "theta,phi,550nm\n0,0,1\n30,20,2\n40,200,3\n50,300,4\n";
@@ -244,7 +244,7 @@ static void mirrored_lights_keep_the_mirrored_values(void **state)
     }
 }
 
-static void white_is_compared_with_the_sum_of_the_primaries(void **state)
+LAB_TEST(white_is_compared_with_the_sum_of_the_primaries)
 {
     Lab *lab = *state;
     static const char *const names[] = {"red.csv", "green.csv", "blue.csv", "black.csv",
@@ -260,7 +260,7 @@ static void white_is_compared_with_the_sum_of_the_primaries(void **state)
     assert_true(lab_noted(lab, "the white table is not used"));
 }
 
-static void nothing_half_written_stays(void **state)
+LAB_TEST(nothing_half_written_stays)
 {
     Lab *lab = *state;
     struct stat status;
@@ -283,7 +283,7 @@ static void nothing_half_written_stays(void **state)
     assert_true(file_exists(manifest_of(lab)));
 }
 
-static void a_source_is_not_written_over(void **state)
+LAB_TEST(a_source_is_not_written_over)
 {
     Lab *lab = *state;
     assert_int_equal(mkdir(arena_format(&lab->arena, "%s/out", lab->folder), 0777), 0);
@@ -312,7 +312,7 @@ static bool read_layout(Lab *lab, const char *text)
     return import_request_read(path, &lab->arena, lab->request, &lab->err);
 }
 
-static void a_declaration_file_holds_all_options(void **state)
+LAB_TEST(a_declaration_file_holds_all_options)
 {
     Lab *lab = *state;
     assert_true(read_layout(lab,
@@ -334,7 +334,7 @@ static void a_declaration_file_holds_all_options(void **state)
     assert_string_equal(lab->set.panel, "P");
 }
 
-static void a_declaration_files_mistakes_are_named(void **state)
+LAB_TEST(a_declaration_files_mistakes_are_named)
 {
     Lab *lab = *state;
     static const char *const wrong[][2] = {
@@ -359,7 +359,7 @@ static void a_declaration_files_mistakes_are_named(void **state)
 
 /* ---- spectra ----------------------------------------------------------------------------- */
 
-static void spectra_go_into_the_set(void **state)
+LAB_TEST(spectra_go_into_the_set)
 {
     Lab *lab = *state;
     write_primaries(lab);
@@ -395,7 +395,7 @@ static void spectra_go_into_the_set(void **state)
 
 /* ---- documentation ----------------------------------------------------------------------- */
 
-static void the_readme_names_every_key_and_format(void **state)
+LAB_TEST(the_readme_names_every_key_and_format)
 {
     Lab      *lab = *state;
     FileBytes readme;
@@ -413,23 +413,5 @@ static void the_readme_names_every_key_and_format(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        lab_case(what_is_written_reads_as_it_was_to_the_last_bit),
-        lab_case(any_float_survives_the_text),
-        lab_case(anisotropic_tables_are_named_by_azimuth),
-        lab_case(a_black_that_was_subtracted_is_written_as_zero),
-        lab_case(what_a_set_needs_is_said),
-        lab_case(what_cannot_be_noise_below_zero_is_refused),
-        lab_case(wavelengths_that_nobody_sees_are_left_out),
-        lab_case(a_declared_symmetry_fills_what_was_not_measured),
-        lab_case(mirrored_lights_keep_the_mirrored_values),
-        lab_case(white_is_compared_with_the_sum_of_the_primaries),
-        lab_case(nothing_half_written_stays),
-        lab_case(a_source_is_not_written_over),
-        lab_case(a_declaration_file_holds_all_options),
-        lab_case(a_declaration_files_mistakes_are_named),
-        lab_case(spectra_go_into_the_set),
-        lab_case(the_readme_names_every_key_and_format),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

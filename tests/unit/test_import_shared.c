@@ -43,7 +43,7 @@ static void compare_list(const ImportTable *table)
     fclose(source);
 }
 
-static void set_a_is_what_it_was(void **state)
+LAB_TEST(set_a_is_what_it_was)
 {
     Lab *lab = *state;
     add_files(lab, PANELS "/set-a/*.csv");
@@ -59,7 +59,7 @@ static void set_a_is_what_it_was(void **state)
     assert_int_equal(lab_table(lab, IMPORT_REFLECTION, 65)->channels, 16);
 }
 
-static void the_truth_files_are_no_tables_and_are_named(void **state)
+LAB_TEST(the_truth_files_are_no_tables_and_are_named)
 {
     Lab *lab = *state;
     add_files(lab, PANELS "/set-a/truth_*.csv");
@@ -122,7 +122,7 @@ static int compare_matrices(Lab *lab, const ImportTable *table)
     return holes;
 }
 
-static void set_b_is_turned_to_the_viewers_right(void **state)
+LAB_TEST(set_b_is_turned_to_the_viewers_right)
 {
     Lab *lab = *state;
     add_files(lab, PANELS "/set-b/*.txt");
@@ -142,7 +142,7 @@ static void set_b_is_turned_to_the_viewers_right(void **state)
 }
 
 /* Both sets are of one display: their luminances agree where their grids meet. */
-static void both_sets_show_the_same_display(void **state)
+LAB_TEST(both_sets_show_the_same_display)
 {
     Lab *lab = *state;
     add_files(lab, PANELS "/set-a/[RGBK]_*.csv");
@@ -170,7 +170,7 @@ static void both_sets_show_the_same_display(void **state)
 
 /* ---- others ------------------------------------------------------------------------------ */
 
-static void a_viewing_angle_table_needs_but_its_role(void **state)
+LAB_TEST(a_viewing_angle_table_needs_but_its_role)
 {
     Lab *lab = *state;
     add_files(lab, DISPLAY "/viewing_angle_oled_phi0_90.csv");
@@ -186,7 +186,7 @@ static void a_viewing_angle_table_needs_but_its_role(void **state)
     assert_true(lab->set.spectra.rows > 90);
 }
 
-static void every_primaries_file_is_read(void **state)
+LAB_TEST(every_primaries_file_is_read)
 {
     static const char *const names[] = {"OLED-SonyPVM-2541", "apple_studio_display_lcd",
                                         "typical_crt_brainard1997"};
@@ -202,7 +202,7 @@ static void every_primaries_file_is_read(void **state)
 }
 
 /* A reflectance factor at one leaving direction an incidence is no angular table. */
-static void single_directions_are_no_table(void **state)
+LAB_TEST(single_directions_are_no_table)
 {
     Lab *lab = *state;
     add_files(lab, SHARED_DATA_DIR "/bsdf/loft-blacklab/20250210_S7_sample_final.txt");
@@ -212,14 +212,5 @@ static void single_directions_are_no_table(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        lab_case(set_a_is_what_it_was),
-        lab_case(the_truth_files_are_no_tables_and_are_named),
-        lab_case(set_b_is_turned_to_the_viewers_right),
-        lab_case(both_sets_show_the_same_display),
-        lab_case(a_viewing_angle_table_needs_but_its_role),
-        lab_case(every_primaries_file_is_read),
-        lab_case(single_directions_are_no_table),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

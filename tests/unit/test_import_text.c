@@ -24,7 +24,7 @@ static void import_white(Lab *lab, const char *text)
 
 /* ---- how numbers are written ------------------------------------------------------------- */
 
-static void delimiters_and_decimal_signs_are_found(void **state)
+LAB_TEST(delimiters_and_decimal_signs_are_found)
 {
     static const char *const texts[] = {
         WHITE,
@@ -51,7 +51,7 @@ static void delimiters_and_decimal_signs_are_found(void **state)
     }
 }
 
-static void encodings_are_found(void **state)
+LAB_TEST(encodings_are_found)
 {
     Lab *lab = *state;
     static const char latin[] = "# Leuchtdichte in cd/m\xB2\n" WHITE;
@@ -79,7 +79,7 @@ static void encodings_are_found(void **state)
         }
 }
 
-static void comments_and_lines_before_the_header_are_passed_over(void **state)
+LAB_TEST(comments_and_lines_before_the_header_are_passed_over)
 {
     Lab *lab = *state;
     import_white(lab, "! a comment\n% another\n// a third\n\nSerial 17, batch 2\n\n" WHITE
@@ -96,7 +96,7 @@ static void comments_and_lines_before_the_header_are_passed_over(void **state)
 
 /* ---- columns ----------------------------------------------------------------------------- */
 
-static void columns_stand_in_any_order_and_others_are_left(void **state)
+LAB_TEST(columns_stand_in_any_order_and_others_are_left)
 {
     Lab *lab = *state;
     import_white(lab, "no,Z,Azimuth (deg),when,Y [cd/m2],Inclination [deg],X\n"
@@ -110,7 +110,7 @@ static void columns_stand_in_any_order_and_others_are_left(void **state)
     check_white(lab);
 }
 
-static void incidence_is_the_viewing_angle_of_luminances(void **state)
+LAB_TEST(incidence_is_the_viewing_angle_of_luminances)
 {
     Lab *lab = *state;
     import_white(lab, "Incidence angle;Azimuth angle;X;Y;Z\n0;0;95;100;109\n30;0;85;90;98\n"
@@ -121,7 +121,7 @@ static void incidence_is_the_viewing_angle_of_luminances(void **state)
 }
 
 /* CIE 15: X = Y x/y, Z = Y (1-x-y)/y; X = 9 Y u'/(4v'), Z = Y (12-3u'-20v')/(4v'). */
-static void chromaticities_become_tristimulus_values(void **state)
+LAB_TEST(chromaticities_become_tristimulus_values)
 {
     Lab *lab = *state;
     import_white(lab, "theta,phi,Y,x,y\n0,0,100,0.3,0.4\n10,0,50,0.25,0.5\n20,0,0,0,0\n");
@@ -138,7 +138,7 @@ static void chromaticities_become_tristimulus_values(void **state)
     assert_close(lab_value(white, 0, 0, 0) / 100, x / y, 1e-12);
 }
 
-static void luminance_alone_has_the_colour_of_the_spectra_or_of_daylight(void **state)
+LAB_TEST(luminance_alone_has_the_colour_of_the_spectra_or_of_daylight)
 {
     Lab *lab = *state;
     import_white(lab, "theta,phi,L\n0,0,100\n10,0,90\n20,0,80\n");
@@ -163,7 +163,7 @@ static void luminance_alone_has_the_colour_of_the_spectra_or_of_daylight(void **
     assert_int_equal(lab->set.spectra.rows, 5);
 }
 
-static void units_of_luminance_become_candela_a_square_metre(void **state)
+LAB_TEST(units_of_luminance_become_candela_a_square_metre)
 {
     static const struct { const char *header; double factor; } cases[] = {
         {"theta,phi,L (cd/m2)", 1}, {"theta,phi,L [nit]", 1}, {"theta,phi,L_fL", 3.4262590996},
@@ -188,7 +188,7 @@ static void units_of_luminance_become_candela_a_square_metre(void **state)
 
 /* ---- angles ------------------------------------------------------------------------------ */
 
-static void azimuths_are_turned_to_the_viewers_right(void **state)
+LAB_TEST(azimuths_are_turned_to_the_viewers_right)
 {
     static const struct { const char *zero, *sense, *side; double phi_of_30; } cases[] = {
         {"right", "ccw", "viewer", 30}, {"top", "cw", "viewer", 60},
@@ -207,7 +207,7 @@ static void azimuths_are_turned_to_the_viewers_right(void **state)
     }
 }
 
-static void a_file_says_its_own_azimuths_and_units(void **state)
+LAB_TEST(a_file_says_its_own_azimuths_and_units)
 {
     Lab *lab = *state;
     import_white(lab, "[Conoscope export]\nPanel;Type 7\nInstrument;Cone 88\n"
@@ -223,7 +223,7 @@ static void a_file_says_its_own_azimuths_and_units(void **state)
     assert_true(lab_noted(lab, "luminances are taken in cd/m2"));
 }
 
-static void radians_are_told_from_degrees_by_their_name(void **state)
+LAB_TEST(radians_are_told_from_degrees_by_their_name)
 {
     Lab *lab = *state;
     import_white(lab, "theta_rad,phi_rad,X,Y,Z\n0,0,1,2,3\n0.5235987755982988,"
@@ -235,7 +235,7 @@ static void radians_are_told_from_degrees_by_their_name(void **state)
 }
 
 /* Directions of closed form: on the axes all conventions agree; off them each has its own. */
-static void horizontal_and_vertical_angles_become_theta_and_phi(void **state)
+LAB_TEST(horizontal_and_vertical_angles_become_theta_and_phi)
 {
     static const struct { const char *angles; double theta, phi; } cases[] = {
         {"projected", 0, 45}, {"equidistant", 0, 45}, {"north-polar", 0, 0},
@@ -261,7 +261,7 @@ static void horizontal_and_vertical_angles_become_theta_and_phi(void **state)
 
 /* ---- matrices ---------------------------------------------------------------------------- */
 
-static void matrices_read_down_and_across(void **state)
+LAB_TEST(matrices_read_down_and_across)
 {
     Lab *lab = *state;
     import_white(lab, "[X]\ntheta\\phi;0;90;180;\n0;1;1;1;\n30;2;3;4;\n\n"
@@ -280,7 +280,7 @@ static void matrices_read_down_and_across(void **state)
     assert_near(lab_value(white, 0, 0, 1), 10, 0);
 }
 
-static void a_matrix_without_names_is_told_by_its_range(void **state)
+LAB_TEST(a_matrix_without_names_is_told_by_its_range)
 {
     Lab *lab = *state;
     lab_declare(lab, "quantity", "L");
@@ -293,7 +293,7 @@ static void a_matrix_without_names_is_told_by_its_range(void **state)
     assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 30, 80, 1), 40, 0);
 }
 
-static void a_matrix_may_have_horizontal_and_vertical_angles(void **state)
+LAB_TEST(a_matrix_may_have_horizontal_and_vertical_angles)
 {
     Lab *lab = *state;
     lab_declare(lab, "angles", "equidistant");
@@ -308,7 +308,7 @@ static void a_matrix_may_have_horizontal_and_vertical_angles(void **state)
     assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 20, 270, 1), 2, 0);
 }
 
-static void one_file_a_component_is_joined(void **state)
+LAB_TEST(one_file_a_component_is_joined)
 {
     Lab *lab = *state;
     static const char matrix[] = "theta\\phi,0,120,240\n0,1,1,1\n30,2,3,4\n";
@@ -323,7 +323,7 @@ static void one_file_a_component_is_joined(void **state)
 
 /* ---- what was not measured --------------------------------------------------------------- */
 
-static void marks_are_left_out_and_counted(void **state)
+LAB_TEST(marks_are_left_out_and_counted)
 {
     Lab *lab = *state;
     lab_declare(lab, "mask", "-999");
@@ -336,7 +336,7 @@ static void marks_are_left_out_and_counted(void **state)
     assert_near(white->masked_phi_deg[3], 270, 0);
 }
 
-static void directions_beyond_the_horizon_are_left_out_and_told(void **state)
+LAB_TEST(directions_beyond_the_horizon_are_left_out_and_told)
 {
     Lab *lab = *state;
     import_white(lab, "theta,phi,L\n0,0,3\n80,0,2\n90,0,1\n100,0,1\n180,0,1\n");
@@ -344,7 +344,7 @@ static void directions_beyond_the_horizon_are_left_out_and_told(void **state)
     assert_true(lab_noted(lab, "2 of 5 directions lie beyond 90 degrees"));
 }
 
-static void a_direction_that_stands_twice_becomes_the_mean(void **state)
+LAB_TEST(a_direction_that_stands_twice_becomes_the_mean)
 {
     Lab *lab = *state;
     import_white(lab, "theta,phi,X,Y,Z\n0,0,1,2,3\n0,90,2,3,4\n30,0,10,20,30\n30,360,12,24,36\n"
@@ -357,7 +357,7 @@ static void a_direction_that_stands_twice_becomes_the_mean(void **state)
 
 /* ---- sections ---------------------------------------------------------------------------- */
 
-static void sections_of_one_pattern_make_one_table(void **state)
+LAB_TEST(sections_of_one_pattern_make_one_table)
 {
     Lab *lab = *state;
     lab_declare(lab, "section", "*_hor*=0");
@@ -383,7 +383,7 @@ static void sections_of_one_pattern_make_one_table(void **state)
 
 #define BRDF "theta,phi,450nm,550nm\n0,0,1,2\n30,0,3,4\n30,90,5,6\n60,180,7,8\n"
 
-static void reflection_has_a_column_a_wavelength(void **state)
+LAB_TEST(reflection_has_a_column_a_wavelength)
 {
     Lab *lab = *state;
     lab_write(lab, "BRDF_20.csv", "theta,phi,550 nm,R_450nm\n0,0,2,1\n30,0,4,3\n30,90,6,5\n");
@@ -399,7 +399,7 @@ static void reflection_has_a_column_a_wavelength(void **state)
     assert_true(lab_noted(lab, "count from the mirror direction"));
 }
 
-static void one_file_a_wavelength_is_joined(void **state)
+LAB_TEST(one_file_a_wavelength_is_joined)
 {
     Lab *lab = *state;
     lab_write(lab, "i10_w550.csv", "theta,phi,brdf\n0,0,2\n30,0,4\n30,90,6\n");
@@ -412,7 +412,7 @@ static void one_file_a_wavelength_is_joined(void **state)
     assert_near(lab_value(table, 30, 90, 1), 6, 0);
 }
 
-static void long_lists_are_cut_into_tables(void **state)
+LAB_TEST(long_lists_are_cut_into_tables)
 {
     Lab *lab = *state;
     lab_write(lab, "all.csv",
@@ -437,7 +437,7 @@ static void long_lists_are_cut_into_tables(void **state)
     assert_near(lab_value(lab_table(lab, IMPORT_BLACK, 0), 10, 0, 1), 1, 0);
 }
 
-static void scatter_units_become_brdf(void **state)
+LAB_TEST(scatter_units_become_brdf)
 {
     double pi = 3.14159265358979323846;
     static const char *const units[] = {"brdf", "brdf-cos", "factor"};
@@ -453,7 +453,7 @@ static void scatter_units_become_brdf(void **state)
     }
 }
 
-static void signals_are_divided_by_the_white_reference_without_the_dark(void **state)
+LAB_TEST(signals_are_divided_by_the_white_reference_without_the_dark)
 {
     Lab *lab = *state;
     lab_declare(lab, "unit", "signal");
@@ -470,7 +470,7 @@ static void signals_are_divided_by_the_white_reference_without_the_dark(void **s
     assert_close(lab_value(table, 30, 0, 0), 0.2 * 0.99 / 3.14159265358979323846, 1e-12);
 }
 
-static void one_reading_of_a_reference_serves_every_direction(void **state)
+LAB_TEST(one_reading_of_a_reference_serves_every_direction)
 {
     Lab *lab = *state;
     lab_declare(lab, "unit", "signal");
@@ -486,7 +486,7 @@ static void one_reading_of_a_reference_serves_every_direction(void **state)
     assert_true(lab_noted(lab, "ref.csv is one reading"));
 }
 
-static void azimuths_of_the_light_make_an_anisotropic_set(void **state)
+LAB_TEST(azimuths_of_the_light_make_an_anisotropic_set)
 {
     Lab *lab = *state;
     static const char table[] = "theta,phi,550nm\n0,0,1\n30,180,9\n30,270,3\n60,0,4\n";
@@ -508,34 +508,5 @@ static void azimuths_of_the_light_make_an_anisotropic_set(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        lab_case(delimiters_and_decimal_signs_are_found),
-        lab_case(encodings_are_found),
-        lab_case(comments_and_lines_before_the_header_are_passed_over),
-        lab_case(columns_stand_in_any_order_and_others_are_left),
-        lab_case(incidence_is_the_viewing_angle_of_luminances),
-        lab_case(chromaticities_become_tristimulus_values),
-        lab_case(luminance_alone_has_the_colour_of_the_spectra_or_of_daylight),
-        lab_case(units_of_luminance_become_candela_a_square_metre),
-        lab_case(azimuths_are_turned_to_the_viewers_right),
-        lab_case(a_file_says_its_own_azimuths_and_units),
-        lab_case(radians_are_told_from_degrees_by_their_name),
-        lab_case(horizontal_and_vertical_angles_become_theta_and_phi),
-        lab_case(matrices_read_down_and_across),
-        lab_case(a_matrix_without_names_is_told_by_its_range),
-        lab_case(a_matrix_may_have_horizontal_and_vertical_angles),
-        lab_case(one_file_a_component_is_joined),
-        lab_case(marks_are_left_out_and_counted),
-        lab_case(directions_beyond_the_horizon_are_left_out_and_told),
-        lab_case(a_direction_that_stands_twice_becomes_the_mean),
-        lab_case(sections_of_one_pattern_make_one_table),
-        lab_case(reflection_has_a_column_a_wavelength),
-        lab_case(one_file_a_wavelength_is_joined),
-        lab_case(long_lists_are_cut_into_tables),
-        lab_case(scatter_units_become_brdf),
-        lab_case(signals_are_divided_by_the_white_reference_without_the_dark),
-        lab_case(one_reading_of_a_reference_serves_every_direction),
-        lab_case(azimuths_of_the_light_make_an_anisotropic_set),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

@@ -3,7 +3,7 @@
 #include "light_fixture.h"
 #include "spectrum/photometry.h"
 
-static void the_suns_irradiance_is_exact_whatever_its_size(void **state)
+TEST(the_suns_irradiance_is_exact_whatever_its_size)
 {
     (void)state;
     const float radius[] = {0.0005f, 0.00465f, 0.05f};
@@ -27,7 +27,7 @@ static void the_suns_irradiance_is_exact_whatever_its_size(void **state)
     }
 }
 
-static void the_heading_turns_the_sun_and_not_the_scene(void **state)
+TEST(the_heading_turns_the_sun_and_not_the_scene)
 {
     Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
@@ -46,7 +46,7 @@ static void the_heading_turns_the_sun_and_not_the_scene(void **state)
     assert_near(sky.sun_direction.x, 1, 1e-6);
 }
 
-static void a_uniform_sky_of_luminance_l_gives_pi_l(void **state)
+TEST(a_uniform_sky_of_luminance_l_gives_pi_l)
 {
     Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
@@ -77,7 +77,7 @@ static Scene *picture_scene(Arena *arena, int width, int height)
     return scene;
 }
 
-static void a_picture_can_be_scaled_to_an_illuminance(void **state)
+TEST(a_picture_can_be_scaled_to_an_illuminance)
 {
     Arena arena = test_arena(state);
     Scene *scene = picture_scene(&arena, 64, 32);
@@ -89,7 +89,7 @@ static void a_picture_can_be_scaled_to_an_illuminance(void **state)
 }
 
 /* North is the left edge, east a quarter, south (+Z) the middle; rotation adds to azimuth. */
-static void a_picture_hangs_the_right_way_round(void **state)
+TEST(a_picture_hangs_the_right_way_round)
 {
     Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
@@ -118,7 +118,7 @@ static void a_picture_hangs_the_right_way_round(void **state)
 }
 
 /* Pearson's test of a sampler against its density, both over a grid of directions. */
-static void picture_samples_follow_their_density(void **state)
+TEST(picture_samples_follow_their_density)
 {
     enum { ROWS = 16, COLUMNS = 32, COUNT = 400000, FINE = 24 };
     Arena arena = test_arena(state);
@@ -185,7 +185,7 @@ static void assert_equal_cells(const char *what, const int *counts, int cells, i
         fail_msg("%s: chi-square %.1f over %d equal cells", what, chi2, cells);
 }
 
-static void sun_samples_are_uniform_on_the_disc_and_never_off_it(void **state)
+TEST(sun_samples_are_uniform_on_the_disc_and_never_off_it)
 {
     enum { RINGS = 8, SECTORS = 16 };
     Arena    arena = test_arena(state);
@@ -267,7 +267,7 @@ static Scene *lamp_scene(Arena *arena)
 static const Vec3 LIT[] = {{0, 0, 0}, {3, 1.9f, 0.2f}, {8, 2.001f, 1}, {-50, -20, 7},
                            {9, 5, 0} /* behind */};
 
-static void densities_of_emitters_integrate_to_one_from_anywhere(void **state)
+TEST(densities_of_emitters_integrate_to_one_from_anywhere)
 {
     Arena    arena = test_arena(state);
     Scene   *scene = lamp_scene(&arena);
@@ -278,7 +278,7 @@ static void densities_of_emitters_integrate_to_one_from_anywhere(void **state)
 }
 
 /* Points fall into strips of every triangle as the density says. */
-static void emitter_samples_follow_their_density(void **state)
+TEST(emitter_samples_follow_their_density)
 {
     enum { STRIPS = 9, TRIANGLES = 6, FINE = 64 };
     Arena    arena = test_arena(state);
@@ -323,7 +323,7 @@ static void emitter_samples_follow_their_density(void **state)
 }
 
 /* From far away the choice is by power; from near it is the lamp at hand. */
-static void emitters_are_chosen_by_what_they_send_to_the_point(void **state)
+TEST(emitters_are_chosen_by_what_they_send_to_the_point)
 {
     Arena    arena = test_arena(state);
     Scene   *scene = builder_scene(&arena);
@@ -352,7 +352,7 @@ static void emitters_are_chosen_by_what_they_send_to_the_point(void **state)
 }
 
 /* Lit texels are found in proportion to their light. */
-static void bright_texels_are_chosen_more_often(void **state)
+TEST(bright_texels_are_chosen_more_often)
 {
     enum { SIDE = 64 };
     Arena    arena = test_arena(state);
@@ -385,7 +385,7 @@ static void bright_texels_are_chosen_more_often(void **state)
     assert_true(lit > SAMPLES / 2);
 }
 
-static void point_and_spot_follow_the_inverse_square_and_the_cone(void **state)
+TEST(point_and_spot_follow_the_inverse_square_and_the_cone)
 {
     Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
@@ -408,7 +408,7 @@ static void point_and_spot_follow_the_inverse_square_and_the_cone(void **state)
         1000.0 / 9 * pow(cos(0.3), 3) * ramp * ramp);
 }
 
-static void many_lights_are_chosen_without_bias(void **state)
+TEST(many_lights_are_chosen_without_bias)
 {
     Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
@@ -429,7 +429,7 @@ static void many_lights_are_chosen_without_bias(void **state)
 }
 
 /* A square of half side a at height h over the point: E = L * 4 * (corner factor). */
-static void an_area_light_gives_its_configuration_factor(void **state)
+TEST(an_area_light_gives_its_configuration_factor)
 {
     Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
@@ -465,21 +465,5 @@ static void an_area_light_gives_its_configuration_factor(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_suns_irradiance_is_exact_whatever_its_size),
-        cmocka_unit_test(the_heading_turns_the_sun_and_not_the_scene),
-        cmocka_unit_test(a_uniform_sky_of_luminance_l_gives_pi_l),
-        cmocka_unit_test(a_picture_can_be_scaled_to_an_illuminance),
-        cmocka_unit_test(a_picture_hangs_the_right_way_round),
-        cmocka_unit_test(picture_samples_follow_their_density),
-        cmocka_unit_test(sun_samples_are_uniform_on_the_disc_and_never_off_it),
-        cmocka_unit_test(densities_of_emitters_integrate_to_one_from_anywhere),
-        cmocka_unit_test(emitter_samples_follow_their_density),
-        cmocka_unit_test(emitters_are_chosen_by_what_they_send_to_the_point),
-        cmocka_unit_test(bright_texels_are_chosen_more_often),
-        cmocka_unit_test(point_and_spot_follow_the_inverse_square_and_the_cone),
-        cmocka_unit_test(many_lights_are_chosen_without_bias),
-        cmocka_unit_test(an_area_light_gives_its_configuration_factor),
-    };
-    return cmocka_run_group_tests(tests, make_arena, drop_arena);
+    return run_cases(make_arena, drop_arena);
 }

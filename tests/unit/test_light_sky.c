@@ -22,7 +22,7 @@ static Scene *sky_scene(EnvironmentKind kind, double elevation_deg, Arena *arena
     return scene;
 }
 
-static void a_modelled_sky_and_its_sun_give_the_stated_illuminance(void **state)
+TEST(a_modelled_sky_and_its_sun_give_the_stated_illuminance)
 {
     Arena arena = test_arena(state);
     for (int kind = ENVIRONMENT_CIE; kind <= ENVIRONMENT_SKY; kind++) {
@@ -44,7 +44,7 @@ static void a_modelled_sky_and_its_sun_give_the_stated_illuminance(void **state)
     }
 }
 
-static void a_half_set_sun_gives_half_its_light(void **state)
+TEST(a_half_set_sun_gives_half_its_light)
 {
     Arena  arena = test_arena(state);
     Scene *scene = sky_scene(ENVIRONMENT_SKY, 0, &arena);
@@ -64,7 +64,7 @@ static void a_half_set_sun_gives_half_its_light(void **state)
     assert_true(sum[0] == 0 && sum[1] > 0);
 }
 
-static void modelled_sky_samples_follow_their_density(void **state)
+TEST(modelled_sky_samples_follow_their_density)
 {
     enum { ROWS = 24, COLUMNS = 24, COUNT = 300000, FINE = 40 };
     Arena arena = test_arena(state);
@@ -115,7 +115,7 @@ static void modelled_sky_samples_follow_their_density(void **state)
     }
 }
 
-static void a_sky_without_a_sun_to_stand_by_is_refused(void **state)
+TEST(a_sky_without_a_sun_to_stand_by_is_refused)
 {
     Arena arena = test_arena(state);
     Scene *scene = sky_scene(ENVIRONMENT_PEREZ, -5, &arena);
@@ -128,11 +128,5 @@ static void a_sky_without_a_sun_to_stand_by_is_refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_modelled_sky_and_its_sun_give_the_stated_illuminance),
-        cmocka_unit_test(a_half_set_sun_gives_half_its_light),
-        cmocka_unit_test(modelled_sky_samples_follow_their_density),
-        cmocka_unit_test(a_sky_without_a_sun_to_stand_by_is_refused),
-    };
-    return cmocka_run_group_tests(tests, make_arena, drop_arena);
+    return run_cases(make_arena, drop_arena);
 }

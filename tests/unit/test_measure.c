@@ -35,7 +35,7 @@ static void add_layer(FrameImage *frame, const char *layer, float value, Arena *
     }
 }
 
-static void a_region_has_the_mean_of_its_pixels(void **state)
+TEST(a_region_has_the_mean_of_its_pixels)
 {
     Arena      arena = test_arena(state);
     FrameImage frame = uniform_frame(10, 10, 100, &arena);
@@ -58,7 +58,7 @@ static void a_region_has_the_mean_of_its_pixels(void **state)
 }
 
 /* 100 pixels whose means have a variance of 4 each: 1.96 * 2 / sqrt(100). */
-static void intervals_follow_from_the_variance_layer(void **state)
+TEST(intervals_follow_from_the_variance_layer)
 {
     Arena      arena = test_arena(state);
     FrameImage frame = uniform_frame(10, 10, 100, &arena);
@@ -69,7 +69,7 @@ static void intervals_follow_from_the_variance_layer(void **state)
 }
 
 /* With channels that are independent and normal the interval of x holds 95 of 100 times. */
-static void the_interval_of_chromaticity_covers(void **state)
+TEST(the_interval_of_chromaticity_covers)
 {
     enum { TRIALS = 2000 };
     Arena    arena = test_arena(state);
@@ -95,7 +95,7 @@ static void the_interval_of_chromaticity_covers(void **state)
     assert_near(inside / (double)TRIALS, 0.95, 0.02);
 }
 
-static void a_display_has_its_contrast(void **state)
+TEST(a_display_has_its_contrast)
 {
     Arena      arena = test_arena(state);
     FrameImage frame = uniform_frame(10, 10, 100, &arena);
@@ -116,7 +116,7 @@ static void a_display_has_its_contrast(void **state)
     assert_int_equal(m.pixels, 10);
 }
 
-static void what_cannot_be_measured_is_told(void **state)
+TEST(what_cannot_be_measured_is_told)
 {
     Arena          arena = test_arena(state);
     FrameImage     frame = uniform_frame(10, 10, 100, &arena);
@@ -140,12 +140,5 @@ static void what_cannot_be_measured_is_told(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_region_has_the_mean_of_its_pixels),
-        cmocka_unit_test(intervals_follow_from_the_variance_layer),
-        cmocka_unit_test(the_interval_of_chromaticity_covers),
-        cmocka_unit_test(a_display_has_its_contrast),
-        cmocka_unit_test(what_cannot_be_measured_is_told),
-    };
-    return cmocka_run_group_tests(tests, make_arena, drop_arena);
+    return run_cases(make_arena, drop_arena);
 }

@@ -19,7 +19,7 @@ static int compare_floats(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static void ranks_are_those_of_sorting(void **state)
+TEST(ranks_are_those_of_sorting)
 {
     (void)state;
     float    values[501], sorted[501];
@@ -35,7 +35,7 @@ static void ranks_are_those_of_sorting(void **state)
     assert_near(rank_value(values, 501, NULL, 1), sorted[500], 0);
 }
 
-static void ranks_keep_to_the_mask(void **state)
+TEST(ranks_keep_to_the_mask)
 {
     (void)state;
     const float   values[5] = {9, -2, 4, -7, 1};
@@ -56,7 +56,7 @@ static PixelErrors errors_of(const Canvas *r, const Canvas *t, PixelMask mask, b
     return pixel_errors_measure(&r->planes, &t->planes, mask, is_light, arena);
 }
 
-static void equal_pictures_have_no_error(void **state)
+TEST(equal_pictures_have_no_error)
 {
     Arena        arena = test_arena(state);
     const Canvas scene = canvas_scene(50, 40, 0.3, 1, &arena);
@@ -71,7 +71,7 @@ static void equal_pictures_have_no_error(void **state)
 }
 
 /* Grey 0.5 against grey 0.75: e is a hundredth of 0.5. */
-static void even_pictures_follow_the_closed_forms(void **state)
+TEST(even_pictures_follow_the_closed_forms)
 {
     Arena        arena = test_arena(state);
     const Canvas r = canvas_uniform(0.5f, 0.5f, 0.5f, &arena);
@@ -86,7 +86,7 @@ static void even_pictures_follow_the_closed_forms(void **state)
 }
 
 /* One channel in one pixel of 108 is off. */
-static void one_pixel_is_one_of_all(void **state)
+TEST(one_pixel_is_one_of_all)
 {
     Arena        arena = test_arena(state);
     const Canvas r = canvas_uniform(1, 1, 1, &arena), t = canvas_uniform(1, 1, 1, &arena);
@@ -100,7 +100,7 @@ static void one_pixel_is_one_of_all(void **state)
 }
 
 /* 999 of 1000 pixels are not above 40: the sun of 1e9 does not set the peak of a frame. */
-static void a_frame_has_its_own_peak(void **state)
+TEST(a_frame_has_its_own_peak)
 {
     Arena        arena = test_arena(state);
     const Canvas r = canvas_create(50, 20, &arena), t = canvas_create(50, 20, &arena);
@@ -114,7 +114,7 @@ static void a_frame_has_its_own_peak(void **state)
     assert_near(errors_of(&r, &t, NULL, false, arena).peak, 1, 0);
 }
 
-static void errors_grow_with_the_unit_of_light(void **state)
+TEST(errors_grow_with_the_unit_of_light)
 {
     Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(50, 40, 0.3, 1, &arena);
@@ -130,7 +130,7 @@ static void errors_grow_with_the_unit_of_light(void **state)
     assert_true(a.rel_mse > 0.01);
 }
 
-static void a_black_reference_is_told_apart(void **state)
+TEST(a_black_reference_is_told_apart)
 {
     Arena        arena = test_arena(state);
     const Canvas black = canvas_uniform(0, 0, 0, &arena);
@@ -147,7 +147,7 @@ static void a_black_reference_is_told_apart(void **state)
 }
 
 /* Whatever stands behind the mask: not one bit of any figure changes. */
-static void masked_pixels_count_for_nothing(void **state)
+TEST(masked_pixels_count_for_nothing)
 {
     Arena          arena = test_arena(state);
     const Canvas   r = canvas_scene(40, 30, 0.3, 1, &arena);
@@ -175,7 +175,7 @@ static void masked_pixels_count_for_nothing(void **state)
     assert_true(errors_of(&r, &spoilt, NULL, true, arena).mse > 2 * a.mse);
 }
 
-static void no_pixel_gives_no_number(void **state)
+TEST(no_pixel_gives_no_number)
 {
     Arena          arena = test_arena(state);
     const Canvas   r = canvas_uniform(1, 2, 3, &arena);
@@ -198,7 +198,7 @@ static double ssim_of(const Canvas *r, const Canvas *t, Arena arena)
     return ssim_mean(&r->planes, &t->planes, NULL, NULL, arena);
 }
 
-static void equal_pictures_are_similar(void **state)
+TEST(equal_pictures_are_similar)
 {
     Arena        arena = test_arena(state);
     const Canvas scene = canvas_scene(50, 40, 0.3, 1, &arena);
@@ -208,7 +208,7 @@ static void equal_pictures_are_similar(void **state)
 }
 
 /* A hole in a picture is no part of it, not a black one. */
-static void holes_do_not_show(void **state)
+TEST(holes_do_not_show)
 {
     Arena         arena = test_arena(state);
     const Canvas  r = canvas_uniform(0.5f, 0.5f, 0.5f, &arena);
@@ -221,7 +221,7 @@ static void holes_do_not_show(void **state)
 }
 
 /* No contrast: what is left is (2 r t + C1) / (r^2 + t^2 + C1). */
-static void even_pictures_differ_by_luminance(void **state)
+TEST(even_pictures_differ_by_luminance)
 {
     Arena        arena = test_arena(state);
     const Canvas r = canvas_uniform(0.5f, 0.5f, 0.5f, &arena);
@@ -235,7 +235,7 @@ static void even_pictures_differ_by_luminance(void **state)
 /* A pattern of greys about the same mean, with half of the contrast: wherever the window's mean
  * is m + d and its variance v, the test's are m + d / 2 and v / 4. For stripes of one pixel
  * the window sees all of the mean but 1e-3 of the amplitude. */
-static void contrast_counts_by_its_own_term(void **state)
+TEST(contrast_counts_by_its_own_term)
 {
     Arena        arena = test_arena(state);
     const Canvas r = canvas_create(41, 41, &arena), t = canvas_create(41, 41, &arena);
@@ -279,7 +279,7 @@ static double direct_ssim(const Canvas *r, const Canvas *t, int px, int py)
     return luminance * (2 * cov + 9e-4) / (vr + vt + 9e-4);
 }
 
-static void windows_agree_with_direct_sums(void **state)
+TEST(windows_agree_with_direct_sums)
 {
     Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(31, 23, 0.2, 1, &arena);
@@ -298,7 +298,7 @@ static void windows_agree_with_direct_sums(void **state)
 
 /* ---- colours ---- */
 
-static void third_roots_are_exact(void **state)
+TEST(third_roots_are_exact)
 {
     (void)state;
     double worst = 0;
@@ -319,7 +319,7 @@ static void assert_lab(float r, float g, float b, const double expected[3], doub
 
 /* Primaries: as published for sRGB (Lindbloom's calculator and others give these within the
  * 0.02 that D65's digits make). */
-static void known_colours_have_their_lab(void **state)
+TEST(known_colours_have_their_lab)
 {
     (void)state;
     assert_lab(1, 1, 1, (double[]){100, 0, 0}, 1e-11);
@@ -372,7 +372,7 @@ static const double SHARMA[34][7] = {
     {2.0776, 0.0795, -1.1350, 0.9033, -0.0636, -0.5514, 0.9082},
 };
 
-static void published_pairs_have_their_difference(void **state)
+TEST(published_pairs_have_their_difference)
 {
     (void)state;
     for (int i = 0; i < 34; i++) {
@@ -384,7 +384,7 @@ static void published_pairs_have_their_difference(void **state)
 }
 
 /* The same pairs as the shared data has them. */
-static void the_file_of_pairs_agrees(void **state)
+TEST(the_file_of_pairs_agrees)
 {
     (void)state;
     FILE *file = fopen(SHARED_DATA_DIR "/imgmetrics/ciede2000_sharma2005.csv", "r");
@@ -407,7 +407,7 @@ static void the_file_of_pairs_agrees(void **state)
 }
 
 /* White against grey: only the lightness term, (100 - L) / SL, is there. */
-static void pictures_have_their_difference(void **state)
+TEST(pictures_have_their_difference)
 {
     Arena        arena = test_arena(state);
     const Canvas white = canvas_uniform(1, 1, 1, &arena);
@@ -427,27 +427,5 @@ static void pictures_have_their_difference(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ranks_are_those_of_sorting),
-        cmocka_unit_test(ranks_keep_to_the_mask),
-        cmocka_unit_test(equal_pictures_have_no_error),
-        cmocka_unit_test(even_pictures_follow_the_closed_forms),
-        cmocka_unit_test(one_pixel_is_one_of_all),
-        cmocka_unit_test(a_frame_has_its_own_peak),
-        cmocka_unit_test(errors_grow_with_the_unit_of_light),
-        cmocka_unit_test(a_black_reference_is_told_apart),
-        cmocka_unit_test(masked_pixels_count_for_nothing),
-        cmocka_unit_test(no_pixel_gives_no_number),
-        cmocka_unit_test(equal_pictures_are_similar),
-        cmocka_unit_test(holes_do_not_show),
-        cmocka_unit_test(even_pictures_differ_by_luminance),
-        cmocka_unit_test(contrast_counts_by_its_own_term),
-        cmocka_unit_test(windows_agree_with_direct_sums),
-        cmocka_unit_test(third_roots_are_exact),
-        cmocka_unit_test(known_colours_have_their_lab),
-        cmocka_unit_test(published_pairs_have_their_difference),
-        cmocka_unit_test(the_file_of_pairs_agrees),
-        cmocka_unit_test(pictures_have_their_difference),
-    };
-    return cmocka_run_group_tests(tests, make_arena, drop_arena);
+    return run_cases(make_arena, drop_arena);
 }

@@ -43,7 +43,7 @@ static Text small_page(bool is_dark)
     return page;
 }
 
-static void every_text_is_escaped(void **state)
+TEST(every_text_is_escaped)
 {
     (void)state;
     Text page = small_page(false);
@@ -54,7 +54,7 @@ static void every_text_is_escaped(void **state)
     assert_non_null(strstr(page.data, "<th class=\"n\" title=\"a&lt;"));
 }
 
-static void a_page_is_whole_and_asks_nobody(void **state)
+TEST(a_page_is_whole_and_asks_nobody)
 {
     (void)state;
     const char *page = small_page(false).data;
@@ -70,7 +70,7 @@ static void a_page_is_whole_and_asks_nobody(void **state)
     assert_non_null(strstr(small_page(true).data, "<html lang=\"en\" class=\"dark\">"));
 }
 
-static void pictures_lie_in_the_page(void **state)
+TEST(pictures_lie_in_the_page)
 {
     (void)state;
     Error   err = {0};
@@ -81,7 +81,7 @@ static void pictures_lie_in_the_page(void **state)
     assert_non_null(strstr(page.data, " src=\"data:image/png;base64,iVBORw0KGgo"));
 }
 
-static void parts_become_one_file(void **state)
+TEST(parts_become_one_file)
 {
     (void)state;
     Error       err = {0};
@@ -103,12 +103,6 @@ static void parts_become_one_file(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_text_is_escaped),
-        cmocka_unit_test(a_page_is_whole_and_asks_nobody),
-        cmocka_unit_test(pictures_lie_in_the_page),
-        cmocka_unit_test(parts_become_one_file),
-    };
     arena = arena_reserve((size_t)1 << 30);
-    return cmocka_run_group_tests_name("page", tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

@@ -54,7 +54,7 @@ static double error_at_samples(const AngleTable *table, const float rgb[3])
     return worst;
 }
 
-static void a_fit_stays_within_its_printed_error_at_the_samples(void **state)
+TEST(a_fit_stays_within_its_printed_error_at_the_samples)
 {
     (void)state;
     for (int p = 0; p < 3; p++)
@@ -70,7 +70,7 @@ static void a_fit_stays_within_its_printed_error_at_the_samples(void **state)
         }
 }
 
-static void emission_follows_the_truth_between_samples_and_levels(void **state)
+TEST(emission_follows_the_truth_between_samples_and_levels)
 {
     (void)state;
     uint32_t random = 1;
@@ -90,7 +90,7 @@ static void emission_follows_the_truth_between_samples_and_levels(void **state)
     }
 }
 
-static void black_is_counted_once(void **state)
+TEST(black_is_counted_once)
 {
     (void)state;
     for (int i = 0; i < 8; i++) {
@@ -112,7 +112,7 @@ static void black_is_counted_once(void **state)
     }
 }
 
-static void more_code_is_more_light(void **state)
+TEST(more_code_is_more_light)
 {
     (void)state;
     for (int p = 0; p < 3; p++)
@@ -132,7 +132,7 @@ static void more_code_is_more_light(void **state)
         }
 }
 
-static void the_lowest_code_adds_next_to_nothing(void **state)
+TEST(the_lowest_code_adds_next_to_nothing)
 {
     (void)state;
     float black[3], xyz[3], dark[3] = {0, 0, 0}, faint[3] = {0.01f, 0.01f, 0.01f};
@@ -142,7 +142,7 @@ static void the_lowest_code_adds_next_to_nothing(void **state)
     assert_near(xyz[1], black[1], 1e-4);
 }
 
-static void below_the_surface_nothing_is_emitted(void **state)
+TEST(below_the_surface_nothing_is_emitted)
 {
     (void)state;
     float xyz[3], rgb[3] = {255, 255, 255};
@@ -154,7 +154,7 @@ static void below_the_surface_nothing_is_emitted(void **state)
     assert_true(panel_pdf(ips.panel, vec3(0, 0, 1), vec3(0, 0.6f, -0.8f)) == 0);
 }
 
-static void beyond_the_cone_is_flagged_and_falls(void **state)
+TEST(beyond_the_cone_is_flagged_and_falls)
 {
     (void)state;
     float rgb[3] = {255, 255, 255}, inside[3], outside[3];
@@ -163,7 +163,7 @@ static void beyond_the_cone_is_flagged_and_falls(void **state)
     assert_true(outside[1] >= 0 && outside[1] < inside[1]);
 }
 
-static void mean_luminance_is_the_cosine_mean(void **state)
+TEST(mean_luminance_is_the_cosine_mean)
 {
     (void)state;
     float  rgb[3] = {255, 127, 40};
@@ -196,7 +196,7 @@ static void integrate_spectrum(Vec3 d, const float rgb[3], double xyz[3], float 
     }
 }
 
-static void spectra_integrate_to_the_measured_colour(void **state)
+TEST(spectra_integrate_to_the_measured_colour)
 {
     (void)state;
     static const float pixels[][3] = {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {255, 255, 255},
@@ -225,7 +225,7 @@ static double true_brdf(double incidence_deg, double theta_deg, double phi_deg, 
                       radians_from_degrees(theta_deg), radians_from_degrees(phi_deg), nm);
 }
 
-static void the_peak_stands_at_the_mirror_direction_and_has_no_ghosts(void **state)
+TEST(the_peak_stands_at_the_mirror_direction_and_has_no_ghosts)
 {
     (void)state;
     Wavelengths w = even_wavelengths(420, 15);
@@ -253,7 +253,7 @@ static void the_peak_stands_at_the_mirror_direction_and_has_no_ghosts(void **sta
     }
 }
 
-static void reflection_follows_the_truth_between_incidences(void **state)
+TEST(reflection_follows_the_truth_between_incidences)
 {
     (void)state;
     Wavelengths w = even_wavelengths(420, 15);
@@ -275,7 +275,7 @@ static void reflection_follows_the_truth_between_incidences(void **state)
     }
 }
 
-static void only_the_difference_of_azimuths_counts(void **state)
+TEST(only_the_difference_of_azimuths_counts)
 {
     (void)state;
     Wavelengths w = even_wavelengths(420, 15);
@@ -290,7 +290,7 @@ static void only_the_difference_of_azimuths_counts(void **state)
     }
 }
 
-static void the_mirror_part_is_told_from_the_haze(void **state)
+TEST(the_mirror_part_is_told_from_the_haze)
 {
     (void)state;
     Wavelengths w = even_wavelengths(420, 15);
@@ -302,7 +302,7 @@ static void the_mirror_part_is_told_from_the_haze(void **state)
     }
 }
 
-static void the_reciprocity_defect_is_reported_and_small(void **state)
+TEST(the_reciprocity_defect_is_reported_and_small)
 {
     (void)state;
     json_t *defect = json_object_get(json_object_get(ips.report, "reflection"),
@@ -311,7 +311,7 @@ static void the_reciprocity_defect_is_reported_and_small(void **state)
     assert_true(json_number_value(defect) < 0.04);
 }
 
-static void no_more_comes_back_than_falls_in(void **state)
+TEST(no_more_comes_back_than_falls_in)
 {
     (void)state;
     Wavelengths w = even_wavelengths(400, 20);
@@ -332,7 +332,7 @@ static void no_more_comes_back_than_falls_in(void **state)
     }
 }
 
-static void the_report_has_what_scripts_rely_on(void **state)
+TEST(the_report_has_what_scripts_rely_on)
 {
     (void)state;
     static const char *const keys[] = {"name", "source_bytes_text", "source_bytes_float32",
@@ -349,7 +349,7 @@ static void the_report_has_what_scripts_rely_on(void **state)
     json_decref(report);
 }
 
-static void a_fit_gives_the_same_bytes_again(void **state)
+TEST(a_fit_gives_the_same_bytes_again)
 {
     (void)state;
     Error      err = {0};
@@ -369,7 +369,7 @@ static void a_fit_gives_the_same_bytes_again(void **state)
 
 /* ---- other panels ---------------------------------------------------------------------- */
 
-static void a_lobe_at_phi_90_is_seen_from_above(void **state)
+TEST(a_lobe_at_phi_90_is_seen_from_above)
 {
     (void)state;
     Fixture    lobe;
@@ -391,7 +391,7 @@ static void a_lobe_at_phi_90_is_seen_from_above(void **state)
     fixture_end(&lobe);
 }
 
-static void a_true_black_stays_black(void **state)
+TEST(a_true_black_stays_black)
 {
     (void)state;
     Fixture    oled;
@@ -410,7 +410,7 @@ static void a_true_black_stays_black(void **state)
     fixture_end(&oled);
 }
 
-static void a_white_only_table_of_two_sections_becomes_a_panel(void **state)
+TEST(a_white_only_table_of_two_sections_becomes_a_panel)
 {
     (void)state;
     static const struct { double theta, phi, y; } seen[] = {
@@ -436,7 +436,7 @@ static void a_white_only_table_of_two_sections_becomes_a_panel(void **state)
 
 /* A table alone may be any pattern's: colours that no three Rec.709 amounts make come back as
  * they were measured, mostly from the primary next to them. */
-static void a_lone_table_keeps_a_colour_outside_of_rec_709(void **state)
+TEST(a_lone_table_keeps_a_colour_outside_of_rec_709)
 {
     (void)state;
     Fixture    red;
@@ -499,7 +499,7 @@ static void check_shipped(const char *name)
     arena_release(&arena);
 }
 
-static void shipped_panels_say_what_their_recipes_say(void **state)
+TEST(shipped_panels_say_what_their_recipes_say)
 {
     (void)state;
     check_shipped("ips_cluster");
@@ -508,29 +508,5 @@ static void shipped_panels_say_what_their_recipes_say(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_fit_stays_within_its_printed_error_at_the_samples),
-        cmocka_unit_test(emission_follows_the_truth_between_samples_and_levels),
-        cmocka_unit_test(black_is_counted_once),
-        cmocka_unit_test(more_code_is_more_light),
-        cmocka_unit_test(the_lowest_code_adds_next_to_nothing),
-        cmocka_unit_test(below_the_surface_nothing_is_emitted),
-        cmocka_unit_test(beyond_the_cone_is_flagged_and_falls),
-        cmocka_unit_test(mean_luminance_is_the_cosine_mean),
-        cmocka_unit_test(spectra_integrate_to_the_measured_colour),
-        cmocka_unit_test(the_peak_stands_at_the_mirror_direction_and_has_no_ghosts),
-        cmocka_unit_test(reflection_follows_the_truth_between_incidences),
-        cmocka_unit_test(only_the_difference_of_azimuths_counts),
-        cmocka_unit_test(the_mirror_part_is_told_from_the_haze),
-        cmocka_unit_test(the_reciprocity_defect_is_reported_and_small),
-        cmocka_unit_test(no_more_comes_back_than_falls_in),
-        cmocka_unit_test(the_report_has_what_scripts_rely_on),
-        cmocka_unit_test(a_fit_gives_the_same_bytes_again),
-        cmocka_unit_test(shipped_panels_say_what_their_recipes_say),
-        cmocka_unit_test(a_lobe_at_phi_90_is_seen_from_above),
-        cmocka_unit_test(a_true_black_stays_black),
-        cmocka_unit_test(a_lone_table_keeps_a_colour_outside_of_rec_709),
-        cmocka_unit_test(a_white_only_table_of_two_sections_becomes_a_panel),
-    };
-    return cmocka_run_group_tests(tests, start_ips, fixture_group_end);
+    return run_cases(start_ips, fixture_group_end);
 }

@@ -190,7 +190,7 @@ static double true_mean(const Beam *b)
     return sum / PI;
 }
 
-static void beams_keep_the_bound(void **state)
+TEST(beams_keep_the_bound)
 {
     (void)state;
     const char *all = getenv("PARHELION_BEAMS");
@@ -232,7 +232,7 @@ static size_t pack(Arena *arena, const PanelBeamHead *head, const void **bytes)
 
 static const PanelBeamHead round_beam = {{0.6f, 0, 0.8f}, {0, 0, 0}, 0.01f, KNOTS, {0}};
 
-static void a_stored_beam_comes_back(void **state)
+TEST(a_stored_beam_comes_back)
 {
     (void)state;
     Arena       arena = arena_reserve((size_t)1 << 20);
@@ -256,7 +256,7 @@ static void a_stored_beam_comes_back(void **state)
     arena_release(&arena);
 }
 
-static void damaged_beams_are_refused(void **state)
+TEST(damaged_beams_are_refused)
 {
     (void)state;
     Arena         arena = arena_reserve((size_t)1 << 20);
@@ -293,10 +293,5 @@ static void damaged_beams_are_refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(beams_keep_the_bound),
-        cmocka_unit_test(a_stored_beam_comes_back),
-        cmocka_unit_test(damaged_beams_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

@@ -64,7 +64,7 @@ static double largest_error(const double found[3], const double wanted[3])
     return largest;
 }
 
-static void the_bound_holds_between_the_samples(void **state)
+TEST(the_bound_holds_between_the_samples)
 {
     (void)state;
     static const float codes[3][3] = {{0, 0, 0}, {255, 255, 255}, {127, 0, 0}};
@@ -96,8 +96,5 @@ static void the_bound_holds_between_the_samples(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_bound_holds_between_the_samples),
-    };
-    return cmocka_run_group_tests(tests, start, fixture_group_end);
+    return run_cases(start, fixture_group_end);
 }

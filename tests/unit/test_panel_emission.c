@@ -107,7 +107,7 @@ static int end_all(void **state)
     return 0;
 }
 
-static void every_sample_keeps_the_bound_that_was_asked_for(void **state)
+TEST(every_sample_keeps_the_bound_that_was_asked_for)
 {
     (void)state;
     for (int r = 0; r < 4; r++) {
@@ -126,7 +126,7 @@ static void every_sample_keeps_the_bound_that_was_asked_for(void **state)
     }
 }
 
-static void between_samples_the_truth_is_near(void **state)
+TEST(between_samples_the_truth_is_near)
 {
     (void)state;
     for (int r = 0; r < 4; r++) {
@@ -136,7 +136,7 @@ static void between_samples_the_truth_is_near(void **state)
     }
 }
 
-static void beyond_the_cone_light_falls(void **state)
+TEST(beyond_the_cone_light_falls)
 {
     (void)state;
     float rgb[3] = {255, 255, 255}, edge[3], before[3], xyz[3];
@@ -154,7 +154,7 @@ static void beyond_the_cone_light_falls(void **state)
         }
 }
 
-static void noise_is_smoothed_not_stored(void **state)
+TEST(noise_is_smoothed_not_stored)
 {
     (void)state;
     Fixture    clean, noisy;
@@ -178,7 +178,7 @@ static void noise_is_smoothed_not_stored(void **state)
     fixture_end(&noisy);
 }
 
-static void sets_and_lone_tables_take_few_bytes(void **state)
+TEST(sets_and_lone_tables_take_few_bytes)
 {
     (void)state;
     Fixture    f;
@@ -198,7 +198,7 @@ static void sets_and_lone_tables_take_few_bytes(void **state)
     fixture_end(&f);
 }
 
-static void a_table_is_as_bright_as_it_was_measured_on_the_whole(void **state)
+TEST(a_table_is_as_bright_as_it_was_measured_on_the_whole)
 {
     (void)state;
     for (int r = 0; r < 4; r++) {
@@ -218,7 +218,7 @@ static AngleTable *table_of(Fixture *f, int primary, int level)
     return &f->set->primary[primary].table[level];
 }
 
-static void hot_pixels_are_found_listed_and_not_followed(void **state)
+TEST(hot_pixels_are_found_listed_and_not_followed)
 {
     (void)state;
     Fixture    f;
@@ -255,7 +255,7 @@ static void drop_row(AngleTable *t, int row)
     t->rows--;
 }
 
-static void holes_are_listed_and_filled_by_what_is_known(void **state)
+TEST(holes_are_listed_and_filled_by_what_is_known)
 {
     (void)state;
     Fixture    f;
@@ -270,7 +270,7 @@ static void holes_are_listed_and_filled_by_what_is_known(void **state)
     fixture_end(&f);
 }
 
-static void tables_may_have_grids_of_their_own(void **state)
+TEST(tables_may_have_grids_of_their_own)
 {
     (void)state;
     Fixture    f, other;
@@ -292,7 +292,7 @@ static void tables_may_have_grids_of_their_own(void **state)
     fixture_end(&f);
 }
 
-static void two_sections_are_met_where_they_were_measured(void **state)
+TEST(two_sections_are_met_where_they_were_measured)
 {
     (void)state;
     Fixture    f;
@@ -312,7 +312,7 @@ static void two_sections_are_met_where_they_were_measured(void **state)
     fixture_end(&f);
 }
 
-static void both_bases_answer_the_same_query(void **state)
+TEST(both_bases_answer_the_same_query)
 {
     (void)state;
     Fixture    haar;
@@ -327,7 +327,7 @@ static void both_bases_answer_the_same_query(void **state)
     fixture_end(&haar);
 }
 
-static void a_surface_that_only_reflects_emits_nothing(void **state)
+TEST(a_surface_that_only_reflects_emits_nothing)
 {
     (void)state;
     Fixture    f;
@@ -358,7 +358,7 @@ static void a_surface_that_only_reflects_emits_nothing(void **state)
 
 /* ---- levels ---------------------------------------------------------------------------- */
 
-static void a_level_left_out_is_predicted(void **state)
+TEST(a_level_left_out_is_predicted)
 {
     (void)state;
     for (int left = 1; left <= 6; left += 5) {
@@ -389,7 +389,7 @@ static void a_level_left_out_is_predicted(void **state)
     }
 }
 
-static void level_weights_reproduce_the_mean_curve(void **state)
+TEST(level_weights_reproduce_the_mean_curve)
 {
     (void)state;
     static const float codes[] = {16, 31, 80, 127, 200, 255};
@@ -414,7 +414,7 @@ static void level_weights_reproduce_the_mean_curve(void **state)
     }
 }
 
-static void fractions_of_codes_lie_between_whole_ones(void **state)
+TEST(fractions_of_codes_lie_between_whole_ones)
 {
     (void)state;
     const Panel *panel = fitted[0].panel;
@@ -439,7 +439,7 @@ static void fractions_of_codes_lie_between_whole_ones(void **state)
 
 /* ---- pieces of the file ---------------------------------------------------------------- */
 
-static void a_smooth_part_comes_back_as_it_was_packed(void **state)
+TEST(a_smooth_part_comes_back_as_it_was_packed)
 {
     (void)state;
     Arena    arena = arena_reserve((size_t)64 << 20);
@@ -468,7 +468,7 @@ static void a_smooth_part_comes_back_as_it_was_packed(void **state)
     arena_release(&arena);
 }
 
-static void stated_figures_are_never_rounded_down(void **state)
+TEST(stated_figures_are_never_rounded_down)
 {
     (void)state;
     Arena   arena = arena_reserve((size_t)1 << 20);
@@ -498,24 +498,5 @@ static void stated_figures_are_never_rounded_down(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_sample_keeps_the_bound_that_was_asked_for),
-        cmocka_unit_test(between_samples_the_truth_is_near),
-        cmocka_unit_test(beyond_the_cone_light_falls),
-        cmocka_unit_test(noise_is_smoothed_not_stored),
-        cmocka_unit_test(sets_and_lone_tables_take_few_bytes),
-        cmocka_unit_test(a_table_is_as_bright_as_it_was_measured_on_the_whole),
-        cmocka_unit_test(hot_pixels_are_found_listed_and_not_followed),
-        cmocka_unit_test(holes_are_listed_and_filled_by_what_is_known),
-        cmocka_unit_test(tables_may_have_grids_of_their_own),
-        cmocka_unit_test(two_sections_are_met_where_they_were_measured),
-        cmocka_unit_test(both_bases_answer_the_same_query),
-        cmocka_unit_test(a_surface_that_only_reflects_emits_nothing),
-        cmocka_unit_test(a_level_left_out_is_predicted),
-        cmocka_unit_test(level_weights_reproduce_the_mean_curve),
-        cmocka_unit_test(fractions_of_codes_lie_between_whole_ones),
-        cmocka_unit_test(a_smooth_part_comes_back_as_it_was_packed),
-        cmocka_unit_test(stated_figures_are_never_rounded_down),
-    };
-    return cmocka_run_group_tests(tests, start_all, end_all);
+    return run_cases(start_all, end_all);
 }

@@ -59,7 +59,7 @@ static Vec3 row_direction(const AngleTable *table, int row)
 }
 
 /* Numbers, not errors: what is written has figures enough for float32. */
-static void exported_emission_is_what_the_panel_says(void **state)
+TEST(exported_emission_is_what_the_panel_says)
 {
     (void)state;
     for (int p = 0; p < 3; p++) {
@@ -80,7 +80,7 @@ static void exported_emission_is_what_the_panel_says(void **state)
     assert_true(again.set->has_spectra);
 }
 
-static void a_fit_of_the_export_is_within_its_bound(void **state)
+TEST(a_fit_of_the_export_is_within_its_bound)
 {
     (void)state;
     float codes[4][3] = {{0, 0, 0}, {255, 255, 255}, {127, 63, 255}, {63, 0, 0}};
@@ -108,7 +108,7 @@ static double seen(const AngleTable *table, int row, double theta_i, double nm)
            (double)panel_mirror(again.panel, wi.z, &w)[0] * image / (double)wi.z;
 }
 
-static void a_fit_of_the_exported_reflection_is_near_its_bound(void **state)
+TEST(a_fit_of_the_exported_reflection_is_near_its_bound)
 {
     (void)state;
     for (int i = 0; i < 2; i++)
@@ -118,7 +118,7 @@ static void a_fit_of_the_exported_reflection_is_near_its_bound(void **state)
 }
 
 /* The mirror part is drawn as the declared instrument sees it, and taken out again. */
-static void the_mirror_part_survives(void **state)
+TEST(the_mirror_part_survives)
 {
     (void)state;
     Wavelengths w = even_wavelengths(450, 12.5f);
@@ -189,7 +189,7 @@ static double deviation(const Panel *panel, const Measurement *set)
     return worst;
 }
 
-static void every_azimuth_of_the_light_is_exported(void **state)
+TEST(every_azimuth_of_the_light_is_exported)
 {
     (void)state;
     Error   err = {0};
@@ -222,7 +222,7 @@ static void every_azimuth_of_the_light_is_exported(void **state)
     "\"black_cd_m2\": 0, \"levels\": [127, 255]},"                                            \
     "\"instrument\": {\"theta_step_deg\": 8, \"phi_step_deg\": 30}}"
 
-static void levels_over_a_true_black_are_exported(void **state)
+TEST(levels_over_a_true_black_are_exported)
 {
     (void)state;
     Error      err = {0};
@@ -246,7 +246,7 @@ static void levels_over_a_true_black_are_exported(void **state)
     fixture_end(&from);
 }
 
-static void a_folder_with_files_is_left_alone(void **state)
+TEST(a_folder_with_files_is_left_alone)
 {
     (void)state;
     Error err = {0};
@@ -261,7 +261,7 @@ static void a_folder_with_files_is_left_alone(void **state)
     assert_int_equal(folder_count(first.folder), before);
 }
 
-static void an_empty_folder_is_filled(void **state)
+TEST(an_empty_folder_is_filled)
 {
     (void)state;
     Error       err = {0};
@@ -277,7 +277,7 @@ static void an_empty_folder_is_filled(void **state)
     assert_int_equal(table.rows, 1 + 3 * 4); /* the normal, and rings at 30, 60 and 90 */
 }
 
-static void single_tables_are_named_as_in_info(void **state)
+TEST(single_tables_are_named_as_in_info)
 {
     (void)state;
     static const struct { const char *name; int columns; } tables[] = {
@@ -305,16 +305,5 @@ static void single_tables_are_named_as_in_info(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exported_emission_is_what_the_panel_says),
-        cmocka_unit_test(a_fit_of_the_export_is_within_its_bound),
-        cmocka_unit_test(a_fit_of_the_exported_reflection_is_near_its_bound),
-        cmocka_unit_test(the_mirror_part_survives),
-        cmocka_unit_test(every_azimuth_of_the_light_is_exported),
-        cmocka_unit_test(levels_over_a_true_black_are_exported),
-        cmocka_unit_test(a_folder_with_files_is_left_alone),
-        cmocka_unit_test(an_empty_folder_is_filled),
-        cmocka_unit_test(single_tables_are_named_as_in_info),
-    };
-    return cmocka_run_group_tests(tests, start, end);
+    return run_cases(start, end);
 }

@@ -194,7 +194,7 @@ static bool try_bytes(const unsigned char *bytes, size_t size, const Kind *kind)
 
 /* ---- prefixes and mutations ------------------------------------------------------------ */
 
-static void every_prefix_of_a_panel_is_refused(void **state)
+TEST(every_prefix_of_a_panel_is_refused)
 {
     (void)state;
     for (int k = 0; k < KIND_COUNT; k++) {
@@ -210,7 +210,7 @@ static void every_prefix_of_a_panel_is_refused(void **state)
 }
 
 /* As if the rest had never been written: size and checksum fit. */
-static void every_shortened_panel_is_refused_or_read_within_its_bytes(void **state)
+TEST(every_shortened_panel_is_refused_or_read_within_its_bytes)
 {
     (void)state;
     for (int k = 0; k < KIND_COUNT; k++)
@@ -266,7 +266,7 @@ static void mutate(unsigned char *bytes, size_t size, uint32_t *random)
     }
 }
 
-static void every_mutation_is_refused(void **state)
+TEST(every_mutation_is_refused)
 {
     (void)state;
     uint32_t random = 11;
@@ -285,7 +285,7 @@ static void every_mutation_is_refused(void **state)
 }
 
 /* As if somebody had written the file with ill intent: the checksum fits. */
-static void a_forged_checksum_leads_nobody_astray(void **state)
+TEST(a_forged_checksum_leads_nobody_astray)
 {
     (void)state;
     uint32_t random = 5;
@@ -308,7 +308,7 @@ static void a_forged_checksum_leads_nobody_astray(void **state)
 }
 
 /* Two files spliced: the head of one kind, the rest of another. */
-static void spliced_panels_lead_nobody_astray(void **state)
+TEST(spliced_panels_lead_nobody_astray)
 {
     (void)state;
     uint32_t random = 3;
@@ -340,7 +340,7 @@ static void expect_line(const Error *err, const char *part, const char *other)
         fail_msg("'%s' or '%s' is missing in: %s", part, other, line);
 }
 
-static void other_files_are_no_panels(void **state)
+TEST(other_files_are_no_panels)
 {
     (void)state;
     Panel *panel;
@@ -359,7 +359,7 @@ static void other_files_are_no_panels(void **state)
     panel_close(NULL);
 }
 
-static void an_unwritable_output_is_named(void **state)
+TEST(an_unwritable_output_is_named)
 {
     (void)state;
     Error        err = {0};
@@ -406,7 +406,7 @@ static int status_with(size_t bytes, bool fits, const char *output)
 }
 
 /* Whatever the memory, it is a clean end: done, or out of memory and nothing written. */
-static void running_out_of_memory_is_a_clean_end(void **state)
+TEST(running_out_of_memory_is_a_clean_end)
 {
     (void)state;
     const char *output = fixture_path(&folder, "memory.panel");
@@ -427,15 +427,5 @@ static void running_out_of_memory_is_a_clean_end(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_prefix_of_a_panel_is_refused),
-        cmocka_unit_test(every_shortened_panel_is_refused_or_read_within_its_bytes),
-        cmocka_unit_test(every_mutation_is_refused),
-        cmocka_unit_test(a_forged_checksum_leads_nobody_astray),
-        cmocka_unit_test(spliced_panels_lead_nobody_astray),
-        cmocka_unit_test(other_files_are_no_panels),
-        cmocka_unit_test(an_unwritable_output_is_named),
-        cmocka_unit_test(running_out_of_memory_is_a_clean_end),
-    };
-    return cmocka_run_group_tests(tests, start, fixture_group_end);
+    return run_cases(start, fixture_group_end);
 }

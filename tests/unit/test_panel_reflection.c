@@ -181,7 +181,7 @@ static double largest_error(const Fitted *f, double incidence_deg, double phi_i,
     return worst;
 }
 
-static void the_bound_holds_at_every_sample_and_wavelength(void **state)
+TEST(the_bound_holds_at_every_sample_and_wavelength)
 {
     (void)state;
     for (int i = 0; i < INCIDENCES; i++) {
@@ -191,7 +191,7 @@ static void the_bound_holds_at_every_sample_and_wavelength(void **state)
     }
 }
 
-static void between_incidences_the_peak_has_moved_and_keeps_its_height(void **state)
+TEST(between_incidences_the_peak_has_moved_and_keeps_its_height)
 {
     (void)state;
     Wavelengths w = even_wavelengths(400, 20);
@@ -211,7 +211,7 @@ static void between_incidences_the_peak_has_moved_and_keeps_its_height(void **st
     }
 }
 
-static void light_from_any_azimuth_reads_the_same(void **state)
+TEST(light_from_any_azimuth_reads_the_same)
 {
     (void)state;
     Wavelengths w = even_wavelengths(400, 20);
@@ -227,7 +227,7 @@ static void light_from_any_azimuth_reads_the_same(void **state)
     }
 }
 
-static void at_the_normal_the_azimuth_does_not_matter(void **state)
+TEST(at_the_normal_the_azimuth_does_not_matter)
 {
     (void)state;
     Wavelengths w = even_wavelengths(400, 20);
@@ -239,7 +239,7 @@ static void at_the_normal_the_azimuth_does_not_matter(void **state)
     }
 }
 
-static void wavelengths_between_the_measured_ones_lie_between_their_values(void **state)
+TEST(wavelengths_between_the_measured_ones_lie_between_their_values)
 {
     (void)state;
     Wavelengths at = even_wavelengths(400, 20), between = even_wavelengths(410, 20);
@@ -254,7 +254,7 @@ static void wavelengths_between_the_measured_ones_lie_between_their_values(void 
     assert_close(b[15], a[15], 1e-5);
 }
 
-static void extrapolation_is_continuous_and_flagged(void **state)
+TEST(extrapolation_is_continuous_and_flagged)
 {
     (void)state;
     Wavelengths w = even_wavelengths(400, 20);
@@ -273,7 +273,7 @@ static void extrapolation_is_continuous_and_flagged(void **state)
                                         direction_deg(30, 180)));
 }
 
-static void beyond_the_measured_incidences_haze_follows_fresnel(void **state)
+TEST(beyond_the_measured_incidences_haze_follows_fresnel)
 {
     (void)state;
     Wavelengths w = even_wavelengths(400, 20);
@@ -301,7 +301,7 @@ static double albedo_at(const Panel *panel, double incidence_deg, int lane)
     return sum;
 }
 
-static void a_white_furnace_gives_no_more_than_it_gets(void **state)
+TEST(a_white_furnace_gives_no_more_than_it_gets)
 {
     (void)state;
     Fitted f = fit_surface(white, (Grid){.wavelengths = 2}, quick());
@@ -311,7 +311,7 @@ static void a_white_furnace_gives_no_more_than_it_gets(void **state)
     fixture_end(&f.fit);
 }
 
-static void the_albedo_is_the_integral(void **state)
+TEST(the_albedo_is_the_integral)
 {
     (void)state;
     const char *const key = "integral_error";
@@ -329,7 +329,7 @@ static void the_albedo_is_the_integral(void **state)
 
 /* ---- bases along the wavelengths and on the hemisphere ----------------------------------- */
 
-static void every_spectral_basis_and_both_hemispherical_ones_hold_the_bound(void **state)
+TEST(every_spectral_basis_and_both_hemispherical_ones_hold_the_bound)
 {
     (void)state;
     static const struct {
@@ -365,7 +365,7 @@ static const json_t *part_at(const Fitted *f, size_t incidence)
         json_object_get(json_object_get(f->fit.report, "reflection"), "mirror"), incidence);
 }
 
-static void a_lobe_on_haze_is_told_apart_and_stays_one_lobe_between_incidences(void **state)
+TEST(a_lobe_on_haze_is_told_apart_and_stays_one_lobe_between_incidences)
 {
     (void)state;
     Fitted f =
@@ -387,7 +387,7 @@ static void a_lobe_on_haze_is_told_apart_and_stays_one_lobe_between_incidences(v
     fixture_end(&f.fit);
 }
 
-static void an_image_as_wide_as_the_instrument_becomes_the_mirror(void **state)
+TEST(an_image_as_wide_as_the_instrument_becomes_the_mirror)
 {
     (void)state;
     Wavelengths w = even_wavelengths(400, 20);
@@ -409,7 +409,7 @@ static void an_image_as_wide_as_the_instrument_becomes_the_mirror(void **state)
     fixture_end(&f.fit);
 }
 
-static void a_lobe_becomes_the_mirror_only_when_asked(void **state)
+TEST(a_lobe_becomes_the_mirror_only_when_asked)
 {
     (void)state;
     FitOptions  options = quick();
@@ -431,7 +431,7 @@ static void a_lobe_becomes_the_mirror_only_when_asked(void **state)
 
 /* ---- azimuths of the light --------------------------------------------------------------- */
 
-static void a_brushed_surface_is_told_between_azimuths(void **state)
+TEST(a_brushed_surface_is_told_between_azimuths)
 {
     (void)state;
     Fitted f = fit_surface(brushed,
@@ -451,7 +451,7 @@ static void a_brushed_surface_is_told_between_azimuths(void **state)
     fixture_end(&f.fit);
 }
 
-static void an_isotropic_surface_stored_with_azimuths_answers_the_same(void **state)
+TEST(an_isotropic_surface_stored_with_azimuths_answers_the_same)
 {
     (void)state;
     Fitted f =
@@ -472,7 +472,7 @@ static double with_zeros(double theta_i, double phi_i, double theta, double phi,
     return fabs(phi - PI) < 0.3 && theta > 1.2 ? -1e-6 : hazy(theta_i, phi_i, theta, phi, nm);
 }
 
-static void zeros_and_negative_values_are_held_counted_and_told(void **state)
+TEST(zeros_and_negative_values_are_held_counted_and_told)
 {
     (void)state;
     Fitted f = fit_surface(with_zeros, (Grid){.wavelengths = 1, .incidences = 1}, quick());
@@ -499,23 +499,5 @@ static int start(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_bound_holds_at_every_sample_and_wavelength),
-        cmocka_unit_test(between_incidences_the_peak_has_moved_and_keeps_its_height),
-        cmocka_unit_test(light_from_any_azimuth_reads_the_same),
-        cmocka_unit_test(at_the_normal_the_azimuth_does_not_matter),
-        cmocka_unit_test(wavelengths_between_the_measured_ones_lie_between_their_values),
-        cmocka_unit_test(extrapolation_is_continuous_and_flagged),
-        cmocka_unit_test(beyond_the_measured_incidences_haze_follows_fresnel),
-        cmocka_unit_test(the_albedo_is_the_integral),
-        cmocka_unit_test(a_white_furnace_gives_no_more_than_it_gets),
-        cmocka_unit_test(every_spectral_basis_and_both_hemispherical_ones_hold_the_bound),
-        cmocka_unit_test(a_lobe_on_haze_is_told_apart_and_stays_one_lobe_between_incidences),
-        cmocka_unit_test(an_image_as_wide_as_the_instrument_becomes_the_mirror),
-        cmocka_unit_test(a_lobe_becomes_the_mirror_only_when_asked),
-        cmocka_unit_test(a_brushed_surface_is_told_between_azimuths),
-        cmocka_unit_test(an_isotropic_surface_stored_with_azimuths_answers_the_same),
-        cmocka_unit_test(zeros_and_negative_values_are_held_counted_and_told),
-    };
-    return cmocka_run_group_tests(tests, start, fixture_group_end);
+    return run_cases(start, fixture_group_end);
 }

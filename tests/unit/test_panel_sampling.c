@@ -164,7 +164,7 @@ static double density_integral(const Panel *panel, double theta, double phi)
     return sum;
 }
 
-static void the_density_integrates_to_one(void **state)
+TEST(the_density_integrates_to_one)
 {
     (void)state;
     for (int c = 0; c < case_count; c++)
@@ -216,7 +216,7 @@ static double compare_bins(const double *bins, const int *counts, int drawn)
     return chi_square_z(chi, freedom);
 }
 
-static void samples_fall_as_the_density_says(void **state)
+TEST(samples_fall_as_the_density_says)
 {
     (void)state;
     Arena           scratch = ips.arena;
@@ -249,7 +249,7 @@ static void samples_fall_as_the_density_says(void **state)
 
 /* The whole display: its mirror as often as it says, the rest as display_eval's density; 64
  * incidences, each for blue, green and red light. */
-static void displays_draw_mirror_and_haze_as_they_say(void **state)
+TEST(displays_draw_mirror_and_haze_as_they_say)
 {
     (void)state;
     Arena           scratch = ips.arena;
@@ -285,7 +285,7 @@ static void displays_draw_mirror_and_haze_as_they_say(void **state)
 }
 
 /* What panel_sample says of its density is what panel_pdf says of the direction. */
-static void samples_know_their_density(void **state)
+TEST(samples_know_their_density)
 {
     (void)state;
     uint32_t random = 77;
@@ -348,7 +348,7 @@ static Weights draw_weights(const Panel *panel, double theta, double phi, int dr
 }
 
 /* At incidences that have a tree and half way between: 0.035 up to 65 degrees, 0.1 to 80. */
-static void weights_vary_little_at_every_incidence(void **state)
+TEST(weights_vary_little_at_every_incidence)
 {
     (void)state;
     for (int c = 0; c < case_count; c++) {
@@ -375,7 +375,7 @@ static void weights_vary_little_at_every_incidence(void **state)
 }
 
 /* f cos / pdf averages to the albedo: wherever there is light the density is above zero. */
-static void weights_average_to_the_albedo(void **state)
+TEST(weights_average_to_the_albedo)
 {
     (void)state;
     Wavelengths w = even_wavelengths(400, 20);
@@ -435,7 +435,7 @@ static void expect_finite(Vec3 wo, Vec3 wi, const Wavelengths *w)
 }
 
 /* Poles, axes, exact mirror directions, and the horizon from very near. */
-static void answers_are_finite_in_every_corner(void **state)
+TEST(answers_are_finite_in_every_corner)
 {
     (void)state;
     Wavelengths w = even_wavelengths(360, 31.3f);
@@ -482,7 +482,7 @@ static void expect_forged_is_refused(bool is_emptied, const char *why)
 }
 
 /* Nothing of a reflection without its sampling: the file would light a scene wrongly. */
-static void a_panel_without_its_sampling_is_refused(void **state)
+TEST(a_panel_without_its_sampling_is_refused)
 {
     (void)state;
     expect_forged_is_refused(false, "without its sampling tree");
@@ -490,7 +490,7 @@ static void a_panel_without_its_sampling_is_refused(void **state)
 }
 
 /* A file of one table holds no sampling; opening makes what fitting would have stored. */
-static void one_table_is_sampled_without_a_byte_of_the_file(void **state)
+TEST(one_table_is_sampled_without_a_byte_of_the_file)
 {
     (void)state;
     Error        err = {0};
@@ -520,16 +520,5 @@ static void one_table_is_sampled_without_a_byte_of_the_file(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_density_integrates_to_one),
-        cmocka_unit_test(samples_fall_as_the_density_says),
-        cmocka_unit_test(displays_draw_mirror_and_haze_as_they_say),
-        cmocka_unit_test(samples_know_their_density),
-        cmocka_unit_test(weights_vary_little_at_every_incidence),
-        cmocka_unit_test(answers_are_finite_in_every_corner),
-        cmocka_unit_test(weights_average_to_the_albedo),
-        cmocka_unit_test(one_table_is_sampled_without_a_byte_of_the_file),
-        cmocka_unit_test(a_panel_without_its_sampling_is_refused),
-    };
-    return cmocka_run_group_tests(tests, start_panels, end_panels);
+    return run_cases(start_panels, end_panels);
 }

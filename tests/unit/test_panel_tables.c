@@ -46,7 +46,7 @@ static Error bad_manifest(const char *text)
     return err;
 }
 
-static void tables_name_file_line_and_value(void **state)
+TEST(tables_name_file_line_and_value)
 {
     (void)state;
     static const struct { const char *text, *parts[3]; } cases[] = {
@@ -74,7 +74,7 @@ static void tables_name_file_line_and_value(void **state)
     }
 }
 
-static void every_prefix_of_a_table_is_read_or_refused(void **state)
+TEST(every_prefix_of_a_table_is_read_or_refused)
 {
     (void)state;
     const char *text = "theta,phi,X,Y,Z\n0,0,1,1,1\n# c\n10,0,1.5e0,2,1\n10,90,1,2,3\n";
@@ -87,7 +87,7 @@ static void every_prefix_of_a_table_is_read_or_refused(void **state)
     }
 }
 
-static void rows_at_the_normal_are_averaged_and_equal_doubles_pass(void **state)
+TEST(rows_at_the_normal_are_averaged_and_equal_doubles_pass)
 {
     (void)state;
     Error        err = {0};
@@ -103,7 +103,7 @@ static void rows_at_the_normal_are_averaged_and_equal_doubles_pass(void **state)
     assert_close(sum, 101, 1e-4);
 }
 
-static void manifests_name_the_key(void **state)
+TEST(manifests_name_the_key)
 {
     (void)state;
     static const struct { const char *text, *parts[3]; } cases[] = {
@@ -139,7 +139,7 @@ static void manifests_name_the_key(void **state)
     }
 }
 
-static void recipes_name_the_key(void **state)
+TEST(recipes_name_the_key)
 {
     (void)state;
     static const struct { const char *text, *parts[2]; } cases[] = {
@@ -163,7 +163,7 @@ static void recipes_name_the_key(void **state)
 
 /* A set in the other layouts: polar grids, one file a wavelength, rows in any order and a
  * shadow of missing directions. It must say what the plain layout says. */
-static void other_layouts_say_the_same(void **state)
+TEST(other_layouts_say_the_same)
 {
     (void)state;
     Error  err = {0};
@@ -212,7 +212,7 @@ static void other_layouts_say_the_same(void **state)
     }
 }
 
-static void one_file_a_wavelength_is_one_table(void **state)
+TEST(one_file_a_wavelength_is_one_table)
 {
     (void)state;
     Error        err = {0};
@@ -240,14 +240,5 @@ static void one_file_a_wavelength_is_one_table(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tables_name_file_line_and_value),
-        cmocka_unit_test(every_prefix_of_a_table_is_read_or_refused),
-        cmocka_unit_test(rows_at_the_normal_are_averaged_and_equal_doubles_pass),
-        cmocka_unit_test(manifests_name_the_key),
-        cmocka_unit_test(recipes_name_the_key),
-        cmocka_unit_test(other_layouts_say_the_same),
-        cmocka_unit_test(one_file_a_wavelength_is_one_table),
-    };
-    return cmocka_run_group_tests(tests, start, fixture_group_end);
+    return run_cases(start, fixture_group_end);
 }

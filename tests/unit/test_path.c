@@ -85,7 +85,7 @@ static void set_sky(World *world, float cd_m2)
     for (int i = 0; i < 3; i++) world->scene->environment.color[i] = 1;
 }
 
-static void a_furnace_of_albedo_and_emission_one_half_shows_one(void **state)
+TEST(a_furnace_of_albedo_and_emission_one_half_shows_one)
 {
     (void)state;
     World world = world_start();
@@ -103,7 +103,7 @@ static void a_furnace_of_albedo_and_emission_one_half_shows_one(void **state)
     world_end(&world);
 }
 
-static void a_lambert_plane_under_the_sun_has_its_luminance(void **state)
+TEST(a_lambert_plane_under_the_sun_has_its_luminance)
 {
     (void)state;
     World world = world_start();
@@ -121,7 +121,7 @@ static void a_lambert_plane_under_the_sun_has_its_luminance(void **state)
 }
 
 /* A glossy floor, a lamp, a sky: every way to reach the light gives the same mean. */
-static void light_samples_bsdf_samples_and_mis_agree(void **state)
+TEST(light_samples_bsdf_samples_and_mis_agree)
 {
     (void)state;
     const float roughness[] = {0.3f, 0.6f, 1.0f};
@@ -163,7 +163,7 @@ static Material window_material(float ior)
 }
 
 /* The slab's transmittance, seen directly and by the light it lets fall on a wall. */
-static void a_window_passes_what_a_slab_passes(void **state)
+TEST(a_window_passes_what_a_slab_passes)
 {
     (void)state;
     const double degrees[] = {0, 30, 45, 60, 75},
@@ -185,7 +185,7 @@ static void a_window_passes_what_a_slab_passes(void **state)
     }
 }
 
-static void the_sun_lights_a_wall_through_a_window(void **state)
+TEST(the_sun_lights_a_wall_through_a_window)
 {
     (void)state;
     World world = world_start();
@@ -204,7 +204,7 @@ static void the_sun_lights_a_wall_through_a_window(void **state)
     world_end(&world);
 }
 
-static void a_mirror_of_metal_shows_its_reflectance_times_what_is_there(void **state)
+TEST(a_mirror_of_metal_shows_its_reflectance_times_what_is_there)
 {
     (void)state;
     for (int degrees = 0; degrees <= 80; degrees += 20) {
@@ -225,7 +225,7 @@ static void a_mirror_of_metal_shows_its_reflectance_times_what_is_there(void **s
     }
 }
 
-static void a_clear_ball_in_a_uniform_sky_is_invisible(void **state)
+TEST(a_clear_ball_in_a_uniform_sky_is_invisible)
 {
     (void)state;
     World world = world_start();
@@ -241,7 +241,7 @@ static void a_clear_ball_in_a_uniform_sky_is_invisible(void **state)
     world_end(&world);
 }
 
-static void half_there_shows_half_of_what_is_behind(void **state)
+TEST(half_there_shows_half_of_what_is_behind)
 {
     (void)state;
     World world = world_start();
@@ -259,7 +259,7 @@ static void half_there_shows_half_of_what_is_behind(void **state)
     world_end(&world);
 }
 
-static void bounces_are_counted_as_documented(void **state)
+TEST(bounces_are_counted_as_documented)
 {
     (void)state;
     World world = world_start();
@@ -275,7 +275,7 @@ static void bounces_are_counted_as_documented(void **state)
     world_end(&world);
 }
 
-static void the_back_of_a_one_sided_emitter_is_dark(void **state)
+TEST(the_back_of_a_one_sided_emitter_is_dark)
 {
     (void)state;
     World world = world_start();
@@ -305,7 +305,7 @@ static double illuminance(const World *world, Vec3 position, Vec3 normal, int co
     return sum;
 }
 
-static void a_luxmeter_reads_what_falls_on_it(void **state)
+TEST(a_luxmeter_reads_what_falls_on_it)
 {
     (void)state;
     World world = world_start();
@@ -325,7 +325,7 @@ static void a_luxmeter_reads_what_falls_on_it(void **state)
 }
 
 /* The ray meets the diagonal that both triangles of the pane share: one pane, tinted once. */
-static void a_pane_is_passed_once_on_the_edge_of_its_triangles(void **state)
+TEST(a_pane_is_passed_once_on_the_edge_of_its_triangles)
 {
     (void)state;
     World world = world_start();
@@ -342,19 +342,5 @@ static void a_pane_is_passed_once_on_the_edge_of_its_triangles(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_furnace_of_albedo_and_emission_one_half_shows_one),
-        cmocka_unit_test(a_lambert_plane_under_the_sun_has_its_luminance),
-        cmocka_unit_test(light_samples_bsdf_samples_and_mis_agree),
-        cmocka_unit_test(a_window_passes_what_a_slab_passes),
-        cmocka_unit_test(the_sun_lights_a_wall_through_a_window),
-        cmocka_unit_test(a_mirror_of_metal_shows_its_reflectance_times_what_is_there),
-        cmocka_unit_test(a_clear_ball_in_a_uniform_sky_is_invisible),
-        cmocka_unit_test(half_there_shows_half_of_what_is_behind),
-        cmocka_unit_test(bounces_are_counted_as_documented),
-        cmocka_unit_test(a_pane_is_passed_once_on_the_edge_of_its_triangles),
-        cmocka_unit_test(a_luxmeter_reads_what_falls_on_it),
-        cmocka_unit_test(the_back_of_a_one_sided_emitter_is_dark),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

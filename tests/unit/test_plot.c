@@ -32,7 +32,7 @@ static Field theta_field(int side)
     return field;
 }
 
-static void a_function_of_theta_has_circles(void **state)
+TEST(a_function_of_theta_has_circles)
 {
     (void)state;
     enum { SIDE = 301 };
@@ -50,7 +50,7 @@ static void a_function_of_theta_has_circles(void **state)
 }
 
 /* Every point lies where the bilinear function has the level, whatever the function. */
-static void lines_lie_on_their_level(void **state)
+TEST(lines_lie_on_their_level)
 {
     (void)state;
     enum { SIDE = 61 };
@@ -70,7 +70,7 @@ static void lines_lie_on_their_level(void **state)
 }
 
 /* No edge with a crossing is left out and none counts twice. */
-static void every_crossing_is_on_one_line(void **state)
+TEST(every_crossing_is_on_one_line)
 {
     (void)state;
     enum { SIDE = 40 };
@@ -93,7 +93,7 @@ static void every_crossing_is_on_one_line(void **state)
     assert_int_equal(points, crossings);
 }
 
-static void holes_have_no_lines(void **state)
+TEST(holes_have_no_lines)
 {
     (void)state;
     enum { SIDE = 41 };
@@ -108,7 +108,7 @@ static void holes_have_no_lines(void **state)
 
 /* ---- ticks ------------------------------------------------------------------------------ */
 
-static void ticks_are_round_inside_and_few(void **state)
+TEST(ticks_are_round_inside_and_few)
 {
     (void)state;
     for (int k = 0; k < 400; k++) {
@@ -128,7 +128,7 @@ static void ticks_are_round_inside_and_few(void **state)
     }
 }
 
-static void a_unit_range_has_fifths(void **state)
+TEST(a_unit_range_has_fifths)
 {
     (void)state;
     Ticks ticks = ticks_linear(0, 1, 6);
@@ -140,7 +140,7 @@ static void a_unit_range_has_fifths(void **state)
     assert_string_equal(tick_text(0.025, 0.0025, text), "0.0250");
 }
 
-static void logarithmic_ticks_are_decades(void **state)
+TEST(logarithmic_ticks_are_decades)
 {
     (void)state;
     Ticks ticks = ticks_log(1e-4, 10, 8);
@@ -163,7 +163,7 @@ static void logarithmic_ticks_are_decades(void **state)
     assert_string_equal(tick_text(1e6, 0, text), "10⁶");
 }
 
-static void figures_have_three_digits(void **state)
+TEST(figures_have_three_digits)
 {
     (void)state;
     char text[32];
@@ -176,7 +176,7 @@ static void figures_have_three_digits(void **state)
     assert_string_equal(figure_text(0, text), "0");
 }
 
-static void round_numbers_enclose(void **state)
+TEST(round_numbers_enclose)
 {
     (void)state;
     for (double v = 1e-5; v < 1e6; v *= 1.37) {
@@ -195,7 +195,7 @@ static double lightness_at(ColourMap map, double t)
     return lightness_from_srgb(srgb);
 }
 
-static void lightness_follows_the_number(void **state)
+TEST(lightness_follows_the_number)
 {
     (void)state;
     for (int map = 0; map < MAP_COUNT; map++) {
@@ -210,7 +210,7 @@ static void lightness_follows_the_number(void **state)
     assert_true(lightness_at(MAP_DIFFERENCE, 0) > 95); /* nothing is paper */
 }
 
-static void signed_colours_are_even_on_both_sides(void **state)
+TEST(signed_colours_are_even_on_both_sides)
 {
     (void)state;
     for (int i = 1; i <= 100; i++) {
@@ -225,7 +225,7 @@ static void signed_colours_are_even_on_both_sides(void **state)
     assert_true(low[2] > low[0] && high[0] > high[2]); /* blue is below */
 }
 
-static void light_and_white_have_their_lightness(void **state)
+TEST(light_and_white_have_their_lightness)
 {
     (void)state;
     assert_near(lightness_from_srgb((double[3]){1, 1, 1}), 100, 1e-9);
@@ -288,7 +288,7 @@ static double line_radius(const Picture8 *picture, PolarPlace disc, double phi, 
     return weighted / sum;
 }
 
-static void the_ring_of_50_degrees_is_at_five_ninths(void **state)
+TEST(the_ring_of_50_degrees_is_at_five_ninths)
 {
     (void)state;
     Field    field = theta_field(301);
@@ -306,7 +306,7 @@ static void the_ring_of_50_degrees_is_at_five_ninths(void **state)
     picture_end(&picture);
 }
 
-static void what_was_not_measured_is_dimmed_and_hatched(void **state)
+TEST(what_was_not_measured_is_dimmed_and_hatched)
 {
     (void)state;
     Field field = field_new(61, PI / 2, test_memory());
@@ -333,7 +333,7 @@ static void what_was_not_measured_is_dimmed_and_hatched(void **state)
 
 /* ---- fields ----------------------------------------------------------------------------- */
 
-static void a_grid_point_looks_where_it_stands(void **state)
+TEST(a_grid_point_looks_where_it_stands)
 {
     (void)state;
     Field field = field_new(91, PI / 2, test_memory());
@@ -350,7 +350,7 @@ static void a_grid_point_looks_where_it_stands(void **state)
     assert_true(out.z > 0);
 }
 
-static void quantiles_and_ranges_agree(void **state)
+TEST(quantiles_and_ranges_agree)
 {
     (void)state;
     Field      field = theta_field(101);
@@ -363,7 +363,7 @@ static void quantiles_and_ranges_agree(void **state)
 
 /* ---- charts and documents --------------------------------------------------------------- */
 
-static void axes_put_values_where_they_belong(void **state)
+TEST(axes_put_values_where_they_belong)
 {
     (void)state;
     Picture8 picture = picture_start();
@@ -380,7 +380,7 @@ static void axes_put_values_where_they_belong(void **state)
     picture_end(&picture);
 }
 
-static void ids_are_renamed_alike_and_apart(void **state)
+TEST(ids_are_renamed_alike_and_apart)
 {
     (void)state;
     char text[] = "<?xml version=\"1.0\"?>\n<svg><g id=\"glyph0-1\"/><clipPath id=\"clip7\"/>"
@@ -394,7 +394,7 @@ static void ids_are_renamed_alike_and_apart(void **state)
     assert_int_equal(out.size, strlen((char *)out.data));
 }
 
-static void data_without_spread_have_a_picture(void **state)
+TEST(data_without_spread_have_a_picture)
 {
     (void)state;
     Picture8 picture = picture_start();
@@ -414,26 +414,5 @@ static void data_without_spread_have_a_picture(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_function_of_theta_has_circles),
-        cmocka_unit_test(lines_lie_on_their_level),
-        cmocka_unit_test(every_crossing_is_on_one_line),
-        cmocka_unit_test(holes_have_no_lines),
-        cmocka_unit_test(ticks_are_round_inside_and_few),
-        cmocka_unit_test(a_unit_range_has_fifths),
-        cmocka_unit_test(logarithmic_ticks_are_decades),
-        cmocka_unit_test(figures_have_three_digits),
-        cmocka_unit_test(round_numbers_enclose),
-        cmocka_unit_test(lightness_follows_the_number),
-        cmocka_unit_test(signed_colours_are_even_on_both_sides),
-        cmocka_unit_test(light_and_white_have_their_lightness),
-        cmocka_unit_test(the_ring_of_50_degrees_is_at_five_ninths),
-        cmocka_unit_test(what_was_not_measured_is_dimmed_and_hatched),
-        cmocka_unit_test(a_grid_point_looks_where_it_stands),
-        cmocka_unit_test(quantiles_and_ranges_agree),
-        cmocka_unit_test(axes_put_values_where_they_belong),
-        cmocka_unit_test(ids_are_renamed_alike_and_apart),
-        cmocka_unit_test(data_without_spread_have_a_picture),
-    };
-    return cmocka_run_group_tests(tests, make_arena, drop_arena);
+    return run_cases(make_arena, drop_arena);
 }

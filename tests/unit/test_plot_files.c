@@ -162,7 +162,7 @@ static void assert_ids_are_whole(const char *text)
 
 /* ---- pictures --------------------------------------------------------------------------- */
 
-static void every_kind_draws_svg(void **state)
+TEST(every_kind_draws_svg)
 {
     (void)state;
     for (int kind = 0; kind < PLOT_KIND_COUNT; kind++) {
@@ -177,7 +177,7 @@ static void every_kind_draws_svg(void **state)
     }
 }
 
-static void names_of_kinds_agree_with_the_option(void **state)
+TEST(names_of_kinds_agree_with_the_option)
 {
     (void)state;
     char names[256] = "";
@@ -188,7 +188,7 @@ static void names_of_kinds_agree_with_the_option(void **state)
     assert_string_equal(names, PLOT_KINDS);
 }
 
-static void png_opens_with_the_size_asked_for(void **state)
+TEST(png_opens_with_the_size_asked_for)
 {
     (void)state;
     Error err = {0};
@@ -208,7 +208,7 @@ static void png_opens_with_the_size_asked_for(void **state)
     assert_true(pixel[0] < 40);
 }
 
-static void the_fit_shows_samples_over_curves(void **state)
+TEST(the_fit_shows_samples_over_curves)
 {
     (void)state;
     RUN_OK(ips.panel_path, "-o", fixture_path(&ips, "f.svg"), "--kind", "fit", "--measured",
@@ -218,7 +218,7 @@ static void the_fit_shows_samples_over_curves(void **state)
                 500);
 }
 
-static void the_same_call_writes_the_same_bytes(void **state)
+TEST(the_same_call_writes_the_same_bytes)
 {
     (void)state;
     static const char *const NAMES[][2] = {
@@ -238,7 +238,7 @@ static void the_same_call_writes_the_same_bytes(void **state)
 
 /* ---- the report ------------------------------------------------------------------------- */
 
-static void the_report_stands_alone(void **state)
+TEST(the_report_stands_alone)
 {
     (void)state;
     RUN_OK(reflects_nothing.panel_path, "--report", fixture_path(&reflects_nothing, "r.html"),
@@ -260,7 +260,7 @@ static void the_report_stands_alone(void **state)
 }
 
 /* Both angle brackets inside the script would end up as tags here; it is taken out first. */
-static void the_report_is_well_formed(void **state)
+TEST(the_report_is_well_formed)
 {
     (void)state;
     RUN_OK(ips.panel_path, "--report", fixture_path(&ips, "w.html"));
@@ -276,7 +276,7 @@ static void the_report_is_well_formed(void **state)
 
 /* ---- errors ----------------------------------------------------------------------------- */
 
-static void a_wrong_command_line_says_what_is_wanted(void **state)
+TEST(a_wrong_command_line_says_what_is_wanted)
 {
     (void)state;
     Error       err;
@@ -293,7 +293,7 @@ static void a_wrong_command_line_says_what_is_wanted(void **state)
     assert_false(file_exists(svg));
 }
 
-static void what_a_panel_lacks_is_said(void **state)
+TEST(what_a_panel_lacks_is_said)
 {
     (void)state;
     Error       err;
@@ -310,7 +310,7 @@ static void what_a_panel_lacks_is_said(void **state)
 }
 
 /* A surface that was only lit: paper, a switched-off screen. */
-static void a_panel_that_only_reflects_is_drawn(void **state)
+TEST(a_panel_that_only_reflects_is_drawn)
 {
     (void)state;
     Error        err = {0};
@@ -344,7 +344,7 @@ static int files_in(const char *folder)
     return count;
 }
 
-static void a_target_that_cannot_be_written_leaves_nothing(void **state)
+TEST(a_target_that_cannot_be_written_leaves_nothing)
 {
     (void)state;
     Error err;
@@ -360,18 +360,5 @@ static void a_target_that_cannot_be_written_leaves_nothing(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_kind_draws_svg),
-        cmocka_unit_test(names_of_kinds_agree_with_the_option),
-        cmocka_unit_test(png_opens_with_the_size_asked_for),
-        cmocka_unit_test(the_fit_shows_samples_over_curves),
-        cmocka_unit_test(the_same_call_writes_the_same_bytes),
-        cmocka_unit_test(the_report_stands_alone),
-        cmocka_unit_test(the_report_is_well_formed),
-        cmocka_unit_test(a_wrong_command_line_says_what_is_wanted),
-        cmocka_unit_test(what_a_panel_lacks_is_said),
-        cmocka_unit_test(a_panel_that_only_reflects_is_drawn),
-        cmocka_unit_test(a_target_that_cannot_be_written_leaves_nothing),
-    };
-    return cmocka_run_group_tests(tests, start, end);
+    return run_cases(start, end);
 }

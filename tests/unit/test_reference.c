@@ -26,7 +26,7 @@ typedef struct Row {
     const char *relative, *root, *words; /* words NULL: it is taken */
 } Row;
 
-static void a_file_leads_to_its_neighbours_only(void **state)
+TEST(a_file_leads_to_its_neighbours_only)
 {
     Arena arena = test_arena(state);
     static const Row rows[] = {
@@ -64,7 +64,7 @@ static void a_file_leads_to_its_neighbours_only(void **state)
 }
 
 /* A file that is named without a folder stands in the folder where the program was started. */
-static void the_folder_may_be_unnamed(void **state)
+TEST(the_folder_may_be_unnamed)
 {
     Arena arena = test_arena(state);
     char        before[4096];
@@ -78,7 +78,7 @@ static void the_folder_may_be_unnamed(void **state)
     assert_int_equal(chdir(before), 0);
 }
 
-static void a_root_must_be_a_folder(void **state)
+TEST(a_root_must_be_a_folder)
 {
     (void)state;
     Error err = {0};
@@ -91,7 +91,7 @@ static void a_root_must_be_a_folder(void **state)
     assert_int_equal(err.code, ERROR_INPUT);
 }
 
-static void an_output_is_looked_at_first(void **state)
+TEST(an_output_is_looked_at_first)
 {
     (void)state;
     Error err = {0};
@@ -114,7 +114,7 @@ static void an_output_is_looked_at_first(void **state)
 #endif
 
 /* In a process of its own: the size of an arena of 8 GB where only 2 GB may be had. */
-static void an_arena_leaves_room(void **state)
+TEST(an_arena_leaves_room)
 {
     if (!LIMITS_WORK) skip();
     pid_t child = fork();
@@ -134,12 +134,5 @@ static void an_arena_leaves_room(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_file_leads_to_its_neighbours_only),
-        cmocka_unit_test(the_folder_may_be_unnamed),
-        cmocka_unit_test(a_root_must_be_a_folder),
-        cmocka_unit_test(an_output_is_looked_at_first),
-        cmocka_unit_test(an_arena_leaves_room),
-    };
-    return cmocka_run_group_tests(tests, make_tree, clear_folder);
+    return run_cases(make_tree, clear_folder);
 }

@@ -101,7 +101,7 @@ static void check_component(int type, bool is_normalized)
     }
 }
 
-static void every_component_type_keeps_its_values(void **state)
+TEST_WITH(every_component_type_keeps_its_values, maker_reset, NULL)
 {
     (void)state;
     for (int type = 5120; type <= 5123; type++) {
@@ -111,7 +111,7 @@ static void every_component_type_keeps_its_values(void **state)
     check_component(5126, false);
 }
 
-static void the_smallest_signed_code_is_minus_one(void **state)
+TEST_WITH(the_smallest_signed_code_is_minus_one, maker_reset, NULL)
 {
     (void)state;
     static const signed char BYTES[12] = {-128, 0, 0, 0, 127, 0, 0, 0, 0, 127, 0, 0};
@@ -127,7 +127,7 @@ static void the_smallest_signed_code_is_minus_one(void **state)
 }
 
 /* Vertex 1 of the triangle is replaced, once over bytes and once over zeros. */
-static void sparse_values_replace_the_base(void **state)
+TEST_WITH(sparse_values_replace_the_base, maker_reset, NULL)
 {
     (void)state;
     struct {
@@ -204,7 +204,7 @@ static void assert_same_triangles(const Scene *a, const Scene *b)
         assert_true(has_triangle(b, position(a, t, 0), position(a, t, 1), position(a, t, 2)));
 }
 
-static void strips_and_fans_are_their_triangles(void **state)
+TEST_WITH(strips_and_fans_are_their_triangles, maker_reset, NULL)
 {
     (void)state;
     static const float ZIGZAG[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0};
@@ -218,7 +218,7 @@ static void strips_and_fans_are_their_triangles(void **state)
 
 /* ---- nodes ----------------------------------------------------------------------------- */
 
-static void nodes_move_their_meshes(void **state)
+TEST_WITH(nodes_move_their_meshes, maker_reset, NULL)
 {
     (void)state;
     Scene *scene = load_triangle(
@@ -231,7 +231,7 @@ static void nodes_move_their_meshes(void **state)
     assert_vec3(normal(scene, 0, 0), 0, 0, 1);
 }
 
-static void a_matrix_says_the_same_as_its_parts(void **state)
+TEST_WITH(a_matrix_says_the_same_as_its_parts, maker_reset, NULL)
 {
     (void)state;
     Scene *parts = load_triangle(
@@ -246,7 +246,7 @@ static void a_matrix_says_the_same_as_its_parts(void **state)
 }
 
 /* Mirrored by one axis or by three, the front stays where the shape has it. */
-static void mirroring_keeps_the_front_outside(void **state)
+TEST_WITH(mirroring_keeps_the_front_outside, maker_reset, NULL)
 {
     (void)state;
     struct {
@@ -271,7 +271,7 @@ static void mirroring_keeps_the_front_outside(void **state)
         }
 }
 
-static void hidden_nodes_are_left_out(void **state)
+TEST_WITH(hidden_nodes_are_left_out, maker_reset, NULL)
 {
     (void)state;
     Scene *scene = load_triangle(
@@ -282,7 +282,7 @@ static void hidden_nodes_are_left_out(void **state)
     assert_int_equal(scene->part_count, 1);
 }
 
-static void cameras_come_in_the_order_of_their_nodes(void **state)
+TEST_WITH(cameras_come_in_the_order_of_their_nodes, maker_reset, NULL)
 {
     (void)state;
     Scene *scene = maker_load(
@@ -309,7 +309,7 @@ static void cameras_come_in_the_order_of_their_nodes(void **state)
 
 /* ---- skins and morph targets ----------------------------------------------------------- */
 
-static void morph_weights_of_the_node_win(void **state)
+TEST_WITH(morph_weights_of_the_node_win, maker_reset, NULL)
 {
     (void)state;
     struct {
@@ -334,7 +334,7 @@ static void morph_weights_of_the_node_win(void **state)
 }
 
 /* Vertex 0 follows joint A, 1 joint B, 2 half each; the mesh's own node does not matter. */
-static void skinned_vertices_follow_their_joints(void **state)
+TEST_WITH(skinned_vertices_follow_their_joints, maker_reset, NULL)
 {
     (void)state;
     struct {
@@ -364,7 +364,7 @@ static void skinned_vertices_follow_their_joints(void **state)
 /* ---- colours, coordinates, tangents
  * ---------------------------------------------------------- */
 
-static void vertex_colours_of_every_format_agree(void **state)
+TEST_WITH(vertex_colours_of_every_format_agree, maker_reset, NULL)
 {
     (void)state;
     static const int TYPES[] = {5121, 5123, 5126};
@@ -422,7 +422,7 @@ static Scene *load_with_normal_map(bool is_mirrored)
 }
 
 /* right x up = normal, where up is the picture's. */
-static void tangents_point_to_the_pictures_right(void **state)
+TEST_WITH(tangents_point_to_the_pictures_right, maker_reset, NULL)
 {
     (void)state;
     for (int is_mirrored = 0; is_mirrored < 2; is_mirrored++) {
@@ -437,7 +437,7 @@ static void tangents_point_to_the_pictures_right(void **state)
 }
 
 /* Along an edge where the picture folds back, either side keeps its own tangent. */
-static void a_mirrored_seam_splits_its_vertices(void **state)
+TEST_WITH(a_mirrored_seam_splits_its_vertices, maker_reset, NULL)
 {
     (void)state;
     struct {
@@ -485,7 +485,7 @@ static void assert_maps(const float *m, float u, float v, float to_u, float to_v
     assert_near(m[3] * u + m[4] * v + m[5], to_v, 1e-6);
 }
 
-static void texture_transforms_scale_turn_and_shift(void **state)
+TEST_WITH(texture_transforms_scale_turn_and_shift, maker_reset, NULL)
 {
     (void)state;
     const float *m = slot_matrix("");
@@ -502,7 +502,7 @@ static void texture_transforms_scale_turn_and_shift(void **state)
     assert_maps(m, 1, 0, 0.1f, -1.8f);
 }
 
-static void two_uv_sets_of_any_number_are_carried(void **state)
+TEST_WITH(two_uv_sets_of_any_number_are_carried, maker_reset, NULL)
 {
     (void)state;
     struct {
@@ -529,23 +529,5 @@ static void two_uv_sets_of_any_number_are_carried(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(every_component_type_keeps_its_values, maker_reset),
-        cmocka_unit_test_setup(the_smallest_signed_code_is_minus_one, maker_reset),
-        cmocka_unit_test_setup(sparse_values_replace_the_base, maker_reset),
-        cmocka_unit_test_setup(strips_and_fans_are_their_triangles, maker_reset),
-        cmocka_unit_test_setup(nodes_move_their_meshes, maker_reset),
-        cmocka_unit_test_setup(a_matrix_says_the_same_as_its_parts, maker_reset),
-        cmocka_unit_test_setup(mirroring_keeps_the_front_outside, maker_reset),
-        cmocka_unit_test_setup(hidden_nodes_are_left_out, maker_reset),
-        cmocka_unit_test_setup(cameras_come_in_the_order_of_their_nodes, maker_reset),
-        cmocka_unit_test_setup(morph_weights_of_the_node_win, maker_reset),
-        cmocka_unit_test_setup(skinned_vertices_follow_their_joints, maker_reset),
-        cmocka_unit_test_setup(vertex_colours_of_every_format_agree, maker_reset),
-        cmocka_unit_test_setup(tangents_point_to_the_pictures_right, maker_reset),
-        cmocka_unit_test_setup(a_mirrored_seam_splits_its_vertices, maker_reset),
-        cmocka_unit_test_setup(texture_transforms_scale_turn_and_shift, maker_reset),
-        cmocka_unit_test_setup(two_uv_sets_of_any_number_are_carried, maker_reset),
-    };
-    return cmocka_run_group_tests_name("scene", tests, maker_start, maker_end);
+    return run_cases(maker_start, maker_end);
 }

@@ -99,7 +99,7 @@ static void visit_reported(const char *path, void *data)
                       is_whole ? "whole but refused:" : "faulty but silent", verdict.message);
 }
 
-static void the_validator_s_verdicts_are_ours(void **state)
+TEST(the_validator_s_verdicts_are_ours)
 {
     (void)state;
     Tally tally = {0};
@@ -146,7 +146,7 @@ static void visit_other(const char *path, void *data)
     if (!is_right) print_message("%s: %s\n", path, verdict.message);
 }
 
-static void other_importers_models_load_or_are_refused_by_name(void **state)
+TEST(other_importers_models_load_or_are_refused_by_name)
 {
     (void)state;
     static const char *const FOLDERS[] = {"tinygltf", "assimp", "3dc", "compressed"};
@@ -163,7 +163,7 @@ static void other_importers_models_load_or_are_refused_by_name(void **state)
     assert_int_equal(tally.exceptions, 0);
 }
 
-static void the_vehicles_load_whole(void **state)
+TEST(the_vehicles_load_whole)
 {
     (void)state;
     need_corpus();
@@ -177,10 +177,5 @@ static void the_vehicles_load_whole(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_validator_s_verdicts_are_ours),
-        cmocka_unit_test(other_importers_models_load_or_are_refused_by_name),
-        cmocka_unit_test(the_vehicles_load_whole),
-    };
-    return cmocka_run_group_tests_name("scene_corpus", tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

@@ -179,7 +179,7 @@ static const FaultCase FAULTS[] = {
      "/materials/0/extensions/PARHELION_spectrum/baseColor", "No such file"},
 };
 
-static void every_fault_is_named_with_its_place(void **state)
+TEST_WITH(every_fault_is_named_with_its_place, maker_reset, NULL)
 {
     for (size_t i = 0; i < sizeof FAULTS / sizeof *FAULTS; i++) {
         maker_reset(state);
@@ -195,7 +195,7 @@ static void assert_text(const char *text, const char *place, const char *message
                  found.problems.count ? found.problems.list[0].message : "nothing");
 }
 
-static void documents_that_are_none_are_refused(void **state)
+TEST_WITH(documents_that_are_none_are_refused, maker_reset, NULL)
 {
     (void)state;
     assert_text("", "", "not valid JSON: parse error at line 1, column 1");
@@ -210,7 +210,7 @@ static void documents_that_are_none_are_refused(void **state)
                 "not valid JSON: number overflow");
 }
 
-static void a_buffer_without_bytes_is_told(void **state)
+TEST_WITH(a_buffer_without_bytes_is_told, maker_reset, NULL)
 {
     (void)state;
     static const char TEXT[] =
@@ -223,7 +223,7 @@ static void a_buffer_without_bytes_is_told(void **state)
     assert_text(TEXT, "/meshes/0/primitives/0", "the bytes of POSITION are missing");
 }
 
-static void deep_nesting_is_refused(void **state)
+TEST_WITH(deep_nesting_is_refused, maker_reset, NULL)
 {
     (void)state;
     const int depth = 200000;
@@ -232,7 +232,7 @@ static void deep_nesting_is_refused(void **state)
     assert_text(text, "", "JSON nested deeper than 256 levels");
 }
 
-static void all_problems_are_reported_not_the_first(void **state)
+TEST_WITH(all_problems_are_reported_not_the_first, maker_reset, NULL)
 {
     (void)state;
     Found found = maker_survey_file(
@@ -242,7 +242,7 @@ static void all_problems_are_reported_not_the_first(void **state)
     assert_int_equal(found.problems.error_count, 4);
 }
 
-static void the_first_error_reaches_the_command_line(void **state)
+TEST_WITH(the_first_error_reaches_the_command_line, maker_reset, NULL)
 {
     (void)state;
     Error err;
@@ -284,7 +284,7 @@ static Found survey_display(const float uv[6], const SceneOptions *more)
     return maker_survey(&options);
 }
 
-static void mirrored_displays_are_errors(void **state)
+TEST_WITH(mirrored_displays_are_errors, maker_reset, NULL)
 {
     (void)state;
     static const float UPRIGHT[6] = {0, 1, 1, 1, 0, 0}, MIRRORED[6] = {1, 1, 0, 1, 1, 0};
@@ -299,7 +299,7 @@ static void mirrored_displays_are_errors(void **state)
     assert_non_null(maker_find(&found, place, "span no area"));
 }
 
-static void overrides_reach_displays_by_the_material_s_name(void **state)
+TEST_WITH(overrides_reach_displays_by_the_material_s_name, maker_reset, NULL)
 {
     (void)state;
     static const float UPRIGHT[6] = {0, 1, 1, 1, 0, 0};
@@ -354,7 +354,7 @@ static size_t small_glb(unsigned char out[1024])
     return at;
 }
 
-static void every_prefix_of_a_glb_is_refused(void **state)
+TEST_WITH(every_prefix_of_a_glb_is_refused, maker_reset, NULL)
 {
     unsigned char bytes[1024];
     size_t size = small_glb(bytes);
@@ -365,7 +365,7 @@ static void every_prefix_of_a_glb_is_refused(void **state)
     }
 }
 
-static void every_prefix_of_a_gltf_is_refused(void **state)
+TEST_WITH(every_prefix_of_a_gltf_is_refused, maker_reset, NULL)
 {
     char *whole = maker_text(
         BYTES.points, 36,
@@ -384,7 +384,7 @@ static void every_prefix_of_a_gltf_is_refused(void **state)
 }
 
 /* Any byte may be anything: refused or read, never a crash (the sanitizers watch). */
-static void damaged_bytes_do_no_harm(void **state)
+TEST_WITH(damaged_bytes_do_no_harm, maker_reset, NULL)
 {
     unsigned char bytes[1024];
     size_t size = small_glb(bytes);
@@ -411,7 +411,7 @@ static void leave_when_full(size_t bytes_wanted, size_t bytes_left)
 
 /* With ever more memory for the scene, up to what it needs: either it loads or the one exit is
  * taken. (The loader's own scratch is left mapped each time, which is why there are few.) */
-static void running_out_of_memory_takes_the_one_exit(void **state)
+TEST_WITH(running_out_of_memory_takes_the_one_exit, maker_reset, NULL)
 {
     (void)state;
     unsigned char bytes[1024];
@@ -436,19 +436,5 @@ static void running_out_of_memory_takes_the_one_exit(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(every_fault_is_named_with_its_place, maker_reset),
-        cmocka_unit_test_setup(documents_that_are_none_are_refused, maker_reset),
-        cmocka_unit_test_setup(a_buffer_without_bytes_is_told, maker_reset),
-        cmocka_unit_test_setup(deep_nesting_is_refused, maker_reset),
-        cmocka_unit_test_setup(all_problems_are_reported_not_the_first, maker_reset),
-        cmocka_unit_test_setup(the_first_error_reaches_the_command_line, maker_reset),
-        cmocka_unit_test_setup(mirrored_displays_are_errors, maker_reset),
-        cmocka_unit_test_setup(overrides_reach_displays_by_the_material_s_name, maker_reset),
-        cmocka_unit_test_setup(every_prefix_of_a_glb_is_refused, maker_reset),
-        cmocka_unit_test_setup(every_prefix_of_a_gltf_is_refused, maker_reset),
-        cmocka_unit_test_setup(damaged_bytes_do_no_harm, maker_reset),
-        cmocka_unit_test_setup(running_out_of_memory_takes_the_one_exit, maker_reset),
-    };
-    return cmocka_run_group_tests_name("scene_errors", tests, maker_start, maker_end);
+    return run_cases(maker_start, maker_end);
 }

@@ -21,7 +21,7 @@ static const Material *load_material(const char *members)
     return &maker_load(NULL, 0, text)->materials[0];
 }
 
-static void an_empty_material_has_the_defaults(void **state)
+TEST_WITH(an_empty_material_has_the_defaults, maker_reset, NULL)
 {
     (void)state;
     const Material *m = load_material("");
@@ -78,7 +78,7 @@ static const NumberCase NUMBERS[] = {
      AT(attenuation_color[1]), 0.5f},
 };
 
-static void every_factor_arrives(void **state)
+TEST_WITH(every_factor_arrives, maker_reset, NULL)
 {
     (void)state;
     for (size_t i = 0; i < sizeof NUMBERS / sizeof *NUMBERS; i++) {
@@ -112,7 +112,7 @@ static const struct {
      AT(clearcoat_normal_texture)},
 };
 
-static void every_texture_arrives_in_its_own_slot(void **state)
+TEST_WITH(every_texture_arrives_in_its_own_slot, maker_reset, NULL)
 {
     (void)state;
     const size_t count = sizeof SLOTS / sizeof *SLOTS;
@@ -124,7 +124,7 @@ static void every_texture_arrives_in_its_own_slot(void **state)
     }
 }
 
-static void flags_follow_from_the_numbers(void **state)
+TEST_WITH(flags_follow_from_the_numbers, maker_reset, NULL)
 {
     (void)state;
     assert_true(load_material("'emissiveFactor':[0,0,0.1]")->is_emitter);
@@ -147,7 +147,7 @@ static void flags_follow_from_the_numbers(void **state)
 
 /* ---- lights ---------------------------------------------------------------------------- */
 
-static void punctual_lights_keep_their_units_and_place(void **state)
+TEST_WITH(punctual_lights_keep_their_units_and_place, maker_reset, NULL)
 {
     (void)state;
     Scene *scene = maker_load(
@@ -185,7 +185,7 @@ static void punctual_lights_keep_their_units_and_place(void **state)
     "'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':"                      \
     "{'PARHELION_environment':{" body "}}}]"
 
-static void a_constant_sky_has_its_luminance(void **state)
+TEST_WITH(a_constant_sky_has_its_luminance, maker_reset, NULL)
 {
     (void)state;
     const Environment *e =
@@ -210,7 +210,7 @@ static void a_constant_sky_has_its_luminance(void **state)
     assert_close(e->sun_angular_radius, radians_from_degrees(0.26645), 1e-6);
 }
 
-static void a_scene_without_environment_is_dark(void **state)
+TEST_WITH(a_scene_without_environment_is_dark, maker_reset, NULL)
 {
     (void)state;
     const Environment *e = &maker_load(NULL, 0, "'scenes':[{}]")->environment;
@@ -220,7 +220,7 @@ static void a_scene_without_environment_is_dark(void **state)
 }
 
 /* Two pixels of a Radiance picture: 1 and 2 in all channels (mantissa 128, exponent + 128). */
-static void a_picture_of_the_sky_is_read_beside_the_scene(void **state)
+TEST_WITH(a_picture_of_the_sky_is_read_beside_the_scene, maker_reset, NULL)
 {
     (void)state;
     static const char PIXELS[] =
@@ -251,7 +251,7 @@ static const float TRIANGLE[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     "'meshes':[{'primitives':[{'attributes':{'POSITION':0}%s}]}],"                             \
     "'nodes':[{'mesh':0,'name':'%s'}],"
 
-static void several_files_are_one_scene(void **state)
+TEST_WITH(several_files_are_one_scene, maker_reset, NULL)
 {
     (void)state;
     char first[2048], second[2048];
@@ -285,7 +285,7 @@ static void several_files_are_one_scene(void **state)
 /* ---- the arrays
  * ------------------------------------------------------------------------------- */
 
-static void opaque_triangles_come_first(void **state)
+TEST_WITH(opaque_triangles_come_first, maker_reset, NULL)
 {
     (void)state;
     const Scene *scene = maker_load(
@@ -311,7 +311,7 @@ static void opaque_triangles_come_first(void **state)
 }
 
 /* BLEND with an alpha of 1 everywhere needs no asking; a vertex that is not full does. */
-static void what_is_opaque_everywhere_is_opaque(void **state)
+TEST_WITH(what_is_opaque_everywhere_is_opaque, maker_reset, NULL)
 {
     (void)state;
     struct {
@@ -333,7 +333,7 @@ static void what_is_opaque_everywhere_is_opaque(void **state)
     }
 }
 
-static void triangles_without_area_are_dropped_and_counted(void **state)
+TEST_WITH(triangles_without_area_are_dropped_and_counted, maker_reset, NULL)
 {
     (void)state;
     static const float POINTS[18] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 1, 2, 2, 2};
@@ -350,19 +350,5 @@ static void triangles_without_area_are_dropped_and_counted(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(an_empty_material_has_the_defaults, maker_reset),
-        cmocka_unit_test_setup(every_factor_arrives, maker_reset),
-        cmocka_unit_test_setup(every_texture_arrives_in_its_own_slot, maker_reset),
-        cmocka_unit_test_setup(flags_follow_from_the_numbers, maker_reset),
-        cmocka_unit_test_setup(punctual_lights_keep_their_units_and_place, maker_reset),
-        cmocka_unit_test_setup(a_constant_sky_has_its_luminance, maker_reset),
-        cmocka_unit_test_setup(a_scene_without_environment_is_dark, maker_reset),
-        cmocka_unit_test_setup(a_picture_of_the_sky_is_read_beside_the_scene, maker_reset),
-        cmocka_unit_test_setup(several_files_are_one_scene, maker_reset),
-        cmocka_unit_test_setup(opaque_triangles_come_first, maker_reset),
-        cmocka_unit_test_setup(what_is_opaque_everywhere_is_opaque, maker_reset),
-        cmocka_unit_test_setup(triangles_without_area_are_dropped_and_counted, maker_reset),
-    };
-    return cmocka_run_group_tests_name("scene_materials", tests, maker_start, maker_end);
+    return run_cases(maker_start, maker_end);
 }

@@ -76,7 +76,7 @@ static void remove_all(void)
         assert_int_equal(remove(in_folder(names[i])), 0);
 }
 
-static void a_whole_set_has_its_names_at_the_end(void **state)
+TEST(a_whole_set_has_its_names_at_the_end)
 {
     (void)state;
     Error     err = {0};
@@ -96,7 +96,7 @@ static void a_whole_set_has_its_names_at_the_end(void **state)
     remove_all();
 }
 
-static void a_set_that_is_not_whole_goes_again(void **state)
+TEST(a_set_that_is_not_whole_goes_again)
 {
     (void)state;
     Error     err = {0};
@@ -107,7 +107,7 @@ static void a_set_that_is_not_whole_goes_again(void **state)
     assert_int_equal(entries_below(test_folder()), 0);
 }
 
-static void a_file_where_a_folder_is_wanted_is_named(void **state)
+TEST(a_file_where_a_folder_is_wanted_is_named)
 {
     (void)state;
     write_text(in_folder("set"), "a file");
@@ -122,7 +122,7 @@ static void a_file_where_a_folder_is_wanted_is_named(void **state)
     assert_int_equal(rmdir(in_folder("set")), 0);
 }
 
-static void a_folder_where_a_file_is_wanted_is_named(void **state)
+TEST(a_folder_where_a_file_is_wanted_is_named)
 {
     (void)state;
     Error err = {0};
@@ -140,7 +140,7 @@ static void a_folder_where_a_file_is_wanted_is_named(void **state)
 }
 
 /* What happens between the tables and their names: the first one has its name already. */
-static void names_that_were_given_are_taken_back(void **state)
+TEST(names_that_were_given_are_taken_back)
 {
     (void)state;
     Error     err = {0};
@@ -156,7 +156,7 @@ static void names_that_were_given_are_taken_back(void **state)
     assert_int_equal(rmdir(in_folder("set")), 0);
 }
 
-static void a_full_disk_leaves_what_stood_there(void **state)
+TEST(a_full_disk_leaves_what_stood_there)
 {
     (void)state;
     Error         err = {0};
@@ -178,7 +178,7 @@ static void a_full_disk_leaves_what_stood_there(void **state)
 }
 
 /* The superuser may write everywhere: then there is nothing to see. */
-static void a_read_only_folder_is_named(void **state)
+TEST(a_read_only_folder_is_named)
 {
     (void)state;
     if (geteuid() == 0) skip();
@@ -189,14 +189,5 @@ static void a_read_only_folder_is_named(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_whole_set_has_its_names_at_the_end),
-        cmocka_unit_test(a_set_that_is_not_whole_goes_again),
-        cmocka_unit_test(a_file_where_a_folder_is_wanted_is_named),
-        cmocka_unit_test(a_folder_where_a_file_is_wanted_is_named),
-        cmocka_unit_test(names_that_were_given_are_taken_back),
-        cmocka_unit_test(a_full_disk_leaves_what_stood_there),
-        cmocka_unit_test(a_read_only_folder_is_named),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return run_cases(make_folder, remove_folder);
 }

@@ -56,7 +56,7 @@ static const FresnelRow FRESNEL_TABLE[] = {
     {80, 0.390950, 0.546363, 0.235537, 0.456043}, {85, 0.614923, 0.737674, 0.492173, 0.245646},
 };
 
-static void glass_reflects_as_fresnel_says(void **state)
+TEST(glass_reflects_as_fresnel_says)
 {
     (void)state;
     for (size_t i = 0; i < sizeof FRESNEL_TABLE / sizeof *FRESNEL_TABLE; i++) {
@@ -75,7 +75,7 @@ static void glass_reflects_as_fresnel_says(void **state)
     }
 }
 
-static void light_is_totally_reflected_beyond_the_critical_angle(void **state)
+TEST(light_is_totally_reflected_beyond_the_critical_angle)
 {
     (void)state;
     float critical = sqrtf(1 - 1 / (1.5f * 1.5f)), behind;
@@ -106,7 +106,7 @@ static Bsdf smooth_bsdf(float metallic)
     return bsdf;
 }
 
-static void smooth_metal_reflects_its_colour_at_normal_incidence(void **state)
+TEST(smooth_metal_reflects_its_colour_at_normal_incidence)
 {
     (void)state;
     Bsdf bsdf = smooth_bsdf(1);
@@ -121,7 +121,7 @@ static void smooth_metal_reflects_its_colour_at_normal_incidence(void **state)
     }
 }
 
-static void plastic_reflects_between_f0_and_specular(void **state)
+TEST(plastic_reflects_between_f0_and_specular)
 {
     (void)state;
     Bsdf bsdf = smooth_bsdf(0);
@@ -137,7 +137,7 @@ static void plastic_reflects_between_f0_and_specular(void **state)
     }
 }
 
-static void plain_plastic_mirrors_by_the_exact_curve(void **state)
+TEST(plain_plastic_mirrors_by_the_exact_curve)
 {
     (void)state;
     Bsdf bsdf = smooth_bsdf(0);
@@ -148,7 +148,7 @@ static void plain_plastic_mirrors_by_the_exact_curve(void **state)
     }
 }
 
-static void crossing_a_solid_twice_restores_radiance(void **state)
+TEST(crossing_a_solid_twice_restores_radiance)
 {
     (void)state;
     Bsdf glass_face = {.kind = BSDF_DIELECTRIC, .dielectric = {spectrum_all(1), 1.5f, 0}};
@@ -161,7 +161,7 @@ static void crossing_a_solid_twice_restores_radiance(void **state)
     assert_close(out[0], (1 - f) * 2.25f, 1e-4);
 }
 
-static void tabulated_energy_is_the_lobe_s_own(void **state)
+TEST(tabulated_energy_is_the_lobe_s_own)
 {
     (void)state;
     const float alphas[] = {0.003f, 0.02f, 0.1f, 0.33f, 0.6f, 0.95f};
@@ -188,7 +188,7 @@ static void tabulated_energy_is_the_lobe_s_own(void **state)
         }
 }
 
-static void visible_facets_are_all_there_is_to_see(void **state)
+TEST(visible_facets_are_all_there_is_to_see)
 {
     (void)state;
     const float alphas[] = {0.05f, 0.3f, 1};
@@ -213,15 +213,5 @@ static void visible_facets_are_all_there_is_to_see(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(glass_reflects_as_fresnel_says),
-        cmocka_unit_test(light_is_totally_reflected_beyond_the_critical_angle),
-        cmocka_unit_test(visible_facets_are_all_there_is_to_see),
-        cmocka_unit_test(tabulated_energy_is_the_lobe_s_own),
-        cmocka_unit_test(smooth_metal_reflects_its_colour_at_normal_incidence),
-        cmocka_unit_test(plastic_reflects_between_f0_and_specular),
-        cmocka_unit_test(plain_plastic_mirrors_by_the_exact_curve),
-        cmocka_unit_test(crossing_a_solid_twice_restores_radiance),
-    };
-    return cmocka_run_group_tests(tests, build_table, drop_table);
+    return run_cases(build_table, drop_table);
 }

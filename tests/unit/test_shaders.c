@@ -324,7 +324,7 @@ static void samples_follow_pdf(const Model *model, Vec3 wo)
                  model->name, (double)wo.z, chi2, degrees, total);
 }
 
-static void samples_are_distributed_as_their_pdf_says(void **state)
+TEST(samples_are_distributed_as_their_pdf_says)
 {
     (void)state;
     for_all(samples_follow_pdf);
@@ -359,13 +359,13 @@ static void sample_agrees(const Model *model, Vec3 wo)
     }
 }
 
-static void weight_is_eval_times_cosine_over_pdf(void **state)
+TEST(weight_is_eval_times_cosine_over_pdf)
 {
     (void)state;
     for_all(sample_agrees);
 }
 
-static void what_does_not_scatter_evaluates_to_nothing(void **state)
+TEST(what_does_not_scatter_evaluates_to_nothing)
 {
     (void)state;
     for (int m = 0; m < model_count; m++) {
@@ -413,7 +413,7 @@ static void energy_holds(const Model *model, Vec3 wo)
     }
 }
 
-static void no_surface_sends_back_more_than_it_gets(void **state)
+TEST(no_surface_sends_back_more_than_it_gets)
 {
     (void)state;
     for_all(energy_holds);
@@ -431,7 +431,7 @@ static void albedo_is_near(const Model *model, Vec3 wo)
                      (double)told[k], (double)sent[k]);
 }
 
-static void albedo_is_a_fair_estimate(void **state)
+TEST(albedo_is_a_fair_estimate)
 {
     (void)state;
     for_all(albedo_is_near);
@@ -475,7 +475,7 @@ static void check_reciprocity(const Model *model, Vec3 wo, Vec3 wi)
     }
 }
 
-static void light_goes_back_the_way_it_came(void **state)
+TEST(light_goes_back_the_way_it_came)
 {
     (void)state;
     for (int m = 0; m < model_count; m++)
@@ -490,7 +490,7 @@ static void light_goes_back_the_way_it_came(void **state)
 
 /* ---- smooth parts --------------------------------------------------------------------- */
 
-static void what_passes_a_pane_is_what_shadow_rays_see(void **state)
+TEST(what_passes_a_pane_is_what_shadow_rays_see)
 {
     (void)state;
     int panes = 0;
@@ -515,7 +515,7 @@ static void what_passes_a_pane_is_what_shadow_rays_see(void **state)
 }
 
 /* Roughness just above and just below the threshold must look alike. */
-static void a_narrow_lobe_sends_what_a_mirror_sends(void **state)
+TEST(a_narrow_lobe_sends_what_a_mirror_sends)
 {
     (void)state;
     for (int metallic = 0; metallic < 2; metallic++)
@@ -550,7 +550,7 @@ static void mirror_is_where_it_belongs(const Model *model, Vec3 wo)
     assert_true(mirrors > 0 || !strstr(model->name, "oled"));
 }
 
-static void shipped_displays_obey_the_same_laws(void **state)
+TEST(shipped_displays_obey_the_same_laws)
 {
     (void)state;
     static const char *const names[] = {"ips_cluster", "oled_centre"};
@@ -584,16 +584,5 @@ static void shipped_displays_obey_the_same_laws(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(weight_is_eval_times_cosine_over_pdf),
-        cmocka_unit_test(what_does_not_scatter_evaluates_to_nothing),
-        cmocka_unit_test(no_surface_sends_back_more_than_it_gets),
-        cmocka_unit_test(albedo_is_a_fair_estimate),
-        cmocka_unit_test(light_goes_back_the_way_it_came),
-        cmocka_unit_test(what_passes_a_pane_is_what_shadow_rays_see),
-        cmocka_unit_test(a_narrow_lobe_sends_what_a_mirror_sends),
-        cmocka_unit_test(samples_are_distributed_as_their_pdf_says),
-        cmocka_unit_test(shipped_displays_obey_the_same_laws),
-    };
-    return cmocka_run_group_tests(tests, make_models, drop_models);
+    return run_cases(make_models, drop_models);
 }

@@ -11,7 +11,7 @@ static double unit(uint32_t *state)
 }
 
 /* Every one of the 2^12 signs of a sum: as many of them as p says, or fewer, reach as far. */
-static void the_tail_of_random_signs_is_never_heavier_than_stated(void **state)
+TEST(the_tail_of_random_signs_is_never_heavier_than_stated)
 {
     (void)state;
     enum { TERMS = 12, SIGNS = 1 << TERMS };
@@ -42,7 +42,7 @@ static void the_tail_of_random_signs_is_never_heavier_than_stated(void **state)
     }
 }
 
-static void the_square_of_random_signs_has_the_stated_variance(void **state)
+TEST(the_square_of_random_signs_has_the_stated_variance)
 {
     (void)state;
     static const double SIZE[4] = {1, 2, 2, 5};
@@ -60,7 +60,7 @@ static void the_square_of_random_signs_has_the_stated_variance(void **state)
     assert_close(sign_flip_square_variance(&sum), fourth - 1, 1e-9);
 }
 
-static void tails_have_their_closed_forms(void **state)
+TEST(tails_have_their_closed_forms)
 {
     (void)state;
     assert_close(2 * normal_tail(1.959964), 0.05, 1e-6);
@@ -78,10 +78,5 @@ static void tails_have_their_closed_forms(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_tail_of_random_signs_is_never_heavier_than_stated),
-        cmocka_unit_test(the_square_of_random_signs_has_the_stated_variance),
-        cmocka_unit_test(tails_have_their_closed_forms),
-    };
-    return cmocka_run_group_tests_name("sign_flip", tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

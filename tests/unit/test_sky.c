@@ -30,7 +30,7 @@ static SkyTime moment(const char *text)
 
 /* ---- position --------------------------------------------------------------------------- */
 
-static void the_published_example_holds_at_every_step(void **state)
+TEST(the_published_example_holds_at_every_step)
 {
     (void)state;
     SkyTime     time = moment("2003-10-17T12:30:30-07:00");
@@ -77,7 +77,7 @@ static void the_published_example_holds_at_every_step(void **state)
         assert_near(steps[i][0], steps[i][1], steps[i][2] * 1.02);
 }
 
-static void other_places_and_seasons_agree_with_spa(void **state)
+TEST(other_places_and_seasons_agree_with_spa)
 {
     (void)state;
     const struct {
@@ -120,7 +120,7 @@ static void psa_vector(const SkyTime *t, const SkyPlace *place, double out[3])
     out[0] = sin(z) * sin(az), out[1] = sin(z) * cos(az), out[2] = cos(z);
 }
 
-static void an_independent_algorithm_agrees_at_10000_times_and_places(void **state)
+TEST(an_independent_algorithm_agrees_at_10000_times_and_places)
 {
     (void)state;
     double most = 0;
@@ -142,7 +142,7 @@ static void an_independent_algorithm_agrees_at_10000_times_and_places(void **sta
     assert_in(most, 1e-4, 0.01);
 }
 
-static void the_date_line_and_the_poles_are_no_seams(void **state)
+TEST(the_date_line_and_the_poles_are_no_seams)
 {
     (void)state;
     SkyTime  time = moment("2024-02-29T23:59:59.5+14:00");
@@ -158,7 +158,7 @@ static void the_date_line_and_the_poles_are_no_seams(void **state)
     }
 }
 
-static void refraction_is_smooth_below_the_horizon_too(void **state)
+TEST(refraction_is_smooth_below_the_horizon_too)
 {
     (void)state;
     double before = sun_refraction_deg(-8, 1013.25, 15);
@@ -170,7 +170,7 @@ static void refraction_is_smooth_below_the_horizon_too(void **state)
     }
 }
 
-static void a_moment_needs_its_zone_and_real_dates(void **state)
+TEST(a_moment_needs_its_zone_and_real_dates)
 {
     (void)state;
     static const char *const wrong[] = {"",
@@ -195,7 +195,7 @@ static void a_moment_needs_its_zone_and_real_dates(void **state)
     assert_near(sky_julian_day(&a), sky_julian_day(&b), 1e-9);
 }
 
-static void the_horizon_dips_and_the_air_thins_with_altitude(void **state)
+TEST(the_horizon_dips_and_the_air_thins_with_altitude)
 {
     (void)state;
     double pressure, celsius;
@@ -210,7 +210,7 @@ static void the_horizon_dips_and_the_air_thins_with_altitude(void **state)
 
 /* ---- spectra ----------------------------------------------------------------------------- */
 
-static void spectrl2_is_the_published_program(void **state)
+TEST(spectrl2_is_the_published_program)
 {
     (void)state;
     const Air air = {1013, 1.42, 0.344, 0.1, 1.14, 0.2};
@@ -252,7 +252,7 @@ static double illuminance(const double *rows)
     return sum;
 }
 
-static void the_direct_beam_is_that_of_astm_g173_within_2_percent(void **state)
+TEST(the_direct_beam_is_that_of_astm_g173_within_2_percent)
 {
     (void)state;
     const Air air = {1013.25, 1.4164, 0.3438, 0.084, 1.14, 0.2};
@@ -271,7 +271,7 @@ static double sun_limb_value(const double coefficient[6], double mu)
     return fmax(0, value);
 }
 
-static void limb_darkening_keeps_the_irradiance(void **state)
+TEST(limb_darkening_keeps_the_irradiance)
 {
     (void)state;
     for (int nm = 300; nm <= 900; nm += 13) {
@@ -290,7 +290,7 @@ static void limb_darkening_keeps_the_irradiance(void **state)
 
 /* ---- shapes ------------------------------------------------------------------------------ */
 
-static void the_cie_skies_have_their_known_illuminance_over_zenith_luminance(void **state)
+TEST(the_cie_skies_have_their_known_illuminance_over_zenith_luminance)
 {
     (void)state;
     static const double known[16] = {2.44954, 2.08602, 2.76999, 2.31542, 3.14159, 2.58416,
@@ -303,7 +303,7 @@ static void the_cie_skies_have_their_known_illuminance_over_zenith_luminance(voi
     }
 }
 
-static void perez_makes_the_known_skies(void **state)
+TEST(perez_makes_the_known_skies)
 {
     (void)state;
     static const double in[4][4] = {{45, 100, 800, 172}, {60, 150, 400, 80}, {45, 250, 0, 80},
@@ -338,7 +338,7 @@ static void perez_makes_the_known_skies(void **state)
     }
 }
 
-static void the_quick_form_of_a_shape_is_the_same(void **state)
+TEST(the_quick_form_of_a_shape_is_the_same)
 {
     (void)state;
     for (int type = 1; type <= 16; type++) {
@@ -350,7 +350,7 @@ static void the_quick_form_of_a_shape_is_the_same(void **state)
     }
 }
 
-static void irradiances_without_a_sky_are_refused(void **state)
+TEST(irradiances_without_a_sky_are_refused)
 {
     (void)state;
     PerezInput input = {0.5, 100, 0, 80};
@@ -368,7 +368,7 @@ static const char weather_text[] =
     "1995,6,21,12,60,x,20.1,11.8,79,100100,0,1415,288,500,410.5,210,0,0,0,0\r\n"
     "1995,6,21,13,60,x,21.1,11.8,79,100100,0,1415,288,500,9999,9999,0,0,0,0\r\n";
 
-static void a_weather_file_tells_place_and_hours(void **state)
+TEST(a_weather_file_tells_place_and_hours)
 {
     Arena       arena = test_arena(state);
     const char *name = in_folder("weather.epw");
@@ -392,7 +392,7 @@ static void a_weather_file_tells_place_and_hours(void **state)
     assert_true(weather_at(&w, &later) != hour && !weather_at(&w, &other));
 }
 
-static void every_prefix_of_a_weather_file_is_read_or_refused_by_line(void **state)
+TEST(every_prefix_of_a_weather_file_is_read_or_refused_by_line)
 {
     Arena arena = test_arena(state);
     for (size_t n = 0; n < sizeof weather_text - 1; n++) {
@@ -410,7 +410,7 @@ static void every_prefix_of_a_weather_file_is_read_or_refused_by_line(void **sta
     }
 }
 
-static void a_real_year_has_8760_hours(void **state)
+TEST(a_real_year_has_8760_hours)
 {
     Arena   arena = test_arena(state);
     Weather w;
@@ -429,24 +429,5 @@ static void a_real_year_has_8760_hours(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_published_example_holds_at_every_step),
-        cmocka_unit_test(other_places_and_seasons_agree_with_spa),
-        cmocka_unit_test(an_independent_algorithm_agrees_at_10000_times_and_places),
-        cmocka_unit_test(the_date_line_and_the_poles_are_no_seams),
-        cmocka_unit_test(refraction_is_smooth_below_the_horizon_too),
-        cmocka_unit_test(a_moment_needs_its_zone_and_real_dates),
-        cmocka_unit_test(the_horizon_dips_and_the_air_thins_with_altitude),
-        cmocka_unit_test(spectrl2_is_the_published_program),
-        cmocka_unit_test(the_direct_beam_is_that_of_astm_g173_within_2_percent),
-        cmocka_unit_test(limb_darkening_keeps_the_irradiance),
-        cmocka_unit_test(the_cie_skies_have_their_known_illuminance_over_zenith_luminance),
-        cmocka_unit_test(perez_makes_the_known_skies),
-        cmocka_unit_test(the_quick_form_of_a_shape_is_the_same),
-        cmocka_unit_test(irradiances_without_a_sky_are_refused),
-        cmocka_unit_test(a_weather_file_tells_place_and_hours),
-        cmocka_unit_test(every_prefix_of_a_weather_file_is_read_or_refused_by_line),
-        cmocka_unit_test(a_real_year_has_8760_hours),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return run_cases(make_folder, remove_folder);
 }

@@ -26,7 +26,7 @@ static void estimate_xyz(Spectrum (*radiance)(const Wavelengths *), double xyz[3
     }
 }
 
-static void equal_energy_has_its_luminance(void **state)
+TEST(equal_energy_has_its_luminance)
 {
     (void)state;
     float one[SPECTRAL_COUNT];
@@ -38,7 +38,7 @@ static void equal_energy_has_its_luminance(void **state)
     assert_close(luminance_cd_m2(three, 6, 554.5, 0.2), 683.002, 2e-4);
 }
 
-static void equal_energy_is_white_of_e(void **state)
+TEST(equal_energy_is_white_of_e)
 {
     (void)state;
     float  one[SPECTRAL_COUNT];
@@ -49,7 +49,7 @@ static void equal_energy_is_white_of_e(void **state)
     assert_close(xyz[2], 683.002 * 106.89225128, 4e-6);
 }
 
-static void nothing_is_seen_outside_360_to_830(void **state)
+TEST(nothing_is_seen_outside_360_to_830)
 {
     (void)state;
     float one[200];
@@ -59,7 +59,7 @@ static void nothing_is_seen_outside_360_to_830(void **state)
     assert_near(luminance_cd_m2(one, 1, 555, 1), 0, 0); /* a single point has no width */
 }
 
-static void a_black_body_radiates_sigma_t4(void **state)
+TEST(a_black_body_radiates_sigma_t4)
 {
     (void)state;
     for (double kelvin = 1000; kelvin < 12000; kelvin *= 1.7) {
@@ -72,7 +72,7 @@ static void a_black_body_radiates_sigma_t4(void **state)
     }
 }
 
-static void illuminant_a_is_a_black_body_of_2856_kelvin(void **state)
+TEST(illuminant_a_is_a_black_body_of_2856_kelvin)
 {
     (void)state;
     double ratio = (double)spectral_row(560).illuminant_a / black_body_radiance(560, 2855.5);
@@ -81,7 +81,7 @@ static void illuminant_a_is_a_black_body_of_2856_kelvin(void **state)
                      2e-4);
 }
 
-static void d65_has_its_chromaticity(void **state)
+TEST(d65_has_its_chromaticity)
 {
     (void)state;
     float d65[SPECTRAL_COUNT], xyz[3], xy[2];
@@ -105,7 +105,7 @@ static float wavelengths_pdf(float nm)
     return (wavelength_steps[cell + 1] - wavelength_steps[cell]) * 0x1p-24f;
 }
 
-static void wavelengths_cover_the_range_once(void **state)
+TEST(wavelengths_cover_the_range_once)
 {
     (void)state;
     double integral = 0;
@@ -123,7 +123,7 @@ static void wavelengths_cover_the_range_once(void **state)
     }
 }
 
-static void wavelengths_follow_their_density(void **state)
+TEST(wavelengths_follow_their_density)
 {
     (void)state;
     double histogram[47] = {0}, expected[47] = {0};
@@ -150,7 +150,7 @@ static Spectrum spike(const Wavelengths *w)
     return s;
 }
 
-static void spiky_spectra_are_integrated_without_bias(void **state)
+TEST(spiky_spectra_are_integrated_without_bias)
 {
     (void)state;
     spike_width_nm = 2;
@@ -170,7 +170,7 @@ static void spiky_spectra_are_integrated_without_bias(void **state)
     }
 }
 
-static void one_offset_already_sees_the_luminance_of_daylight(void **state)
+TEST(one_offset_already_sees_the_luminance_of_daylight)
 {
     (void)state;
     double squares = 0, xyz[3];
@@ -188,7 +188,7 @@ static void one_offset_already_sees_the_luminance_of_daylight(void **state)
     assert_true(sqrt(squares) < 0.02);
 }
 
-static void rgb_reflectances_sum_to_one_and_stay_within_it(void **state)
+TEST(rgb_reflectances_sum_to_one_and_stay_within_it)
 {
     (void)state;
     for (int i = 0; i < SPECTRAL_COUNT; i++) {
@@ -206,7 +206,7 @@ static Spectrum emission_of_wanted(const Wavelengths *w)
     return spectrum_from_rgb_emission(w, wanted_rgb);
 }
 
-static void rgb_survives_the_way_through_spectra(void **state)
+TEST(rgb_survives_the_way_through_spectra)
 {
     (void)state;
     srand(7);
@@ -223,7 +223,7 @@ static void rgb_survives_the_way_through_spectra(void **state)
     }
 }
 
-static void rec709_primaries_are_where_the_standard_has_them(void **state)
+TEST(rec709_primaries_are_where_the_standard_has_them)
 {
     (void)state;
     const float xy[3][2] = {{0.64f, 0.33f}, {0.30f, 0.60f}, {0.15f, 0.06f}};
@@ -243,7 +243,7 @@ static void rec709_primaries_are_where_the_standard_has_them(void **state)
     assert_near(luminance_from_rgb((float[]){0, 1, 0}), 0.7152, 2e-4);
 }
 
-static void black_has_the_chromaticity_of_d65(void **state)
+TEST(black_has_the_chromaticity_of_d65)
 {
     (void)state;
     float xy[2];
@@ -251,7 +251,7 @@ static void black_has_the_chromaticity_of_d65(void **state)
     assert_near(xy[0], 0.312727, 1e-5);
 }
 
-static void the_observer_is_the_published_table(void **state)
+TEST(the_observer_is_the_published_table)
 {
     (void)state;
     FILE *file = fopen(SHARED_DATA_DIR "/spectra/cie1931_2deg_cmf_1nm.csv", "r");
@@ -271,7 +271,7 @@ static void the_observer_is_the_published_table(void **state)
     assert_int_equal(rows, SPECTRAL_COUNT);
 }
 
-static void a_curve_passes_through_its_points_and_holds_its_ends(void **state)
+TEST(a_curve_passes_through_its_points_and_holds_its_ends)
 {
     (void)state;
     double nm[4] = {400, 500.5, 600, 700}, value[4] = {0.1, 0.5, 0.2, 0.9};
@@ -305,7 +305,7 @@ static bool curve_read(const char *path, Curve *out, Error *err)
     return ok;
 }
 
-static void a_curve_file_may_have_comments_and_a_header(void **state)
+TEST(a_curve_file_may_have_comments_and_a_header)
 {
     (void)state;
     static Curve curve;
@@ -319,7 +319,7 @@ static void a_curve_file_may_have_comments_and_a_header(void **state)
     assert_close(curve.value[CURVE_COUNT - 1], 0.25, 1e-6);
 }
 
-static void a_bad_curve_file_is_refused_with_its_line(void **state)
+TEST(a_bad_curve_file_is_refused_with_its_line)
 {
     (void)state;
     const struct {
@@ -352,7 +352,7 @@ static void a_bad_curve_file_is_refused_with_its_line(void **state)
     assert_non_null(strstr(err.text, "cannot be opened: No such file"));
 }
 
-static void lane_operations_agree_with_loops(void **state)
+TEST(lane_operations_agree_with_loops)
 {
     (void)state;
     Spectrum a, b;
@@ -393,26 +393,5 @@ static void lane_operations_agree_with_loops(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(equal_energy_has_its_luminance),
-        cmocka_unit_test(equal_energy_is_white_of_e),
-        cmocka_unit_test(nothing_is_seen_outside_360_to_830),
-        cmocka_unit_test(a_black_body_radiates_sigma_t4),
-        cmocka_unit_test(illuminant_a_is_a_black_body_of_2856_kelvin),
-        cmocka_unit_test(d65_has_its_chromaticity),
-        cmocka_unit_test(wavelengths_cover_the_range_once),
-        cmocka_unit_test(wavelengths_follow_their_density),
-        cmocka_unit_test(spiky_spectra_are_integrated_without_bias),
-        cmocka_unit_test(one_offset_already_sees_the_luminance_of_daylight),
-        cmocka_unit_test(rgb_reflectances_sum_to_one_and_stay_within_it),
-        cmocka_unit_test(rgb_survives_the_way_through_spectra),
-        cmocka_unit_test(rec709_primaries_are_where_the_standard_has_them),
-        cmocka_unit_test(black_has_the_chromaticity_of_d65),
-        cmocka_unit_test(the_observer_is_the_published_table),
-        cmocka_unit_test(a_curve_passes_through_its_points_and_holds_its_ends),
-        cmocka_unit_test(a_curve_file_may_have_comments_and_a_header),
-        cmocka_unit_test(a_bad_curve_file_is_refused_with_its_line),
-        cmocka_unit_test(lane_operations_agree_with_loops),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return run_cases(make_folder, remove_folder);
 }

@@ -32,7 +32,7 @@ static Alarms count_alarms(Maker *reference, Maker *test)
     return out;
 }
 
-static void noise_of_any_kind_keeps_the_level(void **state)
+TEST(noise_of_any_kind_keeps_the_level)
 {
     (void)state;
     static const int SAMPLES[] = {1, 2, 8};
@@ -54,7 +54,7 @@ static void noise_of_any_kind_keeps_the_level(void **state)
 }
 
 /* A reference of few samples saw hardly a firefly; or it is the test that did not. */
-static void different_sample_counts_keep_the_level(void **state)
+TEST(different_sample_counts_keep_the_level)
 {
     (void)state;
     for (Noise noise = NOISE_GAUSSIAN; noise <= NOISE_FIREFLIES; noise++)
@@ -69,7 +69,7 @@ static void different_sample_counts_keep_the_level(void **state)
 }
 
 /* A program that finds light better makes less noise of the same mean. */
-static void less_noise_of_the_same_mean_is_no_change(void **state)
+TEST(less_noise_of_the_same_mean_is_no_change)
 {
     (void)state;
     Maker before = {.noise = NOISE_EXPONENTIAL, .samples = 8};
@@ -91,7 +91,7 @@ static float *channel(FrameImage *frame, const char *layer, char letter)
     return NULL;
 }
 
-static void one_glint_in_one_frame_is_noise(void **state)
+TEST(one_glint_in_one_frame_is_noise)
 {
     Arena arena = test_arena(state);
     Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 32}, other = maker;
@@ -116,7 +116,7 @@ static void one_glint_in_one_frame_is_noise(void **state)
 
 /* ---- pixels without noise, rounding, equality -------------------------------------------- */
 
-static void frames_without_noise_differ_by_a_single_pixel(void **state)
+TEST(frames_without_noise_differ_by_a_single_pixel)
 {
     Arena arena = test_arena(state);
     Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 64, .seed = 3};
@@ -140,7 +140,7 @@ static void frames_without_noise_differ_by_a_single_pixel(void **state)
     assert_int_equal(r.differing, 1);
 }
 
-static void rounding_is_no_change(void **state)
+TEST(rounding_is_no_change)
 {
     Arena arena = test_arena(state);
     Maker maker = {.noise = NOISE_QUIET, .samples = 64, .seed = 3};
@@ -162,7 +162,7 @@ static void rounding_is_no_change(void **state)
 
 /* Frames of one seed: a few paths that went elsewhere are noise, one part in a thousand of all
  * light is not. */
-static void frames_that_share_their_noise_are_compared_pixel_by_pixel(void **state)
+TEST(frames_that_share_their_noise_are_compared_pixel_by_pixel)
 {
     Arena arena = test_arena(state);
     Maker maker = {.noise = NOISE_EXPONENTIAL, .samples = 64, .seed = 3};
@@ -185,7 +185,7 @@ static void frames_that_share_their_noise_are_compared_pixel_by_pixel(void **sta
 
 /* ---- masks, gaps, words ------------------------------------------------------------------ */
 
-static void what_the_mask_leaves_out_does_not_count(void **state)
+TEST(what_the_mask_leaves_out_does_not_count)
 {
     Arena arena = test_arena(state);
     Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 16, .seed = 3}, other = maker;
@@ -213,7 +213,7 @@ static void what_the_mask_leaves_out_does_not_count(void **state)
 }
 
 /* A crop: the data window lies inside the display window, which the mask covers. */
-static void crops_have_their_place_in_the_frame(void **state)
+TEST(crops_have_their_place_in_the_frame)
 {
     Arena arena = test_arena(state);
     Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 64, .seed = 3}, other = maker;
@@ -235,7 +235,7 @@ static void crops_have_their_place_in_the_frame(void **state)
     assert_int_equal(r.pixels, PIXELS - 64);
 }
 
-static void either_layer_of_noise_is_enough(void **state)
+TEST(either_layer_of_noise_is_enough)
 {
     static const char *const LEFT_OUT[] = {"variance", "halves", "samples.N"};
     Arena arena = test_arena(state);
@@ -255,7 +255,7 @@ static void either_layer_of_noise_is_enough(void **state)
         }
 }
 
-static void notes_say_what_would_help(void **state)
+TEST(notes_say_what_would_help)
 {
     Arena arena = test_arena(state);
     Maker few = {.noise = NOISE_GAUSSIAN, .samples = 4}, many = {.samples = 16, .seed = 1};
@@ -289,7 +289,7 @@ static void assert_refused(const FrameImage *a, const FrameImage *b, const char 
     "has neither layer variance nor halves, which tell its noise; "                            \
     "render it with --layers variance,halves,samples"
 
-static void frames_that_do_not_tell_their_noise_are_refused(void **state)
+TEST(frames_that_do_not_tell_their_noise_are_refused)
 {
     Arena arena = test_arena(state);
     Maker maker = {.samples = 4};
@@ -309,19 +309,5 @@ static void frames_that_do_not_tell_their_noise_are_refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(noise_of_any_kind_keeps_the_level),
-        cmocka_unit_test(different_sample_counts_keep_the_level),
-        cmocka_unit_test(less_noise_of_the_same_mean_is_no_change),
-        cmocka_unit_test(one_glint_in_one_frame_is_noise),
-        cmocka_unit_test(frames_without_noise_differ_by_a_single_pixel),
-        cmocka_unit_test(rounding_is_no_change),
-        cmocka_unit_test(frames_that_share_their_noise_are_compared_pixel_by_pixel),
-        cmocka_unit_test(what_the_mask_leaves_out_does_not_count),
-        cmocka_unit_test(crops_have_their_place_in_the_frame),
-        cmocka_unit_test(either_layer_of_noise_is_enough),
-        cmocka_unit_test(notes_say_what_would_help),
-        cmocka_unit_test(frames_that_do_not_tell_their_noise_are_refused),
-    };
-    return cmocka_run_group_tests_name("statistic", tests, make_arena, drop_arena);
+    return run_cases(make_arena, drop_arena);
 }

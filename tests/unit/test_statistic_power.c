@@ -3,7 +3,7 @@
 
 /* Gaussian pixels of relative sigma s = 0.5 / 4 in both frames: the best estimate of a change
  * in proportion has the standard error s sqrt(2 / n). */
-static void a_change_in_proportion_is_measured_as_well_as_can_be(void **state)
+TEST(a_change_in_proportion_is_measured_as_well_as_can_be)
 {
     Arena  arena = test_arena(state);
     Maker  maker = {.noise = NOISE_GAUSSIAN, .samples = 16}, other;
@@ -28,7 +28,7 @@ static void a_change_in_proportion_is_measured_as_well_as_can_be(void **state)
 }
 
 /* Weighing by the pixel's own variance makes bright pixels count less; the estimate knows. */
-static void a_change_is_estimated_without_bias_in_skewed_noise(void **state)
+TEST(a_change_is_estimated_without_bias_in_skewed_noise)
 {
     Arena  arena = test_arena(state);
     Maker  maker = {.noise = NOISE_EXPONENTIAL, .samples = 16}, other;
@@ -49,7 +49,7 @@ static void a_change_is_estimated_without_bias_in_skewed_noise(void **state)
     assert_close(sqrt(squares), stated, 0.28); /* 4 / sqrt(2 * 100) */
 }
 
-static void a_display_is_named_with_how_much_it_moved(void **state)
+TEST(a_display_is_named_with_how_much_it_moved)
 {
     Arena arena = test_arena(state);
     Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 64, .seed = 7}, other = maker;
@@ -65,7 +65,7 @@ static void a_display_is_named_with_how_much_it_moved(void **state)
     assert_text_has(r.reason, "display 'cluster': ");
 }
 
-static void a_block_is_named_with_its_place(void **state)
+TEST(a_block_is_named_with_its_place)
 {
     Arena arena = test_arena(state);
     Maker maker = {.noise = NOISE_EXPONENTIAL, .samples = 64, .seed = 3}, other = maker;
@@ -85,7 +85,7 @@ static void a_block_is_named_with_its_place(void **state)
 
 /* Blocks that got brighter and darker by 1.4 of their standard errors, in turn: none of them
  * is beyond its limit, no mean moved. */
-static void small_changes_everywhere_are_seen_together(void **state)
+TEST(small_changes_everywhere_are_seen_together)
 {
     Arena arena = test_arena(state);
     Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 16};
@@ -111,12 +111,5 @@ static void small_changes_everywhere_are_seen_together(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_change_in_proportion_is_measured_as_well_as_can_be),
-        cmocka_unit_test(a_change_is_estimated_without_bias_in_skewed_noise),
-        cmocka_unit_test(a_display_is_named_with_how_much_it_moved),
-        cmocka_unit_test(a_block_is_named_with_its_place),
-        cmocka_unit_test(small_changes_everywhere_are_seen_together),
-    };
-    return cmocka_run_group_tests_name("statistic_power", tests, make_arena, drop_arena);
+    return run_cases(make_arena, drop_arena);
 }

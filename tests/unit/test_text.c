@@ -8,7 +8,7 @@
 #include "text/text.h"
 #include "text/utf8.h"
 
-static void a_text_grows_where_it_stands(void **state)
+TEST(a_text_grows_where_it_stands)
 {
     Arena arena = test_arena(state);
     Text text = {.arena = &arena};
@@ -20,7 +20,7 @@ static void a_text_grows_where_it_stands(void **state)
     assert_string_equal(text.data + 99992, "123456789");
 }
 
-static void a_text_moves_when_something_lies_behind_it(void **state)
+TEST(a_text_moves_when_something_lies_behind_it)
 {
     Arena arena = test_arena(state);
     Text a = {.arena = &arena}, b = {.arena = &arena};
@@ -39,7 +39,7 @@ static void a_text_moves_when_something_lies_behind_it(void **state)
     assert_int_equal(strspn(b.data, "x"), b.size);
 }
 
-static void a_text_becomes_a_file(void **state)
+TEST(a_text_becomes_a_file)
 {
     Arena arena = test_arena(state);
     Text      text = {.arena = &arena};
@@ -57,7 +57,7 @@ static void a_text_becomes_a_file(void **state)
     assert_false(text_write(&text, "/nowhere/at/all", &err));
 }
 
-static void texts_are_escaped(void **state)
+TEST(texts_are_escaped)
 {
     Arena arena = test_arena(state);
     Text text = {.arena = &arena};
@@ -70,7 +70,7 @@ static void texts_are_escaped(void **state)
 }
 
 /* Names of files may be anything; cairo and a browser want UTF-8. */
-static void names_become_utf8(void **state)
+TEST(names_become_utf8)
 {
     Arena arena = test_arena(state);
     assert_string_equal(utf8_replace("display é µ ₂ 𝄞.panel", &arena), "display é µ ₂ 𝄞.panel");
@@ -80,7 +80,7 @@ static void names_become_utf8(void **state)
     assert_string_equal(utf8_replace("\xf0\x9d", &arena), "??");       /* cut short */
 }
 
-static void characters_make_the_round_trip(void **state)
+TEST(characters_make_the_round_trip)
 {
     (void)state;
     static const unsigned CODES[] = {0,      0x41,   0x7f,   0x80,    0x7ff,   0x800,
@@ -96,7 +96,7 @@ static void characters_make_the_round_trip(void **state)
     }
 }
 
-static void any_text_becomes_json(void **state)
+TEST(any_text_becomes_json)
 {
     (void)state;
     json_t *good = json_text("é"), *bad = json_text("a\xc3\xa9\xff");
@@ -107,7 +107,7 @@ static void any_text_becomes_json(void **state)
 }
 
 /* RFC 4648, section 10. */
-static void base64_makes_the_round_trip(void **state)
+TEST(base64_makes_the_round_trip)
 {
     Arena arena = test_arena(state);
     static const char *const DIGITS[] = {"",         "Zg==",     "Zm8=",    "Zm9v",
@@ -125,7 +125,7 @@ static void base64_makes_the_round_trip(void **state)
     }
 }
 
-static void the_nearest_word_is_found(void **state)
+TEST(the_nearest_word_is_found)
 {
     (void)state;
     static const char *const words[] = {"wavelengths", "incidence_deg", "files"};
@@ -140,16 +140,5 @@ static void the_nearest_word_is_found(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_text_grows_where_it_stands),
-        cmocka_unit_test(a_text_moves_when_something_lies_behind_it),
-        cmocka_unit_test(a_text_becomes_a_file),
-        cmocka_unit_test(texts_are_escaped),
-        cmocka_unit_test(names_become_utf8),
-        cmocka_unit_test(characters_make_the_round_trip),
-        cmocka_unit_test(any_text_becomes_json),
-        cmocka_unit_test(base64_makes_the_round_trip),
-        cmocka_unit_test(the_nearest_word_is_found),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return run_cases(make_folder, remove_folder);
 }

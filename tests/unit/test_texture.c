@@ -17,7 +17,7 @@ static Texture texture_of(const void *pixels, ImageFormat format, int width, int
     return (Texture){{width, height, format, pixels}, wrap, wrap, false};
 }
 
-static void colours_are_decoded_from_srgb(void **state)
+TEST(colours_are_decoded_from_srgb)
 {
     (void)state;
     float rgba[4];
@@ -36,7 +36,7 @@ static void colours_are_decoded_from_srgb(void **state)
     }
 }
 
-static void codes_come_back_exactly(void **state)
+TEST(codes_come_back_exactly)
 {
     (void)state;
     float rgb[3];
@@ -67,7 +67,7 @@ static float row_at(TextureWrap wrap, bool nearest, float u)
     return rgba[0];
 }
 
-static void between_texels_the_value_is_linear(void **state)
+TEST(between_texels_the_value_is_linear)
 {
     (void)state;
     for (int wrap = WRAP_REPEAT; wrap <= WRAP_MIRROR; wrap++) {
@@ -87,7 +87,7 @@ static void between_texels_the_value_is_linear(void **state)
     }
 }
 
-static void over_the_edge_the_wrap_mode_decides(void **state)
+TEST(over_the_edge_the_wrap_mode_decides)
 {
     (void)state;
     assert_near(row_at(WRAP_REPEAT, false, 0), 20, 1e-4); /* half of 40 and half of 0 */
@@ -106,7 +106,7 @@ static void over_the_edge_the_wrap_mode_decides(void **state)
     assert_true(row_at(WRAP_CLAMP, true, 1) == 40 && row_at(WRAP_MIRROR, true, 1) == 40);
 }
 
-static void no_coordinate_leaves_the_texture(void **state)
+TEST(no_coordinate_leaves_the_texture)
 {
     (void)state;
     static const float WILD[] = {NAN, INFINITY, -INFINITY, 1e38f, -1e38f, 1e-45f, -1e-45f,
@@ -129,12 +129,5 @@ static void no_coordinate_leaves_the_texture(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(colours_are_decoded_from_srgb),
-        cmocka_unit_test(codes_come_back_exactly),
-        cmocka_unit_test(between_texels_the_value_is_linear),
-        cmocka_unit_test(over_the_edge_the_wrap_mode_decides),
-        cmocka_unit_test(no_coordinate_leaves_the_texture),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }
