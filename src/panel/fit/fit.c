@@ -95,11 +95,11 @@ static bool sample_reflection(const FitParts *parts, ReflectionResult *reflectio
 bool panel_fit(const Measurement *measurement, const FitOptions *options, const char *path,
                Arena *arena, json_t **report, Error *err)
 {
-    FitNotes        notes = {.arena = arena};
-    EmissionResult    *emission = ARENA_NEW(arena, EmissionResult, 1);
-    ReflectionResult  *reflection = ARENA_NEW(arena, ReflectionResult, 1);
-    FitParts parts = {.set = measurement, .options = options, .notes = &notes};
-    Progress progress = progress_start(options->progress, "fit", "steps", 4);
+    FitNotes          notes = {.arena = arena};
+    EmissionResult   *emission = ARENA_NEW(arena, EmissionResult, 1);
+    ReflectionResult *reflection = ARENA_NEW(arena, ReflectionResult, 1);
+    FitParts          parts = {.set = measurement, .options = options, .notes = &notes};
+    Progress          progress = progress_start(options->progress, "fit", "steps", 4);
     if (!file_check_writable(path, err)) return false; /* a fit takes a while */
     note_limits(measurement, &notes);
     if (measurement->primary[0].level_count) {

@@ -25,11 +25,10 @@ static Vec3 row_direction(const AngleTable *table, int row, double mirror)
 /* One table in the report; values below the least one that zeros are held above do not
  * count. */
 typedef struct TableWork {
-    const Measurement   *set;
+    const Measurement      *set;
     const ReflectionResult *reflection;
-    const Panel         *panel;
-    FitErrors           *errors; /* per table */
-    double              *change; /* of the integral, largest over the wavelengths */
+    const Panel            *panel;
+    FitErrors              *errors; /* per table */
 } TableWork;
 
 static void measure_table(void *context, int t, int worker)
@@ -128,7 +127,7 @@ void fit_report_reflection(const FitParts *parts, const Panel *panel, json_t *ou
 {
     static const char *const kinds[] = {"haar", "cdf53", "cdf97"};
     const ReflectionResult *r = parts->reflection;
-    int    last = parts->set->incidence_count - 1;
+    int last = parts->set->incidence_count - 1;
     json_object_set_new(out, "reflection", json_pack(
         "{s:s, s:i, s:i, s:i, s:i, s:f, s:s, s:s, s:f, s:f, s:I, s:i, s:f, s:f, s:f, s:o}",
         "basis", parts->options->basis == FIT_VERTEX ? "vertex" : "haar", "level", r->level,

@@ -20,7 +20,7 @@
 #define BACKGROUND 9        /* terms */
 #define UNKNOWNS_MAX (PANEL_BEAM_KNOTS_MAX + BACKGROUND)
 #define EVEN_SHARE 1e-5     /* of the samples' weight: third differences against it */
-#define CURVATURE 0.1            /* second differences of coefficients that are expected */
+#define CURVATURE 0.1       /* second differences of coefficients that are expected */
 #define CORE_LEAST_DEG 0.01
 #define CORE_MOST_DEG 2.0
 #define CORE_STEPS 1.5      /* of the samples: less, and no sample would tell the first knots */
@@ -247,9 +247,9 @@ static double try_shape(const BeamWindow *w, const BeamShape *shape, BeamEquatio
 typedef struct BeamSearch {
     const BeamWindow *window;
     BeamEquations    *equations;
-    double        right[UNKNOWNS_MAX];
+    double            right[UNKNOWNS_MAX];
     BeamShape         best;
-    double        left; /* squares */
+    double            left; /* squares */
 } BeamSearch;
 
 static bool improve(BeamSearch *search, const BeamShape *shape)
@@ -267,8 +267,8 @@ static bool improve(BeamSearch *search, const BeamShape *shape)
 
 static void choose_core(BeamSearch *search)
 {
-    BeamShape  shape = search->best;
-    double core = fmax(chord_of(CORE_LEAST_DEG), CORE_STEPS * search->window->step);
+    BeamShape shape = search->best;
+    double    core = fmax(chord_of(CORE_LEAST_DEG), CORE_STEPS * search->window->step);
     for (; core < chord_of(CORE_MOST_DEG); core *= sqrt(2)) {
         shape.core = core;
         improve(search, &shape);
@@ -284,8 +284,8 @@ static void walk(BeamSearch *search, int axes, double shift_step, double turn_st
         for (int axis = 0; axis < axes; axis++) {
             bool gained = false;
             for (int sign = -1; sign <= 1 && !gained; sign += 2) {
-                BeamShape   shape = search->best;
-                double *at = axis < 2 ? &shape.shift[axis] : &shape.turn[axis - 2];
+                BeamShape shape = search->best;
+                double   *at = axis < 2 ? &shape.shift[axis] : &shape.turn[axis - 2];
                 *at += sign * step[axis];
                 gained = improve(search, &shape);
             }
@@ -331,8 +331,8 @@ static double profile_at(const double *coefficient, int knots, double u)
 static bool is_beam(const BeamSearch *search, double before, double *width)
 {
     const BeamWindow *w = search->window;
-    int           knots = knots_for(w, search->best.core), inside = 0;
-    double        top = profile_at(search->right, knots, 0), u = 0;
+    int               knots = knots_for(w, search->best.core), inside = 0;
+    double            top = profile_at(search->right, knots, 0), u = 0;
     if (!(search->left < WORTH * before) || top < LEAST_HEIGHT) return false;
     while (profile_at(search->right, knots, u) > 0.5 * top) u += 0.02;
     double half = exp_d(u) - 1;
@@ -364,8 +364,8 @@ static float *find_profiles(const BeamWindow *w, const BeamShape *shape, BeamEqu
     double *right = ARENA_NEW(arena, double, n * e->unknowns);
     float  *out = ARENA_NEW(arena, float, n * e->knots);
     for (int i = 0; i < w->count; i++) {
-        BeamLine  line;
-        float score[PANEL_COMPONENTS_MAX];
+        BeamLine line;
+        float    score[PANEL_COMPONENTS_MAX];
         write_line(w, shape, e->knots, i, &line);
         emission_model_bare_scores(w->model, w->row[i], score);
         for (int k = 0; k < n; k++)
@@ -402,10 +402,10 @@ static bool keep_beam(const BeamSearch *search, double width, Arena scratch, Are
 
 bool emission_beam_find(EmissionModel *model, int row, double reach, Arena *arena)
 {
-    Arena  scratch = arena_reserve((size_t)1 << 30);
+    Arena      scratch = arena_reserve((size_t)1 << 30);
     BeamWindow window;
     BeamSearch search = {&window, ARENA_NEW(&scratch, BeamEquations, 1), {0}, {{0}, {0}, 0}, 0};
-    double width = 0;
+    double     width = 0;
     row = climb(model, row, bright_channel(model->samples, row));
     emission_rank_free_scores(model->samples, model->samples->direction[row],
                               WINDOW * chord_of(reach), scratch, model->rank);

@@ -164,7 +164,7 @@ int emission_outliers_find(const AngleTable *table, uint8_t *is_outlier, Emissio
                            Arena scratch)
 {
     OutlierSearch search = start_search(table, &scratch);
-    int    begin = 0, end = 0, found = table->pole_outliers;
+    int           begin = 0, end = 0, found = table->pole_outliers;
     for (int i = 0; i < found; i++)
         add_flag(flags, (EmissionFlag){table->name, 0, (double)table->pole_outlier[i].phi,
                                        (double)table->pole_outlier[i].value,

@@ -462,9 +462,9 @@ void emission_rank_find(const EmissionSamples *s, Arena *arena, EmissionRank *ou
     out->loading = ARENA_NEW(arena, float, channels * COMPONENTS_MAX);
     out->score = ARENA_NEW(arena, float, rows * COMPONENTS_MAX);
     out->belief = ARENA_NEW(arena, float, rows);
-    Arena scratch = *arena;
+    Arena     scratch = *arena;
     RankWork  work = {s, out, ARENA_NEW(&scratch, float, channels)};
-    float *logs = start_logs(s, out->cosine_power, weight, &scratch);
+    float    *logs = start_logs(s, out->cosine_power, weight, &scratch);
     Principal start = principal_components(logs, start_weights(s, &scratch), weight,
         (PrincipalShape){s->rows, s->channels, most, 0}, &scratch);
     int best = 0, least = INT32_MAX;
@@ -487,7 +487,7 @@ void emission_rank_free_scores(const EmissionSamples *s, Vec3 centre, double cho
                                Arena scratch,
                                EmissionRank *rank)
 {
-    int  missed;
+    int      missed;
     RankWork work = {s, rank, ARENA_NEW(&scratch, float, s->channels)};
     for (int i = 0; i < s->rows; i++) {
         Vec3   v = vec3_sub(s->direction[i], centre);

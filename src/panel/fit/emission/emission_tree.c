@@ -50,8 +50,8 @@ static bool accepts(const void *context, uint32_t vertex, const float *reconstru
 {
     const EmissionCoder *coder = context;
     const EmissionModel *model = coder->model;
-    int    n = model->rank->components, channels = model->samples->channels;
-    float  components[PANEL_COMPONENTS_MAX], m[3 * EMISSION_TABLES_MAX];
+    int   n = model->rank->components, channels = model->samples->channels;
+    float components[PANEL_COMPONENTS_MAX], m[3 * EMISSION_TABLES_MAX];
     if (isinf(coder->limit[vertex])) return true;
     memcpy(components, coder->smooth + (size_t)vertex * (size_t)model->spline.stride,
            sizeof *components * (size_t)model->spline.stride);
@@ -385,10 +385,10 @@ static int start_level(const EmissionSamples *s, const FitOptions *options)
 
 /* The tree's coder at a level, and what it leaves uncoded at the worst row. */
 typedef struct Start {
-    EmissionCoder  coder;
-    float *rest;
-    double uncoded;
-    int    worst;
+    EmissionCoder coder;
+    float        *rest;
+    double        uncoded;
+    int           worst;
 } Start;
 
 /* What a start is made of. */
@@ -458,10 +458,10 @@ static bool start_with_beams(const Plan *plan, Arena *arena, Start *out, Error *
 bool emission_tree_build(EmissionModel *model, const FitOptions *options, Arena *arena,
                          EmissionTree *out, Error *err)
 {
-    int    level = start_level(model->samples, options);
-    Start  first;
-    EmissionCoder  coder, finer;
-    Plan   plan = {model, level, options->threads};
+    int           level = start_level(model->samples, options);
+    Start         first;
+    EmissionCoder coder, finer;
+    Plan          plan = {model, level, options->threads};
     if (!start_with_beams(&plan, arena, &first, err)) return false;
     float *rest = first.rest;
     double uncoded = first.uncoded;

@@ -41,11 +41,11 @@ static ReflectionModel *start_model(const Measurement *set, const FitOptions *op
 /* One frame exponent and how well it does at the first level. */
 typedef struct FrameTrial {
     const ReflectionModel *model;
-    float            exponent;
-    ReflectionMisses misses;
-    size_t           bytes;
-    bool             has_failed;
-    Error            err;
+    float                  exponent;
+    ReflectionMisses       misses;
+    size_t                 bytes;
+    bool                   has_failed;
+    Error                  err;
 } FrameTrial;
 
 static void run_trial(void *context, int item, int worker)
@@ -103,7 +103,7 @@ static bool code_levels(ReflectionModel *model, ReflectionMisses *misses, Error 
     int last = model->options->level > 0 ? first : LAST_LEVEL;
     for (int level = first;; level++) {
         ReflectionMisses now;
-        ReflectionModel    before = *model;
+        ReflectionModel  before = *model;
         reflection_read_places(model, level);
         reflection_spectra_choose(model);
         model->is_last = level == last;

@@ -73,7 +73,7 @@ static void note_lobe(const Measurement *set, const ReflectionParts *out, FitNot
 
 typedef struct PartsPass {
     const Measurement *set;
-    ReflectionParts     *out;
+    ReflectionParts   *out;
     AngleTable        *table; /* of the next part */
     bool              *has_lobe;
     Arena             *arena; /* per table */
@@ -93,10 +93,10 @@ static double incidence_of(const Measurement *set, int table)
 
 static void find_mirror(void *context, int t, int worker)
 {
-    PartsPass              *pass = context;
+    PartsPass         *pass = context;
     const Measurement *set = pass->set;
-    ReflectionParts     *out = pass->out;
-    double fwhm = radians_from_degrees(set->instrument_fwhm_deg);
+    ReflectionParts   *out = pass->out;
+    double             fwhm = radians_from_degrees(set->instrument_fwhm_deg);
     (void)worker;
     out->noise[t] = table_noise_relative(&set->brdf[t], set->wavelength_count / 2,
                                          pass->arena[t]);
@@ -110,8 +110,8 @@ static void find_mirror(void *context, int t, int worker)
 
 static void find_lobe(void *context, int t, int worker)
 {
-    PartsPass    *pass = context;
-    ReflectionLobe  lobe = {.reflectance = row_of(pass->out->lobe, pass->set, t)};
+    PartsPass     *pass = context;
+    ReflectionLobe lobe = {.reflectance = row_of(pass->out->lobe, pass->set, t)};
     (void)worker;
     pass->has_lobe[t] = reflection_peak_take_lobe(&pass->out->kept[t],
                                                   incidence_of(pass->set, t),
@@ -191,9 +191,9 @@ static double median_fwhm_deg(const ReflectionParts *out, Arena scratch)
 void reflection_parts_separate(const Measurement *set, const FitOptions *options, Arena *arena,
                                FitNotes *notes, ReflectionParts *out)
 {
-    int    tables = set->incidence_count * (set->azimuth_count > 1 ? set->azimuth_count : 1);
-    size_t rows = (size_t)tables * (size_t)set->wavelength_count;
-    PartsPass   pass = {.set = set, .out = out};
+    int       tables = set->incidence_count * (set->azimuth_count > 1 ? set->azimuth_count : 1);
+    size_t    rows = (size_t)tables * (size_t)set->wavelength_count;
+    PartsPass pass = {.set = set, .out = out};
     out->tables = tables;
     out->kept = ARENA_NEW(arena, AngleTable, tables);
     out->haze = ARENA_NEW(arena, AngleTable, tables);

@@ -32,10 +32,10 @@ typedef struct PeakRow {
 } PeakRow;
 
 typedef struct PeakWindow {
-    PeakRow *row;
-    int    count, stride; /* stride: of the rows that a solution counts */
-    double incidence;
-    double lambertian; /* of the slice, mean over the wavelengths, over `leaving` */
+    PeakRow          *row;
+    int               count, stride; /* stride: of the rows that a solution counts */
+    double            incidence;
+    double            lambertian; /* of the slice, mean over the wavelengths, over `leaving` */
     const AngleTable *slice;
 } PeakWindow;
 
@@ -155,7 +155,7 @@ static double solve_window(const PeakWindow *window, int wavelength, double lamb
 /* The best width for a power: golden section over its logarithm. */
 static double best_width(const PeakWindow *window, double fwhm, PeakModel *model)
 {
-    double low = log_d(0.5 * fwhm), high = log_d(40 * fwhm), rest = 0;
+    double low = log_d(0.5 * fwhm), high = log_d(40 * fwhm);
     for (int i = 0; i < 26; i++) {
         double a = high - 0.618034 * (high - low), b = low + 0.618034 * (high - low);
         model->width = exp_d(a);
@@ -166,15 +166,14 @@ static double best_width(const PeakWindow *window, double fwhm, PeakModel *model
         else low = a;
     }
     model->width = exp_d(0.5 * (low + high));
-    rest = solve_window(window, -1, window->lambertian, model);
-    return rest;
+    return solve_window(window, -1, window->lambertian, model);
 }
 
 /* Width and power of the haze under the image, the same for all wavelengths. */
 static PeakModel choose_haze(const PeakWindow *window, double fwhm)
 {
-    double low = log_d(1.05), high = log_d(4.0);
-    PeakModel  model = {0};
+    double    low = log_d(1.05), high = log_d(4.0);
+    PeakModel model = {0};
     for (int i = 0; i < 18; i++) {
         double a = high - 0.618034 * (high - low), b = low + 0.618034 * (high - low);
         model.power = exp_d(a);
@@ -242,8 +241,8 @@ void reflection_peak_take_mirror(const AngleTable *slice, double incidence, doub
     PeakWindow window = collect(slice, incidence, WINDOW_FWHMS * fwhm, arena);
     if (window.count < 12) return;
     set_width(&window, fwhm);
-    PeakModel  model = choose_haze(&window, fwhm);
-    double peak = model.r * 4 * log_d(2) / (PI * fwhm * fwhm * cos_d(incidence));
+    PeakModel model = choose_haze(&window, fwhm);
+    double    peak = model.r * 4 * log_d(2) / (PI * fwhm * fwhm * cos_d(incidence));
     if (!(peak > LEAST_PEAK * (model.a + window.lambertian))) return;
     window.stride = 1;
     take_out(&window, fwhm, model, reflectance, value);
@@ -324,7 +323,7 @@ bool reflection_peak_take_lobe(const AngleTable *slice, double incidence, double
     if (!(guess > 0)) return false;
     PeakWindow window = collect(slice, incidence, LOBE_FWHMS * guess, arena);
     if (window.count < 16) return false;
-    PeakModel  model;
+    PeakModel model;
     double fwhm = choose_width(&window, (double[2]){0.5 * guess, 2 * guess}, 2 * guess, &model);
     double rest = solve_window(&window, -1, window.lambertian, &model);
     double most = LOBE_REST + 2 * noise;

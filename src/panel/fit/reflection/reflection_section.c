@@ -51,9 +51,9 @@ static uint16_t share(double value)
 
 typedef struct IntegralPass {
     const ReflectionModel *model;
-    Tree    tree;
-    double *change; /* tables x wavelengths, of the logarithm */
-    double *gain;   /* the same of the lobe, a factor */
+    Tree                   tree;
+    double                *change; /* tables x wavelengths, of the logarithm */
+    double                *gain;   /* the same of the lobe, a factor */
 } IntegralPass;
 
 /* The lobe of reflectance 1 at a row, sr^-1. */
@@ -72,8 +72,8 @@ static double lobe_shape(const ReflectionModel *model, int table, Vec3 d)
 static void match_lobe(IntegralPass *pass, int t)
 {
     const ReflectionModel *model = pass->model;
-    const AngleTable    *kept = &model->parts->kept[t], *haze = &model->parts->haze[t];
-    double shape = 0, wanted[MEASUREMENT_WAVELENGTHS_MAX] = {0};
+    const AngleTable      *kept = &model->parts->kept[t], *haze = &model->parts->haze[t];
+    double                 shape = 0, wanted[MEASUREMENT_WAVELENGTHS_MAX] = {0};
     for (int i = 0; i < kept->rows; i++) {
         double weight = table_row_weight(kept, i);
         size_t at = (size_t)i * (size_t)model->wavelengths;
@@ -93,9 +93,9 @@ static void match_lobe(IntegralPass *pass, int t)
 /* What the means of a table must change by, so that its rows add up to what the haze does. */
 static void match_integrals(void *context, int t, int worker)
 {
-    IntegralPass        *pass = context;
+    IntegralPass          *pass = context;
     const ReflectionModel *model = pass->model;
-    const AngleTable    *table = &model->parts->haze[t];
+    const AngleTable      *table = &model->parts->haze[t];
     double fresnel = reflection_model_fresnel(model, t);
     double found[MEASUREMENT_WAVELENGTHS_MAX] = {0}, wanted[MEASUREMENT_WAVELENGTHS_MAX] = {0};
     double room = INTEGRAL_ROOM * model->bound;
@@ -278,12 +278,12 @@ static bool view_section(const ReflectionModel *model, const SectionDraft *secti
 
 typedef struct AlbedoPass {
     const ReflectionModel *model;
-    const Panel         *panel;
-    const SectionDraft       *section;
-    double              *albedo; /* items x wavelengths */
-    Vec3                *direction;
-    double              *area;
-    int                  leaves;
+    const Panel           *panel;
+    const SectionDraft    *section;
+    double                *albedo; /* items x wavelengths */
+    Vec3                  *direction;
+    double                *area;
+    int                    leaves;
 } AlbedoPass;
 
 /* Where the light is of an item: tables first, then the nodes beyond the last incidence. */
@@ -297,7 +297,7 @@ static Vec3 light_of(const AlbedoPass *pass, int item)
 
 static void haze_albedo(void *context, int item, int worker)
 {
-    AlbedoPass          *pass = context;
+    AlbedoPass            *pass = context;
     const ReflectionModel *model = pass->model;
     Vec3   wi = light_of(pass, item);
     double s = sqrt((double)(wi.x * wi.x + wi.y * wi.y)), theta = atan2_d(s, (double)wi.z);

@@ -141,9 +141,9 @@ static bool build_tree(ReflectionModel *model, Error *err)
 /* ---- all measured samples ---------------------------------------------------------------- */
 
 typedef struct SampleCheck {
-    ReflectionModel *model;
-    Tree           tree;
-    int            first[PANEL_TABLES_MAX + 1]; /* chunk of each table */
+    ReflectionModel  *model;
+    Tree              tree;
+    int               first[PANEL_TABLES_MAX + 1]; /* chunk of each table */
     ReflectionMisses *part; /* per chunk */
 } SampleCheck;
 
@@ -151,7 +151,7 @@ typedef struct SampleCheck {
 static double row_error(const SampleCheck *check, int t, int row, const SpecularFrame *frame,
                         Vec3 *stored)
 {
-    ReflectionModel    *model = check->model;
+    ReflectionModel  *model = check->model;
     const AngleTable *haze = &model->parts->haze[t], *kept = &model->parts->kept[t];
     float  component[PANEL_REFLECTION_COMPONENTS_MAX], logs[MEASUREMENT_WAVELENGTHS_MAX];
     double fresnel = reflection_model_fresnel(model, t), worst = 0;
@@ -180,10 +180,10 @@ static void tighten(ReflectionModel *model, int table, Vec3 stored, float *wante
 static void check_chunk(void *context, int item, int worker)
 {
     SampleCheck *check = context;
-    int    t = 0;
+    int          t = 0;
     (void)worker;
     while (check->first[t + 1] <= item) t++;
-    ReflectionModel    *model = check->model;
+    ReflectionModel  *model = check->model;
     const AngleTable *table = &model->parts->haze[t];
     SpecularFrame frame = specular_frame((float)reflection_model_incidence(model, t), model->k);
     int begin = (item - check->first[t]) * CHUNK;
@@ -251,7 +251,7 @@ static bool shrink(ReflectionModel *model, const float *wanted)
 static bool check_samples(SampleCheck *check, ReflectionMisses *misses, Error *err)
 {
     ReflectionModel *model = check->model;
-    const void    *blob = model->tree;
+    const void      *blob = model->tree;
     if (!tree_open(blob, tree_size(blob), model->geodesic, &check->tree, err))
         return error_prefix(err, "reflection");
     int chunks = check->first[model->tables];
