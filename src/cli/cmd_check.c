@@ -4,6 +4,8 @@
 
 #include "base/reference.h"
 #include "base/units.h"
+#include "cli/commands.h"
+#include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "scene/load/scene_load.h"
 #include "text/json_text.h"
@@ -270,7 +272,7 @@ static bool print_json(const Scene *scene, const Problems *problems, Error *err)
 
 /* ---- the command ----------------------------------------------------------------------- */
 
-bool cmd_check(int argc, char **argv, Error *err)
+static bool run_check(int argc, char **argv, Error *err)
 {
     const char *root = NULL;
     const Option options[] = {
@@ -306,3 +308,6 @@ bool cmd_check(int argc, char **argv, Error *err)
     arena_release(&arena);
     return done;
 }
+
+const Command command_check = {
+    "check", "what is in a scene, and everything that is wrong with it", run_check};

@@ -2,7 +2,9 @@
 #include <stdio.h>
 
 #include "base/file_write.h"
+#include "cli/commands.h"
 #include "cli/compare_command.h"
+#include "cli/options/answer.h"
 #include "compare/report/comparison_json.h"
 #include "compare/folders.h"
 #include "compare/report/html_report.h"
@@ -194,7 +196,7 @@ static bool compare(const CompareRequest *request, Arena *arena, Error *err)
     return ok;
 }
 
-bool cmd_compare(int argc, char **argv, Error *err)
+static bool run_compare(int argc, char **argv, Error *err)
 {
     Arena          arena = arena_reserve(MEMORY_BYTES);
     CompareRequest request = {0};
@@ -203,3 +205,6 @@ bool cmd_compare(int argc, char **argv, Error *err)
     arena_release(&arena);
     return ok;
 }
+
+const Command command_compare = {
+    "compare", "are two frames, pictures or folders the same, given their noise?", run_compare};

@@ -1,6 +1,9 @@
 /* parhelion develop: from a frame to a picture that people look at. */
 #include <stdio.h>
 
+#include "base/count.h"
+#include "cli/commands.h"
+#include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "image/develop.h"
 #include "image/exposure.h"
@@ -44,7 +47,7 @@ static bool parse(int argc, char **argv, Arena *arena, Typed *out, Error *err)
     const CliCommand command = {
         "develop", "make a picture of a frame", "FRAME.exr -o FRAME.png",
         "parhelion develop frame.exr -o frame.png --view \"ACES SDR\" --exposure 12",
-        options, sizeof options / sizeof *options, 1, 1};
+        options, COUNT_OF(options), 1, 1};
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
     if (out->cli.help_shown) return true;
     out->frame = out->cli.arguments[0];
@@ -100,7 +103,7 @@ static bool develop(Typed *typed, Arena *arena, Error *err)
     return true;
 }
 
-bool cmd_develop(int argc, char **argv, Error *err)
+static bool run_develop(int argc, char **argv, Error *err)
 {
     Arena arena = arena_reserve(MEMORY_BYTES);
     Typed typed = {0};
@@ -109,3 +112,5 @@ bool cmd_develop(int argc, char **argv, Error *err)
     arena_release(&arena);
     return ok;
 }
+
+const Command command_develop = {"develop", "make a picture of a frame", run_develop};

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/commands.h"
+#include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/options/guides.h"
 
@@ -16,7 +17,7 @@ void cmd_help_print(FILE *out)
     fprintf(out, "parhelion: physically correct frames of dashboards with measured displays\n\n"
                  "usage: parhelion COMMAND ... | help [NAME] | --help | --version\n\n");
     for (int i = 0; i < command_count; i++)
-        fprintf(out, "  %-18s %s\n", command_table[i].name, command_table[i].summary);
+        fprintf(out, "  %-18s %s\n", command_table[i]->name, command_table[i]->summary);
     fprintf(out, "\nparhelion COMMAND --help tells the options of each, with an example.\n"
                  "Guides, shown by parhelion help NAME:\n\n");
     for (int i = 0; i < guide_count; i++) {
@@ -26,18 +27,11 @@ void cmd_help_print(FILE *out)
     }
 }
 
-static const Command *command_named(const char *name)
-{
-    for (int i = 0; i < command_count; i++)
-        if (!strcmp(command_table[i].name, name)) return &command_table[i];
-    return NULL;
-}
-
 static bool unknown_name(const char *name, Error *err)
 {
     const char *names[NAMES_MAX];
     int         count = 0;
-    for (int i = 0; i < command_count; i++) names[count++] = command_table[i].name;
+    for (int i = 0; i < command_count; i++) names[count++] = command_table[i]->name;
     for (int i = 0; i < guide_count && count < NAMES_MAX; i++)
         names[count++] = guide_table[i].name;
     const char *nearest = cli_nearest(name, names, count);
@@ -73,8 +67,8 @@ static bool print_list(const Cli *cli, Error *err)
     if (!cli->json) return cmd_help_print(stdout), true;
     json_t *commands = json_array(), *guides = json_array();
     for (int i = 0; i < command_count; i++)
-        json_array_append_new(commands, json_pack("{s:s, s:s}", "name", command_table[i].name,
-                                                  "summary", command_table[i].summary));
+        json_array_append_new(commands, json_pack("{s:s, s:s}", "name", command_table[i]->name,
+                                                  "summary", command_table[i]->summary));
     for (int i = 0; i < guide_count; i++) {
         const char *title;
         int         length = guide_title(&guide_table[i], &title);
@@ -87,13 +81,15 @@ static bool print_list(const Cli *cli, Error *err)
 static bool help(const Cli *cli, Error *err)
 {
     if (!cli->argument_count) return print_list(cli, err);
-    const Command *command = command_named(cli->arguments[0]);
+    const char    *nearest;
+    const Command *command =
+        command_find(command_table, command_count, cli->arguments[0], &nearest);
     const Guide   *guide = guide_named(cli->arguments[0]);
     if (command) return print_command(command, cli, err);
     return guide ? print_guide(guide, cli, err) : unknown_name(cli->arguments[0], err);
 }
 
-bool cmd_help(int argc, char **argv, Error *err)
+static bool run_help(int argc, char **argv, Error *err)
 {
     const CliCommand command = {
         .name = "help", .summary = "the commands and the guides, or one of them",
@@ -106,3 +102,5 @@ bool cmd_help(int argc, char **argv, Error *err)
     arena_release(&arena);
     return ok;
 }
+
+const Command command_help = {"help", "the commands and the guides, or one of them", run_help};

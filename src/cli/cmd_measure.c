@@ -3,7 +3,10 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "cli/measure_command.h"
+#include "base/count.h"
+#include "cli/commands.h"
+#include "cli/measure_illuminance.h"
+#include "cli/options/answer.h"
 #include "image/measure.h"
 #include "text/json_text.h"
 
@@ -36,7 +39,7 @@ static bool parse(int argc, char **argv, Arena *arena, Typed *out, Error *err)
         "measure", "luminance, colour and contrast of a part of a frame, with 95 % intervals",
         "FRAME.exr [--region X0,Y0,X1,Y1] [--display NAME] | SCENE... --illuminance ...",
         "parhelion measure frame.exr --display cluster --json",
-        options, sizeof options / sizeof *options, 1, -1};
+        options, COUNT_OF(options), 1, -1};
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
     if (out->cli.help_shown || out->luxmeter.given) return true;
     if (out->cli.argument_count > 1)
@@ -154,7 +157,7 @@ static bool measure(const Typed *typed, Arena *arena, Error *err)
     return true;
 }
 
-bool cmd_measure(int argc, char **argv, Error *err)
+static bool run_measure(int argc, char **argv, Error *err)
 {
     Arena arena = arena_reserve(MEMORY_BYTES);
     Typed typed = {.luxmeter = {.samples = 1 << 18}};
@@ -163,3 +166,6 @@ bool cmd_measure(int argc, char **argv, Error *err)
     arena_release(&arena);
     return ok;
 }
+
+const Command command_measure = {
+    "measure", "luminance, colour and contrast of a part of a frame", run_measure};

@@ -4,11 +4,14 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/count.h"
 #include "base/file.h"
 #include "base/file_write.h"
 #include "base/parallel.h"
 #include "base/reference.h"
 #include "base/units.h"
+#include "cli/commands.h"
+#include "cli/options/answer.h"
 #include "cli/options/environment_options.h"
 #include "image/frame.h"
 #include "light/sky.h"
@@ -354,7 +357,7 @@ static bool run(Work *work, OutputKind kind, Error *err)
     return true;
 }
 
-bool cmd_sky(int argc, char **argv, Error *err)
+static bool run_sky(int argc, char **argv, Error *err)
 {
     Arena arena = arena_reserve(ARENA_BYTES);
     Work  work = {.arena = &arena, .size = {0, 0}};
@@ -374,7 +377,7 @@ bool cmd_sky(int argc, char **argv, Error *err)
         "sky", "draw a sky and print its figures", "[SCENE.gltf ...] [-o SKY.exr|.png|.svg]",
         "parhelion sky --environment sky:clear --when 2026-06-21T08:30+02:00 "
         "--where 48.14,11.58,520 -o sky.png",
-        options, (int)(sizeof options / sizeof *options), 0, -1};
+        options, COUNT_OF(options), 0, -1};
     if (!cli_parse(&command, argc, argv, &arena, &work.cli, err)) return false;
     if (work.cli.help_shown) return true;
     OutputKind kind = output_kind(work.output);
@@ -391,3 +394,6 @@ bool cmd_sky(int argc, char **argv, Error *err)
     arena_release(&arena);
     return ok;
 }
+
+const Command command_sky = {
+    "sky", "draw the sky of a place and time, and print its figures", run_sky};

@@ -1,17 +1,11 @@
 #include "cli/commands.h"
 
-#include "cli/options/cli.h"
+#include "base/count.h"
+#include "cli/panel/panel_commands.h"
+#include "cli/render/render_commands.h"
 
-const Command command_table[] = {
-    {"render", "render a scene to a linear, photometric EXR", cmd_render},
-    {"develop", "make a picture of a frame", cmd_develop},
-    {"panel", "fit, look into and evaluate a measured display panel", cmd_panel},
-    {"sky", "draw the sky of a place and time, and print its figures", cmd_sky},
-    {"check", "what is in a scene, and everything that is wrong with it", cmd_check},
-    {"compare", "are two frames, pictures or folders the same, given their noise?",
-     cmd_compare},
-    {"merge", "make one frame of parts of it, with the bits of one run", cmd_merge},
-    {"measure", "luminance, colour and contrast of a part of a frame", cmd_measure},
-    {"help", "the commands and the guides, or one of them", cmd_help},
+const Command *const command_table[] = {
+    &command_render,  &command_develop, &command_panel,   &command_sky,  &command_check,
+    &command_compare, &command_merge,   &command_measure, &command_help,
 };
-const int command_count = (int)(sizeof command_table / sizeof *command_table);
+const int command_count = COUNT_OF(command_table);

@@ -1,14 +1,14 @@
-/* commands.h -- the table of sub-commands: what main.c runs and `parhelion help` lists. */
+/* commands.h -- the sub-commands: what main.c runs and `parhelion help` lists. */
 #pragma once
-#include <stdbool.h>
+#include "cli/options/command.h"
 
-#include "base/error.h"
+extern const Command *const command_table[];
+extern const int            command_count;
 
-typedef struct Command {
-    const char *name;
-    const char *summary; /* one line, lower case, no full stop */
-    bool (*run)(int argc, char **argv, Error *err); /* argv[0] is the name */
-} Command;
-
-extern const Command command_table[];
-extern const int     command_count;
+/* Those of this folder. */
+extern const Command command_check;
+extern const Command command_compare;
+extern const Command command_develop;
+extern const Command command_help;
+extern const Command command_measure;
+extern const Command command_sky;

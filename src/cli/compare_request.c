@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/count.h"
 #include "cli/compare_command.h"
 #include "compare/report/html_report.h"
 #include "image/exposure.h"
@@ -161,7 +162,7 @@ bool compare_parse(int argc, char **argv, Arena *arena, CompareRequest *out, Err
         "compare", "are two frames, pictures or folders of them the same, given their noise?",
         "REFERENCE TEST [--max METRIC=VALUE ...] [--report OUT.html]",
         "parhelion compare before.exr after.exr --max flip=0.05 --report after.html",
-        options, sizeof options / sizeof *options, 2, 2};
+        options, COUNT_OF(options), 2, 2};
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
     return out->cli.help_shown || finish(&words, arena, out, err);
 }

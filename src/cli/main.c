@@ -10,7 +10,7 @@
 #include "bvh/bvh.h"
 #include "cli/cmd_help.h"
 #include "cli/commands.h"
-#include "cli/options/cli.h"
+#include "cli/options/answer.h"
 #include "render/render.h"
 
 static void print_version(void)
@@ -23,22 +23,14 @@ static void print_version(void)
            LIBRARY_VERSIONS);
 }
 
-static bool unknown_command(const char *name, Error *err)
-{
-    const char *names[32];
-    for (int i = 0; i < command_count; i++) names[i] = command_table[i].name;
-    const char *nearest = cli_nearest(name, names, command_count);
-    return error_set(
-        err, ERROR_USAGE, "unknown command %s — %s%s%s`parhelion --help` lists them", name,
-        nearest ? "did you mean " : "", nearest ? nearest : "", nearest ? "? " : "");
-}
-
 static bool run_command(int argc, char **argv, Error *err)
 {
-    for (int i = 0; i < command_count; i++)
-        if (!strcmp(argv[1], command_table[i].name))
-            return command_table[i].run(argc - 1, argv + 1, err);
-    return unknown_command(argv[1], err);
+    const char    *nearest;
+    const Command *command = command_find(command_table, command_count, argv[1], &nearest);
+    if (command) return command->run(argc - 1, argv + 1, err);
+    return error_set(
+        err, ERROR_USAGE, "unknown command %s — %s%s%s`parhelion --help` lists them", argv[1],
+        nearest ? "did you mean " : "", nearest ? nearest : "", nearest ? "? " : "");
 }
 
 static bool asks_for_json(int argc, char **argv)

@@ -1,3 +1,4 @@
+#include "base/count.h"
 #include "image/image.h"
 
 #include <ctype.h>
@@ -33,7 +34,7 @@ static const Signature SIGNATURES[] = {
 
 static const char *format_of(const unsigned char *bytes, size_t size, const char *name)
 {
-    for (size_t i = 0; i < sizeof SIGNATURES / sizeof *SIGNATURES; i++) {
+    for (int i = 0; i < COUNT_OF(SIGNATURES); i++) {
         const Signature *s = &SIGNATURES[i];
         if (size >= s->offset + s->length && !memcmp(bytes + s->offset, s->bytes, s->length))
             return s->format;

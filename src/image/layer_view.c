@@ -1,3 +1,4 @@
+#include "base/count.h"
 #include "image/layer_view.h"
 
 #include <math.h>
@@ -70,7 +71,7 @@ static const KnownLayer KNOWN[] = {
 
 static const KnownLayer *known_layer(const char *name)
 {
-    for (size_t i = 0; i < sizeof KNOWN / sizeof *KNOWN; i++)
+    for (int i = 0; i < COUNT_OF(KNOWN); i++)
         if (!strcmp(name, KNOWN[i].name)) return &KNOWN[i];
     return NULL;
 }

@@ -1,3 +1,4 @@
+#include "base/count.h"
 #include "image/picture.h"
 
 #include <stdint.h>
@@ -21,7 +22,7 @@ static const Ending ENDINGS[] = {
 static const Ending *ending_of(const char *path)
 {
     const char *ending = path_ending(path);
-    for (size_t i = 0; i < sizeof ENDINGS / sizeof *ENDINGS; i++)
+    for (int i = 0; i < COUNT_OF(ENDINGS); i++)
         if (!strcasecmp(ending, ENDINGS[i].ending)) return &ENDINGS[i];
     return NULL;
 }

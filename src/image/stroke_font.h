@@ -11,6 +11,6 @@ typedef struct StrokeFont {
     float colour[3]; /* codes */
 } StrokeFont;
 
-/* x: left end, y: middle line of the digits, both in pixels. Returns the text's width in pixels;
- * without a picture nothing else is done. */
+/* x: left end, y: middle line of the digits, both in pixels. Returns the text's width in
+ * pixels; without a picture nothing else is done. */
 float stroke_font_draw(Picture *picture, StrokeFont font, float x, float y, const char *text);

@@ -154,7 +154,8 @@ static inline float mixed_srgb8(const Footprint *f, const uint8_t *p)
 static float mixed_srgb16(const Footprint *f, const uint16_t *p)
 {
     float linear[4];
-    for (int k = 0; k < 4; k++) linear[k] = linear_from_srgb_texel((float)p[f->at[k]] / 65535.0f);
+    for (int k = 0; k < 4; k++)
+        linear[k] = linear_from_srgb_texel((float)p[f->at[k]] / 65535.0f);
     return mixed(f, linear[0], linear[1], linear[2], linear[3]);
 }
 

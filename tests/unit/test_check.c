@@ -4,7 +4,7 @@
 #include <fcntl.h>
 #include <jansson.h>
 
-#include "cli/options/cli.h"
+#include "cli/commands.h"
 #include "gltf_maker.h"
 
 typedef struct Outcome {
@@ -22,7 +22,7 @@ static Outcome run(const char *path, const char *option)
     fflush(stdout);
     int shown = dup(STDOUT_FILENO), file = open(log, O_RDWR | O_CREAT | O_TRUNC, 0600);
     dup2(file, STDOUT_FILENO);
-    outcome.is_ok = cmd_check(option ? 3 : 2, argv, &outcome.err);
+    outcome.is_ok = command_check.run(option ? 3 : 2, argv, &outcome.err);
     fflush(stdout);
     dup2(shown, STDOUT_FILENO);
     close(shown);

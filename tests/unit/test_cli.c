@@ -3,6 +3,7 @@
 
 #include "cli/options/cli.h"
 #include "base/parallel.h"
+#include "cli/options/answer.h"
 
 /* Everything that an option can be. */
 typedef struct Values {

@@ -2,7 +2,8 @@
 #include "fixture.h"
 
 #include "base/units.h"
-#include "cli/render/render_command.h"
+#include "cli/render/render_request.h"
+#include "cli/render/render_setup.h"
 
 TEST(values_of_render_are_checked_before_anything_is_read)
 {

@@ -3,6 +3,7 @@
 #include "fixture.h"
 
 #include "cli/render/render_identity.h"
+#include "cli/render/render_resume.h"
 
 /* ---- what is in it ----------------------------------------------------------------------- */
 

@@ -64,7 +64,7 @@ static bool run(Error *err, ...)
     for (char *a; (a = va_arg(list, char *)) && argc < 24; argc++) argv[argc] = a;
     va_end(list);
     *err = (Error){0};
-    return cmd_panel_plot(argc, argv, err);
+    return command_panel_plot.run(argc, argv, err);
 }
 
 #define RUN_FAILS(err, code_wanted, part, ...)                                                 \

@@ -1,9 +1,9 @@
-/* How answers, errors and warnings leave the program. */
+#include "cli/options/answer.h"
+
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/options/cli.h"
 #include "text/json_text.h"
 
 bool cli_print_json(json_t *document, Error *err)

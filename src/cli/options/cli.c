@@ -1,3 +1,4 @@
+#include "base/count.h"
 #include "cli/options/cli.h"
 
 #include <errno.h>
@@ -320,7 +321,7 @@ bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, C
          &threads, 1, PARALLEL_THREADS_MAX, 0, NULL},
         {"--help", OPTION_FLAG, NULL, "this text", &cli.help_shown, 0, 0, 0, NULL},
     };
-    Parser in = {command, common, (int)(sizeof common / sizeof *common), argc, 1, argv, arena,
+    Parser in = {command, common, COUNT_OF(common), argc, 1, argv, arena,
                  err};
     CliTexts arguments = {0};
     if (asks_for_help(argc, argv)) {

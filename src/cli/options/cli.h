@@ -14,16 +14,13 @@
  *     if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
  *     if (cli.help_shown) return true;
  *
- * Streams  answers go to stdout, everything else to stderr.
  * Fails    ERROR_USAGE with a text that holds the option, the value found and what is wanted.
  */
 #pragma once
-#include <jansson.h>
 #include <stdbool.h>
 
 #include "base/arena.h"
 #include "base/error.h"
-#include "base/problems.h"
 #include "base/progress.h"
 
 typedef enum OptionKind {
@@ -97,33 +94,3 @@ const char *cli_nearest(const char *word, const char *const *words, int count);
 
 /* The last line of a command's help: the guide (cli/options/guides.h) that names it, if any. */
 void cli_print_guide(const char *command);
-
-/* ---- what leaves the program ------------------------------------------------------------ */
-
-/* Prints the document to stdout with a newline, and releases it. False: stdout is full. */
-bool cli_print_json(json_t *document, Error *err);
-
-/* `parhelion: FILE: what is wrong (where) — what to do`: one line in buffer, no newline. */
-void cli_error_line(const Error *error, char *buffer, int size);
-
-/* The line on stderr, and with json also the error document on stdout. */
-void cli_report_error(const Error *error, bool json);
-
-/* Every warning of the list, once each, as one line on stderr: `parhelion: warning: ...`. */
-void cli_print_warnings(const Problems *problems);
-
-/* The same warnings as a JSON list of {"file","path","severity","message"}. */
-json_t *cli_json_problems(const Problems *problems, Severity severity);
-
-/* ---- the commands: one row each in commands.c -------------------------------------------- */
-
-/* argv[0] is the command's name. True: exit status 0; else the status of err->code. */
-bool cmd_render(int argc, char **argv, Error *err);
-bool cmd_develop(int argc, char **argv, Error *err);
-bool cmd_panel(int argc, char **argv, Error *err);
-bool cmd_check(int argc, char **argv, Error *err);
-bool cmd_sky(int argc, char **argv, Error *err);
-bool cmd_measure(int argc, char **argv, Error *err);
-bool cmd_merge(int argc, char **argv, Error *err);
-bool cmd_compare(int argc, char **argv, Error *err);
-bool cmd_help(int argc, char **argv, Error *err);

@@ -1,13 +1,14 @@
 /* panel export: a panel's tables written back. */
 #include <stdio.h>
 
+#include "base/count.h"
+#include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
 #include "panel/set/export.h"
 #include "text/json_text.h"
 
 #define ARENA_BYTES ((size_t)16 << 30)
-#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
 typedef struct Request {
     ExportOptions options;
@@ -35,7 +36,7 @@ static bool print_done(const Request *request, const Cli *cli, Error *err)
     return true;
 }
 
-bool cmd_panel_export(int argc, char **argv, Error *err)
+static bool run_export(int argc, char **argv, Error *err)
 {
     Arena   arena = arena_reserve(ARENA_BYTES);
     Cli     cli;
@@ -64,7 +65,7 @@ bool cmd_panel_export(int argc, char **argv, Error *err)
         "a panel's tables written back: XYZ in cd/m2, BRDF in sr^-1, angles in degrees",
         "X.panel -o DIR | --table NAME -o TABLE.csv",
         "parhelion panel export assets/panels/ips_cluster.panel --table 'red 255' -o red.csv",
-        options, COUNT(options), 1, 1};
+        options, COUNT_OF(options), 1, 1};
     if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
     if (cli.help_shown) return true;
     if (!r.output)
@@ -75,3 +76,6 @@ bool cmd_panel_export(int argc, char **argv, Error *err)
     arena_release(&arena);
     return ok;
 }
+
+const Command command_panel_export = {
+    "export", "a panel's tables written back, readable by fit", run_export};

@@ -2,7 +2,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/count.h"
 #include "base/reference.h"
+#include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
 #include "import/import_request.h"
@@ -11,7 +13,6 @@
 #include "text/json_text.h"
 
 #define ARENA_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
-#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
 static void show_progress(void *context, int done)
 {
@@ -135,7 +136,7 @@ static int list_options(Words *words, Option *option, Arena *arena)
         {"--instrument", OPTION_TEXT, "NAME", "the instrument's name in the manifest",
          &words->instrument, .given = NULL},
     };
-    int count = COUNT(fixed);
+    int count = COUNT_OF(fixed);
     memcpy(option, fixed, sizeof fixed);
     for (int i = 0; i < text_key_count && i < KEYS_MAX; i++) {
         bool many = is_list(text_keys[i].key);
@@ -224,7 +225,7 @@ static bool run(const Cli *cli, const Words *words, Arena *arena, Error *err)
     return true;
 }
 
-bool cmd_panel_import(int argc, char **argv, Error *err)
+static bool run_import(int argc, char **argv, Error *err)
 {
     Arena  arena = arena_reserve(ARENA_BYTES);
     Cli    cli;
@@ -244,3 +245,6 @@ bool cmd_panel_import(int argc, char **argv, Error *err)
     arena_release(&arena);
     return ok;
 }
+
+const Command command_panel_import = {
+    "import", "the files that laboratories have as one measurement set", run_import};

@@ -1,8 +1,10 @@
 /* panel plot: pictures of a panel. */
 #include <stdio.h>
 
+#include "base/count.h"
 #include "base/reference.h"
 #include "base/units.h"
+#include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
 #include "plot/panel/plot.h"
@@ -10,7 +12,6 @@
 #include "text/json_text.h"
 
 #define ARENA_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
-#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 #define LEAST_SIZE 160
 #define LARGEST_SIZE 20000
 
@@ -81,7 +82,7 @@ static bool run(const Request *request, const Cli *cli, Arena *arena, Error *err
     return true;
 }
 
-bool cmd_panel_plot(int argc, char **argv, Error *err)
+static bool run_plot(int argc, char **argv, Error *err)
 {
     Arena   arena = arena_reserve(ARENA_BYTES);
     Cli     cli;
@@ -111,7 +112,7 @@ bool cmd_panel_plot(int argc, char **argv, Error *err)
         "pictures of a panel: luminance, contrast, colour, grey levels, reflection, fit",
         "X.panel -o X.svg|X.png [--kind KIND] [--measured MANIFEST.json] | --report X.html",
         "parhelion panel plot assets/panels/ips_cluster.panel --kind luminance "
-        "-o luminance.png", options, COUNT(options), 1, 1};
+        "-o luminance.png", options, COUNT_OF(options), 1, 1};
     if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
     if (cli.help_shown) return true;
     request.panel = cli.arguments[0];
@@ -125,3 +126,6 @@ bool cmd_panel_plot(int argc, char **argv, Error *err)
     arena_release(&arena);
     return ok;
 }
+
+const Command command_panel_plot = {
+    "plot", "pictures of a panel, one by one or all in a report", run_plot};

@@ -1,12 +1,13 @@
 /* panel simulate: a virtual instrument measures a recipe's panel. */
 
+#include "base/count.h"
 #include "base/units.h"
+#include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
 #include "panel/set/simulate.h"
 
 #define ARENA_BYTES ((size_t)16 << 30)
-#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
 /* The closed truth at one direction: what a perfect fit would say. */
 static bool print_truth(const Recipe *recipe, const double at[5], Error *err)
@@ -52,7 +53,7 @@ static bool set_grid(RecipeInstrument *instrument, const int grid[2], Error *err
     return true;
 }
 
-bool cmd_panel_simulate(int argc, char **argv, Error *err)
+static bool run_simulate(int argc, char **argv, Error *err)
 {
     Arena       arena = arena_reserve(ARENA_BYTES);
     Cli         cli;
@@ -77,7 +78,7 @@ bool cmd_panel_simulate(int argc, char **argv, Error *err)
         "a virtual Fourier-optics instrument measures a recipe's panel: cd/m2, sr^-1, degrees",
         "RECIPE.json -o DIR",
         "parhelion panel simulate assets/panels/ips_cluster.recipe.json -o ips_cluster",
-        options, COUNT(options), 1, 1};
+        options, COUNT_OF(options), 1, 1};
     if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
     if (cli.help_shown) return true;
     if (!folder && !wants_truth)
@@ -90,3 +91,6 @@ bool cmd_panel_simulate(int argc, char **argv, Error *err)
     arena_release(&arena);
     return ok;
 }
+
+const Command command_panel_simulate = {
+    "simulate", "a virtual instrument writes a synthetic measurement set", run_simulate};

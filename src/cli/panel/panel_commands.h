@@ -1,20 +1,13 @@
-/* panel_commands.h -- the sub-commands of `parhelion panel`.
- *
- * argv[0] is the sub-command's name. True: exit status 0; else the status of err->code.
- */
+/* panel_commands.h -- `parhelion panel` and its own sub-commands, which cmd_panel.c lists. */
 #pragma once
-#include <stdbool.h>
+#include "cli/options/command.h"
 
-#include "base/error.h"
+extern const Command command_panel;
 
-bool cmd_panel_import(int argc, char **argv, Error *err);
-bool cmd_panel_fit(int argc, char **argv, Error *err);
-bool cmd_panel_info(int argc, char **argv, Error *err);
-bool cmd_panel_eval(int argc, char **argv, Error *err);
-bool cmd_panel_export(int argc, char **argv, Error *err);
-bool cmd_panel_plot(int argc, char **argv, Error *err);
-bool cmd_panel_simulate(int argc, char **argv, Error *err);
-
-/* The report of a fit as a table on stdout. */
-struct json_t;
-void panel_print_report(const struct json_t *report);
+extern const Command command_panel_import;
+extern const Command command_panel_fit;
+extern const Command command_panel_info;
+extern const Command command_panel_eval;
+extern const Command command_panel_export;
+extern const Command command_panel_plot;
+extern const Command command_panel_simulate;

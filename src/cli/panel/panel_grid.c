@@ -1,3 +1,4 @@
+#include "cli/options/answer.h"
 #include "cli/panel/panel_grid.h"
 
 #include <errno.h>

@@ -1,11 +1,10 @@
+#include "base/count.h"
 #include "cli/panel/panel_question.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/units.h"
-
-#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
 /* Unit vector of a direction in degrees. */
 static Vec3 panel_direction(double theta_deg, double phi_deg)
@@ -20,7 +19,7 @@ double *panel_question_member(PanelQuestion *q, const char *name)
         {"theta", &q->theta}, {"phi", &q->phi}, {"r", &q->rgb[0]}, {"g", &q->rgb[1]},
         {"b", &q->rgb[2]}, {"incidence", &q->incidence}, {"incidence_phi", &q->incidence_phi},
         {"wavelength", &q->wavelength_nm}};
-    for (int i = 0; i < COUNT(members); i++)
+    for (int i = 0; i < COUNT_OF(members); i++)
         if (!strcmp(members[i].name, name)) return members[i].to;
     return NULL;
 }

@@ -4,12 +4,15 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/count.h"
 #include "base/file.h"
 #include "base/file_write.h"
 #include "base/machine.h"
+#include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/render/command_line.h"
 #include "cli/render/frame_outcome.h"
+#include "cli/render/render_commands.h"
 #include "cli/render/render_identity.h"
 #include "film/film_frame.h"
 #include "film/film_merge.h"
@@ -41,7 +44,7 @@ static bool parse(int argc, char **argv, Work *work, Error *err)
     const CliCommand command = {
         "merge", "make one frame of parts that were rendered with --samples or --crop",
         "PART.exr ... -o FRAME.exr", "parhelion merge part1.exr part2.exr -o frame.exr",
-        options, sizeof options / sizeof *options, 1, -1};
+        options, COUNT_OF(options), 1, -1};
     if (!cli_parse(&command, argc, argv, work->arena, &work->cli, err)) return false;
     if (work->cli.help_shown) return true;
     if (!work->output) return error_set(err, ERROR_USAGE, "no output — add -o FRAME.exr");
@@ -327,7 +330,7 @@ static bool merge(Work *work, Error *err)
            (work->cli.json ? print_json(work, err) : print_line(work, err));
 }
 
-bool cmd_merge(int argc, char **argv, Error *err)
+static bool run_merge(int argc, char **argv, Error *err)
 {
     Arena arena = arena_reserve(machine_memory_bytes()); /* what is touched counts */
     Work  work = {.arena = &arena};
@@ -336,3 +339,6 @@ bool cmd_merge(int argc, char **argv, Error *err)
     arena_release(&arena);
     return done;
 }
+
+const Command command_merge = {
+    "merge", "make one frame of parts of it, with the bits of one run", run_merge};

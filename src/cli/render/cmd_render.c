@@ -6,7 +6,12 @@
 
 #include "base/file_write.h"
 #include "base/machine.h"
+#include "cli/options/answer.h"
+#include "cli/render/render_answer.h"
+#include "cli/render/render_commands.h"
 #include "cli/render/render_identity.h"
+#include "cli/render/render_resume.h"
+#include "cli/render/render_setup.h"
 #include "scene/load/scene_load.h"
 
 /* Everything of one run of the command. */
@@ -248,7 +253,7 @@ static bool run(Work *work, Error *err)
            hand_over(work, &result, err);
 }
 
-bool cmd_render(int argc, char **argv, Error *err)
+static bool run_render(int argc, char **argv, Error *err)
 {
     /* address space: what is touched counts */
     Arena arena = arena_reserve(machine_memory_bytes());
@@ -259,3 +264,6 @@ bool cmd_render(int argc, char **argv, Error *err)
     arena_release(&arena);
     return done;
 }
+
+const Command command_render = {
+    "render", "render a scene to a linear, photometric EXR", run_render};

@@ -1,3 +1,4 @@
+#include "base/count.h"
 #include "cli/render/command_line.h"
 
 #include <string.h>
@@ -17,7 +18,7 @@ static int idle_words(const char *word)
                 {"--progress", true}, {"--checkpoint", true},
                 {"--checkpoint-interval", true}, {"--resume", false}};
     size_t length = strcspn(word, "=");
-    for (size_t i = 0; i < sizeof idle / sizeof *idle; i++)
+    for (int i = 0; i < COUNT_OF(idle); i++)
         if (strlen(idle[i].name) == length && !strncmp(word, idle[i].name, length))
             return idle[i].has_value && !word[length] ? 2 : 1;
     return 0;
@@ -112,7 +113,7 @@ static const struct {
 static Rewrite *find_rewrite(const char *word)
 {
     size_t length = strcspn(word, "=");
-    for (size_t i = 0; i < sizeof options / sizeof *options; i++)
+    for (int i = 0; i < COUNT_OF(options); i++)
         if (strlen(options[i].name) == length && !strncmp(options[i].name, word, length))
             return options[i].rewrite;
     return NULL;

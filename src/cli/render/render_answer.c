@@ -1,4 +1,5 @@
-/* What a render hands back: the frame with its metadata, and the answer on stdout. */
+#include "cli/render/render_answer.h"
+
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -7,6 +8,7 @@
 
 #include "base/progress.h"
 #include "base/units.h"
+#include "cli/options/answer.h"
 #include "cli/render/frame_outcome.h"
 #include "cli/render/render_identity.h"
 #include "film/film_frame.h"

@@ -18,7 +18,7 @@
  * Memory   the arena's.  Threads  no shared state.  Fails  never.
  */
 #pragma once
-#include "cli/render/render_command.h"
+#include "cli/render/render_request.h"
 
 /* camera: the one that looks; kernel: the one that will be used. The scene carries what the
  * command line changed already. */

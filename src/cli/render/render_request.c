@@ -1,11 +1,12 @@
-/* What the user typed after `parhelion render`. */
+#include "base/count.h"
+#include "cli/render/render_request.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/reference.h"
 #include "cli/render/command_line.h"
-#include "cli/render/render_command.h"
 
 #define DEFAULT_WIDTH 1280
 #define DEFAULT_HEIGHT 720
@@ -39,7 +40,7 @@ static const struct {
     {"display.contrast", LAYER_DISPLAY_CONTRAST},
 };
 
-#define LAYER_NAME_COUNT (int)(sizeof layer_names / sizeof *layer_names)
+#define LAYER_NAME_COUNT COUNT_OF(layer_names)
 
 static bool add_layer(const char *name, unsigned *bits, Error *err)
 {
@@ -317,7 +318,7 @@ static bool parse_line(int argc, char **argv, Arena *arena, Typed *typed,
         "SCENE.gltf|.glb [LIGHTS.gltf|.glb ...] -o FRAME.exr",
         "parhelion render scenes/car_dashboard.gltf scenes/noon.gltf -o noon.exr "
         "--png noon.png --spp 64",
-        options, (int)(sizeof options / sizeof *options), 1, -1};
+        options, COUNT_OF(options), 1, -1};
     return cli_parse(&command, argc, argv, arena, &request->cli, err);
 }
 

@@ -1,4 +1,5 @@
-/* Checkpoints of `parhelion render`: when one is kept, gone on from, and removed. */
+#include "cli/render/render_resume.h"
+
 #include <stdio.h>
 #include <string.h>
 

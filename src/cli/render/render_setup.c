@@ -1,9 +1,11 @@
-/* The camera that looks at a scene, and whether there is anything to see. */
+#include "cli/render/render_setup.h"
+
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/render/render_command.h"
+#include "camera/camera.h"
 
 /* ---- camera ------------------------------------------------------------------------------ */
 

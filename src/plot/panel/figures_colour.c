@@ -3,6 +3,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "base/count.h"
 #include "base/units.h"
 #include "plot/draw/chart.h"
 #include "plot/panel/figure.h"
@@ -91,7 +92,7 @@ static void draw_locus(const Chart *chart)
     paint_hints(chart);
     locus_path(chart);
     canvas_stroke(canvas, (Stroke){canvas->theme.faint, 1, DASH_NONE});
-    for (size_t i = 0; i < sizeof MARKS / sizeof *MARKS; i++) {
+    for (int i = 0; i < COUNT_OF(MARKS); i++) {
         double uv[2], near[2];
         locus(MARKS[i], uv);
         locus(MARKS[i] + 2, near);

@@ -1,6 +1,7 @@
 /* Reflection: sections of the BRDF, over wavelength, over the hemisphere; the mirror part. */
 #include <math.h>
 
+#include "base/count.h"
 #include "base/units.h"
 #include "plot/draw/chart.h"
 #include "plot/panel/figure.h"
@@ -115,7 +116,7 @@ static void draw_plane(Canvas *canvas, Box box, const Figure *figure, FigureMap 
 #define WAVELENGTH_POINTS 101
 
 static const double ASPECULAR_DEG[] = {0, 2, 5, 10, 15, 25, 45};
-#define ASPECULAR_COUNT ((int)(sizeof ASPECULAR_DEG / sizeof *ASPECULAR_DEG))
+#define ASPECULAR_COUNT COUNT_OF(ASPECULAR_DEG)
 
 typedef struct WavelengthCurve {
     double nm[WAVELENGTH_POINTS], value[WAVELENGTH_POINTS];

@@ -1,8 +1,9 @@
-/* parhelion measure --illuminance: a luxmeter at a point of a scene. */
+#include "cli/measure_illuminance.h"
+
 #include <stdio.h>
 
 #include "base/reference.h"
-#include "cli/measure_command.h"
+#include "cli/options/answer.h"
 #include "render/illuminance.h"
 #include "scene/load/scene_load.h"
 #include "spectrum/photometry.h"

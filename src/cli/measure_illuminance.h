@@ -1,4 +1,5 @@
-/* measure_command.h -- the parts of `parhelion measure`; private to src/cli. */
+/* measure_illuminance.h -- `parhelion measure --illuminance`: a luxmeter at a point of a
+ * scene. */
 #pragma once
 #include "cli/options/cli.h"
 

@@ -1,0 +1,4 @@
+/* count.h -- how many elements an array has, as an int. Not for pointers. */
+#pragma once
+
+#define COUNT_OF(array) ((int)(sizeof(array) / sizeof *(array)))

@@ -1,0 +1,27 @@
+/* answer.h -- how answers, errors and warnings leave the program: answers go to stdout,
+ * everything else to stderr.
+ *
+ * Threads  one at a time.
+ * Fails    where stdout cannot be written, with the system's reason.
+ */
+#pragma once
+#include <jansson.h>
+#include <stdbool.h>
+
+#include "base/error.h"
+#include "base/problems.h"
+
+/* Prints the document to stdout with a newline, and releases it. False: stdout is full. */
+bool cli_print_json(json_t *document, Error *err);
+
+/* `parhelion: FILE: what is wrong (where) — what to do`: one line in buffer, no newline. */
+void cli_error_line(const Error *error, char *buffer, int size);
+
+/* The line on stderr, and with json also the error document on stdout. */
+void cli_report_error(const Error *error, bool json);
+
+/* Every warning of the list, once each, as one line on stderr: `parhelion: warning: ...`. */
+void cli_print_warnings(const Problems *problems);
+
+/* The same warnings as a JSON list of {"file","path","severity","message"}. */
+json_t *cli_json_problems(const Problems *problems, Severity severity);

@@ -1,0 +1,22 @@
+/* command.h -- sub-commands: each a constant in its own file, listed in a table.
+ *
+ * Adding one touches its file, the header of its folder that declares it, and the table that
+ * lists it (cli/commands.c, cli/panel/cmd_panel.c).
+ */
+#pragma once
+#include <stdbool.h>
+
+#include "base/error.h"
+
+typedef struct Command {
+    const char *name;
+    const char *summary; /* one line, lower case, no full stop */
+    /* argv[0] is the command's name. True: exit status 0; else the status of err->code. */
+    bool (*run)(int argc, char **argv, Error *err);
+} Command;
+
+#define COMMANDS_MAX 32
+
+/* The one of this name; else NULL, and *nearest is a name that may be meant, or NULL. */
+const Command *command_find(const Command *const *list, int count, const char *name,
+                            const char **nearest);

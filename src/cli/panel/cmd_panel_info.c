@@ -1,0 +1,61 @@
+/* panel info: what a panel file holds, its sizes and errors. */
+#include <math.h>
+
+#include "base/units.h"
+#include "cli/options/answer.h"
+#include "cli/options/cli.h"
+#include "cli/panel/panel_commands.h"
+#include "cli/panel/panel_print.h"
+#include "panel/query/panel.h"
+#include "panel/query/panel_info.h"
+#include "panel/query/panel_report.h"
+
+#define ARENA_BYTES ((size_t)16 << 30)
+
+static json_t *degrees_json(const double *radians, int count)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < count; i++)
+        json_array_append_new(list, json_real(round(degrees_from_radians(radians[i]) * 1e4) /
+                                              1e4));
+    return list;
+}
+
+/* The light's measured incidences, and its azimuths where they matter. */
+static void add_lights(const Panel *panel, json_t *report)
+{
+    double  theta[PANEL_INFO_INCIDENCES_MAX], phi[PANEL_INFO_AZIMUTHS_MAX];
+    int     thetas = panel_info_incidences(panel, theta);
+    int     phis = panel_info_azimuths(panel, phi);
+    json_t *reflection = json_object_get(report, "reflection");
+    if (!json_is_object(reflection)) return;
+    json_object_set_new(reflection, "incidence_deg", degrees_json(theta, thetas));
+    if (phis > 1) json_object_set_new(reflection, "incidence_phi_deg", degrees_json(phi, phis));
+}
+
+static bool run_info(int argc, char **argv, Error *err)
+{
+    Arena   arena = arena_reserve(ARENA_BYTES);
+    Cli     cli;
+    Panel  *panel = NULL;
+    json_t *report = NULL;
+    const CliCommand command = {"panel info", "what a panel file holds, its sizes and errors",
+        "X.panel", "parhelion panel info assets/panels/ips_cluster.panel", NULL, 0, 1, 1};
+    if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
+    if (cli.help_shown) return true;
+    bool ok = panel_open(cli.arguments[0], &arena, &panel, err) &&
+              (panel_report(panel, &report, err) || error_in_file(err, cli.arguments[0]));
+    if (ok) add_lights(panel, report);
+    if (ok && cli.json) {
+        ok = cli_print_json(report, err);
+    } else if (ok) {
+        panel_print_report(report);
+        json_decref(report);
+    }
+    panel_close(panel);
+    arena_release(&arena);
+    return ok;
+}
+
+const Command command_panel_info = {
+    "info", "what a panel file holds, its sizes and errors", run_info};

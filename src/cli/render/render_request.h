@@ -1,0 +1,35 @@
+/* render_request.h -- what the user of `parhelion render` typed.
+ *
+ * Memory   everything lives in the command's arena.
+ */
+#pragma once
+#include "cli/options/cli.h"
+#include "cli/options/environment_options.h"
+#include "image/develop.h"
+#include "render/render.h"
+#include "scene/scene.h"
+
+typedef struct RenderRequest {
+    Cli           cli;
+    SceneOptions  scene;
+    const char   *output; /* NULL only when replaying */
+    const char   *png;    /* NULL: none */
+    DevelopOptions look;  /* of the png */
+    const char   *camera; /* NULL: the first */
+    EnvironmentChange environment;
+    RenderOptions render;
+    bool          replays; /* one sample of one pixel, printed */
+    bool          is_part; /* some samples or pixels only: the frame can be merged */
+    const char   *command_line; /* without what leaves every pixel as it is: --threads,
+                                   --json, --quiet, --progress, --checkpoint,
+                                   --checkpoint-interval, --resume */
+    const char   *resume_line;  /* with everything, and --resume */
+    const char   *checkpoint;   /* the file; without --checkpoint OUTPUT.checkpoint */
+    bool          keeps_checkpoints; /* while rendering; else only when it is stopped */
+    bool          resumes;      /* goes on from the checkpoint, if there is one */
+} RenderRequest;
+
+bool render_request_parse(int argc, char **argv, Arena *arena, RenderRequest *out, Error *err);
+
+/* FilmLayer bits as --layers names them, with commas. */
+const char *render_layer_list(unsigned layers, Arena *arena);

@@ -1,0 +1,15 @@
+/* render_setup.h -- what of a scene is looked at, and with which light.
+ *
+ * Fails    with the cameras that there are.
+ */
+#pragma once
+#include "base/problems.h"
+#include "scene/scene.h"
+
+/* By a node's name, then a camera's, then an index; NULL: the first. A scene without a camera
+ * is framed whole, and a warning says so. */
+bool render_choose_camera(const Scene *scene, const char *wanted, Problems *problems,
+                          SceneCamera *out, Error *err);
+
+/* A warning when nothing of the scene can send light: the frame will be black. */
+void render_tell_of_darkness(const Scene *scene, Problems *problems);
