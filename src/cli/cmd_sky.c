@@ -119,11 +119,11 @@ static double horizontal_lux(const Work *work)
     return sum;
 }
 
-static OutsideFigures figures_of(const Work *work)
+static DaylightMetrics figures_of(const Work *work)
 {
     float rgb[3];
-    if (work->sky.model) return work->sky.model->outside->figures;
-    OutsideFigures f = {.diffuse_horizontal_lx = horizontal_lux(work)};
+    if (work->sky.model) return work->sky.model->daylight->figures;
+    DaylightMetrics f = {.diffuse_horizontal_lx = horizontal_lux(work)};
     const Environment *environment = &work->scene->environment;
     sky_rgb(work, vec3(0, 1, 0), rgb);
     f.zenith_cd_m2 = (double)luminance_from_rgb(rgb);
@@ -140,7 +140,7 @@ static OutsideFigures figures_of(const Work *work)
     return f;
 }
 
-static bool print_json(const Work *work, const OutsideFigures *f, Error *err)
+static bool print_json(const Work *work, const DaylightMetrics *f, Error *err)
 {
     json_t *sun = work->sky.model || work->sky.has_sun
                       ? json_pack("{s:f, s:f, s:f, s:f, s:b, s:f, s:f}", "azimuth_deg",
@@ -162,7 +162,7 @@ static bool print_json(const Work *work, const OutsideFigures *f, Error *err)
     return cli_print_json(document, err);
 }
 
-static int figure_lines(const Work *work, const OutsideFigures *f, const char *line[16])
+static int figure_lines(const Work *work, const DaylightMetrics *f, const char *line[16])
 {
     Arena *arena = work->arena;
     int    n = 0;
@@ -219,7 +219,7 @@ static bool write_exr(const Work *work, Error *err)
 
 static const char *kind_text(const Work *work)
 {
-    const OutsideInput *in = &work->scene->environment.outside;
+    const DaylightInput *in = &work->scene->environment.daylight;
     switch (work->sky.kind) {
     case ENVIRONMENT_NONE: return "No sky";
     case ENVIRONMENT_CONSTANT: return "Uniform sky";
@@ -237,7 +237,7 @@ static const char *kind_text(const Work *work)
 
 static const char *moment_text(const Work *work)
 {
-    const OutsideInput *in = &work->scene->environment.outside;
+    const DaylightInput *in = &work->scene->environment.daylight;
     if (work->sky.kind < ENVIRONMENT_CIE || !in->has_time) return "";
     double zone = fabs(in->when.zone_h);
     return arena_format(work->arena,
@@ -252,7 +252,7 @@ static const char *moment_text(const Work *work)
 /* The sun through the day of the moment, on the clock of its zone. */
 static int sun_path(const Work *work, SkyPlotSun *path)
 {
-    const OutsideInput *in = &work->scene->environment.outside;
+    const DaylightInput *in = &work->scene->environment.daylight;
     double pressure, celsius;
     if (work->sky.kind < ENVIRONMENT_CIE || !in->has_time) return 0;
     SkyTime midnight = in->when;
@@ -271,7 +271,7 @@ static int sun_path(const Work *work, SkyPlotSun *path)
     return PATH_STEPS;
 }
 
-static bool write_picture(const Work *work, const OutsideFigures *f, bool is_svg, Error *err)
+static bool write_picture(const Work *work, const DaylightMetrics *f, bool is_svg, Error *err)
 {
     size_t      count = (size_t)work->size[0] * (size_t)work->size[1];
     float      *luminance = ARENA_NEW(work->arena, float, count);
@@ -347,7 +347,7 @@ static bool run(Work *work, OutputKind kind, Error *err)
     if (!build(work, err)) return false;
     if (kind != OUTPUT_EXR) work->is_fisheye = false;
     draw(work);
-    OutsideFigures figures = figures_of(work);
+    DaylightMetrics figures = figures_of(work);
     bool ok = kind == OUTPUT_NONE  ? true
               : kind == OUTPUT_EXR ? write_exr(work, err)
                                    : write_picture(work, &figures, kind == OUTPUT_SVG, err);

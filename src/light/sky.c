@@ -58,7 +58,7 @@ Spectrum sun_radiance(const Sky *sky, Vec3 direction, const Wavelengths *wavelen
     if (!sky->model)
         return curve_lookup(&sky->sun_curve, wavelengths) * spectrum_all(sky->sun_luminance);
     if (direction.y < sky->model->edge[SKY_MODEL_ROWS]) return spectrum_all(0);
-    return outside_sun(sky->model->outside, safe_sqrtf(share2), wavelengths);
+    return daylight_sun(sky->model->daylight, safe_sqrtf(share2), wavelengths);
 }
 
 float sun_pdf(const Sky *sky, Vec3 direction)
@@ -83,10 +83,10 @@ static bool build_model(const Environment *environment, float turn, Arena *arena
                         Error *err)
 {
     if (!sky_model_build(environment, turn, arena, &sky->model, err)) return false;
-    const Outside *outside = sky->model->outside;
-    if (outside->has_sun)
-        place_sun(sky, outside->sun_radius, (float)outside->sun_azimuth - turn,
-                  (float)outside->sun_elevation);
+    const Daylight *daylight = sky->model->daylight;
+    if (daylight->has_sun)
+        place_sun(sky, daylight->sun_radius, (float)daylight->sun_azimuth - turn,
+                  (float)daylight->sun_elevation);
     return true;
 }
 

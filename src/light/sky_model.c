@@ -29,8 +29,8 @@ static double cell_luminance(const SkyModel *model, int row, int column)
             float t = ((float)i + 0.5f) / 3, u = ((float)column + ((float)j + 0.5f) / 3);
             float sine = lerpf(model->edge[row], model->edge[row + 1], t);
             float azimuth = 2 * PI_F * u / SKY_MODEL_COLUMNS;
-            sum +=
-                (double)outside_luminance(model->outside, (float)asin_d((double)sine), azimuth);
+            float elevation = (float)asin_d((double)sine);
+            sum += (double)daylight_luminance(model->daylight, elevation, azimuth);
         }
     return sum / 9;
 }
@@ -63,9 +63,9 @@ static void sum_rows(SkyModel *model)
     model->row_cdf[ROWS] = 1;
 }
 
-static OutsideInput input_of(const Environment *environment)
+static DaylightInput input_of(const Environment *environment)
 {
-    OutsideInput input = environment->outside;
+    DaylightInput input = environment->daylight;
     input.threads = parallel_default_threads();
     input.has_sun = environment->has_sun;
     input.sun_azimuth = (double)environment->sun_azimuth;
@@ -77,13 +77,13 @@ static OutsideInput input_of(const Environment *environment)
 bool sky_model_build(const Environment *environment, float turn, Arena *arena,
                      const SkyModel **out, Error *err)
 {
-    Outside     *outside = arena_alloc(arena, sizeof *outside, 64, 1);
+    Daylight     *daylight = arena_alloc(arena, sizeof *daylight, 64, 1);
     SkyModel    *model = ARENA_NEW(arena, SkyModel, 1);
-    OutsideInput input = input_of(environment);
-    if (!outside_build(&input, arena, outside, err)) return false;
-    model->outside = outside;
+    DaylightInput input = input_of(environment);
+    if (!daylight_build(&input, arena, daylight, err)) return false;
+    model->daylight = daylight;
     model->turn = turn;
-    place_edges(model, outside->horizon);
+    place_edges(model, daylight->horizon);
     parallel_for(input.threads, ROWS, fill_row, model);
     sum_rows(model);
     *out = model;
@@ -128,8 +128,8 @@ Spectrum sky_model_seen(const SkyModel *model, Vec3 direction, const Wavelengths
     if (column > SKY_MODEL_COLUMNS - 1) column = SKY_MODEL_COLUMNS - 1;
     *pdf = cell_pdf(model, interval(model->edge, ROWS, direction.y), column);
     float across = safe_sqrtf(direction.x * direction.x + direction.z * direction.z);
-    return outside_radiance(model->outside, atan2_f(direction.y, across), 2 * PI_F * turns,
-                            wavelengths);
+    return daylight_radiance(model->daylight, atan2_f(direction.y, across), 2 * PI_F * turns,
+                             wavelengths);
 }
 
 Vec3 sky_model_sample(const SkyModel *model, float u0, float u1)

@@ -12,7 +12,7 @@
 #define SKY_MODEL_COLUMNS 96
 
 typedef struct SkyModel {
-    const Outside *outside;
+    const Daylight *daylight;
     float turn;                                  /* compass azimuth of the scene's -Z */
     float edge[2 * SKY_MODEL_ROWS + 1];          /* sines of elevations, rising */
     float row_cdf[2 * SKY_MODEL_ROWS + 1];       /* 0 to 1 */

@@ -136,7 +136,7 @@ typedef struct Environment {
     float hdri_rotation;
     float hdri_scale;
     float horizontal_illuminance_lx; /* hdri: wanted instead of scale; 0 = use scale */
-    OutsideInput outside;        /* cie, perez, sky: all but the sun below */
+    DaylightInput daylight;        /* cie, perez, sky: all but the sun below */
     bool  has_sun;
     float sun_azimuth;           /* from north over east */
     float sun_elevation;

@@ -11,22 +11,22 @@
 #define ON_THE_GROUND_M 2500.0 /* an observer on land below this stands on the ground */
 #define INTEGRAL_STEPS 1000
 
-OutsideInput outside_input_default(OutsideKind kind)
+DaylightInput daylight_input_default(DaylightKind kind)
 {
-    return (OutsideInput){.kind = kind, .sun_lux = -1, .cie_type = 12, .diffuse_lux = 10000,
-                          .turbidity = 2.5, .ozone_atm_cm = 0.34, .water_cm = 1.4,
-                          .albedo = -1, .cloud_top_m = 2000, .threads = 1};
+    return (DaylightInput){.kind = kind, .sun_lux = -1, .cie_type = 12, .diffuse_lux = 10000,
+                           .turbidity = 2.5, .ozone_atm_cm = 0.34, .water_cm = 1.4,
+                           .albedo = -1, .cloud_top_m = 2000, .threads = 1};
 }
 
 /* ---- where the sun stands --------------------------------------------------------------- */
 
-static double floor_albedo(const OutsideInput *in)
+static double floor_albedo(const DaylightInput *in)
 {
     static const double usual[] = {0.2, 0.06, 0.7};
     return in->albedo >= 0 ? in->albedo : usual[in->floor];
 }
 
-static double floor_altitude(const OutsideInput *in)
+static double floor_altitude(const DaylightInput *in)
 {
     if (in->floor == FLOOR_CLOUD) return in->cloud_top_m;
     bool stands = in->floor == FLOOR_LAND && in->where.altitude_m < ON_THE_GROUND_M;
@@ -40,10 +40,10 @@ static int day_of_year(const SkyTime *time)
     return (int)(sky_julian_day(&now) - sky_julian_day(&first) + 1.5);
 }
 
-static void place_sun(Outside *out)
+static void place_sun(Daylight *out)
 {
-    const OutsideInput *in = &out->input;
-    OutsideFigures *f = &out->figures;
+    const DaylightInput *in = &out->input;
+    DaylightMetrics *f = &out->figures;
     double pressure, celsius;
     f->distance_au = 1;
     out->sun_azimuth = in->sun_azimuth;
@@ -68,12 +68,12 @@ static void place_sun(Outside *out)
     f->air_mass = f->sun_zenith_deg < 90 ? air_mass(f->sun_zenith_deg) : 0;
 }
 
-double outside_sun_clearance_deg(const OutsideInput *input)
+double daylight_sun_clearance_deg(const DaylightInput *input)
 {
-    Outside probe = {.input = *input};
+    Daylight probe = {.input = *input};
     place_sun(&probe);
     double rise = fmax(0, input->where.altitude_m - floor_altitude(input));
-    double dip = input->kind == OUTSIDE_CLEAR ? horizon_dip_deg(rise) : 0;
+    double dip = input->kind == DAYLIGHT_CLEAR ? horizon_dip_deg(rise) : 0;
     return degrees_from_radians(probe.sun_elevation + probe.sun_radius) + dip;
 }
 
@@ -85,7 +85,7 @@ static double share_above_line(double above)
     return 0.5 + (above * sqrt(1 - above * above) + asin_d(above)) / PI;
 }
 
-static double sun_share(const Outside *out)
+static double sun_share(const Daylight *out)
 {
     return share_above_line((out->sun_elevation - out->horizon) / out->sun_radius);
 }
@@ -94,21 +94,21 @@ static double sun_share(const Outside *out)
 
 /* Koschmieder's visibility: 3.912 over the extinction at 550 nm, of which molecules take
  * 0.0116 km^-1; the aerosol's scale height is air.h's 1.5 km. */
-static double aerosol_depth(const OutsideInput *in)
+static double aerosol_depth(const DaylightInput *in)
 {
     if (!(in->visibility_km > 0)) return aerosol_depth_from_turbidity(in->turbidity);
     double at_550 = fmax(0, 3.912 / in->visibility_km - 0.0116) * 1.5;
     return at_550 * pow_d(550 / 500.0, 1.14);
 }
 
-static Air sea_level_air(const OutsideInput *in)
+static Air sea_level_air(const DaylightInput *in)
 {
     return (Air){1013.25, in->water_cm, in->ozone_atm_cm, aerosol_depth(in), 1.14,
                  floor_albedo(in)};
 }
 
 /* What lies above an altitude, for SPECTRL2. */
-static Air air_above(const OutsideInput *in)
+static Air air_above(const DaylightInput *in)
 {
     Air       air = sea_level_air(in);
     double    celsius, column[AIR_PARTS], altitude = fmax(0, in->where.altitude_m);
@@ -154,7 +154,7 @@ static void curve_xy(const Curve *curve, double xy[2])
 }
 
 /* SPECTRL2 for the sun where it stands, above the horizon at least a little. */
-static Spectrl2 ground_spectra(const Outside *out)
+static Spectrl2 ground_spectra(const Daylight *out)
 {
     Air air = air_above(&out->input);
     double d = out->figures.distance_au;
@@ -162,7 +162,7 @@ static Spectrl2 ground_spectra(const Outside *out)
 }
 
 /* The disc's mean radiance from an irradiance, and its figures. */
-static void set_sun(Outside *out, const Curve *irradiance)
+static void set_sun(Daylight *out, const Curve *irradiance)
 {
     double sine = sin_d(out->sun_radius), share = sun_share(out);
     out->sun_mean = *irradiance;
@@ -182,7 +182,7 @@ static void set_sun(Outside *out, const Curve *irradiance)
 /* ---- CIE and Perez ----------------------------------------------------------------------- */
 
 /* How clear: 0 the colour of sun and sky together (a white cloud's), 1 the blue sky's. */
-static void sky_spectrum(Outside *out, double clear, const Spectrl2 *ground)
+static void sky_spectrum(Daylight *out, double clear, const Spectrl2 *ground)
 {
     double mixed[SPECTRL2_COUNT], cosine = sin_d(out->sun_elevation);
     for (int i = 0; i < SPECTRL2_COUNT; i++)
@@ -196,7 +196,7 @@ static void sky_spectrum(Outside *out, double clear, const Spectrl2 *ground)
 }
 
 /* A uniform Lambertian ground under sun and sky. */
-static void light_floor(Outside *out, const Curve *irradiance)
+static void light_floor(Daylight *out, const Curve *irradiance)
 {
     double albedo = floor_albedo(&out->input), sine = fmax(0, sin_d(out->sun_elevation));
     out->floor_curve = out->sky_curve;
@@ -205,26 +205,26 @@ static void light_floor(Outside *out, const Curve *irradiance)
     out->figures.floor_cd_m2 = curve_luminance(&out->floor_curve);
 }
 
-static void finish_shape(Outside *out, const Curve *irradiance)
+static void finish_shape(Daylight *out, const Curve *irradiance)
 {
-    OutsideFigures *f = &out->figures;
+    DaylightMetrics *f = &out->figures;
     double integral = sky_shape_integral(&out->shape, PI / 2 - out->sun_elevation,
                                          INTEGRAL_STEPS);
     out->shape_scale = (float)(f->diffuse_horizontal_lx / integral);
-    f->zenith_cd_m2 = (double)outside_luminance(out, (float)(PI / 2), 0);
+    f->zenith_cd_m2 = (double)daylight_luminance(out, (float)(PI / 2), 0);
     set_sun(out, irradiance);
     light_floor(out, irradiance);
     f->global_horizontal_lx = f->diffuse_horizontal_lx +
                               f->direct_normal_lx * fmax(0, sin_d(out->sun_elevation));
 }
 
-static bool needs_sun(const OutsideInput *in)
+static bool needs_sun(const DaylightInput *in)
 {
     int type = in->cie_type;
-    return in->kind == OUTSIDE_PEREZ || !(type == 1 || type == 3 || type == 5 || type == 16);
+    return in->kind == DAYLIGHT_PEREZ || !(type == 1 || type == 3 || type == 5 || type == 16);
 }
 
-static bool check_sun_up(const Outside *out, Error *err)
+static bool check_sun_up(const Daylight *out, Error *err)
 {
     if (!needs_sun(&out->input) || out->sun_elevation > 0) return true;
     return error_set(err, ERROR_INPUT, "the sun stands %.2f degrees below the horizon "
@@ -233,9 +233,9 @@ static bool check_sun_up(const Outside *out, Error *err)
                      out->figures.sun_azimuth_deg);
 }
 
-static bool build_cie(Outside *out, Error *err)
+static bool build_cie(Daylight *out, Error *err)
 {
-    const OutsideInput *in = &out->input;
+    const DaylightInput *in = &out->input;
     static const double clear[16] = {0, 0, 0, 0, 0, 0, 0.3, 0.5, 0.3, 0.5, 0.8, 1, 1, 1, 1, 0};
     Curve irradiance;
     if (in->cie_type < 1 || in->cie_type > 16)
@@ -255,9 +255,9 @@ static bool build_cie(Outside *out, Error *err)
     return true;
 }
 
-static bool build_perez(Outside *out, Error *err)
+static bool build_perez(Daylight *out, Error *err)
 {
-    const OutsideInput *in = &out->input;
+    const DaylightInput *in = &out->input;
     PerezState state;
     Curve      irradiance;
     if (!check_sun_up(out, err)) return false;
@@ -280,7 +280,7 @@ static bool build_perez(Outside *out, Error *err)
 
 /* ---- the clear atmosphere ---------------------------------------------------------------- */
 
-static void index_nodes(Outside *out)
+static void index_nodes(Daylight *out)
 {
     int k = 0;
     for (int i = 0; i < CURVE_COUNT; i++) {
@@ -295,7 +295,7 @@ static float node_share(int node, float nm)
 }
 
 /* A relative quantity at 16 wavelengths times the beam outside, every nm. */
-static void curve_from_relative(const Outside *out, Spectrum relative, Curve *curve)
+static void curve_from_relative(const Daylight *out, Spectrum relative, Curve *curve)
 {
     for (int i = 0; i < CURVE_COUNT; i++) {
         int   k = out->node[i];
@@ -304,7 +304,7 @@ static void curve_from_relative(const Outside *out, Spectrum relative, Curve *cu
     }
 }
 
-static double relative_luminance(const Outside *out, Spectrum relative)
+static double relative_luminance(const Daylight *out, Spectrum relative)
 {
     double sum = 0;
     for (int i = 0; i < SPECTRUM_LANES; i++)
@@ -312,7 +312,7 @@ static double relative_luminance(const Outside *out, Spectrum relative)
     return sum;
 }
 
-static void weigh_luminance(Outside *out)
+static void weigh_luminance(Daylight *out)
 {
     for (int k = 0; k < SPECTRUM_LANES; k++) {
         Spectrum unit = spectrum_all(0);
@@ -325,7 +325,7 @@ static void weigh_luminance(Outside *out)
 
 /* The sun's spectrum outside the air, less what water vapour and oxygen take: they absorb on
  * the beam's way down, where nearly all scattering happens too (as SPECTRL2 has it). */
-static void fill_beam(Outside *out)
+static void fill_beam(Daylight *out)
 {
     double   gases[SPECTRL2_COUNT];
     Air      air = air_above(&out->input);
@@ -336,9 +336,9 @@ static void fill_beam(Outside *out)
 }
 
 /* Irradiances from 300 to 4000 nm by SPECTRL2's ratio of watts to lux. */
-static void tell_watts(Outside *out, double beam_lux)
+static void tell_watts(Daylight *out, double beam_lux)
 {
-    OutsideFigures *f = &out->figures;
+    DaylightMetrics *f = &out->figures;
     Spectrl2 ground = ground_spectra(out);
     Curve    diffuse;
     curve_from_rows(ground.diffuse, &diffuse);
@@ -348,10 +348,10 @@ static void tell_watts(Outside *out, double beam_lux)
                                  curve_luminance(&diffuse);
 }
 
-static bool build_clear(Outside *out, Arena *arena, Error *err)
+static bool build_clear(Daylight *out, Arena *arena, Error *err)
 {
-    const OutsideInput *in = &out->input;
-    OutsideFigures     *f = &out->figures;
+    const DaylightInput *in = &out->input;
+    DaylightMetrics     *f = &out->figures;
     AtmosphereInput input = {sea_level_air(in), fmax(0, in->where.altitude_m),
                              floor_altitude(in), out->sun_elevation, in->threads, 0};
     Curve irradiance, zenith;
@@ -377,10 +377,10 @@ static bool build_clear(Outside *out, Arena *arena, Error *err)
     return true;
 }
 
-bool outside_build(const OutsideInput *input, Arena *arena, Outside *out, Error *err)
+bool daylight_build(const DaylightInput *input, Arena *arena, Daylight *out, Error *err)
 {
-    *out = (Outside){.input = *input};
-    bool sunless = input->kind == OUTSIDE_CIE && !needs_sun(input);
+    *out = (Daylight){.input = *input};
+    bool sunless = input->kind == DAYLIGHT_CIE && !needs_sun(input);
     if (!input->has_time && !input->has_sun && !sunless)
         return error_set(err, ERROR_INPUT,
                          "the sky wants a time and a place, or the sun's azimuth "
@@ -388,16 +388,16 @@ bool outside_build(const OutsideInput *input, Arena *arena, Outside *out, Error 
     if (sunless && !input->has_time && !input->has_sun) out->input.sun_elevation = PI / 4;
     place_sun(out);
     switch (input->kind) {
-    case OUTSIDE_CIE: return build_cie(out, err);
-    case OUTSIDE_PEREZ: return build_perez(out, err);
-    case OUTSIDE_CLEAR: return build_clear(out, arena, err);
+    case DAYLIGHT_CIE: return build_cie(out, err);
+    case DAYLIGHT_PEREZ: return build_perez(out, err);
+    case DAYLIGHT_CLEAR: return build_clear(out, arena, err);
     }
     return false;
 }
 
 /* ---- asking ------------------------------------------------------------------------------ */
 
-static float angle_to_sun(const Outside *out, float elevation, float azimuth)
+static float angle_to_sun(const Daylight *out, float elevation, float azimuth)
 {
     float sun = (float)out->sun_elevation, turn = azimuth - (float)out->sun_azimuth, s[3], c[3];
     sincos_turns(elevation * (0.5f * INV_PI_F), &s[0], &c[0]);
@@ -406,7 +406,7 @@ static float angle_to_sun(const Outside *out, float elevation, float azimuth)
     return acos_f(clampf(s[0] * s[1] + c[0] * c[1] * c[2], -1, 1));
 }
 
-static float shape_luminance(const Outside *out, float elevation, float azimuth)
+static float shape_luminance(const Daylight *out, float elevation, float azimuth)
 {
     float sine, cosine;
     sincos_turns(elevation * (0.5f * INV_PI_F), &sine, &cosine);
@@ -414,9 +414,9 @@ static float shape_luminance(const Outside *out, float elevation, float azimuth)
            sky_shape_at(&out->shape, sine, angle_to_sun(out, elevation, azimuth));
 }
 
-float outside_luminance(const Outside *out, float elevation, float azimuth)
+float daylight_luminance(const Daylight *out, float elevation, float azimuth)
 {
-    if (out->input.kind == OUTSIDE_CLEAR)
+    if (out->input.kind == DAYLIGHT_CLEAR)
         return (float)relative_luminance(
             out, atmosphere_radiance(&out->atmosphere, elevation,
                                      azimuth - (float)out->sun_azimuth));
@@ -424,10 +424,10 @@ float outside_luminance(const Outside *out, float elevation, float azimuth)
     return shape_luminance(out, elevation, azimuth);
 }
 
-Spectrum outside_radiance(const Outside *out, float elevation, float azimuth,
-                          const Wavelengths *wavelengths)
+Spectrum daylight_radiance(const Daylight *out, float elevation, float azimuth,
+                           const Wavelengths *wavelengths)
 {
-    if (out->input.kind != OUTSIDE_CLEAR) {
+    if (out->input.kind != DAYLIGHT_CLEAR) {
         if (elevation < 0) return curve_lookup(&out->floor_curve, wavelengths);
         return curve_lookup(&out->sky_curve, wavelengths) *
                spectrum_all(shape_luminance(out, elevation, azimuth));
@@ -442,7 +442,7 @@ Spectrum outside_radiance(const Outside *out, float elevation, float azimuth,
     return value * curve_lookup(&out->beam, wavelengths);
 }
 
-Spectrum outside_sun(const Outside *out, float share, const Wavelengths *wavelengths)
+Spectrum daylight_sun(const Daylight *out, float share, const Wavelengths *wavelengths)
 {
     float    mu = safe_sqrtf(1 - share * share);
     Spectrum value = spectrum_all(0);

@@ -11,7 +11,7 @@
  * Frame     azimuth from north over east, elevation from the horizontal, radians; the sun's
  *           elevation here is the apparent one (refraction lifts it).
  * Units     spectral radiance in W m^-2 sr^-1 nm^-1, 360..830 nm; lx; cd m^-2.
- * Memory    the arena's. Threads: const once built; HOT: outside_radiance, outside_sun.
+ * Memory    the arena's. Threads: const once built; HOT: daylight_radiance, daylight_sun.
  * Fails     on inputs that make no sky, naming the member.
  */
 #pragma once
@@ -22,12 +22,12 @@
 #include "sky/sun_position.h"
 #include "spectrum/curve.h"
 
-typedef enum OutsideKind { OUTSIDE_CIE, OUTSIDE_PEREZ, OUTSIDE_CLEAR } OutsideKind;
+typedef enum DaylightKind { DAYLIGHT_CIE, DAYLIGHT_PEREZ, DAYLIGHT_CLEAR } DaylightKind;
 
 typedef enum FloorKind { FLOOR_LAND, FLOOR_SEA, FLOOR_CLOUD } FloorKind;
 
-typedef struct OutsideInput {
-    OutsideKind kind;
+typedef struct DaylightInput {
+    DaylightKind kind;
     bool     has_time, has_sun;  /* one of them at least, except for uniform and overcast CIE */
     SkyTime  when;
     SkyPlace where;
@@ -42,12 +42,12 @@ typedef struct OutsideInput {
     FloorKind floor;
     double   cloud_top_m;
     int      threads;
-} OutsideInput;
+} DaylightInput;
 
-OutsideInput outside_input_default(OutsideKind kind);
+DaylightInput daylight_input_default(DaylightKind kind);
 
 /* For people and scripts. */
-typedef struct OutsideFigures {
+typedef struct DaylightMetrics {
     double sun_azimuth_deg, sun_elevation_deg, sun_zenith_deg; /* apparent */
     double true_elevation_deg, refraction_deg, distance_au, horizon_deg;
     double direct_normal_lx, diffuse_horizontal_lx, global_horizontal_lx;
@@ -55,11 +55,11 @@ typedef struct OutsideFigures {
     double zenith_cd_m2, sun_xy[2], zenith_xy[2], floor_cd_m2;
     double air_mass;
     bool   is_sun_up; /* part of its disc at least */
-} OutsideFigures;
+} DaylightMetrics;
 
-typedef struct Outside {
-    OutsideInput   input;
-    OutsideFigures figures;
+typedef struct Daylight {
+    DaylightInput   input;
+    DaylightMetrics figures;
     double   horizon;     /* elevation of the edge between sky and floor, radians */
     /* CIE, Perez */
     SkyShape shape;
@@ -75,20 +75,20 @@ typedef struct Outside {
     double   sun_azimuth, sun_elevation, sun_radius;
     Curve    sun_mean;    /* disc's mean radiance */
     Curve    limb[6];     /* sun_disc.h's coefficients, every nm */
-} Outside;
+} Daylight;
 
-bool outside_build(const OutsideInput *input, Arena *arena, Outside *out, Error *err);
+bool daylight_build(const DaylightInput *input, Arena *arena, Daylight *out, Error *err);
 
 /* Elevation of the sun's upper rim over the edge of the floor (the dipped horizon), degrees:
  * below 0 the sun is down. */
-double outside_sun_clearance_deg(const OutsideInput *input);
+double daylight_sun_clearance_deg(const DaylightInput *input);
 
 /* Sky or floor. elevation and azimuth in radians. */
-Spectrum outside_radiance(const Outside *outside, float elevation, float azimuth,
-                          const Wavelengths *wavelengths);
+Spectrum daylight_radiance(const Daylight *daylight, float elevation, float azimuth,
+                           const Wavelengths *wavelengths);
 
 /* Its luminance, cd m^-2. */
-float outside_luminance(const Outside *outside, float elevation, float azimuth);
+float daylight_luminance(const Daylight *daylight, float elevation, float azimuth);
 
 /* Radiance of the disc at a sine of the angle to its centre over the sine of its radius. */
-Spectrum outside_sun(const Outside *outside, float share, const Wavelengths *wavelengths);
+Spectrum daylight_sun(const Daylight *daylight, float share, const Wavelengths *wavelengths);

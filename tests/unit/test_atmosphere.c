@@ -25,9 +25,9 @@ static Atmosphere build(double observer_m, double floor_m, double albedo, double
     return atmosphere;
 }
 
-static OutsideInput clear_day(const char *when, double altitude_m)
+static DaylightInput clear_day(const char *when, double altitude_m)
 {
-    OutsideInput input = outside_input_default(OUTSIDE_CLEAR);
+    DaylightInput input = daylight_input_default(DAYLIGHT_CLEAR);
     Error        err;
     input.has_time = true;
     input.threads = 2;
@@ -140,12 +140,12 @@ TEST(the_sky_gives_what_spectrl2_says)
         Spectrum   diffuse = atmosphere_diffuse(&a);
         double     sums[2] = {0, 0};
         for (int k = 3; k < 13; k++) { /* 420 to 680 nm: bands without gases */
-            double nm = (double)AIR_NM[k], outside = spectrl2_read(s.outside, nm);
+            double nm = (double)AIR_NM[k], daylight = spectrl2_read(s.outside, nm);
             double y = (double)spectral_row(nm).y;
-            sums[0] += y * (double)diffuse[k] * outside;
+            sums[0] += y * (double)diffuse[k] * daylight;
             sums[1] += y * spectrl2_read(s.diffuse, nm);
             if (nm < 580 || (nm > 600 && nm < 660))
-                assert_close((double)a.sun_passing[k], spectrl2_read(s.direct, nm) / outside,
+                assert_close((double)a.sun_passing[k], spectrl2_read(s.direct, nm) / daylight,
                              0.01);
         }
         printf("sun %4.1f deg from the zenith: diffuse light over SPECTRL2's %.3f\n",
@@ -194,19 +194,19 @@ TEST(the_sky_darkens_with_altitude_and_the_sun_gains)
 TEST(an_airliner_sees_126_klx_of_sun_and_a_dipped_horizon)
 {
     Arena        arena = test_arena(state);
-    OutsideInput input = outside_input_default(OUTSIDE_CLEAR);
-    Outside     *out = arena_alloc(&arena, sizeof *out, 64, 1);
+    DaylightInput input = daylight_input_default(DAYLIGHT_CLEAR);
+    Daylight     *out = arena_alloc(&arena, sizeof *out, 64, 1);
     Error        err;
     input.has_sun = true;
     input.threads = 2;
     input.sun_elevation = PI / 2;
     input.where.altitude_m = 10668;
     input.floor = FLOOR_CLOUD;
-    assert_true(outside_build(&input, &arena, out, &err));
+    assert_true(daylight_build(&input, &arena, out, &err));
     assert_close(out->figures.direct_normal_lx, 126092, 0.01);
     assert_in(out->figures.horizon_deg, -3.1, -2.9);  /* of the deck, 2000 m high */
     assert_in(out->figures.floor_cd_m2, 24000, 33000); /* AS8034's forward field: 34,300 */
-    assert_true(outside_luminance(out, -0.06f, 1) > 3000);
+    assert_true(daylight_luminance(out, -0.06f, 1) > 3000);
 }
 
 TEST(the_drawn_sky_integrates_to_its_stated_illuminance)
@@ -214,22 +214,23 @@ TEST(the_drawn_sky_integrates_to_its_stated_illuminance)
     Arena arena = test_arena(state);
     for (int kind = 0; kind < 5; kind++) {
         Arena        scratch = arena;
-        Outside     *out = arena_alloc(&scratch, sizeof *out, 64, 1);
-        OutsideInput input = clear_day("2026-06-21T08:30+02:00", kind == 4 ? 9000 : 520);
+        Daylight     *out = arena_alloc(&scratch, sizeof *out, 64, 1);
+        DaylightInput input = clear_day("2026-06-21T08:30+02:00", kind == 4 ? 9000 : 520);
         Error        err;
         double       sum = 0;
-        input.kind = kind < 2 ? OUTSIDE_CIE : kind < 3 ? OUTSIDE_PEREZ : OUTSIDE_CLEAR;
+        input.kind = kind < 2 ? DAYLIGHT_CIE : kind < 3 ? DAYLIGHT_PEREZ : DAYLIGHT_CLEAR;
         input.cie_type = kind ? 12 : 1;
         input.diffuse_lux = 12000;
         input.direct_w_m2 = 700, input.diffuse_w_m2 = 120;
-        assert_true(outside_build(&input, &scratch, out, &err));
+        assert_true(daylight_build(&input, &scratch, out, &err));
         const int rows = 500, columns = 500;
         for (int i = 0; i < rows; i++)
             for (int j = 0; j < columns; j++) {
                 double share = (i + 0.5) / rows, e = PI / 2 * share * share;
                 double step = PI * share / rows;
-                sum += (double)outside_luminance(out, (float)e, (float)(2 * PI * j / columns)) *
-                       sin(e) * cos(e) * step * 2 * PI / columns;
+                float azimuth = (float)(2 * PI * j / columns);
+                sum += (double)daylight_luminance(out, (float)e, azimuth) * sin(e) * cos(e) *
+                       step * 2 * PI / columns;
             }
         assert_close(sum, out->figures.diffuse_horizontal_lx, 1e-3);
     }
@@ -240,26 +241,26 @@ TEST(spectral_radiance_has_the_stated_luminance)
     Arena arena = test_arena(state);
     for (int kind = 0; kind < 3; kind++) {
         Arena        scratch = arena;
-        Outside     *out = arena_alloc(&scratch, sizeof *out, 64, 1);
-        OutsideInput input = clear_day("2026-03-21T17:30+01:00", 520);
+        Daylight     *out = arena_alloc(&scratch, sizeof *out, 64, 1);
+        DaylightInput input = clear_day("2026-03-21T17:30+01:00", 520);
         Error        err;
         double       y = 0, sun = 0;
-        input.kind = (OutsideKind)kind;
-        input.sun_lux = kind == OUTSIDE_CIE ? 50000 : -1;
+        input.kind = (DaylightKind)kind;
+        input.sun_lux = kind == DAYLIGHT_CIE ? 50000 : -1;
         input.direct_w_m2 = 700, input.diffuse_w_m2 = 120;
-        assert_true(outside_build(&input, &scratch, out, &err));
+        assert_true(daylight_build(&input, &scratch, out, &err));
         for (int i = 0; i < 256; i++) {
             Wavelengths lanes;
             wavelengths_sample(((float)i + 0.5f) / 256, &lanes);
-            y += (double)spectrum_sum(outside_radiance(out, 0.6f, 2, &lanes) * lanes.xyz[1]) /
+            y += (double)spectrum_sum(daylight_radiance(out, 0.6f, 2, &lanes) * lanes.xyz[1]) /
                  256;
             for (int r = 0; r < 50; r++) {
                 float share = sqrtf(((float)r + 0.5f) / 50);
-                sun += (double)spectrum_sum(outside_sun(out, share, &lanes) * lanes.xyz[1]) /
+                sun += (double)spectrum_sum(daylight_sun(out, share, &lanes) * lanes.xyz[1]) /
                        (50 * 256);
             }
         }
-        assert_close(y, (double)outside_luminance(out, 0.6f, 2), 3e-3);
+        assert_close(y, (double)daylight_luminance(out, 0.6f, 2), 3e-3);
         double disc = PI * pow(sin(out->sun_radius), 2);
         assert_close(sun * disc, out->figures.direct_normal_lx, 3e-3);
     }
@@ -272,44 +273,44 @@ TEST(twilight_fades_and_night_is_told)
     double before = 3000;
     for (int i = 0; i < 4; i++) {
         Arena        scratch = arena;
-        Outside     *out = arena_alloc(&scratch, sizeof *out, 64, 1);
-        OutsideInput input = outside_input_default(OUTSIDE_CLEAR);
+        Daylight     *out = arena_alloc(&scratch, sizeof *out, 64, 1);
+        DaylightInput input = daylight_input_default(DAYLIGHT_CLEAR);
         Error        err;
         input.has_sun = true;
         input.threads = 2;
         input.sun_elevation = radians_from_degrees(elevation_deg[i]);
-        assert_true(outside_build(&input, &scratch, out, &err));
+        assert_true(daylight_build(&input, &scratch, out, &err));
         assert_true(out->figures.diffuse_horizontal_lx < before / 1.5);
         assert_true(out->figures.diffuse_horizontal_lx > 0.5);
         assert_int_equal(out->figures.is_sun_up, i == 0);
-        assert_int_equal(outside_sun_clearance_deg(&input) > 0, i == 0);
+        assert_int_equal(daylight_sun_clearance_deg(&input) > 0, i == 0);
         before = out->figures.diffuse_horizontal_lx;
     }
     Arena        scratch = arena;
-    Outside     *out = arena_alloc(&scratch, sizeof *out, 64, 1);
-    OutsideInput input = clear_day("2026-06-21T01:00+02:00", 520);
+    Daylight     *out = arena_alloc(&scratch, sizeof *out, 64, 1);
+    DaylightInput input = clear_day("2026-06-21T01:00+02:00", 520);
     Error        err;
-    input.kind = OUTSIDE_PEREZ;
+    input.kind = DAYLIGHT_PEREZ;
     input.direct_w_m2 = 0, input.diffuse_w_m2 = 10;
-    assert_false(outside_build(&input, &scratch, out, &err));
+    assert_false(daylight_build(&input, &scratch, out, &err));
     assert_non_null(strstr(err.text, "below the horizon"));
 }
 
 TEST(what_makes_no_sky_is_refused)
 {
     Arena        arena = test_arena(state);
-    Outside     *out = arena_alloc(&arena, sizeof *out, 64, 1);
-    OutsideInput input = outside_input_default(OUTSIDE_CLEAR);
+    Daylight     *out = arena_alloc(&arena, sizeof *out, 64, 1);
+    DaylightInput input = daylight_input_default(DAYLIGHT_CLEAR);
     Error        err;
-    assert_false(outside_build(&input, &arena, out, &err));
+    assert_false(daylight_build(&input, &arena, out, &err));
     assert_non_null(strstr(err.text, "time and a place"));
     input.has_sun = true;
     input.floor = FLOOR_CLOUD;
-    assert_false(outside_build(&input, &arena, out, &err)); /* under the deck */
+    assert_false(daylight_build(&input, &arena, out, &err)); /* under the deck */
     assert_non_null(strstr(err.text, "cloud deck"));
-    input = outside_input_default(OUTSIDE_CIE);
+    input = daylight_input_default(DAYLIGHT_CIE);
     input.cie_type = 17;
-    assert_false(outside_build(&input, &arena, out, &err));
+    assert_false(daylight_build(&input, &arena, out, &err));
 }
 
 int main(void)

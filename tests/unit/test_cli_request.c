@@ -115,17 +115,17 @@ TEST(a_sky_is_asked_for_by_its_kind_time_and_place)
     assert_true(environment_change(&clear, &scene, arena, &problems, &err));
     const Environment *e = &scene.environment;
     assert_int_equal(e->kind, ENVIRONMENT_SKY);
-    assert_true(e->outside.has_time && !e->has_sun && e->outside.when.hour == 8);
-    assert_close(e->outside.where.altitude_m, 520, 1e-12);
-    assert_close(e->outside.visibility_km, 23, 1e-12);
+    assert_true(e->daylight.has_time && !e->has_sun && e->daylight.when.hour == 8);
+    assert_close(e->daylight.where.altitude_m, 520, 1e-12);
+    assert_close(e->daylight.visibility_km, 23, 1e-12);
     EnvironmentChange later = {.when = "2026-06-21T09:30+02:00", .sun = "auto"};
     assert_true(environment_change(&later, &scene, arena, &problems, &err));
-    assert_true(e->outside.when.hour == 9 && e->outside.where.altitude_m == 520);
+    assert_true(e->daylight.when.hour == 9 && e->daylight.where.altitude_m == 520);
     EnvironmentChange cie = {.environment = "cie:12:15000", .sun = "180,35,90000"};
     assert_true(environment_change(&cie, &scene, arena, &problems, &err));
-    assert_true(e->kind == ENVIRONMENT_CIE && e->outside.cie_type == 12);
+    assert_true(e->kind == ENVIRONMENT_CIE && e->daylight.cie_type == 12);
     assert_true(e->has_sun && e->sun_illuminance_lx == 90000 &&
-                e->outside.diffuse_lux == 15000);
+                e->daylight.diffuse_lux == 15000);
     assert_int_equal(problems.count, 0);
     EnvironmentChange bare = {.environment = "cie:3"};
     Scene other = {0};

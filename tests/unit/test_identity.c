@@ -44,10 +44,10 @@ static void fill(Subject *s)
     s->scene.displays = &s->display;
     s->scene.display_count = 1;
     s->scene.environment = (Environment){.kind = ENVIRONMENT_SKY,
-                                         .outside = outside_input_default(OUTSIDE_CLEAR),
+                                         .daylight = daylight_input_default(DAYLIGHT_CLEAR),
                                          .forward = {0, 0, -1}};
-    s->scene.environment.outside.has_time = true;
-    s->scene.environment.outside.when = (SkyTime){2026, 6, 21, 8, 30, 0, 2};
+    s->scene.environment.daylight.has_time = true;
+    s->scene.environment.daylight.when = (SkyTime){2026, 6, 21, 8, 30, 0, 2};
 }
 
 typedef struct Change {
@@ -70,9 +70,9 @@ static void field(Subject *s) { s->camera.yfov = nextafterf(0.5f, 1); }
 static void place(Subject *s) { s->camera.world_from_camera.origin.y = 1; }
 static void flat(Subject *s) { s->camera.is_perspective = false; }
 static void kind(Subject *s) { s->scene.environment.kind = ENVIRONMENT_NONE; }
-static void air(Subject *s) { s->scene.environment.outside.turbidity += 1e-13; }
-static void minute(Subject *s) { s->scene.environment.outside.when.minute++; }
-static void ground(Subject *s) { s->scene.environment.outside.floor = FLOOR_SEA; }
+static void air(Subject *s) { s->scene.environment.daylight.turbidity += 1e-13; }
+static void minute(Subject *s) { s->scene.environment.daylight.when.minute++; }
+static void ground(Subject *s) { s->scene.environment.daylight.floor = FLOOR_SEA; }
 static void sun(Subject *s) { s->scene.environment.has_sun = true; }
 static void heading(Subject *s) { s->scene.environment.heading = 1; }
 static void samples(Subject *s) { s->request.render.first_sample = 5; }
@@ -80,7 +80,7 @@ static void more(Subject *s) { s->request.render.end_sample = 500; }
 static void crop(Subject *s) { s->request.render.crop = (FilmRect){0, 0, 3, 3}; }
 static void noise(Subject *s) { s->request.render.noise = 0.1; }
 static void threads(Subject *s) { s->request.render.threads = 9; }
-static void sky_threads(Subject *s) { s->scene.environment.outside.threads = 9; }
+static void sky_threads(Subject *s) { s->scene.environment.daylight.threads = 9; }
 static void output(Subject *s) { s->request.output = "b.exr"; }
 static void folder(Subject *s) { s->inputs[0] = "/elsewhere/scene.gltf"; }
 static void far(Subject *s) { s->camera.zfar = 5; }

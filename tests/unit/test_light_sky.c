@@ -7,13 +7,13 @@ static Scene *sky_scene(EnvironmentKind kind, double elevation_deg, Arena *arena
     Scene *scene = builder_scene(arena);
     Environment *e = &scene->environment;
     e->kind = kind;
-    e->outside = outside_input_default(kind == ENVIRONMENT_CIE     ? OUTSIDE_CIE
-                                       : kind == ENVIRONMENT_PEREZ ? OUTSIDE_PEREZ
-                                                                   : OUTSIDE_CLEAR);
-    e->outside.direct_w_m2 = 700;
-    e->outside.diffuse_w_m2 = 120;
-    e->outside.where.altitude_m = 9000;
-    e->outside.floor = FLOOR_SEA;
+    e->daylight = daylight_input_default(kind == ENVIRONMENT_CIE     ? DAYLIGHT_CIE
+                                         : kind == ENVIRONMENT_PEREZ ? DAYLIGHT_PEREZ
+                                                                   : DAYLIGHT_CLEAR);
+    e->daylight.direct_w_m2 = 700;
+    e->daylight.diffuse_w_m2 = 120;
+    e->daylight.where.altitude_m = 9000;
+    e->daylight.floor = FLOOR_SEA;
     e->has_sun = true;
     e->sun_azimuth = 1;
     e->sun_elevation = (float)(elevation_deg * PI / 180);
@@ -28,13 +28,13 @@ TEST(a_modelled_sky_and_its_sun_give_the_stated_illuminance)
     for (int kind = ENVIRONMENT_CIE; kind <= ENVIRONMENT_SKY; kind++) {
         Arena   scratch = arena;
         Scene  *scene = sky_scene((EnvironmentKind)kind, 35, &scratch);
-        Outside *out = arena_alloc(&scratch, sizeof *out, 64, 1);
-        OutsideInput input = scene->environment.outside;
+        Daylight *out = arena_alloc(&scratch, sizeof *out, 64, 1);
+        DaylightInput input = scene->environment.daylight;
         Error   err;
         input.has_sun = true;
         input.sun_elevation = 35 * PI / 180;
         input.sun_lux = kind == ENVIRONMENT_CIE ? 50000 : -1;
-        assert_true(outside_build(&input, &scratch, out, &err));
+        assert_true(daylight_build(&input, &scratch, out, &err));
         const Lights *lights = build(scene, &scratch);
         assert_mean("modelled sky",
                     illuminance(lights, LIGHTS_SKY, vec3(0, 0, 0), vec3(0, 1, 0)),
@@ -48,7 +48,7 @@ TEST(a_half_set_sun_gives_half_its_light)
 {
     Arena  arena = test_arena(state);
     Scene *scene = sky_scene(ENVIRONMENT_SKY, 0, &arena);
-    scene->environment.outside.where.altitude_m = 0; /* the horizon is the horizontal */
+    scene->environment.daylight.where.altitude_m = 0; /* the horizon is the horizontal */
     const Lights *lights = build(scene, &arena);
     Vec3 facing = vec3((float)sin(0.6), 0, (float)-cos(0.6));
     Wavelengths lanes;

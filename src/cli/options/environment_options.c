@@ -76,17 +76,17 @@ static bool set_hdri(Change *change, const char *path, Error *err)
 
 /* A model of its own kind keeps what the scene said of it, its time and place whatever it was.
  */
-static void become(Change *change, EnvironmentKind kind, OutsideKind outside)
+static void become(Change *change, EnvironmentKind kind, DaylightKind daylight)
 {
     Environment *environment = change->environment;
-    OutsideInput old = environment->outside;
+    DaylightInput old = environment->daylight;
     bool         was_model = environment->kind >= ENVIRONMENT_CIE;
     if (environment->kind != kind) {
-        environment->outside = outside_input_default(outside);
+        environment->daylight = daylight_input_default(daylight);
         if (was_model) {
-            environment->outside.has_time = old.has_time;
-            environment->outside.when = old.when;
-            environment->outside.where = old.where;
+            environment->daylight.has_time = old.has_time;
+            environment->daylight.when = old.when;
+            environment->daylight.where = old.where;
         }
     }
     environment->kind = kind;
@@ -107,11 +107,11 @@ static bool set_cie(Change *change, const char *text, Error *err)
                          "1 to 15 (16: the traditional overcast sky)",
                          text);
     bool was_cie = change->environment->kind == ENVIRONMENT_CIE;
-    become(change, ENVIRONMENT_CIE, OUTSIDE_CIE);
-    change->environment->outside.cie_type = (int)number[0];
-    if (has_lux) change->environment->outside.diffuse_lux = number[1];
+    become(change, ENVIRONMENT_CIE, DAYLIGHT_CIE);
+    change->environment->daylight.cie_type = (int)number[0];
+    if (has_lux) change->environment->daylight.diffuse_lux = number[1];
     else if (!was_cie) {
-        change->environment->outside.diffuse_lux = CIE_DIFFUSE_LX;
+        change->environment->daylight.diffuse_lux = CIE_DIFFUSE_LX;
         problems_add(
             change->problems, SEVERITY_WARNING, "", "",
             "--environment cie:%s says no illuminance: the sky is scaled to %g lx on a "
@@ -129,9 +129,9 @@ static bool set_perez(Change *change, const char *text, Error *err)
                          "--environment perez:%s: wanted perez:DIRECT,DIFFUSE, "
                          "normal and horizontal irradiance in W/m2",
                          text);
-    become(change, ENVIRONMENT_PEREZ, OUTSIDE_PEREZ);
-    change->environment->outside.direct_w_m2 = w_m2[0];
-    change->environment->outside.diffuse_w_m2 = w_m2[1];
+    become(change, ENVIRONMENT_PEREZ, DAYLIGHT_PEREZ);
+    change->environment->daylight.direct_w_m2 = w_m2[0];
+    change->environment->daylight.diffuse_w_m2 = w_m2[1];
     return true;
 }
 
@@ -144,7 +144,7 @@ static bool set_sky(Change *change, const char *text, Error *err)
     if (strcmp(text, "sky:clear"))
         return error_set(err, ERROR_USAGE, "--environment %s: wanted sky:clear, cie:N[:LUX], "
                          "perez:DIRECT,DIFFUSE, hdri:FILE or constant:CD_M2", text);
-    become(change, ENVIRONMENT_SKY, OUTSIDE_CLEAR);
+    become(change, ENVIRONMENT_SKY, DAYLIGHT_CLEAR);
     return true;
 }
 
@@ -159,36 +159,36 @@ static bool needs_model(const Change *change, const char *option, Error *err)
 
 static bool set_place(Change *change, const char *text, Error *err)
 {
-    double place[3] = {0, 0, change->environment->outside.where.altitude_m};
+    double place[3] = {0, 0, change->environment->daylight.where.altitude_m};
     if ((!cli_numbers(text, 3, place) && !cli_numbers(text, 2, place)) ||
         fabs(place[0]) > 90 || fabs(place[1]) > 360 || place[2] < -500 || place[2] > 60000)
         return error_set(err, ERROR_USAGE,
                          "--where %s: wanted LAT,LON or LAT,LON,ALT: -90 to 90 "
                          "and -360 to 360 degrees, -500 to 60000 m",
                          text);
-    change->environment->outside.where = (SkyPlace){place[0], place[1], place[2]};
+    change->environment->daylight.where = (SkyPlace){place[0], place[1], place[2]};
     return true;
 }
 
 static bool set_time_and_place(Change *change, Error *err)
 {
     const EnvironmentChange *asked = change->asked;
-    OutsideInput *outside = &change->environment->outside;
+    DaylightInput *daylight = &change->environment->daylight;
     if (!asked->when && !asked->where) return true;
     if (!needs_model(change, asked->when ? "--when" : "--where", err)) return false;
-    if (asked->when && !sky_time_parse(asked->when, "", &outside->when, err)) {
+    if (asked->when && !sky_time_parse(asked->when, "", &daylight->when, err)) {
         err->code = ERROR_USAGE;
         return error_prefix(err, "--when");
     }
     if (asked->where && !set_place(change, asked->where, err)) return false;
-    bool knows_place = asked->where || outside->has_time || asked->weather;
-    bool knows_time = asked->when || outside->has_time;
+    bool knows_place = asked->where || daylight->has_time || asked->weather;
+    bool knows_time = asked->when || daylight->has_time;
     if (!knows_time && !asked->sun && !change->environment->has_sun)
         return error_set(err, ERROR_USAGE, "--where: there is no time yet — add --when TIME");
     if (!knows_place)
         return error_set(err, ERROR_USAGE,
                          "--when: there is no place yet — add --where LAT,LON");
-    outside->has_time = knows_time;
+    daylight->has_time = knows_time;
     change->environment->has_sun &= !asked->when; /* a new time moves the sun */
     return true;
 }
@@ -196,18 +196,18 @@ static bool set_time_and_place(Change *change, Error *err)
 static bool set_weather(Change *change, Error *err)
 {
     Weather       weather;
-    OutsideInput *outside = &change->environment->outside;
+    DaylightInput *daylight = &change->environment->daylight;
     const char   *file = change->asked->weather;
     if (!file) return true;
     if (change->environment->kind != ENVIRONMENT_PEREZ && change->asked->environment)
         return error_set(err, ERROR_USAGE, "--weather makes a Perez sky: it excludes "
                          "--environment %s", change->asked->environment);
-    become(change, ENVIRONMENT_PEREZ, OUTSIDE_PEREZ);
-    if (!change->asked->when && !outside->has_time)
+    become(change, ENVIRONMENT_PEREZ, DAYLIGHT_PEREZ);
+    if (!change->asked->when && !daylight->has_time)
         return error_set(err, ERROR_USAGE, "--weather: there is no time yet — add --when TIME");
     if (!weather_read(file, change->arena, &weather, err)) return false;
-    if (!change->asked->where) outside->where = weather.place;
-    SkyTime when = outside->when;
+    if (!change->asked->where) daylight->where = weather.place;
+    SkyTime when = daylight->when;
     if (change->asked->when && !sky_time_parse(change->asked->when, "", &when, err))
         return false;
     const WeatherHour *hour = weather_at(&weather, &when);
@@ -220,8 +220,8 @@ static bool set_weather(Change *change, Error *err)
         return error_at(err, ERROR_INPUT, file, "", "month %d, day %d, hour %d is dark (0 W/m2 "
                         "diffuse), wanted an hour by day", hour->middle.month, hour->middle.day,
                         hour->middle.hour + 1);
-    outside->direct_w_m2 = hour->direct_normal_w_m2;
-    outside->diffuse_w_m2 = hour->diffuse_horizontal_w_m2;
+    daylight->direct_w_m2 = hour->direct_normal_w_m2;
+    daylight->diffuse_w_m2 = hour->diffuse_horizontal_w_m2;
     FileBytes bytes;
     if (!file_read(file, HDRI_BYTES_MAX, change->arena, &bytes, err)) return false;
     add_input(change, file, XXH3_64bits(bytes.data, bytes.size));
@@ -237,11 +237,11 @@ static bool set_air(Change *change, Error *err)
                          "--environment sky:clear",
                          asked->has_turbidity ? "turbidity" : "visibility");
     if (asked->has_turbidity) {
-        change->environment->outside.turbidity = asked->turbidity;
-        change->environment->outside.visibility_km = 0;
+        change->environment->daylight.turbidity = asked->turbidity;
+        change->environment->daylight.visibility_km = 0;
     }
     if (asked->has_visibility)
-        change->environment->outside.visibility_km = asked->visibility_km;
+        change->environment->daylight.visibility_km = asked->visibility_km;
     return true;
 }
 
@@ -249,8 +249,8 @@ static bool set_ground(Change *change, Error *err)
 {
     static const char *const names[] = {"land", "sea", "cloud"};
     const char   *text = change->asked->ground;
-    OutsideInput *outside = &change->environment->outside;
-    double        top = outside->cloud_top_m;
+    DaylightInput *daylight = &change->environment->daylight;
+    double        top = daylight->cloud_top_m;
     if (!text) return true;
     if (change->environment->kind != ENVIRONMENT_SKY)
         return error_set(err, ERROR_USAGE,
@@ -260,8 +260,8 @@ static bool set_ground(Change *change, Error *err)
     for (int i = 0; i < 3; i++) {
         if (strcmp(text, names[i]) && !(i == FLOOR_CLOUD && has_top)) continue;
         if (has_top && (!cli_numbers(text + 6, 1, &top) || top < 0 || top > 20000)) break;
-        outside->floor = (FloorKind)i;
-        outside->cloud_top_m = top;
+        daylight->floor = (FloorKind)i;
+        daylight->cloud_top_m = top;
         return true;
     }
     return error_set(err, ERROR_USAGE, "--ground %s: wanted land, sea, cloud or cloud:TOP with "
@@ -277,13 +277,13 @@ static bool set_sun(Change *change, const char *text, Error *err)
     double sun[3] = {0, 0, environment->has_sun ? (double)environment->sun_illuminance_lx : -1};
     if (!strcmp(text, "off")) {
         environment->has_sun = false;
-        environment->outside.sun_lux = 0;
+        environment->daylight.sun_lux = 0;
         return true;
     }
     if (!strcmp(text, "auto")) {
         environment->has_sun = false;
-        environment->outside.sun_lux = -1;
-        return environment->outside.has_time ||
+        environment->daylight.sun_lux = -1;
+        return environment->daylight.has_time ||
                error_set(err, ERROR_USAGE,
                          "--sun auto: there is no time and place — add --when "
                          "and --where");
@@ -342,7 +342,7 @@ static bool knows_sun(const Change *change, Error *err)
 {
     const Environment *environment = change->environment;
     bool any = environment->kind < ENVIRONMENT_PEREZ || environment->has_sun ||
-               environment->outside.has_time;
+               environment->daylight.has_time;
     return any || error_set(err, ERROR_USAGE,
                             "--environment %s: where does the sun stand? — add "
                             "--when and --where, or --sun AZ,EL",

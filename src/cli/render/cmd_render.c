@@ -71,10 +71,10 @@ static bool tell_of_night(Work *work)
 {
     const Environment *environment = &work->scene->environment;
     if (environment->kind != ENVIRONMENT_SKY) return true;
-    OutsideInput input = environment->outside;
+    DaylightInput input = environment->daylight;
     input.has_sun = environment->has_sun;
     input.sun_elevation = (double)environment->sun_elevation;
-    double clearance = outside_sun_clearance_deg(&input);
+    double clearance = daylight_sun_clearance_deg(&input);
     if (clearance < 0)
         problems_add(&work->problems, SEVERITY_WARNING, "", "",
                      "the sun is down: its upper rim stands %.2f degrees below the horizon",

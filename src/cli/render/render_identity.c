@@ -112,27 +112,27 @@ static const char *const environment_names[] = {
 static const char *const floor_names[] = {
     [FLOOR_LAND] = "land", [FLOOR_SEA] = "sea", [FLOOR_CLOUD] = "cloud"};
 
-static void add_outside(Text *text, const OutsideInput *outside)
+static void add_daylight(Text *text, const DaylightInput *daylight)
 {
-    const SkyTime *when = &outside->when;
-    if (outside->has_time) {
+    const SkyTime *when = &daylight->when;
+    if (daylight->has_time) {
         line(text, "when", "%04d-%02d-%02dT%02d:%02d:%.17g%+.17gh", when->year, when->month,
              when->day, when->hour, when->minute, when->second, when->zone_h);
-        line(text, "where", "%.17g,%.17g,%.17g", outside->where.latitude_deg,
-             outside->where.longitude_deg, outside->where.altitude_m);
+        line(text, "where", "%.17g,%.17g,%.17g", daylight->where.latitude_deg,
+             daylight->where.longitude_deg, daylight->where.altitude_m);
     }
-    number_line(text, "sky sun lux", outside->sun_lux);
-    line(text, "sky type", "%d", outside->cie_type);
-    number_line(text, "sky lux", outside->diffuse_lux);
-    number_line(text, "direct W/m2", outside->direct_w_m2);
-    number_line(text, "diffuse W/m2", outside->diffuse_w_m2);
-    number_line(text, "turbidity", outside->turbidity);
-    number_line(text, "visibility km", outside->visibility_km);
-    number_line(text, "ozone atm-cm", outside->ozone_atm_cm);
-    number_line(text, "water cm", outside->water_cm);
-    number_line(text, "albedo", outside->albedo);
-    line(text, "ground", "%s", floor_names[outside->floor]);
-    number_line(text, "cloud top m", outside->cloud_top_m);
+    number_line(text, "sky sun lux", daylight->sun_lux);
+    line(text, "sky type", "%d", daylight->cie_type);
+    number_line(text, "sky lux", daylight->diffuse_lux);
+    number_line(text, "direct W/m2", daylight->direct_w_m2);
+    number_line(text, "diffuse W/m2", daylight->diffuse_w_m2);
+    number_line(text, "turbidity", daylight->turbidity);
+    number_line(text, "visibility km", daylight->visibility_km);
+    number_line(text, "ozone atm-cm", daylight->ozone_atm_cm);
+    number_line(text, "water cm", daylight->water_cm);
+    number_line(text, "albedo", daylight->albedo);
+    line(text, "ground", "%s", floor_names[daylight->floor]);
+    number_line(text, "cloud top m", daylight->cloud_top_m);
 }
 
 static void add_environment(Text *text, const Scene *scene)
@@ -148,7 +148,7 @@ static void add_environment(Text *text, const Scene *scene)
         float_line(text, "hdri scale", environment->hdri_scale);
         float_line(text, "hdri lux", environment->horizontal_illuminance_lx);
     }
-    if (environment->kind >= ENVIRONMENT_CIE) add_outside(text, &environment->outside);
+    if (environment->kind >= ENVIRONMENT_CIE) add_daylight(text, &environment->daylight);
     line(text, "sun", "%s", environment->has_sun ? "set" : "not set");
     if (environment->has_sun) {
         float_line(text, "sun azimuth", environment->sun_azimuth);

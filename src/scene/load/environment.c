@@ -88,7 +88,7 @@ static void read_hdri(GltfFile *file, const GltfValue *extension, Environment *o
                      path, out->hdri.width, out->hdri.height);
 }
 
-static void read_time_and_place(const GltfValue *extension, OutsideInput *out)
+static void read_time_and_place(const GltfValue *extension, DaylightInput *out)
 {
     Error err;
     double place[3] = {0, 0, 0};
@@ -109,11 +109,11 @@ static FloorKind floor_from_text(const char *text)
                                                                                : FLOOR_LAND;
 }
 
-static OutsideInput read_outside(const GltfValue *extension, EnvironmentKind kind)
+static DaylightInput read_daylight(const GltfValue *extension, EnvironmentKind kind)
 {
-    OutsideInput out = outside_input_default(kind == ENVIRONMENT_CIE     ? OUTSIDE_CIE
-                                             : kind == ENVIRONMENT_PEREZ ? OUTSIDE_PEREZ
-                                                                         : OUTSIDE_CLEAR);
+    DaylightInput out = daylight_input_default(kind == ENVIRONMENT_CIE     ? DAYLIGHT_CIE
+                                               : kind == ENVIRONMENT_PEREZ ? DAYLIGHT_PEREZ
+                                                                         : DAYLIGHT_CLEAR);
     out.cie_type = (int)tree_number(extension, "sky", out.cie_type);
     out.diffuse_lux = tree_number(extension, "diffuse_horizontal_lx", out.diffuse_lux);
     out.direct_w_m2 = tree_number(extension, "direct_normal_w_m2", 0);
@@ -142,7 +142,7 @@ void environment_build(GltfFile *file, const GltfValue *extension)
         read_color(file, extension, out.color);
     }
     if (out.kind == ENVIRONMENT_HDRI) read_hdri(file, extension, &out);
-    if (out.kind >= ENVIRONMENT_CIE) out.outside = read_outside(extension, out.kind);
+    if (out.kind >= ENVIRONMENT_CIE) out.daylight = read_daylight(extension, out.kind);
     read_sun(tree_member(extension, "sun"), &out);
     if (tree_floats(extension, "forward", 3, numbers))
         forward = vec3(numbers[0], numbers[1], numbers[2]);
