@@ -318,7 +318,7 @@ static void draw_lines(const Work *work, double x, double y)
     }
 }
 
-static void draw_page(Canvas *canvas, const void *context)
+static void draw_sheet(Canvas *canvas, const void *context)
 {
     Work work = {.canvas = canvas, .plot = context};
     Disc disc = {MARGIN + DISC_R + 22, MARGIN + 94 + DISC_R, DISC_R};
@@ -353,6 +353,6 @@ bool sky_plot_draw(const SkyPlot *plot, bool is_svg, int width, Arena *arena, Pl
 {
     double scale = width > 0 ? width / PAGE_W : is_svg ? 1 : 2;
     PictureSpec spec = {.width = PAGE_W, .height = PAGE_H, .scale = scale, .is_svg = is_svg,
-                        .is_dark = plot->is_dark, .draw = draw_page, .context = plot};
+                        .is_dark = plot->is_dark, .draw = draw_sheet, .context = plot};
     return picture_draw(&spec, arena, out, err);
 }

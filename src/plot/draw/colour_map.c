@@ -28,7 +28,7 @@ static double lightness_of_linear(const double rgb[3])
     return y > 216.0 / 24389 ? 116 * cbrt(y) - 16 : y * 24389.0 / 27;
 }
 
-double lightness_from_srgb(const double srgb[3])
+static double lightness_from_srgb(const double srgb[3])
 {
     double rgb[3];
     for (int c = 0; c < 3; c++) rgb[c] = linear_from_srgb_d(srgb[c]);

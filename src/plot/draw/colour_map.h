@@ -17,8 +17,5 @@ typedef enum ColourMap {
 /* The colour at t. Along every map but MAP_SIGNED CIE L* is linear in t. */
 void colour_map_at(ColourMap map, double t, double srgb[3]);
 
-/* CIE 1976 lightness of an sRGB colour, 0 to 100. */
-double lightness_from_srgb(const double srgb[3]);
-
 /* Which ink reads on the colour at t, in black and white too: 1 light, 0 dark. */
 int colour_map_wants_light_ink(ColourMap map, double t);

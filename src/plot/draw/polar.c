@@ -5,26 +5,8 @@
 #include <string.h>
 
 #include "base/units.h"
-#include "plot/draw/polar_parts.h"
+#include "plot/draw/polar_lines.h"
 #include "plot/draw/ticks.h"
-
-double polar_position(const PolarMap *map, double value)
-{
-    double t = map->is_log ? log(value / map->low) / log(map->high / map->low)
-                           : (value - map->low) / (map->high - map->low);
-    return t > 0 ? (t < 1 ? t : 1) : 0;
-}
-
-Ink polar_line_ink(const PolarDisc *disc, double value)
-{
-    bool light = colour_map_wants_light_ink(disc->map->map, polar_position(disc->map, value));
-    return light ? ink_hex(0xffffff) : ink_hex(0x14181c);
-}
-
-double polar_letter_size(const PolarDisc *disc)
-{
-    return disc->radius < 60 ? 7 : disc->radius > 180 ? 10.5 : SIZE_SMALL;
-}
 
 /* ---- the colours ------------------------------------------------------------------------ */
 
@@ -32,7 +14,7 @@ static uint32_t pixel_of(const PolarMap *map, double value, uint32_t nothing)
 {
     double srgb[3];
     if (!isfinite(value) || (map->is_log && !(value > 0))) return nothing;
-    colour_map_at(map->map, polar_position(map, value), srgb);
+    colour_map_at(map->map, polar_disc_position(map, value), srgb);
     uint32_t pixel = 0xff000000;
     for (int c = 0; c < 3; c++)
         pixel |= (uint32_t)(srgb[c] * 255 + 0.5) << (16 - 8 * c);
@@ -75,7 +57,7 @@ static void paint_colours(const PolarDisc *disc)
         for (int column = 0; column < side; column++) {
             double v = field_at(disc->map->field, (column + 0.5) * scale, (row + 0.5) * scale);
             bool   ok = isfinite(v) && (!disc->map->is_log || v > 0);
-            int    i = ok ? (int)(1023 * polar_position(disc->map, v) + 0.5) : 0;
+            int    i = ok ? (int)(1023 * polar_disc_position(disc->map, v) + 0.5) : 0;
             pixel[column] = ok ? palette.colour[i] : palette.nothing;
         }
     }
@@ -123,7 +105,7 @@ static Ink ink_at(const PolarDisc *disc, double theta, double phi)
     double column, row;
     field_place(disc->map->field, theta, phi, &column, &row);
     double v = field_at(disc->map->field, column, row);
-    return isfinite(v) ? polar_line_ink(disc, v) : disc->canvas->theme.ink;
+    return isfinite(v) ? polar_disc_ink(disc, v) : disc->canvas->theme.ink;
 }
 
 static void draw_rings(const PolarDisc *disc)
@@ -150,12 +132,12 @@ static void draw_rings(const PolarDisc *disc)
 static void write_ring_labels(PolarDisc *disc, bool only_reserve)
 {
     double rim = degrees_from_radians(disc->map->field->theta_rim);
-    double step = ring_step_deg(disc), size = polar_letter_size(disc);
+    double step = ring_step_deg(disc), size = polar_disc_letter_size(disc);
     for (double deg = step; deg < rim - 1; deg += step) {
         double theta = radians_from_degrees(deg), r = deg / rim * disc->radius;
         double x = disc->x + r * cos(POLAR_RING_PHI), y = disc->y - r * sin(POLAR_RING_PHI);
         if (only_reserve) {
-            polar_reserve(disc, (Box){x - 10, y - 6, 20, 12});
+            polar_disc_reserve(disc, (Box){x - 10, y - 6, 20, 12});
             continue;
         }
         bool hatched = theta > disc->map->theta_measured;
@@ -237,7 +219,7 @@ static void draw_scale(const PolarDisc *disc, Box bar)
     Ticks ticks = scale_ticks(disc->map, bar.h);
     for (int i = 0; i < ticks.count; i++) {
         char   text[32];
-        double y = bar.y + bar.h * (1 - polar_position(disc->map, ticks.value[i]));
+        double y = bar.y + bar.h * (1 - polar_disc_position(disc->map, ticks.value[i]));
         canvas_line(canvas, bar.x + bar.w, y, bar.x + bar.w + (ticks.is_labelled[i] ? 3.5 : 2),
                     y, (Stroke){canvas->theme.faint, 0.8, DASH_NONE});
         if (ticks.is_labelled[i])
@@ -246,10 +228,11 @@ static void draw_scale(const PolarDisc *disc, Box bar)
                         tick_text(ticks.value[i], ticks.step, text));
     }
     for (int i = 0; i < disc->map->level_count; i++) { /* the lines of the map, on the scale */
-        double t = polar_position(disc->map, disc->map->level[i]), y = bar.y + bar.h * (1 - t);
+        double t = polar_disc_position(disc->map, disc->map->level[i]);
+        double y = bar.y + bar.h * (1 - t);
         if (!(t > 0 && t < 1)) continue;
         canvas_line(canvas, bar.x, y, bar.x + bar.w, y,
-                    (Stroke){ink_alpha(polar_line_ink(disc, disc->map->level[i]), 0.75), 0.7,
+                    (Stroke){ink_alpha(polar_disc_ink(disc, disc->map->level[i]), 0.75), 0.7,
                              DASH_NONE});
     }
     canvas_text(canvas, bar.x, bar.y - (disc->map->is_cut ? 14 : 8),
@@ -280,7 +263,7 @@ static void draw_lines_inside(PolarDisc *disc)
     cairo_arc(cr, disc->x, disc->y, disc->radius * (share < 1 && share > 0.88 ? share : 1), 0,
               2 * PI);
     cairo_clip(cr);
-    polar_draw_lines(disc);
+    polar_lines_draw(disc);
     cairo_restore(cr);
 }
 

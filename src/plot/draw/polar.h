@@ -4,29 +4,7 @@
  * Threads  one thread a canvas.
  */
 #pragma once
-#include "plot/draw/canvas.h"
-#include "plot/draw/colour_map.h"
-#include "plot/draw/field.h"
-
-#define POLAR_LEVELS_MAX 24
-
-typedef struct PolarMap {
-    const Field *field;
-    ColourMap    map;
-    double       low, high; /* of the colours */
-    bool         is_log;
-    bool         is_cut;    /* values above `high` have its colour: the scale has an arrow */
-    int          level_count;
-    double       level[POLAR_LEVELS_MAX]; /* of the lines */
-    double       step;      /* between levels, for their labels; 0: figures as they are */
-    double       strong;    /* a level drawn strongly, NaN: none */
-    const char  *strong_text;
-    double       theta_measured; /* beyond it: hatched */
-    const char  *unit;      /* above the scale */
-    bool         has_light; /* marks the light at theta_light, phi 180 */
-    double       theta_light;
-    bool         is_residual; /* no lines: values are scattered */
-} PolarMap;
+#include "plot/draw/polar_disc.h"
 
 /* Where the disc came to lie, for read-outs. */
 typedef struct PolarPlace {
@@ -34,6 +12,3 @@ typedef struct PolarPlace {
 } PolarPlace;
 
 PolarPlace polar_draw(Canvas *canvas, Box box, const PolarMap *map);
-
-/* 0 .. 1 along the colours. */
-double polar_position(const PolarMap *map, double value);

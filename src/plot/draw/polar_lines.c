@@ -1,26 +1,11 @@
 /* The lines of equal value of a polar map: drawn with a gap in which the number stands. */
+#include "plot/draw/polar_lines.h"
+
 #include <math.h>
 
 #include "base/units.h"
 #include "plot/draw/contour.h"
-#include "plot/draw/polar_parts.h"
 #include "plot/draw/ticks.h"
-
-void polar_reserve(PolarDisc *disc, Box box)
-{
-    if (disc->box_count < POLAR_BOXES_MAX) disc->box[disc->box_count++] = box;
-}
-
-bool polar_is_free(const PolarDisc *disc, Box box)
-{
-    for (int i = 0; i < disc->box_count; i++) {
-        const Box *b = &disc->box[i];
-        if (box.x < b->x + b->w && b->x < box.x + box.w && box.y < b->y + b->h &&
-            b->y < box.y + box.h)
-            return false;
-    }
-    return true;
-}
 
 /* One line with the length of the way to every point, points of the page. */
 typedef struct Way {
@@ -89,7 +74,7 @@ static bool try_spot(const PolarDisc *disc, const Way *way, double s, double wid
     if (from_centre > fmin(disc->radius, measured) - 7) return false;
     *spot = (Spot){s, (m.x + (a.x + b.x) / 2) / 2, (m.y + (a.y + b.y) / 2) / 2,
                    upright(atan2(b.y - a.y, b.x - a.x)), 0};
-    if (!polar_is_free(disc, spot_box(spot, width + 4, 11))) return false;
+    if (!polar_disc_is_free(disc, spot_box(spot, width + 4, 11))) return false;
     double phi = atan2(disc->y - m.y, m.x - disc->x);
     double away = fabs(remainder(phi - 0.58 * PI, 2 * PI));
     spot->cost = away + 1.2 * fabs(spot->angle) + 0.02 * (2 * half - chord);
@@ -142,10 +127,10 @@ static void draw_way(PolarDisc *disc, const Way *way, double level, bool wants_n
 {
     Spot        spot;
     bool        strong = level == disc->map->strong;
-    double      size = polar_letter_size(disc), total = way->length[way->count - 1];
+    double      size = polar_disc_letter_size(disc), total = way->length[way->count - 1];
     const char *text = level_text(disc, level);
     double      width = canvas_text_width(disc->canvas, size, strong, text);
-    Ink         ink = polar_line_ink(disc, level);
+    Ink         ink = polar_disc_ink(disc, level);
     Stroke      stroke = {ink_alpha(ink, strong ? 1 : 0.8), strong ? 1.7 : 0.85, DASH_NONE};
     bool        has_spot = wants_number && find_spot(disc, way, width, &spot);
     if (!has_spot) {
@@ -156,13 +141,13 @@ static void draw_way(PolarDisc *disc, const Way *way, double level, bool wants_n
     add_part(disc, way, 0, spot.s - width / 2 - 3);
     add_part(disc, way, spot.s + width / 2 + 3, total);
     canvas_stroke(disc->canvas, stroke);
-    polar_reserve(disc, spot_box(&spot, width + 8, 14));
+    polar_disc_reserve(disc, spot_box(&spot, width + 8, 14));
     canvas_text(disc->canvas, spot.x, spot.y,
                 (Letters){.size = size, .ink = ink, .across = 0.5, .down = 0.5,
                           .angle = spot.angle, .is_bold = strong}, text);
 }
 
-void polar_draw_lines(PolarDisc *disc)
+void polar_lines_draw(PolarDisc *disc)
 {
     for (int pass = 0; pass < 2; pass++) { /* the strong line chooses its place first */
         for (int i = 0; i < disc->map->level_count; i++) {

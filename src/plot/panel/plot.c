@@ -6,63 +6,60 @@
 #include "base/file_write.h"
 #include "panel/fit/fit.h"
 #include "panel/query/panel_report.h"
-#include "plot/panel/page.h"
-
-const char *plot_kind_name(PlotKind kind)
-{
-    static const char *const NAMES[] = {"all", "luminance", "contrast", "colour-shift",
-        "grey-levels", "sections", "chromaticity", "spectra", "brdf", "brdf-spectrum",
-        "brdf-map", "mirror", "fit"};
-    return NAMES[kind];
-}
+#include "plot/panel/colour_charts.h"
+#include "plot/panel/curve_charts.h"
+#include "plot/panel/emission_charts.h"
+#include "plot/panel/fit_charts.h"
+#include "plot/panel/reflection_charts.h"
+#include "plot/panel/sheet.h"
 
 static bool is_among(PlotKind kind, PlotKind first, PlotKind last)
 {
     return kind == PLOT_ALL || (kind >= first && kind <= last);
 }
 
-FigureList *plot_figures(const Subject *subject, PlotKind kind, Arena *arena)
+PanelChartList *plot_charts(const PlotData *data, PlotKind kind, Arena *arena)
 {
-    FigureList *list = ARENA_NEW(arena, FigureList, 1);
-    if (subject->source.wants_maps) figures_add_emission(list, subject);
-    if (is_among(kind, PLOT_GREY_LEVELS, PLOT_SECTIONS)) figures_add_curves(list, subject);
-    if (is_among(kind, PLOT_CHROMATICITY, PLOT_SPECTRA)) figures_add_colour(list, subject);
-    if (is_among(kind, PLOT_BRDF, PLOT_MIRROR)) figures_add_reflection(list, subject);
-    if (is_among(kind, PLOT_FIT, PLOT_FIT)) figures_add_fit(list, subject);
+    PanelChartList *list = ARENA_NEW(arena, PanelChartList, 1);
+    if (data->source.wants_maps) emission_charts_add(list, data);
+    if (is_among(kind, PLOT_GREY_LEVELS, PLOT_SECTIONS)) curve_charts_add(list, data);
+    if (is_among(kind, PLOT_CHROMATICITY, PLOT_SPECTRA)) colour_charts_add(list, data);
+    if (is_among(kind, PLOT_BRDF, PLOT_MIRROR)) reflection_charts_add(list, data);
+    if (is_among(kind, PLOT_FIT, PLOT_FIT)) fit_charts_add(list, data);
     return list;
 }
 
-/* The sheet has four columns: spare figures come in, in their order, where the last row would
+/* The sheet has four columns: spare charts come in, in their order, where the last row would
  * have holes. */
 #define SHEET_COLUMNS 4
 
-static void fill_sheet(FigureList *list)
+static void fill_sheet(PanelChartList *list)
 {
     int always = 0;
-    for (int i = 0; i < list->count; i++) always += list->figure[i].role == SHEET_ALWAYS;
+    for (int i = 0; i < list->count; i++) always += list->chart[i].role == SHEET_ALWAYS;
     int holes = (SHEET_COLUMNS - always % SHEET_COLUMNS) % SHEET_COLUMNS;
     for (int i = list->count - 1; i >= 0; i--) {
-        Figure *f = &list->figure[i];
+        PanelChart *f = &list->chart[i];
         if (f->role != SHEET_SPARE) continue;
         f->role = holes > 0 ? SHEET_ALWAYS : SHEET_NEVER;
         holes--;
     }
 }
 
-static void keep_kind(FigureList *list, PlotKind kind)
+static void keep_kind(PanelChartList *list, PlotKind kind)
 {
     int kept = 0;
     if (kind == PLOT_ALL) fill_sheet(list);
     for (int i = 0; i < list->count; i++) {
-        const Figure *f = &list->figure[i];
+        const PanelChart *f = &list->chart[i];
         if (kind == PLOT_ALL ? f->role == SHEET_ALWAYS : f->kind == kind)
-            list->figure[kept++] = list->figure[i];
+            list->chart[kept++] = list->chart[i];
     }
     list->count = kept;
 }
 
-/* Why there is no figure of that kind. */
-static bool say_nothing_to_draw(const Subject *s, PlotKind kind, Error *err)
+/* Why there is no chart of that kind. */
+static bool say_nothing_to_draw(const PlotData *s, PlotKind kind, Error *err)
 {
     const char *file = s->source.file, *name = plot_kind_name(kind);
     if (kind == PLOT_FIT && !s->source.measured)
@@ -82,21 +79,21 @@ static bool say_nothing_to_draw(const Subject *s, PlotKind kind, Error *err)
     return error_at(err, ERROR_INPUT, file, "", "has nothing to draw for --kind %s", name);
 }
 
-Subject *plot_subject(const PlotInput *input, const PlotOptions *options, Arena *arena,
+PlotData *plot_ask(const PlotInput *input, const PlotOptions *options, Arena *arena,
                       json_t **report, Error *err)
 {
     if (!panel_report(input->panel, report, err)) {
         error_in_file(err, input->file);
         return NULL;
     }
-    return subject_new(&(SubjectSource){input->panel, input->file, *report, input->measured,
+    return plot_data_new(&(PlotSource){input->panel, input->file, *report, input->measured,
                                         options->incidence_phi,
                                         is_among(options->kind, PLOT_LUMINANCE,
                                                  PLOT_COLOUR_SHIFT), options->threads}, arena);
 }
 
 bool plot_write(const PlotInput *input, const PlotOptions *options, const char *path,
-                Arena *arena, int *figures, Error *err)
+                Arena *arena, int *charts, Error *err)
 {
     json_t     *report = NULL;
     PlotBytes   bytes = {0};
@@ -105,17 +102,17 @@ bool plot_write(const PlotInput *input, const PlotOptions *options, const char *
     if (!is_svg && strcmp(ending, ".png"))
         return error_set(err, ERROR_USAGE, "-o is '%s', wanted a name that ends in .svg or "
                          ".png", path);
-    Subject *subject = plot_subject(input, options, arena, &report, err);
-    if (!subject) return false;
-    FigureList *list = plot_figures(subject, options->kind, arena);
+    PlotData *data = plot_ask(input, options, arena, &report, err);
+    if (!data) return false;
+    PanelChartList *list = plot_charts(data, options->kind, arena);
     keep_kind(list, options->kind);
-    PageSpec spec = {list, subject, options->kind, options->width, options->height,
+    SheetSpec spec = {list, data, options->kind, options->width, options->height,
                      options->is_dark};
-    bool ok = (list->count > 0 || say_nothing_to_draw(subject, options->kind, err)) &&
-              (is_svg ? page_svg(&spec, arena, &bytes, err)
-                      : page_png(&spec, arena, &bytes, err)) &&
+    bool ok = (list->count > 0 || say_nothing_to_draw(data, options->kind, err)) &&
+              (is_svg ? sheet_svg(&spec, arena, &bytes, err)
+                      : sheet_png(&spec, arena, &bytes, err)) &&
               file_write(path, bytes.data, bytes.size, err);
-    if (ok) *figures = list->count;
+    if (ok) *charts = list->count;
     json_decref(report);
     return ok;
 }

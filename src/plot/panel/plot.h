@@ -8,21 +8,7 @@
 #pragma once
 #include <jansson.h>
 
-#include "panel/set/measurement.h"
-#include "panel/query/panel.h"
-
-typedef enum PlotKind {
-    PLOT_ALL, PLOT_LUMINANCE, PLOT_CONTRAST, PLOT_COLOUR_SHIFT, PLOT_GREY_LEVELS, PLOT_SECTIONS,
-    PLOT_CHROMATICITY, PLOT_SPECTRA, PLOT_BRDF, PLOT_BRDF_SPECTRUM, PLOT_BRDF_MAP, PLOT_MIRROR,
-    PLOT_FIT, PLOT_KIND_COUNT
-} PlotKind;
-
-/* The names of the kinds in their order, as one types them: "all|luminance|...". */
-#define PLOT_KINDS                                                                             \
-    "all|luminance|contrast|colour-shift|grey-levels|sections|chromaticity|spectra|brdf|"      \
-    "brdf-spectrum|brdf-map|mirror|fit"
-
-const char *plot_kind_name(PlotKind kind);
+#include "plot/panel/panel_chart.h"
 
 typedef struct PlotOptions {
     PlotKind kind;
@@ -38,6 +24,14 @@ typedef struct PlotInput {
     const Measurement *measured; /* NULL: none */
 } PlotInput;
 
-/* By the ending of path: .svg or .png. *figures: how many it shows. */
+/* By the ending of path: .svg or .png. *charts: how many it shows. */
 bool plot_write(const PlotInput *input, const PlotOptions *options, const char *path,
-                Arena *arena, int *figures, Error *err);
+                Arena *arena, int *charts, Error *err);
+
+/* Asks the panel for what options->kind shows; *report is the caller's to release. NULL: *err
+ * says why. */
+PlotData *plot_ask(const PlotInput *input, const PlotOptions *options, Arena *arena,
+                       json_t **report, Error *err);
+
+/* Every chart that this panel's data allow, in the order of the page. */
+PanelChartList *plot_charts(const PlotData *data, PlotKind kind, Arena *arena);

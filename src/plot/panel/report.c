@@ -8,12 +8,12 @@
 #include "base/units.h"
 #include "page/page.h"
 #include "plot/draw/ticks.h"
-#include "plot/panel/page.h"
+#include "plot/panel/sheet.h"
 #include "plot/panel/report_tables.h"
 #include "text/escape.h"
 
-#define FIGURE_WIDTH 420
-#define FIGURE_HEIGHT 344
+#define CHART_WIDTH 420
+#define CHART_HEIGHT 344
 #define PAGE_BYTES ((size_t)4 << 30) /* of address space, for the text */
 
 /* report.css and report.js beside this file; the build embeds them. */
@@ -24,7 +24,7 @@ extern const char PANEL_STYLE[], PANEL_SCRIPT[];
 #define READ_ROWS 46    /* every 2 degrees of theta */
 #define READ_COLUMNS 60 /* every 6 degrees of phi */
 
-static void add_polar_values(Text *html, const FigureMap *map)
+static void add_polar_values(Text *html, const PanelChartMap *map)
 {
     const Field *field = &map->field;
     text_format(html, "{\"kind\":\"polar\",\"x\":%.2f,\"y\":%.2f,\"r\":%.2f,\"rim\":%g,"
@@ -52,7 +52,7 @@ static const char *short_name(Arena *arena, const char *title)
     return arena_string(arena, title, strcspn(title, ",("));
 }
 
-static void add_chart_values(Text *html, const FigureMap *map, Arena *arena)
+static void add_chart_values(Text *html, const PanelChartMap *map, Arena *arena)
 {
     text_format(html, "{\"kind\":\"chart\",\"x\":%.2f,\"y\":%.2f,\"w\":%.2f,\"h\":%.2f,"
                 "\"low\":[%.9g,%.9g],\"high\":[%.9g,%.9g],\"log\":[%d,%d],\"names\":[\"",
@@ -64,25 +64,25 @@ static void add_chart_values(Text *html, const FigureMap *map, Arena *arena)
     text_add(html, "\"]}");
 }
 
-/* figure: the index-th of its list; a caption that the one before has is not repeated. */
-static bool add_figure(Text *html, const Figure *figure, int index, bool is_dark, Arena *arena,
-                       Error *err)
+/* chart: the index-th of its list; a caption that the one before has is not repeated. */
+static bool add_chart(Text *html, const PanelChart *chart, int index, bool is_dark,
+                      Arena *arena, Error *err)
 {
     PlotBytes   svg = {0};
-    FigureMap   map = {0};
-    FigureFrame frame = {FIGURE_WIDTH, FIGURE_HEIGHT, arena_format(arena, "f%d-", index),
+    PanelChartMap   map = {0};
+    SheetChartFrame frame = {CHART_WIDTH, CHART_HEIGHT, arena_format(arena, "f%d-", index),
                          is_dark};
-    if (!page_figure_svg(figure, &frame, arena, &svg, &map, err)) return false;
+    if (!sheet_chart_svg(chart, &frame, arena, &svg, &map, err)) return false;
     text_format(html, "<figure class=\"ground%s\" data-map='", is_dark ? " night" : "");
-    if (map.kind == FIGURE_POLAR) add_polar_values(html, &map);
+    if (map.kind == PANEL_CHART_POLAR) add_polar_values(html, &map);
     else add_chart_values(html, &map, arena);
     text_add(html, "'>\n");
-    page_element(html, "h3", figure->title);
-    page_element(html, "p", figure->subtitle);
+    page_element(html, "h3", chart->title);
+    page_element(html, "p", chart->subtitle);
     text_add_bytes(html, svg.data, svg.size);
     text_add(html, "<div class=\"read\"></div>\n");
-    if (index == 0 || strcmp(figure[-1].caption, figure->caption) != 0)
-        page_element(html, "figcaption", figure->caption);
+    if (index == 0 || strcmp(chart[-1].caption, chart->caption) != 0)
+        page_element(html, "figcaption", chart->caption);
     text_add(html, "</figure>\n");
     return true;
 }
@@ -97,25 +97,25 @@ static const struct { PlotKind first, last; const char *title; } CHAPTERS[] = {
     {PLOT_BRDF, PLOT_MIRROR, "Reflection"},
     {PLOT_FIT, PLOT_FIT, "Measured against fitted"}};
 
-static bool is_in_chapter(const Figure *figure, int chapter)
+static bool is_in_chapter(const PanelChart *chart, int chapter)
 {
-    if (figure->kind == PLOT_GREY_LEVELS) return chapter == 2;
-    return figure->kind >= CHAPTERS[chapter].first && figure->kind <= CHAPTERS[chapter].last;
+    if (chart->kind == PLOT_GREY_LEVELS) return chapter == 2;
+    return chart->kind >= CHAPTERS[chapter].first && chart->kind <= CHAPTERS[chapter].last;
 }
 
-static bool add_chapters(Text *html, const FigureList *list, bool is_dark, Arena *arena,
+static bool add_chapters(Text *html, const PanelChartList *list, bool is_dark, Arena *arena,
                          Error *err)
 {
     for (int chapter = 0; chapter < (int)(sizeof CHAPTERS / sizeof *CHAPTERS); chapter++) {
         bool is_open = false;
         for (int i = 0; i < list->count; i++) {
-            if (!is_in_chapter(&list->figure[i], chapter)) continue;
+            if (!is_in_chapter(&list->chart[i], chapter)) continue;
             if (!is_open) {
                 page_element(html, "h2", CHAPTERS[chapter].title);
                 text_add(html, "<div class=\"figures\">\n");
             }
             is_open = true;
-            if (!add_figure(html, &list->figure[i], i, is_dark, arena, err)) return false;
+            if (!add_chart(html, &list->chart[i], i, is_dark, arena, err)) return false;
         }
         if (is_open) text_add(html, "</div>\n");
     }
@@ -132,7 +132,7 @@ static void add_key(Text *html, double value, const char *unit, const char *name
     page_key(html, text, name, false);
 }
 
-static void add_shift_keys(Text *html, const Subject *s, Arena *arena)
+static void add_shift_keys(Text *html, const PlotData *s, Arena *arena)
 {
     char   text[64];
     double uv[2], xyz[3];
@@ -140,14 +140,14 @@ static void add_shift_keys(Text *html, const Subject *s, Arena *arena)
     uv_of(xyz, uv);
     snprintf(text, sizeof text, "%.4f  %.4f", uv[0], uv[1]);
     page_key(html, text, "u′ v′ of white at the normal", false);
-    Field  field = subject_shift(s, PATTERN_WHITE, arena);
+    Field  field = plot_data_shift(s, PATTERN_WHITE, arena);
     double limit = fmin(s->cone, radians_from_degrees(60));
     page_key(html, figure_text(field_range(&field, limit).high, text),
              arena_format(arena, "largest Δu′v′ of white within θ %.3g°",
                           degrees_from_radians(limit)), false);
 }
 
-static void add_emission_keys(Text *html, const Subject *s, Arena *arena)
+static void add_emission_keys(Text *html, const PlotData *s, Arena *arena)
 {
     double white = (double)s->normal[PATTERN_WHITE][1];
     double black = (double)s->normal[PATTERN_BLACK][1];
@@ -172,7 +172,7 @@ static double largest_error(const json_t *report, bool is_reflection)
     return most;
 }
 
-static void add_file_keys(Text *html, const Subject *s)
+static void add_file_keys(Text *html, const PlotData *s)
 {
     const json_t *total = json_object_get(s->source.report, "total");
     double bytes = json_number_value(json_object_get(total, "bytes"));
@@ -187,18 +187,18 @@ static void add_file_keys(Text *html, const Subject *s)
     }
 }
 
-static double haze_percent(const Subject *s)
+static double haze_percent(const PlotData *s)
 {
     float cosine = (float)cos(radians_from_degrees(10));
     return 100 * (double)panel_haze_albedo(s->source.panel, cosine);
 }
 
-static void add_keys(Text *html, const Subject *s, Arena *arena)
+static void add_keys(Text *html, const PlotData *s, Arena *arena)
 {
     page_keys_begin(html);
     if (s->emits) add_emission_keys(html, s, arena);
     if (s->has_mirror)
-        add_key(html, 100 * subject_mirror(s, 0, 0), "%", "mirror reflectance at the normal");
+        add_key(html, 100 * plot_data_mirror(s, 0, 0), "%", "mirror reflectance at the normal");
     if (s->reflects)
         add_key(html, haze_percent(s), "%",
                 "diffuse reflectance (haze and lambertian part), light at 10°");
@@ -208,7 +208,7 @@ static void add_keys(Text *html, const Subject *s, Arena *arena)
 
 /* ---- the page --------------------------------------------------------------------------- */
 
-static void add_head(Text *html, const Subject *s, bool is_dark)
+static void add_head(Text *html, const PlotData *s, bool is_dark)
 {
     const char *note = json_string_value(json_object_get(s->source.report, "note"));
     page_begin(html, &(PageHead){s->name, PANEL_STYLE, is_dark});
@@ -220,7 +220,7 @@ static void add_head(Text *html, const Subject *s, bool is_dark)
     text_add(html, "</p>\n");
 }
 
-static void add_legend(Text *html, const Subject *s)
+static void add_legend(Text *html, const PlotData *s)
 {
     text_add(html, "<p class=\"sub legend\">Angles: θ from the normal, φ "
              "counter-clockwise from the viewer's right.");
@@ -234,7 +234,7 @@ static void add_legend(Text *html, const Subject *s)
     text_add(html, "</p>\n");
 }
 
-static bool add_page(Text *html, const Subject *s, const FigureList *list, bool is_dark,
+static bool add_page(Text *html, const PlotData *s, const PanelChartList *list, bool is_dark,
                      Arena *arena, Error *err)
 {
     add_head(html, s, is_dark);
@@ -262,12 +262,12 @@ bool plot_write_report(const PlotInput *input, const PlotOptions *options, const
                          path);
     PlotOptions all = *options;
     all.kind = PLOT_ALL;
-    Subject *subject = plot_subject(input, &all, arena, &report, err);
-    if (!subject) return false;
-    FigureList *list = plot_figures(subject, PLOT_ALL, arena);
+    PlotData *data = plot_ask(input, &all, arena, &report, err);
+    if (!data) return false;
+    PanelChartList *list = plot_charts(data, PLOT_ALL, arena);
     Arena       own = arena_reserve(PAGE_BYTES);
     Text        html = {.arena = &own};
-    bool ok = add_page(&html, subject, list, options->is_dark, arena, err) &&
+    bool ok = add_page(&html, data, list, options->is_dark, arena, err) &&
               text_write(&html, path, err);
     if (ok) *figures = list->count;
     arena_release(&own);

@@ -1,4 +1,6 @@
 /* Colour: the chromaticity diagram, the white point over angle, the primaries' spectra. */
+#include "plot/panel/colour_charts.h"
+
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -6,7 +8,6 @@
 #include "base/count.h"
 #include "base/units.h"
 #include "plot/draw/chart.h"
-#include "plot/panel/figure.h"
 #include "plot/draw/ticks.h"
 #include "spectrum/photometry.h"
 
@@ -138,14 +139,14 @@ static void gamut_uv(int i, double uv[3][2])
     for (int k = 0; k < 3; k++) uv_of_xy(GAMUTS[i].xy[k], uv[k]);
 }
 
-static void normal_uv(const Subject *s, Pattern pattern, double uv[2])
+static void normal_uv(const PlotData *s, Pattern pattern, double uv[2])
 {
     double xyz[3];
     for (int c = 0; c < 3; c++) xyz[c] = (double)s->normal[pattern][c];
     uv_of(xyz, uv);
 }
 
-static bool panel_triangle(const Subject *s, double uv[3][2])
+static bool panel_triangle(const PlotData *s, double uv[3][2])
 {
     for (int p = 0; p < 3; p++) normal_uv(s, (Pattern)(PATTERN_RED + p), uv[p]);
     return !s->is_white_only && isfinite(uv[0][0] + uv[1][0] + uv[2][0]) &&
@@ -153,14 +154,14 @@ static bool panel_triangle(const Subject *s, double uv[3][2])
 }
 
 /* From the normal to 80 degrees (or the cone's edge), along one azimuth. */
-static int angle_path(const Subject *s, Pattern pattern, double phi, double u[], double v[])
+static int angle_path(const PlotData *s, Pattern pattern, double phi, double u[], double v[])
 {
     float  rgb[3];
     int    count = 0;
     pattern_codes(pattern, rgb);
     for (int deg = 0; deg <= 80 && radians_from_degrees(deg) <= s->cone + 1e-6; deg++) {
         double xyz[3], uv[2];
-        subject_xyz(s, radians_from_degrees(deg), phi, rgb, xyz);
+        plot_data_xyz(s, radians_from_degrees(deg), phi, rgb, xyz);
         uv_of(xyz, uv);
         u[count] = uv[0];
         v[count++] = uv[1];
@@ -168,7 +169,7 @@ static int angle_path(const Subject *s, Pattern pattern, double phi, double u[],
     return count;
 }
 
-static void draw_paths(Chart *chart, const Subject *s, Pattern pattern, Ink ink)
+static void draw_paths(Chart *chart, const PlotData *s, Pattern pattern, Ink ink)
 {
     double u[81], v[81], uv[2];
     for (int k = 0; k < 8; k++) {
@@ -196,9 +197,10 @@ static Chart square_chart(Canvas *canvas, Box box, const double low[2], const do
 
 static const char *const UV_TITLES[2] = {"u′ (CIE 1976)", "v′"};
 
-static void draw_chromaticity(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+static void draw_chromaticity(Canvas *canvas, Box box, const PanelChart *shown,
+                              PanelChartMap *out)
 {
-    const Subject *s = figure->subject;
+    const PlotData *s = shown->data;
     double uv[3][2];
     Chart  chart = square_chart(canvas, box, (double[2]){-0.02, -0.01},
                                 (double[2]){0.66, 0.62}, UV_TITLES);
@@ -223,10 +225,10 @@ static void draw_chromaticity(Canvas *canvas, Box box, const Figure *figure, Fig
         canvas_text(canvas, x + 31, y, (Letters){.size = SIZE_TICK, .ink = canvas->theme.ink,
                                                  .down = 0.5}, KEYS[i].name);
     }
-    figure_map_chart(out, &chart);
+    panel_chart_map_axes(out, &chart);
 }
 
-static void add_chromaticity(FigureList *list, const Subject *s)
+static void add_chromaticity(PanelChartList *list, const PlotData *s)
 {
     double uv[3][2], white[2], srgb[3][2], p3[3][2];
     normal_uv(s, PATTERN_WHITE, white);
@@ -236,7 +238,7 @@ static void add_chromaticity(FigureList *list, const Subject *s)
         ? arena_format(s->arena, ", area %.0f %% of sRGB, %.0f %% of DCI-P3",
                        100 * triangle_area(uv) / triangle_area(srgb),
                        100 * triangle_area(uv) / triangle_area(p3)) : "";
-    figure_add(list, &(Figure){PLOT_CHROMATICITY, "Chromaticity",
+    panel_chart_add(list, &(PanelChart){PLOT_CHROMATICITY, "Chromaticity",
         arena_format(s->arena, "white u′ %.4f v′ %.4f%s", white[0], white[1], area),
         "Primaries and white in the CIE 1976 u′v′ diagram; the short paths run from the normal "
         "(dot) to θ 80° along eight azimuths.", draw_chromaticity, s, 0, SHEET_ALWAYS,
@@ -273,9 +275,10 @@ static Ink azimuth_ink(const Canvas *canvas, int k)
     return (Ink){srgb[0], srgb[1], srgb[2], 1};
 }
 
-static void draw_white_point(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+static void draw_white_point(Canvas *canvas, Box box, const PanelChart *shown,
+                             PanelChartMap *out)
 {
-    const Subject *s = figure->subject;
+    const PlotData *s = shown->data;
     static const char *const NAMES[] = {"φ 0°", "φ 90°", "φ 180°", "φ 270°"};
     double u[4][81], v[4][81], at[2], reach = 0.004;
     int    count[4];
@@ -303,7 +306,7 @@ static void draw_white_point(Canvas *canvas, Box box, const Figure *figure, Figu
                     NAMES[k]);
     }
     chart_dot(&chart, at[0], at[1], 3, canvas->theme.ink);
-    figure_map_chart(out, &chart);
+    panel_chart_map_axes(out, &chart);
 }
 
 /* ---- spectra ---------------------------------------------------------------------------- */
@@ -314,7 +317,7 @@ typedef struct PrimarySpectrum {
     double nm[SPECTRUM_POINTS], value[SPECTRUM_POINTS], peak_nm, peak;
 } PrimarySpectrum;
 
-static void fill_spectrum(const Subject *s, Pattern pattern, PrimarySpectrum *out)
+static void fill_spectrum(const PlotData *s, Pattern pattern, PrimarySpectrum *out)
 {
     float rgb[3];
     pattern_codes(pattern, rgb);
@@ -346,9 +349,9 @@ static void fill_under(const Chart *chart, const PrimarySpectrum *spectrum, Ink 
     canvas_fill(chart->canvas, ink_alpha(ink, 0.13));
 }
 
-static void draw_spectra(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+static void draw_spectra(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)
 {
-    const Subject   *s = figure->subject;
+    const PlotData   *s = shown->data;
     PrimarySpectrum *spectrum = ARENA_NEW(canvas->arena, PrimarySpectrum, 4);
     double high = 0;
     for (int p = 0; p < 4; p++) {
@@ -379,18 +382,18 @@ static void draw_spectra(Canvas *canvas, Box box, const Figure *figure, FigureMa
                     arena_format(canvas->arena, "%s %.0f nm", pattern_name((Pattern)p),
                                  spectrum[p].peak_nm));
     }
-    figure_map_chart(out, &chart);
+    panel_chart_map_axes(out, &chart);
 }
 
-void figures_add_colour(FigureList *list, const Subject *s)
+void colour_charts_add(PanelChartList *list, const PlotData *s)
 {
     if (!s->emits) return;
     add_chromaticity(list, s);
-    figure_add(list, &(Figure){PLOT_CHROMATICITY, "White point over angle",
+    panel_chart_add(list, &(PanelChart){PLOT_CHROMATICITY, "White point over angle",
         "dots every 15° of θ, rings of Δu′v′ around the normal",
         "The chromaticity of full white from the normal to θ 80° along four azimuths.",
         draw_white_point, s, 0, SHEET_ALWAYS, false});
-    figure_add(list, &(Figure){PLOT_SPECTRA, "Spectra at the normal",
+    panel_chart_add(list, &(PanelChart){PLOT_SPECTRA, "Spectra at the normal",
         "each primary at full drive; dotted: white",
         "Spectral radiance at the normal of each primary at full drive and of white.",
         draw_spectra, s, 0, SHEET_ALWAYS, true});

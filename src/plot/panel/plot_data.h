@@ -1,4 +1,4 @@
-/* input.h -- the panel that is drawn, asked once for everything that several figures need.
+/* plot_data.h -- the panel that is drawn, asked once for everything that several charts need.
  *
  * Frame    the display's: phi 0 right, 90 up. A polar map's rim is the horizon.
  * Units    radians, cd m^-2, sr^-1, nm.
@@ -17,7 +17,7 @@ typedef enum Pattern {
 } Pattern;
 
 /* What of the panel is drawn. */
-typedef struct SubjectSource {
+typedef struct PlotSource {
     const Panel       *panel;
     const char        *file;     /* as the user named it */
     const json_t      *report;   /* panel_report's */
@@ -25,10 +25,10 @@ typedef struct SubjectSource {
     double             incidence_phi; /* azimuth of the light, radians; PI: from the left */
     bool               wants_maps;    /* samples emission over the hemisphere */
     int                threads;
-} SubjectSource;
+} PlotSource;
 
-typedef struct Subject {
-    SubjectSource source;
+typedef struct PlotData {
+    PlotSource source;
     const char *name, *file_name; /* of the panel, and of its file without folders */
     bool   emits, has_black, reflects, has_mirror;
     bool   is_white_only;       /* its primaries and levels are assumed, not measured */
@@ -42,9 +42,9 @@ typedef struct Subject {
     bool   is_anisotropic;      /* reflection depends on the light's azimuth */
     double brdf_cone;           /* leaving theta measured up to here */
     Arena *arena;
-} Subject;
+} PlotData;
 
-Subject *subject_new(const SubjectSource *source, Arena *arena);
+PlotData *plot_data_new(const PlotSource *source, Arena *arena);
 
 const char *pattern_name(Pattern pattern);
 void pattern_codes(Pattern pattern, float rgb[3]);
@@ -52,14 +52,14 @@ void pattern_codes(Pattern pattern, float rgb[3]);
 /* ---- emission --------------------------------------------------------------------------- */
 
 /* XYZ at an angle; true where measured. Negative theta: the opposite azimuth. */
-bool subject_xyz(const Subject *subject, double theta, double phi, const float rgb[3],
+bool plot_data_xyz(const PlotData *data, double theta, double phi, const float rgb[3],
                  double xyz[3]);
 
 /* Luminance of white over that of black; NaN where black is nothing. */
-Field subject_contrast(const Subject *subject, Arena *arena);
+Field plot_data_contrast(const PlotData *data, Arena *arena);
 
 /* Distance in the u'v' plane from the colour at the normal. */
-Field subject_shift(const Subject *subject, Pattern pattern, Arena *arena);
+Field plot_data_shift(const PlotData *data, Pattern pattern, Arena *arena);
 
 void uv_of(const double xyz[3], double uv[2]);
 
@@ -67,14 +67,14 @@ void uv_of(const double xyz[3], double uv[2]);
 
 /* BRDF, sr^-1, weighted over wavelength as the eye weighs equal-energy light; the leaving
  * direction's phi counts from the mirror direction. */
-double subject_brdf(const Subject *subject, double incidence, double theta, double phi);
+double plot_data_brdf(const PlotData *data, double incidence, double theta, double phi);
 
 /* At one wavelength. */
-double subject_brdf_at(const Subject *subject, double incidence, double theta, double phi,
+double plot_data_brdf_at(const PlotData *data, double incidence, double theta, double phi,
                        double nm);
 
 /* The same over the hemisphere. */
-Field subject_brdf_field(const Subject *subject, double incidence, Arena *arena);
+Field plot_data_brdf_field(const PlotData *data, double incidence, Arena *arena);
 
 /* Mirror reflectance, weighted by the eye (nm 0) or at a wavelength. */
-double subject_mirror(const Subject *subject, double theta, double nm);
+double plot_data_mirror(const PlotData *data, double theta, double nm);

@@ -1,4 +1,4 @@
-#include "plot/panel/input.h"
+#include "plot/panel/plot_data.h"
 
 #include <math.h>
 
@@ -37,12 +37,12 @@ void uv_of(const double xyz[3], double uv[2])
     uv[1] = d > 0 ? 9 * xyz[1] / d : NAN;
 }
 
-bool subject_xyz(const Subject *subject, double theta, double phi, const float rgb[3],
+bool plot_data_xyz(const PlotData *data, double theta, double phi, const float rgb[3],
                  double xyz[3])
 {
     float found[3];
     Vec3  d = direction(theta, phi);
-    bool  measured = panel_emission_xyz(subject->source.panel, d, rgb, found);
+    bool  measured = panel_emission_xyz(data->source.panel, d, rgb, found);
     for (int c = 0; c < 3; c++) xyz[c] = (double)found[c];
     return measured;
 }
@@ -51,7 +51,7 @@ bool subject_xyz(const Subject *subject, double theta, double phi, const float r
 
 static void sample_emission_row(void *context, int item, int worker)
 {
-    Subject *s = context;
+    PlotData *s = context;
     Pattern  pattern = (Pattern)(item / SIDE);
     int      row = item % SIDE;
     float    rgb[3], xyz[3];
@@ -64,7 +64,7 @@ static void sample_emission_row(void *context, int item, int worker)
     }
 }
 
-static void sample_emission(Subject *s)
+static void sample_emission(PlotData *s)
 {
     for (int p = 0; p < PATTERN_COUNT; p++) {
         float rgb[3];
@@ -80,7 +80,7 @@ static void sample_emission(Subject *s)
     if (s->cone > radians_from_degrees(89.9)) s->cone = PI / 2;
 }
 
-static void look_at_reflection(Subject *s)
+static void look_at_reflection(PlotData *s)
 {
     s->wavelength_count = panel_info_wavelengths(s->source.panel, s->wavelength_nm);
     double azimuths[PANEL_INFO_AZIMUTHS_MAX];
@@ -88,12 +88,12 @@ static void look_at_reflection(Subject *s)
     if (s->incidence_count > 0) s->last_incidence = s->incidence[s->incidence_count - 1];
     s->is_anisotropic = panel_info_azimuths(s->source.panel, azimuths) > 1;
     s->brdf_cone = panel_info_reflection_cone(s->source.panel);
-    s->has_mirror = subject_mirror(s, radians_from_degrees(5), 0) > 1e-7;
+    s->has_mirror = plot_data_mirror(s, radians_from_degrees(5), 0) > 1e-7;
 }
 
-Subject *subject_new(const SubjectSource *source, Arena *arena)
+PlotData *plot_data_new(const PlotSource *source, Arena *arena)
 {
-    Subject    *s = ARENA_NEW(arena, Subject, 1);
+    PlotData    *s = ARENA_NEW(arena, PlotData, 1);
     const char *name = json_string_value(json_object_get(source->report, "panel"));
     s->source = *source;
     s->arena = arena;
@@ -108,7 +108,7 @@ Subject *subject_new(const SubjectSource *source, Arena *arena)
     return s;
 }
 
-Field subject_contrast(const Subject *s, Arena *arena)
+Field plot_data_contrast(const PlotData *s, Arena *arena)
 {
     Field field = field_new(SIDE, PI / 2, arena);
     for (int i = 0; i < SIDE * SIDE; i++) {
@@ -119,7 +119,7 @@ Field subject_contrast(const Subject *s, Arena *arena)
     return field;
 }
 
-Field subject_shift(const Subject *s, Pattern pattern, Arena *arena)
+Field plot_data_shift(const PlotData *s, Pattern pattern, Arena *arena)
 {
     Field  field = field_new(SIDE, PI / 2, arena);
     double at_normal[2], uv[2], xyz[3];
@@ -156,7 +156,7 @@ static double luminous_mean(Spectrum value, const Wavelengths *wavelengths)
     return sum / weights;
 }
 
-static double brdf(const Subject *s, double incidence, Vec3 wo, double nm)
+static double brdf(const PlotData *s, double incidence, Vec3 wo, double nm)
 {
     Wavelengths wavelengths = lanes(nm);
     Vec3        wi = direction(incidence, s->source.incidence_phi);
@@ -165,23 +165,24 @@ static double brdf(const Subject *s, double incidence, Vec3 wo, double nm)
 }
 
 /* The azimuth of the panel from one that counts from the mirror direction. */
-static double panel_phi(const Subject *s, double phi)
+static double panel_phi(const PlotData *s, double phi)
 {
     return phi + s->source.incidence_phi - PI;
 }
 
-double subject_brdf(const Subject *s, double incidence, double theta, double phi)
+double plot_data_brdf(const PlotData *s, double incidence, double theta, double phi)
 {
     return brdf(s, incidence, direction(theta, panel_phi(s, phi)), 0);
 }
 
-double subject_brdf_at(const Subject *s, double incidence, double theta, double phi, double nm)
+double plot_data_brdf_at(const PlotData *s, double incidence, double theta, double phi,
+                         double nm)
 {
     return brdf(s, incidence, direction(theta, panel_phi(s, phi)), nm);
 }
 
 typedef struct BrdfWork {
-    const Subject *subject;
+    const PlotData *data;
     Field          field;
     double         incidence;
 } BrdfWork;
@@ -189,27 +190,27 @@ typedef struct BrdfWork {
 static void sample_brdf_row(void *context, int row, int worker)
 {
     const BrdfWork *work = context;
-    double turn = panel_phi(work->subject, 0);
+    double turn = panel_phi(work->data, 0);
     (void)worker;
     for (int column = 0; column < work->field.side; column++) {
         Vec3 d = field_direction(&work->field, row, column);
         Vec3 wo = vec3(d.x * (float)cos(turn) - d.y * (float)sin(turn),
                        d.x * (float)sin(turn) + d.y * (float)cos(turn), d.z);
         work->field.value[row * work->field.side + column] =
-            (float)brdf(work->subject, work->incidence, wo, 0);
+            (float)brdf(work->data, work->incidence, wo, 0);
     }
 }
 
-Field subject_brdf_field(const Subject *subject, double incidence, Arena *arena)
+Field plot_data_brdf_field(const PlotData *data, double incidence, Arena *arena)
 {
-    BrdfWork work = {subject, field_new(SIDE, PI / 2, arena), incidence};
-    parallel_for(subject->source.threads, SIDE, sample_brdf_row, &work);
+    BrdfWork work = {data, field_new(SIDE, PI / 2, arena), incidence};
+    parallel_for(data->source.threads, SIDE, sample_brdf_row, &work);
     return work.field;
 }
 
-double subject_mirror(const Subject *subject, double theta, double nm)
+double plot_data_mirror(const PlotData *data, double theta, double nm)
 {
     Wavelengths wavelengths = lanes(nm);
-    Spectrum r = panel_mirror(subject->source.panel, (float)cos(theta), &wavelengths);
+    Spectrum r = panel_mirror(data->source.panel, (float)cos(theta), &wavelengths);
     return nm > 0 ? (double)r[0] : luminous_mean(r, &wavelengths);
 }

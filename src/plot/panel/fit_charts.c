@@ -1,10 +1,11 @@
 /* Measured against fitted: the source's points over the curves, and what is left. */
+#include "plot/panel/fit_charts.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "base/units.h"
 #include "plot/draw/chart.h"
-#include "plot/panel/figure.h"
 #include "plot/draw/ticks.h"
 
 /* ---- comparing -------------------------------------------------------------------------- */
@@ -40,18 +41,18 @@ static double table_peak(const AngleTable *table)
 
 /* Fitted less measured luminance over the measured one, percent; over a fortieth of the
  * table's peak where the light is dimmer than that. NaN on the horizon. */
-static double residual_percent(const Subject *s, const FitTableRef *ref, int row, double peak)
+static double residual_percent(const PlotData *s, const FitTableRef *ref, int row, double peak)
 {
     double xyz[3], theta = (double)ref->table->theta[row];
     double measured = (double)ref->table->value[3 * row + 1];
     if (theta > PI / 2 - 1e-4 || !(peak > 0)) return NAN;
-    subject_xyz(s, theta, (double)ref->table->phi[row], ref->rgb, xyz);
+    plot_data_xyz(s, theta, (double)ref->table->phi[row], ref->rgb, xyz);
     return 100 * (xyz[1] - measured) / fmax(0.025 * peak, measured);
 }
 
 /* What the fit was asked for, percent; of a file that does not say the largest error of its
  * emission tables. */
-static double stated_bound_percent(const Subject *s)
+static double stated_bound_percent(const PlotData *s)
 {
     const json_t *report = s->source.report;
     const json_t *bound = json_object_get(json_object_get(report, "emission"), "bound");
@@ -103,29 +104,30 @@ static void draw_points(Chart *chart, const AngleTable *table, double plane, Ink
     }
 }
 
-static void draw_fitted_curve(Chart *chart, const Subject *s, const float rgb[3], double plane,
+static void draw_fitted_curve(Chart *chart, const PlotData *s, const float rgb[3], double plane,
                               Ink ink)
 {
     double deg[353], value[353];
     for (int i = 0; i < 353; i++) {
         double xyz[3];
         deg[i] = -88 + i * 0.5;
-        subject_xyz(s, radians_from_degrees(deg[i]), plane, rgb, xyz);
+        plot_data_xyz(s, radians_from_degrees(deg[i]), plane, rgb, xyz);
         value[i] = xyz[1];
     }
     chart_curve(chart, deg, value, 353, (Stroke){ink, 1.2, DASH_NONE});
 }
 
-static void draw_fit_section(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+static void draw_fit_section(Canvas *canvas, Box box, const PanelChart *shown,
+                             PanelChartMap *out)
 {
-    const Subject     *s = figure->subject;
+    const PlotData     *s = shown->data;
     const Measurement *set = s->source.measured;
-    double high = 0, plane = figure->index ? PI / 2 : 0;
+    double high = 0, plane = shown->index ? PI / 2 : 0;
     for (int p = 0; p < 3; p++)
         high = fmax(high, table_peak(&set->primary[p].table[set->primary[p].level_count - 1]));
     Chart chart = chart_open(canvas, box,
         (AxisSpec){.low = -90, .high = 90, .step = 30, .suffix = "°",
-                   .title = figure->index ? "θ along φ 270° to 90°" : "θ along φ 180° to 0°"},
+                   .title = shown->index ? "θ along φ 270° to 90°" : "θ along φ 180° to 0°"},
         (AxisSpec){.high = 1.06 * high, .title = "Luminance, cd/m²"}, 48);
     double cone = degrees_from_radians(s->cone);
     chart_hatch(&chart, -90, -cone);
@@ -139,11 +141,11 @@ static void draw_fit_section(Canvas *canvas, Box box, const Figure *figure, Figu
         double xyz[3];
         draw_points(&chart, &primary->table[last], plane, ink);
         draw_fitted_curve(&chart, s, rgb, plane, ink);
-        subject_xyz(s, radians_from_degrees(78), plane, rgb, xyz);
+        plot_data_xyz(s, radians_from_degrees(78), plane, rgb, xyz);
         chart_name(&chart, 78, xyz[1], ink, pattern_name((Pattern)(PATTERN_RED + p)));
     }
     chart_close(&chart);
-    figure_map_chart(out, &chart);
+    panel_chart_map_axes(out, &chart);
 }
 
 /* ---- levels at the normal -------------------------------------------------------------- */
@@ -154,7 +156,7 @@ static double normal_luminance(const AngleTable *table)
     return (double)table->value[1];
 }
 
-static void draw_fit_level_curve(Chart *chart, const Subject *s, int primary, Ink ink)
+static void draw_fit_level_curve(Chart *chart, const PlotData *s, int primary, Ink ink)
 {
     enum { POINTS = 120 };
     double code[POINTS], value[POINTS];
@@ -163,7 +165,7 @@ static void draw_fit_level_curve(Chart *chart, const Subject *s, int primary, In
         double xyz[3];
         code[i] = 8 * pow(255.0 / 8, (double)i / (POINTS - 1));
         rgb[primary] = (float)code[i];
-        subject_xyz(s, 0, 0, rgb, xyz);
+        plot_data_xyz(s, 0, 0, rgb, xyz);
         value[i] = xyz[1];
     }
     chart_curve(chart, code, value, POINTS, (Stroke){ink, 1.2, DASH_NONE});
@@ -171,9 +173,10 @@ static void draw_fit_level_curve(Chart *chart, const Subject *s, int primary, In
                pattern_name((Pattern)(PATTERN_RED + primary)));
 }
 
-static void draw_fit_levels(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+static void draw_fit_levels(Canvas *canvas, Box box, const PanelChart *shown,
+                            PanelChartMap *out)
 {
-    const Subject     *s = figure->subject;
+    const PlotData     *s = shown->data;
     const Measurement *set = s->source.measured;
     double low = INFINITY, high = 0;
     for (int p = 0; p < 3; p++)
@@ -195,7 +198,7 @@ static void draw_fit_levels(Canvas *canvas, Box box, const Figure *figure, Figur
                  canvas->theme.primary[p]);
     }
     chart_close(&chart);
-    figure_map_chart(out, &chart);
+    panel_chart_map_axes(out, &chart);
 }
 
 /* ---- all residuals ---------------------------------------------------------------------- */
@@ -220,7 +223,7 @@ static void count_residual(Residuals *out, double percent)
 }
 
 /* The first pass finds the largest one, the second counts. */
-static void pass_over(const Subject *s, const FitTableRef *ref, bool counts, Residuals *out)
+static void pass_over(const PlotData *s, const FitTableRef *ref, bool counts, Residuals *out)
 {
     double peak = table_peak(ref->table);
     for (int i = 0; i < ref->table->rows; i++) {
@@ -240,7 +243,7 @@ static void pass_over(const Subject *s, const FitTableRef *ref, bool counts, Res
     }
 }
 
-static void measure_residuals(const Subject *s, Residuals *out)
+static void measure_residuals(const PlotData *s, Residuals *out)
 {
     FitTableRef *ref = ARENA_NEW(s->arena, FitTableRef, FIT_TABLES_MAX);
     int          tables = emission_tables(s->source.measured, ref);
@@ -256,9 +259,9 @@ static double bin_start(const Residuals *r, int bin)
     return LEAST_PERCENT * pow(r->reach / LEAST_PERCENT, (double)bin / BINS);
 }
 
-static void draw_histogram(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+static void draw_histogram(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)
 {
-    const Subject *s = figure->subject;
+    const PlotData *s = shown->data;
     Residuals     *r = ARENA_NEW(canvas->arena, Residuals, 1);
     double         bound = stated_bound_percent(s);
     measure_residuals(s, r);
@@ -279,11 +282,11 @@ static void draw_histogram(Canvas *canvas, Box box, const Figure *figure, Figure
                  arena_format(canvas->arena, "rms %.2g %%", r->rms));
     chart_mark_x(&chart, bound, (Stroke){canvas->theme.accent, 1.3, DASH_SHORT},
                  arena_format(canvas->arena, "bound %.3g %%", bound));
-    figure_map_chart(out, &chart);
+    panel_chart_map_axes(out, &chart);
 }
 
 /* The worst table's residuals as a map: every grid point takes its nearest sample's value. */
-static Field residual_field(const Subject *s, const FitTableRef *ref, Arena *arena)
+static Field residual_field(const PlotData *s, const FitTableRef *ref, Arena *arena)
 {
     Field  field = field_new(301, PI / 2, arena);
     double peak = table_peak(ref->table), *nearest = ARENA_NEW(arena, double, 301 * 301);
@@ -309,7 +312,7 @@ static Field residual_field(const Subject *s, const FitTableRef *ref, Arena *are
 }
 
 /* Percent: all but one direction in fifty have less; the few are for the histogram. */
-static double residual_reach(const Field *field, const Subject *s, Arena *arena)
+static double residual_reach(const Field *field, const PlotData *s, Arena *arena)
 {
     Field size = field_new(field->side, field->theta_rim, arena);
     for (int i = 0; i < field->side * field->side; i++)
@@ -317,9 +320,10 @@ static double residual_reach(const Field *field, const Subject *s, Arena *arena)
     return fmax(field_quantile(&size, s->cone, 0.98, *arena), LEAST_PERCENT);
 }
 
-static void draw_residual_map(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+static void draw_residual_map(Canvas *canvas, Box box, const PanelChart *shown,
+                              PanelChartMap *out)
 {
-    const Subject *s = figure->subject;
+    const PlotData *s = shown->data;
     Residuals     *r = ARENA_NEW(canvas->arena, Residuals, 1);
     Field         *field = ARENA_NEW(canvas->arena, Field, 1);
     measure_residuals(s, r);
@@ -329,7 +333,8 @@ static void draw_residual_map(Canvas *canvas, Box box, const Figure *figure, Fig
                     .is_cut = reach < 0.99 * r->most, .strong = NAN,
                     .theta_measured = s->cone, .unit = "%", .is_residual = true};
     PolarPlace place = polar_draw(canvas, box, &map);
-    *out = (FigureMap){.kind = FIGURE_POLAR, .disc = place, .field = *field, .unit = "%"};
+    *out = (PanelChartMap){.kind = PANEL_CHART_POLAR, .disc = place, .field = *field,
+                           .unit = "%"};
 }
 
 /* ---- reflection ------------------------------------------------------------------------- */
@@ -354,7 +359,7 @@ typedef struct BrdfPoints {
 } BrdfPoints;
 
 /* The measured azimuth of the light that is nearest to the one asked for. */
-static int nearest_azimuth(const Subject *s)
+static int nearest_azimuth(const PlotData *s)
 {
     const Measurement *set = s->source.measured;
     int best = 0;
@@ -364,12 +369,12 @@ static int nearest_azimuth(const Subject *s)
     return best;
 }
 
-static void fill_brdf_points(const Subject *s, int incidence, int channel, BrdfPoints *out)
+static void fill_brdf_points(const PlotData *s, int incidence, int channel, BrdfPoints *out)
 {
     const Measurement *set = s->source.measured;
     int                azimuth = nearest_azimuth(s);
     const AngleTable  *table = &set->brdf[azimuth * set->incidence_count + incidence];
-    Subject            turned = *s;
+    PlotData            turned = *s;
     if (set->azimuth_count > 1) turned.source.incidence_phi = set->azimuth[azimuth];
     *out = (BrdfPoints){0};
     for (int i = 0; i < table->rows && out->count < BRDF_POINTS; i++) {
@@ -381,15 +386,15 @@ static void fill_brdf_points(const Subject *s, int incidence, int channel, BrdfP
     for (int i = 0; i < BRDF_FINE; i++) {
         double deg = -88 + 0.25 * i;
         out->fine_deg[i] = deg;
-        out->fitted[i] = subject_brdf_at(&turned, set->incidence[incidence],
+        out->fitted[i] = plot_data_brdf_at(&turned, set->incidence[incidence],
                                          radians_from_degrees(fabs(deg)), deg < 0 ? PI : 0,
                                          (double)set->wavelength_nm[channel]);
     }
 }
 
-static void draw_fit_brdf(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+static void draw_fit_brdf(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)
 {
-    const Subject     *s = figure->subject;
+    const PlotData     *s = shown->data;
     const Measurement *set = s->source.measured;
     int         count = set->incidence_count < 6 ? set->incidence_count : 6;
     BrdfPoints *points = ARENA_NEW(canvas->arena, BrdfPoints, count);
@@ -411,7 +416,7 @@ static void draw_fit_brdf(Canvas *canvas, Box box, const Figure *figure, FigureM
     chart_hatch(&chart, -90, -cone);
     chart_hatch(&chart, cone, 90);
     for (int k = 0; k < count; k++) {
-        Ink  ink = figure_series_ink(canvas, k, count);
+        Ink  ink = panel_chart_series_ink(canvas, k, count);
         bool taken[151] = {false}; /* rings no nearer than 1.2 degrees */
         for (int i = 0; i < points[k].count; i++) {
             int slot = (int)((points[k].deg[i] + 90) / 1.2);
@@ -422,29 +427,29 @@ static void draw_fit_brdf(Canvas *canvas, Box box, const Figure *figure, FigureM
         chart_curve(&chart, points[k].fine_deg, points[k].fitted, BRDF_FINE,
                     (Stroke){ink, 1.2, DASH_NONE});
     }
-    figure_map_chart(out, &chart);
+    panel_chart_map_axes(out, &chart);
 }
 
 /* ---- the list --------------------------------------------------------------------------- */
 
-static void add_emission_fit(FigureList *list, const Subject *s)
+static void add_emission_fit(PanelChartList *list, const PlotData *s)
 {
     Residuals *r = ARENA_NEW(s->arena, Residuals, 1);
     char       most[32], rms[32];
     measure_residuals(s, r);
     for (int i = 0; i < 2; i++)
-        figure_add(list, &(Figure){PLOT_FIT, i ? "Measured and fitted, vertical"
+        panel_chart_add(list, &(PanelChart){PLOT_FIT, i ? "Measured and fitted, vertical"
                                                  : "Measured and fitted, horizontal",
             "rings: the source's samples, lines: the panel file",
             "The source's luminance (rings) over the panel file's (lines), each primary at its "
             "highest level.", draw_fit_section, s, i,
             i ? SHEET_SPARE : SHEET_ALWAYS, false});
     if (s->source.measured->primary[0].level_count > 1)
-        figure_add(list, &(Figure){PLOT_FIT, "Measured and fitted levels",
+        panel_chart_add(list, &(PanelChart){PLOT_FIT, "Measured and fitted levels",
             "rings: the source's samples, lines: the panel file",
             "The source's luminance at the normal (rings) over the panel file's (lines), for "
             "every measured level of each primary.", draw_fit_levels, s, 0, SHEET_SPARE, true});
-    figure_add(list, &(Figure){PLOT_FIT, "Residuals of all samples",
+    panel_chart_add(list, &(PanelChart){PLOT_FIT, "Residuals of all samples",
         arena_format(s->arena, "%.0f samples: rms %s %%, at most %s %%; line: the file's bound",
                      r->count, figure_text(r->rms, rms), figure_text(r->most, most)),
         "Fitted less measured luminance of every sample of every emission table, relative to "
@@ -452,7 +457,7 @@ static void add_emission_fit(FigureList *list, const Subject *s)
         "largest error of X, Y and Z that the file states, noise of the source included.",
         draw_histogram, s, 0, SHEET_ALWAYS, false});
     if (r->worst.table)
-        figure_add(list, &(Figure){PLOT_FIT, "Residual of the worst table",
+        panel_chart_add(list, &(PanelChart){PLOT_FIT, "Residual of the worst table",
             arena_format(s->arena, "%s: at most %s %% at θ %.0f°, φ %.0f°",
                          r->worst.table->name, most, degrees_from_radians(r->worst_theta),
                          degrees_from_radians(r->worst_phi)),
@@ -462,20 +467,20 @@ static void add_emission_fit(FigureList *list, const Subject *s)
             false});
 }
 
-static const char *azimuth_text(const Subject *s)
+static const char *azimuth_text(const PlotData *s)
 {
     const Measurement *set = s->source.measured;
     return set->azimuth_count < 2 ? "" : arena_format(s->arena, "; light from φ %.4g°",
         degrees_from_radians(set->azimuth[nearest_azimuth(s)]));
 }
 
-void figures_add_fit(FigureList *list, const Subject *s)
+void fit_charts_add(PanelChartList *list, const PlotData *s)
 {
     const Measurement *set = s->source.measured;
     if (!set) return;
     if (s->emits && set->primary[0].level_count > 0) add_emission_fit(list, s);
     if (s->reflects && set->incidence_count > 0)
-        figure_add(list, &(Figure){PLOT_FIT, "Measured and fitted BRDF",
+        panel_chart_add(list, &(PanelChart){PLOT_FIT, "Measured and fitted BRDF",
             arena_format(s->arena, "%.4g nm; rings: the source, lines: without the mirror "
                          "part%s",
                          (double)set->wavelength_nm[middle_channel(set)], azimuth_text(s)),

@@ -1,8 +1,9 @@
 /* Polar maps of what the panel emits: luminance, contrast, colour shift. */
+#include "plot/panel/emission_charts.h"
+
 #include <math.h>
 
 #include "base/units.h"
-#include "plot/panel/figure.h"
 #include "plot/draw/ticks.h"
 
 static const char *at_angles(Arena *arena, double theta, double phi)
@@ -13,9 +14,9 @@ static const char *at_angles(Arena *arena, double theta, double phi)
                         degrees < -0.5 ? degrees + 360 : fabs(degrees));
 }
 
-static void note_map(FigureMap *out, const PolarMap *map, PolarPlace place)
+static void note_map(PanelChartMap *out, const PolarMap *map, PolarPlace place)
 {
-    *out = (FigureMap){.kind = FIGURE_POLAR, .disc = place, .field = *map->field,
+    *out = (PanelChartMap){.kind = PANEL_CHART_POLAR, .disc = place, .field = *map->field,
                        .unit = map->unit};
 }
 
@@ -35,16 +36,16 @@ static void choose_levels(PolarMap *map, double low, double high, int most)
 
 /* ---- luminance -------------------------------------------------------------------------- */
 
-static void draw_luminance(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+static void draw_luminance(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)
 {
-    const Subject *s = figure->subject;
-    const Field   *field = &s->xyz[figure->index][1];
+    const PlotData *s = shown->data;
+    const Field   *field = &s->xyz[shown->index][1];
     FieldRange     range = field_range(field, s->cone);
     double low = range.low > 0.6 * range.high ? range.low : 0;
     PolarMap map = {.field = field, .map = MAP_AMOUNT, .low = low, .high = range.high,
                     .strong = NAN, .theta_measured = s->cone, .unit = "cd/m²"};
-    double half = 0.5 * (double)s->normal[figure->index][1];
-    if (figure->index != PATTERN_BLACK && range.low < half && half < range.high) {
+    double half = 0.5 * (double)s->normal[shown->index][1];
+    if (shown->index != PATTERN_BLACK && range.low < half && half < range.high) {
         map.strong = half;
         map.strong_text = "½";
     }
@@ -52,7 +53,7 @@ static void draw_luminance(Canvas *canvas, Box box, const Figure *figure, Figure
     note_map(out, &map, polar_draw(canvas, box, &map));
 }
 
-static void add_luminance(FigureList *list, const Subject *s, Pattern pattern)
+static void add_luminance(PanelChartList *list, const PlotData *s, Pattern pattern)
 {
     FieldRange range = field_range(&s->xyz[pattern][1], s->cone);
     char       normal[32], high[32];
@@ -63,7 +64,7 @@ static void add_luminance(FigureList *list, const Subject *s, Pattern pattern)
         range.high > 1.002 * at_normal ? figure_text(range.high, high) : "",
         range.high > 1.002 * at_normal ? " " : "", range.high > 1.002 * at_normal
         ? at_angles(s->arena, range.theta, range.phi) : "");
-    figure_add(list, &(Figure){PLOT_LUMINANCE,
+    panel_chart_add(list, &(PanelChart){PLOT_LUMINANCE,
         arena_format(s->arena, "Luminance, %s", pattern == PATTERN_WHITE ? "white" :
                      pattern == PATTERN_RED ? "red" : pattern == PATTERN_GREEN ? "green" :
                      pattern == PATTERN_BLUE ? "blue" : "black"),
@@ -78,13 +79,13 @@ static void add_luminance(FigureList *list, const Subject *s, Pattern pattern)
 
 /* ---- contrast --------------------------------------------------------------------------- */
 
-static void draw_contrast(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+static void draw_contrast(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)
 {
     static const double LEVELS[] = {2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000,
                                     20000, 50000, 100000};
-    const Subject *s = figure->subject;
+    const PlotData *s = shown->data;
     Field      *field = ARENA_NEW(canvas->arena, Field, 1);
-    *field = subject_contrast(s, canvas->arena);
+    *field = plot_data_contrast(s, canvas->arena);
     FieldRange  range = field_range(field, fmin(s->cone, GRAZING));
     range.low = fmin(range.low, field_range(field, s->cone).low);
     PolarMap    map = {.field = field, .map = MAP_RATIO, .is_log = true, .strong = NAN,
@@ -97,13 +98,13 @@ static void draw_contrast(Canvas *canvas, Box box, const Figure *figure, FigureM
     note_map(out, &map, polar_draw(canvas, box, &map));
 }
 
-static void add_contrast(FigureList *list, const Subject *s)
+static void add_contrast(PanelChartList *list, const PlotData *s)
 {
-    Field      field = subject_contrast(s, s->arena);
+    Field      field = plot_data_contrast(s, s->arena);
     FieldRange range = field_range(&field, s->cone);
     char       normal[32], low[32];
     double at_normal = (double)(s->normal[PATTERN_WHITE][1] / s->normal[PATTERN_BLACK][1]);
-    figure_add(list, &(Figure){PLOT_CONTRAST, "Contrast ratio",
+    panel_chart_add(list, &(PanelChart){PLOT_CONTRAST, "Contrast ratio",
         arena_format(s->arena, "white over black: %s at the normal, at least %s",
                      figure_text(at_normal, normal), figure_text(range.low, low)),
         "Luminance of white over that of black in a dark room, logarithmic colours.",
@@ -115,11 +116,11 @@ static void add_contrast(FigureList *list, const Subject *s)
 static const double SHIFT_LEVELS[] = {0.002, 0.005, 0.01, 0.02, 0.04, 0.06, 0.08, 0.1, 0.15,
                                       0.2, 0.3};
 
-static void draw_shift(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+static void draw_shift(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)
 {
-    const Subject *s = figure->subject;
+    const PlotData *s = shown->data;
     Field      *field = ARENA_NEW(canvas->arena, Field, 1);
-    *field = subject_shift(s, (Pattern)figure->index, canvas->arena);
+    *field = plot_data_shift(s, (Pattern)shown->index, canvas->arena);
     FieldRange  range = field_range(field, s->cone);
     PolarMap    map = {.field = field, .map = MAP_DIFFERENCE, .strong = NAN,
                        .high = fmax(range.high, 0.005), .theta_measured = s->cone,
@@ -130,12 +131,12 @@ static void draw_shift(Canvas *canvas, Box box, const Figure *figure, FigureMap 
     note_map(out, &map, polar_draw(canvas, box, &map));
 }
 
-static void add_shift(FigureList *list, const Subject *s, Pattern pattern)
+static void add_shift(PanelChartList *list, const PlotData *s, Pattern pattern)
 {
-    Field      field = subject_shift(s, pattern, s->arena);
+    Field      field = plot_data_shift(s, pattern, s->arena);
     FieldRange range = field_range(&field, s->cone);
     char       high[32];
-    figure_add(list, &(Figure){PLOT_COLOUR_SHIFT,
+    panel_chart_add(list, &(PanelChart){PLOT_COLOUR_SHIFT,
         arena_format(s->arena, "Colour shift, %s", pattern == PATTERN_WHITE ? "white" :
                      pattern == PATTERN_RED ? "red" : pattern == PATTERN_GREEN ? "green"
                                                                               : "blue"),
@@ -147,7 +148,7 @@ static void add_shift(FigureList *list, const Subject *s, Pattern pattern)
         pattern == PATTERN_WHITE ? SHEET_ALWAYS : SHEET_NEVER, pattern != PATTERN_WHITE});
 }
 
-void figures_add_emission(FigureList *list, const Subject *s)
+void emission_charts_add(PanelChartList *list, const PlotData *s)
 {
     if (!s->emits) return;
     add_luminance(list, s, PATTERN_WHITE);

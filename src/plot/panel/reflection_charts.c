@@ -1,17 +1,18 @@
 /* Reflection: sections of the BRDF, over wavelength, over the hemisphere; the mirror part. */
+#include "plot/panel/reflection_charts.h"
+
 #include <math.h>
 
 #include "base/count.h"
 #include "base/units.h"
 #include "plot/draw/chart.h"
-#include "plot/panel/figure.h"
 #include "plot/draw/ticks.h"
 #include "spectrum/fresnel.h"
 
 #define INCIDENCES_SHOWN 7
 
 /* Of the measured incidences all, or so many spread over them; degrees. */
-static int chosen_incidences(const Subject *s, double deg[INCIDENCES_SHOWN])
+static int chosen_incidences(const PlotData *s, double deg[INCIDENCES_SHOWN])
 {
     int count = s->incidence_count < INCIDENCES_SHOWN ? s->incidence_count : INCIDENCES_SHOWN;
     for (int i = 0; i < count; i++) {
@@ -22,7 +23,7 @@ static int chosen_incidences(const Subject *s, double deg[INCIDENCES_SHOWN])
 }
 
 /* The measured incidence nearest to one, whole degrees. */
-static int incidence_near(const Subject *s, double deg)
+static int incidence_near(const PlotData *s, double deg)
 {
     double best = 0;
     for (int i = 0; i < s->incidence_count; i++) {
@@ -42,13 +43,13 @@ typedef struct PlaneCurve {
 } PlaneCurve;
 
 /* Leaving angle, degrees; positive on the mirror's side. Finer around the mirror direction. */
-static void fill_plane(const Subject *s, double incidence_deg, PlaneCurve *out)
+static void fill_plane(const PlotData *s, double incidence_deg, PlaneCurve *out)
 {
     *out = (PlaneCurve){0};
     for (double deg = -88; deg <= 88 && out->count < PLANE_POINTS;) {
         double theta = radians_from_degrees(fabs(deg));
         out->deg[out->count] = deg;
-        out->value[out->count] = subject_brdf(s, radians_from_degrees(incidence_deg), theta,
+        out->value[out->count] = plot_data_brdf(s, radians_from_degrees(incidence_deg), theta,
                                               deg < 0 ? PI : 0);
         bool is_measured = theta <= s->brdf_cone + 1e-6;
         if (is_measured && out->value[out->count] > out->value[out->peak])
@@ -73,16 +74,16 @@ static void brdf_range(const PlaneCurve *curve, int count, double *low, double *
     *high = round_up(*high * 1.8);
 }
 
-static void hatch_unmeasured(Chart *chart, const Subject *s)
+static void hatch_unmeasured(Chart *chart, const PlotData *s)
 {
     double cone = degrees_from_radians(s->brdf_cone);
     chart_hatch(chart, -90, -cone);
     chart_hatch(chart, cone, 90);
 }
 
-static void draw_plane(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+static void draw_plane(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)
 {
-    const Subject *s = figure->subject;
+    const PlotData *s = shown->data;
     double      deg[INCIDENCES_SHOWN];
     int         count = chosen_incidences(s, deg);
     double      low, high, last_x = -INFINITY, last_y = 0;
@@ -96,19 +97,20 @@ static void draw_plane(Canvas *canvas, Box box, const Figure *figure, FigureMap 
     hatch_unmeasured(&chart, s);
     for (int k = count - 1; k >= 0; k--)
         chart_curve(&chart, curve[k].deg, curve[k].value, curve[k].count,
-                    (Stroke){figure_series_ink(canvas, k, count), 1.5,
+                    (Stroke){panel_chart_series_ink(canvas, k, count), 1.5,
                              k % 2 ? DASH_LONG : DASH_NONE});
     for (int k = 0; k < count; k++) {
         double x = chart_x(&chart, curve[k].deg[curve[k].peak]);
         double y = chart_y(&chart, fmax(curve[k].value[curve[k].peak], low)) - 5;
         if (x - last_x < 15 && fabs(y - last_y) < 12) continue;
         canvas_text(canvas, x, y, (Letters){.size = SIZE_TICK, .across = 0.5, .down = 1,
-                    .ink = figure_series_ink(canvas, k, count), .halo = canvas->theme.paper},
+                    .ink = panel_chart_series_ink(canvas, k, count),
+                    .halo = canvas->theme.paper},
                     arena_format(canvas->arena, "%.3g°", deg[k]));
         last_x = x;
         last_y = y;
     }
-    figure_map_chart(out, &chart);
+    panel_chart_map_axes(out, &chart);
 }
 
 /* ---- over wavelength -------------------------------------------------------------------- */
@@ -122,7 +124,7 @@ typedef struct WavelengthCurve {
     double nm[WAVELENGTH_POINTS], value[WAVELENGTH_POINTS];
 } WavelengthCurve;
 
-static void fill_wavelengths(const Subject *s, double incidence_deg, double aspecular_deg,
+static void fill_wavelengths(const PlotData *s, double incidence_deg, double aspecular_deg,
                              WavelengthCurve *out)
 {
     double first = (double)s->wavelength_nm[0];
@@ -130,19 +132,20 @@ static void fill_wavelengths(const Subject *s, double incidence_deg, double aspe
     double leaving = incidence_deg - aspecular_deg; /* towards the normal, then past it */
     for (int i = 0; i < WAVELENGTH_POINTS; i++) {
         out->nm[i] = first + (last - first) * i / (WAVELENGTH_POINTS - 1);
-        out->value[i] = subject_brdf_at(s, radians_from_degrees(incidence_deg),
+        out->value[i] = plot_data_brdf_at(s, radians_from_degrees(incidence_deg),
                                         radians_from_degrees(fabs(leaving)),
                                         leaving < 0 ? PI : 0, out->nm[i]);
     }
 }
 
-static void draw_wavelengths(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+static void draw_wavelengths(Canvas *canvas, Box box, const PanelChart *shown,
+                             PanelChartMap *out)
 {
-    const Subject   *s = figure->subject;
+    const PlotData   *s = shown->data;
     WavelengthCurve *curve = ARENA_NEW(canvas->arena, WavelengthCurve, ASPECULAR_COUNT);
     double           low = INFINITY, high = 0;
     for (int k = 0; k < ASPECULAR_COUNT; k++) {
-        fill_wavelengths(s, figure->index, ASPECULAR_DEG[k], &curve[k]);
+        fill_wavelengths(s, shown->index, ASPECULAR_DEG[k], &curve[k]);
         for (int i = 0; i < WAVELENGTH_POINTS; i++) {
             if (curve[k].value[i] > 0) low = fmin(low, curve[k].value[i]);
             high = fmax(high, curve[k].value[i]);
@@ -156,29 +159,29 @@ static void draw_wavelengths(Canvas *canvas, Box box, const Figure *figure, Figu
         (AxisSpec){.low = low, .high = round_up(high * 1.05), .is_log = true,
                    .title = "BRDF, sr⁻¹"}, 40);
     for (int k = 0; k < ASPECULAR_COUNT; k++) {
-        Ink ink = figure_series_ink(canvas, k, ASPECULAR_COUNT);
+        Ink ink = panel_chart_series_ink(canvas, k, ASPECULAR_COUNT);
         chart_curve(&chart, curve[k].nm, curve[k].value, WAVELENGTH_POINTS,
                     (Stroke){ink, 1.4, DASH_NONE});
         for (int w = 0; w < s->wavelength_count && s->wavelength_count <= 40; w++) {
-            double nm = (double)s->wavelength_nm[w], leaving = figure->index - ASPECULAR_DEG[k];
-            chart_dot(&chart, nm, subject_brdf_at(s, radians_from_degrees(figure->index),
+            double nm = (double)s->wavelength_nm[w], leaving = shown->index - ASPECULAR_DEG[k];
+            chart_dot(&chart, nm, plot_data_brdf_at(s, radians_from_degrees(shown->index),
                       radians_from_degrees(fabs(leaving)), leaving < 0 ? PI : 0, nm), 1.5, ink);
         }
         chart_name_curve(&chart, curve[k].nm, curve[k].value, WAVELENGTH_POINTS, ink,
                          arena_format(canvas->arena, "%g°", ASPECULAR_DEG[k]));
     }
     chart_close(&chart);
-    figure_map_chart(out, &chart);
+    panel_chart_map_axes(out, &chart);
 }
 
 /* ---- over the hemisphere ---------------------------------------------------------------- */
 
-static void draw_map(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+static void draw_map(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)
 {
-    const Subject *s = figure->subject;
+    const PlotData *s = shown->data;
     Field         *field = ARENA_NEW(canvas->arena, Field, 1);
-    double         incidence = radians_from_degrees(figure->index);
-    *field = subject_brdf_field(s, incidence, canvas->arena);
+    double         incidence = radians_from_degrees(shown->index);
+    *field = plot_data_brdf_field(s, incidence, canvas->arena);
     FieldRange range = field_range(field, radians_from_degrees(85));
     PolarMap   map = {.field = field, .map = MAP_SCATTER, .is_log = true, .strong = NAN,
                       .high = fmax(range.high, 1e-12), .theta_measured = s->brdf_cone,
@@ -201,24 +204,25 @@ static void draw_map(Canvas *canvas, Box box, const Figure *figure, FigureMap *o
                 map.level[map.level_count++] = level;
         }
     PolarPlace place = polar_draw(canvas, box, &map);
-    *out = (FigureMap){.kind = FIGURE_POLAR, .disc = place, .field = *field, .unit = "sr⁻¹"};
+    *out = (PanelChartMap){.kind = PANEL_CHART_POLAR, .disc = place, .field = *field,
+                           .unit = "sr⁻¹"};
 }
 
 /* ---- the mirror part -------------------------------------------------------------------- */
 
 #define MIRROR_POINTS 179
 
-static void draw_mirror(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+static void draw_mirror(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)
 {
     static const double NM[] = {0, 450, 550, 650};
     static const char *const NAMES[] = {"photopic", "450 nm", "550 nm", "650 nm"};
-    const Subject *s = figure->subject;
+    const PlotData *s = shown->data;
     double deg[MIRROR_POINTS], value[4][MIRROR_POINTS], glass[2][MIRROR_POINTS], low = 1;
-    double normal = subject_mirror(s, 0, 0) / fresnel_unpolarised_d(1, 1.5);
+    double normal = plot_data_mirror(s, 0, 0) / fresnel_unpolarised_d(1, 1.5);
     for (int i = 0; i < MIRROR_POINTS; i++) {
         deg[i] = i * 0.5;
         double theta = radians_from_degrees(deg[i]);
-        for (int k = 0; k < 4; k++) value[k][i] = subject_mirror(s, theta, NM[k]);
+        for (int k = 0; k < 4; k++) value[k][i] = plot_data_mirror(s, theta, NM[k]);
         glass[0][i] = fresnel_unpolarised_d(cos(theta), 1.5);
         glass[1][i] = normal * glass[0][i];
         if (value[0][i] > 0) low = fmin(low, value[0][i]);
@@ -239,27 +243,28 @@ static void draw_mirror(Canvas *canvas, Box box, const Figure *figure, FigureMap
     }
     chart_name(&chart, 82, glass[0][164], canvas->theme.soft, "glass");
     chart_close(&chart);
-    figure_map_chart(out, &chart);
+    panel_chart_map_axes(out, &chart);
 }
 
 /* ---- the list --------------------------------------------------------------------------- */
 
-static const char *light_text(const Subject *s)
+static const char *light_text(const PlotData *s)
 {
     double deg = degrees_from_radians(s->source.incidence_phi);
     return fabs(s->source.incidence_phi - PI) < 1e-9 && !s->is_anisotropic ? ""
                : arena_format(s->arena, ", light from φ %.4g°", deg);
 }
 
-static void add_maps(FigureList *list, const Subject *s)
+static void add_maps(PanelChartList *list, const PlotData *s)
 {
     int incidences[2] = {incidence_near(s, 30), incidence_near(s, 60)};
     for (int i = 0; i < 2; i++) {
         char peak[32];
         if (i == 1 && incidences[1] < incidences[0] + 10) continue;
-        Field      field = subject_brdf_field(s, radians_from_degrees(incidences[i]), s->arena);
+        double     incidence = radians_from_degrees(incidences[i]);
+        Field      field = plot_data_brdf_field(s, incidence, s->arena);
         FieldRange range = field_range(&field, s->brdf_cone);
-        figure_add(list, &(Figure){PLOT_BRDF_MAP,
+        panel_chart_add(list, &(PanelChart){PLOT_BRDF_MAP,
             arena_format(s->arena, "BRDF at %d° incidence", incidences[i]),
             arena_format(s->arena, "φ from the mirror direction, photopic mean; %s sr⁻¹ at the "
                          "peak%s", figure_text(range.high, peak), light_text(s)),
@@ -269,17 +274,17 @@ static void add_maps(FigureList *list, const Subject *s)
     }
 }
 
-void figures_add_reflection(FigureList *list, const Subject *s)
+void reflection_charts_add(PanelChartList *list, const PlotData *s)
 {
     if (!s->reflects) return;
     int middle = incidence_near(s, 30);
-    figure_add(list, &(Figure){PLOT_BRDF, "BRDF in the plane of incidence",
+    panel_chart_add(list, &(PanelChart){PLOT_BRDF, "BRDF in the plane of incidence",
         arena_format(s->arena, "photopic mean, without the mirror part; incidence at each "
                      "peak%s", light_text(s)),
         "BRDF in sr⁻¹ over the leaving angle in the plane of incidence, one curve an "
         "incidence. The mirror part is not in it.", draw_plane, s, 0, SHEET_ALWAYS, false});
     if (s->wavelength_count > 1)
-        figure_add(list, &(Figure){PLOT_BRDF_SPECTRUM, "BRDF over wavelength",
+        panel_chart_add(list, &(PanelChart){PLOT_BRDF_SPECTRUM, "BRDF over wavelength",
             arena_format(s->arena, "incidence %d°; angle from the mirror direction%s", middle,
                          light_text(s)),
             "BRDF in sr⁻¹ over wavelength at several angles from the mirror direction, towards "
@@ -287,7 +292,7 @@ void figures_add_reflection(FigureList *list, const Subject *s)
             SHEET_ALWAYS, false});
     add_maps(list, s);
     if (s->has_mirror)
-        figure_add(list, &(Figure){PLOT_MIRROR, "Mirror reflectance",
+        panel_chart_add(list, &(PanelChart){PLOT_MIRROR, "Mirror reflectance",
             "dashed: a surface of index 1.5; dotted: scaled to the panel's",
             "Reflectance of the mirror part over the angle of incidence beside the Fresnel "
             "reflectance of one surface of refractive index 1.5 (dashed), also scaled to the "

@@ -1,11 +1,12 @@
 /* Luminance along two sections of the hemisphere, and over the grey levels. */
+#include "plot/panel/curve_charts.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "base/units.h"
 #include "plot/draw/chart.h"
 #include "plot/draw/colour_map.h"
-#include "plot/panel/figure.h"
 #include "plot/draw/ticks.h"
 
 /* ---- sections --------------------------------------------------------------------------- */
@@ -21,7 +22,7 @@ static double section_angle_deg(int i)
     return -88 + i * 0.5;
 }
 
-static void fill_section(const Subject *s, Pattern pattern, double phi, bool is_normalised,
+static void fill_section(const PlotData *s, Pattern pattern, double phi, bool is_normalised,
                          Section *out)
 {
     float  rgb[3];
@@ -30,20 +31,20 @@ static void fill_section(const Subject *s, Pattern pattern, double phi, bool is_
     for (int i = 0; i < SECTION_POINTS; i++) {
         double xyz[3];
         out->angle_deg[i] = section_angle_deg(i);
-        subject_xyz(s, radians_from_degrees(out->angle_deg[i]), phi, rgb, xyz);
+        plot_data_xyz(s, radians_from_degrees(out->angle_deg[i]), phi, rgb, xyz);
         out->value[i] = unit > 0 ? xyz[1] / unit : NAN;
     }
 }
 
 /* Where the luminance of a pattern first falls below half of the normal's, degrees; NaN: not
  * within the measured cone. side: -1 or 1. */
-static double half_angle_deg(const Subject *s, Pattern pattern, double phi, int side)
+static double half_angle_deg(const PlotData *s, Pattern pattern, double phi, int side)
 {
     float  rgb[3];
     double xyz[3], before = (double)s->normal[pattern][1], half = before / 2;
     pattern_codes(pattern, rgb);
     for (double deg = 0.25; radians_from_degrees(deg) <= s->cone + 1e-6; deg += 0.25) {
-        subject_xyz(s, radians_from_degrees(side * deg), phi, rgb, xyz);
+        plot_data_xyz(s, radians_from_degrees(side * deg), phi, rgb, xyz);
         if (xyz[1] < half)
             return side * (deg - 0.25 * (half - xyz[1]) / (before - xyz[1]));
         before = xyz[1];
@@ -51,7 +52,7 @@ static double half_angle_deg(const Subject *s, Pattern pattern, double phi, int 
     return NAN;
 }
 
-static const char *half_angles_text(const Subject *s, double phi)
+static const char *half_angles_text(const PlotData *s, double phi)
 {
     double low = half_angle_deg(s, PATTERN_WHITE, phi, -1);
     double high = half_angle_deg(s, PATTERN_WHITE, phi, 1);
@@ -80,7 +81,7 @@ static Dash pattern_dash(Pattern pattern)
     return DASHES[pattern];
 }
 
-static void mark_half(Chart *chart, const Subject *s, double phi, bool is_normalised)
+static void mark_half(Chart *chart, const PlotData *s, double phi, bool is_normalised)
 {
     double half = is_normalised ? 0.5 : 0.5 * (double)s->normal[PATTERN_WHITE][1];
     Ink    ink = chart->canvas->theme.accent;
@@ -123,12 +124,12 @@ static void name_sections(Chart *chart, const Section *section, int count,
 }
 
 /* index: bit 0 the vertical section, bit 1 relative to the normal. */
-static void draw_section(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+static void draw_section(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)
 {
-    const Subject *s = figure->subject;
-    bool     is_normalised = figure->index & 2;
+    const PlotData *s = shown->data;
+    bool     is_normalised = shown->index & 2;
     int      count = s->is_white_only ? 1 : 4;
-    double   phi = figure->index & 1 ? PI / 2 : 0, high = 0;
+    double   phi = shown->index & 1 ? PI / 2 : 0, high = 0;
     Section *section = ARENA_NEW(canvas->arena, Section, 4);
     for (int p = 0; p < count; p++) {
         fill_section(s, (Pattern)p, phi, is_normalised, &section[p]);
@@ -136,7 +137,7 @@ static void draw_section(Canvas *canvas, Box box, const Figure *figure, FigureMa
     }
     Chart chart = chart_open(canvas, box,
         (AxisSpec){.low = -90, .high = 90, .step = 30, .suffix = "°",
-                   .title = figure->index & 1 ? "θ along φ 270° (down) to 90° (up)"
+                   .title = shown->index & 1 ? "θ along φ 270° (down) to 90° (up)"
                                               : "θ along φ 180° (left) to 0° (right)"},
         (AxisSpec){.high = high * 1.1, .title = is_normalised
                    ? "Luminance over that at the normal" : "Luminance, cd/m²"},
@@ -152,15 +153,15 @@ static void draw_section(Canvas *canvas, Box box, const Figure *figure, FigureMa
     mark_half(&chart, s, phi, is_normalised);
     name_sections(&chart, section, count, is_normalised);
     chart_close(&chart);
-    figure_map_chart(out, &chart);
+    panel_chart_map_axes(out, &chart);
 }
 
-static void add_sections(FigureList *list, const Subject *s)
+static void add_sections(PanelChartList *list, const PlotData *s)
 {
     static const char *const TITLES[] = {"Horizontal section", "Vertical section",
         "Horizontal section, normalised", "Vertical section, normalised"};
     for (int i = 0; i < 4; i++)
-        figure_add(list, &(Figure){PLOT_SECTIONS, TITLES[i],
+        panel_chart_add(list, &(PanelChart){PLOT_SECTIONS, TITLES[i],
             half_angles_text(s, i & 1 ? PI / 2 : 0),
             i & 2 ? "Luminance over the angle from the normal, each pattern divided by its own "
                     "luminance at the normal."
@@ -179,14 +180,14 @@ typedef struct GreyCurve {
 
 /* Luminance of grey above black over that of white above black; its slope over the logarithm of
  * the code across a twelfth of a decade. */
-static void fill_grey(const Subject *s, double theta, double phi, GreyCurve *out)
+static void fill_grey(const PlotData *s, double theta, double phi, GreyCurve *out)
 {
     double black[3], white[3], xyz[3];
-    subject_xyz(s, theta, phi, (float[3]){0, 0, 0}, black);
-    subject_xyz(s, theta, phi, (float[3]){255, 255, 255}, white);
+    plot_data_xyz(s, theta, phi, (float[3]){0, 0, 0}, black);
+    plot_data_xyz(s, theta, phi, (float[3]){255, 255, 255}, white);
     for (int i = 0; i < GREY_POINTS; i++) {
         float code = (float)(i + 1);
-        subject_xyz(s, theta, phi, (float[3]){code, code, code}, xyz);
+        plot_data_xyz(s, theta, phi, (float[3]){code, code, code}, xyz);
         out->code[i] = (double)code;
         out->relative[i] = (xyz[1] - black[1]) / (white[1] - black[1]);
     }
@@ -268,7 +269,7 @@ static void write_angle_key(const Chart *chart)
 }
 
 /* The lowest code at which every primary was measured. */
-static double first_level(const Subject *s)
+static double first_level(const PlotData *s)
 {
     double first = 0, code[PANEL_INFO_LEVELS_MAX];
     for (int p = 0; p < 3; p++)
@@ -277,7 +278,7 @@ static double first_level(const Subject *s)
 }
 
 /* Dots at the measured codes, on the curve of the normal. */
-static void mark_levels(Chart *chart, const Subject *s, const GreyCurve *normal)
+static void mark_levels(Chart *chart, const PlotData *s, const GreyCurve *normal)
 {
     double code[PANEL_INFO_LEVELS_MAX];
     int    count = panel_info_levels(s->source.panel, 1, code);
@@ -289,39 +290,39 @@ static void mark_levels(Chart *chart, const Subject *s, const GreyCurve *normal)
     }
 }
 
-static void draw_grey(Canvas *canvas, Box box, const Figure *figure, FigureMap *out)
+static void draw_grey(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)
 {
-    const Subject *s = figure->subject;
+    const PlotData *s = shown->data;
     GreyCurve *curve = ARENA_NEW(canvas->arena, GreyCurve, 2 * ANGLES);
     AxisSpec   x, y;
     for (int k = 0; k < 2 * ANGLES; k++)
         fill_grey(s, radians_from_degrees(GREY_ANGLES[k / 2]), k % 2 ? PI / 2 : 0, &curve[k]);
-    grey_axes(figure->index, &x, &y);
-    if (figure->index == GREY_GAMMA) fit_gamma_axis(&y, curve, 2 * ANGLES);
-    Chart chart = chart_open(canvas, box, x, y, figure->index == GREY_GAMMA ? 62 : 14);
+    grey_axes(shown->index, &x, &y);
+    if (shown->index == GREY_GAMMA) fit_gamma_axis(&y, curve, 2 * ANGLES);
+    Chart chart = chart_open(canvas, box, x, y, shown->index == GREY_GAMMA ? 62 : 14);
     double first = first_level(s);
-    if (figure->index != GREY_LINEAR) chart_hatch(&chart, 0, first);
-    draw_reference_gamma(&chart, figure->index);
+    if (shown->index != GREY_LINEAR) chart_hatch(&chart, 0, first);
+    draw_reference_gamma(&chart, shown->index);
     for (int k = 2 * ANGLES - 1; k >= 0; k--) {
         if (k == 1) continue; /* at the normal there is but one azimuth */
-        const double *values = figure->index == GREY_GAMMA ? curve[k].gamma : curve[k].relative;
+        const double *values = shown->index == GREY_GAMMA ? curve[k].gamma : curve[k].relative;
         Ink           ink = angle_ink(canvas, k / 2, ANGLES);
         chart_curve(&chart, curve[k].code, values, GREY_POINTS,
                     (Stroke){ink, k == 0 ? 1.9 : 1.3, k % 2 ? DASH_SHORT : DASH_NONE});
         const char *name = k == 0 ? "θ 0°" : arena_format(canvas->arena, "%d°, φ %d°",
                                                GREY_ANGLES[k / 2], k % 2 ? 90 : 0);
-        if (figure->index == GREY_GAMMA)
+        if (shown->index == GREY_GAMMA)
             chart_name_curve(&chart, curve[k].code, values, GREY_POINTS, ink, name);
     }
-    if (figure->index != GREY_GAMMA) {
+    if (shown->index != GREY_GAMMA) {
         mark_levels(&chart, s, &curve[0]);
         write_angle_key(&chart);
     }
     chart_close(&chart);
-    figure_map_chart(out, &chart);
+    panel_chart_map_axes(out, &chart);
 }
 
-static void add_grey(FigureList *list, const Subject *s)
+static void add_grey(PanelChartList *list, const PlotData *s)
 {
     static const char *const TITLES[] = {"Grey levels", "Grey levels, logarithmic",
                                          "Local gamma"};
@@ -337,12 +338,12 @@ static void add_grey(FigureList *list, const Subject *s)
         "Slope of the logarithmic curves: the exponent that a small step of the code sees. "
         "Hatched: below the first measured level."};
     for (int i = 0; i < 3; i++)
-        figure_add(list, &(Figure){PLOT_GREY_LEVELS, TITLES[i],
+        panel_chart_add(list, &(PanelChart){PLOT_GREY_LEVELS, TITLES[i],
             SUBTITLES[i], CAPTIONS[i],
             draw_grey, s, i, i > 0 ? SHEET_ALWAYS : SHEET_SPARE, true});
 }
 
-void figures_add_curves(FigureList *list, const Subject *s)
+void curve_charts_add(PanelChartList *list, const PlotData *s)
 {
     if (!s->emits) return;
     add_sections(list, s);

@@ -1,4 +1,4 @@
-#include "plot/panel/page.h"
+#include "plot/panel/sheet.h"
 
 #include <math.h>
 #include <string.h>
@@ -16,18 +16,18 @@
 
 typedef struct Layout {
     int    columns, rows;
-    bool   has_lead;      /* the first figure takes two columns and both rows */
+    bool   has_lead;      /* the first chart takes two columns and both rows */
     double cell_w, cell_h;
     double width, height; /* of the page, points */
     double scale;         /* pixels per point */
 } Layout;
 
-static double page_width(int columns, double cell_w)
+static double sheet_width(int columns, double cell_w)
 {
     return 2 * MARGIN + columns * cell_w + (columns - 1) * GUTTER;
 }
 
-static double page_height(int rows, double cell_h)
+static double sheet_height(int rows, double cell_h)
 {
     return 2 * MARGIN + HEADER + FOOTER + rows * cell_h + (rows - 1) * GUTTER;
 }
@@ -39,7 +39,7 @@ static void natural_cell(int count, double *w, double *h)
     *h = count == 1 ? 460 : 346;
 }
 
-static Layout natural_layout(const PageSpec *spec)
+static Layout natural_layout(const SheetSpec *spec)
 {
     int    n = spec->list->count;
     Layout l = {.scale = 1};
@@ -47,32 +47,32 @@ static Layout natural_layout(const PageSpec *spec)
     l.columns = l.has_lead ? 4 : n <= 3 ? n : n == 4 ? 2 : n <= 6 ? 3 : 4;
     l.rows = l.has_lead ? 2 : (n + l.columns - 1) / l.columns;
     natural_cell(n, &l.cell_w, &l.cell_h);
-    l.width = page_width(l.columns, l.cell_w);
-    l.height = page_height(l.rows, l.cell_h);
+    l.width = sheet_width(l.columns, l.cell_w);
+    l.height = sheet_height(l.rows, l.cell_h);
     return l;
 }
 
 /* As many columns as leave the letters largest; then the cells take what is left over. */
-static Layout layout_for_size(const PageSpec *spec)
+static Layout layout_for_size(const SheetSpec *spec)
 {
     Layout best = {0};
     double w, h;
     natural_cell(spec->list->count, &w, &h);
     for (int columns = 1; columns <= spec->list->count; columns++) {
         int    rows = (spec->list->count + columns - 1) / columns;
-        double scale = fmin(spec->width / page_width(columns, w),
-                            spec->height / page_height(rows, h));
+        double scale = fmin(spec->width / sheet_width(columns, w),
+                            spec->height / sheet_height(rows, h));
         if (scale > best.scale)
             best = (Layout){.columns = columns, .rows = rows, .scale = scale};
     }
     best.width = spec->width / best.scale;
     best.height = spec->height / best.scale;
-    best.cell_w = (best.width - page_width(best.columns, 0)) / best.columns;
-    best.cell_h = (best.height - page_height(best.rows, 0)) / best.rows;
+    best.cell_w = (best.width - sheet_width(best.columns, 0)) / best.columns;
+    best.cell_h = (best.height - sheet_height(best.rows, 0)) / best.rows;
     return best;
 }
 
-static Layout layout_of(const PageSpec *spec, double pixels_per_point)
+static Layout layout_of(const SheetSpec *spec, double pixels_per_point)
 {
     if (spec->width > 0) return layout_for_size(spec);
     Layout l = natural_layout(spec);
@@ -82,9 +82,9 @@ static Layout layout_of(const PageSpec *spec, double pixels_per_point)
 
 /* ---- drawing ---------------------------------------------------------------------------- */
 
-static void draw_heading(Canvas *canvas, const PageSpec *spec, const Layout *l)
+static void draw_heading(Canvas *canvas, const SheetSpec *spec, const Layout *l)
 {
-    const Subject *s = spec->subject;
+    const PlotData *s = spec->data;
     const Theme   *t = &canvas->theme;
     double         width = l->width - 2 * MARGIN;
     const char *source = json_string_value(json_object_get(s->source.report, "source"));
@@ -103,17 +103,17 @@ static void draw_heading(Canvas *canvas, const PageSpec *spec, const Layout *l)
                 (Stroke){t->faint, 0.7, DASH_NONE});
 }
 
-static bool has_kind(const PageSpec *spec, PlotKind first, PlotKind last)
+static bool has_kind(const SheetSpec *spec, PlotKind first, PlotKind last)
 {
     for (int i = 0; i < spec->list->count; i++)
-        if (spec->list->figure[i].kind >= first && spec->list->figure[i].kind <= last)
+        if (spec->list->chart[i].kind >= first && spec->list->chart[i].kind <= last)
             return true;
     return false;
 }
 
-static const char *extrapolation_text(Canvas *canvas, const PageSpec *spec)
+static const char *extrapolation_text(Canvas *canvas, const SheetSpec *spec)
 {
-    const Subject *s = spec->subject;
+    const PlotData *s = spec->data;
     double cone = degrees_from_radians(s->cone), last = degrees_from_radians(s->last_incidence);
     bool   is_fit = has_kind(spec, PLOT_FIT, PLOT_FIT);
     bool   emission = s->emits && cone < 89.95 &&
@@ -131,7 +131,7 @@ static const char *extrapolation_text(Canvas *canvas, const PageSpec *spec)
                                      degrees_from_radians(s->brdf_cone), last) : NULL;
 }
 
-static void draw_legend(Canvas *canvas, const PageSpec *spec, const Layout *l)
+static void draw_legend(Canvas *canvas, const SheetSpec *spec, const Layout *l)
 {
     double      y = l->height - MARGIN - 6;
     const char *text = extrapolation_text(canvas, spec);
@@ -152,7 +152,7 @@ static void draw_legend(Canvas *canvas, const PageSpec *spec, const Layout *l)
     canvas_text(canvas, l->width - MARGIN, y, letters, sign);
 }
 
-static Box figure_box(const Layout *l, int index)
+static Box chart_box(const Layout *l, int index)
 {
     Box box = {MARGIN, MARGIN + HEADER, l->cell_w, l->cell_h};
     if (l->has_lead && index == 0) {
@@ -168,61 +168,61 @@ static Box figure_box(const Layout *l, int index)
 }
 
 /* A page with its layout, while it is drawn. */
-typedef struct Page {
-    const PageSpec *spec;
+typedef struct Sheet {
+    const SheetSpec *spec;
     Layout          layout;
-} Page;
+} Sheet;
 
-static void draw_page(Canvas *canvas, const void *context)
+static void draw_sheet(Canvas *canvas, const void *context)
 {
-    const Page *page = context;
-    FigureMap   unused;
-    draw_heading(canvas, page->spec, &page->layout);
-    for (int i = 0; i < page->spec->list->count; i++)
-        figure_draw(canvas, figure_box(&page->layout, i), &page->spec->list->figure[i],
+    const Sheet *sheet = context;
+    PanelChartMap   unused;
+    draw_heading(canvas, sheet->spec, &sheet->layout);
+    for (int i = 0; i < sheet->spec->list->count; i++)
+        panel_chart_draw(canvas, chart_box(&sheet->layout, i), &sheet->spec->list->chart[i],
                     &unused);
-    draw_legend(canvas, page->spec, &page->layout);
+    draw_legend(canvas, sheet->spec, &sheet->layout);
 }
 
-static PictureSpec picture_of(const Page *page, bool is_svg)
+static PictureSpec picture_of(const Sheet *sheet, bool is_svg)
 {
-    return (PictureSpec){.width = page->layout.width, .height = page->layout.height,
-                         .scale = page->layout.scale, .is_svg = is_svg,
-                         .is_dark = page->spec->is_dark, .draw = draw_page, .context = page};
+    return (PictureSpec){.width = sheet->layout.width, .height = sheet->layout.height,
+                         .scale = sheet->layout.scale, .is_svg = is_svg,
+                         .is_dark = sheet->spec->is_dark, .draw = draw_sheet, .context = sheet};
 }
 
-bool page_svg(const PageSpec *spec, Arena *arena, PlotBytes *out, Error *err)
+bool sheet_svg(const SheetSpec *spec, Arena *arena, PlotBytes *out, Error *err)
 {
-    Page        page = {spec, layout_of(spec, 1)};
-    PictureSpec picture = picture_of(&page, true);
+    Sheet       sheet = {spec, layout_of(spec, 1)};
+    PictureSpec picture = picture_of(&sheet, true);
     return picture_draw(&picture, arena, out, err);
 }
 
-bool page_png(const PageSpec *spec, Arena *arena, PlotBytes *out, Error *err)
+bool sheet_png(const SheetSpec *spec, Arena *arena, PlotBytes *out, Error *err)
 {
-    Page        page = {spec, layout_of(spec, 2)};
-    PictureSpec picture = picture_of(&page, false);
+    Sheet       sheet = {spec, layout_of(spec, 2)};
+    PictureSpec picture = picture_of(&sheet, false);
     return picture_draw(&picture, arena, out, err);
 }
 
-/* One figure, and where its read-out map goes. */
+/* One chart, and where its read-out map goes. */
 typedef struct Single {
-    const Figure      *figure;
-    const FigureFrame *frame;
-    FigureMap         *map;
+    const PanelChart      *chart;
+    const SheetChartFrame *frame;
+    PanelChartMap         *map;
 } Single;
 
 static void draw_single(Canvas *canvas, const void *context)
 {
     const Single *one = context;
     Box inside = {4, 4, one->frame->width - 8, one->frame->height - 8};
-    one->figure->draw(canvas, inside, one->figure, one->map);
+    one->chart->draw(canvas, inside, one->chart, one->map);
 }
 
-bool page_figure_svg(const Figure *figure, const FigureFrame *frame, Arena *arena,
-                     PlotBytes *out, FigureMap *map, Error *err)
+bool sheet_chart_svg(const PanelChart *chart, const SheetChartFrame *frame, Arena *arena,
+                     PlotBytes *out, PanelChartMap *map, Error *err)
 {
-    Single      one = {figure, frame, map};
+    Single      one = {chart, frame, map};
     PictureSpec picture = {.width = frame->width, .height = frame->height, .scale = 1,
                            .is_svg = true, .is_dark = frame->is_dark,
                            .inline_prefix = frame->prefix, .draw = draw_single,
