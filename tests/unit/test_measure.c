@@ -1,4 +1,4 @@
-/* Figures of a part of a frame, and their intervals. */
+/* Luminance and colour of a part of a frame, and their intervals. */
 #include "fixture.h"
 
 #include "image/measure.h"

@@ -1,4 +1,4 @@
-/* Surface models against published figures and closed forms. */
+/* Surface models against published values and closed forms. */
 #include "check.h"
 
 #include "base/arena.h"
