@@ -2,6 +2,7 @@
 #include "fixture.h"
 
 #include "base/units.h"
+#include "image/srgb.h"
 #include "plot/draw/chart.h"
 #include "plot/draw/colour_map.h"
 #include "plot/draw/contour.h"
@@ -183,6 +184,14 @@ TEST(round_numbers_enclose)
         assert_true(round_up(v) >= v * (1 - 1e-8) && round_up(v) <= 2.5 * v * (1 + 1e-8));
         assert_true(round_down(v) <= v * (1 + 1e-8) && round_down(v) >= v / 2.5 * (1 - 1e-8));
     }
+}
+
+/* CIE 1976 lightness of an sRGB colour, 0 to 100 (IEC 61966-2-1's luminance). */
+static double lightness_from_srgb(const double srgb[3])
+{
+    double y = 0.2126 * linear_from_srgb_d(srgb[0]) + 0.7152 * linear_from_srgb_d(srgb[1]) +
+               0.0722 * linear_from_srgb_d(srgb[2]);
+    return y > 216.0 / 24389 ? 116 * cbrt(y) - 16 : y * 24389.0 / 27;
 }
 
 /* ---- colours ---------------------------------------------------------------------------- */

@@ -1,4 +1,4 @@
-/* reflection_charts.h -- the BRDF in sections, over wavelength, over the hemisphere; the mirror.
+/* reflection_charts.h -- the BRDF in sections, over wavelength and the hemisphere; the mirror.
  *
  * Memory   the list's data have the arena. Threads: one list at a time. Fails: never.
  */
