@@ -14,6 +14,8 @@
  * reflection data reflects nothing. Not modelled: polarisation, anisotropic sparkle, the change
  * of haze with the display's content.
  */
+#include "panel/query/panel_reflection.h"
+#include "panel/query/panel_sampling.h"
 #include "shaders/display.h"
 
 /* The chance of taking the mirror: its share of all reflected light. */

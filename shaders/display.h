@@ -5,6 +5,7 @@
 #pragma once
 #include "panel/query/panel.h"
 #include "shaders/bsdf_model.h"
+#include "spectrum/wavelengths.h"
 
 typedef struct DisplaySurface {
     const Panel       *panel;

@@ -1,5 +1,6 @@
 #include "light/emission.h"
 
+#include "panel/query/panel_emission.h"
 #include "spectrum/photometry.h"
 
 #include "base/units.h"

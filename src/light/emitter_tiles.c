@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/mathd.h"
+#include "panel/query/panel_emission.h"
 
 
 #define PARTS_MAX 12 /* with tiles of their own; the dimmest share one */

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "light/emitter_tiles.h"
+#include "panel/query/panel_emission.h"
 #include "spectrum/photometry.h"
 
 #define CELLS_OF_PICTURE 32768 /* about, of a part with content or an emissive texture */

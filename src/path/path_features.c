@@ -1,3 +1,4 @@
+#include "panel/query/panel_emission.h"
 #include "path/path_features.h"
 
 #include "base/units.h"

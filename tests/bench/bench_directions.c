@@ -16,6 +16,9 @@
 #include "base/sampler.h"
 #include "base/units.h"
 #include "panel/query/panel.h"
+#include "panel/query/panel_emission.h"
+#include "panel/query/panel_open.h"
+#include "panel/query/panel_reflection.h"
 #include "panel/set/synthetic_panel.h"
 
 #define BANDS 46

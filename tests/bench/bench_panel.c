@@ -21,6 +21,10 @@
 #include "base/sampler.h"
 #include "tests/bench/flat_tables.h"
 #include "panel/query/panel.h"
+#include "panel/query/panel_emission.h"
+#include "panel/query/panel_open.h"
+#include "panel/query/panel_reflection.h"
+#include "panel/query/panel_sampling.h"
 
 #define CALLS (1 << 17)
 #define MAX_RUNS 99

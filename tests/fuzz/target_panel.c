@@ -7,8 +7,12 @@
 #include <xxhash.h>
 
 #include "harness.h"
+#include "panel/query/panel_emission.h"
 #include "panel/query/panel_file.h"
 #include "panel/query/panel_info.h"
+#include "panel/query/panel_open.h"
+#include "panel/query/panel_reflection.h"
+#include "panel/query/panel_sampling.h"
 
 static bool all_in(const float *value, int count, float low)
 {

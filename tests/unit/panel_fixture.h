@@ -2,10 +2,13 @@
 #pragma once
 #include "base/units.h"
 #include "fixture.h"
+#include "base/vec.h"
 #include "panel/fit/fit.h"
+#include "panel/query/panel_open.h"
 #include "panel/set/measurement.h"
 #include "panel/query/panel.h"
 #include "panel/set/simulate.h"
+#include "spectrum/wavelengths.h"
 
 typedef struct Fixture {
     Arena        arena;

@@ -2,6 +2,9 @@
 #include "check.h"
 
 #include "base/units.h"
+#include "panel/query/panel_emission.h"
+#include "panel/query/panel_open.h"
+#include "panel/query/panel_reflection.h"
 #include "path/path_features.h"
 #include "scene_builder.h"
 #include "spectrum/photometry.h"

@@ -1,8 +1,13 @@
 /* What a fitted panel says against the closed truth that its tables were made of. */
 #include "panel_fixture.h"
 
+#include "panel/query/panel_emission.h"
 #include "panel/query/panel_file.h"
+#include "panel/query/panel_open.h"
+#include "panel/query/panel_opened.h"
+#include "panel/query/panel_reflection.h"
 #include "panel/query/panel_report.h"
+#include "panel/query/panel_sampling.h"
 #include "spectrum/spectral_table.h"
 
 static Fixture ips;

@@ -4,7 +4,12 @@
  * PARHELION_BEAMS in the environment: all of them; tests/long.sh asks for that. */
 #include "panel_fixture.h"
 
+#include "panel/query/panel_beam.h"
+#include "panel/query/panel_components.h"
+#include "panel/query/panel_emission.h"
 #include "panel/query/panel_file.h"
+#include "panel/query/panel_open.h"
+#include "panel/query/panel_opened.h"
 
 #define WIDTH 0.5    /* degrees, full width at half maximum */
 #define BOUND 0.02   /* relative, at every sample */
@@ -248,9 +253,9 @@ TEST(a_stored_beam_comes_back)
         assert_true(fabsf(row[2] - (30.0f - (float)i)) <= 0.51f * 30.0f / 32766);
     }
     float out[4] = {0, 0, 0, 0};
-    panel_beam_add(&beam, vec3(0, 0, 1), out);
+    panel_components_add_beam(&beam, vec3(0, 0, 1), out);
     assert_true(out[0] == 0 && out[2] == 0); /* far behind the reach */
-    panel_beam_add(&beam, beam.centre, out);
+    panel_components_add_beam(&beam, beam.centre, out);
     const float *row = beam.coefficient;
     assert_true(fabsf(out[0] - (row[0] + 4 * row[4] + row[8]) / 6) < 1e-5f);
     arena_release(&arena);

@@ -4,6 +4,7 @@
  * What a grid leaves open: the error of linear interpolation of the logarithm between the
  * source's samples, the largest one found within the same 2 degrees of theta. */
 #include "panel_fixture.h"
+#include "panel/query/panel_emission.h"
 
 #define BOUND 0.02
 #define DIRECTIONS 1000000

@@ -1,8 +1,15 @@
 /* Emission of fitted panels against closed truth: bounds, noise, grids, levels, sizes. */
 #include "panel_fixture.h"
 
-#include "panel/query/panel_report.h"
+#include "panel/query/panel_components.h"
+#include "panel/query/panel_emission.h"
 #include "panel/query/panel_file.h"
+#include "panel/query/panel_levels.h"
+#include "panel/query/panel_open.h"
+#include "panel/query/panel_opened.h"
+#include "panel/query/panel_reflection.h"
+#include "panel/query/panel_report.h"
+#include "panel/query/panel_spline.h"
 
 #define COARSE "\"theta_step_deg\": 4, \"phi_step_deg\": 10"
 #define CHECK_EMISSION "\"gamma\": 2.2, \"gamma_drop\": 0.2, \"cosine_power\": [1.1, 1.6],"  \
@@ -459,8 +466,8 @@ TEST(a_smooth_part_comes_back_as_it_was_packed)
     for (int i = 0; i < 300; i++) {
         float a[8] = {0}, b[8] = {0};
         Vec3  d = direction_deg(0.29 * i, 13.0 * i);
-        panel_spline_add(&exact, d, logf(d.z), a);
-        panel_spline_add(&stored, d, logf(d.z), b);
+        panel_components_add_spline(&exact, d, logf(d.z), a);
+        panel_components_add_spline(&stored, d, logf(d.z), b);
         for (int k = 0; k < 5; k++) assert_near(a[k], b[k], (double)step[k] * (4 + 4 * 4.5));
     }
     for (size_t cut = 0; cut < size; cut++)

@@ -12,8 +12,12 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "panel/query/panel_emission.h"
 #include "panel/query/panel_file.h"
 #include "panel/query/panel_info.h"
+#include "panel/query/panel_open.h"
+#include "panel/query/panel_reflection.h"
+#include "panel/query/panel_sampling.h"
 
 #define MUTATIONS 2400
 #define FORGED_SHARE 4 /* one in so many has a checksum that fits: it is opened, at some ms */

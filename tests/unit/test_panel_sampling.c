@@ -10,7 +10,12 @@
 #include "base/sampler.h"
 #include "hemisphere/geodesic.h"
 #include "hemisphere/specular_frame.h"
+#include "panel/query/panel_emission.h"
 #include "panel/query/panel_file.h"
+#include "panel/query/panel_open.h"
+#include "panel/query/panel_opened.h"
+#include "panel/query/panel_reflection.h"
+#include "panel/query/panel_sampling.h"
 #include "panel/query/sampling_make.h"
 #include "shaders/display.h"
 

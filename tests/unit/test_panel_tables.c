@@ -1,6 +1,8 @@
 /* Files of a laboratory: what is wrong with recipes, manifests and tables is named; every
  * layout says the same. */
 #include "panel_fixture.h"
+#include "panel/query/panel_emission.h"
+#include "panel/query/panel_open.h"
 
 static Fixture folder; /* a folder for files, nothing fitted */
 

@@ -6,6 +6,7 @@
 #include "base/arena.h"
 #include "base/sampler.h"
 #include "base/units.h"
+#include "panel/query/panel_open.h"
 #include "shaders/bsdf.h"
 #include "shaders/microfacet.h"
 

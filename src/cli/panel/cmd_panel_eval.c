@@ -12,8 +12,10 @@
 #include "cli/panel/panel_question.h"
 #include "text/csv_table.h"
 #include "panel/fit/fit.h"
-#include "panel/query/panel_report.h"
 #include "panel/query/panel_info.h"
+#include "panel/query/panel_open.h"
+#include "panel/query/panel_reflection.h"
+#include "panel/query/panel_report.h"
 
 #define ARENA_BYTES ((size_t)16 << 30)
 

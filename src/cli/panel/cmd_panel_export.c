@@ -5,6 +5,7 @@
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
+#include "panel/query/panel_open.h"
 #include "panel/set/export.h"
 #include "text/json_text.h"
 

@@ -8,6 +8,7 @@
 #include "cli/panel/panel_print.h"
 #include "panel/query/panel.h"
 #include "panel/query/panel_info.h"
+#include "panel/query/panel_open.h"
 #include "panel/query/panel_report.h"
 
 #define ARENA_BYTES ((size_t)16 << 30)

@@ -7,6 +7,7 @@
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
+#include "panel/query/panel_open.h"
 #include "plot/panel/plot.h"
 #include "plot/panel/report.h"
 #include "text/json_text.h"

@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "base/units.h"
+#include "panel/query/panel_emission.h"
+#include "panel/query/panel_reflection.h"
 
 /* Unit vector of a direction in degrees. */
 static Vec3 panel_direction(double theta_deg, double phi_deg)

@@ -9,6 +9,7 @@
 #include <stdio.h>
 
 #include "base/error.h"
+#include "base/vec.h"
 #include "panel/query/panel_info.h"
 
 typedef struct PanelQuestion {

@@ -8,6 +8,8 @@
 #include "panel/fit/emission/emission_spectra.h"
 #include "panel/fit/fit_report.h"
 #include "panel/fit/fit_table.h"
+#include "panel/query/panel_open.h"
+#include "panel/query/panel_opened.h"
 #include "panel/query/panel_report.h"
 #include "panel/query/sampling_make.h"
 

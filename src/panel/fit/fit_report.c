@@ -12,7 +12,8 @@
 #include "hemisphere/geodesic.h"
 #include "panel/fit/common/table_rows.h"
 #include "panel/fit/fit_report_reflection.h"
-#include "panel/query/panel_query.h"
+#include "panel/query/panel_emission.h"
+#include "panel/query/panel_components.h"
 
 /* Relative to the measured value itself, or to 20 times what is noise even without light, or
  * to what no meter sees. */

@@ -7,6 +7,7 @@
 #include <jansson.h>
 
 #include "panel/fit/fit_file.h"
+#include "panel/query/panel.h"
 
 /* Compares the panel with the tables; a new JSON document. */
 json_t *fit_report_measure(const FitParts *parts, const Panel *panel, size_t file_bytes);

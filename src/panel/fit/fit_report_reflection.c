@@ -8,7 +8,8 @@
 #include "panel/fit/common/table_rows.h"
 #include "panel/fit/reflection/reflection_model.h"
 #include "panel/fit/reflection/reflection_read.h"
-#include "panel/query/panel_query.h"
+#include "panel/query/panel_components.h"
+#include "panel/query/panel_reflection.h"
 
 /* The azimuth of a table's mirror direction. */
 static double mirror_azimuth(const Measurement *set, int table)

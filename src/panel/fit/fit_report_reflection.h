@@ -2,6 +2,7 @@
 #pragma once
 #include "panel/fit/fit_file.h"
 #include "panel/fit/fit_table.h"
+#include "panel/query/panel.h"
 
 /* The tables' rows. */
 void fit_report_reflection_tables(const FitParts *parts, const Panel *panel, json_t *tables,

@@ -4,19 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/mathd.h"
-
 _Static_assert(sizeof(PanelBeamHead) == 32, "the file's layout");
 
 #define CORE_LEAST 1e-5f
 #define NARROW_MOST 100.0f
 #define STEP_MOST 1e3f /* a component that bears more than this does nothing */
-
-double panel_beam_reach(const PanelBeam *beam)
-{
-    double u = (double)PANEL_BEAM_STEP * beam->knots;
-    return fmin(2, (double)beam->core * sqrt(exp_d(u) - 1));
-}
 
 size_t panel_beam_pack(const PanelBeamHead *head, const float *coefficient, const float *step,
                        int components, Arena *arena, const void **bytes)

@@ -39,9 +39,6 @@ typedef struct PanelBeam {
     const float *coefficient;
 } PanelBeam;
 
-/* u in knots at a direction; a beam ends at `knots`. */
-float panel_beam_place(const PanelBeam *beam, Vec3 direction);
-
 /* The four weights of coefficients from a knot on, t in [0, 1] behind it. */
 static inline void panel_beam_weights(float t, float weight[4])
 {
@@ -51,12 +48,6 @@ static inline void panel_beam_weights(float t, float weight[4])
     weight[2] = (3 * s * s * s - 6 * s * s + 4) * (1.0f / 6);
     weight[3] = t * t * t * (1.0f / 6);
 }
-
-/* HOT. Adds components to out (stride floats). */
-void panel_beam_add(const PanelBeam *beam, Vec3 direction, float *out);
-
-/* The chord beyond which a beam adds nothing. */
-double panel_beam_reach(const PanelBeam *beam);
 
 /* What is stored of coefficients [components][knots]; step[k]: the rounding that component k
  * bears, coarser where 16 bits ask for it. *bytes in the arena; returns their number. */

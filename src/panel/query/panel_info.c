@@ -5,7 +5,7 @@
 
 #include "base/mathd.h"
 #include "base/units.h"
-#include "panel/query/panel_file.h"
+#include "panel/query/panel_opened.h"
 
 int panel_info_wavelengths(const Panel *panel, float nm[PANEL_INFO_WAVELENGTHS_MAX])
 {
@@ -60,11 +60,6 @@ int panel_info_levels(const Panel *panel, int primary, double code[PANEL_INFO_LE
     for (int i = 0; e && i < (int)e->level_count[primary]; i++)
         code[i] = (double)e->level[primary][i];
     return e ? (int)e->level_count[primary] : 0;
-}
-
-bool panel_info_has_black(const Panel *panel)
-{
-    return panel->emission && panel->emission->has_black;
 }
 
 double panel_info_emission_cone(const Panel *panel)

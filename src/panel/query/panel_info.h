@@ -3,6 +3,8 @@
  * Units    radians, nm. Threads: any number. Fails: never.
  */
 #pragma once
+#include <stdbool.h>
+
 #include "panel/query/panel.h"
 
 #define PANEL_INFO_WAVELENGTHS_MAX 256
@@ -33,9 +35,6 @@ bool panel_info_emits(const Panel *panel);
 /* The measured codes of primary 0..2, rising, without 0; returns how many. */
 #define PANEL_INFO_LEVELS_MAX 64
 int panel_info_levels(const Panel *panel, int primary, double code[PANEL_INFO_LEVELS_MAX]);
-
-/* Does the black pattern shine? False for panels made of a white table, and for true blacks. */
-bool panel_info_has_black(const Panel *panel);
 
 /* The last measured theta. */
 double panel_info_emission_cone(const Panel *panel);

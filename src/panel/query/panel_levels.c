@@ -1,7 +1,4 @@
-/* Between grey levels: linear in the levels' logarithms. */
-#include <string.h>
-
-#include "panel/query/panel_file.h"
+#include "panel/query/panel_levels.h"
 
 /* d slope / d steepness of the intervals before and behind a node, at the mean curve. */
 typedef struct SlopeParts {

@@ -1,13 +1,14 @@
-/* Opening a panel file: what it emits, and the tables that queries read. */
+#include "panel/query/panel_open_emission.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "base/mathd.h"
 #include "base/units.h"
 #include "hemisphere/tree_query.h"
-#include "panel/query/spectral_warp.h"
-#include "panel/query/panel_open.h"
-#include "panel/query/panel_query.h"
+#include "panel/query/panel_components.h"
+#include "panel/query/panel_emission.h"
+#include "panel/query/panel_levels.h"
 
 _Static_assert(sizeof(PanelEmissionHead) == 20, "the file's layout");
 _Static_assert(sizeof(PanelPrimariesHead) == 24, "the file's layout");
@@ -201,9 +202,9 @@ static void channel_logs(const Panel *panel, Vec3 direction, bool with_beams, fl
 {
     const PanelEmission *e = panel->emission;
     float components[PANEL_COMPONENTS_MAX], beams[PANEL_COMPONENTS_MAX] = {0};
-    float fall = panel_emission_components(panel, direction, components);
+    float fall = panel_components(panel, direction, components);
     for (int b = 0; b < e->beams && !with_beams; b++)
-        panel_beam_add(&e->beam[b], direction, beams);
+        panel_components_add_beam(&e->beam[b], direction, beams);
     for (int k = 0; k < e->components && e->beams && !with_beams; k++)
         components[k] -= beams[k];
     for (int c = 0; c < e->channels; c++) {
@@ -282,9 +283,9 @@ static bool means_fit(const PanelEmission *e)
 /* No other beam is nearer: each one's light is taken on its own rings. */
 static bool is_nearest(const PanelEmission *e, int beam, Vec3 d)
 {
-    float own = panel_beam_place(&e->beam[beam], d);
+    float own = panel_components_beam_place(&e->beam[beam], d);
     for (int b = 0; b < e->beams; b++) {
-        float other = panel_beam_place(&e->beam[b], d);
+        float other = panel_components_beam_place(&e->beam[b], d);
         if (other < own || (other == own && b < beam)) return false;
     }
     return true;
@@ -347,7 +348,7 @@ static void survey(Panel *panel, PanelEmission *e, Arena *arena, PanelPrimaries 
     for (int t = 0; t < e->channels / 3; t++) mean_y[t] /= weight;
     spread_means(e, mean_y);
     for (int p = 0; p < 4; p++)
-        primaries->bend[p].range = panel_bend_range(clouds.ratio[p], clouds.count[p]);
+        primaries->bend[p].range = spectral_warp_range(clouds.ratio[p], clouds.count[p]);
 }
 
 /* ---- spectra ---------------------------------------------------------------------------- */
@@ -435,9 +436,9 @@ bool panel_open_emission(const PanelBytes *bytes, const Geodesic *geodesic, Aren
     return true;
 }
 
-void panel_open_bends(Panel *panel)
+void panel_open_warps(Panel *panel)
 {
     PanelPrimaries *primaries = (PanelPrimaries *)panel->primaries;
     for (int p = 0; primaries && p < (panel->emission->has_black ? 4 : 3); p++)
-        panel_bend_fill(primaries->spectrum[p], &primaries->bend[p]);
+        spectral_warp_fill(primaries->spectrum[p], &primaries->bend[p]);
 }

@@ -1,9 +1,10 @@
-/* Opening a panel file: what it reflects, expanded for queries. */
+#include "panel/query/panel_open_reflection.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "base/mathd.h"
-#include "panel/query/panel_open.h"
+#include "panel/query/panel_open_sampling.h"
 #include "panel/query/panel_reflection_layout.h"
 #include "spectrum/fresnel.h"
 

@@ -1,8 +1,8 @@
-/* Opening a panel file: how its reflection is sampled. */
+#include "panel/query/panel_open_sampling.h"
+
 #include <string.h>
 
 #include "base/units.h"
-#include "panel/query/panel_open.h"
 #include "panel/query/sampling_make.h"
 
 static bool check_nodes(const PanelBytes *at, const PanelSampling *s)

@@ -5,6 +5,7 @@
  */
 #pragma once
 #include "panel/query/panel_file.h"
+#include "spectrum/spectral_table.h"
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
 

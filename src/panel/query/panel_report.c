@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "panel/query/panel_file.h"
+#include "panel/query/panel_opened.h"
 
 #define COLUMNS_MAX 64
 #define TEXT_MAX 255

@@ -10,6 +10,8 @@
 #pragma once
 #include <jansson.h>
 
+#include "base/arena.h"
+#include "base/error.h"
 #include "panel/query/panel.h"
 
 /* tables: objects of a "name" and numbers. Returns the size of *bytes in the arena. */

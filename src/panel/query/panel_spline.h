@@ -65,8 +65,3 @@ size_t panel_spline_pack(const PanelSplineNumbers *in, Arena *arena, const void 
  * components. */
 bool panel_spline_open(const void *bytes, size_t size, int components, Arena *arena,
                        PanelSpline *out, size_t *used);
-
-/* HOT. Adds components to out (stride floats). log_cos: ln of the direction's z, held at
- * PANEL_LEAST_COS. */
-void panel_spline_add(const PanelSpline *spline, Vec3 direction, float log_cos, float *out);
-#define PANEL_LEAST_COS 1e-4f

@@ -6,7 +6,8 @@
 #include "base/mathd.h"
 #include "base/units.h"
 #include "hemisphere/specular_frame.h"
-#include "panel/query/panel_file.h"
+#include "panel/query/panel_opened.h"
+#include "panel/query/panel_reflection.h"
 #include "spectrum/spectral_table.h"
 
 #define PROBE_LEVEL 5             /* at which incidences and azimuths are chosen */

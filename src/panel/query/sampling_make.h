@@ -9,6 +9,11 @@
  * Fails     as sampling_tree_build.
  */
 #pragma once
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/arena.h"
+#include "base/error.h"
 #include "panel/query/panel.h"
 
 #define SAMPLING_MADE_LEVEL 6

@@ -97,7 +97,7 @@ static double moments(const BendSource *s, const double c[3], double moment[3][3
     return most;
 }
 
-void panel_spectrum_xyz(const float *spectrum, double xyz[3])
+static void spectrum_xyz(const float *spectrum, double xyz[3])
 {
     BendSource source;
     double     moment[3][3], zero[3] = {0, 0, 0};
@@ -109,7 +109,7 @@ void panel_spectrum_xyz(const float *spectrum, double xyz[3])
 bool panel_spectrum_normalise(float *spectrum)
 {
     double xyz[3];
-    panel_spectrum_xyz(spectrum, xyz);
+    spectrum_xyz(spectrum, xyz);
     if (!(xyz[0] > 0 && xyz[1] > 0 && xyz[2] > 0)) return false;
     for (int i = 0; i < SPECTRAL_COUNT; i++)
         spectrum[i] = (float)((double)spectrum[i] / xyz[1]);
@@ -200,7 +200,7 @@ static bool bend_along(const BendSource *source, const double from[2], const dou
 /* ---- the table ------------------------------------------------------------------------- */
 
 /* (ln X/Y, ln Z/Y) at a node. */
-static void node_ratio(const PanelBendRange *range, double along, double across,
+static void node_ratio(const SpectralWarpRange *range, double along, double across,
                        double ratio[2])
 {
     double ax = (double)range->along[0], ay = (double)range->along[1];
@@ -208,36 +208,36 @@ static void node_ratio(const PanelBendRange *range, double along, double across,
     ratio[1] = (double)range->origin[1] + along * ay + across * ax;
 }
 
-static double node_at(const PanelBendRange *range, int coordinate, int index)
+static double node_at(const SpectralWarpRange *range, int coordinate, int index)
 {
     double low = (double)range->low[coordinate], high = (double)range->high[coordinate];
-    return low + (high - low) * index / (PANEL_BEND_SIDE - 1);
+    return low + (high - low) * index / (SPECTRAL_WARP_SIDE - 1);
 }
 
 /* From the middle of the row to either side, each start its neighbour's solution. */
 static int fill_across(const BendSource *source, int i, double along, const double start[3],
-                       bool is_reached, PanelBend *bend)
+                       bool is_reached, SpectralWarp *bend)
 {
     double middle[2];
-    int    missed = 0, centre = PANEL_BEND_SIDE / 2;
+    int    missed = 0, centre = SPECTRAL_WARP_SIDE / 2;
     node_ratio(&bend->range, along, 0, middle);
     for (int side = 0; side < 2; side++) {
         double c[3] = {start[0], start[1], start[2]}, from[2] = {middle[0], middle[1]}, to[2];
         bool   goes_on = is_reached;
         int    j = side ? centre - 1 : centre;
-        for (; j >= 0 && j < PANEL_BEND_SIDE; j += side ? -1 : 1) {
+        for (; j >= 0 && j < SPECTRAL_WARP_SIDE; j += side ? -1 : 1) {
             node_ratio(&bend->range, along, node_at(&bend->range, 1, j), to);
             goes_on = goes_on && bend_along(source, from, to, c);
             missed += !goes_on;
             memcpy(from, to, sizeof from);
             for (int k = 0; k < 3; k++)
-                bend->coefficient[j * PANEL_BEND_SIDE + i][k] = (float)c[k];
+                bend->coefficient[j * SPECTRAL_WARP_SIDE + i][k] = (float)c[k];
         }
     }
     return missed;
 }
 
-int panel_bend_fill(const float *spectrum, PanelBend *bend)
+int spectral_warp_fill(const float *spectrum, SpectralWarp *bend)
 {
     BendSource source;
     double     moment[3][3], zero[3] = {0, 0, 0}, from[2], to[2], c[3] = {0, 0, 0};
@@ -248,7 +248,7 @@ int panel_bend_fill(const float *spectrum, PanelBend *bend)
     from[0] = log_d(moment[0][0] / moment[1][0]);
     from[1] = log_d(moment[2][0] / moment[1][0]);
     bend_to(&source, from, c);
-    for (int i = 0; i < PANEL_BEND_SIDE; i++) {
+    for (int i = 0; i < SPECTRAL_WARP_SIDE; i++) {
         double along = node_at(&bend->range, 0, i);
         node_ratio(&bend->range, along, 0, to);
         is_reached = bend_along(&source, from, to, c);
@@ -267,7 +267,7 @@ static int by_value(const void *a, const void *b)
 }
 
 /* The centre of the cloud and the direction of its largest spread. */
-static void cloud_axes(float *const ratio[2], int count, PanelBendRange *out)
+static void cloud_axes(float *const ratio[2], int count, SpectralWarpRange *out)
 {
     double mean[2] = {0, 0}, m[3] = {0, 0, 0};
     for (int i = 0; i < count; i++)
@@ -285,9 +285,9 @@ static void cloud_axes(float *const ratio[2], int count, PanelBendRange *out)
 }
 
 /* Half a percent at either end is left out, a margin is added. */
-PanelBendRange panel_bend_range(float *const ratio[2], int count)
+SpectralWarpRange spectral_warp_range(float *const ratio[2], int count)
 {
-    PanelBendRange out = {.along = {1, 0}, .low = {-1, -1}, .high = {1, 1}};
+    SpectralWarpRange out = {.along = {1, 0}, .low = {-1, -1}, .high = {1, 1}};
     if (!count) return out;
     cloud_axes(ratio, count, &out);
     for (int i = 0; i < count; i++) {

@@ -9,6 +9,8 @@
 #include "base/file.h"
 #include "base/mathd.h"
 #include "base/units.h"
+#include "panel/query/panel_emission.h"
+#include "panel/query/panel_reflection.h"
 #include "panel/query/panel_report.h"
 #include "panel/set/polar_grid.h"
 #include "panel/set/set_writer.h"

@@ -12,6 +12,7 @@
  *          already is left as it is. Nothing half-written stays.
  */
 #pragma once
+#include "base/error.h"
 #include "base/progress.h"
 #include "panel/query/panel_info.h"
 

@@ -7,6 +7,7 @@
 
 #include "base/count.h"
 #include "base/units.h"
+#include "panel/query/panel_emission.h"
 #include "plot/draw/chart.h"
 #include "plot/draw/ticks.h"
 #include "spectrum/photometry.h"

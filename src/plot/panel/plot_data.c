@@ -1,3 +1,5 @@
+#include "panel/query/panel_emission.h"
+#include "panel/query/panel_reflection.h"
 #include "plot/panel/plot_data.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+#include "panel/query/panel_reflection.h"
 #include "plot/panel/report.h"
 
 #include <math.h>

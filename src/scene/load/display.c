@@ -1,3 +1,4 @@
+#include "panel/query/panel_open.h"
 #include "scene/load/display.h"
 
 #include <stdio.h>

@@ -1,3 +1,4 @@
+#include "panel/query/panel_open.h"
 #include "scene/load/scene_load.h"
 
 #include <stdlib.h>

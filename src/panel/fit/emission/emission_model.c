@@ -1,16 +1,18 @@
+#include "base/mathf.h"
 #include "panel/fit/emission/emission_model.h"
+#include "panel/query/panel_components.h"
 
 #include <string.h>
 
 static void add_beams(const EmissionModel *model, Vec3 direction, float *components)
 {
     for (int b = 0; b < model->beams; b++)
-        panel_beam_add(&model->beam[b].view, direction, components);
+        panel_components_add_beam(&model->beam[b].view, direction, components);
 }
 
 void emission_model_add_smooth(const EmissionModel *model, Vec3 d, float *components)
 {
-    panel_spline_add(&model->spline, d, log_f(clampf(d.z, PANEL_LEAST_COS, 1)), components);
+    panel_components_add_spline(&model->spline, d, log_f(clampf(d.z, PANEL_LEAST_COS, 1)), components);
     add_beams(model, d, components);
 }
 

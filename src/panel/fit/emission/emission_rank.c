@@ -14,6 +14,7 @@
 #include "panel/fit/common/least_squares.h"
 #include "panel/fit/common/principal.h"
 #include "panel/fit/common/sort.h"
+#include "panel/query/panel_components.h"
 
 #define COMPONENTS_MAX 24
 #define ITERATIONS 6

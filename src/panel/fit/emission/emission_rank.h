@@ -6,6 +6,7 @@
  * Memory   the arena's. Threads: one fit at a time. Fails: never.
  */
 #pragma once
+#include "base/vec.h"
 #include "panel/fit/emission/emission_samples.h"
 
 typedef struct EmissionRank {

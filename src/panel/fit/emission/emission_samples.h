@@ -6,6 +6,7 @@
  * Units    cd m^-2, radians. Memory: the arena's. Threads: const once gathered. Fails: never.
  */
 #pragma once
+#include "base/vec.h"
 #include "panel/fit/common/fit_note.h"
 #include "panel/query/panel_file.h"
 #include "panel/set/measurement.h"

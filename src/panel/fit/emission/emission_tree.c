@@ -1,5 +1,6 @@
 /* The tree of what the smooth part leaves: vertex values by least squares, coded so that every
  * channel of every table keeps the tolerance at every sample. */
+#include "base/mathf.h"
 #include "panel/fit/emission/emission_tree.h"
 
 #include <math.h>
@@ -11,6 +12,7 @@
 #include "hemisphere/vertex_tree.h"
 #include "panel/fit/emission/emission_beam.h"
 #include "panel/fit/emission/emission_smooth.h"
+#include "panel/query/panel_beam.h"
 
 #define LEVEL_MOST 9
 #define ROUNDS 10

@@ -7,6 +7,7 @@
  */
 #pragma once
 #include "base/mathd.h"
+#include "base/vec.h"
 #include "hemisphere/vertex_tree.h"
 #include "panel/fit/common/direction_grid.h"
 #include "panel/fit/reflection/reflection_fresnel.h"

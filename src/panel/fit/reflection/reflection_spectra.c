@@ -7,6 +7,7 @@
 
 #include "base/mathd.h"
 #include "panel/fit/common/principal.h"
+#include "panel/query/panel_components.h"
 
 #define PLACES_ENOUGH 17000 /* to find components from; what is left out is judged on all */
 #define SPECTRAL_SHARE 0.06 /* of the bound: rms that spectra may lose */

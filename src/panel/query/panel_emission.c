@@ -1,75 +1,10 @@
 /* HOT: what a panel emits. No allocation, no lock, no libm. */
+#include "panel/query/panel_emission.h"
+
 #include <string.h>
 
-#include "hemisphere/tree_query.h"
-#include "panel/query/panel_query.h"
-
-/* Position in the spline's table over tan(theta / 2): *t in [0, 1] from node to node + 1. */
-static inline int spline_node(float tan_half, float *t)
-{
-    float at = clampf(tan_half, 0, 1) * (PANEL_SPLINE_ANGLES - 1);
-    int   node = (int)at;
-    if (node > PANEL_SPLINE_ANGLES - 2) node = PANEL_SPLINE_ANGLES - 2;
-    *t = at - (float)node;
-    return node;
-}
-
-void panel_spline_add(const PanelSpline *spline, Vec3 d, float log_cos, float *out)
-{
-    float t, s = safe_sqrtf(d.x * d.x + d.y * d.y);
-    float cos_1 = s > 0 ? d.x / s : 1, sin_1 = s > 0 ? d.y / s : 0;
-    float angle[PANEL_SPLINE_TERMS_MAX + 1] = {1, cos_1, sin_1};
-    int   node = spline_node(s / (1 + d.z), &t), row = spline->terms * spline->stride;
-    const float *near = spline->table + node * row, *power = spline->power;
-    for (int m = 2; m <= spline->harmonics; m++) {
-        float c = angle[2 * m - 3], e = angle[2 * m - 2];
-        angle[2 * m - 1] = c * cos_1 - e * sin_1;
-        angle[2 * m] = e * cos_1 + c * sin_1;
-    }
-    for (int i = 0; i < spline->terms; i++, near += spline->stride, power += spline->stride) {
-        float factor = angle[spline->term[i]];
-        float a = factor * (1 - t), b = factor * t, c = factor * log_cos;
-        for (int k = 0; k < spline->stride; k += 4)
-            *(PanelFloat4 *)(out + k) += *(const PanelFloat4 *)(near + k) * a +
-                                         *(const PanelFloat4 *)(near + row + k) * b +
-                                         *(const PanelFloat4 *)(power + k) * c;
-    }
-}
-
-float panel_beam_place(const PanelBeam *beam, Vec3 direction)
-{
-    Vec3  v = vec3_sub(direction, beam->centre); /* a cosine near 1 would tell too little */
-    float along = vec3_dot(beam->narrow, v);
-    float squares = vec3_dot(v, v) + along * along;
-    return log_f(1 + squares * beam->core_squares) * (1 / PANEL_BEAM_STEP);
-}
-
-void panel_beam_add(const PanelBeam *beam, Vec3 direction, float *out)
-{
-    float at = panel_beam_place(beam, direction), weight[4];
-    if (!(at >= 0 && at < (float)beam->knots)) return;
-    int knot = (int)at, stride = beam->stride;
-    if (knot > beam->knots - 1) knot = beam->knots - 1;
-    const float *row = beam->coefficient + knot * stride;
-    panel_beam_weights(at - (float)knot, weight);
-    for (int k = 0; k < stride; k += 4)
-        *(PanelFloat4 *)(out + k) +=
-            *(const PanelFloat4 *)(row + k) * weight[0] +
-            *(const PanelFloat4 *)(row + stride + k) * weight[1] +
-            *(const PanelFloat4 *)(row + 2 * stride + k) * weight[2] +
-            *(const PanelFloat4 *)(row + 3 * stride + k) * weight[3];
-}
-
-float panel_emission_components(const Panel *panel, Vec3 direction, float *components)
-{
-    const PanelEmission *e = panel->emission;
-    for (int k = e->components & ~3; k < e->stride; k++) components[k] = 0;
-    tree_interpolate(&panel->emission_tree, direction, components);
-    float log_cos = log_f(clampf(direction.z, PANEL_LEAST_COS, 1));
-    panel_spline_add(&e->spline, direction, log_cos, components);
-    for (int b = 0; b < e->beams; b++) panel_beam_add(&e->beam[b], direction, components);
-    return e->cosine_power * log_cos;
-}
+#include "panel/query/panel_components.h"
+#include "panel/query/spectral_warp.h"
 
 static bool is_measured(const Panel *panel, Vec3 direction)
 {
@@ -111,7 +46,7 @@ static void source_logs(const Panel *panel, Vec3 direction, const float rgb[3],
 {
     const PanelEmission *e = panel->emission;
     float components[PANEL_COMPONENTS_MAX];
-    float fall = panel_emission_components(panel, direction, components);
+    float fall = panel_components(panel, direction, components);
     for (int s = 0; s < 4; s++) logs[s] = (PanelFloat4){DARK, DARK, DARK, DARK};
     for (int p = 0; p < 3; p++)
         if (rgb[p] > 0) logs[p] = fall + primary_logs(e, p, rgb[p], components);
@@ -136,50 +71,6 @@ bool panel_emission_xyz(const Panel *panel, Vec3 direction, const float rgb[3], 
 
 /* ---- spectra --------------------------------------------------------------------------- */
 
-/* Weights of a Catmull-Rom cubic over four neighbours of an even row. */
-static int cubic_cell(float at, float low, float high, float weight[4])
-{
-    float s = (at - low) / (high - low) * (PANEL_BEND_SIDE - 1);
-    s = clampf(s, 0, PANEL_BEND_SIDE - 1);
-    int   cell = (int)s;
-    if (cell > PANEL_BEND_SIDE - 2) cell = PANEL_BEND_SIDE - 2;
-    float t = s - (float)cell, t2 = t * t, t3 = t2 * t;
-    weight[0] = 0.5f * (2 * t2 - t3 - t);
-    weight[1] = 0.5f * (3 * t3 - 5 * t2 + 2);
-    weight[2] = 0.5f * (4 * t2 - 3 * t3 + t);
-    weight[3] = 0.5f * (t3 - t2);
-    if (cell == 0) { /* one neighbour is missing: the straight line goes on */
-        weight[1] += 2 * weight[0];
-        weight[2] -= weight[0];
-        weight[0] = 0;
-    }
-    if (cell == PANEL_BEND_SIDE - 2) {
-        weight[2] += 2 * weight[3];
-        weight[1] -= weight[3];
-        weight[3] = 0;
-    }
-    return cell - 1;
-}
-
-void panel_bend_lookup(const PanelBend *bend, const float logs[3], float coefficient[3])
-{
-    float wu[4], wv[4];
-    float du = logs[0] - logs[1] - bend->range.origin[0];
-    float dv = logs[2] - logs[1] - bend->range.origin[1];
-    float along = du * bend->range.along[0] + dv * bend->range.along[1];
-    float across = dv * bend->range.along[0] - du * bend->range.along[1];
-    int   u = cubic_cell(along, bend->range.low[0], bend->range.high[0], wu);
-    int   v = cubic_cell(across, bend->range.low[1], bend->range.high[1], wv);
-    coefficient[0] = coefficient[1] = coefficient[2] = 0;
-    for (int j = 0; j < 4; j++)
-        for (int i = 0; i < 4; i++) {
-            float w = wu[i] * wv[j];
-            if (w == 0) continue;
-            const float *from = bend->coefficient[(v + j) * PANEL_BEND_SIDE + u + i];
-            for (int k = 0; k < 3; k++) coefficient[k] += w * from[k];
-        }
-}
-
 /* The spectrum of a source at the lanes' wavelengths, linear between whole nm. */
 static Spectrum spectrum_of(const float *spectrum, const Wavelengths *wavelengths)
 {
@@ -195,7 +86,7 @@ static Spectrum spectrum_of(const float *spectrum, const Wavelengths *wavelength
 #define EXPONENT_MOST 60.0f
 
 /* S = T exp(c0 + c1 t + c2 t^2) Y, t = (lambda - 560 nm) / 180 nm; strictly positive where T
- * is (design: panel, section 7). */
+ * is (spectral_warp.h). */
 Spectrum panel_emission_spectrum(const Panel *panel, Vec3 direction, const float rgb[3],
                                  const Wavelengths *wavelengths)
 {
@@ -207,15 +98,13 @@ Spectrum panel_emission_spectrum(const Panel *panel, Vec3 direction, const float
     for (int s = 0; s < 4; s++) {
         float c[3], logs[3] = {source[s][0], source[s][1], source[s][2]};
         if (logs[1] <= DARK) continue;
-        panel_bend_lookup(&panel->primaries->bend[s], logs, c);
+        spectral_warp_at(&panel->primaries->bend[s], logs, c);
         Spectrum exponent = (spectrum_all(c[2]) * t + spectrum_all(c[1])) * t +
                             spectrum_all(c[0] + logs[1]);
         /* Far from a narrow primary the curve may run away where the primary is dark: infinity
          * times nothing would be no number. */
         exponent = spectrum_min(exponent, spectrum_all(EXPONENT_MOST));
-        /* far from the primary's light, where T is 0, the exponent may be anything */
-        sum += spectrum_of(panel->primaries->spectrum[s], wavelengths) *
-               spectrum_exp(spectrum_min(exponent, spectrum_all(80)));
+        sum += spectrum_of(panel->primaries->spectrum[s], wavelengths) * spectrum_exp(exponent);
     }
     return sum;
 }

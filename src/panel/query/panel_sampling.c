@@ -1,7 +1,9 @@
 /* HOT: how a panel's reflection is sampled. No allocation, no lock, no libm. */
+#include "panel/query/panel_sampling.h"
+
 #include "base/units.h"
 #include "hemisphere/specular_frame.h"
-#include "panel/query/panel_slices.h"
+#include "panel/query/panel_turn.h"
 
 #define EDGE 4e-3f /* of a cell */
 

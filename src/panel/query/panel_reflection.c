@@ -1,10 +1,13 @@
 /* HOT: what a panel reflects. No allocation, no lock, no libm. */
+#include "panel/query/panel_reflection.h"
+
 #include <string.h>
 
 #include "base/units.h"
 #include "hemisphere/specular_frame.h"
 #include "hemisphere/tree_query.h"
-#include "panel/query/panel_slices.h"
+#include "panel/query/panel_components.h"
+#include "panel/query/panel_turn.h"
 #include "spectrum/fresnel.h"
 
 #define PADDED_MAX ((PANEL_WAVELENGTHS_MAX + 15) / 16 * 16)
@@ -388,13 +391,6 @@ Spectrum panel_brdf(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *wav
     Spectrum over = spectrum_exp(spread(logs, &lanes));
     if (r->has_lobe) over += lobe_over_fresnel(panel, &mix, local, wi, &lanes);
     return over * spectrum_all(fresnel_unpolarised(wi.z, r->refractive_index));
-}
-
-bool panel_brdf_is_measured(const Panel *panel, Vec3 wo, Vec3 wi)
-{
-    const PanelReflection *r = panel->reflection;
-    return r && wi.z > 0 && wo.z >= r->cone_cos &&
-           panel_polar_angle(wi) <= r->last_theta + 1e-5f;
 }
 
 Spectrum panel_mirror(const Panel *panel, float cos_theta, const Wavelengths *wavelengths)

@@ -1,0 +1,25 @@
+/* panel_components.h -- the components of an emission at a direction: the tree's, the spline's
+ * and the beams'. Private to src/panel.
+ *
+ * Threads  pure functions of a constant Panel. HOT: no allocation, no libm.
+ */
+#pragma once
+#include "panel/query/panel_opened.h"
+
+typedef float PanelFloat4 __attribute__((vector_size(16), aligned(4), may_alias));
+
+/* The components at a direction (PANEL_COMPONENTS_MAX floats, zero behind the last one);
+ * returns cosine_power ln cos theta. */
+float panel_components(const Panel *panel, Vec3 direction, float *components);
+
+/* Adds the spline's components to out (stride floats). log_cos: ln of the direction's z,
+ * held at PANEL_LEAST_COS. */
+void panel_components_add_spline(const PanelSpline *spline, Vec3 direction, float log_cos,
+                                 float *out);
+#define PANEL_LEAST_COS 1e-4f
+
+/* u in knots at a direction; a beam ends at `knots`. */
+float panel_components_beam_place(const PanelBeam *beam, Vec3 direction);
+
+/* Adds a beam's components to out (stride floats). */
+void panel_components_add_beam(const PanelBeam *beam, Vec3 direction, float *out);

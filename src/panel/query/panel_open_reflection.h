@@ -1,0 +1,17 @@
+/* panel_open_reflection.h -- what a panel file says of reflection, checked and expanded for queries.
+ * Private to src/panel.
+ *
+ * Memory   the arena's. Fails: in bytes->err (panel_section.h).
+ */
+#pragma once
+#include "panel/query/panel_opened.h"
+#include "panel/query/panel_section.h"
+
+/* The reflection's sections into *panel; a file without them is fine. Tables that are derived
+ * from the stored ones come from the arena. */
+bool panel_open_reflection(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
+                           Panel *panel);
+
+/* The reflection alone, from its section and its tree, into *panel. */
+bool panel_expand_reflection(const PanelBytes *at, const PanelBytes *tree,
+                             const Geodesic *geodesic, Arena *arena, Panel *panel);

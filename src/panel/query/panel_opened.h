@@ -1,0 +1,116 @@
+/* panel_opened.h -- a panel as queries read it: the file's numbers, expanded. Private to
+ * src/panel.
+ *
+ * Memory   the arena's of panel_open; constant from then on.
+ */
+#pragma once
+#include <stdbool.h>
+
+#include "base/arena.h"
+#include "hemisphere/sampling_tree.h"
+#include "hemisphere/tree.h"
+#include "panel/query/panel.h"
+#include "panel/query/panel_beam.h"
+#include "panel/query/panel_file.h"
+#include "panel/query/panel_spline.h"
+#include "panel/query/spectral_warp.h"
+#include "spectrum/spectral_table.h"
+
+#define PANEL_ANGLES 181 /* nodes of tables over theta: 0, 0.5, ... 90 degrees */
+
+/* The emission as numbers: what the section says, and what queries read instead. */
+typedef struct PanelEmission {
+    int    components, stride; /* stride: components rounded up to four */
+    int    channels, level_count[3];
+    bool   has_black;
+    float  cone_cos, level_power, cosine_power;
+    float  level[3][PANEL_LEVELS_MAX];
+    const float *mean, *loading; /* channels, channels x components */
+    PanelSpline  spline;
+    int          beams;
+    PanelBeam    beam[PANEL_BEAMS_MAX];
+    /* Rows of a source: for code 1 .. 255 the mean of ln X, ln Y, ln Z (and a padding number),
+     * then so many for every component. Row 0 is the change with ln code below code 1. */
+    const float *code_rows[3];
+    const float *black_rows; /* one row */
+    float        log_code[256];
+    float        mean_y[3][256]; /* panel_mean_luminance at whole codes */
+    float        black_mean_y;
+} PanelEmission;
+
+/* Red, green, blue, black. Spectra every nm from SPECTRAL_FIRST_NM, of 1 cd m^-2. */
+typedef struct PanelPrimaries {
+    float     spectrum[4][SPECTRAL_COUNT];
+    SpectralWarp bend[4];
+} PanelPrimaries;
+
+/* An incidence that interpolation counts on. Those below 0 are measured ones seen from the
+ * other side of the normal: the light's azimuth and the stored direction turned by 180 deg. */
+typedef struct PanelIncidence {
+    float theta;
+    int   incidence;
+    bool  is_turned;
+} PanelIncidence;
+
+/* The stored form, expanded for queries. Rows over wavelengths have padded_wavelengths floats,
+ * rows over coefficients padded_coefficients; what is padded is 0. */
+typedef struct PanelReflection {
+    uint32_t incidences, azimuths, tables, components, coefficients, padded_coefficients;
+    uint32_t wavelengths, padded_wavelengths, nodes, steps;
+    bool     is_cubic, has_mirror, has_lobe;
+    float    frame_exponent, refractive_index, cone_cos;
+    float    first_theta, last_theta; /* measured incidences, radians */
+    PanelIncidence step[PANEL_INCIDENCES_MAX + 2]; /* rising in theta */
+    float    azimuth[PANEL_AZIMUTHS_MAX];
+    float    wavelength_nm[PANEL_WAVELENGTHS_MAX];
+    float    node_theta[PANEL_NODES_MAX];
+    float    haze_albedo[PANEL_ANGLES]; /* luminous, lobe included */
+    const float *mean;    /* [tables][wavelengths] */
+    const float *basis;   /* [coefficients][wavelengths] */
+    const float *loading; /* [tables][components][coefficients] */
+    const float *floor;   /* [tables][wavelengths], sr^-1 */
+    const float *lobe;    /* [tables][wavelengths], ln (R / F) */
+    const float *lobe_sigma; /* [tables], radians */
+    const float *held;    /* [nodes][wavelengths] */
+    const float *mirror;  /* [PANEL_ANGLES][wavelengths] */
+} PanelReflection;
+
+/* How wi is chosen for a wo: function azimuth * incidences + incidence of one sampling tree in
+ * the specular-following frame of wo's polar angle theta, with an exponent of its own. */
+#define PANEL_SAMPLING_EXPONENT 2.0f
+typedef struct PanelSampling {
+    SamplingTree tree;
+    int          incidences; /* 0: nothing is reflected */
+    int          azimuths;   /* of wo, evenly over the turn from 0; 1: isotropic */
+    const float *theta;      /* radians, rising */
+} PanelSampling;
+
+static inline bool panel_makes_sampling(const PanelReflection *reflection)
+{
+    return reflection->tables == 1;
+}
+
+struct Panel {
+    Arena   copy; /* of the file; empty where the bytes belong to somebody else */
+    size_t  size;
+    const char *meta;
+    size_t      meta_size;
+    const void *figures; /* NULL: none */
+    size_t      figures_size;
+    const PanelEmission *emission; /* NULL: emits nothing */
+    Tree         emission_tree;
+    const PanelPrimaries *primaries; /* with emission */
+    const PanelReflection *reflection; /* NULL: reflects nothing */
+    Tree         reflection_tree;
+    PanelSampling sampling;
+    int16_t      wavelength_index[SPECTRAL_COUNT]; /* interval that begins at or below a nm */
+    float        wavelength_scale[PANEL_WAVELENGTHS_MAX]; /* 1 / interval's width */
+};
+
+/* Number of levels' channels before primary p; p = 3: the black pattern's first channel. */
+static inline uint32_t panel_first_channel(const PanelEmission *emission, int p)
+{
+    uint32_t channel = 0;
+    for (int i = 0; i < p; i++) channel += 3 * (uint32_t)emission->level_count[i];
+    return channel;
+}
