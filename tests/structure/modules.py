@@ -35,7 +35,7 @@ class Tree:
             is_header = path.endswith(".h")
             if kind == "function" and is_header:
                 self.inline[name] = path
-            elif kind == "function" and not tag.get("file") and name != "main":
+            elif kind == "function" and not (tag.get("file") or tag.get("scope") or name == "main"):
                 self.functions[name] = path, tag["line"]
             elif kind == "prototype" and is_header:
                 self.declared[name].append(path)
@@ -93,7 +93,7 @@ class Tree:
 
 def tags(texts):
     listed = subprocess.run(
-        ["ctags", "--output-format=json", "--fields=+nef", "--kinds-C=fps", "--kinds-C++=fps",
+        ["ctags", "--output-format=json", "--fields=+nefs", "--kinds-C=fps", "--kinds-C++=fps",
          "-o", "-", *texts], cwd=ROOT, capture_output=True, check=True, text=True).stdout
     return map(json.loads, listed.splitlines())
 
@@ -131,7 +131,8 @@ def check_itself(report):
     ring = {"a": {"b"}, "b": {"c"}, "c": {"a"}, "d": {"a"}}
     report.claim(circles(ring) == [["a", "b", "c"]], f"circles: {circles(ring)}")
     report.claim(not circles({"a": {"b"}, "b": set()}), "a circle where there is none")
-    report.claim(crowded(["x/a.c"] * 39) and not crowded(["x/a.c"] * 38), "files are miscounted")
+    report.claim(crowded(["x/a.c"] * 39) and not crowded(["x/a.c"] * 38),
+                 "files are miscounted")
 
 
 def main():
