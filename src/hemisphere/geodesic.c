@@ -194,13 +194,6 @@ void geodesic_areas(int level, double *areas)
     fill_areas(&octant, level, areas);
 }
 
-double geodesic_triangle_area(const GeodesicTriangle *triangle)
-{
-    DTriangle t = {{dvec3_from(triangle->corner[0]), dvec3_from(triangle->corner[1]),
-                    dvec3_from(triangle->corner[2])}};
-    return triangle_area(&t);
-}
-
 uint32_t geodesic_neighbour(int level, uint32_t id, int corner)
 {
     uint32_t across = (uint32_t)corner + 1; /* the corner child that touches no such edge */
@@ -250,12 +243,6 @@ Vec3 geodesic_sampler_draw(const GeodesicSampler *s, float u0, float u1)
     float drop = u1 * height;
     Vec3  p = vec3_along(vec3_scale(across, sqrtf(drop * (2 - drop))), s->b, 1 - drop);
     return vec3_normalize(p);
-}
-
-Vec3 geodesic_sample_triangle(const GeodesicTriangle *triangle, float area, float u0, float u1)
-{
-    GeodesicSampler sampler = geodesic_sampler(triangle, area);
-    return geodesic_sampler_draw(&sampler, u0, u1);
 }
 
 Vec2 geodesic_invert_triangle(const GeodesicTriangle *triangle, float area, Vec3 direction)

@@ -125,9 +125,6 @@ double geodesic_area(int level, uint32_t id);
 /* Exact areas of all 4^level triangles of octant 0, in order of id. */
 void geodesic_areas(int level, double *areas);
 
-/* Spherical area of any triangle of unit corners smaller than a hemisphere, sr. */
-double geodesic_triangle_area(const GeodesicTriangle *triangle);
-
 /* HOT. The triangle across the edge opposite `corner` (0..2) inside the same octant, or
  * GEODESIC_NONE at the octant's border. There lies the mirror image of the triangle itself:
  * corner 0: id with octant bit 0 flipped; corner 1: bit 1; corner 2: the horizon, nothing.
@@ -136,12 +133,7 @@ double geodesic_triangle_area(const GeodesicTriangle *triangle);
 uint32_t geodesic_neighbour(int level, uint32_t id, int corner);
 #define GEODESIC_NONE UINT32_MAX
 
-/* HOT. Uniform over the spherical triangle: u in [0,1)^2 to a unit vector, exactly (Arvo 1995,
- * "Stratified Sampling of Spherical Triangles", in a form without trigonometric functions of
- * the corners' angles that stays accurate for small triangles). area: of the triangle, sr. */
-Vec3 geodesic_sample_triangle(const GeodesicTriangle *triangle, float area, float u0, float u1);
-
-/* What geodesic_sample_triangle needs of a triangle that is drawn from again and again. */
+/* What drawing from a spherical triangle needs to know of it. area: of the triangle, sr. */
 typedef struct GeodesicSampler {
     Vec3  a, b;   /* corners 0 and 1 */
     Vec3  across; /* unit, from corner 0 along the arc to corner 2 */
@@ -153,8 +145,10 @@ typedef struct GeodesicSampler {
 
 GeodesicSampler geodesic_sampler(const GeodesicTriangle *triangle, float area);
 
-/* HOT. The same as geodesic_sample_triangle, bit for bit. */
+/* HOT. Uniform over the spherical triangle: u in [0,1)^2 to a unit vector, exactly (Arvo 1995,
+ * "Stratified Sampling of Spherical Triangles", in a form without trigonometric functions of
+ * the corners' angles that stays accurate for small triangles). */
 Vec3 geodesic_sampler_draw(const GeodesicSampler *sampler, float u0, float u1);
 
-/* The inverse of geodesic_sample_triangle for a direction inside the triangle. */
+/* The inverse of geodesic_sampler_draw for a direction inside the triangle. */
 Vec2 geodesic_invert_triangle(const GeodesicTriangle *triangle, float area, Vec3 direction);

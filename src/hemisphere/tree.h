@@ -1,7 +1,8 @@
 /* tree.h -- a vector-valued function on the hemisphere as a compressed tree.
  *
  * Two bases stand behind one view: Haar trees (this header) and vertex trees (vertex_tree.h).
- * tree_open and tree_query.h take either; the blob's magic number says which one it is.
+ * tree_open and tree_query.h take either; the blob's magic number says which one it is. Here is
+ * what both are made of; tree/tree_build.h and vertex/vertex_tree_build.h make them.
  *
  * tree_build transforms leaf values (haar.h), keeps the details that matter most, and writes
  * them as one blob: little-endian, offsets instead of pointers, to be stored in a file, mapped
@@ -18,7 +19,6 @@
 #include <stdint.h>
 
 #include "base/arena.h"
-#include "base/error.h"
 #include "hemisphere/haar.h"
 
 #define TREE_MAX_COMPONENTS 256
@@ -122,19 +122,20 @@ typedef struct Tree {
     uint32_t        byte_row; /* the first row of 8 bits, row_count if there is none */
 } Tree;
 
-/* leaves: haar_leaf_count x components floats, finite. The blob is allocated from `arena`,
- * aligned to 16 bytes. Fails (ERROR_INPUT) on values that are not finite, on options out of
- * range, and when 16-bit rows cannot hold max_error. report may be NULL. */
-bool tree_build(const TreeOptions *options, const float *leaves, Arena *arena,
-                const void **blob, TreeReport *report, Error *err);
+/* Three rows for each of the at most 11 triangles of a level around a leaf's two corners; one
+ * more that is written before it is known whether it is kept. */
+#define TREE_MAX_TAPS (3 * 11 * GEODESIC_MAX_LEVEL + 1)
 
-/* Bytes of a blob that tree_build or vertex_tree_build made. */
-size_t tree_size(const void *blob);
-
-/* Checks every count, offset, index and finite number of a blob from anywhere, so that no query
- * can leave its `size` bytes, and makes the view. geodesic->level must be at least the tree's
- * (a vertex tree's vertex_plane_level). Fails (ERROR_INPUT) naming what is wrong. */
-bool tree_open(const void *blob, size_t size, const Geodesic *geodesic, Tree *out, Error *err);
+/* A value as a weighted sum of a tree's octant means and rows. Of a vertex tree: the rows are
+ * places in bytes, levels are formats, and weights hold the powers of two that integers are
+ * multiplied by. */
+typedef struct TreeTaps {
+    int      count;
+    float    mean_weight[4]; /* of the octant means */
+    uint32_t row[TREE_MAX_TAPS];
+    float    weight[TREE_MAX_TAPS];
+    uint8_t  level[TREE_MAX_TAPS]; /* of the row's father, for the scales */
+} TreeTaps;
 
 /* Components with their padding: what separates octant means, and levels of scales. */
 static inline int tree_stride(TreeRowFormat format, int components)
@@ -150,7 +151,3 @@ static inline size_t tree_row_offset(const Tree *tree, uint32_t row)
     return row < tree->byte_row ? 2 * components * row
                                 : components * ((size_t)tree->byte_row + row);
 }
-
-/* Inverts the whole tree: haar_leaf_count x components floats (of a vertex tree: its values at
- * the leaves' centres). */
-void tree_expand(const Tree *tree, float *leaves, Arena scratch);

@@ -17,15 +17,32 @@
 #include "base/mathf.h"
 #include "base/sampler.h"
 #include "base/units.h"
-#include "hemisphere/sampling_tree.h"
+#include "hemisphere/sampling/sampling_tree.h"
+#include "hemisphere/sampling/sampling_tree_build.h"
+#include "hemisphere/sampling/sampling_tree_open.h"
 #include "hemisphere/specular_frame.h"
-#include "hemisphere/tree_query.h"
-#include "hemisphere/vertex_tree.h"
+#include "hemisphere/tree/tree_build.h"
+#include "hemisphere/tree/tree_open.h"
+#include "hemisphere/tree/tree_query.h"
+#include "hemisphere/vertex/vertex_tree.h"
+#include "hemisphere/vertex/vertex_tree_build.h"
 #include "hemisphere_signals.h"
 
 #define RUNS 25
 #define DIRECTIONS 4096
 #define MAX_LEVEL 7
+
+/* Function `function` alone. */
+static SamplingMix sampling_only(int function)
+{
+    return (SamplingMix){.count = 1, .function = {function}, .weight = {1}};
+}
+
+/* The leaf's value. */
+static void tree_value(const Tree *tree, Vec3 direction, float *out)
+{
+    tree_mean(tree, tree->level, direction, out);
+}
 
 /* ---- size and error -------------------------------------------------------------------- */
 

@@ -9,7 +9,9 @@
 #include "base/mathf.h"
 #include "base/sampler.h"
 #include "base/units.h"
-#include "hemisphere/tree_query.h"
+#include "hemisphere/tree/tree_build.h"
+#include "hemisphere/tree/tree_open.h"
+#include "hemisphere/tree/tree_query.h"
 
 #define LEVEL 7
 
@@ -107,6 +109,12 @@ static inline Tree build_and_open(Fixture *f, const TreeOptions *options, const 
     if (!tree_build(options, leaves, &f->arena, &blob, report, &err)) fail_msg("%s", err.text);
     if (!tree_open(blob, tree_size(blob), f->geodesic, &tree, &err)) fail_msg("%s", err.text);
     return tree;
+}
+
+/* The leaf's value. */
+static inline void tree_value(const Tree *tree, Vec3 direction, float *out)
+{
+    tree_mean(tree, tree->level, direction, out);
 }
 
 /* Changes one to four bytes, often in the header. */

@@ -1,4 +1,7 @@
 /* test_hemisphere_blob.c -- damaged and hostile trees are refused, or harmless. */
+#include "hemisphere/tree/tree_build.h"
+#include "hemisphere/tree/tree_expand.h"
+#include "hemisphere/tree/tree_open.h"
 #include "hemisphere_fixture.h"
 
 static void query_everything(const Tree *tree, Arena scratch)

@@ -1,7 +1,15 @@
 /* test_hemisphere_sampling.c -- directions are drawn as their density says. */
+#include "hemisphere/sampling/sampling_tree_build.h"
+#include "hemisphere/sampling/sampling_tree_open.h"
 #include "hemisphere_fixture.h"
 
-#include "hemisphere/sampling_tree.h"
+#include "hemisphere/sampling/sampling_tree.h"
+/* Function `function` alone. */
+static SamplingMix sampling_only(int function)
+{
+    return (SamplingMix){.count = 1, .function = {function}, .weight = {1}};
+}
+
 static const Signal SIGNALS[] = {smooth_signal, peak_signal, zero_outside_signal};
 
 /* The integrals of functions over the leaves, one function after the other. */

@@ -1,7 +1,10 @@
 /* test_hemisphere_tree.c -- compressed trees and their queries. */
+#include "hemisphere/tree/tree_build.h"
+#include "hemisphere/tree/tree_expand.h"
+#include "hemisphere/tree/tree_sum.h"
 #include "hemisphere_fixture.h"
 
-#include "hemisphere/tree_query.h"
+#include "hemisphere/tree/tree_query.h"
 /* ---- compressed trees -------------------------------------------------------------------- */
 
 HEMISPHERE_TEST(a_query_equals_the_inverted_tree_at_every_leaf)
@@ -24,7 +27,7 @@ HEMISPHERE_TEST(a_query_equals_the_inverted_tree_at_every_leaf)
             float value[3], again[3];
             TreeTaps taps;
             tree_value(&tree, geodesic_center(6, id), value);
-            tree_walk_triangle(&tree, 6, id, &taps);
+            tree_walk_mean(&tree, 6, geodesic_center(6, id), &taps);
             tree_sum(&tree, &taps, 1, 2, again + 1);
             for (uint32_t c = 0; c < 3; c++) {
                 assert_near(value[c], leaves[3 * id + c], 3e-4);

@@ -1,8 +1,14 @@
 /* The vertex basis: its lattice, trees and their queries. */
+#include "hemisphere/tree/tree_expand.h"
+#include "hemisphere/tree/tree_open.h"
+#include "hemisphere/tree/tree_sum.h"
+#include "hemisphere/vertex/vertex_find.h"
+#include "hemisphere/vertex/vertex_open.h"
+#include "hemisphere/vertex/vertex_tree_build.h"
 #include "hemisphere_fixture.h"
 
-#include "hemisphere/vertex.h"
-#include "hemisphere/vertex_tree.h"
+#include "hemisphere/vertex/vertex.h"
+#include "hemisphere/vertex/vertex_tree.h"
 
 
 static const VertexLattice LATTICES[] = {{0, 4}, {1, 2}, {3, 4}, {4, 2}, {6, 4}, {7, 2}};
@@ -53,7 +59,7 @@ HEMISPHERE_TEST(corners_of_triangles_are_lattice_points)
             float            n = (float)(1 << level);
             for (int k = 0; k < 3; k++) {
                 VertexPlace p =
-                    vertex_place(f->geodesic, vertex_plane_level(level), t.corner[k]);
+                    map_place(f->geodesic, vertex_plane_level(level), t.corner[k]);
                 float slack = level <= VERTEX_PLANE_LEVEL ? 1e-5f : 3e-3f;
                 assert_near(p.x * n, rintf(p.x * n), slack);
                 assert_near(p.y * n, rintf(p.y * n), slack);
@@ -85,46 +91,6 @@ HEMISPHERE_TEST(weights_are_barycentric)
             assert_near(vec3_length(vec3_sub(vec3_normalize(sum), at)), 0, 2e-5);
         }
     }
-}
-
-HEMISPHERE_TEST(details_and_values_are_inverse)
-{
-    Fixture *f = *state;
-    for (int i = 0; i < LATTICE_COUNT; i++) {
-        VertexLattice l = LATTICES[i];
-        Arena         scratch = f->arena;
-        uint32_t      count = 3 * vertex_count(l), seed = 9;
-        float        *rows = ARENA_NEW(&scratch, float, count);
-        float        *kept = ARENA_NEW(&scratch, float, count);
-        for (uint32_t v = 0; v < count; v++) rows[v] = kept[v] = random_unit(&seed);
-        vertex_details_from_values(l, 3, rows);
-        vertex_values_from_details(l, 3, rows);
-        for (uint32_t v = 0; v < count; v++) assert_near(rows[v], kept[v], 1e-5);
-    }
-}
-
-/* <values of h, x> = <h, gather x> */
-HEMISPHERE_TEST(gathering_is_the_transpose)
-{
-    Fixture      *f = *state;
-    VertexLattice l = {5, 2};
-    uint32_t      count = vertex_count(l), seed = 11;
-    float        *h = ARENA_NEW(&f->arena, float, count);
-    float        *x = ARENA_NEW(&f->arena, float, count);
-    float        *sh = ARENA_NEW(&f->arena, float, count);
-    float        *tx = ARENA_NEW(&f->arena, float, count);
-    for (uint32_t v = 0; v < count; v++) {
-        sh[v] = h[v] = random_unit(&seed) - 0.5f;
-        tx[v] = x[v] = random_unit(&seed) - 0.5f;
-    }
-    vertex_values_from_details(l, 1, sh);
-    vertex_gather(l, 1, tx);
-    double left = 0, right = 0;
-    for (uint32_t v = 0; v < count; v++) {
-        left += (double)sh[v] * (double)x[v];
-        right += (double)h[v] * (double)tx[v];
-    }
-    assert_near(left, right, 1e-4);
 }
 
 /* ---- trees ------------------------------------------------------------------------------- */

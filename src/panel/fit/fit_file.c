@@ -1,4 +1,5 @@
 /* Layout: panel_file.h. */
+#include "hemisphere/tree/tree_open.h"
 #include "panel/fit/fit_file.h"
 
 #include <string.h>

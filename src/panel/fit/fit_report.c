@@ -10,6 +10,7 @@
 #include "base/file.h"
 #include "base/units.h"
 #include "hemisphere/geodesic.h"
+#include "hemisphere/tree/tree_open.h"
 #include "panel/fit/common/table_rows.h"
 #include "panel/fit/fit_report_reflection.h"
 #include "panel/query/panel_emission.h"

@@ -5,6 +5,7 @@
 #include "base/mathd.h"
 #include "base/parallel.h"
 #include "base/units.h"
+#include "hemisphere/tree/tree_open.h"
 #include "panel/fit/common/table_rows.h"
 #include "panel/fit/reflection/reflection_model.h"
 #include "panel/fit/reflection/reflection_read.h"

@@ -1,7 +1,7 @@
 /* HOT: the components of an emission at a direction. No allocation, no lock, no libm. */
 #include "panel/query/panel_components.h"
 
-#include "hemisphere/tree_query.h"
+#include "hemisphere/tree/tree_query.h"
 
 /* Position in the spline's table over tan(theta / 2): *t in [0, 1] from node to node + 1. */
 static inline int spline_node(float tan_half, float *t)

@@ -5,7 +5,8 @@
 
 #include "base/mathd.h"
 #include "base/units.h"
-#include "hemisphere/tree_query.h"
+#include "hemisphere/tree/tree_open.h"
+#include "hemisphere/tree/tree_query.h"
 #include "panel/query/panel_components.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_levels.h"

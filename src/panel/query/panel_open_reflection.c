@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/mathd.h"
+#include "hemisphere/tree/tree_open.h"
 #include "panel/query/panel_open_sampling.h"
 #include "panel/query/panel_reflection_layout.h"
 #include "spectrum/fresnel.h"

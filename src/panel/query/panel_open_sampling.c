@@ -3,6 +3,8 @@
 #include <string.h>
 
 #include "base/units.h"
+#include "hemisphere/sampling/sampling_tree_build.h"
+#include "hemisphere/sampling/sampling_tree_open.h"
 #include "panel/query/sampling_make.h"
 
 static bool check_nodes(const PanelBytes *at, const PanelSampling *s)

@@ -5,7 +5,7 @@
 
 #include "base/units.h"
 #include "hemisphere/specular_frame.h"
-#include "hemisphere/tree_query.h"
+#include "hemisphere/tree/tree_query.h"
 #include "panel/query/panel_components.h"
 #include "panel/query/panel_turn.h"
 #include "spectrum/fresnel.h"

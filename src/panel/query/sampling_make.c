@@ -5,6 +5,7 @@
 
 #include "base/mathd.h"
 #include "base/units.h"
+#include "hemisphere/sampling/sampling_tree_build.h"
 #include "hemisphere/specular_frame.h"
 #include "panel/query/panel_opened.h"
 #include "panel/query/panel_reflection.h"

@@ -8,7 +8,7 @@
 #pragma once
 #include "base/mathd.h"
 #include "base/vec.h"
-#include "hemisphere/vertex_tree.h"
+#include "hemisphere/vertex/vertex_tree.h"
 #include "panel/fit/common/direction_grid.h"
 #include "panel/fit/reflection/reflection_fresnel.h"
 #include "panel/fit/reflection/reflection_parts.h"

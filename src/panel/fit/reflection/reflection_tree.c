@@ -6,7 +6,11 @@
 #include "base/mathd.h"
 #include "base/parallel.h"
 #include "hemisphere/specular_frame.h"
-#include "hemisphere/tree_query.h"
+#include "hemisphere/tree/tree_build.h"
+#include "hemisphere/tree/tree_open.h"
+#include "hemisphere/tree/tree_query.h"
+#include "hemisphere/vertex/vertex_find.h"
+#include "hemisphere/vertex/vertex_tree_build.h"
 #include "panel/fit/common/table_rows.h"
 #include "panel/fit/reflection/reflection_spectra.h"
 

@@ -1,0 +1,77 @@
+#include "hemisphere/tree/tree_expand.h"
+
+#include <string.h>
+
+#include "hemisphere/tree/tree_query.h"
+
+static float integer_at(const char *from, bool is_byte, size_t index)
+{
+    return is_byte ? ((const int8_t *)(const void *)from)[index]
+                   : ((const int16_t *)(const void *)from)[index];
+}
+
+static void place_blocks(const Tree *tree, uint32_t row, const float *scale, float *to)
+{
+    const char *from = (const char *)tree->rows + tree->row_table[row].offset;
+    bool        is_byte = row >= tree->byte_row;
+    for (uint32_t rest = tree->row_table[row].blocks; rest; rest &= rest - 1) {
+        int first = TREE_BLOCK * __builtin_ctz(rest);
+        for (int i = 0; i < TREE_BLOCK && first + i < tree->components; i++)
+            to[first + i] = scale[first + i] * integer_at(from, is_byte, (size_t)i);
+        from += is_byte ? TREE_BLOCK : 2 * TREE_BLOCK;
+    }
+}
+
+static void place_row(const Tree *tree, uint32_t row, int level, float *to)
+{
+    size_t       components = (size_t)tree->components;
+    const float *scale = tree->scales ? tree->scales + level * tree->stride : NULL;
+    if (tree->format == TREE_ROWS_FLOAT) {
+        memcpy(to, (const float *)tree->rows + row * components, components * sizeof(float));
+    } else if (tree->format == TREE_ROWS_BLOCKS) {
+        place_blocks(tree, row, scale, to);
+    } else {
+        const char *from = (const char *)tree->rows + tree_row_offset(tree, row);
+        for (size_t c = 0; c < components; c++)
+            to[c] = scale[c] * integer_at(from, row >= tree->byte_row, c);
+    }
+}
+
+/* Details to their places in haar.h's layout. ids: of each node's triangle on its level. */
+static void place_rows(const Tree *tree, float *leaves, uint32_t *ids)
+{
+    uint32_t level_end = (uint32_t)tree->octants, next = level_end, row = 0;
+    int      level = 0;
+    for (uint32_t i = 0; i < tree->node_count; i++) {
+        if (i < (uint32_t)tree->octants) ids[i] = i;
+        if (i == level_end) {
+            level_end = next;
+            level++;
+        }
+        for (uint32_t k = 0; k < 4; k++) {
+            uint32_t child = 4 * ids[i] + k;
+            if (tree->nodes[i].children >> k & 1) ids[next++] = child;
+            if (k == 0 || !(tree->nodes[i].rows >> (k - 1) & 1)) continue;
+            size_t place = (size_t)child << 2 * (tree->level - level - 1);
+            place_row(tree, row++, level, leaves + place * (size_t)tree->components);
+        }
+    }
+}
+
+void tree_expand(const Tree *tree, float *leaves, Arena scratch)
+{
+    HaarShape shape = {tree->level, tree->octants, tree->components, tree->weights};
+    size_t    components = (size_t)tree->components;
+    if (tree->basis == TREE_VERTEX) {
+        for (uint32_t i = 0; i < haar_leaf_count(&shape); i++)
+            tree_interpolate(tree, geodesic_center(tree->level, i), leaves + i * components);
+        return;
+    }
+    memset(leaves, 0, haar_leaf_count(&shape) * components * sizeof(float));
+    for (size_t q = 0; q < (size_t)tree->octants; q++)
+        memcpy(leaves + (q << 2 * tree->level) * components,
+               tree->means + q * (size_t)tree->stride,
+               components * sizeof(float));
+    place_rows(tree, leaves, ARENA_NEW(&scratch, uint32_t, tree->node_count));
+    haar_inverse(&shape, leaves, scratch);
+}

@@ -1,0 +1,170 @@
+#include "hemisphere/vertex/vertex_query.h"
+
+#include "hemisphere/vertex/vertex_find.h"
+#include "hemisphere/vertex/vertex_tree.h"
+
+/* The base level's three rows. */
+static void put_base(const Tree *tree, VertexPlace place, TreeTaps *taps)
+{
+    VertexLattice lattice = {tree->base_level, tree->octants};
+    VertexPoint   point = map_point(lattice, place);
+    for (int i = 0; i < 3; i++) {
+        taps->row[i] = point.vertex[i] * tree->base_bytes;
+        taps->weight[i] = point.weight[i] * tree->base_factor;
+        taps->level[i] = 0;
+    }
+    taps->count = 3;
+}
+
+/* ---- one level of details ----------------------------------------------------------------
+ *
+ * Cells are counted from the window's first one, so that whole blocks are multiples of 4. */
+
+/* The three edges of the triangle that holds a place: their cells, and their hat functions'
+ * weights there. The edge along x and the diagonal lie in column x, the edge along y and the
+ * diagonal in row y. */
+typedef struct Edges {
+    uint32_t x[3], y[3]; /* in order of the bits: along x, along y, diagonal */
+    float    weight[3];
+} Edges;
+
+static inline float least(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+/* A new vertex's hat function in a triangle whose corners have the coordinates a and b at the
+ * edge's ends and c opposite: 2 b at a's end, 2 a at b's end, 1 - 2 c in the middle. */
+static inline float hat(float a, float b, float c)
+{
+    return 2 * least(least(a, b), 0.5f - c);
+}
+
+/* In the octant, the place lies in the cell (cx, cy), in its half towards the pole or the other
+ * one; there (u, v, w) are the barycentric coordinates, u and v of the corners next to the
+ * right angle. Mirrored, column cx is -1 - cx, and line cx is -cx. */
+static inline Edges edges_at(const VertexLevel *level, VertexPlace place, int number)
+{
+    float n = (float)(1 << number), x = place.x * n, y = place.y * n;
+    int   cx = (int)x, cy = (int)y;
+    float u = x - (float)cx, v = y - (float)cy;
+    int   upper = u + v > 1;
+    u = fabsf((float)upper - u); /* either half is as likely: no branch */
+    v = fabsf((float)upper - v);
+    float w = 1 - u - v, factor = float_from_bits((uint32_t)(127 + level->exponent) << 23);
+    int   mx = -(int)(place.octant & 1), my = -(int)(place.octant >> 1);
+    uint32_t column = (uint32_t)((cx ^ mx) - level->x), row = (uint32_t)((cy ^ my) - level->y);
+    uint32_t line_x = (uint32_t)(((cx + upper) ^ mx) - mx - level->x);
+    uint32_t line_y = (uint32_t)(((cy + upper) ^ my) - my - level->y);
+    return (Edges){{column, line_x, column},
+                   {line_y, row, row},
+                   {hat(u, w, v) * factor, hat(v, w, u) * factor, hat(u, v, w) * factor}};
+}
+
+#define NO_BLOCK UINT32_MAX
+
+/* The block of a cell of the window. */
+static inline uint32_t find_block(const Tree *tree, const VertexLevel *level, uint32_t x,
+                                  uint32_t y)
+{
+    uint32_t bx = x / VERTEX_BLOCK_SIDE, by = y / VERTEX_BLOCK_SIDE;
+    if (bx >= level->width || by >= level->height) return NO_BLOCK;
+    uint32_t at = by * level->width + bx, index = level->first_word + at / 32;
+    uint32_t word = tree->words[index], below = 1u << at % 32;
+    if (!(word & below)) return NO_BLOCK;
+    return level->first_block + tree->ranks[index] + vertex_count_bits(word & (below - 1));
+}
+
+/* What a block's taps share. */
+typedef struct Block {
+    uint64_t bits;
+    uint32_t first, row_bytes; /* byte of the first row */
+    uint8_t  format;
+} Block;
+
+static inline Block open_block(const Tree *tree, const VertexLevel *level, uint32_t index)
+{
+    uint64_t bits = tree->blocks[index];
+    uint8_t  format = tree->block_formats[index];
+    uint32_t start = (uint32_t)(bits >> VERTEX_BLOCK_BITS) << level->shift;
+    return (Block){bits, level->first_byte + start,
+                   vertex_format_bytes(tree->formats[format]), format};
+}
+
+/* Writes a tap for edge i, and counts it if there is such a detail: that cannot be predicted,
+ * so there is no branch. */
+static inline void put_detail(const Block *block, const Edges *e, uint32_t i, TreeTaps *taps)
+{
+    uint32_t bit = e->y[i] % VERTEX_BLOCK_SIDE * 12 + e->x[i] % VERTEX_BLOCK_SIDE * 3 + i;
+    uint32_t row = vertex_count_bits(block->bits & ((1ull << bit) - 1));
+    int      at = taps->count;
+    taps->row[at] = block->first + row * block->row_bytes;
+    taps->weight[at] = e->weight[i];
+    taps->level[at] = block->format;
+    taps->count =
+        at + (int)((uint32_t)(block->bits >> bit) & (uint32_t)(e->weight[i] > 0));
+}
+
+static inline void put_in(const Tree *tree, const VertexLevel *level, const Edges *e,
+                          uint32_t i, TreeTaps *taps)
+{
+    uint32_t index = find_block(tree, level, e->x[i], e->y[i]);
+    if (index == NO_BLOCK) return;
+    Block block = open_block(tree, level, index);
+    put_detail(&block, e, i, taps);
+}
+
+/* Mostly the three edges are in one block. Written out, so that they stay in registers. */
+static inline void put_level(const Tree *tree, const VertexLevel *level, VertexPlace place,
+                             int number, TreeTaps *taps)
+{
+    Edges e = edges_at(level, place, number);
+    if (((e.x[0] ^ e.x[1]) | (e.y[0] ^ e.y[1])) < VERTEX_BLOCK_SIDE) {
+        uint32_t index = find_block(tree, level, e.x[0], e.y[1]);
+        if (index == NO_BLOCK) return;
+        Block block = open_block(tree, level, index);
+        put_detail(&block, &e, 0, taps);
+        put_detail(&block, &e, 1, taps);
+        put_detail(&block, &e, 2, taps);
+    } else {
+        put_in(tree, level, &e, 0, taps);
+        put_in(tree, level, &e, 1, taps);
+        put_in(tree, level, &e, 2, taps);
+    }
+}
+
+/* ---- the walk ---------------------------------------------------------------------------- */
+
+/* How many levels have details around a place. */
+static inline int depth_at(const Tree *tree, VertexPlace place)
+{
+    int      side = 1 << tree->depth_level;
+    int      x = (int)(place.x * (float)side), y = (int)(place.y * (float)side);
+    x = x < side ? x : side - 1;
+    y = y < side ? y : side - 1;
+    int      cx = x ^ -(int)(place.octant & 1), cy = y ^ -(int)(place.octant >> 1);
+    uint32_t at = (uint32_t)((cy + (tree->octants / 4) * side) * 2 * side + cx + side);
+    return tree->depths[at / 2] >> at % 2 * 4 & 15;
+}
+
+static inline void walk(const Tree *tree, int level, VertexPlace place, TreeTaps *taps)
+{
+    put_base(tree, place, taps);
+    for (int q = 0; q < 4; q++) taps->mean_weight[q] = 0;
+    int depth = depth_at(tree, place);
+    if (depth > level - tree->base_level) depth = level - tree->base_level;
+    for (int l = 0; l < depth; l++)
+        put_level(tree, &tree->levels[l], place, tree->base_level + l, taps);
+}
+
+void vertex_tree_walk_place(const Tree *tree, int level, VertexPlace place, TreeTaps *taps)
+{
+    walk(tree, level, place, taps);
+}
+
+void vertex_tree_walk(const Tree *tree, int level, Vec3 direction, TreeTaps *taps)
+{
+    VertexPlace place = map_place(tree->geodesic, tree->plane_level, direction);
+    place.octant &= (uint32_t)tree->octants - 1; /* 2 octants: y is folded */
+    walk(tree, level, place, taps);
+}

@@ -1,0 +1,12 @@
+/* vertex_query.h -- the way down a vertex tree; what tree_query.h calls. HOT.
+ *
+ * Threads  any number, on a constant Tree. Fails: never.
+ */
+#pragma once
+#include "hemisphere/vertex/vertex_tree.h"
+
+/* HOT. The interpolation between vertices of `level` (tree->level: all). */
+void vertex_tree_walk(const Tree *tree, int level, Vec3 direction, TreeTaps *taps);
+
+/* HOT. The same for a place (of octants that the tree has). */
+void vertex_tree_walk_place(const Tree *tree, int level, VertexPlace place, TreeTaps *taps);
