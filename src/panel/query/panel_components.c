@@ -66,6 +66,7 @@ float panel_components(const Panel *panel, Vec3 direction, float *components)
     tree_interpolate(&panel->emission_tree, direction, components);
     float log_cos = log_f(clampf(direction.z, PANEL_LEAST_COS, 1));
     panel_components_add_spline(&e->spline, direction, log_cos, components);
-    for (int b = 0; b < e->beams; b++) panel_components_add_beam(&e->beam[b], direction, components);
+    for (int b = 0; b < e->beams; b++)
+        panel_components_add_beam(&e->beam[b], direction, components);
     return e->cosine_power * log_cos;
 }

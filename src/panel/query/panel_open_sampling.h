@@ -1,5 +1,5 @@
-/* panel_open_sampling.h -- how a panel's reflection is sampled, checked and expanded for queries.
- * Private to src/panel.
+/* panel_open_sampling.h -- how a panel's reflection is sampled, checked and expanded for
+ * queries. Private to src/panel.
  *
  * Memory   the arena's. Fails: in bytes->err (panel_section.h).
  */

@@ -8,8 +8,8 @@
 #include "base/vec.h"
 #include "panel/query/panel.h"
 
-/* Density, sr^-1, with which panel_sample chooses wi for this wo (the haze and its lambertian part;
- * the discrete mirror lobe is the caller's). Integrates to one over the hemisphere. */
+/* Density, sr^-1, with which panel_sample chooses wi for this wo (the haze and its lambertian
+ * part; the discrete mirror lobe is the caller's). Integrates to one over the hemisphere. */
 float panel_pdf(const Panel *panel, Vec3 wo, Vec3 wi);
 
 /* Chooses wi for wo; u in [0,1)^3. *pdf is what panel_pdf says of wi, to rounding. False: no

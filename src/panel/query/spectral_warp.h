@@ -1,5 +1,5 @@
-/* spectral_warp.h -- how the spectra of a panel's primaries bend to a measured colour (design:
- * panel, section 7). Private to src/panel.
+/* spectral_warp.h -- how the spectra of a panel's primaries are warped to a measured colour.
+ * Private to src/panel.
  *
  * S = T exp(c0 + c1 t + c2 t^2), t = (lambda - 560 nm) / 180 nm, T the primary's spectrum, all
  * linear between whole nm. Only +, -, *, / and square roots, so that tables come out the same
@@ -74,7 +74,8 @@ static inline int spectral_warp_cell(float at, float low, float high, float weig
 }
 
 /* HOT. c0, c1, c2 of a source of 1 cd m^-2 for ln XYZ (only the ratios count). */
-static inline void spectral_warp_at(const SpectralWarp *bend, const float logs[3], float coefficient[3])
+static inline void spectral_warp_at(const SpectralWarp *bend, const float logs[3],
+                                    float coefficient[3])
 {
     float wu[4], wv[4];
     float du = logs[0] - logs[1] - bend->range.origin[0];

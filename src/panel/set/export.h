@@ -1,4 +1,4 @@
-/* export.h -- a panel's tables written back as a measurement set (design: formats).
+/* export.h -- a panel's tables written back as a measurement set.
  *
  * MANIFEST.json, emission/ at every stored level and black, primaries.csv, brdf/ at the
  * measured incidences and wavelengths; `panel fit` reads it again. The numbers are what the

@@ -4,7 +4,7 @@
  *          phi is the leaving azimuth with the light at 180, so the mirror direction is at 0.
  * Units    radians inside; XYZ with Y in cd m^-2; BRDF in sr^-1 without the cosine.
  * Memory   the arena's. Threads: const once read.
- * Fails    with file, line or JSON path, found and wanted (design: formats, a measurement set).
+ * Fails    with file, line or JSON path, found and wanted.
  */
 #pragma once
 #include "base/arena.h"

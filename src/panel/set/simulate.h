@@ -1,6 +1,6 @@
 /* simulate.h -- a virtual Fourier-optics instrument that measures a recipe's panel.
  *
- * Writes a measurement set (design: formats): MANIFEST.json, tables in emission/ and brdf/ (one
+ * Writes a measurement set (assets/schemas): MANIFEST.json, tables in emission/ and brdf/ (one
  * file an incidence, one column a wavelength) and primaries.csv. The instrument sees all
  * azimuths up to its cone; its own width shows in the image of a mirror-like reflection only:
  * emission and haze are taken as smooth over that width.
