@@ -3,7 +3,7 @@
 
 #include "base/file_write.h"
 #include "cli/commands.h"
-#include "cli/compare_command.h"
+#include "cli/compare_answer.h"
 #include "cli/options/answer.h"
 #include "compare/report/comparison_json.h"
 #include "compare/folders.h"

@@ -11,13 +11,13 @@
 
 #define MEMORY_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
 
-typedef struct Typed {
+typedef struct DevelopWords {
     const char    *frame, *output;
     DevelopOptions options;
     Cli            cli;
-} Typed;
+} DevelopWords;
 
-static bool parse(int argc, char **argv, Arena *arena, Typed *out, Error *err)
+static bool parse(int argc, char **argv, Arena *arena, DevelopWords *out, Error *err)
 {
     DevelopOptions *o = &out->options;
     int  kind = -1;
@@ -61,7 +61,7 @@ static bool parse(int argc, char **argv, Arena *arena, Typed *out, Error *err)
            (!o->exposure || exposure_parse(o->exposure, &unused, err));
 }
 
-static bool print_json(const Typed *typed, const DevelopReport *r, Error *err)
+static bool print_json(const DevelopWords *typed, const DevelopReport *r, Error *err)
 {
     json_t *answer = json_pack("{s:o, s:[i,i], s:I}", "output", json_text(typed->output),
                                "size", r->width, r->height, "nonfinite_pixels",
@@ -78,7 +78,7 @@ static bool print_json(const Typed *typed, const DevelopReport *r, Error *err)
     return cli_print_json(answer, err);
 }
 
-static void print_text(const Typed *typed, const DevelopReport *r)
+static void print_text(const DevelopWords *typed, const DevelopReport *r)
 {
     if (r->is_developed)
         printf("%s: %s, %s, middle grey %.4g cd/m2 (EV %.2f), %s\n", typed->output, r->display,
@@ -87,7 +87,7 @@ static void print_text(const Typed *typed, const DevelopReport *r)
         printf("%s%s%s\n", typed->output, r->scale[0] ? ": " : "", r->scale);
 }
 
-static bool develop(Typed *typed, Arena *arena, Error *err)
+static bool develop(DevelopWords *typed, Arena *arena, Error *err)
 {
     FrameImage    frame;
     DevelopReport report;
@@ -106,7 +106,7 @@ static bool develop(Typed *typed, Arena *arena, Error *err)
 static bool run_develop(int argc, char **argv, Error *err)
 {
     Arena arena = arena_reserve(MEMORY_BYTES);
-    Typed typed = {0};
+    DevelopWords typed = {0};
     bool  ok = parse(argc, argv, &arena, &typed, err) &&
               (typed.cli.help_shown || develop(&typed, &arena, err));
     arena_release(&arena);

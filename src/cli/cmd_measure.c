@@ -12,13 +12,13 @@
 
 #define MEMORY_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
 
-typedef struct Typed {
+typedef struct MeasureWords {
     MeasureRequest  request;
     LuxmeterRequest luxmeter;
     Cli             cli;
-} Typed;
+} MeasureWords;
 
-static bool parse(int argc, char **argv, Arena *arena, Typed *out, Error *err)
+static bool parse(int argc, char **argv, Arena *arena, MeasureWords *out, Error *err)
 {
     MeasureRequest *r = &out->request;
     double region[4];
@@ -122,7 +122,7 @@ static json_t *json_contrast(const Measurement *m)
                      "pixels", (json_int_t)m->display_pixels);
 }
 
-static bool print_json(const Typed *typed, const Measurement *m, Error *err)
+static bool print_json(const MeasureWords *typed, const Measurement *m, Error *err)
 {
     const MeasureRequest *r = &typed->request;
     json_t *answer = json_pack(
@@ -144,7 +144,7 @@ static bool print_json(const Typed *typed, const Measurement *m, Error *err)
     return cli_print_json(answer, err);
 }
 
-static bool measure(const Typed *typed, Arena *arena, Error *err)
+static bool measure(const MeasureWords *typed, Arena *arena, Error *err)
 {
     FrameImage  frame;
     Measurement measured;
@@ -160,7 +160,7 @@ static bool measure(const Typed *typed, Arena *arena, Error *err)
 static bool run_measure(int argc, char **argv, Error *err)
 {
     Arena arena = arena_reserve(MEMORY_BYTES);
-    Typed typed = {.luxmeter = {.samples = 1 << 18}};
+    MeasureWords typed = {.luxmeter = {.samples = 1 << 18}};
     bool  ok = parse(argc, argv, &arena, &typed, err) &&
               (typed.cli.help_shown || measure(&typed, &arena, err));
     arena_release(&arena);

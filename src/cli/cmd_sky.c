@@ -25,7 +25,7 @@
 #define PATH_STEPS 145                 /* every 10 minutes of a day */
 
 /* One run of the command. */
-typedef struct Work {
+typedef struct SkyRun {
     Cli               cli;
     EnvironmentChange change;
     const char       *output;
@@ -39,18 +39,18 @@ typedef struct Work {
     double            turn; /* compass azimuth of the scene's -Z */
     float            *rgb[3];
     Wavelengths       lanes[LANE_SETS];
-} Work;
+} SkyRun;
 
 /* ---- the sky, direction by direction ----------------------------------------------------- */
 
 /* A direction of the compass in the scene. */
-static Vec3 scene_direction(const Work *work, double azimuth, double elevation)
+static Vec3 scene_direction(const SkyRun *work, double azimuth, double elevation)
 {
     double a = azimuth - work->turn, c = cos(elevation);
     return vec3((float)(c * sin(a)), (float)sin(elevation), (float)(-c * cos(a)));
 }
 
-static void sky_rgb(const Work *work, Vec3 direction, float rgb[3])
+static void sky_rgb(const SkyRun *work, Vec3 direction, float rgb[3])
 {
     float xyz[3] = {0, 0, 0};
     for (int k = 0; k < LANE_SETS; k++) {
@@ -62,7 +62,8 @@ static void sky_rgb(const Work *work, Vec3 direction, float rgb[3])
 }
 
 /* False outside a fisheye's disc. */
-static bool pixel_direction(const Work *work, int x, int y, double *azimuth, double *elevation)
+static bool pixel_direction(const SkyRun *work, int x, int y, double *azimuth,
+                            double *elevation)
 {
     double u = (x + 0.5) / work->size[0], v = (y + 0.5) / work->size[1];
     if (!work->is_fisheye) {
@@ -78,7 +79,7 @@ static bool pixel_direction(const Work *work, int x, int y, double *azimuth, dou
 
 static void draw_row(void *context, int y, int worker)
 {
-    Work *work = context;
+    SkyRun *work = context;
     (void)worker;
     for (int x = 0; x < work->size[0]; x++) {
         double azimuth, elevation;
@@ -90,7 +91,7 @@ static void draw_row(void *context, int y, int worker)
     }
 }
 
-static void draw(Work *work)
+static void draw(SkyRun *work)
 {
     size_t count = (size_t)work->size[0] * (size_t)work->size[1];
     for (int i = 0; i < 3; i++) work->rgb[i] = ARENA_NEW(work->arena, float, count);
@@ -102,7 +103,7 @@ static void draw(Work *work)
 /* ---- figures ----------------------------------------------------------------------------- */
 
 /* Of a picture or a constant sky, which have no model: the sky above the horizontal. */
-static double horizontal_lux(const Work *work)
+static double horizontal_lux(const SkyRun *work)
 {
     double sum = 0;
     int    rows = 180, columns = 360;
@@ -119,7 +120,7 @@ static double horizontal_lux(const Work *work)
     return sum;
 }
 
-static DaylightMetrics figures_of(const Work *work)
+static DaylightMetrics figures_of(const SkyRun *work)
 {
     float rgb[3];
     if (work->sky.model) return work->sky.model->daylight->figures;
@@ -140,7 +141,7 @@ static DaylightMetrics figures_of(const Work *work)
     return f;
 }
 
-static bool print_json(const Work *work, const DaylightMetrics *f, Error *err)
+static bool print_json(const SkyRun *work, const DaylightMetrics *f, Error *err)
 {
     json_t *sun = work->sky.model || work->sky.has_sun
                       ? json_pack("{s:f, s:f, s:f, s:f, s:b, s:f, s:f}", "azimuth_deg",
@@ -162,7 +163,7 @@ static bool print_json(const Work *work, const DaylightMetrics *f, Error *err)
     return cli_print_json(document, err);
 }
 
-static int figure_lines(const Work *work, const DaylightMetrics *f, const char *line[16])
+static int figure_lines(const SkyRun *work, const DaylightMetrics *f, const char *line[16])
 {
     Arena *arena = work->arena;
     int    n = 0;
@@ -200,7 +201,7 @@ static void print_lines(const char *const *line, int count)
 
 /* ---- pictures ---------------------------------------------------------------------------- */
 
-static bool write_exr(const Work *work, Error *err)
+static bool write_exr(const SkyRun *work, Error *err)
 {
     ExrWindow  data = {0, 0, work->size[0], work->size[1]};
     FrameImage frame = frame_create(work->size[0], work->size[1], data, 3, 8, work->arena);
@@ -217,7 +218,7 @@ static bool write_exr(const Work *work, Error *err)
     return frame_write(work->output, &frame, err);
 }
 
-static const char *kind_text(const Work *work)
+static const char *kind_text(const SkyRun *work)
 {
     const DaylightInput *in = &work->scene->environment.daylight;
     switch (work->sky.kind) {
@@ -235,7 +236,7 @@ static const char *kind_text(const Work *work)
                : arena_format(work->arena, "Clear sky, turbidity %.2g", in->turbidity);
 }
 
-static const char *moment_text(const Work *work)
+static const char *moment_text(const SkyRun *work)
 {
     const DaylightInput *in = &work->scene->environment.daylight;
     if (work->sky.kind < ENVIRONMENT_CIE || !in->has_time) return "";
@@ -250,7 +251,7 @@ static const char *moment_text(const Work *work)
 }
 
 /* The sun through the day of the moment, on the clock of its zone. */
-static int sun_path(const Work *work, SkyPlotSun *path)
+static int sun_path(const SkyRun *work, SkyPlotSun *path)
 {
     const DaylightInput *in = &work->scene->environment.daylight;
     double pressure, celsius;
@@ -271,7 +272,7 @@ static int sun_path(const Work *work, SkyPlotSun *path)
     return PATH_STEPS;
 }
 
-static bool write_picture(const Work *work, const DaylightMetrics *f, bool is_svg, Error *err)
+static bool write_picture(const SkyRun *work, const DaylightMetrics *f, bool is_svg, Error *err)
 {
     size_t      count = (size_t)work->size[0] * (size_t)work->size[1];
     float      *luminance = ARENA_NEW(work->arena, float, count);
@@ -315,7 +316,7 @@ static OutputKind output_kind(const char *path)
     return OUTPUT_WRONG;
 }
 
-static bool build(Work *work, Error *err)
+static bool build(SkyRun *work, Error *err)
 {
     SceneOptions files = {.paths = work->cli.arguments, .path_count = work->cli.argument_count,
                           .root = work->root};
@@ -341,7 +342,7 @@ static bool build(Work *work, Error *err)
     return sky_build(environment, work->arena, &work->sky, err);
 }
 
-static bool run(Work *work, OutputKind kind, Error *err)
+static bool run(SkyRun *work, OutputKind kind, Error *err)
 {
     const char *line[16];
     if (!build(work, err)) return false;
@@ -360,7 +361,7 @@ static bool run(Work *work, OutputKind kind, Error *err)
 static bool run_sky(int argc, char **argv, Error *err)
 {
     Arena arena = arena_reserve(ARENA_BYTES);
-    Work  work = {.arena = &arena, .size = {0, 0}};
+    SkyRun  work = {.arena = &arena, .size = {0, 0}};
     int   projection = 0;
     const Option options[] = {
         {"-o", OPTION_TEXT, "SKY.exr|.png|.svg",

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "cli/compare_command.h"
+#include "cli/compare_answer.h"
 #include "compare/metrics.h"
 
 static bool is_known(const Comparison *c, Metric metric)

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/count.h"
-#include "cli/compare_command.h"
+#include "cli/compare_request.h"
 #include "compare/report/html_report.h"
 #include "image/exposure.h"
 

@@ -15,37 +15,37 @@ static const ColourMatrix BRADFORD = {{{0.8951, 0.2664, -0.1614},
                                        {-0.7502, 1.7135, 0.0367},
                                        {0.0389, -0.0685, 1.0296}}};
 
-typedef struct Writer {
+typedef struct ProfileWriter {
     unsigned char *bytes;
     size_t         size;
     int            tags;
-} Writer;
+} ProfileWriter;
 
-static void put_u16(Writer *w, unsigned value)
+static void put_u16(ProfileWriter *w, unsigned value)
 {
     w->bytes[w->size++] = (unsigned char)(value >> 8);
     w->bytes[w->size++] = (unsigned char)value;
 }
 
-static void put_u32(Writer *w, uint32_t value)
+static void put_u32(ProfileWriter *w, uint32_t value)
 {
     put_u16(w, value >> 16);
     put_u16(w, value & 0xffff);
 }
 
-static void put_name(Writer *w, const char *four)
+static void put_name(ProfileWriter *w, const char *four)
 {
     memcpy(w->bytes + w->size, four, 4);
     w->size += 4;
 }
 
 /* s15Fixed16Number */
-static void put_fixed(Writer *w, double value)
+static void put_fixed(ProfileWriter *w, double value)
 {
     put_u32(w, (uint32_t)(int32_t)floor(value * 65536 + 0.5));
 }
 
-static void put_header(Writer *w)
+static void put_header(ProfileWriter *w)
 {
     put_u32(w, 0); /* the size, set last */
     put_u32(w, 0);
@@ -63,16 +63,16 @@ static void put_header(Writer *w)
 }
 
 /* An entry of the tag table for data from `start` to here, and the padding behind them. */
-static void end_tag(Writer *w, const char *name, size_t start)
+static void end_tag(ProfileWriter *w, const char *name, size_t start)
 {
-    Writer entry = {w->bytes, HEADER_BYTES + 4 + (size_t)w->tags++ * 12, 0};
+    ProfileWriter entry = {w->bytes, HEADER_BYTES + 4 + (size_t)w->tags++ * 12, 0};
     put_name(&entry, name);
     put_u32(&entry, (uint32_t)start);
     put_u32(&entry, (uint32_t)(w->size - start));
     w->size = (w->size + 3) / 4 * 4;
 }
 
-static void put_text(Writer *w, const char *name, const char *text)
+static void put_text(ProfileWriter *w, const char *name, const char *text)
 {
     size_t start = w->size, length = strlen(text);
     put_name(w, "mluc");
@@ -86,7 +86,7 @@ static void put_text(Writer *w, const char *name, const char *text)
     end_tag(w, name, start);
 }
 
-static void put_xyz(Writer *w, const char *name, double x, double y, double z)
+static void put_xyz(ProfileWriter *w, const char *name, double x, double y, double z)
 {
     size_t start = w->size;
     put_name(w, "XYZ ");
@@ -97,7 +97,7 @@ static void put_xyz(Writer *w, const char *name, double x, double y, double z)
     end_tag(w, name, start);
 }
 
-static void put_adaptation(Writer *w, const ColourMatrix *matrix)
+static void put_adaptation(ProfileWriter *w, const ColourMatrix *matrix)
 {
     size_t start = w->size;
     put_name(w, "sf32");
@@ -107,7 +107,7 @@ static void put_adaptation(Writer *w, const ColourMatrix *matrix)
 }
 
 /* parametricCurveType: one curve that all three tags point to. */
-static void put_curves(Writer *w, IccCurve curve)
+static void put_curves(ProfileWriter *w, IccCurve curve)
 {
     static const double SRGB[5] = {2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045};
     static const char *const NAMES[3] = {"rTRC", "gTRC", "bTRC"};
@@ -144,7 +144,7 @@ IccProfile icc_profile_create(const double c[8], IccCurve curve, const char *des
                               Arena *arena)
 {
     static const char *const NAMES[3] = {"rXYZ", "gXYZ", "bXYZ"};
-    Writer       w = {ARENA_NEW(arena, unsigned char, MAX_BYTES), 0, 0};
+    ProfileWriter       w = {ARENA_NEW(arena, unsigned char, MAX_BYTES), 0, 0};
     const double white[3] = {c[6] / c[7], 1, (1 - c[6] - c[7]) / c[7]};
     ColourMatrix adaptation = adaptation_to_d50(white), xyz = xyz_from_primaries(c);
     ColourMatrix primaries = colour_product(&adaptation, &xyz);
@@ -156,7 +156,7 @@ IccProfile icc_profile_create(const double c[8], IccCurve curve, const char *des
     for (int k = 0; k < 3; k++)
         put_xyz(&w, NAMES[k], primaries.m[0][k], primaries.m[1][k], primaries.m[2][k]);
     put_curves(&w, curve);
-    Writer start = {w.bytes, 0, 0};
+    ProfileWriter start = {w.bytes, 0, 0};
     put_u32(&start, (uint32_t)w.size);
     return (IccProfile){w.bytes, w.size};
 }

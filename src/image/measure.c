@@ -19,11 +19,11 @@ typedef struct Sums {
 } Sums;
 
 /* The planes that are looked at; has_... tells which the frame has. */
-typedef struct Planes {
+typedef struct RegionPlanes {
     LayerView    light, variance, white, black, reflected;
     const float *display_id; /* NULL: every pixel is wanted */
     bool has_variance, has_display;
-} Planes;
+} RegionPlanes;
 
 static double luminance_at(const LayerView *view, size_t i)
 {
@@ -68,7 +68,7 @@ static bool find_display(const FrameImage *frame, const char *display, Arena *ar
     return true;
 }
 
-static bool find_planes(const FrameImage *frame, Arena *arena, Planes *out, Error *err)
+static bool find_planes(const FrameImage *frame, Arena *arena, RegionPlanes *out, Error *err)
 {
     if (!layer_view_find(frame, NULL, arena, &out->light, err)) return false;
     out->has_variance = raw_layer(frame, "variance", arena, &out->variance);
@@ -88,7 +88,7 @@ static double luminance_variance(const float variance[3])
     return (double)xyz[1] * (double)xyz[1];
 }
 
-static void add_display(const Planes *planes, size_t i, double variance, Sums *sums)
+static void add_display(const RegionPlanes *planes, size_t i, double variance, Sums *sums)
 {
     double white = luminance_at(&planes->white, i), black = luminance_at(&planes->black, i);
     double reflected = luminance_at(&planes->reflected, i);
@@ -100,7 +100,7 @@ static void add_display(const Planes *planes, size_t i, double variance, Sums *s
     sums->display_pixels++;
 }
 
-static void add_pixel(const Planes *planes, size_t i, Sums *sums)
+static void add_pixel(const RegionPlanes *planes, size_t i, Sums *sums)
 {
     double luminance = luminance_at(&planes->light, i), variance = 0;
     if (!isfinite(luminance)) {
@@ -216,7 +216,7 @@ static bool check_region(const FrameImage *frame, const MeasureRequest *request,
 bool measure_frame(const FrameImage *frame, const MeasureRequest *request, Arena scratch,
                    Measurement *out, Error *err)
 {
-    Planes    planes = {0};
+    RegionPlanes    planes = {0};
     Sums      sums = {.least = INFINITY, .greatest = -INFINITY};
     ExrWindow r = frame->data, w = frame->display;
     int       id = -1;

@@ -8,13 +8,13 @@
 /* The grid: baseline y = 0, a digit is 6 high, a small letter 4; y points up. */
 typedef enum StrokeKind { LINE, ARC } StrokeKind;
 
-typedef struct Stroke {
+typedef struct FontStroke {
     char       glyph;
     StrokeKind kind;
     float      v[6]; /* LINE: x0 y0 x1 y1. ARC: centre x y, radii x y, from and to in degrees */
-} Stroke;
+} FontStroke;
 
-static const Stroke STROKES[] = {
+static const FontStroke STROKES[] = {
     {'0', ARC, {2, 3, 1.9f, 3, 0, 360}},
     {'1', LINE, {0.7f, 4.7f, 2.2f, 6}}, {'1', LINE, {2.2f, 6, 2.2f, 0}},
     {'2', ARC, {2, 4.2f, 1.8f, 1.8f, 165, -35}}, {'2', LINE, {3.47f, 3.17f, 0.2f, 0}},
@@ -94,7 +94,7 @@ static char glyph_of(char c)
     return '?';
 }
 
-static Vec2 stroke_point(const Stroke *s, float t)
+static Vec2 stroke_point(const FontStroke *s, float t)
 {
     if (s->kind == LINE) return (Vec2){lerpf(s->v[0], s->v[2], t), lerpf(s->v[1], s->v[3], t)};
     float sine, cosine;

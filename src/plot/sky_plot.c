@@ -17,21 +17,21 @@
 #define PANORAMA_W 560.0
 
 /* One drawing and its scale of colours. */
-typedef struct Work {
+typedef struct SkyDrawing {
     Canvas        *canvas;
     const SkyPlot *plot;
     double         low, high; /* cd m^-2 */
     uint32_t       colour[1024];
-} Work;
+} SkyDrawing;
 
-static double position(const Work *work, double value)
+static double position(const SkyDrawing *work, double value)
 {
     double t = log(fmax(value, 1e-30) / work->low) / log(work->high / work->low);
     return fmin(1, fmax(0, t));
 }
 
 /* Three decades or more below the brightest part of the sky, in round numbers. */
-static void choose_scale(Work *work)
+static void choose_scale(SkyDrawing *work)
 {
     const SkyPlot *plot = work->plot;
     double most = 0, least = 1e30;
@@ -64,10 +64,10 @@ static double luminance_at(const SkyPlot *plot, double turns, double share)
            u * ((1 - t) * (double)low[a] + t * (double)low[b]);
 }
 
-typedef double Sample(const Work *work, double x, double y);
+typedef double Sample(const SkyDrawing *work, double x, double y);
 
 /* Paints w x h points whose colours come from places in [0, 1]^2; NaN: nothing there. */
-static void paint(const Work *work, Box box, Sample *sample)
+static void paint(const SkyDrawing *work, Box box, Sample *sample)
 {
     double scale = work->canvas->pixels_per_point;
     int    w = (int)(box.w * scale), h = (int)(box.h * scale);
@@ -94,7 +94,7 @@ static void paint(const Work *work, Box box, Sample *sample)
 
 /* ---- the chart of the dome --------------------------------------------------------------- */
 
-static double disc_sample(const Work *work, double x, double y)
+static double disc_sample(const SkyDrawing *work, double x, double y)
 {
     double dx = 2 * x - 1, dy = 1 - 2 * y, r = sqrt(dx * dx + dy * dy);
     if (r > 1) return NAN;
@@ -112,7 +112,7 @@ static void disc_place(const Disc *disc, double azimuth, double elevation, doubl
     *y = disc->y - r * cos(azimuth);
 }
 
-static void disc_rings(const Work *work, const Disc *disc)
+static void disc_rings(const SkyDrawing *work, const Disc *disc)
 {
     Canvas *canvas = work->canvas;
     Stroke  thin = {ink_alpha(ink_hex(0xffffff), 0.45), 0.6, DASH_NONE};
@@ -137,7 +137,7 @@ static void disc_rings(const Work *work, const Disc *disc)
     canvas_stroke(canvas, (Stroke){canvas->theme.ink, 1, DASH_NONE});
 }
 
-static void disc_compass(const Work *work, const Disc *disc)
+static void disc_compass(const SkyDrawing *work, const Disc *disc)
 {
     static const char *const names[8] = {"N", "NE", "E", "SE", "S", "SW", "W", "NW"};
     for (int i = 0; i < 8; i++) {
@@ -154,7 +154,7 @@ static void disc_compass(const Work *work, const Disc *disc)
 }
 
 /* The vehicle's way: an arrow at the rim. */
-static void disc_heading(const Work *work, const Disc *disc)
+static void disc_heading(const SkyDrawing *work, const Disc *disc)
 {
     Canvas *canvas = work->canvas;
     double a = work->plot->heading, x[3], y[3],
@@ -196,7 +196,7 @@ static void place_panorama(const void *view, double azimuth, double elevation, d
     *y = box->y + (0.5 - elevation / PI) * box->h;
 }
 
-static void draw_sun(const Work *work, Place *place, const void *view, double widest)
+static void draw_sun(const SkyDrawing *work, Place *place, const void *view, double widest)
 {
     Canvas *canvas = work->canvas;
     const SkyPlot *plot = work->plot;
@@ -239,12 +239,12 @@ static void draw_sun(const Work *work, Place *place, const void *view, double wi
 
 /* ---- the panorama ------------------------------------------------------------------------ */
 
-static double panorama_sample(const Work *work, double x, double y)
+static double panorama_sample(const SkyDrawing *work, double x, double y)
 {
     return luminance_at(work->plot, x, y);
 }
 
-static void draw_panorama(const Work *work, Box box)
+static void draw_panorama(const SkyDrawing *work, Box box)
 {
     static const char *const names[5] = {"N", "E", "S", "W", "N"};
     Canvas *canvas = work->canvas;
@@ -276,13 +276,13 @@ static void draw_panorama(const Work *work, Box box)
 
 /* ---- the scale and the figures ----------------------------------------------------------- */
 
-static double bar_sample(const Work *work, double x, double y)
+static double bar_sample(const SkyDrawing *work, double x, double y)
 {
     (void)y;
     return work->low * pow(work->high / work->low, x);
 }
 
-static void draw_scale(const Work *work, Box box)
+static void draw_scale(const SkyDrawing *work, Box box)
 {
     Canvas *canvas = work->canvas;
     Ticks   ticks = ticks_log(work->low, work->high, 9);
@@ -301,7 +301,7 @@ static void draw_scale(const Work *work, Box box)
         .ink = canvas->theme.soft, .down = 1}, "luminance, cd/m² (without the sun's disc)");
 }
 
-static void draw_lines(const Work *work, double x, double y)
+static void draw_lines(const SkyDrawing *work, double x, double y)
 {
     Canvas *canvas = work->canvas;
     for (int i = 0; i < work->plot->line_count; i++) {
@@ -320,7 +320,7 @@ static void draw_lines(const Work *work, double x, double y)
 
 static void draw_sheet(Canvas *canvas, const void *context)
 {
-    Work work = {.canvas = canvas, .plot = context};
+    SkyDrawing work = {.canvas = canvas, .plot = context};
     Disc disc = {MARGIN + DISC_R + 22, MARGIN + 94 + DISC_R, DISC_R};
     Box  panorama = {PAGE_W - MARGIN - PANORAMA_W, MARGIN + 72, PANORAMA_W, PANORAMA_W / 2};
     choose_scale(&work);

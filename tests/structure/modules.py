@@ -40,7 +40,7 @@ class Tree:
             is_header = path.endswith(".h")
             if kind == "function" and is_header:
                 self.inline[name] = path
-            elif kind == "function" and not (tag.get("file") or tag.get("scope") or name == "main"):
+            elif kind == "function" and name != "main" and not is_local(tag):
                 self.functions[name] = path, tag["line"]
             elif kind == "prototype" and is_header:
                 self.declared[name].append(path)
@@ -95,6 +95,10 @@ class Tree:
                 if not name.endswith(".h") and words[function]:
                     edges[stem(name)].add(stem(path))
         return edges
+
+
+def is_local(tag):
+    return tag.get("file") or tag.get("scope")  # static, or in a namespace without a name
 
 
 def tags(texts):
@@ -152,7 +156,8 @@ def main():
     report.claim_none("public functions that the header of their file does not declare",
                       tree.foreign())
     report.claim_none("functions that nothing but tests calls", never)
-    report.claim_none("functions that no other file and no test calls, and are not static", alone)
+    report.claim_none("functions that no other file and no test calls, and are not static",
+                      alone)
     report.claim_none("structs of one name", tree.ambiguous())
     report.claim_none("files that need each other in a circle", [
         "; ".join(group) for group in circles(tree.needs())

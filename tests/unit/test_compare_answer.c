@@ -3,7 +3,7 @@
 
 #include <libxml/parser.h>
 
-#include "cli/compare_command.h"
+#include "cli/compare_request.h"
 #include "compare/report/comparison_json.h"
 #include "compare/report/html_report.h"
 #include "compare/report/junit.h"

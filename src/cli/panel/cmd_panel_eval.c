@@ -20,12 +20,12 @@
 #define ARENA_BYTES ((size_t)16 << 30)
 
 /* What is asked for, and how the answer shall look. */
-typedef struct Request {
+typedef struct EvalRequest {
     PanelQuestion question;
     const char   *batch, *grid;
     bool          has_theta, has_rgb, has_incidence, wants_csv;
     int           layout, quantity; /* indices of the choices; layout: list, matrix */
-} Request;
+} EvalRequest;
 
 /* ---- many rows at once ----------------------------------------------------------------- */
 
@@ -45,7 +45,7 @@ static bool fill_question(const CsvTable *csv, int row, Arena *arena, PanelQuest
                     arena_string(arena, err->text, strlen(err->text)));
 }
 
-static bool answer_batch(const Panel *panel, const Request *request, const Cli *cli,
+static bool answer_batch(const Panel *panel, const EvalRequest *request, const Cli *cli,
                          Arena *arena, Error *err)
 {
     CsvTable       csv;
@@ -73,7 +73,8 @@ static bool answer_batch(const Panel *panel, const Request *request, const Cli *
 
 /* ---- one answer ------------------------------------------------------------------------ */
 
-static bool answer_one(const Panel *panel, const Request *request, const Cli *cli, Error *err)
+static bool answer_one(const Panel *panel, const EvalRequest *request, const Cli *cli,
+                       Error *err)
 {
     const PanelQuestion *q = &request->question;
     if (cli->json) return cli_print_json(panel_answer_json(panel, q), err);
@@ -86,7 +87,7 @@ static bool answer_one(const Panel *panel, const Request *request, const Cli *cl
     return true;
 }
 
-static bool answer_grid(const Panel *panel, const Request *request, const Cli *cli, Error *err)
+static bool answer_grid(const Panel *panel, const EvalRequest *request, const Cli *cli, Error *err)
 {
     PanelGrid       grid;
     PanelGridFormat format = cli->json ? PANEL_GRID_JSON
@@ -95,7 +96,7 @@ static bool answer_grid(const Panel *panel, const Request *request, const Cli *c
            panel_grid_print(panel, &request->question, &grid, format, request->quantity, err);
 }
 
-static bool answer(const char *path, const Request *request, const Cli *cli, Arena *arena,
+static bool answer(const char *path, const EvalRequest *request, const Cli *cli, Arena *arena,
                    Error *err)
 {
     Panel *panel = NULL;
@@ -114,7 +115,7 @@ static bool answer(const char *path, const Request *request, const Cli *cli, Are
     return ok;
 }
 
-static bool check_request(const Request *request, const Cli *cli, Error *err)
+static bool check_request(const EvalRequest *request, const Cli *cli, Error *err)
 {
     const PanelQuestion *q = &request->question;
     PanelGrid grid;
@@ -139,7 +140,7 @@ static bool run_eval(int argc, char **argv, Error *err)
 {
     Arena   arena = arena_reserve(ARENA_BYTES);
     Cli     cli;
-    Request r = {.question = {.rgb = {255, 255, 255}, .incidence_phi = 180}, .quantity = 1};
+    EvalRequest r = {.question = {.rgb = {255, 255, 255}, .incidence_phi = 180}, .quantity = 1};
     PanelQuestion *q = &r.question;
     const Option   options[] = {
         {"--theta", OPTION_NUMBER, "DEG", "angle from the normal, degrees", &q->theta, 0, 90, 0,

@@ -11,12 +11,12 @@
 
 #define ARENA_BYTES ((size_t)16 << 30)
 
-typedef struct Request {
+typedef struct ExportRequest {
     ExportOptions options;
     const char   *output, *table;
-} Request;
+} ExportRequest;
 
-static bool export_from(const char *path, const Request *request, Arena *arena, Error *err)
+static bool export_from(const char *path, const ExportRequest *request, Arena *arena, Error *err)
 {
     Panel *panel = NULL;
     if (!panel_open(path, arena, &panel, err)) return false;
@@ -27,7 +27,7 @@ static bool export_from(const char *path, const Request *request, Arena *arena, 
     return ok;
 }
 
-static bool print_done(const Request *request, const Cli *cli, Error *err)
+static bool print_done(const ExportRequest *request, const Cli *cli, Error *err)
 {
     if (cli->json)
         return cli_print_json(json_pack("{s:o}", "output", json_text(request->output)),
@@ -41,7 +41,7 @@ static bool run_export(int argc, char **argv, Error *err)
 {
     Arena   arena = arena_reserve(ARENA_BYTES);
     Cli     cli;
-    Request r = {.options = {.mirror_fwhm_deg = -1}};
+    ExportRequest r = {.options = {.mirror_fwhm_deg = -1}};
     const Option options[] = {
         {"-o", OPTION_TEXT, "DIR|TABLE.csv",
          "a new or empty folder for MANIFEST.json and its tables, or one table's file",

@@ -17,10 +17,10 @@
 #define LARGEST_SIZE 20000
 
 /* What the command line asks for. */
-typedef struct Request {
+typedef struct PlotRequest {
     const char *panel, *measured, *root, *picture, *report;
     PlotOptions options;
-} Request;
+} PlotRequest;
 
 static void note_file(json_t *answer, const char *key, const char *path, int figures)
 {
@@ -28,7 +28,7 @@ static void note_file(json_t *answer, const char *key, const char *path, int fig
                                                "figures", figures));
 }
 
-static bool draw(const Request *request, const PlotInput *input, Arena *arena, json_t *answer,
+static bool draw(const PlotRequest *request, const PlotInput *input, Arena *arena, json_t *answer,
                  Error *err)
 {
     int count = 0;
@@ -45,7 +45,7 @@ static bool draw(const Request *request, const PlotInput *input, Arena *arena, j
     return true;
 }
 
-static bool open_and_draw(const Request *request, Arena *arena, json_t *answer, Error *err)
+static bool open_and_draw(const PlotRequest *request, Arena *arena, json_t *answer, Error *err)
 {
     Panel       *panel = NULL;
     Measurement *measured = request->measured ? ARENA_NEW(arena, Measurement, 1) : NULL;
@@ -59,7 +59,7 @@ static bool open_and_draw(const Request *request, Arena *arena, json_t *answer, 
     return ok;
 }
 
-static bool check_request(const Request *request, Error *err)
+static bool check_request(const PlotRequest *request, Error *err)
 {
     int w = request->options.width, h = request->options.height;
     if (!request->picture && !request->report)
@@ -71,7 +71,7 @@ static bool check_request(const Request *request, Error *err)
     return true;
 }
 
-static bool run(const Request *request, const Cli *cli, Arena *arena, Error *err)
+static bool run(const PlotRequest *request, const Cli *cli, Arena *arena, Error *err)
 {
     json_t *answer = json_object();
     if (!open_and_draw(request, arena, answer, err)) {
@@ -87,7 +87,7 @@ static bool run_plot(int argc, char **argv, Error *err)
 {
     Arena   arena = arena_reserve(ARENA_BYTES);
     Cli     cli;
-    Request request = {0};
+    PlotRequest request = {0};
     int     kind = 0, size[2] = {0, 0};
     double  incidence_phi = 180;
     const Option options[] = {

@@ -18,7 +18,7 @@
 #include "film/film_merge.h"
 #include "text/json_text.h"
 
-typedef struct Work {
+typedef struct MergeRun {
     Cli         cli;
     const char *output;
     bool        keeps_sums;   /* --part */
@@ -32,9 +32,9 @@ typedef struct Work {
     Film       *film;
     FilmError   error;
     double      seconds;
-} Work;
+} MergeRun;
 
-static bool parse(int argc, char **argv, Work *work, Error *err)
+static bool parse(int argc, char **argv, MergeRun *work, Error *err)
 {
     const Option options[] = {
         {"-o", OPTION_TEXT, "FRAME.exr", "the frame that is written", &work->output},
@@ -111,7 +111,7 @@ static void copy_attributes(FrameImage *common, const ExrPicture *picture, Arena
             set_attribute(common, &picture->attributes[i], arena);
 }
 
-static bool check_identity(Work *work, const FilmPart *part, const FilmPart *first,
+static bool check_identity(MergeRun *work, const FilmPart *part, const FilmPart *first,
                            const char *identity, Error *err)
 {
     if (!identity)
@@ -134,7 +134,7 @@ static bool check_identity(Work *work, const FilmPart *part, const FilmPart *fir
     return true;
 }
 
-static bool look_at(Work *work, int i, Error *err)
+static bool look_at(MergeRun *work, int i, Error *err)
 {
     FilmPartReader from;
     if (!film_part_open(work->cli.arguments[i], &from, err)) return false;
@@ -150,7 +150,7 @@ static bool look_at(Work *work, int i, Error *err)
     return belongs;
 }
 
-static bool look_at_all(Work *work, Error *err)
+static bool look_at_all(MergeRun *work, Error *err)
 {
     int count = work->cli.argument_count;
     work->parts = ARENA_NEW(work->arena, FilmPart, count);
@@ -162,7 +162,7 @@ static bool look_at_all(Work *work, Error *err)
 
 /* ---- adding up --------------------------------------------------------------------------- */
 
-static bool check_memory(const Work *work, Error *err)
+static bool check_memory(const MergeRun *work, Error *err)
 {
     const FilmPart *whole = &work->whole;
     double wanted = (double)film_bytes(whole->crop, whole->layers);
@@ -187,7 +187,7 @@ static double pixels_in(FilmRect rect)
 }
 
 /* *done: pixels of the parts before. */
-static bool add_part(Work *work, int i, Progress *progress, double *done, Error *err)
+static bool add_part(MergeRun *work, int i, Progress *progress, double *done, Error *err)
 {
     FilmPartReader from;
     if (!film_part_open(work->cli.arguments[i], &from, err)) return false;
@@ -204,7 +204,7 @@ static bool add_part(Work *work, int i, Progress *progress, double *done, Error 
     return ok;
 }
 
-static bool add_all(Work *work, Error *err)
+static bool add_all(MergeRun *work, Error *err)
 {
     const FilmPart *whole = &work->whole;
     double          total = 0, done = 0;
@@ -226,7 +226,7 @@ static bool add_all(Work *work, Error *err)
 /* ---- the frame --------------------------------------------------------------------------- */
 
 /* The command of one run, when the parts' agree on it. */
-static const char *line_of_whole(const Work *work, Arena *arena)
+static const char *line_of_whole(const MergeRun *work, Arena *arena)
 {
     const char *first = NULL;
     for (int i = 0; i < work->cli.argument_count; i++) {
@@ -239,7 +239,7 @@ static const char *line_of_whole(const Work *work, Arena *arena)
     return first;
 }
 
-static const char *list_lines(const Work *work, Arena *arena)
+static const char *list_lines(const MergeRun *work, Arena *arena)
 {
     size_t length = 1;
     for (int i = 0; i < work->cli.argument_count; i++) length += strlen(work->lines[i]) + 1;
@@ -251,7 +251,7 @@ static const char *list_lines(const Work *work, Arena *arena)
     return list;
 }
 
-static void set_lines(const Work *work, FrameImage *frame, Arena *arena)
+static void set_lines(const MergeRun *work, FrameImage *frame, Arena *arena)
 {
     const char *line = line_of_whole(work, arena);
     frame_set_string(frame, "parhelion:commandLine", line ? line : work->own_line, arena);
@@ -259,14 +259,14 @@ static void set_lines(const Work *work, FrameImage *frame, Arena *arena)
 }
 
 /* What no further part can be added to, as far as one can know. */
-static bool is_whole(const Work *work)
+static bool is_whole(const MergeRun *work)
 {
     const FilmPart *whole = &work->whole;
     return whole->first_sample == 0 && whole->crop.x0 == 0 && whole->crop.y0 == 0 &&
            whole->crop.x1 == whole->width && whole->crop.y1 == whole->height;
 }
 
-static bool write_frame(Work *work, Error *err)
+static bool write_frame(MergeRun *work, Error *err)
 {
     Arena           *arena = work->arena;
     const FilmPart  *whole = &work->whole;
@@ -287,7 +287,7 @@ static bool write_frame(Work *work, Error *err)
 
 /* ---- the answer -------------------------------------------------------------------------- */
 
-static bool print_json(const Work *work, Error *err)
+static bool print_json(const MergeRun *work, Error *err)
 {
     const FilmPart *whole = &work->whole;
     json_t *answer = json_pack(
@@ -306,7 +306,7 @@ static bool print_json(const Work *work, Error *err)
     return cli_print_json(answer, err);
 }
 
-static bool print_line(const Work *work, Error *err)
+static bool print_line(const MergeRun *work, Error *err)
 {
     const FilmPart *whole = &work->whole;
     const FilmRect *crop = &whole->crop;
@@ -323,7 +323,7 @@ static bool print_line(const Work *work, Error *err)
     return true;
 }
 
-static bool merge(Work *work, Error *err)
+static bool merge(MergeRun *work, Error *err)
 {
     return look_at_all(work, err) && check_memory(work, err) && add_all(work, err) &&
            write_frame(work, err) &&
@@ -333,7 +333,7 @@ static bool merge(Work *work, Error *err)
 static bool run_merge(int argc, char **argv, Error *err)
 {
     Arena arena = arena_reserve(machine_memory_bytes()); /* what is touched counts */
-    Work  work = {.arena = &arena};
+    MergeRun  work = {.arena = &arena};
     bool  done = parse(argc, argv, &work, err) &&
                 (work.cli.help_shown || merge(&work, err));
     arena_release(&arena);

@@ -15,14 +15,14 @@
 #include "scene/load/scene_load.h"
 
 /* Everything of one run of the command. */
-typedef struct Work {
+typedef struct RenderRun {
     RenderRequest request;
     Arena        *arena;
     Problems      problems;
     Scene        *scene;
     SceneCamera   camera;
     const char   *identity;
-} Work;
+} RenderRun;
 
 /* ---- before ------------------------------------------------------------------------------ */
 
@@ -67,7 +67,7 @@ static bool check_look(const RenderRequest *request, Arena scratch, Error *err)
 }
 
 /* A sky whose sun is down is no error, but the frame may be darker than was meant. */
-static bool tell_of_night(Work *work)
+static bool tell_of_night(RenderRun *work)
 {
     const Environment *environment = &work->scene->environment;
     if (environment->kind != ENVIRONMENT_SKY) return true;
@@ -82,7 +82,7 @@ static bool tell_of_night(Work *work)
     return true;
 }
 
-static bool load(Work *work, Error *err)
+static bool load(RenderRun *work, Error *err)
 {
     RenderRequest *request = &work->request;
     work->problems = problems_start(work->arena);
@@ -97,7 +97,7 @@ static bool load(Work *work, Error *err)
     return loaded;
 }
 
-static bool identify(Work *work, Error *err)
+static bool identify(RenderRun *work, Error *err)
 {
     RenderOptions *options = &work->request.render;
     const Kernel  *kernel;
@@ -110,7 +110,7 @@ static bool identify(Work *work, Error *err)
 
 /* ---- after ------------------------------------------------------------------------------- */
 
-static bool write_frame(const Work *work, const RenderResult *result, Error *err)
+static bool write_frame(const RenderRun *work, const RenderResult *result, Error *err)
 {
     Arena      scratch = *work->arena;
     FrameImage frame = render_make_frame(&work->request, work->scene, &work->camera, result,
@@ -120,7 +120,7 @@ static bool write_frame(const Work *work, const RenderResult *result, Error *err
 
 static void write_snapshot(void *user, const RenderResult *so_far)
 {
-    const Work *work = user;
+    const RenderRun *work = user;
     Error       err;
     if (write_frame(work, so_far, &err))
         fprintf(stderr, "parhelion: %s: snapshot after %u samples a pixel\n",
@@ -130,13 +130,13 @@ static void write_snapshot(void *user, const RenderResult *so_far)
 }
 
 /* On stderr at once, and among the answer's warnings. */
-static void warn(Work *work, const char *text)
+static void warn(RenderRun *work, const char *text)
 {
     fprintf(stderr, "parhelion: warning: %s\n", text);
     problems_add(&work->problems, SEVERITY_WARNING, "", "", "%s", text);
 }
 
-static void warn_of_dropped(Work *work, const RenderResult *result)
+static void warn_of_dropped(RenderRun *work, const RenderResult *result)
 {
     FilmDropped dropped = film_dropped(result->film);
     if (!dropped.count || work->request.replays) return;
@@ -149,7 +149,7 @@ static void warn_of_dropped(Work *work, const RenderResult *result)
 }
 
 /* A picture that the scene names was cleaned, and told of, when it was loaded. */
-static void warn_of_picture(Work *work, const RenderResult *result)
+static void warn_of_picture(RenderRun *work, const RenderResult *result)
 {
     if (!result->refused_pixels || work->request.replays) return;
     warn(work, arena_format(work->arena,
@@ -158,7 +158,7 @@ static void warn_of_picture(Work *work, const RenderResult *result)
                             work->request.environment.environment, result->refused_pixels));
 }
 
-static void warn_of_noise(Work *work, const RenderResult *result)
+static void warn_of_noise(RenderRun *work, const RenderResult *result)
 {
     const RenderOptions *options = &work->request.render;
     double error = options->noise_of_displays ? result->error.displays : result->error.frame;
@@ -172,7 +172,7 @@ static void warn_of_noise(Work *work, const RenderResult *result)
 }
 
 /* False after a warning: the render is worth more than its checkpoint. */
-static bool keep_checkpoint(Work *work, const RenderResult *so_far)
+static bool keep_checkpoint(RenderRun *work, const RenderResult *so_far)
 {
     Error err;
     char  line[2048];
@@ -191,7 +191,7 @@ static void keep_checkpoint_meanwhile(void *user, const RenderResult *so_far)
 
 /* The partial frame is written and the answer given: only the line, which may be longer than
  * an error's text, and the status are left. */
-static bool report_interruption(const Work *work, const RenderResult *result, bool is_kept,
+static bool report_interruption(const RenderRun *work, const RenderResult *result, bool is_kept,
                                 Error *err)
 {
     const RenderOptions *options = &work->request.render;
@@ -208,7 +208,7 @@ static bool report_interruption(const Work *work, const RenderResult *result, bo
     return false;
 }
 
-static bool develop(const Work *work, const RenderResult *result, Error *err)
+static bool develop(const RenderRun *work, const RenderResult *result, Error *err)
 {
     Arena         scratch = *work->arena;
     DevelopReport report;
@@ -223,7 +223,7 @@ static bool develop(const Work *work, const RenderResult *result, Error *err)
 }
 
 /* The checkpoint comes first: who stopped the render may not wait for long. */
-static bool hand_over(Work *work, const RenderResult *result, Error *err)
+static bool hand_over(RenderRun *work, const RenderResult *result, Error *err)
 {
     warn_of_picture(work, result);
     warn_of_dropped(work, result);
@@ -238,7 +238,7 @@ static bool hand_over(Work *work, const RenderResult *result, Error *err)
     return result->complete || report_interruption(work, result, is_kept, err);
 }
 
-static bool run(Work *work, Error *err)
+static bool run(RenderRun *work, Error *err)
 {
     RenderOptions *options = &work->request.render;
     RenderResult   result;
@@ -257,7 +257,7 @@ static bool run_render(int argc, char **argv, Error *err)
 {
     /* address space: what is touched counts */
     Arena arena = arena_reserve(machine_memory_bytes());
-    Work  work = {.arena = &arena};
+    RenderRun  work = {.arena = &arena};
     bool  done = render_request_parse(argc, argv, &arena, &work.request, err) &&
                 (work.request.cli.help_shown || run(&work, err));
     scene_close(work.scene);

@@ -15,14 +15,14 @@
 #define DEFAULT_CHECKPOINT_S 60
 
 /* Values as typed, before they are checked against each other. */
-typedef struct Typed {
+typedef struct RenderWords {
     const char *samples, *noise, *layers;
     int         size[2], false_colour;
     long        spp, max_bounces, seed;
     double      crop[4], replay[3];
     CliTexts    contents, panels, levels;
     bool        has_spp, has_crop, has_replay, has_interval;
-} Typed;
+} RenderWords;
 
 /* ---- layers ------------------------------------------------------------------------------ */
 
@@ -180,7 +180,7 @@ static bool ends_with(const char *text, const char *ending)
 
 /* ---- all of them ------------------------------------------------------------------------- */
 
-static bool check_scene(const Typed *typed, Arena *arena, RenderRequest *request, Error *err)
+static bool check_scene(const RenderWords *typed, Arena *arena, RenderRequest *request, Error *err)
 {
     SceneOptions *scene = &request->scene;
     scene->paths = request->cli.arguments;
@@ -210,7 +210,7 @@ static bool check_outputs(const RenderRequest *request, Error *err)
     return true;
 }
 
-static bool check_render(const Typed *typed, RenderRequest *request, Error *err)
+static bool check_render(const RenderWords *typed, RenderRequest *request, Error *err)
 {
     RenderOptions *options = &request->render;
     options->width = typed->size[0];
@@ -235,7 +235,7 @@ static bool check_render(const Typed *typed, RenderRequest *request, Error *err)
 }
 
 /* They are kept while rendering as soon as any of their options is there. */
-static void set_checkpoint(const Typed *typed, Arena *arena, RenderRequest *request)
+static void set_checkpoint(const RenderWords *typed, Arena *arena, RenderRequest *request)
 {
     request->keeps_checkpoints =
         !request->replays && (request->checkpoint || typed->has_interval || request->resumes);
@@ -255,7 +255,7 @@ static const char *resume_line(int argc, char **argv, bool resumes, Arena *arena
     return command_line_join(argc + 1, words, true, arena);
 }
 
-static bool parse_line(int argc, char **argv, Arena *arena, Typed *typed,
+static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
                        RenderRequest *request, Error *err)
 {
     EnvironmentChange *outside = &request->environment;
@@ -326,7 +326,7 @@ bool render_request_parse(int argc, char **argv, Arena *arena, RenderRequest *ou
 {
     RenderRequest request = {.command_line = command_line_join(argc, argv, false, arena),
                              .render.checkpoint_interval_s = DEFAULT_CHECKPOINT_S};
-    Typed         typed = {.size = {DEFAULT_WIDTH, DEFAULT_HEIGHT}, .spp = DEFAULT_SPP,
+    RenderWords         typed = {.size = {DEFAULT_WIDTH, DEFAULT_HEIGHT}, .spp = DEFAULT_SPP,
                            .max_bounces = DEFAULT_BOUNCES};
     if (!parse_line(argc, argv, arena, &typed, &request, err)) return false;
     if (!request.cli.help_shown &&

@@ -11,7 +11,7 @@
  * sample), S makes values of details. Conjugate gradients with a diagonal preconditioner, every
  * component by itself but all in one pass; in double precision, since the penalties are many
  * powers of ten below the data. */
-typedef struct Problem {
+typedef struct LeastSquares {
     VertexLattice      lattice;
     int                components;
     size_t             numbers; /* vertices x components */
@@ -22,19 +22,19 @@ typedef struct Problem {
     const double      *weight; /* of samples, over their sum */
     int                samples;
     const double      *penalty, *inverse_diagonal; /* of vertices */
-} Problem;
+} LeastSquares;
 
 #define MAX_ITERATIONS 1000
 #define TOLERANCE 1e-8 /* of the preconditioned residual against the first */
 
 /* ---- details to values and back ---------------------------------------------------------- */
 
-static int corner_count(const Problem *p)
+static int corner_count(const LeastSquares *p)
 {
     return p->lattice.octants == 2 ? 3 : 4;
 }
 
-static void add_row(const Problem *p, uint32_t to, uint32_t from, double factor, double *rows)
+static void add_row(const LeastSquares *p, uint32_t to, uint32_t from, double factor, double *rows)
 {
     size_t  k = (size_t)p->components;
     double *a = rows + to * k, *b = rows + from * k;
@@ -42,7 +42,7 @@ static void add_row(const Problem *p, uint32_t to, uint32_t from, double factor,
 }
 
 /* h to S h, in place. Corners on the horizon are relative to the pole. */
-static void synthesise(const Problem *p, double *rows)
+static void synthesise(const LeastSquares *p, double *rows)
 {
     for (int i = 0; i < corner_count(p); i++) add_row(p, p->corner[i], p->pole, 1, rows);
     for (uint32_t e = 0; e < p->edge_count; e++)
@@ -51,7 +51,7 @@ static void synthesise(const Problem *p, double *rows)
 }
 
 /* x to S^T x, in place. */
-static void transpose(const Problem *p, double *rows)
+static void transpose(const LeastSquares *p, double *rows)
 {
     for (uint32_t e = p->edge_count; e-- > 0;)
         for (int i = 0; i < 2; i++)
@@ -62,7 +62,7 @@ static void transpose(const Problem *p, double *rows)
 /* ---- the normal equations ---------------------------------------------------------------- */
 
 /* out += A^T w (A values - y), y NULL: 0. */
-static void add_data_gradient(const Problem *p, const double *values, const float *y,
+static void add_data_gradient(const LeastSquares *p, const double *values, const float *y,
                               double *out)
 {
     size_t k = (size_t)p->components;
@@ -81,7 +81,7 @@ static void add_data_gradient(const Problem *p, const double *values, const floa
 }
 
 /* out = (S^T A^T w A S + penalty) h; values: room for S h. */
-static void apply(const Problem *p, const double *h, double *values, double *out)
+static void apply(const LeastSquares *p, const double *h, double *values, double *out)
 {
     size_t k = (size_t)p->components;
     memcpy(values, h, p->numbers * sizeof *h);
@@ -93,7 +93,7 @@ static void apply(const Problem *p, const double *h, double *values, double *out
 }
 
 /* a . b, of every component. */
-static void dots(const Problem *p, const double *a, const double *b, double *dot)
+static void dots(const LeastSquares *p, const double *a, const double *b, double *dot)
 {
     size_t k = (size_t)p->components;
     for (size_t c = 0; c < k; c++) dot[c] = 0;
@@ -102,19 +102,19 @@ static void dots(const Problem *p, const double *a, const double *b, double *dot
 }
 
 /* The vectors of conjugate gradients. */
-typedef struct Work {
+typedef struct FitWork {
     double *x, *r, *z, *d, *q, *values;
     double *rho, *rho_first, *next;
-} Work;
+} FitWork;
 
-static void precondition(const Problem *p, const double *r, double *z)
+static void precondition(const LeastSquares *p, const double *r, double *z)
 {
     size_t k = (size_t)p->components;
     for (size_t i = 0; i < p->numbers; i++) z[i] = p->inverse_diagonal[i / k] * r[i];
 }
 
 /* One step for every component that has not converged; how many those were. */
-static int iterate(const Problem *p, Work *w)
+static int iterate(const LeastSquares *p, FitWork *w)
 {
     size_t k = (size_t)p->components;
     int    active = 0;
@@ -140,7 +140,7 @@ static int iterate(const Problem *p, Work *w)
 }
 
 /* x: details that solve the problem; starts from 0. */
-static void solve(const Problem *p, const float *y, Work *w)
+static void solve(const LeastSquares *p, const float *y, FitWork *w)
 {
     add_data_gradient(p, w->x, y, w->r);
     transpose(p, w->r);
@@ -177,10 +177,10 @@ static double *make_penalty(VertexLattice lattice, double ridge, Arena *arena)
 
 /* The diagonal of S^T A^T w A S + penalty, with the off-diagonal part of the data's term
  * summed into it: sum over samples of w times the hat function. */
-static double *make_inverse_diagonal(const Problem *p, Arena *arena)
+static double *make_inverse_diagonal(const LeastSquares *p, Arena *arena)
 {
     uint32_t count = vertex_count(p->lattice);
-    Problem  one = *p;
+    LeastSquares  one = *p;
     double  *diagonal = ARENA_NEW(arena, double, count);
     one.components = 1;
     for (int s = 0; s < p->samples; s++)
@@ -194,7 +194,7 @@ static double *make_inverse_diagonal(const Problem *p, Arena *arena)
     return diagonal;
 }
 
-static void make_hierarchy(Problem *p, Arena *arena)
+static void make_hierarchy(LeastSquares *p, Arena *arena)
 {
     int         n = 1 << p->lattice.level, levels = p->lattice.level;
     const int   at[4][2] = {{n, 0}, {-n, 0}, {0, n}, {0, -n}};
@@ -236,9 +236,9 @@ static bool check_samples(const VertexSamples *samples, Error *err)
     return true;
 }
 
-static Work make_work(const Problem *p, Arena *arena)
+static FitWork make_work(const LeastSquares *p, Arena *arena)
 {
-    Work     w;
+    FitWork     w;
     double **rows[] = {&w.x, &w.r, &w.z, &w.d, &w.q, &w.values};
     double **numbers[] = {&w.rho, &w.rho_first, &w.next};
     for (int i = 0; i < 6; i++) *rows[i] = ARENA_NEW(arena, double, p->numbers);
@@ -256,7 +256,7 @@ bool vertex_fit(VertexLattice lattice, const VertexSamples *samples, double ridg
     if (!check_samples(samples, err) || !make_weights(samples, weight, err)) return false;
     for (int s = 0; s < samples->count; s++)
         points[s] = vertex_find(geodesic, lattice, samples->direction[s]);
-    Problem p = {.lattice = lattice,
+    LeastSquares p = {.lattice = lattice,
                  .components = samples->components,
                  .numbers = vertex_count(lattice) * (size_t)samples->components,
                  .points = points,
@@ -265,7 +265,7 @@ bool vertex_fit(VertexLattice lattice, const VertexSamples *samples, double ridg
                  .penalty = make_penalty(lattice, ridge, &arena)};
     make_hierarchy(&p, &arena);
     p.inverse_diagonal = make_inverse_diagonal(&p, &arena);
-    Work work = make_work(&p, &arena);
+    FitWork work = make_work(&p, &arena);
     solve(&p, samples->value, &work);
     synthesise(&p, work.x);
     for (size_t i = 0; i < p.numbers; i++) values[i] = (float)work.x[i];

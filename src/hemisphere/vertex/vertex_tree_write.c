@@ -9,7 +9,7 @@
 #include "hemisphere/vertex/vertex_tree.h"
 
 /* A blob's parts while they are filled; room for all that a lattice can need. */
-typedef struct Writer {
+typedef struct BlobWriter {
     const VertexCode *code;
     VertexHeader      header;
     VertexLevel       level[GEODESIC_MAX_LEVEL];
@@ -20,7 +20,7 @@ typedef struct Writer {
     uint8_t          *block_formats;
     uint64_t         *blocks;
     uint8_t          *rows;
-} Writer;
+} BlobWriter;
 
 /* One level's stored edges, sorted into cells. */
 typedef struct Filling {
@@ -63,7 +63,7 @@ static bool holds(VertexFormat outer, VertexFormat inner)
 
 /* The number of a format; when the table is full, of the shortest that is as wide. Format 1
  * is as wide as all (format 0 is the base's). */
-static uint8_t format_number(Writer *w, VertexFormat format)
+static uint8_t format_number(BlobWriter *w, VertexFormat format)
 {
     uint32_t best = 1;
     for (uint32_t i = 0; i < w->header.format_count; i++) {
@@ -77,7 +77,7 @@ static uint8_t format_number(Writer *w, VertexFormat format)
     return w->header.format_count++;
 }
 
-static void put_row(Writer *w, VertexFormat format, uint32_t vertex)
+static void put_row(BlobWriter *w, VertexFormat format, uint32_t vertex)
 {
     const int16_t *row = integers_of(w->code, vertex);
     uint8_t       *to = w->rows + w->header.row_bytes;
@@ -136,7 +136,7 @@ static uint32_t *spread(const Filling *f, const VertexLevel *level, Arena *arena
 }
 
 /* One block's bits and rows; false: there are none. */
-static bool put_block(Writer *w, const VertexLevel *level, const uint32_t *vertex)
+static bool put_block(BlobWriter *w, const VertexLevel *level, const uint32_t *vertex)
 {
     uint64_t     bits = 0;
     VertexFormat format = {{0}};
@@ -158,7 +158,7 @@ static bool put_block(Writer *w, const VertexLevel *level, const uint32_t *verte
 }
 
 /* A shift with which the starts of all blocks fit into 16 bits. */
-static uint8_t choose_shift(const Writer *w, const Filling *f)
+static uint8_t choose_shift(const BlobWriter *w, const Filling *f)
 {
     uint64_t most = (uint64_t)f->count * vertex_format_bytes(w->formats[1]);
     uint8_t  shift = 0;
@@ -166,7 +166,7 @@ static uint8_t choose_shift(const Writer *w, const Filling *f)
     return shift;
 }
 
-static void put_level(Writer *w, const Filling *f, VertexLevel *level, Arena scratch)
+static void put_level(BlobWriter *w, const Filling *f, VertexLevel *level, Arena scratch)
 {
     level->shift = choose_shift(w, f);
     level->first_word = w->header.word_count;
@@ -187,7 +187,7 @@ static void put_level(Writer *w, const Filling *f, VertexLevel *level, Arena scr
 /* ---- depths ------------------------------------------------------------------------------ */
 
 /* The depth level's cells that a detail's two triangles may touch. */
-static void mark_depth(Writer *w, const VertexEdge *edge, int half, int depth)
+static void mark_depth(BlobWriter *w, const VertexEdge *edge, int half, int depth)
 {
     int n = 1 << w->code->lattice.level, side = 1 << w->header.depth_level;
     int low = w->code->lattice.octants == 2 ? 0 : -side;
@@ -212,7 +212,7 @@ static uint32_t stored_edges(const VertexCode *code, int level, VertexEdge *edge
     return count;
 }
 
-static void write_levels(Writer *w, Arena scratch)
+static void write_levels(BlobWriter *w, Arena scratch)
 {
     const VertexCode *code = w->code;
     int               last = code->lattice.level - code->base_level;
@@ -234,7 +234,7 @@ static void write_levels(Writer *w, Arena scratch)
 }
 
 /* Levels after the last one with details are not stored: neither are their words. */
-static void drop_empty_levels(Writer *w, int levels)
+static void drop_empty_levels(BlobWriter *w, int levels)
 {
     w->header.word_count = (uint16_t)(w->header.word_count -
                                       (levels - w->header.level_count));
@@ -253,7 +253,7 @@ static uint32_t base_vertices(const VertexCode *code, uint32_t *vertex)
 }
 
 /* Formats 0 (of the base) and 1 (of any detail), and the base's rows. */
-static void write_base(Writer *w, Arena scratch)
+static void write_base(BlobWriter *w, Arena scratch)
 {
     uint32_t  all = vertex_count(w->code->lattice);
     uint32_t *vertex = ARENA_NEW(&scratch, uint32_t, all);
@@ -270,7 +270,7 @@ static void write_base(Writer *w, Arena scratch)
 }
 
 /* Depths cost at most a fortieth of the rest. */
-static void write_depths(Writer *w, Arena scratch)
+static void write_depths(BlobWriter *w, Arena scratch)
 {
     const VertexCode *code = w->code;
     size_t            rest = vertex_parts(&w->header).size;
@@ -288,7 +288,7 @@ static void write_depths(Writer *w, Arena scratch)
     }
 }
 
-static const void *assemble(const Writer *w, const VertexParts *p, Arena *arena)
+static const void *assemble(const BlobWriter *w, const VertexParts *p, Arena *arena)
 {
     const VertexHeader *h = &w->header;
     char               *blob = arena_alloc(arena, 1, 16, p->size);
@@ -312,7 +312,7 @@ const void *vertex_code_write(const VertexCode *code, Arena *arena, size_t *size
     size_t vertices = vertex_count(code->lattice), k = (size_t)code->components;
     Arena  scratch = *arena;
     arena_alloc(&scratch, 1, 16, vertices * (2 * k + 16) + ((size_t)1 << 18));
-    Writer w = {.code = code,
+    BlobWriter w = {.code = code,
                 .header = {.magic = VERTEX_MAGIC,
                            .version = VERTEX_VERSION,
                            .components = (uint16_t)code->components,

@@ -59,24 +59,24 @@ static uint16_t upper_half(float value)
     return (uint16_t)(bits >> 16);
 }
 
-typedef struct Writer {
+typedef struct TableWriter {
     unsigned char *at;
-} Writer;
+} TableWriter;
 
-static void put(Writer *to, const void *from, size_t bytes)
+static void put(TableWriter *to, const void *from, size_t bytes)
 {
     memcpy(to->at, from, bytes);
     to->at += bytes;
 }
 
-static void put_text(Writer *to, const char *text)
+static void put_text(TableWriter *to, const char *text)
 {
     uint8_t length = (uint8_t)(strlen(text) > TEXT_MAX ? TEXT_MAX : strlen(text));
     put(to, &length, 1);
     put(to, text, length);
 }
 
-static void put_number(Writer *to, char kind, const json_t *value)
+static void put_number(TableWriter *to, char kind, const json_t *value)
 {
     float    number = json_is_number(value) ? (float)json_number_value(value) : NAN;
     uint32_t whole = json_is_number(value) ? (uint32_t)json_number_value(value) : UINT32_MAX;
@@ -102,7 +102,7 @@ size_t panel_report_pack_tables(const json_t *tables, Arena *arena, const void *
     json_array_foreach((json_t *)tables, i, table)
         size += 1 + strlen(name_of(table)) + 4 * (size_t)columns;
     unsigned char *out = ARENA_NEW(arena, unsigned char, size);
-    Writer   to = {out};
+    TableWriter   to = {out};
     uint16_t count = (uint16_t)rows;
     put(&to, &count, sizeof count);
     put(&to, &columns, 1);

@@ -23,7 +23,7 @@
 #define AZIMUTHS_MAX 32
 
 /* Places of the stored frame, and the weights of the lanes. */
-typedef struct Work {
+typedef struct SamplingWork {
     const Panel *panel;
     int          level, octants, leaves, azimuths, incidences;
     Vec3        *stored;
@@ -31,11 +31,11 @@ typedef struct Work {
     Wavelengths  wavelengths;
     double       luminous[SPECTRUM_LANES];
     double       theta[INCIDENCES_MAX];
-} Work;
+} SamplingWork;
 
 /* Lanes evenly over what is measured of the visible range, weighted as the eye does and a
  * little more, so that no wavelength is forgotten. */
-static void choose_wavelengths(Work *work)
+static void choose_wavelengths(SamplingWork *work)
 {
     const PanelReflection *r = work->panel->reflection;
     double first = fmax(400, (double)r->wavelength_nm[0]), total = 0;
@@ -50,7 +50,7 @@ static void choose_wavelengths(Work *work)
     for (int i = 0; i < SPECTRUM_LANES; i++) work->luminous[i] /= total;
 }
 
-static void choose_places(Work *work, int level, Arena *arena)
+static void choose_places(SamplingWork *work, int level, Arena *arena)
 {
     uint32_t octant = 1u << 2 * level;
     work->level = level;
@@ -63,14 +63,14 @@ static void choose_places(Work *work, int level, Arena *arena)
         work->stored[i] = geodesic_center(level, (uint32_t)i);
 }
 
-static double area_of(const Work *work, int leaf)
+static double area_of(const SamplingWork *work, int leaf)
 {
     return work->area[leaf & ((1 << 2 * work->level) - 1)];
 }
 
 /* The integrals over the leaves of the luminous mean of f cos theta times the frame's
  * Jacobian, for a wo at theta and phi, scaled to a sum of 1. */
-static void read_function(const Work *work, double theta, double phi, float *integral)
+static void read_function(const SamplingWork *work, double theta, double phi, float *integral)
 {
     SpecularFrame frame = specular_frame((float)theta, PANEL_SAMPLING_EXPONENT);
     double s = sin_d(theta), total = 0;
@@ -93,7 +93,7 @@ static void read_function(const Work *work, double theta, double phi, float *int
 }
 
 /* Relative variance of weights when `wanted` is drawn with the mean of two others. */
-static double mixed_variance(const Work *work, const float *wanted, const float *a,
+static double mixed_variance(const SamplingWork *work, const float *wanted, const float *a,
                              const float *b)
 {
     double sum = 0;
@@ -112,12 +112,12 @@ typedef struct Interval {
     float *function[2]; /* of every probe, one after the other */
 } Interval;
 
-static int probes(const Work *work)
+static int probes(const SamplingWork *work)
 {
     return work->octants == 4 ? PROBES : 1;
 }
 
-static float *read_probes(const Work *work, double theta, Arena *arena)
+static float *read_probes(const SamplingWork *work, double theta, Arena *arena)
 {
     float *all = ARENA_NEW(arena, float, probes(work) * work->leaves);
     for (int a = 0; a < probes(work); a++)
@@ -127,7 +127,7 @@ static float *read_probes(const Work *work, double theta, Arena *arena)
 
 /* Halves an interval until its middle is drawn well by its ends; appends its nodes but the
  * first. */
-static void divide(Work *work, Interval all, int room, Arena scratch)
+static void divide(SamplingWork *work, Interval all, int room, Arena scratch)
 {
     double middle = 0.5 * (all.theta[0] + all.theta[1]), worst = 0;
     float *at_middle = read_probes(work, middle, &scratch);
@@ -146,7 +146,7 @@ static void divide(Work *work, Interval all, int room, Arena scratch)
     work->theta[work->incidences++] = all.theta[1];
 }
 
-static void choose_incidences(Work *work, Arena scratch)
+static void choose_incidences(SamplingWork *work, Arena scratch)
 {
     double first = 0, last = radians_from_degrees(LAST_DEG);
     Interval all = {{first, last}, {read_probes(work, first, &scratch),
@@ -156,7 +156,7 @@ static void choose_incidences(Work *work, Arena scratch)
 }
 
 /* Azimuths evenly, so many that half way between two of them is drawn well by these. */
-static void choose_azimuths(Work *work, Arena scratch)
+static void choose_azimuths(SamplingWork *work, Arena scratch)
 {
     float *f[3];
     double theta = radians_from_degrees(45);
@@ -177,7 +177,7 @@ static void choose_azimuths(Work *work, Arena scratch)
 
 /* ---- the section ------------------------------------------------------------------------- */
 
-static void write_section(const Work *work, const void *tree, Arena *arena,
+static void write_section(const SamplingWork *work, const void *tree, Arena *arena,
                           SamplingSection *out)
 {
     uint16_t counts[2] = {(uint16_t)work->incidences, (uint16_t)work->azimuths};
@@ -195,7 +195,7 @@ static void write_section(const Work *work, const void *tree, Arena *arena,
 
 bool sampling_make(const Panel *panel, Arena *arena, SamplingSection *out, Error *err)
 {
-    Work        work = {.panel = panel};
+    SamplingWork        work = {.panel = panel};
     Arena       scratch = arena_reserve((size_t)4 << 30);
     const void *tree;
     choose_wavelengths(&work);

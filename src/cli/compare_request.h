@@ -1,4 +1,8 @@
-/* compare_command.h -- the parts of `parhelion compare`; private to src/cli. */
+/* compare_request.h -- what was asked of `parhelion compare`.
+ *
+ * Memory   texts are the command line's or the arena's. Threads: one at a time.
+ * Fails    ERROR_USAGE with the option, what was found and what was wanted.
+ */
 #pragma once
 #include "cli/options/cli.h"
 #include "compare/compare.h"
@@ -13,9 +17,3 @@ typedef struct CompareRequest {
 
 /* True with cli.help_shown when only help was asked for. */
 bool compare_parse(int argc, char **argv, Arena *arena, CompareRequest *out, Error *err);
-
-/* Metrics, notes and the verdict of two files. */
-void compare_print_pair(const CompareRequest *request, const Comparison *c);
-
-/* One line for a pair of two folders. */
-void compare_print_line(const char *name, const Comparison *c);
