@@ -7,12 +7,15 @@ sh third_party/install.sh --tests || exit 1
 
 run 'headers compile alone' headers sh tests/structure/headers.sh
 run 'folders include what they may' layers python3 tests/structure/layers.py
+run 'the module is the file' modules python3 tests/structure/modules.py
 run 'sizes and contents of the sources' source python3 tests/structure/source.py
 run 'the README names what is there' readme python3 tests/structure/readme.py
-run 'scenes hold to their schemas' schemas python3 tests/structure/schemas.py
+run 'pages and comments point to what is there' pointers python3 tests/structure/pointers.py
 run 'no shell, no network, no mapped file' calls python3 tests/structure/calls.py
 
 if run_one 'release build, warnings are errors' build-release build release all; then
+    run 'scenes, sets and their schemas' schemas \
+        python3 tests/structure/schemas.py .build/release/parhelion
     run 'libraries keep no state' globals sh tests/structure/globals.sh .build/release
     run 'kernels keep their vectors' kernels python3 tests/structure/kernels.py .build/release
     run 'no function that differs by CPU' libm sh tests/structure/libm.sh .build/release
@@ -38,6 +41,8 @@ if run_one 'release build, warnings are errors' build-release build release all;
         python3 tests/image/reflection.py .build/release/parhelion
     run 'daylight through a roof' roof python3 tests/image/roof.py .build/release/parhelion
     run 'same bits, any threads' bits python3 tests/image/bits.py .build/release/parhelion
+    run 'README and guides as written' guides \
+        python3 tests/image/guides.py .build/release/parhelion
     run 'golden frames' golden python3 tests/image/golden.py .build/release/parhelion
 fi
 if run_one 'build with address sanitizer' build-asan build asan all; then

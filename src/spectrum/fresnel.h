@@ -69,8 +69,11 @@ static inline float schlick_weight(float cosine)
     return m2 * m2 * m;
 }
 
+#pragma GCC diagnostic push /* inline: no vector goes from one file to another */
+#pragma GCC diagnostic ignored "-Wpsabi"
 /* Metals: f0 + (1 - f0)(1 - cosine)^5 per lane. */
 static inline Spectrum fresnel_schlick(Spectrum f0, float cosine)
 {
     return f0 + (spectrum_all(1) - f0) * spectrum_all(schlick_weight(cosine));
 }
+#pragma GCC diagnostic pop

@@ -15,6 +15,11 @@
 typedef float Spectrum __attribute__((vector_size(SPECTRUM_LANES * 4), aligned(64)));
 typedef int   SpectrumMask __attribute__((vector_size(SPECTRUM_LANES * 4), aligned(64)));
 
+/* Inline functions pass no vector from one file to another: nothing to warn of. Those that do
+ * are hot ones (CMakeLists.txt). */
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 static inline Spectrum spectrum_all(float value)
 {
     return (Spectrum){value, value, value, value, value, value, value, value,
@@ -101,3 +106,5 @@ static inline Spectrum spectrum_exp(Spectrum a)
     for (int i = 0; i < SPECTRUM_LANES; i++) power[i] = exp_f(a[i]);
     return power;
 }
+
+#pragma GCC diagnostic pop

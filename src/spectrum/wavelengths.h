@@ -20,6 +20,9 @@ typedef struct Wavelengths {
 /* offset: in [0, 1). */
 void wavelengths_sample(float offset, Wavelengths *out);
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 /* Reflectance of a linear Rec.709 colour (each in [0, 1]; the result then lies there too). */
 static inline Spectrum spectrum_from_rgb(const Wavelengths *w, const float rgb[3])
 {
@@ -39,3 +42,5 @@ static inline void spectrum_add_xyz(const Wavelengths *w, Spectrum radiance, flo
 {
     for (int i = 0; i < 3; i++) xyz[i] += spectrum_sum(radiance * w->xyz[i]);
 }
+
+#pragma GCC diagnostic pop

@@ -87,7 +87,8 @@ static bool answer_one(const Panel *panel, const EvalRequest *request, const Cli
     return true;
 }
 
-static bool answer_grid(const Panel *panel, const EvalRequest *request, const Cli *cli, Error *err)
+static bool answer_grid(const Panel *panel, const EvalRequest *request, const Cli *cli,
+                        Error *err)
 {
     PanelGrid       grid;
     PanelGridFormat format = cli->json ? PANEL_GRID_JSON

@@ -16,7 +16,8 @@ typedef struct ExportRequest {
     const char   *output, *table;
 } ExportRequest;
 
-static bool export_from(const char *path, const ExportRequest *request, Arena *arena, Error *err)
+static bool export_from(const char *path, const ExportRequest *request, Arena *arena,
+                        Error *err)
 {
     Panel *panel = NULL;
     if (!panel_open(path, arena, &panel, err)) return false;

@@ -28,8 +28,8 @@ static void note_file(json_t *answer, const char *key, const char *path, int fig
                                                "figures", figures));
 }
 
-static bool draw(const PlotRequest *request, const PlotInput *input, Arena *arena, json_t *answer,
-                 Error *err)
+static bool draw(const PlotRequest *request, const PlotInput *input, Arena *arena,
+                 json_t *answer, Error *err)
 {
     int count = 0;
     if (request->picture) {

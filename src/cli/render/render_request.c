@@ -180,7 +180,8 @@ static bool ends_with(const char *text, const char *ending)
 
 /* ---- all of them ------------------------------------------------------------------------- */
 
-static bool check_scene(const RenderWords *typed, Arena *arena, RenderRequest *request, Error *err)
+static bool check_scene(const RenderWords *typed, Arena *arena, RenderRequest *request,
+                        Error *err)
 {
     SceneOptions *scene = &request->scene;
     scene->paths = request->cli.arguments;

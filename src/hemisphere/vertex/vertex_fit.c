@@ -34,7 +34,8 @@ static int corner_count(const LeastSquares *p)
     return p->lattice.octants == 2 ? 3 : 4;
 }
 
-static void add_row(const LeastSquares *p, uint32_t to, uint32_t from, double factor, double *rows)
+static void add_row(const LeastSquares *p, uint32_t to, uint32_t from, double factor,
+                    double *rows)
 {
     size_t  k = (size_t)p->components;
     double *a = rows + to * k, *b = rows + from * k;

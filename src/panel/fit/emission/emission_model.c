@@ -12,7 +12,8 @@ static void add_beams(const EmissionModel *model, Vec3 direction, float *compone
 
 void emission_model_add_smooth(const EmissionModel *model, Vec3 d, float *components)
 {
-    panel_components_add_spline(&model->spline, d, log_f(clampf(d.z, PANEL_LEAST_COS, 1)), components);
+    panel_components_add_spline(&model->spline, d, log_f(clampf(d.z, PANEL_LEAST_COS, 1)),
+                                components);
     add_beams(model, d, components);
 }
 
