@@ -1,6 +1,6 @@
 /* thin_window and dielectric -- clear glass and clear plastic.
  *
- * thin_window: windscreens, side windows, instrument covers: a smooth pane modelled without
+ * thin_window: windscreens, side windows, instrument covers: a smooth sheet modelled without
  * thickness. Light passes straight (shadow rays pass too), and a mirror image shows on it.
  *   ior    1 and up, glTF's default 1.5; window glass 1.52
  *   tint   0..1 a wavelength; green-tinted laminated glass about 0.85 at 550 nm

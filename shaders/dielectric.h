@@ -5,9 +5,9 @@
 #pragma once
 #include "shaders/bsdf_model.h"
 
-/* A smooth pane with two parallel faces: a mirror image, and light straight through. */
+/* A smooth sheet with two parallel faces: a mirror image, and light straight through. */
 typedef struct ThinWindow {
-    Spectrum tint; /* [0, 1]: what the pane's body lets through, at this angle */
+    Spectrum tint; /* [0, 1]: what the sheet's body lets through, at this angle */
     float    ior;  /* 1 or more */
 } ThinWindow;
 

@@ -5,7 +5,7 @@
  *
  *   mirror  unscattered part of gloss glass, R(theta, lambda): a perfect mirror image
  *   haze    scattered part around the mirror direction, from the panel's tables, with the
- *           Lambert-like floor below it
+ *           lambertian part below it
  *
  * Typical: bare gloss glass mirrors 4.5 % at normal incidence, with an anti-reflection coating
  * 0.3 to 1 %; an anti-glare surface scatters some 3 to 5 % into haze a few degrees wide.

@@ -1,4 +1,4 @@
-/* display.h -- light that a measured display reflects: its mirror, its haze and its floor.
+/* display.h -- light that a measured display reflects: its mirror, haze, lambertian part.
  *
  * The user page is on top of display.c. Frame: the display's own (panel.h). Units: bsdf.h.
  */

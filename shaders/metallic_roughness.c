@@ -10,7 +10,7 @@
  *   energy->ior       1..2.5, glTF's default 1.5     of the non-metal; 0: reflects everything
  *   specular          0..1, default 1                weakens the non-metal's reflection
  *   specular_color    0 and up, default 1            tints it at normal incidence
- *   transmission      0..1, default 0                share of the non-metal that is a thin pane
+ *   transmission      0..1, default 0                share of the non-metal that is a thin sheet
  *   clearcoat, clearcoat_alpha, clearcoat_normal     a lacquer of index 1.5; default none
  *
  * Typical: matt dashboard plastic base 0.04, alpha 0.3; glossy black base 0.02, alpha 0.01;
@@ -22,8 +22,8 @@
  * F0 = min(F0(ior) specular_color, 1) specular and F90 = specular. What the boundary does not
  * send back goes into a Lambert base, coupled symmetrically (Kelemen and Szirmay-Kalos 2001),
  * so a white plastic returns exactly what it gets. Metals use Schlick's curve a wavelength. The
- * transmissive share is a pane with two faces, R = 2F/(1+F); smooth panes pass light straight
- * on. Metals and panes get back what facets send to other facets (Kulla and Conty 2017). The
+ * transmissive share is a sheet with two faces, R = 2F/(1+F); smooth sheets pass light straight
+ * on. Metals and sheets get back what facets send to other facets (Kulla and Conty 2017). The
  * coat lies over everything and takes its albedo off the base on the way in and out. All of it
  * is reciprocal.
  *
@@ -96,7 +96,7 @@ static inline Spectrum boundary_reflectance(const MetallicRoughness *m, const Bo
     return b->f0 + b->rise * spectrum_all(fresnel_shape(m->energy->ior, cosine));
 }
 
-static inline Spectrum pane_reflectance(Spectrum face)
+static inline Spectrum sheet_reflectance(Spectrum face)
 {
     return (face + face) / (spectrum_all(1) + face);
 }
@@ -115,7 +115,7 @@ static Spectrum facet_reflectance(const MetallicRoughness *m, const Boundary *b,
         Spectrum face = boundary_reflectance(m, b, cosine);
         Spectrum mixed = face;
         if (m->transmission > 0)
-            mixed += (pane_reflectance(face) - face) * spectrum_all(m->transmission);
+            mixed += (sheet_reflectance(face) - face) * spectrum_all(m->transmission);
         sum = mixed * spectrum_all(1 - m->metallic);
     }
     if (m->metallic > 0)
@@ -123,11 +123,11 @@ static Spectrum facet_reflectance(const MetallicRoughness *m, const Boundary *b,
     return sum;
 }
 
-/* What the pane's share lets through a facet met at `cosine`. */
+/* What the sheet's share lets through a facet met at `cosine`. */
 static Spectrum pane_transmittance(const MetallicRoughness *m, const Boundary *b, float cosine)
 {
     Spectrum face = boundary_reflectance(m, b, cosine);
-    return (spectrum_all(1) - pane_reflectance(face)) * m->base_color *
+    return (spectrum_all(1) - sheet_reflectance(face)) * m->base_color *
            spectrum_all((1 - m->metallic) * m->transmission);
 }
 
@@ -162,12 +162,12 @@ static Spectrum metal_rebound(const MetallicRoughness *m)
     return f * f * spectrum_all(mean * m->metallic) / (one - f * spectrum_all(1 - mean));
 }
 
-/* A pane parts it by its mean reflectance over the hemisphere. */
+/* A sheet parts it by its mean reflectance over the hemisphere. */
 static Spectrum pane_mean(const View *view)
 {
     const Boundary *b = &view->boundary;
     float shape = energy_average(view->m->energy, 0).shape;
-    return pane_reflectance(b->f0 + b->rise * spectrum_all(shape));
+    return sheet_reflectance(b->f0 + b->rise * spectrum_all(shape));
 }
 
 static Spectrum rebound_above(const View *view, Energy in)
@@ -238,17 +238,17 @@ static inline Choices choose(const View *view)
     float  base = spectrum_mean(m->base_color);
     float  f0 = spectrum_mean(view->boundary.f0);
     float face = f0 * e.all + (m->specular - f0) * e.shape;
-    float pane = 2 * face / (1 + face);
+    float sheet = 2 * face / (1 + face);
     float metal = base * e.all + (1 - base) * e.shape;
     float clear = (1 - m->metallic) * m->transmission, solid = 1 - m->metallic - clear;
     float coat = vec3_dot(m->clearcoat_normal, view->wo) > 0 ? view->coat : 0;
     float under = 1 - coat;
     Choices c = {
         .coat = coat,
-        .mirror = under * (solid * face + clear * pane + m->metallic * metal),
+        .mirror = under * (solid * face + clear * sheet + m->metallic * metal),
         .diffuse = under * (base * (solid * (1 - face) + m->metallic * base * (1 - e.all)) +
-                            clear * pane * (1 - e.all)),
-        .through = under * base * clear * (1 - pane),
+                            clear * sheet * (1 - e.all)),
+        .through = under * base * clear * (1 - sheet),
     };
     float sum = c.coat + c.mirror + c.diffuse + c.through;
     float scale = sum > 0 ? 1 / sum : 0;
@@ -284,7 +284,7 @@ static Spectrum base_above(const View *view, Vec3 wi, float *pdf)
     return sum;
 }
 
-/* A rough pane sends on what a mirror would send back, turned over to the other side, and its
+/* A rough sheet sends on what a mirror would send back, turned over to the other side, and its
  * part of the rebound. */
 static Spectrum base_below(const View *view, Vec3 wi, float *pdf)
 {
@@ -370,7 +370,7 @@ static Vec3 sample_cosine(float u0, float u1)
     return vec3(radius * cosine, radius * sine, safe_sqrtf(1 - u1));
 }
 
-/* A direction by the rough coat, the rough mirror, the Lambert base or the rough pane. */
+/* A direction by the rough coat, the rough mirror, the Lambert base or the rough sheet. */
 static Vec3 sample_rough(const View *view, const float u[3])
 {
     const MetallicRoughness *m = view->m;
@@ -429,8 +429,8 @@ static Spectrum model_albedo(const void *parameters, Vec3 wo)
     Energy   e = energy_directional(m->energy, wo.z, m->alpha);
     Boundary b = boundary_of(m);
     Spectrum one = spectrum_all(1), in = let_in(&b, e), base = m->base_color;
-    Spectrum pane = pane_reflectance(one - in);
-    Spectrum clear = pane + (one - pane) * base;
+    Spectrum sheet = sheet_reflectance(one - in);
+    Spectrum clear = sheet + (one - sheet) * base;
     Spectrum solid = (one - in) + in * base;
     Spectrum metal = base + (one - base) * spectrum_all(e.shape);
     Spectrum dielectric = solid + (clear - solid) * spectrum_all(m->transmission);

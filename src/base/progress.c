@@ -54,21 +54,21 @@ void rate_text(double rate, char *buffer, int size)
     snprintf(buffer, (size_t)size, "%.3g %s", rate, prefixes[step]);
 }
 
-typedef struct Figures {
+typedef struct ProgressState {
     double fraction, rate, elapsed_s, remaining_s;
-} Figures;
+} ProgressState;
 
-static Figures figures(const Progress *progress, double done, double now)
+static ProgressState figures(const Progress *progress, double done, double now)
 {
     double elapsed = now - progress->begun_s;
     double rate = elapsed > 0 ? (done - progress->first) / elapsed : 0;
     double left = progress->total > done ? progress->total - done : 0;
-    return (Figures){.fraction = progress->total > 0 ? fmin(1, done / progress->total) : 1,
+    return (ProgressState){.fraction = progress->total > 0 ? fmin(1, done / progress->total) : 1,
                      .rate = rate, .elapsed_s = elapsed,
                      .remaining_s = left == 0 ? 0 : rate > 0 ? left / rate : INFINITY};
 }
 
-static void show_json(const Progress *progress, double done, const Figures *f)
+static void show_json(const Progress *progress, double done, const ProgressState *f)
 {
     char remaining[32] = "null";
     if (isfinite(f->remaining_s)) snprintf(remaining, sizeof remaining, "%.1f", f->remaining_s);
@@ -79,7 +79,7 @@ static void show_json(const Progress *progress, double done, const Figures *f)
             f->elapsed_s, remaining);
 }
 
-static void show_text(const Progress *progress, const Figures *f)
+static void show_text(const Progress *progress, const ProgressState *f)
 {
     char rate[32], elapsed[32], remaining[32], bar[BAR_CELLS + 1];
     rate_text(f->rate, rate, (int)sizeof rate);
@@ -103,7 +103,7 @@ static void show_text(const Progress *progress, const Figures *f)
 
 static void show(Progress *progress, double done, double now)
 {
-    Figures f = figures(progress, done, now);
+    ProgressState f = figures(progress, done, now);
     progress->shown_s = now;
     if (progress->mode == PROGRESS_JSON)
         show_json(progress, done, &f);

@@ -1,4 +1,4 @@
-/* bvh.h -- where a ray hits: the only door to Embree (3 or 4).
+/* bvh.h -- where a ray hits: the only wrapper of Embree (3 or 4).
  *
  * Memory   owns Embree's device and scene; vertices and triangles stay the Scene's, which must
  *          outlive the Bvh. bvh_destroy(NULL) is fine.

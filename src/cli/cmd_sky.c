@@ -123,7 +123,7 @@ static double horizontal_lux(const SkyRun *work)
 static DaylightMetrics figures_of(const SkyRun *work)
 {
     float rgb[3];
-    if (work->sky.model) return work->sky.model->daylight->figures;
+    if (work->sky.model) return work->sky.model->daylight->metrics;
     DaylightMetrics f = {.diffuse_horizontal_lx = horizontal_lux(work)};
     const Environment *environment = &work->scene->environment;
     sky_rgb(work, vec3(0, 1, 0), rgb);

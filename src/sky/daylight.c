@@ -43,7 +43,7 @@ static int day_of_year(const SkyTime *time)
 static void place_sun(Daylight *out)
 {
     const DaylightInput *in = &out->input;
-    DaylightMetrics *f = &out->figures;
+    DaylightMetrics *f = &out->metrics;
     double pressure, celsius;
     f->distance_au = 1;
     out->sun_azimuth = in->sun_azimuth;
@@ -157,8 +157,8 @@ static void curve_xy(const Curve *curve, double xy[2])
 static Spectrl2 ground_spectra(const Daylight *out)
 {
     Air air = air_above(&out->input);
-    double d = out->figures.distance_au;
-    return spectrl2(&air, fmin(89, out->figures.sun_zenith_deg), 1 / (d * d));
+    double d = out->metrics.distance_au;
+    return spectrl2(&air, fmin(89, out->metrics.sun_zenith_deg), 1 / (d * d));
 }
 
 /* The disc's mean radiance from an irradiance, and its figures. */
@@ -167,10 +167,10 @@ static void set_sun(Daylight *out, const Curve *irradiance)
     double sine = sin_d(out->sun_radius), share = sun_share(out);
     out->sun_mean = *irradiance;
     scale_curve(&out->sun_mean, 1 / (PI * sine * sine));
-    out->figures.direct_normal_lx = share * curve_luminance(irradiance);
-    out->figures.is_sun_up = share > 0;
-    out->has_sun = share > 0 && out->figures.direct_normal_lx > 0;
-    curve_xy(irradiance, out->figures.sun_xy);
+    out->metrics.direct_normal_lx = share * curve_luminance(irradiance);
+    out->metrics.is_sun_up = share > 0;
+    out->has_sun = share > 0 && out->metrics.direct_normal_lx > 0;
+    curve_xy(irradiance, out->metrics.sun_xy);
     for (int k = 0; k < 6; k++)
         for (int i = 0; i < CURVE_COUNT; i++) {
             double c[6];
@@ -188,11 +188,11 @@ static void sky_spectrum(Daylight *out, double clear, const Spectrl2 *ground)
     for (int i = 0; i < SPECTRL2_COUNT; i++)
         mixed[i] = ground->diffuse[i] + (1 - clear) * fmax(0, cosine) * ground->direct[i];
     curve_from_rows(mixed, &out->sky_curve);
-    out->figures.diffuse_horizontal_w_m2 = out->figures.diffuse_horizontal_lx *
+    out->metrics.diffuse_horizontal_w_m2 = out->metrics.diffuse_horizontal_lx *
                                            spectrl2_total(mixed) /
                                            curve_luminance(&out->sky_curve);
     scale_curve(&out->sky_curve, 1 / curve_luminance(&out->sky_curve));
-    curve_xy(&out->sky_curve, out->figures.zenith_xy);
+    curve_xy(&out->sky_curve, out->metrics.zenith_xy);
 }
 
 /* A uniform Lambertian ground under sun and sky. */
@@ -200,14 +200,14 @@ static void light_floor(Daylight *out, const Curve *irradiance)
 {
     double albedo = floor_albedo(&out->input), sine = fmax(0, sin_d(out->sun_elevation));
     out->floor_curve = out->sky_curve;
-    scale_curve(&out->floor_curve, albedo / PI * out->figures.diffuse_horizontal_lx);
+    scale_curve(&out->floor_curve, albedo / PI * out->metrics.diffuse_horizontal_lx);
     add_curve(&out->floor_curve, irradiance, albedo / PI * sine * sun_share(out));
-    out->figures.floor_cd_m2 = curve_luminance(&out->floor_curve);
+    out->metrics.floor_cd_m2 = curve_luminance(&out->floor_curve);
 }
 
 static void finish_shape(Daylight *out, const Curve *irradiance)
 {
-    DaylightMetrics *f = &out->figures;
+    DaylightMetrics *f = &out->metrics;
     double integral = sky_shape_integral(&out->shape, PI / 2 - out->sun_elevation,
                                          INTEGRAL_STEPS);
     out->shape_scale = (float)(f->diffuse_horizontal_lx / integral);
@@ -229,8 +229,8 @@ static bool check_sun_up(const Daylight *out, Error *err)
     if (!needs_sun(&out->input) || out->sun_elevation > 0) return true;
     return error_set(err, ERROR_INPUT, "the sun stands %.2f degrees below the horizon "
                      "(azimuth %.2f): this sky model has no night, wanted a time by day or the "
-                     "type \"sky\"", -out->figures.sun_elevation_deg,
-                     out->figures.sun_azimuth_deg);
+                     "type \"sky\"", -out->metrics.sun_elevation_deg,
+                     out->metrics.sun_azimuth_deg);
 }
 
 static bool build_cie(Daylight *out, Error *err)
@@ -244,11 +244,11 @@ static bool build_cie(Daylight *out, Error *err)
     if (!check_sun_up(out, err)) return false;
     Spectrl2 ground = ground_spectra(out);
     out->shape = sky_shape_cie(in->cie_type);
-    out->figures.diffuse_horizontal_lx = in->diffuse_lux;
+    out->metrics.diffuse_horizontal_lx = in->diffuse_lux;
     curve_from_rows(ground.direct, &irradiance);
     double lux = curve_luminance(&irradiance);
     scale_curve(&irradiance, in->sun_lux > 0 && lux > 0 ? in->sun_lux / lux : 0);
-    out->figures.direct_normal_w_m2 = in->sun_lux > 0 ? spectrl2_total(ground.direct) *
+    out->metrics.direct_normal_w_m2 = in->sun_lux > 0 ? spectrl2_total(ground.direct) *
                                                             in->sun_lux / lux : 0;
     sky_spectrum(out, clear[in->cie_type - 1], &ground);
     finish_shape(out, &irradiance);
@@ -267,13 +267,13 @@ static bool build_perez(Daylight *out, Error *err)
     Spectrl2 ground = ground_spectra(out);
     curve_from_rows(ground.direct, &irradiance);
     scale_curve(&irradiance, in->direct_w_m2 / spectrl2_total(ground.direct));
-    out->figures.direct_normal_w_m2 = in->direct_w_m2;
-    out->figures.diffuse_horizontal_lx = 1;
+    out->metrics.direct_normal_w_m2 = in->direct_w_m2;
+    out->metrics.diffuse_horizontal_lx = 1;
     sky_spectrum(out, fmin(1, (state.clearness - 1) / 3.5), &ground);
     /* sky_spectrum told the watts of one lux */
-    out->figures.diffuse_horizontal_lx =
-        in->diffuse_w_m2 / out->figures.diffuse_horizontal_w_m2;
-    out->figures.diffuse_horizontal_w_m2 = in->diffuse_w_m2;
+    out->metrics.diffuse_horizontal_lx =
+        in->diffuse_w_m2 / out->metrics.diffuse_horizontal_w_m2;
+    out->metrics.diffuse_horizontal_w_m2 = in->diffuse_w_m2;
     finish_shape(out, &irradiance);
     return true;
 }
@@ -330,7 +330,7 @@ static void fill_beam(Daylight *out)
     double   gases[SPECTRL2_COUNT];
     Air      air = air_above(&out->input);
     Spectrl2 ground = ground_spectra(out);
-    spectrl2_gases(&air, fmin(89, out->figures.sun_zenith_deg), gases);
+    spectrl2_gases(&air, fmin(89, out->metrics.sun_zenith_deg), gases);
     for (int i = 0; i < SPECTRL2_COUNT; i++) gases[i] *= ground.outside[i];
     curve_from_rows(gases, &out->beam);
 }
@@ -338,7 +338,7 @@ static void fill_beam(Daylight *out)
 /* Irradiances from 300 to 4000 nm by SPECTRL2's ratio of watts to lux. */
 static void tell_watts(Daylight *out, double beam_lux)
 {
-    DaylightMetrics *f = &out->figures;
+    DaylightMetrics *f = &out->metrics;
     Spectrl2 ground = ground_spectra(out);
     Curve    diffuse;
     curve_from_rows(ground.diffuse, &diffuse);
@@ -351,7 +351,7 @@ static void tell_watts(Daylight *out, double beam_lux)
 static bool build_clear(Daylight *out, Arena *arena, Error *err)
 {
     const DaylightInput *in = &out->input;
-    DaylightMetrics     *f = &out->figures;
+    DaylightMetrics     *f = &out->metrics;
     AtmosphereInput input = {sea_level_air(in), fmax(0, in->where.altitude_m),
                              floor_altitude(in), out->sun_elevation, in->threads, 0};
     Curve irradiance, zenith;
@@ -420,7 +420,7 @@ float daylight_luminance(const Daylight *out, float elevation, float azimuth)
         return (float)relative_luminance(
             out, atmosphere_radiance(&out->atmosphere, elevation,
                                      azimuth - (float)out->sun_azimuth));
-    if (elevation < 0) return (float)out->figures.floor_cd_m2;
+    if (elevation < 0) return (float)out->metrics.floor_cd_m2;
     return shape_luminance(out, elevation, azimuth);
 }
 

@@ -59,7 +59,7 @@ typedef struct DaylightMetrics {
 
 typedef struct Daylight {
     DaylightInput   input;
-    DaylightMetrics figures;
+    DaylightMetrics metrics;
     double   horizon;     /* elevation of the edge between sky and floor, radians */
     /* CIE, Perez */
     SkyShape shape;

@@ -55,7 +55,7 @@ static inline float fresnel_normal(float eta)
     return r * r;
 }
 
-/* A pane with two equal faces, all reflections between them added up without interference:
+/* A sheet with two equal faces, all reflections between them added up without interference:
  * R = 2r / (1 + r) for each polarisation; what is not reflected is transmitted. */
 static inline float fresnel_slab(Fresnel face)
 {

@@ -1,5 +1,5 @@
 #!/bin/sh
-# headers.sh -- every header compiles alone as C17; those of the doors as C++17 as well.
+# headers.sh -- every header compiles alone as C17; those of the wrappers as C++17 as well.
 cd "$(dirname "$0")/../.." || exit 1
 passed=0 failed=0
 embree=3

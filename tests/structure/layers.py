@@ -58,7 +58,7 @@ def fault(table, name, quote, header):
 
 def downwards(table):
     """The list itself: a folder may only name folders that stand above it in the list,
-    or doors."""
+    or wrappers."""
     faults, seen = [], []
     for folder, may in table.items():
         for entry in may:

@@ -83,7 +83,7 @@ def check_lines(report):
 
 
 def check_places(report):
-    """Machines' paths anywhere, hosts in what builds, C++ outside the doors."""
+    """Machines' paths anywhere, hosts in what builds, C++ outside the wrappers."""
     paths, hosts, foreign = [], [], []
     for name in project_files():
         with open(os.path.join(ROOT, name), "rb") as file:

@@ -203,9 +203,9 @@ TEST(an_airliner_sees_126_klx_of_sun_and_a_dipped_horizon)
     input.where.altitude_m = 10668;
     input.floor = FLOOR_CLOUD;
     assert_true(daylight_build(&input, &arena, out, &err));
-    assert_close(out->figures.direct_normal_lx, 126092, 0.01);
-    assert_in(out->figures.horizon_deg, -3.1, -2.9);  /* of the deck, 2000 m high */
-    assert_in(out->figures.floor_cd_m2, 24000, 33000); /* AS8034's forward field: 34,300 */
+    assert_close(out->metrics.direct_normal_lx, 126092, 0.01);
+    assert_in(out->metrics.horizon_deg, -3.1, -2.9);  /* of the deck, 2000 m high */
+    assert_in(out->metrics.floor_cd_m2, 24000, 33000); /* AS8034's forward field: 34,300 */
     assert_true(daylight_luminance(out, -0.06f, 1) > 3000);
 }
 
@@ -232,7 +232,7 @@ TEST(the_drawn_sky_integrates_to_its_stated_illuminance)
                 sum += (double)daylight_luminance(out, (float)e, azimuth) * sin(e) * cos(e) *
                        step * 2 * PI / columns;
             }
-        assert_close(sum, out->figures.diffuse_horizontal_lx, 1e-3);
+        assert_close(sum, out->metrics.diffuse_horizontal_lx, 1e-3);
     }
 }
 
@@ -262,7 +262,7 @@ TEST(spectral_radiance_has_the_stated_luminance)
         }
         assert_close(y, (double)daylight_luminance(out, 0.6f, 2), 3e-3);
         double disc = PI * pow(sin(out->sun_radius), 2);
-        assert_close(sun * disc, out->figures.direct_normal_lx, 3e-3);
+        assert_close(sun * disc, out->metrics.direct_normal_lx, 3e-3);
     }
 }
 
@@ -280,11 +280,11 @@ TEST(twilight_fades_and_night_is_told)
         input.threads = 2;
         input.sun_elevation = radians_from_degrees(elevation_deg[i]);
         assert_true(daylight_build(&input, &scratch, out, &err));
-        assert_true(out->figures.diffuse_horizontal_lx < before / 1.5);
-        assert_true(out->figures.diffuse_horizontal_lx > 0.5);
-        assert_int_equal(out->figures.is_sun_up, i == 0);
+        assert_true(out->metrics.diffuse_horizontal_lx < before / 1.5);
+        assert_true(out->metrics.diffuse_horizontal_lx > 0.5);
+        assert_int_equal(out->metrics.is_sun_up, i == 0);
         assert_int_equal(daylight_sun_clearance_deg(&input) > 0, i == 0);
-        before = out->figures.diffuse_horizontal_lx;
+        before = out->metrics.diffuse_horizontal_lx;
     }
     Arena        scratch = arena;
     Daylight     *out = arena_alloc(&scratch, sizeof *out, 64, 1);

@@ -38,9 +38,9 @@ TEST(a_modelled_sky_and_its_sun_give_the_stated_illuminance)
         const Lights *lights = build(scene, &scratch);
         assert_mean("modelled sky",
                     illuminance(lights, LIGHTS_SKY, vec3(0, 0, 0), vec3(0, 1, 0)),
-                    out->figures.diffuse_horizontal_lx);
+                    out->metrics.diffuse_horizontal_lx);
         assert_mean("its sun", illuminance(lights, LIGHTS_SUN, vec3(0, 0, 0), vec3(0, 1, 0)),
-                    out->figures.direct_normal_lx * sin(35 * PI / 180));
+                    out->metrics.direct_normal_lx * sin(35 * PI / 180));
     }
 }
 
