@@ -10,7 +10,7 @@
  *   energy->ior       1..2.5, glTF's default 1.5     of the non-metal; 0: reflects everything
  *   specular          0..1, default 1                weakens the non-metal's reflection
  *   specular_color    0 and up, default 1            tints it at normal incidence
- *   transmission      0..1, default 0                share of the non-metal that is a thin sheet
+ *   transmission      0..1, default 0                share of the non-metal: a thin sheet
  *   clearcoat, clearcoat_alpha, clearcoat_normal     a lacquer of index 1.5; default none
  *
  * Typical: matt dashboard plastic base 0.04, alpha 0.3; glossy black base 0.02, alpha 0.01;

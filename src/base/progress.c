@@ -58,14 +58,14 @@ typedef struct ProgressState {
     double fraction, rate, elapsed_s, remaining_s;
 } ProgressState;
 
-static ProgressState figures(const Progress *progress, double done, double now)
+static ProgressState state_of(const Progress *progress, double done, double now)
 {
     double elapsed = now - progress->begun_s;
     double rate = elapsed > 0 ? (done - progress->first) / elapsed : 0;
     double left = progress->total > done ? progress->total - done : 0;
-    return (ProgressState){.fraction = progress->total > 0 ? fmin(1, done / progress->total) : 1,
-                     .rate = rate, .elapsed_s = elapsed,
-                     .remaining_s = left == 0 ? 0 : rate > 0 ? left / rate : INFINITY};
+    double share = progress->total > 0 ? fmin(1, done / progress->total) : 1;
+    return (ProgressState){.fraction = share, .rate = rate, .elapsed_s = elapsed,
+                           .remaining_s = left == 0 ? 0 : rate > 0 ? left / rate : INFINITY};
 }
 
 static void show_json(const Progress *progress, double done, const ProgressState *f)
@@ -103,7 +103,7 @@ static void show_text(const Progress *progress, const ProgressState *f)
 
 static void show(Progress *progress, double done, double now)
 {
-    ProgressState f = figures(progress, done, now);
+    ProgressState f = state_of(progress, done, now);
     progress->shown_s = now;
     if (progress->mode == PROGRESS_JSON)
         show_json(progress, done, &f);

@@ -1,4 +1,4 @@
-/* The wrapper of tinygltf, seen from C: values know their place, and nothing foreign comes out. */
+/* The wrapper of tinygltf from C: values know their place, nothing foreign comes out. */
 #include "fixture.h"
 
 #include "scene/gltf/tree.h"
