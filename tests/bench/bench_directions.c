@@ -15,9 +15,9 @@
 
 #include "base/sampler.h"
 #include "base/units.h"
+#include "bench_panel_files.h"
 #include "panel/query/panel.h"
 #include "panel/query/panel_emission.h"
-#include "panel/query/panel_open.h"
 #include "panel/query/panel_reflection.h"
 #include "panel/set/synthetic_panel.h"
 
@@ -151,14 +151,7 @@ int main(int argc, char **argv)
     Arena  arena = arena_reserve((size_t)1 << 30);
     Recipe recipe;
     Panel *panel = NULL;
-    Error  err = {0};
-    if (!recipe_read(argv[3], &arena, &recipe, &err) ||
-        !panel_open(argv[4], &arena, &panel, &err)) {
-        char line[2048];
-        error_line(&err, line, sizeof line);
-        fprintf(stderr, "bench_directions: %s\n", line);
-        return 3;
-    }
+    if (!bench_panel_files("bench_directions", argv + 3, &arena, &recipe, &panel)) return 3;
     measure_all(&recipe, panel, atoi(argv[1]), atof(argv[2]));
     panel_close(panel);
     arena_release(&arena);

@@ -12,7 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/mathf.h"
 #include "base/sampler.h"
@@ -26,7 +25,9 @@
 #include "hemisphere/tree/tree_query.h"
 #include "hemisphere/vertex/vertex_tree.h"
 #include "hemisphere/vertex/vertex_tree_build.h"
+#include "bench_timing.h"
 #include "hemisphere_signals.h"
+#include "tests/unit/vertex_bound.h"
 
 #define RUNS 25
 #define DIRECTIONS 4096
@@ -129,22 +130,6 @@ static void print_sizes(const Geodesic *geodesic, Arena scratch)
 }
 
 /* ---- the two bases -------------------------------------------------------------------- */
-
-/* An absolute bound on a signal's values at vertices. */
-typedef struct Bound {
-    const float *values;
-    int          components;
-    float        tolerance;
-} Bound;
-
-static bool within_bound(const void *context, uint32_t vertex, const float *reconstructed)
-{
-    const Bound *b = context;
-    const float *value = b->values + vertex * (size_t)b->components;
-    for (int i = 0; i < b->components; i++)
-        if (!(fabsf(reconstructed[i] - value[i]) <= b->tolerance)) return false;
-    return true;
-}
 
 /* Component c is the signal times 1 + c/10 of the components: they differ as spectra do. */
 static float *vertex_values(Signal signal, VertexLattice lattice, int components, Arena *arena)
@@ -356,29 +341,16 @@ static const Bench OTHER_WORKS[] = {
     {"specular frame, both", work_both},
 };
 
-static double seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static int ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static void time_work(const Bench *bench, const char *what, Input *input)
 {
     double ns[RUNS];
     for (int run = -1; run < RUNS; run++) { /* the first warms up */
-        double start = seconds();
+        double start = thread_seconds();
         for (int i = 0; i < 4; i++) bench->work(input);
-        if (run >= 0) ns[run] = (seconds() - start) * 1e9 / (4.0 * DIRECTIONS);
+        if (run >= 0) ns[run] = (thread_seconds() - start) * 1e9 / (4.0 * DIRECTIONS);
     }
-    qsort(ns, RUNS, sizeof *ns, ascending);
-    printf("%-26s %-34s %8.1f ns   (%.1f to %.1f)\n", bench->name, what, ns[RUNS / 2], ns[0],
+    double median = median_of(ns, RUNS);
+    printf("%-26s %-34s %8.1f ns   (%.1f to %.1f)\n", bench->name, what, median, ns[0],
            ns[RUNS - 1]);
 }
 
@@ -391,15 +363,15 @@ static double interpolation_ns(const Tree *tree)
     for (uint32_t i = 0; i < DIRECTIONS; i++)
         directions[i] = direction_of(hash_u32(i) % DIRECTIONS);
     for (int run = -1; run < RUNS; run++) {
-        double start = seconds();
+        double start = thread_seconds();
         for (int i = 0; i < DIRECTIONS; i++) {
             tree_interpolate(tree, directions[i], out);
             sink += (double)out[0];
         }
-        if (run >= 0) ns[run] = (seconds() - start) * 1e9 / DIRECTIONS;
+        if (run >= 0) ns[run] = (thread_seconds() - start) * 1e9 / DIRECTIONS;
     }
-    qsort(ns, RUNS, sizeof *ns, ascending);
-    return sink == 0.5 ? 0 : ns[RUNS / 2];
+    double median = median_of(ns, RUNS);
+    return sink == 0.5 ? 0 : median;
 }
 
 /* Vertex trees of more components: emission and haze within 0.3 % of their largest value. */

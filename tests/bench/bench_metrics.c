@@ -6,8 +6,8 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
+#include "bench_timing.h"
 #include "compare/metrics/deltae.h"
 #include "compare/metrics/flip.h"
 #include "compare/metrics/pixel_errors.h"
@@ -71,29 +71,16 @@ static Planes make_picture(uint64_t seed, Arena *arena)
     return planes;
 }
 
-static double processor_seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static void run(const char *name, Work work, Inputs *in, int runs)
 {
     double times[MAX_RUNS];
     for (int r = 0; r < runs; r++) {
-        double start = processor_seconds();
+        double start = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
         work(in);
-        times[r] = processor_seconds() - start;
+        times[r] = clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
     }
-    qsort(times, (size_t)runs, sizeof *times, compare);
-    printf("%-24s %8.3f s (%.3f to %.3f)\n", name, times[runs / 2], times[0], times[runs - 1]);
+    double median = median_of(times, runs);
+    printf("%-24s %8.3f s (%.3f to %.3f)\n", name, median, times[0], times[runs - 1]);
 }
 
 int main(int argc, char **argv)

@@ -16,13 +16,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/sampler.h"
+#include "tests/bench/bench_panel_files.h"
+#include "tests/bench/bench_timing.h"
 #include "tests/bench/flat_tables.h"
 #include "panel/query/panel.h"
 #include "panel/query/panel_emission.h"
-#include "panel/query/panel_open.h"
 #include "panel/query/panel_reflection.h"
 #include "panel/query/panel_sampling.h"
 
@@ -218,36 +218,23 @@ static void flat_sampling_work(Input *in)
     }
 }
 
-static double seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static int ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Median nanoseconds a call, and the line about it; beside: what the ratio refers to. */
 static double time_work(const char *name, Work work, Input *in, int runs, double bytes,
                         double beside)
 {
     double ns[MAX_RUNS];
     for (int run = -1; run < runs; run++) { /* the first warms up */
-        double start = seconds();
+        double start = thread_seconds();
         work(in);
-        if (run >= 0) ns[run] = (seconds() - start) * 1e9 / CALLS;
+        if (run >= 0) ns[run] = (thread_seconds() - start) * 1e9 / CALLS;
     }
-    qsort(ns, (size_t)runs, sizeof *ns, ascending);
-    printf("%-52s %8.1f ns  (%.1f to %.1f) %10.3f MB", name, ns[runs / 2], ns[0], ns[runs - 1],
+    double median = median_of(ns, runs);
+    printf("%-52s %8.1f ns  (%.1f to %.1f) %10.3f MB", name, median, ns[0], ns[runs - 1],
            bytes / 1e6);
-    if (beside > 0) printf("  panel takes %.2f of its time", beside / ns[runs / 2]);
+    if (beside > 0) printf("  panel takes %.2f of its time", beside / median);
     printf("\n");
     fflush(stdout);
-    return ns[runs / 2];
+    return median;
 }
 
 static void make_arguments(Arguments *a)
@@ -275,6 +262,12 @@ typedef struct Setting {
     int           runs;
 } Setting;
 
+static void name_table(char name[96], const char *what, double step, const char *which,
+                       double error)
+{
+    snprintf(name, 96, "%s, flat, %g deg, %s (%.3f%%)", what, step, which, 100 * error);
+}
+
 static void bench_emission(const Setting *s, Input *in, Arena arena)
 {
     double error = emission_error(s->recipe, s->panel, NULL, s->probe);
@@ -294,9 +287,8 @@ static void bench_emission(const Setting *s, Input *in, Arena arena)
         int   i = k ? large : equal < 0 ? STEP_COUNT - 1 : equal;
         FlatEmission flat = flat_emission(s->recipe, STEPS[i], &scratch);
         in->emission = &flat;
-        snprintf(name, sizeof name, "emission XYZ, flat, %g deg, %s (%.3f%%)", STEPS[i],
-                 k ? "large" : "equal error",
-                 100 * emission_error(s->recipe, s->panel, &flat, s->probe));
+        name_table(name, "emission XYZ", STEPS[i], k ? "large" : "equal error",
+                   emission_error(s->recipe, s->panel, &flat, s->probe));
         time_work(name, flat_emission_work, in, s->runs, (double)flat.bytes, panel);
     }
 }
@@ -326,9 +318,8 @@ static double bench_brdf(const Setting *s, Input *in, Arena arena)
         while ((double)flat_brdf_shape(STEPS[i]).bytes > MOST_BYTES) i--;
         FlatBrdf flat = flat_brdf(s->recipe, STEPS[i], &scratch);
         in->brdf = &flat;
-        snprintf(name, sizeof name, "BRDF, flat, %g deg, %s (%.3f%%)", STEPS[i],
-                 k ? "large" : "equal error or the largest",
-                 100 * brdf_error(s->recipe, s->panel, &flat, s->probe));
+        name_table(name, "BRDF", STEPS[i], k ? "large" : "equal error or the largest",
+                   brdf_error(s->recipe, s->panel, &flat, s->probe));
         time_work(name, flat_brdf_work, in, s->runs, (double)flat.bytes, panel);
     }
     return panel;
@@ -368,14 +359,7 @@ int main(int argc, char **argv)
     Arena  arena = arena_reserve((size_t)8 << 30);
     Recipe recipe;
     Panel *panel = NULL;
-    Error  err = {0};
-    if (!recipe_read(argv[2], &arena, &recipe, &err) ||
-        !panel_open(argv[3], &arena, &panel, &err)) {
-        char line[2048];
-        error_line(&err, line, sizeof line);
-        fprintf(stderr, "bench_panel: %s\n", line);
-        return 3;
-    }
+    if (!bench_panel_files("bench_panel", argv + 2, &arena, &recipe, &panel)) return 3;
     Probe     *probe = ARENA_NEW(&arena, Probe, PROBES);
     Arguments *arguments = ARENA_NEW(&arena, Arguments, 1);
     make_probes(probe);

@@ -4,8 +4,8 @@
  */
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
+#include "bench_timing.h"
 #include "base/arena.h"
 #include "base/sampler.h"
 #include "shaders/bsdf.h"
@@ -90,29 +90,16 @@ static void fill_inputs(Inputs *in)
     }
 }
 
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double nanoseconds_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
-}
-
 static void run(const char *name, Work work, Inputs *in, int runs)
 {
     double times[MAX_RUNS];
     for (int r = 0; r < runs; r++) {
-        double start = nanoseconds_now();
+        double start = clock_seconds(CLOCK_MONOTONIC);
         for (int call = 0; call < CALLS; call++) work(in, call);
-        times[r] = (nanoseconds_now() - start) / CALLS;
+        times[r] = 1e9 * (clock_seconds(CLOCK_MONOTONIC) - start) / CALLS;
     }
-    qsort(times, (size_t)runs, sizeof *times, compare);
-    printf("%-24s %8.1f ns a call (%.1f to %.1f)\n", name, times[runs / 2], times[0],
+    double median = median_of(times, runs);
+    printf("%-24s %8.1f ns a call (%.1f to %.1f)\n", name, median, times[0],
            times[runs - 1]);
 }
 

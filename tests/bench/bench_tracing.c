@@ -6,8 +6,8 @@
  */
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
+#include "bench_timing.h"
 #include "film/film.h"
 #include "kernel/kernel.h"
 #include "scene/load/scene_load.h"
@@ -26,25 +26,11 @@ typedef struct Bench {
     BvhRecorder   recorder;
 } Bench;
 
-/* Of this thread alone: other work on the machine does not count. */
-static double now_s(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return x < y ? -1 : x > y;
-}
-
 static void print_row(const char *scene, const char *what, const char *unit, double *values,
                       int runs)
 {
-    qsort(values, (size_t)runs, sizeof *values, compare);
-    printf("%-28s %-22s %10.4g %-10s (%.4g to %.4g)\n", scene, what, values[runs / 2], unit,
+    double median = median_of(values, runs);
+    printf("%-28s %-22s %10.4g %-10s (%.4g to %.4g)\n", scene, what, median, unit,
            values[0], values[runs - 1]);
 }
 
@@ -55,9 +41,9 @@ static double render_once(const Bench *bench, Arena scratch, PathStatistics *sta
     TileJob  job = {.context = &bench->context, .camera = &bench->camera,
                     .film = film_create(WIDTH, HEIGHT, whole, 0, &scratch), .seed = 1,
                     .first_sample = 0, .end_sample = SAMPLES};
-    double begun = now_s();
+    double begun = thread_seconds();
     bench->kernel->render(&job, whole, statistics);
-    return now_s() - begun;
+    return thread_seconds() - begun;
 }
 
 static bool always(void *user, const Hit *hit)
@@ -70,14 +56,14 @@ static bool always(void *user, const Hit *hit)
 static double replay_once(const Bench *bench)
 {
     long   hits = 0;
-    double begun = now_s();
+    double begun = thread_seconds();
     for (size_t i = 0; i < bench->recorder.count; i++) {
         Hit hit;
         Ray ray = bench->recorder.rays[i];
         hits += bench->recorder.is_shadow[i] ? bvh_occluded(bench->bvh, ray, always, NULL)
                                              : bvh_intersect(bench->bvh, ray, &hit);
     }
-    return hits < 0 ? 0 : now_s() - begun;
+    return hits < 0 ? 0 : thread_seconds() - begun;
 }
 
 static void measure(Bench *bench, const char *name, int runs, Arena *arena)

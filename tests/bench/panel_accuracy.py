@@ -332,11 +332,8 @@ def measure_directions(program, options):
 
 
 def main():
-    arguments, only = sys.argv[1:], PARTS
-    if "--only" in arguments:
-        at = arguments.index("--only")
-        only = arguments[at + 1].split(",")
-        del arguments[at:at + 2]
+    arguments = sys.argv[1:]
+    only = panels.take_option(arguments, "--only", ",".join(PARTS)).split(",")
     if not arguments or set(only) - set(PARTS):
         sys.exit(__doc__)
     with tempfile.TemporaryDirectory(prefix="panels_") as folder:

@@ -325,16 +325,9 @@ def measure_full(bench):
 
 
 def main():
-    arguments, only = sys.argv[1:], PARTS
-    if "--only" in arguments:
-        at = arguments.index("--only")
-        only = arguments[at + 1].split(",")
-        del arguments[at:at + 2]
-    match = ""
-    if "--match" in arguments:
-        at = arguments.index("--match")
-        match = arguments[at + 1]
-        del arguments[at:at + 2]
+    arguments = sys.argv[1:]
+    only = panels.take_option(arguments, "--only", ",".join(PARTS)).split(",")
+    match = panels.take_option(arguments, "--match", "")
     wants_haar = "--haar" in arguments
     arguments = [a for a in arguments if a != "--haar"]
     if not arguments or set(only) - set(PARTS):

@@ -31,6 +31,17 @@ for line in sys.stdin:
 """
 
 
+def take_option(arguments, name, default):
+    """The value behind `name`, which goes out of the arguments; the default when it is not
+    there."""
+    if name not in arguments:
+        return default
+    at = arguments.index(name)
+    value = arguments[at + 1]
+    del arguments[at:at + 2]
+    return value
+
+
 class Program:
     def __init__(self, path, folder):
         self.path, self.folder = os.path.abspath(path), folder

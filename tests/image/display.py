@@ -2,21 +2,15 @@
 three primaries at nine grey levels from 25 directions, each against `panel eval`, luminance
 within 0.5 % and chromaticity within 0.002 in u'v'.
 """
-import glob
 import json
 import math
 import os
 import shutil
 import subprocess
-import sys
-import tempfile
 
 from exr import Frame
 from gltf import Scene, along, cross, dot, png, unit
-
-ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
-from report import Report  # noqa: E402
+from panel_checks import check_panels, direction
 
 LEVELS = (0, 31, 63, 95, 127, 159, 191, 223, 255)
 PATCHES = [tuple(level if k == primary else 0 for k in range(3))
@@ -25,12 +19,6 @@ DIRECTIONS = [(theta, phi) for theta in (5, 20, 40, 60, 80) for phi in (0, 72, 1
 COLUMNS, WIDTH = 16, 0.27  # pixels a patch; m
 XYZ_FROM_RGB = ((0.4123908, 0.3575843, 0.1804808), (0.2126390, 0.7151687, 0.0721923),
                 (0.0193308, 0.1191948, 0.9505322))
-
-
-def direction(theta_deg, phi_deg):
-    """Towards the eye: theta from the normal (+Z), phi from the right (+X) to above (+Y)."""
-    theta, phi = math.radians(theta_deg), math.radians(phi_deg)
-    return [math.sin(theta) * math.cos(phi), math.sin(theta) * math.sin(phi), math.cos(theta)]
 
 
 def strip_camera(scene, name, eye):
@@ -113,18 +101,5 @@ def check_panel(report, program, panel, folder):
           f"u'v' by {worst[1]:.2g}")
 
 
-def main():
-    report, program = Report(), os.path.abspath(sys.argv[-1])
-    panels = sys.argv[1:-1] or sorted(glob.glob(os.path.join(ROOT, "assets/panels/*.panel")))
-    report.claim(bool(panels), "assets/panels holds no panel")
-    with tempfile.TemporaryDirectory() as folder:
-        for panel in panels:
-            try:
-                check_panel(report, program, panel, folder)
-            except subprocess.CalledProcessError as error:
-                report.claim(False, f"{panel}: {error.stderr}")
-    report.finish()
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    check_panels(check_panel)

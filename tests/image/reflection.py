@@ -5,31 +5,20 @@ The luminous mean over wavelengths is that of D65 (assets/spectra); the sun's ow
 near enough for a BRDF that changes slowly with wavelength.
 """
 import csv
-import glob
 import json
 import math
 import os
 import shutil
 import subprocess
-import sys
-import tempfile
 
 from exr import Frame
 from gltf import Scene, along, cross, dot, unit
-
-ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
-sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
-from report import Report  # noqa: E402
+from panel_checks import ROOT, check_panels, direction
 
 SUN_RADIUS = math.radians(0.26645)
 EYES = [(0, 0), (30, 20), (35, 100), (55, 250), (70, 0)]     # theta, phi in degrees
 SUNS = [(20, 130), (33, 200), (50, 60), (40, 178), (15, 90)]  # each before the eye of its place
 LUX, SKY_CD_M2, WITHIN = 90000, 1000, 0.005
-
-
-def direction(theta_deg, phi_deg):
-    theta, phi = math.radians(theta_deg), math.radians(phi_deg)
-    return [math.sin(theta) * math.cos(phi), math.sin(theta) * math.sin(phi), math.cos(theta)]
 
 
 def angles(vector):
@@ -195,18 +184,5 @@ def check_panel(report, program, path, folder):
               shown(program, scene_path, f"eye{i}", folder), under_sky(panel, eye))
 
 
-def main():
-    report, program = Report(), os.path.abspath(sys.argv[-1])
-    panels = sys.argv[1:-1] or sorted(glob.glob(os.path.join(ROOT, "assets/panels/*.panel")))
-    report.claim(bool(panels), "assets/panels holds no panel")
-    with tempfile.TemporaryDirectory() as folder:
-        for panel in panels:
-            try:
-                check_panel(report, program, panel, folder)
-            except subprocess.CalledProcessError as error:
-                report.claim(False, f"{panel}: {error.stderr}")
-    report.finish()
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    check_panels(check_panel)
