@@ -75,6 +75,15 @@ static inline int folder_destroy(const char *path)
     return nftw(path, folder_remove_entry, 16, FTW_DEPTH | FTW_PHYS);
 }
 
+/* What a test had for itself: a folder, an arena, and `owner`, which holds both. */
+static inline int drop_owner(const char *folder, Arena *arena, void *owner)
+{
+    folder_destroy(folder);
+    arena_release(arena);
+    free(owner);
+    return 0;
+}
+
 /* Names in it but "." and "..". */
 static inline int folder_count(const char *path)
 {

@@ -111,6 +111,15 @@ static inline Tree build_and_open(Fixture *f, const TreeOptions *options, const 
     return tree;
 }
 
+static inline void assert_tree_refused(const Fixture *f, const void *blob, size_t size,
+                                       const char *text)
+{
+    Tree  tree;
+    Error err = {0};
+    assert_false(tree_open(blob, size, f->geodesic, &tree, &err));
+    assert_non_null(strstr(err.text, text));
+}
+
 /* The leaf's value. */
 static inline void tree_value(const Tree *tree, Vec3 direction, float *out)
 {

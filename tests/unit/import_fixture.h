@@ -30,10 +30,7 @@ static inline int fixture_setup(void **state)
 static inline int fixture_teardown(void **state)
 {
     Fixture *f = *state;
-    folder_destroy(f->folder);
-    arena_release(&f->arena);
-    free(f);
-    return 0;
+    return drop_owner(f->folder, &f->arena, f);
 }
 
 static inline void fixture_write(Fixture *f, const void *bytes, size_t size)

@@ -82,10 +82,7 @@ static inline int lab_setup(void **state)
 static inline int lab_teardown(void **state)
 {
     Lab *lab = *state;
-    folder_destroy(lab->folder);
-    arena_release(&lab->arena);
-    free(lab);
-    return 0;
+    return drop_owner(lab->folder, &lab->arena, lab);
 }
 
 static inline const ImportTable *lab_table(const Lab *lab, ImportSource source, double which)

@@ -5,6 +5,7 @@
 #include "base/vec.h"
 #include "panel/fit/fit.h"
 #include "panel/query/panel_open.h"
+#include "panel/query/panel_reflection.h"
 #include "panel/set/measurement.h"
 #include "panel/query/panel.h"
 #include "panel/set/simulate.h"
@@ -124,6 +125,20 @@ static inline Vec3 direction_deg(double theta_deg, double phi_deg)
 {
     double t = radians_from_degrees(theta_deg), p = radians_from_degrees(phi_deg);
     return vec3((float)(sin(t) * cos(p)), (float)(sin(t) * sin(p)), (float)cos(t));
+}
+
+/* An eye at {theta, phi}, light at {theta, 180}: turned by `turn` together, or mirrored and
+ * then turned, they have the same BRDF at w.nm[lane]. */
+static inline void assert_turns(const Panel *panel, const double eye[2], double light_theta,
+                                double turn, const Wavelengths *w, int lane)
+{
+    Vec3     light = direction_deg(light_theta, 180 + turn);
+    Spectrum a = panel_brdf(panel, direction_deg(eye[0], eye[1]),
+                            direction_deg(light_theta, 180), w);
+    Spectrum b = panel_brdf(panel, direction_deg(eye[0], eye[1] + turn), light, w);
+    Spectrum c = panel_brdf(panel, direction_deg(eye[0], turn - eye[1]), light, w);
+    assert_close(b[lane], a[lane], 1e-3);
+    assert_close(c[lane], a[lane], 1e-3);
 }
 
 /* A number in [0, 1) that depends on nothing but its index. */

@@ -55,6 +55,22 @@ static inline void plain_scene(Maker *maker)
     }
 }
 
+/* Two makers of that scene with noise of the same kind, the second one's of the next seed. */
+static inline void plain_scenes(Noise noise, uint32_t seed, Maker *maker, Maker *other)
+{
+    *maker = (Maker){.noise = noise, .samples = 64, .seed = seed};
+    plain_scene(maker);
+    *other = *maker;
+    other->seed = seed + 1;
+}
+
+/* The block of 8 x 8 pixels that begins there. */
+static inline void brighten_block(Maker *maker, int x0, int y0, double factor)
+{
+    for (int y = y0; y < y0 + 8; y++)
+        for (int x = x0; x < x0 + 8; x++) maker->light[y * WIDTH + x] *= factor;
+}
+
 static inline float *plane(FrameImage *frame, const char *layer, char letter, Arena *arena)
 {
     char name[64];

@@ -1,6 +1,6 @@
 /* What a checkpoint keeps is what it gives back; whatever is not whole is refused in one line
  * that says why. */
-#include "fixture.h"
+#include "film_fixture.h"
 
 #include <signal.h>
 #include <sys/resource.h>
@@ -8,7 +8,6 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "base/sampler.h"
 #include "film/film_state.h"
 #include "film/pixels.h"
 #include "render/checkpoint.h"
@@ -16,28 +15,13 @@
 enum { WIDTH = 7, HEIGHT = 5, FIRST = 3, SAMPLES = 40 };
 
 static const FilmRect crop = {1, 2, 6, 5};
-static char path[2 * FOLDER_BYTES];
 
 static int make_checkpoint_path(void **state)
 {
-    if (make_folder(state)) return -1;
-    snprintf(path, sizeof path, "%s", in_folder("a.checkpoint"));
-    return 0;
-}
-
-static int remove_checkpoint(void **state)
-{
-    unlink(path);
-    return remove_folder(state);
+    return make_path(state, "a.checkpoint");
 }
 
 /* ---- films ------------------------------------------------------------------------------- */
-
-static float random_unit(uint32_t *state)
-{
-    *state = hash_u32(*state + 0x9e3779b9u);
-    return unit_float(*state);
-}
 
 /* Small and huge, negative ones too, and some that are dropped. */
 static FilmSample sample_of(int x, int y, uint32_t index)
@@ -378,5 +362,5 @@ TEST(a_full_disk_leaves_the_old_one_untouched)
 
 int main(void)
 {
-    return run_cases(make_checkpoint_path, remove_checkpoint);
+    return run_cases(make_checkpoint_path, remove_path);
 }

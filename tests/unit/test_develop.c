@@ -1,5 +1,5 @@
 /* Developing: exposure, views, layers and the picture files. */
-#include "fixture.h"
+#include "frame_fixture.h"
 
 #include <signal.h>
 #include <sys/resource.h>
@@ -13,19 +13,6 @@
 enum { ARENA_BYTES = 1 << 28 };
 
 extern const char OWN_OCIO_CONFIG[];
-
-/* Every pixel of R, G, B holds cd_m2 of D65. */
-static FrameImage uniform_frame(int width, int height, float cd_m2, Arena *arena)
-{
-    ExrWindow  whole = {0, 0, width, height};
-    FrameImage frame = frame_create(width, height, whole, 3, 0, arena);
-    for (int c = 0; c < 3; c++) {
-        char   name[2] = {"RGB"[c], 0};
-        float *plane = frame_add_channel(&frame, name, false, arena);
-        for (int i = 0; i < width * height; i++) plane[i] = cd_m2;
-    }
-    return frame;
-}
 
 static Picture develop(const FrameImage *frame, DevelopOptions options, Arena *arena,
                        DevelopReport *report)

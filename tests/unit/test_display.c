@@ -3,11 +3,10 @@
 
 #include "base/units.h"
 #include "panel/query/panel_emission.h"
-#include "panel/query/panel_open.h"
 #include "panel/query/panel_reflection.h"
 #include "path/path_features.h"
-#include "scene_builder.h"
 #include "spectrum/photometry.h"
+#include "world_fixture.h"
 
 /* CIE 15: u' = 4X / (X + 15Y + 3Z), v' = 9Y / (X + 15Y + 3Z). */
 static void uv_from_xyz(const float xyz[3], float uv[2])
@@ -21,22 +20,15 @@ static const char *const PANELS[] = {PROJECT_DIR "/assets/panels/ips_cluster.pan
                                      PROJECT_DIR "/assets/panels/oled_centre.panel"};
 #define PANEL_COUNT 2
 
-/* A display of 2 x 1 m in the plane z = 0 that faces +z, u to the right, v down. */
-typedef struct World {
-    Arena arena;
-    Scene *scene;
-    Panel *panel;
-    Bvh *bvh;
-    PathContext context;
-} World;
+enum { BOUNCES = 4 };
 
+/* A display of 2 x 1 m in the plane z = 0 that faces +z, u to the right, v down. */
 static World world_open(const char *panel_path)
 {
-    World world = {.arena = arena_reserve((size_t)1 << 30)};
+    World world = world_start();
     Error err = {0};
     if (!panel_open(panel_path, &world.arena, &world.panel, &err))
         fail_msg("%s: %s", err.file, err.text);
-    world.scene = builder_scene(&world.arena);
     Material material = builder_material(0);
     material.display_id = 0;
     material.is_emitter = true;
@@ -59,20 +51,12 @@ static void world_show(World *world, const uint8_t *rgba, int width, int height)
     world->scene->displays[0].content.texture_id = 0;
 }
 
-static void world_ready(World *world)
+/* With a picture of one pixel, whose codes may change later. */
+static World world_of_pixel(const char *panel_path, const uint8_t pixel[4])
 {
-    Error err = {0};
-    Lights *lights;
-    if (!bvh_create(world->scene, 1, NULL, &world->bvh, &err)) fail_msg("%s", err.text);
-    if (!lights_build(world->scene, &world->arena, &lights, &err)) fail_msg("%s", err.text);
-    world->context = path_context_build(world->scene, world->bvh, lights, 4, &world->arena);
-}
-
-static void world_end(World *world)
-{
-    bvh_destroy(world->bvh);
-    panel_close(world->panel);
-    arena_release(&world->arena);
+    World world = world_open(panel_path);
+    world_show(&world, pixel, 1, 1);
+    return world;
 }
 
 static Vec3 direction(double theta_deg, double phi_deg)
@@ -110,10 +94,9 @@ TEST(a_frame_shows_what_the_panel_emits)
 {
     (void)state;
     for (int p = 0; p < PANEL_COUNT; p++) {
-        World world = world_open(PANELS[p]);
         uint8_t pixel[4] = {0, 0, 0, 255};
-        world_show(&world, pixel, 1, 1);
-        world_ready(&world);
+        World   world = world_of_pixel(PANELS[p], pixel);
+        world_ready(&world, BOUNCES);
         for (int primary = 0; primary < 3; primary++)
             for (int level = 0; level < 9; level++)
                 for (int d = 0; d < 25; d++) {
@@ -148,7 +131,7 @@ TEST(the_display_lights_a_wall_with_its_measured_luminance)
     world_show(&world, pixel, 1, 1);
     builder_part(world.scene, builder_material(0.5f));
     builder_quad(world.scene, vec3(0, 0, 4), vec3(0.5f, 0, 0), vec3(0, -0.5f, 0));
-    world_ready(&world);
+    world_ready(&world, BOUNCES);
     world.context.max_bounces = 1;
     for (int i = 0; i < side; i++) /* the illuminance at the wall's middle, by area */
         for (int j = 0; j < side; j++) {
@@ -188,7 +171,7 @@ TEST(the_picture_stands_upright)
                                         0,   0,   255, 255, /* lower left blue */
                                         255, 255, 255, 255};
     world_show(&world, picture, 2, 2);
-    world_ready(&world);
+    world_ready(&world, BOUNCES);
     for (int corner = 0; corner < 4; corner++) {
         float codes[3], expected[3];
         Vec3 at = vec3(corner & 1 ? 0.5f : -0.5f, corner & 2 ? -0.25f : 0.25f, 0);
@@ -204,9 +187,8 @@ TEST(the_picture_stands_upright)
 TEST(angles_are_those_of_someone_who_faces_the_display)
 {
     (void)state;
-    World world = world_open(PANELS[0]);
     uint8_t pixel[4] = {255, 255, 255, 255};
-    world_show(&world, pixel, 1, 1);
+    World   world = world_of_pixel(PANELS[0], pixel);
     for (int turned = 0; turned < 2; turned++) {
         if (turned) /* the content by 90 degrees: its right is the scene's up */
             for (uint32_t i = 0; i < 4; i++) {
@@ -214,7 +196,7 @@ TEST(angles_are_those_of_someone_who_faces_the_display)
                 uv[0] = 1 - uv[1];
                 uv[1] = u;
             }
-        world_ready(&world);
+        world_ready(&world, BOUNCES);
         for (int phi = 0; phi < 360; phi += 45) {
             PathResult result = {.hit = true, .first = {3, 0.3f, 0.2f, 0}};
             PathFeatures features;
@@ -274,14 +256,13 @@ TEST(a_display_under_a_uniform_sky_reflects_its_brdfs_integral)
 {
     (void)state;
     for (int p = 0; p < PANEL_COUNT; p++) {
-        World world = world_open(PANELS[p]);
         uint8_t pixel[4] = {0, 0, 0, 255};
-        world_show(&world, pixel, 1, 1);
+        World   world = world_of_pixel(PANELS[p], pixel);
         world.scene->displays[0].level = 0;
         world.scene->environment.kind = ENVIRONMENT_CONSTANT;
         world.scene->environment.luminance_cd_m2 = 1000;
         for (int i = 0; i < 3; i++) world.scene->environment.color[i] = 1;
-        world_ready(&world);
+        world_ready(&world, BOUNCES);
         for (int theta = 10; theta <= 60; theta += 25) {
             Vec3 wo = direction(theta, 40);
             double expected = mean_luminance(&world, reflected_sky, &wo);
@@ -332,7 +313,7 @@ TEST(a_display_under_the_sun_reflects_its_brdf_over_the_disc)
             environment->sun_azimuth = (float)PI; /* +z is south */
             environment->sun_elevation = (float)radians_from_degrees(40);
             environment->sun_illuminance_lx = 50000;
-            world_ready(&world);
+            world_ready(&world, BOUNCES);
             SunView view = {.wo = direction(40 - away, 270),
                             .sun = direction(40, 90),
                             .lx = 50000,

@@ -1,10 +1,9 @@
 /* Parts of a film: in any split, order and grouping they make the same bits as one film; what
  * does not make a whole, or is damaged, is refused by name. */
-#include "fixture.h"
+#include "film_fixture.h"
 
 #include <fcntl.h>
 
-#include "base/sampler.h"
 #include "film/film_add.h"
 #include "film/film_frame.h"
 #include "film/film_merge.h"
@@ -13,28 +12,13 @@
 enum { WIDTH = 9, HEIGHT = 23, SAMPLES = 40 };
 
 static const FilmRect whole = {0, 0, WIDTH, HEIGHT};
-static char path[2 * FOLDER_BYTES];
 
 static int make_part_path(void **state)
 {
-    if (make_folder(state)) return -1;
-    snprintf(path, sizeof path, "%s", in_folder("part.exr"));
-    return 0;
-}
-
-static int remove_part(void **state)
-{
-    unlink(path);
-    return remove_folder(state);
+    return make_path(state, "part.exr");
 }
 
 /* ---- films ------------------------------------------------------------------------------- */
-
-static float random_unit(uint32_t *state)
-{
-    *state = hash_u32(*state + 0x9e3779b9u);
-    return unit_float(*state);
-}
 
 static int random_below(uint32_t *state, int end)
 {
@@ -523,5 +507,5 @@ TEST(a_part_that_was_stopped_may_be_filled_by_others)
 
 int main(void)
 {
-    return run_cases(make_part_path, remove_part);
+    return run_cases(make_part_path, remove_path);
 }

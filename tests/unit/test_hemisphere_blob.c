@@ -65,60 +65,55 @@ HEMISPHERE_TEST(mutated_trees_are_refused_or_harmless)
     }
 }
 
+/* Level 3, one component. */
+static const void *small_tree(Fixture *f, float keep_share)
+{
+    HaarShape   shape = {3, 4, 1, HAAR_AREA};
+    TreeOptions options = {.shape = shape, .keep_share = keep_share};
+    const void *blob;
+    Error       err;
+    float      *source = leaves_of_signals(&shape, &f->arena);
+    assert_true(tree_build(&options, source, &f->arena, &blob, NULL, &err));
+    return blob;
+}
+
 /* A header with fewer levels than the nodes have, and one with fewer rows. */
 HEMISPHERE_TEST(trees_deeper_than_their_header_are_refused)
 {
     Fixture    *f = *state;
-    HaarShape   shape = {3, 4, 1, HAAR_AREA};
-    TreeOptions options = {.shape = shape, .keep_share = 0.2f};
-    const void *blob;
-    Tree        tree;
-    Error       err;
-    float      *source = leaves_of_signals(&shape, &f->arena);
-    assert_true(tree_build(&options, source, &f->arena, &blob, NULL, &err));
+    const void *blob = small_tree(f, 0.2f);
     size_t      size = tree_size(blob);
     TreeHeader *copy = arena_alloc(&f->arena, 1, 16, size);
     memcpy(copy, blob, size);
     copy->level = 2;
-    assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
-    assert_non_null(strstr(err.text, "below the leaves' level 2"));
+    assert_tree_refused(f, copy, size, "below the leaves' level 2");
     copy->level = 3;
     copy->row_count -= 2;
     copy->size -= 8;
-    assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
-    assert_non_null(strstr(err.text, "row"));
+    assert_tree_refused(f, copy, size, "row");
     copy->row_count += 4;
     copy->size += 16;
-    assert_false(tree_open(copy, size + 8, f->geodesic, &tree, &err));
-    assert_non_null(strstr(err.text, "row count is"));
+    assert_tree_refused(f, copy, size + 8, "row count is");
 }
 
 HEMISPHERE_TEST(a_bad_header_is_named)
 {
     Fixture    *f = *state;
-    HaarShape   shape = {3, 4, 1, HAAR_AREA};
-    TreeOptions options = {.shape = shape, .keep_share = 0.5f};
-    const void *blob;
+    const void *blob = small_tree(f, 0.5f);
     Error       err;
     Tree        tree;
-    assert_true(tree_build(&options, leaves_of_signals(&shape, &f->arena), &f->arena, &blob,
-                           NULL, &err));
     size_t size = tree_size(blob);
     char  *copy = arena_alloc(&f->arena, 1, 16, size + 8);
-    assert_false(tree_open((const char *)blob + 4, size, f->geodesic, &tree, &err));
-    assert_non_null(strstr(err.text, "multiple of 8"));
-    assert_false(tree_open(blob, 20, f->geodesic, &tree, &err));
-    assert_non_null(strstr(err.text, "number of bytes is 20"));
+    assert_tree_refused(f, (const char *)blob + 4, size, "multiple of 8");
+    assert_tree_refused(f, blob, 20, "number of bytes is 20");
     assert_false(tree_open(blob, size, geodesic_create(2, &f->arena), &tree, &err));
     assert_non_null(strstr(err.text, "level of the geodesic is 2, wanted 3"));
     memcpy(copy, blob, size);
     copy[0] ^= 1;
-    assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
-    assert_non_null(strstr(err.text, "magic number"));
+    assert_tree_refused(f, copy, size, "magic number");
     memcpy(copy, blob, size);
     ((TreeHeader *)(void *)copy)->version = 7;
-    assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
-    assert_non_null(strstr(err.text, "version is 7, wanted 1"));
+    assert_tree_refused(f, copy, size, "version is 7, wanted 1");
 }
 
 int main(void)

@@ -9,7 +9,7 @@
 
 #include "hemisphere/vertex/vertex.h"
 #include "hemisphere/vertex/vertex_tree.h"
-
+#include "vertex_bound.h"
 
 static const VertexLattice LATTICES[] = {{0, 4}, {1, 2}, {3, 4}, {4, 2}, {6, 4}, {7, 2}};
 #define LATTICE_COUNT ((int)(sizeof LATTICES / sizeof *LATTICES))
@@ -94,23 +94,6 @@ HEMISPHERE_TEST(weights_are_barycentric)
 }
 
 /* ---- trees ------------------------------------------------------------------------------- */
-
-/* Accepts what is within a tolerance of the values, component by component. */
-typedef struct Bound {
-    const float *values;
-    int          components;
-    float        tolerance;
-} Bound;
-
-static bool within_bound(const void *context, uint32_t vertex, const float *reconstructed)
-{
-    const Bound *b = context;
-    for (int i = 0; i < b->components; i++) {
-        float value = b->values[vertex * (uint32_t)b->components + (uint32_t)i];
-        if (!(fabsf(reconstructed[i] - value) <= b->tolerance)) return false;
-    }
-    return true;
-}
 
 static VertexTreeOptions options_of(VertexLattice lattice, const Bound *bound)
 {
@@ -498,18 +481,15 @@ HEMISPHERE_TEST(a_bad_header_is_named)
     Error       err;
     Tree        tree;
     ((VertexHeader *)(void *)copy)->version = 7;
-    assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
-    assert_non_null(strstr(err.text, "version is 7, wanted 1"));
+    assert_tree_refused(f, copy, size, "version is 7, wanted 1");
     memcpy(copy, blob, size);
     ((VertexHeader *)(void *)copy)->octants = 3;
-    assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
-    assert_non_null(strstr(err.text, "octant count is 3, wanted 4"));
+    assert_tree_refused(f, copy, size, "octant count is 3, wanted 4");
     assert_false(tree_open(blob, size, geodesic_create(3, &f->arena), &tree, &err));
     assert_non_null(strstr(err.text, "level of the geodesic is 3, wanted 4"));
     memcpy(copy, blob, size);
     ((float *)(void *)(copy + sizeof(VertexHeader)))[2] = NAN;
-    assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
-    assert_non_null(strstr(err.text, "scale 2 is nan"));
+    assert_tree_refused(f, copy, size, "scale 2 is nan");
     free(copy);
 }
 

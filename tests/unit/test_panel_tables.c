@@ -29,21 +29,12 @@ static void expect_line(const Error *err, const char *const parts[], int count)
         expect_line(&(err), parts_, (int)(sizeof parts_ / sizeof *parts_));                    \
     } while (0)
 
-/* Reads a white-only table of this text; it must fail. */
-static Error bad_table(const char *text)
+/* Why a measurement whose file `name` holds this text is refused; it must be. */
+static Error bad_file(const char *name, const char *text)
 {
     Error        err = {0};
     Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
-    const char  *path = fixture_file(&folder, "table.csv", text);
-    if (measurement_read(path, &folder.arena, set, &err)) fail_msg("was accepted: %s", text);
-    return err;
-}
-
-static Error bad_manifest(const char *text)
-{
-    Error        err = {0};
-    Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
-    const char  *path = fixture_file(&folder, "MANIFEST.json", text);
+    const char  *path = fixture_file(&folder, name, text);
     if (measurement_read(path, &folder.arena, set, &err)) fail_msg("was accepted: %s", text);
     return err;
 }
@@ -71,7 +62,7 @@ TEST(tables_name_file_line_and_value)
         {"theta,phi,Y,x,y\n5,40,10,0.8,0.7\n", {"line 2", "x 0.8, y 0.7", "CIE 1931"}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        Error err = bad_table(cases[i].text);
+        Error err = bad_file("table.csv", cases[i].text);
         expect_line(&err, cases[i].parts, 3);
     }
 }
@@ -136,7 +127,7 @@ TEST(manifests_name_the_key)
     fixture_file(&folder, "good.csv", "theta,phi,X,Y,Z\n0,0,1,1,1\n10,0,1,1,1\n");
     fixture_file(&folder, "p.csv", "nm,red,gren,blue\n500,1,1,1\n");
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        Error err = bad_manifest(cases[i].text);
+        Error err = bad_file("MANIFEST.json", cases[i].text);
         expect_line(&err, cases[i].parts, 3);
     }
 }
@@ -233,10 +224,10 @@ TEST(one_file_a_wavelength_is_one_table)
     assert_int_equal(table->channels, 2);
     assert_memory_equal(table->value, wanted, sizeof wanted);
     fixture_file(&folder, "i12.5_w600.5.csv", "theta,phi,brdf\n0,0,4\n20,90,2\n");
-    err = bad_manifest(manifest);
+    err = bad_file("MANIFEST.json", manifest);
     EXPECT_LINE(err, "i12.5_w600.5.csv", "other directions than the table of 500 nm");
     fixture_file(&folder, "i12.5_w600.5.csv", "theta,phi,reflectance\n0,0,4\n");
-    err = bad_manifest(manifest);
+    err = bad_file("MANIFEST.json", manifest);
     EXPECT_LINE(err, "header line", "column 'reflectance' is no wavelength of the manifest");
 }
 

@@ -2,37 +2,9 @@
 
 #include "base/units.h"
 #include "path/path.h"
-#include "scene_builder.h"
+#include "world_fixture.h"
 
-/* A scene made ready for paths. */
-typedef struct World {
-    Arena arena;
-    Scene *scene;
-    Bvh *bvh;
-    PathContext context;
-} World;
-
-static World world_start(void)
-{
-    World world = {.arena = arena_reserve((size_t)1 << 30)};
-    world.scene = builder_scene(&world.arena);
-    return world;
-}
-
-static void world_ready(World *world)
-{
-    Error err = {0};
-    Lights *lights;
-    if (!bvh_create(world->scene, 1, NULL, &world->bvh, &err)) fail_msg("%s", err.text);
-    if (!lights_build(world->scene, &world->arena, &lights, &err)) fail_msg("%s", err.text);
-    world->context = path_context_build(world->scene, world->bvh, lights, 64, &world->arena);
-}
-
-static void world_end(World *world)
-{
-    bvh_destroy(world->bvh);
-    arena_release(&world->arena);
-}
+enum { BOUNCES = 64 };
 
 typedef struct Estimate {
     double mean, sigma;
@@ -93,7 +65,7 @@ TEST(a_furnace_of_albedo_and_emission_one_half_shows_one)
     for (int i = 0; i < 3; i++) wall.base_color[i] = 0.5f;
     builder_part(world.scene, wall);
     builder_sphere(world.scene, vec3(0, 0, 0), 1, 24, 1);
-    world_ready(&world);
+    world_ready(&world, BOUNCES);
     for (PathStrategy s = PATH_MIS; s <= PATH_BSDF_ONLY; s++) {
         world.context.strategy = s;
         assert_luminance("furnace",
@@ -113,7 +85,7 @@ TEST(a_lambert_plane_under_the_sun_has_its_luminance)
     world.scene->environment.sun_elevation = (float)radians_from_degrees(35);
     world.scene->environment.sun_azimuth = 2;
     world.scene->environment.sun_illuminance_lx = 90000;
-    world_ready(&world);
+    world_ready(&world, BOUNCES);
     assert_luminance("sunlit plane",
                      luminance(&world, vec3(0, 2, 0), vec3(0.2f, -1, 0.1f), 0.1f, 20000),
                      90000 * sin(radians_from_degrees(35)) * 0.5 / PI);
@@ -138,7 +110,7 @@ TEST(light_samples_bsdf_samples_and_mis_agree)
         builder_part(world.scene, emitter(500));
         builder_quad(world.scene, vec3(0, 1.5f, -1), vec3(1, 0, 0), vec3(0, 0, 1));
         set_sky(&world, 40);
-        world_ready(&world);
+        world_ready(&world, BOUNCES);
         for (PathStrategy s = PATH_MIS; s <= PATH_BSDF_ONLY; s++) {
             world.context.strategy = s;
             e[s] = luminance(&world, vec3(0, 1, 2), vec3(0, -0.5f, -1), 0.2f, 60000);
@@ -177,7 +149,7 @@ TEST(a_window_passes_what_a_slab_passes)
         builder_quad(world.scene, vec3(0, 0, -5),
                      vec3(4 * (float)cos((double)a), 0, 4 * (float)sin((double)a)),
                      vec3(0, 4, 0));
-        world_ready(&world);
+        world_ready(&world, BOUNCES);
         assert_luminance("window",
                          luminance(&world, vec3(0, 0, 0), vec3(0, 0, -1), 0.001f, 40000),
                          1000 * slab[i]);
@@ -196,7 +168,7 @@ TEST(the_sun_lights_a_wall_through_a_window)
     world.scene->environment.has_sun = true;
     world.scene->environment.sun_elevation = (float)radians_from_degrees(45);
     world.scene->environment.sun_illuminance_lx = 10000;
-    world_ready(&world);
+    world_ready(&world, BOUNCES);
     world.context.max_bounces = 1;
     assert_luminance("wall behind glass",
                      luminance(&world, vec3(0, 2, 0), vec3(0.1f, -1, 0), 0.1f, 20000),
@@ -216,7 +188,7 @@ TEST(a_mirror_of_metal_shows_its_reflectance_times_what_is_there)
         builder_part(world.scene, mirror);
         builder_quad(world.scene, vec3(0, 0, 0), vec3(5, 0, 0), vec3(0, 0, -5));
         set_sky(&world, 100);
-        world_ready(&world);
+        world_ready(&world, BOUNCES);
         Vec3 from = vec3(0, (float)cos(a), (float)sin(a));
         double schlick = 0.8 + 0.2 * pow(1 - cos(a), 5);
         assert_luminance("mirror", luminance(&world, from, vec3_neg(from), 0.001f, 4000),
@@ -235,7 +207,7 @@ TEST(a_clear_ball_in_a_uniform_sky_is_invisible)
     builder_part(world.scene, glass);
     builder_sphere(world.scene, vec3(0, 0, 0), 1, 48, 0);
     set_sky(&world, 100);
-    world_ready(&world);
+    world_ready(&world, BOUNCES);
     assert_luminance("ball", luminance(&world, vec3(0, 0, 3), vec3(0, 0, -1), 0.6f, 20000),
                      100);
     world_end(&world);
@@ -253,7 +225,7 @@ TEST(half_there_shows_half_of_what_is_behind)
     veil.lets_light_through = true;
     builder_part(world.scene, veil);
     builder_quad(world.scene, vec3(0, 0, -1), vec3(1, 0, 0), vec3(0, 1, 0));
-    world_ready(&world);
+    world_ready(&world, BOUNCES);
     assert_luminance("veil", luminance(&world, vec3(0, 0, 0), vec3(0, 0, -1), 0.01f, 40000),
                      75);
     world_end(&world);
@@ -266,7 +238,7 @@ TEST(bounces_are_counted_as_documented)
     builder_part(world.scene, builder_material(0.5f));
     builder_quad(world.scene, vec3(0, 0, 0), vec3(1000, 0, 0), vec3(0, 0, -1000));
     set_sky(&world, 100);
-    world_ready(&world);
+    world_ready(&world, BOUNCES);
     world.context.max_bounces = 0;
     assert_near(luminance(&world, vec3(0, 1, 0), vec3(0, -1, 0), 0.1f, 100).mean, 0, 0);
     world.context.max_bounces = 1;
@@ -281,7 +253,7 @@ TEST(the_back_of_a_one_sided_emitter_is_dark)
     World world = world_start();
     builder_part(world.scene, emitter(100));
     builder_quad(world.scene, vec3(0, 0, -1), vec3(1, 0, 0), vec3(0, -1, 0));
-    world_ready(&world);
+    world_ready(&world, BOUNCES);
     assert_near(luminance(&world, vec3(0, 0, 0), vec3(0, 0, -1), 0.01f, 100).mean, 0, 0);
     world.scene->materials[0].double_sided = true;
     assert_luminance("both sides",
@@ -317,7 +289,7 @@ TEST(a_luxmeter_reads_what_falls_on_it)
     world.scene->environment.sun_illuminance_lx = 1000;
     world.scene->lights[world.scene->light_count++] = (PunctualLight){
         .kind = LIGHT_POINT, .position = {0, 3, 0}, .intensity = {900, 900, 900}};
-    world_ready(&world);
+    world_ready(&world, BOUNCES);
     assert_close(illuminance(&world, vec3(0, 0, 0), vec3(0, 1, 0), 20000),
                  PI * 100 + 1000 * 0.5 + 900 / 9.0, 2e-3);
     assert_near(illuminance(&world, vec3(0, -0.5f, 0), vec3(0, -1, 0), 4000), 0, 1e-3);
@@ -335,7 +307,7 @@ TEST(a_pane_is_passed_once_on_the_edge_of_its_triangles)
     builder_quad(world.scene, vec3(0, 1, 0), vec3(1, 0, 0), vec3(0, 0, -1));
     world.scene->lights[world.scene->light_count++] = (PunctualLight){
         .kind = LIGHT_POINT, .position = {0, 2, 0}, .intensity = {400, 400, 400}};
-    world_ready(&world);
+    world_ready(&world, BOUNCES);
     assert_close(illuminance(&world, vec3(0, 0, 0), vec3(0, 1, 0), 4000), 100 * 0.918318, 2e-3);
     world_end(&world);
 }

@@ -17,7 +17,7 @@ static int make_tree(void **state)
     write_text(in_folder("secret/x"), "x");
     write_text(in_folder("a/beside/x"), "x");
     bool made = !symlink("../../secret/x", in_folder("a/scenes/out")) &&
-                !symlink("../../secret", in_folder("a/scenes/door")) &&
+                !symlink("../../secret", in_folder("a/scenes/link")) &&
                 !symlink("../beside/x", in_folder("a/scenes/near"));
     return made ? 0 : -1;
 }
@@ -35,7 +35,7 @@ TEST(a_file_leads_to_its_neighbours_only)
         {"../scenes/../beside/x", NULL, NULL},
         {"not there", NULL, NULL}, /* opening it tells more */
         {"out", NULL, "leaves the parent of the folder of the file that names it by a symb"},
-        {"door/x", NULL, "by a symbolic link"},
+        {"link/x", NULL, "by a symbolic link"},
         {"../../secret/x", NULL, "another folder is added by --root DIR"},
         {"../../not/there", NULL, "leaves the parent"},
         {"/etc/passwd", NULL, "\"/etc/passwd\" is an absolute path"},
@@ -43,7 +43,7 @@ TEST(a_file_leads_to_its_neighbours_only)
         {"..\\x", NULL, "holds a backslash; / is wanted"},
         {"", NULL, "\"\" is empty; a path relative to the file that names it is wanted"},
         {"out", "secret", NULL},
-        {"door/x", "secret", NULL},
+        {"link/x", "secret", NULL},
         {"../../secret/x", "secret", NULL},
         {"../../secret/x", "a/beside", "leaves the parent"},
         {"out", "secre", "by a symbolic link"}, /* no folder of that name */

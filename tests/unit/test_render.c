@@ -160,24 +160,41 @@ static void a_snapshot_is_taken_once(void **state)
 
 /* ---- progress ---------------------------------------------------------------------------- */
 
-/* What a whole life of a progress prints to stderr, which is no terminal here. */
+/* stderr while a test holds it: a file, which is no terminal. */
+typedef struct Held {
+    FILE *file;
+    int   kept;
+} Held;
+
+static Held hold_stderr(void)
+{
+    Held held = {tmpfile(), dup(STDERR_FILENO)};
+    assert_non_null(held.file);
+    dup2(fileno(held.file), STDERR_FILENO);
+    return held;
+}
+
+/* What was printed since. */
+static void release_stderr(Held held, char *text, size_t size)
+{
+    fflush(stderr);
+    dup2(held.kept, STDERR_FILENO);
+    close(held.kept);
+    ssize_t length = pread(fileno(held.file), text, size - 1, 0);
+    fclose(held.file);
+    text[length < 0 ? 0 : length] = '\0';
+}
+
+/* What a whole life of a progress prints. */
 static void progress_output(ProgressMode mode, char *text, size_t size)
 {
-    FILE *file = tmpfile();
-    int   kept = dup(STDERR_FILENO);
-    assert_non_null(file);
-    dup2(fileno(file), STDERR_FILENO);
+    Held     held = hold_stderr();
     Progress progress = progress_start(mode, "render", "samples", 200);
     progress.interval_s = 0;
     progress.begun_s -= 10;
     progress_update(&progress, 50);
     progress_end(&progress, 200);
-    fflush(stderr);
-    dup2(kept, STDERR_FILENO);
-    close(kept);
-    ssize_t length = pread(fileno(file), text, size - 1, 0);
-    fclose(file);
-    text[length < 0 ? 0 : length] = '\0';
+    release_stderr(held, text, size);
 }
 
 static void progress_shows_percent_rate_elapsed_and_remaining(void **state)
@@ -199,19 +216,13 @@ static void progress_shows_percent_rate_elapsed_and_remaining(void **state)
 static void what_was_done_before_counts_for_the_share_alone(void **state)
 {
     (void)state;
-    char  text[512];
-    FILE *file = tmpfile();
-    int   kept = dup(STDERR_FILENO);
-    assert_non_null(file);
-    dup2(fileno(file), STDERR_FILENO);
+    char     text[512];
+    Held     held = hold_stderr();
     Progress progress = progress_start(PROGRESS_PLAIN, "render", "samples", 200);
     progress.first = 100;
     progress.begun_s -= 10;
     progress_end(&progress, 150);
-    dup2(kept, STDERR_FILENO);
-    close(kept);
-    text[pread(fileno(file), text, sizeof text - 1, 0)] = '\0';
-    fclose(file);
+    release_stderr(held, text, sizeof text);
     assert_string_equal(text,
                         "parhelion: render 75%, 5 samples/s, 0:10 elapsed, 0:10 left\n");
 }

@@ -1,5 +1,5 @@
 /* Surface models against published values and closed forms. */
-#include "check.h"
+#include "shader_fixture.h"
 
 #include "base/arena.h"
 #include "base/sampler.h"
@@ -24,23 +24,6 @@ static int drop_table(void **state)
     (void)state;
     arena_release(&arena);
     return 0;
-}
-
-static Spectrum ramp(float from, float to)
-{
-    Spectrum s;
-    for (int i = 0; i < SPECTRUM_LANES; i++) s[i] = from + (to - from) * (float)i / 15;
-    return s;
-}
-
-#define EYE_COUNT 6
-
-static Vec3 eye(int i)
-{
-    const float cosines[EYE_COUNT] = {1, 0.8f, 0.5f, 0.2f, 0.05f, 0.01f};
-    float c = cosines[i], s = safe_sqrtf(1 - c * c), sine, cosine;
-    sincos_turns(0.17f * (float)i, &sine, &cosine);
-    return vec3(s * cosine, s * sine, c);
 }
 
 typedef struct FresnelRow {

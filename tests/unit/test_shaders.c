@@ -1,5 +1,5 @@
 /* Laws that every surface model obeys; a model added to make_models inherits them all. */
-#include "check.h"
+#include "shader_fixture.h"
 
 #include <string.h>
 
@@ -24,13 +24,6 @@ static Model models[MAX_MODELS];
 static int   model_count;
 static Arena arena;
 static const EnergyTable *glass, *diamond, *perfect, *nothing;
-
-static Spectrum ramp(float from, float to)
-{
-    Spectrum s;
-    for (int i = 0; i < SPECTRUM_LANES; i++) s[i] = from + (to - from) * (float)i / 15;
-    return s;
-}
 
 static MetallicRoughness *add_model(const char *name, float metallic, float alpha,
                                     bool lossless)
@@ -156,16 +149,6 @@ static int drop_models(void **state)
     (void)state;
     arena_release(&arena);
     return 0;
-}
-
-#define EYE_COUNT 6
-
-static Vec3 eye(int i)
-{
-    const float cosines[EYE_COUNT] = {1, 0.8f, 0.5f, 0.2f, 0.05f, 0.01f};
-    float c = cosines[i], s = safe_sqrtf(1 - c * c), sine, cosine;
-    sincos_turns(0.17f * (float)i, &sine, &cosine);
-    return vec3(s * cosine, s * sine, c);
 }
 
 /* Calls `law` for every model and eye, on the far side too where there is one. */

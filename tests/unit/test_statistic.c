@@ -216,12 +216,9 @@ TEST(what_the_mask_leaves_out_does_not_count)
 TEST(crops_have_their_place_in_the_frame)
 {
     Arena arena = test_arena(state);
-    Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 64, .seed = 3}, other = maker;
-    plain_scene(&maker);
-    plain_scene(&other);
-    other.seed = 4;
-    for (int y = 0; y < 8; y++)
-        for (int x = 16; x < 24; x++) other.light[y * WIDTH + x] *= 3;
+    Maker maker, other;
+    plain_scenes(NOISE_GAUSSIAN, 3, &maker, &other);
+    brighten_block(&other, 16, 0, 3);
     FrameImage a = make_frame(&maker, &arena), b = make_frame(&other, &arena);
     a.display = b.display = (ExrWindow){0, 0, 100, 100};
     a.data = b.data = (ExrWindow){50, 60, 50 + WIDTH, 60 + HEIGHT};

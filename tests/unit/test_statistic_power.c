@@ -52,10 +52,8 @@ TEST(a_change_is_estimated_without_bias_in_skewed_noise)
 TEST(a_display_is_named_with_how_much_it_moved)
 {
     Arena arena = test_arena(state);
-    Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 64, .seed = 7}, other = maker;
-    plain_scene(&maker);
-    plain_scene(&other);
-    other.seed = 8;
+    Maker maker, other;
+    plain_scenes(NOISE_GAUSSIAN, 7, &maker, &other);
     for (int i = 0; i < PIXELS; i++) other.light[i] *= i % WIDTH < 24 ? 1.05 : 1;
     StatisticResult r = judge_makers(&maker, &other, &arena);
     assert_int_equal(r.verdict, STATISTIC_DIFFERENT);
@@ -68,12 +66,9 @@ TEST(a_display_is_named_with_how_much_it_moved)
 TEST(a_block_is_named_with_its_place)
 {
     Arena arena = test_arena(state);
-    Maker maker = {.noise = NOISE_EXPONENTIAL, .samples = 64, .seed = 3}, other = maker;
-    plain_scene(&maker);
-    plain_scene(&other);
-    other.seed = 4;
-    for (int y = 8; y < 16; y++)
-        for (int x = 16; x < 24; x++) other.light[y * WIDTH + x] *= 1.5;
+    Maker maker, other;
+    plain_scenes(NOISE_EXPONENTIAL, 3, &maker, &other);
+    brighten_block(&other, 16, 8, 1.5);
     StatisticResult r = judge_makers(&maker, &other, &arena);
     assert_int_equal(r.verdict, STATISTIC_DIFFERENT);
     assert_text_has(r.reason, "block at x 16..24, y 8..16: ");
