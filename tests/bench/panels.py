@@ -423,7 +423,7 @@ def imported(program, name):
     return out
 
 
-# ---- the closed form of a recipe (src/panel/set/synthetic_panel.h) ---------------------------
+# ---- the closed form of a synthetic panel (src/panel/set/synthetic_panel.h) ------------------
 
 def fresnel(c, n):
     t = math.sqrt(1 - (1 - c * c) / (n * n))

@@ -5,8 +5,8 @@
 
 #include "harness.h"
 #include "import/import_request.h"
+#include "panel/set/closed_form.h"
 #include "panel/set/measurement.h"
-#include "panel/set/synthetic_panel.h"
 
 /* ---- tables that a manifest may name ----------------------------------------------------- */
 

@@ -5,6 +5,7 @@
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
+#include "panel/set/closed_form.h"
 #include "panel/set/simulate.h"
 
 #define ARENA_BYTES ((size_t)16 << 30)

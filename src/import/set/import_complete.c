@@ -181,9 +181,9 @@ static bool check_signs(const ImportTable *table, Error *err)
         most = fmax(most, table->value[i]);
         if (table->value[i] < table->value[worst]) worst = i;
     }
-    double share = is_light ? (double)MEASUREMENT_NOISE_BRDF_SHARE
-                            : (double)MEASUREMENT_NOISE_CD_M2_SHARE;
-    double least = is_light ? (double)MEASUREMENT_NOISE_BRDF : (double)MEASUREMENT_NOISE_CD_M2;
+    double share = is_light ? (double)ANGLE_TABLE_NOISE_BRDF_SHARE
+                            : (double)ANGLE_TABLE_NOISE_CD_M2_SHARE;
+    double least = is_light ? (double)ANGLE_TABLE_NOISE_BRDF : (double)ANGLE_TABLE_NOISE_CD_M2;
     double allowed = fmax(least, share * most);
     return table->value[worst] >= -allowed ||
            error_at(err, ERROR_INPUT, table->file, "",

@@ -1,4 +1,5 @@
-/* From rows of text to directions and values, checked. */
+#include "panel/set/angle_table.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +10,6 @@
 #include "text/csv_table.h"
 #include "text/json_view.h"
 #include "text/nearest_word.h"
-#include "panel/set/measurement.h"
 
 /* Directions nearer than this are the same one. */
 #define SAME_DEG 1e-4f
@@ -20,9 +20,9 @@ typedef struct NoiseAllowance {
     const char *unit;
 } NoiseAllowance;
 
-static const NoiseAllowance emission_noise = {MEASUREMENT_NOISE_CD_M2,
-                                              MEASUREMENT_NOISE_CD_M2_SHARE, "cd/m2"};
-static const NoiseAllowance brdf_noise = {MEASUREMENT_NOISE_BRDF, MEASUREMENT_NOISE_BRDF_SHARE,
+static const NoiseAllowance emission_noise = {ANGLE_TABLE_NOISE_CD_M2,
+                                              ANGLE_TABLE_NOISE_CD_M2_SHARE, "cd/m2"};
+static const NoiseAllowance brdf_noise = {ANGLE_TABLE_NOISE_BRDF, ANGLE_TABLE_NOISE_BRDF_SHARE,
                                           "sr^-1"};
 
 /* One row while it is sorted: where it came from and where it looks. */
@@ -316,7 +316,6 @@ bool angle_table_read_xyz(const char *file, const char *name, Arena *arena, Angl
     arena_release(&scratch);
     return ok;
 }
-
 
 static bool is_wavelength_column(const CsvTable *csv, int column, const float *wavelength_nm,
                                  int count)

@@ -1,25 +1,15 @@
-/* The closed forms of recipe.h. */
+#include "panel/set/closed_form.h"
+
 #include <math.h>
 
 #include "base/mathd.h"
 #include "base/units.h"
-#include "panel/set/synthetic_panel.h"
 #include "spectrum/fresnel.h"
 
 /* F of the cover, held where rounding leaves the range of a cosine. */
 static double cover_fresnel(const Recipe *recipe, double cosine)
 {
     return fresnel_unpolarised_d(fmin(1, fabs(cosine)), recipe->refractive_index);
-}
-
-double truth_spectrum(const RecipePrimary *primary, double nm)
-{
-    double sum = 0;
-    for (int i = 0; i < primary->peak_count; i++) {
-        double d = (nm - primary->peak_nm[i]) / primary->fwhm_nm[i];
-        sum += primary->weight[i] * exp_d(-4 * log_d(2) * d * d);
-    }
-    return sum;
 }
 
 /* Angle between two directions, exact also when it is small. */
@@ -30,7 +20,7 @@ static double angle_between(const double a[2], const double b[2])
     return 2 * asin_d(sqrt(h > 1 ? 1 : h));
 }
 
-/* A of recipe.h. */
+/* A of synthetic_panel.h. */
 static double angular_falloff(const Recipe *recipe, const double angles[2])
 {
     const RecipeEmission *e = &recipe->emission;
@@ -68,7 +58,7 @@ void truth_black_xyz(const Recipe *recipe, const double angles[2], double xyz[3]
     for (int j = 0; j < 3; j++) xyz[j] = value * white[j] / white[1];
 }
 
-/* R of recipe.h. */
+/* R of synthetic_panel.h. */
 static double coated_reflectance(const Recipe *recipe, double cos_theta, double nm)
 {
     double f = cover_fresnel(recipe, cos_theta);

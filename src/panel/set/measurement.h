@@ -7,8 +7,7 @@
  * Fails    with file, line or JSON path, found and wanted.
  */
 #pragma once
-#include "base/arena.h"
-#include "base/error.h"
+#include "panel/set/angle_table.h"
 #include "spectrum/spectral_table.h"
 
 #define MEASUREMENT_LEVELS_MAX 64
@@ -16,30 +15,6 @@
 #define MEASUREMENT_WAVELENGTHS_MAX 256
 #define MEASUREMENT_AZIMUTHS_MAX 72
 #define MEASUREMENT_TABLES_MAX 1152 /* of reflection: incidences times azimuths */
-
-/* How far below zero noise may reach: so much, or so large a share of the table's maximum. */
-#define MEASUREMENT_NOISE_CD_M2 0.05f
-#define MEASUREMENT_NOISE_CD_M2_SHARE 0.005f
-#define MEASUREMENT_NOISE_BRDF 0.001f
-#define MEASUREMENT_NOISE_BRDF_SHARE 0.001f
-
-/* Values over directions. Rows are sorted by theta, then phi; no direction stands twice.
- * theta in [0, pi/2], phi in [0, 2 pi); rows at theta 0 have become one. */
-typedef struct AngleOutlier {
-    int   row; /* among those at theta 0 */
-    float phi, value, expected; /* radians; Y, cd m^-2 */
-} AngleOutlier;
-
-typedef struct AngleTable {
-    const char  *name;     /* "red 031", "brdf 30 deg" */
-    int          rows, channels;
-    const float *theta, *phi;
-    const float *value;    /* rows x channels */
-    size_t       text_bytes;
-    float        theta_max;
-    int          pole_outliers; /* of emission tables, at theta 0: they are not in the mean */
-    const AngleOutlier *pole_outlier;
-} AngleTable;
 
 typedef struct MeasuredPrimary {
     int        level_count;
@@ -76,17 +51,3 @@ bool measurement_read(const char *path, Arena *arena, Measurement *out, Error *e
 /* The same; tables may also lie below `folder` (--root). NULL: no such folder. */
 bool measurement_read_below(const char *path, const char *folder, Arena *arena,
                             Measurement *out, Error *err);
-
-/* ---- one table ---------------------------------------------------------------------- */
-
-/* Columns theta, phi and X, Y, Z (or Y, x, y), or a polar grid's three files. */
-bool angle_table_read_xyz(const char *file, const char *name, Arena *arena, AngleTable *out,
-                          Error *err);
-
-/* One file a component, theta down and phi across. */
-bool angle_table_read_grid(const char *const files[3], const char *name, Arena *arena,
-                           AngleTable *out, Error *err);
-
-/* Columns theta, phi and one a wavelength ("brdf" when there is but one); without a name. */
-bool angle_table_read_brdf(const char *file, const float *wavelength_nm, int count,
-                           Arena *arena, AngleTable *out, Error *err);

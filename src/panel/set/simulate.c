@@ -6,6 +6,7 @@
 #include "base/mathd.h"
 #include "base/sampler.h"
 #include "base/units.h"
+#include "panel/set/closed_form.h"
 #include "panel/set/polar_grid.h"
 #include "panel/set/set_writer.h"
 #include "spectrum/spectral_table.h"

@@ -1,5 +1,6 @@
 #include "panel/set/synthetic_panel.h"
 
+#include "base/mathd.h"
 #include "base/units.h"
 #include "text/json_view.h"
 #include "spectrum/spectral_table.h"
@@ -31,6 +32,16 @@ static Recipe recipe_defaults(void)
     recipe.instrument = (RecipeInstrument){.theta_max_deg = 88, .theta_step_deg = 1,
         .phi_step_deg = 2, .fwhm_deg = 2, .seed = 1};
     return recipe;
+}
+
+double truth_spectrum(const RecipePrimary *primary, double nm)
+{
+    double sum = 0;
+    for (int i = 0; i < primary->peak_count; i++) {
+        double d = (nm - primary->peak_nm[i]) / primary->fwhm_nm[i];
+        sum += primary->weight[i] * exp_d(-4 * log_d(2) * d * d);
+    }
+    return sum;
 }
 
 /* W_p: the spectrum as the CIE 1931 observer sees it, scaled to the primary's luminance. */

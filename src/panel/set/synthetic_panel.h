@@ -83,24 +83,5 @@ typedef struct Recipe {
 /* Reads and checks a recipe; unknown keys are errors. Texts live in the arena. */
 bool recipe_read(const char *file, Arena *arena, Recipe *out, Error *err);
 
-/* ---- the truth ------------------------------------------------------------------------- */
-
 /* Spectral shape of a primary, relative. */
 double truth_spectrum(const RecipePrimary *primary, double nm);
-
-/* E_p above: what level `code` of primary 0..2 adds to the black pattern. */
-void truth_emission_xyz(const Recipe *recipe, int primary, double code,
-                        const double angles[2], double xyz[3]);
-
-/* M_black above. angles: theta, phi. */
-void truth_black_xyz(const Recipe *recipe, const double angles[2], double xyz[3]);
-
-/* Haze and floor. The light comes from azimuth pi, phi is the leaving azimuth. */
-double truth_brdf(const Recipe *recipe, double theta_i, double theta_o, double phi, double nm);
-
-/* The delta part's reflectance. */
-double truth_mirror(const Recipe *recipe, double theta, double nm);
-
-/* What the instrument reads: truth_brdf plus the mirror's image as wide as the instrument. */
-double truth_instrument_brdf(const Recipe *recipe, double theta_i, double theta_o, double phi,
-                             double nm);

@@ -14,7 +14,7 @@
 #include <stdbool.h>
 
 #include "base/arena.h"
-#include "panel/set/measurement.h"
+#include "panel/set/angle_table.h"
 
 typedef struct DirectionGrid {
     int          thetas, phis;

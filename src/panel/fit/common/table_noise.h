@@ -8,7 +8,7 @@
  * Threads  pure functions. Fails: never; 0 when fewer than 16 differences can be had.
  */
 #pragma once
-#include "panel/set/measurement.h"
+#include "panel/set/angle_table.h"
 
 /* Of a channel, relative to its values, inside 70 degrees. */
 double table_noise_relative(const AngleTable *table, int channel, Arena scratch);

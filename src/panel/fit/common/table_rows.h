@@ -5,7 +5,7 @@
  */
 #pragma once
 #include "base/vec.h"
-#include "panel/set/measurement.h"
+#include "panel/set/angle_table.h"
 
 Vec3 table_direction(double theta, double phi);
 Vec3 table_row_direction(const AngleTable *table, int row);

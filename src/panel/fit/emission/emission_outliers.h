@@ -6,7 +6,7 @@
 #pragma once
 #include <stdint.h>
 
-#include "panel/set/measurement.h"
+#include "panel/set/angle_table.h"
 
 /* A direction of a table that stands out, or is missing. */
 typedef struct EmissionFlag {

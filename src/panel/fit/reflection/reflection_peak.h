@@ -5,7 +5,7 @@
  * Memory   the arena's. Threads: pure functions of an arena each. Fails: never.
  */
 #pragma once
-#include "panel/set/measurement.h"
+#include "panel/set/angle_table.h"
 
 /* Takes the mirror's image out of one table: reflectance[wavelength], and the table without
  * it (values in the arena). fwhm: the instrument's. */

@@ -1,4 +1,5 @@
-/* MANIFEST.json: which tables a measurement set has, and the set as a whole. */
+#include "panel/set/measurement.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +10,6 @@
 #include "text/csv_table.h"
 #include "text/json_view.h"
 #include "text/nearest_word.h"
-#include "panel/set/measurement.h"
 
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 

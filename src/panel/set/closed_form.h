@@ -1,0 +1,25 @@
+/* closed_form.h -- the exact values of a synthetic panel, by the formulas of synthetic_panel.h.
+ *
+ * Frame    the display's: theta from the normal, phi 0 right, 90 up (radians).
+ * Units    XYZ with Y in cd m^-2; BRDF in sr^-1 without the cosine; nm; codes 0 to 255.
+ * Threads  pure functions. Fails: never.
+ */
+#pragma once
+#include "panel/set/synthetic_panel.h"
+
+/* E_p: what level `code` of primary 0..2 adds to the black pattern. */
+void truth_emission_xyz(const Recipe *recipe, int primary, double code,
+                        const double angles[2], double xyz[3]);
+
+/* M_black. angles: theta, phi. */
+void truth_black_xyz(const Recipe *recipe, const double angles[2], double xyz[3]);
+
+/* Haze and floor. The light comes from azimuth pi, phi is the leaving azimuth. */
+double truth_brdf(const Recipe *recipe, double theta_i, double theta_o, double phi, double nm);
+
+/* The delta part's reflectance. */
+double truth_mirror(const Recipe *recipe, double theta, double nm);
+
+/* What the instrument reads: truth_brdf plus the mirror's image as wide as the instrument. */
+double truth_instrument_brdf(const Recipe *recipe, double theta_i, double theta_o, double phi,
+                             double nm);
