@@ -26,7 +26,7 @@
 
 /* One case: a colour, or an incidence. */
 typedef struct Case {
-    const Recipe *recipe;
+    const SyntheticPanel *recipe;
     const Panel *panel;
     float  code[3];
     double incidence; /* radians; negative: emission */
@@ -44,13 +44,13 @@ static int truth(const Case *c, double theta, double phi, double values[3])
 {
     double angles[2] = {theta, phi}, add[3];
     if (c->incidence >= 0) {
-        values[0] = truth_brdf(c->recipe, c->incidence, theta, phi, 550);
+        values[0] = closed_form_brdf(c->recipe, c->incidence, theta, phi, 550);
         return 1;
     }
-    truth_black_xyz(c->recipe, angles, values);
+    closed_form_black_xyz(c->recipe, angles, values);
     for (int p = 0; p < 3; p++) {
         if (c->code[p] <= 0) continue;
-        truth_emission_xyz(c->recipe, p, (double)c->code[p], angles, add);
+        closed_form_emission_xyz(c->recipe, p, (double)c->code[p], angles, add);
         for (int j = 0; j < 3; j++) values[j] += add[j];
     }
     return 3;
@@ -120,11 +120,12 @@ static void measure(const char *name, const Case *c, int count, double bound)
     fflush(stdout);
 }
 
-static void measure_all(const Recipe *recipe, const Panel *panel, int count, double bound)
+static void measure_all(const SyntheticPanel *recipe, const Panel *panel, int count,
+                        double bound)
 {
     static const float codes[][3] = {{0, 0, 0}, {255, 255, 255}, {255, 0, 0}, {0, 255, 0},
                                      {0, 0, 255}, {31, 127, 223}};
-    const RecipeInstrument *tool = &recipe->instrument;
+    const SyntheticInstrument *tool = &recipe->instrument;
     char name[64];
     for (int i = recipe->emission.black_cd_m2 > 0 ? 0 : 1; i < 6; i++) {
         Case c = {recipe, panel, {codes[i][0], codes[i][1], codes[i][2]}, -1,
@@ -149,7 +150,7 @@ int main(int argc, char **argv)
         return 2;
     }
     Arena  arena = arena_reserve((size_t)1 << 30);
-    Recipe recipe;
+    SyntheticPanel recipe;
     Panel *panel = NULL;
     if (!bench_panel_files("bench_directions", argv + 3, &arena, &recipe, &panel)) return 3;
     measure_all(&recipe, panel, atoi(argv[1]), atof(argv[2]));

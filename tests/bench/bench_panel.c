@@ -67,21 +67,21 @@ static void make_probes(Probe *probe)
     }
 }
 
-static void truth_xyz(const Recipe *recipe, const Probe *probe, double xyz[3])
+static void truth_xyz(const SyntheticPanel *recipe, const Probe *probe, double xyz[3])
 {
     double angles[2] = {probe->theta_o, probe->phi}, add[3];
-    truth_black_xyz(recipe, angles, xyz);
+    closed_form_black_xyz(recipe, angles, xyz);
     for (int p = 0; p < 3; p++) {
-        truth_emission_xyz(recipe, p, probe->code[p], angles, add);
+        closed_form_emission_xyz(recipe, p, probe->code[p], angles, add);
         for (int j = 0; j < 3; j++) xyz[j] += add[j];
     }
 }
 
 /* Bilinear in the nodes around the probe, which are made here: no table is needed. */
-static void interpolated_xyz(const Recipe *recipe, const FlatEmission *flat, const Probe *probe,
-                             float xyz[3])
+static void interpolated_xyz(const SyntheticPanel *recipe, const FlatEmission *flat,
+                             const Probe *probe, float xyz[3])
 {
-    float        nodes[4][4 * (3 * RECIPE_LEVELS_MAX + 1)];
+    float        nodes[4][4 * (3 * SYNTHETIC_LEVELS_MAX + 1)];
     const float *node[4] = {nodes[0], nodes[1], nodes[2], nodes[3]};
     int   t, p;
     float x = place_on((float)probe->theta_o * flat->theta_scale, flat->thetas - 2, &t);
@@ -94,8 +94,8 @@ static void interpolated_xyz(const Recipe *recipe, const FlatEmission *flat, con
 }
 
 /* rms relative error; flat NULL: the panel's. */
-static double emission_error(const Recipe *recipe, const Panel *panel, const FlatEmission *flat,
-                             const Probe *probe)
+static double emission_error(const SyntheticPanel *recipe, const Panel *panel,
+                             const FlatEmission *flat, const Probe *probe)
 {
     double squares = 0;
     for (int i = 0; i < PROBES; i++) {
@@ -111,7 +111,8 @@ static double emission_error(const Recipe *recipe, const Panel *panel, const Fla
     return sqrt(squares / PROBES);
 }
 
-static double interpolated_brdf(const Recipe *recipe, const FlatBrdf *flat, const Probe *probe)
+static double interpolated_brdf(const SyntheticPanel *recipe, const FlatBrdf *flat,
+                                const Probe *probe)
 {
     int    i, o, p;
     double sum = 0;
@@ -121,22 +122,22 @@ static double interpolated_brdf(const Recipe *recipe, const FlatBrdf *flat, cons
     double z = (double)place_on((float)probe->phi * flat->phi_scale, flat->phis - 2, &p);
     for (int c = 0; c < 8; c++) {
         double w = (c & 4 ? x : 1 - x) * (c & 2 ? y : 1 - y) * (c & 1 ? z : 1 - z);
-        sum += w * truth_brdf(recipe, (i + (c >> 2)) / (double)flat->theta_scale,
-                              (o + (c >> 1 & 1)) / (double)flat->theta_scale,
-                              (p + (c & 1)) / (double)flat->phi_scale, 550);
+        sum += w * closed_form_brdf(recipe, (i + (c >> 2)) / (double)flat->theta_scale,
+                                    (o + (c >> 1 & 1)) / (double)flat->theta_scale,
+                                    (p + (c & 1)) / (double)flat->phi_scale, 550);
     }
     return sum;
 }
 
-static double brdf_error(const Recipe *recipe, const Panel *panel, const FlatBrdf *flat,
+static double brdf_error(const SyntheticPanel *recipe, const Panel *panel, const FlatBrdf *flat,
                          const Probe *probe)
 {
     Wavelengths w = {0};
     double      squares = 0;
     for (int i = 0; i < LANES; i++) w.nm[i] = 550;
     for (int i = 0; i < PROBES; i++) {
-        double truth = truth_brdf(recipe, probe[i].theta_i, probe[i].theta_o, probe[i].phi,
-                                  550);
+        double truth = closed_form_brdf(recipe, probe[i].theta_i, probe[i].theta_o,
+                                        probe[i].phi, 550);
         double found = flat ? interpolated_brdf(recipe, flat, &probe[i])
             : (double)panel_brdf(panel, direction_of(probe[i].theta_o, probe[i].phi),
                                  direction_of(probe[i].theta_i, PI), &w)[0];
@@ -255,7 +256,7 @@ static void make_arguments(Arguments *a)
 /* ---- the three works ------------------------------------------------------------------- */
 
 typedef struct Setting {
-    const Recipe *recipe;
+    const SyntheticPanel *recipe;
     const Panel  *panel;
     const Probe  *probe;
     double        panel_bytes;
@@ -357,7 +358,7 @@ int main(int argc, char **argv)
         return 2;
     }
     Arena  arena = arena_reserve((size_t)8 << 30);
-    Recipe recipe;
+    SyntheticPanel recipe;
     Panel *panel = NULL;
     if (!bench_panel_files("bench_panel", argv + 2, &arena, &recipe, &panel)) return 3;
     Probe     *probe = ARENA_NEW(&arena, Probe, PROBES);

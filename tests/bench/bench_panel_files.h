@@ -10,11 +10,12 @@
 #include "panel/set/synthetic_panel.h"
 
 static inline bool bench_panel_files(const char *program, char *const paths[2], Arena *arena,
-                                     Recipe *recipe, Panel **panel)
+                                     SyntheticPanel *recipe, Panel **panel)
 {
     Error err = {0};
     char  line[2048];
-    if (recipe_read(paths[0], arena, recipe, &err) && panel_open(paths[1], arena, panel, &err))
+    if (synthetic_panel_read(paths[0], arena, recipe, &err) &&
+        panel_open(paths[1], arena, panel, &err))
         return true;
     error_line(&err, line, sizeof line);
     fprintf(stderr, "%s: %s\n", program, line);

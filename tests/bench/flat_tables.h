@@ -33,9 +33,9 @@ static Vec3 direction_of(double theta, double phi)
                 (float)cos(theta));
 }
 
-static void set_level_weights(const Recipe *recipe, FlatEmission *flat)
+static void set_level_weights(const SyntheticPanel *recipe, FlatEmission *flat)
 {
-    const RecipeEmission *e = &recipe->emission;
+    const SyntheticEmission *e = &recipe->emission;
     for (int code = 0; code < 256; code++) {
         LevelWeights *w = &flat->level[code];
         int i = 0;
@@ -46,21 +46,21 @@ static void set_level_weights(const Recipe *recipe, FlatEmission *flat)
 }
 
 /* ln of a node's levels, X, Y, Z and a padding number each, red first; last: black. */
-static void emission_node(const Recipe *recipe, double theta, double phi, float *node)
+static void emission_node(const SyntheticPanel *recipe, double theta, double phi, float *node)
 {
     int    levels = recipe->emission.level_count;
     double xyz[3], angles[2] = {fmin(theta, 0.5 * PI - 1e-4), phi};
     for (int p = 0; p < 3; p++)
         for (int i = 0; i < levels; i++) {
-            truth_emission_xyz(recipe, p, recipe->emission.level[i], angles, xyz);
+            closed_form_emission_xyz(recipe, p, recipe->emission.level[i], angles, xyz);
             for (int j = 0; j < 3; j++)
                 node[4 * (p * levels + i) + j] = (float)log(fmax(xyz[j], 1e-12));
         }
-    truth_black_xyz(recipe, angles, xyz);
+    closed_form_black_xyz(recipe, angles, xyz);
     for (int j = 0; j < 3; j++) node[12 * levels + j] = (float)log(fmax(xyz[j], 1e-12));
 }
 
-static FlatEmission flat_emission_shape(const Recipe *recipe, double step_deg)
+static FlatEmission flat_emission_shape(const SyntheticPanel *recipe, double step_deg)
 {
     FlatEmission flat = {.thetas = (int)ceil(90 / step_deg) + 1,
                          .phis = (int)ceil(360 / step_deg),
@@ -73,7 +73,7 @@ static FlatEmission flat_emission_shape(const Recipe *recipe, double step_deg)
     return flat;
 }
 
-static FlatEmission flat_emission(const Recipe *recipe, double step_deg, Arena *arena)
+static FlatEmission flat_emission(const SyntheticPanel *recipe, double step_deg, Arena *arena)
 {
     FlatEmission flat = flat_emission_shape(recipe, step_deg);
     flat.node = arena_alloc(arena, 1, 64, flat.bytes + 64);
@@ -163,7 +163,7 @@ static FlatBrdf flat_brdf_shape(double step_deg)
 }
 
 /* Times do not depend on the values: all lanes have the one of 550 nm. */
-static FlatBrdf flat_brdf(const Recipe *recipe, double step_deg, Arena *arena)
+static FlatBrdf flat_brdf(const SyntheticPanel *recipe, double step_deg, Arena *arena)
 {
     FlatBrdf flat = flat_brdf_shape(step_deg);
     size_t   at = 0;
@@ -171,7 +171,7 @@ static FlatBrdf flat_brdf(const Recipe *recipe, double step_deg, Arena *arena)
     for (int i = 0; i < flat.thetas; i++)
         for (int o = 0; o < flat.thetas; o++)
             for (int p = 0; p < flat.phis; p++)
-                flat.node[at++] = spectrum_all((float)truth_brdf(
+                flat.node[at++] = spectrum_all((float)closed_form_brdf(
                     recipe, i / (double)flat.theta_scale, o / (double)flat.theta_scale,
                     p / (double)flat.phi_scale, 550));
     return flat;
@@ -212,8 +212,8 @@ typedef struct FlatSampling {
     size_t bytes;
 } FlatSampling;
 
-static FlatSampling flat_sampling(const Recipe *recipe, double slice_deg, double step_deg,
-                                  Arena *arena)
+static FlatSampling flat_sampling(const SyntheticPanel *recipe, double slice_deg,
+                                  double step_deg, Arena *arena)
 {
     FlatSampling f = {.slices = (int)ceil(90 / slice_deg) + 1,
                       .thetas = (int)ceil(90 / step_deg), .phis = (int)ceil(180 / step_deg)};
@@ -231,7 +231,8 @@ static FlatSampling flat_sampling(const Recipe *recipe, double slice_deg, double
         for (int t = 0; t < f.thetas; t++, cell += f.phis + 1) {
             double ring = 0, theta = (t + 0.5) * (double)f.theta_step;
             for (int p = 0; p < f.phis; p++) {
-                ring += truth_brdf(recipe, wo, theta, (p + 0.5) * (double)f.phi_step, 550);
+                ring += closed_form_brdf(recipe, wo, theta, (p + 0.5) * (double)f.phi_step,
+                                         550);
                 cell[p + 1] = (float)ring;
             }
             for (int p = 0; p < f.phis; p++) cell[p + 1] /= (float)ring;

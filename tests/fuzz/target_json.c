@@ -64,22 +64,22 @@ void fuzz_manifest(const uint8_t *data, size_t size, Arena *arena)
 
 void fuzz_recipe(const uint8_t *data, size_t size, Arena *arena)
 {
-    Error       err = {0};
-    Recipe     *recipe = ARENA_NEW(arena, Recipe, 1);
-    const char *path = fuzz_file("recipe.json", data, size, arena);
-    const double angles[2] = {0.7, 2};
-    double       xyz[3];
-    if (!recipe_read(path, arena, recipe, &err)) {
+    Error           err = {0};
+    SyntheticPanel *recipe = ARENA_NEW(arena, SyntheticPanel, 1);
+    const char     *path = fuzz_file("recipe.json", data, size, arena);
+    const double    angles[2] = {0.7, 2};
+    double          xyz[3];
+    if (!synthetic_panel_read(path, arena, recipe, &err)) {
         fuzz_claim_refusal(&err);
         return;
     }
     for (int p = 0; p < 3; p++) {
-        truth_emission_xyz(recipe, p, 255, angles, xyz);
+        closed_form_emission_xyz(recipe, p, 255, angles, xyz);
         fuzz_claim(isfinite(xyz[0]) && isfinite(xyz[1]) && isfinite(xyz[2]),
                    "what a recipe emits is finite");
     }
     if (recipe->reflection.exists)
-        fuzz_claim(truth_brdf(recipe, 0.3, 0.4, 0.5, 550) >= 0, "a BRDF is not negative");
+        fuzz_claim(closed_form_brdf(recipe, 0.3, 0.4, 0.5, 550) >= 0, "a BRDF is not negative");
 }
 
 void fuzz_declaration(const uint8_t *data, size_t size, Arena *arena)

@@ -16,7 +16,7 @@ typedef struct Fixture {
     Arena        arena;
     char         folder[FOLDER_BYTES];
     char         panel_path[FOLDER_BYTES + 32];
-    Recipe       recipe;
+    SyntheticPanel recipe;
     Measurement *set;
     Panel       *panel;
     json_t      *report;
@@ -68,7 +68,7 @@ static inline const char *fixture_simulate(Fixture *fixture, const char *recipe)
     Error err = {0};
     fixture_folder(fixture);
     const char *path = fixture_file(fixture, "recipe.json", recipe);
-    if (!recipe_read(path, &fixture->arena, &fixture->recipe, &err) ||
+    if (!synthetic_panel_read(path, &fixture->arena, &fixture->recipe, &err) ||
         !simulate_measurement(&fixture->recipe, fixture->folder, PROGRESS_NONE, &err))
         fail_msg("%s: %s: %s", err.file, err.path, err.text);
     return fixture_path(fixture, "MANIFEST.json");
@@ -159,13 +159,13 @@ static inline Wavelengths even_wavelengths(float first_nm, float step_nm)
 }
 
 /* The recipe's XYZ for a pixel; angles in radians. */
-static inline void true_xyz(const Recipe *recipe, const double angles[2],
+static inline void true_xyz(const SyntheticPanel *recipe, const double angles[2],
                             const float rgb[3], double xyz[3])
 {
     double add[3];
-    truth_black_xyz(recipe, angles, xyz);
+    closed_form_black_xyz(recipe, angles, xyz);
     for (int p = 0; p < 3; p++) {
-        truth_emission_xyz(recipe, p, (double)rgb[p], angles, add);
+        closed_form_emission_xyz(recipe, p, (double)rgb[p], angles, add);
         for (int j = 0; j < 3; j++) xyz[j] += add[j];
     }
 }

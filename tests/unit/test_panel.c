@@ -23,7 +23,7 @@ static int start_ips(void **state)
 }
 
 /* The recipe's XYZ for a pixel. */
-static void true_xyz_deg(const Recipe *recipe, double theta_deg, double phi_deg,
+static void true_xyz_deg(const SyntheticPanel *recipe, double theta_deg, double phi_deg,
                          const float rgb[3], double xyz[3])
 {
     double angles[2] = {radians_from_degrees(theta_deg), radians_from_degrees(phi_deg)};
@@ -226,8 +226,8 @@ TEST(spectra_integrate_to_the_measured_colour)
 
 static double true_brdf(double incidence_deg, double theta_deg, double phi_deg, double nm)
 {
-    return truth_brdf(&ips.recipe, radians_from_degrees(incidence_deg),
-                      radians_from_degrees(theta_deg), radians_from_degrees(phi_deg), nm);
+    return closed_form_brdf(&ips.recipe, radians_from_degrees(incidence_deg),
+                            radians_from_degrees(theta_deg), radians_from_degrees(phi_deg), nm);
 }
 
 TEST(the_peak_stands_at_the_mirror_direction_and_has_no_ghosts)
@@ -296,7 +296,7 @@ TEST(the_mirror_part_is_told_from_the_haze)
         double   theta = radians_from_degrees(incidence);
         Spectrum r = panel_mirror(ips.panel, (float)cos(theta), &w);
         for (int i = 0; i < SPECTRUM_LANES; i += 5)
-            assert_close(r[i], truth_mirror(&ips.recipe, theta, (double)w.nm[i]), 0.06);
+            assert_close(r[i], closed_form_mirror(&ips.recipe, theta, (double)w.nm[i]), 0.06);
     }
 }
 
@@ -466,7 +466,7 @@ TEST(a_lone_table_keeps_a_colour_outside_of_rec_709)
 static void check_shipped(const char *name)
 {
     Error    err = {0};
-    Recipe   recipe;
+    SyntheticPanel recipe;
     Panel   *panel;
     Arena    arena = arena_reserve((size_t)1 << 30);
     uint32_t random = 9;
@@ -474,7 +474,7 @@ static void check_shipped(const char *name)
     snprintf(path, sizeof path, PROJECT_DIR "/assets/panels/%s.panel", name);
     snprintf(recipe_path, sizeof recipe_path, PROJECT_DIR "/assets/panels/%s.recipe.json",
              name);
-    if (!recipe_read(recipe_path, &arena, &recipe, &err) ||
+    if (!synthetic_panel_read(recipe_path, &arena, &recipe, &err) ||
         !panel_open(path, &arena, &panel, &err))
         fail_msg("%s: %s", err.file, err.text);
     Wavelengths w = even_wavelengths(420, 15);
@@ -491,7 +491,7 @@ static void check_shipped(const char *name)
     for (int t = 0; t <= 60; t += 5) {
         Spectrum f = panel_brdf(panel, direction_deg(t, 0), direction_deg(t, 180), &w);
         double   angle = radians_from_degrees(t);
-        assert_close(f[7], truth_brdf(&recipe, angle, angle, 0, (double)w.nm[7]), 0.03);
+        assert_close(f[7], closed_form_brdf(&recipe, angle, angle, 0, (double)w.nm[7]), 0.03);
     }
     panel_close(panel);
     arena_release(&arena);

@@ -35,10 +35,10 @@ static int start(void **state)
 static void truth(int colour, double theta, double phi, double xyz[3])
 {
     double angles[2] = {theta, phi}, add[3];
-    truth_black_xyz(&fixture.recipe, angles, xyz);
+    closed_form_black_xyz(&fixture.recipe, angles, xyz);
     for (int p = 0; p < 3; p++) {
         if (colour == 0 || (colour == 2 && p > 0)) continue;
-        truth_emission_xyz(&fixture.recipe, p, colour == 1 ? 255 : 127, angles, add);
+        closed_form_emission_xyz(&fixture.recipe, p, colour == 1 ? 255 : 127, angles, add);
         for (int j = 0; j < 3; j++) xyz[j] += add[j];
     }
 }

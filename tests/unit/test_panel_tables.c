@@ -147,9 +147,9 @@ TEST(recipes_name_the_key)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Error       err = {0};
-        Recipe      recipe;
+        SyntheticPanel recipe;
         const char *path = fixture_file(&folder, "recipe.json", cases[i].text);
-        assert_false(recipe_read(path, &folder.arena, &recipe, &err));
+        assert_false(synthetic_panel_read(path, &folder.arena, &recipe, &err));
         expect_line(&err, cases[i].parts, 2);
     }
 }

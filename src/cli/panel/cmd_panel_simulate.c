@@ -1,4 +1,4 @@
-/* panel simulate: a virtual instrument measures a recipe's panel. */
+/* panel simulate: a virtual instrument measures a synthetic panel. */
 
 #include "base/count.h"
 #include "base/units.h"
@@ -10,25 +10,26 @@
 
 #define ARENA_BYTES ((size_t)16 << 30)
 
-/* The closed truth at one direction: what a perfect fit would say. */
-static bool print_truth(const Recipe *recipe, const double at[5], Error *err)
+/* The closed form at one direction: what a perfect fit would say. */
+static bool print_closed_form(const SyntheticPanel *panel, const double at[5], Error *err)
 {
     double  xyz[3], angles[2] = {radians_from_degrees(at[0]), radians_from_degrees(at[1])};
     json_t *brdf = json_array(), *mirror = json_array(), *nm = json_array();
-    truth_black_xyz(recipe, angles, xyz);
+    closed_form_black_xyz(panel, angles, xyz);
     for (int p = 0; p < 3; p++) {
         double add[3];
-        truth_emission_xyz(recipe, p, at[2 + p], angles, add);
+        closed_form_emission_xyz(panel, p, at[2 + p], angles, add);
         for (int j = 0; j < 3; j++) xyz[j] += add[j];
     }
     json_t *document = json_pack("{s:f, s:f, s:[f,f,f], s:[f,f,f]}", "theta_deg", at[0],
                                  "phi_deg", at[1], "rgb", at[2], at[3], at[4], "XYZ", xyz[0],
                                  xyz[1], xyz[2]);
-    for (int w = 0; w < recipe->reflection.wavelength_count && recipe->reflection.exists; w++) {
-        double l = recipe->reflection.wavelength_nm[w];
+    for (int w = 0; w < panel->reflection.wavelength_count && panel->reflection.exists; w++) {
+        double l = panel->reflection.wavelength_nm[w];
         json_array_append_new(nm, json_real(l));
-        json_array_append_new(brdf, json_real(truth_brdf(recipe, angles[0], angles[0], 0, l)));
-        json_array_append_new(mirror, json_real(truth_mirror(recipe, angles[0], l)));
+        double haze = closed_form_brdf(panel, angles[0], angles[0], 0, l);
+        json_array_append_new(brdf, json_real(haze));
+        json_array_append_new(mirror, json_real(closed_form_mirror(panel, angles[0], l)));
     }
     json_object_set_new(document, "wavelengths_nm", nm);
     json_object_set_new(document, "brdf_at_mirror_sr", brdf);
@@ -36,13 +37,13 @@ static bool print_truth(const Recipe *recipe, const double at[5], Error *err)
     return cli_print_json(document, err);
 }
 
-static void switch_noise_off(RecipeInstrument *instrument)
+static void switch_noise_off(SyntheticInstrument *instrument)
 {
     instrument->noise_relative = instrument->noise_cd_m2 = instrument->noise_brdf_sr = 0;
 }
 
 /* So many rings, the normal not counted, and azimuths. */
-static bool set_grid(RecipeInstrument *instrument, const int grid[2], Error *err)
+static bool set_grid(SyntheticInstrument *instrument, const int grid[2], Error *err)
 {
     double theta = instrument->theta_max_deg / grid[0], phi = 360.0 / grid[1];
     if (theta < 0.05 || phi < 0.05)
@@ -58,7 +59,7 @@ static bool run_simulate(int argc, char **argv, Error *err)
 {
     Arena       arena = arena_reserve(ARENA_BYTES);
     Cli         cli;
-    Recipe      recipe;
+    SyntheticPanel panel;
     const char *folder = NULL;
     double      at[5];
     int         noise = 0, grid[2] = {0, 0};
@@ -84,11 +85,11 @@ static bool run_simulate(int argc, char **argv, Error *err)
     if (cli.help_shown) return true;
     if (!folder && !wants_truth)
         return error_set(err, ERROR_USAGE, "panel simulate wants -o DIR");
-    bool ok = recipe_read(cli.arguments[0], &arena, &recipe, err);
-    if (ok && noise) switch_noise_off(&recipe.instrument);
-    if (ok && has_grid) ok = set_grid(&recipe.instrument, grid, err);
-    if (ok && wants_truth) ok = print_truth(&recipe, at, err);
-    if (ok && folder) ok = simulate_measurement(&recipe, folder, cli.progress, err);
+    bool ok = synthetic_panel_read(cli.arguments[0], &arena, &panel, err);
+    if (ok && noise) switch_noise_off(&panel.instrument);
+    if (ok && has_grid) ok = set_grid(&panel.instrument, grid, err);
+    if (ok && wants_truth) ok = print_closed_form(&panel, at, err);
+    if (ok && folder) ok = simulate_measurement(&panel, folder, cli.progress, err);
     arena_release(&arena);
     return ok;
 }

@@ -94,7 +94,7 @@ void *fit_file_bytes(const FitParts *parts, const char *meta, Arena *arena, size
     FitWriter writer = {.arena = arena};
     FitPiece  text = {meta, strlen(meta)}, tables = {parts->tables, parts->tables_size};
     write_section(&writer, PANEL_META, 0, &text, 1);
-    if (parts->tables) write_section(&writer, PANEL_FIGURES, 0, &tables, 1);
+    if (parts->tables) write_section(&writer, PANEL_REPORT_TABLES, 0, &tables, 1);
     if (parts->emission) write_emission(&writer, parts);
     if (parts->reflection) write_reflection(&writer, parts->reflection);
     return finish(&writer, size);

@@ -98,7 +98,7 @@ Spectrum panel_emission_spectrum(const Panel *panel, Vec3 direction, const float
     for (int s = 0; s < 4; s++) {
         float c[3], logs[3] = {source[s][0], source[s][1], source[s][2]};
         if (logs[1] <= DARK) continue;
-        spectral_warp_at(&panel->primaries->bend[s], logs, c);
+        spectral_warp_at(&panel->primaries->warp[s], logs, c);
         Spectrum exponent = (spectrum_all(c[2]) * t + spectrum_all(c[1])) * t +
                             spectrum_all(c[0] + logs[1]);
         /* Far from a narrow primary the curve may run away where the primary is dark: infinity

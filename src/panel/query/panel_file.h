@@ -36,7 +36,7 @@ typedef enum PanelSectionKind {
     PANEL_REFLECTION = 5,      /* PanelReflectionStored and what follows it */
     PANEL_REFLECTION_TREE = 6,
     PANEL_SAMPLING = 7,          /* a sampling tree, PanelSampling's counts and thetas */
-    PANEL_FIGURES = 8          /* panel_report.h: the tables of the report, then the total */
+    PANEL_REPORT_TABLES = 8    /* panel_report.h: the tables of the report, then the total */
 } PanelSectionKind;
 
 typedef struct PanelSection {
@@ -94,12 +94,13 @@ typedef struct PanelReflectionStored {
     /* then, float: incidence[incidences], azimuth[azimuths], wavelength_nm[wavelengths],
      *   node_theta[nodes], basis_scale[coefficients], loading_scale[components],
      *   lobe_sigma[tables] (with a lobe only);
-     * then, 16 bits: mean[tables][wavelengths], floor[tables][wavelengths] (ln, mean_scale),
-     *   basis[coefficients][wavelengths], loading[tables][coefficients][components],
-     *   lobe[tables][wavelengths] (with a lobe only), and of 1/65535: albedo[tables]
-     *   [wavelengths] of haze and lobe, mirror[incidences][wavelengths] (with a mirror only),
-     *   held[nodes][wavelengths], by what the haze beyond the measured incidences is
-     *   multiplied, and node_albedo[nodes][wavelengths] */
+     * then, 16 bits: mean[tables][wavelengths], lambertian[tables][wavelengths] (ln,
+     *   mean_scale), basis[coefficients][wavelengths],
+     *   loading[tables][coefficients][components], lobe[tables][wavelengths] (with a lobe
+     *   only), and of 1/65535: albedo[tables][wavelengths] of haze and lobe,
+     *   mirror[incidences][wavelengths] (with a mirror only), held[nodes][wavelengths], by
+     *   what the haze beyond the measured incidences is multiplied, and
+     *   node_albedo[nodes][wavelengths] */
 } PanelReflectionStored;
 
 #define PANEL_TABLES_MAX 1152 /* incidences times azimuths */

@@ -39,7 +39,7 @@ bool panel_from_bytes(const void *data, size_t size, const char *name, Arena *ar
     bool        has_figures;
     if (!panel_check_header(&bytes, &header) || !finest_level(&bytes, &level) ||
         !panel_need_section(&bytes, PANEL_META, 0, &meta) ||
-        !panel_find_section(&bytes, PANEL_FIGURES, 0, &figures, &has_figures))
+        !panel_find_section(&bytes, PANEL_REPORT_TABLES, 0, &figures, &has_figures))
         return false;
     const Geodesic *geodesic = geodesic_create(level, arena);
     Panel *panel = ARENA_NEW(arena, Panel, 1);

@@ -349,7 +349,7 @@ static void survey(Panel *panel, PanelEmission *e, Arena *arena, PanelPrimaries 
     for (int t = 0; t < e->channels / 3; t++) mean_y[t] /= weight;
     spread_means(e, mean_y);
     for (int p = 0; p < 4; p++)
-        primaries->bend[p].range = spectral_warp_range(clouds.ratio[p], clouds.count[p]);
+        primaries->warp[p].range = spectral_warp_range(clouds.ratio[p], clouds.count[p]);
 }
 
 /* ---- spectra ---------------------------------------------------------------------------- */
@@ -441,5 +441,5 @@ void panel_open_warps(Panel *panel)
 {
     PanelPrimaries *primaries = (PanelPrimaries *)panel->primaries;
     for (int p = 0; primaries && p < (panel->emission->has_black ? 4 : 3); p++)
-        spectral_warp_fill(primaries->spectrum[p], &primaries->bend[p]);
+        spectral_warp_fill(primaries->spectrum[p], &primaries->warp[p]);
 }

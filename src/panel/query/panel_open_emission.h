@@ -11,5 +11,5 @@
 bool panel_open_emission(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
                          Panel *panel);
 
-/* How the primaries' spectra bend: a few milliseconds, once everything else is in order. */
+/* How the primaries' spectra warp: a few milliseconds, once everything else is in order. */
 void panel_open_warps(Panel *panel);

@@ -214,9 +214,9 @@ static PanelReflection *expand(const PanelReflectionStored *s, const ReflectionL
     memcpy(r->node_theta, from->node_theta, sizeof(float) * s->nodes);
     name_steps(from, r);
     r->mean = expand_rows(r, from->mean, r->tables, s->mean_scale, arena);
-    float *floor = expand_rows(r, from->floor, r->tables, s->mean_scale, arena);
-    exponentiate(floor, r, r->tables);
-    r->floor = floor;
+    float *lambertian = expand_rows(r, from->lambertian, r->tables, s->mean_scale, arena);
+    exponentiate(lambertian, r, r->tables);
+    r->lambertian = lambertian;
     expand_basis(s, from, r, arena);
     if (s->has_lobe) {
         r->lobe = expand_rows(r, from->lobe, r->tables, s->lobe_scale, arena);

@@ -41,7 +41,7 @@ typedef struct PanelEmission {
 /* Red, green, blue, black. Spectra every nm from SPECTRAL_FIRST_NM, of 1 cd m^-2. */
 typedef struct PanelPrimaries {
     float     spectrum[4][SPECTRAL_COUNT];
-    SpectralWarp bend[4];
+    SpectralWarp warp[4];
 } PanelPrimaries;
 
 /* An incidence that interpolation counts on. Those below 0 are measured ones seen from the
@@ -68,7 +68,7 @@ typedef struct PanelReflection {
     const float *mean;    /* [tables][wavelengths] */
     const float *basis;   /* [coefficients][wavelengths] */
     const float *loading; /* [tables][components][coefficients] */
-    const float *floor;   /* [tables][wavelengths], sr^-1 */
+    const float *lambertian; /* [tables][wavelengths], sr^-1 */
     const float *lobe;    /* [tables][wavelengths], ln (R / F) */
     const float *lobe_sigma; /* [tables], radians */
     const float *held;    /* [nodes][wavelengths] */

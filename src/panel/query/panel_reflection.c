@@ -347,7 +347,7 @@ static Spectrum held_factor(const Panel *panel, float theta, const Lanes *lanes)
 }
 
 /* The haze moves, its height follows the root of the surface's reflectances at theta_i and
- * theta_o, and the floor follows the light that enters. */
+ * theta_o, and the lambertian part follows the light that enters. */
 static Spectrum brdf_beyond(const Panel *panel, Vec3 local, Vec3 wi, float light,
                             const Lanes *lanes)
 {
@@ -363,11 +363,12 @@ static Spectrum brdf_beyond(const Panel *panel, Vec3 local, Vec3 wi, float light
     float    last = fresnel_unpolarised(cosine_last, n);
     Spectrum total = spectrum_exp(spread(logs, lanes)) * spectrum_all(last);
     int      row = mix.side[0].term[0].table * (int)r->padded_wavelengths;
-    Spectrum floor = spectrum_min(total, spread(r->floor + row, lanes));
+    Spectrum lambertian = spectrum_min(total, spread(r->lambertian + row, lanes));
     Spectrum in = gloss(panel, wi.z, lanes) / gloss(panel, cosine_last, lanes);
     Spectrum out = gloss(panel, local.z, lanes) / gloss(panel, from.z, lanes);
     float    entering = (1 - fresnel_unpolarised(wi.z, n)) / (1 - last);
-    Spectrum haze = (total - floor) * spectrum_root(in * out) + floor * spectrum_all(entering);
+    Spectrum haze = (total - lambertian) * spectrum_root(in * out) +
+                    lambertian * spectrum_all(entering);
     if (r->has_lobe)
         haze += lobe_over_fresnel(panel, &mix, local, wi, lanes) * in *
                 spectrum_all(last);

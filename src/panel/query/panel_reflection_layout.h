@@ -12,7 +12,7 @@
 typedef struct ReflectionLayout {
     const float *incidence, *azimuth, *wavelength_nm, *node_theta;
     const float *basis_scale, *loading_scale, *lobe_sigma;
-    const int16_t  *mean, *floor, *basis, *loading, *lobe;
+    const int16_t  *mean, *lambertian, *basis, *loading, *lobe;
     const uint16_t *albedo, *mirror, *held, *node_albedo;
 } ReflectionLayout;
 
@@ -32,7 +32,7 @@ static inline size_t reflection_layout(const PanelReflectionStored *s, Reflectio
     if (s->has_lobe) out->lobe_sigma = f, f += tables;
     const int16_t *i = (const int16_t *)f;
     out->mean = i, i += tables * row;
-    out->floor = i, i += tables * row;
+    out->lambertian = i, i += tables * row;
     out->basis = i, i += s->coefficients * row;
     out->loading = i, i += tables * s->coefficients * s->components;
     if (s->has_lobe) out->lobe = i, i += tables * row;

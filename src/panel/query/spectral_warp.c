@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BEND_LIMIT 24.0 /* largest |c1|, |c2| that counts as a solution */
+#define WARP_LIMIT 24.0 /* largest |c1|, |c2| that counts as a solution */
 #define HALVES (2 * SPECTRAL_COUNT - 1) /* whole and half nm */
 
 /* e^x and ln x in double precision (to about 1e-13), from nothing that a library decides. */
@@ -40,18 +40,18 @@ static double observer(const SpectralRow *row, int j)
 
 /* Spectrum times observer times Simpson's weights on every half nm: exact for the product of
  * what is linear between whole nm. Few numbers count where the light is in few places. */
-typedef struct BendSource {
+typedef struct WarpSource {
     double t_first, t_step;
     int    first, count;
     double part[3][HALVES];
     double spectrum[HALVES];
     double peak; /* of the spectrum per unit of luminance */
-} BendSource;
+} WarpSource;
 
-static void fill_source(const float *spectrum, BendSource *out)
+static void fill_source(const float *spectrum, WarpSource *out)
 {
     int last = -1;
-    *out = (BendSource){.t_first = (SPECTRAL_FIRST_NM - 560) / 180.0, .t_step = 0.5 / 180,
+    *out = (WarpSource){.t_first = (SPECTRAL_FIRST_NM - 560) / 180.0, .t_step = 0.5 / 180,
                         .first = HALVES};
     for (int h = 0; h < HALVES; h++) {
         int    i = h / 2;
@@ -74,12 +74,12 @@ static void fill_source(const float *spectrum, BendSource *out)
 
 /* Integrals of S x-bar_j t^k for c0 = 0; the largest factor along the spectrum. The factor's
  * steps are those of a geometric series whose quotient is one too. */
-static double moments(const BendSource *s, const double c[3], double moment[3][3])
+static double moments(const WarpSource *s, const double c[3], double moment[3][3])
 {
     double t0 = s->t_first + s->first * s->t_step, d = s->t_step, most = 0;
     double factor = exp_d(c[1] * t0 + c[2] * t0 * t0);
     double quotient = exp_d(c[1] * d + c[2] * (2 * t0 * d + d * d));
-    double bend = exp_d(2 * c[2] * d * d);
+    double quotient_step = exp_d(2 * c[2] * d * d);
     memset(moment, 0, 9 * sizeof(double));
     for (int h = s->first; h < s->first + s->count; h++) {
         double t = s->t_first + h * d, ft = factor * t, ftt = ft * t;
@@ -92,14 +92,14 @@ static double moments(const BendSource *s, const double c[3], double moment[3][3
         double light = s->spectrum[h] * factor;
         most = light > most ? light : most;
         factor *= quotient;
-        quotient *= bend;
+        quotient *= quotient_step;
     }
     return most;
 }
 
 static void spectrum_xyz(const float *spectrum, double xyz[3])
 {
-    BendSource source;
+    WarpSource source;
     double     moment[3][3], zero[3] = {0, 0, 0};
     fill_source(spectrum, &source);
     moments(&source, zero, moment);
@@ -131,7 +131,7 @@ void panel_spectrum_default(PanelSpectraKind kind, int primary, float *out)
 /* ---- one colour ------------------------------------------------------------------------ */
 
 /* Rows: ln X - ln Y - u, ln Z - ln Y - v, over c1, c2 (c0 follows from Y). */
-static double bend_rest(const double moment[3][3], const double ratio[2], double rest[2],
+static double warp_rest(const double moment[3][3], const double ratio[2], double rest[2],
                         double jacobian[4])
 {
     double mean[3][2];
@@ -147,13 +147,13 @@ static double bend_rest(const double moment[3][3], const double ratio[2], double
 
 /* Newton from c, which holds the result. Of the same luminance, the spectrum must nowhere be
  * four times as high as its highest peak was: extreme coefficients blow up the tails. */
-static bool bend_to(const BendSource *source, const double ratio[2], double c[3])
+static bool warp_to(const WarpSource *source, const double ratio[2], double c[3])
 {
     double moment[3][3], rest[2], jacobian[4], at[3] = {0, c[1], c[2]};
     for (int step = 0; step < 40; step++) {
         double most = moments(source, at, moment);
         if (!(moment[0][0] > 0 && moment[1][0] > 0 && moment[2][0] > 0)) return false;
-        double miss = bend_rest((const double (*)[3])moment, ratio, rest, jacobian);
+        double miss = warp_rest((const double (*)[3])moment, ratio, rest, jacobian);
         if (miss < 1e-9) {
             c[0] = -log_d(moment[1][0]);
             c[1] = at[1];
@@ -167,18 +167,18 @@ static bool bend_to(const BendSource *source, const double ratio[2], double c[3]
         double longest = fmax(fabs(d1), fabs(d2)), damp = longest > 4 ? 4 / longest : 1;
         at[1] += damp * d1;
         at[2] += damp * d2;
-        if (!(fabs(at[1]) < BEND_LIMIT && fabs(at[2]) < BEND_LIMIT)) return false;
+        if (!(fabs(at[1]) < WARP_LIMIT && fabs(at[2]) < WARP_LIMIT)) return false;
     }
     return false;
 }
 
-/* From a colour that was reached (`from`, with coefficients c) as far towards `to` as bending
+/* From a colour that was reached (`from`, with coefficients c) as far towards `to` as warping
  * goes, by halving the way. True when it goes all the way. */
-static bool bend_along(const BendSource *source, const double from[2], const double to[2],
+static bool warp_along(const WarpSource *source, const double from[2], const double to[2],
                        double c[3])
 {
     double good = 0, bad = 1, trial[3] = {c[0], c[1], c[2]};
-    if (bend_to(source, to, trial)) {
+    if (warp_to(source, to, trial)) {
         memcpy(c, trial, sizeof trial);
         return true;
     }
@@ -187,7 +187,7 @@ static bool bend_along(const BendSource *source, const double from[2], const dou
         double target[2] = {from[0] + middle * (to[0] - from[0]),
                             from[1] + middle * (to[1] - from[1])};
         memcpy(trial, c, sizeof trial);
-        if (bend_to(source, target, trial)) {
+        if (warp_to(source, target, trial)) {
             good = middle;
             memcpy(c, trial, sizeof trial);
         } else {
@@ -215,31 +215,31 @@ static double node_at(const SpectralWarpRange *range, int coordinate, int index)
 }
 
 /* From the middle of the row to either side, each start its neighbour's solution. */
-static int fill_across(const BendSource *source, int i, double along, const double start[3],
-                       bool is_reached, SpectralWarp *bend)
+static int fill_across(const WarpSource *source, int i, double along, const double start[3],
+                       bool is_reached, SpectralWarp *warp)
 {
     double middle[2];
     int    missed = 0, centre = SPECTRAL_WARP_SIDE / 2;
-    node_ratio(&bend->range, along, 0, middle);
+    node_ratio(&warp->range, along, 0, middle);
     for (int side = 0; side < 2; side++) {
         double c[3] = {start[0], start[1], start[2]}, from[2] = {middle[0], middle[1]}, to[2];
         bool   goes_on = is_reached;
         int    j = side ? centre - 1 : centre;
         for (; j >= 0 && j < SPECTRAL_WARP_SIDE; j += side ? -1 : 1) {
-            node_ratio(&bend->range, along, node_at(&bend->range, 1, j), to);
-            goes_on = goes_on && bend_along(source, from, to, c);
+            node_ratio(&warp->range, along, node_at(&warp->range, 1, j), to);
+            goes_on = goes_on && warp_along(source, from, to, c);
             missed += !goes_on;
             memcpy(from, to, sizeof from);
             for (int k = 0; k < 3; k++)
-                bend->coefficient[j * SPECTRAL_WARP_SIDE + i][k] = (float)c[k];
+                warp->coefficient[j * SPECTRAL_WARP_SIDE + i][k] = (float)c[k];
         }
     }
     return missed;
 }
 
-int spectral_warp_fill(const float *spectrum, SpectralWarp *bend)
+int spectral_warp_fill(const float *spectrum, SpectralWarp *warp)
 {
-    BendSource source;
+    WarpSource source;
     double     moment[3][3], zero[3] = {0, 0, 0}, from[2], to[2], c[3] = {0, 0, 0};
     int        missed = 0;
     bool       is_reached = true;
@@ -247,13 +247,13 @@ int spectral_warp_fill(const float *spectrum, SpectralWarp *bend)
     moments(&source, zero, moment);
     from[0] = log_d(moment[0][0] / moment[1][0]);
     from[1] = log_d(moment[2][0] / moment[1][0]);
-    bend_to(&source, from, c);
+    warp_to(&source, from, c);
     for (int i = 0; i < SPECTRAL_WARP_SIDE; i++) {
-        double along = node_at(&bend->range, 0, i);
-        node_ratio(&bend->range, along, 0, to);
-        is_reached = bend_along(&source, from, to, c);
+        double along = node_at(&warp->range, 0, i);
+        node_ratio(&warp->range, along, 0, to);
+        is_reached = warp_along(&source, from, to, c);
         if (is_reached) memcpy(from, to, sizeof from);
-        missed += fill_across(&source, i, along, c, is_reached, bend);
+        missed += fill_across(&source, i, along, c, is_reached, warp);
     }
     return missed;
 }

@@ -13,8 +13,8 @@
 
 #define SPECTRAL_WARP_SIDE 17
 
-/* How a primary's spectrum is bent: coefficients over (u, v) = (ln X/Y, ln Z/Y), in axes along
- * which the measured colours spread: those of a narrow primary lie along a curve, and bending
+/* How a primary's spectrum warps: coefficients over (u, v) = (ln X/Y, ln Z/Y), in axes along
+ * which the measured colours spread: those of a narrow primary lie along a curve, and warping
  * reaches hardly anything beside it. First coordinate: along, second: across. */
 typedef struct SpectralWarpRange {
     float origin[2], along[2]; /* in (u, v); a unit vector, across = (-along[1], along[0]) */
@@ -29,9 +29,9 @@ typedef struct SpectralWarp {
 /* Where colours lie: `count` pairs (ln X/Y, ln Z/Y), which are overwritten. */
 SpectralWarpRange spectral_warp_range(float *const ratio[2], int count);
 
-/* The table of coefficients over bend->range for a spectrum of 1 cd m^-2. Returns how many
+/* The table of coefficients over warp->range for a spectrum of 1 cd m^-2. Returns how many
  * colours cannot be reached: there the nearest ones on the way from its own colour serve. */
-int spectral_warp_fill(const float *spectrum, SpectralWarp *bend);
+int spectral_warp_fill(const float *spectrum, SpectralWarp *warp);
 
 /* Scales a spectrum to 1 cd m^-2; false: it has no light. */
 bool panel_spectrum_normalise(float *spectrum);
@@ -74,22 +74,22 @@ static inline int spectral_warp_cell(float at, float low, float high, float weig
 }
 
 /* HOT. c0, c1, c2 of a source of 1 cd m^-2 for ln XYZ (only the ratios count). */
-static inline void spectral_warp_at(const SpectralWarp *bend, const float logs[3],
+static inline void spectral_warp_at(const SpectralWarp *warp, const float logs[3],
                                     float coefficient[3])
 {
     float wu[4], wv[4];
-    float du = logs[0] - logs[1] - bend->range.origin[0];
-    float dv = logs[2] - logs[1] - bend->range.origin[1];
-    float along = du * bend->range.along[0] + dv * bend->range.along[1];
-    float across = dv * bend->range.along[0] - du * bend->range.along[1];
-    int   u = spectral_warp_cell(along, bend->range.low[0], bend->range.high[0], wu);
-    int   v = spectral_warp_cell(across, bend->range.low[1], bend->range.high[1], wv);
+    float du = logs[0] - logs[1] - warp->range.origin[0];
+    float dv = logs[2] - logs[1] - warp->range.origin[1];
+    float along = du * warp->range.along[0] + dv * warp->range.along[1];
+    float across = dv * warp->range.along[0] - du * warp->range.along[1];
+    int   u = spectral_warp_cell(along, warp->range.low[0], warp->range.high[0], wu);
+    int   v = spectral_warp_cell(across, warp->range.low[1], warp->range.high[1], wv);
     coefficient[0] = coefficient[1] = coefficient[2] = 0;
     for (int j = 0; j < 4; j++)
         for (int i = 0; i < 4; i++) {
             float w = wu[i] * wv[j];
             if (w == 0) continue;
-            const float *from = bend->coefficient[(v + j) * SPECTRAL_WARP_SIDE + u + i];
+            const float *from = warp->coefficient[(v + j) * SPECTRAL_WARP_SIDE + u + i];
             for (int k = 0; k < 3; k++) coefficient[k] += w * from[k];
         }
 }

@@ -8,18 +8,20 @@
 #include "panel/set/synthetic_panel.h"
 
 /* E_p: what level `code` of primary 0..2 adds to the black pattern. */
-void truth_emission_xyz(const Recipe *recipe, int primary, double code,
-                        const double angles[2], double xyz[3]);
+void closed_form_emission_xyz(const SyntheticPanel *panel, int primary, double code,
+                              const double angles[2], double xyz[3]);
 
 /* M_black. angles: theta, phi. */
-void truth_black_xyz(const Recipe *recipe, const double angles[2], double xyz[3]);
+void closed_form_black_xyz(const SyntheticPanel *panel, const double angles[2], double xyz[3]);
 
-/* Haze and floor. The light comes from azimuth pi, phi is the leaving azimuth. */
-double truth_brdf(const Recipe *recipe, double theta_i, double theta_o, double phi, double nm);
+/* Haze and lambertian part. The light comes from azimuth pi, phi is the leaving azimuth. */
+double closed_form_brdf(const SyntheticPanel *panel, double theta_i, double theta_o, double phi,
+                        double nm);
 
 /* The delta part's reflectance. */
-double truth_mirror(const Recipe *recipe, double theta, double nm);
+double closed_form_mirror(const SyntheticPanel *panel, double theta, double nm);
 
-/* What the instrument reads: truth_brdf plus the mirror's image as wide as the instrument. */
-double truth_instrument_brdf(const Recipe *recipe, double theta_i, double theta_o, double phi,
-                             double nm);
+/* What the instrument reads: closed_form_brdf plus the mirror's image, as wide as the
+ * instrument. */
+double closed_form_instrument_brdf(const SyntheticPanel *panel, double theta_i, double theta_o,
+                                   double phi, double nm);

@@ -14,15 +14,15 @@
 static const char *const primary_names[3] = {"red", "green", "blue"};
 
 typedef struct Instrument {
-    const Recipe *recipe;
-    SetWriter     writer;
-    Progress      progress;
-    int           tables_done;
-    Arena         scratch;
+    const SyntheticPanel *panel;
+    SetWriter writer;
+    Progress  progress;
+    int       tables_done;
+    Arena     scratch;
 } Instrument;
 
 /* A normal deviate by Box and Muller from two hashes of (seed, table, value). */
-static double normal_deviate(const RecipeInstrument *instrument, int table, uint32_t value)
+static double normal_deviate(const SyntheticInstrument *instrument, int table, uint32_t value)
 {
     uint32_t h = hash_combine(hash_combine(hash_u32((uint32_t)instrument->seed),
                                            (uint32_t)table), value);
@@ -33,7 +33,7 @@ static double normal_deviate(const RecipeInstrument *instrument, int table, uint
 
 static double noisy(const Instrument *instrument, double value, double absolute, uint32_t index)
 {
-    const RecipeInstrument *i = &instrument->recipe->instrument;
+    const SyntheticInstrument *i = &instrument->panel->instrument;
     if (i->noise_relative == 0 && absolute == 0) return value;
     int table = instrument->tables_done;
     return value * (1 + i->noise_relative * normal_deviate(i, table, 2 * index)) +
@@ -49,7 +49,7 @@ static bool write_table(Instrument *instrument, const char *name, const Text *te
 
 static PolarGrid grid_of(const Instrument *instrument, double theta_step, double phi_step)
 {
-    double theta_max = instrument->recipe->instrument.theta_max_deg;
+    double theta_max = instrument->panel->instrument.theta_max_deg;
     return polar_grid(theta_step, phi_step, (int)(theta_max / theta_step + 1e-9));
 }
 
@@ -58,22 +58,22 @@ static PolarGrid grid_of(const Instrument *instrument, double theta_step, double
 /* primary -1: the black pattern. */
 static bool write_emission(Instrument *instrument, int primary, double level)
 {
-    const Recipe *recipe = instrument->recipe;
+    const SyntheticPanel *panel = instrument->panel;
     Arena arena = instrument->scratch;
     Text  text = {.arena = &arena};
-    PolarGrid grid = grid_of(instrument, recipe->instrument.theta_step_deg,
-                             recipe->instrument.phi_step_deg);
+    PolarGrid grid = grid_of(instrument, panel->instrument.theta_step_deg,
+                             panel->instrument.phi_step_deg);
     text_add(&text, "theta,phi,X,Y,Z\n");
     for (int i = 0; i < polar_grid_count(&grid); i++) {
         double degrees[2], xyz[3], add[3] = {0, 0, 0};
         polar_grid_direction(&grid, i, degrees);
         double angles[2] = {radians_from_degrees(degrees[0]), radians_from_degrees(degrees[1])};
-        truth_black_xyz(recipe, angles, xyz);
-        if (primary >= 0) truth_emission_xyz(recipe, primary, level, angles, add);
+        closed_form_black_xyz(panel, angles, xyz);
+        if (primary >= 0) closed_form_emission_xyz(panel, primary, level, angles, add);
         text_format(&text, "%.10g,%.10g", degrees[0], degrees[1]);
         for (int j = 0; j < 3; j++)
             text_format(&text, ",%.6g", noisy(instrument, xyz[j] + add[j],
-                                           recipe->instrument.noise_cd_m2,
+                                           panel->instrument.noise_cd_m2,
                                            (uint32_t)(3 * i + j)));
         text_add(&text, "\n");
     }
@@ -84,7 +84,7 @@ static bool write_emission(Instrument *instrument, int primary, double level)
 
 static bool write_all_emission(Instrument *instrument)
 {
-    const RecipeEmission *emission = &instrument->recipe->emission;
+    const SyntheticEmission *emission = &instrument->panel->emission;
     bool ok = write_emission(instrument, -1, 0);
     for (int p = 0; p < 3 && ok; p++)
         for (int i = 0; i < emission->level_count && ok; i++)
@@ -97,14 +97,14 @@ static bool write_all_emission(Instrument *instrument)
 static void add_brdf_row(Instrument *instrument, Text *text, double incidence,
                          const double degrees[2], uint32_t index)
 {
-    const Recipe *recipe = instrument->recipe;
-    const RecipeReflection *r = &recipe->reflection;
+    const SyntheticPanel *panel = instrument->panel;
+    const SyntheticReflection *r = &panel->reflection;
     text_format(text, "%.10g,%.10g", degrees[0], degrees[1]);
     for (int w = 0; w < r->wavelength_count; w++) {
-        double value = truth_instrument_brdf(recipe, incidence,
+        double value = closed_form_instrument_brdf(panel, incidence,
             radians_from_degrees(degrees[0]), radians_from_degrees(degrees[1]),
             r->wavelength_nm[w]);
-        text_format(text, ",%.5g", noisy(instrument, value, recipe->instrument.noise_brdf_sr,
+        text_format(text, ",%.5g", noisy(instrument, value, panel->instrument.noise_brdf_sr,
                                       index * (uint32_t)r->wavelength_count + (uint32_t)w));
     }
     text_add(text, "\n");
@@ -112,12 +112,12 @@ static void add_brdf_row(Instrument *instrument, Text *text, double incidence,
 
 static bool write_brdf(Instrument *instrument, double incidence_deg)
 {
-    const Recipe *recipe = instrument->recipe;
-    const RecipeReflection *r = &recipe->reflection;
+    const SyntheticPanel *panel = instrument->panel;
+    const SyntheticReflection *r = &panel->reflection;
     Arena arena = instrument->scratch;
     Text  text = {.arena = &arena};
-    PolarGrid grid = grid_of(instrument, recipe->instrument.brdf_theta_step_deg,
-                             recipe->instrument.brdf_phi_step_deg);
+    PolarGrid grid = grid_of(instrument, panel->instrument.brdf_theta_step_deg,
+                             panel->instrument.brdf_phi_step_deg);
     text_add(&text, "theta,phi");
     for (int w = 0; w < r->wavelength_count; w++)
         text_format(&text, ",%.10g", r->wavelength_nm[w]);
@@ -144,7 +144,7 @@ static bool write_spectra(Instrument *instrument)
         text_format(&text, "%d", nm);
         for (int p = 0; p < 3; p++)
             text_format(&text, ",%.6g",
-                     truth_spectrum(&instrument->recipe->emission.primary[p], nm));
+                     synthetic_panel_spectrum(&instrument->panel->emission.primary[p], nm));
         text_add(&text, "\n");
     }
     return set_writer_add(&instrument->writer, "primaries.csv", &text);
@@ -167,7 +167,7 @@ static void add_list(Text *text, const char *key, const double *value, int count
     text_add(text, "]");
 }
 
-static void add_emission(Text *text, const RecipeEmission *emission)
+static void add_emission(Text *text, const SyntheticEmission *emission)
 {
     text_add(text, "  \"emission\": {\n    \"black\": \"emission/black.csv\"");
     for (int p = 0; p < 3; p++) {
@@ -182,41 +182,41 @@ static void add_emission(Text *text, const RecipeEmission *emission)
 
 static bool write_manifest(Instrument *instrument)
 {
-    const Recipe *recipe = instrument->recipe;
+    const SyntheticPanel *panel = instrument->panel;
     Arena arena = instrument->scratch;
     Text  text = {.arena = &arena};
     text_add(&text, "{\n");
-    add_quoted(&text, "panel", recipe->panel);
+    add_quoted(&text, "panel", panel->name);
     text_format(&text, "  \"instrument\": \"simulated Fourier optics, %g deg\",\n",
-             recipe->instrument.theta_max_deg);
-    add_quoted(&text, "note", recipe->note);
-    text_format(&text, "  \"instrument_fwhm_deg\": %g,\n  ", recipe->instrument.fwhm_deg);
-    add_list(&text, "pixels", recipe->pixels, 2);
+             panel->instrument.theta_max_deg);
+    add_quoted(&text, "note", panel->note);
+    text_format(&text, "  \"instrument_fwhm_deg\": %g,\n  ", panel->instrument.fwhm_deg);
+    add_list(&text, "pixels", panel->pixels, 2);
     text_add(&text, ",\n  ");
-    add_list(&text, "size_mm", recipe->size_mm, 2);
+    add_list(&text, "size_mm", panel->size_mm, 2);
     text_add(&text, ",\n");
-    add_emission(&text, &recipe->emission);
+    add_emission(&text, &panel->emission);
     text_add(&text, "  \"primaries\": \"primaries.csv\"");
-    if (recipe->reflection.exists) {
+    if (panel->reflection.exists) {
         text_add(&text, ",\n  \"reflection\": {");
-        add_list(&text, "wavelengths_nm", recipe->reflection.wavelength_nm,
-                 recipe->reflection.wavelength_count);
+        add_list(&text, "wavelengths_nm", panel->reflection.wavelength_nm,
+                 panel->reflection.wavelength_count);
         text_add(&text, ",\n    ");
-        add_list(&text, "incidence_deg", recipe->reflection.incidence_deg,
-                 recipe->reflection.incidence_count);
+        add_list(&text, "incidence_deg", panel->reflection.incidence_deg,
+                 panel->reflection.incidence_count);
         text_add(&text, ",\n    \"files\": \"brdf/i{incidence}.csv\"}");
     }
     text_add(&text, "\n}\n");
     return set_writer_add(&instrument->writer, "MANIFEST.json", &text);
 }
 
-bool simulate_measurement(const Recipe *recipe, const char *folder, ProgressMode mode,
+bool simulate_measurement(const SyntheticPanel *panel, const char *folder, ProgressMode mode,
                           Error *err)
 {
-    const RecipeReflection *r = &recipe->reflection;
+    const SyntheticReflection *r = &panel->reflection;
     int        slices = r->exists ? r->incidence_count : 0;
-    int        tables = 1 + 3 * recipe->emission.level_count + slices;
-    Instrument instrument = {.recipe = recipe};
+    int        tables = 1 + 3 * panel->emission.level_count + slices;
+    Instrument instrument = {.panel = panel};
     Arena      arena = arena_reserve((size_t)16 << 30);
     bool       ok = set_writer_open(arena_format(&arena, "%s/MANIFEST.json", folder),
                                     &instrument.writer, err);

@@ -1,4 +1,4 @@
-/* simulate.h -- a virtual Fourier-optics instrument that measures a recipe's panel.
+/* simulate.h -- a virtual Fourier-optics instrument that measures a synthetic panel.
  *
  * Writes a measurement set (assets/schemas): MANIFEST.json, tables in emission/ and brdf/ (one
  * file an incidence, one column a wavelength) and primaries.csv. The instrument sees all
@@ -12,5 +12,5 @@
 #include "panel/set/synthetic_panel.h"
 
 /* `folder` and its sub-folders are made when absent; existing files are replaced. */
-bool simulate_measurement(const Recipe *recipe, const char *folder, ProgressMode mode,
+bool simulate_measurement(const SyntheticPanel *panel, const char *folder, ProgressMode mode,
                           Error *err);

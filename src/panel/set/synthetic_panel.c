@@ -7,34 +7,35 @@
 
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
-static void default_levels(RecipeEmission *emission)
+static void default_levels(SyntheticEmission *emission)
 {
     static const double levels[] = {31, 63, 95, 127, 159, 191, 223, 255};
     emission->level_count = COUNT(levels);
     for (int i = 0; i < COUNT(levels); i++) emission->level[i] = levels[i];
 }
 
-static Recipe recipe_defaults(void)
+static SyntheticPanel synthetic_panel_defaults(void)
 {
-    Recipe recipe = {.panel = "synthetic panel", .note = "synthetic", .pixels = {1920, 720},
-                     .size_mm = {292, 109.5}, .refractive_index = 1.5};
-    recipe.emission.gamma = 2.2;
-    recipe.emission.cosine_power[0] = recipe.emission.cosine_power[1] = 1;
-    recipe.emission.lobe_width = radians_from_degrees(10);
-    default_levels(&recipe.emission);
-    recipe.reflection.coating = 1;
-    recipe.reflection.haze_width = 0.05;
-    recipe.reflection.haze_power = 1.5;
-    for (int i = 0; i < 6; i++) recipe.reflection.incidence_deg[i] = 10 * (i + 1);
-    for (int i = 0; i < 31; i++) recipe.reflection.wavelength_nm[i] = 400 + 10 * i;
-    recipe.reflection.incidence_count = 6;
-    recipe.reflection.wavelength_count = 31;
-    recipe.instrument = (RecipeInstrument){.theta_max_deg = 88, .theta_step_deg = 1,
+    SyntheticPanel panel = {.name = "synthetic panel", .note = "synthetic",
+                            .pixels = {1920, 720}, .size_mm = {292, 109.5},
+                            .refractive_index = 1.5};
+    panel.emission.gamma = 2.2;
+    panel.emission.cosine_power[0] = panel.emission.cosine_power[1] = 1;
+    panel.emission.lobe_width = radians_from_degrees(10);
+    default_levels(&panel.emission);
+    panel.reflection.coating = 1;
+    panel.reflection.haze_width = 0.05;
+    panel.reflection.haze_power = 1.5;
+    for (int i = 0; i < 6; i++) panel.reflection.incidence_deg[i] = 10 * (i + 1);
+    for (int i = 0; i < 31; i++) panel.reflection.wavelength_nm[i] = 400 + 10 * i;
+    panel.reflection.incidence_count = 6;
+    panel.reflection.wavelength_count = 31;
+    panel.instrument = (SyntheticInstrument){.theta_max_deg = 88, .theta_step_deg = 1,
         .phi_step_deg = 2, .fwhm_deg = 2, .seed = 1};
-    return recipe;
+    return panel;
 }
 
-double truth_spectrum(const RecipePrimary *primary, double nm)
+double synthetic_panel_spectrum(const SyntheticPrimary *primary, double nm)
 {
     double sum = 0;
     for (int i = 0; i < primary->peak_count; i++) {
@@ -45,11 +46,11 @@ double truth_spectrum(const RecipePrimary *primary, double nm)
 }
 
 /* W_p: the spectrum as the CIE 1931 observer sees it, scaled to the primary's luminance. */
-static void find_white_point(RecipePrimary *primary)
+static void find_white_point(SyntheticPrimary *primary)
 {
     double xyz[3] = {0, 0, 0};
     for (int i = 0; i < SPECTRAL_COUNT; i++) {
-        double value = truth_spectrum(primary, SPECTRAL_FIRST_NM + i);
+        double value = synthetic_panel_spectrum(primary, SPECTRAL_FIRST_NM + i);
         xyz[0] += value * (double)spectral_table[i].x;
         xyz[1] += value * (double)spectral_table[i].y;
         xyz[2] += value * (double)spectral_table[i].z;
@@ -66,7 +67,7 @@ static bool same_length(const JsonView *view, const int counts[3], Error *err)
                     counts[0], counts[1], counts[2]);
 }
 
-static bool read_primary(const JsonView *emission, const char *name, RecipePrimary *out,
+static bool read_primary(const JsonView *emission, const char *name, SyntheticPrimary *out,
                          Error *err)
 {
     static const char *const keys[] = {"luminance_cd_m2", "peaks_nm", "fwhm_nm", "weights",
@@ -77,11 +78,11 @@ static bool read_primary(const JsonView *emission, const char *name, RecipePrima
     if (!json_view_child(emission, name, true, &view, err) ||
         !json_view_check_keys(&view, keys, COUNT(keys), err) ||
         !json_view_number(&view, "luminance_cd_m2", 1e-3, 1e5, &out->luminance_cd_m2, err) ||
-        !json_view_numbers(&view, "peaks_nm", (JsonRange){360, 830, RECIPE_PEAKS_MAX},
+        !json_view_numbers(&view, "peaks_nm", (JsonRange){360, 830, SYNTHETIC_PEAKS_MAX},
                            out->peak_nm, &counts[0], err) ||
-        !json_view_numbers(&view, "fwhm_nm", (JsonRange){2, 400, RECIPE_PEAKS_MAX},
+        !json_view_numbers(&view, "fwhm_nm", (JsonRange){2, 400, SYNTHETIC_PEAKS_MAX},
                            out->fwhm_nm, &counts[1], err) ||
-        !json_view_numbers(&view, "weights", (JsonRange){1e-6, 1e6, RECIPE_PEAKS_MAX},
+        !json_view_numbers(&view, "weights", (JsonRange){1e-6, 1e6, SYNTHETIC_PEAKS_MAX},
                            out->weight, &counts[2], err) ||
         !json_view_numbers(&view, "shift", (JsonRange){-5, 5, 3},
                            out->shift, &shifts, err))
@@ -94,7 +95,7 @@ static bool read_primary(const JsonView *emission, const char *name, RecipePrima
     return true;
 }
 
-static bool read_lobe(const JsonView *emission, RecipeEmission *out, Error *err)
+static bool read_lobe(const JsonView *emission, SyntheticEmission *out, Error *err)
 {
     static const char *const keys[] = {"theta_deg", "phi_deg", "width_deg", "gain"};
     JsonView view;
@@ -112,9 +113,9 @@ static bool read_lobe(const JsonView *emission, RecipeEmission *out, Error *err)
     return true;
 }
 
-static bool read_levels(const JsonView *view, RecipeEmission *out, Error *err)
+static bool read_levels(const JsonView *view, SyntheticEmission *out, Error *err)
 {
-    if (!json_view_numbers(view, "levels", (JsonRange){1, 255, RECIPE_LEVELS_MAX},
+    if (!json_view_numbers(view, "levels", (JsonRange){1, 255, SYNTHETIC_LEVELS_MAX},
                            out->level, &out->level_count, err))
         return false;
     for (int i = 1; i < out->level_count; i++)
@@ -125,7 +126,7 @@ static bool read_levels(const JsonView *view, RecipeEmission *out, Error *err)
     return true;
 }
 
-static bool read_emission(const JsonView *root, RecipeEmission *out, Error *err)
+static bool read_emission(const JsonView *root, SyntheticEmission *out, Error *err)
 {
     static const char *const keys[] = {"red", "green", "blue", "gamma", "gamma_drop",
                                        "cosine_power", "black_cd_m2", "leak", "lobe", "levels"};
@@ -145,7 +146,7 @@ static bool read_emission(const JsonView *root, RecipeEmission *out, Error *err)
            read_lobe(&view, out, err) && read_levels(&view, out, err);
 }
 
-static bool read_reflection(const JsonView *root, RecipeReflection *out, Error *err)
+static bool read_reflection(const JsonView *root, SyntheticReflection *out, Error *err)
 {
     static const char *const keys[] = {"coating", "coating_blue", "haze_share", "haze_width",
         "haze_power", "floor_albedo", "incidence_deg", "wavelengths_nm"};
@@ -158,15 +159,16 @@ static bool read_reflection(const JsonView *root, RecipeReflection *out, Error *
            json_view_number(&view, "haze_share", 0, 1, &out->haze_share, err) &&
            json_view_number(&view, "haze_width", 1e-3, 1, &out->haze_width, err) &&
            json_view_number(&view, "haze_power", 1.1, 10, &out->haze_power, err) &&
-           json_view_number(&view, "floor_albedo", 0, 0.5, &out->floor_albedo, err) &&
-           json_view_numbers(&view, "incidence_deg", (JsonRange){0, 85, RECIPE_INCIDENCES_MAX},
+           json_view_number(&view, "floor_albedo", 0, 0.5, &out->lambertian_albedo, err) &&
+           json_view_numbers(&view, "incidence_deg",
+                             (JsonRange){0, 85, SYNTHETIC_INCIDENCES_MAX},
                            out->incidence_deg, &out->incidence_count, err) &&
            json_view_numbers(&view, "wavelengths_nm",
-                             (JsonRange){360, 830, RECIPE_WAVELENGTHS_MAX},
+                             (JsonRange){360, 830, SYNTHETIC_WAVELENGTHS_MAX},
                              out->wavelength_nm, &out->wavelength_count, err);
 }
 
-static bool read_instrument(const JsonView *root, RecipeInstrument *out, Error *err)
+static bool read_instrument(const JsonView *root, SyntheticInstrument *out, Error *err)
 {
     static const char *const keys[] = {"theta_max_deg", "theta_step_deg", "phi_step_deg",
         "brdf_theta_step_deg", "brdf_phi_step_deg", "fwhm_deg", "noise_relative",
@@ -191,13 +193,13 @@ static bool read_instrument(const JsonView *root, RecipeInstrument *out, Error *
         json_view_number(&view, "seed", 0, 4294967295.0, &out->seed, err);
 }
 
-static bool read_members(const JsonView *root, Recipe *out, Error *err)
+static bool read_members(const JsonView *root, SyntheticPanel *out, Error *err)
 {
     static const char *const keys[] = {"panel", "note", "pixels", "size_mm",
         "refractive_index", "emission", "reflection", "instrument"};
     int two = 2;
     return json_view_check_keys(root, keys, COUNT(keys), err) &&
-           json_view_text(root, "panel", &out->panel, err) &&
+           json_view_text(root, "panel", &out->name, err) &&
            json_view_text(root, "note", &out->note, err) &&
            json_view_numbers(root, "pixels", (JsonRange){1, 65536, 2},
                            out->pixels, &two, err) &&
@@ -209,13 +211,13 @@ static bool read_members(const JsonView *root, Recipe *out, Error *err)
            read_instrument(root, &out->instrument, err);
 }
 
-bool recipe_read(const char *file, Arena *arena, Recipe *out, Error *err)
+bool synthetic_panel_read(const char *file, Arena *arena, SyntheticPanel *out, Error *err)
 {
-    JsonView root;
-    Recipe   recipe = recipe_defaults();
+    JsonView       root;
+    SyntheticPanel panel = synthetic_panel_defaults();
     if (!json_view_open(file, arena, &root, err)) return false;
-    bool ok = read_members(&root, &recipe, err);
+    bool ok = read_members(&root, &panel, err);
     json_view_close(&root);
-    if (ok) *out = recipe;
+    if (ok) *out = panel;
     return ok;
 }

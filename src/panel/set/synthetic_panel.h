@@ -1,11 +1,11 @@
 /* synthetic_panel.h -- a synthetic panel whose every value is known in closed form.
  *
- * A recipe stands where a laboratory's panel would stand: `panel simulate` measures it with a
- * virtual instrument, and tests compare what a fit says with the truth below.
+ * It stands where a laboratory's panel would stand: `panel simulate` measures it with a
+ * virtual instrument, and tests compare what a fit says with its closed form (closed_form.h).
  *
  * Frame    the display's: theta from the normal, phi 0 right, 90 up (radians here).
  * Units    XYZ with Y in cd m^-2; BRDF in sr^-1 without the cosine; angles in files in degrees.
- * Threads  a Recipe is const once it is read.
+ * Threads  const once it is read.
  *
  * Emission, primary p, level g, tristimulus component j (s = sin^2 theta):
  *   E_pj = W_pj (g/255)^(gamma - gamma_drop s) A exp(shift_pj s)
@@ -22,66 +22,67 @@
  *   haze   = share sqrt(R(theta_i) R(theta_o)) K(|beta_o - beta_mirror|)
  *   K(b)   = (s - 1) / (pi w^2) (1 + (b/w)^2)^-s      (its integral over the plane is one)
  *   mirror = (1 - share) R(theta)                      (the delta part)
- *   floor  = rho / pi (1 - F(theta_i)) (1 - F(theta_o))
+ *   lambertian = rho / pi (1 - F(theta_i)) (1 - F(theta_o))
  * Reciprocal, and never more than R + rho.
  */
 #pragma once
 #include "base/arena.h"
 #include "base/error.h"
 
-#define RECIPE_PEAKS_MAX 8
-#define RECIPE_LEVELS_MAX 32
-#define RECIPE_INCIDENCES_MAX 24
-#define RECIPE_WAVELENGTHS_MAX 128
+#define SYNTHETIC_PEAKS_MAX 8
+#define SYNTHETIC_LEVELS_MAX 32
+#define SYNTHETIC_INCIDENCES_MAX 24
+#define SYNTHETIC_WAVELENGTHS_MAX 128
 
-typedef struct RecipePrimary {
+typedef struct SyntheticPrimary {
     double luminance_cd_m2; /* of this primary alone at level 255 on the axis */
     double shift[3];        /* exponents of X, Y, Z over sin^2 theta */
     int    peak_count;
-    double peak_nm[RECIPE_PEAKS_MAX], fwhm_nm[RECIPE_PEAKS_MAX], weight[RECIPE_PEAKS_MAX];
+    double peak_nm[SYNTHETIC_PEAKS_MAX], fwhm_nm[SYNTHETIC_PEAKS_MAX];
+    double weight[SYNTHETIC_PEAKS_MAX];
     double white_xyz[3];    /* W_p above, cd m^-2 */
-} RecipePrimary;
+} SyntheticPrimary;
 
-typedef struct RecipeEmission {
-    RecipePrimary primary[3];
+typedef struct SyntheticEmission {
+    SyntheticPrimary primary[3];
     double gamma, gamma_drop;
     double cosine_power[2];  /* n_h, n_v */
     double black_cd_m2, leak;
     double lobe_theta, lobe_phi, lobe_width, lobe_gain; /* radians; gain 0: none */
     int    level_count;
-    double level[RECIPE_LEVELS_MAX]; /* measured codes, rising, without 0 */
-} RecipeEmission;
+    double level[SYNTHETIC_LEVELS_MAX]; /* measured codes, rising, without 0 */
+} SyntheticEmission;
 
-typedef struct RecipeReflection {
+typedef struct SyntheticReflection {
     bool   exists;
     double coating, coating_blue;
     double haze_share, haze_width, haze_power; /* w without unit, s above 1 */
-    double floor_albedo;
+    double lambertian_albedo;
     int    incidence_count, wavelength_count;
-    double incidence_deg[RECIPE_INCIDENCES_MAX];
-    double wavelength_nm[RECIPE_WAVELENGTHS_MAX];
-} RecipeReflection;
+    double incidence_deg[SYNTHETIC_INCIDENCES_MAX];
+    double wavelength_nm[SYNTHETIC_WAVELENGTHS_MAX];
+} SyntheticReflection;
 
 /* The virtual instrument. Noise: value (1 + relative n) + absolute n', n normal. */
-typedef struct RecipeInstrument {
+typedef struct SyntheticInstrument {
     double theta_max_deg, theta_step_deg, phi_step_deg;
     double brdf_theta_step_deg, brdf_phi_step_deg;
     double fwhm_deg; /* how wide a mirror image of a point looks */
     double noise_relative, noise_cd_m2, noise_brdf_sr;
     double seed;
-} RecipeInstrument;
+} SyntheticInstrument;
 
-typedef struct Recipe {
-    const char *panel, *note;
+typedef struct SyntheticPanel {
+    const char *name, *note;
     double pixels[2], size_mm[2];
     double refractive_index;
-    RecipeEmission   emission;
-    RecipeReflection reflection;
-    RecipeInstrument instrument;
-} Recipe;
+    SyntheticEmission   emission;
+    SyntheticReflection reflection;
+    SyntheticInstrument instrument;
+} SyntheticPanel;
 
-/* Reads and checks a recipe; unknown keys are errors. Texts live in the arena. */
-bool recipe_read(const char *file, Arena *arena, Recipe *out, Error *err);
+/* Reads and checks a *.recipe.json; unknown keys are errors. Texts live in the arena. */
+bool synthetic_panel_read(const char *file, Arena *arena, SyntheticPanel *out, Error *err);
 
 /* Spectral shape of a primary, relative. */
-double truth_spectrum(const RecipePrimary *primary, double nm);
+double synthetic_panel_spectrum(const SyntheticPrimary *primary, double nm);

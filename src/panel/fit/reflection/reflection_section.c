@@ -164,7 +164,7 @@ static void fill_lambertian(const ReflectionModel *model, const SectionDraft *se
         double *list = ARENA_NEW(&scratch, double, model->parts->haze[t].rows), sum = 0;
         for (int w = 0; w < model->wavelengths; w++) {
             double value = lambertian_of(&model->parts->haze[t], w, list);
-            shorts(section->layout.floor)[t * model->wavelengths + w] =
+            shorts(section->layout.lambertian)[t * model->wavelengths + w] =
                 stepped(log_d(value), (double)section->stored->mean_scale);
             sum += model->parts->luminous[w] * value;
         }
