@@ -63,7 +63,7 @@ static void print_figure(const char *name, Measured figure, const char *unit)
     else printf("%-12s %.6g +- %.2g%s\n", name, figure.value, figure.half_width, unit);
 }
 
-static void print_text(const Measurement *m)
+static void print_text(const FrameMeasurement *m)
 {
     printf("%-12s %ld\n", "pixels", m->pixels);
     if (m->nonfinite) printf("%-12s %ld\n", "left out", m->nonfinite);
@@ -105,7 +105,7 @@ static void set_pair(json_t *answer, const char *key, json_t *first, json_t *sec
     json_object_set_new(answer, key, json_pack("[o,o]", first, second));
 }
 
-static json_t *missing(const Measurement *m)
+static json_t *missing(const FrameMeasurement *m)
 {
     json_t *list = json_array();
     if (!m->has_variance) json_array_append_new(list, json_string("variance"));
@@ -113,7 +113,7 @@ static json_t *missing(const Measurement *m)
     return list;
 }
 
-static json_t *json_contrast(const Measurement *m)
+static json_t *json_contrast(const FrameMeasurement *m)
 {
     if (!m->has_contrast) return json_null();
     return json_pack("{s:o, s:o, s:o, s:o, s:o, s:I}", "value", number(m->contrast.value),
@@ -122,7 +122,7 @@ static json_t *json_contrast(const Measurement *m)
                      "pixels", (json_int_t)m->display_pixels);
 }
 
-static bool print_json(const MeasureWords *typed, const Measurement *m, Error *err)
+static bool print_json(const MeasureWords *typed, const FrameMeasurement *m, Error *err)
 {
     const MeasureRequest *r = &typed->request;
     json_t *answer = json_pack(
@@ -147,7 +147,7 @@ static bool print_json(const MeasureWords *typed, const Measurement *m, Error *e
 static bool measure(const MeasureWords *typed, Arena *arena, Error *err)
 {
     FrameImage  frame;
-    Measurement measured;
+    FrameMeasurement measured;
     if (typed->luxmeter.given)
         return measure_illuminance(&typed->cli, &typed->luxmeter, arena, err);
     if (!frame_read(typed->request.frame_name, arena, &frame, err)) return false;

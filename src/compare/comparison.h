@@ -31,7 +31,7 @@ typedef struct CompareOptions {
 typedef struct ContrastChange {
     const char *display;
     bool        has; /* both frames tell it */
-    Measurement reference, test;
+    FrameMeasurement reference, test;
     Measured    ratio; /* test over reference, with its 95 % interval's half width */
 } ContrastChange;
 

@@ -138,7 +138,7 @@ static void chromaticity_of(const double rgb[3], double xyuv[4], double xyz[3])
 }
 
 /* First-order propagation of the channels' variances, the slopes by central differences. */
-static void measure_colour(const double rgb[3], const double variance[3], Measurement *out)
+static void measure_colour(const double rgb[3], const double variance[3], FrameMeasurement *out)
 {
     double    mean[4], spread[4] = {0, 0, 0, 0}, unused[3];
     Measured *figures[4] = {&out->x, &out->y, &out->u, &out->v};
@@ -163,7 +163,7 @@ static void measure_colour(const double rgb[3], const double variance[3], Measur
 }
 
 /* dC/dr = (black - white) / (black + r)^2: only the reflected light is noisy. */
-static void measure_contrast(const Sums *sums, Measurement *out)
+static void measure_contrast(const Sums *sums, FrameMeasurement *out)
 {
     double n = (double)sums->display_pixels;
     out->display_pixels = sums->display_pixels;
@@ -179,12 +179,12 @@ static void measure_contrast(const Sums *sums, Measurement *out)
     out->contrast.half_width = out->has_variance ? SIGMAS_95 * fabs(slope) * sigma : NAN;
 }
 
-static Measurement figures_of(const Sums *sums, bool has_variance)
+static FrameMeasurement figures_of(const Sums *sums, bool has_variance)
 {
     double      n = (double)sums->pixels, rgb[3], variance[3];
-    Measurement out = {.pixels = sums->pixels, .nonfinite = sums->nonfinite,
-                       .has_variance = has_variance, .least = sums->least,
-                       .greatest = sums->greatest};
+    FrameMeasurement out = {.pixels = sums->pixels, .nonfinite = sums->nonfinite,
+                            .has_variance = has_variance, .least = sums->least,
+                            .greatest = sums->greatest};
     for (int c = 0; c < 3; c++) {
         rgb[c] = sums->rgb[c] / n;
         variance[c] = sums->variance[c] / (n * n);
@@ -214,7 +214,7 @@ static bool check_region(const FrameImage *frame, const MeasureRequest *request,
 }
 
 bool measure_frame(const FrameImage *frame, const MeasureRequest *request, Arena scratch,
-                   Measurement *out, Error *err)
+                   FrameMeasurement *out, Error *err)
 {
     RegionPlanes    planes = {0};
     Sums      sums = {.least = INFINITY, .greatest = -INFINITY};

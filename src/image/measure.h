@@ -23,7 +23,7 @@ typedef struct Measured {
     double value, half_width;
 } Measured;
 
-typedef struct Measurement {
+typedef struct FrameMeasurement {
     long     pixels;    /* that were taken */
     long     nonfinite; /* that were left out, NaN or infinite */
     double   xyz[3];    /* mean, cd m^-2 */
@@ -35,7 +35,7 @@ typedef struct Measurement {
     long     display_pixels;
     double   white, black, reflected; /* means over the display's pixels, cd m^-2 */
     Measured contrast; /* (white + reflected) / (black + reflected) */
-} Measurement;
+} FrameMeasurement;
 
 bool measure_frame(const FrameImage *frame, const MeasureRequest *request, Arena scratch,
-                   Measurement *out, Error *err);
+                   FrameMeasurement *out, Error *err);

@@ -54,7 +54,7 @@ void fuzz_frame(const uint8_t *data, size_t size, Arena *arena)
     const ExrWindow shown = frame.display; /* figures are taken over all of it */
     size_t shown_pixels = (size_t)(shown.x1 - shown.x0) * (size_t)(shown.y1 - shown.y0);
     if (shown_pixels > SHOWN_PIXELS || !frame_rgb(&frame, "", rgb)) return;
-    Measurement    figures;
+    FrameMeasurement figures;
     MeasureRequest request = {.frame_name = "frame.exr"};
     small.end = arena->end;
     if (!measure_frame(&frame, &request, small, &figures, &err)) fuzz_claim_refusal(&err);

@@ -3,9 +3,9 @@
 
 #include "image/measure.h"
 
-static Measurement measure(const FrameImage *frame, MeasureRequest request, Arena arena)
+static FrameMeasurement measure(const FrameImage *frame, MeasureRequest request, Arena arena)
 {
-    Measurement m;
+    FrameMeasurement m;
     Error       err = {0};
     request.frame_name = "f.exr";
     if (!measure_frame(frame, &request, arena, &m, &err)) fail_msg("%s", err.text);
@@ -28,7 +28,7 @@ TEST(a_region_has_the_mean_of_its_pixels)
     FrameImage frame = uniform_frame(10, 10, 100, &arena);
     for (int c = 0; c < 3; c++) frame.channels[c].values[0] = 500;
     MeasureRequest corner = {.has_region = true, .region = {0, 0, 2, 2}};
-    Measurement    m = measure(&frame, corner, arena);
+    FrameMeasurement m = measure(&frame, corner, arena);
     assert_int_equal(m.pixels, 4);
     assert_close(m.luminance.value, 200, 1e-5);
     assert_close(m.least, 100, 1e-5);
@@ -50,7 +50,7 @@ TEST(intervals_follow_from_the_variance_layer)
     Arena      arena = test_arena(state);
     FrameImage frame = uniform_frame(10, 10, 100, &arena);
     add_layer(&frame, "variance", 4, &arena);
-    Measurement m = measure(&frame, (MeasureRequest){0}, arena);
+    FrameMeasurement m = measure(&frame, (MeasureRequest){0}, arena);
     assert_close(m.luminance.half_width, 1.959964 * 0.2, 1e-4);
     assert_true(m.x.half_width > 0 && m.x.half_width < 0.01);
 }
@@ -75,7 +75,7 @@ TEST(the_interval_of_chromaticity_covers)
             }
             if (trial >= 0) frame.channels[c].values[0] += (float)(2 * sum);
         }
-        Measurement m = measure(&frame, (MeasureRequest){0}, scratch);
+        FrameMeasurement m = measure(&frame, (MeasureRequest){0}, scratch);
         if (trial < 0) truth = m.x.value;
         else inside += fabs(m.x.value - truth) <= m.x.half_width;
     }
@@ -94,7 +94,7 @@ TEST(a_display_has_its_contrast)
     for (int i = 0; i < 100; i++) id[i] = i < 50 ? 1 : i < 60 ? 0 : -1;
     frame_set_string(&frame, "parhelion:display.0", "centre", &arena);
     frame_set_string(&frame, "parhelion:display.1", "cluster", &arena);
-    Measurement m = measure(&frame, (MeasureRequest){.display = "cluster"}, arena);
+    FrameMeasurement m = measure(&frame, (MeasureRequest){.display = "cluster"}, arena);
     assert_int_equal(m.pixels, 50);
     assert_true(m.has_contrast);
     assert_close(m.contrast.value, 420 / 20.4, 1e-5);
@@ -108,7 +108,7 @@ TEST(what_cannot_be_measured_is_told)
     Arena          arena = test_arena(state);
     FrameImage     frame = uniform_frame(10, 10, 100, &arena);
     MeasureRequest request = {"f.exr", true, {5, 5, 11, 8}, NULL};
-    Measurement    m;
+    FrameMeasurement m;
     Error          err = {0};
     assert_false(measure_frame(&frame, &request, arena, &m, &err));
     assert_error_has(&err, "inside the frame's pixels 0,0,10,10");

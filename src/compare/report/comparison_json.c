@@ -69,7 +69,7 @@ static json_t *contrast_json(const Comparison *c)
     json_t *object = json_object();
     for (int i = 0; i < c->contrast_count; i++) {
         const ContrastChange *d = &c->contrasts[i];
-        const Measurement    *a = &d->reference, *b = &d->test;
+        const FrameMeasurement *a = &d->reference, *b = &d->test;
         json_t *name = json_text(d->display);
         json_t *entry = json_pack(
             "{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "reference", number(a->contrast.value),
