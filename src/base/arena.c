@@ -1,6 +1,5 @@
 #include "base/arena.h"
 
-#include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -120,4 +119,11 @@ char *arena_format(Arena *arena, const char *format, ...)
     va_end(again);
     va_end(args);
     return text;
+}
+
+char *arena_format_list(Arena *arena, size_t most, const char *format, va_list list)
+{
+    char text[ARENA_FORMAT_MOST + 1];
+    vsnprintf(text, most < sizeof text ? most + 1 : sizeof text, format, list);
+    return arena_string(arena, text, strlen(text));
 }

@@ -10,6 +10,7 @@
  * used before is zeroed again by arena_alloc.
  */
 #pragma once
+#include <stdarg.h>
 #include <stddef.h>
 
 #ifdef __cplusplus
@@ -47,6 +48,12 @@ char *arena_string(Arena *arena, const char *text, size_t length);
 /* printf into the arena. */
 char *arena_format(Arena *arena, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
+
+/* The same for a function that is itself like printf, cut at `most` bytes (ARENA_FORMAT_MOST at
+ * most). The arguments may lie in scratch behind the arena's end. */
+#define ARENA_FORMAT_MOST 2047
+char *arena_format_list(Arena *arena, size_t most, const char *format, va_list list)
+    __attribute__((format(printf, 3, 0)));
 
 #ifdef __cplusplus
 }

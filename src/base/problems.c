@@ -1,6 +1,5 @@
 #include "base/problems.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -30,15 +29,21 @@ static void append(Problems *problems, Severity severity, const char *file, cons
     problems->error_count += severity == SEVERITY_ERROR;
 }
 
+void problems_add_list(Problems *problems, Severity severity, const char *file,
+                       const char *path, const char *format, va_list list)
+{
+    char message[1024];
+    vsnprintf(message, sizeof message, format, list);
+    append(problems, severity, file, path, message);
+}
+
 void problems_add(Problems *problems, Severity severity, const char *file, const char *path,
                   const char *format, ...)
 {
-    char message[1024];
-    va_list args;
-    va_start(args, format);
-    vsnprintf(message, sizeof message, format, args);
-    va_end(args);
-    append(problems, severity, file, path, message);
+    va_list list;
+    va_start(list, format);
+    problems_add_list(problems, severity, file, path, format, list);
+    va_end(list);
 }
 
 void problems_add_error(Problems *problems, const Error *error)

@@ -3,6 +3,8 @@
  * Memory   the list grows in its arena. Threads: one thread at a time.
  */
 #pragma once
+#include <stdarg.h>
+
 #include "base/arena.h"
 #include "base/error.h"
 
@@ -25,6 +27,11 @@ Problems problems_start(Arena *arena);
 /* Adds one; texts are copied. */
 void problems_add(Problems *problems, Severity severity, const char *file, const char *path,
                   const char *format, ...) __attribute__((format(printf, 5, 6)));
+
+/* The same for a function that is itself like printf. */
+void problems_add_list(Problems *problems, Severity severity, const char *file,
+                       const char *path, const char *format, va_list list)
+    __attribute__((format(printf, 5, 0)));
 
 /* An Error as an entry. */
 void problems_add_error(Problems *problems, const Error *error);

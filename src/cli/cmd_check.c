@@ -10,8 +10,6 @@
 #include "scene/load/scene_load.h"
 #include "text/json_text.h"
 
-#define ARENA_BYTES ((size_t)64 << 30) /* address space; pages come when touched */
-
 static double degrees(float radians)
 {
     return degrees_from_radians((double)radians);
@@ -245,14 +243,6 @@ static json_t *json_cameras(const Scene *scene)
     return list;
 }
 
-static json_t *json_extensions(const Scene *scene)
-{
-    json_t *list = json_array();
-    for (int i = 0; i < scene->extension_count; i++)
-        json_array_append_new(list, json_text(scene->extensions[i]));
-    return list;
-}
-
 static bool print_json(const Scene *scene, const Problems *problems, Error *err)
 {
     json_t *list = cli_json_problems(problems, SEVERITY_ERROR);
@@ -266,47 +256,40 @@ static bool print_json(const Scene *scene, const Problems *problems, Error *err)
                                     "cameras", json_cameras(scene), "materials",
                                     scene->material_count, "textures", scene->texture_count,
                                     "triangles", (json_int_t)scene->triangle_count,
-                                    "extensions", json_extensions(scene)),
+                                    "extensions", json_texts(scene->extensions,
+                                                             scene->extension_count)),
                           err);
 }
 
 /* ---- the command ----------------------------------------------------------------------- */
 
-static bool run_check(int argc, char **argv, Error *err)
+static bool run_check(int argc, char **argv, Arena *arena, Error *err)
 {
     const char *root = NULL;
     const Option options[] = {
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &root, .given = NULL},
     };
-    const CliCommand command = {"check",
-                                "what is in a scene, and everything that is wrong with it",
-                                "SCENE.gltf|.glb [LIGHTS.gltf|.glb ...]",
-                                "parhelion check scenes/car_dashboard.gltf scenes/noon.gltf",
-                                options,
-                                1,
-                                1,
-                                -1};
+    const CliCommand command = {
+        "check", "what is in a scene, and everything that is wrong with it",
+        "SCENE.gltf|.glb [LIGHTS.gltf|.glb ...]",
+        "parhelion check scenes/car_dashboard.gltf scenes/noon.gltf", options, 1, 1, -1};
     Cli cli;
-    Arena arena = arena_reserve(ARENA_BYTES);
-    bool done = cli_parse(&command, argc, argv, &arena, &cli, err);
-    if (done && !cli.help_shown) done = reference_check_root(root, err);
-    if (done && !cli.help_shown) {
-        Problems problems = problems_start(&arena);
-        const SceneOptions files = {
-            .paths = cli.arguments, .path_count = cli.argument_count, .root = root};
-        Scene *scene = scene_survey(&files, &arena, &problems);
-        if (cli.json)
-            done = print_json(scene, &problems, err);
-        else
-            print_report(scene, &problems);
-        scene_close(scene);
-        if (done && problems.error_count) {
-            *err = (Error){.code = ERROR_INPUT}; /* said already, problem by problem */
-            done = false;
-        }
-    }
-    arena_release(&arena);
-    return done;
+    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return false;
+    if (cli.help_shown) return true;
+    if (!reference_check_root(root, err)) return false;
+    Problems problems = problems_start(arena);
+    const SceneOptions files = {
+        .paths = cli.arguments, .path_count = cli.argument_count, .root = root};
+    Scene *scene = scene_survey(&files, arena, &problems);
+    bool   done = true;
+    if (cli.json)
+        done = print_json(scene, &problems, err);
+    else
+        print_report(scene, &problems);
+    scene_close(scene);
+    if (!done || !problems.error_count) return done;
+    *err = (Error){.code = ERROR_INPUT}; /* said already, problem by problem */
+    return false;
 }
 
 const Command command_check = {

@@ -11,8 +11,6 @@
 #include "compare/report/junit.h"
 #include "text/json_text.h"
 
-#define MEMORY_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
-
 /* What is collected on the way, for every kind of answer. */
 typedef struct CompareRun {
     const CompareRequest *request;
@@ -196,14 +194,11 @@ static bool compare(const CompareRequest *request, Arena *arena, Error *err)
     return ok;
 }
 
-static bool run_compare(int argc, char **argv, Error *err)
+static bool run_compare(int argc, char **argv, Arena *arena, Error *err)
 {
-    Arena          arena = arena_reserve(MEMORY_BYTES);
     CompareRequest request = {0};
-    bool ok = compare_parse(argc, argv, &arena, &request, err) &&
-              (request.cli.help_shown || compare(&request, &arena, err));
-    arena_release(&arena);
-    return ok;
+    return compare_parse(argc, argv, arena, &request, err) &&
+           (request.cli.help_shown || compare(&request, arena, err));
 }
 
 const Command command_compare = {

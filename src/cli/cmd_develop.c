@@ -9,8 +9,6 @@
 #include "image/exposure.h"
 #include "text/json_text.h"
 
-#define MEMORY_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
-
 typedef struct DevelopWords {
     const char    *frame, *output;
     DevelopOptions options;
@@ -103,14 +101,11 @@ static bool develop(DevelopWords *typed, Arena *arena, Error *err)
     return true;
 }
 
-static bool run_develop(int argc, char **argv, Error *err)
+static bool run_develop(int argc, char **argv, Arena *arena, Error *err)
 {
-    Arena arena = arena_reserve(MEMORY_BYTES);
     DevelopWords typed = {0};
-    bool  ok = parse(argc, argv, &arena, &typed, err) &&
-              (typed.cli.help_shown || develop(&typed, &arena, err));
-    arena_release(&arena);
-    return ok;
+    return parse(argc, argv, arena, &typed, err) &&
+           (typed.cli.help_shown || develop(&typed, arena, err));
 }
 
 const Command command_develop = {"develop", "make a picture of a frame", run_develop};

@@ -8,7 +8,6 @@
 #include "cli/options/cli.h"
 #include "cli/options/guides.h"
 
-#define MEMORY_BYTES ((size_t)1 << 24)
 #define WORDS_MAX 8   /* of a command's name: "panel fit" */
 #define NAMES_MAX 128 /* commands and guides */
 
@@ -42,7 +41,7 @@ static bool unknown_name(const char *name, Error *err)
 }
 
 /* `help panel fit` is `panel fit --help`. */
-static bool print_command(const Command *command, const Cli *cli, Error *err)
+static bool print_command(const Command *command, const Cli *cli, Arena *arena, Error *err)
 {
     char  option[] = "--help";
     char *line[WORDS_MAX + 2];
@@ -50,7 +49,7 @@ static bool print_command(const Command *command, const Cli *cli, Error *err)
     for (int i = 0; i < cli->argument_count; i++) line[count++] = (char *)cli->arguments[i];
     line[count++] = option;
     line[count] = NULL;
-    return command->run(count, line, err);
+    return command->run(count, line, arena, err);
 }
 
 static bool print_guide(const Guide *guide, const Cli *cli, Error *err)
@@ -78,29 +77,26 @@ static bool print_list(const Cli *cli, Error *err)
     return cli_print_json(json_pack("{s:o, s:o}", "commands", commands, "guides", guides), err);
 }
 
-static bool help(const Cli *cli, Error *err)
+static bool help(const Cli *cli, Arena *arena, Error *err)
 {
     if (!cli->argument_count) return print_list(cli, err);
     const char    *nearest;
     const Command *command =
         command_find(command_table, command_count, cli->arguments[0], &nearest);
     const Guide   *guide = guide_named(cli->arguments[0]);
-    if (command) return print_command(command, cli, err);
+    if (command) return print_command(command, cli, arena, err);
     return guide ? print_guide(guide, cli, err) : unknown_name(cli->arguments[0], err);
 }
 
-static bool run_help(int argc, char **argv, Error *err)
+static bool run_help(int argc, char **argv, Arena *arena, Error *err)
 {
     const CliCommand command = {
         .name = "help", .summary = "the commands and the guides, or one of them",
         .usage = "[COMMAND|GUIDE]", .example = "parhelion help comparing",
         .max_arguments = WORDS_MAX};
-    Arena arena = arena_reserve(MEMORY_BYTES);
     Cli   cli;
-    bool  ok = cli_parse(&command, argc, argv, &arena, &cli, err) &&
-               (cli.help_shown || help(&cli, err));
-    arena_release(&arena);
-    return ok;
+    return cli_parse(&command, argc, argv, arena, &cli, err) &&
+           (cli.help_shown || help(&cli, arena, err));
 }
 
 const Command command_help = {"help", "the commands and the guides, or one of them", run_help};

@@ -10,8 +10,6 @@
 #include "image/measure.h"
 #include "text/json_text.h"
 
-#define MEMORY_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
-
 typedef struct MeasureWords {
     MeasureRequest  request;
     LuxmeterRequest luxmeter;
@@ -157,14 +155,11 @@ static bool measure(const MeasureWords *typed, Arena *arena, Error *err)
     return true;
 }
 
-static bool run_measure(int argc, char **argv, Error *err)
+static bool run_measure(int argc, char **argv, Arena *arena, Error *err)
 {
-    Arena arena = arena_reserve(MEMORY_BYTES);
     MeasureWords typed = {.luxmeter = {.samples = 1 << 18}};
-    bool  ok = parse(argc, argv, &arena, &typed, err) &&
-              (typed.cli.help_shown || measure(&typed, &arena, err));
-    arena_release(&arena);
-    return ok;
+    return parse(argc, argv, arena, &typed, err) &&
+           (typed.cli.help_shown || measure(&typed, arena, err));
 }
 
 const Command command_measure = {

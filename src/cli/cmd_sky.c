@@ -20,7 +20,6 @@
 #include "spectrum/photometry.h"
 #include "text/json_text.h"
 
-#define ARENA_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
 #define LANE_SETS 8                    /* of 16 wavelengths: enough for smooth spectra */
 #define PATH_STEPS 145                 /* every 10 minutes of a day */
 
@@ -358,10 +357,9 @@ static bool run(SkyRun *work, OutputKind kind, Error *err)
     return true;
 }
 
-static bool run_sky(int argc, char **argv, Error *err)
+static bool run_sky(int argc, char **argv, Arena *arena, Error *err)
 {
-    Arena arena = arena_reserve(ARENA_BYTES);
-    SkyRun  work = {.arena = &arena, .size = {0, 0}};
+    SkyRun  work = {.arena = arena, .size = {0, 0}};
     int   projection = 0;
     const Option options[] = {
         {"-o", OPTION_TEXT, "SKY.exr|.png|.svg",
@@ -379,7 +377,7 @@ static bool run_sky(int argc, char **argv, Error *err)
         "parhelion sky --environment sky:clear --when 2026-06-21T08:30+02:00 "
         "--where 48.14,11.58,520 -o sky.png",
         options, COUNT_OF(options), 0, -1};
-    if (!cli_parse(&command, argc, argv, &arena, &work.cli, err)) return false;
+    if (!cli_parse(&command, argc, argv, arena, &work.cli, err)) return false;
     if (work.cli.help_shown) return true;
     OutputKind kind = output_kind(work.output);
     if (kind == OUTPUT_WRONG)
@@ -392,7 +390,6 @@ static bool run_sky(int argc, char **argv, Error *err)
     }
     bool ok = run(&work, kind, err);
     if (work.scene && work.cli.argument_count) scene_close(work.scene);
-    arena_release(&arena);
     return ok;
 }
 

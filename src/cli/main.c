@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/machine.h"
 #include "bvh/bvh.h"
 #include "cli/cmd_help.h"
 #include "cli/commands.h"
@@ -27,10 +28,16 @@ static bool run_command(int argc, char **argv, Error *err)
 {
     const char    *nearest;
     const Command *command = command_find(command_table, command_count, argv[1], &nearest);
-    if (command) return command->run(argc - 1, argv + 1, err);
-    return error_set(
-        err, ERROR_USAGE, "unknown command %s — %s%s%s`parhelion --help` lists them", argv[1],
-        nearest ? "did you mean " : "", nearest ? nearest : "", nearest ? "? " : "");
+    if (!command)
+        return error_set(
+            err, ERROR_USAGE, "unknown command %s — %s%s%s`parhelion --help` lists them",
+            argv[1], nearest ? "did you mean " : "", nearest ? nearest : "",
+            nearest ? "? " : "");
+    /* address space: what is touched counts */
+    Arena arena = arena_reserve(machine_memory_bytes());
+    bool  ok = command->run(argc - 1, argv + 1, &arena, err);
+    arena_release(&arena);
+    return ok;
 }
 
 static bool asks_for_json(int argc, char **argv)

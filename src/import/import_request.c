@@ -4,13 +4,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/count.h"
 #include "base/file.h"
 #include "import/importers.h"
 #include "import/primaries.h"
 #include "import/set/import_complete.h"
 #include "text/json_view.h"
 
-#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 #define KEYS_MAX 64
 
 /* Keys besides those of the text tables. */
@@ -125,7 +125,7 @@ static bool read_flag(const JsonView *root, const char *key, bool *out, Error *e
 bool import_symmetry_named(const char *name, ImportSymmetry *out, Error *err)
 {
     static const char *const names[] = {"none", "left-right", "up-down", "both", "half-turn"};
-    for (int i = 0; i < COUNT(names); i++)
+    for (int i = 0; i < COUNT_OF(names); i++)
         if (!strcmp(names[i], name)) {
             *out = (ImportSymmetry)i;
             return true;
@@ -167,7 +167,7 @@ bool import_request_read(const char *file, Arena *arena, ImportRequest *request,
     const char *known[KEYS_MAX];
     int         count = 0;
     for (int i = 0; i < text_key_count; i++) known[count++] = text_keys[i].key;
-    for (int i = 0; i < COUNT(other_keys); i++) known[count++] = other_keys[i];
+    for (int i = 0; i < COUNT_OF(other_keys); i++) known[count++] = other_keys[i];
     if (!json_view_open(file, arena, &root, err)) return false;
     root.root = request->root;
     bool ok = json_view_check_keys(&root, known, count, err) &&

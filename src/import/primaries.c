@@ -3,7 +3,6 @@
 #include <string.h>
 #include <strings.h>
 
-#define COUNT(list) (sizeof(list) / sizeof *(list))
 #define COLUMNS 5 /* wavelength, red, green, blue, black */
 
 typedef struct PrimariesFile {

@@ -14,3 +14,10 @@ json_t *json_text(const char *text)
     free(plain);
     return string;
 }
+
+json_t *json_texts(const char *const *texts, int count)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < count; i++) json_array_append_new(list, json_text(texts[i]));
+    return list;
+}

@@ -8,3 +8,6 @@
 /* Bytes beyond ASCII become '?' in a text that is not UTF-8: names of files may hold
  * anything. */
 json_t *json_text(const char *text);
+
+/* A list of them. */
+json_t *json_texts(const char *const *texts, int count);

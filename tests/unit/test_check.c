@@ -22,7 +22,9 @@ static Outcome run(const char *path, const char *option)
     fflush(stdout);
     int shown = dup(STDOUT_FILENO), file = open(log, O_RDWR | O_CREAT | O_TRUNC, 0600);
     dup2(file, STDOUT_FILENO);
-    outcome.is_ok = command_check.run(option ? 3 : 2, argv, &outcome.err);
+    Arena arena = arena_reserve((size_t)1 << 30);
+    outcome.is_ok = command_check.run(option ? 3 : 2, argv, &arena, &outcome.err);
+    arena_release(&arena);
     fflush(stdout);
     dup2(shown, STDOUT_FILENO);
     close(shown);

@@ -25,7 +25,7 @@ static bool run(Lab *lab, const char *const *words, const char **printed)
     int saved = dup(STDOUT_FILENO), file = open(path, O_RDWR | O_CREAT | O_TRUNC, 0600);
     dup2(file, STDOUT_FILENO);
     lab->err = (Error){.code = ERROR_NONE};
-    bool ok = command_panel_import.run(argc, argv, &lab->err);
+    bool ok = command_panel_import.run(argc, argv, &lab->arena, &lab->err);
     fflush(stdout);
     dup2(saved, STDOUT_FILENO);
     close(saved);

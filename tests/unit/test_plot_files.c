@@ -64,7 +64,10 @@ static bool run(Error *err, ...)
     for (char *a; (a = va_arg(list, char *)) && argc < 24; argc++) argv[argc] = a;
     va_end(list);
     *err = (Error){0};
-    return command_panel_plot.run(argc, argv, err);
+    Arena arena = arena_reserve((size_t)1 << 32);
+    bool  ok = command_panel_plot.run(argc, argv, &arena, err);
+    arena_release(&arena);
+    return ok;
 }
 
 #define RUN_FAILS(err, code_wanted, part, ...)                                                 \

@@ -6,13 +6,15 @@
 #pragma once
 #include <stdbool.h>
 
+#include "base/arena.h"
 #include "base/error.h"
 
 typedef struct Command {
     const char *name;
     const char *summary; /* one line, lower case, no full stop */
-    /* argv[0] is the command's name. True: exit status 0; else the status of err->code. */
-    bool (*run)(int argc, char **argv, Error *err);
+    /* argv[0] is the command's name; everything it keeps lies in the arena, which its caller
+     * releases. True: exit status 0; else the status of err->code. */
+    bool (*run)(int argc, char **argv, Arena *arena, Error *err);
 } Command;
 
 #define COMMANDS_MAX 32

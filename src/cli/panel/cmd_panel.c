@@ -27,7 +27,7 @@ static void print_help(void)
     cli_print_guide("panel");
 }
 
-static bool run_panel(int argc, char **argv, Error *err)
+static bool run_panel(int argc, char **argv, Arena *arena, Error *err)
 {
     if (argc < 2)
         return error_set(err, ERROR_USAGE,
@@ -38,7 +38,7 @@ static bool run_panel(int argc, char **argv, Error *err)
     }
     const char    *near;
     const Command *command = command_find(commands, COMMAND_COUNT, argv[1], &near);
-    if (command) return command->run(argc - 1, argv + 1, err);
+    if (command) return command->run(argc - 1, argv + 1, arena, err);
     return error_set(err, ERROR_USAGE, "panel has no command '%s'%s%s%s", argv[1],
                      near ? "; did you mean '" : ", wanted fit, info, eval or simulate",
                      near ? near : "", near ? "'?" : "");

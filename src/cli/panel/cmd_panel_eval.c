@@ -17,8 +17,6 @@
 #include "panel/query/panel_reflection.h"
 #include "panel/query/panel_report.h"
 
-#define ARENA_BYTES ((size_t)16 << 30)
-
 /* What is asked for, and how the answer shall look. */
 typedef struct EvalRequest {
     PanelQuestion question;
@@ -137,9 +135,8 @@ static bool check_request(const EvalRequest *request, const Cli *cli, Error *err
     return true;
 }
 
-static bool run_eval(int argc, char **argv, Error *err)
+static bool run_eval(int argc, char **argv, Arena *arena, Error *err)
 {
-    Arena   arena = arena_reserve(ARENA_BYTES);
     Cli     cli;
     EvalRequest r = {.question = {.rgb = {255, 255, 255}, .incidence_phi = 180}, .quantity = 1};
     PanelQuestion *q = &r.question;
@@ -181,12 +178,10 @@ static bool run_eval(int argc, char **argv, Error *err)
         "X.panel --theta T --phi P --rgb R,G,B | --brdf --incidence T --theta T --phi P",
         "parhelion panel eval assets/panels/ips_cluster.panel --theta 30 --phi 0 "
         "--rgb 255,255,255", options, COUNT_OF(options), 1, 1};
-    if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
+    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return false;
     if (cli.help_shown) return true;
-    bool ok = check_request(&r, &cli, err) &&
-              answer(cli.arguments[0], &r, &cli, &arena, err);
-    arena_release(&arena);
-    return ok;
+    return check_request(&r, &cli, err) &&
+           answer(cli.arguments[0], &r, &cli, arena, err);
 }
 
 const Command command_panel_eval = {

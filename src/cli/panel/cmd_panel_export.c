@@ -9,8 +9,6 @@
 #include "panel/set/export.h"
 #include "text/json_text.h"
 
-#define ARENA_BYTES ((size_t)16 << 30)
-
 typedef struct ExportRequest {
     ExportOptions options;
     const char   *output, *table;
@@ -38,9 +36,8 @@ static bool print_done(const ExportRequest *request, const Cli *cli, Error *err)
     return true;
 }
 
-static bool run_export(int argc, char **argv, Error *err)
+static bool run_export(int argc, char **argv, Arena *arena, Error *err)
 {
-    Arena   arena = arena_reserve(ARENA_BYTES);
     Cli     cli;
     ExportRequest r = {.options = {.mirror_fwhm_deg = -1}};
     const Option options[] = {
@@ -68,15 +65,13 @@ static bool run_export(int argc, char **argv, Error *err)
         "X.panel -o DIR | --table NAME -o TABLE.csv",
         "parhelion panel export assets/panels/ips_cluster.panel --table 'red 255' -o red.csv",
         options, COUNT_OF(options), 1, 1};
-    if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
+    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return false;
     if (cli.help_shown) return true;
     if (!r.output)
         return error_set(err, ERROR_USAGE,
                          "panel export wants -o DIR (or --table NAME -o TABLE.csv)");
     r.options.progress = cli.progress;
-    bool ok = export_from(cli.arguments[0], &r, &arena, err) && print_done(&r, &cli, err);
-    arena_release(&arena);
-    return ok;
+    return export_from(cli.arguments[0], &r, arena, err) && print_done(&r, &cli, err);
 }
 
 const Command command_panel_export = {

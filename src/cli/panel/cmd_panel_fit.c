@@ -5,13 +5,10 @@
 
 #include "base/count.h"
 #include "base/reference.h"
-#include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
 #include "cli/panel/panel_print.h"
 #include "panel/fit/fit.h"
-
-#define ARENA_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
 
 /* What the process took. */
 static void add_usage(json_t *report)
@@ -25,9 +22,8 @@ static void add_usage(json_t *report)
                         json_real((double)now.tv_sec + 1e-9 * (double)now.tv_nsec));
 }
 
-static bool run_fit(int argc, char **argv, Error *err)
+static bool run_fit(int argc, char **argv, Arena *arena, Error *err)
 {
-    Arena       arena = arena_reserve(ARENA_BYTES);
     Cli         cli;
     const char *output = NULL, *root = NULL;
     int         basis = 0, wavelet = 0, weights = 0, incidence = 0;
@@ -68,7 +64,7 @@ static bool run_fit(int argc, char **argv, Error *err)
         "MANIFEST.json|TABLE.csv -o X.panel [options]",
         "parhelion panel fit measured/MANIFEST.json -o cluster.panel", options,
         COUNT_OF(options), 1, 1};
-    if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
+    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return false;
     if (cli.help_shown) return true;
     if (!output) return error_set(err, ERROR_USAGE, "panel fit wants -o X.panel");
     if (keep > 0 && max_error > 0)
@@ -90,20 +86,14 @@ static bool run_fit(int argc, char **argv, Error *err)
         fit.keep_share = (float)keep;
         fit.max_error = 0;
     }
-    Measurement *set = ARENA_NEW(&arena, Measurement, 1);
+    Measurement *set = ARENA_NEW(arena, Measurement, 1);
     json_t      *report = NULL;
     bool ok = reference_check_root(root, err) &&
-              measurement_read_below(cli.arguments[0], root, &arena, set, err) &&
-              panel_fit(set, &fit, output, &arena, &report, err);
-    if (ok) add_usage(report);
-    if (ok && cli.json) {
-        ok = cli_print_json(report, err);
-    } else if (ok) {
-        panel_print_report(report);
-        json_decref(report);
-    }
-    arena_release(&arena);
-    return ok;
+              measurement_read_below(cli.arguments[0], root, arena, set, err) &&
+              panel_fit(set, &fit, output, arena, &report, err);
+    if (!ok) return false;
+    add_usage(report);
+    return panel_print_report(report, cli.json, err);
 }
 
 const Command command_panel_fit = {

@@ -12,8 +12,6 @@
 #include "import/set/import_write.h"
 #include "text/json_text.h"
 
-#define ARENA_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
-
 static void show_progress(void *context, int done)
 {
     progress_update(context, done);
@@ -48,17 +46,16 @@ static json_t *table_summary(const ImportSet *set, const ImportTable *table, Are
 
 static json_t *summary(const ImportSet *set, const char *manifest, Arena *arena)
 {
-    json_t *tables = json_array(), *notes = json_array();
+    json_t *tables = json_array();
     double  rows = 0, masked = 0;
     for (int i = 0; i < set->count; i++) {
         json_array_append_new(tables, table_summary(set, &set->table[i], arena));
         rows += set->table[i].rows;
         masked += set->table[i].masked;
     }
-    for (int i = 0; i < set->note_count; i++)
-        json_array_append_new(notes, json_text(set->note[i]));
     return json_pack("{s:o, s:o, s:f, s:f, s:o}", "manifest", json_text(manifest), "tables",
-                     tables, "rows", rows, "masked", masked, "notes", notes);
+                     tables, "rows", rows, "masked", masked, "notes",
+                     json_texts(set->note, set->note_count));
 }
 
 static void print_summary(const ImportSet *set, const char *manifest, Arena *arena)
@@ -225,25 +222,22 @@ static bool run(const Cli *cli, const Words *words, Arena *arena, Error *err)
     return true;
 }
 
-static bool run_import(int argc, char **argv, Error *err)
+static bool run_import(int argc, char **argv, Arena *arena, Error *err)
 {
-    Arena  arena = arena_reserve(ARENA_BYTES);
     Cli    cli;
-    Words *words = ARENA_NEW(&arena, Words, 1);
+    Words *words = ARENA_NEW(arena, Words, 1);
     Option options[OPTIONS_MAX];
-    int    count = list_options(words, options, &arena);
+    int    count = list_options(words, options, arena);
     const CliCommand command = {"panel import",
         "the files that laboratories have as one measurement set",
         "FILE... -o MANIFEST.json [options]",
         "parhelion panel import ips_cluster/emission/*.csv ips_cluster/brdf/*.csv "
         "-o again/MANIFEST.json", options, count, 1, -1, print_formats};
-    if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
+    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return false;
     if (cli.help_shown) return true;
     if (!words->output)
         return error_set(err, ERROR_USAGE, "panel import wants -o MANIFEST.json");
-    bool ok = run(&cli, words, &arena, err);
-    arena_release(&arena);
-    return ok;
+    return run(&cli, words, arena, err);
 }
 
 const Command command_panel_import = {

@@ -2,7 +2,6 @@
 #include <math.h>
 
 #include "base/units.h"
-#include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
 #include "cli/panel/panel_print.h"
@@ -10,8 +9,6 @@
 #include "panel/query/panel_info.h"
 #include "panel/query/panel_open.h"
 #include "panel/query/panel_report.h"
-
-#define ARENA_BYTES ((size_t)16 << 30)
 
 static json_t *degrees_json(const double *radians, int count)
 {
@@ -34,27 +31,20 @@ static void add_lights(const Panel *panel, json_t *report)
     if (phis > 1) json_object_set_new(reflection, "incidence_phi_deg", degrees_json(phi, phis));
 }
 
-static bool run_info(int argc, char **argv, Error *err)
+static bool run_info(int argc, char **argv, Arena *arena, Error *err)
 {
-    Arena   arena = arena_reserve(ARENA_BYTES);
     Cli     cli;
     Panel  *panel = NULL;
     json_t *report = NULL;
     const CliCommand command = {"panel info", "what a panel file holds, its sizes and errors",
         "X.panel", "parhelion panel info assets/panels/ips_cluster.panel", NULL, 0, 1, 1};
-    if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
+    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return false;
     if (cli.help_shown) return true;
-    bool ok = panel_open(cli.arguments[0], &arena, &panel, err) &&
+    bool ok = panel_open(cli.arguments[0], arena, &panel, err) &&
               (panel_report(panel, &report, err) || error_in_file(err, cli.arguments[0]));
     if (ok) add_lights(panel, report);
-    if (ok && cli.json) {
-        ok = cli_print_json(report, err);
-    } else if (ok) {
-        panel_print_report(report);
-        json_decref(report);
-    }
+    ok = ok && panel_print_report(report, cli.json, err);
     panel_close(panel);
-    arena_release(&arena);
     return ok;
 }
 

@@ -12,7 +12,6 @@
 #include "plot/panel/report.h"
 #include "text/json_text.h"
 
-#define ARENA_BYTES ((size_t)64 << 30) /* address space; pages cost nothing until touched */
 #define LEAST_SIZE 160
 #define LARGEST_SIZE 20000
 
@@ -83,9 +82,8 @@ static bool run(const PlotRequest *request, const Cli *cli, Arena *arena, Error 
     return true;
 }
 
-static bool run_plot(int argc, char **argv, Error *err)
+static bool run_plot(int argc, char **argv, Arena *arena, Error *err)
 {
-    Arena   arena = arena_reserve(ARENA_BYTES);
     Cli     cli;
     PlotRequest request = {0};
     int     kind = 0, size[2] = {0, 0};
@@ -114,7 +112,7 @@ static bool run_plot(int argc, char **argv, Error *err)
         "X.panel -o X.svg|X.png [--kind KIND] [--measured MANIFEST.json] | --report X.html",
         "parhelion panel plot assets/panels/ips_cluster.panel --kind luminance "
         "-o luminance.png", options, COUNT_OF(options), 1, 1};
-    if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
+    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return false;
     if (cli.help_shown) return true;
     request.panel = cli.arguments[0];
     request.options.kind = (PlotKind)kind;
@@ -122,10 +120,8 @@ static bool run_plot(int argc, char **argv, Error *err)
     request.options.height = size[1];
     request.options.incidence_phi = radians_from_degrees(incidence_phi);
     request.options.threads = cli.threads;
-    bool ok = check_request(&request, err) && reference_check_root(request.root, err) &&
-              run(&request, &cli, &arena, err);
-    arena_release(&arena);
-    return ok;
+    return check_request(&request, err) && reference_check_root(request.root, err) &&
+           run(&request, &cli, arena, err);
 }
 
 const Command command_panel_plot = {

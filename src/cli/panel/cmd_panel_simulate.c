@@ -8,8 +8,6 @@
 #include "panel/set/closed_form.h"
 #include "panel/set/simulate.h"
 
-#define ARENA_BYTES ((size_t)16 << 30)
-
 /* The closed form at one direction: what a perfect fit would say. */
 static bool print_closed_form(const SyntheticPanel *panel, const double at[5], Error *err)
 {
@@ -55,9 +53,8 @@ static bool set_grid(SyntheticInstrument *instrument, const int grid[2], Error *
     return true;
 }
 
-static bool run_simulate(int argc, char **argv, Error *err)
+static bool run_simulate(int argc, char **argv, Arena *arena, Error *err)
 {
-    Arena       arena = arena_reserve(ARENA_BYTES);
     Cli         cli;
     SyntheticPanel panel;
     const char *folder = NULL;
@@ -81,16 +78,15 @@ static bool run_simulate(int argc, char **argv, Error *err)
         "RECIPE.json -o DIR",
         "parhelion panel simulate assets/panels/ips_cluster.recipe.json -o ips_cluster",
         options, COUNT_OF(options), 1, 1};
-    if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
+    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return false;
     if (cli.help_shown) return true;
     if (!folder && !wants_truth)
         return error_set(err, ERROR_USAGE, "panel simulate wants -o DIR");
-    bool ok = synthetic_panel_read(cli.arguments[0], &arena, &panel, err);
+    bool ok = synthetic_panel_read(cli.arguments[0], arena, &panel, err);
     if (ok && noise) switch_noise_off(&panel.instrument);
     if (ok && has_grid) ok = set_grid(&panel.instrument, grid, err);
     if (ok && wants_truth) ok = print_closed_form(&panel, at, err);
     if (ok && folder) ok = simulate_measurement(&panel, folder, cli.progress, err);
-    arena_release(&arena);
     return ok;
 }
 

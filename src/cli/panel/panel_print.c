@@ -2,6 +2,8 @@
 
 #include <stdio.h>
 
+#include "cli/options/answer.h"
+
 static void print_table(const json_t *table)
 {
     printf("%-16s %10.0f %12.0f %9.0f %8.1f %9.2g %9.2g %9.2g %9.2g %6.2f%%\n",
@@ -61,7 +63,7 @@ static void print_flags(const char *label, const json_t *flags)
     }
 }
 
-void panel_print_report(const json_t *report)
+static void print_text(const json_t *report)
 {
     size_t  i;
     json_t *value;
@@ -84,4 +86,12 @@ void panel_print_report(const json_t *report)
         printf("took       %.1f s of processor time, %.0f MB at most\n",
                json_number_value(json_object_get(report, "cpu_seconds")),
                1e-6 * json_number_value(value));
+}
+
+bool panel_print_report(json_t *report, bool as_json, Error *err)
+{
+    if (as_json) return cli_print_json(report, err);
+    print_text(report);
+    json_decref(report);
+    return true;
 }

@@ -1,5 +1,9 @@
 /* panel_print.h -- the report of a panel file or of a fit as a table on stdout. */
 #pragma once
 #include <jansson.h>
+#include <stdbool.h>
 
-void panel_print_report(const json_t *report);
+#include "base/error.h"
+
+/* The report as a table, or as_json as it is; releases it. False: stdout is full. */
+bool panel_print_report(json_t *report, bool as_json, Error *err);

@@ -330,14 +330,11 @@ static bool merge(MergeRun *work, Error *err)
            (work->cli.json ? print_json(work, err) : print_line(work, err));
 }
 
-static bool run_merge(int argc, char **argv, Error *err)
+static bool run_merge(int argc, char **argv, Arena *arena, Error *err)
 {
-    Arena arena = arena_reserve(machine_memory_bytes()); /* what is touched counts */
-    MergeRun  work = {.arena = &arena};
-    bool  done = parse(argc, argv, &work, err) &&
-                (work.cli.help_shown || merge(&work, err));
-    arena_release(&arena);
-    return done;
+    MergeRun  work = {.arena = arena};
+    return parse(argc, argv, &work, err) &&
+           (work.cli.help_shown || merge(&work, err));
 }
 
 const Command command_merge = {

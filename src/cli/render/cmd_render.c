@@ -253,15 +253,12 @@ static bool run(RenderRun *work, Error *err)
            hand_over(work, &result, err);
 }
 
-static bool run_render(int argc, char **argv, Error *err)
+static bool run_render(int argc, char **argv, Arena *arena, Error *err)
 {
-    /* address space: what is touched counts */
-    Arena arena = arena_reserve(machine_memory_bytes());
-    RenderRun  work = {.arena = &arena};
-    bool  done = render_request_parse(argc, argv, &arena, &work.request, err) &&
+    RenderRun  work = {.arena = arena};
+    bool  done = render_request_parse(argc, argv, arena, &work.request, err) &&
                 (work.request.cli.help_shown || run(&work, err));
     scene_close(work.scene);
-    arena_release(&arena);
     return done;
 }
 

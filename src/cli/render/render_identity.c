@@ -6,6 +6,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "base/count.h"
 #include "base/file.h"
 #include "bvh/bvh.h"
 #include "text/text.h"
@@ -121,16 +122,14 @@ static void add_daylight(Text *text, const DaylightInput *daylight)
         line(text, "where", "%.17g,%.17g,%.17g", daylight->where.latitude_deg,
              daylight->where.longitude_deg, daylight->where.altitude_m);
     }
-    number_line(text, "sky sun lux", daylight->sun_lux);
-    line(text, "sky type", "%d", daylight->cie_type);
-    number_line(text, "sky lux", daylight->diffuse_lux);
-    number_line(text, "direct W/m2", daylight->direct_w_m2);
-    number_line(text, "diffuse W/m2", daylight->diffuse_w_m2);
-    number_line(text, "turbidity", daylight->turbidity);
-    number_line(text, "visibility km", daylight->visibility_km);
-    number_line(text, "ozone atm-cm", daylight->ozone_atm_cm);
-    number_line(text, "water cm", daylight->water_cm);
-    number_line(text, "albedo", daylight->albedo);
+    const struct { const char *name; double value; } numbers[] = {
+        {"sky sun lux", daylight->sun_lux}, {"sky type", daylight->cie_type},
+        {"sky lux", daylight->diffuse_lux}, {"direct W/m2", daylight->direct_w_m2},
+        {"diffuse W/m2", daylight->diffuse_w_m2}, {"turbidity", daylight->turbidity},
+        {"visibility km", daylight->visibility_km}, {"ozone atm-cm", daylight->ozone_atm_cm},
+        {"water cm", daylight->water_cm}, {"albedo", daylight->albedo}};
+    for (int i = 0; i < COUNT_OF(numbers); i++)
+        number_line(text, numbers[i].name, numbers[i].value);
     line(text, "ground", "%s", floor_names[daylight->floor]);
     number_line(text, "cloud top m", daylight->cloud_top_m);
 }

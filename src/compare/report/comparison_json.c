@@ -12,14 +12,6 @@ static json_t *number(double value)
     return isfinite(value) ? json_real(value) : json_null();
 }
 
-static json_t *texts(const Lines *lines)
-{
-    json_t *list = json_array();
-    for (int i = 0; i < lines->count; i++)
-        json_array_append_new(list, json_text(lines->list[i]));
-    return list;
-}
-
 /* ---- metrics ----------------------------------------------------------------------------- */
 
 static json_t *regions_json(const StatisticResult *s)
@@ -160,8 +152,9 @@ json_t *comparison_json(const Comparison *c, const CompareOptions *options)
                             "reference", json_text(c->reference.name), "test",
                             json_text(c->test.name), "verdict", json_text(c->verdict),
                             "mean", json_text(c->mean), "metrics", metrics_json(c), "limits",
-                            limits_json(c, options), "reasons", texts(&c->reasons), "notes",
-                            texts(&c->notes));
+                            limits_json(c, options), "reasons",
+                            json_texts(c->reasons.list, c->reasons.count), "notes",
+                            json_texts(c->notes.list, c->notes.count));
     json_object_set_new(out, "kind", json_string(c->reference.kind == INPUT_FRAME
                                                      ? "frame" : "picture"));
     json_object_set_new(out, "metadata", metadata_json(&c->structure));

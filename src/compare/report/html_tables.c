@@ -4,9 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/count.h"
 #include "page/page.h"
-
-#define COUNT_OF(list) ((int)(sizeof(list) / sizeof *(list)))
 
 /* A metric as people read it: "0.0123", "1.2 %", "12.3 cd/m²". */
 static const char *value_text(const Comparison *c, Metric metric, double value, char text[64])

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/count.h"
 #include "base/file.h"
 #include "import/scatter/scan.h"
 #include "import/scatter/scatter.h"
@@ -55,7 +56,12 @@ static bool read_type(Zemax *in, Error *err)
 /* Reads one entry; *done at the first word of the data. */
 static bool read_entry(Zemax *in, bool *done, Error *err)
 {
-    WordScan       *scan = &in->scan;
+    const struct { const char *name; int *count; double **list; } lists[] = {
+        {"SampleRotation", &in->rotations, &in->rotation},
+        {"AngleOfIncidence", &in->incidences, &in->incidence},
+        {"ScatterAzimuth", &in->azimuths, &in->azimuth},
+        {"ScatterRadial", &in->radials, &in->radial}};
+    WordScan   *scan = &in->scan;
     const char *word = scan_peek(scan);
     *done = word && (!strcasecmp(word, "Monochrome") || !strcasecmp(word, "DataBegin") ||
                      !strncasecmp(word, "Tristimulus", 11));
@@ -66,18 +72,10 @@ static bool read_entry(Zemax *in, bool *done, Error *err)
     if (scan_accept(scan, "SpectralContent"))
         return in->has_content = scan_spectral_content(scan, &in->is_xyz, err);
     if (scan_accept(scan, "ScatterType")) return read_type(in, err);
-    if (scan_accept(scan, "SampleRotation"))
-        return scan_counted_list(scan, "SampleRotation", ANGLES_MAX, &in->rotations,
-                                 &in->rotation, err);
-    if (scan_accept(scan, "AngleOfIncidence"))
-        return scan_counted_list(scan, "AngleOfIncidence", ANGLES_MAX, &in->incidences,
-                                 &in->incidence, err);
-    if (scan_accept(scan, "ScatterAzimuth"))
-        return scan_counted_list(scan, "ScatterAzimuth", ANGLES_MAX, &in->azimuths,
-                                 &in->azimuth, err);
-    if (scan_accept(scan, "ScatterRadial"))
-        return scan_counted_list(scan, "ScatterRadial", ANGLES_MAX, &in->radials,
-                                 &in->radial, err);
+    for (int i = 0; i < COUNT_OF(lists); i++)
+        if (scan_accept(scan, lists[i].name))
+            return scan_counted_list(scan, lists[i].name, ANGLES_MAX, lists[i].count,
+                                     lists[i].list, err);
     if (!word) return scan_fail(scan, err, "the file ends in its header, wanted DataBegin");
     return scan_fail(scan, err, "'%.40s' is no entry of this format's header", word);
 }

@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/file.h"
@@ -23,10 +22,9 @@ ImportSet import_set(Arena *arena)
 
 void import_note(ImportSet *set, const char *format, ...)
 {
-    char    text[1024];
     va_list list;
     va_start(list, format);
-    vsnprintf(text, sizeof text, format, list);
+    char *text = arena_format_list(set->arena, 1023, format, list);
     va_end(list);
     error_make_plain(text);
     for (int i = 0; i < set->note_count; i++)
@@ -35,7 +33,7 @@ void import_note(ImportSet *set, const char *format, ...)
         set->note[IMPORT_NOTES_MAX - 1] = "there were more notes than can be kept";
         return;
     }
-    set->note[set->note_count++] = arena_string(set->arena, text, strlen(text));
+    set->note[set->note_count++] = text;
 }
 
 /* ---- what a table must be ---------------------------------------------------------------- */

@@ -5,8 +5,9 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/count.h"
+
 #define NAME_LENGTH 64
-#define COUNT(list) (sizeof(list) / sizeof *(list))
 
 /* A name in its parts: "Theta [deg]" is "Theta" and "deg"; "400nm" is "", "nm" and 400. */
 typedef struct Parts {
@@ -50,7 +51,7 @@ ValueUnit value_unit(TextCell cell)
         }
     }
     plain[n] = 0;
-    for (size_t i = 0; i < COUNT(unit_names); i++)
+    for (int i = 0; i < COUNT_OF(unit_names); i++)
         if (!strcmp(unit_names[i].name, plain)) return unit_names[i].unit;
     return UNIT_AUTO;
 }
@@ -203,12 +204,12 @@ static Quantity named_quantity(const char *base)
 {
     char loose[NAME_LENGTH];
     int  n = 0;
-    for (size_t i = 0; i < COUNT(exact_names); i++)
+    for (int i = 0; i < COUNT_OF(exact_names); i++)
         if (!strcmp(exact_names[i].name, base)) return exact_names[i].quantity;
     for (const char *c = base; *c; c++)
         if (!strchr(" _-", *c)) loose[n++] = (char)tolower((unsigned char)*c);
     loose[n] = 0;
-    for (size_t i = 0; i < COUNT(loose_names); i++)
+    for (int i = 0; i < COUNT_OF(loose_names); i++)
         if (!strcmp(loose_names[i].name, loose)) return loose_names[i].quantity;
     return QUANTITY_NONE;
 }
@@ -221,7 +222,7 @@ static bool is_wavelength(const Parts *parts)
                                          "lambda", "brf", "refl", "reflectance"};
     if (!parts->has_number || parts->number < 100 || parts->number > 20000) return false;
     if (parts->unit[0] && strcasecmp(parts->unit, "nm") != 0) return false;
-    for (size_t i = 0; i < COUNT(before); i++)
+    for (int i = 0; i < COUNT_OF(before); i++)
         if (!strcasecmp(parts->base, before[i])) return true;
     return false;
 }
@@ -276,7 +277,7 @@ AzimuthWords azimuth_words(TextLine line)
         {"6 oclock", 270}, {"9 o", 180}, {"9 oclock", 180}, {"top", 90}, {"up", 90},
         {"right", 0}, {"bottom", 270}, {"down", 270}, {"left", 180}};
     AzimuthWords words = {.sense = 1};
-    for (size_t i = 0; i < COUNT(zeros) && !words.has_zero; i++)
+    for (int i = 0; i < COUNT_OF(zeros) && !words.has_zero; i++)
         if (has_word(line, zeros[i].word)) {
             words.has_zero = true;
             words.zero_deg = zeros[i].zero_deg;

@@ -5,11 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/count.h"
 #include "base/file.h"
 #include "text/json_view.h"
 #include "text/nearest_word.h"
 
-#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
 const TextKey text_keys[] = {
     {"table", "list|theta-down|phi-down|horizontal-down|vertical-down",
@@ -35,7 +35,7 @@ const TextKey text_keys[] = {
     {"white_reflectance", "R", "of the white reference, 0 to 1"},
     {"level_max", "N", "the panel's highest code (default 255)"},
 };
-const int text_key_count = COUNT(text_keys);
+const int text_key_count = COUNT_OF(text_keys);
 
 /* The index of a value among "a|b|c", or -1. */
 static int choice_of(const char *choices, const char *value)
@@ -52,7 +52,7 @@ static int choice_of(const char *choices, const char *value)
 
 static const TextKey *key_named(const char *key, Error *err)
 {
-    const char *names[COUNT(text_keys)];
+    const char *names[COUNT_OF(text_keys)];
     for (int i = 0; i < text_key_count; i++) {
         if (!strcmp(text_keys[i].key, key)) return &text_keys[i];
         names[i] = text_keys[i].key;

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "text/utf8.h"
+
 #define FACE "DejaVu Sans"
 #define FACE_WIDTH 0.92 /* the face is drawn a little narrower than it is cut */
 
@@ -86,7 +88,7 @@ void canvas_text(Canvas *canvas, double x, double y, Letters letters, const char
 static size_t letter_bytes(const char *text)
 {
     size_t n = 1;
-    while (((unsigned char)text[n] & 0xC0) == 0x80) n++;
+    while (utf8_continues(text[n])) n++;
     return n;
 }
 

@@ -1,35 +1,29 @@
 /* The members of glTF 2.0's objects (Khronos glTF 2.0 specification, chapter 5). */
 #include "scene/check/schema_core.h"
 
+#include "base/count.h"
 #include "scene/check/check_animation.h"
 #include "scene/check/check_bytes.h"
 #include "scene/check/check_document.h"
 #include "scene/check/check_graph.h"
 #include "scene/check/check_mesh.h"
 
-#define COUNT_OF(array) ((int)(sizeof(array) / sizeof *(array)))
 #define BIG 9007199254740992.0 /* 2^53: what a double counts exactly */
 
 /* ---- bytes ----------------------------------------------------------------------------- */
 
 static const Rule BUFFER[] = {
     {.name = "uri", .kind = RULE_TEXT},
-    {.name = "byteLength",
-     .kind = RULE_INTEGER,
-     .flags = RULE_REQUIRED | RULE_HAS_RANGE,
-     .min = 1,
-     .max = BIG},
+    {.name = "byteLength", .kind = RULE_INTEGER, .flags = RULE_REQUIRED | RULE_HAS_RANGE,
+     .min = 1, .max = BIG},
 };
 static const Schema SCHEMA_BUFFER = {"buffer", BUFFER, COUNT_OF(BUFFER), false, NULL};
 
 static const Rule BUFFER_VIEW[] = {
     {.name = "buffer", .kind = RULE_INDEX, .flags = RULE_REQUIRED, .of = "buffers"},
     {.name = "byteOffset", .kind = RULE_INTEGER, .flags = RULE_HAS_RANGE, .max = BIG},
-    {.name = "byteLength",
-     .kind = RULE_INTEGER,
-     .flags = RULE_REQUIRED | RULE_HAS_RANGE,
-     .min = 1,
-     .max = BIG},
+    {.name = "byteLength", .kind = RULE_INTEGER, .flags = RULE_REQUIRED | RULE_HAS_RANGE,
+     .min = 1, .max = BIG},
     {.name = "byteStride", .kind = RULE_INTEGER, .flags = RULE_HAS_RANGE, .min = 4, .max = 252},
     {.name = "target", .kind = RULE_CODE, .flags = RULE_WARNS, .of = "34962|34963"},
 };
@@ -39,9 +33,7 @@ static const Schema SCHEMA_BUFFER_VIEW = {"bufferView", BUFFER_VIEW, COUNT_OF(BU
 static const Rule SPARSE_INDICES[] = {
     {.name = "bufferView", .kind = RULE_INDEX, .flags = RULE_REQUIRED, .of = "bufferViews"},
     {.name = "byteOffset", .kind = RULE_INTEGER, .flags = RULE_HAS_RANGE, .max = 2147483647},
-    {.name = "componentType",
-     .kind = RULE_CODE,
-     .flags = RULE_REQUIRED,
+    {.name = "componentType", .kind = RULE_CODE, .flags = RULE_REQUIRED,
      .of = "5121|5123|5125"},
 };
 static const Schema SCHEMA_SPARSE_INDICES = {"accessor.sparse.indices", SPARSE_INDICES,
@@ -55,18 +47,11 @@ static const Schema SCHEMA_SPARSE_VALUES = {"accessor.sparse.values", SPARSE_VAL
                                             COUNT_OF(SPARSE_VALUES), false, NULL};
 
 static const Rule SPARSE[] = {
-    {.name = "count",
-     .kind = RULE_INTEGER,
-     .flags = RULE_REQUIRED | RULE_HAS_RANGE,
-     .min = 1,
+    {.name = "count", .kind = RULE_INTEGER, .flags = RULE_REQUIRED | RULE_HAS_RANGE, .min = 1,
      .max = LOAD_MAX_ELEMENTS},
-    {.name = "indices",
-     .kind = RULE_OBJECT,
-     .flags = RULE_REQUIRED,
+    {.name = "indices", .kind = RULE_OBJECT, .flags = RULE_REQUIRED,
      .schema = &SCHEMA_SPARSE_INDICES},
-    {.name = "values",
-     .kind = RULE_OBJECT,
-     .flags = RULE_REQUIRED,
+    {.name = "values", .kind = RULE_OBJECT, .flags = RULE_REQUIRED,
      .schema = &SCHEMA_SPARSE_VALUES},
 };
 static const Schema SCHEMA_SPARSE = {"accessor.sparse", SPARSE, COUNT_OF(SPARSE), false, NULL};
@@ -74,19 +59,12 @@ static const Schema SCHEMA_SPARSE = {"accessor.sparse", SPARSE, COUNT_OF(SPARSE)
 static const Rule ACCESSOR[] = {
     {.name = "bufferView", .kind = RULE_INDEX, .of = "bufferViews"},
     {.name = "byteOffset", .kind = RULE_INTEGER, .flags = RULE_HAS_RANGE, .max = BIG},
-    {.name = "componentType",
-     .kind = RULE_CODE,
-     .flags = RULE_REQUIRED,
+    {.name = "componentType", .kind = RULE_CODE, .flags = RULE_REQUIRED,
      .of = "5120|5121|5122|5123|5125|5126"},
     {.name = "normalized", .kind = RULE_BOOLEAN},
-    {.name = "count",
-     .kind = RULE_INTEGER,
-     .flags = RULE_REQUIRED | RULE_HAS_RANGE,
-     .min = 1,
+    {.name = "count", .kind = RULE_INTEGER, .flags = RULE_REQUIRED | RULE_HAS_RANGE, .min = 1,
      .max = LOAD_MAX_ELEMENTS},
-    {.name = "type",
-     .kind = RULE_CHOICE,
-     .flags = RULE_REQUIRED,
+    {.name = "type", .kind = RULE_CHOICE, .flags = RULE_REQUIRED,
      .of = "SCALAR|VEC2|VEC3|VEC4|MAT2|MAT3|MAT4"},
     {.name = "max", .kind = RULE_NUMBERS, .least = 1, .most = 16},
     {.name = "min", .kind = RULE_NUMBERS, .least = 1, .most = 16},
@@ -108,9 +86,7 @@ static const Schema SCHEMA_PRIMITIVE = {"mesh.primitive", PRIMITIVE, COUNT_OF(PR
                                         check_primitive};
 
 static const Rule MESH[] = {
-    {.name = "primitives",
-     .kind = RULE_OBJECTS,
-     .flags = RULE_REQUIRED,
+    {.name = "primitives", .kind = RULE_OBJECTS, .flags = RULE_REQUIRED,
      .schema = &SCHEMA_PRIMITIVE},
     {.name = "weights", .kind = RULE_NUMBERS},
 };
@@ -129,13 +105,8 @@ static const Rule NODE[] = {
     {.name = "skin", .kind = RULE_INDEX, .of = "skins"},
     {.name = "matrix", .kind = RULE_NUMBERS, .least = 16, .most = 16},
     {.name = "mesh", .kind = RULE_INDEX, .of = "meshes"},
-    {.name = "rotation",
-     .kind = RULE_NUMBERS,
-     .flags = RULE_HAS_RANGE,
-     .min = -1,
-     .max = 1,
-     .least = 4,
-     .most = 4},
+    {.name = "rotation", .kind = RULE_NUMBERS, .flags = RULE_HAS_RANGE, .min = -1, .max = 1,
+     .least = 4, .most = 4},
     {.name = "scale", .kind = RULE_NUMBERS, .least = 3, .most = 3},
     {.name = "translation", .kind = RULE_NUMBERS, .least = 3, .most = 3},
     {.name = "weights", .kind = RULE_NUMBERS},
@@ -149,12 +120,10 @@ static const Schema SCHEMA_SCENE = {"scene", SCENE, COUNT_OF(SCENE), false, NULL
 
 static const Rule PERSPECTIVE[] = {
     {.name = "aspectRatio", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN | RULE_ABOVE_MIN},
-    {.name = "yfov",
-     .kind = RULE_NUMBER,
+    {.name = "yfov", .kind = RULE_NUMBER,
      .flags = RULE_REQUIRED | RULE_FROM_MIN | RULE_ABOVE_MIN},
     {.name = "zfar", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN | RULE_ABOVE_MIN},
-    {.name = "znear",
-     .kind = RULE_NUMBER,
+    {.name = "znear", .kind = RULE_NUMBER,
      .flags = RULE_REQUIRED | RULE_FROM_MIN | RULE_ABOVE_MIN},
 };
 static const Schema SCHEMA_PERSPECTIVE = {"camera.perspective", PERSPECTIVE,
@@ -163,8 +132,7 @@ static const Schema SCHEMA_PERSPECTIVE = {"camera.perspective", PERSPECTIVE,
 static const Rule ORTHOGRAPHIC[] = {
     {.name = "xmag", .kind = RULE_NUMBER, .flags = RULE_REQUIRED},
     {.name = "ymag", .kind = RULE_NUMBER, .flags = RULE_REQUIRED},
-    {.name = "zfar",
-     .kind = RULE_NUMBER,
+    {.name = "zfar", .kind = RULE_NUMBER,
      .flags = RULE_REQUIRED | RULE_FROM_MIN | RULE_ABOVE_MIN},
     {.name = "znear", .kind = RULE_NUMBER, .flags = RULE_REQUIRED | RULE_FROM_MIN},
 };
@@ -174,9 +142,7 @@ static const Schema SCHEMA_ORTHOGRAPHIC = {"camera.orthographic", ORTHOGRAPHIC,
 static const Rule CAMERA[] = {
     {.name = "orthographic", .kind = RULE_OBJECT, .schema = &SCHEMA_ORTHOGRAPHIC},
     {.name = "perspective", .kind = RULE_OBJECT, .schema = &SCHEMA_PERSPECTIVE},
-    {.name = "type",
-     .kind = RULE_CHOICE,
-     .flags = RULE_REQUIRED,
+    {.name = "type", .kind = RULE_CHOICE, .flags = RULE_REQUIRED,
      .of = "perspective|orthographic"},
 };
 static const Schema SCHEMA_CAMERA = {"camera", CAMERA, COUNT_OF(CAMERA), false, check_camera};
@@ -214,12 +180,8 @@ const Schema SCHEMA_TEXTURE_INFO = {"textureInfo", TEXTURE_INFO, COUNT_OF(TEXTUR
                                     NULL};
 
 static const Rule PBR[] = {
-    {.name = "baseColorFactor",
-     .kind = RULE_NUMBERS,
-     .flags = RULE_HAS_RANGE,
-     .max = 1,
-     .least = 4,
-     .most = 4},
+    {.name = "baseColorFactor", .kind = RULE_NUMBERS, .flags = RULE_HAS_RANGE, .max = 1,
+     .least = 4, .most = 4},
     {.name = "baseColorTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
     {.name = "metallicFactor", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 1},
     {.name = "roughnessFactor", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 1},
@@ -233,12 +195,8 @@ static const Rule MATERIAL[] = {
     {.name = "normalTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
     {.name = "occlusionTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
     {.name = "emissiveTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-    {.name = "emissiveFactor",
-     .kind = RULE_NUMBERS,
-     .flags = RULE_HAS_RANGE,
-     .max = 1,
-     .least = 3,
-     .most = 3},
+    {.name = "emissiveFactor", .kind = RULE_NUMBERS, .flags = RULE_HAS_RANGE, .max = 1,
+     .least = 3, .most = 3},
     {.name = "alphaMode", .kind = RULE_CHOICE, .of = "OPAQUE|MASK|BLEND"},
     {.name = "alphaCutoff", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
     {.name = "doubleSided", .kind = RULE_BOOLEAN},
@@ -249,9 +207,7 @@ static const Schema SCHEMA_MATERIAL = {"material", MATERIAL, COUNT_OF(MATERIAL),
 
 static const Rule TARGET[] = {
     {.name = "node", .kind = RULE_INDEX, .of = "nodes"},
-    {.name = "path",
-     .kind = RULE_CHOICE,
-     .flags = RULE_REQUIRED,
+    {.name = "path", .kind = RULE_CHOICE, .flags = RULE_REQUIRED,
      .of = "translation|rotation|scale|weights|pointer"},
 };
 static const Schema SCHEMA_TARGET = {"animation.channel.target", TARGET, COUNT_OF(TARGET),
@@ -273,13 +229,9 @@ static const Schema SCHEMA_ANIMATION_SAMPLER = {"animation.sampler", ANIMATION_S
                                                 COUNT_OF(ANIMATION_SAMPLER), false, NULL};
 
 static const Rule ANIMATION[] = {
-    {.name = "channels",
-     .kind = RULE_OBJECTS,
-     .flags = RULE_REQUIRED,
+    {.name = "channels", .kind = RULE_OBJECTS, .flags = RULE_REQUIRED,
      .schema = &SCHEMA_CHANNEL},
-    {.name = "samplers",
-     .kind = RULE_OBJECTS,
-     .flags = RULE_REQUIRED,
+    {.name = "samplers", .kind = RULE_OBJECTS, .flags = RULE_REQUIRED,
      .schema = &SCHEMA_ANIMATION_SAMPLER},
 };
 static const Schema SCHEMA_ANIMATION = {"animation", ANIMATION, COUNT_OF(ANIMATION), false,
@@ -299,9 +251,7 @@ static const Rule ROOT[] = {
     {.name = "extensionsUsed", .kind = RULE_TEXTS},
     {.name = "extensionsRequired", .kind = RULE_TEXTS},
     {.name = "accessors", .kind = RULE_OBJECTS, .schema = &SCHEMA_ACCESSOR},
-    {.name = "animations",
-     .kind = RULE_OBJECTS,
-     .flags = RULE_WARNS,
+    {.name = "animations", .kind = RULE_OBJECTS, .flags = RULE_WARNS,
      .schema = &SCHEMA_ANIMATION},
     {.name = "asset", .kind = RULE_OBJECT, .flags = RULE_REQUIRED, .schema = &SCHEMA_ASSET},
     {.name = "buffers", .kind = RULE_OBJECTS, .schema = &SCHEMA_BUFFER},

@@ -3,31 +3,22 @@
 
 #include <string.h>
 
+#include "base/count.h"
 #include "scene/check/check_document.h"
 #include "scene/check/schema_core.h"
-
-#define COUNT_OF(array) ((int)(sizeof(array) / sizeof *(array)))
 
 /* ---- lights ---------------------------------------------------------------------------- */
 
 static const Rule SPOT[] = {
-    {.name = "innerConeAngle",
-     .kind = RULE_NUMBER,
-     .flags = RULE_HAS_RANGE,
+    {.name = "innerConeAngle", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE,
      .max = 1.5707963267948966},
-    {.name = "outerConeAngle",
-     .kind = RULE_NUMBER,
-     .flags = RULE_HAS_RANGE | RULE_ABOVE_MIN,
+    {.name = "outerConeAngle", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE | RULE_ABOVE_MIN,
      .max = 1.5707963267948968},
 };
 static const Schema SCHEMA_SPOT = {"light.spot", SPOT, COUNT_OF(SPOT), false, NULL};
 
 static const Rule LIGHT[] = {
-    {.name = "color",
-     .kind = RULE_NUMBERS,
-     .flags = RULE_HAS_RANGE,
-     .max = 1,
-     .least = 3,
+    {.name = "color", .kind = RULE_NUMBERS, .flags = RULE_HAS_RANGE, .max = 1, .least = 3,
      .most = 3},
     {.name = "intensity", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
     {.name = "spot", .kind = RULE_OBJECT, .schema = &SCHEMA_SPOT},
@@ -61,10 +52,7 @@ static const Schema SCHEMA_UNLIT = {"KHR_materials_unlit", NULL, 0, false, NULL}
 static const Rule SPECULAR[] = {
     {.name = "specularFactor", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 1},
     {.name = "specularTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-    {.name = "specularColorFactor",
-     .kind = RULE_NUMBERS,
-     .flags = RULE_FROM_MIN,
-     .least = 3,
+    {.name = "specularColorFactor", .kind = RULE_NUMBERS, .flags = RULE_FROM_MIN, .least = 3,
      .most = 3},
     {.name = "specularColorTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
 };
@@ -81,9 +69,7 @@ static const Schema SCHEMA_TRANSMISSION = {"KHR_materials_transmission", TRANSMI
 static const Rule CLEARCOAT[] = {
     {.name = "clearcoatFactor", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 1},
     {.name = "clearcoatTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-    {.name = "clearcoatRoughnessFactor",
-     .kind = RULE_NUMBER,
-     .flags = RULE_HAS_RANGE,
+    {.name = "clearcoatRoughnessFactor", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE,
      .max = 1},
     {.name = "clearcoatRoughnessTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
     {.name = "clearcoatNormalTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
@@ -94,15 +80,10 @@ static const Schema SCHEMA_CLEARCOAT = {"KHR_materials_clearcoat", CLEARCOAT,
 static const Rule VOLUME[] = {
     {.name = "thicknessFactor", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
     {.name = "thicknessTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-    {.name = "attenuationDistance",
-     .kind = RULE_NUMBER,
+    {.name = "attenuationDistance", .kind = RULE_NUMBER,
      .flags = RULE_FROM_MIN | RULE_ABOVE_MIN},
-    {.name = "attenuationColor",
-     .kind = RULE_NUMBERS,
-     .flags = RULE_HAS_RANGE,
-     .max = 1,
-     .least = 3,
-     .most = 3},
+    {.name = "attenuationColor", .kind = RULE_NUMBERS, .flags = RULE_HAS_RANGE, .max = 1,
+     .least = 3, .most = 3},
 };
 static const Schema SCHEMA_VOLUME = {"KHR_materials_volume", VOLUME, COUNT_OF(VOLUME), false,
                                      NULL};
@@ -147,9 +128,7 @@ static const Schema SCHEMA_VARIANTS = {"KHR_materials_variants", VARIANTS, COUNT
                                        false, NULL};
 
 static const Rule MAPPING[] = {
-    {.name = "variants",
-     .kind = RULE_INDICES,
-     .flags = RULE_REQUIRED,
+    {.name = "variants", .kind = RULE_INDICES, .flags = RULE_REQUIRED,
      .of = "extensions/KHR_materials_variants/variants"},
     {.name = "material", .kind = RULE_INDEX, .flags = RULE_REQUIRED, .of = "materials"},
 };
@@ -180,47 +159,30 @@ static const Schema SCHEMA_DISPLAY = {"PARHELION_display", DISPLAY, COUNT_OF(DIS
                                       check_display};
 
 static const Rule SUN[] = {
-    {.name = "azimuth_deg",
-     .kind = RULE_NUMBER,
-     .flags = RULE_REQUIRED | RULE_HAS_RANGE,
-     .min = -360,
-     .max = 360},
-    {.name = "elevation_deg",
-     .kind = RULE_NUMBER,
-     .flags = RULE_REQUIRED | RULE_HAS_RANGE,
-     .min = -90,
-     .max = 90},
+    {.name = "azimuth_deg", .kind = RULE_NUMBER, .flags = RULE_REQUIRED | RULE_HAS_RANGE,
+     .min = -360, .max = 360},
+    {.name = "elevation_deg", .kind = RULE_NUMBER, .flags = RULE_REQUIRED | RULE_HAS_RANGE,
+     .min = -90, .max = 90},
     {.name = "illuminance_lx", .kind = RULE_NUMBER, .flags = RULE_REQUIRED | RULE_FROM_MIN},
-    {.name = "angular_radius_deg",
-     .kind = RULE_NUMBER,
-     .flags = RULE_HAS_RANGE | RULE_ABOVE_MIN,
-     .max = 45},
+    {.name = "angular_radius_deg", .kind = RULE_NUMBER,
+     .flags = RULE_HAS_RANGE | RULE_ABOVE_MIN, .max = 45},
 };
 static const Schema SCHEMA_SUN = {"sun", SUN, COUNT_OF(SUN), true, NULL};
 
 static const Rule ENVIRONMENT[] = {
-    {.name = "type",
-     .kind = RULE_CHOICE,
-     .flags = RULE_REQUIRED,
+    {.name = "type", .kind = RULE_CHOICE, .flags = RULE_REQUIRED,
      .of = "constant|hdri|cie|perez|sky"},
-    {.name = "heading_deg",
-     .kind = RULE_NUMBER,
-     .flags = RULE_HAS_RANGE,
-     .min = -360,
+    {.name = "heading_deg", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .min = -360,
      .max = 360},
     {.name = "forward", .kind = RULE_NUMBERS, .least = 3, .most = 3},
     {.name = "sun", .kind = RULE_OBJECT, .schema = &SCHEMA_SUN},
     {.name = "luminance", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
     {.name = "color", .kind = RULE_NUMBERS, .flags = RULE_FROM_MIN, .least = 3, .most = 3},
     {.name = "uri", .kind = RULE_TEXT},
-    {.name = "rotation_deg",
-     .kind = RULE_NUMBER,
-     .flags = RULE_HAS_RANGE,
-     .min = -360,
+    {.name = "rotation_deg", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .min = -360,
      .max = 360},
     {.name = "scale", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
-    {.name = "horizontal_illuminance_lx",
-     .kind = RULE_NUMBER,
+    {.name = "horizontal_illuminance_lx", .kind = RULE_NUMBER,
      .flags = RULE_FROM_MIN | RULE_ABOVE_MIN},
     {.name = "sky", .kind = RULE_INTEGER, .flags = RULE_HAS_RANGE, .min = 1, .max = 15},
     {.name = "diffuse_horizontal_lx", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
@@ -229,9 +191,7 @@ static const Rule ENVIRONMENT[] = {
     {.name = "when", .kind = RULE_TEXT},
     {.name = "where", .kind = RULE_NUMBERS, .least = 2, .most = 3},
     {.name = "turbidity", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .min = 1, .max = 30},
-    {.name = "visibility_km",
-     .kind = RULE_NUMBER,
-     .flags = RULE_FROM_MIN | RULE_ABOVE_MIN},
+    {.name = "visibility_km", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN | RULE_ABOVE_MIN},
     {.name = "ozone_atm_cm", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 2},
     {.name = "water_cm", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 20},
     {.name = "albedo", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 1},

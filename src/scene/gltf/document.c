@@ -14,20 +14,19 @@
 
 /* ---- problems -------------------------------------------------------------------------- */
 
-static void report(GltfFile *file, Severity severity, const GltfValue *at, const char *format,
-                   va_list args)
+void file_report(GltfFile *file, Severity severity, const GltfValue *at, const char *format,
+                 va_list args)
 {
-    char message[1024], pointer[256];
-    vsnprintf(message, sizeof message, format, args);
+    char pointer[256];
     tree_pointer(at, pointer, sizeof pointer);
-    problems_add(file->load->problems, severity, file->path, pointer, "%s", message);
+    problems_add_list(file->load->problems, severity, file->path, pointer, format, args);
 }
 
 void file_error(GltfFile *file, const GltfValue *at, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    report(file, SEVERITY_ERROR, at, format, args);
+    file_report(file, SEVERITY_ERROR, at, format, args);
     va_end(args);
 }
 
@@ -35,7 +34,7 @@ void file_warning(GltfFile *file, const GltfValue *at, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    report(file, SEVERITY_WARNING, at, format, args);
+    file_report(file, SEVERITY_WARNING, at, format, args);
     va_end(args);
 }
 
@@ -45,12 +44,10 @@ static bool frame_error(GltfFile *file, const char *place, const char *format, .
 
 static bool frame_error(GltfFile *file, const char *place, const char *format, ...)
 {
-    char message[1024];
     va_list args;
     va_start(args, format);
-    vsnprintf(message, sizeof message, format, args);
+    problems_add_list(file->load->problems, SEVERITY_ERROR, file->path, place, format, args);
     va_end(args);
-    problems_add(file->load->problems, SEVERITY_ERROR, file->path, place, "%s", message);
     return false;
 }
 

@@ -11,6 +11,8 @@ void file_error(GltfFile *file, const GltfValue *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 void file_warning(GltfFile *file, const GltfValue *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+void file_report(GltfFile *file, Severity severity, const GltfValue *at, const char *format,
+                 va_list args) __attribute__((format(printf, 4, 0)));
 
 /* Reads a file, hashes it and notes it among the scene's inputs. */
 bool load_read(Loader *load, const char *path, Arena *arena, FileBytes *out, Error *err);
