@@ -188,7 +188,8 @@ static Ticks scale_ticks(const PolarMap *map, double height)
                        : ticks_linear(map->low, map->high, most);
 }
 
-static void draw_scale(const PolarDisc *disc, Box bar)
+/* The colours from bottom to top, with arrows where values are cut. */
+static void paint_ramp(const PolarDisc *disc, Box bar)
 {
     Canvas *canvas = disc->canvas;
     Palette palette;
@@ -216,6 +217,11 @@ static void draw_scale(const PolarDisc *disc, Box bar)
             canvas_fill(canvas, ink_hex(palette.colour[0] & 0xffffff));
         }
     }
+}
+
+static void draw_scale_ticks(const PolarDisc *disc, Box bar)
+{
+    Canvas *canvas = disc->canvas;
     Ticks ticks = scale_ticks(disc->map, bar.h);
     for (int i = 0; i < ticks.count; i++) {
         char   text[32];
@@ -227,6 +233,13 @@ static void draw_scale(const PolarDisc *disc, Box bar)
                         (Letters){.size = SIZE_TICK, .ink = canvas->theme.soft, .down = 0.5},
                         tick_text(ticks.value[i], ticks.step, text));
     }
+}
+
+static void draw_scale(const PolarDisc *disc, Box bar)
+{
+    Canvas *canvas = disc->canvas;
+    paint_ramp(disc, bar);
+    draw_scale_ticks(disc, bar);
     for (int i = 0; i < disc->map->level_count; i++) { /* the lines of the map, on the scale */
         double t = polar_disc_position(disc->map, disc->map->level[i]);
         double y = bar.y + bar.h * (1 - t);
