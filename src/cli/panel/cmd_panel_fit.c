@@ -52,7 +52,8 @@ static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err
          "emission, 0.02 for reflection, or what the noise asks for)", &out->max_error, 1e-5, 1,
          .given = NULL},
         {"--mask-outliers", OPTION_FLAG, NULL,
-         "errors leave out hot and dead pixels of emission tables", &out->masks_outliers, .given = NULL},
+         "errors leave out hot and dead pixels of emission tables", &out->masks_outliers,
+         .given = NULL},
         {"--lobe-is-mirror", OPTION_FLAG, NULL,
          "a narrow peak on the haze is the mirror's image as wide as the instrument, where the "
          "set does not declare that width", &out->lobe_is_mirror, .given = NULL},
