@@ -43,8 +43,7 @@ static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err
          "Haar's means by area or equal (default area)", &out->weights, .given = NULL},
         {"--level", OPTION_INTEGER, "N",
          "subdivision level of the trees (default: what the samples need, up to 9)",
-    &out->level,
-         2, 9, .given = NULL},
+         &out->level, 2, 9, .given = NULL},
         {"--keep", OPTION_NUMBER, "SHARE", "share of coefficients to keep, instead of a bound",
          &out->keep, 1e-5, 1, .given = NULL},
         {"--max-error", OPTION_NUMBER, "R",
@@ -65,7 +64,7 @@ static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err
          .given = NULL},
         {"--incidence", OPTION_CHOICE, "cubic|linear",
          "between incidences: four slices or two (default cubic)", &out->incidence,
-    .given = NULL},
+         .given = NULL},
     };
     const CliCommand command = {"panel fit", "measurement files to one compressed panel file",
         "MANIFEST.json|TABLE.csv -o X.panel [options]",
