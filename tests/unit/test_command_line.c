@@ -37,7 +37,7 @@ TEST(idle_words_are_left_out_on_request)
 TEST(a_part_s_line_becomes_the_whole_s)
 {
     static const FilmRect all = {0, 0, 64, 48}, half = {0, 0, 32, 48};
-    static const struct {
+    const struct {
         const char *line;
         FilmRect    crop;
         uint32_t    first, end;
