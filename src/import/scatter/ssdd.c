@@ -35,7 +35,8 @@ typedef struct Ssdd {
     bool       is_mirrored, is_reciprocal;
     int        count[PARAMS];
     double    *param[PARAMS]; /* degrees */
-    int        channels;      /* of the file */
+    int        nm_count;      /* of WAVELENGTH_LIST */
+    int        channels;      /* of the file, as its COLOR_MODEL wants */
     float     *nm;            /* of a spectrum */
     double    *value;         /* [3][2][1][0][channel] */
     bool       is_half_turn;  /* param 3 stops at 180: of the half-difference system */
@@ -72,7 +73,7 @@ static bool read_wavelengths(Ssdd *in, char *text, Error *err)
     if (list.count > MEASUREMENT_WAVELENGTHS_MAX)
         return scan_fail(&in->scan, err, "WAVELENGTH_LIST has %d numbers, wanted at most %d",
                          list.count, MEASUREMENT_WAVELENGTHS_MAX);
-    in->channels = list.count;
+    in->nm_count = list.count;
     in->nm = ARENA_NEW(in->scan.arena, float, list.count);
     for (int c = 0; c < list.count; c++) in->nm[c] = (float)list.number[c];
     return true;
@@ -96,7 +97,6 @@ static bool read_colour(Ssdd *in, const char *text, Error *err)
         return scan_fail(&in->scan, err, "COLOR_MODEL is '%.40s', wanted monochrome, rgb, xyz "
                          "or spectrum", text);
     in->colour = (SsddColour)(COLOUR_MONO + at);
-    if (in->colour != COLOUR_SPECTRUM) in->channels = in->colour == COLOUR_MONO ? 1 : 3;
     return true;
 }
 
@@ -173,6 +173,9 @@ static bool check_metadata(Ssdd *in, Error *err)
     if (in->colour == COLOUR_NONE) return scan_fail(scan, err, "the block has no COLOR_MODEL");
     if (in->colour == COLOUR_SPECTRUM && !in->nm)
         return scan_fail(scan, err, "the block has no WAVELENGTH_LIST");
+    in->channels = in->colour == COLOUR_SPECTRUM ? in->nm_count
+                   : in->colour == COLOUR_MONO   ? 1
+                                                 : 3;
     if (in->is_table && in->system == SYSTEM_NONE)
         return scan_fail(scan, err, "the block has no PARAM_TYPE");
     for (int i = 0; i < PARAMS; i++) {
