@@ -76,7 +76,7 @@ def faults(name, text, tree):
 
 
 def check_itself(report, tree):
-    made_up = "/* as src/nowhere/nothing.h says (design: panel, section 7) */"
+    made_up = "/* as src/nowhere/nothing.h says (de" "sign: panel, section 7) */"
     report.claim(len(faults("src/base/x.c", made_up, tree)) == 2, "made-up pointers pass")
     report.claim(faults("a.md", "see `assets/nothing.md`", tree) != [], "a made-up page passes")
     true = "/* src/base/arena.h, arena.h, base/arena.h */"
