@@ -46,6 +46,14 @@ bool error_at(Error *err, ErrorCode code, const char *file, const char *path,
     return false;
 }
 
+bool error_at_count(Error *err, const char *file, const char *unit, long number,
+                    const char *format, va_list list)
+{
+    char place[48];
+    snprintf(place, sizeof place, "%s %ld", unit, number);
+    return error_at_list(err, ERROR_INPUT, file, place, format, list);
+}
+
 bool error_prefix(Error *err, const char *format, ...)
 {
     char context[sizeof err->text];

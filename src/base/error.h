@@ -42,6 +42,10 @@ bool error_at(Error *err, ErrorCode code, const char *file, const char *path,
 bool error_at_list(Error *err, ErrorCode code, const char *file, const char *path,
                    const char *format, va_list list) __attribute__((format(printf, 5, 0)));
 
+/* An ERROR_INPUT at a numbered place: `unit` "line" and number 12 are "line 12". */
+bool error_at_count(Error *err, const char *file, const char *unit, long number,
+                    const char *format, va_list list) __attribute__((format(printf, 5, 0)));
+
 /* Puts "context: " in front of the text; keeps the rest; returns false. */
 bool error_prefix(Error *err, const char *format, ...)
     __attribute__((format(printf, 2, 3)));

@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
+#include "cli/options/look_options.h"
 #include "image/develop.h"
 #include "image/exposure.h"
 #include "text/json_text.h"
@@ -22,16 +23,7 @@ static bool parse(int argc, char **argv, Arena *arena, DevelopWords *out, Error 
     long bits = 8;
     const Option options[] = {
         {"-o", OPTION_TEXT, "FILE", "the picture: .png, .jpg or .tif", .out = &out->output},
-        {"--exposure", OPTION_TEXT, "auto|EV|white:CD_M2",
-         "auto (default: the cabin looks well), an exposure value at ISO 100 (15: full sun; "
-         "one more is half as bright), or the luminance that becomes white",
-         .out = &o->exposure},
-        {"--display", OPTION_TEXT, "NAME", "sRGB (default), Display P3, Rec.1886",
-         .out = &o->display},
-        {"--view", OPTION_TEXT, "NAME", "photographic (default), ACES SDR, untonemapped, raw",
-         .out = &o->view},
-        {"--config", OPTION_TEXT, "FILE",
-         "OpenColorIO configuration; else $OCIO, else the program's own", .out = &o->config},
+        LOOK_OPTIONS(o),
         {"--false-colour", OPTION_CHOICE, "luminance", "luminance as colours, with the scale",
          .out = &kind},
         {"--range", OPTION_NUMBERS, "LOW,HIGH",

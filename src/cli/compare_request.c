@@ -139,8 +139,7 @@ bool compare_parse(int argc, char **argv, Arena *arena, CompareRequest *out, Err
         {"--region", OPTION_NUMBERS, "X0,Y0,X1,Y1",
          "pixels, half-open, the origin at the top left (default: all)", .out = words.region,
          .low = -65536, .high = 65536, .count = 4, .given = &o->selection.has_region},
-        {"--display", OPTION_TEXT, "NAME",
-         "only pixels that show this display (its material's name)",
+        {"--display", OPTION_TEXT, "NAME", "only pixels that show this display (material)",
          .out = &o->selection.display},
         {"--exposure-range", OPTION_NUMBERS, "A,B",
          "HDR-FLIP looks at exposure values from A to B (as develop --exposure: 15 is full "
@@ -150,8 +149,7 @@ bool compare_parse(int argc, char **argv, Arena *arena, CompareRequest *out, Err
          "that frames are developed with for ssim and deltae (default: auto, of the "
          "reference)", .out = &o->exposure},
         {"--ignore", OPTION_TEXTS, "NAME",
-         "leave out a metadata key, a channel or a layer; may be given many times",
-         .out = &words.ignored},
+         "leave out a metadata key, channel or layer; repeatable", .out = &words.ignored},
         {"--strict", OPTION_FLAG, NULL,
          "different program, seed, samples, inputs ... are failures too",
          .out = &o->rules.strict},

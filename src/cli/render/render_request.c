@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/reference.h"
+#include "cli/options/look_options.h"
 #include "cli/render/command_line.h"
 
 #define DEFAULT_WIDTH 1280
@@ -256,6 +257,26 @@ static const char *resume_line(int argc, char **argv, bool resumes, Arena *arena
     return command_line_join(argc + 1, words, true, arena);
 }
 
+/* ---- rows of the option table that belong together --------------------------------------- */
+
+#define DISPLAY_OPTIONS(typed)                                                                 \
+    {"--content", OPTION_TEXTS, "MATERIAL=IMAGE", "what a display shows", &(typed)->contents}, \
+    {"--panel", OPTION_TEXTS, "MATERIAL=FILE.panel", "makes a material a display",             \
+     &(typed)->panels},                                                                        \
+    {"--display-level", OPTION_TEXTS, "MATERIAL|*=PERCENT",                                    \
+     "how bright a display is set (*: all)", &(typed)->levels}
+
+#define CHECKPOINT_OPTIONS(request, typed)                                                     \
+    {"--checkpoint", OPTION_TEXT, "FILE",                                                      \
+     "keep what is done, here (default FRAME.exr.checkpoint); INT and TERM always do; gone "   \
+     "with the finished frame", &(request)->checkpoint},                                       \
+    {"--checkpoint-interval", OPTION_NUMBER, "SECONDS", "how often (default 60)",              \
+     &(request)->render.checkpoint_interval_s, .low = 0, .high = 1e6,                          \
+     .given = &(typed)->has_interval},                                                         \
+    {"--resume", OPTION_FLAG, NULL,                                                            \
+     "go on from the checkpoint, to the same frame bit for bit; without one begin",            \
+     &(request)->resumes}
+
 static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
                        RenderRequest *request, Error *err)
 {
@@ -264,13 +285,7 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
         {"-o", OPTION_TEXT, "FRAME.exr", "the frame that is written", &request->output},
         {"--png", OPTION_TEXT, "FILE", "develop the frame as well (PNG, JPEG, TIFF by ending)",
          &request->png},
-        {"--exposure", OPTION_TEXT, "auto|EV|white:CD_M2", "of the picture (default auto)",
-         &request->look.exposure},
-        {"--config", OPTION_TEXT, "FILE", "OpenColorIO configuration (default $OCIO, else own)",
-         &request->look.config},
-        {"--display", OPTION_TEXT, "NAME", "the configuration's display",
-         &request->look.display},
-        {"--view", OPTION_TEXT, "NAME", "the configuration's view", &request->look.view},
+        LOOK_OPTIONS(&request->look),
         {"--false-colour", OPTION_CHOICE, "luminance", "show luminance on a scale of colours",
          &typed->false_colour, .given = &request->look.false_colour},
         {"--camera", OPTION_TEXT, "NAME|INDEX", "node's or camera's name, or place (default 0)",
@@ -293,24 +308,11 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
         {"--layers", OPTION_TEXT, "LIST", "all, or names with commas: xyz,depth,normal,...",
          &typed->layers},
         ENVIRONMENT_OPTIONS(outside),
-        {"--content", OPTION_TEXTS, "MATERIAL=IMAGE", "what a display shows", &typed->contents},
-        {"--panel", OPTION_TEXTS, "MATERIAL=FILE.panel", "makes a material a display",
-         &typed->panels},
-        {"--display-level", OPTION_TEXTS, "MATERIAL|*=PERCENT",
-         "how bright a display is set (*: all)", &typed->levels},
+        DISPLAY_OPTIONS(typed),
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &request->scene.root},
         {"--isa", OPTION_TEXT, "NAME", "sse2, avx2, avx512 (default: the processor's best)",
          &request->render.isa},
-        {"--checkpoint", OPTION_TEXT, "FILE",
-         "keep what is done, here (default FRAME.exr.checkpoint); INT and TERM always do; gone "
-         "with the finished frame",
-         &request->checkpoint},
-        {"--checkpoint-interval", OPTION_NUMBER, "SECONDS", "how often (default 60)",
-         &request->render.checkpoint_interval_s, .low = 0, .high = 1e6,
-         .given = &typed->has_interval},
-        {"--resume", OPTION_FLAG, NULL,
-         "go on from the checkpoint, to the same frame bit for bit; without one begin",
-         &request->resumes},
+        CHECKPOINT_OPTIONS(request, typed),
         {"--replay", OPTION_NUMBERS, "X,Y,SAMPLE", "one sample of one pixel, printed",
          typed->replay, .count = 3, .given = &typed->has_replay},
     };

@@ -39,11 +39,9 @@ bool byte_scan_double(ByteScan *scan, double *out)
 
 bool byte_scan_fail(const ByteScan *scan, Error *err, const char *format, ...)
 {
-    char    place[32];
     va_list list;
-    snprintf(place, sizeof place, "byte %zu", scan->at);
     va_start(list, format);
-    error_at_list(err, ERROR_INPUT, scan->file, place, format, list);
+    error_at_count(err, scan->file, "byte", (long)scan->at, format, list);
     va_end(list);
     return false;
 }

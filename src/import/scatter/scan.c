@@ -167,11 +167,9 @@ bool scan_check_end(const WordScan *scan, Error *err)
 
 bool scan_fail(const WordScan *scan, Error *err, const char *format, ...)
 {
-    char    place[32];
     va_list list;
-    snprintf(place, sizeof place, "line %d", scan->line);
     va_start(list, format);
-    error_at_list(err, ERROR_INPUT, scan->file, place, format, list);
+    error_at_count(err, scan->file, "line", scan->line, format, list);
     va_end(list);
     return false;
 }
