@@ -65,7 +65,7 @@ static Vec3 direction_of_u(const Scene *scene, const TextureSlot *slot, uint32_t
 Frame display_frame(const Scene *scene, const Display *display, uint32_t triangle,
                     const TrianglePoint *point)
 {
-    Vec3 n = point->ns;
+    Vec3 n = vec3_dot(point->ns, point->ng) < 0 ? vec3_neg(point->ns) : point->ns;
     Vec3 right = direction_of_u(scene, &display->content, triangle);
     right = vec3_normalize(vec3_along(right, n, -vec3_dot(right, n)));
     if (!(vec3_dot(right, right) > 0.5f)) return frame_from_z(n);
@@ -95,6 +95,16 @@ void emitted_rgb(const Scene *scene, const Material *material, const TrianglePoi
     for (int i = 0; i < 3; i++) rgb[i] *= texel[i];
 }
 
+void display_emission_xyz(const Scene *scene, const Display *display, uint32_t triangle,
+                          const TrianglePoint *point, Vec3 direction, float xyz[3])
+{
+    float codes[3];
+    Frame frame = display_frame(scene, display, triangle, point);
+    display_codes(scene, display, point, codes);
+    panel_emission_xyz(display->panel, frame_to_local(&frame, direction), codes, xyz);
+    for (int i = 0; i < 3; i++) xyz[i] *= display->level;
+}
+
 static Spectrum display_emission(const Scene *scene, const Display *display, uint32_t triangle,
                                  const TrianglePoint *point, Vec3 direction,
                                  const Wavelengths *wavelengths)
@@ -120,14 +130,22 @@ static Spectrum material_emission(const Scene *scene, const Material *material,
            spectrum_all(luminance);
 }
 
-Spectrum triangle_emission(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
-                           Vec3 direction, const Wavelengths *wavelengths)
+bool triangle_emits_to(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
+                       Vec3 direction)
 {
     const Material *material =
         &scene->materials[scene->parts[scene->triangles[triangle].part_id].material_id];
     bool front = vec3_dot(point->ng, direction) > 0;
     bool back_is_dark = material->display_id != NO_ID || !material->double_sided;
-    if (!material->is_emitter || (!front && back_is_dark)) return spectrum_all(0);
+    return material->is_emitter && (front || !back_is_dark);
+}
+
+Spectrum triangle_emission(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
+                           Vec3 direction, const Wavelengths *wavelengths)
+{
+    const Material *material =
+        &scene->materials[scene->parts[scene->triangles[triangle].part_id].material_id];
+    if (!triangle_emits_to(scene, triangle, point, direction)) return spectrum_all(0);
     if (material->display_id != NO_ID)
         return display_emission(scene, &scene->displays[material->display_id], triangle, point,
                                 direction, wavelengths);

@@ -20,8 +20,8 @@ TrianglePoint triangle_point(const Scene *scene, uint32_t triangle, float u, flo
 /* Texture coordinates of a slot. */
 Vec2 slot_uv(const TextureSlot *slot, const float uv[][2]);
 
-/* The display's frame at a point (physics: the display's frame): +z the shading normal, +x the
- * direction of growing U of its content, +y up. */
+/* The display's frame at a point: +z the shading normal on the front's side, +x the direction
+ * of growing U of its content, +y up. */
 Frame display_frame(const Scene *scene, const Display *display, uint32_t triangle,
                     const TrianglePoint *point);
 
@@ -29,9 +29,19 @@ Frame display_frame(const Scene *scene, const Display *display, uint32_t triangl
 void display_codes(const Scene *scene, const Display *display, const TrianglePoint *point,
                    float codes[3]);
 
+/* The panel's measured XYZ, cd m^-2, that leaves the point along `direction` (unit, world, on
+ * the front's side). */
+void display_emission_xyz(const Scene *scene, const Display *display, uint32_t triangle,
+                          const TrianglePoint *point, Vec3 direction, float xyz[3]);
+
 /* Emitted colour of a material that is no display, linear Rec.709, cd m^-2; front side. */
 void emitted_rgb(const Scene *scene, const Material *material, const TrianglePoint *point,
                  float rgb[3]);
+
+/* Can anything leave the point along `direction` (unit, world)? The back of a display is its
+ * casing and emits nothing; that of another material emits where it is double-sided. */
+bool triangle_emits_to(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
+                       Vec3 direction);
 
 /* Spectral radiance that leaves the point along `direction` (unit, world). */
 Spectrum triangle_emission(const Scene *scene, uint32_t triangle, const TrianglePoint *point,

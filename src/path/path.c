@@ -1,4 +1,3 @@
-#include "panel/query/panel_emission.h"
 #include "path/path.h"
 
 #include "base/units.h"
@@ -96,17 +95,16 @@ static void add_distant(PathWalk *walk)
 }
 
 /* A display seen along a path on which nothing depended on wavelength: its measured XYZ. */
-static void add_display_xyz(PathWalk *walk, const Surface *surface, Vec3 wo, float weight)
+static void add_display_xyz(PathWalk *walk, const Surface *surface, uint32_t triangle, Vec3 wo,
+                            float weight)
 {
-    const Scene   *scene = walk->context->scene;
-    int            display_id = scene->materials[surface->material_id].display_id;
-    const Display *display = &scene->displays[display_id];
-    float codes[3], xyz[3];
-    Vec3  local = frame_to_local(&surface->frame, wo);
-    display_codes(scene, display, &surface->point, codes);
-    panel_emission_xyz(display->panel, local, codes, xyz);
+    const Scene *scene = walk->context->scene;
+    int          display_id = scene->materials[surface->material_id].display_id;
+    float        xyz[3];
+    display_emission_xyz(scene, &scene->displays[display_id], triangle, &surface->point, wo,
+                         xyz);
     for (int i = 0; i < 3; i++)
-        walk->gathered.xyz[i] += walk->throughput[0] * weight * display->level * xyz[i];
+        walk->gathered.xyz[i] += walk->throughput[0] * weight * xyz[i];
 }
 
 /* Of the light samples of the last vertex; nothing asks for it behind a mirror. */
@@ -126,7 +124,7 @@ static void add_emitted(PathWalk *walk, const Surface *surface, const Hit *hit, 
     if (!(weight > 0)) return;
     if (scene->materials[surface->material_id].display_id != NO_ID &&
         spectrum_is_grey(walk->throughput)) {
-        add_display_xyz(walk, surface, wo, weight);
+        add_display_xyz(walk, surface, hit->triangle, wo, weight);
         return;
     }
     walk->gathered.radiance += walk->throughput * spectrum_all(weight) *

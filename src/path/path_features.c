@@ -19,15 +19,14 @@ static void scaled_emission(const Display *display, Vec3 direction, const float 
     for (int i = 0; i < 3; i++) xyz[i] *= display->level;
 }
 
-static void display_features(const Scene *scene, const Display *display, const Surface *surface,
-                             Vec3 wo, PathFeatures *out)
+static void display_features(const Scene *scene, const Display *display, uint32_t triangle,
+                             const Surface *surface, Vec3 wo, PathFeatures *out)
 {
     static const float white[3] = {255, 255, 255}, black[3] = {0, 0, 0};
-    float codes[3];
-    Vec3  local = frame_to_local(&surface->frame, wo);
+    Frame frame = display_frame(scene, display, triangle, &surface->point);
+    Vec3  local = frame_to_local(&frame, wo);
     float phi = atan2_f(local.y, local.x);
-    display_codes(scene, display, &surface->point, codes);
-    scaled_emission(display, local, codes, out->emitted);
+    display_emission_xyz(scene, display, triangle, &surface->point, wo, out->emitted);
     scaled_emission(display, local, white, out->white);
     scaled_emission(display, local, black, out->black);
     out->theta = acos_f(local.z);
@@ -48,7 +47,8 @@ void path_features(const PathContext *context, const PathResult *result,
     albedo_rgb(bsdf_albedo(&surface.bsdf, frame_to_local(&surface.frame, wo)), wavelengths,
                out->albedo);
     int display_id = scene->materials[surface.material_id].display_id;
-    if (display_id == NO_ID || vec3_dot(wo, surface.ng) <= 0) return;
+    if (display_id == NO_ID || !surface.emits) return;
     out->display_id = display_id;
-    display_features(scene, &scene->displays[display_id], &surface, wo, out);
+    display_features(scene, &scene->displays[display_id], result->first.triangle, &surface, wo,
+                     out);
 }

@@ -215,7 +215,7 @@ static void set_display(const Site *site, Vec3 wo, Surface *surface)
 {
     const Display *display = &site->scene->displays[site->material->display_id];
     if (vec3_dot(wo, surface->ng) <= 0) {
-        surface->bsdf.kind = BSDF_BLACK; /* the back of a display */
+        surface->bsdf.kind = BSDF_BLACK; /* the back of a display: its casing */
         return;
     }
     TrianglePoint turned = surface->point;
@@ -236,12 +236,14 @@ void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
     out->ng = out->point.ng;
     out->part_id = part_id;
     out->material_id = scene->parts[part_id].material_id;
-    out->emits = m->is_emitter;
+    out->emits = triangle_emits_to(scene, hit->triangle, &out->point, wo);
     base_texel(scene, m, hit, &out->point, texel);
     out->alpha = alpha_of(m, texel[3]);
     Vec3 side = vec3_dot(out->ng, wo) < 0 && !m->is_solid ? vec3_neg(out->ng) : out->ng;
     Vec3 eye = vec3_dot(side, wo) < 0 ? vec3_neg(wo) : wo;
-    Vec3 ns = mapped_normal(scene, &m->normal_texture, m->normal_scale, hit, &out->point);
+    Vec3 ns = m->display_id != NO_ID /* a panel was measured with what its surface is */
+                  ? out->point.ns
+                  : mapped_normal(scene, &m->normal_texture, m->normal_scale, hit, &out->point);
     out->frame = frame_from_z(oriented_normal(ns, side, eye));
     Site site = {.scene = scene, .tables = tables, .material = m, .hit = hit,
                  .wavelengths = wavelengths};

@@ -21,7 +21,7 @@ typedef struct Surface {
     Frame frame;       /* shading frame; for all but solids turned to wo's side */
     int   part_id, material_id;
     float alpha;       /* 1: all there; below: light passes this point as if it were a hole */
-    bool  emits;
+    bool  emits;       /* towards wo */
     TrianglePoint point;
     Bsdf  bsdf;
 } Surface;

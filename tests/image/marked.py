@@ -1,6 +1,6 @@
 """marked.py PARHELION -- which way round a display is: a panel with a lobe upwards looks bright
-from above, content stands upright, and a real viewing-angle table is seen in a frame within
-2 %.
+from above, content stands upright, the back is black in every layer, and a real viewing-angle
+table is seen in a frame within 2 %.
 """
 import csv
 import json
@@ -105,10 +105,71 @@ def check_measured(report, program, folder):
               f"{100 * (mean / expected - 1):+.2g} %")
 
 
+def back_scene(panel, double_sided, node, between):
+    """A display, and what stands between it and the probes before and behind it."""
+    scene = Scene()
+    material = scene.material("display", doubleSided=double_sided,
+                              extensions={"PARHELION_display": {"panel": panel}})
+    corners = [[-0.1, -0.1, 0], [0.1, -0.1, 0], [0.1, 0.1, 0], [-0.1, 0.1, 0]]
+    is_mirrored = math.prod(node.get("scale", [1])) < 0  # content must not be
+    uvs = [[1, 1], [0, 1], [0, 0], [1, 0]] if is_mirrored else [[0, 1], [1, 1], [1, 0], [0, 0]]
+    scene.mesh(material, corners, [[0, 1, 2], [0, 2, 3]], uvs=uvs, node=node)
+    for name, z in (("front", 0.5), ("back", -0.5)):
+        if between == "pane":
+            scene.facing_quad(scene.window(1.5), [0, 0, z / 2], [0, 0, 1], 1)
+        eye = [0, 0, z]
+        if between == "mirror":  # looks away from the display into it
+            scene.facing_quad(scene.metal(1), [0, 0, 2 * z], [0, 0, -z], 1)
+        scene.probe(name, eye, [0, 0, z if between == "mirror" else -z], 0.05)
+    return scene
+
+
+def front_of(node):
+    """The probe on the side that the node turns its +Z to: a mirrored node's triangles run the
+    other way round, and so does their front (glTF 2.0, 3.7.2.1)."""
+    upside = (-1 if "rotation" in node else 1) * node.get("scale", [1, 1, 1])[2]
+    return "front" if upside > 0 else "back"
+
+
+def check_back(report, program, folder):
+    """Black from behind whatever stands in the file: no light, no display in any layer."""
+    lambertian = [(theta, 0, 95, 100, 109) for theta in range(0, 89)]
+    panel = fit(program, folder, "lambertian", lambertian)
+    path, out = os.path.join(folder, "back.gltf"), os.path.join(folder, "back.exr")
+    turned = {"rotation": [0, 1, 0, 0]}
+    for double_sided, node, between in (
+            (False, {}, ""), (True, {}, "mirror"), (True, {"scale": [-1, 1, 1]}, ""),
+            (False, {"scale": [1, 1, -1]}, "pane"), (True, turned, "pane"),
+            (False, {**turned, "scale": [1, -1, 1]}, "mirror")):
+        back_scene(panel, double_sided, node, between).write(path)
+        for side in ("front", "back"):
+            run(program, "render", path, "-o", out, "--camera", side, "--size", "8x8", "--spp",
+                "16", "--layers", "all", "--quiet")
+            claim_side(report, program, out, side == front_of(node),
+                       f"{side}, doubleSided {double_sided}, {node}, {between or 'nothing'}")
+
+
+def claim_side(report, program, out, is_front, place):
+    frame = Frame(out)
+    middle = (2, 2, 6, 6)
+    mean, _ = frame.mean_luminance(middle)
+    shown = [name for name in frame.channels if name.startswith("display.")
+             if any(value == value for value in frame.channels[name])]
+    measured = subprocess.run([program, "measure", out, "--display", "display", "--json"],
+                              capture_output=True, text=True, check=False)
+    report.claim(mean > 90 if is_front else mean == 0, f"{place}: {mean:.4g} cd/m2")
+    is_seen = is_front and not place.endswith("mirror")
+    report.claim(bool(shown) == is_seen, f"{place}: values of a display in {shown}")
+    report.claim(measured.returncode == (0 if is_seen else 3)
+                 and ("no pixel to measure" in measured.stderr) != is_seen,
+                 f"{place}: measure --display ends with {measured.returncode}: "
+                 f"{measured.stderr}")
+
+
 def main():
     report, program = Report(), os.path.abspath(sys.argv[-1])
     with tempfile.TemporaryDirectory() as folder:
-        for check in (check_lobe, check_measured):
+        for check in (check_lobe, check_back, check_measured):
             try:
                 check(report, program, folder)
             except subprocess.CalledProcessError as error:

@@ -69,24 +69,31 @@ typedef struct Seen {
     double xyz[3], sigma_y;
 } Seen;
 
-/* Mean of count paths from 3 m away along `towards` (from the display) to its point `at`. */
-static Seen look(const World *world, Vec3 at, Vec3 towards, int count)
+/* Mean of count paths along the ray; without one, of what falls on the point. */
+static Seen gather(const World *world, const Ray *ray, LitPoint point, int count)
 {
     Seen seen = {{0}, 0};
     double squares = 0;
     PathStatistics statistics = {0};
-    Ray ray = {vec3_along(at, towards, 3), vec3_neg(towards), 0, INFINITY};
     for (int i = 0; i < count; i++) {
         Sampler sampler = sampler_start(9, 0, 0, (uint32_t)i);
         Wavelengths w;
         PathResult result;
         wavelengths_sample(sampler_1d(&sampler), &w);
-        path_trace(&world->context, ray, &w, &sampler, &result, &statistics);
+        if (ray) path_trace(&world->context, *ray, &w, &sampler, &result, &statistics);
+        else path_illuminance(&world->context, point, &w, &sampler, result.xyz, &statistics);
         for (int k = 0; k < 3; k++) seen.xyz[k] += (double)result.xyz[k] / count;
         squares += (double)result.xyz[1] * (double)result.xyz[1] / count;
     }
     seen.sigma_y = sqrt(fmax(squares - seen.xyz[1] * seen.xyz[1], 0) / count);
     return seen;
+}
+
+/* From 3 m away along `towards` (from the display) to its point `at`. */
+static Seen look(const World *world, Vec3 at, Vec3 towards, int count)
+{
+    Ray ray = {vec3_along(at, towards, 3), vec3_neg(towards), 0, INFINITY};
+    return gather(world, &ray, (LitPoint){0}, count);
 }
 
 /* 3 primaries x 9 levels x 25 directions in a black room. */
@@ -141,23 +148,10 @@ TEST(the_display_lights_a_wall_with_its_measured_luminance)
             panel_emission_xyz(world.panel, vec3_normalize(to), codes, xyz);
             expected += (double)(xyz[1] * cosine * cosine / d2) * 2.0 / (side * side);
         }
-    Seen seen = {{0}, 0};
-    PathStatistics statistics = {0};
-    const int count = 40000;
-    double squares = 0;
-    for (int i = 0; i < count; i++) {
-        Sampler sampler = sampler_start(4, 0, 0, (uint32_t)i);
-        Wavelengths w;
-        PathResult result;
-        wavelengths_sample(sampler_1d(&sampler), &w);
-        path_trace(&world.context, (Ray){vec3(0, 0, 3.5f), vec3(0, 0, 1), 0, INFINITY}, &w,
-                   &sampler, &result, &statistics);
-        seen.xyz[1] += (double)result.xyz[1] / count;
-        squares += (double)result.xyz[1] * (double)result.xyz[1] / count;
-    }
-    double sigma = sqrt(fmax(squares - seen.xyz[1] * seen.xyz[1], 0) / count);
-    assert_near(seen.xyz[1], expected * 0.5 / PI, 4 * sigma + 2e-3 * seen.xyz[1]);
-    assert_true(sigma < 3e-3 * seen.xyz[1]);
+    Ray  ray = {vec3(0, 0, 3.5f), vec3(0, 0, 1), 0, INFINITY};
+    Seen seen = gather(&world, &ray, (LitPoint){0}, 40000);
+    assert_near(seen.xyz[1], expected * 0.5 / PI, 4 * seen.sigma_y + 2e-3 * seen.xyz[1]);
+    assert_true(seen.sigma_y < 3e-3 * seen.xyz[1]);
     world_end(&world);
 }
 
@@ -340,6 +334,80 @@ TEST(a_display_under_the_sun_reflects_its_brdf_over_the_disc)
             assert_close(seen.xyz[1], expected, 5e-3);
             world_end(&world);
         }
+}
+
+/* ---- the back --------------------------------------------------------------------------- */
+
+/* The display about the origin, its faces as files have them: doubleSided or not, vertex normals
+ * with the winding or against it. */
+static World world_of_faces(bool is_double_sided, bool is_inside_out)
+{
+    World world = world_open(PANELS[1]);
+    world.scene->materials[0].double_sided = is_double_sided;
+    for (uint32_t i = 0; is_inside_out && i < world.scene->vertex_count; i++)
+        world.scene->vertices[i].normal[2] = -1;
+    return world;
+}
+
+/* A pane or a metal mirror; its tint sends the display's light by way of the spectrum. */
+static void add_sheet(World *world, Vec3 centre, bool is_pane, float blue)
+{
+    Material material = builder_material(1);
+    material.base_color[2] = blue;
+    material.roughness = 0;
+    material.transmission = is_pane ? 1 : 0;
+    material.metallic = is_pane ? 0 : 1;
+    material.lets_light_through = is_pane;
+    builder_part(world->scene, material);
+    builder_quad(world->scene, centre, vec3(9, 0, 0), vec3(0, 9, 0));
+}
+
+/* From one side, through a pane and in a mirror: bright from the front, dark from behind. */
+static void check_side(bool is_double_sided, bool is_inside_out, float blue, float side)
+{
+    World world = world_of_faces(is_double_sided, is_inside_out);
+    Vec3  eye = vec3(3, 0, 2 * side), image = vec3(0.3f, 0.1f, 16 * side);
+    add_sheet(&world, vec3(0, 0, 8 * side), false, blue);
+    add_sheet(&world, vec3(0, 0, side), true, blue);
+    world_ready(&world, BOUNCES);
+    Ray  to_mirror = {eye, vec3_normalize(vec3_sub(image, eye)), 0, INFINITY};
+    Seen mirrored = gather(&world, &to_mirror, (LitPoint){0}, 64);
+    assert_true(side > 0 ? mirrored.xyz[1] > 1 : mirrored.xyz[1] == 0);
+    for (int d = 0; d < 6; d++) {
+        Vec3 towards = direction(5 + 12 * d, 60 * d);
+        towards.z *= side;
+        Seen seen = look(&world, vec3(0.3f, 0.1f, 0), towards, 64);
+        assert_true(side > 0 ? seen.xyz[1] > 1 : seen.xyz[1] == 0);
+    }
+    world_end(&world);
+}
+
+TEST(the_back_of_a_display_is_dark)
+{
+    (void)state;
+    for (int i = 0; i < 16; i++) check_side(i & 1, i & 2, i & 4 ? 0.5f : 1, i & 8 ? 1 : -1);
+}
+
+/* The same light of a display for every strategy, on its front; none behind. */
+TEST(the_back_of_a_display_lights_nothing)
+{
+    (void)state;
+    LitPoint before = {vec3(0.2f, 0, 2), vec3(0, 0, -1)};
+    LitPoint behind = {vec3(0.2f, 0, -2), vec3(0, 0, 1)};
+    for (int i = 0; i < 4; i++) {
+        World world = world_of_faces(i & 1, i & 2);
+        Seen  lit[3];
+        world_ready(&world, BOUNCES);
+        for (PathStrategy s = PATH_MIS; s <= PATH_BSDF_ONLY; s++) {
+            world.context.strategy = s;
+            lit[s] = gather(&world, NULL, before, 20000);
+            assert_near(gather(&world, NULL, behind, 500).xyz[1], 0, 0);
+            double sigma = hypot(lit[s].sigma_y, lit[0].sigma_y);
+            assert_near(lit[s].xyz[1], lit[0].xyz[1], 4 * sigma);
+        }
+        assert_true(lit[0].sigma_y < 0.02 * lit[0].xyz[1]);
+        world_end(&world);
+    }
 }
 
 int main(void)
