@@ -237,7 +237,7 @@ TEST(a_frame_says_how_to_make_it_again)
     assert_non_null(strstr(o.out, "a.exr: 16x12, 3 samples a pixel, "));
     FrameImage frame = read_frame("a.exr", arena);
     assert_string_equal(frame_string(&frame, "parhelion:commandLine"),
-                        "parhelion render scene.gltf -o a.exr --size 16x12 --spp 3 --seed 9 "
+                        "parhelion render scene.gltf --size 16x12 --spp 3 --seed 9 "
                         "--layers id,samples");
     assert_string_equal(frame_string(&frame, "parhelion:samples"), "0:3");
     assert_string_equal(frame_string(&frame, "parhelion:seed"), "9");

@@ -2,6 +2,7 @@
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/count.h"
@@ -17,12 +18,12 @@
 #include "film/film_frame.h"
 #include "film/film_merge.h"
 #include "text/json_text.h"
+#include "text/text.h"
 
 typedef struct MergeRun {
     Cli         cli;
     const char *output;
     bool        keeps_sums;   /* --part */
-    const char *own_line;     /* this command's */
     Arena      *arena;
     FilmPart   *parts;        /* one an argument */
     FilmPart    whole;        /* what they make */
@@ -51,7 +52,6 @@ static bool parse(int argc, char **argv, MergeRun *work, Error *err)
     if (strcmp(path_ending(work->output), ".exr") != 0)
         return error_set(err, ERROR_USAGE, "-o %s: wanted a name that ends in .exr",
                          work->output);
-    work->own_line = command_line_join(argc, argv, false, work->arena);
     return file_check_writable(work->output, err);
 }
 
@@ -232,29 +232,35 @@ static const char *line_of_whole(const MergeRun *work, Arena *arena)
     for (int i = 0; i < work->cli.argument_count; i++) {
         const char *line = work->lines[i];
         if (strncmp(line, "parhelion render ", 17) != 0) return NULL;
-        line = command_line_of_whole(line, &work->whole, work->output, arena);
+        line = command_line_of_whole(line, &work->whole, arena);
         if (!line || (first && strcmp(first, line) != 0)) return NULL;
         if (!first) first = line;
     }
     return first;
 }
 
+static int compare_lines(const void *a, const void *b)
+{
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+/* Sorted: the order of the parts, and their names, decide nothing. */
 static const char *list_lines(const MergeRun *work, Arena *arena)
 {
-    size_t length = 1;
-    for (int i = 0; i < work->cli.argument_count; i++) length += strlen(work->lines[i]) + 1;
-    char *list = ARENA_NEW(arena, char, length), *end = list;
-    for (int i = 0; i < work->cli.argument_count; i++) {
-        end = stpcpy(end, work->lines[i]);
-        *end++ = '\n';
+    int   count = work->cli.argument_count;
+    Text  list = {.arena = arena};
+    qsort(work->lines, (size_t)count, sizeof *work->lines, compare_lines);
+    for (int i = 0; i < count; i++) {
+        text_add(&list, work->lines[i]);
+        text_add(&list, "\n");
     }
-    return list;
+    return list.data;
 }
 
 static void set_lines(const MergeRun *work, FrameImage *frame, Arena *arena)
 {
     const char *line = line_of_whole(work, arena);
-    frame_set_string(frame, "parhelion:commandLine", line ? line : work->own_line, arena);
+    frame_set_string(frame, "parhelion:commandLine", line ? line : "parhelion merge", arena);
     if (!line) frame_set_string(frame, "parhelion:parts", list_lines(work, arena), arena);
 }
 

@@ -3,24 +3,39 @@
 
 #include <string.h>
 
+#include "cli/options/look_options.h"
 #include "text/escape.h"
 
 /* ---- words ------------------------------------------------------------------------------- */
 
-/* How many words, this one first, leave every pixel as it is: a render that was interrupted and
- * resumed says the same command line in its frame as one that was not. */
+static bool is_option(const char *word, const char *name)
+{
+    size_t length = strcspn(word, "=");
+    return strlen(name) == length && !strncmp(word, name, length);
+}
+
+static int words_of(const char *word, bool has_value)
+{
+    return has_value && !strchr(word, '=') ? 2 : 1;
+}
+
+/* How many words, this one first, leave every pixel as it is, since they only name files, make
+ * a picture of the frame as well, or say how the run goes: frames that are the same say the
+ * same, whatever they are called and however often the render was interrupted. */
 static int idle_words(const char *word)
 {
     static const struct {
         const char *name;
         bool        has_value;
-    } idle[] = {{"--threads", true}, {"--json", false}, {"--quiet", false},
-                {"--progress", true}, {"--checkpoint", true},
-                {"--checkpoint-interval", true}, {"--resume", false}};
-    size_t length = strcspn(word, "=");
+    } idle[] = {{"-o", true}, {"--png", true}, {"--false-colour", true}, {"--threads", true},
+                {"--json", false}, {"--quiet", false}, {"--progress", true},
+                {"--checkpoint", true}, {"--checkpoint-interval", true}, {"--resume", false}};
+    DevelopOptions look;
+    const Option   looks[] = {LOOK_OPTIONS(&look)};
     for (int i = 0; i < COUNT_OF(idle); i++)
-        if (strlen(idle[i].name) == length && !strncmp(word, idle[i].name, length))
-            return idle[i].has_value && !word[length] ? 2 : 1;
+        if (is_option(word, idle[i].name)) return words_of(word, idle[i].has_value);
+    for (int i = 0; i < COUNT_OF(looks); i++)
+        if (is_option(word, looks[i].name)) return words_of(word, looks[i].kind != OPTION_FLAG);
     return 0;
 }
 
@@ -58,17 +73,11 @@ static const char *next_word(const char **rest, Arena *arena)
 
 typedef struct Rewriting {
     const FilmPart *whole;
-    const char     *output;
     Arena          *arena;
     bool            is_impossible;
 } Rewriting;
 
 typedef const char *Rewrite(Rewriting *to); /* "": the option is left out */
-
-static const char *write_output(Rewriting *to)
-{
-    return arena_format(to->arena, " -o %s", escape_shell(to->output, to->arena));
-}
 
 static const char *write_samples(Rewriting *to)
 {
@@ -87,12 +96,6 @@ static const char *write_crop(Rewriting *to)
     return arena_format(to->arena, " --crop %d,%d,%d,%d", crop.x0, crop.y0, crop.x1, crop.y1);
 }
 
-static const char *leave_out(Rewriting *to)
-{
-    (void)to;
-    return "";
-}
-
 static const char *give_up(Rewriting *to)
 {
     to->is_impossible = true;
@@ -103,32 +106,27 @@ static const char *give_up(Rewriting *to)
 static const struct {
     const char *name;
     Rewrite    *rewrite;
-} options[] = {
-    {"-o", write_output}, {"--samples", write_samples}, {"--spp", write_samples},
-    {"--crop", write_crop}, {"--noise", give_up}, {"--png", leave_out},
-    {"--exposure", leave_out}, {"--config", leave_out}, {"--display", leave_out},
-    {"--view", leave_out}, {"--false-colour", leave_out},
-};
+} options[] = {{"--samples", write_samples}, {"--spp", write_samples}, {"--crop", write_crop},
+               {"--noise", give_up}};
 
 static Rewrite *find_rewrite(const char *word)
 {
-    size_t length = strcspn(word, "=");
     for (int i = 0; i < COUNT_OF(options); i++)
-        if (strlen(options[i].name) == length && !strncmp(options[i].name, word, length))
-            return options[i].rewrite;
+        if (is_option(word, options[i].name)) return options[i].rewrite;
     return NULL;
 }
 
-const char *command_line_of_whole(const char *line, const FilmPart *whole, const char *output,
-                                  Arena *arena)
+const char *command_line_of_whole(const char *line, const FilmPart *whole, Arena *arena)
 {
-    Rewriting   to = {whole, output, arena, false};
+    Rewriting   to = {whole, arena, false};
     const char *word, *result = "", *rest = line;
     bool        only_arguments = false;
     while ((word = next_word(&rest, arena))) {
         Rewrite *rewrite = only_arguments ? NULL : find_rewrite(word);
+        int      idle = only_arguments ? 0 : idle_words(word); /* in parts of older versions */
         only_arguments = only_arguments || !strcmp(word, "--");
-        if (rewrite && !strchr(word, '=')) next_word(&rest, arena); /* its value */
+        if ((rewrite ? words_of(word, true) : idle) == 2) next_word(&rest, arena);
+        if (idle) continue;
         const char *written = rewrite ? rewrite(&to) : arena_format(arena, " %s", word);
         result = arena_format(arena, "%s%s", result, written);
     }

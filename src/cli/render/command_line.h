@@ -6,12 +6,11 @@
 #pragma once
 #include "film/film_part.h"
 
-/* "parhelion " and all words; without idle ones are left out that change no pixel: threads,
- * progress, checkpoints. */
+/* "parhelion " and all words; without idle ones are left out that change no pixel: names of
+ * outputs, what concerns the picture beside the frame, threads, progress, checkpoints. */
 const char *command_line_join(int argc, char **argv, bool with_idle, Arena *arena);
 
-/* The `parhelion render` of a part, changed to render `whole` into `output`: its own range and
- * crop go in, or out where they are those of a whole frame, and other pictures are left out.
- * NULL where one run would not make the same, since noise decides when to stop. */
-const char *command_line_of_whole(const char *line, const FilmPart *whole, const char *output,
-                                  Arena *arena);
+/* The `parhelion render` of a part, changed to render `whole`: its range and crop go in, or out
+ * where they are those of a whole frame. NULL where one run would not make the same, since
+ * noise decides when to stop. */
+const char *command_line_of_whole(const char *line, const FilmPart *whole, Arena *arena);

@@ -20,9 +20,8 @@ typedef struct RenderRequest {
     RenderOptions render;
     bool          replays; /* one sample of one pixel, printed */
     bool          is_part; /* some samples or pixels only: the frame can be merged */
-    const char   *command_line; /* without what leaves every pixel as it is: --threads,
-                                   --json, --quiet, --progress, --checkpoint,
-                                   --checkpoint-interval, --resume */
+    const char   *command_line; /* without what leaves every pixel as it is
+                                   (command_line_join) */
     const char   *resume_line;  /* with everything, and --resume */
     const char   *checkpoint;   /* the file; without --checkpoint OUTPUT.checkpoint */
     bool          keeps_checkpoints; /* while rendering; else only when it is stopped */
