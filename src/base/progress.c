@@ -16,17 +16,25 @@ double monotonic_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+/* A line on stderr can be written anew. */
+static bool has_live_terminal(void)
+{
+    const char *terminal = getenv("TERM");
+    return isatty(STDERR_FILENO) && terminal && *terminal && strcmp(terminal, "dumb") != 0;
+}
+
 Progress progress_start(ProgressMode mode, const char *what, const char *unit, double total)
 {
     static const double intervals_s[] = {
         [PROGRESS_BAR] = 0.1, [PROGRESS_PLAIN] = 10, [PROGRESS_JSON] = 1, [PROGRESS_NONE] = 0};
-    bool        is_terminal = isatty(STDERR_FILENO);
+    bool        is_live = has_live_terminal();
     const char *no_colour = getenv("NO_COLOR");
-    if (mode == PROGRESS_AUTO) mode = is_terminal ? PROGRESS_BAR : PROGRESS_PLAIN;
+    if (mode == PROGRESS_AUTO || mode == PROGRESS_BAR)
+        mode = is_live ? PROGRESS_BAR : PROGRESS_PLAIN;
     double now = monotonic_seconds();
     return (Progress){.mode = mode, .what = what, .unit = unit, .total = total, .begun_s = now,
                       .shown_s = now, .interval_s = intervals_s[mode],
-                      .has_colour = is_terminal && !(no_colour && *no_colour)};
+                      .has_colour = is_live && !(no_colour && *no_colour)};
 }
 
 /* 0:07, 12:30, 1:02:03; "?" when nobody can tell. */
@@ -79,7 +87,7 @@ static void show_json(const Progress *progress, double done, const ProgressState
             f->elapsed_s, remaining);
 }
 
-static void show_text(const Progress *progress, const ProgressState *f)
+static void show_text(Progress *progress, const ProgressState *f)
 {
     char rate[32], elapsed[32], remaining[32], bar[BAR_CELLS + 1];
     rate_text(f->rate, rate, (int)sizeof rate);
@@ -96,8 +104,12 @@ static void show_text(const Progress *progress, const ProgressState *f)
     bar[BAR_CELLS] = '\0';
     const char *on = progress->has_colour ? "\033[36m" : "";
     const char *off = progress->has_colour ? "\033[0m" : "";
-    fprintf(stderr, "\r%s %3.0f%% [%s%s%s] %s%s/s  %s elapsed  %s left\033[K", progress->what,
-            floor(100 * f->fraction), on, bar, off, rate, progress->unit, elapsed, remaining);
+    int written = fprintf(stderr, "\r%s %3.0f%% [%s%s%s] %s%s/s  %s elapsed  %s left",
+                          progress->what, floor(100 * f->fraction), on, bar, off, rate,
+                          progress->unit, elapsed, remaining);
+    int columns = written - 1 - (int)strlen(on) - (int)strlen(off);
+    if (columns > progress->shown_columns) progress->shown_columns = columns;
+    fprintf(stderr, "%*s", progress->shown_columns - columns, "");
     fflush(stderr);
 }
 
@@ -127,5 +139,6 @@ void progress_end(Progress *progress, double done)
 
 void progress_clear(const Progress *progress)
 {
-    if (progress->mode == PROGRESS_BAR) fprintf(stderr, "\r\033[K");
+    if (progress->mode == PROGRESS_BAR)
+        fprintf(stderr, "\r%*s\r", progress->shown_columns, "");
 }

@@ -1,8 +1,10 @@
 /* progress.h -- tells a waiting person how far long work has come.
  *
- * On a terminal a bar with percent, rate, elapsed and remaining time; in a pipe a plain line
- * now and then; or one JSON object a line; or nothing. Always on stderr: results own stdout.
- * Colour only on a terminal and without NO_COLOR.
+ * On a terminal a bar with percent, rate, elapsed and remaining time; in a pipe, a file or a
+ * terminal that cannot write a line anew (TERM dumb or missing) a plain line now and then,
+ * also where a bar is asked for; or one JSON object a line; or nothing. Always on stderr:
+ * results own stdout. Colour only on such a terminal and without NO_COLOR; no other escape
+ * codes anywhere.
  *
  * Threads  one thread at a time. Fails: never.
  */
@@ -23,6 +25,7 @@ typedef struct Progress {
     double       begun_s, shown_s; /* seconds of the monotonic clock */
     double       interval_s;       /* wanted between two lines */
     bool         has_colour;
+    int          shown_columns;    /* of the bar's longest line so far */
 } Progress;
 
 /* what and unit must outlive the Progress. */
@@ -34,7 +37,7 @@ void progress_update(Progress *progress, double done);
 /* The last line: always shown, unless nothing ever is. */
 void progress_end(Progress *progress, double done);
 
-/* Clears a bar so that another line can be printed to stderr. */
+/* Blanks a bar out so that another line can be printed to stderr. */
 void progress_clear(const Progress *progress);
 
 /* Seconds of the monotonic clock. */

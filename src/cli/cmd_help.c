@@ -7,6 +7,7 @@
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/options/guides.h"
+#include "text/nearest_word.h"
 
 #define WORDS_MAX 8   /* of a command's name: "panel fit" */
 #define NAMES_MAX 128 /* commands and guides */
@@ -14,7 +15,7 @@
 void cmd_help_print(FILE *out)
 {
     fprintf(out, "parhelion: physically correct frames of dashboards with measured displays\n\n"
-                 "usage: parhelion COMMAND ... | help [NAME] | --help | --version\n\n");
+                 "usage: parhelion COMMAND ... | help [NAME] | -h | -V\n\n");
     for (int i = 0; i < command_count; i++)
         fprintf(out, "  %-18s %s\n", command_table[i]->name, command_table[i]->summary);
     fprintf(out, "\nparhelion COMMAND --help tells the options of each, with an example.\n"
@@ -29,27 +30,30 @@ void cmd_help_print(FILE *out)
 static bool unknown_name(const char *name, Error *err)
 {
     const char *names[NAMES_MAX];
+    char        advice[700];
     int         count = 0;
     for (int i = 0; i < command_count; i++) names[count++] = command_table[i]->name;
     for (int i = 0; i < guide_count && count < NAMES_MAX; i++)
         names[count++] = guide_table[i].name;
-    const char *nearest = cli_nearest(name, names, count);
-    return error_set(err, ERROR_USAGE,
-                     "there is no command or guide %s — %s%s%s`parhelion help` lists them",
-                     name, nearest ? "did you mean " : "", nearest ? nearest : "",
-                     nearest ? "? " : "");
+    nearest_word_advice(name, names, count, advice, (int)sizeof advice);
+    return error_set(err, ERROR_USAGE, "there is no command or guide %s — %s", name, advice);
 }
 
-/* `help panel fit` is `panel fit --help`. */
+/* `help panel fit` is `panel fit --help`; every word behind a command is one of its own. */
 static bool print_command(const Command *command, const Cli *cli, Arena *arena, Error *err)
 {
     char  option[] = "--help";
-    char *line[WORDS_MAX + 2];
-    int   count = 0;
-    for (int i = 0; i < cli->argument_count; i++) line[count++] = (char *)cli->arguments[i];
-    line[count++] = option;
-    line[count] = NULL;
-    return command->run(count, line, arena, err);
+    char *line[] = {(char *)cli->arguments[0], option, NULL};
+    for (int i = 1; i < cli->argument_count; i++) {
+        const char *word = cli->arguments[i];
+        if (!command->sub)
+            return error_set(err, ERROR_USAGE, "help %s: %s has no commands of its own", word,
+                             command->name);
+        command = command_find(command->sub, command->sub_count, command->name, word, err);
+        if (!command) return false;
+        line[0] = (char *)word;
+    }
+    return command->run(2, line, arena, err);
 }
 
 static bool print_guide(const Guide *guide, const Cli *cli, Error *err)
@@ -80,9 +84,8 @@ static bool print_list(const Cli *cli, Error *err)
 static bool help(const Cli *cli, Arena *arena, Error *err)
 {
     if (!cli->argument_count) return print_list(cli, err);
-    const char    *nearest;
     const Command *command =
-        command_find(command_table, command_count, cli->arguments[0], &nearest);
+        command_find(command_table, command_count, NULL, cli->arguments[0], err);
     const Guide   *guide = guide_named(cli->arguments[0]);
     if (command) return print_command(command, cli, arena, err);
     return guide ? print_guide(guide, cli, err) : unknown_name(cli->arguments[0], err);

@@ -7,6 +7,7 @@
 #include "cli/compare_request.h"
 #include "compare/report/html_report.h"
 #include "image/exposure.h"
+#include "text/nearest_word.h"
 
 #define EV_MOST 60
 
@@ -19,20 +20,14 @@ typedef struct CompareWords {
 
 /* ---- names of metrics -------------------------------------------------------------------- */
 
-static const char *nearest_metric(const char *name)
-{
-    const char *names[METRIC_COUNT];
-    for (int i = 0; i < METRIC_COUNT; i++) names[i] = metric_info((Metric)i)->name;
-    return cli_nearest(name, names, METRIC_COUNT);
-}
-
 static bool unknown_metric(const char *option, const char *name, Error *err)
 {
-    const char *nearest = nearest_metric(name);
-    return error_set(err, ERROR_USAGE, "%s: there is no figure %s — %s%s%s", option, name,
-                     nearest ? "did you mean " : "flip, psnr, ssim, deltae_mean, mse, "
-                                                 "mean_shift and others are there",
-                     nearest ? nearest : "", nearest ? "?" : "");
+    const char *names[METRIC_COUNT];
+    char        advice[512];
+    for (int i = 0; i < METRIC_COUNT; i++) names[i] = metric_info((Metric)i)->name;
+    return error_set(err, ERROR_USAGE, "%s: there is no figure %s — %s", option, name,
+                     nearest_word_advice(name, names, METRIC_COUNT, advice,
+                                         (int)sizeof advice));
 }
 
 static bool read_groups(const CliTexts *texts, Arena *arena, CompareOptions *out, Error *err)

@@ -8,31 +8,16 @@
 #include <unistd.h>
 
 #include "base/machine.h"
-#include "bvh/bvh.h"
 #include "cli/cmd_help.h"
 #include "cli/commands.h"
 #include "cli/options/answer.h"
-#include "render/render.h"
-
-static void print_version(void)
-{
-    const Kernel *kernel;
-    Error         err;
-    bool          chosen = kernel_choose(NULL, &kernel, &err);
-    printf("parhelion %s\nsources: %s\ninstruction set: %s\nlibraries: %s, %s\n",
-           PARHELION_VERSION, SOURCES_HASH, chosen ? kernel->isa : "none", bvh_library(),
-           LIBRARY_VERSIONS);
-}
+#include "cli/options/cli.h"
+#include "cli/options/version.h"
 
 static bool run_command(int argc, char **argv, Error *err)
 {
-    const char    *nearest;
-    const Command *command = command_find(command_table, command_count, argv[1], &nearest);
-    if (!command)
-        return error_set(
-            err, ERROR_USAGE, "unknown command %s — %s%s%s`parhelion --help` lists them",
-            argv[1], nearest ? "did you mean " : "", nearest ? nearest : "",
-            nearest ? "? " : "");
+    const Command *command = command_find(command_table, command_count, NULL, argv[1], err);
+    if (!command) return false;
     /* address space: what is touched counts */
     Arena arena = arena_reserve(machine_memory_bytes());
     bool  ok = command->run(argc - 1, argv + 1, &arena, err);
@@ -40,10 +25,10 @@ static bool run_command(int argc, char **argv, Error *err)
     return ok;
 }
 
-static bool asks_for_json(int argc, char **argv)
+static bool has_word(int argc, char **argv, const char *word)
 {
     for (int i = 1; i < argc && strcmp(argv[i], "--"); i++)
-        if (!strcmp(argv[i], "--json")) return true;
+        if (!strcmp(argv[i], word)) return true;
     return false;
 }
 
@@ -55,13 +40,17 @@ static void ignore_deadly_signals(void)
     signal(SIGXFSZ, SIG_IGN);
 }
 
-/* Where standard streams are closed, a frame that is opened must not become one of them. */
-static void fill_streams(void)
+/* Where standard streams are closed, a frame that is opened must not become one of them. True:
+ * stdout was open. If not it becomes one that refuses what is written: an answer that nobody
+ * can have is told of, as that of a full disk is. */
+static bool fill_streams(void)
 {
-    int handle;
-    do handle = open("/dev/null", O_RDWR);
+    bool has_stdout = fcntl(STDOUT_FILENO, F_GETFD) >= 0;
+    int  handle;
+    do handle = open("/dev/null", has_stdout ? O_RDWR : O_RDONLY);
     while (handle >= 0 && handle <= STDERR_FILENO);
     if (handle > STDERR_FILENO) close(handle);
+    return has_stdout;
 }
 
 /* What was printed to a full disk or a closed pipe has not been said. */
@@ -79,20 +68,28 @@ static int report(const Error *err, bool json)
     return error_exit_status(err->code);
 }
 
+/* An answer that is "no" stands on stdout, without a line of its own, and has to get there. */
+static bool answers_no(const Error *err)
+{
+    return !err->text[0] && (err->code == ERROR_DIFFERENT || err->code == ERROR_INPUT);
+}
+
 int main(int argc, char **argv)
 {
     Error err = {0};
     ignore_deadly_signals();
-    fill_streams();
+    bool has_stdout = fill_streams(), done = true;
     if (argc < 2) {
         cmd_help_print(stderr);
         return error_exit_status(ERROR_USAGE);
     }
-    if (!strcmp(argv[1], "--version"))
-        print_version();
-    else if (!strcmp(argv[1], "--help"))
-        cmd_help_print(stdout);
-    else if (!run_command(argc, argv, &err))
-        return report(&err, asks_for_json(argc, argv));
-    return check_stdout(&err) ? 0 : report(&err, false);
+    if (cli_is_version(argv[1])) version_print();
+    else if (cli_is_help(argv[1])) cmd_help_print(stdout);
+    else done = run_command(argc, argv, &err);
+    bool wants_json = has_word(argc, argv, "--json");
+    if (!done && !answers_no(&err)) return report(&err, wants_json);
+    /* what -o names is the answer; the line about it may go nowhere where nobody wants one */
+    if (!has_stdout && !wants_json && has_word(argc, argv, "-o"))
+        return error_exit_status(err.code);
+    return check_stdout(&err) ? error_exit_status(err.code) : report(&err, false);
 }

@@ -27,13 +27,14 @@ const Importer *const importers[] = {
 static const Importer *importer_named(const char *name, Error *err)
 {
     const char *names[FORMATS_MAX];
+    char        advice[512];
     int         count = 0;
     for (int i = 0; importers[i] && i < FORMATS_MAX; i++) {
         if (!strcmp(importers[i]->name, name)) return importers[i];
         names[count++] = importers[i]->name;
     }
-    error_set(err, ERROR_USAGE, "--format '%s' is unknown; the nearest one is '%s'", name,
-              nearest_word(name, names, count));
+    error_set(err, ERROR_USAGE, "--format '%s' is unknown — %s", name,
+              nearest_word_advice(name, names, count, advice, (int)sizeof advice));
     return NULL;
 }
 

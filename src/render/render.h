@@ -59,7 +59,7 @@ struct RenderResult {
     PathStatistics statistics;
     FilmError      error;
     bool           complete;   /* all samples, or the wanted noise */
-    int            stopped_by; /* SIGINT, SIGTERM or 0 */
+    int            stopped_by; /* SIGINT, SIGTERM, SIGHUP or 0 */
 };
 
 /* scene and camera must outlive the film only for what the caller does with them. */

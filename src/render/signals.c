@@ -24,11 +24,14 @@ static void ask_for_snapshot(int signal_number)
 void signals_watch(void)
 {
     struct sigaction stop = {.sa_handler = ask_to_stop, .sa_flags = SA_RESTART};
+    struct sigaction hang_up;
     struct sigaction snapshot = {.sa_handler = ask_for_snapshot, .sa_flags = SA_RESTART};
     atomic_store(&stop_signal, 0);
     atomic_store(&snapshot_wanted, false);
     sigaction(SIGINT, &stop, NULL);
     sigaction(SIGTERM, &stop, NULL);
+    if (!sigaction(SIGHUP, NULL, &hang_up) && hang_up.sa_handler != SIG_IGN)
+        sigaction(SIGHUP, &stop, NULL);
     sigaction(SIGUSR1, &snapshot, NULL);
 }
 

@@ -1,7 +1,8 @@
 /* signals.h -- what the user or the batch system asks of a running render.
  *
- * The first INT or TERM asks it to stop after the pass in hand; a second one ends the process
- * at once with status 130 or 143. USR1 asks for a snapshot.
+ * The first INT, TERM or HUP asks it to stop after the pass in hand; a second one ends the
+ * process at once with status 130, 143 or 129. A HUP that was ignored when the process began
+ * (nohup) stays ignored. USR1 asks for a snapshot.
  *
  * Threads  a handler may run in any thread: it only stores numbers. These are the only mutable
  *          variables of the program that are not on a stack or in an arena: a signal handler
@@ -13,7 +14,7 @@
 /* From now on; earlier requests are forgotten. */
 void signals_watch(void);
 
-/* 0, or the number of the signal (SIGINT, SIGTERM) that asks to stop. */
+/* 0, or the number of the signal (SIGINT, SIGTERM, SIGHUP) that asks to stop. */
 int signals_stop_requested(void);
 
 /* True once for every USR1 (several that come together count as one). */

@@ -1,6 +1,7 @@
 #include "text/nearest_word.h"
 
 #include <limits.h>
+#include <stdio.h>
 #include <string.h>
 
 #define LETTERS 64 /* that are compared: what follows counts as different */
@@ -39,4 +40,48 @@ const char *nearest_word_within(const char *word, const char *const *known, int 
 const char *nearest_word(const char *word, const char *const *known, int count)
 {
     return nearest_word_within(word, known, count, INT_MAX);
+}
+
+const char *nearest_word_meant(const char *word, const char *const *known, int count)
+{
+    size_t dashes = strspn(word, "-"), letters = strlen(word) - dashes;
+    for (int i = 0; i < count && letters; i++)
+        if (letters > 1 && !strncmp(word, known[i], strlen(word))) return known[i];
+    return letters ? nearest_word_within(word, known, count, (int)letters / 3 + 1) : NULL;
+}
+
+/* ---- what would be right ----------------------------------------------------------------- */
+
+static const char *quote_of(const char *name)
+{
+    return !*name || strpbrk(name, " ,\"") ? "\"" : "";
+}
+
+/* Room for ", ", quotes, and " and 1000000 more" behind every name but the last. */
+static bool has_room(const char *name, bool is_last, int length, int size)
+{
+    return length + (int)strlen(name) + 4 + (is_last ? 0 : 18) < size;
+}
+
+const char *nearest_word_advice(const char *word, const char *const *known, int count,
+                                char *buffer, int size)
+{
+    const char *near = nearest_word_meant(word, known, count);
+    int         length = 0;
+    if (!count) return snprintf(buffer, (size_t)size, "there are none"), buffer;
+    if (near && (int)strlen(near) + 48 < size)
+        length = snprintf(buffer, (size_t)size, "did you mean %s%s%s? ", quote_of(near), near,
+                          quote_of(near));
+    length += snprintf(buffer + length, (size_t)(size - length), "%s are",
+                       length ? "There" : "there");
+    for (int i = 0; i < count; i++) {
+        const char *name = known[i], *quote = quote_of(name);
+        if (!has_room(name, i + 1 == count, length, size)) {
+            snprintf(buffer + length, (size_t)(size - length), " and %d more", count - i);
+            break;
+        }
+        length += snprintf(buffer + length, (size_t)(size - length), "%s%s%s%s",
+                           i ? ", " : " ", quote, name, quote);
+    }
+    return buffer;
 }

@@ -6,6 +6,7 @@
  * Threads  no shared state. Fails: never.
  */
 #pragma once
+#include <stdbool.h>
 
 /* The nearest of at least one known word. */
 const char *nearest_word(const char *word, const char *const *known, int count);
@@ -13,3 +14,15 @@ const char *nearest_word(const char *word, const char *const *known, int count);
 /* The nearest at most `limit` letters away, or NULL. */
 const char *nearest_word_within(const char *word, const char *const *known, int count,
                                 int limit);
+
+/* The one that somebody who typed `word` may have meant: it begins so, or is near for a word of
+ * that length. NULL when none is. */
+const char *nearest_word_meant(const char *word, const char *const *known, int count);
+
+/* What would be right instead of `word`, for an error's text: the one that may be meant, then
+ * all in the order given, as far as they fit:
+ *     did you mean cluster? There are cluster, "leather black" and 41 more
+ * Names with blanks, commas or nothing in them stand in quotes. Fills and returns buffer, which
+ * holds at least size chars; size at least 64. */
+const char *nearest_word_advice(const char *word, const char *const *known, int count,
+                                char *buffer, int size);

@@ -3,6 +3,7 @@ on stdout, nothing half-written, and signals that leave a frame behind.
 """
 import json
 import os
+import pty
 import re
 import signal
 import subprocess
@@ -18,9 +19,61 @@ sys.path.insert(0, os.path.join(ROOT, "tests", "image"))
 from exr import Frame  # noqa: E402
 from report import Report  # noqa: E402
 
-COMMANDS = ("render", "develop", "check", "measure", "compare", "sky", "panel import",
+COMMANDS = ("render", "develop", "check", "measure", "compare", "merge", "sky", "panel import",
             "panel fit", "panel info", "panel eval", "panel plot", "panel export",
-            "panel simulate")
+            "panel simulate", "help")
+CAR = os.path.join(ROOT, "scenes", "car_dashboard.gltf")
+PANEL = os.path.join(ROOT, "assets", "panels", "ips_cluster.panel")
+
+# What is typed wrongly, and what the line then has to offer: every name of every command.
+RENDER = ("render", CAR, "-o", "x.exr", "--size", "8x8")
+UNKNOWN_NAMES = (
+    (("rendr",), 2, "did you mean render?", "develop", "panel", "help"),
+    (("panel",), 2, "import", "fit", "info", "eval", "export", "plot", "simulate"),
+    (("panel", "fitt"), 2, "did you mean fit?", "import", "simulate"),
+    (("help", "comparig"), 2, "did you mean comparing?", "render", "scenes"),
+    (("help", "panel", "nope"), 2, "import", "simulate"),
+    (("help", "render", "nope"), 2, "nope"),
+    ((*RENDER, "--sizes", "8x8"), 2, "did you mean --size?"),
+    ((*RENDER, "--content", "clustr=a.png"), 3, "did you mean cluster?",
+     "There are cluster, centre;"),
+    ((*RENDER, "--display-level", "gap=5"), 3, "is no display", "cluster, centre"),
+    ((*RENDER, "--panel", "clustr=a.panel"), 3, "did you mean cluster?",
+     'There are cluster, centre, "leather black", thread'),
+    ((*RENDER, "--camera", "driver"), 2, "driver-eye", "passenger-eye", "outside"),
+    ((*RENDER, "--layers", "depht"), 2, "did you mean depth?", "all", "xyz",
+     "display.contrast"),
+    ((*RENDER, "--isa", "z80"), 2, "sse2"),
+    ((*RENDER, "--environment", "skies"), 2, "sky:clear", "cie:", "perez:", "hdri:",
+     "constant:"),
+    ((*RENDER, "--environment", "sky:clear", "--ground", "lawn"), 2, "land", "sea", "cloud"),
+    ((*RENDER, "--sun", "on"), 2, "auto", "off", "AZ,EL,LUX"),
+    ((*RENDER, "--progress", "loud"), 2, "auto|bar|plain|json|none"),
+    ((*RENDER, "--png", "x.gif"), 2, ".png", ".jpg", ".tif"),
+    ((*RENDER, "--png", "x.png", "--view", "pretty"), 2, "photographic", "raw"),
+    (("develop", "named.exr", "-o", "x.png", "--layer", "depht"), 2, "depth", "xyz"),
+    (("develop", "named.exr", "-o", "x.png", "--display", "crt"), 2, "sRGB", "Rec.1886"),
+    (("develop", "named.exr", "-o", "x.png", "--view", "pretty"), 2, "photographic", "raw"),
+    (("develop", "named.exr", "-o", "x.gif"), 2, ".png", ".jpg", ".tif"),
+    (("measure", "named.exr", "--display", "clustr"), 2, "cluster, centre"),
+    (("measure", "named.exr", "--region", "0,0,99,1"), 2, "0,0,8,8"),
+    (("compare", "named.exr", "named.exr", "--display", "clustr"), 2, "cluster, centre"),
+    (("compare", "named.exr", "named.exr", "--max", "flop=1"), 2, "did you mean flip?",
+     "psnr", "contrast_change"),
+    (("compare", "named.exr", "named.exr", "--metric", "colour"), 2, "flip", "psnr", "ssim"),
+    (("panel", "import", "text.csv", "-o", "m.json", "--format", "iges"), 2, "ies", "eulumdat",
+     "text"),
+    (("panel", "import", "text.csv", "-o", "m.json", "--role", "*=rd"), 2, "red", "black",
+     "brdf", "skip"),
+    (("panel", "import", "text.csv", "-o", "m.json", "--layout", "keys.json"), 3,
+     "decimal"),
+    (("panel", "import", "text.csv", "-o", "m.json", "--format", "text", "--columns",
+      "theta,phi,bright"), 2, "theta", "phi", "X", "L", "x", "u'"),
+    (("panel", "eval", PANEL, "--theta", "0", "--quantity", "bright"), 2, "X|Y|Z|u|v|brdf"),
+    (("panel", "eval", PANEL, "--batch", "text.csv"), 3, "theta", "phi", "incidence"),
+    (("panel", "plot", PANEL, "-o", "x.svg", "--kind", "pie"), 2, "luminance", "grey-levels"),
+    (("sky", "--environment", "skies"), 2, "sky:clear", "constant:"),
+)
 
 
 class Program:
@@ -66,15 +119,143 @@ def check_usage(report, program):
 
 
 def check_help(report, program):
-    overview = program.run("--help")
-    report.claim(overview.returncode == 0 and "render" in overview.stdout, "--help")
-    for command in COMMANDS:
-        done = program.run(*command.split(), "--help")
-        report.claim(done.returncode == 0 and f"parhelion {command} " in done.stdout
-                     and not done.stderr, f"{command} --help has no example")
     version = program.run("--version")
     report.claim(version.returncode == 0 and re.search(r"[Ee]mbree \d", version.stdout)
                  and "OpenEXR" in version.stdout, "--version does not name its libraries")
+
+
+def check_help_words(report, program):
+    """-h, -V and help: the same everywhere, also where the rest of the line is wrong."""
+    overview, version = program.run("--help").stdout, program.run("--version").stdout
+    report.claim(program.run("-h").stdout == program.run("help").stdout == overview
+                 and "render" in overview, "-h, --help or help")
+    report.claim(program.run("-V").stdout == version, "-V")
+    for command in (*COMMANDS, "panel"):
+        words = command.split()
+        done = program.run(*words, "--help")
+        report.claim(done.returncode == 0 and f"parhelion {command} " in done.stdout
+                     and not done.stderr, f"{command} --help has no example")
+        for line in ((*words, "-h"), ("help", *words), (*words, "help"))[command == "help":]:
+            again = program.run(*line)
+            report.claim(again.returncode == 0 and again.stdout == done.stdout,
+                         f"{' '.join(line)} is not --help: {again.stderr.strip()}")
+        done = program.run(*words, "-V")
+        report.claim(done.returncode == 0 and done.stdout == version, f"{command} -V")
+    for line in (("render", "--nonsense", "-h"), ("panel", "fit", "x", "y", "-V")):
+        report.claim(program.run(*line).returncode == 0, f"{line}: what is wrong comes first")
+    # a value is no question
+    claim_status(report, program.run("measure", "--display", "-h", "absent.exr"), 3, "absent")
+    report.claim(program.run("check", "--", "-h").returncode == 3, "check -- -h is a file")
+
+
+def check_names(report, program):
+    """Every unknown name is answered by those that would be right, on one line."""
+    done = program.run("render", CAR, "-o", "named.exr", "--size", "8x8", "--spp", "1", "--layers",
+                       "all", "--quiet", "--environment", "constant:100", cwd=program.folder)
+    report.claim(done.returncode == 0, f"the frame with names: {done.stderr.strip()}")
+    with open(program.file("text.csv"), "w", encoding="utf-8") as file:
+        file.write("alpha,beta,bright\n0,0,1\n10,0,1\n")
+    with open(program.file("keys.json"), "w", encoding="utf-8") as file:
+        json.dump({"desimal": "comma"}, file)
+    for line, status, *words in UNKNOWN_NAMES:
+        claim_status(report, program.run(*line, cwd=program.folder), status, *words)
+
+
+ANSWERS = (
+    ("--help",), ("--version",), ("help",), ("help", "comparing"), ("render", "-h"),
+    ("panel", "help"), ("check", "scene.gltf"), ("check", "absent.gltf"),
+    ("measure", "frame.exr"), ("measure", "frame.exr", "--json"),
+    ("measure", "scene.gltf", "--illuminance", "0,0,0,0,1,0", "--samples", "16"),
+    ("compare", "frame.exr", "frame.exr"), ("compare", "frame.exr", "other.exr"),
+    ("compare", "frame.exr", "frame.exr", "--json"), ("sky", "--environment", "constant:9"),
+    ("sky", "--environment", "constant:9", "--json"), ("panel", "info", PANEL),
+    ("panel", "info", PANEL, "--json"),
+    ("panel", "eval", PANEL, "--theta", "0", "--rgb", "9,9,9"),
+    ("panel", "eval", PANEL, "--grid", "0:10:5,0:90:45", "--rgb", "9,9,9", "--csv"),
+    ("render", "scene.gltf", "--replay", "1,1,0", "--size", "8x8"),
+    ("render", "scene.gltf", "-o", "line.exr", "--json", "--size", "8x8", "--spp", "1"),
+)
+
+
+def run_with_stdout(program, line, place):
+    """place: what the shell does with stdout."""
+    return subprocess.run(["sh", "-c", f'"$0" "$@" {place}', program.path, *line],
+                          stderr=subprocess.PIPE, text=True, timeout=120, cwd=program.folder)
+
+
+def check_answers_lost(report, program):
+    """An answer that nobody can read is status 4 and one line, whatever the answer was."""
+    program.render()
+    program.render("--seed", "1", out="other.exr")
+    for line in ANSWERS:
+        for place in (">&-", ">/dev/full"):
+            done = run_with_stdout(program, line, place)
+            lines = [text for text in done.stderr.splitlines() if "warning: " not in text
+                     and "100%" not in text]
+            report.claim(done.returncode == 4 and len(lines) == 1 and "stdout" in lines[0],
+                         f"{' '.join(line)} {place}: {done.returncode} {done.stderr.strip()}")
+    # an error is told on stderr, and keeps its status
+    done = run_with_stdout(program, ("measure", "absent.exr"), ">&-")
+    report.claim(done.returncode == 3, f"an error with stdout closed: {done.returncode}")
+    # where a file was asked for, the line about it may be missed
+    done = run_with_stdout(program, ("sky", "--environment", "constant:9", "-o", "s.png"), ">&-")
+    report.claim(done.returncode == 0 and is_png(program.file("s.png")), "-o, stdout closed")
+
+
+def on_terminal(program, line, environment):
+    """What a terminal receives: stderr is one, stdout too."""
+    here, there = pty.openpty()
+    running = subprocess.Popen([program.path, *line], stdout=there, stderr=there,
+                               cwd=program.folder, env={**os.environ, **environment})
+    os.close(there)
+    received = b""
+    while True:
+        try:
+            more = os.read(here, 65536)
+        except OSError:  # the other end is closed
+            break
+        if not more:
+            break
+        received += more
+    running.wait()
+    os.close(here)
+    return received.replace(b"\r\n", b"\n")
+
+
+def check_terminals(report, program):
+    """Colour and a line that is written anew only where a terminal can do it."""
+    line = ("render", "scene.gltf", "-o", "line.exr", "--size", "64x48", "--spp", "16")
+    environment = {"TERM": "xterm", "NO_COLOR": ""}
+    live = on_terminal(program, line, environment)
+    report.claim(b"\r" in live and b"\x1b[36m" in live and live.count(b"\x1b") ==
+                 live.count(b"\x1b[36m") + live.count(b"\x1b[0m"), f"a bar: {live[-200:]}")
+    plain = on_terminal(program, line, {**environment, "NO_COLOR": "1"})
+    report.claim(b"\r" in plain and b"\x1b" not in plain, f"NO_COLOR: {plain[-200:]}")
+    for term in ("dumb", ""):
+        for more in ((), ("--progress", "bar")):
+            dumb = on_terminal(program, (*line, *more), {**environment, "TERM": term})
+            report.claim(b"\r" not in dumb and b"\x1b" not in dumb and b"100%" in dumb,
+                         f"TERM={term} {more}: {dumb[-200:]}")
+    done = program.render("--progress", "bar")
+    report.claim("\r" not in done.stderr and "\x1b" not in done.stderr and "100%" in
+                 done.stderr, "a bar into a pipe")
+
+
+def check_hang_up(report, program):
+    """nohup: a HUP that is ignored from the start stays ignored."""
+    running = subprocess.Popen(
+        ["nohup", program.path, "render", program.file("scene.gltf"), "-o",
+         program.file("nohup.exr"), "--size", "200x150", "--spp", "100000", "--progress",
+         "json"], stderr=subprocess.PIPE, stdout=subprocess.PIPE)
+    while not running.stderr.readline().startswith(b"{"):
+        pass
+    running.send_signal(signal.SIGHUP)
+    time.sleep(1)
+    is_running = running.poll() is None
+    running.send_signal(signal.SIGTERM)
+    running.communicate(timeout=60)
+    report.claim(is_running and running.returncode == 143,
+                 f"nohup: HUP was heard: {running.returncode}")
 
 
 def check_inputs(report, program):
@@ -209,7 +390,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         program = Program(os.path.abspath(sys.argv[-1]), folder)
         sound_scene().write(program.file("scene.gltf"))
-        for check in (check_usage, check_help, check_inputs, check_outputs, check_answers,
+        for check in (check_usage, check_help, check_help_words, check_names,
+                      check_answers_lost, check_terminals, check_hang_up, check_inputs, check_outputs, check_answers,
                       check_pictures, check_sky):
             try:
                 check(report, program)
@@ -217,6 +399,7 @@ def main():
                 report.claim(False, f"{check.__name__}: {type(error).__name__}: {error}")
         check_signal(report, program, signal.SIGINT, 130)
         check_signal(report, program, signal.SIGTERM, 143)
+        check_signal(report, program, signal.SIGHUP, 129)
     report.finish()
 
 

@@ -115,7 +115,7 @@ class Bench:
     def claim_sound(self, done, what=""):
         """No crash, no hang, no word of a sanitizer: the one thing that always holds."""
         bad = any(word in done.stderr + done.stdout for word in SANITIZERS)
-        return self.claim(done.returncode in (0, 1, 2, 3, 4, 130, 143) and not bad,
+        return self.claim(done.returncode in (0, 1, 2, 3, 4, 129, 130, 143) and not bad,
                           f"{what or self.name_of(done)}: ends with {done.returncode}: "
                           f"{done.stderr.strip()[:600]}")
 

@@ -215,17 +215,6 @@ TEST(pairs_are_cut_at_the_first_equals_sign)
     assert_false(cli_name_value("--content", "x=", arena, &name, &value, &err));
 }
 
-TEST(the_nearest_word_is_near_or_there_is_none)
-{
-    (void)state;
-    static const char *const words[] = {"render", "develop", "panel", "check", "measure"};
-    assert_string_equal(cli_nearest("rendr", words, 5), "render");
-    assert_string_equal(cli_nearest("mesure", words, 5), "measure");
-    assert_string_equal(cli_nearest("deve", words, 5), "develop");
-    assert_null(cli_nearest("zebra", words, 5));
-    assert_null(cli_nearest("", words, 5));
-}
-
 TEST(an_error_line_puts_the_place_before_the_advice)
 {
     (void)state;

@@ -115,8 +115,8 @@ TEST(a_wrong_line_is_status_2)
     Outcome o;
     RUN(&o, "rendr");
     assert_int_equal(o.status, 2);
-    assert_string_equal(o.err, "parhelion: unknown command rendr — did you mean render? "
-                               "`parhelion --help` lists them\n");
+    assert_non_null(strstr(o.err, "parhelion: unknown command rendr — did you mean render? "
+                                  "There are render, develop, panel, "));
     RUN(&o, "render", "scene.gltf");
     assert_int_equal(o.status, 2);
     assert_string_equal(o.err, "parhelion: no output — add -o FRAME.exr\n");
@@ -391,9 +391,9 @@ TEST(an_interrupted_render_leaves_a_frame_marked_incomplete)
     static const struct {
         int         number, status;
         const char *name;
-    } cases[] = {{SIGINT, 130, "INT"}, {SIGTERM, 143, "TERM"}};
+    } cases[] = {{SIGINT, 130, "INT"}, {SIGTERM, 143, "TERM"}, {SIGHUP, 129, "HUP"}};
     Arena *arena = *state;
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 3; i++) {
         Outcome o;
         char    text[64];
         FILE   *out = tmpfile(), *err = tmpfile();

@@ -134,7 +134,7 @@ TEST(wrong_options_say_what_is_wanted)
 {
     (void)state;
     refused("--max", "flop=1", "there is no figure flop — did you mean flip?");
-    refused("--max", "qqqqqqqq=1", "flip, psnr, ssim, deltae_mean");
+    refused("--max", "qqqqqqqq=1", "there are flip, flip_median,");
     refused("--max", "flip", "wanted NAME=VALUE");
     refused("--max", "flip=x", "x is no number");
     refused("--max", "flip=nan", "nan is no number");

@@ -205,10 +205,9 @@ static void progress_shows_percent_rate_elapsed_and_remaining(void **state)
     assert_string_equal(text,
                         "parhelion: render 25%, 5 samples/s, 0:10 elapsed, 0:30 left\n"
                         "parhelion: render 100%, 20 samples/s, 0:10 elapsed, 0:00 left\n");
-    progress_output(PROGRESS_BAR, text, sizeof text);
-    assert_non_null(strstr(text, "\rrender  25% [######..................] 5 samples/s  "
-                                 "0:10 elapsed  0:30 left"));
-    assert_null(strstr(text, "\033[36m"));
+    char asked[2048]; /* a bar needs a terminal: tests/hostile/cli.py has one */
+    progress_output(PROGRESS_BAR, asked, sizeof asked);
+    assert_string_equal(asked, text);
     progress_output(PROGRESS_NONE, text, sizeof text);
     assert_string_equal(text, "");
 }

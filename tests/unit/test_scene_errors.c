@@ -314,8 +314,8 @@ TEST_WITH(overrides_reach_displays_by_the_material_s_name, maker_reset, NULL)
     assert_close(found.scene->displays[1].level, 0.05, 1e-6);
     assert_string_equal(found.scene->displays[1].name, "trim");
     assert_non_null(maker_find(&found, "",
-                               "no material is named \"dash\"; the scene has "
-                               "\"cluster\", \"trim\""));
+                               "no display is named \"dash\" — there are "
+                               "cluster, trim; --panel makes a material one"));
     assert_non_null(maker_find(&found, "", "\"dim\" is no percentage"));
     assert_non_null(maker_find(&found, "", "other.panel: cannot be opened"));
 }

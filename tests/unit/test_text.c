@@ -138,6 +138,40 @@ TEST(the_nearest_word_is_found)
     assert_null(nearest_word_within(word, words, 3, 150));
 }
 
+TEST(the_word_that_is_meant_is_near_or_there_is_none)
+{
+    (void)state;
+    static const char *const words[] = {"render", "develop", "panel", "check", "measure"};
+    assert_string_equal(nearest_word_meant("rendr", words, 5), "render");
+    assert_string_equal(nearest_word_meant("mesure", words, 5), "measure");
+    assert_string_equal(nearest_word_meant("deve", words, 5), "develop");
+    assert_null(nearest_word_meant("zebra", words, 5));
+    assert_null(nearest_word_meant("", words, 5));
+}
+
+TEST(advice_names_the_near_one_and_as_many_as_fit)
+{
+    (void)state;
+    static const char *const words[] = {"cluster", "leather black", "a,b", "", "centre"};
+    char text[400];
+    assert_string_equal(nearest_word_advice("clster", words, 5, text, 400),
+                        "did you mean cluster? There are cluster, \"leather black\", \"a,b\", "
+                        "\"\", centre");
+    assert_string_equal(nearest_word_advice("zebra", words, 1, text, 400), "there are cluster");
+    assert_string_equal(nearest_word_advice("zebra", words, 0, text, 400), "there are none");
+    for (int size = 64; size <= 400; size++) { /* never too long, and none is forgotten */
+        static const char *const many[] = {"one", "two two", "three", "four", "five", "six",
+                                           "seven", "eight", "nine", "ten", "eleven", "twelve"};
+        memset(text, 'x', sizeof text);
+        nearest_word_advice("ten ", many, 12, text, size);
+        const char *more = strstr(text, " and "), *list = strstr(text, "here are");
+        int         listed = 1, left = more ? atoi(more + 5) : 0;
+        assert_non_null(list);
+        for (const char *at = list; *at && at != more; at++) listed += *at == ',';
+        assert_true((int)strlen(text) < size && listed + left == 12);
+    }
+}
+
 int main(void)
 {
     return run_cases(make_folder, remove_folder);

@@ -8,8 +8,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/file.h"
 #include "base/parallel.h"
 #include "cli/options/guides.h"
+#include "cli/options/version.h"
 #include "text/nearest_word.h"
 
 #define NUMBERS_MAX 8
@@ -26,16 +28,6 @@ typedef struct Parser {
     Arena            *arena;
     Error            *err;
 } Parser;
-
-/* ---- words ------------------------------------------------------------------------------- */
-
-const char *cli_nearest(const char *word, const char *const *words, int count)
-{
-    size_t dashes = strspn(word, "-"), letters = strlen(word) - dashes;
-    for (int i = 0; i < count; i++)
-        if (letters > 1 && !strncmp(word, words[i], strlen(word))) return words[i];
-    return nearest_word_within(word, words, count, (int)letters / 3 + 1);
-}
 
 /* ---- one value --------------------------------------------------------------------------- */
 
@@ -206,7 +198,7 @@ static bool unknown_option(const Parser *in, const char *name, size_t length)
         names[count++] = in->common[i].name;
     char        word[64];
     snprintf(word, sizeof word, "%.*s", (int)length, name);
-    const char *nearest = cli_nearest(word, names, count);
+    const char *nearest = nearest_word_meant(word, names, count);
     return error_set(in->err, ERROR_USAGE,
                      "unknown option %.*s — %s%s%s`parhelion %s --help` lists what there is",
                      (int)length, name, nearest ? "did you mean " : "", nearest ? nearest : "",
@@ -298,11 +290,40 @@ static bool read_line(Parser *in, CliTexts *arguments)
     return true;
 }
 
-static bool asks_for_help(int argc, char **argv)
+bool cli_is_help(const char *word)
 {
-    for (int i = 1; i < argc && strcmp(argv[i], "--"); i++)
-        if (!strcmp(argv[i], "--help")) return true;
+    return !strcmp(word, "--help") || !strcmp(word, "-h");
+}
+
+bool cli_is_version(const char *word)
+{
+    return !strcmp(word, "--version") || !strcmp(word, "-V");
+}
+
+/* Somewhere before `--`, and not as the value of an option: then nothing else counts. */
+static bool has_option(const Parser *in, bool (*is_meant)(const char *word))
+{
+    for (int i = 1; i < in->argc && strcmp(in->argv[i], "--"); i++) {
+        const char   *word = in->argv[i];
+        const Option *option = word[0] == '-' ? find_option(in, word, strlen(word)) : NULL;
+        if (is_meant(word)) return true;
+        if (option && option->kind != OPTION_FLAG) i++;
+    }
     return false;
+}
+
+static bool is_help_alone(const CliTexts *arguments)
+{
+    return arguments->count == 1 && !strcmp(arguments->list[0], "help") && !file_exists("help");
+}
+
+/* Whatever is asked instead of the command's work; false: nothing. */
+static bool tell_about_it(const Parser *in)
+{
+    if (has_option(in, cli_is_help)) print_help(in);
+    else if (has_option(in, cli_is_version)) version_print();
+    else return false;
+    return true;
 }
 
 bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, Cli *out,
@@ -319,16 +340,19 @@ bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, C
          "how progress is shown on stderr (default auto)", &progress, 0, 0, 0, NULL},
         {"--threads", OPTION_INTEGER, "N", "threads (default: what the scheduler allows)",
          &threads, 1, PARALLEL_THREADS_MAX, 0, NULL},
-        {"--help", OPTION_FLAG, NULL, "this text", &cli.help_shown, 0, 0, 0, NULL},
+        {"--help", OPTION_FLAG, NULL, "this text; also -h", &cli.help_shown, 0, 0, 0, NULL},
+        {"--version", OPTION_FLAG, NULL, "of the program and its libraries; also -V",
+         &cli.help_shown, 0, 0, 0, NULL},
     };
     Parser in = {command, common, COUNT_OF(common), argc, 1, argv, arena,
                  err};
     CliTexts arguments = {0};
-    if (asks_for_help(argc, argv)) {
-        print_help(&in);
-        cli.help_shown = true;
-    } else if (!read_line(&in, &arguments) || !count_arguments(&in, arguments.count)) {
-        return false;
+    cli.help_shown = tell_about_it(&in);
+    if (!cli.help_shown) {
+        if (!read_line(&in, &arguments)) return false;
+        cli.help_shown = is_help_alone(&arguments);
+        if (cli.help_shown) print_help(&in);
+        else if (!count_arguments(&in, arguments.count)) return false;
     }
     cli.progress = cli.quiet ? PROGRESS_NONE : (ProgressMode)progress;
     cli.threads = (int)threads;

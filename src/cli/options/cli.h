@@ -3,7 +3,8 @@
  * A command fills a table of Option on its stack, every row pointing at the variable that takes
  * the value; what the user leaves out keeps the value it had. Values follow their option as
  * the next argument or after '='; names are never abbreviated. After `--` everything is an
- * argument. Every command also has --json, --quiet, --progress, --threads and --help.
+ * argument. Every command also has --json, --quiet, --progress, --threads, --help (-h) and
+ * --version (-V); the word help alone is --help too, unless a file has that name.
  *
  *     double level = 1;
  *     const Option options[] = {
@@ -64,7 +65,7 @@ typedef struct CliCommand {
 
 /* What cli_parse found besides the values. */
 typedef struct Cli {
-    bool         help_shown; /* --help was there and is printed: nothing else to do */
+    bool         help_shown; /* help, or the version, was asked for and is printed: done */
     bool         json, quiet;
     ProgressMode progress;   /* PROGRESS_NONE when quiet */
     int          threads;    /* at least 1 */
@@ -77,6 +78,10 @@ typedef struct Cli {
 bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, Cli *out,
                Error *err);
 
+/* --help or -h; --version or -V. */
+bool cli_is_help(const char *word);
+bool cli_is_version(const char *word);
+
 /* --root's line of help, the same wherever files name others (base/reference.h). */
 #define ROOT_HELP "a folder whose files may be named too (default: parent of a file's folder)"
 
@@ -88,9 +93,6 @@ bool cli_numbers(const char *text, int count, double *out);
 /* "NAME=VALUE" cut at the first '=': *name comes from the arena, *value points into text. */
 bool cli_name_value(const char *option, const char *text, Arena *arena, const char **name,
                     const char **value, Error *err);
-
-/* The word of the list that is nearest to `word` by edits, NULL when none is close. */
-const char *cli_nearest(const char *word, const char *const *words, int count);
 
 /* The last line of a command's help: the guide (cli/options/guides.h) that names it, if any. */
 void cli_print_guide(const char *command);

@@ -15,10 +15,13 @@ typedef struct Command {
     /* argv[0] is the command's name; everything it keeps lies in the arena, which its caller
      * releases. True: exit status 0; else the status of err->code. */
     bool (*run)(int argc, char **argv, Arena *arena, Error *err);
+    const struct Command *const *sub; /* its own commands, or NULL */
+    int sub_count;
 } Command;
 
 #define COMMANDS_MAX 32
 
-/* The one of this name; else NULL, and *nearest is a name that may be meant, or NULL. */
-const Command *command_find(const Command *const *list, int count, const char *name,
-                            const char **nearest);
+/* The one of this name, or NULL and an ERROR_USAGE that lists them. within: "panel" for its own
+ * commands, NULL for the program's. */
+const Command *command_find(const Command *const *list, int count, const char *within,
+                            const char *name, Error *err);

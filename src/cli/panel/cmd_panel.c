@@ -4,6 +4,7 @@
 
 #include "base/count.h"
 #include "cli/options/cli.h"
+#include "cli/options/version.h"
 #include "cli/panel/panel_commands.h"
 
 static const Command *const commands[] = {
@@ -29,20 +30,12 @@ static void print_help(void)
 
 static bool run_panel(int argc, char **argv, Arena *arena, Error *err)
 {
-    if (argc < 2)
-        return error_set(err, ERROR_USAGE,
-                         "panel wants a command: fit, info, eval or simulate");
-    if (!strcmp(argv[1], "--help") || !strcmp(argv[1], "help")) {
-        print_help();
-        return true;
-    }
-    const char    *near;
-    const Command *command = command_find(commands, COMMAND_COUNT, argv[1], &near);
-    if (command) return command->run(argc - 1, argv + 1, arena, err);
-    return error_set(err, ERROR_USAGE, "panel has no command '%s'%s%s%s", argv[1],
-                     near ? "; did you mean '" : ", wanted fit, info, eval or simulate",
-                     near ? near : "", near ? "'?" : "");
+    const char *word = argc > 1 ? argv[1] : "";
+    if (cli_is_version(word)) return version_print(), true;
+    if (cli_is_help(word) || !strcmp(word, "help")) return print_help(), true;
+    const Command *command = command_find(commands, COMMAND_COUNT, "panel", word, err);
+    return command && command->run(argc - 1, argv + 1, arena, err);
 }
 
 const Command command_panel = {"panel", "fit, look into and evaluate a measured display panel",
-                               run_panel};
+                               run_panel, commands, COMMAND_COUNT};

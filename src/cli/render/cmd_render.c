@@ -195,15 +195,16 @@ static bool report_interruption(const RenderRun *work, const RenderResult *resul
                                 Error *err)
 {
     const RenderOptions *options = &work->request.render;
-    bool by_int = result->stopped_by == SIGINT;
+    const char *name = result->stopped_by == SIGINT ? "INT"
+                       : result->stopped_by == SIGHUP ? "HUP" : "TERM";
     fprintf(stderr,
             "parhelion: %s: stopped by %s after %u of %u samples a pixel; the frame is marked "
             "incomplete — %s%s\n",
-            work->request.output, by_int ? "INT" : "TERM", result->samples,
+            work->request.output, name, result->samples,
             options->end_sample - options->first_sample,
             is_kept ? "go on with: " : "run the same command again for the whole",
             is_kept ? work->request.resume_line : "");
-    err->code = by_int ? ERROR_INTERRUPTED : ERROR_TERMINATED;
+    err->code = (ErrorCode)(128 + result->stopped_by); /* ERROR_INTERRUPTED and its like */
     err->text[0] = '\0';
     return false;
 }

@@ -8,6 +8,7 @@
 #include "base/reference.h"
 #include "cli/options/look_options.h"
 #include "cli/render/command_line.h"
+#include "text/nearest_word.h"
 
 #define DEFAULT_WIDTH 1280
 #define DEFAULT_HEIGHT 720
@@ -52,10 +53,10 @@ static bool add_layer(const char *name, unsigned *bits, Error *err)
         *bits |= layer_names[i].bits;
         return true;
     }
-    const char *nearest = cli_nearest(name, names, LAYER_NAME_COUNT);
-    return error_set(err, ERROR_USAGE, "--layers: no layer is named '%s' — %s%s%s", name,
-                     nearest ? "did you mean " : "wanted all, or names such as depth,normal",
-                     nearest ? nearest : "", nearest ? "?" : "");
+    char advice[512];
+    return error_set(err, ERROR_USAGE, "--layers: no layer is named '%s' — %s", name,
+                     nearest_word_advice(name, names, LAYER_NAME_COUNT, advice,
+                                         (int)sizeof advice));
 }
 
 static bool parse_layers(const char *list, unsigned *bits, Error *err)
@@ -268,7 +269,7 @@ static const char *resume_line(int argc, char **argv, bool resumes, Arena *arena
 
 #define CHECKPOINT_OPTIONS(request, typed)                                                     \
     {"--checkpoint", OPTION_TEXT, "FILE",                                                      \
-     "keep what is done, here (default FRAME.exr.checkpoint); INT and TERM always do; gone "   \
+     "keep what is done, here (default FRAME.exr.checkpoint); INT, TERM and HUP always do; gone "   \
      "with the finished frame", &(request)->checkpoint},                                       \
     {"--checkpoint-interval", OPTION_NUMBER, "SECONDS", "how often (default 60)",              \
      &(request)->render.checkpoint_interval_s, .low = 0, .high = 1e6,                          \

@@ -53,12 +53,13 @@ static int choice_of(const char *choices, const char *value)
 static const TextKey *key_named(const char *key, Error *err)
 {
     const char *names[COUNT_OF(text_keys)];
+    char        advice[700];
     for (int i = 0; i < text_key_count; i++) {
         if (!strcmp(text_keys[i].key, key)) return &text_keys[i];
         names[i] = text_keys[i].key;
     }
-    error_set(err, ERROR_USAGE, "'%s' is no key of a declaration; the nearest one is '%s'", key,
-              nearest_word(key, names, text_key_count));
+    error_set(err, ERROR_USAGE, "'%s' is no key of a declaration — %s", key,
+              nearest_word_advice(key, names, text_key_count, advice, (int)sizeof advice));
     return NULL;
 }
 

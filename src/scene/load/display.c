@@ -9,6 +9,7 @@
 #include "scene/load/image.h"
 #include "scene/load/part_draft.h"
 #include "scene/load/texture_slot.h"
+#include "text/nearest_word.h"
 
 static const char *kept(Loader *load, const char *text)
 {
@@ -53,19 +54,36 @@ static bool option_error(Loader *load, const char *option, const char *format, c
     return false;
 }
 
-/* Reports that no material has this name; says which names there are. */
-static void report_unknown(Loader *load, const char *option, const char *name)
+/* The names that would be right: displays, then, where any material serves, the others. */
+static const char *advice(Loader *load, const char *name, bool with_others, char *buffer,
+                          int size)
 {
-    char names[600] = "";
-    for (int i = 0; i < load->materials.count; i++) {
-        const Material *m = list_item(&load->materials, i);
-        size_t length = strlen(names);
-        if (length + strlen(m->name) + 8 > sizeof names) break;
-        snprintf(names + length, sizeof names - length, "%s\"%s\"", length ? ", " : "",
-                 m->name);
+    int          count = 0;
+    const char **names = ARENA_NEW(&load->scratch, const char *, load->materials.count);
+    for (int pass = 0; pass < 1 + with_others; pass++) {
+        for (int i = 0; i < load->materials.count; i++) {
+            const Material *m = list_item(&load->materials, i);
+            if ((m->display_id == NO_ID) == (pass == 1)) names[count++] = m->name;
+        }
     }
-    option_error(load, option, "no material is named \"%.200s\"; the scene has %s", name,
-                 names[0] ? names : "none");
+    return nearest_word_advice(name, names, count, buffer, size);
+}
+
+/* Reports that no material, or none that is a display, has this name. */
+static void report_unknown(Loader *load, const char *option, const char *name, bool is_panel)
+{
+    char names[600];
+    option_error(load, option, is_panel ? "no material is named \"%.200s\" — %s"
+                                        : "no display is named \"%.200s\" — %s; --panel makes "
+                                          "a material one",
+                 name, advice(load, name, is_panel, names, (int)sizeof names));
+}
+
+static void report_not_display(Loader *load, const char *option, const char *name)
+{
+    char names[600];
+    option_error(load, option, "material \"%.200s\" is no display; --panel makes it one — %s",
+                 name, advice(load, "", false, names, (int)sizeof names));
 }
 
 /* A material that was no display becomes one: it shows what it emitted. */
@@ -144,14 +162,11 @@ static void apply(Loader *load, const char *option, const SceneOverride *list, i
             if (!is_meant(material, list[i].material)) continue;
             is_found = true;
             if (!is_panel && material->display_id == NO_ID)
-                option_error(load, option,
-                             "material \"%.200s\" is no display; --panel makes it "
-                             "one%s",
-                             material->name, "");
+                report_not_display(load, option, material->name);
             else
                 set(load, make_display(load, m), list[i].value);
         }
-        if (!is_found) report_unknown(load, option, list[i].material);
+        if (!is_found) report_unknown(load, option, list[i].material, is_panel);
     }
 }
 
