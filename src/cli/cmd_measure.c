@@ -13,33 +13,18 @@
 typedef struct MeasureWords {
     MeasureRequest  request;
     LuxmeterRequest luxmeter;
+    SceneWords      scene; /* of the luxmeter */
     Cli             cli;
 } MeasureWords;
 
-static bool parse(int argc, char **argv, Arena *arena, MeasureWords *out, Error *err)
+/* What is asked of a frame. */
+static bool read_frame_request(const double region[4], MeasureWords *out, Error *err)
 {
     MeasureRequest *r = &out->request;
-    double region[4];
-    const Option options[] = {
-        {"--region", OPTION_NUMBERS, "X0,Y0,X1,Y1",
-         "pixels, half-open, the origin at the top left (default: all)", .out = region,
-         .low = -65536, .high = 65536, .count = 4, .given = &r->has_region},
-        {"--display", OPTION_TEXT, "NAME",
-         "only pixels that show this display (its material's name)", .out = &r->display},
-        {"--illuminance", OPTION_NUMBERS, "X,Y,Z,NX,NY,NZ",
-         "of a scene: lx at a point (m) on a plane that faces N", .out = out->luxmeter.place,
-         .low = -1e9, .high = 1e9, .count = 6, .given = &out->luxmeter.given},
-        {"--samples", OPTION_INTEGER, "N", "paths for --illuminance (default 262144)",
-         .out = &out->luxmeter.samples, .low = 2, .high = 1 << 30},
-        {"--root", OPTION_TEXT, "DIR", ROOT_HELP, .out = &out->luxmeter.root},
-    };
-    const CliCommand command = {
-        "measure", "luminance, colour and contrast of a part of a frame, with 95 % intervals",
-        "FRAME.exr [--region X0,Y0,X1,Y1] [--display NAME] | SCENE... --illuminance ...",
-        "parhelion measure frame.exr --display cluster --json",
-        options, COUNT_OF(options), 1, -1};
-    if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
-    if (out->cli.help_shown || out->luxmeter.given) return true;
+    const char     *of_scene = scene_options_given(&out->scene, &out->luxmeter.environment);
+    if (of_scene)
+        return error_set(err, ERROR_USAGE, "%s changes the light of a scene, which is measured "
+                         "with --illuminance; a frame has its light", of_scene);
     if (out->cli.argument_count > 1)
         return error_set(err, ERROR_USAGE, "%s: one frame at a time is measured",
                          out->cli.arguments[1]);
@@ -51,6 +36,35 @@ static bool parse(int argc, char **argv, Arena *arena, MeasureWords *out, Error 
         r->region = (ExrWindow){(int)region[0], (int)region[1], (int)region[2], (int)region[3]};
     r->frame_name = out->cli.arguments[0];
     return true;
+}
+
+static bool parse(int argc, char **argv, Arena *arena, MeasureWords *out, Error *err)
+{
+    MeasureRequest *r = &out->request;
+    double region[4] = {0};
+    const Option options[] = {
+        {"--region", OPTION_NUMBERS, "X0,Y0,X1,Y1",
+         "pixels, half-open, the origin at the top left (default: all)", .out = region,
+         .low = -65536, .high = 65536, .count = 4, .given = &r->has_region},
+        {"--display", OPTION_TEXT, "NAME",
+         "only pixels that show this display (its material's name)", .out = &r->display},
+        {"--illuminance", OPTION_NUMBERS, "X,Y,Z,NX,NY,NZ",
+         "of a scene: lx at a point (m) on a plane that faces N", .out = out->luxmeter.place,
+         .low = -1e9, .high = 1e9, .count = 6, .given = &out->luxmeter.given},
+        {"--samples", OPTION_INTEGER, "N", "paths for --illuminance (default 262144)",
+         .out = &out->luxmeter.samples, .low = 2, .high = 1 << 30},
+        SCENE_OPTIONS(&out->scene, &out->luxmeter.scene, &out->luxmeter.environment),
+    };
+    const CliCommand command = {
+        "measure", "luminance, colour and contrast of a part of a frame, with 95 % intervals",
+        "FRAME.exr [--region X0,Y0,X1,Y1] [--display NAME] | SCENE... --illuminance ...",
+        "parhelion measure frame.exr --display cluster --json",
+        options, COUNT_OF(options), 1, -1};
+    if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
+    if (out->cli.help_shown) return true;
+    return out->luxmeter.given ? scene_options_read(&out->scene, &out->cli, arena,
+                                                    &out->luxmeter.scene, err)
+                               : read_frame_request(region, out, err);
 }
 
 /* ---- as text ----------------------------------------------------------------------------- */

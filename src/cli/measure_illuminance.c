@@ -2,7 +2,6 @@
 
 #include <stdio.h>
 
-#include "base/reference.h"
 #include "cli/options/answer.h"
 #include "render/illuminance.h"
 #include "scene/load/scene_load.h"
@@ -31,8 +30,6 @@ bool measure_illuminance(const Cli *cli, const LuxmeterRequest *request, Arena *
                          Error *err)
 {
     Problems     problems = problems_start(arena);
-    SceneOptions files = {.paths = cli->arguments, .path_count = cli->argument_count,
-                          .root = request->root};
     const double *n = request->place + 3;
     Scene       *scene;
     Illuminance  measured;
@@ -44,8 +41,9 @@ bool measure_illuminance(const Cli *cli, const LuxmeterRequest *request, Arena *
     if (!(vec3_dot(options.point.ns, options.point.ns) > 0.5f))
         return error_set(err, ERROR_USAGE, "--illuminance: the normal (%g, %g, %g) has no "
                          "direction", n[0], n[1], n[2]);
-    if (!reference_check_root(request->root, err)) return false;
-    if (!scene_load(&files, arena, &problems, &scene, err)) return false;
+    if (!scene_options_load(&request->scene, &request->environment, arena, &problems, &scene,
+                            err))
+        return false;
     cli_print_warnings(&problems);
     bool ok = illuminance_measure(scene, &options, arena, &measured, err) &&
               print_illuminance(cli, &options, &measured, err);

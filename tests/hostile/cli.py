@@ -150,8 +150,9 @@ def check_help_words(report, program):
 
 def check_names(report, program):
     """Every unknown name is answered by those that would be right, on one line."""
-    done = program.run("render", CAR, "-o", "named.exr", "--size", "8x8", "--spp", "1", "--layers",
-                       "all", "--quiet", "--environment", "constant:100", cwd=program.folder)
+    done = program.run("render", CAR, "-o", "named.exr", "--size", "8x8", "--spp", "1",
+                       "--layers", "all", "--quiet", "--environment", "constant:100",
+                       cwd=program.folder)
     report.claim(done.returncode == 0, f"the frame with names: {done.stderr.strip()}")
     with open(program.file("text.csv"), "w", encoding="utf-8") as file:
         file.write("alpha,beta,bright\n0,0,1\n10,0,1\n")
@@ -198,7 +199,8 @@ def check_answers_lost(report, program):
     done = run_with_stdout(program, ("measure", "absent.exr"), ">&-")
     report.claim(done.returncode == 3, f"an error with stdout closed: {done.returncode}")
     # where a file was asked for, the line about it may be missed
-    done = run_with_stdout(program, ("sky", "--environment", "constant:9", "-o", "s.png"), ">&-")
+    done = run_with_stdout(program, ("sky", "--environment", "constant:9", "-o", "s.png"),
+                           ">&-")
     report.claim(done.returncode == 0 and is_png(program.file("s.png")), "-o, stdout closed")
 
 
@@ -391,8 +393,8 @@ def main():
         program = Program(os.path.abspath(sys.argv[-1]), folder)
         sound_scene().write(program.file("scene.gltf"))
         for check in (check_usage, check_help, check_help_words, check_names,
-                      check_answers_lost, check_terminals, check_hang_up, check_inputs, check_outputs, check_answers,
-                      check_pictures, check_sky):
+                      check_answers_lost, check_terminals, check_hang_up, check_inputs,
+                      check_outputs, check_answers, check_pictures, check_sky):
             try:
                 check(report, program)
             except (ValueError, KeyError, OSError, subprocess.TimeoutExpired) as error:

@@ -66,31 +66,13 @@ static bool check_look(const RenderRequest *request, Arena scratch, Error *err)
            develop_picture(&frame, &request->look, &scratch, &picture, &report, err);
 }
 
-/* A sky whose sun is down is no error, but the frame may be darker than was meant. */
-static bool tell_of_night(RenderRun *work)
-{
-    const Environment *environment = &work->scene->environment;
-    if (environment->kind != ENVIRONMENT_SKY) return true;
-    DaylightInput input = environment->daylight;
-    input.has_sun = environment->has_sun;
-    input.sun_elevation = (double)environment->sun_elevation;
-    double clearance = daylight_sun_clearance_deg(&input);
-    if (clearance < 0)
-        problems_add(&work->problems, SEVERITY_WARNING, "", "",
-                     "the sun is down: its upper rim stands %.2f degrees below the horizon",
-                     -clearance);
-    return true;
-}
-
 static bool load(RenderRun *work, Error *err)
 {
     RenderRequest *request = &work->request;
     work->problems = problems_start(work->arena);
     bool loaded =
-        scene_load(&request->scene, work->arena, &work->problems, &work->scene, err) &&
-        environment_change(&request->environment, work->scene, work->arena,
-                           &work->problems, err) &&
-        tell_of_night(work) &&
+        scene_options_load(&request->scene, &request->environment, work->arena,
+                           &work->problems, &work->scene, err) &&
         render_choose_camera(work->scene, request->camera, &work->problems, &work->camera, err);
     if (loaded) render_tell_of_darkness(work->scene, &work->problems);
     cli_print_warnings(&work->problems);

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/reference.h"
 #include "cli/options/look_options.h"
 #include "cli/render/command_line.h"
 #include "text/nearest_word.h"
@@ -22,7 +21,7 @@ typedef struct RenderWords {
     int         size[2], false_colour;
     long        spp, max_bounces, seed;
     double      crop[4], replay[3];
-    CliTexts    contents, panels, levels;
+    SceneWords  scene;
     bool        has_spp, has_crop, has_replay, has_interval;
 } RenderWords;
 
@@ -162,18 +161,6 @@ static bool parse_replay(const double replay[3], RenderOptions *options, Error *
     return true;
 }
 
-static bool parse_overrides(const char *option, const CliTexts *texts, Arena *arena,
-                            const SceneOverride **out, Error *err)
-{
-    SceneOverride *list = ARENA_NEW(arena, SceneOverride, texts->count);
-    for (int i = 0; i < texts->count; i++)
-        if (!cli_name_value(option, texts->list[i], arena, &list[i].material, &list[i].value,
-                            err))
-            return false;
-    *out = list;
-    return true;
-}
-
 static bool ends_with(const char *text, const char *ending)
 {
     size_t length = strlen(text), tail = strlen(ending);
@@ -181,21 +168,6 @@ static bool ends_with(const char *text, const char *ending)
 }
 
 /* ---- all of them ------------------------------------------------------------------------- */
-
-static bool check_scene(const RenderWords *typed, Arena *arena, RenderRequest *request,
-                        Error *err)
-{
-    SceneOptions *scene = &request->scene;
-    scene->paths = request->cli.arguments;
-    scene->path_count = request->cli.argument_count;
-    scene->content_count = typed->contents.count;
-    scene->panel_count = typed->panels.count;
-    scene->level_count = typed->levels.count;
-    return reference_check_root(scene->root, err) &&
-           parse_overrides("--content", &typed->contents, arena, &scene->contents, err) &&
-           parse_overrides("--panel", &typed->panels, arena, &scene->panels, err) &&
-           parse_overrides("--display-level", &typed->levels, arena, &scene->levels, err);
-}
 
 static bool check_outputs(const RenderRequest *request, Error *err)
 {
@@ -260,17 +232,10 @@ static const char *resume_line(int argc, char **argv, bool resumes, Arena *arena
 
 /* ---- rows of the option table that belong together --------------------------------------- */
 
-#define DISPLAY_OPTIONS(typed)                                                                 \
-    {"--content", OPTION_TEXTS, "MATERIAL=IMAGE", "what a display shows", &(typed)->contents}, \
-    {"--panel", OPTION_TEXTS, "MATERIAL=FILE.panel", "makes a material a display",             \
-     &(typed)->panels},                                                                        \
-    {"--display-level", OPTION_TEXTS, "MATERIAL|*=PERCENT",                                    \
-     "how bright a display is set (*: all)", &(typed)->levels}
-
 #define CHECKPOINT_OPTIONS(request, typed)                                                     \
     {"--checkpoint", OPTION_TEXT, "FILE",                                                      \
-     "keep what is done, here (default FRAME.exr.checkpoint); INT, TERM and HUP always do; gone "   \
-     "with the finished frame", &(request)->checkpoint},                                       \
+     "keep what is done, here (default FRAME.exr.checkpoint); INT, TERM and HUP always do; "   \
+     "gone with the finished frame", &(request)->checkpoint},                                  \
     {"--checkpoint-interval", OPTION_NUMBER, "SECONDS", "how often (default 60)",              \
      &(request)->render.checkpoint_interval_s, .low = 0, .high = 1e6,                          \
      .given = &(typed)->has_interval},                                                         \
@@ -308,9 +273,7 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
          &typed->samples},
         {"--layers", OPTION_TEXT, "LIST", "all, or names with commas: xyz,depth,normal,...",
          &typed->layers},
-        ENVIRONMENT_OPTIONS(outside),
-        DISPLAY_OPTIONS(typed),
-        {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &request->scene.root},
+        SCENE_OPTIONS(&typed->scene, &request->scene, outside),
         {"--isa", OPTION_TEXT, "NAME", "sse2, avx2, avx512 (default: the processor's best)",
          &request->render.isa},
         CHECKPOINT_OPTIONS(request, typed),
@@ -335,7 +298,7 @@ bool render_request_parse(int argc, char **argv, Arena *arena, RenderRequest *ou
     if (!parse_line(argc, argv, arena, &typed, &request, err)) return false;
     if (!request.cli.help_shown &&
         (!check_render(&typed, &request, err) || !check_outputs(&request, err) ||
-         !check_scene(&typed, arena, &request, err)))
+         !scene_options_read(&typed.scene, &request.cli, arena, &request.scene, err)))
         return false;
     set_checkpoint(&typed, arena, &request);
     request.resume_line = resume_line(argc, argv, request.resumes, arena);

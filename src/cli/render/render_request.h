@@ -4,7 +4,7 @@
  */
 #pragma once
 #include "cli/options/cli.h"
-#include "cli/options/environment_options.h"
+#include "cli/options/scene_options.h"
 #include "image/develop.h"
 #include "render/render.h"
 #include "scene/scene.h"

@@ -1,0 +1,74 @@
+#include "cli/options/scene_options.h"
+
+#include "base/count.h"
+#include "base/reference.h"
+#include "scene/load/scene_load.h"
+
+static bool parse_overrides(const char *option, const CliTexts *texts, Arena *arena,
+                            const SceneOverride **out, Error *err)
+{
+    SceneOverride *list = ARENA_NEW(arena, SceneOverride, texts->count);
+    for (int i = 0; i < texts->count; i++)
+        if (!cli_name_value(option, texts->list[i], arena, &list[i].material, &list[i].value,
+                            err))
+            return false;
+    *out = list;
+    return true;
+}
+
+bool scene_options_read(const SceneWords *words, const Cli *cli, Arena *arena,
+                        SceneOptions *options, Error *err)
+{
+    options->paths = cli->arguments;
+    options->path_count = cli->argument_count;
+    options->content_count = words->contents.count;
+    options->panel_count = words->panels.count;
+    options->level_count = words->levels.count;
+    return reference_check_root(options->root, err) &&
+           parse_overrides("--content", &words->contents, arena, &options->contents, err) &&
+           parse_overrides("--panel", &words->panels, arena, &options->panels, err) &&
+           parse_overrides("--display-level", &words->levels, arena, &options->levels, err);
+}
+
+/* A sky whose sun is down is no error, but the frame may be darker than was meant. */
+static void tell_of_night(const Environment *environment, Problems *problems)
+{
+    if (environment->kind != ENVIRONMENT_SKY) return;
+    DaylightInput input = environment->daylight;
+    input.has_sun = environment->has_sun;
+    input.sun_elevation = (double)environment->sun_elevation;
+    double clearance = daylight_sun_clearance_deg(&input);
+    if (clearance < 0)
+        problems_add(problems, SEVERITY_WARNING, "", "",
+                     "the sun is down: its upper rim stands %.2f degrees below the horizon",
+                     -clearance);
+}
+
+bool scene_options_load(const SceneOptions *options, const EnvironmentChange *change,
+                        Arena *arena, Problems *problems, Scene **out, Error *err)
+{
+    Scene *scene;
+    if (!scene_load(options, arena, problems, &scene, err)) return false;
+    if (!environment_change(change, scene, arena, problems, err)) {
+        scene_close(scene);
+        return false;
+    }
+    tell_of_night(&scene->environment, problems);
+    *out = scene;
+    return true;
+}
+
+const char *scene_options_given(const SceneWords *words, const EnvironmentChange *change)
+{
+    const struct { bool is_given; const char *name; } all[] = {
+        {change->environment != NULL, "--environment"}, {change->sun != NULL, "--sun"},
+        {change->when != NULL, "--when"}, {change->where != NULL, "--where"},
+        {change->weather != NULL, "--weather"}, {change->ground != NULL, "--ground"},
+        {change->has_hdri_lux, "--hdri-lux"}, {change->has_forward, "--forward"},
+        {change->has_heading, "--heading"}, {change->has_turbidity, "--turbidity"},
+        {change->has_visibility, "--visibility"}, {words->contents.count > 0, "--content"},
+        {words->panels.count > 0, "--panel"}, {words->levels.count > 0, "--display-level"}};
+    for (int i = 0; i < COUNT_OF(all); i++)
+        if (all[i].is_given) return all[i].name;
+    return NULL;
+}
