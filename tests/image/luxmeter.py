@@ -1,4 +1,4 @@
-"""luxmeter.py PARHELION -- `measure --illuminance` under every light that a command line can set:
+"""luxmeter.py PARHELION -- `measure --illuminance` under all light that a command line can set:
 closed forms where there are some, else what `sky` says of the same options.
 """
 import json
