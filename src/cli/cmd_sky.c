@@ -13,6 +13,7 @@
 #include "cli/commands.h"
 #include "cli/options/answer.h"
 #include "cli/options/environment_options.h"
+#include "cli/options/weather_option.h"
 #include "image/frame.h"
 #include "light/sky.h"
 #include "plot/sky_plot.h"
@@ -158,6 +159,7 @@ static bool print_json(const SkyRun *work, const DaylightMetrics *f, Error *err)
         "diffuse_horizontal_w_m2", f->diffuse_horizontal_w_m2, "ground_cd_m2", f->floor_cd_m2,
         "sun_xy", f->sun_xy[0], f->sun_xy[1], "zenith_xy", f->zenith_xy[0], f->zenith_xy[1],
         "horizon_deg", f->horizon_deg, "air_mass", f->air_mass);
+    json_object_set_new(document, "weather", weather_option_json(&work->scene->environment));
     if (work->output) json_object_set_new(document, "output", json_text(work->output));
     return cli_print_json(document, err);
 }
@@ -354,6 +356,8 @@ static bool run(SkyRun *work, OutputKind kind, Error *err)
     if (!ok) return false;
     if (work->cli.json) return print_json(work, &figures, err);
     print_lines(line, figure_lines(work, &figures, line));
+    const char *weather = weather_option_text(&work->scene->environment, work->arena);
+    if (weather) printf("%-20s %s\n", "weather file", weather);
     return true;
 }
 

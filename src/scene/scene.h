@@ -18,6 +18,7 @@
 #include "image/texture.h"
 #include "panel/query/panel.h"
 #include "sky/daylight.h"
+#include "sky/weather_clock.h"
 #include "spectrum/curve.h"
 
 #define NO_ID (-1)
@@ -126,6 +127,15 @@ typedef enum EnvironmentKind {
     ENVIRONMENT_CIE, ENVIRONMENT_PEREZ, ENVIRONMENT_SKY
 } EnvironmentKind;
 
+/* A row of a weather file and how it was found; line 0: no weather file. */
+typedef struct EnvironmentWeather {
+    const char  *file;
+    int          line, month, day;
+    double       label_h;   /* end of the row's hour, hours after midnight */
+    double       apart_min; /* from the moment asked for to the row's instant */
+    WeatherClock clock;
+} EnvironmentWeather;
+
 /* PARHELION_environment. Angles in radians here. */
 typedef struct Environment {
     EnvironmentKind kind;
@@ -137,6 +147,7 @@ typedef struct Environment {
     float hdri_scale;
     float horizontal_illuminance_lx; /* hdri: wanted instead of scale; 0 = use scale */
     DaylightInput daylight;        /* cie, perez, sky: all but the sun below */
+    EnvironmentWeather weather;    /* perez: where its irradiances came from */
     bool  has_sun;
     float sun_azimuth;           /* from north over east */
     float sun_elevation;

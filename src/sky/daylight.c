@@ -10,6 +10,8 @@
 #define WATER_SCALE_M 2000.0  /* of water vapour over altitude */
 #define ON_THE_GROUND_M 2500.0 /* an observer on land below this stands on the ground */
 #define INTEGRAL_STEPS 1000
+#define PEREZ_LOWEST_DEG (-4.0) /* an hour's mean has light when the sun rises in it */
+#define PEREZ_ZENITH_MAX (89.9 * PI / 180) /* of its fit */
 
 DaylightInput daylight_input_default(DaylightKind kind)
 {
@@ -226,7 +228,8 @@ static bool needs_sun(const DaylightInput *in)
 
 static bool check_sun_up(const Daylight *out, Error *err)
 {
-    if (!needs_sun(&out->input) || out->sun_elevation > 0) return true;
+    double lowest = out->input.kind == DAYLIGHT_PEREZ ? PEREZ_LOWEST_DEG : 0;
+    if (!needs_sun(&out->input) || out->metrics.sun_elevation_deg > lowest) return true;
     return error_set(err, ERROR_INPUT, "the sun stands %.2f degrees below the horizon "
                      "(azimuth %.2f): this sky model has no night, wanted a time by day or the "
                      "type \"sky\"", -out->metrics.sun_elevation_deg,
@@ -248,8 +251,9 @@ static bool build_cie(Daylight *out, Error *err)
     curve_from_rows(ground.direct, &irradiance);
     double lux = curve_luminance(&irradiance);
     scale_curve(&irradiance, in->sun_lux > 0 && lux > 0 ? in->sun_lux / lux : 0);
-    out->metrics.direct_normal_w_m2 = in->sun_lux > 0 ? spectrl2_total(ground.direct) *
-                                                            in->sun_lux / lux : 0;
+    if (in->sun_lux > 0 && lux > 0)
+        out->metrics.direct_normal_w_m2 = spectrl2_total(ground.direct) * in->sun_lux / lux *
+                                          sun_share(out);
     sky_spectrum(out, clear[in->cie_type - 1], &ground);
     finish_shape(out, &irradiance);
     return true;
@@ -261,13 +265,14 @@ static bool build_perez(Daylight *out, Error *err)
     PerezState state;
     Curve      irradiance;
     if (!check_sun_up(out, err)) return false;
-    PerezInput input = {PI / 2 - out->sun_elevation, in->direct_w_m2, in->diffuse_w_m2,
+    PerezInput input = {fmin(PEREZ_ZENITH_MAX, PI / 2 - out->sun_elevation),
+                        in->direct_w_m2, in->diffuse_w_m2,
                         in->has_time ? day_of_year(&in->when) : 80};
     if (!sky_shape_perez(&input, &out->shape, &state, err)) return false;
     Spectrl2 ground = ground_spectra(out);
     curve_from_rows(ground.direct, &irradiance);
     scale_curve(&irradiance, in->direct_w_m2 / spectrl2_total(ground.direct));
-    out->metrics.direct_normal_w_m2 = in->direct_w_m2;
+    out->metrics.direct_normal_w_m2 = in->direct_w_m2 * sun_share(out);
     out->metrics.diffuse_horizontal_lx = 1;
     sky_spectrum(out, fmin(1, (state.clearness - 1) / 3.5), &ground);
     /* sky_spectrum told the watts of one lux */

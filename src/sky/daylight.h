@@ -8,6 +8,8 @@
  * Spectra   sun: SPECTRL2's direct beam; clear skies its diffuse, overcast ones its global
  *           spectrum, between them by clearness. The atmosphere: its own scattering times the
  *           sun's spectrum outside the air and what water vapour and oxygen let through.
+ * Low sun   Perez's sky stands for a sun down to 4 degrees below the horizon too, as at the
+ *           horizon and without direct light.
  * Frame     azimuth from north over east, elevation from the horizontal, radians; the sun's
  *           elevation here is the apparent one (refraction lifts it).
  * Units     spectral radiance in W m^-2 sr^-1 nm^-1, 360..830 nm; lx; cd m^-2.

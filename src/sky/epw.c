@@ -20,8 +20,9 @@ typedef struct EpwReader {
 
 /* Fields of the data dictionary, counted from 0. */
 enum {
-    FIELD_DRY_BULB = 6, FIELD_DEW_POINT = 7, FIELD_PRESSURE = 9, FIELD_DIRECT = 14,
-    FIELD_DIFFUSE = 15, FIELD_WATER = 28, FIELD_AEROSOL = 29, FIELDS_LEAST = 16
+    FIELD_MINUTE = 4, FIELD_DRY_BULB = 6, FIELD_DEW_POINT = 7, FIELD_PRESSURE = 9,
+    FIELD_GLOBAL = 13, FIELD_DIRECT = 14, FIELD_DIFFUSE = 15, FIELD_WATER = 28,
+    FIELD_AEROSOL = 29, FIELDS_LEAST = 16
 };
 
 /* Cuts the next line off and into fields; false at the end. */
@@ -85,6 +86,14 @@ static double or_missing(const char *text, double missing)
     return isfinite(value) && value < missing ? value : -1;
 }
 
+/* The minute counts where an hour has several rows only: hourly files write 0 or 60 alike. */
+static double label_hour(double hour, const char *minute, int rows_per_hour)
+{
+    if (rows_per_hour == 1) return hour;
+    double value = strtod(minute, NULL);
+    return hour - 1 + (value > 0 && value <= 60 ? value : 60) / 60;
+}
+
 static bool read_hour(EpwReader *reader, char *field[], int count, const Weather *weather,
                       WeatherHour *out, Error *err)
 {
@@ -101,12 +110,32 @@ static bool read_hour(EpwReader *reader, char *field[], int count, const Weather
         !number(reader, field[FIELD_PRESSURE], any, &out->pressure_mbar, err))
         return false;
     out->pressure_mbar /= 100;
-    out->middle = (SkyTime){(int)when[0], (int)when[1], (int)when[2], (int)when[3] - 1, 30, 0,
-                            weather->zone_h};
+    out->line = reader->line;
+    out->year = (int)when[0], out->month = (int)when[1], out->day = (int)when[2];
+    out->label_h = label_hour(when[3], field[FIELD_MINUTE], weather->rows_per_hour);
+    out->global_horizontal_w_m2 = or_missing(field[FIELD_GLOBAL], 9999);
     out->has_light = out->direct_normal_w_m2 < 9999 && out->diffuse_horizontal_w_m2 < 9999;
     out->precipitable_water_cm = count > FIELD_WATER ? or_missing(field[FIELD_WATER], 999) / 10
                                                      : -1;
     out->aerosol_depth = count > FIELD_AEROSOL ? or_missing(field[FIELD_AEROSOL], 0.999) : -1;
+    return true;
+}
+
+/* What the header says before the rows: PVGIS's comment, and how many rows an hour has (DATA
+ * PERIODS, number of periods, rows in an hour). True at the last header line. */
+static bool read_header(char *field[], int count, Weather *out)
+{
+    static const char offset[] = "Irradiance Time Offset (h):";
+    for (int i = 1; i < count && !strncmp(field[0], "COMMENTS", 8); i++) {
+        char  *at = strstr(field[i], offset), *after;
+        double value = at ? strtod(at + sizeof offset - 1, &after) : 0;
+        if (!at || after == at + sizeof offset - 1 || !(fabs(value) <= 24)) continue;
+        out->has_comment_offset = true;
+        out->comment_offset_h = value;
+    }
+    if (strcmp(field[0], "DATA PERIODS")) return false;
+    int rows = count > 2 ? atoi(field[2]) : 1;
+    out->rows_per_hour = rows > 1 && rows <= 60 ? rows : 1;
     return true;
 }
 
@@ -119,7 +148,7 @@ bool weather_read(const char *file, Arena *arena, Weather *out, Error *err)
     if (!file_read(file, WEATHER_BYTES, arena, &bytes, err)) return false;
     char     *text = arena_string(arena, (const char *)bytes.data, bytes.size);
     EpwReader reader = {file, text, 0, arena};
-    Weather weather = {.file = file};
+    Weather   weather = {.file = file, .rows_per_hour = 1};
     if (!next_line(&reader, field, &count))
         return error_at(err, ERROR_INPUT, file, "", "is empty, wanted an EPW weather file");
     if (!read_location(&reader, field, count, &weather, err)) return false;
@@ -127,7 +156,7 @@ bool weather_read(const char *file, Arena *arena, Weather *out, Error *err)
     while (next_line(&reader, field, &count)) {
         bool is_blank = count == 1 && !field[0][0];
         if (!in_data) {
-            in_data = !strcmp(field[0], "DATA PERIODS");
+            in_data = read_header(field, count, &weather);
             continue;
         }
         if (is_blank) continue;
@@ -141,20 +170,4 @@ bool weather_read(const char *file, Arena *arena, Weather *out, Error *err)
                         "has no hours, wanted rows behind a line DATA PERIODS");
     *out = weather;
     return true;
-}
-
-const WeatherHour *weather_at(const Weather *weather, const SkyTime *time)
-{
-    /* the same moment on the file's own clock */
-    double minutes = time->hour * 60 + time->minute + (weather->zone_h - time->zone_h) * 60;
-    int    shift = (int)floor(minutes / 1440), hour = (int)floor((minutes - shift * 1440) / 60);
-    SkyTime noon = {time->year, time->month, time->day, 12, 0, 0, 0};
-    double  day = sky_julian_day(&noon) + shift;
-    for (int i = 0; i < weather->count; i++) {
-        const SkyTime *at = &weather->hour[i].middle;
-        SkyTime same = {time->year, at->month, at->day, 12, 0, 0, 0};
-        if (at->hour == hour && fabs(sky_julian_day(&same) - day) < 0.5)
-            return &weather->hour[i];
-    }
-    return NULL;
 }

@@ -119,12 +119,16 @@ bool sky_shape_perez(const PerezInput *input, SkyShape *out, PerezState *state, 
         v[2] = exp_d(pow_d(delta * (row[2][0] + row[2][1] * z), row[2][2])) - row[2][3];
         v[3] = -exp_d(delta * (row[3][0] + row[3][1] * z)) + row[3][2] + delta * row[3][3];
     }
+    /* An infinite luminance at the horizon, of a bright sun within its last degrees: the fit's
+     * range is left, its gradation held flat. */
+    bool is_sky = v[1] <= 0 || 1 + v[0] > 0.1;
+    v[1] = fmin(0, v[1]);
     if (state) *state = s;
     *out = (SkyShape){v[0], v[1], v[2], v[3], v[4], 0, 0};
-    return v[1] <= 0 || error_set(err, ERROR_INPUT,
-                                  "the irradiances %g and %g W/m2 are outside "
-                                  "of Perez's skies: the luminance at the horizon is infinite",
-                                  input->direct_normal_w_m2, input->diffuse_horizontal_w_m2);
+    return is_sky || error_set(err, ERROR_INPUT,
+                               "the irradiances %g and %g W/m2 are outside of Perez's skies: "
+                               "their luminance has no finite gradation",
+                               input->direct_normal_w_m2, input->diffuse_horizontal_w_m2);
 }
 
 double sky_shape_value(const SkyShape *shape, double cos_theta, double gamma)

@@ -5,7 +5,7 @@
 #include "base/file.h"
 #include "cli/options/environment_options.h"
 #include "harness.h"
-#include "sky/epw.h"
+#include "sky/weather_clock.h"
 #include "spectrum/curve.h"
 #include "text/uri.h"
 #include "text/json_text.h"
@@ -43,7 +43,10 @@ void fuzz_weather(const uint8_t *data, size_t size, Arena *arena)
                                         isfinite(hour->direct_normal_w_m2)),
                    "light is not negative");
     }
-    weather_at(&weather, &time);
+    WeatherClock clock = weather_clock_find(&weather, NULL, *arena);
+    double       apart = 0;
+    weather_clock_row(&weather, &clock, &time, &apart);
+    fuzz_claim(isfinite(clock.offset_h) && fabs(apart) <= 31, "a row has its instant");
 }
 
 /* ---- command lines ----------------------------------------------------------------------- */

@@ -156,6 +156,8 @@ TEST(what_makes_no_sky_is_refused_by_name)
         {{.environment = "sky:clear", .sun = "0,9", .ground = "lava"}, "wanted land, sea"},
         {{.environment = "sky:clear", .sun = "0,9", .ground = "cloud:x"}, "wanted land, sea"},
         {{.weather = "none.epw"}, "add --when"},
+        {{.environment = "sky:clear", .sun = "0,9", .has_weather_offset = true},
+         "add --weather"},
     };
     Arena *arena = *state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

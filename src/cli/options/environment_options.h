@@ -14,9 +14,10 @@ typedef struct EnvironmentChange {
     const char *when, *where, *weather;
     const char *ground;      /* "land", "sea", "cloud", "cloud:TOP_M" */
     bool   has_hdri_lux, has_forward, has_heading, has_turbidity, has_visibility;
+    bool has_weather_offset;
     double hdri_lux;         /* lx on a horizontal plane */
     double forward[3];       /* scene vector */
-    double heading_deg, turbidity, visibility_km;
+    double heading_deg, turbidity, visibility_km, weather_offset_h;
 } EnvironmentChange;
 
 /* Rows of an option table. */
@@ -32,6 +33,10 @@ typedef struct EnvironmentChange {
      &(change)->where},                                                                        \
     {"--weather", OPTION_TEXT, "FILE.epw",                                                     \
      "a Perez sky of the light (and the place) of --when's hour", &(change)->weather},         \
+    {"--weather-offset", OPTION_NUMBER, "H",                                                   \
+     "from a row's label to its instant, h (-0.5: hour means); else found from the file",      \
+     &(change)->weather_offset_h, .low = -12, .high = 12,                                      \
+     .given = &(change)->has_weather_offset},                                                  \
     {"--sun", OPTION_TEXT, "auto|off|AZ,EL[,LUX]",                                             \
      "of --when and --where; none; degrees from north over east and up, lx",                   \
      &(change)->sun},                                                                          \

@@ -9,6 +9,7 @@
 #include "base/progress.h"
 #include "base/units.h"
 #include "cli/options/answer.h"
+#include "cli/options/weather_option.h"
 #include "cli/render/frame_outcome.h"
 #include "cli/render/render_identity.h"
 #include "film/film_frame.h"
@@ -106,6 +107,8 @@ FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
                      render_identity(request, scene, camera, result->kernel, arena), arena);
     frame_set_string(&frame, "parhelion:unit", "cd/m2", arena);
     set_inputs(&frame, scene, arena);
+    const char *weather = weather_option_text(&scene->environment, arena);
+    if (weather) frame_set_string(&frame, "parhelion:weather", weather, arena);
     set_sampling(&frame, request, result, arena);
     set_camera(&frame, camera, arena);
     set_names(&frame, scene, request->render.layers, arena);
