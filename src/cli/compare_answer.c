@@ -67,12 +67,12 @@ static void print_contrasts(const Comparison *c)
 void compare_print_pair(const CompareRequest *request, const Comparison *c)
 {
     if (c->has_pixels) {
+        print_contrasts(c);
+        if (c->has_stat) print_statistic(&c->stat);
         printf("%-12s %ld of %ld differ\n", "pixels", c->channels.differing,
                c->selection.pixels);
         print_errors(c);
         print_flip(c);
-        if (c->has_stat) print_statistic(&c->stat);
-        print_contrasts(c);
     }
     for (int i = 0; i < c->notes.count; i++) printf("note: %s\n", c->notes.list[i]);
     for (int i = 0; i < c->reasons.count && c->reasons.count > 1; i++)

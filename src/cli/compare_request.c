@@ -146,7 +146,7 @@ bool compare_parse(int argc, char **argv, Arena *arena, CompareRequest *out, Err
         {"--ignore", OPTION_TEXTS, "NAME",
          "leave out a metadata key, channel or layer; repeatable", .out = &words.ignored},
         {"--strict", OPTION_FLAG, NULL,
-         "different program, seed, samples, inputs ... are failures too",
+         "different program, seed, inputs ..., and layers of one side, are failures too",
          .out = &o->rules.strict},
         {"--allow-extra", OPTION_FLAG, NULL,
          "of folders: files that only the test has are no failure", .out = &out->allow_extra},

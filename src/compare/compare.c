@@ -7,6 +7,8 @@
 #include "base/progress.h"
 #include "compare/metrics.h"
 
+#define LEAST_SAID 1e-3 /* of a change of contrast that has no interval */
+
 static double level_of(const CompareOptions *options)
 {
     return options->level > 0 ? options->level : 0.01;
@@ -88,6 +90,52 @@ static const char *limits_text(const CompareOptions *options, const Comparison *
     return text;
 }
 
+/* Beyond its interval; where no noise is stated, beyond what four digits show. */
+static bool contrast_moved(const ContrastChange *change)
+{
+    double far = fabs(change->ratio.value - 1);
+    return isnan(change->ratio.half_width) ? far > LEAST_SAID : far > change->ratio.half_width;
+}
+
+/* "contrast of cluster 9.9 : 1 to 6.1 : 1 (-38 +- 0.5 %) and of 2 more displays; ", for what
+ * changed most; "" when none did. */
+static const char *contrast_change_text(const Comparison *out, Arena *arena)
+{
+    const ContrastChange *most = NULL;
+    int                   count = 0;
+    for (int i = 0; i < out->contrast_count; i++) {
+        const ContrastChange *c = &out->contrasts[i];
+        if (!contrast_moved(c)) continue;
+        count++;
+        if (!most || fabs(c->ratio.value - 1) > fabs(most->ratio.value - 1)) most = c;
+    }
+    if (!most) return "";
+    double      error = most->ratio.half_width;
+    const char *text = arena_format(
+        arena, "contrast of %s %.3g : 1 to %.3g : 1 (%+.3g%s %%)", most->display,
+        most->reference.contrast.value, most->test.contrast.value,
+        100 * (most->ratio.value - 1),
+        isnan(error) ? "" : arena_format(arena, " +- %.2g", 100 * error));
+    if (count == 1) return arena_format(arena, "%s; ", text);
+    return arena_format(arena, "%s and of %d more display%s; ", text, count - 1,
+                        count > 2 ? "s" : "");
+}
+
+/* "contrast of 3 displays within 1.2 %; ": how far any may have moved; "" where no noise is
+ * stated. */
+static const char *contrast_held_text(const Comparison *out, Arena *arena)
+{
+    double most = 0;
+    for (int i = 0; i < out->contrast_count; i++) {
+        Measured ratio = out->contrasts[i].ratio;
+        double   far = fabs(ratio.value - 1) + ratio.half_width;
+        if (!(far <= most)) most = far;
+    }
+    if (!(most > 0) || isinf(most)) return "";
+    return arena_format(arena, "contrast of %d display%s within %.2g %%; ", out->contrast_count,
+                        out->contrast_count > 1 ? "s" : "", 100 * most);
+}
+
 static const char *same_verdict(const CompareOptions *options, const Comparison *out,
                                 Arena *arena)
 {
@@ -97,17 +145,19 @@ static const char *same_verdict(const CompareOptions *options, const Comparison 
     if (out->judged_by == JUDGED_BY_LIMITS) return arena_format(arena, "within the limits (%s)",
                                                                 limits);
     if (out->stat.verdict == STATISTIC_EQUAL) return "the light is equal in every pixel";
-    return arena_format(arena, "only the noise differs, the mean did not move (p = %.3g at a "
-                        "level of %g)%s%s", out->stat.p_value, level_of(options),
-                        limits[0] ? "; " : "", limits);
+    return arena_format(arena, "%sonly the noise differs, the mean did not move (p = %.3g at a "
+                        "level of %g)%s%s", contrast_held_text(out, arena), out->stat.p_value,
+                        level_of(options), limits[0] ? "; " : "", limits);
 }
 
+/* What a display lost comes first: that is what a reviewer looks for. */
 static const char *different_verdict(const Comparison *out, Arena *arena)
 {
-    const char *first = out->reasons.list[0];
     int         more = out->reasons.count - 1;
-    if (more == 0) return first;
-    return arena_format(arena, "%s; and %d more reason%s", first, more, more > 1 ? "s" : "");
+    const char *lead = contrast_change_text(out, arena);
+    const char *text = arena_format(arena, "%s%s", lead, out->reasons.list[0]);
+    if (more == 0) return text;
+    return arena_format(arena, "%s; and %d more reason%s", text, more, more > 1 ? "s" : "");
 }
 
 /* Whether the mean moved or only the noise: what a reviewer asks first. The statistic's own

@@ -3,7 +3,6 @@
  * Memory   texts come from the arena that is passed in. Threads: pure. Fails: never.
  */
 #pragma once
-#include "compare/lines.h"
 #include "image/frame.h"
 
 typedef struct CompareRules {
@@ -26,7 +25,3 @@ bool metadata_ignores(const CompareRules *rules, const char *name);
 /* Every key of either frame, once each, those of the reference first. */
 MetadataRow *metadata_compare(const FrameImage *reference, const FrameImage *test,
                               const CompareRules *rules, Arena *arena, int *count);
-
-/* One line for each row that differs: a reason when it decides what the picture shows. */
-void metadata_report(const MetadataRow *rows, int count, bool strict, Lines *reasons,
-                     Lines *notes);

@@ -249,7 +249,6 @@ static bool measure_statistic(const CompareOptions *options, Arena *arena, Compa
     out->has_stat = statistic_compare(&out->reference.frame, &out->test.frame, &stat, arena,
                                       &out->stat, &why);
     if (out->has_stat) {
-        out->stat.p_value += 0.0; /* no negative zero */
         out->value[METRIC_P_VALUE] = out->stat.p_value;
         out->value[METRIC_FRACTION_FAILED] = out->stat.fraction_failed;
         if (out->stat.note[0]) lines_add(&out->notes, "%s", out->stat.note);

@@ -1,5 +1,8 @@
 #include "compare/structure.h"
 
+#include <string.h>
+
+#include "compare/metadata_report.h"
 #include "compare/statistic/noisy_pair.h"
 
 /* ---- sizes and windows ------------------------------------------------------------------- */
@@ -34,24 +37,58 @@ static bool compare_sizes(const CompareInput *reference, const CompareInput *tes
 
 /* ---- channels ---------------------------------------------------------------------------- */
 
-/* Names of `from` that `other` lacks, with commas; "" when there is none. */
-static const char *missing_channels(const FrameImage *from, const FrameImage *other,
-                                    const CompareRules *rules, Arena *arena)
+static bool has_beginning(const FrameImage *frame, const char *beginning, size_t length)
 {
-    const char *names = "";
+    for (int i = 0; i < frame->channel_count; i++)
+        if (!strncmp(frame->channels[i].name, beginning, length)) return true;
+    return false;
+}
+
+/* The letters of what the other frame has nothing of: "light", or "light.sun" when it has other
+ * lights, or the whole name. */
+static size_t missing_length(const char *channel, const FrameImage *other)
+{
+    for (const char *dot = strchr(channel, '.'); dot; dot = strchr(dot + 1, '.')) {
+        size_t length = (size_t)(dot - channel);
+        if (!has_beginning(other, channel, length + 1)) return length;
+    }
+    return strlen(channel);
+}
+
+/* Names of `from` that `other` lacks, with commas, "" when there is none: layers, or channels
+ * of the picture itself, which have no dot. */
+static const char *missing(const FrameImage *from, const FrameImage *other, bool wants_layers,
+                           const CompareRules *rules, Arena *arena)
+{
+    const char *names = "", *last = "";
     for (int i = 0; i < from->channel_count; i++) {
         const char *name = from->channels[i].name;
         if (frame_channel(other, name) || metadata_ignores(rules, name)) continue;
+        if (!strchr(name, '.') == wants_layers) continue;
+        name = arena_string(arena, name, missing_length(name, other));
+        if (!strcmp(name, last)) continue; /* channels of a layer stand together */
         names = arena_format(arena, "%s%s%s", names, names[0] ? ", " : "", name);
+        last = name;
     }
     return names;
+}
+
+static void compare_layers(const CompareInput *reference, const CompareInput *test,
+                           const CompareRules *rules, Arena *arena, Lines *to)
+{
+    const char *gone = missing(&reference->frame, &test->frame, true, rules, arena);
+    const char *more = missing(&test->frame, &reference->frame, true, rules, arena);
+    if (!gone[0] && !more[0]) return;
+    lines_add(to, "layers that are not compared: %s%s%s%s%s%s",
+              gone[0] ? "only the reference has " : "", gone, gone[0] && more[0] ? "; " : "",
+              more[0] ? "only the test has " : "", more, rules->strict ? " (--strict)" : "");
 }
 
 static void compare_channels(const CompareInput *reference, const CompareInput *test,
                              const CompareRules *rules, Arena *arena, Lines *reasons)
 {
-    const char *gone = missing_channels(&reference->frame, &test->frame, rules, arena);
-    const char *more = missing_channels(&test->frame, &reference->frame, rules, arena);
+    const char *gone = missing(&reference->frame, &test->frame, false, rules, arena);
+    const char *more = missing(&test->frame, &reference->frame, false, rules, arena);
     if (gone[0]) lines_add(reasons, "channels are missing in the test: %s", gone);
     if (more[0]) lines_add(reasons, "channels are missing in the reference: %s", more);
 }
@@ -79,6 +116,7 @@ Structure structure_compare(const CompareInput *reference, const CompareInput *t
         return out;
     }
     compare_channels(reference, test, rules, arena, reasons);
+    compare_layers(reference, test, rules, arena, rules->strict ? reasons : notes);
     out.shares_noise = noisy_pair_shares_noise(&reference->frame, &test->frame);
     if (reference->has_metadata && test->has_metadata) {
         out.metadata = metadata_compare(&reference->frame, &test->frame, rules, arena,

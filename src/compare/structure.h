@@ -1,13 +1,15 @@
 /* structure.h -- what two sides are made of: sizes, windows, channels, metadata.
  *
  * Differences that change what the picture shows are reasons to fail; those that explain it
- * (program, seed, samples, instruction set, command line, inputs) are notes, unless `strict`.
+ * (program, seed, samples, instruction set, command line, inputs) and layers that only one side
+ * has are a note each, unless `strict`.
  *
  * Memory   texts come from the arena that is passed in. Threads: pure.
  * Fails    never: what differs is said.
  */
 #pragma once
 #include "compare/input.h"
+#include "compare/lines.h"
 #include "compare/metadata.h"
 
 typedef struct Structure {

@@ -4,6 +4,7 @@ JUnit, folders, every kind of picture, and what must fail whatever the limits ar
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -20,6 +21,13 @@ from report import Report  # noqa: E402
 WIDTH, HEIGHT = 24, 16
 PIXELS = WIDTH * HEIGHT
 NAN = math.nan
+NEGATIVE_ZERO = re.compile(r"(?<![\w.])-0(\.0*)?(?![\w.])")
+
+
+def positive_zero(text):
+    if float(text) == 0 and text.startswith("-"):
+        raise ValueError("-0 in an answer")
+    return int(text) if text.lstrip("-").isdigit() else float(text)
 
 
 class Compare:
@@ -40,7 +48,8 @@ class Compare:
 
     def json(self, *arguments):
         done = self.compare(*arguments, "--json")
-        return done.returncode, json.loads(done.stdout)
+        return done.returncode, json.loads(done.stdout, parse_float=positive_zero,
+                                           parse_int=positive_zero)
 
     def frame(self, name, change=None, attributes=None, **more):
         """A frame of light that rises to the right; change(channels) alters it."""
@@ -73,6 +82,7 @@ def put(name, index, value):
 def told(report, done, status, *words):
     """An answer: the verdict on stdout, nothing on stderr."""
     arguments = " ".join(os.path.basename(word) for word in done.args[2:])
+    report.claim(not NEGATIVE_ZERO.search(done.stdout), f"compare {arguments}: -0 is said")
     report.claim(done.returncode == status and not done.stderr
                  and all(word in done.stdout for word in words),
                  f"compare {arguments}: status {done.returncode} instead of {status}, or "
@@ -115,15 +125,42 @@ def check_structure(report, program):
     told(report, program.compare("a.exr", "seed.exr"), 0, "note: metadata seed differs: 1")
     told(report, program.compare("a.exr", "seed.exr", "--strict"), 1, "(--strict)")
     program.frame("layer.exr", lambda c: c.update({"depth.Z": c["R"]}))
-    told(report, program.compare("a.exr", "layer.exr", *loose), 1,
-         "missing in the reference: depth.Z")
-    told(report, program.compare("layer.exr", "a.exr", "--ignore", "depth"), 0)
+    told(report, program.compare("a.exr", "layer.exr", *loose), 0,
+         "note: layers that are not compared: only the test has depth\n")
+    told(report, program.compare("a.exr", "layer.exr", "--strict"), 1, "has depth (--strict)")
+    told(report, program.compare("layer.exr", "a.exr", "--ignore", "depth", "--strict"), 0)
     pictures.write_exr(program.file("small.exr"), 2, 2, {c: [1.0] * 4 for c in "RGB"})
     told(report, program.compare("a.exr", "small.exr", *loose), 1, "sizes differ: 24x16", "2x2")
     for name, box in (("left.exr", (0, 0, 12, 16)), ("right.exr", (12, 0, 24, 16))):
         pictures.write_exr(program.file(name), WIDTH, HEIGHT,
                            {c: [1.0] * 192 for c in "RGB"}, data=box)
     told(report, program.compare("left.exr", "right.exr", *loose), 1, "data windows differ")
+
+
+def check_contrast(report, program):
+    """What a display lost leads the answer, before the figures of pixels."""
+    def shows(reflected):
+        def change(channels):
+            for c in "RGB":
+                channels.update({f"display.{name}.{c}": [value] * PIXELS for name, value in (
+                    ("emitted", 100.0), ("white", 100.0), ("black", 0.0),
+                    ("reflected", reflected))})
+                channels[c] = [100.0 + reflected] * PIXELS
+            channels["id.display"] = [0] * PIXELS
+        return change
+    named = {"parhelion:display.0": pictures.text("cluster")}
+    program.frame("clear.exr", shows(10.0), named)
+    program.frame("washed.exr", shows(25.0), named)
+    done = program.compare("clear.exr", "washed.exr", "--report", "washed.html")
+    told(report, done, 1,
+         "different: contrast of cluster 11 : 1 to 5 : 1 (-54.5 %); 384 of 384 pixels differ")
+    lines = done.stdout.splitlines()
+    report.claim(lines[0].startswith("contrast     cluster: 11 : 1 to 5 : 1, -54.5"),
+                 f"the first line is {lines[0]}")
+    with open(program.file("washed.html"), encoding="utf-8") as file:
+        page = file.read()
+    report.claim(page.index("11 → 5</b><span>contrast of cluster") < page.index("FLIP, mean"),
+                 "contrast does not lead the report")
 
 
 def check_numbers(report, program):
@@ -342,7 +379,7 @@ def check_noise(report, program):
                            "--seed", str(seed), "--layers", "all", "--quiet")
         report.claim(done.returncode == 0, f"render: {done.stderr}")
     told(report, program.compare("one.exr", "two.exr"), 0, "only the noise differs",
-         "note: metadata seed differs: 1 in the reference, 2 in the test")
+         "note: metadata differs in ", "seed (1, now 2)")
     told(report, program.compare("one.exr", "two.exr", "--max", "differing=0.001"), 1,
          "Only the noise differs")
     status, answer = program.json("one.exr", "two.exr")
@@ -355,6 +392,10 @@ def check_noise(report, program):
     report.claim(status == 1 and answer["verdict"].startswith("the mean moved")
                  and answer["metrics"]["stat"]["verdict"] == "different"
                  and abs(answer["metrics"]["mean_shift"] - 0.2) < 0.1, f"brighter: {answer}")
+    brighter(program, "two.exr", "glaring.exr", 1e4)
+    told(report, program.compare("one.exr", "glaring.exr"), 1, "p = 0")
+    report.claim(program.json("one.exr", "glaring.exr")[1]["metrics"]["stat"]["p_value"] == 0,
+                 "a certain change has another p than 0")
 
 
 def brighter(program, name, out, factor):
@@ -377,8 +418,9 @@ def main():
     report = Report()
     with tempfile.TemporaryDirectory() as folder:
         program = Compare(sys.argv[-1], folder)
-        for check in (check_frames, check_structure, check_numbers, check_pictures, check_masks,
-                      check_usage, check_files, check_json, check_folders, check_broken_pair,
+        for check in (check_frames, check_structure, check_contrast, check_numbers,
+                      check_pictures, check_masks, check_usage, check_files,
+                      check_json, check_folders, check_broken_pair,
                       check_junit, check_report, check_noise, check_limits_of_noise):
             try:
                 check(report, program)

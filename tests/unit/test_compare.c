@@ -78,20 +78,24 @@ TEST(metadata_that_decides_fails_and_the_rest_explains)
     frame_set_string(&b.frame, "parhelion:inputs", "00ac  a.gltf\n00cc  c.png\n", &arena);
     Comparison c = compared(&a, &b, LOOSE, &arena);
     assert_true(c.same);
-    assert_true(has_note(&c, "seed differs: 1 in the reference, 2 in the test"));
-    assert_true(has_note(&c, "input a.gltf has changed"));
-    assert_true(has_note(&c, "input b.png is only in the reference"));
-    assert_true(has_note(&c, "input c.png is only in the test"));
+    assert_int_equal(c.notes.count, 1);
+    assert_true(has_note(&c, "metadata differs in 2 keys: seed (1, now 2), inputs (a.gltf has "
+                             "changed, b.png is only in the reference and 1 more)"));
+    frame_set_string(&b.frame, "parhelion:seed", "1", &arena);
+    c = compared(&a, &b, LOOSE, &arena);
+    assert_true(has_note(&c, "inputs: a.gltf has changed, b.png is only in the reference, "
+                             "c.png is only in the test"));
+    frame_set_string(&b.frame, "parhelion:seed", "2", &arena);
     frame_set_string(&a.frame, "parhelion:inputs", "00aa  here/a.gltf\n00bb  b.png\n", &arena);
     frame_set_string(&b.frame, "parhelion:inputs", "00aa  /there/a.gltf\n00bd  b.png\n",
                      &arena);
     c = compared(&a, &b, LOOSE, &arena);
     assert_false(has_note(&c, "a.gltf"));
-    assert_true(has_note(&c, "input b.png has changed"));
+    assert_true(has_note(&c, "seed (1, now 2), inputs (b.png has changed)"));
     CompareOptions strict = LOOSE;
     strict.rules.strict = true;
     c = compared(&a, &b, strict, &arena);
-    assert_reason(&c, "seed differs: 1 in the reference, 2 in the test (--strict)");
+    assert_reason(&c, "seed (1, now 2), inputs (b.png has changed) (--strict)");
     const char *const ignored[] = {"seed", "parhelion:inputs"};
     strict.rules.ignored = ignored;
     strict.rules.ignored_count = 2;
@@ -104,6 +108,28 @@ TEST(metadata_that_decides_fails_and_the_rest_explains)
     assert_reason(&c, "maxBounces differs: 2 in the reference, 3 in the test");
 }
 
+/* However many keys differ, they are one line of what decides and one of what explains. */
+TEST(many_differences_of_metadata_are_two_lines)
+{
+    Arena        arena = test_arena(state);
+    CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
+    for (int i = 0; i < 300; i++) {
+        const char *part = arena_format(&arena, "parhelion:part.%d", i);
+        frame_set_string(&a.frame, part, "one", &arena);
+        frame_set_string(&b.frame, part, "other", &arena);
+        frame_set_string(&b.frame, arena_format(&arena, "note%d", i), "x", &arena);
+    }
+    frame_set_string(&b.frame, "parhelion:camera", "side", &arena);
+    Comparison c = compared(&a, &b, LOOSE, &arena);
+    assert_int_equal(c.reasons.count, 1);
+    assert_int_equal(c.notes.count, 1);
+    assert_reason(&c, "metadata differs in 301 keys that decide what the picture shows: camera "
+                      "(eye, now side), part.* (300 of them); all values: --json or --report");
+    assert_true(has_note(&c, "metadata differs in 300 keys: note0 (only in the test), "));
+    assert_true(has_note(&c, " and 292 more; all values"));
+    assert_int_equal(c.structure.metadata_count - 7, 600);
+}
+
 /* A file that does not tell its primaries has those of Rec.709. */
 TEST(what_is_implied_need_not_be_said)
 {
@@ -114,7 +140,7 @@ TEST(what_is_implied_need_not_be_said)
         if (!strcmp(a.frame.attributes[i].name, "chromaticities"))
             a.frame.attributes[i].name = "elsewhere";
     Comparison c = compared(&a, &b, LOOSE, &arena);
-    assert_true(c.same && has_note(&c, "chromaticities is missing in the reference"));
+    assert_true(c.same && has_note(&c, "chromaticities (only in the test)"));
     frame_set_values(&b.frame, "chromaticities", EXR_CHROMATICITIES, XYZ, &arena);
     c = compared(&a, &b, LOOSE, &arena);
     assert_reason(&c, "chromaticities is missing");
@@ -137,21 +163,33 @@ TEST(long_values_are_shown_where_they_differ)
     assert_true(strlen(c.notes.list[0]) < 300);
 }
 
-TEST(channels_on_one_side_are_named)
+/* Layers of one side are one line and no failure; a picture without one of its colours is. */
+TEST(layers_of_one_side_are_left_out)
 {
     Arena        arena = test_arena(state);
     CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
-    frame_add_channel(&a.frame, "depth.Z", false, &arena);
-    frame_add_channel(&b.frame, "light.sun.R", false, &arena);
+    for (const char *x = "BGR"; *x; x++) {
+        frame_add_channel(&a.frame, arena_format(&arena, "light.sun.%c", *x), 0, &arena);
+        frame_add_channel(&b.frame, arena_format(&arena, "light.lamp.%c", *x), 0, &arena);
+    }
+    for (const char *x = "XYZ"; *x; x++)
+        frame_add_channel(&a.frame, arena_format(&arena, "normal.%c", *x), 0, &arena);
+    frame_add_channel(&a.frame, "id.part", true, &arena);
+    frame_set_string(&a.frame, "parhelion:part.0", "wheel", &arena); /* goes with its layer */
     Comparison c = compared(&a, &b, LOOSE, &arena);
-    assert_reason(&c, "missing in the test: depth.Z");
-    assert_reason(&c, "missing in the reference: light.sun.R");
-    const char *const ignored[] = {"depth.Z", "light"};
-    CompareOptions    options = LOOSE;
-    options.rules = (CompareRules){ignored, 2, false};
+    assert_true(c.same);
+    assert_true(has_note(&c, "only the reference has light.sun, normal, id; only the test has "
+                             "light.lamp"));
+    CompareOptions options = LOOSE;
+    options.rules.strict = true;
+    c = compared(&a, &b, options, &arena);
+    assert_reason(&c, "only the test has light.lamp (--strict)");
+    const char *const ignored[] = {"light", "normal", "id", "part"};
+    options.rules = (CompareRules){ignored, 4, true};
     assert_true(compared(&a, &b, options, &arena).same);
-    options.rules.ignored_count = 1;
-    assert_false(compared(&a, &b, options, &arena).same);
+    frame_add_channel(&b.frame, "A", false, &arena);
+    c = compared(&a, &b, LOOSE, &arena);
+    assert_reason(&c, "channels are missing in the reference: A");
 }
 
 TEST(windows_and_sizes_must_agree)

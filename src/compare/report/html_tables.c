@@ -7,6 +7,8 @@
 #include "base/count.h"
 #include "page/page.h"
 
+#define KEYS_OF_DISPLAYS 6
+
 /* A metric as people read it: "0.0123", "1.2 %", "12.3 cd/m²". */
 static const char *value_text(const Comparison *c, Metric metric, double value, char text[64])
 {
@@ -49,13 +51,31 @@ static void add_key(Text *html, const Comparison *c, const CompareOptions *optio
              limit && !threshold_holds(*limit, value));
 }
 
+static void change_text(Measured ratio, char text[64])
+{
+    double change = 100 * (ratio.value - 1);
+    if (isnan(ratio.half_width)) snprintf(text, 64, "%+.3g %%", change);
+    else snprintf(text, 64, "%+.3g ± %.2g %%", change, 100 * ratio.half_width);
+}
+
+static void add_contrast_key(Text *html, const ContrastChange *d, const Threshold *limit)
+{
+    char value[64], change[64], name[256];
+    change_text(d->ratio, change);
+    snprintf(value, sizeof value, "%.3g → %.3g", d->reference.contrast.value,
+             d->test.contrast.value);
+    snprintf(name, sizeof name, "contrast of %.120s, %s", d->display, change);
+    page_key(html, value, name, limit && !threshold_holds(*limit, d->ratio.value - 1));
+}
+
 void html_add_keys(Text *html, const Comparison *c, const CompareOptions *options)
 {
     static const Metric KEYS[] = {METRIC_MEAN_SHIFT,  METRIC_P_VALUE, METRIC_FLIP,
-                                  METRIC_DELTAE_MEAN, METRIC_PSNR,    METRIC_SSIM,
-                                  METRIC_CONTRAST_CHANGE};
+                                  METRIC_DELTAE_MEAN, METRIC_PSNR,    METRIC_SSIM};
     if (!c->has_pixels) return;
     page_keys_begin(html);
+    for (int i = 0; i < c->contrast_count && i < KEYS_OF_DISPLAYS; i++)
+        add_contrast_key(html, &c->contrasts[i], limit_of(options, METRIC_CONTRAST_CHANGE));
     for (int i = 0; i < COUNT_OF(KEYS); i++) add_key(html, c, options, KEYS[i]);
     page_keys_end(html);
 }
@@ -111,15 +131,6 @@ static void add_regions(Text *html, const StatisticResult *s)
     page_table_end(html);
 }
 
-static void add_contrast_change(Text *html, const ContrastChange *change)
-{
-    double ratio = 100 * (change->ratio.value - 1);
-    if (isnan(change->ratio.half_width))
-        page_cell_format(html, "n", "%+.3g %%", ratio);
-    else
-        page_cell_format(html, "n", "%+.3g ± %.2g %%", ratio, 100 * change->ratio.half_width);
-}
-
 static void add_displays(Text *html, const Comparison *c)
 {
     static const PageColumn COLUMNS[] = {
@@ -127,12 +138,14 @@ static void add_displays(Text *html, const Comparison *c)
         {"change", true, NULL}, {"reflected, cd/m²", true, NULL}};
     page_table_begin(html, "Contrast of the displays", "", COLUMNS, COUNT_OF(COLUMNS));
     for (int i = 0; i < c->contrast_count; i++) {
+        char                  change[64];
         const ContrastChange *d = &c->contrasts[i];
+        change_text(d->ratio, change);
         page_row_begin(html, "");
         page_cell(html, "", d->display);
         page_cell_format(html, "n", "%.4g : 1", d->reference.contrast.value);
         page_cell_format(html, "n", "%.4g : 1", d->test.contrast.value);
-        add_contrast_change(html, d);
+        page_cell(html, "n", change);
         page_cell_format(html, "n", "%.4g → %.4g", d->reference.reflected, d->test.reflected);
         page_row_end(html);
     }
@@ -163,11 +176,13 @@ static void add_channels(Text *html, const ChannelDifferences *channels)
 void html_add_tables(Text *html, const Comparison *c, const CompareOptions *options)
 {
     if (!c->has_pixels) return;
-    text_add(html, "<div class=\"tables\"><div>\n");
-    add_metrics(html, c, options);
-    text_add(html, "</div><div>\n");
     if (c->has_stat && c->stat.region_count > 0) add_regions(html, &c->stat);
-    if (c->contrast_count > 0) add_displays(html, c);
+    text_add(html, "<div class=\"tables\"><div>\n");
+    if (c->contrast_count > 0) {
+        add_displays(html, c);
+        text_add(html, "</div><div>\n");
+    }
+    add_metrics(html, c, options);
     text_add(html, "</div></div>\n");
     if (c->channels.differing == 0) return;
     page_more_begin(html, "channels that differ");

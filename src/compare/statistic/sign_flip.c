@@ -134,9 +134,10 @@ static double log_complement(double p)
     return p < 1e-6 ? -p - 0.5 * p * p : log_d(1 - p);
 }
 
+/* Subtracted, not negated: without a doubt left the answer is 0, and not -0. */
 double sidak_p(double least, double count)
 {
-    return least < 1 ? -expm1_d(count * log_complement(least)) : 1;
+    return least < 1 ? 0 - expm1_d(count * log_complement(least)) : 1;
 }
 
 double sidak_level(double level, double count)

@@ -19,11 +19,14 @@ static void append(char *text, size_t size, const char *format, ...)
     va_end(args);
 }
 
+/* Of displays that moved the surest, since they are what people look for; else of all. */
 static const StatisticRegion *surest_region(const StatisticResult *r)
 {
     const StatisticRegion *best = &r->regions[0];
-    for (int i = 1; i < r->region_count; i++)
-        if (r->regions[i].p_value < best->p_value) best = &r->regions[i];
+    for (int i = 1; i < r->region_count; i++) {
+        bool is_first_display = r->regions[i].moved && best == &r->regions[0];
+        if (is_first_display || r->regions[i].p_value < best->p_value) best = &r->regions[i];
+    }
     return best;
 }
 
