@@ -53,7 +53,10 @@ static bool percent_decode(const char *text, size_t length, char *out, size_t *s
 
 bool uri_decode(const char *uri, Arena *arena, char **out, Error *err)
 {
-    size_t length = strlen(uri), size;
+    size_t length = strlen(uri), size, colon = strcspn(uri, ":/?#");
+    if (uri[colon] == ':' && !uri_scheme_length(uri)) /* RFC 3986, 4.2 */
+        return error_set(err, ERROR_INPUT,
+                         "\"%.80s\" is no URI: before the colon no scheme stands", uri);
     char *text = ARENA_NEW(arena, char, length + 1);
     if (!percent_decode(uri, length, text, &size, err)) return false;
     if (memchr(text, 0, size))

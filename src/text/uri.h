@@ -13,7 +13,8 @@
 size_t uri_scheme_length(const char *uri);
 bool uri_is_data(const char *uri);
 
-/* Percent-decoding. A broken escape or an encoded zero byte is an error. */
+/* Percent-decoding of a relative reference. A broken escape, an encoded zero byte, or a colon
+ * in its first part without a scheme before it, is an error. */
 bool uri_decode(const char *uri, Arena *arena, char **out, Error *err);
 
 /* The bytes of a data: URI; *media_type (may be NULL) is its type, "" if it has none. */

@@ -1,5 +1,6 @@
 #include "tinygltf/gltf_json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <exception>
@@ -214,6 +215,33 @@ void make_integers(Json &value)
     }
 }
 
+bool is_among(const Json &object, const char *name, std::initializer_list<Json> values)
+{
+    auto found = object.find(name);
+    return found != object.end() &&
+           std::find(values.begin(), values.end(), *found) != values.end();
+}
+
+/* Types and components that an extension adds are not read, by tinygltf neither. */
+bool is_known(const Json &accessor)
+{
+    auto sparse = accessor.find("sparse");
+    return is_among(accessor, "type",
+                    {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"}) &&
+           is_among(accessor, "componentType", {5120, 5121, 5122, 5123, 5125, 5126}) &&
+           (sparse == accessor.end() ||
+            is_among(sparse->at("indices"), "componentType", {5121, 5123, 5125}));
+}
+
+/* Integers stand for them: tinygltf knows those, no accessor that is_known has them. */
+void make_unknown(Json &accessor)
+{
+    accessor = Json::object();
+    accessor["type"] = "SCALAR";
+    accessor["componentType"] = TINYGLTF_COMPONENT_TYPE_INT;
+    accessor["count"] = 1;
+}
+
 /* The part of the document that tinygltf is asked about. It gets no URI and no image. */
 std::string data_document(const char *text, size_t size)
 {
@@ -228,6 +256,10 @@ std::string data_document(const char *text, size_t size)
                 item.erase(unused);
         make_integers(part[name]);
     }
+    auto accessors = part.find("accessors");
+    if (accessors == part.end()) return part.dump();
+    for (Json &accessor : *accessors)
+        if (!is_known(accessor)) make_unknown(accessor);
     return part.dump();
 }
 
@@ -244,6 +276,10 @@ GltfBufferView view_from(const tinygltf::BufferView &view)
 GltfAccessor accessor_from(const tinygltf::Accessor &accessor)
 {
     GltfAccessor out{};
+    if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_INT) {
+        out.buffer_view = -1;
+        return out;
+    }
     out.buffer_view = accessor.bufferView;
     out.offset = accessor.byteOffset;
     out.count = accessor.count;

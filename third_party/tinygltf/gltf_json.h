@@ -54,7 +54,8 @@ typedef struct GltfAccessor {
     int buffer_view; /* -1: all zero (before the sparse values) */
     size_t offset, count;
     int component_type;  /* 5120 ... 5126 */
-    int component_count; /* 1 ... 4; a matrix's columns times rows */
+    int component_count; /* 1 ... 4; a matrix's columns times rows; 0: of a type or component
+                            that glTF 2.0 does not have, nothing else is set */
     int matrix_rows;     /* 2, 3, 4 of a matrix; 0 otherwise */
     bool is_normalized;
     size_t sparse_count; /* 0: not sparse */

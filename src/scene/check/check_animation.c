@@ -95,6 +95,23 @@ static void check_channel(const DocumentCheck *check, const GltfValue *animation
             check_output(check, channel, sampler, &PATHS[i], is_weights ? targets : 1);
 }
 
+/* glTF 2.0, 3.11: a property of a node moves in one way at most. */
+static void check_targets(const DocumentCheck *check, const GltfValue *channels)
+{
+    for (int i = 1; channels && i < channels->count; i++) {
+        const GltfValue *own = tree_member(&channels->items[i], "target");
+        int node = tree_int(own, "node", NO_ID);
+        for (int k = 0; k < i && node != NO_ID; k++) {
+            const GltfValue *other = tree_member(&channels->items[k], "target");
+            if (tree_int(other, "node", NO_ID) != node ||
+                strcmp(tree_text(other, "path", ""), tree_text(own, "path", "")) != 0)
+                continue;
+            check_warns(check, own, "moves what channel %d moves", k);
+            break;
+        }
+    }
+}
+
 void check_animation(const DocumentCheck *check, const GltfValue *animation)
 {
     const GltfValue *samplers = tree_member(animation, "samplers");
@@ -103,4 +120,5 @@ void check_animation(const DocumentCheck *check, const GltfValue *animation)
         check_sampler(check, &samplers->items[i]);
     for (int i = 0; channels && i < channels->count; i++)
         check_channel(check, animation, &channels->items[i]);
+    check_targets(check, channels);
 }

@@ -8,6 +8,19 @@
 
 /* Numbers here are below 2^53 each (the tables say so), so that sums of doubles are exact. */
 
+static void check_stride(const DocumentCheck *check, const GltfValue *view, double stride,
+                         double length)
+{
+    const GltfValue *at = tree_member(view, "byteStride");
+    if (!at) return;
+    if (fmod(stride, 4) != 0)
+        check_fails(check, at, "is %g, a multiple of 4 is wanted", stride);
+    if (stride > length)
+        check_warns(check, at, "is %g, the whole buffer view has %g bytes", stride, length);
+    if (tree_int(view, "target", 0) == 34963)
+        check_warns(check, at, "only vertices may have a stride, the target says indices");
+}
+
 void check_buffer_view(const DocumentCheck *check, const GltfValue *view)
 {
     const GltfValue *buffer =
@@ -22,9 +35,7 @@ void check_buffer_view(const DocumentCheck *check, const GltfValue *view)
     bool has_chunk = buffer && buffer->index == 0 && check->file->bin.data;
     if (buffer && !tree_member(buffer, "uri") && !has_chunk && !check->file->is_binary)
         check_warns(check, view, "its buffer has no \"uri\", so there are no bytes to read");
-    if (fmod(stride, 4) != 0)
-        check_fails(check, tree_member(view, "byteStride"), "is %g, a multiple of 4 is wanted",
-                    stride);
+    check_stride(check, view, stride, length);
 }
 
 static int components_of(const char *type)
@@ -71,6 +82,10 @@ static void check_run(const DocumentCheck *check, const ByteRun *run)
                     "starts at byte %.0f of the buffer, a multiple of %.0f is "
                     "wanted",
                     start, run->align);
+    else if (fmod(run->offset, run->align) != 0)
+        check_warns(check, run->at,
+                    "starts at byte %.0f of the buffer view, a multiple of %.0f is wanted",
+                    run->offset, run->align);
 }
 
 static const GltfValue *view_of(const DocumentCheck *check, const GltfValue *object)
@@ -110,13 +125,31 @@ static void check_sparse(const DocumentCheck *check, const GltfValue *accessor, 
     check_sparse_part(check, indices, run);
 }
 
-static void check_bounds_length(const DocumentCheck *check, const GltfValue *accessor)
+/* Whether a component of the type can have this value. */
+static bool can_hold(int component, double value)
+{
+    static const double LOW[] = {-128, 0, -32768, 0, -2147483648.0, 0};
+    static const double HIGH[] = {127, 255, 32767, 65535, 2147483647.0, 4294967295.0};
+    if (component == 5126) return fabs(value) <= 3.4028235677973366e38;
+    if (component < 5120 || component > 5125) return true;
+    return value == floor(value) && value >= LOW[component - 5120] &&
+           value <= HIGH[component - 5120];
+}
+
+static void check_bounds(const DocumentCheck *check, const GltfValue *accessor)
 {
     int wanted = components_of(tree_text(accessor, "type", ""));
-    for (int i = 0; i < 2; i++) {
-        const GltfValue *bounds = tree_member(accessor, i ? "max" : "min");
-        if (bounds && wanted && bounds->kind == GLTF_ARRAY && bounds->count != wanted)
+    int component = tree_int(accessor, "componentType", 0);
+    for (int side = 0; side < 2; side++) {
+        const GltfValue *bounds = tree_member(accessor, side ? "max" : "min");
+        if (!bounds || bounds->kind != GLTF_ARRAY) continue;
+        if (wanted && bounds->count != wanted)
             check_warns(check, bounds, "has %d numbers, %d are wanted", bounds->count, wanted);
+        for (int i = 0; i < bounds->count; i++)
+            if (!can_hold(component, bounds->items[i].number))
+                check_warns(check, &bounds->items[i],
+                            "is %.9g, which component type %d cannot be",
+                            bounds->items[i].number, component);
     }
 }
 
@@ -146,12 +179,15 @@ void check_accessor(const DocumentCheck *check, const GltfValue *accessor)
 {
     int component = tree_int(accessor, "componentType", 0);
     ByteRun run = {.align = (double)component_size(component)};
+    check_bounds(check, accessor);
     if (!element_size(accessor, &run.stride, &run.extent)) return; /* reported by the table */
     if (tree_boolean(accessor, "normalized", false) && component >= 5125)
         check_warns(check, tree_member(accessor, "normalized"),
                     "only bytes and shorts can be "
                     "normalised: it is not used");
+    if (strncmp(tree_text(accessor, "type", ""), "MAT", 3) == 0 &&
+        fmod(tree_number(accessor, "byteOffset", 0), 4) != 0) /* glTF 2.0, 3.6.2.4 */
+        check_warns(check, accessor, "columns of matrices start at multiples of 4 bytes");
     check_in_view(check, accessor, run);
     check_sparse(check, accessor, run);
-    check_bounds_length(check, accessor);
 }

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "scene/check/check_vertices.h"
 #include "scene/gltf/accessor.h"
 #include "scene/gltf/document.h"
 
@@ -23,6 +24,9 @@ static bool check_finite(GltfFile *file, const GltfValue *value, const GltfAcces
     return true;
 }
 
+/* Six digits of a decimal number hold as much of a float. */
+#define BOUNDS_ALLOWED 1e-6f
+
 /* Bounds that are off show that a file was edited by hand; nothing here depends on them. */
 static void check_bounds(GltfFile *file, const GltfValue *value, const GltfAccessor *accessor,
                          const float *numbers)
@@ -37,7 +41,7 @@ static void check_bounds(GltfFile *file, const GltfValue *value, const GltfAcces
                 float number = numbers[i * (size_t)n + (size_t)c];
                 if (side ? number > extreme : number < extreme) extreme = number;
             }
-            if (fabsf(extreme - declared[c]) <= 1e-4f * fmaxf(1, fabsf(extreme))) continue;
+            if (fabsf(extreme - declared[c]) <= BOUNDS_ALLOWED * fabsf(extreme)) continue;
             file_warning(file, &tree_member(value, side ? "max" : "min")->items[c],
                          "is %g, the %s value there is %g", (double)declared[c],
                          side ? "greatest" : "smallest", (double)extreme);
@@ -72,6 +76,7 @@ static void check_one(GltfFile *file, int id)
 {
     const GltfValue *value = tree_element(file->root, "accessors", id);
     const GltfAccessor *accessor = accessor_get(file, id);
+    if (!accessor->component_count) return; /* of a type that an extension adds */
     if (!accessor->sparse_count && accessor->buffer_view < 0) return; /* zeros */
     if (accessor->sparse_count) check_sparse_order(file, value, accessor);
     const float *numbers = accessor_raw_floats(file, id);
@@ -182,10 +187,11 @@ static void check_bind_matrices(GltfFile *file, const GltfValue *skin)
         }
 }
 
+/* Rounded to signed bytes it is off by at most sqrt(4) * 0.5/127. */
 static bool is_unit(const float q[4])
 {
     float square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
-    return fabsf(sqrtf(square) - 1) <= 5e-3f;
+    return fabsf(sqrtf(square) - 1) <= 0.00788f;
 }
 
 static void check_turns(GltfFile *file, const GltfValue *animation, const GltfValue *channel)
@@ -207,20 +213,48 @@ static void check_turns(GltfFile *file, const GltfValue *animation, const GltfVa
         }
 }
 
+/* Key frames follow one another from time 0 on. */
+static void check_times(GltfFile *file, const GltfValue *sampler)
+{
+    int id = tree_int(sampler, "input", NO_ID);
+    const GltfAccessor *accessor = accessor_get(file, id);
+    if (!accessor || accessor->component_count != 1) return;
+    const float *times = accessor_floats(file, id);
+    for (size_t i = 0; i < accessor->count; i++) {
+        if (times[i] >= (i ? nextafterf(times[i - 1], INFINITY) : 0)) continue;
+        if (i)
+            file_warning(file, sampler, "time %zu is %g after %g; times that rise are wanted",
+                         i, (double)times[i], (double)times[i - 1]);
+        else
+            file_warning(file, sampler, "time 0 is %g, at least 0 is wanted", (double)times[0]);
+        return;
+    }
+}
+
+static void check_animation_data(GltfFile *file, const GltfValue *animation)
+{
+    const GltfValue *samplers = tree_member(animation, "samplers");
+    const GltfValue *channels = tree_member(animation, "channels");
+    Arena saved = file->load->scratch;
+    for (int i = 0; samplers && i < samplers->count; i++) {
+        check_times(file, &samplers->items[i]);
+        file->load->scratch = saved;
+    }
+    for (int i = 0; channels && i < channels->count; i++) {
+        check_turns(file, animation, &channels->items[i]);
+        file->load->scratch = saved;
+    }
+}
+
 static void check_matrices(GltfFile *file)
 {
     const GltfValue *skins = tree_member(file->root, "skins");
     const GltfValue *animations = tree_member(file->root, "animations");
     Arena saved = file->load->scratch;
     for (int i = 0; skins && i < skins->count; i++) check_bind_matrices(file, &skins->items[i]);
-    for (int a = 0; animations && a < animations->count; a++) {
-        const GltfValue *channels = tree_member(&animations->items[a], "channels");
-        for (int c = 0; channels && c < channels->count; c++) {
-            check_turns(file, &animations->items[a], &channels->items[c]);
-            file->load->scratch = saved;
-        }
-    }
     file->load->scratch = saved;
+    for (int a = 0; animations && a < animations->count; a++)
+        check_animation_data(file, &animations->items[a]);
 }
 
 void check_data(GltfFile *file)
@@ -231,6 +265,7 @@ void check_data(GltfFile *file)
         file->load->scratch = saved;
     }
     check_primitives(file);
+    check_vertices(file);
     check_skinned_nodes(file);
     check_matrices(file);
 }

@@ -16,28 +16,94 @@ static bool parse_version(const char *text, long *major, long *minor)
     return *end == '\0';
 }
 
-static void check_version(const DocumentCheck *check, const GltfValue *value, bool is_minimum)
+/* As a number that orders versions; -1: there is none that can be read. */
+static double version_of(const DocumentCheck *check, const GltfValue *value)
 {
     long major, minor;
-    if (!value || value->kind != GLTF_STRING) return;
-    if (!parse_version(value->text, &major, &minor))
-        check_fails(check, value, "is \"%.40s\", a version like \"2.0\" is wanted",
-                    value->text);
-    else if (major != 2 || (is_minimum && minor > 0))
-        check_fails(check, value, "is \"%.40s\", version 2.0 is read", value->text);
+    if (!value || value->kind != GLTF_STRING) return -1;
+    if (parse_version(value->text, &major, &minor)) return 1e6 * (double)major + (double)minor;
+    check_fails(check, value, "is \"%.40s\", a version like \"2.0\" is wanted", value->text);
+    return -1;
 }
 
+/* Versions 2.x only add to 2.0 (glTF 2.0, 3.2): what they add is not seen. */
 void check_asset(const DocumentCheck *check, const GltfValue *asset)
 {
-    check_version(check, tree_member(asset, "version"), false);
-    check_version(check, tree_member(asset, "minVersion"), true);
+    const GltfValue *value = tree_member(asset, "version");
+    const GltfValue *minimum = tree_member(asset, "minVersion");
+    double version = version_of(check, value), least = version_of(check, minimum);
+    bool is_other = version >= 0 && (version < 2e6 || version >= 3e6);
+    if (is_other)
+        check_fails(check, value, "is \"%.40s\", version 2.0 is read", value->text);
+    else if (version > 2e6)
+        check_warns(check, value, "is \"%.40s\": read as 2.0, what is newer is not seen",
+                    value->text);
+    if (version >= 0 && least > version)
+        check_fails(check, minimum, "is \"%.40s\", at most the version (%.40s) is wanted",
+                    minimum->text, value->text);
+    else if (least > 2e6)
+        check_warns(check, minimum, "is \"%.40s\": the file may need what 2.0 does not have",
+                    minimum->text);
+}
+
+/* A pointer names an object that exists; of its members those that are left out exist too. */
+static void check_pointer(const DocumentCheck *check, const GltfValue *pointer)
+{
+    const GltfValue *at = check->file->root;
+    const char *rest = pointer->text;
+    if (rest[0] != '/') {
+        check_warns(check, pointer,
+                    "is \"%.80s\", a JSON pointer like \"/nodes/0/scale\" is wanted", rest);
+        return;
+    }
+    while (at && rest[0] == '/') {
+        char name[80];
+        size_t length = strcspn(rest + 1, "/");
+        snprintf(name, sizeof name, "%.*s", (int)(length < 79 ? length : 79), rest + 1);
+        const GltfValue *next =
+            at->kind == GLTF_ARRAY ? tree_item(at, atoi(name)) : tree_member(at, name);
+        if (!next && (at->kind == GLTF_ARRAY || at == check->file->root))
+            check_warns(check, pointer, "is \"%.80s\", but \"%.79s\" is not there",
+                        pointer->text, name);
+        at = next;
+        rest += length + 1;
+    }
+}
+
+/* Whether another mapping before `mapping` names the variant. */
+static bool is_mapped_before(const GltfValue *mappings, int mapping, double variant)
+{
+    for (int m = 0; m < mapping; m++) {
+        const GltfValue *list = tree_member(&mappings->items[m], "variants");
+        for (int i = 0; list && i < list->count; i++)
+            if (list->items[i].number == variant) return true;
+    }
+    return false;
+}
+
+void check_variants(const DocumentCheck *check, const GltfValue *extension)
+{
+    const GltfValue *mappings = tree_member(extension, "mappings");
+    for (int m = 1; m < tree_count(extension, "mappings"); m++) {
+        const GltfValue *list = tree_member(tree_item(mappings, m), "variants");
+        for (int i = 0; list && i < list->count; i++)
+            if (is_mapped_before(mappings, m, list->items[i].number))
+                check_warns(check, &list->items[i], "variant %g stands in two mappings",
+                            list->items[i].number);
+    }
 }
 
 void check_animation_pointer(const DocumentCheck *check, const GltfValue *extension)
 {
     const GltfValue *target = extension->parent ? extension->parent->parent : NULL;
+    const GltfValue *path = tree_member(target, "path");
+    const GltfValue *pointer = tree_member(extension, "pointer");
     if (tree_member(target, "node"))
         check_warns(check, extension, "a target with a pointer has a node as well");
+    if (path && strcmp(path->text, "pointer") != 0)
+        check_warns(check, path, "is \"%.40s\" beside a pointer, \"pointer\" is wanted",
+                    path->text);
+    if (pointer && pointer->kind == GLTF_STRING) check_pointer(check, pointer);
 }
 
 /* ---- pictures -------------------------------------------------------------------------- */
@@ -49,8 +115,6 @@ void check_image(const DocumentCheck *check, const GltfValue *image)
     if ((uri != NULL) == (view != NULL))
         check_fails(check, image, "has %s; either \"uri\" or \"bufferView\" is wanted",
                     uri ? "both" : "neither");
-    if (view && !tree_member(image, "mimeType"))
-        check_warns(check, image, "\"mimeType\" is missing beside \"bufferView\"");
     const GltfValue *target =
         tree_element(check->file->root, "bufferViews", tree_int(image, "bufferView", NO_ID));
     if (tree_member(target, "byteStride"))

@@ -3,6 +3,12 @@
 
 #include <string.h>
 
+/* A unit quaternion rounded to signed bytes is off by at most sqrt(4) * 0.5/127 in length;
+ * decimals of four digits by 1e-4. */
+#define BYTE_ROUNDING 0.00788f
+#define QUATERNION_ALLOWED 2e-4f
+#define SKEW_ALLOWED 1e-4 /* cosine: matrices are written with few digits */
+
 static const GltfValue *mesh_of(const DocumentCheck *check, const GltfValue *node)
 {
     return tree_element(check->file->root, "meshes", tree_int(node, "mesh", NO_ID));
@@ -14,6 +20,23 @@ static const GltfValue *first_primitive(const GltfValue *mesh)
 }
 
 /* ---- nodes ----------------------------------------------------------------------------- */
+
+/* Columns at right angles: a move, a turn and a scale, also a mirroring one. What is skewed is
+ * shown as it stands. */
+static bool is_skewed(const float m[16])
+{
+    for (int a = 0; a < 3; a++) {
+        const float *p = m + 4 * a, *q = m + 4 * ((a + 1) % 3);
+        double pp = 0, qq = 0, pq = 0;
+        for (int i = 0; i < 3; i++) {
+            pp += (double)p[i] * (double)p[i];
+            qq += (double)q[i] * (double)q[i];
+            pq += (double)p[i] * (double)q[i];
+        }
+        if (!(fabs(pq) <= SKEW_ALLOWED * sqrt(pp * qq))) return true;
+    }
+    return false;
+}
 
 static void check_matrix(const DocumentCheck *check, const GltfValue *node)
 {
@@ -29,6 +52,9 @@ static void check_matrix(const DocumentCheck *check, const GltfValue *node)
                     "(0, 0, 0, 1) is wanted",
                     (double)matrix[3], (double)matrix[7], (double)matrix[11],
                     (double)matrix[15]);
+    if (is_skewed(matrix))
+        check_warns(check, tree_member(node, "matrix"),
+                    "is skewed; a translation, a rotation and a scale are wanted");
 }
 
 static void check_rotation(const DocumentCheck *check, const GltfValue *node)
@@ -36,8 +62,11 @@ static void check_rotation(const DocumentCheck *check, const GltfValue *node)
     float q[4];
     if (!tree_floats(node, "rotation", 4, q)) return;
     float length = sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    if (!(fabsf(length - 1) <= 5e-3f)) /* what quantised exports still keep */
-        check_fails(check, tree_member(node, "rotation"),
+    float off = fabsf(length - 1);
+    DocumentCheck milder = *check;
+    if (off <= BYTE_ROUNDING) milder.severity = SEVERITY_WARNING;
+    if (!(off <= QUATERNION_ALLOWED))
+        check_fails(&milder, tree_member(node, "rotation"),
                     "the quaternion's length is %g, 1 is "
                     "wanted",
                     (double)length);
@@ -53,18 +82,28 @@ static void check_weights(const DocumentCheck *check, const GltfValue *owner,
                     weights->count, targets);
 }
 
+/* How many of a mesh's primitives name joints. */
+static int bent_primitives(const GltfValue *mesh)
+{
+    const GltfValue *list = tree_member(mesh, "primitives");
+    int count = 0;
+    for (int i = 0; i < tree_count(mesh, "primitives"); i++)
+        count += tree_member(tree_member(tree_item(list, i), "attributes"), "JOINTS_0") != NULL;
+    return count;
+}
+
 void check_node(const DocumentCheck *check, const GltfValue *node)
 {
     const GltfValue *mesh = mesh_of(check, node), *skin = tree_member(node, "skin");
     if (tree_member(node, "matrix")) check_matrix(check, node);
     check_rotation(check, node);
-    if (skin && !tree_member(node, "mesh")) check_warns(check, skin, "a skin without a mesh");
-    if (tree_member(node, "weights") && !tree_member(node, "mesh"))
-        check_warns(check, tree_member(node, "weights"), "morph weights without a mesh");
-    if (mesh) check_weights(check, node, mesh);
-    const GltfValue *primitive = first_primitive(mesh);
-    if (skin && primitive && !tree_member(tree_member(primitive, "attributes"), "JOINTS_0"))
+    if (!mesh) return;
+    check_weights(check, node, mesh);
+    int bent = bent_primitives(mesh), all = tree_count(mesh, "primitives");
+    if (skin && bent < all)
         check_warns(check, node, "has a skin, but its mesh names no joints: it is not bent");
+    if (!skin && bent)
+        check_warns(check, node, "its mesh names joints, but there is no skin: it is not bent");
 }
 
 void check_mesh(const DocumentCheck *check, const GltfValue *mesh)
@@ -191,6 +230,45 @@ static void check_joints(const DocumentCheck *check, const GltfValue *root, cons
     }
 }
 
+/* ---- skins: joints hang on one root, the skeleton stands above them all ---------------- */
+
+static bool is_above(const int *parent, int node, int above, int count)
+{
+    for (int step = 0; step <= count && node != NO_ID; step++, node = parent[node])
+        if (node == above) return true;
+    return false;
+}
+
+static void check_skeleton(const DocumentCheck *check, const GltfValue *skin, const int *parent,
+                           int count)
+{
+    const GltfValue *joints = tree_member(skin, "joints");
+    const GltfValue *skeleton = tree_member(skin, "skeleton");
+    int above = skeleton ? index_of(skeleton, count) : NO_ID;
+    int first = index_of(tree_item(joints, 0), count);
+    for (int i = 0; joints && first != NO_ID && i < joints->count; i++) {
+        int joint = index_of(&joints->items[i], count);
+        if (joint == NO_ID) return;
+        if (root_of(parent, joint, count) != root_of(parent, first, count)) {
+            check_warns(check, &joints->items[i],
+                        "joint %d hangs on another root than joint %d", joint, first);
+            return;
+        }
+        if (above != NO_ID && !is_above(parent, joint, above, count)) {
+            check_warns(check, skeleton, "node %d does not stand above joint %d", above, joint);
+            return;
+        }
+    }
+}
+
+static void check_skeletons(const DocumentCheck *check, const GltfValue *root,
+                            const int *parent, int count)
+{
+    const GltfValue *skins = tree_member(root, "skins");
+    for (int i = 0; skins && skins->kind == GLTF_ARRAY && i < skins->count; i++)
+        check_skeleton(check, &skins->items[i], parent, count);
+}
+
 void check_hierarchy(const DocumentCheck *check, const GltfValue *root)
 {
     const GltfValue *nodes = tree_member(root, "nodes");
@@ -201,5 +279,7 @@ void check_hierarchy(const DocumentCheck *check, const GltfValue *root)
     find_parents(check, nodes, parent);
     find_cycles(check, nodes, parent, ARENA_NEW(&scratch, int, nodes->count));
     check_roots(check, root, parent, nodes->count);
-    if (check->file->load->problems->error_count == before) check_joints(check, root, parent);
+    if (check->file->load->problems->error_count != before) return; /* there may be circles */
+    check_joints(check, root, parent);
+    check_skeletons(check, root, parent, nodes->count);
 }

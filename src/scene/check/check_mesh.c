@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/check/check_material.h"
+
 /* What an attribute may be made of. Component types as bits: 1 << (code - 5120). */
 typedef struct Format {
     const char *prefix; /* "TEXCOORD_": a number follows; "POSITION": the whole name */
@@ -100,6 +102,46 @@ static void check_format(const DocumentCheck *check, const GltfValue *attribute,
                     attribute->key);
 }
 
+static const GltfValue *view_of(const DocumentCheck *check, const GltfValue *reference)
+{
+    return tree_element(check->file->root, "bufferViews",
+                        tree_int(accessor_of(check, reference), "bufferView", NO_ID));
+}
+
+/* Bytes of one tight element; 0 of a type that is not known. */
+static double tight_size(const GltfValue *accessor)
+{
+    static const int SIZES[] = {1, 1, 2, 2, 0, 4, 4};
+    const char *type = tree_text(accessor, "type", "");
+    int code = tree_int(accessor, "componentType", 0);
+    int width = strcmp(type, "SCALAR") == 0 ? 1 : 0;
+    if (strncmp(type, "VEC", 3) == 0 && type[3] >= '2' && type[3] <= '4') width = type[3] - '0';
+    return code >= 5120 && code <= 5126 ? width * SIZES[code - 5120] : 0;
+}
+
+/* glTF 2.0, 3.6.2.4: each vertex begins at a multiple of four bytes. Here it need not. */
+static void check_alignment(const DocumentCheck *check, const GltfValue *attribute)
+{
+    const GltfValue *accessor = accessor_of(check, attribute);
+    const GltfValue *view = view_of(check, attribute);
+    double start = tree_number(accessor, "byteOffset", 0);
+    double stride = tree_number(view, "byteStride", tight_size(accessor));
+    if (!view) return;
+    if (fmod(start, 4) != 0 || fmod(tree_number(view, "byteOffset", 0) + start, 4) != 0)
+        check_warns(check, attribute, "%s starts at no multiple of 4 bytes", attribute->key);
+    else if (fmod(stride, 4) != 0)
+        check_warns(check, attribute,
+                    "%s has a vertex every %g bytes, a multiple of 4 is wanted", attribute->key,
+                    stride);
+}
+
+static void check_position_bounds(const DocumentCheck *check, const GltfValue *position)
+{
+    const GltfValue *accessor = accessor_of(check, position);
+    if (accessor && (!tree_member(accessor, "min") || !tree_member(accessor, "max")))
+        check_warns(check, position, "the accessor of POSITION has no min and max");
+}
+
 static void check_count(const DocumentCheck *check, const GltfValue *attribute, double wanted)
 {
     double count = tree_number(accessor_of(check, attribute), "count", wanted);
@@ -129,40 +171,6 @@ static void check_numbering(const DocumentCheck *check, const GltfValue *attribu
         check_warns(check, attributes, "%d sets of JOINTS and %d of WEIGHTS", joints, weights);
 }
 
-static const GltfValue *view_of(const DocumentCheck *check, const GltfValue *reference)
-{
-    return tree_element(check->file->root, "bufferViews",
-                        tree_int(accessor_of(check, reference), "bufferView", NO_ID));
-}
-
-/* Interleaved attributes need a stride; vertices and indices do not share a view. */
-static void check_views(const DocumentCheck *check, const GltfValue *attributes,
-                        const GltfValue *indices)
-{
-    const GltfValue *index_view = view_of(check, indices);
-    for (int i = 0; i < attributes->count; i++) {
-        const GltfValue *view = view_of(check, &attributes->items[i]);
-        if (!view) continue;
-        if (view == index_view || tree_int(view, "target", 34962) == 34963)
-            check_warns(check, &attributes->items[i],
-                        "vertices stand in a buffer view for indices");
-        for (int k = 0; k < i; k++)
-            if (view == view_of(check, &attributes->items[k]) &&
-                !tree_member(view, "byteStride") &&
-                attributes->items[i].number != attributes->items[k].number) {
-                check_warns(check, &attributes->items[i],
-                            "shares a buffer view with %s, which "
-                            "has no byteStride",
-                            attributes->items[k].key);
-                break;
-            }
-    }
-    if (tree_member(index_view, "byteStride"))
-        check_warns(check, indices, "the buffer view of indices has a byteStride");
-    if (tree_int(index_view, "target", 34963) == 34962)
-        check_warns(check, indices, "indices stand in a buffer view for vertices");
-}
-
 static void check_indices(const DocumentCheck *check, const GltfValue *indices)
 {
     const GltfValue *accessor = accessor_of(check, indices);
@@ -176,6 +184,30 @@ static void check_indices(const DocumentCheck *check, const GltfValue *indices)
                     tree_text(accessor, "type", "?"), code);
     else if (tree_boolean(accessor, "normalized", false))
         check_fails(check, indices, "are normalised, which indices cannot be");
+    if (tree_member(view_of(check, indices), "byteStride"))
+        check_warns(check, indices, "the buffer view of indices has a byteStride");
+}
+
+static bool is_of_joints(const char *name)
+{
+    return strncmp(name, "JOINTS_", 7) == 0 || strncmp(name, "WEIGHTS_", 8) == 0;
+}
+
+static void check_displacement(const DocumentCheck *check, const GltfValue *attribute,
+                               const GltfValue *base, double count)
+{
+    if (!accessor_of(check, attribute))
+        check_fails(check, attribute, "an index into accessors is wanted");
+    if (!tree_member(base, attribute->key))
+        check_warns(check, attribute, "%s displaces what the primitive does not have",
+                    attribute->key);
+    if (is_of_joints(attribute->key))
+        check_warns(check, attribute, "%.60s is no attribute that a target moves",
+                    attribute->key);
+    check_format(check, attribute, true);
+    check_alignment(check, attribute);
+    check_count(check, attribute, count);
+    if (strcmp(attribute->key, "POSITION") == 0) check_position_bounds(check, attribute);
 }
 
 static void check_targets(const DocumentCheck *check, const GltfValue *primitive, double count)
@@ -193,20 +225,8 @@ static void check_targets(const DocumentCheck *check, const GltfValue *primitive
             check_fails(check, target, "an object of attributes is wanted");
             continue;
         }
-        for (int i = 0; i < target->count; i++) {
-            const GltfValue *attribute = &target->items[i];
-            if (!accessor_of(check, attribute))
-                check_fails(check, attribute, "an index into accessors is wanted");
-            if (!tree_member(base, attribute->key))
-                check_warns(check, attribute, "%s displaces what the primitive does not have",
-                            attribute->key);
-            const GltfValue *view = view_of(check, attribute);
-            if (tree_int(view, "target", 34962) == 34963 ||
-                (view && view == view_of(check, tree_member(primitive, "indices"))))
-                check_warns(check, attribute, "vertices stand in a buffer view for indices");
-            check_format(check, attribute, true);
-            check_count(check, attribute, count);
-        }
+        for (int i = 0; i < target->count; i++)
+            check_displacement(check, &target->items[i], base, count);
     }
 }
 
@@ -238,12 +258,14 @@ void check_primitive(const DocumentCheck *check, const GltfValue *primitive)
     if (!position) check_warns(check, attributes, "has no POSITION: the primitive is skipped");
     for (int i = 0; i < attributes->count; i++) {
         check_format(check, &attributes->items[i], false);
+        check_alignment(check, &attributes->items[i]);
         check_count(check, &attributes->items[i], count);
     }
     if (tree_member(attributes, "TANGENT") && !tree_member(attributes, "NORMAL"))
         check_warns(check, attributes, "has TANGENT without NORMAL: both are made anew");
     check_numbering(check, attributes);
-    check_views(check, attributes, indices);
+    check_position_bounds(check, position);
+    check_material_fits(check, primitive);
     if (indices) check_indices(check, indices);
     check_mode(check, primitive, count);
     check_targets(check, primitive, count);

@@ -12,8 +12,9 @@ typedef enum RuleKind {
     RULE_INTEGER, /* min .. max */
     RULE_BOOLEAN,
     RULE_TEXT,
-    RULE_CHOICE,  /* a text among the words of `of`, "a|b|c" */
-    RULE_CODE,    /* an integer among the numbers of `of`, "1|2|3" */
+    RULE_CHOICE,  /* a text among the words of `of`, "a|b|c": another one, which an extension
+                     may have added, only warns */
+    RULE_CODE,    /* an integer among the numbers of `of`, "1|2|3": as above */
     RULE_INDEX,   /* a place in the list that `of` names */
     RULE_INDICES, /* an array of such places, none twice */
     RULE_NUMBERS, /* an array of least .. most numbers, each in min .. max */
@@ -30,7 +31,8 @@ enum {
     RULE_MAY_BE_EMPTY = 4,
     RULE_WARNS = 8,      /* this member and what is below it only warn */
     RULE_HAS_RANGE = 16, /* min and max hold; otherwise any number will do */
-    RULE_FROM_MIN = 32   /* min holds, there is no max */
+    RULE_FROM_MIN = 32,  /* min holds, there is no max */
+    RULE_CLOSED = 64     /* no extension adds words to this list */
 };
 
 typedef struct Rule {
@@ -41,6 +43,7 @@ typedef struct Rule {
     int least, most; /* items of an array; most 0: as many as there are */
     const char *of;
     const struct Schema *schema;
+    const char *needs; /* the member beside it without which it means nothing; NULL: none */
 } Rule;
 
 typedef struct Schema {

@@ -86,7 +86,10 @@ static void check_choice(const DocumentCheck *check, const GltfValue *value, con
     }
     if (!is_code && value->kind == GLTF_STRING && is_among(rule->of, value->text)) return;
     snprintf(wanted, sizeof wanted, "one of %s", rule->of);
-    fails_as(check, value, wanted);
+    DocumentCheck milder = *check;
+    bool is_kind = is_code ? tree_is_integer(value) : value->kind == GLTF_STRING;
+    if (is_kind && !(rule->flags & RULE_CLOSED)) milder.severity = SEVERITY_WARNING;
+    fails_as(&milder, value, wanted);
 }
 
 /* The list a rule refers to: "nodes", or "extensions/NAME/list" below the document. */
@@ -296,11 +299,15 @@ void schema_check(const DocumentCheck *check, const GltfValue *value, const Sche
             check_fails(check, value, "\"%s\" is missing", rule->name);
     }
     for (int i = 0; i < value->count; i++) {
-        const Rule *rule = find_rule(schema, value->items[i].key);
+        const GltfValue *member = &value->items[i];
+        const Rule *rule = find_rule(schema, member->key);
+        if (rule && rule->needs && !tree_member(value, rule->needs))
+            check_warns(check, member, "stands there without \"%s\", which it needs",
+                        rule->needs);
         if (rule)
-            check_value(check, &value->items[i], rule);
+            check_value(check, member, rule);
         else
-            check_common(check, &value->items[i], schema);
+            check_common(check, member, schema);
     }
     if (schema->more) schema->more(check, value);
 }

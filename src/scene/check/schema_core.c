@@ -6,6 +6,7 @@
 #include "scene/check/check_bytes.h"
 #include "scene/check/check_document.h"
 #include "scene/check/check_graph.h"
+#include "scene/check/check_material.h"
 #include "scene/check/check_mesh.h"
 
 #define BIG 9007199254740992.0 /* 2^53: what a double counts exactly */
@@ -58,7 +59,8 @@ static const Schema SCHEMA_SPARSE = {"accessor.sparse", SPARSE, COUNT_OF(SPARSE)
 
 static const Rule ACCESSOR[] = {
     {.name = "bufferView", .kind = RULE_INDEX, .of = "bufferViews"},
-    {.name = "byteOffset", .kind = RULE_INTEGER, .flags = RULE_HAS_RANGE, .max = BIG},
+    {.name = "byteOffset", .kind = RULE_INTEGER, .flags = RULE_HAS_RANGE, .max = BIG,
+     .needs = "bufferView"},
     {.name = "componentType", .kind = RULE_CODE, .flags = RULE_REQUIRED,
      .of = "5120|5121|5122|5123|5125|5126"},
     {.name = "normalized", .kind = RULE_BOOLEAN},
@@ -102,14 +104,14 @@ static const Schema SCHEMA_SKIN = {"skin", SKIN, COUNT_OF(SKIN), false, check_sk
 static const Rule NODE[] = {
     {.name = "camera", .kind = RULE_INDEX, .of = "cameras"},
     {.name = "children", .kind = RULE_INDICES, .of = "nodes"},
-    {.name = "skin", .kind = RULE_INDEX, .of = "skins"},
+    {.name = "skin", .kind = RULE_INDEX, .of = "skins", .needs = "mesh"},
     {.name = "matrix", .kind = RULE_NUMBERS, .least = 16, .most = 16},
     {.name = "mesh", .kind = RULE_INDEX, .of = "meshes"},
     {.name = "rotation", .kind = RULE_NUMBERS, .flags = RULE_HAS_RANGE, .min = -1, .max = 1,
      .least = 4, .most = 4},
     {.name = "scale", .kind = RULE_NUMBERS, .least = 3, .most = 3},
     {.name = "translation", .kind = RULE_NUMBERS, .least = 3, .most = 3},
-    {.name = "weights", .kind = RULE_NUMBERS},
+    {.name = "weights", .kind = RULE_NUMBERS, .needs = "mesh"},
 };
 static const Schema SCHEMA_NODE = {"node", NODE, COUNT_OF(NODE), false, check_node};
 
@@ -151,8 +153,8 @@ static const Schema SCHEMA_CAMERA = {"camera", CAMERA, COUNT_OF(CAMERA), false, 
 
 static const Rule IMAGE[] = {
     {.name = "uri", .kind = RULE_TEXT},
-    {.name = "mimeType", .kind = RULE_TEXT},
-    {.name = "bufferView", .kind = RULE_INDEX, .of = "bufferViews"},
+    {.name = "mimeType", .kind = RULE_CHOICE, .of = "image/jpeg|image/png"},
+    {.name = "bufferView", .kind = RULE_INDEX, .of = "bufferViews", .needs = "mimeType"},
 };
 static const Schema SCHEMA_IMAGE = {"image", IMAGE, COUNT_OF(IMAGE), false, check_image};
 
@@ -168,16 +170,28 @@ static const Rule TEXTURE[] = {
     {.name = "sampler", .kind = RULE_INDEX, .of = "samplers"},
     {.name = "source", .kind = RULE_INDEX, .of = "images"},
 };
-static const Schema SCHEMA_TEXTURE = {"texture", TEXTURE, COUNT_OF(TEXTURE), false, NULL};
+static const Schema SCHEMA_TEXTURE = {"texture", TEXTURE, COUNT_OF(TEXTURE), false,
+                                      check_texture};
 
-static const Rule TEXTURE_INFO[] = {
-    {.name = "index", .kind = RULE_INDEX, .flags = RULE_REQUIRED, .of = "textures"},
-    {.name = "texCoord", .kind = RULE_INTEGER, .flags = RULE_HAS_RANGE, .max = 65535},
-    {.name = "scale", .kind = RULE_NUMBER},
-    {.name = "strength", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 1},
-};
+#define TEXTURE_INDEX                                                                          \
+    {.name = "index", .kind = RULE_INDEX, .flags = RULE_REQUIRED, .of = "textures"}
+#define TEXTURE_COORDINATES                                                                    \
+    {.name = "texCoord", .kind = RULE_INTEGER, .flags = RULE_HAS_RANGE, .max = 65535}
+static const Rule TEXTURE_INFO[] = {TEXTURE_INDEX, TEXTURE_COORDINATES};
 const Schema SCHEMA_TEXTURE_INFO = {"textureInfo", TEXTURE_INFO, COUNT_OF(TEXTURE_INFO), false,
                                     NULL};
+
+static const Rule NORMAL_TEXTURE_INFO[] = {TEXTURE_INDEX, TEXTURE_COORDINATES,
+                                           {.name = "scale", .kind = RULE_NUMBER}};
+const Schema SCHEMA_NORMAL_TEXTURE_INFO = {"textureInfo", NORMAL_TEXTURE_INFO,
+                                           COUNT_OF(NORMAL_TEXTURE_INFO), false, NULL};
+
+static const Rule OCCLUSION_TEXTURE_INFO[] = {
+    TEXTURE_INDEX, TEXTURE_COORDINATES,
+    {.name = "strength", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 1}};
+static const Schema SCHEMA_OCCLUSION_TEXTURE_INFO = {"textureInfo", OCCLUSION_TEXTURE_INFO,
+                                                     COUNT_OF(OCCLUSION_TEXTURE_INFO), false,
+                                                     NULL};
 
 static const Rule PBR[] = {
     {.name = "baseColorFactor", .kind = RULE_NUMBERS, .flags = RULE_HAS_RANGE, .max = 1,
@@ -192,16 +206,18 @@ static const Schema SCHEMA_PBR = {"material.pbrMetallicRoughness", PBR, COUNT_OF
 
 static const Rule MATERIAL[] = {
     {.name = "pbrMetallicRoughness", .kind = RULE_OBJECT, .schema = &SCHEMA_PBR},
-    {.name = "normalTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-    {.name = "occlusionTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
+    {.name = "normalTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_NORMAL_TEXTURE_INFO},
+    {.name = "occlusionTexture", .kind = RULE_OBJECT,
+     .schema = &SCHEMA_OCCLUSION_TEXTURE_INFO},
     {.name = "emissiveTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
     {.name = "emissiveFactor", .kind = RULE_NUMBERS, .flags = RULE_HAS_RANGE, .max = 1,
      .least = 3, .most = 3},
     {.name = "alphaMode", .kind = RULE_CHOICE, .of = "OPAQUE|MASK|BLEND"},
-    {.name = "alphaCutoff", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
+    {.name = "alphaCutoff", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN, .needs = "alphaMode"},
     {.name = "doubleSided", .kind = RULE_BOOLEAN},
 };
-static const Schema SCHEMA_MATERIAL = {"material", MATERIAL, COUNT_OF(MATERIAL), false, NULL};
+static const Schema SCHEMA_MATERIAL = {"material", MATERIAL, COUNT_OF(MATERIAL), false,
+                                       check_material};
 
 /* ---- animations: skipped, so that faults in them only warn ----------------------------- */
 
@@ -249,7 +265,7 @@ static const Schema SCHEMA_ASSET = {"asset", ASSET, COUNT_OF(ASSET), false, chec
 
 static const Rule ROOT[] = {
     {.name = "extensionsUsed", .kind = RULE_TEXTS},
-    {.name = "extensionsRequired", .kind = RULE_TEXTS},
+    {.name = "extensionsRequired", .kind = RULE_TEXTS, .needs = "extensionsUsed"},
     {.name = "accessors", .kind = RULE_OBJECTS, .schema = &SCHEMA_ACCESSOR},
     {.name = "animations", .kind = RULE_OBJECTS, .flags = RULE_WARNS,
      .schema = &SCHEMA_ANIMATION},
@@ -262,7 +278,7 @@ static const Rule ROOT[] = {
     {.name = "meshes", .kind = RULE_OBJECTS, .schema = &SCHEMA_MESH},
     {.name = "nodes", .kind = RULE_OBJECTS, .schema = &SCHEMA_NODE},
     {.name = "samplers", .kind = RULE_OBJECTS, .schema = &SCHEMA_SAMPLER},
-    {.name = "scene", .kind = RULE_INDEX, .of = "scenes"},
+    {.name = "scene", .kind = RULE_INDEX, .of = "scenes", .needs = "scenes"},
     {.name = "scenes", .kind = RULE_OBJECTS, .schema = &SCHEMA_SCENE},
     {.name = "skins", .kind = RULE_OBJECTS, .schema = &SCHEMA_SKIN},
     {.name = "textures", .kind = RULE_OBJECTS, .schema = &SCHEMA_TEXTURE},

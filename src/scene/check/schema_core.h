@@ -4,3 +4,4 @@
 
 extern const Schema SCHEMA_ROOT; /* of the whole document */
 extern const Schema SCHEMA_TEXTURE_INFO;
+extern const Schema SCHEMA_NORMAL_TEXTURE_INFO;

@@ -72,7 +72,8 @@ static const Rule CLEARCOAT[] = {
     {.name = "clearcoatRoughnessFactor", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE,
      .max = 1},
     {.name = "clearcoatRoughnessTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-    {.name = "clearcoatNormalTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
+    {.name = "clearcoatNormalTexture", .kind = RULE_OBJECT,
+     .schema = &SCHEMA_NORMAL_TEXTURE_INFO},
 };
 static const Schema SCHEMA_CLEARCOAT = {"KHR_materials_clearcoat", CLEARCOAT,
                                         COUNT_OF(CLEARCOAT), false, NULL};
@@ -107,6 +108,50 @@ static const Rule ANISOTROPY[] = {
 static const Schema SCHEMA_ANISOTROPY = {"KHR_materials_anisotropy", ANISOTROPY,
                                          COUNT_OF(ANISOTROPY), false, NULL};
 
+#define TEXTURE(member)                                                                        \
+    {.name = (member), .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO}
+#define UNIT_NUMBER(member)                                                                    \
+    {.name = (member), .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 1}
+#define UNIT_NUMBERS(member, size)                                                             \
+    {.name = (member), .kind = RULE_NUMBERS, .flags = RULE_HAS_RANGE, .max = 1,                \
+     .least = (size), .most = (size)}
+
+static const Rule IRIDESCENCE[] = {
+    UNIT_NUMBER("iridescenceFactor"),
+    TEXTURE("iridescenceTexture"),
+    {.name = "iridescenceIor", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN, .min = 1},
+    {.name = "iridescenceThicknessMinimum", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
+    {.name = "iridescenceThicknessMaximum", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
+    TEXTURE("iridescenceThicknessTexture"),
+};
+static const Schema SCHEMA_IRIDESCENCE = {"KHR_materials_iridescence", IRIDESCENCE,
+                                          COUNT_OF(IRIDESCENCE), false, NULL};
+
+static const Rule SHEEN[] = {UNIT_NUMBERS("sheenColorFactor", 3), TEXTURE("sheenColorTexture"),
+                             UNIT_NUMBER("sheenRoughnessFactor"),
+                             TEXTURE("sheenRoughnessTexture")};
+static const Schema SCHEMA_SHEEN = {"KHR_materials_sheen", SHEEN, COUNT_OF(SHEEN), false, NULL};
+
+static const Rule DISPERSION[] = {
+    {.name = "dispersion", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN}};
+static const Schema SCHEMA_DISPERSION = {"KHR_materials_dispersion", DISPERSION,
+                                         COUNT_OF(DISPERSION), false, NULL};
+
+static const Rule DIFFUSE_TRANSMISSION[] = {
+    UNIT_NUMBER("diffuseTransmissionFactor"), TEXTURE("diffuseTransmissionTexture"),
+    UNIT_NUMBERS("diffuseTransmissionColorFactor", 3),
+    TEXTURE("diffuseTransmissionColorTexture")};
+static const Schema SCHEMA_DIFFUSE_TRANSMISSION = {"KHR_materials_diffuse_transmission",
+                                                   DIFFUSE_TRANSMISSION,
+                                                   COUNT_OF(DIFFUSE_TRANSMISSION), false, NULL};
+
+static const Rule GLOSSINESS[] = {UNIT_NUMBERS("diffuseFactor", 4), TEXTURE("diffuseTexture"),
+                                  UNIT_NUMBERS("specularFactor", 3),
+                                  UNIT_NUMBER("glossinessFactor"),
+                                  TEXTURE("specularGlossinessTexture")};
+static const Schema SCHEMA_GLOSSINESS = {"KHR_materials_pbrSpecularGlossiness", GLOSSINESS,
+                                         COUNT_OF(GLOSSINESS), false, NULL};
+
 /* ---- the rest of Khronos' -------------------------------------------------------------- */
 
 static const Rule TEXTURE_TRANSFORM[] = {
@@ -117,6 +162,12 @@ static const Rule TEXTURE_TRANSFORM[] = {
 };
 static const Schema SCHEMA_TEXTURE_TRANSFORM = {"KHR_texture_transform", TEXTURE_TRANSFORM,
                                                 COUNT_OF(TEXTURE_TRANSFORM), false, NULL};
+
+static const Rule OTHER_SOURCE[] = {{.name = "source", .kind = RULE_INDEX, .of = "images"}};
+static const Schema SCHEMA_WEBP = {"EXT_texture_webp", OTHER_SOURCE, COUNT_OF(OTHER_SOURCE),
+                                   false, NULL};
+static const Schema SCHEMA_BASISU = {"KHR_texture_basisu", OTHER_SOURCE,
+                                     COUNT_OF(OTHER_SOURCE), false, NULL};
 
 static const Rule VARIANT[] = {{.name = "name", .kind = RULE_TEXT, .flags = RULE_REQUIRED}};
 static const Schema SCHEMA_VARIANT = {"variant", VARIANT, COUNT_OF(VARIANT), false, NULL};
@@ -138,7 +189,7 @@ static const Rule MAPPINGS[] = {{.name = "mappings",
                                  .flags = RULE_REQUIRED,
                                  .schema = &SCHEMA_MAPPING}};
 static const Schema SCHEMA_MAPPINGS = {"KHR_materials_variants", MAPPINGS, COUNT_OF(MAPPINGS),
-                                       false, NULL};
+                                       false, check_variants};
 
 static const Rule POINTER[] = {{.name = "pointer", .kind = RULE_TEXT, .flags = RULE_REQUIRED}};
 static const Schema SCHEMA_POINTER = {"KHR_animation_pointer", POINTER, COUNT_OF(POINTER),
@@ -170,7 +221,7 @@ static const Rule SUN[] = {
 static const Schema SCHEMA_SUN = {"sun", SUN, COUNT_OF(SUN), true, NULL};
 
 static const Rule ENVIRONMENT[] = {
-    {.name = "type", .kind = RULE_CHOICE, .flags = RULE_REQUIRED,
+    {.name = "type", .kind = RULE_CHOICE, .flags = RULE_REQUIRED | RULE_CLOSED,
      .of = "constant|hdri|cie|perez|sky"},
     {.name = "heading_deg", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .min = -360,
      .max = 360},
@@ -195,7 +246,7 @@ static const Rule ENVIRONMENT[] = {
     {.name = "ozone_atm_cm", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 2},
     {.name = "water_cm", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 20},
     {.name = "albedo", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 1},
-    {.name = "ground", .kind = RULE_CHOICE, .of = "land|sea|cloud"},
+    {.name = "ground", .kind = RULE_CHOICE, .flags = RULE_CLOSED, .of = "land|sea|cloud"},
     {.name = "cloud_top_m", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
 };
 static const Schema SCHEMA_ENVIRONMENT = {"PARHELION_environment", ENVIRONMENT,
@@ -228,15 +279,16 @@ static const ExtensionRule EXTENSIONS[] = {
     {"KHR_mesh_quantization", "", NULL}, /* it only widens what accessors may hold */
     /* Known, so that a wrong place or value can be told, but not honoured: */
     {"KHR_materials_anisotropy", "material", &SCHEMA_ANISOTROPY},
-    {"KHR_materials_iridescence", "material", NULL},
-    {"KHR_materials_sheen", "material", NULL},
-    {"KHR_materials_dispersion", "material", NULL},
-    {"KHR_materials_pbrSpecularGlossiness", "material", NULL},
+    {"KHR_materials_iridescence", "material", &SCHEMA_IRIDESCENCE},
+    {"KHR_materials_sheen", "material", &SCHEMA_SHEEN},
+    {"KHR_materials_dispersion", "material", &SCHEMA_DISPERSION},
+    {"KHR_materials_diffuse_transmission", "material", &SCHEMA_DIFFUSE_TRANSMISSION},
+    {"KHR_materials_pbrSpecularGlossiness", "material", &SCHEMA_GLOSSINESS},
     {"KHR_materials_variants", "document", &SCHEMA_VARIANTS},
     {"KHR_materials_variants", "mesh.primitive", &SCHEMA_MAPPINGS},
     {"KHR_animation_pointer", "animation.channel.target", &SCHEMA_POINTER},
-    {"EXT_texture_webp", "texture", NULL},
-    {"KHR_texture_basisu", "texture", NULL},
+    {"EXT_texture_webp", "texture", &SCHEMA_WEBP},
+    {"KHR_texture_basisu", "texture", &SCHEMA_BASISU},
 };
 
 const ExtensionRule *extension_rule(const char *name, const char *host, bool *is_known)

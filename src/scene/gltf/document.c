@@ -70,18 +70,38 @@ bool load_read(Loader *load, const char *path, Arena *arena, FileBytes *out, Err
     return true;
 }
 
+static void report(GltfFile *file, Severity severity, const GltfValue *at, const char *format,
+                   ...) __attribute__((format(printf, 4, 5)));
+
+static void report(GltfFile *file, Severity severity, const GltfValue *at, const char *format,
+                   ...)
+{
+    va_list args;
+    va_start(args, format);
+    file_report(file, severity, at, format, args);
+    va_end(args);
+}
+
+bool document_is_elsewhere(GltfFile *file, const GltfValue *uri, Severity severity)
+{
+    size_t scheme = uri_scheme_length(uri->text);
+    if (scheme)
+        report(file, severity, uri,
+               "the URI's scheme is \"%.*s:\"; only data: and relative paths are "
+               "read",
+               (int)(scheme < 40 ? scheme : 40), uri->text);
+    else if (uri->text[0] == '/')
+        report(file, severity, uri,
+               "\"%.200s\" is an absolute path; only data: and relative paths are read",
+               uri->text);
+    return scheme || uri->text[0] == '/';
+}
+
 bool document_resolve(GltfFile *file, const GltfValue *uri, const char **path)
 {
     Error err;
     char *relative;
-    size_t scheme = uri_scheme_length(uri->text);
-    if (scheme) {
-        file_error(file, uri,
-                   "the URI's scheme is \"%.*s:\"; only data: and relative paths are "
-                   "read",
-                   (int)(scheme < 40 ? scheme : 40), uri->text);
-        return false;
-    }
+    if (document_is_elsewhere(file, uri, SEVERITY_ERROR)) return false;
     if (!uri_decode(uri->text, &file->load->scratch, &relative, &err)) {
         file_error(file, uri, "%s", err.text);
         return false;
@@ -207,6 +227,16 @@ bool document_read(GltfFile *file)
 
 /* ---- buffers --------------------------------------------------------------------------- */
 
+static void check_buffer_type(GltfFile *file, const GltfValue *uri, const char *type)
+{
+    if (strcmp(type, "application/octet-stream") != 0 &&
+        strcmp(type, "application/gltf-buffer") != 0)
+        file_warning(file, uri,
+                     "the media type is \"%.60s\"; application/octet-stream or "
+                     "application/gltf-buffer is wanted",
+                     type);
+}
+
 static bool buffer_bytes(GltfFile *file, const GltfValue *buffer, FileBytes *out)
 {
     Error err;
@@ -221,10 +251,15 @@ static bool buffer_bytes(GltfFile *file, const GltfValue *buffer, FileBytes *out
         return out->data != NULL;
     }
     if (uri_is_data(uri->text)) {
-        if (data_uri_decode(uri->text, scratch, out, NULL, &err)) return true;
+        const char *type;
+        if (data_uri_decode(uri->text, scratch, out, &type, &err)) {
+            check_buffer_type(file, uri, type);
+            return true;
+        }
         file_error(file, uri, "%s", err.text);
         return false;
     }
+    if (document_is_elsewhere(file, uri, SEVERITY_WARNING)) return false;
     if (!document_resolve(file, uri, &path)) return false;
     if (load_read(file->load, path, scratch, out, &err)) return true;
     file_error(file, uri, "%s: %s", path, err.text);

@@ -28,5 +28,9 @@ void document_load_buffers(GltfFile *file);
  * (base/reference.h). */
 bool document_resolve(GltfFile *file, const GltfValue *uri, const char **path);
 
+/* Whether a URI is absolute: glTF allows those, but there is no network, and no path of another
+ * machine's here. Reported with this severity: an error where the picture needs the bytes. */
+bool document_is_elsewhere(GltfFile *file, const GltfValue *uri, Severity severity);
+
 /* The bytes of a buffer view; data NULL when there are none. */
 FileBytes document_view(const GltfFile *file, int view);

@@ -148,9 +148,9 @@ static void add_camera(GltfFile *file, const GltfValue *node, const Transform *w
 {
     const GltfValue *camera =
         tree_element(file->root, "cameras", tree_int(node, "camera", NO_ID));
-    if (!camera) return;
     const GltfValue *eye = tree_member(camera, "perspective");
     const GltfValue *flat = tree_member(camera, "orthographic");
+    if (!eye && !flat) return; /* of a type that an extension adds */
     float xmag = fabsf(tree_float(flat, "xmag", 1)), ymag = fabsf(tree_float(flat, "ymag", 1));
     *(SceneCamera *)list_add(&file->load->cameras, &file->load->scratch) =
         (SceneCamera){.node_name = kept_text(file, tree_text(node, "name", "")),

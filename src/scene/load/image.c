@@ -17,14 +17,31 @@ static void mark_textures(const GltfValue *value, bool *is_used, int count)
     for (int i = 0; i < value->count; i++) mark_textures(&value->items[i], is_used, count);
 }
 
+/* Textures of the materials that some primitive wears: no other one is ever looked at. */
+static void mark_shown(const GltfFile *file, bool *is_used, int count, Arena scratch)
+{
+    const GltfValue *materials = tree_member(file->root, "materials");
+    const GltfValue *meshes = tree_member(file->root, "meshes");
+    bool *is_marked = ARENA_NEW(&scratch, bool, tree_count(file->root, "materials"));
+    for (int m = 0; m < tree_count(file->root, "meshes"); m++) {
+        const GltfValue *list = tree_member(&meshes->items[m], "primitives");
+        for (int p = 0; p < tree_count(&meshes->items[m], "primitives"); p++) {
+            int id = tree_int(&list->items[p], "material", NO_ID);
+            const GltfValue *material = tree_item(materials, id);
+            if (!material || is_marked[id]) continue;
+            is_marked[id] = true;
+            mark_textures(material, is_used, count);
+        }
+    }
+}
+
 static bool *used_images(GltfFile *file, const GltfValue *textures, int image_count)
 {
     Arena *scratch = &file->load->scratch;
     int count = textures ? textures->count : 0;
     bool *texture_used = ARENA_NEW(scratch, bool, count);
     bool *image_used = ARENA_NEW(scratch, bool, image_count);
-    const GltfValue *materials = tree_member(file->root, "materials");
-    if (materials) mark_textures(materials, texture_used, count);
+    mark_shown(file, texture_used, count, *scratch);
     for (int i = 0; i < count; i++) {
         int source = tree_int(&textures->items[i], "source", NO_ID);
         if (texture_used[i] && source >= 0 && source < image_count) image_used[source] = true;
@@ -60,8 +77,9 @@ static void check_type(GltfFile *file, const GltfValue *image, const char *decla
 
 /* The encoded bytes, a name for messages and the media type that is declared. */
 static bool image_bytes(GltfFile *file, const GltfValue *image, FileBytes *bytes,
-                        const char **name, const char **declared)
+                        const char **name, const char **declared, bool is_used)
 {
+    Severity severity = is_used ? SEVERITY_ERROR : SEVERITY_WARNING;
     Error err;
     Arena *scratch = &file->load->scratch;
     const GltfValue *uri = tree_member(image, "uri");
@@ -73,7 +91,7 @@ static bool image_bytes(GltfFile *file, const GltfValue *image, FileBytes *bytes
         int view = tree_int(image, "bufferView", NO_ID);
         *bytes = view >= 0 && view < file->data.view_count ? document_view(file, view)
                                                            : (FileBytes){0};
-        if (!bytes->data) file_error(file, image, "its bytes are missing");
+        if (!bytes->data && is_used) file_error(file, image, "its bytes are missing");
         return bytes->data != NULL;
     }
     if (uri_is_data(uri->text)) {
@@ -81,6 +99,7 @@ static bool image_bytes(GltfFile *file, const GltfValue *image, FileBytes *bytes
         file_error(file, uri, "%s", err.text);
         return false;
     }
+    if (document_is_elsewhere(file, uri, severity)) return false;
     if (!document_resolve(file, uri, name)) return false;
     if (load_read(file->load, *name, scratch, bytes, &err)) return true;
     file_error(file, uri, "%s: %s", *name, err.text);
@@ -92,7 +111,7 @@ static void load_one_image(GltfFile *file, const GltfValue *image, bool is_used,
     Error err;
     FileBytes bytes;
     const char *name, *declared;
-    if (!image_bytes(file, image, &bytes, &name, &declared)) return;
+    if (!image_bytes(file, image, &bytes, &name, &declared, is_used)) return;
     check_type(file, image, declared, bytes);
     if (image_read_memory(bytes.data, bytes.size, name, file->load->arena, out, &err)) return;
     *out = (Image){0};

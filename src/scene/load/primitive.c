@@ -279,7 +279,8 @@ static const char *part_name(GltfFile *file, const GltfValue *node, const GltfVa
     return arena_string(arena, name, strlen(name));
 }
 
-static bool check_vertices(GltfFile *file, const GltfValue *primitive, const PartDraft *draft)
+static bool has_finite_vertices(GltfFile *file, const GltfValue *primitive,
+                                const PartDraft *draft)
 {
     for (uint32_t i = 0; i < draft->vertex_count; i++) {
         const float *p = draft->vertices[i].position;
@@ -291,22 +292,6 @@ static bool check_vertices(GltfFile *file, const GltfValue *primitive, const Par
         return false;
     }
     return true;
-}
-
-/* A texture whose coordinates the primitive lacks shows one texel only: said once. */
-static void warn_of_missing_uv(GltfFile *file, const GltfValue *primitive, const Attributes *a,
-                               Material *m, const int *sets)
-{
-    TextureSlot *slots[MATERIAL_SLOTS];
-    texture_slots_of(m, slots);
-    for (int i = 0; i < MATERIAL_SLOTS; i++) {
-        if (slots[i]->texture_id == NO_ID || a->uv[slots[i]->uv_set]) continue;
-        file_warning(file, primitive,
-                     "the material \"%s\" needs TEXCOORD_%d, which is not "
-                     "there: (0, 0) is taken",
-                     m->name, sets[slots[i]->uv_set]);
-        return;
-    }
 }
 
 static void finish_shading(GltfFile *file, PartDraft *draft, const Attributes *a,
@@ -324,13 +309,27 @@ static void finish_shading(GltfFile *file, PartDraft *draft, const Attributes *a
         draft_any_tangents(draft);
 }
 
-/* A buffer may lack its bytes, but not when something of it is shown. */
-static bool has_bytes(GltfFile *file, const GltfValue *primitive, const GltfAccessor *position)
+/* A buffer may lack its bytes (no uri, or one that leads elsewhere), but not when something of
+ * it is shown. */
+static bool has_bytes(GltfFile *file, const GltfValue *primitive, const GltfValue *at)
 {
-    if (position->buffer_view < 0 || document_view(file, position->buffer_view).data)
+    const GltfAccessor *accessor =
+        tree_is_integer(at) ? accessor_get(file, (int)at->number) : NULL;
+    if (!accessor || accessor->buffer_view < 0 ||
+        document_view(file, accessor->buffer_view).data)
         return true;
-    file_error(file, primitive, "the bytes of POSITION are missing: their buffer has no uri");
+    file_error(file, primitive, "the bytes of %s are missing: their buffer is not there",
+               at->key);
     return false;
+}
+
+static bool has_all_bytes(GltfFile *file, const GltfValue *primitive)
+{
+    const GltfValue *attributes = tree_member(primitive, "attributes");
+    if (!has_bytes(file, primitive, tree_member(primitive, "indices"))) return false;
+    for (int i = 0; i < tree_count(primitive, "attributes"); i++)
+        if (!has_bytes(file, primitive, &attributes->items[i])) return false;
+    return true;
 }
 
 static bool fits(GltfFile *file, const GltfValue *primitive, size_t count)
@@ -350,8 +349,9 @@ void primitive_build(GltfFile *file, const GltfValue *node, const Transform *wor
     int material = tree_int(primitive, "material", NO_ID);
     const GltfAccessor *position =
         accessor_get(file, tree_int(tree_member(primitive, "attributes"), "POSITION", NO_ID));
-    if (mode < MODE_TRIANGLES) file->skipped_count++;
-    if (mode < MODE_TRIANGLES || !position || !has_bytes(file, primitive, position) ||
+    bool is_solid = mode >= MODE_TRIANGLES && mode <= MODE_FAN;
+    if (!is_solid) file->skipped_count++;
+    if (!is_solid || !position || !has_all_bytes(file, primitive) ||
         !fits(file, primitive, position->count))
         return;
     int material_id = material >= 0 ? file->material_base + material : material_default(file);
@@ -366,8 +366,7 @@ void primitive_build(GltfFile *file, const GltfValue *node, const Transform *wor
         .file = file,
         .primitive = primitive};
     bool is_mirrored = place_vertices(&a, &skin, world, draft.vertices);
-    if (!check_vertices(file, primitive, &draft)) return;
-    warn_of_missing_uv(file, primitive, &a, m, sets);
+    if (!has_finite_vertices(file, primitive, &draft)) return;
     list_triangles(file, primitive, is_mirrored, &draft);
     if (!draft.triangle_count) return;
     finish_shading(file, &draft, &a, m);

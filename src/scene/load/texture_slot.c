@@ -43,7 +43,10 @@ TextureSlot texture_slot(GltfFile *file, const GltfValue *info)
 
 /* ---- which uv sets does a material need? ----------------------------------------------- */
 
-void texture_slots_of(Material *m, TextureSlot *slots[MATERIAL_SLOTS])
+#define MATERIAL_SLOTS 10
+
+/* All slots of a material but a display's content. */
+static void slots_of(Material *m, TextureSlot *slots[MATERIAL_SLOTS])
 {
     TextureSlot *all[] = {&m->base_color_texture, &m->metallic_roughness_texture,
                           &m->normal_texture, &m->emissive_texture, &m->specular_texture,
@@ -81,7 +84,7 @@ void texture_slots_place(GltfFile *file, const GltfValue *value, Material *mater
                          TextureSlot *content, int sets[SCENE_UV_SETS])
 {
     TextureSlot *slots[MATERIAL_SLOTS + 1];
-    texture_slots_of(material, slots);
+    slots_of(material, slots);
     slots[MATERIAL_SLOTS] = content;
     sets[0] = sets[1] = NO_ID;
     for (int i = 0; i <= MATERIAL_SLOTS; i++) {

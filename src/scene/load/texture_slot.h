@@ -11,11 +11,6 @@ TextureSlot texture_slot_none(void);
  * still the file's TEXCOORD number. */
 TextureSlot texture_slot(GltfFile *file, const GltfValue *info);
 
-#define MATERIAL_SLOTS 10
-
-/* All slots of a material but a display's content. */
-void texture_slots_of(Material *material, TextureSlot *slots[MATERIAL_SLOTS]);
-
 /* Turns the TEXCOORD numbers of the material's slots (and of a display's content, which may be
  * NULL) into places in Vertex.uv; sets[i]: which number uv[i] holds. More than two are an error
  * at `value`. */

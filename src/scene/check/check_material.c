@@ -1,0 +1,150 @@
+/* What tables cannot say about materials and textures. */
+#include "scene/check/check_material.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* ---- textures: the picture's type is the one that stands there ------------------------- */
+
+static void check_source(const DocumentCheck *check, const GltfValue *holder, const char *types)
+{
+    const GltfValue *source = tree_member(holder, "source");
+    const GltfValue *image =
+        tree_element(check->file->root, "images", tree_int(holder, "source", NO_ID));
+    const char *type = tree_text(image, "mimeType", "");
+    if (type[0] && !strstr(types, type))
+        check_warns(check, source, "names a picture of the type %.40s, %s is wanted", type,
+                    types);
+}
+
+void check_texture(const DocumentCheck *check, const GltfValue *texture)
+{
+    check_source(check, texture, "image/png or image/jpeg");
+    check_source(check, tree_extension(texture, "EXT_texture_webp"), "image/webp");
+    check_source(check, tree_extension(texture, "KHR_texture_basisu"), "image/ktx2");
+}
+
+/* ---- members that have no effect together ---------------------------------------------- */
+
+static bool is_black(const GltfValue *material)
+{
+    float factor[3] = {0, 0, 0};
+    tree_floats(material, "emissiveFactor", 3, factor);
+    return factor[0] == 0 && factor[1] == 0 && factor[2] == 0;
+}
+
+static void check_emission(const DocumentCheck *check, const GltfValue *material)
+{
+    const GltfValue *strength = tree_extension(material, "KHR_materials_emissive_strength");
+    if (strength && is_black(material))
+        check_warns(check, strength, "strengthens nothing: emissiveFactor is black");
+}
+
+static bool has_extension(const GltfValue *material, const char *const *names, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (tree_extension(material, names[i])) return true;
+    return false;
+}
+
+static void check_volume(const DocumentCheck *check, const GltfValue *material)
+{
+    static const char *const WAYS_IN[] = {"KHR_materials_transmission",
+                                          "KHR_materials_diffuse_transmission"};
+    const GltfValue *volume = tree_extension(material, "KHR_materials_volume");
+    if (volume && !has_extension(material, WAYS_IN, 2))
+        check_warns(check, volume, "no light enters it: KHR_materials_transmission is missing");
+}
+
+/* Two answers to what the surface is: one of them is not seen. */
+static void check_alone(const DocumentCheck *check, const GltfValue *material)
+{
+    static const char *const ALONE[] = {"KHR_materials_unlit",
+                                        "KHR_materials_pbrSpecularGlossiness"};
+    const GltfValue *all = tree_member(material, "extensions");
+    for (int i = 0; i < 2; i++) {
+        const GltfValue *own = tree_extension(material, ALONE[i]);
+        for (int k = 0; own && k < all->count; k++)
+            if (&all->items[k] != own && strncmp(all->items[k].key, "KHR_", 4) == 0) {
+                check_warns(check, &all->items[k], "is not made to stand beside %s", ALONE[i]);
+                break;
+            }
+    }
+}
+
+void check_material(const DocumentCheck *check, const GltfValue *material)
+{
+    const GltfValue *mode = tree_member(material, "alphaMode");
+    if (mode && tree_member(material, "alphaCutoff") && strcmp(mode->text, "MASK") != 0)
+        check_warns(check, tree_member(material, "alphaCutoff"),
+                    "has no meaning with the alpha mode \"%.20s\"", mode->text);
+    check_emission(check, material);
+    check_volume(check, material);
+    check_alone(check, material);
+}
+
+/* ---- what a material needs of its primitives ------------------------------------------- */
+
+static bool is_texture_info(const GltfValue *value)
+{
+    size_t length = value->key ? strlen(value->key) : 0;
+    bool is_named = (length >= 7 && strcmp(value->key + length - 7, "Texture") == 0) ||
+                    (length == 7 && strcmp(value->key, "content") == 0);
+    return is_named && value->kind == GLTF_OBJECT && tree_member(value, "index");
+}
+
+static int texcoord_of(const GltfValue *info)
+{
+    return tree_int(tree_extension(info, "KHR_texture_transform"), "texCoord",
+                    tree_int(info, "texCoord", 0));
+}
+
+/* The first set that a texture below `value` needs and the attributes do not have; NO_ID. */
+static int missing_set(const GltfValue *value, const GltfValue *attributes)
+{
+    if (value->key && strcmp(value->key, "extras") == 0) return NO_ID;
+    if (is_texture_info(value)) {
+        char name[24];
+        int set = texcoord_of(value);
+        snprintf(name, sizeof name, "TEXCOORD_%d", set);
+        if (!tree_member(attributes, name)) return set;
+    }
+    for (int i = 0; value->kind == GLTF_OBJECT && i < value->count; i++) {
+        int set = missing_set(&value->items[i], attributes);
+        if (set != NO_ID) return set;
+    }
+    return NO_ID;
+}
+
+/* Grooves and normal maps turn with the surface; only a normal map says how to find that. */
+static bool lacks_tangents(const GltfValue *material, const GltfValue *attributes)
+{
+    const GltfValue *coat = tree_extension(material, "KHR_materials_clearcoat");
+    bool needs = tree_extension(material, "KHR_materials_anisotropy") ||
+                 tree_member(coat, "clearcoatNormalTexture");
+    bool has = tree_member(attributes, "TANGENT") && tree_member(attributes, "NORMAL");
+    return needs && !has && !tree_member(material, "normalTexture");
+}
+
+void check_material_fits(const DocumentCheck *check, const GltfValue *primitive)
+{
+    const GltfValue *attributes = tree_member(primitive, "attributes");
+    const GltfValue *material =
+        tree_element(check->file->root, "materials", tree_int(primitive, "material", NO_ID));
+    if (!material || !attributes) return;
+    char unnamed[32];
+    snprintf(unnamed, sizeof unnamed, "material %d", material->index);
+    const char *name = tree_text(material, "name", "");
+    if (!name[0]) name = unnamed;
+    int set = missing_set(material, attributes);
+    if (set != NO_ID)
+        check_warns(check, primitive,
+                    "the material \"%.80s\" needs TEXCOORD_%d, which is not there: (0, 0) is "
+                    "taken",
+                    name, set);
+    if (lacks_tangents(material, attributes))
+        check_warns(check, primitive,
+                    "the material \"%.80s\" needs tangents: there is neither TANGENT nor a "
+                    "normal map to find them by",
+                    name);
+}
