@@ -104,7 +104,7 @@ class Trial:
 
 def judge_fault(report, fault, outcome, found):
     code, words, (status, problems) = fault[0], fault[1], found
-    outcome = "reported" if code.endswith("~") else outcome
+    outcome = {"~": "reported", "!": "refused"}.get(code[-1], outcome)
     said = [p for p in problems if words in p[1]]
     holds = bool(said) and status == (3 if outcome == "refused" else 0)
     report.claim(holds, f"{code}: {outcome} with \"{words}\" is wanted, status {status}: "
@@ -114,9 +114,9 @@ def judge_fault(report, fault, outcome, found):
 def check_codes(report, trial, codes):
     found = trial.of_all([broken(fault[2:]) for fault in FAULTS])
     for fault, outcome in zip(FAULTS, found):
-        wanted = codes.get(fault[0].rstrip("~"), ("missing", ""))[0]
+        wanted = codes.get(fault[0].rstrip("~!"), ("missing", ""))[0]
         judge_fault(report, fault, wanted, outcome)
-    shown = {fault[0].rstrip("~") for fault in FAULTS}
+    shown = {fault[0].rstrip("~!") for fault in FAULTS}
     told = {code for code, row in codes.items() if row[0] != "no matter"}
     report.claim(shown == told, f"codes without a model: {sorted(told - shown)}; models of "
                  f"codes that do not matter: {sorted(shown - told)}")

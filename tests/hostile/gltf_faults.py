@@ -3,7 +3,7 @@ gltf_codes.py.
 
 A fault is a code, a text that must stand among what `check` says of the broken model and not of
 the whole one, and edits of the model (gltf_edits.py). A code that is refused elsewhere and only
-reported here, as the page says, has a ~ behind it.
+reported here, as the page says, has a ~ behind it; one that is refused only here a !.
 """
 import struct
 
@@ -80,6 +80,12 @@ SCHEMA = [
     ("VALUE_NOT_IN_LIST", "one of 33071", put("samplers/0/wrapS", 7)),
     ("VALUE_NOT_IN_LIST", "one of LINEAR", put(SAMPLERS + "0/interpolation", "EASE")),
     ("VALUE_NOT_IN_LIST", "one of point", put(LIGHT + "type", "tube")),
+]
+
+
+SCHEMA += [
+    ("VALUE_NOT_IN_LIST!", "VEC3 is wanted", put("accessors/0/type", "TENSOR")),
+    ("VALUE_NOT_IN_LIST!", "SCALAR of 5121", put("accessors/7/componentType", 5124)),
 ]
 
 
@@ -201,10 +207,16 @@ SEMANTIC = [
      image("/pictures/a.png")),
     ("NON_RELATIVE_URI", "scheme is \"https:\"",
      put("buffers", [{"byteLength": 5, "uri": "https://example.com/a.bin"}])),
+    ("NON_RELATIVE_URI!", "scheme is \"https:\"", image("https://example.com/a.png")),
+    ("NON_RELATIVE_URI!", "an absolute path", image("//example.com/a.png")),
+    ("NON_RELATIVE_URI!", "are missing: their buffer is not there",
+     put("buffer", {"uri": "http://example.com/a.bin"})),
     ("NON_REQUIRED_EXTENSION", "must be listed in extensionsRequired",
      put("extensionsUsed/18", "KHR_mesh_quantization")),
     ("ROTATION_NON_UNIT", "length is 1.001, 1 is wanted", put("nodes/8/rotation",
                                                               [0, 0.6006, 0, 0.8008])),
+    ("ROTATION_NON_UNIT!", "length is 0.99, 1 is wanted",
+     put("nodes/8/rotation", [0, 0.594, 0, 0.792])),
     ("SKIN_NO_COMMON_ROOT", "hangs on another root", put("nodes/2/children", [9]),
      put("nodes/9", {}), put("scenes/0/nodes", [0, 2, 3]), drop("skins/0/skeleton")),
     ("SKIN_SKELETON_INVALID", "does not stand above joint 2", put("skins/0/skeleton", 3)),
@@ -363,6 +375,8 @@ DATA = [
     ("IMAGE_UNEXPECTED_EOS", "cannot be decoded", image(data_uri("image/png", PICTURE[:12]))),
     ("IMAGE_UNEXPECTED_EOS", "cannot be decoded",
      image(data_uri("image/jpeg", b"\xff\xd8\xff"))),
+    ("IMAGE_UNRECOGNIZED_FORMAT!", "cannot be decoded",
+     image(data_uri("", b"no picture at all"))),
     ("IMAGE_UNRECOGNIZED_FORMAT", "cannot be decoded", drop(MATERIAL + "normalTexture"),
      image(data_uri("", b"no picture at all"))),
 ]
