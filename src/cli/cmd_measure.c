@@ -75,6 +75,35 @@ static void print_figure(const char *name, Measured figure, const char *unit)
     else printf("%-12s %.6g +- %.2g%s\n", name, figure.value, figure.half_width, unit);
 }
 
+/* Why there is no contrast of the content. */
+static const char *content_reason(ContentVerdict verdict)
+{
+    switch (verdict) {
+    case CONTENT_FOUND: break;
+    case CONTENT_TOO_SMALL: return "fewer than 16 pixels, or all alike";
+    case CONTENT_NOT_TWO: return "no two luminances stand out";
+    case CONTENT_NOISY: return "no two luminances stand out from the noise";
+    }
+    return NULL;
+}
+
+static void print_content(const ContentContrast *c)
+{
+    const char *reason = content_reason(c->verdict);
+    if (reason) {
+        printf("%-12s missing: %s\n", "content", reason);
+        return;
+    }
+    print_figure("content", c->ratio, " : 1");
+    print_figure("  characters", c->characters, " cd/m2");
+    print_figure("  ground", c->ground, " cd/m2");
+    print_figure("  Michelson", c->michelson, "");
+    print_figure("  Weber", c->weber, "");
+    if (!c->edges_left_out)
+        printf("  strokes are too thin to leave their edges out: the contrast is at least "
+               "this\n");
+}
+
 static void print_text(const FrameMeasurement *m)
 {
     printf("%-12s %ld\n", "pixels", m->pixels);
@@ -93,6 +122,7 @@ static void print_text(const FrameMeasurement *m)
         printf("%-12s missing: no pixel of a display, or no layers of it (--layers display)\n",
                "contrast");
     }
+    if (m->has_content) print_content(&m->content);
     if (!m->has_variance)
         printf("%-12s missing: no layer variance (--layers variance)\n", "intervals");
 }
@@ -134,6 +164,31 @@ static json_t *json_contrast(const FrameMeasurement *m)
                      "pixels", (json_int_t)m->display_pixels);
 }
 
+static void set_figure(json_t *object, const char *key, const char *interval_key,
+                       Measured figure)
+{
+    json_object_set_new(object, key, number(figure.value));
+    json_object_set_new(object, interval_key, interval(figure));
+}
+
+static json_t *json_content(const ContentContrast *c)
+{
+    const char *reason = content_reason(c->verdict);
+    json_t     *out = json_pack("{s:s?, s:o, s:o}", "missing", reason, "separability",
+                                number(c->separability), "noise_sigmas",
+                                number(c->noise_sigmas));
+    if (reason) return out;
+    set_figure(out, "ratio", "ratio_interval", c->ratio);
+    set_figure(out, "michelson", "michelson_interval", c->michelson);
+    set_figure(out, "weber", "weber_interval", c->weber);
+    set_figure(out, "characters_cd_m2", "characters_interval", c->characters);
+    set_figure(out, "ground_cd_m2", "ground_interval", c->ground);
+    json_object_set_new(out, "character_pixels", json_integer(c->character_pixels));
+    json_object_set_new(out, "ground_pixels", json_integer(c->ground_pixels));
+    json_object_set_new(out, "edges_left_out", json_boolean(c->edges_left_out));
+    return out;
+}
+
 static bool print_json(const MeasureWords *typed, const FrameMeasurement *m, Error *err)
 {
     const MeasureRequest *r = &typed->request;
@@ -148,6 +203,7 @@ static bool print_json(const MeasureWords *typed, const FrameMeasurement *m, Err
     set_pair(answer, "uv", number(m->u.value), number(m->v.value));
     set_pair(answer, "uv_interval", interval(m->u), interval(m->v));
     json_object_set_new(answer, "contrast", json_contrast(m));
+    if (m->has_content) json_object_set_new(answer, "content", json_content(&m->content));
     json_object_set_new(answer, "missing_layers", missing(m));
     if (r->display) json_object_set_new(answer, "display", json_text(r->display));
     if (r->has_region)

@@ -88,6 +88,13 @@ static double luminance_variance(const float variance[3])
     return (double)xyz[1] * (double)xyz[1];
 }
 
+static double variance_at(const RegionPlanes *planes, size_t i)
+{
+    float v[3];
+    for (int c = 0; c < 3; c++) v[c] = planes->variance.planes[c][i];
+    return luminance_variance(v);
+}
+
 static void add_display(const RegionPlanes *planes, size_t i, double variance, Sums *sums)
 {
     double white = luminance_at(&planes->white, i), black = luminance_at(&planes->black, i);
@@ -109,12 +116,8 @@ static void add_pixel(const RegionPlanes *planes, size_t i, Sums *sums)
     }
     for (int c = 0; c < 3; c++) sums->rgb[c] += (double)planes->light.planes[c][i];
     if (planes->has_variance) {
-        float v[3];
-        for (int c = 0; c < 3; c++) {
-            v[c] = planes->variance.planes[c][i];
-            sums->variance[c] += (double)v[c];
-        }
-        variance = luminance_variance(v);
+        for (int c = 0; c < 3; c++) sums->variance[c] += (double)planes->variance.planes[c][i];
+        variance = variance_at(planes, i);
         sums->luminance_variance += variance;
     }
     if (planes->has_display) add_display(planes, i, variance, sums);
@@ -179,6 +182,27 @@ static void measure_contrast(const Sums *sums, FrameMeasurement *out)
     out->contrast.half_width = out->has_variance ? SIGMAS_95 * fabs(slope) * sigma : NAN;
 }
 
+/* The pixels that are measured, by themselves. */
+static ContentContrast measure_content(const RegionPlanes *planes, const ExrWindow *r, int id,
+                                       size_t first, Arena scratch)
+{
+    ContentPixels part = {.width = r->x1 - r->x0, .height = r->y1 - r->y0};
+    size_t count = (size_t)part.width * (size_t)part.height, k = 0;
+    float *luminance = ARENA_NEW(&scratch, float, count);
+    float *variance = planes->has_variance ? ARENA_NEW(&scratch, float, count) : NULL;
+    for (int y = 0; y < part.height; y++) {
+        for (int x = 0; x < part.width; x++, k++) {
+            size_t i = first + (size_t)y * (size_t)planes->light.width + (size_t)x;
+            bool   is_wanted = !planes->display_id || planes->display_id[i] == (float)id;
+            luminance[k] = is_wanted ? (float)luminance_at(&planes->light, i) : NAN;
+            if (variance) variance[k] = (float)variance_at(planes, i);
+        }
+    }
+    part.luminance = luminance;
+    part.variance = variance;
+    return content_contrast(&part, scratch);
+}
+
 static FrameMeasurement figures_of(const Sums *sums, bool has_variance)
 {
     double      n = (double)sums->pixels, rgb[3], variance[3];
@@ -239,5 +263,8 @@ bool measure_frame(const FrameImage *frame, const MeasureRequest *request, Arena
                         request->display ? " on display " : "",
                         request->display ? request->display : "", sums.nonfinite);
     *out = figures_of(&sums, planes.has_variance);
+    out->has_content = request->has_region || request->display;
+    size_t first = (size_t)(r.y0 - w.y0) * (size_t)planes.light.width + (size_t)(r.x0 - w.x0);
+    if (out->has_content) out->content = measure_content(&planes, &r, id, first, scratch);
     return true;
 }

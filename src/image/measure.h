@@ -9,6 +9,7 @@
  * Fails    when the frame lacks what is asked for: the text says what to render again.
  */
 #pragma once
+#include "image/content_contrast.h"
 #include "image/frame.h"
 
 typedef struct MeasureRequest {
@@ -17,11 +18,6 @@ typedef struct MeasureRequest {
     ExrWindow   region;  /* half-open, pixels of the display window */
     const char *display; /* only pixels that show this display; NULL: all */
 } MeasureRequest;
-
-/* A figure; half_width is of its interval, NaN without a variance layer. */
-typedef struct Measured {
-    double value, half_width;
-} Measured;
 
 typedef struct FrameMeasurement {
     long     pixels;    /* that were taken */
@@ -35,6 +31,8 @@ typedef struct FrameMeasurement {
     long     display_pixels;
     double   white, black, reflected; /* means over the display's pixels, cd m^-2 */
     Measured contrast; /* (white + reflected) / (black + reflected) */
+    bool     has_content; /* a region or a display was asked for */
+    ContentContrast content; /* of what is shown there: characters on their ground */
 } FrameMeasurement;
 
 bool measure_frame(const FrameImage *frame, const MeasureRequest *request, Arena scratch,
