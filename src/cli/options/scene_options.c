@@ -65,7 +65,8 @@ const char *scene_options_given(const SceneWords *words, const EnvironmentChange
         {change->when != NULL, "--when"}, {change->where != NULL, "--where"},
         {change->weather != NULL, "--weather"}, {change->ground != NULL, "--ground"},
         {change->has_hdri_lux, "--hdri-lux"}, {change->has_forward, "--forward"},
-        {change->has_heading, "--heading"}, {change->has_turbidity, "--turbidity"},
+        {change->has_weather_offset, "--weather-offset"}, {change->has_heading, "--heading"},
+        {change->has_turbidity, "--turbidity"},
         {change->has_visibility, "--visibility"}, {words->contents.count > 0, "--content"},
         {words->panels.count > 0, "--panel"}, {words->levels.count > 0, "--display-level"}};
     for (int i = 0; i < COUNT_OF(all); i++)
