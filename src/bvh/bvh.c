@@ -12,17 +12,19 @@ enum { GEOMETRY_OPAQUE, GEOMETRY_ASKED, GEOMETRY_COUNT };
 struct Bvh {
     RTCDevice device;
     RTCScene  scene;
+    RTCScene  sheets; /* GEOMETRY_ASKED alone; NULL: no material has holes */
     uint32_t  first_triangle[GEOMETRY_COUNT];
     BvhRecorder *recorder;
 };
 
-/* A query's context, with who is to be asked behind Embree's own part. */
-typedef struct ShadowContext {
+/* A query's context, with what the filters below need behind Embree's own part. */
+typedef struct QueryContext {
     EmbreeContext embree;
-    BvhPasses    *passes;
+    BvhPasses    *passes; /* of shadow rays */
     void         *user;
     const Bvh    *bvh;
-} ShadowContext;
+    float         sheets_from; /* of other rays */
+} QueryContext;
 
 /* The only place that fills a ray; every member is set, because one that is forgotten means
  * silently no hit. */
@@ -48,7 +50,7 @@ static void record(BvhRecorder *recorder, Ray ray, bool is_shadow)
     recorder->rays[recorder->count++] = ray;
 }
 
-bool bvh_intersect(const Bvh *bvh, Ray ray, Hit *hit)
+bool bvh_intersect(const Bvh *bvh, Ray ray, float sheets_from, Hit *hit)
 {
     if (!ray_is_valid(ray)) return false;
     if (bvh->recorder) record(bvh->recorder, ray, false);
@@ -56,9 +58,9 @@ bool bvh_intersect(const Bvh *bvh, Ray ray, Hit *hit)
                                .hit = {.geomID = RTC_INVALID_GEOMETRY_ID,
                                        .primID = RTC_INVALID_GEOMETRY_ID,
                                        .instID = {RTC_INVALID_GEOMETRY_ID}}};
-    EmbreeContext context;
-    embree_context_init(&context);
-    embree_intersect(bvh->scene, &context, &rayhit);
+    QueryContext context = {.sheets_from = sheets_from};
+    embree_context_init(&context.embree);
+    embree_intersect(bvh->scene, &context.embree, &rayhit);
     if (rayhit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
     *hit = (Hit){rayhit.ray.tfar, rayhit.hit.u, rayhit.hit.v,
                  bvh->first_triangle[rayhit.hit.geomID] + rayhit.hit.primID};
@@ -70,16 +72,39 @@ bool bvh_occluded(const Bvh *bvh, Ray ray, BvhPasses *passes, void *user)
     if (!ray_is_valid(ray)) return true;
     if (bvh->recorder) record(bvh->recorder, ray, true);
     struct RTCRay query = embree_ray(ray);
-    ShadowContext context = {.passes = passes, .user = user, .bvh = bvh};
+    QueryContext context = {.passes = passes, .user = user, .bvh = bvh};
     embree_context_init(&context.embree);
     embree_occluded(bvh->scene, &context.embree, &query);
     return query.tfar < 0; /* Embree marks an occluded ray by tfar = -infinity */
 }
 
+bool bvh_has_sheets(const Bvh *bvh)
+{
+    return bvh->sheets != NULL;
+}
+
+void bvh_ask_sheets(const Bvh *bvh, Ray ray, BvhPasses *asked, void *user)
+{
+    if (!ray_is_valid(ray)) return;
+    struct RTCRay query = embree_ray(ray);
+    QueryContext context = {.passes = asked, .user = user, .bvh = bvh};
+    embree_context_init(&context.embree);
+    embree_occluded(bvh->sheets, &context.embree, &query);
+}
+
+/* Called by Embree for asked triangles that a ray might meet first (always one ray at a time),
+ * where there are sheets. */
+static void skip_sheets(const struct RTCFilterFunctionNArguments *args)
+{
+    const QueryContext *context = (const QueryContext *)args->context;
+    const struct RTCRay *ray = (const struct RTCRay *)args->ray; /* N = 1: the plain struct */
+    if (ray->tfar < context->sheets_from) args->valid[0] = 0;
+}
+
 /* Called by Embree for every asked triangle along a shadow ray (always one ray at a time). */
 static void ask_passes(const struct RTCFilterFunctionNArguments *args)
 {
-    const ShadowContext *context = (const ShadowContext *)args->context;
+    const QueryContext *context = (const QueryContext *)args->context;
     if (!args->valid[0] || !context->passes) return;
     const struct RTCRay *ray = (const struct RTCRay *)args->ray; /* N = 1: the plain structs */
     const struct RTCHit *met = (const struct RTCHit *)args->hit;
@@ -98,6 +123,15 @@ static void keep_first_message(void *user, enum RTCError code, const char *text)
                   "ray tracing: %s", text ? text : "unknown error");
 }
 
+static bool has_holes(const Scene *scene)
+{
+    for (int i = 0; i < scene->part_count; i++)
+        if (scene->parts[i].triangle_count &&
+            scene->materials[scene->parts[i].material_id].alpha_mode != ALPHA_OPAQUE)
+            return true;
+    return false;
+}
+
 static void attach_triangles(Bvh *bvh, const Scene *scene, int geometry_id, uint32_t first,
                              uint32_t count)
 {
@@ -110,10 +144,13 @@ static void attach_triangles(Bvh *bvh, const Scene *scene, int geometry_id, uint
                                scene->triangles, first * sizeof(Triangle), sizeof(Triangle),
                                count);
     rtcSetGeometryMask(geometry, ~0u); /* the default differs between Embree 3 and 4 */
+    bool is_sheet = geometry_id == GEOMETRY_ASKED && bvh->sheets;
     if (geometry_id == GEOMETRY_ASKED)
         rtcSetGeometryOccludedFilterFunction(geometry, ask_passes);
+    if (is_sheet) rtcSetGeometryIntersectFilterFunction(geometry, skip_sheets);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(bvh->scene, geometry, (unsigned)geometry_id);
+    if (is_sheet) rtcAttachGeometryByID(bvh->sheets, geometry, (unsigned)geometry_id);
     rtcReleaseGeometry(geometry);
 }
 
@@ -126,16 +163,24 @@ static bool check_device(RTCDevice device, Error *err)
     return true;
 }
 
+static RTCScene new_scene(RTCDevice device)
+{
+    RTCScene scene = rtcNewScene(device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    /* Not HIGH: its spatial splits would ask BvhPasses twice about one triangle. */
+    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
+    return scene;
+}
+
 static void build_scene(Bvh *bvh, const Scene *scene)
 {
-    bvh->scene = rtcNewScene(bvh->device);
-    rtcSetSceneFlags(bvh->scene, RTC_SCENE_FLAG_ROBUST);
-    /* Not HIGH: its spatial splits would ask BvhPasses twice about one triangle. */
-    rtcSetSceneBuildQuality(bvh->scene, RTC_BUILD_QUALITY_MEDIUM);
+    bvh->scene = new_scene(bvh->device);
+    if (has_holes(scene)) bvh->sheets = new_scene(bvh->device);
     attach_triangles(bvh, scene, GEOMETRY_OPAQUE, 0, scene->opaque_count);
     attach_triangles(bvh, scene, GEOMETRY_ASKED, scene->opaque_count,
                      scene->triangle_count - scene->opaque_count);
     rtcCommitScene(bvh->scene);
+    if (bvh->sheets) rtcCommitScene(bvh->sheets);
 }
 
 bool bvh_create(const Scene *scene, int threads, const char *isa, Bvh **out, Error *err)
@@ -166,6 +211,7 @@ bool bvh_create(const Scene *scene, int threads, const char *isa, Bvh **out, Err
 void bvh_destroy(Bvh *bvh)
 {
     if (!bvh) return;
+    if (bvh->sheets) rtcReleaseScene(bvh->sheets);
     if (bvh->scene) rtcReleaseScene(bvh->scene);
     if (bvh->device) rtcReleaseDevice(bvh->device);
     free(bvh);

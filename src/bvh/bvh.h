@@ -18,8 +18,10 @@ typedef struct Bvh Bvh;
 bool bvh_create(const Scene *scene, int threads, const char *isa, Bvh **out, Error *err);
 void bvh_destroy(Bvh *bvh);
 
-/* The nearest hit in [t_min, t_max]; false: none. Both sides of a triangle are hit. */
-bool bvh_intersect(const Bvh *bvh, Ray ray, Hit *hit);
+/* The nearest hit in [t_min, t_max]; false: none. Both sides of a triangle are hit. Of
+ * triangles that lie at one depth it is any. sheets_from, where bvh_has_sheets: triangles that
+ * may let light through are left out before this t. */
+bool bvh_intersect(const Bvh *bvh, Ray ray, float sheets_from, Hit *hit);
 
 /* Asked of every triangle that may let light through (Scene.triangles from opaque_count on)
  * that a shadow ray meets, in no order. True: go on behind it. */
@@ -27,6 +29,15 @@ typedef bool BvhPasses(void *user, const Hit *hit);
 
 /* Is there anything in (t_min, t_max) that stops the light? */
 bool bvh_occluded(const Bvh *bvh, Ray ray, BvhPasses *passes, void *user);
+
+/* Has the scene sheets, that is triangles whose material may have holes (MASK, BLEND)? Two of
+ * them, or one and what it lies on, may lie at one depth; bvh_ask_sheets is for that case, and
+ * may only be called then. */
+bool bvh_has_sheets(const Bvh *bvh);
+
+/* Asks of every triangle in [t_min, t_max] that may let light through, whatever else is there,
+ * until one says false. */
+void bvh_ask_sheets(const Bvh *bvh, Ray ray, BvhPasses *asked, void *user);
 
 /* For measuring: every ray asked from now on is kept until the recorder is full, with whether
  * it was a shadow ray. One thread only. NULL: stop. */

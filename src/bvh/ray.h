@@ -17,11 +17,17 @@ typedef struct Hit {
     uint32_t triangle; /* index into Scene.triangles */
 } Hit;
 
-/* Moves a surface point off its triangle, to the side of `towards`: by 2^-17 of the largest
- * coordinate, ten times the rounding of a point computed from barycentric weights. */
-static inline Vec3 ray_offset_origin(Vec3 position, Vec3 ng, Vec3 towards)
+/* How far a ray starts off the surface that it leaves, m: 2^-17 of the largest coordinate, ten
+ * times the rounding of a point computed from barycentric weights. */
+static inline float ray_offset_step(Vec3 position)
 {
     float size = fmaxf(fmaxf(fabsf(position.x), fabsf(position.y)), fabsf(position.z));
-    float step = fmaxf(size, 1e-3f) * 0x1p-17f;
+    return fmaxf(size, 1e-3f) * 0x1p-17f;
+}
+
+/* Moves a surface point off its triangle by that, to the side of `towards`. */
+static inline Vec3 ray_offset_origin(Vec3 position, Vec3 ng, Vec3 towards)
+{
+    float step = ray_offset_step(position);
     return vec3_along(position, ng, vec3_dot(ng, towards) < 0 ? -step : step);
 }

@@ -2,7 +2,7 @@
 
 #include "base/alias.h"
 #include "base/units.h"
-#include "light/emission.h"
+#include "light/coverage.h"
 #include "light/emitters_build.h"
 #include "light/sky.h"
 #include "spectrum/photometry.h"
@@ -130,6 +130,7 @@ static bool sample_punctual(const Lights *lights, Vec3 position, const Wavelengt
                        spectrum_all(lux * prob_inverse);
     sample->pdf = 1;
     sample->is_delta = true;
+    sample->is_emitter = false;
     return true;
 }
 
@@ -140,6 +141,7 @@ static bool sample_emitters(const Lights *lights, Vec3 position, const Wavelengt
 {
     float         pdf_area;
     EmitterPoint  at = emitters_sample(&lights->emitters, position, u, &pdf_area);
+    Hit           hit = {0, at.u, at.v, at.triangle};
     TrianglePoint point = triangle_point(lights->scene, at.triangle, at.u, at.v);
     Vec3     to_light = vec3_sub(point.position, position);
     float    d2 = vec3_dot(to_light, to_light);
@@ -149,8 +151,12 @@ static bool sample_emitters(const Lights *lights, Vec3 position, const Wavelengt
     if (!(d2 > 0) || !(cosine > 1e-6f)) return false;
     sample->pdf = pdf_area * d2 / cosine;
     sample->radiance = triangle_emission(lights->scene, at.triangle, &point,
-                                         vec3_neg(sample->wi), wavelengths);
+                                         vec3_neg(sample->wi), wavelengths) *
+                       spectrum_all(coverage_at(lights->scene, &hit, &point));
     sample->is_delta = false;
+    sample->is_emitter = true;
+    sample->triangle = at.triangle;
+    sample->ng = point.ng;
     return sample->pdf > 0 && !spectrum_is_zero(sample->radiance);
 }
 

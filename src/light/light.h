@@ -37,6 +37,9 @@ typedef struct LightSample {
     Spectrum radiance;
     float    pdf;      /* sr^-1; 1 for delta lights */
     bool     is_delta; /* a BSDF sample can never hit it */
+    bool     is_emitter; /* of a triangle: */
+    uint32_t triangle;
+    Vec3     ng;       /* unit, world: its normal */
 } LightSample;
 
 /* A point that is lit. */

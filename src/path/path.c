@@ -1,6 +1,7 @@
 #include "path/path.h"
 
 #include "base/units.h"
+#include "path/sheets.h"
 #include "spectrum/photometry.h"
 
 /* From this bounce on lights are sampled less often: what they add is dim by then. */
@@ -49,6 +50,8 @@ typedef struct PathWalk {
     int      bounce;     /* scattering vertices so far */
     int      splits_left; /* thin sheets that may still be followed both ways */
     int      medium_id;  /* material of the solid that the ray is in; NO_ID: air */
+    SheetStack *stack;   /* what else lies where the ray is; empty in scenes without sheets */
+    float    sheets_from; /* m along the ray: sheets before it were in the stack */
 } PathWalk;
 
 /* ---- weights ---------------------------------------------------------------------------- */
@@ -134,42 +137,77 @@ static void add_emitted(PathWalk *walk, const Surface *surface, const Hit *hit, 
 
 /* ---- light samples ---------------------------------------------------------------------- */
 
+#define RECENT 16 /* hits that a shadow ray remembers */
+
 typedef struct ShadowQuestion {
-    const PathWalk *walk;
-    Vec3     direction;
+    const PathWalk    *walk;
+    const LightSample *light;
     Spectrum passed;
-    Hit      last; /* the one that was passed last */
+    float    step;     /* by which the ray starts off its surface, m */
+    float    end;      /* m along the ray, to the emitter; and how well that is known, */
+    float    rounding; /* across its plane */
+    int      hit_count;
+    Hit      recent[RECENT];
 } ShadowQuestion;
 
 /* A ray through the edge that two triangles share meets both: that is one sheet, not two. */
-static bool is_same_sheet(const Scene *scene, const Hit *a, const Hit *b)
+static bool was_asked(ShadowQuestion *question, const Hit *hit)
 {
-    return fabsf(a->t - b->t) <= 2e-6f * a->t &&
-           scene->triangles[a->triangle].part_id == scene->triangles[b->triangle].part_id;
+    const Scene *scene = question->walk->context->scene;
+    for (int i = 0; i < question->hit_count && i < RECENT; i++)
+        if (fabsf(hit->t - question->recent[i].t) <= 2e-6f * hit->t + question->step &&
+            sheets_are_one(scene, hit->triangle, question->recent[i].triangle))
+            return true;
+    question->recent[question->hit_count++ % RECENT] = *hit;
+    return false;
 }
 
 static bool passes(void *user, const Hit *hit)
 {
     ShadowQuestion *question = user;
     const PathContext *context = question->walk->context;
-    if (is_same_sheet(context->scene, hit, &question->last)) return true;
-    question->last = *hit;
-    question->passed *= surface_pass(context->scene, context->tables, hit, question->direction,
+    if (was_asked(question, hit)) return true;
+    question->passed *= surface_pass(context->scene, context->tables, hit, question->light->wi,
                                      question->walk->wavelengths);
     return !spectrum_is_zero(question->passed);
 }
 
-/* Share of light that arrives at the surface from `distance` away along wi. */
-static Spectrum visibility(PathWalk *walk, const Surface *surface, Vec3 wi, float distance)
+/* Of sheets about the emitter: those that lie over it take their share. */
+static bool passes_before_emitter(void *user, const Hit *hit)
 {
-    Vec3  origin = ray_offset_origin(surface->position, surface->ng, wi);
+    const ShadowQuestion *question = user;
+    const LightSample    *light = question->light;
+    float behind = (hit->t - question->end) * fabsf(vec3_dot(light->wi, light->ng));
+    bool  is_over = behind < -question->rounding ||
+                   (behind <= question->rounding && hit->triangle > light->triangle);
+    return !is_over || passes(user, hit);
+}
+
+/* Share of the light sample that arrives at the surface. */
+static Spectrum visibility(PathWalk *walk, const Surface *surface, const LightSample *light)
+{
+    const Bvh *bvh = walk->context->bvh;
+    Vec3  origin = ray_offset_origin(surface->position, surface->ng, light->wi);
     Vec3  moved = vec3_sub(origin, surface->position);
-    float end = distance * (1 - 1e-4f) - 4 * vec3_length(moved);
-    ShadowQuestion question = {walk, wi, spectrum_all(1), {.t = -1}};
+    float end = fmaxf(light->distance * (1 - 1e-4f) - 4 * vec3_length(moved), 0);
+    ShadowQuestion question; /* most rays ask nothing: its hits are left as they are */
+    question.walk = walk;
+    question.light = light;
+    question.passed = spectrum_all(1);
+    question.step = ray_offset_step(surface->position);
+    question.hit_count = 0;
     walk->statistics->shadow_rays++;
-    bool blocked = bvh_occluded(walk->context->bvh, (Ray){origin, wi, 0, fmaxf(end, 0)}, passes,
-                                &question);
-    return blocked ? spectrum_all(0) : question.passed;
+    if (bvh_occluded(bvh, (Ray){origin, light->wi, 0, end}, passes, &question))
+        return spectrum_all(0);
+    if (light->is_emitter && bvh_has_sheets(bvh)) {
+        Vec3 on_emitter = vec3_along(surface->position, light->wi, light->distance);
+        question.end = light->distance -
+                       vec3_dot(moved, light->ng) / vec3_dot(light->wi, light->ng);
+        question.rounding = fmaxf(sheets_rounding(on_emitter), 0x1p-20f * light->distance);
+        bvh_ask_sheets(bvh, (Ray){origin, light->wi, end, 2 * light->distance - end},
+                       passes_before_emitter, &question);
+    }
+    return question.passed;
 }
 
 /* A direction must lie on the same side of the triangle as of the shading normal's plane, or
@@ -203,7 +241,7 @@ static void add_light_sample(PathWalk *walk, const Surface *surface, Vec3 wo, Li
     if (spectrum_is_zero(share)) return;
     if (!light.is_delta && context->strategy == PATH_MIS)
         share *= spectrum_all(mis_weight(light.pdf * set_prob, bsdf_pdf));
-    walk->gathered.radiance += share * visibility(walk, surface, light.wi, light.distance);
+    walk->gathered.radiance += share * visibility(walk, surface, &light);
 }
 
 static void add_light_samples(PathWalk *walk, const Surface *surface, Vec3 wo)
@@ -216,12 +254,17 @@ static void add_light_samples(PathWalk *walk, const Surface *surface, Vec3 wo)
 
 /* ---- the walk --------------------------------------------------------------------------- */
 
-/* Goes straight on behind the surface: a hole or a window. */
+/* Goes straight on behind the surface, a hole or a window: to what else lies there; then past
+ * it, from where an opaque surface in the same plane is still met. */
 static void go_on_behind(PathWalk *walk, const Surface *surface)
 {
-    Vec3 direction = walk->ray.direction;
-    walk->ray = (Ray){ray_offset_origin(surface->position, surface->ng, direction), direction,
-                      0, INFINITY};
+    Vec3  direction = walk->ray.direction, ng = surface->ng;
+    float cosine = fabsf(vec3_dot(ng, direction));
+    if (walk->stack->next < walk->stack->count) return;
+    walk->sheets_from =
+        walk->stack->count ? 2 * ray_offset_step(surface->position) / fmaxf(cosine, 1e-6f) : 0;
+    Vec3 side = walk->stack->count ? vec3_neg(direction) : direction;
+    walk->ray = (Ray){ray_offset_origin(surface->position, ng, side), direction, 0, INFINITY};
 }
 
 /* Beer's law inside a solid: the material's colour is what is left after its distance. */
@@ -260,7 +303,8 @@ static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSamp
     walk->last_part_id = surface->part_id;
     walk->last_pdf = next->pdf;
     walk->last_is_delta = next->is_delta;
-    walk->straight = 0;
+    walk->straight = walk->sheets_from = 0;
+    sheets_none(walk->stack);
     walk->bounce++;
     walk->ray = (Ray){ray_offset_origin(surface->position, surface->ng, wi), vec3_normalize(wi),
                       0, INFINITY};
@@ -285,12 +329,23 @@ static Step scatter(PathWalk *walk, const Surface *surface, Vec3 wo)
     return turn(walk, surface, wo, &next);
 }
 
+/* What the ray meets; of what lies in one plane, one after the other. */
 static bool next_hit(PathWalk *walk, Hit *hit)
 {
+    const PathContext *context = walk->context;
+    SheetStack *stack = walk->stack;
+    if (stack->next < stack->count) {
+        *hit = stack->hit[stack->next++];
+        return true;
+    }
     *(walk->bounce ? &walk->statistics->bounce_rays : &walk->statistics->camera_rays) += 1;
-    if (!bvh_intersect(walk->context->bvh, walk->ray, hit)) return false;
+    if (!bvh_intersect(context->bvh, walk->ray, walk->sheets_from, hit)) return false;
     walk->straight += hit->t;
     if (walk->medium_id != NO_ID) absorb(walk, hit->t);
+    sheets_none(stack);
+    if (!bvh_has_sheets(context->bvh) || hit->t < walk->sheets_from) return true;
+    sheets_at(context->scene, context->bvh, hit, walk->ray.direction, stack);
+    *hit = stack->hit[stack->next++];
     return true;
 }
 
@@ -327,7 +382,11 @@ static void walk_path(PathWalk *walk);
 /* What the sheet itself shows to the eye: its mirror image, or what of it is not a hole. */
 static void add_sheet(PathWalk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
 {
-    PathWalk sheet = *walk;
+    PathWalk   sheet = *walk;
+    SheetStack rest;
+    if (walk->stack->count) rest = *walk->stack;
+    else sheets_none(&rest);
+    sheet.stack = &rest;
     sheet.splits_left = 0;
     sheet.first = NULL;
     sheet.gathered = (PathLight){.radiance = spectrum_all(0)};
@@ -391,20 +450,22 @@ PathContext path_context_build(const Scene *scene, const Bvh *bvh, const Lights 
 }
 
 static PathWalk walk_start(const PathContext *context, const Wavelengths *wavelengths,
-                       Sampler *sampler, PathStatistics *statistics)
+                           Sampler *sampler, PathStatistics *statistics, SheetStack *stack)
 {
     statistics->samples++;
+    sheets_none(stack);
     return (PathWalk){.context = context, .wavelengths = wavelengths, .sampler = sampler,
                   .statistics = statistics, .throughput = spectrum_all(1),
                   .gathered.radiance = spectrum_all(0), .last_ns = vec3(0, 0, 1),
                   .last_is_delta = true, .last_part_id = NO_ID, .splits_left = SPLITS,
-                  .medium_id = NO_ID};
+                  .medium_id = NO_ID, .stack = stack};
 }
 
 void path_trace(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
                 Sampler *sampler, PathResult *out, PathStatistics *statistics)
 {
-    PathWalk walk = walk_start(context, wavelengths, sampler, statistics);
+    SheetStack stack;
+    PathWalk   walk = walk_start(context, wavelengths, sampler, statistics, &stack);
     *out = (PathResult){.hit = false};
     walk.ray = ray;
     walk.first = out;
@@ -416,8 +477,9 @@ void path_illuminance(const PathContext *context, LitPoint point,
                       const Wavelengths *wavelengths, Sampler *sampler, float xyz_lx[3],
                       PathStatistics *statistics)
 {
-    PathWalk    walk = walk_start(context, wavelengths, sampler, statistics);
-    Surface head;
+    SheetStack stack;
+    Surface    head;
+    PathWalk   walk = walk_start(context, wavelengths, sampler, statistics, &stack);
     surface_white(context->tables, point.position, point.ns, &head);
     walk.throughput = spectrum_all(PI_F);
     add_light_samples(&walk, &head, point.ns);

@@ -1,5 +1,6 @@
 #include "path/surface.h"
 
+#include "light/coverage.h"
 #include "shaders/microfacet.h"
 
 /* A shading normal is bent until the eye is above its plane by this much. */
@@ -63,33 +64,6 @@ static Spectrum colour_spectrum(const Scene *scene, int curve_id, const float fa
     Spectrum spectrum = spectrum_from_rgb(wavelengths, rgb);
     return curve_id == NO_ID ? spectrum
                              : spectrum * curve_lookup(&scene->curves[curve_id], wavelengths);
-}
-
-/* Vertex colour times texture, straight alpha in [3]; the factor is left out. */
-static void base_texel(const Scene *scene, const Material *m, const Hit *hit,
-                       const TrianglePoint *point, float texel[4])
-{
-    const Triangle *t = &scene->triangles[hit->triangle];
-    const float weight[3] = {1 - hit->u - hit->v, hit->u, hit->v};
-    if (!read_colour(scene, &m->base_color_texture, point, texel))
-        texel[0] = texel[1] = texel[2] = texel[3] = 1;
-    for (int i = 0; i < 4; i++) {
-        float colour = 0;
-        for (int k = 0; k < 3; k++)
-            colour += weight[k] * (float)scene->vertices[t->vertex[k]].color[i];
-        texel[i] *= colour * (1.0f / 65535);
-    }
-}
-
-static float alpha_of(const Material *m, float texel_alpha)
-{
-    float alpha = m->base_color[3] * texel_alpha;
-    switch (m->alpha_mode) {
-    case ALPHA_OPAQUE: return 1;
-    case ALPHA_MASK: return alpha >= m->alpha_cutoff ? 1 : 0;
-    case ALPHA_BLEND: return clampf(alpha, 0, 1);
-    }
-    return 1;
 }
 
 /* ---- shading normals -------------------------------------------------------------------- */
@@ -237,8 +211,8 @@ void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
     out->part_id = part_id;
     out->material_id = scene->parts[part_id].material_id;
     out->emits = triangle_emits_to(scene, hit->triangle, &out->point, wo);
-    base_texel(scene, m, hit, &out->point, texel);
-    out->alpha = alpha_of(m, texel[3]);
+    coverage_texel(scene, m, hit, &out->point, texel);
+    out->alpha = coverage_alpha(m, texel[3]);
     Vec3 side = vec3_dot(out->ng, wo) < 0 && !m->is_solid ? vec3_neg(out->ng) : out->ng;
     Vec3 eye = vec3_dot(side, wo) < 0 ? vec3_neg(wo) : wo;
     Vec3 ns = m->display_id != NO_ID /* a panel was measured with what its surface is */

@@ -61,7 +61,7 @@ static double replay_once(const Bench *bench)
         Hit hit;
         Ray ray = bench->recorder.rays[i];
         hits += bench->recorder.is_shadow[i] ? bvh_occluded(bench->bvh, ray, always, NULL)
-                                             : bvh_intersect(bench->bvh, ray, &hit);
+                                             : bvh_intersect(bench->bvh, ray, 0, &hit);
     }
     return hits < 0 ? 0 : thread_seconds() - begun;
 }

@@ -79,7 +79,7 @@ TEST(the_nearest_of_all_triangles_is_hit)
         Hit hit = {INFINITY, 0, 0, 0};
         for (uint32_t k = 0; k < scene->triangle_count; k++)
             if (hits(scene, k, ray, &t) && t < nearest) nearest = t;
-        bvh_intersect(bvh, ray, &hit);
+        bvh_intersect(bvh, ray, 0, &hit);
         if (fabs((double)hit.t - nearest) > 1e-4 * nearest) disagree++;
         assert_int_equal(bvh_occluded(bvh, ray, NULL, NULL), isfinite(hit.t));
     }
@@ -144,7 +144,7 @@ TEST(rays_that_are_not_finite_hit_nothing_and_light_nothing)
     };
     assert_true(bvh_create(scene, 1, NULL, &bvh, &err));
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        assert_false(bvh_intersect(bvh, bad[i], &hit));
+        assert_false(bvh_intersect(bvh, bad[i], 0, &hit));
         assert_true(bvh_occluded(bvh, bad[i], NULL, NULL));
     }
     bvh_destroy(bvh);
@@ -158,7 +158,7 @@ TEST(an_empty_scene_is_hit_nowhere)
     Error err;
     Hit hit;
     assert_true(bvh_create(scene, 1, NULL, &bvh, &err));
-    assert_false(bvh_intersect(bvh, (Ray){vec3(0, 0, 0), vec3(0, 0, 1), 0, INFINITY}, &hit));
+    assert_false(bvh_intersect(bvh, (Ray){vec3(0, 0, 0), vec3(0, 0, 1), 0, INFINITY}, 0, &hit));
     bvh_destroy(bvh);
     bvh_destroy(NULL);
 }

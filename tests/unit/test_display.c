@@ -338,8 +338,8 @@ TEST(a_display_under_the_sun_reflects_its_brdf_over_the_disc)
 
 /* ---- the back --------------------------------------------------------------------------- */
 
-/* The display about the origin, its faces as files have them: doubleSided or not, vertex normals
- * with the winding or against it. */
+/* The display about the origin, its faces as files have them: doubleSided or not, normals with
+ * the winding or against it. */
 static World world_of_faces(bool is_double_sided, bool is_inside_out)
 {
     World world = world_open(PANELS[1]);

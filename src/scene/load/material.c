@@ -161,8 +161,8 @@ void material_derive_flags(Material *m)
 {
     m->is_emitter = any_positive(m->emissive_cd_m2) || m->display_id != NO_ID ||
                     (m->unlit && any_positive(m->base_color));
-    m->lets_light_through = m->display_id == NO_ID && (m->alpha_mode != ALPHA_OPAQUE ||
-                                                       (m->transmission > 0 && !m->is_solid));
+    bool is_pane = m->transmission > 0 && !m->is_solid && m->display_id == NO_ID;
+    m->lets_light_through = m->alpha_mode != ALPHA_OPAQUE || is_pane;
 }
 
 static int add_material(Loader *load, Material material, const int sets[SCENE_UV_SETS])

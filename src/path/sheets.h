@@ -1,0 +1,39 @@
+/* sheets.h -- sheets that lie in one plane: which of them a ray meets first.
+ *
+ * A sheet is a triangle that may let light through (MASK, BLEND, thin windows). Modellers lay
+ * legends, films and masks exactly onto one another and onto what carries them, and a ray
+ * tracer then reports any of them. The rule here: as far as depth can be told, the nearer comes
+ * first; else what comes later in the file is seen over what comes earlier, from either side,
+ * and every sheet over what is opaque. It is what a rasteriser shows that draws in the file's
+ * order.
+ *
+ * Threads  const arguments.
+ */
+#pragma once
+#include "bvh/bvh.h"
+
+#define SHEETS_MAX 16 /* at one place; of more, those that come last in the file count */
+
+/* What a ray meets at one place, in this order. */
+typedef struct SheetStack {
+    Hit hit[SHEETS_MAX];
+    int count, next; /* next: the first that the ray has not come to */
+} SheetStack;
+
+static inline void sheets_none(SheetStack *stack)
+{
+    stack->count = stack->next = 0;
+}
+
+/* How far apart along the normal two triangles may lie and still be at one depth, m: what
+ * rounding can do to coordinates as large as those of `position`. */
+float sheets_rounding(Vec3 position);
+
+/* Do hits of a ray at one depth mean one sheet: its triangles share the edge that was met? */
+bool sheets_are_one(const Scene *scene, uint32_t triangle, uint32_t other);
+
+/* All that a ray along `direction` (unit) meets where it met `met`: within the distance by
+ * which rays start off a surface, which they would otherwise never see. Ends with `met` where
+ * that is opaque. bvh_has_sheets(bvh) holds. The hits' t is met's. */
+void sheets_at(const Scene *scene, const Bvh *bvh, const Hit *met, Vec3 direction,
+               SheetStack *out);
