@@ -42,6 +42,7 @@ static void build_sun(const Environment *environment, float turn, Sky *sky)
     sky->sun_luminance =
         (float)((double)environment->sun_illuminance_lx / (PI * disc * disc));
     black_body_curve(SUN_KELVIN, &sky->sun_curve);
+    sun_limb_curves(sky->sun_limb);
 }
 
 /* Squared distance from the disc's centre over that of its rim; 1 or more: beside it. */
@@ -51,14 +52,24 @@ static float sun_share2(const Sky *sky, Vec3 direction)
     return sky->has_sun ? vec3_dot(apart, apart) / sky->sun_chord2 : 1;
 }
 
+/* sin a / sin r from chords: sin^2 a = chord^2 (1 - chord^2 / 4). A model's sun is so small
+ * that the chords' own ratio is the same. */
+static float sine_share(const Sky *sky, float share2)
+{
+    float rim = sky->sun_chord2;
+    return safe_sqrtf(share2 * (1 - 0.25f * share2 * rim) / (1 - 0.25f * rim));
+}
+
 Spectrum sun_radiance(const Sky *sky, Vec3 direction, const Wavelengths *wavelengths)
 {
     float share2 = sun_share2(sky, direction);
     if (!(share2 < 1)) return spectrum_all(0);
-    if (!sky->model)
-        return curve_lookup(&sky->sun_curve, wavelengths) * spectrum_all(sky->sun_luminance);
-    if (direction.y < sky->model->edge[SKY_MODEL_ROWS]) return spectrum_all(0);
-    return daylight_sun(sky->model->daylight, safe_sqrtf(share2), wavelengths);
+    if (sky->model) {
+        if (direction.y < sky->model->edge[SKY_MODEL_ROWS]) return spectrum_all(0);
+        return daylight_sun(sky->model->daylight, safe_sqrtf(share2), wavelengths);
+    }
+    return sun_limb_shade(sky->sun_limb, sine_share(sky, share2), wavelengths) *
+           curve_lookup(&sky->sun_curve, wavelengths) * spectrum_all(sky->sun_luminance);
 }
 
 float sun_pdf(const Sky *sky, Vec3 direction)

@@ -2,16 +2,18 @@
  *
  * Compass  azimuth runs from north over east. At heading h the vehicle's forward vector points
  *          to azimuth h; the sky turns, the scene stays.
- * Sun      its irradiance on a plane that faces it is exact whatever its size. Of a model (cie,
- *          perez, sky): the model's spectrum, its limb darkened, cut by the horizon. Else a
- *          uniform disc, L = E / (pi sin^2 r), with the spectrum of a black body of 5500 K,
- * close to a high sun's direct beam (CIE 1931 x, y = 0.332, 0.341). Threads  const after
- * sky_build.
+ * Sun      its irradiance on a plane that faces it is exact whatever its size: the disc's mean
+ *          radiance is E / (pi sin^2 r), darkened to its limb (sky/sun_disc.h) in every
+ *          environment. Of a model (cie, perez, sky) the spectrum is the model's, and the
+ *          horizon cuts the disc; else that of a black body of 5500 K, close to a high sun's
+ *          direct beam (CIE 1931 x, y = 0.332, 0.341).
+ * Threads  const after sky_build.
  */
 #pragma once
 #include "light/sky_model.h"
 #include "light/sky_picture.h"
 #include "scene/scene.h"
+#include "sky/sun_disc.h"
 #include "spectrum/wavelengths.h"
 
 typedef struct Sky {
@@ -25,8 +27,9 @@ typedef struct Sky {
     float  sun_radius;     /* radians */
     float  sun_solid_angle;
     float  sun_chord2;     /* squared distance of unit vectors one radius apart */
-    float  sun_luminance;  /* cd m^-2; unless a model's */
+    float  sun_luminance;  /* the disc's mean, cd m^-2; unless a model's */
     Curve  sun_curve;      /* spectral radiance of 1 cd m^-2 */
+    Curve  sun_limb[SUN_LIMB_TERMS]; /* sun_disc.h's; unless a model's */
 } Sky;
 
 /* Fails on an environment that makes no sky, saying why. */

@@ -4,10 +4,10 @@
 
 #include "base/mathd.h"
 #include "base/units.h"
+#include "sky/sun_beam.h"
 #include "sky/sun_disc.h"
 #include "spectrum/photometry.h"
 
-#define WATER_SCALE_M 2000.0  /* of water vapour over altitude */
 #define ON_THE_GROUND_M 2500.0 /* an observer on land below this stands on the ground */
 #define INTEGRAL_STEPS 1000
 #define PEREZ_LOWEST_DEG (-4.0) /* an hour's mean has light when the sun rises in it */
@@ -119,7 +119,7 @@ static Air air_above(const DaylightInput *in)
     air_vertical(&optics, altitude, AIR_TOP_M, column);
     air.aerosol_depth *= column[AIR_AEROSOL];
     air.ozone_atm_cm *= column[AIR_OZONE];
-    air.water_cm *= exp_d(-altitude / WATER_SCALE_M);
+    air.water_cm *= exp_d(-altitude / SUN_BEAM_WATER_SCALE_M);
     return air;
 }
 
@@ -173,12 +173,7 @@ static void set_sun(Daylight *out, const Curve *irradiance)
     out->metrics.is_sun_up = share > 0;
     out->has_sun = share > 0 && out->metrics.direct_normal_lx > 0;
     curve_xy(irradiance, out->metrics.sun_xy);
-    for (int k = 0; k < 6; k++)
-        for (int i = 0; i < CURVE_COUNT; i++) {
-            double c[6];
-            sun_limb(CURVE_FIRST_NM + i, c);
-            out->limb[k].value[i] = (float)c[k];
-        }
+    sun_limb_curves(out->limb);
 }
 
 /* ---- CIE and Perez ----------------------------------------------------------------------- */
@@ -340,15 +335,21 @@ static void fill_beam(Daylight *out)
     curve_from_rows(gases, &out->beam);
 }
 
-/* Irradiances from 300 to 4000 nm by SPECTRL2's ratio of watts to lux. */
-static void tell_watts(Daylight *out, double beam_lux)
+/* Irradiances from 300 to 4000 nm: the beam's by its own way through the air, the sky's by
+ * SPECTRL2's ratio of watts to lux. */
+static void tell_watts(Daylight *out)
 {
     DaylightMetrics *f = &out->metrics;
     Spectrl2 ground = ground_spectra(out);
     Curve    diffuse;
+    Air      air = sea_level_air(&out->input);
+    SunBeam  beam = sun_beam(&air, &(SunBeamPath){out->atmosphere.input.observer_m,
+                                                 out->atmosphere.input.floor_m,
+                                                 fmax(out->sun_elevation, out->horizon)},
+                             f->distance_au);
     curve_from_rows(ground.diffuse, &diffuse);
-    if (beam_lux > 0)
-        f->direct_normal_w_m2 = spectrl2_total(ground.direct) * f->direct_normal_lx / beam_lux;
+    f->air_mass = f->is_sun_up ? beam.air_mass : 0;
+    f->direct_normal_w_m2 = beam.lux > 0 ? beam.w_m2 * f->direct_normal_lx / beam.lux : 0;
     f->diffuse_horizontal_w_m2 = spectrl2_total(ground.diffuse) * f->diffuse_horizontal_lx /
                                  curve_luminance(&diffuse);
 }
@@ -374,7 +375,7 @@ static bool build_clear(Daylight *out, Arena *arena, Error *err)
     f->floor_cd_m2 = relative_luminance(out, out->atmosphere.floor_exitance) / PI;
     f->global_horizontal_lx = f->diffuse_horizontal_lx +
                               f->direct_normal_lx * fmax(0, sin_d(out->sun_elevation));
-    tell_watts(out, lux);
+    tell_watts(out);
     curve_from_relative(out, atmosphere_radiance(&out->atmosphere, (float)(PI / 2), 0),
                         &zenith);
     f->zenith_cd_m2 = curve_luminance(&zenith);
@@ -449,9 +450,6 @@ Spectrum daylight_radiance(const Daylight *out, float elevation, float azimuth,
 
 Spectrum daylight_sun(const Daylight *out, float share, const Wavelengths *wavelengths)
 {
-    float    mu = safe_sqrtf(1 - share * share);
-    Spectrum value = spectrum_all(0);
-    for (int k = 5; k >= 0; k--)
-        value = value * spectrum_all(mu) + curve_lookup(&out->limb[k], wavelengths);
-    return spectrum_max(value, spectrum_all(0)) * curve_lookup(&out->sun_mean, wavelengths);
+    return sun_limb_shade(out->limb, share, wavelengths) *
+           curve_lookup(&out->sun_mean, wavelengths);
 }

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/mathd.h"
+#include "base/mathf.h"
 
 #define BANDS 11
 #define FIRST_NM 320.0
@@ -35,4 +36,23 @@ void sun_limb(double nm, double coefficient[6])
         mean += 2 * coefficient[k] / (k + 2);
     }
     for (int k = 0; k < 6; k++) coefficient[k] /= mean;
+}
+
+void sun_limb_curves(Curve limb_curve[SUN_LIMB_TERMS])
+{
+    for (int i = 0; i < CURVE_COUNT; i++) {
+        double c[SUN_LIMB_TERMS];
+        sun_limb(CURVE_FIRST_NM + i, c);
+        for (int k = 0; k < SUN_LIMB_TERMS; k++) limb_curve[k].value[i] = (float)c[k];
+    }
+}
+
+Spectrum sun_limb_shade(const Curve limb_curve[SUN_LIMB_TERMS], float share,
+                        const Wavelengths *wavelengths)
+{
+    float    mu = safe_sqrtf(1 - share * share);
+    Spectrum value = spectrum_all(0);
+    for (int k = SUN_LIMB_TERMS - 1; k >= 0; k--)
+        value = value * spectrum_all(mu) + curve_lookup(&limb_curve[k], wavelengths);
+    return spectrum_max(value, spectrum_all(0));
 }

@@ -126,6 +126,116 @@ TEST(a_sky_without_a_sun_to_stand_by_is_refused)
     assert_int_equal(err.code, ERROR_INPUT);
 }
 
+/* ---- the disc ---------------------------------------------------------------------------- */
+
+/* A sun of 100 klx and of some radius in any environment. */
+static void build_disc(EnvironmentKind kind, double radius_deg, Arena *arena, Sky *sky)
+{
+    Scene       *scene = sky_scene(kind < ENVIRONMENT_CIE ? ENVIRONMENT_CIE : kind, 40, arena);
+    Environment *e = &scene->environment;
+    float       *pixels = ARENA_NEW(arena, float, 4 * 8 * 4);
+    Error        err;
+    for (int i = 0; i < 4 * 8 * 4; i++) pixels[i] = 1;
+    e->kind = kind;
+    e->sun_illuminance_lx = 100000;
+    e->sun_angular_radius = (float)radians_from_degrees(radius_deg);
+    e->luminance_cd_m2 = 1000;
+    e->color[0] = e->color[1] = e->color[2] = 1;
+    e->hdri = (Image){.format = IMAGE_RGBA32F, .width = 8, .height = 4, .pixels = pixels};
+    e->hdri_path = "";
+    e->hdri_scale = 1;
+    assert_true(sky_build(e, arena, sky, &err));
+    assert_true(sky->has_sun);
+}
+
+/* Towards a place of the disc: a share of the sine of its radius, and an azimuth around it. */
+static Vec3 disc_direction(const Sky *sky, double share, double turn)
+{
+    Frame  frame = frame_from_z(sky->sun_direction);
+    double s = share * sin((double)sky->sun_radius), c = sqrt(1 - s * s);
+    return frame_to_world(&frame, vec3((float)(s * cos(turn)), (float)(s * sin(turn)),
+                                       (float)c));
+}
+
+TEST(every_environment_has_the_same_disc)
+{
+    Wavelengths lanes;
+    wavelengths_sample(0.3f, &lanes);
+    for (int kind = ENVIRONMENT_NONE; kind <= ENVIRONMENT_SKY; kind++) {
+        Arena arena = test_arena(state);
+        Sky   sky;
+        build_disc((EnvironmentKind)kind, 0.26645, &arena, &sky);
+        Spectrum centre = sun_radiance(&sky, sky.sun_direction, &lanes);
+        for (int i = 1; i < 20; i++) {
+            double   mu = sqrt(1 - i * i * 0.0025);
+            Spectrum there = sun_radiance(&sky, disc_direction(&sky, 0.05 * i, 0.7 * i),
+                                          &lanes);
+            for (int k = 0; k < SPECTRUM_LANES; k++) {
+                double c[SUN_LIMB_TERMS], middle = 0, value = 0;
+                sun_limb((double)lanes.nm[k], c);
+                for (int n = SUN_LIMB_TERMS - 1; n >= 0; n--)
+                    value = value * mu + c[n], middle += c[n];
+                assert_near((double)(there[k] / centre[k]), value / middle, 4e-3);
+            }
+        }
+    }
+}
+
+/* The flux through a plane that faces the disc, in rings; also of one as large as a fist. */
+TEST(the_discs_shape_does_not_change_its_illuminance)
+{
+    static const double radius_deg[] = {0.26645, 5};
+    for (int kind = ENVIRONMENT_NONE; kind <= ENVIRONMENT_HDRI; kind++)
+        for (int r = 0; r < 2; r++) {
+            Arena  arena = test_arena(state);
+            Sky    sky;
+            double lux = 0;
+            build_disc((EnvironmentKind)kind, radius_deg[r], &arena, &sky);
+            double sine = sin((double)sky.sun_radius);
+            for (int i = 0; i < 4000; i++) {
+                double      share = sqrt((i + 0.5) / 4000), y = 0;
+                Wavelengths lanes;
+                wavelengths_sample((float)fmod(i * 0.6180339887, 1), &lanes);
+                Spectrum there = sun_radiance(&sky, disc_direction(&sky, share, 2.4 * i),
+                                              &lanes);
+                for (int k = 0; k < SPECTRUM_LANES; k++)
+                    y += (double)(there[k] * lanes.xyz[1][k]);
+                lux += y * PI * sine * sine / 4000;
+            }
+            assert_close(lux, 100000, 2e-3);
+        }
+}
+
+TEST(directions_to_the_sun_follow_their_density)
+{
+    enum { RINGS = 8, SECTORS = 16, COUNT = 64000 };
+    for (int kind = ENVIRONMENT_CONSTANT; kind <= ENVIRONMENT_SKY; kind++) {
+        Arena  arena = test_arena(state);
+        Sky    sky;
+        double found[RINGS * SECTORS] = {0}, chi2 = 0;
+        uint32_t random = 5;
+        build_disc((EnvironmentKind)kind, 0.26645, &arena, &sky);
+        Frame frame = frame_from_z(sky.sun_direction);
+        for (int i = 0; i < COUNT; i++) {
+            float u0 = random_unit(&random);
+            Vec3  d = sun_sample(&sky, u0, random_unit(&random));
+            assert_true(sun_pdf(&sky, d) > 0);
+            double x = (double)vec3_dot(d, frame.x), y = (double)vec3_dot(d, frame.y);
+            double share2 = (x * x + y * y) / pow(sin((double)sky.sun_radius), 2);
+            int ring = (int)fmin(share2 * RINGS, RINGS - 1);
+            int sector = (int)((atan2(y, x) / (2 * PI) + 0.5) * SECTORS) % SECTORS;
+            found[ring * SECTORS + sector]++;
+        }
+        assert_close((double)(sun_pdf(&sky, sky.sun_direction)) * PI *
+                         pow(sin((double)sky.sun_radius), 2), 1, 1e-4);
+        for (int i = 0; i < RINGS * SECTORS; i++) {
+            double expected = (double)COUNT / (RINGS * SECTORS);
+            chi2 += (found[i] - expected) * (found[i] - expected) / expected;
+        }
+        assert_true(chi2 < RINGS * SECTORS + 5 * sqrt(2.0 * RINGS * SECTORS));
+    }
+}
+
 int main(void)
 {
     return run_cases(make_arena, drop_arena);
