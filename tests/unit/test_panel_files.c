@@ -7,6 +7,7 @@
  */
 #include "panel_fixture.h"
 
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #define XXH_INLINE_ALL
@@ -48,6 +49,11 @@ static Fixture folder; /* files and what is made of them */
     "\"incidence_phi_deg\": [0, 90, 180, 270],"                                                \
     "\"files\": \"brdf/i{incidence}_a{azimuth}.csv\"}}"
 
+#define BRUSHED                                                                                \
+    "{\"panel\": \"grain\", \"reflection\": {\"wavelengths_nm\": [550],"                       \
+    "\"incidence_deg\": [20, 50], \"incidence_phi_deg\": [0, 90, 180, 270],"                   \
+    "\"files\": \"grain/i{incidence}_a{azimuth}.csv\"}}"
+
 /* One kind of file: from a manifest's text, NULL: the simulated one. */
 typedef struct Kind {
     const char *name, *manifest;
@@ -66,6 +72,7 @@ static Kind kinds[] = {
     {"beam", "{\"emission\": {\"white\": \"emission/beam.csv\"}}", FIT_VERTEX, 0, NULL},
     {"anisotropic", ANISOTROPIC, FIT_VERTEX, 0, NULL},
     {"anisotropic haar", ANISOTROPIC, FIT_HAAR, 0, NULL},
+    {"surface", BRUSHED, FIT_VERTEX, 0, NULL}, /* in a frame of its own */
 };
 #define SLOW_SHARE 8 /* of forged ones, where opening takes tens of milliseconds */
 #define KIND_COUNT ((int)(sizeof kinds / sizeof *kinds))
@@ -101,6 +108,30 @@ static void write_beam(void)
             fprintf(file, "%g,%g,%.6g,%.6g,%.6g\n", t, p, 0.95 * y, y, 1.09 * y);
         }
     assert_int_equal(fclose(file), 0);
+}
+
+/* Brushed along x: a lobe over facets' slopes, three times as wide across it. */
+static double grain(Vec3 light, Vec3 eye)
+{
+    double z = (double)(light.z + eye.z), x = (double)(light.x + eye.x) / z / 0.1;
+    double y = (double)(light.y + eye.y) / z / 0.3, bent = 1 + x * x + y * y;
+    return 1 / (z * z * bent * bent);
+}
+
+static void write_grain(void)
+{
+    for (int i = 20; i <= 50; i += 30)
+        for (int a = 0; a < 360; a += 90) {
+            const char *name = arena_format(&folder.arena, "grain/i%d_a%d.csv", i, a);
+            char        text[32768];
+            size_t      n = (size_t)snprintf(text, sizeof text, "theta,phi,550\n");
+            for (int t = 0; t <= 80; t += 8)
+                for (int p = 0; p < 360; p += t ? 12 : 360)
+                    n += (size_t)snprintf(text + n, sizeof text - n, "%d,%d,%.5g\n", t, p,
+                                          grain(direction_deg(i, a),
+                                                direction_deg(t, p + a + 180)));
+            fixture_file(&folder, name, text);
+        }
 }
 
 static const char *manifest_of(const Kind *kind)
@@ -141,6 +172,8 @@ static int start(void **state)
     fixture_simulate(&folder, SMALL_RECIPE);
     copy_azimuths();
     write_beam();
+    assert_int_equal(mkdir(fixture_path(&folder, "grain"), 0700), 0);
+    write_grain();
     for (int i = 0; i < KIND_COUNT; i++) fit_kind(&kinds[i]);
     return 0;
 }
@@ -194,6 +227,19 @@ static bool try_bytes(const unsigned char *bytes, size_t size, const Kind *kind)
     if (err.code != ERROR_INPUT || strcmp(err.file, "x.panel") != 0 || !err.text[0])
         fail_msg("%s: refused without saying why: '%s' '%s'", kind->name, err.file, err.text);
     return false;
+}
+
+/* Only what an older program would misread has the new version. */
+TEST(files_keep_the_version_that_older_programs_read)
+{
+    (void)state;
+    for (int k = 0; k < KIND_COUNT; k++) {
+        PanelHeader header;
+        bool        is_surface = !strcmp(kinds[k].name, "surface");
+        memcpy(&header, kinds[k].bytes, sizeof header);
+        if (header.version != (is_surface ? PANEL_VERSION : PANEL_VERSION_PLAIN))
+            fail_msg("%s: version %u", kinds[k].name, header.version);
+    }
 }
 
 /* ---- prefixes and mutations ------------------------------------------------------------ */

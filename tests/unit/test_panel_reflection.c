@@ -1,92 +1,11 @@
 /* Laws of fitted reflections, on tables made from closed forms: no files are read. */
-#include "panel_fixture.h"
+#include "reflection_fixture.h"
 #include "panel/query/panel_info.h"
-#include "panel/query/panel_reflection.h"
-#include "spectrum/fresnel.h"
 
-#define INCIDENCES 5
 #define WAVELENGTHS 16
-
-/* sr^-1 of a surface with the light at theta_i, azimuth phi_i (radians). phi is the leaving
- * azimuth, counted from the mirror direction. */
-typedef double Surface(double theta_i, double phi_i, double theta, double phi, double nm);
-
-/* A set of tables in memory. */
-typedef struct Tables {
-    double       incidence_deg[INCIDENCES];
-    int          incidences, azimuths, wavelengths;
-    double       theta_step, phi_step, theta_max; /* degrees */
-    double       instrument_fwhm_deg;
-    Surface     *surface;
-} Tables;
-
-typedef struct Fitted {
-    Fixture fit;
-    Tables  tables;
-} Fitted;
-
-static AngleTable make_table(const Tables *t, const Measurement *set, int index, Arena *arena)
-{
-    int    thetas = (int)(t->theta_max / t->theta_step) + 1, phis = (int)(360 / t->phi_step);
-    int    rows = (thetas - 1) * phis + 1, n = 0;
-    float *theta = ARENA_NEW(arena, float, rows), *phi = ARENA_NEW(arena, float, rows);
-    float *value = ARENA_NEW(arena, float, rows * t->wavelengths);
-    for (int i = 0; i < thetas; i++)
-        for (int k = 0; k < (i ? phis : 1); k++, n++) {
-            theta[n] = (float)radians_from_degrees(i * t->theta_step);
-            phi[n] = (float)radians_from_degrees(k * t->phi_step);
-            for (int w = 0; w < t->wavelengths; w++)
-                value[n * t->wavelengths + w] = (float)t->surface(
-                    set->incidence[index % t->incidences],
-                    set->azimuth[index / t->incidences], (double)theta[n], (double)phi[n],
-                    (double)set->wavelength_nm[w]);
-        }
-    return (AngleTable){.name = "table", .rows = rows, .channels = t->wavelengths,
-                        .theta = theta, .phi = phi, .value = value,
-                        .theta_max = theta[rows - 1]};
-}
-
-static Measurement *make_set(const Tables *t, Arena *arena)
-{
-    Measurement *set = ARENA_NEW(arena, Measurement, 1);
-    set->file = set->panel = set->instrument = set->note = "";
-    set->instrument_fwhm_deg = t->instrument_fwhm_deg;
-    set->incidence_count = t->incidences;
-    set->wavelength_count = t->wavelengths;
-    set->azimuth_count = t->azimuths;
-    set->brdf = ARENA_NEW(arena, AngleTable, t->incidences * t->azimuths);
-    for (int i = 0; i < t->incidences; i++)
-        set->incidence[i] = radians_from_degrees(t->incidence_deg[i]);
-    for (int i = 0; i < t->azimuths; i++) set->azimuth[i] = 2 * PI * i / t->azimuths;
-    for (int w = 0; w < t->wavelengths; w++) set->wavelength_nm[w] = (float)(400 + 20 * w);
-    for (int i = 0; i < t->incidences * t->azimuths; i++)
-        set->brdf[i] = make_table(t, set, i, arena);
-    return set;
-}
-
-static void fit_tables(Fitted *f, Tables tables, const FitOptions *options)
-{
-    fixture_folder(&f->fit);
-    f->tables = tables;
-    f->fit.set = make_set(&tables, &f->fit.arena);
-    fixture_fit(&f->fit, options);
-}
-
-/* What most laws need: one frame, no search for it. */
-static FitOptions quick(void)
-{
-    FitOptions options = fit_options_default();
-    options.frame_exponent = 1.5f;
-    options.level = 6;
-    return options;
-}
+#define HAZY_INCIDENCES 5
 
 /* ---- surfaces ---------------------------------------------------------------------------- */
-
-static double fresnel(double c)
-{
-    return fresnel_unpolarised_d(c, 1.5);
-}
 
 /* Haze of the ABC form and a floor, bluer in the haze. */
 static double hazy(double theta_i, double phi_i, double theta, double phi, double nm)
@@ -186,7 +105,7 @@ static double largest_error(const Fitted *f, double incidence_deg, double phi_i,
 TEST(the_bound_holds_at_every_sample_and_wavelength)
 {
     (void)state;
-    for (int i = 0; i < INCIDENCES; i++) {
+    for (int i = 0; i < HAZY_INCIDENCES; i++) {
         double worst = largest_error(&shared, HAZY.incidence_deg[i], PI, 0);
         if (!(worst <= 0.0205))
             fail_msg("%g degrees: %.4f", HAZY.incidence_deg[i], worst);
@@ -367,7 +286,7 @@ TEST(a_lobe_on_haze_is_told_apart_and_stays_one_lobe_between_incidences)
     (void)state;
     Fitted f =
         fit_surface(lobed, (Grid){.wavelengths = 3, .theta_step = 1, .phi_step = 3}, quick());
-    for (size_t i = 0; i < INCIDENCES; i++) {
+    for (size_t i = 0; i < HAZY_INCIDENCES; i++) {
         const json_t *part = part_at(&f, i);
         double r = LOBE_SHARE * fresnel(cos(f.fit.set->incidence[i]));
         assert_close(json_number_value(json_object_get(part, "lobe_fwhm_deg")), LOBE_FWHM_DEG,

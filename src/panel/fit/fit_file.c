@@ -61,23 +61,32 @@ static void write_emission(FitWriter *writer, const FitParts *parts)
     write_section(writer, PANEL_PRIMARIES, 0, &primaries, 1);
 }
 
+/* A section of what goes without saying is left out. */
+static bool has_surface(const ReflectionResult *r)
+{
+    return r->surface.frame != PANEL_FRAME_SPECULAR ||
+           r->surface.beyond != PANEL_BEYOND_COSINES || r->surface.mirror_index > 0;
+}
+
 static void write_reflection(FitWriter *writer, const ReflectionResult *r)
 {
     FitPiece section = {r->section.bytes, r->section.size};
     FitPiece tree = {r->tree, tree_size(r->tree)}, sampling = {r->sampling, r->sampling_size};
+    FitPiece surface = {&r->surface, sizeof r->surface};
     write_section(writer, PANEL_REFLECTION, 0, &section, 1);
     write_section(writer, PANEL_REFLECTION_TREE, 0, &tree, 1);
     if (r->sampling) write_section(writer, PANEL_SAMPLING, 0, &sampling, 1);
+    if (has_surface(r)) write_section(writer, PANEL_SURFACE, 0, &surface, 1);
 }
 
 /* Header and table of contents in front of the sections. */
-static void *finish(FitWriter *writer, size_t *size)
+static void *finish(FitWriter *writer, uint32_t version, size_t *size)
 {
     size_t toc = writer->count * sizeof *writer->section;
     size_t front = rounded(sizeof(PanelHeader) + toc);
     unsigned char *bytes = arena_alloc(writer->arena, 1, 64, front + writer->size);
     for (uint32_t i = 0; i < writer->count; i++) writer->section[i].offset += front;
-    PanelHeader header = {.magic = PANEL_MAGIC, .version = PANEL_VERSION,
+    PanelHeader header = {.magic = PANEL_MAGIC, .version = version,
                           .size = front + writer->size, .section_count = writer->count};
     memcpy(bytes, &header, sizeof header);
     memcpy(bytes + sizeof header, writer->section, toc);
@@ -97,5 +106,6 @@ void *fit_file_bytes(const FitParts *parts, const char *meta, Arena *arena, size
     if (parts->tables) write_section(&writer, PANEL_REPORT_TABLES, 0, &tables, 1);
     if (parts->emission) write_emission(&writer, parts);
     if (parts->reflection) write_reflection(&writer, parts->reflection);
-    return finish(&writer, size);
+    bool has_frame = parts->reflection && parts->reflection->surface.frame;
+    return finish(&writer, has_frame ? PANEL_VERSION : PANEL_VERSION_PLAIN, size);
 }

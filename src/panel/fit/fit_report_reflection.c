@@ -125,6 +125,22 @@ static json_t *parts_json(const FitParts *parts, const Panel *panel)
     return list;
 }
 
+/* How it is read; what goes without saying is left out. */
+static void add_surface(const PanelSurfaceStored *s, json_t *out)
+{
+    static const char *const frames[] = {"", "slopes", "direction cosines"};
+    if (s->frame != PANEL_FRAME_SPECULAR)
+        json_object_set_new(out, "frame", json_string(frames[s->frame]));
+    if (s->beyond == PANEL_BEYOND_SLOPES) {
+        json_object_set_new(out, "beyond", json_string("facets"));
+        json_object_set_new(out, "facet_index", json_real((double)s->refractive_index));
+        json_object_set_new(out, "facet_alpha", json_pack("[f, f]",
+            sqrt((double)s->roughness[0]), sqrt((double)s->roughness[2])));
+    }
+    if (s->mirror_index > 0)
+        json_object_set_new(out, "mirror_index", json_real((double)s->mirror_index));
+}
+
 void fit_report_reflection(const FitParts *parts, const Panel *panel, json_t *out)
 {
     static const char *const kinds[] = {"haar", "cdf53", "cdf97"};
@@ -144,4 +160,5 @@ void fit_report_reflection(const FitParts *parts, const Panel *panel, json_t *ou
         "largest_albedo", r->section.largest_albedo,
         "extrapolated_beyond_deg", degrees_from_radians(parts->set->incidence[last]),
         "mirror", parts_json(parts, panel)));
+    add_surface(&r->surface, json_object_get(out, "reflection"));
 }

@@ -11,7 +11,8 @@
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "files are queried in place");
 
 #define PANEL_MAGIC "PHPANEL\n"
-#define PANEL_VERSION 3u
+#define PANEL_VERSION 4u /* of files that a reader of version 3 would misread */
+#define PANEL_VERSION_PLAIN 3u /* of all others, so that it can read them */
 #define PANEL_ALIGN 8 /* of sections, bytes */
 #define PANEL_SECTIONS_MAX 64
 #define PANEL_LEVELS_MAX 64
@@ -36,7 +37,8 @@ typedef enum PanelSectionKind {
     PANEL_REFLECTION = 5,      /* PanelReflectionStored and what follows it */
     PANEL_REFLECTION_TREE = 6,
     PANEL_SAMPLING = 7,          /* a sampling tree, PanelSampling's counts and thetas */
-    PANEL_REPORT_TABLES = 8    /* panel_report.h: the tables of the report, then the total */
+    PANEL_REPORT_TABLES = 8,   /* panel_report.h: the tables of the report, then the total */
+    PANEL_SURFACE = 9          /* PanelSurfaceStored: how the reflection is read */
 } PanelSectionKind;
 
 typedef struct PanelSection {
@@ -102,6 +104,31 @@ typedef struct PanelReflectionStored {
      *   what the haze beyond the measured incidences is multiplied, and
      *   node_albedo[nodes][wavelengths] */
 } PanelReflectionStored;
+
+/* In which coordinates the tree is stored. */
+typedef enum PanelFrameKind {
+    PANEL_FRAME_SPECULAR = 0, /* specular_frame.h */
+    PANEL_FRAME_SLOPES = 1,   /* surface_frame.h, of slopes */
+    PANEL_FRAME_COSINES = 2   /* surface_frame.h, of direction cosines */
+} PanelFrameKind;
+
+/* What the haze beyond the last measured incidence depends on (panel_reference.h). */
+typedef enum PanelBeyondKind {
+    PANEL_BEYOND_COSINES = 0,
+    PANEL_BEYOND_SLOPES = 1
+} PanelBeyondKind;
+
+/* PANEL_SURFACE; where the section is absent everything is 0 but the refractive index, which is
+ * PanelReflectionStored's. A file with a frame has version PANEL_VERSION. In a frame other than
+ * the specular-following one the tree's logarithms are of f over panel_reference.h's reference
+ * instead of F(theta_i). */
+typedef struct PanelSurfaceStored {
+    uint8_t frame, beyond, reserved[2]; /* PanelFrameKind, PanelBeyondKind */
+    float   axes[3], reach;   /* surface_frame.h: xx, xy, yy; with a frame only */
+    float   roughness[3];     /* squared GGX alphas, xx, xy, yy; of slopes beyond */
+    float   refractive_index; /* of slopes beyond, where there is no mirror part */
+    float   mirror_index;     /* of the mirror part beyond; 0: a straight line over F */
+} PanelSurfaceStored;
 
 #define PANEL_TABLES_MAX 1152 /* incidences times azimuths */
 #define PANEL_AZIMUTHS_MAX 72

@@ -59,6 +59,32 @@ static bool check_axes(const PanelBytes *at, const PanelReflectionStored *s,
     return true;
 }
 
+static bool is_positive(const float m[3])
+{
+    return in_range(m, 3, -1e6f, 1e6f) && m[0] > 0 && m[2] > 0 && m[0] * m[2] - m[1] * m[1] > 0;
+}
+
+/* The section of the surface, or what its absence means. */
+static bool read_surface(const PanelBytes *at, const PanelReflectionStored *s,
+                         PanelSurfaceStored *out)
+{
+    *out = (PanelSurfaceStored){.refractive_index = s->refractive_index};
+    if (!at->data) return true;
+    if (at->size != sizeof *out) return panel_refuse(at, "surface", "has a wrong size");
+    memcpy(out, at->data, sizeof *out);
+    if (out->frame > PANEL_FRAME_COSINES || out->beyond > PANEL_BEYOND_SLOPES)
+        return panel_refuse(at, "surface", "a kind is out of range");
+    if (out->frame != PANEL_FRAME_SPECULAR &&
+        (!is_positive(out->axes) || !(out->reach >= 1e-3f && out->reach <= 1e6f)))
+        return panel_refuse(at, "surface", "axes or reach are out of range");
+    if (out->beyond == PANEL_BEYOND_SLOPES && !is_positive(out->roughness))
+        return panel_refuse(at, "surface", "the roughness is out of range");
+    if (!(out->refractive_index >= 1 && out->refractive_index <= 4) ||
+        !(out->mirror_index == 0 || (out->mirror_index >= 1.01f && out->mirror_index <= 4)))
+        return panel_refuse(at, "surface", "a refractive index is out of range");
+    return true;
+}
+
 /* ---- expansion --------------------------------------------------------------------------- */
 
 /* rows x wavelengths numbers of 16 bits to padded rows. */
@@ -141,15 +167,27 @@ static double mirror_ratio(const PanelReflection *r, const ReflectionLayout *fro
     return fmin(1, fmax(value, 0.5 * fmin(ratio[0], ratio[1])));
 }
 
+/* Beyond the last incidence: a bare face whose index the measured ones tell. */
+static double mirror_beyond(const PanelReflection *r, const ReflectionLayout *from,
+                            uint32_t wavelength, double cosine)
+{
+    double n = (double)r->mirror_index;
+    double last = fresnel_unpolarised_d(cos_d((double)r->last_theta), n);
+    return from->mirror[(r->incidences - 1) * r->wavelengths + wavelength] / 65535.0 *
+           fresnel_unpolarised_d(cosine, n) / last;
+}
+
 static void expand_mirror(const ReflectionLayout *from, PanelReflection *r, Arena *arena)
 {
     float *mirror = ARENA_NEW(arena, float, (size_t)PANEL_ANGLES * r->padded_wavelengths);
     for (uint32_t a = 0; a < PANEL_ANGLES; a++) {
-        double f = fresnel_unpolarised_d(cos_d(a * 0.0087266462599716),
-                                         (double)r->refractive_index);
+        double theta = a * 0.0087266462599716, cosine = cos_d(theta);
+        double f = fresnel_unpolarised_d(cosine, (double)r->refractive_index);
+        bool   is_face = r->mirror_index > 0 && theta > (double)r->last_theta;
         for (uint32_t w = 0; w < r->wavelengths; w++)
             mirror[a * r->padded_wavelengths + w] =
-                (float)fmin(1, f * mirror_ratio(r, from, w, f));
+                (float)fmin(1, is_face ? mirror_beyond(r, from, w, cosine)
+                                       : f * mirror_ratio(r, from, w, f));
     }
     r->mirror = mirror;
 }
@@ -195,8 +233,20 @@ static void expand_albedo(const ReflectionLayout *from, PanelReflection *r)
     }
 }
 
+static void expand_surface(const PanelSurfaceStored *from, PanelReflection *r)
+{
+    SurfaceAxes axes = {from->axes[0], from->axes[1], from->axes[2]};
+    r->frame = (PanelFrameKind)from->frame;
+    r->beyond = (PanelBeyondKind)from->beyond;
+    if (r->frame != PANEL_FRAME_SPECULAR)
+        r->surface = surface_frame(r->frame == PANEL_FRAME_COSINES, axes, from->reach);
+    r->roughness = (SurfaceAxes){from->roughness[0], from->roughness[1], from->roughness[2]};
+    r->beyond_index = from->refractive_index;
+    r->mirror_index = from->mirror_index;
+}
+
 static PanelReflection *expand(const PanelReflectionStored *s, const ReflectionLayout *from,
-                               Arena *arena)
+                               const PanelSurfaceStored *surface, Arena *arena)
 {
     PanelReflection *r = ARENA_NEW(arena, PanelReflection, 1);
     *r = (PanelReflection){
@@ -213,6 +263,7 @@ static PanelReflection *expand(const PanelReflectionStored *s, const ReflectionL
     memcpy(r->wavelength_nm, from->wavelength_nm, sizeof(float) * s->wavelengths);
     memcpy(r->node_theta, from->node_theta, sizeof(float) * s->nodes);
     name_steps(from, r);
+    expand_surface(surface, r);
     r->mean = expand_rows(r, from->mean, r->tables, s->mean_scale, arena);
     float *lambertian = expand_rows(r, from->lambertian, r->tables, s->mean_scale, arena);
     exponentiate(lambertian, r, r->tables);
@@ -245,22 +296,27 @@ static void index_wavelengths(Panel *panel)
         panel->wavelength_scale[i] = 1 / (r->wavelength_nm[i + 1] - r->wavelength_nm[i]);
 }
 
-bool panel_expand_reflection(const PanelBytes *at, const PanelBytes *tree,
-                             const Geodesic *geodesic, Arena *arena, Panel *panel)
+bool panel_expand_reflection(const PanelReflectionBytes *sections, const Geodesic *geodesic,
+                             Arena *arena, Panel *panel)
 {
-    ReflectionLayout from;
+    ReflectionLayout   from;
+    PanelSurfaceStored surface;
+    const PanelBytes  *at = &sections->numbers, *tree = &sections->tree;
     const PanelReflectionStored *s = (const PanelReflectionStored *)at->data;
     if (at->size < sizeof *s) return panel_refuse(at, "reflection", "is too short");
     if (!check_counts(at, s)) return false;
     if (reflection_layout(s, &from) != at->size)
         return panel_refuse(at, "reflection", "has another size than its counts say");
-    if (!check_axes(at, s, &from)) return false;
+    if (!check_axes(at, s, &from) || !read_surface(&sections->surface, s, &surface))
+        return false;
     if (!tree_open(tree->data, tree->size, geodesic, &panel->reflection_tree, at->err))
         return error_prefix(at->err, "reflection tree") || error_in_file(at->err, at->name);
     if (panel->reflection_tree.components != (int)s->components ||
         panel->reflection_tree.octants != (s->azimuths > 1 ? 4 : 2))
         return panel_refuse(at, "reflection", "does not fit its tree");
-    panel->reflection = expand(s, &from, arena);
+    if (surface.frame != PANEL_FRAME_SPECULAR && s->azimuths < 2)
+        return panel_refuse(&sections->surface, "surface", "has axes without azimuths");
+    panel->reflection = expand(s, &from, &surface, arena);
     index_wavelengths(panel);
     return true;
 }
@@ -268,11 +324,13 @@ bool panel_expand_reflection(const PanelBytes *at, const PanelBytes *tree,
 bool panel_open_reflection(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
                            Panel *panel)
 {
-    PanelBytes at, tree;
-    bool  found;
-    if (!panel_find_section(bytes, PANEL_REFLECTION, 0, &at, &found)) return false;
+    PanelReflectionBytes sections = {.surface = {NULL, 0, bytes->name, bytes->err}};
+    bool found, has_surface;
+    if (!panel_find_section(bytes, PANEL_REFLECTION, 0, &sections.numbers, &found) ||
+        !panel_find_section(bytes, PANEL_SURFACE, 0, &sections.surface, &has_surface))
+        return false;
     if (!found) return true;
-    return panel_need_section(bytes, PANEL_REFLECTION_TREE, 0, &tree) &&
-           panel_expand_reflection(&at, &tree, geodesic, arena, panel) &&
+    return panel_need_section(bytes, PANEL_REFLECTION_TREE, 0, &sections.tree) &&
+           panel_expand_reflection(&sections, geodesic, arena, panel) &&
            panel_open_sampling(bytes, geodesic, arena, panel);
 }

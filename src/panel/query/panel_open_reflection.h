@@ -12,6 +12,11 @@
 bool panel_open_reflection(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
                            Panel *panel);
 
-/* The reflection alone, from its section and its tree, into *panel. */
-bool panel_expand_reflection(const PanelBytes *at, const PanelBytes *tree,
-                             const Geodesic *geodesic, Arena *arena, Panel *panel);
+/* The sections of a reflection without its sampling; surface.data NULL: there is none. */
+typedef struct PanelReflectionBytes {
+    PanelBytes numbers, tree, surface;
+} PanelReflectionBytes;
+
+/* The reflection alone, into *panel. */
+bool panel_expand_reflection(const PanelReflectionBytes *sections, const Geodesic *geodesic,
+                             Arena *arena, Panel *panel);

@@ -8,6 +8,7 @@
 
 #include "base/arena.h"
 #include "hemisphere/sampling/sampling_tree.h"
+#include "hemisphere/surface_frame.h"
 #include "hemisphere/tree.h"
 #include "panel/query/panel.h"
 #include "panel/query/panel_beam.h"
@@ -60,6 +61,11 @@ typedef struct PanelReflection {
     bool     is_cubic, has_mirror, has_lobe;
     float    frame_exponent, refractive_index, cone_cos;
     float    first_theta, last_theta; /* measured incidences, radians */
+    PanelFrameKind  frame;
+    PanelBeyondKind beyond;
+    SurfaceFrame    surface;   /* where frame is not the specular-following one */
+    SurfaceAxes     roughness; /* beyond: squared GGX alphas */
+    float           beyond_index, mirror_index; /* mirror_index 0: a straight line over F */
     PanelIncidence step[PANEL_INCIDENCES_MAX + 2]; /* rising in theta */
     float    azimuth[PANEL_AZIMUTHS_MAX];
     float    wavelength_nm[PANEL_WAVELENGTHS_MAX];

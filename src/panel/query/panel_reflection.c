@@ -7,6 +7,7 @@
 #include "hemisphere/specular_frame.h"
 #include "hemisphere/tree/tree_query.h"
 #include "panel/query/panel_components.h"
+#include "panel/query/panel_reference.h"
 #include "panel/query/panel_turn.h"
 #include "spectrum/fresnel.h"
 
@@ -33,7 +34,8 @@ typedef struct Terms {
 } Terms;
 
 /* Tables that are read at the stored direction, and those that are read at the direction
- * turned by 180 degrees (incidences from beyond the normal). */
+ * turned by 180 degrees (incidences from beyond the normal, in the specular-following frame).
+ */
 typedef struct TableMix {
     Terms side[2];
 } TableMix;
@@ -118,7 +120,8 @@ static TableMix table_mix(const PanelReflection *r, float theta, float light)
         for (int a = 0; a < 4; a++) {
             if (around->weight[a] == 0) continue;
             int    at = (around->first + a + n) % n;
-            Terms *side = &mix.side[step->is_turned];
+            bool   turns = step->is_turned && r->frame == PANEL_FRAME_SPECULAR;
+            Terms *side = &mix.side[turns];
             side->term[side->count++] = (Term){at * (int)r->incidences + step->incidence,
                                                incidence.weight[k] * around->weight[a]};
         }
@@ -323,7 +326,7 @@ static Spectrum mirror_at(const Panel *panel, float cos_theta, const Lanes *lane
 static Spectrum gloss(const Panel *panel, float cosine, const Lanes *lanes)
 {
     const PanelReflection *r = panel->reflection;
-    if (!r->has_mirror) return spectrum_all(fresnel_unpolarised(cosine, r->refractive_index));
+    if (!r->has_mirror) return spectrum_all(fresnel_unpolarised(cosine, r->beyond_index));
     if (!(cosine > 0)) return spectrum_all(1e-6f);
     return spectrum_max(mirror_at(panel, cosine, lanes), spectrum_all(1e-6f));
 }
@@ -346,33 +349,92 @@ static Spectrum held_factor(const Panel *panel, float theta, const Lanes *lanes)
     return spread_between(panel, r->held, i, clampf(t, 0, 1), lanes);
 }
 
-/* The haze moves, its height follows the root of the surface's reflectances at theta_i and
- * theta_o, and the lambertian part follows the light that enters. */
-static Spectrum brdf_beyond(const Panel *panel, Vec3 local, Vec3 wi, float light,
+/* Two directions as one question. local: wo in the frame of panel_turned. */
+typedef struct PanelPair {
+    Vec3  wi, wo, local;
+    float theta; /* of wi */
+} PanelPair;
+
+static Vec3 stored_at(const PanelReflection *r, const PanelPair *pair)
+{
+    if (r->frame != PANEL_FRAME_SPECULAR)
+        return surface_frame_stored(&r->surface, pair->wi, pair->wo);
+    SpecularFrame frame = specular_frame(pair->theta, r->frame_exponent);
+    return specular_frame_stored(&frame, pair->local);
+}
+
+static float reference_at(const PanelReflection *r, const PanelPair *pair)
+{
+    if (r->frame != PANEL_FRAME_SPECULAR)
+        return panel_reference(r->frame, r->refractive_index, pair->wi, pair->wo);
+    return fresnel_unpolarised(pair->wi.z, r->refractive_index);
+}
+
+/* Where surfaces of facets are read: the same facet under light from the last incidence. What
+ * comes to lie outside the measured cone is held at its edge, unless it lay there already. */
+static Vec3 same_facet(const PanelReflection *r, const PanelPair *pair, Vec3 last_light)
+{
+    float sine = safe_sqrtf(1 - pair->wi.z * pair->wi.z);
+    Vec3  d = surface_frame_same_facet(vec3(-sine, 0, pair->wi.z), pair->local, last_light);
+    float least = pair->local.z < r->cone_cos ? pair->local.z : r->cone_cos;
+    float across = safe_sqrtf(d.x * d.x + d.y * d.y);
+    if (d.z >= least || !(across > 0)) return d;
+    float scale = safe_sqrtf(1 - least * least) / across;
+    return vec3(d.x * scale, d.y * scale, least);
+}
+
+static PanelPair last_pair(const PanelReflection *r, const PanelPair *pair)
+{
+    float sine, cosine;
+    sincos_turns(r->last_theta * (0.5f / PI_F), &sine, &cosine);
+    Vec3 light = vec3(-sine, 0, cosine);
+    Vec3 from = r->beyond == PANEL_BEYOND_SLOPES
+                    ? same_facet(r, pair, light)
+                    : shifted(r, pair->local, safe_sqrtf(1 - pair->wi.z * pair->wi.z));
+    return (PanelPair){panel_turned_back(pair->wi, light), panel_turned_back(pair->wi, from),
+                       from, r->last_theta};
+}
+
+/* What the haze is higher by than where it was read. Of fine roughness the root of the
+ * surface's reflectances at theta_i and theta_o; of facets their reflectance and
+ * G / (cos cos). */
+static Spectrum haze_ratio(const Panel *panel, const PanelPair *now, const PanelPair *then,
+                           const Lanes *lanes)
+{
+    const PanelReflection *r = panel->reflection;
+    if (r->beyond != PANEL_BEYOND_SLOPES) {
+        Spectrum in = gloss(panel, now->wi.z, lanes) / gloss(panel, then->wi.z, lanes);
+        Spectrum out = gloss(panel, now->local.z, lanes) / gloss(panel, then->local.z, lanes);
+        return spectrum_root(in * out);
+    }
+    float masking = panel_masking(r->roughness, now->wi, now->wo) /
+                    panel_masking(r->roughness, then->wi, then->wo);
+    return gloss(panel, panel_facet_cosine(now->wi, now->wo), lanes) /
+           gloss(panel, panel_facet_cosine(then->wi, then->wo), lanes) *
+           spectrum_all(masking);
+}
+
+/* The haze moves and changes its height, the lambertian part follows the light that enters. */
+static Spectrum brdf_beyond(const Panel *panel, const PanelPair *pair, float light,
                             const Lanes *lanes)
 {
     const PanelReflection *r = panel->reflection;
-    float logs[PADDED_MAX];
-    float    sine = safe_sqrtf(1 - wi.z * wi.z), n = r->refractive_index;
-    float    sine_last, cosine_last;
-    sincos_turns(r->last_theta * (0.5f / PI_F), &sine_last, &cosine_last);
-    SpecularFrame frame = specular_frame(r->last_theta, r->frame_exponent);
+    float    logs[PADDED_MAX], n = r->refractive_index;
+    PanelPair     from = last_pair(r, pair);
     TableMix mix = table_mix(r, r->last_theta, light);
-    Vec3     from = shifted(r, local, sine);
-    reflection_logs(panel, specular_frame_stored(&frame, from), &mix, logs);
-    float    last = fresnel_unpolarised(cosine_last, n);
-    Spectrum total = spectrum_exp(spread(logs, lanes)) * spectrum_all(last);
+    reflection_logs(panel, stored_at(r, &from), &mix, logs);
+    float    last = fresnel_unpolarised(from.wi.z, n);
+    Spectrum total = spectrum_exp(spread(logs, lanes)) * spectrum_all(reference_at(r, &from));
     int      row = mix.side[0].term[0].table * (int)r->padded_wavelengths;
     Spectrum lambertian = spectrum_min(total, spread(r->lambertian + row, lanes));
-    Spectrum in = gloss(panel, wi.z, lanes) / gloss(panel, cosine_last, lanes);
-    Spectrum out = gloss(panel, local.z, lanes) / gloss(panel, from.z, lanes);
-    float    entering = (1 - fresnel_unpolarised(wi.z, n)) / (1 - last);
-    Spectrum haze = (total - lambertian) * spectrum_root(in * out) +
+    float    entering = (1 - fresnel_unpolarised(pair->wi.z, n)) / (1 - last);
+    Spectrum haze = (total - lambertian) * haze_ratio(panel, pair, &from, lanes) +
                     lambertian * spectrum_all(entering);
     if (r->has_lobe)
-        haze += lobe_over_fresnel(panel, &mix, local, wi, lanes) * in *
+        haze += lobe_over_fresnel(panel, &mix, pair->local, pair->wi, lanes) *
+                (gloss(panel, pair->wi.z, lanes) / gloss(panel, from.wi.z, lanes)) *
                 spectrum_all(last);
-    return haze * held_factor(panel, panel_polar_angle(wi), lanes);
+    return haze * held_factor(panel, pair->theta, lanes);
 }
 
 /* ---- the queries ------------------------------------------------------------------------ */
@@ -382,16 +444,20 @@ Spectrum panel_brdf(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *wav
     const PanelReflection *r = panel->reflection;
     float logs[PADDED_MAX];
     if (!r || !(wo.z > 0) || !(wi.z > 0)) return spectrum_all(0);
-    float theta = panel_polar_angle(wi), light = r->azimuths > 1 ? atan2_f(wi.y, wi.x) : 0;
-    Vec3  local = panel_turned(wi, wo);
+    PanelPair pair = {wi, wo, panel_turned(wi, wo), panel_polar_angle(wi)};
+    float light = r->azimuths > 1 ? atan2_f(wi.y, wi.x) : 0;
     Lanes lanes = find_lanes(panel, wavelengths);
-    if (theta > r->last_theta) return brdf_beyond(panel, local, wi, light, &lanes);
-    SpecularFrame frame = specular_frame(theta, r->frame_exponent);
-    TableMix      mix = table_mix(r, theta, light);
-    reflection_logs(panel, specular_frame_stored(&frame, local), &mix, logs);
+    if (pair.theta > r->last_theta) return brdf_beyond(panel, &pair, light, &lanes);
+    TableMix mix = table_mix(r, pair.theta, light);
+    reflection_logs(panel, stored_at(r, &pair), &mix, logs);
     Spectrum over = spectrum_exp(spread(logs, &lanes));
-    if (r->has_lobe) over += lobe_over_fresnel(panel, &mix, local, wi, &lanes);
-    return over * spectrum_all(fresnel_unpolarised(wi.z, r->refractive_index));
+    float    reference = reference_at(r, &pair);
+    if (r->has_lobe) {
+        float fresnel = fresnel_unpolarised(wi.z, r->refractive_index);
+        over += lobe_over_fresnel(panel, &mix, pair.local, wi, &lanes) *
+                spectrum_all(fresnel / reference);
+    }
+    return over * spectrum_all(reference);
 }
 
 Spectrum panel_mirror(const Panel *panel, float cos_theta, const Wavelengths *wavelengths)

@@ -6,6 +6,7 @@
 #include "hemisphere/tree/tree_open.h"
 #include "panel/fit/reflection/reflection_read.h"
 #include "panel/fit/reflection/reflection_spectra.h"
+#include "panel/fit/reflection/reflection_surface.h"
 #include "panel/fit/reflection/reflection_tree.h"
 
 #define DEFAULT_BOUND 0.02
@@ -142,7 +143,8 @@ static bool code_frames(ReflectionModel *model, ReflectionMisses *misses, Error 
     float            chosen = model->k;
     ReflectionMisses other;
     if (!code_levels(model, misses, err)) return false;
-    if (!misses->misses || chosen >= NARROWEST || model->options->frame_exponent > 0)
+    if (!misses->misses || chosen >= NARROWEST || model->options->frame_exponent > 0 ||
+        model->surface.stored.frame != PANEL_FRAME_SPECULAR)
         return true;
     model->k = NARROWEST;
     if (!code_levels(model, &other, err)) return false;
@@ -162,6 +164,7 @@ bool reflection_fit(const Measurement *set, const FitOptions *options, Arena *ar
     ReflectionModel *model = start_model(set, options, &out->parts, arena);
     ReflectionMisses misses = {0};
     reflection_read_tables(model);
+    reflection_surface_choose(model, notes);
     if (!choose_frame(model, err) || !code_frames(model, &misses, err)) return false;
     out->tree = model->tree;
     out->tree_report = model->tree_report;
@@ -170,6 +173,7 @@ bool reflection_fit(const Measurement *set, const FitOptions *options, Arena *ar
     out->worst = misses.worst;
     out->level = model->lattice.level;
     out->frame_exponent = model->k;
+    out->surface = model->surface.stored;
     out->components = model->components;
     out->coefficients = model->coefficients;
     note_outcome(model, &misses, notes);

@@ -12,6 +12,7 @@
 typedef struct ReflectionResult {
     ReflectionParts   parts;
     ReflectionSection section;
+    PanelSurfaceStored surface;
     const void       *tree;
     TreeReport        tree_report;
     const void       *sampling; /* the section's bytes; NULL: not yet built */

@@ -2,18 +2,26 @@
  *
  * Places     where the stored functions are read: vertices of the lattice, or the centres of
  *            the triangles (Haar), in the specular-following frame (specular_frame.h).
- * Values     ln (f / F(theta_i)), f without mirror and lobe; rows of `wavelengths` numbers.
+ * Values     ln (f / reference), f without mirror and lobe; rows of `wavelengths` numbers. The
+ *            reference is F(theta_i), or panel_reference.h's.
  * Threads    the steps use options->threads; results do not depend on how many.
  */
 #pragma once
 #include "base/mathd.h"
 #include "base/vec.h"
+#include "hemisphere/surface_frame.h"
 #include "hemisphere/vertex/vertex_tree.h"
 #include "panel/fit/common/direction_grid.h"
 #include "panel/fit/reflection/reflection_fresnel.h"
 #include "panel/fit/reflection/reflection_parts.h"
 #include "panel/query/panel_file.h"
 #include "spectrum/wavelengths.h"
+
+/* How the haze is stored, and how it goes on beyond the last incidence. */
+typedef struct ReflectionSurface {
+    PanelSurfaceStored stored;
+    SurfaceFrame       frame; /* of stored's axes; where it is not the specular-following one */
+} ReflectionSurface;
 
 typedef struct ReflectionModel {
     const Measurement *set;
@@ -23,6 +31,7 @@ typedef struct ReflectionModel {
     int    tables, wavelengths;
     bool   is_trial; /* only to compare frames: nothing is mended */
     bool   is_last;  /* no finer level follows: everything is tried */
+    ReflectionSurface surface;
     double bound;  /* relative error allowed at every sample, noise apart */
     float  k;      /* of the frame */
     VertexLattice lattice; /* level and octants, of the triangles when Haar */

@@ -6,7 +6,8 @@
 #include "base/mathf.h"
 #include "base/parallel.h"
 #include "base/units.h"
-#include "hemisphere/specular_frame.h"
+#include "panel/fit/common/table_rows.h"
+#include "panel/fit/reflection/reflection_view.h"
 
 #define LEAST_SHARE 1e-6 /* of a table's largest value: values below it are held there */
 #define LEAST_VALUE 1e-8 /* sr^-1 */
@@ -67,9 +68,7 @@ static void read_at(const ReflectionModel *model, int table, float theta, float 
     direction_grid_read(&taps, model->cells[table], model->wavelengths, logs);
 }
 
-/* ln f of a table at an outer direction; returns how far that lies beyond the last ring,
- * radians, where the logarithm goes on as steeply as it came. */
-static float read_table(const ReflectionModel *model, int table, Vec3 outer, float *logs)
+float reflection_read_logs(const ReflectionModel *model, int table, Vec3 outer, float *logs)
 {
     const DirectionGrid *grid = &model->grid[table];
     float across = sqrtf(outer.x * outer.x + outer.y * outer.y);
@@ -86,24 +85,56 @@ static float read_table(const ReflectionModel *model, int table, Vec3 outer, flo
 
 /* ---- all places -------------------------------------------------------------------------- */
 
+/* One table at one place of the tree. */
+typedef struct TablePlace {
+    ReflectionView view;
+    Vec3           stored, local;
+    float          beyond; /* radians: how far behind the last ring */
+} TablePlace;
+
+/* ln (f / reference) at a place. */
+static TablePlace read_stored(const ReflectionModel *model, int table, Vec3 stored, float *logs)
+{
+    TablePlace at = {reflection_view(model, table), stored, stored, 0};
+    at.local = reflection_view_local(&at.view, stored);
+    at.beyond = reflection_read_logs(model, table, at.local, logs);
+    float offset = (float)log_d(reflection_view_reference(&at.view, at.local));
+    for (int w = 0; w < model->wavelengths; w++) logs[w] -= offset;
+    return at;
+}
+
+/* The stored direction of the last ring at a place's azimuth. */
+static Vec3 ring_at(const TablePlace *at)
+{
+    double theta = acos_d(fmin(1, fmax(0, (double)at->local.z))) - (double)at->beyond;
+    double phi = atan2_d((double)at->local.y, (double)at->local.x);
+    return reflection_view_stored(&at->view, table_direction(theta, phi));
+}
+
+/* So far behind the last ring, as the tree sees it, that no triangle reaches back. */
+static bool is_far(const ReflectionModel *model, const TablePlace *at)
+{
+    float edge = EDGE_CELLS * 0.5f * PI_F / (float)(1 << model->lattice.level);
+    if (model->surface.stored.frame == PANEL_FRAME_SPECULAR || !(at->beyond > 0))
+        return at->beyond > edge;
+    Vec3 chord = vec3_sub(ring_at(at), at->stored);
+    return vec3_dot(chord, chord) > edge * edge;
+}
+
+static void read_place(ReflectionModel *model, int table, int place)
+{
+    float     *row = reflection_model_row(model, model->value, place, table);
+    TablePlace at = read_stored(model, table, model->direction[place], row);
+    model->is_free[(size_t)place * (size_t)model->tables + (size_t)table] = is_far(model, &at);
+}
+
 static void read_chunk(void *context, int item, int worker)
 {
     ReflectionModel *model = context;
-    int   last = (item + 1) * CHUNK < model->places ? (item + 1) * CHUNK : model->places;
-    float edge = EDGE_CELLS * 0.5f * PI_F / (float)(1 << model->lattice.level);
+    int last = (item + 1) * CHUNK < model->places ? (item + 1) * CHUNK : model->places;
     (void)worker;
-    for (int t = 0; t < model->tables; t++) {
-        double        theta = reflection_model_incidence(model, t);
-        float         offset = (float)log_d(reflection_fresnel(cos_d(theta)));
-        SpecularFrame frame = specular_frame((float)theta, model->k);
-        for (int i = item * CHUNK; i < last; i++) {
-            float *row = reflection_model_row(model, model->value, i, t);
-            Vec3   outer = specular_frame_outer(&frame, model->direction[i]);
-            float  beyond = read_table(model, t, outer, row);
-            model->is_free[(size_t)i * (size_t)model->tables + (size_t)t] = beyond > edge;
-            for (int w = 0; w < model->wavelengths; w++) row[w] -= offset;
-        }
-    }
+    for (int t = 0; t < model->tables; t++)
+        for (int i = item * CHUNK; i < last; i++) read_place(model, t, i);
 }
 
 void reflection_read_places(ReflectionModel *model, int level)

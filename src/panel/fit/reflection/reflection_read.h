@@ -6,6 +6,10 @@
 /* The grids of all tables and the logarithms on their cells: once. */
 void reflection_read_tables(ReflectionModel *model);
 
+/* ln f of a table at a direction of its frame; returns how far that lies beyond the last ring,
+ * radians, where the logarithm goes on as steeply as it came. */
+float reflection_read_logs(const ReflectionModel *model, int table, Vec3 outer, float *logs);
+
 /* Places of a level, and all tables' values there. */
 void reflection_read_places(ReflectionModel *model, int level);
 

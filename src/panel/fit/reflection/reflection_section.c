@@ -12,6 +12,7 @@
 #include "panel/fit/common/sort.h"
 #include "panel/fit/common/table_rows.h"
 #include "panel/fit/reflection/reflection_spectra.h"
+#include "panel/fit/reflection/reflection_view.h"
 #include "panel/query/panel_open.h"
 #include "panel/query/panel_open_reflection.h"
 #include "panel/query/panel_opened.h"
@@ -26,6 +27,7 @@
 #define LAMBERTIAN_QUANTILE 100 /* one row in so many is dimmer than the lambertian part */
 #define LAMBERTIAN_DEG 60.0     /* rows further from the normal say nothing of it */
 #define NODES 7
+#define SIDES_MOST 8 /* azimuths of the light beyond the last incidence */
 #define FAR 1.13 /* radians: where measurements usually end before; else nodes are even */
 
 /* The first stands for the last measured incidence. */
@@ -101,19 +103,19 @@ static void match_integrals(void *context, int t, int worker)
     IntegralPass          *pass = context;
     const ReflectionModel *model = pass->model;
     const AngleTable      *table = &model->parts->haze[t];
-    double fresnel = reflection_model_fresnel(model, t);
     double found[MEASUREMENT_WAVELENGTHS_MAX] = {0}, wanted[MEASUREMENT_WAVELENGTHS_MAX] = {0};
     double room = INTEGRAL_ROOM * model->bound;
-    SpecularFrame frame = specular_frame((float)reflection_model_incidence(model, t), model->k);
+    ReflectionView view = reflection_view(model, t);
     (void)worker;
     for (int i = 0; i < table->rows; i++) {
         float  component[PANEL_REFLECTION_COMPONENTS_MAX], logs[MEASUREMENT_WAVELENGTHS_MAX];
         Vec3   d = table_row_direction(table, i);
         double weight = table_row_weight(table, i);
-        tree_interpolate(&pass->tree, specular_frame_stored(&frame, d), component);
+        double reference = reflection_view_reference(&view, d);
+        tree_interpolate(&pass->tree, reflection_view_stored(&view, d), component);
         reflection_spectra_logs(model, t, component, logs);
         for (int w = 0; w < model->wavelengths; w++) {
-            found[w] += weight * exp_d((double)logs[w]) * fresnel;
+            found[w] += weight * exp_d((double)logs[w]) * reference;
             wanted[w] += weight * (double)table->value[(size_t)i * (size_t)model->wavelengths +
                                                        (size_t)w];
         }
@@ -276,9 +278,12 @@ static bool view_section(const ReflectionModel *model, const SectionDraft *secti
                          Arena *arena,
                          Panel *panel, Error *err)
 {
-    PanelBytes at = {(const unsigned char *)section->stored, section->out->size, "panel", err};
-    PanelBytes tree = {model->tree, tree_size(model->tree), "panel", err};
-    return panel_expand_reflection(&at, &tree, model->geodesic, arena, panel);
+    const PanelSurfaceStored *surface = &model->surface.stored;
+    PanelReflectionBytes sections = {
+        {(const unsigned char *)section->stored, section->out->size, "panel", err},
+        {model->tree, tree_size(model->tree), "panel", err},
+        {(const unsigned char *)surface, sizeof *surface, "panel", err}};
+    return panel_expand_reflection(&sections, model->geodesic, arena, panel);
 }
 
 typedef struct AlbedoPass {
@@ -291,13 +296,22 @@ typedef struct AlbedoPass {
     int                    leaves;
 } AlbedoPass;
 
-/* Where the light is of an item: tables first, then the nodes beyond the last incidence. */
+/* Azimuths of the light at which an incidence beyond the last is looked at. */
+static int sides_of(const ReflectionModel *model)
+{
+    int azimuths = model->set->azimuth_count;
+    return azimuths < 2 ? 1 : azimuths < SIDES_MOST ? azimuths : SIDES_MOST;
+}
+
+/* Where the light is of an item: tables first, then the nodes beyond the last incidence, side
+ * after side. */
 static Vec3 light_of(const AlbedoPass *pass, int item)
 {
     const ReflectionModel *model = pass->model;
     if (item < model->tables) return reflection_model_light(model->set, item);
-    double theta = (double)pass->section->layout.node_theta[item - model->tables] + 1e-5;
-    return table_direction(theta, PI);
+    int    node = (item - model->tables) % NODES, side = (item - model->tables) / NODES;
+    double theta = (double)pass->section->layout.node_theta[node] + 1e-5;
+    return table_direction(theta, PI + 2 * PI * side / sides_of(model));
 }
 
 static void haze_albedo(void *context, int item, int worker)
@@ -325,13 +339,22 @@ static void haze_albedo(void *context, int item, int worker)
     }
 }
 
+/* A node's is that of its brightest side. */
+static void take_brightest_side(const ReflectionModel *model, double *albedo)
+{
+    int     row = NODES * model->wavelengths;
+    double *first = albedo + model->tables * model->wavelengths;
+    for (int i = row; i < sides_of(model) * row; i++)
+        first[i % row] = fmax(first[i % row], first[i]);
+}
+
 /* Directional-hemispherical reflectance of the haze without the lobe: tables, then nodes. */
 static double *all_albedos(const ReflectionModel *model, const Panel *panel,
                            const SectionDraft *section,
                            Arena *arena)
 {
     AlbedoPass pass = {.model = model, .panel = panel, .section = section};
-    int  items = model->tables + NODES, octants = model->lattice.octants;
+    int  items = model->tables + NODES * sides_of(model), octants = model->lattice.octants;
     pass.albedo = ARENA_NEW(arena, double, items * model->wavelengths);
     pass.leaves = octants << 2 * ALBEDO_LEVEL;
     pass.direction = ARENA_NEW(arena, Vec3, pass.leaves);
@@ -341,6 +364,7 @@ static double *all_albedos(const ReflectionModel *model, const Panel *panel,
         pass.area[i] = 4.0 / octants * geodesic_area(ALBEDO_LEVEL, (uint32_t)i);
     }
     parallel_for(model->options->threads, items, haze_albedo, &pass);
+    take_brightest_side(model, pass.albedo);
     return pass.albedo;
 }
 

@@ -5,7 +5,6 @@
 
 #include "base/mathd.h"
 #include "base/parallel.h"
-#include "hemisphere/specular_frame.h"
 #include "hemisphere/tree/tree_build.h"
 #include "hemisphere/tree/tree_open.h"
 #include "hemisphere/tree/tree_query.h"
@@ -13,6 +12,7 @@
 #include "hemisphere/vertex/vertex_tree_build.h"
 #include "panel/fit/common/table_rows.h"
 #include "panel/fit/reflection/reflection_spectra.h"
+#include "panel/fit/reflection/reflection_view.h"
 
 #define PLACE_SHARE 0.8    /* of the bound, for places: the rest is for what lies between */
 #define PEAK_SHARE 0.35    /* of that where a table is within 1/e of its largest value */
@@ -62,10 +62,11 @@ static void start_tolerances(ReflectionModel *model)
     int   middle = model->wavelengths / 2;
     for (int t = 0; t < model->tables; t++) {
         float  peak = table_peak(model, t);
-        double fresnel = reflection_model_fresnel(model, t);
+        ReflectionView view = reflection_view(model, t);
         for (int i = 0; i < model->places; i++) {
             const float *row = reflection_model_row(model, model->value, i, t);
-            double f = exp_d((double)row[middle]) * fresnel;
+            Vec3   local = reflection_view_local(&view, model->direction[i]);
+            double f = exp_d((double)row[middle]) * reflection_view_reference(&view, local);
             double bound = fmax(model->bound,
                                 5 * reflection_parts_noise(model->parts, t, f)) * PLACE_SHARE;
             if (row[middle] > peak - 1) bound *= PEAK_SHARE;
@@ -152,21 +153,22 @@ typedef struct SampleCheck {
 } SampleCheck;
 
 /* Error over bound of one row of a table. */
-static double row_error(const SampleCheck *check, int t, int row, const SpecularFrame *frame,
+static double row_error(const SampleCheck *check, int t, int row, const ReflectionView *view,
                         Vec3 *stored)
 {
     ReflectionModel  *model = check->model;
     const AngleTable *haze = &model->parts->haze[t], *kept = &model->parts->kept[t];
     float  component[PANEL_REFLECTION_COMPONENTS_MAX], logs[MEASUREMENT_WAVELENGTHS_MAX];
-    double fresnel = reflection_model_fresnel(model, t), worst = 0;
-    *stored = specular_frame_stored(frame, table_row_direction(haze, row));
+    Vec3   local = table_row_direction(haze, row);
+    double reference = reflection_view_reference(view, local), worst = 0;
+    *stored = reflection_view_stored(view, local);
     tree_interpolate(&check->tree, *stored, component);
     reflection_spectra_logs(model, t, component, logs);
     for (int w = 0; w < model->wavelengths; w++) {
         size_t at = (size_t)row * (size_t)model->wavelengths + (size_t)w;
         double f = (double)haze->value[at], all = fmax((double)kept->value[at], f);
         if (f < model->least_value[t]) continue;
-        double error = fabs(exp_d((double)logs[w]) * fresnel - f) / all;
+        double error = fabs(exp_d((double)logs[w]) * reference - f) / all;
         double noise = reflection_parts_noise(model->parts, t, all);
         worst = fmax(worst, error / fmax(model->bound, 5 * noise));
     }
@@ -189,13 +191,13 @@ static void check_chunk(void *context, int item, int worker)
     while (check->first[t + 1] <= item) t++;
     ReflectionModel  *model = check->model;
     const AngleTable *table = &model->parts->haze[t];
-    SpecularFrame frame = specular_frame((float)reflection_model_incidence(model, t), model->k);
+    ReflectionView view = reflection_view(model, t);
     int begin = (item - check->first[t]) * CHUNK;
     int end = begin + CHUNK < table->rows ? begin + CHUNK : table->rows;
     ReflectionMisses *part = &check->part[item];
     for (int i = begin; i < end; i++) {
         Vec3   stored;
-        double error = row_error(check, t, i, &frame, &stored);
+        double error = row_error(check, t, i, &view, &stored);
         part->samples++;
         part->worst = fmax(part->worst, error);
         part->misses += error > 1;
@@ -218,14 +220,13 @@ static void mark_misses(SampleCheck *check, float *wanted)
 {
     ReflectionModel *model = check->model;
     for (int t = 0; t < model->tables; t++) {
-        SpecularFrame frame = specular_frame((float)reflection_model_incidence(model, t),
-                                             model->k);
+        ReflectionView view = reflection_view(model, t);
         for (int c = check->first[t]; c < check->first[t + 1]; c++) {
             if (!check->part[c].misses) continue;
             int begin = (c - check->first[t]) * CHUNK, rows = model->parts->haze[t].rows;
             for (int i = begin; i < begin + CHUNK && i < rows; i++) {
                 Vec3 stored;
-                if (row_error(check, t, i, &frame, &stored) > 1)
+                if (row_error(check, t, i, &view, &stored) > 1)
                     tighten(model, t, stored, wanted);
             }
         }
