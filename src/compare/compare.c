@@ -6,6 +6,7 @@
 
 #include "base/progress.h"
 #include "compare/metrics.h"
+#include "compare/picture_bands.h"
 
 #define LEAST_SAID 1e-3 /* of a change of contrast that has no interval */
 
@@ -192,17 +193,32 @@ static void start(const CompareInput *reference, const CompareInput *test, Arena
     for (int i = 0; i < METRIC_COUNT; i++) out->value[i] = NAN;
 }
 
+/* Large pictures in bands, all others whole. */
+static bool measure(const CompareOptions *options, Arena *arena, Comparison *out, Error *err)
+{
+    unsigned groups = groups_of(options);
+    if (options->wants_stat && out->reference.kind == INPUT_PICTURE)
+        return error_at(err, ERROR_INPUT, out->reference.name, "",
+                        "is a picture: only frames tell their noise to a statistical test");
+    if (!input_is_packed(&out->reference))
+        return metrics_measure(options, groups, arena, out, err);
+    picture_bands_measure(options, groups, *arena, out);
+    return true;
+}
+
 static bool compare_pixels(const CompareOptions *options, Arena *arena, Comparison *out,
                            Error *err)
 {
     if (!selection_make(&out->reference, &options->selection, arena, &out->selection, err))
         return false;
-    out->channels = channels_compare(&out->reference, &out->test, &out->structure,
-                                     &options->rules, &out->selection, arena);
+    out->channels = input_is_packed(&out->reference)
+                        ? picture_bands_channels(options, out, arena)
+                        : channels_compare(&out->reference, &out->test, &out->structure,
+                                           &options->rules, &out->selection, arena);
     out->value[METRIC_DIFFERING] =
         (double)out->channels.differing / (double)out->selection.pixels;
     channels_report(&out->channels, &out->reasons, &out->notes);
-    if (!metrics_measure(options, groups_of(options), arena, out, err)) return false;
+    if (!measure(options, arena, out, err)) return false;
     out->has_pixels = true;
     judge(options, out);
     return true;
@@ -233,7 +249,8 @@ bool compare_files(const char *reference, const char *test, const CompareOptions
 {
     CompareInput a, b;
     double       begun = monotonic_seconds();
-    if (!input_read(reference, arena, &a, err) || !input_read(test, arena, &b, err))
+    if (!input_read(reference, options->whole_pixels, arena, &a, err) ||
+        !input_read(test, options->whole_pixels, arena, &b, err))
         return false;
     if (!compare_inputs(&a, &b, options, arena, out, err)) return false;
     out->seconds = monotonic_seconds() - begun;

@@ -25,6 +25,8 @@ typedef struct CompareOptions {
     double   range_ev[2]; /* low <= high */
     const char *exposure; /* that frames are developed with; NULL: auto of the reference */
     int      threads;     /* at least 1 */
+    long     whole_pixels; /* pictures of more are compared in bands; 0: INPUT_WHOLE_PIXELS */
+    int      band_rows;   /* of those; 0: 128 */
 } CompareOptions;
 
 /* How a display's contrast changed. */

@@ -69,42 +69,86 @@ static float code_at(const Image *image, size_t index)
     return (float)((const uint16_t *)image->pixels)[index] / 65535.0f;
 }
 
-static void read_codes(const Image *image, Arena *arena, CompareInput *input)
+/* count values of one channel from the first on, as codes and as light. */
+static void unpack_8(const uint8_t *packed, size_t count, float *codes, float *light)
 {
-    size_t count = (size_t)image->width * (size_t)image->height;
-    input->kind = INPUT_PICTURE;
-    input->bits = image->format == IMAGE_RGBA8 ? 8 : 16;
-    input->light = input->codes = (Planes){image->width, image->height, {NULL}};
-    for (size_t c = 0; c < 3; c++) {
-        float *codes = ARENA_NEW(arena, float, count), *light = ARENA_NEW(arena, float, count);
-        for (size_t i = 0; i < count; i++) {
-            codes[i] = code_at(image, 4 * i + c);
-            light[i] = linear_from_srgb(codes[i]);
-        }
-        input->codes.rgb[c] = codes;
-        input->light.rgb[c] = light;
+    float table[256];
+    for (int i = 0; i < 256; i++) table[i] = linear_from_srgb((float)i / 255.0f);
+    for (size_t i = 0; i < count; i++) {
+        codes[i] = (float)packed[4 * i] / 255.0f;
+        light[i] = table[packed[4 * i]];
     }
-    bool has_alpha = false;
-    for (size_t i = 0; i < count && !has_alpha; i++) has_alpha = code_at(image, 4 * i + 3) != 1;
-    if (!has_alpha) return;
-    float *alpha = ARENA_NEW(arena, float, count);
-    for (size_t i = 0; i < count; i++) alpha[i] = code_at(image, 4 * i + 3);
-    input->alpha = alpha;
 }
 
-static bool read_picture(FileBytes bytes, Arena *arena, CompareInput *input, Error *err)
+static void unpack_16(const uint16_t *packed, size_t count, float *codes, float *light)
+{
+    for (size_t i = 0; i < count; i++) {
+        codes[i] = (float)packed[4 * i] / 65535.0f;
+        light[i] = linear_from_srgb(codes[i]);
+    }
+}
+
+CodeRows input_unpack(const CompareInput *input, int y0, int y1, Arena *arena)
+{
+    const Image *image = &input->packed;
+    size_t       first = (size_t)y0 * (size_t)image->width;
+    size_t       count = (size_t)(y1 - y0) * (size_t)image->width;
+    CodeRows     rows = {.codes = {image->width, y1 - y0, {NULL}}};
+    rows.light = rows.codes;
+    for (size_t c = 0; c < 3; c++) {
+        float *codes = ARENA_NEW(arena, float, count), *light = ARENA_NEW(arena, float, count);
+        if (image->format == IMAGE_RGBA8)
+            unpack_8((const uint8_t *)image->pixels + 4 * first + c, count, codes, light);
+        else
+            unpack_16((const uint16_t *)image->pixels + 4 * first + c, count, codes, light);
+        rows.codes.rgb[c] = codes;
+        rows.light.rgb[c] = light;
+    }
+    if (!input->has_alpha) return rows;
+    float *alpha = ARENA_NEW(arena, float, count);
+    for (size_t i = 0; i < count; i++) alpha[i] = code_at(image, 4 * (first + i) + 3);
+    rows.alpha = alpha;
+    return rows;
+}
+
+static bool has_alpha(const Image *image)
+{
+    size_t count = (size_t)image->width * (size_t)image->height;
+    for (size_t i = 0; i < count; i++)
+        if (code_at(image, 4 * i + 3) != 1) return true;
+    return false;
+}
+
+static void read_codes(const Image *image, long whole_pixels, Arena *arena, CompareInput *input)
+{
+    input->kind = INPUT_PICTURE;
+    input->bits = image->format == IMAGE_RGBA8 ? 8 : 16;
+    input->packed = *image;
+    input->has_alpha = has_alpha(image);
+    input->light = input->codes = (Planes){image->width, image->height, {NULL}};
+    if ((long)image->width * image->height > (whole_pixels ? whole_pixels : INPUT_WHOLE_PIXELS))
+        return;
+    CodeRows rows = input_unpack(input, 0, image->height, arena);
+    input->codes = rows.codes;
+    input->light = rows.light;
+    input->alpha = rows.alpha;
+}
+
+static bool read_picture(FileBytes bytes, long whole_pixels, Arena *arena, CompareInput *input,
+                         Error *err)
 {
     Image image;
     if (!image_read_memory(bytes.data, bytes.size, input->name, arena, &image, err))
         return false;
     if (image.format == IMAGE_RGBA32F) return frame_from_floats(&image, arena, input, err);
-    read_codes(&image, arena, input);
+    read_codes(&image, whole_pixels, arena, input);
     return true;
 }
 
 /* ---- both -------------------------------------------------------------------------------- */
 
-bool input_read(const char *path, Arena *arena, CompareInput *out, Error *err)
+bool input_read(const char *path, long whole_pixels, Arena *arena, CompareInput *out,
+                Error *err)
 {
     static const unsigned char EXR[4] = {0x76, 0x2f, 0x31, 0x01};
     Arena                      file = arena_reserve(MAX_FILE_BYTES + 4096);
@@ -114,7 +158,7 @@ bool input_read(const char *path, Arena *arena, CompareInput *out, Error *err)
     if (ok && bytes.size >= sizeof EXR && !memcmp(bytes.data, EXR, sizeof EXR))
         ok = read_frame(bytes, arena, &input, err);
     else if (ok)
-        ok = read_picture(bytes, arena, &input, err);
+        ok = read_picture(bytes, whole_pixels, arena, &input, err);
     arena_release(&file);
     if (ok) *out = input;
     return ok;

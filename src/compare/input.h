@@ -11,6 +11,7 @@
 #pragma once
 #include "compare/metrics/planes.h"
 #include "image/frame.h"
+#include "image/image.h"
 
 typedef enum InputKind { INPUT_FRAME, INPUT_PICTURE } InputKind;
 
@@ -22,10 +23,31 @@ typedef struct CompareInput {
     bool        has_metadata; /* OpenEXR */
     FrameImage  frame;        /* frames: channels, windows, attributes */
     int         bits;         /* pictures: 8 or 16 */
+    bool        has_alpha;    /* pictures: it is not 1 everywhere */
     const float *alpha;       /* pictures: 0 .. 1; NULL when all of it is 1 */
+    Image       packed;       /* pictures: as decoded, 4 or 8 bytes a pixel */
 } CompareInput;
 
-bool input_read(const char *path, Arena *arena, CompareInput *out, Error *err);
+/* A picture of more than so many pixels stays packed: its planes are sizes only. */
+#define INPUT_WHOLE_PIXELS (1L << 26)
+
+/* whole_pixels: 0 for INPUT_WHOLE_PIXELS. */
+bool input_read(const char *path, long whole_pixels, Arena *arena, CompareInput *out,
+                Error *err);
+
+static inline bool input_is_packed(const CompareInput *input)
+{
+    return input->kind == INPUT_PICTURE && !input->codes.rgb[0];
+}
+
+/* Some rows of a picture, as planes of so many rows. */
+typedef struct CodeRows {
+    Planes       codes, light;
+    const float *alpha; /* NULL as above */
+} CodeRows;
+
+/* Rows [y0, y1) of a picture, from its packed codes. */
+CodeRows input_unpack(const CompareInput *input, int y0, int y1, Arena *arena);
 
 /* False, and what to do about it, for a frame against a picture. */
 bool input_check_kinds(const CompareInput *reference, const CompareInput *test, Error *err);

@@ -101,6 +101,38 @@ static Planes shown_light(const Planes *codes, Arena *arena)
     return planes;
 }
 
+/* ---- what is kept ------------------------------------------------------------------------ */
+
+void metrics_set_errors(const PixelErrors *errors, unsigned groups, Comparison *out)
+{
+    if (groups & GROUP_MSE) {
+        out->value[METRIC_MSE] = errors->mse;
+        out->value[METRIC_RELMSE] = errors->rel_mse;
+        out->value[METRIC_MAE] = errors->mae;
+        out->value[METRIC_MAX_DIFFERENCE] = errors->max_difference;
+        out->value[METRIC_MEAN_SHIFT] = errors->mean_shift;
+    }
+    if (groups & GROUP_PSNR) {
+        out->value[METRIC_PSNR] = errors->psnr_db;
+        out->psnr_peak = errors->peak;
+    }
+}
+
+void metrics_set_flip(const FlipSummary *flip, Comparison *out)
+{
+    out->value[METRIC_FLIP] = flip->mean;
+    out->value[METRIC_FLIP_MEDIAN] = flip->median;
+    out->value[METRIC_FLIP_P95] = flip->p95;
+    out->value[METRIC_FLIP_MAX] = flip->max;
+}
+
+void metrics_set_deltae(const DeltaE *deltae, Comparison *out)
+{
+    out->value[METRIC_DELTAE_MEAN] = deltae->mean;
+    out->value[METRIC_DELTAE_P95] = deltae->p95;
+    out->value[METRIC_DELTAE_MAX] = deltae->max;
+}
+
 /* ---- metrics ----------------------------------------------------------------------------- */
 
 static void measure_errors(unsigned groups, Arena scratch, Comparison *out)
@@ -109,21 +141,11 @@ static void measure_errors(unsigned groups, Arena scratch, Comparison *out)
     const Planes *a = is_frame ? &out->light[0] : &out->reference.codes;
     const Planes *b = is_frame ? &out->light[1] : &out->test.codes;
     PixelErrors   e = pixel_errors_measure(a, b, out->mask, is_frame, scratch);
-    if (groups & GROUP_MSE) {
-        out->value[METRIC_MSE] = e.mse;
-        out->value[METRIC_RELMSE] = e.rel_mse;
-        out->value[METRIC_MAE] = e.mae;
-        out->value[METRIC_MAX_DIFFERENCE] = e.max_difference;
-        /* A mean of luminance is one of light. */
-        PixelErrors light = e;
-        if (!is_frame)
-            light = pixel_errors_measure(&out->light[0], &out->light[1], out->mask, 0, scratch);
-        out->value[METRIC_MEAN_SHIFT] = light.mean_shift;
-    }
-    if (groups & GROUP_PSNR) {
-        out->value[METRIC_PSNR] = e.psnr_db;
-        out->psnr_peak = e.peak;
-    }
+    /* A mean of luminance is one of light. */
+    if (!is_frame)
+        e.mean_shift = pixel_errors_measure(&out->light[0], &out->light[1], out->mask, 0,
+                                            scratch).mean_shift;
+    metrics_set_errors(&e, groups, out);
 }
 
 static void note_silly_range(Comparison *out)
@@ -154,10 +176,7 @@ static void measure_flip(const CompareOptions *options, Arena *arena, Comparison
         flip_ldr(&out->light[0], &out->light[1], &flip, *arena, out->flip_map);
     }
     FlipSummary s = flip_summary(out->flip_map, count, out->mask);
-    out->value[METRIC_FLIP] = s.mean;
-    out->value[METRIC_FLIP_MEDIAN] = s.median;
-    out->value[METRIC_FLIP_P95] = s.p95;
-    out->value[METRIC_FLIP_MAX] = s.max;
+    metrics_set_flip(&s, out);
 }
 
 static void measure_colour(Arena *arena, Comparison *out)
@@ -168,9 +187,7 @@ static void measure_colour(Arena *arena, Comparison *out)
     Planes a = is_frame ? shown_light(&out->reference.codes, &scratch) : out->light[0];
     Planes b = is_frame ? shown_light(&out->test.codes, &scratch) : out->light[1];
     DeltaE e = deltae_pictures(&a, &b, out->mask, out->deltae_map);
-    out->value[METRIC_DELTAE_MEAN] = e.mean;
-    out->value[METRIC_DELTAE_P95] = e.p95;
-    out->value[METRIC_DELTAE_MAX] = e.max;
+    metrics_set_deltae(&e, out);
 }
 
 /* ---- displays ---------------------------------------------------------------------------- */
@@ -267,9 +284,6 @@ bool metrics_measure(const CompareOptions *options, unsigned groups, Arena *aren
                      Comparison *out, Error *err)
 {
     bool is_frame = out->reference.kind == INPUT_FRAME;
-    if (options->wants_stat && !is_frame)
-        return error_at(err, ERROR_INPUT, out->reference.name, "",
-                        "is a picture: only frames tell their noise to a statistical test");
     clean_light(out, arena);
     if (groups & (GROUP_MSE | GROUP_PSNR)) measure_errors(groups, *arena, out);
     if (groups & GROUP_FLIP) measure_flip(options, arena, out);

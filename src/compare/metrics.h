@@ -7,6 +7,7 @@
  */
 #pragma once
 #include "compare/comparison.h"
+#include "compare/metrics/deltae.h"
 
 /* Codes of both frames, developed with one exposure: for those who look at them. Pictures have
  * theirs. */
@@ -16,6 +17,11 @@ bool metrics_develop(const CompareOptions *options, Arena *arena, Comparison *ou
  * same pixels; adds notes. groups: GROUP_... bits. */
 bool metrics_measure(const CompareOptions *options, unsigned groups, Arena *arena,
                      Comparison *out, Error *err);
+
+/* Errors, FLIP and colour differences among the values of `out`, the groups' ones. */
+void metrics_set_errors(const PixelErrors *errors, unsigned groups, Comparison *out);
+void metrics_set_flip(const FlipSummary *flip, Comparison *out);
+void metrics_set_deltae(const DeltaE *deltae, Comparison *out);
 
 /* EV of a factor 2^stops of light, and back: 18 % grey of exposure.h becomes 0.18. */
 double ev_of_stops(double stops);

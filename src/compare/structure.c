@@ -99,9 +99,9 @@ static void compare_pictures(const CompareInput *reference, const CompareInput *
     if (reference->bits != test->bits)
         lines_add(notes, "the reference has %d bits, the test %d: codes are compared as "
                   "fractions", reference->bits, test->bits);
-    if (!reference->alpha != !test->alpha && !metadata_ignores(rules, "A"))
+    if (reference->has_alpha != test->has_alpha && !metadata_ignores(rules, "A"))
         lines_add(reasons, "only the %s is transparent in places (--ignore A leaves that out)",
-                  reference->alpha ? "reference" : "test");
+                  reference->has_alpha ? "reference" : "test");
 }
 
 /* ---- both ------------------------------------------------------------------------------- */

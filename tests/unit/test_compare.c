@@ -1,5 +1,6 @@
 /* Two sides of a comparison: what is read, what always differs, limits, which pixels count. */
 #include "compare_fixture.h"
+#include "base/count.h"
 #include "compare/metrics.h"
 
 /* ---- reading ----------------------------------------------------------------------------- */
@@ -11,16 +12,16 @@ TEST(a_written_frame_is_read_as_light)
     CompareInput made = frame_input("x", &arena), read, again;
     const char  *path = in_folder("a.exr");
     assert_true(frame_write(path, &made.frame, &err));
-    assert_true(input_read(path, &arena, &read, &err));
+    assert_true(input_read(path, 0, &arena, &read, &err));
     assert_int_equal(read.kind, INPUT_FRAME);
     assert_true(read.has_metadata);
     for (int i = 0; i < COUNT; i++) assert_near(read.light.rgb[0][i], i, 0);
-    assert_true(input_read(path, &arena, &again, &err));
+    assert_true(input_read(path, 0, &arena, &again, &err));
     Comparison c = compared(&read, &again, (CompareOptions){0}, &arena);
     assert_true(c.same);
     assert_string_equal(c.verdict, "equal in every pixel");
     unlink(path);
-    assert_false(input_read(path, &arena, &read, &err));
+    assert_false(input_read(path, 0, &arena, &read, &err));
     assert_int_equal(err.code, ERROR_INPUT);
 }
 
@@ -36,7 +37,7 @@ TEST(codes_of_8_and_16_bits_agree)
         const char *path = in_folder(k ? "16.png" : "8.png");
         PictureFile file = {.bits = k ? 16 : 8, .is_srgb = true};
         assert_true(picture_write(path, &picture, file, arena, &err));
-        assert_true(input_read(path, &arena, &read[k], &err));
+        assert_true(input_read(path, 0, &arena, &read[k], &err));
         assert_int_equal(read[k].bits, k ? 16 : 8);
         unlink(path);
     }
@@ -330,6 +331,62 @@ TEST(exposures_are_the_ones_of_develop)
         /* What EV e makes middle grey is 0.125 * 2^e cd/m2 (ISO 2720, K = 12.5). */
         assert_close(0.125 * exp2(ev) * exp2(stops_of_ev(ev)), 0.18, 1e-9);
     }
+}
+
+/* A picture of sRGB codes with edges, ramps and something of chance, and gaps of alpha. */
+static const char *write_picture(const char *name, int change, Arena *arena)
+{
+    enum { ROWS = 61, COLUMNS = 150 };
+    Error       err = {0};
+    const char *path = in_folder(name);
+    Picture     picture = picture_create(COLUMNS, ROWS, arena);
+    uint32_t    chance = 1;
+    for (int i = 0; i < ROWS * COLUMNS * 3; i++) {
+        int x = i / 3 % COLUMNS, y = i / 3 / COLUMNS;
+        chance = chance * 1664525u + 1013904223u;
+        picture.rgb[i] = (float)((x * 3 + y * 5 + (x > 60 ? 90 : 0) + (int)(chance >> 28)) %
+                                 250) / 255;
+        if (change && (x + y) % 7 == 0) picture.rgb[i] += (float)change / 255;
+    }
+    const PictureFile file = {.bits = 8, .is_srgb = true};
+    if (!picture_write(path, &picture, file, *arena, &err)) fail_msg("%s", err.text);
+    return path;
+}
+
+/* In bands, of however many rows, all figures have the bits of whole pictures. */
+TEST(bands_give_the_figures_of_whole_pictures)
+{
+    static const int ROWS[] = {1, 7, 16, 61, 100};
+    Arena       arena = test_arena(state);
+    Error       err = {0};
+    const char *a = write_picture("a.png", 0, &arena), *b = write_picture("b.png", 9, &arena);
+    CompareOptions options = {.threads = 2};
+    Comparison     whole, bands;
+    for (int region = 0; region < 2; region++) {
+        options.selection.has_region = region;
+        options.selection.region = (ExrWindow){3, 5, 140, 50};
+        options.whole_pixels = 0;
+        assert_true(compare_files(a, b, &options, &arena, &whole, &err));
+        for (int k = 0; k < COUNT_OF(ROWS); k++) {
+            options.whole_pixels = 1;
+            options.band_rows = ROWS[k];
+            assert_true(compare_files(a, b, &options, &arena, &bands, &err));
+            assert_true(input_is_packed(&bands.reference) && !input_is_packed(&whole.test));
+            for (int m = 0; m < METRIC_COUNT; m++)
+                if (!isnan(whole.value[m]) || !isnan(bands.value[m]))
+                    assert_true(whole.value[m] == bands.value[m]);
+            assert_true(whole.value[METRIC_FLIP] > 0 && whole.value[METRIC_SSIM] < 1);
+            assert_int_equal(whole.channels.differing, bands.channels.differing);
+            for (int c = 0; c < 3; c++) {
+                assert_true(whole.channels.list[c].mean == bands.channels.list[c].mean);
+                assert_true(whole.channels.list[c].max == bands.channels.list[c].max);
+            }
+            assert_string_equal(whole.verdict, bands.verdict);
+            assert_true(has_note(&bands, "a report has neither the pictures nor maps of FLIP"));
+        }
+    }
+    unlink(a);
+    unlink(b);
 }
 
 /* ---- which pixels count ------------------------------------------------------------------ */

@@ -87,15 +87,21 @@ static double pixel_difference(const ColourMatrix *from_rgb, const float referen
     return deltae_2000(lab_reference, lab_test);
 }
 
-DeltaE deltae_pictures(const Planes *reference, const Planes *test, PixelMask mask, float *map)
+void deltae_map(const Planes *reference, const Planes *test, float *map)
 {
     const ColourMatrix from_rgb = relative_to_white(xyz_from_primaries(REC709_CHROMATICITIES));
-    size_t count = planes_pixel_count(reference), members = 0;
-    double sum = 0;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < planes_pixel_count(reference); i++) {
         const float r[3] = {reference->rgb[0][i], reference->rgb[1][i], reference->rgb[2][i]};
         const float t[3] = {test->rgb[0][i], test->rgb[1][i], test->rgb[2][i]};
         map[i] = (float)pixel_difference(&from_rgb, r, t);
+    }
+}
+
+DeltaE deltae_summary(const float *map, size_t count, PixelMask mask)
+{
+    double sum = 0;
+    size_t members = 0;
+    for (size_t i = 0; i < count; i++) {
         if (mask && !mask[i]) continue;
         sum += (double)map[i];
         members++;
@@ -103,4 +109,10 @@ DeltaE deltae_pictures(const Planes *reference, const Planes *test, PixelMask ma
     return (DeltaE){.mean = members ? sum / (double)members : NAN,
                     .p95 = (double)rank_value(map, count, mask, 0.95),
                     .max = (double)rank_value(map, count, mask, 1)};
+}
+
+DeltaE deltae_pictures(const Planes *reference, const Planes *test, PixelMask mask, float *map)
+{
+    deltae_map(reference, test, map);
+    return deltae_summary(map, planes_pixel_count(reference), mask);
 }

@@ -12,17 +12,6 @@ static float pixel_luminance(const Planes *planes, size_t i)
     return luminance_from_rgb(rgb);
 }
 
-static double mean_luminance(const Planes *planes, PixelMask mask)
-{
-    double sum = 0, members = 0;
-    for (size_t i = 0; i < planes_pixel_count(planes); i++) {
-        if (mask && !mask[i]) continue;
-        sum += (double)pixel_luminance(planes, i);
-        members++;
-    }
-    return sum / members; /* 0 / 0: no pixel, NaN as promised */
-}
-
 static double shift_of(double reference, double test)
 {
     return test == reference ? 0 : test / reference - 1;
@@ -34,27 +23,34 @@ static double relative_square(double square, double reference, double e)
     return square == 0 ? 0 : square / (reference * reference + e * e);
 }
 
-static void add_differences(const Planes *reference, const Planes *test, PixelMask mask,
-                            double e, PixelErrors *out)
+void pixel_errors_add_means(PixelErrorSums *sums, const Planes *reference, const Planes *test,
+                            PixelMask mask, size_t first, size_t end)
 {
-    double members = 0;
-    for (size_t i = 0; i < planes_pixel_count(reference); i++) {
+    for (size_t i = first; i < end; i++) {
         if (mask && !mask[i]) continue;
-        members += 3;
+        sums->luminance[0] += (double)pixel_luminance(reference, i);
+        sums->luminance[1] += (double)pixel_luminance(test, i);
+        sums->members++;
+    }
+    sums->floor = sums->luminance[0] / sums->members / 100;
+}
+
+void pixel_errors_add_differences(PixelErrorSums *sums, const Planes *reference,
+                                  const Planes *test, PixelMask mask, size_t first, size_t end)
+{
+    for (size_t i = first; i < end; i++) {
+        if (mask && !mask[i]) continue;
+        sums->values += 3;
         for (int c = 0; c < 3; c++) {
             double r = (double)reference->rgb[c][i];
             double difference = fabs((double)test->rgb[c][i] - r);
             double square = difference * difference;
-            out->mae += difference;
-            out->mse += square;
-            out->rel_mse += relative_square(square, r, e);
-            if (difference > out->max_difference) out->max_difference = difference;
+            sums->mae += difference;
+            sums->mse += square;
+            sums->rel_mse += relative_square(square, r, sums->floor);
+            if (difference > sums->max_difference) sums->max_difference = difference;
         }
     }
-    out->mae /= members;
-    out->mse /= members;
-    out->rel_mse /= members;
-    if (members == 0) out->max_difference = NAN;
 }
 
 static double bright_luminance(const Planes *planes, PixelMask mask, Arena scratch)
@@ -71,15 +67,28 @@ static double psnr_db(double peak, double mse)
     return peak > 0 ? 10 * log10_d(peak * peak / mse) : peak <= 0 ? -INFINITY : NAN;
 }
 
+/* 0 / 0 where no pixel counts: NaN as promised. */
+PixelErrors pixel_errors_of(const PixelErrorSums *sums, double peak)
+{
+    double mse = sums->mse / sums->values;
+    return (PixelErrors){
+        .mae = sums->mae / sums->values,
+        .mse = mse,
+        .rel_mse = sums->rel_mse / sums->values,
+        .max_difference = sums->values > 0 ? sums->max_difference : (double)NAN,
+        .psnr_db = psnr_db(peak, mse),
+        .peak = peak,
+        .mean_shift = shift_of(sums->luminance[0] / sums->members,
+                               sums->luminance[1] / sums->members),
+    };
+}
+
 PixelErrors pixel_errors_measure(const Planes *reference, const Planes *test, PixelMask mask,
                                  bool is_light, Arena scratch)
 {
-    double      mean = mean_luminance(reference, mask);
-    PixelErrors errors = {
-        .peak = is_light ? bright_luminance(reference, mask, scratch) : 1,
-        .mean_shift = shift_of(mean, mean_luminance(test, mask)),
-    };
-    add_differences(reference, test, mask, mean / 100, &errors);
-    errors.psnr_db = psnr_db(errors.peak, errors.mse);
-    return errors;
+    PixelErrorSums sums = {0};
+    size_t         count = planes_pixel_count(reference);
+    pixel_errors_add_means(&sums, reference, test, mask, 0, count);
+    pixel_errors_add_differences(&sums, reference, test, mask, 0, count);
+    return pixel_errors_of(&sums, is_light ? bright_luminance(reference, mask, scratch) : 1);
 }

@@ -25,6 +25,22 @@ typedef struct PixelErrors {
                          both are black, infinite when only the reference is */
 } PixelErrors;
 
+/* What the errors are made of: sums over pixels, one after the other, so that a picture that is
+ * added in pieces from its top gives the same bits as one that is added whole. */
+typedef struct PixelErrorSums {
+    double luminance[2], members; /* reference, test; pixels */
+    double floor;                 /* e of rel_mse */
+    double mae, mse, rel_mse, max_difference, values;
+} PixelErrorSums;
+
+/* First of all pixels the means, then of all pixels the differences, which need them. Pixels
+ * [first, end) of both. */
+void pixel_errors_add_means(PixelErrorSums *sums, const Planes *reference, const Planes *test,
+                            PixelMask mask, size_t first, size_t end);
+void pixel_errors_add_differences(PixelErrorSums *sums, const Planes *reference,
+                                  const Planes *test, PixelMask mask, size_t first, size_t end);
+PixelErrors pixel_errors_of(const PixelErrorSums *sums, double peak);
+
 /* is_light: the planes are cd m^-2. */
 PixelErrors pixel_errors_measure(const Planes *reference, const Planes *test, PixelMask mask,
                                  bool is_light, Arena scratch);

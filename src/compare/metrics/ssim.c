@@ -2,7 +2,7 @@
 
 #include "base/mathd.h"
 
-enum { RADIUS = 5, TAPS = 2 * RADIUS + 1 };
+enum { RADIUS = SSIM_RADIUS, TAPS = 2 * RADIUS + 1 };
 
 /* What is averaged over a window: the weight itself and the moments of the two lumas. */
 enum { WEIGHT, R, T, RR, TT, RT, MOMENTS };
@@ -96,23 +96,37 @@ static SsimWindow window_create(const Planes *reference, const Planes *test, Pix
     return window;
 }
 
+/* map may be NULL. */
+static void add_rows(const SsimWindow *window, const int rows[2], float *map, SsimSum *sum)
+{
+    int width = window->reference->width, height = window->reference->height;
+    int filtered = rows[0] > RADIUS ? rows[0] - RADIUS : 0; /* the next row to filter */
+    for (int y = rows[0]; y < rows[1]; y++) {
+        for (; filtered < height && filtered <= y + RADIUS; filtered++)
+            filter_row(window, filtered);
+        for (int x = 0; x < width; x++) {
+            size_t i = (size_t)y * (size_t)width + (size_t)x;
+            double value = pixel_similarity(window, x, y);
+            if (map) map[i] = (float)value;
+            if (window->mask && !window->mask[i]) continue;
+            sum->sum += value;
+            sum->members++;
+        }
+    }
+}
+
+void ssim_add_rows(SsimSum *sum, const Planes *reference, const Planes *test, PixelMask mask,
+                   const int rows[2], Arena scratch)
+{
+    const SsimWindow window = window_create(reference, test, mask, &scratch);
+    add_rows(&window, rows, NULL, sum);
+}
+
 double ssim_mean(const Planes *reference, const Planes *test, PixelMask mask, float *map,
                  Arena scratch)
 {
     const SsimWindow window = window_create(reference, test, mask, &scratch);
-    double           sum = 0, members = 0;
-    int              filtered = 0; /* rows so far */
-    for (int y = 0; y < reference->height; y++) {
-        for (; filtered < reference->height && filtered <= y + RADIUS; filtered++)
-            filter_row(&window, filtered);
-        for (int x = 0; x < reference->width; x++) {
-            size_t i = (size_t)y * (size_t)reference->width + (size_t)x;
-            double value = pixel_similarity(&window, x, y);
-            if (map) map[i] = (float)value;
-            if (mask && !mask[i]) continue;
-            sum += value;
-            members++;
-        }
-    }
-    return sum / members; /* 0 / 0: no pixel, NaN as promised */
+    SsimSum          sum = {0};
+    add_rows(&window, (const int[2]){0, reference->height}, map, &sum);
+    return sum.sum / sum.members; /* 0 / 0: no pixel, NaN as promised */
 }

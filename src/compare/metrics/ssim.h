@@ -11,6 +11,18 @@
 #include "base/arena.h"
 #include "compare/metrics/planes.h"
 
+/* Of pixels one after the other, so that rows that are added piece by piece from the top give
+ * the same bits as a whole picture. */
+typedef struct SsimSum {
+    double sum, members; /* the mean is their quotient */
+} SsimSum;
+
+enum { SSIM_RADIUS = 5 }; /* pixels that a window reaches up, down, left and right */
+
+/* Adds rows [y0, y1). Rows around them that the planes hold belong to their windows. */
+void ssim_add_rows(SsimSum *sum, const Planes *reference, const Planes *test, PixelMask mask,
+                   const int rows[2], Arena scratch);
+
 /* Mean over the pixels that count; 1 for equal pictures, NaN when none counts. Windows that
  * reach out of the picture or over masked pixels are cut off there and weighted anew.
  * map (may be NULL): one value a pixel; 1 where nothing in the window counts. */

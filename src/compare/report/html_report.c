@@ -142,13 +142,20 @@ static void add_sides(Text *html, const char *reference, const char *test)
     text_add(html, "</p>\n");
 }
 
+static bool has_planes(const Comparison *c)
+{
+    return !input_is_packed(&c->reference) && !input_is_packed(&c->test);
+}
+
 static bool add_pair(Text *html, const Comparison *c, const CompareOptions *options,
                      long most_pixels, Arena scratch, Error *err)
 {
     add_verdict(html, c);
     add_sides(html, c->reference.name, c->test.name);
     html_add_keys(html, c, options);
-    if (c->has_pixels ? !add_shots(html, c, most_pixels, scratch, err)
+    if (!has_planes(c))
+        text_add(html, "<p class=\"sub\">Too large to be shown.</p>\n");
+    else if (c->has_pixels ? !add_shots(html, c, most_pixels, scratch, err)
                       : !add_both_sides(html, c, most_pixels, scratch, err))
         return false;
     html_add_tables(html, c, options);
@@ -175,10 +182,12 @@ static bool add_card(HtmlReport *report, const char *name, const Comparison *c, 
     char     flip[64] = "";
     Text    *html = &report->index;
     ShotKind kind = c->same ? SHOT_REFERENCE : SHOT_TEST;
-    Picture  small = shot_thumbnail(c, kind, THUMBNAIL, &scratch);
     text_format(html, c->same ? "<div class=\"card same\">"
                               : "<a class=\"card\" href=\"#pair-%d\">", report->count);
-    if (!page_picture(html, "", &small, true, scratch, err)) return false;
+    if (has_planes(c)) {
+        Picture small = shot_thumbnail(c, kind, THUMBNAIL, &scratch);
+        if (!page_picture(html, "", &small, true, scratch, err)) return false;
+    }
     if (!isnan(c->value[METRIC_FLIP]))
         snprintf(flip, sizeof flip, "<br>FLIP %.3g", c->value[METRIC_FLIP]);
     add_card_text(html, name, c->same ? "same" : "different", c->verdict, flip);
