@@ -51,8 +51,9 @@ static bool parse(int argc, char **argv, Arena *arena, DevelopWords *out, Error 
            (!o->exposure || exposure_parse(o->exposure, &unused, err));
 }
 
-static bool print_json(const DevelopWords *typed, const DevelopReport *r, Error *err)
+static bool print_json(const DevelopWords *typed, const LookReport *look, Error *err)
 {
+    const DevelopReport *r = &look->develop;
     json_t *answer = json_pack("{s:o, s:[i,i], s:I}", "output", json_text(typed->output),
                                "size", r->width, r->height, "nonfinite_pixels",
                                (json_int_t)r->nonfinite_pixels);
@@ -62,17 +63,20 @@ static bool print_json(const DevelopWords *typed, const DevelopReport *r, Error 
         json_object_set_new(answer, "view", json_text(r->view));
         json_object_set_new(answer, "exposure_ev", json_real(r->ev));
         json_object_set_new(answer, "middle_grey_cd_m2", json_real(r->grey_cd_m2));
+        look_options_json(look, answer);
     } else if (r->scale[0]) {
         json_object_set_new(answer, "scale", json_text(r->scale));
     }
     return cli_print_json(answer, err);
 }
 
-static void print_text(const DevelopWords *typed, const DevelopReport *r)
+static void print_text(const DevelopWords *typed, const LookReport *look, Arena scratch)
 {
+    const DevelopReport *r = &look->develop;
     if (r->is_developed)
-        printf("%s: %s, %s, middle grey %.4g cd/m2 (EV %.2f), %s\n", typed->output, r->display,
-               r->view, r->grey_cd_m2, r->ev, r->config);
+        printf("%s: %s, %s, middle grey %.4g cd/m2 (EV %.2f), %s%s\n", typed->output,
+               r->display, r->view, r->grey_cd_m2, r->ev, r->config,
+               look_options_words(look, &scratch));
     else
         printf("%s%s%s\n", typed->output, r->scale[0] ? ": " : "", r->scale);
 }
@@ -80,16 +84,16 @@ static void print_text(const DevelopWords *typed, const DevelopReport *r)
 static bool develop(DevelopWords *typed, Arena *arena, Error *err)
 {
     FrameImage    frame;
-    DevelopReport report;
+    LookReport    look;
     if (!frame_read(typed->frame, arena, &frame, err)) return false;
-    if (!develop_frame(&frame, &typed->options, typed->output, *arena, &report, err))
-        return false;
-    if (report.is_developed && report.nonfinite_pixels > 0)
+    const LookRequest request = {&frame, &typed->options, typed->output, typed->cli.threads};
+    if (!look_options_develop(&request, *arena, &look, err)) return false;
+    if (look.develop.is_developed && look.develop.nonfinite_pixels > 0)
         fprintf(stderr,
                 "parhelion: warning: %s: %ld pixels are not finite: NaN is shown black, "
-                "infinity white\n", typed->frame, report.nonfinite_pixels);
-    if (typed->cli.json) return print_json(typed, &report, err);
-    print_text(typed, &report);
+                "infinity white\n", typed->frame, look.develop.nonfinite_pixels);
+    if (typed->cli.json) return print_json(typed, &look, err);
+    print_text(typed, &look, *arena);
     return true;
 }
 

@@ -215,7 +215,7 @@ FilmPixel film_pixel(const Film *film, int x, int y)
         pixel.mean_xyz[i] = double_from_fixed(sums->xyz[i], FIXED_BITS) / (double)sums->samples;
     pixel_variance(sums, pixel.variance_rgb);
     double halves[3];
-    pixel.sigma_y = pixel_halves(sums, halves) ? sigma_of_halves(halves[1])
+    pixel.sigma_y = pixel_halves(sums, BLOCK_SAMPLES, halves) ? sigma_of_halves(halves[1])
                                                : sigma_of_spread(pixel.variance_rgb);
     return pixel;
 }

@@ -126,7 +126,8 @@ static void read_halves(const Film *film, const PixelSums *sums, float v[3])
     (void)film;
     double halves[3];
     float  xyz[3];
-    if (!pixel_halves(sums, halves)) halves[0] = halves[1] = halves[2] = (double)NAN;
+    if (!pixel_halves(sums, BLOCK_LEAST, halves))
+        halves[0] = halves[1] = halves[2] = (double)NAN;
     for (int i = 0; i < 3; i++) xyz[i] = (float)halves[i];
     rgb_from_xyz(xyz, v);
 }

@@ -20,5 +20,5 @@
  *       the expectation of the variance of the pixel's mean, if the halves are independent.
  *       Sobol points' halves fill each other's gaps: measured between frames of two seeds, its
  *       root mean square is 0 to 6 % too large at 32 samples, 12 % at 256 (that of `variance`
- *       7 to 29 %). NaN below 32 samples. */
+ *       7 to 29 %). NaN below 24 samples: the smaller half has 8 of them there. */
 FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena);

@@ -46,10 +46,10 @@ void pixel_variance(const PixelSums *sums, double variance[3])
     }
 }
 
-bool pixel_halves(const PixelSums *sums, double xyz[3])
+bool pixel_halves(const PixelSums *sums, int least, double xyz[3])
 {
     double n = (double)sums->samples, odd = (double)sums->odd_samples, even = n - odd;
-    if (odd < BLOCK_SAMPLES || even < BLOCK_SAMPLES) return false;
+    if (odd < least || even < least) return false;
     for (int i = 0; i < 3; i++) {
         double odd_sum = double_from_fixed(sums->odd_xyz[i], FIXED_BITS);
         double even_sum = double_from_fixed(sums->xyz[i] - sums->odd_xyz[i], FIXED_BITS);

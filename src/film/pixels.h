@@ -18,6 +18,7 @@ __extension__ typedef __int128 Fixed;
 #define VALUE_LIMIT 0x1p47f
 #define NO_SAMPLE 0xffffffffu
 #define BLOCK_SAMPLES 16 /* consecutive samples that are well spread among themselves */
+#define BLOCK_LEAST 8    /* that still are: the half of a block */
 
 /* Layers with sums of their own. */
 typedef enum LayerSums {
@@ -59,9 +60,9 @@ int      layer_sums_size(LayerSums sums);
 /* From the difference of two interleaved halves of the samples, each a mean of whole blocks
  * that are spread evenly: XYZ whose square has the expectation of the variance of the pixel's
  * mean, as if the halves were independent, but not the samples:
- * (a - b) sqrt(n_a n_b) / (n_a + n_b), half the difference for halves of one size. False below
- * 2 BLOCK_SAMPLES: one half is missing. */
-bool pixel_halves(const PixelSums *sums, double xyz[3]);
+ * (a - b) sqrt(n_a n_b) / (n_a + n_b), half the difference for halves of one size. False when
+ * one half has fewer than `least` samples. */
+bool pixel_halves(const PixelSums *sums, int least, double xyz[3]);
 
 /* Unbiased variance of the mean of linear Rec.709 R, G, B, (cd m^-2)^2; NaN below 2 samples. */
 void pixel_variance(const PixelSums *sums, double variance[3]);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/adapt.h"
 #include "image/colour.h"
 #include "image/exposure.h"
 #include "image/icc_profile.h"
@@ -82,12 +83,27 @@ static bool find_exposure(const LayerView *view, const char *exposure, Arena scr
     return true;
 }
 
-static bool develop_light(const LayerView *view, const DevelopOptions *options, Arena *arena,
+static void adapt(LayerView *view, double grey, Arena *arena)
+{
+    const float *luminance = layer_view_luminance(view, arena);
+    const float *gains = adapt_gains(luminance, view->width, view->height, (float)grey, arena);
+    for (int c = 0; c < 3; c++) {
+        size_t count = (size_t)view->width * (size_t)view->height;
+        float *plane = ARENA_NEW(arena, float, count);
+        for (size_t i = 0; i < count; i++) plane[i] = view->planes[c][i] * gains[i];
+        view->planes[c] = plane;
+    }
+}
+
+static bool develop_light(LayerView *view, const DevelopOptions *options, Arena *arena,
                           Picture *out, DevelopReport *report, Error *err)
 {
     if (!find_exposure(view, options->exposure, *arena, &report->grey_cd_m2, err)) return false;
     report->ev = exposure_ev_of_grey(report->grey_cd_m2);
     report->is_developed = true;
+    report->is_adapted = options->adapt == DEVELOP_ADAPT_LOCAL;
+    report->is_denoised = options->is_denoised;
+    if (report->is_adapted) adapt(view, report->grey_cd_m2, arena);
     float scale = (float)(MIDDLE_GREY / report->grey_cd_m2);
     *out = exposed(view, scale, &report->nonfinite_pixels, arena);
     return apply_view(out, options, report, err);
@@ -107,6 +123,18 @@ static bool set_range(const DevelopOptions *options, LayerView *view, Error *err
     return true;
 }
 
+/* What makes a picture pleasant makes its numbers wrong. */
+static bool check_adapt(const DevelopOptions *options, const LayerView *view, Error *err)
+{
+    if (options->adapt == DEVELOP_ADAPT_NONE) return true;
+    if (options->false_colour)
+        return error_set(err, ERROR_USAGE, "--adapt local and --false-colour exclude each "
+                         "other: colours that stand for figures show the frame as it is");
+    return view->show == SHOW_LIGHT ||
+           error_set(err, ERROR_USAGE, "--adapt local: layer \"%s\" is not light",
+                     options->layer);
+}
+
 bool develop_picture(const FrameImage *frame, const DevelopOptions *options, Arena *arena,
                      Picture *out, DevelopReport *report, Error *err)
 {
@@ -115,6 +143,7 @@ bool develop_picture(const FrameImage *frame, const DevelopOptions *options, Are
     Picture       picture;
     if (!layer_view_find(frame, options->layer, arena, &view, err))
         return error_in_file(err, options->frame_name);
+    if (!check_adapt(options, &view, err)) return false;
     if (options->false_colour) {
         if (view.show != SHOW_LIGHT)
             return error_at(err, ERROR_USAGE, options->frame_name, "",
@@ -142,7 +171,9 @@ bool develop_picture(const FrameImage *frame, const DevelopOptions *options, Are
 static const char *description(const DevelopReport *report, Arena *arena)
 {
     if (!report->is_developed) return report->scale[0] ? report->scale : NULL;
-    return arena_format(arena, "middle grey %.6g cd/m2 (EV %.3f), display %s, view %s, %s",
+    return arena_format(arena, "%s%smiddle grey %.6g cd/m2 (EV %.3f), display %s, view %s, %s",
+                        report->is_denoised ? "denoised preview, not for figures; " : "",
+                        report->is_adapted ? "locally adapted, not for figures; " : "",
                         report->grey_cd_m2, report->ev, report->display, report->view,
                         report->config);
 }

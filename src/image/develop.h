@@ -10,6 +10,8 @@
 #include "image/frame.h"
 #include "image/picture.h"
 
+enum { DEVELOP_ADAPT_NONE, DEVELOP_ADAPT_LOCAL };
+
 /* {0} is the default. */
 typedef struct DevelopOptions {
     const char *exposure; /* NULL "auto"; see exposure.h */
@@ -19,6 +21,8 @@ typedef struct DevelopOptions {
     const char *layer;    /* NULL: R, G, B of the frame itself */
     bool        false_colour; /* luminance on a logarithmic scale */
     double      range[2];     /* of false colours; both 0: what fits the frame */
+    int         adapt;    /* DEVELOP_ADAPT_NONE or _LOCAL: adapt.h */
+    bool        is_denoised; /* the frame is a filtered one: said with the picture */
     int         bits;     /* 0 or 8, or 16 */
     const char *frame_name; /* for messages about its layers; may be NULL */
 } DevelopOptions;
@@ -28,6 +32,7 @@ typedef struct DevelopReport {
     bool   is_developed;  /* by a view transform; false for data shown as it is */
     double grey_cd_m2;    /* what became middle grey; 0 when not developed */
     double ev;            /* the same as an exposure value */
+    bool   is_adapted, is_denoised; /* as asked: a look, of which no figure may be taken */
     char   config[1024], display[128], view[128]; /* "" when not developed */
     long   nonfinite_pixels; /* of light: NaN is shown black, infinity white */
     char   scale[160];    /* of false colours: "0.1 to 1000 cd/m^2, logarithmic", else "" */

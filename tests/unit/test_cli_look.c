@@ -33,7 +33,8 @@ static void add(FrameImage *frame, const char *name, float left, float right, Ar
 
 static int remove_pictures(void **state)
 {
-    static const char *const NAMES[] = {"f.exr", "a.png", "b.png", "c.tif", "d.jpg", "e.png"};
+    static const char *const NAMES[] = {"f.exr", "a.png", "b.png", "c.tif", "d.jpg", "e.png",
+                                        "n.exr", "n.png"};
     for (size_t i = 0; i < sizeof NAMES / sizeof *NAMES; i++) unlink(in_folder(NAMES[i]));
     return remove_folder(state);
 }
@@ -141,6 +142,79 @@ TEST(wrong_uses_have_their_status)
     Outcome o = run("develop none.exr -o x.png 2>&1");
     assert_string_equal(o.out, "parhelion: none.exr: cannot be opened: No such file or "
                                "directory\n");
+}
+
+/* The frame of write_frame with all that the filter goes by. */
+static void write_layers(void **state)
+{
+    static const char *const GIVEN[] = {"normal.X", "normal.Y", "normal.Z", "albedo.R",
+                                        "albedo.G", "albedo.B", "depth.Z", "halves.R",
+                                        "halves.G", "halves.B"};
+    Arena      arena = test_arena(state);
+    FrameImage frame;
+    Error      err = {0};
+    assert_true(frame_read(in_folder("f.exr"), &arena, &frame, &err));
+    for (size_t i = 0; i < sizeof GIVEN / sizeof *GIVEN; i++)
+        add(&frame, GIVEN[i], 0.5f, 0.5f, &arena);
+    for (const char *c = "RGB"; *c; c++)
+        add(&frame, arena_format(&arena, "display.emitted.%c", *c), 96, NAN, &arena);
+    assert_true(frame_write(in_folder("n.exr"), &frame, &err));
+}
+
+static bool picture_says(const char *name, const char *words)
+{
+    Arena     arena = arena_reserve(1 << 20);
+    FileBytes bytes;
+    Error     err = {0};
+    bool      found = false;
+    if (!file_read(in_folder(name), 1 << 19, &arena, &bytes, &err)) fail_msg("%s", err.text);
+    for (size_t i = 0; i + strlen(words) <= bytes.size; i++)
+        found = found || !memcmp((const char *)bytes.data + i, words, strlen(words));
+    arena_release(&arena);
+    return found;
+}
+
+TEST(looks_that_are_no_figures_say_so)
+{
+    write_layers(state);
+    Outcome o = run("develop n.exr -o n.png --denoise --adapt local --json");
+    json_t *j = answer(&o), *denoised = json_object_get(j, "denoised");
+    assert_int_equal(o.status, 0);
+    assert_close(number(denoised, "energy_ratio"), 1, 1e-4);
+    assert_true(json_is_false(json_object_get(denoised, "halves")));
+    assert_string_equal(json_string_value(json_object_get(j, "adapt")), "local");
+    json_decref(j);
+    assert_true(picture_says("n.png", "denoised preview, not for figures; locally adapted, not "
+                                      "for figures; middle grey"));
+    o = run("develop n.exr -o n.png --json");
+    j = answer(&o);
+    assert_true(json_is_null(json_object_get(j, "denoised")));
+    assert_true(json_is_null(json_object_get(j, "adapt")));
+    json_decref(j);
+    assert_false(picture_says("n.png", "not for figures"));
+    assert_non_null(strstr(run("develop n.exr -o n.png --denoise").out, ", denoised (1 of the "
+                           "light, 0 fireflies spread; better from 24 samples on)"));
+}
+
+/* Nothing that gives figures takes a filtered or adapted frame. */
+TEST(figures_are_of_the_frame_alone)
+{
+    (void)state;
+    static const char *const WORDS[] = {
+        "measure n.exr --display cluster --denoise", "measure n.exr --adapt local",
+        "compare n.exr n.exr --denoise", "compare n.exr n.exr --adapt local",
+        "develop n.exr -o n.exr --denoise", "develop n.exr -o n.png --denoise --layer normal",
+        "develop n.exr -o n.png --denoise --false-colour luminance",
+        "develop n.exr -o n.png --adapt local --false-colour luminance",
+        "develop n.exr -o n.png --adapt local --layer normal",
+        "develop n.exr -o n.png --adapt global", "merge n.exr -o m.exr --denoise"};
+    for (size_t i = 0; i < sizeof WORDS / sizeof *WORDS; i++)
+        assert_int_equal(run(WORDS[i]).status, 2);
+    Outcome o = run("develop f.exr -o n.png --denoise 2>&1");
+    assert_int_equal(o.status, 3);
+    assert_non_null(strstr(o.out, "parhelion: f.exr: has not what --denoise goes by (missing: "
+                                  "halves, normal, albedo, depth, display.emitted) — render "
+                                  "it with --layers variance,halves,"));
 }
 
 TEST(help_tells_the_options)

@@ -193,6 +193,23 @@ TEST(a_picture_with_negative_light_is_told_of)
     assert_non_null(strstr(o.err, "hdri:negative.exr: 2 pixels have negative values"));
 }
 
+/* One command renders with the layers that the filter goes by, and filters the picture only. */
+TEST(render_makes_a_denoised_picture_at_once)
+{
+    (void)state;
+    Outcome o;
+    RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--size", "8x6", "--spp", "2", "--png",
+        "a.png", "--denoise", "--adapt", "local");
+    if (o.status) fail_msg("%s", o.err);
+    assert_non_null(strstr(o.out, ", denoised ("));
+    assert_non_null(strstr(o.out, ", locally adapted\n"));
+    RUN(&o, "develop", "a.exr", "-o", "a.png", "--denoise");
+    assert_int_equal(o.status, 0);
+    RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--size", "8x6", "--spp", "2", "--denoise");
+    assert_int_equal(o.status, 2);
+    assert_non_null(strstr(o.err, "a look is asked for, but no picture"));
+}
+
 TEST(an_output_that_cannot_be_written_is_status_4_at_once)
 {
     (void)state;

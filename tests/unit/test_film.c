@@ -357,7 +357,8 @@ TEST(halves_are_the_difference_of_interleaved_blocks)
     Arena arena = test_arena(state);
     Film *film = film_create(WIDTH, HEIGHT, whole, LAYER_HALVES, &arena);
     for (uint32_t i = 80; i-- > 0;) add_grey(film, 0, 0, i, i / 16 % 2 ? 9.0f : 4.0f);
-    for (uint32_t i = 0; i < 31; i++) add_grey(film, 1, 0, i, 4); /* the odd half is short */
+    for (uint32_t i = 0; i < 23; i++) add_grey(film, 1, 0, i, 4); /* the odd half is short */
+    for (uint32_t i = 0; i < 24; i++) add_grey(film, 0, 1, i, i / 16 % 2 ? 9.0f : 4.0f);
     FrameImage frame = film_to_frame(film, 0, &arena);
     float      grey[3] = {1, 1, 1}, rgb[3];
     rgb_from_xyz(grey, rgb);
@@ -367,6 +368,7 @@ TEST(halves_are_the_difference_of_interleaved_blocks)
     assert_close(at(&frame, "halves.B", 0), half * (double)rgb[2], 1e-6);
     assert_close(film_pixel(film, 0, 0).sigma_y, half * sqrt(PI / 2), 1e-6);
     assert_true(isnan(at(&frame, "halves.G", 1)));
+    assert_close(at(&frame, "halves.G", WIDTH), 5 * sqrt(8.0 * 16) / 24 * (double)rgb[1], 1e-6);
 }
 
 /* Over many pixels of independent samples the square of `halves` is their variance. */

@@ -1,10 +1,14 @@
 /* look_options.h -- the options that say how a frame becomes a picture, for the commands that
  * develop one.
  *
- * The rows only name where the words go; develop.h says what they mean and checks them.
+ * The rows only name where the words go; develop.h says what they mean and checks them. What
+ * they ask for is done here, since a frame is denoised before it is developed.
  */
 #pragma once
+#include <jansson.h>
+
 #include "cli/options/cli.h"
+#include "denoise/denoise.h"
 #include "image/develop.h"
 
 /* Rows of an option table; `look` is a DevelopOptions *. */
@@ -18,4 +22,34 @@
     {"--view", OPTION_TEXT, "NAME", "photographic (default), ACES SDR, untonemapped, raw",     \
      .out = &(look)->view},                                                                    \
     {"--config", OPTION_TEXT, "FILE",                                                          \
-     "OpenColorIO configuration; else $OCIO, else the program's own", .out = &(look)->config}
+     "OpenColorIO configuration; else $OCIO, else the program's own", .out = &(look)->config}, \
+    {"--adapt", OPTION_CHOICE, "none|local",                                                   \
+     "local: keeps a dark cabin and a bright street in one picture (default none)",            \
+     .out = &(look)->adapt},                                                                   \
+    {"--denoise", OPTION_FLAG, NULL,                                                           \
+     "filters the noise of few samples away: a preview, not for figures",                      \
+     .out = &(look)->is_denoised}
+
+/* What the picture says of itself besides develop.h's report. */
+typedef struct LookReport {
+    DevelopReport develop;
+    DenoiseReport denoise; /* when develop.is_denoised */
+} LookReport;
+
+typedef struct LookRequest {
+    const FrameImage     *frame;
+    const DevelopOptions *look;
+    const char           *path;
+    int                   threads;
+} LookRequest;
+
+/* develop_frame, of the denoised frame if that is asked for. */
+bool look_options_develop(const LookRequest *request, Arena scratch, LookReport *report,
+                          Error *err);
+
+/* What stands behind the line of a picture: "", or ", denoised (...), locally adapted". */
+const char *look_options_words(const LookReport *report, Arena *arena);
+
+/* Adds "denoised", {"halves","fireflies","energy_ratio"} or null, and "adapt", "local" or
+ * null. */
+void look_options_json(const LookReport *report, json_t *answer);

@@ -7,6 +7,7 @@
 #include "base/file_write.h"
 #include "base/machine.h"
 #include "cli/options/answer.h"
+#include "cli/options/look_options.h"
 #include "cli/render/render_answer.h"
 #include "cli/render/render_commands.h"
 #include "cli/render/render_identity.h"
@@ -194,14 +195,16 @@ static bool report_interruption(const RenderRun *work, const RenderResult *resul
 static bool develop(const RenderRun *work, const RenderResult *result, Error *err)
 {
     Arena         scratch = *work->arena;
-    DevelopReport report;
+    LookReport    look;
     FrameImage    frame = render_make_frame(&work->request, work->scene, &work->camera, result,
                                             &scratch);
-    if (!develop_frame(&frame, &work->request.look, work->request.png, scratch, &report, err))
-        return false;
-    if (work->request.cli.json || !report.is_developed) return true;
-    printf("%s: %s, %s, middle grey %.4g cd/m2, %s\n", work->request.png, report.display,
-           report.view, report.grey_cd_m2, report.config);
+    const LookRequest request = {&frame, &work->request.look, work->request.png,
+                                 work->request.cli.threads};
+    if (!look_options_develop(&request, scratch, &look, err)) return false;
+    if (work->request.cli.json || !look.develop.is_developed) return true;
+    printf("%s: %s, %s, middle grey %.4g cd/m2, %s%s\n", work->request.png,
+           look.develop.display, look.develop.view, look.develop.grey_cd_m2,
+           look.develop.config, look_options_words(&look, &scratch));
     return true;
 }
 

@@ -34,8 +34,9 @@ static int idle_words(const char *word)
     const Option   looks[] = {LOOK_OPTIONS(&look)};
     for (int i = 0; i < COUNT_OF(idle); i++)
         if (is_option(word, idle[i].name)) return words_of(word, idle[i].has_value);
-    for (int i = 0; i < COUNT_OF(looks); i++)
-        if (is_option(word, looks[i].name)) return words_of(word, looks[i].kind != OPTION_FLAG);
+    for (int i = 0; i < COUNT_OF(looks); i++) /* --denoise is not idle: it adds layers */
+        if (looks[i].out != &look.is_denoised && is_option(word, looks[i].name))
+            return words_of(word, looks[i].kind != OPTION_FLAG);
     return 0;
 }
 

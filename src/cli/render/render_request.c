@@ -173,7 +173,7 @@ static bool check_outputs(const RenderRequest *request, Error *err)
 {
     const DevelopOptions *look = &request->look;
     if (!request->png && (look->exposure || look->config || look->display || look->view ||
-                          look->false_colour))
+                          look->false_colour || look->adapt || look->is_denoised))
         return error_set(err, ERROR_USAGE,
                          "a look is asked for, but no picture — add --png FILE");
     if (request->replays) return true;
@@ -202,6 +202,8 @@ static bool check_render(const RenderWords *typed, RenderRequest *request, Error
     if (typed->samples && !parse_samples(typed->samples, options, err)) return false;
     if (typed->noise && !parse_noise(typed->noise, options, err)) return false;
     if (typed->layers && !parse_layers(typed->layers, &options->layers, err)) return false;
+    if (request->look.is_denoised && !parse_layers(DENOISE_LAYERS, &options->layers, err))
+        return false;
     if (typed->has_crop && !parse_crop(typed->crop, options, err)) return false;
     if (typed->has_replay && !parse_replay(typed->replay, options, err)) return false;
     request->replays = typed->has_replay;

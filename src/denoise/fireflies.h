@@ -1,0 +1,12 @@
+/* fireflies.h -- single pixels that one rare sample made far too bright.
+ *
+ * Threads  one; the buffers are changed in place.
+ */
+#pragma once
+#include "denoise/buffers.h"
+
+/* A firefly is a pixel brighter than four times the third brightest of the 24 around, whose
+ * standard error is more than 0.7 of itself. It becomes as bright as that limit. What it had
+ * more is light that was there, and none is lost: it is spread evenly over the pixels of its
+ * kind around. Returns how many there were. */
+long fireflies_spread(DenoiseBuffers *buffers, Arena scratch);

@@ -1,0 +1,114 @@
+"""denoise.py [--only NAME] [--size WxH] [--crop X0,Y0,X1,Y1] [--reference N] [--keep DIR]
+PARHELION -- how close the denoised picture of 24 samples comes to that of 200: FLIP of both,
+and of the picture that was not denoised, to one of many samples, on the views and lights that
+ship.
+
+All pictures of a view have the exposure of its reference. The reference is of another seed; it
+has noise of its own, which counts in every column alike. Frames are kept in DIR (default:
+.build/denoise) and taken from there the next time: after a change of the tracer empty it. What
+is measured is `develop`, of the program that is given.
+"""
+import argparse
+import json
+import os
+import subprocess
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.normpath(os.path.join(HERE, "..", ".."))
+CAR, DECK = "car_dashboard.gltf", "cockpit.gltf"
+LIGHTS = {  # of a scene: the file and how bright the displays are set
+    CAR: {"noon": ("noon.gltf", 100), "night": ("night.gltf", 4)},
+    DECK: {"low_sun": ("low_sun_left.gltf", 100), "dusk": ("dusk.gltf", 6),
+           "cloud": ("cloud_noon.gltf", 100), "night": ("flight_night.gltf", 1)},
+}
+CAMERAS = {CAR: ["driver-eye", "passenger-eye", "outside"],
+           DECK: ["captain", "pfd", "first_officer", "wide"]}
+FEW, MANY = 24, 200
+
+
+def views():
+    """Every camera under every light, the first camera of both scenes first."""
+    for rank in range(4):
+        for scene, cameras in CAMERAS.items():
+            for light, (file, level) in LIGHTS[scene].items():
+                if rank < len(cameras):
+                    yield (f"{cameras[rank]} {light}",
+                           [os.path.join(ROOT, "scenes", scene),
+                            os.path.join(ROOT, "scenes", file), "--camera", cameras[rank],
+                            "--display-level", f"*={level}"])
+
+
+def run(words):
+    done = subprocess.run(words, capture_output=True, text=True)
+    if not done.stdout.startswith("{"):
+        raise SystemExit(done.stdout + done.stderr)
+    return json.loads(done.stdout)
+
+
+class Bench:
+    def __init__(self, arguments):
+        self.program, self.keep = os.path.abspath(arguments.program), arguments.keep
+        self.size, self.reference = arguments.size, arguments.reference
+        self.crop = arguments.crop
+        width, height = (int(side) for side in self.size.split("x"))
+        x0, y0, x1, y1 = (int(side) for side in self.crop.split(","))
+        self.outside = width * height / ((x1 - x0) * (y1 - y0))  # what is black in both
+
+    def path(self, view, name):
+        return os.path.join(self.keep, f"{view.replace(' ', '_')}.{name}")
+
+    def frame(self, view, words, samples, seed):
+        out = self.path(view, f"{self.size}.{samples}.exr")
+        if not os.path.exists(out):
+            run([self.program, "render", *words, "--size", self.size, "--crop", self.crop,
+                 "--spp", str(samples), "--seed", str(seed), "--layers", "all",
+                 "-o", out, "--quiet", "--json"])
+        return out
+
+    def develop(self, view, frame, name, *words):
+        picture = self.path(view, f"{name}.png")
+        answer = run([self.program, "develop", frame, "-o", picture, "--json", *words])
+        return picture, answer
+
+    def flip(self, reference, picture):
+        answer = run([self.program, "compare", reference, picture, "--metric", "flip", "--json",
+                      "--quiet"])
+        return answer["metrics"]["flip"] * self.outside
+
+    def row(self, view, words):
+        few = self.frame(view, words, FEW, 0)
+        many = self.frame(view, words, MANY, 0)
+        wanted, answer = self.develop(view, self.frame(view, words, self.reference, 1), "many")
+        exposure = f"--exposure={answer['exposure_ev']:.6f}"
+        noisy, _ = self.develop(view, few, "noisy", exposure)
+        began = os.times().children_user
+        clean, answer = self.develop(view, few, "denoised", exposure, "--denoise")
+        seconds = os.times().children_user - began
+        later, _ = self.develop(view, many, "later", exposure)
+        figures = [self.flip(wanted, picture) for picture in (noisy, clean, later)]
+        print(f"| {view} | " + " | ".join(f"{f:.4f}" for f in figures) +
+              f" | {answer['denoised']['energy_ratio']:.4f} | {seconds:.1f} |", flush=True)
+        return figures
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--only", default="")
+    parser.add_argument("--size", default="480x270")
+    parser.add_argument("--crop", default="144,100,336,208")
+    parser.add_argument("--reference", type=int, default=512)
+    parser.add_argument("--keep", default=os.path.join(ROOT, ".build", "denoise"))
+    parser.add_argument("program")
+    arguments = parser.parse_args()
+    os.makedirs(arguments.keep, exist_ok=True)
+    bench, rows = Bench(arguments), []
+    print(f"| view | {FEW} | {FEW} denoised | {MANY} | energy | s |\n|---|---|---|---|---|---|")
+    for view, words in views():
+        if arguments.only in view:
+            rows.append(bench.row(view, words))
+    means = [sum(column) / len(rows) for column in zip(*rows)]
+    print("| mean | " + " | ".join(f"{mean:.4f}" for mean in means) + " | | |")
+
+
+if __name__ == "__main__":
+    main()

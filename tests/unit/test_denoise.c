@@ -1,0 +1,354 @@
+/* The preview's filter: what it must leave alone, what it must take away, and that no light is
+ * lost on the way. */
+#include "fixture.h"
+
+#include <string.h>
+
+#include "denoise/denoise.h"
+
+enum { WIDTH = 70, HEIGHT = 50, COUNT = WIDTH * HEIGHT, SAMPLES = 24 };
+
+/* ---- frames ------------------------------------------------------------------------------ */
+
+static float *plane(FrameImage *frame, const char *layer, char letter, Arena *arena)
+{
+    char name[64];
+    snprintf(name, sizeof name, "%s%s%c", layer, *layer ? "." : "", letter);
+    const float *found = frame_channel(frame, name);
+    return found ? (float *)(uintptr_t)found : frame_add_channel(frame, name, false, arena);
+}
+
+static void set(FrameImage *frame, const char *layer, const char *letters, float value,
+                Arena *arena)
+{
+    for (; *letters; letters++) {
+        float *values = plane(frame, layer, *letters, arena);
+        for (size_t i = 0; i < frame_pixel_count(frame); i++) values[i] = value;
+    }
+}
+
+/* A grey wall of 100 cd/m2 that faces the eye: no noise, no display. */
+static FrameImage wall(int width, int height, ExrWindow data, Arena *arena)
+{
+    FrameImage frame = frame_create(width, height, data, 32, 4, arena);
+    set(&frame, "", "RGB", 100, arena);
+    set(&frame, "variance", "RGB", 0, arena);
+    set(&frame, "halves", "RGB", 0, arena);
+    set(&frame, "normal", "XY", 0, arena);
+    set(&frame, "normal", "Z", 1, arena);
+    set(&frame, "albedo", "RGB", 0.5f, arena);
+    set(&frame, "depth", "Z", 2, arena);
+    set(&frame, "display.emitted", "RGB", NAN, arena);
+    set(&frame, "display.reflected", "RGB", NAN, arena);
+    frame_set_string(&frame, "parhelion:samples", "0:24", arena);
+    return frame;
+}
+
+static FrameImage whole_wall(Arena *arena)
+{
+    return wall(WIDTH, HEIGHT, (ExrWindow){0, 0, WIDTH, HEIGHT}, arena);
+}
+
+static double uniform(uint32_t *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return (*state >> 8) * 0x1p-24;
+}
+
+/* Exponentially distributed samples of the given mean, each as noisy as it is bright: the mean
+ * of them, its variance and its halves as the film has them. */
+static void add_noise(FrameImage *frame, const char *layer, float mean, Arena *arena)
+{
+    uint32_t state = 7;
+    for (const char *c = "RGB"; *c; c++) {
+        float *light = plane(frame, "", *c, arena), *part = plane(frame, layer, *c, arena);
+        float *variance = plane(frame, "variance", *c, arena);
+        float *halves = plane(frame, "halves", *c, arena);
+        for (size_t i = 0; i < frame_pixel_count(frame); i++) {
+            double sum[2] = {0, 0}, squares = 0;
+            for (int k = 0; k < SAMPLES; k++) {
+                double value = -log(1 - uniform(&state)) * (double)mean;
+                sum[k >= 16] += value;
+                squares += value * value;
+            }
+            double all = (sum[0] + sum[1]) / SAMPLES;
+            light[i] += (float)all;
+            if (part != light) part[i] = (float)all;
+            variance[i] = (float)((squares / SAMPLES - all * all) / (SAMPLES - 1));
+            halves[i] = (float)((sum[1] / 8 - sum[0] / 16) * sqrt(8.0 * 16) / SAMPLES);
+        }
+    }
+}
+
+static FrameImage noise(const char *samples, Arena *arena)
+{
+    FrameImage frame = whole_wall(arena);
+    set(&frame, "", "RGB", 0, arena);
+    add_noise(&frame, "", 100, arena);
+    frame_set_string(&frame, "parhelion:samples", samples, arena);
+    return frame;
+}
+
+static FrameImage denoised(const FrameImage *frame, int threads, DenoiseReport *report,
+                           Arena *arena)
+{
+    FrameImage out;
+    Error      err = {0};
+    if (!denoise_frame(frame, threads, arena, &out, report, &err)) fail_msg("%s", err.text);
+    assert_memory_equal(&out.data, &frame->data, sizeof out.data);
+    assert_memory_equal(&out.display, &frame->display, sizeof out.display);
+    assert_int_equal(out.channel_count, 3);
+    return out;
+}
+
+static const float *green(const FrameImage *frame)
+{
+    return frame_channel(frame, "G");
+}
+
+static double variance_of(const float *values, size_t count)
+{
+    double sum = 0, squares = 0;
+    for (size_t i = 0; i < count; i++) {
+        sum += (double)values[i];
+        squares += (double)values[i] * (double)values[i];
+    }
+    return squares / (double)count - sum * sum / (double)count / (double)count;
+}
+
+/* ---- what stays -------------------------------------------------------------------------- */
+
+TEST(a_constant_picture_stays_however_noisy_it_is_said_to_be)
+{
+    Arena         arena = test_arena(state);
+    DenoiseReport report;
+    const float   variances[] = {0, 1, 1e4f};
+    for (int k = 0; k < 3; k++) {
+        FrameImage frame = whole_wall(&arena);
+        set(&frame, "variance", "RGB", variances[k], &arena);
+        FrameImage out = denoised(&frame, 2, &report, &arena);
+        for (size_t i = 0; i < COUNT; i++) assert_close(green(&out)[i], 100, 1e-5);
+        assert_close(report.energy_ratio, 1, 1e-5);
+        assert_int_equal(report.fireflies, 0);
+    }
+}
+
+TEST(a_frame_without_noise_stays)
+{
+    Arena         arena = test_arena(state);
+    FrameImage    frame = whole_wall(&arena);
+    DenoiseReport report;
+    uint32_t      random = 3;
+    for (const char *c = "RGB"; *c; c++) {
+        float *light = plane(&frame, "", *c, &arena);
+        float *albedo = plane(&frame, "albedo", *c, &arena);
+        for (size_t i = 0; i < COUNT; i++) {
+            light[i] = (float)pow(10, 4 * uniform(&random) - 1);
+            albedo[i] = (float)uniform(&random);
+        }
+    }
+    FrameImage out = denoised(&frame, 2, &report, &arena);
+    for (const char *c = "RGB"; *c; c++)
+        for (size_t i = 0; i < COUNT; i++)
+            assert_close(plane(&out, "", *c, &arena)[i], plane(&frame, "", *c, &arena)[i],
+                         1e-5);
+}
+
+/* A step of light that the halves agree on stays a step. */
+TEST(a_shadow_s_edge_stays_where_it_is)
+{
+    Arena         arena = test_arena(state);
+    FrameImage    frame = noise("0:24", &arena);
+    DenoiseReport report;
+    for (const char *c = "RGB"; *c; c++)
+        for (size_t i = 0; i < COUNT; i++) {
+            if (i % WIDTH >= WIDTH / 2) continue;
+            plane(&frame, "", *c, &arena)[i] *= 0.05f;
+            plane(&frame, "variance", *c, &arena)[i] *= 0.0025f;
+            plane(&frame, "halves", *c, &arena)[i] *= 0.05f;
+        }
+    FrameImage out = denoised(&frame, 2, &report, &arena);
+    for (int y = 10; y < HEIGHT - 10; y++) {
+        assert_true(green(&out)[y * WIDTH + WIDTH / 2 - 1] < 30);
+        assert_true(green(&out)[y * WIDTH + WIDTH / 2] > 60);
+    }
+}
+
+/* ---- what goes --------------------------------------------------------------------------- */
+
+TEST(noise_goes_and_light_stays)
+{
+    Arena         arena = test_arena(state);
+    FrameImage    frame = noise("0:24", &arena);
+    DenoiseReport report;
+    FrameImage    out = denoised(&frame, 2, &report, &arena);
+    assert_true(report.has_halves);
+    assert_true(variance_of(green(&out), COUNT) < variance_of(green(&frame), COUNT) / 20);
+    assert_close(report.energy_ratio, 1, 0.01);
+}
+
+TEST(few_samples_are_filtered_without_halves)
+{
+    Arena         arena = test_arena(state);
+    FrameImage    frame = noise("0:8", &arena);
+    DenoiseReport report;
+    set(&frame, "halves", "RGB", NAN, &arena);
+    FrameImage out = denoised(&frame, 2, &report, &arena);
+    assert_false(report.has_halves);
+    assert_true(variance_of(green(&out), COUNT) < variance_of(green(&frame), COUNT) / 8);
+    assert_close(report.energy_ratio, 1, 0.02);
+}
+
+TEST(a_firefly_is_spread_and_not_lost)
+{
+    Arena         arena = test_arena(state);
+    FrameImage    frame = noise("0:24", &arena);
+    DenoiseReport report;
+    const size_t  middle = (size_t)HEIGHT / 2 * WIDTH + WIDTH / 2;
+    for (const char *c = "RGB"; *c; c++) { /* one sample of 24, in the second half */
+        plane(&frame, "", *c, &arena)[middle] = 50000;
+        plane(&frame, "variance", *c, &arena)[middle] = 50000.0f * 50000.0f;
+        plane(&frame, "halves", *c, &arena)[middle] = (float)(150000 * sqrt(128.0) / 24);
+    }
+    FrameImage out = denoised(&frame, 2, &report, &arena);
+    assert_true(report.fireflies >= 1 && report.fireflies < COUNT / 100);
+    assert_close(report.energy_ratio, 1, 0.02);
+    for (size_t i = 0; i < COUNT; i++) assert_true(green(&out)[i] < 1500);
+}
+
+/* ---- displays ---------------------------------------------------------------------------- */
+
+/* A display of black and white pixels that reflects noise. */
+static FrameImage display(Arena *arena)
+{
+    FrameImage frame = whole_wall(arena);
+    set(&frame, "", "RGB", 0, arena);
+    set(&frame, "display.reflected", "RGB", 0, arena);
+    add_noise(&frame, "display.reflected", 20, arena);
+    for (const char *c = "RGB"; *c; c++) {
+        float *light = plane(&frame, "", *c, arena);
+        float *emitted = plane(&frame, "display.emitted", *c, arena);
+        for (size_t i = 0; i < COUNT; i++) {
+            emitted[i] = (i % WIDTH + i / WIDTH) % 2 ? 500 : 0.1f;
+            light[i] += emitted[i];
+        }
+    }
+    return frame;
+}
+
+TEST(what_a_display_shows_stays_sharp_and_what_it_reflects_is_filtered)
+{
+    Arena         arena = test_arena(state);
+    FrameImage    frame = display(&arena);
+    DenoiseReport report;
+    FrameImage    out = denoised(&frame, 2, &report, &arena);
+    const float  *emitted = frame_channel(&frame, "display.emitted.G");
+    const float  *reflected = frame_channel(&frame, "display.reflected.G");
+    float        *rest = ARENA_NEW(&arena, float, COUNT);
+    for (size_t i = 0; i < COUNT; i++) {
+        rest[i] = green(&out)[i] - emitted[i];
+        assert_near(rest[i], 20, 10);
+    }
+    assert_true(variance_of(rest, COUNT) < variance_of(reflected, COUNT) / 20);
+}
+
+TEST(the_edge_of_a_display_is_left_as_it_is)
+{
+    Arena         arena = test_arena(state);
+    FrameImage    frame = display(&arena);
+    DenoiseReport report;
+    for (const char *c = "RGB"; *c; c++)
+        for (size_t i = 0; i < COUNT; i += WIDTH) /* half of these pixels is a bezel */
+            plane(&frame, "", *c, &arena)[i] = 123 + (float)(i % 7);
+    FrameImage out = denoised(&frame, 2, &report, &arena);
+    for (size_t i = 0; i < COUNT; i += WIDTH)
+        assert_true(green(&out)[i] == green(&frame)[i]);
+}
+
+/* ---- any frame --------------------------------------------------------------------------- */
+
+TEST(any_number_of_threads_makes_the_same_bits)
+{
+    Arena         arena = test_arena(state);
+    FrameImage    frame = noise("0:24", &arena);
+    DenoiseReport report;
+    FrameImage    one = denoised(&frame, 1, &report, &arena);
+    for (int threads = 2; threads < 6; threads += 3) {
+        FrameImage more = denoised(&frame, threads, &report, &arena);
+        for (const char *c = "RGB"; *c; c++)
+            assert_memory_equal(plane(&one, "", *c, &arena), plane(&more, "", *c, &arena),
+                                COUNT * sizeof(float));
+    }
+}
+
+TEST(a_pixel_that_is_not_finite_harms_no_other)
+{
+    Arena         arena = test_arena(state);
+    FrameImage    frame = noise("0:24", &arena);
+    DenoiseReport report;
+    const size_t  bad[] = {0, 5 * WIDTH + 9, 20 * WIDTH + 33, COUNT - 1};
+    const float   values[] = {NAN, INFINITY, -INFINITY, NAN};
+    for (int k = 0; k < 4; k++) plane(&frame, "", 'G', &arena)[bad[k]] = values[k];
+    plane(&frame, "variance", 'R', &arena)[100] = NAN;
+    plane(&frame, "halves", 'B', &arena)[200] = INFINITY;
+    plane(&frame, "normal", 'X', &arena)[300] = NAN;
+    plane(&frame, "albedo", 'G', &arena)[400] = INFINITY;
+    plane(&frame, "depth", 'Z', &arena)[500] = INFINITY;
+    FrameImage out = denoised(&frame, 2, &report, &arena);
+    for (int k = 0; k < 4; k++)
+        assert_memory_equal(&green(&out)[bad[k]], &values[k], sizeof values[k]);
+    for (size_t i = 0, k = 0; i < COUNT; i++) {
+        if (k < 4 && i == bad[k]) k++;
+        else assert_near(green(&out)[i], 100, 90);
+    }
+    assert_close(report.energy_ratio, 1, 0.02);
+}
+
+TEST(small_frames_and_crops_are_filtered)
+{
+    Arena           arena = test_arena(state);
+    DenoiseReport   report;
+    const ExrWindow windows[] = {{0, 0, 1, 1}, {0, 0, 1, 40}, {3, 2, 40, 3}, {30, 20, 66, 49},
+                                 {-5, -5, 30, 30}};
+    for (int k = 0; k < 5; k++) {
+        FrameImage frame = wall(WIDTH, HEIGHT, windows[k], &arena);
+        set(&frame, "variance", "RGB", 4, &arena);
+        FrameImage out = denoised(&frame, 2, &report, &arena);
+        for (size_t i = 0; i < frame_pixel_count(&frame); i++)
+            assert_close(green(&out)[i], 100, 1e-5);
+    }
+}
+
+TEST(black_stays_black)
+{
+    Arena         arena = test_arena(state);
+    FrameImage    frame = whole_wall(&arena);
+    DenoiseReport report;
+    set(&frame, "", "RGB", 0, &arena);
+    set(&frame, "albedo", "RGB", 0, &arena);
+    FrameImage out = denoised(&frame, 2, &report, &arena);
+    for (size_t i = 0; i < COUNT; i++) assert_true(green(&out)[i] == 0);
+    assert_true(report.energy_ratio == 1);
+}
+
+TEST(missing_layers_are_named)
+{
+    Arena         arena = test_arena(state);
+    FrameImage    frame = frame_create(2, 2, (ExrWindow){0, 0, 2, 2}, 8, 0, &arena), out;
+    DenoiseReport report;
+    Error         err = {0};
+    set(&frame, "", "RGB", 1, &arena);
+    set(&frame, "variance", "RGB", 1, &arena);
+    set(&frame, "depth", "Z", 1, &arena);
+    assert_false(denoise_frame(&frame, 1, &arena, &out, &report, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_string_equal(err.text,
+                        "has not what --denoise goes by (missing: halves, normal, albedo, "
+                        "display.emitted, display.reflected) — render it with --layers "
+                        DENOISE_LAYERS);
+}
+
+int main(void)
+{
+    return run_cases(make_arena, drop_arena);
+}
