@@ -15,11 +15,11 @@ float adapt_stops(float stops)
 }
 
 /* One picture, and how far the squares around its pixels reach. */
-typedef struct Squares {
+typedef struct GuideSquares {
     int    width, height, reach;
     size_t count;
     float *line; /* scratch of one column */
-} Squares;
+} GuideSquares;
 
 /* The sum of the `reach` values on both sides of each of `count`, and itself. */
 static void sum_line(const float *from, size_t step, int count, int reach, float *to)
@@ -33,7 +33,7 @@ static void sum_line(const float *from, size_t step, int count, int reach, float
 }
 
 /* Sums over squares, in place. */
-static void sum_squares(const Squares *p, float *plane)
+static void sum_squares(const GuideSquares *p, float *plane)
 {
     size_t width = (size_t)p->width;
     for (int y = 0; y < p->height; y++) {
@@ -51,7 +51,7 @@ static void sum_squares(const Squares *p, float *plane)
  * and Tang 2010): in each square a line a v + b for the brightness v, with a near 1 where the
  * square has an edge and near 0 where it has none; a pixel takes the mean of the lines of all
  * squares that it lies in. */
-static float *surroundings(const Squares *p, const float *stops, const float *known,
+static float *surroundings(const GuideSquares *p, const float *stops, const float *known,
                            Arena *arena)
 {
     float *plane[4]; /* how many are known, v, v^2; then a and b */
@@ -85,7 +85,7 @@ float *adapt_gains(const float *luminance, int width, int height, float grey, Ar
     float *gains = ARENA_NEW(arena, float, count);
     Arena  scratch = *arena;
     int     reach = shorter / SIDE_SHARE > 1 ? shorter / SIDE_SHARE : 1;
-    Squares squares = {width, height, reach, count, ARENA_NEW(&scratch, float, longer)};
+    GuideSquares squares = {width, height, reach, count, ARENA_NEW(&scratch, float, longer)};
     float *stops = ARENA_NEW(&scratch, float, count);
     float *known = ARENA_NEW(&scratch, float, count);
     for (size_t i = 0; i < count; i++) {
