@@ -2,8 +2,10 @@
  *
  * Successive orders of scattering in a plane-parallel atmosphere over a Lambertian ground, lit
  * by a sun whose beam takes its true, spherical way (pseudo-spherical; Dahlback and Stamnes
- * 1991): good until the sun is about 6 degrees below the horizon. Directions: 8 Gauss cosines a
- * side, azimuth as a cosine series (Chandrasekhar 1960, chapter 6).
+ * 1991): good until the sun is about 4 degrees below the horizon. Light from lit air beyond the
+ * Earth's shadow is not scattered again: less and less of the published twilight is left below,
+ * 0.40 of it at -6 degrees, 0.05 at -9. Directions: 8 Gauss cosines a side, azimuth as a cosine
+ * series (Chandrasekhar 1960, chapter 6).
  *
  * Units     per unit of the sun's spectral irradiance outside the air: sources in sr^-1 m^-1,
  *           irradiances without unit. Lanes as air.h.

@@ -30,6 +30,11 @@ bool scene_options_read(const SceneWords *words, const Cli *cli, Arena *arena,
            parse_overrides("--display-level", &words->levels, arena, &options->levels, err);
 }
 
+#define TWILIGHT_DEG 4.0
+#define FAINT_TWILIGHT                                                                         \
+    " — from about 4 degrees on the sky is darker than a real twilight (0.4 of it at 6, 0.05 " \
+    "at 9), and it has neither moon nor stars"
+
 /* A sky whose sun is down is no error, but the frame may be darker than was meant. */
 static void tell_of_night(const Environment *environment, Problems *problems)
 {
@@ -40,8 +45,8 @@ static void tell_of_night(const Environment *environment, Problems *problems)
     double clearance = daylight_sun_clearance_deg(&input);
     if (clearance < 0)
         problems_add(problems, SEVERITY_WARNING, "", "",
-                     "the sun is down: its upper rim stands %.2f degrees below the horizon",
-                     -clearance);
+                     "the sun is down: its upper rim stands %.2f degrees below the horizon%s",
+                     -clearance, clearance < -TWILIGHT_DEG ? FAINT_TWILIGHT : "");
 }
 
 bool scene_options_load(const SceneOptions *options, const EnvironmentChange *change,
