@@ -35,21 +35,89 @@ Ray camera_ray(const Camera *camera, float x, float y)
     return (Ray){transform_point(world, vec3(right, up, 0)), vec3_neg(world->z), 0, INFINITY};
 }
 
+SceneCamera camera_look_at(Vec3 eye, Vec3 target, float yfov)
+{
+    Vec3 z = vec3_normalize(vec3_sub(eye, target)); /* from the scene to the camera */
+    Vec3 up = fabsf(z.y) < 0.9999f ? vec3(0, 1, 0) : vec3(0, 0, -1);
+    Vec3 x = vec3_normalize(vec3_cross(up, z));
+    return (SceneCamera){.node_name = "", .camera_name = "eye", .is_perspective = true,
+                         .yfov = yfov, .zfar = INFINITY,
+                         .world_from_camera = {x, vec3_cross(z, x), z, eye}};
+}
+
+/* ---- scenes without a camera ------------------------------------------------------------ */
+
+#define FRAMING_YFOV 0.7f
+#define FRAMING_MARGIN 1.15f
+
+/* Where the displays are and whereto they face: areas as vectors along their normals. */
+typedef struct DisplayView {
+    Vec3  low, high;
+    Vec3  facing, largest; /* m2: the sum, and that of the largest part */
+    float area;            /* m2 */
+} DisplayView;
+
+static Vec3 corner_of(const Scene *scene, uint32_t triangle, int corner)
+{
+    const float *p = scene->vertices[scene->triangles[triangle].vertex[corner]].position;
+    return vec3(p[0], p[1], p[2]);
+}
+
+static Vec3 add_triangle(const Scene *scene, uint32_t triangle, DisplayView *view)
+{
+    Vec3 corner[3];
+    for (int c = 0; c < 3; c++) {
+        Vec3 p = corner[c] = corner_of(scene, triangle, c);
+        view->low = vec3(fminf(view->low.x, p.x), fminf(view->low.y, p.y),
+                         fminf(view->low.z, p.z));
+        view->high = vec3(fmaxf(view->high.x, p.x), fmaxf(view->high.y, p.y),
+                          fmaxf(view->high.z, p.z));
+    }
+    Vec3 facing = vec3_scale(
+        vec3_cross(vec3_sub(corner[1], corner[0]), vec3_sub(corner[2], corner[0])), 0.5f);
+    view->area += vec3_length(facing);
+    return facing;
+}
+
+static DisplayView find_displays(const Scene *scene)
+{
+    DisplayView view = {.low = vec3(INFINITY, INFINITY, INFINITY),
+                        .high = vec3(-INFINITY, -INFINITY, -INFINITY)};
+    for (int i = 0; i < scene->part_count; i++) {
+        const Part *part = &scene->parts[i];
+        Vec3 sum = vec3(0, 0, 0);
+        if (scene->materials[part->material_id].display_id == NO_ID) continue;
+        for (uint32_t t = 0; t < part->triangle_count; t++)
+            sum = vec3_add(sum, add_triangle(scene, part->first_triangle + t, &view));
+        view.facing = vec3_add(view.facing, sum);
+        if (vec3_length(sum) > vec3_length(view.largest)) view.largest = sum;
+    }
+    return view;
+}
+
+static SceneCamera frame_bounds(Vec3 low, Vec3 high, Vec3 towards_eye, const char *name)
+{
+    Vec3  centre = vec3_scale(vec3_add(low, high), 0.5f);
+    float radius = fmaxf(0.5f * vec3_length(vec3_sub(high, low)), 1e-6f);
+    float distance = radius / half_angle_tangent(FRAMING_YFOV) * FRAMING_MARGIN;
+    SceneCamera camera =
+        camera_look_at(vec3_along(centre, towards_eye, distance), centre, FRAMING_YFOV);
+    camera.camera_name = name;
+    return camera;
+}
+
 SceneCamera camera_frame_scene(const Scene *scene)
 {
+    const DisplayView view = find_displays(scene);
     if (!scene->triangle_count)
         return (SceneCamera){.node_name = "", .camera_name = "origin", .is_perspective = true,
-                             .yfov = 0.7f, .zfar = INFINITY,
+                             .yfov = FRAMING_YFOV, .zfar = INFINITY,
                              .world_from_camera = transform_identity()};
-    Vec3  centre = vec3_scale(vec3_add(scene->bounds_min, scene->bounds_max), 0.5f);
-    Vec3  size = vec3_sub(scene->bounds_max, scene->bounds_min);
-    float radius = fmaxf(0.5f * vec3_length(size), 1e-6f);
-    float yfov = 0.7f;
-    Vec3  z = vec3_normalize(vec3(0.35f, 0.3f, 1)); /* from the scene to the camera */
-    Vec3  x = vec3_normalize(vec3_cross(vec3(0, 1, 0), z));
-    float distance = radius / half_angle_tangent(yfov) * 1.15f;
-    return (SceneCamera){.node_name = "", .camera_name = "whole scene", .is_perspective = true,
-                         .yfov = yfov, .znear = 0, .zfar = INFINITY,
-                         .world_from_camera = {x, vec3_cross(z, x), z,
-                                               vec3_along(centre, z, distance)}};
+    if (!(view.area > 0))
+        return frame_bounds(scene->bounds_min, scene->bounds_max,
+                            vec3_normalize(vec3(0.35f, 0.3f, 1)), "whole scene");
+    bool face_apart = vec3_length(view.facing) < 0.5f * view.area;
+    Vec3 facing = face_apart ? view.largest : view.facing;
+    if (!(vec3_length(facing) > 0)) facing = vec3(0, 0, 1); /* closed all around */
+    return frame_bounds(view.low, view.high, vec3_normalize(facing), "displays");
 }

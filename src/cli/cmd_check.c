@@ -2,9 +2,11 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/count.h"
 #include "base/reference.h"
 #include "base/units.h"
 #include "cli/commands.h"
+#include "cli/material_list.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "scene/load/scene_load.h"
@@ -124,7 +126,9 @@ static void print_cameras(const Scene *scene)
         else
             printf("orthographic, %g m high\n", 2 * (double)c->ymag);
     }
-    if (!scene->camera_count) printf("camera       none: the scene is framed whole\n");
+    if (!scene->camera_count)
+        printf("camera       none: %s seen from the front\n",
+               scene->display_count ? "the displays are" : "the scene is framed whole,");
 }
 
 static void print_size(const Scene *scene)
@@ -243,22 +247,21 @@ static json_t *json_cameras(const Scene *scene)
     return list;
 }
 
-static bool print_json(const Scene *scene, const Problems *problems, Error *err)
+static bool print_json(const Scene *scene, const Problems *problems, Arena *arena, Error *err)
 {
     json_t *list = cli_json_problems(problems, SEVERITY_ERROR);
     json_t *warnings = cli_json_problems(problems, SEVERITY_WARNING);
     json_array_extend(list, warnings);
     json_decref(warnings);
-    return cli_print_json(json_pack("{s:b, s:o, s:o, s:o, s:o, s:o, s:i, s:i, s:I, s:o}", "ok",
-                                    problems->error_count == 0, "problems", list, "displays",
-                                    json_displays(scene), "lights", json_lights(scene),
-                                    "environment", json_environment(&scene->environment),
-                                    "cameras", json_cameras(scene), "materials",
-                                    scene->material_count, "textures", scene->texture_count,
-                                    "triangles", (json_int_t)scene->triangle_count,
-                                    "extensions", json_texts(scene->extensions,
-                                                             scene->extension_count)),
-                          err);
+    json_t *answer = json_pack(
+        "{s:b, s:o, s:o, s:o, s:o, s:o, s:i, s:i, s:I, s:o}", "ok", problems->error_count == 0,
+        "problems", list, "displays", json_displays(scene), "lights", json_lights(scene),
+        "environment", json_environment(&scene->environment), "cameras", json_cameras(scene),
+        "materials", scene->material_count, "textures", scene->texture_count, "triangles",
+        (json_int_t)scene->triangle_count, "extensions",
+        json_texts(scene->extensions, scene->extension_count));
+    json_object_set_new(answer, "material_list", material_list_json(scene, arena));
+    return cli_print_json(answer, err);
 }
 
 /* ---- the command ----------------------------------------------------------------------- */
@@ -266,13 +269,18 @@ static bool print_json(const Scene *scene, const Problems *problems, Error *err)
 static bool run_check(int argc, char **argv, Arena *arena, Error *err)
 {
     const char *root = NULL;
+    bool materials = false;
     const Option options[] = {
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &root, .given = NULL},
+        {"--materials", OPTION_FLAG, NULL,
+         "which materials there are, on which nodes, how large, and which look like screens",
+         &materials},
     };
     const CliCommand command = {
         "check", "what is in a scene, and everything that is wrong with it",
         "SCENE.gltf|.glb [LIGHTS.gltf|.glb ...]",
-        "parhelion check scenes/car_dashboard.gltf scenes/noon.gltf", options, 1, 1, -1};
+        "parhelion check scenes/car_dashboard.gltf scenes/noon.gltf", options,
+        COUNT_OF(options), 1, -1};
     Cli cli;
     if (!cli_parse(&command, argc, argv, arena, &cli, err)) return false;
     if (cli.help_shown) return true;
@@ -283,9 +291,12 @@ static bool run_check(int argc, char **argv, Arena *arena, Error *err)
     Scene *scene = scene_survey(&files, arena, &problems);
     bool   done = true;
     if (cli.json)
-        done = print_json(scene, &problems, err);
+        done = print_json(scene, &problems, arena, err);
+    else if (materials)
+        material_list_print(scene, arena);
     else
         print_report(scene, &problems);
+    if (!cli.json && materials) print_problems(&problems);
     scene_close(scene);
     if (!done || !problems.error_count) return done;
     *err = (Error){.code = ERROR_INPUT}; /* said already, problem by problem */

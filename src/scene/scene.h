@@ -41,6 +41,7 @@ typedef struct Triangle {
 /* One glTF primitive of one node. */
 typedef struct Part {
     const char *name;     /* the node's name, else the mesh's, else "node N" */
+    const char *node_name, *mesh_name; /* "" where the file has none */
     int      material_id; /* always valid: glTF's default material has an id too */
     uint32_t first_triangle, triangle_count;
     bool     has_tangents; /* else derived from the uv set of the normal map */

@@ -82,6 +82,13 @@ TEST_WITH(scripts_read_one_document, maker_reset, NULL)
     assert_non_null(document);
     assert_true(json_is_true(json_object_get(document, "ok")));
     assert_int_equal(json_integer_value(json_object_get(document, "materials")), 1);
+    json_t *list = json_object_get(document, "material_list");
+    json_t *lamp = json_array_get(list, 0);
+    assert_int_equal(json_array_size(list), 1);
+    assert_string_equal(json_string_value(json_object_get(lamp, "name")), "lamp");
+    assert_close(json_real_value(json_object_get(lamp, "area_m2")), 0.5, 1e-7);
+    assert_true(json_is_true(json_object_get(lamp, "is_flat")));
+    assert_true(json_is_false(json_object_get(lamp, "looks_like_screen")));
     assert_int_equal(json_integer_value(json_object_get(document, "triangles")), 1);
     assert_int_equal(json_array_size(json_object_get(document, "problems")), 0);
     assert_int_equal(json_array_size(json_object_get(document, "displays")), 0);

@@ -170,6 +170,36 @@ TEST(what_makes_no_sky_is_refused_by_name)
     }
 }
 
+TEST(an_eye_needs_a_point_to_look_at)
+{
+    static const struct {
+        CameraChoice choice;
+        const char *part;
+    } cases[] = {
+        {{.has_eye = true}, "--eye: wanted --eye X,Y,Z and --look-at"},
+        {{.has_look_at = true}, "--look-at: wanted --eye"},
+        {{.has_fov = true, .fov_deg = 30}, "--fov: wanted --eye"},
+        {{.has_eye = true, .has_look_at = true, .name = "left"}, "exclude each other"},
+        {{.has_eye = true, .has_look_at = true}, "is where --eye is"},
+    };
+    Scene       scene = {0};
+    SceneCamera found;
+    Problems    problems = problems_start(*state);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        Error err = {0};
+        assert_false(render_choose_camera(&scene, &cases[i].choice, &problems, &found, &err));
+        assert_int_equal(err.code, ERROR_USAGE);
+        if (!strstr(err.text, cases[i].part)) fail_msg("%s", err.text);
+    }
+    Error err;
+    const CameraChoice choice = {.eye = {1, 2, 5}, .look_at = {1, 2, 0}, .fov_deg = 90,
+                                 .has_eye = true, .has_look_at = true, .has_fov = true};
+    assert_true(render_choose_camera(&scene, &choice, &problems, &found, &err));
+    assert_int_equal(problems.count, 0);
+    assert_close(found.yfov, 1.5707963, 1e-6);
+    assert_close(found.world_from_camera.origin.z, 5, 0);
+}
+
 TEST(a_camera_is_found_by_node_then_by_camera_then_by_place)
 {
     SceneCamera cameras[] = {{.node_name = "left", .camera_name = "1"},
@@ -184,16 +214,18 @@ TEST(a_camera_is_found_by_node_then_by_camera_then_by_place)
         int         index;
     } cases[] = {{NULL, 0}, {"left", 0}, {"1", 0}, {"right", 1}, {"lens", 2}, {"2", 2}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        assert_true(render_choose_camera(&scene, cases[i].wanted, &problems, &found, &err));
+        const CameraChoice choice = {.name = cases[i].wanted};
+        assert_true(render_choose_camera(&scene, &choice, &problems, &found, &err));
         assert_ptr_equal(found.camera_name, cameras[cases[i].index].camera_name);
     }
-    assert_false(render_choose_camera(&scene, "3", &problems, &found, &err));
+    assert_false(
+        render_choose_camera(&scene, &(CameraChoice){.name = "3"}, &problems, &found, &err));
     assert_string_equal(err.text,
                         "--camera 3: no camera has this name or index — the scene has 0 "
                         "'left', 1 'right', 2 'lens'");
     assert_int_equal(problems.count, 0);
     Scene empty = {0};
-    assert_true(render_choose_camera(&empty, NULL, &problems, &found, &err));
+    assert_true(render_choose_camera(&empty, &(CameraChoice){0}, &problems, &found, &err));
     assert_int_equal(problems.count, 1);
     assert_non_null(strstr(problems.list[0].message, "neither a camera nor triangles"));
     assert_true(found.yfov > 0 && found.world_from_camera.origin.z == 0);

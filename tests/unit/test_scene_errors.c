@@ -320,6 +320,96 @@ TEST_WITH(overrides_reach_displays_by_the_material_s_name, maker_reset, NULL)
     assert_non_null(maker_find(&found, "", "other.panel: cannot be opened"));
 }
 
+/* Two nodes and a third of another mesh wear one material; "both" wears two. */
+static Found survey_shared(const SceneOptions *more)
+{
+    struct {
+        float points[9], uv[6];
+    } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 1, 1, 0, 0}};
+    const char *path = maker_gltf(
+        &data, sizeof data,
+        "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"
+        "'byteLength':24}],'accessors':[{'bufferView':0,'componentType':5126,'count':3,"
+        "'type':'VEC3','min':[0,0,0],'max':[1,1,0]},{'bufferView':1,'componentType':5126,"
+        "'count':3,'type':'VEC2'}],'materials':[{'name':'glass'},{'name':'trim'}],"
+        "'meshes':[{'name':'sheet','primitives':[{'material':0,'attributes':{'POSITION':0,"
+        "'TEXCOORD_0':1}}]},{'name':'frame','primitives':[{'material':0,'attributes':"
+        "{'POSITION':0,'TEXCOORD_0':1}},{'material':1,'attributes':{'POSITION':0,"
+        "'TEXCOORD_0':1}}]}],'scenes':[{'nodes':[0,1,2,3,4]}],'nodes':[{'mesh':0,"
+        "'name':'left'},{'mesh':0,'name':'right'},{'mesh':1,'name':'both'},{'mesh':0,"
+        "'name':'twin'},{'mesh':0,'name':'twin'}]");
+    SceneOptions options = *more;
+    options.paths = &path;
+    options.path_count = 1;
+    return maker_survey(&options);
+}
+
+static int parts_wearing(const Scene *scene, const char *name)
+{
+    int count = 0;
+    for (int i = 0; i < scene->part_count; i++)
+        count += !strcmp(scene->materials[scene->parts[i].material_id].name, name);
+    return count;
+}
+
+TEST_WITH(a_screen_is_named_by_its_node_where_two_share_a_material, maker_reset, NULL)
+{
+    (void)state;
+    const SceneOverride panels[] = {{"node:left", "a.panel"}, {"node:right", "b.panel"}};
+    const SceneOverride levels[] = {{"node:right", "30"}};
+    Found found = survey_shared(&(SceneOptions){
+        .panels = panels, .panel_count = 2, .levels = levels, .level_count = 1});
+    const Scene *scene = found.scene;
+    assert_int_equal(scene->display_count, 2);
+    assert_string_equal(scene->displays[0].name, "left");
+    assert_string_equal(scene->displays[0].panel_path, "a.panel");
+    assert_string_equal(scene->displays[1].name, "right");
+    assert_close(scene->displays[0].level, 1, 0);
+    assert_close(scene->displays[1].level, 0.3, 1e-6);
+    assert_int_equal(parts_wearing(scene, "left"), 1);
+    assert_int_equal(parts_wearing(scene, "right"), 1);
+    assert_int_equal(parts_wearing(scene, "glass"), 3);
+    assert_int_equal(scene->materials[0].display_id, NO_ID);
+}
+
+TEST_WITH(a_shared_display_is_split_by_what_one_node_shows, maker_reset, NULL)
+{
+    (void)state;
+    const SceneOverride panels[] = {{"glass", "a.panel"}}, levels[] = {{"node:left", "50"}};
+    Found found = survey_shared(&(SceneOptions){
+        .panels = panels, .panel_count = 1, .levels = levels, .level_count = 1});
+    assert_int_equal(found.scene->display_count, 2);
+    assert_close(found.scene->displays[0].level, 1, 0);
+    assert_close(found.scene->displays[1].level, 0.5, 1e-6);
+    assert_string_equal(found.scene->displays[1].panel_path, "a.panel");
+    assert_non_null(maker_find(&found, "", "\"glass\" is worn by several nodes, which become "
+                                           "one display: \"left\", \"right\""));
+}
+
+TEST_WITH(what_a_node_s_name_leaves_open_is_told, maker_reset, NULL)
+{
+    (void)state;
+    static const struct {
+        const char *word, *text;
+    } CASES[] = {
+        {"node:center", "no node with triangles is named \"center\"; there are \"left\""},
+        {"mesh:none",
+         "no mesh with triangles is named \"none\"; there are \"sheet\", \"frame\""},
+        {"node:both", "node:both wears the materials \"glass\", \"trim\""},
+        {"node:twin", "several nodes are named \"twin\"; mesh:NAME"},
+    };
+    for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
+        const SceneOverride panels[] = {{CASES[i].word, "a.panel"}};
+        Found found = survey_shared(&(SceneOptions){.panels = panels, .panel_count = 1});
+        if (!maker_find(&found, "", CASES[i].text)) fail_msg("%s", CASES[i].text);
+        assert_int_equal(found.scene->display_count, 0);
+    }
+    const SceneOverride panels[] = {{"mesh:sheet", "a.panel"}};
+    Found found = survey_shared(&(SceneOptions){.panels = panels, .panel_count = 1});
+    assert_int_equal(parts_wearing(found.scene, "sheet"), 4);
+    assert_int_equal(parts_wearing(found.scene, "glass"), 1);
+}
+
 /* ---- damaged files
  * ------------------------------------------------------------------------------- */
 

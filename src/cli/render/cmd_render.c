@@ -74,7 +74,8 @@ static bool load(RenderRun *work, Error *err)
     bool loaded =
         scene_options_load(&request->scene, &request->environment, work->arena,
                            &work->problems, &work->scene, err) &&
-        render_choose_camera(work->scene, request->camera, &work->problems, &work->camera, err);
+        render_choose_camera(work->scene, &request->camera, &work->problems, &work->camera,
+                             err);
     if (loaded) render_tell_of_darkness(work->scene, &work->problems);
     cli_print_warnings(&work->problems);
     return loaded;

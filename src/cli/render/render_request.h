@@ -3,6 +3,7 @@
  * Memory   everything lives in the command's arena.
  */
 #pragma once
+#include "cli/options/camera_options.h"
 #include "cli/options/cli.h"
 #include "cli/options/scene_options.h"
 #include "image/develop.h"
@@ -15,7 +16,7 @@ typedef struct RenderRequest {
     const char   *output; /* NULL only when replaying */
     const char   *png;    /* NULL: none */
     DevelopOptions look;  /* of the png */
-    const char   *camera; /* NULL: the first */
+    CameraChoice  camera;
     EnvironmentChange environment;
     RenderOptions render;
     bool          replays; /* one sample of one pixel, printed */

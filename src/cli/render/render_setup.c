@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/units.h"
 #include "camera/camera.h"
 
 /* ---- camera ------------------------------------------------------------------------------ */
@@ -38,9 +39,56 @@ static bool no_such_camera(const Scene *scene, const char *wanted, Error *err)
                      wanted, scene->camera_count ? names : "none");
 }
 
-bool render_choose_camera(const Scene *scene, const char *wanted, Problems *problems,
+#define DEFAULT_FOV_DEG 40
+
+static Vec3 vec3_from(const double v[3])
+{
+    return vec3((float)v[0], (float)v[1], (float)v[2]);
+}
+
+static bool look(const CameraChoice *choice, SceneCamera *out, Error *err)
+{
+    Vec3 eye = vec3_from(choice->eye), target = vec3_from(choice->look_at);
+    double fov_deg = choice->has_fov ? choice->fov_deg : DEFAULT_FOV_DEG;
+    if (choice->name)
+        return error_set(err, ERROR_USAGE, "--camera and --eye exclude each other");
+    if (!choice->has_eye || !choice->has_look_at)
+        return error_set(err, ERROR_USAGE,
+                         "%s: wanted --eye X,Y,Z and --look-at X,Y,Z together",
+                         choice->has_eye       ? "--eye"
+                         : choice->has_look_at ? "--look-at"
+                                               : "--fov");
+    if (!(vec3_length(vec3_sub(target, eye)) > 0))
+        return error_set(err, ERROR_USAGE,
+                         "--look-at: is where --eye is; another point is wanted");
+    *out = camera_look_at(eye, target, (float)radians_from_degrees(fov_deg));
+    return true;
+}
+
+/* A frame that is not where anybody put it is said to be so. */
+static void tell_of_framing(const Scene *scene, const SceneCamera *camera, Problems *problems)
+{
+    const Vec3 eye = camera->world_from_camera.origin;
+    const char *file = scene->input_count ? scene->inputs[0] : "";
+    bool shows_displays = !strcmp(camera->camera_name, "displays");
+    if (scene->triangle_count)
+        problems_add(problems, SEVERITY_WARNING, file, NULL,
+                     "the scene has no camera: %s seen from the front, from %.4g,%.4g,%.4g — "
+                     "another place with --eye and --look-at",
+                     shows_displays ? "its displays are" : "it is framed whole,", (double)eye.x,
+                     (double)eye.y, (double)eye.z);
+    else
+        problems_add(problems, SEVERITY_WARNING, file, NULL,
+                     "the scene has neither a camera nor triangles: the view is from its "
+                     "origin along -Z");
+}
+
+bool render_choose_camera(const Scene *scene, const CameraChoice *choice, Problems *problems,
                           SceneCamera *out, Error *err)
 {
+    const char *wanted = choice->name;
+    if (choice->has_eye || choice->has_look_at || choice->has_fov)
+        return look(choice, out, err);
     if (wanted || scene->camera_count) {
         int index = wanted ? find_camera(scene, wanted) : 0;
         if (index == NO_ID) return no_such_camera(scene, wanted, err);
@@ -48,10 +96,7 @@ bool render_choose_camera(const Scene *scene, const char *wanted, Problems *prob
         return true;
     }
     *out = camera_frame_scene(scene);
-    problems_add(problems, SEVERITY_WARNING, scene->input_count ? scene->inputs[0] : "", NULL,
-                 scene->triangle_count ? "the scene has no camera: it is framed whole"
-                                       : "the scene has neither a camera nor triangles: the "
-                                         "view is from its origin along -Z");
+    tell_of_framing(scene, out, problems);
     return true;
 }
 

@@ -4,11 +4,12 @@
  */
 #pragma once
 #include "base/problems.h"
+#include "cli/options/camera_options.h"
 #include "scene/scene.h"
 
-/* By a node's name, then a camera's, then an index; NULL: the first. A scene without a camera
- * is framed whole, and a warning says so. */
-bool render_choose_camera(const Scene *scene, const char *wanted, Problems *problems,
+/* From --eye to --look-at; else by a node's name, then a camera's, then an index; else the
+ * first. A scene without a camera is framed (camera_frame_scene), and a warning says so. */
+bool render_choose_camera(const Scene *scene, const CameraChoice *choice, Problems *problems,
                           SceneCamera *out, Error *err);
 
 /* A warning when nothing of the scene can send light: the frame will be black. */

@@ -9,6 +9,7 @@
 #include "scene/load/image.h"
 #include "scene/load/part_draft.h"
 #include "scene/load/texture_slot.h"
+#include "scene/load/wearer.h"
 #include "text/nearest_word.h"
 
 static const char *kept(Loader *load, const char *text)
@@ -150,32 +151,67 @@ static bool is_meant(const Material *material, const char *name)
     return strcmp(material->name, name) == 0;
 }
 
-/* Applies one option's list; is_panel: any material may become a display. */
-static void apply(Loader *load, const char *option, const SceneOverride *list, int count,
-                  ApplyOverride *set)
+/* One option's list; set_panel makes a display of any material. */
+typedef struct Overrides {
+    const char *option;
+    const SceneOverride *list;
+    int count;
+    ApplyOverride *set;
+} Overrides;
+
+static void apply_to(Loader *load, const Overrides *overrides, int material_id,
+                     const char *value)
 {
-    bool is_panel = set == set_panel;
-    for (int i = 0; i < count; i++) {
-        bool is_found = false;
-        for (int m = 0; m < load->materials.count; m++) {
-            const Material *material = list_item(&load->materials, m);
-            if (!is_meant(material, list[i].material)) continue;
-            is_found = true;
-            if (!is_panel && material->display_id == NO_ID)
-                report_not_display(load, option, material->name);
-            else
-                set(load, make_display(load, m), list[i].value);
+    const Material *material = list_item(&load->materials, material_id);
+    if (overrides->set != set_panel && material->display_id == NO_ID)
+        report_not_display(load, overrides->option, material->name);
+    else
+        overrides->set(load, make_display(load, material_id), value);
+}
+
+static void apply_by_name(Loader *load, const Overrides *overrides, const SceneOverride *one)
+{
+    bool is_found = false;
+    int count = load->materials.count;
+    for (int m = 0; m < count; m++) {
+        const Material *material = list_item(&load->materials, m);
+        if (!is_meant(material, one->material)) continue;
+        is_found = true;
+        if (overrides->set == set_panel && material->display_id == NO_ID)
+            wearer_warn_of_sharing(load, overrides->option, m);
+        apply_to(load, overrides, m, one->value);
+    }
+    if (!is_found)
+        report_unknown(load, overrides->option, one->material, overrides->set == set_panel);
+}
+
+static bool is_material(const Loader *load, const char *name)
+{
+    for (int m = 0; m < load->materials.count; m++)
+        if (is_meant(list_item(&load->materials, m), name)) return true;
+    return false;
+}
+
+/* A material whose own name begins with "node:" is still found by it. */
+static void apply(Loader *load, Overrides overrides)
+{
+    for (int i = 0; i < overrides.count; i++) {
+        const SceneOverride *one = &overrides.list[i];
+        if (!wearer_is_named(one->material) || is_material(load, one->material)) {
+            apply_by_name(load, &overrides, one);
+            continue;
         }
-        if (!is_found) report_unknown(load, option, list[i].material, is_panel);
+        int id = wearer_material(load, overrides.option, one->material);
+        if (id != NO_ID) apply_to(load, &overrides, id, one->value);
     }
 }
 
 void displays_override(Loader *load)
 {
     const SceneOptions *o = load->options;
-    apply(load, "--panel", o->panels, o->panel_count, set_panel);
-    apply(load, "--content", o->contents, o->content_count, set_content);
-    apply(load, "--display-level", o->levels, o->level_count, set_level);
+    apply(load, (Overrides){"--panel", o->panels, o->panel_count, set_panel});
+    apply(load, (Overrides){"--content", o->contents, o->content_count, set_content});
+    apply(load, (Overrides){"--display-level", o->levels, o->level_count, set_level});
 }
 
 /* ---- what is checked when all files are read ------------------------------------------- */

@@ -12,7 +12,7 @@ typedef struct PartDraft {
     uint32_t *indices; /* three a triangle */
     uint32_t vertex_count, triangle_count;
     struct GltfFile *file; /* where it came from, for messages */
-    const GltfValue *primitive;
+    const GltfValue *primitive, *node;
 } PartDraft;
 
 /* Every triangle gets vertices of its own, with its normal. */

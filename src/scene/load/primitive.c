@@ -270,6 +270,12 @@ static void list_triangles(GltfFile *file, const GltfValue *primitive, bool is_m
 
 /* ---- a part ---------------------------------------------------------------------------- */
 
+static const char *kept_name(GltfFile *file, const GltfValue *value)
+{
+    const char *name = tree_text(value, "name", "");
+    return arena_string(file->load->arena, name, strlen(name));
+}
+
 static const char *part_name(GltfFile *file, const GltfValue *node, const GltfValue *mesh)
 {
     Arena *arena = file->load->arena;
@@ -360,11 +366,15 @@ void primitive_build(GltfFile *file, const GltfValue *node, const Transform *wor
     Attributes a = read_attributes(file, primitive, rest_weights(node, mesh), sets);
     Skin skin = read_skin(file, node, primitive);
     PartDraft draft = {
-        .part = {.name = part_name(file, node, mesh), .material_id = material_id},
+        .part = {.name = part_name(file, node, mesh),
+                 .node_name = kept_name(file, node),
+                 .mesh_name = kept_name(file, mesh),
+                 .material_id = material_id},
         .vertices = ARENA_NEW(&load->scratch, Vertex, a.count),
         .vertex_count = (uint32_t)a.count,
         .file = file,
-        .primitive = primitive};
+        .primitive = primitive,
+        .node = node};
     bool is_mirrored = place_vertices(&a, &skin, world, draft.vertices);
     if (!has_finite_vertices(file, primitive, &draft)) return;
     list_triangles(file, primitive, is_mirrored, &draft);

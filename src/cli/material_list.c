@@ -1,0 +1,158 @@
+#include "cli/material_list.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "text/json_text.h"
+
+/* What is known of one material. */
+typedef struct MaterialUse {
+    const char **nodes, **meshes; /* each name once */
+    int    node_count, mesh_count;
+    double area_m2, uv_area_m2; /* the latter: where texture coordinates span an area */
+    bool   is_flat;               /* each of its parts is */
+} MaterialUse;
+
+/* ---- geometry --------------------------------------------------------------------------- */
+
+static Vec3 edge(const float *from, const float *to)
+{
+    return vec3(to[0] - from[0], to[1] - from[1], to[2] - from[2]);
+}
+
+static bool has_coordinates(const Vertex *a, const Vertex *b, const Vertex *c, int set)
+{
+    float u1 = b->uv[set][0] - a->uv[set][0], v1 = b->uv[set][1] - a->uv[set][1];
+    float u2 = c->uv[set][0] - a->uv[set][0], v2 = c->uv[set][1] - a->uv[set][1];
+    return fabsf(u1 * v2 - u2 * v1) > 0;
+}
+
+/* A part is flat when its areas, added as vectors, are as long as their sum: within 1 %, which
+ * is a bulge of some 8 degrees to all sides. */
+#define FLAT_SHARE 0.99
+
+static void add_part(const Scene *scene, const Part *part, MaterialUse *use)
+{
+    Vec3   sum = vec3(0, 0, 0);
+    double area = 0;
+    int    set = scene->materials[part->material_id].emissive_texture.uv_set;
+    for (uint32_t t = 0; t < part->triangle_count; t++) {
+        const uint32_t *v = scene->triangles[part->first_triangle + t].vertex;
+        const Vertex *a = &scene->vertices[v[0]], *b = &scene->vertices[v[1]],
+                     *c = &scene->vertices[v[2]];
+        Vec3   twice = vec3_cross(edge(a->position, b->position),
+                                  edge(a->position, c->position));
+        double own = 0.5 * (double)vec3_length(twice);
+        sum = vec3_along(sum, twice, 0.5f);
+        area += own;
+        if (has_coordinates(a, b, c, set)) use->uv_area_m2 += own;
+    }
+    use->area_m2 += area;
+    if ((double)vec3_length(sum) < FLAT_SHARE * area) use->is_flat = false;
+}
+
+/* ---- names ------------------------------------------------------------------------------ */
+
+static void add_name(const char **names, int *count, const char *name)
+{
+    for (int i = 0; i < *count; i++)
+        if (!strcmp(names[i], name)) return;
+    if (name[0]) names[(*count)++] = name;
+}
+
+static int parts_of(const Scene *scene, int material_id)
+{
+    int count = 0;
+    for (int i = 0; i < scene->part_count; i++)
+        count += scene->parts[i].material_id == material_id;
+    return count;
+}
+
+static MaterialUse use_of(const Scene *scene, int material_id, Arena *arena)
+{
+    int parts = parts_of(scene, material_id);
+    MaterialUse use = {.nodes = ARENA_NEW(arena, const char *, parts),
+                       .meshes = ARENA_NEW(arena, const char *, parts),
+                       .is_flat = parts > 0};
+    for (int i = 0; i < scene->part_count; i++) {
+        const Part *part = &scene->parts[i];
+        if (part->material_id != material_id) continue;
+        add_name(use.nodes, &use.node_count, part->node_name);
+        add_name(use.meshes, &use.mesh_count, part->mesh_name);
+        add_part(scene, part, &use);
+    }
+    return use;
+}
+
+/* ---- is it a screen? -------------------------------------------------------------------- */
+
+static bool glows_with_texture(const Scene *scene, int material_id)
+{
+    return scene->materials[material_id].emissive_texture.texture_id != NO_ID;
+}
+
+static bool has_uv(const MaterialUse *use)
+{
+    return use->area_m2 > 0 && use->uv_area_m2 > 0.9 * use->area_m2;
+}
+
+/* What modellers do who put a screen into a model: a flat sheet that glows with a picture. */
+static bool looks_like_screen(const Scene *scene, int material_id, const MaterialUse *use)
+{
+    return glows_with_texture(scene, material_id) && use->is_flat && has_uv(use);
+}
+
+/* ---- answers ---------------------------------------------------------------------------- */
+
+static void print_names(const char *what, const char *const *names, int count)
+{
+    enum { MOST = 4 };
+    for (int i = 0; i < count && i < MOST; i++)
+        printf("%s%s", i ? ", " : what, names[i]);
+    if (count > MOST) printf(" and %d more", count - MOST);
+}
+
+static void print_material(const Scene *scene, int id, const MaterialUse *use)
+{
+    const Material *material = &scene->materials[id];
+    bool is_screen = looks_like_screen(scene, id, use);
+    printf("%-12s %s: %.4g m2%s%s%s", is_screen ? "screen?" : "material", material->name,
+           use->area_m2, use->is_flat ? ", flat" : "", has_uv(use) ? ", UVs" : "",
+           glows_with_texture(scene, id) ? ", emissive texture" : "");
+    if (material->display_id != NO_ID) printf(", is a display");
+    if (!use->area_m2) printf(", worn by nothing that is shown");
+    print_names("; node ", use->nodes, use->node_count);
+    print_names("; mesh ", use->meshes, use->mesh_count);
+    printf("\n");
+}
+
+void material_list_print(const Scene *scene, Arena *arena)
+{
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; i < scene->material_count; i++) {
+            Arena scratch = *arena;
+            const MaterialUse use = use_of(scene, i, &scratch);
+            if (looks_like_screen(scene, i, &use) == (pass == 0))
+                print_material(scene, i, &use);
+        }
+}
+
+json_t *material_list_json(const Scene *scene, Arena *arena)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < scene->material_count; i++) {
+        Arena scratch = *arena;
+        const MaterialUse use = use_of(scene, i, &scratch);
+        json_array_append_new(
+            list,
+            json_pack("{s:o, s:o, s:o, s:f, s:b, s:b, s:b, s:b, s:b}", "name",
+                      json_text(scene->materials[i].name), "meshes",
+                      json_texts(use.meshes, use.mesh_count), "nodes",
+                      json_texts(use.nodes, use.node_count), "area_m2", use.area_m2,
+                      "looks_like_screen", looks_like_screen(scene, i, &use),
+                      "has_emissive_texture", glows_with_texture(scene, i), "is_flat",
+                      use.is_flat, "has_uv", has_uv(&use), "is_display",
+                      scene->materials[i].display_id != NO_ID));
+    }
+    return list;
+}

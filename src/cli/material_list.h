@@ -1,0 +1,16 @@
+/* material_list.h -- the materials of a scene as somebody sees them who looks for its screens:
+ * where each is worn, how large it is, and whether it looks like a screen.
+ *
+ * Memory   the command's arena.
+ */
+#pragma once
+#include <jansson.h>
+
+#include "scene/scene.h"
+
+/* One line a material, screens first. */
+void material_list_print(const Scene *scene, Arena *arena);
+
+/* [{"name", "meshes", "nodes", "area_m2", "looks_like_screen", "has_emissive_texture",
+ * "is_flat", "has_uv", "is_display"}], in the scene's order. */
+json_t *material_list_json(const Scene *scene, Arena *arena);

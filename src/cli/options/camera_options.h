@@ -1,0 +1,27 @@
+/* camera_options.h -- the options that say from where a scene is seen, for the commands that
+ * look at one.
+ *
+ * The rows only keep what was typed; who chooses the camera checks it.
+ */
+#pragma once
+#include "cli/options/cli.h"
+
+/* What the command line says; NULL and false: as the scene says. */
+typedef struct CameraChoice {
+    const char *name;              /* a node's, a camera's, or an index */
+    double eye[3], look_at[3];     /* m, scene */
+    double fov_deg;                /* full vertical angle */
+    bool has_eye, has_look_at, has_fov;
+} CameraChoice;
+
+/* Rows of an option table; `choice` is a CameraChoice *. */
+#define CAMERA_OPTIONS(choice)                                                                 \
+    {"--camera", OPTION_TEXT, "NAME|INDEX", "node's or camera's name, or place (default 0)",   \
+     &(choice)->name},                                                                         \
+    {"--eye", OPTION_NUMBERS, "X,Y,Z", "instead of a camera: where the eye is, m",             \
+     (choice)->eye, .low = -1e6, .high = 1e6, .count = 3, .given = &(choice)->has_eye},        \
+    {"--look-at", OPTION_NUMBERS, "X,Y,Z", "with --eye: a point in the middle of the picture", \
+     (choice)->look_at, .low = -1e6, .high = 1e6, .count = 3,                                  \
+     .given = &(choice)->has_look_at},                                                         \
+    {"--fov", OPTION_NUMBER, "DEG", "with --eye: the picture's height as an angle (40)",       \
+     &(choice)->fov_deg, .low = 0.01, .high = 179, .given = &(choice)->has_fov}
