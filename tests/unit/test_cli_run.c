@@ -376,8 +376,10 @@ TEST(a_scene_without_a_camera_is_framed_whole_with_a_warning)
     Outcome o;
     RUN(&o, "render", "blind.gltf", "-o", "b.exr", "--size", "16x12", "--spp", "1", "--quiet");
     assert_int_equal(o.status, 0);
-    assert_string_equal(o.err, "parhelion: warning: blind.gltf: the scene has no camera: it is "
-                               "framed whole\n");
+    assert_true(strstr(o.err, "parhelion: warning: blind.gltf: the scene has no camera: it is "
+                              "framed whole, seen from the front, from ") == o.err);
+    assert_non_null(strstr(o.err, " — another place with --eye and --look-at"));
+    assert_ptr_equal(strchr(o.err, '\n'), o.err + strlen(o.err) - 1);
 }
 
 /* ---- interruption ------------------------------------------------------------------------ */
