@@ -6,7 +6,7 @@
 /* Points of the midpoint rule over the unit square of facets; half the turn is enough. They
  * crowd where u1 nears 1: the facets that send light below the horizon lie there. */
 #define TURNS 24
-#define HEIGHTS 32
+#define HEIGHTS (ENERGY_LOBE_POINTS / TURNS)
 
 /* Exact reflectance's rise from normal incidence (0) to grazing (1). */
 static float fresnel_shape(float ior, float cosine)
@@ -21,23 +21,31 @@ static Vec3 direction_at(float cosine)
     return vec3(safe_sqrtf(1 - cosine * cosine), 0, cosine);
 }
 
+bool energy_lobe_point(float ior, float cosine, float alpha, int point, EnergyLobe *out)
+{
+    Vec3  wo = direction_at(cosine);
+    float u0 = ((float)(point % TURNS) + 0.5f) / (2 * TURNS);
+    float rest = ((float)(point / TURNS) + 0.5f) / HEIGHTS;
+    Vec3  wi = ggx_sample_reflection(wo, alpha, u0, 1 - rest * rest);
+    if (!(wi.z > 0)) return false;
+    Vec3  half = vec3_normalize(vec3_add(wo, wi));
+    float weight = 2 * rest * ggx_reflection(wo, wi, half, alpha) * wi.z /
+                   ggx_reflection_pdf(wo, half, alpha);
+    *out = (EnergyLobe){wi.z, weight, fresnel_shape(ior, vec3_dot(wo, half))};
+    return true;
+}
+
 /* Integral of D G2 / (4 zo zi) * (1, shape) * zi over the hemisphere, by importance. */
 static Energy integrate(float ior, float cosine, float alpha)
 {
-    Vec3  wo = direction_at(cosine);
-    float all = 0, shape = 0;
-    for (int i = 0; i < TURNS * HEIGHTS; i++) {
-        float u0 = ((float)(i % TURNS) + 0.5f) / (2 * TURNS);
-        float rest = ((float)(i / TURNS) + 0.5f) / HEIGHTS;
-        Vec3  wi = ggx_sample_reflection(wo, alpha, u0, 1 - rest * rest);
-        if (!(wi.z > 0)) continue;
-        Vec3  half = vec3_normalize(vec3_add(wo, wi));
-        float weight = 2 * rest * ggx_reflection(wo, wi, half, alpha) * wi.z /
-                       ggx_reflection_pdf(wo, half, alpha);
-        all += weight;
-        shape += weight * fresnel_shape(ior, vec3_dot(wo, half));
+    float      all = 0, shape = 0;
+    EnergyLobe lobe;
+    for (int i = 0; i < ENERGY_LOBE_POINTS; i++) {
+        if (!energy_lobe_point(ior, cosine, alpha, i, &lobe)) continue;
+        all += lobe.weight;
+        shape += lobe.weight * lobe.shape;
     }
-    const float count = TURNS * HEIGHTS;
+    const float count = ENERGY_LOBE_POINTS;
     return (Energy){clampf(all / count, 0, 1), clampf(shape / count, 0, 1)};
 }
 
@@ -80,35 +88,30 @@ const EnergyTable *energy_table_build(float ior, Arena *arena)
     return table;
 }
 
-/* A place between two neighbours of an axis. */
-typedef struct Knot {
-    int   low;
-    float t;
-} Knot;
-
-static Knot knot_at(float place, int count)
+static EnergyKnot knot_at(float place, int count)
 {
     int low = (int)place;
     if (low > count - 2) low = count - 2;
-    return (Knot){low, clampf(place - (float)low, 0, 1)};
+    return (EnergyKnot){low, clampf(place - (float)low, 0, 1)};
 }
 
-static Knot cosine_knot(float cosine)
+EnergyKnot energy_cosine_knot(float cosine)
 {
     return knot_at(safe_sqrtf(cosine) * (ENERGY_COSINES - 1), ENERGY_COSINES);
 }
 
 /* A float's bits count octaves by themselves, and run evenly within one. */
-static Knot alpha_knot(float alpha)
+EnergyKnot energy_alpha_knot(float alpha, int per_octave)
 {
-    if (is_smooth(alpha)) return (Knot){0, 0};
+    if (is_smooth(alpha)) return (EnergyKnot){0, 0};
     float octaves = (float)(bits_from_float(alpha) - bits_from_float(0x1p-10f)) * 0x1p-23f;
-    return knot_at(octaves * ENERGY_PER_OCTAVE, ENERGY_ALPHAS);
+    return knot_at(octaves * (float)per_octave, ENERGY_OCTAVES * per_octave + 1);
 }
 
 Energy energy_directional(const EnergyTable *table, float cosine, float alpha)
 {
-    Knot a = alpha_knot(alpha), c = cosine_knot(cosine);
+    EnergyKnot    a = energy_alpha_knot(alpha, ENERGY_PER_OCTAVE);
+    EnergyKnot    c = energy_cosine_knot(cosine);
     const Energy *below = table->directional[a.low] + c.low, *above = below + ENERGY_COSINES;
     return energy_mix(energy_mix(below[0], below[1], c.t), energy_mix(above[0], above[1], c.t),
                       a.t);
@@ -116,6 +119,6 @@ Energy energy_directional(const EnergyTable *table, float cosine, float alpha)
 
 Energy energy_average(const EnergyTable *table, float alpha)
 {
-    Knot a = alpha_knot(alpha);
+    EnergyKnot a = energy_alpha_knot(alpha, ENERGY_PER_OCTAVE);
     return energy_mix(table->average[a.low], table->average[a.low + 1], a.t);
 }

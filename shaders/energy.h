@@ -8,6 +8,8 @@
  * Threads  const once built.
  */
 #pragma once
+#include <stdbool.h>
+
 #include "base/arena.h"
 #include "base/mathf.h"
 
@@ -38,3 +40,27 @@ static inline Energy energy_mix(Energy a, Energy b, float t)
 /* cosine in [0, 1]; alpha in [0, 1]. Below SMOOTH_ALPHA (microfacet.h) as if smooth. */
 Energy energy_directional(const EnergyTable *table, float cosine, float alpha);
 Energy energy_average(const EnergyTable *table, float alpha);
+
+/* ---- for tables on the same nodes (coat.h) ----------------------------------------------- */
+
+/* A place between two neighbours of an axis. */
+typedef struct EnergyKnot {
+    int   low;
+    float t;
+} EnergyKnot;
+
+EnergyKnot energy_cosine_knot(float cosine);
+/* Row 0 is every smooth boundary; rows stand per_octave to an octave of alpha. */
+EnergyKnot energy_alpha_knot(float alpha, int per_octave);
+
+#define ENERGY_LOBE_POINTS 768
+
+/* One of the points of an integral over the lobe of reflectance 1 about a direction. */
+typedef struct EnergyLobe {
+    float cosine; /* of where the light goes */
+    float weight; /* share of the light, times ENERGY_LOBE_POINTS */
+    float shape;  /* of the Fresnel curve there */
+} EnergyLobe;
+
+/* point: 0 to ENERGY_LOBE_POINTS - 1. False: its light is lost. */
+bool energy_lobe_point(float ior, float cosine, float alpha, int point, EnergyLobe *out);

@@ -23,19 +23,28 @@
  * send back goes into a Lambert base, coupled symmetrically (Kelemen and Szirmay-Kalos 2001),
  * so a white plastic returns exactly what it gets. Metals use Schlick's curve a wavelength. The
  * transmissive share is a sheet with two faces, R = 2F/(1+F); smooth sheets pass light straight
- * on. Metals and sheets get back what facets send to other facets (Kulla and Conty 2017). The
- * coat lies over everything and takes its albedo off the base on the way in and out. All of it
- * is reciprocal.
+ * on. Metals and sheets get back what facets send to other facets (Kulla and Conty 2017).
+ * A coat covers its share of the surface. What it lets in and out again is one less its albedo
+ * each way; what it holds back meets the base again: a metal's lobe and rebound are scaled for
+ * it by coat.h, the Lambert base is coupled to both boundaries at once. A white metal or
+ * plastic under any coat returns what it gets, to 85 degrees within 0.1 % (plastic) and 0.2 %
+ * (metal; 0.21 % was seen at alpha 0.022 under a coat of 0.022, where bare metal is off by
+ * 0.35 %, at 85 degrees); of a coloured base each further turn takes its albedo. All of it is
+ * reciprocal.
  *
- * Not modelled: polarisation, anisotropic brushing, sheen of velvet, subsurface spread, light
- * that a coat's inside sends back down, coloured absorption along a slanted path in the coat,
- * the exact conductor curve (Schlick is within some per cent of it).
+ * Not modelled: polarisation, anisotropic brushing, sheen of velvet, subsurface spread,
+ * coloured absorption along a slanted path in the coat, turns of light between a coat and the
+ * mirror of a non-metal (its few per cent go to the Lambert base) or a sheet, and between a
+ * base and a coat whose normal is tilted, the exact conductor curve (Schlick is within some per
+ * cent of it).
  */
 #include "shaders/metallic_roughness.h"
 
 #include "base/units.h"
 #include "spectrum/fresnel.h"
 #include "shaders/microfacet.h"
+
+#define COAT_UPRIGHT 0.9999f /* z of a coat's normal that is not tilted */
 
 /* The non-metal's reflectance is f0 + rise * shape(angle). */
 typedef struct Boundary {
@@ -47,6 +56,12 @@ typedef struct Choices {
     float coat, mirror, diffuse, through;
 } Choices;
 
+/* What the coat does to light along one direction. */
+typedef struct Through {
+    float     open; /* share that its boundary lets pass */
+    CoatShare share;
+} Through;
+
 /* The material as one eye sees it: what eval and sample need of wo. */
 typedef struct View {
     const MetallicRoughness *m;
@@ -54,6 +69,8 @@ typedef struct View {
     Boundary boundary;
     Energy   energy; /* of the base towards wo */
     float    coat;   /* the coat's albedo towards wo, times its share */
+    Through  through; /* the coat, and of it all: */
+    CoatMean coat_mean;
     Choices  choices;
 } View;
 
@@ -107,20 +124,20 @@ static inline Spectrum let_in(const Boundary *b, Energy e)
     return spectrum_all(1) - b->f0 * spectrum_all(e.all) - b->rise * spectrum_all(e.shape);
 }
 
-/* Reflectance of a facet met at `cosine`, all three materials of the base mixed. */
-static Spectrum facet_reflectance(const MetallicRoughness *m, const Boundary *b, float cosine)
+/* Reflectance of a facet met at `cosine`, of the non-metal's share, sheet or solid. */
+static Spectrum facet_of_nonmetal(const MetallicRoughness *m, const Boundary *b, float cosine)
 {
-    Spectrum sum = spectrum_all(0);
-    if (m->metallic < 1) {
-        Spectrum face = boundary_reflectance(m, b, cosine);
-        Spectrum mixed = face;
-        if (m->transmission > 0)
-            mixed += (sheet_reflectance(face) - face) * spectrum_all(m->transmission);
-        sum = mixed * spectrum_all(1 - m->metallic);
-    }
-    if (m->metallic > 0)
-        sum += fresnel_schlick(m->base_color, cosine) * spectrum_all(m->metallic);
-    return sum;
+    if (!(m->metallic < 1)) return spectrum_all(0);
+    Spectrum face = boundary_reflectance(m, b, cosine);
+    if (m->transmission > 0)
+        face += (sheet_reflectance(face) - face) * spectrum_all(m->transmission);
+    return face * spectrum_all(1 - m->metallic);
+}
+
+static Spectrum facet_of_metal(const MetallicRoughness *m, float cosine)
+{
+    if (!(m->metallic > 0)) return spectrum_all(0);
+    return fresnel_schlick(m->base_color, cosine) * spectrum_all(m->metallic);
 }
 
 /* What the sheet's share lets through a facet met at `cosine`. */
@@ -154,11 +171,15 @@ static float rebound_lobe(const View *view, Energy in)
 
 /* Of a metal every further bounce takes its mean reflectance; the mean of Schlick's curve over
  * the hemisphere is f0 + (1 - f0) / 21. */
+static Spectrum metal_mean(const MetallicRoughness *m)
+{
+    return m->base_color + (spectrum_all(1) - m->base_color) * spectrum_all(1.0f / 21);
+}
+
 static Spectrum metal_rebound(const MetallicRoughness *m)
 {
     float    mean = energy_average(m->energy, m->alpha).all;
-    Spectrum one = spectrum_all(1);
-    Spectrum f = m->base_color + (one - m->base_color) * spectrum_all(1.0f / 21);
+    Spectrum one = spectrum_all(1), f = metal_mean(m);
     return f * f * spectrum_all(mean * m->metallic) / (one - f * spectrum_all(1 - mean));
 }
 
@@ -170,11 +191,16 @@ static Spectrum pane_mean(const View *view)
     return sheet_reflectance(b->f0 + b->rise * spectrum_all(shape));
 }
 
+static float clear_share(const MetallicRoughness *m)
+{
+    return (1 - m->metallic) * m->transmission;
+}
+
 static Spectrum rebound_above(const View *view, Energy in)
 {
     const MetallicRoughness *m = view->m;
     Spectrum sum = spectrum_all(0);
-    float    clear = (1 - m->metallic) * m->transmission;
+    float    clear = clear_share(m);
     float    lobe = m->metallic > 0 || clear > 0 ? rebound_lobe(view, in) : 0;
     if (!(lobe > 0)) return sum;
     if (m->metallic > 0) sum = metal_rebound(m);
@@ -191,9 +217,75 @@ static float coat_cosine(const MetallicRoughness *m, Vec3 w)
 static float coat_albedo(const MetallicRoughness *m, Vec3 w)
 {
     if (!(m->clearcoat > 0)) return 0;
-    float  f0 = fresnel_normal(CLEARCOAT_IOR);
-    Energy e = energy_directional(m->clearcoat_energy, coat_cosine(m, w), m->clearcoat_alpha);
-    return m->clearcoat * (f0 * e.all + (1 - f0) * e.shape);
+    return m->clearcoat *
+           coat_reflectance(m->clearcoat_energy, coat_cosine(m, w), m->clearcoat_alpha);
+}
+
+/* A tilted coat's turns are left out: the table knows no tilt. */
+static Through coat_through(const MetallicRoughness *m, Vec3 w)
+{
+    float   cosine = coat_cosine(m, w);
+    Through t = {1 - coat_reflectance(m->clearcoat_energy, cosine, m->clearcoat_alpha),
+                 coat_share(m->coat, cosine, m->alpha, m->clearcoat_alpha)};
+    if (m->clearcoat_normal.z < COAT_UPRIGHT) t.share.boost = t.open;
+    return t;
+}
+
+/* Of the light that goes in and out along these, with p = (t / u)^2 the share that a lobe's
+ * light gets out with each time and r the base's albedo: t t / sqrt of both 1 - r (1 - p). */
+static Spectrum coat_on_metal(const MetallicRoughness *m, const Through *out, const Through *in)
+{
+    Spectrum r = metal_mean(m), one = spectrum_all(1), product;
+    float    stays[2], t[2] = {out->open, in->open}, u[2] = {out->share.boost, in->share.boost};
+    for (int i = 0; i < 2; i++) {
+        float p = u[i] > 0 ? t[i] / u[i] : 1;
+        stays[i] = 1 - fminf(p * p, 1);
+    }
+    product = (one - r * spectrum_all(stays[0])) * (one - r * spectrum_all(stays[1]));
+    for (int i = 0; i < SPECTRUM_LANES; i++)
+        product[i] = t[0] * t[1] / sqrtf(fmaxf(product[i], 1e-12f));
+    return product;
+}
+
+/* Every further turn between a coat and a base that spreads light takes the base's albedo. */
+static Spectrum coat_turns(const View *view, Spectrum albedo)
+{
+    float open = view->coat_mean.open;
+    return spectrum_all(open) / (spectrum_all(1) - albedo * spectrum_all(1 - open));
+}
+
+/* What both boundaries let into the Lambert base. */
+static inline Spectrum let_in_coated(const Boundary *b, Energy e, const Through *t)
+{
+    return let_in(b, (Energy){e.all - t->share.all, e.shape - t->share.shape}) *
+           spectrum_all(t->open);
+}
+
+static Spectrum coated_diffuse(const View *view, Energy in, const Through *below)
+{
+    const MetallicRoughness *m = view->m;
+    const Boundary *b = &view->boundary;
+    float    share = (1 - m->metallic) * (1 - m->transmission);
+    if (!(share > 0)) return spectrum_all(0);
+    Spectrum mean = spectrum_all(view->coat_mean.open) -
+                    b->f0 * spectrum_all(view->coat_mean.all) -
+                    b->rise * spectrum_all(view->coat_mean.shape);
+    return m->base_color * coat_turns(view, m->base_color) *
+           let_in_coated(b, view->energy, &view->through) * let_in_coated(b, in, below) *
+           spectrum_all(share * INV_PI_F) / spectrum_max(mean, spectrum_all(1e-3f));
+}
+
+static Spectrum coated_rebound(const View *view, Energy in, const Through *below)
+{
+    const MetallicRoughness *m = view->m;
+    float    both = view->through.open * below->open, clear = clear_share(m);
+    float    missing = view->coat_mean.open - view->coat_mean.lobe;
+    Spectrum sum = spectrum_all(0);
+    if (m->metallic > 0 && missing > 1e-6f)
+        sum = metal_rebound(m) * coat_turns(view, metal_mean(m)) *
+              spectrum_all((1 - view->energy.all) * (1 - in.all) / missing * INV_PI_F);
+    if (clear > 0) sum += pane_mean(view) * spectrum_all(clear * rebound_lobe(view, in));
+    return sum * spectrum_all(both);
 }
 
 /* With a tilted normal the coat's own cosines differ from the surface's: dividing by the larger
@@ -263,22 +355,53 @@ static inline View view_from(const MetallicRoughness *m, Vec3 wo)
     view.boundary = boundary_of(m);
     view.energy = energy_directional(m->energy, wo.z, m->alpha);
     view.coat = coat_albedo(m, wo);
+    if (m->clearcoat > 0) {
+        view.through = coat_through(m, wo);
+        view.coat_mean = coat_mean(m->coat, m->alpha, m->clearcoat_alpha);
+    }
     view.choices = choose(&view);
     return view;
+}
+
+/* A facet of the base met at `cosine`, as the light of both directions finds it: below NULL: no
+ * coat lies on it. */
+static Spectrum facet_below(const View *view, float cosine, const Through *below)
+{
+    const MetallicRoughness *m = view->m;
+    Spectrum nonmetal = facet_of_nonmetal(m, &view->boundary, cosine);
+    Spectrum metal = facet_of_metal(m, cosine);
+    if (!below) return nonmetal + metal;
+    if (m->metallic > 0) metal *= coat_on_metal(m, &view->through, below);
+    return nonmetal * spectrum_all(view->through.open * below->open) + metal;
+}
+
+/* Bare and coated, by the coat's share. */
+static Spectrum covered(const MetallicRoughness *m, Spectrum bare, Spectrum coated)
+{
+    return bare + (coated - bare) * spectrum_all(m->clearcoat);
 }
 
 /* The base seen from above: rough mirror, Lambert, rebound; and its part of the pdf. */
 static Spectrum base_above(const View *view, Vec3 wi, float *pdf)
 {
     const MetallicRoughness *m = view->m;
+    bool     has_coat = m->clearcoat > 0;
+    Through  below;
     Energy   in = energy_directional(m->energy, wi.z, m->alpha);
     Spectrum sum = diffuse_eval(view, in) + rebound_above(view, in);
     *pdf = view->choices.diffuse * wi.z * INV_PI_F;
+    if (has_coat) {
+        below = coat_through(m, wi);
+        sum = covered(m, sum, coated_diffuse(view, in, &below) +
+                                  coated_rebound(view, in, &below));
+    }
     if (!is_smooth(m->alpha)) {
-        Vec3  half = vec3_normalize(vec3_add(view->wo, wi));
-        float lobe = ggx_reflection(view->wo, wi, half, m->alpha);
-        sum += facet_reflectance(m, &view->boundary, vec3_dot(view->wo, half)) *
-               spectrum_all(lobe);
+        Vec3     half = vec3_normalize(vec3_add(view->wo, wi));
+        float    lobe = ggx_reflection(view->wo, wi, half, m->alpha);
+        float    cosine = vec3_dot(view->wo, half);
+        Spectrum facet = facet_below(view, cosine, NULL);
+        if (has_coat) facet = covered(m, facet, facet_below(view, cosine, &below));
+        sum += facet * spectrum_all(lobe);
         *pdf += view->choices.mirror * ggx_reflection_pdf(view->wo, half, m->alpha);
     }
     return sum;
@@ -308,7 +431,7 @@ static Spectrum eval_view(const View *view, Vec3 wi, float *pdf)
     const MetallicRoughness *m = view->m;
     Spectrum f = wi.z > 0 ? base_above(view, wi, pdf) : base_below(view, wi, pdf);
     if (!(m->clearcoat > 0)) return f;
-    f *= spectrum_all((1 - view->coat) * (1 - coat_albedo(m, wi)));
+    if (wi.z < 0) f *= spectrum_all((1 - view->coat) * (1 - coat_albedo(m, wi)));
     if (!is_smooth(m->clearcoat_alpha)) {
         float coat_pdf;
         f += spectrum_all(coat_eval(m, view->wo, wi, &coat_pdf));
@@ -349,8 +472,11 @@ static bool sample_smooth_coat(const View *view, BsdfSample *sample)
 static bool sample_smooth_base(const View *view, BsdfSample *sample)
 {
     Vec3  wi = vec3(-view->wo.x, -view->wo.y, view->wo.z);
-    float coat = (1 - view->coat) * (1 - coat_albedo(view->m, wi));
-    Spectrum value = facet_reflectance(view->m, &view->boundary, wi.z) * spectrum_all(coat);
+    Spectrum value = facet_below(view, wi.z, NULL);
+    if (view->m->clearcoat > 0) {
+        Through below = coat_through(view->m, wi);
+        value = covered(view->m, value, facet_below(view, wi.z, &below));
+    }
     return sample_smooth(sample, wi, value, view->choices.mirror);
 }
 

@@ -4,7 +4,7 @@
  */
 #pragma once
 #include "shaders/bsdf_model.h"
-#include "shaders/energy.h"
+#include "shaders/coat.h"
 
 #define CLEARCOAT_IOR 1.5f /* glTF's */
 
@@ -20,7 +20,8 @@ typedef struct MetallicRoughness {
     float    clearcoat_alpha;  /* GGX, [0, 1] */
     Vec3     clearcoat_normal; /* unit, local frame; z > 0 */
     const EnergyTable *energy;           /* of the material's index of refraction */
-    const EnergyTable *clearcoat_energy; /* of CLEARCOAT_IOR; may be NULL when clearcoat is 0 */
+    const EnergyTable *clearcoat_energy; /* of CLEARCOAT_IOR; NULL: clearcoat is 0 */
+    const CoatTable   *coat;             /* of both; likewise */
 } MetallicRoughness;
 
 /* glTF's default material, but for energy, which the caller owns: white metal, alpha 1. */

@@ -9,12 +9,26 @@
 struct SurfaceTables {
     const EnergyTable **of_material; /* of each material's index of refraction */
     const EnergyTable  *of_coat;
+    const CoatTable   **on_material; /* of a coat on each material; NULL: it has none */
 };
+
+/* Materials of one index of refraction share a table. */
+static const CoatTable *coat_on(const Scene *scene, int material_id,
+                                const SurfaceTables *tables, Arena *arena)
+{
+    const Material *m = scene->materials;
+    if (!(m[material_id].clearcoat > 0)) return NULL;
+    for (int i = 0; i < material_id; i++)
+        if (tables->on_material[i] && m[i].ior == m[material_id].ior)
+            return tables->on_material[i];
+    return coat_table_build(tables->of_material[material_id], tables->of_coat, arena);
+}
 
 const SurfaceTables *surface_tables_build(const Scene *scene, Arena *arena)
 {
     SurfaceTables *tables = ARENA_NEW(arena, SurfaceTables, 1);
     tables->of_material = ARENA_NEW(arena, const EnergyTable *, scene->material_count + 1);
+    tables->on_material = ARENA_NEW(arena, const CoatTable *, scene->material_count + 1);
     tables->of_coat = energy_table_build(CLEARCOAT_IOR, arena);
     for (int i = 0; i < scene->material_count; i++) {
         float ior = scene->materials[i].ior;
@@ -22,6 +36,7 @@ const SurfaceTables *surface_tables_build(const Scene *scene, Arena *arena)
         for (int j = 0; j < i && !table; j++)
             if (scene->materials[j].ior == ior) table = tables->of_material[j];
         tables->of_material[i] = table ? table : energy_table_build(ior, arena);
+        tables->on_material[i] = coat_on(scene, i, tables, arena);
     }
     return tables;
 }
@@ -144,6 +159,7 @@ static void set_coat(const Site *site, const Surface *surface, MetallicRoughness
     if (vec3_dot(normal, surface->frame.z) < 0) normal = vec3_neg(normal);
     model->clearcoat_alpha = roughness * roughness;
     model->clearcoat_energy = site->tables->of_coat;
+    model->coat = site->tables->on_material[surface->material_id];
     model->clearcoat_normal = frame_to_local(&surface->frame, normal);
     if (model->clearcoat_normal.z < LOWEST_COSINE) model->clearcoat_normal = vec3(0, 0, 1);
 }

@@ -24,6 +24,7 @@ static Model models[MAX_MODELS];
 static int   model_count;
 static Arena arena;
 static const EnergyTable *glass, *diamond, *perfect, *nothing;
+static const CoatTable   *lacquer;
 
 static MetallicRoughness *add_model(const char *name, float metallic, float alpha,
                                     bool lossless)
@@ -37,6 +38,7 @@ static MetallicRoughness *add_model(const char *name, float metallic, float alph
     m->metallic = metallic;
     m->alpha = alpha;
     m->clearcoat_energy = glass;
+    m->coat = lacquer;
     return m;
 }
 
@@ -88,9 +90,18 @@ static void add_lacquers(void)
     MetallicRoughness *m = add_model("piano lacquer", 0, 0.5f, false);
     m->base_color = ramp(0.01f, 0.03f);
     m->clearcoat = 1;
-    m = add_model("white under smooth lacquer", 0, 0.3f, false);
+    m = add_model("white under smooth lacquer", 0, 0.3f, true);
     m->clearcoat = 1;
-    m = add_model("white under rough lacquer", 0, 0.3f, false);
+    m = add_model("white smooth chrome under lacquer", 1, 0, true);
+    m->clearcoat = 1;
+    m = add_model("half metal under rough lacquer", 0.5f, 0.5f, true);
+    m->clearcoat = 1;
+    m->clearcoat_alpha = 0.5f;
+    models[model_count - 1].width = 0.5f;
+    m = add_model("gold under lacquer", 1, 0.3f, false);
+    m->base_color = ramp(0.3f, 0.97f);
+    m->clearcoat = 1;
+    m = add_model("white under rough lacquer", 0, 0.3f, true);
     m->clearcoat = 0.8f;
     m->clearcoat_alpha = 0.1f;
     models[model_count - 1].width = 0.1f;
@@ -136,6 +147,7 @@ static int make_models(void **state)
     diamond = energy_table_build(2.4f, &arena);
     perfect = energy_table_build(0, &arena);
     nothing = energy_table_build(1, &arena);
+    lacquer = coat_table_build(glass, glass, &arena);
     add_plastics();
     add_metals();
     add_panes();
