@@ -135,7 +135,8 @@ static Measured mean_of(const Half *half, bool has_variance)
 /* First order: the halves' errors are independent. */
 static Measured derived(double value, Measured a, double slope_a, Measured b, double slope_b)
 {
-    return (Measured){value, hypot(slope_a * a.half_width, slope_b * b.half_width)};
+    double of_a = slope_a * a.half_width, of_b = slope_b * b.half_width;
+    return (Measured){value, sqrt(of_a * of_a + of_b * of_b)};
 }
 
 static void set_figures(Measured low, Measured high, ContentContrast *out)
