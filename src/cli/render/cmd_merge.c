@@ -312,28 +312,27 @@ static bool print_json(const MergeRun *work, Error *err)
     return cli_print_json(answer, err);
 }
 
-static bool print_line(const MergeRun *work, Error *err)
+static void print_line(const MergeRun *work)
 {
     const FilmPart *whole = &work->whole;
     const FilmRect *crop = &whole->crop;
-    int written = printf("%s: %d part%s, pixels %d,%d,%d,%d of %dx%d, samples %u:%u, relative "
-                         "error %.2f%%%s\n",
-                         work->output, work->cli.argument_count,
-                         work->cli.argument_count == 1 ? "" : "s", crop->x0, crop->y0, crop->x1,
-                         crop->y1, whole->width, whole->height, whole->first_sample,
-                         whole->end_sample, 100 * work->error.frame,
-                         work->keeps_sums ? ", with its sums" : "");
-    if (written < 0 || fflush(stdout))
-        return error_at(err, ERROR_OUTPUT, "stdout", NULL, "cannot be written: %s",
-                        strerror(errno));
-    return true;
+    printf("%s: %d part%s, pixels %d,%d,%d,%d of %dx%d, samples %u:%u, relative "
+           "error %.2f%%%s\n",
+           work->output, work->cli.argument_count,
+           work->cli.argument_count == 1 ? "" : "s", crop->x0, crop->y0, crop->x1,
+           crop->y1, whole->width, whole->height, whole->first_sample,
+           whole->end_sample, 100 * work->error.frame,
+           work->keeps_sums ? ", with its sums" : "");
 }
 
 static bool merge(MergeRun *work, Error *err)
 {
-    return look_at_all(work, err) && check_memory(work, err) && add_all(work, err) &&
-           write_frame(work, err) &&
-           (work->cli.json ? print_json(work, err) : print_line(work, err));
+    if (!look_at_all(work, err) || !check_memory(work, err) || !add_all(work, err) ||
+        !write_frame(work, err))
+        return false;
+    if (work->cli.json) return print_json(work, err);
+    print_line(work);
+    return true;
 }
 
 static bool run_merge(int argc, char **argv, Arena *arena, Error *err)

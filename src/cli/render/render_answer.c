@@ -196,31 +196,29 @@ static void print_worst(const RenderRequest *request, const RenderResult *result
            request->output, worst.x, worst.y, worst.luminance, 100 * worst.error);
 }
 
-static bool print_line(const RenderRequest *request, const RenderResult *result, Error *err)
+static void print_line(const RenderRequest *request, const RenderResult *result)
 {
     const PathStatistics *counts = &result->statistics;
     char samples[32], rays[32];
     rate_text(per_second((double)counts->samples, result->seconds), samples,
               (int)sizeof samples);
     rate_text(per_second(ray_count(counts), result->seconds), rays, (int)sizeof rays);
-    int written = printf("%s: %dx%d, %u samples a pixel%s, %.1f s, %ssamples/s, %srays/s, "
-                         "relative error %.2f%%, peak memory %.0f MB\n",
-                         request->output, request->render.width, request->render.height,
-                         result->samples, result->complete ? "" : " (incomplete)",
-                         result->seconds, samples, rays, 100 * result->error.frame,
-                         peak_memory_bytes() / 1e6);
+    printf("%s: %dx%d, %u samples a pixel%s, %.1f s, %ssamples/s, %srays/s, "
+           "relative error %.2f%%, peak memory %.0f MB\n",
+           request->output, request->render.width, request->render.height,
+           result->samples, result->complete ? "" : " (incomplete)",
+           result->seconds, samples, rays, 100 * result->error.frame,
+           peak_memory_bytes() / 1e6);
     print_worst(request, result);
-    if (written < 0 || fflush(stdout))
-        return error_at(err, ERROR_OUTPUT, "stdout", NULL, "cannot be written: %s",
-                        strerror(errno));
-    return true;
 }
 
 bool render_print_answer(const RenderRequest *request, const RenderResult *result,
                          const Problems *problems, Error *err)
 {
-    return request->cli.json ? cli_print_json(answer_document(request, result, problems), err)
-                             : print_line(request, result, err);
+    if (request->cli.json)
+        return cli_print_json(answer_document(request, result, problems), err);
+    print_line(request, result);
+    return true;
 }
 
 /* ---- replay ------------------------------------------------------------------------------ */
