@@ -247,10 +247,10 @@ static Spectrum coat_on_metal(const MetallicRoughness *m, const Through *out, co
     return product;
 }
 
-/* Every further turn between a coat and a base that spreads light takes the base's albedo. */
-static Spectrum coat_turns(const View *view, Spectrum albedo)
+/* Every further turn between a coat, which lets out the mean share `open`, and a base that
+ * spreads light takes the base's albedo. */
+static Spectrum coat_turns(float open, Spectrum albedo)
 {
-    float open = view->coat_mean.open;
     return spectrum_all(open) / (spectrum_all(1) - albedo * spectrum_all(1 - open));
 }
 
@@ -270,7 +270,7 @@ static Spectrum coated_diffuse(const View *view, Energy in, const Through *below
     Spectrum mean = spectrum_all(view->coat_mean.open) -
                     b->f0 * spectrum_all(view->coat_mean.all) -
                     b->rise * spectrum_all(view->coat_mean.shape);
-    return m->base_color * coat_turns(view, m->base_color) *
+    return m->base_color * coat_turns(view->coat_mean.open, m->base_color) *
            let_in_coated(b, view->energy, &view->through) * let_in_coated(b, in, below) *
            spectrum_all(share * INV_PI_F) / spectrum_max(mean, spectrum_all(1e-3f));
 }
@@ -282,7 +282,7 @@ static Spectrum coated_rebound(const View *view, Energy in, const Through *below
     float    missing = view->coat_mean.open - view->coat_mean.lobe;
     Spectrum sum = spectrum_all(0);
     if (m->metallic > 0 && missing > 1e-6f)
-        sum = metal_rebound(m) * coat_turns(view, metal_mean(m)) *
+        sum = metal_rebound(m) * coat_turns(view->coat_mean.open, metal_mean(m)) *
               spectrum_all((1 - view->energy.all) * (1 - in.all) / missing * INV_PI_F);
     if (clear > 0) sum += pane_mean(view) * spectrum_all(clear * rebound_lobe(view, in));
     return sum * spectrum_all(both);
@@ -561,8 +561,12 @@ static Spectrum model_albedo(const void *parameters, Vec3 wo)
     Spectrum metal = base + (one - base) * spectrum_all(e.shape);
     Spectrum dielectric = solid + (clear - solid) * spectrum_all(m->transmission);
     Spectrum mixed = dielectric + (metal - dielectric) * spectrum_all(m->metallic);
-    float    coat = coat_albedo(m, wo);
-    return spectrum_all(coat) + mixed * spectrum_all(1 - coat);
+    if (!(m->clearcoat > 0)) return mixed;
+    float    own = coat_albedo(m, wo) / m->clearcoat;
+    float    open = coat_mean(m->coat, m->alpha, m->clearcoat_alpha).open;
+    Spectrum coated = spectrum_all(own) + mixed * coat_turns(open, mixed) *
+                      spectrum_all(1 - own);
+    return covered(m, mixed, coated);
 }
 
 const BsdfModel metallic_roughness_model = {.eval = model_eval, .sample = model_sample,

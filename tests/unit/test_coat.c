@@ -29,22 +29,22 @@ static int drop_tables(void **state)
  * it, from 0 to 85 degrees. The samples run evenly through half a turn, through sqrt(1 - u1)
  * (facets that graze or lose their light crowd where u1 nears 1) and, by a lattice, through
  * the choices. */
-static double furnace_of(const MetallicRoughness *m, double theta_deg)
+static double furnace_of(const MetallicRoughness *m, double theta_deg, int side)
 {
-    enum { SIDE = 48, CHOICES = 8 };
+    enum { CHOICES = 8 };
     double t = radians_from_degrees(theta_deg), sum = 0;
     Bsdf   bsdf = {.kind = BSDF_METALLIC_ROUGHNESS, .metallic_roughness = *m};
     Vec3   wo = vec3((float)sin(t), 0, (float)cos(t));
-    for (int i = 0; i < SIDE * SIDE * CHOICES; i++) {
-        int    turn = i % SIDE, height = i / SIDE % SIDE, choice = i / (SIDE * SIDE);
-        double rest = (height + 0.5) / SIDE;
+    for (int i = 0; i < side * side * CHOICES; i++) {
+        int    turn = i % side, height = i / side % side, choice = i / (side * side);
+        double rest = (height + 0.5) / side;
         double within = fmod(turn * 0.7548776662 + height * 0.5698402910, 1);
-        const float u[3] = {((float)turn + 0.5f) / (2 * SIDE), (float)(1 - rest * rest),
+        const float u[3] = {((float)turn + 0.5f) / (2 * side), (float)(1 - rest * rest),
                             (float)((choice + within) / CHOICES)};
         BsdfSample s;
         if (bsdf_sample(&bsdf, wo, u, &s)) sum += 2 * rest * (double)s.weight[7];
     }
-    return sum / (SIDE * SIDE * CHOICES);
+    return sum / (side * side * CHOICES);
 }
 
 static void check_coated(float metallic, float alpha, double theta_deg)
@@ -58,7 +58,7 @@ static void check_coated(float metallic, float alpha, double theta_deg)
     for (int c = 0; c < 5; c++) {
         m.clearcoat = c == 2 ? 0.6f : 1;
         m.clearcoat_alpha = coats[c];
-        double coated = furnace_of(&m, theta_deg);
+        double coated = furnace_of(&m, theta_deg, 48);
         if (!(fabs(coated - 1) <= 2e-3))
             fail_msg("metal %g, alpha %g under a coat of %g, %g deg: %g", (double)metallic,
                      (double)alpha, (double)coats[c], theta_deg, coated);
@@ -74,6 +74,50 @@ TEST(a_coat_keeps_a_white_furnace_white)
         for (int metallic = 0; metallic < 2; metallic++)
             for (int t = 0; t < 6; t++)
                 check_coated((float)metallic, alphas[a], thetas_deg[t]);
+}
+
+/* Between the rows of its tables too, alike and unlike roughness; what the 48 points a side
+ * above tell of so narrow a lobe is 0.35 % off by themselves. */
+TEST(a_coat_keeps_it_white_between_its_tables_rows)
+{
+    (void)state;
+    static const float alphas[] = {0.022f, 0.16f};
+    for (int k = 0; k < 16; k++) {
+        MetallicRoughness m = metallic_roughness_default(glass);
+        m.metallic = (float)(k & 1);
+        m.alpha = alphas[k >> 1 & 1];
+        m.clearcoat = 1;
+        m.clearcoat_alpha = alphas[k >> 2 & 1];
+        m.clearcoat_energy = glass;
+        m.coat = lacquer;
+        double theta_deg = k >> 3 ? 85 : 71, coated = furnace_of(&m, theta_deg, 144);
+        if (!(fabs(coated - 1) <= 2e-3))
+            fail_msg("metal %g, alpha %g under a coat of %g, %g deg: %g", (double)m.metallic,
+                     (double)m.alpha, (double)m.clearcoat_alpha, theta_deg, coated);
+    }
+}
+
+/* The layer of albedo takes part in the turns: a coat makes a grey plastic darker. */
+TEST(the_albedo_of_coated_plastic_is_what_it_sends_back)
+{
+    (void)state;
+    for (int k = 0; k < 24; k++) {
+        MetallicRoughness m = metallic_roughness_default(glass);
+        m.metallic = 0;
+        m.alpha = 0.3f;
+        m.base_color = spectrum_all(0.1f + 0.2f * (float)(k % 4));
+        m.clearcoat = k / 4 % 2 ? 1 : 0.5f;
+        m.clearcoat_alpha = 0.2f;
+        m.clearcoat_energy = glass;
+        m.coat = lacquer;
+        double theta_deg = 20 + 25.0 * (k / 8), t = radians_from_degrees(theta_deg);
+        Bsdf   bsdf = {.kind = BSDF_METALLIC_ROUGHNESS, .metallic_roughness = m};
+        Vec3   wo = vec3((float)sin(t), 0, (float)cos(t));
+        double sent = furnace_of(&m, theta_deg, 48), told = (double)bsdf_albedo(&bsdf, wo)[7];
+        if (!(fabs(told - sent) <= 5e-3))
+            fail_msg("colour %g, coat %g, %g deg: albedo %g, furnace %g",
+                     (double)m.base_color[7], (double)m.clearcoat, theta_deg, told, sent);
+    }
 }
 
 /* A mirror under a smooth coat is what the series of their turns gives, whatever its colour. */
