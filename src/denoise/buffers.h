@@ -67,6 +67,16 @@ static inline float buffers_mean(const DenoiseBuffers *buffers, int channel, siz
            buffers->share[1] * buffers->light[1][channel][pixel];
 }
 
+/* How much two pixels' normals, albedos and depths differ, squared; 1 is a normal turned by 60
+ * degrees, an albedo of 1 beside 0, or 25 % of depth. */
+static inline float buffers_feature_distance(const DenoiseBuffers *buffers, size_t a, size_t b)
+{
+    const BufferRow between = buffers->rows[a] - buffers->rows[b];
+    float           square = 0;
+    for (int j = ROW_NORMAL; j <= ROW_DEPTH; j++) square += between[j] * between[j];
+    return square;
+}
+
 /* The pixels at most `reach` from one, half-open. */
 typedef struct PixelWindow {
     int x0, y0, x1, y1;

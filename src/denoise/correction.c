@@ -5,7 +5,7 @@
 #include "base/mathf.h"
 #include "base/parallel.h"
 
-#define STRICTNESS 3.0f /* squared standard errors that are not believed */
+#define STRICTNESS 1.5f /* squared standard errors that are not believed */
 #define UNLIKE 8.0f     /* how fast pixels of other features stop to count */
 
 typedef struct Correction {
@@ -19,16 +19,6 @@ typedef struct Residual {
     float sum[3], variance[3], weight;
 } Residual;
 
-static float likeness(const DenoiseBuffers *b, size_t a, size_t k)
-{
-    float square = 0;
-    for (int j = ROW_NORMAL; j <= ROW_DEPTH; j++) {
-        float difference = b->rows[a][j] - b->rows[k][j];
-        square += difference * difference;
-    }
-    return -UNLIKE * square;
-}
-
 static Residual residual_around(const Correction *work, size_t pixel, int x0, int y0)
 {
     const DenoiseBuffers *b = work->buffers;
@@ -40,7 +30,8 @@ static Residual residual_around(const Correction *work, size_t pixel, int x0, in
             size_t i = (size_t)y * (size_t)b->width + (size_t)x;
             if (b->kind[i] != b->kind[pixel]) continue;
             float distance = (float)((x - x0) * (x - x0) + (y - y0) * (y - y0));
-            float weight = exp_f(narrow * distance + likeness(b, pixel, i));
+            float weight = exp_f(narrow * distance -
+                                 UNLIKE * buffers_feature_distance(b, pixel, i));
             for (int c = 0; c < 3; c++) {
                 r.sum[c] += weight * (buffers_mean(b, c, i) - work->light[c][i]);
                 r.variance[c] += weight * weight * b->variance[c][i];

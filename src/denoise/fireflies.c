@@ -3,10 +3,15 @@
 #include <math.h>
 #include <string.h>
 
-enum { LOOK_REACH = 2, SPREAD_REACH = 5, RANK = 3 };
+#include "base/mathf.h"
+
+enum { LOOK_REACH = 2, SPREAD_LEAST = 5, SPREAD_MOST = 40, RANK = 3 };
 
 #define LIMIT 4.0f  /* of the RANK-th brightest around */
 #define UNSURE 0.7f /* standard error by value */
+#define UNLIKE 8.0f /* how fast pixels of other features stop to get some */
+#define LEAST_RECEIVERS 4.0f /* pixels like it: fewer would become fireflies themselves */
+#define FAINT 0.05f /* of the light around: what is added there should be less */
 
 /* The light before anything was moved, so that the order of pixels does not matter. */
 typedef struct Before {
@@ -55,44 +60,71 @@ static float standard_error(const DenoiseBuffers *b, size_t pixel)
     return buffers_luminance(sigma);
 }
 
-/* The factors of the pixels of its kind around, summed up. */
-static void sum_around(const DenoiseBuffers *b, size_t pixel, float factors[3])
+/* Where a pixel's excess goes. */
+typedef struct Receivers {
+    int   reach;
+    float factors[3];  /* weights times factors, summed up */
+    float weight, luminance; /* weights, and weights times luminance, summed up */
+} Receivers;
+
+/* 0 for the pixel itself and those of another kind. */
+static float share_of(const DenoiseBuffers *b, size_t pixel, size_t i)
 {
-    PixelWindow w = buffers_window(b, pixel, SPREAD_REACH);
-    memset(factors, 0, 3 * sizeof *factors);
-    for (int y = w.y0; y < w.y1; y++)
-        for (int x = w.x0; x < w.x1; x++) {
-            size_t i = (size_t)y * (size_t)b->width + (size_t)x;
-            if (i == pixel || b->kind[i] != b->kind[pixel]) continue;
-            for (int c = 0; c < 3; c++) factors[c] += b->factor[c][i];
-        }
+    if (i == pixel || b->kind[i] != b->kind[pixel]) return 0;
+    return exp_f(-UNLIKE * buffers_feature_distance(b, pixel, i));
 }
 
-static void add_around(DenoiseBuffers *b, size_t pixel, const float light[3])
+static Receivers receivers_within(const Before *before, size_t pixel, int reach)
 {
-    PixelWindow w = buffers_window(b, pixel, SPREAD_REACH);
+    const DenoiseBuffers *b = before->buffers;
+    PixelWindow           w = buffers_window(b, pixel, reach);
+    Receivers             r = {.reach = reach};
     for (int y = w.y0; y < w.y1; y++)
         for (int x = w.x0; x < w.x1; x++) {
             size_t i = (size_t)y * (size_t)b->width + (size_t)x;
-            if (i == pixel || b->kind[i] != b->kind[pixel]) continue;
+            float  share = share_of(b, pixel, i);
+            for (int c = 0; c < 3; c++) r.factors[c] += share * b->factor[c][i];
+            r.weight += share;
+            r.luminance += share * before->luminance[i];
+        }
+    return r;
+}
+
+/* The farther the more there is to spread: a pixel that is a thousand times too bright would
+ * be seen as a bright square. */
+static Receivers choose_receivers(const Before *before, size_t pixel, float excess)
+{
+    Receivers r = receivers_within(before, pixel, SPREAD_LEAST);
+    while (r.reach < SPREAD_MOST && !(excess <= FAINT * r.luminance))
+        r = receivers_within(before, pixel, 2 * r.reach);
+    return r;
+}
+
+static void add_around(DenoiseBuffers *b, size_t pixel, int reach, const float light[3])
+{
+    PixelWindow w = buffers_window(b, pixel, reach);
+    for (int y = w.y0; y < w.y1; y++)
+        for (int x = w.x0; x < w.x1; x++) {
+            size_t i = (size_t)y * (size_t)b->width + (size_t)x;
+            float  share = share_of(b, pixel, i);
             for (int k = 0; k < 2; k++)
-                for (int c = 0; c < 3; c++) b->light[k][c][i] += light[c];
+                for (int c = 0; c < 3; c++) b->light[k][c][i] += share * light[c];
         }
 }
 
 /* kept: what share of the pixel's light stays with it. */
 static bool spread_pixel(const Before *before, DenoiseBuffers *b, size_t pixel, float kept)
 {
-    float excess[3], factors[3];
-    sum_around(b, pixel, factors);
-    if (!(factors[0] > 0)) return false;
+    float     excess[3];
+    Receivers r = choose_receivers(before, pixel, (1 - kept) * before->luminance[pixel]);
+    if (!(r.weight > LEAST_RECEIVERS)) return false;
     for (int c = 0; c < 3; c++) {
         float light = (1 - kept) * before->mean[c][pixel];
         for (int k = 0; k < 2; k++) b->light[k][c][pixel] -= light;
         b->variance[c][pixel] *= kept * kept;
-        excess[c] = light * b->factor[c][pixel] / factors[c];
+        excess[c] = light * b->factor[c][pixel] / r.factors[c];
     }
-    add_around(b, pixel, excess);
+    add_around(b, pixel, r.reach, excess);
     return true;
 }
 

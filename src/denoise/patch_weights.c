@@ -5,6 +5,7 @@
 
 #include "base/mathf.h"
 
+#define UNLIKE 8.0f     /* how fast pixels of other features stop to count */
 #define LEAST_WEIGHT 1e-3f
 #define TOLERANCE 0.45f /* standard errors that do not count, as Rousselle et al. 2012 */
 
@@ -96,6 +97,22 @@ static float weight_of(const PatchScratch *s, int u, int v)
     return weight < LEAST_WEIGHT ? 0 : weight;
 }
 
+/* Noise hides edges from patches, and the other layers show them: pixels of unlike features
+ * count less, as in Rousselle et al. 2013. */
+static void weigh_features(const DenoiseBuffers *b, int x, int y, float weights[PATCH_OFFSETS])
+{
+    size_t middle = (size_t)y * (size_t)b->width + (size_t)x;
+    for (int offset = 0; offset < PATCH_OFFSETS; offset++) {
+        if (weights[offset] == 0) continue;
+        int    dx = offset % PATCH_WINDOW - PATCH_SEARCH;
+        int    dy = offset / PATCH_WINDOW - PATCH_SEARCH;
+        size_t i = (size_t)(y + dy) * (size_t)b->width + (size_t)(x + dx);
+        float  like = exp_f(-UNLIKE * buffers_feature_distance(b, middle, i));
+        weights[offset] *= like;
+        if (weights[offset] < LEAST_WEIGHT) weights[offset] = 0;
+    }
+}
+
 void patch_weights(const DenoiseBuffers *b, int filtered, int x0, int y0, PatchScratch *s,
                    float (*weights)[PATCH_OFFSETS])
 {
@@ -108,4 +125,7 @@ void patch_weights(const DenoiseBuffers *b, int filtered, int x0, int y0, PatchS
             for (int u = 0; u < PATCH_TILE; u++)
                 weights[v * PATCH_TILE + u][offset] = weight_of(s, u, v);
     }
+    for (int v = 0; v < PATCH_TILE && y0 + v < b->height; v++)
+        for (int u = 0; u < PATCH_TILE && x0 + u < b->width; u++)
+            weigh_features(b, x0 + u, y0 + v, weights[v * PATCH_TILE + u]);
 }
