@@ -22,6 +22,7 @@
 #include "text/json_text.h"
 
 #define LANE_SETS 8                    /* of 16 wavelengths: enough for smooth spectra */
+#define FIGURE_LINES 20                /* at most */
 #define PATH_STEPS 145                 /* every 10 minutes of a day */
 
 /* One run of the command. */
@@ -141,6 +142,18 @@ static DaylightMetrics figures_of(const SkyRun *work)
     return f;
 }
 
+static json_t *moon_json(const NightMetrics *m)
+{
+    if (!m->has_moon) return json_null();
+    return json_pack("{s:f, s:f, s:b, s:b, s:f, s:f, s:f, s:f, s:f, s:f}", "azimuth_deg",
+                     m->moon_azimuth_deg, "elevation_deg", m->moon_elevation_deg, "is_up",
+                     (int)m->is_moon_up, "is_in_light", (int)m->is_moon_lit,
+                     "illuminated_fraction", m->illuminated, "phase_angle_deg",
+                     m->phase_angle_deg, "elongation_deg", m->elongation_deg, "distance_km",
+                     m->moon_distance_km, "direct_normal_lx", m->moon_normal_lx,
+                     "diffuse_horizontal_lx", m->moon_sky_lx);
+}
+
 static bool print_json(const SkyRun *work, const DaylightMetrics *f, Error *err)
 {
     json_t *sun = work->sky.model || work->sky.has_sun
@@ -159,12 +172,35 @@ static bool print_json(const SkyRun *work, const DaylightMetrics *f, Error *err)
         "diffuse_horizontal_w_m2", f->diffuse_horizontal_w_m2, "ground_cd_m2", f->floor_cd_m2,
         "sun_xy", f->sun_xy[0], f->sun_xy[1], "zenith_xy", f->zenith_xy[0], f->zenith_xy[1],
         "horizon_deg", f->horizon_deg, "air_mass", f->air_mass);
+    json_object_set_new(document, "moon", moon_json(&f->night));
+    json_object_set_new(document, "night_background_lx", json_real(f->night.background_lx));
     json_object_set_new(document, "weather", weather_option_json(&work->scene->environment));
     if (work->output) json_object_set_new(document, "output", json_text(work->output));
     return cli_print_json(document, err);
 }
 
-static int figure_lines(const SkyRun *work, const DaylightMetrics *f, const char *line[16])
+/* Whole lux by day; a night is thousandths of one. */
+static const char *lux_line(const SkyRun *work, const char *name, double lux)
+{
+    return arena_format(work->arena, lux >= 100 ? "%s|%.0f lx" : "%s|%.4g lx", name, lux);
+}
+
+static int moon_lines(const SkyRun *work, const NightMetrics *m, const char **line)
+{
+    int n = 0;
+    if (m->has_moon) {
+        line[n++] = arena_format(work->arena, "moon's azimuth|%.3f°", m->moon_azimuth_deg);
+        line[n++] = arena_format(work->arena, "moon's elevation|%.3f°%s, %.0f %% lit",
+                                 m->moon_elevation_deg, m->is_moon_up ? "" : " (down)",
+                                 100 * m->illuminated);
+    }
+    if (m->moon_normal_lx > 0)
+        line[n++] = lux_line(work, "moon direct normal", m->moon_normal_lx);
+    if (m->background_lx > 0) line[n++] = lux_line(work, "night background", m->background_lx);
+    return n;
+}
+
+static int figure_lines(const SkyRun *work, const DaylightMetrics *f, const char **line)
 {
     Arena *arena = work->arena;
     int    n = 0;
@@ -172,10 +208,10 @@ static int figure_lines(const SkyRun *work, const DaylightMetrics *f, const char
         line[n++] = arena_format(arena, "sun's azimuth|%.3f°", f->sun_azimuth_deg);
         line[n++] = arena_format(arena, "sun's elevation|%.3f°%s", f->sun_elevation_deg,
                                  f->is_sun_up ? "" : " (down)");
-        line[n++] = arena_format(arena, "direct normal|%.0f lx", f->direct_normal_lx);
+        line[n++] = lux_line(work, "direct normal", f->direct_normal_lx);
     }
-    line[n++] = arena_format(arena, "diffuse horizontal|%.0f lx", f->diffuse_horizontal_lx);
-    line[n++] = arena_format(arena, "global horizontal|%.0f lx", f->global_horizontal_lx);
+    line[n++] = lux_line(work, "diffuse horizontal", f->diffuse_horizontal_lx);
+    line[n++] = lux_line(work, "global horizontal", f->global_horizontal_lx);
     line[n++] = arena_format(arena, "zenith|%.4g cd/m²", f->zenith_cd_m2);
     if (!work->sky.model) return n;
     line[n++] = arena_format(arena, "ground below|%.4g cd/m²", f->floor_cd_m2);
@@ -189,7 +225,7 @@ static int figure_lines(const SkyRun *work, const DaylightMetrics *f, const char
                                  f->diffuse_horizontal_w_m2);
     if (f->horizon_deg < -0.01)
         line[n++] = arena_format(arena, "horizon|%.2f°", f->horizon_deg);
-    return n;
+    return n + moon_lines(work, &f->night, line + n);
 }
 
 static void print_lines(const char *const *line, int count)
@@ -277,7 +313,7 @@ static bool write_picture(const SkyRun *work, const DaylightMetrics *f, bool is_
 {
     size_t      count = (size_t)work->size[0] * (size_t)work->size[1];
     float      *luminance = ARENA_NEW(work->arena, float, count);
-    const char *line[16];
+    const char *line[FIGURE_LINES];
     SkyPlotSun  path[PATH_STEPS];
     PlotBytes   bytes;
     for (size_t i = 0; i < count; i++)
@@ -345,7 +381,7 @@ static bool build(SkyRun *work, Error *err)
 
 static bool run(SkyRun *work, OutputKind kind, Error *err)
 {
-    const char *line[16];
+    const char *line[FIGURE_LINES];
     if (!build(work, err)) return false;
     if (kind != OUTPUT_EXR) work->is_fisheye = false;
     draw(work);

@@ -45,6 +45,18 @@ static void build_sun(const Environment *environment, float turn, Sky *sky)
     sun_limb_curves(sky->sun_limb);
 }
 
+static void place_moon(Sky *sky, const Night *night, float turn)
+{
+    Vec3 sun = direction_of((float)night->sun_azimuth - turn, (float)night->sun_elevation);
+    place_sun(sky, night->moon_radius, (float)night->moon_azimuth - turn,
+              (float)night->moon_elevation);
+    float along = vec3_dot(sun, sky->sun_direction);
+    Vec3  across = vec3_sub(sun, vec3_scale(sky->sun_direction, along));
+    sky->is_moon = true;
+    sky->moon_lit = vec3_length(across) > 0 ? vec3_normalize(across)
+                                            : frame_from_z(sky->sun_direction).x;
+}
+
 /* Squared distance from the disc's centre over that of its rim; 1 or more: beside it. */
 static float sun_share2(const Sky *sky, Vec3 direction)
 {
@@ -60,12 +72,21 @@ static float sine_share(const Sky *sky, float share2)
     return safe_sqrtf(share2 * (1 - 0.25f * share2 * rim) / (1 - 0.25f * rim));
 }
 
+static Spectrum moon_radiance(const Sky *sky, Vec3 direction, float share2,
+                              const Wavelengths *wavelengths)
+{
+    Vec3  apart = vec3_sub(direction, sky->sun_direction);
+    float x = vec3_dot(apart, sky->moon_lit) / sqrtf(sky->sun_chord2);
+    return night_moon(sky->model->daylight->night, x, share2, wavelengths);
+}
+
 Spectrum sun_radiance(const Sky *sky, Vec3 direction, const Wavelengths *wavelengths)
 {
     float share2 = sun_share2(sky, direction);
     if (!(share2 < 1)) return spectrum_all(0);
     if (sky->model) {
         if (direction.y < sky->model->edge[SKY_MODEL_ROWS]) return spectrum_all(0);
+        if (sky->is_moon) return moon_radiance(sky, direction, share2, wavelengths);
         return daylight_sun(sky->model->daylight, safe_sqrtf(share2), wavelengths);
     }
     return sun_limb_shade(sky->sun_limb, sine_share(sky, share2), wavelengths) *
@@ -98,6 +119,8 @@ static bool build_model(const Environment *environment, float turn, Arena *arena
     if (daylight->has_sun)
         place_sun(sky, daylight->sun_radius, (float)daylight->sun_azimuth - turn,
                   (float)daylight->sun_elevation);
+    else if (daylight->night && daylight->night->has_moon)
+        place_moon(sky, daylight->night, turn);
     return true;
 }
 

@@ -7,6 +7,8 @@
  *          environment. Of a model (cie, perez, sky) the spectrum is the model's, and the
  *          horizon cuts the disc; else that of a black body of 5500 K, close to a high sun's
  *          direct beam (CIE 1931 x, y = 0.332, 0.341).
+ * Moon     takes the sun's place in all that follows once no part of the sun is up (a model of
+ *          type sky alone, sky/night.h): one disc at a time gives a beam.
  * Threads  const after sky_build.
  */
 #pragma once
@@ -30,6 +32,8 @@ typedef struct Sky {
     float  sun_luminance;  /* the disc's mean, cd m^-2; unless a model's */
     Curve  sun_curve;      /* spectral radiance of 1 cd m^-2 */
     Curve  sun_limb[SUN_LIMB_TERMS]; /* sun_disc.h's; unless a model's */
+    bool   is_moon;        /* the disc is the moon's */
+    Vec3   moon_lit;       /* unit, scene: across the disc towards the side that is lit */
 } Sky;
 
 /* Fails on an environment that makes no sky, saying why. */

@@ -79,17 +79,9 @@ double daylight_sun_clearance_deg(const DaylightInput *input)
     return degrees_from_radians(probe.sun_elevation + probe.sun_radius) + dip;
 }
 
-/* Share of a disc above a line at `above` radii over its centre's height (negative: above). */
-static double share_above_line(double above)
-{
-    if (above >= 1) return 1;
-    if (above <= -1) return 0;
-    return 0.5 + (above * sqrt(1 - above * above) + asin_d(above)) / PI;
-}
-
 static double sun_share(const Daylight *out)
 {
-    return share_above_line((out->sun_elevation - out->horizon) / out->sun_radius);
+    return disc_share_above((out->sun_elevation - out->horizon) / out->sun_radius);
 }
 
 /* ---- the air ----------------------------------------------------------------------------- */
@@ -280,59 +272,16 @@ static bool build_perez(Daylight *out, Error *err)
 
 /* ---- the clear atmosphere ---------------------------------------------------------------- */
 
-static void index_nodes(Daylight *out)
-{
-    int k = 0;
-    for (int i = 0; i < CURVE_COUNT; i++) {
-        while (k + 2 < SPECTRUM_LANES && AIR_NM[k + 1] <= (float)(CURVE_FIRST_NM + i)) k++;
-        out->node[i] = (uint8_t)k;
-    }
-}
-
-static float node_share(int node, float nm)
-{
-    return (nm - AIR_NM[node]) / (AIR_NM[node + 1] - AIR_NM[node]);
-}
-
-/* A relative quantity at 16 wavelengths times the beam outside, every nm. */
-static void curve_from_relative(const Daylight *out, Spectrum relative, Curve *curve)
-{
-    for (int i = 0; i < CURVE_COUNT; i++) {
-        int   k = out->node[i];
-        float t = node_share(k, (float)(CURVE_FIRST_NM + i));
-        curve->value[i] = lerpf(relative[k], relative[k + 1], t) * out->beam.value[i];
-    }
-}
-
-static double relative_luminance(const Daylight *out, Spectrum relative)
-{
-    double sum = 0;
-    for (int i = 0; i < SPECTRUM_LANES; i++)
-        sum += (double)relative[i] * (double)out->luminance_weight[i];
-    return sum;
-}
-
-static void weigh_luminance(Daylight *out)
-{
-    for (int k = 0; k < SPECTRUM_LANES; k++) {
-        Spectrum unit = spectrum_all(0);
-        Curve    curve;
-        unit[k] = 1;
-        curve_from_relative(out, unit, &curve);
-        out->luminance_weight[k] = (float)curve_luminance(&curve);
-    }
-}
-
 /* The sun's spectrum outside the air, less what water vapour and oxygen take: they absorb on
  * the beam's way down, where nearly all scattering happens too (as SPECTRL2 has it). */
-static void fill_beam(Daylight *out)
+static void fill_beam(const Daylight *out, Curve *beam)
 {
     double   gases[SPECTRL2_COUNT];
     Air      air = air_above(&out->input);
     Spectrl2 ground = ground_spectra(out);
     spectrl2_gases(&air, fmin(89, out->metrics.sun_zenith_deg), gases);
     for (int i = 0; i < SPECTRL2_COUNT; i++) gases[i] *= ground.outside[i];
-    curve_from_rows(gases, &out->beam);
+    curve_from_rows(gases, beam);
 }
 
 /* Irradiances from 300 to 4000 nm: the beam's by its own way through the air, the sky's by
@@ -343,8 +292,8 @@ static void tell_watts(Daylight *out)
     Spectrl2 ground = ground_spectra(out);
     Curve    diffuse;
     Air      air = sea_level_air(&out->input);
-    SunBeam  beam = sun_beam(&air, &(SunBeamPath){out->atmosphere.input.observer_m,
-                                                 out->atmosphere.input.floor_m,
+    SunBeam  beam = sun_beam(&air, &(SunBeamPath){out->sunlight.atmosphere.input.observer_m,
+                                                 out->sunlight.atmosphere.input.floor_m,
                                                  fmax(out->sun_elevation, out->horizon)},
                              f->distance_au);
     curve_from_rows(ground.diffuse, &diffuse);
@@ -354,32 +303,78 @@ static void tell_watts(Daylight *out)
                                  curve_luminance(&diffuse);
 }
 
+/* The moon's place, and when no part of the sun is left, the night: by day it is less than a
+ * thousandth of the sky's light, and left out. */
+static bool add_night(Daylight *out, Arena *arena, Error *err)
+{
+    const DaylightInput   *in = &out->input;
+    const AtmosphereInput *air = &out->sunlight.atmosphere.input;
+    DaylightMetrics       *f = &out->metrics;
+    MoonPosition moon;
+    bool has_moon = in->has_time && !in->no_moon;
+    if (has_moon) {
+        double day = sky_julian_day(&in->when);
+        moon = moon_position(day, sky_delta_t_s(day), &in->where);
+        f->night = night_moon_metrics(&moon, in->where.altitude_m, out->horizon);
+    }
+    if (f->is_sun_up) return true;
+    NightInput input = {*air, air_above(in), in->where.altitude_m, out->horizon,
+                        has_moon ? &moon : NULL};
+    out->night = arena_alloc(arena, sizeof *out->night, 64, 1);
+    if (!night_build(&input, arena, out->night, err)) return false;
+    f->night = out->night->metrics;
+    return true;
+}
+
+/* Its share of the figures. */
+static void tell_night(const Night *night, DaylightMetrics *f)
+{
+    const NightMetrics *n = &night->metrics;
+    double sky_lx = n->moon_sky_lx + n->background_lx;
+    f->diffuse_horizontal_lx += sky_lx;
+    f->floor_cd_m2 += n->floor_cd_m2;
+    f->global_horizontal_lx +=
+        sky_lx + n->moon_normal_lx * fmax(0, sin_d(night->moon_elevation));
+}
+
+/* What lies above the horizontal, and the floor, of the sun and of the night. */
+static void tell_light(Daylight *out)
+{
+    DaylightMetrics  *f = &out->metrics;
+    const LitAir     *air = &out->sunlight;
+    const Atmosphere *day = &air->atmosphere;
+    Curve zenith;
+    f->diffuse_horizontal_lx = lit_air_luminance(air, atmosphere_diffuse(day));
+    f->floor_cd_m2 = lit_air_luminance(air, day->floor_exitance) / PI;
+    f->global_horizontal_lx = f->diffuse_horizontal_lx +
+                              f->direct_normal_lx * fmax(0, sin_d(out->sun_elevation));
+    lit_air_curve(air, atmosphere_radiance(day, (float)(PI / 2), 0), &zenith);
+    if (out->night) {
+        tell_night(out->night, f);
+        night_add_zenith(out->night, &zenith);
+    }
+    tell_watts(out);
+    f->zenith_cd_m2 = curve_luminance(&zenith);
+    curve_xy(&zenith, f->zenith_xy);
+}
+
 static bool build_clear(Daylight *out, Arena *arena, Error *err)
 {
     const DaylightInput *in = &out->input;
     DaylightMetrics     *f = &out->metrics;
     AtmosphereInput input = {sea_level_air(in), fmax(0, in->where.altitude_m),
                              floor_altitude(in), out->sun_elevation, in->threads, 0};
-    Curve irradiance, zenith;
-    if (!atmosphere_build(&input, arena, &out->atmosphere, err)) return false;
-    out->horizon = out->atmosphere.horizon;
+    Curve beam, irradiance;
+    fill_beam(out, &beam);
+    if (!lit_air_build(&input, &beam, arena, &out->sunlight, err)) return false;
+    out->horizon = out->sunlight.atmosphere.horizon;
     f->horizon_deg = degrees_from_radians(out->horizon);
-    fill_beam(out);
-    index_nodes(out);
-    weigh_luminance(out);
-    curve_from_relative(out, out->atmosphere.sun_passing, &irradiance);
+    lit_air_curve(&out->sunlight, out->sunlight.atmosphere.sun_passing, &irradiance);
     double lux = curve_luminance(&irradiance);
     if (in->sun_lux >= 0 && lux > 0) scale_curve(&irradiance, in->sun_lux / lux);
     set_sun(out, &irradiance);
-    f->diffuse_horizontal_lx = relative_luminance(out, atmosphere_diffuse(&out->atmosphere));
-    f->floor_cd_m2 = relative_luminance(out, out->atmosphere.floor_exitance) / PI;
-    f->global_horizontal_lx = f->diffuse_horizontal_lx +
-                              f->direct_normal_lx * fmax(0, sin_d(out->sun_elevation));
-    tell_watts(out);
-    curve_from_relative(out, atmosphere_radiance(&out->atmosphere, (float)(PI / 2), 0),
-                        &zenith);
-    f->zenith_cd_m2 = curve_luminance(&zenith);
-    curve_xy(&zenith, f->zenith_xy);
+    if (!add_night(out, arena, err)) return false;
+    tell_light(out);
     return true;
 }
 
@@ -420,12 +415,18 @@ static float shape_luminance(const Daylight *out, float elevation, float azimuth
            sky_shape_at(&out->shape, sine, angle_to_sun(out, elevation, azimuth));
 }
 
+static float clear_luminance(const Daylight *out, float elevation, float azimuth)
+{
+    float value = (float)lit_air_luminance(
+        &out->sunlight, atmosphere_radiance(&out->sunlight.atmosphere, elevation,
+                                            azimuth - (float)out->sun_azimuth));
+    return out->night ? value + night_luminance(out->night, elevation, azimuth) : value;
+}
+
 float daylight_luminance(const Daylight *out, float elevation, float azimuth)
 {
     if (out->input.kind == DAYLIGHT_CLEAR)
-        return (float)relative_luminance(
-            out, atmosphere_radiance(&out->atmosphere, elevation,
-                                     azimuth - (float)out->sun_azimuth));
+        return clear_luminance(out, elevation, azimuth);
     if (elevation < 0) return (float)out->metrics.floor_cd_m2;
     return shape_luminance(out, elevation, azimuth);
 }
@@ -438,14 +439,10 @@ Spectrum daylight_radiance(const Daylight *out, float elevation, float azimuth,
         return curve_lookup(&out->sky_curve, wavelengths) *
                spectrum_all(shape_luminance(out, elevation, azimuth));
     }
-    Spectrum at = atmosphere_radiance(&out->atmosphere, elevation,
-                                      azimuth - (float)out->sun_azimuth), value;
-    for (int i = 0; i < SPECTRUM_LANES; i++) {
-        float nm = wavelengths->nm[i];
-        int   k = out->node[(int)clampf(nm - CURVE_FIRST_NM, 0, CURVE_COUNT - 1)];
-        value[i] = lerpf(at[k], at[k + 1], node_share(k, nm));
-    }
-    return value * curve_lookup(&out->beam, wavelengths);
+    Spectrum value = lit_air_radiance(&out->sunlight, elevation,
+                                      azimuth - (float)out->sun_azimuth, wavelengths);
+    if (!out->night) return value;
+    return value + night_radiance(out->night, elevation, azimuth, wavelengths);
 }
 
 Spectrum daylight_sun(const Daylight *out, float share, const Wavelengths *wavelengths)

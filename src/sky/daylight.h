@@ -10,6 +10,8 @@
  *           sun's spectrum outside the air and what water vapour and oxygen let through.
  * Low sun   Perez's sky stands for a sun down to 4 degrees below the horizon too, as at the
  *           horizon and without direct light.
+ * Night     once no part of the sun is up, the clear atmosphere has the moon (of a time) and
+ *           the night's background too (night.h); the moon then is the disc with a beam.
  * Frame     azimuth from north over east, elevation from the horizontal, radians; the sun's
  *           elevation here is the apparent one (refraction lifts it).
  * Units     spectral radiance in W m^-2 sr^-1 nm^-1, 360..830 nm; lx; cd m^-2.
@@ -19,7 +21,7 @@
 #pragma once
 #include "base/arena.h"
 #include "base/error.h"
-#include "sky/atmosphere.h"
+#include "sky/night.h"
 #include "sky/sky_shape.h"
 #include "sky/sun_position.h"
 #include "spectrum/curve.h"
@@ -43,6 +45,7 @@ typedef struct DaylightInput {
     double   ozone_atm_cm, water_cm, albedo; /* albedo below 0: the floor's own */
     FloorKind floor;
     double   cloud_top_m;
+    bool     no_moon;            /* clear: as if there were none */
     int      threads;
 } DaylightInput;
 
@@ -57,6 +60,7 @@ typedef struct DaylightMetrics {
     double zenith_cd_m2, sun_xy[2], zenith_xy[2], floor_cd_m2;
     double air_mass;
     bool   is_sun_up; /* part of its disc at least */
+    NightMetrics night; /* clear; its light is part of the figures above */
 } DaylightMetrics;
 
 typedef struct Daylight {
@@ -68,10 +72,8 @@ typedef struct Daylight {
     float    shape_scale; /* cd m^-2 per unit of the shape */
     Curve    sky_curve, floor_curve; /* spectral radiance of 1 cd m^-2; of the floor, whole */
     /* clear */
-    Atmosphere atmosphere;
-    Curve    beam;        /* spectral irradiance outside the air, less what gases take */
-    uint8_t  node[CURVE_COUNT]; /* lane of air.h below each nm */
-    float    luminance_weight[SPECTRUM_LANES]; /* luminance of a relative radiance */
+    LitAir   sunlight;
+    Night   *night;       /* NULL: part of the sun is up */
     /* the sun */
     bool     has_sun;
     double   sun_azimuth, sun_elevation, sun_radius;

@@ -4,6 +4,7 @@
 
 #include "base/mathd.h"
 #include "base/mathf.h"
+#include "base/units.h"
 
 #define BANDS 11
 #define FIRST_NM 320.0
@@ -25,6 +26,13 @@ static const double limb[BANDS][6] = {
 double sun_angular_radius(double distance_au)
 {
     return asin_d(SUN_RADIUS_KM / (ASTRONOMICAL_UNIT_KM * distance_au));
+}
+
+double disc_share_above(double above)
+{
+    if (above >= 1) return 1;
+    if (above <= -1) return 0;
+    return 0.5 + (above * sqrt(1 - above * above) + asin_d(above)) / PI;
 }
 
 void sun_limb(double nm, double coefficient[6])

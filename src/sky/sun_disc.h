@@ -16,6 +16,9 @@
 /* Angular radius at a distance in au. */
 double sun_angular_radius(double distance_au);
 
+/* Share of a disc above a line at `above` radii over its centre's height (negative: above). */
+double disc_share_above(double above);
+
 #define SUN_LIMB_TERMS 6
 
 /* Coefficients over mu^0..5 at a wavelength (linear between bands, ends held), divided by the

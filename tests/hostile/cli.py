@@ -47,6 +47,7 @@ UNKNOWN_NAMES = (
     ((*RENDER, "--environment", "skies"), 2, "sky:clear", "cie:", "perez:", "hdri:",
      "constant:"),
     ((*RENDER, "--environment", "sky:clear", "--ground", "lawn"), 2, "land", "sea", "cloud"),
+    ((*RENDER, "--environment", "cie:1:9", "--no-moon"), 2, "sky:clear"),
     ((*RENDER, "--sun", "on"), 2, "auto", "off", "AZ,EL,LUX"),
     ((*RENDER, "--progress", "loud"), 2, "auto|bar|plain|json|none"),
     ((*RENDER, "--png", "x.gif"), 2, ".png", ".jpg", ".tif"),
@@ -356,6 +357,29 @@ def check_sky(report, program):
                  "absent.epw")
 
 
+def check_night(report, program):
+    """A full moon and the background behind it; by day the moon is told and gives no light."""
+    words = ("sky", *SKY[:2], *SKY[4:], "--json", "--when")
+    lit = json.loads(program.run(*words, "2026-11-24T23:30+01:00").stdout)
+    moon, background = lit["moon"], lit["night_background_lx"]
+    report.claim(moon["is_up"] and moon["is_in_light"] and moon["illuminated_fraction"] > 0.99
+                 and 65 < moon["elevation_deg"] < 67 and 0.2 < moon["direct_normal_lx"] < 0.32
+                 and 150 < moon["azimuth_deg"] < 157, f"sky --json: the full moon, {moon}")
+    report.claim(6e-4 < background < 1e-3, f"sky --json: the background is {background} lx")
+    dark = json.loads(program.run(*words, "2026-11-24T23:30+01:00", "--no-moon").stdout)
+    report.claim(dark["moon"] is None and dark["night_background_lx"] == background
+                 and abs(dark["global_horizontal_lx"] / background - 1) < 1e-3,
+                 f"sky --no-moon --json: {dark}")
+    day = json.loads(program.run("sky", *SKY, "--json").stdout)
+    report.claim(not day["moon"]["is_in_light"] and day["moon"]["direct_normal_lx"] == 0
+                 and day["night_background_lx"] == 0, f"by day: {day['moon']}")
+    text = program.run(*words[:5], "--when", "2026-11-24T23:30+01:00").stdout
+    report.claim("moon direct normal   0." in text and "night background     0.000" in text,
+                 text)
+    claim_status(report, program.run("sky", "--environment", "constant:9", "--no-moon"), 2,
+                 "only a clear sky has a moon")
+
+
 def is_png(path, width=None, height=None):
     if not os.path.exists(path):
         return False
@@ -395,7 +419,8 @@ def main():
         sound_scene().write(program.file("scene.gltf"))
         for check in (check_usage, check_help, check_help_words, check_names,
                       check_answers_lost, check_terminals, check_hang_up, check_inputs,
-                      check_outputs, check_answers, check_pictures, check_sky):
+                      check_outputs, check_answers, check_pictures, check_sky,
+                      check_night):
             try:
                 check(report, program)
             except (ValueError, KeyError, OSError, subprocess.TimeoutExpired) as error:

@@ -118,9 +118,12 @@ TEST(a_sky_is_asked_for_by_its_kind_time_and_place)
     assert_true(e->daylight.has_time && !e->has_sun && e->daylight.when.hour == 8);
     assert_close(e->daylight.where.altitude_m, 520, 1e-12);
     assert_close(e->daylight.visibility_km, 23, 1e-12);
-    EnvironmentChange later = {.when = "2026-06-21T09:30+02:00", .sun = "auto"};
+    assert_false(e->daylight.no_moon);
+    EnvironmentChange later = {.no_moon = true,
+                               .when = "2026-06-21T09:30+02:00", .sun = "auto"};
     assert_true(environment_change(&later, &scene, arena, &problems, &err));
     assert_true(e->daylight.when.hour == 9 && e->daylight.where.altitude_m == 520);
+    assert_true(e->daylight.no_moon);
     EnvironmentChange cie = {.environment = "cie:12:15000", .sun = "180,35,90000"};
     assert_true(environment_change(&cie, &scene, arena, &problems, &err));
     assert_true(e->kind == ENVIRONMENT_CIE && e->daylight.cie_type == 12);

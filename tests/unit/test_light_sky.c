@@ -236,6 +236,45 @@ TEST(directions_to_the_sun_follow_their_density)
     }
 }
 
+/* The half moon's disc as a light: its own samples give its illuminance, all from the side that
+ * the sun lights; Munich, 2026 October 3, after midnight. */
+TEST(the_moon_lights_as_the_disc_when_the_sun_is_down)
+{
+    Arena  arena = test_arena(state);
+    Error  err;
+    Sky    sky;
+    Scene *scene = sky_scene(ENVIRONMENT_SKY, 0, &arena);
+    Environment *e = &scene->environment;
+    e->has_sun = false;
+    e->daylight.has_time = true;
+    e->daylight.where = (SkyPlace){48.14, 11.58, 520};
+    e->daylight.floor = FLOOR_LAND;
+    assert_true(sky_time_parse("2026-10-03T04:30+02:00", "", &e->daylight.when, &err));
+    const Lights *lights = build(scene, &arena);
+    assert_true(sky_build(e, &arena, &sky, &err));
+    const NightMetrics *n = &sky.model->daylight->metrics.night;
+    assert_true(sky.has_sun && sky.is_moon && n->illuminated > 0.4 && n->illuminated < 0.65);
+    assert_mean("the moon", illuminance(lights, LIGHTS_SUN, vec3(0, 0, 0), vec3(0, 1, 0)),
+                n->moon_normal_lx * sin(radians_from_degrees(n->moon_elevation_deg)));
+    assert_mean("its sky", illuminance(lights, LIGHTS_SKY, vec3(0, 0, 0), vec3(0, 1, 0)),
+                sky.model->daylight->metrics.diffuse_horizontal_lx);
+    Wavelengths lanes;
+    double side[2] = {0, 0};
+    uint32_t random = 3;
+    wavelengths_sample(0.3f, &lanes);
+    for (int i = 0; i < 20000; i++) {
+        float u0 = random_unit(&random);
+        Vec3  d = sun_sample(&sky, u0, random_unit(&random));
+        assert_true(sun_pdf(&sky, d) > 0);
+        side[vec3_dot(d, sky.moon_lit) > 0] +=
+            (double)spectrum_sum(sun_radiance(&sky, d, &lanes));
+    }
+    assert_true(side[1] > 20 * side[0]);
+    Vec3 sun = vec3((float)(sin(sky.model->daylight->sun_azimuth - (double)sky.model->turn)), 0,
+                    (float)(-cos(sky.model->daylight->sun_azimuth - (double)sky.model->turn)));
+    assert_true(vec3_dot(sun, sky.moon_lit) > 0);
+}
+
 int main(void)
 {
     return run_cases(make_arena, drop_arena);

@@ -238,6 +238,16 @@ static bool set_air(Change *change, Error *err)
     return true;
 }
 
+static bool set_moon(Change *change, Error *err)
+{
+    if (!change->asked->no_moon) return true;
+    if (change->environment->kind != ENVIRONMENT_SKY)
+        return error_set(err, ERROR_USAGE, "--no-moon: only a clear sky has a moon to leave "
+                         "out — add --environment sky:clear");
+    change->environment->daylight.no_moon = true;
+    return true;
+}
+
 static bool set_ground(Change *change, Error *err)
 {
     static const char *const names[] = {"land", "sea", "cloud"};
@@ -349,7 +359,7 @@ bool environment_change(const EnvironmentChange *asked, Scene *scene, Arena *are
     return (!asked->environment || set_sky(&change, asked->environment, err)) &&
            set_weather(&change, err) && set_time_and_place(&change, err) &&
            set_illuminance(&change, err) && set_air(&change, err) &&
-           set_ground(&change, err) &&
+           set_moon(&change, err) && set_ground(&change, err) &&
            (!asked->sun || set_sun(&change, asked->sun, err)) && knows_sun(&change, err) &&
            set_directions(&change, err);
 }

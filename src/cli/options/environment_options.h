@@ -14,7 +14,7 @@ typedef struct EnvironmentChange {
     const char *when, *where, *weather;
     const char *ground;      /* "land", "sea", "cloud", "cloud:TOP_M" */
     bool   has_hdri_lux, has_forward, has_heading, has_turbidity, has_visibility;
-    bool has_weather_offset;
+    bool   has_weather_offset, no_moon;
     double hdri_lux;         /* lx on a horizontal plane */
     double forward[3];       /* scene vector */
     double heading_deg, turbidity, visibility_km, weather_offset_h;
@@ -47,6 +47,8 @@ typedef struct EnvironmentChange {
     {"--visibility", OPTION_NUMBER, "KM", "of sky:clear, instead of the turbidity",            \
      &(change)->visibility_km, .low = 0.1, .high = 400,                                        \
      .given = &(change)->has_visibility},                                                      \
+    {"--no-moon", OPTION_FLAG, NULL, "leave the moon out of sky:clear's nights",               \
+     &(change)->no_moon},                                                                      \
     {"--forward", OPTION_NUMBERS, "X,Y,Z", "where the vehicle points (default 0,0,-1)",        \
      (change)->forward, .count = 3, .given = &(change)->has_forward},                          \
     {"--heading", OPTION_NUMBER, "DEG", "compass heading of the vehicle",                      \

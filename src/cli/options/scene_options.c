@@ -33,7 +33,7 @@ bool scene_options_read(const SceneWords *words, const Cli *cli, Arena *arena,
 #define TWILIGHT_DEG 4.0
 #define FAINT_TWILIGHT                                                                         \
     " — from about 4 degrees on the sky is darker than a real twilight (0.4 of it at 6, 0.05 " \
-    "at 9), and it has neither moon nor stars"
+    "at 9)"
 
 /* A sky whose sun is down is no error, but the frame may be darker than was meant. */
 static void tell_of_night(const Environment *environment, Problems *problems)
@@ -71,7 +71,7 @@ const char *scene_options_given(const SceneWords *words, const EnvironmentChange
         {change->weather != NULL, "--weather"}, {change->ground != NULL, "--ground"},
         {change->has_hdri_lux, "--hdri-lux"}, {change->has_forward, "--forward"},
         {change->has_weather_offset, "--weather-offset"}, {change->has_heading, "--heading"},
-        {change->has_turbidity, "--turbidity"},
+        {change->has_turbidity, "--turbidity"}, {change->no_moon, "--no-moon"},
         {change->has_visibility, "--visibility"}, {words->contents.count > 0, "--content"},
         {words->panels.count > 0, "--panel"}, {words->levels.count > 0, "--display-level"}};
     for (int i = 0; i < COUNT_OF(all); i++)

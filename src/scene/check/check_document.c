@@ -203,7 +203,8 @@ static const EnvironmentType ENVIRONMENT_TYPES[] = {
      "|direct_normal_w_m2|diffuse_horizontal_w_m2|when|where|"},
     {"sky",
      {NULL, NULL},
-     "|when|where|turbidity|visibility_km|ozone_atm_cm|water_cm|albedo|ground|cloud_top_m|"},
+     "|when|where|turbidity|visibility_km|ozone_atm_cm|water_cm|albedo|ground|cloud_top_m|"
+     "moon|"},
 };
 
 static void check_members(const DocumentCheck *check, const GltfValue *environment,

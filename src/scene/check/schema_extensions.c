@@ -248,6 +248,7 @@ static const Rule ENVIRONMENT[] = {
     {.name = "albedo", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 1},
     {.name = "ground", .kind = RULE_CHOICE, .flags = RULE_CLOSED, .of = "land|sea|cloud"},
     {.name = "cloud_top_m", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
+    {.name = "moon", .kind = RULE_BOOLEAN},
 };
 static const Schema SCHEMA_ENVIRONMENT = {"PARHELION_environment", ENVIRONMENT,
                                           COUNT_OF(ENVIRONMENT), true, check_environment};
