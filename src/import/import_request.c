@@ -9,13 +9,14 @@
 #include "import/importers.h"
 #include "import/primaries.h"
 #include "import/set/import_complete.h"
+#include "import/set/import_levels.h"
 #include "text/json_view.h"
 
 #define KEYS_MAX 64
 
 /* Keys besides those of the text tables. */
 static const char *const other_keys[] = {"roles", "skip", "format", "wavelength_nm", "area_mm",
-    "panel", "instrument", "primaries", "isotropic", "symmetry", "no_black", "note"};
+    "panel", "instrument", "primaries", "levels", "isotropic", "symmetry", "no_black", "note"};
 
 static bool wrong_kind(const JsonView *view, const char *key, const char *wanted, Error *err)
 {
@@ -154,11 +155,15 @@ static bool read_others(const JsonView *root, ImportRequest *request, Error *err
               json_view_text(root, "panel", &request->panel, err) &&
               json_view_text(root, "instrument", &request->instrument, err) &&
               json_view_text(root, "primaries", &request->primaries, err) &&
+              json_view_text(root, "levels", &request->levels, err) &&
               read_flag(root, "isotropic", &request->is_isotropic, err) &&
               read_symmetry(root, &request->symmetry, err) &&
               read_flag(root, "no_black", &request->black_is_zero, err);
-    return ok && (!request->primaries || json_view_file(root, "primaries", request->primaries,
-                                                        &request->primaries, err));
+    if (!ok) return false;
+    return (!request->primaries || json_view_file(root, "primaries", request->primaries,
+                                                  &request->primaries, err)) &&
+           (!request->levels || json_view_file(root, "levels", request->levels,
+                                               &request->levels, err));
 }
 
 bool import_request_read(const char *file, Arena *arena, ImportRequest *request, Error *err)
@@ -224,5 +229,6 @@ bool import_run(const char *const *file, int count, const ImportRequest *request
         set->white_reflectance = request->text.white_reflectance;
     if (request->primaries && !primaries_read(request->primaries, &request->text, set, err))
         return false;
-    return read_files(file, count, request, set, err) && import_complete(set, err);
+    return read_files(file, count, request, set, err) && import_complete(set, err) &&
+           (!request->levels || import_levels(request->levels, set, err));
 }

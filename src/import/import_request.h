@@ -15,6 +15,7 @@ typedef struct ImportRequest {
     ImportOptions   options;  /* options.text is set by import_run */
     TextList        skip;     /* patterns of files to leave out */
     const char     *primaries; /* a file of spectra; NULL: none */
+    const char     *levels;    /* a gamma table of a white-only set; NULL: none */
     const char     *root;      /* --root: where else such a file may name files; or NULL */
     const char     *panel, *instrument;
     ImportSymmetry  symmetry;

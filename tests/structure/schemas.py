@@ -76,16 +76,18 @@ RECIPE = {"emission": {"red": SPECTRUM, "green": SPECTRUM, "blue": SPECTRUM, "le
 DECLARATION = {"delimiter": "semicolon", "decimal": "comma", "azimuth_zero": "top",
                "azimuth_sense": "cw", "mask": [-999], "level_max": 255, "skip": ["log_*"],
                "columns": ["theta", "phi", "X", "Y", "Z"], "roles": {"m01*.txt": "black"},
-               "isotropic": True, "symmetry": "both", "area_mm": [10, 20], "instrument": "C"}
+               "isotropic": True, "symmetry": "both", "area_mm": [10, 20], "instrument": "C",
+               "levels": "levels.csv"}
 WRONG_RECIPES = [("emission/red/peaks_nm", []), ("emission/red/peaks_nm", None),
                  ("emission/green", None), ("emission/gama", 2.2), ("emission/gamma", 9),
                  ("instrument/theta_step_deg", 20), ("reflection/haze_share", 1.5),
                  ("emission/levels", [300]), ("panel", 7), ("emission", None)]
 WRONG_DECLARATIONS = [("delimiter", "pipe"), ("azimuth_zero", "north"), ("azimut_zero", "top"),
                       ("level_max", 0), ("skip", "log_*"), ("isotropic", "yes"),
-                      ("symmetry", "round"), ("wavelength_nm", 200)]
+                      ("symmetry", "round"), ("wavelength_nm", 200), ("levels", 7)]
 WRONG_MANIFESTS = [("emission/black", None), ("emission/red", {}), ("emission/red/300", "a"),
-                   ("emission/white", "white.csv"), ("emission/purple", "a.csv"),
+                   ("emission/white", "white.csv"), ("emission/levels", "levels.csv"),
+                   ("emission/purple", "a.csv"),
                    ("reflection/files", "brdf/i10.csv"), ("reflection/incidence_deg", [95]),
                    ("reflection/wavelengths_nm", None), ("reflection/incidence_phi_deg", [0]),
                    ("instrument_fwhm_deg", 40), ("pannel", "x")]
@@ -148,6 +150,8 @@ def check_formats(report, program, folder, schema_of):
                  trying("panel", "fit", "DOCUMENT", "-o", "FOLDER/a.panel"))
     with open(os.path.join(folder, "m01.txt"), "w", encoding="utf-8") as file:
         file.write("0;0;1,5;2;1\n5;0;1;2,5;1\n5;90;1;2;1\n5;180;1;2;1\n5;270;1;2,5;1\n")
+    with open(os.path.join(folder, "levels.csv"), "w", encoding="utf-8") as file:
+        file.write("level,luminance\n0,0.01\n0.5,0.4\n1,2\n")
     check_format(report, schema_of("import_declaration"), DECLARATION, WRONG_DECLARATIONS,
                  lambda document: refuses(
                      program, ("panel", "import", "FOLDER/m01.txt", "--layout", "DOCUMENT",

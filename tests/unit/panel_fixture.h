@@ -170,6 +170,14 @@ static inline void true_xyz(const SyntheticPanel *recipe, const double angles[2]
     }
 }
 
+/* The same at degrees. */
+static inline void true_xyz_deg(const SyntheticPanel *recipe, double theta_deg, double phi_deg,
+                                const float rgb[3], double xyz[3])
+{
+    double angles[2] = {radians_from_degrees(theta_deg), radians_from_degrees(phi_deg)};
+    true_xyz(recipe, angles, rgb, xyz);
+}
+
 /* Between XYZ, in u'v'. */
 static inline double chromaticity_distance(const double a[3], const float b[3])
 {

@@ -299,6 +299,71 @@ LAB_TEST(a_source_is_not_written_over)
     lab_refused(lab, "out/emission: is a folder, a file is wanted");
 }
 
+#define WHITE "theta,phi,X,Y,Z\n0,0,95,100,108\n40,90,47,50,54\n60,90,23,25,27\n"
+
+/* ---- levels of white alone -------------------------------------------------------------- */
+
+static const char *beside(Lab *lab, const char *name, const char *text)
+{
+    lab_write(lab, name, text);
+    return lab->file[--lab->count];
+}
+
+LAB_TEST(a_gamma_table_goes_into_the_set)
+{
+    Lab *lab = *state;
+    lab_write(lab, "white.csv", WHITE);
+    lab->request->levels = beside(lab, "gamma.csv", "level,L\n0,1\n0.5,25\n1,103\n");
+    lab_import(lab);
+    assert_true(lines_have(lab->set.note, lab->set.note_count, "from gamma.csv: 3 rows"));
+    const Measurement *set = read_back(lab);
+    assert_true(set->is_white_only && set->has_black && set->levels);
+    assert_close(set->black.value[1], 100.0 / 103, 1e-5);
+    assert_int_equal(set->primary[1].level_count, 2);
+    assert_near(set->primary[1].level[0], 127.5, 0);
+    double sum = 0; /* black is in every primary's table */
+    for (int p = 0; p < 3; p++) sum += (double)set->primary[p].table[0].value[4];
+    assert_close(sum - 2 * (double)set->black.value[4], 50 * 25.0 / 103, 1e-5);
+}
+
+static void levels_refused(Lab *lab, const char *text, const char *place, const char *words)
+{
+    lab->request->levels = beside(lab, "gamma.csv", text);
+    assert_false(lab_run(lab));
+    assert_string_equal(lab->err.file, lab->request->levels);
+    assert_string_equal(lab->err.path, place);
+    assert_error_has(&lab->err, words);
+}
+
+LAB_TEST(a_gamma_table_that_does_not_fit_is_refused)
+{
+    Lab *lab = *state;
+    lab_write(lab, "white.csv", WHITE);
+    levels_refused(lab, "level,L\n0,1\n255,106\n", "line 3",
+                   "full level has 106 cd/m2, but the set's white on the axis 100 (");
+    levels_refused(lab, "level,L\n0,1\n9,0\n255,100\n", "line 3",
+                   "0 cd/m2 at level 9 is less than the 1 of level 0 (line 2)");
+    write_primaries(lab);
+    lab_write(lab, "K_000.csv", TABLE);
+    lab->file[0] = lab->file[--lab->count]; /* without white.csv */
+    levels_refused(lab, "level,L\n0,1\n255,100\n", "",
+                   "is a level table for a set of white alone");
+}
+
+LAB_TEST(a_gamma_table_is_not_written_over)
+{
+    Lab *lab = *state;
+    assert_int_equal(mkdir(arena_format(&lab->arena, "%s/out", lab->folder), 0777), 0);
+    const char *inside = arena_format(&lab->arena, "%s/out/emission", lab->folder);
+    assert_int_equal(mkdir(inside, 0777), 0);
+    lab_write(lab, "white.csv", TABLE);
+    lab->request->levels = beside(lab, "out/emission/levels.csv", "level,L\n0,0\n255,2\n");
+    lab_import(lab);
+    assert_false(import_write(&lab->set, manifest_of(lab), &lab->err));
+    assert_text_has(lab->err.file, "out/emission/levels.csv");
+    assert_error_has(&lab->err, "would be written over");
+}
+
 /* ---- the declaration file ---------------------------------------------------------------- */
 
 static bool read_layout(Lab *lab, const char *text)

@@ -22,14 +22,6 @@ static int start_ips(void **state)
     return 0;
 }
 
-/* The recipe's XYZ for a pixel. */
-static void true_xyz_deg(const SyntheticPanel *recipe, double theta_deg, double phi_deg,
-                         const float rgb[3], double xyz[3])
-{
-    double angles[2] = {radians_from_degrees(theta_deg), radians_from_degrees(phi_deg)};
-    true_xyz(recipe, angles, rgb, xyz);
-}
-
 static json_t *table_of(const char *name)
 {
     size_t  i;

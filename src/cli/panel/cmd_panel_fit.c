@@ -25,7 +25,7 @@ static void add_usage(json_t *report)
 /* What the command line says. */
 typedef struct FitWords {
     Cli         cli;
-    const char *output, *root;
+    const char *output, *root, *levels;
     int         basis, wavelet, weights, incidence; /* places in the lists of the options */
     long        level;
     double      keep, max_error, frame;
@@ -37,6 +37,9 @@ static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err
     const Option options[] = {
         {"-o", OPTION_TEXT, "X.panel", "the file to write", &out->output, .given = NULL},
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &out->root, .given = NULL},
+        {"--levels", OPTION_TEXT, "FILE.csv", "gamma table of a set of white alone: columns "
+         "level and luminance (or red, green, blue), cd/m2 on the axis", &out->levels,
+         .given = NULL},
         {"--basis", OPTION_CHOICE, "vertex|haar",
          "basis on the hemisphere (default vertex)", &out->basis, .given = NULL},
         {"--weights", OPTION_CHOICE, "area|equal",
@@ -110,6 +113,7 @@ static bool run_fit(int argc, char **argv, Arena *arena, Error *err)
     json_t      *report = NULL;
     bool ok = reference_check_root(words.root, err) &&
               measurement_read_below(words.cli.arguments[0], words.root, arena, set, err) &&
+              (!words.levels || measurement_read_levels(set, words.levels, arena, err)) &&
               panel_fit(set, &fit, words.output, arena, &report, err);
     if (!ok) return false;
     add_usage(report);

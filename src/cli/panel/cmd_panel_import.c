@@ -80,7 +80,8 @@ static void print_summary(const ImportSet *set, const char *manifest, Arena *are
 
 /* What the command line holds before it is put on top of the declaration file. */
 typedef struct Words {
-    const char *output, *layout, *root, *primaries, *panel, *instrument, *format, *symmetry;
+    const char *output, *layout, *root, *primaries, *levels, *panel, *instrument, *format,
+        *symmetry;
     CliTexts    roles, skip, list[KEYS_MAX];
     const char *key[KEYS_MAX]; /* of the text tables' keys */
     double      wavelength_nm, area_mm[2];
@@ -120,6 +121,8 @@ static int list_options(Words *words, Option *option, Arena *arena)
          &words->wavelength_nm, 360, 830, .given = NULL},
         {"--primaries", OPTION_TEXT, "FILE", "spectra: columns nm, red, green, blue",
          &words->primaries, .given = NULL},
+        {"--levels", OPTION_TEXT, "FILE.csv", "gamma table of white alone: columns level and "
+         "luminance (or red, green, blue), cd/m2 on the axis", &words->levels, .given = NULL},
         {"--area-mm", OPTION_NUMBERS, "W,H", "luminous area for luminaire files",
          words->area_mm, 1e-3, 1e6, 2, &words->has_area},
         {"--isotropic", OPTION_FLAG, NULL, "the light's azimuth makes no difference",
@@ -194,6 +197,7 @@ static bool make_request(const Words *words, Arena *arena, ImportRequest *reques
     if (words->has_area)
         memcpy(request->options.area_mm, words->area_mm, sizeof request->options.area_mm);
     if (words->primaries) request->primaries = words->primaries;
+    if (words->levels) request->levels = words->levels;
     if (words->panel) request->panel = words->panel;
     if (words->instrument) request->instrument = words->instrument;
     request->is_isotropic |= words->is_isotropic;

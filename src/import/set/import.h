@@ -79,6 +79,7 @@ typedef struct ImportSet {
     const char   *panel, *instrument; /* names for the manifest; NULL: the file's */
     double        white_reflectance; /* of the reference: Lambertian, 0 to 1 (default 1) */
     ImportSpectra spectra;
+    const struct LevelTable *levels; /* of white alone (panel/set/level_table.h); NULL: none */
     const char   *note[IMPORT_NOTES_MAX]; /* one line each: assumed, converted, left out */
     int           note_count;
 } ImportSet;

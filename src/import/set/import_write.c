@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include "base/file.h"
+#include "panel/set/level_table.h"
 #include "panel/set/set_writer.h"
 #include "text/json_text.h"
 
@@ -30,23 +31,38 @@ const char *import_table_file(const ImportSet *set, const ImportTable *table, Ar
     return arena_format(arena, "brdf/i%.10g.csv", table->incidence_deg);
 }
 
+#define LEVELS_FILE "emission/levels.csv"
+
+static bool is_file(const char *path, const struct stat *target)
+{
+    struct stat source;
+    return path && !stat(path, &source) && source.st_dev == target->st_dev &&
+           source.st_ino == target->st_ino;
+}
+
+static bool spares(const SetOutput *out, const char *name, Arena scratch)
+{
+    struct stat target;
+    const char *path = path_beside(out->writer.manifest, name, &scratch);
+    if (stat(path, &target)) return true;
+    bool is_source = out->set->levels && is_file(out->set->levels->file, &target);
+    for (int k = 0; k < out->set->count; k++)
+        is_source |= is_file(out->set->table[k].file, &target);
+    return !is_source ||
+           error_at(out->writer.err, ERROR_OUTPUT, path, "",
+                    "is one of the files to import and would be written over — "
+                    "choose another folder for the manifest");
+}
+
 /* A laboratory's own file is never written over. */
 static bool spares_sources(const SetOutput *out)
 {
-    Arena       arena = out->scratch;
-    struct stat source, target;
-    for (int i = 0; i < out->set->count; i++) {
-        const char *name = import_table_file(out->set, &out->set->table[i], &arena);
-        const char *path = path_beside(out->writer.manifest, name, &arena);
-        if (stat(path, &target)) continue;
-        for (int k = 0; k < out->set->count; k++)
-            if (!stat(out->set->table[k].file, &source) && source.st_dev == target.st_dev &&
-                source.st_ino == target.st_ino)
-                return error_at(out->writer.err, ERROR_OUTPUT, path, "",
-                                "is one of the files to import and would be written over — "
-                                "choose another folder for the manifest");
-    }
-    return true;
+    Arena arena = out->scratch;
+    for (int i = 0; i < out->set->count; i++)
+        if (!spares(out, import_table_file(out->set, &out->set->table[i], &arena),
+                    arena))
+            return false;
+    return !out->set->levels || spares(out, LEVELS_FILE, arena);
 }
 
 /* ---- tables ------------------------------------------------------------------------------ */
@@ -123,6 +139,15 @@ static bool write_spectra(SetOutput *out)
     return set_writer_add(&out->writer, "primaries.csv", &text);
 }
 
+static bool write_levels(SetOutput *out)
+{
+    Arena arena = out->scratch;
+    Text  text = {.arena = &arena};
+    if (!out->set->levels) return true;
+    text_add(&text, level_table_text(out->set->levels, &arena));
+    return set_writer_add(&out->writer, LEVELS_FILE, &text);
+}
+
 /* ---- the manifest ------------------------------------------------------------------------ */
 
 static json_t *emission_object(SetOutput *out)
@@ -143,6 +168,7 @@ static json_t *emission_object(SetOutput *out)
                                 arena_format(&out->scratch, "%.10g", table->level), file);
         }
     }
+    if (out->set->levels) json_object_set_new(emission, "levels", json_string(LEVELS_FILE));
     return emission;
 }
 
@@ -237,7 +263,7 @@ bool import_write(const ImportSet *set, const char *manifest, Error *err)
     out.scratch = arena;
     bool ok = spares_sources(&out);
     for (int i = 0; i < set->count && ok; i++) ok = write_table(&out, &set->table[i]);
-    ok = ok && write_spectra(&out) && write_manifest(&out);
+    ok = ok && write_spectra(&out) && write_levels(&out) && write_manifest(&out);
     ok = set_writer_close(&out.writer, ok);
     arena_release(&arena);
     return ok;

@@ -16,9 +16,11 @@
 static void note_limits(const Measurement *set, FitNotes *notes)
 {
     if (set->is_white_only)
-        fit_note(notes, "white only: XYZ split into %s, level curve 2.2, black 0",
+        fit_note(notes, "white only: XYZ split into %s%s",
                  set->white_miss > 0 ? "constant shares of three primaries"
-                                     : "non-negative amounts of the Rec.709 primaries");
+                                     : "non-negative amounts of the Rec.709 primaries",
+                 set->levels ? "" : ", level curve 2.2, black 0");
+    if (set->levels) fit_note(notes, "%s", level_table_note(set->levels, notes->arena));
     if (set->white_miss > 0)
         fit_note(notes, "white only: the colour lies outside Rec.709, by %.1f %% of X + Y + Z: "
                  "the primaries share the table's own colour instead; is it the table of a "

@@ -92,13 +92,14 @@ static json_t *describe_emission(const FitParts *parts, const FitTable *total, i
 {
     const EmissionResult *e = parts->emission;
     double bytes = (double)emission_bytes(e);
-    return json_pack("{s:s, s:i, s:i, s:f, s:f, s:f, s:f, s:b, s:b, s:I, s:I, s:f, s:i, s:i,"
-                     " s:i}",
+    return json_pack("{s:s, s:i, s:i, s:f, s:f, s:f, s:f, s:b, s:b, s:b, s:I, s:I, s:f, s:i,"
+                     " s:i, s:i}",
         "basis", parts->options->basis == FIT_HAAR ? "haar" : "vertex",
         "level", e->tree.level, "components", e->components, "tolerance", e->tolerance,
         "bound", total->max_error, "rank_error", e->rank_worst,
         "cone_deg", degrees_from_radians(e->cone), "black", (int)e->has_black,
         "white_only", (int)parts->set->is_white_only,
+        "levels_measured", !parts->set->is_white_only || parts->set->levels,
         "bytes", (json_int_t)emission_bytes(e),
         "source_bytes_float32", (json_int_t)total->float32_bytes,
         "share_of_source", bytes / fmax(1, (double)total->float32_bytes),

@@ -24,7 +24,7 @@ typedef struct Export {
     const Panel         *panel;
     const ExportOptions *options;
     SetWriter           *writer;        /* NULL: one table alone */
-    bool                 is_white_only; /* fitted to a white table */
+    bool                 is_white_only; /* fitted to a white table, without levels */
     Arena                scratch;
     Progress             progress;
     int                  done;
@@ -247,8 +247,9 @@ static bool add_names(Export *export, const char *name, json_t *manifest)
     static const char *const keys[] = {"panel", "instrument", "pixels", "size_mm"};
     json_t *report = NULL;
     if (!panel_report(export->panel, &report, export->err)) return false;
-    export->is_white_only = json_is_true(json_object_get(json_object_get(report, "emission"),
-                                                         "white_only"));
+    const json_t *emission = json_object_get(report, "emission");
+    export->is_white_only = json_is_true(json_object_get(emission, "white_only")) &&
+                            !json_is_true(json_object_get(emission, "levels_measured"));
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
         json_t *value = json_object_get(report, keys[i]);
         bool    has_size = json_number_value(json_array_get(value, 0)) > 0;

@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 #include "base/units.h"
+#include "panel/set/white_split.h"
 #include "text/csv_table.h"
 #include "text/json_view.h"
 #include "text/nearest_word.h"
@@ -98,105 +99,45 @@ static bool read_primary(const JsonView *emission, int index, MeasuredPrimary *o
 
 /* ---- white-only tables ---------------------------------------------------------------- */
 
-/* XYZ as non-negative amounts of the Rec.709 primaries: amounts below zero become zero and
- * the luminance is kept. */
-static void split_white(const float xyz[3], float amount[3])
+/* Makes the primaries and black of the set's white. */
+static void split_white(const LevelTable *levels, Arena *arena, Measurement *set)
 {
-    float before = 0, after = 0;
-    for (int p = 0; p < 3; p++) {
-        amount[p] = 0;
-        for (int j = 0; j < 3; j++) amount[p] += rgb_from_xyz_matrix[3 * p + j] * xyz[j];
-        float weight = xyz_from_rgb_matrix[3 + p];
-        before += amount[p] * weight;
-        amount[p] = amount[p] > 0 ? amount[p] : 0;
-        after += amount[p] * weight;
-    }
-    for (int p = 0; p < 3; p++) amount[p] *= after > 0 ? before / after : 0;
+    set->white_miss = white_split(&set->white, levels, arena, set->primary, &set->black);
+    set->has_black = set->black.rows > 0;
+    set->levels = levels;
+    set->is_white_only = true;
 }
 
-/* How far Rec.709 misses a colour, share of X + Y + Z. */
-static double white_miss(const float xyz[3])
+/* Luminance of white nearest to the normal: of the innermost ring, where it is within 10
+ * degrees; else there is nothing to compare. */
+static bool check_full_level(const Measurement *set, const LevelTable *levels, Error *err)
 {
-    float  amount[3];
-    double off = 0, sum = 0;
-    split_white(xyz, amount);
-    for (int j = 0; j < 3; j++) {
-        double again = 0;
-        for (int p = 0; p < 3; p++)
-            again += (double)(amount[p] * xyz_from_rgb_matrix[3 * j + p]);
-        off += fabs(again - (double)xyz[j]);
-        sum += fabs((double)xyz[j]);
-    }
-    return sum > 0 ? off / sum : 0;
+    const AngleTable *white = &set->white;
+    double sum = 0;
+    int    count = 0;
+    while (count < white->rows && white->theta[count] == white->theta[0])
+        sum += (double)white->value[3 * count++ + 1];
+    return (double)white->theta[0] > radians_from_degrees(10) ||
+           level_table_check_white(levels, sum / count, set->file, err);
 }
 
-static const float *brightest_row(const AngleTable *table)
+bool measurement_read_levels(Measurement *set, const char *file, Arena *arena, Error *err)
 {
-    const float *brightest = table->value;
-    for (int i = 1; i < table->rows; i++)
-        if (table->value[3 * i + 1] > brightest[1]) brightest = table->value + 3 * i;
-    return brightest;
-}
-
-#define OUTSIDE 0.002     /* what a miss may be, where there is light */
-#define LEAST_SHARE 0.01f /* of a primary in a colour outside of Rec.709 */
-
-/* Every colour that shines is one of Rec.709? */
-static bool is_inside(const AngleTable *table)
-{
-    float least = 1e-3f * brightest_row(table)[1];
-    for (int i = 0; i < table->rows; i++)
-        if (table->value[3 * i + 1] > least && white_miss(table->value + 3 * i) > OUTSIDE)
-            return false;
+    LevelTable *levels = ARENA_NEW(arena, LevelTable, 1);
+    if (!set->is_white_only)
+        return error_at(err, ERROR_INPUT, set->file, "", "has no white table alone, so that "
+                        "the level table '%s' has nothing to give levels to: %s", file,
+                        set->primary[0].level_count ? "its primaries' levels are measured"
+                                                    : "it has no emission");
+    if (!level_table_read(file, arena, levels, err) || !check_full_level(set, levels, err))
+        return false;
+    split_white(levels, arena, set);
     return true;
-}
-
-/* Luminous shares of the primaries in the colour nearest to the brightest direction's. */
-static void nearest_shares(const AngleTable *table, float share[3])
-{
-    float sum = 0;
-    split_white(brightest_row(table), share);
-    for (int p = 0; p < 3; p++) sum += share[p] *= xyz_from_rgb_matrix[3 + p];
-    for (int p = 0; p < 3; p++) share[p] = fmaxf(sum > 0 ? share[p] / sum : 1, LEAST_SHARE);
-    sum = share[0] + share[1] + share[2];
-    for (int p = 0; p < 3; p++) share[p] /= sum;
-}
-
-/* What primary p has of a direction's XYZ: in Rec.709's colours; where those cannot carry the
- * table (one of a saturated primary, say) a constant share of the table's own colour. */
-static void part_of_white(const float xyz[3], const float *share, int p, float part[3])
-{
-    float amount[3];
-    split_white(xyz, amount);
-    for (int j = 0; j < 3; j++)
-        part[j] = share ? share[p] * xyz[j] : amount[p] * xyz_from_rgb_matrix[3 * j + p];
-}
-
-/* One level a primary, from the white table with the black one (if any) left in it once. */
-static void split_white_table(const AngleTable *white, Arena *arena, Measurement *out)
-{
-    float *value[3], share[3];
-    bool   inside = is_inside(white);
-    nearest_shares(white, share);
-    for (int p = 0; p < 3; p++) {
-        value[p] = ARENA_NEW(arena, float, 3 * (size_t)white->rows);
-        out->primary[p].level_count = 1;
-        out->primary[p].level[0] = 255;
-        out->primary[p].table[0] = *white;
-        out->primary[p].table[0].name = arena_format(arena, "%s 255", primary_names[p]);
-        out->primary[p].table[0].value = value[p];
-        if (p) out->primary[p].table[0].text_bytes = 0;
-    }
-    for (int i = 0; i < white->rows; i++)
-        for (int p = 0; p < 3; p++)
-            part_of_white(white->value + 3 * i, inside ? NULL : share, p, value[p] + 3 * i);
-    out->is_white_only = true;
-    out->white_miss = inside ? 0 : white_miss(brightest_row(white));
 }
 
 static bool read_white(const JsonView *emission, Measurement *out, Error *err)
 {
-    AngleTable white;
+    const char *levels = NULL;
     for (int p = 0; p < 3; p++)
         if (json_object_get(emission->object, primary_names[p]))
             return error_at(err, ERROR_INPUT, emission->file, emission->path,
@@ -204,21 +145,28 @@ static bool read_white(const JsonView *emission, Measurement *out, Error *err)
                             "three primaries", primary_names[p]);
     if (json_object_get(emission->object, "black"))
         return error_at(err, ERROR_INPUT, emission->file, emission->path,
-                        "has both 'white' and 'black'; a white-only set has a black of 0");
-    if (!read_emission_table(emission, "white", "white", &white, err)) return false;
-    split_white_table(&white, emission->arena, out);
-    return true;
+                        "has both 'white' and 'black'; a white-only set has a black of 0, or "
+                        "that of its 'levels'");
+    if (!read_emission_table(emission, "white", "white", &out->white, err)) return false;
+    split_white(NULL, emission->arena, out);
+    if (!json_view_text(emission, "levels", &levels, err)) return false;
+    if (!levels) return true;
+    return json_view_file(emission, "levels", levels, &levels, err) &&
+           measurement_read_levels(out, levels, emission->arena, err);
 }
 
 static bool read_emission(const JsonView *root, Measurement *out, Error *err)
 {
-    static const char *const keys[] = {"black", "red", "green", "blue", "white"};
+    static const char *const keys[] = {"black", "red", "green", "blue", "white", "levels"};
     JsonView view;
     bool needed = !json_object_get(root->object, "reflection");
     if (!json_view_child(root, "emission", needed, &view, err)) return false;
     if (!view.object) return true; /* a surface that only reflects */
     if (!json_view_check_keys(&view, keys, COUNT(keys), err)) return false;
     if (json_object_get(view.object, "white")) return read_white(&view, out, err);
+    if (json_object_get(view.object, "levels"))
+        return error_at(err, ERROR_INPUT, view.file, json_view_path(&view, "levels"),
+                        "is for a set of 'white' alone; these primaries' levels are measured");
     if (!json_object_get(view.object, "black"))
         return error_at(err, ERROR_INPUT, view.file, view.path,
                         "key 'black' is missing: the black pattern's table");
@@ -496,9 +444,8 @@ static bool read_members(const JsonView *root, Measurement *out, Error *err)
 /* A lone CSV: white only. */
 static bool read_lone_table(const char *path, Arena *arena, Measurement *out, Error *err)
 {
-    AngleTable white;
-    if (!angle_table_read_xyz(path, "white", arena, &white, err)) return false;
-    split_white_table(&white, arena, out);
+    if (!angle_table_read_xyz(path, "white", arena, &out->white, err)) return false;
+    split_white(NULL, arena, out);
     out->panel = path_name(path);
     return true;
 }

@@ -8,19 +8,14 @@
  */
 #pragma once
 #include "panel/set/angle_table.h"
+#include "panel/set/level_table.h"
+#include "panel/set/measured_primary.h"
 #include "spectrum/spectral_table.h"
 
-#define MEASUREMENT_LEVELS_MAX 64
 #define MEASUREMENT_INCIDENCES_MAX 32
 #define MEASUREMENT_WAVELENGTHS_MAX 256
 #define MEASUREMENT_AZIMUTHS_MAX 72
 #define MEASUREMENT_TABLES_MAX 1152 /* of reflection: incidences times azimuths */
-
-typedef struct MeasuredPrimary {
-    int        level_count;
-    double     level[MEASUREMENT_LEVELS_MAX]; /* rising, in (0, 255] */
-    AngleTable table[MEASUREMENT_LEVELS_MAX]; /* XYZ, black not subtracted */
-} MeasuredPrimary;
 
 typedef struct Measurement {
     const char *file; /* the manifest */
@@ -30,6 +25,8 @@ typedef struct Measurement {
     double      white_miss;     /* 0: Rec.709 carries every colour; else the share of the
                                    brightest one that it cannot */
     bool        is_white_only;  /* primary tables are the split of a white table */
+    AngleTable  white;          /* of a white-only set: the table itself */
+    const LevelTable *levels;   /* that gave a white-only set its levels and black; or NULL */
     bool        has_black;
     AngleTable  black;
     MeasuredPrimary primary[3];
@@ -51,3 +48,8 @@ bool measurement_read(const char *path, Arena *arena, Measurement *out, Error *e
 /* The same; tables may also lie below `folder` (--root). NULL: no such folder. */
 bool measurement_read_below(const char *path, const char *folder, Arena *arena,
                             Measurement *out, Error *err);
+
+/* Gives a set of white alone the levels of a gamma table (level_table.h), in place of what it
+ * had. The table's full level must be within LEVEL_TABLE_FULL_MISS of white nearest to the
+ * normal (compared up to 10 degrees from it). On failure the set stays as it was. */
+bool measurement_read_levels(Measurement *set, const char *file, Arena *arena, Error *err);

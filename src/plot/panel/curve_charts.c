@@ -330,6 +330,8 @@ static void add_grey(PanelChartList *list, const PlotData *s)
         "solid: φ 0°, dashed: φ 90°; dotted: a power of 2.2; dots: measured",
         "solid: φ 0°, dashed: φ 90°; dotted: a power of 2.2; dots: measured",
         "solid: φ 0°, dashed: φ 90°; dotted: 2.2; hatched: below the levels"};
+    static const char TABLE_SUBTITLE[] =
+        "a gamma table of the normal, taken for every angle; dotted: 2.2";
     static const char *const CAPTIONS[] = {
         "Luminance of grey (red, green and blue at one code) above that of black, divided by "
         "that of white, at several angles.",
@@ -339,8 +341,8 @@ static void add_grey(PanelChartList *list, const PlotData *s)
         "Hatched: below the first measured level."};
     for (int i = 0; i < 3; i++)
         panel_chart_add(list, &(PanelChart){PLOT_GREY_LEVELS, TITLES[i],
-            SUBTITLES[i], CAPTIONS[i],
-            draw_grey, s, i, i > 0 ? SHEET_ALWAYS : SHEET_SPARE, true});
+            s->has_gamma_table ? TABLE_SUBTITLE : SUBTITLES[i], CAPTIONS[i],
+            draw_grey, s, i, i > 0 ? SHEET_ALWAYS : SHEET_SPARE, !s->has_gamma_table});
 }
 
 void curve_charts_add(PanelChartList *list, const PlotData *s)

@@ -101,8 +101,10 @@ PlotData *plot_data_new(const PlotSource *source, Arena *arena)
     s->arena = arena;
     s->file_name = utf8_replace(path_name(source->file), arena);
     s->name = name && *name ? utf8_replace(name, arena) : s->file_name;
-    s->is_white_only = json_is_true(json_object_get(
-        json_object_get(source->report, "emission"), "white_only"));
+    const json_t *emission = json_object_get(source->report, "emission");
+    s->is_white_only = json_is_true(json_object_get(emission, "white_only"));
+    s->has_gamma_table = s->is_white_only &&
+                         json_is_true(json_object_get(emission, "levels_measured"));
     s->emits = panel_info_emits(source->panel);
     s->reflects = panel_reflects(source->panel);
     if (s->emits) sample_emission(s);

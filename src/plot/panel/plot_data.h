@@ -31,6 +31,7 @@ typedef struct PlotData {
     PlotSource source;
     const char *name, *file_name; /* of the panel, and of its file without folders */
     bool   emits, has_black, reflects, has_mirror;
+    bool   has_gamma_table;     /* white only, with levels measured on the axis */
     bool   is_white_only;       /* its primaries and levels are assumed, not measured */
     double cone;                /* emission is measured up to this theta */
     float  normal[PATTERN_COUNT][3];  /* XYZ at the normal */
