@@ -9,6 +9,7 @@
 #include "cli/material_list.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
+#include "cli/options/hdri_warning.h"
 #include "scene/load/scene_load.h"
 #include "text/json_text.h"
 
@@ -290,6 +291,7 @@ static bool run_check(int argc, char **argv, Arena *arena, Error *err)
         .paths = cli.arguments, .path_count = cli.argument_count, .root = root};
     Scene *scene = scene_survey(&files, arena, &problems);
     bool   done = true;
+    hdri_warn(&scene->environment, &problems);
     if (cli.json)
         done = print_json(scene, &problems, arena, err);
     else if (materials)

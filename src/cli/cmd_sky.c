@@ -13,6 +13,7 @@
 #include "cli/commands.h"
 #include "cli/options/answer.h"
 #include "cli/options/environment_options.h"
+#include "cli/options/hdri_warning.h"
 #include "cli/options/weather_option.h"
 #include "image/frame.h"
 #include "light/sky.h"
@@ -368,8 +369,9 @@ static bool build(SkyRun *work, Error *err)
         return false;
     if (!environment_change(&work->change, work->scene, work->arena, &work->problems, err))
         return false;
-    cli_print_warnings(&work->problems);
     const Environment *environment = &work->scene->environment;
+    hdri_warn(environment, &work->problems);
+    cli_print_warnings(&work->problems);
     if (environment->kind == ENVIRONMENT_NONE && !environment->has_sun)
         return error_set(err, ERROR_USAGE,
                          "sky wants a sky: --environment sky:clear --when TIME "

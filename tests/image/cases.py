@@ -307,7 +307,7 @@ def hdri_sides():
     for name, (direction, _) in sides.items():
         scene.view(name, [0, 0, 0], direction, 10)
     return Case("a picture of the surroundings lies the right way round", scene,
-                [Claim(name, 10 * value) for name, (_, value) in sides.items()])
+                [Claim(name, 1790 * value) for name, (_, value) in sides.items()])
 
 
 def hdri_illuminance():

@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "base/units.h"
 #include "cli/options/weather_option.h"
+#include "image/light_picture.h"
 
 #define HDRI_BYTES_MAX ((size_t)4 << 30)
 #define SUN_RADIUS_DEG 0.26645 /* half the Sun's mean angular diameter */
@@ -58,18 +59,19 @@ static bool set_hdri(Change *change, const char *path, Error *err)
 {
     Environment *environment = change->environment;
     FileBytes    bytes;
-    Image        image;
+    LightPicture picture;
     if (!file_read(path, HDRI_BYTES_MAX, change->arena, &bytes, err) ||
-        !image_read_memory(bytes.data, bytes.size, path, change->arena, &image, err))
+        !light_picture_read(bytes.data, bytes.size, path, change->arena, &picture, err))
         return false;
-    if (image.format != IMAGE_RGBA32F)
+    if (picture.image.format != IMAGE_RGBA32F)
         return error_at(err, ERROR_INPUT, path, NULL,
                         "holds display codes, wanted linear light — an OpenEXR or Radiance HDR "
                         "picture");
     if (environment->kind != ENVIRONMENT_HDRI) environment->hdri_scale = 1;
     environment->kind = ENVIRONMENT_HDRI;
     environment->hdri_path = path;
-    environment->hdri = image;
+    environment->hdri = picture.image;
+    environment->hdri_unit_cd_m2 = picture.unit_cd_m2;
     add_input(change, path, XXH3_64bits(bytes.data, bytes.size));
     return true;
 }

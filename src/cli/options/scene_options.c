@@ -2,6 +2,7 @@
 
 #include "base/count.h"
 #include "base/reference.h"
+#include "cli/options/hdri_warning.h"
 #include "scene/load/scene_load.h"
 
 static bool parse_overrides(const char *option, const CliTexts *texts, Arena *arena,
@@ -59,6 +60,7 @@ bool scene_options_load(const SceneOptions *options, const EnvironmentChange *ch
         return false;
     }
     tell_of_night(&scene->environment, problems);
+    hdri_warn(&scene->environment, problems);
     *out = scene;
     return true;
 }

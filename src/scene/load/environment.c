@@ -74,8 +74,12 @@ static void read_hdri(GltfFile *file, const GltfValue *extension, Environment *o
     out->horizontal_illuminance_lx = tree_float(extension, "horizontal_illuminance_lx", 0);
     if (!uri || !document_resolve(file, uri, &path)) return;
     out->hdri_path = arena_string(file->load->arena, path, strlen(path));
-    if (!load_image(file->load, path, &out->hdri, &err))
-        file_error(file, uri, "%s: %s", path, err.text);
+    LightPicture picture = {.unit_cd_m2 = 1};
+    bool is_read = load_light_picture(file->load, path, &picture, &err);
+    out->hdri = picture.image;
+    out->hdri_unit_cd_m2 = picture.unit_cd_m2;
+    if (!is_read)
+        file_error(file, uri, "%s: %s%s%s", path, err.path, err.path[0] ? ": " : "", err.text);
     else if (out->hdri.format != IMAGE_RGBA32F)
         file_error(file, uri,
                    "%s holds integer codes; a picture of floats (EXR, HDR) is wanted", path);

@@ -167,3 +167,10 @@ bool load_image(Loader *load, const char *path, Image *out, Error *err)
     if (image_read_memory(bytes.data, bytes.size, path, load->arena, out, err)) return true;
     return error_in_file(err, path);
 }
+
+bool load_light_picture(Loader *load, const char *path, LightPicture *out, Error *err)
+{
+    FileBytes bytes;
+    return load_read(load, path, &load->scratch, &bytes, err) &&
+           light_picture_read(bytes.data, bytes.size, path, load->arena, out, err);
+}

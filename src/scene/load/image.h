@@ -1,5 +1,6 @@
 /* image.h -- a file's images and textures. */
 #pragma once
+#include "image/light_picture.h"
 #include "scene/gltf/loader.h"
 
 /* The textures of the file, in its order; an image that no material shows may be broken. */
@@ -10,3 +11,6 @@ int texture_add(Loader *load, Texture texture);
 
 /* Reads an image file, decoded into the scene's memory. */
 bool load_image(Loader *load, const char *path, Image *out, Error *err);
+
+/* The same of a picture of surroundings: cd/m2. */
+bool load_light_picture(Loader *load, const char *path, LightPicture *out, Error *err);
