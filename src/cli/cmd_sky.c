@@ -186,9 +186,11 @@ static const char *lux_line(const SkyRun *work, const char *name, double lux)
     return arena_format(work->arena, lux >= 100 ? "%s|%.0f lx" : "%s|%.4g lx", name, lux);
 }
 
+/* At night only: by day its place stands in the JSON. */
 static int moon_lines(const SkyRun *work, const NightMetrics *m, const char **line)
 {
     int n = 0;
+    if (!(m->background_lx > 0)) return 0;
     if (m->has_moon) {
         line[n++] = arena_format(work->arena, "moon's azimuth|%.3f°", m->moon_azimuth_deg);
         line[n++] = arena_format(work->arena, "moon's elevation|%.3f°%s, %.0f %% lit",
@@ -197,7 +199,7 @@ static int moon_lines(const SkyRun *work, const NightMetrics *m, const char **li
     }
     if (m->moon_normal_lx > 0)
         line[n++] = lux_line(work, "moon direct normal", m->moon_normal_lx);
-    if (m->background_lx > 0) line[n++] = lux_line(work, "night background", m->background_lx);
+    line[n++] = lux_line(work, "night background", m->background_lx);
     return n;
 }
 
@@ -209,7 +211,8 @@ static int figure_lines(const SkyRun *work, const DaylightMetrics *f, const char
         line[n++] = arena_format(arena, "sun's azimuth|%.3f°", f->sun_azimuth_deg);
         line[n++] = arena_format(arena, "sun's elevation|%.3f°%s", f->sun_elevation_deg,
                                  f->is_sun_up ? "" : " (down)");
-        line[n++] = lux_line(work, "direct normal", f->direct_normal_lx);
+        if (!(f->night.background_lx > 0))
+            line[n++] = lux_line(work, "direct normal", f->direct_normal_lx);
     }
     line[n++] = lux_line(work, "diffuse horizontal", f->diffuse_horizontal_lx);
     line[n++] = lux_line(work, "global horizontal", f->global_horizontal_lx);
@@ -221,7 +224,7 @@ static int figure_lines(const SkyRun *work, const DaylightMetrics *f, const char
         line[n++] = arena_format(arena, "sun x, y|%.4f, %.4f", f->sun_xy[0], f->sun_xy[1]);
     if (f->direct_normal_w_m2 > 0)
         line[n++] = arena_format(arena, "direct normal|%.1f W/m²", f->direct_normal_w_m2);
-    if (f->diffuse_horizontal_w_m2 > 0)
+    if (f->diffuse_horizontal_w_m2 > 0.05)
         line[n++] = arena_format(arena, "diffuse horizontal|%.1f W/m²",
                                  f->diffuse_horizontal_w_m2);
     if (f->horizon_deg < -0.01)
@@ -325,6 +328,9 @@ static bool write_picture(const SkyRun *work, const DaylightMetrics *f, bool is_
                     .has_sun = f->is_sun_up,
                     .sun = {radians_from_degrees(f->sun_azimuth_deg),
                             radians_from_degrees(f->sun_elevation_deg), NULL},
+                    .has_moon = f->night.moon_normal_lx > 0,
+                    .moon = {radians_from_degrees(f->night.moon_azimuth_deg),
+                             radians_from_degrees(f->night.moon_elevation_deg), NULL},
                     .path = path, .path_count = sun_path(work, path),
                     .has_heading = work->change.has_heading ||
                                    work->scene->environment.heading != 0,

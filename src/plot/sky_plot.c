@@ -196,6 +196,16 @@ static void place_panorama(const void *view, double azimuth, double elevation, d
     *y = box->y + (0.5 - elevation / PI) * box->h;
 }
 
+static void draw_disc(Canvas *canvas, double x, double y, Ink ink)
+{
+    cairo_new_sub_path(canvas->cr);
+    cairo_arc(canvas->cr, x, y, 5, 0, 2 * PI);
+    canvas_fill(canvas, ink);
+    cairo_new_sub_path(canvas->cr);
+    cairo_arc(canvas->cr, x, y, 5, 0, 2 * PI);
+    canvas_stroke(canvas, (Stroke){ink_hex(0x14181c), 1, DASH_NONE});
+}
+
 static void draw_sun(const SkyDrawing *work, Place *place, const void *view, double widest)
 {
     Canvas *canvas = work->canvas;
@@ -227,14 +237,14 @@ static void draw_sun(const SkyDrawing *work, Place *place, const void *view, dou
                                                 .down = 1, .halo = ink_alpha(dark, 0.6)},
                     at->label);
     }
-    if (!plot->has_sun) return;
-    place(view, plot->sun.azimuth, plot->sun.elevation, &x, &y);
-    cairo_new_sub_path(canvas->cr);
-    cairo_arc(canvas->cr, x, y, 5, 0, 2 * PI);
-    canvas_fill(canvas, ink_hex(0xfff2c0));
-    cairo_new_sub_path(canvas->cr);
-    cairo_arc(canvas->cr, x, y, 5, 0, 2 * PI);
-    canvas_stroke(canvas, (Stroke){dark, 1, DASH_NONE});
+    if (plot->has_sun) {
+        place(view, plot->sun.azimuth, plot->sun.elevation, &x, &y);
+        draw_disc(canvas, x, y, ink_hex(0xfff2c0));
+    }
+    if (plot->has_moon) {
+        place(view, plot->moon.azimuth, plot->moon.elevation, &x, &y);
+        draw_disc(canvas, x, y, ink_hex(0xdfe4ea));
+    }
 }
 
 /* ---- the panorama ------------------------------------------------------------------------ */

@@ -21,6 +21,8 @@ typedef struct SkyPlot {
     double       horizon;   /* elevation, at most 0 */
     bool         has_sun;
     SkyPlotSun   sun;
+    bool         has_moon;
+    SkyPlotSun   moon;
     const SkyPlotSun *path; /* of the day, in order */
     int          path_count;
     bool         has_heading;
