@@ -376,6 +376,13 @@ def check_night(report, program):
     text = program.run(*words[:5], "--when", "2026-11-24T23:30+01:00").stdout
     report.claim("moon direct normal   0." in text and "night background     0.000" in text,
                  text)
+    scene = sound_scene()
+    scene.environment(type="sky", when="2026-11-24T23:30+01:00", where=[48.14, 11.58, 520],
+                      moon=False)
+    scene.write(program.file("moonless.gltf"))
+    said = json.loads(program.run("sky", program.file("moonless.gltf"), "--json").stdout)
+    report.claim(said["moon"] is None and said["global_horizontal_lx"] < 1e-3,
+                 f"a scene that says there is no moon: {said}")
     claim_status(report, program.run("sky", "--environment", "constant:9", "--no-moon"), 2,
                  "only a clear sky has a moon")
 

@@ -168,6 +168,10 @@ static const FaultCase FAULTS[] = {
      "/scenes/0/extensions/PARHELION_environment/sky", "no meaning for an environment of type"},
     {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_"
      "environment':"
+     "{'type':'sky','when':'2026-06-21T08:30+02:00','where':[48,11],'moon':'new'}}}]",
+     "/scenes/0/extensions/PARHELION_environment/moon", "is \"new\", true or false is wanted"},
+    {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_"
+     "environment':"
      "{'type':'sky','when':'yesterday','where':[95,0]}}}]",
      "/scenes/0/extensions/PARHELION_environment/when", "is \"yesterday\", a time like"},
     {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_"

@@ -130,7 +130,7 @@ static void add_daylight(Text *text, const DaylightInput *daylight)
         {"water cm", daylight->water_cm}, {"albedo", daylight->albedo}};
     for (int i = 0; i < COUNT_OF(numbers); i++)
         number_line(text, numbers[i].name, numbers[i].value);
-    if (daylight->no_moon) line(text, "moon", "none");
+    line(text, "moon", "%s", daylight->no_moon ? "left out" : "in its place");
     line(text, "ground", "%s", floor_names[daylight->floor]);
     number_line(text, "cloud top m", daylight->cloud_top_m);
 }
