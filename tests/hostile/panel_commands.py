@@ -5,6 +5,7 @@ build wrote says the same, to the last printed figure, when the other build read
 import argparse
 import csv
 import json
+import math
 import os
 import subprocess
 import sys
@@ -147,6 +148,52 @@ def check_export(report, commands, panel):
     report.claim(abs(a / b - 1) < 0.04, f"fitted again, {a} cd/m2 became {b}")
 
 
+def lambertian_set(commands, name, reflectance):
+    """A reflection alone, the same at every angle."""
+    folder = commands.file(name)
+    os.mkdir(folder)
+    with open(os.path.join(folder, "i20.csv"), "w") as out:
+        out.write("theta,phi,brdf\n0,0,%.6g\n" % (reflectance / math.pi))
+        out.writelines(f"{theta},{phi},{reflectance / math.pi:.6g}\n"
+                       for theta in range(10, 81, 10) for phi in range(0, 181, 30))
+    manifest = os.path.join(folder, "MANIFEST.json")
+    with open(manifest, "w") as out:
+        json.dump({"panel": name, "reflection": {"wavelengths_nm": [550],
+                   "incidence_deg": [20], "files": "i{incidence}.csv"}}, out)
+    return manifest
+
+
+def check_verdict(report, commands, panel):
+    """A good set is called good; one whose unit is wrong is not written, unless forced, and
+    says so wherever it is shown."""
+    found = json.loads(commands.text("info", panel, "--json"))
+    report.claim(found["verdict"] == "good" and found["reasons"] == [] and found["judged"],
+                 f"a simulated panel is {found['verdict']}: {found['reasons']}")
+    path = commands.file("unit.panel")
+    good = lambertian_set(commands, "grey", 0.5)
+    report.claim(json.loads(commands.text("fit", good, "-o", path, "--quiet", "--json"))
+                 ["verdict"] == "good", "a grey lambertian panel is not good")
+    os.remove(path)
+    wrong = lambertian_set(commands, "unit", 50)
+    fails(report, commands.run("fit", wrong, "-o", path, "--quiet"), 1, "unit.panel",
+          "albedo", "--unit", "--force")
+    done = commands.run("fit", wrong, "-o", path, "--quiet", "--json")
+    document = json.loads(done.stdout)
+    report.claim(done.returncode == 1 and document["verdict"] == "not usable"
+                 and len(done.stderr.splitlines()) == 1 and not os.path.exists(path),
+                 f"--json of what is refused: {done.returncode}, {done.stderr}")
+    text = commands.text("fit", wrong, "-o", path, "--quiet", "--force")
+    report.claim("verdict    not usable" in text, f"--force prints {text[:300]}")
+    kept = json.loads(commands.text("info", path, "--json"))
+    report.claim(kept["verdict"] == "not usable" and kept["reasons"] == document["reasons"]
+                 and "verdict    not usable" in commands.text("info", path),
+                 f"the file keeps {kept['verdict']}")
+    page = commands.file("unit.html")
+    commands.text("plot", path, "--report", page, "--quiet")
+    with open(page) as file:
+        report.claim("Why it is not usable" in file.read(), "the report hides the verdict")
+
+
 def check_other_build(report, first, second):
     """Both ways: what one wrote, the other reads."""
     for writer, reader in ((first, second), (second, first)):
@@ -171,7 +218,7 @@ def main():
             check_other_build(report, commands, Commands(options.against, folder))
             report.finish()
         panel = commands.make("small.panel")
-        for check in (check_grids, check_batch, check_export):
+        for check in (check_grids, check_batch, check_export, check_verdict):
             try:
                 check(report, commands, panel)
             except (ValueError, KeyError, IndexError) as error:

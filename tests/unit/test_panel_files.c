@@ -146,6 +146,7 @@ static FitOptions small_options(FitBasis basis)
     options.level = 2;
     options.basis = basis;
     options.bound = 0.2f; /* the coder has little to search */
+    options.force = true; /* so coarse a panel is nothing to use */
     return options;
 }
 

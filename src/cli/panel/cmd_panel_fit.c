@@ -5,6 +5,7 @@
 
 #include "base/count.h"
 #include "base/reference.h"
+#include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
 #include "cli/panel/panel_print.h"
@@ -29,7 +30,7 @@ typedef struct FitWords {
     int         basis, wavelet, weights, incidence; /* places in the lists of the options */
     long        level;
     double      keep, max_error, frame;
-    bool        masks_outliers, lobe_is_mirror;
+    bool        masks_outliers, lobe_is_mirror, force;
 } FitWords;
 
 static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err)
@@ -68,6 +69,9 @@ static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err
         {"--incidence", OPTION_CHOICE, "cubic|linear",
          "between incidences: four slices or two (default cubic)", &out->incidence,
          .given = NULL},
+        {"--force", OPTION_FLAG, NULL,
+         "write the panel also where it is judged not usable; its report says so", &out->force,
+         .given = NULL},
     };
     const CliCommand command = {"panel fit", "measurement files to one compressed panel file",
         "MANIFEST.json|TABLE.csv -o X.panel [options]",
@@ -94,6 +98,7 @@ static FitOptions options_of(const FitWords *words)
     fit.threads = words->cli.threads;
     fit.basis = (FitBasis)words->basis;
     fit.mask_outliers = words->masks_outliers;
+    fit.force = words->force;
     fit.lobe_is_mirror = words->lobe_is_mirror;
     if (words->max_error > 0) fit.bound = (float)words->max_error;
     if (words->keep > 0) {
@@ -101,6 +106,17 @@ static FitOptions options_of(const FitWords *words)
         fit.max_error = 0;
     }
     return fit;
+}
+
+/* As JSON the report of a panel that is not written is the answer; stderr has the reason. */
+static bool print_refused(json_t *report, Error *err)
+{
+    cli_report_error(err, false);
+    *err = (Error){.code = ERROR_DIFFERENT};
+    Error unprinted;
+    if (panel_print_report(report, true, &unprinted)) return false;
+    *err = unprinted;
+    return false;
 }
 
 static bool run_fit(int argc, char **argv, Arena *arena, Error *err)
@@ -115,8 +131,12 @@ static bool run_fit(int argc, char **argv, Arena *arena, Error *err)
               measurement_read_below(words.cli.arguments[0], words.root, arena, set, err) &&
               (!words.levels || measurement_read_levels(set, words.levels, arena, err)) &&
               panel_fit(set, &fit, words.output, arena, &report, err);
-    if (!ok) return false;
+    if (!ok && (!report || !words.cli.json)) {
+        json_decref(report);
+        return false;
+    }
     add_usage(report);
+    if (!ok) return print_refused(report, err);
     return panel_print_report(report, words.cli.json, err);
 }
 

@@ -6,16 +6,16 @@
 
 static void print_table(const json_t *table)
 {
-    printf("%-16s %10.0f %12.0f %9.0f %8.1f %9.2g %9.2g %9.2g %9.2g %6.2f%%\n",
+    printf("%-16s %10.0f %12.0f %9.0f %8.1f %8.3g%% %8.2g%% %8.2g%% %8.2g%% %6.2f%%\n",
            json_string_value(json_object_get(table, "name")),
            json_number_value(json_object_get(table, "source_bytes_text")),
            json_number_value(json_object_get(table, "stored_values")),
            json_number_value(json_object_get(table, "bytes")),
            json_number_value(json_object_get(table, "ratio")),
-           json_number_value(json_object_get(table, "max_error")),
-           json_number_value(json_object_get(table, "rms_error")),
-           json_number_value(json_object_get(table, "integral_error")),
-           json_number_value(json_object_get(table, "noise")),
+           100 * json_number_value(json_object_get(table, "max_error")),
+           100 * json_number_value(json_object_get(table, "rms_error")),
+           100 * json_number_value(json_object_get(table, "integral_error")),
+           100 * json_number_value(json_object_get(table, "noise")),
            100 * json_number_value(json_object_get(table, "extrapolated_share")));
 }
 
@@ -63,6 +63,17 @@ static void print_flags(const char *label, const json_t *flags)
     }
 }
 
+/* The verdict and why; files from before verdicts have none. */
+static void print_verdict(const json_t *report)
+{
+    size_t      i;
+    json_t     *reason;
+    const char *verdict = json_string_value(json_object_get(report, "verdict"));
+    printf("verdict    %s\n", verdict ? verdict : "none in this file: fit the set again");
+    json_array_foreach(json_object_get(report, "reasons"), i, reason)
+        printf("reason     %s\n", json_string_value(reason));
+}
+
 static void print_text(const json_t *report)
 {
     size_t  i;
@@ -71,15 +82,20 @@ static void print_text(const json_t *report)
            json_string_value(json_object_get(report, "panel")),
            json_string_value(json_object_get(report, "source")),
            json_string_value(json_object_get(report, "instrument")));
+    print_verdict(report);
     print_choices("emission", json_object_get(report, "emission"));
     print_choices("reflection", json_object_get(report, "reflection"));
     json_array_foreach(json_object_get(report, "notes"), i, value)
         printf("note       %s\n", json_string_value(value));
     print_flags("outlier", json_object_get(report, "outliers"));
     print_flags("hole", json_object_get(report, "holes"));
-    printf("errors are relative; sizes in bytes; trees are shared, a table's part is its even "
-           "share\n%-16s %10s %12s %9s %8s %9s %9s %9s %9s %7s\n", "table", "text", "values",
-           "bytes", "ratio", "max err", "rms err", "integral", "noise", "extrap.");
+    printf("each table: bytes of its text; numbers and bytes that the panel keeps of it (an "
+           "even share of what all share); how many times smaller than 32-bit numbers that "
+           "is;\nerrors relative to the measured values: the largest, the root of the mean "
+           "square, that of the hemispherical integral; the table's own noise; share of the "
+           "hemisphere that was not measured\n%-16s %10s %12s %9s %8s %9s %9s %9s %9s %7s\n",
+           "table", "text", "values", "bytes", "ratio", "max err", "rms err", "integral",
+           "noise", "extrap.");
     json_array_foreach(json_object_get(report, "tables"), i, value) print_table(value);
     print_table(json_object_get(report, "total"));
     if ((value = json_object_get(report, "peak_memory_bytes")))

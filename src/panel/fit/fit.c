@@ -6,6 +6,7 @@
 #include "base/file_write.h"
 #include "base/units.h"
 #include "panel/fit/emission/emission_spectra.h"
+#include "panel/fit/fit_judge.h"
 #include "panel/fit/fit_report.h"
 #include "panel/fit/fit_table.h"
 #include "panel/query/panel_open.h"
@@ -60,7 +61,16 @@ static void *reported_bytes(const FitParts *parts, json_t *document, Arena *aren
     return bytes;
 }
 
-/* Errors are measured on the file's own bytes. */
+static bool refuse(const json_t *report, const char *path, Error *err)
+{
+    const json_t *reasons = json_object_get(report, "reasons");
+    const char   *reason = json_string_value(json_array_get(reasons, 0));
+    return error_at(err, ERROR_DIFFERENT, path, "", "is not written, for the panel would not "
+                    "be usable: %s; --force writes it all the same", reason ? reason : "");
+}
+
+/* Errors are measured on the file's own bytes. A report comes also of what is not written for
+ * being not usable. */
 static bool finish_file(const FitParts *parts, const char *path, Arena *arena, json_t **report,
                         Error *err)
 {
@@ -71,12 +81,13 @@ static bool finish_file(const FitParts *parts, const char *path, Arena *arena, j
     json_t *document = fit_report_measure(parts, panel, size);
     bytes = reported_bytes(parts, document, arena, &size);
     if (!bytes) error_set(err, ERROR_MEMORY, "the report does not fit into memory");
-    if (!bytes || !file_write(path, bytes, size, err)) {
-        json_decref(document);
-        return false;
-    }
-    *report = document;
-    return true;
+    bool is_refused = bytes && !parts->options->force &&
+                      fit_judge_grade(document) == JUDGE_UNUSABLE;
+    if (is_refused) refuse(document, path, err);
+    bool ok = bytes && !is_refused && file_write(path, bytes, size, err);
+    if (ok || is_refused) *report = document;
+    else json_decref(document);
+    return ok;
 }
 
 /* The sampling, a section of the file or the promise that opening makes it, follows from what

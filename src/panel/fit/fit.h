@@ -8,7 +8,8 @@
  * out first.
  *
  * Memory   the arena's. Threads: one fit at a time per arena.
- * Fails    with the file that cannot be written; a measurement that was read is good to fit.
+ * Fails    with the file that cannot be written; with ERROR_DIFFERENT, and the report, where
+ *          the panel is judged not usable (fit_judge.h) and options->force is false.
  */
 #pragma once
 #include <jansson.h>

@@ -8,33 +8,72 @@
 #include <xxhash.h>
 
 #include "base/file.h"
+#include "base/mathd.h"
 #include "base/units.h"
 #include "hemisphere/geodesic.h"
 #include "hemisphere/tree/tree_open.h"
+#include "panel/fit/common/table_noise.h"
 #include "panel/fit/common/table_rows.h"
+#include "panel/fit/fit_judge.h"
+#include "panel/fit/judge_limits.h"
 #include "panel/fit/fit_report_reflection.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_components.h"
 
-/* Relative to the measured value itself, or to 20 times what is noise even without light, or
- * to what no meter sees. */
-static void measure_emission(const AngleTable *table, const Panel *panel, const float rgb[3],
-                             const double dim[3], const uint8_t *masked, FitTable *out)
+/* A table that the emission is held against. */
+typedef struct EmissionCheck {
+    const EmissionResult *emission;
+    const AngleTable     *table;
+    int                   index; /* of the table */
+    float                 rgb[3];
+    double                least[3]; /* errors are relative to no less, cd m^-2 */
+    double                noise[3]; /* relative */
+    FitErrors             errors;
+} EmissionCheck;
+
+/* 20 times what is noise even without light, what no meter sees, or a share of the channel's
+ * largest value. */
+static void find_least(EmissionCheck *check, Arena scratch)
 {
-    FitErrors errors = {0};
-    for (int i = 0; i < table->rows; i++) {
-        const float *m = table->value + 3 * i;
-        float  xyz[3];
-        Vec3   d = table_row_direction(table, i);
-        double weight = table_row_weight(table, i);
-        if (!(d.z > 0) || (masked && masked[i])) continue;
-        panel_emission_xyz(panel, d, rgb, xyz);
-        for (int j = 0; j < 3; j++)
-            fit_table_add_error(&errors, (double)xyz[j], (double)m[j],
-                                fmax(fmax(20 * dim[j], EMISSION_NO_LIGHT), (double)m[j]),
-                                j == 1 ? weight : 0);
+    const AngleTable *table = check->table;
+    for (int j = 0; j < 3; j++) {
+        double most = 0;
+        for (int i = 0; i < table->rows; i++)
+            most = fmax(most, (double)table->value[3 * i + j]);
+        check->least[j] = fmax(fmax(20 * check->emission->dim[check->index][j],
+                                    EMISSION_NO_LIGHT), EMISSION_FLOOR_SHARE * most);
+        check->noise[j] = table_noise_relative(table, j, scratch);
     }
-    fit_table_finish(&errors, out);
+}
+
+static void add_emission_row(EmissionCheck *check, int i, const float xyz[3])
+{
+    const EmissionResult *e = check->emission;
+    const float *m = check->table->value + 3 * i;
+    double weight = table_row_weight(check->table, i);
+    bool   is_followed = !e->outlier[check->index][i];
+    for (int j = 0; j < 3; j++) {
+        double wanted = (double)m[j], scale = fmax(check->least[j], wanted);
+        double sigma = hypot_d(check->noise[j] * wanted, e->dim[check->index][j]);
+        double miss = (fabs((double)xyz[j] - wanted) - 5 * sigma) / scale;
+        fit_table_add_error(&check->errors, (double)xyz[j], wanted, scale, j == 1 ? weight : 0);
+        if (is_followed)
+            fit_table_add_excess(&check->errors, miss, fmax(e->tolerance, JUDGE_LEAST_BOUND));
+    }
+}
+
+/* Relative to the measured value itself, or to the least that counts. */
+static void measure_emission(EmissionCheck *check, const Panel *panel, FitTable *out)
+{
+    const EmissionResult *e = check->emission;
+    for (int i = 0; i < check->table->rows; i++) {
+        float  xyz[3];
+        Vec3   d = table_row_direction(check->table, i);
+        if (!(d.z > 0) || (e->is_masked && e->outlier[check->index][i])) continue;
+        panel_emission_xyz(panel, d, check->rgb, xyz);
+        add_emission_row(check, i, xyz);
+    }
+    fit_table_finish(&check->errors, out);
     out->extrapolated = (double)panel->emission->cone_cos; /* share of the hemisphere's sr */
 }
 
@@ -44,22 +83,23 @@ static size_t emission_bytes(const EmissionResult *e)
 }
 
 static void add_emission_tables(const FitParts *parts, const Panel *panel, json_t *tables,
-                                FitTable *total)
+                                FitTable *total, FitErrors *all)
 {
     const EmissionResult *e = parts->emission;
     for (int i = 0; i < e->table_count; i++) {
         EmissionTable of = emission_samples_table(parts->set, true, i);
         const AngleTable *from = of.table;
-        float rgb[3] = {0, 0, 0};
-        if (of.primary < 3) rgb[of.primary] = of.code;
+        EmissionCheck check = {.emission = e, .table = from, .index = i};
+        if (of.primary < 3) check.rgb[of.primary] = of.code;
+        find_least(&check, *parts->notes->arena);
         FitTable one = {.name = from->name, .text_bytes = from->text_bytes,
                         .float32_bytes = parts->set->is_white_only && i
                                              ? 0 : 3 * sizeof(float) * (size_t)from->rows,
                         .stored_values = (double)e->tree.report.stored_values / e->table_count,
                         .bytes = (double)emission_bytes(e) / e->table_count,
                         .noise = e->noise[i]};
-        measure_emission(from, panel, rgb, e->dim[i], e->is_masked ? e->outlier[i] : NULL,
-                         &one);
+        measure_emission(&check, panel, &one);
+        fit_table_merge(all, &check.errors);
         fit_table_append(tables, total, &one);
     }
 }
@@ -158,6 +198,7 @@ json_t *fit_report_measure(const FitParts *parts, const Panel *panel, size_t fil
     const Measurement *set = parts->set;
     json_t  *tables = json_array();
     FitTable total = {.name = "total", .bytes = (double)file_bytes};
+    FitDeviations all = {0};
     char     hash[32];
     json_t  *out = json_pack("{s:s, s:s, s:s, s:s, s:[f,f], s:[f,f], s:s}",
         "panel", set->panel, "instrument", set->instrument, "note", set->note,
@@ -170,7 +211,7 @@ json_t *fit_report_measure(const FitParts *parts, const Panel *panel, size_t fil
     snprintf(hash, sizeof hash, "%016llx", (unsigned long long)source_hash(set));
     json_object_set_new(out, "source_hash_xxh3", json_string(hash));
     if (parts->emission) {
-        add_emission_tables(parts, panel, tables, &total);
+        add_emission_tables(parts, panel, tables, &total, &all.emission);
         int falling = count_falling(panel);
         if (falling)
             fit_note(parts->notes, "%d codes, over directions and primaries, give less light "
@@ -180,11 +221,12 @@ json_t *fit_report_measure(const FitParts *parts, const Panel *panel, size_t fil
         json_object_set_new(out, "holes", flags_json(&parts->emission->holes, false));
     }
     if (parts->reflection) {
-        fit_report_reflection_tables(parts, panel, tables, &total);
+        fit_report_reflection_tables(parts, panel, tables, &total, &all.reflection);
         fit_report_reflection(parts, panel, out);
     }
     json_object_set_new(out, "tables", tables);
     json_object_set_new(out, "total", fit_table_json(&total));
     json_object_set_new(out, "notes", notes_json(parts->notes));
+    fit_judge(parts, &all, &total, out);
     return out;
 }

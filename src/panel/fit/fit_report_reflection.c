@@ -7,6 +7,7 @@
 #include "base/units.h"
 #include "hemisphere/tree/tree_open.h"
 #include "panel/fit/common/table_rows.h"
+#include "panel/fit/judge_limits.h"
 #include "panel/fit/reflection/reflection_model.h"
 #include "panel/fit/reflection/reflection_read.h"
 #include "panel/query/panel_components.h"
@@ -33,6 +34,16 @@ typedef struct TableWork {
     FitErrors              *errors; /* per table */
 } TableWork;
 
+static void add_deviation(TableWork *work, int t, int row, double found, double wanted)
+{
+    const ReflectionResult *r = work->reflection;
+    double weight = table_row_weight(&r->parts.kept[t], row);
+    double noise = 5 * reflection_parts_noise(&r->parts, t, wanted);
+    double miss = fabs(found - wanted) / wanted - noise;
+    fit_table_add_error(&work->errors[t], found, wanted, wanted, weight);
+    fit_table_add_excess(&work->errors[t], miss, fmax(r->bound, JUDGE_LEAST_BOUND));
+}
+
 static void measure_table(void *context, int t, int worker)
 {
     TableWork         *work = context;
@@ -46,13 +57,12 @@ static void measure_table(void *context, int t, int worker)
         int lanes = set->wavelength_count - first;
         for (int i = 0; i < table->rows; i++) {
             const float *m = table->value + (size_t)i * (size_t)table->channels + first;
-            Spectrum f = panel_brdf(work->panel, row_direction(table, i, mirror), wi,
-                                    &wavelengths);
+            Vec3     wo = row_direction(table, i, mirror);
+            Spectrum f = panel_brdf(work->panel, wo, wi, &wavelengths);
+            if (!(wo.z > 0)) continue; /* along the panel nothing leaves it */
             for (int k = 0; k < lanes && k < SPECTRUM_LANES; k++)
                 if ((double)m[k] >= least)
-                    fit_table_add_error(&work->errors[t], (double)f[k], (double)m[k],
-                                        (double)m[k],
-                                        table_row_weight(table, i));
+                    add_deviation(work, t, i, (double)f[k], (double)m[k]);
         }
     }
 }
@@ -63,7 +73,7 @@ static size_t reflection_bytes(const ReflectionResult *r)
 }
 
 void fit_report_reflection_tables(const FitParts *parts, const Panel *panel, json_t *tables,
-                                   FitTable *total)
+                                  FitTable *total, FitErrors *all)
 {
     const ReflectionResult *r = parts->reflection;
     Arena     scratch = *parts->notes->arena;
@@ -78,6 +88,7 @@ void fit_report_reflection_tables(const FitParts *parts, const Panel *panel, jso
             .float32_bytes = (size_t)from->channels * sizeof(float) * (size_t)from->rows,
             .stored_values = values, .bytes = bytes, .noise = r->parts.noise[t]};
         fit_table_finish(&work.errors[t], &one);
+        fit_table_merge(all, &work.errors[t]);
         one.extrapolated = (double)panel->reflection->cone_cos;
         fit_table_append(tables, total, &one);
     }

@@ -6,7 +6,7 @@
 
 /* The tables' rows. */
 void fit_report_reflection_tables(const FitParts *parts, const Panel *panel, json_t *tables,
-                                  FitTable *total);
+                                  FitTable *total, FitErrors *all);
 
 /* What was chosen, and the parts at every incidence, as "reflection" in *out. */
 void fit_report_reflection(const FitParts *parts, const Panel *panel, json_t *out);

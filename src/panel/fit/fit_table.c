@@ -13,6 +13,22 @@ void fit_table_add_error(FitErrors *errors, double found, double wanted, double 
     errors->integral_source += weight * wanted;
 }
 
+void fit_table_add_excess(FitErrors *errors, double miss, double bound)
+{
+    double excess = fmax(0, miss);
+    errors->beyond += excess > bound;
+    errors->excess_squares += excess * excess;
+}
+
+void fit_table_merge(FitErrors *all, const FitErrors *one)
+{
+    all->max = fmax(all->max, one->max);
+    all->squares += one->squares;
+    all->count += one->count;
+    all->beyond += one->beyond;
+    all->excess_squares += one->excess_squares;
+}
+
 void fit_table_finish(const FitErrors *errors, FitTable *out)
 {
     out->max_error = errors->max;

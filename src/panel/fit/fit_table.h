@@ -13,12 +13,20 @@ typedef struct FitTable {
 /* Deviations of a panel from a table, summed up. */
 typedef struct FitErrors {
     double max, squares, count, integral, integral_source;
+    double beyond, excess_squares; /* of fit_table_add_excess */
 } FitErrors;
 
 /* scale: what the error is relative to. */
 void fit_table_add_error(FitErrors *errors, double found, double wanted, double scale,
                          double weight);
+
+/* The same deviation without what noise explains. miss: relative, noise taken off; a sample
+ * whose miss is above bound is one beyond it. */
+void fit_table_add_excess(FitErrors *errors, double miss, double bound);
 void fit_table_finish(const FitErrors *errors, FitTable *out);
+
+/* Adds counts and sums of one table to those of all. */
+void fit_table_merge(FitErrors *all, const FitErrors *one);
 
 /* A new object of the report. */
 json_t *fit_table_json(const FitTable *table);

@@ -169,6 +169,7 @@ static void add_definitions(Text *html, const json_t *object, Arena scratch)
     json_object_foreach((json_t *)object, key, value) {
         bool is_empty = (json_is_string(value) && !*json_string_value(value)) ||
                         json_is_null(value) || !strcmp(key, "notes") ||
+                        !strcmp(key, "reasons") ||
                         (json_is_array(value) && is_all_zero(value));
         if (!is_plain(value) || is_empty) continue;
         ReportWord word = word_of(key);
@@ -200,14 +201,22 @@ void report_add_choices(Text *html, const json_t *report, Arena scratch)
     text_add(html, "</div>\n");
 }
 
-void report_add_notes(Text *html, const json_t *report, Arena scratch)
+static void add_sentences(Text *html, const char *title, const json_t *notes, Arena scratch)
 {
-    const json_t *notes = json_object_get(report, "notes");
-    int           count = (int)json_array_size(notes);
-    const char  **texts = ARENA_NEW(&scratch, const char *, count);
+    int          count = (int)json_array_size(notes);
+    const char **texts = ARENA_NEW(&scratch, const char *, count);
     if (count == 0) return;
     for (int i = 0; i < count; i++)
         texts[i] = value_text(json_array_get(notes, (size_t)i), STYLE_PLAIN, &scratch);
-    page_element(html, "h2", "Notes of the fit");
+    page_element(html, "h2", title);
     page_list(html, "notes", texts, count);
+}
+
+void report_add_notes(Text *html, const json_t *report, Arena scratch)
+{
+    const char *verdict = json_string_value(json_object_get(report, "verdict"));
+    char        title[64];
+    snprintf(title, sizeof title, "Why it is %s", verdict ? verdict : "");
+    add_sentences(html, title, json_object_get(report, "reasons"), scratch);
+    add_sentences(html, "Notes of the fit", json_object_get(report, "notes"), scratch);
 }

@@ -25,6 +25,7 @@ typedef struct FitOptions {
                                    its width the instrument's, where that is not declared */
     float       frame_exponent; /* k of the specular-following frame; 0: choose */
     bool        is_linear_in_incidence; /* over two slices instead of cubic over four */
+    bool        force;      /* a panel that is judged not usable is written all the same */
     int         threads;    /* at least 1; the bytes do not depend on it */
     ProgressMode progress;
 } FitOptions;

@@ -12,6 +12,10 @@
 #include "panel/set/measurement.h"
 
 #define EMISSION_NO_LIGHT 1e-4 /* cd m^-2: what is less counts relative to this */
+
+/* Of a channel's largest value in a table: what is less counts relative to this. A thousandth
+ * of the peak is what glare in an eye or a lens covers anyway. */
+#define EMISSION_FLOOR_SHARE 0.001
 #define EMISSION_TABLES_MAX (3 * PANEL_LEVELS_MAX + 1)
 
 /* Every table's totals M at the rows of the table that has the most. */

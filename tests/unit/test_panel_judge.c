@@ -1,0 +1,297 @@
+/* A fit judges itself: a good set stays good, and each kind of fault is named. The sets are
+ * closed forms written as tables. */
+#include "fixture.h"
+#include "base/mathd.h"
+#include "base/units.h"
+#include "panel/fit/fit.h"
+#include "panel/fit/fit_judge.h"
+#include "panel/query/panel_emission.h"
+#include "panel/query/panel_open.h"
+#include "panel/query/panel_report.h"
+#include "panel/set/measurement.h"
+
+/* A white table, or a reflection: what is measured, and what went wrong. */
+typedef struct Fault {
+    double factor;  /* of all values */
+    double noise;   /* relative, uniform */
+    double gap_from, gap_to; /* degrees: azimuths in between are missing */
+    double phi_step;
+    double corners; /* 0: round; how much squarer than an ellipse, and how much narrower in y */
+    double zeros;   /* share of rows that are 0 */
+} Fault;
+
+typedef struct Judged {
+    Arena   arena;
+    char    folder[FOLDER_BYTES];
+    json_t *report;
+    bool    written;
+    Error   err;
+} Judged;
+
+static Judged work;
+
+static int open_folder(void **state)
+{
+    (void)state;
+    work.arena = arena_reserve((size_t)64 << 30);
+    assert_true(folder_create(work.folder));
+    return 0;
+}
+
+static int close_folder(void **state)
+{
+    (void)state;
+    folder_destroy(work.folder);
+    arena_release(&work.arena);
+    return 0;
+}
+
+static char *in_work(const char *name)
+{
+    return arena_format(&work.arena, "%s/%s", work.folder, name);
+}
+
+/* In [-1, 1], of a row's number. */
+static double shaken(int i)
+{
+    uint32_t x = (uint32_t)i * 2654435761u;
+    x ^= x >> 15, x *= 2246822519u, x ^= x >> 13;
+    return (double)x / 2147483648.0 - 1;
+}
+
+/* Luminance of an OLED behind a lens: corners squeeze it in y and make its outline a
+ * rectangle. */
+static double luminance(const Fault *fault, double theta, double phi)
+{
+    double t = radians_from_degrees(theta), p = radians_from_degrees(phi);
+    double power = 2 + 4 * fault->corners, x = fabs(sin(t) * cos(p)) / 0.75;
+    double y = fabs(sin(t) * sin(p)) / (0.75 - 0.4 * fault->corners);
+    return 400 * exp(-pow(x, power) - pow(y, power)) + 1;
+}
+
+static bool is_missing(const Fault *fault, double phi)
+{
+    return phi > fault->gap_from && phi < fault->gap_to;
+}
+
+static void write_white(const Fault *fault)
+{
+    FILE *file = fopen(in_work("white.csv"), "w");
+    int   row = 0;
+    assert_non_null(file);
+    fprintf(file, "theta,phi,X,Y,Z\n");
+    for (double theta = 0; theta < 81; theta += 5)
+        for (double phi = 0; phi < 359; phi += fault->phi_step) {
+            double y = fault->factor * luminance(fault, theta, phi);
+            if (is_missing(fault, phi)) continue;
+            y *= 1 + fault->noise * shaken(row++);
+            fprintf(file, "%g,%g,%.7g,%.7g,%.7g\n", theta, phi, 0.95 * y, y, 1.09 * y);
+            if (theta == 0) break;
+        }
+    fclose(file);
+}
+
+/* A wide haze on a lambertian part. */
+static void write_brdf(const Fault *fault, double incidence)
+{
+    char  name[32];
+    int   row = 0;
+    snprintf(name, sizeof name, "i%g.csv", incidence);
+    FILE *file = fopen(in_work(name), "w");
+    assert_non_null(file);
+    fprintf(file, "theta,phi,brdf\n");
+    for (double theta = 0; theta < 81; theta += 5)
+        for (double phi = 0; phi < 181; phi += 15) {
+            double t = radians_from_degrees(theta), p = radians_from_degrees(phi);
+            double x = sin(t) * cos(p) - sin(radians_from_degrees(incidence));
+            double y = sin(t) * sin(p), f = 0.05 + 0.05 * exp(-(x * x + y * y) / 0.3);
+            f *= fault->factor * (1 + fault->noise * shaken(row++));
+            if (0.5 + 0.5 * shaken(row + 7) < fault->zeros) f = 0;
+            fprintf(file, "%g,%g,%.7g\n", theta, phi, f);
+            if (theta == 0) break;
+        }
+    fclose(file);
+}
+
+static const char *const WHITE = "{\"emission\": {\"white\": \"white.csv\"}}";
+static const char *const REFLECTION =
+    "{\"reflection\": {\"wavelengths_nm\": [550], \"incidence_deg\": [10, 35, 60],"
+    " \"files\": \"i{incidence}.csv\"}}";
+
+/* Fits what the fault made of a set. */
+static void fit(const Fault *fault, const char *manifest, bool force)
+{
+    Measurement *set = ARENA_NEW(&work.arena, Measurement, 1);
+    FitOptions   options = fit_options_default();
+    const char  *path = in_work("MANIFEST.json"), *panel = in_work("x.panel");
+    options.force = force;
+    json_decref(work.report);
+    work.report = NULL;
+    work.err = (Error){0};
+    remove(panel);
+    if (manifest == WHITE) write_white(fault);
+    else for (int i = 0; i < 3; i++) write_brdf(fault, 10 + 25 * i);
+    write_text(path, manifest);
+    if (!measurement_read(path, &work.arena, set, &work.err) ||
+        (!panel_fit(set, &options, panel, &work.arena, &work.report, &work.err) &&
+         work.err.code != ERROR_DIFFERENT))
+        fail_msg("%s: %s", work.err.file, work.err.text);
+    FILE *file = fopen(panel, "rb");
+    work.written = file != NULL;
+    if (file) fclose(file);
+}
+
+/* The grade is no better than this, and a reason says the word. */
+static void expect(JudgeGrade least, JudgeGrade most, const char *word)
+{
+    JudgeGrade grade = fit_judge_grade(work.report);
+    char      *all = json_dumps(json_object_get(work.report, "reasons"), 0);
+    if (grade < least || grade > most || !strstr(all, word))
+        fail_msg("grade %d, '%s' wanted in: %s", (int)grade, word, all);
+    free(all);
+}
+
+TEST(good_sets_are_good)
+{
+    (void)state;
+    Fault plain = {.factor = 1, .phi_step = 15};
+    fit(&plain, WHITE, false);
+    expect(JUDGE_GOOD, JUDGE_GOOD, "[]");
+    assert_true(work.written);
+    plain.noise = 0.01;
+    fit(&plain, REFLECTION, false);
+    expect(JUDGE_GOOD, JUDGE_GOOD, "[]");
+}
+
+TEST(an_emission_in_another_unit_is_named)
+{
+    (void)state;
+    const double factors[] = {1000, 0.001, 1e6};
+    for (int i = 0; i < 3; i++) {
+        Fault fault = {.factor = factors[i], .phi_step = 15};
+        fit(&fault, WHITE, false);
+        expect(JUDGE_CARE, JUDGE_UNUSABLE, "unit");
+    }
+}
+
+TEST(a_reflection_in_another_unit_is_named)
+{
+    (void)state;
+    const double factors[] = {1000, 0.001};
+    for (int i = 0; i < 2; i++) {
+        Fault fault = {.factor = factors[i]};
+        fit(&fault, REFLECTION, false);
+        expect(factors[i] > 1 ? JUDGE_UNUSABLE : JUDGE_CARE, JUDGE_UNUSABLE, "check the unit");
+    }
+    Fault little = {.factor = 1};
+    fit(&little, REFLECTION, false);
+    little.factor = 1.15 / json_number_value(json_object_get(
+        json_object_get(work.report, "judged"), "largest_albedo"));
+    fit(&little, REFLECTION, false);
+    expect(JUDGE_CARE, JUDGE_UNUSABLE, "albedo");
+}
+
+TEST(noise_is_named)
+{
+    (void)state;
+    Fault fault = {.factor = 1, .phi_step = 15, .noise = 0.4};
+    fit(&fault, WHITE, true);
+    expect(JUDGE_CARE, JUDGE_UNUSABLE, "noise");
+}
+
+TEST(zeros_are_named)
+{
+    (void)state;
+    Fault fault = {.factor = 1, .zeros = 0.5};
+    fit(&fault, REFLECTION, true);
+    expect(JUDGE_CARE, JUDGE_UNUSABLE, "zero or negative");
+}
+
+TEST(what_is_not_usable_is_not_written_unless_forced)
+{
+    (void)state;
+    Fault fault = {.factor = 1000};
+    fit(&fault, REFLECTION, false);
+    assert_false(work.written);
+    assert_int_equal(work.err.code, ERROR_DIFFERENT);
+    assert_non_null(strstr(work.err.text, "--force"));
+    fit(&fault, REFLECTION, true);
+    assert_true(work.written);
+    Panel  *panel = NULL;
+    json_t *kept = NULL;
+    assert_true(panel_open(in_work("x.panel"), &work.arena, &panel, &work.err));
+    assert_true(panel_report(panel, &kept, &work.err));
+    assert_string_equal(json_string_value(json_object_get(kept, "verdict")), "not usable");
+    assert_true(json_equal(json_object_get(kept, "reasons"),
+                           json_object_get(work.report, "reasons")));
+    json_decref(kept);
+    panel_close(panel);
+}
+
+/* ---- azimuths ---------------------------------------------------------------------------- */
+
+/* The largest error of the panel in the middle of what was not measured, relative to the truth,
+ * where there is light. */
+static double error_between(const Fault *fault, double phi)
+{
+    Panel *panel = NULL;
+    double worst = 0;
+    assert_true(panel_open(in_work("x.panel"), &work.arena, &panel, &work.err));
+    for (double theta = 4; theta < 77; theta += 4) {
+        double t = radians_from_degrees(theta), p = radians_from_degrees(phi);
+        Vec3   d = vec3((float)(sin(t) * cos(p)), (float)(sin(t) * sin(p)), (float)cos(t));
+        float  xyz[3], white[3] = {255, 255, 255};
+        double truth = luminance(fault, theta, phi);
+        panel_emission_xyz(panel, d, white, xyz);
+        if (truth > 20) worst = fmax(worst, fabs((double)xyz[1] / truth - 1));
+    }
+    panel_close(panel);
+    return worst;
+}
+
+TEST(a_panel_of_two_azimuths_names_the_gap_and_its_cost)
+{
+    (void)state;
+    const double corners[] = {0.25, 1};
+    for (int i = 0; i < 2; i++) {
+        Fault fault = {.factor = 1, .phi_step = 90, .corners = corners[i]};
+        fit(&fault, WHITE, false);
+        expect(JUDGE_CARE, JUDGE_CARE, "azimuths");
+        const json_t *judged = json_object_get(work.report, "judged");
+        double cost = json_number_value(json_object_get(judged, "azimuth_gap_error"));
+        double gap = json_number_value(json_object_get(judged, "azimuth_gap_deg"));
+        double found = error_between(&fault, 45);
+        assert_true(fabs(gap - 90) < 0.1);
+        if (!(cost > 0.05 && cost >= 0.5 * found))
+            fail_msg("cost %g stated, %g found between", cost, found);
+    }
+}
+
+TEST(a_missing_sector_is_named_and_a_round_panel_does_not_need_it)
+{
+    (void)state;
+    Fault fault = {.factor = 1, .phi_step = 15, .corners = 0.5, .gap_from = 20, .gap_to = 100};
+    fit(&fault, WHITE, false);
+    expect(JUDGE_CARE, JUDGE_CARE, "between the azimuths 15 and 105 degrees");
+    fault.corners = 0;
+    fit(&fault, WHITE, false);
+    expect(JUDGE_GOOD, JUDGE_GOOD, "[]");
+}
+
+TEST(the_report_says_what_decided)
+{
+    (void)state;
+    Fault fault = {.factor = 1, .phi_step = 15};
+    fit(&fault, WHITE, false);
+    const json_t *judged = json_object_get(work.report, "judged");
+    assert_true(json_is_number(json_object_get(judged, "integral_error")));
+    assert_true(json_is_number(json_object_get(judged, "noise")));
+    assert_true(json_is_object(json_object_get(judged, "emission")));
+    json_decref(work.report);
+    work.report = NULL;
+}
+
+int main(void)
+{
+    return run_cases(open_folder, close_folder);
+}
