@@ -8,6 +8,7 @@
 #include "denoise/noise.h"
 #include "denoise/patch_weights.h"
 #include "denoise/regression.h"
+#include "denoise/selection.h"
 
 enum { COARSE = 6, FINE = 2 }; /* reaches of the corrections */
 
@@ -21,8 +22,28 @@ typedef struct Filtering {
     int                   tiles_x, tiles_y;
     int                   odd_x, odd_y; /* which tiles' turn it is */
     Scratch              *scratch;      /* one a worker */
-    RegressionSums        sums[2];      /* of each half */
+    RegressionSums        wide[2], narrow[2]; /* of each half */
 } Filtering;
+
+/* The weights of the narrow filter: only what is very much alike counts. */
+static void sharpen(float weights[PATCH_OFFSETS])
+{
+    for (int k = 0; k < PATCH_OFFSETS; k++) {
+        float fourth = weights[k] * weights[k] * weights[k] * weights[k];
+        weights[k] = fourth * fourth < 1e-3f ? 0 : fourth * fourth;
+    }
+}
+
+static void filter_pixel(const Filtering *work, int half, int x, int y, float *weights)
+{
+    const DenoiseBuffers  *b = work->buffers;
+    const RegressionWindow window = {b, x, y, PATCH_SEARCH, weights};
+    if (b->kind[(size_t)y * (size_t)b->width + (size_t)x] == PIXEL_LEFT) return;
+    regression_add(&window, half, &work->wide[half]);
+    if (!b->has_halves) return;
+    sharpen(weights);
+    regression_add(&window, half, &work->narrow[half]);
+}
 
 static void filter_tile(void *context, int item, int worker)
 {
@@ -36,10 +57,8 @@ static void filter_tile(void *context, int item, int worker)
         patch_weights(b, half, x0, y0, scratch->patches, scratch->weights);
         for (int k = 0; k < PATCH_TILE * PATCH_TILE; k++) {
             int x = x0 + k % PATCH_TILE, y = y0 + k / PATCH_TILE;
-            const RegressionWindow window = {b, x, y, PATCH_SEARCH, scratch->weights[k]};
-            if (x >= b->width || y >= b->height) continue;
-            if (b->kind[(size_t)y * (size_t)b->width + (size_t)x] != PIXEL_LEFT)
-                regression_add(&window, half, &work->sums[half]);
+            if (x < b->width && y < b->height)
+                filter_pixel(work, half, x, y, scratch->weights[k]);
         }
     }
 }
@@ -57,6 +76,14 @@ static void filter_tiles(Filtering *work, int threads)
     }
 }
 
+static RegressionSums create_sums(size_t count, Arena *arena)
+{
+    RegressionSums sums;
+    for (int c = 0; c < 3; c++) sums.light[c] = ARENA_NEW(arena, float, count);
+    sums.weight = ARENA_NEW(arena, float, count);
+    return sums;
+}
+
 static Filtering create_filtering(const DenoiseBuffers *b, int threads, Arena *arena)
 {
     size_t    count = (size_t)b->width * (size_t)b->height;
@@ -69,33 +96,64 @@ static Filtering create_filtering(const DenoiseBuffers *b, int threads, Arena *a
                                               sizeof(float), (size_t)PATCH_TILE * PATCH_TILE);
     }
     for (int half = 0; half < 2; half++) {
-        for (int c = 0; c < 3; c++) work.sums[half].light[c] = ARENA_NEW(arena, float, count);
-        work.sums[half].weight = ARENA_NEW(arena, float, count);
+        work.wide[half] = create_sums(count, arena);
+        work.narrow[half] = create_sums(count, arena);
     }
     return work;
 }
 
-/* Both halves' fits together; where there is none, the light as it was. */
+/* The mean of the fits; where there is none, the light as it was. */
+static void average_fits(const DenoiseBuffers *b, int half, const RegressionSums *sums)
+{
+    for (int c = 0; c < 3; c++)
+        for (size_t i = 0; i < (size_t)b->width * (size_t)b->height; i++)
+            sums->light[c][i] = sums->weight[i] > 0 ? sums->light[c][i] / sums->weight[i]
+                                                    : b->light[half][c][i];
+}
+
+static void select_filters(const Filtering *work, int threads, Arena scratch)
+{
+    Candidates candidates;
+    for (int half = 0; half < 2; half++) {
+        average_fits(work->buffers, half, &work->wide[half]);
+        average_fits(work->buffers, half, &work->narrow[half]);
+        for (int c = 0; c < 3; c++) {
+            candidates.wide[half][c] = work->wide[half].light[c];
+            candidates.narrow[half][c] = work->narrow[half].light[c];
+        }
+    }
+    if (work->buffers->has_halves)
+        selection_apply(work->buffers, &candidates, threads, scratch);
+}
+
 static void join_halves(const Filtering *work, float *const light[3])
 {
     const DenoiseBuffers *b = work->buffers;
     for (size_t i = 0; i < (size_t)b->width * (size_t)b->height; i++)
         for (int c = 0; c < 3; c++)
-            for (int half = 0; half < 2; half++) {
-                const RegressionSums *sums = &work->sums[half];
-                light[c][i] += b->share[half] * (sums->weight[i] > 0
-                                                     ? sums->light[c][i] / sums->weight[i]
-                                                     : b->light[half][c][i]);
-            }
+            light[c][i] = b->share[0] * work->wide[0].light[c][i] +
+                          b->share[1] * work->wide[1].light[c][i];
+}
+
+/* Lines may say less than nothing, and are let: without those that do, what is left of the
+ * noise would be brighter than what was there. Of their mean all is cut that the frame has
+ * not itself. */
+static void keep_positive(const DenoiseBuffers *b, float *const light[3])
+{
+    for (size_t i = 0; i < (size_t)b->width * (size_t)b->height; i++)
+        for (int c = 0; c < 3; c++)
+            light[c][i] = fmaxf(light[c][i], fminf(0, buffers_mean(b, c, i)));
 }
 
 static void filter(const DenoiseBuffers *b, float *const light[3], int threads, Arena scratch)
 {
     Filtering work = create_filtering(b, threads, &scratch);
     filter_tiles(&work, threads);
+    select_filters(&work, threads, scratch);
     join_halves(&work, light);
     correction_add(b, light, COARSE, threads, scratch);
     correction_add(b, light, FINE, threads, scratch);
+    keep_positive(b, light);
 }
 
 /* Light becomes the frame again; returns the luminance of all of it. */

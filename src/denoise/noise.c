@@ -7,6 +7,7 @@
 
 #define REACH 4           /* pixels around that tell how much the samples' spread overstates */
 #define DISPLAY_REACH 2
+#define UNLIKE 8.0f       /* how fast pixels of other features stop to tell */
 #define WIDE_SHARE 0.3f   /* of the mean around: no pixel is surer because no light found it */
 #define RATIO_LEAST 0.05f /* of what the halves say to what the samples' spread says */
 #define RATIO_MOST 1.5f
@@ -37,6 +38,34 @@ static float median_around(const DenoiseBuffers *b, const float *variance, size_
     return found[count / 2];
 }
 
+/* The square of what a display's pixel differs by from the mean of its neighbours on both
+ * sides, in x or in y: 3/2 of the variance where the reflection is straight. Adds up. */
+static void add_bend(const DenoiseBuffers *b, int c, size_t pixel, size_t step, double sum[2])
+{
+    if (b->kind[pixel - step] != PIXEL_DISPLAY || b->kind[pixel + step] != PIXEL_DISPLAY)
+        return;
+    float bend = buffers_mean(b, c, pixel) -
+                 0.5f * (buffers_mean(b, c, pixel - step) + buffers_mean(b, c, pixel + step));
+    sum[0] += 2.0 / 3 * (double)bend * (double)bend;
+    sum[1]++;
+}
+
+/* The variance of the reflection as its neighbours tell it; that of the samples is spread by
+ * content too, wherever there is fine content all over the window of the median. */
+static float bent_around(const DenoiseBuffers *b, int c, size_t pixel)
+{
+    PixelWindow w = buffers_window(b, pixel, REACH);
+    double      sum[2] = {0, 0};
+    for (int y = w.y0; y < w.y1; y++)
+        for (int x = w.x0; x < w.x1; x++) {
+            size_t i = (size_t)y * (size_t)b->width + (size_t)x;
+            if (b->kind[i] != PIXEL_DISPLAY) continue;
+            if (x > 0 && x < b->width - 1) add_bend(b, c, i, 1, sum);
+            if (y > 0 && y < b->height - 1) add_bend(b, c, i, (size_t)b->width, sum);
+        }
+    return sum[1] > 0 ? (float)(sum[0] / sum[1]) : INFINITY;
+}
+
 /* Keeps the halves within two standard errors of their mean. */
 static void bound_halves(DenoiseBuffers *b, int c, size_t i)
 {
@@ -54,7 +83,7 @@ static void separate_displays(DenoiseBuffers *b, float *copy)
         memcpy(copy, b->variance[c], count * sizeof *copy);
         for (size_t i = 0; i < count; i++) {
             if (b->kind[i] != PIXEL_DISPLAY) continue;
-            b->variance[c][i] = median_around(b, copy, i);
+            b->variance[c][i] = fminf(median_around(b, copy, i), bent_around(b, c, i));
             bound_halves(b, c, i);
         }
     }
@@ -75,12 +104,13 @@ static SpreadSums sums_around(const DenoiseBuffers *b, const float *spread, int 
             size_t i = (size_t)y * (size_t)b->width + (size_t)x;
             if (b->kind[i] != b->kind[pixel]) continue;
             float half = halves_at(b, c, i);
-            sums.halves += half * half;
-            sums.wide += spread[i];
-            sums.count++;
+            float like = exp_f(-UNLIKE * buffers_feature_distance(b, pixel, i));
+            sums.halves += like * half * half;
+            sums.wide += like * spread[i];
+            sums.count += like;
             if (x < near.x0 || x >= near.x1 || y < near.y0 || y >= near.y1) continue;
-            sums.near += spread[i];
-            sums.near_count++;
+            sums.near += like * spread[i];
+            sums.near_count += like;
         }
     return sums;
 }

@@ -5,6 +5,7 @@
 
 #include "base/mathf.h"
 
+#define STRENGTH 0.4f   /* how fast unlike patches stop to count: wide, narrowed later */
 #define UNLIKE 8.0f     /* how fast pixels of other features stop to count */
 #define LEAST_WEIGHT 1e-3f
 #define TOLERANCE 0.45f /* standard errors that do not count, as Rousselle et al. 2012 */
@@ -93,7 +94,7 @@ static float weight_of(const PatchScratch *s, int u, int v)
     }
     if (s->counted[v + PATCH_REACH][u + PATCH_REACH] == 0) return 0;
     float mean = distance / (3 * counted);
-    float weight = exp_f(-(mean > 0 ? mean : 0));
+    float weight = exp_f(-STRENGTH * (mean > 0 ? mean : 0));
     return weight < LEAST_WEIGHT ? 0 : weight;
 }
 

@@ -88,14 +88,12 @@ static void fit_light(const RegressionWindow *window, int half, Fit *fit)
     }
 }
 
-/* False where the line leaves what light can be. */
-static bool light_of(const Fit *fit, const BufferRow *row, float light[3])
+static void light_of(const Fit *fit, const BufferRow *row, float light[3])
 {
     for (int c = 0; c < 3; c++) {
         light[c] = 0;
         for (int j = 0; j < ROW_FEATURES; j++) light[c] += fit->of[c][j] * (*row)[j];
     }
-    return light[0] >= 0 && light[1] >= 0 && light[2] >= 0;
 }
 
 void regression_add(const RegressionWindow *window, int half, const RegressionSums *sums)
@@ -108,7 +106,7 @@ void regression_add(const RegressionWindow *window, int half, const RegressionSu
         float     light[3], weight = window->weights[k];
         if (weight == 0) continue;
         size_t i = row_at(window, k, &row);
-        if (!light_of(&fit, &row, light)) continue;
+        light_of(&fit, &row, light);
         for (int c = 0; c < 3; c++) sums->light[c][i] += weight * light[c];
         sums->weight[i] += weight;
     }

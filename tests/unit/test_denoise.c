@@ -174,6 +174,61 @@ TEST(a_shadow_s_edge_stays_where_it_is)
     }
 }
 
+/* Columns from `first` to `end` of all that add_noise made get `times` as bright. */
+static void scale_columns(FrameImage *frame, int first, int end, float times, Arena *arena)
+{
+    for (const char *c = "RGB"; *c; c++)
+        for (size_t i = 0; i < COUNT; i++) {
+            if ((int)(i % WIDTH) < first || (int)(i % WIDTH) >= end) continue;
+            plane(frame, "", *c, arena)[i] *= times;
+            plane(frame, "variance", *c, arena)[i] *= times * times;
+            plane(frame, "halves", *c, arena)[i] *= times;
+        }
+}
+
+static double mean_of_columns(const float *values, int first, int end)
+{
+    double sum = 0;
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = first; x < end; x++) sum += (double)values[y * WIDTH + x];
+    return sum / (end - first) / HEIGHT;
+}
+
+/* The left half turns its side: another surface. */
+static void turn_left_half(FrameImage *frame, Arena *arena)
+{
+    for (size_t i = 0; i < COUNT; i++) {
+        if (i % WIDTH >= WIDTH / 2) continue;
+        plane(frame, "normal", 'X', arena)[i] = 1;
+        plane(frame, "normal", 'Z', arena)[i] = 0;
+    }
+}
+
+TEST(a_narrow_shadow_stays_narrow_and_dark)
+{
+    Arena         arena = test_arena(state);
+    FrameImage    frame = noise("0:24", &arena);
+    DenoiseReport report;
+    scale_columns(&frame, 30, 32, 0.4f, &arena);
+    FrameImage out = denoised(&frame, 2, &report, &arena);
+    assert_near(mean_of_columns(green(&out), 30, 32), 40, 10);
+    assert_near(mean_of_columns(green(&out), 28, 29), 100, 10);
+    assert_near(mean_of_columns(green(&out), 33, 34), 100, 10);
+}
+
+TEST(light_stays_on_its_side_of_a_silhouette)
+{
+    Arena         arena = test_arena(state);
+    FrameImage    frame = noise("0:24", &arena);
+    DenoiseReport report;
+    turn_left_half(&frame, &arena);
+    scale_columns(&frame, 0, WIDTH / 2, 50, &arena);
+    FrameImage out = denoised(&frame, 2, &report, &arena);
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = WIDTH / 2; x < WIDTH; x++)
+            assert_near(green(&out)[y * WIDTH + x], 100, 40);
+}
+
 /* ---- what goes --------------------------------------------------------------------------- */
 
 TEST(noise_goes_and_light_stays)
@@ -216,6 +271,25 @@ TEST(a_firefly_is_spread_and_not_lost)
     for (size_t i = 0; i < COUNT; i++) assert_true(green(&out)[i] < 1500);
 }
 
+TEST(a_firefly_s_light_stays_on_its_surface)
+{
+    Arena         arena = test_arena(state);
+    FrameImage    frame = noise("0:24", &arena);
+    DenoiseReport report;
+    const size_t  near = (size_t)HEIGHT / 2 * WIDTH + WIDTH / 2 - 2;
+    turn_left_half(&frame, &arena);
+    double before = mean_of_columns(green(&frame), WIDTH / 2, WIDTH);
+    for (const char *c = "RGB"; *c; c++) {
+        plane(&frame, "", *c, &arena)[near] = 50000;
+        plane(&frame, "variance", *c, &arena)[near] = 50000.0f * 50000.0f;
+        plane(&frame, "halves", *c, &arena)[near] = (float)(150000 * sqrt(128.0) / 24);
+    }
+    FrameImage out = denoised(&frame, 2, &report, &arena);
+    assert_true(report.fireflies >= 1);
+    assert_close(report.energy_ratio, 1, 0.02);
+    assert_close(mean_of_columns(green(&out), WIDTH / 2, WIDTH), before, 0.01);
+}
+
 /* ---- displays ---------------------------------------------------------------------------- */
 
 /* A display of black and white pixels that reflects noise. */
@@ -250,6 +324,28 @@ TEST(what_a_display_shows_stays_sharp_and_what_it_reflects_is_filtered)
         assert_near(rest[i], 20, 10);
     }
     assert_true(variance_of(rest, COUNT) < variance_of(reflected, COUNT) / 20);
+}
+
+/* Edges of content inside pixels spread the samples and part the halves, a hundred times as
+ * much as the reflection has light. */
+TEST(what_a_display_shows_casts_no_glow_on_what_it_reflects)
+{
+    Arena         arena = test_arena(state);
+    FrameImage    frame = display(&arena);
+    DenoiseReport report;
+    uint32_t      random = 5;
+    for (const char *c = "RGB"; *c; c++)
+        for (size_t i = 0; i < COUNT; i++) {
+            if (i % WIDTH < 20 || i % WIDTH >= 50) continue;
+            plane(&frame, "variance", *c, &arena)[i] += 2000.0f * 2000.0f;
+            plane(&frame, "halves", *c, &arena)[i] += uniform(&random) < 0.5 ? 2000 : -2000;
+        }
+    FrameImage   out = denoised(&frame, 2, &report, &arena);
+    const float *emitted = frame_channel(&frame, "display.emitted.G");
+    float       *rest = ARENA_NEW(&arena, float, COUNT);
+    for (size_t i = 0; i < COUNT; i++) rest[i] = green(&out)[i] - emitted[i];
+    assert_near(mean_of_columns(rest, 20, 50), 20, 0.4);
+    assert_close(report.energy_ratio, 1, 0.002);
 }
 
 TEST(the_edge_of_a_display_is_left_as_it_is)
