@@ -10,6 +10,7 @@
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/options/hdri_warning.h"
+#include "cli/options/scene_options.h"
 #include "scene/load/scene_load.h"
 #include "text/json_text.h"
 
@@ -22,7 +23,8 @@ static double degrees(float radians)
 
 static const char *light_kind(LightKind kind)
 {
-    return kind == LIGHT_POINT ? "point" : kind == LIGHT_SPOT ? "spot" : "directional";
+    static const char *const names[] = {"point", "spot", "directional", "luminaire"};
+    return names[kind];
 }
 
 static const char *light_unit(LightKind kind)
@@ -76,6 +78,24 @@ static bool is_same_light(const PunctualLight *a, const PunctualLight *b)
            !memcmp(a->intensity, b->intensity, sizeof a->intensity);
 }
 
+/* The world's direction in which a luminaire is brightest. */
+static Vec3 brightest_of(const PunctualLight *light)
+{
+    Vec3 d = light->web->brightest;
+    return vec3_along(vec3_along(vec3_scale(light->axis_x, d.x), light->axis_y, d.y),
+                      light->axis_z, d.z);
+}
+
+static void print_luminaire(const PunctualLight *light)
+{
+    Vec3 d = brightest_of(light);
+    printf("light        %s: luminaire %s, level %g %%, %g lm, at most %g cd towards "
+           "(%.3f, %.3f, %.3f)\n",
+           light->name, light->file, 100 * (double)light->level,
+           (double)(light->web->flux_lm * light->level), (double)light->intensity[0],
+           (double)d.x, (double)d.y, (double)d.z);
+}
+
 /* A row of street lamps is one line. */
 static void print_light(const Scene *scene, int index)
 {
@@ -85,6 +105,10 @@ static void print_light(const Scene *scene, int index)
         bool is_same = is_same_light(light, &scene->lights[i]);
         if (is_same && i < index) return;
         count += is_same;
+    }
+    if (light->kind == LIGHT_LUMINAIRE) {
+        print_luminaire(light);
+        return;
     }
     printf("light        %s: %s, RGB %g %g %g %s", light->name, light_kind(light->kind),
            (double)light->intensity[0], (double)light->intensity[1],
@@ -195,15 +219,28 @@ static json_t *json_rgb(const float rgb[3])
     return json_pack("[f,f,f]", (double)rgb[0], (double)rgb[1], (double)rgb[2]);
 }
 
+static void add_luminaire(json_t *entry, const PunctualLight *light)
+{
+    Vec3 d = brightest_of(light);
+    const float direction[3] = {d.x, d.y, d.z};
+    json_object_set_new(entry, "file", json_text(light->file));
+    json_object_set_new(entry, "level", json_real((double)light->level));
+    json_object_set_new(entry, "flux_lm",
+                        json_real((double)(light->web->flux_lm * light->level)));
+    json_object_set_new(entry, "max_cd", json_real((double)light->intensity[0]));
+    json_object_set_new(entry, "direction", json_rgb(direction));
+}
+
 static json_t *json_lights(const Scene *scene)
 {
     json_t *list = json_array();
     for (int i = 0; i < scene->light_count; i++) {
         const PunctualLight *light = &scene->lights[i];
-        json_array_append_new(
-            list, json_pack("{s:o, s:s, s:o, s:s}", "name", json_text(light->name), "type",
-                            light_kind(light->kind), "intensity", json_rgb(light->intensity),
-                            "unit", light_unit(light->kind)));
+        json_t *entry = json_pack("{s:o, s:s, s:o, s:s}", "name", json_text(light->name),
+                                  "type", light_kind(light->kind), "intensity",
+                                  json_rgb(light->intensity), "unit", light_unit(light->kind));
+        if (light->kind == LIGHT_LUMINAIRE) add_luminaire(entry, light);
+        json_array_append_new(list, entry);
     }
     for (int i = 0; i < scene->material_count; i++) {
         const Material *m = &scene->materials[i];
@@ -271,11 +308,13 @@ static bool run_check(int argc, char **argv, Arena *arena, Error *err)
 {
     const char *root = NULL;
     bool materials = false;
+    SceneWords words = {0};
     const Option options[] = {
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &root, .given = NULL},
         {"--materials", OPTION_FLAG, NULL,
          "which materials there are, on which nodes, how large, and which look like screens",
          &materials},
+        LAMP_OPTIONS(&words),
     };
     const CliCommand command = {
         "check", "what is in a scene, and everything that is wrong with it",
@@ -285,10 +324,9 @@ static bool run_check(int argc, char **argv, Arena *arena, Error *err)
     Cli cli;
     if (!cli_parse(&command, argc, argv, arena, &cli, err)) return false;
     if (cli.help_shown) return true;
-    if (!reference_check_root(root, err)) return false;
     Problems problems = problems_start(arena);
-    const SceneOptions files = {
-        .paths = cli.arguments, .path_count = cli.argument_count, .root = root};
+    SceneOptions files = {.root = root};
+    if (!scene_options_read(&words, &cli, arena, &files, err)) return false;
     Scene *scene = scene_survey(&files, arena, &problems);
     bool   done = true;
     hdri_warn(&scene->environment, &problems);

@@ -58,10 +58,14 @@ bool lights_has(const Lights *lights, LightSet set)
 
 /* ---- punctual lights --------------------------------------------------------------------- */
 
-/* KHR_lights_punctual's recommended cone: 1 inside the inner angle, 0 outside the outer, the
- * square of the linear ramp of the cosine between. */
-static float spot_falloff(const PunctualLight *light, Vec3 from_light)
+/* A luminaire's web. Of a spot KHR_lights_punctual's recommended cone: 1 inside the inner
+ * angle, 0 outside the outer, the square of the linear ramp of the cosine between. */
+static float falloff(const PunctualLight *light, Vec3 from_light)
 {
+    if (light->kind == LIGHT_LUMINAIRE)
+        return intensity_web_at(light->web, vec3(vec3_dot(light->axis_x, from_light),
+                                                 vec3_dot(light->axis_y, from_light),
+                                                 vec3_dot(light->axis_z, from_light)));
     if (light->kind != LIGHT_SPOT) return 1;
     float range = fmaxf(light->cos_inner - light->cos_outer, 1e-6f);
     float ramp =
@@ -83,7 +87,7 @@ static float punctual_geometry(const PunctualLight *light, Vec3 position, Vec3 *
     float d2 = vec3_dot(to_light, to_light);
     *distance = sqrtf(d2);
     *wi = vec3_normalize(to_light);
-    return d2 > 0 ? spot_falloff(light, vec3_neg(*wi)) / d2 : 0;
+    return d2 > 0 ? falloff(light, vec3_neg(*wi)) / d2 : 0;
 }
 
 /* Chooses one light; *prob_inverse makes the estimate unbiased. All are candidates when there

@@ -20,6 +20,7 @@
 #include "sky/daylight.h"
 #include "sky/weather_clock.h"
 #include "spectrum/curve.h"
+#include "spectrum/intensity_web.h"
 
 #define NO_ID (-1)
 #define SCENE_UV_SETS 2 /* in a Vertex; the sets that a material uses are mapped to these */
@@ -101,9 +102,14 @@ typedef struct Display {
     float level;            /* multiplies all emission, >= 0 */
 } Display;
 
-typedef enum LightKind { LIGHT_POINT, LIGHT_SPOT, LIGHT_DIRECTIONAL } LightKind;
+typedef enum LightKind {
+    LIGHT_POINT,
+    LIGHT_SPOT,
+    LIGHT_DIRECTIONAL,
+    LIGHT_LUMINAIRE
+} LightKind;
 
-/* KHR_lights_punctual. */
+/* KHR_lights_punctual, and luminaires of photometric files. */
 typedef struct PunctualLight {
     const char *name;
     LightKind kind;
@@ -111,6 +117,10 @@ typedef struct PunctualLight {
     Vec3  direction;    /* unit: where the light goes to (the node's -Z) */
     float intensity[3]; /* linear Rec.709: cd (point, spot) or lx facing it (directional) */
     float cos_inner, cos_outer; /* spot */
+    const IntensityWeb *web; /* luminaire: intensity is the largest, in its frame: */
+    Vec3  axis_x, axis_y, axis_z; /* unit, world; the node's: a mirrored one mirrors */
+    const char *node_name, *file; /* luminaire */
+    float level;             /* luminaire: multiplies all intensities */
 } PunctualLight;
 
 typedef struct SceneCamera {
@@ -206,4 +216,8 @@ typedef struct SceneOptions {
     int panel_count;
     const SceneOverride *levels; /* --display-level MATERIAL=PERCENT, * for all */
     int level_count;
+    const SceneOverride *lights; /* --light NODE=FILE.ies; `material` is a node's name */
+    int light_count;
+    const SceneOverride *light_levels; /* --light-level NODE=PERCENT, * for all */
+    int light_level_count;
 } SceneOptions;

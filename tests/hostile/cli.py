@@ -44,6 +44,8 @@ UNKNOWN_NAMES = (
     ((*RENDER, "--layers", "depht"), 2, "did you mean depth?", "all", "xyz",
      "display.contrast"),
     ((*RENDER, "--isa", "z80"), 2, "sse2"),
+    ((*RENDER, "--light", "lamp"), 2, "--light"),
+    ((*RENDER, "--light", "nobody=nothing.ies"), 3, "nothing.ies"),
     ((*RENDER, "--environment", "skies"), 2, "sky:clear", "cie:", "perez:", "hdri:",
      "constant:"),
     ((*RENDER, "--environment", "sky:clear", "--ground", "lawn"), 2, "land", "sea", "cloud"),

@@ -10,8 +10,15 @@
 
 /* As typed, NAME=VALUE each. */
 typedef struct SceneWords {
-    CliTexts contents, panels, levels;
+    CliTexts contents, panels, levels, lights, light_levels;
 } SceneWords;
+
+/* Rows of an option table: luminaire files as lamps. */
+#define LAMP_OPTIONS(words)                                                                    \
+    {"--light", OPTION_TEXTS, "NODE=FILE.ies|.ldt", "makes a node a lamp, along its -Z",       \
+     &(words)->lights},                                                                        \
+    {"--light-level", OPTION_TEXTS, "NODE|*=PERCENT", "dims such a lamp (*: all)",             \
+     &(words)->light_levels}
 
 /* Rows of an option table: SceneWords *, SceneOptions *, EnvironmentChange *. */
 #define SCENE_OPTIONS(words, options, change)                                                  \
@@ -21,6 +28,7 @@ typedef struct SceneWords {
      &(words)->panels},                                                                        \
     {"--display-level", OPTION_TEXTS, "MATERIAL|*=PERCENT",                                    \
      "how bright a display is set (*: all)", &(words)->levels},                                \
+    LAMP_OPTIONS(words),                                                                       \
     {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &(options)->root}
 
 /* The words, and cli's arguments as the scene's files, become options. */

@@ -104,6 +104,17 @@ static void add_displays(Text *text, const RenderRequest *request, const Scene *
     }
 }
 
+/* Lamps of luminaire files: where they are is in the scene's own files. */
+static void add_luminaires(Text *text, const Scene *scene)
+{
+    for (int i = 0; i < scene->light_count; i++) {
+        const PunctualLight *light = &scene->lights[i];
+        if (light->kind != LIGHT_LUMINAIRE) continue;
+        line(text, arena_format(text->arena, "light %d", i), "%s, level %.9g, %s", light->name,
+             (double)light->level, input_name(scene, light->file, text->arena));
+    }
+}
+
 /* ---- the surroundings -------------------------------------------------------------------- */
 
 static const char *const environment_names[] = {
@@ -189,6 +200,7 @@ const char *render_identity(const RenderRequest *request, const Scene *scene,
     line(&text, "layers", "%s", render_layer_list(options->layers, arena));
     add_files(&text, scene);
     add_displays(&text, request, scene);
+    add_luminaires(&text, scene);
     add_environment(&text, scene);
     add_camera(&text, camera);
     return text.data;

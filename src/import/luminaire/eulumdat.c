@@ -1,4 +1,6 @@
 /* EULUMDAT (.ldt): one value a line, in the order that A. Stockmar laid down in 1990. */
+#include "import/luminaire/eulumdat.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -133,8 +135,7 @@ static bool read_planes(LuminaireScan *in, const EulumdatHead *head, Luminaire *
     return luminaire_scan_intensities(in, scale, out);
 }
 
-static bool read_eulumdat(const char *file, const ImportOptions *options, ImportSet *set,
-                          Error *err)
+bool eulumdat_read_luminaire(const char *file, ImportSet *set, Luminaire *out, Error *err)
 {
     LuminaireScan in;
     EulumdatHead  head = {0};
@@ -151,7 +152,16 @@ static bool read_eulumdat(const char *file, const ImportOptions *options, Import
     if (head.lamp_sets > 1)
         import_note(set, "%s: the first of %d lamp sets is taken", path_name(file),
                     head.lamp_sets);
-    return luminaire_add(&luminaire, options, set, err);
+    *out = luminaire;
+    return true;
+}
+
+static bool read_eulumdat(const char *file, const ImportOptions *options, ImportSet *set,
+                          Error *err)
+{
+    Luminaire luminaire;
+    return eulumdat_read_luminaire(file, set, &luminaire, err) &&
+           luminaire_add(&luminaire, options, set, err);
 }
 
 /* No mark in the file: its name, or whole numbers where the second to fourth line want them. */

@@ -1,5 +1,7 @@
 /* IES LM-63 (.ies) luminaires: 1986 to 2002, type C photometry. Numbers stand in any number of
  * lines behind TILT=, with blanks or commas between them. */
+#include "import/luminaire/ies.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -149,7 +151,7 @@ static bool find_symmetry(LuminaireScan *in, Luminaire *out)
                                "to 180, 90 to 270 or 0 to 360 degrees", first, last);
 }
 
-static bool read_ies(const char *file, const ImportOptions *options, ImportSet *set, Error *err)
+bool ies_read_luminaire(const char *file, ImportSet *set, Luminaire *result, Error *err)
 {
     LuminaireScan in;
     IesHead       head = {0};
@@ -176,7 +178,15 @@ static bool read_ies(const char *file, const ImportOptions *options, ImportSet *
     if (head.size[2] != 0)
         import_note(set, "%s: luminous sides (height %g) are taken into the flat opening",
                     path_name(file), head.size[2]);
-    return luminaire_add(&out, options, set, err);
+    *result = out;
+    return true;
+}
+
+static bool read_ies(const char *file, const ImportOptions *options, ImportSet *set, Error *err)
+{
+    Luminaire luminaire;
+    return ies_read_luminaire(file, set, &luminaire, err) &&
+           luminaire_add(&luminaire, options, set, err);
 }
 
 static bool is_ies(const char *file, const char *head, size_t size)

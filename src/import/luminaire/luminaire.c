@@ -187,3 +187,49 @@ bool luminaire_add(const Luminaire *in, const ImportOptions *options, ImportSet 
     if (in->name && !set->panel) set->panel = in->name;
     return import_add(set, &table, err);
 }
+
+/* ---- all directions ---------------------------------------------------------------------- */
+
+/* Row i of the web is a plane of the file; the row behind the last closes the turn. */
+static void fill_web(const Luminaire *in, const Plane *plane, float *c, float *relative,
+                     IntensityWeb *web)
+{
+    for (int i = 0; i <= web->planes; i++) {
+        const Plane  *at = &plane[i % web->planes];
+        const double *row = in->intensity_cd + (size_t)at->source * (size_t)in->gammas;
+        c[i] = (float)(radians_from_degrees(at->c_deg) + (i == web->planes ? 2 * PI : 0));
+        for (int k = 0; k < in->gammas; k++) {
+            float cd = (float)fmax(row[k], 0), gamma = web->gamma[k];
+            relative[i * in->gammas + k] = cd;
+            if (!(cd > web->largest_cd)) continue;
+            double angle = (double)gamma, azimuth = (double)c[i];
+            web->largest_cd = cd;
+            web->brightest = vec3((float)(sin_d(angle) * cos_d(azimuth)),
+                                  (float)(sin_d(angle) * sin_d(azimuth)),
+                                  -(float)cos_d(angle));
+        }
+    }
+}
+
+bool luminaire_web(const Luminaire *in, Arena *arena, IntensityWeb *out, Error *err)
+{
+    Plane *plane = ARENA_NEW(arena, Plane, 4 * (size_t)in->planes + ROUND_PLANES);
+    int    count = expand_planes(in, plane), planes = in->is_round ? 1 : count;
+    size_t total = (size_t)(planes + 1) * (size_t)in->gammas;
+    float *gamma = ARENA_NEW(arena, float, in->gammas);
+    if (total > IMPORT_ROWS_MAX)
+        return error_at(err, ERROR_INPUT, in->file, "", "has %zu directions, wanted at most %d",
+                        total, IMPORT_ROWS_MAX);
+    float *c = ARENA_NEW(arena, float, planes + 1), *relative = ARENA_NEW(arena, float, total);
+    for (int k = 0; k < in->gammas; k++)
+        gamma[k] = (float)radians_from_degrees(in->gamma_deg[k]);
+    IntensityWeb web = {planes, in->gammas, c, gamma, relative, 0, 0, vec3(0, 0, -1)};
+    web.flux_lm = (float)total_flux(in, plane, count, 180);
+    fill_web(in, plane, c, relative, &web);
+    if (!(web.largest_cd > 0))
+        return error_at(err, ERROR_INPUT, in->file, "",
+                        "has no intensity above 0 cd, wanted a luminaire that lights");
+    for (size_t i = 0; i < total; i++) relative[i] /= web.largest_cd;
+    *out = web;
+    return true;
+}

@@ -10,6 +10,7 @@
  */
 #pragma once
 #include "import/set/import.h"
+#include "spectrum/intensity_web.h"
 
 #define LUMINAIRE_ANGLES_MAX 4096
 
@@ -24,6 +25,9 @@ typedef struct Luminaire {
     double  stated_lm;         /* light of the luminaire that the file states; 0: none */
     const char *stated_as;     /* "lamp flux x light output ratio" */
 } Luminaire;
+
+/* All directions, negative intensities as 0. Refuses a luminaire that sends out nothing. */
+bool luminaire_web(const Luminaire *luminaire, Arena *arena, IntensityWeb *out, Error *err);
 
 /* Adds the luminaire as a white table, with notes on its flux. */
 bool luminaire_add(const Luminaire *luminaire, const ImportOptions *options, ImportSet *set,

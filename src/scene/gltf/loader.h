@@ -40,6 +40,8 @@ typedef struct Loader {
     ItemList inputs;         /* const char * */
     ItemList input_hashes;   /* uint64_t */
     ItemList extensions;     /* const char * */
+    ItemList node_names;     /* const char *, of nodes that are shown */
+    struct LuminaireDraft *luminaires; /* one a --light (load/luminaire.c) */
     size_t vertex_total;
     int ignored_occlusion_count;
 } Loader;

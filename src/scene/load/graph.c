@@ -7,6 +7,7 @@
 #include "base/units.h"
 #include "scene/gltf/document.h"
 #include "scene/load/environment.h"
+#include "scene/load/luminaire.h"
 #include "scene/load/primitive.h"
 
 /* ---- transforms ------------------------------------------------------------------------ */
@@ -239,7 +240,7 @@ void graph_build(GltfFile *file)
             const GltfValue *node = &nodes->items[order.nodes[i]];
             const Transform *world = &file->world_from_node[order.nodes[i]];
             add_camera(file, node, world);
-            add_light(file, node, world);
+            if (!luminaire_place(file, node, world)) add_light(file, node, world);
             add_mesh(file, node, world);
         }
     }

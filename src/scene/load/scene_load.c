@@ -18,6 +18,7 @@
 #include "scene/load/display.h"
 #include "scene/load/graph.h"
 #include "scene/load/image.h"
+#include "scene/load/luminaire.h"
 #include "scene/load/material.h"
 #include "scene/load/part_draft.h"
 
@@ -266,13 +267,16 @@ static Loader loader_start(const SceneOptions *options, Arena *arena, Problems *
                     .display_places = list_of(sizeof(DisplayPlace)),
                     .inputs = list_of(sizeof(const char *)),
                     .input_hashes = list_of(sizeof(uint64_t)),
-                    .extensions = list_of(sizeof(const char *))};
+                    .extensions = list_of(sizeof(const char *)),
+                    .node_names = list_of(sizeof(const char *))};
 }
 
 Scene *scene_survey(const SceneOptions *options, Arena *arena, Problems *problems)
 {
     Loader load = loader_start(options, arena, problems);
+    luminaires_start(&load);
     for (int i = 0; i < options->path_count; i++) load_file(&load, options->paths[i]);
+    luminaires_finish(&load);
     displays_override(&load);
     displays_finish(&load);
     find_opaque_materials(&load);

@@ -1,0 +1,10 @@
+/* ies.h -- the intensities of an IES LM-63 file.
+ *
+ * Memory   the set's arena. Threads: no shared state.
+ * Fails    with the file, the line, what was found and what was wanted.
+ */
+#pragma once
+#include "import/luminaire/luminaire.h"
+
+/* Notes on what was assumed or left out go to the set. */
+bool ies_read_luminaire(const char *file, ImportSet *set, Luminaire *out, Error *err);

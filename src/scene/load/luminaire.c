@@ -1,0 +1,146 @@
+#include "scene/load/luminaire.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "import/luminaire/luminaire_read.h"
+#include "scene/gltf/document.h"
+
+#define NODE "node:"
+enum { NAMES_MAX = 480 };
+
+struct LuminaireDraft {
+    bool          is_readable, is_found;
+    IntensityWeb *web;
+};
+
+static const char *node_of(const SceneOverride *one)
+{
+    bool has_prefix = !strncmp(one->material, NODE, strlen(NODE));
+    return one->material + (has_prefix ? strlen(NODE) : 0);
+}
+
+/* The bytes are read for their hash as well. */
+static bool read_web(Loader *load, const char *path, IntensityWeb *web, Error *err)
+{
+    FileBytes bytes;
+    Luminaire luminaire;
+    ImportSet notes = import_set(&load->scratch);
+    return load_read(load, path, &load->scratch, &bytes, err) &&
+           luminaire_read(path, &notes, &luminaire, err) &&
+           luminaire_web(&luminaire, load->arena, web, err);
+}
+
+void luminaires_start(Loader *load)
+{
+    const SceneOptions *o = load->options;
+    load->luminaires = ARENA_NEW(&load->scratch, struct LuminaireDraft, o->light_count + 1);
+    for (int i = 0; i < o->light_count; i++) {
+        struct LuminaireDraft *draft = &load->luminaires[i];
+        Error err = {0};
+        draft->web = ARENA_NEW(load->arena, IntensityWeb, 1);
+        draft->is_readable = read_web(load, o->lights[i].value, draft->web, &err);
+        if (draft->is_readable) continue;
+        if (!err.file[0]) error_in_file(&err, o->lights[i].value);
+        problems_add_error(load->problems, &err);
+    }
+}
+
+static void add_lamp(GltfFile *file, const char *name, const Transform *world, int id)
+{
+    const IntensityWeb *web = file->load->luminaires[id].web;
+    const char *path = file->load->options->lights[id].value;
+    PunctualLight *out = list_add(&file->load->lights, &file->load->scratch);
+    *out = (PunctualLight){.kind = LIGHT_LUMINAIRE,
+                           .name = name,
+                           .node_name = name,
+                           .file = arena_string(file->load->arena, path, strlen(path)),
+                           .position = world->origin,
+                           .direction = vec3_normalize(vec3_neg(world->z)),
+                           .intensity = {web->largest_cd, web->largest_cd, web->largest_cd},
+                           .web = web,
+                           .level = 1};
+    /* a sheared node's axes are made square again, its -Z first */
+    out->axis_z = vec3_normalize(world->z);
+    out->axis_x = vec3_along(world->x, out->axis_z, -vec3_dot(world->x, out->axis_z));
+    out->axis_x = vec3_normalize(out->axis_x);
+    out->axis_y = vec3_cross(out->axis_z, out->axis_x);
+    if (vec3_dot(out->axis_y, world->y) < 0) out->axis_y = vec3_neg(out->axis_y);
+}
+
+bool luminaire_place(GltfFile *file, const GltfValue *node, const Transform *world)
+{
+    Loader *load = file->load;
+    const SceneOptions *o = load->options;
+    const char *text = tree_text(node, "name", "");
+    if (!o->light_count || !text[0]) return false;
+    const char *name = arena_string(load->arena, text, strlen(text));
+    *(const char **)list_add(&load->node_names, &load->scratch) = name;
+    for (int i = o->light_count; i-- > 0;) { /* the last of several speaks */
+        if (strcmp(node_of(&o->lights[i]), name) != 0) continue;
+        for (int k = 0; k <= i; k++)
+            load->luminaires[k].is_found |= !strcmp(node_of(&o->lights[k]), name);
+        if (load->luminaires[i].is_readable) add_lamp(file, name, world, i);
+        return true;
+    }
+    return false;
+}
+
+/* ---- behind the last file ---------------------------------------------------------------- */
+
+static void add_name(char names[NAMES_MAX], const char *name)
+{
+    char quoted[80];
+    size_t length = strlen(names);
+    snprintf(quoted, sizeof quoted, "\"%.70s\"", name);
+    if (strstr(names, quoted) || length + strlen(quoted) + 3 > NAMES_MAX) return;
+    snprintf(names + length, NAMES_MAX - length, "%s%s", length ? ", " : "", quoted);
+}
+
+static void report_unknown(Loader *load, const char *name)
+{
+    char names[NAMES_MAX] = "";
+    for (int i = 0; i < load->node_names.count; i++)
+        add_name(names, *(const char **)list_item(&load->node_names, i));
+    problems_add(load->problems, SEVERITY_ERROR, "--light", "",
+                 "no node is named \"%.100s\"; there are %s", name,
+                 names[0] ? names : "none with names");
+}
+
+static void set_level(Loader *load, const SceneOverride *one)
+{
+    char  *end, names[NAMES_MAX] = "";
+    double percent = strtod(one->value, &end);
+    bool   is_found = false;
+    if (end == one->value || (*end && strcmp(end, "%")) || !(percent >= 0 && percent <= 1e6)) {
+        problems_add(load->problems, SEVERITY_ERROR, "--light-level", "",
+                     "\"%.100s\" is no percentage; a number from 0 up is wanted", one->value);
+        return;
+    }
+    for (int i = 0; i < load->lights.count; i++) {
+        PunctualLight *light = list_item(&load->lights, i);
+        if (light->kind != LIGHT_LUMINAIRE) continue;
+        add_name(names, light->node_name);
+        if (strcmp(one->material, "*") && strcmp(node_of(one), light->node_name)) continue;
+        is_found = true;
+        light->level = (float)(percent / 100);
+    }
+    if (!is_found)
+        problems_add(load->problems, SEVERITY_ERROR, "--light-level", "",
+                     "no lamp of --light is at a node named \"%.100s\"; there are %s",
+                     node_of(one), names[0] ? names : "none");
+}
+
+void luminaires_finish(Loader *load)
+{
+    const SceneOptions *o = load->options;
+    for (int i = 0; i < o->light_count; i++)
+        if (!load->luminaires[i].is_found) report_unknown(load, node_of(&o->lights[i]));
+    for (int i = 0; i < o->light_level_count; i++) set_level(load, &o->light_levels[i]);
+    for (int i = 0; i < load->lights.count; i++) {
+        PunctualLight *light = list_item(&load->lights, i);
+        for (int c = 0; c < 3 && light->kind == LIGHT_LUMINAIRE; c++)
+            light->intensity[c] = light->web->largest_cd * light->level;
+    }
+}

@@ -1,0 +1,21 @@
+/* luminaire.h -- the nodes that --light makes lamps of measured intensity.
+ *
+ * A lamp is a point at its node's origin: what the file says of its opening's size is not used,
+ * which is right from about five times that size on. Its axis gamma = 0 is the node's -Z, C = 0
+ * its +X, C = 90 its +Y, as EXT_lights_ies has it; scale does not change the intensities, and a
+ * mirrored node mirrors them. All nodes of the name become lamps, in the place of a light that
+ * KHR_lights_punctual gives them. The light is white (D65).
+ *
+ * Fails    into load->problems, naming the option, or the file and its line.
+ */
+#pragma once
+#include "scene/gltf/loader.h"
+
+/* Before the first file. */
+void luminaires_start(Loader *load);
+
+/* True when the node became a lamp. */
+bool luminaire_place(GltfFile *file, const GltfValue *node, const Transform *world);
+
+/* Behind the last file: names that no node has, and levels. */
+void luminaires_finish(Loader *load);
