@@ -194,6 +194,88 @@ def check_verdict(report, commands, panel):
         report.claim("Why it is not usable" in file.read(), "the report hides the verdict")
 
 
+WHITE, BLACK, ALBEDO, COSINES = 400.0, 0.8, 0.06, 3
+INCIDENCES = [10, 20, 30, 40, 50, 60, 70, 80, 88]  # beyond the last it is extrapolated
+
+
+def write_rows(path, header, rows):
+    with open(path, "w") as file:
+        file.write(header + "\n" + "".join(",".join(f"{x:.9g}" for x in row) + "\n"
+                                           for row in rows))
+
+
+def make_closed_form(commands, name, power):
+    """White of WHITE cos^power cd/m2 and black of the same shape over a Lambertian surface."""
+    folder = commands.file(name)
+    os.makedirs(folder)
+    angles = [(t, p) for t in range(0, 81, 4) for p in range(0, 360 if t else 1, 15)]
+    cosine = {t: math.cos(math.radians(t)) ** power for t, _ in angles}
+    write_rows(os.path.join(folder, "white.csv"), "theta,phi,X,Y,Z",
+               [(t, p, *(WHITE * cosine[t] * x for x in (0.95, 1, 1.089))) for t, p in angles])
+    write_rows(os.path.join(folder, "levels.csv"), "level,luminance",
+               [(0, BLACK), (0.5, BLACK + (WHITE - BLACK) * 0.5 ** 2.2), (1, WHITE)])
+    for incidence in INCIDENCES:
+        write_rows(os.path.join(folder, f"i{incidence}.csv"), "theta,phi,brdf",
+                   [(t, p, ALBEDO / math.pi) for t, p in angles])
+    with open(os.path.join(folder, "M.json"), "w") as out:
+        json.dump({"emission": {"white": "white.csv", "levels": "levels.csv"},
+                   "reflection": {"wavelengths_nm": [555], "incidence_deg": INCIDENCES,
+                                  "files": "i{incidence}.csv"}}, out)
+    panel = commands.file(name + ".panel")
+    commands.text("fit", os.path.join(folder, "M.json"), "-o", panel, "--quiet")
+    return panel
+
+
+def check_lines(report, contours, chart, angle):
+    """A chart's lines are circles; angle(value asked) in degrees from the normal."""
+    for one in (c for c in contours if c["chart"] == chart):
+        thetas = [point[0] for line in one["lines_theta_phi_deg"] for point in line]
+        wanted = angle(one["asked"], one["percent_of_axis"])
+        report.claim(len(one["lines_theta_phi_deg"]) == 1 and
+                     max(abs(t - wanted) for t in thetas) < 0.3,
+                     f"{chart}, {one['asked']}: {min(thetas, default=0)} to "
+                     f"{max(thetas, default=0)} degrees instead of {wanted}")
+
+
+def check_plot_numbers(report, commands, _):
+    """Lambertian light and surface: one contrast everywhere; of cos^n the lines are circles."""
+    lambertian = make_closed_form(commands, "lambertian", 0)
+    done = json.loads(commands.text("plot", lambertian, "--kind", "contrast", "-o",
+                                    commands.file("c.svg"), "--ambient", "300,20000", "--json"))
+    for lit in done["ambient"]:
+        reflected = ALBEDO * lit["illuminance_lx"] / math.pi
+        wanted = (WHITE + reflected) / (BLACK + reflected)
+        far = [a for a in lit["angles"] if a["theta_deg"] <= 60 and
+               not abs(a["contrast"] / wanted - 1) < 0.01]
+        report.claim(len(lit["angles"]) > 12 and not far,
+                     f"{lit['illuminance_lx']} lx: {far[:2]} instead of {wanted}")
+    report.claim([lit["illuminance_lx"] for lit in done["ambient"]] == [300, 20000],
+                 "not every --ambient is answered")
+    lobe = make_closed_form(commands, "lobe", COSINES)
+    done = json.loads(commands.text("plot", lobe, "-o", commands.file("l.svg"), "--contour",
+                                    "300,50%,25%", "--ambient", "5000", "--json"))
+    check_lines(report, done["contours"], "luminance white", lambda v, percent:
+                math.degrees(math.acos((v / 100 if percent else v / WHITE) ** (1 / COSINES))))
+    reflected = ALBEDO * 5000 / math.pi
+    axis = (WHITE + reflected) / (BLACK + reflected)
+
+    def lit_angle(value, percent):
+        contrast = value / 100 * axis if percent else value
+        shape = reflected * (contrast - 1) / (WHITE - contrast * BLACK)
+        return math.degrees(math.acos(shape ** (1 / COSINES)))
+    check_lines(report, [c for c in done["contours"] if c["percent_of_axis"]],
+                "contrast 5000 lx", lit_angle)
+    draw = ("plot", lobe, "-o", commands.file("x.svg"))
+    for option, value, words in (
+            ("--contour", "0", "above 0"), ("--contour", "5;6", "no comma"),
+            ("--contour", "50%%", "no comma"), ("--contour", "", "wanted"),
+            ("--ambient", "-3", "above 0"), ("--ambient", "1,", "wanted"),
+            ("--ambient", ",".join("5" * 9), "more than 8")):
+        fails(report, commands.run(*draw, option, value), 2, option, words)
+    fails(report, commands.run(*draw, "--kind", "spectra", "--contour", "5"), 2, "--contour",
+          "spectra")
+
+
 def check_other_build(report, first, second):
     """Both ways: what one wrote, the other reads."""
     for writer, reader in ((first, second), (second, first)):
@@ -218,7 +300,8 @@ def main():
             check_other_build(report, commands, Commands(options.against, folder))
             report.finish()
         panel = commands.make("small.panel")
-        for check in (check_grids, check_batch, check_export, check_verdict):
+        for check in (check_grids, check_batch, check_export, check_verdict,
+                      check_plot_numbers):
             try:
                 check(report, commands, panel)
             except (ValueError, KeyError, IndexError) as error:

@@ -9,6 +9,7 @@
 #include "cli/panel/panel_commands.h"
 #include "panel/query/panel_open.h"
 #include "plot/panel/plot.h"
+#include "plot/panel/plot_answer.h"
 #include "plot/panel/report.h"
 #include "text/json_text.h"
 
@@ -17,7 +18,7 @@
 
 /* What the command line asks for. */
 typedef struct PlotRequest {
-    const char *panel, *measured, *root, *picture, *report;
+    const char *panel, *measured, *root, *picture, *report, *contours, *ambient;
     PlotOptions options;
 } PlotRequest;
 
@@ -25,6 +26,20 @@ static void note_file(json_t *answer, const char *key, const char *path, int fig
 {
     json_object_set_new(answer, key, json_pack("{s:o, s:i}", "file", json_text(path),
                                                "figures", figures));
+}
+
+/* The lines and contrasts that were asked for, besides the pictures of them. */
+static bool add_numbers(const PlotRequest *request, const PlotInput *input, Arena *arena,
+                        json_t *answer, Error *err)
+{
+    json_t     *report = NULL;
+    PlotOptions options = request->options;
+    if (request->report) options.kind = PLOT_ALL;
+    PlotData *data = plot_ask(input, &options, arena, &report, err);
+    if (!data) return false;
+    plot_answer_add(data, options.kind, answer);
+    json_decref(report);
+    return true;
 }
 
 static bool draw(const PlotRequest *request, const PlotInput *input, Arena *arena,
@@ -41,7 +56,8 @@ static bool draw(const PlotRequest *request, const PlotInput *input, Arena *aren
             return false;
         note_file(answer, "report", request->report, count);
     }
-    return true;
+    return (!request->contours && !request->ambient) ||
+           add_numbers(request, input, arena, answer, err);
 }
 
 static bool open_and_draw(const PlotRequest *request, Arena *arena, json_t *answer, Error *err)
@@ -56,6 +72,22 @@ static bool open_and_draw(const PlotRequest *request, Arena *arena, json_t *answ
     bool      ok = draw(request, &input, arena, answer, err);
     panel_close(panel);
     return ok;
+}
+
+/* Lines and light belong to maps over the viewing cone. */
+static bool read_lists(PlotRequest *request, Error *err)
+{
+    PlotOptions *options = &request->options;
+    bool has_contrast = options->kind == PLOT_CONTRAST || options->kind == PLOT_ALL;
+    if (request->contours && !has_contrast && options->kind != PLOT_LUMINANCE)
+        return error_set(err, ERROR_USAGE, "--contour draws over luminance and contrast, "
+                         "not over --kind %s", plot_kind_name(options->kind));
+    if (request->ambient && !has_contrast)
+        return error_set(err, ERROR_USAGE, "--ambient is for --kind contrast or all, not for "
+                         "--kind %s", plot_kind_name(options->kind));
+    return (!request->contours ||
+            plot_contours_read(request->contours, &options->contours, err)) &&
+           (!request->ambient || plot_ambient_read(request->ambient, &options->ambient, err));
 }
 
 static bool check_request(const PlotRequest *request, Error *err)
@@ -99,6 +131,12 @@ static bool run_plot(int argc, char **argv, Arena *arena, Error *err)
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &request.root, .given = NULL},
         {"--report", OPTION_TEXT, "X.html", "one page with every figure and all numbers",
          &request.report, .given = NULL},
+        {"--contour", OPTION_TEXT, "V[,V...]",
+         "lines of luminance (cd/m2) or contrast at these values, with % of that on the axis",
+         &request.contours, .given = NULL},
+        {"--ambient", OPTION_TEXT, "LUX[,LUX...]",
+         "contrast also in even diffuse light of this illuminance", &request.ambient,
+         .given = NULL},
         {"--incidence-phi", OPTION_NUMBER, "DEG",
          "azimuth of the light for reflection (default 180: from the left)", &incidence_phi,
          -360, 360, .given = NULL},
@@ -120,7 +158,8 @@ static bool run_plot(int argc, char **argv, Arena *arena, Error *err)
     request.options.height = size[1];
     request.options.incidence_phi = radians_from_degrees(incidence_phi);
     request.options.threads = cli.threads;
-    return check_request(&request, err) && reference_check_root(request.root, err) &&
+    return check_request(&request, err) && read_lists(&request, err) &&
+           reference_check_root(request.root, err) &&
            run(&request, &cli, arena, err);
 }
 

@@ -17,6 +17,7 @@ typedef struct PolarMap {
     bool         is_cut;    /* values above `high` have its colour: the scale has an arrow */
     int          level_count;
     double       level[POLAR_LEVELS_MAX]; /* of the lines */
+    const char  *level_text[POLAR_LEVELS_MAX]; /* NULL: the number itself */
     double       step;      /* between levels, for their labels; 0: figures as they are */
     double       strong;    /* a level drawn strongly, NaN: none */
     const char  *strong_text;

@@ -116,19 +116,22 @@ static void add_part(const PolarDisc *disc, const Way *way, double from, double 
     canvas_polyline(&canvas, x, y, count);
 }
 
-static const char *level_text(const PolarDisc *disc, double level)
+static const char *level_text(const PolarDisc *disc, int i)
 {
-    char text[32];
+    char   text[32];
+    double level = disc->map->level[i];
+    if (disc->map->level_text[i]) return disc->map->level_text[i];
     if (level == disc->map->strong && disc->map->strong_text) return disc->map->strong_text;
     return arena_format(disc->canvas->arena, "%s", tick_text(level, disc->map->step, text));
 }
 
-static void draw_way(PolarDisc *disc, const Way *way, double level, bool wants_number)
+static void draw_way(PolarDisc *disc, const Way *way, int i, bool wants_number)
 {
     Spot        spot;
+    double      level = disc->map->level[i];
     bool        strong = level == disc->map->strong;
     double      size = polar_disc_letter_size(disc), total = way->length[way->count - 1];
-    const char *text = level_text(disc, level);
+    const char *text = level_text(disc, i);
     double      width = canvas_text_width(disc->canvas, size, strong, text);
     Ink         ink = polar_disc_ink(disc, level);
     Stroke      stroke = {ink_alpha(ink, strong ? 1 : 0.8), strong ? 1.7 : 0.85, DASH_NONE};
@@ -158,7 +161,7 @@ void polar_lines_draw(PolarDisc *disc)
             for (int k = 0; k < set.count; k++) {
                 if (set.line[k].count < 3) continue;
                 Way way = way_of(disc, &set.line[k]);
-                draw_way(disc, &way, level, way.length[way.count - 1] > 70);
+                draw_way(disc, &way, i, way.length[way.count - 1] > 70);
             }
         }
     }

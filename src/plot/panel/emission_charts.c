@@ -5,6 +5,7 @@
 
 #include "base/units.h"
 #include "plot/draw/ticks.h"
+#include "plot/panel/ambient.h"
 
 static const char *at_angles(Arena *arena, double theta, double phi)
 {
@@ -34,6 +35,20 @@ static void choose_levels(PolarMap *map, double low, double high, int most)
     if (isfinite(map->strong)) map->level[map->level_count++] = map->strong;
 }
 
+/* The user's lines in place of ours, lettered as they were asked for. */
+static bool take_contours(Canvas *canvas, PolarMap *map, const PlotContours *wanted,
+                          double on_axis)
+{
+    for (int i = 0; i < wanted->count; i++) {
+        map->level[i] = plot_contours_level(wanted, i, on_axis);
+        map->level_text[i] = arena_format(canvas->arena, wanted->is_percent[i] ? "%.6g %%"
+                                                                                : "%.6g",
+                                          wanted->value[i]);
+    }
+    map->level_count = wanted->count;
+    return wanted->count > 0;
+}
+
 /* ---- luminance -------------------------------------------------------------------------- */
 
 static void draw_luminance(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)
@@ -44,6 +59,11 @@ static void draw_luminance(Canvas *canvas, Box box, const PanelChart *shown, Pan
     double low = range.low > 0.6 * range.high ? range.low : 0;
     PolarMap map = {.field = field, .map = MAP_AMOUNT, .low = low, .high = range.high,
                     .strong = NAN, .theta_measured = s->cone, .unit = "cd/m²"};
+    const PlotContours *wanted = &s->source.contours;
+    if (take_contours(canvas, &map, wanted, (double)s->normal[shown->index][1])) {
+        note_map(out, &map, polar_draw(canvas, box, &map));
+        return;
+    }
     double half = 0.5 * (double)s->normal[shown->index][1];
     if (shown->index != PATTERN_BLACK && range.low < half && half < range.high) {
         map.strong = half;
@@ -74,6 +94,19 @@ static void add_luminance(PanelChartList *list, const PlotData *s, Pattern patte
         SHEET_ALWAYS, pattern != PATTERN_WHITE && pattern != PATTERN_BLACK});
 }
 
+/* index 0: in the dark; else under the light before it in the user's list. */
+static Field contrast_field(const PlotData *s, int index, Arena *arena)
+{
+    return index ? ambient_contrast_field(s, s->source.ambient.lux[index - 1], arena)
+                 : plot_data_contrast(s, arena);
+}
+
+static double contrast_on_axis(const PlotData *s, int index)
+{
+    return index ? ambient_contrast(s, 0, 0, s->source.ambient.lux[index - 1])
+                 : (double)(s->normal[PATTERN_WHITE][1] / s->normal[PATTERN_BLACK][1]);
+}
+
 /* Beyond it black is next to nothing and high ratios are noise: they do not set the colours. */
 #define GRAZING (80 * PI / 180)
 
@@ -85,17 +118,34 @@ static void draw_contrast(Canvas *canvas, Box box, const PanelChart *shown, Pane
                                     20000, 50000, 100000};
     const PlotData *s = shown->data;
     Field      *field = ARENA_NEW(canvas->arena, Field, 1);
-    *field = plot_data_contrast(s, canvas->arena);
+    *field = contrast_field(s, shown->index, canvas->arena);
     FieldRange  range = field_range(field, fmin(s->cone, GRAZING));
     range.low = fmin(range.low, field_range(field, s->cone).low);
     PolarMap    map = {.field = field, .map = MAP_RATIO, .is_log = true, .strong = NAN,
                        .low = round_down(fmax(range.low, range.high / 1e5)),
                        .high = round_up(range.high), .theta_measured = s->cone, .unit = ": 1"};
     if (map.high < 2 * map.low) map.low = map.high / 2;
-    for (int i = 0; i < 15; i++)
+    bool is_told = take_contours(canvas, &map, &s->source.contours,
+                                 contrast_on_axis(s, shown->index));
+    for (int i = 0; i < 15 && !is_told; i++)
         if (LEVELS[i] > range.low && LEVELS[i] < range.high)
             map.level[map.level_count++] = LEVELS[i];
     note_map(out, &map, polar_draw(canvas, box, &map));
+}
+
+static void add_ambient(PanelChartList *list, const PlotData *s, int index)
+{
+    double     lux = s->source.ambient.lux[index - 1];
+    Field      field = contrast_field(s, index, s->arena);
+    FieldRange range = field_range(&field, s->cone);
+    char       normal[32], low[32];
+    panel_chart_add(list, &(PanelChart){PLOT_CONTRAST,
+        arena_format(s->arena, "Contrast ratio, %.6g lx", lux),
+        arena_format(s->arena, "in even diffuse light: %s at the normal, at least %s",
+                     figure_text(contrast_on_axis(s, index), normal),
+                     figure_text(range.low, low)),
+        "Contrast in even diffuse light, " AMBIENT_FORMULA ". Logarithmic colours.",
+        draw_contrast, s, index, SHEET_ALWAYS, false});
 }
 
 static void add_contrast(PanelChartList *list, const PlotData *s)
@@ -154,6 +204,7 @@ void emission_charts_add(PanelChartList *list, const PlotData *s)
     add_luminance(list, s, PATTERN_WHITE);
     for (int p = PATTERN_RED; p <= PATTERN_BLACK; p++) add_luminance(list, s, (Pattern)p);
     if (s->has_black) add_contrast(list, s);
+    for (int i = 1; i <= s->source.ambient.count; i++) add_ambient(list, s, i);
     add_shift(list, s, PATTERN_WHITE);
     for (int p = PATTERN_RED; p <= PATTERN_BLUE; p++) add_shift(list, s, (Pattern)p);
 }

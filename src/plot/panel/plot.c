@@ -73,10 +73,20 @@ static bool say_nothing_to_draw(const PlotData *s, PlotKind kind, Error *err)
                         "%s; the panel only reflects", name);
     if (kind == PLOT_CONTRAST)
         return error_at(err, ERROR_INPUT, file, "", "its black emits nothing, so there is no "
-                        "contrast ratio to draw");
+                        "contrast ratio to draw in the dark; --ambient LUX draws one in the "
+                        "light");
     if (kind == PLOT_MIRROR)
         return error_at(err, ERROR_INPUT, file, "", "has no mirror part to draw");
     return error_at(err, ERROR_INPUT, file, "", "has nothing to draw for --kind %s", name);
+}
+
+/* Contrast in the light wants both: what the panel shines and what it reflects. */
+static bool can_be_lit(const PlotData *s, Error *err)
+{
+    if (!s->source.ambient.count || (s->emits && s->reflects)) return true;
+    return error_at(err, ERROR_INPUT, s->source.file, "", "has no %s data, wanted for "
+                    "--ambient; fit a set with a '%s' entry",
+                    s->emits ? "reflection" : "emission", s->emits ? "reflection" : "emission");
 }
 
 PlotData *plot_ask(const PlotInput *input, const PlotOptions *options, Arena *arena,
@@ -86,10 +96,15 @@ PlotData *plot_ask(const PlotInput *input, const PlotOptions *options, Arena *ar
         error_in_file(err, input->file);
         return NULL;
     }
-    return plot_data_new(&(PlotSource){input->panel, input->file, *report, input->measured,
-                                        options->incidence_phi,
-                                        is_among(options->kind, PLOT_LUMINANCE,
-                                                 PLOT_COLOUR_SHIFT), options->threads}, arena);
+    PlotData *data = plot_data_new(&(PlotSource){
+        .panel = input->panel, .file = input->file, .report = *report,
+        .measured = input->measured, .incidence_phi = options->incidence_phi,
+        .wants_maps = is_among(options->kind, PLOT_LUMINANCE, PLOT_COLOUR_SHIFT),
+        .threads = options->threads, .contours = options->contours,
+        .ambient = options->ambient}, arena);
+    if (can_be_lit(data, err)) return data;
+    json_decref(*report);
+    return NULL;
 }
 
 bool plot_write(const PlotInput *input, const PlotOptions *options, const char *path,

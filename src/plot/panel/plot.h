@@ -16,6 +16,8 @@ typedef struct PlotOptions {
     bool     is_dark;
     double   incidence_phi; /* azimuth of the light, radians; PI: from the left */
     int      threads;       /* at least 1 */
+    PlotContours contours;  /* of luminance and contrast; none: chosen */
+    PlotAmbient  ambient;   /* contrast also under these */
 } PlotOptions;
 
 typedef struct PlotInput {

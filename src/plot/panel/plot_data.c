@@ -1,5 +1,6 @@
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_reflection.h"
+#include "panel/query/panel_sampling.h"
 #include "plot/panel/plot_data.h"
 
 #include <math.h>
@@ -93,6 +94,60 @@ static void look_at_reflection(PlotData *s)
     s->has_mirror = plot_data_mirror(s, radians_from_degrees(5), 0) > 1e-7;
 }
 
+/* Sixteen wavelengths from 420 to 690 nm, 18 nm apart, or all of them nm. */
+static Wavelengths lanes(double nm)
+{
+    Wavelengths wavelengths = {0};
+    for (int i = 0; i < SPECTRUM_LANES; i++)
+        wavelengths.nm[i] = nm > 0 ? (float)nm : 420 + 18 * (float)i;
+    return wavelengths;
+}
+
+/* The eye's mean of the lanes. */
+static double luminous_mean(Spectrum value, const Wavelengths *wavelengths)
+{
+    double sum = 0, weights = 0;
+    for (int i = 0; i < SPECTRUM_LANES; i++) {
+        double weight = (double)spectral_row((double)wavelengths->nm[i]).y;
+        sum += weight * (double)value[i];
+        weights += weight;
+    }
+    return sum / weights;
+}
+
+/* ---- in even light ---------------------------------------------------------------------- */
+
+#define EVEN_SAMPLES 2048
+#define EVEN_AZIMUTHS 8 /* of an anisotropic panel */
+
+/* Base 2 or 3 with its digits mirrored at the point (van der Corput, Halton 1960). */
+static float mirrored_digits(int number, int base)
+{
+    double value = 0, digit = 1.0 / base;
+    for (; number; number /= base, digit /= base) value += digit * (number % base);
+    return (float)fmin(value, 1 - 1e-7);
+}
+
+/* The integral of f cos theta_i over the light's hemisphere, by directions drawn as the panel's
+ * own sampling has it, so that narrow lobes are met. Luminous mean as brdf's. */
+static void sample_even_light(void *context, int item, int worker)
+{
+    PlotData   *s = context;
+    Wavelengths wavelengths = lanes(0);
+    double      theta = radians_from_degrees(item), sum = 0;
+    (void)worker;
+    for (int i = 0; i < EVEN_SAMPLES; i++) {
+        float u[3] = {((float)i + 0.5f) / EVEN_SAMPLES, mirrored_digits(i, 2),
+                      mirrored_digits(i, 3)}, pdf;
+        Vec3  wi, wo = direction(theta, s->is_anisotropic ? 2 * PI * (i % EVEN_AZIMUTHS) /
+                                                                EVEN_AZIMUTHS : 0);
+        if (!panel_sample(s->source.panel, wo, u, &wi, &pdf)) continue;
+        Spectrum f = panel_brdf(s->source.panel, wo, wi, &wavelengths);
+        sum += luminous_mean(f, &wavelengths) * (double)(wi.z / pdf);
+    }
+    s->diffuse_reflectance[item] = sum / EVEN_SAMPLES;
+}
+
 PlotData *plot_data_new(const PlotSource *source, Arena *arena)
 {
     PlotData    *s = ARENA_NEW(arena, PlotData, 1);
@@ -109,6 +164,8 @@ PlotData *plot_data_new(const PlotSource *source, Arena *arena)
     s->reflects = panel_reflects(source->panel);
     if (s->emits) sample_emission(s);
     if (s->reflects) look_at_reflection(s);
+    if (s->reflects && source->ambient.count)
+        parallel_for(source->threads, PLOT_REFLECTANCES, sample_even_light, s);
     return s;
 }
 
@@ -138,27 +195,6 @@ Field plot_data_shift(const PlotData *s, Pattern pattern, Arena *arena)
 }
 
 /* ---- reflection ------------------------------------------------------------------------- */
-
-/* Sixteen wavelengths from 420 to 690 nm, 18 nm apart, or all of them nm. */
-static Wavelengths lanes(double nm)
-{
-    Wavelengths wavelengths = {0};
-    for (int i = 0; i < SPECTRUM_LANES; i++)
-        wavelengths.nm[i] = nm > 0 ? (float)nm : 420 + 18 * (float)i;
-    return wavelengths;
-}
-
-/* The eye's mean of the lanes. */
-static double luminous_mean(Spectrum value, const Wavelengths *wavelengths)
-{
-    double sum = 0, weights = 0;
-    for (int i = 0; i < SPECTRUM_LANES; i++) {
-        double weight = (double)spectral_row((double)wavelengths->nm[i]).y;
-        sum += weight * (double)value[i];
-        weights += weight;
-    }
-    return sum / weights;
-}
 
 static double brdf(const PlotData *s, double incidence, Vec3 wo, double nm)
 {

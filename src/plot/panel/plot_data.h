@@ -11,10 +11,13 @@
 #include "panel/query/panel.h"
 #include "panel/query/panel_info.h"
 #include "plot/draw/field.h"
+#include "plot/panel/plot_lists.h"
 
 typedef enum Pattern {
     PATTERN_WHITE, PATTERN_RED, PATTERN_GREEN, PATTERN_BLUE, PATTERN_BLACK, PATTERN_COUNT
 } Pattern;
+
+#define PLOT_REFLECTANCES 91
 
 /* What of the panel is drawn. */
 typedef struct PlotSource {
@@ -25,6 +28,8 @@ typedef struct PlotSource {
     double             incidence_phi; /* azimuth of the light, radians; PI: from the left */
     bool               wants_maps;    /* samples emission over the hemisphere */
     int                threads;
+    PlotContours       contours;      /* lines that the user wants in place of ours */
+    PlotAmbient        ambient;       /* light in which contrast is asked besides the dark */
 } PlotSource;
 
 typedef struct PlotData {
@@ -41,6 +46,8 @@ typedef struct PlotData {
     int    incidence_count;     /* of the light, measured, rising */
     double incidence[PANEL_INFO_INCIDENCES_MAX], last_incidence;
     bool   is_anisotropic;      /* reflection depends on the light's azimuth */
+    double diffuse_reflectance[PLOT_REFLECTANCES]; /* where contrast is asked in the light:
+                                   haze and lambertian part, at 0, 1 ... 90 degrees */
     double brdf_cone;           /* leaving theta measured up to here */
     Arena *arena;
 } PlotData;

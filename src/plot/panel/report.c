@@ -10,6 +10,7 @@
 #include "page/page.h"
 #include "plot/draw/ticks.h"
 #include "plot/panel/sheet.h"
+#include "plot/panel/plot_answer.h"
 #include "plot/panel/report_tables.h"
 #include "text/escape.h"
 
@@ -242,6 +243,7 @@ static bool add_page(Text *html, const PlotData *s, const PanelChartList *list, 
     add_keys(html, s, arena);
     add_legend(html, s);
     if (!add_chapters(html, list, is_dark, arena, err)) return false;
+    plot_answer_table(html, s);
     page_element(html, "h2", "Sizes and errors");
     page_element(html, "p class=\"sub\"", "Errors are relative to the measured values; trees "
                  "are shared by tables, whose part is an even share.");

@@ -1,0 +1,159 @@
+#include "plot/panel/plot_answer.h"
+
+#include <math.h>
+
+#include "base/count.h"
+#include "base/units.h"
+#include "page/page.h"
+#include "plot/draw/contour.h"
+#include "plot/panel/ambient.h"
+
+/* ---- lines ------------------------------------------------------------------------------ */
+
+/* theta and phi in degrees; false outside the disc, where cells hold the rim's values. */
+static bool angles_of(const Field *field, ContourPoint point, double degrees[2])
+{
+    double middle = (field->side - 1) / 2.0, x = point.x - middle, y = middle - point.y;
+    double phi = degrees_from_radians(atan2(y, x));
+    degrees[0] = degrees_from_radians(hypot(x, y) / middle * field->theta_rim);
+    degrees[1] = phi < 0 ? phi + 360 : phi;
+    return hypot(x, y) <= middle;
+}
+
+static json_t *line_json(const Field *field, const ContourLine *line)
+{
+    json_t *out = json_array();
+    double  degrees[2];
+    for (int i = 0; i < line->count; i++)
+        if (angles_of(field, line->point[i], degrees))
+            json_array_append_new(out, json_pack("[f,f]", degrees[0], degrees[1]));
+    return out;
+}
+
+static json_t *lines_json(const Field *field, double level, Arena scratch)
+{
+    ContourSet set = contour_lines(field->value, field->side, level, &scratch);
+    json_t    *lines = json_array();
+    for (int k = 0; k < set.count; k++) {
+        json_t *line = line_json(field, &set.line[k]);
+        if (json_array_size(line)) json_array_append(lines, line);
+        json_decref(line);
+    }
+    return lines;
+}
+
+static void add_contours(json_t *out, const PlotData *s, const char *chart, const Field *field,
+                         double on_axis)
+{
+    const PlotContours *wanted = &s->source.contours;
+    for (int i = 0; i < wanted->count; i++) {
+        double level = plot_contours_level(wanted, i, on_axis);
+        json_array_append_new(out, json_pack("{s:s, s:f, s:b, s:f, s:o}", "chart", chart,
+            "asked", wanted->value[i], "percent_of_axis", (int)wanted->is_percent[i], "level",
+            level, "lines_theta_phi_deg", lines_json(field, level, *s->arena)));
+    }
+}
+
+static void add_luminance_contours(json_t *out, const PlotData *s)
+{
+    static const char *const names[PATTERN_COUNT] = {"luminance white", "luminance red",
+        "luminance green", "luminance blue", "luminance black"};
+    for (int p = 0; p < PATTERN_COUNT; p++)
+        if (s->normal[p][1] > 0)
+            add_contours(out, s, names[p], &s->xyz[p][1], (double)s->normal[p][1]);
+}
+
+static void add_contrast_contours(json_t *out, const PlotData *s)
+{
+    if (s->has_black) {
+        Field dark = plot_data_contrast(s, s->arena);
+        add_contours(out, s, "contrast", &dark,
+                     (double)(s->normal[PATTERN_WHITE][1] / s->normal[PATTERN_BLACK][1]));
+    }
+    for (int i = 0; i < s->source.ambient.count; i++) {
+        double lux = s->source.ambient.lux[i];
+        Field  lit = ambient_contrast_field(s, lux, s->arena);
+        add_contours(out, s, arena_format(s->arena, "contrast %.6g lx", lux), &lit,
+                     ambient_contrast(s, 0, 0, lux));
+    }
+}
+
+static json_t *contours_json(const PlotData *s, PlotKind kind)
+{
+    json_t *out = json_array();
+    if (kind != PLOT_CONTRAST) add_luminance_contours(out, s);
+    if (kind != PLOT_LUMINANCE) add_contrast_contours(out, s);
+    return out;
+}
+
+/* ---- contrast in the light -------------------------------------------------------------- */
+
+/* The directions of the tables: the normal once. */
+static const struct { int theta, phi; } asked[] = {
+    {0, 0},
+    {15, 0}, {15, 90}, {15, 180}, {15, 270}, {30, 0}, {30, 90}, {30, 180}, {30, 270},
+    {45, 0}, {45, 90}, {45, 180}, {45, 270}, {60, 0}, {60, 90}, {60, 180}, {60, 270},
+    {75, 0}, {75, 90}, {75, 180}, {75, 270},
+};
+
+static double contrast_at(const PlotData *s, int i, double lux)
+{
+    return ambient_contrast(s, radians_from_degrees(asked[i].theta),
+                            radians_from_degrees(asked[i].phi), lux);
+}
+
+static double reflectance_at(const PlotData *s, int i)
+{
+    return ambient_reflectance(s, radians_from_degrees(asked[i].theta));
+}
+
+static json_t *ambient_json(const PlotData *s, double lux)
+{
+    json_t *rows = json_array();
+    for (int i = 0; i < COUNT_OF(asked); i++)
+        json_array_append_new(rows, json_pack("{s:i, s:i, s:f, s:f}", "theta_deg",
+            asked[i].theta, "phi_deg", asked[i].phi, "reflectance", reflectance_at(s, i),
+            "contrast", contrast_at(s, i, lux)));
+    return json_pack("{s:f, s:s, s:o}", "illuminance_lx", lux, "formula", AMBIENT_FORMULA,
+                     "angles", rows);
+}
+
+void plot_answer_add(const PlotData *data, PlotKind kind, json_t *answer)
+{
+    const PlotAmbient *ambient = &data->source.ambient;
+    json_t *list = json_array();
+    if (data->source.contours.count && data->emits)
+        json_object_set_new(answer, "contours", contours_json(data, kind));
+    for (int i = 0; i < ambient->count; i++)
+        json_array_append_new(list, ambient_json(data, ambient->lux[i]));
+    if (ambient->count) json_object_set(answer, "ambient", list);
+    json_decref(list);
+}
+
+static void add_row(Text *html, const PlotData *data, int i)
+{
+    const PlotAmbient *ambient = &data->source.ambient;
+    page_row_begin(html, "");
+    page_cell_format(html, "n", "%d°", asked[i].theta);
+    page_cell_format(html, "n", "%d°", asked[i].phi);
+    page_cell_format(html, "n", "%.3g", 100 * reflectance_at(data, i));
+    for (int k = 0; k < ambient->count; k++)
+        page_cell_format(html, "n", "%.4g", contrast_at(data, i, ambient->lux[k]));
+    page_row_end(html);
+}
+
+void plot_answer_table(Text *html, const PlotData *data)
+{
+    const PlotAmbient *ambient = &data->source.ambient;
+    PageColumn columns[3 + PLOT_AMBIENT_MAX] = {{"θ", true, NULL}, {"φ", true, NULL},
+                                                {"R, %", true, NULL}};
+    if (!ambient->count) return;
+    page_element(html, "h2", "Contrast in even diffuse light");
+    page_element(html, "p class=\"sub\"", AMBIENT_FORMULA ".");
+    for (int i = 0; i < ambient->count; i++)
+        columns[3 + i] = (PageColumn){arena_format(data->arena, "%.6g lx", ambient->lux[i]),
+                                      true, NULL};
+    page_table_begin(html, "", "", columns, 3 + ambient->count);
+    for (int i = 0; i < COUNT_OF(asked); i++) add_row(html, data, i);
+    page_table_end(html);
+}

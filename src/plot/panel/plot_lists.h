@@ -1,0 +1,32 @@
+/* plot_lists.h -- the values that a user wants lines at, and the light of contrasts.
+ *
+ * Units    lux; a contour in the chart's own unit (cd m^-2, or a ratio), or in percent of the
+ *          chart's value on the axis.
+ * Threads  pure functions.
+ * Fails    with the option, what was found and what was wanted.
+ */
+#pragma once
+#include <stdbool.h>
+
+#include "base/error.h"
+
+#define PLOT_CONTOURS_MAX 16
+#define PLOT_AMBIENT_MAX 8
+
+typedef struct PlotContours {
+    int    count;
+    double value[PLOT_CONTOURS_MAX]; /* above 0 */
+    bool   is_percent[PLOT_CONTOURS_MAX];
+} PlotContours;
+
+typedef struct PlotAmbient {
+    int    count;
+    double lux[PLOT_AMBIENT_MAX]; /* above 0 */
+} PlotAmbient;
+
+/* "200,50%": numbers above 0 with commas. */
+bool plot_contours_read(const char *text, PlotContours *out, Error *err);
+bool plot_ambient_read(const char *text, PlotAmbient *out, Error *err);
+
+/* The i-th value in the chart's unit, from that on the axis. */
+double plot_contours_level(const PlotContours *contours, int i, double on_axis);
