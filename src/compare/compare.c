@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/machine.h"
 #include "base/progress.h"
 #include "compare/metrics.h"
 #include "compare/picture_bands.h"
@@ -224,12 +225,28 @@ static bool compare_pixels(const CompareOptions *options, Arena *arena, Comparis
     return true;
 }
 
+/* Measured with all metrics: 126 bytes for each further pixel of frames of R, G and B. */
+#define FRAME_PIXEL_BYTES 130.0
+
+/* Frames are compared whole: what cannot fit is told before minutes of work. */
+static bool has_room(const CompareInput *frame, Error *err)
+{
+    double pixels = (double)frame->light.width * frame->light.height;
+    double wanted = pixels * FRAME_PIXEL_BYTES, memory = (double)machine_memory_bytes();
+    if (frame->kind == INPUT_PICTURE || wanted <= memory) return true;
+    return error_at(err, ERROR_MEMORY, frame->name, "",
+                    "has %d x %d pixels: frames of light are compared whole, in about %.0f "
+                    "bytes a pixel, %.3g GB, and here are %.3g GB; compare crops, or developed "
+                    "pictures, which go in bands", frame->light.width, frame->light.height,
+                    FRAME_PIXEL_BYTES, wanted / 1e9, memory / 1e9);
+}
+
 bool compare_inputs(const CompareInput *reference, const CompareInput *test,
                     const CompareOptions *options, Arena *arena, Comparison *out, Error *err)
 {
     Comparison made;
     double     begun = monotonic_seconds();
-    if (!input_check_kinds(reference, test, err)) return false;
+    if (!input_check_kinds(reference, test, err) || !has_room(reference, err)) return false;
     start(reference, test, arena, &made);
     made.structure = structure_compare(reference, test, &options->rules, arena, &made.reasons,
                                        &made.notes);

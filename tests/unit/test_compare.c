@@ -427,6 +427,24 @@ TEST(regions_select_and_displays_are_known)
     assert_int_equal(selection.pixels, 7);
 }
 
+/* Sizes alone decide it: nothing of the pixels is asked. */
+TEST(frames_that_cannot_fit_are_refused_by_a_line)
+{
+    (void)state;
+    Error          err = {0};
+    Comparison     out;
+    CompareOptions options = {.threads = 1};
+    CompareInput   frame = {.name = "huge.exr", .kind = INPUT_FRAME,
+                            .light = {.width = 1 << 20, .height = 1 << 20}};
+    Arena arena = arena_reserve(1 << 20);
+    assert_false(compare_inputs(&frame, &frame, &options, &arena, &out, &err));
+    arena_release(&arena);
+    assert_int_equal(err.code, ERROR_MEMORY);
+    assert_string_equal(err.file, "huge.exr");
+    assert_error_has(&err, "1048576 x 1048576 pixels: frames of light are compared whole");
+    assert_error_has(&err, "GB; compare crops, or developed pictures");
+}
+
 int main(void)
 {
     return run_cases(make_folder, remove_folder);
