@@ -71,7 +71,7 @@ def check_can_fail(report, known):
 
 SPECTRUM = {"peaks_nm": [550], "fwhm_nm": [30], "weights": [1]}
 RECIPE = {"emission": {"red": SPECTRUM, "green": SPECTRUM, "blue": SPECTRUM, "levels": [255]},
-          "reflection": {"incidence_deg": [30], "wavelengths_nm": [550]},
+          "reflection": {"incidence_deg": [30], "wavelengths_nm": [550], "floor_albedo": 0.05},
           "instrument": {"theta_step_deg": 10, "phi_step_deg": 30}}
 DECLARATION = {"delimiter": "semicolon", "decimal": "comma", "azimuth_zero": "top",
                "azimuth_sense": "cw", "mask": [-999], "level_max": 255, "skip": ["log_*"],
