@@ -276,6 +276,36 @@ def check_plot_numbers(report, commands, _):
           "spectra")
 
 
+def check_display(report, commands, panel):
+    """What a display engineer asks first is what eval says; a reflection alone has no white."""
+    facts = json.loads(commands.text("info", panel, "--json"))["display"]
+
+    def seen(rgb, theta=0.0, phi=0.0):
+        return json.loads(commands.text("eval", panel, "--rgb", rgb, "--theta", str(theta),
+                                        "--phi", str(phi), "--json"))["luminance_cd_m2"]
+    white, black = seen("255,255,255"), seen("0,0,0")
+    report.claim(abs(facts["white_cd_m2"] / white - 1) < 1e-4
+                 and abs(facts["contrast"] * black / white - 1) < 1e-4,
+                 f"white {facts['white_cd_m2']}, contrast {facts['contrast']}; eval says "
+                 f"{white} over {black}")
+    for phi, theta in zip((0, 90, 180, 270), facts["half_luminance_deg"]):
+        share = seen("255,255,255", theta, phi) / white
+        report.claim(abs(share - 0.5) < 0.01, f"half of white at {theta}, {phi} is {share}")
+    with open(RECIPE) as file:
+        gamma = json.load(file)["emission"]["gamma"]
+    report.claim(all(abs(found - gamma) < 0.1 for found in facts["gamma"]),
+                 f"gamma {facts['gamma']} instead of {gamma}")
+    report.claim(0 < facts["dci_p3_coverage"] < facts["srgb_coverage"] <= 1.0001
+                 and len(facts["primaries_xy"]) == 3, f"gamut: {facts}")
+    grey = commands.file("grey2.panel")
+    commands.text("fit", lambertian_set(commands, "grey2", 0.3), "-o", grey, "--quiet")
+    text = commands.text("info", grey)
+    facts = json.loads(commands.text("info", grey, "--json"))["display"]
+    report.claim(abs(facts["diffuse_reflectance"] - 0.3) < 0.01 and "white_cd_m2" not in facts
+                 and facts["mirror_reflectance"] == 0 and "haze_fwhm_deg" not in facts
+                 and "white  " not in text and "reflects" in text, f"a grey panel is {facts}")
+
+
 def check_other_build(report, first, second):
     """Both ways: what one wrote, the other reads."""
     for writer, reader in ((first, second), (second, first)):
@@ -301,7 +331,7 @@ def main():
             report.finish()
         panel = commands.make("small.panel")
         for check in (check_grids, check_batch, check_export, check_verdict,
-                      check_plot_numbers):
+                      check_display, check_plot_numbers):
             try:
                 check(report, commands, panel)
             except (ValueError, KeyError, IndexError) as error:

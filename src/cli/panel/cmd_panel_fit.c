@@ -8,8 +8,10 @@
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
+#include "cli/panel/panel_facts.h"
 #include "cli/panel/panel_print.h"
 #include "panel/fit/fit.h"
+#include "panel/query/panel_open.h"
 
 /* What the process took. */
 static void add_usage(json_t *report)
@@ -108,6 +110,16 @@ static FitOptions options_of(const FitWords *words)
     return fit;
 }
 
+/* Of the file as it was written. */
+static bool add_facts(const char *path, json_t *report, Arena *arena, Error *err)
+{
+    Panel *panel = NULL;
+    if (!panel_open(path, arena, &panel, err)) return false;
+    panel_facts_add(panel, report);
+    panel_close(panel);
+    return true;
+}
+
 /* As JSON the report of a panel that is not written is the answer; stderr has the reason. */
 static bool print_refused(json_t *report, Error *err)
 {
@@ -137,6 +149,10 @@ static bool run_fit(int argc, char **argv, Arena *arena, Error *err)
     }
     add_usage(report);
     if (!ok) return print_refused(report, err);
+    if (!add_facts(words.output, report, arena, err)) {
+        json_decref(report);
+        return false;
+    }
     return panel_print_report(report, words.cli.json, err);
 }
 

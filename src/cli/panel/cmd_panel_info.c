@@ -4,6 +4,7 @@
 #include "base/units.h"
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
+#include "cli/panel/panel_facts.h"
 #include "cli/panel/panel_print.h"
 #include "panel/query/panel.h"
 #include "panel/query/panel_info.h"
@@ -43,6 +44,7 @@ static bool run_info(int argc, char **argv, Arena *arena, Error *err)
     bool ok = panel_open(cli.arguments[0], arena, &panel, err) &&
               (panel_report(panel, &report, err) || error_in_file(err, cli.arguments[0]));
     if (ok) add_lights(panel, report);
+    if (ok) panel_facts_add(panel, report);
     ok = ok && panel_print_report(report, cli.json, err);
     panel_close(panel);
     return ok;

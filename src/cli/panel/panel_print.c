@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "cli/options/answer.h"
+#include "cli/panel/panel_facts.h"
 
 static void print_table(const json_t *table)
 {
@@ -83,6 +84,7 @@ static void print_text(const json_t *report)
            json_string_value(json_object_get(report, "source")),
            json_string_value(json_object_get(report, "instrument")));
     print_verdict(report);
+    panel_facts_print(report);
     print_choices("emission", json_object_get(report, "emission"));
     print_choices("reflection", json_object_get(report, "reflection"));
     json_array_foreach(json_object_get(report, "notes"), i, value)

@@ -1,0 +1,293 @@
+#include "cli/panel/panel_facts.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/units.h"
+#include "panel/query/panel_emission.h"
+#include "panel/query/panel_info.h"
+#include "panel/query/panel_reflection.h"
+#include "spectrum/photometry.h"
+
+static const float WHITE[3] = {255, 255, 255}, BLACK[3] = {0, 0, 0};
+
+static Vec3 direction_deg(double theta, double phi)
+{
+    double t = radians_from_degrees(theta), p = radians_from_degrees(phi);
+    return vec3((float)(sin(t) * cos(p)), (float)(sin(t) * sin(p)), (float)cos(t));
+}
+
+static double luminance(const Panel *panel, const float rgb[3], double theta, double phi)
+{
+    float xyz[3];
+    panel_emission_xyz(panel, direction_deg(theta, phi), rgb, xyz);
+    return (double)xyz[1];
+}
+
+static void put(json_t *out, const char *key, double value)
+{
+    json_object_set_new(out, key, json_real(value));
+}
+
+/* ---- gamut ------------------------------------------------------------------------------- */
+
+typedef struct Polygon {
+    int    count;
+    double x[8], y[8];
+} Polygon;
+
+static double side_of(const Polygon *clip, int edge, double x, double y)
+{
+    int next = (edge + 1) % clip->count;
+    return (clip->x[next] - clip->x[edge]) * (y - clip->y[edge]) -
+           (clip->y[next] - clip->y[edge]) * (x - clip->x[edge]);
+}
+
+static double area_of(const Polygon *p)
+{
+    double sum = 0;
+    for (int i = 0; i < p->count; i++) {
+        int k = (i + 1) % p->count;
+        sum += p->x[i] * p->y[k] - p->x[k] * p->y[i];
+    }
+    return 0.5 * sum;
+}
+
+static void append(Polygon *out, double x, double y)
+{
+    if (out->count < 8) out->x[out->count] = x, out->y[out->count++] = y;
+}
+
+/* I. E. Sutherland and G. W. Hodgman, Reentrant polygon clipping, CACM 17 (1974): one edge. */
+static Polygon clipped(const Polygon *p, const Polygon *clip, int edge)
+{
+    Polygon out = {0};
+    for (int i = 0; i < p->count; i++) {
+        int    k = (i + 1) % p->count;
+        double a = side_of(clip, edge, p->x[i], p->y[i]);
+        double b = side_of(clip, edge, p->x[k], p->y[k]);
+        if (a >= 0) append(&out, p->x[i], p->y[i]);
+        if ((a >= 0) == (b >= 0)) continue;
+        double t = a / (a - b);
+        append(&out, p->x[i] + t * (p->x[k] - p->x[i]), p->y[i] + t * (p->y[k] - p->y[i]));
+    }
+    return out;
+}
+
+/* Share of the standard's triangle in xy that the panel's covers. */
+static double coverage(const Polygon *panel, const Polygon *standard)
+{
+    Polygon both = *panel;
+    if (area_of(panel) <= 0) return 0; /* the primaries are no triangle of that order */
+    for (int edge = 0; edge < 3; edge++) both = clipped(&both, standard, edge);
+    return area_of(&both) / area_of(standard);
+}
+
+/* IEC 61966-2-1; SMPTE RP 431-2. */
+static const Polygon SRGB = {3, {0.64, 0.30, 0.15}, {0.33, 0.60, 0.06}};
+static const Polygon DCI_P3 = {3, {0.680, 0.265, 0.150}, {0.320, 0.690, 0.060}};
+
+static void add_gamut(const Panel *panel, json_t *out)
+{
+    Polygon own = {.count = 3};
+    json_t *list = json_array();
+    for (int p = 0; p < 3; p++) {
+        float rgb[3] = {0, 0, 0}, xyz[3], xy[2];
+        rgb[p] = 255;
+        panel_emission_xyz(panel, vec3(0, 0, 1), rgb, xyz);
+        xy_from_xyz(xyz, xy);
+        own.x[p] = (double)xy[0], own.y[p] = (double)xy[1];
+        json_array_append_new(list, json_pack("[f, f]", own.x[p], own.y[p]));
+    }
+    json_object_set_new(out, "primaries_xy", list);
+    put(out, "srgb_coverage", coverage(&own, &SRGB));
+    put(out, "dci_p3_coverage", coverage(&own, &DCI_P3));
+}
+
+/* ---- emission ---------------------------------------------------------------------------- */
+
+/* Exponent of the power law through full drive, least squares of the logarithms over the
+ * measured levels, black subtracted; null: one level. */
+static json_t *gamma_of(const Panel *panel, int primary)
+{
+    double code[PANEL_INFO_LEVELS_MAX], xx = 0, xy = 0, black = luminance(panel, BLACK, 0, 0);
+    float  rgb[3] = {0, 0, 0};
+    int    count = panel_info_levels(panel, primary, code);
+    rgb[primary] = 255;
+    double full = luminance(panel, rgb, 0, 0) - black;
+    for (int i = 0; i < count; i++) {
+        rgb[primary] = (float)code[i];
+        double light = (luminance(panel, rgb, 0, 0) - black) / full, x = log(code[i] / 255);
+        if (!(light > 0) || x == 0) continue;
+        xx += x * x, xy += x * log(light);
+    }
+    return count > 1 && xx > 0 ? json_real(xy / xx) : json_null();
+}
+
+typedef struct ConeQuestion {
+    bool   is_contrast;
+    double least; /* of white's luminance, or contrast */
+} ConeQuestion;
+
+/* The first theta, in tenths of a degree inside the measured cone, that has less; null: none.
+ * */
+static json_t *cone_to(const Panel *panel, ConeQuestion ask, double phi)
+{
+    double normal = luminance(panel, WHITE, 0, 0);
+    double cone = degrees_from_radians(panel_info_emission_cone(panel));
+    for (double theta = 0; theta <= cone + 1e-6; theta += 0.1) {
+        double white = luminance(panel, WHITE, theta, phi);
+        double over = ask.is_contrast ? luminance(panel, BLACK, theta, phi) : normal;
+        if (white < ask.least * over) return json_real(round(10 * theta) / 10);
+    }
+    return json_null();
+}
+
+static json_t *cones(const Panel *panel, ConeQuestion ask)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < 4; i++) json_array_append_new(list, cone_to(panel, ask, 90.0 * i));
+    return list;
+}
+
+static void add_emission(const Panel *panel, const json_t *report, json_t *out)
+{
+    const json_t *emission = json_object_get(report, "emission");
+    bool   is_white_only = json_is_true(json_object_get(emission, "white_only"));
+    double white = luminance(panel, WHITE, 0, 0), black = luminance(panel, BLACK, 0, 0);
+    float  xyz[3], xy[2];
+    panel_emission_xyz(panel, vec3(0, 0, 1), WHITE, xyz);
+    xy_from_xyz(xyz, xy);
+    put(out, "white_cd_m2", white);
+    json_object_set_new(out, "white_xy", json_pack("[f, f]", (double)xy[0], (double)xy[1]));
+    json_object_set_new(out, "black_cd_m2", black > 0 ? json_real(black) : json_null());
+    json_object_set_new(out, "contrast", black > 0 ? json_real(white / black) : json_null());
+    if (!is_white_only) {
+        add_gamut(panel, out);
+        json_object_set_new(out, "gamma", json_pack("[o, o, o]", gamma_of(panel, 0),
+                                                    gamma_of(panel, 1), gamma_of(panel, 2)));
+    }
+    json_object_set_new(out, "half_luminance_deg", cones(panel, (ConeQuestion){false, 0.5}));
+    if (black > 0)
+        json_object_set_new(out, "contrast_10_deg", cones(panel, (ConeQuestion){true, 10}));
+}
+
+/* ---- reflection -------------------------------------------------------------------------- */
+
+#define LIGHT_DEG 8.0 /* from the normal: the usual geometry of reflectance (CIE 15: 8:d) */
+
+static double luminous(Spectrum s, const Wavelengths *w)
+{
+    return (double)(spectrum_sum(s * w->xyz[1]) / spectrum_sum(w->xyz[1]));
+}
+
+static double haze_at(const Panel *panel, const Wavelengths *w, double theta)
+{
+    Vec3 wi = direction_deg(LIGHT_DEG, 180);
+    return luminous(panel_brdf(panel, direction_deg(theta, 0), wi, w), w);
+}
+
+/* The width of the BRDF at half of its height in the plane of incidence, above what is left 60
+ * degrees away; the mirror part not included. */
+static void add_haze(const Panel *panel, const Wavelengths *w, json_t *out)
+{
+    double peak = haze_at(panel, w, LIGHT_DEG), floor = haze_at(panel, w, LIGHT_DEG + 60);
+    double up = 0, down = 0, half = floor + 0.5 * (peak - floor);
+    put(out, "haze_peak_sr", peak);
+    if (!(peak > 1.2 * floor)) return; /* no peak: the same all round */
+    while (up < 60 && haze_at(panel, w, LIGHT_DEG + up) > half) up += 0.05;
+    while (down < 60 && haze_at(panel, w, LIGHT_DEG - down) > half) down += 0.05;
+    put(out, "haze_fwhm_deg", up + down);
+}
+
+static void add_reflection(const Panel *panel, json_t *out)
+{
+    Wavelengths w;
+    float       cosine = (float)cos(radians_from_degrees(LIGHT_DEG));
+    wavelengths_sample(0.5f, &w);
+    put(out, "reflectance_incidence_deg", LIGHT_DEG);
+    put(out, "mirror_reflectance", luminous(panel_mirror(panel, cosine, &w), &w));
+    put(out, "diffuse_reflectance", (double)panel_haze_albedo(panel, cosine));
+    add_haze(panel, &w, out);
+}
+
+void panel_facts_add(const Panel *panel, json_t *report)
+{
+    json_t *out = json_object();
+    if (panel_info_emits(panel)) add_emission(panel, report, out);
+    if (panel_reflects(panel)) add_reflection(panel, out);
+    json_object_set_new(report, "display", out);
+}
+
+/* ---- as text ----------------------------------------------------------------------------- */
+
+static double number(const json_t *facts, const char *key)
+{
+    return json_number_value(json_object_get(facts, key));
+}
+
+static double item(const json_t *list, size_t i)
+{
+    return json_number_value(json_array_get(list, i));
+}
+
+static void print_cone(const json_t *facts, const char *key, const char *label)
+{
+    static const char *const side[] = {"right", "up", "left", "down"};
+    const json_t *list = json_object_get(facts, key);
+    if (!list) return;
+    printf("%s", label);
+    for (size_t i = 0; i < 4; i++) {
+        printf("%s %s ", i ? "," : "", side[i]);
+        if (json_is_null(json_array_get(list, i))) printf("beyond what was measured");
+        else printf("%.1f", item(list, i));
+    }
+    printf(" degrees\n");
+}
+
+static void print_gamut(const json_t *facts)
+{
+    const json_t *xy = json_object_get(facts, "primaries_xy"), *gamma;
+    if (!xy) return;
+    printf("gamut      red %.3f %.3f, green %.3f %.3f, blue %.3f %.3f (xy); covers %.1f %% of "
+           "sRGB, %.1f %% of DCI-P3 by area in xy\n", item(json_array_get(xy, 0), 0),
+           item(json_array_get(xy, 0), 1), item(json_array_get(xy, 1), 0),
+           item(json_array_get(xy, 1), 1), item(json_array_get(xy, 2), 0),
+           item(json_array_get(xy, 2), 1), 100 * number(facts, "srgb_coverage"),
+           100 * number(facts, "dci_p3_coverage"));
+    gamma = json_object_get(facts, "gamma");
+    if (json_is_number(json_array_get(gamma, 0)))
+        printf("gamma      red %.2f, green %.2f, blue %.2f\n", item(gamma, 0), item(gamma, 1),
+               item(gamma, 2));
+}
+
+static void print_reflection(const json_t *facts)
+{
+    if (!json_object_get(facts, "mirror_reflectance")) return;
+    printf("reflects   %.3g %% like a mirror, %.3g %% diffusely (haze and floor, into the "
+           "hemisphere), light from %g degrees\n", 100 * number(facts, "mirror_reflectance"),
+           100 * number(facts, "diffuse_reflectance"),
+           number(facts, "reflectance_incidence_deg"));
+    printf("haze       %.4g sr^-1 in the mirror direction", number(facts, "haze_peak_sr"));
+    if (json_object_get(facts, "haze_fwhm_deg"))
+        printf(", %.3g degrees wide at half of it", number(facts, "haze_fwhm_deg"));
+    printf("\n");
+}
+
+void panel_facts_print(const json_t *report)
+{
+    const json_t *facts = json_object_get(report, "display");
+    const json_t *xy = json_object_get(facts, "white_xy");
+    if (xy) {
+        printf("white      %.4g cd/m2, xy %.4f %.4f; ", number(facts, "white_cd_m2"),
+               item(xy, 0), item(xy, 1));
+        if (json_is_null(json_object_get(facts, "contrast"))) printf("black not measured\n");
+        else printf("contrast %.4g : 1\n", number(facts, "contrast"));
+    }
+    print_gamut(facts);
+    print_cone(facts, "half_luminance_deg", "half white");
+    print_cone(facts, "contrast_10_deg", "10 : 1    ");
+    print_reflection(facts);
+}
