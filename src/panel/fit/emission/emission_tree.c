@@ -311,6 +311,28 @@ static bool code_once(EmissionCoder *coder, Arena *arena, EmissionTree *out, Tre
            error_prefix(err, "emission");
 }
 
+#define LOOSER 2.0f
+#define ATTEMPTS 10
+#define HORIZON 0.01f /* cosine: nobody measures along the panel */
+
+/* What the coder cannot do is asked for less of: nothing along the panel, twice the limits
+ * elsewhere, until it can. */
+static bool code_first(EmissionCoder *coder, Arena *arena, EmissionTree *out, Tree *tree,
+                       Error *err)
+{
+    Error unheard;
+    if (code_once(coder, arena, out, tree, &unheard)) return true;
+    for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
+        for (uint32_t v = 0; v < coder->vertices; v++)
+            coder->limit[v] = coder->direction[v].z < HORIZON ? INFINITY
+                                                              : LOOSER * coder->limit[v];
+        if (code_once(coder, arena, out, tree, &unheard)) return true;
+    }
+    return error_set(err, ERROR_INPUT, "emission: the tables cannot be kept within %.2g %%: "
+                     "ask for a looser bound (--max-error) or a coarser tree (--level)",
+                     100 * coder->model->tolerance);
+}
+
 /* Codes, checks all samples, tightens around those that it misses, and codes again. */
 static bool code_tree(EmissionCoder *coder, Arena *arena, EmissionTree *out, Error *err)
 {
@@ -319,9 +341,10 @@ static bool code_tree(EmissionCoder *coder, Arena *arena, EmissionTree *out, Err
     Error unheard;
     for (int round = 0; round < ROUNDS; round++) {
         const void *good = out->bytes;
-        if (!code_once(coder, arena, out, &tree, round ? &unheard : err)) {
+        if (!round && !code_first(coder, arena, out, &tree, err)) return false;
+        if (round && !code_once(coder, arena, out, &tree, &unheard)) {
             out->bytes = good; /* finer than the coder can: the last one stands */
-            return round > 0;
+            return true;
         }
         out->missed = tighten(coder, &tree);
         if (out->missed == 0 || (round > 3 && out->missed >= before)) return true;
