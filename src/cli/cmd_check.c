@@ -12,6 +12,7 @@
 #include "cli/options/hdri_warning.h"
 #include "cli/options/scene_options.h"
 #include "scene/load/scene_load.h"
+#include "spectrum/photometry.h"
 #include "text/json_text.h"
 
 static double degrees(float radians)
@@ -86,13 +87,20 @@ static Vec3 brightest_of(const PunctualLight *light)
                       light->axis_z, d.z);
 }
 
+/* Of a luminaire as its file has it: what level and colour make of it. */
+static float share_of(const PunctualLight *light)
+{
+    return light->level * luminance_from_rgb(light->color);
+}
+
 static void print_luminaire(const PunctualLight *light)
 {
     Vec3 d = brightest_of(light);
+    float share = share_of(light);
     printf("light        %s: luminaire %s, level %g %%, %g lm, at most %g cd towards "
            "(%.3f, %.3f, %.3f)\n",
            light->name, light->file, 100 * (double)light->level,
-           (double)(light->web->flux_lm * light->level), (double)light->intensity[0],
+           (double)(light->web->flux_lm * share), (double)(light->web->largest_cd * share),
            (double)d.x, (double)d.y, (double)d.z);
 }
 
@@ -226,8 +234,9 @@ static void add_luminaire(json_t *entry, const PunctualLight *light)
     json_object_set_new(entry, "file", json_text(light->file));
     json_object_set_new(entry, "level", json_real((double)light->level));
     json_object_set_new(entry, "flux_lm",
-                        json_real((double)(light->web->flux_lm * light->level)));
-    json_object_set_new(entry, "max_cd", json_real((double)light->intensity[0]));
+                        json_real((double)(light->web->flux_lm * share_of(light))));
+    json_object_set_new(entry, "max_cd",
+                        json_real((double)(light->web->largest_cd * share_of(light))));
     json_object_set_new(entry, "direction", json_rgb(direction));
 }
 

@@ -109,7 +109,7 @@ typedef enum LightKind {
     LIGHT_LUMINAIRE
 } LightKind;
 
-/* KHR_lights_punctual, and luminaires of photometric files. */
+/* KHR_lights_punctual, and luminaires of photometric files (--light, EXT_lights_ies). */
 typedef struct PunctualLight {
     const char *name;
     LightKind kind;
@@ -121,6 +121,7 @@ typedef struct PunctualLight {
     Vec3  axis_x, axis_y, axis_z; /* unit, world; the node's: a mirrored one mirrors */
     const char *node_name, *file; /* luminaire */
     float level;             /* luminaire: multiplies all intensities */
+    float color[3];          /* luminaire: linear Rec.709, multiplies too */
 } PunctualLight;
 
 typedef struct SceneCamera {

@@ -135,7 +135,7 @@ static const char *const names[] = {
     "animations", "channels", "path", "node", "input", "output", "interpolation",
     "KHR_materials_clearcoat", "KHR_materials_ior", "KHR_materials_transmission",
     "KHR_materials_volume", "KHR_materials_specular", "KHR_materials_emissive_strength",
-    "KHR_materials_unlit", "KHR_texture_transform", "KHR_lights_punctual",
+    "KHR_materials_unlit", "KHR_texture_transform", "KHR_lights_punctual", "EXT_lights_ies",
     "KHR_mesh_quantization", "PARHELION_display", "PARHELION_environment", "PARHELION_spectral",
     "light", "lights", "intensity", "color", "range", "spot", "innerConeAngle",
     "outerConeAngle", "panel", "content", "level", "sun", "luminance", "azimuth_deg",

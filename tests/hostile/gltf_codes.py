@@ -34,6 +34,7 @@ REQUIRED = {
     "orthographic": ["xmag", "ymag", "znear", "zfar"], "animations": ["channels", "samplers"],
     "channels": ["sampler", "target"], "target": ["path"], "animations/samplers": [
         "input", "output"], "lights": ["type"], "KHR_lights_punctual": ["lights", "light"],
+    "EXT_lights_ies": ["lights", "light"],
     "variants": ["name"], "KHR_materials_variants": ["variants", "mappings"],
     "mappings": ["variants", "material"], "KHR_animation_pointer": ["pointer"],
     "*Texture": ["index"]}

@@ -323,7 +323,7 @@ LINK = [
     ("UNRESOLVED_REFERENCE~", "\"9\" is not there", put(POINTER, "/materials/9/alphaCutoff")),
     ("UNRESOLVED_REFERENCE", "there are 2 in lights",
      put("nodes/6/extensions/KHR_lights_punctual/light", 2)),
-    ("UNSUPPORTED_EXTENSION", "is not supported", put("extensionsUsed/18", "ACME_magic")),
+    ("UNSUPPORTED_EXTENSION", "is not supported", put("extensionsUsed/19", "ACME_magic")),
 ]
 
 DATA = [

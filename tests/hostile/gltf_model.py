@@ -201,6 +201,10 @@ def add_shapes(m):
     m.add("skins", inverseBindMatrices=BINDS, skeleton=2, joints=[2, 3])
 
 
+PROFILE_TYPE = "application/x-ies-lm-63"
+PROFILE = b"IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 9\n0 90\n0\n100 0\n"
+
+
 def add_nodes(m):
     m.document["scene"] = 0
     m.add("scenes", name="day", nodes=[0, 2])
@@ -213,7 +217,8 @@ def add_nodes(m):
     m.add("nodes", extensions={"KHR_lights_punctual": {"light": 0}})
     m.add("nodes", extensions={"KHR_lights_punctual": {"light": 1},
                                "KHR_node_visibility": {"visible": True}})
-    m.add("nodes", mesh=1, translation=[2, 0, 0])
+    m.add("nodes", mesh=1, translation=[2, 0, 0], extensions={
+        "EXT_lights_ies": {"light": 0, "multiplier": 2, "color": [1, 0.5, 0]}})
     m.add("cameras", type="perspective", perspective={"aspectRatio": 1.5, "yfov": 0.7,
                                                       "znear": 0.1, "zfar": 100})
     m.add("cameras", type="orthographic", orthographic={"xmag": 1, "ymag": 1, "znear": 0,
@@ -241,10 +246,14 @@ def valid_model():
             {"type": "spot", "name": "lamp", "color": [1, 1, 1], "intensity": 5, "range": 10,
              "spot": {"innerConeAngle": 0.1, "outerConeAngle": math.pi / 4}},
             {"type": "point", "intensity": 5}]},
+        "EXT_lights_ies": {"lights": [
+            {"name": "street", "uri": data_uri(PROFILE_TYPE, PROFILE),
+             "mimeType": PROFILE_TYPE}]},
         "KHR_materials_variants": {"variants": [{"name": "day"}, {"name": "night"}]}}
     m.document["extensionsUsed"] = [
         "KHR_lights_punctual", "KHR_materials_variants", "KHR_texture_transform",
         "KHR_node_visibility", "KHR_animation_pointer", "KHR_materials_unlit",
-        "KHR_materials_pbrSpecularGlossiness", *extended_material()]
+        "KHR_materials_pbrSpecularGlossiness", *extended_material(),
+        "EXT_lights_ies"]
     m.document["extensionsRequired"] = ["KHR_texture_transform"]
     return m

@@ -1,6 +1,8 @@
-"""lamps.py PARHELION -- luminaire files as lamps of a scene (--light): illuminances in closed
-form, flux, nodes that are turned, scaled and mirrored, and what is refused.
+"""lamps.py PARHELION -- luminaire files as lamps of a scene (--light, EXT_lights_ies):
+illuminances in closed form, flux, nodes that are turned, scaled and mirrored, the bits of both
+ways, and what is refused.
 """
+import base64
 import json
 import math
 import os
@@ -8,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 
+from exr import Frame
 from gltf import Scene
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
@@ -185,6 +188,154 @@ def check_shadow(report, lamps):
         report.claim((found > 1) == is_lit, f"behind a plate at {place}: {found} lx")
 
 
+MEDIA_TYPE = "application/x-ies-lm-63"
+
+
+def studio(lamps, name, profile=None, node=None, **root):
+    """A floor under a node "lamp" and an eye; with a profile it is a lamp of the scene."""
+    scene = Scene()
+    grey = scene.material("floor", pbrMetallicRoughness={"baseColorFactor": [0.5, 0.5, 0.5, 1],
+                                                         "metallicFactor": 0})
+    scene.quad(grey, [-2, -2, -2], [4, 0, 0], [0, 4, 0])
+    scene.view("eye", [0, -1, 1], [0, 0.3, -1], 60)
+    extensions = {}
+    if profile:
+        scene.used.add("EXT_lights_ies")
+        scene.document["extensions"] = {"EXT_lights_ies": {"lights": [profile]}, **root}
+        extensions = {"EXT_lights_ies": {"light": 0, **(node or {})}}
+    scene._node({"name": "lamp", "translation": [0.2, 0.1, 0],
+                 "rotation": [0.1, 0, 0.2, math.sqrt(0.95)],
+                 **({"extensions": extensions} if extensions else {})})
+    scene.write(lamps.path(name))
+    return name
+
+
+def bits(lamps, scene, *options):
+    done = lamps.run("render", scene, "--size", "24x16", "--spp", "4", "--quiet",
+                     "-o", "frame.exr", *options)
+    assert done.returncode == 0, done.stderr
+    return Frame(lamps.path("frame.exr")).channels
+
+
+def embedded(lamps):
+    """The profile as a buffer view of a scene that has one buffer more."""
+    with open(lamps.path(studio(lamps, "view.gltf", {
+            "bufferView": 0, "mimeType": MEDIA_TYPE})), encoding="utf-8") as file:
+        document = json.load(file)
+    data = ies().encode()
+    document["buffers"].append({
+        "byteLength": len(data),
+        "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()})
+    document["bufferViews"].append({"buffer": 1, "byteLength": len(data)})
+    lights = document["extensions"]["EXT_lights_ies"]["lights"]
+    lights[0]["bufferView"] = len(document["bufferViews"]) - 1
+    with open(lamps.path("view.gltf"), "w", encoding="utf-8") as file:
+        json.dump(document, file)
+    return "view.gltf"
+
+
+def check_extension(report, lamps):
+    """EXT_lights_ies by a file, a data URI and a buffer view gives the bits of --light."""
+    by_light = bits(lamps, studio(lamps, "bare.gltf"), "--light", "lamp=lamp.ies")
+    data = base64.b64encode(ies().encode()).decode()
+    scenes = {"file": studio(lamps, "uri.gltf", {"name": "spot", "uri": "lamp.ies"}),
+              "data": studio(lamps, "data.gltf", {"uri": f"data:{MEDIA_TYPE};base64,{data}"}),
+              "view": embedded(lamps)}
+    for name, scene in scenes.items():
+        report.claim(bits(lamps, scene) == by_light, f"{name}: other bits than --light")
+    report.claim(bits(lamps, scenes["file"], "--light-level", "lamp=50") != by_light,
+                 "--light-level does nothing to EXT_lights_ies")
+    half = bits(lamps, studio(lamps, "half.gltf", {"uri": "lamp.ies"}, {"multiplier": 0.5}))
+    report.claim(half == bits(lamps, "bare.gltf", "--light", "lamp=lamp.ies", "--light-level",
+                              "lamp=50"), "multiplier 0.5: other bits than --light-level 50")
+    lamps.write("twice.ies", ies(head="1 1000 2"))
+    report.claim(bits(lamps, scenes["file"], "--light", "lamp=twice.ies")
+                 == bits(lamps, "bare.gltf", "--light", "lamp=twice.ies"),
+                 "--light does not take the place of EXT_lights_ies")
+
+
+def check_listed(report, lamps):
+    """Multiplier and color in what check says, and in lux."""
+    color = [1, 0.5, 0.25]
+    studio(lamps, "tint.gltf", {"name": "spot", "uri": "lamp.ies"},
+           {"multiplier": 2, "color": color})
+    done = lamps.run("check", "tint.gltf", "--json")
+    answer = json.loads(done.stdout)
+    lamp, = answer["lights"]
+    weight = sum(a * b for a, b in zip((0.2126, 0.7152, 0.0722), color))
+    largest = max(map(max, TABLE))
+    report.claim(done.returncode == 0 and not answer["problems"]
+                 and lamp["type"] == "luminaire" and lamp["name"] == "lamp"
+                 and lamp["level"] == 2 and lamp["file"] == "lamp.ies"
+                 and abs(lamp["max_cd"] / (2 * weight * largest) - 1) < 1e-3
+                 and all(abs(f / (2 * largest * c) - 1) < 1e-6
+                         for f, c in zip(lamp["intensity"], color)), f"tint: {answer}")
+    # 2 m from a lamp at the origin, its axis down -Z
+    scene = Scene()
+    scene.used.add("EXT_lights_ies")
+    scene.document["extensions"] = {"EXT_lights_ies": {"lights": [{"uri": "lamp.ies"}]}}
+    for x, members in ((0, {"multiplier": 0.25}), (50, {"color": color}), (100, {})):
+        scene._node({"translation": [x, 0, 0],
+                     "extensions": {"EXT_lights_ies": {"light": 0, **members}}})
+    scene.write(lamps.path("row.gltf"))
+    for x, wanted in ((0, 25), (50, 100 * weight), (100, 100)):
+        found = lamps.lux("row.gltf", (x, 0, -2), (0, 0, 1))
+        report.claim(abs(found / wanted - 1) < 2e-2, f"lamp at {x}: {found} lx, not {wanted}")
+
+
+def check_both(report, lamps):
+    """With KHR_lights_punctual on the same node: one lamp, and it is said."""
+    punctual = {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 1000}]}}
+    studio(lamps, "both.gltf", {"uri": "lamp.ies"}, None, **punctual)
+    with open(lamps.path("both.gltf"), encoding="utf-8") as file:
+        document = json.load(file)
+    document["extensionsUsed"].append("KHR_lights_punctual")
+    document["nodes"][-1]["extensions"]["KHR_lights_punctual"] = {"light": 0}
+    with open(lamps.path("both.gltf"), "w", encoding="utf-8") as file:
+        json.dump(document, file)
+    answer = json.loads(lamps.run("check", "both.gltf", "--json").stdout)
+    report.claim([light["type"] for light in answer["lights"]] == ["luminaire"]
+                 and any("EXT_lights_ies as well" in p["message"]
+                         and p["path"].endswith("/extensions/KHR_lights_punctual")
+                         for p in answer["problems"]), f"both: {answer}")
+
+
+def check_extension_refused(report, lamps):
+    lamps.write("word.ies", ies().replace("400 300", "400 bright", 1))
+    os.makedirs(lamps.path("deep/scene"), exist_ok=True)
+    place = "/extensions/EXT_lights_ies/lights/0"
+    broken = base64.b64encode(ies()[:-30].encode()).decode()
+    for profile, node, words in (
+            ({"uri": "none.ies"}, {}, (place + "/uri", "none.ies", "No such file")),
+            ({"uri": "word.ies"}, {}, (place + "/uri", "word.ies: line 9", "bright")),
+            ({"uri": f"data:{MEDIA_TYPE};base64,{broken}"}, {},
+             (place + "/uri", "the file ends before")),
+            ({"uri": "../../../etc/lamp.ies"}, {}, (place + "/uri", "--root")),
+            ({"uri": "/etc/lamp.ies"}, {}, (place + "/uri", "absolute path")),
+            ({"uri": "https://host/lamp.ies"}, {}, (place + "/uri", "https:")),
+            ({"uri": "lamp.ldt"}, {}, (place + "/uri", "EULUMDAT", "--light")),
+            ({"uri": "lamp.ies", "bufferView": 0, "mimeType": MEDIA_TYPE}, {},
+             (place, "has both")),
+            ({}, {}, (place, "has neither")),
+            ({"uri": 5}, {}, (place + "/uri", "a text is wanted")),
+            ({"bufferView": 99, "mimeType": MEDIA_TYPE}, {},
+             (place + "/bufferView", "in bufferViews")),
+            ({"bufferView": 0, "mimeType": MEDIA_TYPE}, {}, (place, "no line TILT=")),
+            ({"uri": "lamp.ies"}, {"light": 1}, ("/light", "there is 1 in lights")),
+            ({"uri": "lamp.ies"}, {"multiplier": -1}, ("/multiplier", "at least 0")),
+            ({"uri": "lamp.ies"}, {"color": [1, 2, 1]}, ("/color", "from 0 to 1")),
+            ({"uri": "lamp.ies"}, {"color": [1, 1]}, ("/color", "an array of 3"))):
+        studio(lamps, "deep/scene/bad.gltf", profile or {"name": "x"}, node)
+        for name in ("lamp.ies", "lamp.ldt", "word.ies"):
+            with open(lamps.path(name), encoding="utf-8") as file:
+                lamps.write(f"deep/scene/{name}", file.read())
+        done = lamps.run("check", "deep/scene/bad.gltf")
+        said = done.stdout + done.stderr
+        report.claim(done.returncode == 3 and "bad.gltf" in said
+                     and all(w in said for w in words), f"{profile} {node}: "
+                     f"{done.returncode} {said}")
+
+
 def check_refused(report, lamps):
     lamps.write("word.ies", ies().replace("400 300", "400 bright", 1))
     lamps.write("short.ies", ies()[:-30])
@@ -223,7 +374,8 @@ def main():
     report = Report()
     with tempfile.TemporaryDirectory() as folder:
         lamps = Lamps(sys.argv[-1], folder)
-        for check in (check_nodes, check_factors, check_flux, check_shadow, check_refused,
+        for check in (check_nodes, check_factors, check_flux, check_shadow, check_extension,
+                      check_listed, check_both, check_extension_refused, check_refused,
                       check_shared):
             try:
                 check(report, lamps)

@@ -30,6 +30,14 @@ static const struct {
 #define POINTS "{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'}"
 #define PRIMITIVE(body) VIEWS "'accessors':[" POINTS "],'meshes':[{'primitives':[{" body "}]}]"
 
+#define PROFILE_PLACE "/extensions/EXT_lights_ies/lights/0"
+#define PROFILES(body)                                                                         \
+    "'extensionsUsed':['EXT_lights_ies'],'extensions':{'EXT_lights_ies':{'lights':[{" body     \
+    "}]}},'scene':0,'scenes':[{'nodes':[0]}],'nodes':[{'extensions':{'EXT_lights_ies':"        \
+    "{'light':0}}}]"
+#define PROFILED_NODE(body)                                                                    \
+    "'extensionsUsed':['EXT_lights_ies'],'nodes':[{'extensions':{'EXT_lights_ies':{" body "}}}]"
+
 static const FaultCase FAULTS[] = {
     /* kinds and ranges */
     {"'nodes':{}", "/nodes", "is an object, an array is wanted"},
@@ -132,6 +140,29 @@ static const FaultCase FAULTS[] = {
     {"'extensionsUsed':['KHR_lights_punctual'],'extensions':{'KHR_lights_punctual':{'lights':"
      "[{'type':'point','intensity':-1}]}}",
      "/extensions/KHR_lights_punctual/lights/0/intensity", "is -1, a number of at least 0"},
+    {PROFILES("'uri':'none.ies'"), PROFILE_PLACE "/uri", "none.ies: cannot be opened"},
+    {PROFILES("'uri':'../../../none.ies'"), PROFILE_PLACE "/uri", "--root"},
+    {PROFILES("'uri':'/none.ies'"), PROFILE_PLACE "/uri", "is an absolute path"},
+    {PROFILES("'uri':'a%zz.ies'"), PROFILE_PLACE "/uri", "broken escape \"%zz\""},
+    {PROFILES("'uri':'lamp.ldt'"), PROFILE_PLACE "/uri", "is EULUMDAT"},
+    {PROFILES("'uri':'data:application/x-ies-lm-63,TILT=NONE%0Abright'"),
+     PROFILE_PLACE "/uri", "line 2: the number of lamps is 'bright'"},
+    {PROFILES("'uri':'data:text/plain,TILT=NONE'"), PROFILE_PLACE "/uri",
+     "application/x-ies-lm-63 is wanted"},
+    {PROFILES("'name':'spot'"), PROFILE_PLACE,
+     "has neither; either \"uri\" or \"bufferView\""},
+    {PROFILES("'uri':'a.ies','bufferView':0"), PROFILE_PLACE, "has both"},
+    {PROFILES("'bufferView':7"), PROFILE_PLACE "/bufferView", "is 7, but there are 0 in"},
+    {PROFILES("'uri':'a.ies','mimeType':'text/plain'"), PROFILE_PLACE "/mimeType",
+     "one of application/x-ies-lm-63"},
+    {PROFILED_NODE("'light':3"), "/nodes/0/extensions/EXT_lights_ies/light",
+     "is 3, but there are 0 in lights"},
+    {PROFILED_NODE("'multiplier':1"), "/nodes/0/extensions/EXT_lights_ies",
+     "\"light\" is missing"},
+    {PROFILED_NODE("'light':0,'multiplier':-2"),
+     "/nodes/0/extensions/EXT_lights_ies/multiplier", "is -2, a number of at least 0"},
+    {PROFILED_NODE("'light':0,'color':[0,2,0]"),
+     "/nodes/0/extensions/EXT_lights_ies/color/1", "is 2, a number from 0 to 1"},
     /* extensions */
     {"'extensionsRequired':['ACME_magic']", "/extensionsRequired/0",
      "requires the extension \"ACME_magic\", which is not supported"},

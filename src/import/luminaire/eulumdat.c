@@ -135,12 +135,13 @@ static bool read_planes(LuminaireScan *in, const EulumdatHead *head, Luminaire *
     return luminaire_scan_intensities(in, scale, out);
 }
 
-bool eulumdat_read_luminaire(const char *file, ImportSet *set, Luminaire *out, Error *err)
+bool eulumdat_read_luminaire(const char *file, const FileBytes *bytes, ImportSet *set,
+                             Luminaire *out, Error *err)
 {
     LuminaireScan in;
     EulumdatHead  head = {0};
     Luminaire     luminaire = {.file = file};
-    if (!luminaire_scan_open(file, next_number, set, &in, err) ||
+    if (!luminaire_scan_open(file, bytes, next_number, set, &in, err) ||
         !read_head(&in, &head, &luminaire.name) || !read_lamps(&in, &head) ||
         !skip_lines(&in, "the direct ratios", 10) || !read_planes(&in, &head, &luminaire))
         return false;
@@ -160,7 +161,7 @@ static bool read_eulumdat(const char *file, const ImportOptions *options, Import
                           Error *err)
 {
     Luminaire luminaire;
-    return eulumdat_read_luminaire(file, set, &luminaire, err) &&
+    return eulumdat_read_luminaire(file, NULL, set, &luminaire, err) &&
            luminaire_add(&luminaire, options, set, err);
 }
 

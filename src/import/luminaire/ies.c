@@ -151,13 +151,14 @@ static bool find_symmetry(LuminaireScan *in, Luminaire *out)
                                "to 180, 90 to 270 or 0 to 360 degrees", first, last);
 }
 
-bool ies_read_luminaire(const char *file, ImportSet *set, Luminaire *result, Error *err)
+bool ies_read_luminaire(const char *file, const FileBytes *bytes, ImportSet *set,
+                        Luminaire *result, Error *err)
 {
     LuminaireScan in;
     IesHead       head = {0};
     Luminaire     out = {.file = file};
     const char   *tilt = "";
-    if (!luminaire_scan_open(file, next_number, set, &in, err) ||
+    if (!luminaire_scan_open(file, bytes, next_number, set, &in, err) ||
         !read_keywords(&in, &out.name, &tilt) || !skip_tilt(&in, tilt, set) ||
         !read_head(&in, &head))
         return false;
@@ -185,7 +186,7 @@ bool ies_read_luminaire(const char *file, ImportSet *set, Luminaire *result, Err
 static bool read_ies(const char *file, const ImportOptions *options, ImportSet *set, Error *err)
 {
     Luminaire luminaire;
-    return ies_read_luminaire(file, set, &luminaire, err) &&
+    return ies_read_luminaire(file, NULL, set, &luminaire, err) &&
            luminaire_add(&luminaire, options, set, err);
 }
 

@@ -6,5 +6,7 @@
 #pragma once
 #include "import/luminaire/luminaire.h"
 
-/* Notes on what was assumed or left out go to the set. */
-bool ies_read_luminaire(const char *file, ImportSet *set, Luminaire *out, Error *err);
+/* `bytes`: the file's, where they are there already; NULL: it is read here. Notes on what was
+ * assumed or left out go to the set. */
+bool ies_read_luminaire(const char *file, const FileBytes *bytes, ImportSet *set,
+                        Luminaire *out, Error *err);

@@ -9,6 +9,7 @@
  * Memory   the arena's. Threads: no shared state.
  */
 #pragma once
+#include "base/file.h"
 #include "import/set/import.h"
 #include "spectrum/intensity_web.h"
 

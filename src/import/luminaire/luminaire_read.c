@@ -6,9 +6,14 @@
 #include "import/luminaire/eulumdat.h"
 #include "import/luminaire/ies.h"
 
-bool luminaire_read(const char *file, ImportSet *set, Luminaire *out, Error *err)
+bool luminaire_is_eulumdat(const char *file)
 {
-    bool is_eulumdat = !strcasecmp(path_ending(file), ".ldt");
-    return is_eulumdat ? eulumdat_read_luminaire(file, set, out, err)
-                       : ies_read_luminaire(file, set, out, err);
+    return !strcasecmp(path_ending(file), ".ldt");
+}
+
+bool luminaire_read(const char *file, FileBytes bytes, ImportSet *set, Luminaire *out,
+                    Error *err)
+{
+    return luminaire_is_eulumdat(file) ? eulumdat_read_luminaire(file, &bytes, set, out, err)
+                                       : ies_read_luminaire(file, &bytes, set, out, err);
 }

@@ -3,10 +3,12 @@
 #include <math.h>
 #include <stdarg.h>
 
-bool luminaire_scan_open(const char *file, LuminaireNumber *number, ImportSet *set,
-                         LuminaireScan *out, Error *err)
+bool luminaire_scan_open(const char *file, const FileBytes *bytes, LuminaireNumber *number,
+                         ImportSet *set, LuminaireScan *out, Error *err)
 {
     *out = (LuminaireScan){.number = number, .line = -1, .arena = set->arena, .err = err};
+    if (bytes)
+        return text_file_decode(file, *bytes, ENCODING_AUTO, set->arena, &out->text, err);
     return text_file_read(file, ENCODING_AUTO, set->arena, &out->text, err);
 }
 

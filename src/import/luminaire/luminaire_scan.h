@@ -23,8 +23,9 @@ struct LuminaireScan {
     Error           *err;
 };
 
-bool luminaire_scan_open(const char *file, LuminaireNumber *number, ImportSet *set,
-                         LuminaireScan *out, Error *err);
+/* `bytes` are the file's where they are there already; NULL: it is read here. */
+bool luminaire_scan_open(const char *file, const FileBytes *bytes, LuminaireNumber *number,
+                         ImportSet *set, LuminaireScan *out, Error *err);
 
 /* A whole number. */
 bool luminaire_scan_count(LuminaireScan *scan, const char *what, int low, int high, int *out);

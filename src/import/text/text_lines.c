@@ -108,13 +108,11 @@ static bool cut_lines(const char *text, const char *end, Arena *arena, TextFile 
     return true;
 }
 
-bool text_file_read(const char *file, TextEncoding encoding, Arena *arena, TextFile *out,
-                    Error *err)
+bool text_file_decode(const char *file, FileBytes bytes, TextEncoding encoding, Arena *arena,
+                      TextFile *out, Error *err)
 {
-    FileBytes    bytes;
     size_t       mark;
     TextFile     text = {.file = file};
-    if (!file_read(file, IMPORT_FILE_BYTES_MAX, arena, &bytes, err)) return false;
     TextEncoding found = find_encoding(bytes.data, bytes.size, &mark);
     if (encoding == ENCODING_AUTO) encoding = found;
     char *decoded = ARENA_NEW(arena, char, 2 * (bytes.size - mark) + 1);
@@ -122,6 +120,14 @@ bool text_file_read(const char *file, TextEncoding encoding, Arena *arena, TextF
     if (!cut_lines(decoded, end, arena, &text, err)) return false;
     *out = text;
     return true;
+}
+
+bool text_file_read(const char *file, TextEncoding encoding, Arena *arena, TextFile *out,
+                    Error *err)
+{
+    FileBytes bytes;
+    return file_read(file, IMPORT_FILE_BYTES_MAX, arena, &bytes, err) &&
+           text_file_decode(file, bytes, encoding, arena, out, err);
 }
 
 const char *text_place(int line_index, Arena *arena)

@@ -10,6 +10,7 @@
 
 #include "base/arena.h"
 #include "base/error.h"
+#include "base/file.h"
 
 typedef enum TextEncoding {
     ENCODING_AUTO, ENCODING_UTF8, ENCODING_LATIN1, ENCODING_UTF16LE, ENCODING_UTF16BE
@@ -30,6 +31,10 @@ typedef struct TextFile {
  * (UTF-16), then whether the bytes are UTF-8; else Latin-1. */
 bool text_file_read(const char *file, TextEncoding encoding, Arena *arena, TextFile *out,
                     Error *err);
+
+/* The same of bytes that are there already; `file` names them in messages. */
+bool text_file_decode(const char *file, FileBytes bytes, TextEncoding encoding, Arena *arena,
+                      TextFile *out, Error *err);
 
 /* "line 12". */
 const char *text_place(int line_index, Arena *arena);

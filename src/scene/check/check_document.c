@@ -106,19 +106,29 @@ void check_animation_pointer(const DocumentCheck *check, const GltfValue *extens
     if (pointer && pointer->kind == GLTF_STRING) check_pointer(check, pointer);
 }
 
-/* ---- pictures -------------------------------------------------------------------------- */
+/* ---- pictures and light profiles ------------------------------------------------------- */
+
+static void check_source(const DocumentCheck *check, const GltfValue *object, const char *what)
+{
+    const GltfValue *uri = tree_member(object, "uri");
+    const GltfValue *view = tree_member(object, "bufferView");
+    if ((uri != NULL) == (view != NULL))
+        check_fails(check, object, "has %s; either \"uri\" or \"bufferView\" is wanted",
+                    uri ? "both" : "neither");
+    const GltfValue *target =
+        tree_element(check->file->root, "bufferViews", tree_int(object, "bufferView", NO_ID));
+    if (tree_member(target, "byteStride"))
+        check_warns(check, view, "the buffer view of %s has a byteStride", what);
+}
 
 void check_image(const DocumentCheck *check, const GltfValue *image)
 {
-    const GltfValue *uri = tree_member(image, "uri");
-    const GltfValue *view = tree_member(image, "bufferView");
-    if ((uri != NULL) == (view != NULL))
-        check_fails(check, image, "has %s; either \"uri\" or \"bufferView\" is wanted",
-                    uri ? "both" : "neither");
-    const GltfValue *target =
-        tree_element(check->file->root, "bufferViews", tree_int(image, "bufferView", NO_ID));
-    if (tree_member(target, "byteStride"))
-        check_warns(check, view, "the buffer view of a picture has a byteStride");
+    check_source(check, image, "a picture");
+}
+
+void check_profile(const DocumentCheck *check, const GltfValue *profile)
+{
+    check_source(check, profile, "a light profile");
 }
 
 /* ---- cameras and lights ---------------------------------------------------------------- */

@@ -4,6 +4,7 @@
 
 void check_asset(const DocumentCheck *check, const GltfValue *asset);
 void check_image(const DocumentCheck *check, const GltfValue *image);
+void check_profile(const DocumentCheck *check, const GltfValue *profile);
 void check_camera(const DocumentCheck *check, const GltfValue *camera);
 void check_light(const DocumentCheck *check, const GltfValue *light);
 void check_display(const DocumentCheck *check, const GltfValue *display);

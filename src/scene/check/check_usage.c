@@ -1,11 +1,12 @@
 /* glTF 2.0, 3.6.1: what stands in a buffer view is of one kind: vertices, indices, pictures,
- * matrices or key frames, and an accessor is read in one way. Nothing here depends on it, so
- * that a fault only warns. */
+ * light profiles, matrices or key frames, and an accessor is read in one way. Nothing here
+ * depends on it, so that a fault only warns. */
 #include "scene/check/check_usage.h"
 
 #include <string.h>
 
 static const char VERTICES[] = "vertices", INDICES[] = "indices", PICTURE[] = "a picture",
+                  PROFILE[] = "a light profile",
                   MATRICES[] = "inverse bind matrices", TIMES[] = "times of an animation",
                   VALUES[] = "values of an animation", SPARSE[] = "sparse values";
 
@@ -35,7 +36,7 @@ static void use_view(Usage *usage, const GltfValue *at, int view, const char *us
     if (!before) usage->view_use[view] = use;
     if (!before || strcmp(before, use) == 0) return;
     check_warns(usage->check, at, "%s stand%s in a buffer view for %s (/bufferViews/%d)", use,
-                use == PICTURE ? "s" : "", before, view);
+                use == PICTURE || use == PROFILE ? "s" : "", before, view);
     usage->view_use[view] = use; /* told once */
 }
 
@@ -107,6 +108,16 @@ static void use_image(Usage *usage, const GltfValue *image)
     if (view) use_view(usage, view, tree_int(image, "bufferView", NO_ID), PICTURE);
 }
 
+static void use_profiles(Usage *usage, const GltfValue *root)
+{
+    const GltfValue *extension = tree_extension(root, "EXT_lights_ies");
+    for (int i = 0; i < tree_count(extension, "lights"); i++) {
+        const GltfValue *profile = tree_item(tree_member(extension, "lights"), i);
+        const GltfValue *view = tree_member(profile, "bufferView");
+        if (view) use_view(usage, view, tree_int(profile, "bufferView", NO_ID), PROFILE);
+    }
+}
+
 static void use_sparse(Usage *usage, const GltfValue *accessor)
 {
     static const char *const PARTS[] = {"indices", "values"};
@@ -140,5 +151,6 @@ void check_usage(const DocumentCheck *check, const GltfValue *root)
     use_each(&usage, root, "skins", use_skin);
     use_each(&usage, root, "animations", use_animation);
     use_each(&usage, root, "images", use_image);
+    use_profiles(&usage, root);
     use_each(&usage, root, "accessors", use_sparse);
 }

@@ -39,6 +39,31 @@ static const Rule NODE_LIGHT[] = {{.name = "light",
 static const Schema SCHEMA_NODE_LIGHT = {"KHR_lights_punctual", NODE_LIGHT,
                                          COUNT_OF(NODE_LIGHT), false, NULL};
 
+static const Rule PROFILE[] = {
+    {.name = "uri", .kind = RULE_TEXT},
+    {.name = "mimeType", .kind = RULE_CHOICE, .of = "application/x-ies-lm-63"},
+    {.name = "bufferView", .kind = RULE_INDEX, .of = "bufferViews", .needs = "mimeType"},
+};
+static const Schema SCHEMA_PROFILE = {"light profile", PROFILE, COUNT_OF(PROFILE), false,
+                                      check_profile};
+
+static const Rule PROFILES[] = {{.name = "lights",
+                                 .kind = RULE_OBJECTS,
+                                 .flags = RULE_REQUIRED,
+                                 .schema = &SCHEMA_PROFILE}};
+static const Schema SCHEMA_PROFILES = {"EXT_lights_ies", PROFILES, COUNT_OF(PROFILES), false,
+                                       NULL};
+
+static const Rule NODE_PROFILE[] = {
+    {.name = "light", .kind = RULE_INDEX, .flags = RULE_REQUIRED,
+     .of = "extensions/EXT_lights_ies/lights"},
+    {.name = "multiplier", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
+    {.name = "color", .kind = RULE_NUMBERS, .flags = RULE_HAS_RANGE, .max = 1, .least = 3,
+     .most = 3},
+};
+static const Schema SCHEMA_NODE_PROFILE = {"EXT_lights_ies", NODE_PROFILE,
+                                           COUNT_OF(NODE_PROFILE), false, NULL};
+
 /* ---- materials ------------------------------------------------------------------------- */
 
 static const Rule EMISSIVE_STRENGTH[] = {
@@ -265,6 +290,8 @@ static const Schema SCHEMA_SPECTRUM = {"PARHELION_spectrum", SPECTRUM, COUNT_OF(
 static const ExtensionRule EXTENSIONS[] = {
     {"KHR_lights_punctual", "document", &SCHEMA_LIGHTS},
     {"KHR_lights_punctual", "node", &SCHEMA_NODE_LIGHT},
+    {"EXT_lights_ies", "document", &SCHEMA_PROFILES},
+    {"EXT_lights_ies", "node", &SCHEMA_NODE_PROFILE},
     {"KHR_materials_emissive_strength", "material", &SCHEMA_EMISSIVE_STRENGTH},
     {"KHR_materials_ior", "material", &SCHEMA_IOR},
     {"KHR_materials_specular", "material", &SCHEMA_SPECULAR},

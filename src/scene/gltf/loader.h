@@ -57,6 +57,7 @@ typedef struct GltfFile {
     FileBytes *buffers; /* data NULL: could not be had */
     GltfData data;
     Transform *world_from_node;
+    struct LightProfile *profiles; /* of EXT_lights_ies, one a list item (load/profiles.c) */
     int material_base, texture_base;     /* first id of this file's */
     int default_material_id;             /* NO_ID until it is needed */
     int skipped_count, degenerate_count; /* primitives; triangles */

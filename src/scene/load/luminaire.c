@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "import/luminaire/luminaire_read.h"
 #include "scene/gltf/document.h"
+#include "scene/load/profiles.h"
 
 #define NODE "node:"
 enum { NAMES_MAX = 480 };
@@ -21,17 +21,6 @@ static const char *node_of(const SceneOverride *one)
     return one->material + (has_prefix ? strlen(NODE) : 0);
 }
 
-/* The bytes are read for their hash as well. */
-static bool read_web(Loader *load, const char *path, IntensityWeb *web, Error *err)
-{
-    FileBytes bytes;
-    Luminaire luminaire;
-    ImportSet notes = import_set(&load->scratch);
-    return load_read(load, path, &load->scratch, &bytes, err) &&
-           luminaire_read(path, &notes, &luminaire, err) &&
-           luminaire_web(&luminaire, load->arena, web, err);
-}
-
 void luminaires_start(Loader *load)
 {
     const SceneOptions *o = load->options;
@@ -40,36 +29,66 @@ void luminaires_start(Loader *load)
         struct LuminaireDraft *draft = &load->luminaires[i];
         Error err = {0};
         draft->web = ARENA_NEW(load->arena, IntensityWeb, 1);
-        draft->is_readable = read_web(load, o->lights[i].value, draft->web, &err);
+        const char *path = o->lights[i].value;
+        FileBytes bytes;
+        draft->is_readable = load_read(load, path, &load->scratch, &bytes, &err) &&
+                             profile_read(load, path, bytes, draft->web, &err);
         if (draft->is_readable) continue;
-        if (!err.file[0]) error_in_file(&err, o->lights[i].value);
+        if (!err.file[0]) error_in_file(&err, path);
         problems_add_error(load->problems, &err);
     }
 }
 
-static void add_lamp(GltfFile *file, const char *name, const Transform *world, int id)
+static PunctualLight *add_lamp(Loader *load, const char *name, const char *path,
+                               const IntensityWeb *web, const Transform *world)
 {
-    const IntensityWeb *web = file->load->luminaires[id].web;
-    const char *path = file->load->options->lights[id].value;
-    PunctualLight *out = list_add(&file->load->lights, &file->load->scratch);
+    PunctualLight *out = list_add(&load->lights, &load->scratch);
     *out = (PunctualLight){.kind = LIGHT_LUMINAIRE,
                            .name = name,
                            .node_name = name,
-                           .file = arena_string(file->load->arena, path, strlen(path)),
+                           .file = arena_string(load->arena, path, strlen(path)),
                            .position = world->origin,
                            .direction = vec3_normalize(vec3_neg(world->z)),
-                           .intensity = {web->largest_cd, web->largest_cd, web->largest_cd},
                            .web = web,
-                           .level = 1};
+                           .level = 1,
+                           .color = {1, 1, 1}};
     /* a sheared node's axes are made square again, its -Z first */
     out->axis_z = vec3_normalize(world->z);
     out->axis_x = vec3_along(world->x, out->axis_z, -vec3_dot(world->x, out->axis_z));
     out->axis_x = vec3_normalize(out->axis_x);
     out->axis_y = vec3_cross(out->axis_z, out->axis_x);
     if (vec3_dot(out->axis_y, world->y) < 0) out->axis_y = vec3_neg(out->axis_y);
+    return out;
 }
 
-bool luminaire_place(GltfFile *file, const GltfValue *node, const Transform *world)
+static void warn_of_both(GltfFile *file, const GltfValue *node)
+{
+    const GltfValue *other = tree_extension(node, "KHR_lights_punctual");
+    if (other)
+        file_warning(file, other,
+                     "the node has EXT_lights_ies as well, which is taken for the same lamp: "
+                     "this light is not shown");
+}
+
+static bool place_profile(GltfFile *file, const GltfValue *node, const Transform *world)
+{
+    Loader *load = file->load;
+    const GltfValue *extension = tree_extension(node, "EXT_lights_ies");
+    const LightProfile *profile = profile_at(file, tree_int(extension, "light", NO_ID));
+    if (!profile) return false;
+    warn_of_both(file, node);
+    if (!profile->web) return true; /* reported when it was read */
+    const char *name = tree_text(node, "name", ""), *kept;
+    kept = name[0] ? arena_string(load->arena, name, strlen(name)) : profile->name;
+    PunctualLight *light = add_lamp(load, kept, profile->file, profile->web, world);
+    if (!name[0]) light->node_name = "";
+    light->level = tree_float(extension, "multiplier", 1);
+    tree_floats(extension, "color", 3, light->color);
+    return true;
+}
+
+/* By --light; the last of several speaks. */
+static bool place_by_name(GltfFile *file, const GltfValue *node, const Transform *world)
 {
     Loader *load = file->load;
     const SceneOptions *o = load->options;
@@ -77,14 +96,20 @@ bool luminaire_place(GltfFile *file, const GltfValue *node, const Transform *wor
     if (!o->light_count || !text[0]) return false;
     const char *name = arena_string(load->arena, text, strlen(text));
     *(const char **)list_add(&load->node_names, &load->scratch) = name;
-    for (int i = o->light_count; i-- > 0;) { /* the last of several speaks */
+    for (int i = o->light_count; i-- > 0;) {
         if (strcmp(node_of(&o->lights[i]), name) != 0) continue;
         for (int k = 0; k <= i; k++)
             load->luminaires[k].is_found |= !strcmp(node_of(&o->lights[k]), name);
-        if (load->luminaires[i].is_readable) add_lamp(file, name, world, i);
+        if (load->luminaires[i].is_readable)
+            add_lamp(load, name, o->lights[i].value, load->luminaires[i].web, world);
         return true;
     }
     return false;
+}
+
+bool luminaire_place(GltfFile *file, const GltfValue *node, const Transform *world)
+{
+    return place_by_name(file, node, world) || place_profile(file, node, world);
 }
 
 /* ---- behind the last file ---------------------------------------------------------------- */
@@ -128,7 +153,7 @@ static void set_level(Loader *load, const SceneOverride *one)
     }
     if (!is_found)
         problems_add(load->problems, SEVERITY_ERROR, "--light-level", "",
-                     "no lamp of --light is at a node named \"%.100s\"; there are %s",
+                     "no lamp of a luminaire file is at a node named \"%.100s\"; there are %s",
                      node_of(one), names[0] ? names : "none");
 }
 
@@ -141,6 +166,6 @@ void luminaires_finish(Loader *load)
     for (int i = 0; i < load->lights.count; i++) {
         PunctualLight *light = list_item(&load->lights, i);
         for (int c = 0; c < 3 && light->kind == LIGHT_LUMINAIRE; c++)
-            light->intensity[c] = light->web->largest_cd * light->level;
+            light->intensity[c] = light->web->largest_cd * light->level * light->color[c];
     }
 }

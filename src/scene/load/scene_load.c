@@ -21,6 +21,7 @@
 #include "scene/load/luminaire.h"
 #include "scene/load/material.h"
 #include "scene/load/part_draft.h"
+#include "scene/load/profiles.h"
 
 /* ---- materials that say BLEND or MASK but are opaque everywhere ------------------------ */
 
@@ -242,6 +243,7 @@ static void load_file(Loader *load, const char *path)
     check_data(file);
     if (problems->error_count > before) return;
     images_load(file);
+    profiles_load(file);
     materials_build(file);
     graph_build(file);
 }

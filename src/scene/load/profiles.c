@@ -1,0 +1,123 @@
+#include "scene/load/profiles.h"
+
+#include <string.h>
+
+#include "import/luminaire/luminaire_read.h"
+#include "scene/gltf/document.h"
+#include "text/uri.h"
+
+#define EXTENSION "EXT_lights_ies"
+#define MEDIA_TYPE "application/x-ies-lm-63"
+
+static const GltfValue *profile_list(const GltfFile *file)
+{
+    return tree_member(tree_extension(file->root, EXTENSION), "lights");
+}
+
+static bool is_shown(const GltfFile *file, int index)
+{
+    const GltfValue *nodes = tree_member(file->root, "nodes");
+    for (int i = 0; nodes && i < nodes->count; i++)
+        if (tree_int(tree_extension(&nodes->items[i], EXTENSION), "light", NO_ID) == index)
+            return true;
+    return false;
+}
+
+bool profile_read(Loader *load, const char *name, FileBytes bytes, IntensityWeb *web,
+                  Error *err)
+{
+    Luminaire luminaire;
+    ImportSet notes = import_set(&load->scratch);
+    return luminaire_read(name, bytes, &notes, &luminaire, err) &&
+           luminaire_web(&luminaire, load->arena, web, err);
+}
+
+/* ---- bytes ------------------------------------------------------------------------------- */
+
+static bool data_bytes(GltfFile *file, const GltfValue *uri, FileBytes *bytes)
+{
+    Error err;
+    const char *type;
+    if (!data_uri_decode(uri->text, &file->load->scratch, bytes, &type, &err)) {
+        file_error(file, uri, "%s", err.text);
+        return false;
+    }
+    if (strcmp(type, MEDIA_TYPE) != 0)
+        file_warning(file, uri, "the media type is \"%.60s\"; " MEDIA_TYPE " is wanted", type);
+    return true;
+}
+
+static bool file_bytes(GltfFile *file, const GltfValue *uri, FileBytes *bytes,
+                       const char **name)
+{
+    Error err;
+    Severity severity = is_shown(file, uri->parent->index) ? SEVERITY_ERROR : SEVERITY_WARNING;
+    if (document_is_elsewhere(file, uri, severity)) return false;
+    if (!document_resolve(file, uri, name)) return false;
+    if (luminaire_is_eulumdat(*name)) {
+        file_error(file, uri,
+                   "%s is EULUMDAT, " EXTENSION " has IES LM-63 (.ies) only: give it with "
+                   "--light NODE=FILE.ldt", *name);
+        return false;
+    }
+    if (load_read(file->load, *name, &file->load->scratch, bytes, &err)) return true;
+    file_error(file, uri, "%s: %s", *name, err.text);
+    return false;
+}
+
+/* *name: of a file its path; of bytes inside the scene where they are. */
+static bool profile_bytes(GltfFile *file, const GltfValue *profile, FileBytes *bytes,
+                          const char **name)
+{
+    char pointer[80];
+    const GltfValue *uri = tree_member(profile, "uri");
+    tree_pointer(profile, pointer, sizeof pointer);
+    *name = arena_format(&file->load->scratch, "%s#%s", file->path, pointer);
+    if (uri && uri_is_data(uri->text)) return data_bytes(file, uri, bytes);
+    if (uri) return file_bytes(file, uri, bytes, name);
+    int view = tree_int(profile, "bufferView", NO_ID);
+    *bytes = view >= 0 && view < file->data.view_count ? document_view(file, view)
+                                                       : (FileBytes){0};
+    if (!bytes->data) file_error(file, profile, "its bytes are missing");
+    return bytes->data != NULL;
+}
+
+/* ---- all of them ------------------------------------------------------------------------- */
+
+static void report_fault(GltfFile *file, const GltfValue *profile, const char *name,
+                         const Error *err)
+{
+    const GltfValue *uri = tree_member(profile, "uri");
+    bool is_file = uri && !uri_is_data(uri->text);
+    file_error(file, uri ? uri : profile, "%s%s%s%s%s", is_file ? name : "",
+               is_file ? ": " : "", err->path, err->path[0] ? ": " : "", err->text);
+}
+
+static void load_profile(GltfFile *file, const GltfValue *value, LightProfile *out)
+{
+    Error err = {0};
+    FileBytes bytes;
+    Loader *load = file->load;
+    const char *name = tree_text(value, "name", "");
+    IntensityWeb *web = ARENA_NEW(load->arena, IntensityWeb, 1);
+    out->name = name[0] ? arena_string(load->arena, name, strlen(name))
+                        : arena_format(load->arena, "light profile %d", value->index);
+    if (!profile_bytes(file, value, &bytes, &out->file)) return;
+    if (profile_read(load, out->file, bytes, web, &err))
+        out->web = web;
+    else
+        report_fault(file, value, out->file, &err);
+}
+
+void profiles_load(GltfFile *file)
+{
+    const GltfValue *list = profile_list(file);
+    int count = list ? list->count : 0;
+    file->profiles = ARENA_NEW(&file->load->scratch, LightProfile, count + 1);
+    for (int i = 0; i < count; i++) load_profile(file, &list->items[i], &file->profiles[i]);
+}
+
+const LightProfile *profile_at(const GltfFile *file, int index)
+{
+    return tree_item(profile_list(file), index) ? &file->profiles[index] : NULL;
+}
