@@ -22,11 +22,19 @@ typedef struct JudgedKind {
     double           bound;
 } JudgedKind;
 
+static double excess_rms(const FitErrors *e)
+{
+    return sqrt(e->excess_squares / fmax(1, e->count));
+}
+
+/* Samples that all miss by little (a white that reads 1.02 and is held to what it got) are no
+ * other panel. */
 static void judge_beyond(Judge *judge, const JudgedKind *kind)
 {
     const FitErrors *e = kind->errors;
     double share = e->beyond / fmax(1, e->count);
     JudgeGrade grade = judge_reason_grade(share, JUDGE_BEYOND_CARE, JUDGE_BEYOND_UNUSABLE);
+    if (grade == JUDGE_UNUSABLE && excess_rms(e) < JUDGE_RMS_CARE) grade = JUDGE_CARE;
     if (grade > JUDGE_GOOD)
         judge_reason_add(judge, grade, "%s: %.3g %% of the samples (%.0f of %.0f) miss the "
                          "bound of %.2g %% beside the noise: %s", kind->name, 100 * share,
@@ -37,7 +45,7 @@ static void judge_beyond(Judge *judge, const JudgedKind *kind)
 static void judge_rms(Judge *judge, const JudgedKind *kind)
 {
     const FitErrors *e = kind->errors;
-    double rms = sqrt(e->excess_squares / fmax(1, e->count));
+    double rms = excess_rms(e);
     JudgeGrade grade = judge_reason_grade(rms, JUDGE_RMS_CARE, JUDGE_RMS_UNUSABLE);
     if (grade > JUDGE_GOOD)
         judge_reason_add(judge, grade, "%s: the error is %.3g %% rms beside the noise, wanted "

@@ -7,7 +7,7 @@
 
 /* Samples beyond the bound beside five sigmas of noise; a bound below 2 % counts as 2 %, since
  * luminance meters are calibrated no better. One sample in fifty is an edge of the tables; half
- * of them is another panel. */
+ * of them is another panel, if the rms error below wants care too. */
 #define JUDGE_LEAST_BOUND 0.02
 #define JUDGE_BEYOND_CARE 0.02
 #define JUDGE_BEYOND_UNUSABLE 0.5
