@@ -5,14 +5,16 @@
 #include "base/mathd.h"
 #include "base/parallel.h"
 #include "base/units.h"
-#include "sky/diffuse_light.h"
+#include "sky/air/beam_table.h"
+#include "sky/air/diffuse_light.h"
+#include "sky/air/sphere_light.h"
+#include "sky/sun_position.h"
 
 #define SUN_ANGLES 17
 #define SUN_STEP (1.5 * PI / 180)
-#define SUN_RADIUS 0.00465
-#define COLUMN_HEIGHTS 96
-#define COLUMN_COSINES 192
-#define DENSITY_NODES 2048
+#define SUN_AHEAD 11 /* of them in twilight towards the sun, where its light comes from */
+#define TWILIGHT_FIRST (-2 * PI / 180) /* a sun that is lower: twilight's own light begins */
+#define TWILIGHT_ALONE (-4 * PI / 180) /* and is all there is */
 #define LIGHT_BYTES ((size_t)64 << 20) /* address space for one diffuse_light_build */
 
 /* Tables that the rays share. */
@@ -20,51 +22,11 @@ typedef struct Builder {
     Atmosphere  *atmosphere;
     DiffuseLight light[SUN_ANGLES];
     double       first_zenith; /* of light[0]'s sun */
-    float       *column;  /* [height][cosine][part]: to space */
-    float       *density; /* [node][part], m^-1, evenly over the root of the altitude */
-    Arena       *arena;   /* of the lights: one each */
+    BeamTable    beam;
+    Arena       *arena;   /* of the flat lights: one each */
 } Builder;
 
 /* ---- shared tables ----------------------------------------------------------------------- */
-
-/* Cosine of the floor's edge as seen from an altitude. */
-static double edge_cosine(double altitude_m, double floor_m)
-{
-    double ratio = (AIR_EARTH_M + floor_m) / (AIR_EARTH_M + fmax(altitude_m, floor_m));
-    return -sqrt(fmax(0, 1 - ratio * ratio));
-}
-
-static double table_height(const Builder *b, int i)
-{
-    double share = i / (COLUMN_HEIGHTS - 1.0), floor = b->atmosphere->input.floor_m;
-    return floor + (AIR_TOP_M - floor) * share * share;
-}
-
-static void fill_columns(void *context, int item, int worker)
-{
-    const Builder *b = context;
-    double height = table_height(b, item), edge = edge_cosine(height,
-                                                              b->atmosphere->input.floor_m);
-    (void)worker;
-    for (int j = 0; j < COLUMN_COSINES; j++) {
-        double share = j / (COLUMN_COSINES - 1.0), column[AIR_PARTS];
-        double cosine = edge + (1 - edge) * share * share + 1e-9;
-        air_column(&b->atmosphere->optics, height, cosine, b->atmosphere->input.floor_m - 1,
-                   column);
-        for (int p = 0; p < AIR_PARTS; p++)
-            b->column[(item * COLUMN_COSINES + j) * AIR_PARTS + p] = (float)column[p];
-    }
-}
-
-static void fill_density(Builder *b)
-{
-    for (int i = 0; i < DENSITY_NODES; i++) {
-        double share = i / (DENSITY_NODES - 1.0), z = AIR_TOP_M * share * share;
-        for (int p = 0; p < AIR_PARTS; p++)
-            b->density[i * AIR_PARTS + p] =
-                (float)air_density(&b->atmosphere->optics, (AirPart)p, z);
-    }
-}
 
 static void fill_light(void *context, int item, int worker)
 {
@@ -77,45 +39,6 @@ static void fill_light(void *context, int item, int worker)
 }
 
 /* ---- one point --------------------------------------------------------------------------- */
-
-/* Transmittance from space to a point; below the floor's edge the edge's own. */
-static Spectrum passing_at(const Builder *b, double altitude, double cosine)
-{
-    const AtmosphereInput *in = &b->atmosphere->input;
-    double edge = edge_cosine(altitude, in->floor_m);
-    double y = sqrt(fmax(0, altitude - in->floor_m) / (AIR_TOP_M - in->floor_m)) *
-               (COLUMN_HEIGHTS - 1);
-    double x = sqrt(fmax(0, fmin(1, (cosine - edge) / (1 - edge)))) * (COLUMN_COSINES - 1);
-    int    i = (int)fmin(y, COLUMN_HEIGHTS - 1.001), j = (int)fmin(x, COLUMN_COSINES - 1.001);
-    float  t = (float)(y - i), u = (float)(x - j);
-    const float *low = b->column + (i * COLUMN_COSINES + j) * AIR_PARTS;
-    const float *high = low + COLUMN_COSINES * AIR_PARTS;
-    Spectrum depth = spectrum_all(0);
-    for (int p = 0; p < AIR_PARTS; p++) {
-        float column = lerpf(lerpf(low[p], low[p + AIR_PARTS], u),
-                             lerpf(high[p], high[p + AIR_PARTS], u), t);
-        depth += b->atmosphere->optics.depth[p] * spectrum_all(column);
-    }
-    return spectrum_exp(-depth);
-}
-
-/* How much of the sun's beam reaches a point; the disc sets behind the floor's edge. */
-static Spectrum beam_at(const Builder *b, double altitude, double cosine)
-{
-    double edge = edge_cosine(altitude, b->atmosphere->input.floor_m);
-    double seen = 0.5 + (acos_d(edge) - acos_d(fmax(-1, fmin(1, cosine)))) / (2 * SUN_RADIUS);
-    if (seen <= 0) return spectrum_all(0);
-    return passing_at(b, altitude, cosine) * spectrum_all((float)fmin(1, seen));
-}
-
-static void density_at(const Builder *b, double altitude, float density[AIR_PARTS])
-{
-    double x = sqrt(fmax(0, altitude) / AIR_TOP_M) * (DENSITY_NODES - 1);
-    int    i = (int)fmin(x, DENSITY_NODES - 1.001);
-    for (int p = 0; p < AIR_PARTS; p++)
-        density[p] = lerpf(b->density[i * AIR_PARTS + p],
-                           b->density[(i + 1) * AIR_PARTS + p], (float)(x - i));
-}
 
 /* A ray in the plane of x and z, the observer on the z axis; the sun anywhere. */
 typedef struct AirRay {
@@ -140,22 +63,22 @@ static AirPoint place_at(const AirRay *ray, double distance)
     return (AirPoint){r - AIR_EARTH_M, c, s, fmax(-1, fmin(1, azimuth))};
 }
 
-/* The two tables around a sun angle, and how far between them. */
-static const DiffuseLight *light_at(const Builder *b, double sun_cosine, float *t)
+/* The two tables around a sun angle, and their weights. */
+static const DiffuseLight *light_at(const Builder *b, double sun_cosine, float weight[2])
 {
     double x = (acos_d(fmax(-1, fmin(1, sun_cosine))) - b->first_zenith) / SUN_STEP;
     x = fmax(0, fmin(x, SUN_ANGLES - 1.0001));
-    *t = (float)(x - (int)x);
+    sphere_light_weights((float)(x - (int)x), b->light[(int)x].rise, weight);
     return &b->light[(int)x];
 }
 
 /* ---- one ray ----------------------------------------------------------------------------- */
 
 /* Distance to the floor, or else to space. */
-static double ray_length(const AirRay *ray, double floor_m, bool *meets_floor)
+static double ray_length(const AirRay *ray, const BeamTable *air, bool *meets_floor)
 {
     double r = ray->radius, b = r * ray->direction[2];
-    double floor = AIR_EARTH_M + floor_m, top = AIR_EARTH_M + AIR_TOP_M;
+    double floor = AIR_EARTH_M + air->floor_m, top = AIR_EARTH_M + air->optics.top_m;
     double under = b * b - r * r + floor * floor;
     *meets_floor = b < 0 && under > 0;
     if (*meets_floor) return fmax(0, -b - sqrt(under));
@@ -164,12 +87,13 @@ static double ray_length(const AirRay *ray, double floor_m, bool *meets_floor)
 
 static Spectrum floor_radiance(const Builder *b, const AirPoint *at)
 {
-    float t;
-    const DiffuseLight *light = light_at(b, at->sun_cosine, &t);
-    Spectrum diffuse = light[0].ground_diffuse * spectrum_all(1 - t) +
-                       light[1].ground_diffuse * spectrum_all(t);
-    Spectrum direct = beam_at(b, at->altitude, at->sun_cosine) *
-                      spectrum_all((float)fmax(0, at->sun_cosine));
+    float    weight[2];
+    Spectrum direct;
+    const DiffuseLight *light = light_at(b, at->sun_cosine, weight);
+    Spectrum diffuse = light[0].ground_diffuse * spectrum_all(weight[0]) +
+                       light[1].ground_diffuse * spectrum_all(weight[1]);
+    beam_table_sun(&b->beam, at->altitude, at->sun_cosine, &direct);
+    direct *= spectrum_all((float)fmax(0, at->sun_cosine));
     return (diffuse + direct) *
            spectrum_all((float)(b->atmosphere->input.air.ground_albedo / PI));
 }
@@ -183,33 +107,35 @@ static Gathered march(const Builder *b, const AirRay *ray)
     const Atmosphere *a = b->atmosphere;
     int      steps = a->input.steps;
     bool     meets_floor;
-    double   length = ray_length(ray, a->input.floor_m, &meets_floor), from = 0;
+    double   length = ray_length(ray, &b->beam, &meets_floor), from = 0;
     Spectrum passing = spectrum_all(1), none = spectrum_all(0);
     Gathered sum = {none, none, none};
     for (int i = 0; i < steps; i++) {
         double share = (i + 1.0) / steps, to = length * share * share;
         AirPoint  at = place_at(ray, 0.5 * (from + to));
-        float  density[AIR_PARTS], t, step = (float)(to - from);
-        density_at(b, at.altitude, density);
-        Spectrum depth = none, seen;
+        float  density[AIR_PARTS], weight[2], step = (float)(to - from);
+        beam_table_density(&b->beam, at.altitude, density);
+        Spectrum depth = none, seen, beam;
         for (int p = 0; p < AIR_PARTS; p++)
-            depth += a->optics.depth[p] * spectrum_all(density[p] * step);
+            depth += b->beam.optics.depth[p] * spectrum_all(density[p] * step);
         for (int k = 0; k < SPECTRUM_LANES; k++) /* mean transmittance inside the step */
             seen[k] =
                 depth[k] > 0.01f ? (1 - exp_f(-depth[k])) / depth[k] : 1 - 0.5f * depth[k];
         seen *= passing * spectrum_all(step);
-        Spectrum beam = beam_at(b, at.altitude, at.sun_cosine) * seen;
-        sum.molecules += a->optics.scattering[AIR_MOLECULES] *
-                         spectrum_all(density[AIR_MOLECULES]) * beam;
-        sum.aerosol += a->optics.scattering[AIR_AEROSOL] * spectrum_all(density[AIR_AEROSOL]) *
-                       beam;
-        const DiffuseLight *light = light_at(b, at.sun_cosine, &t);
+        beam_table_sun(&b->beam, at.altitude, at.sun_cosine, &beam);
+        beam *= seen;
+        const Spectrum *scattering = b->beam.optics.scattering;
+        sum.molecules += scattering[AIR_MOLECULES] * spectrum_all(density[AIR_MOLECULES]) *
+                         beam;
+        sum.aerosol += scattering[AIR_AEROSOL] * spectrum_all(density[AIR_AEROSOL]) * beam;
+        const DiffuseLight *light = light_at(b, at.sun_cosine, weight);
         /* the source sends towards the eye: against the ray */
         float c = (float)-at.cosine, z = (float)-at.azimuth_cosine;
         Spectrum source[2];
         diffuse_light_source(&light[0], at.altitude, c, z, &source[0]);
         diffuse_light_source(&light[1], at.altitude, c, z, &source[1]);
-        sum.rest += seen * (source[0] * spectrum_all(1 - t) + source[1] * spectrum_all(t));
+        sum.rest += seen * (source[0] * spectrum_all(weight[0]) +
+                            source[1] * spectrum_all(weight[1]));
         passing *= spectrum_exp(-depth);
         from = to;
     }
@@ -255,8 +181,8 @@ static Spectrum *spectra(Arena *arena, size_t count)
     return arena_alloc(arena, sizeof(Spectrum), 64, count);
 }
 
-/* One arena a light, so that threads can fill them side by side. */
-static void build_lights(Builder *b, Arena *scratch)
+/* Flat layers by day. One arena a light, so that threads can fill them side by side. */
+static void build_flat_lights(Builder *b, Arena *scratch)
 {
     b->arena = ARENA_NEW(scratch, Arena, SUN_ANGLES);
     for (int i = 0; i < SUN_ANGLES; i++) b->arena[i] = arena_reserve(LIGHT_BYTES);
@@ -265,32 +191,116 @@ static void build_lights(Builder *b, Arena *scratch)
     parallel_for(b->atmosphere->input.threads, SUN_ANGLES, fill_light, b);
 }
 
+static void build_sphere_lights(Builder *b, Arena *scratch)
+{
+    const AtmosphereInput *in = &b->atmosphere->input;
+    b->first_zenith = fmin(PI - SUN_STEP * (SUN_ANGLES - 1),
+                           PI / 2 - in->sun_elevation - SUN_STEP * SUN_AHEAD);
+    SphereInput input = {&b->beam, in->air.ground_albedo, b->first_zenith, SUN_STEP, SUN_ANGLES,
+                         0, in->threads};
+    sphere_light_build(&input, scratch, b->light);
+}
+
+/* Fills *out, whose input and tables are there, for the air of `optics`. */
+static void build_tables(Atmosphere *out, const AirOptics *optics, bool in_twilight,
+                         Arena scratch)
+{
+    const AtmosphereInput *in = &out->input;
+    Builder *b = arena_alloc(&scratch, sizeof *b, 64, 1);
+    b->atmosphere = out;
+    if (in_twilight) {
+        beam_table_build_bent(optics, in->floor_m, in->threads, &scratch, &b->beam);
+        build_sphere_lights(b, &scratch);
+    } else {
+        beam_table_build(optics, in->floor_m, in->threads, &scratch, &b->beam);
+        build_flat_lights(b, &scratch);
+    }
+    parallel_for(in->threads, 2 * ATMOSPHERE_ROWS, fill_row, b);
+    beam_table_passing(&b->beam, in->observer_m, sin_d(in->sun_elevation), &out->sun_passing);
+    AirPoint under = {in->floor_m, 1, sin_d(in->sun_elevation), 1};
+    out->floor_exitance = floor_radiance(b, &under) * spectrum_all(PI_F);
+    for (int i = 0; i < SUN_ANGLES && b->arena; i++) arena_release(&b->arena[i]);
+}
+
+static void take_tables(Atmosphere *out, Arena *arena)
+{
+    size_t count = (size_t)2 * ATMOSPHERE_ROWS * ATMOSPHERE_COLUMNS;
+    out->molecules = spectra(arena, count);
+    out->aerosol = spectra(arena, count);
+    out->rest = spectra(arena, count);
+}
+
+static void mix(Spectrum *to, const Spectrum *with, size_t count, float share)
+{
+    for (size_t i = 0; i < count; i++)
+        to[i] = to[i] * spectrum_all(1 - share) + with[i] * spectrum_all(share);
+}
+
+/* Where the sun stands if it is seen at an elevation: refraction has lifted it. */
+static double true_elevation(const AtmosphereInput *in)
+{
+    double mbar, celsius, place = in->sun_elevation;
+    standard_atmosphere(in->observer_m, &mbar, &celsius);
+    for (int i = 0; i < 30; i++)
+        place = in->sun_elevation -
+                radians_from_degrees(sun_refraction_deg(degrees_from_radians(place), mbar,
+                                                        celsius));
+    return place;
+}
+
+/* The disc itself is seen straight, as by day: from an aircraft it may still be up. */
+static void see_sun(Atmosphere *out)
+{
+    const AtmosphereInput *in = &out->input;
+    double column[AIR_PARTS], cosine = sin_d(fmax(in->sun_elevation, out->horizon)) + 1e-9;
+    Spectrum depth = spectrum_all(0);
+    air_column(&out->optics, in->observer_m, cosine, in->floor_m - 1, column);
+    for (int p = 0; p < AIR_PARTS; p++)
+        depth += out->optics.depth[p] * spectrum_all((float)column[p]);
+    out->sun_passing = spectrum_exp(-depth);
+}
+
+/* By day the table as it is; below TWILIGHT_ALONE twilight's; in between a mixture. */
+static void add_twilight(Atmosphere *out, float share, Arena scratch)
+{
+    size_t     count = (size_t)2 * ATMOSPHERE_ROWS * ATMOSPHERE_COLUMNS;
+    AirOptics  optics = out->optics;
+    Atmosphere twilight = *out;
+    optics.top_m = AIR_HIGHEST_TOP_M;
+    twilight.input.sun_elevation = true_elevation(&out->input);
+    if (share < 1) take_tables(&twilight, &scratch);
+    build_tables(&twilight, &optics, true, scratch);
+    if (share < 1) {
+        mix(out->molecules, twilight.molecules, count, share);
+        mix(out->aerosol, twilight.aerosol, count, share);
+        mix(out->rest, twilight.rest, count, share);
+    }
+    if (share >= 1) see_sun(out);
+    mix(&out->floor_exitance, &twilight.floor_exitance, 1, share);
+}
+
+/* Smooth, with no corner at either end. */
+static float twilight_share(double sun_elevation)
+{
+    double x = (TWILIGHT_FIRST - sun_elevation) / (TWILIGHT_FIRST - TWILIGHT_ALONE);
+    x = fmax(0, fmin(1, x));
+    return (float)(x * x * (3 - 2 * x));
+}
+
 bool atmosphere_build(const AtmosphereInput *input, Arena *arena, Atmosphere *out, Error *err)
 {
     if (!(input->observer_m >= input->floor_m && input->observer_m <= 60000))
         return error_set(err, ERROR_INPUT, "the observer stands at %g m, wanted between the "
                          "ground (or cloud deck) at %g m and 60000 m", input->observer_m,
                          input->floor_m);
-    size_t count = (size_t)2 * ATMOSPHERE_ROWS * ATMOSPHERE_COLUMNS;
     *out = (Atmosphere){.input = *input, .optics = air_optics(&input->air)};
     if (!out->input.steps) out->input.steps = 48;
-    out->molecules = spectra(arena, count);
-    out->aerosol = spectra(arena, count);
-    out->rest = spectra(arena, count);
+    take_tables(out, arena);
     out->horizon = -acos_d((AIR_EARTH_M + input->floor_m) / (AIR_EARTH_M + input->observer_m));
-    Arena    scratch = *arena;
-    Builder *b = ARENA_NEW(&scratch, Builder, 1);
-    b->atmosphere = out;
-    b->column = ARENA_NEW(&scratch, float, COLUMN_HEIGHTS * COLUMN_COSINES * AIR_PARTS);
-    b->density = ARENA_NEW(&scratch, float, DENSITY_NODES * AIR_PARTS);
-    fill_density(b);
-    parallel_for(input->threads, COLUMN_HEIGHTS, fill_columns, b);
-    build_lights(b, &scratch);
-    parallel_for(input->threads, 2 * ATMOSPHERE_ROWS, fill_row, b);
-    out->sun_passing = passing_at(b, input->observer_m, sin_d(input->sun_elevation));
-    AirPoint under = {input->floor_m, 1, sin_d(input->sun_elevation), 1};
-    out->floor_exitance = floor_radiance(b, &under) * spectrum_all(PI_F);
-    for (int i = 0; i < SUN_ANGLES; i++) arena_release(&b->arena[i]);
+    float share = twilight_share(input->sun_elevation);
+    out->sun_passing = out->floor_exitance = spectrum_all(0);
+    if (share < 1) build_tables(out, &out->optics, false, *arena);
+    if (share > 0) add_twilight(out, share, *arena);
     return true;
 }
 

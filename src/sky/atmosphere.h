@@ -6,21 +6,29 @@
  * altitude and albedo. What is left out: polarisation, refraction of sky light, clouds above
  * the observer, the floor's relief; water vapour and oxygen are the caller's (spectrl2.h).
  *
+ * Twilight  A sun seen lower than -2 degrees lights air up to 120 km by bent rays from its true
+ *           place (beam_table.h), and light scattered more often travels through the sphere
+ *           (sphere_light.h): from -2 to -4 degrees mixed with the day's, below alone. Of the
+ *           published illuminance (Explanatory Supplement to the Astronomical Almanac 1992,
+ *           p. 491) the horizontal one, with the night's (night_background.h), is 1.12 at 0
+ *           degrees, 1.08 at -3, 0.93 at -6, 0.85 at -9, 0.71 at -12, 0.48 at -15.
+ *
  * Frame     elevation from the observer's horizontal, azimuth from the sun's, radians.
  * Units     radiance in sr^-1 per unit of the sun's spectral irradiance outside the air, at the
  *           16 wavelengths of air.h.
- * Memory    the arena's, about 6 MB. Threads: const once built.
+ * Memory    the arena's, about 6 MB, 40 MB more while it builds. Threads: const once built.
  * Fails     on an observer below the floor or above 60 km.
  */
 #pragma once
 #include "base/arena.h"
 #include "base/error.h"
-#include "sky/air.h"
+#include "sky/air/air.h"
 
 typedef struct AtmosphereInput {
     Air    air;              /* pressure: at sea level; ground_albedo: of the floor */
     double observer_m, floor_m; /* above sea level */
-    double sun_elevation; /* radians, as seen: its light is taken to come straight from there */
+    double sun_elevation; /* radians, as seen: by day its light is taken to come straight from
+                           * there, in twilight from where refraction lifts it from */
     int    threads;
     int    steps;            /* of a ray; 0: 48 */
 } AtmosphereInput;

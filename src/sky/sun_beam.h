@@ -8,7 +8,7 @@
  * Units    metres, radians, lx, W m^-2 (300..4000 nm). Threads: a pure function. Fails: never.
  */
 #pragma once
-#include "sky/air.h"
+#include "sky/air/air.h"
 
 #define SUN_BEAM_WATER_SCALE_M 2000.0
 

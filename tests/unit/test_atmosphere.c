@@ -4,7 +4,7 @@
 
 #include "base/units.h"
 #include "fixture.h"
-#include "sky/diffuse_light.h"
+#include "sky/air/diffuse_light.h"
 #include "sky/daylight.h"
 #include "sky/sun_disc.h"
 #include "spectrum/photometry.h"

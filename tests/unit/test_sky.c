@@ -5,7 +5,7 @@
 #include "fixture.h"
 #include "sky/epw.h"
 #include "sky/sky_shape.h"
-#include "sky/spectrl2.h"
+#include "sky/air/spectrl2.h"
 #include "sky/sun_disc.h"
 #include "sky/sun_position.h"
 #include "spectrum/spectral_table.h"

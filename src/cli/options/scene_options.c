@@ -36,10 +36,10 @@ bool scene_options_read(const SceneWords *words, const Cli *cli, Arena *arena,
                            &options->light_levels, err);
 }
 
-#define TWILIGHT_DEG 4.0
+#define TWILIGHT_DEG 10.0
 #define FAINT_TWILIGHT                                                                         \
-    " — from about 4 degrees on the sky is darker than a real twilight (0.4 of it at 6, 0.05 " \
-    "at 9)"
+    " — from about 10 degrees on the sky is darker than a real twilight (by a third at 12, " \
+    "by half at 15)"
 
 /* A sky whose sun is down is no error, but the frame may be darker than was meant. */
 static void tell_of_night(const Environment *environment, Problems *problems)

@@ -1,4 +1,4 @@
-#include "sky/air.h"
+#include "sky/air/air.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -21,7 +21,7 @@ static const double ozone_absorption[SPECTRUM_LANES] = {
 
 AirOptics air_optics(const Air *air)
 {
-    AirOptics o = {{spectrum_all(0)}, {spectrum_all(0)}, 0};
+    AirOptics o = {{spectrum_all(0)}, {spectrum_all(0)}, 0, AIR_TOP_M};
     double layer = fmin(STRATOSPHERIC_DEPTH, air->aerosol_depth);
     o.aerosol_low = air->aerosol_depth > 0 ? 1 - layer / air->aerosol_depth : 0;
     for (int i = 0; i < SPECTRUM_LANES; i++) {
@@ -45,11 +45,12 @@ static double pressure_share(double altitude_m)
     static const struct {
         double base_m, kelvin, lapse;
     } layers[] = {{0, 288.15, -0.0065}, {11000, 216.65, 0}, {20000, 216.65, 0.001},
-                  {32000, 228.65, 0.0028}, {47000, 270.65, 0}, {51000, 270.65, -0.0028}};
+                  {32000, 228.65, 0.0028}, {47000, 270.65, 0}, {51000, 270.65, -0.0028},
+                  {71000, 214.65, -0.002}, {84852, 186.946, 0}};
     const double g_over_r = 0.0341632; /* K m^-1 */
     double share = 1;
-    for (int i = 0; i < 6; i++) {
-        double top = i < 5 ? layers[i + 1].base_m : 1e9, t = layers[i].kelvin;
+    for (int i = 0; i < 8; i++) {
+        double top = i < 7 ? layers[i + 1].base_m : 1e9, t = layers[i].kelvin;
         double rise = fmin(altitude_m, top) - layers[i].base_m;
         if (rise <= 0 && i) break;
         share *= layers[i].lapse == 0
@@ -68,10 +69,10 @@ static double tent_above(double altitude_m)
 /* Share of a part's column that lies above an altitude. */
 static double share_above(const AirOptics *optics, AirPart part, double altitude_m)
 {
-    if (altitude_m >= AIR_TOP_M) return 0;
+    if (altitude_m >= optics->top_m) return 0;
     switch (part) {
     case AIR_MOLECULES: {
-        double top = pressure_share(AIR_TOP_M);
+        double top = pressure_share(optics->top_m);
         return (pressure_share(altitude_m) - top) / (1 - top);
     }
     case AIR_AEROSOL: {
@@ -103,8 +104,8 @@ static void add_shells(const AirOptics *optics, double from_m, double perigee,
                        double column[AIR_PARTS])
 {
     double low = from_m;
-    for (int i = 1; low < AIR_TOP_M; i++) {
-        double high = fmin(AIR_TOP_M, from_m + 2.0 * i * i * i + 40.0 * i), part[AIR_PARTS];
+    for (int i = 1; low < optics->top_m; i++) {
+        double high = fmin(optics->top_m, from_m + 2.0 * i * i * i + 40.0 * i), part[AIR_PARTS];
         double a = AIR_EARTH_M + low, b = AIR_EARTH_M + high;
         double path = sqrt(fmax(0, b * b - perigee * perigee)) -
                       sqrt(fmax(0, a * a - perigee * perigee));

@@ -7,15 +7,18 @@
  * Shapes    lanes of a Spectrum are AIR_NM[0..15]; columns are shares of the vertical column
  *           from sea level to space, so that optical depth = depth * column.
  * Units     metres, radians, nm; density in m^-1 (its integral from sea level is 1).
- * Sources   density: ISO 2533 standard atmosphere; ozone: a tent from 10 to 40 km; aerosol: an
- *           exponential of 1.5 km scale height and a thin stratospheric layer at 20 km.
+ * Sources   density: ISO 2533 standard atmosphere, isothermal above 84.9 km (the U.S. Standard
+ *           Atmosphere 1976 has 1.4 times that at 100 km); ozone: a tent from 10 to 40 km;
+ *           aerosol: an exponential of 1.5 km scale height and a thin stratospheric layer at
+ *           20 km.
  * Threads   pure functions of constants.
  */
 #pragma once
-#include "sky/spectrl2.h"
+#include "sky/air/spectrl2.h"
 #include "spectrum/spectrum.h"
 
-#define AIR_TOP_M 70000.0
+#define AIR_TOP_M 70000.0           /* where a daylit sky may end */
+#define AIR_HIGHEST_TOP_M 120000.0  /* seen while the sun is far below the horizon */
 #define AIR_EARTH_M 6371000.0
 #define AIR_ASYMMETRY 0.65f
 
@@ -27,9 +30,11 @@ typedef struct AirOptics {
     Spectrum depth[AIR_PARTS];     /* vertical optical depth from sea level */
     Spectrum scattering[AIR_PARTS]; /* of that, by scattering */
     double   aerosol_low;          /* share of the aerosol that lies in the boundary layer */
+    double   top_m;                /* there is no air above */
 } AirOptics;
 
-/* air->pressure_mbar: at sea level. */
+/* air->pressure_mbar: at sea level. The top is AIR_TOP_M; a caller may set another, at most
+ * AIR_HIGHEST_TOP_M. */
 AirOptics air_optics(const Air *air);
 
 /* Density of a part at an altitude, m^-1. */

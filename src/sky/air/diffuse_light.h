@@ -2,10 +2,9 @@
  *
  * Successive orders of scattering in a plane-parallel atmosphere over a Lambertian ground, lit
  * by a sun whose beam takes its true, spherical way (pseudo-spherical; Dahlback and Stamnes
- * 1991): good until the sun is about 4 degrees below the horizon. Light from lit air beyond the
- * Earth's shadow is not scattered again: less and less of the published twilight is left below,
- * 0.40 of it at -6 degrees, 0.05 at -9. Directions: 8 Gauss cosines a side, azimuth as a cosine
- * series (Chandrasekhar 1960, chapter 6).
+ * 1991): good until the sun is about 4 degrees below the horizon; below, where light comes from
+ * lit air beyond the Earth's shadow, sphere_light.h fills the same tables. Directions: 8 Gauss
+ * cosines a side, azimuth as a cosine series (Chandrasekhar 1960, chapter 6).
  *
  * Units     per unit of the sun's spectral irradiance outside the air: sources in sr^-1 m^-1,
  *           irradiances without unit. Lanes as air.h.
@@ -13,7 +12,7 @@
  */
 #pragma once
 #include "base/arena.h"
-#include "sky/air.h"
+#include "sky/air/air.h"
 
 #define DIFFUSE_LEVELS 48
 #define DIFFUSE_MODES 6
@@ -21,12 +20,15 @@
 
 typedef struct DiffuseLight {
     double floor_m;   /* where the ground or the cloud deck is */
-    double sun_cosine;
-    double level_m[DIFFUSE_LEVELS]; /* rising from the floor to the top */
+    double sun_cosine, top_m;
+    int    level_count;
+    double level_m[DIFFUSE_LEVELS]; /* rising from the floor to the top, as diffuse_level_m */
     /* What is scattered into a direction at a level, m^-1 sr^-1, from light that was scattered
      * or reflected before: [level][cosine][mode]; sum over modes of source cos(mode * azimuth),
      * azimuth from the sun's. */
     Spectrum *source;
+    float rise; /* logarithm of the next sun angle's light over this one's, where that is how
+                 * light lies between the two; 0: it lies on a straight line */
     Spectrum  ground_direct, ground_diffuse; /* irradiance on the floor */
     Spectrum  top_exitance; /* what leaves for space */
 } DiffuseLight;
@@ -39,6 +41,9 @@ typedef struct DiffuseInput {
 } DiffuseInput;
 
 void diffuse_light_build(const DiffuseInput *input, Arena *arena, DiffuseLight *out);
+
+/* Altitude of a level: close together near the floor, where the aerosol is. */
+double diffuse_level_m(const DiffuseLight *light, int level);
 
 /* Source at an altitude towards a direction (cosine to the zenith, cosine of its azimuth from
  * the sun's). By pointer, because every build of the hot sources calls this one. */

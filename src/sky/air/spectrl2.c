@@ -1,4 +1,4 @@
-#include "sky/spectrl2.h"
+#include "sky/air/spectrl2.h"
 
 #include <math.h>
 

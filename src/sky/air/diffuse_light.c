@@ -1,22 +1,15 @@
-#include "sky/diffuse_light.h"
+#include "sky/air/diffuse_light.h"
 
 #include <math.h>
 
 #include "base/mathd.h"
 #include "base/units.h"
+#include "sky/air/phase_series.h"
 
-#define SIDE 8 /* Gauss cosines up, and down */
+#define SIDE PHASE_SIDE
 #define DIRECTIONS (2 * SIDE)
-#define MOMENTS 16
+#define MOMENTS PHASE_MOMENTS
 #define ORDERS_MAX 60
-
-/* Gauss-Legendre on [0, 1]. */
-static const double gauss_cosine[SIDE] = {
-    0.01985507175123188, 0.10166676129318663, 0.23723379504183550, 0.40828267875217511,
-    0.59171732124782489, 0.76276620495816450, 0.89833323870681337, 0.98014492824876812};
-static const double gauss_weight[SIDE] = {
-    0.05061426814518813, 0.11119051722668724, 0.15685332293894364, 0.18134189168918099,
-    0.18134189168918099, 0.15685332293894364, 0.11119051722668724, 0.05061426814518813};
 
 /* Phase functions as series in the azimuth between two directions, for each scatterer. */
 typedef struct PhaseModes {
@@ -44,62 +37,40 @@ static size_t slot(int level, int direction, int mode)
     return ((size_t)level * DIRECTIONS + (size_t)direction) * DIFFUSE_MODES + (size_t)mode;
 }
 
-/* Associated Legendre functions with sqrt((l-m)!/(l+m)!), for one m, l = 0 .. MOMENTS - 1. */
-static void legendre(int m, double x, double value[MOMENTS])
-{
-    double sine = sqrt(fmax(0, 1 - x * x)), start = 1;
-    for (int k = 1; k <= m; k++) start *= -sine * sqrt((2 * k - 1) / (2.0 * k));
-    for (int l = 0; l < MOMENTS; l++) value[l] = 0;
-    if (m >= MOMENTS) return;
-    value[m] = start;
-    if (m + 1 < MOMENTS) value[m + 1] = x * sqrt(2 * m + 1.0) * start;
-    for (int l = m + 2; l < MOMENTS; l++)
-        value[l] = ((2 * l - 1) * x * value[l - 1] -
-                    sqrt((l - 1.0) * (l - 1) - m * m) * value[l - 2]) /
-                   sqrt((double)l * l - m * m);
-}
-
-/* Mode m of the phase function (sr^-1 times 4 pi) between two cosines. */
-static float phase_mode(AirPart part, const double a[MOMENTS], const double b[MOMENTS], int m)
-{
-    double sum = 0, moment = 1;
-    for (int l = 0; l < MOMENTS; l++) {
-        double of_molecules = l == 0 ? 1 : l == 2 ? 0.1 : 0;
-        if (l >= m) sum += (2 * l + 1) * (part == AIR_MOLECULES ? of_molecules : moment) *
-                           a[l] * b[l];
-        moment *= (double)AIR_ASYMMETRY;
-    }
-    return (float)sum;
-}
-
 static void fill_phase(Solver *s)
 {
     double at[DIRECTIONS][MOMENTS], sun[MOMENTS], outwards[DIFFUSE_COSINES][MOMENTS];
     for (int m = 0; m < DIFFUSE_MODES; m++) {
-        for (int i = 0; i < DIRECTIONS; i++) legendre(m, s->direction[i], at[i]);
+        for (int i = 0; i < DIRECTIONS; i++) phase_legendre(m, s->direction[i], at[i]);
         for (int i = 0; i < DIFFUSE_COSINES; i++)
-            legendre(m, -1 + 2.0 * i / (DIFFUSE_COSINES - 1), outwards[i]);
-        legendre(m, -s->input->sun_cosine, sun); /* the beam travels down */
+            phase_legendre(m, -1 + 2.0 * i / (DIFFUSE_COSINES - 1), outwards[i]);
+        phase_legendre(m, -s->input->sun_cosine, sun); /* the beam travels down */
         for (int p = 0; p < 2; p++)
             for (int j = 0; j < DIRECTIONS; j++) {
                 for (int i = 0; i < DIRECTIONS; i++)
-                    s->phase->between[p][m][i][j] = phase_mode((AirPart)p, at[i], at[j], m);
+                    s->phase->between[p][m][i][j] = phase_series_mode((AirPart)p, at[i], at[j],
+                                                                      m);
                 for (int i = 0; i < DIFFUSE_COSINES; i++)
-                    s->phase->outwards[p][m][i][j] = phase_mode((AirPart)p, outwards[i], at[j],
-                                                               m);
-                s->phase->from_sun[p][m][j] = phase_mode((AirPart)p, at[j], sun, m);
+                    s->phase->outwards[p][m][i][j] = phase_series_mode((AirPart)p, outwards[i],
+                                                                       at[j], m);
+                s->phase->from_sun[p][m][j] = phase_series_mode((AirPart)p, at[j], sun, m);
             }
     }
 }
 
-/* Levels close together near the floor, where the aerosol is. */
+double diffuse_level_m(const DiffuseLight *light, int level)
+{
+    return light->floor_m + (light->top_m - light->floor_m) *
+                            pow_d(level / (light->level_count - 1.0), 2.2);
+}
+
 static void fill_levels(Solver *s)
 {
     const AirOptics *o = s->input->optics;
     DiffuseLight    *light = s->light;
-    double height = AIR_TOP_M - light->floor_m, column[AIR_PARTS];
+    double column[AIR_PARTS];
     for (int k = 0; k < DIFFUSE_LEVELS; k++) {
-        double z = light->floor_m + height * pow_d(k / (DIFFUSE_LEVELS - 1.0), 2.2);
+        double z = diffuse_level_m(light, k);
         light->level_m[k] = z;
         for (int p = 0; p < 2; p++)
             s->scattering[p][k] = o->scattering[p] *
@@ -137,7 +108,7 @@ static Spectrum scattered(const Solver *s, const Spectrum *from, int level, int 
     Spectrum sum[2] = {spectrum_all(0), spectrum_all(0)};
     for (int p = mode > 2; p < 2; p++) /* molecules have three modes */
         for (int j = 0; j < DIRECTIONS; j++)
-            sum[p] += spectrum_all(phase[p][j] * (float)gauss_weight[j % SIDE]) *
+            sum[p] += spectrum_all(phase[p][j] * (float)phase_weight[j % SIDE]) *
                       from[slot(level, j, mode)];
     return (s->scattering[0][level] * sum[0] + s->scattering[1][level] * sum[1]) *
            spectrum_all(0.5f);
@@ -178,7 +149,7 @@ static void reflect_on_floor(Solver *s, bool with_beam)
     Spectrum down = spectrum_all(0);
     for (int j = 0; j < SIDE; j++)
         down += s->radiance[slot(0, SIDE + j, 0)] *
-                spectrum_all((float)(2 * PI * gauss_weight[j] * gauss_cosine[j]));
+                spectrum_all((float)(2 * PI * phase_weight[j] * phase_cosine[j]));
     s->light->ground_diffuse += down;
     if (with_beam) down += s->light->ground_direct;
     Spectrum up = down * spectrum_all((float)(s->input->floor_albedo / PI));
@@ -196,7 +167,7 @@ static void transport(Solver *s, bool with_beam)
             s->radiance[slot(top, SIDE + i, m)] = spectrum_all(0);
             for (int k = top - 1; k >= 0; k--)
                 s->radiance[slot(k, SIDE + i, m)] = cross_layer(
-                    s, k, (float)gauss_cosine[i], s->radiance[slot(k + 1, SIDE + i, m)],
+                    s, k, (float)phase_cosine[i], s->radiance[slot(k + 1, SIDE + i, m)],
                     s->order_source[slot(k + 1, SIDE + i, m)],
                     s->order_source[slot(k, SIDE + i, m)]);
         }
@@ -205,7 +176,7 @@ static void transport(Solver *s, bool with_beam)
         for (int m = 0; m < DIFFUSE_MODES; m++)
             for (int k = 0; k < top; k++)
                 s->radiance[slot(k + 1, i, m)] = cross_layer(
-                    s, k, (float)gauss_cosine[i], s->radiance[slot(k, i, m)],
+                    s, k, (float)phase_cosine[i], s->radiance[slot(k, i, m)],
                     s->order_source[slot(k, i, m)], s->order_source[slot(k + 1, i, m)]);
 }
 
@@ -213,8 +184,8 @@ static void leave_at_top(Solver *s)
 {
     for (int i = 0; i < SIDE; i++)
         s->light->top_exitance += s->total[slot(DIFFUSE_LEVELS - 1, i, 0)] *
-                                  spectrum_all((float)(2 * PI * gauss_weight[i] *
-                                                       gauss_cosine[i]));
+                                  spectrum_all((float)(2 * PI * phase_weight[i] *
+                                                       phase_cosine[i]));
 }
 
 /* Adds an order to the total; returns its greatest share of it. */
@@ -256,6 +227,7 @@ void diffuse_light_build(const DiffuseInput *input, Arena *arena, DiffuseLight *
     double direction[DIRECTIONS];
     size_t slots = slot(DIFFUSE_LEVELS, 0, 0);
     *out = (DiffuseLight){.floor_m = input->floor_m, .sun_cosine = input->sun_cosine,
+                          .top_m = input->optics->top_m, .level_count = DIFFUSE_LEVELS,
                           .ground_direct = spectrum_all(0), .ground_diffuse = spectrum_all(0),
                           .top_exitance = spectrum_all(0)};
     out->source = spectra(arena, (size_t)DIFFUSE_LEVELS * DIFFUSE_COSINES * DIFFUSE_MODES);
@@ -263,8 +235,8 @@ void diffuse_light_build(const DiffuseInput *input, Arena *arena, DiffuseLight *
     Solver s = {.input = input, .light = out, .direction = direction,
                 .phase = ARENA_NEW(&scratch, PhaseModes, 1)};
     for (int i = 0; i < SIDE; i++) {
-        direction[i] = gauss_cosine[i];
-        direction[SIDE + i] = -gauss_cosine[i];
+        direction[i] = phase_cosine[i];
+        direction[SIDE + i] = -phase_cosine[i];
     }
     for (int p = 0; p < 2; p++) s.scattering[p] = spectra(&scratch, DIFFUSE_LEVELS);
     s.beam = spectra(&scratch, DIFFUSE_LEVELS);
@@ -291,8 +263,9 @@ void diffuse_light_build(const DiffuseInput *input, Arena *arena, DiffuseLight *
 void diffuse_light_source(const DiffuseLight *light, double altitude_m, float cosine,
                           float azimuth_cosine, Spectrum *out)
 {
-    double share = fmax(0, (altitude_m - light->floor_m) / (AIR_TOP_M - light->floor_m));
-    double at = fmin(pow_d(share, 1 / 2.2) * (DIFFUSE_LEVELS - 1), DIFFUSE_LEVELS - 1.0001);
+    double share = fmax(0, (altitude_m - light->floor_m) / (light->top_m - light->floor_m));
+    double at = fmin(pow_d(share, 1 / 2.2) * (light->level_count - 1),
+                     light->level_count - 1.0001);
     int    k = (int)at;
     float  t = (float)((altitude_m - light->level_m[k]) /
                        (light->level_m[k + 1] - light->level_m[k]));
