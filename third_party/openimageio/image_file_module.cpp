@@ -1,4 +1,4 @@
-#include "openimageio/image_file.h"
+#include "openimageio/image_file_module.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -85,7 +85,7 @@ static bool open_input(ImageDecoder *decoder, const char *format, const char *na
     return true;
 }
 
-bool image_decoder_create(const char *format, const char *name, const void *bytes, size_t size,
+static bool decoder_create(const char *format, const char *name, const void *bytes, size_t size,
                           ImageDecoder **out, Error *err)
 {
     return guarded(err, "reading a picture", [&] {
@@ -96,12 +96,12 @@ bool image_decoder_create(const char *format, const char *name, const void *byte
     });
 }
 
-ImageFileInfo image_decoder_info(const ImageDecoder *decoder)
+static ImageFileInfo decoder_info(const ImageDecoder *decoder)
 {
     return decoder->info;
 }
 
-bool image_decoder_read(ImageDecoder *decoder, void *pixels, Error *err)
+static bool decoder_read(ImageDecoder *decoder, void *pixels, Error *err)
 {
     return guarded(err, "reading a picture", [&] {
         const ImageFileInfo &info = decoder->info;
@@ -113,7 +113,7 @@ bool image_decoder_read(ImageDecoder *decoder, void *pixels, Error *err)
     });
 }
 
-void image_decoder_destroy(ImageDecoder *decoder)
+static void decoder_destroy(ImageDecoder *decoder)
 {
     delete decoder;
 }
@@ -149,7 +149,7 @@ static OIIO::ImageSpec output_spec(const char *format, const ImageToEncode *imag
     return spec;
 }
 
-bool image_encode(const char *format, const ImageToEncode *image, EncodedImage **out,
+static bool encode(const char *format, const ImageToEncode *image, EncodedImage **out,
                   Error *err)
 {
     return guarded(err, "encoding a picture", [&] {
@@ -174,13 +174,18 @@ bool image_encode(const char *format, const ImageToEncode *image, EncodedImage *
     });
 }
 
-const void *encoded_image_bytes(const EncodedImage *encoded, size_t *size)
+static const void *encoded_bytes(const EncodedImage *encoded, size_t *size)
 {
     *size = encoded->bytes.size();
     return encoded->bytes.data();
 }
 
-void encoded_image_destroy(EncodedImage *encoded)
+static void encoded_destroy(EncodedImage *encoded)
 {
     delete encoded;
 }
+
+extern "C" const ImageFileModule image_file_module = {
+    decoder_create, decoder_info, decoder_read, decoder_destroy, encode, encoded_bytes,
+    encoded_destroy,
+};

@@ -1,0 +1,79 @@
+#include "openimageio/image_file.h"
+
+#include <dlfcn.h>
+#include <limits.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "openimageio/image_file_module.h"
+
+/* The module lies beside the program, wherever that is and however it was started. */
+static bool module_path(char path[static PATH_MAX], Error *err)
+{
+    ssize_t length = readlink("/proc/self/exe", path, PATH_MAX - 1);
+    while (length > 0 && path[length - 1] != '/') length--;
+    if (length <= 0 || (size_t)length + sizeof PICTURES_MODULE > PATH_MAX)
+        return error_set(err, ERROR_LIBRARY, "/proc/self/exe does not tell where the program is");
+    memcpy(path + length, PICTURES_MODULE, sizeof PICTURES_MODULE);
+    return true;
+}
+
+/* Loading again is a lookup by name, so that nothing has to be remembered here; the module stays
+ * until the program ends. */
+static const ImageFileModule *load(Error *err)
+{
+    char path[PATH_MAX];
+    if (!module_path(path, err)) return NULL;
+    void *module = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    const ImageFileModule *table = module ? dlsym(module, "image_file_module") : NULL;
+    if (!table)
+        error_set(err, ERROR_LIBRARY, "a part of the program is not beside it: %s", dlerror());
+    return table;
+}
+
+bool image_decoder_create(const char *format, const char *name, const void *bytes, size_t size,
+                          ImageDecoder **out, Error *err)
+{
+    const ImageFileModule *module = load(err);
+    return module && module->decoder_create(format, name, bytes, size, out, err);
+}
+
+bool image_encode(const char *format, const ImageToEncode *image, EncodedImage **out,
+                  Error *err)
+{
+    const ImageFileModule *module = load(err);
+    return module && module->encode(format, image, out, err);
+}
+
+/* For what holds a handle, and so has loaded the module before. */
+static const ImageFileModule *loaded(void)
+{
+    Error never;
+    return load(&never);
+}
+
+
+ImageFileInfo image_decoder_info(const ImageDecoder *decoder)
+{
+    return loaded()->decoder_info(decoder);
+}
+
+bool image_decoder_read(ImageDecoder *decoder, void *pixels, Error *err)
+{
+    return loaded()->decoder_read(decoder, pixels, err);
+}
+
+void image_decoder_destroy(ImageDecoder *decoder)
+{
+    if (decoder) loaded()->decoder_destroy(decoder);
+}
+
+const void *encoded_image_bytes(const EncodedImage *encoded, size_t *size)
+{
+    return loaded()->encoded_bytes(encoded, size);
+}
+
+void encoded_image_destroy(EncodedImage *encoded)
+{
+    if (encoded) loaded()->encoded_destroy(encoded);
+}
