@@ -1,6 +1,7 @@
 #include "path/surface.h"
 
 #include "light/coverage.h"
+#include "shaders/common_tables.h"
 #include "shaders/microfacet.h"
 
 /* A shading normal is bent until the eye is above its plane by this much. */
@@ -18,6 +19,7 @@ static const CoatTable *coat_on(const Scene *scene, int material_id,
 {
     const Material *m = scene->materials;
     if (!(m[material_id].clearcoat > 0)) return NULL;
+    if (m[material_id].ior == CLEARCOAT_IOR) return &common_coat_table;
     for (int i = 0; i < material_id; i++)
         if (tables->on_material[i] && m[i].ior == m[material_id].ior)
             return tables->on_material[i];
@@ -29,7 +31,7 @@ const SurfaceTables *surface_tables_build(const Scene *scene, Arena *arena)
     SurfaceTables *tables = ARENA_NEW(arena, SurfaceTables, 1);
     tables->of_material = ARENA_NEW(arena, const EnergyTable *, scene->material_count + 1);
     tables->on_material = ARENA_NEW(arena, const CoatTable *, scene->material_count + 1);
-    tables->of_coat = energy_table_build(CLEARCOAT_IOR, arena);
+    tables->of_coat = &common_energy_table;
     for (int i = 0; i < scene->material_count; i++) {
         float ior = scene->materials[i].ior;
         const EnergyTable *table = ior == CLEARCOAT_IOR ? tables->of_coat : NULL;

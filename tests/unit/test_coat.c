@@ -3,6 +3,7 @@
 
 #include "base/units.h"
 #include "shaders/bsdf.h"
+#include "shaders/common_tables.h"
 #include "spectrum/fresnel.h"
 
 static Arena arena;
@@ -146,6 +147,14 @@ TEST(a_coated_mirror_sums_up_its_turns)
             double series = (double)(f + (1 - f) * (1 - f) * metal / (1 - mean * f));
             assert_near(sum, series, 6e-3);
         }
+}
+
+TEST(the_programs_own_tables_are_those_that_a_run_would_make)
+{
+    (void)state;
+    assert_float_equal(CLEARCOAT_IOR, 1.5f, 0);
+    assert_memory_equal(&common_energy_table, glass, sizeof *glass);
+    assert_memory_equal(&common_coat_table, lacquer, sizeof *lacquer);
 }
 
 int main(void)

@@ -13,13 +13,13 @@ static bool module_path(char path[static PATH_MAX], Error *err)
     ssize_t length = readlink("/proc/self/exe", path, PATH_MAX - 1);
     while (length > 0 && path[length - 1] != '/') length--;
     if (length <= 0 || (size_t)length + sizeof PICTURES_MODULE > PATH_MAX)
-        return error_set(err, ERROR_LIBRARY, "/proc/self/exe does not tell where the program is");
+        return error_set(err, ERROR_LIBRARY, "/proc/self/exe does not name the program");
     memcpy(path + length, PICTURES_MODULE, sizeof PICTURES_MODULE);
     return true;
 }
 
-/* Loading again is a lookup by name, so that nothing has to be remembered here; the module stays
- * until the program ends. */
+/* Loading again is a lookup by name, so that nothing has to be remembered here; the module
+ * stays until the program ends. */
 static const ImageFileModule *load(Error *err)
 {
     char path[PATH_MAX];
