@@ -1,5 +1,7 @@
 #include "base/machine.h"
 
+#include <stdint.h>
+#include <stdio.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -9,4 +11,22 @@ size_t machine_memory_bytes(void)
     struct rlimit limit;
     if (getrlimit(RLIMIT_AS, &limit) || limit.rlim_cur == RLIM_INFINITY) return machine;
     return limit.rlim_cur / 2 < machine ? (size_t)limit.rlim_cur / 2 : machine;
+}
+
+/* proc(5): the first number of statm counts the pages that are mapped. */
+static size_t mapped_bytes(void)
+{
+    size_t pages = 0;
+    FILE  *file = fopen("/proc/self/statm", "r");
+    if (file && fscanf(file, "%zu", &pages) != 1) pages = 0;
+    if (file) fclose(file);
+    return pages * (size_t)sysconf(_SC_PAGESIZE);
+}
+
+size_t machine_address_space_left(void)
+{
+    struct rlimit limit;
+    if (getrlimit(RLIMIT_AS, &limit) || limit.rlim_cur == RLIM_INFINITY) return SIZE_MAX;
+    size_t mapped = mapped_bytes();
+    return mapped < limit.rlim_cur ? (size_t)limit.rlim_cur - mapped : 0;
 }

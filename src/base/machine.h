@@ -8,3 +8,6 @@
 /* Bytes: the machine's memory, or half of the address space that a batch system grants (ulimit
  * -v; the libraries' share is the other half). */
 size_t machine_memory_bytes(void);
+
+/* Bytes of address space that the process may still map; SIZE_MAX where nothing limits it. */
+size_t machine_address_space_left(void);

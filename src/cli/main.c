@@ -13,11 +13,13 @@
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/options/version.h"
+#include "openimageio/image_file.h"
 
 static bool run_command(int argc, char **argv, Error *err)
 {
     const Command *command = command_find(command_table, command_count, NULL, argv[1], err);
     if (!command) return false;
+    image_file_take_share();
     /* address space: what is touched counts */
     Arena arena = arena_reserve(machine_memory_bytes());
     bool  ok = command->run(argc - 1, argv + 1, &arena, err);

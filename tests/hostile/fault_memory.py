@@ -3,7 +3,7 @@
 Documented in src/base/arena.h: whatever the limit, a command does its work, or one line says
 that memory is short, with status 3. Below what the libraries need to be loaded there is no
 program that could say anything; that limit is found first. The libraries of pictures are loaded
-when one is met: 370 MB more, of which an error can tell.
+when one is met: 370 MB more, of which an error tells.
 """
 import json
 import os
@@ -72,7 +72,7 @@ def check_short_memory(bench):
     if bench.is_sanitized:
         return bench.report.skip("limits of address space: the sanitizer takes terabytes of it")
     make_inputs(bench)
-    ends = sweep(bench, commands_of(bench)[:1], (8, 64, 128, 512, 880))
+    ends = sweep(bench, commands_of(bench)[:1], (8, 64, 256, 512, 880))
     bench.claim(ends["render"][-1] == 0, "a gigabyte is not enough for a small scene")
 
 

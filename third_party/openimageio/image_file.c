@@ -2,9 +2,11 @@
 
 #include <dlfcn.h>
 #include <limits.h>
+#include <stdint.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "base/machine.h"
 #include "openimageio/image_file_module.h"
 
 /* The module lies beside the program, wherever that is and however it was started. */
@@ -18,17 +20,37 @@ static bool module_path(char path[static PATH_MAX], Error *err)
     return true;
 }
 
+/* A library that finds no memory while it is loaded ends the program, so there must be enough:
+ * 370 MB are mapped and some threads started. */
+static void *load_first(const char *path, Error *err)
+{
+    const size_t wanted = (size_t)512 << 20, left = machine_address_space_left();
+    if (left < wanted) {
+        error_set(err, ERROR_MEMORY, "the libraries for pictures want %zu MB of address space, "
+                  "%zu are left (ulimit -v)", wanted >> 20, left >> 20);
+        return NULL;
+    }
+    void *module = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    if (!module)
+        error_set(err, ERROR_LIBRARY, "a part of the program is not beside it: %s", dlerror());
+    return module;
+}
+
 /* Loading again is a lookup by name, so that nothing has to be remembered here; the module
  * stays until the program ends. */
 static const ImageFileModule *load(Error *err)
 {
     char path[PATH_MAX];
     if (!module_path(path, err)) return NULL;
-    void *module = dlopen(path, RTLD_NOW | RTLD_LOCAL);
-    const ImageFileModule *table = module ? dlsym(module, "image_file_module") : NULL;
-    if (!table)
-        error_set(err, ERROR_LIBRARY, "a part of the program is not beside it: %s", dlerror());
-    return table;
+    void *module = dlopen(path, RTLD_NOW | RTLD_NOLOAD);
+    if (!module) module = load_first(path, err);
+    return module ? dlsym(module, "image_file_module") : NULL;
+}
+
+void image_file_take_share(void)
+{
+    Error not_yet;
+    if (machine_address_space_left() != SIZE_MAX) load(&not_yet);
 }
 
 bool image_decoder_create(const char *format, const char *name, const void *bytes, size_t size,

@@ -11,6 +11,10 @@
 #include "base/error.h"
 #include "openimageio/image_file_types.h"
 
+/* Where address space is limited (ulimit -v) and there is enough of it, the library is loaded
+ * now, before arenas share out the rest; else when it is first asked for. */
+void image_file_take_share(void);
+
 /* format: the library's name ("png", "jpeg", "tiff", "hdr", "bmp", "webp", "targa" ...).
  * bytes stay with the caller and must outlive the decoder. name is for messages only. */
 bool image_decoder_create(const char *format, const char *name, const void *bytes, size_t size,
