@@ -97,9 +97,11 @@ static void print_luminaire(const PunctualLight *light)
 {
     Vec3 d = brightest_of(light);
     float share = share_of(light);
-    printf("light        %s: luminaire %s, level %g %%, %g lm, at most %g cd towards "
+    char white[24] = "D65";
+    if (light->cct_k > 0) snprintf(white, sizeof white, "%g K", (double)light->cct_k);
+    printf("light        %s: luminaire %s, %s, level %g %%, %g lm, at most %g cd towards "
            "(%.3f, %.3f, %.3f)\n",
-           light->name, light->file, 100 * (double)light->level,
+           light->name, light->file, white, 100 * (double)light->level,
            (double)(light->web->flux_lm * share), (double)(light->web->largest_cd * share),
            (double)d.x, (double)d.y, (double)d.z);
 }
@@ -233,6 +235,8 @@ static void add_luminaire(json_t *entry, const PunctualLight *light)
     const float direction[3] = {d.x, d.y, d.z};
     json_object_set_new(entry, "file", json_text(light->file));
     json_object_set_new(entry, "level", json_real((double)light->level));
+    json_object_set_new(entry, "cct_k",
+                        light->cct_k > 0 ? json_real((double)light->cct_k) : json_null());
     json_object_set_new(entry, "flux_lm",
                         json_real((double)(light->web->flux_lm * share_of(light))));
     json_object_set_new(entry, "max_cd",

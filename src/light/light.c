@@ -130,7 +130,8 @@ static bool sample_punctual(const Lights *lights, Vec3 position, const Wavelengt
     if (id == NO_ID) return false;
     const PunctualLight *light = &lights->scene->lights[id];
     float lux = punctual_geometry(light, position, &sample->wi, &sample->distance);
-    sample->radiance = spectrum_from_rgb_emission(wavelengths, light->intensity) *
+    Spectrum white = light->white ? curve_lookup(light->white, wavelengths) : wavelengths->d65;
+    sample->radiance = spectrum_from_rgb(wavelengths, light->intensity) * white *
                        spectrum_all(lux * prob_inverse);
     sample->pdf = 1;
     sample->is_delta = true;

@@ -122,6 +122,8 @@ typedef struct PunctualLight {
     const char *node_name, *file; /* luminaire */
     float level;             /* luminaire: multiplies all intensities */
     float color[3];          /* luminaire: linear Rec.709, multiplies too */
+    float cct_k;             /* luminaire: 0: white (D65) */
+    const Curve *white;      /* of cct_k, 1 cd m^-2; NULL: D65 */
 } PunctualLight;
 
 typedef struct SceneCamera {
@@ -221,4 +223,6 @@ typedef struct SceneOptions {
     int light_count;
     const SceneOverride *light_levels; /* --light-level NODE=PERCENT, * for all */
     int light_level_count;
+    const SceneOverride *light_ccts; /* --light-cct NODE=KELVIN, * for all */
+    int light_cct_count;
 } SceneOptions;

@@ -46,11 +46,11 @@ def ies(table=None, gammas=GAMMAS, planes=PLANES, head="1 -1 1", factors="1 1 30
             f"{' '.join(map(str, gammas))}\n{' '.join(map(str, planes))}\n{rows}\n")
 
 
-def ldt(flux, factor=1):
+def ldt(flux, factor=1, cct=""):
     """The same table in cd a klm: four planes, no symmetry."""
     head = ["maker", "1", "0", "4", "90", "7", "30", "report", "lamp", "1", "a.ldt", "today",
             "100", "0", "50", "0", "0", "0", "0", "0", "0", "100", "100", str(factor), "0", "1",
-            "1", "LED", str(flux), "4000", "80", "30"] + ["0"] * 10
+            "1", "LED", str(flux), cct, "80", "30"] + ["0"] * 10
     values = [f"{v / (flux / 1000) / factor:.9g}" for row in TABLE[:4] for v in row]
     return "\r\n".join(head + ["0", "90", "180", "270", *map(str, GAMMAS), *values]) + "\r\n"
 
@@ -266,7 +266,7 @@ def check_listed(report, lamps):
     largest = max(map(max, TABLE))
     report.claim(done.returncode == 0 and not answer["problems"]
                  and lamp["type"] == "luminaire" and lamp["name"] == "lamp"
-                 and lamp["level"] == 2 and lamp["file"] == "lamp.ies"
+                 and lamp["level"] == 2 and lamp["cct_k"] is None and lamp["file"] == "lamp.ies"
                  and abs(lamp["max_cd"] / (2 * weight * largest) - 1) < 1e-3
                  and all(abs(f / (2 * largest * c) - 1) < 1e-6
                          for f, c in zip(lamp["intensity"], color)), f"tint: {answer}")
@@ -281,6 +281,64 @@ def check_listed(report, lamps):
     for x, wanted in ((0, 25), (50, 100 * weight), (100, 100)):
         found = lamps.lux("row.gltf", (x, 0, -2), (0, 0, 1))
         report.claim(abs(found / wanted - 1) < 2e-2, f"lamp at {x}: {found} lx, not {wanted}")
+
+
+def shown(lamps, scene, *options):
+    answer = json.loads(lamps.run("check", scene, "--json", *options).stdout)
+    return [light["cct_k"] for light in answer["lights"]], answer["problems"]
+
+
+def xy(lamps, *options):
+    """Chromaticity of the light on a white floor below the lamp."""
+    channels = bits(lamps, "bare.gltf", *options)
+    rgb = [sum(channels[c]) for c in "RGB"]
+    total = [sum(m * v for m, v in zip(row, rgb)) for row in XYZ_FROM_RGB]
+    return total[0] / sum(total), total[1] / sum(total)
+
+
+XYZ_FROM_RGB = ((0.4124564, 0.3575761, 0.1804375), (0.2126729, 0.7151522, 0.0721750),
+                (0.0193339, 0.1191920, 0.9503041))
+# CIE 15: x and y of black bodies, and of D50, D55, D65, D75
+WHITES = {2000: (0.5267, 0.4133), 2856: (0.44758, 0.40745), 5003: (0.34567, 0.35850),
+          5503: (0.33242, 0.34743), 6504: (0.31272, 0.32903), 7504: (0.29902, 0.31485)}
+
+
+def check_cct(report, lamps):
+    """Of files and of --light-cct: what is taken, and the chromaticity of its light."""
+    lamps.write("plain.ldt", ldt(2500))
+    texts = {"4000": 4000, "4000 K": 4000, "2700K": 2700, "840": None, "": None,
+             "2700-6500": None, "900": None, "ww": None, "30000": None}
+    for text, wanted in texts.items():
+        lamps.write("told.ldt", ldt(2500, cct=text))
+        found = shown(lamps, "nodes.gltf", "--light", "plain=told.ldt")
+        report.claim(found == ([wanted], []), f"EULUMDAT \"{text}\": {found}")
+    for keyword in ("[_CCT]", "[CCT]", "[COLORTEMP]", "[_Color_Temp]", "[_COLOR_TEMPERATURE]"):
+        lamps.write("told.ies", ies().replace("TILT", f"{keyword} 3000 K\nTILT"))
+        found = shown(lamps, "nodes.gltf", "--light", "plain=told.ies")
+        report.claim(found == ([3000], []), f"{keyword}: {found}")
+    studio(lamps, "told.gltf", {"uri": "told.ies"})
+    report.claim(shown(lamps, "told.gltf")[0] == [3000], "the extension's file has 3000 K")
+    report.claim(bits(lamps, "told.gltf") == bits(lamps, "bare.gltf", "--light",
+                                                  "lamp=told.ies"), "3000 K: other bits")
+    for kelvin, wanted in WHITES.items():
+        found = xy(lamps, "--light", "lamp=told.ies", "--light-cct", f"*={kelvin}K")
+        report.claim(math.dist(found, wanted) < 1.5e-3, f"{kelvin} K: xy {found}, not {wanted}")
+    for options in ((), ("--light-cct", "plain=2200"), ("--light-cct", "plain=9300")):
+        found = lamps.lux("nodes.gltf", (0, 0, -2), (0, 0, 1), "--light", "plain=lamp.ies",
+                          *options)
+        report.claim(abs(found / 100 - 1) < 3e-3, f"{options}: {found} lx instead of 100")
+
+
+def check_tilt(report, lamps):
+    """TILT= is read over, and a warning says that its factors are not applied."""
+    for tilt in ("INCLUDE\n1\n3\n0 45 90\n1 0.9 0.8", "lamp.tlt"):
+        lamps.write("tilt.ies", ies().replace("TILT=NONE", "TILT=" + tilt))
+        _, problems = shown(lamps, "nodes.gltf", "--light", "plain=tilt.ies")
+        report.claim(len(problems) == 1 and problems[0]["severity"] == "warning"
+                     and problems[0]["file"] == "tilt.ies"
+                     and "tilt factors" in problems[0]["message"], f"{tilt}: {problems}")
+        found = lamps.lux("nodes.gltf", (0, 0, -2), (0, 0, 1), "--light", "plain=tilt.ies")
+        lamps.claim(report, "tilt", found, 100)
 
 
 def check_both(report, lamps):
@@ -349,7 +407,10 @@ def check_refused(report, lamps):
             (("--light", "plain=dark.ies"), ("dark.ies", "above 0 cd")),
             (("--light", "plain=short.ldt"), ("short.ldt", "the file ends before")),
             (("--light", "plain=lamp.ies", "--light-level", "plain=x"), ("--light-level", "x")),
-            (("--light", "plain=lamp.ies", "--light-level", "moved=5"), ("moved", '"plain"'))):
+            (("--light", "plain=lamp.ies", "--light-level", "moved=5"), ("moved", '"plain"')),
+            (("--light", "plain=lamp.ies", "--light-cct", "moved=3000"), ("moved", '"plain"')),
+            (("--light", "plain=lamp.ies", "--light-cct", "*=999"), ("999", "1000 to 25000")),
+            (("--light", "plain=lamp.ies", "--light-cct", "*=warm"), ("--light-cct", "warm"))):
         done = lamps.run("measure", "nodes.gltf", "--illuminance", "0,0,0,0,1,0", *options)
         report.claim(done.returncode == 3 and all(w in done.stderr for w in words)
                      and done.stderr.count("\n") == 1,
@@ -375,8 +436,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         lamps = Lamps(sys.argv[-1], folder)
         for check in (check_nodes, check_factors, check_flux, check_shadow, check_extension,
-                      check_listed, check_both, check_extension_refused, check_refused,
-                      check_shared):
+                      check_listed, check_cct, check_tilt, check_both,
+                      check_extension_refused, check_refused, check_shared):
             try:
                 check(report, lamps)
             except AssertionError as error:

@@ -88,6 +88,16 @@ def check_frames(work):
                  "--crop", "9,0,24,16", *way)
 
 
+def check_lamps(work):
+    """A luminaire file as a lamp: its frame too, and its metadata."""
+    with open(work.path("lamp.ies"), "w", encoding="ascii") as file:
+        file.write("IESNA:LM-63-2002\n[_CCT] 3000\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 9\n"
+                   "0 90\n0\n500 20\n")
+    work.claim_same("lamp", ["render", "small.gltf", "--size", "24x16", "--spp", "2", "--light",
+                             "eye=lamp.ies", "--light-level", "eye=80", "--light-cct",
+                             "*=2700"], ".lamp.exr", more=RENDER_WAYS)
+
+
 def check_merge(work):
     """Of parts of any names, in any order; of --noise no one run makes the whole."""
     for whole, first, second in (("merged.exr", "first.exr", "part.exr"),
@@ -140,6 +150,7 @@ def main():
         os.mkdir(work.path("another folder"))
         write_scene(work.path("small.gltf"))
         check_frames(work)
+        check_lamps(work)
         check_merge(work)
         check_pictures(work)
         check_panels(work)

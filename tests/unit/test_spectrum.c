@@ -3,6 +3,7 @@
 
 #include "base/units.h"
 #include "spectrum/curve.h"
+#include "spectrum/illuminant.h"
 #include "spectrum/photometry.h"
 #include "spectrum/wavelengths.h"
 
@@ -389,6 +390,34 @@ TEST(lane_operations_agree_with_loops)
         assert_false(spectrum_is_grey(other));
     }
     assert_true(spectrum_is_zero(spectrum_all(0)) && !spectrum_is_zero(spectrum_all(1e-30f)));
+}
+
+/* D65 lies at 6500 K times 1.4388 / 1.4380 (CIE 15); the table has it from 1 nm data. */
+TEST(daylight_of_6504_kelvin_is_d65)
+{
+    (void)state;
+    Curve curve;
+    cct_curve(6500 * 1.4388 / 1.4380, &curve);
+    for (int nm = 360; nm <= 830; nm += 10)
+        assert_close(curve.value[nm - 360], spectral_row(nm).d65, 2e-3);
+}
+
+/* x and y of CIE 15's D50, D55, D75, and of illuminant A below 4000 K. */
+TEST(a_colour_temperature_has_the_chromaticity_of_its_illuminant)
+{
+    (void)state;
+    static const double white[][3] = {{2855.5, 0.44758, 0.40745}, {5002.8, 0.34567, 0.35850},
+                                      {5503.1, 0.33242, 0.34743}, {7504.2, 0.29902, 0.31485}};
+    for (int i = 0; i < 4; i++) {
+        Curve  curve;
+        double xyz[3];
+        cct_curve(white[i][0], &curve);
+        xyz_from_radiance(curve.value, CURVE_COUNT, CURVE_FIRST_NM, 1, xyz);
+        double sum = xyz[0] + xyz[1] + xyz[2];
+        assert_close(xyz[1], 1, 1e-6);
+        assert_close(xyz[0] / sum, white[i][1], 5e-4);
+        assert_close(xyz[1] / sum, white[i][2], 5e-4);
+    }
 }
 
 int main(void)

@@ -27,13 +27,16 @@ bool scene_options_read(const SceneWords *words, const Cli *cli, Arena *arena,
     options->level_count = words->levels.count;
     options->light_count = words->lights.count;
     options->light_level_count = words->light_levels.count;
+    options->light_cct_count = words->light_ccts.count;
     return reference_check_root(options->root, err) &&
            parse_overrides("--content", &words->contents, arena, &options->contents, err) &&
            parse_overrides("--panel", &words->panels, arena, &options->panels, err) &&
            parse_overrides("--display-level", &words->levels, arena, &options->levels, err) &&
            parse_overrides("--light", &words->lights, arena, &options->lights, err) &&
            parse_overrides("--light-level", &words->light_levels, arena,
-                           &options->light_levels, err);
+                           &options->light_levels, err) &&
+           parse_overrides("--light-cct", &words->light_ccts, arena, &options->light_ccts,
+                           err);
 }
 
 #define TWILIGHT_DEG 10.0
@@ -81,7 +84,8 @@ const char *scene_options_given(const SceneWords *words, const EnvironmentChange
         {change->has_turbidity, "--turbidity"}, {change->no_moon, "--no-moon"},
         {change->has_visibility, "--visibility"}, {words->contents.count > 0, "--content"},
         {words->panels.count > 0, "--panel"}, {words->levels.count > 0, "--display-level"},
-        {words->lights.count > 0, "--light"}, {words->light_levels.count > 0, "--light-level"}};
+        {words->lights.count > 0, "--light"}, {words->light_levels.count > 0, "--light-level"},
+        {words->light_ccts.count > 0, "--light-cct"}};
     for (int i = 0; i < COUNT_OF(all); i++)
         if (all[i].is_given) return all[i].name;
     return NULL;

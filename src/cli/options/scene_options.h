@@ -10,7 +10,7 @@
 
 /* As typed, NAME=VALUE each. */
 typedef struct SceneWords {
-    CliTexts contents, panels, levels, lights, light_levels;
+    CliTexts contents, panels, levels, lights, light_levels, light_ccts;
 } SceneWords;
 
 /* Rows of an option table: luminaire files as lamps. */
@@ -18,7 +18,9 @@ typedef struct SceneWords {
     {"--light", OPTION_TEXTS, "NODE=FILE.ies|.ldt", "makes a node a lamp, along its -Z",       \
      &(words)->lights},                                                                        \
     {"--light-level", OPTION_TEXTS, "NODE|*=PERCENT", "dims such a lamp (*: all)",             \
-     &(words)->light_levels}
+     &(words)->light_levels},                                                                  \
+    {"--light-cct", OPTION_TEXTS, "NODE|*=KELVIN", "gives it a colour temperature",            \
+     &(words)->light_ccts}
 
 /* Rows of an option table: SceneWords *, SceneOptions *, EnvironmentChange *. */
 #define SCENE_OPTIONS(words, options, change)                                                  \

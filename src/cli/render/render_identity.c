@@ -110,8 +110,9 @@ static void add_luminaires(Text *text, const Scene *scene)
     for (int i = 0; i < scene->light_count; i++) {
         const PunctualLight *light = &scene->lights[i];
         if (light->kind != LIGHT_LUMINAIRE) continue;
-        line(text, arena_format(text->arena, "light %d", i), "%s, level %.9g, %s", light->name,
-             (double)light->level, input_name(scene, light->file, text->arena));
+        line(text, arena_format(text->arena, "light %d", i), "%s, level %.9g, %.9g K, %s",
+             light->name, (double)light->level, (double)light->cct_k,
+             input_name(scene, light->file, text->arena));
     }
 }
 

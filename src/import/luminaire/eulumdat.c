@@ -44,7 +44,7 @@ static bool skip_lines(LuminaireScan *in, const char *what, int count)
 typedef struct EulumdatHead {
     int    symmetry, planes, gammas, lamp_sets;
     double length_mm, width_mm; /* luminous area; width 0: a circle */
-    double output_ratio, factor, flux_lm;
+    double output_ratio, factor, flux_lm, cct_k;
     bool   is_absolute;
 } EulumdatHead;
 
@@ -83,13 +83,16 @@ static bool read_head(LuminaireScan *in, EulumdatHead *head, const char **name)
 static bool read_lamps(LuminaireScan *in, EulumdatHead *head)
 {
     for (int i = 0; i < head->lamp_sets; i++) {
-        int    lamps;
-        double flux;
+        int      lamps;
+        double   flux;
+        TextLine color;
         if (!luminaire_scan_count(in, "the number of lamps", -1000000, 1000000, &lamps) ||
             !skip_lines(in, "the lamp's type", 1) ||
             !next_number(in, "the lamps' flux", 0, 1e9, &flux) ||
-            !skip_lines(in, "the lamp's data", 3))
+            !next_line(in, "the lamp's colour", &color) ||
+            !skip_lines(in, "the lamp's data", 2))
             return false;
+        if (!i) head->cct_k = luminaire_scan_cct(color.text, color.length);
         if (!i) head->flux_lm = flux;
         if (!i) head->is_absolute = lamps < 0;
     }
@@ -148,6 +151,7 @@ bool eulumdat_read_luminaire(const char *file, const FileBytes *bytes, ImportSet
     double length = head.length_mm * 1e-3, width = head.width_mm * 1e-3;
     luminaire.area_m2 = width > 0 ? length * width : PI / 4 * length * length;
     luminaire.stated_lm = head.flux_lm * (head.is_absolute ? 1 : head.output_ratio / 100);
+    luminaire.cct_k = head.cct_k;
     luminaire.stated_as =
         head.is_absolute ? "absolute" : "lamps' flux times light output ratio";
     if (head.lamp_sets > 1)

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/count.h"
 #include "base/file.h"
 #include "base/units.h"
 #include "import/luminaire/luminaire_scan.h"
@@ -63,13 +64,29 @@ static const char *keyword_value(const LuminaireScan *in, TextLine line, const c
     return begin < end ? arena_string(in->arena, begin, (size_t)(end - begin)) : NULL;
 }
 
+/* LM-63 has no keyword for the colour temperature; these are what files have. */
+static double cct_of(const LuminaireScan *in, TextLine line)
+{
+    static const char *const keywords[] = {
+        "[CCT]", "[_CCT]", "[COLORTEMP]", "[_COLORTEMP]", "[COLOR_TEMP]", "[_COLOR_TEMP]",
+        "[COLORTEMPERATURE]", "[_COLORTEMPERATURE]", "[COLOR_TEMPERATURE]",
+        "[_COLOR_TEMPERATURE]"};
+    for (int i = 0; i < COUNT_OF(keywords); i++) {
+        const char *value = keyword_value(in, line, keywords[i]);
+        if (value) return luminaire_scan_cct(value, (int)strlen(value));
+    }
+    return 0;
+}
+
 /* Keywords up to the line TILT=; the luminaire's name is one of them. */
-static bool read_keywords(LuminaireScan *in, const char **name, const char **tilt)
+static bool read_keywords(LuminaireScan *in, const char **name, double *cct_k,
+                          const char **tilt)
 {
     for (int i = 0; i < in->text.count; i++) {
         TextLine    line = in->text.line[i];
         const char *value = keyword_value(in, line, "[LUMINAIRE]");
         if (value && !*name) *name = value;
+        if (!(*cct_k > 0)) *cct_k = cct_of(in, line);
         if (line.length < 5 || strncasecmp(line.text, "TILT=", 5) != 0) continue;
         *tilt = arena_string(in->arena, line.text + 5, (size_t)line.length - 5);
         begin_line(in, i + 1);
@@ -159,9 +176,10 @@ bool ies_read_luminaire(const char *file, const FileBytes *bytes, ImportSet *set
     Luminaire     out = {.file = file};
     const char   *tilt = "";
     if (!luminaire_scan_open(file, bytes, next_number, set, &in, err) ||
-        !read_keywords(&in, &out.name, &tilt) || !skip_tilt(&in, tilt, set) ||
+        !read_keywords(&in, &out.name, &out.cct_k, &tilt) || !skip_tilt(&in, tilt, set) ||
         !read_head(&in, &head))
         return false;
+    out.has_tilt = strcasecmp(tilt, "NONE") != 0;
     out.planes = head.planes;
     out.gammas = head.gammas;
     out.c_deg = ARENA_NEW(set->arena, double, head.planes);

@@ -25,6 +25,8 @@ typedef struct Luminaire {
     double  area_m2;           /* 0: the file does not say */
     double  stated_lm;         /* light of the luminaire that the file states; 0: none */
     const char *stated_as;     /* "lamp flux x light output ratio" */
+    double  cct_k;             /* colour temperature; 0: the file does not plainly say */
+    bool    has_tilt;          /* factors for a tilted lamp, which are not applied */
 } Luminaire;
 
 /* All directions, negative intensities as 0. Refuses a luminaire that sends out nothing. */

@@ -2,6 +2,11 @@
 
 #include <math.h>
 #include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "spectrum/illuminant.h"
 
 bool luminaire_scan_open(const char *file, const FileBytes *bytes, LuminaireNumber *number,
                          ImportSet *set, LuminaireScan *out, Error *err)
@@ -42,6 +47,19 @@ bool luminaire_scan_intensities(LuminaireScan *scan, double scale, Luminaire *ou
         out->intensity_cd[i] *= scale;
     }
     return true;
+}
+
+double luminaire_scan_cct(const char *text, int length)
+{
+    char  words[24], *after;
+    if (length >= (int)sizeof words) return 0;
+    snprintf(words, sizeof words, "%.*s", length, text);
+    double kelvin = strtod(words, &after);
+    bool   is_plain = after != words;
+    after += strspn(after, " \t");
+    if (*after == 'K' || *after == 'k') after++;
+    after += strspn(after, " \t\r");
+    return is_plain && !*after && kelvin >= CCT_LEAST_K && kelvin <= CCT_MOST_K ? kelvin : 0;
 }
 
 bool luminaire_scan_fail(const LuminaireScan *scan, const char *format, ...)

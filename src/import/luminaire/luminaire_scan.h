@@ -37,6 +37,10 @@ bool luminaire_scan_angles(LuminaireScan *scan, const char *what, int count, dou
 /* planes x gammas intensities, times `scale`. */
 bool luminaire_scan_intensities(LuminaireScan *scan, double scale, Luminaire *out);
 
+/* Kelvins of a text that is a plain number of them, with or without K behind: "4000 K". 0 of
+ * every other one, such as "840" or "2700-6500". */
+double luminaire_scan_cct(const char *text, int length);
+
 /* An error at the current line. Always false. */
 bool luminaire_scan_fail(const LuminaireScan *scan, const char *format, ...)
     __attribute__((format(printf, 2, 3)));

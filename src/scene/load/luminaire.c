@@ -6,13 +6,14 @@
 
 #include "scene/gltf/document.h"
 #include "scene/load/profiles.h"
+#include "spectrum/illuminant.h"
 
 #define NODE "node:"
 enum { NAMES_MAX = 480 };
 
 struct LuminaireDraft {
-    bool          is_readable, is_found;
-    IntensityWeb *web;
+    bool         is_readable, is_found;
+    LightProfile profile;
 };
 
 static const char *node_of(const SceneOverride *one)
@@ -28,28 +29,29 @@ void luminaires_start(Loader *load)
     for (int i = 0; i < o->light_count; i++) {
         struct LuminaireDraft *draft = &load->luminaires[i];
         Error err = {0};
-        draft->web = ARENA_NEW(load->arena, IntensityWeb, 1);
-        const char *path = o->lights[i].value;
+        const char *path = draft->profile.file = o->lights[i].value;
         FileBytes bytes;
         draft->is_readable = load_read(load, path, &load->scratch, &bytes, &err) &&
-                             profile_read(load, path, bytes, draft->web, &err);
+                             profile_read(load, bytes, &draft->profile, &err);
         if (draft->is_readable) continue;
         if (!err.file[0]) error_in_file(&err, path);
         problems_add_error(load->problems, &err);
     }
 }
 
-static PunctualLight *add_lamp(Loader *load, const char *name, const char *path,
-                               const IntensityWeb *web, const Transform *world)
+static PunctualLight *add_lamp(Loader *load, const char *name, const LightProfile *profile,
+                               const Transform *world)
 {
     PunctualLight *out = list_add(&load->lights, &load->scratch);
+    const char *path = profile->file;
     *out = (PunctualLight){.kind = LIGHT_LUMINAIRE,
                            .name = name,
                            .node_name = name,
                            .file = arena_string(load->arena, path, strlen(path)),
                            .position = world->origin,
                            .direction = vec3_normalize(vec3_neg(world->z)),
-                           .web = web,
+                           .web = profile->web,
+                           .cct_k = profile->cct_k,
                            .level = 1,
                            .color = {1, 1, 1}};
     /* a sheared node's axes are made square again, its -Z first */
@@ -80,7 +82,7 @@ static bool place_profile(GltfFile *file, const GltfValue *node, const Transform
     if (!profile->web) return true; /* reported when it was read */
     const char *name = tree_text(node, "name", ""), *kept;
     kept = name[0] ? arena_string(load->arena, name, strlen(name)) : profile->name;
-    PunctualLight *light = add_lamp(load, kept, profile->file, profile->web, world);
+    PunctualLight *light = add_lamp(load, kept, profile, world);
     if (!name[0]) light->node_name = "";
     light->level = tree_float(extension, "multiplier", 1);
     tree_floats(extension, "color", 3, light->color);
@@ -101,7 +103,7 @@ static bool place_by_name(GltfFile *file, const GltfValue *node, const Transform
         for (int k = 0; k <= i; k++)
             load->luminaires[k].is_found |= !strcmp(node_of(&o->lights[k]), name);
         if (load->luminaires[i].is_readable)
-            add_lamp(load, name, o->lights[i].value, load->luminaires[i].web, world);
+            add_lamp(load, name, &load->luminaires[i].profile, world);
         return true;
     }
     return false;
@@ -133,14 +135,45 @@ static void report_unknown(Loader *load, const char *name)
                  names[0] ? names : "none with names");
 }
 
-static void set_level(Loader *load, const SceneOverride *one)
+/* A number, with or without the unit behind it. */
+static bool read_number(const char *text, const char *unit, double low, double high,
+                        double *out)
 {
-    char  *end, names[NAMES_MAX] = "";
-    double percent = strtod(one->value, &end);
+    char *end;
+    *out = strtod(text, &end);
+    return end != text && (!*end || !strcmp(end, unit)) && *out >= low && *out <= high;
+}
+
+static void set_level(PunctualLight *light, double percent)
+{
+    light->level = (float)(percent / 100);
+}
+
+static void set_cct(PunctualLight *light, double kelvin)
+{
+    light->cct_k = (float)kelvin;
+}
+
+typedef struct LampOption {
+    const char *name, *unit, *wanted;
+    double low, high;
+    void (*set)(PunctualLight *light, double value);
+} LampOption;
+
+static const LampOption LEVEL = {"--light-level", "%", "no percentage; a number from 0 up", 0,
+                                 1e6, set_level};
+static const LampOption CCT = {"--light-cct", "K",
+                               "no colour temperature; a number from 1000 to 25000 kelvin",
+                               CCT_LEAST_K, CCT_MOST_K, set_cct};
+
+static void apply(Loader *load, const LampOption *option, const SceneOverride *one)
+{
+    char   names[NAMES_MAX] = "";
+    double value;
     bool   is_found = false;
-    if (end == one->value || (*end && strcmp(end, "%")) || !(percent >= 0 && percent <= 1e6)) {
-        problems_add(load->problems, SEVERITY_ERROR, "--light-level", "",
-                     "\"%.100s\" is no percentage; a number from 0 up is wanted", one->value);
+    if (!read_number(one->value, option->unit, option->low, option->high, &value)) {
+        problems_add(load->problems, SEVERITY_ERROR, option->name, "",
+                     "\"%.100s\" is %s is wanted", one->value, option->wanted);
         return;
     }
     for (int i = 0; i < load->lights.count; i++) {
@@ -149,12 +182,22 @@ static void set_level(Loader *load, const SceneOverride *one)
         add_name(names, light->node_name);
         if (strcmp(one->material, "*") && strcmp(node_of(one), light->node_name)) continue;
         is_found = true;
-        light->level = (float)(percent / 100);
+        option->set(light, value);
     }
     if (!is_found)
-        problems_add(load->problems, SEVERITY_ERROR, "--light-level", "",
+        problems_add(load->problems, SEVERITY_ERROR, option->name, "",
                      "no lamp of a luminaire file is at a node named \"%.100s\"; there are %s",
                      node_of(one), names[0] ? names : "none");
+}
+
+static void finish_lamp(Loader *load, PunctualLight *light)
+{
+    for (int c = 0; c < 3; c++)
+        light->intensity[c] = light->web->largest_cd * light->level * light->color[c];
+    if (!(light->cct_k > 0)) return;
+    Curve *white = ARENA_NEW(load->arena, Curve, 1);
+    cct_curve((double)light->cct_k, white);
+    light->white = white;
 }
 
 void luminaires_finish(Loader *load)
@@ -162,10 +205,10 @@ void luminaires_finish(Loader *load)
     const SceneOptions *o = load->options;
     for (int i = 0; i < o->light_count; i++)
         if (!load->luminaires[i].is_found) report_unknown(load, node_of(&o->lights[i]));
-    for (int i = 0; i < o->light_level_count; i++) set_level(load, &o->light_levels[i]);
+    for (int i = 0; i < o->light_level_count; i++) apply(load, &LEVEL, &o->light_levels[i]);
+    for (int i = 0; i < o->light_cct_count; i++) apply(load, &CCT, &o->light_ccts[i]);
     for (int i = 0; i < load->lights.count; i++) {
         PunctualLight *light = list_item(&load->lights, i);
-        for (int c = 0; c < 3 && light->kind == LIGHT_LUMINAIRE; c++)
-            light->intensity[c] = light->web->largest_cd * light->level * light->color[c];
+        if (light->kind == LIGHT_LUMINAIRE) finish_lamp(load, light);
     }
 }

@@ -5,8 +5,8 @@
  * its +X, C = 90 its +Y, as EXT_lights_ies has it; scale does not change the intensities, and a
  * mirrored node mirrors them. --light makes all nodes of the name lamps, in the place of
  * whatever light the file gives them; EXT_lights_ies in the place of KHR_lights_punctual's on
- * the same node, since exporters write both for one lamp. The light is white (D65), times the
- * color.
+ * the same node, since exporters write both for one lamp. The light has the
+ * file's colour temperature, else D65, times the color.
  *
  * Fails    into load->problems, naming the option, or the file and its line.
  */
@@ -19,5 +19,5 @@ void luminaires_start(Loader *load);
 /* True when the node became a lamp. */
 bool luminaire_place(GltfFile *file, const GltfValue *node, const Transform *world);
 
-/* Behind the last file: names that no node has, and levels. */
+/* Behind the last file: names that no node has, levels and colour temperatures. */
 void luminaires_finish(Loader *load);

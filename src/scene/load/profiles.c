@@ -23,13 +23,22 @@ static bool is_shown(const GltfFile *file, int index)
     return false;
 }
 
-bool profile_read(Loader *load, const char *name, FileBytes bytes, IntensityWeb *web,
-                  Error *err)
+bool profile_read(Loader *load, FileBytes bytes, LightProfile *out, Error *err)
 {
     Luminaire luminaire;
     ImportSet notes = import_set(&load->scratch);
-    return luminaire_read(name, bytes, &notes, &luminaire, err) &&
-           luminaire_web(&luminaire, load->arena, web, err);
+    IntensityWeb *web = ARENA_NEW(load->arena, IntensityWeb, 1);
+    if (!luminaire_read(out->file, bytes, &notes, &luminaire, err) ||
+        !luminaire_web(&luminaire, load->arena, web, err))
+        return false;
+    out->web = web;
+    out->cct_k = (float)luminaire.cct_k;
+    if (luminaire.has_tilt)
+        problems_add(load->problems, SEVERITY_WARNING, out->file, "",
+                     "its tilt factors (TILT=) are not applied: the lamp has the intensities "
+                     "of its test position however it is turned; --light-level can lower "
+                     "them");
+    return true;
 }
 
 /* ---- bytes ------------------------------------------------------------------------------- */
@@ -99,14 +108,10 @@ static void load_profile(GltfFile *file, const GltfValue *value, LightProfile *o
     FileBytes bytes;
     Loader *load = file->load;
     const char *name = tree_text(value, "name", "");
-    IntensityWeb *web = ARENA_NEW(load->arena, IntensityWeb, 1);
     out->name = name[0] ? arena_string(load->arena, name, strlen(name))
                         : arena_format(load->arena, "light profile %d", value->index);
     if (!profile_bytes(file, value, &bytes, &out->file)) return;
-    if (profile_read(load, out->file, bytes, web, &err))
-        out->web = web;
-    else
-        report_fault(file, value, out->file, &err);
+    if (!profile_read(load, bytes, out, &err)) report_fault(file, value, out->file, &err);
 }
 
 void profiles_load(GltfFile *file)

@@ -8,15 +8,15 @@
 #pragma once
 #include "scene/gltf/loader.h"
 
-/* The intensities that bytes tell; `name` names them in messages. */
-bool profile_read(Loader *load, const char *name, FileBytes bytes, IntensityWeb *web,
-                  Error *err);
-
 typedef struct LightProfile {
     const char *name; /* "light profile N" where the file has none */
     const char *file; /* its path; of one inside the scene: the scene's, and where in it */
     const IntensityWeb *web; /* NULL: could not be read, which was reported */
+    float cct_k;             /* 0: not told */
 } LightProfile;
+
+/* What bytes tell; out->file names them in messages. Tilt factors are warned of. */
+bool profile_read(Loader *load, FileBytes bytes, LightProfile *out, Error *err);
 
 /* Reads all of them: a file that is named must be there, whether a node shows it or not. */
 void profiles_load(GltfFile *file);
