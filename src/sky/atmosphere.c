@@ -129,8 +129,9 @@ static Gathered march(const Builder *b, const AirRay *ray)
                          beam;
         sum.aerosol += scattering[AIR_AEROSOL] * spectrum_all(density[AIR_AEROSOL]) * beam;
         const DiffuseLight *light = light_at(b, at.sun_cosine, weight);
-        /* the source sends towards the eye: against the ray */
-        float c = (float)-at.cosine, z = (float)-at.azimuth_cosine;
+        /* the source sends towards the eye, against the ray; the beam travels away from the
+         * sun: both turn round, so that the azimuth between them stays */
+        float c = (float)-at.cosine, z = (float)at.azimuth_cosine;
         Spectrum source[2];
         diffuse_light_source(&light[0], at.altitude, c, z, &source[0]);
         diffuse_light_source(&light[1], at.altitude, c, z, &source[1]);

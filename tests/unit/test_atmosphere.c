@@ -127,6 +127,89 @@ TEST(orders_of_scattering_add_up_to_the_whole)
     assert_close(before, whole.ground_diffuse[2], 0.01);
 }
 
+/* ---- azimuth ----------------------------------------------------------------------------- */
+
+#define GREEN 8
+
+/* Light scattered once, at the bottom of flat air of one scatterer above a black floor, looking
+ * up (both in closed form: Chandrasekhar 1960, section 1.7), per unit of its single-scattering
+ * albedo; all directions are looked along. */
+static double scattered_once(const double look[3], const double sun[3], double depth)
+{
+    float  angle = (float)(look[0] * sun[0] + look[1] * sun[1] + look[2] * sun[2]);
+    double u = look[2], s = sun[2] + 1e-9;
+    return (double)air_phase_aerosol(angle) * s / (s - u) * (exp(-depth / s) - exp(-depth / u));
+}
+
+/* What of that is scattered again, at the bottom, to an eye that looks along a direction:
+ * summed over all directions that the light can come from. */
+static double scattered_twice(const double look[3], const double sun[3], double depth)
+{
+    const int rows = 200, columns = 240;
+    double    sum = 0;
+    for (int i = 0; i < rows; i++)
+        for (int j = 0; j < columns; j++) {
+            double z = (i + 0.5) / rows, r = sqrt(1 - z * z);
+            double turn = 2 * PI * (j + 0.5) / columns;
+            double from[3] = {r * cos(turn), r * sin(turn), z};
+            float  angle = (float)(look[0] * from[0] + look[1] * from[1] + look[2] * z);
+            sum += (double)air_phase_aerosol(angle) * scattered_once(from, sun, depth);
+        }
+    return sum * 2 * PI / rows / columns;
+}
+
+static AirOptics only_aerosol(void)
+{
+    Air air = usual;
+    air.pressure_mbar = air.ozone_atm_cm = 0;
+    return air_optics(&air);
+}
+
+/* Against a sum over directions that knows no series: haze scatters forwards, so its second
+ * order, too, is brighter towards the sun. */
+TEST(the_second_order_lies_towards_the_sun)
+{
+    Arena        arena = test_arena(state);
+    AirOptics    optics = only_aerosol();
+    DiffuseLight light;
+    const double sun[3] = {cos(0.6), 0, sin(0.6)};
+    DiffuseInput input = {&optics, 0, 0, sun[2], 1};
+    diffuse_light_build(&input, &arena, &light);
+    double depth = (double)optics.depth[AIR_AEROSOL][GREEN], before = 1e9;
+    double albedo = (double)optics.scattering[AIR_AEROSOL][GREEN] / depth;
+    double unit = albedo * (double)optics.scattering[AIR_AEROSOL][GREEN] *
+                  air_density(&optics, AIR_AEROSOL, 0);
+    for (int i = 0; i <= 4; i++) { /* looks from the sun's azimuth to the opposite */
+        double   azimuth = PI * i / 4, up = 0.25;
+        double   look[3] = {sqrt(1 - up * up) * cos(azimuth), sqrt(1 - up * up) * sin(azimuth),
+                            up};
+        Spectrum source;
+        diffuse_light_source(&light, 0, (float)-up, (float)cos(azimuth), &source);
+        double want = unit * scattered_twice(look, sun, depth);
+        printf("%3.0f degrees from the sun's azimuth: %.3e, summed %.3e\n",
+               degrees_from_radians(azimuth), (double)source[GREEN], want);
+        assert_close((double)source[GREEN], want, 0.05);
+        assert_true(want < before);
+        before = want;
+    }
+}
+
+/* The same in the drawn sky, by flat layers and by spherical air. */
+TEST(light_scattered_often_is_brighter_towards_the_sun)
+{
+    Arena arena = test_arena(state);
+    static const double elevation_deg[] = {20, -6};
+    for (int i = 0; i < 2; i++) {
+        Arena      scratch = arena;
+        Atmosphere a = build(0, 0, 0, elevation_deg[i], &scratch);
+        for (int row = 1; row < ATMOSPHERE_ROWS / 2; row += 8) {
+            const Spectrum *rest = a.rest + (size_t)row * ATMOSPHERE_COLUMNS;
+            for (int k = 2; k < 14; k++)
+                assert_true(rest[0][k] > rest[ATMOSPHERE_COLUMNS - 1][k]);
+        }
+    }
+}
+
 /* ---- figures ----------------------------------------------------------------------------- */
 
 TEST(the_sky_gives_what_spectrl2_says)

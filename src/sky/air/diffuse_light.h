@@ -25,7 +25,7 @@ typedef struct DiffuseLight {
     double level_m[DIFFUSE_LEVELS]; /* rising from the floor to the top, as diffuse_level_m */
     /* What is scattered into a direction at a level, m^-1 sr^-1, from light that was scattered
      * or reflected before: [level][cosine][mode]; sum over modes of source cos(mode * azimuth),
-     * azimuth from the sun's. */
+     * azimuth between its travel and the beam's: that between a look along it and the sun. */
     Spectrum *source;
     float rise; /* logarithm of the next sun angle's light over this one's, where that is how
                  * light lies between the two; 0: it lies on a straight line */
@@ -45,7 +45,8 @@ void diffuse_light_build(const DiffuseInput *input, Arena *arena, DiffuseLight *
 /* Altitude of a level: close together near the floor, where the aerosol is. */
 double diffuse_level_m(const DiffuseLight *light, int level);
 
-/* Source at an altitude towards a direction (cosine to the zenith, cosine of its azimuth from
- * the sun's). By pointer, because every build of the hot sources calls this one. */
+/* Source at an altitude towards a direction of travel: its cosine to the zenith, and of its
+ * azimuth from the beam's travel (1: light for an eye that looks towards the sun). By pointer,
+ * because every build of the hot sources calls this one. */
 void diffuse_light_source(const DiffuseLight *light, double altitude_m, float cosine,
                           float azimuth_cosine, Spectrum *out);

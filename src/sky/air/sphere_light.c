@@ -386,7 +386,6 @@ static void start_sphere(Sphere *s, Arena *scratch)
     fill_beam_phase(s);
 }
 
-/* The tables' azimuth is the sun's, the series' that of the beam's travel, opposite. */
 static void give_sources(const Sphere *s, DiffuseLight *out)
 {
     for (int a = 0; a < s->input->count; a++) {
@@ -396,8 +395,7 @@ static void give_sources(const Sphere *s, DiffuseLight *out)
                 for (int m = 0; m < DIFFUSE_MODES; m++)
                     out[a].source[((size_t)k * DIFFUSE_COSINES + (size_t)i) * DIFFUSE_MODES +
                                   (size_t)m] =
-                        s->total[source_node(k, i, a) + (size_t)m] *
-                        spectrum_all(m % 2 ? -1.0f : 1.0f);
+                        s->total[source_node(k, i, a) + (size_t)m];
     }
 }
 
