@@ -129,8 +129,8 @@ static void fit(const Fault *fault, const char *manifest, bool force)
     work.report = NULL;
     work.err = (Error){0};
     remove(panel);
-    if (manifest == WHITE) write_white(fault);
-    else for (int i = 0; i < 3; i++) write_brdf(fault, 10 + 25 * i);
+    if (manifest == WHITE && fault) write_white(fault);
+    else if (fault) for (int i = 0; i < 3; i++) write_brdf(fault, 10 + 25 * i);
     write_text(path, manifest);
     if (!measurement_read(path, &work.arena, set, &work.err) ||
         (!panel_fit(set, &options, panel, &work.arena, &work.report, &work.err) &&
@@ -276,6 +276,73 @@ TEST(a_missing_sector_is_named_and_a_round_panel_does_not_need_it)
     fault.corners = 0;
     fit(&fault, WHITE, false);
     expect(JUDGE_GOOD, JUDGE_GOOD, "[]");
+}
+
+/* Luminances of lamps in a direction, degrees. */
+typedef double Lamp(double theta, double phi);
+
+static double narrow_lamp(double theta, double phi)
+{
+    (void)phi;
+    return theta < 10 ? 8e5 * exp(-pow(theta / 3, 2)) : 0;
+}
+
+static double cut_off_lamp(double theta, double phi)
+{
+    (void)phi;
+    return theta <= 65 ? 16000 : 0;
+}
+
+/* A beam around theta 40, phi 90. */
+static double flood_lamp(double theta, double phi)
+{
+    double t = radians_from_degrees(theta), c = radians_from_degrees(40);
+    double cosine = cos(t) * cos(c) + sin(t) * sin(c) * sin(radians_from_degrees(phi));
+    double beam = degrees_from_radians(acos(fmin(1, fmax(-1, cosine)))) / 14;
+    return 3e5 * exp(-beam * beam);
+}
+
+static double batwing_lamp(double theta, double phi)
+{
+    (void)phi;
+    return 800 * (0.3 + exp(-pow((theta - 45) / 14, 2)));
+}
+
+/* The fit of a lamp with default options; step_deg of theta. */
+static void fit_lamp(Lamp *lamp, double step_deg)
+{
+    FILE *file = fopen(in_work("white.csv"), "w");
+    assert_non_null(file);
+    fprintf(file, "theta,phi,X,Y,Z\n");
+    for (double theta = 0; theta < 89; theta += step_deg)
+        for (int phi = 0; phi < 360; phi += 30) {
+            double y = lamp(theta, phi);
+            fprintf(file, "%g,%d,%.6g,%.6g,%.6g\n", theta, phi, 0.95 * y, y, 1.09 * y);
+            if (theta == 0) break;
+        }
+    fclose(file);
+    fit(NULL, WHITE, false);
+}
+
+/* Errors are relative to no less than a thousandth of the largest value, so that darkness
+ * beyond a beam or a cut-off cannot spoil what shines. A jump between two samples is smoothed:
+ * of the cut-off the mean is held, the samples beside the jump to 100 % only. */
+TEST(lamps_are_fitted_with_darkness_around_them)
+{
+    static const struct { const char *name; Lamp *lamp; double step, worst, rms; } cases[] = {
+        {"narrow", narrow_lamp, 1, 0.06, 0.02}, {"cut-off", cut_off_lamp, 2.5, 1, 0.04},
+        {"flood", flood_lamp, 2.5, 0.01, 0.005}, {"batwing", batwing_lamp, 2.5, 0.01, 0.005}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        fit_lamp(cases[i].lamp, cases[i].step);
+        if (!work.written) fail_msg("%s: %s", cases[i].name, work.err.text);
+        const json_t *total = json_object_get(work.report, "total");
+        double worst = json_number_value(json_object_get(total, "max_error"));
+        double flux = json_number_value(json_object_get(total, "integral_error"));
+        double rms = json_number_value(json_object_get(total, "rms_error"));
+        if (!(worst < cases[i].worst) || !(rms < cases[i].rms) || !(fabs(flux) < 0.01))
+            fail_msg("%s: max %g, rms %g, flux %g", cases[i].name, worst, rms, flux);
+    }
 }
 
 TEST(the_report_says_what_decided)

@@ -31,7 +31,7 @@ typedef struct FitWords {
     const char *output, *root, *levels;
     int         basis, wavelet, weights, incidence; /* places in the lists of the options */
     long        level;
-    double      keep, max_error, frame;
+    double      keep, max_error, error_floor, frame;
     bool        masks_outliers, lobe_is_mirror, force;
 } FitWords;
 
@@ -56,6 +56,9 @@ static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err
          "relative error allowed at every sample besides its noise (default: 0.0025 for "
          "emission, 0.02 for reflection, or what the noise asks for)", &out->max_error, 1e-5, 1,
          .given = NULL},
+        {"--error-floor", OPTION_NUMBER, "PERCENT",
+         "of an emission table's largest value: errors of what is less are relative to it "
+         "(default 0.1)", &out->error_floor, 1e-4, 10, .given = NULL},
         {"--mask-outliers", OPTION_FLAG, NULL,
          "errors leave out hot and dead pixels of emission tables", &out->masks_outliers,
          .given = NULL},
@@ -103,6 +106,7 @@ static FitOptions options_of(const FitWords *words)
     fit.force = words->force;
     fit.lobe_is_mirror = words->lobe_is_mirror;
     if (words->max_error > 0) fit.bound = (float)words->max_error;
+    if (words->error_floor > 0) fit.error_floor = 0.01f * (float)words->error_floor;
     if (words->keep > 0) {
         fit.keep_share = (float)words->keep;
         fit.max_error = 0;

@@ -37,11 +37,10 @@ static void find_least(EmissionCheck *check, Arena scratch)
 {
     const AngleTable *table = check->table;
     for (int j = 0; j < 3; j++) {
-        double most = 0;
-        for (int i = 0; i < table->rows; i++)
-            most = fmax(most, (double)table->value[3 * i + j]);
-        check->least[j] = fmax(fmax(20 * check->emission->dim[check->index][j],
-                                    EMISSION_NO_LIGHT), EMISSION_FLOOR_SHARE * most);
+        const EmissionResult *e = check->emission;
+        check->least[j] = fmax(20 * e->dim[check->index][j],
+                               emission_samples_floor(table, j, e->outlier[check->index],
+                                                      e->floor_share));
         check->noise[j] = table_noise_relative(table, j, scratch);
     }
 }
@@ -133,7 +132,7 @@ static json_t *describe_emission(const FitParts *parts, const FitTable *total, i
     const EmissionResult *e = parts->emission;
     double bytes = (double)emission_bytes(e);
     return json_pack("{s:s, s:i, s:i, s:f, s:f, s:f, s:f, s:b, s:b, s:b, s:I, s:I, s:f, s:i,"
-                     " s:i, s:i}",
+                     " s:i, s:i, s:f}",
         "basis", parts->options->basis == FIT_HAAR ? "haar" : "vertex",
         "level", e->tree.level, "components", e->components, "tolerance", e->tolerance,
         "bound", total->max_error, "rank_error", e->rank_worst,
@@ -143,7 +142,8 @@ static json_t *describe_emission(const FitParts *parts, const FitTable *total, i
         "bytes", (json_int_t)emission_bytes(e),
         "source_bytes_float32", (json_int_t)total->float32_bytes,
         "share_of_source", bytes / fmax(1, (double)total->float32_bytes),
-        "outliers", e->outlier_count, "holes", e->hole_count, "falling_codes", falling);
+        "outliers", e->outlier_count, "holes", e->hole_count, "falling_codes", falling,
+        "error_floor", e->floor_share);
 }
 
 static json_t *flags_json(const EmissionFlags *flags, bool has_values)

@@ -2,6 +2,6 @@
 
 FitOptions fit_options_default(void)
 {
-    return (FitOptions){.max_error = 0.003f, .wavelet = WAVELET_CDF53, .weights = HAAR_AREA,
-                        .threads = 1, .progress = PROGRESS_NONE};
+    return (FitOptions){.max_error = 0.003f, .error_floor = 0.001f, .wavelet = WAVELET_CDF53,
+                        .weights = HAAR_AREA, .threads = 1, .progress = PROGRESS_NONE};
 }

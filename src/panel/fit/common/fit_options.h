@@ -15,6 +15,8 @@ typedef struct FitOptions {
     float       max_error;  /* relative, of each tree component */
     float       bound;      /* relative error allowed at every measured sample; 0: 2 %, and
                                2.5 % of noisy tables. Noise allows its own 5 sigma anyway */
+    float       error_floor; /* share of an emission channel's largest value in a table: of what
+                                is less, errors count relative to it */
     FitBasis    basis;
     bool        mask_outliers; /* hot and dead pixels of emission tables are never followed;
                                    with this no error counts them either */

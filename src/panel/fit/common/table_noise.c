@@ -23,6 +23,8 @@ typedef struct NoiseQuestion {
     int    channel;
     double from, to; /* theta, radians */
     bool   is_relative; /* to the mean of the rows */
+    bool   has_zero; /* differences of 0 count: darkness has no noise. Else rows are copies of
+                        each other, which tells nothing */
 } NoiseQuestion;
 
 /* Differences of rows along one of their neighbourhoods. */
@@ -57,7 +59,7 @@ static bool high_difference(const AngleTable *table, DifferenceKind kind, int ro
     return true;
 }
 
-/* Median over rows; 0: too few. */
+/* Median over rows; negative: too few. */
 static double median_difference(const AngleTable *table, DifferenceKind kind,
                                 const NoiseQuestion *ask, Arena scratch)
 {
@@ -70,7 +72,7 @@ static double median_difference(const AngleTable *table, DifferenceKind kind,
         if (high_difference(table, kind, i, ask, &difference))
             list[count++] = difference;
     }
-    if (count < ENOUGH || (kind.in_logs && 2 * count < asked)) return 0;
+    if (count < ENOUGH || (kind.in_logs && 2 * count < asked)) return -1;
     return sort_median(list, count) / MEDIAN_OF_NORMAL;
 }
 
@@ -85,26 +87,38 @@ static double least_difference(const AngleTable *table, bool has_logs, const Noi
         for (int k = 0; k < (has_logs ? 4 : 2); k++) {
             DifferenceKind kind = {k % 2 ? near.inner : near.ring, order, k > 1};
             double         found = median_difference(table, kind, ask, scratch);
-            if (found > 0) least = fmin(least, found);
+            if (found > 0 || (found == 0 && ask->has_zero)) least = fmin(least, found);
         }
     return least < INFINITY ? least : 0;
 }
 
 double table_noise_relative(const AngleTable *table, int channel, Arena scratch)
 {
-    NoiseQuestion ask = {channel, 0, radians_from_degrees(70), true};
+    NoiseQuestion ask = {channel, 0, radians_from_degrees(70), true, false};
     return least_difference(table, true, &ask, scratch);
+}
+
+/* Are most rows from there on exactly zero? */
+static bool is_dark_from(const AngleTable *table, int channel, double from)
+{
+    int dark = 0, count = 0;
+    for (int i = 0; i < table->rows; i++) {
+        if ((double)table->theta[i] < from) continue;
+        dark += !(value_at(table, i, channel) > 0);
+        count++;
+    }
+    return 2 * dark > count;
 }
 
 double table_noise_dim(const AngleTable *table, int channel, Arena scratch)
 {
-    double        edge = (double)table->theta_max;
-    NoiseQuestion ask = {channel, 0.9 * edge, edge, false};
+    double        edge = (double)table->theta_max, from = 0.9 * edge;
+    NoiseQuestion ask = {channel, from, edge, false, is_dark_from(table, channel, from)};
     return least_difference(table, true, &ask, scratch);
 }
 
 double table_noise_plain(const AngleTable *table, int channel, Arena scratch)
 {
-    NoiseQuestion ask = {channel, 0, PI / 2, false};
+    NoiseQuestion ask = {channel, 0, PI / 2, false, false};
     return least_difference(table, false, &ask, scratch);
 }

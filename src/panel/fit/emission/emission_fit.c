@@ -109,10 +109,10 @@ static bool build_model(const Measurement *set, const FitOptions *options, Arena
                         FitNotes *notes, EmissionResult *out, EmissionModel *model)
 {
     EmissionSamples *samples = ARENA_NEW(arena, EmissionSamples, 1);
+    samples->tolerance = options->bound > 0 ? (double)options->bound : TOLERANCE;
+    samples->floor_share = (double)options->error_floor;
     EmissionRank    *rank = ARENA_NEW(arena, EmissionRank, 1);
-    emission_samples_gather(set, out->has_black, out->outlier,
-                            options->bound > 0 ? (double)options->bound : TOLERANCE, arena,
-                            samples);
+    emission_samples_gather(set, out->has_black, out->outlier, arena, samples);
     emission_samples_note(samples, *arena, notes);
     emission_rank_find(samples, arena, rank);
     *model = (EmissionModel){.samples = samples, .rank = rank,
@@ -146,6 +146,7 @@ bool emission_fit(const Measurement *set, const FitOptions *options, Arena *aren
     out->components = model.rank->components;
     out->cone = model.samples->cone;
     out->tolerance = model.tolerance;
+    out->floor_share = model.samples->floor_share;
     out->rank_worst = model.rank->worst;
     return true;
 }

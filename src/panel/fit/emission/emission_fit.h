@@ -16,6 +16,7 @@ typedef struct EmissionResult {
     int           components, table_count;
     bool          has_black;
     double        cone, tolerance; /* cone: radians */
+    double        floor_share; /* as in EmissionSamples */
     double        rank_worst; /* relative error that the components leave at the worst sample */
     double        noise[EMISSION_TABLES_MAX];  /* relative, per table; last: black */
     double        dim[EMISSION_TABLES_MAX][3]; /* cd m^-2, per table and channel */

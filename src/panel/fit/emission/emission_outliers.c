@@ -93,6 +93,21 @@ static Expected expected_of(const OutlierSearch *search, const int near[4], int 
     return out;
 }
 
+/* A hot or dead pixel differs from all neighbours, or from all but one that is hit as well; the
+ * corner of a beam that is cut off has two that are as bright. */
+static bool is_alone(const OutlierSearch *search, int row, const int near[4], int channel)
+{
+    double value = level_of(search, row, channel);
+    int    above = 0, below = 0, count = 0;
+    for (int k = 0; k < 4; k++) {
+        if (near[k] < 0) continue;
+        double rest = value - level_of(search, near[k], channel);
+        above += rest > LEAST, below += rest < -LEAST;
+        count++;
+    }
+    return above >= count - 1 || below >= count - 1;
+}
+
 /* Does any of the three tristimulus values stand out? */
 static bool stands_out(const OutlierSearch *search, int row, const int near[4])
 {
@@ -106,7 +121,7 @@ static bool stands_out(const OutlierSearch *search, int row, const int near[4])
             double sigma = sqrt(search->noise[j] * search->noise[j] + dim * dim);
             is_far &= fabs(value - expected.level[k]) > fmax(SIGMAS * sigma, expected.limit[k]);
         }
-        if (is_far) return true;
+        if (is_far && is_alone(search, row, near, j)) return true;
     }
     return false;
 }

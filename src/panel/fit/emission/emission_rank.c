@@ -353,8 +353,8 @@ static void straighten(const EmissionSamples *s, const double *weight, EmissionR
 
 /* ---- how many -------------------------------------------------------------------------- */
 
-/* The largest |M - model| / M beyond what noise explains; *count: how many are beyond a
- * quarter of the tolerance. */
+/* The largest |M - model| / M, M no less than the floor, beyond what noise explains; *count:
+ * how many are beyond a quarter of the tolerance. */
 static double worst_rest(const RankWork *work, int *count)
 {
     const EmissionSamples *s = work->samples;
@@ -372,8 +372,9 @@ static double worst_rest(const RankWork *work, int *count)
             if (s->black >= 0 && !is_black_channel(s, c))
                 m += exp_d((double)work->logs[s->black + c % 3]);
             double rest = fabs(m - (double)s->total[at]) - 5 * (double)s->sigma[at];
-            worst = fmax(worst, rest / (double)s->total[at]);
-            *count += rest > 0.25 * s->tolerance * (double)s->total[at];
+            double scale = fmax((double)s->total[at], s->floor[c]);
+            worst = fmax(worst, rest / scale);
+            *count += rest > 0.25 * s->tolerance * scale;
         }
     }
     return worst;

@@ -60,14 +60,30 @@ static bool resample(const Resampler *from, float theta, float phi, float value[
 /* What is read between a table's own directions is not known better. */
 #define RESAMPLED_SIGMA 0.002
 
+/* A logarithm follows darkness without end: nothing goes below this share of the floor, which
+ * is far inside what counts. */
+#define HELD_SHARE 0.01
+
 typedef struct TableNoise {
     double relative[3], dim[3];
+    double floor[3]; /* cd m^-2, errors are relative to no less */
 } TableNoise;
 
-static TableNoise table_noise(const AngleTable *table, Arena scratch)
+double emission_samples_floor(const AngleTable *table, int channel, const uint8_t *outlier,
+                              double share)
+{
+    double most = 0;
+    for (int i = 0; i < table->rows; i++)
+        if (!outlier || !outlier[i])
+            most = fmax(most, (double)table->value[3 * (size_t)i + (size_t)channel]);
+    return fmax(share * most, EMISSION_NO_LIGHT);
+}
+
+static TableNoise table_noise(const AngleTable *table, const double floor[3], Arena scratch)
 {
     TableNoise noise;
     for (int j = 0; j < 3; j++) {
+        noise.floor[j] = floor[j];
         noise.relative[j] = table_noise_relative(table, j, scratch);
         noise.dim[j] = table_noise_dim(table, j, scratch);
     }
@@ -79,8 +95,10 @@ static void put_row(EmissionSamples *out, int row, int channel, const float valu
 {
     for (int j = 0; j < 3; j++) {
         size_t at = (size_t)row * (size_t)out->channels + (size_t)(channel + j);
-        double m = (double)value[j], scale = fmax(fabs(m), EMISSION_NO_LIGHT);
-        out->total[at] = value[j];
+        double held = HELD_SHARE * noise->floor[j];
+        double m = (double)value[j], scale = fmax(fabs(m), noise->floor[j]);
+        out->total[at] = m < held && noise->dim[j] < held && held > EMISSION_NO_LIGHT
+                             ? (float)held : value[j];
         out->sigma[at] =
             (float)sqrt(pow_d(noise->relative[j] * m, 2) + pow_d(noise->dim[j], 2) +
                         pow_d(LEAST_SIGMA * out->tolerance * scale, 2));
@@ -126,7 +144,7 @@ static bool is_on_grid(const AngleTable *grid, const AngleTable *table, Arena sc
 static void put_table(EmissionSamples *out, const AngleTable *table, int channel,
                       const uint8_t *outlier, Arena scratch)
 {
-    TableNoise noise = table_noise(table, scratch);
+    TableNoise noise = table_noise(table, out->floor + channel, scratch);
     int       *row = ARENA_NEW(&scratch, int, out->rows);
     if (2 * match_rows(out->master, table, row) > table->rows) {
         for (int i = 0; i < out->rows; i++)
@@ -243,11 +261,24 @@ void emission_samples_note(const EmissionSamples *samples, Arena scratch, FitNot
                  samples->master->name);
 }
 
+#define DARK_SHARE 0.02 /* of the rows: fewer are dead pixels */
+
+/* Zeros, which no logarithm follows: only then does the fit need the floor. Without them it
+ * holds the darkest values relative to themselves, which is more than is asked. */
+static bool has_darkness(const AngleTable *table, int channel)
+{
+    int dark = 0;
+    for (int i = 0; i < table->rows; i++)
+        dark += !(table->value[3 * (size_t)i + (size_t)channel] > 0);
+    return dark > DARK_SHARE * table->rows;
+}
+
 void emission_samples_gather(const Measurement *set, bool has_black, uint8_t *const *outlier,
-                             double tolerance, Arena *arena, EmissionSamples *out)
+                             Arena *arena, EmissionSamples *out)
 {
     const AngleTable *table;
-    *out = (EmissionSamples){.set = set, .tolerance = tolerance};
+    *out = (EmissionSamples){.set = set, .tolerance = out->tolerance,
+                             .floor_share = out->floor_share};
     find_master(set, has_black, arena, out);
     size_t rows = (size_t)out->rows, numbers = rows * (size_t)out->channels;
     out->direction = ARENA_NEW(arena, Vec3, rows);
@@ -256,6 +287,12 @@ void emission_samples_gather(const Measurement *set, bool has_black, uint8_t *co
     out->sigma = ARENA_NEW(arena, float, numbers);
     for (int i = 0; i < out->rows; i++) out->direction[i] = table_row_direction(out->master, i);
     measure_rows(out, *arena);
+    out->floor = ARENA_NEW(arena, double, out->channels);
+    for (int i = 0; (table = emission_samples_table(set, has_black, i).table); i++)
+        for (int j = 0; j < 3; j++)
+            out->floor[3 * i + j] = has_darkness(table, j)
+                ? emission_samples_floor(table, j, outlier[i], out->floor_share)
+                : EMISSION_NO_LIGHT;
     for (int i = 0; (table = emission_samples_table(set, has_black, i).table); i++)
         put_table(out, table, 3 * i, outlier[i], *arena);
     for (int c = 0; c < out->channels; c++) fill_unknown(out, c);

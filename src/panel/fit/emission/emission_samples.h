@@ -13,9 +13,6 @@
 
 #define EMISSION_NO_LIGHT 1e-4 /* cd m^-2: what is less counts relative to this */
 
-/* Of a channel's largest value in a table: what is less counts relative to this. A thousandth
- * of the peak is what glare in an eye or a lens covers anyway. */
-#define EMISSION_FLOOR_SHARE 0.001
 #define EMISSION_TABLES_MAX (3 * PANEL_LEVELS_MAX + 1)
 
 /* Every table's totals M at the rows of the table that has the most. */
@@ -32,6 +29,8 @@ typedef struct EmissionSamples {
     double  step_deg; /* about how far apart neighbours are */
     int     azimuths; /* on a ring */
     double  tolerance; /* relative to M */
+    double *floor;    /* channels: errors count relative to no less than this, cd m^-2 */
+    double  floor_share; /* of a channel's largest value that the floor is */
 } EmissionSamples;
 
 typedef struct EmissionTable {
@@ -44,9 +43,15 @@ typedef struct EmissionTable {
 /* Table `index` of a set in the order of channels; has_black: the pattern is one of them. */
 EmissionTable emission_samples_table(const Measurement *set, bool has_black, int index);
 
-/* outlier[table]: rows that are not to be believed, or NULL. tolerance: as in *out. */
+/* What errors of a table's channel are relative to at least: a share of its largest value that
+ * outlier (NULL: none) leaves. */
+double emission_samples_floor(const AngleTable *table, int channel, const uint8_t *outlier,
+                              double share);
+
+/* outlier[table]: rows that are not to be believed. Of *out tolerance and floor_share are
+ * given. What is less than a hundredth of the floor comes as that hundredth. */
 void emission_samples_gather(const Measurement *set, bool has_black, uint8_t *const *outlier,
-                             double tolerance, Arena *arena, EmissionSamples *out);
+                             Arena *arena, EmissionSamples *out);
 
 /* What the samples' grid does not say. */
 void emission_samples_note(const EmissionSamples *samples, Arena scratch, FitNotes *notes);

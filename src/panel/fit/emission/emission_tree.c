@@ -202,11 +202,21 @@ static void find_wanted(EmissionCoder *coder)
     }
 }
 
-/* About the level below which an error of a channel is noise anyway. */
+/* The level below which an error of a channel counts relative to it: about where it is noise
+ * anyway, and the floor. */
 static void find_least(const EmissionModel *model, float *least)
 {
     for (int c = 0; c < model->samples->channels; c++)
-        least[c] = (float)fmax(20 * model->dim[c / 3][c % 3], EMISSION_NO_LIGHT);
+        least[c] = (float)fmax(20 * model->dim[c / 3][c % 3], model->samples->floor[c]);
+}
+
+/* Values of the rest at the vertices, and what follows from them. */
+static bool fit_vertices(EmissionCoder *coder, const float *rest, Arena scratch, Error *err)
+{
+    for (int k = 0; k < coder->model->rank->components; k++)
+        if (!fit_component(coder, rest, k, scratch, err)) return false;
+    find_wanted(coder);
+    return true;
 }
 
 static bool start_coder(EmissionModel *model, int level, const float *rest, Arena *arena,
@@ -224,41 +234,79 @@ static bool start_coder(EmissionModel *model, int level, const float *rest, Aren
     out->least = ARENA_NEW(arena, float, channels);
     out->work = ARENA_NEW(arena, float, channels);
     vertex_directions(out->lattice, out->direction);
-    for (size_t k = 0; k < n; k++)
-        if (!fit_component(out, rest, (int)k, *arena, err)) return false;
-    find_wanted(out);
-    return true;
+    find_least(model, out->least);
+    return fit_vertices(out, rest, *arena, err);
 }
 
 /* ---- against the samples ---------------------------------------------------------------- */
 
-/* The largest relative error beyond noise of vertex values that are not coded yet: what no
- * tightening mends. *row: where. */
-static double uncoded_error(const EmissionCoder *coder, int *row)
+/* The largest relative error beyond noise that vertex values leave of a row before they are
+ * coded. */
+static double row_error(const EmissionCoder *coder, int row)
 {
     const EmissionModel   *model = coder->model;
     const EmissionSamples *s = model->samples;
-    int    n = model->rank->components;
-    double worst = 0;
-    for (int i = 0; i < s->rows; i++) {
-        VertexPoint at = vertex_find(coder->geodesic, coder->lattice, s->direction[i]);
-        float components[PANEL_COMPONENTS_MAX] = {0};
-        emission_model_add_smooth(model, s->direction[i], components);
-        for (int q = 0; q < 3; q++)
-            for (int k = 0; k < n; k++)
-                components[k] += at.weight[q] * coder->value[at.vertex[q] * (uint32_t)n +
-                                                             (uint32_t)k];
-        emission_model_totals(model, components, s->direction[i], coder->work);
-        for (int c = 0; c < s->channels; c++) {
-            size_t number = (size_t)i * (size_t)s->channels + (size_t)c;
-            float  m = s->total[number], sigma = s->sigma[number];
-            if (isinf(sigma)) continue;
-            float scale = fmaxf(m, coder->least[c]);
-            double miss = (double)((fabsf(coder->work[c] - m) - 5 * sigma) / scale);
-            if (miss > worst) worst = miss, *row = i;
-        }
+    int         n = model->rank->components;
+    double      worst = 0;
+    VertexPoint at = vertex_find(coder->geodesic, coder->lattice, s->direction[row]);
+    float       components[PANEL_COMPONENTS_MAX] = {0};
+    emission_model_add_smooth(model, s->direction[row], components);
+    for (int q = 0; q < 3; q++)
+        for (int k = 0; k < n; k++)
+            components[k] += at.weight[q] * coder->value[at.vertex[q] * (uint32_t)n +
+                                                         (uint32_t)k];
+    emission_model_totals(model, components, s->direction[row], coder->work);
+    for (int c = 0; c < s->channels; c++) {
+        size_t number = (size_t)row * (size_t)s->channels + (size_t)c;
+        float  m = s->total[number], sigma = s->sigma[number];
+        if (isinf(sigma)) continue;
+        float scale = fmaxf(m, coder->least[c]);
+        worst = fmax(worst, (double)((fabsf(coder->work[c] - m) - 5 * sigma) / scale));
     }
     return worst;
+}
+
+/* Over all rows: what no tightening mends. *row: where. */
+static double uncoded_error(const EmissionCoder *coder, int *row)
+{
+    double worst = 0;
+    for (int i = 0; i < coder->model->samples->rows; i++) {
+        double miss = row_error(coder, i);
+        if (miss > worst) worst = miss, *row = i;
+    }
+    return worst;
+}
+
+#define DARK_ROUNDS 5
+#define DARK_RAISE 8.0f
+
+/* A row below the floor says little, for its logarithm may be anywhere down there; but where
+ * the surface passes far above it, it says much. Counts such rows and raises their weight. */
+static int believe_dark_rows(const EmissionCoder *coder)
+{
+    const EmissionSamples *s = coder->model->samples;
+    float *belief = coder->model->rank->belief;
+    int    raised = 0;
+    for (int i = 0; i < s->rows; i++) {
+        bool is_dark = false;
+        for (int c = 0; c < s->channels; c++) {
+            size_t number = (size_t)i * (size_t)s->channels + (size_t)c;
+            is_dark |= s->floor[c] > EMISSION_NO_LIGHT && !isinf(s->sigma[number]) &&
+                       (double)s->total[number] < s->floor[c];
+        }
+        if (!is_dark || belief[i] >= 1 || row_error(coder, i) < coder->model->tolerance)
+            continue;
+        belief[i] = fminf(1, DARK_RAISE * belief[i]);
+        raised++;
+    }
+    return raised;
+}
+
+static bool settle_dark_rows(EmissionCoder *coder, const float *rest, Arena scratch, Error *err)
+{
+    for (int round = 0; round < DARK_ROUNDS && believe_dark_rows(coder); round++)
+        if (!fit_vertices(coder, rest, scratch, err)) return false;
+    return true;
 }
 
 /* The coded tree's components at a row. */
@@ -431,8 +479,9 @@ static bool start(const Plan *plan, Arena *arena, Start *out, Error *err)
 {
     EmissionModel *model = plan->model;
     *out = (Start){.rest = rest_at_samples(model, arena)};
-    if (!start_coder(model, plan->level, out->rest, arena, &out->coder, err)) return false;
-    find_least(model, out->coder.least);
+    if (!start_coder(model, plan->level, out->rest, arena, &out->coder, err) ||
+        !settle_dark_rows(&out->coder, out->rest, *arena, err))
+        return false;
     out->coder.threads = plan->threads;
     out->uncoded = uncoded_error(&out->coder, &out->worst);
     return true;
@@ -498,8 +547,9 @@ bool emission_tree_build(EmissionModel *model, const FitOptions *options, Arena 
     coder = first.coder;
     if (model->beams && model->noise < NO_NOISE * model->tolerance) coder.pardon = 0;
     while (!options->level && uncoded > 0.5 * model->tolerance && level < LEVEL_MOST) {
-        if (!start_coder(model, level + 1, rest, arena, &finer, err)) return false;
-        finer.least = coder.least;
+        if (!start_coder(model, level + 1, rest, arena, &finer, err) ||
+            !settle_dark_rows(&finer, rest, *arena, err))
+            return false;
         finer.threads = coder.threads;
         finer.pardon = coder.pardon;
         double next = uncoded_error(&finer, &first.worst);
