@@ -15,6 +15,7 @@
  * Threads  built by one thread, then only read.
  */
 #pragma once
+#include "base/mathf.h"
 #include "image/frame.h"
 
 /* What the filter goes by, as --layers names it. */
@@ -75,6 +76,14 @@ static inline float buffers_feature_distance(const DenoiseBuffers *buffers, size
     float           square = 0;
     for (int j = ROW_NORMAL; j <= ROW_DEPTH; j++) square += between[j] * between[j];
     return square;
+}
+
+#define BUFFERS_UNLIKE 8.0f /* how fast pixels of other features stop to count */
+
+/* 1 where the features are the same, to 0. */
+static inline float buffers_likeness(const DenoiseBuffers *buffers, size_t a, size_t b)
+{
+    return exp_f(-BUFFERS_UNLIKE * buffers_feature_distance(buffers, a, b));
 }
 
 /* The pixels at most `reach` from one, half-open. */

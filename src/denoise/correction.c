@@ -6,7 +6,6 @@
 #include "base/parallel.h"
 
 #define STRICTNESS 1.5f /* squared standard errors that are not believed */
-#define UNLIKE 8.0f     /* how fast pixels of other features stop to count */
 
 typedef struct Correction {
     const DenoiseBuffers *buffers;
@@ -31,7 +30,7 @@ static Residual residual_around(const Correction *work, size_t pixel, int x0, in
             if (b->kind[i] != b->kind[pixel]) continue;
             float distance = (float)((x - x0) * (x - x0) + (y - y0) * (y - y0));
             float weight = exp_f(narrow * distance -
-                                 UNLIKE * buffers_feature_distance(b, pixel, i));
+                                 BUFFERS_UNLIKE * buffers_feature_distance(b, pixel, i));
             for (int c = 0; c < 3; c++) {
                 r.sum[c] += weight * (buffers_mean(b, c, i) - work->light[c][i]);
                 r.variance[c] += weight * weight * b->variance[c][i];

@@ -9,7 +9,6 @@ enum { LOOK_REACH = 2, SPREAD_LEAST = 5, SPREAD_MOST = 40, RANK = 3 };
 
 #define LIMIT 4.0f  /* of the RANK-th brightest around */
 #define UNSURE 0.7f /* standard error by value */
-#define UNLIKE 8.0f /* how fast pixels of other features stop to get some */
 #define LEAST_RECEIVERS 4.0f /* pixels like it: fewer would become fireflies themselves */
 #define FAINT 0.05f /* of the light around: what is added there should be less */
 
@@ -71,7 +70,7 @@ typedef struct Receivers {
 static float share_of(const DenoiseBuffers *b, size_t pixel, size_t i)
 {
     if (i == pixel || b->kind[i] != b->kind[pixel]) return 0;
-    return exp_f(-UNLIKE * buffers_feature_distance(b, pixel, i));
+    return buffers_likeness(b, pixel, i);
 }
 
 static Receivers receivers_within(const Before *before, size_t pixel, int reach)

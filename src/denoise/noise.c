@@ -7,7 +7,6 @@
 
 #define REACH 4           /* pixels around that tell how much the samples' spread overstates */
 #define DISPLAY_REACH 2
-#define UNLIKE 8.0f       /* how fast pixels of other features stop to tell */
 #define WIDE_SHARE 0.3f   /* of the mean around: no pixel is surer because no light found it */
 #define RATIO_LEAST 0.05f /* of what the halves say to what the samples' spread says */
 #define RATIO_MOST 1.5f
@@ -104,7 +103,7 @@ static SpreadSums sums_around(const DenoiseBuffers *b, const float *spread, int 
             size_t i = (size_t)y * (size_t)b->width + (size_t)x;
             if (b->kind[i] != b->kind[pixel]) continue;
             float half = halves_at(b, c, i);
-            float like = exp_f(-UNLIKE * buffers_feature_distance(b, pixel, i));
+            float like = buffers_likeness(b, pixel, i);
             sums.halves += like * half * half;
             sums.wide += like * spread[i];
             sums.count += like;

@@ -6,7 +6,6 @@
 #include "base/mathf.h"
 
 #define STRENGTH 0.4f   /* how fast unlike patches stop to count: wide, narrowed later */
-#define UNLIKE 8.0f     /* how fast pixels of other features stop to count */
 #define LEAST_WEIGHT 1e-3f
 #define TOLERANCE 0.45f /* standard errors that do not count, as Rousselle et al. 2012 */
 
@@ -108,7 +107,7 @@ static void weigh_features(const DenoiseBuffers *b, int x, int y, float weights[
         int    dx = offset % PATCH_WINDOW - PATCH_SEARCH;
         int    dy = offset / PATCH_WINDOW - PATCH_SEARCH;
         size_t i = (size_t)(y + dy) * (size_t)b->width + (size_t)(x + dx);
-        float  like = exp_f(-UNLIKE * buffers_feature_distance(b, middle, i));
+        float  like = buffers_likeness(b, middle, i);
         weights[offset] *= like;
         if (weights[offset] < LEAST_WEIGHT) weights[offset] = 0;
     }

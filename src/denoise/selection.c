@@ -7,8 +7,6 @@
 
 enum { REACH = 4 };
 
-#define UNLIKE 8.0f /* how fast pixels of other features stop to tell */
-
 typedef struct FilterChoice {
     const DenoiseBuffers *buffers;
     const Candidates     *candidates;
@@ -39,7 +37,7 @@ static float gain_of(const FilterChoice *work, size_t i)
 
 static void fill_gains(void *context, int y, int worker)
 {
-    const FilterChoice      *work = context;
+    const FilterChoice   *work = context;
     const DenoiseBuffers *b = work->buffers;
     (void)worker;
     for (int x = 0; x < b->width; x++) {
@@ -59,7 +57,7 @@ static float share_at(const FilterChoice *work, size_t pixel)
         for (int x = w.x0; x < w.x1; x++) {
             size_t i = (size_t)y * (size_t)b->width + (size_t)x;
             if (b->kind[i] != b->kind[pixel]) continue;
-            float like = exp_f(-UNLIKE * buffers_feature_distance(b, pixel, i));
+            float like = buffers_likeness(b, pixel, i);
             sum += like * work->gain[i];
             squares += square(like * work->gain[i]);
         }
@@ -68,7 +66,7 @@ static float share_at(const FilterChoice *work, size_t pixel)
 
 static void fill_shares(void *context, int y, int worker)
 {
-    const FilterChoice      *work = context;
+    const FilterChoice   *work = context;
     const DenoiseBuffers *b = work->buffers;
     (void)worker;
     for (int x = 0; x < b->width; x++) {
@@ -81,9 +79,9 @@ static void fill_shares(void *context, int y, int worker)
 void selection_apply(const DenoiseBuffers *b, const Candidates *candidates, int threads,
                      Arena scratch)
 {
-    size_t    count = (size_t)b->width * (size_t)b->height;
+    size_t       count = (size_t)b->width * (size_t)b->height;
     FilterChoice work = {b, candidates, ARENA_NEW(&scratch, float, count),
-                      ARENA_NEW(&scratch, float, count)};
+                         ARENA_NEW(&scratch, float, count)};
     parallel_for(threads, b->height, fill_gains, &work);
     parallel_for(threads, b->height, fill_shares, &work);
     for (int half = 0; half < 2; half++)

@@ -5,27 +5,10 @@
 #include "base/mathd.h"
 #include "base/units.h"
 #include "sky/moon_position_tables.h"
+#include "sky/sky_degrees.h"
 #include "sky/sun_disc.h"
 
-#define J2000 2451545.0
 #define EARTH_RADIUS_KM 6378.14
-#define EARTH_FLATNESS 0.99664719 /* as sun_position.c's */
-
-static double sin_deg(double degrees)
-{
-    return sin_d(radians_from_degrees(degrees));
-}
-
-static double cos_deg(double degrees)
-{
-    return cos_d(radians_from_degrees(degrees));
-}
-
-static double turn_deg(double degrees)
-{
-    double rest = fmod(degrees, 360);
-    return rest < 0 ? rest + 360 : rest;
-}
 
 /* ---- the theory -------------------------------------------------------------------------- */
 

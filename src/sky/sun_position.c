@@ -6,27 +6,10 @@
 
 #include "base/mathd.h"
 #include "base/units.h"
+#include "sky/sky_degrees.h"
 #include "sky/sun_position_tables.h"
 
-#define J2000 2451545.0
 #define EARTH_RADIUS_M 6378140.0
-#define EARTH_FLATNESS 0.99664719 /* polar over equatorial radius */
-
-static double sin_deg(double degrees)
-{
-    return sin_d(radians_from_degrees(degrees));
-}
-
-static double cos_deg(double degrees)
-{
-    return cos_d(radians_from_degrees(degrees));
-}
-
-static double turn_deg(double degrees)
-{
-    double rest = fmod(degrees, 360);
-    return rest < 0 ? rest + 360 : rest;
-}
 
 /* ---- time ------------------------------------------------------------------------------ */
 
