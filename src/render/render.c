@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdatomic.h>
 
+#include "base/machine.h"
 #include "base/parallel.h"
 #include "bvh/bvh.h"
 #include "light/light.h"
@@ -238,7 +239,8 @@ bool render_scene(const Scene *scene, const SceneCamera *camera, const RenderOpt
     if (!bvh_create(scene, options->threads, options->isa, &bvh, err)) return false;
     PathContext context = path_context_build(scene, bvh, lights, options->max_bounces, arena);
     RenderResult result = {.kernel = kernel, .refused_pixels = lights_refused_pixels(lights),
-                           .build_seconds = monotonic_seconds() - begun_s};
+                           .build_seconds = monotonic_seconds() - begun_s,
+                           .build_peak_bytes = machine_peak_bytes()};
     bool done = render_film(&context, camera, options, arena, &result, err);
     bvh_destroy(bvh);
     if (done) *out = result;

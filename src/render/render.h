@@ -56,6 +56,7 @@ struct RenderResult {
     long           refused_pixels; /* of the surroundings' picture: negative or not finite, 0 */
     double         seconds;    /* of rendering alone, over all sessions */
     double         build_seconds; /* of the ray tracer's and the lights' structures, now */
+    double         build_peak_bytes; /* the most memory of the process until they stood */
     PathStatistics statistics;
     FilmError      error;
     bool           complete;   /* all samples, or the wanted noise */
