@@ -7,11 +7,12 @@
 #include "base/parallel.h"
 #include "bvh/bvh.h"
 #include "light/light.h"
+#include "render/forecast.h"
 #include "render/signals.h"
 
 #define TILE_SIDE 16                /* pixels: a few milliseconds of work */
 #define PASS_PATHS ((size_t)1 << 22) /* of one pass at most, where a pixel gets more than one */
-#define PASS_SAMPLES_MAX 64u
+#define PASS_SAMPLES_MAX 16u
 
 /* ---- tiles and passes -------------------------------------------------------------------- */
 
@@ -105,25 +106,24 @@ typedef struct Run {
     TileJob       job;
     WorkerCounts *counts;
     Progress      progress;
+    Forecast      forecast;
     double        checkpoint_s; /* when the last one was written, or the run began */
     RenderResult  result;
 } Run;
 
-/* Enough samples and little enough noise? Also tells the progress how long it may take: the
- * error falls with the square root of the samples. */
+/* Enough samples and little enough noise? Also tells the progress how long it may take. */
 static bool noise_reached(Run *run)
 {
     const RenderOptions *options = run->options;
+    RenderResult        *result = &run->result;
     if (!(options->noise > 0)) return false;
-    run->result.error = film_relative_error(run->result.film);
-    double error = options->noise_of_displays ? run->result.error.displays
-                                              : run->result.error.frame;
-    double ratio = error / options->noise;
-    double wanted = fmax((double)run->result.samples * ratio * ratio, RENDER_LEAST_SAMPLES);
-    double most = (double)(options->end_sample - options->first_sample);
-    if (isfinite(wanted))
-        run->progress.total = fmin(wanted, most) * (double)pixel_count(options->crop);
-    return run->result.samples >= RENDER_LEAST_SAMPLES && error <= options->noise;
+    result->noise = film_area_error(result->film, options->noise_area);
+    uint32_t most = options->end_sample - options->first_sample;
+    uint32_t end = forecast_samples(&run->forecast, result->samples,
+                                    result->noise / options->noise, most,
+                                    pixel_count(options->crop));
+    run->progress.total = (double)end * (double)pixel_count(options->crop);
+    return result->samples >= RENDER_LEAST_SAMPLES && result->noise <= options->noise;
 }
 
 static void finish_result(Run *run)
@@ -193,7 +193,8 @@ static bool make_film(const RenderOptions *options, Arena *arena, RenderResult *
     const Checkpoint *resume = options->resume;
     result->film = film_create(options->width, options->height, options->crop, options->layers,
                                arena);
-    result->has_features = (options->layers & LAYER_FEATURES) || options->noise_of_displays ||
+    result->has_features = (options->layers & LAYER_FEATURES) ||
+                           (options->noise > 0 && options->noise_area.display != FILM_ALL_PIXELS) ||
                            (resume && resume->has_features);
     if (!resume) return true;
     result->samples = resume->done.end_sample - resume->done.first_sample;

@@ -19,6 +19,7 @@ typedef struct RenderRequest {
     CameraChoice  camera;
     EnvironmentChange environment;
     RenderOptions render;
+    const char   *noise_display; /* the display whose error decides; NULL: none is named */
     bool          replays; /* one sample of one pixel, printed */
     bool          is_part; /* some samples or pixels only: the frame can be merged */
     const char   *command_line; /* without what leaves every pixel as it is
