@@ -3,11 +3,9 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "render/render.h"
-
 #define GROWTH_DECAY 0.6
 #define GROWTH_MAX 0.5
-#define HALVES_FROM 32 /* samples from which the error is told by halves (film.h), and smaller */
+#define HALVES_FROM 32 /* samples from which halves tell the error (film.h): less of it */
 
 static bool is_of_halves(uint32_t samples)
 {
@@ -37,25 +35,11 @@ static double growth_to_come(const Forecast *forecast, uint32_t done, double wan
     return exp(forecast->growth * sum);
 }
 
-/* Passes grow to a size that they keep: a few are counted, the rest is divided. */
-static uint32_t end_of_pass(uint32_t done, double wanted, uint32_t most, size_t pixels)
-{
-    uint64_t end = done;
-    for (int i = 0; i < 8 && (double)end < wanted; i++)
-        end += render_pass_samples((uint32_t)end, pixels);
-    if ((double)end < wanted) {
-        double step = render_pass_samples((uint32_t)end, pixels);
-        end += (uint64_t)(ceil((wanted - (double)end) / step) * step);
-    }
-    return end < most ? (uint32_t)end : most;
-}
-
-uint32_t forecast_samples(Forecast *forecast, uint32_t done, double error_ratio, uint32_t most,
-                          size_t pixels)
+double forecast_samples(Forecast *forecast, uint32_t done, double error_ratio)
 {
     double wanted = (double)done * error_ratio * error_ratio;
-    if (!isfinite(wanted) || !(wanted > 0)) return most;
+    if (!isfinite(wanted)) return INFINITY;
+    if (!(wanted > 0)) return 0;
     watch(forecast, done, wanted);
-    wanted *= growth_to_come(forecast, done, wanted);
-    return end_of_pass(done, fmin(fmax(wanted, RENDER_LEAST_SAMPLES), most), most, pixels);
+    return wanted * growth_to_come(forecast, done, wanted);
 }

@@ -11,7 +11,6 @@
  * Threads   a Forecast is a plain value; {0} begins one.
  */
 #pragma once
-#include <stddef.h>
 #include <stdint.h>
 
 typedef struct Forecast {
@@ -20,8 +19,6 @@ typedef struct Forecast {
     double   growth;  /* of the wanted samples in the last doubling, as a share */
 } Forecast;
 
-/* The samples, at most `most`, after which a render of so many pixels will stop: the end of a
- * pass. error_ratio: the error after `done` samples over the wanted one; not finite: unknown,
- * which is answered with `most`. */
-uint32_t forecast_samples(Forecast *forecast, uint32_t done, double error_ratio, uint32_t most,
-                          size_t pixels);
+/* The samples that the wanted error takes, in fractions. error_ratio: the error after `done`
+ * samples, at least 1, over the wanted one; where it is not finite the answer is INFINITY. */
+double forecast_samples(Forecast *forecast, uint32_t done, double error_ratio);

@@ -49,6 +49,21 @@ uint32_t render_pass_samples(uint32_t done, size_t pixels)
     return end - done;
 }
 
+/* The end of the pass, from `done` on, that has `wanted` samples; at most `most`. Passes grow
+ * to a size that they keep: a few are counted, the rest is divided. */
+static uint32_t end_of_pass(uint32_t done, double wanted, uint32_t most, size_t pixels)
+{
+    uint64_t end = done;
+    if (!(wanted < most)) return most;
+    for (int i = 0; i < 8 && (double)end < wanted; i++)
+        end += render_pass_samples((uint32_t)end, pixels);
+    if ((double)end < wanted) {
+        double step = render_pass_samples((uint32_t)end, pixels);
+        end += (uint64_t)(ceil((wanted - (double)end) / step) * step);
+    }
+    return end < most ? (uint32_t)end : most;
+}
+
 /* ---- one pass ---------------------------------------------------------------------------- */
 
 /* One worker's counts, alone on their cache lines. */
@@ -119,10 +134,12 @@ static bool noise_reached(Run *run)
     if (!(options->noise > 0)) return false;
     result->noise = film_area_error(result->film, options->noise_area);
     uint32_t most = options->end_sample - options->first_sample;
-    uint32_t end = forecast_samples(&run->forecast, result->samples,
-                                    result->noise / options->noise, most,
-                                    pixel_count(options->crop));
-    run->progress.total = (double)end * (double)pixel_count(options->crop);
+    double   wanted = forecast_samples(&run->forecast, result->samples,
+                                       result->noise / options->noise);
+    size_t   pixels = pixel_count(options->crop);
+    wanted = fmax(wanted, RENDER_LEAST_SAMPLES);
+    uint32_t end = end_of_pass(result->samples, wanted, most, pixels);
+    run->progress.total = (double)end * (double)pixels;
     return result->samples >= RENDER_LEAST_SAMPLES && result->noise <= options->noise;
 }
 
@@ -194,7 +211,8 @@ static bool make_film(const RenderOptions *options, Arena *arena, RenderResult *
     result->film = film_create(options->width, options->height, options->crop, options->layers,
                                arena);
     result->has_features = (options->layers & LAYER_FEATURES) ||
-                           (options->noise > 0 && options->noise_area.display != FILM_ALL_PIXELS) ||
+                           (options->noise > 0 &&
+                            options->noise_area.display != FILM_ALL_PIXELS) ||
                            (resume && resume->has_features);
     if (!resume) return true;
     result->samples = resume->done.end_sample - resume->done.first_sample;

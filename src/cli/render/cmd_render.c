@@ -68,6 +68,13 @@ static bool check_look(const RenderRequest *request, Arena scratch, Error *err)
            develop_picture(&frame, &request->look, &scratch, &picture, &report, err);
 }
 
+/* One sample that is replayed has none. */
+static void set_noise(RenderRequest *request)
+{
+    request->render.noise = request->replays ? 0 : request->noise.error;
+    request->render.noise_area = request->noise.area;
+}
+
 static bool load(RenderRun *work, Error *err)
 {
     RenderRequest *request = &work->request;
@@ -77,7 +84,8 @@ static bool load(RenderRun *work, Error *err)
                            &work->problems, &work->scene, err) &&
         render_choose_camera(work->scene, &request->camera, &work->problems, &work->camera,
                              err) &&
-        noise_goal_find(work->scene, *work->arena, request, err);
+        noise_goal_find(work->scene, *work->arena, &request->noise, err);
+    if (loaded) set_noise(request);
     if (loaded) render_tell_of_darkness(work->scene, &work->problems);
     cli_print_warnings(&work->problems);
     return loaded;
@@ -147,10 +155,11 @@ static void warn_of_picture(RenderRun *work, const RenderResult *result)
 static void warn_of_noise(RenderRun *work, const RenderResult *result)
 {
     const RenderOptions *options = &work->request.render;
-    const char *area = noise_goal_words(&work->request, work->arena);
+    const char *area = noise_goal_words(&work->request.noise, work->arena);
     if (!(options->noise > 0) || !result->complete || result->noise <= options->noise) return;
     warn(work, isnan(result->noise)
-                   ? arena_format(work->arena, "nothing of %s is in view: --noise had nothing to go by",
+                   ? arena_format(work->arena,
+                                  "nothing of %s is in view: --noise had nothing to go by",
                                   area)
                    : arena_format(work->arena,
                                   "the relative error of %s is %.3g, not the %.3g of --noise, "

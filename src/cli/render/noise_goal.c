@@ -3,9 +3,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "cli/options/cli.h"
 #include "text/nearest_word.h"
 
-static bool is_rect(const double corner[4], FilmRect crop)
+static bool is_inside(const double corner[4], FilmRect crop)
 {
     for (int i = 0; i < 4; i++)
         if (corner[i] != floor(corner[i])) return false;
@@ -14,40 +15,38 @@ static bool is_rect(const double corner[4], FilmRect crop)
 }
 
 /* What stands before the last colon. */
-static bool parse_area(const char *area, RenderRequest *request, Error *err)
+static bool parse_area(const char *area, FilmRect crop, NoiseGoal *goal, Error *err)
 {
-    RenderOptions *options = &request->render;
-    FilmRect       crop = options->crop;
-    double         corner[4];
+    double corner[4];
     if (!strcmp(area, "display") || !strncmp(area, "display:", 8)) {
-        options->noise_area.display = FILM_ANY_DISPLAY;
-        request->noise_display = area[7] ? area + 8 : NULL;
+        goal->area.display = FILM_ANY_DISPLAY;
+        goal->display = area[7] ? area + 8 : NULL;
         return true;
     }
-    if (!cli_numbers(area, 4, corner) || !is_rect(corner, crop))
+    if (!cli_numbers(area, 4, corner) || !is_inside(corner, crop))
         return error_set(err, ERROR_USAGE,
                          "--noise %s:R: wanted display, display:NAME or whole numbers "
                          "X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 inside %d,%d,%d,%d",
                          area, crop.x0, crop.y0, crop.x1, crop.y1);
-    options->noise_area.rect =
+    goal->is_rect = true;
+    goal->area.rect =
         (FilmRect){(int)corner[0], (int)corner[1], (int)corner[2], (int)corner[3]};
     return true;
 }
 
-bool noise_goal_parse(const char *text, Arena *arena, RenderRequest *request, Error *err)
+bool noise_goal_parse(const char *text, FilmRect crop, Arena *arena, NoiseGoal *out, Error *err)
 {
-    RenderOptions *options = &request->render;
-    const char    *colon = strrchr(text, ':');
-    double         noise;
-    if (!cli_numbers(colon ? colon + 1 : text, 1, &noise) || !(noise > 0 && noise < 1))
+    const char *colon = strrchr(text, ':');
+    NoiseGoal   goal = {.area = {crop, FILM_ALL_PIXELS}};
+    if (!cli_numbers(colon ? colon + 1 : text, 1, &goal.error) ||
+        !(goal.error > 0 && goal.error < 1))
         return error_set(err, ERROR_USAGE,
                          "--noise %s: wanted a relative error above 0 and below 1, such as "
                          "0.05, display:0.01, display:NAME:0.01 or X0,Y0,X1,Y1:0.02",
                          text);
-    options->noise = noise;
-    options->noise_area = (FilmArea){options->crop, FILM_ALL_PIXELS};
-    if (!colon) return true;
-    return parse_area(arena_format(arena, "%.*s", (int)(colon - text), text), request, err);
+    *out = goal;
+    return !colon ||
+           parse_area(arena_string(arena, text, (size_t)(colon - text)), crop, out, err);
 }
 
 static bool no_such_display(const Scene *scene, const char *wanted, Arena scratch, Error *err)
@@ -63,25 +62,22 @@ static bool no_such_display(const Scene *scene, const char *wanted, Arena scratc
                            : "the scene has none");
 }
 
-bool noise_goal_find(const Scene *scene, Arena scratch, RenderRequest *request, Error *err)
+bool noise_goal_find(const Scene *scene, Arena scratch, NoiseGoal *goal, Error *err)
 {
-    const char *wanted = request->noise_display;
-    if (!wanted) return true;
+    if (!goal->display) return true;
     for (int i = 0; i < scene->display_count; i++) {
-        if (strcmp(scene->displays[i].name, wanted)) continue;
-        request->render.noise_area.display = i;
+        if (strcmp(scene->displays[i].name, goal->display)) continue;
+        goal->area.display = i;
         return true;
     }
-    return no_such_display(scene, wanted, scratch, err);
+    return no_such_display(scene, goal->display, scratch, err);
 }
 
-const char *noise_goal_words(const RenderRequest *request, Arena *arena)
+const char *noise_goal_words(const NoiseGoal *goal, Arena *arena)
 {
-    FilmArea area = request->render.noise_area;
-    FilmRect crop = request->render.crop, rect = area.rect;
-    if (request->noise_display)
-        return arena_format(arena, "display %s", request->noise_display);
-    if (area.display == FILM_ANY_DISPLAY) return "the displays";
-    if (!memcmp(&crop, &rect, sizeof crop)) return "the frame";
+    if (goal->display) return arena_format(arena, "display %s", goal->display);
+    if (goal->area.display == FILM_ANY_DISPLAY) return "the displays";
+    if (!goal->is_rect) return "the frame";
+    FilmRect rect = goal->area.rect;
     return arena_format(arena, "pixels %d,%d,%d,%d", rect.x0, rect.y0, rect.x1, rect.y1);
 }

@@ -6,14 +6,22 @@
  *     X0,Y0,X1,Y1:R     of a rectangle of the frame, half-open as --crop's
  */
 #pragma once
-#include "cli/render/render_request.h"
+#include "film/film.h"
+#include "scene/scene.h"
 
-/* Fills noise and noise_area of the request's options, and its noise_display; crop and size
- * stand there already. */
-bool noise_goal_parse(const char *text, Arena *arena, RenderRequest *request, Error *err);
+typedef struct NoiseGoal {
+    double      error;   /* 0: none is asked for */
+    FilmArea    area;
+    bool        is_rect; /* a rectangle was named */
+    const char *display; /* the name of the one that decides; NULL: none is named */
+} NoiseGoal;
 
-/* Finds the display of that name in the loaded scene. */
-bool noise_goal_find(const Scene *scene, Arena scratch, RenderRequest *request, Error *err);
+/* The area may not leave the crop. */
+bool noise_goal_parse(const char *text, FilmRect crop, Arena *arena, NoiseGoal *out,
+                      Error *err);
 
-/* The pixels that counted, as the user named them: "the frame", "the displays". */
-const char *noise_goal_words(const RenderRequest *request, Arena *arena);
+/* Finds the named display in the loaded scene. */
+bool noise_goal_find(const Scene *scene, Arena scratch, NoiseGoal *goal, Error *err);
+
+/* The pixels that count, as one would say it: "the frame", "the displays". */
+const char *noise_goal_words(const NoiseGoal *goal, Arena *arena);

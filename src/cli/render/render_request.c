@@ -7,7 +7,6 @@
 
 #include "cli/options/look_options.h"
 #include "cli/render/command_line.h"
-#include "cli/render/noise_goal.h"
 #include "text/nearest_word.h"
 
 #define DEFAULT_WIDTH 1280
@@ -139,7 +138,6 @@ static bool parse_replay(const double replay[3], RenderOptions *options, Error *
     options->crop = (FilmRect){x, y, x + 1, y + 1};
     options->first_sample = (uint32_t)replay[2];
     options->end_sample = options->first_sample + 1;
-    options->noise = 0;
     options->threads = 1;
     options->layers = LAYER_ALL;
     options->progress = PROGRESS_NONE;
@@ -190,7 +188,9 @@ static bool check_render(const RenderWords *typed, Arena *arena, RenderRequest *
     if (request->look.is_denoised && !parse_layers(DENOISE_LAYERS, &options->layers, err))
         return false;
     if (typed->has_crop && !parse_crop(typed->crop, options, err)) return false;
-    if (typed->noise && !noise_goal_parse(typed->noise, arena, request, err)) return false;
+    if (typed->noise &&
+        !noise_goal_parse(typed->noise, options->crop, arena, &request->noise, err))
+        return false;
     if (typed->has_replay && !parse_replay(typed->replay, options, err)) return false;
     request->replays = typed->has_replay;
     request->is_part = typed->samples || typed->has_crop;
