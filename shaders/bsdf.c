@@ -20,6 +20,12 @@ Spectrum bsdf_eval(const Bsdf *bsdf, Vec3 wo, Vec3 wi, float *pdf)
     return spectrum_all(0);
 }
 
+bool bsdf_reaches(const Bsdf *bsdf, Vec3 wo, Vec3 wi)
+{
+    const BsdfModel *model = models[bsdf->kind];
+    return model->eval && (!model->reaches || model->reaches(parameters_of(bsdf), wo, wi));
+}
+
 bool bsdf_sample(const Bsdf *bsdf, Vec3 wo, const float u[3], BsdfSample *sample)
 {
     const BsdfModel *model = models[bsdf->kind];

@@ -41,6 +41,9 @@ typedef struct Bsdf {
  * its non-delta parts (including the probability of choosing them). */
 Spectrum bsdf_eval(const Bsdf *bsdf, Vec3 wo, Vec3 wi, float *pdf);
 
+/* False: eval is 0 there, told for little work. */
+bool bsdf_reaches(const Bsdf *bsdf, Vec3 wo, Vec3 wi);
+
 /* False: absorbed. u in [0,1)^3. */
 bool bsdf_sample(const Bsdf *bsdf, Vec3 wo, const float u[3], BsdfSample *sample);
 

@@ -21,6 +21,7 @@ typedef struct BsdfSample {
 
 typedef struct BsdfModel {
     Spectrum (*eval)(const void *parameters, Vec3 wo, Vec3 wi, float *pdf);
+    bool     (*reaches)(const void *parameters, Vec3 wo, Vec3 wi); /* NULL: may, everywhere */
     bool     (*sample)(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample);
     Spectrum (*pass)(const void *parameters, Vec3 wo);
     bool     (*scatters)(const void *parameters);

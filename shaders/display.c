@@ -32,11 +32,16 @@ static bool reflects(const DisplaySurface *display, Vec3 wo)
     return wo.z > 0 && panel_reflects(display->panel);
 }
 
+static bool model_reaches(const void *parameters, Vec3 wo, Vec3 wi)
+{
+    return reflects(parameters, wo) && wi.z > 0;
+}
+
 static Spectrum model_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf)
 {
     const DisplaySurface *display = parameters;
     *pdf = 0;
-    if (!reflects(display, wo) || !(wi.z > 0)) return spectrum_all(0);
+    if (!model_reaches(parameters, wo, wi)) return spectrum_all(0);
     Spectrum mirror;
     float    prob = mirror_prob(display, wo, &mirror);
     *pdf = (1 - prob) * panel_pdf(display->panel, wo, wi);
@@ -79,5 +84,6 @@ static Spectrum model_albedo(const void *parameters, Vec3 wo)
            spectrum_all(panel_haze_albedo(display->panel, wo.z));
 }
 
-const BsdfModel display_model = {.eval = model_eval, .sample = model_sample,
-                                 .scatters = model_scatters, .albedo = model_albedo};
+const BsdfModel display_model = {.eval = model_eval, .reaches = model_reaches,
+                                 .sample = model_sample, .scatters = model_scatters,
+                                 .albedo = model_albedo};

@@ -438,11 +438,18 @@ static Spectrum eval_view(const View *view, Vec3 wi, float *pdf)
     return f;
 }
 
+static bool model_reaches(const void *parameters, Vec3 wo, Vec3 wi)
+{
+    const MetallicRoughness *m = parameters;
+    bool lets_through = m->transmission > 0 && !is_smooth(m->alpha);
+    return wo.z > 0 && (wi.z > 0 || (wi.z < 0 && lets_through));
+}
+
 static Spectrum model_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf)
 {
     const MetallicRoughness *m = parameters;
     *pdf = 0;
-    if (!(wo.z > 0) || wi.z == 0) return spectrum_all(0);
+    if (!model_reaches(parameters, wo, wi)) return spectrum_all(0);
     View view = view_from(m, wo);
     return eval_view(&view, wi, pdf);
 }
@@ -567,6 +574,7 @@ static Spectrum model_albedo(const void *parameters, Vec3 wo)
     return covered(m, mixed, coated);
 }
 
-const BsdfModel metallic_roughness_model = {.eval = model_eval, .sample = model_sample,
+const BsdfModel metallic_roughness_model = {.eval = model_eval,
+                                            .reaches = model_reaches, .sample = model_sample,
                                             .pass = model_pass, .scatters = model_scatters,
                                             .albedo = model_albedo};

@@ -122,82 +122,108 @@ static int choose_punctual(const Lights *lights, Vec3 position, const float u[3]
     return chosen;
 }
 
-static bool sample_punctual(const Lights *lights, Vec3 position, const Wavelengths *wavelengths,
-                            const float u[3], LightSample *sample)
+static bool sample_punctual(const Lights *lights, Vec3 position, const float u[3],
+                            LightSample *sample)
 {
     float prob_inverse;
     int   id = choose_punctual(lights, position, u, &prob_inverse);
     if (id == NO_ID) return false;
     const PunctualLight *light = &lights->scene->lights[id];
     float lux = punctual_geometry(light, position, &sample->wi, &sample->distance);
-    Spectrum white = light->white ? curve_lookup(light->white, wavelengths) : wavelengths->d65;
-    sample->radiance = spectrum_from_rgb(wavelengths, light->intensity) * white *
-                       spectrum_all(lux * prob_inverse);
+    sample->light_id = id;
+    sample->scale = lux * prob_inverse;
     sample->pdf = 1;
     sample->is_delta = true;
-    sample->is_emitter = false;
     return true;
+}
+
+static Spectrum punctual_radiance(const PunctualLight *light, float scale,
+                                  const Wavelengths *wavelengths)
+{
+    Spectrum white = light->white ? curve_lookup(light->white, wavelengths) : wavelengths->d65;
+    return spectrum_from_rgb(wavelengths, light->intensity) * white * spectrum_all(scale);
 }
 
 /* ---- all sets ---------------------------------------------------------------------------- */
 
-static bool sample_emitters(const Lights *lights, Vec3 position, const Wavelengths *wavelengths,
-                            const float u[3], LightSample *sample)
+static bool sample_emitters(const Lights *lights, Vec3 position, const float u[3],
+                            LightSample *sample)
 {
-    float         pdf_area;
-    EmitterPoint  at = emitters_sample(&lights->emitters, position, u, &pdf_area);
-    Hit           hit = {0, at.u, at.v, at.triangle};
-    TrianglePoint point = triangle_point(lights->scene, at.triangle, at.u, at.v);
-    Vec3     to_light = vec3_sub(point.position, position);
-    float    d2 = vec3_dot(to_light, to_light);
+    float        pdf_area;
+    EmitterPoint at = emitters_sample(&lights->emitters, position, u, &pdf_area);
+    sample->point = triangle_point(lights->scene, at.triangle, at.u, at.v);
+    Vec3  to_light = vec3_sub(sample->point.position, position);
+    float d2 = vec3_dot(to_light, to_light);
     sample->wi = vec3_normalize(to_light);
     sample->distance = sqrtf(d2);
-    float cosine = fabsf(vec3_dot(point.ng, sample->wi));
+    float cosine = fabsf(vec3_dot(sample->point.ng, sample->wi));
     if (!(d2 > 0) || !(cosine > 1e-6f)) return false;
     sample->pdf = pdf_area * d2 / cosine;
-    sample->radiance = triangle_emission(lights->scene, at.triangle, &point,
-                                         vec3_neg(sample->wi), wavelengths) *
-                       spectrum_all(coverage_at(lights->scene, &hit, &point));
-    sample->is_delta = false;
     sample->is_emitter = true;
     sample->triangle = at.triangle;
-    sample->ng = point.ng;
-    return sample->pdf > 0 && !spectrum_is_zero(sample->radiance);
+    sample->u = at.u;
+    sample->v = at.v;
+    sample->ng = sample->point.ng;
+    return sample->pdf > 0 && triangle_emits_to(lights->scene, at.triangle, &sample->point,
+                                                vec3_neg(sample->wi));
 }
 
-static bool sample_sun(const Lights *lights, const Wavelengths *wavelengths, const float u[3],
-                       LightSample *sample)
+static Spectrum emitter_radiance(const Scene *scene, const LightSample *sample,
+                                 const Wavelengths *wavelengths)
 {
-    Vec3 wi = sun_sample(&lights->sky, u[0], u[1]);
-    *sample = (LightSample){.wi = wi, .distance = INFINITY,
-                            .radiance = sun_radiance(&lights->sky, wi, wavelengths),
-                            .pdf = sun_pdf(&lights->sky, wi)};
+    Hit hit = {0, sample->u, sample->v, sample->triangle};
+    return triangle_emission(scene, sample->triangle, &sample->point, vec3_neg(sample->wi),
+                             wavelengths) *
+           spectrum_all(coverage_at(scene, &hit, &sample->point));
+}
+
+static bool sample_sun(const Lights *lights, const float u[3], LightSample *sample)
+{
+    sample->wi = sun_sample(&lights->sky, u[0], u[1]);
+    sample->pdf = sun_pdf(&lights->sky, sample->wi);
     return sample->pdf > 0;
 }
 
-static bool sample_sky(const Lights *lights, Vec3 ns, const Wavelengths *wavelengths,
-                       const float u[3], LightSample *sample)
+static bool sample_sky(const Lights *lights, Vec3 ns, const float u[3], LightSample *sample)
 {
     SkySample sky;
-    if (!sky_sample(&lights->sky, ns, u, wavelengths, &sky)) return false;
-    *sample = (LightSample){.wi = sky.direction, .distance = INFINITY,
-                            .radiance = sky.radiance, .pdf = sky.pdf};
+    if (!sky_choose(&lights->sky, ns, u, &sky)) return false;
+    sample->wi = sky.direction;
+    sample->pdf = sky.pdf;
+    sample->at = sky.at;
     return true;
 }
 
-bool lights_sample(const Lights *lights, LightSet set, LitPoint point,
-                   const Wavelengths *wavelengths, const float u[3], LightSample *sample)
+bool lights_sample(const Lights *lights, LightSet set, LitPoint point, const float u[3],
+                   LightSample *sample)
 {
+    sample->set = set;
+    sample->distance = INFINITY;
+    sample->is_delta = sample->is_emitter = false;
     switch (set) {
-    case LIGHTS_SUN: return sample_sun(lights, wavelengths, u, sample);
-    case LIGHTS_SKY: return sample_sky(lights, point.ns, wavelengths, u, sample);
-    case LIGHTS_EMITTERS:
-        return sample_emitters(lights, point.position, wavelengths, u, sample);
-    case LIGHTS_PUNCTUAL:
-        return sample_punctual(lights, point.position, wavelengths, u, sample);
+    case LIGHTS_SUN: return sample_sun(lights, u, sample);
+    case LIGHTS_SKY: return sample_sky(lights, point.ns, u, sample);
+    case LIGHTS_EMITTERS: return sample_emitters(lights, point.position, u, sample);
+    case LIGHTS_PUNCTUAL: return sample_punctual(lights, point.position, u, sample);
     case LIGHT_SETS: break;
     }
     return false;
+}
+
+Spectrum lights_radiance(const Lights *lights, const LightSample *sample,
+                         const Wavelengths *wavelengths)
+{
+    const Scene *scene = lights->scene;
+    SkySample    sky = {.direction = sample->wi, .at = sample->at};
+    switch (sample->set) {
+    case LIGHTS_SUN: return sun_radiance(&lights->sky, sample->wi, wavelengths);
+    case LIGHTS_SKY: return sky_radiance(&lights->sky, &sky, wavelengths);
+    case LIGHTS_EMITTERS: return emitter_radiance(scene, sample, wavelengths);
+    case LIGHTS_PUNCTUAL:
+        return punctual_radiance(&scene->lights[sample->light_id], sample->scale, wavelengths);
+    case LIGHT_SETS: break;
+    }
+    return spectrum_all(0);
 }
 
 void lights_distant(const Lights *lights, Vec3 direction, Vec3 ns,

@@ -4,7 +4,7 @@
  * (constant or HDRI), emitters (emissive triangles and displays, by power), and punctual
  * lights (by intensity). Which sets a hit samples is the path's business (path.c).
  *
- * Units    radiance in W m^-2 sr^-1 nm^-1 per lane; for delta lights `radiance` is the
+ * Units    radiance in W m^-2 sr^-1 nm^-1 per lane; for delta lights it is the
  *          irradiance on a plane that faces the light. pdf in sr^-1.
  * Memory   lights_build takes everything from the arena.
  * Threads  const after lights_build.
@@ -12,6 +12,7 @@
 #pragma once
 #include "base/sampler.h"
 #include "bvh/ray.h"
+#include "light/emission.h"
 #include "scene/scene.h"
 #include "spectrum/wavelengths.h"
 
@@ -32,14 +33,19 @@ bool lights_build(const Scene *scene, Arena *arena, Lights **out, Error *err);
 bool lights_has(const Lights *lights, LightSet set);
 
 typedef struct LightSample {
+    LightSet set;
     Vec3     wi;       /* unit, from the surface to the light */
     float    distance; /* m, to the light; INFINITY for sun, sky and directional lights */
-    Spectrum radiance;
     float    pdf;      /* sr^-1; 1 for delta lights */
     bool     is_delta; /* a BSDF sample can never hit it */
     bool     is_emitter; /* of a triangle: */
     uint32_t triangle;
     Vec3     ng;       /* unit, world: its normal */
+    float    u, v;     /* which point of it: barycentric weights of vertices 1 and 2, */
+    TrianglePoint point; /* and what is known of that */
+    Vec2     at;       /* of the sky: where in its picture */
+    int      light_id; /* of a punctual light: which, */
+    float    scale;    /* and what its intensity becomes at the point, by the choice's chance */
 } LightSample;
 
 /* A point that is lit. */
@@ -49,8 +55,12 @@ typedef struct LitPoint {
 } LitPoint;
 
 /* One sample of one set as seen from `point`. u in [0,1)^3. False: nothing comes from there. */
-bool lights_sample(const Lights *lights, LightSet set, LitPoint point,
-                   const Wavelengths *wavelengths, const float u[3], LightSample *sample);
+bool lights_sample(const Lights *lights, LightSet set, LitPoint point, const float u[3],
+                   LightSample *sample);
+
+/* What comes from there, asked once it is known to arrive: most samples are in shadow. */
+Spectrum lights_radiance(const Lights *lights, const LightSample *sample,
+                         const Wavelengths *wavelengths);
 
 /* Radiance of sun plus sky from a direction, and each one's sampling pdf as above.
  * radiance[0] the sun's, radiance[1] the sky's; likewise pdf. */

@@ -174,18 +174,27 @@ static Vec3 sample_cosine(Vec3 ns, float u0, float u1)
     return frame_to_world(&frame, vec3(radius * cosine, radius * sine, safe_sqrtf(1 - u0)));
 }
 
-bool sky_sample(const Sky *sky, Vec3 ns, const float u[2], const Wavelengths *wavelengths,
-                SkySample *sample)
+bool sky_choose(const Sky *sky, Vec3 ns, const float u[2], SkySample *sample)
 {
-    float rgb[3];
     if (sky->kind == ENVIRONMENT_NONE) return false;
     if (sky->kind == ENVIRONMENT_HDRI) {
-        sky_picture_sample(&sky->picture, u[0], u[1], &sample->direction, rgb, &sample->pdf);
-        sample->radiance = spectrum_from_rgb_emission(wavelengths, rgb);
-        return sample->pdf > 0;
+        sky_picture_sample(&sky->picture, u[0], u[1], &sample->direction, &sample->at,
+                           &sample->pdf);
+    } else if (sky->model) {
+        sample->direction = sky_model_sample(sky->model, u[0], u[1]);
+        sample->pdf = sky_model_pdf(sky->model, sample->direction);
+    } else {
+        sample->direction = sample_cosine(ns, u[0], u[1]);
+        sample->pdf = fmaxf(vec3_dot(sample->direction, ns), 0) * INV_PI_F;
     }
-    Vec3 direction = sky->model ? sky_model_sample(sky->model, u[0], u[1])
-                                : sample_cosine(ns, u[0], u[1]);
-    *sample = sky_seen(sky, direction, ns, wavelengths);
     return sample->pdf > 0;
+}
+
+Spectrum sky_radiance(const Sky *sky, const SkySample *chosen, const Wavelengths *wavelengths)
+{
+    float rgb[3];
+    if (sky->kind != ENVIRONMENT_HDRI)
+        return sky_seen(sky, chosen->direction, chosen->direction, wavelengths).radiance;
+    sky_picture_rgb(&sky->picture, chosen->at, rgb);
+    return spectrum_from_rgb_emission(wavelengths, rgb);
 }

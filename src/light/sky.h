@@ -39,20 +39,22 @@ typedef struct Sky {
 /* Fails on an environment that makes no sky, saying why. */
 bool sky_build(const Environment *environment, Arena *arena, Sky *out, Error *err);
 
-/* A direction towards the sky: what comes from there, and with which density sky_sample would
+/* A direction towards the sky: what comes from there, and with which density sky_choose would
  * choose it for a surface with shading normal ns (constant skies are sampled by the cosine
  * around it, others by their luminance). */
 typedef struct SkySample {
     Vec3     direction;
     Spectrum radiance; /* W m^-2 sr^-1 nm^-1 */
     float    pdf;      /* sr^-1 */
+    Vec2     at;       /* sky_choose: where in the picture */
 } SkySample;
 
 SkySample sky_seen(const Sky *sky, Vec3 direction, Vec3 ns, const Wavelengths *wavelengths);
 
-/* One to choose, for u0, u1 in [0, 1). False: nothing there. */
-bool sky_sample(const Sky *sky, Vec3 ns, const float u[2], const Wavelengths *wavelengths,
-                SkySample *sample);
+/* One to choose, for u0, u1 in [0, 1): all but its radiance, for which sky_radiance is asked
+ * once it is known to arrive. False: nothing there. */
+bool sky_choose(const Sky *sky, Vec3 ns, const float u[2], SkySample *sample);
+Spectrum sky_radiance(const Sky *sky, const SkySample *chosen, const Wavelengths *wavelengths);
 
 /* Zero off the disc, and below the horizon of a model. */
 Spectrum sun_radiance(const Sky *sky, Vec3 direction, const Wavelengths *wavelengths);

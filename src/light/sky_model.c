@@ -120,13 +120,23 @@ static float azimuth_turns(const SkyModel *model, Vec3 d)
     return turns < 1 ? turns : 0;
 }
 
+static float pdf_at(const SkyModel *model, float turns, float height)
+{
+    int column = (int)(turns * SKY_MODEL_COLUMNS);
+    if (column > SKY_MODEL_COLUMNS - 1) column = SKY_MODEL_COLUMNS - 1;
+    return cell_pdf(model, interval(model->edge, ROWS, height), column);
+}
+
+float sky_model_pdf(const SkyModel *model, Vec3 direction)
+{
+    return pdf_at(model, azimuth_turns(model, direction), direction.y);
+}
+
 Spectrum sky_model_seen(const SkyModel *model, Vec3 direction, const Wavelengths *wavelengths,
                         float *pdf)
 {
     float turns = azimuth_turns(model, direction);
-    int   column = (int)(turns * SKY_MODEL_COLUMNS);
-    if (column > SKY_MODEL_COLUMNS - 1) column = SKY_MODEL_COLUMNS - 1;
-    *pdf = cell_pdf(model, interval(model->edge, ROWS, direction.y), column);
+    *pdf = pdf_at(model, turns, direction.y);
     float across = safe_sqrtf(direction.x * direction.x + direction.z * direction.z);
     return daylight_radiance(model->daylight, atan2_f(direction.y, across), 2 * PI_F * turns,
                              wavelengths);

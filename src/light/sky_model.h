@@ -23,6 +23,7 @@ bool sky_model_build(const Environment *environment, float turn, Arena *arena,
                      const SkyModel **out, Error *err);
 
 /* HOT. Spectral radiance from a direction of the scene, and its density, sr^-1. */
+float    sky_model_pdf(const SkyModel *model, Vec3 direction);
 Spectrum sky_model_seen(const SkyModel *model, Vec3 direction, const Wavelengths *wavelengths,
                         float *pdf);
 

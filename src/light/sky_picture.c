@@ -12,11 +12,10 @@ static const float *pixel(const SkyPicture *picture, int x, int y)
     return picture->pixels + 4 * ((size_t)row * (size_t)picture->width + (size_t)column);
 }
 
-/* Bilinear between pixel centres; x, y in pixels from the upper left corner. */
-static void picture_rgb(const SkyPicture *picture, float x, float y, float rgb[3])
+void sky_picture_rgb(const SkyPicture *picture, Vec2 at, float rgb[3])
 {
-    float left = floorf(x - 0.5f), top = floorf(y - 0.5f);
-    float s = x - 0.5f - left, t = y - 0.5f - top;
+    float left = floorf(at.x - 0.5f), top = floorf(at.y - 0.5f);
+    float s = at.x - 0.5f - left, t = at.y - 0.5f - top;
     const float *a = pixel(picture, (int)left, (int)top),
                 *b = pixel(picture, (int)left + 1, (int)top);
     const float *c = pixel(picture, (int)left, (int)top + 1);
@@ -183,23 +182,22 @@ void sky_picture_seen(const SkyPicture *picture, Vec3 direction, float rgb[3], f
     if (x >= picture->width) x = picture->width - 1;
     if (y >= picture->height) y = picture->height - 1;
     *pdf = picture_pdf(picture, x, y, safe_sqrtf(1 - direction.y * direction.y));
-    picture_rgb(picture, at.x, at.y, rgb);
+    sky_picture_rgb(picture, at, rgb);
 }
 
 void sky_picture_sample(const SkyPicture *picture, float u0, float u1, Vec3 *direction,
-                        float rgb[3], float *pdf)
+                        Vec2 *at, float *pdf)
 {
     int    y = find_interval(picture->row_cdf, picture->row_guide, picture->height, u1);
     size_t row = (size_t)y * (size_t)picture->width;
     const float *columns = picture->column_cdf + row + (size_t)y;
     int    x = find_interval(columns, picture->column_guide + row, picture->width, u0);
-    float  at_x = (float)x + inside_interval(columns, x, u0);
-    float  at_y = (float)y + inside_interval(picture->row_cdf, y, u1);
-    float  turns = at_x / (float)picture->width - picture->u_offset;
+    at->x = (float)x + inside_interval(columns, x, u0);
+    at->y = (float)y + inside_interval(picture->row_cdf, y, u1);
+    float  turns = at->x / (float)picture->width - picture->u_offset;
     float  sin_theta, cos_theta, sine, cosine;
-    sincos_turns(0.5f * at_y / (float)picture->height, &sin_theta, &cos_theta);
+    sincos_turns(0.5f * at->y / (float)picture->height, &sin_theta, &cos_theta);
     sincos_turns(turns - floorf(turns), &sine, &cosine);
     *direction = vec3(sin_theta * sine, cos_theta, -sin_theta * cosine);
     *pdf = picture_pdf(picture, x, y, sin_theta);
-    picture_rgb(picture, at_x, at_y, rgb);
 }

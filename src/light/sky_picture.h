@@ -26,6 +26,10 @@ bool sky_picture_build(const Environment *environment, float turn, Arena *arena,
 /* HOT. What comes from a direction, and the density with which it would be sampled. */
 void sky_picture_seen(const SkyPicture *picture, Vec3 direction, float rgb[3], float *pdf);
 
-/* HOT. Chooses a direction. */
+/* HOT. Chooses a direction; *at: where it lies in the picture, in pixels from the upper left
+ * corner. */
 void sky_picture_sample(const SkyPicture *picture, float u0, float u1, Vec3 *direction,
-                        float rgb[3], float *pdf);
+                        Vec2 *at, float *pdf);
+
+/* HOT. What comes from there, bilinear between pixel centres. */
+void sky_picture_rgb(const SkyPicture *picture, Vec2 at, float rgb[3]);

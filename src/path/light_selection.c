@@ -20,15 +20,16 @@ static double sample_illuminance(const Bvh *bvh, const Lights *lights, LightSet 
     Wavelengths wavelengths;
     LightSample light;
     float xyz[3] = {0};
-    Vec2  u01 = sampler_2d(sampler), u2 = sampler_2d(sampler);
-    const float u[3] = {u01.x, u01.y, u2.x};
-    wavelengths_sample(u2.y, &wavelengths);
-    if (!lights_sample(lights, set, (LitPoint){position, n}, &wavelengths, u, &light)) return 0;
+    float u[4];
+    sampler_4d(sampler, u);
+    if (!lights_sample(lights, set, (LitPoint){position, n}, u, &light)) return 0;
     float cosine = vec3_dot(n, light.wi);
     if (!(cosine > 0)) return 0;
     Ray ray = {ray_offset_origin(position, n, light.wi), light.wi, 0, light.distance * 0.999f};
     if (bvh_occluded(bvh, ray, always_passes, NULL)) return 0;
-    spectrum_add_xyz(&wavelengths, light.radiance * spectrum_all(cosine / light.pdf), xyz);
+    wavelengths_sample(u[3], &wavelengths);
+    spectrum_add_xyz(&wavelengths, lights_radiance(lights, &light, &wavelengths) *
+                                       spectrum_all(cosine / light.pdf), xyz);
     return isfinite(xyz[1]) ? (double)xyz[1] : 0;
 }
 

@@ -222,29 +222,32 @@ static bool sides_agree(const Surface *surface, Vec3 local_wi, Vec3 wi, Vec3 loc
            (vec3_dot(wi, surface->ng) * vec3_dot(wo, surface->ng) > 0);
 }
 
+/* Most samples end in shadow: what the light sends and how the surface scatters it is asked
+ * once the ray has arrived. */
 static void add_light_sample(PathWalk *walk, const Surface *surface, Vec3 wo, LightSet set)
 {
     const PathContext *context = walk->context;
     LightSample light;
-    Vec2  u01 = sampler_2d(walk->sampler), u2 = sampler_2d(walk->sampler);
-    float u[3] = {u01.x, u01.y, u2.x};
-    float set_prob = set_probability(asked_at(walk, surface, wo), set, walk->bounce);
-    if (u2.y >= set_prob) return;
+    float u[4], set_prob = set_probability(asked_at(walk, surface, wo), set, walk->bounce);
+    sampler_4d(walk->sampler, u);
+    if (u[3] >= set_prob) return;
     LitPoint point = {surface->position, surface->frame.z};
-    if (!lights_sample(context->lights, set, point, walk->wavelengths, u, &light))
-        return;
+    if (!lights_sample(context->lights, set, point, u, &light)) return;
     if (!light.is_delta && context->strategy == PATH_BSDF_ONLY) return;
     Vec3 local_wi = frame_to_local(&surface->frame, light.wi);
     Vec3 local_wo = frame_to_local(&surface->frame, wo);
     if (!sides_agree(surface, local_wi, light.wi, local_wo, wo)) return;
+    if (!bsdf_reaches(&surface->bsdf, local_wo, local_wi)) return;
+    Spectrum passed = visibility(walk, surface, &light);
+    if (spectrum_is_zero(passed)) return;
     float    bsdf_pdf;
     Spectrum f = bsdf_eval(&surface->bsdf, local_wo, local_wi, &bsdf_pdf);
-    Spectrum share = walk->throughput * f * light.radiance *
+    Spectrum share = walk->throughput * f *
+                     lights_radiance(context->lights, &light, walk->wavelengths) *
                      spectrum_all(fabsf(local_wi.z) / (light.pdf * set_prob));
-    if (spectrum_is_zero(share)) return;
     if (!light.is_delta && context->strategy == PATH_MIS)
         share *= spectrum_all(mis_weight(light.pdf * set_prob, bsdf_pdf));
-    walk->gathered.radiance += share * visibility(walk, surface, &light);
+    walk->gathered.radiance += share * passed;
 }
 
 static void add_light_samples(PathWalk *walk, const Surface *surface, Vec3 wo)
@@ -317,9 +320,9 @@ static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSamp
 /* Chooses where the path goes from the surface. Windows can be passed after the last bounce. */
 static Step scatter(PathWalk *walk, const Surface *surface, Vec3 wo)
 {
-    Vec2  u01 = sampler_2d(walk->sampler), u2 = sampler_2d(walk->sampler);
-    float u[3] = {u01.x, u01.y, u2.x};
+    float u[4];
     BsdfSample next;
+    sampler_4d(walk->sampler, u);
     if (!bsdf_sample(&surface->bsdf, frame_to_local(&surface->frame, wo), u, &next))
         return STEP_ENDED;
     walk->throughput *= next.weight;

@@ -53,9 +53,10 @@ static inline Mean illuminance(const Lights *lights, LightSet set, Vec3 position
         float u[3], xyz[3] = {0};
         random3(&random, u);
         wavelengths_sample(random_unit(&random), &w);
-        if (lights_sample(lights, set, (LitPoint){position, n}, &w, u, &sample)) {
+        if (lights_sample(lights, set, (LitPoint){position, n}, u, &sample)) {
             float cosine = fmaxf(vec3_dot(n, sample.wi), 0);
-            spectrum_add_xyz(&w, sample.radiance * spectrum_all(cosine / sample.pdf), xyz);
+            spectrum_add_xyz(&w, lights_radiance(lights, &sample, &w) *
+                                     spectrum_all(cosine / sample.pdf), xyz);
         }
         mean_add(&mean, (double)xyz[1]);
     }

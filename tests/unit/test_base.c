@@ -271,6 +271,20 @@ TEST(numbers_depend_on_nothing_but_their_place)
     assert_true(unit_float(0xffffffffu) < 1);
 }
 
+TEST(two_pairs_at_once_are_two_pairs)
+{
+    (void)state;
+    for (uint32_t i = 0; i < 100; i++) {
+        Sampler a = sampler_start(1, 10, 20, i), b = a;
+        for (int d = 0; d < 10; d++) {
+            float u[4];
+            Vec2  p = sampler_2d(&a), q = sampler_2d(&a);
+            sampler_4d(&b, u);
+            assert_true(p.x == u[0] && p.y == u[1] && q.x == u[2] && q.y == u[3]);
+        }
+    }
+}
+
 /* ---- alias tables -------------------------------------------------------------------- */
 
 /* Draws every number there is, once. */

@@ -307,8 +307,9 @@ static Spectrum sun_irradiance(const World *world, const Wavelengths *w)
     for (int i = 0; i < SIDE * SIDE; i++) {
         LightSample sample;
         float u[3] = {((float)(i / SIDE) + 0.5f) / SIDE, ((float)(i % SIDE) + 0.5f) / SIDE};
-        assert_true(lights_sample(world->context.lights, LIGHTS_SUN, up, w, u, &sample));
-        sum += sample.radiance / spectrum_all(sample.pdf * SIDE * SIDE);
+        const Lights *lights = world->context.lights;
+        assert_true(lights_sample(lights, LIGHTS_SUN, up, u, &sample));
+        sum += lights_radiance(lights, &sample, w) / spectrum_all(sample.pdf * SIDE * SIDE);
     }
     return sum;
 }

@@ -136,7 +136,7 @@ TEST(picture_samples_follow_their_density)
         SkySample sample;
         Vec3 n = vec3(0, 1, 0);
         float u0 = random_unit(&random), u1 = random_unit(&random);
-        if (!sky_sample(&sky, n, (float[2]){u0, u1}, &lanes, &sample)) continue;
+        if (!sky_choose(&sky, n, (float[2]){u0, u1}, &sample)) continue;
         Vec3 d = sample.direction;
         float seen = sky_seen(&sky, d, n, &lanes).pdf; /* a neighbour's, at a texel's edge */
         unlike += fabsf(sample.pdf - seen) > 1e-2f * seen;
@@ -441,11 +441,9 @@ TEST(an_area_light_gives_its_configuration_factor)
                 illuminance(lights, LIGHTS_EMITTERS, vec3(0, 0, 0), vec3(0, 1, 0)),
                 PI * 2000 * factor);
     LightSample sample;
-    Wavelengths w;
     float u[3] = {0.3f, 0.4f, 0.1f};
-    wavelengths_sample(0.5f, &w);
     assert_true(lights_sample(lights, LIGHTS_EMITTERS, (LitPoint){vec3(0, 0, 0), vec3(0, 1, 0)},
-                              &w, u, &sample));
+                              u, &sample));
     /* the ray that finds the same point: on the plane y = 2, u and v along the quad's edges */
     Vec3 at = vec3_scale(sample.wi, sample.distance);
     float s = 0.5f + 0.5f * at.x, t = 0.5f - 0.5f * at.z; /* builder_quad's corners */
@@ -455,7 +453,7 @@ TEST(an_area_light_gives_its_configuration_factor)
     assert_close(lights_emitter_pdf(lights, vec3(0, 0, 0), &hit, sample.wi, vec3(0, -1, 0)),
                  sample.pdf, 1e-3);
     assert_false(lights_sample(lights, LIGHTS_EMITTERS,
-                               (LitPoint){vec3(0, 4, 0), vec3(0, -1, 0)}, &w, u,
+                               (LitPoint){vec3(0, 4, 0), vec3(0, -1, 0)}, u,
                                &sample)); /* its back is dark */
 }
 
