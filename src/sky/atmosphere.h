@@ -16,7 +16,7 @@
  * Frame     elevation from the observer's horizontal, azimuth from the sun's, radians.
  * Units     radiance in sr^-1 per unit of the sun's spectral irradiance outside the air, at the
  *           16 wavelengths of air.h.
- * Memory    the arena's, about 6 MB, 40 MB more while it builds. Threads: const once built.
+ * Memory    the arena's, about 6 MB, 65 MB more while it builds. Threads: const once built.
  * Fails     on an observer below the floor or above 60 km.
  */
 #pragma once
