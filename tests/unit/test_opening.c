@@ -64,6 +64,7 @@ static bool grid_point(OpeningShape shape, int part, const double g[2], double s
 {
     double a = 2 * g[0] - 1, b = 2 * g[1] - 1, phi = 2 * PI * g[1], sign = part & 1 ? -1 : 1;
     Vec3   n = vec3(0, 0, 0);
+    if (shape == OPENING_BOX && part >= 6) return false;
     if (shape == OPENING_BOX) {
         float p[3], m[3] = {0};
         p[part / 2] = m[part / 2] = (float)sign;
@@ -71,7 +72,7 @@ static bool grid_point(OpeningShape shape, int part, const double g[2], double s
         p[(part / 2 + 2) % 3] = (float)b;
         *at = vec3(p[0], p[1], p[2]);
         *area = vec3_scale(vec3(m[0], m[1], m[2]), (float)(4 * size));
-        return part < 6;
+        return true;
     }
     if (shape == OPENING_CYLINDER && part < 2) {
         double r = sqrt(g[0]);
