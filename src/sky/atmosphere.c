@@ -15,6 +15,7 @@
 #define SUN_AHEAD 11 /* of them in twilight towards the sun, where its light comes from */
 #define TWILIGHT_FIRST (-2 * PI / 180) /* a sun that is lower: twilight's own light begins */
 #define TWILIGHT_ALONE (-4 * PI / 180) /* and is all there is */
+#define DARK (-27 * PI / 180) /* the floor's edge so far over the sun: nothing is left to add */
 #define LIGHT_BYTES ((size_t)64 << 20) /* address space for one diffuse_light_build */
 
 /* Tables that the rays share. */
@@ -317,7 +318,8 @@ static void see_sun(Atmosphere *out)
     out->sun_passing = spectrum_exp(-depth);
 }
 
-/* By day the table as it is; below TWILIGHT_ALONE twilight's; in between a mixture. */
+/* By day the table as it is; below TWILIGHT_ALONE twilight's; in between a mixture. Deep in the
+ * night the tables stay empty: no direction has a thousandth of the background's light. */
 static void add_twilight(Atmosphere *out, float share, Arena scratch)
 {
     size_t     count = (size_t)2 * ATMOSPHERE_ROWS * ATMOSPHERE_COLUMNS;
@@ -355,9 +357,10 @@ bool atmosphere_build(const AtmosphereInput *input, Arena *arena, Atmosphere *ou
     take_tables(out, arena);
     out->horizon = -acos_d((AIR_EARTH_M + input->floor_m) / (AIR_EARTH_M + input->observer_m));
     float share = twilight_share(input->sun_elevation);
+    bool  is_dark = input->sun_elevation < out->horizon + DARK;
     out->sun_passing = out->floor_exitance = spectrum_all(0);
     if (share < 1) build_tables(out, &out->optics, false, *arena);
-    if (share > 0) add_twilight(out, share, *arena);
+    if (share > 0 && !is_dark) add_twilight(out, share, *arena);
     return true;
 }
 
