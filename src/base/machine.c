@@ -13,6 +13,12 @@ size_t machine_memory_bytes(void)
     return limit.rlim_cur / 2 < machine ? (size_t)limit.rlim_cur / 2 : machine;
 }
 
+double machine_peak_bytes(void)
+{
+    struct rusage usage;
+    return getrusage(RUSAGE_SELF, &usage) ? 0 : 1024.0 * (double)usage.ru_maxrss;
+}
+
 /* proc(5): the first number of statm counts the pages that are mapped. */
 static size_t mapped_bytes(void)
 {

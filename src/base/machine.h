@@ -9,5 +9,8 @@
  * -v; the libraries' share is the other half). */
 size_t machine_memory_bytes(void);
 
+/* The most bytes of memory that the process has held at once so far. */
+double machine_peak_bytes(void);
+
 /* Bytes of address space that the process may still map; SIZE_MAX where nothing limits it. */
 size_t machine_address_space_left(void);

@@ -139,7 +139,7 @@ static void attach_triangles(Bvh *bvh, const Scene *scene, int geometry_id, uint
     if (!count) return;
     RTCGeometry geometry = rtcNewGeometry(bvh->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                               scene->vertices, 0, sizeof(Vertex), scene->vertex_count);
+                               scene->positions, 0, sizeof(Vec3), scene->vertex_count);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                scene->triangles, first * sizeof(Triangle), sizeof(Triangle),
                                count);

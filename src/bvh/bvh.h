@@ -1,6 +1,6 @@
 /* bvh.h -- where a ray hits: the only wrapper of Embree (3 or 4).
  *
- * Memory   owns Embree's device and scene; vertices and triangles stay the Scene's, which must
+ * Memory   owns Embree's device and scene; positions and triangles stay the Scene's, which must
  *          outlive the Bvh. bvh_destroy(NULL) is fine.
  * Threads  const after bvh_create: any number of threads may ask.
  * Rays     a ray that is not finite, or has no direction, hits nothing and is counted by the

@@ -57,17 +57,11 @@ typedef struct DisplayView {
     float area;            /* m2 */
 } DisplayView;
 
-static Vec3 corner_of(const Scene *scene, uint32_t triangle, int corner)
-{
-    const float *p = scene->vertices[scene->triangles[triangle].vertex[corner]].position;
-    return vec3(p[0], p[1], p[2]);
-}
-
 static Vec3 add_triangle(const Scene *scene, uint32_t triangle, DisplayView *view)
 {
     Vec3 corner[3];
     for (int c = 0; c < 3; c++) {
-        Vec3 p = corner[c] = corner_of(scene, triangle, c);
+        Vec3 p = corner[c] = scene_corner(scene, triangle, c);
         view->low = vec3(fminf(view->low.x, p.x), fminf(view->low.y, p.y),
                          fminf(view->low.z, p.z));
         view->high = vec3(fmaxf(view->high.x, p.x), fmaxf(view->high.y, p.y),

@@ -15,15 +15,12 @@ typedef struct MaterialUse {
 
 /* ---- geometry --------------------------------------------------------------------------- */
 
-static Vec3 edge(const float *from, const float *to)
+static bool has_coordinates(const Scene *scene, uint32_t triangle, int set)
 {
-    return vec3(to[0] - from[0], to[1] - from[1], to[2] - from[2]);
-}
-
-static bool has_coordinates(const Vertex *a, const Vertex *b, const Vertex *c, int set)
-{
-    float u1 = b->uv[set][0] - a->uv[set][0], v1 = b->uv[set][1] - a->uv[set][1];
-    float u2 = c->uv[set][0] - a->uv[set][0], v2 = c->uv[set][1] - a->uv[set][1];
+    Vec2 uv[3];
+    for (int i = 0; i < 3; i++) uv[i] = scene_corner_uv(scene, triangle, i, set);
+    float u1 = uv[1].x - uv[0].x, v1 = uv[1].y - uv[0].y;
+    float u2 = uv[2].x - uv[0].x, v2 = uv[2].y - uv[0].y;
     return fabsf(u1 * v2 - u2 * v1) > 0;
 }
 
@@ -36,16 +33,15 @@ static void add_part(const Scene *scene, const Part *part, MaterialUse *use)
     Vec3   sum = vec3(0, 0, 0);
     double area = 0;
     int    set = scene->materials[part->material_id].emissive_texture.uv_set;
-    for (uint32_t t = 0; t < part->triangle_count; t++) {
-        const uint32_t *v = scene->triangles[part->first_triangle + t].vertex;
-        const Vertex *a = &scene->vertices[v[0]], *b = &scene->vertices[v[1]],
-                     *c = &scene->vertices[v[2]];
-        Vec3   twice = vec3_cross(edge(a->position, b->position),
-                                  edge(a->position, c->position));
-        double own = 0.5 * (double)vec3_length(twice);
+    for (uint32_t i = 0; i < part->triangle_count; i++) {
+        uint32_t t = part->first_triangle + i;
+        Vec3     a = scene_corner(scene, t, 0);
+        Vec3     twice = vec3_cross(vec3_sub(scene_corner(scene, t, 1), a),
+                                    vec3_sub(scene_corner(scene, t, 2), a));
+        double   own = 0.5 * (double)vec3_length(twice);
         sum = vec3_along(sum, twice, 0.5f);
         area += own;
-        if (has_coordinates(a, b, c, set)) use->uv_area_m2 += own;
+        if (has_coordinates(scene, t, set)) use->uv_area_m2 += own;
     }
     use->area_m2 += area;
     if ((double)vec3_length(sum) < FLAT_SHARE * area) use->is_flat = false;

@@ -243,23 +243,38 @@ static double pixel_error(const FilmPixel *pixel, double lowest)
     return luminance > 0 ? pixel->sigma_y / luminance : 0;
 }
 
+static bool shows(const FilmPixel *pixel, int display)
+{
+    if (display == FILM_ALL_PIXELS) return true;
+    return display == FILM_ANY_DISPLAY ? pixel->display_id >= 0 : pixel->display_id == display;
+}
+
+static double mean_error(const Film *film, FilmArea area, double lowest)
+{
+    FilmRect crop = film->crop, rect = area.rect;
+    double   sum = 0;
+    int64_t  count = 0;
+    for (int y = rect.y0 > crop.y0 ? rect.y0 : crop.y0; y < rect.y1 && y < crop.y1; y++)
+        for (int x = rect.x0 > crop.x0 ? rect.x0 : crop.x0; x < rect.x1 && x < crop.x1; x++) {
+            FilmPixel pixel = film_pixel(film, x, y);
+            if (!shows(&pixel, area.display)) continue;
+            sum += pixel_error(&pixel, lowest);
+            count++;
+        }
+    return count ? sum / (double)count : (double)NAN;
+}
+
+double film_area_error(const Film *film, FilmArea area)
+{
+    return mean_error(film, area, lowest_luminance(film));
+}
+
 FilmError film_relative_error(const Film *film)
 {
-    double  lowest = lowest_luminance(film), sum = 0, display_sum = 0;
-    int64_t count = 0, display_count = 0;
-    for (int y = film->crop.y0; y < film->crop.y1; y++)
-        for (int x = film->crop.x0; x < film->crop.x1; x++) {
-            FilmPixel pixel = film_pixel(film, x, y);
-            double    error = pixel_error(&pixel, lowest);
-            sum += error;
-            count++;
-            if (pixel.display_id < 0) continue;
-            display_sum += error;
-            display_count++;
-        }
-    return (FilmError){.frame = sum / (double)count,
-                       .displays = display_count ? display_sum / (double)display_count
-                                                 : (double)NAN};
+    double lowest = lowest_luminance(film);
+    return (FilmError){
+        .frame = mean_error(film, (FilmArea){film->crop, FILM_ALL_PIXELS}, lowest),
+        .displays = mean_error(film, (FilmArea){film->crop, FILM_ANY_DISPLAY}, lowest)};
 }
 
 /* Puts a pixel where it belongs among the `kept` worst; returns how many are kept then. */

@@ -61,6 +61,19 @@ typedef struct FilmError {
 
 FilmError film_relative_error(const Film *film);
 
+#define FILM_ALL_PIXELS (-2)
+#define FILM_ANY_DISPLAY (-1)
+
+/* Some of the pixels: those of `rect`, and of them all, those that show a display, or those
+ * that show the one of this id. */
+typedef struct FilmArea {
+    FilmRect rect;
+    int      display;
+} FilmArea;
+
+/* The same mean over an area; NaN where it has no pixel. */
+double film_area_error(const Film *film, FilmArea area);
+
 /* One pixel's share in it. One sigma of few halves is itself uncertain: the worst of a million
  * pixels of equal noise is some seven times their mean by chance. */
 typedef struct FilmWorst {

@@ -3,18 +3,20 @@
 void coverage_texel(const Scene *scene, const Material *material, const Hit *hit,
                     const TrianglePoint *point, float texel[4])
 {
-    const Triangle    *t = &scene->triangles[hit->triangle];
+    const VertexColor *colors = scene_part(scene, hit->triangle)->colors;
     const TextureSlot *slot = &material->base_color_texture;
     const float weight[3] = {1 - hit->u - hit->v, hit->u, hit->v};
     texel[0] = texel[1] = texel[2] = texel[3] = 1;
     if (slot->texture_id != NO_ID) {
-        Vec2 uv = slot_uv(slot, point->uv);
+        Vec2 uv = slot_uv(slot, point);
         texture_colour(&scene->textures[slot->texture_id], uv.x, uv.y, texel);
     }
     for (int i = 0; i < 4; i++) {
         float colour = 0;
-        for (int k = 0; k < 3; k++)
-            colour += weight[k] * (float)scene->vertices[t->vertex[k]].color[i];
+        for (int k = 0; k < 3; k++) {
+            uint32_t place = scene_corner_place(scene, hit->triangle, k);
+            colour += weight[k] * (colors ? (float)colors[place].linear[i] : 65535);
+        }
         texel[i] *= colour * (1.0f / 65535);
     }
 }
@@ -33,7 +35,7 @@ float coverage_alpha(const Material *material, float texel_alpha)
 float coverage_at(const Scene *scene, const Hit *hit, const TrianglePoint *point)
 {
     const Material *material =
-        &scene->materials[scene->parts[scene->triangles[hit->triangle].part_id].material_id];
+        &scene->materials[scene_part(scene, hit->triangle)->material_id];
     float texel[4];
     if (material->alpha_mode == ALPHA_OPAQUE) return 1;
     coverage_texel(scene, material, hit, point, texel);

@@ -5,54 +5,70 @@
 
 #include "base/units.h"
 
-static Vec3 vertex_position(const Scene *scene, const Triangle *t, int corner)
-{
-    const float *p = scene->vertices[t->vertex[corner]].position;
-    return vec3(p[0], p[1], p[2]);
-}
-
-static Vec3 interpolate(const float *a, const float *b, const float *c, float u, float v)
+static Vec3 interpolate(Vec3 a, Vec3 b, Vec3 c, float u, float v)
 {
     float w = 1 - u - v;
-    return vec3(w * a[0] + u * b[0] + v * c[0], w * a[1] + u * b[1] + v * c[1],
-                w * a[2] + u * b[2] + v * c[2]);
+    return vec3(w * a.x + u * b.x + v * c.x, w * a.y + u * b.y + v * c.y,
+                w * a.z + u * b.z + v * c.z);
+}
+
+/* glTF 2.0, 3.7.2.1. */
+static Vec3 flat_normal(Vec3 a, Vec3 b, Vec3 c)
+{
+    return vec3_normalize(vec3_cross(vec3_normalize(vec3_sub(b, a)),
+                                     vec3_normalize(vec3_sub(c, a))));
 }
 
 TrianglePoint triangle_point(const Scene *scene, uint32_t triangle, float u, float v)
 {
     const Triangle *t = &scene->triangles[triangle];
-    const Vertex *a = &scene->vertices[t->vertex[0]], *b = &scene->vertices[t->vertex[1]],
-                 *c = &scene->vertices[t->vertex[2]];
-    TrianglePoint point;
-    point.position = interpolate(a->position, b->position, c->position, u, v);
-    Vec3 origin = vertex_position(scene, t, 0);
-    point.ng = vec3_normalize(vec3_cross(vec3_sub(vertex_position(scene, t, 1), origin),
-                                         vec3_sub(vertex_position(scene, t, 2), origin)));
-    point.ns = vec3_normalize(interpolate(a->normal, b->normal, c->normal, u, v));
+    const Part *part = &scene->parts[t->part_id];
+    Vec3  a = scene->positions[t->vertex[0]], b = scene->positions[t->vertex[1]],
+          c = scene->positions[t->vertex[2]];
+    uint32_t i = t->vertex[0] - part->first_vertex, j = t->vertex[1] - part->first_vertex,
+             k = t->vertex[2] - part->first_vertex;
+    TrianglePoint point = {.position = interpolate(a, b, c, u, v)};
+    point.ng = vec3_normalize(vec3_cross(vec3_sub(b, a), vec3_sub(c, a)));
+    Vec3 flat = part->normals ? point.ng : flat_normal(a, b, c);
+    point.ns = vec3_normalize(part->normals ? interpolate(part->normals[i], part->normals[j],
+                                                          part->normals[k], u, v)
+                                            : interpolate(flat, flat, flat, u, v));
     if (!(vec3_dot(point.ns, point.ns) > 0.5f)) point.ns = point.ng;
-    for (int set = 0; set < SCENE_UV_SETS; set++)
-        for (int i = 0; i < 2; i++)
-            point.uv[set][i] =
-                (1 - u - v) * a->uv[set][i] + u * b->uv[set][i] + v * c->uv[set][i];
+    for (int set = 0; set < SCENE_UV_SETS; set++) {
+        const Vec2 *uv = part->uv[set];
+        float w = 1 - u - v;
+        if (uv)
+            point.uv[set] = (Vec2){w * uv[i].x + u * uv[j].x + v * uv[k].x,
+                                   w * uv[i].y + u * uv[j].y + v * uv[k].y};
+    }
     return point;
 }
 
-Vec2 slot_uv(const TextureSlot *slot, const float uv[][2])
+static Vec2 slot_from_uv(const TextureSlot *slot, Vec2 uv)
 {
-    const float *m = slot->uv_from_uv, *p = uv[slot->uv_set];
-    return (Vec2){m[0] * p[0] + m[1] * p[1] + m[2], m[3] * p[0] + m[4] * p[1] + m[5]};
+    const float *m = slot->uv_from_uv;
+    return (Vec2){m[0] * uv.x + m[1] * uv.y + m[2], m[3] * uv.x + m[4] * uv.y + m[5]};
+}
+
+Vec2 slot_uv(const TextureSlot *slot, const TrianglePoint *point)
+{
+    return slot_from_uv(slot, point->uv[slot->uv_set]);
+}
+
+Vec2 slot_corner_uv(const Scene *scene, const TextureSlot *slot, uint32_t triangle, int corner)
+{
+    return slot_from_uv(slot, scene_corner_uv(scene, triangle, corner, slot->uv_set));
 }
 
 /* The direction in the triangle's plane in which the slot's u grows: with edges e1, e2 and the
  * differences (du1, dv1), (du2, dv2) along them, dP/du ~ (dv2 e1 - dv1 e2) / det. */
 static Vec3 direction_of_u(const Scene *scene, const TextureSlot *slot, uint32_t triangle)
 {
-    const Triangle *t = &scene->triangles[triangle];
     Vec2 uv[3];
     Vec3 p[3];
     for (int i = 0; i < 3; i++) {
-        uv[i] = slot_uv(slot, (const float(*)[2])scene->vertices[t->vertex[i]].uv);
-        p[i] = vertex_position(scene, t, i);
+        uv[i] = slot_corner_uv(scene, slot, triangle, i);
+        p[i] = scene_corner(scene, triangle, i);
     }
     float du1 = uv[1].x - uv[0].x, dv1 = uv[1].y - uv[0].y;
     float du2 = uv[2].x - uv[0].x, dv2 = uv[2].y - uv[0].y;
@@ -77,7 +93,7 @@ void display_codes(const Scene *scene, const Display *display, const TrianglePoi
 {
     codes[0] = codes[1] = codes[2] = 255;
     if (display->content.texture_id == NO_ID) return;
-    Vec2 uv = slot_uv(&display->content, point->uv);
+    Vec2 uv = slot_uv(&display->content, point);
     texture_codes(&scene->textures[display->content.texture_id], uv.x, uv.y, codes);
 }
 
@@ -90,7 +106,7 @@ void emitted_rgb(const Scene *scene, const Material *material, const TrianglePoi
     for (int i = 0; i < 3; i++) rgb[i] = factor[i];
     if (slot->texture_id == NO_ID) return;
     float texel[4];
-    Vec2  uv = slot_uv(slot, point->uv);
+    Vec2  uv = slot_uv(slot, point);
     texture_colour(&scene->textures[slot->texture_id], uv.x, uv.y, texel);
     for (int i = 0; i < 3; i++) rgb[i] *= texel[i];
 }
@@ -134,7 +150,7 @@ bool triangle_emits_to(const Scene *scene, uint32_t triangle, const TrianglePoin
                        Vec3 direction)
 {
     const Material *material =
-        &scene->materials[scene->parts[scene->triangles[triangle].part_id].material_id];
+        &scene->materials[scene_part(scene, triangle)->material_id];
     bool front = vec3_dot(point->ng, direction) > 0;
     bool back_is_dark = material->display_id != NO_ID || !material->double_sided;
     return material->is_emitter && (front || !back_is_dark);
@@ -144,7 +160,7 @@ Spectrum triangle_emission(const Scene *scene, uint32_t triangle, const Triangle
                            Vec3 direction, const Wavelengths *wavelengths)
 {
     const Material *material =
-        &scene->materials[scene->parts[scene->triangles[triangle].part_id].material_id];
+        &scene->materials[scene_part(scene, triangle)->material_id];
     if (!triangle_emits_to(scene, triangle, point, direction)) return spectrum_all(0);
     if (material->display_id != NO_ID)
         return display_emission(scene, &scene->displays[material->display_id], triangle, point,

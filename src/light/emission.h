@@ -12,13 +12,14 @@ typedef struct TrianglePoint {
     Vec3  position;
     Vec3  ng;    /* unit, the front's side (counter-clockwise vertices) */
     Vec3  ns;    /* unit, interpolated vertex normal; ng where that vanishes */
-    float uv[SCENE_UV_SETS][2];
+    Vec2  uv[SCENE_UV_SETS];
 } TrianglePoint;
 
 TrianglePoint triangle_point(const Scene *scene, uint32_t triangle, float u, float v);
 
-/* Texture coordinates of a slot. */
-Vec2 slot_uv(const TextureSlot *slot, const float uv[][2]);
+/* Texture coordinates of a slot, at a point and at a corner. */
+Vec2 slot_uv(const TextureSlot *slot, const TrianglePoint *point);
+Vec2 slot_corner_uv(const Scene *scene, const TextureSlot *slot, uint32_t triangle, int corner);
 
 /* The display's frame at a point: +z the shading normal on the front's side, +x the direction
  * of growing U of its content, +y up. */

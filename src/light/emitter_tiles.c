@@ -343,13 +343,9 @@ static void finish_tile(const TileWork *work, int t, EmitterTiles *tiles)
 
 static double cell_area(const TileWork *work, const Emitter *e)
 {
-    const uint32_t *v = work->scene->triangles[e->triangle].vertex;
-    Vec3 p[3];
-    for (int k = 0; k < 3; k++) {
-        const float *at = work->scene->vertices[v[k]].position;
-        p[k] = vec3(at[0], at[1], at[2]);
-    }
-    Vec3 cross = vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0]));
+    Vec3 a = scene_corner(work->scene, e->triangle, 0);
+    Vec3 cross = vec3_cross(vec3_sub(scene_corner(work->scene, e->triangle, 1), a),
+                            vec3_sub(scene_corner(work->scene, e->triangle, 2), a));
     return 0.5 * (double)vec3_length(cross) / ((double)e->side * e->side);
 }
 

@@ -78,11 +78,9 @@ static double luminance_at(const EmissionReader *reader, Vec2 uv)
 
 static double triangle_area(const Scene *scene, uint32_t triangle)
 {
-    const uint32_t *v = scene->triangles[triangle].vertex;
-    const float *a = scene->vertices[v[0]].position, *b = scene->vertices[v[1]].position,
-                *c = scene->vertices[v[2]].position;
-    Vec3 cross = vec3_cross(vec3(b[0] - a[0], b[1] - a[1], b[2] - a[2]),
-                            vec3(c[0] - a[0], c[1] - a[1], c[2] - a[2]));
+    Vec3 a = scene_corner(scene, triangle, 0);
+    Vec3 cross = vec3_cross(vec3_sub(scene_corner(scene, triangle, 1), a),
+                            vec3_sub(scene_corner(scene, triangle, 2), a));
     return 0.5 * (double)vec3_length(cross);
 }
 
@@ -96,10 +94,8 @@ typedef struct Corner {
 static Corner uv_corner(const EmissionReader *reader, uint32_t triangle)
 {
     Vec2 uv[3];
-    for (int i = 0; i < 3; i++) {
-        uint32_t v = reader->scene->triangles[triangle].vertex[i];
-        uv[i] = slot_uv(reader->slot, (const float(*)[2])reader->scene->vertices[v].uv);
-    }
+    for (int i = 0; i < 3; i++)
+        uv[i] = slot_corner_uv(reader->scene, reader->slot, triangle, i);
     return (Corner){uv[0], {uv[1].x - uv[0].x, uv[1].y - uv[0].y},
                     {uv[2].x - uv[0].x, uv[2].y - uv[0].y}};
 }

@@ -2,7 +2,7 @@
 
 #include "light/emission.h"
 
-#define POINTS 64        /* of every part, for every set */
+#define POINTS 64        /* of every side of a part, for every set */
 #define GENEROSITY 4.0f  /* a set with a quarter of a part's light is sampled at every hit */
 #define LEAST 0.1f       /* and none less often than this */
 
@@ -32,14 +32,14 @@ static double sample_illuminance(const Bvh *bvh, const Lights *lights, LightSet 
     return isfinite(xyz[1]) ? (double)xyz[1] : 0;
 }
 
-/* Mean over points spread over the part's triangles and both of their sides. */
-static double part_illuminance(const Scene *scene, const Bvh *bvh, const Lights *lights,
-                               LightSet set, int part_id)
+/* Mean over points spread over the part's triangles; side 0: its front, 1: its back. */
+static double side_illuminance(const Scene *scene, const Bvh *bvh, const Lights *lights,
+                               LightSet set, int part_id, int side)
 {
     const Part *part = &scene->parts[part_id];
     double sum = 0;
     for (uint32_t i = 0; i < POINTS; i++) {
-        Sampler  sampler = sampler_start((uint32_t)set, part_id, 0, i);
+        Sampler  sampler = sampler_start((uint32_t)set, part_id, side, i);
         Vec2     at = sampler_2d(&sampler);
         uint32_t triangle = (uint32_t)((uint64_t)part->triangle_count * i / POINTS);
         float    u = at.x, v = at.y;
@@ -48,21 +48,16 @@ static double part_illuminance(const Scene *scene, const Bvh *bvh, const Lights 
             v = 1 - v;
         }
         TrianglePoint point = triangle_point(scene, part->first_triangle + triangle, u, v);
-        Vec3 n = i & 1 ? vec3_neg(point.ng) : point.ng;
+        Vec3 n = side ? vec3_neg(point.ng) : point.ng;
         sum += sample_illuminance(bvh, lights, set, point.position, n, &sampler);
     }
     return sum / POINTS;
 }
 
-static void weigh_part(const Scene *scene, const Bvh *bvh, const Lights *lights, int part_id,
-                       float prob[LIGHT_SETS])
+static void share_out(const Lights *lights, const double lx[LIGHT_SETS], float prob[LIGHT_SETS])
 {
-    double lx[LIGHT_SETS] = {0}, total = 0;
-    for (int set = 0; set < LIGHT_SETS; set++) {
-        if (!lights_has(lights, (LightSet)set)) continue;
-        lx[set] = part_illuminance(scene, bvh, lights, (LightSet)set, part_id);
-        total += lx[set];
-    }
+    double total = 0;
+    for (int set = 0; set < LIGHT_SETS; set++) total += lx[set];
     for (int set = 0; set < LIGHT_SETS; set++) {
         if (!lights_has(lights, (LightSet)set)) continue;
         float wanted = total > 0 ? GENEROSITY * (float)(lx[set] / total) : 1;
@@ -70,16 +65,31 @@ static void weigh_part(const Scene *scene, const Bvh *bvh, const Lights *lights,
     }
 }
 
+/* What lets light through is lit from both of its sides, whichever is seen. */
+static void weigh_part(const Scene *scene, const Bvh *bvh, const Lights *lights, int part_id,
+                       float prob[2][LIGHT_SETS])
+{
+    const Material *material = &scene->materials[scene->parts[part_id].material_id];
+    double lx[2][LIGHT_SETS] = {{0}};
+    for (int set = 0; set < LIGHT_SETS; set++)
+        for (int side = 0; side < 2 && lights_has(lights, (LightSet)set); side++)
+            lx[side][set] =
+                side_illuminance(scene, bvh, lights, (LightSet)set, part_id, side);
+    for (int set = 0; set < LIGHT_SETS && material->transmission > 0; set++)
+        lx[0][set] = lx[1][set] = lx[0][set] + lx[1][set];
+    for (int side = 0; side < 2; side++) share_out(lights, lx[side], prob[side]);
+}
+
 LightSelection light_selection_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
                                      Arena *arena)
 {
     LightSelection selection;
-    selection.prob = (float(*)[LIGHT_SETS])ARENA_NEW(arena, float,
-                                                  LIGHT_SETS * ((size_t)scene->part_count + 1));
+    size_t rows = 2 * ((size_t)scene->part_count + 1);
+    selection.prob = (float(*)[LIGHT_SETS])ARENA_NEW(arena, float, LIGHT_SETS * rows);
     for (int set = 0; set < LIGHT_SETS; set++)
         selection.all[set] = lights_has(lights, (LightSet)set) ? 1.0f : 0.0f;
     for (int part = 0; part < scene->part_count; part++)
         if (scene->parts[part].triangle_count)
-            weigh_part(scene, bvh, lights, part, selection.prob[part]);
+            weigh_part(scene, bvh, lights, part, &selection.prob[2 * part]);
     return selection;
 }

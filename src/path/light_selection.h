@@ -2,7 +2,8 @@
  *
  * Before the first path a few points of every part are lit by every set, shadows included. A
  * set that gives a part little is then asked less often there, and counts more when it is: in
- * the sun a display is a candle, at night it is all there is.
+ * the sun a display is a candle, at night it is all there is. Each side of a part has its own
+ * numbers: the sky that lights the outside of a wall is no reason to ask for it inside.
  *
  * Memory   from the arena. Threads: const after light_selection_build.
  */
@@ -11,7 +12,8 @@
 #include "light/light.h"
 
 typedef struct LightSelection {
-    float (*prob)[LIGHT_SETS]; /* of sampling a set, one row a part; 0: the set is empty */
+    float (*prob)[LIGHT_SETS]; /* of sampling a set; rows 2 part (front) and 2 part + 1; 0: the
+                                  set is empty */
     float all[LIGHT_SETS];     /* where no part is known: 1 for every set that has lights */
 } LightSelection;
 
@@ -19,8 +21,10 @@ typedef struct LightSelection {
 LightSelection light_selection_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
                                      Arena *arena);
 
-/* part_id may be NO_ID. */
-static inline const float *light_selection_of_part(const LightSelection *selection, int part_id)
+/* part_id may be NO_ID. is_back: seen from the side where the triangle's normal does not point.
+ * The row lives as long as the selection. */
+static inline const float *light_selection_of_side(const LightSelection *selection, int part_id,
+                                                   bool is_back)
 {
-    return part_id == NO_ID ? selection->all : selection->prob[part_id];
+    return part_id == NO_ID ? selection->all : selection->prob[2 * part_id + is_back];
 }

@@ -44,7 +44,7 @@ typedef struct PathWalk {
     PathResult *first;   /* waits for the first surface; NULL: recorded, or nobody asks */
     float    straight;   /* m since the last scattering vertex (windows do not scatter) */
     Vec3     last_position, last_ns; /* of that vertex */
-    int      last_part_id;
+    const float *last_asked; /* how often it sampled each set of lights */
     float    last_pdf;   /* with which it chose the direction, sr^-1 */
     bool     last_is_delta; /* no light sample could have found what comes now */
     int      bounce;     /* scattering vertices so far */
@@ -56,12 +56,17 @@ typedef struct PathWalk {
 
 /* ---- weights ---------------------------------------------------------------------------- */
 
-/* With which probability a vertex of the part at `bounce` samples this set of lights. */
-static float set_probability(const LightSelection *selection, int part_id, LightSet set,
-                             int bounce)
+/* How often a vertex that sees this side of the surface should sample each set of lights. */
+static const float *asked_at(const PathWalk *walk, const Surface *surface, Vec3 wo)
 {
-    float share = bounce < DEEP_BOUNCE ? 1 : DEEP_SHARE;
-    return light_selection_of_part(selection, part_id)[set] * share;
+    return light_selection_of_side(&walk->context->selection, surface->part_id,
+                                   vec3_dot(wo, surface->ng) < 0);
+}
+
+/* With which probability such a vertex at `bounce` samples this set. */
+static float set_probability(const float *asked, LightSet set, int bounce)
+{
+    return asked[set] * (bounce < DEEP_BOUNCE ? 1 : DEEP_SHARE);
 }
 
 /* The power heuristic (Veach 1997, 9.2.4) for two strategies. */
@@ -78,8 +83,7 @@ static float emission_weight(const PathWalk *walk, LightSet set, float light_pdf
     const PathContext *context = walk->context;
     if (walk->last_is_delta || context->strategy == PATH_BSDF_ONLY) return 1;
     if (context->strategy == PATH_LIGHTS_ONLY) return 0;
-    float prob =
-        set_probability(&context->selection, walk->last_part_id, set, walk->bounce - 1);
+    float prob = set_probability(walk->last_asked, set, walk->bounce - 1);
     return mis_weight(walk->last_pdf, prob * light_pdf);
 }
 
@@ -224,8 +228,7 @@ static void add_light_sample(PathWalk *walk, const Surface *surface, Vec3 wo, Li
     LightSample light;
     Vec2  u01 = sampler_2d(walk->sampler), u2 = sampler_2d(walk->sampler);
     float u[3] = {u01.x, u01.y, u2.x};
-    float set_prob =
-        set_probability(&context->selection, surface->part_id, set, walk->bounce);
+    float set_prob = set_probability(asked_at(walk, surface, wo), set, walk->bounce);
     if (u2.y >= set_prob) return;
     LitPoint point = {surface->position, surface->frame.z};
     if (!lights_sample(context->lights, set, point, walk->wavelengths, u, &light))
@@ -300,7 +303,7 @@ static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSamp
         walk->medium_id = next->wi.z < 0 ? surface->material_id : NO_ID;
     walk->last_position = surface->position;
     walk->last_ns = surface->frame.z;
-    walk->last_part_id = surface->part_id;
+    walk->last_asked = asked_at(walk, surface, wo);
     walk->last_pdf = next->pdf;
     walk->last_is_delta = next->is_delta;
     walk->straight = walk->sheets_from = 0;
@@ -457,7 +460,8 @@ static PathWalk walk_start(const PathContext *context, const Wavelengths *wavele
     return (PathWalk){.context = context, .wavelengths = wavelengths, .sampler = sampler,
                   .statistics = statistics, .throughput = spectrum_all(1),
                   .gathered.radiance = spectrum_all(0), .last_ns = vec3(0, 0, 1),
-                  .last_is_delta = true, .last_part_id = NO_ID, .splits_left = SPLITS,
+                  .last_is_delta = true, .last_asked = context->selection.all,
+                  .splits_left = SPLITS,
                   .medium_id = NO_ID, .stack = stack};
 }
 

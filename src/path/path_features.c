@@ -42,7 +42,7 @@ void path_features(const PathContext *context, const PathResult *result,
     surface_at(scene, context->tables, &result->first, wo, wavelengths, &surface);
     *out = (PathFeatures){.depth = result->first.t, .position = surface.position,
                           .normal = surface.frame.z, .part_id = surface.part_id,
-                          .uv = {surface.point.uv[0][0], surface.point.uv[0][1]},
+                          .uv = {surface.point.uv[0].x, surface.point.uv[0].y},
                           .display_id = NO_ID};
     albedo_rgb(bsdf_albedo(&surface.bsdf, frame_to_local(&surface.frame, wo)), wavelengths,
                out->albedo);

@@ -7,22 +7,16 @@ float sheets_rounding(Vec3 position)
     return 0.125f * ray_offset_step(position);
 }
 
-static Vec3 corner(const Scene *scene, const Triangle *t, int i)
-{
-    const float *p = scene->vertices[t->vertex[i]].position;
-    return vec3(p[0], p[1], p[2]);
-}
-
 /* Corners of a that b has too, by position, since seams of textures part vertices; *apart: the
  * last one that it has not. */
-static int shared_corners(const Scene *scene, const Triangle *a, const Triangle *b, Vec3 *apart)
+static int shared_corners(const Scene *scene, uint32_t a, uint32_t b, Vec3 *apart)
 {
     int count = 0;
     for (int i = 0; i < 3; i++) {
-        Vec3 own = corner(scene, a, i);
+        Vec3 own = scene_corner(scene, a, i);
         bool is_shared = false;
         for (int k = 0; k < 3; k++) {
-            Vec3 d = vec3_sub(own, corner(scene, b, k));
+            Vec3 d = vec3_sub(own, scene_corner(scene, b, k));
             is_shared |= vec3_dot(d, d) == 0;
         }
         count += is_shared;
@@ -34,15 +28,15 @@ static int shared_corners(const Scene *scene, const Triangle *a, const Triangle 
 /* Both share an edge, and lie on its two sides: no point but of that edge is in both. */
 bool sheets_are_one(const Scene *scene, uint32_t triangle, uint32_t other)
 {
-    const Triangle *a = &scene->triangles[triangle], *b = &scene->triangles[other];
     Vec3 of_a, of_b;
-    if (a->part_id != b->part_id || shared_corners(scene, a, b, &of_a) != 2 ||
-        shared_corners(scene, b, a, &of_b) != 2)
+    if (scene_part(scene, triangle) != scene_part(scene, other) ||
+        shared_corners(scene, triangle, other, &of_a) != 2 ||
+        shared_corners(scene, other, triangle, &of_b) != 2)
         return false;
     Vec3 edge[2], *end = edge;
     for (int i = 0; i < 3 && end < edge + 2; i++) {
-        Vec3 d = vec3_sub(corner(scene, a, i), of_a);
-        if (vec3_dot(d, d) > 0) *end++ = corner(scene, a, i);
+        Vec3 d = vec3_sub(scene_corner(scene, triangle, i), of_a);
+        if (vec3_dot(d, d) > 0) *end++ = scene_corner(scene, triangle, i);
     }
     Vec3 along = vec3_sub(edge[1], edge[0]);
     return vec3_dot(vec3_cross(along, vec3_sub(of_a, edge[0])),

@@ -49,7 +49,7 @@ static bool read_data(const Scene *scene, const TextureSlot *slot, const Triangl
                       float texel[4])
 {
     if (slot->texture_id == NO_ID) return false;
-    Vec2 uv = slot_uv(slot, point->uv);
+    Vec2 uv = slot_uv(slot, point);
     texture_data(&scene->textures[slot->texture_id], uv.x, uv.y, texel);
     return true;
 }
@@ -58,7 +58,7 @@ static bool read_colour(const Scene *scene, const TextureSlot *slot, const Trian
                         float texel[4])
 {
     if (slot->texture_id == NO_ID) return false;
-    Vec2 uv = slot_uv(slot, point->uv);
+    Vec2 uv = slot_uv(slot, point);
     texture_colour(&scene->textures[slot->texture_id], uv.x, uv.y, texel);
     return true;
 }
@@ -89,17 +89,19 @@ static Spectrum colour_spectrum(const Scene *scene, int curve_id, const float fa
 static Vec3 mapped_normal(const Scene *scene, const TextureSlot *slot, float scale,
                           const Hit *hit, const TrianglePoint *point)
 {
-    float texel[4], tangent[4] = {0};
-    if (!read_data(scene, slot, point, texel)) return point->ns;
-    const Triangle *t = &scene->triangles[hit->triangle];
+    float texel[4], side = 0;
+    const Tangent *tangents = scene_part(scene, hit->triangle)->tangents;
+    if (!tangents || !read_data(scene, slot, point, texel)) return point->ns;
     const float weight[3] = {1 - hit->u - hit->v, hit->u, hit->v};
-    for (int k = 0; k < 3; k++)
-        for (int i = 0; i < 4; i++)
-            tangent[i] += weight[k] * scene->vertices[t->vertex[k]].tangent[i];
-    Vec3 n = point->ns, along = vec3(tangent[0], tangent[1], tangent[2]);
+    Vec3 n = point->ns, along = vec3(0, 0, 0);
+    for (int k = 0; k < 3; k++) {
+        const Tangent *corner = &tangents[scene_corner_place(scene, hit->triangle, k)];
+        along = vec3_along(along, corner->along, weight[k]);
+        side += weight[k] * corner->side;
+    }
     along = vec3_normalize(vec3_along(along, n, -vec3_dot(along, n)));
     if (!(vec3_dot(along, along) > 0.5f)) return n;
-    Vec3 across = vec3_scale(vec3_cross(n, along), tangent[3] < 0 ? -1.0f : 1.0f);
+    Vec3 across = vec3_scale(vec3_cross(n, along), side < 0 ? -1.0f : 1.0f);
     Vec3 bent = vec3_along(vec3_scale(along, scale * (2 * texel[0] - 1)), across,
                            scale * (2 * texel[1] - 1));
     bent = vec3_normalize(vec3_along(bent, n, 2 * texel[2] - 1));

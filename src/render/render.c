@@ -3,14 +3,16 @@
 #include <math.h>
 #include <stdatomic.h>
 
+#include "base/machine.h"
 #include "base/parallel.h"
 #include "bvh/bvh.h"
 #include "light/light.h"
+#include "render/forecast.h"
 #include "render/signals.h"
 
 #define TILE_SIDE 16                /* pixels: a few milliseconds of work */
 #define PASS_PATHS ((size_t)1 << 22) /* of one pass at most, where a pixel gets more than one */
-#define PASS_SAMPLES_MAX 64u
+#define PASS_SAMPLES_MAX 16u
 
 /* ---- tiles and passes -------------------------------------------------------------------- */
 
@@ -45,6 +47,21 @@ uint32_t render_pass_samples(uint32_t done, size_t pixels)
     while (end < most && end <= done) end += end < 1 ? 1 : end;
     if (end <= done) end += ((done - end) / most + 1) * most;
     return end - done;
+}
+
+/* The end of the pass, from `done` on, that has `wanted` samples; at most `most`. Passes grow
+ * to a size that they keep: a few are counted, the rest is divided. */
+static uint32_t end_of_pass(uint32_t done, double wanted, uint32_t most, size_t pixels)
+{
+    uint64_t end = done;
+    if (!(wanted < most)) return most;
+    for (int i = 0; i < 8 && (double)end < wanted; i++)
+        end += render_pass_samples((uint32_t)end, pixels);
+    if ((double)end < wanted) {
+        double step = render_pass_samples((uint32_t)end, pixels);
+        end += (uint64_t)(ceil((wanted - (double)end) / step) * step);
+    }
+    return end < most ? (uint32_t)end : most;
 }
 
 /* ---- one pass ---------------------------------------------------------------------------- */
@@ -104,25 +121,26 @@ typedef struct Run {
     TileJob       job;
     WorkerCounts *counts;
     Progress      progress;
+    Forecast      forecast;
     double        checkpoint_s; /* when the last one was written, or the run began */
     RenderResult  result;
 } Run;
 
-/* Enough samples and little enough noise? Also tells the progress how long it may take: the
- * error falls with the square root of the samples. */
+/* Enough samples and little enough noise? Also tells the progress how long it may take. */
 static bool noise_reached(Run *run)
 {
     const RenderOptions *options = run->options;
+    RenderResult        *result = &run->result;
     if (!(options->noise > 0)) return false;
-    run->result.error = film_relative_error(run->result.film);
-    double error = options->noise_of_displays ? run->result.error.displays
-                                              : run->result.error.frame;
-    double ratio = error / options->noise;
-    double wanted = fmax((double)run->result.samples * ratio * ratio, RENDER_LEAST_SAMPLES);
-    double most = (double)(options->end_sample - options->first_sample);
-    if (isfinite(wanted))
-        run->progress.total = fmin(wanted, most) * (double)pixel_count(options->crop);
-    return run->result.samples >= RENDER_LEAST_SAMPLES && error <= options->noise;
+    result->noise = film_area_error(result->film, options->noise_area);
+    uint32_t most = options->end_sample - options->first_sample;
+    double   wanted = forecast_samples(&run->forecast, result->samples,
+                                       result->noise / options->noise);
+    size_t   pixels = pixel_count(options->crop);
+    wanted = fmax(wanted, RENDER_LEAST_SAMPLES);
+    uint32_t end = end_of_pass(result->samples, wanted, most, pixels);
+    run->progress.total = (double)end * (double)pixels;
+    return result->samples >= RENDER_LEAST_SAMPLES && result->noise <= options->noise;
 }
 
 static void finish_result(Run *run)
@@ -192,7 +210,9 @@ static bool make_film(const RenderOptions *options, Arena *arena, RenderResult *
     const Checkpoint *resume = options->resume;
     result->film = film_create(options->width, options->height, options->crop, options->layers,
                                arena);
-    result->has_features = (options->layers & LAYER_FEATURES) || options->noise_of_displays ||
+    result->has_features = (options->layers & LAYER_FEATURES) ||
+                           (options->noise > 0 &&
+                            options->noise_area.display != FILM_ALL_PIXELS) ||
                            (resume && resume->has_features);
     if (!resume) return true;
     result->samples = resume->done.end_sample - resume->done.first_sample;
@@ -238,7 +258,8 @@ bool render_scene(const Scene *scene, const SceneCamera *camera, const RenderOpt
     if (!bvh_create(scene, options->threads, options->isa, &bvh, err)) return false;
     PathContext context = path_context_build(scene, bvh, lights, options->max_bounces, arena);
     RenderResult result = {.kernel = kernel, .refused_pixels = lights_refused_pixels(lights),
-                           .build_seconds = monotonic_seconds() - begun_s};
+                           .build_seconds = monotonic_seconds() - begun_s,
+                           .build_peak_bytes = machine_peak_bytes()};
     bool done = render_film(&context, camera, options, arena, &result, err);
     bvh_destroy(bvh);
     if (done) *out = result;

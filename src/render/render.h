@@ -28,7 +28,7 @@ typedef struct RenderOptions {
     uint32_t first_sample, end_sample; /* half-open; the end is the most that is done */
     double   noise;            /* stop when the relative error is below; 0: never. Not before
                                   every pixel has RENDER_LEAST_SAMPLES */
-    bool     noise_of_displays; /* the error over display pixels decides, else the frame's */
+    FilmArea noise_area;       /* whose error decides */
     int      max_bounces;      /* 0: emission only, 1: plus direct light */
     unsigned layers;           /* FilmLayer bits */
     int      threads;          /* at least 1 */
@@ -56,8 +56,10 @@ struct RenderResult {
     long           refused_pixels; /* of the surroundings' picture: negative or not finite, 0 */
     double         seconds;    /* of rendering alone, over all sessions */
     double         build_seconds; /* of the ray tracer's and the lights' structures, now */
+    double         build_peak_bytes; /* the most memory of the process until they stood */
     PathStatistics statistics;
     FilmError      error;
+    double         noise;      /* the error over options' noise_area; NaN where it is empty */
     bool           complete;   /* all samples, or the wanted noise */
     int            stopped_by; /* SIGINT, SIGTERM, SIGHUP or 0 */
 };

@@ -24,16 +24,16 @@
 #include "spectrum/luminous_opening.h"
 
 #define NO_ID (-1)
-#define SCENE_UV_SETS 2 /* in a Vertex; the sets that a material uses are mapped to these */
+#define SCENE_UV_SETS 2 /* of a part; those that its material uses are mapped to these */
 
-/* 64 bytes: a cache line. The triangles' vertex buffer is shared with the ray tracer. */
-typedef struct Vertex {
-    float    position[3]; /* m, world */
-    float    normal[3];   /* unit, world; outside kept outside under mirroring */
-    float    tangent[4];  /* unit, world; w = +-1: bitangent = w * cross(normal, tangent) */
-    float    uv[SCENE_UV_SETS][2];
-    uint16_t color[4];    /* COLOR_0 linear, 65535 = 1; white where the file has none */
-} Vertex;
+typedef struct Tangent {
+    Vec3  along; /* unit, world */
+    float side;  /* +-1: bitangent = side * cross(normal, along) */
+} Tangent;
+
+typedef struct VertexColor {
+    uint16_t linear[4]; /* COLOR_0, 65535 = 1 */
+} VertexColor;
 
 typedef struct Triangle {
     uint32_t vertex[3]; /* counter-clockwise seen from the front (mirrored nodes included) */
@@ -46,13 +46,18 @@ typedef struct Part {
     const char *node_name, *mesh_name; /* "" where the file has none */
     int      material_id; /* always valid: glTF's default material has an id too */
     uint32_t first_triangle, triangle_count;
-    bool     has_tangents; /* else derived from the uv set of the normal map */
+    uint32_t first_vertex;
+    /* Of its vertices, from first_vertex on: what nobody would ask for is NULL. */
+    Vec3        *normals;  /* unit, world; outside kept outside under mirroring. NULL: flat */
+    Tangent     *tangents; /* of the file, or of the normal map's coordinates */
+    Vec2        *uv[SCENE_UV_SETS]; /* NULL: all zero */
+    VertexColor *colors;   /* NULL: white */
 } Part;
 
 /* A texture of a material: which one, with which coordinates. */
 typedef struct TextureSlot {
     int   texture_id;    /* NO_ID: none */
-    int   uv_set;        /* index into Vertex.uv: 0 or 1 */
+    int   uv_set;        /* index into Part.uv: 0 or 1 */
     float uv_from_uv[6]; /* KHR_texture_transform: u' = a u + b v + c, v' = d u + e v + f */
 } TextureSlot;
 
@@ -179,7 +184,8 @@ typedef struct Environment {
 } Environment;
 
 typedef struct Scene {
-    Vertex   *vertices;
+    Vec3     *positions; /* m, world; of all vertices. Shared with the ray tracer, which reads
+                            past the last: there is room for one more */
     uint32_t  vertex_count;
     Triangle *triangles; /* opaque ones first: [0, opaque_count) need no asking */
     uint32_t  triangle_count, opaque_count;
@@ -232,3 +238,28 @@ typedef struct SceneOptions {
     const SceneOverride *light_ccts; /* --light-cct NODE=KELVIN, * for all */
     int light_cct_count;
 } SceneOptions;
+
+/* Corner 0..2 of a triangle, m. */
+static inline Vec3 scene_corner(const Scene *scene, uint32_t triangle, int corner)
+{
+    return scene->positions[scene->triangles[triangle].vertex[corner]];
+}
+
+static inline const Part *scene_part(const Scene *scene, uint32_t triangle)
+{
+    return &scene->parts[scene->triangles[triangle].part_id];
+}
+
+/* Place of a triangle's corner in its part's arrays. */
+static inline uint32_t scene_corner_place(const Scene *scene, uint32_t triangle, int corner)
+{
+    const Triangle *t = &scene->triangles[triangle];
+    return t->vertex[corner] - scene->parts[t->part_id].first_vertex;
+}
+
+/* Texture coordinates of a corner. */
+static inline Vec2 scene_corner_uv(const Scene *scene, uint32_t triangle, int corner, int set)
+{
+    const Vec2 *uv = scene_part(scene, triangle)->uv[set];
+    return uv ? uv[scene_corner_place(scene, triangle, corner)] : (Vec2){0, 0};
+}

@@ -17,15 +17,27 @@ static bool all_finite(const float *value, size_t count)
     return true;
 }
 
+/* The vertices of a part's triangles are its own, and finite in all that is known of them. */
+static void claim_attributes(const Scene *scene, const Part *part)
+{
+    for (uint32_t i = 0; i < 3 * part->triangle_count; i++) {
+        const Triangle *triangle = &scene->triangles[part->first_triangle + i / 3];
+        fuzz_claim(triangle->vertex[i % 3] >= part->first_vertex, "a vertex is of its part");
+        uint32_t v = triangle->vertex[i % 3] - part->first_vertex;
+        fuzz_claim(!part->normals || all_finite(&part->normals[v].x, 3), "a normal is finite");
+        fuzz_claim(!part->tangents || all_finite(&part->tangents[v].along.x, 3),
+                   "a tangent is finite");
+        for (int s = 0; s < SCENE_UV_SETS; s++)
+            fuzz_claim(!part->uv[s] || all_finite(&part->uv[s][v].x, 2),
+                       "texture coordinates are finite");
+    }
+}
+
 static void claim_geometry(const Scene *scene)
 {
     fuzz_claim(scene->opaque_count <= scene->triangle_count, "opaque triangles are triangles");
-    for (uint32_t v = 0; v < scene->vertex_count; v++) {
-        const Vertex *vertex = &scene->vertices[v];
-        fuzz_claim(all_finite(vertex->position, 3) && all_finite(vertex->normal, 3) &&
-                       all_finite(vertex->tangent, 4) && all_finite(vertex->uv[0], 4),
-                   "a vertex is finite");
-    }
+    fuzz_claim(all_finite(&scene->positions[0].x, 3 * (size_t)scene->vertex_count),
+               "positions are finite");
     for (uint32_t t = 0; t < scene->triangle_count; t++) {
         const Triangle *triangle = &scene->triangles[t];
         for (int c = 0; c < 3; c++)
@@ -38,6 +50,7 @@ static void claim_geometry(const Scene *scene)
                    "a part's material exists");
         fuzz_claim((uint64_t)part->first_triangle + part->triangle_count <=
                        scene->triangle_count, "a part's triangles exist");
+        claim_attributes(scene, part);
     }
 }
 

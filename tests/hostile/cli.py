@@ -299,11 +299,13 @@ def check_answers(report, program):
     answer = json.loads(done.stdout)
     wanted = {"output", "size", "samples", "seconds", "rays", "relative_error", "complete",
               "warnings", "samples_per_s", "rays_per_s", "peak_memory_bytes",
-              "nonfinite_samples"}
+              "build_peak_memory_bytes", "nonfinite_samples"}
     report.claim(done.returncode == 0 and wanted <= set(answer),
                  f"render --json lacks {wanted - set(answer)}")
     report.claim(answer["complete"] is True and answer["size"] == [32, 24]
                  and answer["samples"] == 2, f"render --json says {answer}")
+    report.claim(1e6 < answer["build_peak_memory_bytes"] <= answer["peak_memory_bytes"],
+                 f"render --json: peaks of memory {answer}")
     report.claim(not done.stderr, f"--quiet prints {done.stderr!r}")
     plain = program.render()
     report.claim(not re.search(r"[\x00-\x09\x0b-\x1f]", plain.stderr),

@@ -50,9 +50,12 @@ static inline Material builder_material(float albedo)
 static inline Scene *builder_scene(Arena *arena)
 {
     Scene *scene = ARENA_NEW(arena, Scene, 1);
-    scene->vertices = ARENA_NEW(arena, Vertex, BUILDER_VERTICES);
+    scene->positions = ARENA_NEW(arena, Vec3, BUILDER_VERTICES);
     scene->triangles = ARENA_NEW(arena, Triangle, BUILDER_TRIANGLES);
     scene->parts = ARENA_NEW(arena, Part, BUILDER_PARTS);
+    scene->parts[0].normals = ARENA_NEW(arena, Vec3, BUILDER_VERTICES);
+    for (int s = 0; s < SCENE_UV_SETS; s++)
+        scene->parts[0].uv[s] = ARENA_NEW(arena, Vec2, BUILDER_VERTICES);
     scene->materials = ARENA_NEW(arena, Material, BUILDER_PARTS);
     scene->lights = ARENA_NEW(arena, PunctualLight, BUILDER_PARTS);
     scene->displays = ARENA_NEW(arena, Display, BUILDER_PARTS);
@@ -65,23 +68,26 @@ static inline Scene *builder_scene(Arena *arena)
 }
 
 /* Starts a part with a material; triangles that follow belong to it. Opaque parts come first.
- */
+ * All parts share the arrays of the first. */
 static inline int builder_part(Scene *scene, Material material)
 {
     int id = scene->material_count++;
     scene->materials[id] = material;
-    scene->parts[scene->part_count++] =
-        (Part){.name = "part", .material_id = id, .first_triangle = scene->triangle_count};
+    Part *part = &scene->parts[scene->part_count++];
+    *part = scene->parts[0];
+    part->name = "part";
+    part->material_id = id;
+    part->first_triangle = scene->triangle_count;
+    part->triangle_count = 0;
     return id;
 }
 
 static inline uint32_t builder_vertex(Scene *scene, Vec3 p, Vec3 n, float u, float v)
 {
-    Vertex *vertex = &scene->vertices[scene->vertex_count];
-    *vertex = (Vertex){.position = {p.x, p.y, p.z},
-                       .normal = {n.x, n.y, n.z},
-                       .uv = {{u, v}, {u, v}},
-                       .color = {65535, 65535, 65535, 65535}};
+    const Part *part = &scene->parts[0];
+    scene->positions[scene->vertex_count] = p;
+    part->normals[scene->vertex_count] = n;
+    part->uv[0][scene->vertex_count] = part->uv[1][scene->vertex_count] = (Vec2){u, v};
     scene->bounds_min = vec3(fminf(scene->bounds_min.x, p.x), fminf(scene->bounds_min.y, p.y),
                              fminf(scene->bounds_min.z, p.z));
     scene->bounds_max = vec3(fmaxf(scene->bounds_max.x, p.x), fmaxf(scene->bounds_max.y, p.y),

@@ -43,9 +43,10 @@ static int hits(const Scene *scene, uint32_t triangle, Ray ray, double *t)
     const double d[3] = {(double)ray.direction.x, (double)ray.direction.y,
                          (double)ray.direction.z};
     const double o[3] = {(double)ray.origin.x, (double)ray.origin.y, (double)ray.origin.z};
-    for (int k = 0; k < 3; k++)
-        for (int i = 0; i < 3; i++)
-            p[k][i] = (double)scene->vertices[scene->triangles[triangle].vertex[k]].position[i];
+    for (int k = 0; k < 3; k++) {
+        Vec3 corner = scene_corner(scene, triangle, k);
+        p[k][0] = (double)corner.x, p[k][1] = (double)corner.y, p[k][2] = (double)corner.z;
+    }
     for (int i = 0; i < 3; i++) {
         e1[i] = p[1][i] - p[0][i];
         e2[i] = p[2][i] - p[0][i];

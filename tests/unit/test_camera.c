@@ -81,8 +81,7 @@ static void add_sheet(Scene *scene, Vec3 centre, Vec3 normal, float half)
     for (int c = 0; c < 4; c++) {
         float a = c == 1 || c == 2 ? half : -half, b = c > 1 ? half : -half;
         Vec3 p = vec3_along(vec3_along(centre, side, a), up, b);
-        float *out = scene->vertices[scene->vertex_count++].position;
-        out[0] = p.x, out[1] = p.y, out[2] = p.z;
+        scene->positions[scene->vertex_count++] = p;
     }
     scene->parts[scene->part_count++] =
         (Part){.first_triangle = scene->triangle_count, .triangle_count = 2};
@@ -91,10 +90,10 @@ static void add_sheet(Scene *scene, Vec3 centre, Vec3 normal, float half)
             (Triangle){.vertex = {first, first + t, first + t + 1}};
 }
 
-static bool is_in_view(const SceneCamera *seen, const float p[3])
+static bool is_in_view(const SceneCamera *seen, Vec3 p)
 {
     const Transform *t = &seen->world_from_camera;
-    Vec3 d = vec3_sub(vec3(p[0], p[1], p[2]), t->origin);
+    Vec3 d = vec3_sub(p, t->origin);
     float depth = -vec3_dot(d, t->z), half = depth * tanf(0.5f * seen->yfov);
     return depth > 0 && fabsf(vec3_dot(d, t->x)) < half && fabsf(vec3_dot(d, t->y)) < half;
 }
@@ -105,11 +104,11 @@ TEST(displays_without_a_camera_are_seen_whole_and_from_the_front)
     static const Vec3 NORMALS[] = {
         {0, 0, 1}, {0.6f, 0, -0.8f}, {0, 1, 0}, {-0.48f, 0.6f, 0.64f}};
     for (int i = 0; i < 4; i++) {
-        Vertex vertices[12] = {{{0}, {0}, {0}, {{0}}, {0}}};
+        Vec3 positions[12];
         Triangle triangles[6];
         Part parts[3];
         Material materials[1] = {{.display_id = 0}};
-        Scene scene = {.vertices = vertices, .triangles = triangles, .parts = parts,
+        Scene scene = {.positions = positions, .triangles = triangles, .parts = parts,
                        .materials = materials, .material_count = 1};
         add_sheet(&scene, vec3(1, 2, 3), NORMALS[i], 0.2f);
         add_sheet(&scene, vec3(1.5f, 2, 3.1f), NORMALS[i], 0.1f);
@@ -117,7 +116,7 @@ TEST(displays_without_a_camera_are_seen_whole_and_from_the_front)
         assert_string_equal(seen.camera_name, "displays");
         assert_true(vec3_dot(seen.world_from_camera.z, NORMALS[i]) > 0.999f);
         for (uint32_t v = 0; v < scene.vertex_count; v++)
-            assert_true(is_in_view(&seen, vertices[v].position));
+            assert_true(is_in_view(&seen, positions[v]));
         add_sheet(&scene, vec3(0, 2, 3), vec3_neg(NORMALS[i]), 0.15f); /* faces away */
         const SceneCamera largest = camera_frame_scene(&scene);
         assert_true(vec3_dot(largest.world_from_camera.z, NORMALS[i]) > 0.999f);

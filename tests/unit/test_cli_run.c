@@ -346,17 +346,35 @@ TEST(noise_that_is_not_reached_is_said)
     RUN(&o, "render", "scene.gltf", "-o", "n.exr", "--size", "16x12", "--spp", "2", "--noise",
         "0.0001", "--quiet");
     assert_int_equal(o.status, 0);
-    assert_non_null(strstr(o.err, "parhelion: warning: the relative error is 0."));
+    assert_non_null(strstr(o.err, "parhelion: warning: the relative error of the frame is 0."));
     assert_non_null(
         strstr(o.err, ", not the 0.0001 of --noise, after all 2 samples a pixel\n"));
     RUN(&o, "render", "scene.gltf", "-o", "n.exr", "--size", "16x12", "--spp", "2", "--noise",
         "display:0.5", "--quiet", "--json");
     assert_string_equal(o.err,
-                        "parhelion: warning: no display is in view: --noise display:R had "
+                        "parhelion: warning: nothing of the displays is in view: --noise had "
                         "nothing to go by\n");
     json_t *answer = json_loads(o.out, 0, NULL);
     assert_int_equal(json_array_size(json_object_get(answer, "warnings")), 1);
     json_decref(answer);
+}
+
+/* The corner of the room that has no noise decides, not the rest; a name that is no display's
+ * is told. */
+TEST(noise_of_an_area_decides_alone)
+{
+    (void)state;
+    Outcome o;
+    RUN(&o, "render", "scene.gltf", "-o", "n.exr", "--size", "16x12", "--spp", "64", "--noise",
+        "2,2,9,8:0.9", "--quiet", "--json");
+    assert_int_equal(o.status, 0);
+    json_t *answer = json_loads(o.out, 0, NULL);
+    assert_int_equal(json_integer_value(json_object_get(answer, "samples")), 16);
+    json_decref(answer);
+    RUN(&o, "render", "scene.gltf", "-o", "n.exr", "--size", "16x12", "--noise",
+        "display:cluster:0.1", "--quiet");
+    assert_int_equal(o.status, 2);
+    assert_non_null(strstr(o.err, "--noise display:cluster: no display has this name"));
 }
 
 TEST(a_picture_is_developed_as_well)

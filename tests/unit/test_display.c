@@ -187,9 +187,8 @@ TEST(angles_are_those_of_someone_who_faces_the_display)
     for (int turned = 0; turned < 2; turned++) {
         if (turned) /* the content by 90 degrees: its right is the scene's up */
             for (uint32_t i = 0; i < 4; i++) {
-                float *uv = world.scene->vertices[i].uv[0], u = uv[0];
-                uv[0] = 1 - uv[1];
-                uv[1] = u;
+                Vec2 *uv = &world.scene->parts[0].uv[0][i];
+                *uv = (Vec2){1 - uv->y, uv->x};
             }
         world_ready(&world, BOUNCES);
         for (int phi = 0; phi < 360; phi += 45) {
@@ -361,7 +360,7 @@ static World world_of_faces(bool is_double_sided, bool is_inside_out)
     World world = world_open(PANELS[1]);
     world.scene->materials[0].double_sided = is_double_sided;
     for (uint32_t i = 0; is_inside_out && i < world.scene->vertex_count; i++)
-        world.scene->vertices[i].normal[2] = -1;
+        world.scene->parts[0].normals[i].z = -1;
     return world;
 }
 

@@ -291,6 +291,17 @@ TEST(relative_error_of_displays_counts_their_pixels_only)
     assert_close(error.frame, 0.5 * 0.5 / sqrt(64), 0.03);
     assert_int_equal(film_pixel(film, 0, 1).display_id, 4);
     assert_int_equal(film_pixel(film, SIDE - 1, 1).display_id, -1);
+
+    FilmRect left = {-9, 0, SIDE / 2, SIDE}, right = {SIDE / 2, 0, SIDE + 9, SIDE};
+    assert_close(film_area_error(film, (FilmArea){square, FILM_ALL_PIXELS}), error.frame,
+                 1e-15);
+    assert_close(film_area_error(film, (FilmArea){square, 4}), error.displays, 1e-15);
+    assert_true(isnan(film_area_error(film, (FilmArea){square, 3})));
+    assert_close(film_area_error(film, (FilmArea){left, FILM_ALL_PIXELS}), error.displays,
+                 1e-15);
+    assert_close(film_area_error(film, (FilmArea){right, FILM_ALL_PIXELS}),
+                 2 * error.frame - error.displays, 1e-12);
+    assert_true(isnan(film_area_error(film, (FilmArea){right, FILM_ANY_DISPLAY})));
 }
 
 /* Pixel p swings by p % 4 tenths around 100: of equals the first comes first. */

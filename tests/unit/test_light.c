@@ -221,12 +221,8 @@ static double emitter_total(const Emitters *emitters, const Scene *scene, Vec3 f
     double total = 0;
     for (int t = 0; t < emitters->count; t++) {
         const Emitter *e = &emitters->emitters[t];
-        const uint32_t *v = scene->triangles[e->triangle].vertex;
         Vec3 p[3];
-        for (int k = 0; k < 3; k++) {
-            const float *at = scene->vertices[v[k]].position;
-            p[k] = vec3(at[0], at[1], at[2]);
-        }
+        for (int k = 0; k < 3; k++) p[k] = scene_corner(scene, e->triangle, k);
         double area = 0.5 * (double)vec3_length(vec3_cross(vec3_sub(p[1], p[0]),
                                                            vec3_sub(p[2], p[0])));
         for (int i = 0; i < e->side; i++)

@@ -1,6 +1,7 @@
 /* The render loop's parts that need no scene: tiles, passes, workers, signals, progress. */
 #include "check.h"
 
+#include <math.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -10,6 +11,7 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "render/forecast.h"
 #include "render/render.h"
 #include "render/signals.h"
 
@@ -39,7 +41,7 @@ static void tiles_cover_every_pixel_of_the_crop_once(void **state)
 static void passes_double_and_then_stay(void **state)
 {
     (void)state;
-    static const uint32_t wanted[] = {1, 1, 2, 4, 8, 16, 32, 64, 64, 64};
+    static const uint32_t wanted[] = {1, 1, 2, 4, 8, 16, 16, 16, 16, 16};
     uint32_t              done = 0;
     for (int i = 0; i < 10; i++) {
         assert_int_equal(render_pass_samples(done, 4096), wanted[i]);
@@ -47,6 +49,39 @@ static void passes_double_and_then_stay(void **state)
     }
     assert_int_equal(render_pass_samples(8, (size_t)1280 * 720), 4);
     assert_int_equal(render_pass_samples(1000, (size_t)1 << 28), 1);
+}
+
+/* Noise whose measured error is all there is from the first pass on: the first answer stays. */
+static void honest_noise_is_foretold_at_once(void **state)
+{
+    (void)state;
+    Forecast forecast = {0};
+    for (uint32_t done = 2; done <= 192; done += render_pass_samples(done, 4096))
+        assert_true(fabs(forecast_samples(&forecast, done, sqrt(190.0 / done)) - 190) < 1e-9);
+}
+
+/* Rare light that is found late: the wanted samples grow by 40 % with the first doubling, and
+ * by 0.6 of that with each further one. */
+static void noise_that_grows_is_foretold(void **state)
+{
+    (void)state;
+    Forecast forecast = {0};
+    double   wanted[9] = {0, 100};
+    for (int k = 2; k <= 8; k++) wanted[k] = wanted[k - 1] * (1 + 0.4 * pow(0.6, k - 2));
+    for (int k = 1; k <= 8; k++) {
+        uint32_t done = 1u << k;
+        double   told = forecast_samples(&forecast, done, sqrt(wanted[k] / done));
+        if (k >= 3) assert_in_range((int)(100 * told / wanted[8]), 85, 115);
+    }
+}
+
+static void forecasts_of_nothing_and_of_no_end(void **state)
+{
+    (void)state;
+    Forecast forecast = {0};
+    assert_true(isinf(forecast_samples(&forecast, 4, (double)NAN)));
+    assert_true(isinf(forecast_samples(&forecast, 4, (double)INFINITY)));
+    assert_true(forecast_samples(&forecast, 4, 0) == 0);
 }
 
 /* A render that goes on from any number of samples decides where one that began decides. */
@@ -257,6 +292,9 @@ int main(int argc, char **argv)
         cmocka_unit_test(tiles_cover_every_pixel_of_the_crop_once),
         cmocka_unit_test(passes_double_and_then_stay),
         cmocka_unit_test(passes_end_at_the_same_samples_wherever_one_begins),
+        cmocka_unit_test(honest_noise_is_foretold_at_once),
+        cmocka_unit_test(noise_that_grows_is_foretold),
+        cmocka_unit_test(forecasts_of_nothing_and_of_no_end),
         cmocka_unit_test(every_item_is_done_once_for_any_number_of_threads),
         cmocka_unit_test(no_items_is_no_work),
         cmocka_unit_test(a_snapshot_is_taken_once),

@@ -18,29 +18,25 @@ static Scene *load_triangle(const char *more)
     return maker_load(TRIANGLE, sizeof TRIANGLE, members);
 }
 
-static const Vertex *corner(const Scene *scene, uint32_t triangle, int c)
+static Tangent tangent(const Scene *scene, uint32_t triangle, int c)
 {
-    return &scene->vertices[scene->triangles[triangle].vertex[c]];
-}
-
-static Vec3 position(const Scene *scene, uint32_t triangle, int c)
-{
-    const float *p = corner(scene, triangle, c)->position;
-    return vec3(p[0], p[1], p[2]);
-}
-
-static Vec3 normal(const Scene *scene, uint32_t triangle, int c)
-{
-    const float *n = corner(scene, triangle, c)->normal;
-    return vec3(n[0], n[1], n[2]);
+    return scene_part(scene, triangle)->tangents[scene_corner_place(scene, triangle, c)];
 }
 
 /* Of the side from which the corners run counter-clockwise. */
 static Vec3 front(const Scene *scene, uint32_t triangle)
 {
-    Vec3 a = position(scene, triangle, 0);
-    return vec3_normalize(vec3_cross(vec3_sub(position(scene, triangle, 1), a),
-                                     vec3_sub(position(scene, triangle, 2), a)));
+    Vec3 a = scene_corner(scene, triangle, 0);
+    return vec3_normalize(vec3_cross(vec3_sub(scene_corner(scene, triangle, 1), a),
+                                     vec3_sub(scene_corner(scene, triangle, 2), a)));
+}
+
+/* A flat part has no normals of its own. */
+static Vec3 normal(const Scene *scene, uint32_t triangle, int c)
+{
+    const Part *part = scene_part(scene, triangle);
+    return part->normals ? part->normals[scene_corner_place(scene, triangle, c)]
+                         : front(scene, triangle);
 }
 
 static void assert_vec3(Vec3 found, float x, float y, float z)
@@ -93,7 +89,8 @@ static void check_component(int type, bool is_normalized)
     Scene *scene = maker_load(bytes, (size_t)(3 * stride), members);
     assert_int_equal(scene->triangle_count, 1);
     for (int v = 0; v < 3; v++) {
-        const float *p = corner(scene, 0, v)->position;
+        Vec3 at = scene_corner(scene, 0, v);
+        const float p[3] = {at.x, at.y, at.z};
         for (int c = 0; c < 3; c++) {
             double code = sign * CODES[v][c];
             assert_near(p[c], is_normalized ? normalised(type, code) : code, 1e-6);
@@ -122,8 +119,8 @@ TEST_WITH(the_smallest_signed_code_is_minus_one, maker_reset, NULL)
                    "'bufferViews':[{'buffer':0,'byteLength':12,'byteStride':4}],"
                    "'accessors':[{'bufferView':0,'componentType':5120,'count':3,'type':'VEC3',"
                    "'normalized':true}]," MESH NODE);
-    assert_vec3(position(scene, 0, 0), -1, 0, 0);
-    assert_vec3(position(scene, 0, 1), 1, 0, 0);
+    assert_vec3(scene_corner(scene, 0, 0), -1, 0, 0);
+    assert_vec3(scene_corner(scene, 0, 1), 1, 0, 0);
 }
 
 /* Vertex 1 of the triangle is replaced, once over bytes and once over zeros. */
@@ -143,7 +140,7 @@ TEST_WITH(sparse_values_replace_the_base, maker_reset, NULL)
         "'componentType':5126,'count':3,'type':'VEC3','sparse':{'count':1,"
         "'indices':{'bufferView':1,'componentType':5123},'values':{'bufferView':2}}}]," MESH
             NODE);
-    assert_vec3(position(scene, 0, 1), 1, 0, 0);
+    assert_vec3(scene_corner(scene, 0, 1), 1, 0, 0);
     struct {
         uint8_t index[4];
         float value[6];
@@ -155,9 +152,9 @@ TEST_WITH(sparse_values_replace_the_base, maker_reset, NULL)
         "'accessors':[{'componentType':5126,'count':3,'type':'VEC3','sparse':{'count':2,"
         "'indices':{'bufferView':0,'componentType':5121},'values':{'bufferView':1}}}]," MESH
             NODE);
-    assert_vec3(position(scene, 0, 0), 0, 0, 0);
-    assert_vec3(position(scene, 0, 1), 2, 0, 0);
-    assert_vec3(position(scene, 0, 2), 0, 3, 0);
+    assert_vec3(scene_corner(scene, 0, 0), 0, 0, 0);
+    assert_vec3(scene_corner(scene, 0, 1), 2, 0, 0);
+    assert_vec3(scene_corner(scene, 0, 2), 0, 3, 0);
 }
 
 /* ---- strips and fans ------------------------------------------------------------------- */
@@ -190,7 +187,8 @@ static bool has_triangle(const Scene *scene, Vec3 a, Vec3 b, Vec3 c)
             bool is_same = true;
             for (int i = 0; i < 3; i++)
                 is_same &=
-                    vec3_length(vec3_sub(position(scene, t, (i + turn) % 3), wanted[i])) == 0;
+                    vec3_length(
+                        vec3_sub(scene_corner(scene, t, (i + turn) % 3), wanted[i])) == 0;
             if (is_same) return true;
         }
     return false;
@@ -201,7 +199,8 @@ static void assert_same_triangles(const Scene *a, const Scene *b)
 {
     assert_int_equal(a->triangle_count, b->triangle_count);
     for (uint32_t t = 0; t < a->triangle_count; t++)
-        assert_true(has_triangle(b, position(a, t, 0), position(a, t, 1), position(a, t, 2)));
+        assert_true(has_triangle(b, scene_corner(a, t, 0), scene_corner(a, t, 1),
+                                 scene_corner(a, t, 2)));
 }
 
 TEST_WITH(strips_and_fans_are_their_triangles, maker_reset, NULL)
@@ -225,9 +224,9 @@ TEST_WITH(nodes_move_their_meshes, maker_reset, NULL)
         MESH "'scenes':[{'nodes':[0]}],'nodes':[{'children':[1],"
              "'translation':[10,0,0]},{'mesh':0,'rotation':[0,0,0.70710678,0.70710678],"
              "'scale':[2,3,1],'translation':[0,5,0]}]");
-    assert_vec3(position(scene, 0, 0), 10, 5, 0);
-    assert_vec3(position(scene, 0, 1), 10, 7, 0); /* x turned to y, doubled */
-    assert_vec3(position(scene, 0, 2), 7, 5, 0);  /* y turned to -x, tripled */
+    assert_vec3(scene_corner(scene, 0, 0), 10, 5, 0);
+    assert_vec3(scene_corner(scene, 0, 1), 10, 7, 0); /* x turned to y, doubled */
+    assert_vec3(scene_corner(scene, 0, 2), 7, 5, 0);  /* y turned to -x, tripled */
     assert_vec3(normal(scene, 0, 0), 0, 0, 1);
 }
 
@@ -240,8 +239,8 @@ TEST_WITH(a_matrix_says_the_same_as_its_parts, maker_reset, NULL)
     Scene *matrix = load_triangle(MESH "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0,"
                                        "'matrix':[0,2,0,0,-3,0,0,0,0,0,1,0,1,2,3,1]}]");
     for (int c = 0; c < 3; c++) {
-        Vec3 p = position(matrix, 0, c);
-        assert_vec3(position(parts, 0, c), p.x, p.y, p.z);
+        Vec3 p = scene_corner(matrix, 0, c);
+        assert_vec3(scene_corner(parts, 0, c), p.x, p.y, p.z);
     }
 }
 
@@ -329,7 +328,7 @@ TEST_WITH(morph_weights_of_the_node_win, maker_reset, NULL)
         char members[1024];
         snprintf(members, sizeof members, HEAD, CASES[i].weights);
         Scene *scene = maker_load(&data, sizeof data, members);
-        assert_vec3(position(scene, 0, 2), 0, 1, 4 * CASES[i].factor);
+        assert_vec3(scene_corner(scene, 0, 2), 0, 1, 4 * CASES[i].factor);
     }
 }
 
@@ -356,9 +355,9 @@ TEST_WITH(skinned_vertices_follow_their_joints, maker_reset, NULL)
         "'skins':[{'joints':[1,2]}],'scenes':[{'nodes':[0,1]}],'nodes':[{'mesh':0,'skin':0,"
         "'translation':[100,0,0]},{'translation':[0,0,1],'children':[2]},{'translation':[0,0,4]"
         "}]");
-    assert_vec3(position(scene, 0, 0), 0, 0, 1);
-    assert_vec3(position(scene, 0, 1), 1, 0, 5);
-    assert_vec3(position(scene, 0, 2), 0, 1, 3);
+    assert_vec3(scene_corner(scene, 0, 0), 0, 0, 1);
+    assert_vec3(scene_corner(scene, 0, 1), 1, 0, 5);
+    assert_vec3(scene_corner(scene, 0, 2), 0, 1, 3);
 }
 
 /* ---- colours, coordinates, tangents
@@ -391,7 +390,9 @@ TEST_WITH(vertex_colours_of_every_format_agree, maker_reset, NULL)
                      TYPES[t] == 5126 ? "" : ",'normalized':true");
             Scene *scene = maker_load(bytes, sizeof bytes, members);
             for (int v = 0; v < 3; v++) {
-                const uint16_t *color = corner(scene, 0, v)->color;
+                const Part *part = scene_part(scene, 0);
+                const uint16_t *color =
+                    part->colors[scene_corner_place(scene, 0, v)].linear;
                 for (int c = 0; c < 3; c++) assert_int_equal(color[c], c == v ? 65535 : 0);
                 assert_int_equal(color[3], components == 4 ? 13107 : 65535);
             }
@@ -421,6 +422,49 @@ static Scene *load_with_normal_map(bool is_mirrored)
         "'attributes':{'POSITION':0,'TEXCOORD_0':1}}]}]," NODE);
 }
 
+/* Flat triangles share their corners and store no normals, unless a normal map needs a frame
+ * of each one's own. What the file lacks or nobody asks for is not there. */
+TEST_WITH(what_a_hit_does_not_need_is_not_kept, maker_reset, NULL)
+{
+    (void)state;
+    struct {
+        float   points[12], normals[12], tangents[16], uv[8];
+        uint8_t indices[8];
+    } data = {.points = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 1},
+              .normals = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1},
+              .tangents = {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1},
+              .uv = {0, 1, 1, 1, 1, 0, 0, 0},
+              .indices = {0, 1, 2, 0, 2, 3}};
+    static const char *const ATTRIBUTES[] = {
+        "", ",'NORMAL':2,'TANGENT':3,'TEXCOORD_0':4,'TEXCOORD_1':4"};
+    for (int k = 0; k < 4; k++) {
+        bool has_all = k % 2, is_mapped = k / 2;
+        char members[2048];
+        snprintf(members, sizeof members,
+                 PICTURE
+                 "'bufferViews':[{'buffer':0,'byteLength':48},{'buffer':0,'byteOffset':48,"
+                 "'byteLength':48},{'buffer':0,'byteOffset':96,'byteLength':64},{'buffer':0,"
+                 "'byteOffset':160,'byteLength':32},{'buffer':0,'byteOffset':192,"
+                 "'byteLength':8}],"
+                 "'accessors':[{'bufferView':0,'componentType':5126,'count':4,'type':'VEC3'},"
+                 "{'bufferView':4,'componentType':5121,'count':6,'type':'SCALAR'},"
+                 "{'bufferView':1,'componentType':5126,'count':4,'type':'VEC3'},"
+                 "{'bufferView':2,'componentType':5126,'count':4,'type':'VEC4'},"
+                 "{'bufferView':3,'componentType':5126,'count':4,'type':'VEC2'}],"
+                 "'materials':[{%s}],'meshes':[{'primitives':[{'material':0,'indices':1,"
+                 "'attributes':{'POSITION':0%s}}]}]," NODE,
+                 is_mapped ? "'normalTexture':{'index':0}" : "", ATTRIBUTES[has_all]);
+        Scene *scene = maker_load(&data, sizeof data, members);
+        const Part *part = &scene->parts[0];
+        assert_int_equal(scene->vertex_count, is_mapped && !has_all ? 6 : 4);
+        assert_int_equal(part->normals != NULL, is_mapped || has_all);
+        assert_int_equal(part->tangents != NULL, is_mapped);
+        assert_int_equal(part->uv[0] != NULL, has_all);
+        assert_null(part->uv[1]);
+        assert_null(part->colors);
+    }
+}
+
 /* right x up = normal, where up is the picture's. */
 TEST_WITH(tangents_point_to_the_pictures_right, maker_reset, NULL)
 {
@@ -428,9 +472,9 @@ TEST_WITH(tangents_point_to_the_pictures_right, maker_reset, NULL)
     for (int is_mirrored = 0; is_mirrored < 2; is_mirrored++) {
         Scene *scene = load_with_normal_map(is_mirrored);
         for (int c = 0; c < 3; c++) {
-            const float *t = corner(scene, 0, c)->tangent;
-            assert_vec3(vec3(t[0], t[1], t[2]), is_mirrored ? -1.0f : 1.0f, 0, 0);
-            Vec3 up = vec3_scale(vec3_cross(normal(scene, 0, c), vec3(t[0], t[1], t[2])), t[3]);
+            Tangent t = tangent(scene, 0, c);
+            assert_vec3(t.along, is_mirrored ? -1.0f : 1.0f, 0, 0);
+            Vec3 up = vec3_scale(vec3_cross(normal(scene, 0, c), t.along), t.side);
             assert_vec3(up, 0, 1, 0);
         }
     }
@@ -460,11 +504,11 @@ TEST_WITH(a_mirrored_seam_splits_its_vertices, maker_reset, NULL)
                 "'indices':3,'attributes':{'POSITION':0,'NORMAL':1,'TEXCOORD_0':2}}]}]," NODE);
     assert_int_equal(scene->vertex_count, 6);
     for (int c = 0; c < 3; c++) {
-        const float *left = corner(scene, 0, c)->tangent, *right = corner(scene, 1, c)->tangent;
-        assert_near(left[0], 1, 1e-6);
-        assert_near(left[3], 1, 0);
-        assert_near(right[0], -1, 1e-6);
-        assert_near(right[3], -1, 0);
+        Tangent left = tangent(scene, 0, c), right = tangent(scene, 1, c);
+        assert_near(left.along.x, 1, 1e-6);
+        assert_near(left.side, 1, 0);
+        assert_near(right.along.x, -1, 1e-6);
+        assert_near(right.side, -1, 0);
     }
 }
 
@@ -522,9 +566,8 @@ TEST_WITH(two_uv_sets_of_any_number_are_carried, maker_reset, NULL)
         "'texCoord':1}}}],'meshes':[{'primitives':[{'material':0,'attributes':{'POSITION':0,"
         "'TEXCOORD_0':1,'TEXCOORD_1':2,'TEXCOORD_2':3}}]}]," NODE);
     const Material *m = &scene->materials[0];
-    const Vertex *v = corner(scene, 0, 0);
-    assert_near(v->uv[m->base_color_texture.uv_set][0], 1, 0);
-    assert_near(v->uv[m->emissive_texture.uv_set][0], 2, 0);
+    assert_near(scene_corner_uv(scene, 0, 0, m->base_color_texture.uv_set).x, 1, 0);
+    assert_near(scene_corner_uv(scene, 0, 0, m->emissive_texture.uv_set).x, 2, 0);
 }
 
 int main(void)

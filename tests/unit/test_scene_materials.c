@@ -308,7 +308,7 @@ TEST_WITH(opaque_triangles_come_first, maker_reset, NULL)
     }
     assert_near(scene->bounds_min.z, 2, 0);
     assert_near(scene->bounds_max.x, 1, 0);
-    assert_int_equal((uintptr_t)scene->vertices % 64, 0);
+    assert_int_equal((uintptr_t)scene->positions % 64, 0);
 }
 
 /* BLEND with an alpha of 1 everywhere needs no asking; a vertex that is not full does. */

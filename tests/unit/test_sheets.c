@@ -191,9 +191,9 @@ TEST(sheets_of_one_mesh_are_seen_too)
     for (int i = 0; i < 2; i++) { /* the first glows, and is there on the right */
         builder_quad(world.scene, vec3(0, 0, 0), vec3(1, 0, 0), vec3(0, 1, 0));
         for (int v = 0; v < 4; v++) {
-            float(*uv)[2] = world.scene->vertices[4 * i + v].uv;
-            if (i == 0) uv[0][0] = 1 - uv[0][0];
-            uv[0][1] = i == 0 ? 0.1f : 0.9f;
+            Vec2 *uv = &world.scene->parts[0].uv[0][4 * i + v];
+            if (i == 0) uv->x = 1 - uv->x;
+            uv->y = i == 0 ? 0.1f : 0.9f;
         }
     }
     world_ready(&world, BOUNCES);

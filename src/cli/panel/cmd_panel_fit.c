@@ -1,9 +1,9 @@
 /* panel fit: from files of a laboratory to a panel file. */
 #include <stdio.h>
-#include <sys/resource.h>
 #include <time.h>
 
 #include "base/count.h"
+#include "base/machine.h"
 #include "base/reference.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
@@ -16,11 +16,10 @@
 /* What the process took. */
 static void add_usage(json_t *report)
 {
-    struct rusage usage;
     struct timespec now;
-    if (getrusage(RUSAGE_SELF, &usage) || clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now)) return;
+    if (clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now)) return;
     json_object_set_new(report, "peak_memory_bytes",
-                        json_integer((json_int_t)usage.ru_maxrss * 1024));
+                        json_integer((json_int_t)machine_peak_bytes()));
     json_object_set_new(report, "cpu_seconds",
                         json_real((double)now.tv_sec + 1e-9 * (double)now.tv_nsec));
 }

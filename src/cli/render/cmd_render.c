@@ -8,6 +8,7 @@
 #include "base/machine.h"
 #include "cli/options/answer.h"
 #include "cli/options/look_options.h"
+#include "cli/render/noise_goal.h"
 #include "cli/render/render_answer.h"
 #include "cli/render/render_commands.h"
 #include "cli/render/render_identity.h"
@@ -67,6 +68,13 @@ static bool check_look(const RenderRequest *request, Arena scratch, Error *err)
            develop_picture(&frame, &request->look, &scratch, &picture, &report, err);
 }
 
+/* One sample that is replayed has none. */
+static void set_noise(RenderRequest *request)
+{
+    request->render.noise = request->replays ? 0 : request->noise.error;
+    request->render.noise_area = request->noise.area;
+}
+
 static bool load(RenderRun *work, Error *err)
 {
     RenderRequest *request = &work->request;
@@ -75,7 +83,9 @@ static bool load(RenderRun *work, Error *err)
         scene_options_load(&request->scene, &request->environment, work->arena,
                            &work->problems, &work->scene, err) &&
         render_choose_camera(work->scene, &request->camera, &work->problems, &work->camera,
-                             err);
+                             err) &&
+        noise_goal_find(work->scene, *work->arena, &request->noise, err);
+    if (loaded) set_noise(request);
     if (loaded) render_tell_of_darkness(work->scene, &work->problems);
     cli_print_warnings(&work->problems);
     return loaded;
@@ -145,14 +155,16 @@ static void warn_of_picture(RenderRun *work, const RenderResult *result)
 static void warn_of_noise(RenderRun *work, const RenderResult *result)
 {
     const RenderOptions *options = &work->request.render;
-    double error = options->noise_of_displays ? result->error.displays : result->error.frame;
-    if (!(options->noise > 0) || !result->complete || error <= options->noise) return;
-    warn(work, isnan(error)
-                   ? "no display is in view: --noise display:R had nothing to go by"
+    const char *area = noise_goal_words(&work->request.noise, work->arena);
+    if (!(options->noise > 0) || !result->complete || result->noise <= options->noise) return;
+    warn(work, isnan(result->noise)
+                   ? arena_format(work->arena,
+                                  "nothing of %s is in view: --noise had nothing to go by",
+                                  area)
                    : arena_format(work->arena,
-                                  "the relative error is %.3g, not the %.3g of --noise, after "
-                                  "all %u samples a pixel",
-                                  error, options->noise, result->samples));
+                                  "the relative error of %s is %.3g, not the %.3g of --noise, "
+                                  "after all %u samples a pixel",
+                                  area, result->noise, options->noise, result->samples));
 }
 
 /* False after a warning: the render is worth more than its checkpoint. */

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/resource.h>
 
+#include "base/machine.h"
 #include "base/progress.h"
 #include "base/units.h"
 #include "cli/options/answer.h"
@@ -122,13 +122,6 @@ FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
 
 /* ---- the answer -------------------------------------------------------------------------- */
 
-static double peak_memory_bytes(void)
-{
-    struct rusage usage;
-    getrusage(RUSAGE_SELF, &usage);
-    return 1024.0 * (double)usage.ru_maxrss;
-}
-
 static double ray_count(const PathStatistics *statistics)
 {
     return (double)statistics->camera_rays + (double)statistics->bounce_rays +
@@ -169,11 +162,13 @@ static json_t *answer_document(const RenderRequest *request, const RenderResult 
         result->build_seconds, "rays", (json_int_t)ray_count(counts), "samples_per_s",
         per_second((double)counts->samples, result->seconds), "rays_per_s",
         per_second(ray_count(counts), result->seconds), "peak_memory_bytes",
-        (json_int_t)peak_memory_bytes(), "nonfinite_samples",
+        (json_int_t)machine_peak_bytes(), "nonfinite_samples",
         (json_int_t)film_dropped(result->film).count, "relative_error",
         json_number_or_null(result->error.frame), "relative_error_displays",
         json_number_or_null(result->error.displays), "complete", result->complete, "warnings",
         cli_json_problems(problems, SEVERITY_WARNING));
+    json_object_set_new(answer, "build_peak_memory_bytes",
+                        json_integer((json_int_t)result->build_peak_bytes));
     json_object_set_new(answer, "isa", json_string(result->kernel->isa));
     json_object_set_new(answer, "resumed_samples", json_integer(result->resumed_samples));
     json_object_set_new(answer, "worst_pixels", worst_pixels(result->film));
@@ -204,11 +199,11 @@ static void print_line(const RenderRequest *request, const RenderResult *result)
               (int)sizeof samples);
     rate_text(per_second(ray_count(counts), result->seconds), rays, (int)sizeof rays);
     printf("%s: %dx%d, %u samples a pixel%s, %.1f s, %ssamples/s, %srays/s, "
-           "relative error %.2f%%, peak memory %.0f MB\n",
+           "relative error %.2f%%, peak memory %.0f MB (%.0f while building)\n",
            request->output, request->render.width, request->render.height,
            result->samples, result->complete ? "" : " (incomplete)",
            result->seconds, samples, rays, 100 * result->error.frame,
-           peak_memory_bytes() / 1e6);
+           machine_peak_bytes() / 1e6, result->build_peak_bytes / 1e6);
     print_worst(request, result);
 }
 

@@ -101,22 +101,6 @@ static bool parse_samples(const char *text, RenderOptions *options, Error *err)
     return true;
 }
 
-/* R, or display:R. */
-static bool parse_noise(const char *text, RenderOptions *options, Error *err)
-{
-    bool   of_displays = !strncmp(text, "display:", 8);
-    double noise;
-    if (!cli_numbers(text + (of_displays ? 8 : 0), 1, &noise) || !(noise > 0 && noise < 1))
-        return error_set(
-            err, ERROR_USAGE,
-            "--noise %s: wanted a relative error above 0 and below 1, such as 0.05 "
-            "or display:0.01",
-            text);
-    options->noise = noise;
-    options->noise_of_displays = of_displays;
-    return true;
-}
-
 static bool is_whole(double value)
 {
     return value == floor(value) && fabs(value) < 0x1p31;
@@ -154,7 +138,6 @@ static bool parse_replay(const double replay[3], RenderOptions *options, Error *
     options->crop = (FilmRect){x, y, x + 1, y + 1};
     options->first_sample = (uint32_t)replay[2];
     options->end_sample = options->first_sample + 1;
-    options->noise = 0;
     options->threads = 1;
     options->layers = LAYER_ALL;
     options->progress = PROGRESS_NONE;
@@ -185,7 +168,8 @@ static bool check_outputs(const RenderRequest *request, Error *err)
     return true;
 }
 
-static bool check_render(const RenderWords *typed, RenderRequest *request, Error *err)
+static bool check_render(const RenderWords *typed, Arena *arena, RenderRequest *request,
+                         Error *err)
 {
     RenderOptions *options = &request->render;
     options->width = typed->size[0];
@@ -200,11 +184,13 @@ static bool check_render(const RenderWords *typed, RenderRequest *request, Error
         return error_set(err, ERROR_USAGE, "--spp and --samples exclude each other — --samples "
                                            "0:N is --spp N");
     if (typed->samples && !parse_samples(typed->samples, options, err)) return false;
-    if (typed->noise && !parse_noise(typed->noise, options, err)) return false;
     if (typed->layers && !parse_layers(typed->layers, &options->layers, err)) return false;
     if (request->look.is_denoised && !parse_layers(DENOISE_LAYERS, &options->layers, err))
         return false;
     if (typed->has_crop && !parse_crop(typed->crop, options, err)) return false;
+    if (typed->noise &&
+        !noise_goal_parse(typed->noise, options->crop, arena, &request->noise, err))
+        return false;
     if (typed->has_replay && !parse_replay(typed->replay, options, err)) return false;
     request->replays = typed->has_replay;
     request->is_part = typed->samples || typed->has_crop;
@@ -261,8 +247,10 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
          typed->size},
         {"--spp", OPTION_INTEGER, "N", "samples a pixel, at most (default 256)", &typed->spp,
          .low = 1, .high = FILM_SAMPLES_MAX, .given = &typed->has_spp},
-        {"--noise", OPTION_TEXT, "R|display:R",
-         "stop at this relative error of the frame, or of its displays", &typed->noise},
+        {"--noise", OPTION_TEXT, "[AREA:]R",
+         "stop at this relative error of the frame, or of an AREA: display, display:NAME or "
+         "X0,Y0,X1,Y1",
+         &typed->noise},
         {"--max-bounces", OPTION_INTEGER, "N",
          "0 emission only, 1 adds direct light (default 64)", &typed->max_bounces, .low = 0,
          .high = 100000},
@@ -298,7 +286,7 @@ bool render_request_parse(int argc, char **argv, Arena *arena, RenderRequest *ou
                            .max_bounces = DEFAULT_BOUNCES};
     if (!parse_line(argc, argv, arena, &typed, &request, err)) return false;
     if (!request.cli.help_shown &&
-        (!check_render(&typed, &request, err) || !check_outputs(&request, err) ||
+        (!check_render(&typed, arena, &request, err) || !check_outputs(&request, err) ||
          !scene_options_read(&typed.scene, &request.cli, arena, &request.scene, err)))
         return false;
     set_checkpoint(&typed, arena, &request);

@@ -6,6 +6,7 @@
 #include "cli/options/camera_options.h"
 #include "cli/options/cli.h"
 #include "cli/options/scene_options.h"
+#include "cli/render/noise_goal.h"
 #include "image/develop.h"
 #include "render/render.h"
 #include "scene/scene.h"
@@ -19,6 +20,7 @@ typedef struct RenderRequest {
     CameraChoice  camera;
     EnvironmentChange environment;
     RenderOptions render;
+    NoiseGoal     noise;  /* goes into render once the scene is known */
     bool          replays; /* one sample of one pixel, printed */
     bool          is_part; /* some samples or pixels only: the frame can be merged */
     const char   *command_line; /* without what leaves every pixel as it is

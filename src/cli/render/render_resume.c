@@ -44,9 +44,10 @@ static bool open_and_check(const RenderRequest *request, const char *identity, A
                         "is of another render: %s — leave out --resume to begin anew",
                         difference);
     if (!checkpoint_fits(&found, &wanted, err)) return false;
-    if (options->noise_of_displays && !found.has_features)
+    if (options->noise > 0 && options->noise_area.display != FILM_ALL_PIXELS &&
+        !found.has_features)
         return error_at(err, ERROR_INPUT, request->checkpoint, "",
-                        "does not know which samples saw a display, which --noise display:R "
+                        "does not know which samples saw a display, which --noise display: "
                         "asks for — leave out --resume to begin anew");
     *out = found;
     return true;

@@ -34,7 +34,7 @@ typedef struct Loader {
     Environment environment;
     ItemList parts;     /* PartDraft */
     ItemList materials; /* Material */
-    ItemList material_uv_sets; /* int[2] a material: the TEXCOORD_n of its Vertex.uv slots */
+    ItemList material_uv_sets; /* int[2] a material: the TEXCOORD_n of Part.uv */
     ItemList textures, displays, lights, cameras, curves;
     ItemList display_places; /* DisplayPlace, one a display */
     ItemList inputs;         /* const char * */

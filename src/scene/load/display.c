@@ -263,11 +263,8 @@ static void check_coordinates(Loader *load, const PartDraft *draft)
     TextureSlot slot = display->content;
     int counts[3] = {0};
     for (uint32_t t = 0; t < draft->triangle_count; t++) {
-        const uint32_t *index = draft->indices + 3 * (size_t)t;
-        const Vertex *const v[3] = {&draft->vertices[index[0]], &draft->vertices[index[1]],
-                                    &draft->vertices[index[2]]};
         Vec3 right;
-        counts[triangle_tangent(&slot, v, &right)]++;
+        counts[draft_triangle_tangent(draft, t, &slot, &right)]++;
     }
     if (counts[2])
         file_error(draft->file, draft->primitive,

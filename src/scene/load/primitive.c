@@ -9,15 +9,6 @@
 #include "scene/load/part_draft.h"
 #include "scene/load/texture_slot.h"
 
-/* The attributes of one primitive, decoded, morphed and still in the mesh's own frame. */
-typedef struct Attributes {
-    size_t count;
-    float *position, *normal, *tangent; /* 3, 3, 4 a vertex; NULL: absent */
-    float *uv[SCENE_UV_SETS];           /* 2 a vertex */
-    float *color;
-    int color_components;
-} Attributes;
-
 /* ---- morph targets: the rest pose is base + sum of weight * displacement --------------- */
 
 static const GltfValue *rest_weights(const GltfValue *node, const GltfValue *mesh)
@@ -57,26 +48,49 @@ static float *attribute(GltfFile *file, const GltfValue *primitive, const GltfVa
     return values;
 }
 
-static Attributes read_attributes(GltfFile *file, const GltfValue *primitive,
-                                  const GltfValue *weights, const int sets[SCENE_UV_SETS])
+static bool wants_tangents(const Material *material)
 {
-    const GltfValue *names = tree_member(primitive, "attributes");
-    Attributes a = {.count = accessor_get(file, tree_int(names, "POSITION", NO_ID))->count,
-                    .position = attribute(file, primitive, weights, "POSITION"),
-                    .normal = attribute(file, primitive, weights, "NORMAL"),
-                    .tangent = attribute(file, primitive, weights, "TANGENT"),
-                    .color = attribute(file, primitive, weights, "COLOR_0")};
+    return material->normal_texture.texture_id != NO_ID ||
+           material->clearcoat_normal_texture.texture_id != NO_ID;
+}
+
+static VertexColor *read_colors(GltfFile *file, const GltfValue *primitive,
+                                const GltfValue *weights)
+{
+    int accessor = tree_int(tree_member(primitive, "attributes"), "COLOR_0", NO_ID);
+    const float *values = attribute(file, primitive, weights, "COLOR_0");
+    if (!values) return NULL;
+    const GltfAccessor *a = accessor_get(file, accessor);
+    VertexColor *out = ARENA_NEW(&file->load->scratch, VertexColor, a->count);
+    for (size_t i = 0; i < a->count; i++)
+        for (int c = 0; c < 4; c++) {
+            bool  is_there = c < a->component_count;
+            float value = is_there ? values[i * (size_t)a->component_count + (size_t)c] : 1;
+            value = value < 0 ? 0.0f : value > 1 ? 1.0f : value;
+            out[i].linear[c] = (uint16_t)(value * 65535.0f + 0.5f);
+        }
+    return out;
+}
+
+/* Decoded and morphed, still in the mesh's own frame; what nobody will ask for stays away. */
+static void read_attributes(GltfFile *file, const GltfValue *primitive,
+                            const GltfValue *weights, const bool uses_set[SCENE_UV_SETS],
+                            PartDraft *draft)
+{
+    Loader *load = file->load;
+    Part   *part = &draft->part;
+    const int *sets = list_item(&load->material_uv_sets, part->material_id);
+    draft->positions = (Vec3 *)attribute(file, primitive, weights, "POSITION");
+    part->normals = (Vec3 *)attribute(file, primitive, weights, "NORMAL");
+    /* glTF 2.0, 3.7.2.1: flat normals come with tangents of their own. */
+    if (part->normals && wants_tangents(list_item(&load->materials, part->material_id)))
+        part->tangents = (Tangent *)attribute(file, primitive, weights, "TANGENT");
     for (int i = 0; i < SCENE_UV_SETS; i++) {
         char name[24];
         snprintf(name, sizeof name, "TEXCOORD_%d", sets[i]);
-        a.uv[i] = attribute(file, primitive, weights, name);
+        if (uses_set[i]) part->uv[i] = (Vec2 *)attribute(file, primitive, weights, name);
     }
-    if (a.color)
-        a.color_components =
-            accessor_get(file, tree_int(names, "COLOR_0", NO_ID))->component_count;
-    if (!a.normal)
-        a.tangent = NULL; /* glTF 2.0, 3.7.2.1: flat normals come with own tangents */
-    return a;
+    part->colors = read_colors(file, primitive, weights);
 }
 
 /* ---- skins at rest: a vertex goes where its joints put it ------------------------------ */
@@ -153,50 +167,29 @@ static Transform skin_transform(const Skin *skin, size_t vertex)
 
 /* ---- vertices -------------------------------------------------------------------------- */
 
-static void store(float out[3], Vec3 v)
+static void place_vertex(PartDraft *draft, size_t i, const Transform *world)
 {
-    out[0] = v.x;
-    out[1] = v.y;
-    out[2] = v.z;
-}
-
-static void place_color(const Attributes *a, size_t i, uint16_t out[4])
-{
-    for (int c = 0; c < 4; c++) {
-        float value = a->color && c < a->color_components
-                          ? a->color[i * (size_t)a->color_components + (size_t)c]
-                          : 1.0f;
-        value = value < 0 ? 0.0f : value > 1 ? 1.0f : value;
-        out[c] = (uint16_t)(value * 65535.0f + 0.5f);
+    Part *part = &draft->part;
+    draft->positions[i] = transform_point(world, draft->positions[i]);
+    if (part->normals)
+        part->normals[i] = vec3_normalize(transform_normal(world, part->normals[i]));
+    if (part->tangents) {
+        float    mirrored = transform_determinant(world) < 0 ? -1.0f : 1.0f;
+        Tangent *t = &part->tangents[i];
+        t->along = vec3_normalize(transform_vector(world, t->along));
+        t->side = t->side < 0 ? -mirrored : mirrored;
     }
-}
-
-static void place_vertex(const Attributes *a, size_t i, const Transform *world, Vertex *out)
-{
-    const float *p = a->position + 3 * i, *n = a->normal ? a->normal + 3 * i : NULL;
-    const float *t = a->tangent ? a->tangent + 4 * i : NULL;
-    store(out->position, transform_point(world, vec3(p[0], p[1], p[2])));
-    if (n) store(out->normal, vec3_normalize(transform_normal(world, vec3(n[0], n[1], n[2]))));
-    if (t) {
-        float mirrored = transform_determinant(world) < 0 ? -1.0f : 1.0f;
-        store(out->tangent, vec3_normalize(transform_vector(world, vec3(t[0], t[1], t[2]))));
-        out->tangent[3] = t[3] < 0 ? -mirrored : mirrored;
-    }
-    for (int s = 0; s < SCENE_UV_SETS; s++)
-        for (int c = 0; a->uv[s] && c < 2; c++) out->uv[s][c] = a->uv[s][2 * i + (size_t)c];
-    place_color(a, i, out->color);
 }
 
 /* Returns whether the vertices came out mirrored. */
-static bool place_vertices(const Attributes *a, const Skin *skin, const Transform *world,
-                           Vertex *out)
+static bool place_vertices(PartDraft *draft, const Skin *skin, const Transform *world)
 {
     bool is_mirrored = transform_determinant(world) < 0;
-    for (size_t i = 0; i < a->count; i++) {
+    for (size_t i = 0; i < draft->vertex_count; i++) {
         Transform own = *world;
         if (skin->set_count) own = skin_transform(skin, i);
         if (i == 0) is_mirrored = transform_determinant(&own) < 0;
-        place_vertex(a, i, &own, &out[i]);
+        place_vertex(draft, i, &own);
     }
     return is_mirrored;
 }
@@ -229,13 +222,12 @@ static void corners(int mode, uint32_t triangle, uint32_t out[3])
 }
 
 /* Twice the area, squared, is above nothing: relative to the edges, so that tiny parts stay. */
-static bool has_area(const Vertex *a, const Vertex *b, const Vertex *c)
+static bool has_area(Vec3 a, Vec3 b, Vec3 c)
 {
-    double e[3], f[3];
-    for (int i = 0; i < 3; i++) {
-        e[i] = (double)b->position[i] - (double)a->position[i];
-        f[i] = (double)c->position[i] - (double)a->position[i];
-    }
+    const double e[3] = {(double)b.x - (double)a.x, (double)b.y - (double)a.y,
+                         (double)b.z - (double)a.z};
+    const double f[3] = {(double)c.x - (double)a.x, (double)c.y - (double)a.y,
+                         (double)c.z - (double)a.z};
     double x = e[1] * f[2] - e[2] * f[1], y = e[2] * f[0] - e[0] * f[2];
     double z = e[0] * f[1] - e[1] * f[0];
     double edges =
@@ -259,9 +251,9 @@ static void list_triangles(GltfFile *file, const GltfValue *primitive, bool is_m
             uint32_t place = at[is_mirrored && c ? 3 - c : c];
             out[c] = indices ? indices[place] : place;
         }
-        const Vertex *v = draft->vertices;
+        const Vec3 *p = draft->positions;
         if (out[0] < draft->vertex_count && out[1] < draft->vertex_count &&
-            out[2] < draft->vertex_count && has_area(&v[out[0]], &v[out[1]], &v[out[2]]))
+            out[2] < draft->vertex_count && has_area(p[out[0]], p[out[1]], p[out[2]]))
             draft->triangle_count++;
         else
             file->degenerate_count++;
@@ -289,30 +281,27 @@ static bool has_finite_vertices(GltfFile *file, const GltfValue *primitive,
                                 const PartDraft *draft)
 {
     for (uint32_t i = 0; i < draft->vertex_count; i++) {
-        const float *p = draft->vertices[i].position;
-        if (vec3_is_finite(vec3(p[0], p[1], p[2]))) continue;
+        Vec3 p = draft->positions[i];
+        if (vec3_is_finite(p)) continue;
         file_error(file, primitive,
                    "vertex %u stands at (%g, %g, %g) in the scene; finite "
                    "numbers are wanted",
-                   i, (double)p[0], (double)p[1], (double)p[2]);
+                   i, (double)p.x, (double)p.y, (double)p.z);
         return false;
     }
     return true;
 }
 
-static void finish_shading(GltfFile *file, PartDraft *draft, const Attributes *a,
-                           const Material *material)
+static void finish_shading(PartDraft *draft, const Material *material, Arena *scratch)
 {
-    Arena *scratch = &file->load->scratch;
     const TextureSlot *slot = &material->normal_texture;
+    if (!wants_tangents(material) || draft->part.tangents) return;
     if (slot->texture_id == NO_ID) slot = &material->clearcoat_normal_texture;
-    if (!a->normal) draft_flat_normals(draft, scratch);
-    draft->part.has_tangents = a->tangent != NULL;
-    if (a->tangent) return;
-    if (slot->texture_id != NO_ID && a->uv[slot->uv_set])
+    if (!draft->part.normals) draft_flat_normals(draft, scratch);
+    if (draft->part.uv[slot->uv_set])
         draft_tangents(draft, slot, scratch);
     else
-        draft_any_tangents(draft);
+        draft_any_tangents(draft, scratch);
 }
 
 /* A buffer may lack its bytes (no uri, or one that leads elsewhere), but not when something of
@@ -347,6 +336,25 @@ static bool fits(GltfFile *file, const GltfValue *primitive, size_t count)
     return false;
 }
 
+/* Everything that it needs in between lies in scratch. False: there is nothing to show. */
+static bool build_draft(GltfFile *file, const GltfValue *node, const Transform *world,
+                        const GltfValue *mesh, PartDraft *draft)
+{
+    Loader *load = file->load;
+    const GltfValue *primitive = draft->primitive;
+    const Material *material = list_item(&load->materials, draft->part.material_id);
+    bool uses_set[SCENE_UV_SETS];
+    texture_slots_used(load, material, uses_set);
+    read_attributes(file, primitive, rest_weights(node, mesh), uses_set, draft);
+    Skin skin = read_skin(file, node, primitive);
+    bool is_mirrored = place_vertices(draft, &skin, world);
+    if (!has_finite_vertices(file, primitive, draft)) return false;
+    list_triangles(file, primitive, is_mirrored, draft);
+    if (!draft->triangle_count) return false;
+    finish_shading(draft, material, &load->scratch);
+    return true;
+}
+
 void primitive_build(GltfFile *file, const GltfValue *node, const Transform *world,
                      const GltfValue *mesh, const GltfValue *primitive)
 {
@@ -361,24 +369,20 @@ void primitive_build(GltfFile *file, const GltfValue *node, const Transform *wor
         !fits(file, primitive, position->count))
         return;
     int material_id = material >= 0 ? file->material_base + material : material_default(file);
-    const int *sets = list_item(&load->material_uv_sets, material_id);
-    Material *m = list_item(&load->materials, material_id);
-    Attributes a = read_attributes(file, primitive, rest_weights(node, mesh), sets);
-    Skin skin = read_skin(file, node, primitive);
+    Arena begun = load->scratch;
     PartDraft draft = {
         .part = {.name = part_name(file, node, mesh),
                  .node_name = kept_name(file, node),
                  .mesh_name = kept_name(file, mesh),
                  .material_id = material_id},
-        .vertices = ARENA_NEW(&load->scratch, Vertex, a.count),
-        .vertex_count = (uint32_t)a.count,
+        .vertex_count = (uint32_t)position->count,
         .file = file,
         .primitive = primitive,
         .node = node};
-    bool is_mirrored = place_vertices(&a, &skin, world, draft.vertices);
-    if (!has_finite_vertices(file, primitive, &draft)) return;
-    list_triangles(file, primitive, is_mirrored, &draft);
-    if (!draft.triangle_count) return;
-    finish_shading(file, &draft, &a, m);
-    *(PartDraft *)list_add(&load->parts, &load->scratch) = draft;
+    if (build_draft(file, node, world, mesh, &draft)) {
+        draft_keep(&draft, load->arena, begun, &load->scratch);
+        *(PartDraft *)list_add(&load->parts, &load->scratch) = draft;
+    } else {
+        load->scratch = begun;
+    }
 }

@@ -45,9 +45,10 @@ static bool has_opaque_colors(const Loader *load, int material_id)
 {
     for (int i = 0; i < load->parts.count; i++) {
         const PartDraft *draft = list_item(&load->parts, i);
-        if (draft->part.material_id != material_id) continue;
+        const VertexColor *colors = draft->part.colors;
+        if (draft->part.material_id != material_id || !colors) continue;
         for (uint32_t v = 0; v < draft->vertex_count; v++)
-            if (draft->vertices[v].color[3] < 65535) return false;
+            if (colors[v].linear[3] < 65535) return false;
     }
     return true;
 }
@@ -81,8 +82,9 @@ static void append_part(Scene *scene, const PartDraft *draft)
     *part = draft->part;
     part->first_triangle = scene->triangle_count;
     part->triangle_count = draft->triangle_count;
-    memcpy(scene->vertices + scene->vertex_count, draft->vertices,
-           sizeof *draft->vertices * (size_t)draft->vertex_count);
+    part->first_vertex = scene->vertex_count;
+    memcpy(scene->positions + scene->vertex_count, draft->positions,
+           sizeof *draft->positions * (size_t)draft->vertex_count);
     for (uint32_t t = 0; t < draft->triangle_count; t++) {
         Triangle *triangle = &scene->triangles[scene->triangle_count++];
         triangle->part_id = (uint32_t)scene->part_count;
@@ -102,7 +104,7 @@ static void join_parts(const Loader *load, Scene *scene)
         vertices += draft->vertex_count;
         triangles += draft->triangle_count;
     }
-    scene->vertices = arena_alloc(load->arena, sizeof(Vertex), 64, vertices);
+    scene->positions = arena_alloc(load->arena, sizeof(Vec3), 64, vertices + 1);
     scene->triangles = ARENA_NEW(load->arena, Triangle, triangles);
     scene->parts = ARENA_NEW(load->arena, Part, load->parts.count);
     for (int pass = 0; pass < 2; pass++) { /* opaque ones first */
@@ -119,9 +121,9 @@ static void measure_bounds(Scene *scene)
     Vec3 low = vec3(INFINITY, INFINITY, INFINITY), high = vec3_neg(low);
     for (uint32_t t = 0; t < scene->triangle_count; t++)
         for (int c = 0; c < 3; c++) {
-            const float *p = scene->vertices[scene->triangles[t].vertex[c]].position;
-            low = vec3(fminf(low.x, p[0]), fminf(low.y, p[1]), fminf(low.z, p[2]));
-            high = vec3(fmaxf(high.x, p[0]), fmaxf(high.y, p[1]), fmaxf(high.z, p[2]));
+            Vec3 p = scene_corner(scene, t, c);
+            low = vec3(fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z));
+            high = vec3(fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z));
         }
     scene->bounds_min = low;
     scene->bounds_max = high;

@@ -66,7 +66,7 @@ static bool claim_set(int sets[SCENE_UV_SETS], int set)
     return false;
 }
 
-/* Vertex.uv has two places: the smallest set that is used first, or set 0 where it fits, so
+/* Part.uv has two places: the smallest set that is used first, or set 0 where it fits, so
  * that uv[0] is what every viewer would show. */
 static void order_sets(int sets[SCENE_UV_SETS])
 {
@@ -100,4 +100,18 @@ void texture_slots_place(GltfFile *file, const GltfValue *value, Material *mater
     order_sets(sets);
     for (int i = 0; i <= MATERIAL_SLOTS; i++)
         if (slots[i]) slots[i]->uv_set = slots[i]->uv_set == sets[1];
+}
+
+void texture_slots_used(const Loader *load, const Material *material,
+                        bool uses_set[SCENE_UV_SETS])
+{
+    Material copy = *material;
+    TextureSlot *slots[MATERIAL_SLOTS];
+    slots_of(&copy, slots);
+    uses_set[0] = true;
+    uses_set[1] = false;
+    for (int i = 0; i < MATERIAL_SLOTS; i++) uses_set[1] |= slots[i]->uv_set == 1;
+    if (material->display_id == NO_ID) return;
+    const Display *display = list_item(&load->displays, material->display_id);
+    uses_set[1] |= display->content.uv_set == 1;
 }
