@@ -90,20 +90,48 @@ static Vec3 brightest_of(const PunctualLight *light)
 /* Of a luminaire as its file has it: what level and colour make of it. */
 static float share_of(const PunctualLight *light)
 {
-    return light->level * luminance_from_rgb(light->color);
+    return light->level * light->tilt_factor * luminance_from_rgb(light->color);
+}
+
+/* "4000 K" of which text, or why D65. */
+static void print_white(const PunctualLight *light)
+{
+    const char *text = light->cct_text;
+    if (light->cct_k > 0) printf("%g K", (double)light->cct_k);
+    else printf("D65");
+    if (text && light->cct_k > 0) printf(" (\"%.60s\")", text);
+    else if (text && text[0]) printf(" (\"%.60s\" tells no colour temperature)", text);
+    else if (text) printf(" (the file tells no colour temperature)");
+}
+
+static const char *opening_name(const LuminousOpening *opening)
+{
+    switch (opening->shape) {
+    case OPENING_BOX: return opening->is_flat ? "rectangle" : "box";
+    case OPENING_CYLINDER: return opening->is_flat ? "ellipse" : "cylinder";
+    case OPENING_ELLIPSOID: return "ellipsoid";
+    case OPENING_POINT: break;
+    }
+    return "point";
 }
 
 static void print_luminaire(const PunctualLight *light)
 {
     Vec3 d = brightest_of(light);
     float share = share_of(light);
-    char white[24] = "D65";
-    if (light->cct_k > 0) snprintf(white, sizeof white, "%g K", (double)light->cct_k);
-    printf("light        %s: luminaire %s, %s, level %g %%, %g lm, at most %g cd towards "
-           "(%.3f, %.3f, %.3f)\n",
-           light->name, light->file, white, 100 * (double)light->level,
-           (double)(light->web->flux_lm * share), (double)(light->web->largest_cd * share),
-           (double)d.x, (double)d.y, (double)d.z);
+    const float *half = light->opening.half;
+    printf("light        %s: luminaire %s, ", light->name, light->file);
+    print_white(light);
+    printf(", level %g %%, %g lm, at most %g cd towards (%.3f, %.3f, %.3f), ",
+           100 * (double)light->level, (double)(light->web->flux_lm * share),
+           (double)(light->web->largest_cd * share), (double)d.x, (double)d.y, (double)d.z);
+    if (light->opening.shape == OPENING_POINT) printf("a point");
+    else printf("%s of %g x %g x %g m", opening_name(&light->opening), 2 * (double)half[0],
+                2 * (double)half[1], 2 * (double)half[2]);
+    if (light->has_tilt)
+        printf(", tilted by %.3g degrees: x %g", (double)light->tilt_deg,
+               (double)light->tilt_factor);
+    printf("\n");
 }
 
 /* A row of street lamps is one line. */
@@ -229,6 +257,14 @@ static json_t *json_rgb(const float rgb[3])
     return json_pack("[f,f,f]", (double)rgb[0], (double)rgb[1], (double)rgb[2]);
 }
 
+/* NULL for a point; sizes along the node's X, Y, Z. */
+static json_t *json_opening(const LuminousOpening *opening)
+{
+    const float *h = opening->half, size[3] = {2 * h[0], 2 * h[1], 2 * h[2]};
+    if (opening->shape == OPENING_POINT) return json_null();
+    return json_pack("{s:s, s:o}", "shape", opening_name(opening), "size_m", json_rgb(size));
+}
+
 static void add_luminaire(json_t *entry, const PunctualLight *light)
 {
     Vec3 d = brightest_of(light);
@@ -242,6 +278,15 @@ static void add_luminaire(json_t *entry, const PunctualLight *light)
     json_object_set_new(entry, "max_cd",
                         json_real((double)(light->web->largest_cd * share_of(light))));
     json_object_set_new(entry, "direction", json_rgb(direction));
+    json_object_set_new(entry, "cct_text",
+                        light->cct_text && light->cct_text[0] ? json_text(light->cct_text)
+                                                              : json_null());
+    json_object_set_new(entry, "opening", json_opening(&light->opening));
+    json_object_set_new(entry, "tilt",
+                        light->has_tilt ? json_pack("{s:f, s:f}", "angle_deg",
+                                                    (double)light->tilt_deg, "factor",
+                                                    (double)light->tilt_factor)
+                                        : json_null());
 }
 
 static json_t *json_lights(const Scene *scene)

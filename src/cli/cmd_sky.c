@@ -93,12 +93,16 @@ static void draw_row(void *context, int y, int worker)
     }
 }
 
+static void choose_lanes(SkyRun *work)
+{
+    for (int k = 0; k < LANE_SETS; k++)
+        wavelengths_sample(((float)k + 0.5f) / LANE_SETS, &work->lanes[k]);
+}
+
 static void draw(SkyRun *work)
 {
     size_t count = (size_t)work->size[0] * (size_t)work->size[1];
     for (int i = 0; i < 3; i++) work->rgb[i] = ARENA_NEW(work->arena, float, count);
-    for (int k = 0; k < LANE_SETS; k++)
-        wavelengths_sample(((float)k + 0.5f) / LANE_SETS, &work->lanes[k]);
     parallel_for(work->cli.threads, work->size[1], draw_row, work);
 }
 
@@ -392,7 +396,8 @@ static bool run(SkyRun *work, OutputKind kind, Error *err)
     const char *line[FIGURE_LINES];
     if (!build(work, err)) return false;
     if (kind != OUTPUT_EXR) work->is_fisheye = false;
-    draw(work);
+    choose_lanes(work);
+    if (kind != OUTPUT_NONE) draw(work);
     DaylightMetrics figures = figures_of(work);
     bool ok = kind == OUTPUT_NONE  ? true
               : kind == OUTPUT_EXR ? write_exr(work, err)

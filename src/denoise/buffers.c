@@ -15,6 +15,7 @@
 typedef struct Layers {
     const float *light[3], *variance[3], *halves[3], *normal[3], *albedo[3], *depth[1];
     const float *emitted[3], *reflected[3];
+    const float *fine[3], *coverage[1]; /* NULL in frames of earlier programs */
 } Layers;
 
 /* ---- reading --------------------------------------------------------------------------- */
@@ -49,6 +50,16 @@ static bool find_layer(const FrameImage *frame, int wanted, Layers *out)
     return true;
 }
 
+static void find_fine(const FrameImage *frame, Layers *out)
+{
+    static const char *const names[] = {"display.fine.R", "display.fine.G", "display.fine.B"};
+    out->coverage[0] = frame_channel(frame, "display.coverage");
+    for (int c = 0; c < 3; c++) {
+        out->fine[c] = frame_channel(frame, names[c]);
+        if (!out->fine[c]) out->coverage[0] = NULL;
+    }
+}
+
 static bool find_layers(const FrameImage *frame, Arena scratch, Layers *out, Error *err)
 {
     const char *missing = "";
@@ -56,6 +67,7 @@ static bool find_layers(const FrameImage *frame, Arena scratch, Layers *out, Err
         if (!find_layer(frame, i, out))
             missing = arena_format(&scratch, "%s%s%s", missing, *missing ? ", " : "",
                                    *WANTED[i].name ? WANTED[i].name : "R, G, B");
+    find_fine(frame, out);
     if (!*missing) return true;
     return error_set(err, ERROR_INPUT,
                      "has not what --denoise goes by (missing: %s) — render it with --layers "
@@ -105,11 +117,18 @@ static bool is_whole_display(const Layers *layers, size_t i)
     return true;
 }
 
+/* What displays send is known better than from the pixel's samples. */
+static bool has_fine(const Layers *layers, size_t i)
+{
+    return layers->coverage[0] && isfinite(layers->coverage[0][i]) &&
+           are_finite(layers->fine, i) && are_finite(layers->emitted, i);
+}
+
 static PixelKind kind_of(const Layers *layers, size_t i)
 {
     if (!are_finite(layers->light, i) || !are_finite(layers->variance, i)) return PIXEL_LEFT;
     if (isfinite(layers->emitted[0][i]))
-        return is_whole_display(layers, i) ? PIXEL_DISPLAY : PIXEL_LEFT;
+        return has_fine(layers, i) || is_whole_display(layers, i) ? PIXEL_DISPLAY : PIXEL_LEFT;
     bool is_surface = are_finite(layers->normal, i) && are_finite(layers->albedo, i) &&
                       layers->depth[0][i] > 0 && isfinite(layers->depth[0][i]);
     return is_surface ? PIXEL_SURFACE : PIXEL_VOID;
@@ -123,9 +142,13 @@ static void split_pixel(const Layers *layers, size_t i, DenoiseBuffers *out)
     for (int c = 0; c < 3; c++) {
         float albedo = reflects ? layers->albedo[c][i] : 1;
         float factor = isfinite(albedo) ? fmaxf(albedo, ALBEDO_LEAST) : 1;
-        float base = shines ? layers->emitted[c][i] : 0;
+        float seen = shines ? layers->emitted[c][i] : 0, base = seen;
+        if (shines && has_fine(layers, i)) {
+            seen *= layers->coverage[0][i];
+            base = layers->fine[c][i];
+        }
         if (out->kind[i] == PIXEL_LEFT) base = layers->light[c][i];
-        float light = out->kind[i] ? (layers->light[c][i] - base) / factor : 0;
+        float light = out->kind[i] ? (layers->light[c][i] - seen) / factor : 0;
         float half = out->has_halves ? layers->halves[c][i] / factor : 0;
         if (!isfinite(half) || !out->kind[i]) half = 0;
         out->factor[c][i] = factor;

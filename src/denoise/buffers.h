@@ -3,11 +3,13 @@
  *
  * A pixel of the frame is  light * factor + base:
  *   factor   the albedo of what was hit, so that textures need no filter; 1 where nothing was;
- *   base     what a display sends to the eye itself: free of noise, and never filtered;
- *   light    the rest, which is filtered.
- * Pixels that a display covers in part are told by emitted + reflected not being the pixel.
- * They belong, as those that are not finite, to no kind: they stay as they are (base is all of
- * them), and they filter nothing.
+ *   base     what a display sends to the eye itself, never filtered: display.fine;
+ *   light    the rest, which is filtered: the pixel without what its own samples saw of it,
+ *            emitted times coverage. Their edges, which few samples place badly, go with it.
+ * Frames without the last two layers have display.emitted for base, the noise of its edges
+ * included. What a display covers in part is then told by emitted + reflected not being the
+ * pixel; such pixels belong, as those that are not finite always do, to no kind: they stay as
+ * they are (base is all of them), and they filter nothing.
  *
  * Units    light in cd m^-2 over albedo, linear Rec.709.
  * Layout   the data window, row by row.
@@ -20,7 +22,7 @@
 
 /* What the filter goes by, as --layers names it. */
 #define DENOISE_LAYERS \
-    "variance,halves,normal,albedo,depth,display.emitted,display.reflected"
+    "variance,halves,normal,albedo,depth,display.emitted,display.reflected,display.fine"
 
 /* A pixel's row in the regression (regression.h). */
 enum {
@@ -37,7 +39,7 @@ enum {
 typedef float BufferRow __attribute__((vector_size(4 * ROW_SIZE), aligned(64)));
 
 typedef enum PixelKind {
-    PIXEL_LEFT,    /* as it is: a display's edge, or not finite */
+    PIXEL_LEFT,    /* as it is: not finite, or a display's edge without display.fine */
     PIXEL_SURFACE,
     PIXEL_VOID,    /* no surface: the sky itself */
     PIXEL_DISPLAY

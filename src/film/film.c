@@ -114,6 +114,7 @@ static bool display_in_range(const Film *film, const FilmSample *sample)
            (film->first[SUMS_REFLECTED] < 0 || in_range(sample->emitted, 3)) &&
            (film->first[SUMS_WHITE] < 0 || in_range(sample->white, 3)) &&
            (film->first[SUMS_BLACK] < 0 || in_range(sample->black, 3)) &&
+           (film->first[SUMS_FINE] < 0 || in_range(sample->fine, 3)) &&
            (film->first[SUMS_DIRECTION] < 0 ||
             (fabsf(sample->theta) <= 4 && fabsf(sample->phi) <= 8));
 }
@@ -129,6 +130,7 @@ static void add_display(const Film *film, PixelSums *sums, const FilmSample *sam
     add_layer(film, sums, SUMS_EMITTED, sample->emitted);
     add_layer(film, sums, SUMS_WHITE, sample->white);
     add_layer(film, sums, SUMS_BLACK, sample->black);
+    add_layer(film, sums, SUMS_FINE, sample->fine);
     if (film->first[SUMS_REFLECTED] >= 0)
         for (int i = 0; i < 3; i++)
             sums->layers[film->first[SUMS_REFLECTED] + i] +=

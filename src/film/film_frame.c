@@ -113,6 +113,12 @@ static void read_contrast(const Film *film, const PixelSums *sums, float v[3])
     v[0] = (white[1] + reflected[1]) / (black[1] + reflected[1]);
 }
 
+static void read_coverage(const Film *film, const PixelSums *sums, float v[3])
+{
+    (void)film;
+    v[0] = sums->samples ? (float)sums->display_hits / (float)sums->samples : 0;
+}
+
 static void read_variance(const Film *film, const PixelSums *sums, float v[3])
 {
     (void)film;
@@ -170,6 +176,7 @@ static const struct {
     {LAYER_DISPLAY_REFLECTED, "display.reflected", "RGB", NULL, SUMS_REFLECTED},
     {LAYER_DISPLAY_WHITE, "display.white", "RGB", NULL, SUMS_WHITE},
     {LAYER_DISPLAY_BLACK, "display.black", "RGB", NULL, SUMS_BLACK},
+    {LAYER_DISPLAY_FINE, "display.fine", "RGB", NULL, SUMS_FINE},
 };
 
 static void add_layers(const ChannelFill *to)
@@ -210,5 +217,7 @@ FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena)
         fill(&to, add_named(&to, "display.theta", "display.phi", false), read_angles);
     if (film->layers & LAYER_DISPLAY_CONTRAST)
         fill(&to, add_named(&to, "display.contrast", NULL, false), read_contrast);
+    if (film->layers & LAYER_DISPLAY_FINE)
+        fill(&to, add_named(&to, "display.coverage", NULL, false), read_coverage);
     return frame;
 }

@@ -15,7 +15,10 @@
  *   display.*   over the samples that saw a display, NaN where none did: emitted, white and
  *       black are means, reflected is the mean of (sample - emitted), so the pixel's mean minus
  *       emitted wherever the whole pixel is display; theta and phi are those of the mean
- *       direction; contrast is the ratio of mean luminances;
+ *       direction; contrast is the ratio of mean luminances. display.fine is what displays send
+ *       to the whole pixel, and display.coverage the share of its samples that saw one: emitted
+ *       times coverage is the same as fine, but from these samples alone. Coverage is 0 where
+ *       fine is NaN;
  *   halves   the weighted difference of two interleaved halves of the samples: its square has
  *       the expectation of the variance of the pixel's mean, if the halves are independent.
  *       Sobol points' halves fill each other's gaps: measured between frames of two seeds, its

@@ -47,6 +47,7 @@ static const struct {
     [SUMS_UV] = {"uv", "UV"},               [SUMS_EMITTED] = {"emitted", "XYZ"},
     [SUMS_REFLECTED] = {"reflected", "XYZ"}, [SUMS_WHITE] = {"white", "XYZ"},
     [SUMS_BLACK] = {"black", "XYZ"},        [SUMS_DIRECTION] = {"direction", "XYZ"},
+    [SUMS_FINE] = {"fine", "XYZ"},
 };
 
 #define SUM_NAMES (sizeof sum_names / sizeof *sum_names)

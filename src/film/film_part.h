@@ -14,6 +14,7 @@
  *            odd.{X,Y,Z}                     of the samples in every second block
  *            depth.Z position.{X,Y,Z} normal.{X,Y,Z} albedo.{R,G,B} uv.{U,V}
  *            emitted reflected white black .{X,Y,Z}, direction.{X,Y,Z}    displays
+ *            fine.{X,Y,Z}                    displays
  *          and words that are one channel each: samples, hits, displayHits, odd.samples, the
  *          lowest sample index that hit a part, or saw a display, and which (4294967295: none):
  *          part.sample, part.id, display.sample, display.id.

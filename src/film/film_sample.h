@@ -22,6 +22,8 @@ typedef struct FilmSample {
     float emitted[3];      /* XYZ, cd m^-2: what the panel itself sends to the eye */
     float white[3], black[3]; /* XYZ it would send for full white and for black */
     float theta, phi;      /* radians, display frame, phi in [0, 2 pi) */
+    float fine[3];         /* XYZ, cd m^-2: what displays send to the whole pixel, from more
+                              camera rays than this one; 0 where those see none */
 } FilmSample;
 
 typedef enum FilmLayer {
@@ -41,8 +43,9 @@ typedef enum FilmLayer {
     LAYER_DISPLAY_ANGLES = 1 << 13,
     LAYER_DISPLAY_CONTRAST = 1 << 14,
     LAYER_HALVES = 1 << 15,
-    LAYER_ALL = (1 << 16) - 1,
-    LAYER_DISPLAYS = (LAYER_HALVES - 1) & ~(LAYER_DISPLAY_EMITTED - 1),
+    LAYER_DISPLAY_FINE = 1 << 16,
+    LAYER_ALL = (1 << 17) - 1,
+    LAYER_DISPLAYS = ((LAYER_HALVES - 1) & ~(LAYER_DISPLAY_EMITTED - 1)) | LAYER_DISPLAY_FINE,
     LAYER_FEATURES = LAYER_ALL & ~(LAYER_XYZ | LAYER_VARIANCE | LAYER_SAMPLES | LAYER_HALVES)
 } FilmLayer; /* LAYER_FEATURES: those that need the members from `hit` on */
 

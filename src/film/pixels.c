@@ -18,6 +18,7 @@ static const struct {
     [SUMS_WHITE] = {LAYER_DISPLAY_WHITE | LAYER_DISPLAY_CONTRAST, 3},
     [SUMS_BLACK] = {LAYER_DISPLAY_BLACK | LAYER_DISPLAY_CONTRAST, 3},
     [SUMS_DIRECTION] = {LAYER_DISPLAY_ANGLES, 3},
+    [SUMS_FINE] = {LAYER_DISPLAY_FINE, 3},
 };
 
 unsigned layer_sums_users(LayerSums sums)

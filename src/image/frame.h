@@ -21,9 +21,10 @@
  *                                         mean over pixels (film.h)
  *   samples.N                             whole number
  *   light.NAME.{R,G,B}                    cd m^-2
- *   display.{emitted,reflected,white,black}.{R,G,B}   cd m^-2, NaN off displays
+ *   display.{emitted,reflected,white,black,fine}.{R,G,B}   cd m^-2, NaN off displays
  *   display.theta  display.phi            degrees, NaN off displays
  *   display.contrast                      (white + reflected) / (black + reflected), NaN off
+ *   display.coverage                      share of the pixel's samples that saw a display
  * Attributes that give the numbers of id.* their names (strings):
  *   "parhelion:part.N"     name of part N
  *   "parhelion:display.N"  name of display N (its material)

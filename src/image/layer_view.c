@@ -65,6 +65,7 @@ static const KnownLayer KNOWN[] = {
     {"display.theta", "", SHOW_NUMBER, "deg", false},
     {"display.phi", "", SHOW_NUMBER, "deg", false},
     {"display.contrast", "", SHOW_NUMBER, ": 1", true},
+    {"display.coverage", "", SHOW_NUMBER, "of the samples", false},
     {"id.part", "", SHOW_ID, "", false},
     {"id.display", "", SHOW_ID, "", false},
 };

@@ -4,12 +4,17 @@
 #include "base/units.h"
 #include "light/coverage.h"
 #include "light/emitters_build.h"
+#include "light/opening.h"
 #include "light/sky.h"
 #include "spectrum/photometry.h"
 
 /* Of many punctual lights this many are drawn by intensity, and one of them is then chosen by
  * what it gives at the point (resampled importance sampling, Talbot et al. 2005). */
 #define PUNCTUAL_CANDIDATES 8
+
+/* Share of its largest intensity with which a lamp that has an opening stays in the choice
+ * where its middle sends nothing: its rim may. */
+#define LEAST_OF_OPENING 0.1f
 
 struct Lights {
     const Scene *scene;
@@ -58,14 +63,26 @@ bool lights_has(const Lights *lights, LightSet set)
 
 /* ---- punctual lights --------------------------------------------------------------------- */
 
-/* A luminaire's web. Of a spot KHR_lights_punctual's recommended cone: 1 inside the inner
- * angle, 0 outside the outer, the square of the linear ramp of the cosine between. */
+/* Directions between the world and the luminaire's frame. */
+static Vec3 lamp_from_world(const PunctualLight *light, Vec3 v)
+{
+    return vec3(vec3_dot(light->axis_x, v), vec3_dot(light->axis_y, v),
+                vec3_dot(light->axis_z, v));
+}
+
+static Vec3 world_from_lamp(const PunctualLight *light, Vec3 v)
+{
+    return vec3_along(vec3_along(vec3_scale(light->axis_x, v.x), light->axis_y, v.y),
+                      light->axis_z, v.z);
+}
+
+/* Relative intensity towards a unit direction. Of a luminaire its web. Of a spot
+ * KHR_lights_punctual's recommended cone: 1 inside the inner angle, 0 outside the outer, the
+ * square of the linear ramp of the cosine between. */
 static float falloff(const PunctualLight *light, Vec3 from_light)
 {
     if (light->kind == LIGHT_LUMINAIRE)
-        return intensity_web_at(light->web, vec3(vec3_dot(light->axis_x, from_light),
-                                                 vec3_dot(light->axis_y, from_light),
-                                                 vec3_dot(light->axis_z, from_light)));
+        return intensity_web_at(light->web, lamp_from_world(light, from_light));
     if (light->kind != LIGHT_SPOT) return 1;
     float range = fmaxf(light->cos_inner - light->cos_outer, 1e-6f);
     float ramp =
@@ -73,8 +90,8 @@ static float falloff(const PunctualLight *light, Vec3 from_light)
     return ramp * ramp;
 }
 
-/* Where the light is as seen from position, and its illuminance (lx per unit of its colour's
- * intensity) on a plane that faces it. */
+/* Where the light, or the middle of its opening, is as seen from position, and its illuminance
+ * (lx per unit of its colour's intensity) on a plane that faces it. */
 static float punctual_geometry(const PunctualLight *light, Vec3 position, Vec3 *wi,
                                float *distance)
 {
@@ -90,46 +107,82 @@ static float punctual_geometry(const PunctualLight *light, Vec3 position, Vec3 *
     return d2 > 0 ? falloff(light, vec3_neg(*wi)) / d2 : 0;
 }
 
+static bool has_opening(const PunctualLight *light)
+{
+    return light->kind == LIGHT_LUMINAIRE && light->opening.shape != OPENING_POINT;
+}
+
+/* By what a light is chosen at position: above 0 wherever it may light, finite inside it. */
+static float punctual_target(const PunctualLight *light, Vec3 position)
+{
+    Vec3  wi;
+    float distance, candela = luminance_from_rgb(light->intensity);
+    if (!has_opening(light))
+        return candela * punctual_geometry(light, position, &wi, &distance);
+    Vec3  away = vec3_sub(position, light->position);
+    float radius = opening_radius(&light->opening), d2 = vec3_dot(away, away);
+    float relative = d2 > 0 ? falloff(light, vec3_normalize(away)) : 0;
+    return candela * fmaxf(relative, LEAST_OF_OPENING) / (d2 + radius * radius);
+}
+
+/* As punctual_geometry, of a point of its opening. */
+static float opening_geometry(const PunctualLight *light, Vec3 position, const float u[2],
+                              Vec3 *wi, float *distance)
+{
+    float weight;
+    Vec3  from = lamp_from_world(light, vec3_sub(position, light->position));
+    Vec3  at = opening_sample(&light->opening, from, u, &weight), away = vec3_sub(from, at);
+    float d2 = vec3_dot(away, away);
+    *distance = sqrtf(d2);
+    *wi = vec3_normalize(vec3_neg(world_from_lamp(light, away)));
+    return d2 > 0 && weight > 0
+               ? weight * intensity_web_at(light->web, vec3_normalize(away)) / d2 : 0;
+}
+
 /* Chooses one light; *prob_inverse makes the estimate unbiased. All are candidates when there
- * are few; each candidate then counts once and prob is its share of the sum. */
-static int choose_punctual(const Lights *lights, Vec3 position, const float u[3],
+ * are few; each candidate then counts once and prob is its share of the sum. *pick is a random
+ * number that is used up and left uniform. */
+static int choose_punctual(const Lights *lights, Vec3 position, float *pick, float shift,
                            float *prob_inverse)
 {
     int   total = lights->punctual.count, chosen = NO_ID;
     bool  all = total <= PUNCTUAL_CANDIDATES;
     int   candidates = all ? total : PUNCTUAL_CANDIDATES;
-    float sum = 0, chosen_weight = 0, pick = u[0];
+    float sum = 0, chosen_weight = 0;
     for (int i = 0; i < candidates; i++) {
-        float shifted = u[1] + (float)i / (float)candidates;
+        float shifted = shift + (float)i / (float)candidates;
         int   id = all ? i : alias_sample(&lights->punctual, shifted - floorf(shifted));
-        const PunctualLight *light = &lights->scene->lights[id];
-        Vec3  wi;
-        float distance, target = luminance_from_rgb(light->intensity) *
-                                 punctual_geometry(light, position, &wi, &distance);
+        float target = punctual_target(&lights->scene->lights[id], position);
         float weight = all ? target : target / (lights->punctual.prob[id] * (float)candidates);
         if (!(weight > 0)) continue;
         sum += weight;
-        if (pick * sum < weight) { /* takes the newcomer with probability weight / sum */
-            pick = pick * sum / weight;
+        if (*pick * sum < weight) { /* takes the newcomer with probability weight / sum */
+            *pick = *pick * sum / weight;
             chosen = id;
             chosen_weight = target;
         } else {
-            pick = (pick * sum - weight) / (sum - weight);
+            *pick = (*pick * sum - weight) / (sum - weight);
         }
-        pick = clampf(pick, 0, 0x1.fffffep-1f);
+        *pick = clampf(*pick, 0, 0x1.fffffep-1f);
     }
     *prob_inverse = chosen == NO_ID ? 0 : sum / chosen_weight;
     return chosen;
 }
 
+/* u[1] chooses only where there are many lights; u[2] then takes its place on an opening. */
 static bool sample_punctual(const Lights *lights, Vec3 position, const float u[3],
                             LightSample *sample)
 {
-    float prob_inverse;
-    int   id = choose_punctual(lights, position, u, &prob_inverse);
+    float prob_inverse, pick = u[0];
+    int   id = choose_punctual(lights, position, &pick, u[1], &prob_inverse);
     if (id == NO_ID) return false;
     const PunctualLight *light = &lights->scene->lights[id];
-    float lux = punctual_geometry(light, position, &sample->wi, &sample->distance);
+    const float on_opening[2] = {
+        pick, lights->punctual.count <= PUNCTUAL_CANDIDATES ? u[1] : u[2]};
+    float lux = has_opening(light)
+                    ? opening_geometry(light, position, on_opening, &sample->wi,
+                                       &sample->distance)
+                    : punctual_geometry(light, position, &sample->wi, &sample->distance);
     sample->light_id = id;
     sample->scale = lux * prob_inverse;
     sample->pdf = 1;

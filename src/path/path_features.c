@@ -33,6 +33,20 @@ static void display_features(const Scene *scene, const Display *display, uint32_
     out->phi = phi < 0 ? phi + 2 * PI_F : phi;
 }
 
+bool path_display_emission(const PathContext *context, const PathResult *result,
+                           const Wavelengths *wavelengths, float xyz[3])
+{
+    const Scene *scene = context->scene;
+    Surface surface;
+    Vec3    wo = vec3_neg(result->direction);
+    surface_at(scene, context->tables, &result->first, wo, wavelengths, &surface);
+    int display_id = scene->materials[surface.material_id].display_id;
+    if (display_id == NO_ID || !surface.emits) return false;
+    display_emission_xyz(scene, &scene->displays[display_id], result->first.triangle,
+                         &surface.point, wo, xyz);
+    return true;
+}
+
 void path_features(const PathContext *context, const PathResult *result,
                    const Wavelengths *wavelengths, PathFeatures *out)
 {

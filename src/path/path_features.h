@@ -14,5 +14,10 @@ typedef struct PathFeatures {
     float theta, phi;  /* radians, display frame, phi in [0, 2 pi) */
 } PathFeatures;
 
+/* What a display sends to the eye, XYZ, cd m^-2, of a path whose first surface is one; false:
+ * it is none, or its back. */
+bool path_display_emission(const PathContext *context, const PathResult *result,
+                           const Wavelengths *wavelengths, float xyz[3]);
+
 void path_features(const PathContext *context, const PathResult *result,
                    const Wavelengths *wavelengths, PathFeatures *out);

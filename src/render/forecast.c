@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "base/mathd.h"
+
 #define GROWTH_DECAY 0.6
 #define GROWTH_MAX 0.5
 #define HALVES_FROM 32 /* samples from which halves tell the error (film.h): less of it */
@@ -17,12 +19,12 @@ static bool is_of_halves(uint32_t samples)
 static void watch(Forecast *forecast, uint32_t done, double wanted)
 {
     if (forecast->samples && done < 2 * (uint64_t)forecast->samples) return;
-    double doublings = forecast->samples ? log2((double)done / (double)forecast->samples) : 0;
+    double before = forecast->samples, doublings = before > 0 ? log2_d(done / before) : 0;
     if (forecast->samples && is_of_halves(done) == is_of_halves(forecast->samples))
         forecast->growth =
-            fmin(fmax(pow(wanted / forecast->wanted, 1 / doublings) - 1, 0), GROWTH_MAX);
+            fmin(fmax(pow_d(wanted / forecast->wanted, 1 / doublings) - 1, 0), GROWTH_MAX);
     else
-        forecast->growth *= pow(GROWTH_DECAY, doublings);
+        forecast->growth *= pow_d(GROWTH_DECAY, doublings);
     forecast->samples = done;
     forecast->wanted = wanted;
 }
@@ -30,9 +32,9 @@ static void watch(Forecast *forecast, uint32_t done, double wanted)
 /* The sum of what all doublings to come will add, as a factor. */
 static double growth_to_come(const Forecast *forecast, uint32_t done, double wanted)
 {
-    double doublings = fmax(log2(wanted / (double)done), 0);
-    double sum = GROWTH_DECAY * (1 - pow(GROWTH_DECAY, doublings)) / (1 - GROWTH_DECAY);
-    return exp(forecast->growth * sum);
+    double doublings = fmax(log2_d(wanted / (double)done), 0);
+    double sum = GROWTH_DECAY * (1 - pow_d(GROWTH_DECAY, doublings)) / (1 - GROWTH_DECAY);
+    return exp_d(forecast->growth * sum);
 }
 
 double forecast_samples(Forecast *forecast, uint32_t done, double error_ratio)

@@ -233,6 +233,7 @@ static bool render_film(const PathContext *context, const SceneCamera *scene_cam
                         .camera = &camera,
                         .film = result->film,
                         .with_features = result->has_features,
+                        .with_fine = (options->layers & LAYER_DISPLAY_FINE) != 0,
                         .seed = options->seed};
     run.counts = ARENA_NEW(arena, WorkerCounts, options->threads);
     run.progress = progress_start(options->progress, "render", "samples",

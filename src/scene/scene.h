@@ -21,6 +21,7 @@
 #include "sky/weather_clock.h"
 #include "spectrum/curve.h"
 #include "spectrum/intensity_web.h"
+#include "spectrum/luminous_opening.h"
 
 #define NO_ID (-1)
 #define SCENE_UV_SETS 2 /* of a part; those that its material uses are mapped to these */
@@ -124,10 +125,15 @@ typedef struct PunctualLight {
     float cos_inner, cos_outer; /* spot */
     const IntensityWeb *web; /* luminaire: intensity is the largest, in its frame: */
     Vec3  axis_x, axis_y, axis_z; /* unit, world; the node's: a mirrored one mirrors */
+    LuminousOpening opening; /* luminaire: about `position`, in its frame */
     const char *node_name, *file; /* luminaire */
     float level;             /* luminaire: multiplies all intensities */
+    bool  has_tilt;          /* luminaire: its file has factors for tilted lamps */
+    float tilt_factor, tilt_deg; /* multiplies too; and the angle that it belongs to */
     float color[3];          /* luminaire: linear Rec.709, multiplies too */
     float cct_k;             /* luminaire: 0: white (D65) */
+    const char *cct_text;    /* luminaire: its file's text about that, understood if cct_k > 0;
+                                "": it has none; NULL: --light-cct said it */
     const Curve *white;      /* of cct_k, 1 cd m^-2; NULL: D65 */
 } PunctualLight;
 

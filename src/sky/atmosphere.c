@@ -15,6 +15,7 @@
 #define SUN_AHEAD 11 /* of them in twilight towards the sun, where its light comes from */
 #define TWILIGHT_FIRST (-2 * PI / 180) /* a sun that is lower: twilight's own light begins */
 #define TWILIGHT_ALONE (-4 * PI / 180) /* and is all there is */
+#define DARK (-27 * PI / 180) /* the floor's edge so far over the sun: nothing is left to add */
 #define LIGHT_BYTES ((size_t)64 << 20) /* address space for one diffuse_light_build */
 
 /* Tables that the rays share. */
@@ -40,36 +41,49 @@ static void fill_light(void *context, int item, int worker)
 
 /* ---- one point --------------------------------------------------------------------------- */
 
-/* A ray in the plane of x and z, the observer on the z axis; the sun anywhere. */
+/* A ray in the plane of x and z, the observer on the z axis. */
 typedef struct AirRay {
-    double radius;          /* of the observer */
-    double direction[3], sun[3];
+    double radius;        /* of the observer */
+    double direction[2];  /* x and z */
 } AirRay;
 
-/* What the local zenith makes of the ray at a distance. */
+/* A place on the ray, whatever the sun. */
 typedef struct AirPoint {
-    double altitude, cosine, sun_cosine, azimuth_cosine;
+    double up[2];    /* the local zenith, x and z */
+    double altitude;
+    double cosine;   /* of the ray to the local zenith */
 } AirPoint;
+
+/* How the sun stands there. */
+typedef struct AirSun {
+    double cosine;         /* to the local zenith */
+    double azimuth_cosine; /* to the ray */
+} AirSun;
 
 static AirPoint place_at(const AirRay *ray, double distance)
 {
-    double x = distance * ray->direction[0], z = ray->radius + distance * ray->direction[2];
+    double x = distance * ray->direction[0], z = ray->radius + distance * ray->direction[1];
     double r = sqrt(x * x + z * z), ux = x / r, uz = z / r;
-    double c = ray->direction[0] * ux + ray->direction[2] * uz;
-    double s = ray->sun[0] * ux + ray->sun[2] * uz;
-    double across = ray->direction[0] * ray->sun[0] + ray->direction[2] * ray->sun[2] - c * s;
-    double norm = sqrt(fmax(0, 1 - c * c) * fmax(0, 1 - s * s));
-    double azimuth = norm > 1e-12 ? across / norm : 1;
-    return (AirPoint){r - AIR_EARTH_M, c, s, fmax(-1, fmin(1, azimuth))};
+    return (AirPoint){{ux, uz}, r - AIR_EARTH_M,
+                      ray->direction[0] * ux + ray->direction[1] * uz};
 }
 
-/* The two tables around a sun angle, and their weights. */
-static const DiffuseLight *light_at(const Builder *b, double sun_cosine, float weight[2])
+static AirSun sun_over(const AirRay *ray, const AirPoint *at, const double sun[3])
+{
+    double c = at->cosine, s = sun[0] * at->up[0] + sun[2] * at->up[1];
+    double across = ray->direction[0] * sun[0] + ray->direction[1] * sun[2] - c * s;
+    double norm = sqrt(fmax(0, 1 - c * c) * fmax(0, 1 - s * s));
+    double azimuth = norm > 1e-12 ? across / norm : 1;
+    return (AirSun){s, fmax(-1, fmin(1, azimuth))};
+}
+
+/* The first of the two tables around a sun angle, and their weights. */
+static int light_at(const Builder *b, double sun_cosine, float weight[2])
 {
     double x = (acos_d(fmax(-1, fmin(1, sun_cosine))) - b->first_zenith) / SUN_STEP;
     x = fmax(0, fmin(x, SUN_ANGLES - 1.0001));
     sphere_light_weights((float)(x - (int)x), b->light[(int)x].rise, weight);
-    return &b->light[(int)x];
+    return (int)x;
 }
 
 /* ---- one ray ----------------------------------------------------------------------------- */
@@ -77,7 +91,7 @@ static const DiffuseLight *light_at(const Builder *b, double sun_cosine, float w
 /* Distance to the floor, or else to space. */
 static double ray_length(const AirRay *ray, const BeamTable *air, bool *meets_floor)
 {
-    double r = ray->radius, b = r * ray->direction[2];
+    double r = ray->radius, b = r * ray->direction[1];
     double floor = AIR_EARTH_M + air->floor_m, top = AIR_EARTH_M + air->optics.top_m;
     double under = b * b - r * r + floor * floor;
     *meets_floor = b < 0 && under > 0;
@@ -85,66 +99,83 @@ static double ray_length(const AirRay *ray, const BeamTable *air, bool *meets_fl
     return -b + sqrt(fmax(0, b * b - r * r + top * top));
 }
 
-static Spectrum floor_radiance(const Builder *b, const AirPoint *at)
+static Spectrum floor_radiance(const Builder *b, double altitude, double sun_cosine)
 {
     float    weight[2];
     Spectrum direct;
-    const DiffuseLight *light = light_at(b, at->sun_cosine, weight);
-    Spectrum diffuse = light[0].ground_diffuse * spectrum_all(weight[0]) +
-                       light[1].ground_diffuse * spectrum_all(weight[1]);
-    beam_table_sun(&b->beam, at->altitude, at->sun_cosine, &direct);
-    direct *= spectrum_all((float)fmax(0, at->sun_cosine));
+    int      i = light_at(b, sun_cosine, weight);
+    Spectrum diffuse = b->light[i].ground_diffuse * spectrum_all(weight[0]) +
+                       b->light[i + 1].ground_diffuse * spectrum_all(weight[1]);
+    BeamHeight height = beam_table_height(&b->beam, altitude);
+    beam_table_sun(&b->beam, &height, sun_cosine, &direct);
+    direct *= spectrum_all((float)fmax(0, sun_cosine));
     return (diffuse + direct) *
            spectrum_all((float)(b->atmosphere->input.air.ground_albedo / PI));
 }
 
-typedef struct Gathered {
-    Spectrum molecules, aerosol, rest;
-} Gathered;
+/* A step of a ray: all that does not depend on where the sun stands. */
+typedef struct Step {
+    AirPoint     at;
+    BeamHeight   height;
+    DiffusePlace place;
+    Spectrum     seen;         /* mean transmittance from the observer, times the length */
+    Spectrum     scattering[2]; /* of molecules and aerosol, m^-1 */
+    bool         is_read[SUN_ANGLES];
+    Spectrum     mode[SUN_ANGLES][DIFFUSE_MODES]; /* the lights' sources, once read */
+} Step;
 
-static Gathered march(const Builder *b, const AirRay *ray)
+/* passing: transmittance from the observer to the step, then beyond it. */
+static void start_step(const Builder *b, const AirPoint *at, float length, Spectrum *passing,
+                       Step *step)
 {
-    const Atmosphere *a = b->atmosphere;
-    int      steps = a->input.steps;
-    bool     meets_floor;
-    double   length = ray_length(ray, &b->beam, &meets_floor), from = 0;
-    Spectrum passing = spectrum_all(1), none = spectrum_all(0);
-    Gathered sum = {none, none, none};
-    for (int i = 0; i < steps; i++) {
-        double share = (i + 1.0) / steps, to = length * share * share;
-        AirPoint  at = place_at(ray, 0.5 * (from + to));
-        float  density[AIR_PARTS], weight[2], step = (float)(to - from);
-        beam_table_density(&b->beam, at.altitude, density);
-        Spectrum depth = none, seen, beam;
-        for (int p = 0; p < AIR_PARTS; p++)
-            depth += b->beam.optics.depth[p] * spectrum_all(density[p] * step);
-        for (int k = 0; k < SPECTRUM_LANES; k++) /* mean transmittance inside the step */
-            seen[k] =
-                depth[k] > 0.01f ? (1 - exp_f(-depth[k])) / depth[k] : 1 - 0.5f * depth[k];
-        seen *= passing * spectrum_all(step);
-        beam_table_sun(&b->beam, at.altitude, at.sun_cosine, &beam);
-        beam *= seen;
-        const Spectrum *scattering = b->beam.optics.scattering;
-        sum.molecules += scattering[AIR_MOLECULES] * spectrum_all(density[AIR_MOLECULES]) *
-                         beam;
-        sum.aerosol += scattering[AIR_AEROSOL] * spectrum_all(density[AIR_AEROSOL]) * beam;
-        const DiffuseLight *light = light_at(b, at.sun_cosine, weight);
-        /* the source sends towards the eye, against the ray; the beam travels away from the
-         * sun: both turn round, so that the azimuth between them stays */
-        float c = (float)-at.cosine, z = (float)at.azimuth_cosine;
-        Spectrum source[2];
-        diffuse_light_source(&light[0], at.altitude, c, z, &source[0]);
-        diffuse_light_source(&light[1], at.altitude, c, z, &source[1]);
-        sum.rest += seen * (source[0] * spectrum_all(weight[0]) +
-                            source[1] * spectrum_all(weight[1]));
-        passing *= spectrum_exp(-depth);
-        from = to;
-    }
-    if (meets_floor) {
-        AirPoint end = place_at(ray, length);
-        sum.rest += passing * floor_radiance(b, &end);
-    }
-    return sum;
+    const AirOptics *optics = &b->beam.optics;
+    float    density[AIR_PARTS];
+    Spectrum depth = spectrum_all(0);
+    step->at = *at;
+    step->height = beam_table_height(&b->beam, at->altitude);
+    /* the source sends towards the eye, against the ray */
+    step->place = diffuse_light_place(&b->light[0], at->altitude, (float)-at->cosine);
+    beam_table_density(&b->beam, at->altitude, density);
+    for (int p = 0; p < AIR_PARTS; p++)
+        depth += optics->depth[p] * spectrum_all(density[p] * length);
+    for (int k = 0; k < SPECTRUM_LANES; k++) /* mean transmittance inside the step */
+        step->seen[k] =
+            depth[k] > 0.01f ? (1 - exp_f(-depth[k])) / depth[k] : 1 - 0.5f * depth[k];
+    step->seen *= *passing * spectrum_all(length);
+    for (int p = 0; p < 2; p++)
+        step->scattering[p] = optics->scattering[p] * spectrum_all(density[p]);
+    for (int i = 0; i < SUN_ANGLES; i++) step->is_read[i] = false;
+    *passing *= spectrum_exp(-depth);
+}
+
+/* Source of one light in the direction of the eye. */
+static Spectrum step_source(const Builder *b, Step *step, int light, float azimuth_cosine)
+{
+    Spectrum source;
+    if (!step->is_read[light])
+        diffuse_light_modes(&b->light[light], &step->place, step->mode[light]);
+    step->is_read[light] = true;
+    diffuse_light_source(step->mode[light], azimuth_cosine, &source);
+    return source;
+}
+
+/* What a step sends to the eye under one sun, into place `slot` of the tables. */
+static void add_step(const Builder *b, Step *step, const AirSun *sun, size_t slot)
+{
+    Atmosphere *a = b->atmosphere;
+    float       weight[2];
+    Spectrum    beam;
+    beam_table_sun(&b->beam, &step->height, sun->cosine, &beam);
+    beam *= step->seen;
+    a->molecules[slot] += step->scattering[AIR_MOLECULES] * beam;
+    a->aerosol[slot] += step->scattering[AIR_AEROSOL] * beam;
+    int i = light_at(b, sun->cosine, weight);
+    /* it sends against the ray, and the beam travels away from the sun: both turn round, so
+     * that the azimuth between them stays */
+    float azimuth = (float)sun->azimuth_cosine;
+    a->rest[slot] += step->seen * (step_source(b, step, i, azimuth) * spectrum_all(weight[0]) +
+                                   step_source(b, step, i + 1, azimuth) *
+                                       spectrum_all(weight[1]));
 }
 
 /* ---- the table --------------------------------------------------------------------------- */
@@ -157,24 +188,49 @@ static double row_elevation(const Atmosphere *a, bool below, int row)
     return a->horizon + reach * share * share + nudge;
 }
 
+/* The sun's direction for a column of the tables, where the ray has azimuth 0. */
+static void column_sun(const Atmosphere *a, int column, double sun[3])
+{
+    double elevation = a->input.sun_elevation, azimuth = PI * column / (ATMOSPHERE_COLUMNS - 1);
+    sun[0] = cos_d(elevation) * cos_d(azimuth);
+    sun[1] = cos_d(elevation) * sin_d(azimuth);
+    sun[2] = sin_d(elevation);
+}
+
+/* One elevation: its ray is followed once for the suns of all columns. */
 static void fill_row(void *context, int item, int worker)
 {
     Builder    *b = context;
     Atmosphere *a = b->atmosphere;
-    double      elevation = row_elevation(a, item >= ATMOSPHERE_ROWS, item % ATMOSPHERE_ROWS);
-    double      sun = a->input.sun_elevation;
+    double elevation = row_elevation(a, item >= ATMOSPHERE_ROWS, item % ATMOSPHERE_ROWS);
+    double sun[ATMOSPHERE_COLUMNS][3], from = 0;
+    AirRay ray = {AIR_EARTH_M + a->input.observer_m, {cos_d(elevation), sin_d(elevation)}};
+    bool   meets_floor;
+    double length = ray_length(&ray, &b->beam, &meets_floor);
+    size_t first = (size_t)item * ATMOSPHERE_COLUMNS;
+    Spectrum passing = spectrum_all(1);
+    Step     step;
     (void)worker;
     for (int j = 0; j < ATMOSPHERE_COLUMNS; j++) {
-        double azimuth = PI * j / (ATMOSPHERE_COLUMNS - 1);
-        AirRay ray = {AIR_EARTH_M + a->input.observer_m,
-                      {cos_d(elevation), 0, sin_d(elevation)},
-                      {cos_d(sun) * cos_d(azimuth), cos_d(sun) * sin_d(azimuth), sin_d(sun)}};
-        Gathered g = march(b, &ray);
-        size_t   at = (size_t)item * ATMOSPHERE_COLUMNS + (size_t)j;
-        a->molecules[at] = g.molecules;
-        a->aerosol[at] = g.aerosol;
-        a->rest[at] = g.rest;
+        size_t at = first + (size_t)j;
+        a->molecules[at] = a->aerosol[at] = a->rest[at] = spectrum_all(0);
+        column_sun(a, j, sun[j]);
     }
+    for (int i = 0; i < a->input.steps; i++) {
+        double   share = (i + 1.0) / a->input.steps, to = length * share * share;
+        AirPoint at = place_at(&ray, 0.5 * (from + to));
+        start_step(b, &at, (float)(to - from), &passing, &step);
+        for (int j = 0; j < ATMOSPHERE_COLUMNS; j++) {
+            AirSun here = sun_over(&ray, &at, sun[j]);
+            add_step(b, &step, &here, first + (size_t)j);
+        }
+        from = to;
+    }
+    if (!meets_floor) return;
+    AirPoint end = place_at(&ray, length);
+    for (int j = 0; j < ATMOSPHERE_COLUMNS; j++)
+        a->rest[first + (size_t)j] +=
+            passing * floor_radiance(b, end.altitude, sun_over(&ray, &end, sun[j]).cosine);
 }
 
 static Spectrum *spectra(Arena *arena, size_t count)
@@ -217,9 +273,10 @@ static void build_tables(Atmosphere *out, const AirOptics *optics, bool in_twili
         build_flat_lights(b, &scratch);
     }
     parallel_for(in->threads, 2 * ATMOSPHERE_ROWS, fill_row, b);
-    beam_table_passing(&b->beam, in->observer_m, sin_d(in->sun_elevation), &out->sun_passing);
-    AirPoint under = {in->floor_m, 1, sin_d(in->sun_elevation), 1};
-    out->floor_exitance = floor_radiance(b, &under) * spectrum_all(PI_F);
+    double     sine = sin_d(in->sun_elevation);
+    BeamHeight height = beam_table_height(&b->beam, in->observer_m);
+    beam_table_passing(&b->beam, &height, sine, &out->sun_passing);
+    out->floor_exitance = floor_radiance(b, in->floor_m, sine) * spectrum_all(PI_F);
     for (int i = 0; i < SUN_ANGLES && b->arena; i++) arena_release(&b->arena[i]);
 }
 
@@ -261,7 +318,8 @@ static void see_sun(Atmosphere *out)
     out->sun_passing = spectrum_exp(-depth);
 }
 
-/* By day the table as it is; below TWILIGHT_ALONE twilight's; in between a mixture. */
+/* By day the table as it is; below TWILIGHT_ALONE twilight's; in between a mixture. Deep in the
+ * night the tables stay empty: no direction has a thousandth of the background's light. */
 static void add_twilight(Atmosphere *out, float share, Arena scratch)
 {
     size_t     count = (size_t)2 * ATMOSPHERE_ROWS * ATMOSPHERE_COLUMNS;
@@ -299,9 +357,10 @@ bool atmosphere_build(const AtmosphereInput *input, Arena *arena, Atmosphere *ou
     take_tables(out, arena);
     out->horizon = -acos_d((AIR_EARTH_M + input->floor_m) / (AIR_EARTH_M + input->observer_m));
     float share = twilight_share(input->sun_elevation);
+    bool  is_dark = input->sun_elevation < out->horizon + DARK;
     out->sun_passing = out->floor_exitance = spectrum_all(0);
     if (share < 1) build_tables(out, &out->optics, false, *arena);
-    if (share > 0) add_twilight(out, share, *arena);
+    if (share > 0 && !is_dark) add_twilight(out, share, *arena);
     return true;
 }
 

@@ -1,6 +1,6 @@
 """lamps.py PARHELION -- luminaire files as lamps of a scene (--light, EXT_lights_ies):
-illuminances in closed form, flux, nodes that are turned, scaled and mirrored, the bits of both
-ways, and what is refused.
+illuminances in closed form, flux, nodes that are turned, scaled and mirrored, openings near by
+and their soft shadows, tilts, the bits of both ways, and what is refused.
 """
 import base64
 import json
@@ -38,19 +38,20 @@ SHARED_FLUX = {"Indoor_60W_5300lm.ies": 5300, "MAXWELL_measured_IESNA.ies": 1000
                "FL_MAX_900W_SYM60.ldt": 119760, "road_luminaire.ldt": 28027.4}
 
 
-def ies(table=None, gammas=GAMMAS, planes=PLANES, head="1 -1 1", factors="1 1 30"):
+def ies(table=None, gammas=GAMMAS, planes=PLANES, head="1 -1 1", factors="1 1 30",
+        size="0 0 0"):
     table = table or TABLE
     rows = "\n".join(" ".join(f"{v:g}" for v in row) for row in table)
     return (f"IESNA:LM-63-2002\n[TEST] none\n[MANUFAC] none\nTILT=NONE\n"
-            f"{head} {len(gammas)} {len(planes)} 1 2 0 0 0\n{factors}\n"
+            f"{head} {len(gammas)} {len(planes)} 1 2 {size}\n{factors}\n"
             f"{' '.join(map(str, gammas))}\n{' '.join(map(str, planes))}\n{rows}\n")
 
 
-def ldt(flux, factor=1, cct=""):
-    """The same table in cd a klm: four planes, no symmetry."""
+def ldt(flux, factor=1, cct="", lamp="LED", size=("0", "0", "0")):
+    """The same table in cd a klm: four planes, no symmetry. size: length, width, height."""
     head = ["maker", "1", "0", "4", "90", "7", "30", "report", "lamp", "1", "a.ldt", "today",
-            "100", "0", "50", "0", "0", "0", "0", "0", "0", "100", "100", str(factor), "0", "1",
-            "1", "LED", str(flux), cct, "80", "30"] + ["0"] * 10
+            "100", "0", "50", *size[:2], *[size[2]] * 4, "100", "100", str(factor), "0", "1",
+            "1", lamp, str(flux), cct, "80", "30"] + ["0"] * 10
     values = [f"{v / (flux / 1000) / factor:.9g}" for row in TABLE[:4] for v in row]
     return "\r\n".join(head + ["0", "90", "180", "270", *map(str, GAMMAS), *values]) + "\r\n"
 
@@ -117,6 +118,19 @@ class Lamps:
                         "--json", "--quiet", *options)
         assert done.returncode == 0, done.stderr
         return json.loads(done.stdout)["illuminance_lx"]
+
+    def near(self, report, what, scene, place, normal, wanted, *options):
+        """By samples: within 3.5 of the standard errors that are told, and within 0.5 %."""
+        done = self.run("measure", scene, "--illuminance",
+                        ",".join(f"{x:.9g}" for x in (*place, *normal)), "--samples", "20000",
+                        "--json", "--quiet", *options)
+        assert done.returncode == 0, done.stderr
+        answer = json.loads(done.stdout)
+        found, (low, high) = answer["illuminance_lx"], answer["illuminance_interval"]
+        sigma = (high - low) / 2 / 1.96
+        apart = abs(found - wanted) - 1e-9
+        report.claim(apart <= 3.5 * sigma + 2e-4 * wanted and apart <= 5e-3 * wanted,
+                     f"{what}: {found:.6g} +- {sigma:.2g} lx instead of {wanted:.6g}")
 
     def claim(self, report, what, found, wanted):
         report.claim(abs(found - wanted) <= 1e-3 * wanted + 1e-6,
@@ -186,6 +200,95 @@ def check_shadow(report, lamps):
     for place, is_lit in (((0, 0, -2), False), ((3, 0, -2), True)):
         found = lamps.lux("plate.gltf", place, (0, 0, 1), "--light", "lamp=lamp.ies")
         report.claim((found > 1) == is_lit, f"behind a plate at {place}: {found} lx")
+
+
+def lambert(size, candela=100):
+    gammas = [2 * i for i in range(46)]
+    return ies([[candela * math.cos(math.radians(g)) for g in gammas]], gammas, (0,), size=size)
+
+
+def even(size):
+    return ies([[100, 100]], (0, 180), (0,), size=size)
+
+
+def rectangle_lux(l, w, d):
+    """On axis below l x w of 100 cd / (l w), Lambertian, facing each other: the corner's
+    configuration factor (CIE, or any table of view factors) four times."""
+    x, y = l / 2 / d, w / 2 / d
+    rx, ry = math.sqrt(1 + x * x), math.sqrt(1 + y * y)
+    factor = (x / rx * math.atan(y / rx) + y / ry * math.atan(x / ry)) / (2 * math.pi)
+    return math.pi * 100 / (l * w) * 4 * factor
+
+
+def check_openings(report, lamps):
+    """Closed forms near by: discs, rectangles and spheres; from afar the point's."""
+    for name, text in (("disc.ies", lambert("-0.6 -0.6 0")), ("rect.ies", lambert("0.4 1 0")),
+                       ("ball.ies", even("-0.4 -0.4 -0.4")), ("point.ies", lambert("0 0 0")),
+                       ("feet.ies", lambert("-0.6 -0.6 0").replace(" 1 2 -0.6", " 1 1 -0.6"))):
+        lamps.write(name, text)
+    for d in (0.05, 0.2, 1, 5):
+        for name, wanted in (("disc", 100 / (0.3 ** 2 + d * d)),
+                             ("feet", 100 / ((0.3 * 0.3048) ** 2 + d * d)),
+                             ("rect", rectangle_lux(1, 0.4, d)), ("point", 100 / (d * d))):
+            if d >= 0.2 or name == "point":
+                lamps.near(report, f"{name} at {d} m", "nodes.gltf", (0, 0, -d), (0, 0, 1),
+                           wanted, "--light", f"plain={name}.ies")
+    for d in (0.25, 0.5, 3):
+        for v in ((0, 0, -1), (0.6, 0.8, 0), (0.48, -0.6, 0.64)):
+            lamps.near(report, f"ball at {d} m", "nodes.gltf", [d * x for x in v],
+                       [-x for x in v], 100 / (d * d), "--light", "plain=ball.ies")
+    for size in ("0.4 1 0", "-0.6 -0.6 0", "0.4 1 0.3", "-0.2 1 -0.2", "-0.3 -0.3 0.8"):
+        lamps.write("far.ies", ies(size=size))
+        for name in ("plain", "turned", "both"):
+            origin = NODES[name].get("translation", (0, 0, 0))
+            place = [o + x for o, x in zip(origin, (90, -120, 200))]
+            normal = [-0.36, 0.48, -0.8]
+            lamps.near(report, f"{size} far away, {name}", "nodes.gltf", place, normal,
+                       expected(NODES[name], place, normal), "--light", f"{name}=far.ies")
+
+
+def check_axes(report, lamps):
+    """Length lies along C = 0 in IES files, along C = 90 in EULUMDAT: beside the long side of a
+    strip it is brighter than beside its end."""
+    lamps.write("strip.ies", even("0.01 1 0"))
+    lamps.write("strip.ldt", ldt(2500, size=("1000", "10", "0")))
+    lamps.write("point.ldt", ldt(2500))
+    # 100 cd/m along a line, at 0.1 m from its middle: the integral of 100 h / (h^2 + x^2)^1.5
+    beside = 100 * 2 * 0.5 / (0.1 * math.hypot(0.5, 0.1))
+    lamps.near(report, "across the strip", "nodes.gltf", (0, 0.1, 0), (0, -1, 0), beside,
+               "--light", "plain=strip.ies")
+    lamps.near(report, "off the strip's end", "nodes.gltf", (0.6, 0, 0), (-1, 0, 0),
+               100 * (1 / 0.1 - 1 / 1.1), "--light", "plain=strip.ies")
+    found = shown_light(lamps, "strip.ldt")["opening"]
+    report.claim(found["shape"] == "rectangle"
+                 and all(abs(a - b) < 1e-6 for a, b in zip(found["size_m"], (0.01, 1, 0))),
+                 f"EULUMDAT's strip: {found}")
+    report.claim(shown_light(lamps, "point.ldt")["opening"] is None, "a point has an opening")
+
+
+def shown_light(lamps, file, node="plain"):
+    done = lamps.run("check", "nodes.gltf", "--json", "--light", f"{node}={file}")
+    return json.loads(done.stdout)["lights"][0]
+
+
+def check_penumbra(report, lamps):
+    """A half plane 1 m under a strip of 0.2 m, and 1 m over the ground: the penumbra is 0.2 m
+    wide, and in it what is seen of the strip grows from its one end to the other."""
+    lamps.write("soft.ies", even("0.01 0.2 0"))
+    scene = Scene()
+    scene._node({"name": "lamp", "translation": [0, 0, 0]})
+    plate = scene.material("plate", pbrMetallicRoughness={"baseColorFactor": [0, 0, 0, 1]})
+    scene.quad(plate, [-9, -9, -1], [9, 0, 0], [0, 18, 0])  # its edge is x = 0
+    scene.write(lamps.path("edge.gltf"))
+    def lux(x, low, high):
+        """From the strip between low and high, along x, 2 m over the ground."""
+        at = [(v - x) / 2 for v in (low, high)]
+        term = [t / math.sqrt(1 + t * t) for t in at]  # of h / (h^2 + s^2)^1.5, times h
+        return 100 / 0.2 * (term[1] - term[0]) / 2
+    for x in (-0.15, -0.101, -0.09, -0.05, 0, 0.03, 0.08, 0.099, 0.101, 0.2):
+        edge = max(-0.1, min(0.1, -x))  # what lies above it is seen past the plate
+        lamps.near(report, f"penumbra at {x}", "edge.gltf", (x, 0, -2), (0, 0, 1),
+                   lux(x, edge, 0.1), "--light", "lamp=soft.ies")
 
 
 MEDIA_TYPE = "application/x-ies-lm-63"
@@ -306,12 +409,34 @@ WHITES = {2000: (0.5267, 0.4133), 2856: (0.44758, 0.40745), 5003: (0.34567, 0.35
 def check_cct(report, lamps):
     """Of files and of --light-cct: what is taken, and the chromaticity of its light."""
     lamps.write("plain.ldt", ldt(2500))
-    texts = {"4000": 4000, "4000 K": 4000, "2700K": 2700, "840": None, "": None,
-             "2700-6500": None, "900": None, "ww": None, "30000": None}
+    texts = {"4000": 4000, "4000 K": 4000, "2700K": 2700, "840": 4000, "": None,
+             "2700-6500": None, "900": None, "ww": None, "30000": None, "LED 4000K": 4000,
+             "830 warm white": 3000, "827/830": None, "4000 lm": None, "4000 K / 840": 4000,
+             "812": None, "540": None, "Ra 80, 3500 K": 3500,
+             **{f"{code}": code % 100 * 100 for code in (
+                 730, 827, 830, 835, 840, 850, 865, 930, 940, 950, 965)}}
     for text, wanted in texts.items():
         lamps.write("told.ldt", ldt(2500, cct=text))
         found = shown(lamps, "nodes.gltf", "--light", "plain=told.ldt")
         report.claim(found == ([wanted], []), f"EULUMDAT \"{text}\": {found}")
+        said = lamps.run("check", "nodes.gltf", "--light", "plain=told.ldt").stdout
+        words = (f'{wanted} K ("{text}")' if wanted else
+                 f'D65 ("{text}" tells no colour' if text else "D65 (the file tells no colour")
+        report.claim(words in said, f"EULUMDAT \"{text}\": check says {said}")
+    for text, wanted in {"LED 4000K": 4000, "TL5 35W/830": 3000, "LED 840": None,
+                         "4000 lm": None, "LED E27 2700 K 806 lm": 2700}.items():
+        lamps.write("told.ldt", ldt(2500, lamp=text))
+        lamps.write("told.ies", ies().replace("TILT", f"[LAMP] {text}\nTILT"))
+        for file in ("told.ldt", "told.ies"):
+            found = shown(lamps, "nodes.gltf", "--light", f"plain={file}")
+            report.claim(found == ([wanted], []), f"{file}, lamp \"{text}\": {found}")
+    lamps.write("told.ldt", ldt(2500, cct="3000", lamp="LED 4000 K"))
+    report.claim(shown(lamps, "nodes.gltf", "--light", "plain=told.ldt")[0] == [3000],
+                 "the colour's line speaks before the lamp's")
+    lamps.write("told.ies", ies().replace("TILT", "[LAMP] LED 4000 K\n[_CCT] 3000\nTILT"))
+    report.claim(shown(lamps, "nodes.gltf", "--light", "plain=told.ies")[0] == [3000],
+                 "the keyword of the colour speaks before the lamp's")
+    lamps.write("told.ies", ies().replace("TILT", "[_CCT] 3000 K\nTILT"))
     for keyword in ("[_CCT]", "[CCT]", "[COLORTEMP]", "[_Color_Temp]", "[_COLOR_TEMPERATURE]"):
         lamps.write("told.ies", ies().replace("TILT", f"{keyword} 3000 K\nTILT"))
         found = shown(lamps, "nodes.gltf", "--light", "plain=told.ies")
@@ -330,15 +455,70 @@ def check_cct(report, lamps):
 
 
 def check_tilt(report, lamps):
-    """TILT= is read over, and a warning says that its factors are not applied."""
-    for tilt in ("INCLUDE\n1\n3\n0 45 90\n1 0.9 0.8", "lamp.tlt"):
-        lamps.write("tilt.ies", ies().replace("TILT=NONE", "TILT=" + tilt))
-        _, problems = shown(lamps, "nodes.gltf", "--light", "plain=tilt.ies")
-        report.claim(len(problems) == 1 and problems[0]["severity"] == "warning"
-                     and problems[0]["file"] == "tilt.ies"
-                     and "tilt factors" in problems[0]["message"], f"{tilt}: {problems}")
-        found = lamps.lux("nodes.gltf", (0, 0, -2), (0, 0, 1), "--light", "plain=tilt.ies")
-        lamps.claim(report, "tilt", found, 100)
+    """The factors of TILT= count by how the node lies, world -Y being down; a file that is not
+    there is told of."""
+    def tilted(geometry, head=""):
+        return f"{geometry}\n3\n0 60 90\n1 0.9 0.5" + head
+    # node: lamps that lie along -Z, +X, +Y of the lamp; their tilts, degrees
+    turns = {"plain": (90, 0, 90), "down": (0, 0, 0), "turned": None}
+    for node in turns:
+        x, y, z = axes(NODES[node])
+        for geometry, lamp in ((1, [-v for v in z]), (2, x), (3, y)):
+            vertical = math.degrees(math.acos(max(-1, min(1, -lamp[1]))))
+            angle = min(vertical, 180 - vertical)
+            angle = angle if geometry == 1 else 90 - angle
+            report.claim(not turns[node] or abs(angle - turns[node][geometry - 1]) < 1e-3,
+                         f"{node} {geometry}: {angle} degrees")
+            factor = 1 - angle / 600 if angle < 60 else 0.9 - (angle - 60) / 75
+            lamps.write("tilt.ies", ies().replace("TILT=NONE",
+                                                  "TILT=INCLUDE\n" + tilted(geometry)))
+            light = shown_light(lamps, "tilt.ies", node)
+            report.claim(abs(light["tilt"]["angle_deg"] - angle) < 1e-2
+                         and abs(light["tilt"]["factor"] - factor) < 1e-5
+                         and abs(light["max_cd"] - 400 * factor) < 1e-2,
+                         f"{node} {geometry}: {light}")
+    lamps.write("tilt.ies", ies().replace("TILT=NONE", "TILT=lamp.tlt"))
+    report.claim(shown_light(lamps, "tilt.ies")["tilt"] is None, "no file, but a tilt")
+    _, problems = shown(lamps, "nodes.gltf", "--light", "plain=tilt.ies")
+    report.claim(len(problems) == 1 and problems[0]["severity"] == "warning"
+                 and problems[0]["file"] == "tilt.ies"
+                 and "no such file beside it" in problems[0]["message"],
+                 f"lamp.tlt: {problems}")
+    lamps.write("lamp.tlt", tilted(1))
+    found = lamps.lux("nodes.gltf", (0, 0, -2), (0, 0, 1), "--light", "plain=tilt.ies")
+    lamps.claim(report, "TILT=lamp.tlt", found, 50)
+    studio(lamps, "tilt.gltf", {"uri": "tilt.ies"})
+    answer = json.loads(lamps.run("check", "tilt.gltf", "--json").stdout)
+    report.claim(not answer["problems"] and answer["lights"][0]["tilt"], f"uri: {answer}")
+    lamps.write("lamp.tlt", "1\n3\n0 60 90\n1 0.9")
+    done = lamps.run("check", "nodes.gltf", "--light", "plain=tilt.ies")
+    report.claim(done.returncode == 3 and "lamp.tlt" in done.stdout + done.stderr
+                 and "the file ends before a tilt factor" in done.stdout + done.stderr,
+                 f"broken lamp.tlt: {done.returncode} {done.stdout} {done.stderr}")
+    os.remove(lamps.path("lamp.tlt"))
+    data = base64.b64encode(ies().replace("TILT=NONE", "TILT=lamp.tlt").encode()).decode()
+    studio(lamps, "tilt.gltf", {"uri": f"data:{MEDIA_TYPE};base64,{data}"})
+    answer = json.loads(lamps.run("check", "tilt.gltf", "--json").stdout)
+    report.claim(["inside a scene" in p["message"] for p in answer["problems"]] == [True],
+                 f"data: {answer}")
+
+
+def check_types(report, lamps):
+    """Types A and B: (0, 0) is the node's -Z, V = 90 its +X, H = 90 its -Y."""
+    angles = list(range(-90, 91, 15))
+    for kind, name in ((2, "b.ies"), (3, "a.ies")):
+        table = [[100 + v / 9 - h / 3 for v in angles] for h in angles]
+        text = ies(table, angles, angles).replace(f" {len(angles)} 1 2 0",
+                                                  f" {len(angles)} {kind} 2 0")
+        lamps.write(name, text)
+        for v, h in ((0, 0), (40, 0), (0, 40), (-25, 50), (70, -20)):
+            sv, cv, sh, ch = (f(math.radians(x)) for x in (v, h) for f in (math.sin, math.cos))
+            d = (ch * sv, -sh, -ch * cv) if kind == 2 else (sv, -cv * sh, -cv * ch)
+            lamps.claim(report, f"{name} at V {v}, H {h}",
+                        lamps.lux("nodes.gltf", [2 * x for x in d], [-x for x in d], "--light",
+                                  f"plain={name}"), (100 + v / 9 - h / 3) / 4)
+        lamps.claim(report, f"{name} behind", lamps.lux("nodes.gltf", (0.3, 0.1, 2), (0, 0, -1),
+                                                        "--light", f"plain={name}"), 0)
 
 
 def check_both(report, lamps):
@@ -435,8 +615,9 @@ def main():
     report = Report()
     with tempfile.TemporaryDirectory() as folder:
         lamps = Lamps(sys.argv[-1], folder)
-        for check in (check_nodes, check_factors, check_flux, check_shadow, check_extension,
-                      check_listed, check_cct, check_tilt, check_both,
+        for check in (check_nodes, check_factors, check_flux, check_shadow, check_openings,
+                      check_axes, check_penumbra, check_types, check_extension, check_listed,
+                      check_cct, check_tilt, check_both,
                       check_extension_refused, check_refused, check_shared):
             try:
                 check(report, lamps)

@@ -315,6 +315,21 @@ def check_displays(report, program):
     frame = Frame(program.file("frame.exr"))
     report.claim(any(value == value for value in frame.channels["display.contrast"]),
                  "no display is in view")
+    check_fine(report, frame)
+
+
+def check_fine(report, frame):
+    """What displays send to the whole pixel, by more rays: where there is a display, and in
+    the mean what the samples themselves saw."""
+    fine, coverage = frame.channels["display.fine.G"], frame.channels["display.coverage"]
+    seen = [(f, e * c) for f, e, c in zip(fine, frame.channels["display.emitted.G"], coverage)
+            if c > 0]
+    report.claim(all((f == f) == (c > 0) for f, c in zip(fine, coverage)),
+                 "display.fine is not where display.coverage is above 0")
+    more, own = sum(f for f, _ in seen), sum(e for _, e in seen)
+    report.claim(abs(more / own - 1) < 0.1,
+                 f"display.fine sums up to {more}, its samples {own}")
+    report.claim(more != own, "display.fine is of the samples' own rays")
 
 
 def main():

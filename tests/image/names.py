@@ -91,8 +91,8 @@ def check_frames(work):
 def check_lamps(work):
     """A luminaire file as a lamp: its frame too, and its metadata."""
     with open(work.path("lamp.ies"), "w", encoding="ascii") as file:
-        file.write("IESNA:LM-63-2002\n[_CCT] 3000\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 9\n"
-                   "0 90\n0\n500 20\n")
+        file.write("IESNA:LM-63-2002\n[_CCT] 3000\nTILT=NONE\n1 -1 1 2 1 1 2 -.2 -.2 .1\n"
+                   "1 1 9\n0 90\n0\n500 20\n")
     work.claim_same("lamp", ["render", "small.gltf", "--size", "24x16", "--spp", "2", "--light",
                              "eye=lamp.ies", "--light-level", "eye=80", "--light-cct",
                              "*=2700"], ".lamp.exr", more=RENDER_WAYS)

@@ -183,8 +183,10 @@ TEST(the_second_order_lies_towards_the_sun)
         double   azimuth = PI * i / 4, up = 0.25;
         double   look[3] = {sqrt(1 - up * up) * cos(azimuth), sqrt(1 - up * up) * sin(azimuth),
                             up};
-        Spectrum source;
-        diffuse_light_source(&light, 0, (float)-up, (float)cos(azimuth), &source);
+        Spectrum mode[DIFFUSE_MODES], source;
+        DiffusePlace at = diffuse_light_place(&light, 0, (float)-up);
+        diffuse_light_modes(&light, &at, mode);
+        diffuse_light_source(mode, (float)cos(azimuth), &source);
         double want = unit * scattered_twice(look, sun, depth);
         printf("%3.0f degrees from the sun's azimuth: %.3e, summed %.3e\n",
                degrees_from_radians(azimuth), (double)source[GREEN], want);

@@ -361,6 +361,35 @@ TEST(the_edge_of_a_display_is_left_as_it_is)
         assert_true(green(&out)[i] == green(&frame)[i]);
 }
 
+/* What the samples place badly, in pixels that a display fills and in those that it covers in
+ * part, is not in display.fine; a steady reflection is what is left of them. */
+TEST(what_few_samples_saw_of_a_display_gives_way_to_more_rays)
+{
+    Arena         arena = test_arena(state);
+    FrameImage    frame = display(&arena);
+    DenoiseReport report;
+    uint32_t      random = 9;
+    float *coverage = frame_add_channel(&frame, "display.coverage", false, &arena);
+    float *fine[3];
+    for (int c = 0; c < 3; c++) {
+        fine[c] = frame_add_channel(&frame, arena_format(&arena, "display.fine.%c", "RGB"[c]),
+                                    false, &arena);
+    }
+    for (size_t i = 0; i < COUNT; i++) {
+        coverage[i] = i % WIDTH < 30 ? 1 : (float)(8 + i % 16) / 24;
+        for (int c = 0; c < 3; c++) {
+            float seen = 50 + 400 * (float)uniform(&random);
+            plane(&frame, "display.emitted", "RGB"[c], &arena)[i] = seen;
+            plane(&frame, "", "RGB"[c], &arena)[i] = seen * coverage[i] + 20;
+            plane(&frame, "variance", "RGB"[c], &arena)[i] = 50 * 50;
+            plane(&frame, "halves", "RGB"[c], &arena)[i] = uniform(&random) < 0.5 ? 50 : -50;
+            fine[c][i] = 100 + 3 * (float)(i % 7);
+        }
+    }
+    FrameImage out = denoised(&frame, 2, &report, &arena);
+    for (size_t i = 0; i < COUNT; i++) assert_close(green(&out)[i], fine[1][i] + 20, 1e-4);
+}
+
 /* ---- any frame --------------------------------------------------------------------------- */
 
 TEST(any_number_of_threads_makes_the_same_bits)

@@ -359,7 +359,7 @@ TEST(a_frame_has_the_channels_asked_for_and_no_others)
     film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
     frame = film_to_frame(film, 0, &arena);
     assert_int_equal(frame.channel_count,
-                     3 + 3 + 1 + 3 + 3 + 3 + 2 + 2 + 3 + 3 + 1 + 4 * 3 + 2 + 1);
+                     3 + 3 + 1 + 3 + 3 + 3 + 2 + 2 + 3 + 3 + 1 + 4 * 3 + 2 + 1 + 3 + 1);
 }
 
 /* 80 samples in blocks of 16, the second and fourth of which are odd: 32 against 48. */
@@ -468,6 +468,29 @@ TEST(contrast_is_the_ratio_of_mean_luminances_with_the_reflection)
     assert_close(at(&frame, "display.theta", 0), degrees_from_radians(0.5), 1e-5);
     assert_close(at(&frame, "display.phi", 0), degrees_from_radians(1), 1e-5);
     assert_true(at(&frame, "id.display", 0) == 1);
+}
+
+TEST(fine_emission_is_a_mean_over_the_samples_that_saw_a_display)
+{
+    Arena      arena = test_arena(state);
+    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_DISPLAY_FINE, &arena);
+    FilmSample on = display_sample(0, 0.3f, 0), off = {.sample_index = 3, .display_id = -1};
+    float      rgb[3], xyz[3];
+    for (uint32_t k = 0; k < 3; k++) {
+        on.sample_index = k;
+        for (int i = 0; i < 3; i++) on.fine[i] = (float)((int)k + 10 * i);
+        film_add_sample(film, 0, 0, &on);
+    }
+    film_add_sample(film, 0, 0, &off);
+    film_add_sample(film, 1, 0, &off);
+    FrameImage frame = film_to_frame(film, 0, &arena);
+    const char *const names[] = {"display.fine.R", "display.fine.G", "display.fine.B"};
+    for (int i = 0; i < 3; i++) rgb[i] = (float)at(&frame, names[i], 0);
+    xyz_from_rgb(rgb, xyz);
+    for (int i = 0; i < 3; i++) assert_close(xyz[i], 1 + 10 * i, 1e-5);
+    assert_close(at(&frame, "display.coverage", 0), 0.75, 1e-7);
+    assert_true(at(&frame, "display.coverage", 1) == 0);
+    assert_true(isnan(at(&frame, "display.fine.G", 1)));
 }
 
 TEST(phi_is_averaged_as_a_direction)

@@ -2,6 +2,8 @@
 #include "lab_fixture.h"
 
 #include "base/units.h"
+#include "import/luminaire/ies.h"
+#include "import/luminaire/luminaire_opening.h"
 
 /* ---- EULUMDAT ---------------------------------------------------------------------------- */
 
@@ -175,7 +177,9 @@ LAB_TEST(sizes_may_be_feet_and_circles)
 {
     static const struct { const char *sizes; double area_m2; } cases[] = {
         {"2 .5 .2 0", 0.1}, {"1 1 2 0", 2 * 0.3048 * 0.3048}, {"2 -.2 -.2 0", PI * 0.01},
-        {"2 -.2 0 0", PI * 0.01}, {"2 -.4 -.2 0", PI * 0.02}, {"2 -.1 .5 .1", 0.05}};
+        {"2 -.2 0 0", PI * 0.01}, {"2 -.4 -.2 0", PI * 0.02},
+        {"2 -.1 .5 .1", PI / 4 * 0.05}, {"2 0 .5 -.1", 0.05}, {"2 -.2 -.3 -.4", PI / 4 * 0.06},
+        {"2 .1 -.5 -.3", 0.05}, {"2 .5 .2 .3", 0.1}};
     Lab *lab = *state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const ImportTable *white = import_ies(lab, arena_format(&lab->arena, IES_HEAD
@@ -204,27 +208,217 @@ LAB_TEST(the_range_of_horizontal_angles_tells_the_symmetry)
     }
 }
 
-LAB_TEST(tilts_are_passed_over_and_light_behind_is_told)
+/* A panel is not tilted: the factor at 0 counts. */
+LAB_TEST(the_factor_of_no_tilt_counts_and_light_behind_is_told)
 {
     Lab *lab = *state;
     const ImportTable *white = import_ies(lab,
-        "IESNA91\nTILT=INCLUDE\n1\n3\n0 45 90\n1 .9\n.8\n1 1000 1 3 1 1 2 1 1 0\n1 1 9\n"
-        "0 90 180\n0\n100\n100 100\n");
+        "IESNA91\nTILT=INCLUDE\n1\n3\n0 45 90\n.5 .9\n.8\n1 1000 1 3 1 1 2 1 1 0\n1 1 9\n"
+        "0 90 180\n0\n200\n200 200\n");
     assert_int_equal(white->rows, 36);
-    assert_true(lab_noted(lab, "tilt factors are not applied"));
+    assert_close(white->value[1], 100, 1e-6);
+    assert_true(lab_noted(lab, "is not tilted: of its tilt factors 0.5 is applied"));
     assert_true(lab_noted(lab, "50% of the flux goes beyond 90 degrees"));
     /* A sphere of 100 cd: 400 pi lm. */
     assert_true(lab_noted(lab, "1256.64 lm in all directions, the file states 1000 lm"));
+    static const char text[] = "IESNA91\nTILT= a.tlt\n1 -1 1 4 1 1 2 1 1 0\n1 1 9\n" GAMMAS
+                               "0\n" PLANE_1;
+    import_ies(lab, text);
+    assert_true(lab_noted(lab, "its tilt factors are not there: no file"));
+    lab_write(lab, "a.tlt", "2\n2\n0 90\n.25 1\n");
+    lab->count--; /* beside the luminaire, not to be imported itself */
+    assert_close(lab_value(import_ies(lab, text), 0, 0, 1), 25, 1e-6);
+    lab_write(lab, "a.tlt", "2\n2\n0 90\n.25\n");
+    lab->count--;
+    lab_refused(lab, "a.tlt: line 5: the file ends before a tilt factor");
+}
+
+LAB_TEST(what_is_tilted_is_the_lamp)
+{
+    static double angle[3] = {0, 60, 90}, factor[3] = {1, 0.7, 0.4};
+    static const struct { int geometry; WebType type; Vec3 down; double tilted, factor; }
+    cases[] = {{1, WEB_C, {0, 0, -1}, 0, 1}, {1, WEB_C, {0.5f, 0, -0.8660254f}, 30, 0.85},
+               {1, WEB_C, {0, 0.8660254f, -0.5f}, 60, 0.7}, {1, WEB_C, {0, 0, 1}, 0, 1},
+               {1, WEB_B, {0.8660254f, 0, 0.5f}, 60, 0.7}, {2, WEB_C, {0, 0, -1}, 0, 1},
+               {2, WEB_C, {0, 1, 0}, 0, 1}, {2, WEB_C, {1, 0, 0}, 90, 0.4},
+               {2, WEB_C, {-0.5f, 0, -0.8660254f}, 30, 0.85}, {3, WEB_C, {1, 0, 0}, 0, 1},
+               {3, WEB_C, {0, 0.5f, -0.8660254f}, 30, 0.85}, {1, WEB_A, {-1, 0, 0}, 0, 1},
+               {2, WEB_A, {0, 0, -1}, 90, 0.4}, {0, WEB_C, {0, 1, 0}, 0, 1}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        LuminaireTilt tilt = {NULL, cases[i].geometry, 3, angle, factor};
+        double tilted;
+        assert_near(luminaire_tilt_factor(&tilt, cases[i].type, cases[i].down, &tilted),
+                    cases[i].factor, 1e-5);
+        assert_near(tilted, cases[i].tilted, 1e-3);
+    }
+    LuminaireTilt whole = {NULL, 1, 2, (double[]){0, 180}, (double[]){1, 0}};
+    double tilted;
+    assert_near(luminaire_tilt_factor(&whole, WEB_C, vec3(0, 0, 1), &tilted), 0, 1e-6);
+}
+
+/* ---- types A and B ----------------------------------------------------------------------- */
+
+/* cd towards d; with sides == 0 alike for both signs of d.y. */
+static double tipped_cd(Vec3 d, double sides)
+{
+    double x = (double)d.x, y = (double)d.y, z = (double)d.z;
+    return -z * (100 + 40 * x + 20 * x * z + 30 * y * y) - z * sides * 25 * y;
+}
+
+/* LM-63's angles as directions of the luminaire's frame. */
+static Vec3 direction_of(WebType type, double v, double h)
+{
+    v = radians_from_degrees(v);
+    h = radians_from_degrees(h);
+    if (type == WEB_C) /* v: gamma, h: C */
+        return vec3((float)(sin(v) * cos(h)), (float)(sin(v) * sin(h)), -(float)cos(v));
+    if (type == WEB_B)
+        return vec3((float)(cos(h) * sin(v)), -(float)sin(h), -(float)(cos(h) * cos(v)));
+    return vec3((float)sin(v), -(float)(cos(v) * sin(h)), -(float)(cos(v) * cos(h)));
+}
+
+typedef struct Tipped {
+    WebType type;
+    double  h_first, sides;
+} Tipped;
+
+static char *tipped_text(Arena *arena, const Tipped *t)
+{
+    double step = 3, v_first = t->type == WEB_C ? 0 : -90, h_last = t->type == WEB_C ? 360 : 90;
+    int    v_count = (int)((90 - v_first) / step) + 1;
+    int    h_count = (int)((h_last - t->h_first) / step) + 1;
+    char  *text = ARENA_NEW(arena, char, 1 << 18);
+    size_t at = (size_t)sprintf(text, "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 %d %d %d 2 %s\n"
+                                "1 1 9\n", v_count, h_count, (int)t->type + 1,
+                                t->type == WEB_A ? ".1 0 .1" : ".1 .1 0");
+    for (int i = 0; i < v_count; i++)
+        at += (size_t)sprintf(text + at, "%g ", v_first + i * step);
+    for (int i = 0; i < h_count; i++)
+        at += (size_t)sprintf(text + at, "%g ", t->h_first + i * step);
+    for (int i = 0; i < h_count; i++)
+        for (int k = 0; k < v_count; k++) {
+            Vec3 d = direction_of(t->type, v_first + k * step, t->h_first + i * step);
+            double cd = fmax(tipped_cd(d, t->sides), 0);
+            at += (size_t)sprintf(text + at, "%.7g%s", cd, k % 10 == 9 ? "\n" : " ");
+        }
+    return text;
+}
+
+static IntensityWeb tipped_web(Lab *lab, const Tipped *t)
+{
+    Error        err = {0};
+    IntensityWeb web;
+    Luminaire    luminaire;
+    char        *text = tipped_text(&lab->arena, t);
+    FileBytes    bytes = {(const unsigned char *)text, strlen(text)};
+    lab->set = import_set(&lab->arena);
+    if (!ies_read_luminaire("lamp.ies", &bytes, &lab->set, &luminaire, &err) ||
+        !luminaire_web(&luminaire, &lab->arena, &web, &err))
+        fail_msg("%s", err.text);
+    return web;
+}
+
+/* One function of the direction written in types A, B and C: bilinear of 3 degrees is within
+ * step^2 / 8 of its second derivatives. Flux: pi times 100 + 30 / 4 of the even part. */
+LAB_TEST(types_a_b_and_c_of_one_lamp_are_one_lamp)
+{
+    static const Tipped cases[] = {{WEB_C, 0, 1}, {WEB_B, -90, 1}, {WEB_A, -90, 1},
+                                   {WEB_C, 0, 0}, {WEB_B, 0, 0},   {WEB_A, 0, 0}};
+    Lab *lab = *state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        IntensityWeb web = tipped_web(lab, &cases[i]);
+        assert_true(web.type == cases[i].type);
+        for (int k = 0; k < 4000; k++) {
+            double z = 2 * ((k + 0.5) / 4000) - 1, phi = 2.399963 * k, r = sqrt(1 - z * z);
+            Vec3   d = vec3((float)(r * cos(phi)), (float)(r * sin(phi)), (float)z);
+            double wanted = z < 0 ? fmax(tipped_cd(d, cases[i].sides), 0) : 0;
+            double found = (double)(intensity_web_at(&web, d) * web.largest_cd);
+            if (fabs(z) > 0.003) assert_near(found, wanted, 0.35);
+        }
+        assert_close(web.flux_lm, PI * (100 + 30 / 4.0), 3e-3);
+        Vec3 best = web.brightest;
+        assert_near(web.largest_cd, tipped_cd(best, cases[i].sides), 1e-3);
+    }
+}
+
+/* As the viewer sees them V runs up, H to the left, and nothing is resampled. */
+LAB_TEST(types_a_and_b_are_panels_at_their_own_directions)
+{
+    Lab *lab = *state;
+    for (int type = WEB_B; type <= WEB_A; type++) {
+        Tipped t = {(WebType)type, -90, 1};
+        const ImportTable *white = import_ies(lab, tipped_text(&lab->arena, &t));
+        assert_true(lab_noted(lab, type == WEB_A ? "type A: the viewer sees V run up"
+                                                 : "type B: the viewer sees V run up"));
+        assert_close(lab_value(white, 30, 90, 1),
+                     tipped_cd(vec3(0.5f, 0, -0.8660254f), 1) / (0.01 * 0.8660254), 1e-5);
+        assert_close(lab_value(white, 60, 180, 1),
+                     tipped_cd(vec3(0, -0.8660254f, -0.5f), 1) / (0.01 * 0.5), 1e-5);
+    }
+}
+
+/* ---- openings ---------------------------------------------------------------------------- */
+
+LAB_TEST(sizes_tell_the_shape)
+{
+    static const struct { int year; WebType type; double size[3]; OpeningShape shape;
+                          int axis; double x, y, z; } cases[] = {
+        {2002, WEB_C, {0, 0, 0}, OPENING_POINT, 2, 0, 0, 0},
+        {2002, WEB_C, {2, 3, 0}, OPENING_BOX, 2, 3, 2, 0},
+        {2002, WEB_C, {2, 3, 4}, OPENING_BOX, 2, 3, 2, 4},
+        {2002, WEB_C, {-2, -2, 0}, OPENING_CYLINDER, 2, 2, 2, 0},
+        {2002, WEB_C, {-2, -3, 0}, OPENING_CYLINDER, 2, 3, 2, 0},
+        {2002, WEB_C, {-2, -2, 4}, OPENING_CYLINDER, 2, 2, 2, 4},
+        {2002, WEB_C, {-2, -2, -2}, OPENING_ELLIPSOID, 2, 2, 2, 2},
+        {2002, WEB_C, {-2, 3, -4}, OPENING_CYLINDER, 0, 3, 2, 4},
+        {2002, WEB_C, {2, -3, -4}, OPENING_CYLINDER, 1, 3, 2, 4},
+        {2002, WEB_C, {-2, 0, -4}, OPENING_CYLINDER, 0, 0, 2, 4},
+        {1995, WEB_C, {-2, 0, 0}, OPENING_CYLINDER, 2, 2, 2, 0},
+        {1995, WEB_C, {-2, 0, -2}, OPENING_ELLIPSOID, 2, 2, 2, 2},
+        {1995, WEB_C, {-2, 0, 4}, OPENING_CYLINDER, 2, 2, 2, 4},
+        {1995, WEB_C, {0, 3, -2}, OPENING_CYLINDER, 0, 3, 2, 2},
+        {1995, WEB_C, {3, 0, -2}, OPENING_CYLINDER, 1, 2, 3, 2},
+        {1995, WEB_C, {-2, 3, 0}, OPENING_CYLINDER, 2, 3, 2, 0},
+        {1995, WEB_C, {2, -3, -4}, OPENING_ELLIPSOID, 2, 3, 2, 4},
+        {2002, WEB_A, {-2, 0, -2}, OPENING_CYLINDER, 2, 2, 2, 0},
+        {2002, WEB_A, {2, 0, 4}, OPENING_BOX, 2, 4, 2, 0},
+        {2002, WEB_A, {2, 3, 4}, OPENING_BOX, 2, 4, 2, 3}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        LuminousOpening o;
+        assert_null(opening_of_ies(cases[i].year, cases[i].type, cases[i].size, &o));
+        assert_int_equal(o.shape, cases[i].shape);
+        if (o.shape == OPENING_POINT) continue;
+        if (o.is_flat || o.shape == OPENING_CYLINDER) assert_int_equal(o.axis, cases[i].axis);
+        assert_near(2 * o.half[0], cases[i].x, 1e-6);
+        assert_near(2 * o.half[1], cases[i].y, 1e-6);
+        assert_near(2 * o.half[2], cases[i].z, 1e-6);
+        assert_true(o.is_flat == (o.half[0] * o.half[1] * o.half[2] == 0));
+    }
+    LuminousOpening o;
+    assert_non_null(opening_of_ies(2002, WEB_C, (double[]){2, 3, -4}, &o));
+    assert_int_equal(o.shape, OPENING_POINT);
+    assert_non_null(opening_of_ies(2002, WEB_A, (double[]){2, 3, 0}, &o));
+    o = opening_of_eulumdat(3, 2, 1);
+    assert_true(o.shape == OPENING_BOX && o.half[0] == 1 && o.half[1] == 1.5f);
+    o = opening_of_eulumdat(3, 0, 0);
+    assert_true(o.shape == OPENING_CYLINDER && o.is_flat && o.half[0] == 1.5f);
 }
 
 LAB_TEST(ies_is_refused_with_its_line)
 {
     static const struct { const char *text, *message;
     } cases[] = {{"IESNA91\n1 1 1\n", "lamp.ies: has no line TILT="},
-                 {IES_HEAD "1 -1 1 4 1 2 2 1 1 0\n1 1 9\n", "lamp.ies: line 6: is photometry "
-                                                            "of type B (2), wanted type C (1)"},
-                 {IES_HEAD "1 -1 1 4 1 3 2 1 1 0\n1 1 9\n", "lamp.ies: line 6: is photometry "
-                                                            "of type A (3), wanted type C (1)"},
+                 {IES_HEAD "1 -1 1 4 1 2 2 1 1 0\n1 1 9\n" GAMMAS "0\n" PLANE_1,
+                  "lamp.ies: line 8: photometry of types A and B has one horizontal angle, "
+                  "wanted 0 to 90 or -90 to 90 degrees"},
+                 {IES_HEAD "1 -1 1 4 2 3 2 1 1 0\n1 1 9\n" GAMMAS "0 90\n" PLANE_1 PLANE_1,
+                  "lamp.ies: line 8: vertical angles of types A and B go from 0 to 90: nothing "
+                  "says whether the half below is dark or the same, wanted -90 to 90 degrees"},
+                 {IES_HEAD "1 -1 1 3 2 3 2 1 1 0\n1 1 9\n-90 0 90\n30 90\n1 1 1 1 1 1\n",
+                  "lamp.ies: line 8: horizontal angles of types A and B go from 30 to 90, "
+                  "wanted 0 to 90 or -90 to 90 degrees"},
                  {IES_HEAD "1 -1 1 4 1 1 2 0 0 0\n1 1 9\n" GAMMAS "0\n" PLANE_1,
                   "lamp.ies: states no luminous area, which luminance needs — give it with "
                   "--area-mm W,H"},

@@ -424,6 +424,43 @@ TEST(many_lights_are_chosen_without_bias)
         expected);
 }
 
+/* Discs close to the point with beams so narrow that the middle of most sends nothing there:
+ * together they give what each gives alone, chosen among few and among many. */
+TEST(lamps_with_openings_are_chosen_without_bias)
+{
+    static const float c[2] = {0, 6.2831853f}, gamma[3] = {0, 0.4f, 0.6f};
+    static const float relative[6] = {1, 1, 0, 1, 1, 0};
+    static const IntensityWeb web = {WEB_C, 1, 3, c, gamma, relative, 1, 1, {0, 0, -1}};
+    for (int count = 3; count <= 12; count += 9) {
+        Arena arena = test_arena(state);
+        Scene *scene = builder_scene(&arena);
+        double expected = 0;
+        for (int i = 0; i < count; i++) {
+            PunctualLight lamp = {.kind = LIGHT_LUMINAIRE, .web = &web,
+                                  .position = {0.5f * (float)(i % 4) - 0.6f, 1.0f, 0.3f},
+                                  .axis_x = {1, 0, 0}, .axis_y = {0, 0, -1},
+                                  .axis_z = {0, 1, 0},
+                                  .opening = {OPENING_CYLINDER, 2, true, {0.3f, 0.3f, 0}}};
+            for (int k = 0; k < 3; k++) lamp.intensity[k] = 100 + 50 * (float)i;
+            scene->lights[0] = lamp;
+            scene->light_count = 1;
+            Mean alone = illuminance(build(scene, &arena), LIGHTS_PUNCTUAL, vec3(0, 0, 0),
+                                     vec3(0, 1, 0));
+            expected += alone.sum / (double)alone.count;
+        }
+        for (int i = 0; i < count; i++) {
+            scene->lights[i] = scene->lights[0];
+            scene->lights[i].position.x = 0.5f * (float)(i % 4) - 0.6f;
+            for (int k = 0; k < 3; k++)
+                scene->lights[i].intensity[k] = 100 + 50 * (float)i;
+        }
+        scene->light_count = count;
+        assert_mean("lamps with openings",
+                    illuminance(build(scene, &arena), LIGHTS_PUNCTUAL, vec3(0, 0, 0),
+                                vec3(0, 1, 0)), expected);
+    }
+}
+
 /* A square of half side a at height h over the point: E = L * 4 * (corner factor). */
 TEST(an_area_light_gives_its_configuration_factor)
 {

@@ -167,6 +167,32 @@ TEST(a_placed_sun_knows_no_moon)
     assert_close(sky->metrics.global_horizontal_lx, sky->metrics.night.background_lx, 1e-3);
 }
 
+/* In the deepest night the sun's light is not even sought: where that begins there is less than
+ * a thousandth of the background's left, also in the glow that an airliner sees at the edge. */
+TEST(the_deep_night_begins_where_nothing_is_left)
+{
+    Arena         arena = test_arena(state);
+    DaylightInput input = daylight_input_default(DAYLIGHT_CLEAR);
+    input.has_sun = true;
+    input.threads = 2;
+    input.where.altitude_m = 11000;
+    input.sun_elevation = radians_from_degrees(-40);
+    double limit = built(&input, &arena)->horizon - radians_from_degrees(27);
+    for (int is_dark = 0; is_dark <= 1; is_dark++) {
+        input.sun_elevation = limit + (is_dark ? -1e-6 : 1e-6);
+        const Daylight *sky = built(&input, &arena);
+        double most = 0;
+        for (float e = -1.5f; e < 1.5f; e += 0.01f)
+            for (float azimuth = 0; azimuth < 3.2f; azimuth += 0.2f) {
+                Spectrum light = atmosphere_radiance(&sky->sunlight.atmosphere, e, azimuth);
+                most = fmax(most, lit_air_luminance(&sky->sunlight, light) /
+                                      (double)night_luminance(sky->night, e, azimuth));
+            }
+        if (is_dark) assert_true(most <= 0);
+        else assert_in(most, 1e-9, 1e-3);
+    }
+}
+
 /* By day nothing of the night is looked up, so that no bit of a frame depends on it. */
 TEST(the_day_has_no_night)
 {

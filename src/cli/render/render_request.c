@@ -38,7 +38,8 @@ static const struct {
     {"display.emitted", LAYER_DISPLAY_EMITTED}, {"display.reflected", LAYER_DISPLAY_REFLECTED},
     {"display.white", LAYER_DISPLAY_WHITE}, {"display.black", LAYER_DISPLAY_BLACK},
     {"display.theta", LAYER_DISPLAY_ANGLES}, {"display.phi", LAYER_DISPLAY_ANGLES},
-    {"display.contrast", LAYER_DISPLAY_CONTRAST},
+    {"display.contrast", LAYER_DISPLAY_CONTRAST}, {"display.fine", LAYER_DISPLAY_FINE},
+    {"display.coverage", LAYER_DISPLAY_FINE},
 };
 
 #define LAYER_NAME_COUNT COUNT_OF(layer_names)

@@ -8,6 +8,7 @@
 
 #include "base/file.h"
 #include "base/units.h"
+#include "import/luminaire/luminaire_opening.h"
 #include "import/luminaire/luminaire_scan.h"
 
 static bool next_line(LuminaireScan *in, const char *what, TextLine *out)
@@ -41,10 +42,26 @@ static bool skip_lines(LuminaireScan *in, const char *what, int count)
     return true;
 }
 
+/* Of C0, C90, C180, C270; a line without a number is 0. */
+static bool read_heights(LuminaireScan *in, double *largest)
+{
+    for (int i = 0; i < 4; i++) {
+        TextLine line;
+        char     digits[40] = {0};
+        if (!next_line(in, "the heights of the luminous area", &line)) return false;
+        for (int k = 0; k < line.length && k < 39; k++)
+            digits[k] = line.text[k] == ',' ? '.' : line.text[k];
+        double height = strtod(digits, NULL);
+        if (height > *largest && height <= 1e6) *largest = height;
+    }
+    return true;
+}
+
 typedef struct EulumdatHead {
     int    symmetry, planes, gammas, lamp_sets;
     double length_mm, width_mm; /* luminous area; width 0: a circle */
-    double output_ratio, factor, flux_lm, cct_k;
+    double height_mm;           /* the largest of the four planes' */
+    double output_ratio, factor, flux_lm;
     bool   is_absolute;
 } EulumdatHead;
 
@@ -68,7 +85,7 @@ static bool read_head(LuminaireScan *in, EulumdatHead *head, const char **name)
         skip_lines(in, "the luminaire's sizes", 6) &&
         next_number(in, "the length of the luminous area", 0, 1e6, &head->length_mm) &&
         next_number(in, "the width of the luminous area", 0, 1e6, &head->width_mm) &&
-        skip_lines(in, "the heights of the luminous area", 4) &&
+        read_heights(in, &head->height_mm) &&
         next_number(in, "the downward flux fraction", -1, 1000, &ignored) &&
         next_number(in, "the light output ratio", 0, 1000, &head->output_ratio) &&
         next_number(in, "the conversion factor", 0, 1e6, &head->factor) &&
@@ -78,21 +95,28 @@ static bool read_head(LuminaireScan *in, EulumdatHead *head, const char **name)
     return ok;
 }
 
+static void find_cct(const LuminaireScan *in, TextLine line, CctSource source, Luminaire *out)
+{
+    luminaire_scan_cct(arena_string(in->arena, line.text, (size_t)line.length), source, out);
+}
+
 /* Six lines a set: number of lamps (negative: absolute photometry), type, flux, colour,
  * rendering, watts. Sets are alternatives; intensities are per 1000 lm of the first. */
-static bool read_lamps(LuminaireScan *in, EulumdatHead *head)
+static bool read_lamps(LuminaireScan *in, EulumdatHead *head, Luminaire *out)
 {
+    out->cct_text = "";
     for (int i = 0; i < head->lamp_sets; i++) {
         int      lamps;
         double   flux;
-        TextLine color;
+        TextLine type, color;
         if (!luminaire_scan_count(in, "the number of lamps", -1000000, 1000000, &lamps) ||
-            !skip_lines(in, "the lamp's type", 1) ||
+            !next_line(in, "the lamp's type", &type) ||
             !next_number(in, "the lamps' flux", 0, 1e9, &flux) ||
             !next_line(in, "the lamp's colour", &color) ||
             !skip_lines(in, "the lamp's data", 2))
             return false;
-        if (!i) head->cct_k = luminaire_scan_cct(color.text, color.length);
+        if (!i) find_cct(in, color, CCT_OF_COLOUR, out);
+        if (!i) find_cct(in, type, CCT_OF_LAMP, out);
         if (!i) head->flux_lm = flux;
         if (!i) head->is_absolute = lamps < 0;
     }
@@ -124,13 +148,14 @@ static bool stored_planes(LuminaireScan *in, const EulumdatHead *head, int *firs
 
 static bool read_planes(LuminaireScan *in, const EulumdatHead *head, Luminaire *out)
 {
+    static const double to_180[2] = {0, 180}, to_360[2] = {0, 360};
     double *c = ARENA_NEW(in->arena, double, head->planes + 1);
     int     first;
     out->gammas = head->gammas;
     out->gamma_deg = ARENA_NEW(in->arena, double, head->gammas);
     if (!stored_planes(in, head, &first, &out->planes, out) ||
-        !luminaire_scan_angles(in, "the C-plane", head->planes, 360, c) ||
-        !luminaire_scan_angles(in, "the angle", head->gammas, 180, out->gamma_deg))
+        !luminaire_scan_angles(in, "the C-plane", head->planes, to_360, c) ||
+        !luminaire_scan_angles(in, "the angle", head->gammas, to_180, out->gamma_deg))
         return false;
     out->c_deg = ARENA_NEW(in->arena, double, out->planes);
     for (int i = 0; i < out->planes; i++) out->c_deg[i] = c[(first + i) % head->planes];
@@ -145,13 +170,13 @@ bool eulumdat_read_luminaire(const char *file, const FileBytes *bytes, ImportSet
     EulumdatHead  head = {0};
     Luminaire     luminaire = {.file = file};
     if (!luminaire_scan_open(file, bytes, next_number, set, &in, err) ||
-        !read_head(&in, &head, &luminaire.name) || !read_lamps(&in, &head) ||
+        !read_head(&in, &head, &luminaire.name) || !read_lamps(&in, &head, &luminaire) ||
         !skip_lines(&in, "the direct ratios", 10) || !read_planes(&in, &head, &luminaire))
         return false;
-    double length = head.length_mm * 1e-3, width = head.width_mm * 1e-3;
-    luminaire.area_m2 = width > 0 ? length * width : PI / 4 * length * length;
+    luminaire.opening = opening_of_eulumdat(head.length_mm * 1e-3, head.width_mm * 1e-3,
+                                            head.height_mm * 1e-3);
+    luminaire.area_m2 = (double)opening_area(&luminaire.opening, vec3(0, 0, -1));
     luminaire.stated_lm = head.flux_lm * (head.is_absolute ? 1 : head.output_ratio / 100);
-    luminaire.cct_k = head.cct_k;
     luminaire.stated_as =
         head.is_absolute ? "absolute" : "lamps' flux times light output ratio";
     if (head.lamp_sets > 1)

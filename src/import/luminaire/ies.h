@@ -10,3 +10,7 @@
  * assumed or left out go to the set. */
 bool ies_read_luminaire(const char *file, const FileBytes *bytes, ImportSet *set,
                         Luminaire *out, Error *err);
+
+/* The tilt factors of a file that TILT= names. On failure *out is left as it was. */
+bool ies_read_tilt(const char *file, const FileBytes *bytes, ImportSet *set,
+                   LuminaireTilt *out, Error *err);

@@ -41,10 +41,15 @@ static void sort_planes(Plane *plane, int count)
         }
 }
 
-/* The stored planes and their mirror images, each azimuth once. */
+/* The stored planes and their mirror images, each azimuth once. Types A and B have them all,
+ * and do not go around. */
 static int expand_planes(const Luminaire *in, Plane *plane)
 {
     int count = 0;
+    if (in->type != WEB_C) {
+        for (; count < in->planes; count++) plane[count] = (Plane){in->c_deg[count], count};
+        return count;
+    }
     if (in->is_round) {
         for (int i = 0; i < ROUND_PLANES; i++)
             plane[count++] = (Plane){i * 360.0 / ROUND_PLANES, 0};
@@ -92,13 +97,16 @@ static double plane_flux(const Luminaire *in, int plane, double limit_deg)
     return sum;
 }
 
-/* Each plane stands for half the way to its neighbours. */
+/* Each plane stands for half the way to its neighbours. In types A and B gamma is the latitude
+ * plus 90: the same integral, and nothing but `front`, +-90 of longitude, is there. */
 static double total_flux(const Luminaire *in, const Plane *plane, int count, double limit_deg)
 {
-    double sum = 0;
+    double sum = 0, turn = in->type == WEB_C ? 360 : 0;
+    if (in->type != WEB_C) limit_deg = 180;
     for (int i = 0; i < count; i++) {
-        double before = i ? plane[i - 1].c_deg : plane[count - 1].c_deg - 360;
-        double after = i + 1 < count ? plane[i + 1].c_deg : plane[0].c_deg + 360;
+        int    last = turn > 0 ? count - 1 : 0, first = turn > 0 ? 0 : count - 1;
+        double before = i ? plane[i - 1].c_deg : plane[last].c_deg - turn;
+        double after = i + 1 < count ? plane[i + 1].c_deg : plane[first].c_deg + turn;
         double width = count > 1 ? radians_from_degrees((after - before) / 2) : 2 * PI;
         sum += width * plane_flux(in, plane[i].source, limit_deg);
     }
@@ -147,17 +155,57 @@ static double phi_of(const ImportOptions *options, double c_deg)
     return turned(zero + sense * c_deg);
 }
 
+/* Unit direction of a grid point, luminaire's frame. */
+static Vec3 direction_at(WebType type, double c, double gamma)
+{
+    Vec3 d = vec3((float)(sin_d(gamma) * cos_d(c)), (float)(sin_d(gamma) * sin_d(c)),
+                  -(float)cos_d(gamma));
+    return luminaire_from_web(type, d);
+}
+
+/* Where a grid point lies as the viewer sees it, degrees. */
+static void view_angles(const Luminaire *in, const ImportOptions *options, double c_deg,
+                        double gamma_deg, double *theta_deg, double *phi_deg)
+{
+    *theta_deg = gamma_deg;
+    *phi_deg = phi_of(options, c_deg);
+    if (in->type == WEB_C) return;
+    Vec3 d = direction_at(in->type, radians_from_degrees(c_deg),
+                          radians_from_degrees(gamma_deg));
+    double right = (double)d.y, up = (double)d.x, across = sqrt(right * right + up * up);
+    *theta_deg = degrees_from_radians(atan2_d(across, -(double)d.z));
+    *phi_deg = phi_of(options, across > 0 ? -degrees_from_radians(atan2_d(up, right)) : 0);
+}
+
 static void fill(const Luminaire *in, const Plane *plane, int count,
                  const ImportOptions *options, double area_m2, ImportRows *rows)
 {
     for (int i = 0; i < count; i++)
         for (int k = 0; k < in->gammas; k++) {
-            double gamma = in->gamma_deg[k], cosine = cos_d(radians_from_degrees(gamma));
-            if (gamma > 90 - 1e-6) break; /* a flat face has no luminance at its horizon */
+            double theta, phi;
+            view_angles(in, options, plane[i].c_deg, in->gamma_deg[k], &theta, &phi);
+            if (theta > 90 - 1e-6) continue; /* a flat face has no luminance at its horizon */
             size_t at = (size_t)plane[i].source * (size_t)in->gammas + (size_t)k;
+            double cosine = cos_d(radians_from_degrees(theta));
             double luminance = in->intensity_cd[at] / (area_m2 * cosine);
-            import_rows_put(rows, gamma, phi_of(options, plane[i].c_deg), &luminance);
+            import_rows_put(rows, theta, phi, &luminance);
         }
+}
+
+static void note_azimuths(const Luminaire *in, const ImportOptions *options, double area_m2,
+                          ImportSet *set)
+{
+    const char *sense =
+        phi_of(options, 90) == turned(phi_of(options, 0) + 90) ? "counter-clockwise"
+                                                                : "clockwise";
+    if (in->type == WEB_C)
+        import_note(set, "%s: luminance is intensity over %.6g mm2 times the cosine; C-planes "
+                    "run %s as the viewer sees them", path_name(in->file), area_m2 * 1e6,
+                    sense);
+    else
+        import_note(set, "%s: luminance is intensity over %.6g mm2 times the cosine; type %s: "
+                    "the viewer sees V run up and H to the left", path_name(in->file),
+                    area_m2 * 1e6, in->type == WEB_A ? "A" : "B");
 }
 
 bool luminaire_add(const Luminaire *in, const ImportOptions *options, ImportSet *set,
@@ -178,35 +226,29 @@ bool luminaire_add(const Luminaire *in, const ImportOptions *options, ImportSet 
     ImportRows  rows = import_rows(arena, (int)most, 0, 1);
     fill(in, plane, count, options, area_m2, &rows);
     import_rows_give_measured(&rows, &table);
-    import_note(set,
-                "%s: luminance is intensity over %.6g mm2 times the cosine; C-planes run %s as "
-                "the viewer sees them",
-                path_name(in->file), area_m2 * 1e6,
-                phi_of(options, 90) == turned(phi_of(options, 0) + 90) ? "counter-clockwise"
-                                                                       : "clockwise");
+    note_azimuths(in, options, area_m2, set);
     if (in->name && !set->panel) set->panel = in->name;
     return import_add(set, &table, err);
 }
 
 /* ---- all directions ---------------------------------------------------------------------- */
 
-/* Row i of the web is a plane of the file; the row behind the last closes the turn. */
+/* Row i is a plane of the file; in type C the row behind the last closes the turn. */
 static void fill_web(const Luminaire *in, const Plane *plane, float *c, float *relative,
                      IntensityWeb *web)
 {
+    bool closes = in->type == WEB_C;
     for (int i = 0; i <= web->planes; i++) {
-        const Plane  *at = &plane[i % web->planes];
+        const Plane  *at = &plane[closes ? i % web->planes : i];
         const double *row = in->intensity_cd + (size_t)at->source * (size_t)in->gammas;
-        c[i] = (float)(radians_from_degrees(at->c_deg) + (i == web->planes ? 2 * PI : 0));
+        double turns = closes && i == web->planes ? 2 * PI : 0;
+        c[i] = (float)(radians_from_degrees(at->c_deg) + turns);
         for (int k = 0; k < in->gammas; k++) {
-            float cd = (float)fmax(row[k], 0), gamma = web->gamma[k];
+            float cd = (float)fmax(row[k], 0);
             relative[i * in->gammas + k] = cd;
             if (!(cd > web->largest_cd)) continue;
-            double angle = (double)gamma, azimuth = (double)c[i];
             web->largest_cd = cd;
-            web->brightest = vec3((float)(sin_d(angle) * cos_d(azimuth)),
-                                  (float)(sin_d(angle) * sin_d(azimuth)),
-                                  -(float)cos_d(angle));
+            web->brightest = direction_at(in->type, (double)c[i], (double)web->gamma[k]);
         }
     }
 }
@@ -214,7 +256,8 @@ static void fill_web(const Luminaire *in, const Plane *plane, float *c, float *r
 bool luminaire_web(const Luminaire *in, Arena *arena, IntensityWeb *out, Error *err)
 {
     Plane *plane = ARENA_NEW(arena, Plane, 4 * (size_t)in->planes + ROUND_PLANES);
-    int    count = expand_planes(in, plane), planes = in->is_round ? 1 : count;
+    int    count = expand_planes(in, plane);
+    int    planes = in->type != WEB_C ? count - 1 : in->is_round ? 1 : count;
     size_t total = (size_t)(planes + 1) * (size_t)in->gammas;
     float *gamma = ARENA_NEW(arena, float, in->gammas);
     if (total > IMPORT_ROWS_MAX)
@@ -223,7 +266,8 @@ bool luminaire_web(const Luminaire *in, Arena *arena, IntensityWeb *out, Error *
     float *c = ARENA_NEW(arena, float, planes + 1), *relative = ARENA_NEW(arena, float, total);
     for (int k = 0; k < in->gammas; k++)
         gamma[k] = (float)radians_from_degrees(in->gamma_deg[k]);
-    IntensityWeb web = {planes, in->gammas, c, gamma, relative, 0, 0, vec3(0, 0, -1)};
+    IntensityWeb web = {in->type, planes, in->gammas, c, gamma, relative, 0, 0,
+                        vec3(0, 0, -1)};
     web.flux_lm = (float)total_flux(in, plane, count, 180);
     fill_web(in, plane, c, relative, &web);
     if (!(web.largest_cd > 0))
@@ -232,4 +276,36 @@ bool luminaire_web(const Luminaire *in, Arena *arena, IntensityWeb *out, Error *
     for (size_t i = 0; i < total; i++) relative[i] /= web.largest_cd;
     *out = web;
     return true;
+}
+
+/* ---- tilted lamps ------------------------------------------------------------------------ */
+
+/* The luminaire that is not tilted has its photometric zero straight down: gamma = 0, or in
+ * type A V = -90; its photometric horizontal is C = 0, or in type A (0, 0) (LM-63-2002, 3). */
+static Vec3 lamp_axis(const LuminaireTilt *tilt, WebType type)
+{
+    if (tilt->geometry == 3) return vec3(0, 1, 0);
+    bool is_zero = tilt->geometry == 1;
+    if (type == WEB_A) return is_zero ? vec3(-1, 0, 0) : vec3(0, 0, -1);
+    return is_zero ? vec3(0, 0, -1) : vec3(1, 0, 0);
+}
+
+double luminaire_tilt_factor(const LuminaireTilt *tilt, WebType type, Vec3 down,
+                             double *angle_deg)
+{
+    *angle_deg = 0;
+    if (!tilt->geometry) return 1;
+    const double *angle = tilt->angle_deg, *factor = tilt->factor;
+    Vec3   axis = lamp_axis(tilt, type), across = vec3_cross(axis, down);
+    double along = (double)vec3_dot(axis, down), beside = (double)vec3_length(across);
+    int    last = tilt->count - 1, i = 0;
+    double tilted = degrees_from_radians(atan2_d(beside, along)); /* from the vertical */
+    if (tilt->geometry != 1) tilted = fabs(90 - tilted);
+    if (angle[last] <= 90 && tilted > 90) tilted = 180 - tilted;
+    *angle_deg = tilted;
+    if (tilted <= angle[0]) return factor[0];
+    if (tilted >= angle[last]) return factor[last];
+    while (angle[i + 1] < tilted) i++;
+    double share = (tilted - angle[i]) / (angle[i + 1] - angle[i]);
+    return factor[i] + share * (factor[i + 1] - factor[i]);
 }

@@ -2,10 +2,11 @@
 
 #include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
+#include "base/count.h"
 #include "spectrum/illuminant.h"
 
 bool luminaire_scan_open(const char *file, const FileBytes *bytes, LuminaireNumber *number,
@@ -26,11 +27,11 @@ bool luminaire_scan_count(LuminaireScan *scan, const char *what, int low, int hi
            luminaire_scan_fail(scan, "%s is %g, wanted a whole number", what, value);
 }
 
-bool luminaire_scan_angles(LuminaireScan *scan, const char *what, int count, double most,
-                           double *angle)
+bool luminaire_scan_angles(LuminaireScan *scan, const char *what, int count,
+                           const double range[2], double *angle)
 {
     for (int i = 0; i < count; i++) {
-        if (!scan->number(scan, what, 0, most, &angle[i])) return false;
+        if (!scan->number(scan, what, range[0], range[1], &angle[i])) return false;
         if (i && !(angle[i] > angle[i - 1]))
             return luminaire_scan_fail(scan, "%s %g follows %g, wanted rising angles", what,
                                        angle[i], angle[i - 1]);
@@ -49,17 +50,71 @@ bool luminaire_scan_intensities(LuminaireScan *scan, double scale, Luminaire *ou
     return true;
 }
 
-double luminaire_scan_cct(const char *text, int length)
+/* 840: Ra of the eighties, 4000 K. Codes that lamps are sold with. */
+static double kelvins_of_code(double code)
 {
-    char  words[24], *after;
-    if (length >= (int)sizeof words) return 0;
-    snprintf(words, sizeof words, "%.*s", length, text);
-    double kelvin = strtod(words, &after);
-    bool   is_plain = after != words;
-    after += strspn(after, " \t");
-    if (*after == 'K' || *after == 'k') after++;
-    after += strspn(after, " \t\r");
-    return is_plain && !*after && kelvin >= CCT_LEAST_K && kelvin <= CCT_MOST_K ? kelvin : 0;
+    static const int hundreds[] = {18, 20, 22, 25, 27, 30, 35, 40, 45, 50, 57, 60, 65, 80};
+    int whole = (int)code, rendering = whole / 100;
+    bool is_known = false;
+    for (int i = 0; i < COUNT_OF(hundreds); i++) is_known |= whole % 100 == hundreds[i];
+    return whole == code && rendering >= 6 && rendering <= 9 && is_known ? whole % 100 * 100.0
+                                                                       : 0;
+}
+
+static bool is_letter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+/* Stands there the unit of something else? Letters close behind the number are one. */
+static bool is_other_unit(const char *after, const char *word)
+{
+    static const char *const units[] = {"lm", "lumen", "lumens", "W", "watt", "h", "mA", "V"};
+    size_t length = 0;
+    while (is_letter(word[length])) length++;
+    if (*word == '%' || (length && word == after)) return true;
+    for (int i = 0; i < COUNT_OF(units); i++)
+        if (length == strlen(units[i]) && !strncasecmp(word, units[i], length)) return true;
+    return false;
+}
+
+/* Kelvins of a number with `before` in front of it and `after` behind; 0: it is none. */
+static double kelvins_of(double number, char before, const char *after, CctSource source)
+{
+    const char *word = after + strspn(after, " \t");
+    bool is_kelvin = (*word == 'K' || *word == 'k') && !is_letter(word[1]);
+    bool in_range = number >= CCT_LEAST_K && number <= CCT_MOST_K;
+    if (is_kelvin) return in_range ? number : 0;
+    if (is_letter(before) || is_other_unit(after, word)) return 0;
+    if (source == CCT_OF_LAMP) return before == '/' ? kelvins_of_code(number) : 0;
+    return in_range ? number : kelvins_of_code(number);
+}
+
+/* The one temperature that the text names; 0: none, or several. */
+static double kelvins_in(const char *text, CctSource source)
+{
+    double found = 0;
+    for (const char *at = text; *at;) {
+        if (*at < '0' || *at > '9') {
+            at++;
+            continue;
+        }
+        char  *after;
+        double number = strtod(at, &after);
+        double kelvin = kelvins_of(number, at > text ? at[-1] : ' ', after, source);
+        if (kelvin > 0 && found > 0 && kelvin != found) return 0;
+        if (kelvin > 0) found = kelvin;
+        at = after;
+    }
+    return found;
+}
+
+void luminaire_scan_cct(const char *text, CctSource source, Luminaire *out)
+{
+    if (!text || out->cct_k > 0) return;
+    out->cct_k = kelvins_in(text, source);
+    bool says_nothing = !out->cct_text[0] && source == CCT_OF_COLOUR;
+    if (out->cct_k > 0 || says_nothing) out->cct_text = text;
 }
 
 bool luminaire_scan_fail(const LuminaireScan *scan, const char *format, ...)

@@ -30,16 +30,24 @@ bool luminaire_scan_open(const char *file, const FileBytes *bytes, LuminaireNumb
 /* A whole number. */
 bool luminaire_scan_count(LuminaireScan *scan, const char *what, int low, int high, int *out);
 
-/* Rising angles from 0 to `most` degrees. */
-bool luminaire_scan_angles(LuminaireScan *scan, const char *what, int count, double most,
-                           double *angle);
+/* Rising angles, degrees, within range[0] to range[1]. */
+bool luminaire_scan_angles(LuminaireScan *scan, const char *what, int count,
+                           const double range[2], double *angle);
 
 /* planes x gammas intensities, times `scale`. */
 bool luminaire_scan_intensities(LuminaireScan *scan, double scale, Luminaire *out);
 
-/* Kelvins of a text that is a plain number of them, with or without K behind: "4000 K". 0 of
- * every other one, such as "840" or "2700-6500". */
-double luminaire_scan_cct(const char *text, int length);
+typedef enum CctSource {
+    CCT_OF_COLOUR, /* a field for the colour */
+    CCT_OF_LAMP    /* a lamp's name, in which other numbers stand as well */
+} CctSource;
+
+/* What a text (NULL: none) says of the colour temperature, while none is known: into
+ * out->cct_k, and into out->cct_text the text that did, else the first one about colour.
+ * Understood are kelvins ("4000", "4000 K"; in a lamp's name with their K) and colour codes, a
+ * digit for the colour rendering and two for hundreds of kelvins ("840"; in a lamp's name
+ * behind a slash: "LED/930"), as long as the text names one temperature only. */
+void luminaire_scan_cct(const char *text, CctSource source, Luminaire *out);
 
 /* An error at the current line. Always false. */
 bool luminaire_scan_fail(const LuminaireScan *scan, const char *format, ...)

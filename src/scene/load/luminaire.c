@@ -32,11 +32,22 @@ void luminaires_start(Loader *load)
         const char *path = draft->profile.file = o->lights[i].value;
         FileBytes bytes;
         draft->is_readable = load_read(load, path, &load->scratch, &bytes, &err) &&
-                             profile_read(load, bytes, &draft->profile, &err);
+                             profile_read(load, bytes, true, &draft->profile, &err);
         if (draft->is_readable) continue;
         if (!err.file[0]) error_in_file(&err, path);
         problems_add_error(load->problems, &err);
     }
+}
+
+/* Down is the scene's -Y. */
+static void set_tilt(PunctualLight *light, const LuminaireTilt *tilt)
+{
+    Vec3   down = vec3_neg(vec3(light->axis_x.y, light->axis_y.y, light->axis_z.y));
+    double angle_deg;
+    light->tilt_factor =
+        (float)luminaire_tilt_factor(tilt, light->web->type, down, &angle_deg);
+    light->tilt_deg = (float)angle_deg;
+    light->has_tilt = tilt->geometry != 0;
 }
 
 static PunctualLight *add_lamp(Loader *load, const char *name, const LightProfile *profile,
@@ -51,7 +62,9 @@ static PunctualLight *add_lamp(Loader *load, const char *name, const LightProfil
                            .position = world->origin,
                            .direction = vec3_normalize(vec3_neg(world->z)),
                            .web = profile->web,
+                           .opening = profile->opening,
                            .cct_k = profile->cct_k,
+                           .cct_text = profile->cct_text,
                            .level = 1,
                            .color = {1, 1, 1}};
     /* a sheared node's axes are made square again, its -Z first */
@@ -60,6 +73,7 @@ static PunctualLight *add_lamp(Loader *load, const char *name, const LightProfil
     out->axis_x = vec3_normalize(out->axis_x);
     out->axis_y = vec3_cross(out->axis_z, out->axis_x);
     if (vec3_dot(out->axis_y, world->y) < 0) out->axis_y = vec3_neg(out->axis_y);
+    set_tilt(out, &profile->tilt);
     return out;
 }
 
@@ -152,6 +166,7 @@ static void set_level(PunctualLight *light, double percent)
 static void set_cct(PunctualLight *light, double kelvin)
 {
     light->cct_k = (float)kelvin;
+    light->cct_text = NULL;
 }
 
 typedef struct LampOption {
@@ -193,7 +208,8 @@ static void apply(Loader *load, const LampOption *option, const SceneOverride *o
 static void finish_lamp(Loader *load, PunctualLight *light)
 {
     for (int c = 0; c < 3; c++)
-        light->intensity[c] = light->web->largest_cd * light->level * light->color[c];
+        light->intensity[c] = light->web->largest_cd * light->level * light->tilt_factor *
+                              light->color[c];
     if (!(light->cct_k > 0)) return;
     Curve *white = ARENA_NEW(load->arena, Curve, 1);
     cct_curve((double)light->cct_k, white);

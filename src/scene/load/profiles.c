@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "import/luminaire/ies.h"
 #include "import/luminaire/luminaire_read.h"
 #include "scene/gltf/document.h"
 #include "text/uri.h"
@@ -23,21 +24,56 @@ static bool is_shown(const GltfFile *file, int index)
     return false;
 }
 
-bool profile_read(Loader *load, FileBytes bytes, LightProfile *out, Error *err)
+/* Why the factors of TILT=FILE cannot be had; NULL: they were read. */
+static const char *read_tilt_file(Loader *load, const LightProfile *profile, bool has_folder,
+                                  Luminaire *luminaire, Error *err)
+{
+    FileBytes bytes;
+    ImportSet notes = import_set(&load->scratch);
+    const char *name = luminaire->tilt.file;
+    if (!has_folder) return "nothing stands beside a file inside a scene";
+    if (strpbrk(name, "/\\:")) return "only a file in the same folder is read";
+    const char *path = path_beside(profile->file, name, &load->scratch);
+    if (!file_exists(path)) return "there is no such file beside it";
+    luminaire->tilt.file = NULL;
+    if (load_read(load, path, &load->scratch, &bytes, err))
+        ies_read_tilt(path, &bytes, &notes, &luminaire->tilt, err);
+    return NULL;
+}
+
+static bool read_tilt(Loader *load, const LightProfile *profile, bool has_folder,
+                      Luminaire *luminaire, Error *err)
+{
+    const char *name = luminaire->tilt.file;
+    Error       fault = {0};
+    if (!name) return true;
+    const char *why = read_tilt_file(load, profile, has_folder, luminaire, &fault);
+    if (why)
+        problems_add(load->problems, SEVERITY_WARNING, profile->file, "",
+                     "its tilt factors (TILT=%.100s) are not applied: %s", name, why);
+    if (why || luminaire->tilt.geometry) return true;
+    *err = fault;
+    return false;
+}
+
+bool profile_read(Loader *load, FileBytes bytes, bool has_folder, LightProfile *out, Error *err)
 {
     Luminaire luminaire;
     ImportSet notes = import_set(&load->scratch);
     IntensityWeb *web = ARENA_NEW(load->arena, IntensityWeb, 1);
     if (!luminaire_read(out->file, bytes, &notes, &luminaire, err) ||
-        !luminaire_web(&luminaire, load->arena, web, err))
+        !luminaire_web(&luminaire, load->arena, web, err) ||
+        !read_tilt(load, out, has_folder, &luminaire, err))
         return false;
     out->web = web;
+    out->opening = luminaire.opening;
+    out->tilt = luminaire.tilt;
     out->cct_k = (float)luminaire.cct_k;
-    if (luminaire.has_tilt)
-        problems_add(load->problems, SEVERITY_WARNING, out->file, "",
-                     "its tilt factors (TILT=) are not applied: the lamp has the intensities "
-                     "of its test position however it is turned; --light-level can lower "
-                     "them");
+    out->cct_text =
+        arena_string(load->arena, luminaire.cct_text, strlen(luminaire.cct_text));
+    if (luminaire.opening_fault)
+        problems_add(load->problems, SEVERITY_WARNING, out->file, "", "%s",
+                     luminaire.opening_fault);
     return true;
 }
 
@@ -111,7 +147,10 @@ static void load_profile(GltfFile *file, const GltfValue *value, LightProfile *o
     out->name = name[0] ? arena_string(load->arena, name, strlen(name))
                         : arena_format(load->arena, "light profile %d", value->index);
     if (!profile_bytes(file, value, &bytes, &out->file)) return;
-    if (!profile_read(load, bytes, out, &err)) report_fault(file, value, out->file, &err);
+    const GltfValue *uri = tree_member(value, "uri");
+    bool has_folder = uri && !uri_is_data(uri->text);
+    if (!profile_read(load, bytes, has_folder, out, &err))
+        report_fault(file, value, out->file, &err);
 }
 
 void profiles_load(GltfFile *file)

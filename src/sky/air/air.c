@@ -98,38 +98,63 @@ void air_vertical(const AirOptics *optics, double from_m, double to_m, double co
             share_above(optics, (AirPart)p, from_m) - share_above(optics, (AirPart)p, to_m);
 }
 
-/* Spherical shells: the vertical column of each, times its slant, ds/dz = r / sqrt(r^2 - p^2)
- * with the perigee p, averaged over the shell exactly. */
-static void add_shells(const AirOptics *optics, double from_m, double perigee,
-                       double column[AIR_PARTS])
+AirShells air_shells(const AirOptics *optics, double from_m)
 {
-    double low = from_m;
+    AirShells shells = {.from_m = from_m};
+    double    low = from_m, above[AIR_PARTS];
+    for (int p = 0; p < AIR_PARTS; p++) above[p] = share_above(optics, (AirPart)p, low);
     for (int i = 1; low < optics->top_m; i++) {
-        double high = fmin(optics->top_m, from_m + 2.0 * i * i * i + 40.0 * i), part[AIR_PARTS];
-        double a = AIR_EARTH_M + low, b = AIR_EARTH_M + high;
-        double path = sqrt(fmax(0, b * b - perigee * perigee)) -
-                      sqrt(fmax(0, a * a - perigee * perigee));
-        air_vertical(optics, low, high, part);
-        for (int p = 0; p < AIR_PARTS; p++) column[p] += part[p] * path / (high - low);
+        AirShell *shell = &shells.shell[shells.count++];
+        double    high = fmin(optics->top_m, from_m + 2.0 * i * i * i + 40.0 * i);
+        shell->low_m = low;
+        shell->high_m = high;
+        for (int p = 0; p < AIR_PARTS; p++) {
+            double over = share_above(optics, (AirPart)p, high);
+            shell->column[p] = above[p] - over;
+            above[p] = over;
+        }
         low = high;
     }
+    return shells;
+}
+
+/* The vertical column of each shell, times its slant, ds/dz = r / sqrt(r^2 - p^2) with the
+ * perigee p, averaged over the shell exactly. */
+static void add_shells(const AirShells *shells, double perigee, double column[AIR_PARTS])
+{
+    for (int i = 0; i < shells->count; i++) {
+        const AirShell *shell = &shells->shell[i];
+        double a = AIR_EARTH_M + shell->low_m, b = AIR_EARTH_M + shell->high_m;
+        double path = sqrt(fmax(0, b * b - perigee * perigee)) -
+                      sqrt(fmax(0, a * a - perigee * perigee));
+        for (int p = 0; p < AIR_PARTS; p++)
+            column[p] += shell->column[p] * path / (shell->high_m - shell->low_m);
+    }
+}
+
+bool air_column_over(const AirOptics *optics, const AirShells *over, double cosine,
+                     double floor_m, double column[AIR_PARTS])
+{
+    double r = AIR_EARTH_M + over->from_m, perigee = r * sqrt(fmax(0, 1 - cosine * cosine));
+    for (int p = 0; p < AIR_PARTS; p++) column[p] = 0;
+    if (cosine >= 0) {
+        add_shells(over, perigee, column);
+        return true;
+    }
+    if (perigee < AIR_EARTH_M + floor_m) return false;
+    double    below[AIR_PARTS] = {0, 0, 0};
+    AirShells whole = air_shells(optics, perigee - AIR_EARTH_M);
+    add_shells(&whole, perigee, column);
+    add_shells(over, perigee, below); /* from here up on the far side */
+    for (int p = 0; p < AIR_PARTS; p++) column[p] = 2 * column[p] - below[p];
+    return true;
 }
 
 bool air_column(const AirOptics *optics, double altitude_m, double cosine, double floor_m,
                 double column[AIR_PARTS])
 {
-    double r = AIR_EARTH_M + altitude_m, perigee = r * sqrt(fmax(0, 1 - cosine * cosine));
-    for (int p = 0; p < AIR_PARTS; p++) column[p] = 0;
-    if (cosine >= 0) {
-        add_shells(optics, altitude_m, perigee, column);
-        return true;
-    }
-    if (perigee < AIR_EARTH_M + floor_m) return false;
-    double below[AIR_PARTS] = {0, 0, 0};
-    add_shells(optics, perigee - AIR_EARTH_M, perigee, column);
-    add_shells(optics, altitude_m, perigee, below); /* from here up on the far side */
-    for (int p = 0; p < AIR_PARTS; p++) column[p] = 2 * column[p] - below[p];
-    return true;
+    AirShells over = air_shells(optics, altitude_m);
+    return air_column_over(optics, &over, cosine, floor_m, column);
 }
 
 /* ---- scattering ------------------------------------------------------------------------- */

@@ -49,6 +49,26 @@ void air_vertical(const AirOptics *optics, double from_m, double to_m,
 bool air_column(const AirOptics *optics, double altitude_m, double cosine, double floor_m,
                 double column[AIR_PARTS]);
 
+/* The air over an altitude in spherical shells, fine at the low end, and the vertical column of
+ * each: what rays from one place share. Over the top there are none. */
+#define AIR_SHELLS_MAX 48
+
+typedef struct AirShell {
+    double low_m, high_m, column[AIR_PARTS];
+} AirShell;
+
+typedef struct AirShells {
+    double   from_m;
+    int      count;
+    AirShell shell[AIR_SHELLS_MAX];
+} AirShells;
+
+AirShells air_shells(const AirOptics *optics, double from_m);
+
+/* air_column for rays from where `over` begins. */
+bool air_column_over(const AirOptics *optics, const AirShells *over, double cosine,
+                     double floor_m, double column[AIR_PARTS]);
+
 /* Phase functions, sr^-1, of the angle's cosine. */
 float air_phase_molecules(float cosine);
 float air_phase_aerosol(float cosine);

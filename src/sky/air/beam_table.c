@@ -31,11 +31,12 @@ static void fill_columns(void *context, int item, int worker)
 {
     const BeamTable *b = context;
     double height = table_height(b, item), edge = edge_cosine(height, b->floor_m);
+    AirShells over = air_shells(&b->optics, height);
     (void)worker;
     for (int j = 0; j < COLUMN_COSINES; j++) {
         double share = j / (COLUMN_COSINES - 1.0), column[AIR_PARTS];
         double cosine = edge + (1 - edge) * share * share + 1e-9;
-        air_column(&b->optics, height, cosine, b->floor_m - 1, column);
+        air_column_over(&b->optics, &over, cosine, b->floor_m - 1, column);
         for (int p = 0; p < AIR_PARTS; p++)
             b->column[(item * COLUMN_COSINES + j) * AIR_PARTS + p] = (float)column[p];
     }
@@ -131,32 +132,24 @@ void beam_table_build_bent(const AirOptics *optics, double floor_m, int threads,
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
-/* Row below an altitude, and how far to the next. */
-static int row_at(const BeamTable *b, double altitude, float *share)
+BeamHeight beam_table_height(const BeamTable *b, double altitude)
 {
     double y = sqrt(fmax(0, altitude - b->floor_m) / (b->optics.top_m - b->floor_m)) *
                (COLUMN_HEIGHTS - 1);
-    int    i = (int)fmin(y, COLUMN_HEIGHTS - 1.001);
-    *share = (float)(y - i);
-    return i;
+    BeamHeight at = {.row = (int)fmin(y, COLUMN_HEIGHTS - 1.001)};
+    at.share = (float)(y - at.row);
+    if (!b->edge) at.edge = edge_cosine(altitude, b->floor_m);
+    else at.edge = cos_d((double)lerpf(b->edge[at.row], b->edge[at.row + 1], at.share));
+    return at;
 }
 
-static double edge_at(const BeamTable *b, double altitude)
+void beam_table_passing(const BeamTable *b, const BeamHeight *height, double cosine,
+                        Spectrum *out)
 {
-    float t;
-    if (!b->edge) return edge_cosine(altitude, b->floor_m);
-    int i = row_at(b, altitude, &t);
-    return cos_d((double)lerpf(b->edge[i], b->edge[i + 1], t));
-}
-
-static void passing_over(const BeamTable *b, double altitude, double cosine, double edge,
-                         Spectrum *out)
-{
-    float  t;
-    int    i = row_at(b, altitude, &t);
+    double edge = height->edge;
     double x = sqrt(fmax(0, fmin(1, (cosine - edge) / (1 - edge)))) * (COLUMN_COSINES - 1);
-    int    j = (int)fmin(x, COLUMN_COSINES - 1.001), at = i * COLUMN_COSINES + j;
-    float  u = (float)(x - j);
+    int    j = (int)fmin(x, COLUMN_COSINES - 1.001), at = height->row * COLUMN_COSINES + j;
+    float  t = height->share, u = (float)(x - j);
     const float *low = b->column + at * AIR_PARTS, *high = low + COLUMN_COSINES * AIR_PARTS;
     Spectrum depth = spectrum_all(0);
     for (int p = 0; p < AIR_PARTS; p++) {
@@ -171,19 +164,23 @@ static void passing_over(const BeamTable *b, double altitude, double cosine, dou
     *out = spectrum_exp(-depth);
 }
 
-void beam_table_passing(const BeamTable *b, double altitude, double cosine, Spectrum *out)
+/* The share of the disc over the edge, taken as a bar. Angles differ by more than their
+ * cosines: clear of the edge, where nearly all suns stand, these will do. */
+static double disc_seen(double edge, double cosine)
 {
-    passing_over(b, altitude, cosine, edge_at(b, altitude), out);
+    if (cosine - edge > SUN_RADIUS) return 1;
+    if (cosine - edge < -SUN_RADIUS) return 0;
+    double over = acos_d(edge) - acos_d(fmax(-1, fmin(1, cosine)));
+    return fmax(0, fmin(1, 0.5 + over / (2 * SUN_RADIUS)));
 }
 
-void beam_table_sun(const BeamTable *b, double altitude, double cosine, Spectrum *out)
+void beam_table_sun(const BeamTable *b, const BeamHeight *at, double cosine, Spectrum *out)
 {
-    double edge = edge_at(b, altitude);
-    double seen = 0.5 + (acos_d(edge) - acos_d(fmax(-1, fmin(1, cosine)))) / (2 * SUN_RADIUS);
+    double seen = disc_seen(at->edge, cosine);
     *out = spectrum_all(0);
     if (seen <= 0) return;
-    passing_over(b, altitude, cosine, edge, out);
-    *out *= spectrum_all((float)fmin(1, seen));
+    beam_table_passing(b, at, cosine, out);
+    *out *= spectrum_all((float)seen);
 }
 
 void beam_table_density(const BeamTable *b, double altitude, float density[AIR_PARTS])

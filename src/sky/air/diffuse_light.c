@@ -19,6 +19,13 @@ typedef struct PhaseModes {
     float from_sun[2][DIFFUSE_MODES][DIRECTIONS];
 } PhaseModes;
 
+/* What a layer does to light that crosses it at a slant. */
+typedef struct Crossing {
+    Spectrum pass;      /* the share of what came in */
+    Spectrum near, far; /* weights of the source where light comes in, and leaves */
+    float    path;      /* m */
+} Crossing;
+
 typedef struct Solver {
     const DiffuseInput *input;
     DiffuseLight *light;
@@ -27,6 +34,7 @@ typedef struct Solver {
     Spectrum *scattering[2]; /* per level: m^-1 */
     Spectrum *beam;          /* per level: the sun's transmittance */
     Spectrum *layer_depth;   /* per layer, vertical */
+    Crossing *crossing;      /* [layer][cosine] */
     Spectrum *radiance;      /* [level][direction][mode]: one order */
     Spectrum *total;         /* all orders */
     Spectrum *order_source;  /* [level][direction][mode] */
@@ -126,22 +134,38 @@ static void scatter_again(Solver *s)
             }
 }
 
-/* Radiance at the far side of a layer: what came in, thinned, and the source of the two ends,
- * linear in between (in optical depth). */
-static Spectrum cross_layer(const Solver *s, int layer, float cosine, Spectrum in,
-                            Spectrum near, Spectrum far)
+/* The source lies between those of a layer's two ends, linear in optical depth. */
+static void fill_crossings(Solver *s)
 {
-    const DiffuseLight *light = s->light;
-    float    path = (float)(light->level_m[layer + 1] - light->level_m[layer]) / cosine;
-    Spectrum depth = s->layer_depth[layer] * spectrum_all(1 / cosine), pass, mean, tail;
-    for (int i = 0; i < SPECTRUM_LANES; i++) {
-        float t = depth[i], e = exp_f(-t);
-        pass[i] = e;
-        /* integrals of e^-x and of e^-x x/t over [0, t], over t */
-        mean[i] = t > 0.01f ? (1 - e) / t : 1 - 0.5f * t;
-        tail[i] = t > 0.05f ? (1 - e - t * e) / (t * t) : 0.5f - t / 3 + t * t / 8;
-    }
-    return in * pass + (far * (mean - tail) + near * tail) * spectrum_all(path);
+    const double *level_m = s->light->level_m;
+    for (int k = 0; k + 1 < DIFFUSE_LEVELS; k++)
+        for (int i = 0; i < SIDE; i++) {
+            Crossing *c = &s->crossing[k * SIDE + i];
+            float     cosine = (float)phase_cosine[i];
+            Spectrum  depth = s->layer_depth[k] * spectrum_all(1 / cosine);
+            c->path = (float)(level_m[k + 1] - level_m[k]) / cosine;
+            for (int lane = 0; lane < SPECTRUM_LANES; lane++) {
+                float t = depth[lane], e = exp_f(-t);
+                /* integrals of e^-x and of e^-x x/t over [0, t], over t */
+                float mean = t > 0.01f ? (1 - e) / t : 1 - 0.5f * t;
+                float tail = t > 0.05f ? (1 - e - t * e) / (t * t) : 0.5f - t / 3 + t * t / 8;
+                c->pass[lane] = e;
+                c->near[lane] = tail;
+                c->far[lane] = mean - tail;
+            }
+        }
+}
+
+/* Radiance of all modes at the far level of a layer from that at the near one. */
+static void cross_layer(Solver *s, const Crossing *c, int direction, int near, int far)
+{
+    const Spectrum *in = s->radiance + slot(near, direction, 0);
+    const Spectrum *source[2] = {s->order_source + slot(near, direction, 0),
+                                 s->order_source + slot(far, direction, 0)};
+    Spectrum *out = s->radiance + slot(far, direction, 0);
+    for (int m = 0; m < DIFFUSE_MODES; m++)
+        out[m] = in[m] * c->pass + (source[1][m] * c->far + source[0][m] * c->near) *
+                                       spectrum_all(c->path);
 }
 
 static void reflect_on_floor(Solver *s, bool with_beam)
@@ -163,21 +187,15 @@ static void transport(Solver *s, bool with_beam)
 {
     int top = DIFFUSE_LEVELS - 1;
     for (int i = 0; i < SIDE; i++)
-        for (int m = 0; m < DIFFUSE_MODES; m++) {
-            s->radiance[slot(top, SIDE + i, m)] = spectrum_all(0);
-            for (int k = top - 1; k >= 0; k--)
-                s->radiance[slot(k, SIDE + i, m)] = cross_layer(
-                    s, k, (float)phase_cosine[i], s->radiance[slot(k + 1, SIDE + i, m)],
-                    s->order_source[slot(k + 1, SIDE + i, m)],
-                    s->order_source[slot(k, SIDE + i, m)]);
-        }
-    reflect_on_floor(s, with_beam);
-    for (int i = 0; i < SIDE; i++)
         for (int m = 0; m < DIFFUSE_MODES; m++)
-            for (int k = 0; k < top; k++)
-                s->radiance[slot(k + 1, i, m)] = cross_layer(
-                    s, k, (float)phase_cosine[i], s->radiance[slot(k, i, m)],
-                    s->order_source[slot(k, i, m)], s->order_source[slot(k + 1, i, m)]);
+            s->radiance[slot(top, SIDE + i, m)] = spectrum_all(0);
+    for (int k = top - 1; k >= 0; k--)
+        for (int i = 0; i < SIDE; i++)
+            cross_layer(s, &s->crossing[k * SIDE + i], SIDE + i, k + 1, k);
+    reflect_on_floor(s, with_beam);
+    for (int k = 0; k < top; k++)
+        for (int i = 0; i < SIDE; i++)
+            cross_layer(s, &s->crossing[k * SIDE + i], i, k, k + 1);
 }
 
 static void leave_at_top(Solver *s)
@@ -241,11 +259,13 @@ void diffuse_light_build(const DiffuseInput *input, Arena *arena, DiffuseLight *
     for (int p = 0; p < 2; p++) s.scattering[p] = spectra(&scratch, DIFFUSE_LEVELS);
     s.beam = spectra(&scratch, DIFFUSE_LEVELS);
     s.layer_depth = spectra(&scratch, DIFFUSE_LEVELS);
+    s.crossing = arena_alloc(&scratch, sizeof(Crossing), 64, (DIFFUSE_LEVELS - 1) * SIDE);
     s.radiance = spectra(&scratch, slots);
     s.total = spectra(&scratch, slots);
     s.order_source = spectra(&scratch, slots);
     fill_phase(&s);
     fill_levels(&s);
+    fill_crossings(&s);
     out->ground_direct = s.beam[0] * spectrum_all((float)fmax(0, input->sun_cosine));
     scatter_beam(&s);
     int orders = input->orders > 0 ? input->orders : ORDERS_MAX;
@@ -260,8 +280,7 @@ void diffuse_light_build(const DiffuseInput *input, Arena *arena, DiffuseLight *
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
-void diffuse_light_source(const DiffuseLight *light, double altitude_m, float cosine,
-                          float azimuth_cosine, Spectrum *out)
+DiffusePlace diffuse_light_place(const DiffuseLight *light, double altitude_m, float cosine)
 {
     double share = fmax(0, (altitude_m - light->floor_m) / (light->top_m - light->floor_m));
     double at = fmin(pow_d(share, 1 / 2.2) * (light->level_count - 1),
@@ -271,16 +290,30 @@ void diffuse_light_source(const DiffuseLight *light, double altitude_m, float co
                        (light->level_m[k + 1] - light->level_m[k]));
     float c = clampf((cosine + 1) * 0.5f * (DIFFUSE_COSINES - 1), 0, DIFFUSE_COSINES - 1.0001f);
     int    i = (int)c;
-    float  u = c - (float)i, before = azimuth_cosine, now = 1;
-    const Spectrum *low = light->source +
-                          ((size_t)k * DIFFUSE_COSINES + (size_t)i) * DIFFUSE_MODES;
+    float  u = c - (float)i;
+    return (DiffusePlace){k, i, {(1 - t) * (1 - u), (1 - t) * u, t * (1 - u), t * u}};
+}
+
+void diffuse_light_modes(const DiffuseLight *light, const DiffusePlace *at,
+                         Spectrum mode[DIFFUSE_MODES])
+{
+    const Spectrum *low = light->source + ((size_t)at->level * DIFFUSE_COSINES +
+                                           (size_t)at->cosine) * DIFFUSE_MODES;
     const Spectrum *high = low + DIFFUSE_COSINES * DIFFUSE_MODES;
+    for (int m = 0; m < DIFFUSE_MODES; m++)
+        mode[m] = low[m] * spectrum_all(at->weight[0]) +
+                  low[m + DIFFUSE_MODES] * spectrum_all(at->weight[1]) +
+                  high[m] * spectrum_all(at->weight[2]) +
+                  high[m + DIFFUSE_MODES] * spectrum_all(at->weight[3]);
+}
+
+void diffuse_light_source(const Spectrum mode[DIFFUSE_MODES], float azimuth_cosine,
+                          Spectrum *out)
+{
+    float    before = azimuth_cosine, now = 1;
     Spectrum sum = spectrum_all(0);
     for (int m = 0; m < DIFFUSE_MODES; m++) {
-        sum += (low[m] * spectrum_all((1 - t) * (1 - u)) +
-                low[m + DIFFUSE_MODES] * spectrum_all((1 - t) * u) +
-                high[m] * spectrum_all(t * (1 - u)) +
-                high[m + DIFFUSE_MODES] * spectrum_all(t * u)) * spectrum_all(now);
+        sum += mode[m] * spectrum_all(now);
         float next = 2 * azimuth_cosine * now - before; /* cos((m+1) x); cos(-x) = cos x */
         before = now;
         now = next;

@@ -45,8 +45,20 @@ void diffuse_light_build(const DiffuseInput *input, Arena *arena, DiffuseLight *
 /* Altitude of a level: close together near the floor, where the aerosol is. */
 double diffuse_level_m(const DiffuseLight *light, int level);
 
-/* Source at an altitude towards a direction of travel: its cosine to the zenith, and of its
- * azimuth from the beam's travel (1: light for an eye that looks towards the sun). By pointer,
- * because every build of the hot sources calls this one. */
-void diffuse_light_source(const DiffuseLight *light, double altitude_m, float cosine,
-                          float azimuth_cosine, Spectrum *out);
+/* A place in the tables, the same in all lights of the same levels. */
+typedef struct DiffusePlace {
+    int   level, cosine;
+    float weight[4]; /* of both cosines at the level, and at the next */
+} DiffusePlace;
+
+/* Of an altitude and a direction of travel, by its cosine to the zenith. */
+DiffusePlace diffuse_light_place(const DiffuseLight *light, double altitude_m, float cosine);
+
+/* The source there, as a series in the azimuth. */
+void diffuse_light_modes(const DiffuseLight *light, const DiffusePlace *at,
+                         Spectrum mode[DIFFUSE_MODES]);
+
+/* Its sum for the cosine of the travel's azimuth from the beam's (1: light for an eye that
+ * looks towards the sun). By pointer, because every build of the hot sources calls this one. */
+void diffuse_light_source(const Spectrum mode[DIFFUSE_MODES], float azimuth_cosine,
+                          Spectrum *out);

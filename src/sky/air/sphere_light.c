@@ -15,6 +15,13 @@
 #define ORDERS_MAX 24
 #define ORDER_SHARE 0.03f /* of all light: orders beyond are summed as a series */
 
+/* Where the sun stands at a place, in the tables of the sources. */
+typedef struct SunPlace {
+    int   angle;   /* the one below */
+    float share;   /* of the way to the next */
+    float azimuth; /* cosine of the ray's azimuth from the sun's */
+} SunPlace;
+
 typedef struct Sphere {
     const SphereInput *input;
     const DiffuseLight *shape;    /* whose levels all share */
@@ -25,6 +32,9 @@ typedef struct Sphere {
     Spectrum ground[SPHERE_ANGLES_MAX]; /* the last order's irradiance on the floor */
     Spectrum share[SPHERE_ANGLES_MAX];  /* of that in the order before */
     float    rise[SPHERE_ANGLES_MAX];   /* of the last order's source towards the next angle */
+    float    fall[SPHERE_ANGLES_MAX];   /* exp(-rise) */
+    double   sun[SPHERE_ANGLES_MAX][AZIMUTHS][2]; /* direction at a ray's start, x and z */
+    SunPlace *place;    /* [level][direction][step, then its end][angle][azimuth] */
     Spectrum *radiance; /* [level][direction][angle][mode]: one order */
     Spectrum *source;   /* [level][cosine][angle][mode]: what it scatters, m^-1 sr^-1 */
     Spectrum *total;    /* the same of all orders */
@@ -42,11 +52,6 @@ typedef struct RayPoint {
     double altitude, cosine;  /* of the ray to the local zenith */
 } RayPoint;
 
-typedef struct SunPlace {
-    double cosine;  /* of the local sun angle */
-    float  azimuth; /* cosine of the ray's azimuth from the sun's */
-} SunPlace;
-
 static size_t node(int level, int direction, int angle)
 {
     return (((size_t)level * DIRECTIONS + (size_t)direction) * SPHERE_ANGLES_MAX +
@@ -57,6 +62,13 @@ static size_t source_node(int level, int cosine, int angle)
 {
     return (((size_t)level * DIFFUSE_COSINES + (size_t)cosine) * SPHERE_ANGLES_MAX +
             (size_t)angle) * DIFFUSE_MODES;
+}
+
+/* The places of a ray's step; STEPS is its end. */
+static SunPlace *step_places(const Sphere *s, int level, int direction, int step)
+{
+    size_t row = ((size_t)level * DIRECTIONS + (size_t)direction) * (STEPS + 1) + (size_t)step;
+    return s->place + row * (size_t)s->input->count * AZIMUTHS;
 }
 
 static double sun_angle(const Sphere *s, int angle)
@@ -95,18 +107,30 @@ static RayPoint point_at(const NodeRay *ray, double distance)
                       (ray->sine * x + ray->cosine * z) / r};
 }
 
-/* Where the sun stands at a point of the ray, if at its start it stands at an angle to the
- * zenith and at an azimuth from the ray's. */
-static SunPlace sun_at(const Sphere *s, const NodeRay *ray, const RayPoint *at, int angle,
-                       int azimuth)
+static void fill_suns(Sphere *s)
 {
-    double zenith = sun_angle(s, angle);
-    double x = sin_d(zenith) * cos_d(PI * (azimuth + 0.5) / AZIMUTHS), z = cos_d(zenith);
-    double c = at->up[0] * x + at->up[1] * z;
-    double across = ray->sine * x + ray->cosine * z - at->cosine * c;
+    for (int a = 0; a < s->input->count; a++)
+        for (int j = 0; j < AZIMUTHS; j++) {
+            double zenith = sun_angle(s, a);
+            s->sun[a][j][0] = sin_d(zenith) * cos_d(PI * (j + 0.5) / AZIMUTHS);
+            s->sun[a][j][1] = cos_d(zenith);
+        }
+}
+
+/* Where a sun stands at a point of the ray; gives the cosine of its angle to the zenith. The
+ * same for all orders. */
+static double find_sun(const Sphere *s, const NodeRay *ray, const RayPoint *at,
+                       const double sun[2], SunPlace *out)
+{
+    double c = at->up[0] * sun[0] + at->up[1] * sun[1];
+    double across = ray->sine * sun[0] + ray->cosine * sun[1] - at->cosine * c;
     double norm = sqrt(fmax(0, 1 - at->cosine * at->cosine) * fmax(0, 1 - c * c));
-    double cosine = norm > 1e-12 ? across / norm : 1;
-    return (SunPlace){c, clampf((float)cosine, -1, 1)};
+    double x = (acos_d(fmax(-1, fmin(1, c))) - s->input->first_zenith) / s->input->step;
+    x = fmax(0, fmin(x, s->input->count - 1.0001));
+    out->angle = (int)x;
+    out->share = (float)(x - (int)x);
+    out->azimuth = clampf((float)(norm > 1e-12 ? across / norm : 1), -1, 1);
+    return c;
 }
 
 /* ---- what a step adds -------------------------------------------------------------------- */
@@ -114,24 +138,26 @@ static SunPlace sun_at(const Sphere *s, const NodeRay *ray, const RayPoint *at, 
 typedef struct Gather {
     const Sphere *sphere;
     NodeRay  ray;
-    int      direction;
+    int      level, direction;
     Spectrum radiance[SPHERE_ANGLES_MAX][AZIMUTHS];
     Spectrum source[SPHERE_ANGLES_MAX][TRAVEL_MODES]; /* at the step's place, per sun angle */
 } Gather;
 
-/* The beam scattered once; seen: mean transmittance times the step's length. */
+/* The beam scattered once; seen: mean transmittance times the step's length. It is the first
+ * order: the suns' places are found for those to come. */
 static void add_beam(Gather *g, const RayPoint *at, const float density[AIR_PARTS],
-                     const Spectrum *seen)
+                     const Spectrum *seen, SunPlace *place)
 {
     const Sphere    *s = g->sphere;
     const AirOptics *o = &s->input->beam->optics;
-    Spectrum part[2], beam;
+    BeamHeight height = beam_table_height(s->input->beam, at->altitude);
+    Spectrum   part[2], beam;
     for (int p = 0; p < 2; p++)
         part[p] = *seen * o->scattering[p] * spectrum_all(density[p]);
     for (int a = 0; a < s->input->count; a++)
         for (int j = 0; j < AZIMUTHS; j++) {
-            SunPlace sun = sun_at(s, &g->ray, at, a, j);
-            beam_table_sun(s->input->beam, at->altitude, sun.cosine, &beam);
+            double cosine = find_sun(s, &g->ray, at, s->sun[a][j], place++);
+            beam_table_sun(s->input->beam, &height, cosine, &beam);
             for (int p = 0; p < 2; p++)
                 g->radiance[a][j] += part[p] * beam *
                                      spectrum_all(s->beam_phase[p][g->direction][a][j]);
@@ -164,51 +190,57 @@ static void read_sources(Gather *g, const RayPoint *at, const Spectrum *seen)
     }
 }
 
-/* The sun angle below a place's, and the weights of it and the next. */
-static int angle_below(const Sphere *s, double sun_cosine, float weight[2])
+/* As sphere_light_weights. */
+static void place_weights(const Sphere *s, const SunPlace *place, float weight[2])
 {
-    double x = (acos_d(fmax(-1, fmin(1, sun_cosine))) - s->input->first_zenith) /
-               s->input->step;
-    x = fmax(0, fmin(x, s->input->count - 1.0001));
-    sphere_light_weights((float)(x - (int)x), s->rise[(int)x], weight);
-    return (int)x;
+    float growth = exp_f(s->rise[place->angle] * place->share);
+    weight[0] = (1 - place->share) * growth;
+    weight[1] = place->share * growth * s->fall[place->angle];
 }
 
-static void add_source(Gather *g, const RayPoint *at, const Spectrum *seen)
+static void add_source(Gather *g, const RayPoint *at, const Spectrum *seen,
+                       const SunPlace *place)
 {
     const Sphere *s = g->sphere;
     read_sources(g, at, seen);
     for (int a = 0; a < s->input->count; a++)
-        for (int j = 0; j < AZIMUTHS; j++) {
-            SunPlace sun = sun_at(s, &g->ray, at, a, j);
-            float    weight[2];
-            int      i = angle_below(s, sun.cosine, weight);
-            float    mode[TRAVEL_MODES] = {1, sun.azimuth, 2 * sun.azimuth * sun.azimuth - 1};
+        for (int j = 0; j < AZIMUTHS; j++, place++) {
+            float weight[2], cosine = place->azimuth;
+            place_weights(s, place, weight);
+            const Spectrum *low = g->source[place->angle], *high = g->source[place->angle + 1];
+            float mode[TRAVEL_MODES] = {1, cosine, 2 * cosine * cosine - 1};
             for (int m = 0; m < TRAVEL_MODES; m++)
-                g->radiance[a][j] += g->source[i][m] * spectrum_all(weight[0] * mode[m]) +
-                                     g->source[i + 1][m] * spectrum_all(weight[1] * mode[m]);
+                g->radiance[a][j] += low[m] * spectrum_all(weight[0] * mode[m]) +
+                                     high[m] * spectrum_all(weight[1] * mode[m]);
         }
 }
 
-/* The floor at the ray's end: of the first order the sun's beam lights it, else the last
- * order's light. */
-static void add_floor(Gather *g, const Spectrum *passing)
+/* The floor at the ray's end, lit by the sun's beam: the first order. */
+static void add_lit_floor(Gather *g, const Spectrum *share, SunPlace *place)
 {
     const Sphere *s = g->sphere;
-    RayPoint at = point_at(&g->ray, g->ray.length);
-    Spectrum share = *passing * spectrum_all((float)(s->input->floor_albedo / PI)), light;
+    RayPoint   at = point_at(&g->ray, g->ray.length);
+    BeamHeight height = beam_table_height(s->input->beam, at.altitude);
+    Spectrum   light;
     for (int a = 0; a < s->input->count; a++)
         for (int j = 0; j < AZIMUTHS; j++) {
-            SunPlace sun = sun_at(s, &g->ray, &at, a, j);
-            float    weight[2];
-            int      i = angle_below(s, sun.cosine, weight);
-            if (s->from_beam) {
-                beam_table_sun(s->input->beam, at.altitude, sun.cosine, &light);
-                light *= spectrum_all((float)fmax(0, sun.cosine));
-            } else
-                light = s->ground[i] * spectrum_all(weight[0]) +
-                        s->ground[i + 1] * spectrum_all(weight[1]);
-            g->radiance[a][j] += share * light;
+            double cosine = find_sun(s, &g->ray, &at, s->sun[a][j], place++);
+            beam_table_sun(s->input->beam, &height, cosine, &light);
+            g->radiance[a][j] += *share * light * spectrum_all((float)fmax(0, cosine));
+        }
+}
+
+/* Lit by the last order's light. */
+static void add_floor(Gather *g, const Spectrum *share, const SunPlace *place)
+{
+    const Sphere *s = g->sphere;
+    for (int a = 0; a < s->input->count; a++)
+        for (int j = 0; j < AZIMUTHS; j++, place++) {
+            float weight[2];
+            place_weights(s, place, weight);
+            g->radiance[a][j] += *share * (s->ground[place->angle] * spectrum_all(weight[0]) +
+                                           s->ground[place->angle + 1] *
+                                               spectrum_all(weight[1]));
         }
 }
 
@@ -231,12 +263,17 @@ static void march(Gather *g)
         for (int k = 0; k < SPECTRUM_LANES; k++) /* mean transmittance inside the step */
             seen[k] = depth[k] > 0.01f ? (1 - pass[k]) / depth[k] : 1 - 0.5f * depth[k];
         seen *= passing * spectrum_all(step);
-        if (s->from_beam) add_beam(g, &at, density, &seen);
-        else add_source(g, &at, &seen);
+        SunPlace *place = step_places(s, g->level, g->direction, i);
+        if (s->from_beam) add_beam(g, &at, density, &seen, place);
+        else add_source(g, &at, &seen, place);
         passing *= pass;
         from = to;
     }
-    if (g->ray.meets_floor) add_floor(g, &passing);
+    if (!g->ray.meets_floor) return;
+    Spectrum  given = passing * spectrum_all((float)(s->input->floor_albedo / PI));
+    SunPlace *end = step_places(s, g->level, g->direction, STEPS);
+    if (s->from_beam) add_lit_floor(g, &given, end);
+    else add_floor(g, &given, end);
 }
 
 /* Radiance at one node in one direction, for every sun angle, as a series in the azimuth. */
@@ -244,7 +281,8 @@ static void fill_radiance(void *context, int item, int worker)
 {
     Sphere *s = context;
     int     level = item / DIRECTIONS, direction = item % DIRECTIONS;
-    Gather  g = {.sphere = s, .ray = ray_from(s, level, direction), .direction = direction};
+    Gather  g = {.sphere = s, .ray = ray_from(s, level, direction), .level = level,
+                  .direction = direction};
     (void)worker;
     for (int a = 0; a < s->input->count; a++)
         for (int j = 0; j < AZIMUTHS; j++) g.radiance[a][j] = spectrum_all(0);
@@ -310,6 +348,7 @@ static void fill_rise(Sphere *s, const Spectrum *source)
     for (int a = 0; a + 1 < s->input->count; a++)
         s->rise[a] = (float)fmax(-6, fmin(6, log_d(light[a + 1] / light[a])));
     s->rise[s->input->count - 1] = 0;
+    for (int a = 0; a < s->input->count; a++) s->fall[a] = exp_f(-s->rise[a]);
 }
 
 /* ---- all orders -------------------------------------------------------------------------- */
@@ -353,6 +392,7 @@ static Spectrum *spectra(Arena *arena, size_t count)
 static void start_lights(const SphereInput *in, Arena *arena, DiffuseLight *out)
 {
     const AirOptics *o = &in->beam->optics;
+    BeamHeight floor = beam_table_height(in->beam, in->beam->floor_m);
     for (int a = 0; a < in->count; a++) {
         double cosine = cos_d(in->first_zenith + a * in->step);
         out[a] = (DiffuseLight){.floor_m = in->beam->floor_m, .sun_cosine = cosine,
@@ -360,7 +400,7 @@ static void start_lights(const SphereInput *in, Arena *arena, DiffuseLight *out)
                                 .ground_diffuse = spectrum_all(0),
                                 .top_exitance = spectrum_all(0)};
         for (int k = 0; k < SPHERE_LEVELS; k++) out[a].level_m[k] = diffuse_level_m(out, k);
-        beam_table_sun(in->beam, in->beam->floor_m, cosine, &out[a].ground_direct);
+        beam_table_sun(in->beam, &floor, cosine, &out[a].ground_direct);
         out[a].ground_direct *= spectrum_all((float)fmax(0, cosine));
         out[a].source = spectra(arena, (size_t)SPHERE_LEVELS * DIFFUSE_COSINES *
                                        DIFFUSE_MODES);
@@ -382,7 +422,10 @@ static void start_sphere(Sphere *s, Arena *scratch)
     s->radiance = spectra(scratch, node(SPHERE_LEVELS, 0, 0));
     s->source = spectra(scratch, source_node(SPHERE_LEVELS, 0, 0));
     s->total = spectra(scratch, source_node(SPHERE_LEVELS, 0, 0));
+    s->place = ARENA_NEW(scratch, SunPlace, (size_t)SPHERE_LEVELS * DIRECTIONS * (STEPS + 1) *
+                                            (size_t)s->input->count * AZIMUTHS);
     fill_phase(s);
+    fill_suns(s);
     fill_beam_phase(s);
 }
 

@@ -11,7 +11,7 @@
  * Approximate  rays are straight; no polarisation; between places only three modes of azimuth
  *              travel; between two sun angles light falls exponentially.
  * Units     as diffuse_light.h, whose tables it fills.
- * Memory    the arena's, about 10 MB, and 25 MB while it builds. Threads: `threads` of them.
+ * Memory    the arena's, about 10 MB, and 50 MB while it builds. Threads: `threads` of them.
  * Fails     never.
  */
 #pragma once

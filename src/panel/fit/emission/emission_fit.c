@@ -105,6 +105,18 @@ static void choose_steps(EmissionModel *model, Arena *arena)
     }
 }
 
+/* A logarithm follows darkness without end: nothing goes below this share of the floor. A
+ * smooth surface pays for depth, one with edges does not. */
+#define HELD 0.01
+#define HELD_EDGED 0.0015
+
+static void gather(EmissionModel *model, const Measurement *set, const EmissionResult *out,
+                   EmissionSamples *samples, Arena *arena)
+{
+    emission_samples_gather(set, out->has_black, out->outlier, arena, samples);
+    emission_rank_find(samples, arena, model->rank);
+}
+
 static bool build_model(const Measurement *set, const FitOptions *options, Arena *arena,
                         FitNotes *notes, EmissionResult *out, EmissionModel *model)
 {
@@ -112,12 +124,16 @@ static bool build_model(const Measurement *set, const FitOptions *options, Arena
     samples->tolerance = options->bound > 0 ? (double)options->bound : TOLERANCE;
     samples->floor_share = (double)options->error_floor;
     EmissionRank    *rank = ARENA_NEW(arena, EmissionRank, 1);
-    emission_samples_gather(set, out->has_black, out->outlier, arena, samples);
-    emission_samples_note(samples, *arena, notes);
-    emission_rank_find(samples, arena, rank);
+    samples->held_share = HELD;
     *model = (EmissionModel){.samples = samples, .rank = rank,
                              .dim = (const double (*)[3])out->dim,
                              .tolerance = samples->tolerance};
+    gather(model, set, out, samples, arena);
+    if (emission_edges_are_there(model, *arena)) {
+        samples->held_share = HELD_EDGED;
+        gather(model, set, out, samples, arena);
+    }
+    emission_samples_note(samples, *arena, notes);
     find_score_noise(model, arena);
     model->noise = channel_noise(model, *arena);
     model->tolerance = choose_tolerance(model, options);
@@ -139,6 +155,7 @@ bool emission_fit(const Measurement *set, const FitOptions *options, Arena *aren
         return error_set(err, ERROR_INPUT, "emission: the smooth part cannot be stored");
     if (!emission_tree_build(&model, options, arena, &out->tree, err)) return false;
     emission_beam_note(&model, notes);
+    if (out->tree.has_edges) emission_edges_note(&out->tree.edges, notes);
     if (out->tree.missed)
         fit_note(notes, "emission: %d of %d directions miss %.2g%% beyond 5 sigma of noise",
                  out->tree.missed, model.samples->rows, 100 * model.tolerance);

@@ -12,6 +12,7 @@
 #define SIGMAS 12.0
 #define LEAST 0.25 /* of ln value: what no table's own shape does between neighbours */
 #define LEAST_AT_EDGE 0.6 /* where there are neighbours on three sides only */
+#define EDGE 8.0 /* ratio of the neighbours on either side */
 #define FIRST_RINGS_DEG 15.0
 
 /* The row at either side on the ring, or -1. begin, end: of the ring. */
@@ -108,20 +109,55 @@ static bool is_alone(const OutlierSearch *search, int row, const int near[4], in
     return above >= count - 1 || below >= count - 1;
 }
 
+/* The neighbour's neighbour in the same direction, or -1. */
+static int behind(const OutlierSearch *search, int near, int side, int begin, int end)
+{
+    if (near < 0) return -1;
+    return side == 0 ? beside(search->table, near, -1, begin, end)
+         : side == 1 ? beside(search->table, near, 1, begin, end)
+         : side == 2 ? search->inner[near] : search->outer[near];
+}
+
+/* The tip of a beam that is cut off goes on to one side, further than two pixels that are hit
+ * do; and across an edge, where neighbours on either side are as day and night, what lies
+ * between them is none. */
+static bool is_at_edge(const OutlierSearch *search, int row, const int ring[2],
+                       const int near[4], int channel)
+{
+    double value = log_of(search, row, channel);
+    for (int k = 0; k < 4; k++) {
+        int next = row ? behind(search, near[k], k, ring[0], ring[1]) : -1;
+        if (next >= 0 && next != row &&
+            fabs(log_of(search, near[k], channel) - value) < LEAST &&
+            fabs(log_of(search, next, channel) - value) < LEAST)
+            return true;
+    }
+    for (int k = 0; k < 4; k += 2) {
+        if (near[k] < 0 || near[k + 1] < 0) continue;
+        double a = log_of(search, near[k], channel), b = log_of(search, near[k + 1], channel);
+        if (fabs(a - b) > log_d(EDGE) && value >= fmin(a, b) && value <= fmax(a, b))
+            return true;
+    }
+    return false;
+}
+
 /* Does any of the three tristimulus values stand out? */
-static bool stands_out(const OutlierSearch *search, int row, const int near[4])
+static bool stands_out(const OutlierSearch *search, int row, const int ring[2],
+                       const int near[4])
 {
     for (int j = 0; j < 3; j++) {
         Expected expected = expected_of(search, near, j);
-        double   value = level_of(search, row, j), ring = (double)search->ring[3 * row + j];
-        bool     is_far = expected.count > 0 && fmax(value, expected.level[0]) + ring >
+        double   value = level_of(search, row, j), median = (double)search->ring[3 * row + j];
+        bool     is_far = expected.count > 0 && fmax(value, expected.level[0]) + median >
                                                     log_d(100 * EMISSION_NO_LIGHT);
         for (int k = 0; k < expected.count; k++) {
-            double dim = search->dim[j] / exp_d(fmin(value, expected.level[k]) + ring);
+            double dim = search->dim[j] / exp_d(fmin(value, expected.level[k]) + median);
             double sigma = sqrt(search->noise[j] * search->noise[j] + dim * dim);
             is_far &= fabs(value - expected.level[k]) > fmax(SIGMAS * sigma, expected.limit[k]);
         }
-        if (is_far && is_alone(search, row, near, j)) return true;
+        if (is_far && is_alone(search, row, near, j) &&
+            !is_at_edge(search, row, ring, near, j))
+            return true;
     }
     return false;
 }
@@ -190,8 +226,8 @@ int emission_outliers_find(const AngleTable *table, uint8_t *is_outlier, Emissio
             begin = i;
             end = table_ring_end(table, begin);
         }
-        int count = neighbours(&search, i, begin, end, near);
-        is_outlier[i] = count >= 3 && stands_out(&search, i, near);
+        int count = neighbours(&search, i, begin, end, near), ring[2] = {begin, end};
+        is_outlier[i] = count >= 3 && stands_out(&search, i, ring, near);
         if (!is_outlier[i]) continue;
         found++;
         add_flag(flags, (EmissionFlag){table->name, (double)table->theta[i],

@@ -60,9 +60,6 @@ static bool resample(const Resampler *from, float theta, float phi, float value[
 /* What is read between a table's own directions is not known better. */
 #define RESAMPLED_SIGMA 0.002
 
-/* A logarithm follows darkness without end: nothing goes below this share of the floor, which
- * is far inside what counts. */
-#define HELD_SHARE 0.01
 
 typedef struct TableNoise {
     double relative[3], dim[3];
@@ -95,7 +92,7 @@ static void put_row(EmissionSamples *out, int row, int channel, const float valu
 {
     for (int j = 0; j < 3; j++) {
         size_t at = (size_t)row * (size_t)out->channels + (size_t)(channel + j);
-        double held = HELD_SHARE * noise->floor[j];
+        double held = out->held_share * noise->floor[j];
         double m = (double)value[j], scale = fmax(fabs(m), noise->floor[j]);
         out->total[at] = m < held && noise->dim[j] < held && held > EMISSION_NO_LIGHT
                              ? (float)held : value[j];
@@ -278,7 +275,7 @@ void emission_samples_gather(const Measurement *set, bool has_black, uint8_t *co
 {
     const AngleTable *table;
     *out = (EmissionSamples){.set = set, .tolerance = out->tolerance,
-                             .floor_share = out->floor_share};
+                             .floor_share = out->floor_share, .held_share = out->held_share};
     find_master(set, has_black, arena, out);
     size_t rows = (size_t)out->rows, numbers = rows * (size_t)out->channels;
     out->direction = ARENA_NEW(arena, Vec3, rows);

@@ -29,6 +29,7 @@ typedef struct EmissionSamples {
     double  step_deg; /* about how far apart neighbours are */
     int     azimuths; /* on a ring */
     double  tolerance; /* relative to M */
+    double  held_share; /* of the floor: nothing goes below it */
     double *floor;    /* channels: errors count relative to no less than this, cd m^-2 */
     double  floor_share; /* of a channel's largest value that the floor is */
 } EmissionSamples;
@@ -48,8 +49,8 @@ EmissionTable emission_samples_table(const Measurement *set, bool has_black, int
 double emission_samples_floor(const AngleTable *table, int channel, const uint8_t *outlier,
                               double share);
 
-/* outlier[table]: rows that are not to be believed. Of *out tolerance and floor_share are
- * given. What is less than a hundredth of the floor comes as that hundredth. */
+/* outlier[table]: rows that are not to be believed. Of *out tolerance, floor_share
+ * and held_share are given. */
 void emission_samples_gather(const Measurement *set, bool has_black, uint8_t *const *outlier,
                              Arena *arena, EmissionSamples *out);
 

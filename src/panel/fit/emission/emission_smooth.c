@@ -142,6 +142,15 @@ static void drop_small_blocks(float *numbers, int terms, int components, const f
     }
 }
 
+/* Into the model, as it will be read again. */
+static bool keep_smooth(EmissionModel *model, const PanelSplineNumbers *all, Arena *arena)
+{
+    size_t used;
+    model->spline_size = panel_spline_pack(all, arena, &model->spline_bytes);
+    return panel_spline_open(model->spline_bytes, model->spline_size, all->components, arena,
+                             &model->spline, &used);
+}
+
 bool emission_smooth_fit(EmissionModel *model, Arena *arena)
 {
     const EmissionSamples *samples = model->samples;
@@ -165,9 +174,16 @@ bool emission_smooth_fit(EmissionModel *model, Arena *arena)
         solve_component(&normal, k, model, numbers, scratch);
     drop_small_blocks(numbers, terms, components, model->step);
     PanelSplineNumbers all = {term, terms, components, numbers, model->step};
-    size_t             used;
-    model->spline_size = panel_spline_pack(&all, arena, &model->spline_bytes);
+    bool ok = keep_smooth(model, &all, arena);
     arena_release(&scratch);
-    return panel_spline_open(model->spline_bytes, model->spline_size, components, arena,
-                             &model->spline, &used);
+    return ok;
+}
+
+bool emission_smooth_clear(EmissionModel *model, Arena *arena)
+{
+    uint8_t term = 0;
+    int     components = model->rank->components;
+    float  *numbers = ARENA_NEW(arena, float, components * PANEL_SPLINE_NUMBERS);
+    PanelSplineNumbers none = {&term, 1, components, numbers, model->step};
+    return keep_smooth(model, &none, arena);
 }

@@ -5,3 +5,6 @@
 
 /* Of what the beams leave of the scores, into the model. False: it cannot be stored. */
 bool emission_smooth_fit(EmissionModel *model, Arena *arena);
+
+/* No smooth part. False: that cannot be stored. */
+bool emission_smooth_clear(EmissionModel *model, Arena *arena);

@@ -12,11 +12,12 @@
 #include "hemisphere/tree/tree_open.h"
 #include "hemisphere/tree/tree_query.h"
 #include "hemisphere/vertex/vertex_find.h"
-#include "hemisphere/vertex/vertex_fit.h"
 #include "hemisphere/vertex/vertex_tree.h"
 #include "hemisphere/vertex/vertex_tree_build.h"
 #include "panel/fit/emission/emission_beam.h"
+#include "panel/fit/emission/emission_edges.h"
 #include "panel/fit/emission/emission_smooth.h"
+#include "panel/fit/emission/emission_values.h"
 #include "panel/query/panel_beam.h"
 
 #define LEVEL_MOST 9
@@ -85,96 +86,6 @@ static float *rest_at_samples(const EmissionModel *model, Arena *arena)
     return rest;
 }
 
-/* What is known of curvature: noise^2 / (rows * the rest's expected curvature^2) is where a
- * detail's own evidence and the expectation that it is small weigh the same. */
-static double ridge_of(const EmissionModel *model, const float *rest, int component)
-{
-    const EmissionSamples *s = model->samples;
-    int    n = model->rank->components;
-    double sum = 0, area = 0, noise = (double)model->score_noise[component];
-    for (int i = 0; i < s->rows; i++) {
-        double r = (double)rest[i * n + component];
-        sum += s->area[i] * r * r;
-        area += s->area[i];
-    }
-    double variance = fmax(sum / area - noise * noise, 0.01 * noise * noise + 1e-12);
-    return noise * noise / (s->rows * 6 * variance);
-}
-
-/* rms of what vertex values leave of the samples, weighted as they are. */
-static double rest_of_fit(const EmissionCoder *coder, const VertexSamples *samples,
-                          const float *values)
-{
-    double sum = 0, total = 0;
-    for (int i = 0; i < samples->count; i++) {
-        VertexPoint at = vertex_find(coder->geodesic, coder->lattice, samples->direction[i]);
-        double rest = (double)samples->value[i], w = (double)samples->weight[i];
-        for (int q = 0; q < 3; q++)
-            rest -= (double)at.weight[q] * (double)values[at.vertex[q]];
-        sum += w * rest * rest;
-        total += w;
-    }
-    return sqrt(sum / total);
-}
-
-#define RIDGE_STEP 32.0
-#define LEAST_RIDGE 1e-12
-#define WEAK_RIDGE 1e-9 /* weaker than this they hardly smooth; then */
-#define WORTH 0.7       /* the next must leave so much less */
-
-/* Where a component's fit begins and what it may leave. */
-typedef struct FitGoal {
-    double ridge, enough;
-} FitGoal;
-
-/* The noise, or nothing that matters. */
-static FitGoal goal_of(const EmissionCoder *coder, const float *rest, int component)
-{
-    return (FitGoal){ridge_of(coder->model, rest, component),
-                     fmax(1.2 * (double)coder->model->score_noise[component],
-                          0.1 * (double)coder->model->step[component])};
-}
-
-/* The strongest ridge that leaves no more than the goal, or hardly more than a weaker one. */
-static bool fit_values(const EmissionCoder *coder, const VertexSamples *samples, FitGoal goal,
-                       Arena scratch, float *values, Error *err)
-{
-    double before = INFINITY, ridge = goal.ridge;
-    float *trial = ARENA_NEW(&scratch, float, coder->vertices);
-    for (;; ridge /= RIDGE_STEP) {
-        Arena work = scratch;
-        ridge = fmax(ridge, LEAST_RIDGE);
-        if (!vertex_fit(coder->lattice, samples, ridge, &work, trial, err))
-            return false;
-        double rest = rest_of_fit(coder, samples, trial);
-        if (ridge < WEAK_RIDGE && rest > WORTH * before) return true;
-        memcpy(values, trial, coder->vertices * sizeof *values);
-        if (ridge == LEAST_RIDGE || rest <= goal.enough) return true;
-        before = rest;
-    }
-}
-
-static bool fit_component(EmissionCoder *coder, const float *rest, int component, Arena scratch,
-                          Error *err)
-{
-    const EmissionSamples *s = coder->model->samples;
-    int    n = coder->model->rank->components;
-    float *one = ARENA_NEW(&scratch, float, s->rows);
-    float *weight = ARENA_NEW(&scratch, float, s->rows);
-    float *values = ARENA_NEW(&scratch, float, coder->vertices), low = INFINITY, high = -low;
-    for (int i = 0; i < s->rows; i++) {
-        one[i] = rest[i * n + component];
-        weight[i] = coder->model->rank->belief[i] * (float)s->area[i];
-        low = fminf(low, one[i]), high = fmaxf(high, one[i]);
-    }
-    VertexSamples samples = {s->rows, 1, s->direction, one, weight};
-    if (!fit_values(coder, &samples, goal_of(coder, rest, component), scratch, values, err))
-        return false;
-    for (uint32_t v = 0; v < coder->vertices; v++) /* what nothing measures cannot run away */
-        coder->value[v * (uint32_t)n + (uint32_t)component] = clampf(values[v], low, high);
-    return true;
-}
-
 /* ---- the lattice ------------------------------------------------------------------------ */
 
 static double cell_of(int level)
@@ -213,15 +124,18 @@ static void find_least(const EmissionModel *model, float *least)
 /* Values of the rest at the vertices, and what follows from them. */
 static bool fit_vertices(EmissionCoder *coder, const float *rest, Arena scratch, Error *err)
 {
+    EmissionValues values = {coder->model, coder->geodesic, coder->lattice, coder->vertices,
+                             coder->value};
     for (int k = 0; k < coder->model->rank->components; k++)
-        if (!fit_component(coder, rest, k, scratch, err)) return false;
+        if (!emission_values_fit(&values, rest, k, scratch, err)) return false;
     find_wanted(coder);
     return true;
 }
 
-static bool start_coder(EmissionModel *model, int level, const float *rest, Arena *arena,
-                        EmissionCoder *out, Error *err)
+/* A coder without values. */
+static EmissionCoder make_coder(EmissionModel *model, int level, Arena *arena)
 {
+    EmissionCoder coder, *out = &coder;
     size_t n = (size_t)model->rank->components, channels = (size_t)model->samples->channels;
     *out = (EmissionCoder){.model = model, .geodesic = geodesic_create(level, arena),
                            .lattice = {level, 4}, .pardon = 5};
@@ -235,6 +149,13 @@ static bool start_coder(EmissionModel *model, int level, const float *rest, Aren
     out->work = ARENA_NEW(arena, float, channels);
     vertex_directions(out->lattice, out->direction);
     find_least(model, out->least);
+    return coder;
+}
+
+static bool start_coder(EmissionModel *model, int level, const float *rest, Arena *arena,
+                        EmissionCoder *out, Error *err)
+{
+    *out = make_coder(model, level, arena);
     return fit_vertices(out, rest, *arena, err);
 }
 
@@ -453,6 +374,113 @@ static bool code_haar(const EmissionCoder *coder, const FitOptions *options, Are
            error_prefix(err, "emission");
 }
 
+static bool code(EmissionCoder *coder, const FitOptions *options, Arena *arena,
+                 EmissionTree *out, Error *err)
+{
+    out->level = coder->lattice.level;
+    if (options->basis == FIT_HAAR) return code_haar(coder, options, arena, out, err);
+    if (options->keep_share > 0)
+        return code_share(coder, (double)options->keep_share, arena, out, err);
+    return code_tree(coder, arena, out, err);
+}
+
+/* ---- edges ------------------------------------------------------------------------------ */
+
+#define CELLS_A_STEP 3.0 /* triangles between two rings */
+#define EDGED_TOLERANCE 0.01
+#define SETTLE_ROUNDS 40
+#define SETTLED 0.2 /* of the tolerance */
+#define FINER 0.8   /* what a finer level must leave */
+
+static int edge_level(const EmissionSamples *s, const FitOptions *options)
+{
+    int level = 5;
+    if (options->level) return options->level;
+    while (level < LEVEL_MOST - 1 &&
+           degrees_from_radians(cell_of(level)) > s->step_deg / CELLS_A_STEP)
+        level++;
+    return level;
+}
+
+/* Vertex values are what the edges say, less the smooth part. */
+static void fill_from_edges(EmissionCoder *coder, const EmissionEdges *edges)
+{
+    size_t n = (size_t)coder->model->rank->components;
+    for (uint32_t v = 0; v < coder->vertices; v++) {
+        float wanted[PANEL_COMPONENTS_MAX], smooth[PANEL_COMPONENTS_MAX] = {0};
+        emission_edges_components(edges, coder->direction[v], wanted);
+        emission_model_add_smooth(coder->model, coder->direction[v], smooth);
+        for (size_t k = 0; k < n; k++) coder->value[v * n + k] = wanted[k] - smooth[k];
+    }
+}
+
+/* Triangles are linear where the light between samples is not: what that does to a row its
+ * three vertices take, each by its share (Kaczmarz's method). Returns how many rows did. */
+static int settle_rows(EmissionCoder *coder, const float *rest)
+{
+    const EmissionSamples *s = coder->model->samples;
+    size_t n = (size_t)coder->model->rank->components;
+    int    moved = 0;
+    for (int i = 0; i < s->rows; i++) {
+        VertexPoint at = vertex_find(coder->geodesic, coder->lattice, s->direction[i]);
+        float squares = 0;
+        if (row_error(coder, i) < SETTLED * coder->model->tolerance) continue;
+        moved++;
+        for (int q = 0; q < 3; q++) squares += at.weight[q] * at.weight[q];
+        for (size_t k = 0; k < n; k++) {
+            float miss = rest[(size_t)i * n + k];
+            for (int q = 0; q < 3; q++)
+                miss -= at.weight[q] * coder->value[at.vertex[q] * n + k];
+            for (int q = 0; q < 3; q++)
+                coder->value[at.vertex[q] * n + k] += at.weight[q] / squares * miss;
+        }
+    }
+    return moved;
+}
+
+static void start_edged(EmissionModel *model, const EmissionEdges *edges, int level,
+                        Arena *arena, EmissionCoder *out)
+{
+    const float *rest = rest_at_samples(model, arena);
+    *out = make_coder(model, level, arena);
+    for (int c = 0; c < model->samples->channels; c++)
+        out->least[c] = fmaxf(out->least[c], (float)edges->least[c]);
+    fill_from_edges(out, edges);
+    for (int i = 0; i < SETTLE_ROUNDS && settle_rows(out, rest); i++) continue;
+    find_wanted(out);
+}
+
+/* Few rings with an edge look like noise: it does not count beyond a per cent. */
+static void hold_tolerance(EmissionModel *model)
+{
+    double most = fmax(EDGED_TOLERANCE, model->samples->tolerance);
+    for (int k = 0; k < model->rank->components && model->tolerance > most; k++)
+        model->step[k] *= (float)(most / model->tolerance);
+    model->tolerance = fmin(model->tolerance, most);
+}
+
+/* The tree of an emission with edges. A smooth part would only ring. */
+static bool build_edged(EmissionModel *model, const FitOptions *options, Arena *arena,
+                        EmissionTree *out, Error *err)
+{
+    EmissionCoder coder, finer;
+    int           level = edge_level(model->samples, options), row;
+    hold_tolerance(model);
+    if (!emission_smooth_clear(model, arena))
+        return error_set(err, ERROR_INPUT, "emission: the smooth part cannot be stored");
+    start_edged(model, &out->edges, level, arena, &coder);
+    double uncoded = uncoded_error(&coder, &row);
+    while (!options->level && uncoded > model->tolerance && level < LEVEL_MOST) {
+        start_edged(model, &out->edges, ++level, arena, &finer);
+        double next = uncoded_error(&finer, &row);
+        if (next > FINER * uncoded) break;
+        coder = finer;
+        uncoded = next;
+    }
+    coder.threads = options->threads;
+    return code(&coder, options, arena, out, err);
+}
+
 /* ---- all -------------------------------------------------------------------------------- */
 
 static int start_level(const EmissionSamples *s, const FitOptions *options)
@@ -541,6 +569,9 @@ bool emission_tree_build(EmissionModel *model, const FitOptions *options, Arena 
     Start         first;
     EmissionCoder coder, finer;
     Plan          plan = {model, level, options->threads};
+    double        cell = cell_of(edge_level(model->samples, options));
+    out->has_edges = emission_edges_find(model, cell, arena, &out->edges);
+    if (out->has_edges) return build_edged(model, options, arena, out, err);
     if (!start_with_beams(&plan, arena, &first, err)) return false;
     float *rest = first.rest;
     double uncoded = first.uncoded;
@@ -558,9 +589,5 @@ bool emission_tree_build(EmissionModel *model, const FitOptions *options, Arena 
         uncoded = next;
         level++;
     }
-    out->level = level;
-    if (options->basis == FIT_HAAR) return code_haar(&coder, options, arena, out, err);
-    if (options->keep_share > 0)
-        return code_share(&coder, (double)options->keep_share, arena, out, err);
-    return code_tree(&coder, arena, out, err);
+    return code(&coder, options, arena, out, err);
 }

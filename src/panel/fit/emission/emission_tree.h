@@ -7,13 +7,15 @@
 #pragma once
 #include "hemisphere/tree.h"
 #include "panel/fit/common/fit_options.h"
-#include "panel/fit/emission/emission_model.h"
+#include "panel/fit/emission/emission_edges.h"
 
 typedef struct EmissionTree {
     const void *bytes; /* as in the file */
     TreeReport  report;
     int         level;
     int         missed; /* samples beyond tolerance and noise */
+    bool        has_edges; /* between samples the light is: */
+    EmissionEdges edges;
 } EmissionTree;
 
 /* Where triangles miss the samples by far the model gets beams. */

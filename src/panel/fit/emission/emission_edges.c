@@ -1,0 +1,452 @@
+#include "panel/fit/emission/emission_edges.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/mathd.h"
+#include "base/mathf.h"
+#include "base/units.h"
+#include "panel/fit/common/least_squares.h"
+#include "panel/query/panel_components.h"
+
+#define STEPS 16          /* nodes of a profile between two rings */
+#define JUMP 8.0          /* ratio of neighbours that no smooth lamp has, */
+#define STEEPER 3.0       /* than the intervals beside it */
+#define SEEN 0.05         /* where the brighter is such a share of the largest */
+#define LEAST_SHARE 1e-3  /* of the largest: ratios count above it, or the floor's if less */
+#define LEAST_LEAST 1e-5
+#define HELD_SHARE 1e-3   /* of that: logarithms go no lower */
+#define REST_MOST 0.4     /* of an interval at either end */
+#define THETA_SHARE 0.01  /* of V: a profile without edges goes by theta */
+#define HALVINGS 16
+#define BETTER 0.9        /* what following must leave of the error */
+#define LEAST_AZIMUTHS 4  /* that one can be left out of */
+
+/* ---- between four samples --------------------------------------------------------------- */
+
+/* Rising places and what stands there; read between the middle ones. */
+typedef struct Four {
+    double x[4], y[4];
+} Four;
+
+/* ln of what counts of some light. */
+static double seen_log(double light, double least)
+{
+    return log_d(light + least);
+}
+
+/* Between the middle ones the light jumps: by far, and by far more than beside them. The flank
+ * of a narrow beam is as steep, but so are its neighbours. */
+static bool is_jump(const Four *f, double least)
+{
+    double d[3];
+    for (int i = 0; i < 3; i++)
+        d[i] = fabs(seen_log(f->y[i + 1], least) - seen_log(f->y[i], least));
+    return d[1] > log_d(JUMP) && d[1] > STEEPER * fmax(d[0], d[2]);
+}
+
+/* Hermite's cubic with given slopes over a unit interval. */
+static double hermite(double a, double b, double slope_a, double slope_b, double t)
+{
+    double s = 1 - t;
+    return s * s * (1 + 2 * t) * a + t * t * (1 + 2 * s) * b + s * s * t * slope_a -
+           t * t * s * slope_b;
+}
+
+/* Slope of the parabola through three places at the middle one. */
+static double parabola_slope(const double x[3], double before, double after)
+{
+    double h0 = x[1] - x[0], h1 = x[2] - x[1];
+    return (h1 * before + h0 * after) / (h0 + h1);
+}
+
+/* The cubic through the middle two; an end beside which it is far steeper (by this much and
+ * more, `steep` of the values' unit) has the interval's own slope. */
+static double read_smooth(const Four *f, double steep, double at)
+{
+    double d[3], h = f->x[2] - f->x[1];
+    for (int i = 0; i < 3; i++) d[i] = (f->y[i + 1] - f->y[i]) / (f->x[i + 1] - f->x[i]);
+    bool   before = fabs(f->y[1] - f->y[0]) > fmax(steep, STEEPER * fabs(f->y[2] - f->y[1]));
+    bool   behind = fabs(f->y[3] - f->y[2]) > fmax(steep, STEEPER * fabs(f->y[2] - f->y[1]));
+    double first = before ? d[1] : parabola_slope(f->x, d[0], d[1]);
+    double last = behind ? d[1] : parabola_slope(f->x + 1, d[1], d[2]);
+    return hermite(f->y[1], f->y[2], first * h, last * h, (at - f->x[1]) / h);
+}
+
+/* Light: smooth in its logarithm, but where it jumps a ramp between `rest` of the interval at
+ * either end, which leaves the mean where it is. */
+static double read_light(const Four *f, double at, double rest, double least)
+{
+    if (is_jump(f, least)) {
+        double share = fmin(REST_MOST, rest / (f->x[2] - f->x[1]));
+        double t = (at - f->x[1]) / (f->x[2] - f->x[1]);
+        t = fmin(1, fmax(0, (t - share) / (1 - 2 * share)));
+        return f->y[1] + (f->y[2] - f->y[1]) * t;
+    }
+    Four logs = *f;
+    for (int i = 0; i < 4; i++) logs.y[i] = log_d(fmax(f->y[i], HELD_SHARE * least));
+    return exp_d(read_smooth(&logs, log_d(JUMP), at));
+}
+
+/* ---- profiles over theta ---------------------------------------------------------------- */
+
+/* The azimuth opposite to one, or the one before it. */
+static int opposite(const DirectionGrid *grid, int azimuth)
+{
+    double wanted = (double)grid->phi[azimuth] + PI;
+    int    best = azimuth;
+    double least = INFINITY;
+    for (int i = 0; i < grid->phis; i++) {
+        double far = fabs(remainder((double)grid->phi[i] - wanted, 2 * PI));
+        if (far < least) least = far, best = i;
+    }
+    return best;
+}
+
+/* Four rings around an interval of an azimuth: through the pole, straight on at the end. */
+static Four four_rings(const EmissionEdges *e, const float *cells, int azimuth, int interval,
+                       int channel)
+{
+    const DirectionGrid *g = &e->grid;
+    Four f;
+    for (int i = 0; i < 4; i++) {
+        int ring = interval - 1 + i, at = azimuth;
+        if (ring < 0) ring = 1, at = opposite(g, azimuth);
+        if (ring > g->thetas - 1) ring = g->thetas - 1;
+        f.x[i] = interval - 1 + i < 0 ? -(double)g->theta[1] : (double)g->theta[ring];
+        f.y[i] = (double)cells[(ring * g->phis + at) * e->channels + channel];
+    }
+    if (interval + 2 > g->thetas - 1) {
+        f.x[3] = 2 * f.x[2] - f.x[1];
+        f.y[3] = f.y[2];
+    }
+    return f;
+}
+
+static float *light_at(const EmissionEdges *e, int azimuth, int node)
+{
+    return e->light + ((size_t)azimuth * (size_t)e->nodes + (size_t)node) * (size_t)e->channels;
+}
+
+static void make_profile(EmissionEdges *e, const float *cells, int azimuth)
+{
+    for (int c = 0; c < e->channels; c++)
+        for (int m = 0; m < e->nodes; m++) {
+            int  last = e->grid.thetas - 2, interval = m / STEPS < last ? m / STEPS : last;
+            Four f = four_rings(e, cells, azimuth, interval, c);
+            light_at(e, azimuth, m)[c] =
+                (float)read_light(&f, e->theta[m], e->rest, e->least[c]);
+        }
+}
+
+/* V of a profile. */
+static void find_variation(EmissionEdges *e, int azimuth)
+{
+    double *v = e->variation + (size_t)azimuth * (size_t)e->nodes, sum = 0;
+    int     last = e->nodes - 1;
+    for (int m = 1; m <= last; m++) {
+        sum += fabs((double)(light_at(e, azimuth, m)[e->bright] -
+                             light_at(e, azimuth, m - 1)[e->bright]));
+        v[m] = sum;
+    }
+    double share = sum > e->least[e->bright] ? THETA_SHARE : 1;
+    for (int m = 1; m <= last; m++)
+        v[m] = (share < 1 ? (1 - share) * v[m] / sum : 0) +
+               share * e->theta[m] / e->theta[last];
+}
+
+/* Where a rising list has a value: the index before it; *t: how far towards the next. */
+static int find_place(const double *list, int count, double value, double *t)
+{
+    int low = 0, high = count - 1;
+    while (high - low > 1) {
+        int middle = (low + high) / 2;
+        if (list[middle] <= value) low = middle;
+        else high = middle;
+    }
+    double span = list[high] - list[low];
+    *t = span > 0 ? fmin(1, fmax(0, (value - list[low]) / span)) : 0;
+    return low;
+}
+
+/* ---- between azimuths ------------------------------------------------------------------- */
+
+/* Azimuths around one, or around a gap that one was left out of. */
+typedef struct Around {
+    int    azimuth[4];
+    double x[4]; /* their phi, rising */
+    bool   follows;
+} Around;
+
+static Around around_of(const EmissionEdges *e, const int index[4], bool follows)
+{
+    int    n = e->grid.phis;
+    Around a = {.follows = follows};
+    for (int i = 0; i < 4; i++) {
+        int turn = (int)floor((double)index[i] / n);
+        a.azimuth[i] = index[i] - turn * n;
+        a.x[i] = (double)e->grid.phi[a.azimuth[i]] + 2 * PI * turn;
+    }
+    return a;
+}
+
+static double theta_of(const EmissionEdges *e, int azimuth, double variation)
+{
+    double t;
+    int    m = find_place(e->variation + (size_t)azimuth * (size_t)e->nodes, e->nodes,
+                          variation, &t);
+    return e->theta[m] + t * (e->theta[m + 1] - e->theta[m]);
+}
+
+/* The thetas of the four profiles that belong to theta at phi. */
+static void find_thetas(const EmissionEdges *e, const Around *a, double phi, double theta,
+                        double out[4])
+{
+    double low = 0, high = 1;
+    Four   f;
+    for (int i = 0; i < 4; i++) out[i] = theta, f.x[i] = a->x[i];
+    for (int step = 0; step < HALVINGS && a->follows; step++) {
+        double middle = (low + high) / 2;
+        for (int i = 0; i < 4; i++) f.y[i] = out[i] = theta_of(e, a->azimuth[i], middle);
+        if (read_smooth(&f, INFINITY, phi) <= theta) low = middle;
+        else high = middle;
+    }
+}
+
+/* A channel's light from places on four profiles. */
+typedef struct Mix {
+    const Around *around;
+    double phi, theta; /* where it is read */
+    int    node[4];
+    double t[4];
+} Mix;
+
+static Mix mix_at(const EmissionEdges *e, const Around *a, double phi, double theta)
+{
+    Mix    mix = {.around = a, .phi = phi, .theta = theta};
+    double thetas[4];
+    find_thetas(e, a, phi, theta, thetas);
+    for (int i = 0; i < 4; i++)
+        mix.node[i] = find_place(e->theta, e->nodes, thetas[i], &mix.t[i]);
+    return mix;
+}
+
+static double mixed_light(const EmissionEdges *e, const Mix *mix, int channel)
+{
+    Four f;
+    for (int i = 0; i < 4; i++) {
+        int    at = mix->around->azimuth[i];
+        double a = (double)light_at(e, at, mix->node[i])[channel];
+        double b = (double)light_at(e, at, mix->node[i] + 1)[channel];
+        f.x[i] = mix->around->x[i];
+        f.y[i] = a + (b - a) * mix->t[i];
+    }
+    return read_light(&f, mix->phi, e->rest / fmax(1e-3, sin_d(mix->theta)),
+                      e->least[channel]);
+}
+
+/* The interval of azimuths that phi is in. */
+static int interval_of(const EmissionEdges *e, double *phi)
+{
+    int n = e->grid.phis, i = 0;
+    *phi -= 2 * PI * floor((*phi - (double)e->grid.phi[0]) / (2 * PI));
+    while (i + 1 < n && (double)e->grid.phi[i + 1] <= *phi) i++;
+    return i;
+}
+
+/* ---- do edges move? --------------------------------------------------------------------- */
+
+/* The light that an azimuth's neighbours miss of it; *whole: its own. */
+static double miss_of(const EmissionEdges *e, int azimuth, bool follows, double *whole)
+{
+    int    index[4] = {azimuth - 2, azimuth - 1, azimuth + 1, azimuth + 2};
+    Around a = around_of(e, index, follows);
+    double sum = 0, phi = (double)e->grid.phi[azimuth];
+    *whole = 0;
+    for (int m = STEPS; m < e->nodes; m += STEPS) {
+        double theta = e->theta[m], weight = sin_d(theta) * cos_d(theta);
+        Mix    mix = mix_at(e, &a, phi, theta);
+        double measured = (double)light_at(e, azimuth, m)[e->bright];
+        weight *= e->theta[m] - e->theta[m - STEPS];
+        sum += weight * fabs(mixed_light(e, &mix, e->bright) - measured);
+        *whole += weight * measured;
+    }
+    return sum;
+}
+
+/* Leaves every azimuth out once. */
+static void choose_following(EmissionEdges *e, Arena scratch)
+{
+    int     n = e->grid.phis;
+    double *still = ARENA_NEW(&scratch, double, n), *moved = ARENA_NEW(&scratch, double, n);
+    double  light = 0, whole;
+    if (n < LEAST_AZIMUTHS) return;
+    for (int i = 0; i < n; i++) {
+        still[i] = miss_of(e, i, false, &whole);
+        moved[i] = miss_of(e, i, true, &whole);
+        light += whole;
+    }
+    for (int i = 0; i < n; i++) {
+        int next = (i + 1) % n;
+        e->follows[i] = moved[i] + moved[next] < BETTER * (still[i] + still[next]);
+        e->following += e->follows[i];
+        e->missed_still += still[i] / light;
+        e->missed += (e->follows[i] ? moved[i] + moved[next] : still[i] + still[next]) /
+                     (2 * light);
+    }
+}
+
+/* ---- all -------------------------------------------------------------------------------- */
+
+/* E of every channel at the rows, as the components say it. */
+static float *light_of_rows(const EmissionModel *model, Arena *arena)
+{
+    const EmissionSamples *s = model->samples;
+    size_t channels = (size_t)s->channels, n = (size_t)model->rank->components;
+    float *out = ARENA_NEW(arena, float, (size_t)s->rows * channels);
+    for (size_t i = 0; i < (size_t)s->rows; i++) {
+        emission_rank_logs(model->rank, s->channels, model->rank->score + i * n,
+                           emission_rank_fall(model->rank->cosine_power, s->direction[i]),
+                           out + i * channels);
+        for (size_t c = 0; c < channels; c++) out[i * channels + c] =
+            exp_f(out[i * channels + c]);
+    }
+    return out;
+}
+
+/* The largest value of every channel, and the Y that has it. */
+static void find_bright(EmissionEdges *e, const float *cells)
+{
+    int    count = e->grid.thetas * e->grid.phis;
+    double share = fmin(LEAST_SHARE, fmax(LEAST_LEAST, e->model->samples->floor_share));
+    for (int i = 0; i < count * e->channels; i++)
+        e->least[i % e->channels] = fmax(e->least[i % e->channels], share * (double)cells[i]);
+    e->bright = 1;
+    for (int c = 1; c < e->channels; c += 3)
+        if (e->least[c] > e->least[e->bright]) e->bright = c;
+    e->seen = SEEN * e->least[e->bright] / share;
+}
+
+static bool is_seen_jump(const EmissionEdges *e, const Four *f)
+{
+    return fmax(f->y[1], f->y[2]) > e->seen && is_jump(f, e->least[e->bright]);
+}
+
+/* Over every interval of rings and of azimuths. */
+static bool has_jump(const EmissionEdges *e, const float *cells)
+{
+    const DirectionGrid *g = &e->grid;
+    for (int p = 0; p < g->phis; p++)
+        for (int t = 0; t + 1 < g->thetas; t++) {
+            Four over_theta = four_rings(e, cells, p, t, e->bright), over_phi;
+            for (int i = 0; i < 4; i++) {
+                int at = (t + 1) * g->phis + (p + g->phis - 1 + i) % g->phis;
+                over_phi.y[i] = (double)cells[at * e->channels + e->bright];
+            }
+            if (is_seen_jump(e, &over_theta) || is_seen_jump(e, &over_phi)) return true;
+        }
+    return false;
+}
+
+/* So that logarithms become components: L^T L, a little more on its diagonal, factored. */
+static void factor_loadings(EmissionEdges *e)
+{
+    const EmissionRank *rank = e->model->rank;
+    int n = rank->components;
+    for (int c = 0; c < e->channels; c++)
+        for (int i = 0; i < n; i++)
+            for (int k = 0; k <= i; k++)
+                e->normal[i * n + k] += (double)rank->loading[c * n + i] *
+                                        (double)rank->loading[c * n + k];
+    for (int i = 0; i < n; i++) e->normal[i * (n + 1)] += 1e-9;
+    least_squares_factor(e->normal, (size_t)n);
+}
+
+static void make_room(EmissionEdges *e, Arena *arena)
+{
+    size_t azimuths = (size_t)e->grid.phis, n = (size_t)e->model->rank->components;
+    e->nodes = (e->grid.thetas - 1) * STEPS + 1;
+    e->theta = ARENA_NEW(arena, double, e->nodes);
+    e->light = ARENA_NEW(arena, float, azimuths * (size_t)(e->nodes * e->channels));
+    e->variation = ARENA_NEW(arena, double, azimuths * (size_t)e->nodes);
+    e->follows = ARENA_NEW(arena, bool, azimuths);
+    e->normal = ARENA_NEW(arena, double, n * n);
+    for (int m = 0; m < e->nodes; m++) {
+        int   ring = m / STEPS, next = ring + 1 < e->grid.thetas ? ring + 1 : ring;
+        double t = (double)(m % STEPS) / STEPS;
+        e->theta[m] = (1 - t) * (double)e->grid.theta[ring] + t * (double)e->grid.theta[next];
+    }
+}
+
+/* Cells of the grid, NULL: nothing jumps. */
+static const float *start(const EmissionModel *model, Arena *arena, EmissionEdges *out)
+{
+    *out = (EmissionEdges){.model = model, .channels = model->samples->channels};
+    direction_grid_build(model->samples->master, false, arena, &out->grid);
+    if (out->grid.is_scattered || !out->grid.has_pole || out->grid.thetas < 3) return NULL;
+    out->least = ARENA_NEW(arena, double, out->channels);
+    const float *cells = direction_grid_cells(&out->grid, light_of_rows(model, arena),
+                                              out->channels, arena);
+    find_bright(out, cells);
+    return has_jump(out, cells) ? cells : NULL;
+}
+
+bool emission_edges_are_there(const EmissionModel *model, Arena scratch)
+{
+    EmissionEdges edges;
+    return start(model, &scratch, &edges) != NULL;
+}
+
+bool emission_edges_find(const EmissionModel *model, double rest, Arena *arena,
+                         EmissionEdges *out)
+{
+    const float *cells = start(model, arena, out);
+    if (!cells) return false;
+    out->rest = rest;
+    make_room(out, arena);
+    factor_loadings(out);
+    for (int p = 0; p < out->grid.phis; p++) {
+        make_profile(out, cells, p);
+        find_variation(out, p);
+    }
+    choose_following(out, *arena);
+    return true;
+}
+
+/* Components of logarithms, by least squares over the channels. */
+static void components_of(const EmissionEdges *e, const double *logs, float *components)
+{
+    const EmissionRank *rank = e->model->rank;
+    int    n = rank->components;
+    double right[PANEL_COMPONENTS_MAX] = {0};
+    for (int c = 0; c < e->channels; c++)
+        for (int k = 0; k < n; k++)
+            right[k] += (double)rank->loading[c * n + k] * (logs[c] - (double)rank->mean[c]);
+    least_squares_solve(e->normal, right, (size_t)n);
+    for (int k = 0; k < n; k++) components[k] = (float)right[k];
+}
+
+void emission_edges_components(const EmissionEdges *e, Vec3 d, float *components)
+{
+    double phi = atan2_d((double)d.y, (double)d.x), logs[3 * EMISSION_TABLES_MAX];
+    double theta = fmin(acos_d(fmin(1, (double)d.z)), e->theta[e->nodes - 1]);
+    int    i = interval_of(e, &phi), index[4] = {i - 1, i, i + 1, i + 2};
+    Around a = around_of(e, index, e->follows[i]);
+    Mix    mix = mix_at(e, &a, phi, theta);
+    double fall = (double)e->model->rank->cosine_power *
+                  log_d(fmax((double)PANEL_LEAST_COS, cos_d(theta)));
+    for (int c = 0; c < e->channels; c++)
+        logs[c] = log_d(fmax(mixed_light(e, &mix, c), 1e-30)) - fall;
+    components_of(e, logs, components);
+}
+
+void emission_edges_note(const EmissionEdges *e, FitNotes *notes)
+{
+    fit_note(notes, "the light ends sharply: between samples it is interpolated as it is, not "
+             "as its logarithm%s", e->grid.phis < LEAST_AZIMUTHS ? "" :
+             e->following ? ", and edges are followed from azimuth to azimuth" : "");
+    if (e->grid.phis >= LEAST_AZIMUTHS)
+        fit_note(notes, "between azimuths: each one left out, its neighbours miss %.2g %% of "
+                 "its light (%.2g %% without following edges; in %d of %d intervals they are)",
+                 100 * e->missed, 100 * e->missed_still, e->following, e->grid.phis);
+}
