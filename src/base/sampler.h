@@ -47,8 +47,9 @@ typedef uint32_t SamplerBits __attribute__((vector_size(16)));
 
 static inline SamplerBits reverse_lanes(SamplerBits x)
 {
-    x = x << 16 | x >> 16;
-    x = (x & 0x00ff00ffu) << 8 | (x >> 8 & 0x00ff00ffu);
+    typedef uint8_t Bytes __attribute__((vector_size(16)));
+    x = (SamplerBits)__builtin_shufflevector((Bytes)x, (Bytes)x, 3, 2, 1, 0, 7, 6, 5, 4, 11, 10,
+                                             9, 8, 15, 14, 13, 12);
     x = (x & 0x0f0f0f0fu) << 4 | (x >> 4 & 0x0f0f0f0fu);
     x = (x & 0x33333333u) << 2 | (x >> 2 & 0x33333333u);
     return (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);

@@ -11,11 +11,12 @@ void coverage_texel(const Scene *scene, const Material *material, const Hit *hit
         Vec2 uv = slot_uv(slot, point);
         texture_colour(&scene->textures[slot->texture_id], uv.x, uv.y, texel);
     }
+    if (!colors) return;
     for (int i = 0; i < 4; i++) {
         float colour = 0;
         for (int k = 0; k < 3; k++) {
             uint32_t place = scene_corner_place(scene, hit->triangle, k);
-            colour += weight[k] * (colors ? (float)colors[place].linear[i] : 65535);
+            colour += weight[k] * (float)colors[place].linear[i];
         }
         texel[i] *= colour * (1.0f / 65535);
     }

@@ -12,13 +12,6 @@ static Vec3 interpolate(Vec3 a, Vec3 b, Vec3 c, float u, float v)
                 w * a.z + u * b.z + v * c.z);
 }
 
-/* glTF 2.0, 3.7.2.1. */
-static Vec3 flat_normal(Vec3 a, Vec3 b, Vec3 c)
-{
-    return vec3_normalize(vec3_cross(vec3_normalize(vec3_sub(b, a)),
-                                     vec3_normalize(vec3_sub(c, a))));
-}
-
 TrianglePoint triangle_point(const Scene *scene, uint32_t triangle, float u, float v)
 {
     const Triangle *t = &scene->triangles[triangle];
@@ -29,10 +22,9 @@ TrianglePoint triangle_point(const Scene *scene, uint32_t triangle, float u, flo
              k = t->vertex[2] - part->first_vertex;
     TrianglePoint point = {.position = interpolate(a, b, c, u, v)};
     point.ng = vec3_normalize(vec3_cross(vec3_sub(b, a), vec3_sub(c, a)));
-    Vec3 flat = part->normals ? point.ng : flat_normal(a, b, c);
-    point.ns = vec3_normalize(part->normals ? interpolate(part->normals[i], part->normals[j],
-                                                          part->normals[k], u, v)
-                                            : interpolate(flat, flat, flat, u, v));
+    point.ns = part->normals ? vec3_normalize(interpolate(part->normals[i], part->normals[j],
+                                                          part->normals[k], u, v))
+                             : point.ng;
     if (!(vec3_dot(point.ns, point.ns) > 0.5f)) point.ns = point.ng;
     for (int set = 0; set < SCENE_UV_SETS; set++) {
         const Vec2 *uv = part->uv[set];
