@@ -1,14 +1,15 @@
-/* Before the first path: cells of emitters, their light, and the tiles they are gathered in. */
+/* Before the first path: cells of emitters, their light, and the tree they are gathered in. */
 #include "light/emitters_build.h"
 
 #include <math.h>
 
-#include "light/emitter_tiles.h"
+#include "light/emitter_tree.h"
 #include "panel/query/panel_emission.h"
 #include "spectrum/photometry.h"
 
 #define CELLS_OF_PICTURE 32768 /* about, of a part with content or an emissive texture */
-#define CELLS_OF_PLAIN 256
+#define CELLS_OF_DISPLAY 256 /* without content: its directions change across it */
+#define CELLS_OF_PLAIN 8
 #define POINTS_LEAST 16 /* a cell, at which the light of a picture is read */
 #define POINTS_MAX 128
 #define FLOOR_SHARE 0.02 /* of the part's mean, so that no lit texel is impossible */
@@ -179,7 +180,11 @@ static void cut_part(const Scene *scene, int part_id, Emitters *emitters)
     const Part     *part = &scene->parts[part_id];
     const Material *material = &scene->materials[part->material_id];
     bool    is_picture = slot_of(scene, material)->texture_id != NO_ID;
-    double  cells = is_picture ? CELLS_OF_PICTURE : CELLS_OF_PLAIN, total = 0;
+    bool    is_display = material->display_id != NO_ID;
+    double  cells = is_picture   ? CELLS_OF_PICTURE
+                    : is_display ? CELLS_OF_DISPLAY
+                                 : CELLS_OF_PLAIN;
+    double  total = 0;
     for (uint32_t i = 0; i < part->triangle_count; i++)
         total += triangle_area(scene, part->first_triangle + i);
     for (uint32_t i = 0; i < part->triangle_count; i++) {
@@ -187,7 +192,8 @@ static void cut_part(const Scene *scene, int part_id, Emitters *emitters)
         double   share = total > 0 ? triangle_area(scene, triangle) / total : 0;
         int      side = (int)fmin(SIDE_MAX, fmax(1, sqrt(cells * share)));
         emitters->emitters[emitters->first_of_part[part_id] + (int)i] =
-            (Emitter){triangle, emitters->cell_count, side};
+            (Emitter){triangle, emitters->cell_count, side,
+                      (float)(triangle_area(scene, triangle) / ((double)side * side))};
         emitters->cell_count += (uint32_t)(side * side);
     }
 }
@@ -240,6 +246,6 @@ Emitters emitters_build(const Scene *scene, Arena *arena)
         if (emitters.first_of_part[p] != NO_ID) read_part(scene, p, &emitters, weight);
     for (uint32_t c = 0; c < emitters.cell_count; c++) total += weight[c];
     if (!(total > 0)) return (Emitters){.first_of_part = emitters.first_of_part};
-    emitter_tiles_build(scene, weight, arena, &emitters);
+    emitter_tree_build(scene, weight, arena, &emitters);
     return emitters;
 }

@@ -199,19 +199,19 @@ static Spectrum punctual_radiance(const PunctualLight *light, float scale,
 
 /* ---- all sets ---------------------------------------------------------------------------- */
 
-static bool sample_emitters(const Lights *lights, Vec3 position, const float u[3],
+static bool sample_emitters(const Lights *lights, const LitPoint *from, const float u[3],
                             LightSample *sample)
 {
-    float        pdf_area;
-    EmitterPoint at = emitters_sample(&lights->emitters, position, u, &pdf_area);
+    EmitterDensity density;
+    EmitterPoint at = emitters_sample(&lights->emitters, lights->scene, from, u, &density);
     sample->point = triangle_point(lights->scene, at.triangle, at.u, at.v);
-    Vec3  to_light = vec3_sub(sample->point.position, position);
+    Vec3  to_light = vec3_sub(sample->point.position, from->position);
     float d2 = vec3_dot(to_light, to_light);
     sample->wi = vec3_normalize(to_light);
     sample->distance = sqrtf(d2);
     float cosine = fabsf(vec3_dot(sample->point.ng, sample->wi));
     if (!(d2 > 0) || !(cosine > 1e-6f)) return false;
-    sample->pdf = pdf_area * d2 / cosine;
+    sample->pdf = density.on_area * d2 / cosine + density.on_sphere;
     sample->is_emitter = true;
     sample->triangle = at.triangle;
     sample->u = at.u;
@@ -256,7 +256,7 @@ bool lights_sample(const Lights *lights, LightSet set, LitPoint point, const flo
     switch (set) {
     case LIGHTS_SUN: return sample_sun(lights, u, sample);
     case LIGHTS_SKY: return sample_sky(lights, point.ns, u, sample);
-    case LIGHTS_EMITTERS: return sample_emitters(lights, point.position, u, sample);
+    case LIGHTS_EMITTERS: return sample_emitters(lights, &point, u, sample);
     case LIGHTS_PUNCTUAL: return sample_punctual(lights, point.position, u, sample);
     case LIGHT_SETS: break;
     }
@@ -289,13 +289,14 @@ void lights_distant(const Lights *lights, Vec3 direction, Vec3 ns,
     pdf[LIGHTS_SKY] = seen.pdf;
 }
 
-float lights_emitter_pdf(const Lights *lights, Vec3 from, const Hit *hit, Vec3 direction,
-                         Vec3 ng)
+float lights_emitter_pdf(const Lights *lights, const LitPoint *from, const Hit *hit,
+                         Vec3 direction, Vec3 ng)
 {
     float cosine = fabsf(vec3_dot(ng, direction));
-    float pdf_area = emitters_pdf_area(&lights->emitters, lights->scene, from,
-                                       (EmitterPoint){hit->triangle, hit->u, hit->v});
-    return cosine > 1e-6f ? pdf_area * hit->t * hit->t / cosine : 0;
+    EmitterDensity density =
+        emitters_density(&lights->emitters, lights->scene, from,
+                         (EmitterPoint){hit->triangle, hit->u, hit->v});
+    return cosine > 1e-6f ? density.on_area * hit->t * hit->t / cosine + density.on_sphere : 0;
 }
 
 long lights_refused_pixels(const Lights *lights)

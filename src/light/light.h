@@ -13,6 +13,7 @@
 #include "base/sampler.h"
 #include "bvh/ray.h"
 #include "light/emission.h"
+#include "light/lit_point.h"
 #include "scene/scene.h"
 #include "spectrum/wavelengths.h"
 
@@ -48,12 +49,6 @@ typedef struct LightSample {
     float    scale;    /* and what its intensity becomes at the point, by the choice's chance */
 } LightSample;
 
-/* A point that is lit. */
-typedef struct LitPoint {
-    Vec3 position; /* m, world */
-    Vec3 ns;       /* unit, world: its shading normal */
-} LitPoint;
-
 /* One sample of one set as seen from `point`. u in [0,1)^3. False: nothing comes from there. */
 bool lights_sample(const Lights *lights, LightSet set, LitPoint point, const float u[3],
                    LightSample *sample);
@@ -68,9 +63,9 @@ void lights_distant(const Lights *lights, Vec3 direction, Vec3 ns,
                     const Wavelengths *wavelengths, Spectrum radiance[2], float pdf[2]);
 
 /* pdf, sr^-1, with which LIGHTS_EMITTERS chooses the point that a ray in `direction` from the
- * lit position `from` hit, at distance hit->t from there; ng: the triangle's normal. */
-float lights_emitter_pdf(const Lights *lights, Vec3 from, const Hit *hit, Vec3 direction,
-                         Vec3 ng);
+ * lit point `from` hit, at distance hit->t from there; ng: the triangle's normal. */
+float lights_emitter_pdf(const Lights *lights, const LitPoint *from, const Hit *hit,
+                         Vec3 direction, Vec3 ng);
 
 /* Pixels of the environment picture that had a negative or non-finite value, counted as 0. */
 long lights_refused_pixels(const Lights *lights);

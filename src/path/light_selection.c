@@ -22,7 +22,7 @@ static double sample_illuminance(const Bvh *bvh, const Lights *lights, LightSet 
     float xyz[3] = {0};
     float u[4];
     sampler_4d(sampler, u);
-    if (!lights_sample(lights, set, (LitPoint){position, n}, u, &light)) return 0;
+    if (!lights_sample(lights, set, (LitPoint){position, n, false}, u, &light)) return 0;
     float cosine = vec3_dot(n, light.wi);
     if (!(cosine > 0)) return 0;
     Ray ray = {ray_offset_origin(position, n, light.wi), light.wi, 0, light.distance * 0.999f};

@@ -43,7 +43,7 @@ typedef struct PathWalk {
     PathLight gathered;   /* found so far */
     PathResult *first;   /* waits for the first surface; NULL: recorded, or nobody asks */
     float    straight;   /* m since the last scattering vertex (windows do not scatter) */
-    Vec3     last_position, last_ns; /* of that vertex */
+    LitPoint last;       /* that vertex */
     const float *last_asked; /* how often it sampled each set of lights */
     float    last_pdf;   /* with which it chose the direction, sr^-1 */
     bool     last_is_delta; /* no light sample could have found what comes now */
@@ -87,13 +87,23 @@ static float emission_weight(const PathWalk *walk, LightSet set, float light_pdf
     return mis_weight(walk->last_pdf, prob * light_pdf);
 }
 
+/* Solids keep their normal outside, whichever side is seen. */
+static LitPoint lit_point(const PathWalk *walk, const Surface *surface)
+{
+    const Material *m = surface->material_id == NO_ID
+                            ? NULL
+                            : &walk->context->scene->materials[surface->material_id];
+    return (LitPoint){surface->position, surface->frame.z,
+                      m && (m->is_solid || m->transmission > 0)};
+}
+
 /* ---- emitted light ---------------------------------------------------------------------- */
 
 static void add_distant(PathWalk *walk)
 {
     Spectrum radiance[2];
     float    pdf[2];
-    lights_distant(walk->context->lights, walk->ray.direction, walk->last_ns, walk->wavelengths,
+    lights_distant(walk->context->lights, walk->ray.direction, walk->last.ns, walk->wavelengths,
                    radiance, pdf);
     for (int set = LIGHTS_SUN; set <= LIGHTS_SKY; set++) {
         float weight = emission_weight(walk, (LightSet)set, pdf[set]);
@@ -119,7 +129,7 @@ static float emitter_pdf(const PathWalk *walk, const Surface *surface, const Hit
 {
     Hit seen = {walk->straight, hit->u, hit->v, hit->triangle};
     if (walk->last_is_delta) return 0;
-    return lights_emitter_pdf(walk->context->lights, walk->last_position, &seen,
+    return lights_emitter_pdf(walk->context->lights, &walk->last, &seen,
                               walk->ray.direction, surface->ng);
 }
 
@@ -231,7 +241,7 @@ static void add_light_sample(PathWalk *walk, const Surface *surface, Vec3 wo, Li
     float u[4], set_prob = set_probability(asked_at(walk, surface, wo), set, walk->bounce);
     sampler_4d(walk->sampler, u);
     if (u[3] >= set_prob) return;
-    LitPoint point = {surface->position, surface->frame.z};
+    LitPoint point = lit_point(walk, surface);
     if (!lights_sample(context->lights, set, point, u, &light)) return;
     if (!light.is_delta && context->strategy == PATH_BSDF_ONLY) return;
     Vec3 local_wi = frame_to_local(&surface->frame, light.wi);
@@ -304,8 +314,7 @@ static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSamp
     if (!sides_agree(surface, next->wi, wi, local_wo, wo)) return STEP_ENDED;
     if (surface->bsdf.kind == BSDF_DIELECTRIC && next->wi.z * local_wo.z < 0)
         walk->medium_id = next->wi.z < 0 ? surface->material_id : NO_ID;
-    walk->last_position = surface->position;
-    walk->last_ns = surface->frame.z;
+    walk->last = lit_point(walk, surface);
     walk->last_asked = asked_at(walk, surface, wo);
     walk->last_pdf = next->pdf;
     walk->last_is_delta = next->is_delta;
@@ -462,7 +471,7 @@ static PathWalk walk_start(const PathContext *context, const Wavelengths *wavele
     sheets_none(stack);
     return (PathWalk){.context = context, .wavelengths = wavelengths, .sampler = sampler,
                   .statistics = statistics, .throughput = spectrum_all(1),
-                  .gathered.radiance = spectrum_all(0), .last_ns = vec3(0, 0, 1),
+                  .gathered.radiance = spectrum_all(0), .last.ns = vec3(0, 0, 1),
                   .last_is_delta = true, .last_asked = context->selection.all,
                   .splits_left = SPLITS,
                   .medium_id = NO_ID, .stack = stack};

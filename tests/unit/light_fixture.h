@@ -47,13 +47,14 @@ static inline Mean illuminance(const Lights *lights, LightSet set, Vec3 position
 {
     Mean mean = {0};
     uint32_t random = 11;
+    LitPoint point = {position, n, false};
     for (int i = 0; i < SAMPLES; i++) {
         Wavelengths w;
         LightSample sample;
         float u[3], xyz[3] = {0};
         random3(&random, u);
         wavelengths_sample(random_unit(&random), &w);
-        if (lights_sample(lights, set, (LitPoint){position, n}, u, &sample)) {
+        if (lights_sample(lights, set, point, u, &sample)) {
             float cosine = fmaxf(vec3_dot(n, sample.wi), 0);
             spectrum_add_xyz(&w, lights_radiance(lights, &sample, &w) *
                                      spectrum_all(cosine / sample.pdf), xyz);

@@ -302,7 +302,7 @@ static Spectrum reflected_sun(const World *world, const Wavelengths *w, const vo
 static Spectrum sun_irradiance(const World *world, const Wavelengths *w)
 {
     enum { SIDE = 16 };
-    const LitPoint up = {vec3(0, 0, 0), vec3(0, 0, 1)};
+    const LitPoint up = {vec3(0, 0, 0), vec3(0, 0, 1), false};
     Spectrum       sum = spectrum_all(0);
     for (int i = 0; i < SIDE * SIDE; i++) {
         LightSample sample;
@@ -408,8 +408,8 @@ TEST(the_back_of_a_display_is_dark)
 TEST(the_back_of_a_display_lights_nothing)
 {
     (void)state;
-    LitPoint before = {vec3(0.2f, 0, 2), vec3(0, 0, -1)};
-    LitPoint behind = {vec3(0.2f, 0, -2), vec3(0, 0, 1)};
+    LitPoint before = {vec3(0.2f, 0, 2), vec3(0, 0, -1), false};
+    LitPoint behind = {vec3(0.2f, 0, -2), vec3(0, 0, 1), false};
     for (int i = 0; i < 4; i++) {
         World world = world_of_faces(i & 1, i & 2);
         Seen  lit[3];

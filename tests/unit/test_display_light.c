@@ -2,6 +2,7 @@
 #include "panel_fixture.h"
 
 #include "base/sampler.h"
+#include "emitter_fixture.h"
 #include "light/emitters_build.h"
 #include "path/path.h"
 #include "scene_builder.h"
@@ -64,6 +65,8 @@ static Scene *four_displays(Arena *arena, bool has_content)
     return scene;
 }
 
+static const LitPoint at_origin = {{0, 0, 0}, {0, 0, -1}, false};
+
 typedef struct Estimate {
     double mean, variance; /* of one sample, relative to the mean squared */
 } Estimate;
@@ -91,12 +94,13 @@ static Estimate illuminance(const Scene *scene, const Emitters *emitters, bool i
     enum { COUNT = 20000 };
     uint32_t random = 17;
     double   sum = 0, squares = 0;
-    Vec3     to = vec3(0, 0, 0);
     for (int i = 0; i < COUNT; i++) {
-        float  u[3], pdf;
-        double geometry;
+        float  u[3];
+        double geometry, pdf;
+        EmitterDensity density;
         for (int k = 0; k < 3; k++) u[k] = unit_float(hash_u32(random++));
-        EmitterPoint at = emitters_sample(emitters, to, u, &pdf);
+        EmitterPoint at = emitters_sample(emitters, scene, &at_origin, u, &density);
+        pdf = density_on_area(scene, at, at_origin.position, density);
         if (is_blind) { /* all triangles have the same mean luminance: by area */
             const double areas[4] = {0.15 * 0.055 * 4, 0.2 * 0.055 * 2 * 1.41421356,
                                      0.2 * 0.055 * 2 * 1.41421356,
@@ -106,9 +110,10 @@ static Estimate illuminance(const Scene *scene, const Emitters *emitters, bool i
             float  root = sqrtf(u[0]);
             at = (EmitterPoint){(uint32_t)(2 * d) + (hash_u32(random++) & 1),
                                 root * (1 - u[1]), root * u[1]};
-            pdf = (float)(1 / all);
+            pdf = 1 / all;
         }
-        double value = luminance_towards(scene, at, to, &geometry) * geometry / (double)pdf;
+        double luminance = luminance_towards(scene, at, at_origin.position, &geometry);
+        double value = luminance * geometry / pdf;
         sum += value;
         squares += value * value;
     }
@@ -161,7 +166,7 @@ TEST(every_strategy_finds_the_same_light_of_displays)
             Wavelengths w;
             float       lx[3];
             wavelengths_sample(sampler_1d(&sampler), &w);
-            path_illuminance(&context, (LitPoint){vec3(0, 0, 0), vec3(0, 0, -1)}, &w, &sampler,
+            path_illuminance(&context, at_origin, &w, &sampler,
                              lx, &statistics);
             mean[s] += (double)lx[1] / counts[s];
             squares += (double)lx[1] * (double)lx[1] / counts[s];

@@ -1,3 +1,4 @@
+#include "emitter_fixture.h"
 #include "light/emitters_build.h"
 #include "light/sky.h"
 #include "light_fixture.h"
@@ -215,25 +216,29 @@ TEST(sun_samples_are_uniform_on_the_disc_and_never_off_it)
 
 /* ---- emitters ---------------------------------------------------------------------------- */
 
-/* Sum over an emitter's cells of density times area: every cell by its middle. */
-static double emitter_total(const Emitters *emitters, const Scene *scene, Vec3 from)
+static double triangle_area(const Scene *scene, uint32_t triangle)
 {
-    double total = 0;
-    for (int t = 0; t < emitters->count; t++) {
-        const Emitter *e = &emitters->emitters[t];
-        Vec3 p[3];
-        for (int k = 0; k < 3; k++) p[k] = scene_corner(scene, e->triangle, k);
-        double area = 0.5 * (double)vec3_length(vec3_cross(vec3_sub(p[1], p[0]),
-                                                           vec3_sub(p[2], p[0])));
-        for (int i = 0; i < e->side; i++)
-            for (int k = 0; k < 2 * (e->side - i) - 1; k++) {
-                float        in = k % 2 ? 2 / 3.0f : 1 / 3.0f, side = (float)e->side;
-                EmitterPoint at = {e->triangle, ((float)i + in) / side,
-                                   ((float)(k / 2) + in) / side};
-                total += (double)emitters_pdf_area(emitters, scene, from, at) * area /
-                         ((double)e->side * e->side);
-            }
-    }
+    TrianglePoint p[3];
+    for (int k = 0; k < 3; k++) p[k] = triangle_point(scene, triangle, k == 1, k == 2);
+    return 0.5 * (double)vec3_length(vec3_cross(vec3_sub(p[1].position, p[0].position),
+                                                vec3_sub(p[2].position, p[0].position)));
+}
+
+/* The integral of the density over a triangle's pieces, fine^2 of them, by their middles;
+ * strips: NULL, or by the strip of u that the piece lies in. */
+static double density_total(const Emitters *emitters, const Scene *scene, const LitPoint *from,
+                            uint32_t triangle, int fine, int strip_count, double *strips)
+{
+    double total = 0, area = triangle_area(scene, triangle) / ((double)fine * fine);
+    for (int i = 0; i < fine; i++)
+        for (int k = 0; k < 2 * (fine - i) - 1; k++) {
+            float        in = k % 2 ? 2 / 3.0f : 1 / 3.0f, side = (float)fine;
+            EmitterPoint at = {triangle, ((float)i + in) / side, ((float)(k / 2) + in) / side};
+            EmitterDensity density = emitters_density(emitters, scene, from, at);
+            double share = density_on_area(scene, at, from->position, density) * area;
+            total += share;
+            if (strips) strips[(int)(at.u * (float)strip_count * 0.99999f)] += share;
+        }
     return total;
 }
 
@@ -260,8 +265,14 @@ static Scene *lamp_scene(Arena *arena)
     return scene;
 }
 
-static const Vec3 LIT[] = {{0, 0, 0}, {3, 1.9f, 0.2f}, {8, 2.001f, 1}, {-50, -20, 7},
-                           {9, 5, 0} /* behind */};
+/* Far, near, nearer than a cell is long, behind, and where no lamp is above the horizon. */
+static const LitPoint LIT[] = {{{0, 0, 0}, {0, 1, 0}, false},
+                               {{3, 1.9f, 0.2f}, {0, 1, 0}, false},
+                               {{3, 1.9f, 0.2f}, {0.8f, 0.6f, 0}, false},
+                               {{8.3f, 1.98f, 1}, {0, 0, 1}, true},
+                               {{-50, -20, 7}, {1, 0, 0}, false},
+                               {{9, 5, 0}, {0, -1, 0}, false},
+                               {{0, 0, 0}, {0, -1, 0}, false}};
 
 TEST(densities_of_emitters_integrate_to_one_from_anywhere)
 {
@@ -269,8 +280,15 @@ TEST(densities_of_emitters_integrate_to_one_from_anywhere)
     Scene   *scene = lamp_scene(&arena);
     Emitters emitters = emitters_build(scene, &arena);
     assert_int_equal(emitters.count, 6);
-    for (size_t i = 0; i < sizeof LIT / sizeof *LIT; i++)
-        assert_close(emitter_total(&emitters, scene, LIT[i]), 1, 1e-4);
+    for (size_t i = 0; i < sizeof LIT / sizeof *LIT; i++) {
+        double total = 0;
+        for (int t = 0; t < emitters.count; t++) {
+            const Emitter *e = &emitters.emitters[t]; /* whole pieces of every cell */
+            int fine = e->side * (1 + 300 / e->side);
+            total += density_total(&emitters, scene, &LIT[i], e->triangle, fine, 1, NULL);
+        }
+        assert_close(total, 1, 1e-3);
+    }
 }
 
 /* Points fall into strips of every triangle as the density says. */
@@ -281,34 +299,28 @@ TEST(emitter_samples_follow_their_density)
     Scene   *scene = lamp_scene(&arena);
     Emitters emitters = emitters_build(scene, &arena);
     uint32_t random = 8;
-    const double area[TRIANGLES] = {2, 2, 8, 8, 8, 8};
     for (size_t p = 0; p < sizeof LIT / sizeof *LIT; p++) {
         double found[TRIANGLES][STRIPS] = {{0}}, expected[TRIANGLES][STRIPS] = {{0}}, chi = 0;
         int    cells = 0, unlike = 0;
         for (int i = 0; i < SAMPLES; i++) {
-            float u[3], pdf_area;
+            float u[3];
+            EmitterDensity density, seen;
             random3(&random, u);
-            EmitterPoint at = emitters_sample(&emitters, LIT[p], u, &pdf_area);
-            assert_true(at.u >= 0 && at.v >= 0 && at.u + at.v <= 1.0001f && pdf_area > 0);
-            float seen = emitters_pdf_area(&emitters, scene, LIT[p], at);
-            unlike += seen != pdf_area; /* rounded into the next cell */
+            EmitterPoint at = emitters_sample(&emitters, scene, &LIT[p], u, &density);
+            assert_true(at.u >= 0 && at.v >= 0 && at.u + at.v <= 1.0001f);
+            assert_true(density.on_area > 0 || density.on_sphere > 0);
+            seen = emitters_density(&emitters, scene, &LIT[p], at);
+            unlike += seen.on_area != density.on_area || /* rounded into the next cell */
+                      seen.on_sphere != density.on_sphere;
             found[at.triangle][(int)(at.u * STRIPS * 0.99999f)]++;
         }
         for (uint32_t t = 0; t < TRIANGLES; t++) {
-            int fine = STRIPS * FINE;
-            for (int i = 0; i < fine; i++)
-                for (int j = 0; j < 2 * (fine - i) - 1; j++) {
-                    float in = j % 2 ? 2 / 3.0f : 1 / 3.0f;
-                    EmitterPoint at = {t, ((float)i + in) / (float)fine,
-                                       ((float)(j / 2) + in) / (float)fine};
-                    int strip = (int)(at.u * STRIPS * 0.99999f);
-                    double pdf = (double)emitters_pdf_area(&emitters, scene, LIT[p], at);
-                    expected[t][strip] += SAMPLES * pdf * area[t] / ((double)fine * fine);
-                }
+            density_total(&emitters, scene, &LIT[p], t, STRIPS * FINE, STRIPS, expected[t]);
             for (int k = 0; k < STRIPS; k++) {
-                if (expected[t][k] < 10) continue;
-                double off = found[t][k] - expected[t][k];
-                chi += off * off / (expected[t][k] + 4e-5 * expected[t][k] * expected[t][k]);
+                double wanted = SAMPLES * expected[t][k];
+                if (wanted < 10) continue;
+                chi += (found[t][k] - wanted) * (found[t][k] - wanted) /
+                       (wanted + 4e-5 * wanted * wanted);
                 cells++;
             }
         }
@@ -333,14 +345,16 @@ TEST(emitters_are_chosen_by_what_they_send_to_the_point)
                      vec3(0, 0, lamp ? 2.0f : 1.0f));
     }
     Emitters emitters = emitters_build(scene, &arena);
-    const Vec3 from[] = {{4, -400, 0}, {-0.5f, 1.5f, 0}};
+    const LitPoint from[] = {{{4, -400, 0}, {0, 1, 0}, false},
+                             {{-0.5f, 1.5f, 0}, {0, 1, 0}, false}};
     const double low[] = {11.5, 0}, high[] = {12.5, 0.6};
     for (int k = 0; k < 2; k++) {
         int chosen[2] = {0};
         for (int i = 0; i < SAMPLES; i++) {
-            float u[3], pdf_area;
+            float u[3];
+            EmitterDensity density;
             random3(&random, u);
-            chosen[emitters_sample(&emitters, from[k], u, &pdf_area).triangle / 2]++;
+            chosen[emitters_sample(&emitters, scene, &from[k], u, &density).triangle / 2]++;
         }
         double ratio = chosen[1] / (double)chosen[0];
         if (!(ratio >= low[k] && ratio <= high[k])) fail_msg("ratio %g", ratio);
@@ -369,9 +383,10 @@ TEST(bright_texels_are_chosen_more_often)
     builder_quad(scene, vec3(0, 2, 0), vec3(1, 0, 0), vec3(0, 0, 1));
     Emitters emitters = emitters_build(scene, &arena);
     for (int i = 0; i < SAMPLES; i++) {
-        float u[3], pdf_area, rgb[3];
+        float u[3], rgb[3];
+        EmitterDensity density;
         random3(&random, u);
-        EmitterPoint  at = emitters_sample(&emitters, vec3(0, 0, 0), u, &pdf_area);
+        EmitterPoint  at = emitters_sample(&emitters, scene, &LIT[0], u, &density);
         TrianglePoint point = triangle_point(scene, at.triangle, at.u, at.v);
         emitted_rgb(scene, &scene->materials[0], &point, rgb);
         lit += rgb[1] > 500;
@@ -479,18 +494,17 @@ TEST(an_area_light_gives_its_configuration_factor)
                 PI * 2000 * factor);
     LightSample sample;
     float u[3] = {0.3f, 0.4f, 0.1f};
-    assert_true(lights_sample(lights, LIGHTS_EMITTERS, (LitPoint){vec3(0, 0, 0), vec3(0, 1, 0)},
-                              u, &sample));
+    assert_true(lights_sample(lights, LIGHTS_EMITTERS, LIT[0], u, &sample));
     /* the ray that finds the same point: on the plane y = 2, u and v along the quad's edges */
     Vec3 at = vec3_scale(sample.wi, sample.distance);
     float s = 0.5f + 0.5f * at.x, t = 0.5f - 0.5f * at.z; /* builder_quad's corners */
     Hit hits[2] = {{sample.distance, s - (1 - t), 1 - t, 0},
                    {sample.distance, s, 1 - t - s, 1}};
     Hit hit = hits[hits[0].u >= 0 ? 0 : 1];
-    assert_close(lights_emitter_pdf(lights, vec3(0, 0, 0), &hit, sample.wi, vec3(0, -1, 0)),
+    assert_close(lights_emitter_pdf(lights, &LIT[0], &hit, sample.wi, vec3(0, -1, 0)),
                  sample.pdf, 1e-3);
     assert_false(lights_sample(lights, LIGHTS_EMITTERS,
-                               (LitPoint){vec3(0, 4, 0), vec3(0, -1, 0)}, u,
+                               (LitPoint){vec3(0, 4, 0), vec3(0, -1, 0), false}, u,
                                &sample)); /* its back is dark */
 }
 

@@ -57,7 +57,7 @@ TEST(a_half_set_sun_gives_half_its_light)
     for (int i = 0; i < 20000; i++) {
         const float u[3] = {((float)i + 0.5f) / 20000, (float)((i * 7919) % 20000) / 20000, 0};
         LightSample sample;
-        LitPoint point = {vec3(0, 0, 0), facing};
+        LitPoint point = {vec3(0, 0, 0), facing, false};
         assert_true(lights_sample(lights, LIGHTS_SUN, point, u, &sample));
         sum[sample.wi.y >= 0] += (double)spectrum_sum(lights_radiance(lights, &sample, &lanes));
     }

@@ -270,7 +270,7 @@ static double illuminance(const World *world, Vec3 position, Vec3 normal, int co
         Wavelengths w;
         float lx[3];
         wavelengths_sample(sampler_1d(&sampler), &w);
-        path_illuminance(&world->context, (LitPoint){position, normal}, &w, &sampler, lx,
+        path_illuminance(&world->context, (LitPoint){position, normal, false}, &w, &sampler, lx,
                          &statistics);
         sum += (double)lx[1] / count;
     }

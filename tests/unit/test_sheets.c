@@ -229,7 +229,7 @@ static void check_films(const Place *place, int sheets, bool has_pane)
     world_ready(&world, BOUNCES);
     Mean seen = look(&world, at(place, 0, 0, 3), at(place, 0, 0, -2), 12000);
     assert_near(seen.value, 100 * share, 4 * seen.sigma + 0.01);
-    LitPoint point = {at(place, 0, 0, 3), vec3_neg(place->frame.z)};
+    LitPoint point = {at(place, 0, 0, 3), vec3_neg(place->frame.z), false};
     double   lx = 100 * 0.08 / 25 * share; /* 0.1 % above, by the square's own size */
     for (PathStrategy s = PATH_MIS; s <= PATH_LIGHTS_ONLY; s++) {
         world.context.strategy = s;
@@ -263,7 +263,7 @@ static void check_covered(const Place *place, float gap, float own_alpha)
     }
     world_ready(&world, BOUNCES);
     for (PathStrategy s = PATH_MIS; s <= PATH_BSDF_ONLY; s++) {
-        LitPoint point = {at(place, 0.1f, 0, 1), vec3_neg(place->frame.z)};
+        LitPoint point = {at(place, 0.1f, 0, 1), vec3_neg(place->frame.z), false};
         world.context.strategy = s;
         Mean mean = mean_of(&world, NULL, point, 20000);
         lx[s] = mean.value;

@@ -1,0 +1,9 @@
+/* lit_point.h -- a point that is lit, as far as lights ask. */
+#pragma once
+#include "base/vec.h"
+
+typedef struct LitPoint {
+    Vec3 position;   /* m, world */
+    Vec3 ns;         /* unit, world: its shading normal */
+    bool both_sides; /* light from behind counts, too; else only from the normal's side */
+} LitPoint;
