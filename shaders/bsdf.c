@@ -38,6 +38,12 @@ Spectrum bsdf_pass(const Bsdf *bsdf, Vec3 wo)
     return model->pass ? model->pass(parameters_of(bsdf), wo) : spectrum_all(0);
 }
 
+Spectrum bsdf_mirror(const Bsdf *bsdf, Vec3 wo)
+{
+    const BsdfModel *model = models[bsdf->kind];
+    return model->mirror ? model->mirror(parameters_of(bsdf), wo) : spectrum_all(0);
+}
+
 bool bsdf_scatters(const Bsdf *bsdf)
 {
     const BsdfModel *model = models[bsdf->kind];

@@ -50,6 +50,10 @@ bool bsdf_sample(const Bsdf *bsdf, Vec3 wo, const float u[3], BsdfSample *sample
 /* What share of the light passes straight through from -wo to wo (thin windows); else 0. */
 Spectrum bsdf_pass(const Bsdf *bsdf, Vec3 wo);
 
+/* What share of the light a smooth boundary about +z sends to wo from its mirror direction
+ * (-wo.x, -wo.y, wo.z): with which bsdf_sample would choose it, times that choice's weight. */
+Spectrum bsdf_mirror(const Bsdf *bsdf, Vec3 wo);
+
 /* Has any part that light sampling can hit? (false: only delta parts, or black) */
 bool bsdf_scatters(const Bsdf *bsdf);
 

@@ -24,6 +24,7 @@ typedef struct BsdfModel {
     bool     (*reaches)(const void *parameters, Vec3 wo, Vec3 wi); /* NULL: may, everywhere */
     bool     (*sample)(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample);
     Spectrum (*pass)(const void *parameters, Vec3 wo);
+    Spectrum (*mirror)(const void *parameters, Vec3 wo);
     bool     (*scatters)(const void *parameters);
     Spectrum (*albedo)(const void *parameters, Vec3 wo);
 } BsdfModel;

@@ -67,6 +67,11 @@ static Spectrum window_pass(const void *parameters, Vec3 wo)
     return thin_window_transmittance(parameters, fabsf(wo.z));
 }
 
+static Spectrum window_mirror(const void *parameters, Vec3 wo)
+{
+    return thin_window_reflectance(parameters, fabsf(wo.z));
+}
+
 static Spectrum window_albedo(const void *parameters, Vec3 wo)
 {
     return thin_window_reflectance(parameters, fabsf(wo.z)) +
@@ -74,7 +79,7 @@ static Spectrum window_albedo(const void *parameters, Vec3 wo)
 }
 
 const BsdfModel thin_window_model = {.sample = window_sample, .pass = window_pass,
-                                     .albedo = window_albedo};
+                                     .mirror = window_mirror, .albedo = window_albedo};
 
 /* Directions as seen from wo's side: z > 0 is that side; eta is the other side's index over
  * this side's. */
@@ -200,6 +205,14 @@ static bool solid_scatters(const void *parameters)
     return !is_delta(parameters);
 }
 
+static Spectrum solid_mirror(const void *parameters, Vec3 wo)
+{
+    const Dielectric *d = parameters;
+    if (!is_delta(d) || wo.z == 0) return spectrum_all(0);
+    Side s = side_of(d, wo, wo);
+    return spectrum_all(face_reflectance(s.wo.z, s.eta, NULL));
+}
+
 static Spectrum solid_albedo(const void *parameters, Vec3 wo)
 {
     (void)parameters;
@@ -208,4 +221,5 @@ static Spectrum solid_albedo(const void *parameters, Vec3 wo)
 }
 
 const BsdfModel dielectric_model = {.eval = solid_eval, .sample = solid_sample,
+                                    .mirror = solid_mirror,
                                     .scatters = solid_scatters, .albedo = solid_albedo};

@@ -70,6 +70,13 @@ static bool model_sample(const void *parameters, Vec3 wo, const float u[3], Bsdf
     return true;
 }
 
+static Spectrum model_mirror(const void *parameters, Vec3 wo)
+{
+    const DisplaySurface *display = parameters;
+    if (!reflects(display, wo)) return spectrum_all(0);
+    return panel_mirror(display->panel, wo.z, display->wavelengths);
+}
+
 static bool model_scatters(const void *parameters)
 {
     const DisplaySurface *display = parameters;
@@ -85,5 +92,5 @@ static Spectrum model_albedo(const void *parameters, Vec3 wo)
 }
 
 const BsdfModel display_model = {.eval = model_eval, .reaches = model_reaches,
-                                 .sample = model_sample, .scatters = model_scatters,
-                                 .albedo = model_albedo};
+                                 .sample = model_sample, .mirror = model_mirror,
+                                 .scatters = model_scatters, .albedo = model_albedo};

@@ -474,15 +474,33 @@ static bool sample_smooth_coat(const View *view, BsdfSample *sample)
     return sample_smooth(sample, wi, spectrum_all(value * wi.z / cosine), view->choices.coat);
 }
 
+static Spectrum smooth_base(const View *view, Vec3 wi)
+{
+    Spectrum bare = facet_below(view, wi.z, NULL);
+    if (!(view->m->clearcoat > 0)) return bare;
+    Through below = coat_through(view->m, wi);
+    return covered(view->m, bare, facet_below(view, wi.z, &below));
+}
+
 static bool sample_smooth_base(const View *view, BsdfSample *sample)
 {
-    Vec3  wi = vec3(-view->wo.x, -view->wo.y, view->wo.z);
-    Spectrum value = facet_below(view, wi.z, NULL);
-    if (view->m->clearcoat > 0) {
-        Through below = coat_through(view->m, wi);
-        value = covered(view->m, value, facet_below(view, wi.z, &below));
+    Vec3 wi = vec3(-view->wo.x, -view->wo.y, view->wo.z);
+    return sample_smooth(sample, wi, smooth_base(view, wi), view->choices.mirror);
+}
+
+static Spectrum model_mirror(const void *parameters, Vec3 wo)
+{
+    const MetallicRoughness *m = parameters;
+    Spectrum sum = spectrum_all(0);
+    if (!(wo.z > 0)) return sum;
+    if (m->clearcoat > 0 && is_smooth(m->clearcoat_alpha) &&
+        m->clearcoat_normal.z >= COAT_UPRIGHT)
+        sum = spectrum_all(m->clearcoat * coat_facet(wo.z));
+    if (is_smooth(m->alpha)) {
+        View view = view_from(m, wo);
+        sum += smooth_base(&view, vec3(-wo.x, -wo.y, wo.z));
     }
-    return sample_smooth(sample, wi, value, view->choices.mirror);
+    return sum;
 }
 
 static Spectrum model_pass(const void *parameters, Vec3 wo)
@@ -576,5 +594,6 @@ static Spectrum model_albedo(const void *parameters, Vec3 wo)
 
 const BsdfModel metallic_roughness_model = {.eval = model_eval,
                                             .reaches = model_reaches, .sample = model_sample,
-                                            .pass = model_pass, .scatters = model_scatters,
+                                            .pass = model_pass, .mirror = model_mirror,
+                                            .scatters = model_scatters,
                                             .albedo = model_albedo};

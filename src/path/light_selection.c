@@ -68,7 +68,7 @@ static void share_out(const Lights *lights, const double lx[LIGHT_SETS], float p
 
 /* What lets light through is lit from both of its sides, whichever is seen. */
 static void weigh_part(const Scene *scene, const Bvh *bvh, const Lights *lights, int part_id,
-                       float prob[2][LIGHT_SETS])
+                       float prob[2][LIGHT_SETS], float all_lx[2])
 {
     const Material *material = &scene->materials[scene->parts[part_id].material_id];
     double lx[2][LIGHT_SETS] = {{0}};
@@ -78,7 +78,10 @@ static void weigh_part(const Scene *scene, const Bvh *bvh, const Lights *lights,
                 side_illuminance(scene, bvh, lights, (LightSet)set, part_id, side);
     for (int set = 0; set < LIGHT_SETS && material->transmission > 0; set++)
         lx[0][set] = lx[1][set] = lx[0][set] + lx[1][set];
-    for (int side = 0; side < 2; side++) share_out(lights, lx[side], prob[side]);
+    for (int side = 0; side < 2; side++) {
+        share_out(lights, lx[side], prob[side]);
+        for (int set = 0; set < LIGHT_SETS; set++) all_lx[side] += (float)lx[side][set];
+    }
 }
 
 LightSelection light_selection_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
@@ -87,10 +90,12 @@ LightSelection light_selection_build(const Scene *scene, const Bvh *bvh, const L
     LightSelection selection;
     size_t rows = 2 * ((size_t)scene->part_count + 1);
     selection.prob = (float(*)[LIGHT_SETS])ARENA_NEW(arena, float, LIGHT_SETS * rows);
+    selection.lx = ARENA_NEW(arena, float, rows);
     for (int set = 0; set < LIGHT_SETS; set++)
         selection.all[set] = lights_has(lights, (LightSet)set) ? 1.0f : 0.0f;
     for (int part = 0; part < scene->part_count; part++)
         if (scene->parts[part].triangle_count)
-            weigh_part(scene, bvh, lights, part, &selection.prob[2 * part]);
+            weigh_part(scene, bvh, lights, part, &selection.prob[2 * part],
+                      &selection.lx[2 * part]);
     return selection;
 }

@@ -14,6 +14,7 @@
 typedef struct LightSelection {
     float (*prob)[LIGHT_SETS]; /* of sampling a set; rows 2 part (front) and 2 part + 1; 0: the
                                   set is empty */
+    float *lx;                 /* by all sets together, one a row */
     float all[LIGHT_SETS];     /* where no part is known: 1 for every set that has lights */
 } LightSelection;
 

@@ -2,6 +2,7 @@
 
 #include "base/units.h"
 #include "path/sheets.h"
+#include "path/sun_mirror.h"
 #include "spectrum/photometry.h"
 
 /* From this bounce on lights are sampled less often: what they add is dim by then. */
@@ -44,9 +45,11 @@ typedef struct PathWalk {
     PathResult *first;   /* waits for the first surface; NULL: recorded, or nobody asks */
     float    straight;   /* m since the last scattering vertex (windows do not scatter) */
     LitPoint last;       /* that vertex */
+    int      last_part_id;
     const float *last_asked; /* how often it sampled each set of lights */
     float    last_pdf;   /* with which it chose the direction, sr^-1 */
     bool     last_is_delta; /* no light sample could have found what comes now */
+    bool     sun_is_known;  /* the last vertex but one asked for the sun in the last one */
     int      bounce;     /* scattering vertices so far */
     int      splits_left; /* thin sheets that may still be followed both ways */
     int      medium_id;  /* material of the solid that the ray is in; NO_ID: air */
@@ -105,7 +108,7 @@ static void add_distant(PathWalk *walk)
     float    pdf[2];
     lights_distant(walk->context->lights, walk->ray.direction, walk->last.ns, walk->wavelengths,
                    radiance, pdf);
-    for (int set = LIGHTS_SUN; set <= LIGHTS_SKY; set++) {
+    for (int set = walk->sun_is_known ? LIGHTS_SKY : LIGHTS_SUN; set <= LIGHTS_SKY; set++) {
         float weight = emission_weight(walk, (LightSet)set, pdf[set]);
         walk->gathered.radiance += walk->throughput * radiance[set] * spectrum_all(weight);
     }
@@ -260,12 +263,83 @@ static void add_light_sample(PathWalk *walk, const Surface *surface, Vec3 wo, Li
     walk->gathered.radiance += share * passed;
 }
 
+/* ---- the sun by way of one mirror ------------------------------------------------------- */
+
+static bool asks_mirrors(const PathContext *context)
+{
+    return context->beams.mirrors && context->strategy != PATH_BSDF_ONLY &&
+           lights_has(context->lights, LIGHTS_SUN);
+}
+
+/* A lit surface on its way through its mirrors. */
+typedef struct MirrorWalk {
+    PathWalk         *walk;
+    const Surface    *surface;
+    Vec3              wo;
+    SunMirrorQuestion question;
+} MirrorWalk;
+
+static void add_mirrored_sun(void *user, uint32_t triangle, const ReflectionPoint *point)
+{
+    const MirrorWalk *asked = user;
+    const Surface    *surface = asked->surface;
+    PathWalk *walk = asked->walk;
+    SunMirror mirror;
+    Hit       place = {0, point->u, point->v, triangle};
+    float     pdf;
+    if (!sun_mirror_at(&asked->question, &place, point->spread, &mirror)) return;
+    Vec3 local_wi = frame_to_local(&surface->frame, mirror.light.wi);
+    Vec3 local_wo = frame_to_local(&surface->frame, asked->wo);
+    if (!sides_agree(surface, local_wi, mirror.light.wi, local_wo, asked->wo)) return;
+    Spectrum share = walk->throughput * mirror.radiance *
+                     bsdf_eval(&surface->bsdf, local_wo, local_wi, &pdf) *
+                     spectrum_all(fabsf(local_wi.z));
+    if (spectrum_is_zero(share)) return;
+    share *= visibility(walk, &mirror.surface, &asked->question.sun);
+    if (spectrum_is_zero(share)) return;
+    walk->gathered.radiance += share * visibility(walk, surface, &mirror.light);
+}
+
+/* The mirror is one more vertex: none is asked where the path would end before it. */
+static void add_mirrored_suns(PathWalk *walk, const Surface *surface, Vec3 wo)
+{
+    const PathContext *context = walk->context;
+    MirrorWalk asked = {walk, surface, wo,
+                        {.scene = context->scene, .tables = context->tables,
+                         .wavelengths = walk->wavelengths, .from = surface->position}};
+    LitPoint     point = {surface->position, surface->frame.z, true}; /* from any side */
+    LightSample *sun = &asked.question.sun;
+    if (!asks_mirrors(context) || walk->medium_id != NO_ID ||
+        walk->bounce + 1 >= context->max_bounces)
+        return;
+    float u[4], prob = mirror_beams_prob(&context->beams, surface->part_id,
+                                         vec3_dot(wo, surface->ng) < 0) *
+                       (walk->bounce < DEEP_BOUNCE ? 1 : DEEP_SHARE);
+    sampler_4d(walk->sampler, u);
+    if (u[3] >= prob || !lights_sample(context->lights, LIGHTS_SUN, point, u, sun)) return;
+    asked.question.radiance = lights_radiance(context->lights, sun, walk->wavelengths);
+    sun->pdf *= prob;
+    mirrors_find(context->beams.mirrors, surface->part_id, surface->position, sun->wi,
+                 add_mirrored_sun, &asked);
+}
+
+/* A direction by a mirror, chosen now: did the vertex before ask for the sun behind it? */
+static bool mirror_was_asked(const PathWalk *walk, const Surface *surface, Vec3 wo,
+                             const BsdfSample *next)
+{
+    return asks_mirrors(walk->context) && next->is_delta && !walk->last_is_delta &&
+           walk->medium_id == NO_ID && next->wi.z > 0 &&
+           sun_mirror_is_known(walk->context->scene, walk->context->beams.mirrors,
+                               walk->last_part_id, surface, wo);
+}
+
 static void add_light_samples(PathWalk *walk, const Surface *surface, Vec3 wo)
 {
     if (!bsdf_scatters(&surface->bsdf)) return;
     for (int set = 0; set < LIGHT_SETS; set++)
         if (lights_has(walk->context->lights, (LightSet)set))
             add_light_sample(walk, surface, wo, (LightSet)set);
+    add_mirrored_suns(walk, surface, wo);
 }
 
 /* ---- the walk --------------------------------------------------------------------------- */
@@ -312,9 +386,11 @@ static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSamp
     Vec3 wi = frame_to_world(&surface->frame, next->wi);
     Vec3 local_wo = frame_to_local(&surface->frame, wo);
     if (!sides_agree(surface, next->wi, wi, local_wo, wo)) return STEP_ENDED;
+    walk->sun_is_known = mirror_was_asked(walk, surface, wo, next);
     if (surface->bsdf.kind == BSDF_DIELECTRIC && next->wi.z * local_wo.z < 0)
         walk->medium_id = next->wi.z < 0 ? surface->material_id : NO_ID;
     walk->last = lit_point(walk, surface);
+    walk->last_part_id = surface->part_id;
     walk->last_asked = asked_at(walk, surface, wo);
     walk->last_pdf = next->pdf;
     walk->last_is_delta = next->is_delta;
@@ -458,9 +534,12 @@ static void walk_path(PathWalk *walk)
 PathContext path_context_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
                                int max_bounces, Arena *arena)
 {
-    return (PathContext){.scene = scene, .bvh = bvh, .lights = lights,
-                         .tables = surface_tables_build(scene, arena),
-                         .selection = light_selection_build(scene, bvh, lights, arena),
+    const SurfaceTables *tables = surface_tables_build(scene, arena);
+    LightSelection       selection = light_selection_build(scene, bvh, lights, arena);
+    const BeamTools      tools = {scene, bvh, lights, tables};
+    return (PathContext){.scene = scene, .bvh = bvh, .lights = lights, .tables = tables,
+                         .selection = selection,
+                         .beams = mirror_beams_build(&tools, &selection, arena),
                          .max_bounces = max_bounces, .strategy = PATH_MIS};
 }
 
@@ -472,7 +551,8 @@ static PathWalk walk_start(const PathContext *context, const Wavelengths *wavele
     return (PathWalk){.context = context, .wavelengths = wavelengths, .sampler = sampler,
                   .statistics = statistics, .throughput = spectrum_all(1),
                   .gathered.radiance = spectrum_all(0), .last.ns = vec3(0, 0, 1),
-                  .last_is_delta = true, .last_asked = context->selection.all,
+                  .last_is_delta = true, .last_part_id = NO_ID,
+                  .last_asked = context->selection.all,
                   .splits_left = SPLITS,
                   .medium_id = NO_ID, .stack = stack};
 }

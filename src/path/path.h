@@ -8,6 +8,7 @@
 #include "bvh/bvh.h"
 #include "light/light.h"
 #include "path/light_selection.h"
+#include "path/mirror_beams.h"
 #include "path/surface.h"
 
 /* Which estimators reach the light; all three agree in the mean (a test). */
@@ -18,6 +19,7 @@ typedef struct PathContext {
     const Bvh           *bvh;
     const Lights        *lights;
     const SurfaceTables *tables;
+    MirrorBeams          beams; /* without mirrors: the sun in them is left to chance */
     LightSelection       selection;
     int                  max_bounces; /* 0: emission only, 1: plus direct light */
     PathStrategy         strategy;

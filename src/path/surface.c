@@ -229,6 +229,7 @@ void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
     out->position = out->point.position;
     out->ng = out->point.ng;
     out->part_id = part_id;
+    out->triangle = hit->triangle;
     out->material_id = scene->parts[part_id].material_id;
     out->emits = triangle_emits_to(scene, hit->triangle, &out->point, wo);
     coverage_texel(scene, m, hit, &out->point, texel);

@@ -258,6 +258,7 @@ bool render_scene(const Scene *scene, const SceneCamera *camera, const RenderOpt
     if (!lights_build(scene, arena, &lights, err)) return false;
     if (!bvh_create(scene, options->threads, options->isa, &bvh, err)) return false;
     PathContext context = path_context_build(scene, bvh, lights, options->max_bounces, arena);
+    if (options->no_mirrors) context.beams.mirrors = NULL;
     RenderResult result = {.kernel = kernel, .refused_pixels = lights_refused_pixels(lights),
                            .build_seconds = monotonic_seconds() - begun_s,
                            .build_peak_bytes = machine_peak_bytes()};

@@ -30,6 +30,7 @@ typedef struct RenderOptions {
                                   every pixel has RENDER_LEAST_SAMPLES */
     FilmArea noise_area;       /* whose error decides */
     int      max_bounces;      /* 0: emission only, 1: plus direct light */
+    bool     no_mirrors;       /* sunlight by way of mirrors is left to chance */
     unsigned layers;           /* FilmLayer bits */
     int      threads;          /* at least 1 */
     const char *isa;           /* kernel.h's names; NULL: the best there is */

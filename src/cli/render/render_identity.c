@@ -198,6 +198,7 @@ const char *render_identity(const RenderRequest *request, const Scene *scene,
     line(&text, "size", "%dx%d", options->width, options->height);
     line(&text, "seed", "%u", options->seed);
     line(&text, "max bounces", "%d", options->max_bounces);
+    line(&text, "sun in mirrors", "%s", options->no_mirrors ? "by chance" : "asked for");
     line(&text, "layers", "%s", render_layer_list(options->layers, arena));
     add_files(&text, scene);
     add_displays(&text, request, scene);

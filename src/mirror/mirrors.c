@@ -1,0 +1,464 @@
+#include "mirror/mirrors.h"
+
+#include <stdint.h>
+
+#include "base/mathf.h"
+#include "panel/query/panel_reflection.h"
+#include "shaders/microfacet.h"
+
+#define STACK 64          /* the tree halves: no scene is as deep */
+#define BEND 0.06f        /* between normals of one patch's corners, at most */
+#define PATCH_CUTS 10     /* of one triangle to get there */
+#define NEAR_M 1.0f       /* a mirror this large is as bad to bound as a bend of one radian */
+#define WIDEST 0.2f       /* cosine between a node's axis and normals that are bounded at all */
+#define NORMAL_PLANES 4
+
+/* A piece of a triangle, bent so little that its normals can be told from others. */
+typedef struct MirrorPatch {
+    MirrorTriangle corners;
+    Vec2           uv[3]; /* of the corners in the triangle */
+    uint32_t       id;    /* of the triangle, in Scene.triangles */
+} MirrorPatch;
+
+typedef struct MirrorNode {
+    Vec3     centre;       /* of the box of its patches, m */
+    float    radius;       /* from there to the box's corners, m */
+    Vec3     plane[NORMAL_PLANES]; /* unit: no normal of it, turned to the side of `axis`, is
+                                      above one of these planes; zero: nothing is known */
+    uint32_t children;     /* the first of two; 0: it is a leaf, of */
+    uint32_t patch;
+} MirrorNode;
+
+#define NO_TREE UINT32_MAX
+
+struct Mirrors {
+    const MirrorPair  *pairs;
+    uint32_t           pair_count;
+    const uint32_t    *roots; /* nodes, of part -1 (NO_ID), 0, 1 ...; or NO_TREE */
+    const MirrorPatch *patches;
+    const MirrorNode  *nodes;
+};
+
+/* ---- which ------------------------------------------------------------------------------ */
+
+/* Textures make a surface only smoother. */
+static bool is_smooth_everywhere(float roughness)
+{
+    return is_smooth(roughness * roughness);
+}
+
+static bool has_smooth_base(const Material *m)
+{
+    if (m->is_solid && m->transmission > 0)
+        return is_smooth_everywhere(m->roughness) && fabsf(m->ior - 1) > 1e-4f;
+    return is_smooth_everywhere(m->roughness) && (m->metallic > 0 || m->specular > 0);
+}
+
+static bool has_smooth_coat(const Material *m)
+{
+    return m->clearcoat > 0 && is_smooth_everywhere(m->clearcoat_roughness);
+}
+
+/* Is there an image in a display's glass, of light that falls straight on it? */
+static bool has_mirror(const Panel *panel)
+{
+    Wavelengths wavelengths;
+    wavelengths_sample(0.5f, &wavelengths);
+    return panel_reflects(panel) && !spectrum_is_zero(panel_mirror(panel, 1, &wavelengths));
+}
+
+bool mirrors_can_be(const Scene *scene, const Material *m)
+{
+    if (m->unlit) return false;
+    if (m->display_id != NO_ID) return has_mirror(scene->displays[m->display_id].panel);
+    bool is_bent = m->normal_texture.texture_id != NO_ID ||
+                   (m->clearcoat > 0 && m->clearcoat_normal_texture.texture_id != NO_ID);
+    return !is_bent && (has_smooth_base(m) || has_smooth_coat(m));
+}
+
+/* ---- patches ---------------------------------------------------------------------------- */
+
+typedef struct PatchList {
+    Arena       *arena;
+    MirrorPatch *patches;
+    uint32_t     count;
+} PatchList;
+
+static Vec3 edges_cross(const MirrorTriangle *t)
+{
+    return vec3_cross(vec3_sub(t->position[1], t->position[0]),
+                      vec3_sub(t->position[2], t->position[0]));
+}
+
+static MirrorPatch whole_triangle(const Scene *scene, uint32_t id)
+{
+    MirrorPatch patch = {.uv = {{0, 0}, {1, 0}, {0, 1}}, .id = id};
+    const Vec3 *normals = scene_part(scene, id)->normals;
+    for (int i = 0; i < 3; i++) patch.corners.position[i] = scene_corner(scene, id, i);
+    for (int i = 0; i < 3; i++)
+        patch.corners.normal[i] = normals ? normals[scene_corner_place(scene, id, i)]
+                                          : vec3_normalize(edges_cross(&patch.corners));
+    return patch;
+}
+
+static Vec3 halfway(Vec3 a, Vec3 b)
+{
+    return vec3_scale(vec3_add(a, b), 0.5f);
+}
+
+static float squared_distance(Vec3 a, Vec3 b)
+{
+    Vec3 d = vec3_sub(a, b);
+    return vec3_dot(d, d);
+}
+
+/* The edge across which the normals differ most, from its first corner; and by how much. */
+static int most_bent_edge(const MirrorTriangle *t, float *bend2)
+{
+    int edge = 0;
+    *bend2 = 0;
+    for (int i = 0; i < 3; i++) {
+        float here = squared_distance(t->normal[i], t->normal[(i + 1) % 3]);
+        if (!(here > *bend2)) continue;
+        *bend2 = here;
+        edge = i;
+    }
+    return edge;
+}
+
+static void set_corner(MirrorPatch *patch, int i, const MirrorPatch *of, int a, int b)
+{
+    patch->corners.position[i] = halfway(of->corners.position[a], of->corners.position[b]);
+    patch->corners.normal[i] = halfway(of->corners.normal[a], of->corners.normal[b]);
+    patch->uv[i] = (Vec2){0.5f * (of->uv[a].x + of->uv[b].x),
+                          0.5f * (of->uv[a].y + of->uv[b].y)};
+}
+
+static void add_patches(PatchList *list, const MirrorPatch *patch, int cuts)
+{
+    float bend2;
+    int   edge = most_bent_edge(&patch->corners, &bend2), next = (edge + 1) % 3;
+    if (bend2 > BEND * BEND && cuts > 0) {
+        MirrorPatch half[2] = {*patch, *patch};
+        set_corner(&half[0], next, patch, edge, next);
+        set_corner(&half[1], edge, patch, edge, next);
+        for (int i = 0; i < 2; i++) add_patches(list, &half[i], cuts - 1);
+        return;
+    }
+    list->patches =
+        ARENA_GROW(list->arena, MirrorPatch, list->patches, list->count, list->count + 1);
+    list->patches[list->count++] = *patch;
+}
+
+/* Patches of a triangle: [first[id], first[id + 1]); none where no pair has it. */
+static PatchList cut_patches(const Scene *scene, const bool *is_used, uint32_t *first,
+                             Arena *arena)
+{
+    PatchList list = {.arena = arena};
+    for (uint32_t id = 0; id < scene->triangle_count; id++) {
+        first[id] = list.count;
+        if (!is_used[id]) continue;
+        MirrorPatch patch = whole_triangle(scene, id);
+        Vec3 cross = edges_cross(&patch.corners);
+        if (vec3_dot(cross, cross) > 0) add_patches(&list, &patch, PATCH_CUTS);
+    }
+    first[scene->triangle_count] = list.count;
+    return list;
+}
+
+/* ---- the tree --------------------------------------------------------------------------- */
+
+typedef struct Item {
+    float    key[6]; /* centre and normal, in one measure */
+    uint32_t patch;
+} Item;
+
+typedef struct MirrorBuilder {
+    const MirrorPatch *patches;
+    Item              *items;
+    MirrorNode        *nodes;
+    uint32_t           node_count;
+} MirrorBuilder;
+
+static Item item_of(const MirrorPatch *patches, uint32_t i)
+{
+    const MirrorTriangle *t = &patches[i].corners;
+    Vec3 p = vec3_add(vec3_add(t->position[0], t->position[1]), t->position[2]);
+    Vec3 n = vec3_normalize(vec3_add(vec3_add(t->normal[0], t->normal[1]), t->normal[2]));
+    float per_m = 1 / (3 * NEAR_M);
+    return (Item){{p.x * per_m, p.y * per_m, p.z * per_m, n.x, n.y, n.z}, i};
+}
+
+static void widen(Vec3 p, Vec3 *low, Vec3 *high)
+{
+    *low = vec3(fminf(low->x, p.x), fminf(low->y, p.y), fminf(low->z, p.z));
+    *high = vec3(fmaxf(high->x, p.x), fmaxf(high->y, p.y), fmaxf(high->z, p.z));
+}
+
+static const MirrorTriangle *corners_of(const MirrorBuilder *builder, uint32_t i)
+{
+    return &builder->patches[builder->items[i].patch].corners;
+}
+
+static void bound_positions(const MirrorBuilder *builder, uint32_t first, uint32_t count,
+                            MirrorNode *node)
+{
+    Vec3 low = vec3(INFINITY, INFINITY, INFINITY), high = vec3_neg(low);
+    for (uint32_t i = first; i < first + count; i++)
+        for (int k = 0; k < 3; k++) widen(corners_of(builder, i)->position[k], &low, &high);
+    node->centre = halfway(low, high);
+    node->radius = 0.5f * vec3_length(vec3_sub(high, low));
+}
+
+/* A frame about the mean normal, +x where the slopes against it spread most. False: too wide
+ * to be bounded. */
+static bool frame_of_normals(const MirrorBuilder *builder, uint32_t first, uint32_t count,
+                             Frame *frame)
+{
+    Vec3  sum = vec3(0, 0, 0);
+    float xx = 0, xy = 0, yy = 0;
+    for (uint32_t i = first; i < first + count; i++)
+        for (int k = 0; k < 3; k++)
+            sum = vec3_add(sum, vec3_normalize(corners_of(builder, i)->normal[k]));
+    if (!(vec3_length(sum) > 0)) return false;
+    *frame = frame_from_z(vec3_normalize(sum));
+    for (uint32_t i = first; i < first + count; i++)
+        for (int k = 0; k < 3; k++) {
+            Vec3 n = frame_to_local(frame, vec3_normalize(corners_of(builder, i)->normal[k]));
+            if (!(n.z > WIDEST)) return false;
+            xx += n.x * n.x;
+            xy += n.x * n.y;
+            yy += n.y * n.y;
+        }
+    Vec3 long_axis = vec3(xx - yy + sqrtf((xx - yy) * (xx - yy) + 4 * xy * xy), 2 * xy, 0);
+    if (!(vec3_length(long_axis) > 0)) return true;
+    Vec3 x = frame_to_world(frame, vec3_normalize(long_axis));
+    *frame = (Frame){x, vec3_cross(frame->z, x), frame->z};
+    return true;
+}
+
+/* A normal is a weighted sum of corners' normals, so planes through the origin that bound those
+ * bound it: slopes against the axis (x / z and y / z of the frame) between their extremes. */
+static void bound_normals(const MirrorBuilder *builder, uint32_t first, uint32_t count,
+                          MirrorNode *node)
+{
+    Frame frame;
+    float low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    if (!frame_of_normals(builder, first, count, &frame)) return;
+    for (uint32_t i = first; i < first + count; i++)
+        for (int k = 0; k < 3; k++) {
+            Vec3  n = frame_to_local(&frame, corners_of(builder, i)->normal[k]);
+            float slope[2] = {n.x / n.z, n.y / n.z};
+            for (int a = 0; a < 2; a++) {
+                low[a] = fminf(low[a], slope[a]);
+                high[a] = fmaxf(high[a], slope[a]);
+            }
+        }
+    for (int a = 0; a < 2; a++) {
+        Vec3 across = a ? frame.y : frame.x;
+        node->plane[2 * a] = vec3_normalize(vec3_along(across, frame.z, -high[a]));
+        node->plane[2 * a + 1] = vec3_normalize(vec3_along(vec3_neg(across), frame.z, low[a]));
+    }
+}
+
+static bool comes_before(const Item *a, const Item *b, int axis)
+{
+    return a->key[axis] < b->key[axis] || (a->key[axis] == b->key[axis] && a->patch < b->patch);
+}
+
+/* What the items differ most in. */
+static int widest_axis(const Item *items, uint32_t count)
+{
+    float widest = -1;
+    int   axis = 0;
+    for (int a = 0; a < 6; a++) {
+        float low = INFINITY, high = -INFINITY;
+        for (uint32_t i = 0; i < count; i++) {
+            low = fminf(low, items[i].key[a]);
+            high = fmaxf(high, items[i].key[a]);
+        }
+        if (!(high - low > widest)) continue;
+        widest = high - low;
+        axis = a;
+    }
+    return axis;
+}
+
+/* Brings the `middle` items that come first before the others (Hoare's selection). */
+static void part_items(Item *items, uint32_t count, uint32_t middle, int axis)
+{
+    int64_t low = 0, high = (int64_t)count - 1;
+    while (low < high) {
+        Item    pivot = items[(low + high) / 2];
+        int64_t i = low, k = high;
+        while (i <= k) {
+            while (comes_before(&items[i], &pivot, axis)) i++;
+            while (comes_before(&pivot, &items[k], axis)) k--;
+            if (i > k) break;
+            Item moved = items[i];
+            items[i++] = items[k];
+            items[k--] = moved;
+        }
+        if ((int64_t)middle <= k) high = k;
+        else if ((int64_t)middle >= i) low = i;
+        else return;
+    }
+}
+
+static void build_node(MirrorBuilder *builder, uint32_t node_id, uint32_t first, uint32_t count)
+{
+    MirrorNode *node = &builder->nodes[node_id];
+    bound_positions(builder, first, count, node);
+    bound_normals(builder, first, count, node);
+    node->patch = builder->items[first].patch;
+    if (count == 1) return;
+    Item *items = builder->items + first;
+    part_items(items, count, count / 2, widest_axis(items, count));
+    node->children = builder->node_count;
+    builder->node_count += 2;
+    build_node(builder, node->children, first, count / 2);
+    build_node(builder, node->children + 1, first + count / 2, count - count / 2);
+}
+
+/* One tree over the patches of a part's pairs. */
+static uint32_t build_tree(MirrorBuilder *builder, const MirrorPair *pairs, uint32_t count,
+                           const uint32_t *first)
+{
+    uint32_t items = 0, root = builder->node_count;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t k = first[pairs[i].triangle]; k < first[pairs[i].triangle + 1]; k++)
+            builder->items[items++] = item_of(builder->patches, k);
+    if (!items) return NO_TREE;
+    builder->node_count++;
+    build_node(builder, root, 0, items);
+    return root;
+}
+
+/* Nodes of all trees: twice their patches. */
+static size_t nodes_wanted(const MirrorPair *pairs, uint32_t count, const uint32_t *first)
+{
+    size_t patches = 0;
+    for (uint32_t i = 0; i < count; i++)
+        patches += first[pairs[i].triangle + 1] - first[pairs[i].triangle];
+    return 2 * patches;
+}
+
+static void build_trees(const Scene *scene, Mirrors *mirrors, const uint32_t *first,
+                        uint32_t patch_count, Arena *arena)
+{
+    const MirrorPair *pairs = mirrors->pairs;
+    uint32_t *roots = ARENA_NEW(arena, uint32_t, scene->part_count + 1);
+    size_t    most = nodes_wanted(pairs, mirrors->pair_count, first) + 1;
+    MirrorBuilder builder = {.patches = mirrors->patches,
+                             .nodes = ARENA_NEW(arena, MirrorNode, most)};
+    Arena     scratch = *arena;
+    builder.items = ARENA_NEW(&scratch, Item, patch_count);
+    for (int part = NO_ID; part < scene->part_count; part++) {
+        uint32_t count = 0, left = mirrors->pair_count - (uint32_t)(pairs - mirrors->pairs);
+        while (count < left && pairs[count].part_id == part) count++;
+        roots[part + 1] = build_tree(&builder, pairs, count, first);
+        pairs += count;
+    }
+    mirrors->roots = roots;
+    mirrors->nodes = builder.nodes;
+}
+
+const Mirrors *mirrors_build(const Scene *scene, const MirrorPair *pairs, uint32_t count,
+                             Arena *arena)
+{
+    if (!count) return NULL;
+    Mirrors    *mirrors = ARENA_NEW(arena, Mirrors, 1);
+    MirrorPair *kept = ARENA_NEW(arena, MirrorPair, count);
+    uint32_t   *first = ARENA_NEW(arena, uint32_t, scene->triangle_count + 1);
+    bool       *is_used = ARENA_NEW(arena, bool, scene->triangle_count + 1);
+    for (uint32_t i = 0; i < count; i++) {
+        kept[i] = pairs[i];
+        is_used[pairs[i].triangle] = true;
+    }
+    PatchList list = cut_patches(scene, is_used, first, arena);
+    *mirrors = (Mirrors){.pairs = kept, .pair_count = count, .patches = list.patches};
+    build_trees(scene, mirrors, first, list.count, arena);
+    return mirrors;
+}
+
+/* ---- asking ----------------------------------------------------------------------------- */
+
+bool mirrors_have(const Mirrors *mirrors, MirrorPair pair)
+{
+    uint32_t low = 0, high = mirrors->pair_count;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        const MirrorPair *here = &mirrors->pairs[middle];
+        bool is_before = here->part_id < pair.part_id ||
+                         (here->part_id == pair.part_id && here->triangle < pair.triangle);
+        if (is_before) low = middle + 1;
+        else high = middle;
+    }
+    return low < mirrors->pair_count && mirrors->pairs[low].part_id == pair.part_id &&
+           mirrors->pairs[low].triangle == pair.triangle;
+}
+
+/* Is h, or its opposite, within `reach` of all normals' planes? */
+static bool may_be_normal(const MirrorNode *node, Vec3 h, float reach)
+{
+    bool along = true, against = true;
+    for (int i = 0; i < NORMAL_PLANES; i++) {
+        float above = vec3_dot(node->plane[i], h);
+        along &= above <= reach;
+        against &= -above <= reach;
+    }
+    return along || against;
+}
+
+/* Where a mirror turns w, the direction from the point to it, into s, its normal lies along
+ * h = s - w, on one side or the other. Over the node w stays within a chord of the direction to
+ * its centre: sin beta = radius / distance, chord = 2 sin(beta / 2); and so does h. */
+static bool may_reflect(const MirrorNode *node, Vec3 from, Vec3 towards)
+{
+    Vec3  to = vec3_sub(node->centre, from);
+    float far2 = vec3_dot(to, to), radius2 = node->radius * node->radius * 1.0001f;
+    if (!(far2 > radius2)) return true;
+    float chord2 = 2 * (1 - sqrtf(1 - radius2 / far2));
+    return may_be_normal(node, vec3_along(towards, to, -1 / sqrtf(far2)),
+                         sqrtf(chord2) + 1e-5f);
+}
+
+/* The point and the light lie on one side of a triangle that reflects. */
+static bool is_on_one_side(const MirrorTriangle *t, Vec3 from, Vec3 towards)
+{
+    Vec3 n = edges_cross(t);
+    return vec3_dot(n, towards) * vec3_dot(n, vec3_sub(from, t->position[0])) > 0;
+}
+
+static void ask_patch(const MirrorPatch *patch, Vec3 from, Vec3 towards, MirrorFound *found,
+                      void *user)
+{
+    ReflectionPoint points[REFLECTION_POINTS_MAX];
+    if (!is_on_one_side(&patch->corners, from, towards)) return;
+    int count = reflection_points_find(&patch->corners, from, towards, points);
+    for (int i = 0; i < count; i++) {
+        const Vec2 *uv = patch->uv;
+        float u = points[i].u, v = points[i].v, w = 1 - u - v;
+        points[i].u = w * uv[0].x + u * uv[1].x + v * uv[2].x;
+        points[i].v = w * uv[0].y + u * uv[1].y + v * uv[2].y;
+        found(user, patch->id, &points[i]);
+    }
+}
+
+void mirrors_find(const Mirrors *mirrors, int part_id, Vec3 from, Vec3 towards,
+                  MirrorFound *found, void *user)
+{
+    uint32_t stack[STACK], depth = 1;
+    stack[0] = mirrors->roots[part_id + 1];
+    if (stack[0] == NO_TREE) return;
+    while (depth) {
+        const MirrorNode *node = &mirrors->nodes[stack[--depth]];
+        if (!may_reflect(node, from, towards)) continue;
+        if (node->children) {
+            stack[depth++] = node->children + 1;
+            stack[depth++] = node->children;
+        } else {
+            ask_patch(&mirrors->patches[node->patch], from, towards, found, user);
+        }
+    }
+}

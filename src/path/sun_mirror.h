@@ -1,0 +1,42 @@
+/* sun_mirror.h -- sunlight by way of one mirror, as a light sample.
+ *
+ * Light that goes sun, mirror (src/mirror), surface that spreads it, was found by whoever
+ * scattered into the sun's image by chance: a rare and blinding find. Here the points of all
+ * mirrors are told that turn one direction of the sun's disc to the surface. Each counts as a
+ * light of that direction; chance then leaves the sun in a mirror out (sun_mirror_is_known).
+ *
+ * Not known    what passes a second mirror on its way or is refracted, mirrors seen from
+ *              within a solid, mirrors bent by a normal map.
+ * Threads      pure functions.
+ */
+#pragma once
+#include "light/light.h"
+#include "mirror/mirrors.h"
+#include "path/surface.h"
+
+/* Who asks: a lit position in air, and one direction of the sun. */
+typedef struct SunMirrorQuestion {
+    const Scene         *scene;
+    const SurfaceTables *tables;
+    const Wavelengths   *wavelengths;
+    Vec3                 from; /* m, world */
+    LightSample          sun;
+    Spectrum             radiance; /* of the sun there */
+} SunMirrorQuestion;
+
+/* One way. */
+typedef struct SunMirror {
+    LightSample light;    /* the mirror's point as a light */
+    Spectrum    radiance; /* that it sends, over the density of its direction */
+    Surface     surface;  /* the mirror's; light and sun are in front of it */
+} SunMirror;
+
+/* The way by a point of a triangle that mirrors_find told of; mirror's t is not asked. False:
+ * no light comes by it. What stands between is not asked either. */
+bool sun_mirror_at(const SunMirrorQuestion *question, const Hit *mirror, float spread,
+                   SunMirror *out);
+
+/* Was the sun, found behind this mirror by a ray in air that came along -wo from a part, told
+ * to it before? */
+bool sun_mirror_is_known(const Scene *scene, const Mirrors *mirrors, int part_id,
+                         const Surface *mirror, Vec3 wo);

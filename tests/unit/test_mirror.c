@@ -1,0 +1,284 @@
+#include "check.h"
+
+#include <time.h>
+
+#include "base/sampler.h"
+#include "base/units.h"
+#include "mirror/mirrors.h"
+#include "scene_builder.h"
+
+static Vec3 random_direction(Sampler *sampler)
+{
+    Vec2  at = sampler_2d(sampler);
+    float z = 1 - 2 * at.x, r = sqrtf(fmaxf(1 - z * z, 0)), sine, cosine;
+    sincos_turns(at.y, &sine, &cosine);
+    return vec3(r * cosine, r * sine, z);
+}
+
+/* A triangle of about a metre at the origin whose normals turn by about `bend`. */
+static MirrorTriangle random_triangle(Sampler *sampler, float bend)
+{
+    MirrorTriangle t;
+    for (int i = 0; i < 3; i++) t.position[i] = random_direction(sampler);
+    Vec3 n = vec3_normalize(vec3_cross(vec3_sub(t.position[1], t.position[0]),
+                                       vec3_sub(t.position[2], t.position[0])));
+    for (int i = 0; i < 3; i++)
+        t.normal[i] = vec3_normalize(vec3_along(n, random_direction(sampler), bend));
+    return t;
+}
+
+static Vec3 blend(const Vec3 a[3], float u, float v)
+{
+    return vec3_along(vec3_along(vec3_scale(a[0], 1 - u - v), a[1], u), a[2], v);
+}
+
+static Vec3 mirrored(const MirrorTriangle *t, Vec3 from, float u, float v)
+{
+    Vec3 n = vec3_normalize(blend(t->normal, u, v));
+    Vec3 w = vec3_normalize(vec3_sub(blend(t->position, u, v), from));
+    return vec3_along(w, n, -2 * vec3_dot(n, w));
+}
+
+TEST(no_point_that_reflects_is_missed_and_every_one_told_does)
+{
+    (void)state;
+    const float bends[] = {0, 0.05f, 0.3f, 0.6f, 1};
+    int found = 0, more = 0;
+    for (int i = 0; i < 20000; i++) {
+        ReflectionPoint points[REFLECTION_POINTS_MAX];
+        Sampler sampler = sampler_start(1, i, 0, 0);
+        MirrorTriangle t = random_triangle(&sampler, bends[i % 5]);
+        Vec3 from = vec3_scale(random_direction(&sampler), 3);
+        Vec2 at = sampler_2d(&sampler);
+        if (at.x + at.y > 1) at = (Vec2){1 - at.x, 1 - at.y};
+        Vec3 towards = vec3_normalize(mirrored(&t, from, at.x, at.y));
+        int  count = reflection_points_find(&t, from, towards, points), here = 0;
+        for (int k = 0; k < count; k++) {
+            Vec3 off = vec3_sub(mirrored(&t, from, points[k].u, points[k].v), towards);
+            assert_near(vec3_length(off), 0, 1e-4);
+            here += hypotf(points[k].u - at.x, points[k].v - at.y) < 1e-3f;
+        }
+        found += here > 0;
+        more += count > 1;
+        assert_true(here <= 2);
+    }
+    /* Left: points a rounding away from another or from an edge. */
+    if (found < 19980) fail_msg("%d of 20000 found", found);
+    if (more < 100) fail_msg("only %d triangles with more than one", more);
+}
+
+/* Every direction in which the point sees the triangle comes from one direction of the light:
+ * summed over all those, spread is the triangle's solid angle (van Oosterom, Strackee 1983). */
+TEST(spread_adds_up_to_the_solid_angle)
+{
+    (void)state;
+    const float bends[] = {0, 0.1f, 0.5f};
+    enum { DIRECTIONS = 400000 };
+    for (int i = 0; i < 9; i++) {
+        Sampler sampler = sampler_start(2, i, 0, 0);
+        MirrorTriangle t = random_triangle(&sampler, bends[i % 3]);
+        Vec3 from = vec3_scale(random_direction(&sampler), 2), d[3];
+        for (int k = 0; k < 3; k++)
+            d[k] = vec3_normalize(vec3_sub(t.position[k], from));
+        double solid = 2 * atan2(fabs((double)vec3_dot(d[0], vec3_cross(d[1], d[2]))),
+                                 1.0 + (double)(vec3_dot(d[0], d[1]) + vec3_dot(d[1], d[2]) +
+                                                vec3_dot(d[2], d[0])));
+        double sum = 0, squares = 0;
+        for (int k = 0; k < DIRECTIONS; k++) {
+            ReflectionPoint points[REFLECTION_POINTS_MAX];
+            Sampler at = sampler_start(3, i, 0, (uint32_t)k);
+            int count = reflection_points_find(&t, from, random_direction(&at), points);
+            double here = 0;
+            for (int p = 0; p < count; p++) here += 4 * PI * (double)points[p].spread;
+            sum += here;
+            squares += here * here;
+        }
+        double mean = sum / DIRECTIONS;
+        double sigma = sqrt(fmax(squares / DIRECTIONS - mean * mean, 0) / DIRECTIONS);
+        if (!(fabs(mean - solid) < 4 * sigma) || !(sigma < 0.05 * solid))
+            fail_msg("triangle %d: %g +- %g sr, expected %g", i, mean, sigma, solid);
+    }
+}
+
+/* ---- whole surfaces --------------------------------------------------------------------- */
+
+static Material mirror_material(void)
+{
+    Material material = builder_material(1);
+    material.metallic = 1;
+    material.roughness = 0;
+    return material;
+}
+
+typedef struct Sum {
+    const Scene *scene;
+    Vec3   towards; /* the light: only fronts count */
+    double spread;
+    int    count;
+} Sum;
+
+static void add_point(void *user, uint32_t triangle, const ReflectionPoint *point)
+{
+    Sum *sum = user;
+    Vec3 n = scene_part(sum->scene, triangle)
+                 ->normals[scene_corner_place(sum->scene, triangle, 0)];
+    if (!(vec3_dot(n, sum->towards) > 0)) return;
+    sum->spread += (double)point->spread;
+    sum->count++;
+}
+
+static const Mirrors *all_mirrors(const Scene *scene, Arena *arena)
+{
+    MirrorPair *pairs = ARENA_NEW(arena, MirrorPair, scene->triangle_count);
+    for (uint32_t i = 0; i < scene->triangle_count; i++) pairs[i] = (MirrorPair){NO_ID, i};
+    return mirrors_build(scene, pairs, scene->triangle_count, arena);
+}
+
+static Sum ask(const Scene *scene, const Mirrors *mirrors, Vec3 from, Vec3 towards)
+{
+    Sum sum = {.scene = scene, .towards = towards};
+    mirrors_find(mirrors, NO_ID, from, towards, add_point, &sum);
+    return sum;
+}
+
+/* A sheet of a cylinder about the z axis, of radius 1, from angle a to b; normals inward. */
+static void cylinder(Scene *scene, double a, double b, int columns)
+{
+    uint32_t first = scene->vertex_count;
+    for (int i = 0; i <= columns; i++)
+        for (int k = -1; k <= 1; k += 2) {
+            double angle = a + (b - a) * i / columns;
+            Vec3   n = vec3((float)cos(angle), (float)sin(angle), 0);
+            builder_vertex(scene, vec3_along(n, vec3(0, 0, 1), (float)k), vec3_neg(n), 0, 0);
+        }
+    for (uint32_t i = 0; i < (uint32_t)columns; i++) {
+        uint32_t at = first + 2 * i;
+        builder_triangle(scene, at, at + 1, at + 2);
+        builder_triangle(scene, at + 1, at + 3, at + 2);
+    }
+}
+
+/* Parallel light along +x meets the concave side at angle t, at incidence t, and leaves along
+ * (-cos 2t, -sin 2t). After l its width is |1 - 2 l / cos t| of what it was (the mirror
+ * equation's tangential focus): spread is one over that. */
+TEST(a_concave_cylinder_focuses_as_the_mirror_equation_says)
+{
+    (void)state;
+    Arena  arena = arena_reserve((size_t)1 << 28);
+    Scene *scene = builder_scene(&arena);
+    builder_part(scene, mirror_material());
+    cylinder(scene, -0.6, 0.6, 512);
+    const Mirrors *mirrors = all_mirrors(scene, &arena);
+    const double angles[] = {0.05, 0.2, 0.35, 0.5}, lengths[] = {0.2, 0.35, 0.6, 0.8};
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 4; k++) {
+            double t = angles[i], l = lengths[k];
+            Vec3   from = vec3((float)(cos(t) - l * cos(2 * t)),
+                               (float)(sin(t) - l * sin(2 * t)), 0.1f);
+            /* All points that send light there: of -0.6 .. 0.6, by a fine scan. */
+            double expected = 0;
+            int    roots = 0;
+            const int steps = 200000;
+            double before = 0;
+            for (int j = 0; j <= steps; j++) {
+                double a = -0.6 + 1.2 * j / steps;
+                double miss = (from.x - cos(a)) * -sin(2 * a) - (from.y - sin(a)) * -cos(2 * a);
+                double along = (cos(a) - from.x) * cos(2 * a) + (sin(a) - from.y) * sin(2 * a);
+                if (j && miss * before <= 0 && along > 0) {
+                    expected += 1 / fabs(1 - 2 * along / cos(a));
+                    roots++;
+                }
+                before = miss;
+            }
+            Sum sum = ask(scene, mirrors, from, vec3(-1, 0, 0));
+            assert_int_equal(sum.count, roots);
+            assert_close(sum.spread, expected, 5e-3);
+        }
+    arena_release(&arena);
+}
+
+/* A sphere of radius 1 spreads a beam that meets it at incidence t, after l, by 1 + 2 l / cos t
+ * across the plane's line and by 1 + 2 l cos t across the plane. */
+/* A piece of the unit sphere, 0.1 radians wide, about n. */
+static void cap(Scene *scene, Vec3 n)
+{
+    enum { SIDE = 64 };
+    Frame    frame = frame_from_z(n);
+    uint32_t first = scene->vertex_count;
+    for (int j = 0; j <= SIDE; j++)
+        for (int i = 0; i <= SIDE; i++) {
+            Vec3 local = vec3(0.1f * ((float)i / SIDE - 0.5f),
+                              0.1f * ((float)j / SIDE - 0.5f), 1);
+            Vec3 at = vec3_normalize(frame_to_world(&frame, local));
+            builder_vertex(scene, at, at, 0, 0);
+        }
+    for (uint32_t j = 0; j < SIDE; j++)
+        for (uint32_t i = 0; i < SIDE; i++) {
+            uint32_t a = first + j * (SIDE + 1) + i, b = a + SIDE + 1;
+            builder_triangle(scene, a, a + 1, b + 1);
+            builder_triangle(scene, a, b + 1, b);
+        }
+}
+
+TEST(a_convex_sphere_spreads_as_the_mirror_equation_says)
+{
+    (void)state;
+    Vec3 towards = vec3(0, 0, 1);
+    for (int i = 1; i < 8; i++) {
+        Arena  arena = arena_reserve((size_t)1 << 28);
+        Scene *scene = builder_scene(&arena);
+        double t = 0.18 * i, turn = 0.7 * i;
+        Vec3   n = vec3((float)(sin(t) * cos(turn)), (float)(sin(t) * sin(turn)),
+                        (float)cos(t));
+        builder_part(scene, mirror_material());
+        cap(scene, n);
+        const Mirrors *mirrors = all_mirrors(scene, &arena);
+        for (int k = 0; k < 4; k++) {
+            double l = 0.3 * (1 << k);
+            Vec3   out = vec3_sub(vec3_scale(n, 2 * n.z), towards);
+            Sum    sum = ask(scene, mirrors, vec3_along(n, out, (float)l), towards);
+            assert_int_equal(sum.count, 1);
+            assert_close(sum.spread, 1 / ((1 + 2 * l / cos(t)) * (1 + 2 * l * cos(t))), 5e-3);
+        }
+        arena_release(&arena);
+    }
+}
+
+/* Processor seconds of asking a sphere's mirrors from all around it; the least of some runs. */
+static double asking_seconds(int rings, uint32_t *triangles)
+{
+    Arena  arena = arena_reserve((size_t)1 << 30);
+    Scene *scene = builder_scene(&arena);
+    double least = INFINITY;
+    builder_part(scene, mirror_material());
+    builder_sphere(scene, vec3(0, 0, 0), 1, rings, 0);
+    *triangles = scene->triangle_count;
+    const Mirrors *mirrors = all_mirrors(scene, &arena);
+    for (int run = 0; run < 7; run++) {
+        clock_t begun = clock();
+        for (uint32_t i = 0; i < 2000; i++) {
+            Sampler at = sampler_start(7, 0, 0, i);
+            Vec3    from = vec3_scale(random_direction(&at), 2);
+            ask(scene, mirrors, from, random_direction(&at));
+        }
+        least = fmin(least, (double)(clock() - begun) / CLOCKS_PER_SEC);
+    }
+    arena_release(&arena);
+    return least;
+}
+
+TEST(a_hundred_times_the_triangles_take_at_most_twice_the_time)
+{
+    (void)state;
+    uint32_t few, many;
+    double   of_few = asking_seconds(16, &few), of_many = asking_seconds(158, &many);
+    print_message("[          ] %u triangles %.3g us, %u triangles %.3g us\n", few,
+                  of_few / 2000 * 1e6, many, of_many / 2000 * 1e6);
+    assert_true(many > 95 * few);
+    assert_true(of_many < 2 * of_few);
+}
+
+int main(void)
+{
+    return run_cases(NULL, NULL);
+}
