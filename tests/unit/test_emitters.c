@@ -80,8 +80,9 @@ static Material lamp(float luminance)
     return material;
 }
 
-/* Of one sample, relative to the square of the mean, without the noise of wavelengths. */
-static double variance(const Lights *lights, LightSet set, LitPoint point, int count)
+/* Mean of `count` samples, without the noise of wavelengths; their variance is added. */
+static double illuminance_of(const Lights *lights, LightSet set, LitPoint point, int count,
+                             double *variance)
 {
     uint32_t    random = 3;
     Wavelengths w;
@@ -100,7 +101,15 @@ static double variance(const Lights *lights, LightSet set, LitPoint point, int c
     }
     double mean = sum / count;
     assert_true(mean > 0);
-    return squares / count / (mean * mean) - 1;
+    *variance += squares / count - mean * mean;
+    return mean;
+}
+
+/* Of one sample, relative to the square of the mean. */
+static double variance(const Lights *lights, LightSet set, LitPoint point, int count)
+{
+    double absolute = 0, mean = illuminance_of(lights, set, point, count, &absolute);
+    return absolute / (mean * mean);
 }
 
 /* Configuration factor of a rectangle a x b that a plane element faces from distance h below
@@ -169,6 +178,71 @@ TEST(lamps_that_cannot_be_seen_are_not_chosen)
         below += sample.wi.y < 0;
     }
     assert_true(below > 850); /* the third is turned away, but for a blind share */
+}
+
+/* ---- many lamps -------------------------------------------------------------------------- */
+
+typedef enum LampKind { SQUARES, TURNED_SQUARES, POINTS, SPOTS } LampKind;
+
+static void add_lamp(Scene *scene, LampKind kind, Vec3 at, int count, uint32_t *random)
+{
+    float side = 0.5f / sqrtf((float)count), cd = 100 / (float)count;
+    Vec3  aim = vec3(random_unit(random) - 0.5f, -1, random_unit(random) - 0.5f);
+    Frame frame = frame_from_z(vec3_normalize(aim));
+    switch (kind) {
+    case SQUARES: builder_quad(scene, at, vec3(side, 0, 0), vec3(0, 0, side)); break;
+    case TURNED_SQUARES:
+        builder_quad(scene, at, vec3_scale(frame.x, side), vec3_scale(frame.y, side));
+        break;
+    case POINTS:
+    case SPOTS:
+        scene->lights[scene->light_count++] = (PunctualLight){
+            .kind = kind == POINTS ? LIGHT_POINT : LIGHT_SPOT, .position = at,
+            .intensity = {cd, cd, cd}, .direction = frame.z, .cos_inner = 0.95f,
+            .cos_outer = 0.6f};
+    }
+}
+
+/* Lamps of the same light together on a grid under the ceiling of 6 x 5 m. */
+static const Lights *lamps_on_grid(LampKind kind, int count, Arena *arena)
+{
+    Scene   *scene = builder_scene(arena);
+    int      columns = count > 1 ? count / 10 : 1;
+    uint32_t random = 5;
+    scene->lights = ARENA_NEW(arena, PunctualLight, count);
+    builder_part(scene, lamp(1000));
+    for (int i = 0; i < count; i++)
+        add_lamp(scene, kind,
+                 vec3(6 * ((float)(i % columns) + 0.5f) / (float)columns, 2.9f,
+                      5 * ((float)(i / columns) + 0.5f) / (count > 1 ? 10 : 1)),
+                 count, &random);
+    return build(scene, arena);
+}
+
+/* Of all points of the floor and of a wall together: squares of what one sample misses, over
+ * those of the light. One lamp has next to none; that of a bounce's own direction is 1/3,
+ * beside which a tenth is hardly seen. */
+TEST(a_thousand_lamps_are_hardly_noisier_than_one)
+{
+    static const char *const names[] = {"squares", "turned squares", "points", "spots"};
+    for (int kind = SQUARES; kind <= SPOTS; kind++)
+        for (int count = 100; count <= 1000; count *= 10) {
+            Arena    arena = test_arena(state);
+            const Lights *lights = lamps_on_grid((LampKind)kind, count, &arena);
+            LightSet set = kind < POINTS ? LIGHTS_EMITTERS : LIGHTS_PUNCTUAL;
+            double   missed = 0, light = 0;
+            uint32_t random = 77;
+            for (int i = 0; i < 48; i++) {
+                Vec3 on_floor = {6 * random_unit(&random), 0, 5 * random_unit(&random)};
+                Vec3 on_wall = {0, 2.5f * random_unit(&random), 5 * random_unit(&random)};
+                LitPoint point = {i % 2 ? on_wall : on_floor,
+                                  i % 2 ? vec3(1, 0, 0) : vec3(0, 1, 0), false};
+                double mean = illuminance_of(lights, set, point, 4000, &missed);
+                light += mean * mean;
+            }
+            print_message("%4d %s: variance %.3f\n", count, names[kind], missed / light);
+            assert_true(missed / light < 0.1);
+        }
 }
 
 int main(void)

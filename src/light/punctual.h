@@ -1,0 +1,66 @@
+/* punctual.h -- lamps without a surface that a ray could hit: chosen by what they give a point.
+ *
+ * A few lamps are all asked what they give. Many lie in a tree whose nodes have up to 16
+ * branches: a branch is chosen by about what its lamps give together (their intensity in that
+ * direction over the squared distance, times the cosine), down to a few that are asked.
+ *
+ * Threads  const after punctual_build (punctual_build.h).
+ */
+#pragma once
+#include "light/lit_point.h"
+#include "scene/scene.h"
+#include "spectrum/spectrum.h"
+
+#define PUNCTUAL_PROFILE_SIDE 17
+#define PUNCTUAL_FEW 8 /* lamps that are all asked */
+
+/* Intensity of a branch's lamps over all directions (world), relative to the largest of each,
+ * added. Nodes over the octahedral map of the sphere. */
+typedef struct PunctualProfile {
+    float value[PUNCTUAL_PROFILE_SIDE * PUNCTUAL_PROFILE_SIDE];
+} PunctualProfile;
+
+#define PUNCTUAL_BRANCHES SPECTRUM_LANES
+typedef struct PunctualNode PunctualNode;
+struct PunctualNode {
+    int          count;
+    Spectrum     centre[3]; /* of the lamps, by intensity; m, world */
+    Spectrum     spread2;   /* mean square distance of the lamps from it, m^2 */
+    Spectrum     radius;    /* m: none reaches farther from it */
+    Spectrum     power;     /* sum of the largest intensities, cd; 0 in lanes not used */
+    Spectrum     mean;      /* of the profile over all directions */
+    Spectrum     lux;       /* of directional lights, which have their own branch; else 0 */
+    SpectrumMask is_distant; /* that branch */
+    const PunctualProfile *profile[PUNCTUAL_BRANCHES]; /* NULL: alike in all directions */
+    int           first[PUNCTUAL_BRANCHES]; /* of its lamps in the order, */
+    int           lamp_count[PUNCTUAL_BRANCHES];
+    PunctualNode *child[PUNCTUAL_BRANCHES]; /* NULL: all are asked */
+};
+
+typedef struct PunctualLights {
+    const PunctualLight *lights;
+    int           count; /* 0: none gives any light */
+    int          *order; /* light ids in the tree's order */
+    PunctualNode *root;  /* NULL: few */
+} PunctualLights;
+
+/* One lamp as it was chosen. */
+typedef struct PunctualSample {
+    int   light_id;
+    Vec3  wi;       /* unit, towards it or a point of its opening */
+    float distance; /* m; INFINITY of directional lights */
+    float scale;    /* lx on a plane that faces it per unit of its colour's intensity, by the
+                       choice's chance */
+} PunctualSample;
+
+/* u in [0,1)^3. False: nothing comes from there. */
+bool punctual_sample(const PunctualLights *lights, const LitPoint *point, const float u[3],
+                     PunctualSample *sample);
+
+/* Relative intensity towards a unit direction. Of a luminaire its web. Of a spot
+ * KHR_lights_punctual's recommended cone: 1 inside the inner angle, 0 outside the outer, the
+ * square of the linear ramp of the cosine between. */
+float punctual_falloff(const PunctualLight *light, Vec3 from_light);
+
+/* How far its opening reaches from its position, m; 0 of a point. */
+float punctual_radius(const PunctualLight *light);
