@@ -26,18 +26,18 @@ static int start_narrow(void **state)
     return 0;
 }
 
-/* A picture like an instrument's: dark but for a few bright lines. */
-static void show_lines(Scene *scene, Arena *arena)
+/* A picture like an instrument's: dark but for a few bright lines. size: in 320 x 120. */
+static void show_lines(Scene *scene, int width, int height, Arena *arena)
 {
-    enum { WIDTH = 320, HEIGHT = 120 };
-    uint8_t *picture = ARENA_NEW(arena, uint8_t, WIDTH * HEIGHT * 4);
-    for (int y = 0; y < HEIGHT; y++)
-        for (int x = 0; x < WIDTH; x++) {
-            bool is_lit = abs(x - 2 * y - 20) < 2 || (x > 200 && x < 260 && y % 20 < 3);
-            for (int k = 0; k < 3; k++) picture[4 * (y * WIDTH + x) + k] = is_lit ? 230 : 8;
+    uint8_t *picture = ARENA_NEW(arena, uint8_t, width * height * 4);
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            int  s = x * 320 / width, t = y * 120 / height;
+            bool is_lit = abs(s - 2 * t - 20) < 2 || (s > 200 && s < 260 && t % 20 < 3);
+            for (int k = 0; k < 3; k++) picture[4 * (y * width + x) + k] = is_lit ? 230 : 8;
         }
     scene->textures[0] =
-        (Texture){{WIDTH, HEIGHT, IMAGE_RGBA8, picture}, WRAP_CLAMP, WRAP_CLAMP, true};
+        (Texture){{width, height, IMAGE_RGBA8, picture}, WRAP_CLAMP, WRAP_CLAMP, true};
 }
 
 static void add_display(Scene *scene, Vec3 centre, Vec3 half_u, Vec3 half_v, bool has_content)
@@ -57,7 +57,7 @@ static void add_display(Scene *scene, Vec3 centre, Vec3 half_u, Vec3 half_v, boo
 static Scene *four_displays(Arena *arena, bool has_content)
 {
     Scene *scene = builder_scene(arena);
-    show_lines(scene, arena);
+    show_lines(scene, 320, 120, arena);
     add_display(scene, vec3(0, 0, -0.8f), vec3(0.15f, 0, 0), vec3(0, 0.055f, 0), has_content);
     for (int i = 0; i < 3; i++)
         add_display(scene, vec3(0.4f * (float)(i + 1), 0, -0.6f), vec3(0.1f, 0, -0.1f),
@@ -71,15 +71,16 @@ typedef struct Estimate {
     double mean, variance; /* of one sample, relative to the mean squared */
 } Estimate;
 
-static double luminance_towards(const Scene *scene, EmitterPoint at, Vec3 to, double *geometry)
+static double luminance_towards(const Scene *scene, EmitterPoint at, const LitPoint *to,
+                                double *geometry)
 {
     TrianglePoint point = triangle_point(scene, at.triangle, at.u, at.v);
     Wavelengths   w;
     float         xyz[3] = {0};
-    Vec3   d = vec3_sub(to, point.position);
+    Vec3   d = vec3_sub(to->position, point.position);
     double d2 = (double)vec3_dot(d, d);
     d = vec3_normalize(d);
-    *geometry = fmax(0, (double)vec3_dot(point.ng, d)) * fmax(0, (double)d.z) / d2;
+    *geometry = fmax(0, (double)vec3_dot(point.ng, d)) * fmax(0, -(double)vec3_dot(to->ns, d)) / d2;
     for (int i = 0; i < 4; i++) {
         wavelengths_sample(((float)i + 0.5f) / 4, &w);
         spectrum_add_xyz(&w, triangle_emission(scene, at.triangle, &point, d, &w), xyz);
@@ -112,7 +113,7 @@ static Estimate illuminance(const Scene *scene, const Emitters *emitters, bool i
                                 root * (1 - u[1]), root * u[1]};
             pdf = 1 / all;
         }
-        double luminance = luminance_towards(scene, at, at_origin.position, &geometry);
+        double luminance = luminance_towards(scene, at, &at_origin, &geometry);
         double value = luminance * geometry / pdf;
         sum += value;
         squares += value * value;
@@ -139,6 +140,61 @@ TEST(displays_are_chosen_by_angle_and_by_content)
         assert_true(blind.variance > 8 * found.variance);
         arena_release(&arena);
     }
+}
+
+/* Of one sample of illuminance at `to`: by the renderer's choice, or uniform on the display,
+ * which is the scene's first two triangles. */
+static Estimate of_display(const Scene *scene, const Emitters *emitters, const LitPoint *to,
+                           bool is_uniform, double area)
+{
+    enum { COUNT = 4000 };
+    uint32_t random = 71;
+    double   sum = 0, squares = 0;
+    for (int i = 0; i < COUNT; i++) {
+        float  u[3], root;
+        double geometry, pdf = 1 / area;
+        EmitterDensity density;
+        for (int k = 0; k < 3; k++) u[k] = unit_float(hash_u32(random++));
+        root = sqrtf(u[0]);
+        EmitterPoint at = {u[2] < 0.5f, root * (1 - u[1]), root * u[1]};
+        if (!is_uniform) {
+            at = emitters_sample(emitters, scene, to, u, &density);
+            pdf = density_on_area(scene, at, to->position, density);
+        }
+        double value = luminance_towards(scene, at, to, &geometry) * geometry / pdf;
+        sum += value;
+        squares += value * value;
+    }
+    double mean = sum / COUNT;
+    return (Estimate){mean, squares / COUNT - mean * mean};
+}
+
+/* A display of 1920 x 1080 pixels below a windscreen that leans over it: 40 points of that. */
+TEST(a_large_picture_lights_a_windscreen_with_a_fifth_of_the_variance)
+{
+    (void)state;
+    Arena    arena = arena_reserve((size_t)1 << 30);
+    Scene   *scene = builder_scene(&arena);
+    show_lines(scene, 1920, 1080, &arena);
+    add_display(scene, vec3(0, 0, 0), vec3(0.15f, 0, 0), vec3(0, 0.084f, 0), true);
+    Emitters emitters = emitters_build(scene, &arena);
+    double   ours = 0, uniform = 0, light = 0, off = 0, area = 4 * 0.15 * 0.084;
+    for (int i = 0; i < 40; i++) {
+        LitPoint glass = {vec3(0.2f * (float)(i % 8) - 0.7f, 0.35f + 0.06f * (float)(i / 8),
+                               0.05f + 0.1f * (float)(i / 8)),
+                          vec3(0, -0.8f, -0.6f), false};
+        Estimate found = of_display(scene, &emitters, &glass, false, area);
+        Estimate plain = of_display(scene, &emitters, &glass, true, area);
+        ours += found.variance;
+        uniform += plain.variance;
+        light += found.mean * found.mean;
+        off += found.mean - plain.mean;
+    }
+    print_message("windscreen: variance over light squared %.3g, uniform %.3g, %.0f times\n",
+                  ours / light, uniform / light, uniform / ours);
+    assert_true(uniform > 5 * ours);
+    assert_near(off, 0, 4 * sqrt((ours + uniform) / 4000));
+    arena_release(&arena);
 }
 
 /* The same light, whether light samples, the wall's own samples or both find it. */
