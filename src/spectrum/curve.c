@@ -110,32 +110,11 @@ bool curve_parse(const char *text, const char *path, Curve *out, Error *err)
     return ok;
 }
 
-/* Two neighbours of one lane and two of another: each pair is loaded as one number. */
-typedef float  Quad __attribute__((vector_size(16)));
-typedef double Pairs __attribute__((vector_size(16)));
-
-static inline Quad load_pairs(const float *a, const float *b)
-{
-    double of_a, of_b;
-    memcpy(&of_a, a, sizeof of_a);
-    memcpy(&of_b, b, sizeof of_b);
-    return (Quad)(Pairs){of_a, of_b};
-}
-
 Spectrum curve_lookup(const Curve *curve, const Wavelengths *wavelengths)
 {
-    const float *values = curve->value;
     Spectrum     place = wavelengths->nm - spectrum_all(CURVE_FIRST_NM), low, high;
     SpectrumMask cell = __builtin_convertvector(place, SpectrumMask);
     cell -= 1 + ((cell - (CURVE_COUNT - 1)) >> 31); /* the last wavelength ends the last cell */
-    Quad of_low[SPECTRUM_LANES / 4], of_high[SPECTRUM_LANES / 4];
-    for (int i = 0; i < SPECTRUM_LANES / 4; i++) {
-        Quad a = load_pairs(values + cell[4 * i], values + cell[4 * i + 1]);
-        Quad b = load_pairs(values + cell[4 * i + 2], values + cell[4 * i + 3]);
-        of_low[i] = __builtin_shufflevector(a, b, 0, 2, 4, 6);
-        of_high[i] = __builtin_shufflevector(a, b, 1, 3, 5, 7);
-    }
-    memcpy(&low, of_low, sizeof low);
-    memcpy(&high, of_high, sizeof high);
+    spectrum_neighbours(curve->value, cell, &low, &high);
     return low + (high - low) * (place - __builtin_convertvector(cell, Spectrum));
 }

@@ -100,6 +100,25 @@ static inline bool spectrum_is_grey(Spectrum a)
     return memcmp(&a, &first, sizeof a) == 0;
 }
 
+/* low: every lane's value[at[lane]], high: the one behind it. Each two are loaded as one number
+ * of twice the size. */
+static inline void spectrum_neighbours(const float *value, SpectrumMask at, Spectrum *low,
+                                       Spectrum *high)
+{
+    typedef float  Quarter __attribute__((vector_size(16)));
+    typedef double Pairs __attribute__((vector_size(16)));
+    Quarter below[SPECTRUM_LANES / 4], above[SPECTRUM_LANES / 4];
+    for (int i = 0; i < SPECTRUM_LANES; i += 4) {
+        double pair[4];
+        for (int k = 0; k < 4; k++) memcpy(&pair[k], value + at[i + k], sizeof pair[k]);
+        Quarter a = (Quarter)(Pairs){pair[0], pair[1]}, b = (Quarter)(Pairs){pair[2], pair[3]};
+        below[i / 4] = __builtin_shufflevector(a, b, 0, 2, 4, 6);
+        above[i / 4] = __builtin_shufflevector(a, b, 1, 3, 5, 7);
+    }
+    memcpy(low, below, sizeof *low);
+    memcpy(high, above, sizeof *high);
+}
+
 static inline Spectrum spectrum_exp(Spectrum a)
 {
     Spectrum power;

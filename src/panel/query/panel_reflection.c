@@ -215,24 +215,32 @@ static void reflection_logs(const Panel *panel, Vec3 stored, const TableMix *mix
 
 /* Where the lanes lie among the measured wavelengths: found once a query. */
 typedef struct Lanes {
-    int      interval[SPECTRUM_LANES];
-    Spectrum t; /* in it, 0 to 1: outside, the end value holds */
-    bool     has_one; /* a single wavelength is measured */
+    SpectrumMask interval;
+    Spectrum     t; /* in it, 0 to 1: outside, the end value holds */
+    bool         has_one; /* a single wavelength is measured */
 } Lanes;
 
 static Lanes find_lanes(const Panel *panel, const Wavelengths *wavelengths)
 {
     const PanelReflection *r = panel->reflection;
-    Lanes lanes;
+    Spectrum nm = spectrum_clamp(wavelengths->nm, SPECTRAL_FIRST_NM, SPECTRAL_LAST_NM);
+    SpectrumMask whole =
+        __builtin_convertvector(nm - spectrum_all(SPECTRAL_FIRST_NM), SpectrumMask);
+    float from[SPECTRUM_LANES], scale[SPECTRUM_LANES];
+    Spectrum begin, inverse;
+    Lanes    lanes;
     lanes.has_one = r->wavelengths == 1;
-    for (int i = 0; i < SPECTRUM_LANES && !lanes.has_one; i++) {
-        float nm = clampf(wavelengths->nm[i], SPECTRAL_FIRST_NM, SPECTRAL_LAST_NM);
-        int   n = panel->wavelength_index[(int)(nm - SPECTRAL_FIRST_NM)];
-        while (n + 2 < (int)r->wavelengths && r->wavelength_nm[n + 1] <= nm) n++;
-        float t = (nm - r->wavelength_nm[n]) * panel->wavelength_scale[n];
+    if (lanes.has_one) return lanes;
+    for (int i = 0; i < SPECTRUM_LANES; i++) {
+        int n = panel->wavelength_index[whole[i]];
+        while (n + 2 < (int)r->wavelengths && r->wavelength_nm[n + 1] <= nm[i]) n++;
+        from[i] = r->wavelength_nm[n];
+        scale[i] = panel->wavelength_scale[n];
         lanes.interval[i] = n;
-        lanes.t[i] = clampf(t, 0, 1);
     }
+    memcpy(&begin, from, sizeof begin);
+    memcpy(&inverse, scale, sizeof inverse);
+    lanes.t = spectrum_clamp((nm - begin) * inverse, 0, 1);
     return lanes;
 }
 
@@ -241,10 +249,7 @@ static Spectrum spread(const float *value, const Lanes *lanes)
 {
     Spectrum low, high;
     if (lanes->has_one) return spectrum_all(value[0]);
-    for (int i = 0; i < SPECTRUM_LANES; i++) {
-        low[i] = value[lanes->interval[i]];
-        high[i] = value[lanes->interval[i] + 1];
-    }
+    spectrum_neighbours(value, lanes->interval, &low, &high);
     return low + (high - low) * lanes->t;
 }
 
