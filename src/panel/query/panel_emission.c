@@ -74,13 +74,12 @@ bool panel_emission_xyz(const Panel *panel, Vec3 direction, const float rgb[3], 
 /* The spectrum of a source at the lanes' wavelengths, linear between whole nm. */
 static Spectrum spectrum_of(const float *spectrum, const Wavelengths *wavelengths)
 {
-    Spectrum out;
-    for (int i = 0; i < SPECTRUM_LANES; i++) {
-        float at = clampf(wavelengths->nm[i] - SPECTRAL_FIRST_NM, 0, SPECTRAL_COUNT - 1.001f);
-        int   n = (int)at;
-        out[i] = lerpf(spectrum[n], spectrum[n + 1], at - (float)n);
-    }
-    return out;
+    Spectrum at = spectrum_clamp(wavelengths->nm - spectrum_all(SPECTRAL_FIRST_NM), 0,
+                                 SPECTRAL_COUNT - 1.001f);
+    SpectrumMask n = __builtin_convertvector(at, SpectrumMask);
+    Spectrum low, high;
+    spectrum_neighbours(spectrum, n, &low, &high);
+    return low + (at - __builtin_convertvector(n, Spectrum)) * (high - low);
 }
 
 #define EXPONENT_MOST 60.0f
