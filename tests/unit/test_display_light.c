@@ -80,7 +80,8 @@ static double luminance_towards(const Scene *scene, EmitterPoint at, const LitPo
     Vec3   d = vec3_sub(to->position, point.position);
     double d2 = (double)vec3_dot(d, d);
     d = vec3_normalize(d);
-    *geometry = fmax(0, (double)vec3_dot(point.ng, d)) * fmax(0, -(double)vec3_dot(to->ns, d)) / d2;
+    *geometry = fmax(0, (double)vec3_dot(point.ng, d)) *
+                fmax(0, -(double)vec3_dot(to->ns, d)) / d2;
     for (int i = 0; i < 4; i++) {
         wavelengths_sample(((float)i + 0.5f) / 4, &w);
         spectrum_add_xyz(&w, triangle_emission(scene, at.triangle, &point, d, &w), xyz);
