@@ -44,6 +44,12 @@ Spectrum bsdf_mirror(const Bsdf *bsdf, Vec3 wo)
     return model->mirror ? model->mirror(parameters_of(bsdf), wo) : spectrum_all(0);
 }
 
+Spectrum bsdf_glint(const Bsdf *bsdf, Vec3 wo, Vec3 wi)
+{
+    const BsdfModel *model = models[bsdf->kind];
+    return model->glint ? model->glint(parameters_of(bsdf), wo, wi) : spectrum_all(0);
+}
+
 bool bsdf_scatters(const Bsdf *bsdf)
 {
     const BsdfModel *model = models[bsdf->kind];

@@ -54,6 +54,10 @@ Spectrum bsdf_pass(const Bsdf *bsdf, Vec3 wo);
  * (-wo.x, -wo.y, wo.z): with which bsdf_sample would choose it, times that choice's weight. */
 Spectrum bsdf_mirror(const Bsdf *bsdf, Vec3 wo);
 
+/* Of eval the part that a nearly smooth boundary's facets send on (GGX about +z, GLINT_ALPHA at
+ * most): what is too narrow to be found by chance. */
+Spectrum bsdf_glint(const Bsdf *bsdf, Vec3 wo, Vec3 wi);
+
 /* Has any part that light sampling can hit? (false: only delta parts, or black) */
 bool bsdf_scatters(const Bsdf *bsdf);
 

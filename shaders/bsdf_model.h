@@ -25,6 +25,7 @@ typedef struct BsdfModel {
     bool     (*sample)(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample);
     Spectrum (*pass)(const void *parameters, Vec3 wo);
     Spectrum (*mirror)(const void *parameters, Vec3 wo);
+    Spectrum (*glint)(const void *parameters, Vec3 wo, Vec3 wi);
     bool     (*scatters)(const void *parameters);
     Spectrum (*albedo)(const void *parameters, Vec3 wo);
 } BsdfModel;

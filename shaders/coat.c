@@ -172,3 +172,8 @@ CoatMean coat_mean(const CoatTable *table, float alpha, float coat_alpha)
     return mix_means(mix_means(below[k.low], below[k.low + 1], k.t),
                      mix_means(above[k.low], above[k.low + 1], k.t), a.t);
 }
+
+Spectrum coat_turns(float open, Spectrum albedo)
+{
+    return spectrum_all(open) / (spectrum_all(1) - albedo * spectrum_all(1 - open));
+}

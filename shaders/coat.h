@@ -14,6 +14,7 @@
  */
 #pragma once
 #include "shaders/energy.h"
+#include "spectrum/spectrum.h"
 
 #define COAT_PER_OCTAVE 3 /* rows of alpha; octaves and cosines are energy.h's */
 #define COAT_ALPHAS (ENERGY_OCTAVES * COAT_PER_OCTAVE + 1)
@@ -45,3 +46,7 @@ float coat_reflectance(const EnergyTable *coat, float cosine, float coat_alpha);
 /* Cosine in [0, 1], both alphas in [0, 1]. */
 CoatShare coat_share(const CoatTable *table, float cosine, float alpha, float coat_alpha);
 CoatMean  coat_mean(const CoatTable *table, float alpha, float coat_alpha);
+
+/* Every further turn between a coat, which lets out the mean share `open`, and a base that
+ * spreads light takes the base's albedo. */
+Spectrum coat_turns(float open, Spectrum albedo);

@@ -83,14 +83,10 @@ MetallicRoughness metallic_roughness_default(const EnergyTable *energy)
                                .energy = energy};
 }
 
-static float normal_reflectance(float ior)
-{
-    return ior >= 1 ? fresnel_normal(ior) : 1.0f;
-}
-
 static inline Boundary boundary_of(const MetallicRoughness *m)
 {
-    Spectrum tinted = m->specular_color * spectrum_all(normal_reflectance(m->energy->ior));
+    float    f0 = m->energy->ior >= 1 ? fresnel_normal(m->energy->ior) : 1.0f;
+    Spectrum tinted = m->specular_color * spectrum_all(f0);
     Boundary b;
     b.f0 = spectrum_min(tinted, spectrum_all(1)) * spectrum_all(m->specular);
     b.rise = spectrum_all(m->specular) - b.f0;
@@ -245,13 +241,6 @@ static Spectrum coat_on_metal(const MetallicRoughness *m, const Through *out, co
     return product;
 }
 
-/* Every further turn between a coat, which lets out the mean share `open`, and a base that
- * spreads light takes the base's albedo. */
-static Spectrum coat_turns(float open, Spectrum albedo)
-{
-    return spectrum_all(open) / (spectrum_all(1) - albedo * spectrum_all(1 - open));
-}
-
 /* What both boundaries let into the Lambert base. */
 static inline Spectrum let_in_coated(const Boundary *b, Energy e, const Through *t)
 {
@@ -379,6 +368,17 @@ static Spectrum covered(const MetallicRoughness *m, Spectrum bare, Spectrum coat
     return bare + (coated - bare) * spectrum_all(m->clearcoat);
 }
 
+/* The base's facets, below the coat where it is (below: of wi). */
+static Spectrum facet_lobe(const View *view, Vec3 wi, const Through *below)
+{
+    const MetallicRoughness *m = view->m;
+    Vec3     half = vec3_normalize(vec3_add(view->wo, wi));
+    Spectrum facet = facet_below(view, vec3_dot(view->wo, half), NULL);
+    if (m->clearcoat > 0)
+        facet = covered(m, facet, facet_below(view, vec3_dot(view->wo, half), below));
+    return facet * spectrum_all(ggx_reflection(view->wo, wi, half, m->alpha));
+}
+
 /* The base seen from above: rough mirror, Lambert, rebound; and its part of the pdf. */
 static Spectrum base_above(const View *view, Vec3 wi, float *pdf)
 {
@@ -394,12 +394,8 @@ static Spectrum base_above(const View *view, Vec3 wi, float *pdf)
                                   coated_rebound(view, in, &below));
     }
     if (!is_smooth(m->alpha)) {
-        Vec3     half = vec3_normalize(vec3_add(view->wo, wi));
-        float    lobe = ggx_reflection(view->wo, wi, half, m->alpha);
-        float    cosine = vec3_dot(view->wo, half);
-        Spectrum facet = facet_below(view, cosine, NULL);
-        if (has_coat) facet = covered(m, facet, facet_below(view, cosine, &below));
-        sum += facet * spectrum_all(lobe);
+        Vec3 half = vec3_normalize(vec3_add(view->wo, wi));
+        sum += facet_lobe(view, wi, &below);
         *pdf += view->choices.mirror * ggx_reflection_pdf(view->wo, half, m->alpha);
     }
     return sum;
@@ -491,16 +487,24 @@ static bool sample_smooth_base(const View *view, BsdfSample *sample)
 static Spectrum model_mirror(const void *parameters, Vec3 wo)
 {
     const MetallicRoughness *m = parameters;
-    Spectrum sum = spectrum_all(0);
-    if (!(wo.z > 0)) return sum;
-    if (m->clearcoat > 0 && is_smooth(m->clearcoat_alpha) &&
-        m->clearcoat_normal.z >= COAT_UPRIGHT)
-        sum = spectrum_all(m->clearcoat * coat_facet(wo.z));
-    if (is_smooth(m->alpha)) {
-        View view = view_from(m, wo);
-        sum += smooth_base(&view, vec3(-wo.x, -wo.y, wo.z));
-    }
-    return sum;
+    bool     is_upright = m->clearcoat_normal.z >= COAT_UPRIGHT;
+    float    coat = is_upright && is_smooth(m->clearcoat_alpha) ? m->clearcoat : 0;
+    if (!(wo.z > 0)) return spectrum_all(0);
+    Spectrum by_coat = spectrum_all(coat > 0 ? coat * coat_facet(wo.z) : 0);
+    if (!is_smooth(m->alpha)) return by_coat;
+    View view = view_from(m, wo);
+    return by_coat + smooth_base(&view, vec3(-wo.x, -wo.y, wo.z));
+}
+
+static Spectrum model_glint(const void *parameters, Vec3 wo, Vec3 wi)
+{
+    const MetallicRoughness *m = parameters;
+    Through below;
+    bool    is_glint = !is_smooth(m->alpha) && m->alpha <= GLINT_ALPHA;
+    if (!(wo.z > 0 && wi.z > 0 && is_glint)) return spectrum_all(0);
+    View view = view_from(m, wo);
+    if (m->clearcoat > 0) below = coat_through(m, wi);
+    return facet_lobe(&view, wi, &below);
 }
 
 static Spectrum model_pass(const void *parameters, Vec3 wo)
@@ -510,13 +514,6 @@ static Spectrum model_pass(const void *parameters, Vec3 wo)
     Boundary b = boundary_of(m);
     float    coat = 1 - coat_albedo(m, wo);
     return pane_transmittance(m, &b, wo.z) * spectrum_all(coat * coat);
-}
-
-static Vec3 sample_cosine(float u0, float u1)
-{
-    float sine, cosine, radius = sqrtf(u1);
-    sincos_turns(u0, &sine, &cosine);
-    return vec3(radius * cosine, radius * sine, safe_sqrtf(1 - u1));
 }
 
 /* A direction by the rough coat, the rough mirror, the Lambert base or the rough sheet. */
@@ -532,9 +529,10 @@ static Vec3 sample_rough(const View *view, const float u[3])
     }
     float diffuse = c.coat + c.mirror, through = diffuse + c.diffuse;
     if (u[2] < diffuse) return ggx_sample_reflection(view->wo, m->alpha, u[0], u[1]);
-    if (u[2] < through) return sample_cosine(u[0], u[1]);
-    Vec3 up = u[2] < through + c.through * view->energy.all ?
-              ggx_sample_reflection(view->wo, m->alpha, u[0], u[1]) : sample_cosine(u[0], u[1]);
+    if (u[2] < through) return microfacet_cosine(u[0], u[1]);
+    bool by_facet = u[2] < through + c.through * view->energy.all;
+    Vec3 up = by_facet ? ggx_sample_reflection(view->wo, m->alpha, u[0], u[1])
+                       : microfacet_cosine(u[0], u[1]);
     return vec3(up.x, up.y, -up.z);
 }
 
@@ -595,5 +593,6 @@ static Spectrum model_albedo(const void *parameters, Vec3 wo)
 const BsdfModel metallic_roughness_model = {.eval = model_eval,
                                             .reaches = model_reaches, .sample = model_sample,
                                             .pass = model_pass, .mirror = model_mirror,
+                                            .glint = model_glint,
                                             .scatters = model_scatters,
                                             .albedo = model_albedo};

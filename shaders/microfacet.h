@@ -8,12 +8,17 @@
  * Threads  pure functions.
  */
 #pragma once
+#include "base/mathf.h"
 #include "base/vec.h"
 #include "spectrum/spectrum.h"
 
 /* Below this alpha a boundary is a perfect mirror: its lobe would be narrower than a tenth of
  * the Sun's disc. glTF roughness 0.0316. */
 #define SMOOTH_ALPHA 1e-3f
+
+/* Up to this alpha the sun's image on a rough boundary is looked for: its lobe is then no wider
+ * than some of the sun's discs. glTF roughness 0.1; rougher ones cost more than they spare. */
+#define GLINT_ALPHA 0.0101f
 
 static inline bool is_smooth(float alpha)
 {
@@ -36,3 +41,11 @@ float ggx_visible_pdf(Vec3 wo, Vec3 normal, float alpha);
  * the light is lost). The pdf of wi, sr^-1, holds for every wi, half as above. */
 Vec3  ggx_sample_reflection(Vec3 wo, float alpha, float u0, float u1);
 float ggx_reflection_pdf(Vec3 wo, Vec3 half, float alpha);
+
+/* Of a Lambert surface: density z / pi. u in [0,1)^2. */
+static inline Vec3 microfacet_cosine(float u0, float u1)
+{
+    float sine, cosine, radius = sqrtf(u1);
+    sincos_turns(u0, &sine, &cosine);
+    return vec3(radius * cosine, radius * sine, safe_sqrtf(1 - u1));
+}

@@ -3,6 +3,7 @@
 #include <stdint.h>
 
 #include "base/mathf.h"
+#include "base/units.h"
 #include "panel/query/panel_reflection.h"
 #include "shaders/microfacet.h"
 
@@ -18,6 +19,7 @@ typedef struct MirrorPatch {
     MirrorTriangle corners;
     Vec2           uv[3]; /* of the corners in the triangle */
     uint32_t       id;    /* of the triangle, in Scene.triangles */
+    float          alpha; /* GGX, of its facets; 0: none that are asked */
 } MirrorPatch;
 
 typedef struct MirrorNode {
@@ -27,6 +29,7 @@ typedef struct MirrorNode {
                                       above one of these planes; zero: nothing is known */
     uint32_t children;     /* the first of two; 0: it is a leaf, of */
     uint32_t patch;
+    float    alpha;        /* the roughest patch's */
 } MirrorNode;
 
 #define NO_TREE UINT32_MAX
@@ -34,7 +37,7 @@ typedef struct MirrorNode {
 struct Mirrors {
     const MirrorPair  *pairs;
     uint32_t           pair_count;
-    const uint32_t    *roots; /* nodes, of part -1 (NO_ID), 0, 1 ...; or NO_TREE */
+    const uint32_t    *roots; /* nodes, or NO_TREE; of root_of */
     const MirrorPatch *patches;
     const MirrorNode  *nodes;
 };
@@ -76,6 +79,15 @@ bool mirrors_can_be(const Scene *scene, const Material *m)
     return !is_bent && (has_smooth_base(m) || has_smooth_coat(m));
 }
 
+float mirrors_rough_alpha(const Material *m)
+{
+    float alpha = m->roughness * m->roughness;
+    bool  reflects = m->metallic > 0 || m->specular > 0;
+    bool  is_plain = m->normal_texture.texture_id == NO_ID && m->display_id == NO_ID &&
+                    !m->unlit && !(m->is_solid && m->transmission > 0);
+    return reflects && is_plain && !is_smooth(alpha) && alpha <= GLINT_ALPHA ? alpha : 0;
+}
+
 /* ---- patches ---------------------------------------------------------------------------- */
 
 typedef struct PatchList {
@@ -94,6 +106,7 @@ static MirrorPatch whole_triangle(const Scene *scene, uint32_t id)
 {
     MirrorPatch patch = {.uv = {{0, 0}, {1, 0}, {0, 1}}, .id = id};
     const Vec3 *normals = scene_part(scene, id)->normals;
+    patch.alpha = mirrors_rough_alpha(&scene->materials[scene_part(scene, id)->material_id]);
     for (int i = 0; i < 3; i++) patch.corners.position[i] = scene_corner(scene, id, i);
     for (int i = 0; i < 3; i++)
         patch.corners.normal[i] = normals ? normals[scene_corner_place(scene, id, i)]
@@ -311,6 +324,8 @@ static void build_node(MirrorBuilder *builder, uint32_t node_id, uint32_t first,
     bound_positions(builder, first, count, node);
     bound_normals(builder, first, count, node);
     node->patch = builder->items[first].patch;
+    for (uint32_t i = first; i < first + count; i++)
+        node->alpha = fmaxf(node->alpha, builder->patches[builder->items[i].patch].alpha);
     if (count == 1) return;
     Item *items = builder->items + first;
     part_items(items, count, count / 2, widest_axis(items, count));
@@ -318,6 +333,11 @@ static void build_node(MirrorBuilder *builder, uint32_t node_id, uint32_t first,
     builder->node_count += 2;
     build_node(builder, node->children, first, count / 2);
     build_node(builder, node->children + 1, first + count / 2, count - count / 2);
+}
+
+static int root_of(int part_id, bool is_rough)
+{
+    return 2 * (part_id + 1) + is_rough;
 }
 
 /* One tree over the patches of a part's pairs. */
@@ -347,16 +367,17 @@ static void build_trees(const Scene *scene, Mirrors *mirrors, const uint32_t *fi
                         uint32_t patch_count, Arena *arena)
 {
     const MirrorPair *pairs = mirrors->pairs;
-    uint32_t *roots = ARENA_NEW(arena, uint32_t, scene->part_count + 1);
+    uint32_t *roots = ARENA_NEW(arena, uint32_t, 2 * (scene->part_count + 1));
     size_t    most = nodes_wanted(pairs, mirrors->pair_count, first) + 1;
     MirrorBuilder builder = {.patches = mirrors->patches,
                              .nodes = ARENA_NEW(arena, MirrorNode, most)};
     Arena     scratch = *arena;
     builder.items = ARENA_NEW(&scratch, Item, patch_count);
-    for (int part = NO_ID; part < scene->part_count; part++) {
+    for (int i = 0; i < 2 * (scene->part_count + 1); i++) {
         uint32_t count = 0, left = mirrors->pair_count - (uint32_t)(pairs - mirrors->pairs);
-        while (count < left && pairs[count].part_id == part) count++;
-        roots[part + 1] = build_tree(&builder, pairs, count, first);
+        while (count < left && root_of(pairs[count].part_id, pairs[count].is_rough) == i)
+            count++;
+        roots[i] = build_tree(&builder, pairs, count, first);
         pairs += count;
     }
     mirrors->roots = roots;
@@ -383,19 +404,25 @@ const Mirrors *mirrors_build(const Scene *scene, const MirrorPair *pairs, uint32
 
 /* ---- asking ----------------------------------------------------------------------------- */
 
+int mirrors_compare_pairs(const void *a, const void *b)
+{
+    const MirrorPair *x = a, *y = b;
+    int root_x = root_of(x->part_id, x->is_rough), root_y = root_of(y->part_id, y->is_rough);
+    if (root_x != root_y) return root_x < root_y ? -1 : 1;
+    return x->triangle < y->triangle ? -1 : x->triangle > y->triangle;
+}
+
 bool mirrors_have(const Mirrors *mirrors, MirrorPair pair)
 {
     uint32_t low = 0, high = mirrors->pair_count;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
-        const MirrorPair *here = &mirrors->pairs[middle];
-        bool is_before = here->part_id < pair.part_id ||
-                         (here->part_id == pair.part_id && here->triangle < pair.triangle);
-        if (is_before) low = middle + 1;
+        int      order = mirrors_compare_pairs(&mirrors->pairs[middle], &pair);
+        if (order == 0) return true;
+        if (order < 0) low = middle + 1;
         else high = middle;
     }
-    return low < mirrors->pair_count && mirrors->pairs[low].part_id == pair.part_id &&
-           mirrors->pairs[low].triangle == pair.triangle;
+    return false;
 }
 
 /* Is h, or its opposite, within `reach` of all normals' planes? */
@@ -410,17 +437,29 @@ static bool may_be_normal(const MirrorNode *node, Vec3 h, float reach)
     return along || against;
 }
 
+/* A question on its way through the tree. */
+typedef struct Asking {
+    const MirrorQuery *query;
+    float  lean;      /* by how much facets of alpha 1 lean; 0: of smooth mirrors */
+    Vec2   direction; /* and along which slopes, unit */
+    MirrorFound *found;
+    void        *user;
+} Asking;
+
 /* Where a mirror turns w, the direction from the point to it, into s, its normal lies along
  * h = s - w, on one side or the other. Over the node w stays within a chord of the direction to
- * its centre: sin beta = radius / distance, chord = 2 sin(beta / 2); and so does h. */
-static bool may_reflect(const MirrorNode *node, Vec3 from, Vec3 towards)
+ * its centre: sin beta = radius / distance, chord = 2 sin(beta / 2); and so does h. A leaning
+ * facet's normal is off by no more than its slope. */
+static bool may_reflect(const MirrorNode *node, const Asking *asking)
 {
-    Vec3  to = vec3_sub(node->centre, from);
+    Vec3  to = vec3_sub(node->centre, asking->query->from);
     float far2 = vec3_dot(to, to), radius2 = node->radius * node->radius * 1.0001f;
     if (!(far2 > radius2)) return true;
     float chord2 = 2 * (1 - sqrtf(1 - radius2 / far2));
-    return may_be_normal(node, vec3_along(towards, to, -1 / sqrtf(far2)),
-                         sqrtf(chord2) + 1e-5f);
+    Vec3  h = vec3_along(asking->query->towards, to, -1 / sqrtf(far2));
+    float lean = asking->lean * node->alpha;
+    return may_be_normal(node, h,
+                         sqrtf(chord2) * (1 + lean) + lean * vec3_length(h) + 1e-5f);
 }
 
 /* The point and the light lie on one side of a triangle that reflects. */
@@ -430,35 +469,59 @@ static bool is_on_one_side(const MirrorTriangle *t, Vec3 from, Vec3 towards)
     return vec3_dot(n, towards) * vec3_dot(n, vec3_sub(from, t->position[0])) > 0;
 }
 
-static void ask_patch(const MirrorPatch *patch, Vec3 from, Vec3 towards, MirrorFound *found,
-                      void *user)
+/* Slopes m of GGX facets lie at density alpha^2 / (pi (alpha^2 + m^2)^2) (Walter 2007, written
+ * by slopes): m^2 = alpha^2 u / (1 - u). */
+static int leaning_points(const MirrorPatch *patch, const Asking *asking,
+                          ReflectionPoint points[REFLECTION_POINTS_MAX])
 {
+    const MirrorQuery *query = asking->query;
+    float m = asking->lean * patch->alpha, a2 = patch->alpha * patch->alpha;
+    float density = a2 / (PI_F * (a2 + m * m) * (a2 + m * m));
+    MirrorTriangle leaning = reflection_leaning(
+        &patch->corners, (Vec2){m * asking->direction.x, m * asking->direction.y});
+    int count = reflection_points_find(&leaning, query->from, query->towards, points);
+    for (int i = 0; i < count; i++)
+        points[i].spread = reflection_slope_spread(&patch->corners, query->from, query->towards,
+                                                   &points[i]) / density;
+    return count;
+}
+
+static void ask_patch(const MirrorPatch *patch, const Asking *asking)
+{
+    const MirrorQuery *query = asking->query;
     ReflectionPoint points[REFLECTION_POINTS_MAX];
-    if (!is_on_one_side(&patch->corners, from, towards)) return;
-    int count = reflection_points_find(&patch->corners, from, towards, points);
+    if (!is_on_one_side(&patch->corners, query->from, query->towards)) return;
+    int count = query->is_rough ? leaning_points(patch, asking, points)
+                                : reflection_points_find(&patch->corners, query->from,
+                                                         query->towards, points);
     for (int i = 0; i < count; i++) {
         const Vec2 *uv = patch->uv;
         float u = points[i].u, v = points[i].v, w = 1 - u - v;
         points[i].u = w * uv[0].x + u * uv[1].x + v * uv[2].x;
         points[i].v = w * uv[0].y + u * uv[1].y + v * uv[2].y;
-        found(user, patch->id, &points[i]);
+        if (points[i].spread < 1e30f) asking->found(asking->user, patch->id, &points[i]);
     }
 }
 
-void mirrors_find(const Mirrors *mirrors, int part_id, Vec3 from, Vec3 towards,
-                  MirrorFound *found, void *user)
+void mirrors_find(const Mirrors *mirrors, const MirrorQuery *query, MirrorFound *found,
+                  void *user)
 {
     uint32_t stack[STACK], depth = 1;
-    stack[0] = mirrors->roots[part_id + 1];
+    Asking   asking = {.query = query, .found = found, .user = user};
+    stack[0] = mirrors->roots[root_of(query->part_id, query->is_rough)];
     if (stack[0] == NO_TREE) return;
+    if (query->is_rough) {
+        asking.lean = sqrtf(query->u.x / (1 - query->u.x));
+        sincos_turns(query->u.y, &asking.direction.y, &asking.direction.x);
+    }
     while (depth) {
         const MirrorNode *node = &mirrors->nodes[stack[--depth]];
-        if (!may_reflect(node, from, towards)) continue;
+        if (!may_reflect(node, &asking)) continue;
         if (node->children) {
             stack[depth++] = node->children + 1;
             stack[depth++] = node->children;
         } else {
-            ask_patch(&mirrors->patches[node->patch], from, towards, found, user);
+            ask_patch(&mirrors->patches[node->patch], &asking);
         }
     }
 }

@@ -11,27 +11,44 @@
 #include "mirror/reflection_point.h"
 #include "scene/scene.h"
 
-/* Can the material's triangles be mirrors? */
+/* Can the material's triangles be smooth mirrors? */
 bool mirrors_can_be(const Scene *scene, const Material *material);
 
-/* A mirror that is asked for by points of a part; part_id may be NO_ID: by points of none. */
+/* GGX alpha of rough mirrors that are worth asking (GLINT_ALPHA at most); 0: these are none. */
+float mirrors_rough_alpha(const Material *material);
+
+/* A mirror that is asked for by points of a part; part_id may be NO_ID: by points of none. What
+ * its smooth boundary does and what its rough one does are asked for apart. */
 typedef struct MirrorPair {
     int      part_id;
+    bool     is_rough;
     uint32_t triangle;
 } MirrorPair;
 
+/* The order in which pairs stand: negative, zero or positive, for qsort. */
+int mirrors_compare_pairs(const void *a, const void *b);
+
 typedef struct Mirrors Mirrors;
 
-/* pairs: sorted by part, then triangle, each once; NULL for none of them. */
+/* pairs: in that order, each once; NULL for none of them. */
 const Mirrors *mirrors_build(const Scene *scene, const MirrorPair *pairs, uint32_t count,
                              Arena *arena);
 
 bool mirrors_have(const Mirrors *mirrors, MirrorPair pair);
 
-/* Told of a reflection: which triangle of the scene, and where on it. */
+typedef struct MirrorQuery {
+    int   part_id;
+    bool  is_rough; /* then by u, in [0, 1)^2, facets lean as GGX facets do */
+    Vec3  from;     /* the point, m, world */
+    Vec3  towards;  /* unit, to the light */
+    Vec2  u;
+} MirrorQuery;
+
+/* Told of a reflection: which triangle of the scene, and where on it. Of rough mirrors spread
+ * is the solid angle that the point sees by area of slopes, over their density. */
 typedef void MirrorFound(void *user, uint32_t triangle, const ReflectionPoint *point);
 
-/* All points of the part's mirrors that turn light from direction `towards` (unit) to the point
- * `from`, in an order that the scene alone decides. What stands between is not asked. */
-void mirrors_find(const Mirrors *mirrors, int part_id, Vec3 from, Vec3 towards,
-                  MirrorFound *found, void *user);
+/* All points of the part's mirrors that turn light from `towards` to the point, in an order
+ * that the scene alone decides. What stands between is not asked. */
+void mirrors_find(const Mirrors *mirrors, const MirrorQuery *query, MirrorFound *found,
+                  void *user);

@@ -326,3 +326,66 @@ int reflection_points_find(const MirrorTriangle *triangle, Vec3 from, Vec3 towar
     search_patch(&search, &whole, 0);
     return search.count;
 }
+
+/* ---- rough mirrors ---------------------------------------------------------------------- */
+
+static Frame reflection_frame(const MirrorTriangle *t)
+{
+    return frame_from_z(
+        vec3_normalize(vec3_add(vec3_add(t->normal[0], t->normal[1]), t->normal[2])));
+}
+
+MirrorTriangle reflection_leaning(const MirrorTriangle *triangle, Vec2 slope)
+{
+    MirrorTriangle leaning = *triangle;
+    Frame frame = reflection_frame(triangle);
+    for (int i = 0; i < 3; i++)
+        leaning.normal[i] = vec3_along(vec3_along(triangle->normal[i], frame.x, slope.x),
+                                       frame.y, slope.y);
+    return leaning;
+}
+
+/* What of the half vector h = s - w, w = d / |d|, tells the slopes: g = h / h.z in the frame,
+ * slope = n.z (g.x, g.y) - (n.x, n.y). */
+typedef struct HalfWay {
+    D3     x, y, z; /* the frame */
+    D3     d, n, w, h;
+    double distance;
+} HalfWay;
+
+/* dh = -(d' - w (w.d')) / |d|, dg = (dh - g dh.z) / h.z. */
+static D2 slope_derivative(const HalfWay *at, D3 edge_d, D3 edge_n)
+{
+    D3 none = {0, 0, 0}, dh = d3_along(edge_d, at->w, -d3_dot(at->w, edge_d));
+    dh = d3_along(none, dh, -1 / at->distance);
+    double hz = d3_dot(at->h, at->z), nz = d3_dot(at->n, at->z);
+    double dhz = d3_dot(dh, at->z), dnz = d3_dot(edge_n, at->z);
+    double gx = d3_dot(at->h, at->x) / hz, gy = d3_dot(at->h, at->y) / hz;
+    return (D2){dnz * gx + nz * (d3_dot(dh, at->x) - gx * dhz) / hz - d3_dot(edge_n, at->x),
+                dnz * gy + nz * (d3_dot(dh, at->y) - gy * dhz) / hz - d3_dot(edge_n, at->y)};
+}
+
+/* |dw'| / |slope'|, with |dw'| = |N.d| / |d|^3 as above. */
+float reflection_slope_spread(const MirrorTriangle *triangle, Vec3 from, Vec3 towards,
+                              const ReflectionPoint *at)
+{
+    Frame frame = reflection_frame(triangle);
+    D3    d[3], n[3];
+    for (int i = 0; i < 3; i++) {
+        d[i] = d3_sub(d3_of(triangle->position[i]), d3_of(from));
+        n[i] = d3_of(triangle->normal[i]);
+    }
+    double  u = (double)at->u, v = (double)at->v;
+    HalfWay half = {.x = d3_of(frame.x), .y = d3_of(frame.y), .z = d3_of(frame.z),
+                    .d = interpolate(d[0], d[1], d[2], u, v),
+                    .n = interpolate(n[0], n[1], n[2], u, v)};
+    half.distance = sqrt(d3_dot(half.d, half.d));
+    half.w = d3_along((D3){0, 0, 0}, half.d, 1 / half.distance);
+    half.h = d3_sub(d3_of(towards), half.w);
+    Slope slope = {slope_derivative(&half, d3_sub(d[1], d[0]), d3_sub(n[1], n[0])),
+                   slope_derivative(&half, d3_sub(d[2], d[0]), d3_sub(n[2], n[0]))};
+    D3     edges = d3_cross(d3_sub(d[1], d[0]), d3_sub(d[2], d[0]));
+    double solid = fabs(d3_dot(edges, half.d)) /
+                   (half.distance * half.distance * half.distance);
+    return (float)(solid / fabs(determinant(&slope)));
+}

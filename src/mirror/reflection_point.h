@@ -27,3 +27,13 @@ typedef struct ReflectionPoint {
  * of the triangle to each other, are left out: they carry less than that share of its light. */
 int reflection_points_find(const MirrorTriangle *triangle, Vec3 from, Vec3 towards,
                            ReflectionPoint out[REFLECTION_POINTS_MAX]);
+
+/* ---- rough mirrors: facets lean from the normal, by slopes along a frame of the triangle - */
+
+/* The triangle of facets that lean so: their normals are the interpolated ones plus slope.x and
+ * slope.y of the axes of a frame about the corners' mean normal. */
+MirrorTriangle reflection_leaning(const MirrorTriangle *triangle, Vec2 slope);
+
+/* At a point of the leaning triangle: solid angle seen from `from` by area of slopes. */
+float reflection_slope_spread(const MirrorTriangle *triangle, Vec3 from, Vec3 towards,
+                              const ReflectionPoint *at);

@@ -49,7 +49,7 @@ typedef struct PathWalk {
     const float *last_asked; /* how often it sampled each set of lights */
     float    last_pdf;   /* with which it chose the direction, sr^-1 */
     bool     last_is_delta; /* no light sample could have found what comes now */
-    bool     sun_is_known;  /* the last vertex but one asked for the sun in the last one */
+    Spectrum sun_share; /* of the sun met now; the rest was told to the last vertex but one */
     int      bounce;     /* scattering vertices so far */
     int      splits_left; /* thin sheets that may still be followed both ways */
     int      medium_id;  /* material of the solid that the ray is in; NO_ID: air */
@@ -108,7 +108,8 @@ static void add_distant(PathWalk *walk)
     float    pdf[2];
     lights_distant(walk->context->lights, walk->ray.direction, walk->last.ns, walk->wavelengths,
                    radiance, pdf);
-    for (int set = walk->sun_is_known ? LIGHTS_SKY : LIGHTS_SUN; set <= LIGHTS_SKY; set++) {
+    radiance[LIGHTS_SUN] *= walk->sun_share;
+    for (int set = LIGHTS_SUN; set <= LIGHTS_SKY; set++) {
         float weight = emission_weight(walk, (LightSet)set, pdf[set]);
         walk->gathered.radiance += walk->throughput * radiance[set] * spectrum_all(weight);
     }
@@ -235,6 +236,22 @@ static bool sides_agree(const Surface *surface, Vec3 local_wi, Vec3 wi, Vec3 loc
            (vec3_dot(wi, surface->ng) * vec3_dot(wo, surface->ng) > 0);
 }
 
+static bool asks_mirrors(const PathContext *context)
+{
+    return context->beams.mirrors && context->strategy != PATH_BSDF_ONLY &&
+           lights_has(context->lights, LIGHTS_SUN);
+}
+
+/* Did the vertex before ask for the sun in this mirror, smooth or rough? */
+static bool mirror_was_asked(const PathWalk *walk, const Surface *surface, Vec3 wo,
+                             bool is_rough)
+{
+    MirrorPair pair = {walk->last_part_id, is_rough, surface->triangle};
+    return asks_mirrors(walk->context) && !walk->last_is_delta && walk->medium_id == NO_ID &&
+           sun_mirror_is_known(walk->context->scene, walk->context->beams.mirrors, pair,
+                               surface, wo);
+}
+
 /* Most samples end in shadow: what the light sends and how the surface scatters it is asked
  * once the ray has arrived. */
 static void add_light_sample(PathWalk *walk, const Surface *surface, Vec3 wo, LightSet set)
@@ -255,6 +272,8 @@ static void add_light_sample(PathWalk *walk, const Surface *surface, Vec3 wo, Li
     if (spectrum_is_zero(passed)) return;
     float    bsdf_pdf;
     Spectrum f = bsdf_eval(&surface->bsdf, local_wo, local_wi, &bsdf_pdf);
+    if (set == LIGHTS_SUN && mirror_was_asked(walk, surface, wo, true))
+        f = sun_mirror_left(&surface->bsdf, local_wo, local_wi, f);
     Spectrum share = walk->throughput * f *
                      lights_radiance(context->lights, &light, walk->wavelengths) *
                      spectrum_all(fabsf(local_wi.z) / (light.pdf * set_prob));
@@ -264,12 +283,6 @@ static void add_light_sample(PathWalk *walk, const Surface *surface, Vec3 wo, Li
 }
 
 /* ---- the sun by way of one mirror ------------------------------------------------------- */
-
-static bool asks_mirrors(const PathContext *context)
-{
-    return context->beams.mirrors && context->strategy != PATH_BSDF_ONLY &&
-           lights_has(context->lights, LIGHTS_SUN);
-}
 
 /* A lit surface on its way through its mirrors. */
 typedef struct MirrorWalk {
@@ -319,18 +332,11 @@ static void add_mirrored_suns(PathWalk *walk, const Surface *surface, Vec3 wo)
     if (u[3] >= prob || !lights_sample(context->lights, LIGHTS_SUN, point, u, sun)) return;
     asked.question.radiance = lights_radiance(context->lights, sun, walk->wavelengths);
     sun->pdf *= prob;
-    mirrors_find(context->beams.mirrors, surface->part_id, surface->position, sun->wi,
-                 add_mirrored_sun, &asked);
-}
-
-/* A direction by a mirror, chosen now: did the vertex before ask for the sun behind it? */
-static bool mirror_was_asked(const PathWalk *walk, const Surface *surface, Vec3 wo,
-                             const BsdfSample *next)
-{
-    return asks_mirrors(walk->context) && next->is_delta && !walk->last_is_delta &&
-           walk->medium_id == NO_ID && next->wi.z > 0 &&
-           sun_mirror_is_known(walk->context->scene, walk->context->beams.mirrors,
-                               walk->last_part_id, surface, wo);
+    MirrorQuery query = {surface->part_id, false, surface->position, sun->wi, {0, 0}};
+    mirrors_find(context->beams.mirrors, &query, add_mirrored_sun, &asked);
+    query.is_rough = asked.question.is_rough = true;
+    query.u = sampler_2d(walk->sampler);
+    mirrors_find(context->beams.mirrors, &query, add_mirrored_sun, &asked);
 }
 
 static void add_light_samples(PathWalk *walk, const Surface *surface, Vec3 wo)
@@ -380,13 +386,22 @@ static bool roulette(PathWalk *walk)
 
 typedef enum Step { STEP_ENDED, STEP_PASSED, STEP_SCATTERED } Step;
 
+/* What of the sun that the path may meet in this direction was not told before. */
+static Spectrum sun_share(const PathWalk *walk, const Surface *surface, Vec3 wo,
+                          const BsdfSample *next)
+{
+    if (!(next->wi.z > 0) || !mirror_was_asked(walk, surface, wo, !next->is_delta))
+        return spectrum_all(1);
+    return sun_mirror_share(&surface->bsdf, frame_to_local(&surface->frame, wo), next);
+}
+
 /* Turns the path into direction next->wi (local) at a scattering vertex. */
 static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSample *next)
 {
     Vec3 wi = frame_to_world(&surface->frame, next->wi);
     Vec3 local_wo = frame_to_local(&surface->frame, wo);
     if (!sides_agree(surface, next->wi, wi, local_wo, wo)) return STEP_ENDED;
-    walk->sun_is_known = mirror_was_asked(walk, surface, wo, next);
+    walk->sun_share = sun_share(walk, surface, wo, next);
     if (surface->bsdf.kind == BSDF_DIELECTRIC && next->wi.z * local_wo.z < 0)
         walk->medium_id = next->wi.z < 0 ? surface->material_id : NO_ID;
     walk->last = lit_point(walk, surface);
@@ -552,6 +567,7 @@ static PathWalk walk_start(const PathContext *context, const Wavelengths *wavele
                   .statistics = statistics, .throughput = spectrum_all(1),
                   .gathered.radiance = spectrum_all(0), .last.ns = vec3(0, 0, 1),
                   .last_is_delta = true, .last_part_id = NO_ID,
+                  .sun_share = spectrum_all(1),
                   .last_asked = context->selection.all,
                   .splits_left = SPLITS,
                   .medium_id = NO_ID, .stack = stack};

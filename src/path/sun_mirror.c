@@ -13,16 +13,16 @@ static bool is_plain(const Scene *scene, const Surface *mirror, Vec3 wo)
     return is_outside && vec3_dot(apart, apart) < UNBENT2;
 }
 
-bool sun_mirror_is_known(const Scene *scene, const Mirrors *mirrors, int part_id,
+bool sun_mirror_is_known(const Scene *scene, const Mirrors *mirrors, MirrorPair pair,
                          const Surface *mirror, Vec3 wo)
 {
-    return mirrors_have(mirrors, (MirrorPair){part_id, mirror->triangle}) &&
-           is_plain(scene, mirror, wo);
+    return mirrors_have(mirrors, pair) && is_plain(scene, mirror, wo);
 }
 
 /* Light that leaves the solid angle dw around wo reached it from dw / spread around the sun's
  * direction: radiance is kept but for what the mirror takes, and the density of directions is
- * that of the sun's divided by the spread. */
+ * that of the sun's divided by the spread. Facets of a rough mirror send f cos of the light on,
+ * and their directions have the density of their slopes divided by the spread. */
 bool sun_mirror_at(const SunMirrorQuestion *question, const Hit *mirror, float spread,
                    SunMirror *out)
 {
@@ -41,9 +41,28 @@ bool sun_mirror_at(const SunMirrorQuestion *question, const Hit *mirror, float s
         !(vec3_dot(sun->wi, surface->frame.z) > 0) ||
         !(vec3_dot(wo, surface->ng) * vec3_dot(sun->wi, surface->ng) > 0))
         return false;
-    out->radiance = question->radiance * bsdf_mirror(&surface->bsdf, local_wo) *
-                    spectrum_all(surface->alpha * spread / sun->pdf);
+    Vec3 local_sun = frame_to_local(&surface->frame, sun->wi);
+    out->radiance = question->is_rough
+                        ? bsdf_glint(&surface->bsdf, local_wo, local_sun) *
+                              spectrum_all(local_sun.z)
+                        : bsdf_mirror(&surface->bsdf, local_wo);
+    out->radiance *= question->radiance *
+                     spectrum_all(surface->alpha * spread / sun->pdf);
     out->light = (LightSample){.wi = wi, .distance = distance, .pdf = 1, .is_emitter = true,
                                .triangle = mirror->triangle, .ng = surface->ng};
     return !spectrum_is_zero(out->radiance);
+}
+
+Spectrum sun_mirror_left(const Bsdf *mirror, Vec3 local_wo, Vec3 local_wi, Spectrum f)
+{
+    return spectrum_max(f - bsdf_glint(mirror, local_wo, local_wi), spectrum_all(0));
+}
+
+Spectrum sun_mirror_share(const Bsdf *mirror, Vec3 local_wo, const BsdfSample *next)
+{
+    float pdf;
+    if (next->is_delta) return spectrum_all(0);
+    Spectrum f = bsdf_eval(mirror, local_wo, next->wi, &pdf);
+    return sun_mirror_left(mirror, local_wo, next->wi, f) /
+           spectrum_max(f, spectrum_all(1e-30f));
 }

@@ -6,7 +6,7 @@
  * light of that direction; chance then leaves the sun in a mirror out (sun_mirror_is_known).
  *
  * Not known    what passes a second mirror on its way or is refracted, mirrors seen from
- *              within a solid, mirrors bent by a normal map.
+ *              within a solid, mirrors bent by a normal map, rough ones above GLINT_ALPHA.
  * Threads      pure functions.
  */
 #pragma once
@@ -22,6 +22,7 @@ typedef struct SunMirrorQuestion {
     Vec3                 from; /* m, world */
     LightSample          sun;
     Spectrum             radiance; /* of the sun there */
+    bool                 is_rough; /* of rough mirrors' facets; else of smooth ones */
 } SunMirrorQuestion;
 
 /* One way. */
@@ -36,7 +37,14 @@ typedef struct SunMirror {
 bool sun_mirror_at(const SunMirrorQuestion *question, const Hit *mirror, float spread,
                    SunMirror *out);
 
-/* Was the sun, found behind this mirror by a ray in air that came along -wo from a part, told
- * to it before? */
-bool sun_mirror_is_known(const Scene *scene, const Mirrors *mirrors, int part_id,
+/* Was the sun, found behind this mirror by a ray in air that came along -wo, told to the pair's
+ * part before? The pair's triangle is the mirror's. */
+bool sun_mirror_is_known(const Scene *scene, const Mirrors *mirrors, MirrorPair pair,
                          const Surface *mirror, Vec3 wo);
+
+/* Of f = bsdf_eval at a rough mirror that was asked: what the sun's samples and chance have to
+ * find themselves. */
+Spectrum sun_mirror_left(const Bsdf *mirror, Vec3 local_wo, Vec3 local_wi, Spectrum f);
+
+/* The same as a share of what a BSDF sample there carries; 0 by the smooth boundary. */
+Spectrum sun_mirror_share(const Bsdf *mirror, Vec3 local_wo, const BsdfSample *next);

@@ -130,14 +130,16 @@ static void add_point(void *user, uint32_t triangle, const ReflectionPoint *poin
 static const Mirrors *all_mirrors(const Scene *scene, Arena *arena)
 {
     MirrorPair *pairs = ARENA_NEW(arena, MirrorPair, scene->triangle_count);
-    for (uint32_t i = 0; i < scene->triangle_count; i++) pairs[i] = (MirrorPair){NO_ID, i};
+    for (uint32_t i = 0; i < scene->triangle_count; i++)
+        pairs[i] = (MirrorPair){NO_ID, false, i};
     return mirrors_build(scene, pairs, scene->triangle_count, arena);
 }
 
 static Sum ask(const Scene *scene, const Mirrors *mirrors, Vec3 from, Vec3 towards)
 {
     Sum sum = {.scene = scene, .towards = towards};
-    mirrors_find(mirrors, NO_ID, from, towards, add_point, &sum);
+    const MirrorQuery query = {.part_id = NO_ID, .from = from, .towards = towards};
+    mirrors_find(mirrors, &query, add_point, &sum);
     return sum;
 }
 
