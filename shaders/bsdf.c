@@ -56,6 +56,14 @@ bool bsdf_scatters(const Bsdf *bsdf)
     return model->scatters && model->scatters(parameters_of(bsdf));
 }
 
+BsdfLobes bsdf_lobes(const Bsdf *bsdf, Vec3 wo)
+{
+    const BsdfModel *model = models[bsdf->kind];
+    BsdfLobes lobes = {0};
+    if (model->lobes) model->lobes(parameters_of(bsdf), wo, &lobes);
+    return lobes;
+}
+
 Spectrum bsdf_albedo(const Bsdf *bsdf, Vec3 wo)
 {
     const BsdfModel *model = models[bsdf->kind];

@@ -61,6 +61,9 @@ Spectrum bsdf_glint(const Bsdf *bsdf, Vec3 wo, Vec3 wi);
 /* Has any part that light sampling can hit? (false: only delta parts, or black) */
 bool bsdf_scatters(const Bsdf *bsdf);
 
+/* The wide lobes on wo's side. */
+BsdfLobes bsdf_lobes(const Bsdf *bsdf, Vec3 wo);
+
 /* Directional-hemispherical reflectance plus transmittance, estimated: for the albedo layer
  * and for roulette, not for transport. */
 Spectrum bsdf_albedo(const Bsdf *bsdf, Vec3 wo);

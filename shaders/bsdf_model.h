@@ -19,6 +19,15 @@ typedef struct BsdfSample {
                           no scattering event for multiple importance sampling */
 } BsdfSample;
 
+/* What a surface scatters over more than some ten degrees, about: for choosing where to look
+ * for light, not for transport. */
+typedef struct BsdfLobes {
+    float prob;    /* that bsdf_sample chooses one of them; 0: the rest says nothing */
+    float diffuse; /* albedo of Lambert's */
+    float f0, f90; /* reflectance of GGX facets met upright and grazing; 0: no such lobe */
+    float alpha;
+} BsdfLobes;
+
 typedef struct BsdfModel {
     Spectrum (*eval)(const void *parameters, Vec3 wo, Vec3 wi, float *pdf);
     bool     (*reaches)(const void *parameters, Vec3 wo, Vec3 wi); /* NULL: may, everywhere */
@@ -27,5 +36,6 @@ typedef struct BsdfModel {
     Spectrum (*mirror)(const void *parameters, Vec3 wo);
     Spectrum (*glint)(const void *parameters, Vec3 wo, Vec3 wi);
     bool     (*scatters)(const void *parameters);
+    void     (*lobes)(const void *parameters, Vec3 wo, BsdfLobes *lobes);
     Spectrum (*albedo)(const void *parameters, Vec3 wo);
 } BsdfModel;

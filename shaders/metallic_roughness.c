@@ -42,6 +42,7 @@
 #include "spectrum/fresnel.h"
 #include "shaders/microfacet.h"
 
+#define WIDE_ALPHA 0.15f  /* lobes of more than about ten degrees */
 #define COAT_UPRIGHT 0.9999f /* z of a coat's normal that is not tilted */
 
 /* The non-metal's reflectance is f0 + rise * shape(angle). */
@@ -569,6 +570,24 @@ static bool model_scatters(const void *parameters)
     return has_base || has_coat || !is_smooth(m->alpha);
 }
 
+/* A rough coat is left out: it is rare. */
+static void model_lobes(const void *parameters, Vec3 wo, BsdfLobes *lobes)
+{
+    const MetallicRoughness *m = parameters;
+    if (!(wo.z > 0)) return;
+    View  view = view_from(m, wo);
+    float base = spectrum_mean(m->base_color), f0 = spectrum_mean(view.boundary.f0);
+    float solid = 1 - m->metallic, under = 1 - view.coat;
+    float face = f0 * view.energy.all + (m->specular - f0) * view.energy.shape;
+    lobes->prob = view.choices.diffuse;
+    lobes->diffuse = under * solid * (1 - m->transmission) * (1 - face) * base;
+    if (m->alpha < WIDE_ALPHA) return;
+    lobes->prob += view.choices.mirror;
+    lobes->f0 = under * (solid * f0 + m->metallic * base);
+    lobes->f90 = under * (solid * m->specular + m->metallic);
+    lobes->alpha = m->alpha;
+}
+
 static Spectrum model_albedo(const void *parameters, Vec3 wo)
 {
     const MetallicRoughness *m = parameters;
@@ -594,5 +613,5 @@ const BsdfModel metallic_roughness_model = {.eval = model_eval,
                                             .reaches = model_reaches, .sample = model_sample,
                                             .pass = model_pass, .mirror = model_mirror,
                                             .glint = model_glint,
-                                            .scatters = model_scatters,
+                                            .scatters = model_scatters, .lobes = model_lobes,
                                             .albedo = model_albedo};

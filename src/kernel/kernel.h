@@ -8,6 +8,7 @@
 #pragma once
 #include "camera/camera.h"
 #include "film/film.h"
+#include "guide/guide_training.h"
 #include "path/path.h"
 
 /* Work on a rectangle of pixels: the seam between the render loop and the kernel. */
@@ -21,10 +22,28 @@ typedef struct TileJob {
     uint32_t first_sample, end_sample; /* half-open */
 } TileJob;
 
+/* What a guide is taught by. */
+typedef struct LessonJob {
+    const PathContext *context; /* with the guide as far as it has learnt */
+    const Camera      *camera;
+    uint32_t seed, index; /* of the paths' random numbers */
+    Vec2     stretch;     /* pixels of the frame to a step of the raster, across and down */
+    PathPlaces *places;   /* one a step of the raster, row by row */
+    int         columns;  /* of the raster */
+    const GuideTraining *training;
+    LightFinds        *finds;   /* one a cell */
+} LessonJob;
+
 typedef struct Kernel {
     const char *isa; /* "sse2", "avx2", "avx512"; "native" on other processors */
     /* rect: inside the film's crop, pixels of the whole frame. Adds to *statistics. */
     void (*render)(const TileJob *job, FilmRect rect, PathStatistics *statistics);
+    /* One path through every step of a rectangle of the raster: the places it comes by. */
+    void (*find_places)(const LessonJob *job, FilmRect rect, PathStatistics *statistics);
+    /* Light that arrives in a cell from every direction. */
+    void (*learn)(const LessonJob *job, uint32_t cell, PathStatistics *statistics);
+    /* What light samples find there: for the context's selection. */
+    void (*try_lights)(const LessonJob *job, uint32_t cell, PathStatistics *statistics);
 } Kernel;
 
 /* isa: a name from above, or NULL for the best that this processor and program have. Fails,

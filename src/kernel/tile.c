@@ -108,6 +108,58 @@ static void tile_render(const TileJob *job, FilmRect rect, PathStatistics *stati
             }
 }
 
+static void lesson_find_places(const LessonJob *job, FilmRect rect, PathStatistics *statistics)
+{
+    for (int y = rect.y0; y < rect.y1; y++)
+        for (int x = rect.x0; x < rect.x1; x++) {
+            Sampler sampler = sampler_start(job->seed, x, y, job->index);
+            Vec2    at = sampler_2d(&sampler);
+            Wavelengths wavelengths;
+            wavelengths_sample(sampler_1d(&sampler), &wavelengths);
+            Ray ray = camera_ray(job->camera, ((float)x + at.x) * job->stretch.x,
+                                 ((float)y + at.y) * job->stretch.y);
+            path_find_places(job->context, ray, &wavelengths, &sampler,
+                             &job->places[(size_t)y * (size_t)job->columns + (size_t)x],
+                             statistics);
+        }
+}
+
+/* From every point of the lesson once into every bin above its horizon. */
+static void lesson_learn(const LessonJob *job, uint32_t cell, PathStatistics *statistics)
+{
+    const GuideLesson *lesson = &job->training->lessons[cell];
+    for (int bin = 0; bin < GUIDE_BINS; bin++)
+        for (int i = 0; i < lesson->point_count; i++) {
+            Sampler sampler = sampler_start(job->seed, (int)cell, bin,
+                                            job->index + (uint32_t)i);
+            Vec2    at = sampler_2d(&sampler);
+            Vec3    direction = guide_bin_direction(bin, at.x, at.y);
+            LitPoint point = {lesson->points[i].position, lesson->points[i].normal, false};
+            Wavelengths wavelengths;
+            if (!(vec3_dot(direction, point.ns) > 0)) continue;
+            wavelengths_sample(sampler_1d(&sampler), &wavelengths);
+            guide_lesson_add(lesson, bin, path_arriving(job->context, point, direction,
+                                                        &wavelengths, &sampler, statistics));
+        }
+}
+
+static void lesson_try_lights(const LessonJob *job, uint32_t cell, PathStatistics *statistics)
+{
+    const GuideTraining *training = job->training;
+    const PathContext   *context = job->context;
+    uint32_t first = training->first_place[cell], end = training->first_place[cell + 1];
+    statistics->shadow_rays += LIGHT_SETS * (uint64_t)(end - first);
+    for (uint32_t i = first; i < end; i++) {
+        Sampler   sampler = sampler_start(job->seed + 1, (int)cell, 0, i - first);
+        Vec3      n = training->places[i].normal;
+        GuideView view;
+        guide_view(context->guide, cell, &(GuideSurface){n, n, 1, 0, 0, 0}, &view);
+        light_selection_try(context->bvh, context->lights,
+                            (LitPoint){training->places[i].position, n, false}, &view,
+                            &sampler, &job->finds[cell]);
+    }
+}
+
 /* The build compiles this file once for each instruction set, each under its own name. */
 #ifndef KERNEL_NAME
 #define KERNEL_NAME kernel_base
@@ -122,4 +174,5 @@ static void tile_render(const TileJob *job, FilmRect rect, PathStatistics *stati
 #define KERNEL_ISA "native"
 #endif
 extern const Kernel KERNEL_NAME;
-const Kernel KERNEL_NAME = {KERNEL_ISA, tile_render};
+const Kernel KERNEL_NAME = {KERNEL_ISA, tile_render, lesson_find_places, lesson_learn,
+                            lesson_try_lights};

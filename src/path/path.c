@@ -1,37 +1,17 @@
 #include "path/path.h"
 
 #include "base/units.h"
+#include "path/lead.h"
+#include "path/path_light.h"
 #include "path/sheets.h"
 #include "path/sun_mirror.h"
 #include "spectrum/photometry.h"
 
-/* From this bounce on lights are sampled less often: what they add is dim by then. */
-#define DEEP_BOUNCE 2
-#define DEEP_SHARE 0.4f
 #define ROULETTE_FIRST_BOUNCE 2
 #define SHEET_SHARE 0.5f /* of the samples that follow what a thin sheet itself shows */
 #define SPLITS 2         /* thin sheets along a camera ray that are followed both ways */
+#define ARRIVING_PDF 1.0f /* sr^-1, with which a guide that has learnt finds light, about */
 #define PASSES_MAX 512 /* windows and holes along one path: more is a closed loop of rounding */
-
-/* Light that a path has found. Most of it is radiance per lane; a display that is seen by ways
- * on which nothing depended on wavelength keeps its measured XYZ: lanes would only blur it. */
-typedef struct PathLight {
-    Spectrum radiance; /* W m^-2 sr^-1 nm^-1 per lane */
-    float    xyz[3];   /* cd m^-2 */
-} PathLight;
-
-static void gathered_add(PathLight *sum, const PathLight *more)
-{
-    sum->radiance += more->radiance;
-    for (int i = 0; i < 3; i++) sum->xyz[i] += more->xyz[i];
-}
-
-static void gathered_to_xyz(const PathLight *gathered, const Wavelengths *wavelengths,
-                            float xyz[3])
-{
-    for (int i = 0; i < 3; i++) xyz[i] = gathered->xyz[i];
-    spectrum_add_xyz(wavelengths, gathered->radiance, xyz);
-}
 
 /* One path on its way. */
 typedef struct PathWalk {
@@ -46,7 +26,8 @@ typedef struct PathWalk {
     float    straight;   /* m since the last scattering vertex (windows do not scatter) */
     LitPoint last;       /* that vertex */
     int      last_part_id;
-    const float *last_asked; /* how often it sampled each set of lights */
+    const float *last_asked; /* how often it sampled each set of lights, times this: */
+    float    last_often;
     float    last_pdf;   /* with which it chose the direction, sr^-1 */
     bool     last_is_delta; /* no light sample could have found what comes now */
     Spectrum sun_share; /* of the sun met now; the rest was told to the last vertex but one */
@@ -55,22 +36,10 @@ typedef struct PathWalk {
     int      medium_id;  /* material of the solid that the ray is in; NO_ID: air */
     SheetStack *stack;   /* what else lies where the ray is; empty in scenes without sheets */
     float    sheets_from; /* m along the ray: sheets before it were in the stack */
+    PathPlaces *places;  /* where it scatters is noted here; NULL: nobody asks */
 } PathWalk;
 
 /* ---- weights ---------------------------------------------------------------------------- */
-
-/* How often a vertex that sees this side of the surface should sample each set of lights. */
-static const float *asked_at(const PathWalk *walk, const Surface *surface, Vec3 wo)
-{
-    return light_selection_of_side(&walk->context->selection, surface->part_id,
-                                   vec3_dot(wo, surface->ng) < 0);
-}
-
-/* With which probability such a vertex at `bounce` samples this set. */
-static float set_probability(const float *asked, LightSet set, int bounce)
-{
-    return asked[set] * (bounce < DEEP_BOUNCE ? 1 : DEEP_SHARE);
-}
 
 /* The power heuristic (Veach 1997, 9.2.4) for two strategies. */
 static float mis_weight(float pdf, float other)
@@ -86,7 +55,7 @@ static float emission_weight(const PathWalk *walk, LightSet set, float light_pdf
     const PathContext *context = walk->context;
     if (walk->last_is_delta || context->strategy == PATH_BSDF_ONLY) return 1;
     if (context->strategy == PATH_LIGHTS_ONLY) return 0;
-    float prob = set_probability(walk->last_asked, set, walk->bounce - 1);
+    float prob = walk->last_asked[set] * walk->last_often;
     return mis_weight(walk->last_pdf, prob * light_pdf);
 }
 
@@ -254,11 +223,12 @@ static bool mirror_was_asked(const PathWalk *walk, const Surface *surface, Vec3 
 
 /* Most samples end in shadow: what the light sends and how the surface scatters it is asked
  * once the ray has arrived. */
-static void add_light_sample(PathWalk *walk, const Surface *surface, Vec3 wo, LightSet set)
+static void add_light_sample(PathWalk *walk, const Surface *surface, Vec3 wo, const Lead *lead,
+                             LightSet set)
 {
     const PathContext *context = walk->context;
     LightSample light;
-    float u[4], set_prob = set_probability(asked_at(walk, surface, wo), set, walk->bounce);
+    float u[4], set_prob = lead->asked[set] * lead->often;
     sampler_4d(walk->sampler, u);
     if (u[3] >= set_prob) return;
     LitPoint point = lit_point(walk, surface);
@@ -278,7 +248,8 @@ static void add_light_sample(PathWalk *walk, const Surface *surface, Vec3 wo, Li
                      lights_radiance(context->lights, &light, walk->wavelengths) *
                      spectrum_all(fabsf(local_wi.z) / (light.pdf * set_prob));
     if (!light.is_delta && context->strategy == PATH_MIS)
-        share *= spectrum_all(mis_weight(light.pdf * set_prob, bsdf_pdf));
+        share *= spectrum_all(mis_weight(light.pdf * set_prob,
+                                         lead_pdf(lead, light.wi, bsdf_pdf)));
     walk->gathered.radiance += share * passed;
 }
 
@@ -339,12 +310,13 @@ static void add_mirrored_suns(PathWalk *walk, const Surface *surface, Vec3 wo)
     mirrors_find(context->beams.mirrors, &query, add_mirrored_sun, &asked);
 }
 
-static void add_light_samples(PathWalk *walk, const Surface *surface, Vec3 wo)
+static void add_light_samples(PathWalk *walk, const Surface *surface, Vec3 wo,
+                              const Lead *lead)
 {
     if (!bsdf_scatters(&surface->bsdf)) return;
     for (int set = 0; set < LIGHT_SETS; set++)
         if (lights_has(walk->context->lights, (LightSet)set))
-            add_light_sample(walk, surface, wo, (LightSet)set);
+            add_light_sample(walk, surface, wo, lead, (LightSet)set);
     add_mirrored_suns(walk, surface, wo);
 }
 
@@ -396,7 +368,8 @@ static Spectrum sun_share(const PathWalk *walk, const Surface *surface, Vec3 wo,
 }
 
 /* Turns the path into direction next->wi (local) at a scattering vertex. */
-static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSample *next)
+static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const Lead *lead,
+                 const BsdfSample *next)
 {
     Vec3 wi = frame_to_world(&surface->frame, next->wi);
     Vec3 local_wo = frame_to_local(&surface->frame, wo);
@@ -406,7 +379,8 @@ static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSamp
         walk->medium_id = next->wi.z < 0 ? surface->material_id : NO_ID;
     walk->last = lit_point(walk, surface);
     walk->last_part_id = surface->part_id;
-    walk->last_asked = asked_at(walk, surface, wo);
+    walk->last_asked = lead->asked;
+    walk->last_often = lead->often;
     walk->last_pdf = next->pdf;
     walk->last_is_delta = next->is_delta;
     walk->straight = walk->sheets_from = 0;
@@ -418,12 +392,12 @@ static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSamp
 }
 
 /* Chooses where the path goes from the surface. Windows can be passed after the last bounce. */
-static Step scatter(PathWalk *walk, const Surface *surface, Vec3 wo)
+static Step scatter(PathWalk *walk, const Surface *surface, Vec3 wo, const Lead *lead)
 {
     float u[4];
     BsdfSample next;
     sampler_4d(walk->sampler, u);
-    if (!bsdf_sample(&surface->bsdf, frame_to_local(&surface->frame, wo), u, &next))
+    if (!lead_sample(lead, surface, frame_to_local(&surface->frame, wo), u, &next))
         return STEP_ENDED;
     walk->throughput *= next.weight;
     if (spectrum_is_zero(walk->throughput)) return STEP_ENDED;
@@ -432,7 +406,7 @@ static Step scatter(PathWalk *walk, const Surface *surface, Vec3 wo)
         return STEP_PASSED;
     }
     if (walk->bounce >= walk->context->max_bounces) return STEP_ENDED;
-    return turn(walk, surface, wo, &next);
+    return turn(walk, surface, wo, lead, &next);
 }
 
 /* What the ray meets; of what lies in one plane, one after the other. */
@@ -465,12 +439,24 @@ static void record_first(PathWalk *walk, const Hit *hit, float distance, Vec3 wo
     walk->first = NULL;
 }
 
+/* For a guide that is to learn. */
+static void note_place(PathWalk *walk, const Lead *lead, const Surface *surface, Vec3 wo)
+{
+    PathPlaces *places = walk->places;
+    if (!places || !lead->is_wide || places->count == PATH_PLACES_MAX) return;
+    Vec3 origin = ray_offset_origin(surface->position, surface->ng, wo);
+    places->place[places->count++] = (LitPoint){origin, surface->frame.z, false};
+}
+
 /* What happens at a surface that is there. */
 static Step shade(PathWalk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
 {
+    Lead lead;
     add_emitted(walk, surface, hit, wo);
-    if (walk->bounce < walk->context->max_bounces) add_light_samples(walk, surface, wo);
-    return scatter(walk, surface, wo);
+    lead_at(walk->context, surface, wo, walk->bounce, &lead);
+    note_place(walk, &lead, surface, wo);
+    if (walk->bounce < walk->context->max_bounces) add_light_samples(walk, surface, wo, &lead);
+    return scatter(walk, surface, wo, &lead);
 }
 
 static Step reflect_window(PathWalk *walk, const Surface *surface, Vec3 wo)
@@ -478,9 +464,10 @@ static Step reflect_window(PathWalk *walk, const Surface *surface, Vec3 wo)
     Vec3 local_wo = frame_to_local(&surface->frame, wo);
     BsdfSample mirror = {.wi = vec3(-local_wo.x, -local_wo.y, local_wo.z), .is_delta = true,
                          .pdf = 1};
+    Lead lead = {.asked = walk->context->selection.all, .often = 1};
     if (walk->bounce >= walk->context->max_bounces) return STEP_ENDED;
     walk->throughput *= thin_window_reflectance(&surface->bsdf.thin_window, local_wo.z);
-    return turn(walk, surface, wo, &mirror);
+    return turn(walk, surface, wo, &lead, &mirror);
 }
 
 static void walk_path(PathWalk *walk);
@@ -500,7 +487,7 @@ static void add_sheet(PathWalk *walk, const Surface *surface, const Hit *hit, Ve
     Step step = surface->alpha < 1 ? shade(&sheet, surface, hit, wo)
                                    : reflect_window(&sheet, surface, wo);
     if (step != STEP_ENDED) walk_path(&sheet);
-    gathered_add(&walk->gathered, &sheet.gathered);
+    path_light_add(&walk->gathered, &sheet.gathered);
 }
 
 /* The first thin sheets (windows, holes) that the eye looks through are followed both ways, the
@@ -568,7 +555,7 @@ static PathWalk walk_start(const PathContext *context, const Wavelengths *wavele
                   .gathered.radiance = spectrum_all(0), .last.ns = vec3(0, 0, 1),
                   .last_is_delta = true, .last_part_id = NO_ID,
                   .sun_share = spectrum_all(1),
-                  .last_asked = context->selection.all,
+                  .last_asked = context->selection.all, .last_often = 1,
                   .splits_left = SPLITS,
                   .medium_id = NO_ID, .stack = stack};
 }
@@ -582,7 +569,35 @@ void path_trace(const PathContext *context, Ray ray, const Wavelengths *waveleng
     walk.ray = ray;
     walk.first = out;
     walk_path(&walk);
-    gathered_to_xyz(&walk.gathered, wavelengths, out->xyz);
+    path_light_to_xyz(&walk.gathered, wavelengths, out->xyz);
+}
+
+void path_find_places(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
+                      Sampler *sampler, PathPlaces *out, PathStatistics *statistics)
+{
+    SheetStack stack;
+    PathWalk   walk = walk_start(context, wavelengths, sampler, statistics, &stack);
+    out->count = 0;
+    walk.ray = ray;
+    walk.places = out;
+    walk_path(&walk);
+}
+
+float path_arriving(const PathContext *context, LitPoint point, Vec3 direction,
+                    const Wavelengths *wavelengths, Sampler *sampler,
+                    PathStatistics *statistics)
+{
+    SheetStack stack;
+    float      xyz[3];
+    PathWalk   walk = walk_start(context, wavelengths, sampler, statistics, &stack);
+    walk.ray = (Ray){point.position, direction, 0, INFINITY};
+    walk.last = point;
+    walk.last_is_delta = false;
+    walk.last_pdf = ARRIVING_PDF;
+    walk.bounce = 1;
+    walk_path(&walk);
+    path_light_to_xyz(&walk.gathered, wavelengths, xyz);
+    return xyz[1];
 }
 
 void path_illuminance(const PathContext *context, LitPoint point,
@@ -594,7 +609,8 @@ void path_illuminance(const PathContext *context, LitPoint point,
     PathWalk   walk = walk_start(context, wavelengths, sampler, statistics, &stack);
     surface_white(context->tables, point.position, point.ns, &head);
     walk.throughput = spectrum_all(PI_F);
-    add_light_samples(&walk, &head, point.ns);
-    if (scatter(&walk, &head, point.ns) == STEP_SCATTERED) walk_path(&walk);
-    gathered_to_xyz(&walk.gathered, wavelengths, xyz_lx);
+    Lead lead = {.asked = context->selection.all, .often = 1};
+    add_light_samples(&walk, &head, point.ns, &lead);
+    if (scatter(&walk, &head, point.ns, &lead) == STEP_SCATTERED) walk_path(&walk);
+    path_light_to_xyz(&walk.gathered, wavelengths, xyz_lx);
 }

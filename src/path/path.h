@@ -5,25 +5,7 @@
  */
 #pragma once
 #include "base/sampler.h"
-#include "bvh/bvh.h"
-#include "light/light.h"
-#include "path/light_selection.h"
-#include "path/mirror_beams.h"
-#include "path/surface.h"
-
-/* Which estimators reach the light; all three agree in the mean (a test). */
-typedef enum PathStrategy { PATH_MIS, PATH_LIGHTS_ONLY, PATH_BSDF_ONLY } PathStrategy;
-
-typedef struct PathContext {
-    const Scene         *scene;
-    const Bvh           *bvh;
-    const Lights        *lights;
-    const SurfaceTables *tables;
-    MirrorBeams          beams; /* without mirrors: the sun in them is left to chance */
-    LightSelection       selection;
-    int                  max_bounces; /* 0: emission only, 1: plus direct light */
-    PathStrategy         strategy;
-} PathContext;
+#include "path/path_context.h"
 
 /* All that paths need besides scene, ray tracer and lights, which must outlive the context. The
  * tables come from the arena. Strategy: PATH_MIS. */
@@ -47,6 +29,25 @@ typedef struct PathResult {
 /* Radiance along `ray` at the given wavelengths, as tristimulus values. */
 void path_trace(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
                 Sampler *sampler, PathResult *out, PathStatistics *statistics);
+
+#define PATH_PLACES_MAX 8
+
+/* Where a path scattered widely: just off the surfaces, on the side that was looked at. */
+typedef struct PathPlaces {
+    int      count;
+    LitPoint place[PATH_PLACES_MAX];
+} PathPlaces;
+
+/* Follows a path for the places it comes by; the context must have a guide, lit or not. */
+void path_find_places(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
+                      Sampler *sampler, PathPlaces *out, PathStatistics *statistics);
+
+/* Luminance, cd m^-2, that arrives at a point against `direction` and that its own light
+ * samples would hardly find: each kind of light is weighed as if the direction had been chosen
+ * with a density of 1 per steradian. */
+float path_arriving(const PathContext *context, LitPoint point, Vec3 direction,
+                    const Wavelengths *wavelengths, Sampler *sampler,
+                    PathStatistics *statistics);
 
 /* Illuminance of a plane at the point, facing its normal, as tristimulus values in lx: what a
  * white Lambert surface would send back, times pi. */

@@ -3,36 +3,20 @@
 #include <math.h>
 #include <stdatomic.h>
 
+#include "base/file.h"
 #include "base/machine.h"
 #include "base/parallel.h"
 #include "bvh/bvh.h"
+#include "guide/guide_file.h"
 #include "light/light.h"
 #include "render/forecast.h"
 #include "render/signals.h"
+#include "render/train.h"
 
-#define TILE_SIDE 16                /* pixels: a few milliseconds of work */
 #define PASS_PATHS ((size_t)1 << 22) /* of one pass at most, where a pixel gets more than one */
 #define PASS_SAMPLES_MAX 16u
 
-/* ---- tiles and passes -------------------------------------------------------------------- */
-
-static int tiles_across(FilmRect crop)
-{
-    return (crop.x1 - crop.x0 + TILE_SIDE - 1) / TILE_SIDE;
-}
-
-int render_tile_count(FilmRect crop)
-{
-    return tiles_across(crop) * ((crop.y1 - crop.y0 + TILE_SIDE - 1) / TILE_SIDE);
-}
-
-FilmRect render_tile(FilmRect crop, int index)
-{
-    int x0 = crop.x0 + index % tiles_across(crop) * TILE_SIDE;
-    int y0 = crop.y0 + index / tiles_across(crop) * TILE_SIDE;
-    return (FilmRect){x0, y0, x0 + TILE_SIDE < crop.x1 ? x0 + TILE_SIDE : crop.x1,
-                      y0 + TILE_SIDE < crop.y1 ? y0 + TILE_SIDE : crop.y1};
-}
+/* ---- passes ------------------------------------------------------------------------------ */
 
 static size_t pixel_count(FilmRect crop)
 {
@@ -66,11 +50,6 @@ static uint32_t end_of_pass(uint32_t done, double wanted, uint32_t most, size_t 
 
 /* ---- one pass ---------------------------------------------------------------------------- */
 
-/* One worker's counts, alone on their cache lines. */
-typedef struct WorkerCounts {
-    _Alignas(128) PathStatistics statistics;
-} WorkerCounts;
-
 typedef struct RenderPass {
     const Kernel  *kernel;
     const TileJob *job;
@@ -89,18 +68,6 @@ static void render_one_tile(void *context, int item, int worker)
                      (uint64_t)(pass->job->end_sample - pass->job->first_sample);
     uint64_t done = atomic_fetch_add(&pass->paths_done, paths) + paths;
     if (worker == 0) progress_update(pass->progress, (double)done);
-}
-
-static PathStatistics add_counts(const WorkerCounts *counts, int threads)
-{
-    PathStatistics sum = {0};
-    for (int i = 0; i < threads; i++) {
-        sum.samples += counts[i].statistics.samples;
-        sum.camera_rays += counts[i].statistics.camera_rays;
-        sum.bounce_rays += counts[i].statistics.bounce_rays;
-        sum.shadow_rays += counts[i].statistics.shadow_rays;
-    }
-    return sum;
 }
 
 static PathStatistics with_earlier(PathStatistics sum, const Checkpoint *resume)
@@ -148,7 +115,7 @@ static void finish_result(Run *run)
     const RenderOptions *options = run->options;
     run->result.seconds = monotonic_seconds() - run->progress.begun_s;
     if (options->resume) run->result.seconds += options->resume->seconds;
-    run->result.statistics = with_earlier(add_counts(run->counts, options->threads),
+    run->result.statistics = with_earlier(worker_counts_sum(run->counts, options->threads),
                                           options->resume);
 }
 
@@ -220,17 +187,13 @@ static bool make_film(const RenderOptions *options, Arena *arena, RenderResult *
     return checkpoint_load(resume, result->film, *arena, err);
 }
 
-static bool render_film(const PathContext *context, const SceneCamera *scene_camera,
-                        const RenderOptions *options, Arena *arena, RenderResult *result,
-                        Error *err)
+static void render_film(const RenderSetup *setup, const RenderOptions *options, Arena *arena,
+                        RenderResult *result)
 {
-    Camera camera = camera_from_scene(scene_camera, options->width, options->height);
-    Run    run = {.options = options};
+    Run    run = {.options = options, .result = *result};
     double pixels = (double)pixel_count(options->crop);
-    if (!make_film(options, arena, result, err)) return false;
-    run.result = *result;
-    run.job = (TileJob){.context = context,
-                        .camera = &camera,
+    run.job = (TileJob){.context = &setup->context,
+                        .camera = &setup->camera,
                         .film = result->film,
                         .with_features = result->has_features,
                         .with_fine = (options->layers & LAYER_DISPLAY_FINE) != 0,
@@ -244,26 +207,76 @@ static bool render_film(const PathContext *context, const SceneCamera *scene_cam
     signals_watch();
     run_passes(&run);
     *result = run.result;
+}
+
+/* ---- before the first pass --------------------------------------------------------------- */
+
+static bool read_field(RenderSetup *setup, const char *path, Arena *arena, Error *err)
+{
+    bool has[GUIDE_LIGHTS];
+    for (int set = 0; set < GUIDE_LIGHTS; set++)
+        has[set] = lights_has(setup->context.lights, (LightSet)set);
+    return guide_read(path, has, arena, &setup->context.guide, err);
+}
+
+/* The field comes from its file, or is learnt, and kept there if there is to be one. */
+static bool find_field(RenderSetup *setup, const RenderOptions *options, Arena *arena,
+                       Error *err)
+{
+    const TrainOptions train = {setup->kernel, options->threads};
+    double begun_s = monotonic_seconds();
+    if (options->field && file_exists(options->field)) {
+        if (!read_field(setup, options->field, arena, err)) return false;
+    } else {
+        setup->context.guide = train_guide(&setup->context, &setup->camera, &train, arena,
+                                           &setup->training);
+        if (options->field && !guide_write(options->field, setup->context.guide, *arena, err))
+            return false;
+    }
+    setup->field_hash = guide_hash(setup->context.guide);
+    setup->training_seconds = monotonic_seconds() - begun_s;
     return true;
 }
 
-bool render_scene(const Scene *scene, const SceneCamera *camera, const RenderOptions *options,
-                  Arena *arena, RenderResult *out, Error *err)
+bool render_prepare(const Scene *scene, const SceneCamera *camera, const RenderOptions *options,
+                    Arena *arena, RenderSetup *out, Error *err)
 {
-    double  begun_s = monotonic_seconds();
-    Lights *lights;
-    Bvh    *bvh;
-    const Kernel *kernel;
-    if (!kernel_choose(options->isa, &kernel, err)) return false;
+    RenderSetup setup = {0};
+    double      begun_s = monotonic_seconds();
+    Lights     *lights;
+    if (!kernel_choose(options->isa, &setup.kernel, err)) return false;
     if (!lights_build(scene, arena, &lights, err)) return false;
-    if (!bvh_create(scene, options->threads, options->isa, &bvh, err)) return false;
-    PathContext context = path_context_build(scene, bvh, lights, options->max_bounces, arena);
-    if (options->no_mirrors) context.beams.mirrors = NULL;
-    RenderResult result = {.kernel = kernel, .refused_pixels = lights_refused_pixels(lights),
-                           .build_seconds = monotonic_seconds() - begun_s,
-                           .build_peak_bytes = machine_peak_bytes()};
-    bool done = render_film(&context, camera, options, arena, &result, err);
-    bvh_destroy(bvh);
-    if (done) *out = result;
-    return done;
+    if (!bvh_create(scene, options->threads, options->isa, &setup.bvh, err)) return false;
+    setup.context = path_context_build(scene, setup.bvh, lights, options->max_bounces, arena);
+    if (options->no_mirrors) setup.context.beams.mirrors = NULL;
+    setup.camera = camera_from_scene(camera, options->width, options->height);
+    setup.build_seconds = monotonic_seconds() - begun_s;
+    setup.build_peak_bytes = machine_peak_bytes();
+    if (options->is_guided && !find_field(&setup, options, arena, err)) {
+        bvh_destroy(setup.bvh);
+        return false;
+    }
+    *out = setup;
+    return true;
+}
+
+void render_setup_end(RenderSetup *setup)
+{
+    bvh_destroy(setup->bvh);
+}
+
+bool render_prepared(const RenderSetup *setup, const RenderOptions *options, Arena *arena,
+                     RenderResult *out, Error *err)
+{
+    RenderResult result = {.kernel = setup->kernel,
+                           .refused_pixels = lights_refused_pixels(setup->context.lights),
+                           .build_seconds = setup->build_seconds,
+                           .build_peak_bytes = setup->build_peak_bytes,
+                           .field_hash = setup->field_hash,
+                           .training_seconds = setup->training_seconds,
+                           .training_paths = setup->training.samples};
+    if (!make_film(options, arena, &result, err)) return false;
+    render_film(setup, options, arena, &result);
+    *out = result;
+    return true;
 }

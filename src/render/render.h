@@ -17,6 +17,7 @@
 #include "film/film.h"
 #include "path/path.h"
 #include "render/checkpoint.h"
+#include "render/tiles.h"
 #include "kernel/kernel.h"
 
 typedef struct RenderResult RenderResult;
@@ -29,6 +30,9 @@ typedef struct RenderOptions {
     double   noise;            /* stop when the relative error is below; 0: never. Not before
                                   every pixel has RENDER_LEAST_SAMPLES */
     FilmArea noise_area;       /* whose error decides */
+    bool     is_guided;        /* learns first where light comes from, and looks there */
+    const char *field;         /* what was learnt: read from this file if it is there, else kept
+                                  there; NULL: neither */
     int      max_bounces;      /* 0: emission only, 1: plus direct light */
     bool     no_mirrors;       /* sunlight by way of mirrors is left to chance */
     unsigned layers;           /* FilmLayer bits */
@@ -57,6 +61,9 @@ struct RenderResult {
     long           refused_pixels; /* of the surroundings' picture: negative or not finite, 0 */
     double         seconds;    /* of rendering alone, over all sessions */
     double         build_seconds; /* of the ray tracer's and the lights' structures, now */
+    uint64_t       field_hash;    /* of what was learnt; 0: nothing */
+    double         training_seconds; /* that it took now */
+    uint64_t       training_paths;
     double         build_peak_bytes; /* the most memory of the process until they stood */
     PathStatistics statistics;
     FilmError      error;
@@ -65,14 +72,28 @@ struct RenderResult {
     int            stopped_by; /* SIGINT, SIGTERM, SIGHUP or 0 */
 };
 
-/* scene and camera must outlive the film only for what the caller does with them. */
-bool render_scene(const Scene *scene, const SceneCamera *camera, const RenderOptions *options,
-                  Arena *arena, RenderResult *out, Error *err);
+/* All that is ready before the first sample. */
+typedef struct RenderSetup {
+    const Kernel  *kernel;
+    Bvh           *bvh;
+    PathContext    context;
+    Camera         camera;
+    uint64_t       field_hash; /* 0: no field leads the paths */
+    double         build_seconds, training_seconds;
+    PathStatistics training;
+    double         build_peak_bytes;
+} RenderSetup;
+
+/* The options' samples, layers and checkpoint do not matter yet. To be ended; the scene must
+ * outlive it. */
+bool render_prepare(const Scene *scene, const SceneCamera *camera, const RenderOptions *options,
+                    Arena *arena, RenderSetup *out, Error *err);
+
+bool render_prepared(const RenderSetup *setup, const RenderOptions *options, Arena *arena,
+                     RenderResult *out, Error *err);
+
+void render_setup_end(RenderSetup *setup);
 
 /* Samples a pixel of the pass that begins after `done` samples, for so many pixels; where no
  * pass ends at `done`, those that are left of the one that does not. */
 uint32_t render_pass_samples(uint32_t done, size_t pixels);
-
-/* Tiles of a crop, row by row; index counts from 0. */
-int      render_tile_count(FilmRect crop);
-FilmRect render_tile(FilmRect crop, int index);

@@ -58,6 +58,7 @@ typedef struct Change {
 static void seed(Subject *s) { s->request.render.seed = 7; }
 static void size(Subject *s) { s->request.render.width = 65; }
 static void bounces(Subject *s) { s->request.render.max_bounces = 1; }
+static void learnt(Subject *s) { s->request.field_hash = 0xabc; }
 static void layers(Subject *s) { s->request.render.layers |= LAYER_UV; }
 static void isa(Subject *s) { s->kernel.isa = "avx2"; }
 static void content(Subject *s) { s->hashes[0] = 0xabc; }
@@ -91,6 +92,7 @@ static const Change changes[] = {
     {"size: 64x36 there, 65x36 here", size},
     {"seed: 0 there, 7 here", seed},
     {"max bounces: 64 there, 1 here", bounces},
+    {"field: none there, 0000000000000abc here", learnt},
     {"layers: depth,id there, depth,id,uv here", layers},
     {"input 0: scene.gltf 0000000000000001 there, scene.gltf 0000000000000abc here", content},
     {"input 1: ips.panel 0000000000000002 there, none here", one_less},

@@ -23,6 +23,7 @@ typedef struct RenderRun {
     Problems      problems;
     Scene        *scene;
     SceneCamera   camera;
+    RenderSetup   setup;
     const char   *identity;
 } RenderRun;
 
@@ -94,10 +95,9 @@ static bool load(RenderRun *work, Error *err)
 static bool identify(RenderRun *work, Error *err)
 {
     RenderOptions *options = &work->request.render;
-    const Kernel  *kernel;
-    if (!kernel_choose(options->isa, &kernel, err)) return false;
-    work->identity = render_identity(&work->request, work->scene, &work->camera, kernel,
-                                     work->arena);
+    work->request.field_hash = work->setup.field_hash;
+    work->identity = render_identity(&work->request, work->scene, &work->camera,
+                                     work->setup.kernel, work->arena);
     return render_find_checkpoint(&work->request, work->identity, work->arena,
                                   &options->resume, err);
 }
@@ -246,10 +246,12 @@ static bool run(RenderRun *work, Error *err)
     options->user = work;
     if (!check_memory(options, err) || !check_outputs(&work->request, err) ||
         !check_look(&work->request, *work->arena, err) || !load(work, err) ||
-        !identify(work, err))
+        !render_prepare(work->scene, &work->camera, options, work->arena, &work->setup, err))
         return false;
-    return render_scene(work->scene, &work->camera, options, work->arena, &result, err) &&
-           hand_over(work, &result, err);
+    bool done = identify(work, err) &&
+                render_prepared(&work->setup, options, work->arena, &result, err);
+    render_setup_end(&work->setup);
+    return done && hand_over(work, &result, err);
 }
 
 static bool run_render(int argc, char **argv, Arena *arena, Error *err)

@@ -78,6 +78,10 @@ static void set_sampling(FrameImage *frame, const RenderRequest *request,
     frame_set_string(frame, "parhelion:seed", arena_format(arena, "%u", options->seed), arena);
     frame_set_whole(frame, "parhelion:maxBounces", options->max_bounces, arena);
     frame_set_whole(frame, "parhelion:unbiased", 1, arena);
+    if (result->field_hash)
+        frame_set_string(frame, "parhelion:field",
+                         arena_format(arena, "%016llx", (unsigned long long)result->field_hash),
+                         arena);
 }
 
 /* A part carries the film's sums, so that it can be merged with the others. */
@@ -151,6 +155,16 @@ static json_t *worst_pixels(const Film *film)
     return list;
 }
 
+/* What was learnt before the first sample; null: nothing. */
+static json_t *training_document(const RenderResult *result)
+{
+    char hash[17];
+    if (!result->field_hash) return json_null();
+    snprintf(hash, sizeof hash, "%016llx", (unsigned long long)result->field_hash);
+    return json_pack("{s:s, s:f, s:I}", "field", hash, "seconds", result->training_seconds,
+                     "paths", (json_int_t)result->training_paths);
+}
+
 static json_t *answer_document(const RenderRequest *request, const RenderResult *result,
                                const Problems *problems)
 {
@@ -170,6 +184,7 @@ static json_t *answer_document(const RenderRequest *request, const RenderResult 
     json_object_set_new(answer, "build_peak_memory_bytes",
                         json_integer((json_int_t)result->build_peak_bytes));
     json_object_set_new(answer, "isa", json_string(result->kernel->isa));
+    json_object_set_new(answer, "training", training_document(result));
     json_object_set_new(answer, "resumed_samples", json_integer(result->resumed_samples));
     json_object_set_new(answer, "worst_pixels", worst_pixels(result->film));
     json_object_set_new(answer, "rays_by_class",

@@ -199,6 +199,8 @@ const char *render_identity(const RenderRequest *request, const Scene *scene,
     line(&text, "seed", "%u", options->seed);
     line(&text, "max bounces", "%d", options->max_bounces);
     line(&text, "sun in mirrors", "%s", options->no_mirrors ? "by chance" : "asked for");
+    if (request->field_hash)
+        line(&text, "field", "%016llx", (unsigned long long)request->field_hash);
     line(&text, "layers", "%s", render_layer_list(options->layers, arena));
     add_files(&text, scene);
     add_displays(&text, request, scene);

@@ -179,6 +179,9 @@ static bool check_render(const RenderWords *typed, Arena *arena, RenderRequest *
     options->end_sample = (uint32_t)typed->spp;
     options->max_bounces = (int)typed->max_bounces;
     options->seed = (uint32_t)typed->seed;
+    if (options->field && !options->is_guided)
+        return error_set(err, ERROR_USAGE, "--field %s keeps what is learnt — add --guiding",
+                         options->field);
     options->threads = request->cli.threads;
     options->progress = request->cli.progress;
     if (typed->has_spp && typed->samples)
@@ -232,6 +235,14 @@ static const char *resume_line(int argc, char **argv, bool resumes, Arena *arena
      "go on from the checkpoint, to the same frame bit for bit; without one begin",            \
      &(request)->resumes}
 
+#define GUIDING_OPTIONS(request)                                                               \
+    {"--guiding", OPTION_FLAG, NULL,                                                           \
+     "learn first where light comes from, and look there: less noise by day",                  \
+     &(request)->render.is_guided},                                                            \
+    {"--field", OPTION_TEXT, "FILE",                                                           \
+     "what --guiding learns: from this file if it is there, else kept there",                  \
+     &(request)->render.field}
+
 static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
                        RenderRequest *request, Error *err)
 {
@@ -260,6 +271,7 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
          &request->render.no_mirrors},
         {"--seed", OPTION_INTEGER, "N", "another set of random numbers (default 0)",
          &typed->seed, .low = 0, .high = 4294967295.0},
+        GUIDING_OPTIONS(request),
         {"--crop", OPTION_NUMBERS, "X0,Y0,X1,Y1", "only these pixels, half-open, from top left",
          typed->crop, .count = 4, .given = &typed->has_crop},
         {"--samples", OPTION_TEXT, "A:B", "only these sample indices, half-open",

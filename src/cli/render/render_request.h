@@ -20,6 +20,7 @@ typedef struct RenderRequest {
     CameraChoice  camera;
     EnvironmentChange environment;
     RenderOptions render;
+    uint64_t      field_hash; /* of what leads the paths, once it is learnt; 0: nothing does */
     NoiseGoal     noise;  /* goes into render once the scene is known */
     bool          replays; /* one sample of one pixel, printed */
     bool          is_part; /* some samples or pixels only: the frame can be merged */

@@ -1,0 +1,171 @@
+#include "guide/guide_training.h"
+
+#include <math.h>
+
+#define LEAST 0.05 /* of a cell's light, over all bins alike */
+
+/* ---- the tree ---------------------------------------------------------------------------- */
+
+static float coordinate(const GuidePlace *place, int axis)
+{
+    return axis == 0 ? place->position.x : axis == 1 ? place->position.y : place->position.z;
+}
+
+/* The axis along which the places are spread most. */
+static int widest(const GuidePlace *places, uint32_t count)
+{
+    double variance[3];
+    for (int axis = 0; axis < 3; axis++) {
+        double sum = 0, squares = 0;
+        for (uint32_t i = 0; i < count; i++) {
+            double at = (double)coordinate(&places[i], axis);
+            sum += at;
+            squares += at * at;
+        }
+        variance[axis] = squares / count - sum / count * (sum / count);
+    }
+    return variance[0] >= variance[1] && variance[0] >= variance[2] ? 0
+           : variance[1] >= variance[2] ? 1 : 2;
+}
+
+/* Puts places below `plane` first; how many they are. Keeps no order. */
+static uint32_t below(GuidePlace *places, uint32_t count, int axis, float plane)
+{
+    uint32_t low = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!(coordinate(&places[i], axis) < plane)) continue;
+        GuidePlace place = places[i];
+        places[i] = places[low];
+        places[low++] = place;
+    }
+    return low;
+}
+
+/* The value in the middle of sorted ones: by halving the range of values. */
+static float median(const GuidePlace *places, uint32_t count, int axis)
+{
+    float low = coordinate(&places[0], axis), high = low;
+    for (uint32_t i = 1; i < count; i++) {
+        low = fminf(low, coordinate(&places[i], axis));
+        high = fmaxf(high, coordinate(&places[i], axis));
+    }
+    for (int step = 0; step < 24; step++) {
+        float    middle = 0.5f * (low + high);
+        uint32_t smaller = 0;
+        for (uint32_t i = 0; i < count; i++) smaller += coordinate(&places[i], axis) < middle;
+        if (smaller * 2 <= count) low = middle;
+        else high = middle;
+    }
+    return high;
+}
+
+typedef struct TreeBuild {
+    LightGuide    *guide;
+    uint32_t *first_place;
+    uint32_t  most;
+    const GuidePlace *all;
+} TreeBuild;
+
+/* Cells come in the order of their places. */
+static void part(TreeBuild *build, uint32_t node, GuidePlace *places, uint32_t count)
+{
+    LightGuide   *guide = build->guide;
+    int      axis = 0;
+    float    plane = 0;
+    uint32_t low = 0;
+    if (count > build->most) {
+        axis = widest(places, count);
+        plane = median(places, count, axis);
+        low = below(places, count, axis, plane);
+    }
+    if (low == 0 || low == count || guide->cell_count + 2 > GUIDE_CELLS_MAX) {
+        build->first_place[guide->cell_count] = (uint32_t)(places - build->all);
+        guide->nodes[node] = (GuideNode){.cell = guide->cell_count++};
+        return;
+    }
+    uint32_t child = guide->node_count;
+    guide->node_count += 2;
+    guide->nodes[node] = (GuideNode){plane, axis, child, 0};
+    part(build, child, places, low);
+    part(build, child + 1, places + low, count - low);
+}
+
+GuideTraining *guide_training_start(GuidePlace *places, uint32_t count, uint32_t most,
+                                    Arena *arena)
+{
+    GuideTraining *training = ARENA_NEW(arena, GuideTraining, 1);
+    LightGuide *guide = &training->guide;
+    guide->nodes = ARENA_NEW(arena, GuideNode, 2 * GUIDE_CELLS_MAX);
+    guide->node_count = 1;
+    training->places = places;
+    training->first_place = ARENA_NEW(arena, uint32_t, GUIDE_CELLS_MAX + 1);
+    TreeBuild build = {guide, training->first_place, most, places};
+    part(&build, 0, places, count);
+    training->first_place[guide->cell_count] = count;
+    guide->cells = ARENA_NEW(arena, GuideCell, guide->cell_count);
+    training->lessons = ARENA_NEW(arena, GuideLesson, guide->cell_count);
+    for (uint32_t i = 0; i < guide->cell_count; i++) {
+        training->lessons[i].sums = ARENA_NEW(arena, float, GUIDE_BINS);
+        training->lessons[i].counts = ARENA_NEW(arena, uint32_t, GUIDE_BINS);
+    }
+    guide_place_bins(guide);
+    return training;
+}
+
+/* ---- lessons ----------------------------------------------------------------------------- */
+
+void guide_training_ask(GuideTraining *training, int points, int round)
+{
+    for (uint32_t cell = 0; cell < training->guide.cell_count; cell++) {
+        GuideLesson *lesson = &training->lessons[cell];
+        uint32_t first = training->first_place[cell];
+        uint32_t count = training->first_place[cell + 1] - first;
+        lesson->point_count = (uint32_t)points < count ? points : (int)count;
+        for (int i = 0; i < lesson->point_count; i++) {
+            uint32_t step = count / (uint32_t)lesson->point_count;
+            uint32_t at = (uint32_t)i * step + (uint32_t)round * 7u % step;
+            lesson->points[i] = training->places[first + at];
+        }
+    }
+}
+
+/* The luminance times the solid angle of a bin, up to a factor. */
+static double bin_light(const GuideLesson *lesson, int bin)
+{
+    Vec3   d = guide_bin_direction(bin, 0.5f, 0.5f);
+    double taxicab = (double)(fabsf(d.x) + fabsf(d.y) + fabsf(d.z));
+    if (!lesson->counts[bin]) return 0;
+    return (double)lesson->sums[bin] / lesson->counts[bin] * taxicab * taxicab * taxicab;
+}
+
+/* A little is left everywhere: what the lesson did not find may be there all the same. */
+static void learn_cell(const GuideLesson *lesson, GuideCell *cell)
+{
+    double light[GUIDE_BINS], total = 0;
+    for (int i = 0; i < GUIDE_BINS; i++) total += light[i] = bin_light(lesson, i);
+    cell->is_lit = total > 0;
+    for (int i = 0; i < GUIDE_BINS && total > 0; i++)
+        cell->light[i / GUIDE_SIDE][i % GUIDE_SIDE] =
+            (float)((1 - LEAST) * light[i] / total + LEAST / GUIDE_BINS);
+}
+
+void guide_training_learn(GuideTraining *training)
+{
+    for (uint32_t i = 0; i < training->guide.cell_count; i++)
+        learn_cell(&training->lessons[i], &training->guide.cells[i]);
+}
+
+double guide_training_illuminance(const GuideTraining *training, uint32_t cell)
+{
+    const GuideLesson *lesson = &training->lessons[cell];
+    uint32_t first = training->first_place[cell], end = training->first_place[cell + 1];
+    double   sum = 0;
+    for (uint32_t p = first; p < end; p++)
+        for (int i = 0; i < GUIDE_BINS; i++) {
+            Vec3  d = guide_bin_direction(i, 0.5f, 0.5f);
+            float cosine = vec3_dot(d, training->places[p].normal);
+            if (!(cosine > 0)) continue;
+            sum += bin_light(lesson, i) * (double)cosine;
+        }
+    return end > first ? sum * 4 / GUIDE_BINS / (double)(end - first) : 0;
+}

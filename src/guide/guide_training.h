@@ -1,0 +1,54 @@
+/* guide_training.h -- a guide learns, cell by cell, from where light comes.
+ *
+ * First the places are told that paths from the camera come by: they make the tree, whose cells
+ * hold about as many places each. Then, in rounds, light is looked for from some of the places
+ * of every cell in all directions; what a round found leads the paths of the next. A cell's
+ * lesson is one thread's, so that the threads decide nothing.
+ *
+ * Memory   from the arena.
+ */
+#pragma once
+#include "base/arena.h"
+#include "guide/guide.h"
+
+typedef struct GuidePlace {
+    Vec3 position, normal; /* just off a surface, on the normal's side; world */
+} GuidePlace;
+
+#define GUIDE_POINTS_MAX 8
+
+/* What is asked of one cell in a round, and what was found. */
+typedef struct GuideLesson {
+    GuidePlace points[GUIDE_POINTS_MAX];
+    int        point_count;
+    float     *sums; /* of luminances, one a bin, over all rounds */
+    uint32_t  *counts;
+} GuideLesson;
+
+typedef struct GuideTraining {
+    LightGuide        guide;
+    GuidePlace  *places;
+    uint32_t    *first_place; /* of every cell; and behind the last */
+    GuideLesson *lessons;
+} GuideTraining;
+
+/* A guide that leads nobody yet, of `count` places, which are put into another order. At most
+ * `most` places a cell, as far as they lie apart. */
+GuideTraining *guide_training_start(GuidePlace *places, uint32_t count, uint32_t most,
+                                    Arena *arena);
+
+/* HOT. A ray of the cell's lesson into a bin found the luminance cd_m2. */
+static inline void guide_lesson_add(const GuideLesson *lesson, int bin, float cd_m2)
+{
+    lesson->sums[bin] += cd_m2;
+    lesson->counts[bin]++;
+}
+
+/* Chooses so many points of every cell for the round. */
+void guide_training_ask(GuideTraining *training, int points, int round);
+
+/* Makes the guide of what was found so far. */
+void guide_training_learn(GuideTraining *training);
+
+/* Illuminance, lx, of the cell's points by what the lessons found, their mean. */
+double guide_training_illuminance(const GuideTraining *training, uint32_t cell);

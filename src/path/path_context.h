@@ -1,0 +1,26 @@
+/* path_context.h -- what all paths of a scene share.
+ *
+ * Threads  const once built (path.h).
+ */
+#pragma once
+#include "bvh/bvh.h"
+#include "guide/guide.h"
+#include "light/light.h"
+#include "path/light_selection.h"
+#include "path/mirror_beams.h"
+#include "path/surface.h"
+
+/* Which estimators reach the light; all three agree in the mean (a test). */
+typedef enum PathStrategy { PATH_MIS, PATH_LIGHTS_ONLY, PATH_BSDF_ONLY } PathStrategy;
+
+typedef struct PathContext {
+    const Scene         *scene;
+    const Bvh           *bvh;
+    const Lights        *lights;
+    const SurfaceTables *tables;
+    MirrorBeams          beams; /* without mirrors: the sun in them is left to chance */
+    LightSelection       selection;
+    int                  max_bounces; /* 0: emission only, 1: plus direct light */
+    PathStrategy         strategy;
+    const LightGuide    *guide; /* leads wide scattering; NULL: the surfaces alone decide */
+} PathContext;

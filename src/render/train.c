@@ -1,0 +1,142 @@
+#include "render/train.h"
+
+#include <math.h>
+
+#include "base/parallel.h"
+#include "render/tiles.h"
+
+#define STEPS_MAX 16384.0     /* of the raster */
+#define PLACES 64             /* of a cell at most */
+#define ROUNDS 2
+#define PIXELS_A_POINT 8192.0 /* of the frame, to every point of a cell in a round */
+#define SEED 0x67756964u  /* not a frame's own samples */
+
+typedef struct Lesson {
+    const Kernel *kernel;
+    LessonJob     job;
+    FilmRect      raster;
+    WorkerCounts *counts;
+} Lesson;
+
+static void find_places(void *context, int item, int worker)
+{
+    Lesson *lesson = context;
+    lesson->kernel->find_places(&lesson->job, render_tile(lesson->raster, item),
+                                &lesson->counts[worker].statistics);
+}
+
+static void learn_cell(void *context, int item, int worker)
+{
+    Lesson *lesson = context;
+    lesson->kernel->learn(&lesson->job, (uint32_t)item, &lesson->counts[worker].statistics);
+}
+
+/* The raster keeps the frame's shape. */
+static FilmRect raster_of(const Camera *camera)
+{
+    double pixels = (double)camera->width * (double)camera->height;
+    double scale = fmin(sqrt(STEPS_MAX / pixels), 1);
+    return (FilmRect){0, 0, (int)ceil(camera->width * scale),
+                      (int)ceil(camera->height * scale)};
+}
+
+static GuidePlace *all_places(const Lesson *lesson, Arena *arena, uint32_t *count)
+{
+    size_t      steps = (size_t)lesson->raster.x1 * (size_t)lesson->raster.y1;
+    GuidePlace *places = ARENA_NEW(arena, GuidePlace, steps * PATH_PLACES_MAX);
+    *count = 0;
+    for (size_t i = 0; i < steps; i++)
+        for (int k = 0; k < lesson->job.places[i].count; k++) {
+            const LitPoint *place = &lesson->job.places[i].place[k];
+            places[(*count)++] = (GuidePlace){place->position, place->ns};
+        }
+    return places;
+}
+
+static void try_lights(void *context, int item, int worker)
+{
+    Lesson *lesson = context;
+    lesson->kernel->try_lights(&lesson->job, (uint32_t)item,
+                               &lesson->counts[worker].statistics);
+}
+
+#define NEIGHBOURS 4 /* on either side in the tree's order */
+#define DOUBT 8      /* points of them that count as the cell's own */
+
+/* What the neighbours' light samples find may come into the cell, too. */
+static LightFinds with_neighbours(const LightFinds *finds, int cell, int cells)
+{
+    LightFinds own = finds[cell], all = {0};
+    for (int i = cell - NEIGHBOURS; i <= cell + NEIGHBOURS; i++) {
+        if (i < 0 || i >= cells) continue;
+        all.points += finds[i].points;
+        for (int set = 0; set < LIGHT_SETS; set++) all.squares[set] += finds[i].squares[set];
+    }
+    if (!(all.points > 0)) return own;
+    own.points += DOUBT;
+    for (int set = 0; set < LIGHT_SETS; set++)
+        own.squares[set] += all.squares[set] * DOUBT / all.points;
+    return own;
+}
+
+static void weigh_lights(const Lights *lights, GuideTraining *training, const LightFinds *finds)
+{
+    int cells = (int)training->guide.cell_count;
+    for (int i = 0; i < cells; i++) {
+        LightFinds found = with_neighbours(finds, i, cells);
+        double     total = guide_training_illuminance(training, (uint32_t)i);
+        for (int set = 0; set < LIGHT_SETS; set++)
+            total += finds[i].points > 0 ? finds[i].sum[set] / finds[i].points : 0;
+        light_selection_weigh(lights, &found, total, training->guide.cells[i].asked);
+    }
+    training->guide.asks = true;
+}
+
+static Lesson lesson_start(const Camera *camera, const TrainOptions *options, Arena *arena)
+{
+    FilmRect raster = raster_of(camera);
+    Lesson   lesson = {.kernel = options->kernel, .raster = raster,
+                       .counts = ARENA_NEW(arena, WorkerCounts, options->threads)};
+    lesson.job = (LessonJob){
+        .camera = camera, .seed = SEED, .columns = raster.x1,
+        .stretch = {(float)camera->width / (float)raster.x1,
+                    (float)camera->height / (float)raster.y1},
+        .places = ARENA_NEW(arena, PathPlaces, (size_t)raster.x1 * (size_t)raster.y1)};
+    return lesson;
+}
+
+/* A small frame is worth a short lesson. */
+static int points_for(const Camera *camera)
+{
+    double pixels = (double)camera->width * (double)camera->height;
+    return (int)fmin(fmax(pixels / PIXELS_A_POINT, 1), GUIDE_POINTS_MAX);
+}
+
+const LightGuide *train_guide(const PathContext *context, const Camera *camera,
+                         const TrainOptions *options, Arena *arena, PathStatistics *cost)
+{
+    GuideNode   leaf = {0};
+    LightGuide  nobody = {.nodes = &leaf, .cells = ARENA_NEW(arena, GuideCell, 1)};
+    PathContext trainee = *context;
+    Lesson      lesson = lesson_start(camera, options, arena);
+    uint32_t    count;
+    trainee.guide = &nobody;
+    lesson.job.context = &trainee;
+    parallel_for(options->threads, render_tile_count(lesson.raster), find_places, &lesson);
+    GuidePlace *places = all_places(&lesson, arena, &count);
+    GuideTraining *training = guide_training_start(places, count, PLACES, arena);
+    LightGuide    *guide = &training->guide;
+    lesson.job.training = training;
+    lesson.job.finds = ARENA_NEW(arena, LightFinds, guide->cell_count);
+    trainee.guide = guide;
+    for (int round = 0; round < ROUNDS; round++) {
+        lesson.job.index = (uint32_t)round * GUIDE_POINTS_MAX;
+        guide_training_ask(training, points_for(camera), round);
+        parallel_for(options->threads, (int)guide->cell_count, learn_cell, &lesson);
+        guide_training_learn(training);
+    }
+    parallel_for(options->threads, (int)guide->cell_count, try_lights, &lesson);
+    weigh_lights(context->lights, training, lesson.job.finds);
+    *cost = worker_counts_sum(lesson.counts, options->threads);
+    return guide;
+}

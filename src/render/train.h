@@ -1,0 +1,19 @@
+/* train.h -- a guide learns the scene before the first sample that counts.
+ *
+ * Paths of a coarse raster over the whole frame, whatever the crop; always the same ones, so
+ * that the guide depends on scene, camera and the frame's size alone.
+ *
+ * Memory   the guide comes from the arena.
+ */
+#pragma once
+#include "camera/camera.h"
+#include "kernel/kernel.h"
+
+typedef struct TrainOptions {
+    const Kernel *kernel;
+    int           threads;
+} TrainOptions;
+
+/* context: without a guide. */
+const LightGuide *train_guide(const PathContext *context, const Camera *camera,
+                         const TrainOptions *options, Arena *arena, PathStatistics *cost);

@@ -1,0 +1,366 @@
+/* A guide's samples follow its density, whatever it has learnt the light stays what it is, and
+ * its file is taken back as it was or not at all. */
+#include "check.h"
+
+#include <string.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "base/file_write.h"
+#include "base/units.h"
+#include "guide/guide_file.h"
+#include "guide/guide_training.h"
+#include "path/path.h"
+#include "world_fixture.h"
+
+enum { CELLS = 3, BOUNCES = 64 };
+
+/* A guide that has learnt nonsense: three cells, most bins dark, lights asked at odds. */
+static LightGuide *odd_guide(Arena *arena)
+{
+    LightGuide *guide = ARENA_NEW(arena, LightGuide, 1);
+    *guide = (LightGuide){.node_count = 2 * CELLS - 1, .cell_count = CELLS, .asks = true,
+                     .nodes = ARENA_NEW(arena, GuideNode, 2 * CELLS - 1),
+                     .cells = ARENA_NEW(arena, GuideCell, CELLS)};
+    guide->nodes[0] = (GuideNode){0.1f, 0, 1, 0};
+    guide->nodes[1] = (GuideNode){.cell = 0};
+    guide->nodes[2] = (GuideNode){-0.2f, 2, 3, 0};
+    guide->nodes[3] = (GuideNode){.cell = 1};
+    guide->nodes[4] = (GuideNode){.cell = 2};
+    for (uint32_t c = 0; c < CELLS; c++) {
+        GuideCell *cell = &guide->cells[c];
+        cell->is_lit = 1;
+        for (int set = 0; set < GUIDE_LIGHTS; set++)
+            cell->asked[set] = 0.2f + 0.2f * (float)((set + (int)c) % 5);
+        for (uint32_t i = 0; i < GUIDE_BINS; i++) {
+            float value = unit_float(hash_combine(hash_u32(c), i));
+            cell->light[i / GUIDE_SIDE][i % GUIDE_SIDE] = value > 0.6f ? value - 0.6f : 0;
+        }
+    }
+    guide_place_bins(guide);
+    return guide;
+}
+
+static Vec3 direction_to(double degrees, double turn)
+{
+    double a = radians_from_degrees(degrees), b = radians_from_degrees(turn);
+    return vec3((float)(sin(a) * cos(b)), (float)cos(a), (float)(sin(a) * sin(b)));
+}
+
+static const GuideSurface surfaces[] = {
+    {{0, 1, 0}, {0, 1, 0}, 0.7f, 0, 0, 0},
+    {{0, 1, 0}, {0.6f, 0.8f, 0}, 0.1f, 0.04f, 1, 0.2f},
+    {{0, 1, 0}, {0.98f, 0.199f, 0}, 0, 0.9f, 1, 0.5f},
+    {{0.48f, -0.6f, 0.64f}, {0.48f, -0.6f, 0.64f}, 0.3f, 0.04f, 1, 1},
+};
+
+enum { SURFACES = sizeof surfaces / sizeof *surfaces };
+
+/* ---- density ----------------------------------------------------------------------------- */
+
+TEST(densities_integrate_to_one)
+{
+    (void)state;
+    Arena  arena = arena_reserve((size_t)1 << 24);
+    LightGuide *guide = odd_guide(&arena);
+    for (int s = 0; s < SURFACES; s++) {
+        GuideView view;
+        double    sum = 0;
+        guide_view(guide, (uint32_t)s % CELLS, &surfaces[s], &view);
+        for (int i = 0; i < 500; i++)
+            for (int k = 0; k < 1000; k++) {
+                float z = 1 - 2 * ((float)i + 0.5f) / 500, r = sqrtf(1 - z * z), sine, cosine;
+                sincos_turns(((float)k + 0.5f) / 1000, &sine, &cosine);
+                sum += (double)guide_pdf(&view, vec3(r * cosine, r * sine, z)) * 4 * PI / 5e5;
+            }
+        if (!(fabs(sum - 1) < 2e-3)) fail_msg("surface %d: %g", s, sum);
+    }
+    arena_release(&arena);
+}
+
+/* Which of 12 x 24 cells of equal solid angle, for a count that knows nothing of the map. */
+enum { ROWS = 12, COLUMNS = 24 };
+
+static int cell_of(Vec3 d)
+{
+    float turn = atan2_f(d.y, d.x) * (0.5f * INV_PI_F);
+    int   row = (int)((1 - d.z) * 0.5f * ROWS), column = (int)((turn < 0 ? turn + 1 : turn) *
+                                                              COLUMNS);
+    return (row < ROWS ? row : ROWS - 1) * COLUMNS + (column < COLUMNS ? column : 0);
+}
+
+TEST(samples_follow_the_density)
+{
+    (void)state;
+    enum { SAMPLES = 400000, FINE = 40 };
+    Arena  arena = arena_reserve((size_t)1 << 24);
+    LightGuide *guide = odd_guide(&arena);
+    for (int s = 0; s < SURFACES; s++) {
+        static double expected[ROWS * COLUMNS], found[ROWS * COLUMNS];
+        GuideView     view;
+        double        chi2 = 0, degrees = 0;
+        memset(expected, 0, sizeof expected);
+        memset(found, 0, sizeof found);
+        guide_view(guide, (uint32_t)s % CELLS, &surfaces[s], &view);
+        for (int i = 0; i < ROWS * FINE; i++)
+            for (int k = 0; k < COLUMNS * FINE; k++) {
+                float z = 1 - 2 * ((float)i + 0.5f) / (ROWS * FINE), r = sqrtf(1 - z * z);
+                float sine, cosine;
+                sincos_turns(((float)k + 0.5f) / (COLUMNS * FINE), &sine, &cosine);
+                expected[i / FINE * COLUMNS + k / FINE] +=
+                    (double)guide_pdf(&view, vec3(r * cosine, r * sine, z)) * 4 * PI * SAMPLES /
+                    (ROWS * FINE) / (COLUMNS * FINE);
+            }
+        for (int i = 0; i < SAMPLES; i++) {
+            float u0 = unit_float(hash_u32((uint32_t)(2 * i))),
+                  u1 = unit_float(hash_u32((uint32_t)(2 * i + 1)));
+            found[cell_of(guide_sample(&view, u0, u1))]++;
+        }
+        for (int i = 0; i < ROWS * COLUMNS; i++) {
+            if (expected[i] < 20) continue;
+            /* the quadrature knows a cell's share to a few per mille only */
+            double spread = expected[i] + 1e-5 * expected[i] * expected[i];
+            chi2 += (found[i] - expected[i]) * (found[i] - expected[i]) / spread;
+            degrees++;
+        }
+        double v = 2 / (9 * degrees), deviate = (cbrt(chi2 / degrees) - (1 - v)) / sqrt(v);
+        if (!(deviate < 4)) fail_msg("surface %d: chi2 %g of %g degrees", s, chi2, degrees);
+    }
+    arena_release(&arena);
+}
+
+TEST(a_direction_of_a_bin_lies_there_and_a_view_of_darkness_is_empty)
+{
+    (void)state;
+    Arena     arena = arena_reserve((size_t)1 << 24);
+    LightGuide    *guide = odd_guide(&arena);
+    GuideView view;
+    for (int bin = 0; bin < GUIDE_BINS; bin++) {
+        GuideCell *cell = &guide->cells[0];
+        for (int i = 0; i < GUIDE_SIDE; i++) cell->light[i] = spectrum_all(0);
+        cell->light[bin / GUIDE_SIDE][bin % GUIDE_SIDE] = 1;
+        Vec3 d = guide_bin_direction(bin, 0.3f, 0.7f);
+        guide_view(guide, 0, &(GuideSurface){d, d, 1, 0, 0, 0}, &view);
+        assert_true(guide_pdf(&view, d) > 1);
+        assert_true(vec3_dot(guide_sample(&view, 0.3f, 0.7f), d) > 0.99999f);
+    }
+    guide->cells[0].is_lit = 0;
+    guide_view(guide, 0, &surfaces[0], &view);
+    assert_true(view.sum == 0);
+    arena_release(&arena);
+}
+
+/* ---- light ------------------------------------------------------------------------------- */
+
+typedef struct Estimate {
+    double mean, sigma;
+} Estimate;
+
+static Estimate luminance(const World *world, Vec3 from, Vec3 direction, int count)
+{
+    double sum = 0, squares = 0;
+    Frame  frame = frame_from_z(vec3_normalize(direction));
+    PathStatistics statistics = {0};
+    for (int i = 0; i < count; i++) {
+        Sampler sampler = sampler_start(1, 0, 0, (uint32_t)i);
+        Vec2    at = sampler_2d(&sampler);
+        Wavelengths w;
+        PathResult  result;
+        wavelengths_sample(sampler_1d(&sampler), &w);
+        Vec3 local = vec3(0.2f * (at.x - 0.5f), 0.2f * (at.y - 0.5f), 1);
+        Ray  ray = {from, vec3_normalize(frame_to_world(&frame, local)), 0, INFINITY};
+        path_trace(&world->context, ray, &w, &sampler, &result, &statistics);
+        sum += (double)result.xyz[1];
+        squares += (double)result.xyz[1] * (double)result.xyz[1];
+    }
+    double mean = sum / count;
+    return (Estimate){mean, sqrt(fmax(squares / count - mean * mean, 0) / count)};
+}
+
+static Material emitter(float cd_m2)
+{
+    Material material = builder_material(0);
+    material.is_emitter = true;
+    for (int i = 0; i < 3; i++) material.emissive_cd_m2[i] = cd_m2;
+    return material;
+}
+
+TEST(a_furnace_shows_one_wherever_a_guide_leads)
+{
+    (void)state;
+    World    world = world_start();
+    Material wall = emitter(0.5f);
+    for (int i = 0; i < 3; i++) wall.base_color[i] = 0.5f;
+    builder_part(world.scene, wall);
+    builder_sphere(world.scene, vec3(0, 0, 0), 1, 24, 1);
+    world_ready(&world, BOUNCES);
+    world.context.guide = odd_guide(&world.arena);
+    for (PathStrategy s = PATH_MIS; s <= PATH_BSDF_ONLY; s++) {
+        world.context.strategy = s;
+        Estimate e = luminance(&world, vec3(0.2f, 0.1f, 0), vec3(0, 0.3f, -1), 40000);
+        if (!(fabs(e.mean - 1) <= 3.5 * e.sigma + 1e-4 && e.sigma < 0.02))
+            fail_msg("strategy %d: %g +- %g", s, e.mean, e.sigma);
+    }
+    world_end(&world);
+}
+
+/* A glossy floor under a lamp, a sky and a sun, lacquered or not. */
+static World floor_world(float roughness, float clearcoat)
+{
+    World    world = world_start();
+    Material floor = builder_material(0.4f);
+    floor.roughness = roughness;
+    floor.specular = 1;
+    floor.clearcoat = clearcoat;
+    builder_part(world.scene, floor);
+    builder_quad(world.scene, vec3(0, 0, 0), vec3(5, 0, 0), vec3(0, 0, -5));
+    builder_part(world.scene, emitter(500));
+    builder_quad(world.scene, vec3(0, 1.5f, -1), vec3(1, 0, 0), vec3(0, 0, 1));
+    Environment *outside = &world.scene->environment;
+    outside->kind = ENVIRONMENT_CONSTANT;
+    outside->luminance_cd_m2 = 40;
+    for (int i = 0; i < 3; i++) outside->color[i] = 1;
+    outside->has_sun = true;
+    outside->sun_elevation = 0.6f;
+    outside->sun_illuminance_lx = 300;
+    world_ready(&world, BOUNCES);
+    return world;
+}
+
+TEST(every_strategy_finds_the_same_light_with_a_guide_and_without)
+{
+    (void)state;
+    static const float looks[][2] = {{0.45f, 0}, {0.7f, 1}, {1, 0}};
+    for (int i = 0; i < 3; i++) {
+        World    world = floor_world(looks[i][0], looks[i][1]);
+        Estimate plain = luminance(&world, vec3(0, 1, 2), vec3(0, -0.5f, -1), 60000);
+        world.context.guide = odd_guide(&world.arena);
+        for (PathStrategy s = PATH_MIS; s <= PATH_LIGHTS_ONLY; s++) {
+            world.context.strategy = s;
+            Estimate e = luminance(&world, vec3(0, 1, 2), vec3(0, -0.5f, -1), 120000);
+            if (!(fabs(e.mean - plain.mean) <= 3.5 * hypot(e.sigma, plain.sigma) &&
+                  e.sigma < 0.02 * e.mean))
+                fail_msg("look %d, strategy %d: %g +- %g, without a guide %g +- %g", i, s,
+                         e.mean, e.sigma, plain.mean, plain.sigma);
+        }
+        world_end(&world);
+    }
+}
+
+/* ---- learning ---------------------------------------------------------------------------- */
+
+enum { PLACES = 5000, MOST = 64 };
+
+static GuideTraining *taught(Arena *arena)
+{
+    GuidePlace *places = ARENA_NEW(arena, GuidePlace, PLACES);
+    for (uint32_t i = 0; i < PLACES; i++) {
+        Sampler sampler = sampler_start(5, 0, 0, i);
+        Vec2    a = sampler_2d(&sampler), b = sampler_2d(&sampler);
+        places[i].position = vec3(10 * a.x * a.x, a.y, i % 10 ? b.x : 3);
+        places[i].normal = vec3(0, 1, 0);
+    }
+    return guide_training_start(places, PLACES, MOST, arena);
+}
+
+TEST(cells_part_the_places_among_them)
+{
+    (void)state;
+    Arena          arena = arena_reserve((size_t)1 << 28);
+    GuideTraining *training = taught(&arena);
+    const LightGuide   *guide = &training->guide;
+    assert_true(guide->cell_count >= PLACES / MOST && guide->cell_count < 4 * PLACES / MOST);
+    assert_int_equal(guide->node_count, 2 * guide->cell_count - 1);
+    for (uint32_t c = 0; c < guide->cell_count; c++) {
+        assert_true(training->first_place[c + 1] - training->first_place[c] <= MOST);
+        for (uint32_t i = training->first_place[c]; i < training->first_place[c + 1]; i++)
+            assert_int_equal(guide_cell_at(guide, training->places[i].position), c);
+    }
+    assert_int_equal(training->first_place[guide->cell_count], PLACES);
+    arena_release(&arena);
+}
+
+TEST(a_cell_leads_to_where_its_lesson_found_light)
+{
+    (void)state;
+    Arena          arena = arena_reserve((size_t)1 << 28);
+    GuideTraining *training = taught(&arena);
+    Vec3           bright = direction_to(40, 70);
+    GuideView      view;
+    guide_training_ask(training, 4, 0);
+    assert_int_equal(training->lessons[2].point_count, 4);
+    for (int bin = 0; bin < GUIDE_BINS; bin++)
+        guide_lesson_add(&training->lessons[2], bin,
+                         vec3_dot(guide_bin_direction(bin, 0.5f, 0.5f), bright) > 0.95f ? 50
+                                                                                       : 0.1f);
+    guide_training_learn(training);
+    guide_view(&training->guide, 2, &surfaces[0], &view);
+    assert_true(guide_pdf(&view, bright) > 2);
+    assert_true(guide_pdf(&view, direction_to(40, 250)) < 0.1f);
+    assert_true(training->guide.cells[2].is_lit > 0 && !(training->guide.cells[3].is_lit > 0));
+    arena_release(&arena);
+}
+
+/* ---- the file ---------------------------------------------------------------------------- */
+
+static const bool has_none[GUIDE_LIGHTS] = {0};
+
+static void refused(const char *path, const bool has[GUIDE_LIGHTS], const char *words,
+                    Arena scratch)
+{
+    const LightGuide *guide;
+    Error        err = {0};
+    assert_false(guide_read(path, has, &scratch, &guide, &err));
+    char line[1024];
+    error_line(&err, line, (int)sizeof line);
+    if (!strstr(line, words) || !strstr(line, path))
+        fail_msg("'%s' says nothing of '%s' or '%s'", line, words, path);
+}
+
+TEST(a_field_comes_back_from_its_file_or_not_at_all)
+{
+    (void)state;
+    Arena        arena = arena_reserve((size_t)1 << 26);
+    LightGuide       *guide = odd_guide(&arena);
+    const LightGuide *back;
+    Error        err = {0};
+    FileBytes    file;
+    char         path[] = "test_guide.field";
+    assert_true(guide_write(path, guide, arena, &err));
+    assert_true(guide_read(path, has_none, &arena, &back, &err));
+    assert_true(guide_hash(back) == guide_hash(guide) && back->asks);
+    assert_true(file_read(path, 1 << 20, &arena, &file, &err));
+    for (size_t size = 0; size < file.size; size += 1 + size / 7) {
+        assert_true(file_write(path, file.data, size, &err));
+        refused(path, has_none, size < 32 ? "not a field" : "damaged", arena);
+    }
+    unsigned char *bytes = ARENA_NEW(&arena, unsigned char, file.size);
+    for (size_t at = 0; at < file.size; at += at < 200 ? 1 : 37) {
+        memcpy(bytes, file.data, file.size);
+        bytes[at] ^= 0x41;
+        assert_true(file_write(path, bytes, file.size, &err));
+        refused(path, has_none, "field", arena);
+    }
+    unlink(path);
+    arena_release(&arena);
+}
+
+TEST(a_field_that_never_asks_a_light_is_of_another_scene)
+{
+    (void)state;
+    static const bool has[GUIDE_LIGHTS] = {true, true, false, false};
+    Arena  arena = arena_reserve((size_t)1 << 26);
+    LightGuide *guide = odd_guide(&arena);
+    Error  err = {0};
+    char   path[] = "test_guide.field";
+    guide->cells[1].asked[1] = 0;
+    assert_true(guide_write(path, guide, arena, &err));
+    refused(path, has, "a kind of light that this scene has", arena);
+    unlink(path);
+    arena_release(&arena);
+}
+
+int main(void)
+{
+    return run_cases(NULL, NULL);
+}
