@@ -154,7 +154,8 @@ def claim_side(report, program, out, is_front, place):
     middle = (2, 2, 6, 6)
     mean, _ = frame.mean_luminance(middle)
     shown = [name for name in frame.channels if name.startswith("display.")
-             if any(value == value for value in frame.channels[name])]
+             if any(value > 0 if name == "display.coverage" else value == value
+                    for value in frame.channels[name])]
     measured = subprocess.run([program, "measure", out, "--display", "display", "--json"],
                               capture_output=True, text=True, check=False)
     report.claim(mean > 90 if is_front else mean == 0, f"{place}: {mean:.4g} cd/m2")

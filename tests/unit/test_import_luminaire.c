@@ -308,7 +308,7 @@ static char *tipped_text(Arena *arena, const Tipped *t)
 static IntensityWeb tipped_web(Lab *lab, const Tipped *t)
 {
     Error        err = {0};
-    IntensityWeb web;
+    IntensityWeb web = {0};
     Luminaire    luminaire;
     char        *text = tipped_text(&lab->arena, t);
     FileBytes    bytes = {(const unsigned char *)text, strlen(text)};

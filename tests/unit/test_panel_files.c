@@ -243,6 +243,23 @@ TEST(files_keep_the_version_that_older_programs_read)
     }
 }
 
+/* The checksum stands behind the version. */
+TEST(a_version_that_the_contents_do_not_bear_out_is_refused)
+{
+    (void)state;
+    for (int k = 0; k < KIND_COUNT; k++) {
+        unsigned char *copy = malloc(kinds[k].size);
+        uint32_t       version;
+        memcpy(copy, kinds[k].bytes, kinds[k].size);
+        memcpy(&version, copy + offsetof(PanelHeader, version), sizeof version);
+        version = version == PANEL_VERSION ? PANEL_VERSION_PLAIN : PANEL_VERSION;
+        memcpy(copy + offsetof(PanelHeader, version), &version, sizeof version);
+        if (try_bytes(copy, kinds[k].size, &kinds[k]))
+            fail_msg("%s: version %u was accepted", kinds[k].name, version);
+        free(copy);
+    }
+}
+
 /* ---- prefixes and mutations ------------------------------------------------------------ */
 
 TEST(every_prefix_of_a_panel_is_refused)

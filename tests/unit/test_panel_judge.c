@@ -406,7 +406,7 @@ TEST(turning_edges_are_followed_and_what_azimuths_miss_is_stated)
     (void)state;
     fit_lamp(turning_lamp, 2.5, 22.5);
     char  *notes = json_dumps(json_object_get(work.report, "notes"), 0);
-    double missed, still;
+    double missed = NAN, still = NAN;
     const char *at = strstr(notes, "its neighbours miss");
     if (!at || sscanf(at, "its neighbours miss %lf %% of its light (%lf %%", &missed,
                       &still) != 2)

@@ -26,8 +26,8 @@ static void *load_first(const char *path, Error *err)
 {
     const size_t wanted = (size_t)512 << 20, left = machine_address_space_left();
     if (left < wanted) {
-        error_set(err, ERROR_MEMORY, "the libraries for pictures want %zu MB of address space, "
-                  "%zu are left (ulimit -v)", wanted >> 20, left >> 20);
+        error_set(err, ERROR_MEMORY, "the libraries for pictures want %zu MB of memory, %zu "
+                  "are left of the address space (ulimit -v)", wanted >> 20, left >> 20);
         return NULL;
     }
     void *module = dlopen(path, RTLD_NOW | RTLD_LOCAL);

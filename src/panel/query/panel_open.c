@@ -30,6 +30,17 @@ static bool finest_level(const PanelBytes *bytes, int *level)
     return *level <= GEODESIC_MAX_LEVEL || panel_refuse(bytes, "trees", "are too deep");
 }
 
+/* The checksum does not cover the version: what stands in the file has to bear it out. */
+static bool check_version(const PanelBytes *bytes, const PanelHeader *header, const Panel *panel)
+{
+    bool     has_frame = panel->reflection && panel->reflection->frame != PANEL_FRAME_SPECULAR;
+    uint32_t wanted = has_frame ? PANEL_VERSION : PANEL_VERSION_PLAIN;
+    if (header->version == wanted) return true;
+    return error_at(bytes->err, ERROR_INPUT, bytes->name, "header",
+                    "has version %u, wanted %u for what the file holds; it is damaged: fit the "
+                    "panel again", header->version, wanted);
+}
+
 bool panel_from_bytes(const void *data, size_t size, const char *name, Arena *arena,
                       Panel **out, Error *err)
 {
@@ -49,7 +60,8 @@ bool panel_from_bytes(const void *data, size_t size, const char *name, Arena *ar
     panel->figures = has_figures ? figures.data : NULL;
     panel->figures_size = figures.size;
     if (!panel_open_emission(&bytes, geodesic, arena, panel) ||
-        !panel_open_reflection(&bytes, geodesic, arena, panel))
+        !panel_open_reflection(&bytes, geodesic, arena, panel) ||
+        !check_version(&bytes, &header, panel))
         return false;
     if (!panel->emission && !panel->reflection)
         return panel_refuse(&bytes, "table of contents", "neither emits nor reflects");

@@ -195,7 +195,7 @@ static void expand_codes(PanelEmission *e, Arena *arena)
 
 /* ---- what the panel emits as a whole ---------------------------------------------------- */
 
-#define MEAN_LEVEL 4 /* of the triangles that a mean is taken over */
+#define MEAN_LEVEL 5 /* of the triangles that a mean is taken over */
 
 /* ln E of the channels at a direction; with_beams: a beam may lie between the directions of a
  * coarse grid, and is then left out. */
