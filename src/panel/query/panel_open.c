@@ -31,7 +31,8 @@ static bool finest_level(const PanelBytes *bytes, int *level)
 }
 
 /* The checksum does not cover the version: what stands in the file has to bear it out. */
-static bool check_version(const PanelBytes *bytes, const PanelHeader *header, const Panel *panel)
+static bool check_version(const PanelBytes *bytes, const PanelHeader *header,
+                          const Panel *panel)
 {
     bool     has_frame = panel->reflection && panel->reflection->frame != PANEL_FRAME_SPECULAR;
     uint32_t wanted = has_frame ? PANEL_VERSION : PANEL_VERSION_PLAIN;
