@@ -13,6 +13,7 @@
 #define NEAR_M 1.0f       /* a mirror this large is as bad to bound as a bend of one radian */
 #define WIDEST 0.2f       /* cosine between a node's axis and normals that are bounded at all */
 #define NORMAL_PLANES 4
+#define BOUND_MOST 64     /* patches of a node whose normals are asked one by one */
 
 /* A piece of a triangle, bent so little that its normals can be told from others. */
 typedef struct MirrorPatch {
@@ -186,8 +187,15 @@ typedef struct Item {
     uint32_t patch;
 } Item;
 
+typedef struct Bounds {
+    Vec3  low, high; /* of the box, m */
+    Vec3  axis;      /* unit, of a cone about all normals, */
+    float cosine;    /* of its half angle; below WIDEST: there is none */
+} Bounds;
+
 typedef struct MirrorBuilder {
     const MirrorPatch *patches;
+    const Vec3        *normals; /* unit, of the patches' three corners */
     Item              *items;
     MirrorNode        *nodes;
     uint32_t           node_count;
@@ -202,25 +210,34 @@ static Item item_of(const MirrorPatch *patches, uint32_t i)
     return (Item){{p.x * per_m, p.y * per_m, p.z * per_m, n.x, n.y, n.z}, i};
 }
 
-static void widen(Vec3 p, Vec3 *low, Vec3 *high)
+/* Not fminf: a call for the sake of NaN. */
+static float lesser(float a, float b)
 {
-    *low = vec3(fminf(low->x, p.x), fminf(low->y, p.y), fminf(low->z, p.z));
-    *high = vec3(fmaxf(high->x, p.x), fmaxf(high->y, p.y), fmaxf(high->z, p.z));
+    return b < a ? b : a;
 }
 
-static const MirrorTriangle *corners_of(const MirrorBuilder *builder, uint32_t i)
+static float greater(float a, float b)
 {
-    return &builder->patches[builder->items[i].patch].corners;
+    return b > a ? b : a;
 }
 
-static void bound_positions(const MirrorBuilder *builder, uint32_t first, uint32_t count,
-                            MirrorNode *node)
+static void widen(Bounds *bounds, Vec3 p)
 {
-    Vec3 low = vec3(INFINITY, INFINITY, INFINITY), high = vec3_neg(low);
-    for (uint32_t i = first; i < first + count; i++)
-        for (int k = 0; k < 3; k++) widen(corners_of(builder, i)->position[k], &low, &high);
-    node->centre = halfway(low, high);
-    node->radius = 0.5f * vec3_length(vec3_sub(high, low));
+    Vec3 *low = &bounds->low, *high = &bounds->high;
+    *low = vec3(lesser(low->x, p.x), lesser(low->y, p.y), lesser(low->z, p.z));
+    *high = vec3(greater(high->x, p.x), greater(high->y, p.y), greater(high->z, p.z));
+}
+
+static Bounds bounds_of(const MirrorTriangle *t)
+{
+    Bounds bounds = {.low = t->position[0], .high = t->position[0]};
+    for (int k = 1; k < 3; k++) widen(&bounds, t->position[k]);
+    return bounds;
+}
+
+static const Vec3 *normals_of(const MirrorBuilder *builder, uint32_t i)
+{
+    return builder->normals + 3 * (size_t)builder->items[i].patch;
 }
 
 /* A frame about the mean normal, +x where the slopes against it spread most. False: too wide
@@ -232,12 +249,12 @@ static bool frame_of_normals(const MirrorBuilder *builder, uint32_t first, uint3
     float xx = 0, xy = 0, yy = 0;
     for (uint32_t i = first; i < first + count; i++)
         for (int k = 0; k < 3; k++)
-            sum = vec3_add(sum, vec3_normalize(corners_of(builder, i)->normal[k]));
+            sum = vec3_add(sum, normals_of(builder, i)[k]);
     if (!(vec3_length(sum) > 0)) return false;
     *frame = frame_from_z(vec3_normalize(sum));
     for (uint32_t i = first; i < first + count; i++)
         for (int k = 0; k < 3; k++) {
-            Vec3 n = frame_to_local(frame, vec3_normalize(corners_of(builder, i)->normal[k]));
+            Vec3 n = frame_to_local(frame, normals_of(builder, i)[k]);
             if (!(n.z > WIDEST)) return false;
             xx += n.x * n.x;
             xy += n.x * n.y;
@@ -250,28 +267,73 @@ static bool frame_of_normals(const MirrorBuilder *builder, uint32_t first, uint3
     return true;
 }
 
+/* The greatest angle between the frame's +z and a normal, as its cosine. */
+static float widest_cosine(const MirrorBuilder *builder, uint32_t first, uint32_t count, Vec3 z)
+{
+    float cosine = 1;
+    for (uint32_t i = first; i < first + count; i++)
+        for (int k = 0; k < 3; k++)
+            cosine = lesser(cosine, vec3_dot(normals_of(builder, i)[k], z));
+    return cosine;
+}
+
+/* Slopes against the axis (x / z and y / z of the frame) at most so great. */
+static void set_planes(const Frame *frame, const float low[2], const float high[2],
+                       MirrorNode *node)
+{
+    for (int a = 0; a < 2; a++) {
+        Vec3 across = a ? frame->y : frame->x;
+        node->plane[2 * a] = vec3_normalize(vec3_along(across, frame->z, -high[a]));
+        node->plane[2 * a + 1] =
+            vec3_normalize(vec3_along(vec3_neg(across), frame->z, low[a]));
+    }
+}
+
 /* A normal is a weighted sum of corners' normals, so planes through the origin that bound those
- * bound it: slopes against the axis (x / z and y / z of the frame) between their extremes. */
+ * bound it: their slopes between the extremes. */
 static void bound_normals(const MirrorBuilder *builder, uint32_t first, uint32_t count,
-                          MirrorNode *node)
+                          MirrorNode *node, Bounds *bounds)
 {
     Frame frame;
     float low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    bounds->cosine = -1;
     if (!frame_of_normals(builder, first, count, &frame)) return;
     for (uint32_t i = first; i < first + count; i++)
         for (int k = 0; k < 3; k++) {
-            Vec3  n = frame_to_local(&frame, corners_of(builder, i)->normal[k]);
+            Vec3  n = frame_to_local(&frame, normals_of(builder, i)[k]);
             float slope[2] = {n.x / n.z, n.y / n.z};
             for (int a = 0; a < 2; a++) {
-                low[a] = fminf(low[a], slope[a]);
-                high[a] = fmaxf(high[a], slope[a]);
+                low[a] = lesser(low[a], slope[a]);
+                high[a] = greater(high[a], slope[a]);
             }
         }
-    for (int a = 0; a < 2; a++) {
-        Vec3 across = a ? frame.y : frame.x;
-        node->plane[2 * a] = vec3_normalize(vec3_along(across, frame.z, -high[a]));
-        node->plane[2 * a + 1] = vec3_normalize(vec3_along(vec3_neg(across), frame.z, low[a]));
-    }
+    set_planes(&frame, low, high, node);
+    bounds->axis = frame.z;
+    bounds->cosine = widest_cosine(builder, first, count, frame.z);
+}
+
+/* cos(x + y) of two angles that a cosine and two unit vectors tell. */
+static float cosine_about(Vec3 axis, const Bounds *cone)
+{
+    float c = clampf(vec3_dot(axis, cone->axis), -1, 1), k = clampf(cone->cosine, -1, 1);
+    if (c + k <= 0) return -1; /* beyond half a turn */
+    return c * k - safe_sqrtf(1 - c * c) * safe_sqrtf(1 - k * k);
+}
+
+/* A cone about two cones, and its planes; where it is too wide nothing is known. */
+static void join_normals(const Bounds half[2], Bounds *bounds, MirrorNode *node)
+{
+    Vec3 sum = vec3_add(half[0].axis, half[1].axis);
+    bounds->cosine = -1;
+    if (!(half[0].cosine > WIDEST && half[1].cosine > WIDEST && vec3_length(sum) > 0.1f))
+        return;
+    bounds->axis = vec3_normalize(sum);
+    bounds->cosine = lesser(cosine_about(bounds->axis, &half[0]),
+                            cosine_about(bounds->axis, &half[1])) - 1e-6f;
+    if (!(bounds->cosine > WIDEST)) return;
+    Frame frame = frame_from_z(bounds->axis);
+    float slope = safe_sqrtf(1 - bounds->cosine * bounds->cosine) / bounds->cosine;
+    set_planes(&frame, (float[2]){-slope, -slope}, (float[2]){slope, slope}, node);
 }
 
 static bool comes_before(const Item *a, const Item *b, int axis)
@@ -287,8 +349,8 @@ static int widest_axis(const Item *items, uint32_t count)
     for (int a = 0; a < 6; a++) {
         float low = INFINITY, high = -INFINITY;
         for (uint32_t i = 0; i < count; i++) {
-            low = fminf(low, items[i].key[a]);
-            high = fmaxf(high, items[i].key[a]);
+            low = lesser(low, items[i].key[a]);
+            high = greater(high, items[i].key[a]);
         }
         if (!(high - low > widest)) continue;
         widest = high - low;
@@ -318,21 +380,45 @@ static void part_items(Item *items, uint32_t count, uint32_t middle, int axis)
     }
 }
 
-static void build_node(MirrorBuilder *builder, uint32_t node_id, uint32_t first, uint32_t count)
+static Bounds build_node(MirrorBuilder *builder, uint32_t node_id, uint32_t first,
+                         uint32_t count);
+
+static Bounds build_halves(MirrorBuilder *builder, MirrorNode *node, uint32_t first,
+                           uint32_t count)
+{
+    Item    *items = builder->items + first;
+    uint32_t middle = count / 2, child = builder->node_count;
+    part_items(items, count, middle, widest_axis(items, count));
+    node->children = child;
+    builder->node_count += 2;
+    Bounds half[2] = {build_node(builder, child, first, middle),
+                      build_node(builder, child + 1, first + middle, count - middle)};
+    Bounds bounds = half[0];
+    widen(&bounds, half[1].low);
+    widen(&bounds, half[1].high);
+    if (count > BOUND_MOST) join_normals(half, &bounds, node);
+    node->alpha = greater(builder->nodes[child].alpha, builder->nodes[child + 1].alpha);
+    return bounds;
+}
+
+static Bounds build_node(MirrorBuilder *builder, uint32_t node_id, uint32_t first,
+                         uint32_t count)
 {
     MirrorNode *node = &builder->nodes[node_id];
-    bound_positions(builder, first, count, node);
-    bound_normals(builder, first, count, node);
+    const MirrorPatch *patch = &builder->patches[builder->items[first].patch];
+    Bounds cone = {.cosine = -1}, bounds;
+    if (count <= BOUND_MOST) bound_normals(builder, first, count, node, &cone);
     node->patch = builder->items[first].patch;
-    for (uint32_t i = first; i < first + count; i++)
-        node->alpha = fmaxf(node->alpha, builder->patches[builder->items[i].patch].alpha);
-    if (count == 1) return;
-    Item *items = builder->items + first;
-    part_items(items, count, count / 2, widest_axis(items, count));
-    node->children = builder->node_count;
-    builder->node_count += 2;
-    build_node(builder, node->children, first, count / 2);
-    build_node(builder, node->children + 1, first + count / 2, count - count / 2);
+    node->alpha = patch->alpha;
+    bounds = count > 1 ? build_halves(builder, node, first, count)
+                       : bounds_of(&patch->corners);
+    if (count <= BOUND_MOST) {
+        bounds.axis = cone.axis;
+        bounds.cosine = cone.cosine;
+    }
+    node->centre = halfway(bounds.low, bounds.high);
+    node->radius = 0.5f * vec3_length(vec3_sub(bounds.high, bounds.low));
+    return bounds;
 }
 
 static int root_of(int part_id, bool is_rough)
@@ -363,6 +449,15 @@ static size_t nodes_wanted(const MirrorPair *pairs, uint32_t count, const uint32
     return 2 * patches;
 }
 
+static const Vec3 *unit_normals(const MirrorPatch *patches, uint32_t count, Arena *arena)
+{
+    Vec3 *normals = ARENA_NEW(arena, Vec3, 3 * (size_t)count);
+    for (uint32_t i = 0; i < count; i++)
+        for (int k = 0; k < 3; k++)
+            normals[3 * (size_t)i + k] = vec3_normalize(patches[i].corners.normal[k]);
+    return normals;
+}
+
 static void build_trees(const Scene *scene, Mirrors *mirrors, const uint32_t *first,
                         uint32_t patch_count, Arena *arena)
 {
@@ -373,6 +468,7 @@ static void build_trees(const Scene *scene, Mirrors *mirrors, const uint32_t *fi
                              .nodes = ARENA_NEW(arena, MirrorNode, most)};
     Arena     scratch = *arena;
     builder.items = ARENA_NEW(&scratch, Item, patch_count);
+    builder.normals = unit_normals(mirrors->patches, patch_count, &scratch);
     for (int i = 0; i < 2 * (scene->part_count + 1); i++) {
         uint32_t count = 0, left = mirrors->pair_count - (uint32_t)(pairs - mirrors->pairs);
         while (count < left && root_of(pairs[count].part_id, pairs[count].is_rough) == i)
