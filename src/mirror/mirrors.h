@@ -8,7 +8,7 @@
  * Memory   from the arena.  Threads  const after mirrors_build.  Fails  never.
  */
 #pragma once
-#include "mirror/reflection_point.h"
+#include "mirror/mirror_tree.h"
 #include "scene/scene.h"
 
 /* Can the material's triangles be smooth mirrors? */
@@ -17,22 +17,8 @@ bool mirrors_can_be(const Scene *scene, const Material *material);
 /* GGX alpha of rough mirrors that are worth asking (GLINT_ALPHA at most); 0: these are none. */
 float mirrors_rough_alpha(const Material *material);
 
-/* A mirror that is asked for by points of a part; part_id may be NO_ID: by points of none. What
- * its smooth boundary does and what its rough one does are asked for apart. */
-typedef struct MirrorPair {
-    int      part_id;
-    bool     is_rough;
-    uint32_t triangle;
-} MirrorPair;
-
 /* The order in which pairs stand: negative, zero or positive, for qsort. */
 int mirrors_compare_pairs(const void *a, const void *b);
-
-typedef struct Mirrors Mirrors;
-
-/* pairs: in that order, each once; NULL for none of them. */
-const Mirrors *mirrors_build(const Scene *scene, const MirrorPair *pairs, uint32_t count,
-                             Arena *arena);
 
 bool mirrors_have(const Mirrors *mirrors, MirrorPair pair);
 

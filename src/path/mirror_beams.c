@@ -3,14 +3,15 @@
 #include <stdlib.h>
 
 #include "base/mathf.h"
+#include "mirror/mirrors_build.h"
 #include "shaders/microfacet.h"
 #include "spectrum/photometry.h"
 
 #define LEAST_RAYS 8       /* to every mirror, and by its area in all of theirs */
 #define RAYS_BY_AREA 200000
 #define SHEETS_PASSED 16   /* by one ray behind its mirror */
-#define GENEROSITY 4.0f    /* with a quarter of a part's light they are asked at every hit */
-#define LEAST 0.1f
+#define GENEROSITY 1.0f    /* they are asked at every hit where all light is theirs */
+#define LEAST 0.025f
 
 typedef struct Beams {
     const BeamTools *tools;

@@ -4,7 +4,7 @@
 
 #include "base/sampler.h"
 #include "base/units.h"
-#include "mirror/mirrors.h"
+#include "mirror/mirrors_build.h"
 #include "scene_builder.h"
 
 static Vec3 random_direction(Sampler *sampler)

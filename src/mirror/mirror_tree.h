@@ -1,0 +1,53 @@
+/* mirror_tree.h -- the trees in which a scene's mirrors stand. What others
+ * ask of them stands in mirrors.h.
+ *
+ * Threads  const after mirrors_build. Units: metres, world.
+ */
+#pragma once
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "mirror/reflection_point.h"
+
+#define MIRROR_PLANES 4
+#define MIRROR_NO_TREE UINT32_MAX
+
+/* A mirror that is asked for by points of a part; part_id may be NO_ID: by points of none. What
+ * its smooth boundary does and what its rough one does are asked for apart. */
+typedef struct MirrorPair {
+    int      part_id;
+    bool     is_rough;
+    uint32_t triangle;
+} MirrorPair;
+
+/* A piece of a triangle, bent so little that its normals can be told from others. */
+typedef struct MirrorPatch {
+    MirrorTriangle corners;
+    Vec2           uv[3]; /* of the corners in the triangle */
+    uint32_t       id;    /* of the triangle, in Scene.triangles */
+    float          alpha; /* GGX, of its facets; 0: none that are asked */
+} MirrorPatch;
+
+typedef struct MirrorNode {
+    Vec3     centre;       /* of the box of its patches, m */
+    float    radius;       /* from there to the box's corners, m */
+    Vec3     plane[MIRROR_PLANES]; /* unit: no normal of it, turned to the side of `axis`, is
+                                      above one of these planes; zero: nothing is known */
+    uint32_t children;     /* the first of two; 0: it is a leaf, of */
+    uint32_t patch;
+    float    alpha;        /* the roughest patch's */
+} MirrorNode;
+
+typedef struct Mirrors {
+    const MirrorPair  *pairs;
+    uint32_t           pair_count;
+    const uint32_t    *roots; /* nodes, or MIRROR_NO_TREE; of mirror_root */
+    const MirrorPatch *patches;
+    const MirrorNode  *nodes;
+} Mirrors;
+
+/* Where a part's tree stands in Mirrors.roots. */
+static inline int mirror_root(int part_id, bool is_rough)
+{
+    return 2 * (part_id + 1) + is_rough;
+}
