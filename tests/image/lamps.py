@@ -412,7 +412,8 @@ def check_cct(report, lamps):
     texts = {"4000": 4000, "4000 K": 4000, "2700K": 2700, "840": 4000, "": None,
              "2700-6500": None, "900": None, "ww": None, "30000": None, "LED 4000K": 4000,
              "830 warm white": 3000, "827/830": None, "4000 lm": None, "4000 K / 840": 4000,
-             "812": None, "540": None, "Ra 80, 3500 K": 3500,
+             "812": None, "540": None, "1e300": None, "592654000840": None,
+             "Ra 80, 3500 K": 3500,
              **{f"{code}": code % 100 * 100 for code in (
                  730, 827, 830, 835, 840, 850, 865, 930, 940, 950, 965)}}
     for text, wanted in texts.items():

@@ -54,11 +54,11 @@ bool luminaire_scan_intensities(LuminaireScan *scan, double scale, Luminaire *ou
 static double kelvins_of_code(double code)
 {
     static const int hundreds[] = {18, 20, 22, 25, 27, 30, 35, 40, 45, 50, 57, 60, 65, 80};
-    int whole = (int)code, rendering = whole / 100;
+    if (!(code >= 600 && code < 1000)) return 0; /* Ra below 60 is sold under no code */
+    int  whole = (int)code;
     bool is_known = false;
     for (int i = 0; i < COUNT_OF(hundreds); i++) is_known |= whole % 100 == hundreds[i];
-    return whole == code && rendering >= 6 && rendering <= 9 && is_known ? whole % 100 * 100.0
-                                                                       : 0;
+    return whole == code && is_known ? whole % 100 * 100.0 : 0;
 }
 
 static bool is_letter(char c)
