@@ -517,21 +517,36 @@ static Spectrum model_pass(const void *parameters, Vec3 wo)
     return pane_transmittance(m, &b, wo.z) * spectrum_all(coat * coat);
 }
 
+typedef enum Part { PART_COAT, PART_MIRROR, PART_DIFFUSE, PART_THROUGH, PART_NONE } Part;
+
+/* Which part u falls on; it becomes the place inside that part: directions of every part then
+ * are spread as well as their share of u is. */
+static Part choose_part(const Choices *choices, float *u)
+{
+    const float prob[] = {choices->coat, choices->mirror, choices->diffuse, choices->through};
+    for (int part = 0; part < PART_NONE; part++) {
+        if (*u < prob[part]) {
+            *u = fminf(*u / prob[part], 0x1.fffffep-1f);
+            return (Part)part;
+        }
+        *u -= prob[part];
+    }
+    return PART_NONE;
+}
+
 /* A direction by the rough coat, the rough mirror, the Lambert base or the rough sheet. */
-static Vec3 sample_rough(const View *view, const float u[3])
+static Vec3 sample_rough(const View *view, Part part, const float u[3])
 {
     const MetallicRoughness *m = view->m;
-    Choices c = view->choices;
-    if (u[2] < c.coat) {
+    if (part == PART_COAT) {
         Frame frame = coat_frame(m);
         Vec3  out = frame_to_local(&frame, view->wo);
         return frame_to_world(&frame,
                               ggx_sample_reflection(out, m->clearcoat_alpha, u[0], u[1]));
     }
-    float diffuse = c.coat + c.mirror, through = diffuse + c.diffuse;
-    if (u[2] < diffuse) return ggx_sample_reflection(view->wo, m->alpha, u[0], u[1]);
-    if (u[2] < through) return microfacet_cosine(u[0], u[1]);
-    bool by_facet = u[2] < through + c.through * view->energy.all;
+    if (part == PART_MIRROR) return ggx_sample_reflection(view->wo, m->alpha, u[0], u[1]);
+    if (part == PART_DIFFUSE) return microfacet_cosine(u[0], u[1]);
+    bool by_facet = u[2] < view->energy.all;
     Vec3 up = by_facet ? ggx_sample_reflection(view->wo, m->alpha, u[0], u[1])
                        : microfacet_cosine(u[0], u[1]);
     return vec3(up.x, up.y, -up.z);
@@ -541,20 +556,19 @@ static bool model_sample(const void *parameters, Vec3 wo, const float u[3], Bsdf
 {
     const MetallicRoughness *m = parameters;
     if (!(wo.z > 0)) return false;
-    View    view = view_from(m, wo);
-    Choices c = view.choices;
-    if (u[2] >= c.coat + c.mirror + c.diffuse + c.through) return false;
-    bool by_coat = u[2] < c.coat;
-    bool by_mirror = !by_coat && u[2] < c.coat + c.mirror;
-    bool by_pane = u[2] >= c.coat + c.mirror + c.diffuse;
-    if (by_coat && is_smooth(m->clearcoat_alpha)) return sample_smooth_coat(&view, sample);
-    if (by_mirror && is_smooth(m->alpha)) return sample_smooth_base(&view, sample);
-    if (by_pane && is_smooth(m->alpha)) {
-        sample_smooth(sample, vec3_neg(wo), model_pass(m, wo), c.through);
+    View  view = view_from(m, wo);
+    float v[3] = {u[0], u[1], u[2]};
+    Part  part = choose_part(&view.choices, &v[0]);
+    if (part == PART_NONE) return false;
+    if (part == PART_COAT && is_smooth(m->clearcoat_alpha))
+        return sample_smooth_coat(&view, sample);
+    if (part == PART_MIRROR && is_smooth(m->alpha)) return sample_smooth_base(&view, sample);
+    if (part == PART_THROUGH && is_smooth(m->alpha)) {
+        sample_smooth(sample, vec3_neg(wo), model_pass(m, wo), view.choices.through);
         return sample->passes = true;
     }
-    Vec3 wi = sample_rough(&view, u);
-    if (!(by_pane ? wi.z < 0 : wi.z > 0)) return false;
+    Vec3 wi = sample_rough(&view, part, v);
+    if (!(part == PART_THROUGH ? wi.z < 0 : wi.z > 0)) return false;
     float    pdf;
     Spectrum f = eval_view(&view, wi, &pdf);
     if (!(pdf > 0)) return false;

@@ -3,7 +3,8 @@
  * Owen-scrambled Sobol points, two dimensions at a time, with the order of the points shuffled
  * anew for every pair (Burley 2020, "Practical Hash-based Owen Scrambling", JCGT 9(4)):
  * every pair of numbers is a (0,2)-sequence over the samples of a pixel, and pairs and pixels
- * are independent. Numbers depend on (seed, pixel, sample, call count) and on nothing else.
+ * are independent. Numbers depend on (seed, pixel, sample, dimension) and on nothing else.
+ * What is asked at one dimension in every sample is well spread over the samples.
  *
  * Threads  a Sampler is a plain value; nothing is shared.
  */
@@ -15,7 +16,7 @@
 typedef struct Sampler {
     uint32_t pixel_hash;
     uint32_t index_reversed; /* sample index, lowest bit first */
-    uint32_t dimension;      /* pairs handed out so far */
+    uint32_t dimension;      /* of the next pair: pairs handed out so far, unless it was set */
 } Sampler;
 
 /* A good 32-bit mixer (full avalanche; constants of Wellons' "lowbias32"). */
@@ -127,6 +128,17 @@ static inline Vec2 sampler_2d(Sampler *sampler)
 static inline float sampler_1d(Sampler *sampler)
 {
     return sampler_2d(sampler).x;
+}
+
+/* True with probability prob, in [0, 1]. *u becomes as good a number again, and those of either
+ * outcome stay as well spread as the strip of u that they come from: another number for the
+ * choice would leave a random part of the points. */
+static inline bool unit_choose(float *u, float prob)
+{
+    bool  chosen = *u < prob;
+    float rest = chosen ? *u / prob : (*u - prob) / (1 - prob);
+    *u = rest < 0x1.fffffep-1f ? rest : 0x1.fffffep-1f;
+    return chosen;
 }
 
 /* Two pairs, for less than twice the work: as two calls of sampler_2d. */

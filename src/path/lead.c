@@ -1,5 +1,7 @@
 #include "path/lead.h"
 
+#include "base/sampler.h"
+
 #define GUIDE_SHARE 0.5f /* of the directions of a surface's wide lobes */
 
 /* How often lights are asked where no guide knows it. */
@@ -40,7 +42,7 @@ float lead_pdf(const Lead *lead, Vec3 wi, float bsdf_pdf)
 
 /* The surface's own choice. A mirror's is no density: it becomes rarer by the guide's share. */
 static bool sample_surface(const Lead *lead, const Surface *surface, Vec3 local_wo,
-                           const float u[4], BsdfSample *next)
+                           const float u[3], BsdfSample *next)
 {
     if (!bsdf_sample(&surface->bsdf, local_wo, u, next)) return false;
     if (!(lead->mix > 0)) return true;
@@ -54,11 +56,12 @@ static bool sample_surface(const Lead *lead, const Surface *surface, Vec3 local_
     return true;
 }
 
-bool lead_sample(const Lead *lead, const Surface *surface, Vec3 local_wo, const float u[4],
+bool lead_sample(const Lead *lead, const Surface *surface, Vec3 local_wo, const float u[3],
                  BsdfSample *next)
 {
-    if (!(u[3] < lead->mix)) return sample_surface(lead, surface, local_wo, u, next);
-    Vec3  wi = guide_sample(&lead->view, u[0], u[1]);
+    float v[3] = {u[0], u[1], u[2]};
+    if (!unit_choose(&v[0], lead->mix)) return sample_surface(lead, surface, local_wo, v, next);
+    Vec3  wi = guide_sample(&lead->view, v[0], v[1]);
     float bsdf_pdf;
     *next = (BsdfSample){.wi = frame_to_local(&surface->frame, wi)};
     if (!(next->wi.z > 0)) return false;

@@ -11,7 +11,23 @@
 #define SHEET_SHARE 0.5f /* of the samples that follow what a thin sheet itself shows */
 #define SPLITS 2         /* thin sheets along a camera ray that are followed both ways */
 #define ARRIVING_PDF 1.0f /* sr^-1, with which a guide that has learnt finds light, about */
+
 #define PASSES_MAX 512 /* windows and holes along one path: more is a closed loop of rounding */
+
+/* The numbers of a sample by their purpose: every surface that a path meets has its own, so
+ * that what one sample spends shifts nothing in the samples beside it. Sheets that are followed
+ * besides count on from far off. */
+enum {
+    NUMBERS_LIGHTS = 0, /* two pairs a set */
+    NUMBERS_MIRRORS = 2 * LIGHT_SETS,
+    NUMBERS_SPLIT = NUMBERS_MIRRORS + 3,
+    NUMBERS_HOLE,
+    NUMBERS_SCATTER,
+    NUMBERS_ROULETTE = NUMBERS_SCATTER + 2,
+    NUMBERS_STEP
+};
+#define NUMBERS_FIRST 2 /* before them: the place in the pixel, the wavelengths */
+#define STEPS_FAR 4096  /* more than a path meets */
 
 /* One path on its way. */
 typedef struct PathWalk {
@@ -32,12 +48,20 @@ typedef struct PathWalk {
     bool     last_is_delta; /* no light sample could have found what comes now */
     Spectrum sun_share; /* of the sun met now; the rest was told to the last vertex but one */
     int      bounce;     /* scattering vertices so far */
+    int      steps;       /* surfaces met so far */
     int      splits_left; /* thin sheets that may still be followed both ways */
     int      medium_id;  /* material of the solid that the ray is in; NO_ID: air */
     SheetStack *stack;   /* what else lies where the ray is; empty in scenes without sheets */
     float    sheets_from; /* m along the ray: sheets before it were in the stack */
     PathPlaces *places;  /* where it scatters is noted here; NULL: nobody asks */
 } PathWalk;
+
+/* The next numbers asked for are those of this purpose, at the surface met last. */
+static void numbers_for(PathWalk *walk, int purpose)
+{
+    walk->sampler->dimension =
+        (uint32_t)(NUMBERS_FIRST + walk->steps * NUMBERS_STEP + purpose);
+}
 
 /* ---- weights ---------------------------------------------------------------------------- */
 
@@ -229,8 +253,9 @@ static void add_light_sample(PathWalk *walk, const Surface *surface, Vec3 wo, co
     const PathContext *context = walk->context;
     LightSample light;
     float u[4], set_prob = lead->asked[set] * lead->often;
+    numbers_for(walk, NUMBERS_LIGHTS + 2 * (int)set);
     sampler_4d(walk->sampler, u);
-    if (u[3] >= set_prob) return;
+    if (!unit_choose(&u[0], set_prob)) return;
     LitPoint point = lit_point(walk, surface);
     if (!lights_sample(context->lights, set, point, u, &light)) return;
     if (!light.is_delta && context->strategy == PATH_BSDF_ONLY) return;
@@ -299,8 +324,10 @@ static void add_mirrored_suns(PathWalk *walk, const Surface *surface, Vec3 wo)
     float u[4], prob = mirror_beams_prob(&context->beams, surface->part_id,
                                          vec3_dot(wo, surface->ng) < 0) *
                        (walk->bounce < DEEP_BOUNCE ? 1 : DEEP_SHARE);
+    numbers_for(walk, NUMBERS_MIRRORS);
     sampler_4d(walk->sampler, u);
-    if (u[3] >= prob || !lights_sample(context->lights, LIGHTS_SUN, point, u, sun)) return;
+    if (!unit_choose(&u[0], prob)) return;
+    if (!lights_sample(context->lights, LIGHTS_SUN, point, u, sun)) return;
     asked.question.radiance = lights_radiance(context->lights, sun, walk->wavelengths);
     sun->pdf *= prob;
     MirrorQuery query = {surface->part_id, false, surface->position, sun->wi, {0, 0}};
@@ -350,6 +377,7 @@ static void absorb(PathWalk *walk, float distance)
 static bool roulette(PathWalk *walk)
 {
     if (walk->bounce < ROULETTE_FIRST_BOUNCE) return true;
+    numbers_for(walk, NUMBERS_ROULETTE);
     float survival = fminf(sqrtf(spectrum_max_lane(walk->throughput)), 0.95f);
     if (sampler_1d(walk->sampler) >= survival) return false;
     walk->throughput *= spectrum_all(1 / survival);
@@ -396,6 +424,7 @@ static Step scatter(PathWalk *walk, const Surface *surface, Vec3 wo, const Lead 
 {
     float u[4];
     BsdfSample next;
+    numbers_for(walk, NUMBERS_SCATTER);
     sampler_4d(walk->sampler, u);
     if (!lead_sample(lead, surface, frame_to_local(&surface->frame, wo), u, &next))
         return STEP_ENDED;
@@ -481,6 +510,7 @@ static void add_sheet(PathWalk *walk, const Surface *surface, const Hit *hit, Ve
     else sheets_none(&rest);
     sheet.stack = &rest;
     sheet.splits_left = 0;
+    sheet.steps += STEPS_FAR * (1 + walk->splits_left);
     sheet.first = NULL;
     sheet.gathered = (PathLight){.radiance = spectrum_all(0)};
     sheet.throughput *= spectrum_all(surface->alpha / SHEET_SHARE);
@@ -499,6 +529,7 @@ static bool split(PathWalk *walk, const Surface *surface, const Hit *hit, Vec3 w
     bool is_window = surface->alpha >= 1 && surface->bsdf.kind == BSDF_THIN_WINDOW;
     if (walk->bounce || !walk->splits_left || !(is_hole || is_window)) return false;
     walk->splits_left--;
+    numbers_for(walk, NUMBERS_SPLIT);
     if (sampler_1d(walk->sampler) < SHEET_SHARE) add_sheet(walk, surface, hit, wo);
     walk->throughput *=
         is_hole ? spectrum_all(1 - surface->alpha)
@@ -521,8 +552,10 @@ static void walk_path(PathWalk *walk)
         }
         Vec3  wo = vec3_neg(walk->ray.direction);
         float distance = walk->straight;
+        walk->steps++;
         surface_at(context->scene, context->tables, &hit, wo, walk->wavelengths, &surface);
         if (split(walk, &surface, &hit, wo)) continue;
+        numbers_for(walk, NUMBERS_HOLE);
         if (surface.alpha < 1 && sampler_1d(walk->sampler) >= surface.alpha) {
             go_on_behind(walk, &surface);
             continue;

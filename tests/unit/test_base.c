@@ -285,6 +285,51 @@ TEST(two_pairs_at_once_are_two_pairs)
     }
 }
 
+/* Of all numbers that there are, exactly its share is chosen, and what is left of those of
+ * either outcome fills [0, 1) evenly: none of 100 equal bins is off by more than its ends. */
+TEST(a_choice_leaves_an_even_number)
+{
+    (void)state;
+    const float probs[] = {0, 0.1f, 0.5f, 0.99f, 1};
+    for (int i = 0; i < 5; i++) {
+        const int steps = 1 << 20;
+        int       bins[2][100] = {{0}}, chosen = 0;
+        for (int k = 0; k < steps; k++) {
+            float u = (float)k / (float)steps;
+            bool  yes = unit_choose(&u, probs[i]);
+            assert_true(u >= 0 && u < 1);
+            bins[yes][(int)(u * 100)]++;
+            chosen += yes;
+        }
+        assert_near(chosen, steps * (double)probs[i], 1);
+        for (int b = 0; b < 100; b++) {
+            assert_near(bins[1][b], chosen / 100.0, 2);
+            assert_near(bins[0][b], (steps - chosen) / 100.0, 2);
+        }
+    }
+}
+
+/* A (0,2)-sequence keeps its spread on either side of a choice: of 64 points those of one half
+ * still have one in each of their 32 strips, along the number that chose and across it. */
+TEST(points_of_a_choice_stay_spread)
+{
+    (void)state;
+    for (int pixel = 0; pixel < 100; pixel++) {
+        int along[2][32] = {{0}}, across[2][32] = {{0}};
+        for (uint32_t i = 0; i < 64; i++) {
+            Sampler sampler = sampler_start(9, pixel, 1, i);
+            Vec2    p = sampler_2d(&sampler);
+            bool    yes = unit_choose(&p.x, 0.5f);
+            along[yes][(int)(p.x * 32)]++;
+            across[yes][(int)(p.y * 32)]++;
+        }
+        for (int b = 0; b < 64; b++) {
+            assert_int_equal(along[b / 32][b % 32], 1);
+            assert_int_equal(across[b / 32][b % 32], 1);
+        }
+    }
+}
+
 /* ---- alias tables -------------------------------------------------------------------- */
 
 /* Draws every number there is, once. */

@@ -495,7 +495,8 @@ TEST(what_passes_a_pane_is_what_shadow_rays_see)
             Spectrum pass = bsdf_pass(&models[m].bsdf, wo);
             Spectrum sampled = spectrum_all(0);
             for (int k = 0; k < 4000; k++) {
-                float      u[3] = {0.5f, 0.5f, ((float)k + 0.5f) / 4000};
+                float      pick = ((float)k + 0.5f) / 4000; /* whichever number chooses */
+                float      u[3] = {pick, 0.5f, pick};
                 BsdfSample s;
                 if (bsdf_sample(&models[m].bsdf, wo, u, &s) && s.passes) {
                     sampled = s.weight * spectrum_all(s.pdf);
