@@ -6,7 +6,8 @@ is the root mean square over seeds of its luminance's distance from a frame of t
 with 16 times all these samples, over max(Y, half of the key), as a frame's own relative error
 is (src/film/film.h); the frame's is the mean over pixels. The time to 5 % is the start-up (a
 frame of 16x9 with one sample) and what the samples took times (error / 5 %)^2. The last
-columns are ratios to the first NAME: of that time, of start-up, of squared errors, of what samples took.
+columns are ratios to the first NAME: of that time, of start-up, of squared errors, of what the
+samples took.
 
 What a program never finds (a lamp in a mirror) counts as its error, and by few samples it may
 still look sure: the reference should be the surest program's. The million-triangle box must be
