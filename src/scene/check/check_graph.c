@@ -144,8 +144,8 @@ void check_skin(const DocumentCheck *check, const GltfValue *skin)
 
 static int index_of(const GltfValue *value, int count)
 {
-    bool is_index = tree_is_integer(value) && value->number >= 0 && value->number < count;
-    return is_index ? (int)value->number : NO_ID;
+    int index = tree_whole(value, NO_ID);
+    return index >= 0 && index < count ? index : NO_ID;
 }
 
 static void find_parents(const DocumentCheck *check, const GltfValue *nodes, int *parent)

@@ -51,9 +51,7 @@ static const Format *format_of(const char *name)
 
 static const GltfValue *accessor_of(const DocumentCheck *check, const GltfValue *reference)
 {
-    if (!tree_is_integer(reference) || reference->number < 0 || reference->number > 1e9)
-        return NULL;
-    return tree_element(check->file->root, "accessors", (int)reference->number);
+    return tree_element(check->file->root, "accessors", tree_whole(reference, NO_ID));
 }
 
 static bool is_quantized(const DocumentCheck *check)

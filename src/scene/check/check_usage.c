@@ -56,7 +56,7 @@ static void share_view(Usage *usage, const GltfValue *at, int view, int accessor
 
 static void use_accessor(Usage *usage, const GltfValue *at, const char *use)
 {
-    int id = tree_is_integer(at) && at->number < 1e9 ? (int)at->number : NO_ID;
+    int id = tree_whole(at, NO_ID);
     const GltfValue *accessor = tree_item(usage->accessors, id);
     if (!accessor) return;
     const char **before = &usage->accessor_use[id];

@@ -51,11 +51,15 @@ float tree_float(const GltfValue *object, const char *name, float fallback)
     return (float)tree_number(object, name, (double)fallback);
 }
 
-int tree_int(const GltfValue *object, const char *name, int fallback)
+int tree_whole(const GltfValue *value, int fallback)
 {
-    const GltfValue *value = tree_member(object, name);
     if (!tree_is_integer(value) || fabs(value->number) > INT_MAX) return fallback;
     return (int)value->number;
+}
+
+int tree_int(const GltfValue *object, const char *name, int fallback)
+{
+    return tree_whole(tree_member(object, name), fallback);
 }
 
 bool tree_boolean(const GltfValue *object, const char *name, bool fallback)

@@ -25,6 +25,9 @@ const GltfValue *tree_extension(const GltfValue *object, const char *name);
 int tree_count(const GltfValue *object, const char *name);
 
 bool tree_is_integer(const GltfValue *value); /* a number without fraction, |n| < 2^53 */
+/* The same as an int; fallback where it is none. */
+int tree_whole(const GltfValue *value, int fallback);
+
 double tree_number(const GltfValue *object, const char *name, double fallback);
 float tree_float(const GltfValue *object, const char *name, float fallback);
 int tree_int(const GltfValue *object, const char *name, int fallback);

@@ -308,8 +308,7 @@ static void finish_shading(PartDraft *draft, const Material *material, Arena *sc
  * it is shown. */
 static bool has_bytes(GltfFile *file, const GltfValue *primitive, const GltfValue *at)
 {
-    const GltfAccessor *accessor =
-        tree_is_integer(at) ? accessor_get(file, (int)at->number) : NULL;
+    const GltfAccessor *accessor = accessor_get(file, tree_whole(at, NO_ID));
     if (!accessor || accessor->buffer_view < 0 ||
         document_view(file, accessor->buffer_view).data)
         return true;
