@@ -14,14 +14,13 @@
  * reflection data reflects nothing. Not modelled: polarisation, anisotropic sparkle, the change
  * of haze with the display's content.
  */
-#include "panel/query/panel_reflection.h"
 #include "panel/query/panel_sampling.h"
 #include "shaders/display.h"
 
 /* The chance of taking the mirror: its share of all reflected light. */
 static float mirror_prob(const DisplaySurface *display, Vec3 wo, Spectrum *mirror)
 {
-    *mirror = panel_mirror(display->panel, wo.z, display->wavelengths);
+    *mirror = panel_mirror_at(display->panel, wo.z, &display->lanes);
     float mean = spectrum_mean(*mirror);
     float haze = panel_haze_albedo(display->panel, wo.z);
     return mean + haze > 0 ? mean / (mean + haze) : 0;
@@ -45,7 +44,7 @@ static Spectrum model_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf)
     Spectrum mirror;
     float    prob = mirror_prob(display, wo, &mirror);
     *pdf = (1 - prob) * panel_pdf(display->panel, wo, wi);
-    return panel_brdf(display->panel, wo, wi, display->wavelengths);
+    return panel_brdf_at(display->panel, wo, wi, &display->lanes);
 }
 
 static bool model_sample(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample)
@@ -65,7 +64,7 @@ static bool model_sample(const void *parameters, Vec3 wo, const float u[3], Bsdf
     if (!panel_sample(display->panel, wo, rest, &wi, &pdf) || !(wi.z > 0)) return false;
     pdf *= 1 - prob;
     if (!(pdf > 0)) return false;
-    Spectrum f = panel_brdf(display->panel, wo, wi, display->wavelengths);
+    Spectrum f = panel_brdf_at(display->panel, wo, wi, &display->lanes);
     *sample = (BsdfSample){.wi = wi, .weight = f * spectrum_all(wi.z / pdf), .pdf = pdf};
     return true;
 }
@@ -74,7 +73,7 @@ static Spectrum model_mirror(const void *parameters, Vec3 wo)
 {
     const DisplaySurface *display = parameters;
     if (!reflects(display, wo)) return spectrum_all(0);
-    return panel_mirror(display->panel, wo.z, display->wavelengths);
+    return panel_mirror_at(display->panel, wo.z, &display->lanes);
 }
 
 static bool model_scatters(const void *parameters)
@@ -87,7 +86,7 @@ static Spectrum model_albedo(const void *parameters, Vec3 wo)
 {
     const DisplaySurface *display = parameters;
     if (!reflects(display, wo)) return spectrum_all(0);
-    return panel_mirror(display->panel, wo.z, display->wavelengths) +
+    return panel_mirror_at(display->panel, wo.z, &display->lanes) +
            spectrum_all(panel_haze_albedo(display->panel, wo.z));
 }
 

@@ -216,7 +216,8 @@ static void set_display(const Site *site, Vec3 wo, Surface *surface)
     turned.ns = surface->frame.z;
     surface->frame = display_frame(site->scene, display, site->hit->triangle, &turned);
     surface->bsdf.kind = BSDF_DISPLAY;
-    surface->bsdf.display = (DisplaySurface){display->panel, site->wavelengths};
+    surface->bsdf.display.panel = display->panel;
+    panel_lanes(display->panel, site->wavelengths, &surface->bsdf.display.lanes);
 }
 
 void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit, Vec3 wo,

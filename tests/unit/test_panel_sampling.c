@@ -265,7 +265,8 @@ TEST(displays_draw_mirror_and_haze_as_they_say)
     uint32_t        random = 99;
     for (int k = 0; k < 64 * 3; k++) {
         Wavelengths    w = even_wavelengths(420 + 90 * (float)(k % 3), 2);
-        DisplaySurface display = {narrow.panel, &w};
+        DisplaySurface display = {.panel = narrow.panel};
+        panel_lanes(narrow.panel, &w, &display.lanes);
         double         theta = radians_from_degrees(0.4 + 1.38 * (k / 3)), bins[BINS];
         int            counts[BINS] = {0}, drawn = 0, mirrored = 0;
         float          mirror = 0;

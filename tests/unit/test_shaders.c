@@ -563,7 +563,8 @@ TEST(shipped_displays_obey_the_same_laws)
         fclose(file);
         if (!panel_open(path, &arena, &panel, &err)) fail_msg("%s", err.text);
         Model model = {.name = names[i], .width = 0.05f, .bsdf.kind = BSDF_DISPLAY,
-                       .bsdf.display = {panel, &wavelengths}};
+                       .bsdf.display.panel = panel};
+        panel_lanes(panel, &wavelengths, &model.bsdf.display.lanes);
         for (int k = 0; k < EYE_COUNT; k++) {
             sample_agrees(&model, eye(k));
             mirror_is_where_it_belongs(&model, eye(k));

@@ -9,6 +9,7 @@
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
 #include "cli/panel/panel_grid.h"
+#include "cli/panel/panel_level.h"
 #include "cli/panel/panel_question.h"
 #include "text/csv_table.h"
 #include "panel/fit/fit.h"
@@ -22,6 +23,7 @@ typedef struct EvalRequest {
     PanelQuestion question;
     const char   *batch, *grid;
     bool          has_theta, has_rgb, has_incidence, wants_csv;
+    long          level;     /* below 0: all */
     int           layout, quantity; /* indices of the choices; layout: list, matrix */
 } EvalRequest;
 
@@ -71,11 +73,15 @@ static bool answer_batch(const Panel *panel, const EvalRequest *request, const C
 
 /* ---- one answer ------------------------------------------------------------------------ */
 
-static bool answer_one(const Panel *panel, const EvalRequest *request, const Cli *cli,
-                       Error *err)
+static bool answer_one(const Panel *panel, const EvalRequest *request,
+                       const PanelCoarse *coarse, const Cli *cli, Error *err)
 {
     const PanelQuestion *q = &request->question;
-    if (cli->json) return cli_print_json(panel_answer_json(panel, q), err);
+    if (cli->json) {
+        json_t *one = panel_answer_json(panel, q);
+        if (coarse->level >= 0) json_object_set_new(one, "level", panel_level_json(coarse));
+        return cli_print_json(one, err);
+    }
     if (request->wants_csv) {
         panel_answer_csv_header(panel, q, stdout);
         panel_answer_csv(panel, q, stdout);
@@ -98,9 +104,10 @@ static bool answer_grid(const Panel *panel, const EvalRequest *request, const Cl
 static bool answer(const char *path, const EvalRequest *request, const Cli *cli, Arena *arena,
                    Error *err)
 {
-    Panel *panel = NULL;
-    bool   ok;
-    if (!panel_open(path, arena, &panel, err)) return false;
+    Panel      *panel = NULL;
+    PanelCoarse coarse;
+    bool        ok;
+    if (!panel_level_open(path, request->level, arena, &panel, &coarse, err)) return false;
     if (request->question.is_brdf && !panel_reflects(panel))
         ok = error_at(err, ERROR_INPUT, path, "",
                       "has no reflection data; fit a set with a 'reflection' entry");
@@ -109,7 +116,10 @@ static bool answer(const char *path, const EvalRequest *request, const Cli *cli,
     else if (request->batch)
         ok = answer_batch(panel, request, cli, arena, err);
     else
-        ok = answer_one(panel, request, cli, err);
+        ok = answer_one(panel, request, &coarse, cli, err);
+    bool is_listed = request->grid || request->batch || request->wants_csv;
+    if (ok && !cli->quiet && (is_listed || !cli->json))
+        panel_level_print(&coarse, is_listed ? stderr : stdout);
     panel_close(panel);
     return ok;
 }
@@ -138,7 +148,8 @@ static bool check_request(const EvalRequest *request, const Cli *cli, Error *err
 static bool run_eval(int argc, char **argv, Arena *arena, Error *err)
 {
     Cli     cli;
-    EvalRequest r = {.question = {.rgb = {255, 255, 255}, .incidence_phi = 180}, .quantity = 1};
+    EvalRequest r = {.question = {.rgb = {255, 255, 255}, .incidence_phi = 180}, .quantity = 1,
+                     .level = -1};
     PanelQuestion *q = &r.question;
     const Option   options[] = {
         {"--theta", OPTION_NUMBER, "DEG", "angle from the normal, degrees", &q->theta, 0, 90, 0,
@@ -166,6 +177,7 @@ static bool run_eval(int argc, char **argv, Arena *arena, Error *err)
         {"--quantity", OPTION_CHOICE, PANEL_QUANTITIES,
          "in a matrix: X, Y, Z in cd/m2, u' or v' (default Y); brdf in sr^-1 with --brdf",
          &r.quantity, .given = NULL},
+        {"--level", OPTION_INTEGER, "N", PANEL_LEVEL_HELP, &r.level, 0, 10, .given = NULL},
         {"--batch", OPTION_TEXT, "FILE.csv",
          "one question a row; columns theta, phi, r, g, b, incidence, ...", &r.batch,
          .given = NULL},

@@ -5,6 +5,7 @@
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
+#include "cli/panel/panel_level.h"
 #include "panel/query/panel_open.h"
 #include "panel/set/export.h"
 #include "text/json_text.h"
@@ -12,13 +13,15 @@
 typedef struct ExportRequest {
     ExportOptions options;
     const char   *output, *table;
+    long          level; /* below 0: all */
+    PanelCoarse   coarse;
 } ExportRequest;
 
-static bool export_from(const char *path, const ExportRequest *request, Arena *arena,
-                        Error *err)
+static bool export_from(const char *path, ExportRequest *request, Arena *arena, Error *err)
 {
     Panel *panel = NULL;
-    if (!panel_open(path, arena, &panel, err)) return false;
+    if (!panel_level_open(path, request->level, arena, &panel, &request->coarse, err))
+        return false;
     bool ok = request->table
         ? panel_export_table(panel, request->table, &request->options, request->output, err)
         : panel_export(panel, path, &request->options, request->output, err);
@@ -28,18 +31,22 @@ static bool export_from(const char *path, const ExportRequest *request, Arena *a
 
 static bool print_done(const ExportRequest *request, const Cli *cli, Error *err)
 {
-    if (cli->json)
-        return cli_print_json(json_pack("{s:o}", "output", json_text(request->output)),
-                              err);
-    if (!cli->quiet)
-        printf("%s%s\n", request->output, request->table ? "" : "/MANIFEST.json");
+    const PanelCoarse *coarse = &request->coarse;
+    if (cli->json) {
+        json_t *done = json_pack("{s:o}", "output", json_text(request->output));
+        if (coarse->level >= 0) json_object_set_new(done, "level", panel_level_json(coarse));
+        return cli_print_json(done, err);
+    }
+    if (cli->quiet) return true;
+    printf("%s%s\n", request->output, request->table ? "" : "/MANIFEST.json");
+    panel_level_print(coarse, stdout);
     return true;
 }
 
 static bool run_export(int argc, char **argv, Arena *arena, Error *err)
 {
     Cli     cli;
-    ExportRequest r = {.options = {.mirror_fwhm_deg = -1}};
+    ExportRequest r = {.options = {.mirror_fwhm_deg = -1}, .level = -1};
     const Option options[] = {
         {"-o", OPTION_TEXT, "DIR|TABLE.csv",
          "a new or empty folder for MANIFEST.json and its tables, or one table's file",
@@ -53,6 +60,7 @@ static bool run_export(int argc, char **argv, Arena *arena, Error *err)
         {"--phi-step", OPTION_NUMBER, "DEG",
          "between azimuths, degrees (default 3, of reflection 1)", &r.options.phi_step_deg,
          0.05, 90, .given = NULL},
+        {"--level", OPTION_INTEGER, "N", PANEL_LEVEL_HELP, &r.level, 0, 10, .given = NULL},
         {"--extrapolate", OPTION_FLAG, NULL,
          "to 90 degrees instead of the measured cone only", &r.options.extrapolates,
          .given = NULL},

@@ -3,6 +3,8 @@
 #include <string.h>
 
 #include "hemisphere/tree/tree_query.h"
+#include "hemisphere/vertex/vertex.h"
+#include "hemisphere/vertex/vertex_open.h"
 
 static float integer_at(const char *from, bool is_byte, size_t index)
 {
@@ -74,4 +76,24 @@ void tree_expand(const Tree *tree, float *leaves, Arena scratch)
                components * sizeof(float));
     place_rows(tree, leaves, ARENA_NEW(&scratch, uint32_t, tree->node_count));
     haar_inverse(&shape, leaves, scratch);
+}
+
+uint32_t tree_point_count(const Tree *tree)
+{
+    if (tree->basis == TREE_VERTEX)
+        return vertex_count((VertexLattice){tree->level, tree->octants});
+    return (uint32_t)tree->octants << 2 * tree->level;
+}
+
+void tree_expand_points(const Tree *tree, int level, float *out)
+{
+    if (tree->basis == TREE_VERTEX) {
+        vertex_tree_expand_level(tree, level, out);
+        return;
+    }
+    Tree stopped = *tree;
+    stopped.level = level;
+    for (uint32_t i = 0; i < tree_point_count(tree); i++)
+        tree_interpolate(&stopped, geodesic_center(tree->level, i),
+                         out + i * (size_t)tree->components);
 }

@@ -8,3 +8,9 @@
 /* Inverts the whole tree: haar_leaf_count x components floats (of a vertex tree: its values at
  * the leaves' centres). */
 void tree_expand(const Tree *tree, float *leaves, Arena scratch);
+
+/* The interpolated function of a tree that stops at `level` (0, of a vertex tree its base
+ * level, to tree->level): components floats for each point. Points are the finest vertices of
+ * a vertex tree, between which every level is linear; of a Haar tree the leaves' centres. */
+uint32_t tree_point_count(const Tree *tree);
+void tree_expand_points(const Tree *tree, int level, float *out);

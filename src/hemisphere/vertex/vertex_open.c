@@ -229,6 +229,11 @@ bool vertex_tree_open(const void *blob, size_t size, const Geodesic *geodesic, T
 
 void vertex_tree_expand(const Tree *tree, float *values)
 {
+    vertex_tree_expand_level(tree, tree->level, values);
+}
+
+void vertex_tree_expand_level(const Tree *tree, int level, float *values)
+{
     VertexLattice lattice = {tree->level, tree->octants};
     int           n = 1 << tree->level;
     for (int y = tree->octants == 2 ? 0 : -n; y <= n; y++)
@@ -237,7 +242,7 @@ void vertex_tree_expand(const Tree *tree, float *values)
                                  (float)(y < 0 ? -y : y) / (float)n,
                                  (x < 0 ? 1u : 0u) | (y < 0 ? 2u : 0u)};
             TreeTaps    taps;
-            vertex_tree_walk_place(tree, tree->level, place, &taps);
+            vertex_tree_walk_place(tree, level, place, &taps);
             vertex_tree_sum(tree, &taps, 0, tree->components,
                             values + vertex_index(lattice, x, y) * (size_t)tree->components);
         }

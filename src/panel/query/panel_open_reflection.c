@@ -147,6 +147,48 @@ static void name_steps(const ReflectionLayout *from, PanelReflection *r)
         r->step[r->steps++] = (PanelIncidence){from->incidence[i], i, false};
 }
 
+/* Weights of the four neighbours between two incidences as cubics in u, which is 0 at the first
+ * and 1 at the second: a Hermite curve with the slopes of parabolas through three; where a
+ * neighbour is missing the other end's parabola serves, and a straight line where both are.
+ * With h the width, h0 and h2 the widths beside it, d0 d1 d2 the divided differences, the slope
+ * at the first is (h d0 + h0 d1) / (h0 + h), at an end without neighbour 2 d1 less the other
+ * end's. Weights may be negative: they are for logarithms only. */
+static void cubic_between(const PanelReflection *r, int i, float out[4][4])
+{
+    static const double rise[4] = {0, 0, 3, -2}, first[4] = {0, 1, -2, 1};
+    static const double second[4] = {0, 0, -1, 1}; /* what slopes at the two ends add */
+    bool   left = i > 0, right = i + 2 < (int)r->steps;
+    double x1 = (double)r->step[i].theta, x2 = (double)r->step[i + 1].theta, h = x2 - x1;
+    double h0 = left ? x1 - (double)r->step[i - 1].theta : h;
+    double h2 = right ? (double)r->step[i + 2].theta - x2 : h;
+    double p = left ? h / (h0 + h) : 0, q = right ? h / (h + h2) : 0;
+    /* the slopes' shares of d0, d1, d2 */
+    double s1[3] = {p, 1 - p, 0}, s2[3] = {0, 1 - q, q};
+    if (!right && left) s2[0] = -p, s2[1] = 1 + p;
+    if (!left && right) s1[1] = 1 + q, s1[2] = -q;
+    for (int u = 0; u < 4; u++) {
+        double d[3];
+        for (int k = 0; k < 3; k++) d[k] = h * (first[u] * s1[k] + second[u] * s2[k]);
+        out[u][0] = (float)(-d[0] / h0);
+        out[u][1] = (float)((u == 0) - rise[u] + d[0] / h0 - d[1] / h);
+        out[u][2] = (float)(rise[u] + d[1] / h - d[2] / h2);
+        out[u][3] = (float)(d[2] / h2);
+    }
+}
+
+static void find_cubics(PanelReflection *r)
+{
+    for (int i = 0; i + 1 < (int)r->steps; i++) {
+        if (r->is_cubic && r->steps >= 3) {
+            cubic_between(r, i, r->step_cubic[i]);
+            continue;
+        }
+        r->step_cubic[i][0][1] = 1;
+        r->step_cubic[i][1][1] = -1;
+        r->step_cubic[i][1][2] = 1;
+    }
+}
+
 /* R / F over the measured incidences, straight lines in F; beyond the last one the line goes
  * on (a coating loses its effect towards grazing), held between half the last ratio and 1. */
 static double mirror_ratio(const PanelReflection *r, const ReflectionLayout *from,
@@ -263,6 +305,7 @@ static PanelReflection *expand(const PanelReflectionStored *s, const ReflectionL
     memcpy(r->wavelength_nm, from->wavelength_nm, sizeof(float) * s->wavelengths);
     memcpy(r->node_theta, from->node_theta, sizeof(float) * s->nodes);
     name_steps(from, r);
+    find_cubics(r);
     expand_surface(surface, r);
     r->mean = expand_rows(r, from->mean, r->tables, s->mean_scale, arena);
     float *lambertian = expand_rows(r, from->lambertian, r->tables, s->mean_scale, arena);

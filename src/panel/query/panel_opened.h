@@ -67,6 +67,7 @@ typedef struct PanelReflection {
     SurfaceAxes     roughness; /* beyond: squared GGX alphas */
     float           beyond_index, mirror_index; /* mirror_index 0: a straight line over F */
     PanelIncidence step[PANEL_INCIDENCES_MAX + 2]; /* rising in theta */
+    float    step_cubic[PANEL_INCIDENCES_MAX + 2][4][4]; /* [step][power of u][neighbour] */
     float    azimuth[PANEL_AZIMUTHS_MAX];
     float    wavelength_nm[PANEL_WAVELENGTHS_MAX];
     float    node_theta[PANEL_NODES_MAX];

@@ -68,18 +68,18 @@ static void hermite_weights(const float x[4], bool has_left, bool has_right, flo
     w[2] = 3 * u2 - 2 * u3 - w[3] + (a1 + b1) / h;
 }
 
-static Cubic incidence_weights(const PanelReflection *r, float theta)
+/* The interval is counted, not searched for: it cannot be predicted. */
+static inline Cubic incidence_weights(const PanelReflection *r, float theta)
 {
     int i = 0, n = (int)r->steps;
     if (n == 1) return (Cubic){-1, {0, 1, 0, 0}};
-    while (i + 2 < n && r->step[i + 1].theta <= theta) i++;
-    float span = r->step[i + 1].theta - r->step[i].theta, x[4] = {0};
+    for (int k = 1; k < n - 1; k++) i += r->step[k].theta <= theta;
+    float span = r->step[i + 1].theta - r->step[i].theta;
     float u = clampf((theta - r->step[i].theta) / span, 0, 1);
-    Cubic cubic = {i - 1, {0, 1 - u, u, 0}};
-    if (!r->is_cubic || n < 3) return cubic;
+    const float (*of)[4] = r->step_cubic[i];
+    Cubic cubic = {.first = i - 1};
     for (int k = 0; k < 4; k++)
-        if (i - 1 + k >= 0 && i - 1 + k < n) x[k] = r->step[i - 1 + k].theta;
-    hermite_weights(x, i > 0, i + 2 < n, u, cubic.weight);
+        cubic.weight[k] = of[0][k] + u * (of[1][k] + u * (of[2][k] + u * of[3][k]));
     return cubic;
 }
 
@@ -88,7 +88,6 @@ static Cubic azimuth_weights(const PanelReflection *r, float phi)
 {
     int   n = (int)r->azimuths, i = -1;
     float x[4];
-    if (n == 1) return (Cubic){-1, {0, 1, 0, 0}};
     phi -= 2 * PI_F * (float)(int)(phi / (2 * PI_F));
     if (phi < 0) phi += 2 * PI_F;
     while (i + 1 < n && r->azimuth[i + 1] <= phi) i++;
@@ -103,16 +102,29 @@ static Cubic azimuth_weights(const PanelReflection *r, float phi)
     return cubic;
 }
 
+/* Of an isotropic panel: a table for each incidence, always in the specular-following frame. */
+static TableMix isotropic_mix(const PanelReflection *r, const Cubic *incidence)
+{
+    TableMix mix;
+    mix.side[0].count = mix.side[1].count = 0;
+    for (int k = 0; k < 4; k++) {
+        if (incidence->weight[k] == 0) continue;
+        const PanelIncidence *step = &r->step[incidence->first + k];
+        Terms *side = &mix.side[step->is_turned];
+        side->term[side->count++] = (Term){step->incidence, incidence->weight[k]};
+    }
+    return mix;
+}
+
 /* light: its azimuth in the display's frame. */
 static TableMix table_mix(const PanelReflection *r, float theta, float light)
 {
     TableMix mix;
-    mix.side[0].count = mix.side[1].count = 0;
     Cubic    incidence = incidence_weights(r, theta);
-    Cubic    azimuth[2] = {azimuth_weights(r, light)};
     int      n = (int)r->azimuths;
-    if (n > 1) azimuth[1] = azimuth_weights(r, light + PI_F);
-    else azimuth[1] = azimuth[0];
+    if (n == 1) return isotropic_mix(r, &incidence);
+    Cubic azimuth[2] = {azimuth_weights(r, light), azimuth_weights(r, light + PI_F)};
+    mix.side[0].count = mix.side[1].count = 0;
     for (int k = 0; k < 4; k++) {
         if (incidence.weight[k] == 0) continue;
         const PanelIncidence *step = &r->step[incidence.first + k];
@@ -130,14 +142,6 @@ static TableMix table_mix(const PanelReflection *r, float theta, float light)
 }
 
 /* ---- logarithms ------------------------------------------------------------------------ */
-
-/* A row of 16 floats that need not be aligned. */
-static Spectrum load_16(const float *from)
-{
-    Spectrum value;
-    memcpy(&value, from, sizeof value);
-    return value;
-}
 
 /* Eight at a time: what all instruction sets keep in registers. */
 typedef float Float8 __attribute__((vector_size(32), aligned(4), may_alias));
@@ -192,60 +196,8 @@ static inline void add_loadings(const PanelReflection *r, const Terms *terms,
     if (padded - k == 4) add_quads(r, terms, component, 1, k, coefficient);
 }
 
-/* ln (f / F) at all measured wavelengths: padded_wavelengths floats. */
-static void reflection_logs(const Panel *panel, Vec3 stored, const TableMix *mix, float *logs)
-{
-    const PanelReflection *r = panel->reflection;
-    float component[COMPONENTS_MAX], coefficient[COEFFICIENTS_MAX];
-    int   padded = (int)r->padded_wavelengths;
-    for (int k = 0; k < (int)r->padded_coefficients; k++) coefficient[k] = 0;
-    for (int turned = 0; turned < 2; turned++) {
-        if (!mix->side[turned].count) continue;
-        Vec3 at = turned ? vec3(-stored.x, -stored.y, stored.z) : stored;
-        tree_interpolate(&panel->reflection_tree, at, component);
-        add_loadings(r, &mix->side[turned], component, coefficient);
-    }
-    for (int w = 0; w < padded; w += 8) {
-        Float8 sum = mixed_rows(r, mix, r->mean, w);
-        for (int k = 0; k < (int)r->coefficients; k++)
-            sum += coefficient[k] * *(const Float8 *)(r->basis + k * padded + w);
-        *(Float8 *)(logs + w) = sum;
-    }
-}
-
-/* Where the lanes lie among the measured wavelengths: found once a query. */
-typedef struct Lanes {
-    SpectrumMask interval;
-    Spectrum     t; /* in it, 0 to 1: outside, the end value holds */
-    bool         has_one; /* a single wavelength is measured */
-} Lanes;
-
-static Lanes find_lanes(const Panel *panel, const Wavelengths *wavelengths)
-{
-    const PanelReflection *r = panel->reflection;
-    Spectrum nm = spectrum_clamp(wavelengths->nm, SPECTRAL_FIRST_NM, SPECTRAL_LAST_NM);
-    SpectrumMask whole =
-        __builtin_convertvector(nm - spectrum_all(SPECTRAL_FIRST_NM), SpectrumMask);
-    float from[SPECTRUM_LANES], scale[SPECTRUM_LANES];
-    Spectrum begin, inverse;
-    Lanes    lanes;
-    lanes.has_one = r->wavelengths == 1;
-    if (lanes.has_one) return lanes;
-    for (int i = 0; i < SPECTRUM_LANES; i++) {
-        int n = panel->wavelength_index[whole[i]];
-        while (n + 2 < (int)r->wavelengths && r->wavelength_nm[n + 1] <= nm[i]) n++;
-        from[i] = r->wavelength_nm[n];
-        scale[i] = panel->wavelength_scale[n];
-        lanes.interval[i] = n;
-    }
-    memcpy(&begin, from, sizeof begin);
-    memcpy(&inverse, scale, sizeof inverse);
-    lanes.t = spectrum_clamp((nm - begin) * inverse, 0, 1);
-    return lanes;
-}
-
 /* Values at the lanes, linear between measured wavelengths. */
-static Spectrum spread(const float *value, const Lanes *lanes)
+static inline Spectrum spread(const float *value, const PanelLanes *lanes)
 {
     Spectrum low, high;
     if (lanes->has_one) return spectrum_all(value[0]);
@@ -255,15 +207,53 @@ static Spectrum spread(const float *value, const Lanes *lanes)
 
 /* Rows a and b of padded_wavelengths floats, t from the first to the second. */
 static Spectrum spread_between(const Panel *panel, const float *rows, int first, float t,
-                               const Lanes *lanes)
+                               const PanelLanes *lanes)
 {
     int          padded = (int)panel->reflection->padded_wavelengths;
-    Spectrum     row[PADDED_MAX / SPECTRUM_LANES];
     const float *a = rows + first * padded, *b = t > 0 ? a + padded : a;
-    for (int w = 0; w < padded; w += SPECTRUM_LANES)
-        row[w / SPECTRUM_LANES] =
-            load_16(a + w) + (load_16(b + w) - load_16(a + w)) * spectrum_all(t);
-    return spread((const float *)row, lanes);
+    Spectrum     low = spread(a, lanes), high = spread(b, lanes);
+    return low + (high - low) * spectrum_all(t);
+}
+
+/* Of rows of the tables; those that are not at the lanes yet are mixed before they go there. */
+static Spectrum mixed_at_lanes(const PanelReflection *r, const TableMix *mix,
+                               const float *rows, const PanelLanes *lanes)
+{
+    float row[PADDED_MAX];
+    for (int w = 0; w < (int)r->padded_wavelengths; w += 8)
+        *(Float8 *)(row + w) = mixed_rows(r, mix, rows, w);
+    return spread(row, lanes);
+}
+
+/* ln (f / F) at the lanes. */
+static Spectrum reflection_logs(const Panel *panel, Vec3 stored, const TableMix *mix,
+                                const PanelLanes *lanes)
+{
+    const PanelReflection *r = panel->reflection;
+    float    component[COMPONENTS_MAX], coefficient[COEFFICIENTS_MAX];
+    Spectrum logs;
+    if (!lanes->has_means) logs = mixed_at_lanes(r, mix, r->mean, lanes);
+    for (int k = 0; k < (int)r->padded_coefficients; k++) coefficient[k] = 0;
+    for (int turned = 0; turned < 2; turned++) {
+        if (!mix->side[turned].count) continue;
+        Vec3 at = turned ? vec3(-stored.x, -stored.y, stored.z) : stored;
+        tree_interpolate(&panel->reflection_tree, at, component);
+        add_loadings(r, &mix->side[turned], component, coefficient);
+    }
+    for (int i = 0; i < SPECTRUM_LANES; i += 8) {
+        Float8 sum = {0};
+        if (!lanes->has_means) sum = *(const Float8 *)((const float *)&logs + i);
+        for (int turned = 0; turned < 2 && lanes->has_means; turned++)
+            for (int j = 0; j < mix->side[turned].count; j++) {
+                const Term *term = &mix->side[turned].term[j];
+                sum += term->weight *
+                       *(const Float8 *)((const float *)&lanes->mean[term->table] + i);
+            }
+        for (int k = 0; k < (int)r->coefficients; k++)
+            sum += coefficient[k] * *(const Float8 *)((const float *)&lanes->basis[k] + i);
+        *(Float8 *)((float *)&logs + i) = sum;
+    }
+    return logs;
 }
 
 /* ---- the narrow lobe ------------------------------------------------------------------- */
@@ -290,18 +280,16 @@ static float mixed_sigma(const PanelReflection *r, const TableMix *mix)
 
 /* The lobe over F: R / F G(angle) / cos theta_i. */
 static Spectrum lobe_over_fresnel(const Panel *panel, const TableMix *mix, Vec3 local, Vec3 wi,
-                                  const Lanes *lanes)
+                                  const PanelLanes *lanes)
 {
     const PanelReflection *r = panel->reflection;
-    float logs[PADDED_MAX];
     float sine = safe_sqrtf(1 - wi.z * wi.z), sigma = mixed_sigma(r, mix);
     float square = squared_angle(local, sine, wi.z), inverse = 1 / (sigma * sigma);
     if (square * inverse > LOBE_SIGMAS * LOBE_SIGMAS) return spectrum_all(0);
-    for (int w = 0; w < (int)r->padded_wavelengths; w += 8)
-        *(Float8 *)(logs + w) = mixed_rows(r, mix, r->lobe, w);
+    Spectrum logs = mixed_at_lanes(r, mix, r->lobe, lanes);
     float cosine = wi.z > 0.02f ? wi.z : 0.02f;
     float shape = exp_f(-0.5f * square * inverse) * inverse / (2 * PI_F * cosine);
-    return spectrum_exp(spread(logs, lanes)) * spectrum_all(shape);
+    return spectrum_exp(logs) * spectrum_all(shape);
 }
 
 /* ---- beyond the last measured incidence ------------------------------------------------- */
@@ -319,7 +307,7 @@ static Vec3 shifted(const PanelReflection *r, Vec3 local, float sin_theta)
     return vec3(x, y, safe_sqrtf(1 - x * x - y * y));
 }
 
-static Spectrum mirror_at(const Panel *panel, float cos_theta, const Lanes *lanes)
+static Spectrum mirror_at(const Panel *panel, float cos_theta, const PanelLanes *lanes)
 {
     float t;
     int   node = panel_angle_node(acos_f(cos_theta), &t);
@@ -328,7 +316,7 @@ static Spectrum mirror_at(const Panel *panel, float cos_theta, const Lanes *lane
 
 /* Reflectance of the glossy surface: the mirror part's where there is one (the coating is the
  * same), Fresnel's otherwise. Up to a constant. */
-static Spectrum gloss(const Panel *panel, float cosine, const Lanes *lanes)
+static Spectrum gloss(const Panel *panel, float cosine, const PanelLanes *lanes)
 {
     const PanelReflection *r = panel->reflection;
     if (!r->has_mirror) return spectrum_all(fresnel_unpolarised(cosine, r->beyond_index));
@@ -344,7 +332,7 @@ static Spectrum spectrum_root(Spectrum a)
 }
 
 /* What the energy leaves room for at an incidence beyond the measured ones. */
-static Spectrum held_factor(const Panel *panel, float theta, const Lanes *lanes)
+static Spectrum held_factor(const Panel *panel, float theta, const PanelLanes *lanes)
 {
     const PanelReflection *r = panel->reflection;
     int i = 0;
@@ -404,13 +392,12 @@ static PanelPair last_pair(const PanelReflection *r, const PanelPair *pair)
  * surface's reflectances at theta_i and theta_o; of facets their reflectance and
  * G / (cos cos). */
 static Spectrum haze_ratio(const Panel *panel, const PanelPair *now, const PanelPair *then,
-                           const Lanes *lanes)
+                           const PanelLanes *lanes)
 {
     const PanelReflection *r = panel->reflection;
     if (r->beyond != PANEL_BEYOND_SLOPES) {
-        Spectrum in = gloss(panel, now->wi.z, lanes) / gloss(panel, then->wi.z, lanes);
-        Spectrum out = gloss(panel, now->local.z, lanes) / gloss(panel, then->local.z, lanes);
-        return spectrum_root(in * out);
+        Spectrum here = gloss(panel, now->wi.z, lanes) * gloss(panel, now->local.z, lanes);
+        return spectrum_root(here / (lanes->last_gloss * gloss(panel, then->local.z, lanes)));
     }
     float masking = panel_masking(r->roughness, now->wi, now->wo) /
                     panel_masking(r->roughness, then->wi, then->wo);
@@ -421,15 +408,15 @@ static Spectrum haze_ratio(const Panel *panel, const PanelPair *now, const Panel
 
 /* The haze moves and changes its height, the lambertian part follows the light that enters. */
 static Spectrum brdf_beyond(const Panel *panel, const PanelPair *pair, float light,
-                            const Lanes *lanes)
+                            const PanelLanes *lanes)
 {
     const PanelReflection *r = panel->reflection;
-    float    logs[PADDED_MAX], n = r->refractive_index;
+    float         n = r->refractive_index;
     PanelPair     from = last_pair(r, pair);
     TableMix mix = table_mix(r, r->last_theta, light);
-    reflection_logs(panel, stored_at(r, &from), &mix, logs);
+    Spectrum logs = reflection_logs(panel, stored_at(r, &from), &mix, lanes);
     float    last = fresnel_unpolarised(from.wi.z, n);
-    Spectrum total = spectrum_exp(spread(logs, lanes)) * spectrum_all(reference_at(r, &from));
+    Spectrum total = spectrum_exp(logs) * spectrum_all(reference_at(r, &from));
     int      row = mix.side[0].term[0].table * (int)r->padded_wavelengths;
     Spectrum lambertian = spectrum_min(total, spread(r->lambertian + row, lanes));
     float    entering = (1 - fresnel_unpolarised(pair->wi.z, n)) / (1 - last);
@@ -437,39 +424,90 @@ static Spectrum brdf_beyond(const Panel *panel, const PanelPair *pair, float lig
                     lambertian * spectrum_all(entering);
     if (r->has_lobe)
         haze += lobe_over_fresnel(panel, &mix, pair->local, pair->wi, lanes) *
-                (gloss(panel, pair->wi.z, lanes) / gloss(panel, from.wi.z, lanes)) *
+                (gloss(panel, pair->wi.z, lanes) / lanes->last_gloss) *
                 spectrum_all(last);
     return haze * held_factor(panel, pair->theta, lanes);
 }
 
 /* ---- the queries ------------------------------------------------------------------------ */
 
-Spectrum panel_brdf(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *wavelengths)
+static void find_lanes(const Panel *panel, const Wavelengths *wavelengths, PanelLanes *lanes)
 {
     const PanelReflection *r = panel->reflection;
-    float logs[PADDED_MAX];
+    Spectrum nm = spectrum_clamp(wavelengths->nm, SPECTRAL_FIRST_NM, SPECTRAL_LAST_NM);
+    SpectrumMask whole =
+        __builtin_convertvector(nm - spectrum_all(SPECTRAL_FIRST_NM), SpectrumMask);
+    float from[SPECTRUM_LANES], scale[SPECTRUM_LANES];
+    Spectrum begin, inverse;
+    lanes->has_one = r->wavelengths == 1;
+    if (lanes->has_one) return;
+    for (int i = 0; i < SPECTRUM_LANES; i++) {
+        int n = panel->wavelength_index[whole[i]];
+        while (n + 2 < (int)r->wavelengths && r->wavelength_nm[n + 1] <= nm[i]) n++;
+        from[i] = r->wavelength_nm[n];
+        scale[i] = panel->wavelength_scale[n];
+        lanes->interval[i] = n;
+    }
+    memcpy(&begin, from, sizeof begin);
+    memcpy(&inverse, scale, sizeof inverse);
+    lanes->t = spectrum_clamp((nm - begin) * inverse, 0, 1);
+}
+
+void panel_lanes(const Panel *panel, const Wavelengths *wavelengths, PanelLanes *out)
+{
+    const PanelReflection *r = panel->reflection;
+    if (!r) return;
+    int padded = (int)r->padded_wavelengths;
+    find_lanes(panel, wavelengths, out);
+    for (int k = 0; k < (int)r->coefficients; k++)
+        out->basis[k] = spread(r->basis + k * padded, out);
+    out->has_means = r->tables <= PANEL_LANES_TABLES;
+    for (int t = 0; out->has_means && t < (int)r->tables; t++)
+        out->mean[t] = spread(r->mean + t * padded, out);
+    float sine, cosine;
+    sincos_turns(r->last_theta * (0.5f / PI_F), &sine, &cosine);
+    out->last_gloss = gloss(panel, cosine, out);
+}
+
+Spectrum panel_brdf_at(const Panel *panel, Vec3 wo, Vec3 wi, const PanelLanes *lanes)
+{
+    const PanelReflection *r = panel->reflection;
     if (!r || !(wo.z > 0) || !(wi.z > 0)) return spectrum_all(0);
     PanelPair pair = {wi, wo, panel_turned(wi, wo), panel_polar_angle(wi)};
     float light = r->azimuths > 1 ? atan2_f(wi.y, wi.x) : 0;
-    Lanes lanes = find_lanes(panel, wavelengths);
-    if (pair.theta > r->last_theta) return brdf_beyond(panel, &pair, light, &lanes);
+    if (pair.theta > r->last_theta) return brdf_beyond(panel, &pair, light, lanes);
     TableMix mix = table_mix(r, pair.theta, light);
-    reflection_logs(panel, stored_at(r, &pair), &mix, logs);
-    Spectrum over = spectrum_exp(spread(logs, &lanes));
+    Spectrum over = spectrum_exp(reflection_logs(panel, stored_at(r, &pair), &mix, lanes));
     float    reference = reference_at(r, &pair);
     if (r->has_lobe) {
         float fresnel = fresnel_unpolarised(wi.z, r->refractive_index);
-        over += lobe_over_fresnel(panel, &mix, pair.local, wi, &lanes) *
+        over += lobe_over_fresnel(panel, &mix, pair.local, wi, lanes) *
                 spectrum_all(fresnel / reference);
     }
     return over * spectrum_all(reference);
 }
 
-Spectrum panel_mirror(const Panel *panel, float cos_theta, const Wavelengths *wavelengths)
+Spectrum panel_brdf(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *wavelengths)
+{
+    PanelLanes lanes;
+    if (!panel->reflection || !(wo.z > 0) || !(wi.z > 0)) return spectrum_all(0);
+    panel_lanes(panel, wavelengths, &lanes);
+    return panel_brdf_at(panel, wo, wi, &lanes);
+}
+
+Spectrum panel_mirror_at(const Panel *panel, float cos_theta, const PanelLanes *lanes)
 {
     if (!panel->reflection || !panel->reflection->has_mirror || !(cos_theta > 0))
         return spectrum_all(0);
-    Lanes lanes = find_lanes(panel, wavelengths);
+    return mirror_at(panel, cos_theta, lanes);
+}
+
+Spectrum panel_mirror(const Panel *panel, float cos_theta, const Wavelengths *wavelengths)
+{
+    PanelLanes lanes;
+    if (!panel->reflection || !panel->reflection->has_mirror || !(cos_theta > 0))
+        return spectrum_all(0);
+    find_lanes(panel, wavelengths, &lanes);
     return mirror_at(panel, cos_theta, &lanes);
 }
 

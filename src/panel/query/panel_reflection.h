@@ -12,6 +12,25 @@
 /* Has reflection data? Without them a panel reflects nothing. */
 bool panel_reflects(const Panel *panel);
 
+/* A panel's reflection at the wavelengths of a path: made once, asked any number of times. It
+ * is worth a query and a half. */
+#define PANEL_LANES_COEFFICIENTS 32
+#define PANEL_LANES_TABLES 12 /* more of them are mixed in every query */
+typedef struct PanelLanes {
+    SpectrumMask interval; /* of measured wavelengths, that holds the lane */
+    Spectrum     t;        /* in it, 0 to 1: outside, the end value holds */
+    bool         has_one;  /* a single wavelength is measured */
+    bool         has_means;
+    Spectrum     last_gloss; /* of the surface, at the last measured incidence */
+    Spectrum     basis[PANEL_LANES_COEFFICIENTS], mean[PANEL_LANES_TABLES];
+} PanelLanes;
+
+void panel_lanes(const Panel *panel, const Wavelengths *wavelengths, PanelLanes *out);
+
+/* panel_brdf and panel_mirror at lanes that are made already. */
+Spectrum panel_brdf_at(const Panel *panel, Vec3 wo, Vec3 wi, const PanelLanes *lanes);
+Spectrum panel_mirror_at(const Panel *panel, float cos_theta, const PanelLanes *lanes);
+
 /* BRDF without the mirror part, sr^-1 per lane. wo: to the eye, wi: to the light. 0 when
  * either is below the surface. */
 Spectrum panel_brdf(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *wavelengths);
