@@ -2,6 +2,7 @@
 
 #include "light/coverage.h"
 #include "shaders/common_tables.h"
+#include "shaders/index_tables.h"
 #include "shaders/microfacet.h"
 
 /* A shading normal is bent until the eye is above its plane by this much. */
@@ -34,10 +35,10 @@ const SurfaceTables *surface_tables_build(const Scene *scene, Arena *arena)
     tables->of_coat = &common_energy_table;
     for (int i = 0; i < scene->material_count; i++) {
         float ior = scene->materials[i].ior;
-        const EnergyTable *table = ior == CLEARCOAT_IOR ? tables->of_coat : NULL;
+        const EnergyTable *table = NULL;
         for (int j = 0; j < i && !table; j++)
             if (scene->materials[j].ior == ior) table = tables->of_material[j];
-        tables->of_material[i] = table ? table : energy_table_build(ior, arena);
+        tables->of_material[i] = table ? table : energy_table_of(ior, arena);
         tables->on_material[i] = coat_on(scene, i, tables, arena);
     }
     return tables;
