@@ -1,5 +1,7 @@
 #include "image/texture.h"
 
+#include <string.h>
+
 #include "image/srgb.h"
 
 /* IEC 61966-2-1: c/12.92 up to 0.04045, then ((c + 0.055)/1.055)^2.4, for c = code/255. */
@@ -212,4 +214,19 @@ void texture_codes(const Texture *texture, float u, float v, float rgb[3])
     size_t at = offset_of(image, texel_at(u, image->width, texture->wrap_u),
                           texel_at(v, image->height, texture->wrap_v));
     for (size_t c = 0; c < 3; c++) rgb[c] = code_of(image, at + c);
+}
+
+void texture_whole_codes(const Texture *texture, const Vec2 *uv, int count, uint8_t (*rgb)[3])
+{
+    const Image  *image = &texture->image;
+    TextureWrap   wrap_u = texture->wrap_u, wrap_v = texture->wrap_v;
+    for (int i = 0; i < count; i++) {
+        size_t at = offset_of(image, texel_at(uv[i].x, image->width, wrap_u),
+                              texel_at(uv[i].y, image->height, wrap_v));
+        if (image->format == IMAGE_RGBA8)
+            memcpy(rgb[i], (const uint8_t *)image->pixels + at, 3);
+        else
+            for (size_t c = 0; c < 3; c++)
+                rgb[i][c] = (uint8_t)(code_of(image, at + c) + 0.5f);
+    }
 }

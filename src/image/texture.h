@@ -6,6 +6,7 @@
 #pragma once
 #include <stdbool.h>
 
+#include "base/vec.h"
 #include "image/image.h"
 
 typedef enum TextureWrap { WRAP_REPEAT, WRAP_CLAMP, WRAP_MIRROR } TextureWrap;
@@ -26,3 +27,6 @@ void texture_colour(const Texture *texture, float u, float v, float rgba[4]);
 /* The nearest pixel's codes on a scale of 0..255 (16-bit codes scaled), alpha left out: what
  * a display shows there. */
 void texture_codes(const Texture *texture, float u, float v, float rgb[3]);
+
+/* Those of many places at once, rounded to whole codes. */
+void texture_whole_codes(const Texture *texture, const Vec2 *uv, int count, uint8_t (*rgb)[3]);

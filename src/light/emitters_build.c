@@ -38,12 +38,15 @@ typedef struct EmissionReader {
     const Material    *material;
     const TextureSlot *slot; /* texture_id NO_ID: the same everywhere */
     CodeTable         *codes;
+    const Vec2        *lattice; /* POINTS_MAX of a cell */
     double             plain; /* luminance where the slot has no texture */
 } EmissionReader;
 
-static EmissionReader reader_of(const Scene *scene, const Material *material, CodeTable *codes)
+static EmissionReader reader_of(const Scene *scene, const Material *material,
+                                const Vec2 *lattice, CodeTable *codes)
 {
-    EmissionReader reader = {.scene = scene, .material = material, .codes = codes};
+    EmissionReader reader = {.scene = scene, .material = material, .codes = codes,
+                             .lattice = lattice};
     if (material->display_id == NO_ID) {
         const float *factor = material->unlit ? material->base_color : material->emissive_cd_m2;
         reader.slot =
@@ -59,22 +62,49 @@ static EmissionReader reader_of(const Scene *scene, const Material *material, Co
     return reader;
 }
 
-static double luminance_at(const EmissionReader *reader, Vec2 uv)
+static double sum_plain(const EmissionReader *reader, int points)
 {
-    if (reader->slot->texture_id == NO_ID) return reader->plain;
-    const Texture *texture = &reader->scene->textures[reader->slot->texture_id];
-    if (reader->material->display_id != NO_ID) {
-        float codes[3], sum = reader->codes->dark;
-        texture_codes(texture, uv.x, uv.y, codes);
-        for (int i = 0; i < 3; i++) sum += reader->codes->added[i][(int)(codes[i] + 0.5f)];
-        return (double)sum;
+    double squares = 0;
+    for (int k = 0; k < points; k++) squares += reader->plain * reader->plain;
+    return squares;
+}
+
+static double sum_content(const EmissionReader *reader, const Vec2 *uv, int points)
+{
+    uint8_t          code[POINTS_MAX][3];
+    const CodeTable *table = reader->codes;
+    double           squares = 0;
+    texture_whole_codes(&reader->scene->textures[reader->slot->texture_id], uv, points, code);
+    for (int k = 0; k < points; k++) {
+        float l = table->dark;
+        for (int i = 0; i < 3; i++) l += table->added[i][code[k][i]];
+        squares += (double)l * (double)l;
     }
-    const float *factor = reader->material->unlit ? reader->material->base_color
-                                                  : reader->material->emissive_cd_m2;
-    float texel[4];
-    texture_colour(texture, uv.x, uv.y, texel);
-    for (int i = 0; i < 3; i++) texel[i] *= factor[i];
-    return (double)luminance_from_rgb(texel);
+    return squares;
+}
+
+static double sum_emissive(const EmissionReader *reader, const Vec2 *uv, int points)
+{
+    const Material *m = reader->material;
+    const float    *factor = m->unlit ? m->base_color : m->emissive_cd_m2;
+    double          squares = 0;
+    for (int k = 0; k < points; k++) {
+        float texel[4];
+        texture_colour(&reader->scene->textures[reader->slot->texture_id], uv[k].x, uv[k].y,
+                       texel);
+        for (int i = 0; i < 3; i++) texel[i] *= factor[i];
+        double l = (double)luminance_from_rgb(texel);
+        squares += l * l;
+    }
+    return squares;
+}
+
+/* Sum of the squared luminances at points of the texture. */
+static double sum_squares(const EmissionReader *reader, const Vec2 *uv, int points)
+{
+    if (reader->slot->texture_id == NO_ID) return sum_plain(reader, points);
+    if (reader->material->display_id != NO_ID) return sum_content(reader, uv, points);
+    return sum_emissive(reader, uv, points);
 }
 
 static double triangle_area(const Scene *scene, uint32_t triangle)
@@ -117,18 +147,16 @@ static Vec2 lattice_point(int i)
 static double cell_luminance(const EmissionReader *reader, const Corner *corner,
                              const EmitterCell *cell, int points)
 {
-    double squares = 0;
-    float  step = 1 / (float)cell->side;
+    Vec2  uv[POINTS_MAX];
+    float step = 1 / (float)cell->side;
     for (int k = 0; k < points; k++) {
-        Vec2  p = lattice_point(k);
+        Vec2  p = reader->lattice[k];
         float a = cell->is_turned ? 1 - p.x : p.x, b = cell->is_turned ? 1 - p.y : p.y;
         float u = ((float)cell->i + a) * step, v = ((float)cell->j + b) * step;
-        double l = luminance_at(reader, (Vec2){
-            corner->at.x + u * corner->along_u.x + v * corner->along_v.x,
-            corner->at.y + u * corner->along_u.y + v * corner->along_v.y});
-        squares += l * l;
+        uv[k] = (Vec2){corner->at.x + u * corner->along_u.x + v * corner->along_v.x,
+                       corner->at.y + u * corner->along_u.y + v * corner->along_v.y};
     }
-    return sqrt(squares / points);
+    return sqrt(sum_squares(reader, uv, points) / points);
 }
 
 /* Points a cell, about two a texel. */
@@ -198,11 +226,13 @@ static void cut_part(const Scene *scene, int part_id, Emitters *emitters)
     }
 }
 
-static void read_part(const Scene *scene, int part_id, const Emitters *emitters, double *weight)
+static void read_part(const Scene *scene, int part_id, const Vec2 *lattice,
+                      const Emitters *emitters, double *weight)
 {
     const Part *part = &scene->parts[part_id];
     CodeTable   codes;
-    EmissionReader      reader = reader_of(scene, &scene->materials[part->material_id], &codes);
+    EmissionReader reader =
+        reader_of(scene, &scene->materials[part->material_id], lattice, &codes);
     bool both_sides = reader.material->double_sided && reader.material->display_id == NO_ID;
     const Emitter *first = &emitters->emitters[emitters->first_of_part[part_id]];
     double sum = 0, total = 0;
@@ -229,6 +259,7 @@ static void read_part(const Scene *scene, int part_id, const Emitters *emitters,
 Emitters emitters_build(const Scene *scene, Arena *arena)
 {
     Emitters emitters = {0};
+    Vec2     lattice[POINTS_MAX];
     double   total = 0;
     emitters.count = list_emitters(scene, &emitters, arena);
     if (!emitters.count) return emitters;
@@ -236,6 +267,7 @@ Emitters emitters_build(const Scene *scene, Arena *arena)
     for (int p = 0; p < scene->part_count; p++)
         if (emitters.first_of_part[p] != NO_ID) cut_part(scene, p, &emitters);
     double *weight = ARENA_NEW(arena, double, emitters.cell_count);
+    for (int i = 0; i < POINTS_MAX; i++) lattice[i] = lattice_point(i);
     emitters.cell_emitter = ARENA_NEW(arena, uint32_t, emitters.cell_count);
     for (int i = 0; i < emitters.count; i++) {
         const Emitter *e = &emitters.emitters[i];
@@ -243,7 +275,7 @@ Emitters emitters_build(const Scene *scene, Arena *arena)
             emitters.cell_emitter[e->first_cell + (uint32_t)c] = (uint32_t)i;
     }
     for (int p = 0; p < scene->part_count; p++)
-        if (emitters.first_of_part[p] != NO_ID) read_part(scene, p, &emitters, weight);
+        if (emitters.first_of_part[p] != NO_ID) read_part(scene, p, lattice, &emitters, weight);
     for (uint32_t c = 0; c < emitters.cell_count; c++) total += weight[c];
     if (!(total > 0)) return (Emitters){.first_of_part = emitters.first_of_part};
     emitter_tree_build(scene, weight, arena, &emitters);
