@@ -6,6 +6,7 @@
 
 #include "base/file.h"
 #include "image/colour.h"
+#include "image/plain_png.h"
 #include "openexr/exr_file.h"
 #include "openimageio/image_file.h"
 
@@ -228,6 +229,31 @@ static bool decode_other(const Encoded *file, Arena *arena, Image *out, Error *e
     return ok;
 }
 
+/* A PNG without the library. False: it is for the library. */
+static bool decode_plain(const Encoded *file, Arena *arena, Image *out)
+{
+    PlainPng png;
+    Error    told_later;
+    if (strcmp(file->format, "png") != 0 || !plain_png_open(file->bytes, file->size, &png))
+        return false;
+    size_t row_bytes = png.row_bytes, count = (size_t)png.width * (size_t)png.height;
+    if (!check_size(png.width, png.height, 4, row_bytes * (size_t)png.height, arena,
+                    &told_later))
+        return false;
+    Arena   kept = *arena;
+    uint8_t *pixels = arena_alloc(&kept, 4, 16, count);
+    Arena   scratch = kept;
+    uint8_t *rows = arena_alloc(&scratch, row_bytes, 16, (size_t)png.height);
+    if (!plain_png_read(&png, rows)) return false;
+    Swizzle swizzle = swizzle_of(png.channels, png.channels % 2 ? -1 : png.channels - 1);
+    for (size_t y = 0; y < (size_t)png.height; y++)
+        spread_u8(rows + y * row_bytes + 1, swizzle, (size_t)png.width,
+                  pixels + y * (size_t)png.width * 4);
+    *arena = kept;
+    *out = (Image){png.width, png.height, IMAGE_RGBA8, pixels};
+    return true;
+}
+
 /* ---- OpenEXR ------------------------------------------------------------------------- */
 
 enum { RED, GREEN, BLUE, ALPHA };
@@ -333,6 +359,7 @@ static bool decode_exr(ExrReader *reader, Arena *arena, Image *out, Error *err)
 static bool decode(const Encoded *file, Arena *arena, Image *out, Error *err)
 {
     ExrReader *reader;
+    if (decode_plain(file, arena, out)) return true;
     if (strcmp(file->format, "openexr") != 0) return decode_other(file, arena, out, err);
     if (!exr_reader_create(file->name, file->bytes, file->size, &reader, err)) return false;
     bool ok = decode_exr(reader, arena, out, err);
