@@ -1,6 +1,7 @@
 #include "sky/air/diffuse_light.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/mathd.h"
 #include "base/units.h"
@@ -13,7 +14,8 @@
 
 /* Phase functions as series in the azimuth between two directions, for each scatterer. */
 typedef struct PhaseModes {
-    /* of directions i and j, mode m: [AIR_MOLECULES or AIR_AEROSOL][m][i][j] */
+    /* of directions i and j, mode m: [AIR_MOLECULES or AIR_AEROSOL][m][i][j]; times the
+     * quadrature's weight of j */
     float between[2][DIFFUSE_MODES][DIRECTIONS][DIRECTIONS];
     float outwards[2][DIFFUSE_MODES][DIFFUSE_COSINES][DIRECTIONS];
     float from_sun[2][DIFFUSE_MODES][DIRECTIONS];
@@ -55,12 +57,13 @@ static void fill_phase(Solver *s)
         phase_legendre(m, -s->input->sun_cosine, sun); /* the beam travels down */
         for (int p = 0; p < 2; p++)
             for (int j = 0; j < DIRECTIONS; j++) {
+                float weight = (float)phase_weight[j % SIDE];
                 for (int i = 0; i < DIRECTIONS; i++)
-                    s->phase->between[p][m][i][j] = phase_series_mode((AirPart)p, at[i], at[j],
-                                                                      m);
+                    s->phase->between[p][m][i][j] =
+                        phase_series_mode((AirPart)p, at[i], at[j], m) * weight;
                 for (int i = 0; i < DIFFUSE_COSINES; i++)
-                    s->phase->outwards[p][m][i][j] = phase_series_mode((AirPart)p, outwards[i],
-                                                                       at[j], m);
+                    s->phase->outwards[p][m][i][j] =
+                        phase_series_mode((AirPart)p, outwards[i], at[j], m) * weight;
                 s->phase->from_sun[p][m][j] = phase_series_mode((AirPart)p, at[j], sun, m);
             }
     }
@@ -110,28 +113,52 @@ static void scatter_beam(Solver *s)
             }
 }
 
-static Spectrum scattered(const Solver *s, const Spectrum *from, int level, int mode,
-                          const float *const phase[2])
+/* Four lanes: what a register of every x86-64 holds. */
+typedef float Quad __attribute__((vector_size(16)));
+#define QUADS (SPECTRUM_LANES / 4)
+
+/* Light of a level and a mode in all directions, and what both scatterers do to it. */
+typedef struct Scattering {
+    Quad        from[DIRECTIONS][QUADS];
+    Spectrum    share[2]; /* m^-1 */
+    int         first;    /* molecules have three modes: beyond, the aerosol is the first */
+} Scattering;
+
+static void start_scattering(const Solver *s, const Spectrum *from, int level, int mode,
+                             Scattering *out)
+{
+    for (int j = 0; j < DIRECTIONS; j++)
+        memcpy(out->from[j], &from[slot(level, j, mode)], sizeof out->from[j]);
+    for (int p = 0; p < 2; p++) out->share[p] = s->scattering[p][level];
+    out->first = mode > 2;
+}
+
+/* Into one direction, whose phases towards all others are given. */
+static void scattered(const Scattering *s, const float *const phase[2], Spectrum *out)
 {
     Spectrum sum[2] = {spectrum_all(0), spectrum_all(0)};
-    for (int p = mode > 2; p < 2; p++) /* molecules have three modes */
+    for (int p = s->first; p < 2; p++) {
+        Quad part[QUADS] = {{0}};
         for (int j = 0; j < DIRECTIONS; j++)
-            sum[p] += spectrum_all(phase[p][j] * (float)phase_weight[j % SIDE]) *
-                      from[slot(level, j, mode)];
-    return (s->scattering[0][level] * sum[0] + s->scattering[1][level] * sum[1]) *
-           spectrum_all(0.5f);
+            for (int q = 0; q < QUADS; q++) part[q] += phase[p][j] * s->from[j][q];
+        memcpy(&sum[p], part, sizeof part);
+    }
+    *out = (s->share[0] * sum[0] + s->share[1] * sum[1]) * spectrum_all(0.5f);
 }
 
 /* The next order's source from this order's radiance. */
 static void scatter_again(Solver *s)
 {
     for (int k = 0; k < DIFFUSE_LEVELS; k++)
-        for (int m = 0; m < DIFFUSE_MODES; m++)
+        for (int m = 0; m < DIFFUSE_MODES; m++) {
+            Scattering all;
+            start_scattering(s, s->radiance, k, m, &all);
             for (int i = 0; i < DIRECTIONS; i++) {
                 const float *phase[2] = {s->phase->between[0][m][i],
                                          s->phase->between[1][m][i]};
-                s->order_source[slot(k, i, m)] = scattered(s, s->radiance, k, m, phase);
+                scattered(&all, phase, &s->order_source[slot(k, i, m)]);
             }
+        }
 }
 
 /* The source lies between those of a layer's two ends, linear in optical depth. */
@@ -224,13 +251,16 @@ static float add_order(Solver *s)
 static void fill_source(Solver *s)
 {
     for (int k = 0; k < DIFFUSE_LEVELS; k++)
-        for (int i = 0; i < DIFFUSE_COSINES; i++)
-            for (int m = 0; m < DIFFUSE_MODES; m++) {
+        for (int m = 0; m < DIFFUSE_MODES; m++) {
+            Spectrum  *level = s->light->source + (size_t)(k * DIFFUSE_COSINES * DIFFUSE_MODES);
+            Scattering all;
+            start_scattering(s, s->total, k, m, &all);
+            for (int i = 0; i < DIFFUSE_COSINES; i++) {
                 const float *phase[2] = {s->phase->outwards[0][m][i],
                                          s->phase->outwards[1][m][i]};
-                s->light->source[((size_t)k * DIFFUSE_COSINES + (size_t)i) * DIFFUSE_MODES +
-                                 (size_t)m] = scattered(s, s->total, k, m, phase);
+                scattered(&all, phase, &level[i * DIFFUSE_MODES + m]);
             }
+        }
 }
 
 static Spectrum *spectra(Arena *arena, size_t count)
