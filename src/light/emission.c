@@ -12,6 +12,13 @@ static Vec3 interpolate(Vec3 a, Vec3 b, Vec3 c, float u, float v)
                 w * a.z + u * b.z + v * c.z);
 }
 
+Vec3 triangle_position(const Scene *scene, uint32_t triangle, float u, float v)
+{
+    const uint32_t *vertex = scene->triangles[triangle].vertex;
+    return interpolate(scene->positions[vertex[0]], scene->positions[vertex[1]],
+                       scene->positions[vertex[2]], u, v);
+}
+
 TrianglePoint triangle_point(const Scene *scene, uint32_t triangle, float u, float v)
 {
     const Triangle *t = &scene->triangles[triangle];

@@ -17,6 +17,9 @@ typedef struct TrianglePoint {
 
 TrianglePoint triangle_point(const Scene *scene, uint32_t triangle, float u, float v);
 
+/* Its position alone. */
+Vec3 triangle_position(const Scene *scene, uint32_t triangle, float u, float v);
+
 /* Texture coordinates of a slot, at a point and at a corner. */
 Vec2 slot_uv(const TextureSlot *slot, const TrianglePoint *point);
 Vec2 slot_corner_uv(const Scene *scene, const TextureSlot *slot, uint32_t triangle, int corner);

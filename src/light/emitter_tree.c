@@ -26,8 +26,12 @@ typedef struct Gathering {
     int      longest; /* axis along which the cells spread most */
 } Gathering;
 
+/* Sums that go side by side: x, y, z and one more. */
+typedef double Sums __attribute__((vector_size(32)));
+
 /* What the work asks of an emitter again and again. */
 typedef struct EmitterFacts {
+    Sums  normal_within2; /* both below */
     Vec3  normal;
     float edge;    /* m, the longest of a cell */
     float within2; /* m^2, mean square distance of its points from its middle: a 36th of the
@@ -83,6 +87,16 @@ static TrianglePoint cell_point(const TreeWork *work, uint32_t cell)
                           ((float)at.j + inside) * step);
 }
 
+/* The middle of a cell, as cell_point has it. */
+static Vec3 cell_position(const TreeWork *work, uint32_t cell)
+{
+    const Emitter *e = emitter_of(work, cell);
+    EmitterCell at = emitter_cell(e, cell);
+    float inside = at.is_turned ? 2 / 3.0f : 1 / 3.0f, step = 1 / (float)at.side;
+    return triangle_position(work->scene, e->triangle, ((float)at.i + inside) * step,
+                             ((float)at.j + inside) * step);
+}
+
 static EmitterFacts facts_about(const TreeWork *work, const Emitter *e)
 {
     EmitterFacts facts = {.part_id = (int)work->scene->triangles[e->triangle].part_id};
@@ -97,6 +111,8 @@ static EmitterFacts facts_about(const TreeWork *work, const Emitter *e)
         facts.within2 += vec3_dot(edge, edge) / (36 * (float)(e->side * e->side));
     }
     facts.normal = corner[0].ng;
+    facts.normal_within2 = (Sums){(double)facts.normal.x, (double)facts.normal.y,
+                                  (double)facts.normal.z, (double)facts.within2};
     facts.is_display = m->display_id != NO_ID;
     facts.both_sides = m->double_sided && !facts.is_display;
     return facts;
@@ -107,7 +123,7 @@ static void find_positions(TreeWork *work)
 {
     double *power = ARENA_NEW(work->arena, double, work->scene->part_count + 1);
     for (uint32_t c = 0; c < work->emitters->cell_count; c++) {
-        Vec3 p = cell_point(work, c).position;
+        Vec3 p = cell_position(work, c);
         int  part_id = part_id_of(work, c);
         work->position[c][0] = p.x;
         work->position[c][1] = p.y;
@@ -123,25 +139,25 @@ static void find_positions(TreeWork *work)
 /* Power, centre, extent, mean normal and part of a branch's cells. */
 static void measure(const TreeWork *work, Gathering *g)
 {
-    double squares[3] = {0};
-    g->power = g->spread2 = g->within2 = 0;
-    for (int k = 0; k < 3; k++) g->centre[k] = g->normal[k] = 0;
+    Sums places = {0}, normals = {0}, squares = {0}; /* the fourth: power; within2 */
     g->part_id = part_id_of(work, work->order[g->first]);
     for (uint32_t i = 0; i < g->count; i++) {
-        uint32_t cell = work->order[g->first + i];
-        double   w = work->weight[cell];
+        uint32_t     cell = work->order[g->first + i];
+        const float *p = work->position[cell];
         const EmitterFacts *facts = facts_of(work, cell);
-        const double normal[3] = {(double)facts->normal.x, (double)facts->normal.y,
-                                  (double)facts->normal.z};
         if (facts->part_id != g->part_id) g->part_id = NO_ID;
-        g->power += w;
-        g->within2 += w * (double)facts->within2;
-        for (int k = 0; k < 3; k++) {
-            double p = (double)work->position[cell][k];
-            g->centre[k] += w * p;
-            g->normal[k] += w * normal[k];
-            squares[k] += w * p * p;
-        }
+        Sums at = {(double)p[0], (double)p[1], (double)p[2], 1};
+        Sums weighed = at * work->weight[cell];
+        places += weighed;
+        squares += weighed * at;
+        normals += work->weight[cell] * facts->normal_within2;
+    }
+    g->power = places[3];
+    g->spread2 = 0;
+    g->within2 = normals[3];
+    for (int k = 0; k < 3; k++) {
+        g->centre[k] = places[k];
+        g->normal[k] = normals[k];
     }
     if (!(g->power > 0)) return;
     g->within2 /= g->power;

@@ -71,6 +71,22 @@ TEST(density_is_the_columns_derivative)
     }
 }
 
+/* Over 2 cm the column grows as the density just below says, where one layer of the standard
+ * atmosphere meets the next, too. */
+TEST(the_pressure_has_no_step_between_layers)
+{
+    (void)state;
+    static const double bases[7] = {11000, 20000, 32000, 47000, 51000, 71000, 84852};
+    AirOptics optics = air_optics(&usual);
+    optics.top_m = AIR_HIGHEST_TOP_M;
+    for (int i = 0; i < 7; i++) {
+        double column[AIR_PARTS], z = bases[i];
+        air_vertical(&optics, z - 0.01, z + 0.01, column);
+        double density = air_density(&optics, AIR_MOLECULES, z - 20);
+        assert_close(column[AIR_MOLECULES], 0.02 * density, 0.01);
+    }
+}
+
 TEST(phase_functions_integrate_to_one)
 {
     (void)state;

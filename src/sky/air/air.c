@@ -44,20 +44,23 @@ static double pressure_share(double altitude_m)
 {
     static const struct {
         double base_m, kelvin, lapse;
-    } layers[] = {{0, 288.15, -0.0065}, {11000, 216.65, 0}, {20000, 216.65, 0.001},
-                  {32000, 228.65, 0.0028}, {47000, 270.65, 0}, {51000, 270.65, -0.0028},
-                  {71000, 214.65, -0.002}, {84852, 186.946, 0}};
+        double share; /* at the base: the product of those of the layers below, to the bit */
+    } layers[] = {{0, 288.15, -0.0065, 1},
+                  {11000, 216.65, 0, 0x1.c97185201380cp-3},
+                  {20000, 216.65, 0.001, 0x1.baa34228e175cp-5},
+                  {32000, 228.65, 0.0028, 0x1.18b67433d4c94p-7},
+                  {47000, 270.65, 0, 0x1.1eee9c290d73dp-10},
+                  {51000, 270.65, -0.0028, 0x1.5a5cdee988f52p-11},
+                  {71000, 214.65, -0.002, 0x1.478c4e4948516p-15},
+                  {84852, 186.946, 0, 0x1.ee97b8130849fp-19}};
     const double g_over_r = 0.0341632; /* K m^-1 */
-    double share = 1;
-    for (int i = 0; i < 8; i++) {
-        double top = i < 7 ? layers[i + 1].base_m : 1e9, t = layers[i].kelvin;
-        double rise = fmin(altitude_m, top) - layers[i].base_m;
-        if (rise <= 0 && i) break;
-        share *= layers[i].lapse == 0
-                     ? exp_d(-g_over_r * rise / t)
-                     : pow_d(1 + layers[i].lapse * rise / t, -g_over_r / layers[i].lapse);
-    }
-    return share;
+    int i = 0;
+    while (i < 7 && altitude_m > layers[i + 1].base_m) i++;
+    double rise = altitude_m - layers[i].base_m, t = layers[i].kelvin;
+    return layers[i].share *
+           (layers[i].lapse == 0 ? exp_d(-g_over_r * rise / t)
+                                 : pow_d(1 + layers[i].lapse * rise / t,
+                                         -g_over_r / layers[i].lapse));
 }
 
 static double tent_above(double altitude_m)
