@@ -1,10 +1,9 @@
-/* index_tables.h -- the tables of energy.h for any index of refraction, most of them for nothing.
+/* index_tables.h -- the tables of energy.h for any index of refraction, most of them at once.
  *
  * Only the Fresnel curve's shape depends on the index. It is computed when the program is built
  * for INDEX_NODES indices (tables/make_tables.c); between those it is Lagrange's cubic through
- * the nearest four, at most 2e-5 away from what energy_table_build gives. A node's own table has
- * the bits of energy_table_build, and so has every index outside the nodes, whose table is
- * computed.
+ * four neighbours, at most 2e-5 away from what energy_table_build gives. A node's own table has
+ * the bits of energy_table_build; outside the nodes the table is computed.
  *
  * Memory   about 31 KiB in the caller's arena, none for 1.5. Threads: const once built.
  * Fails    never.

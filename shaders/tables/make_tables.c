@@ -57,7 +57,8 @@ int main(int count, char **names)
     Arena              arena = arena_reserve((size_t)1 << 28);
     const EnergyTable *energy = energy_table_build(CLEARCOAT_IOR, &arena);
     const CoatTable   *coat = coat_table_build(energy, energy, &arena);
-    fprintf(file, "#include \"shaders/common_tables.h\"\n#include \"shaders/index_tables.h\"\n");
+    fprintf(file, "#include \"shaders/common_tables.h\"\n"
+                  "#include \"shaders/index_tables.h\"\n");
     write_table(file, "EnergyTable common_energy_table", energy, sizeof *energy);
     write_table(file, "CoatTable common_coat_table", coat, sizeof *coat);
     write_shapes(file, &arena);

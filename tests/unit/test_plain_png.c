@@ -26,7 +26,8 @@ typedef struct Wish {
 
 static void put_u32(Bytes *b, unsigned long v)
 {
-    for (int shift = 24; shift >= 0; shift -= 8) b->data[b->size++] = (unsigned char)(v >> shift);
+    for (int shift = 24; shift >= 0; shift -= 8)
+        b->data[b->size++] = (unsigned char)(v >> shift);
 }
 
 static void put_part(Bytes *b, const char *type, const unsigned char *data, size_t size)
@@ -124,7 +125,8 @@ TEST(pixels_are_the_librarys_for_every_filter_size_and_kind)
     for (int kind = 0; kind < 4; kind++)
         for (int filter = -1; filter < 5; filter++)
             for (int side = 1; side <= SIDE_MAX; side += 13) {
-                Wish wish = {side, SIDE_MAX + 1 - side, COLOUR_TYPES[kind], 8, .filter = filter};
+                Wish wish = {side, SIDE_MAX + 1 - side, COLOUR_TYPES[kind], 8,
+                             .filter = filter};
                 assert_as_the_library(make_png(&wish, &dice));
                 wish.part_bytes = 7;
                 assert_as_the_library(make_png(&wish, &dice));
