@@ -3,6 +3,7 @@
 
 #include <ctype.h>
 #include <string.h>
+#include <zlib.h>
 
 #include "base/file.h"
 #include "image/colour.h"
@@ -44,21 +45,6 @@ static const char *format_of(const unsigned char *bytes, size_t size, const char
     return length > 4 && !strcmp(name + length - 4, ".tga") ? "targa" : NULL;
 }
 
-/* CRC-32 of ISO 3309 (PNG 1.2, annex D), four bits at a time. */
-static uint32_t crc_of(const unsigned char *bytes, size_t size)
-{
-    static const uint32_t TABLE[16] = {
-        0x00000000, 0x1db71064, 0x3b6e20c8, 0x26d930ac, 0x76dc4190, 0x6b6b51f4,
-        0x4db26158, 0x5005713c, 0xedb88320, 0xf00f9344, 0xd6d6a3e8, 0xcb61b38c,
-        0x9b64c2b0, 0x86d3d2d4, 0xa00ae278, 0xbdbdf21c};
-    uint32_t crc = 0xffffffffu;
-    for (size_t i = 0; i < size; i++) {
-        crc = TABLE[(crc ^ bytes[i]) & 15] ^ crc >> 4;
-        crc = TABLE[(crc ^ (uint32_t)bytes[i] >> 4) & 15] ^ crc >> 4;
-    }
-    return ~crc;
-}
-
 static uint32_t u32_at(const unsigned char *p)
 {
     return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
@@ -69,7 +55,7 @@ static bool is_damaged(const unsigned char *type, size_t length)
 {
     for (int i = 0; i < 4; i++)
         if (!isalpha(type[i])) return true;
-    return isupper(type[0]) && crc_of(type, length + 4) != u32_at(type + 4 + length);
+    return isupper(type[0]) && crc32(0, type, (uInt)(length + 4)) != u32_at(type + 4 + length);
 }
 
 /* The library stops at the last row, so that a picture cut behind it would pass as whole; and
