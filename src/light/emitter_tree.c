@@ -26,12 +26,8 @@ typedef struct Gathering {
     int      longest; /* axis along which the cells spread most */
 } Gathering;
 
-/* Sums that go side by side: x, y, z and one more. */
-typedef double Sums __attribute__((vector_size(32)));
-
 /* What the work asks of an emitter again and again. */
 typedef struct EmitterFacts {
-    Sums  normal_within2; /* both below */
     Vec3  normal;
     float edge;    /* m, the longest of a cell */
     float within2; /* m^2, mean square distance of its points from its middle: a 36th of the
@@ -111,8 +107,6 @@ static EmitterFacts facts_about(const TreeWork *work, const Emitter *e)
         facts.within2 += vec3_dot(edge, edge) / (36 * (float)(e->side * e->side));
     }
     facts.normal = corner[0].ng;
-    facts.normal_within2 = (Sums){(double)facts.normal.x, (double)facts.normal.y,
-                                  (double)facts.normal.z, (double)facts.within2};
     facts.is_display = m->display_id != NO_ID;
     facts.both_sides = m->double_sided && !facts.is_display;
     return facts;
@@ -139,25 +133,25 @@ static void find_positions(TreeWork *work)
 /* Power, centre, extent, mean normal and part of a branch's cells. */
 static void measure(const TreeWork *work, Gathering *g)
 {
-    Sums places = {0}, normals = {0}, squares = {0}; /* the fourth: power; within2 */
+    double squares[3] = {0};
+    g->power = g->spread2 = g->within2 = 0;
+    for (int k = 0; k < 3; k++) g->centre[k] = g->normal[k] = 0;
     g->part_id = part_id_of(work, work->order[g->first]);
     for (uint32_t i = 0; i < g->count; i++) {
-        uint32_t     cell = work->order[g->first + i];
-        const float *p = work->position[cell];
+        uint32_t cell = work->order[g->first + i];
+        double   w = work->weight[cell];
         const EmitterFacts *facts = facts_of(work, cell);
+        const double normal[3] = {(double)facts->normal.x, (double)facts->normal.y,
+                                  (double)facts->normal.z};
         if (facts->part_id != g->part_id) g->part_id = NO_ID;
-        Sums at = {(double)p[0], (double)p[1], (double)p[2], 1};
-        Sums weighed = at * work->weight[cell];
-        places += weighed;
-        squares += weighed * at;
-        normals += work->weight[cell] * facts->normal_within2;
-    }
-    g->power = places[3];
-    g->spread2 = 0;
-    g->within2 = normals[3];
-    for (int k = 0; k < 3; k++) {
-        g->centre[k] = places[k];
-        g->normal[k] = normals[k];
+        g->power += w;
+        g->within2 += w * (double)facts->within2;
+        for (int k = 0; k < 3; k++) {
+            double p = (double)work->position[cell][k];
+            g->centre[k] += w * p;
+            g->normal[k] += w * normal[k];
+            squares[k] += w * p * p;
+        }
     }
     if (!(g->power > 0)) return;
     g->within2 /= g->power;
