@@ -8,17 +8,22 @@
 #include "spectrum/photometry.h"
 
 #define LEAST_RAYS 8       /* to every mirror, and by its area in all of theirs */
-#define RAYS_BY_AREA 200000
+#define RAYS_BY_AREA 100000
+#define FIRST_ROOM 1024    /* for pairs */
 #define SHEETS_PASSED 16   /* by one ray behind its mirror */
-#define GENEROSITY 1.0f    /* they are asked at every hit where all light is theirs */
-#define LEAST 0.025f
+#define GENEROSITY 0.3f    /* by the root of their light over all other, of one mirror's part */
+#define LEAST 0.025f       /* the same where none came */
+#define CUBES 128          /* along the longest edge of a part's box, and at least so large: */
+#define LEAST_EDGE_M 1e-4f
+#define LEAST_LX 1e-6f     /* of other light */
 
 typedef struct Beams {
     const BeamTools *tools;
     Arena           *arena;
     MirrorPair      *pairs;
-    uint32_t         count;
-    double          *lm; /* that came to a side, one a row of LightSelection */
+    uint32_t         count, room;
+    BeamSide        *sides; /* as MirrorBeams's */
+    GlintMap         map;
 } Beams;
 
 /* One ray of the sun behind its mirror. */
@@ -26,7 +31,7 @@ typedef struct Beam {
     Ray      ray;
     uint32_t triangle;
     bool     is_rough;
-    double   lm;
+    float    lm;
 } Beam;
 
 static bool always_passes(void *user, const Hit *hit)
@@ -41,8 +46,11 @@ static void add_pair(Beams *beams, MirrorPair pair)
 {
     for (uint32_t i = beams->count; i > 0 && beams->pairs[i - 1].triangle == pair.triangle; i--)
         if (!mirrors_compare_pairs(&beams->pairs[i - 1], &pair)) return;
-    beams->pairs = ARENA_GROW(beams->arena, MirrorPair, beams->pairs, beams->count,
-                              beams->count + 1);
+    if (beams->count == beams->room) {
+        beams->room = beams->room ? 2 * beams->room : FIRST_ROOM;
+        beams->pairs = ARENA_GROW(beams->arena, MirrorPair, beams->pairs, beams->count,
+                                  beams->room);
+    }
     beams->pairs[beams->count++] = pair;
 }
 
@@ -65,7 +73,10 @@ static void follow(Beams *beams, Beam beam)
         int part_id = (int)scene->triangles[hit.triangle].part_id;
         if (is_asked_of(scene, part_id, &beam)) {
             add_pair(beams, (MirrorPair){part_id, beam.is_rough, beam.triangle});
-            beams->lm[2 * part_id + (vec3_dot(point.ng, beam.ray.direction) > 0)] += beam.lm;
+            const BeamSide *side =
+                &beams->sides[2 * part_id + (vec3_dot(point.ng, beam.ray.direction) > 0)];
+            GlintPlace place = {side->row, side->edge_m, point.position};
+            glint_map_add(&beams->map, &place, beam.lm, beams->arena);
         }
         if (hit.triangle < scene->opaque_count) return;
         beam.ray.origin = ray_offset_origin(point.position, point.ng, beam.ray.direction);
@@ -100,33 +111,38 @@ typedef struct Aim {
     double   ray_m2; /* that one ray stands for */
 } Aim;
 
-/* The sampler's numbers in turn: wavelengths, place, direction, facet. */
-static void send_ray(Beams *beams, const Aim *aim, Sampler sampler)
+/* The sampler's numbers in turn: wavelengths, place, direction, facet. False: no sun comes to
+ * the mirror there, or it goes nowhere. */
+static bool send_ray(Beams *beams, const Aim *aim, Sampler sampler)
 {
     const BeamTools *tools = beams->tools;
     Wavelengths wavelengths;
     Surface     mirror;
     LightSample sun;
-    wavelengths_sample(sampler_1d(&sampler), &wavelengths);
-    Vec2 at = sampler_2d(&sampler), disc = sampler_2d(&sampler), lean = sampler_2d(&sampler);
-    const float u[3] = {disc.x, disc.y, 0};
+    float first[4], last[4];
+    sampler_4d(&sampler, first);
+    sampler_4d(&sampler, last);
+    Vec2 at = {first[2], first[3]}, lean = {last[2], last[3]};
+    const float u[3] = {last[0], last[1], 0};
     if (at.x + at.y > 1) at = (Vec2){1 - at.x, 1 - at.y};
     Hit hit = {0, at.x, at.y, aim->triangle};
     TrianglePoint point = triangle_point(tools->scene, aim->triangle, at.x, at.y);
     LitPoint      place = {point.position, point.ns, true};
-    if (!lights_sample(tools->lights, LIGHTS_SUN, place, u, &sun)) return;
+    if (!lights_sample(tools->lights, LIGHTS_SUN, place, u, &sun)) return false;
     Vec3 n = aim->alpha > 0 ? facet_normal(point.ns, aim->alpha, lean) : point.ns;
     Vec3 r = vec3_sub(vec3_scale(n, 2 * vec3_dot(n, sun.wi)), sun.wi);
-    if (!(vec3_dot(point.ng, r) * vec3_dot(point.ng, sun.wi) > 0)) return;
+    if (!(vec3_dot(point.ng, r) * vec3_dot(point.ng, sun.wi) > 0)) return false;
     Vec3 origin = ray_offset_origin(point.position, point.ng, r);
     if (bvh_occluded(tools->bvh, (Ray){origin, sun.wi, 0, INFINITY}, always_passes, NULL))
-        return;
+        return false;
+    wavelengths_sample(first[0], &wavelengths);
     surface_at(tools->scene, tools->tables, &hit, r, &wavelengths, &mirror);
     double lx = reflected_lx(tools->lights, &mirror, &sun, frame_to_local(&mirror.frame, r),
                              &wavelengths);
-    if (lx > 0)
-        follow(beams, (Beam){{origin, r, 0, INFINITY}, aim->triangle, aim->alpha > 0,
-                             lx * aim->ray_m2});
+    if (!(lx > 0)) return false;
+    follow(beams, (Beam){{origin, r, 0, INFINITY}, aim->triangle, aim->alpha > 0,
+                         (float)(lx * aim->ray_m2)});
+    return true;
 }
 
 static double area_m2(const Scene *scene, uint32_t triangle)
@@ -136,14 +152,15 @@ static double area_m2(const Scene *scene, uint32_t triangle)
     return 0.5 * (double)vec3_length(vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0])));
 }
 
-/* More to large ones. all_m2: of all that are aimed at. */
+/* More to large ones; a small one that is dark at four well spread places is left alone.
+ * all_m2: of all that are aimed at. */
 static void send_rays(Beams *beams, Aim aim, double all_m2)
 {
     double   own = area_m2(beams->tools->scene, aim.triangle);
-    uint32_t rays = LEAST_RAYS + (uint32_t)(RAYS_BY_AREA * own / all_m2);
+    uint32_t rays = LEAST_RAYS + (uint32_t)(RAYS_BY_AREA * own / all_m2), sent = 0;
     aim.ray_m2 = own / rays;
-    for (uint32_t k = 0; k < rays; k++)
-        send_ray(beams, &aim, sampler_start(aim.alpha > 0, (int)aim.triangle, 0, k));
+    for (uint32_t k = 0; k < rays && (sent || k < LEAST_RAYS / 2 || rays > 2 * LEAST_RAYS); k++)
+        sent += send_ray(beams, &aim, sampler_start(aim.alpha > 0, (int)aim.triangle, 0, k));
 }
 
 /* To what of each material is smooth, and to what is rough. */
@@ -164,35 +181,72 @@ static void send_all_rays(Beams *beams)
         }
 }
 
-/* What lets light through is lit from both of its sides. */
-static float *weigh_parts(const Scene *scene, const double *lm,
-                          const LightSelection *selection, Arena *arena)
+/* The longest edge of the box about a part. */
+static float longest_edge(const Scene *scene, const Part *part)
 {
-    float *prob = ARENA_NEW(arena, float, 2 * ((size_t)scene->part_count + 1));
-    for (int part_id = 0; part_id < scene->part_count; part_id++) {
-        const Part *part = &scene->parts[part_id];
-        double m2 = 0, all = lm[2 * part_id] + lm[2 * part_id + 1];
-        bool   is_sheet = scene->materials[part->material_id].transmission > 0;
-        for (uint32_t i = 0; i < part->triangle_count; i++)
-            m2 += area_m2(scene, part->first_triangle + i);
-        for (int row = 2 * part_id; row < 2 * part_id + 2; row++) {
-            float lx = m2 > 0 ? (float)((is_sheet ? all : lm[row]) / m2) : 0;
-            float share = lx > 0 ? lx / (lx + selection->lx[row]) : 0;
-            prob[row] = clampf(GENEROSITY * share, LEAST, 1);
-        }
+    Vec3 low = vec3(INFINITY, INFINITY, INFINITY), high = vec3_neg(low);
+    for (uint32_t i = 0; i < 3 * part->triangle_count; i++) {
+        Vec3 p = scene_corner(scene, part->first_triangle + i / 3, (int)(i % 3));
+        low = vec3(fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z));
+        high = vec3(fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z));
     }
-    return prob;
+    Vec3 size = vec3_sub(high, low);
+    return fmaxf(fmaxf(size.x, size.y), size.z);
+}
+
+/* What lets light through is lit from both of its sides: they have one row. */
+static void measure_sides(const Scene *scene, BeamSide *sides)
+{
+    for (int id = 0; id < scene->part_count; id++) {
+        const Part *part = &scene->parts[id];
+        bool  is_sheet = scene->materials[part->material_id].transmission > 0;
+        float edge = fmaxf(longest_edge(scene, part) / CUBES, LEAST_EDGE_M);
+        for (int k = 0; k < 2; k++)
+            sides[2 * id + k] = (BeamSide){.row = (uint32_t)(2 * id + (is_sheet ? 0 : k)),
+                                           .edge_m = edge};
+    }
+}
+
+/* With probability q an answer of the worth c adds c^2 / q to a pixel's variance, and takes q
+ * times its time: the least of both together has q along c over the root of the time, and the
+ * time grows about as the root of the mirrors asked. Measured over views of both cockpits the
+ * root of c does better than c, which is known by a few rays. */
+static void weigh_sides(const Beams *beams, const LightSelection *selection)
+{
+    const Scene *scene = beams->tools->scene;
+    Arena     scratch = *beams->arena;
+    uint32_t *mirrors = ARENA_NEW(&scratch, uint32_t, scene->part_count + 1);
+    for (uint32_t i = 0; i < beams->count; i++)
+        if (beams->pairs[i].part_id != NO_ID) mirrors[beams->pairs[i].part_id]++;
+    for (int row = 0; row < 2 * scene->part_count; row++) {
+        BeamSide *side = &beams->sides[row];
+        float     time = sqrtf(sqrtf((float)mirrors[row / 2]));
+        if (!mirrors[row / 2]) continue;
+        side->least = LEAST / time;
+        side->by_root = GENEROSITY / (time * sqrtf(fmaxf(selection->lx[row], LEAST_LX)));
+    }
 }
 
 MirrorBeams mirror_beams_build(const BeamTools *tools, const LightSelection *selection,
                                Arena *arena)
 {
     Beams beams = {.tools = tools, .arena = arena};
-    if (!lights_has(tools->lights, LIGHTS_SUN)) return (MirrorBeams){NULL, NULL};
-    beams.lm = ARENA_NEW(arena, double, 2 * ((size_t)tools->scene->part_count + 1));
+    if (!lights_has(tools->lights, LIGHTS_SUN)) return (MirrorBeams){.mirrors = NULL};
+    beams.sides = ARENA_NEW(arena, BeamSide, 2 * ((size_t)tools->scene->part_count + 1));
+    measure_sides(tools->scene, beams.sides);
     send_all_rays(&beams);
-    if (!beams.count) return (MirrorBeams){NULL, NULL};
+    if (!beams.count) return (MirrorBeams){.mirrors = NULL};
     qsort(beams.pairs, beams.count, sizeof *beams.pairs, mirrors_compare_pairs);
+    weigh_sides(&beams, selection);
     return (MirrorBeams){mirrors_build(tools->scene, beams.pairs, beams.count, arena),
-                         weigh_parts(tools->scene, beams.lm, selection, arena)};
+                         beams.sides, beams.map};
+}
+
+float mirror_beams_prob(const MirrorBeams *beams, int part_id, bool is_back, Vec3 position)
+{
+    if (part_id == NO_ID) return 1;
+    const BeamSide *side = &beams->sides[2 * part_id + is_back];
+    GlintPlace place = {side->row, side->edge_m, position};
+    if (!(side->least > 0)) return 0;
+    return fminf(side->least + side->by_root * sqrtf(glint_map_lx(&beams->map, &place)), 1);
 }

@@ -2,19 +2,29 @@
  *
  * Before the first path some rays of the sun are followed to every mirror, and by it to what
  * they light. A part asks those mirrors alone whose rays came to it: any other light by way of
- * a mirror is rare, and left to chance. Where they give little of a part's light they are asked
- * less often, and count more when they are, as the sets of lights are (light_selection.h).
+ * a mirror is rare, and left to chance. Where these rays bring little light to a place, by that
+ * of the lights themselves, mirrors are asked less often there, and count more when they are.
  *
  * Memory   from the arena. Threads: const after mirror_beams_build.
  */
 #pragma once
 #include "mirror/mirrors.h"
+#include "path/glint_map.h"
 #include "path/light_selection.h"
 #include "path/surface.h"
 
+/* Of one side of a part. */
+typedef struct BeamSide {
+    uint32_t row; /* in the map */
+    float    edge_m;
+    float    least;   /* probability of asking where no ray came; 0: it has no mirrors */
+    float    by_root; /* more of it by the root of what the rays bring, lx */
+} BeamSide;
+
 typedef struct MirrorBeams {
-    const Mirrors *mirrors; /* NULL: none sends the sun anywhere */
-    const float   *prob;    /* of asking them, rows as LightSelection's */
+    const Mirrors  *mirrors; /* NULL: none sends the sun anywhere */
+    const BeamSide *sides;   /* rows as LightSelection's */
+    GlintMap        map;     /* where the rays came */
 } MirrorBeams;
 
 /* What a scene's rays and lights are asked with. */
@@ -29,8 +39,6 @@ typedef struct BeamTools {
 MirrorBeams mirror_beams_build(const BeamTools *tools, const LightSelection *selection,
                                Arena *arena);
 
-/* Seen from the side, as of light_selection_of_side. */
-static inline float mirror_beams_prob(const MirrorBeams *beams, int part_id, bool is_back)
-{
-    return part_id == NO_ID ? 1 : beams->prob[2 * part_id + is_back];
-}
+/* HOT. Of asking a part's mirrors, in [0, 1], seen from the side, as of
+ * light_selection_of_side; 0: it has none. */
+float mirror_beams_prob(const MirrorBeams *beams, int part_id, bool is_back, Vec3 position);

@@ -309,8 +309,9 @@ static void add_mirrored_sun(void *user, uint32_t triangle, const ReflectionPoin
     walk->gathered.radiance += share * visibility(walk, surface, &mirror.light);
 }
 
-/* The mirror is one more vertex: none is asked where the path would end before it. */
-static void add_mirrored_suns(PathWalk *walk, const Surface *surface, Vec3 wo)
+/* u: of the sun's disc. */
+static void ask_mirrors(PathWalk *walk, const Surface *surface, Vec3 wo, const float u[4],
+                        float prob)
 {
     const PathContext *context = walk->context;
     MirrorWalk asked = {walk, surface, wo,
@@ -318,15 +319,6 @@ static void add_mirrored_suns(PathWalk *walk, const Surface *surface, Vec3 wo)
                          .wavelengths = walk->wavelengths, .from = surface->position}};
     LitPoint     point = {surface->position, surface->frame.z, true}; /* from any side */
     LightSample *sun = &asked.question.sun;
-    if (!asks_mirrors(context) || walk->medium_id != NO_ID ||
-        walk->bounce + 1 >= context->max_bounces)
-        return;
-    float u[4], prob = mirror_beams_prob(&context->beams, surface->part_id,
-                                         vec3_dot(wo, surface->ng) < 0) *
-                       (walk->bounce < DEEP_BOUNCE ? 1 : DEEP_SHARE);
-    numbers_for(walk, NUMBERS_MIRRORS);
-    sampler_4d(walk->sampler, u);
-    if (!unit_choose(&u[0], prob)) return;
     if (!lights_sample(context->lights, LIGHTS_SUN, point, u, sun)) return;
     asked.question.radiance = lights_radiance(context->lights, sun, walk->wavelengths);
     sun->pdf *= prob;
@@ -335,6 +327,23 @@ static void add_mirrored_suns(PathWalk *walk, const Surface *surface, Vec3 wo)
     query.is_rough = asked.question.is_rough = true;
     query.u = sampler_2d(walk->sampler);
     mirrors_find(context->beams.mirrors, &query, add_mirrored_sun, &asked);
+}
+
+/* The mirror is one more vertex: none is asked where the path would end before it. */
+static void add_mirrored_suns(PathWalk *walk, const Surface *surface, Vec3 wo)
+{
+    const PathContext *context = walk->context;
+    if (!asks_mirrors(context) || walk->medium_id != NO_ID ||
+        walk->bounce + 1 >= context->max_bounces)
+        return;
+    float prob = mirror_beams_prob(&context->beams, surface->part_id,
+                                   vec3_dot(wo, surface->ng) < 0, surface->position) *
+                 (walk->bounce < DEEP_BOUNCE ? 1 : DEEP_SHARE);
+    if (!(prob > 0)) return;
+    float u[4];
+    numbers_for(walk, NUMBERS_MIRRORS);
+    sampler_4d(walk->sampler, u);
+    if (unit_choose(&u[0], prob)) ask_mirrors(walk, surface, wo, u, prob);
 }
 
 static void add_light_samples(PathWalk *walk, const Surface *surface, Vec3 wo,

@@ -16,7 +16,10 @@ static bool is_plain(const Scene *scene, const Surface *mirror, Vec3 wo)
 bool sun_mirror_is_known(const Scene *scene, const Mirrors *mirrors, MirrorPair pair,
                          const Surface *mirror, Vec3 wo)
 {
-    return mirrors_have(mirrors, pair) && is_plain(scene, mirror, wo);
+    if (mirror->material_id == NO_ID) return false;
+    bool may_be = !pair.is_rough ||
+                  mirrors_rough_alpha(&scene->materials[mirror->material_id]) > 0;
+    return may_be && mirrors_have(mirrors, pair) && is_plain(scene, mirror, wo);
 }
 
 /* Light that leaves the solid angle dw around wo reached it from dw / spread around the sun's

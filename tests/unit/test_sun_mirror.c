@@ -204,6 +204,25 @@ TEST(a_rings_caustic_takes_a_thirtieth_of_the_samples)
     world_end(&world);
 }
 
+/* Inside the ring the table lies in its light; outside and below nothing comes. */
+TEST(mirrors_are_asked_where_their_light_falls)
+{
+    (void)state;
+    World world = ring_world(0.26645);
+    const MirrorBeams *beams = &world.context.beams;
+    float least = mirror_beams_prob(beams, 0, false, vec3(1.7f, 0, 1.7f));
+    assert_true(least > 0 && least < 0.03f);
+    for (int i = 0; i < 10; i++) {
+        Vec3  inside = vec3(0, 0, -0.55f - 0.04f * (float)i);
+        float prob = mirror_beams_prob(beams, 0, false, inside);
+        if (!(prob > 5 * least && prob <= 1))
+            fail_msg("%g m: %g", (double)inside.z, (double)prob);
+    }
+    assert_true(mirror_beams_prob(beams, 0, true, vec3(0, 0, -0.7f)) <= least);
+    assert_true(mirror_beams_prob(beams, NO_ID, false, vec3(0, 0, 0)) == 1);
+    world_end(&world);
+}
+
 int main(void)
 {
     return run_cases(NULL, NULL);

@@ -1,0 +1,44 @@
+/* glint_map.h -- how much light landed where, on which side of which part.
+ *
+ * Light is counted in cubes of two sizes, a fine one for small glints and one eight times as
+ * large where few rays came. Each landing counts in the eight cubes next to it, so that a
+ * place near a glint is not taken for a dark one. Cubes that got light stand in a hash table.
+ *
+ * Memory   from the arena: 8 bytes a cube, and up to four times as much for what is free
+ *          or was left behind when a table grew.
+ * Threads  one may add; const after the last glint_map_add.
+ */
+#pragma once
+#include <stdint.h>
+
+#include "base/arena.h"
+#include "base/vec.h"
+
+#define GLINT_SIZES 2
+
+typedef struct GlintCube {
+    uint32_t tag; /* of which row and place; 0: free */
+    float    lm;
+} GlintCube;
+
+typedef struct GlintTable {
+    GlintCube *cubes;
+    uint32_t   room, count; /* room: a power of two, or 0 */
+} GlintTable;
+
+typedef struct GlintMap {
+    GlintTable size[GLINT_SIZES]; /* fine, coarse */
+} GlintMap;
+
+/* row: a number that tells the sides of parts apart; edge_m: above 0, of its fine cubes, the
+ * same whenever the row is named. */
+typedef struct GlintPlace {
+    uint32_t row;
+    float    edge_m;
+    Vec3     position; /* m */
+} GlintPlace;
+
+void glint_map_add(GlintMap *map, const GlintPlace *place, float lm, Arena *arena);
+
+/* HOT. Illuminance there, about, lx: the greater of both sizes; 0 where nothing landed. */
+float glint_map_lx(const GlintMap *map, const GlintPlace *place);
