@@ -35,8 +35,8 @@ void guide_view(const LightGuide *guide, uint32_t cell, const GuideSurface *surf
     float n_wo = fmaxf(vec3_dot(n, wo), 0), alpha2 = surface->alpha * surface->alpha;
     float k = 0.5f * surface->alpha;
     float scale = 0.25f * alpha2 / (n_wo * (1 - k) + k + 1e-6f);
-    Spectrum one = spectrum_all(1), none = spectrum_all(0), column = none;
-    view->sum = 0;
+    Spectrum one = spectrum_all(1), none = spectrum_all(0), column[GUIDE_AIMS] = {none, none};
+    for (int aim = 0; aim < GUIDE_AIMS; aim++) view->towards[aim].sum = 0;
     if (!(from->is_lit > 0)) return;
     for (int row = 0; row < GUIDE_SIDE; row++) {
         Spectrum x = guide->bin[0][row], y = guide->bin[1][row], z = guide->bin[2][row];
@@ -56,11 +56,17 @@ void guide_view(const LightGuide *guide, uint32_t cell, const GuideSurface *surf
             share += spectrum_all(scale) * fresnel /
                      (wide * wide * (lit * spectrum_all(1 - k) + spectrum_all(k)));
         }
-        view->weight[row] = from->light[row] * lit * share;
-        column += view->weight[row];
+        share *= lit;
+        for (int aim = 0; aim < GUIDE_AIMS; aim++) {
+            Spectrum weight = from->light[aim][row] * share;
+            view->towards[aim].weight[row] = weight;
+            column[aim] += weight;
+        }
     }
-    view->column = column;
-    view->sum = spectrum_sum(column);
+    for (int aim = 0; aim < GUIDE_AIMS; aim++) {
+        view->towards[aim].column = column[aim];
+        view->towards[aim].sum = spectrum_sum(column[aim]);
+    }
 }
 
 /* Square of the map for a unit direction, each coordinate in [0, GUIDE_SIDE]. */
@@ -109,12 +115,12 @@ void guide_place_bins(LightGuide *guide)
     }
 }
 
-float guide_pdf(const GuideView *view, Vec3 wi)
+float guide_pdf(const GuideChoice *choice, Vec3 wi)
 {
     float taxicab;
     Vec2  at = map_of(wi, &taxicab);
-    float area = view->sum * (4.0f / GUIDE_BINS);
-    return view->weight[square(at.y)][square(at.x)] / (area * taxicab * taxicab * taxicab);
+    float area = choice->sum * (4.0f / GUIDE_BINS);
+    return choice->weight[square(at.y)][square(at.x)] / (area * taxicab * taxicab * taxicab);
 }
 
 /* Which of the 16 weights of sum `sum` u falls on; *rest: where in it, [0, 1). */
@@ -135,12 +141,12 @@ static int choose(const float weight[GUIDE_SIDE], float sum, float u, float *res
     return last;
 }
 
-Vec3 guide_sample(const GuideView *view, float u0, float u1)
+Vec3 guide_sample(const GuideChoice *choice, float u0, float u1)
 {
     float weight[GUIDE_SIDE], at_x, at_y;
-    for (int i = 0; i < GUIDE_SIDE; i++) weight[i] = view->column[i];
-    int x = choose(weight, view->sum, u0, &at_x);
-    for (int i = 0; i < GUIDE_SIDE; i++) weight[i] = view->weight[i][x];
-    int   y = choose(weight, view->column[x], u1, &at_y);
+    for (int i = 0; i < GUIDE_SIDE; i++) weight[i] = choice->column[i];
+    int x = choose(weight, choice->sum, u0, &at_x);
+    for (int i = 0; i < GUIDE_SIDE; i++) weight[i] = choice->weight[i][x];
+    int   y = choose(weight, choice->column[x], u1, &at_y);
     return direction_at((float)x + at_x, (float)y + at_y);
 }

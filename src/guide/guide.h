@@ -2,7 +2,8 @@
  * paths are led by.
  *
  * The scene's box is cut into cells by a tree of halves. A cell knows the radiance that arrives
- * from each of 256 bins of direction: squares of the octahedral map of the whole sphere, on
+ * from each of 256 bins of direction, from the sky that is seen there by itself and from all
+ * else by itself: squares of the octahedral map of the whole sphere, on
  * which a direction d has the coordinates d / (|x| + |y| + |z|), the lower half turned up into
  * the corners (Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit
  * Vectors"). A piece dA of the map is the solid angle (|x| + |y| + |z|)^3 dA.
@@ -23,8 +24,12 @@
 
 #define GUIDE_LIGHTS 4 /* sets of lights that a surface may sample */
 
+/* What a surface looks for: light that comes by way of other surfaces, or the sky, straight or
+ * through windows. */
+typedef enum GuideAim { GUIDE_LIGHT, GUIDE_SKY, GUIDE_AIMS } GuideAim;
+
 typedef struct GuideCell {
-    Spectrum light[GUIDE_SIDE]; /* through each bin, in any unit: lane x of row y */
+    Spectrum light[GUIDE_AIMS][GUIDE_SIDE]; /* through each bin, in any unit: lane x of row y */
     float    asked[GUIDE_LIGHTS]; /* with which probability a surface samples each set */
     float    is_lit;              /* 1: it has learnt something; else 0 */
 } GuideCell;
@@ -48,11 +53,16 @@ typedef struct LightGuide {
     Spectrum   bin[3][GUIDE_SIDE]; /* x, y, z of every bin's middle, a unit vector */
 } LightGuide;
 
-/* The guide as one surface sees it. */
-typedef struct GuideView {
+/* Directions to choose from. */
+typedef struct GuideChoice {
     Spectrum weight[GUIDE_SIDE]; /* of every bin */
     Spectrum column;             /* their sums */
     float    sum;                /* 0: nothing to go by */
+} GuideChoice;
+
+/* The guide as one surface sees it. */
+typedef struct GuideView {
+    GuideChoice towards[GUIDE_AIMS];
 } GuideView;
 
 /* Id of the cell in which a point lies; points outside belong to a cell at the edge. */
@@ -69,10 +79,10 @@ void guide_view(const LightGuide *guide, uint32_t cell, const GuideSurface *surf
                 GuideView *view);
 
 /* Of a unit direction: density with which guide_sample chooses it. */
-float guide_pdf(const GuideView *view, Vec3 wi);
+float guide_pdf(const GuideChoice *choice, Vec3 wi);
 
-/* u0, u1 in [0, 1). The view's sum must be above 0. */
-Vec3 guide_sample(const GuideView *view, float u0, float u1);
+/* u0, u1 in [0, 1). The choice's sum must be above 0. */
+Vec3 guide_sample(const GuideChoice *choice, float u0, float u1);
 
 /* The middles of all bins. */
 void guide_place_bins(LightGuide *guide);

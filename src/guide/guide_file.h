@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "guide/guide.h"
 
-#define GUIDE_VERSION 1u
+#define GUIDE_VERSION 2u
 
 /* All that decides where a guide leads; never 0. */
 uint64_t guide_hash(const LightGuide *guide);

@@ -105,7 +105,8 @@ GuideTraining *guide_training_start(GuidePlace *places, uint32_t count, uint32_t
     guide->cells = ARENA_NEW(arena, GuideCell, guide->cell_count);
     training->lessons = ARENA_NEW(arena, GuideLesson, guide->cell_count);
     for (uint32_t i = 0; i < guide->cell_count; i++) {
-        training->lessons[i].sums = ARENA_NEW(arena, float, GUIDE_BINS);
+        for (int aim = 0; aim < GUIDE_AIMS; aim++)
+            training->lessons[i].sums[aim] = ARENA_NEW(arena, float, GUIDE_BINS);
         training->lessons[i].counts = ARENA_NEW(arena, uint32_t, GUIDE_BINS);
     }
     guide_place_bins(guide);
@@ -130,23 +131,30 @@ void guide_training_ask(GuideTraining *training, int points, int round)
 }
 
 /* The luminance times the solid angle of a bin, up to a factor. */
-static double bin_light(const GuideLesson *lesson, int bin)
+static double bin_light(const GuideLesson *lesson, GuideAim aim, int bin)
 {
     Vec3   d = guide_bin_direction(bin, 0.5f, 0.5f);
     double taxicab = (double)(fabsf(d.x) + fabsf(d.y) + fabsf(d.z));
     if (!lesson->counts[bin]) return 0;
-    return (double)lesson->sums[bin] / lesson->counts[bin] * taxicab * taxicab * taxicab;
+    return (double)lesson->sums[aim][bin] / lesson->counts[bin] * taxicab * taxicab * taxicab;
 }
 
 /* A little is left everywhere: what the lesson did not find may be there all the same. */
-static void learn_cell(const GuideLesson *lesson, GuideCell *cell)
+static bool learn_aim(const GuideLesson *lesson, GuideAim aim, Spectrum out[GUIDE_SIDE])
 {
     double light[GUIDE_BINS], total = 0;
-    for (int i = 0; i < GUIDE_BINS; i++) total += light[i] = bin_light(lesson, i);
-    cell->is_lit = total > 0;
+    for (int i = 0; i < GUIDE_BINS; i++) total += light[i] = bin_light(lesson, aim, i);
     for (int i = 0; i < GUIDE_BINS && total > 0; i++)
-        cell->light[i / GUIDE_SIDE][i % GUIDE_SIDE] =
+        out[i / GUIDE_SIDE][i % GUIDE_SIDE] =
             (float)((1 - LEAST) * light[i] / total + LEAST / GUIDE_BINS);
+    return total > 0;
+}
+
+static void learn_cell(const GuideLesson *lesson, GuideCell *cell)
+{
+    bool has_light = learn_aim(lesson, GUIDE_LIGHT, cell->light[GUIDE_LIGHT]);
+    bool has_sky = learn_aim(lesson, GUIDE_SKY, cell->light[GUIDE_SKY]);
+    cell->is_lit = has_light || has_sky;
 }
 
 void guide_training_learn(GuideTraining *training)
@@ -165,7 +173,7 @@ double guide_training_illuminance(const GuideTraining *training, uint32_t cell)
             Vec3  d = guide_bin_direction(i, 0.5f, 0.5f);
             float cosine = vec3_dot(d, training->places[p].normal);
             if (!(cosine > 0)) continue;
-            sum += bin_light(lesson, i) * (double)cosine;
+            sum += bin_light(lesson, GUIDE_LIGHT, i) * (double)cosine;
         }
     return end > first ? sum * 4 / GUIDE_BINS / (double)(end - first) : 0;
 }

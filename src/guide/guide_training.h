@@ -21,7 +21,7 @@ typedef struct GuidePlace {
 typedef struct GuideLesson {
     GuidePlace points[GUIDE_POINTS_MAX];
     int        point_count;
-    float     *sums; /* of luminances, one a bin, over all rounds */
+    float     *sums[GUIDE_AIMS]; /* of luminances, one a bin, over all rounds */
     uint32_t  *counts;
 } GuideLesson;
 
@@ -37,10 +37,11 @@ typedef struct GuideTraining {
 GuideTraining *guide_training_start(GuidePlace *places, uint32_t count, uint32_t most,
                                     Arena *arena);
 
-/* HOT. A ray of the cell's lesson into a bin found the luminance cd_m2. */
-static inline void guide_lesson_add(const GuideLesson *lesson, int bin, float cd_m2)
+/* HOT. A ray of the cell's lesson into a bin found these luminances, cd m^-2. */
+static inline void guide_lesson_add(const GuideLesson *lesson, int bin,
+                                    const float cd_m2[GUIDE_AIMS])
 {
-    lesson->sums[bin] += cd_m2;
+    for (int aim = 0; aim < GUIDE_AIMS; aim++) lesson->sums[aim][bin] += cd_m2[aim];
     lesson->counts[bin]++;
 }
 
@@ -50,5 +51,5 @@ void guide_training_ask(GuideTraining *training, int points, int round);
 /* Makes the guide of what was found so far. */
 void guide_training_learn(GuideTraining *training);
 
-/* Illuminance, lx, of the cell's points by what the lessons found, their mean. */
+/* Illuminance, lx, of the cell's points by what the lessons found but the sky, their mean. */
 double guide_training_illuminance(const GuideTraining *training, uint32_t cell);

@@ -9,6 +9,7 @@
 #include "camera/camera.h"
 #include "film/film.h"
 #include "guide/guide_training.h"
+#include "path/cell_lights.h"
 #include "path/path.h"
 
 /* Work on a rectangle of pixels: the seam between the render loop and the kernel. */

@@ -133,13 +133,15 @@ static void lesson_learn(const LessonJob *job, uint32_t cell, PathStatistics *st
             Sampler sampler = sampler_start(job->seed, (int)cell, bin,
                                             job->index + (uint32_t)i);
             Vec2    at = sampler_2d(&sampler);
-            Vec3    direction = guide_bin_direction(bin, at.x, at.y);
-            LitPoint point = {lesson->points[i].position, lesson->points[i].normal, false};
+            PathArrival arrival = {
+                {lesson->points[i].position, lesson->points[i].normal, false},
+                guide_bin_direction(bin, at.x, at.y)};
             Wavelengths wavelengths;
-            if (!(vec3_dot(direction, point.ns) > 0)) continue;
+            if (!(vec3_dot(arrival.towards, arrival.point.ns) > 0)) continue;
             wavelengths_sample(sampler_1d(&sampler), &wavelengths);
-            guide_lesson_add(lesson, bin, path_arriving(job->context, point, direction,
-                                                        &wavelengths, &sampler, statistics));
+            float cd_m2[GUIDE_AIMS];
+            path_arriving(job->context, &arrival, &wavelengths, &sampler, cd_m2, statistics);
+            guide_lesson_add(lesson, bin, cd_m2);
         }
 }
 
@@ -151,12 +153,8 @@ static void lesson_try_lights(const LessonJob *job, uint32_t cell, PathStatistic
     statistics->shadow_rays += LIGHT_SETS * (uint64_t)(end - first);
     for (uint32_t i = first; i < end; i++) {
         Sampler   sampler = sampler_start(job->seed + 1, (int)cell, 0, i - first);
-        Vec3      n = training->places[i].normal;
-        GuideView view;
-        guide_view(context->guide, cell, &(GuideSurface){n, n, 1, 0, 0, 0}, &view);
-        light_selection_try(context->bvh, context->lights,
-                            (LitPoint){training->places[i].position, n, false}, &view,
-                            &sampler, &job->finds[cell]);
+        LitPoint  point = {training->places[i].position, training->places[i].normal, false};
+        cell_lights_try(context, point, cell, &sampler, &job->finds[cell]);
     }
 }
 

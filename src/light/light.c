@@ -98,22 +98,32 @@ static bool sample_sun(const Lights *lights, const float u[3], LightSample *samp
     return sample->pdf > 0;
 }
 
+static void take_sky(const SkySample *sky, LightSample *sample)
+{
+    sample->wi = sky->direction;
+    sample->pdf = sky->pdf;
+    sample->at = sky->at;
+}
+
 static bool sample_sky(const Lights *lights, Vec3 ns, const float u[3], LightSample *sample)
 {
     SkySample sky;
     if (!sky_choose(&lights->sky, ns, u, &sky)) return false;
-    sample->wi = sky.direction;
-    sample->pdf = sky.pdf;
-    sample->at = sky.at;
+    take_sky(&sky, sample);
     return true;
+}
+
+static void sample_of(LightSet set, LightSample *sample)
+{
+    sample->set = set;
+    sample->distance = INFINITY;
+    sample->is_delta = sample->is_emitter = false;
 }
 
 bool lights_sample(const Lights *lights, LightSet set, LitPoint point, const float u[3],
                    LightSample *sample)
 {
-    sample->set = set;
-    sample->distance = INFINITY;
-    sample->is_delta = sample->is_emitter = false;
+    sample_of(set, sample);
     switch (set) {
     case LIGHTS_SUN: return sample_sun(lights, u, sample);
     case LIGHTS_SKY: return sample_sky(lights, point.ns, u, sample);
@@ -122,6 +132,15 @@ bool lights_sample(const Lights *lights, LightSet set, LitPoint point, const flo
     case LIGHT_SETS: break;
     }
     return false;
+}
+
+bool lights_sky_towards(const Lights *lights, Vec3 direction, Vec3 ns, LightSample *sample)
+{
+    SkySample sky;
+    sample_of(LIGHTS_SKY, sample);
+    if (!sky_towards(&lights->sky, direction, ns, &sky)) return false;
+    take_sky(&sky, sample);
+    return true;
 }
 
 Spectrum lights_radiance(const Lights *lights, const LightSample *sample,

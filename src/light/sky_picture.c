@@ -175,14 +175,14 @@ static float picture_pdf(const SkyPicture *picture, int x, int y, float sin_thet
     return sin_theta > 0 ? cell * cells / (2 * PI_F * PI_F * sin_theta) : 0;
 }
 
-void sky_picture_seen(const SkyPicture *picture, Vec3 direction, float rgb[3], float *pdf)
+Vec2 sky_picture_place(const SkyPicture *picture, Vec3 direction, float *pdf)
 {
     Vec2 at = picture_from_direction(picture, direction);
     int  x = (int)at.x, y = (int)at.y;
     if (x >= picture->width) x = picture->width - 1;
     if (y >= picture->height) y = picture->height - 1;
     *pdf = picture_pdf(picture, x, y, safe_sqrtf(1 - direction.y * direction.y));
-    sky_picture_rgb(picture, at, rgb);
+    return at;
 }
 
 void sky_picture_sample(const SkyPicture *picture, float u0, float u1, Vec3 *direction,

@@ -3,6 +3,7 @@
 #include "base/sampler.h"
 
 #define GUIDE_SHARE 0.5f /* of the directions of a surface's wide lobes */
+#define SKY_SHARE 0.9f   /* of the samples of a sky that is seen from the cell */
 
 /* How often lights are asked where no guide knows it. */
 static void ask_as_side(const PathContext *context, const Surface *surface, Vec3 wo, int bounce,
@@ -13,11 +14,20 @@ static void ask_as_side(const PathContext *context, const Surface *surface, Vec3
     lead->often = bounce < DEEP_BOUNCE ? 1 : DEEP_SHARE;
 }
 
+/* prob: of the surface's wide lobes. */
+static void look(const LightGuide *guide, uint32_t cell, const GuideSurface *surface,
+                 float prob, Lead *lead)
+{
+    guide_view(guide, cell, surface, &lead->view);
+    if (lead->view.towards[GUIDE_LIGHT].sum > 0) lead->mix = GUIDE_SHARE * prob;
+    if (lead->view.towards[GUIDE_SKY].sum > 0) lead->sky_mix = SKY_SHARE;
+}
+
 void lead_at(const PathContext *context, const Surface *surface, Vec3 wo, int bounce,
              Lead *lead)
 {
     const LightGuide *guide = context->guide;
-    lead->mix = 0;
+    lead->mix = lead->sky_mix = 0;
     lead->is_wide = false;
     ask_as_side(context, surface, wo, bounce, lead);
     if (!guide || bounce >= context->max_bounces) return;
@@ -30,14 +40,49 @@ void lead_at(const PathContext *context, const Surface *surface, Vec3 wo, int bo
         lead->asked = guide->cells[cell].asked;
         lead->often = 1;
     }
-    guide_view(guide, cell, &seen, &lead->view);
-    if (lead->view.sum > 0) lead->mix = GUIDE_SHARE * lobes.prob;
+    look(guide, cell, &seen, lobes.prob, lead);
+}
+
+void lead_alone(const PathContext *context, Lead *lead)
+{
+    lead->mix = lead->sky_mix = 0;
+    lead->is_wide = false;
+    lead->asked = context->selection.all;
+    lead->often = 1;
+}
+
+void lead_of_white(const PathContext *context, uint32_t cell, Vec3 ns, Lead *lead)
+{
+    lead_alone(context, lead);
+    look(context->guide, cell, &(GuideSurface){ns, ns, 1, 0, 0, 0}, 1, lead);
+}
+
+float lead_sky_pdf(const Lead *lead, Vec3 wi, float own)
+{
+    if (!(lead->sky_mix > 0)) return own;
+    return lerpf(own, guide_pdf(&lead->view.towards[GUIDE_SKY], wi), lead->sky_mix);
+}
+
+bool lead_choose_light(const Lead *lead, const Lights *lights, LightSet set, LitPoint point,
+                       const float u[3], LightSample *sample)
+{
+    float v[3] = {u[0], u[1], u[2]};
+    if (set != LIGHTS_SKY || !(lead->sky_mix > 0))
+        return lights_sample(lights, set, point, u, sample);
+    if (unit_choose(&v[0], lead->sky_mix)) {
+        Vec3 wi = guide_sample(&lead->view.towards[GUIDE_SKY], v[0], v[1]);
+        if (!lights_sky_towards(lights, wi, point.ns, sample)) return false;
+    } else if (!lights_sample(lights, set, point, v, sample)) {
+        return false;
+    }
+    sample->pdf = lead_sky_pdf(lead, sample->wi, sample->pdf);
+    return sample->pdf > 0;
 }
 
 float lead_pdf(const Lead *lead, Vec3 wi, float bsdf_pdf)
 {
     if (!(lead->mix > 0)) return bsdf_pdf;
-    return lerpf(bsdf_pdf, guide_pdf(&lead->view, wi), lead->mix);
+    return lerpf(bsdf_pdf, guide_pdf(&lead->view.towards[GUIDE_LIGHT], wi), lead->mix);
 }
 
 /* The surface's own choice. A mirror's is no density: it becomes rarer by the guide's share. */
@@ -61,7 +106,7 @@ bool lead_sample(const Lead *lead, const Surface *surface, Vec3 local_wo, const 
 {
     float v[3] = {u[0], u[1], u[2]};
     if (!unit_choose(&v[0], lead->mix)) return sample_surface(lead, surface, local_wo, v, next);
-    Vec3  wi = guide_sample(&lead->view, v[0], v[1]);
+    Vec3  wi = guide_sample(&lead->view.towards[GUIDE_LIGHT], v[0], v[1]);
     float bsdf_pdf;
     *next = (BsdfSample){.wi = frame_to_local(&surface->frame, wi)};
     if (!(next->wi.z > 0)) return false;

@@ -2,7 +2,9 @@
  *
  * Where the surface scatters widely and there is a guide, a direction is the guide's choice
  * with the probability `mix`, else the surface's own: one-sample multiple importance sampling
- * (Veach 1997, 9.2.4). The guide's cell then tells how often each set of lights is asked, too.
+ * (Veach 1997, 9.2.4). The guide's cell then tells how often each set of lights is asked, too,
+ * and the sky is asked where the cell sees it: with the probability `sky_mix` its direction is
+ * the guide's choice, else the sky's own.
  *
  * Threads  plain values; the context must outlive them.
  */
@@ -20,12 +22,27 @@ typedef struct Lead {
     bool         is_wide; /* the surface scatters widely, and there is a guide */
     const float *asked;   /* how often each set of lights is sampled, times this: */
     float        often;
-    GuideView    view;    /* unless mix is 0 */
+    float        sky_mix;
+    GuideView    view;    /* unless both are 0 */
 } Lead;
 
 /* wo: unit, world. bounce: scattering vertices before this one. */
 void lead_at(const PathContext *context, const Surface *surface, Vec3 wo, int bounce,
              Lead *lead);
+
+/* Where no guide knows the way: lights are always asked. */
+void lead_alone(const PathContext *context, Lead *lead);
+
+/* Of a white surface that faces ns, in a cell of the context's guide. */
+void lead_of_white(const PathContext *context, uint32_t cell, Vec3 ns, Lead *lead);
+
+/* HOT. lights_sample, but that the guide leads to the sky. */
+bool lead_choose_light(const Lead *lead, const Lights *lights, LightSet set, LitPoint point,
+                       const float u[3], LightSample *sample);
+
+/* HOT. Density with which lead_choose_light chooses a direction to the sky that the sky's own
+ * samples find with `own`, sr^-1. */
+float lead_sky_pdf(const Lead *lead, Vec3 wi, float own);
 
 /* HOT. Density of choosing wi (world) where the surface alone would with bsdf_pdf, sr^-1. */
 float lead_pdf(const Lead *lead, Vec3 wi, float bsdf_pdf);

@@ -14,27 +14,31 @@ static bool always_passes(void *user, const Hit *hit)
     return true; /* holes and windows: their colour does not matter here */
 }
 
-/* Illuminance (lx) that one sample of the set gives at a point that faces point.ns; the light's
- * direction and density besides. */
-static double sample_illuminance(const Bvh *bvh, const Lights *lights, LightSet set,
-                                 LitPoint point, Sampler *sampler, LightSample *found)
+double light_selection_lx(const Bvh *bvh, const Lights *lights, LitPoint point,
+                          const LightSample *light, float u)
 {
     Wavelengths wavelengths;
-    LightSample light;
     float xyz[3] = {0};
+    float cosine = vec3_dot(point.ns, light->wi);
+    if (!(cosine > 0)) return 0;
+    Ray ray = {ray_offset_origin(point.position, point.ns, light->wi), light->wi, 0,
+               light->distance * 0.999f};
+    if (bvh_occluded(bvh, ray, always_passes, NULL)) return 0;
+    wavelengths_sample(u, &wavelengths);
+    spectrum_add_xyz(&wavelengths, lights_radiance(lights, light, &wavelengths) *
+                                       spectrum_all(cosine / light->pdf), xyz);
+    return isfinite(xyz[1]) ? (double)xyz[1] : 0;
+}
+
+/* Of one sample of the set. */
+static double sample_illuminance(const Bvh *bvh, const Lights *lights, LightSet set,
+                                 LitPoint point, Sampler *sampler)
+{
+    LightSample light;
     float u[4];
     sampler_4d(sampler, u);
     if (!lights_sample(lights, set, point, u, &light)) return 0;
-    float cosine = vec3_dot(point.ns, light.wi);
-    if (!(cosine > 0)) return 0;
-    Ray ray = {ray_offset_origin(point.position, point.ns, light.wi), light.wi, 0,
-               light.distance * 0.999f};
-    if (bvh_occluded(bvh, ray, always_passes, NULL)) return 0;
-    wavelengths_sample(u[3], &wavelengths);
-    spectrum_add_xyz(&wavelengths, lights_radiance(lights, &light, &wavelengths) *
-                                       spectrum_all(cosine / light.pdf), xyz);
-    *found = light;
-    return isfinite(xyz[1]) ? (double)xyz[1] : 0;
+    return light_selection_lx(bvh, lights, point, &light, u[3]);
 }
 
 /* Mean over points spread over the part's triangles; side 0: its front, 1: its back. */
@@ -43,7 +47,6 @@ static double side_illuminance(const Scene *scene, const Bvh *bvh, const Lights 
 {
     const Part *part = &scene->parts[part_id];
     double sum = 0;
-    LightSample found;
     for (uint32_t i = 0; i < POINTS; i++) {
         Sampler  sampler = sampler_start((uint32_t)set, part_id, side, i);
         Vec2     at = sampler_2d(&sampler);
@@ -55,7 +58,7 @@ static double side_illuminance(const Scene *scene, const Bvh *bvh, const Lights 
         }
         TrianglePoint point = triangle_point(scene, part->first_triangle + triangle, u, v);
         LitPoint lit = {point.position, side ? vec3_neg(point.ng) : point.ng, false};
-        sum += sample_illuminance(bvh, lights, set, lit, &sampler, &found);
+        sum += sample_illuminance(bvh, lights, set, lit, &sampler);
     }
     return sum / POINTS;
 }
@@ -103,40 +106,4 @@ LightSelection light_selection_build(const Scene *scene, const Bvh *bvh, const L
             weigh_part(scene, bvh, lights, part, &selection.prob[2 * part],
                       &selection.lx[2 * part]);
     return selection;
-}
-
-/* A set is asked always whose samples' root mean square is a tenth of all light. */
-#define CELL_GENEROSITY 10.0
-#define GUIDE_PROB 0.5f     /* with which the guide leads, about */
-
-void light_selection_try(const Bvh *bvh, const Lights *lights, LitPoint point,
-                         const GuideView *view, Sampler *sampler, LightFinds *finds)
-{
-    finds->points++;
-    for (int set = 0; set < LIGHT_SETS; set++) {
-        LightSample light;
-        if (!lights_has(lights, (LightSet)set)) continue;
-        double lx = sample_illuminance(bvh, lights, (LightSet)set, point, sampler, &light);
-        if (!(lx > 0)) continue;
-        if (!light.is_delta) {
-            float own = vec3_dot(light.wi, point.ns) * INV_PI_F;
-            float led = view->sum > 0 ? guide_pdf(view, light.wi) : own;
-            float other = lerpf(own, led, GUIDE_PROB) / light.pdf;
-            lx /= (double)(1 + other * other);
-        }
-        finds->sum[set] += lx;
-        finds->squares[set] += lx * lx;
-    }
-}
-
-void light_selection_weigh(const Lights *lights, const LightFinds *finds, double total,
-                           float prob[LIGHT_SETS])
-{
-    for (int set = 0; set < LIGHT_SETS; set++) {
-        prob[set] = 0;
-        if (!lights_has(lights, (LightSet)set)) continue;
-        double worth = finds->points > 0 ? sqrt(finds->squares[set] / finds->points) : 0;
-        double wanted = total > 0 ? CELL_GENEROSITY * worth / total : 1;
-        prob[set] = clampf((float)wanted, LEAST, 1);
-    }
 }

@@ -9,14 +9,7 @@
  */
 #pragma once
 #include "bvh/bvh.h"
-#include "guide/guide.h"
 #include "light/light.h"
-
-/* What light samples find in a cell of a guide: sums over so many points. */
-typedef struct LightFinds {
-    double sum[LIGHT_SETS], squares[LIGHT_SETS]; /* illuminances, lx */
-    double points;
-} LightFinds;
 
 typedef struct LightSelection {
     float (*prob)[LIGHT_SETS]; /* of sampling a set; rows 2 part (front) and 2 part + 1; 0: the
@@ -29,14 +22,10 @@ typedef struct LightSelection {
 LightSelection light_selection_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
                                      Arena *arena);
 
-/* One sample of every set for a white point of the guide's cell that faces point.ns: what light
- * samples add there that the guide does not find. */
-void light_selection_try(const Bvh *bvh, const Lights *lights, LitPoint point,
-                         const GuideView *view, Sampler *sampler, LightFinds *finds);
-
-/* Probabilities for a cell that gets `total` lx in all. */
-void light_selection_weigh(const Lights *lights, const LightFinds *finds, double total,
-                           float prob[LIGHT_SETS]);
+/* Illuminance, lx, that a light sample gives at a point which faces point.ns, shadows counted;
+ * u in [0, 1): for the wavelengths. */
+double light_selection_lx(const Bvh *bvh, const Lights *lights, LitPoint point,
+                          const LightSample *light, float u);
 
 /* part_id may be NO_ID. is_back: seen from the side where the triangle's normal does not point.
  * The row lives as long as the selection. */

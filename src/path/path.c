@@ -42,8 +42,8 @@ typedef struct PathWalk {
     float    straight;   /* m since the last scattering vertex (windows do not scatter) */
     LitPoint last;       /* that vertex */
     int      last_part_id;
-    const float *last_asked; /* how often it sampled each set of lights, times this: */
-    float    last_often;
+    Lead    *lead;       /* with which it looked for light; and room for the next one */
+    Lead    *spare;
     float    last_pdf;   /* with which it chose the direction, sr^-1 */
     bool     last_is_delta; /* no light sample could have found what comes now */
     Spectrum sun_share; /* of the sun met now; the rest was told to the last vertex but one */
@@ -54,7 +54,14 @@ typedef struct PathWalk {
     SheetStack *stack;   /* what else lies where the ray is; empty in scenes without sheets */
     float    sheets_from; /* m along the ray: sheets before it were in the stack */
     PathPlaces *places;  /* where it scatters is noted here; NULL: nobody asks */
+    float   *arriving_sky; /* of a path to a point: the sky seen by it goes here; or NULL */
 } PathWalk;
+
+/* What a walk needs room for besides. */
+typedef struct WalkRoom {
+    SheetStack stack;
+    Lead       leads[2];
+} WalkRoom;
 
 /* The next numbers asked for are those of this purpose, at the surface met last. */
 static void numbers_for(PathWalk *walk, int purpose)
@@ -79,7 +86,8 @@ static float emission_weight(const PathWalk *walk, LightSet set, float light_pdf
     const PathContext *context = walk->context;
     if (walk->last_is_delta || context->strategy == PATH_BSDF_ONLY) return 1;
     if (context->strategy == PATH_LIGHTS_ONLY) return 0;
-    float prob = walk->last_asked[set] * walk->last_often;
+    float prob = walk->lead->asked[set] * walk->lead->often;
+    if (set == LIGHTS_SKY) light_pdf = lead_sky_pdf(walk->lead, walk->ray.direction, light_pdf);
     return mis_weight(walk->last_pdf, prob * light_pdf);
 }
 
@@ -95,6 +103,15 @@ static LitPoint lit_point(const PathWalk *walk, const Surface *surface)
 
 /* ---- emitted light ---------------------------------------------------------------------- */
 
+/* The sky is told by itself, and no more. */
+static void tell_sky(PathWalk *walk, Spectrum *radiance)
+{
+    float xyz[3] = {0};
+    spectrum_add_xyz(walk->wavelengths, walk->throughput * *radiance, xyz);
+    *walk->arriving_sky = xyz[1];
+    *radiance = spectrum_all(0);
+}
+
 static void add_distant(PathWalk *walk)
 {
     Spectrum radiance[2];
@@ -102,6 +119,7 @@ static void add_distant(PathWalk *walk)
     lights_distant(walk->context->lights, walk->ray.direction, walk->last.ns, walk->wavelengths,
                    radiance, pdf);
     radiance[LIGHTS_SUN] *= walk->sun_share;
+    if (walk->arriving_sky && walk->bounce == 1) tell_sky(walk, &radiance[LIGHTS_SKY]);
     for (int set = LIGHTS_SUN; set <= LIGHTS_SKY; set++) {
         float weight = emission_weight(walk, (LightSet)set, pdf[set]);
         walk->gathered.radiance += walk->throughput * radiance[set] * spectrum_all(weight);
@@ -257,7 +275,7 @@ static void add_light_sample(PathWalk *walk, const Surface *surface, Vec3 wo, co
     sampler_4d(walk->sampler, u);
     if (!unit_choose(&u[0], set_prob)) return;
     LitPoint point = lit_point(walk, surface);
-    if (!lights_sample(context->lights, set, point, u, &light)) return;
+    if (!lead_choose_light(lead, context->lights, set, point, u, &light)) return;
     if (!light.is_delta && context->strategy == PATH_BSDF_ONLY) return;
     Vec3 local_wi = frame_to_local(&surface->frame, light.wi);
     Vec3 local_wo = frame_to_local(&surface->frame, wo);
@@ -405,8 +423,7 @@ static Spectrum sun_share(const PathWalk *walk, const Surface *surface, Vec3 wo,
 }
 
 /* Turns the path into direction next->wi (local) at a scattering vertex. */
-static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const Lead *lead,
-                 const BsdfSample *next)
+static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSample *next)
 {
     Vec3 wi = frame_to_world(&surface->frame, next->wi);
     Vec3 local_wo = frame_to_local(&surface->frame, wo);
@@ -416,8 +433,6 @@ static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const Lead *le
         walk->medium_id = next->wi.z < 0 ? surface->material_id : NO_ID;
     walk->last = lit_point(walk, surface);
     walk->last_part_id = surface->part_id;
-    walk->last_asked = lead->asked;
-    walk->last_often = lead->often;
     walk->last_pdf = next->pdf;
     walk->last_is_delta = next->is_delta;
     walk->straight = walk->sheets_from = 0;
@@ -428,14 +443,23 @@ static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const Lead *le
     return roulette(walk) ? STEP_SCATTERED : STEP_ENDED;
 }
 
-/* Chooses where the path goes from the surface. Windows can be passed after the last bounce. */
-static Step scatter(PathWalk *walk, const Surface *surface, Vec3 wo, const Lead *lead)
+/* The spare lead becomes that of the last vertex. */
+static void keep_lead(PathWalk *walk)
+{
+    Lead *last = walk->lead;
+    walk->lead = walk->spare;
+    walk->spare = last;
+}
+
+/* Chooses where the path goes from the surface, by the spare lead. Windows can be passed after
+ * the last bounce. */
+static Step scatter(PathWalk *walk, const Surface *surface, Vec3 wo)
 {
     float u[4];
     BsdfSample next;
     numbers_for(walk, NUMBERS_SCATTER);
     sampler_4d(walk->sampler, u);
-    if (!lead_sample(lead, surface, frame_to_local(&surface->frame, wo), u, &next))
+    if (!lead_sample(walk->spare, surface, frame_to_local(&surface->frame, wo), u, &next))
         return STEP_ENDED;
     walk->throughput *= next.weight;
     if (spectrum_is_zero(walk->throughput)) return STEP_ENDED;
@@ -444,7 +468,8 @@ static Step scatter(PathWalk *walk, const Surface *surface, Vec3 wo, const Lead 
         return STEP_PASSED;
     }
     if (walk->bounce >= walk->context->max_bounces) return STEP_ENDED;
-    return turn(walk, surface, wo, lead, &next);
+    keep_lead(walk);
+    return turn(walk, surface, wo, &next);
 }
 
 /* What the ray meets; of what lies in one plane, one after the other. */
@@ -489,12 +514,12 @@ static void note_place(PathWalk *walk, const Lead *lead, const Surface *surface,
 /* What happens at a surface that is there. */
 static Step shade(PathWalk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
 {
-    Lead lead;
+    Lead *lead = walk->spare;
     add_emitted(walk, surface, hit, wo);
-    lead_at(walk->context, surface, wo, walk->bounce, &lead);
-    note_place(walk, &lead, surface, wo);
-    if (walk->bounce < walk->context->max_bounces) add_light_samples(walk, surface, wo, &lead);
-    return scatter(walk, surface, wo, &lead);
+    lead_at(walk->context, surface, wo, walk->bounce, lead);
+    note_place(walk, lead, surface, wo);
+    if (walk->bounce < walk->context->max_bounces) add_light_samples(walk, surface, wo, lead);
+    return scatter(walk, surface, wo);
 }
 
 static Step reflect_window(PathWalk *walk, const Surface *surface, Vec3 wo)
@@ -502,10 +527,9 @@ static Step reflect_window(PathWalk *walk, const Surface *surface, Vec3 wo)
     Vec3 local_wo = frame_to_local(&surface->frame, wo);
     BsdfSample mirror = {.wi = vec3(-local_wo.x, -local_wo.y, local_wo.z), .is_delta = true,
                          .pdf = 1};
-    Lead lead = {.asked = walk->context->selection.all, .often = 1};
     if (walk->bounce >= walk->context->max_bounces) return STEP_ENDED;
     walk->throughput *= thin_window_reflectance(&surface->bsdf.thin_window, local_wo.z);
-    return turn(walk, surface, wo, &lead, &mirror);
+    return turn(walk, surface, wo, &mirror);
 }
 
 static void walk_path(PathWalk *walk);
@@ -588,25 +612,26 @@ PathContext path_context_build(const Scene *scene, const Bvh *bvh, const Lights 
 }
 
 static PathWalk walk_start(const PathContext *context, const Wavelengths *wavelengths,
-                           Sampler *sampler, PathStatistics *statistics, SheetStack *stack)
+                           Sampler *sampler, PathStatistics *statistics, WalkRoom *room)
 {
     statistics->samples++;
-    sheets_none(stack);
+    sheets_none(&room->stack);
+    lead_alone(context, &room->leads[0]);
     return (PathWalk){.context = context, .wavelengths = wavelengths, .sampler = sampler,
                   .statistics = statistics, .throughput = spectrum_all(1),
                   .gathered.radiance = spectrum_all(0), .last.ns = vec3(0, 0, 1),
                   .last_is_delta = true, .last_part_id = NO_ID,
                   .sun_share = spectrum_all(1),
-                  .last_asked = context->selection.all, .last_often = 1,
+                  .lead = &room->leads[0], .spare = &room->leads[1],
                   .splits_left = SPLITS,
-                  .medium_id = NO_ID, .stack = stack};
+                  .medium_id = NO_ID, .stack = &room->stack};
 }
 
 void path_trace(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
                 Sampler *sampler, PathResult *out, PathStatistics *statistics)
 {
-    SheetStack stack;
-    PathWalk   walk = walk_start(context, wavelengths, sampler, statistics, &stack);
+    WalkRoom room;
+    PathWalk walk = walk_start(context, wavelengths, sampler, statistics, &room);
     *out = (PathResult){.hit = false};
     walk.ray = ray;
     walk.first = out;
@@ -617,42 +642,44 @@ void path_trace(const PathContext *context, Ray ray, const Wavelengths *waveleng
 void path_find_places(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
                       Sampler *sampler, PathPlaces *out, PathStatistics *statistics)
 {
-    SheetStack stack;
-    PathWalk   walk = walk_start(context, wavelengths, sampler, statistics, &stack);
+    WalkRoom room;
+    PathWalk walk = walk_start(context, wavelengths, sampler, statistics, &room);
     out->count = 0;
     walk.ray = ray;
     walk.places = out;
     walk_path(&walk);
 }
 
-float path_arriving(const PathContext *context, LitPoint point, Vec3 direction,
-                    const Wavelengths *wavelengths, Sampler *sampler,
-                    PathStatistics *statistics)
+void path_arriving(const PathContext *context, const PathArrival *at,
+                   const Wavelengths *wavelengths, Sampler *sampler, float cd_m2[GUIDE_AIMS],
+                   PathStatistics *statistics)
 {
-    SheetStack stack;
-    float      xyz[3];
-    PathWalk   walk = walk_start(context, wavelengths, sampler, statistics, &stack);
-    walk.ray = (Ray){point.position, direction, 0, INFINITY};
-    walk.last = point;
+    WalkRoom room;
+    float    xyz[3];
+    PathWalk walk = walk_start(context, wavelengths, sampler, statistics, &room);
+    cd_m2[GUIDE_SKY] = 0;
+    walk.arriving_sky = &cd_m2[GUIDE_SKY];
+    walk.ray = (Ray){at->point.position, at->towards, 0, INFINITY};
+    walk.last = at->point;
     walk.last_is_delta = false;
     walk.last_pdf = ARRIVING_PDF;
     walk.bounce = 1;
     walk_path(&walk);
     path_light_to_xyz(&walk.gathered, wavelengths, xyz);
-    return xyz[1];
+    cd_m2[GUIDE_LIGHT] = xyz[1];
 }
 
 void path_illuminance(const PathContext *context, LitPoint point,
                       const Wavelengths *wavelengths, Sampler *sampler, float xyz_lx[3],
                       PathStatistics *statistics)
 {
-    SheetStack stack;
-    Surface    head;
-    PathWalk   walk = walk_start(context, wavelengths, sampler, statistics, &stack);
+    WalkRoom room;
+    Surface  head;
+    PathWalk walk = walk_start(context, wavelengths, sampler, statistics, &room);
     surface_white(context->tables, point.position, point.ns, &head);
     walk.throughput = spectrum_all(PI_F);
-    Lead lead = {.asked = context->selection.all, .often = 1};
-    add_light_samples(&walk, &head, point.ns, &lead);
-    if (scatter(&walk, &head, point.ns, &lead) == STEP_SCATTERED) walk_path(&walk);
+    lead_alone(context, walk.spare);
+    add_light_samples(&walk, &head, point.ns, walk.spare);
+    if (scatter(&walk, &head, point.ns) == STEP_SCATTERED) walk_path(&walk);
     path_light_to_xyz(&walk.gathered, wavelengths, xyz_lx);
 }

@@ -42,12 +42,18 @@ typedef struct PathPlaces {
 void path_find_places(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
                       Sampler *sampler, PathPlaces *out, PathStatistics *statistics);
 
-/* Luminance, cd m^-2, that arrives at a point against `direction` and that its own light
- * samples would hardly find: each kind of light is weighed as if the direction had been chosen
- * with a density of 1 per steradian. */
-float path_arriving(const PathContext *context, LitPoint point, Vec3 direction,
-                    const Wavelengths *wavelengths, Sampler *sampler,
-                    PathStatistics *statistics);
+/* A place that is lit, and the unit direction from there to what lights it. */
+typedef struct PathArrival {
+    LitPoint point;
+    Vec3     towards;
+} PathArrival;
+
+/* Luminances, cd m^-2, that arrive: of the sky that is seen there; and of all else that the
+ * point's own light samples would hardly find: each kind of light is weighed as if the direction
+ * had been chosen with a density of 1 per steradian. */
+void path_arriving(const PathContext *context, const PathArrival *at,
+                   const Wavelengths *wavelengths, Sampler *sampler, float cd_m2[GUIDE_AIMS],
+                   PathStatistics *statistics);
 
 /* Illuminance of a plane at the point, facing its normal, as tristimulus values in lx: what a
  * white Lambert surface would send back, times pi. */

@@ -87,7 +87,7 @@ static void weigh_lights(const Lights *lights, GuideTraining *training, const Li
         double     total = guide_training_illuminance(training, (uint32_t)i);
         for (int set = 0; set < LIGHT_SETS; set++)
             total += finds[i].points > 0 ? finds[i].sum[set] / finds[i].points : 0;
-        light_selection_weigh(lights, &found, total, training->guide.cells[i].asked);
+        cell_lights_weigh(lights, &found, total, training->guide.cells[i].asked);
     }
     training->guide.asks = true;
 }

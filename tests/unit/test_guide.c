@@ -32,9 +32,11 @@ static LightGuide *odd_guide(Arena *arena)
         cell->is_lit = 1;
         for (int set = 0; set < GUIDE_LIGHTS; set++)
             cell->asked[set] = 0.2f + 0.2f * (float)((set + (int)c) % 5);
-        for (uint32_t i = 0; i < GUIDE_BINS; i++) {
-            float value = unit_float(hash_combine(hash_u32(c), i));
-            cell->light[i / GUIDE_SIDE][i % GUIDE_SIDE] = value > 0.6f ? value - 0.6f : 0;
+        for (uint32_t i = 0; i < GUIDE_AIMS * GUIDE_BINS; i++) {
+            uint32_t bin = i % GUIDE_BINS;
+            float    value = unit_float(hash_combine(hash_u32(c), i));
+            cell->light[i / GUIDE_BINS][bin / GUIDE_SIDE][bin % GUIDE_SIDE] =
+                value > 0.6f ? value - 0.6f : 0;
         }
     }
     guide_place_bins(guide);
@@ -67,11 +69,12 @@ TEST(densities_integrate_to_one)
         GuideView view;
         double    sum = 0;
         guide_view(guide, (uint32_t)s % CELLS, &surfaces[s], &view);
+        const GuideChoice *choice = &view.towards[s % GUIDE_AIMS];
         for (int i = 0; i < 500; i++)
             for (int k = 0; k < 1000; k++) {
                 float z = 1 - 2 * ((float)i + 0.5f) / 500, r = sqrtf(1 - z * z), sine, cosine;
                 sincos_turns(((float)k + 0.5f) / 1000, &sine, &cosine);
-                sum += (double)guide_pdf(&view, vec3(r * cosine, r * sine, z)) * 4 * PI / 5e5;
+                sum += (double)guide_pdf(choice, vec3(r * cosine, r * sine, z)) * 4 * PI / 5e5;
             }
         if (!(fabs(sum - 1) < 2e-3)) fail_msg("surface %d: %g", s, sum);
     }
@@ -102,19 +105,20 @@ TEST(samples_follow_the_density)
         memset(expected, 0, sizeof expected);
         memset(found, 0, sizeof found);
         guide_view(guide, (uint32_t)s % CELLS, &surfaces[s], &view);
+        const GuideChoice *choice = &view.towards[s % GUIDE_AIMS];
         for (int i = 0; i < ROWS * FINE; i++)
             for (int k = 0; k < COLUMNS * FINE; k++) {
                 float z = 1 - 2 * ((float)i + 0.5f) / (ROWS * FINE), r = sqrtf(1 - z * z);
                 float sine, cosine;
                 sincos_turns(((float)k + 0.5f) / (COLUMNS * FINE), &sine, &cosine);
                 expected[i / FINE * COLUMNS + k / FINE] +=
-                    (double)guide_pdf(&view, vec3(r * cosine, r * sine, z)) * 4 * PI * SAMPLES /
+                    (double)guide_pdf(choice, vec3(r * cosine, r * sine, z)) * 4 * PI * SAMPLES /
                     (ROWS * FINE) / (COLUMNS * FINE);
             }
         for (int i = 0; i < SAMPLES; i++) {
             float u0 = unit_float(hash_u32((uint32_t)(2 * i))),
                   u1 = unit_float(hash_u32((uint32_t)(2 * i + 1)));
-            found[cell_of(guide_sample(&view, u0, u1))]++;
+            found[cell_of(guide_sample(choice, u0, u1))]++;
         }
         for (int i = 0; i < ROWS * COLUMNS; i++) {
             if (expected[i] < 20) continue;
@@ -137,16 +141,19 @@ TEST(a_direction_of_a_bin_lies_there_and_a_view_of_darkness_is_empty)
     GuideView view;
     for (int bin = 0; bin < GUIDE_BINS; bin++) {
         GuideCell *cell = &guide->cells[0];
-        for (int i = 0; i < GUIDE_SIDE; i++) cell->light[i] = spectrum_all(0);
-        cell->light[bin / GUIDE_SIDE][bin % GUIDE_SIDE] = 1;
+        GuideAim   aim = bin % 3 ? GUIDE_LIGHT : GUIDE_SKY;
+        for (int i = 0; i < GUIDE_AIMS * GUIDE_SIDE; i++)
+            cell->light[i / GUIDE_SIDE][i % GUIDE_SIDE] = spectrum_all(0);
+        cell->light[aim][bin / GUIDE_SIDE][bin % GUIDE_SIDE] = 1;
         Vec3 d = guide_bin_direction(bin, 0.3f, 0.7f);
         guide_view(guide, 0, &(GuideSurface){d, d, 1, 0, 0, 0}, &view);
-        assert_true(guide_pdf(&view, d) > 1);
-        assert_true(vec3_dot(guide_sample(&view, 0.3f, 0.7f), d) > 0.99999f);
+        assert_true(guide_pdf(&view.towards[aim], d) > 1);
+        assert_true(vec3_dot(guide_sample(&view.towards[aim], 0.3f, 0.7f), d) > 0.99999f);
+        assert_true(view.towards[1 - aim].sum == 0);
     }
     guide->cells[0].is_lit = 0;
     guide_view(guide, 0, &surfaces[0], &view);
-    assert_true(view.sum == 0);
+    for (int aim = 0; aim < GUIDE_AIMS; aim++) assert_true(view.towards[aim].sum == 0);
     arena_release(&arena);
 }
 
@@ -289,14 +296,17 @@ TEST(a_cell_leads_to_where_its_lesson_found_light)
     GuideView      view;
     guide_training_ask(training, 4, 0);
     assert_int_equal(training->lessons[2].point_count, 4);
-    for (int bin = 0; bin < GUIDE_BINS; bin++)
-        guide_lesson_add(&training->lessons[2], bin,
-                         vec3_dot(guide_bin_direction(bin, 0.5f, 0.5f), bright) > 0.95f ? 50
-                                                                                       : 0.1f);
+    for (int bin = 0; bin < GUIDE_BINS; bin++) {
+        bool        is_there = vec3_dot(guide_bin_direction(bin, 0.5f, 0.5f), bright) > 0.95f;
+        const float cd_m2[GUIDE_AIMS] = {is_there ? 50 : 0.1f, is_there ? 0 : 8};
+        guide_lesson_add(&training->lessons[2], bin, cd_m2);
+    }
     guide_training_learn(training);
     guide_view(&training->guide, 2, &surfaces[0], &view);
-    assert_true(guide_pdf(&view, bright) > 2);
-    assert_true(guide_pdf(&view, direction_to(40, 250)) < 0.1f);
+    assert_true(guide_pdf(&view.towards[GUIDE_LIGHT], bright) > 2);
+    assert_true(guide_pdf(&view.towards[GUIDE_LIGHT], direction_to(40, 250)) < 0.1f);
+    assert_true(guide_pdf(&view.towards[GUIDE_SKY], bright) < 0.1f);
+    assert_true(guide_pdf(&view.towards[GUIDE_SKY], direction_to(40, 250)) > 0.15f);
     assert_true(training->guide.cells[2].is_lit > 0 && !(training->guide.cells[3].is_lit > 0));
     arena_release(&arena);
 }

@@ -1,0 +1,49 @@
+#include "path/cell_lights.h"
+
+#include "base/units.h"
+
+/* A set is asked always whose samples' root mean square is a tenth of all light. */
+#define GENEROSITY 10.0
+#define LEAST 0.1f
+
+/* How much of it chance does not find by itself: the weight that a path gives to the sample. */
+static double own_share(const Lead *lead, LitPoint point, const LightSample *light)
+{
+    if (light->is_delta) return 1;
+    float cosine = vec3_dot(light->wi, point.ns);
+    float other = lead_pdf(lead, light->wi, cosine * INV_PI_F) / light->pdf;
+    return 1 / (1 + (double)(other * other));
+}
+
+void cell_lights_try(const PathContext *context, LitPoint point, uint32_t cell,
+                     Sampler *sampler, LightFinds *finds)
+{
+    Lead lead;
+    lead_of_white(context, cell, point.ns, &lead);
+    finds->points++;
+    for (int set = 0; set < LIGHT_SETS; set++) {
+        LightSample light;
+        float       u[4];
+        if (!lights_has(context->lights, (LightSet)set)) continue;
+        sampler_4d(sampler, u);
+        if (!lead_choose_light(&lead, context->lights, (LightSet)set, point, u, &light))
+            continue;
+        double lx = light_selection_lx(context->bvh, context->lights, point, &light, u[3]);
+        if (!(lx > 0)) continue;
+        lx *= own_share(&lead, point, &light);
+        finds->sum[set] += lx;
+        finds->squares[set] += lx * lx;
+    }
+}
+
+void cell_lights_weigh(const Lights *lights, const LightFinds *finds, double total,
+                       float prob[LIGHT_SETS])
+{
+    for (int set = 0; set < LIGHT_SETS; set++) {
+        prob[set] = 0;
+        if (!lights_has(lights, (LightSet)set)) continue;
+        double worth = finds->points > 0 ? sqrt(finds->squares[set] / finds->points) : 0;
+        double wanted = total > 0 ? GENEROSITY * worth / total : 1;
+        prob[set] = clampf((float)wanted, LEAST, 1);
+    }
+}

@@ -1,0 +1,23 @@
+/* cell_lights.h -- how often a guide's cells ask each set of lights.
+ *
+ * Once a cell knows from where light comes, points of it are lit by one sample of every set, as
+ * paths will be. What these find, less what chance finds as well, decides.
+ *
+ * Threads  one cell's sums belong to one thread.
+ */
+#pragma once
+#include "path/lead.h"
+
+/* What light samples find in a cell: sums over so many points. */
+typedef struct LightFinds {
+    double sum[LIGHT_SETS], squares[LIGHT_SETS]; /* illuminances, lx */
+    double points;
+} LightFinds;
+
+/* One sample of every set for a white point of the cell that faces point.ns. */
+void cell_lights_try(const PathContext *context, LitPoint point, uint32_t cell,
+                     Sampler *sampler, LightFinds *finds);
+
+/* Probabilities for a cell that gets `total` lx in all. */
+void cell_lights_weigh(const Lights *lights, const LightFinds *finds, double total,
+                       float prob[LIGHT_SETS]);
