@@ -26,7 +26,8 @@ static inline Spectrum grazing(Spectrum cosine2)
 }
 
 /* Radiance through each bin times f cos: Lambert's, and GGX with Schlick's shadowing. For unit
- * directions the half vector needs no root: (n.h)^2 = (n.wo + n.wi)^2 / (2 + 2 wo.wi). */
+ * directions the half vector needs no root: (n.h)^2 = (n.wo + n.wi)^2 / (2 + 2 wo.wi); by one
+ * division, 1 - (n.h)^2 (1 - alpha^2) is wide / both2. */
 void guide_view(const LightGuide *guide, uint32_t cell, const GuideSurface *surface,
                 GuideView *view)
 {
@@ -48,17 +49,17 @@ void guide_view(const LightGuide *guide, uint32_t cell, const GuideSurface *surf
         if (surface->f90 > 0) {
             Spectrum facing2 = spectrum_max((one + towards) * spectrum_all(0.5f),
                                             spectrum_all(1e-4f));
-            Spectrum both = n_wi + spectrum_all(n_wo);
-            Spectrum upright2 = spectrum_min(both * both / (spectrum_all(4) * facing2), one);
-            Spectrum wide = one - upright2 * spectrum_all(1 - alpha2);
+            Spectrum both = n_wi + spectrum_all(n_wo), both2 = spectrum_all(4) * facing2;
+            Spectrum upright = spectrum_min(both * both, both2);
+            Spectrum wide = both2 - upright * spectrum_all(1 - alpha2);
             Spectrum fresnel = spectrum_all(surface->f0) +
                                spectrum_all(surface->f90 - surface->f0) * grazing(facing2);
-            share += spectrum_all(scale) * fresnel /
+            share += spectrum_all(scale) * fresnel * both2 * both2 /
                      (wide * wide * (lit * spectrum_all(1 - k) + spectrum_all(k)));
         }
         share *= lit;
         for (int aim = 0; aim < GUIDE_AIMS; aim++) {
-            Spectrum weight = from->light[aim][row] * share;
+            Spectrum weight = __builtin_convertvector(from->light[aim][row], Spectrum) * share;
             view->towards[aim].weight[row] = weight;
             column[aim] += weight;
         }

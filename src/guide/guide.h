@@ -28,8 +28,11 @@
  * through windows. */
 typedef enum GuideAim { GUIDE_LIGHT, GUIDE_SKY, GUIDE_AIMS } GuideAim;
 
+/* Whole numbers: a view reads all bins, and as floats they would be twice as far to fetch. */
+typedef uint16_t GuideRow __attribute__((vector_size(2 * GUIDE_SIDE), aligned(32)));
+
 typedef struct GuideCell {
-    Spectrum light[GUIDE_AIMS][GUIDE_SIDE]; /* through each bin, in any unit: lane x of row y */
+    GuideRow light[GUIDE_AIMS][GUIDE_SIDE]; /* through each bin, in any unit: lane x of row y */
     float    asked[GUIDE_LIGHTS]; /* with which probability a surface samples each set */
     float    is_lit;              /* 1: it has learnt something; else 0 */
 } GuideCell;

@@ -21,10 +21,11 @@ typedef struct GuideHead {
 } GuideHead;
 
 typedef struct CellRow {
-    float light[GUIDE_AIMS][GUIDE_BINS], asked[GUIDE_LIGHTS], is_lit;
+    uint16_t light[GUIDE_AIMS][GUIDE_BINS];
+    float    asked[GUIDE_LIGHTS], is_lit;
 } CellRow;
 
-_Static_assert(sizeof(GuideHead) == 32 && sizeof(CellRow) == 2068 && sizeof(GuideNode) == 16,
+_Static_assert(sizeof(GuideHead) == 32 && sizeof(CellRow) == 1044 && sizeof(GuideNode) == 16,
                "no padding goes to a file");
 
 static CellRow row_of(const GuideCell *cell)
@@ -95,10 +96,6 @@ static bool check_row(const CellRow *row, uint32_t cell, const bool has[GUIDE_LI
                       Error *err)
 {
     bool ok = row->is_lit == 0 || row->is_lit == 1;
-    for (int i = 0; i < GUIDE_AIMS * GUIDE_BINS; i++) {
-        float light = row->light[i / GUIDE_BINS][i % GUIDE_BINS];
-        ok = ok && light >= 0 && light <= 1;
-    }
     for (int i = 0; i < GUIDE_LIGHTS; i++) ok = ok && row->asked[i] >= 0 && row->asked[i] <= 1;
     if (!ok)
         return error_set(err, ERROR_INPUT, "damaged field: cell %u holds a value outside of "

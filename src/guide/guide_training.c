@@ -2,7 +2,9 @@
 
 #include <math.h>
 
-#define LEAST 0.05 /* of a cell's light, over all bins alike */
+#define LEAST 0.05   /* of a cell's light, over all bins alike */
+#define NEIGHBOURS 4 /* cells on either side in the tree's order */
+#define DOUBT 4.0    /* rays into a bin of theirs, in the mean, that count as the cell's own */
 
 /* ---- the tree ---------------------------------------------------------------------------- */
 
@@ -115,13 +117,13 @@ GuideTraining *guide_training_start(GuidePlace *places, uint32_t count, uint32_t
 
 /* ---- lessons ----------------------------------------------------------------------------- */
 
-void guide_training_ask(GuideTraining *training, int points, int round)
+void guide_training_ask(GuideTraining *training, int round)
 {
     for (uint32_t cell = 0; cell < training->guide.cell_count; cell++) {
         GuideLesson *lesson = &training->lessons[cell];
         uint32_t first = training->first_place[cell];
         uint32_t count = training->first_place[cell + 1] - first;
-        lesson->point_count = (uint32_t)points < count ? points : (int)count;
+        lesson->point_count = count < GUIDE_POINTS ? (int)count : GUIDE_POINTS;
         for (int i = 0; i < lesson->point_count; i++) {
             uint32_t step = count / (uint32_t)lesson->point_count;
             uint32_t at = (uint32_t)i * step + (uint32_t)round * 7u % step;
@@ -130,37 +132,65 @@ void guide_training_ask(GuideTraining *training, int points, int round)
     }
 }
 
+/* Of the rays into a bin: the sum of the luminances they found, and how many they are. */
+typedef struct BinFinds {
+    double sum, count;
+} BinFinds;
+
+static BinFinds finds_of(const GuideLesson *lesson, GuideAim aim, int bin)
+{
+    return (BinFinds){(double)lesson->sums[aim][bin], lesson->counts[bin]};
+}
+
+/* Few rays of its own find a small light by luck: the neighbours', who see much the same, count
+ * a little too. */
+static BinFinds with_neighbours(const GuideTraining *training, uint32_t cell, GuideAim aim,
+                                int bin)
+{
+    uint32_t first = cell > NEIGHBOURS ? cell - NEIGHBOURS : 0;
+    uint32_t end = cell + NEIGHBOURS + 1;
+    BinFinds own = finds_of(&training->lessons[cell], aim, bin), all = {0, 0};
+    for (uint32_t i = first; i < end && i < training->guide.cell_count; i++) {
+        BinFinds finds = finds_of(&training->lessons[i], aim, bin);
+        all.sum += finds.sum;
+        all.count += finds.count;
+    }
+    if (!(all.count > 0)) return own;
+    return (BinFinds){own.sum + DOUBT * all.sum / all.count, own.count + DOUBT};
+}
+
 /* The luminance times the solid angle of a bin, up to a factor. */
-static double bin_light(const GuideLesson *lesson, GuideAim aim, int bin)
+static double bin_light(BinFinds finds, int bin)
 {
     Vec3   d = guide_bin_direction(bin, 0.5f, 0.5f);
     double taxicab = (double)(fabsf(d.x) + fabsf(d.y) + fabsf(d.z));
-    if (!lesson->counts[bin]) return 0;
-    return (double)lesson->sums[aim][bin] / lesson->counts[bin] * taxicab * taxicab * taxicab;
+    return finds.count > 0 ? finds.sum / finds.count * taxicab * taxicab * taxicab : 0;
 }
 
 /* A little is left everywhere: what the lesson did not find may be there all the same. */
-static bool learn_aim(const GuideLesson *lesson, GuideAim aim, Spectrum out[GUIDE_SIDE])
+static bool learn_aim(const GuideTraining *training, uint32_t cell, GuideAim aim,
+                      GuideRow out[GUIDE_SIDE])
 {
-    double light[GUIDE_BINS], total = 0;
-    for (int i = 0; i < GUIDE_BINS; i++) total += light[i] = bin_light(lesson, aim, i);
+    double light[GUIDE_BINS], total = 0, most = 0;
+    for (int i = 0; i < GUIDE_BINS; i++)
+        total += light[i] = bin_light(with_neighbours(training, cell, aim, i), i);
+    for (int i = 0; i < GUIDE_BINS && total > 0; i++) {
+        light[i] = (1 - LEAST) * light[i] / total + LEAST / GUIDE_BINS;
+        most = fmax(most, light[i]);
+    }
     for (int i = 0; i < GUIDE_BINS && total > 0; i++)
-        out[i / GUIDE_SIDE][i % GUIDE_SIDE] =
-            (float)((1 - LEAST) * light[i] / total + LEAST / GUIDE_BINS);
+        out[i / GUIDE_SIDE][i % GUIDE_SIDE] = (uint16_t)(light[i] / most * UINT16_MAX);
     return total > 0;
-}
-
-static void learn_cell(const GuideLesson *lesson, GuideCell *cell)
-{
-    bool has_light = learn_aim(lesson, GUIDE_LIGHT, cell->light[GUIDE_LIGHT]);
-    bool has_sky = learn_aim(lesson, GUIDE_SKY, cell->light[GUIDE_SKY]);
-    cell->is_lit = has_light || has_sky;
 }
 
 void guide_training_learn(GuideTraining *training)
 {
-    for (uint32_t i = 0; i < training->guide.cell_count; i++)
-        learn_cell(&training->lessons[i], &training->guide.cells[i]);
+    for (uint32_t i = 0; i < training->guide.cell_count; i++) {
+        GuideCell *cell = &training->guide.cells[i];
+        bool has_light = learn_aim(training, i, GUIDE_LIGHT, cell->light[GUIDE_LIGHT]);
+        bool has_sky = learn_aim(training, i, GUIDE_SKY, cell->light[GUIDE_SKY]);
+        cell->is_lit = has_light || has_sky;
+    }
 }
 
 double guide_training_illuminance(const GuideTraining *training, uint32_t cell)
@@ -173,7 +203,7 @@ double guide_training_illuminance(const GuideTraining *training, uint32_t cell)
             Vec3  d = guide_bin_direction(i, 0.5f, 0.5f);
             float cosine = vec3_dot(d, training->places[p].normal);
             if (!(cosine > 0)) continue;
-            sum += bin_light(lesson, GUIDE_LIGHT, i) * (double)cosine;
+            sum += bin_light(finds_of(lesson, GUIDE_LIGHT, i), i) * (double)cosine;
         }
     return end > first ? sum * 4 / GUIDE_BINS / (double)(end - first) : 0;
 }

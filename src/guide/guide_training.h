@@ -15,11 +15,11 @@ typedef struct GuidePlace {
     Vec3 position, normal; /* just off a surface, on the normal's side; world */
 } GuidePlace;
 
-#define GUIDE_POINTS_MAX 8
+#define GUIDE_POINTS 4 /* of a cell in a round */
 
 /* What is asked of one cell in a round, and what was found. */
 typedef struct GuideLesson {
-    GuidePlace points[GUIDE_POINTS_MAX];
+    GuidePlace points[GUIDE_POINTS];
     int        point_count;
     float     *sums[GUIDE_AIMS]; /* of luminances, one a bin, over all rounds */
     uint32_t  *counts;
@@ -45,8 +45,8 @@ static inline void guide_lesson_add(const GuideLesson *lesson, int bin,
     lesson->counts[bin]++;
 }
 
-/* Chooses so many points of every cell for the round. */
-void guide_training_ask(GuideTraining *training, int points, int round);
+/* Chooses points of every cell for the round. */
+void guide_training_ask(GuideTraining *training, int round);
 
 /* Makes the guide of what was found so far. */
 void guide_training_learn(GuideTraining *training);

@@ -134,13 +134,12 @@ bool lights_sample(const Lights *lights, LightSet set, LitPoint point, const flo
     return false;
 }
 
-bool lights_sky_towards(const Lights *lights, Vec3 direction, Vec3 ns, LightSample *sample)
+void lights_sky_towards(const Lights *lights, Vec3 direction, Vec3 ns, LightSample *sample)
 {
     SkySample sky;
     sample_of(LIGHTS_SKY, sample);
-    if (!sky_towards(&lights->sky, direction, ns, &sky)) return false;
+    sky_towards(&lights->sky, direction, ns, &sky);
     take_sky(&sky, sample);
-    return true;
 }
 
 Spectrum lights_radiance(const Lights *lights, const LightSample *sample,

@@ -53,8 +53,9 @@ typedef struct LightSample {
 bool lights_sample(const Lights *lights, LightSet set, LitPoint point, const float u[3],
                    LightSample *sample);
 
-/* As if LIGHTS_SKY's sample had chosen this direction; its pdf may be 0. False: no sky. */
-bool lights_sky_towards(const Lights *lights, Vec3 direction, Vec3 ns, LightSample *sample);
+/* As if LIGHTS_SKY's sample had chosen this direction, where there is a sky; its pdf may be
+ * 0. */
+void lights_sky_towards(const Lights *lights, Vec3 direction, Vec3 ns, LightSample *sample);
 
 /* What comes from there, asked once it is known to arrive: most samples are in shadow. */
 Spectrum lights_radiance(const Lights *lights, const LightSample *sample,

@@ -191,17 +191,15 @@ bool sky_choose(const Sky *sky, Vec3 ns, const float u[2], SkySample *sample)
     return sample->pdf > 0;
 }
 
-bool sky_towards(const Sky *sky, Vec3 direction, Vec3 ns, SkySample *sample)
+void sky_towards(const Sky *sky, Vec3 direction, Vec3 ns, SkySample *sample)
 {
     sample->direction = direction;
-    if (sky->kind == ENVIRONMENT_NONE) return false;
     if (sky->kind == ENVIRONMENT_HDRI)
         sample->at = sky_picture_place(&sky->picture, direction, &sample->pdf);
     else if (sky->model)
         sample->pdf = sky_model_pdf(sky->model, direction);
     else
         sample->pdf = fmaxf(vec3_dot(direction, ns), 0) * INV_PI_F;
-    return true;
 }
 
 Spectrum sky_radiance(const Sky *sky, const SkySample *chosen, const Wavelengths *wavelengths)

@@ -55,8 +55,8 @@ SkySample sky_seen(const Sky *sky, Vec3 direction, Vec3 ns, const Wavelengths *w
  * once it is known to arrive. False: nothing there. */
 bool sky_choose(const Sky *sky, Vec3 ns, const float u[2], SkySample *sample);
 
-/* As if sky_choose had chosen this direction. */
-bool sky_towards(const Sky *sky, Vec3 direction, Vec3 ns, SkySample *sample);
+/* As if sky_choose had chosen this direction, where there is a sky. */
+void sky_towards(const Sky *sky, Vec3 direction, Vec3 ns, SkySample *sample);
 Spectrum sky_radiance(const Sky *sky, const SkySample *chosen, const Wavelengths *wavelengths);
 
 /* Zero off the disc, and below the horizon of a model. */

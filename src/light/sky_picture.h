@@ -23,7 +23,8 @@ typedef struct SkyPicture {
 bool sky_picture_build(const Environment *environment, float turn, Arena *arena,
                        SkyPicture *out, Error *err);
 
-/* HOT. Where a direction lies in the picture, and the density with which it would be sampled. */
+/* HOT. Where a direction lies in the picture, and the density with which it would be
+ * sampled. */
 Vec2 sky_picture_place(const SkyPicture *picture, Vec3 direction, float *pdf);
 
 /* HOT. Chooses a direction; *at: where it lies in the picture, in pixels from the upper left

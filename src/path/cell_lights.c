@@ -2,8 +2,8 @@
 
 #include "base/units.h"
 
-/* A set is asked always whose samples' root mean square is a tenth of all light. */
-#define GENEROSITY 10.0
+/* A set is asked always whose samples' root mean square is a fifth of all light. */
+#define GENEROSITY 5.0
 #define LEAST 0.1f
 
 /* How much of it chance does not find by itself: the weight that a path gives to the sample. */
@@ -28,9 +28,10 @@ void cell_lights_try(const PathContext *context, LitPoint point, uint32_t cell,
         sampler_4d(sampler, u);
         if (!lead_choose_light(&lead, context->lights, (LightSet)set, point, u, &light))
             continue;
-        double lx = light_selection_lx(context->bvh, context->lights, point, &light, u[3]);
-        if (!(lx > 0)) continue;
-        lx *= own_share(&lead, point, &light);
+        if (!light_selection_arrives(context->bvh, point, &light)) continue;
+        lead_weigh_light(&lead, context->lights, point, &light);
+        double lx = light_selection_lx(context->lights, point, &light, u[3]) *
+                    own_share(&lead, point, &light);
         finds->sum[set] += lx;
         finds->squares[set] += lx * lx;
     }

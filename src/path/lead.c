@@ -69,14 +69,19 @@ bool lead_choose_light(const Lead *lead, const Lights *lights, LightSet set, Lit
     float v[3] = {u[0], u[1], u[2]};
     if (set != LIGHTS_SKY || !(lead->sky_mix > 0))
         return lights_sample(lights, set, point, u, sample);
-    if (unit_choose(&v[0], lead->sky_mix)) {
-        Vec3 wi = guide_sample(&lead->view.towards[GUIDE_SKY], v[0], v[1]);
-        if (!lights_sky_towards(lights, wi, point.ns, sample)) return false;
-    } else if (!lights_sample(lights, set, point, v, sample)) {
-        return false;
-    }
+    if (!unit_choose(&v[0], lead->sky_mix)) return lights_sample(lights, set, point, v, sample);
+    *sample = (LightSample){.set = set, .distance = INFINITY};
+    sample->wi = guide_sample(&lead->view.towards[GUIDE_SKY], v[0], v[1]);
+    return true;
+}
+
+/* The guide's choice has a pdf of 0 until now. */
+void lead_weigh_light(const Lead *lead, const Lights *lights, LitPoint point,
+                      LightSample *sample)
+{
+    if (sample->set != LIGHTS_SKY) return;
+    if (!(sample->pdf > 0)) lights_sky_towards(lights, sample->wi, point.ns, sample);
     sample->pdf = lead_sky_pdf(lead, sample->wi, sample->pdf);
-    return sample->pdf > 0;
 }
 
 float lead_pdf(const Lead *lead, Vec3 wi, float bsdf_pdf)

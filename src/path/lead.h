@@ -36,9 +36,12 @@ void lead_alone(const PathContext *context, Lead *lead);
 /* Of a white surface that faces ns, in a cell of the context's guide. */
 void lead_of_white(const PathContext *context, uint32_t cell, Vec3 ns, Lead *lead);
 
-/* HOT. lights_sample, but that the guide leads to the sky. */
+/* HOT. As lights_sample, but that the guide leads to the sky, and that the sample's pdf is
+ * right only after lead_weigh_light: what does not arrive need not know it. */
 bool lead_choose_light(const Lead *lead, const Lights *lights, LightSet set, LitPoint point,
                        const float u[3], LightSample *sample);
+void lead_weigh_light(const Lead *lead, const Lights *lights, LitPoint point,
+                      LightSample *sample);
 
 /* HOT. Density with which lead_choose_light chooses a direction to the sky that the sky's own
  * samples find with `own`, sr^-1. */

@@ -14,16 +14,19 @@ static bool always_passes(void *user, const Hit *hit)
     return true; /* holes and windows: their colour does not matter here */
 }
 
-double light_selection_lx(const Bvh *bvh, const Lights *lights, LitPoint point,
-                          const LightSample *light, float u)
+bool light_selection_arrives(const Bvh *bvh, LitPoint point, const LightSample *light)
+{
+    Ray ray = {ray_offset_origin(point.position, point.ns, light->wi), light->wi, 0,
+               light->distance * 0.999f};
+    return vec3_dot(point.ns, light->wi) > 0 && !bvh_occluded(bvh, ray, always_passes, NULL);
+}
+
+double light_selection_lx(const Lights *lights, LitPoint point, const LightSample *light,
+                          float u)
 {
     Wavelengths wavelengths;
     float xyz[3] = {0};
     float cosine = vec3_dot(point.ns, light->wi);
-    if (!(cosine > 0)) return 0;
-    Ray ray = {ray_offset_origin(point.position, point.ns, light->wi), light->wi, 0,
-               light->distance * 0.999f};
-    if (bvh_occluded(bvh, ray, always_passes, NULL)) return 0;
     wavelengths_sample(u, &wavelengths);
     spectrum_add_xyz(&wavelengths, lights_radiance(lights, light, &wavelengths) *
                                        spectrum_all(cosine / light->pdf), xyz);
@@ -38,7 +41,8 @@ static double sample_illuminance(const Bvh *bvh, const Lights *lights, LightSet 
     float u[4];
     sampler_4d(sampler, u);
     if (!lights_sample(lights, set, point, u, &light)) return 0;
-    return light_selection_lx(bvh, lights, point, &light, u[3]);
+    if (!light_selection_arrives(bvh, point, &light)) return 0;
+    return light_selection_lx(lights, point, &light, u[3]);
 }
 
 /* Mean over points spread over the part's triangles; side 0: its front, 1: its back. */

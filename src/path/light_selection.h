@@ -22,10 +22,12 @@ typedef struct LightSelection {
 LightSelection light_selection_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
                                      Arena *arena);
 
-/* Illuminance, lx, that a light sample gives at a point which faces point.ns, shadows counted;
- * u in [0, 1): for the wavelengths. */
-double light_selection_lx(const Bvh *bvh, const Lights *lights, LitPoint point,
-                          const LightSample *light, float u);
+/* Does the light sample arrive at a point that faces point.ns? */
+bool light_selection_arrives(const Bvh *bvh, LitPoint point, const LightSample *light);
+
+/* Illuminance, lx, of one that does; u in [0, 1): for the wavelengths. */
+double light_selection_lx(const Lights *lights, LitPoint point, const LightSample *light,
+                          float u);
 
 /* part_id may be NO_ID. is_back: seen from the side where the triangle's normal does not point.
  * The row lives as long as the selection. */

@@ -283,6 +283,7 @@ static void add_light_sample(PathWalk *walk, const Surface *surface, Vec3 wo, co
     if (!bsdf_reaches(&surface->bsdf, local_wo, local_wi)) return;
     Spectrum passed = visibility(walk, surface, &light);
     if (spectrum_is_zero(passed)) return;
+    lead_weigh_light(lead, context->lights, point, &light);
     float    bsdf_pdf;
     Spectrum f = bsdf_eval(&surface->bsdf, local_wo, local_wi, &bsdf_pdf);
     if (set == LIGHTS_SUN && mirror_was_asked(walk, surface, wo, true))

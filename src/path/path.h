@@ -49,8 +49,8 @@ typedef struct PathArrival {
 } PathArrival;
 
 /* Luminances, cd m^-2, that arrive: of the sky that is seen there; and of all else that the
- * point's own light samples would hardly find: each kind of light is weighed as if the direction
- * had been chosen with a density of 1 per steradian. */
+ * point's own light samples would hardly find: each kind of light is weighed as if the
+ * direction had been chosen with a density of 1 per steradian. */
 void path_arriving(const PathContext *context, const PathArrival *at,
                    const Wavelengths *wavelengths, Sampler *sampler, float cd_m2[GUIDE_AIMS],
                    PathStatistics *statistics);

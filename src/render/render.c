@@ -252,7 +252,7 @@ bool render_prepare(const Scene *scene, const SceneCamera *camera, const RenderO
     setup.camera = camera_from_scene(camera, options->width, options->height);
     setup.build_seconds = monotonic_seconds() - begun_s;
     setup.build_peak_bytes = machine_peak_bytes();
-    if (options->is_guided && !find_field(&setup, options, arena, err)) {
+    if (!options->no_guiding && !find_field(&setup, options, arena, err)) {
         bvh_destroy(setup.bvh);
         return false;
     }

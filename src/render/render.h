@@ -30,7 +30,7 @@ typedef struct RenderOptions {
     double   noise;            /* stop when the relative error is below; 0: never. Not before
                                   every pixel has RENDER_LEAST_SAMPLES */
     FilmArea noise_area;       /* whose error decides */
-    bool     is_guided;        /* learns first where light comes from, and looks there */
+    bool     no_guiding;       /* does not learn first where light comes from */
     const char *field;         /* what was learnt: read from this file if it is there, else kept
                                   there; NULL: neither */
     int      max_bounces;      /* 0: emission only, 1: plus direct light */

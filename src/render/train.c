@@ -6,9 +6,8 @@
 #include "render/tiles.h"
 
 #define STEPS_MAX 16384.0     /* of the raster */
-#define PLACES 64             /* of a cell at most */
+#define CELLS 1.0             /* times the root of the frame's pixels: so many cells, or more */
 #define ROUNDS 2
-#define PIXELS_A_POINT 8192.0 /* of the frame, to every point of a cell in a round */
 #define SEED 0x67756964u  /* not a frame's own samples */
 
 typedef struct Lesson {
@@ -105,11 +104,11 @@ static Lesson lesson_start(const Camera *camera, const TrainOptions *options, Ar
     return lesson;
 }
 
-/* A small frame is worth a short lesson. */
-static int points_for(const Camera *camera)
+/* Places of a cell, at most: a small frame is worth a short lesson. */
+static uint32_t places_a_cell(const Camera *camera, uint32_t places)
 {
     double pixels = (double)camera->width * (double)camera->height;
-    return (int)fmin(fmax(pixels / PIXELS_A_POINT, 1), GUIDE_POINTS_MAX);
+    return (uint32_t)fmax(places / (CELLS * sqrt(pixels)), GUIDE_POINTS);
 }
 
 const LightGuide *train_guide(const PathContext *context, const Camera *camera,
@@ -124,14 +123,15 @@ const LightGuide *train_guide(const PathContext *context, const Camera *camera,
     lesson.job.context = &trainee;
     parallel_for(options->threads, render_tile_count(lesson.raster), find_places, &lesson);
     GuidePlace *places = all_places(&lesson, arena, &count);
-    GuideTraining *training = guide_training_start(places, count, PLACES, arena);
+    GuideTraining *training = guide_training_start(
+        places, count, places_a_cell(camera, count), arena);
     LightGuide    *guide = &training->guide;
     lesson.job.training = training;
     lesson.job.finds = ARENA_NEW(arena, LightFinds, guide->cell_count);
     trainee.guide = guide;
     for (int round = 0; round < ROUNDS; round++) {
-        lesson.job.index = (uint32_t)round * GUIDE_POINTS_MAX;
-        guide_training_ask(training, points_for(camera), round);
+        lesson.job.index = (uint32_t)round * GUIDE_POINTS;
+        guide_training_ask(training, round);
         parallel_for(options->threads, (int)guide->cell_count, learn_cell, &lesson);
         guide_training_learn(training);
     }

@@ -122,7 +122,7 @@ def main():
         dashboard = [os.path.join(ROOT, "scenes", name)
                      for name in ("car_dashboard.gltf", "noon.gltf")]
         works = [([small], ["--size", "96x64", "--spp", "8"]),
-                 ([small], ["--size", "64x48", "--spp", "4", "--guiding"]),
+                 ([small], ["--size", "64x48", "--spp", "4", "--no-guiding"]),
                  (dashboard, ["--size", "96x54", "--spp", "4"])]
         cpus = [([small], ["--size", "48x32", "--spp", "4", "--environment", sky, *more])
                 for sky, more in SKIES]

@@ -179,9 +179,9 @@ static bool check_render(const RenderWords *typed, Arena *arena, RenderRequest *
     options->end_sample = (uint32_t)typed->spp;
     options->max_bounces = (int)typed->max_bounces;
     options->seed = (uint32_t)typed->seed;
-    if (options->field && !options->is_guided)
-        return error_set(err, ERROR_USAGE, "--field %s keeps what is learnt — add --guiding",
-                         options->field);
+    if (options->field && options->no_guiding)
+        return error_set(err, ERROR_USAGE, "--field %s keeps what is learnt — leave out "
+                                           "--no-guiding", options->field);
     options->threads = request->cli.threads;
     options->progress = request->cli.progress;
     if (typed->has_spp && typed->samples)
@@ -236,11 +236,11 @@ static const char *resume_line(int argc, char **argv, bool resumes, Arena *arena
      &(request)->resumes}
 
 #define GUIDING_OPTIONS(request)                                                               \
-    {"--guiding", OPTION_FLAG, NULL,                                                           \
-     "learn first where light comes from, and look there: less noise by day",                  \
-     &(request)->render.is_guided},                                                            \
+    {"--no-guiding", OPTION_FLAG, NULL,                                                        \
+     "do not learn first where light comes from: the plain estimator, of more noise",          \
+     &(request)->render.no_guiding},                                                           \
     {"--field", OPTION_TEXT, "FILE",                                                           \
-     "what --guiding learns: from this file if it is there, else kept there",                  \
+     "what is learnt: taken from this file if it is there, else kept there",                   \
      &(request)->render.field}
 
 static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
