@@ -27,25 +27,24 @@ static int drop_tables(void **state)
 }
 
 /* A uniform surround of 1 is sent back whole by white plastic and white metal, whatever lies on
- * it, from 0 to 85 degrees. The samples run evenly through half a turn, through sqrt(1 - u1)
- * (facets that graze or lose their light crowd where u1 nears 1) and, by a lattice, through
- * the choices. */
+ * it, from 0 to 85 degrees. The samples run evenly, by a lattice, through u0 (the choices, and in
+ * each the turn) and through sqrt(1 - u1) (facets that graze or lose their light crowd where u1
+ * nears 1). */
 static double furnace_of(const MetallicRoughness *m, double theta_deg, int side)
 {
-    enum { CHOICES = 8 };
+    enum { TURNS = 8 }; /* for one height */
     double t = radians_from_degrees(theta_deg), sum = 0;
     Bsdf   bsdf = {.kind = BSDF_METALLIC_ROUGHNESS, .metallic_roughness = *m};
     Vec3   wo = vec3((float)sin(t), 0, (float)cos(t));
-    for (int i = 0; i < side * side * CHOICES; i++) {
-        int    turn = i % side, height = i / side % side, choice = i / (side * side);
-        double rest = (height + 0.5) / side;
-        double within = fmod(turn * 0.7548776662 + height * 0.5698402910, 1);
-        const float u[3] = {((float)turn + 0.5f) / (2 * side), (float)(1 - rest * rest),
-                            (float)((choice + within) / CHOICES)};
+    for (int i = 0; i < side * side * TURNS; i++) {
+        int    turn = i % (side * TURNS), height = i / (side * TURNS);
+        double rest = (height + 0.5) / side, shift = fmod(height * 0.5698402910, 1);
+        const float u[3] = {(float)((turn + shift) / (side * TURNS)), (float)(1 - rest * rest),
+                            0.5f};
         BsdfSample s;
         if (bsdf_sample(&bsdf, wo, u, &s)) sum += 2 * rest * (double)s.weight[7];
     }
-    return sum / (side * side * CHOICES);
+    return sum / (side * side * TURNS);
 }
 
 static void check_coated(float metallic, float alpha, double theta_deg)
@@ -140,7 +139,7 @@ TEST(a_coated_mirror_sums_up_its_turns)
             float  mean = colour + (1 - colour) / 21; /* of its further turns */
             double sum = 0;
             for (int k = 0; k < 200; k++) {
-                float      u[3] = {0.5f, 0.5f, ((float)k + 0.5f) / 200};
+                float      u[3] = {((float)k + 0.5f) / 200, 0.5f, 0.5f};
                 BsdfSample s;
                 if (bsdf_sample(&bsdf, wo, u, &s)) sum += (double)s.weight[3] / 200;
             }

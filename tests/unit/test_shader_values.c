@@ -72,7 +72,7 @@ TEST(light_is_totally_reflected_beyond_the_critical_angle)
 static Spectrum delta_part(const Bsdf *bsdf, Vec3 wo, Vec3 wi)
 {
     for (int i = 0; i < 4000; i++) {
-        float      u[3] = {0.5f, 0.5f, ((float)i + 0.5f) / 4000};
+        float      u[3] = {((float)i + 0.5f) / 4000, 0.5f, 0.5f};
         BsdfSample s;
         if (!bsdf_sample(bsdf, wo, u, &s) || !s.is_delta) continue;
         if (vec3_length(vec3_sub(s.wi, wi)) < 1e-3f) return s.weight * spectrum_all(s.pdf);

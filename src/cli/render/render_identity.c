@@ -199,14 +199,14 @@ const char *render_identity(const RenderRequest *request, const Scene *scene,
     line(&text, "seed", "%u", options->seed);
     line(&text, "max bounces", "%d", options->max_bounces);
     line(&text, "sun in mirrors", "%s", options->no_mirrors ? "by chance" : "asked for");
-    if (request->field_hash)
-        line(&text, "field", "%016llx", (unsigned long long)request->field_hash);
     line(&text, "layers", "%s", render_layer_list(options->layers, arena));
     add_files(&text, scene);
     add_displays(&text, request, scene);
     add_luminaires(&text, scene);
     add_environment(&text, scene);
     add_camera(&text, camera);
+    if (request->field_hash) /* last: it changes with most of the others */
+        line(&text, "field", "%016llx", (unsigned long long)request->field_hash);
     return text.data;
 }
 
