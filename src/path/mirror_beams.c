@@ -222,7 +222,7 @@ static void weigh_sides(const Beams *beams, const LightSelection *selection)
         BeamSide *side = &beams->sides[row];
         float     time = sqrtf(sqrtf((float)mirrors[row / 2]));
         if (!mirrors[row / 2]) continue;
-        side->least = LEAST / time;
+        side->least = LEAST;
         side->by_root = GENEROSITY / (time * sqrtf(fmaxf(selection->lx[row], LEAST_LX)));
     }
 }
