@@ -233,7 +233,7 @@ static bool decode_plain(const Encoded *file, Arena *arena, Image *out)
     if (!plain_png_read(&png, rows)) return false;
     Swizzle swizzle = swizzle_of(png.channels, png.channels % 2 ? -1 : png.channels - 1);
     for (size_t y = 0; y < (size_t)png.height; y++)
-        spread_u8(rows + y * row_bytes + 1, swizzle, (size_t)png.width,
+        spread_u8(rows + y * row_bytes, swizzle, (size_t)png.width,
                   pixels + y * (size_t)png.width * 4);
     *arena = kept;
     *out = (Image){png.width, png.height, IMAGE_RGBA8, pixels};

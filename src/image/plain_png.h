@@ -2,10 +2,11 @@
  * RGB, with or without alpha, not interlaced, without a palette or a transparent colour.
  *
  * Whatever is unusual about a file, damage above all, makes it not plain: it is then for the
- * library (openimageio/image_file.h), which takes a fifth of a second to load, and its reasons.
+ * library for all pictures (openimageio/image_file.h), which takes a fifth of a second to load,
+ * and its reasons.
  *
- * Source   W3C, "Portable Network Graphics (PNG) Specification (Second Edition)", 5, 9, 11.
- * Threads  no state. Memory: the caller's, and 40 kB of zlib's while it reads.
+ * By libpng.
+ * Threads  no state. Memory: the caller's, and libpng's own while it reads: some rows.
  */
 #pragma once
 #include <stdbool.h>
@@ -16,12 +17,11 @@ typedef struct PlainPng {
     size_t size;
     int    width, height; /* 1 to 65536 */
     int    channels;      /* 1 to 4: grey, grey and alpha, RGB, RGBA */
-    size_t row_bytes;     /* a filter's byte, then the pixels */
+    size_t row_bytes;
 } PlainPng;
 
 /* False: not plain. */
 bool plain_png_open(const unsigned char *bytes, size_t size, PlainPng *out);
 
-/* rows: height * row_bytes, from the top; each one's first byte means nothing. False: not plain
- * after all. */
+/* rows: height * row_bytes, from the top. False: not plain after all. */
 bool plain_png_read(const PlainPng *png, unsigned char *rows);
