@@ -27,9 +27,9 @@ static int drop_tables(void **state)
 }
 
 /* A uniform surround of 1 is sent back whole by white plastic and white metal, whatever lies on
- * it, from 0 to 85 degrees. The samples run evenly, by a lattice, through u0 (the choices, and in
- * each the turn) and through sqrt(1 - u1) (facets that graze or lose their light crowd where u1
- * nears 1). */
+ * it, from 0 to 85 degrees. The samples run evenly, by a lattice, through u0 (the choices, and
+ * in each the turn) and through sqrt(1 - u1) (facets that graze or lose their light crowd where
+ * u1 nears 1). */
 static double furnace_of(const MetallicRoughness *m, double theta_deg, int side)
 {
     enum { TURNS = 8 }; /* for one height */
