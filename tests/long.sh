@@ -37,6 +37,8 @@ run 'all closed forms in frames' image-long \
     python3 tests/image/run.py --all .build/release/parhelion
 run 'daylight through a roof, every point' roof-long \
     python3 tests/image/roof.py .build/release/parhelion --all
+run 'what is learnt moves no mean' guided-long \
+    python3 tests/image/guided.py .build/release/parhelion
 run 'false alarms and power of compare' compare-power \
     python3 tests/bench/compare_power.py .build/release/parhelion .build/release/bench_statistic
 run 'a hundred kills' resume-long \

@@ -200,7 +200,8 @@ bool bvh_create(const Scene *scene, int threads, const char *isa, Bvh **out, Err
     if (check_device(bvh->device, &first)) build_scene(bvh, scene);
     rtcSetDeviceErrorFunction(bvh->device, NULL, NULL);
     if (first.code != ERROR_NONE) {
-        bvh_destroy(bvh);
+        /* Mostly for want of memory. Embree and oneTBB allocate while they clean up, and end
+         * the program where they cannot: what stands half-built is left to the system. */
         *err = first;
         return false;
     }
