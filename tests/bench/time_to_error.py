@@ -4,10 +4,11 @@
 Each program renders each view with N samples and several seeds, in turns. The error of a pixel
 is the root mean square over seeds of its luminance's distance from a frame of the first program
 with 16 times all these samples, over max(Y, half of the key), as a frame's own relative error
-is (src/film/film.h); the frame's is the mean over pixels. The time to 5 % is the start-up (a
-frame of 16x9 with one sample) and what the samples took times (error / 5 %)^2. The last
-columns are ratios to the first NAME: of that time, of start-up, of squared errors, of what the
-samples took.
+is (src/film/film.h); the frame's is the mean over pixels. What a frame takes besides its
+samples, start-up and what it learns first, is told by a frame of one sample; the time to 5 % is
+that and what the samples took times (error / 5 %)^2. The last columns are ratios to the first
+NAME: of that time, of what comes before the samples, of squared errors, of what the samples
+took.
 
 What a program never finds (a lamp in a mirror) counts as its error, and by few samples it may
 still look sure: the reference should be the surest program's. The million-triangle box must be
@@ -77,7 +78,7 @@ def relative_error(frames, truth):
 
 
 def measure(programs, words, arguments, folder):
-    """name -> (error, start-up s, s a frame of N samples), medians; the spread of the last."""
+    """name -> (error, s of frames of one sample, s of frames of N samples)."""
     out = os.path.join(folder, "frame.exr")
     found = {name: {"frames": [], "start": [], "all": []} for name in programs}
     reference = next(iter(programs.values()))
@@ -86,12 +87,17 @@ def measure(programs, words, arguments, folder):
     for seed in range(arguments.seeds):
         for name, program in programs.items():
             of = found[name]
-            of["start"].append(render(program, words, "16x9", 1, seed, out)[0])
+            of["start"].append(render(program, words, arguments.size, 1, seed, out)[0])
             of["all"].append(render(program, words, arguments.size, arguments.spp, seed,
                                     out)[0])
             of["frames"].append(luminance(out))
     return {name: (relative_error(of["frames"], truth), of["start"], of["all"])
             for name, of in found.items()}
+
+
+def before_samples(one, whole, spp):
+    """Of what frames of one and of spp samples took."""
+    return one - max(whole - one, 0) / (spp - 1)
 
 
 def time_to_goal(error, start, whole):
@@ -111,8 +117,8 @@ def main():
         name, words = item.split("=", 1)
         program, *options = words.split(",")
         programs[name] = [os.path.abspath(program), "render", *options]
-    print(f"{'view':18} {'program':12} {'error %':>8} {'start s':>8} {'frame s':>8} "
-          f"{'range':>13} {'to 5 % s':>9} {'ratio':>6}  start error^2 rate")
+    print(f"{'view':18} {'program':12} {'error %':>8} {'before s':>8} {'frame s':>8} "
+          f"{'range':>13} {'to 5 % s':>9} {'ratio':>6}  before error^2 samples")
     with tempfile.TemporaryDirectory() as folder:
         for view, words in VIEWS.items():
             if arguments.views and view not in arguments.views.split(";"):
@@ -120,7 +126,8 @@ def main():
             first = None
             for name, (error, start, whole) in measure(programs, words, arguments,
                                                        folder).items():
-                begin, end = statistics.median(start), statistics.median(whole)
+                end = statistics.median(whole)
+                begin = before_samples(statistics.median(start), end, arguments.spp)
                 now = (time_to_goal(error, begin, end), begin, error ** 2, end - begin)
                 first = first or now
                 print(f"{view:18} {name:12} {100 * error:8.2f} {begin:8.2f} {end:8.2f} "
