@@ -2,7 +2,7 @@
 
 #include "base/sampler.h"
 
-#define GUIDE_SHARE 0.5f /* of the directions of a surface's wide lobes */
+#define GUIDE_SHARE 0.4f /* of the directions of a surface's wide lobes */
 #define SKY_SHARE 0.9f   /* of the samples of a sky that is seen from the cell */
 
 /* How often lights are asked where no guide knows it. */
@@ -32,14 +32,12 @@ void lead_at(const PathContext *context, const Surface *surface, Vec3 wo, int bo
     ask_as_side(context, surface, wo, bounce, lead);
     if (!guide || bounce >= context->max_bounces) return;
     BsdfLobes lobes = bsdf_lobes(&surface->bsdf, frame_to_local(&surface->frame, wo));
+    lead->often = 1; /* what guided paths meet is bright */
     if (!(lobes.prob > 0)) return;
     GuideSurface seen = {surface->frame.z, wo, lobes.diffuse, lobes.f0, lobes.f90, lobes.alpha};
     uint32_t     cell = guide_cell_at(guide, surface->position);
     lead->is_wide = true;
-    if (guide->asks) {
-        lead->asked = guide->cells[cell].asked;
-        lead->often = 1;
-    }
+    if (guide->asks) lead->asked = guide->cells[cell].asked;
     look(guide, cell, &seen, lobes.prob, lead);
 }
 

@@ -11,8 +11,8 @@
 #define RAYS_BY_AREA 100000
 #define FIRST_ROOM 1024    /* for pairs */
 #define SHEETS_PASSED 16   /* by one ray behind its mirror */
-#define GENEROSITY 0.3f    /* by the root of their light over all other, of one mirror's part */
-#define LEAST 0.025f       /* the same where none came */
+#define GENEROSITY 0.2f    /* by the root of their light over all other, of one mirror's part */
+#define LEAST 0.0075f      /* the same where none came */
 #define CUBES 128          /* along the longest edge of a part's box, and at least so large: */
 #define LEAST_EDGE_M 1e-4f
 #define LEAST_LX 1e-6f     /* of other light */

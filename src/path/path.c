@@ -8,6 +8,7 @@
 #include "spectrum/photometry.h"
 
 #define ROULETTE_FIRST_BOUNCE 2
+#define ROULETTE_GENEROSITY 1.7f
 #define SHEET_SHARE 0.5f /* of the samples that follow what a thin sheet itself shows */
 #define SPLITS 2         /* thin sheets along a camera ray that are followed both ways */
 #define ARRIVING_PDF 1.0f /* sr^-1, with which a guide that has learnt finds light, about */
@@ -356,8 +357,8 @@ static void add_mirrored_suns(PathWalk *walk, const Surface *surface, Vec3 wo)
         walk->bounce + 1 >= context->max_bounces)
         return;
     float prob = mirror_beams_prob(&context->beams, surface->part_id,
-                                   vec3_dot(wo, surface->ng) < 0, surface->position) *
-                 (walk->bounce < DEEP_BOUNCE ? 1 : DEEP_SHARE);
+                                   vec3_dot(wo, surface->ng) < 0, surface->position);
+    for (int i = 0; i < walk->bounce && i < DEEP_BOUNCE; i++) prob *= DEEP_SHARE;
     if (!(prob > 0)) return;
     float u[4];
     numbers_for(walk, NUMBERS_MIRRORS);
@@ -401,12 +402,14 @@ static void absorb(PathWalk *walk, float distance)
 }
 
 /* Ends dim paths; what survives is made stronger, so that the mean stays (Arvo and Kirk 1990).
- * The square root spares the light that reaches shadows by way of dark leather. */
+ * The square root spares the light that reaches shadows by way of dark leather. Measured over
+ * both cockpits, a guided path is worth more than that: what it finds costs little beside the
+ * vertices before it. */
 static bool roulette(PathWalk *walk)
 {
     if (walk->bounce < ROULETTE_FIRST_BOUNCE) return true;
     numbers_for(walk, NUMBERS_ROULETTE);
-    float survival = fminf(sqrtf(spectrum_max_lane(walk->throughput)), 0.95f);
+    float survival = fminf(ROULETTE_GENEROSITY * sqrtf(spectrum_max_lane(walk->throughput)), 1);
     if (sampler_1d(walk->sampler) >= survival) return false;
     walk->throughput *= spectrum_all(1 / survival);
     return true;
