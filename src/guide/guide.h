@@ -7,7 +7,8 @@
  * which a direction d has the coordinates d / (|x| + |y| + |z|), the lower half turned up into
  * the corners (Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit
  * Vectors"). A piece dA of the map is the solid angle (|x| + |y| + |z|)^3 dA.
- * Besides, a cell knows how often a surface in it should sample each set of lights.
+ * Besides, a cell knows how often a surface in it should sample each set of lights, and which
+ * lamps light it.
  * A surface's own density is the product of that with what it scatters, bin by bin.
  *
  * Units    metres and world directions; densities in sr^-1.
@@ -31,9 +32,19 @@ typedef enum GuideAim { GUIDE_LIGHT, GUIDE_SKY, GUIDE_AIMS } GuideAim;
 /* Whole numbers: a view reads all bins, and as floats they would be twice as far to fetch. */
 typedef uint16_t GuideRow __attribute__((vector_size(2 * GUIDE_SIDE), aligned(32)));
 
+/* Lamps that light a cell, and how much of their light arrives in it. */
+#define GUIDE_LAMPS 8
+typedef struct GuideLamps {
+    int32_t count; /* 0: the cell knows of none */
+    int32_t id[GUIDE_LAMPS];
+    float   arrives[GUIDE_LAMPS]; /* share, in (0, 1]; 0 of those not used */
+    float   others; /* share of the samples that go to all other lamps */
+} GuideLamps;
+
 typedef struct GuideCell {
     GuideRow light[GUIDE_AIMS][GUIDE_SIDE]; /* through each bin, in any unit: lane x of row y */
     float    asked[GUIDE_LIGHTS]; /* with which probability a surface samples each set */
+    GuideLamps lamps;
     float    is_lit;              /* 1: it has learnt something; else 0 */
 } GuideCell;
 

@@ -23,9 +23,10 @@ typedef struct GuideHead {
 typedef struct CellRow {
     uint16_t light[GUIDE_AIMS][GUIDE_BINS];
     float    asked[GUIDE_LIGHTS], is_lit;
+    GuideLamps lamps;
 } CellRow;
 
-_Static_assert(sizeof(GuideHead) == 32 && sizeof(CellRow) == 1044 && sizeof(GuideNode) == 16,
+_Static_assert(sizeof(GuideHead) == 32 && sizeof(CellRow) == 1116 && sizeof(GuideNode) == 16,
                "no padding goes to a file");
 
 static CellRow row_of(const GuideCell *cell)
@@ -34,6 +35,7 @@ static CellRow row_of(const GuideCell *cell)
     memcpy(row.light, cell->light, sizeof row.light);
     memcpy(row.asked, cell->asked, sizeof row.asked);
     row.is_lit = cell->is_lit;
+    row.lamps = cell->lamps;
     return row;
 }
 
@@ -92,8 +94,26 @@ static bool check_tree(const LightGuide *guide, Error *err)
                      guide->node_count, guide->cell_count);
 }
 
-static bool check_row(const CellRow *row, uint32_t cell, const bool has[GUIDE_LIGHTS],
-                      Error *err)
+static bool check_lamps(const GuideLamps *lamps, uint32_t cell, int lamp_count, Error *err)
+{
+    bool ok = lamps->count >= 0 && lamps->count <= GUIDE_LAMPS && lamps->others >= 0 &&
+              lamps->others <= 1;
+    for (int i = 0; ok && i < lamps->count; i++) {
+        ok = lamps->arrives[i] > 0 && lamps->arrives[i] <= 1 && lamps->id[i] >= 0;
+        for (int k = 0; k < i; k++) ok = ok && lamps->id[k] != lamps->id[i];
+    }
+    if (!ok)
+        return error_set(err, ERROR_INPUT, "damaged field: cell %u knows impossible lamps",
+                         cell);
+    for (int i = 0; i < lamps->count; i++)
+        if (lamps->id[i] >= lamp_count)
+            return error_set(err, ERROR_INPUT, "is a field of other light: cell %u knows lamp "
+                                               "%d, the scene has %d", cell, lamps->id[i],
+                             lamp_count);
+    return true;
+}
+
+static bool check_row(const CellRow *row, uint32_t cell, const GuideScene *scene, Error *err)
 {
     bool ok = row->is_lit == 0 || row->is_lit == 1;
     for (int i = 0; i < GUIDE_LIGHTS; i++) ok = ok && row->asked[i] >= 0 && row->asked[i] <= 1;
@@ -101,11 +121,11 @@ static bool check_row(const CellRow *row, uint32_t cell, const bool has[GUIDE_LI
         return error_set(err, ERROR_INPUT, "damaged field: cell %u holds a value outside of "
                                            "0 to 1", cell);
     for (int i = 0; i < GUIDE_LIGHTS; i++)
-        if (has[i] && !(row->asked[i] >= ASKED_LEAST))
+        if (scene->has[i] && !(row->asked[i] >= ASKED_LEAST))
             return error_set(err, ERROR_INPUT, "is a field of other light: cell %u never asks "
                                                "for a kind of light that this scene has",
                              cell);
-    return true;
+    return check_lamps(&row->lamps, cell, scene->lamp_count, err);
 }
 
 static bool check_head(const FileBytes *file, GuideHead *head, Error *err)
@@ -126,7 +146,7 @@ static bool check_head(const FileBytes *file, GuideHead *head, Error *err)
     return true;
 }
 
-static bool take(const FileBytes *file, const GuideHead *head, const bool has[GUIDE_LIGHTS],
+static bool take(const FileBytes *file, const GuideHead *head, const GuideScene *scene,
                  LightGuide *guide, Error *err)
 {
     const unsigned char *at = file->data + sizeof *head;
@@ -135,10 +155,11 @@ static bool take(const FileBytes *file, const GuideHead *head, const bool has[GU
     for (uint32_t i = 0; i < head->cell_count; i++, at += sizeof(CellRow)) {
         CellRow row;
         memcpy(&row, at, sizeof row);
-        if (!check_row(&row, i, has, err)) return false;
+        if (!check_row(&row, i, scene, err)) return false;
         memcpy(guide->cells[i].light, row.light, sizeof row.light);
         memcpy(guide->cells[i].asked, row.asked, sizeof row.asked);
         guide->cells[i].is_lit = row.is_lit;
+        guide->cells[i].lamps = row.lamps;
     }
     if (!check_tree(guide, err)) return false;
     if (guide_hash(guide) == head->hash) return true;
@@ -146,7 +167,7 @@ static bool take(const FileBytes *file, const GuideHead *head, const bool has[GU
                      (unsigned long long)guide_hash(guide), (unsigned long long)head->hash);
 }
 
-bool guide_read(const char *path, const bool has[GUIDE_LIGHTS], Arena *arena,
+bool guide_read(const char *path, const GuideScene *scene, Arena *arena,
                 const LightGuide **out, Error *err)
 {
     FileBytes file;
@@ -158,7 +179,7 @@ bool guide_read(const char *path, const bool has[GUIDE_LIGHTS], Arena *arena,
                      .asks = true, .nodes = ARENA_NEW(arena, GuideNode, head.node_count),
                      .cells = ARENA_NEW(arena, GuideCell, head.cell_count)};
     guide_place_bins(guide);
-    if (!take(&file, &head, has, guide, err)) return error_in_file(err, path);
+    if (!take(&file, &head, scene, guide, err)) return error_in_file(err, path);
     *out = guide;
     return true;
 }

@@ -37,13 +37,18 @@ bool lights_has(const Lights *lights, LightSet set)
     return false;
 }
 
+int lights_lamp_count(const Lights *lights)
+{
+    return lights->punctual.count;
+}
+
 /* ---- all sets ---------------------------------------------------------------------------- */
 
-static bool sample_punctual(const Lights *lights, const LitPoint *point, const float u[3],
-                            LightSample *sample)
+static bool sample_punctual(const Lights *lights, const PunctualKnown *known,
+                            const LitPoint *point, const float u[3], LightSample *sample)
 {
     PunctualSample lamp;
-    if (!punctual_sample(&lights->punctual, point, u, &lamp)) return false;
+    if (!punctual_sample(&lights->punctual, known, point, u, &lamp)) return false;
     sample->wi = lamp.wi;
     sample->distance = lamp.distance;
     sample->light_id = lamp.light_id;
@@ -128,10 +133,17 @@ bool lights_sample(const Lights *lights, LightSet set, LitPoint point, const flo
     case LIGHTS_SUN: return sample_sun(lights, u, sample);
     case LIGHTS_SKY: return sample_sky(lights, point.ns, u, sample);
     case LIGHTS_EMITTERS: return sample_emitters(lights, &point, u, sample);
-    case LIGHTS_PUNCTUAL: return sample_punctual(lights, &point, u, sample);
+    case LIGHTS_PUNCTUAL: return sample_punctual(lights, NULL, &point, u, sample);
     case LIGHT_SETS: break;
     }
     return false;
+}
+
+bool lights_sample_known(const Lights *lights, const PunctualKnown *known, LitPoint point,
+                         const float u[3], LightSample *sample)
+{
+    sample_of(LIGHTS_PUNCTUAL, sample);
+    return sample_punctual(lights, known, &point, u, sample);
 }
 
 void lights_sky_towards(const Lights *lights, Vec3 direction, Vec3 ns, LightSample *sample)

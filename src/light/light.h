@@ -14,6 +14,7 @@
 #include "bvh/ray.h"
 #include "light/emission.h"
 #include "light/lit_point.h"
+#include "light/punctual.h"
 #include "scene/scene.h"
 #include "spectrum/wavelengths.h"
 
@@ -32,6 +33,9 @@ bool lights_build(const Scene *scene, Arena *arena, Lights **out, Error *err);
 
 /* Has this set anything that emits? */
 bool lights_has(const Lights *lights, LightSet set);
+
+/* How many punctual lights give any light. */
+int lights_lamp_count(const Lights *lights);
 
 typedef struct LightSample {
     LightSet set;
@@ -52,6 +56,10 @@ typedef struct LightSample {
 /* One sample of one set as seen from `point`. u in [0,1)^3. False: nothing comes from there. */
 bool lights_sample(const Lights *lights, LightSet set, LitPoint point, const float u[3],
                    LightSample *sample);
+
+/* The same of LIGHTS_PUNCTUAL, where it is known which of them light the point. */
+bool lights_sample_known(const Lights *lights, const PunctualKnown *known, LitPoint point,
+                         const float u[3], LightSample *sample);
 
 /* As if LIGHTS_SKY's sample had chosen this direction, where there is a sky; its pdf may be
  * 0. */

@@ -1,6 +1,7 @@
 /* HOT: choosing a lamp. No allocation, no lock, no libm. */
 #include "light/punctual.h"
 
+#include "base/sampler.h"
 #include "light/opening.h"
 #include "spectrum/photometry.h"
 
@@ -198,20 +199,27 @@ static int choose_branch(Spectrum prob, int count, float *u)
 
 /* ---- which lamp -------------------------------------------------------------------------- */
 
-/* One of `count` lights by what each gives; *prob_inverse makes the estimate unbiased. *pick is
+typedef struct LampList {
+    const int   *ids;
+    const float *arrives; /* share of each lamp's light; NULL: nobody knows */
+    int          count;
+} LampList;
+
+/* One of the lights by what each gives; *prob_inverse makes the estimate unbiased. *pick is
  * a random number that is used up and left uniform. */
-static int choose_among(const PunctualLights *lights, const int *ids, int count,
+static int choose_among(const PunctualLights *lights, const LampList *list,
                         const LitPoint *point, float *pick, float *prob_inverse)
 {
     int   chosen = NO_ID;
     float sum = 0, chosen_weight = 0;
-    for (int i = 0; i < count; i++) {
-        float weight = target_at(&lights->lights[ids[i]], point);
+    for (int i = 0; i < list->count; i++) {
+        float weight = target_at(&lights->lights[list->ids[i]], point);
+        if (list->arrives) weight *= list->arrives[i];
         if (!(weight > 0)) continue;
         sum += weight;
         if (*pick * sum < weight) { /* takes the newcomer with probability weight / sum */
             *pick = *pick * sum / weight;
-            chosen = ids[i];
+            chosen = list->ids[i];
             chosen_weight = weight;
         } else {
             *pick = (*pick * sum - weight) / (sum - weight);
@@ -227,7 +235,8 @@ static int choose(const PunctualLights *lights, const LitPoint *point, float *pi
 {
     const PunctualNode *node = lights->root;
     if (!node)
-        return choose_among(lights, lights->order, lights->count, point, pick, prob_inverse);
+        return choose_among(lights, &(LampList){lights->order, NULL, lights->count}, point,
+                            pick, prob_inverse);
     float prob = 1;
     int   i;
     for (;; node = node->child[i]) {
@@ -237,17 +246,44 @@ static int choose(const PunctualLights *lights, const LitPoint *point, float *pi
         prob *= probs[i];
         if (!node->child[i]) break;
     }
-    int id = choose_among(lights, lights->order + node->first[i], node->lamp_count[i], point,
-                          pick, prob_inverse);
+    LampList list = {lights->order + node->first[i], NULL, node->lamp_count[i]};
+    int id = choose_among(lights, &list, point, pick, prob_inverse);
     *prob_inverse /= prob;
     return id;
 }
 
-bool punctual_sample(const PunctualLights *lights, const LitPoint *point, const float u[3],
-                     PunctualSample *sample)
+static bool is_known(const PunctualKnown *known, int id)
+{
+    for (int i = 0; i < known->count; i++)
+        if (known->id[i] == id) return true;
+    return false;
+}
+
+static int choose_by_known(const PunctualLights *lights, const PunctualKnown *known,
+                           const LitPoint *point, float *pick, float *prob_inverse)
+{
+    LampList list = {known->id, known->arrives, known->count};
+    float    prob = known->others;
+    int      id;
+    *prob_inverse = 0;
+    if (unit_choose(pick, known->others)) {
+        id = choose(lights, point, pick, prob_inverse);
+        if (is_known(known, id)) id = NO_ID;
+    } else {
+        prob = 1 - prob;
+        id = choose_among(lights, &list, point, pick, prob_inverse);
+    }
+    *prob_inverse /= prob;
+    return id;
+}
+
+bool punctual_sample(const PunctualLights *lights, const PunctualKnown *known,
+                     const LitPoint *point, const float u[3], PunctualSample *sample)
 {
     float prob_inverse, pick = u[0];
-    sample->light_id = choose(lights, point, &pick, &prob_inverse);
+    sample->light_id =
+        known ? choose_by_known(lights, known, point, &pick, &prob_inverse)
+              : choose(lights, point, &pick, &prob_inverse);
     if (sample->light_id == NO_ID) return false;
     const PunctualLight *light = &lights->lights[sample->light_id];
     const float on_opening[2] = {pick, u[1]};

@@ -2,7 +2,10 @@
  *
  * A few lamps are all asked what they give. Many lie in a tree whose nodes have up to 16
  * branches: a branch is chosen by about what its lamps give together (their intensity in that
- * direction over the squared distance, times the cosine), down to a few that are asked.
+ * direction over the squared distance, times the cosine), down to a few that are asked. Where
+ * it is known which lamps light a place, most choices are among these, each weighed by what of
+ * its light arrives, and the others' share is chosen as if nothing were known: what it finds of
+ * the known ones counts nothing, so every lamp has one way to be found.
  *
  * Threads  const after punctual_build (punctual_build.h).
  */
@@ -44,6 +47,16 @@ typedef struct PunctualLights {
     PunctualNode *root;  /* NULL: few */
 } PunctualLights;
 
+/* What is known of a place: the lamps that light it, and how much of each arrives. */
+#define PUNCTUAL_KNOWN_MAX 8
+typedef struct PunctualKnown {
+    int   count; /* 0: nothing is known */
+    int   id[PUNCTUAL_KNOWN_MAX];      /* of lights, each once */
+    float arrives[PUNCTUAL_KNOWN_MAX]; /* share of its light, in (0, 1] */
+    float others; /* share of the choices that go to all other lamps, in [0, 1]; 0: there are
+                     none */
+} PunctualKnown;
+
 /* One lamp as it was chosen. */
 typedef struct PunctualSample {
     int   light_id;
@@ -53,9 +66,9 @@ typedef struct PunctualSample {
                        choice's chance */
 } PunctualSample;
 
-/* u in [0,1)^3. False: nothing comes from there. */
-bool punctual_sample(const PunctualLights *lights, const LitPoint *point, const float u[3],
-                     PunctualSample *sample);
+/* known: NULL, or what the choice goes by. u in [0,1)^3. False: nothing comes from there. */
+bool punctual_sample(const PunctualLights *lights, const PunctualKnown *known,
+                     const LitPoint *point, const float u[3], PunctualSample *sample);
 
 /* Relative intensity towards a unit direction. Of a luminaire its web. Of a spot
  * KHR_lights_punctual's recommended cone: 1 inside the inner angle, 0 outside the outer, the

@@ -15,6 +15,14 @@ static double own_share(const Lead *lead, LitPoint point, const LightSample *lig
     return 1 / (1 + (double)(other * other));
 }
 
+static void note_lamp(const PathContext *context, LitPoint point, const LightSample *light,
+                      float u, bool arrives, LightFinds *finds)
+{
+    double lx = light_selection_lx(context->lights, point, light, u);
+    if (!(lx > 0)) return;
+    lamp_finds_add(&finds->lamps, (LampFind){light->light_id, lx, arrives ? lx : 0});
+}
+
 void cell_lights_try(const PathContext *context, LitPoint point, uint32_t cell,
                      Sampler *sampler, LightFinds *finds)
 {
@@ -28,7 +36,9 @@ void cell_lights_try(const PathContext *context, LitPoint point, uint32_t cell,
         sampler_4d(sampler, u);
         if (!lead_choose_light(&lead, context->lights, (LightSet)set, point, u, &light))
             continue;
-        if (!light_selection_arrives(context->bvh, point, &light)) continue;
+        bool arrives = light_selection_arrives(context->bvh, point, &light);
+        if (set == LIGHTS_PUNCTUAL) note_lamp(context, point, &light, u[3], arrives, finds);
+        if (!arrives) continue;
         lead_weigh_light(&lead, context->lights, point, &light);
         double lx = light_selection_lx(context->lights, point, &light, u[3]) *
                     own_share(&lead, point, &light);

@@ -6,12 +6,14 @@
  * Threads  one cell's sums belong to one thread.
  */
 #pragma once
+#include "path/cell_lamps.h"
 #include "path/lead.h"
 
 /* What light samples find in a cell: sums over so many points. */
 typedef struct LightFinds {
     double sum[LIGHT_SETS], squares[LIGHT_SETS]; /* illuminances, lx */
     double points;
+    LampFinds lamps;
 } LightFinds;
 
 /* One sample of every set for a white point of the cell that faces point.ns. */

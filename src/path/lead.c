@@ -23,12 +23,23 @@ static void look(const LightGuide *guide, uint32_t cell, const GuideSurface *sur
     if (lead->view.towards[GUIDE_SKY].sum > 0) lead->sky_mix = SKY_SHARE;
 }
 
+static void know_lamps(const GuideLamps *from, PunctualKnown *lamps)
+{
+    lamps->count = from->count;
+    lamps->others = from->others;
+    for (int i = 0; i < from->count; i++) {
+        lamps->id[i] = from->id[i];
+        lamps->arrives[i] = from->arrives[i];
+    }
+}
+
 void lead_at(const PathContext *context, const Surface *surface, Vec3 wo, int bounce,
              Lead *lead)
 {
     const LightGuide *guide = context->guide;
     lead->mix = lead->sky_mix = 0;
     lead->is_wide = false;
+    lead->lamps.count = 0;
     ask_as_side(context, surface, wo, bounce, lead);
     if (!guide || bounce >= context->max_bounces) return;
     BsdfLobes lobes = bsdf_lobes(&surface->bsdf, frame_to_local(&surface->frame, wo));
@@ -38,6 +49,7 @@ void lead_at(const PathContext *context, const Surface *surface, Vec3 wo, int bo
     uint32_t     cell = guide_cell_at(guide, surface->position);
     lead->is_wide = true;
     if (guide->asks) lead->asked = guide->cells[cell].asked;
+    know_lamps(&guide->cells[cell].lamps, &lead->lamps);
     look(guide, cell, &seen, lobes.prob, lead);
 }
 
@@ -45,6 +57,7 @@ void lead_alone(const PathContext *context, Lead *lead)
 {
     lead->mix = lead->sky_mix = 0;
     lead->is_wide = false;
+    lead->lamps.count = 0;
     lead->asked = context->selection.all;
     lead->often = 1;
 }
@@ -65,6 +78,8 @@ bool lead_choose_light(const Lead *lead, const Lights *lights, LightSet set, Lit
                        const float u[3], LightSample *sample)
 {
     float v[3] = {u[0], u[1], u[2]};
+    if (set == LIGHTS_PUNCTUAL && lead->lamps.count)
+        return lights_sample_known(lights, &lead->lamps, point, u, sample);
     if (set != LIGHTS_SKY || !(lead->sky_mix > 0))
         return lights_sample(lights, set, point, u, sample);
     if (!unit_choose(&v[0], lead->sky_mix)) return lights_sample(lights, set, point, v, sample);

@@ -11,6 +11,7 @@
 #pragma once
 #include "path/path_context.h"
 
+_Static_assert(PUNCTUAL_KNOWN_MAX == GUIDE_LAMPS, "a cell's lamps are what is known");
 _Static_assert(LIGHT_SETS == GUIDE_LIGHTS, "cells of a guide know all sets of lights");
 
 /* From this bounce on lights are sampled less often: what they add is dim by then. */
@@ -23,6 +24,7 @@ typedef struct Lead {
     const float *asked;   /* how often each set of lights is sampled, times this: */
     float        often;
     float        sky_mix;
+    PunctualKnown lamps; /* that light the place; count 0: nobody knows */
     GuideView    view;    /* unless both are 0 */
 } Lead;
 
@@ -36,7 +38,7 @@ void lead_alone(const PathContext *context, Lead *lead);
 /* Of a white surface that faces ns, in a cell of the context's guide. */
 void lead_of_white(const PathContext *context, uint32_t cell, Vec3 ns, Lead *lead);
 
-/* HOT. As lights_sample, but that the guide leads to the sky, and that the sample's pdf is
+/* HOT. As lights_sample, but that the guide leads to the sky and to lamps, and that the sample's pdf is
  * right only after lead_weigh_light: what does not arrive need not know it. */
 bool lead_choose_light(const Lead *lead, const Lights *lights, LightSet set, LitPoint point,
                        const float u[3], LightSample *sample);

@@ -213,10 +213,10 @@ static void render_film(const RenderSetup *setup, const RenderOptions *options, 
 
 static bool read_field(RenderSetup *setup, const char *path, Arena *arena, Error *err)
 {
-    bool has[GUIDE_LIGHTS];
+    GuideScene scene = {.lamp_count = setup->context.scene->light_count};
     for (int set = 0; set < GUIDE_LIGHTS; set++)
-        has[set] = lights_has(setup->context.lights, (LightSet)set);
-    return guide_read(path, has, arena, &setup->context.guide, err);
+        scene.has[set] = lights_has(setup->context.lights, (LightSet)set);
+    return guide_read(path, &scene, arena, &setup->context.guide, err);
 }
 
 /* The field comes from its file, or is learnt, and kept there if there is to be one. */

@@ -60,6 +60,7 @@ static void try_lights(void *context, int item, int worker)
 }
 
 #define NEIGHBOURS 4 /* on either side in the tree's order */
+#define NEAR_LAMPS 0.25 /* worth of what lamps gave a neighbour, by what they gave the cell */
 #define DOUBT 8      /* points of them that count as the cell's own */
 
 /* What the neighbours' light samples find may come into the cell, too. */
@@ -70,6 +71,7 @@ static LightFinds with_neighbours(const LightFinds *finds, int cell, int cells)
         if (i < 0 || i >= cells) continue;
         all.points += finds[i].points;
         for (int set = 0; set < LIGHT_SETS; set++) all.squares[set] += finds[i].squares[set];
+        if (i != cell) lamp_finds_join(&own.lamps, &finds[i].lamps, NEAR_LAMPS);
     }
     if (!(all.points > 0)) return own;
     own.points += DOUBT;
@@ -86,6 +88,7 @@ static void weigh_lights(const Lights *lights, GuideTraining *training, const Li
         double     total = guide_training_illuminance(training, (uint32_t)i);
         for (int set = 0; set < LIGHT_SETS; set++)
             total += finds[i].points > 0 ? finds[i].sum[set] / finds[i].points : 0;
+        training->guide.cells[i].lamps = cell_lamps_keep(&found.lamps, lights_lamp_count(lights));
         cell_lights_weigh(lights, &found, total, training->guide.cells[i].asked);
     }
     training->guide.asks = true;
