@@ -94,10 +94,11 @@ static bool check_tree(const LightGuide *guide, Error *err)
                      guide->node_count, guide->cell_count);
 }
 
-static bool check_lamps(const GuideLamps *lamps, uint32_t cell, int lamp_count, Error *err)
+static bool check_lamps(const GuideLamps *lamps, uint32_t cell, const GuideScene *scene,
+                        Error *err)
 {
     bool ok = lamps->count >= 0 && lamps->count <= GUIDE_LAMPS && lamps->others >= 0 &&
-              lamps->others <= 1;
+              lamps->others < 1;
     for (int i = 0; ok && i < lamps->count; i++) {
         ok = lamps->arrives[i] > 0 && lamps->arrives[i] <= 1 && lamps->id[i] >= 0;
         for (int k = 0; k < i; k++) ok = ok && lamps->id[k] != lamps->id[i];
@@ -106,11 +107,15 @@ static bool check_lamps(const GuideLamps *lamps, uint32_t cell, int lamp_count, 
         return error_set(err, ERROR_INPUT, "damaged field: cell %u knows impossible lamps",
                          cell);
     for (int i = 0; i < lamps->count; i++)
-        if (lamps->id[i] >= lamp_count)
+        if (lamps->id[i] >= scene->light_count)
             return error_set(err, ERROR_INPUT, "is a field of other light: cell %u knows lamp "
                                                "%d, the scene has %d", cell, lamps->id[i],
-                             lamp_count);
-    return true;
+                             scene->light_count);
+    bool is_all = lamps->count == scene->lamp_count;
+    if (lamps->count == 0 || lamps->others > 0 || is_all) return true;
+    return error_set(err, ERROR_INPUT, "is a field of other light: cell %u looks for %d lamps "
+                                       "alone, the scene has %d", cell, lamps->count,
+                     scene->lamp_count);
 }
 
 static bool check_row(const CellRow *row, uint32_t cell, const GuideScene *scene, Error *err)
@@ -125,7 +130,7 @@ static bool check_row(const CellRow *row, uint32_t cell, const GuideScene *scene
             return error_set(err, ERROR_INPUT, "is a field of other light: cell %u never asks "
                                                "for a kind of light that this scene has",
                              cell);
-    return check_lamps(&row->lamps, cell, scene->lamp_count, err);
+    return check_lamps(&row->lamps, cell, scene, err);
 }
 
 static bool check_head(const FileBytes *file, GuideHead *head, Error *err)

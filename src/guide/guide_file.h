@@ -1,8 +1,8 @@
 /* guide_file.h -- a guide as a file, and as a number that tells it from others.
  *
  * The file: a head (magic, version, counts, hash), the tree's nodes, then every cell's bins,
- * probabilities and lamps; numbers little-endian as they lie. A reader takes nothing on trust: a tree
- * that does not part its box, or a number out of its range, is refused.
+ * probabilities and lamps; numbers little-endian as they lie. A reader takes nothing on trust: a
+ * tree that does not part its box, or a number out of its range, is refused.
  */
 #pragma once
 #include "base/arena.h"
@@ -19,7 +19,8 @@ bool guide_write(const char *path, const LightGuide *guide, Arena scratch, Error
 /* What the scene has, so that cells must ask for it now and then. */
 typedef struct GuideScene {
     bool has[GUIDE_LIGHTS]; /* lights of the set */
-    int  lamp_count;        /* ids of lamps are below this */
+    int  light_count;       /* ids of lamps are below this, */
+    int  lamp_count;        /* and so many of them give any light */
 } GuideScene;
 
 bool guide_read(const char *path, const GuideScene *scene, Arena *arena,

@@ -53,7 +53,7 @@ typedef struct PunctualKnown {
     int   count; /* 0: nothing is known */
     int   id[PUNCTUAL_KNOWN_MAX];      /* of lights, each once */
     float arrives[PUNCTUAL_KNOWN_MAX]; /* share of its light, in (0, 1] */
-    float others; /* share of the choices that go to all other lamps, in [0, 1]; 0: there are
+    float others; /* share of the choices that go to all other lamps, in [0, 1); 0: there are
                      none */
 } PunctualKnown;
 

@@ -6,6 +6,7 @@
  * samples for lamps that are not kept. */
 #define LEAST_ARRIVES 0.1
 #define LEAST_OTHERS 0.1
+#define MOST_OTHERS 0.9
 
 static LampFind *place_of(LampFinds *finds, const LampFind *find)
 {
@@ -69,6 +70,6 @@ GuideLamps cell_lamps_keep(const LampFinds *finds, int lamp_count)
         keep(&lamps, &find);
     }
     bool is_all = lamps.count == lamp_count;
-    lamps.others = is_all ? 0 : (float)fmin(fmax(1 - kept / all, LEAST_OTHERS), 1);
+    lamps.others = is_all ? 0 : (float)fmin(fmax(1 - kept / all, LEAST_OTHERS), MOST_OTHERS);
     return lamps;
 }

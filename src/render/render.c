@@ -213,7 +213,8 @@ static void render_film(const RenderSetup *setup, const RenderOptions *options, 
 
 static bool read_field(RenderSetup *setup, const char *path, Arena *arena, Error *err)
 {
-    GuideScene scene = {.lamp_count = setup->context.scene->light_count};
+    GuideScene scene = {.light_count = setup->context.scene->light_count,
+                        .lamp_count = lights_lamp_count(setup->context.lights)};
     for (int set = 0; set < GUIDE_LIGHTS; set++)
         scene.has[set] = lights_has(setup->context.lights, (LightSet)set);
     return guide_read(path, &scene, arena, &setup->context.guide, err);

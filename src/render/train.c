@@ -88,7 +88,8 @@ static void weigh_lights(const Lights *lights, GuideTraining *training, const Li
         double     total = guide_training_illuminance(training, (uint32_t)i);
         for (int set = 0; set < LIGHT_SETS; set++)
             total += finds[i].points > 0 ? finds[i].sum[set] / finds[i].points : 0;
-        training->guide.cells[i].lamps = cell_lamps_keep(&found.lamps, lights_lamp_count(lights));
+        training->guide.cells[i].lamps =
+            cell_lamps_keep(&found.lamps, lights_lamp_count(lights));
         cell_lights_weigh(lights, &found, total, training->guide.cells[i].asked);
     }
     training->guide.asks = true;

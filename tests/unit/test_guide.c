@@ -39,6 +39,7 @@ static LightGuide *odd_guide(Arena *arena)
                 value > 0.6f ? (uint16_t)(100000 * (value - 0.6f)) : 0;
         }
     }
+    guide->cells[1].lamps = (GuideLamps){2, {8, 3}, {0.5f, 1}, 0.1f};
     guide_place_bins(guide);
     return guide;
 }
@@ -314,14 +315,14 @@ TEST(a_cell_leads_to_where_its_lesson_found_light)
 
 /* ---- the file ---------------------------------------------------------------------------- */
 
-static const bool has_none[GUIDE_LIGHTS] = {0};
+static const GuideScene has_none = {.light_count = 9, .lamp_count = 9};
 
-static void refused(const char *path, const bool has[GUIDE_LIGHTS], const char *words,
+static void refused(const char *path, const GuideScene *scene, const char *words,
                     Arena scratch)
 {
     const LightGuide *guide;
     Error        err = {0};
-    assert_false(guide_read(path, has, &scratch, &guide, &err));
+    assert_false(guide_read(path, scene, &scratch, &guide, &err));
     char line[1024];
     error_line(&err, line, (int)sizeof line);
     if (!strstr(line, words) || !strstr(line, path))
@@ -338,19 +339,19 @@ TEST(a_field_comes_back_from_its_file_or_not_at_all)
     FileBytes    file;
     char         path[] = "test_guide.field";
     assert_true(guide_write(path, guide, arena, &err));
-    assert_true(guide_read(path, has_none, &arena, &back, &err));
+    assert_true(guide_read(path, &has_none, &arena, &back, &err));
     assert_true(guide_hash(back) == guide_hash(guide) && back->asks);
     assert_true(file_read(path, 1 << 20, &arena, &file, &err));
     for (size_t size = 0; size < file.size; size += 1 + size / 7) {
         assert_true(file_write(path, file.data, size, &err));
-        refused(path, has_none, size < 32 ? "not a field" : "damaged", arena);
+        refused(path, &has_none, size < 32 ? "not a field" : "damaged", arena);
     }
     unsigned char *bytes = ARENA_NEW(&arena, unsigned char, file.size);
     for (size_t at = 0; at < file.size; at += at < 200 ? 1 : 37) {
         memcpy(bytes, file.data, file.size);
         bytes[at] ^= 0x41;
         assert_true(file_write(path, bytes, file.size, &err));
-        refused(path, has_none, "field", arena);
+        refused(path, &has_none, "field", arena);
     }
     unlink(path);
     arena_release(&arena);
@@ -359,14 +360,40 @@ TEST(a_field_comes_back_from_its_file_or_not_at_all)
 TEST(a_field_that_never_asks_a_light_is_of_another_scene)
 {
     (void)state;
-    static const bool has[GUIDE_LIGHTS] = {true, true, false, false};
+    static const GuideScene scene = {{true, true, false, false}, 9, 9};
     Arena  arena = arena_reserve((size_t)1 << 26);
     LightGuide *guide = odd_guide(&arena);
     Error  err = {0};
     char   path[] = "test_guide.field";
     guide->cells[1].asked[1] = 0;
     assert_true(guide_write(path, guide, arena, &err));
-    refused(path, has, "a kind of light that this scene has", arena);
+    refused(path, &scene, "a kind of light that this scene has", arena);
+    unlink(path);
+    arena_release(&arena);
+}
+
+TEST(a_field_with_impossible_lamps_is_refused)
+{
+    (void)state;
+    static const GuideLamps wrong[] = {
+        {9, {0}, {1}, 0.1f}, {-1, {0}, {1}, 0.1f}, {1, {-2}, {1}, 0.1f}, {1, {2}, {0}, 0.1f},
+        {1, {2}, {1.5f}, 0.1f}, {2, {2, 2}, {1, 1}, 0.1f}, {1, {2}, {1}, -0.1f},
+        {1, {2}, {1}, 1}, {1, {2}, {NAN}, 0.1f}, {1, {2}, {1}, NAN}};
+    static const GuideScene fewer = {.light_count = 8, .lamp_count = 8};
+    Arena       arena = arena_reserve((size_t)1 << 26);
+    LightGuide *guide = odd_guide(&arena);
+    Error       err = {0};
+    char        path[] = "test_guide.field";
+    assert_true(guide_write(path, guide, arena, &err));
+    refused(path, &fewer, "cell 1 knows lamp 8, the scene has 8", arena);
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        guide->cells[1].lamps = wrong[i];
+        assert_true(guide_write(path, guide, arena, &err));
+        refused(path, &has_none, "cell 1 knows impossible lamps", arena);
+    }
+    guide->cells[1].lamps = (GuideLamps){2, {2, 5}, {1, 1}, 0};
+    assert_true(guide_write(path, guide, arena, &err));
+    refused(path, &has_none, "cell 1 looks for 2 lamps alone, the scene has 9", arena);
     unlink(path);
     arena_release(&arena);
 }
