@@ -1,8 +1,8 @@
 /* guide_file.h -- a guide as a file, and as a number that tells it from others.
  *
  * The file: a head (magic, version, counts, hash), the tree's nodes, then every cell's bins,
- * probabilities and lamps; numbers little-endian as they lie. A reader takes nothing on trust: a
- * tree that does not part its box, or a number out of its range, is refused.
+ * probabilities and lamps; numbers little-endian as they lie. A reader takes nothing on trust:
+ * a tree that does not part its box, or a number out of its range, is refused.
  */
 #pragma once
 #include "base/arena.h"

@@ -38,8 +38,8 @@ void lead_alone(const PathContext *context, Lead *lead);
 /* Of a white surface that faces ns, in a cell of the context's guide. */
 void lead_of_white(const PathContext *context, uint32_t cell, Vec3 ns, Lead *lead);
 
-/* HOT. As lights_sample, but that the guide leads to the sky and to lamps, and that the sample's
- * pdf is right only after lead_weigh_light: what does not arrive need not know it. */
+/* HOT. As lights_sample, but that the guide leads to the sky and to lamps, and that the
+ * sample's pdf is right only after lead_weigh_light: what does not arrive need not know it. */
 bool lead_choose_light(const Lead *lead, const Lights *lights, LightSet set, LitPoint point,
                        const float u[3], LightSample *sample);
 void lead_weigh_light(const Lead *lead, const Lights *lights, LitPoint point,
