@@ -1,0 +1,109 @@
+/* verdict.h -- what a glare review says: of one symbol, seen by one eye under one condition; of
+ * a sweep over many suns; of all of them.
+ *
+ * Units    cd m^-2, arc minutes, degrees. Azimuths from north over east.
+ * Memory   whoever fills it owns it; texts and lists live in the review's arena.
+ * Threads  plain data.
+ */
+#pragma once
+#include <stdbool.h>
+#include <stddef.h>
+
+
+typedef enum Verdict {
+    VERDICT_PASS, VERDICT_FAIL, VERDICT_TOO_CLOSE, VERDICT_NOT_VISIBLE
+} Verdict;
+extern const char *const verdict_names[4]; /* "pass", "fail", "too close", "not visible" */
+
+typedef enum Ambient { AMBIENT_NIGHT, AMBIENT_TWILIGHT, AMBIENT_DAY, AMBIENT_SUN } Ambient;
+extern const char *const ambient_names[4]; /* "night", "twilight", "day", "sun" */
+
+/* A limit of the profile, held against what was found. */
+typedef struct LimitVerdict {
+    const char *name, *kind, *unit, *source;
+    double      value;        /* the limit */
+    bool        read_in_the_standard;
+    double      found;        /* NaN: nothing to hold against it */
+    double      low, high;    /* 95 % interval of `found`; equal where it is exact */
+    double      margin;       /* found / value - 1; of an upper limit value / found - 1 */
+    Verdict     verdict;
+} LimitVerdict;
+
+/* A way by which light comes to the symbol: "glass Window_FL: through", ... in the order in
+ * which the eye's ray meets them. */
+typedef struct CaseCause {
+    const char *const *chain;
+    int    links;
+    double share;             /* of the reflected light, 0..1 */
+    double cd_m2, low, high;  /* and its 95 % interval */
+} CaseCause;
+
+/* What would mend it: NaN where a figure has no meaning. */
+typedef struct CaseRemedy {
+    const char *what;
+    double contrast_ratio, level;
+} CaseRemedy;
+
+typedef struct CaseLuminances {
+    double foreground, background; /* emitted to the eye */
+    double reflected;              /* mean over the visible part; all that the display reflects */
+    double mirror, scattered;      /* its two parts */
+    double veil;                   /* that stray light lays over the gaze point, in the eye */
+} CaseLuminances;
+
+typedef struct ReviewCase {
+    const char *condition, *eye, *symbol, *display;
+    Ambient ambient;
+    bool    has_sun;             /* above the horizon */
+    double  sun_azimuth_deg, sun_elevation_deg;
+    CaseLuminances luminance_cd_m2;
+    double  contrast_ratio;      /* (brighter + reflected) / (darker + reflected) */
+    double  contrast_low, contrast_high; /* 95 %: sampling, and the panel's stated error */
+    double  contrast_with_veil;
+    double  height_arcmin;       /* the foreground's extent along the content's v */
+    double  jnd;                 /* steps of DICOM's GSDF between the two, veil included */
+    double  visible_share;       /* of the rectangle, 0..1 */
+    double  level;               /* at which the display was set, 1: as measured */
+    double  display_lux;         /* illuminance of the display's face */
+    const LimitVerdict *limits;  /* all that apply */
+    int     limit_count;
+    int     limit_id;            /* the contrast limit that was asked; -1: none */
+    double  margin;              /* contrast over its limit, less one; NaN: no limit */
+    Verdict verdict;             /* the worst of its limits' */
+    const CaseCause  *causes;    /* greatest first */
+    int     cause_count;
+    const CaseRemedy *remedies;
+    int     remedy_count;
+    const char *frame;           /* picture's name within the folder; NULL: none was rendered */
+} ReviewCase;
+
+/* Of one symbol and eye over many suns. */
+typedef struct ReviewSweep {
+    const char *condition, *eye, *symbol;
+    long        cases;
+    double      failed_share;            /* weighted by time */
+    double      longest_failure_minutes; /* at a stretch; NaN: the sweep has no times */
+    ReviewCase  worst;
+    const char *table;                   /* "sweeps/NAME.csv" */
+} ReviewSweep;
+
+typedef struct ReviewResponse {
+    const char *probe;
+    long        paths;
+    size_t      bytes;
+    double      relative_error;
+} ReviewResponse;
+
+typedef struct Review {
+    const char *title, *profile;  /* profile: the standard's name and edition */
+    ReviewCase     *cases;
+    int             case_count;
+    ReviewSweep    *sweeps;
+    int             sweep_count;
+    ReviewResponse *responses;
+    int             response_count;
+    const char *const *notes;     /* what a reader must know: approximations, gaps in data */
+    int             note_count;
+    bool            pass;         /* nothing fails; strict: nor is too close or not visible */
+    bool            is_strict;
+} Review;
