@@ -1,0 +1,11 @@
+/* review_csv.h -- the cases of a review as a table (RFC 4180): a header with units, one row a
+ * case, figures as in review.json, an empty cell for what has no value.
+ *
+ * Threads  pure.
+ * Fails    when the file cannot be written.
+ */
+#pragma once
+#include "base/error.h"
+#include "review/verdict.h"
+
+bool review_csv_write(const Review *review, const char *path, Error *err);

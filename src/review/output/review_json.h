@@ -1,0 +1,23 @@
+/* review_json.h -- a review as JSON; the keys are promised to scripts.
+ *
+ * Figures have six significant digits; what is not a finite number is null. The same review
+ * gives the same bytes. Texts that are no UTF-8 lose what is not ASCII (text/json_text.h).
+ *
+ * Units    as in verdict.h; keys say them.
+ * Memory   documents are jansson's: whoever gets one releases it.
+ * Threads  pure.
+ */
+#pragma once
+#include <jansson.h>
+
+#include "base/error.h"
+#include "review/verdict.h"
+
+/* {"pass", "strict", "title", "profile", "cases": [...], "sweeps", "responses", "notes"}. */
+json_t *review_json(const Review *review);
+
+/* One case of it, as "cases" and a sweep's "worst" hold it. */
+json_t *review_json_case(const ReviewCase *c);
+
+/* A document becomes a file: review.json, diff.json. Takes the document. */
+bool review_json_write(json_t *document, const char *path, Error *err);

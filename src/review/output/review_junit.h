@@ -1,0 +1,12 @@
+/* review_junit.h -- a review as JUnit XML, which every CI service shows: a test case for each
+ * case and each sweep, failed with its reason; a verdict that fails only under --strict is
+ * "skipped" otherwise.
+ *
+ * Well-formed whatever the names are. Threads: pure.
+ * Fails    when the file cannot be written.
+ */
+#pragma once
+#include "base/error.h"
+#include "review/verdict.h"
+
+bool review_junit_write(const Review *review, const char *path, Error *err);
