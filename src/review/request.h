@@ -1,0 +1,208 @@
+/* request.h -- what a review is asked: REVIEW.json as plain arrays.
+ *
+ * Everything that can be known without the scene is checked while reading: keys, kinds, ranges,
+ * files that are named, and that names meet. review_request_check holds it against the scene.
+ *
+ * Units    as the names say: degrees, metres, lx, cd m^-2 (this is a file's border). Azimuths
+ *          and headings from north over east. Positions and directions in the scene's frame
+ *          (+Y up).
+ * Files    paths stand as seen from the working folder: those of the file are resolved beside
+ *          it, and may name only what lies near it (base/reference.h).
+ * Memory   everything lives in the arena given to review_request_read.
+ * Threads  const after reading.
+ * Fails    with the file, the JSON path (/conditions/2/sweep/sun), what was found and what was
+ *          wanted, in one line; of an unknown key the nearest known one is named.
+ */
+#pragma once
+#include "base/arena.h"
+#include "base/error.h"
+#include "base/problems.h"
+#include "review/level.h"
+#include "review/route.h"
+#include "scene/scene.h"
+#include "sky/epw.h"
+#include "sky/weather_clock.h"
+
+/* ---- eyes and where they look ------------------------------------------------------------ */
+
+typedef enum ReviewEyeKind { EYE_CAMERA, EYE_POINT, EYE_BOX } ReviewEyeKind;
+
+typedef struct ReviewEye {
+    const char   *name;
+    ReviewEyeKind kind;
+    const char   *camera;         /* camera: its name; NULL: camera_id counts it */
+    int           camera_id;      /* camera: its index; NO_ID: it is named */
+    double        position_m[3];  /* point; box: its centre */
+    double        half_size_m[3]; /* box */
+    int           grid[3];        /* box: points along each axis, both ends in; one: the centre */
+} ReviewEye;
+
+/* A box has grid[0] * grid[1] * grid[2] points, x fastest; other eyes one. */
+int review_eye_count(const ReviewEye *eye);
+
+/* Point i of an eye that is no camera. */
+void review_eye_point(const ReviewEye *eye, int i, double out_m[3]);
+
+typedef struct ReviewGaze {
+    const char *name;         /* "symbols" when it goes to each symbol */
+    bool        at_symbols;
+    double      direction[3]; /* unit; else */
+    bool       *for_eye;      /* [eye_count]: whether that eye looks so */
+} ReviewGaze;
+
+typedef struct ReviewObserver {
+    double age_years; /* 10..100 */
+    double pigment;   /* of the iris: 0 black, 0.5 brown, 1.2 very light */
+} ReviewObserver;
+
+/* ---- what is read ------------------------------------------------------------------------ */
+
+/* What of the content is the foreground: AUTO is told from the rectangle itself. */
+typedef enum ReviewPolarity {
+    POLARITY_AUTO, POLARITY_LIGHT_ON_DARK, POLARITY_DARK_ON_LIGHT
+} ReviewPolarity;
+
+typedef struct ReviewSymbol {
+    const char    *name;
+    const char    *display;   /* a material's name, or "node:NAME" */
+    const char    *content;   /* picture; NULL: what the display shows in the scene */
+    const char    *mask;      /* picture of the content's size, white: foreground; NULL: none */
+    bool           has_uv;
+    double         uv[4];     /* left, top, right, bottom of the content, 0..1; else all of it */
+    bool           find_text; /* symbols are to be found inside uv */
+    ReviewPolarity polarity;
+} ReviewSymbol;
+
+/* More files of a scene: occupants. */
+typedef struct ReviewWith {
+    const char  *name;
+    const char **paths;
+    int          path_count;
+} ReviewWith;
+
+/* ---- conditions -------------------------------------------------------------------------- */
+
+typedef enum ReviewConditionKind {
+    CONDITION_MOMENT,    /* the environment as it stands */
+    CONDITION_ROUTE,
+    CONDITION_SUN_SWEEP,
+    CONDITION_YEAR_SWEEP
+} ReviewConditionKind;
+
+/* first, first + step ... last: both ends in, a whole number of steps. */
+typedef struct ReviewRange {
+    double first, last, step;
+    int    count; /* at least 1 */
+} ReviewRange;
+
+double review_range_value(const ReviewRange *range, int i);
+
+typedef struct ReviewContent {
+    const char *display, *path;
+} ReviewContent;
+
+typedef struct ReviewCondition {
+    const char         *name;
+    ReviewConditionKind kind;
+    bool        has_environment; /* moment without: as the scene's files say. Route and sweeps:
+                                    air and ground of a clear sky, whose sun is replaced */
+    Environment environment;     /* its heading as below, forward as the request's */
+    const char **lights;         /* more files of the scene */
+    int          light_count;
+    bool         has_heading;    /* none: a moment's environment's own; sun sweep: the azimuths
+                                    are the vehicle's, 0 ahead and 90 right */
+    double       heading_deg;
+    int          level_id;       /* into levels; NO_ID: as the scene says */
+    int          with_id;        /* into withs; NO_ID: nobody */
+    ReviewPolarity *polarity;    /* [symbol_count]: the symbol's own where nothing else is said */
+    ReviewContent  *contents;    /* shown instead of the symbols' and the scene's */
+    int             content_count;
+    /* route */
+    Route        route;          /* its times as `when` moves them */
+    int          weather_id;     /* route, year: into weathers; NO_ID: clear */
+    /* sweep over the sun's direction, in a clear sky */
+    ReviewRange  azimuth_deg, elevation_deg;
+    /* sweep over a year, UTC: steps from 1 January 00:00 to the year's end */
+    int          year;
+    SkyPlace     where;          /* year; the weather file's where none is given */
+    double       step_minutes;
+    double      *headings_deg;
+    int          heading_count;
+    bool         with_night;     /* hours without sun count too */
+} ReviewCondition;
+
+/* A weather file of a whole year, every hour with its light, and which instants it means. */
+typedef struct ReviewWeather {
+    const char  *path;
+    Weather      weather;
+    WeatherClock clock;
+} ReviewWeather;
+
+/* ---- all of it --------------------------------------------------------------------------- */
+
+typedef struct ReviewFrames {
+    int    width, height; /* pixels */
+    double noise;         /* relative error, 0..1 */
+    int    worst;         /* how many of the worst cases are rendered; 0: none */
+} ReviewFrames;
+
+/* A file that was read, for provenance. */
+typedef struct ReviewInput {
+    const char *path;
+    uint64_t    hash; /* XXH3 64 */
+} ReviewInput;
+
+typedef struct ReviewRequest {
+    const char      *file;       /* REVIEW.json as the user named it */
+    const char      *title;      /* the file's name where none is given */
+    const char     **scenes;     /* paths, the first holds the displays */
+    int              scene_count;
+    ReviewEye       *eyes;
+    int              eye_count;
+    double           forward[3]; /* where the vehicle points: unit, not vertical */
+    ReviewObserver   observer;
+    ReviewGaze      *gazes;
+    int              gaze_count;
+    ReviewWith      *withs;
+    int              with_count;
+    ReviewSymbol    *symbols;
+    int              symbol_count;
+    const char      *profile;    /* a name of assets/profiles */
+    ReviewLevel     *levels;
+    int              level_count;
+    ReviewCondition *conditions;
+    int              condition_count;
+    ReviewWeather   *weathers;
+    int              weather_count;
+    double           precision_contrast; /* relative standard error wanted */
+    ReviewFrames     frames;
+    ReviewInput     *inputs;     /* the file itself, routes, weathers, skies' pictures */
+    int              input_count;
+} ReviewRequest;
+
+/* root: a folder whose files may be named as well (--root); NULL: none. Warnings (a sky's
+ * picture with broken pixels) go to *problems. */
+bool review_request_read(const char *file, const char *root, Arena *arena, Problems *problems,
+                         ReviewRequest *out, Error *err);
+
+/* ---- against a scene --------------------------------------------------------------------- */
+
+/* Where a display's surface is: all parts of its material, or those of one node. */
+typedef struct ReviewDisplay {
+    int        display_id;
+    const int *part_ids;
+    int        part_count; /* at least 1 */
+} ReviewDisplay;
+
+/* The display of that name ("cluster", "node:NAME"); what is wrong is said without a place:
+ * no such display (and which there are), no panel, several nodes share it. */
+bool review_display_find(const Scene *scene, const char *name, Arena *arena,
+                         ReviewDisplay *out, Error *err);
+
+/* The camera of an eye of that kind; what is wrong is said without a place. */
+bool review_camera_find(const Scene *scene, const ReviewEye *eye, int *camera_id, Error *err);
+
+/* Everything that the request names of the scene is there: cameras and displays of eyes,
+ * symbols, levels and contents. All that is not goes to *problems, with file and path. */
+bool review_request_check(const ReviewRequest *request, const Scene *scene, Problems *problems,
+                          Error *err);
