@@ -1,24 +1,18 @@
 /* request.h -- what a review is asked: REVIEW.json as plain arrays.
  *
- * Everything that can be known without the scene is checked while reading: keys, kinds, ranges,
- * files that are named, and that names meet. review_request_check holds it against the scene.
+ * request_read.h reads it, request_check.h holds it against the scene.
  *
  * Units    as the names say: degrees, metres, lx, cd m^-2 (this is a file's border). Azimuths
  *          and headings from north over east. Positions and directions in the scene's frame
  *          (+Y up).
  * Files    paths stand as seen from the working folder: those of the file are resolved beside
  *          it, and may name only what lies near it (base/reference.h).
- * Memory   everything lives in the arena given to review_request_read.
- * Threads  const after reading.
- * Fails    with the file, the JSON path (/conditions/2/sweep/sun), what was found and what was
- *          wanted, in one line; of an unknown key the nearest known one is named.
+ * Memory   everything lives in the arena of whoever read it.
+ * Threads  const after reading; pure functions.
  */
 #pragma once
-#include "base/arena.h"
-#include "base/error.h"
-#include "base/problems.h"
-#include "review/level.h"
-#include "review/route.h"
+#include "review/request/level.h"
+#include "review/request/route.h"
 #include "scene/scene.h"
 #include "sky/epw.h"
 #include "sky/weather_clock.h"
@@ -179,30 +173,3 @@ typedef struct ReviewRequest {
     ReviewInput     *inputs;     /* the file itself, routes, weathers, skies' pictures */
     int              input_count;
 } ReviewRequest;
-
-/* root: a folder whose files may be named as well (--root); NULL: none. Warnings (a sky's
- * picture with broken pixels) go to *problems. */
-bool review_request_read(const char *file, const char *root, Arena *arena, Problems *problems,
-                         ReviewRequest *out, Error *err);
-
-/* ---- against a scene --------------------------------------------------------------------- */
-
-/* Where a display's surface is: all parts of its material, or those of one node. */
-typedef struct ReviewDisplay {
-    int        display_id;
-    const int *part_ids;
-    int        part_count; /* at least 1 */
-} ReviewDisplay;
-
-/* The display of that name ("cluster", "node:NAME"); what is wrong is said without a place:
- * no such display (and which there are), no panel, several nodes share it. */
-bool review_display_find(const Scene *scene, const char *name, Arena *arena,
-                         ReviewDisplay *out, Error *err);
-
-/* The camera of an eye of that kind; what is wrong is said without a place. */
-bool review_camera_find(const Scene *scene, const ReviewEye *eye, int *camera_id, Error *err);
-
-/* Everything that the request names of the scene is there: cameras and displays of eyes,
- * symbols, levels and contents. All that is not goes to *problems, with file and path. */
-bool review_request_check(const ReviewRequest *request, const Scene *scene, Problems *problems,
-                          Error *err);

@@ -1,0 +1,29 @@
+/* request_check.h -- what a review's request names, found in its scene.
+ *
+ * Memory   the arena's. Threads: const data.
+ * Fails    as said; places are the file and the JSON path of the request.
+ */
+#pragma once
+#include "base/problems.h"
+#include "review/request/request.h"
+
+/* Where a display's surface is: all parts of its material, or those of one node. */
+typedef struct ReviewDisplay {
+    int        display_id;
+    const int *part_ids;
+    int        part_count; /* at least 1 */
+} ReviewDisplay;
+
+/* The display of that name ("cluster", "node:NAME"); what is wrong is said without a place:
+ * no such display (and which there are), no panel, several nodes share it. */
+bool review_display_find(const Scene *scene, const char *name, Arena *arena,
+                         ReviewDisplay *out, Error *err);
+
+/* The camera of an eye of that kind; what is wrong is said without a place. */
+bool review_camera_find(const Scene *scene, const ReviewEye *eye, int *camera_id, Error *err);
+
+/* Everything that the request names of the scene is there: cameras and displays of eyes,
+ * symbols, levels and contents. All that is not goes to *problems, with file and path; false
+ * (and *err the first) when there was any. */
+bool review_request_check(const ReviewRequest *request, const Scene *scene, Problems *problems,
+                          Error *err);
