@@ -14,7 +14,7 @@
  */
 #pragma once
 #include "review/content_light.h"
-#include "review/request.h"
+#include "review/request/request.h"
 
 typedef enum SymbolClass { SYMBOL_BACKGROUND, SYMBOL_FOREGROUND, SYMBOL_EDGE } SymbolClass;
 

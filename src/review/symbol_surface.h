@@ -8,7 +8,7 @@
 #pragma once
 #include "base/arena.h"
 #include "base/error.h"
-#include "review/request.h"
+#include "review/request/request.h"
 #include "scene/scene.h"
 
 /* Which rectangle of which display (review_display_find: a material, or "node:NAME" of the node

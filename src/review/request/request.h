@@ -132,6 +132,13 @@ typedef struct ReviewWeather {
     WeatherClock clock;
 } ReviewWeather;
 
+/* Where a display's surface is: all parts of its material, or those of one node. */
+typedef struct ReviewDisplay {
+    int        display_id;
+    const int *part_ids;
+    int        part_count; /* at least 1 */
+} ReviewDisplay;
+
 /* ---- all of it --------------------------------------------------------------------------- */
 
 typedef struct ReviewFrames {

@@ -7,13 +7,6 @@
 #include "base/problems.h"
 #include "review/request/request.h"
 
-/* Where a display's surface is: all parts of its material, or those of one node. */
-typedef struct ReviewDisplay {
-    int        display_id;
-    const int *part_ids;
-    int        part_count; /* at least 1 */
-} ReviewDisplay;
-
 /* The display of that name ("cluster", "node:NAME"); what is wrong is said without a place:
  * no such display (and which there are), no panel, several nodes share it. */
 bool review_display_find(const Scene *scene, const char *name, Arena *arena,
