@@ -9,7 +9,7 @@
  * Memory   from the arena.  Threads  pure function: the same content gives the same list.
  */
 #pragma once
-#include "review/content_light.h"
+#include "review/symbol/content_light.h"
 
 typedef struct TextProposal {
     double uv[4];            /* left, top, right, bottom, with a margin of ground around */

@@ -5,8 +5,8 @@
  */
 #pragma once
 #include "path/path_context.h"
-#include "review/symbol.h"
-#include "review/symbol_surface.h"
+#include "review/symbol/symbol.h"
+#include "review/symbol/symbol_surface.h"
 
 /* The angle between the top and the bottom of a box of uv (a split's `box`, or a character's
  * height) as seen from `eye`: mean over SYMBOL_COLUMNS columns, true angles, so that slant and

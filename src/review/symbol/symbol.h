@@ -13,7 +13,7 @@
  * Memory   from the arena.  Threads  pure functions.
  */
 #pragma once
-#include "review/content_light.h"
+#include "review/symbol/content_light.h"
 #include "review/request/request.h"
 
 typedef enum SymbolClass { SYMBOL_BACKGROUND, SYMBOL_FOREGROUND, SYMBOL_EDGE } SymbolClass;
