@@ -23,6 +23,7 @@ typedef struct LimitVerdict {
     const char *name, *kind, *unit, *source;
     double      value;        /* the limit */
     bool        read_in_the_standard;
+    bool        is_advice;    /* preferred, not asked: shown, and not counted */
     double      found;        /* NaN: nothing to hold against it */
     double      low, high;    /* 95 % interval of `found`; equal where it is exact */
     double      margin;       /* found / value - 1; of an upper limit value / found - 1 */
@@ -67,9 +68,9 @@ typedef struct ReviewCase {
     double  display_lux;         /* illuminance of the display's face */
     const LimitVerdict *limits;  /* all that apply */
     int     limit_count;
-    int     limit_id;            /* the contrast limit that was asked; -1: none */
+    int     limit_id;            /* the contrast limit that was asked most of; -1: none */
     double  margin;              /* contrast over its limit, less one; NaN: no limit */
-    Verdict verdict;             /* the worst of its limits' */
+    Verdict verdict;             /* the worst of its limits' that count */
     const CaseCause  *causes;    /* greatest first */
     int     cause_count;
     const CaseRemedy *remedies;

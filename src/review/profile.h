@@ -1,0 +1,83 @@
+/* profile.h -- limits as data: what a standard, or a house, asks of what is to be read.
+ *
+ * A profile is a JSON file (assets/schemas/profile.md). Those of assets/profiles are inside the
+ * program; any other is named by its path.
+ *
+ * Units    as each kind of limit says; lx.
+ * Memory   texts and lists live in the arena.
+ * Threads  plain data.
+ * Fails    loading does, with file, place, found and wanted.
+ */
+#pragma once
+#include "base/arena.h"
+#include "base/error.h"
+#include "review/verdict.h"
+
+enum { AMBIENT_COUNT = 4 };
+
+/* What a limit is held against. */
+typedef enum LimitKind {
+    LIMIT_CONTRAST_RATIO,     /* brighter over darker, what is reflected included */
+    LIMIT_LUMINANCE_CONTRAST, /* the same less one: (L2 - L1)/L1 */
+    LIMIT_MODULATION,         /* (CR - 1)/(CR + 1) */
+    LIMIT_CHARACTER_HEIGHT,   /* arc minutes */
+    LIMIT_STROKE_RATIO,       /* stroke's width over the character's height: not measured here */
+    LIMIT_WIDTH_RATIO,        /* character's width over its height: not measured here */
+    LIMIT_KIND_COUNT
+} LimitKind;
+
+typedef struct LimitKindFacts {
+    const char *name, *unit;
+    bool        is_contrast, is_measured;
+} LimitKindFacts;
+
+extern const LimitKindFacts limit_kinds[LIMIT_KIND_COUNT];
+
+/* A limit that rises as characters get smaller: for heights of from_arcmin to to_arcmin it is
+ * value + per_arcmin (reference_arcmin - height), and there is none beyond them. */
+typedef struct LimitSlope {
+    bool   has_slope;
+    double per_arcmin, reference_arcmin, from_arcmin, to_arcmin;
+} LimitSlope;
+
+typedef struct ProfileLimit {
+    const char *name;
+    LimitKind   kind;
+    bool        ambients[AMBIENT_COUNT]; /* under which it is asked */
+    bool        is_upper;                /* the most, not the least */
+    bool        is_advice;               /* preferred, not asked: shown and not counted */
+    double      value;                   /* above 0 */
+    LimitSlope  slope;
+    const char *source;
+    bool        read_in_the_standard;
+} ProfileLimit;
+
+/* What else the standard says, for readers: light under which it measures, names that it uses. */
+typedef struct ProfileFact {
+    const char *name, *text, *unit; /* text: what it means, "" for none; unit: "" without value */
+    double      value;              /* NaN: none */
+    const char *source;
+    bool        read_in_the_standard;
+} ProfileFact;
+
+typedef struct Profile {
+    const char *id;              /* "iso-15008", or the file's path */
+    const char *title, *edition;
+    bool        uses_veil;       /* contrast counts with the veil over it */
+    double      night_below_lx, twilight_below_lx; /* of the display's face */
+    const char *ambient_source;
+    bool        ambient_read_in_the_standard;
+    const ProfileLimit *limits;
+    int         limit_count;     /* 0: it sets none */
+    const ProfileFact *facts;
+    int         fact_count;
+} Profile;
+
+/* A name of assets/profiles, or a path, which holds a '/' or ends in ".json". */
+bool profile_load(const char *name_or_path, Arena *arena, const Profile **out, Error *err);
+
+/* The names of those inside the program, with commas. */
+const char *profile_names(Arena *arena);
+
+/* Direct sun on the display is AMBIENT_SUN; else its illuminance tells. */
+Ambient profile_ambient(const Profile *profile, double display_lux, bool sun_on_display);
