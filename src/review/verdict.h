@@ -23,6 +23,7 @@ typedef struct LimitVerdict {
     const char *name, *kind, *unit, *source;
     double      value;        /* the limit */
     bool        read_in_the_standard;
+    bool        is_upper;     /* the most, not the least */
     bool        is_advice;    /* preferred, not asked: shown, and not counted */
     double      found;        /* NaN: nothing to hold against it */
     double      low, high;    /* 95 % interval of `found`; equal where it is exact */
