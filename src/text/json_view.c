@@ -63,16 +63,17 @@ bool json_view_check_keys(const JsonView *view, const char *const *known, int co
     json_object_foreach(view->object, key, value) {
         bool found = false;
         for (int i = 0; i < count && !found; i++) found = !strcmp(key, known[i]);
-        if (!found)
-            return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                            "unknown key; the nearest known one is '%s'",
-                            nearest_word(key, known, count));
+        if (found) continue;
+        const char *meant = nearest_word_meant(key, known, count); /* "age" is "age_years" */
+        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
+                        "unknown key; the nearest known one is '%s'",
+                        meant ? meant : nearest_word(key, known, count));
     }
     return true;
 }
 
-static bool wrong_kind(const JsonView *view, const char *key, const json_t *value,
-                       const char *wanted, Error *err)
+bool json_view_wrong_kind(const JsonView *view, const char *key, const json_t *value,
+                          const char *wanted, Error *err)
 {
     return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
                     "is %s, wanted %s", kind_of(value), wanted);
@@ -85,7 +86,7 @@ bool json_view_child(const JsonView *view, const char *key, bool required, JsonV
     if (!value && required)
         return error_at(err, ERROR_INPUT, view->file, view->path, "key '%s' is missing", key);
     if (value && !json_is_object(value))
-        return wrong_kind(view, key, value, "an object", err);
+        return json_view_wrong_kind(view, key, value, "an object", err);
     *out = (JsonView){value, view->file, json_view_path(view, key), view->arena, view->root};
     return true;
 }
@@ -111,7 +112,7 @@ bool json_view_number(const JsonView *view, const char *key, double low, double 
 {
     json_t *value = json_object_get(view->object, key);
     if (!value) return true;
-    if (!json_is_number(value)) return wrong_kind(view, key, value, "a number", err);
+    if (!json_is_number(value)) return json_view_wrong_kind(view, key, value, "a number", err);
     if (!in_range(view, key, json_number_value(value), (double[2]){low, high}, err))
         return false;
     *out = json_number_value(value);
@@ -124,14 +125,16 @@ bool json_view_numbers(const JsonView *view, const char *key, JsonRange range, d
     double  limits[2] = {range.low, range.high};
     json_t *list = json_object_get(view->object, key);
     if (!list) return true;
-    if (!json_is_array(list)) return wrong_kind(view, key, list, "an array of numbers", err);
+    if (!json_is_array(list))
+        return json_view_wrong_kind(view, key, list, "an array of numbers", err);
     int length = (int)json_array_size(list);
     if (length < 1 || length > range.capacity)
         return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
                         "has %d values, wanted 1 to %d", length, range.capacity);
     for (int i = 0; i < length; i++) {
         json_t *value = json_array_get(list, (size_t)i);
-        if (!json_is_number(value)) return wrong_kind(view, key, value, "only numbers", err);
+        if (!json_is_number(value))
+            return json_view_wrong_kind(view, key, value, "only numbers", err);
         if (!in_range(view, key, json_number_value(value), limits, err)) return false;
     }
     for (int i = 0; i < length; i++)
@@ -144,7 +147,7 @@ bool json_view_text(const JsonView *view, const char *key, const char **out, Err
 {
     json_t *value = json_object_get(view->object, key);
     if (!value) return true;
-    if (!json_is_string(value)) return wrong_kind(view, key, value, "a text", err);
+    if (!json_is_string(value)) return json_view_wrong_kind(view, key, value, "a text", err);
     *out = arena_string(view->arena, json_string_value(value), json_string_length(value));
     return true;
 }
