@@ -23,9 +23,14 @@ typedef struct ReviewLevel {
     int     point_count;
 } ReviewLevel;
 
-/* Of a display by the name that the review gives it; sensor_lux counts for a curve only. A
- * display that fixed levels leave out keeps `scene_level`, the one of its scene. */
-double review_level_at(const ReviewLevel *level, const char *display, double scene_level,
+/* A display as a review calls it, and by its material where that is another name. */
+typedef struct ReviewDisplayName {
+    const char *name, *material;
+} ReviewDisplayName;
+
+/* sensor_lux counts for a curve only. Of fixed levels the one by the display's own name counts
+ * first, then its material's, then "*"; a display that is left out keeps `scene_level`. */
+double review_level_at(const ReviewLevel *level, ReviewDisplayName display, double scene_level,
                        double sensor_lux);
 
 /* The curve's value at an illuminance. Between two points level = a lux^b, a straight line in

@@ -28,7 +28,7 @@ typedef struct ReviewEye {
     int           camera_id;      /* camera: its index; NO_ID: it is named */
     double        position_m[3];  /* point; box: its centre */
     double        half_size_m[3]; /* box */
-    int           grid[3];        /* box: points along each axis, both ends in; one: the centre */
+    int           grid[3];        /* box: points along each axis, both ends in; 1: the middle */
 } ReviewEye;
 
 /* A box has grid[0] * grid[1] * grid[2] points, x fastest; other eyes one. */
@@ -62,7 +62,7 @@ typedef struct ReviewSymbol {
     const char    *content;   /* picture; NULL: what the display shows in the scene */
     const char    *mask;      /* picture of the content's size, white: foreground; NULL: none */
     bool           has_uv;
-    double         uv[4];     /* left, top, right, bottom of the content, 0..1; else all of it */
+    double         uv[4];     /* left, top, right, bottom of the content; else all of it */
     bool           find_text; /* symbols are to be found inside uv */
     ReviewPolarity polarity;
 } ReviewSymbol;
@@ -108,7 +108,7 @@ typedef struct ReviewCondition {
     double       heading_deg;
     int          level_id;       /* into levels; NO_ID: as the scene says */
     int          with_id;        /* into withs; NO_ID: nobody */
-    ReviewPolarity *polarity;    /* [symbol_count]: the symbol's own where nothing else is said */
+    ReviewPolarity *polarity;    /* [symbol_count]: the symbol's own where none is said */
     ReviewContent  *contents;    /* shown instead of the symbols' and the scene's */
     int             content_count;
     /* route */

@@ -13,10 +13,11 @@ bool review_display_find(const Scene *scene, const char *name, Arena *arena,
                          ReviewDisplay *out, Error *err);
 
 /* The camera of an eye of that kind; what is wrong is said without a place. */
-bool review_camera_find(const Scene *scene, const ReviewEye *eye, int *camera_id, Error *err);
+bool review_camera_find(const Scene *scene, const ReviewEye *eye, Arena scratch, int *camera_id,
+                        Error *err);
 
 /* Everything that the request names of the scene is there: cameras and displays of eyes,
  * symbols, levels and contents. All that is not goes to *problems, with file and path; false
- * (and *err the first) when there was any. */
-bool review_request_check(const ReviewRequest *request, const Scene *scene, Problems *problems,
-                          Error *err);
+ * when there was any. */
+bool review_request_check(const ReviewRequest *request, const Scene *scene,
+                          Problems *problems);

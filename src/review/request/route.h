@@ -1,29 +1,18 @@
 /* route.h -- a drive or a flight: where the vehicle is at which time and where it points.
  *
- * Formats  GPX 1.0 and 1.1: <trkpt lat lon> with <ele> and <time>, segments and tracks one after
- *          the other. CSV: a header line `time,lat,lon,heading`, in any order; `heading` and
- *          `altitude_m` may be missing, and a heading's cell may be empty. Times are ISO 8601
- *          with their zone, and rise.
+ * Formats  GPX 1.0 and 1.1: <trkpt lat lon> with <ele> and <time>, segments and tracks one
+ *          after the other. CSV: a header line `time,lat,lon,heading`, in any order; `heading`
+ *          and `altitude_m` may be missing, and their cells be empty. Times are ISO 8601 with
+ *          their zone, and do not fall.
  * Heading  where the file gives none, the bearing of the great circle to the next point;
- *          standing still (less than a metre) keeps the last one. The earth is a sphere here:
- *          within 0.2 degrees of the ellipsoid's.
+ *          standing still (less than a metre) keeps the last one, and before the first move
+ *          there is the first. The earth is a sphere here: within 0.2 degrees of the
+ *          ellipsoid's.
  * Memory   the arena's. Threads: const once read.
  * Fails    ERROR_INPUT with file and line, what was found and what was wanted.
  */
 #pragma once
-#include "base/arena.h"
-#include "base/error.h"
-#include "sky/sun_position.h"
-
-#define ROUTE_POINTS_MAX 1000000
-
-typedef struct RoutePoint {
-    SkyTime  when;
-    double   seconds;     /* since the first point */
-    SkyPlace where;
-    double   heading_deg; /* [0, 360), from north over east */
-    int      line;        /* of the file */
-} RoutePoint;
+#include "review/request/route_points.h"
 
 typedef struct Route {
     const char *file;
@@ -31,6 +20,7 @@ typedef struct Route {
     int         count; /* at least 1 */
 } Route;
 
+/* GPX when it begins with '<', else CSV. */
 bool route_read(const char *file, Arena *arena, Route *out, Error *err);
 
 /* Moves all times so that the first point is passed then, in that zone. */

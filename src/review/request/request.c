@@ -1,0 +1,26 @@
+#include "review/request/request.h"
+
+int review_eye_count(const ReviewEye *eye)
+{
+    return eye->kind == EYE_BOX ? eye->grid[0] * eye->grid[1] * eye->grid[2] : 1;
+}
+
+/* Point i of n from -1 to 1; one alone is the middle. */
+static double share_of(int i, int n)
+{
+    return n > 1 ? 2.0 * i / (n - 1) - 1 : 0;
+}
+
+void review_eye_point(const ReviewEye *eye, int i, double out_m[3])
+{
+    for (int axis = 0; axis < 3; axis++) {
+        int n = eye->kind == EYE_BOX ? eye->grid[axis] : 1;
+        out_m[axis] = eye->position_m[axis] + eye->half_size_m[axis] * share_of(i % n, n);
+        i /= n;
+    }
+}
+
+double review_range_value(const ReviewRange *range, int i)
+{
+    return i == range->count - 1 ? range->last : range->first + i * range->step;
+}

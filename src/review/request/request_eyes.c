@@ -1,0 +1,220 @@
+#include "review/request/request_eyes.h"
+
+#include <math.h>
+#include <string.h>
+
+#define EYES_MAX 256
+#define GRID_MAX 33
+#define METRES_MAX 1e6
+#define BOX_METRES_MAX 10
+#define UPRIGHT 1e-6 /* of a unit vector's level part: less is vertical */
+
+/* ---- eyes -------------------------------------------------------------------------------- */
+
+static bool read_camera(const JsonView *view, ReviewEye *eye, Error *err)
+{
+    eye->kind = EYE_CAMERA;
+    if (json_is_string(json_object_get(view->object, "camera")))
+        return field_name(view, "camera", &eye->camera, err);
+    if (!json_is_number(json_object_get(view->object, "camera")))
+        return json_view_wrong_kind(view, "camera", json_object_get(view->object, "camera"),
+                                    "a camera's name or index", err);
+    return field_integer(view, "camera", (FieldBounds){0, 1000000}, &eye->camera_id, err);
+}
+
+static bool read_grid(const JsonView *view, ReviewEye *eye, Error *err)
+{
+    double grid[3] = {3, 3, 3};
+    if (!field_numbers(view, "grid", 3, (JsonRange){1, GRID_MAX, 3}, grid, NULL, err))
+        return false;
+    for (int axis = 0; axis < 3; axis++) {
+        if (grid[axis] != floor(grid[axis]))
+            return field_fails(view, "grid", err, "holds %g, wanted whole numbers", grid[axis]);
+        if (grid[axis] > 1 && !(eye->half_size_m[axis] > 0))
+            return field_fails(view, "grid", err,
+                               "has %g points along an axis without length, wanted 1 there",
+                               grid[axis]);
+        eye->grid[axis] = (int)grid[axis];
+    }
+    return true;
+}
+
+static bool read_box(const JsonView *view, ReviewEye *eye, Error *err)
+{
+    eye->kind = EYE_BOX;
+    return field_numbers(view, "centre_m", 3, (JsonRange){-METRES_MAX, METRES_MAX, 3},
+                         eye->position_m, NULL, err) &&
+           field_wanted(view, "half_size_m", err) &&
+           field_numbers(view, "half_size_m", 3, (JsonRange){0, BOX_METRES_MAX, 3},
+                         eye->half_size_m, NULL, err) &&
+           read_grid(view, eye, err);
+}
+
+static bool read_point(const JsonView *view, ReviewEye *eye, Error *err)
+{
+    eye->kind = EYE_POINT;
+    return field_numbers(view, "position_m", 3, (JsonRange){-METRES_MAX, METRES_MAX, 3},
+                         eye->position_m, NULL, err);
+}
+
+static bool read_eye(const FieldMembers *members, int i, ReviewEye *out, Error *err)
+{
+    static const char *const keys[] = {"camera", "position_m", "centre_m", "half_size_m",
+                                       "grid"};
+    JsonView  view;
+    ReviewEye eye = {.name = members->name[i], .camera_id = NO_ID};
+    if (!json_view_child(&members->view, eye.name, true, &view, err) ||
+        !json_view_check_keys(&view, keys, COUNT_OF(keys), err))
+        return false;
+    int  forms = 0;
+    bool has[COUNT_OF(keys)];
+    for (int k = 0; k < COUNT_OF(keys); k++)
+        has[k] = json_object_get(view.object, keys[k]) != NULL;
+    for (int k = 0; k < 3; k++) forms += has[k];
+    if (forms != 1 || (!has[2] && (has[3] || has[4])))
+        return error_at(err, ERROR_INPUT, view.file, view.path, "is %s, wanted one of "
+                        "'camera', 'position_m', or 'centre_m' with 'half_size_m'",
+                        forms > 1 ? "said in several ways" : forms ? "a box without a centre"
+                                                                   : "nowhere");
+    bool ok = has[0]   ? read_camera(&view, &eye, err)
+              : has[1] ? read_point(&view, &eye, err)
+                       : read_box(&view, &eye, err);
+    if (ok) *out = eye;
+    return ok;
+}
+
+static bool read_eyes(RequestReading *reading, Error *err)
+{
+    FieldMembers   members;
+    ReviewRequest *request = reading->request;
+    if (!field_wanted(&reading->root, "eyes", err) ||
+        !field_members(&reading->root, "eyes", EYES_MAX, &members, err))
+        return false;
+    request->eyes = ARENA_NEW(reading->root.arena, ReviewEye, members.count);
+    request->eye_count = members.count;
+    for (int i = 0; i < members.count; i++)
+        if (!read_eye(&members, i, &request->eyes[i], err)) return false;
+    return true;
+}
+
+/* ---- the observer ------------------------------------------------------------------------ */
+
+static bool read_forward(RequestReading *reading, Error *err)
+{
+    double *forward = reading->request->forward;
+    forward[0] = forward[1] = 0, forward[2] = -1;
+    if (!field_direction(&reading->root, "forward", forward, NULL, err)) return false;
+    return hypot(forward[0], forward[2]) > UPRIGHT ||
+           field_fails(&reading->root, "forward", err,
+                       "is vertical, wanted where the vehicle points");
+}
+
+static bool read_observer(RequestReading *reading, Error *err)
+{
+    static const char *const keys[] = {"age_years", "pigment"};
+    JsonView        view;
+    ReviewObserver *observer = &reading->request->observer;
+    *observer = (ReviewObserver){50, 0.5};
+    return json_view_child(&reading->root, "observer", false, &view, err) &&
+           json_view_check_keys(&view, keys, COUNT_OF(keys), err) &&
+           json_view_number(&view, "age_years", 10, 100, &observer->age_years, err) &&
+           json_view_number(&view, "pigment", 0, 1.2, &observer->pigment, err);
+}
+
+/* ---- where they look --------------------------------------------------------------------- */
+
+/* Which eyes look so: those of the list "eyes", else all. */
+static bool read_lookers(const RequestReading *reading, const JsonView *view, ReviewGaze *gaze,
+                         Error *err)
+{
+    const ReviewRequest *request = reading->request;
+    int                  listed;
+    if (!field_list(view, "eyes", EYES_MAX, &listed, err)) return false;
+    gaze->for_eye = ARENA_NEW(view->arena, bool, request->eye_count);
+    const char **names = ARENA_NEW(view->arena, const char *, request->eye_count);
+    for (int i = 0; i < request->eye_count; i++) {
+        gaze->for_eye[i] = !listed;
+        names[i] = request->eyes[i].name;
+    }
+    for (int i = 0; i < listed; i++) {
+        json_t  *item = json_array_get(json_object_get(view->object, "eyes"), (size_t)i);
+        char    *place = arena_format(view->arena, "eyes/%d", i);
+        int      eye = NO_ID;
+        JsonView alone = *view; /* the item as a member of that name */
+        if (!json_is_string(item))
+            return json_view_wrong_kind(view, place, item, "an eye's name", err);
+        alone.object = json_pack("{s:O}", place, item);
+        bool found = request_find_name(&alone, place, (FieldWords){names, request->eye_count},
+                                       "eyes", &eye, err);
+        json_decref(alone.object);
+        if (!found) return false;
+        gaze->for_eye[eye] = true;
+    }
+    return true;
+}
+
+static bool read_direction(const JsonView *view, ReviewGaze *gaze, Error *err)
+{
+    static const char *const targets[] = {"symbols"};
+    int  target = NO_ID;
+    bool has_direction;
+    if (!field_choice(view, "at", (FieldWords){targets, 1}, &target, err) ||
+        !field_direction(view, "direction", gaze->direction, &has_direction, err))
+        return false;
+    gaze->at_symbols = target == 0;
+    if (gaze->at_symbols == has_direction)
+        return error_at(err, ERROR_INPUT, view->file, view->path,
+                        "has %s, wanted one of 'at' and 'direction'",
+                        has_direction ? "both" : "neither");
+    if (!has_direction) gaze->name = targets[0];
+    return has_direction ? field_name(view, "name", &gaze->name, err)
+                         : json_view_text(view, "name", &gaze->name, err);
+}
+
+static bool read_gaze(RequestReading *reading, int i, Error *err)
+{
+    static const char *const keys[] = {"at", "name", "direction", "eyes"};
+    JsonView    view;
+    ReviewGaze *gaze = &reading->request->gazes[i];
+    if (!field_item(&reading->root, "gaze", i, (FieldWords){keys, COUNT_OF(keys)}, &view,
+                    err) ||
+        !read_direction(&view, gaze, err) || !read_lookers(reading, &view, gaze, err))
+        return false;
+    for (int k = 0; k < i; k++)
+        if (!strcmp(reading->request->gazes[k].name, gaze->name))
+            return error_at(err, ERROR_INPUT, view.file, view.path,
+                            "is the second gaze named '%.60s', wanted another name",
+                            gaze->name);
+    return true;
+}
+
+/* None: at the symbols. */
+static void look_at_symbols(RequestReading *reading)
+{
+    ReviewRequest *request = reading->request;
+    request->gazes = ARENA_NEW(reading->root.arena, ReviewGaze, 1);
+    request->gaze_count = 1;
+    request->gazes[0] = (ReviewGaze){.name = "symbols", .at_symbols = true};
+    request->gazes[0].for_eye = ARENA_NEW(reading->root.arena, bool, request->eye_count);
+    for (int i = 0; i < request->eye_count; i++) request->gazes[0].for_eye[i] = true;
+}
+
+static bool read_gazes(RequestReading *reading, Error *err)
+{
+    ReviewRequest *request = reading->request;
+    if (!field_list(&reading->root, "gaze", EYES_MAX, &request->gaze_count, err)) return false;
+    if (!request->gaze_count) {
+        look_at_symbols(reading);
+        return true;
+    }
+    request->gazes = ARENA_NEW(reading->root.arena, ReviewGaze, request->gaze_count);
+    for (int i = 0; i < request->gaze_count; i++)
+        if (!read_gaze(reading, i, err)) return false;
+    return true;
+}
+
+bool request_eyes_read(RequestReading *reading, Error *err)
+{
+    return read_eyes(reading, err) && read_forward(reading, err) &&
+           read_observer(reading, err) && read_gazes(reading, err);
+}

@@ -1,0 +1,194 @@
+#include "review/request/request_fields.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "text/nearest_word.h"
+#include "text/uri.h"
+
+#define FILES_MAX 256
+#define LENGTH_LEAST 1e-9 /* of a vector that has a direction */
+
+bool field_fails(const JsonView *view, const char *key, Error *err, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    error_at_list(err, ERROR_INPUT, view->file, json_view_path(view, key), format, list);
+    va_end(list);
+    return false;
+}
+
+bool field_wanted(const JsonView *view, const char *key, Error *err)
+{
+    return json_object_get(view->object, key) != NULL ||
+           error_at(err, ERROR_INPUT, view->file, view->path, "key '%s' is missing", key);
+}
+
+/* ---- single values ----------------------------------------------------------------------- */
+
+bool field_boolean(const JsonView *view, const char *key, bool *out, Error *err)
+{
+    const json_t *value = json_object_get(view->object, key);
+    if (!value) return true;
+    if (!json_is_boolean(value))
+        return json_view_wrong_kind(view, key, value, "true or false", err);
+    *out = json_is_true(value);
+    return true;
+}
+
+bool field_integer(const JsonView *view, const char *key, FieldBounds bounds, int *out,
+                   Error *err)
+{
+    double value = *out;
+    if (!json_view_number(view, key, bounds.low, bounds.high, &value, err)) return false;
+    if (value != floor(value))
+        return field_fails(view, key, err, "is %g, wanted a whole number", value);
+    *out = (int)value;
+    return true;
+}
+
+bool field_choice(const JsonView *view, const char *key, FieldWords words, int *out, Error *err)
+{
+    const char *text = NULL;
+    char        advice[256];
+    if (!json_view_text(view, key, &text, err)) return false;
+    if (!text) return true;
+    for (int i = 0; i < words.count; i++)
+        if (!strcmp(text, words.word[i])) {
+            *out = i;
+            return true;
+        }
+    return field_fails(view, key, err, "is '%.60s', wanted another word: %s", text,
+                       nearest_word_advice(text, words.word, words.count, advice,
+                                           sizeof advice));
+}
+
+bool field_name(const JsonView *view, const char *key, const char **out, Error *err)
+{
+    if (!field_wanted(view, key, err) || !json_view_text(view, key, out, err)) return false;
+    return **out || field_fails(view, key, err, "is empty, wanted a name");
+}
+
+/* ---- vectors ----------------------------------------------------------------------------- */
+
+bool field_numbers(const JsonView *view, const char *key, int count, JsonRange range,
+                   double *out, bool *found, Error *err)
+{
+    const json_t *list = json_object_get(view->object, key);
+    int           length = 0;
+    if (found) *found = list != NULL;
+    if (json_is_array(list) && (int)json_array_size(list) != count)
+        return field_fails(view, key, err, "has %d values, wanted %d",
+                           (int)json_array_size(list), count);
+    range.capacity = count;
+    return json_view_numbers(view, key, range, out, &length, err);
+}
+
+bool field_direction(const JsonView *view, const char *key, double out[3], bool *found,
+                     Error *err)
+{
+    double vector[3];
+    bool   is_there;
+    if (!field_numbers(view, key, 3, (JsonRange){-1e6, 1e6, 3}, vector, &is_there, err))
+        return false;
+    if (found) *found = is_there;
+    if (!is_there) return true;
+    double length = hypot(hypot(vector[0], vector[1]), vector[2]);
+    if (!(length > LENGTH_LEAST))
+        return field_fails(view, key, err, "is the zero vector, wanted a direction");
+    for (int i = 0; i < 3; i++) out[i] = vector[i] / length;
+    return true;
+}
+
+/* ---- lists and objects by name ----------------------------------------------------------- */
+
+bool field_list(const JsonView *view, const char *key, int most, int *count, Error *err)
+{
+    const json_t *list = json_object_get(view->object, key);
+    *count = 0;
+    if (!list) return true;
+    if (!json_is_array(list)) return json_view_wrong_kind(view, key, list, "a list", err);
+    size_t size = json_array_size(list);
+    if (size < 1 || size > (size_t)most)
+        return field_fails(view, key, err, "has %zu entries, wanted 1 to %d", size, most);
+    *count = (int)size;
+    return true;
+}
+
+bool field_item(const JsonView *view, const char *key, int i, FieldWords keys, JsonView *out,
+                Error *err)
+{
+    json_t     *value = json_array_get(json_object_get(view->object, key), (size_t)i);
+    const char *place = arena_format(view->arena, "%s/%d", key, i);
+    if (!json_is_object(value))
+        return json_view_wrong_kind(view, place, value, "an object", err);
+    *out = (JsonView){value, view->file, json_view_path(view, place), view->arena, view->root};
+    return json_view_check_keys(out, keys.word, keys.count, err);
+}
+
+bool field_members(const JsonView *view, const char *key, int most, FieldMembers *out,
+                   Error *err)
+{
+    FieldMembers members = {.count = 0};
+    const char  *name;
+    json_t      *value;
+    if (!json_view_child(view, key, false, &members.view, err)) return false;
+    size_t size = json_object_size(members.view.object);
+    if (members.view.object && (size < 1 || size > (size_t)most))
+        return field_fails(view, key, err, "has %zu members, wanted 1 to %d", size, most);
+    members.name = ARENA_NEW(view->arena, const char *, size);
+    json_object_foreach(members.view.object, name, value) {
+        if (!*name)
+            return field_fails(view, key, err,
+                               "has a member with an empty name, wanted a name");
+        members.name[members.count++] = arena_string(view->arena, name, strlen(name));
+    }
+    *out = members;
+    return true;
+}
+
+/* ---- files ------------------------------------------------------------------------------- */
+
+/* A URI of the document as a path: `place` is where it stands. */
+static bool resolve(const JsonView *view, const char *place, const char *uri, const char **out,
+                    Error *err)
+{
+    Error  why;
+    char  *relative;
+    size_t scheme = uri_scheme_length(uri);
+    if (scheme)
+        return field_fails(view, place, err, "has the scheme '%.*s:', wanted a relative path",
+                           (int)(scheme < 40 ? scheme : 40), uri);
+    if (!uri_decode(uri, view->arena, &relative, &why))
+        return field_fails(view, place, err, "%s", why.text);
+    if (!json_view_file(view, place, relative, out, err)) return false;
+    return file_exists(*out) ||
+           field_fails(view, place, err, "names '%.200s', which cannot be read; wanted a file",
+                       *out);
+}
+
+bool field_file(const JsonView *view, const char *key, const char **out, Error *err)
+{
+    const char *uri = NULL;
+    if (!json_view_text(view, key, &uri, err)) return false;
+    return !uri || resolve(view, key, uri, out, err);
+}
+
+bool field_files(const JsonView *view, const char *key, const char ***out, int *count,
+                 Error *err)
+{
+    int length;
+    if (!field_list(view, key, FILES_MAX, &length, err)) return false;
+    const char **paths = ARENA_NEW(view->arena, const char *, length);
+    for (int i = 0; i < length; i++) {
+        json_t *value = json_array_get(json_object_get(view->object, key), (size_t)i);
+        const char *place = arena_format(view->arena, "%s/%d", key, i);
+        if (!json_is_string(value))
+            return json_view_wrong_kind(view, place, value, "a file's path", err);
+        if (!resolve(view, place, json_string_value(value), &paths[i], err)) return false;
+    }
+    *out = paths;
+    *count = length;
+    return true;
+}

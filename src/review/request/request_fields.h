@@ -1,0 +1,72 @@
+/* request_fields.h -- kinds of members of REVIEW.json that text/json_view.h does not read:
+ * lists, objects by name, words out of a few, directions, files.
+ *
+ * Absent members keep what *out holds unless they are said to be wanted.
+ *
+ * Memory   the view's arena. Threads: one at a time.
+ * Fails    with file and JSON path, as json_view.h.
+ */
+#pragma once
+#include "base/count.h"
+#include "text/json_view.h"
+
+typedef struct FieldBounds {
+    int low, high;
+} FieldBounds;
+
+/* The words of a choice, in the order of its enum. */
+typedef struct FieldWords {
+    const char *const *word;
+    int                count;
+} FieldWords;
+
+/* A fault of a member: "..., wanted ..." is the caller's to say. Always false. */
+bool field_fails(const JsonView *view, const char *key, Error *err, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+/* That there is such a key. */
+bool field_wanted(const JsonView *view, const char *key, Error *err);
+
+bool field_boolean(const JsonView *view, const char *key, bool *out, Error *err);
+bool field_integer(const JsonView *view, const char *key, FieldBounds bounds, int *out,
+                   Error *err);
+
+/* The place of a text among words. */
+bool field_choice(const JsonView *view, const char *key, FieldWords words, int *out,
+                  Error *err);
+
+/* Exactly so many numbers in [low, high]; *found (may be NULL): they were there. */
+bool field_numbers(const JsonView *view, const char *key, int count, JsonRange range,
+                   double *out, bool *found, Error *err);
+
+/* Three numbers as a unit vector. */
+bool field_direction(const JsonView *view, const char *key, double out[3], bool *found,
+                     Error *err);
+
+/* A text with something in it; wanted. */
+bool field_name(const JsonView *view, const char *key, const char **out, Error *err);
+
+/* A list: *count items, 0 when it is absent. One that is there has some. */
+bool field_list(const JsonView *view, const char *key, int most, int *count, Error *err);
+
+/* Item i of that list, an object with these keys only. */
+bool field_item(const JsonView *view, const char *key, int i, FieldWords keys, JsonView *out,
+                Error *err);
+
+/* An object whose members' names are the user's: its members in the file's order. Absent:
+ * *count is 0. One that is there has some, and none of their names is empty. */
+typedef struct FieldMembers {
+    JsonView     view; /* of the object */
+    const char **name;
+    int          count;
+} FieldMembers;
+
+bool field_members(const JsonView *view, const char *key, int most, FieldMembers *out,
+                   Error *err);
+
+/* The file that a URI under `key` means: relative, percent-encoded, readable. */
+bool field_file(const JsonView *view, const char *key, const char **out, Error *err);
+
+/* A list of such URIs; wanted and absent files are errors alike. */
+bool field_files(const JsonView *view, const char *key, const char ***out, int *count,
+                 Error *err);

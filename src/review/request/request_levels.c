@@ -1,0 +1,98 @@
+#include "review/request/request_levels.h"
+
+#define LEVELS_MAX 1000
+#define FIXED_MAX 1000
+#define POINTS_MAX 10000
+#define LEVEL_MAX 100.0 /* a hundred times as bright as measured */
+#define LUX_MAX 1e7
+
+/* ---- fixed ------------------------------------------------------------------------------- */
+
+static bool read_fixed(const FieldMembers *members, ReviewLevel *level, Error *err)
+{
+    level->fixed = ARENA_NEW(members->view.arena, ReviewFixedLevel, members->count);
+    level->fixed_count = members->count;
+    for (int i = 0; i < members->count; i++) {
+        level->fixed[i].display = members->name[i];
+        if (!json_view_number(&members->view, members->name[i], 0, LEVEL_MAX,
+                              &level->fixed[i].level, err))
+            return false;
+    }
+    return true;
+}
+
+/* ---- by a sensor ------------------------------------------------------------------------- */
+
+static bool read_sensor(const JsonView *view, ReviewLevel *level, Error *err)
+{
+    static const char *const keys[] = {"position_m", "normal"};
+    JsonView sensor;
+    return json_view_child(view, "sensor", true, &sensor, err) &&
+           json_view_check_keys(&sensor, keys, COUNT_OF(keys), err) &&
+           field_wanted(&sensor, "position_m", err) && field_wanted(&sensor, "normal", err) &&
+           field_numbers(&sensor, "position_m", 3, (JsonRange){-1e6, 1e6, 3},
+                         level->position_m, NULL, err) &&
+           field_direction(&sensor, "normal", level->normal, NULL, err);
+}
+
+/* Row i of the table, held against the one before. */
+static bool read_row(const JsonView *view, int i, ReviewLevel *level, Error *err)
+{
+    json_t     *row = json_array_get(json_object_get(view->object, "table_lx"), (size_t)i);
+    const char *place = arena_format(view->arena, "table_lx/%d", i);
+    double      value[2];
+    for (int k = 0; k < 2; k++) {
+        const json_t *number = json_array_get(row, (size_t)k);
+        if (json_array_size(row) != 2 || !json_is_number(number))
+            return json_view_wrong_kind(view, place, row, "a pair [illuminance in lx, level]",
+                                        err);
+        value[k] = json_number_value(number);
+        if (!(value[k] >= 0 && value[k] <= (k ? LEVEL_MAX : LUX_MAX)))
+            return field_fails(view, place, err, "holds %g, wanted %s from 0 to %g", value[k],
+                               k ? "a level" : "an illuminance", k ? LEVEL_MAX : LUX_MAX);
+    }
+    if (i && !(value[0] > level->lux[i - 1]))
+        return field_fails(view, place, err, "is at %g lx behind %g lx, wanted more lx",
+                           value[0], level->lux[i - 1]);
+    if (i && value[1] < level->level[i - 1])
+        return field_fails(view, place, err,
+                           "falls from level %g to %g, wanted one that does not fall",
+                           level->level[i - 1], value[1]);
+    level->lux[i] = value[0];
+    level->level[i] = value[1];
+    return true;
+}
+
+static bool read_curve(const JsonView *view, ReviewLevel *level, Error *err)
+{
+    static const char *const keys[] = {"sensor", "table_lx"};
+    level->is_curve = true;
+    if (!json_view_check_keys(view, keys, COUNT_OF(keys), err) ||
+        !read_sensor(view, level, err) || !field_wanted(view, "table_lx", err) ||
+        !field_list(view, "table_lx", POINTS_MAX, &level->point_count, err))
+        return false;
+    level->lux = ARENA_NEW(view->arena, double, level->point_count);
+    level->level = ARENA_NEW(view->arena, double, level->point_count);
+    for (int i = 0; i < level->point_count; i++)
+        if (!read_row(view, i, level, err)) return false;
+    return true;
+}
+
+bool request_levels_read(RequestReading *reading, Error *err)
+{
+    FieldMembers   members, parts;
+    ReviewRequest *request = reading->request;
+    if (!field_members(&reading->root, "levels", LEVELS_MAX, &members, err)) return false;
+    request->levels = ARENA_NEW(reading->root.arena, ReviewLevel, members.count);
+    request->level_count = members.count;
+    for (int i = 0; i < members.count; i++) {
+        ReviewLevel *level = &request->levels[i];
+        level->name = members.name[i];
+        if (!field_members(&members.view, level->name, FIXED_MAX, &parts, err)) return false;
+        bool is_curve = json_object_get(parts.view.object, "sensor") ||
+                        json_object_get(parts.view.object, "table_lx");
+        if (!(is_curve ? read_curve(&parts.view, level, err) : read_fixed(&parts, level, err)))
+            return false;
+    }
+    return true;
+}

@@ -1,0 +1,8 @@
+/* request_levels.h -- how bright the displays are set: "levels".
+ *
+ * Fails    as request_read.h.
+ */
+#pragma once
+#include "review/request/request_reading.h"
+
+bool request_levels_read(RequestReading *reading, Error *err);

@@ -1,0 +1,98 @@
+#include "review/request/request_read.h"
+
+#include <string.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "base/file.h"
+#include "review/request/request_conditions.h"
+#include "review/request/request_eyes.h"
+#include "review/request/request_levels.h"
+#include "review/request/request_symbols.h"
+#include "tinygltf/gltf_json.h"
+
+static const char *const KEYS[] = {"title",  "scene",     "eyes",       "forward",
+                                   "gaze",   "observer",  "with",       "symbols",
+                                   "levels", "profile",   "conditions", "precision",
+                                   "frames"};
+
+static bool read_title(RequestReading *reading, Error *err)
+{
+    ReviewRequest *request = reading->request;
+    request->title = path_name(request->file);
+    return json_view_text(&reading->root, "title", &request->title, err) &&
+           field_wanted(&reading->root, "scene", err) &&
+           field_files(&reading->root, "scene", &request->scenes, &request->scene_count, err) &&
+           field_name(&reading->root, "profile", &request->profile, err);
+}
+
+static bool read_precision(RequestReading *reading, Error *err)
+{
+    static const char *const keys[] = {"contrast"};
+    JsonView view;
+    reading->request->precision_contrast = 0.01;
+    return json_view_child(&reading->root, "precision", false, &view, err) &&
+           json_view_check_keys(&view, keys, COUNT_OF(keys), err) &&
+           json_view_number(&view, "contrast", 1e-4, 1, &reading->request->precision_contrast,
+                            err);
+}
+
+static bool read_size(const JsonView *view, ReviewFrames *frames, Error *err)
+{
+    double size[2] = {frames->width, frames->height};
+    if (!field_numbers(view, "size", 2, (JsonRange){1, 16384, 2}, size, NULL, err))
+        return false;
+    frames->width = (int)size[0];
+    frames->height = (int)size[1];
+    return (frames->width == size[0] && frames->height == size[1]) ||
+           field_fails(view, "size", err, "is [%g, %g], wanted whole numbers of pixels",
+                       size[0], size[1]);
+}
+
+static bool read_frames(RequestReading *reading, Error *err)
+{
+    static const char *const keys[] = {"size", "noise", "worst"};
+    JsonView      view;
+    ReviewFrames *frames = &reading->request->frames;
+    *frames = (ReviewFrames){1280, 720, 0.05, 3};
+    return json_view_child(&reading->root, "frames", false, &view, err) &&
+           json_view_check_keys(&view, keys, COUNT_OF(keys), err) &&
+           read_size(&view, frames, err) &&
+           json_view_number(&view, "noise", 1e-4, 1, &frames->noise, err) &&
+           field_integer(&view, "worst", (FieldBounds){0, 1000}, &frames->worst, err);
+}
+
+/* The document once more, as scenes have theirs: environments are read as there. */
+static bool read_tree(RequestReading *reading, Error *err)
+{
+    FileBytes   bytes;
+    const char *file = reading->request->file;
+    if (!file_read(file, JSON_FILE_BYTES_MAX, reading->root.arena, &bytes, err)) return false;
+    request_note_input(reading, file, XXH3_64bits(bytes.data, bytes.size));
+    return gltf_json_parse((const char *)bytes.data, bytes.size, reading->root.arena,
+                           &reading->tree, err) ||
+           error_in_file(err, file);
+}
+
+static bool read_all(RequestReading *reading, Error *err)
+{
+    return json_view_check_keys(&reading->root, KEYS, COUNT_OF(KEYS), err) &&
+           read_tree(reading, err) && read_title(reading, err) &&
+           request_eyes_read(reading, err) && request_withs_read(reading, err) &&
+           request_symbols_read(reading, err) && request_levels_read(reading, err) &&
+           read_precision(reading, err) && read_frames(reading, err) &&
+           request_conditions_read(reading, err);
+}
+
+bool review_request_read(const char *file, const char *root, Arena *arena, Problems *problems,
+                         ReviewRequest *out, Error *err)
+{
+    ReviewRequest  request = {.file = arena_string(arena, file, strlen(file))};
+    RequestReading reading = {.problems = problems, .request = &request};
+    if (!json_view_open(file, arena, &reading.root, err)) return false;
+    reading.root.root = root;
+    bool ok = read_all(&reading, err);
+    json_view_close(&reading.root);
+    if (ok) *out = request;
+    return ok;
+}

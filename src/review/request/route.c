@@ -1,0 +1,126 @@
+#include "review/request/route.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/units.h"
+#include "review/request/route_csv.h"
+#include "review/request/route_gpx.h"
+
+#define EARTH_M 6371008.8 /* mean radius (IUGG) */
+#define STANDING_M 1.0
+
+/* ---- headings ---------------------------------------------------------------------------- */
+
+/* Great circle from a to b on the sphere: with latitudes p, q and the longitudes' difference l,
+ *     tan(bearing) = sin l cos q / (cos p sin q - sin p cos q cos l). */
+double route_bearing_deg(const SkyPlace *from, const SkyPlace *to)
+{
+    double p = radians_from_degrees(from->latitude_deg);
+    double q = radians_from_degrees(to->latitude_deg);
+    double l = radians_from_degrees(to->longitude_deg - from->longitude_deg);
+    double bearing = degrees_from_radians(
+        atan2(sin(l) * cos(q), cos(p) * sin(q) - sin(p) * cos(q) * cos(l)));
+    return fmod(bearing + 360, 360);
+}
+
+/* By the haversine, which keeps small distances exact. */
+static double distance_m(const SkyPlace *from, const SkyPlace *to)
+{
+    double p = radians_from_degrees(from->latitude_deg);
+    double q = radians_from_degrees(to->latitude_deg);
+    double l = radians_from_degrees(to->longitude_deg - from->longitude_deg);
+    double up = sin((q - p) / 2), along = sin(l / 2);
+    return 2 * EARTH_M * asin(fmin(1, sqrt(up * up + cos(p) * cos(q) * along * along)));
+}
+
+/* Points [first, last) head so, unless the file says another heading of theirs. */
+static void set_headings(RoutePoint *points, int first, int last, double heading_deg)
+{
+    for (int i = first; i < last; i++)
+        if (!points[i].has_heading) points[i].heading_deg = heading_deg;
+}
+
+/* Between the point that was left and the next one a metre away the vehicle stands: it keeps
+ * its heading until the last of them, from where it goes on. False: it never moves. */
+static bool find_headings(RoutePoint *points, int count)
+{
+    int    left = 0;
+    bool   has_moved = false;
+    double heading = 0;
+    for (int i = 1; i < count; i++) {
+        if (distance_m(&points[left].where, &points[i].where) < STANDING_M) continue;
+        double next = route_bearing_deg(&points[left].where, &points[i].where);
+        set_headings(points, left, i - 1, has_moved ? heading : next);
+        set_headings(points, i - 1, i, next);
+        has_moved = true;
+        heading = next;
+        left = i;
+    }
+    set_headings(points, left, count, heading);
+    return has_moved;
+}
+
+/* What the file leaves out needs a move to tell it. */
+static bool fill_headings(const RoutePoints *points, Error *err)
+{
+    bool has_moved = find_headings(points->list, points->count), is_said = true;
+    for (int i = 0; i < points->count; i++) is_said &= points->list[i].has_heading;
+    return has_moved || is_said ||
+           error_at(err, ERROR_INPUT, points->file, "",
+                    "never moves, so that no heading follows; wanted a column 'heading', or "
+                    "points more than %g m apart", STANDING_M);
+}
+
+/* ---- reading ----------------------------------------------------------------------------- */
+
+static bool is_xml(const FileBytes *bytes)
+{
+    const char *text = (const char *)bytes->data;
+    if (!strncmp(text, "\xEF\xBB\xBF", 3)) text += 3;
+    return text[strspn(text, " \t\r\n")] == '<';
+}
+
+bool route_read(const char *file, Arena *arena, Route *out, Error *err)
+{
+    FileBytes   bytes;
+    RoutePoints points = {.file = arena_string(arena, file, strlen(file)), .arena = arena};
+    if (!file_read(file, ROUTE_BYTES_MAX, arena, &bytes, err)) return false;
+    bool ok = is_xml(&bytes) ? route_gpx_read(&bytes, &points, err)
+                             : route_csv_read(&bytes, &points, err);
+    if (!ok || !fill_headings(&points, err)) return false;
+    *out = (Route){points.file, points.list, points.count};
+    return true;
+}
+
+/* ---- times ------------------------------------------------------------------------------- */
+
+static int days_of_month(int year, int month)
+{
+    static const int days[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+    bool leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
+    return days[month - 1] + (month == 2 && leap);
+}
+
+/* The moment some seconds (not negative) later, in the same zone. */
+static SkyTime later(SkyTime when, double seconds)
+{
+    double second = when.hour * 3600 + when.minute * 60 + when.second + seconds;
+    double days = floor(second / 86400), rest = second - days * 86400;
+    when.hour = (int)(rest / 3600);
+    when.minute = (int)((rest - when.hour * 3600) / 60);
+    when.second = fmax(0, rest - when.hour * 3600 - when.minute * 60);
+    for (when.day += (int)days; when.day > days_of_month(when.year, when.month);) {
+        when.day -= days_of_month(when.year, when.month);
+        when.year += when.month == 12;
+        when.month = when.month % 12 + 1;
+    }
+    return when;
+}
+
+void route_start_at(Route *route, const SkyTime *when)
+{
+    for (int i = 0; i < route->count; i++)
+        route->points[i].when = later(*when, route->points[i].seconds);
+}

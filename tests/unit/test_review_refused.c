@@ -1,0 +1,392 @@
+/* test_review_refused.c -- what is wrong in REVIEW.json is said in one line: where, what was
+ * found, what was wanted. */
+#include "review_fixture.h"
+
+#define EPW_HEADER                                                                             \
+    "LOCATION,Testville,-,NLD,Data,062400,52.30,4.77,1.0,-2.0\n"                               \
+    "DATA PERIODS,1,1,Data,Sunday, 1/ 1,12/31\n"
+
+static int start(void **state)
+{
+    if (make_folder(state)) return -1;
+    review_files();
+    write_text(in_folder("short.epw"),
+               EPW_HEADER
+               "1995,6,21,12,60,x,20.1,11.8,79,100100,0,1415,288,500,410.5,210,0,0,0,0\n");
+    write_text(in_folder("gap.epw"),
+               EPW_HEADER
+               "1995,6,21,12,60,x,20.1,11.8,79,100100,0,1415,288,500,410.5,210,0,0,0,0\n"
+               "1995,6,21,13,60,x,21.1,11.8,79,100100,0,1415,288,500,9999,9999,0,0,0,0\n");
+    write_text(in_folder("bad.csv"), "time,lat\n");
+    return 0;
+}
+
+/* The good document with `from` replaced by `to` is refused at `place` with `words`. */
+typedef struct Wrong {
+    const char *from, *to, *place, *words;
+} Wrong;
+
+static void check_all(const Wrong *wrong, int count, Arena arena)
+{
+    for (int i = 0; i < count; i++) {
+        Arena         scratch = arena;
+        Error         err = {0};
+        ReviewRequest r;
+        const Wrong  *w = &wrong[i];
+        char *text = review_changed(review_good, w->from, w->to, &scratch);
+        if (review_read(text, &scratch, &r, &err)) fail_msg("%s was taken", w->to);
+        assert_int_equal(err.code, ERROR_INPUT);
+        if (strcmp(err.path, w->place) || !strstr(err.text, w->words))
+            fail_msg("%s: found \"%s: %s\", expected \"%s: %s\"", w->to, err.path, err.text,
+                     w->place, w->words);
+        assert_null(strchr(err.text, '\n'));
+    }
+}
+
+#define CHECK_ALL(wrong)                                                                       \
+    check_all(wrong, (int)(sizeof(wrong) / sizeof *(wrong)), test_arena(state))
+
+/* ---- keys -------------------------------------------------------------------------------- */
+
+TEST(unknown_keys_are_refused_with_the_nearest_known_one)
+{
+    static const Wrong wrong[] = {
+        {"'profile'", "'profil'", "/profil", "the nearest known one is 'profile'"},
+        {"'camera':1", "'kamera':1", "/eyes/second/kamera", "'camera'"},
+        {"'age_years'", "'age'", "/observer/age", "'age_years'"},
+        {"'direction'", "'directions'", "/gaze/1/directions", "'direction'"},
+        {"'uv'", "'vu'", "/symbols/speed/vu", "'uv'"},
+        {"'normal'", "'norm'", "/levels/auto/sensor/norm", "'normal'"},
+        {"'table_lx'", "'table'", "/levels/auto/table", "'table_lx'"},
+        {"'contrast'", "'contrasts'", "/precision/contrasts", "'contrast'"},
+        {"'worst'", "'wurst'", "/frames/wurst", "'worst'"},
+        {"'lights'", "'light'", "/conditions/1/light", "'lights'"},
+        {"'azimuth_deg':[", "'azimut_deg':[", "/conditions/3/sweep/sun/azimut_deg",
+         "'azimuth_deg'"},
+        {"'sky':'sky'", "'skies':'sky'", "/conditions/3/sweep/skies", "'sky'"},
+        {"'step_minutes'", "'step_minute'", "/conditions/4/sweep/step_minute",
+         "'step_minutes'"},
+        {"'turbidity'", "'turbidty'", "/conditions/4/environment/turbidty",
+         "is \"turbidity\" meant?"},
+    };
+    CHECK_ALL(wrong);
+}
+
+TEST(what_must_be_there_is_asked_for)
+{
+    static const Wrong wrong[] = {
+        {"'scene':['a.gltf','b%20c.gltf'],", "", "", "key 'scene' is missing"},
+        {"'profile':'iso-15008',", "", "", "key 'profile' is missing"},
+        {"'name':'noon',", "", "/conditions/0", "key 'name' is missing"},
+        {"'display':'node:screen',", "", "/symbols/text", "key 'display' is missing"},
+        {"'name':'road',", "", "/gaze/1", "key 'name' is missing"},
+        {",'table_lx':[[0,0.02],[100,0.1],[10000,1]]", "", "/levels/auto",
+         "key 'table_lx' is missing"},
+        {"'sensor':{'position_m':[0,1,2],'normal':[0,3,4]},", "", "/levels/auto",
+         "key 'sensor' is missing"},
+        {"'where':[48,11],", "", "/conditions/4/sweep", "key 'where' is missing"},
+        {",'elevation_deg':[5,5,1]", "", "/conditions/3/sweep/sun",
+         "key 'elevation_deg' is missing"},
+        {"'half_size_m':[0.1,0.2,0],", "", "/eyes/box", "key 'half_size_m' is missing"},
+    };
+    CHECK_ALL(wrong);
+}
+
+/* ---- values ------------------------------------------------------------------------------ */
+
+TEST(eyes_are_checked)
+{
+    static const Wrong wrong[] = {
+        {"'camera':1", "'camera':1.5", "/eyes/second/camera", "is 1.5, wanted a whole number"},
+        {"'camera':1", "'camera':-1", "/eyes/second/camera", "wanted a number from 0"},
+        {"'camera':1", "'camera':null", "/eyes/second/camera",
+         "is null, wanted a camera's name or index"},
+        {"'camera':'eye'", "'camera':''", "/eyes/driver/camera", "is empty, wanted a name"},
+        {"'camera':1", "'camera':1,'position_m':[0,0,0]", "/eyes/second",
+         "is said in several ways, wanted one of 'camera'"},
+        {"'camera':1", "", "/eyes/second", "is nowhere, wanted one of 'camera'"},
+        {"'camera':1", "'camera':1,'grid':[1,1,1]", "/eyes/second",
+         "is a box without a centre"},
+        {"'position_m':[-1,2,3]", "'position_m':[-1,2]", "/eyes/tall/position_m",
+         "has 2 values, wanted 3"},
+        {"'position_m':[-1,2,3]", "'position_m':[-1,2,'x']", "/eyes/tall/position_m",
+         "wanted only numbers"},
+        {"'position_m':[-1,2,3]", "'position_m':5", "/eyes/tall/position_m",
+         "is a number, wanted an array of numbers"},
+        {"[2,3,1]", "[2,3,2]", "/eyes/box/grid",
+         "has 2 points along an axis without length, wanted 1 there"},
+        {"[2,3,1]", "[2,3.5,1]", "/eyes/box/grid", "holds 3.5, wanted whole numbers"},
+        {"[2,3,1]", "[2,99,1]", "/eyes/box/grid", "is 99, wanted a number from 1 to 33"},
+        {"[0.1,0.2,0]", "[-0.1,0.2,0]", "/eyes/box/half_size_m", "is -0.1, wanted"},
+        {"'forward':[0,0,-2]", "'forward':[0,2,0]", "/forward", "is vertical, wanted"},
+        {"'forward':[0,0,-2]", "'forward':[0,0,0]", "/forward",
+         "is the zero vector, wanted a direction"},
+        {"'age_years':60", "'age_years':200", "/observer/age_years",
+         "is 200, wanted a number from 10 to 100"},
+        {"'at':'symbols'", "'at':'symbol'", "/gaze/0/at", "did you mean symbols?"},
+        {"'at':'symbols'", "'at':'symbols','direction':[0,0,1]", "/gaze/0", "has both, wanted"},
+        {"'at':'symbols'", "'name':'x'", "/gaze/0", "has neither, wanted one of 'at'"},
+        {"'tall','driver'", "'tal','driver'", "/gaze/1/eyes/0",
+         "is 'tal', wanted a name of 'eyes': did you mean tall?"},
+        {"'tall','driver'", "7", "/gaze/1/eyes/0", "is a number, wanted an eye's name"},
+        {"'name':'road'", "'name':'symbols'", "/gaze/1", "is the second gaze named 'symbols'"},
+    };
+    CHECK_ALL(wrong);
+}
+
+TEST(symbols_are_checked)
+{
+    static const Wrong wrong[] = {
+        {"[0.1,0.2,0.3,0.4]", "[0.3,0.2,0.1,0.4]", "/symbols/speed/uv",
+         "is [0.3, 0.2, 0.1, 0.4], wanted [left, top, right, bottom]"},
+        {"[0.1,0.2,0.3,0.4]", "[0.1,0.4,0.3,0.4]", "/symbols/speed/uv", "top below bottom"},
+        {"[0.1,0.2,0.3,0.4]", "[0.1,0.2,1.3,0.4]", "/symbols/speed/uv",
+         "is 1.3, wanted a number from 0 to 1"},
+        {"'light-on-dark'", "'light on dark'", "/symbols/speed/polarity",
+         "is 'light on dark', wanted another word: did you mean light-on-dark?"},
+        {"'find':'text'", "'find':'digits'", "/symbols/text/find", "is 'digits', wanted"},
+        {",'find':'text'", "", "/symbols/text",
+         "says no place on its display, wanted 'uv', 'mask' or 'find'"},
+        {"'mask':'p.png'", "'mask':'p.png','find':'text'", "/symbols/drawn",
+         "has both 'find' and 'mask', wanted one of them"},
+        {"'content':'p.png'", "'content':'q.png'", "/symbols/speed/content",
+         "q.png', which cannot be read; wanted a file"},
+        {"'speed':{", "'':{", "/symbols", "has a member with an empty name, wanted a name"},
+        {"'speed':{", "'text':{", "line 1", "not valid JSON: duplicate object key"},
+    };
+    CHECK_ALL(wrong);
+}
+
+TEST(files_are_checked)
+{
+    static const Wrong wrong[] = {
+        {"'a.gltf','b", "'none.gltf','b", "/scene/0",
+         "none.gltf', which cannot be read; wanted a file"},
+        {"'a.gltf','b%20c.gltf'", "7", "/scene/0", "is a number, wanted a file's path"},
+        {"['a.gltf','b%20c.gltf']", "'a.gltf'", "/scene", "is a text, wanted a list"},
+        {"'a.gltf','b%20c.gltf'", "", "/scene", "has 0 entries, wanted 1 to 256"},
+        {"'a.gltf','b", "'http:a.gltf','b", "/scene/0",
+         "has the scheme 'http:', wanted a relative path"},
+        {"'a.gltf','b", "'/etc/passwd','b", "/scene/0", "a path relative to the file"},
+        {"'a.gltf','b", "'../../a.gltf','b", "/scene/0", "leaves the parent of the folder"},
+        {"'a.gltf','b", "'a%2.gltf','b", "/scene/0", "%2"},
+        {"'somebody':['a.gltf']", "'somebody':[]", "/with/somebody", "has 0 entries"},
+        {"'route':'r.csv'", "'route':'none.csv'", "/conditions/2/route", "cannot be read"},
+        {"'route':'r.csv'", "'route':'bad.csv'", "line 1", "has no column 'lon', wanted"},
+    };
+    CHECK_ALL(wrong);
+}
+
+TEST(levels_are_checked)
+{
+    static const Wrong wrong[] = {
+        {"'*':0.04", "'*':-1", "/levels/night/*", "is -1, wanted a number from 0 to 100"},
+        {"'*':0.04", "'*':'dim'", "/levels/night/*", "is a text, wanted a number"},
+        {"{'*':0.04,'cluster':0.1}", "{}", "/levels/night", "has 0 members, wanted 1"},
+        {"{'*':0.04,'cluster':0.1}", "0.04", "/levels/night", "is a number, wanted an object"},
+        {"[0,3,4]", "[0,0,0]", "/levels/auto/sensor/normal", "is the zero vector"},
+        {"[100,0.1]", "[0,0.1]", "/levels/auto/table_lx/1",
+         "is at 0 lx behind 0 lx, wanted more lx"},
+        {"[100,0.1]", "[100,0.01]", "/levels/auto/table_lx/1",
+         "falls from level 0.02 to 0.01, wanted one that does not fall"},
+        {"[100,0.1]", "[100]", "/levels/auto/table_lx/1",
+         "is an array, wanted a pair [illuminance in lx, level]"},
+        {"[100,0.1]", "[100,'x']", "/levels/auto/table_lx/1", "wanted a pair"},
+        {"[100,0.1]", "7", "/levels/auto/table_lx/1", "is a number, wanted a pair"},
+        {"[10000,1]", "[1e9,1]", "/levels/auto/table_lx/2",
+         "holds 1e+09, wanted an illuminance from 0 to 1e+07"},
+        {"[[0,0.02],[100,0.1],[10000,1]]", "[]", "/levels/auto/table_lx", "has 0 entries"},
+    };
+    CHECK_ALL(wrong);
+}
+
+TEST(the_rest_is_checked)
+{
+    static const Wrong wrong[] = {
+        {"'profile':'iso-15008'", "'profile':''", "/profile", "is empty, wanted a name"},
+        {"'contrast':0.02", "'contrast':0", "/precision/contrast", "is 0, wanted"},
+        {"[640,360]", "[640,0]", "/frames/size", "is 0, wanted a number from 1 to 16384"},
+        {"[640,360]", "[640.5,360]", "/frames/size", "wanted whole numbers of pixels"},
+        {"'worst':2", "'worst':2.5", "/frames/worst", "is 2.5, wanted a whole number"},
+        {"'title':'All of it'", "'title':7", "/title", "is a number, wanted a text"},
+    };
+    CHECK_ALL(wrong);
+}
+
+/* ---- conditions -------------------------------------------------------------------------- */
+
+TEST(conditions_are_checked)
+{
+    static const Wrong wrong[] = {
+        {"'name':'night'", "'name':'noon'", "/conditions/1/name",
+         "is 'noon' as that of condition 0, wanted another name"},
+        {"'level':'night'", "'level':'nigth'", "/conditions/1/level",
+         "is 'nigth', wanted a name of 'levels': did you mean night?"},
+        {"'with':'somebody'", "'with':'nobody'", "/conditions/0/with",
+         "is 'nobody', wanted a name of 'with'"},
+        {"'with':{'somebody':['a.gltf']},", "", "/conditions/0/with",
+         "is 'somebody', but the file has no 'with'"},
+        {"{'text':'dark-on-light'}", "{'txt':'dark-on-light'}", "/conditions/1/polarity/txt",
+         "the nearest known one is 'text'"},
+        {"{'text':'dark-on-light'}", "'dark'", "/conditions/1/polarity", "is 'dark', wanted"},
+        {"'contents':{'cluster':'p.png'}", "'contents':{'cluster':'q.png'}",
+         "/conditions/0/contents/cluster", "cannot be read"},
+        {"'route':'r.csv',", "", "/conditions/2/when", "stands without 'route', wanted it "
+         "beside a route or in 'environment'"},
+        {"'route':'r.csv','when':'2028-02-28T23:59:59+01:00',", "", "/conditions/2/weather",
+         "stands without 'route'"},
+        {"'route':'r.csv'", "'route':'r.csv','heading_deg':7", "/conditions/2/heading_deg",
+         "stands beside 'route', wanted the route's own headings alone"},
+        {"'route':'r.csv'", "'route':'r.csv','sweep':{}", "/conditions/2",
+         "has both 'route' and 'sweep', wanted one of them"},
+        {"2028-02-28T23:59:59+01:00", "2028-02-28T23:59:59", "/conditions/2/when",
+         "is no moment, wanted a date, time and zone"},
+        {"'weather':'clear'}", "'weather':'rain'}", "/conditions/2/weather",
+         "is 'rain', wanted 'clear' or a weather file .epw"},
+        {"{'name':'drive'", "7,{'name':'drive'", "/conditions/2",
+         "is a number, wanted an object"},
+    };
+    CHECK_ALL(wrong);
+}
+
+TEST(environments_are_checked_as_in_a_scene)
+{
+    static const Wrong wrong[] = {
+        {"'type':'sky','when'", "'type':'mist','when'", "/conditions/0/environment/type",
+         "\"mist\", one of constant|hdri|cie|perez|sky is wanted"},
+        {"'when':'2026-06-21T12:00+02:00',", "", "/conditions/0/environment", "has no sun"},
+        {"'where':[48.14,11.58,520],", "'where':[148,11],", "/conditions/0/environment/where/0",
+         "is 148, a latitude"},
+        {"'turbidity':4", "'turbidity':99", "/conditions/4/environment/turbidity",
+         "is 99, a number from 1 to 30 is wanted"},
+        {"'type':'sky','when':'2026-06-21T12:00+02:00','where':[48.14,11.58,520],",
+         "'type':'hdri','uri':'none.exr',", "/conditions/0/environment/uri", "none.exr"},
+        {"'type':'sky','turbidity':4", "'type':'constant','luminance':1",
+         "/conditions/4/environment/type", "is another one than 'sky', wanted that"},
+        {"'heading_deg':30}", "'heading_deg':30},'heading_deg':4", "/conditions/0/heading_deg",
+         "stands in 'environment' as well, wanted it once"},
+        {"'heading_deg':30}", "'forward':[0,0,1]}", "/conditions/0/environment/forward",
+         "stands in a condition, wanted it at the top of the file"},
+        {"'turbidity':4", "'turbidity':4,'heading_deg':7",
+         "/conditions/4/environment/heading_deg", "headings of its own, wanted none"},
+    };
+    CHECK_ALL(wrong);
+}
+
+TEST(sweeps_are_checked)
+{
+    static const Wrong wrong[] = {
+        {"[0,360,90]", "[0,360]", "/conditions/3/sweep/sun/azimuth_deg",
+         "has 2 values, wanted 3"},
+        {"[0,360,90]", "[0,360,0]", "/conditions/3/sweep/sun/azimuth_deg",
+         "has a step of 0, wanted one above 0"},
+        {"[0,360,90]", "[90,0,10]", "/conditions/3/sweep/sun/azimuth_deg",
+         "goes from 90 to 0, which is empty; wanted [first, last, step]"},
+        {"[0,360,90]", "[0,360,7]", "/conditions/3/sweep/sun/azimuth_deg",
+         "does not come from 0 to 360 in steps of 7, wanted a step such as 7.05882"},
+        {"[0,360,90]", "[0,360,500]", "/conditions/3/sweep/sun/azimuth_deg", "such as 360"},
+        {"[0,360,90]", "[-100,300,90]", "/conditions/3/sweep/sun/azimuth_deg", "such as 100"},
+        {"[0,360,90]", "[-100,300,100]", "/conditions/3/sweep/sun/azimuth_deg",
+         "spans 400 degrees, wanted at most 360"},
+        {"[0,360,90]", "[0,360,0.001]", "/conditions/3/sweep/sun/azimuth_deg",
+         "has 360001 values, wanted at most 100000"},
+        {"[0,360,90],'elevation_deg':[5,5,1]", "[0,360,0.01],'elevation_deg':[0,80,0.01]",
+         "/conditions/3/sweep/sun", "suns, wanted at most 10000000"},
+        {"[5,5,1]", "[-60,5,1]", "/conditions/3/sweep/sun/elevation_deg",
+         "is -60, wanted a number from -18 to 90"},
+        {"'sky':'sky'", "'sky':'cie'", "/conditions/3/sweep/sky", "is 'cie', wanted"},
+        {"'sky':'sky'", "'year':2026", "/conditions/3/sweep",
+         "has both, wanted one of 'sun' and 'year'"},
+        {"'year':2026,", "", "/conditions/4/sweep", "has neither, wanted one of"},
+        {"'year':2026", "'year':2026.5", "/conditions/4/sweep/year", "wanted a whole number"},
+        {"'year':2026", "'year':26", "/conditions/4/sweep/year", "is 26, wanted"},
+        {"'where':[48,11]", "'where':[480,11]", "/conditions/4/sweep/where", "is no place"},
+        {"'where':[48,11]", "'where':[48]", "/conditions/4/sweep/where", "is no place"},
+        {"'step_minutes':30", "'step_minutes':0", "/conditions/4/sweep/step_minutes",
+         "is 0, wanted a number from 0.5 to 1440"},
+        {"[0,90],'weather'", "[0,360],'weather'", "/conditions/4/sweep/headings_deg",
+         "holds 0 and 360, wanted each heading once"},
+        {"[0,90],'weather'", "[],'weather'", "/conditions/4/sweep/headings_deg",
+         "has 0 values, wanted 1"},
+        {"'night':true", "'night':1", "/conditions/4/sweep/night",
+         "is a number, wanted true or false"},
+        {"'sweep':{'year'", "'heading_deg':1,'sweep':{'year'", "/conditions/4/heading_deg",
+         "stands beside the sweep of a year, wanted 'headings_deg' in it"},
+    };
+    CHECK_ALL(wrong);
+}
+
+/* ---- weather ----------------------------------------------------------------------------- */
+
+TEST(weather_files_are_whole_years)
+{
+    static const Wrong wrong[] = {
+        {"'weather':'clear','night'", "'weather':'none.epw','night'",
+         "/conditions/4/sweep/weather", "none.epw', which cannot be read"},
+        {"'weather':'clear','night'", "'weather':'short.epw','night'", "",
+         "has 1 rows, wanted the 8760 of a year"},
+        {"'weather':'clear','night'", "'weather':'gap.epw','night'", "line 4",
+         "has no direct or no diffuse radiation, as 1 of 2 rows, wanted a year without gaps"},
+    };
+    CHECK_ALL(wrong);
+}
+
+/* The station's place serves where none is said; air and ground come from one source. */
+TEST(a_weather_year_brings_its_place)
+{
+    Arena         arena = test_arena(state);
+    Error         err;
+    ReviewRequest r;
+    const char   *shared = SHARED_DATA_DIR "/solar/NLD_Amsterdam062400_IWEC.epw";
+    if (access(shared, R_OK)) {
+        print_message("skipped: no shared data\n");
+        skip();
+    }
+    FileBytes bytes = read_bytes(shared, &arena);
+    write_bytes(in_folder("year.epw"), bytes.data, bytes.size);
+    char *text = review_changed(review_good, "'where':[48,11],", "", &arena);
+    text = review_changed(text, "\"weather\":\"clear\",\"night\"",
+                          "'weather':'year.epw','night'", &arena);
+    assert_false(review_read(text, &arena, &r, &err));
+    assert_string_equal(err.path, "/conditions/4/environment");
+    assert_error_has(&err, "stands beside a weather file, wanted one of them");
+    text = review_changed(text,
+                          "\"environment\":{\"type\":\"sky\",\"turbidity\":4,"
+                          "\"sun\":{\"azimuth_deg\":0,\"elevation_deg\":9,"
+                          "\"illuminance_lx\":1}},", "", &arena);
+    if (!review_read(text, &arena, &r, &err)) fail_msg("%s: %s", err.path, err.text);
+    assert_int_equal(r.weather_count, 1);
+    assert_int_equal(r.conditions[4].weather_id, 0);
+    assert_near(r.conditions[4].where.latitude_deg, 52.3, 1e-9);
+    assert_int_equal(r.weathers[0].weather.count, 8760);
+    assert_true(r.weathers[0].clock.rows > 1000);
+}
+
+/* ---- the file as a whole ----------------------------------------------------------------- */
+
+TEST(what_is_no_document_is_refused)
+{
+    static const struct {
+        const char *text, *words;
+    } wrong[] = {{"", "not valid JSON"}, {"[]", "is an array, wanted an object"},
+                 {"{} x", "not valid JSON"}, {"{}", "key 'scene' is missing"}};
+    for (int i = 0; i < 4; i++) {
+        Arena         arena = test_arena(state);
+        Error         err;
+        ReviewRequest r;
+        assert_false(review_read(wrong[i].text, &arena, &r, &err));
+        assert_error_has(&err, wrong[i].words);
+    }
+    Arena         arena = test_arena(state);
+    Error         err;
+    ReviewRequest r;
+    Problems      problems = problems_start(&arena);
+    assert_false(review_request_read(in_folder("none.json"), NULL, &arena, &problems, &r,
+                                     &err));
+    assert_text_has(err.file, "none.json");
+}
+
+int main(void)
+{
+    return run_cases(start, clear_folder);
+}

@@ -1,0 +1,253 @@
+/* test_review_request.c -- what REVIEW.json says arrives in the request; no bytes do harm. */
+#include "review_fixture.h"
+
+#include "base/units.h"
+
+static int start(void **state)
+{
+    if (make_folder(state)) return -1;
+    review_files();
+    return 0;
+}
+
+static ReviewRequest good(Arena *arena)
+{
+    Error         err = {0};
+    ReviewRequest request = {0};
+    if (!review_read(review_changed(review_good, NULL, NULL, arena), arena, &request, &err))
+        fail_msg("%s: %s", err.path, err.text);
+    return request;
+}
+
+/* ---- what arrives ------------------------------------------------------------------------ */
+
+TEST(eyes_and_where_they_look_arrive)
+{
+    Arena         arena = test_arena(state);
+    ReviewRequest r = good(&arena);
+    assert_string_equal(r.title, "All of it");
+    assert_int_equal(r.scene_count, 2);
+    assert_string_equal(r.scenes[1], in_folder("b c.gltf")); /* percent-decoded */
+    assert_int_equal(r.eye_count, 4);
+    assert_true(r.eyes[0].kind == EYE_CAMERA && !strcmp(r.eyes[0].camera, "eye"));
+    assert_true(r.eyes[1].kind == EYE_CAMERA && !r.eyes[1].camera && r.eyes[1].camera_id == 1);
+    assert_true(r.eyes[2].kind == EYE_POINT && r.eyes[2].position_m[2] == 3);
+    assert_true(r.eyes[3].kind == EYE_BOX && review_eye_count(&r.eyes[3]) == 6);
+    assert_near(r.forward[2], -1, 1e-15);
+    assert_true(r.observer.age_years == 60 && r.observer.pigment == 1);
+    assert_true(r.gazes[0].at_symbols && r.gazes[0].for_eye[0] && r.gazes[0].for_eye[3]);
+    assert_string_equal(r.gazes[0].name, "symbols");
+    assert_near(r.gazes[1].direction[2], -1, 1e-15);
+    assert_true(r.gazes[1].for_eye[0] && r.gazes[1].for_eye[2]);
+    assert_false(r.gazes[1].for_eye[1] || r.gazes[1].for_eye[3]);
+}
+
+TEST(symbols_levels_and_the_rest_arrive)
+{
+    Arena         arena = test_arena(state);
+    ReviewRequest r = good(&arena);
+    assert_int_equal(r.symbol_count, 3);
+    assert_string_equal(r.symbols[0].content, in_folder("p.png"));
+    assert_true(r.symbols[0].has_uv && r.symbols[0].uv[3] == 0.4);
+    assert_int_equal(r.symbols[0].polarity, POLARITY_LIGHT_ON_DARK);
+    assert_true(r.symbols[1].find_text && !r.symbols[1].has_uv && r.symbols[1].uv[2] == 1);
+    assert_null(r.symbols[1].content);
+    assert_string_equal(r.symbols[1].display, "node:screen");
+    assert_non_null(r.symbols[2].mask);
+    assert_int_equal(r.level_count, 2);
+    assert_true(r.levels[0].fixed_count == 2 && !r.levels[0].is_curve);
+    assert_true(r.levels[1].is_curve && r.levels[1].point_count == 3);
+    assert_near(r.levels[1].normal[1], 0.6, 1e-15);
+    assert_string_equal(r.profile, "iso-15008");
+    assert_true(r.precision_contrast == 0.02 && r.frames.width == 640 && r.frames.worst == 2);
+    assert_int_equal(r.input_count, 2); /* the file and the route */
+    assert_string_equal(r.inputs[0].path, r.file);
+    assert_true(r.inputs[0].hash != r.inputs[1].hash);
+}
+
+TEST(conditions_arrive)
+{
+    Arena         arena = test_arena(state);
+    ReviewRequest r = good(&arena);
+    const ReviewCondition *noon = &r.conditions[0], *night = &r.conditions[1];
+    assert_int_equal(r.condition_count, 5);
+    assert_true(noon->kind == CONDITION_MOMENT && noon->has_environment);
+    assert_int_equal(noon->environment.kind, ENVIRONMENT_SKY);
+    assert_true(noon->environment.daylight.has_time);
+    assert_true(noon->has_heading && noon->heading_deg == 30);
+    assert_close((double)noon->environment.heading, radians_from_degrees(30), 1e-6);
+    assert_true(noon->environment.forward.z == -1);
+    assert_true(noon->level_id == 1 && noon->with_id == 0 && noon->content_count == 1);
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(noon->polarity[i], POLARITY_DARK_ON_LIGHT);
+    assert_true(!night->has_environment && night->light_count == 1);
+    assert_true(night->has_heading && night->heading_deg == -20 && night->with_id == NO_ID);
+    assert_int_equal(night->polarity[0], POLARITY_LIGHT_ON_DARK); /* the symbol's own */
+    assert_int_equal(night->polarity[1], POLARITY_DARK_ON_LIGHT);
+    assert_int_equal(night->polarity[2], POLARITY_AUTO);
+}
+
+TEST(routes_and_sweeps_arrive)
+{
+    Arena         arena = test_arena(state);
+    ReviewRequest r = good(&arena);
+    const ReviewCondition *drive = &r.conditions[2], *suns = &r.conditions[3];
+    const ReviewCondition *year = &r.conditions[4];
+    assert_true(drive->kind == CONDITION_ROUTE && drive->route.count == 3);
+    SkyTime last = drive->route.points[2].when;
+    assert_true(last.month == 2 && last.day == 29);
+    assert_int_equal(drive->weather_id, NO_ID);
+    assert_int_equal(suns->kind, CONDITION_SUN_SWEEP);
+    assert_int_equal(suns->azimuth_deg.count, 5); /* both ends in */
+    assert_int_equal(suns->elevation_deg.count, 1);
+    for (int i = 0; i < 5; i++)
+        assert_near(review_range_value(&suns->azimuth_deg, i), 90 * i, 1e-12);
+    assert_false(suns->has_heading || suns->has_environment);
+    assert_true(year->kind == CONDITION_YEAR_SWEEP && year->year == 2026 && year->with_night);
+    assert_true(year->where.latitude_deg == 48 && year->where.altitude_m == 0);
+    assert_true(year->step_minutes == 30 && year->heading_count == 2);
+    assert_true(year->has_environment && year->environment.daylight.turbidity == 4);
+}
+
+TEST(what_is_not_said_has_defaults)
+{
+    Arena         arena = test_arena(state);
+    Error         err;
+    ReviewRequest r;
+    const char   *text = review_changed(
+        "{'scene':['a.gltf'],'eyes':{'e':{'camera':0}},'profile':'p',"
+        "'symbols':{'s':{'display':'d','uv':[0,0,1,1]}},'conditions':[{'name':'n'}]}",
+        NULL, NULL, &arena);
+    if (!review_read(text, &arena, &r, &err)) fail_msg("%s: %s", err.path, err.text);
+    assert_string_equal(r.title, "t.review.json");
+    assert_true(r.forward[0] == 0 && r.forward[1] == 0 && r.forward[2] == -1);
+    assert_true(r.observer.age_years == 50 && r.observer.pigment == 0.5);
+    assert_true(r.gaze_count == 1 && r.gazes[0].at_symbols && r.gazes[0].for_eye[0]);
+    assert_int_equal(r.symbols[0].polarity, POLARITY_AUTO);
+    assert_true(r.precision_contrast == 0.01 && r.frames.width == 1280 && r.frames.worst == 3);
+    const ReviewCondition *c = &r.conditions[0];
+    assert_true(c->kind == CONDITION_MOMENT && !c->has_environment && !c->has_heading);
+    assert_true(c->level_id == NO_ID && c->with_id == NO_ID && c->weather_id == NO_ID);
+    assert_true(r.with_count == 0 && r.level_count == 0 && c->light_count == 0);
+}
+
+/* ---- a box of eyes ----------------------------------------------------------------------- */
+
+/* Its points are symmetric about the centre, reach the faces, and are all different. */
+TEST(an_eye_box_is_a_grid_with_both_ends)
+{
+    (void)state;
+    ReviewEye eye = {.kind = EYE_BOX, .position_m = {1, 2, 3}, .half_size_m = {0.1, 0.2, 0.3},
+                     .grid = {3, 1, 2}};
+    double sum[3] = {0}, low[3] = {9, 9, 9}, high[3] = {-9, -9, -9};
+    int    count = review_eye_count(&eye);
+    assert_int_equal(count, 6);
+    for (int i = 0; i < count; i++) {
+        double point[3], other[3];
+        review_eye_point(&eye, i, point);
+        for (int k = 0; k < 3; k++) {
+            sum[k] += point[k] / count;
+            low[k] = fmin(low[k], point[k]);
+            high[k] = fmax(high[k], point[k]);
+        }
+        for (int j = 0; j < i; j++) {
+            review_eye_point(&eye, j, other);
+            assert_true(memcmp(point, other, sizeof point) != 0);
+        }
+    }
+    for (int k = 0; k < 3; k++) assert_near(sum[k], eye.position_m[k], 1e-12);
+    assert_near(low[0], 0.9, 1e-12);
+    assert_near(high[0], 1.1, 1e-12);
+    assert_near(low[1], 2, 1e-12); /* one point: the middle */
+    assert_near(high[2], 3.3, 1e-12);
+}
+
+/* ---- any bytes --------------------------------------------------------------------------- */
+
+TEST(every_prefix_is_refused_in_one_line)
+{
+    Arena  arena = test_arena(state);
+    char  *text = review_changed(review_good, NULL, NULL, &arena);
+    size_t length = strlen(text);
+    for (size_t n = 0; n < length; n++) {
+        Error         err = {0};
+        ReviewRequest r;
+        Arena         scratch = arena;
+        char         *part = arena_string(&scratch, text, n);
+        assert_false(review_read(part, &scratch, &r, &err));
+        assert_int_equal(err.code, ERROR_INPUT);
+        assert_true(err.text[0] && !strchr(err.text, '\n'));
+        assert_text_has(err.file, "t.review.json");
+    }
+}
+
+TEST(damaged_bytes_do_no_harm)
+{
+    static const char damage[] = " 9\"{}[],:-e\\\xff\x01";
+    Arena    arena = test_arena(state);
+    char    *text = review_changed(review_good, NULL, NULL, &arena);
+    size_t   length = strlen(text);
+    unsigned random = 7;
+    int      refused = 0;
+    for (size_t n = 0; n < length; n++) {
+        Error         err = {0};
+        ReviewRequest r;
+        Arena         scratch = arena;
+        char         *part = arena_string(&scratch, text, length);
+        random = random * 1664525u + 1013904223u;
+        part[n] = damage[(random >> 16) % (sizeof damage - 1)];
+        if (review_read(part, &scratch, &r, &err)) continue;
+        refused++;
+        assert_true(err.text[0] && !strchr(err.text, '\n'));
+    }
+    assert_true(refused > (int)length / 3);
+}
+
+/* ---- memory ------------------------------------------------------------------------------ */
+
+#define FULL_STATUS 42
+
+static void leave_when_full(size_t wanted, size_t left)
+{
+    (void)wanted, (void)left;
+    _exit(FULL_STATUS);
+}
+
+/* As a process of its own: running out is an exit, as in the program. */
+static int status_with(size_t bytes, const char *file)
+{
+    pid_t child = fork();
+    if (child == 0) {
+        Error         err = {0};
+        ReviewRequest r;
+        Arena         arena = arena_reserve((size_t)1 << 22);
+        if (arena.end > arena.next + bytes) arena.end = arena.next + bytes;
+        arena.on_full = leave_when_full;
+        Problems problems = problems_start(&arena);
+        _exit(review_request_read(file, NULL, &arena, &problems, &r, &err) ? 0 : 3);
+    }
+    int status = 0;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+}
+
+TEST(running_out_of_memory_is_a_clean_end)
+{
+    Arena       arena = test_arena(state);
+    const char *file = in_folder("t.review.json");
+    int         full = 0, status = FULL_STATUS;
+    write_text(file, review_changed(review_good, NULL, NULL, &arena));
+    for (size_t bytes = 64; status == FULL_STATUS && bytes < (size_t)1 << 22;
+         bytes += bytes / 16 + 8) {
+        status = status_with(bytes, file);
+        if (status != 0 && status != FULL_STATUS) fail_msg("%zu bytes: %d", bytes, status);
+        full += status == FULL_STATUS;
+    }
+    assert_int_equal(status, 0);
+    assert_true(full > 20); /* else the test would test nothing */
+}
+
+int main(void)
+{
+    return run_cases(start, clear_folder);
+}
