@@ -1,7 +1,8 @@
 """schemas.py [PARHELION] -- files hold to the schemas of assets/schemas, and wrong ones do not.
 
-Shipped scenes against those of our glTF extensions; shipped recipes, and with the program the
-manifest that it writes, against those of the formats. Program and schema refuse alike.
+Shipped scenes against those of our glTF extensions; shipped recipes and reviews, and with the
+program the manifest that it writes, against those of the formats. Program and schema refuse
+alike.
 """
 import copy
 import glob
@@ -93,13 +94,25 @@ WRONG_MANIFESTS = [("emission/black", None), ("emission/red", {}), ("emission/re
                    ("instrument_fwhm_deg", 40), ("pannel", "x")]
 
 
+WRONG_REVIEWS = [("profile", None), ("scene", []), ("eyes", {}), ("eye", {}),
+                 ("eyes/driver/position_m", [0, 0, 0]), ("gaze/0/direction", [0, 0, 1]),
+                 ("observer/age", 50), ("symbols/speed/uv", [0, 1]), ("symbols/speed/uv", None),
+                 ("symbols/speed/polarity", "dark"), ("symbols/speed/find", "digits"),
+                 ("levels/night/cluster", -1), ("levels/auto/sensor", None),
+                 ("levels/auto/table_lx", [[0]]), ("conditions/0/environment/type", "mist"),
+                 ("conditions/0/when", "2026"), ("conditions/0/name", None),
+                 ("conditions/0/weather", "clear"), ("conditions/0/sweep", {"sun": {}}),
+                 ("conditions/0/sweep", {"year": 2026}), ("frames/size", [0, 720]),
+                 ("precision/colour", 1)]
+
+
 def changed(document, path, value):
     """A copy with one member set, or taken away where the value is None."""
     document = copy.deepcopy(document)
     *folders, last = path.split("/")
     inside = document
     for name in folders:
-        inside = inside[name]
+        inside = inside[int(name) if isinstance(inside, list) else name]
     if value is None:
         del inside[last]
     else:
@@ -159,6 +172,29 @@ def check_formats(report, program, folder, schema_of):
                      folder, document))
 
 
+def with_references(node):
+    """The schema with those of other files in their place."""
+    if isinstance(node, list):
+        return [with_references(item) for item in node]
+    if not isinstance(node, dict):
+        return node
+    name = node.get("$ref", "#")
+    if name.startswith("#"):
+        return {key: with_references(value) for key, value in node.items()}
+    found = load(os.path.join(ROOT, "assets/schemas", name))
+    return {key: value for key, value in found.items() if not key.startswith("$")}
+
+
+def check_reviews(report, validator):
+    reviews = sorted(glob.glob(os.path.join(ROOT, "scenes/*.review.json")))
+    report.claim(bool(reviews), "scenes holds no .review.json")
+    for review in reviews:
+        report.claim_none(f"{os.path.relpath(review, ROOT)} against its schema",
+                          [error.message for error in validator.iter_errors(load(review))])
+    good = load(os.path.join(ROOT, "scenes/car_dashboard.review.json"))
+    check_format(report, validator, good, WRONG_REVIEWS, lambda document: None)
+
+
 def main():
     report = Report()
     program = os.path.abspath(sys.argv[1]) if len(sys.argv) > 1 else None
@@ -179,12 +215,13 @@ def main():
         report.claim(name in known, f"assets/schemas holds no valid schema of {name}")
     check_can_fail(report, known)
     def schema_of(name):
-        schema = load(os.path.join(ROOT, f"assets/schemas/{name}.schema.json"))
+        schema = with_references(load(os.path.join(ROOT, f"assets/schemas/{name}.schema.json")))
         validator = jsonschema.validators.validator_for(schema)
         validator.check_schema(schema)
         return validator(schema)
     with tempfile.TemporaryDirectory(prefix="schemas-") as folder:
         check_formats(report, program, folder, schema_of)
+    check_reviews(report, schema_of("review"))
     scenes = sorted(glob.glob(os.path.join(ROOT, "scenes/**/*.gltf"), recursive=True))
     report.claim(bool(scenes), "scenes holds no .gltf")
     for scene in scenes:
