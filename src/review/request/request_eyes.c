@@ -25,7 +25,7 @@ static bool read_camera(const JsonView *view, ReviewEye *eye, Error *err)
 static bool read_grid(const JsonView *view, ReviewEye *eye, Error *err)
 {
     double grid[3] = {3, 3, 3};
-    if (!field_numbers(view, "grid", 3, (JsonRange){1, GRID_MAX, 3}, grid, NULL, err))
+    if (!field_numbers(view, "grid", (JsonRange){1, GRID_MAX, 3}, grid, NULL, err))
         return false;
     for (int axis = 0; axis < 3; axis++) {
         if (grid[axis] != floor(grid[axis]))
@@ -42,10 +42,10 @@ static bool read_grid(const JsonView *view, ReviewEye *eye, Error *err)
 static bool read_box(const JsonView *view, ReviewEye *eye, Error *err)
 {
     eye->kind = EYE_BOX;
-    return field_numbers(view, "centre_m", 3, (JsonRange){-METRES_MAX, METRES_MAX, 3},
+    return field_numbers(view, "centre_m", (JsonRange){-METRES_MAX, METRES_MAX, 3},
                          eye->position_m, NULL, err) &&
            field_wanted(view, "half_size_m", err) &&
-           field_numbers(view, "half_size_m", 3, (JsonRange){0, BOX_METRES_MAX, 3},
+           field_numbers(view, "half_size_m", (JsonRange){0, BOX_METRES_MAX, 3},
                          eye->half_size_m, NULL, err) &&
            read_grid(view, eye, err);
 }
@@ -53,7 +53,7 @@ static bool read_box(const JsonView *view, ReviewEye *eye, Error *err)
 static bool read_point(const JsonView *view, ReviewEye *eye, Error *err)
 {
     eye->kind = EYE_POINT;
-    return field_numbers(view, "position_m", 3, (JsonRange){-METRES_MAX, METRES_MAX, 3},
+    return field_numbers(view, "position_m", (JsonRange){-METRES_MAX, METRES_MAX, 3},
                          eye->position_m, NULL, err);
 }
 

@@ -72,16 +72,15 @@ bool field_name(const JsonView *view, const char *key, const char **out, Error *
 
 /* ---- vectors ----------------------------------------------------------------------------- */
 
-bool field_numbers(const JsonView *view, const char *key, int count, JsonRange range,
-                   double *out, bool *found, Error *err)
+bool field_numbers(const JsonView *view, const char *key, JsonRange range, double *out,
+                   bool *found, Error *err)
 {
     const json_t *list = json_object_get(view->object, key);
     int           length = 0;
     if (found) *found = list != NULL;
-    if (json_is_array(list) && (int)json_array_size(list) != count)
-        return field_fails(view, key, err, "has %d values, wanted %d",
-                           (int)json_array_size(list), count);
-    range.capacity = count;
+    if (json_is_array(list) && json_array_size(list) != (size_t)range.capacity)
+        return field_fails(view, key, err, "has %zu values, wanted %d", json_array_size(list),
+                           range.capacity);
     return json_view_numbers(view, key, range, out, &length, err);
 }
 
@@ -90,7 +89,7 @@ bool field_direction(const JsonView *view, const char *key, double out[3], bool 
 {
     double vector[3];
     bool   is_there;
-    if (!field_numbers(view, key, 3, (JsonRange){-1e6, 1e6, 3}, vector, &is_there, err))
+    if (!field_numbers(view, key, (JsonRange){-1e6, 1e6, 3}, vector, &is_there, err))
         return false;
     if (found) *found = is_there;
     if (!is_there) return true;

@@ -35,9 +35,9 @@ bool field_integer(const JsonView *view, const char *key, FieldBounds bounds, in
 bool field_choice(const JsonView *view, const char *key, FieldWords words, int *out,
                   Error *err);
 
-/* Exactly so many numbers in [low, high]; *found (may be NULL): they were there. */
-bool field_numbers(const JsonView *view, const char *key, int count, JsonRange range,
-                   double *out, bool *found, Error *err);
+/* Exactly range.capacity numbers in [low, high]; *found (may be NULL): they were there. */
+bool field_numbers(const JsonView *view, const char *key, JsonRange range, double *out,
+                   bool *found, Error *err);
 
 /* Three numbers as a unit vector. */
 bool field_direction(const JsonView *view, const char *key, double out[3], bool *found,

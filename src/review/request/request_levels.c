@@ -30,7 +30,7 @@ static bool read_sensor(const JsonView *view, ReviewLevel *level, Error *err)
     return json_view_child(view, "sensor", true, &sensor, err) &&
            json_view_check_keys(&sensor, keys, COUNT_OF(keys), err) &&
            field_wanted(&sensor, "position_m", err) && field_wanted(&sensor, "normal", err) &&
-           field_numbers(&sensor, "position_m", 3, (JsonRange){-1e6, 1e6, 3},
+           field_numbers(&sensor, "position_m", (JsonRange){-1e6, 1e6, 3},
                          level->position_m, NULL, err) &&
            field_direction(&sensor, "normal", level->normal, NULL, err);
 }

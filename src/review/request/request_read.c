@@ -40,7 +40,7 @@ static bool read_precision(RequestReading *reading, Error *err)
 static bool read_size(const JsonView *view, ReviewFrames *frames, Error *err)
 {
     double size[2] = {frames->width, frames->height};
-    if (!field_numbers(view, "size", 2, (JsonRange){1, 16384, 2}, size, NULL, err))
+    if (!field_numbers(view, "size", (JsonRange){1, 16384, 2}, size, NULL, err))
         return false;
     frames->width = (int)size[0];
     frames->height = (int)size[1];

@@ -28,7 +28,7 @@ static bool read_range(const JsonView *view, const char *key, JsonRange bounds,
         !(json_number_value(step) > 0))
         return field_fails(view, key, err, "has a step of %g, wanted one above 0",
                            json_number_value(step));
-    if (!field_numbers(view, key, 3, bounds, value, NULL, err)) return false;
+    if (!field_numbers(view, key, bounds, value, NULL, err)) return false;
     if (value[1] < value[0])
         return field_fails(view, key, err,
                            "goes from %g to %g, which is empty; wanted [first, last, step] "

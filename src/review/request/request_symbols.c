@@ -21,7 +21,7 @@ bool request_polarity_read(const JsonView *view, const char *key, ReviewPolarity
 static bool read_rectangle(const JsonView *view, ReviewSymbol *symbol, Error *err)
 {
     double uv[4] = {0, 0, 1, 1};
-    if (!field_numbers(view, "uv", 4, (JsonRange){0, 1, 4}, uv, &symbol->has_uv, err))
+    if (!field_numbers(view, "uv", (JsonRange){0, 1, 4}, uv, &symbol->has_uv, err))
         return false;
     if (!(uv[0] < uv[2] && uv[1] < uv[3]))
         return field_fails(view, "uv", err,
