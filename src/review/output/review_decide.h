@@ -1,8 +1,9 @@
 /* review_decide.h -- the answer of a whole review: pass or not, how many of what, the worst.
  *
- * Threads  pure. Fails: never.
+ * Memory   the arena's. Threads: pure. Fails: never.
  */
 #pragma once
+#include "base/arena.h"
 #include "review/verdict.h"
 
 /* Sets review->pass, and returns it: nothing fails, neither a case nor a sweep; where the
@@ -17,13 +18,17 @@ typedef struct ReviewCounts {
 
 ReviewCounts review_count(const Review *review);
 
-/* How bad a verdict is: pass 0, too close 1, not visible 2, fail 3. */
-int verdict_rank(Verdict verdict);
+/* A sweep fails where its worst does or some of its time did. */
+Verdict sweep_verdict(const ReviewSweep *sweep);
 
-/* The limit that made the case's verdict: of the worst ones that with the least margin. NULL:
- * the case has no limits. */
+/* The limit that made the case's verdict: of those that say the same the one with the least
+ * margin; else that of the contrast. NULL: no limit counts. */
 const LimitVerdict *case_worst_limit(const ReviewCase *c);
 
-/* The worst of all cases and of the sweeps' worst: by verdict, then by the margin of its worst
- * limit. NULL: there are none. */
-const ReviewCase *review_worst(const Review *review);
+/* All cases and the sweeps' worst, the worst first: by verdict (fail, not visible, too close),
+ * then by the margin of the worst limit, else in the review's order. case_count + sweep_count
+ * pointers. */
+const ReviewCase **review_rank(const Review *review, Arena *arena);
+
+/* The first of them. NULL: there are none. */
+const ReviewCase *review_worst(const Review *review, Arena scratch);

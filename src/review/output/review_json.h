@@ -16,8 +16,5 @@
 /* {"pass", "strict", "title", "profile", "cases": [...], "sweeps", "responses", "notes"}. */
 json_t *review_json(const Review *review);
 
-/* One case of it, as "cases" and a sweep's "worst" hold it. */
-json_t *review_json_case(const ReviewCase *c);
-
 /* A document becomes a file: review.json, diff.json. Takes the document. */
 bool review_json_write(json_t *document, const char *path, Error *err);

@@ -10,53 +10,10 @@
  * Fails    for a picture that cannot be read and a page that cannot be written.
  */
 #pragma once
-#include "image/picture.h"
+#include "review/output/review_card.h"
 #include "review/output/review_diff.h"
+#include "review/output/review_map.h"
 #include "review/verdict.h"
-
-/* Shown in the card of a case. Several of one case stand side by side. */
-typedef struct ReviewPicture {
-    const ReviewCase *of;      /* one of the review's cases, or a sweep's worst: the pointer */
-    const char       *title, *caption;
-    const Picture    *picture; /* NULL: the file */
-    const char       *file;    /* PNG or JPEG by its ending; goes into the page as it stands */
-} ReviewPicture;
-
-/* Places along an axis: first, first + step, ... */
-typedef struct ReviewAxis {
-    double first, step;
-    int    count;
-} ReviewAxis;
-
-/* A line over a map: where the sun goes on one day. */
-typedef struct SunPath {
-    const char   *name; /* "21 June" */
-    const double *azimuth_deg, *elevation_deg;
-    int           count;
-} SunPath;
-
-/* The verdict for every place of the sun. Arrays hold the azimuths of the first elevation, then
- * those of the second, ... */
-typedef struct ReviewMap {
-    const ReviewSweep   *of;       /* one of the review's sweeps: the pointer */
-    bool                 is_of_vehicle; /* azimuth 0 is ahead, 90 right; else north and east */
-    ReviewAxis           azimuth_deg, elevation_deg;
-    const float         *contrast; /* NaN: not asked there */
-    const float         *margin;   /* contrast over its limit less one; NaN: no limit */
-    const unsigned char *verdict;  /* a Verdict each */
-    const SunPath       *paths;
-    int                  path_count;
-} ReviewMap;
-
-/* The share of headings that failed, over the hours of every day. The array holds the steps of
- * the first day from midnight on, then those of the second, ... */
-typedef struct ReviewCalendar {
-    const ReviewSweep *of;
-    int                year, days, steps_a_day; /* days from 1 January on */
-    const char        *clock;        /* what the hours are of: "UTC+02:00" */
-    int                headings;
-    const float       *failed_share; /* 0..1; NaN: the sun is down, or no answer */
-} ReviewCalendar;
 
 /* A line of the provenance: "panel lab_lcd_a" "sha256 ..., stated error 1.9 %". */
 typedef struct ReviewFact {

@@ -1,0 +1,261 @@
+#include "review/output/review_card.h"
+
+#include <math.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/file.h"
+#include "page/page.h"
+#include "review/output/review_bar.h"
+#include "review/output/review_words.h"
+#include "text/base64.h"
+#include "text/escape.h"
+
+#define PICTURE_BYTES_MAX ((size_t)64 << 20)
+
+/* ---- the line that opens it ------------------------------------------------------------- */
+
+static void add_summary(Text *html, const ReviewCase *c, Arena *arena)
+{
+    text_format(html, "<summary><span class=\"chip %s\">", words_class(c->verdict));
+    escape_markup(html, words_verdict(c->verdict));
+    text_add(html, "</span> <b>");
+    escape_markup(html, c->symbol);
+    text_add(html, "</b> <span class=\"where\">");
+    escape_markup(html, arena_format(arena, "seen by %s, %s", c->eye ? c->eye : "?",
+                                     c->condition ? c->condition : "?"));
+    text_format(html, "</span> <span class=\"ratio\">%s</span></summary>\n",
+                words_ratio(c->contrast_ratio, arena));
+}
+
+/* ---- figures ---------------------------------------------------------------------------- */
+
+static void add_fact(Text *html, const char *name, const char *value)
+{
+    page_element(html, "dt", name);
+    page_element(html, "dd", value);
+}
+
+static void add_light_facts(Text *html, const ReviewCard *card, Arena *arena)
+{
+    const ReviewCase *c = card->of;
+    const char *lux = isfinite(c->display_lux)
+                          ? arena_format(arena, "%s, %s lx on the display's face",
+                                         words_ambient(c->ambient),
+                                         words_figure(c->display_lux, arena))
+                          : words_ambient(c->ambient);
+    add_fact(html, "Light", lux);
+    add_fact(html, "Sun", words_sun(c, card->is_of_vehicle, arena));
+    add_fact(html, "Display", c->display ? c->display : "–");
+    if (isfinite(c->level))
+        add_fact(html, "Brightness", arena_format(arena, "%s of what was measured",
+                                                  words_share(c->level, arena)));
+}
+
+/* A figure in the middle of its words; nothing where there is none. */
+static void add_figure(Text *html, const char *name, double value, const char *unit,
+                       Arena *arena)
+{
+    if (!isnan(value))
+        add_fact(html, name, arena_format(arena, "%s %s", words_figure(value, arena), unit));
+}
+
+static void add_sight_facts(Text *html, const ReviewCase *c, Arena *arena)
+{
+    if (!isnan(c->contrast_ratio))
+        add_fact(html, "Contrast",
+                 arena_format(arena, "%s, 95 %% sure between %s and %s",
+                              words_ratio(c->contrast_ratio, arena),
+                              words_figure(c->contrast_low, arena),
+                              words_figure(c->contrast_high, arena)));
+    add_figure(html, "… with the eye's own veil", c->contrast_with_veil, ": 1", arena);
+    add_figure(html, "Height", c->height_arcmin, "arc minutes", arena);
+    add_figure(html, "Told apart by", c->jnd, "just noticeable steps", arena);
+    if (!isnan(c->visible_share))
+        add_fact(html, "Can be seen", arena_format(arena, "%s of its area",
+                                                   words_share(c->visible_share, arena)));
+}
+
+static void add_facts(Text *html, const ReviewCard *card, Arena *arena)
+{
+    text_add(html, "<div><h4>The case</h4>\n<dl class=\"facts\">\n");
+    add_light_facts(html, card, arena);
+    add_sight_facts(html, card->of, arena);
+    text_add(html, "</dl></div>\n");
+}
+
+/* ---- limits ----------------------------------------------------------------------------- */
+
+/* What the program has no figure of cannot fail. */
+static const char *limit_words(const LimitVerdict *l)
+{
+    if (isnan(l->found)) return "no figure";
+    if (l->is_advice) return l->verdict == VERDICT_PASS ? "kept" : "advice, not asked";
+    return words_verdict(l->verdict);
+}
+
+static void add_limits(Text *html, const ReviewCase *c, Arena *arena)
+{
+    static const PageColumn COLUMNS[] = {
+        {"Limit", false, NULL}, {"found", true, NULL}, {"95 % interval", true, NULL},
+        {"wanted", true, NULL}, {"margin", true, NULL}, {"", false, NULL},
+        {"", false, NULL}};
+    if (c->limit_count == 0) return;
+    page_table_begin(html, "", "limits", COLUMNS, 7);
+    for (int i = 0; i < c->limit_count; i++) {
+        const LimitVerdict *l = &c->limits[i];
+        const char *kind = l->is_advice ? "n" : arena_format(arena, "n %s",
+                                                             words_class(l->verdict));
+        page_row_begin(html, "");
+        page_cell(html, "", l->name);
+        page_cell(html, "n", words_amount(l, l->found, arena));
+        page_cell(html, "n", words_interval(l->low, l->high, arena));
+        page_cell(html, "n", words_wanted(l, arena));
+        page_cell(html, kind, words_margin(l->margin, arena));
+        text_add(html, "<td>");
+        review_bar_add_margin(html, l);
+        text_add(html, "</td>");
+        page_cell(html, l->is_advice ? "sub" : words_class(l->verdict), limit_words(l));
+        page_row_end(html);
+    }
+    page_table_end(html);
+}
+
+/* ---- causes and remedies ---------------------------------------------------------------- */
+
+static void add_cause(Text *html, const CaseCause *cause, Arena *arena)
+{
+    text_add(html, "<li><div>");
+    page_element(html, "b", words_share(cause->share, arena));
+    escape_markup(html, words_chain(cause, arena));
+    text_add(html, "</div>");
+    review_bar_add_share(html, cause->share);
+    page_element(html, "small", arena_format(arena, "%s cd/m², 95 %% sure between %s and %s",
+                                             words_figure(cause->cd_m2, arena),
+                                             words_figure(cause->low, arena),
+                                             words_figure(cause->high, arena)));
+    text_add(html, "</li>\n");
+}
+
+static double share_left(const ReviewCase *c)
+{
+    double left = 1;
+    for (int i = 0; i < c->cause_count; i++) left -= c->causes[i].share;
+    return left;
+}
+
+static void add_causes(Text *html, const ReviewCase *c, Arena *arena)
+{
+    if (c->cause_count == 0) return;
+    text_add(html, "<div><h4>Where the light that washes it out comes from</h4>\n"
+             "<ol class=\"causes\">\n");
+    for (int i = 0; i < c->cause_count; i++) add_cause(html, &c->causes[i], arena);
+    text_add(html, "</ol>\n");
+    if (share_left(c) >= 0.001)
+        page_element(html, "p class=\"sub\"",
+                     arena_format(arena, "All other ways together: %s.",
+                                  words_share(share_left(c), arena)));
+    text_add(html, "</div>\n");
+}
+
+/* What follows the remedy's own words: what it gives. */
+static const char *remedy_result(const CaseRemedy *r, Arena *arena)
+{
+    const char *ratio = arena_format(arena, "contrast %s",
+                                     words_ratio(r->contrast_ratio, arena));
+    const char *level = arena_format(arena, "brightness %s of what was measured",
+                                     words_share(r->level, arena));
+    if (isnan(r->level)) return isnan(r->contrast_ratio) ? "" : ratio;
+    return isnan(r->contrast_ratio) ? level : arena_format(arena, "%s, %s", ratio, level);
+}
+
+static void add_remedies(Text *html, const ReviewCase *c, Arena *arena)
+{
+    if (c->remedy_count == 0) return;
+    text_add(html, "<div><h4>What would mend it</h4>\n<ul class=\"remedies\">\n");
+    for (int i = 0; i < c->remedy_count; i++) {
+        text_add(html, "<li>");
+        escape_markup(html, c->remedies[i].what);
+        page_element(html, "small", remedy_result(&c->remedies[i], arena));
+        text_add(html, "</li>\n");
+    }
+    text_add(html, "</ul></div>\n");
+}
+
+/* ---- pictures --------------------------------------------------------------------------- */
+
+/* The bytes of a picture's file, as they stand. */
+static bool add_file(Text *html, const char *alt, const char *file, Arena scratch, Error *err)
+{
+    FileBytes   bytes;
+    const char *ending = path_ending(file);
+    bool        is_png = !strcasecmp(ending, ".png");
+    if (!is_png && strcasecmp(ending, ".jpg") != 0 && strcasecmp(ending, ".jpeg") != 0)
+        return error_at(err, ERROR_INPUT, file, "", "wanted a picture ending in .png or .jpg");
+    if (!file_read(file, PICTURE_BYTES_MAX, &scratch, &bytes, err)) return false;
+    text_add(html, "<img alt=\"");
+    escape_markup(html, alt);
+    text_format(html, "\" src=\"data:image/%s;base64,", is_png ? "png" : "jpeg");
+    base64_encode(html, bytes.data, bytes.size);
+    text_add(html, "\">");
+    return true;
+}
+
+static bool add_picture(Text *html, const ReviewPicture *p, Arena scratch, Error *err)
+{
+    const char *title = p->title ? p->title : "";
+    text_add(html, "<figure>");
+    page_element(html, "h3", title);
+    if (p->picture ? !page_picture(html, title, p->picture, false, scratch, err)
+                   : !add_file(html, title, p->file, scratch, err))
+        return false;
+    if (p->caption) page_element(html, "figcaption", p->caption);
+    text_add(html, "</figure>\n");
+    return true;
+}
+
+static bool add_pictures(Text *html, const ReviewCard *card, Arena scratch, Error *err)
+{
+    bool is_open = false;
+    for (int i = 0; i < card->picture_count; i++) {
+        if (card->pictures[i].of != card->of) continue;
+        if (!is_open) text_add(html, "<div class=\"figures\">\n");
+        is_open = true;
+        if (!add_picture(html, &card->pictures[i], scratch, err)) return false;
+    }
+    if (is_open) text_add(html, "</div>\n");
+    return true;
+}
+
+/* ---- the card --------------------------------------------------------------------------- */
+
+const char *review_card_id(const Review *review, const ReviewCase *c, Arena *arena)
+{
+    for (int i = 0; i < review->sweep_count; i++)
+        if (c == &review->sweeps[i].worst) return arena_format(arena, "s%d", i);
+    return arena_format(arena, "c%td", c - review->cases);
+}
+
+bool review_card_add(Text *html, const ReviewCard *card, Arena *arena, Error *err)
+{
+    const ReviewCase *c = card->of;
+    text_format(html, "<details class=\"case %s\" id=\"%s\"%s>", words_class(c->verdict),
+                card->id, card->is_open ? " open" : "");
+    add_summary(html, c, arena);
+    page_element(html, "p class=\"reason\"", arena_format(arena, "%s.",
+                                                           words_reason(c, arena)));
+    text_add(html, "<div class=\"two\">\n");
+    if (c->verdict != VERDICT_NOT_VISIBLE) {
+        text_add(html, "<div>");
+        review_bar_add_luminances(html, c, arena);
+        text_add(html, "</div>\n");
+    }
+    add_facts(html, card, arena);
+    add_causes(html, c, arena);
+    add_remedies(html, c, arena);
+    text_add(html, "</div>\n");
+    add_limits(html, c, arena);
+    bool ok = add_pictures(html, card, *arena, err);
+    text_add(html, "</details>\n");
+    return ok;
+}

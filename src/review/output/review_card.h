@@ -1,0 +1,32 @@
+/* review_card.h -- one case of a review as a part of the page that opens: its figures, what
+ * washes it out, what would mend it, its pictures.
+ *
+ * Memory   the arena's. Threads: no shared state.
+ * Fails    for a picture that cannot be read.
+ */
+#pragma once
+#include "image/picture.h"
+#include "review/verdict.h"
+#include "text/text.h"
+
+/* Shown in the card of a case. Several of one case stand side by side. */
+typedef struct ReviewPicture {
+    const ReviewCase *of;      /* one of the review's cases, or a sweep's worst: the pointer */
+    const char       *title, *caption;
+    const Picture    *picture; /* NULL: the file */
+    const char       *file;    /* PNG or JPEG by its ending; goes into the page as it stands */
+} ReviewPicture;
+
+typedef struct ReviewCard {
+    const ReviewCase    *of;
+    const char          *id;      /* review_card_id */
+    bool                 is_open;
+    bool                 is_of_vehicle; /* its sun's azimuth is: 0 ahead, 90 right */
+    const ReviewPicture *pictures;      /* of the page: those of other cases are passed over */
+    int                  picture_count;
+} ReviewCard;
+
+/* "c3" of the fourth case, "s0" of the first sweep's worst. */
+const char *review_card_id(const Review *review, const ReviewCase *c, Arena *arena);
+
+bool review_card_add(Text *html, const ReviewCard *card, Arena *arena, Error *err);

@@ -1,0 +1,94 @@
+#include "review/output/review_csv.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "text/text.h"
+
+/* RFC 4180: a cell with a comma, a quote or a line's end stands in quotes, quotes doubled. */
+static void add_text(Text *csv, const char *text)
+{
+    bool quoted = text && text[strcspn(text, ",\"\r\n")];
+    if (quoted) text_add(csv, "\"");
+    for (const char *c = text ? text : ""; *c; c++) {
+        if (*c == '"') text_add(csv, "\"");
+        text_add_bytes(csv, c, 1);
+    }
+    if (quoted) text_add(csv, "\"");
+    text_add(csv, ",");
+}
+
+static void add_number(Text *csv, double value)
+{
+    if (isfinite(value)) text_format(csv, "%.6g", value);
+    text_add(csv, ",");
+}
+
+static void add_numbers(Text *csv, const double *values, int count)
+{
+    for (int i = 0; i < count; i++) add_number(csv, values[i]);
+}
+
+static const char HEADER[] =
+    "condition,eye,symbol,display,ambient,sun_azimuth_deg,sun_elevation_deg,foreground_cd_m2,"
+    "background_cd_m2,reflected_cd_m2,mirror_cd_m2,scattered_cd_m2,veil_cd_m2,contrast_ratio,"
+    "contrast_low,contrast_high,contrast_with_veil,height_arcmin,jnd,visible_share,level,"
+    "display_lx,limit_name,limit_kind,limit_unit,limit_source,limit_value,margin,first_cause,"
+    "first_cause_share,verdict\r\n";
+
+static void add_limit(Text *csv, const ReviewCase *c)
+{
+    static const LimitVerdict NONE = {.value = NAN};
+    bool has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
+    const LimitVerdict *limit = has_limit ? &c->limits[c->limit_id] : &NONE;
+    add_text(csv, limit->name);
+    add_text(csv, limit->kind);
+    add_text(csv, limit->unit);
+    add_text(csv, limit->source);
+    add_number(csv, limit->value);
+    add_number(csv, c->margin);
+}
+
+/* The chain's links, joined by " > ". */
+static void add_cause(Text *csv, const ReviewCase *c, Arena scratch)
+{
+    Text chain = {.arena = &scratch};
+    for (int i = 0; c->cause_count > 0 && i < c->causes[0].links; i++) {
+        if (i > 0) text_add(&chain, " > ");
+        text_add(&chain, c->causes[0].chain[i]);
+    }
+    add_text(csv, chain.data);
+    add_number(csv, c->cause_count > 0 ? c->causes[0].share : NAN);
+}
+
+static void add_case(Text *csv, const ReviewCase *c, Arena scratch)
+{
+    const CaseLuminances *l = &c->luminance_cd_m2;
+    add_text(csv, c->condition);
+    add_text(csv, c->eye);
+    add_text(csv, c->symbol);
+    add_text(csv, c->display);
+    add_text(csv, ambient_names[c->ambient]);
+    add_number(csv, c->has_sun ? c->sun_azimuth_deg : NAN);
+    add_number(csv, c->has_sun ? c->sun_elevation_deg : NAN);
+    add_numbers(csv, (double[]){l->foreground, l->background, l->reflected, l->mirror,
+                                l->scattered, l->veil}, 6);
+    add_numbers(csv, (double[]){c->contrast_ratio, c->contrast_low, c->contrast_high,
+                                c->contrast_with_veil, c->height_arcmin, c->jnd,
+                                c->visible_share, c->level, c->display_lux}, 9);
+    add_limit(csv, c);
+    add_cause(csv, c, scratch);
+    text_format(csv, "%s\r\n", verdict_names[c->verdict]);
+}
+
+bool review_csv_write(const Review *review, const char *path, Error *err)
+{
+    Arena arena = arena_reserve((size_t)1 << 30), scratch = arena_reserve((size_t)1 << 24);
+    Text  csv = {.arena = &arena};
+    text_add(&csv, HEADER);
+    for (int i = 0; i < review->case_count; i++) add_case(&csv, &review->cases[i], scratch);
+    bool ok = text_write(&csv, path, err);
+    arena_release(&scratch);
+    arena_release(&arena);
+    return ok;
+}

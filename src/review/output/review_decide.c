@@ -1,0 +1,103 @@
+#include "review/output/review_decide.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* What a reader is told first. */
+static int rank_of(Verdict verdict)
+{
+    static const int RANKS[4] = {[VERDICT_PASS] = 0, [VERDICT_TOO_CLOSE] = 1,
+                                 [VERDICT_NOT_VISIBLE] = 2, [VERDICT_FAIL] = 3};
+    return RANKS[verdict];
+}
+
+Verdict sweep_verdict(const ReviewSweep *sweep)
+{
+    return sweep->failed_share > 0 ? VERDICT_FAIL : sweep->worst.verdict;
+}
+
+ReviewCounts review_count(const Review *review)
+{
+    ReviewCounts counts = {.total = review->case_count + review->sweep_count};
+    for (int i = 0; i < review->case_count; i++) counts.of[review->cases[i].verdict]++;
+    for (int i = 0; i < review->sweep_count; i++)
+        counts.of[sweep_verdict(&review->sweeps[i])]++;
+    return counts;
+}
+
+bool review_decide(Review *review)
+{
+    ReviewCounts counts = review_count(review);
+    int allowed = review->is_strict
+                      ? counts.of[VERDICT_PASS]
+                      : counts.total - counts.of[VERDICT_FAIL];
+    review->pass = allowed == counts.total;
+    return review->pass;
+}
+
+/* ---- the worst -------------------------------------------------------------------------- */
+
+/* NaN is behind every margin: nothing was held against the limit. */
+static bool is_less(double a, double b)
+{
+    return a < b || (isnan(b) && !isnan(a));
+}
+
+/* Limits that are not counted (advice, what the program does not measure) may have a verdict
+ * that is worse than the case's. */
+const LimitVerdict *case_worst_limit(const ReviewCase *c)
+{
+    const LimitVerdict *worst = NULL;
+    for (int i = 0; i < c->limit_count; i++) {
+        const LimitVerdict *limit = &c->limits[i];
+        if (limit->is_advice || limit->verdict != c->verdict) continue;
+        if (!worst || is_less(limit->margin, worst->margin)) worst = limit;
+    }
+    bool has_contrast = c->limit_id >= 0 && c->limit_id < c->limit_count;
+    return worst || !has_contrast ? worst : &c->limits[c->limit_id];
+}
+
+static double worst_margin(const ReviewCase *c)
+{
+    const LimitVerdict *limit = case_worst_limit(c);
+    return limit ? limit->margin : c->margin;
+}
+
+static bool is_worse(const ReviewCase *a, const ReviewCase *b)
+{
+    int more = rank_of(a->verdict) - rank_of(b->verdict);
+    return more > 0 || (more == 0 && is_less(worst_margin(a), worst_margin(b)));
+}
+
+typedef struct Ranked {
+    const ReviewCase *of;
+    int               place; /* in the review */
+} Ranked;
+
+static int compare_ranked(const void *a, const void *b)
+{
+    const Ranked *first = a, *second = b;
+    if (is_worse(first->of, second->of)) return -1;
+    if (is_worse(second->of, first->of)) return 1;
+    return first->place - second->place;
+}
+
+const ReviewCase **review_rank(const Review *review, Arena *arena)
+{
+    int     count = review->case_count + review->sweep_count;
+    Ranked *ranked = ARENA_NEW(arena, Ranked, count);
+    const ReviewCase **out = ARENA_NEW(arena, const ReviewCase *, count);
+    for (int i = 0; i < count; i++)
+        ranked[i] = (Ranked){i < review->case_count
+                                 ? &review->cases[i]
+                                 : &review->sweeps[i - review->case_count].worst, i};
+    if (count > 0) qsort(ranked, (size_t)count, sizeof *ranked, compare_ranked);
+    for (int i = 0; i < count; i++) out[i] = ranked[i].of;
+    return out;
+}
+
+const ReviewCase *review_worst(const Review *review, Arena scratch)
+{
+    int count = review->case_count + review->sweep_count;
+    return count > 0 ? review_rank(review, &scratch)[0] : NULL;
+}

@@ -1,0 +1,219 @@
+#include "review/output/review_diff.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "review/output/review_decide.h"
+#include "text/json_text.h"
+
+const char *const diff_names[7] = {"broken", "mended", "worse", "better",
+                                   "gone",   "new",    "same"};
+
+#define LEAST_SHARE 0.0005 /* of time: below it a sweep counts as the same */
+
+static bool is_same_text(const char *a, const char *b)
+{
+    return !strcmp(a ? a : "", b ? b : "");
+}
+
+/* ---- what changed ----------------------------------------------------------------------- */
+
+/* Of two verdicts. Nothing is worse than what has come to be hidden. */
+static DiffKind verdict_change(Verdict before, Verdict after)
+{
+    static const int BADNESS[4] = {[VERDICT_PASS] = 0, [VERDICT_TOO_CLOSE] = 1,
+                                   [VERDICT_FAIL] = 2, [VERDICT_NOT_VISIBLE] = 3};
+    int more = BADNESS[after] - BADNESS[before];
+    return more > 0 ? DIFF_BROKEN : more < 0 ? DIFF_MENDED : DIFF_SAME;
+}
+
+/* Contrast moved only where the intervals do not touch: two runs of one design differ by their
+ * noise. */
+static DiffKind contrast_change(const ReviewCase *before, const ReviewCase *after)
+{
+    if (after->contrast_high < before->contrast_low) return DIFF_WORSE;
+    if (after->contrast_low > before->contrast_high) return DIFF_BETTER;
+    return DIFF_SAME;
+}
+
+static DiffKind case_change(const ReviewCase *before, const ReviewCase *after)
+{
+    if (!after) return DIFF_GONE;
+    if (!before) return DIFF_NEW;
+    DiffKind kind = verdict_change(before->verdict, after->verdict);
+    return kind == DIFF_SAME ? contrast_change(before, after) : kind;
+}
+
+static DiffKind sweep_change(const ReviewSweep *before, const ReviewSweep *after)
+{
+    if (!after) return DIFF_GONE;
+    if (!before) return DIFF_NEW;
+    DiffKind kind = verdict_change(sweep_verdict(before), sweep_verdict(after));
+    double   more = after->failed_share - before->failed_share;
+    if (kind != DIFF_SAME) return kind;
+    return more > LEAST_SHARE ? DIFF_WORSE : more < -LEAST_SHARE ? DIFF_BETTER : DIFF_SAME;
+}
+
+/* ---- what belongs together -------------------------------------------------------------- */
+
+static int find_case(const Review *review, const ReviewCase *like)
+{
+    for (int i = 0; i < review->case_count; i++) {
+        const ReviewCase *c = &review->cases[i];
+        if (is_same_text(c->condition, like->condition) && is_same_text(c->eye, like->eye) &&
+            is_same_text(c->symbol, like->symbol))
+            return i;
+    }
+    return -1;
+}
+
+static int find_sweep(const Review *review, const ReviewSweep *like)
+{
+    for (int i = 0; i < review->sweep_count; i++) {
+        const ReviewSweep *s = &review->sweeps[i];
+        if (is_same_text(s->condition, like->condition) && is_same_text(s->eye, like->eye) &&
+            is_same_text(s->symbol, like->symbol))
+            return i;
+    }
+    return -1;
+}
+
+static void add_case(ReviewDiff *diff, const ReviewCase *before, const ReviewCase *after)
+{
+    DiffKind kind = case_change(before, after);
+    diff->cases[diff->case_count++] = (CaseDiff){kind, before, after};
+    diff->count[kind]++;
+}
+
+static void add_sweep(ReviewDiff *diff, const ReviewSweep *before, const ReviewSweep *after)
+{
+    DiffKind kind = sweep_change(before, after);
+    diff->sweeps[diff->sweep_count++] = (SweepDiff){kind, before, after};
+    diff->count[kind]++;
+}
+
+static void pair_cases(ReviewDiff *diff, const Review *before, const Review *after)
+{
+    for (int i = 0; i < after->case_count; i++) {
+        int was = find_case(before, &after->cases[i]);
+        add_case(diff, was < 0 ? NULL : &before->cases[was], &after->cases[i]);
+    }
+    for (int i = 0; i < before->case_count; i++)
+        if (find_case(after, &before->cases[i]) < 0) add_case(diff, &before->cases[i], NULL);
+}
+
+static void pair_sweeps(ReviewDiff *diff, const Review *before, const Review *after)
+{
+    for (int i = 0; i < after->sweep_count; i++) {
+        int was = find_sweep(before, &after->sweeps[i]);
+        add_sweep(diff, was < 0 ? NULL : &before->sweeps[was], &after->sweeps[i]);
+    }
+    for (int i = 0; i < before->sweep_count; i++)
+        if (find_sweep(after, &before->sweeps[i]) < 0)
+            add_sweep(diff, &before->sweeps[i], NULL);
+}
+
+/* By kind; within one as they came: an insertion sort keeps that. */
+static void sort_cases(CaseDiff *list, int count)
+{
+    for (int i = 1; i < count; i++) {
+        CaseDiff moved = list[i];
+        int      at = i;
+        for (; at > 0 && list[at - 1].kind > moved.kind; at--) list[at] = list[at - 1];
+        list[at] = moved;
+    }
+}
+
+ReviewDiff review_diff(const Review *before, const Review *after, const char *before_name,
+                       const char *after_name, Arena *arena)
+{
+    ReviewDiff diff = {.before_name = before_name, .after_name = after_name,
+                       .before = before, .after = after};
+    diff.cases = ARENA_NEW(arena, CaseDiff, before->case_count + after->case_count);
+    diff.sweeps = ARENA_NEW(arena, SweepDiff, before->sweep_count + after->sweep_count);
+    pair_cases(&diff, before, after);
+    pair_sweeps(&diff, before, after);
+    sort_cases(diff.cases, diff.case_count);
+    return diff;
+}
+
+/* ---- as JSON ---------------------------------------------------------------------------- */
+
+static json_t *number(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+/* Both sides' figure; null where a side has no case. */
+static json_t *figures(const CaseDiff *d, size_t offset)
+{
+    double value[2] = {NAN, NAN};
+    if (d->before) value[0] = *(const double *)((const char *)d->before + offset);
+    if (d->after) value[1] = *(const double *)((const char *)d->after + offset);
+    return json_pack("[o,o]", number(value[0]), number(value[1]));
+}
+
+static json_t *interval(const ReviewCase *c)
+{
+    return c ? json_pack("[o,o]", number(c->contrast_low), number(c->contrast_high))
+             : json_null();
+}
+
+static json_t *names_json(const char *condition, const char *eye, const char *symbol,
+                          DiffKind kind)
+{
+    return json_pack("{s:o, s:o, s:o, s:s}", "condition", json_text(condition ? condition : ""),
+                     "eye", json_text(eye ? eye : ""), "symbol",
+                     json_text(symbol ? symbol : ""), "change", diff_names[kind]);
+}
+
+static json_t *case_json(const CaseDiff *d)
+{
+    const ReviewCase *either = d->after ? d->after : d->before;
+    json_t *out = names_json(either->condition, either->eye, either->symbol, d->kind);
+    json_object_set_new(out, "verdict",
+                        json_pack("[s?, s?]", d->before ? verdict_names[d->before->verdict]
+                                                        : NULL,
+                                  d->after ? verdict_names[d->after->verdict] : NULL));
+    json_object_set_new(out, "contrast_ratio",
+                        figures(d, offsetof(ReviewCase, contrast_ratio)));
+    json_object_set_new(out, "contrast_interval",
+                        json_pack("[o,o]", interval(d->before), interval(d->after)));
+    json_object_set_new(out, "margin", figures(d, offsetof(ReviewCase, margin)));
+    return out;
+}
+
+static json_t *sweep_json(const SweepDiff *d)
+{
+    const ReviewSweep *b = d->before, *a = d->after, *either = a ? a : b;
+    json_t *out = names_json(either->condition, either->eye, either->symbol, d->kind);
+    json_object_set_new(out, "failed_share",
+                        json_pack("[o,o]", number(b ? b->failed_share : NAN),
+                                  number(a ? a->failed_share : NAN)));
+    json_object_set_new(out, "longest_failure_minutes",
+                        json_pack("[o,o]", number(b ? b->longest_failure_minutes : NAN),
+                                  number(a ? a->longest_failure_minutes : NAN)));
+    return out;
+}
+
+static json_t *counts_json(const ReviewDiff *diff)
+{
+    json_t *out = json_object();
+    for (int kind = 0; kind <= DIFF_SAME; kind++)
+        json_object_set_new(out, diff_names[kind], json_integer(diff->count[kind]));
+    return out;
+}
+
+json_t *review_diff_json(const ReviewDiff *diff)
+{
+    json_t *cases = json_array(), *sweeps = json_array();
+    for (int i = 0; i < diff->case_count; i++)
+        json_array_append_new(cases, case_json(&diff->cases[i]));
+    for (int i = 0; i < diff->sweep_count; i++)
+        json_array_append_new(sweeps, sweep_json(&diff->sweeps[i]));
+    return json_pack("{s:o, s:o, s:[b,b], s:o, s:o, s:o}", "before",
+                     json_text(diff->before_name), "after", json_text(diff->after_name), "pass",
+                     diff->before->pass, diff->after->pass, "count", counts_json(diff),
+                     "cases", cases, "sweeps", sweeps);
+}

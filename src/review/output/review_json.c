@@ -1,0 +1,178 @@
+#include "review/output/review_json.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file_write.h"
+#include "text/json_text.h"
+
+#define DIGITS 6
+
+/* JSON has neither NaN nor infinity. */
+static json_t *number(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+static json_t *pair(double low, double high)
+{
+    return json_pack("[o,o]", number(low), number(high));
+}
+
+static json_t *text(const char *string)
+{
+    return string ? json_text(string) : json_null();
+}
+
+/* ---- one case --------------------------------------------------------------------------- */
+
+static json_t *limit_json(const LimitVerdict *l)
+{
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:b, s:b, s:b, s:o, s:o, s:o, s:s}", "name",
+                     text(l->name), "kind", text(l->kind), "value", number(l->value), "unit",
+                     text(l->unit), "source", text(l->source), "read_in_the_standard",
+                     l->read_in_the_standard, "upper", l->is_upper, "advice", l->is_advice,
+                     "found", number(l->found), "interval", pair(l->low, l->high), "margin",
+                     number(l->margin), "verdict", verdict_names[l->verdict]);
+}
+
+static json_t *limits_json(const ReviewCase *c)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < c->limit_count; i++)
+        json_array_append_new(list, limit_json(&c->limits[i]));
+    return list;
+}
+
+static json_t *causes_json(const ReviewCase *c)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < c->cause_count; i++) {
+        const CaseCause *cause = &c->causes[i];
+        json_array_append_new(
+            list, json_pack("{s:o, s:o, s:o, s:o}", "chain",
+                            json_texts(cause->chain, cause->links), "share",
+                            number(cause->share), "cd_m2", number(cause->cd_m2), "interval",
+                            pair(cause->low, cause->high)));
+    }
+    return list;
+}
+
+static json_t *remedies_json(const ReviewCase *c)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < c->remedy_count; i++) {
+        const CaseRemedy *remedy = &c->remedies[i];
+        json_array_append_new(
+            list, json_pack("{s:o, s:o, s:o}", "what", text(remedy->what), "contrast_ratio",
+                            number(remedy->contrast_ratio), "level", number(remedy->level)));
+    }
+    return list;
+}
+
+static json_t *sun_json(const ReviewCase *c)
+{
+    if (!c->has_sun) return json_null();
+    return json_pack("{s:o, s:o}", "azimuth_deg", number(c->sun_azimuth_deg), "elevation_deg",
+                     number(c->sun_elevation_deg));
+}
+
+static json_t *luminance_json(CaseLuminances l)
+{
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "foreground", number(l.foreground),
+                     "background", number(l.background), "reflected", number(l.reflected),
+                     "mirror", number(l.mirror), "scattered", number(l.scattered), "veil",
+                     number(l.veil));
+}
+
+static void set(json_t *object, const char *key, json_t *value)
+{
+    json_object_set_new(object, key, value);
+}
+
+static json_t *case_json(const ReviewCase *c)
+{
+    bool    has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
+    json_t *out = json_pack("{s:o, s:o, s:o, s:o, s:s, s:o, s:o}", "condition",
+                            text(c->condition), "eye", text(c->eye), "symbol", text(c->symbol),
+                            "display", text(c->display), "ambient", ambient_names[c->ambient],
+                            "sun", sun_json(c), "luminance_cd_m2",
+                            luminance_json(c->luminance_cd_m2));
+    set(out, "contrast_ratio", number(c->contrast_ratio));
+    set(out, "contrast_interval", pair(c->contrast_low, c->contrast_high));
+    set(out, "contrast_with_veil", number(c->contrast_with_veil));
+    set(out, "height_arcmin", number(c->height_arcmin));
+    set(out, "jnd", number(c->jnd));
+    set(out, "visible_share", number(c->visible_share));
+    set(out, "level", number(c->level));
+    set(out, "display_lux", number(c->display_lux));
+    set(out, "limit", has_limit ? limit_json(&c->limits[c->limit_id]) : json_null());
+    set(out, "limits", limits_json(c));
+    set(out, "margin", number(c->margin));
+    set(out, "verdict", json_string(verdict_names[c->verdict]));
+    set(out, "causes", causes_json(c));
+    set(out, "remedies", remedies_json(c));
+    set(out, "frame", text(c->frame));
+    return out;
+}
+
+/* ---- the review ------------------------------------------------------------------------- */
+
+static json_t *sweeps_json(const Review *review)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < review->sweep_count; i++) {
+        const ReviewSweep *s = &review->sweeps[i];
+        json_array_append_new(
+            list, json_pack("{s:o, s:o, s:o, s:I, s:o, s:o, s:o, s:o}", "condition",
+                            text(s->condition), "eye", text(s->eye), "symbol", text(s->symbol),
+                            "cases", (json_int_t)s->cases, "failed_share",
+                            number(s->failed_share), "longest_failure_minutes",
+                            number(s->longest_failure_minutes), "worst",
+                            case_json(&s->worst), "table", text(s->table)));
+    }
+    return list;
+}
+
+static json_t *responses_json(const Review *review)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < review->response_count; i++) {
+        const ReviewResponse *r = &review->responses[i];
+        json_array_append_new(
+            list, json_pack("{s:o, s:I, s:I, s:o}", "probe", text(r->probe), "paths",
+                            (json_int_t)r->paths, "bytes", (json_int_t)r->bytes,
+                            "relative_error", number(r->relative_error)));
+    }
+    return list;
+}
+
+static json_t *cases_json(const Review *review)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < review->case_count; i++)
+        json_array_append_new(list, case_json(&review->cases[i]));
+    return list;
+}
+
+json_t *review_json(const Review *review)
+{
+    return json_pack("{s:b, s:b, s:o, s:o, s:o, s:o, s:o, s:o}", "pass", review->pass, "strict",
+                     review->is_strict, "title", text(review->title), "profile",
+                     text(review->profile), "cases", cases_json(review), "sweeps",
+                     sweeps_json(review), "responses", responses_json(review), "notes",
+                     json_texts(review->notes, review->note_count));
+}
+
+bool review_json_write(json_t *document, const char *path, Error *err)
+{
+    char *text = json_dumps(document, JSON_INDENT(2) | JSON_REAL_PRECISION(DIGITS));
+    json_decref(document);
+    if (!text) return error_set(err, ERROR_MEMORY, "out of memory for %s", path);
+    size_t size = strlen(text);
+    text[size] = '\n';
+    bool ok = file_write(path, text, size + 1, err);
+    free(text);
+    return ok;
+}

@@ -1,0 +1,103 @@
+#include "review/output/review_junit.h"
+
+#include "review/output/review_decide.h"
+#include "review/output/review_words.h"
+#include "text/escape.h"
+#include "text/text.h"
+
+/* What a case counts for: only what fails the review is a failure. */
+static bool is_failure(const Review *review, Verdict verdict)
+{
+    return verdict == VERDICT_FAIL || (review->is_strict && verdict != VERDICT_PASS);
+}
+
+static void add_attribute(Text *xml, const char *name, const char *value)
+{
+    text_format(xml, " %s=\"", name);
+    escape_markup(xml, value);
+    text_add(xml, "\"");
+}
+
+static void add_causes(Text *xml, const ReviewCase *c, Arena *arena)
+{
+    for (int i = 0; i < c->cause_count; i++) {
+        escape_markup(xml, arena_format(arena, "%s of the reflected light: ",
+                                        words_share(c->causes[i].share, arena)));
+        escape_markup(xml, words_chain(&c->causes[i], arena));
+        text_add(xml, "\n");
+    }
+}
+
+/* name: of the test case; verdict: its own, for a sweep may fail where its worst passes. */
+static void add_case(Text *xml, const Review *review, const ReviewCase *c, const char *name,
+                     Verdict verdict)
+{
+    Arena arena = arena_reserve((size_t)1 << 24);
+    const char *reason = arena_format(&arena, "%s: %s", words_verdict(verdict),
+                                      words_reason(c, &arena));
+    text_add(xml, "  <testcase classname=\"parhelion.review\"");
+    add_attribute(xml, "name", name);
+    text_add(xml, " time=\"0\">\n");
+    if (is_failure(review, verdict)) {
+        text_add(xml, "    <failure");
+        add_attribute(xml, "type", verdict_names[verdict]);
+        add_attribute(xml, "message", reason);
+        text_add(xml, ">");
+        add_causes(xml, c, &arena);
+        text_add(xml, "</failure>\n");
+    } else if (verdict != VERDICT_PASS) {
+        text_add(xml, "    <skipped");
+        add_attribute(xml, "message", reason);
+        text_add(xml, "/>\n");
+    }
+    text_add(xml, "    <system-out>");
+    escape_markup(xml, reason);
+    text_add(xml, "\n");
+    escape_markup(xml, words_sun(c, false, &arena));
+    text_add(xml, "</system-out>\n  </testcase>\n");
+    arena_release(&arena);
+}
+
+static void add_sweep(Text *xml, const Review *review, const ReviewSweep *s)
+{
+    Arena       arena = arena_reserve((size_t)1 << 20);
+    const char *name = arena_format(&arena, "%s (worst of %ld, %s of the time fails)",
+                                    words_case(&s->worst, &arena), s->cases,
+                                    words_share(s->failed_share, &arena));
+    add_case(xml, review, &s->worst, name, sweep_verdict(s));
+    arena_release(&arena);
+}
+
+static void add_counts(Text *xml, const Review *review)
+{
+    ReviewCounts counts = review_count(review);
+    int doubtful = counts.of[VERDICT_TOO_CLOSE] + counts.of[VERDICT_NOT_VISIBLE];
+    int failures = counts.of[VERDICT_FAIL] + (review->is_strict ? doubtful : 0);
+    text_format(xml, " tests=\"%d\" failures=\"%d\" errors=\"0\" skipped=\"%d\" time=\"0\"",
+                counts.total, failures, review->is_strict ? 0 : doubtful);
+}
+
+bool review_junit_write(const Review *review, const char *path, Error *err)
+{
+    Arena arena = arena_reserve((size_t)1 << 30), names = arena_reserve((size_t)1 << 24);
+    Text  xml = {.arena = &arena};
+    text_add(&xml, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites");
+    add_counts(&xml, review);
+    text_add(&xml, ">\n<testsuite");
+    add_attribute(&xml, "name", review->title ? review->title : "review");
+    add_counts(&xml, review);
+    text_format(&xml, ">\n  <properties>\n    <property name=\"software\" "
+                "value=\"parhelion %s\"/>\n    <property name=\"profile\"", PARHELION_VERSION);
+    add_attribute(&xml, "value", review->profile ? review->profile : "");
+    text_add(&xml, "/>\n  </properties>\n");
+    for (int i = 0; i < review->case_count; i++) {
+        const ReviewCase *c = &review->cases[i];
+        add_case(&xml, review, c, words_case(c, &names), c->verdict);
+    }
+    for (int i = 0; i < review->sweep_count; i++) add_sweep(&xml, review, &review->sweeps[i]);
+    text_add(&xml, "</testsuite>\n</testsuites>\n");
+    bool ok = text_write(&xml, path, err);
+    arena_release(&names);
+    arena_release(&arena);
+    return ok;
+}

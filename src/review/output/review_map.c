@@ -1,0 +1,352 @@
+#include "review/output/review_map.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "image/picture.h"
+#include "page/page.h"
+#include "review/output/review_words.h"
+#include "text/base64.h"
+#include "text/escape.h"
+
+/* ---- colours ---------------------------------------------------------------------------- */
+
+typedef struct Colour {
+    float srgb[3];
+} Colour;
+
+/* Fails: dark to light red; passes: a quiet blue. Told apart without red and green too. */
+static const Colour WORST = {{0.50f, 0.06f, 0.09f}}, FAILING = {{0.97f, 0.68f, 0.50f}},
+                    PASSING = {{0.86f, 0.93f, 0.97f}}, BEST = {{0.45f, 0.64f, 0.78f}},
+                    CLOSE = {{0.98f, 0.84f, 0.33f}}, HIDDEN = {{0.36f, 0.34f, 0.42f}},
+                    NONE = {{0.74f, 0.76f, 0.78f}}, NIGHT = {{0.25f, 0.28f, 0.33f}};
+
+static Colour mix(Colour a, Colour b, double t)
+{
+    Colour out;
+    float  part = t > 0 ? t < 1 ? (float)t : 1 : 0;
+    for (int i = 0; i < 3; i++) out.srgb[i] = a.srgb[i] + part * (b.srgb[i] - a.srgb[i]);
+    return out;
+}
+
+/* From half the limit to twice. A case may fail for another reason than its contrast. */
+static Colour colour_of(Verdict verdict, double margin)
+{
+    double octaves = margin > -1 ? log2(1 + margin) : -1;
+    if (verdict == VERDICT_TOO_CLOSE) return CLOSE;
+    if (verdict == VERDICT_NOT_VISIBLE) return HIDDEN;
+    if (verdict == VERDICT_FAIL) return mix(FAILING, WORST, isnan(margin) ? 0.5 : -octaves);
+    return mix(PASSING, BEST, isnan(margin) ? 0.5 : octaves);
+}
+
+static void put(const Picture *picture, int x, int y, Colour colour)
+{
+    memcpy(picture_pixel(picture, x, y), colour.srgb, sizeof colour.srgb);
+}
+
+/* ---- what maps and calendars share ------------------------------------------------------ */
+
+/* A picture that fills the drawing's box of so many units. */
+static bool add_cells(Text *html, const Picture *cells, Arena scratch, Error *err)
+{
+    FileBytes   bytes;
+    PictureFile file = {.bits = 8, .is_srgb = true};
+    if (!picture_encode("a.png", cells, file, &scratch, &bytes, err)) return false;
+    text_format(html, "<svg class=\"cells\" viewBox=\"0 0 %d %d\" preserveAspectRatio=\"none\" "
+                "aria-hidden=\"true\"><image width=\"%d\" height=\"%d\" "
+                "preserveAspectRatio=\"none\" href=\"data:image/png;base64,", cells->width,
+                cells->height, cells->width, cells->height);
+    base64_encode(html, bytes.data, bytes.size);
+    text_add(html, "\"/>");
+    return true;
+}
+
+/* share: of the way along the axis, 0..1; from the left, or from the top. */
+static void add_tick(Text *html, const char *side, double share, const char *text)
+{
+    const char *end = share < 0.04 ? " class=\"first\"" : share > 0.96 ? " class=\"last\"" : "";
+    text_format(html, "<span%s style=\"%s:%.2f%%\">", end, side, 100 * share);
+    escape_markup(html, text);
+    text_add(html, "</span>");
+}
+
+static void add_key(Text *html, Colour colour, const char *text)
+{
+    text_format(html, "<span><i style=\"background:#%02x%02x%02x\"></i>",
+                (int)(colour.srgb[0] * 255 + 0.5f), (int)(colour.srgb[1] * 255 + 0.5f),
+                (int)(colour.srgb[2] * 255 + 0.5f));
+    escape_markup(html, text);
+    text_add(html, "</span>\n");
+}
+
+/* ---- the map ---------------------------------------------------------------------------- */
+
+static size_t map_index(const ReviewMap *map, int azimuth, int elevation)
+{
+    return (size_t)elevation * (size_t)map->azimuth_deg.count + (size_t)azimuth;
+}
+
+static bool has_answer(const ReviewMap *map, int azimuth, int elevation)
+{
+    return !isnan(map->contrast[map_index(map, azimuth, elevation)]);
+}
+
+/* Outside the map nothing fails. */
+static bool fails_at(const ReviewMap *map, int azimuth, int elevation)
+{
+    bool is_inside = azimuth >= 0 && azimuth < map->azimuth_deg.count && elevation >= 0 &&
+                     elevation < map->elevation_deg.count;
+    return is_inside && has_answer(map, azimuth, elevation) &&
+           map->verdict[map_index(map, azimuth, elevation)] == VERDICT_FAIL;
+}
+
+static Picture map_picture(const ReviewMap *map, Arena *arena)
+{
+    int     rows = map->elevation_deg.count;
+    Picture out = picture_create(map->azimuth_deg.count, rows, arena);
+    for (int e = 0; e < rows; e++)
+        for (int a = 0; a < out.width; a++) {
+            size_t i = map_index(map, a, e);
+            put(&out, a, rows - 1 - e,
+                has_answer(map, a, e)
+                    ? colour_of((Verdict)map->verdict[i], (double)map->margin[i]) : NONE);
+        }
+    return out;
+}
+
+/* The border of what fails, along the edges of cells; runs of edges are one line. */
+static void add_border(Text *html, const ReviewMap *map)
+{
+    int columns = map->azimuth_deg.count, rows = map->elevation_deg.count;
+    text_add(html, "<path class=\"border\" d=\"");
+    for (int e = 0; e <= rows; e++)
+        for (int a = 0, from = 0; a <= columns; a++) {
+            bool here = a < columns && fails_at(map, a, e) != fails_at(map, a, e - 1);
+            bool before = a > 0 && fails_at(map, a - 1, e) != fails_at(map, a - 1, e - 1);
+            if (here && !before) from = a;
+            if (!here && before) text_format(html, "M%d %dH%d", from, rows - e, a);
+        }
+    for (int a = 0; a <= columns; a++)
+        for (int e = 0, from = 0; e <= rows; e++) {
+            bool here = e < rows && fails_at(map, a, e) != fails_at(map, a - 1, e);
+            bool before = e > 0 && fails_at(map, a, e - 1) != fails_at(map, a - 1, e - 1);
+            if (here && !before) from = e;
+            if (!here && before) text_format(html, "M%d %dV%d", a, rows - from, rows - e);
+        }
+    text_add(html, "\"/>");
+}
+
+/* Where a cell's middle lies, in cells from the first edge. */
+static double axis_place(const ReviewAxis *axis, double value)
+{
+    return (value - axis->first) / axis->step + 0.5;
+}
+
+/* An azimuth as the axis counts it: 350 on an axis from -180 is -10. */
+static double axis_azimuth(const ReviewAxis *axis, double azimuth_deg)
+{
+    double low = axis->first - axis->step / 2;
+    return low + 360 * ((azimuth_deg - low) / 360 - floor((azimuth_deg - low) / 360));
+}
+
+/* A path is lifted where it leaves the map on one side and comes back on the other. */
+static void add_path(Text *html, const ReviewMap *map, const SunPath *path)
+{
+    double last = NAN;
+    text_add(html, "<path class=\"sun\" d=\"");
+    for (int i = 0; i < path->count; i++) {
+        double azimuth = axis_azimuth(&map->azimuth_deg, path->azimuth_deg[i]);
+        double x = axis_place(&map->azimuth_deg, azimuth);
+        double y = map->elevation_deg.count -
+                   axis_place(&map->elevation_deg, path->elevation_deg[i]);
+        text_format(html, "%c%.2f %.2f", fabs(azimuth - last) < 180 ? 'L' : 'M', x, y);
+        last = azimuth;
+    }
+    text_add(html, "\"/>");
+}
+
+/* Its name stands where the sun is highest. */
+static void add_path_name(Text *html, const ReviewMap *map, const SunPath *path)
+{
+    int top = 0;
+    for (int i = 1; i < path->count; i++)
+        if (path->elevation_deg[i] > path->elevation_deg[top]) top = i;
+    if (path->count == 0 || !path->name) return;
+    double azimuth = axis_azimuth(&map->azimuth_deg, path->azimuth_deg[top]);
+    double x = axis_place(&map->azimuth_deg, azimuth) / map->azimuth_deg.count;
+    double y = axis_place(&map->elevation_deg, path->elevation_deg[top]) /
+               map->elevation_deg.count;
+    if (x < 0 || x > 1 || y < 0 || y > 1) return;
+    text_format(html, "<span class=\"path\" style=\"left:%.2f%%;bottom:%.2f%%\">", 100 * x,
+                100 * y);
+    escape_markup(html, path->name);
+    text_add(html, "</span>");
+}
+
+static void add_azimuths(Text *html, const ReviewMap *map, Arena *arena)
+{
+    static const char *const VEHICLE[4] = {"ahead", "right", "behind", "left"};
+    static const char *const WORLD[4] = {"north", "east", "south", "west"};
+    const ReviewAxis *axis = &map->azimuth_deg;
+    text_add(html, "<div class=\"x\">");
+    for (int quarter = -4; quarter <= 8; quarter++) {
+        double share = axis_place(axis, 90.0 * quarter) / axis->count;
+        if (share < 0 || share > 1) continue;
+        const char *word = (map->is_of_vehicle ? VEHICLE : WORLD)[(quarter + 4) % 4];
+        add_tick(html, "left", share, arena_format(arena, "%d° %s", 90 * quarter, word));
+    }
+    text_add(html, "</div>");
+}
+
+static void add_elevations(Text *html, const ReviewMap *map, Arena *arena)
+{
+    const ReviewAxis *axis = &map->elevation_deg;
+    double range = axis->step * axis->count;
+    int    step = range > 50 ? 20 : range > 20 ? 10 : range > 8 ? 5 : 1;
+    text_add(html, "<div class=\"y\">");
+    for (int value = -90; value <= 90; value++) {
+        double share = axis_place(axis, value) / axis->count;
+        if (value % step == 0 && share >= 0 && share <= 1)
+            add_tick(html, "top", 1 - share, arena_format(arena, "%d°", value));
+    }
+    text_add(html, "</div>");
+}
+
+static bool holds(const ReviewMap *map, Verdict verdict)
+{
+    for (int e = 0; e < map->elevation_deg.count; e++)
+        for (int a = 0; a < map->azimuth_deg.count; a++)
+            if (has_answer(map, a, e) && map->verdict[map_index(map, a, e)] == verdict)
+                return true;
+    return false;
+}
+
+static bool holds_gaps(const ReviewMap *map)
+{
+    for (int e = 0; e < map->elevation_deg.count; e++)
+        for (int a = 0; a < map->azimuth_deg.count; a++)
+            if (!has_answer(map, a, e)) return true;
+    return false;
+}
+
+static void add_map_keys(Text *html, const ReviewMap *map)
+{
+    text_add(html, "<div class=\"keys\">");
+    add_key(html, WORST, "half the limit or less");
+    add_key(html, FAILING, "just below the limit");
+    if (holds(map, VERDICT_TOO_CLOSE)) add_key(html, CLOSE, "too close to call");
+    add_key(html, PASSING, "just above");
+    add_key(html, BEST, "twice the limit or more");
+    if (holds(map, VERDICT_NOT_VISIBLE)) add_key(html, HIDDEN, "not visible");
+    if (holds_gaps(map)) add_key(html, NONE, "no answer");
+    text_add(html, "</div>\n");
+}
+
+static void add_map_labels(Text *html, const ReviewMap *map, Arena *arena)
+{
+    for (int i = 0; i < map->path_count; i++) add_path_name(html, map, &map->paths[i]);
+    text_add(html, "</div>");
+    add_elevations(html, map, arena);
+    add_azimuths(html, map, arena);
+    text_add(html, "</div>\n");
+    add_map_keys(html, map);
+    page_element(html, "figcaption", map->path_count > 0
+        ? "Contrast against its limit, with the sun at every place of the sky; inside the dark "
+          "line it fails. Dashed: the sun's way over the sky on these days."
+        : "Contrast against its limit, with the sun at every place of the sky; inside the dark "
+          "line it fails.");
+}
+
+bool review_map_add(Text *html, const ReviewMap *map, Arena *arena, Error *err)
+{
+    text_add(html, "<figure class=\"sweep\">");
+    page_element(html, "h3", map->is_of_vehicle ? "Where the sun stands, seen from the vehicle"
+                                                : "Where the sun stands");
+    text_add(html, "<div class=\"chart\"><div class=\"area\">");
+    Picture cells = map_picture(map, arena);
+    if (!add_cells(html, &cells, *arena, err)) return false;
+    add_border(html, map);
+    for (int i = 0; i < map->path_count; i++) add_path(html, map, &map->paths[i]);
+    text_add(html, "</svg>");
+    add_map_labels(html, map, arena);
+    text_add(html, "</figure>\n");
+    return true;
+}
+
+/* ---- the calendar ----------------------------------------------------------------------- */
+
+static float share_at(const ReviewCalendar *calendar, int day, int step)
+{
+    return calendar->failed_share[(size_t)day * (size_t)calendar->steps_a_day + (size_t)step];
+}
+
+static Picture calendar_picture(const ReviewCalendar *calendar, Arena *arena)
+{
+    int     rows = calendar->steps_a_day;
+    Picture out = picture_create(calendar->days, rows, arena);
+    for (int day = 0; day < calendar->days; day++)
+        for (int step = 0; step < rows; step++) {
+            float  share = share_at(calendar, day, step);
+            Colour colour = isnan(share) ? NIGHT
+                            : share > 0  ? mix(FAILING, WORST, (double)share) : PASSING;
+            put(&out, day, rows - 1 - step, colour);
+        }
+    return out;
+}
+
+static void add_months(Text *html, const ReviewCalendar *calendar)
+{
+    static const char *const NAMES[12] = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
+                                          "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
+    static const int DAYS[12] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+    int  year = calendar->year, day = 0;
+    bool is_leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    text_add(html, "<div class=\"x months\">");
+    for (int month = 0; month < 12; month++) {
+        int length = DAYS[month] + (month == 1 && is_leap);
+        if (day + length / 2 < calendar->days)
+            add_tick(html, "left", (day + length / 2.0) / calendar->days, NAMES[month]);
+        day += length;
+    }
+    text_add(html, "</div>");
+}
+
+static void add_hours(Text *html, Arena *arena)
+{
+    text_add(html, "<div class=\"y\">");
+    for (int hour = 0; hour <= 24; hour += 6)
+        add_tick(html, "top", 1 - hour / 24.0, arena_format(arena, "%d h", hour));
+    text_add(html, "</div>");
+}
+
+static void add_calendar_keys(Text *html, const ReviewCalendar *calendar)
+{
+    text_add(html, "<div class=\"keys\">");
+    add_key(html, PASSING, calendar->headings > 1 ? "passes whichever way the vehicle points"
+                                                  : "passes");
+    if (calendar->headings > 1) add_key(html, FAILING, "fails for one of many headings");
+    add_key(html, WORST, calendar->headings > 1 ? "fails for all headings" : "fails");
+    add_key(html, NIGHT, "sun below the horizon");
+    text_add(html, "</div>\n");
+}
+
+bool review_map_add_calendar(Text *html, const ReviewCalendar *calendar, Arena *arena,
+                             Error *err)
+{
+    text_add(html, "<figure class=\"sweep\">");
+    page_element(html, "h3", arena_format(arena, "When it fails, %d", calendar->year));
+    text_add(html, "<div class=\"chart\"><div class=\"area\">");
+    Picture cells = calendar_picture(calendar, arena);
+    if (!add_cells(html, &cells, *arena, err)) return false;
+    text_add(html, "</svg></div>");
+    add_hours(html, arena);
+    add_months(html, calendar);
+    text_add(html, "</div>\n");
+    add_calendar_keys(html, calendar);
+    page_element(html, "figcaption",
+                 arena_format(arena, "Every day from left to right, every hour from below "
+                              "(%s); %d heading%s of the vehicle.", calendar->clock,
+                              calendar->headings, calendar->headings == 1 ? "" : "s"));
+    text_add(html, "</figure>\n");
+    return true;
+}

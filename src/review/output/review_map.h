@@ -1,0 +1,55 @@
+/* review_map.h -- a sweep as pictures: the verdict for every place of the sun, and for every
+ * hour of every day.
+ *
+ * Cells become a picture of one pixel each, letters stay the page's: so a map of all directions
+ * is small, and can be read on a telephone.
+ *
+ * Units    angles in degrees.
+ * Memory   the arena's. Threads: no shared state.
+ * Fails    for a picture that cannot be encoded.
+ */
+#pragma once
+#include "base/error.h"
+#include "review/verdict.h"
+#include "text/text.h"
+
+/* Places along an axis: first, first + step, ... */
+typedef struct ReviewAxis {
+    double first, step; /* step above 0 */
+    int    count;       /* at least 1 */
+} ReviewAxis;
+
+/* A line over a map: where the sun goes on one day. */
+typedef struct SunPath {
+    const char   *name; /* "21 June" */
+    const double *azimuth_deg, *elevation_deg;
+    int           count;
+} SunPath;
+
+/* The verdict for every place of the sun. Arrays hold the azimuths of the first elevation, then
+ * those of the second, ... */
+typedef struct ReviewMap {
+    const ReviewSweep   *of;            /* one of the review's sweeps: the pointer */
+    bool                 is_of_vehicle; /* azimuth 0 is ahead, 90 right; else north and east */
+    ReviewAxis           azimuth_deg, elevation_deg;
+    const float         *contrast; /* NaN: not asked there */
+    const float         *margin;   /* contrast over its limit less one; NaN: no limit */
+    const unsigned char *verdict;  /* a Verdict each */
+    const SunPath       *paths;
+    int                  path_count;
+} ReviewMap;
+
+bool review_map_add(Text *html, const ReviewMap *map, Arena *arena, Error *err);
+
+/* The share of headings that failed, over the hours of every day. The array holds the steps of
+ * the first day from midnight on, then those of the second, ... */
+typedef struct ReviewCalendar {
+    const ReviewSweep *of;
+    int                year, days, steps_a_day; /* days from 1 January on */
+    const char        *clock;        /* what the hours are of: "UTC", "UTC+02:00" */
+    int                headings;
+    const float       *failed_share; /* 0..1; NaN: the sun is down, or no answer */
+} ReviewCalendar;
+
+bool review_map_add_calendar(Text *html, const ReviewCalendar *calendar, Arena *arena,
+                             Error *err);

@@ -1,0 +1,343 @@
+#include "review/output/review_page.h"
+
+#include <math.h>
+
+#include "page/page.h"
+#include "review/output/review_decide.h"
+#include "review/output/review_table.h"
+#include "review/output/review_words.h"
+#include "text/escape.h"
+
+#define PAGE_BYTES ((size_t)4 << 30) /* of address space, for the text */
+#define WORDS_BYTES ((size_t)1 << 30)
+#define OPEN_CARDS 4
+#define OPEN_ROWS 12
+
+/* review.css beside this file; the build embeds it. */
+extern const char REVIEW_STYLE[];
+
+/* ---- the line on top -------------------------------------------------------------------- */
+
+static const ReviewMap *map_of(const ReviewPage *page, const ReviewCase *c)
+{
+    for (int i = 0; i < page->map_count; i++)
+        if (c == &page->maps[i].of->worst) return &page->maps[i];
+    return NULL;
+}
+
+static bool is_of_vehicle(const ReviewPage *page, const ReviewCase *c)
+{
+    const ReviewMap *map = map_of(page, c);
+    return map && map->is_of_vehicle;
+}
+
+/* Where the sun stands, and by which way most of the light comes. */
+static void add_why(Text *html, const ReviewPage *page, const ReviewCase *c, Arena *arena)
+{
+    const char *sun = words_sun(c, is_of_vehicle(page, c), arena);
+    text_add(html, " <span class=\"why\">");
+    escape_markup(html, arena_format(arena, "Light: %s%s%s.", words_ambient(c->ambient),
+                                     c->has_sun ? ", " : "", c->has_sun ? sun : ""));
+    if (c->cause_count > 0)
+        escape_markup(html, arena_format(arena, " %s of what the display reflects comes by: "
+                                         "%s.", words_share(c->causes[0].share, arena),
+                                         words_chain(&c->causes[0], arena)));
+    text_add(html, "</span>");
+}
+
+/* What leads to the worst case. */
+static const char *answer_words(const Review *review, const ReviewCase *worst)
+{
+    if (!review->pass) return worst->verdict == VERDICT_PASS ? "the worst is " : "";
+    return worst->verdict == VERDICT_PASS ? "closest to its limit is "
+                                          : "nothing fails; the worst is ";
+}
+
+static void add_verdict(Text *html, const ReviewPage *page, Arena *arena)
+{
+    const Review     *review = page->review;
+    const ReviewCase *worst = review_worst(review, *arena);
+    text_format(html, "<div class=\"verdict%s\"><h1><b>%s</b>: ", review->pass ? " same" : "",
+                review->pass ? "Passes" : "Fails");
+    if (!worst) {
+        text_add(html, "nothing was asked, so nothing can fail.</h1></div>\n");
+        return;
+    }
+    text_add(html, answer_words(review, worst));
+    escape_markup(html, words_case(worst, arena));
+    text_add(html, ": ");
+    escape_markup(html, words_reason(worst, arena));
+    text_add(html, ".");
+    add_why(html, page, worst, arena);
+    text_add(html, "</h1></div>\n");
+}
+
+static void add_keys(Text *html, const Review *review, Arena *arena)
+{
+    static const char *const NAMES[4] = {"pass", "fail", "are too close to call",
+                                         "cannot be seen"};
+    ReviewCounts counts = review_count(review);
+    double       worst_share = NAN, longest = NAN;
+    page_keys_begin(html);
+    for (int i = 0; i < 4; i++)
+        if (i < 2 || counts.of[i] > 0)
+            page_key(html, arena_format(arena, "%d of %d", counts.of[i], counts.total),
+                     NAMES[i], i == VERDICT_FAIL && counts.of[i] > 0);
+    for (int i = 0; i < review->sweep_count; i++) {
+        worst_share = fmax(worst_share, review->sweeps[i].failed_share);
+        longest = fmax(longest, review->sweeps[i].longest_failure_minutes);
+    }
+    if (!isnan(worst_share))
+        page_key(html, words_share(worst_share, arena),
+                 "of the time fails, in the worst sweep", worst_share > 0);
+    if (!isnan(longest))
+        page_key(html, words_minutes(longest, arena), "is the longest failure at a stretch",
+                 longest > 0);
+    page_keys_end(html);
+}
+
+static void add_head(Text *html, const ReviewPage *page, Arena *arena)
+{
+    const Review *review = page->review;
+    const char   *title = review->title && review->title[0] ? review->title : "Glare review";
+    page_begin(html, &(PageHead){title, REVIEW_STYLE, page->is_dark});
+    page_element(html, "p class=\"sub title\"",
+                 arena_format(arena, "%s · limits: %s%s", title,
+                              review->profile ? review->profile : "none",
+                              review->is_strict ? " · strict: too close or not visible fails"
+                                                : ""));
+    add_verdict(html, page, arena);
+    add_keys(html, review, arena);
+}
+
+/* ---- verdicts --------------------------------------------------------------------------- */
+
+static void add_verdicts(Text *html, const ReviewPage *page, Arena *arena)
+{
+    const Review *review = page->review;
+    int           rows = review->case_count + review->sweep_count;
+    if (rows == 0) return;
+    page_element(html, "h2", "Verdicts");
+    text_add(html, "<p class=\"sub\">Contrast is how many times brighter the bright part of "
+             "a symbol is than its dark part, with all reflections on both; the margin is how "
+             "far it is above (+) or below (−) its limit. ✓ passes, ✗ fails, ≈ too close to "
+             "call, ∅ not visible.</p>\n");
+    review_table_add_matrix(html, review, arena);
+    text_format(html, "<details class=\"all\"%s><summary>%d verdict%s with intervals and "
+                "limits, worst first</summary>\n", rows <= OPEN_ROWS ? " open" : "", rows,
+                rows == 1 ? "" : "s");
+    review_table_add_list(html, review, arena);
+    text_add(html, "</details>\n");
+}
+
+static void add_diff(Text *html, const ReviewPage *page, Arena *arena)
+{
+    if (!page->diff) return;
+    page_element(html, "h2", "What changed");
+    review_table_add_diff(html, page->diff, arena);
+}
+
+/* ---- cases ------------------------------------------------------------------------------ */
+
+static bool add_card(Text *html, const ReviewPage *page, const ReviewCase *c, bool is_open,
+                     Arena *arena, Error *err)
+{
+    ReviewCard card = {.of = c, .id = review_card_id(page->review, c, arena),
+                       .is_open = is_open, .is_of_vehicle = is_of_vehicle(page, c),
+                       .pictures = page->pictures, .picture_count = page->picture_count};
+    return review_card_add(html, &card, arena, err);
+}
+
+static bool add_cases(Text *html, const ReviewPage *page, Arena *arena, Error *err)
+{
+    const Review      *review = page->review;
+    const ReviewCase **ranked = review_rank(review, arena);
+    int                shown = 0, passing = 0;
+    if (review->case_count == 0) return true;
+    page_element(html, "h2", "Cases, worst first");
+    for (int i = 0; i < review->case_count; i++)
+        passing += review->cases[i].verdict == VERDICT_PASS;
+    for (int i = 0; i < review->case_count + review->sweep_count; i++) {
+        const ReviewCase *c = ranked[i];
+        if (review_card_id(review, c, arena)[0] != 'c') continue;
+        if (shown > 0 && shown == review->case_count - passing)
+            page_more_begin(html, arena_format(arena, "%d that pass%s", passing,
+                                               passing == 1 ? "es" : ""));
+        if (!add_card(html, page, c, shown++ < OPEN_CARDS, arena, err)) return false;
+    }
+    if (passing > 0 && passing < review->case_count) page_more_end(html);
+    return true;
+}
+
+/* ---- sweeps ----------------------------------------------------------------------------- */
+
+static void add_sweep_keys(Text *html, const ReviewSweep *s, Arena *arena)
+{
+    page_keys_begin(html);
+    page_key(html, words_share(s->failed_share, arena), "of the time it fails",
+             s->failed_share > 0);
+    if (!isnan(s->longest_failure_minutes))
+        page_key(html, words_minutes(s->longest_failure_minutes, arena),
+                 "the longest failure at a stretch", s->longest_failure_minutes > 0);
+    page_key(html, words_ratio(s->worst.contrast_ratio, arena), "contrast at its worst",
+             s->worst.verdict != VERDICT_PASS);
+    page_key(html, arena_format(arena, "%ld", s->cases), "suns and hours judged", false);
+    page_keys_end(html);
+}
+
+static bool add_sweep_figures(Text *html, const ReviewPage *page, const ReviewSweep *s,
+                              Arena *arena, Error *err)
+{
+    text_add(html, "<div class=\"sweeps\">\n");
+    for (int i = 0; i < page->map_count; i++)
+        if (page->maps[i].of == s && !review_map_add(html, &page->maps[i], arena, err))
+            return false;
+    for (int i = 0; i < page->calendar_count; i++)
+        if (page->calendars[i].of == s &&
+            !review_map_add_calendar(html, &page->calendars[i], arena, err))
+            return false;
+    text_add(html, "</div>\n");
+    return true;
+}
+
+static bool add_sweeps(Text *html, const ReviewPage *page, Arena *arena, Error *err)
+{
+    const Review *review = page->review;
+    if (review->sweep_count > 0) page_element(html, "h2", "Every sun, every hour");
+    for (int i = 0; i < review->sweep_count; i++) {
+        const ReviewSweep *s = &review->sweeps[i];
+        text_add(html, "<section>");
+        page_element(html, "h3 class=\"of\"",
+                     arena_format(arena, "%s, seen by %s: %s", s->symbol ? s->symbol : "?",
+                                  s->eye ? s->eye : "?", s->condition ? s->condition : "?"));
+        add_sweep_keys(html, s, arena);
+        if (!add_sweep_figures(html, page, s, arena, err)) return false;
+        page_element(html, "h4", "At its worst");
+        if (!add_card(html, page, &s->worst, sweep_verdict(s) != VERDICT_PASS, arena, err))
+            return false;
+        if (s->table)
+            page_element(html, "p class=\"sub\"",
+                         arena_format(arena, "All of it as a table: %s", s->table));
+        text_add(html, "</section>\n");
+    }
+    return true;
+}
+
+/* ---- what stands behind it -------------------------------------------------------------- */
+
+static const char *size_words(size_t bytes, Arena *arena)
+{
+    double size = (double)bytes;
+    return size < 1e6 ? arena_format(arena, "%s kB", words_figure(size / 1e3, arena))
+                      : arena_format(arena, "%s MB", words_figure(size / 1e6, arena));
+}
+
+static void add_responses(Text *html, const Review *review, Arena *arena)
+{
+    static const PageColumn COLUMNS[] = {{"Question", false, NULL}, {"Light paths", true, NULL},
+                                         {"Size", true, NULL},
+                                         {"Error", true, "relative standard error"}};
+    if (review->response_count == 0) return;
+    page_more_begin(html, arena_format(arena, "What was traced: %d questions to the light",
+                                       review->response_count));
+    page_table_begin(html, "", "", COLUMNS, 4);
+    for (int i = 0; i < review->response_count; i++) {
+        const ReviewResponse *r = &review->responses[i];
+        page_row_begin(html, "");
+        page_cell(html, "", r->probe);
+        page_cell_format(html, "n", "%ld", r->paths);
+        page_cell(html, "n", size_words(r->bytes, arena));
+        page_cell(html, "n", words_share(r->relative_error, arena));
+        page_row_end(html);
+    }
+    page_table_end(html);
+    page_more_end(html);
+}
+
+static void add_provenance(Text *html, const ReviewPage *page, Arena *arena)
+{
+    const Review *review = page->review;
+    page_element(html, "h2", "Where the limits come from");
+    page_element(html, "p class=\"sub\"", review->profile ? review->profile : "No profile.");
+    review_table_add_limits(html, review, arena);
+    page_element(html, "h2", "What it was made of");
+    text_add(html, "<dl class=\"facts made\">\n");
+    for (int i = 0; i < page->fact_count; i++) {
+        page_element(html, "dt", page->facts[i].name);
+        page_element(html, "dd", page->facts[i].value);
+    }
+    text_add(html, "</dl>\n");
+    add_responses(html, review, arena);
+    if (page->command_count == 0) return;
+    page_element(html, "h3", "Commands");
+    for (int i = 0; i < page->command_count; i++)
+        page_element(html, "pre", page->commands[i]);
+}
+
+static void add_notes(Text *html, const Review *review)
+{
+    if (review->note_count == 0) return;
+    page_element(html, "h2", "What a reader must know");
+    page_list(html, "notes", review->notes, review->note_count);
+}
+
+static void add_glossary(Text *html)
+{
+    static const char *const WORDS[][2] = {
+        {"cd/m²", "candela per square metre: how bright a surface looks. A white page in the "
+                  "office has about 100, in the sun 30 000."},
+        {"lx", "lux: how much light falls on a surface. An office desk has 500, a display in "
+               "the sun up to 100 000."},
+        {"contrast", "the bright part's light to the eye over the dark part's, both with what "
+                     "the display reflects. 1 : 1 is nothing to see."},
+        {"limit, margin", "what a standard wants at least, and how far the contrast is above "
+                          "or below it in percent of the limit."},
+        {"95 % interval", "the calculation is made of random samples and the panel was "
+                          "measured with an error: the true value lies in the interval with "
+                          "95 % certainty."},
+        {"too close to call", "the limit lies inside that interval."},
+        {"not visible", "something stands in the way, such as the rim of the wheel."},
+        {"reflected as in a mirror", "a picture of what stands opposite: sky, seat, shirt."},
+        {"scattered", "light that the display's surface spreads: the sun need not stand in the "
+                      "mirror's direction."},
+        {"veil", "light from elsewhere that the eye itself scatters over what it looks at; it "
+                 "grows with age."},
+        {"arc minute", "a sixtieth of a degree: how large something looks. A coin of 2 cm is "
+                       "14 arc minutes at 5 m."},
+        {"just noticeable step", "the least difference in brightness that an average eye can "
+                                 "tell (DICOM's scale)."}};
+    page_more_begin(html, "The words on this page");
+    text_add(html, "<dl class=\"facts made\">\n");
+    for (size_t i = 0; i < sizeof WORDS / sizeof *WORDS; i++) {
+        page_element(html, "dt", WORDS[i][0]);
+        page_element(html, "dd", WORDS[i][1]);
+    }
+    text_add(html, "</dl>\n");
+    page_more_end(html);
+}
+
+/* ---- the page --------------------------------------------------------------------------- */
+
+static bool add_page(Text *html, const ReviewPage *page, Arena *arena, Error *err)
+{
+    add_head(html, page, arena);
+    add_verdicts(html, page, arena);
+    add_diff(html, page, arena);
+    add_notes(html, page->review);
+    if (!add_cases(html, page, arena, err) || !add_sweeps(html, page, arena, err)) return false;
+    add_provenance(html, page, arena);
+    add_glossary(html);
+    page_end(html, "review", (const char *const[]){NULL});
+    return true;
+}
+
+bool review_page_write(const ReviewPage *page, const char *path, Error *err)
+{
+    Arena own = arena_reserve(PAGE_BYTES), words = arena_reserve(WORDS_BYTES);
+    Text  html = {.arena = &own};
+    bool  ok = add_page(&html, page, &words, err) &&
+              page_write((const Text *const[]){&html}, 1, path, err);
+    arena_release(&words);
+    arena_release(&own);
+    return ok;
+}

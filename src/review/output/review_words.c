@@ -1,0 +1,160 @@
+#include "review/output/review_words.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "plot/draw/ticks.h"
+#include "review/output/review_decide.h"
+#include "text/text.h"
+
+const char *words_figure(double value, Arena *arena)
+{
+    char text[32];
+    if (isnan(value)) return "–";
+    if (isinf(value)) return value > 0 ? "∞" : "−∞";
+    if (fabs(value) < 1 && fabs(value) >= 1e-4) return arena_format(arena, "%.3g", value);
+    return arena_format(arena, "%s", figure_text(value, text));
+}
+
+const char *words_ratio(double value, Arena *arena)
+{
+    return isnan(value) ? "–" : arena_format(arena, "%s : 1", words_figure(value, arena));
+}
+
+const char *words_interval(double low, double high, Arena *arena)
+{
+    if (isnan(low) || isnan(high)) return "–";
+    if (low == high) return "exact";
+    return arena_format(arena, "%s to %s", words_figure(low, arena), words_figure(high, arena));
+}
+
+const char *words_share(double share, Arena *arena)
+{
+    double percent = 100 * share;
+    if (isnan(share)) return "–";
+    if (percent > 0 && percent < 0.1) return "less than 0.1 %";
+    if (percent > 99.9 && percent < 100) return "more than 99.9 %";
+    return arena_format(arena, "%.*f %%", percent > 0 && percent < 10 ? 1 : 0, percent);
+}
+
+const char *words_margin(double margin, Arena *arena)
+{
+    if (isnan(margin)) return "–";
+    if (isinf(margin)) return "∞";
+    if (margin >= 9) return arena_format(arena, "%s ×", words_figure(1 + margin, arena));
+    double percent = 100 * margin, size = fabs(percent);
+    const char *sign = margin < 0 ? "−" : margin > 0 ? "+" : "±";
+    return arena_format(arena, "%s%.*f %%", sign, size < 10 ? 1 : 0, size);
+}
+
+/* A figure that was written already, with the unit of the limit behind it. */
+static const char *with_unit(const LimitVerdict *limit, const char *figure, Arena *arena)
+{
+    const char *unit = limit->unit ? limit->unit : "";
+    if (limit->kind && !strcmp(limit->kind, "contrast_ratio"))
+        return arena_format(arena, "%s : 1", figure);
+    if (!strcmp(unit, "arcmin")) unit = "arc min";
+    if (!strcmp(unit, "cd/m2")) unit = "cd/m²";
+    return unit[0] && strcmp(unit, "1") != 0 ? arena_format(arena, "%s %s", figure, unit)
+                                             : figure;
+}
+
+const char *words_amount(const LimitVerdict *limit, double value, Arena *arena)
+{
+    return isnan(value) ? "–" : with_unit(limit, words_figure(value, arena), arena);
+}
+
+const char *words_number(double value, Arena *arena)
+{
+    return isfinite(value) ? arena_format(arena, "%.4g", value) : words_figure(value, arena);
+}
+
+const char *words_minutes(double minutes, Arena *arena)
+{
+    if (isnan(minutes)) return "–";
+    if (minutes < 60) return arena_format(arena, "%s min", words_figure(minutes, arena));
+    long whole = lround(minutes);
+    return whole % 60 ? arena_format(arena, "%ld h %ld min", whole / 60, whole % 60)
+                      : arena_format(arena, "%ld h", whole / 60);
+}
+
+const char *words_wanted(const LimitVerdict *limit, Arena *arena)
+{
+    return arena_format(arena, "%s %s%s", limit->is_upper ? "at most" : "at least",
+                        with_unit(limit, words_number(limit->value, arena), arena),
+                        limit->is_advice ? " (advice)" : "");
+}
+
+const char *words_verdict(Verdict verdict)
+{
+    static const char *const WORDS[4] = {"Passes", "Fails", "Too close to call", "Not visible"};
+    return WORDS[verdict];
+}
+
+const char *words_class(Verdict verdict)
+{
+    static const char *const CLASSES[4] = {"good", "bad", "close", "hidden"};
+    return CLASSES[verdict];
+}
+
+const char *words_ambient(Ambient ambient)
+{
+    static const char *const WORDS[4] = {"at night", "in twilight", "by day", "in direct sun"};
+    return WORDS[ambient];
+}
+
+/* The eighth of the circle that an azimuth lies in. */
+static int eighth_of(double azimuth_deg)
+{
+    double turns = azimuth_deg / 360;
+    return (int)floor((turns - floor(turns)) * 8 + 0.5) % 8;
+}
+
+const char *words_sun(const ReviewCase *c, bool is_of_vehicle, Arena *arena)
+{
+    static const char *const WORLD[8] = {
+        "in the north", "in the north-east", "in the east", "in the south-east",
+        "in the south", "in the south-west", "in the west", "in the north-west"};
+    static const char *const VEHICLE[8] = {
+        "ahead", "ahead on the right", "on the right", "behind on the right",
+        "behind", "behind on the left", "on the left", "ahead on the left"};
+    if (!c->has_sun) return "no sun above the horizon";
+    if (!isfinite(c->sun_azimuth_deg) || !isfinite(c->sun_elevation_deg)) return "sun is up";
+    return arena_format(arena, "sun %.1f° high, %s, azimuth %.1f°", c->sun_elevation_deg,
+                        (is_of_vehicle ? VEHICLE : WORLD)[eighth_of(c->sun_azimuth_deg)],
+                        c->sun_azimuth_deg);
+}
+
+const char *words_case(const ReviewCase *c, Arena *arena)
+{
+    return arena_format(arena, "%s, seen by %s, %s", c->symbol ? c->symbol : "?",
+                        c->eye ? c->eye : "?", c->condition ? c->condition : "?");
+}
+
+const char *words_reason(const ReviewCase *c, Arena *arena)
+{
+    const LimitVerdict *limit = case_worst_limit(c);
+    if (c->verdict == VERDICT_NOT_VISIBLE)
+        return arena_format(arena, "%s of it can be seen from there",
+                            words_share(c->visible_share, arena));
+    if (!limit) return "no limit applies to it";
+    const char *name = limit->name ? limit->name : "limit";
+    const char *found = words_amount(limit, limit->found, arena);
+    const char *wanted = words_wanted(limit, arena);
+    if (c->verdict == VERDICT_TOO_CLOSE)
+        return arena_format(arena, "%s %s, but anything between %s and %s, wanted %s",
+                            name, found, words_figure(limit->low, arena),
+                            words_figure(limit->high, arena), wanted);
+    return arena_format(arena, "%s %s, wanted %s", name, found, wanted);
+}
+
+const char *words_chain(const CaseCause *cause, Arena *arena)
+{
+    Text text = {.arena = arena};
+    for (int i = 0; i < cause->links; i++) {
+        if (i > 0) text_add(&text, " → ");
+        text_add(&text, cause->chain[i] ? cause->chain[i] : "?");
+    }
+    return text.data ? text.data : "";
+}

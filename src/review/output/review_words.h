@@ -1,0 +1,56 @@
+/* review_words.h -- how a review is said in words that a meeting understands; private to the
+ * output.
+ *
+ * Memory   the arena's. Texts are UTF-8 and not escaped. Threads: pure. Fails: never.
+ */
+#pragma once
+#include "base/arena.h"
+#include "review/verdict.h"
+
+/* Three significant digits; "–" for NaN, "∞". */
+const char *words_figure(double value, Arena *arena);
+
+/* "1.64 : 1"; "–" for NaN. */
+const char *words_ratio(double value, Arena *arena);
+
+/* "1.58 to 1.70"; "exact" where both are the same, "–" for NaN. */
+const char *words_interval(double low, double high, Arena *arena);
+
+/* "62 %", "0.4 %", "less than 0.1 %"; of a share 0..1. */
+const char *words_share(double share, Arena *arena);
+
+/* "+12 %", "−18 %"; from ten times the limit on "12.5 ×"; "–" where there is no limit. */
+const char *words_margin(double margin, Arena *arena);
+
+/* As somebody would write it who chose it: "2", "0.65". */
+const char *words_number(double value, Arena *arena);
+
+/* What was found for a limit, in its unit: "1.64 : 1", "14 arc min", "320 cd/m²". */
+const char *words_amount(const LimitVerdict *limit, double value, Arena *arena);
+
+/* "3 min", "1 h 25 min"; "–" for NaN. */
+const char *words_minutes(double minutes, Arena *arena);
+
+/* "at least 2 : 1", "at most ..."; "(advice)" behind what is preferred and not asked. */
+const char *words_wanted(const LimitVerdict *limit, Arena *arena);
+
+/* "Passes", "Fails", "Too close to call", "Not visible": begins a sentence. */
+const char *words_verdict(Verdict verdict);
+
+/* Its class in review.css: good, bad, close, hidden. */
+const char *words_class(Verdict verdict);
+
+/* "at night", "in direct sun", ... */
+const char *words_ambient(Ambient ambient);
+
+/* "sun 32.0° high, in the south-east, azimuth 135.0°"; of the vehicle "behind on the right". */
+const char *words_sun(const ReviewCase *c, bool is_of_vehicle, Arena *arena);
+
+/* "speed, seen by driver, noon" */
+const char *words_case(const ReviewCase *c, Arena *arena);
+
+/* Why the case has its verdict: "contrast 1.64 : 1, wanted at least 2 : 1". */
+const char *words_reason(const ReviewCase *c, Arena *arena);
+
+/* "glass Window_FL: through → seat FrontSeat_L: scatters" */
+const char *words_chain(const CaseCause *cause, Arena *arena);

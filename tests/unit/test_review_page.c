@@ -1,0 +1,395 @@
+/* The page of a review: well formed whatever the names are, nothing loaded from anywhere, and
+ * drawings that say what the figures say. */
+#include "check.h"
+
+#include <ctype.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "base/file_write.h"
+#include "review/output/review_bar.h"
+#include "review/output/review_words.h"
+#include "verdict_fixture.h"
+
+static Arena arena;
+
+static const char *fresh_name(const char *ending)
+{
+    char name[64];
+    snprintf(name, sizeof name, "test_review_page_XXXXXX%s", ending);
+    int handle = mkstemps(name, (int)strlen(ending));
+    assert_true(handle >= 0);
+    close(handle);
+    return arena_format(&arena, "%s", name);
+}
+
+static const char *page_of(const ReviewPage *page)
+{
+    Error       err = {0};
+    FileBytes   bytes;
+    const char *path = fresh_name(".html");
+    if (!review_page_write(page, path, &err)) fail_msg("%s", err.text);
+    assert_true(file_read(path, (size_t)1 << 28, &arena, &bytes, &err));
+    remove(path);
+    assert_int_equal(bytes.size, strlen((const char *)bytes.data));
+    return (const char *)bytes.data;
+}
+
+static int count_of(const char *text, const char *part)
+{
+    int count = 0;
+    for (const char *p = text; (p = strstr(p, part)); p++) count++;
+    return count;
+}
+
+/* ---- well formed ------------------------------------------------------------------------ */
+
+typedef struct Tag {
+    char        name[24];
+    bool        is_end, is_empty;
+    const char *after;
+} Tag;
+
+/* Reads a tag at '<': a name, attributes name="value" without '<' in them, or '>' at once. */
+static Tag read_tag(const char *at)
+{
+    static const char *const EMPTY[] = {"meta", "img", "br"};
+    Tag    tag = {.is_end = at[1] == '/'};
+    size_t length = 0;
+    at += 1 + tag.is_end;
+    for (; isalnum((unsigned char)at[length]); length++) assert_true(length < 23);
+    if (length == 0) fail_msg("a stray '<': %.60s", at - 1);
+    memcpy(tag.name, at, length);
+    for (at += length; *at == ' ';) {
+        size_t name = strspn(at += 1, "abcdefghijklmnopqrstuvwxyz-ABCDEFGHIJKLMNOPQRSTUVWXYZ");
+        at += name;
+        if (*at != '=') continue; /* open */
+        size_t value = strcspn(at + 2, "\"<");
+        if (name == 0 || at[1] != '"' || at[2 + value] != '"') fail_msg("at %.60s", at);
+        at += value + 3;
+    }
+    tag.is_empty = *at == '/';
+    at += tag.is_empty;
+    if (*at != '>') fail_msg("a tag does not end: %.60s", at);
+    for (size_t i = 0; i < 3; i++) tag.is_empty |= !strcmp(tag.name, EMPTY[i]);
+    tag.after = at + 1;
+    return tag;
+}
+
+/* Every tag has its end, in order; style and script hold what they like. */
+static void assert_well_formed(const char *page)
+{
+    static Tag open[64];
+    int        depth = 0;
+    assert_int_equal(strncmp(page, "<!DOCTYPE html>", 15), 0);
+    for (const char *at = strchr(page + 1, '<'); at; at = strchr(at, '<')) {
+        Tag tag = read_tag(at);
+        at = tag.after;
+        if (tag.is_end) {
+            if (depth == 0 || strcmp(open[--depth].name, tag.name) != 0)
+                fail_msg("</%s> at %.60s", tag.name, at);
+        } else if (!strcmp(tag.name, "style") || !strcmp(tag.name, "script")) {
+            at = strstr(at, arena_format(&arena, "</%s>", tag.name));
+            assert_non_null(at);
+            at = strchr(at, '>');
+        } else if (!tag.is_empty) {
+            assert_true(depth < 64);
+            open[depth++] = tag;
+        }
+    }
+    assert_int_equal(depth, 0);
+}
+
+/* The value of an attribute at `at`, behind its quote. */
+static const char *value_at(const char *at)
+{
+    return arena_string(&arena, at, strcspn(at, "\""));
+}
+
+/* Pictures are data, links stay in the page and lead somewhere, ids are unique. */
+static void assert_self_contained(const char *page)
+{
+    static const char *const NEVER[] = {"src=\"http", "href=\"http", "url(", "@import", "<link",
+                                        "<iframe", "<base", "srcset"};
+    for (size_t i = 0; i < sizeof NEVER / sizeof *NEVER; i++)
+        if (strstr(page, NEVER[i])) fail_msg("there is %s", NEVER[i]);
+    for (const char *at = page; (at = strstr(at, " src=\"")); at++)
+        assert_int_equal(strncmp(at + 6, "data:image/", 11), 0);
+    for (const char *at = page; (at = strstr(at, " href=\"")); at++) {
+        const char *to = value_at(at + 7);
+        if (!strncmp(to, "data:image/png;", 15)) continue;
+        assert_int_equal(to[0], '#');
+        if (count_of(page, arena_format(&arena, " id=\"%s\"", to + 1)) != 1)
+            fail_msg("%s leads nowhere", to);
+    }
+    for (const char *at = page; (at = strstr(at, " id=\"")); at++)
+        assert_int_equal(count_of(page, arena_format(&arena, " id=\"%s\"", value_at(at + 5))),
+                         1);
+}
+
+/* ---- pages ------------------------------------------------------------------------------ */
+
+static const char *full_page(const Review *review)
+{
+    static const ReviewFact  FACTS[] = {{WILD_NAME, WILD_NAME}};
+    static const char *const COMMANDS[] = {WILD_NAME, "parhelion review x.json -o y"};
+    ReviewMap      map = fixture_map(&arena, &review->sweeps[0]);
+    SunPath        path = fixture_path(&arena, WILD_NAME, 23.4);
+    ReviewCalendar calendar = fixture_calendar(&arena, &review->sweeps[0]);
+    Review         before = fixture_review(&arena);
+    ReviewDiff     diff = review_diff(&before, review, WILD_NAME, "now", &arena);
+    Picture        picture = picture_create(3, 2, &arena);
+    ReviewPicture  shown = {.of = &review->cases[0], .title = WILD_NAME, .caption = WILD_NAME,
+                            .picture = &picture};
+    map.paths = &path;
+    map.path_count = 1;
+    calendar.clock = WILD_NAME;
+    return page_of(&(ReviewPage){.review = review, .pictures = &shown, .picture_count = 1,
+                                 .maps = &map, .map_count = 1, .calendars = &calendar,
+                                 .calendar_count = 1, .facts = FACTS, .fact_count = 1,
+                                 .commands = COMMANDS, .command_count = 2, .diff = &diff});
+}
+
+TEST(a_page_is_well_formed_whatever_the_names_are)
+{
+    (void)state;
+    static const char *const NOT_NUMBERS[] = {">nan", "\"nan", "nan%", "nan "};
+    Review reviews[] = {fixture_odd_review(&arena), fixture_review(&arena)};
+    for (int i = 0; i < 2; i++) {
+        const char *page = full_page(&reviews[i]);
+        assert_well_formed(page);
+        assert_self_contained(page);
+        assert_null(strstr(page, WILD_NAME));
+        assert_null(strstr(page, "<a b="));
+        for (int k = 0; k < 4; k++) assert_null(strstr(page, NOT_NUMBERS[k]));
+    }
+}
+
+TEST(a_page_of_nothing_says_so)
+{
+    (void)state;
+    Review      none = {.pass = true};
+    const char *page = page_of(&(ReviewPage){.review = &none});
+    assert_well_formed(page);
+    assert_self_contained(page);
+    assert_non_null(strstr(page, "<b>Passes</b>: nothing was asked"));
+    assert_non_null(strstr(page, "No limit was asked"));
+}
+
+TEST(a_page_holds_every_case)
+{
+    (void)state;
+    enum { CASES = 200 };
+    Review one = fixture_review(&arena), many = one;
+    many.cases = ARENA_NEW(&arena, ReviewCase, CASES);
+    many.case_count = CASES;
+    for (int i = 0; i < CASES; i++) {
+        many.cases[i] = one.cases[i % 20];
+        many.cases[i].condition = arena_format(&arena, "light %d", i / 5);
+    }
+    review_decide(&many);
+    const char *page = page_of(&(ReviewPage){.review = &many});
+    assert_well_formed(page);
+    assert_self_contained(page);
+    assert_int_equal(count_of(page, "<details class=\"case "), CASES + many.sweep_count);
+    assert_true(strlen(page) < 2000000);
+}
+
+/* Top: the answer, the worst symbol, when, why; the limit that nobody read is marked. */
+TEST(the_first_line_says_it_all)
+{
+    (void)state;
+    Review            review = fixture_review(&arena);
+    const ReviewCase *worst = review_worst(&review, arena);
+    const char       *page = page_of(&(ReviewPage){.review = &review});
+    const char       *line = strstr(page, "<h1>");
+    Text              text = {.arena = &arena};
+    assert_non_null(line);
+    text_add_bytes(&text, line, (size_t)(strstr(line, "</h1>") - line));
+    assert_int_equal(worst->verdict, VERDICT_FAIL);
+    const char *parts[] = {"<b>Fails</b>", worst->symbol, worst->eye, worst->condition,
+                           words_ratio(worst->contrast_ratio, &arena), "62 %", "→ sky"};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        if (!strstr(text.data, parts[i])) fail_msg("no %s in %s", parts[i], text.data);
+    assert_int_equal(count_of(page, "not read in the standard"), 3); /* three limits */
+}
+
+TEST(what_changed_is_on_the_page)
+{
+    (void)state;
+    Review     before = fixture_review(&arena), after = fixture_review(&arena);
+    after.cases[3].contrast_ratio = 77.5;
+    after.cases[3].contrast_low = after.cases[3].contrast_high = 77.5;
+    ReviewDiff  diff = review_diff(&before, &after, "old", "new", &arena);
+    const char *page = page_of(&(ReviewPage){.review = &after, .diff = &diff});
+    assert_non_null(strstr(page, "→ 77.5 : 1"));
+    assert_non_null(strstr(page, "Before: old. Now: new."));
+    assert_int_equal(count_of(page, "more contrast"), 1);
+}
+
+/* ---- pictures --------------------------------------------------------------------------- */
+
+TEST(pictures_go_into_the_page_as_they_stand)
+{
+    (void)state;
+    Error         err = {0};
+    Review        review = fixture_review(&arena);
+    const char   *file = fresh_name(".png");
+    ReviewPicture shown = {.of = &review.sweeps[1].worst, .title = "frame", .file = file};
+    ReviewPage    page = {.review = &review, .pictures = &shown, .picture_count = 1};
+    assert_true(file_write(file, "Man", 3, &err));
+    const char *text = page_of(&page);
+    assert_int_equal(count_of(text, "src=\"data:image/png;base64,TWFu\""), 1);
+    assert_true(strstr(text, "TWFu") > strstr(text, "id=\"s1\""));
+    remove(file);
+    const char *path = fresh_name(".html");
+    assert_false(review_page_write(&page, path, &err));
+    assert_string_equal(err.file, file);
+    shown.file = "frame.exr";
+    assert_false(review_page_write(&page, path, &err));
+    assert_non_null(strstr(err.text, "wanted a picture ending in .png or .jpg"));
+    remove(path);
+}
+
+TEST(a_page_that_cannot_be_written_is_an_error)
+{
+    (void)state;
+    Error  err = {0};
+    Review none = {0};
+    assert_false(review_page_write(&(ReviewPage){.review = &none}, "/nowhere/at/all", &err));
+    assert_int_equal(err.code, ERROR_OUTPUT);
+}
+
+/* ---- drawings --------------------------------------------------------------------------- */
+
+/* The number behind `name` in the first element of the class. */
+static double attribute_of(const char *svg, const char *class, const char *name)
+{
+    const char *at = strstr(svg, arena_format(&arena, "class=\"%s\"", class));
+    at = at ? strstr(at, arena_format(&arena, " %s=\"", name)) : NULL;
+    assert_non_null(at);
+    return strtod(strchr(at, '"') + 1, NULL);
+}
+
+/* The bright part's bar ends beyond the mark exactly where the contrast keeps the limit: the
+ * end over the mark is the contrast over the limit. */
+TEST(the_bright_bar_reaches_the_mark_when_contrast_does)
+{
+    (void)state;
+    Review review = fixture_review(&arena);
+    for (int i = 0; i < 20; i++) {
+        Text              html = {.arena = &arena};
+        const ReviewCase *c = &review.cases[i];
+        review_bar_add_luminances(&html, c, &arena);
+        double end = attribute_of(html.data, "emit", "x") +
+                     attribute_of(html.data, "emit", "width");
+        double mark = attribute_of(html.data, "mark", "x");
+        assert_close(end / mark, c->contrast_ratio / c->limits[0].value, 2e-3);
+    }
+}
+
+TEST(the_mark_follows_the_kind_of_the_limit)
+{
+    (void)state;
+    static const struct { double found, value, ratio; } FORMS[] = {
+        {3, 2, 2}, {2, 1.5, 2.5}, {0.5, 0.6, 4}, {2.5, 2, 2}}; /* the last with the veil */
+    for (int i = 0; i < 4; i++) {
+        LimitVerdict limit = {.value = FORMS[i].value, .found = FORMS[i].found};
+        ReviewCase   c = {.luminance_cd_m2 = {300, 0, 100, 60, 40, 100.0 / 3},
+                          .contrast_ratio = i < 3 ? 3 : 4, .contrast_with_veil = 2.5,
+                          .limits = &limit, .limit_count = 1, .limit_id = 0};
+        Text         html = {.arena = &arena};
+        c.luminance_cd_m2.foreground = i < 3 ? 200 : 300;
+        review_bar_add_luminances(&html, &c, &arena);
+        assert_non_null(strstr(html.data, arena_format(&arena, ">%s : 1 needs",
+                                                       words_number(FORMS[i].ratio, &arena))));
+    }
+}
+
+TEST(margins_grow_by_octaves)
+{
+    (void)state;
+    static const double MARGINS[] = {1, 0.4142135623730951, 0, -0.2928932188134524, -0.5, -0.9};
+    static const double PLACES[] = {88, 66, 44, 22, 0, 0};
+    for (int i = 0; i < 6; i++) {
+        double       found = 2 * (1 + MARGINS[i]);
+        LimitVerdict limit = {.value = 2, .found = found, .low = found, .high = found,
+                              .margin = MARGINS[i],
+                              .verdict = MARGINS[i] < 0 ? VERDICT_FAIL : VERDICT_PASS};
+        const char  *class = MARGINS[i] < 0 ? "bad" : "good";
+        Text         html = {.arena = &arena};
+        review_bar_add_margin(&html, &limit);
+        double x = attribute_of(html.data, class, "x"), width = attribute_of(html.data, class,
+                                                                             "width");
+        assert_near(MARGINS[i] < 0 ? x : x + width, PLACES[i], 0.06);
+    }
+}
+
+/* One failing cell of three by three has a border of four edges; a failing corner too, for
+ * nothing fails outside. */
+TEST(the_border_encloses_what_fails)
+{
+    (void)state;
+    static const struct { int cell; const char *path; } CASES[] = {
+        {4, "d=\"M1 2H2M1 1H2M1 2V1M2 2V1\""}, {0, "d=\"M0 3H1M0 2H1M0 3V2M1 3V2\""}};
+    static const float contrast[9] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
+    for (int i = 0; i < 2; i++) {
+        Error         err = {0};
+        unsigned char verdict[9] = {0};
+        Text          html = {.arena = &arena};
+        verdict[CASES[i].cell] = VERDICT_FAIL;
+        ReviewMap map = {.azimuth_deg = {0, 10, 3}, .elevation_deg = {0, 10, 3},
+                         .contrast = contrast, .margin = contrast, .verdict = verdict};
+        Arena more = arena_reserve((size_t)1 << 24);
+        assert_true(review_map_add(&html, &map, &more, &err));
+        arena_release(&more);
+        if (!strstr(html.data, CASES[i].path)) fail_msg("%s", strstr(html.data, "border"));
+    }
+}
+
+/* ---- words ------------------------------------------------------------------------------ */
+
+TEST(figures_are_said_in_words)
+{
+    (void)state;
+    LimitVerdict ratio = {.kind = "contrast_ratio", .unit = "1", .value = 2};
+    LimitVerdict height = {.kind = "character_height", .unit = "arcmin", .value = 12};
+    assert_string_equal(words_figure(NAN, &arena), "–");
+    assert_string_equal(words_figure(INFINITY, &arena), "∞");
+    assert_string_equal(words_margin(-0.18, &arena), "−18 %");
+    assert_string_equal(words_margin(0.042, &arena), "+4.2 %");
+    assert_string_equal(words_margin(NAN, &arena), "–");
+    assert_string_equal(words_share(0.62, &arena), "62 %");
+    assert_string_equal(words_share(0.0001, &arena), "less than 0.1 %");
+    assert_string_equal(words_share(0, &arena), "0 %");
+    assert_string_equal(words_minutes(85, &arena), "1 h 25 min");
+    assert_string_equal(words_minutes(120, &arena), "2 h");
+    assert_string_equal(words_minutes(NAN, &arena), "–");
+    assert_string_equal(words_wanted(&ratio, &arena), "at least 2 : 1");
+    height.is_upper = height.is_advice = true;
+    assert_string_equal(words_wanted(&height, &arena), "at most 12 arc min (advice)");
+}
+
+TEST(the_sun_is_named_by_its_direction)
+{
+    (void)state;
+    static const struct { double azimuth; const char *world, *vehicle; } SUNS[] = {
+        {0, "north", "ahead"}, {359, "north", "ahead"},
+        {-46, "north-west", "ahead on the left"},
+        {135, "south-east", "behind on the right"}, {180, "south", "behind"}};
+    for (int i = 0; i < 5; i++) {
+        ReviewCase c = {.has_sun = true, .sun_azimuth_deg = SUNS[i].azimuth,
+                        .sun_elevation_deg = 30};
+        assert_non_null(strstr(words_sun(&c, false, &arena), SUNS[i].world));
+        assert_non_null(strstr(words_sun(&c, true, &arena), SUNS[i].vehicle));
+    }
+    assert_string_equal(words_sun(&(ReviewCase){0}, false, &arena),
+                        "no sun above the horizon");
+}
+
+int main(void)
+{
+    arena = arena_reserve((size_t)2 << 30);
+    return run_cases(NULL, NULL);
+}

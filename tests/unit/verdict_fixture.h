@@ -1,0 +1,278 @@
+/* verdict_fixture.h -- reviews for tests of what is written from them: a plausible one, and one
+ * of everything that can be odd.
+ *
+ * The plausible one follows the closed forms: contrast is (bright + reflected) / (dark +
+ * reflected) with an interval of 3 %, limits are 5, 5, 3 and 2 by night, twilight, day and sun,
+ * a height of at least 12 arc minutes.
+ */
+#pragma once
+#include <math.h>
+#include <string.h>
+
+#include "base/arena.h"
+#include "review/output/review_decide.h"
+#include "review/output/review_page.h"
+
+static const char WILD_NAME[] = "<a b=\"c\">&amp; 'q', \xc3\xa4 \xe9\x80\x9f\xe5\xba\xa6;\n=1";
+
+typedef struct FixtureLight {
+    const char *name;
+    Ambient     ambient;
+    double      azimuth, elevation, mirror, scattered, veil, level, lux;
+} FixtureLight;
+
+static const FixtureLight FIXTURE_LIGHTS[] = {
+    {"night", AMBIENT_NIGHT, NAN, NAN, 0.004, 0.002, 0.01, 0.04, 0.8},
+    {"overcast", AMBIENT_DAY, NAN, NAN, 21, 9, 1.5, 0.6, 3200},
+    {"noon", AMBIENT_SUN, 178.4, 62.1, 96, 212, 18, 1, 41000},
+    {"low sun behind", AMBIENT_SUN, 262.5, 11.4, 402, 118, 7, 1, 18500}};
+
+static inline const char *const *fixture_chain(Arena *arena, const char *first,
+                                               const char *second, const char *third)
+{
+    const char **chain = ARENA_NEW(arena, const char *, 3);
+    chain[0] = first;
+    chain[1] = second;
+    chain[2] = third;
+    return chain;
+}
+
+static inline Verdict fixture_verdict(double low, double high, double limit)
+{
+    return low >= limit ? VERDICT_PASS : high < limit ? VERDICT_FAIL : VERDICT_TOO_CLOSE;
+}
+
+static inline const LimitVerdict *fixture_limits(Arena *arena, const ReviewCase *c)
+{
+    static const double WANTED[4] = {5, 5, 3, 2};
+    static const char *const NAMES[4] = {"contrast at night", "contrast in twilight",
+                                         "contrast by day", "contrast in the sun"};
+    LimitVerdict *limits = ARENA_NEW(arena, LimitVerdict, 3);
+    double        wanted = WANTED[c->ambient], height = c->height_arcmin;
+    limits[0] = (LimitVerdict){
+        .name = NAMES[c->ambient], .kind = "contrast_ratio", .unit = "1",
+        .source = "clause 4.3.2 as it is commonly quoted", .value = wanted,
+        .found = c->contrast_ratio, .low = c->contrast_low, .high = c->contrast_high,
+        .margin = c->contrast_ratio / wanted - 1,
+        .verdict = fixture_verdict(c->contrast_low, c->contrast_high, wanted)};
+    limits[1] = (LimitVerdict){
+        .name = "height of characters", .kind = "character_height", .unit = "arcmin",
+        .source = "clause 4.5.2", .read_in_the_standard = true, .value = 12, .found = height,
+        .low = height, .high = height, .margin = height / 12 - 1,
+        .verdict = fixture_verdict(height, height, 12)};
+    limits[2] = limits[1];
+    limits[2].name = "height of characters, recommended";
+    limits[2].is_advice = true;
+    limits[2].value = 20;
+    limits[2].margin = height / 20 - 1;
+    limits[2].verdict = fixture_verdict(height, height, 20);
+    return limits;
+}
+
+static inline const CaseCause *fixture_causes(Arena *arena, double reflected)
+{
+    CaseCause *causes = ARENA_NEW(arena, CaseCause, 3);
+    double     share[3] = {0.62, 0.21, 0.09};
+    causes[0] = (CaseCause){.chain = fixture_chain(arena, "display cluster: mirrors",
+                                                   "glass Window_RR: through", "sky"),
+                            .links = 3};
+    causes[1] = (CaseCause){.chain = fixture_chain(arena, "display cluster: scatters",
+                                                   "glass Windscreen: through", "sun"),
+                            .links = 3};
+    causes[2] = (CaseCause){.chain = fixture_chain(arena, "display cluster: mirrors",
+                                                   "shirt of the driver: scatters", "sun"),
+                            .links = 3};
+    for (int i = 0; i < 3; i++) {
+        causes[i].share = share[i];
+        causes[i].cd_m2 = share[i] * reflected;
+        causes[i].low = 0.97 * causes[i].cd_m2;
+        causes[i].high = 1.03 * causes[i].cd_m2;
+    }
+    return causes;
+}
+
+static inline const CaseRemedy *fixture_remedies(Arena *arena, const ReviewCase *c)
+{
+    CaseRemedy *remedies = ARENA_NEW(arena, CaseRemedy, 2);
+    double      scale = c->limits[0].value / c->contrast_ratio * 1.4;
+    remedies[0] = (CaseRemedy){"make the display brighter", c->limits[0].value,
+                               scale * c->level};
+    remedies[1] = (CaseRemedy){"coat the cover glass: half of the mirror's reflection",
+                               1.3 * c->contrast_ratio, NAN};
+    return remedies;
+}
+
+/* Of one symbol under a light: limits, verdict, causes and all follow. */
+static inline ReviewCase fixture_case(Arena *arena, const FixtureLight *light, const char *eye,
+                                      const char *symbol, double white_cd_m2)
+{
+    double     reflected = light->mirror + light->scattered;
+    double     bright = white_cd_m2 * light->level, dark = bright / 900;
+    ReviewCase c = {
+        .condition = light->name, .eye = eye, .symbol = symbol, .display = "cluster",
+        .ambient = light->ambient, .has_sun = !isnan(light->elevation),
+        .sun_azimuth_deg = light->azimuth, .sun_elevation_deg = light->elevation,
+        .luminance_cd_m2 = {bright, dark, reflected, light->mirror, light->scattered,
+                            light->veil},
+        .contrast_ratio = (bright + reflected) / (dark + reflected),
+        .height_arcmin = 11 + white_cd_m2 / 100, .jnd = 212, .visible_share = 1,
+        .level = light->level, .display_lux = light->lux, .limit_count = 3, .limit_id = 0,
+        .cause_count = 3, .remedy_count = 2};
+    double veiled = reflected + light->veil;
+    c.contrast_with_veil = (bright + veiled) / (dark + veiled);
+    c.contrast_low = 0.97 * c.contrast_ratio;
+    c.contrast_high = 1.03 * c.contrast_ratio;
+    c.limits = fixture_limits(arena, &c);
+    c.margin = c.limits[0].margin;
+    for (int i = 0; i < 2; i++)
+        if (c.limits[i].verdict == VERDICT_FAIL || c.verdict == VERDICT_PASS)
+            c.verdict = c.limits[i].verdict;
+    c.causes = fixture_causes(arena, reflected);
+    c.remedies = fixture_remedies(arena, &c);
+    return c;
+}
+
+static inline ReviewSweep fixture_sweep(Arena *arena, const char *condition, double minutes)
+{
+    FixtureLight light = FIXTURE_LIGHTS[3];
+    light.name = condition;
+    light.azimuth = 158;
+    return (ReviewSweep){.condition = condition, .eye = "driver", .symbol = "speed",
+                         .cases = 35232, .failed_share = 0.037,
+                         .longest_failure_minutes = minutes,
+                         .worst = fixture_case(arena, &light, "driver", "speed", 440),
+                         .table = "sweeps/any_sun_driver_speed.csv"};
+}
+
+/* Three symbols, two eyes, four lights; two sweeps. One symbol hides behind the wheel. */
+static inline Review fixture_review(Arena *arena)
+{
+    static const char *const EYES[] = {"driver", "tall driver"};
+    static const char *const SYMBOLS[] = {"speed", "range", "fuel telltale"};
+    static const double      WHITE[] = {640, 540, 380};
+    static const char *const NOTES[] = {
+        "The panel was measured up to 70°; beyond it values are extrapolated.",
+        "Limits are those commonly quoted; the standard itself was not read for all of them."};
+    static ReviewResponse responses[] = {{"speed, driver: reflected", 1200000, 4200000, 0.004},
+                                         {"speed, driver: veil", 400000, 310000, 0.011}};
+    Review review = {.title = "Cluster and centre display",
+                     .profile = "ISO 15008: in-vehicle visual presentation, third edition",
+                     .cases = ARENA_NEW(arena, ReviewCase, 24), .case_count = 24,
+                     .sweeps = ARENA_NEW(arena, ReviewSweep, 2), .sweep_count = 2,
+                     .responses = responses, .response_count = 2,
+                     .notes = NOTES, .note_count = 2};
+    for (int i = 0; i < 24; i++)
+        review.cases[i] = fixture_case(arena, &FIXTURE_LIGHTS[i % 4], EYES[i / 12],
+                                       SYMBOLS[i / 4 % 3], WHITE[i / 4 % 3]);
+    ReviewCase *hidden = &review.cases[20];
+    hidden->visible_share = 0;
+    hidden->contrast_ratio = hidden->contrast_low = hidden->contrast_high = NAN;
+    hidden->contrast_with_veil = hidden->margin = hidden->jnd = hidden->height_arcmin = NAN;
+    hidden->limit_count = hidden->cause_count = hidden->remedy_count = 0;
+    hidden->limit_id = -1;
+    hidden->verdict = VERDICT_NOT_VISIBLE;
+    review.sweeps[0] = fixture_sweep(arena, "any sun", NAN);
+    review.sweeps[1] = fixture_sweep(arena, "a year", 85);
+    review_decide(&review);
+    return review;
+}
+
+/* Names and figures that no one expects. */
+static inline Review fixture_odd_review(Arena *arena)
+{
+    static const char *const CHAIN[] = {WILD_NAME, "", WILD_NAME};
+    static const char *const NOTES[] = {WILD_NAME, ""};
+    static const LimitVerdict LIMITS[] = {
+        {WILD_NAME, "contrast_ratio", "1", WILD_NAME, 2, false, false, false, NAN, NAN, NAN,
+         NAN, VERDICT_TOO_CLOSE},
+        {WILD_NAME, "glare", WILD_NAME, WILD_NAME, 0.1, true, true, true, 1e-9, 1e-10, 1e12,
+         1e8 - 1, VERDICT_PASS}};
+    static const CaseCause  CAUSES[] = {{CHAIN, 3, NAN, NAN, NAN, NAN}, {CHAIN, 0, 1, 0, 0, 0}};
+    static const CaseRemedy REMEDIES[] = {{WILD_NAME, NAN, NAN}, {"", 3, 4}};
+    static ReviewResponse   responses[] = {{WILD_NAME, 0, 0, NAN}};
+    ReviewCase wild = {.condition = WILD_NAME, .eye = WILD_NAME, .symbol = WILD_NAME,
+                       .display = WILD_NAME, .ambient = AMBIENT_TWILIGHT, .has_sun = true,
+                       .sun_azimuth_deg = -1e-7, .sun_elevation_deg = NAN,
+                       .luminance_cd_m2 = {NAN, 0, 1e-12, NAN, NAN, 1e9},
+                       .contrast_ratio = NAN, .contrast_low = NAN, .contrast_high = NAN,
+                       .contrast_with_veil = NAN, .height_arcmin = NAN, .jnd = NAN,
+                       .visible_share = NAN, .level = NAN, .display_lux = NAN,
+                       .limits = LIMITS, .limit_count = 2, .limit_id = 0, .margin = NAN,
+                       .verdict = VERDICT_TOO_CLOSE, .causes = CAUSES, .cause_count = 2,
+                       .remedies = REMEDIES, .remedy_count = 2, .frame = WILD_NAME};
+    ReviewCase bare = {.condition = "", .eye = "", .symbol = "", .display = NULL,
+                       .luminance_cd_m2 = {1, 2, 3, 1, 2, 0}, .contrast_ratio = 1.25,
+                       .contrast_low = 1.25, .contrast_high = 1.25, .contrast_with_veil = 1.25,
+                       .height_arcmin = 1.0 / 3, .jnd = 0, .visible_share = 1, .level = 1,
+                       .display_lux = 0, .limit_id = -1, .margin = NAN,
+                       .verdict = VERDICT_PASS};
+    Review review = {.title = WILD_NAME, .profile = WILD_NAME,
+                     .cases = ARENA_NEW(arena, ReviewCase, 2), .case_count = 2,
+                     .sweeps = ARENA_NEW(arena, ReviewSweep, 1), .sweep_count = 1,
+                     .responses = responses, .response_count = 1, .notes = NOTES,
+                     .note_count = 2, .is_strict = true};
+    review.cases[0] = wild;
+    review.cases[1] = bare;
+    review.sweeps[0] = (ReviewSweep){WILD_NAME, WILD_NAME, WILD_NAME, 0, NAN, NAN, wild,
+                                     WILD_NAME};
+    review_decide(&review);
+    return review;
+}
+
+/* ---- maps and calendars ----------------------------------------------------------------- */
+
+/* Fails where the sun stands behind and low: a disc of 25 degrees. */
+static inline ReviewMap fixture_map(Arena *arena, const ReviewSweep *sweep)
+{
+    enum { COLUMNS = 181, ROWS = 41 };
+    float         *contrast = ARENA_NEW(arena, float, COLUMNS * ROWS);
+    float         *margin = ARENA_NEW(arena, float, COLUMNS * ROWS);
+    unsigned char *verdict = ARENA_NEW(arena, unsigned char, COLUMNS * ROWS);
+    for (int i = 0; i < COLUMNS * ROWS; i++) {
+        double azimuth = i % COLUMNS * 2, elevation = i / COLUMNS * 2;
+        double from = hypot(azimuth - 160, 1.5 * (elevation - 14));
+        double ratio = 0.4 + 0.6 * from / 25 + 0.2 * sin(azimuth / 9) * sin(elevation / 7);
+        margin[i] = elevation > 76 ? NAN : (float)(ratio - 1);
+        contrast[i] = elevation > 76 ? NAN : (float)(2 * ratio);
+        verdict[i] = ratio < 0.98 ? VERDICT_FAIL : ratio < 1.02 ? VERDICT_TOO_CLOSE
+                                                                : VERDICT_PASS;
+    }
+    return (ReviewMap){.of = sweep, .is_of_vehicle = true, .azimuth_deg = {0, 2, COLUMNS},
+                       .elevation_deg = {0, 2, ROWS}, .contrast = contrast, .margin = margin,
+                       .verdict = verdict};
+}
+
+/* Where the sun goes at 48 degrees north with the vehicle towards the north. */
+static inline SunPath fixture_path(Arena *arena, const char *name, double declination_deg)
+{
+    enum { STEPS = 97 };
+    double *azimuth = ARENA_NEW(arena, double, STEPS), *elevation = ARENA_NEW(arena, double,
+                                                                              STEPS);
+    double to_radians = acos(-1) / 180, lat = 48 * to_radians;
+    double dec = declination_deg * to_radians;
+    int    count = 0;
+    for (int i = 0; i < STEPS; i++) {
+        double hour = (i - 48) * 3.75 * to_radians;
+        double up = sin(lat) * sin(dec) + cos(lat) * cos(dec) * cos(hour);
+        double west = cos(dec) * sin(hour);
+        double south = sin(lat) * cos(dec) * cos(hour) - cos(lat) * sin(dec);
+        if (up < 0) continue;
+        elevation[count] = asin(up) / to_radians;
+        azimuth[count++] = 180 + atan2(west, south) / to_radians;
+    }
+    return (SunPath){name, azimuth, elevation, count};
+}
+
+static inline ReviewCalendar fixture_calendar(Arena *arena, const ReviewSweep *sweep)
+{
+    enum { DAYS = 365, STEPS = 24 };
+    float *share = ARENA_NEW(arena, float, DAYS * STEPS);
+    for (int i = 0; i < DAYS * STEPS; i++) {
+        double day = i / STEPS, hour = i % STEPS;
+        double half = 6 - 2.2 * cos((day + 10) / 365 * 2 * acos(-1));
+        double low = fabs(hour - 12) / half;
+        share[i] = low > 1 ? NAN : low > 0.72 ? (float)((low - 0.72) * 2.2) : 0;
+    }
+    return (ReviewCalendar){.of = sweep, .year = 2026, .days = DAYS, .steps_a_day = STEPS,
+                            .clock = "UTC", .headings = 8, .failed_share = share};
+}
