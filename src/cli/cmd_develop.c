@@ -13,6 +13,7 @@
 typedef struct DevelopWords {
     const char    *frame, *output;
     DevelopOptions options;
+    EyeOption      eye;
     Cli            cli;
 } DevelopWords;
 
@@ -24,6 +25,7 @@ static bool parse(int argc, char **argv, Arena *arena, DevelopWords *out, Error 
     const Option options[] = {
         {"-o", OPTION_TEXT, "FILE", "the picture: .png, .jpg or .tif", .out = &out->output},
         LOOK_OPTIONS(o),
+        EYE_OPTIONS(&out->eye),
         {"--false-colour", OPTION_CHOICE, "luminance", "luminance as colours, with the scale",
          .out = &kind},
         {"--range", OPTION_NUMBERS, "LOW,HIGH",
@@ -48,6 +50,7 @@ static bool parse(int argc, char **argv, Arena *arena, DevelopWords *out, Error 
         return error_set(err, ERROR_USAGE, "no output is named — add -o FRAME.png");
     ExposureRequest unused;
     return picture_check_name(out->output, o->bits, err) &&
+           eye_option_check(&out->eye, err) &&
            (!o->exposure || exposure_parse(o->exposure, &unused, err));
 }
 
@@ -78,7 +81,8 @@ static void print_text(const DevelopWords *typed, const LookReport *look, Arena 
                r->display, r->view, r->grey_cd_m2, r->ev, r->config,
                look_options_words(look, &scratch));
     else
-        printf("%s%s%s\n", typed->output, r->scale[0] ? ": " : "", r->scale);
+        printf("%s%s%s%s\n", typed->output, r->scale[0] ? ": " : "", r->scale,
+               look_options_words(look, &scratch));
 }
 
 static bool develop(DevelopWords *typed, Arena *arena, Error *err)
@@ -86,7 +90,8 @@ static bool develop(DevelopWords *typed, Arena *arena, Error *err)
     FrameImage    frame;
     LookReport    look;
     if (!frame_read(typed->frame, arena, &frame, err)) return false;
-    const LookRequest request = {&frame, &typed->options, typed->output, typed->cli.threads};
+    const LookRequest request = {&frame, &typed->options, typed->output, typed->cli.threads,
+                                 &typed->eye};
     if (!look_options_develop(&request, *arena, &look, err)) return false;
     if (look.develop.is_developed && look.develop.nonfinite_pixels > 0)
         fprintf(stderr,

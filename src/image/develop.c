@@ -159,6 +159,7 @@ bool develop_picture(const FrameImage *frame, const DevelopOptions *options, Are
     } else {
         picture = layer_view_picture(&view, arena, made.scale);
     }
+    if (options->eye) snprintf(made.eye, sizeof made.eye, "%s", options->eye);
     made.nonfinite_pixels -= pixels_outside_data(frame);
     if (view.has_gaps || view.show != SHOW_LIGHT) made.nonfinite_pixels = 0;
     made.width = picture.width;
@@ -170,10 +171,13 @@ bool develop_picture(const FrameImage *frame, const DevelopOptions *options, Are
 
 static const char *description(const DevelopReport *report, Arena *arena)
 {
-    if (!report->is_developed) return report->scale[0] ? report->scale : NULL;
-    return arena_format(arena, "%s%smiddle grey %.6g cd/m2 (EV %.3f), display %s, view %s, %s",
+    const char *eye = report->eye[0] ? arena_format(arena, "%s; ", report->eye) : "";
+    if (!report->is_developed)
+        return report->scale[0] ? arena_format(arena, "%s%s", eye, report->scale) : NULL;
+    return arena_format(arena,
+                        "%s%s%smiddle grey %.6g cd/m2 (EV %.3f), display %s, view %s, %s",
                         report->is_denoised ? "denoised preview, not for figures; " : "",
-                        report->is_adapted ? "locally adapted, not for figures; " : "",
+                        report->is_adapted ? "locally adapted, not for figures; " : "", eye,
                         report->grey_cd_m2, report->ev, report->display, report->view,
                         report->config);
 }

@@ -23,6 +23,7 @@ typedef struct DevelopOptions {
     double      range[2];     /* of false colours; both 0: what fits the frame */
     int         adapt;    /* DEVELOP_ADAPT_NONE or _LOCAL: adapt.h */
     bool        is_denoised; /* the frame is a filtered one: said with the picture */
+    const char *eye;         /* as whose eye sees the frame, in words: said as well */
     int         bits;     /* 0 or 8, or 16 */
     const char *frame_name; /* for messages about its layers; may be NULL */
 } DevelopOptions;
@@ -33,6 +34,7 @@ typedef struct DevelopReport {
     double grey_cd_m2;    /* what became middle grey; 0 when not developed */
     double ev;            /* the same as an exposure value */
     bool   is_adapted, is_denoised; /* as asked: a look, of which no figure may be taken */
+    char   eye[128];      /* as asked; else "" */
     char   config[1024], display[128], view[128]; /* "" when not developed */
     long   nonfinite_pixels; /* of light: NaN is shown black, infinity white */
     char   scale[160];    /* of false colours: "0.1 to 1000 cd/m^2, logarithmic", else "" */

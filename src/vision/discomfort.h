@@ -1,9 +1,9 @@
 /* discomfort.h -- figures of glare that disturbs without hiding anything. Secondary ones here:
  * they were fitted to rooms with windows and luminaires, not to cockpits in the sun.
  *
- * Both square the luminance and take the solid angle only once, so that small bright sources (the
- * sun, its glints) weigh more than people say, and as much more as pixels are smaller. Print them
- * with the smallest solid angle among the sources; never let them decide.
+ * Both square the luminance and take the solid angle only once, so that small bright sources
+ * (the sun, its glints) weigh more than people say, and as much more as pixels are smaller.
+ * Print them with the smallest solid angle among the sources; never let them decide.
  *
  * Units    cd m^-2, sr, lx, m^2.
  * Threads  pure functions; sources are only read.

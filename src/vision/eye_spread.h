@@ -4,8 +4,8 @@
  * eye: sr^-1. Over the hemisphere in front it adds up to one, since no light is made: integral
  * of f 2 pi sin theta d theta = 1.
  *
- * Source   CIE 135/1-1999 "Total glare" (J. J. Vos and T. J. T. P. van den Berg), whose constants
- *          stand in HDR-VDP's sources; the report itself was not read.
+ * Source   CIE 135/1-1999 "Total glare" (J. J. Vos and T. J. T. P. van den Berg), whose
+ *          constants stand in HDR-VDP's sources; the report itself was not read.
  *          G. Spencer, P. Shirley, K. Zimmerman, D. Greenberg, "Physically-based glare effects
  *          for digital images", SIGGRAPH 1995, the photopic function.
  * Units    angles in degrees, as in the formulas, 0 to 90.

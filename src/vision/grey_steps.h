@@ -2,8 +2,8 @@
  *
  * Source   DICOM PS3.14, Grayscale Standard Display Function: j = 1 .. 1023 steps from 0.05 to
  *          3993 cd m^-2, a fit to Barten's model for a target of 2 degrees with 4 cycles per
- *          degree. The standard gives a formula for each direction; they differ by at most 0.05
- *          steps (tests/unit/test_vision.c).
+ *          degree. The standard gives a formula for each direction; they differ by less than
+ *          0.1 steps (tests/unit/test_vision.c).
  * Units    cd m^-2; steps without a unit.
  * Threads  pure functions.
  * Fails    never: NaN outside the range.

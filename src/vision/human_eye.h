@@ -1,7 +1,7 @@
 /* human_eye.h -- whose eye it is: what the spread of light inside it depends on.
  *
- * Units    years; pigment of the iris without a unit: 0 very dark, 0.5 brown, 1 green, 1.2 light
- *          blue (the scale of CIE 146:2002, as the comments of HDR-VDP tell it).
+ * Units    years; pigment of the iris without a unit: 0 very dark, 0.5 brown, 1 green, 1.2
+ *          light blue (the scale of CIE 146:2002, as the comments of HDR-VDP tell it).
  * Memory   plain data. Threads: pure functions.
  * Fails    parsing and checking do, with what was found and what is wanted.
  */
@@ -10,8 +10,8 @@
 
 #include "base/error.h"
 
-#define HUMAN_EYE_AGE_MIN 1.0
-#define HUMAN_EYE_AGE_MAX 110.0
+#define HUMAN_EYE_AGE_MIN 10.0
+#define HUMAN_EYE_AGE_MAX 100.0
 #define HUMAN_EYE_PIGMENT_MAX 1.2
 #define HUMAN_EYE_PIGMENT_USUAL 0.5 /* brown, what most people have */
 

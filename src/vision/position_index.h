@@ -2,13 +2,13 @@
  *
  * 1 on the line of sight, more away from it, at most 16.
  *
- * Source   above the line of sight S. K. Guth, "A method for the evaluation of discomfort glare",
- *          Illum. Eng. 58 (1963) 351; below it T. Iwata and M. Tokura, "Position index for a
- *          glare source located below the line of vision", Light. Res. Technol. 29 (1997) 172.
- *          Both as Radiance's evalglare (NREL/Radiance, src/util/evalglare.c) has them. They do
- *          not meet at the horizontal: at 30 degrees beside the line of sight 1.468 from above
- *          and 1.462 from below, at 50 degrees 2.340 and 2.430. Nor is the second without a jump
- *          of its own, at R/D = 0.6, from 1.48 to 1.72.
+ * Source   above the line of sight S. K. Guth, "A method for the evaluation of discomfort
+ *          glare", Illum. Eng. 58 (1963) 351; below it T. Iwata and M. Tokura, "Position index
+ *          for a glare source located below the line of vision", Light. Res. Technol. 29 (1997)
+ *          172. Both as evalglare of NREL's Radiance has them.
+ *          They do not meet at the horizontal: at 30 degrees beside the line of sight 1.468
+ *          from above and 1.462 from below, at 50 degrees 2.340 and 2.430. Nor is the second
+ *          without a jump of its own, at R/D = 0.6, from 1.48 to 1.72.
  * Units    degrees.
  * Threads  pure functions.
  * Fails    never.

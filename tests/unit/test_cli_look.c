@@ -113,6 +113,63 @@ TEST(develop_answers_in_json)
     json_decref(j);
 }
 
+static int code_at(const char *picture, int x, int y, Arena *arena)
+{
+    Image image;
+    Error err = {0};
+    if (!image_read(in_folder(picture), arena, &image, &err)) fail_msg("%s", err.text);
+    return ((const uint8_t *)image.pixels)[4 * (y * image.width + x)];
+}
+
+/* The frame does not say how high it is; once it does, --fov must agree. */
+TEST(develop_sees_as_an_eye)
+{
+    Arena   arena = test_arena(state);
+    Outcome o = run("develop f.exr -o b.png --eye 70 2>&1");
+    assert_int_equal(o.status, 2);
+    assert_non_null(strstr(o.out, "f.exr: does not say its field of view"));
+    assert_non_null(strstr(o.out, "--fov DEG"));
+    o = run("develop f.exr -o b.png --eye 70 --fov 2 --exposure white:500 --view untonemapped");
+    assert_int_equal(o.status, 0);
+    assert_non_null(strstr(o.out, "light as in an eye of 70 years, pigment 0.5; of what lies"));
+    /* 124 and 203 without an eye; it mixes them at the edge between, at the border less. */
+    int dark = code_at("b.png", 5, 4, &arena), bright = code_at("b.png", 6, 4, &arena);
+    assert_true(dark > 126 && bright < 202 && dark < bright);
+    assert_true(code_at("b.png", 0, 4, &arena) < dark);
+    assert_true(code_at("b.png", 11, 4, &arena) > bright);
+    o = run("develop f.exr -o b.png --eye 70,0 --fov 2 --json");
+    json_t *j = answer(&o), *eye = json_object_get(j, "eye");
+    assert_close(number(eye, "age_years"), 70, 0);
+    assert_near(number(eye, "pigment"), 0, 0);
+    json_decref(j);
+}
+
+TEST(an_eye_needs_a_view)
+{
+    Arena      arena = test_arena(state);
+    FrameImage frame = frame_create(4, 4, (ExrWindow){0, 0, 4, 4}, 3, 5, &arena);
+    Error      err = {0};
+    for (int c = 0; c < 3; c++) frame_add_channel(&frame, (char[]){"RGB"[c], 0}, false, &arena);
+    frame_set_number(&frame, "parhelion:yfov_deg", 40, &arena);
+    assert_true(frame_write(in_folder("n.exr"), &frame, &err));
+    assert_int_equal(run("develop n.exr -o n.png --eye 30").status, 0);
+    assert_int_equal(run("develop n.exr -o n.png --eye 30 --fov 40").status, 0);
+    Outcome o = run("develop n.exr -o n.png --eye 30 --fov 41 2>&1");
+    assert_int_equal(o.status, 2);
+    assert_non_null(strstr(o.out, "n.exr: says itself that it is 40 degrees high"));
+    assert_int_equal(run("develop n.exr -o n.png --eye 30 --layer R").status, 2);
+    frame_set_number(&frame, "parhelion:yfov_deg", 190, &arena);
+    assert_true(frame_write(in_folder("n.exr"), &frame, &err));
+    o = run("develop n.exr -o n.png --eye 30 2>&1");
+    assert_int_equal(o.status, 3);
+    assert_non_null(strstr(o.out, "yfov_deg is 190, wanted degrees between 0 and 180"));
+    frame_set_number(&frame, "parhelion:ymag_m", 1, &arena);
+    assert_true(frame_write(in_folder("n.exr"), &frame, &err));
+    o = run("develop n.exr -o n.png --eye 30 2>&1");
+    assert_int_equal(o.status, 3);
+    assert_non_null(strstr(o.out, "orthographic"));
+}
+
 TEST(other_endings_work)
 {
     (void)state;

@@ -1,7 +1,8 @@
 /* guides.h -- the pages of assets/guides, which the program carries: `parhelion help NAME`.
  *
  * A page begins with its title; a paragraph `Commands: render, merge.` names the commands whose
- * --help points to it. guides.cmake makes the table at build time, so a new page needs no code.
+ * --help points to it. assets/embed_folder.cmake makes the table at build time, so a new page
+ * needs no code.
  *
  * Memory   constant; nothing to free. Threads: any. Fails: never.
  */

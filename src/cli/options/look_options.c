@@ -12,17 +12,32 @@ static bool check_denoise(const DevelopOptions *look, Error *err)
     return true;
 }
 
+static bool check_eye(const DevelopOptions *look, Error *err)
+{
+    return !look->layer ||
+           error_set(err, ERROR_USAGE, "--eye and --layer exclude each other: the frame's own "
+                     "light is spread, its layers are not");
+}
+
 bool look_options_develop(const LookRequest *request, Arena scratch, LookReport *report,
                           Error *err)
 {
-    const DevelopOptions *look = request->look;
-    FrameImage            filtered = *request->frame;
-    LookReport            made = {0};
-    if (!check_denoise(look, err)) return false;
-    if (look->is_denoised && !denoise_frame(request->frame, request->threads, &scratch,
-                                            &filtered, &made.denoise, err))
-        return error_in_file(err, look->frame_name);
-    if (!develop_frame(&filtered, look, request->path, scratch, &made.develop, err))
+    DevelopOptions look = *request->look;
+    FrameImage     filtered = *request->frame;
+    LookReport     made = {0};
+    if (!check_denoise(&look, err)) return false;
+    if (look.is_denoised && !denoise_frame(request->frame, request->threads, &scratch,
+                                           &filtered, &made.denoise, err))
+        return error_in_file(err, look.frame_name);
+    if (request->eye && request->eye->words) {
+        if (!check_eye(&look, err)) return false;
+        if (!eye_option_apply(request->eye, &filtered, request->threads, &scratch, &filtered,
+                              err))
+            return error_in_file(err, look.frame_name);
+        look.eye = eye_option_words(request->eye, &scratch);
+        made.eye = request->eye->eye;
+    }
+    if (!develop_frame(&filtered, &look, request->path, scratch, &made.develop, err))
         return false;
     *report = made;
     return true;
@@ -36,8 +51,9 @@ const char *look_options_words(const LookReport *report, Arena *arena)
         words = arena_format(arena, ", denoised (%.4g of the light, %ld fireflies spread%s)",
                              denoise->energy_ratio, denoise->fireflies,
                              denoise->has_halves ? "" : "; better from 24 samples on");
-    return report->develop.is_adapted ? arena_format(arena, "%s, locally adapted", words)
-                                      : words;
+    if (report->develop.is_adapted) words = arena_format(arena, "%s, locally adapted", words);
+    return report->develop.eye[0] ? arena_format(arena, "%s, %s", words, report->develop.eye)
+                                  : words;
 }
 
 void look_options_json(const LookReport *report, json_t *answer)
@@ -51,4 +67,9 @@ void look_options_json(const LookReport *report, json_t *answer)
                             : json_null());
     json_object_set_new(answer, "adapt",
                         report->develop.is_adapted ? json_string("local") : json_null());
+    json_object_set_new(answer, "eye",
+                        report->develop.eye[0]
+                            ? json_pack("{s:f, s:f}", "age_years", report->eye.age_years,
+                                        "pigment", report->eye.pigment)
+                            : json_null());
 }

@@ -2,12 +2,14 @@
  * develop one.
  *
  * The rows only name where the words go; develop.h says what they mean and checks them. What
- * they ask for is done here, since a frame is denoised before it is developed.
+ * they ask for is done here, since a frame is denoised, and seen by an eye, before it is
+ * developed.
  */
 #pragma once
 #include <jansson.h>
 
 #include "cli/options/cli.h"
+#include "cli/options/eye_option.h"
 #include "denoise/denoise.h"
 #include "image/develop.h"
 
@@ -34,6 +36,7 @@
 typedef struct LookReport {
     DevelopReport develop;
     DenoiseReport denoise; /* when develop.is_denoised */
+    HumanEye      eye;     /* when develop.eye is not "" */
 } LookReport;
 
 typedef struct LookRequest {
@@ -41,15 +44,17 @@ typedef struct LookRequest {
     const DevelopOptions *look;
     const char           *path;
     int                   threads;
+    const EyeOption      *eye; /* NULL: the command has no such option */
 } LookRequest;
 
-/* develop_frame, of the denoised frame if that is asked for. */
+/* develop_frame, of the denoised frame if that is asked for, as an eye sees it if that is. */
 bool look_options_develop(const LookRequest *request, Arena scratch, LookReport *report,
                           Error *err);
 
-/* What stands behind the line of a picture: "", or ", denoised (...), locally adapted". */
+/* What stands behind the line of a picture: "", or ", denoised (...), locally adapted, light as
+ * in an eye of ...". */
 const char *look_options_words(const LookReport *report, Arena *arena);
 
-/* Adds "denoised", {"halves","fireflies","energy_ratio"} or null, and "adapt", "local" or
- * null. */
+/* Adds "denoised", {"halves","fireflies","energy_ratio"} or null, "adapt", "local" or null, and
+ * "eye", {"age_years","pigment"} or null. */
 void look_options_json(const LookReport *report, json_t *answer);

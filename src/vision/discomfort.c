@@ -1,0 +1,50 @@
+#include "vision/discomfort.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+#include "base/mathd.h"
+
+#define DGP_LOW_LIGHT_BELOW_LX 1000.0
+
+/* I = L A and w = A/R^2, so that 200 I^2/R^2 = L^2 w A/0.005 m^2. */
+static double squared(const GlareSource *source)
+{
+    double full = source->luminance_cd_m2 * source->luminance_cd_m2 * source->solid_angle_sr;
+    bool   is_small = source->area_m2 > 0 && source->area_m2 < GLARE_SOURCE_SMALL_M2;
+    return is_small ? full * (source->area_m2 / GLARE_SOURCE_SMALL_M2) : full;
+}
+
+/* NaN when an index is none. */
+static double over_index(const GlareSource *source, double value)
+{
+    double p = source->position_index;
+    return p >= 1 ? value / (p * p) : NAN;
+}
+
+double discomfort_ugr(double background_cd_m2, const GlareSource *sources, int count)
+{
+    double sum = 0;
+    if (!(background_cd_m2 > 0)) return NAN;
+    for (int i = 0; i < count; i++) sum += over_index(&sources[i], squared(&sources[i]));
+    return 8 * log10_d(0.25 / background_cd_m2 * sum);
+}
+
+double discomfort_dgp_low_light(double vertical_lx)
+{
+    if (vertical_lx >= DGP_LOW_LIGHT_BELOW_LX) return 1;
+    return 1 / (1 + exp_d(4 - 0.024 * vertical_lx)); /* the same with one exponential */
+}
+
+double discomfort_dgp(double vertical_lx, const GlareSource *sources, int count)
+{
+    double sum = 0;
+    if (!(vertical_lx > 0)) return NAN;
+    for (int i = 0; i < count; i++) {
+        const GlareSource *s = &sources[i];
+        sum += over_index(s, s->luminance_cd_m2 * s->luminance_cd_m2 * s->solid_angle_sr);
+    }
+    double adapted = pow_d(vertical_lx, 1.87);
+    double dgp = 5.87e-5 * vertical_lx + 0.092 * log10_d(1 + sum / adapted) + 0.159;
+    return dgp < 1 || isnan(dgp) ? dgp : 1;
+}

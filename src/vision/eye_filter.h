@@ -1,0 +1,44 @@
+/* eye_filter.h -- a picture as it arrives on the retina: every pixel's light spread over the
+ * others by the CIE's point spread (vision/eye_spread.h), by true angles.
+ *
+ *     out(p) = L(p) + sum over s of f(angle of p and s) w(s) (L(s) - L(p))
+ *
+ * f is the spread over its integral, averaged over pixel p; w(s) pixel s's solid angle. What
+ * leaves the picture, or a pixel, towards where nothing is known is kept where it came from: as
+ * if beyond the border it were as bright as each pixel is itself. So no light is made or lost
+ * (the sum of out w is that of L w), an even picture stays even up to its border, and the veil
+ * of a light is the true one. Only what the picture sees is spread: a sun outside it veils
+ * nothing.
+ *
+ * A perspective picture's pixels are not alike: the same number of them is another angle at the
+ * border. The sum over s is one convolution for each of some places in the picture, from which
+ * every pixel's share is interpolated (eye_filter.c); the error stated in
+ * tests/unit/test_eye_filter.c is below 0.5 % of the spread for views up to 120 degrees wide.
+ *
+ * Units    cd m^-2 in each channel.
+ * Layout   planes of width * height, row 0 at the top.
+ * Memory   scratch: 64 bytes a pixel of a picture twice as wide and high.
+ * Threads  `threads` share the work; the same bits for any number of them.
+ * Fails    when memory is out.
+ */
+#pragma once
+#include "base/arena.h"
+#include "vision/human_eye.h"
+
+typedef struct EyeView {
+    int    width, height;   /* pixels of the planes */
+    double axis_x, axis_y;  /* where the camera looks, in pixels from the planes' upper left
+                               corner; may lie outside of them */
+    double pixel;           /* side of a square pixel on a plane at distance 1 */
+} EyeView;
+
+typedef struct EyeFilter {
+    EyeView  view;
+    HumanEye eye;
+    int      threads; /* at least 1 */
+} EyeFilter;
+
+/* rgb: a pixel with a value that is not finite spreads nothing and stays as it is. out must not
+ * overlap it. */
+bool eye_filter(const EyeFilter *filter, const float *const rgb[3], float *const out[3],
+                Arena scratch, Error *err);

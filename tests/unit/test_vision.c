@@ -1,0 +1,380 @@
+/* The formulas of the eye: published values, and laws. */
+#include "check.h"
+
+#include <string.h>
+
+#include "base/count.h"
+#include "base/units.h"
+#include "vision/contrast_sensitivity.h"
+#include "vision/discomfort.h"
+#include "vision/disability_glare.h"
+#include "vision/eye_spread.h"
+#include "vision/grey_steps.h"
+#include "vision/position_index.h"
+
+/* ---- disability glare -------------------------------------------------------------------- */
+
+typedef struct GlareRow {
+    HumanEye eye;
+    double   angle, general, small, stiles; /* 0: outside the range */
+} GlareRow;
+
+static const GlareRow GLARE[] = {
+    {{25, 0.5}, 0.1, 10513, 10513, 0},
+    {{25, 0.5}, 1, 15.181, 15.128, 10.163},
+    {{25, 0.5}, 2, 2.5589, 2.5320, 2.5407},
+    {{25, 0.5}, 5, 0.29663, 0.28512, 0.40651},
+    {{25, 0.5}, 10, 0.067658, 0.06128, 0.10163},
+    {{25, 0.5}, 30, 0.0090275, 0.0060681, 0.011292},
+    {{25, 0.5}, 60, 0.0035754, 0, 0},
+    {{25, 0.5}, 90, 0.0024666, 0, 0},
+    {{70, 0.5}, 0.1, 11288, 11287, 0},
+    {{70, 0.5}, 1, 22.998, 22.868, 20},
+    {{70, 0.5}, 2, 4.5325, 4.4669, 5},
+    {{70, 0.5}, 5, 0.62169, 0.59470, 0.8},
+    {{70, 0.5}, 10, 0.15279, 0.13868, 0.2},
+    {{70, 0.5}, 30, 0.020207, 0.014668, 0.022222},
+    {{70, 0.5}, 60, 0.0070152, 0, 0},
+    {{70, 0.5}, 90, 0.004282, 0, 0},
+    {{25, 0}, 0.1, 10513, 0, 0},
+    {{25, 0}, 1, 15.128, 0, 0},
+    {{25, 0}, 2, 2.532, 0, 0},
+    {{25, 0}, 5, 0.28512, 0, 0},
+    {{25, 0}, 10, 0.06128, 0, 0},
+    {{25, 0}, 30, 0.0060681, 0, 0},
+    {{25, 0}, 60, 0.0014707, 0, 0},
+    {{25, 0}, 90, 0.0006468, 0, 0},
+    {{25, 1.2}, 0.1, 10514, 0, 0},
+    {{25, 1.2}, 1, 15.254, 0, 0},
+    {{25, 1.2}, 2, 2.5965, 0, 0},
+    {{25, 1.2}, 5, 0.31273, 0, 0},
+    {{25, 1.2}, 10, 0.076587, 0, 0},
+    {{25, 1.2}, 30, 0.013171, 0, 0},
+    {{25, 1.2}, 60, 0.0065219, 0, 0},
+    {{25, 1.2}, 90, 0.0050143, 0, 0},
+};
+
+TEST(disability_glare_has_its_values)
+{
+    (void)state;
+    for (int i = 0; i < COUNT_OF(GLARE); i++) {
+        const GlareRow *r = &GLARE[i];
+        assert_close(disability_glare(r->angle, r->eye), r->general, 6e-5);
+        if (r->small > 0)
+            assert_close(disability_glare_small_angle(r->angle, r->eye.age_years), r->small,
+                         6e-5);
+        if (r->stiles > 0)
+            assert_close(disability_glare_stiles_holladay(r->angle, r->eye.age_years),
+                         r->stiles, 6e-5);
+    }
+}
+
+TEST(disability_glare_keeps_its_ranges)
+{
+    const HumanEye eye = {40, 0.5};
+    (void)state;
+    assert_true(isfinite(disability_glare(0.1, eye)) && isfinite(disability_glare(100, eye)));
+    assert_true(isnan(disability_glare(0.0999, eye)) && isnan(disability_glare(100.1, eye)));
+    assert_true(isfinite(disability_glare_small_angle(30, 40)));
+    assert_true(isnan(disability_glare_small_angle(30.1, 40)));
+    assert_true(isnan(disability_glare_small_angle(0.09, 40)));
+    assert_true(isfinite(disability_glare_stiles_holladay(1, 40)));
+    assert_true(isnan(disability_glare_stiles_holladay(0.9, 40)));
+    assert_true(isnan(disability_glare_stiles_holladay(30.1, 40)));
+    assert_true(isnan(disability_glare(NAN, eye)));
+}
+
+TEST(older_and_lighter_eyes_scatter_more)
+{
+    (void)state;
+    for (double angle = 0.1; angle <= 90; angle *= 1.3) {
+        assert_true(disability_glare(angle, (HumanEye){70, 0.5}) >
+                    disability_glare(angle, (HumanEye){30, 0.5}));
+        assert_true(disability_glare(angle, (HumanEye){30, 1.2}) >
+                    disability_glare(angle, (HumanEye){30, 0.5}));
+        assert_true(disability_glare(angle * 1.1, (HumanEye){30, 0.5}) <
+                    disability_glare(angle, (HumanEye){30, 0.5}));
+    }
+}
+
+/* The sun at 97.1 klx beside the line of sight. */
+TEST(veil_of_the_sun)
+{
+    static const double ROWS[][3] = {{5, 28700, 45400}, {10, 6470, 10810}, {20, 1630, 2760},
+                                     {30, 760, 1260}};
+    (void)state;
+    for (int i = 0; i < COUNT_OF(ROWS); i++) {
+        double lux = 97100 * cos(radians_from_degrees(ROWS[i][0]));
+        assert_close(lux * disability_glare(ROWS[i][0], (HumanEye){25, 0.5}), ROWS[i][1], 6e-3);
+        assert_close(lux * disability_glare(ROWS[i][0], (HumanEye){60, 0.5}), ROWS[i][2], 6e-3);
+    }
+}
+
+/* ---- point spread ------------------------------------------------------------------------ */
+
+TEST(eye_spread_has_its_values)
+{
+    static const double ROWS[][2] = {{0.1, 11685}, {0.5, 135.95}, {1, 19.267}, {2, 2.9451},
+                                     {5, 0.29524}, {10, 0.061606}, {30, 0.0077692},
+                                     {60, 0.0032553}, {90, 0.0024829}};
+    (void)state;
+    for (int i = 0; i < COUNT_OF(ROWS); i++)
+        assert_close(eye_spread_published(ROWS[i][0], (HumanEye){25, 0.5}), ROWS[i][1], 4e-5);
+    assert_close(eye_spread_integral((HumanEye){24, 0}), 1.0049, 5e-5);
+    assert_close(eye_spread_integral((HumanEye){24, 0.5}), 1.0316, 5e-5);
+    assert_close(eye_spread_integral((HumanEye){24, 1}), 1.0583, 5e-5);
+    assert_close(eye_spread_integral((HumanEye){70, 0.5}), 1.0664, 5e-5);
+    assert_true(isnan(eye_spread_published(-0.1, (HumanEye){25, 0.5})));
+    assert_true(isnan(eye_spread_published(90.1, (HumanEye){25, 0.5})));
+}
+
+static double spread_of_25(double angle)
+{
+    return eye_spread(angle, (HumanEye){25, 0.5});
+}
+
+static double spread_of_80(double angle)
+{
+    return eye_spread(angle, (HumanEye){80, 1.2});
+}
+
+/* Over rings whose ends rise by 1 %, by the midpoint: a quadrature that shares nothing with the
+ * product's. */
+static double ring_integral(double (*spread)(double))
+{
+    double sum = 0, inner = 0;
+    for (double outer = 1e-5; inner < 90; outer *= 1.01) {
+        double end = outer < 90 ? outer : 90;
+        double ring = cos(radians_from_degrees(inner)) - cos(radians_from_degrees(end));
+        sum += 2 * PI * spread((inner + end) / 2) * ring;
+        inner = end;
+    }
+    return sum;
+}
+
+TEST(eye_spread_makes_no_light)
+{
+    (void)state;
+    assert_near(ring_integral(spread_of_25), 1, 1e-3);
+    assert_near(ring_integral(spread_of_80), 1, 1e-3);
+    assert_near(ring_integral(eye_spread_spencer), 0.9996, 1e-4);
+}
+
+TEST(spencer_has_its_values)
+{
+    (void)state;
+    assert_close(eye_spread_spencer(0), 2.277e6, 2e-4);
+    assert_close(eye_spread_spencer(0.1), 6478, 1e-4);
+    assert_close(eye_spread_spencer(1), 19.02, 2e-4);
+    assert_close(eye_spread_spencer(10), 0.1094, 1e-4);
+    double ratio = eye_spread_spencer(10) / eye_spread_published(10, (HumanEye){25, 0.5});
+    assert_true(ratio > 1.6 && ratio < 1.8);
+    assert_true(isnan(eye_spread_spencer(91)));
+}
+
+/* Two fits of the same measurements. */
+TEST(glare_and_spread_agree)
+{
+    (void)state;
+    for (double age = 20; age <= 80; age += 15) {
+        for (double angle = 1; angle <= 90; angle *= 1.2) {
+            HumanEye eye = {age, 0.5};
+            double   bound = angle < 2 ? 0.30 : 0.20;
+            assert_close(eye_spread_published(angle, eye), disability_glare(angle, eye), bound);
+        }
+    }
+}
+
+/* ---- position index ---------------------------------------------------------------------- */
+
+TEST(position_index_has_its_values)
+{
+    static const double SIGMAS[] = {10, 20, 30, 50}, TAUS[] = {0, 45, 90};
+    static const double VALUES[3][4] = {{1.4345, 2.1460, 3.3481, 9.2442},
+                                        {1.2655, 1.6905, 2.3833, 5.5706},
+                                        {1.0898, 1.2386, 1.4681, 2.3396}};
+    (void)state;
+    for (int i = 0; i < 12; i++)
+        assert_near(position_index_above(TAUS[i / 4], SIGMAS[i % 4]), VALUES[i / 4][i % 4],
+                    5.1e-5);
+    assert_close(position_index_below(degrees_from_radians(atan(0.5))), 1.4, 1e-12);
+    assert_close(position_index_below(degrees_from_radians(atan(1.0))), 2.2, 1e-12);
+    assert_close(position_index_below(degrees_from_radians(atan(5.0))), 4.6, 1e-12);
+    assert_near(position_index_above(0, 90), POSITION_INDEX_MAX, 0);
+    assert_near(position_index_above(30, 0), 1, 0);
+    assert_near(position_index_below(0), 1, 0);
+}
+
+/* The two formulas do not meet: neither is bent to. */
+TEST(position_index_jumps_at_the_horizontal)
+{
+    static const double ROWS[][3] = {{10, 1.0898, 1.1411}, {20, 1.2386, 1.2912},
+                                     {30, 1.4681, 1.4619}, {50, 2.3396, 2.4301}};
+    (void)state;
+    for (int i = 0; i < COUNT_OF(ROWS); i++) {
+        double sigma = radians_from_degrees(ROWS[i][0]), s = sin(sigma), c = cos(sigma);
+        assert_close(position_index(s, 0, c), ROWS[i][1], 4e-5);
+        assert_close(position_index(-s, 1e-9, c), ROWS[i][1], 4e-5);
+        assert_close(position_index(s, -1e-9, c), ROWS[i][2], 4e-5);
+    }
+    double before = position_index_below(degrees_from_radians(atan(0.5999999)));
+    double after = position_index_below(degrees_from_radians(atan(0.6000001)));
+    assert_near(before, 1.48, 1e-5);
+    assert_near(after, 1.72, 1e-5);
+}
+
+TEST(position_index_of_a_direction)
+{
+    (void)state;
+    double s = radians_from_degrees(20);
+    assert_close(position_index(0, sin(s), cos(s)), 2.1460, 3e-5);
+    assert_close(position_index(0, 7 * sin(s), 7 * cos(s)), 2.1460, 3e-5);
+    double diagonal = sin(s) / sqrt(2);
+    assert_close(position_index(diagonal, diagonal, cos(s)), 1.6905, 3e-5);
+    assert_close(position_index(-diagonal, diagonal, cos(s)), 1.6905, 3e-5);
+    assert_close(position_index(0, -sin(s), cos(s)), 1 + 0.8 * tan(s), 1e-12);
+    assert_near(position_index(0, 0, 1), 1, 0);
+    assert_near(position_index(0, 0.1, -1), POSITION_INDEX_MAX, 0);
+    assert_near(position_index(1, 0.1, 0), POSITION_INDEX_MAX, 0);
+}
+
+/* ---- discomfort -------------------------------------------------------------------------- */
+
+TEST(ugr_has_its_value)
+{
+    const GlareSource one = {5000, 0.01, 1.5, 0}, two[] = {one, one};
+    (void)state;
+    assert_close(discomfort_ugr(40, &one, 1), 22.7331, 3e-6);
+    assert_close(discomfort_ugr(40, two, 2), 22.7331 + 8 * log10(2), 3e-6);
+    assert_true(discomfort_ugr(40, NULL, 0) == -INFINITY);
+    assert_true(isnan(discomfort_ugr(0, &one, 1)));
+    assert_true(isnan(discomfort_ugr(40, &(GlareSource){5000, 0.01, 0.5, 0}, 1)));
+}
+
+/* 200 I^2/R^2 in place of L^2 w; at 0.005 m^2 the two are the same. */
+TEST(small_sources_count_by_their_intensity)
+{
+    const double area = 0.002, distance = 1.7, luminance = 30000;
+    GlareSource small = {luminance, area / (distance * distance), 1, area};
+    double intensity = luminance * area;
+    double squared = intensity / distance * (intensity / distance);
+    (void)state;
+    assert_close(discomfort_ugr(40, &small, 1), 8 * log10(0.25 / 40 * 200 * squared), 1e-12);
+    small.area_m2 = 0.00499999;
+    GlareSource plain = small;
+    plain.area_m2 = 0;
+    assert_close(discomfort_ugr(40, &small, 1), discomfort_ugr(40, &plain, 1), 1e-6);
+    small.area_m2 = 0.2;
+    assert_near(discomfort_ugr(40, &small, 1), discomfort_ugr(40, &plain, 1), 0);
+}
+
+TEST(dgp_has_its_values)
+{
+    const GlareSource source = {1e5, 0.001, 1.5, 0};
+    (void)state;
+    assert_close(discomfort_dgp(3000, NULL, 0), 0.335100, 2e-6);
+    assert_close(discomfort_dgp(3000, &source, 1), 0.370051, 2e-6);
+    assert_close(discomfort_dgp(200, NULL, 0), 0.17074, 4e-6);
+    assert_close(discomfort_dgp(200, NULL, 0) * discomfort_dgp_low_light(200), 0.117806, 4e-6);
+    assert_near(discomfort_dgp(50000, NULL, 0), 1, 0);
+    assert_true(isnan(discomfort_dgp(0, NULL, 0)));
+    assert_true(isnan(discomfort_dgp(3000, &(GlareSource){1e5, 0.001, 0.9, 0}, 1)));
+}
+
+TEST(dgp_is_less_in_low_light)
+{
+    static const double ROWS[][2] = {{100, 0.168}, {200, 0.690}, {300, 0.961}, {380, 0.994}};
+    (void)state;
+    for (int i = 0; i < COUNT_OF(ROWS); i++)
+        assert_near(discomfort_dgp_low_light(ROWS[i][0]), ROWS[i][1], 5e-4);
+    assert_near(discomfort_dgp_low_light(999.999), 1, 1e-8); /* no step at 1000 lx */
+    assert_near(discomfort_dgp_low_light(1000), 1, 0);
+    assert_near(discomfort_dgp_low_light(1e5), 1, 0);
+}
+
+/* ---- thresholds -------------------------------------------------------------------------- */
+
+TEST(contrast_sensitivity_has_its_values)
+{
+    static const double U[] = {1, 4, 8, 16, 30}, L[] = {100, 1, 1000};
+    static const double VALUES[3][5] = {{410.67, 633.74, 426.12, 169.38, 30.60},
+                                        {277.47, 172.37, 84.83, 27.87, 3.37},
+                                        {415.43, 724.77, 564.79, 242.64, 46.18}};
+    (void)state;
+    for (int i = 0; i < 15; i++)
+        assert_near(contrast_sensitivity(U[i % 5], L[i / 5], 10), VALUES[i / 5][i % 5], 6e-3);
+    assert_true(isnan(contrast_sensitivity(0, 100, 10)));
+    assert_true(isnan(contrast_sensitivity(4, 0, 10)));
+    assert_true(isnan(contrast_sensitivity(4, 100, -1)));
+}
+
+TEST(grey_steps_have_their_values)
+{
+    static const double ROWS[][2] = {{1, 0.04998}, {100, 1.85083}, {200, 8.21785},
+                                     {500, 119.13179}, {800, 933.18743}, {1023, 3993.330}};
+    (void)state;
+    for (int i = 0; i < COUNT_OF(ROWS); i++)
+        assert_close(grey_steps_luminance(ROWS[i][0]), ROWS[i][1], 4e-5);
+    assert_near(grey_steps_of(grey_steps_luminance(200)), 200.021, 5e-4);
+}
+
+TEST(grey_steps_go_there_and_back)
+{
+    double previous = 0;
+    (void)state;
+    for (int step = 1; step <= 1023; step++) {
+        double luminance = grey_steps_luminance(step);
+        assert_true(luminance > previous);
+        assert_near(grey_steps_of(luminance), step, 0.1);
+        previous = luminance;
+    }
+    for (double l = 0.05; l < 3970; l *= 1.01)
+        assert_true(grey_steps_of(l * 1.005) > grey_steps_of(l));
+    assert_near(grey_steps_between(8.21785, 119.13179), 300, 0.1);
+    assert_near(grey_steps_between(119.13179, 8.21785), 300, 0.1);
+    assert_near(grey_steps_between(5, 5), 0, 0);
+}
+
+TEST(grey_steps_keep_their_range)
+{
+    (void)state;
+    assert_true(isnan(grey_steps_luminance(0.9)) && isnan(grey_steps_luminance(1024)));
+    assert_true(isnan(grey_steps_of(0.049)) && isnan(grey_steps_of(4000)));
+    assert_true(isnan(grey_steps_of(0)) && isnan(grey_steps_between(10, 5000)));
+    assert_true(isfinite(grey_steps_of(0.05)) && isfinite(grey_steps_of(3993)));
+}
+
+/* ---- whose eye --------------------------------------------------------------------------- */
+
+TEST(eyes_are_read)
+{
+    HumanEye eye = {0, 0};
+    Error    err = {0};
+    (void)state;
+    assert_true(human_eye_parse("60", &eye, &err));
+    assert_true(eye.age_years == 60 && eye.pigment == HUMAN_EYE_PIGMENT_USUAL);
+    assert_true(human_eye_parse("24.5,1.2", &eye, &err));
+    assert_true(eye.age_years == 24.5 && eye.pigment == 1.2);
+}
+
+TEST(what_is_no_eye_is_refused)
+{
+    static const char *const WRONG[] = {"", "old", "9", "101", "40,", "40,1.3", "40,-1", "40 ",
+                                        "40,0.5,1", "-40", "nan", "40,nan", "0x20", "4e9",
+                                        "+40"};
+    (void)state;
+    for (int i = 0; i < COUNT_OF(WRONG); i++) {
+        HumanEye eye = {1, 2};
+        Error    err = {0};
+        assert_false(human_eye_parse(WRONG[i], &eye, &err));
+        assert_true(eye.age_years == 1 && eye.pigment == 2);
+        assert_int_equal(err.code, ERROR_USAGE);
+        assert_true(strstr(err.text, WRONG[i]) == err.text);
+        assert_non_null(strstr(err.text, "wanted AGE or AGE,PIGMENT: 10 to 100 years"));
+    }
+}
+
+int main(void)
+{
+    return run_cases(NULL, NULL);
+}
