@@ -2,10 +2,10 @@
  *
  * A limit is kept when the whole 95 % interval of its figure keeps it, broken when the whole
  * interval breaks it, and too close to call when the limit lies within. A case is as bad as the
- * worst limit that counts: fail, then too close, then pass. Advice is listed and does not count,
- * nor does a limit of which the program measures no figure (`found` NaN); a figure that it does
- * measure and could not find out (NaN) is too close to call. A case of which nothing is visible
- * is neither good nor bad: not visible. One without limits passes, with limit_id -1.
+ * worst limit that counts: fail, then too close, then pass. Advice is listed and does not
+ * count, nor does a limit of which the program measures no figure (`found` NaN); a figure that
+ * it does measure and could not find out (NaN) is too close to call. A case of which nothing is
+ * visible is neither good nor bad: not visible. One without limits passes, with limit_id -1.
  *
  * Memory   lists come from the arena.
  * Threads  pure functions but for the case that is passed in.
@@ -18,8 +18,8 @@
 void judge_ambient(ReviewCase *review_case, const Profile *profile, bool sun_on_display);
 
 /* From the case's ambient, luminances, contrasts and their interval, height and visible_share:
- * sets limits, limit_count, limit_id, margin and verdict. limit_id is, among the contrast limits
- * that count, the one that asks the greatest ratio; margin is its margin.
+ * sets limits, limit_count, limit_id, margin and verdict. limit_id is, among the contrast
+ * limits that count, the one that asks the greatest ratio; margin is its margin.
  *
  * A profile that uses the veil is asked of contrast_with_veil; its interval is that of
  * contrast_ratio seen through the veil, whose own doubt is not in it. */

@@ -21,8 +21,8 @@ typedef enum LimitKind {
     LIMIT_LUMINANCE_CONTRAST, /* the same less one: (L2 - L1)/L1 */
     LIMIT_MODULATION,         /* (CR - 1)/(CR + 1) */
     LIMIT_CHARACTER_HEIGHT,   /* arc minutes */
-    LIMIT_STROKE_RATIO,       /* stroke's width over the character's height: not measured here */
-    LIMIT_WIDTH_RATIO,        /* character's width over its height: not measured here */
+    LIMIT_STROKE_RATIO,       /* stroke over the character's height: not measured here */
+    LIMIT_WIDTH_RATIO,        /* width over height: not measured here */
     LIMIT_KIND_COUNT
 } LimitKind;
 
@@ -52,9 +52,10 @@ typedef struct ProfileLimit {
     bool        read_in_the_standard;
 } ProfileLimit;
 
-/* What else the standard says, for readers: light under which it measures, names that it uses. */
+/* What else the standard says, for readers: light under which it measures, names that it
+ * uses. */
 typedef struct ProfileFact {
-    const char *name, *text, *unit; /* text: what it means, "" for none; unit: "" without value */
+    const char *name, *text, *unit; /* text: its meaning, or ""; unit: "" without a value */
     double      value;              /* NaN: none */
     const char *source;
     bool        read_in_the_standard;

@@ -48,7 +48,7 @@ typedef struct CaseRemedy {
 
 typedef struct CaseLuminances {
     double foreground, background; /* emitted to the eye */
-    double reflected;              /* mean over the visible part; all that the display reflects */
+    double reflected;              /* mean over what is visible; all that is reflected */
     double mirror, scattered;      /* its two parts */
     double veil;                   /* that stray light lays over the gaze point, in the eye */
 } CaseLuminances;

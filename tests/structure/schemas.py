@@ -92,6 +92,15 @@ WRONG_MANIFESTS = [("emission/black", None), ("emission/red", {}), ("emission/re
                    ("reflection/files", "brdf/i10.csv"), ("reflection/incidence_deg", [95]),
                    ("reflection/wavelengths_nm", None), ("reflection/incidence_phi_deg", [0]),
                    ("instrument_fwhm_deg", 40), ("pannel", "x")]
+WRONG_PROFILES = [("title", None), ("title", ""), ("limit", []), ("veil", "yes"),
+                  ("ambient", None), ("ambient/night_below_lx", -1),
+                  ("ambient/dusk_below_lx", 3), ("limits", None), ("limits", {}),
+                  ("limits/0", 5), ("limits/0/value", -5), ("limits/0/value", "5"),
+                  ("limits/0/unit", "arcmin"), ("limits/0/kind", "contrast"),
+                  ("limits/0/ambient", "dusk"), ("limits/0/ambient", []),
+                  ("limits/0/bound", "upper"), ("limits/0/source", None),
+                  ("limits/0/read_in_the_standard", 1), ("limits/0/slope", {}),
+                  ("facts/0/text", None), ("facts/0/value", 3)]
 
 
 WRONG_REVIEWS = [("profile", None), ("scene", []), ("eyes", {}), ("eye", {}),
@@ -113,6 +122,8 @@ def changed(document, path, value):
     inside = document
     for name in folders:
         inside = inside[int(name) if isinstance(inside, list) else name]
+    if isinstance(inside, list):
+        last = int(last)
     if value is None:
         del inside[last]
     else:
@@ -154,6 +165,14 @@ def check_formats(report, program, folder, schema_of):
                           [error.message for error in recipes.iter_errors(load(recipe))])
     check_format(report, recipes, RECIPE, WRONG_RECIPES,
                  trying("panel", "simulate", "DOCUMENT", "-o", "FOLDER/set"))
+    profiles = schema_of("profile")
+    for profile in sorted(glob.glob(os.path.join(ROOT, "assets/profiles/*.json"))):
+        report.claim_none(f"{os.path.relpath(profile, ROOT)} against its schema",
+                          [error.message for error in profiles.iter_errors(load(profile))])
+    # What the program says of wrong ones: tests/unit/test_profile.c.
+    good = load(os.path.join(ROOT, "assets/profiles/j1757-1.json"))
+    good["limits"] = load(os.path.join(ROOT, "assets/profiles/iso-9241-7.json"))["limits"]
+    check_format(report, profiles, good, WRONG_PROFILES, lambda document: None)
     if not program:
         report.skip("a manifest against its schema: no program was given")
         return

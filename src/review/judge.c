@@ -1,0 +1,144 @@
+#include "review/judge.h"
+
+#include <math.h>
+
+/* What was found, with its 95 % interval. */
+typedef struct Figure {
+    double found, low, high;
+} Figure;
+
+void judge_ambient(ReviewCase *review_case, const Profile *profile, bool sun_on_display)
+{
+    review_case->ambient =
+        profile_ambient(profile, review_case->display_lux, sun_on_display);
+}
+
+/* ---- figures ----------------------------------------------------------------------------- */
+
+/* A contrast ratio c = 1 + d/(k + r), d between the two luminances, k the darker and r what is
+ * reflected, as it becomes below a veil v: 1 + d/(k + r + v), with k + r = d/(c - 1). Rising
+ * with c, so that ends of an interval stay ends. */
+static double below_veil(const CaseLuminances *l, double ratio)
+{
+    double difference = fabs(l->foreground - l->background);
+    if (!(ratio > 1)) return ratio;
+    return 1 + difference / (difference / (ratio - 1) + l->veil);
+}
+
+static Figure contrast_figure(const ReviewCase *c, const Profile *profile)
+{
+    if (!profile->uses_veil)
+        return (Figure){c->contrast_ratio, c->contrast_low, c->contrast_high};
+    return (Figure){c->contrast_with_veil, below_veil(&c->luminance_cd_m2, c->contrast_low),
+                    below_veil(&c->luminance_cd_m2, c->contrast_high)};
+}
+
+/* A contrast ratio in the words of a kind of limit; rising with it. */
+static double in_words_of(LimitKind kind, double ratio)
+{
+    if (kind == LIMIT_LUMINANCE_CONTRAST) return ratio - 1;
+    if (kind == LIMIT_MODULATION) return (ratio - 1) / (ratio + 1);
+    return ratio;
+}
+
+/* The way back. */
+static double ratio_of(LimitKind kind, double value)
+{
+    if (kind == LIMIT_LUMINANCE_CONTRAST) return value + 1;
+    if (kind == LIMIT_MODULATION) return value < 1 ? (1 + value) / (1 - value) : INFINITY;
+    return value;
+}
+
+static Figure figure_of(LimitKind kind, const ReviewCase *c, const Profile *profile)
+{
+    if (kind == LIMIT_CHARACTER_HEIGHT)
+        return (Figure){c->height_arcmin, c->height_arcmin, c->height_arcmin};
+    if (!limit_kinds[kind].is_contrast) return (Figure){NAN, NAN, NAN};
+    Figure ratio = contrast_figure(c, profile);
+    return (Figure){in_words_of(kind, ratio.found), in_words_of(kind, ratio.low),
+                    in_words_of(kind, ratio.high)};
+}
+
+/* ---- limits ------------------------------------------------------------------------------ */
+
+static bool is_asked(const ProfileLimit *limit, const ReviewCase *c)
+{
+    if (!limit->ambients[c->ambient]) return false;
+    return !limit->slope.has_slope || !(c->height_arcmin < limit->slope.from_arcmin ||
+                                        c->height_arcmin > limit->slope.to_arcmin);
+}
+
+static double value_at(const ProfileLimit *limit, double height_arcmin)
+{
+    const LimitSlope *s = &limit->slope;
+    if (!s->has_slope) return limit->value;
+    return limit->value + s->per_arcmin * (s->reference_arcmin - height_arcmin);
+}
+
+/* Comparisons with NaN are false: what is not known is too close to call. */
+static Verdict verdict_of(Figure figure, double limit, bool is_upper)
+{
+    if (is_upper) {
+        if (figure.high <= limit) return VERDICT_PASS;
+        return figure.low > limit ? VERDICT_FAIL : VERDICT_TOO_CLOSE;
+    }
+    if (figure.low >= limit) return VERDICT_PASS;
+    return figure.high < limit ? VERDICT_FAIL : VERDICT_TOO_CLOSE;
+}
+
+static LimitVerdict judge_limit(const ProfileLimit *limit, const ReviewCase *c,
+                                const Profile *profile)
+{
+    const LimitKindFacts *kind = &limit_kinds[limit->kind];
+    bool   is_visible = c->visible_share > 0;
+    Figure figure = is_visible ? figure_of(limit->kind, c, profile) : (Figure){NAN, NAN, NAN};
+    double value = value_at(limit, c->height_arcmin);
+    return (LimitVerdict){
+        .name = limit->name, .kind = kind->name, .unit = kind->unit, .source = limit->source,
+        .value = value, .read_in_the_standard = limit->read_in_the_standard,
+        .is_upper = limit->is_upper, .is_advice = limit->is_advice, .found = figure.found,
+        .low = figure.low, .high = figure.high,
+        .margin = (limit->is_upper ? value / figure.found : figure.found / value) - 1,
+        .verdict = is_visible ? verdict_of(figure, value, limit->is_upper)
+                              : VERDICT_NOT_VISIBLE};
+}
+
+/* ---- the case ---------------------------------------------------------------------------- */
+
+static bool counts(const ProfileLimit *limit)
+{
+    return !limit->is_advice && limit_kinds[limit->kind].is_measured;
+}
+
+static Verdict worse(Verdict one, Verdict other)
+{
+    static const int BADNESS[] = {[VERDICT_PASS] = 0, [VERDICT_NOT_VISIBLE] = 1,
+                                  [VERDICT_TOO_CLOSE] = 2, [VERDICT_FAIL] = 3};
+    return BADNESS[one] >= BADNESS[other] ? one : other;
+}
+
+void judge_case(ReviewCase *review_case, const Profile *profile, Arena *arena)
+{
+    ReviewCase   *c = review_case;
+    LimitVerdict *limits = ARENA_NEW(arena, LimitVerdict, profile->limit_count);
+    double        greatest = -INFINITY;
+    c->limits = limits;
+    c->limit_count = 0;
+    c->limit_id = -1;
+    c->margin = NAN;
+    c->verdict = c->visible_share > 0 ? VERDICT_PASS : VERDICT_NOT_VISIBLE;
+    for (int i = 0; i < profile->limit_count; i++) {
+        const ProfileLimit *limit = &profile->limits[i];
+        if (!is_asked(limit, c)) continue;
+        LimitVerdict judged = judge_limit(limit, c, profile);
+        if (counts(limit)) c->verdict = worse(judged.verdict, c->verdict);
+        double asked = ratio_of(limit->kind, judged.value);
+        if (counts(limit) && limit_kinds[limit->kind].is_contrast && !limit->is_upper &&
+            asked > greatest) {
+            greatest = asked;
+            c->limit_id = c->limit_count;
+            c->margin = judged.margin;
+        }
+        limits[c->limit_count++] = judged;
+    }
+}

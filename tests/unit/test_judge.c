@@ -1,0 +1,324 @@
+/* Figures against limits. */
+#include "fixture.h"
+
+#include "base/count.h"
+#include "review/judge.h"
+#include "review/profile_table.h"
+
+/* A case whose contrast ratio is `ratio`, known within a share: 100 cd/m2 of difference. */
+static ReviewCase case_of(double ratio, double doubt)
+{
+    return (ReviewCase){.ambient = AMBIENT_DAY, .contrast_ratio = ratio,
+                        .contrast_low = ratio * (1 - doubt),
+                        .contrast_high = ratio * (1 + doubt), .contrast_with_veil = ratio,
+                        .luminance_cd_m2 = {.foreground = 110, .background = 10,
+                                            .reflected = 100 / (ratio - 1) - 10},
+                        .height_arcmin = 25, .visible_share = 1};
+}
+
+static ProfileLimit limit_of(LimitKind kind, double value)
+{
+    return (ProfileLimit){.name = "one", .kind = kind, .ambients = {true, true, true, true},
+                          .value = value, .source = "a test"};
+}
+
+static ReviewCase judged(ReviewCase c, const ProfileLimit *limits, int count, bool uses_veil,
+                         Arena *arena)
+{
+    const Profile profile = {.limits = limits, .limit_count = count, .uses_veil = uses_veil};
+    judge_case(&c, &profile, arena);
+    assert_true(c.limit_count <= count);
+    return c;
+}
+
+/* ---- 2 % either side --------------------------------------------------------------------- */
+
+typedef struct Row {
+    LimitKind kind;
+    bool      is_upper;
+    double    limit, ratio, height; /* what gives the limit exactly */
+} Row;
+
+static const Row ROWS[] = {
+    {LIMIT_CONTRAST_RATIO, false, 5, 5, 25},
+    {LIMIT_CONTRAST_RATIO, false, 3, 3, 25},
+    {LIMIT_CONTRAST_RATIO, false, 2, 2, 25},
+    {LIMIT_CONTRAST_RATIO, true, 40, 40, 25},
+    {LIMIT_LUMINANCE_CONTRAST, false, 2, 3, 25},
+    {LIMIT_LUMINANCE_CONTRAST, false, 4.66, 5.66, 25},
+    {LIMIT_MODULATION, false, 0.5, 3, 25},
+    {LIMIT_MODULATION, true, 0.6, 4, 25},
+    {LIMIT_CHARACTER_HEIGHT, false, 12, 5, 12},
+    {LIMIT_CHARACTER_HEIGHT, true, 60, 5, 60},
+};
+
+TEST(two_per_cent_decide)
+{
+    Arena arena = test_arena(state);
+    for (int i = 0; i < COUNT_OF(ROWS); i++) {
+        for (int side = -1; side <= 1; side += 2) {
+            const Row   *r = &ROWS[i];
+            ProfileLimit limit = limit_of(r->kind, r->limit);
+            bool         is_contrast = limit_kinds[r->kind].is_contrast;
+            ReviewCase   c = case_of(r->ratio * (is_contrast ? 1 + 0.02 * side : 1), 0.001);
+            limit.is_upper = r->is_upper;
+            c.height_arcmin = r->height * (is_contrast ? 1 : 1 + 0.02 * side);
+            c = judged(c, &limit, 1, false, &arena);
+            bool passes = (side > 0) != r->is_upper;
+            if (c.verdict != (passes ? VERDICT_PASS : VERDICT_FAIL))
+                fail_msg("%s of %g, side %d: %s", limit_kinds[r->kind].name, r->limit, side,
+                         verdict_names[c.verdict]);
+            assert_int_equal(c.limits[0].verdict, c.verdict);
+            assert_true((c.limits[0].margin > 0) == passes);
+            assert_int_equal(c.limit_id, is_contrast && !r->is_upper ? 0 : -1);
+        }
+    }
+}
+
+TEST(margins_are_what_they_say)
+{
+    Arena        arena = test_arena(state);
+    ProfileLimit least = limit_of(LIMIT_CONTRAST_RATIO, 3), most = least;
+    ReviewCase   c = judged(case_of(3.6, 0), &least, 1, false, &arena);
+    assert_close(c.margin, 0.2, 1e-12);
+    assert_close(c.limits[0].margin, 0.2, 1e-12);
+    assert_near(c.limits[0].found, 3.6, 0);
+    assert_near(c.limits[0].value, 3, 0);
+    assert_string_equal(c.limits[0].kind, "contrast_ratio");
+    assert_string_equal(c.limits[0].unit, "1");
+    assert_string_equal(c.limits[0].source, "a test");
+    most.is_upper = true;
+    c = judged(case_of(2.4, 0), &most, 1, false, &arena);
+    assert_true(c.limits[0].is_upper);
+    assert_close(c.limits[0].margin, 0.25, 1e-12);
+    assert_true(isnan(c.margin));
+}
+
+TEST(what_lies_on_the_limit_keeps_it)
+{
+    Arena        arena = test_arena(state);
+    ProfileLimit limits[] = {limit_of(LIMIT_CONTRAST_RATIO, 3),
+                             limit_of(LIMIT_CONTRAST_RATIO, 3)};
+    limits[1].is_upper = true;
+    ReviewCase c = judged(case_of(3, 0), limits, 2, false, &arena);
+    assert_int_equal(c.verdict, VERDICT_PASS);
+}
+
+/* ---- doubt ------------------------------------------------------------------------------- */
+
+TEST(an_interval_across_the_limit_is_too_close)
+{
+    Arena arena = test_arena(state);
+    for (int i = 0; i < COUNT_OF(ROWS); i++) {
+        for (int side = -1; side <= 1; side += 2) {
+            ProfileLimit limit = limit_of(ROWS[i].kind, ROWS[i].limit);
+            limit.is_upper = ROWS[i].is_upper;
+            if (!limit_kinds[limit.kind].is_contrast) continue;
+            ReviewCase c = case_of(ROWS[i].ratio * (1 + 0.02 * side), 0.03);
+            c = judged(c, &limit, 1, false, &arena);
+            assert_int_equal(c.verdict, VERDICT_TOO_CLOSE);
+            assert_true(c.limits[0].low < limit.value && c.limits[0].high > limit.value);
+            assert_true(isfinite(c.limits[0].margin));
+        }
+    }
+}
+
+TEST(what_is_not_known_is_too_close)
+{
+    Arena        arena = test_arena(state);
+    ProfileLimit contrast = limit_of(LIMIT_CONTRAST_RATIO, 3);
+    ProfileLimit height = limit_of(LIMIT_CHARACTER_HEIGHT, 12);
+    ReviewCase   c = case_of(NAN, 0);
+    assert_int_equal(judged(c, &contrast, 1, false, &arena).verdict, VERDICT_TOO_CLOSE);
+    c = case_of(5, 0);
+    c.contrast_low = NAN;
+    assert_int_equal(judged(c, &contrast, 1, false, &arena).verdict, VERDICT_TOO_CLOSE);
+    c = case_of(5, 0);
+    c.height_arcmin = NAN;
+    assert_int_equal(judged(c, &height, 1, false, &arena).verdict, VERDICT_TOO_CLOSE);
+    contrast.is_upper = true;
+    c = case_of(NAN, 0);
+    assert_int_equal(judged(c, &contrast, 1, false, &arena).verdict, VERDICT_TOO_CLOSE);
+}
+
+TEST(nothing_visible_is_no_verdict_on_legibility)
+{
+    Arena        arena = test_arena(state);
+    ProfileLimit limit = limit_of(LIMIT_CONTRAST_RATIO, 3);
+    ReviewCase   c = case_of(9, 0);
+    c.visible_share = 0;
+    c = judged(c, &limit, 1, false, &arena);
+    assert_int_equal(c.verdict, VERDICT_NOT_VISIBLE);
+    assert_int_equal(c.limits[0].verdict, VERDICT_NOT_VISIBLE);
+    assert_true(isnan(c.limits[0].found));
+    c.visible_share = 0;
+    assert_int_equal(judged(c, NULL, 0, false, &arena).verdict, VERDICT_NOT_VISIBLE);
+    c = case_of(9, 0);
+    c.visible_share = 0.01;
+    assert_int_equal(judged(c, &limit, 1, false, &arena).verdict, VERDICT_PASS);
+}
+
+/* ---- which limits ------------------------------------------------------------------------ */
+
+TEST(the_worst_that_counts_decides)
+{
+    Arena        arena = test_arena(state);
+    ProfileLimit limits[] = {limit_of(LIMIT_CONTRAST_RATIO, 2),
+                             limit_of(LIMIT_CONTRAST_RATIO, 6),
+                             limit_of(LIMIT_CHARACTER_HEIGHT, 30)};
+    limits[1].is_advice = true;
+    limits[2].is_advice = true;
+    ReviewCase c = judged(case_of(4, 0.01), limits, 3, false, &arena);
+    assert_int_equal(c.verdict, VERDICT_PASS);
+    assert_int_equal(c.limits[1].verdict, VERDICT_FAIL);
+    assert_true(c.limits[1].is_advice && !c.limits[0].is_advice);
+    assert_int_equal(c.limit_id, 0);
+    limits[2].is_advice = false;
+    c = judged(case_of(4, 0.01), limits, 3, false, &arena);
+    assert_int_equal(c.verdict, VERDICT_FAIL);
+    c = judged(case_of(2, 0.01), limits, 2, false, &arena);
+    assert_int_equal(c.verdict, VERDICT_TOO_CLOSE);
+    c = judged(case_of(2, 0.01), limits, 3, false, &arena);
+    assert_int_equal(c.verdict, VERDICT_FAIL);
+}
+
+/* 0.7 of modulation is a ratio of 5.67, a luminance contrast of 5 one of 6. */
+TEST(the_contrast_that_is_asked_most_of_is_the_limit)
+{
+    Arena        arena = test_arena(state);
+    ProfileLimit limits[] = {
+        limit_of(LIMIT_CHARACTER_HEIGHT, 12), limit_of(LIMIT_CONTRAST_RATIO, 5),
+        limit_of(LIMIT_LUMINANCE_CONTRAST, 5), limit_of(LIMIT_MODULATION, 0.7)};
+    ReviewCase c = judged(case_of(7, 0), limits, 4, false, &arena);
+    assert_int_equal(c.limit_id, 2);
+    assert_close(c.margin, 0.2, 1e-12);
+    limits[2].ambients[AMBIENT_DAY] = false;
+    c = judged(case_of(7, 0), limits, 4, false, &arena);
+    assert_int_equal(c.limit_count, 3);
+    assert_string_equal(c.limits[c.limit_id].kind, "modulation");
+    limits[3].value = 1; /* no ratio is enough */
+    c = judged(case_of(1e9, 0), limits, 4, false, &arena);
+    assert_int_equal(c.verdict, VERDICT_FAIL);
+    assert_string_equal(c.limits[c.limit_id].kind, "modulation");
+}
+
+TEST(limits_belong_to_their_light)
+{
+    Arena          arena = test_arena(state);
+    const Profile *profile;
+    Error          err = {0};
+    assert_true(profile_load("iso-15008", &arena, &profile, &err));
+    for (int a = 0; a < AMBIENT_COUNT; a++) {
+        const Verdict expected[] = {VERDICT_FAIL, VERDICT_FAIL, VERDICT_PASS, VERDICT_PASS};
+        ReviewCase    c = case_of(4, 0.01);
+        c.ambient = (Ambient)a;
+        judge_case(&c, profile, &arena);
+        assert_int_equal(c.verdict, expected[a]);
+        assert_int_equal(c.limit_count, 8);
+    }
+}
+
+/* NUREG-0700: the smaller the characters, the more modulation, from 17 down to 10 minutes. */
+TEST(small_characters_need_more)
+{
+    static const double HEIGHTS[] = {10, 12, 15, 17}, VALUES[] = {1, 0.86, 0.65, 0.51};
+    Arena          arena = test_arena(state);
+    const Profile *profile;
+    Error          err = {0};
+    assert_true(profile_load("nureg-0700", &arena, &profile, &err));
+    for (int i = 0; i < COUNT_OF(HEIGHTS); i++) {
+        ReviewCase c = case_of(8, 0);
+        c.height_arcmin = HEIGHTS[i];
+        judge_case(&c, profile, &arena);
+        assert_int_equal(c.limit_count, 3);
+        assert_close(c.limits[2].value, VALUES[i], 1e-12);
+        assert_close(c.limits[2].found, 7.0 / 9, 1e-12);
+        assert_int_equal(c.verdict, VALUES[i] > 7.0 / 9 ? VERDICT_FAIL : VERDICT_PASS);
+        c.height_arcmin = 17.01;
+        judge_case(&c, profile, &arena);
+        assert_int_equal(c.limit_count, 2);
+        assert_int_equal(c.verdict, VERDICT_PASS);
+    }
+}
+
+TEST(strokes_are_listed_and_do_not_count)
+{
+    Arena        arena = test_arena(state);
+    ProfileLimit limits[] = {limit_of(LIMIT_STROKE_RATIO, 0.1),
+                             limit_of(LIMIT_WIDTH_RATIO, 0.65)};
+    ReviewCase   c = judged(case_of(4, 0), limits, 2, false, &arena);
+    assert_int_equal(c.limit_count, 2);
+    assert_int_equal(c.verdict, VERDICT_PASS);
+    assert_true(isnan(c.limits[0].found) && isnan(c.limits[1].margin));
+    assert_int_equal(c.limits[0].verdict, VERDICT_TOO_CLOSE);
+}
+
+TEST(without_limits_nothing_fails)
+{
+    Arena arena = test_arena(state);
+    for (int i = 0; i < profile_count; i++) {
+        const Profile *profile;
+        Error          err = {0};
+        assert_true(profile_load(profile_table[i].name, &arena, &profile, &err));
+        ReviewCase c = case_of(1.01, 0);
+        c.ambient = AMBIENT_SUN;
+        judge_case(&c, profile, &arena);
+        assert_int_equal(c.verdict, profile->limit_count ? VERDICT_FAIL : VERDICT_PASS);
+        assert_int_equal(c.limit_id >= 0, profile->limit_count > 0);
+        assert_int_equal(isnan(c.margin), profile->limit_count == 0);
+    }
+}
+
+/* ---- the veil ---------------------------------------------------------------------------- */
+
+/* 110 and 10 cd/m2 with 40 reflected: 3; below a veil of 50: 2. */
+TEST(a_veil_counts_where_the_profile_says_so)
+{
+    Arena        arena = test_arena(state);
+    ProfileLimit limit = limit_of(LIMIT_CONTRAST_RATIO, 2.5);
+    ReviewCase   c = case_of(3, 0.02);
+    assert_close(c.luminance_cd_m2.reflected, 40, 1e-12);
+    c.luminance_cd_m2.veil = 50;
+    c.contrast_with_veil = (110.0 + 40 + 50) / (10 + 40 + 50);
+    assert_int_equal(judged(c, &limit, 1, false, &arena).verdict, VERDICT_PASS);
+    ReviewCase veiled = judged(c, &limit, 1, true, &arena);
+    assert_int_equal(veiled.verdict, VERDICT_FAIL);
+    assert_near(veiled.limits[0].found, 2, 1e-12);
+    /* Its ends are those reflections, with the veil. */
+    for (int side = -1; side <= 1; side += 2) {
+        double ratio = 3 * (1 + 0.02 * side), reflected = 100 / (ratio - 1) - 10;
+        double end = side < 0 ? veiled.limits[0].low : veiled.limits[0].high;
+        assert_close(end, (110 + reflected + 50) / (10 + reflected + 50), 1e-12);
+    }
+    limit.value = 2;
+    assert_int_equal(judged(c, &limit, 1, true, &arena).verdict, VERDICT_TOO_CLOSE);
+    c.luminance_cd_m2.veil = 0;
+    c.contrast_with_veil = 3;
+    veiled = judged(c, &limit, 1, true, &arena);
+    assert_close(veiled.limits[0].low, c.contrast_low, 1e-12);
+    assert_close(veiled.limits[0].high, c.contrast_high, 1e-12);
+}
+
+/* ---- the ambient ------------------------------------------------------------------------- */
+
+TEST(the_ambient_comes_from_the_display_s_light)
+{
+    Arena          arena = test_arena(state);
+    const Profile *profile;
+    Error          err = {0};
+    ReviewCase     c = case_of(4, 0);
+    assert_true(profile_load("iso-15008", &arena, &profile, &err));
+    c.display_lux = 0.2;
+    judge_ambient(&c, profile, false);
+    assert_int_equal(c.ambient, AMBIENT_NIGHT);
+    c.display_lux = 3000;
+    judge_ambient(&c, profile, false);
+    assert_int_equal(c.ambient, AMBIENT_DAY);
+    judge_ambient(&c, profile, true);
+    assert_int_equal(c.ambient, AMBIENT_SUN);
+}
+
+int main(void)
+{
+    return run_cases(make_arena, drop_arena);
+}
