@@ -1,10 +1,10 @@
-/* content_light.h -- the luminances of the pixels that a display shows within a rectangle of its
- * content: what the panel sends along its normal for each pixel's codes.
+/* content_light.h -- the luminances of the pixels that a display shows within a rectangle of
+ * its content: what the panel sends along its normal for each pixel's codes.
  *
  * uv       of the content: u right, v down, 0..1; a pixel belongs to a rectangle that holds its
  *          centre. A display without content shows one white pixel.
  * Units    cd m^-2, at level 1.
- * Memory   from the arena.  Threads  pure function.
+ * Memory   from the arena; the content must outlive the result.  Threads  pure functions.
  */
 #pragma once
 #include "base/arena.h"
@@ -14,14 +14,14 @@
 
 /* Pixels x .. x + width - 1, y .. y + height - 1 of the content, row by row. */
 typedef struct ContentLight {
-    const Image *content;      /* NULL: white */
+    const Image *content; /* NULL: white */
     int    content_width, content_height; /* 1 x 1 without content */
     int    x, y, width, height;
     float *cd_m2;
 } ContentLight;
 
-/* uv: left, top, right, bottom. Fails when it leaves 0..1, is not left < right and top < bottom,
- * or holds no pixel's centre; the text names the numbers, not whose they are. */
+/* uv: left, top, right, bottom. Fails when it leaves 0..1, is not left < right and
+ * top < bottom, or holds no pixel's centre; the text does not say whose rectangle it is. */
 bool content_light(const Panel *panel, const Image *content, const double uv[4], Arena *arena,
                    ContentLight *out, Error *err);
 

@@ -1,0 +1,157 @@
+#include "review/symbol/symbol_sight.h"
+
+#include <math.h>
+
+#include "base/mathd.h"
+#include "base/units.h"
+#include "light/emission.h"
+#include "panel/query/panel_emission.h"
+
+#define COLUMNS 9
+#define MOST_PIXELS 20000
+#define HIDES_BELOW 0.01f /* of the light that passes */
+
+/* ---- height ------------------------------------------------------------------------------ */
+
+typedef struct Arrow {
+    double x, y, z;
+} Arrow;
+
+static Arrow arrow(Vec3 from, Vec3 to)
+{
+    return (Arrow){(double)to.x - (double)from.x, (double)to.y - (double)from.y,
+                   (double)to.z - (double)from.z};
+}
+
+/* By sine and cosine: small angles keep their digits. */
+static double angle_between(Arrow a, Arrow b)
+{
+    double x = a.y * b.z - a.z * b.y, y = a.z * b.x - a.x * b.z, z = a.x * b.y - a.y * b.x;
+    return atan2_d(sqrt(x * x + y * y + z * z), a.x * b.x + a.y * b.y + a.z * b.z);
+}
+
+double symbol_height_arcmin(const SymbolSurface *surface, const double box[4], Vec3 eye)
+{
+    double sum = 0;
+    for (int k = 0; k < COLUMNS; k++) {
+        double      u = box[0] + (k + 0.5) / COLUMNS * (box[2] - box[0]);
+        SymbolPoint top, bottom;
+        if (!symbol_surface_at(surface, (double[2]){u, box[1]}, &top) ||
+            !symbol_surface_at(surface, (double[2]){u, box[3]}, &bottom))
+            return (double)NAN;
+        sum += angle_between(arrow(eye, top.position), arrow(eye, bottom.position));
+    }
+    return 60 * degrees_from_radians(sum / COLUMNS);
+}
+
+/* ---- what is seen of it ------------------------------------------------------------------ */
+
+typedef struct SightQuestion {
+    const PathContext *context;
+    const Wavelengths *wavelengths;
+    Vec3     direction; /* of the look */
+    Spectrum passed;
+} SightQuestion;
+
+static float luminous(const Wavelengths *wavelengths, const Spectrum *passed)
+{
+    return spectrum_sum(*passed * wavelengths->xyz[1]) / spectrum_sum(wavelengths->xyz[1]);
+}
+
+static bool passes(void *user, const Hit *hit)
+{
+    SightQuestion *question = user;
+    const PathContext *context = question->context;
+    question->passed *= surface_pass(context->scene, context->tables, hit, question->direction,
+                                     question->wavelengths);
+    return luminous(question->wavelengths, &question->passed) >= HIDES_BELOW;
+}
+
+/* The share of light that comes from the point to the eye; 0: it is hidden, or seen from
+ * behind. */
+static float passed_from(const SymbolPoint *point, const PathContext *context,
+                         const Wavelengths *wavelengths, Vec3 eye)
+{
+    Vec3  look = vec3_sub(point->position, eye);
+    float distance = vec3_length(look);
+    SightQuestion question = {context, wavelengths, vec3_normalize(look), spectrum_all(1)};
+    if (!(vec3_dot(look, point->ng) < 0)) return 0;
+    float step = fmaxf(ray_offset_step(point->position), ray_offset_step(eye));
+    float end = fmaxf(distance * (1 - 1e-4f) - 4 * step, 0);
+    if (bvh_occluded(context->bvh, (Ray){eye, question.direction, 0, end}, passes, &question))
+        return 0;
+    return luminous(wavelengths, &question.passed);
+}
+
+SymbolVisibility symbol_visibility(const SymbolSurface *surface, const PathContext *context,
+                                   Vec3 eye, bool *is_visible)
+{
+    double seen = 0, passed = 0;
+    Wavelengths wavelengths;
+    wavelengths_sample(0.5f, &wavelengths);
+    for (int i = 0; i < surface->point_count; i++) {
+        const SymbolPoint *point = &surface->points[i];
+        double share = (double)passed_from(point, context, &wavelengths, eye);
+        if (is_visible) is_visible[i] = share > 0;
+        if (!(share > 0)) continue;
+        seen += (double)point->area_m2;
+        passed += share * (double)point->area_m2;
+    }
+    return (SymbolVisibility){seen / surface->area_m2, passed / seen};
+}
+
+/* ---- light ------------------------------------------------------------------------------- */
+
+/* What the pixel sends to the eye; false: it turns its back. */
+static bool add_pixel(const SymbolSurface *surface, const ContentLight *light, size_t pixel,
+                      Vec3 eye, double sum[3])
+{
+    const Scene   *scene = surface->scene;
+    const Display *display = &scene->displays[surface->display_id];
+    int    x = light->x + (int)(pixel % (size_t)light->width);
+    int    y = light->y + (int)(pixel / (size_t)light->width);
+    double uv[2] = {(x + 0.5) / light->content_width, (y + 0.5) / light->content_height};
+    float  codes[3], xyz[3];
+    SymbolPoint at;
+    if (!symbol_surface_at(surface, uv, &at)) return false;
+    Vec3 to_eye = vec3_normalize(vec3_sub(eye, at.position));
+    if (!(vec3_dot(to_eye, at.ng) > 0)) return false;
+    TrianglePoint point = triangle_point(scene, at.triangle, at.u, at.v);
+    Frame frame = display_frame(scene, display, at.triangle, &point);
+    content_codes(light->content, x, y, codes);
+    panel_emission_xyz(display->panel, frame_to_local(&frame, to_eye), codes, xyz);
+    for (int k = 0; k < 3; k++) sum[k] += (double)xyz[k];
+    return true;
+}
+
+static void mean_of_class(const SymbolSurface *surface, const SymbolSplit *split,
+                          SymbolClass which, Vec3 eye, double xyz[3])
+{
+    const ContentLight *light = &split->light;
+    size_t all = (size_t)light->width * (size_t)light->height;
+    long   of_class = which == SYMBOL_FOREGROUND ? split->foreground_count
+                                                 : split->background_count;
+    long   wanted = of_class < MOST_PIXELS ? of_class : MOST_PIXELS;
+    long   met = 0, asked = 0, counted = 0;
+    for (int k = 0; k < 3; k++) xyz[k] = 0;
+    for (size_t i = 0; i < all; i++) {
+        if (split->class_of[i] != which) continue;
+        if (met++ != (2 * asked + 1) * of_class / (2 * wanted)) continue;
+        asked++;
+        counted += add_pixel(surface, light, i, eye, xyz);
+    }
+    for (int k = 0; k < 3; k++) xyz[k] /= (double)counted;
+}
+
+SymbolEmission symbol_emission(const SymbolSurface *surface, const SymbolSplit *split,
+                               double level, Vec3 eye)
+{
+    SymbolEmission out;
+    mean_of_class(surface, split, SYMBOL_FOREGROUND, eye, out.foreground_xyz);
+    mean_of_class(surface, split, SYMBOL_BACKGROUND, eye, out.background_xyz);
+    for (int k = 0; k < 3; k++) {
+        out.foreground_xyz[k] *= level;
+        out.background_xyz[k] *= level;
+    }
+    return out;
+}

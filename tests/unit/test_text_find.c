@@ -1,0 +1,195 @@
+/* Where a content shows text. */
+#include "symbol_fixture.h"
+
+#include "review/symbol/text_find.h"
+
+enum { MOST = 40 };
+
+typedef struct Proposals {
+    TextProposal *list;
+    int           count;
+} Proposals;
+
+static Proposals proposals_in(Easel *easel, const Image *content, const double uv[4], int most)
+{
+    ContentLight light;
+    Proposals    found;
+    Error        err = {0};
+    if (!content_light(easel->panel, content, uv, &easel->arena, &light, &err))
+        fail_msg("%s", err.text);
+    found.count = text_find(&light, most, &easel->arena, &found.list);
+    return found;
+}
+
+static const double ALL[4] = {0, 0, 1, 1};
+
+static Image content_of(Easel *easel, const char *name)
+{
+    Image image;
+    Error err = {0};
+    if (!image_read(arena_format(&easel->arena, PROJECT_DIR "/assets/content/%s", name),
+                    &easel->arena, &image, &err))
+        fail_msg("%s: %s", err.file, err.text);
+    return image;
+}
+
+/* A proposal that holds the first box of pixels and stays within the second; its place in the
+ * list, or -1. */
+static int place_of(const Proposals *found, const Image *image, const double inner[4],
+                    const double outer[4])
+{
+    for (int i = 0; i < found->count; i++) {
+        const double *uv = found->list[i].uv;
+        double box[4] = {uv[0] * image->width, uv[1] * image->height, uv[2] * image->width,
+                         uv[3] * image->height};
+        if (box[0] <= inner[0] && box[1] <= inner[1] && box[2] >= inner[2] &&
+            box[3] >= inner[3] && box[0] >= outer[0] && box[1] >= outer[1] &&
+            box[2] <= outer[2] && box[3] <= outer[3])
+            return i;
+    }
+    return -1;
+}
+
+/* ---- made texts -------------------------------------------------------------------------- */
+
+/* Letters H of two posts and a bar: at x, y, of a height; as many as there is room for. */
+static void add_word(Boxes *boxes, double x, double y, double height, int letters)
+{
+    for (int i = 0; i < letters; i++) {
+        double left = x + 0.9 * height * i, w = 0.15 * height;
+        double parts[3][4] = {{left, y, left + w, y + height},
+                              {left + 4 * w, y, left + 5 * w, y + height},
+                              {left + w, y + 0.45 * height, left + 4 * w, y + 0.55 * height}};
+        memcpy(boxes->box[boxes->count], parts, sizeof parts);
+        boxes->count += 3;
+    }
+}
+
+TEST(words_are_proposed_tallest_first)
+{
+    Easel *easel = *state;
+    for (int polarity = 0; polarity < 2; polarity++) {
+        Boxes boxes = {0};
+        const double ink_ground[2][2] = {{0.8, 0.05}, {0.05, 0.8}};
+        add_word(&boxes, 20, 30, 20, 2);
+        add_word(&boxes, 120, 100, 40, 3);
+        Image image = easel_draw(easel, 300, 200, ink_ground[polarity], boxes_coverage, &boxes);
+        Proposals found = proposals_in(easel, &image, ALL, MOST);
+        assert_int_equal(found.count, 2);
+        const double tall[2][4] = {{120, 100, 222, 140}, {110, 90, 232, 150}};
+        const double small[2][4] = {{20, 30, 53, 50}, {14, 24, 59, 56}};
+        assert_int_equal(place_of(&found, &image, tall[0], tall[1]), 0);
+        assert_int_equal(place_of(&found, &image, small[0], small[1]), 1);
+        for (int i = 0; i < 2; i++) {
+            assert_int_equal(found.list[i].characters, 3 - i);
+            assert_int_equal(found.list[i].height_px, i ? 20 : 40);
+            assert_true(found.list[i].is_light_on_dark == (polarity == 0));
+        }
+        assert_int_equal(proposals_in(easel, &image, ALL, 1).count, 1);
+        easel->arena = easel->fresh;
+    }
+}
+
+/* Of a rectangle the proposals lie in the whole content's uv. */
+TEST(a_rectangle_has_its_own_texts_alone)
+{
+    Easel *easel = *state;
+    Boxes  boxes = {0};
+    const double ink_ground[2] = {1, 0}, left_half[4] = {0, 0, 0.35, 1};
+    add_word(&boxes, 20, 30, 20, 2);
+    add_word(&boxes, 120, 100, 40, 3);
+    Image     image = easel_draw(easel, 300, 200, ink_ground, boxes_coverage, &boxes);
+    Proposals found = proposals_in(easel, &image, left_half, MOST);
+    assert_int_equal(found.count, 1);
+    const double small[2][4] = {{20, 30, 53, 50}, {14, 24, 59, 56}};
+    assert_int_equal(place_of(&found, &image, small[0], small[1]), 0);
+    easel->arena = easel->fresh;
+}
+
+/* A slope has no edges, one colour no parts. */
+static double slope(const void *drawing, int x, int y)
+{
+    (void)drawing;
+    return (x + y) / 500.0;
+}
+
+static double nothing(const void *drawing, int x, int y)
+{
+    (void)drawing;
+    return 0 * (x + y);
+}
+
+TEST(where_there_is_no_text_none_is_proposed)
+{
+    Easel *easel = *state;
+    const double ink_ground[2] = {1, 0};
+    Image image = easel_draw(easel, 300, 200, ink_ground, slope, NULL);
+    assert_int_equal(proposals_in(easel, &image, ALL, MOST).count, 0);
+    image = easel_draw(easel, 300, 200, ink_ground, nothing, NULL);
+    assert_int_equal(proposals_in(easel, &image, ALL, MOST).count, 0);
+    assert_int_equal(proposals_in(easel, NULL, ALL, MOST).count, 0);
+    easel->arena = easel->fresh;
+}
+
+/* ---- shipped contents -------------------------------------------------------------------- */
+
+/* Pixels of what the eye reads there; the proposal may be larger by the margin. */
+typedef struct Readable {
+    const char *content;
+    double      box[4];
+    bool        is_light_on_dark;
+} Readable;
+
+static const Readable READABLE[] = {
+    {"cluster.png", {335, 312, 507, 420}, true},    /* 48, the speed */
+    {"cluster.png", {1418, 318, 1548, 404}, true},  /* 78 */
+    {"cluster.png", {399, 570, 443, 597}, false},   /* 50, black on the sign */
+    {"cluster.png", {182, 641, 240, 663}, true},    /* ABS, dark grey */
+    {"centre.png", {445, 909, 684, 968}, true},     /* 350 m */
+    {"centre.png", {740, 1346, 860, 1376}, true},   /* AUTO, on blue */
+    {"pfd.png", {347, 41, 493, 67}, true},          /* ALT CRZ, in a frame */
+    {"pfd.png", {461, 375, 492, 398}, true},        /* 10, on the sky's slope */
+    {"engine.png", {267, 212, 355, 243}, true},     /* 85.3 */
+    {"engine.png", {53, 1065, 409, 1093}, true},    /* LDG LT RETRACTED */
+};
+
+TEST(what_the_shipped_contents_say_is_proposed)
+{
+    Easel    *easel = *state;
+    Image     image = {0};
+    Proposals found = {0};
+    for (size_t i = 0; i < sizeof READABLE / sizeof *READABLE; i++) {
+        const Readable *r = &READABLE[i];
+        if (i == 0 || strcmp(r->content, r[-1].content) != 0) {
+            easel->arena = easel->fresh;
+            image = content_of(easel, r->content);
+            found = proposals_in(easel, &image, ALL, MOST);
+        }
+        double more = 0.4 * (r->box[3] - r->box[1]);
+        double outer[4] = {r->box[0] - more, r->box[1] - more, r->box[2] + more,
+                           r->box[3] + more};
+        int at = place_of(&found, &image, r->box, outer);
+        if (at < 0) fail_msg("%s: nothing at %g, %g", r->content, r->box[0], r->box[1]);
+        assert_true(found.list[at].is_light_on_dark == r->is_light_on_dark);
+    }
+    easel->arena = easel->fresh;
+}
+
+TEST(the_same_content_gives_the_same_list)
+{
+    Easel *easel = *state;
+    Image     image = content_of(easel, "cluster.png");
+    Proposals a = proposals_in(easel, &image, ALL, MOST);
+    Proposals b = proposals_in(easel, &image, ALL, MOST);
+    assert_int_equal(a.count, b.count);
+    for (int i = 0; i < a.count; i++)
+        assert_memory_equal(a.list[i].uv, b.list[i].uv, sizeof a.list[i].uv);
+    for (int i = 1; i < a.count; i++)
+        assert_true(a.list[i].height_px <= a.list[i - 1].height_px);
+    easel->arena = easel->fresh;
+}
+
+int main(void)
+{
+    return run_cases(easel_open, easel_close);
+}
