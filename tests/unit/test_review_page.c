@@ -10,6 +10,7 @@
 #include "base/file_write.h"
 #include "review/output/review_bar.h"
 #include "review/output/review_words.h"
+#include "text/base64.h"
 #include "verdict_fixture.h"
 
 static Arena arena;
@@ -346,6 +347,49 @@ TEST(the_border_encloses_what_fails)
         arena_release(&more);
         if (!strstr(html.data, CASES[i].path)) fail_msg("%s", strstr(html.data, "border"));
     }
+}
+
+/* The bytes of the first data-values behind `at`: 16 bits a cell, low byte first. */
+static const unsigned char *values_behind(const char *at, size_t cells)
+{
+    Error          err = {0};
+    size_t         size = 0;
+    const char    *text = value_at(strstr(at, "data-values=\"") + 13);
+    unsigned char *bytes = ARENA_NEW(&arena, unsigned char, strlen(text));
+    assert_true(base64_decode(text, strlen(text), bytes, &size, &err));
+    assert_int_equal(size, 2 * cells);
+    return bytes;
+}
+
+/* What script tells at the pointer is the map's contrast within 0.06 %, and its verdict. */
+TEST(the_pointer_reads_what_the_map_shows)
+{
+    (void)state;
+    Error          err = {0};
+    ReviewMap      map = fixture_map(&arena, NULL);
+    ReviewCalendar calendar = fixture_calendar(&arena, NULL);
+    Text           html = {.arena = &arena}, more = {.arena = &arena};
+    int            cells = map.azimuth_deg.count * map.elevation_deg.count;
+    Arena          scratch = arena_reserve((size_t)1 << 26);
+    assert_true(review_map_add(&html, &map, &scratch, &err));
+    assert_true(review_map_add_calendar(&more, &calendar, &scratch, &err));
+    const unsigned char *v = values_behind(html.data, (size_t)cells);
+    for (int i = 0; i < cells; i++) {
+        unsigned code = v[2 * i] + 256u * v[2 * i + 1];
+        if (isnan(map.contrast[i])) assert_int_equal(code, 0);
+        else assert_int_equal(code >> 14, map.verdict[i]);
+        if (!isnan(map.contrast[i]))
+            assert_close(pow(1e4, ((code & 16383) - 1) / 16382.0), map.contrast[i], 6e-4);
+    }
+    v = values_behind(more.data, 365 * 24);
+    for (int day = 0; day < 365; day++)
+        for (int step = 0; step < 24; step++) {
+            unsigned code = v[2 * (step * 365 + day)] + 256u * v[2 * (step * 365 + day) + 1];
+            float    share = calendar.failed_share[day * 24 + step];
+            if (isnan(share)) assert_int_equal(code, 0);
+            else assert_near((code - 1) / 1e4, share, 1e-4);
+        }
+    arena_release(&scratch);
 }
 
 /* ---- words ------------------------------------------------------------------------------ */

@@ -231,7 +231,7 @@ static inline ReviewMap fixture_map(Arena *arena, const ReviewSweep *sweep)
     for (int i = 0; i < COLUMNS * ROWS; i++) {
         double azimuth = i % COLUMNS * 2, elevation = i / COLUMNS * 2;
         double from = hypot(azimuth - 160, 1.5 * (elevation - 14));
-        double ratio = 0.4 + 0.6 * from / 25 + 0.2 * sin(azimuth / 9) * sin(elevation / 7);
+        double ratio = 0.65 + 0.35 * from / 25 + 0.15 * sin(azimuth / 9) * sin(elevation / 7);
         margin[i] = elevation > 76 ? NAN : (float)(ratio - 1);
         contrast[i] = elevation > 76 ? NAN : (float)(2 * ratio);
         verdict[i] = ratio < 0.98 ? VERDICT_FAIL : ratio < 1.02 ? VERDICT_TOO_CLOSE

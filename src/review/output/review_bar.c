@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/mathd.h"
 #include "review/output/review_words.h"
 #include "text/escape.h"
 
@@ -12,7 +13,7 @@
 /* From the left end; ratio: to the limit. */
 static double margin_place(double ratio)
 {
-    double octaves = ratio > 0 ? log2(ratio) : -1;
+    double octaves = ratio > 0 ? log2_d(ratio) : -1;
     return HALF_WIDTH * (1 + fmax(-1, fmin(1, octaves)));
 }
 

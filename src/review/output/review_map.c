@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/mathd.h"
 #include "image/picture.h"
 #include "page/page.h"
 #include "review/output/review_words.h"
@@ -32,7 +33,7 @@ static Colour mix(Colour a, Colour b, double t)
 /* From half the limit to twice. A case may fail for another reason than its contrast. */
 static Colour colour_of(Verdict verdict, double margin)
 {
-    double octaves = margin > -1 ? log2(1 + margin) : -1;
+    double octaves = margin > -1 ? log2_d(1 + margin) : -1;
     if (verdict == VERDICT_TOO_CLOSE) return CLOSE;
     if (verdict == VERDICT_NOT_VISIBLE) return HIDDEN;
     if (verdict == VERDICT_FAIL) return mix(FAILING, WORST, isnan(margin) ? 0.5 : -octaves);
@@ -61,11 +62,30 @@ static bool add_cells(Text *html, const Picture *cells, Arena scratch, Error *er
     return true;
 }
 
+/* The numbers for the pointer (review.js), 16 bits a cell. */
+static void add_values(Text *html, const unsigned char *codes, size_t cells)
+{
+    text_add(html, "\" data-values=\"");
+    base64_encode(html, codes, 2 * cells);
+    text_add(html, "\">");
+}
+
+static void set_code(unsigned char *codes, size_t i, unsigned code)
+{
+    codes[2 * i] = (unsigned char)(code & 255);
+    codes[2 * i + 1] = (unsigned char)(code >> 8);
+}
+
 /* share: of the way along the axis, 0..1; from the left, or from the top. */
-static void add_tick(Text *html, const char *side, double share, const char *text)
+static void begin_tick(Text *html, const char *side, double share)
 {
     const char *end = share < 0.04 ? " class=\"first\"" : share > 0.96 ? " class=\"last\"" : "";
     text_format(html, "<span%s style=\"%s:%.2f%%\">", end, side, 100 * share);
+}
+
+static void add_tick(Text *html, const char *side, double share, const char *text)
+{
+    begin_tick(html, side, share);
     escape_markup(html, text);
     text_add(html, "</span>");
 }
@@ -183,7 +203,8 @@ static void add_path_name(Text *html, const ReviewMap *map, const SunPath *path)
     text_add(html, "</span>");
 }
 
-static void add_azimuths(Text *html, const ReviewMap *map, Arena *arena)
+/* The degrees are left out where there is no room. */
+static void add_azimuths(Text *html, const ReviewMap *map)
 {
     static const char *const VEHICLE[4] = {"ahead", "right", "behind", "left"};
     static const char *const WORLD[4] = {"north", "east", "south", "west"};
@@ -192,8 +213,9 @@ static void add_azimuths(Text *html, const ReviewMap *map, Arena *arena)
     for (int quarter = -4; quarter <= 8; quarter++) {
         double share = axis_place(axis, 90.0 * quarter) / axis->count;
         if (share < 0 || share > 1) continue;
-        const char *word = (map->is_of_vehicle ? VEHICLE : WORLD)[(quarter + 4) % 4];
-        add_tick(html, "left", share, arena_format(arena, "%d° %s", 90 * quarter, word));
+        begin_tick(html, "left", share);
+        text_format(html, "<b>%d° </b>%s</span>", 90 * quarter,
+                    (map->is_of_vehicle ? VEHICLE : WORLD)[(quarter + 4) % 4]);
     }
     text_add(html, "</div>");
 }
@@ -247,7 +269,7 @@ static void add_map_labels(Text *html, const ReviewMap *map, Arena *arena)
     for (int i = 0; i < map->path_count; i++) add_path_name(html, map, &map->paths[i]);
     text_add(html, "</div>");
     add_elevations(html, map, arena);
-    add_azimuths(html, map, arena);
+    add_azimuths(html, map);
     text_add(html, "</div>\n");
     add_map_keys(html, map);
     page_element(html, "figcaption", map->path_count > 0
@@ -257,12 +279,36 @@ static void add_map_labels(Text *html, const ReviewMap *map, Arena *arena)
           "line it fails.");
 }
 
+/* Contrast of 1 to 10,000 by its logarithm, within 0.06 %. */
+static unsigned code_of(float contrast, unsigned verdict)
+{
+    double decades = contrast > 1 ? fmin(log10_d((double)contrast), 4) : 0;
+    return isnan(contrast) ? 0 : verdict << 14 | (unsigned)(1.5 + 16382 * decades / 4);
+}
+
+/* Opens the map's area; the box is on which the pointer is read. */
+static void begin_map(Text *html, const ReviewMap *map, Arena scratch)
+{
+    const ReviewAxis  *across = &map->azimuth_deg, *up = &map->elevation_deg;
+    const char *const *words = words_directions(map->is_of_vehicle);
+    size_t         cells = (size_t)across->count * (size_t)up->count;
+    unsigned char *codes = ARENA_NEW(&scratch, unsigned char, 2 * cells);
+    for (size_t i = 0; i < cells; i++)
+        set_code(codes, i, code_of(map->contrast[i], map->verdict[i]));
+    text_format(html, "<div class=\"chart\"><div class=\"area\" data-kind=\"map\" "
+                "data-columns=\"%d\" data-rows=\"%d\" data-first=\"%.9g\" data-step=\"%.9g\" "
+                "data-low=\"%.9g\" data-rise=\"%.9g\" data-words=\"", across->count, up->count,
+                across->first, across->step, up->first, up->step);
+    for (int i = 0; i < 8; i++) text_format(html, i ? "|%s" : "%s", words[i]);
+    add_values(html, codes, cells);
+}
+
 bool review_map_add(Text *html, const ReviewMap *map, Arena *arena, Error *err)
 {
     text_add(html, "<figure class=\"sweep\">");
     page_element(html, "h3", map->is_of_vehicle ? "Where the sun stands, seen from the vehicle"
                                                 : "Where the sun stands");
-    text_add(html, "<div class=\"chart\"><div class=\"area\">");
+    begin_map(html, map, *arena);
     Picture cells = map_picture(map, arena);
     if (!add_cells(html, &cells, *arena, err)) return false;
     add_border(html, map);
@@ -330,12 +376,30 @@ static void add_calendar_keys(Text *html, const ReviewCalendar *calendar)
     text_add(html, "</div>\n");
 }
 
+static void begin_calendar(Text *html, const ReviewCalendar *calendar, Arena scratch)
+{
+    size_t         days = (size_t)calendar->days, steps = (size_t)calendar->steps_a_day;
+    unsigned char *codes = ARENA_NEW(&scratch, unsigned char, 2 * days * steps);
+    for (size_t day = 0; day < days; day++)
+        for (size_t step = 0; step < steps; step++) {
+            float share = share_at(calendar, (int)day, (int)step);
+            set_code(codes, step * days + day,
+                     isnan(share) ? 0 : (unsigned)(1.5f + 10000 * share));
+        }
+    text_format(html, "<div class=\"chart\"><div class=\"area\" data-kind=\"calendar\" "
+                "data-columns=\"%d\" data-rows=\"%d\" data-year=\"%d\" data-headings=\"%d\" "
+                "data-clock=\"", calendar->days, calendar->steps_a_day, calendar->year,
+                calendar->headings);
+    escape_markup(html, calendar->clock);
+    add_values(html, codes, days * steps);
+}
+
 bool review_map_add_calendar(Text *html, const ReviewCalendar *calendar, Arena *arena,
                              Error *err)
 {
     text_add(html, "<figure class=\"sweep\">");
     page_element(html, "h3", arena_format(arena, "When it fails, %d", calendar->year));
-    text_add(html, "<div class=\"chart\"><div class=\"area\">");
+    begin_calendar(html, calendar, *arena);
     Picture cells = calendar_picture(calendar, arena);
     if (!add_cells(html, &cells, *arena, err)) return false;
     text_add(html, "</svg></div>");

@@ -13,8 +13,8 @@
 #define OPEN_CARDS 4
 #define OPEN_ROWS 12
 
-/* review.css beside this file; the build embeds it. */
-extern const char REVIEW_STYLE[];
+/* review.css and review.js beside this file; the build embeds them. */
+extern const char REVIEW_STYLE[], REVIEW_SCRIPT[];
 
 /* ---- the line on top -------------------------------------------------------------------- */
 
@@ -327,7 +327,7 @@ static bool add_page(Text *html, const ReviewPage *page, Arena *arena, Error *er
     if (!add_cases(html, page, arena, err) || !add_sweeps(html, page, arena, err)) return false;
     add_provenance(html, page, arena);
     add_glossary(html);
-    page_end(html, "review", (const char *const[]){NULL});
+    page_end(html, "review", (const char *const[]){REVIEW_SCRIPT, NULL});
     return true;
 }
 

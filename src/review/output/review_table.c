@@ -99,7 +99,7 @@ static void add_matrix_cell(Text *html, const Matrix *m, const ReviewCase *c, Ar
         page_cell(html, "none", "–");
         return;
     }
-    const LimitVerdict *limit = shown_limit(c);
+    const LimitVerdict *limit = c->verdict == VERDICT_NOT_VISIBLE ? NULL : shown_limit(c);
     text_format(html, "<td class=\"%s\"><a href=\"#%s\" title=\"", words_class(c->verdict),
                 review_card_id(m->review, c, arena));
     escape_markup(html, arena_format(arena, "%s: %s", words_verdict(c->verdict),

@@ -111,18 +111,22 @@ static int eighth_of(double azimuth_deg)
     return (int)floor((turns - floor(turns)) * 8 + 0.5) % 8;
 }
 
+const char *const *words_directions(bool is_of_vehicle)
+{
+    static const char *const WORDS[2][8] = {
+        {"in the north", "in the north-east", "in the east", "in the south-east",
+         "in the south", "in the south-west", "in the west", "in the north-west"},
+        {"ahead", "ahead on the right", "on the right", "behind on the right",
+         "behind", "behind on the left", "on the left", "ahead on the left"}};
+    return WORDS[is_of_vehicle];
+}
+
 const char *words_sun(const ReviewCase *c, bool is_of_vehicle, Arena *arena)
 {
-    static const char *const WORLD[8] = {
-        "in the north", "in the north-east", "in the east", "in the south-east",
-        "in the south", "in the south-west", "in the west", "in the north-west"};
-    static const char *const VEHICLE[8] = {
-        "ahead", "ahead on the right", "on the right", "behind on the right",
-        "behind", "behind on the left", "on the left", "ahead on the left"};
     if (!c->has_sun) return "no sun above the horizon";
     if (!isfinite(c->sun_azimuth_deg) || !isfinite(c->sun_elevation_deg)) return "sun is up";
     return arena_format(arena, "sun %.1f° high, %s, azimuth %.1f°", c->sun_elevation_deg,
-                        (is_of_vehicle ? VEHICLE : WORLD)[eighth_of(c->sun_azimuth_deg)],
+                        words_directions(is_of_vehicle)[eighth_of(c->sun_azimuth_deg)],
                         c->sun_azimuth_deg);
 }
 

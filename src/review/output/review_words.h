@@ -43,8 +43,11 @@ const char *words_class(Verdict verdict);
 /* "at night", "in direct sun", ... */
 const char *words_ambient(Ambient ambient);
 
-/* "sun 32.0° high, in the south-east, azimuth 135.0°"; of the vehicle "behind on the right". */
+/* "sun 32.0° high, in the south-east, azimuth 135.0°". */
 const char *words_sun(const ReviewCase *c, bool is_of_vehicle, Arena *arena);
+
+/* "in the north", "in the north-east", ...; of the vehicle "ahead", "ahead on the right", ... */
+const char *const *words_directions(bool is_of_vehicle);
 
 /* "speed, seen by driver, noon" */
 const char *words_case(const ReviewCase *c, Arena *arena);
