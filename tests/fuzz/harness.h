@@ -78,4 +78,4 @@ FuzzMutate fuzz_mutate_json, fuzz_mutate_glb, fuzz_mutate_png, fuzz_mutate_panel
 FuzzRun fuzz_scene, fuzz_panel, fuzz_import, fuzz_import_any, fuzz_import_text,
     fuzz_declaration, fuzz_image, fuzz_frame, fuzz_manifest, fuzz_recipe, fuzz_table,
     fuzz_weather, fuzz_curve, fuzz_primaries, fuzz_environment, fuzz_cli, fuzz_uri,
-    fuzz_part, fuzz_checkpoint;
+    fuzz_part, fuzz_checkpoint, fuzz_review, fuzz_route;

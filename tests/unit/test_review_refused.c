@@ -279,7 +279,7 @@ TEST(sweeps_are_checked)
         {"[0,360,90]", "[0,360]", "/conditions/3/sweep/sun/azimuth_deg",
          "has 2 values, wanted 3"},
         {"[0,360,90]", "[0,360,0]", "/conditions/3/sweep/sun/azimuth_deg",
-         "has a step of 0, wanted one above 0"},
+         "has a step of 0, wanted at least 0.0001"},
         {"[0,360,90]", "[90,0,10]", "/conditions/3/sweep/sun/azimuth_deg",
          "goes from 90 to 0, which is empty; wanted [first, last, step]"},
         {"[0,360,90]", "[0,360,7]", "/conditions/3/sweep/sun/azimuth_deg",

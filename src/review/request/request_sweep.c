@@ -6,6 +6,7 @@
 
 #define RANGE_MAX 100000 /* values of one range */
 #define SUNS_MAX 10000000
+#define STEP_LEAST 1e-4 /* degrees */
 #define HEADINGS_MAX 3600
 #define WHOLE 1e-6 /* of a step: how far its multiples may miss the last value */
 
@@ -25,9 +26,9 @@ static bool read_range(const JsonView *view, const char *key, JsonRange bounds,
     if (!field_wanted(view, key, err)) return false;
     const json_t *step = json_array_get(json_object_get(view->object, key), 2);
     if (json_array_size(json_object_get(view->object, key)) == 3 && json_is_number(step) &&
-        !(json_number_value(step) > 0))
-        return field_fails(view, key, err, "has a step of %g, wanted one above 0",
-                           json_number_value(step));
+        !(json_number_value(step) >= STEP_LEAST))
+        return field_fails(view, key, err, "has a step of %g, wanted at least %g",
+                           json_number_value(step), STEP_LEAST);
     if (!field_numbers(view, key, bounds, value, NULL, err)) return false;
     if (value[1] < value[0])
         return field_fails(view, key, err,
