@@ -113,6 +113,18 @@ static void read_contrast(const Film *film, const PixelSums *sums, float v[3])
     v[0] = (white[1] + reflected[1]) / (black[1] + reflected[1]);
 }
 
+/* What is not by way of the mirror. */
+static void read_scattered(const Film *film, const PixelSums *sums, float v[3])
+{
+    const Fixed *reflected = sums->layers + film->first[SUMS_REFLECTED];
+    const Fixed *mirror = sums->layers + film->first[SUMS_MIRROR];
+    Fixed left[3];
+    float xyz[3];
+    for (int i = 0; i < 3; i++) left[i] = reflected[i] - mirror[i];
+    mean_of(left, 3, sums->display_hits, xyz);
+    rgb_from_xyz(xyz, v);
+}
+
 static void read_coverage(const Film *film, const PixelSums *sums, float v[3])
 {
     (void)film;
@@ -174,6 +186,8 @@ static const struct {
     {LAYER_HALVES, "halves", "RGB", read_halves, 0},
     {LAYER_DISPLAY_EMITTED, "display.emitted", "RGB", NULL, SUMS_EMITTED},
     {LAYER_DISPLAY_REFLECTED, "display.reflected", "RGB", NULL, SUMS_REFLECTED},
+    {LAYER_DISPLAY_MIRROR, "display.mirror", "RGB", NULL, SUMS_MIRROR},
+    {LAYER_DISPLAY_SCATTERED, "display.scattered", "RGB", read_scattered, 0},
     {LAYER_DISPLAY_WHITE, "display.white", "RGB", NULL, SUMS_WHITE},
     {LAYER_DISPLAY_BLACK, "display.black", "RGB", NULL, SUMS_BLACK},
     {LAYER_DISPLAY_FINE, "display.fine", "RGB", NULL, SUMS_FINE},

@@ -24,7 +24,7 @@ __extension__ typedef __int128 Fixed;
 typedef enum LayerSums {
     SUMS_DEPTH, SUMS_POSITION, SUMS_NORMAL, SUMS_ALBEDO, SUMS_UV,
     SUMS_EMITTED, SUMS_REFLECTED, SUMS_WHITE, SUMS_BLACK, SUMS_DIRECTION, /* display */
-    SUMS_FINE,
+    SUMS_FINE, SUMS_MIRROR,
     SUMS_COUNT
 } LayerSums;
 

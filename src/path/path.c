@@ -40,6 +40,8 @@ typedef struct PathWalk {
     Spectrum throughput; /* what the path so far lets through, per lane */
     PathLight gathered;   /* found so far */
     PathResult *first;   /* waits for the first surface; NULL: recorded, or nobody asks */
+    bool      by_mirror; /* the path goes on from the mirror of a display that the eye sees: */
+    PathLight before_mirror; /* what it had found till then */
     float    straight;   /* m since the last scattering vertex (windows do not scatter) */
     LitPoint last;       /* that vertex */
     int      last_part_id;
@@ -426,6 +428,17 @@ static Spectrum sun_share(const PathWalk *walk, const Surface *surface, Vec3 wo,
     return sun_mirror_share(&surface->bsdf, frame_to_local(&surface->frame, wo), next);
 }
 
+/* At the first surface: what comes from now on came by way of a display's mirror. */
+static void note_mirror(PathWalk *walk, const Surface *surface, const BsdfSample *next)
+{
+    const Scene *scene = walk->context->scene;
+    if (!walk->first || !next->is_delta || surface->material_id == NO_ID ||
+        scene->materials[surface->material_id].display_id == NO_ID)
+        return;
+    walk->by_mirror = true;
+    walk->before_mirror = walk->gathered;
+}
+
 /* Turns the path into direction next->wi (local) at a scattering vertex. */
 static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSample *next)
 {
@@ -441,6 +454,7 @@ static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSamp
     walk->last_is_delta = next->is_delta;
     walk->straight = walk->sheets_from = 0;
     sheets_none(walk->stack);
+    note_mirror(walk, surface, next);
     walk->bounce++;
     walk->ray = (Ray){ray_offset_origin(surface->position, surface->ng, wi), vec3_normalize(wi),
                       0, INFINITY};
@@ -641,6 +655,9 @@ void path_trace(const PathContext *context, Ray ray, const Wavelengths *waveleng
     walk.first = out;
     walk_path(&walk);
     path_light_to_xyz(&walk.gathered, wavelengths, out->xyz);
+    if (!walk.by_mirror) return;
+    path_light_take(&walk.gathered, &walk.before_mirror);
+    path_light_to_xyz(&walk.gathered, wavelengths, out->mirror);
 }
 
 void path_find_places(const PathContext *context, Ray ray, const Wavelengths *wavelengths,

@@ -24,6 +24,8 @@ typedef struct PathResult {
     bool     hit;       /* the ray met a surface (windows passed and holes do not count): */
     Hit      first;     /* t counted from the ray's origin */
     Vec3     direction; /* of the ray there */
+    float    mirror[3]; /* of xyz: what came by way of that surface's mirror, if it is a
+                           display; else 0 */
 } PathResult;
 
 /* Radiance along `ray` at the given wavelengths, as tristimulus values. */

@@ -21,6 +21,12 @@ static inline void path_light_add(PathLight *sum, const PathLight *more)
     for (int i = 0; i < 3; i++) sum->xyz[i] += more->xyz[i];
 }
 
+static inline void path_light_take(PathLight *from, const PathLight *part)
+{
+    from->radiance -= part->radiance;
+    for (int i = 0; i < 3; i++) from->xyz[i] -= part->xyz[i];
+}
+
 static inline void path_light_to_xyz(const PathLight *gathered,
                                      const Wavelengths *wavelengths, float xyz[3])
 {

@@ -470,6 +470,32 @@ TEST(contrast_is_the_ratio_of_mean_luminances_with_the_reflection)
     assert_true(at(&frame, "id.display", 0) == 1);
 }
 
+TEST(mirror_and_scattered_make_up_the_reflected)
+{
+    Arena      arena = test_arena(state);
+    unsigned   parts = LAYER_DISPLAY_MIRROR | LAYER_DISPLAY_SCATTERED;
+    Film      *film = film_create(WIDTH, HEIGHT, whole, parts, &arena);
+    FilmSample s = display_sample(0, 0.5f, 1);
+    for (uint32_t k = 0; k < 2; k++) {
+        s.sample_index = k;
+        for (int i = 0; i < 3; i++) {
+            s.mirror[i] = (float)k * 7;
+            s.xyz[i] = s.emitted[i] + 10;
+        }
+        film_add_sample(film, 0, 0, &s);
+    }
+    FrameImage frame = film_to_frame(film, 0, &arena);
+    const char *const layers[] = {"display.mirror", "display.scattered"};
+    for (int l = 0; l < 2; l++) {
+        float rgb[3], xyz[3];
+        for (int i = 0; i < 3; i++)
+            rgb[i] = (float)at(&frame, arena_format(&arena, "%s.%c", layers[l], "RGB"[i]), 0);
+        xyz_from_rgb(rgb, xyz);
+        for (int i = 0; i < 3; i++) assert_close(xyz[i], l ? 6.5 : 3.5, 1e-5);
+        assert_true(isnan(at(&frame, arena_format(&arena, "%s.G", layers[l]), 1)));
+    }
+}
+
 TEST(fine_emission_is_a_mean_over_the_samples_that_saw_a_display)
 {
     Arena      arena = test_arena(state);

@@ -39,7 +39,8 @@ static const struct {
     {"display.white", LAYER_DISPLAY_WHITE}, {"display.black", LAYER_DISPLAY_BLACK},
     {"display.theta", LAYER_DISPLAY_ANGLES}, {"display.phi", LAYER_DISPLAY_ANGLES},
     {"display.contrast", LAYER_DISPLAY_CONTRAST}, {"display.fine", LAYER_DISPLAY_FINE},
-    {"display.coverage", LAYER_DISPLAY_FINE},
+    {"display.coverage", LAYER_DISPLAY_FINE}, {"display.mirror", LAYER_DISPLAY_MIRROR},
+    {"display.scattered", LAYER_DISPLAY_SCATTERED},
 };
 
 #define LAYER_NAME_COUNT COUNT_OF(layer_names)
