@@ -9,6 +9,7 @@
 #include "camera/camera.h"
 #include "film/film.h"
 #include "guide/guide_training.h"
+#include "kernel/probe.h"
 #include "path/cell_lights.h"
 #include "path/path.h"
 
@@ -45,6 +46,13 @@ typedef struct Kernel {
     void (*learn)(const LessonJob *job, uint32_t cell, PathStatistics *statistics);
     /* What light samples find there: for the context's selection. */
     void (*try_lights)(const LessonJob *job, uint32_t cell, PathStatistics *statistics);
+    /* What an eye sees outside a frame (probe.h). */
+    void (*look)(const ProbeAim *aim, int first, int end, ProbeLook *out,
+                 PathStatistics *statistics);
+    void (*ask_cells)(const ProbeAim *aim, const ProbeCells *cells, int first, int end,
+                      Vec3 *towards, float *sums, PathStatistics *statistics);
+    void (*ask_suns)(const ProbeAim *aim, const ProbeSuns *suns, int first, int end,
+                     Vec3 *towards, float *sums, PathStatistics *statistics);
 } Kernel;
 
 /* isa: a name from above, or NULL for the best that this processor and program have. Fails,

@@ -58,6 +58,7 @@ typedef struct PathWalk {
     float    sheets_from; /* m along the ray: sheets before it were in the stack */
     PathPlaces *places;  /* where it scatters is noted here; NULL: nobody asks */
     float   *arriving_sky; /* of a path to a point: the sky seen by it goes here; or NULL */
+    const PathFar *far;   /* the path asks instead of being lit; or NULL */
 } PathWalk;
 
 /* What a walk needs room for besides. */
@@ -115,8 +116,20 @@ static void tell_sky(PathWalk *walk, Spectrum *radiance)
     *radiance = spectrum_all(0);
 }
 
+/* Vertices that scatter have asked for themselves. */
+static void tell_escape(const PathWalk *walk)
+{
+    if (walk->last_is_delta)
+        walk->far->add_escaped(walk->far->user, walk->ray.direction, walk->bounce,
+                               (const float *)&walk->throughput);
+}
+
 static void add_distant(PathWalk *walk)
 {
+    if (walk->far) {
+        tell_escape(walk);
+        return;
+    }
     Spectrum radiance[2];
     float    pdf[2];
     lights_distant(walk->context->lights, walk->ray.direction, walk->last.ns, walk->wavelengths,
@@ -368,10 +381,33 @@ static void add_mirrored_suns(PathWalk *walk, const Surface *surface, Vec3 wo)
     if (unit_choose(&u[0], prob)) ask_mirrors(walk, surface, wo, u, prob);
 }
 
+static void ask_far(PathWalk *walk, const Surface *surface, Vec3 wo)
+{
+    const PathFar *far = walk->far;
+    Vec3 local_wo = frame_to_local(&surface->frame, wo);
+    for (int i = 0; i < far->count; i++) {
+        LightSample light = {.wi = far->towards[i], .distance = INFINITY};
+        Vec3  local_wi = frame_to_local(&surface->frame, light.wi);
+        float pdf;
+        if (!sides_agree(surface, local_wi, light.wi, local_wo, wo)) continue;
+        if (!bsdf_reaches(&surface->bsdf, local_wo, local_wi)) continue;
+        Spectrum passed = visibility(walk, surface, &light);
+        if (spectrum_is_zero(passed)) continue;
+        Spectrum share = walk->throughput * passed *
+                         bsdf_eval(&surface->bsdf, local_wo, local_wi, &pdf) *
+                         spectrum_all(fabsf(local_wi.z));
+        far->add(far->user, i, walk->bounce, (const float *)&share);
+    }
+}
+
 static void add_light_samples(PathWalk *walk, const Surface *surface, Vec3 wo,
                               const Lead *lead)
 {
     if (!bsdf_scatters(&surface->bsdf)) return;
+    if (walk->far) {
+        ask_far(walk, surface, wo);
+        return;
+    }
     for (int set = 0; set < LIGHT_SETS; set++)
         if (lights_has(walk->context->lights, (LightSet)set))
             add_light_sample(walk, surface, wo, lead, (LightSet)set);
@@ -533,7 +569,7 @@ static void note_place(PathWalk *walk, const Lead *lead, const Surface *surface,
 static Step shade(PathWalk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
 {
     Lead *lead = walk->spare;
-    add_emitted(walk, surface, hit, wo);
+    if (!walk->far) add_emitted(walk, surface, hit, wo);
     lead_at(walk->context, surface, wo, walk->bounce, lead);
     note_place(walk, lead, surface, wo);
     if (walk->bounce < walk->context->max_bounces) add_light_samples(walk, surface, wo, lead);
@@ -660,6 +696,16 @@ void path_trace(const PathContext *context, Ray ray, const Wavelengths *waveleng
     path_light_to_xyz(&walk.gathered, wavelengths, out->mirror);
 }
 
+void path_ask_far(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
+                  Sampler *sampler, const PathFar *far, PathStatistics *statistics)
+{
+    WalkRoom room;
+    PathWalk walk = walk_start(context, wavelengths, sampler, statistics, &room);
+    walk.ray = ray;
+    walk.far = far;
+    walk_path(&walk);
+}
+
 void path_find_places(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
                       Sampler *sampler, PathPlaces *out, PathStatistics *statistics)
 {
@@ -690,17 +736,32 @@ void path_arriving(const PathContext *context, const PathArrival *at,
     cd_m2[GUIDE_LIGHT] = xyz[1];
 }
 
+/* A white surface sends pi-th parts of its illuminance. */
+static void walk_from_head(PathWalk *walk, LitPoint point)
+{
+    Surface head;
+    surface_white(walk->context->tables, point.position, point.ns, &head);
+    walk->throughput = spectrum_all(PI_F);
+    lead_alone(walk->context, walk->spare);
+    add_light_samples(walk, &head, point.ns, walk->spare);
+    if (scatter(walk, &head, point.ns) == STEP_SCATTERED) walk_path(walk);
+}
+
+void path_ask_far_at(const PathContext *context, LitPoint point, const Wavelengths *wavelengths,
+                     Sampler *sampler, const PathFar *far, PathStatistics *statistics)
+{
+    WalkRoom room;
+    PathWalk walk = walk_start(context, wavelengths, sampler, statistics, &room);
+    walk.far = far;
+    walk_from_head(&walk, point);
+}
+
 void path_illuminance(const PathContext *context, LitPoint point,
                       const Wavelengths *wavelengths, Sampler *sampler, float xyz_lx[3],
                       PathStatistics *statistics)
 {
     WalkRoom room;
-    Surface  head;
     PathWalk walk = walk_start(context, wavelengths, sampler, statistics, &room);
-    surface_white(context->tables, point.position, point.ns, &head);
-    walk.throughput = spectrum_all(PI_F);
-    lead_alone(context, walk.spare);
-    add_light_samples(&walk, &head, point.ns, walk.spare);
-    if (scatter(&walk, &head, point.ns) == STEP_SCATTERED) walk_path(&walk);
+    walk_from_head(&walk, point);
     path_light_to_xyz(&walk.gathered, wavelengths, xyz_lx);
 }

@@ -57,6 +57,27 @@ void path_arriving(const PathContext *context, const PathArrival *at,
                    const Wavelengths *wavelengths, Sampler *sampler, float cd_m2[GUIDE_AIMS],
                    PathStatistics *statistics);
 
+/* Light from infinitely far as a question: from where does it reach the eye, and how much? */
+typedef struct PathFar {
+    const Vec3 *towards; /* unit; every scattering vertex asks all of them */
+    int         count;
+    /* share: of the radiance from towards[i], per steradian, what comes to the eye by way of
+     * vertex `bounce` (0: the first surface that scatters), per lane. */
+    void (*add)(void *user, int i, int bounce, const float *share);
+    /* Paths that leave by a mirror or straight on, after `bounce` vertices: share of the
+     * radiance from there. */
+    void (*add_escaped)(void *user, Vec3 direction, int bounce, const float *share);
+    void *user;
+} PathFar;
+
+/* Follows a path and asks; no light of the scene counts. */
+void path_ask_far(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
+                  Sampler *sampler, const PathFar *far, PathStatistics *statistics);
+
+/* The same of a luxmeter's head at the point: shares are of tristimulus values in lx. */
+void path_ask_far_at(const PathContext *context, LitPoint point, const Wavelengths *wavelengths,
+                     Sampler *sampler, const PathFar *far, PathStatistics *statistics);
+
 /* Illuminance of a plane at the point, facing its normal, as tristimulus values in lx: what a
  * white Lambert surface would send back, times pi. */
 void path_illuminance(const PathContext *context, LitPoint point,

@@ -1,0 +1,203 @@
+#include "kernel/probe.h"
+
+#include "base/mathf.h"
+#include "base/units.h"
+#include "path/path_features.h"
+
+static Ray aimed_ray(const ProbeAim *aim, int path)
+{
+    Vec3 to = vec3_sub(aim->targets[path % aim->target_count], aim->eye);
+    return (Ray){aim->eye, vec3_normalize(to), 0, INFINITY};
+}
+
+/* The sampler of a path behind its wavelengths. */
+static Sampler path_start(const ProbeAim *aim, int path, Wavelengths *wavelengths)
+{
+    Sampler sampler = sampler_start(aim->seed, 0, 0, (uint32_t)path);
+    sampler.dimension++; /* of the place in a pixel */
+    wavelengths_sample(sampler_1d(&sampler), wavelengths);
+    return sampler;
+}
+
+/* ---- by the light that is there ---------------------------------------------------------- */
+
+static void look(const ProbeAim *aim, int path, ProbeLook *out, PathStatistics *statistics)
+{
+    Wavelengths wavelengths;
+    Sampler     sampler = path_start(aim, path, &wavelengths);
+    PathResult  result;
+    float       emitted[3];
+    path_trace(aim->context, aimed_ray(aim, path), &wavelengths, &sampler, &result, statistics);
+    *out = (ProbeLook){.is_found = result.hit && path_display_emission(aim->context, &result,
+                                                                       &wavelengths, emitted)};
+    for (int i = 0; i < 3 && out->is_found; i++) {
+        out->reflected[i] = result.xyz[i] - emitted[i];
+        out->mirror[i] = result.mirror[i];
+    }
+}
+
+static void read_meter(const ProbeAim *aim, int path, ProbeLook *out,
+                       PathStatistics *statistics)
+{
+    Wavelengths wavelengths;
+    Sampler     sampler = path_start(aim, path, &wavelengths);
+    *out = (ProbeLook){.is_found = true};
+    path_illuminance(aim->context, *aim->meter, &wavelengths, &sampler, out->reflected,
+                     statistics);
+}
+
+void probe_look(const ProbeAim *aim, int first, int end, ProbeLook *out,
+                PathStatistics *statistics)
+{
+    for (int path = first; path < end; path++)
+        (aim->meter ? read_meter : look)(aim, path, &out[path - first], statistics);
+}
+
+/* ---- by light from anywhere -------------------------------------------------------------- */
+
+static void ask(const ProbeAim *aim, int path, const PathFar *far, PathStatistics *statistics)
+{
+    Wavelengths wavelengths;
+    Sampler     sampler = path_start(aim, path, &wavelengths);
+    if (aim->meter)
+        path_ask_far_at(aim->context, *aim->meter, &wavelengths, &sampler, far, statistics);
+    else
+        path_ask_far(aim->context, aimed_ray(aim, path), &wavelengths, &sampler, far,
+                     statistics);
+}
+
+static void add_lanes(float *sums, float weight, const float *share)
+{
+    for (int lane = 0; lane < SPECTRUM_LANES; lane++) sums[lane] += weight * share[lane];
+}
+
+/* The hemisphere of the triangles stands on the scene's y axis. */
+static Vec3 world_of_cells(Vec3 d)
+{
+    return vec3(d.y, d.z, d.x);
+}
+
+static Vec3 cells_of_world(Vec3 d)
+{
+    return vec3(d.z, d.x, d.y);
+}
+
+Vec3 probe_cell_center(const ProbeCells *cells, int cell)
+{
+    int  half = cells->count / 2;
+    Vec3 d = geodesic_center(cells->level, (uint32_t)(cell % half));
+    if (cell >= half) d.z = -d.z;
+    return world_of_cells(d);
+}
+
+int probe_cell_of(const ProbeCells *cells, Vec3 direction)
+{
+    Vec3 d = cells_of_world(direction);
+    int  first = d.z < 0 ? cells->count / 2 : 0;
+    d.z = fabsf(d.z);
+    return first + (int)geodesic_find(cells->geodesic, cells->level, d).id;
+}
+
+typedef struct CellSums {
+    const ProbeCells *cells;
+    float            *sums;
+} CellSums;
+
+static float *cell_sums(const CellSums *to, int order, int cell)
+{
+    size_t at = (size_t)order * (size_t)to->cells->count + (size_t)cell;
+    return to->sums + at * SPECTRUM_LANES;
+}
+
+static void add_cell(void *user, int i, int bounce, const float *share)
+{
+    const CellSums   *to = user;
+    const ProbeCells *cells = to->cells;
+    int   cell = cells->asked[i];
+    float area = cells->samplers[cell % (cells->count / 2)].area;
+    add_lanes(cell_sums(to, bounce > 0, cell), area * cells->weight[i], share);
+}
+
+static void add_escaped_cell(void *user, Vec3 direction, int bounce, const float *share)
+{
+    const CellSums *to = user;
+    add_lanes(cell_sums(to, bounce > 1, probe_cell_of(to->cells, direction)), 1, share);
+}
+
+static void draw_cells(const ProbeAim *aim, const ProbeCells *cells, int path, Vec3 *towards)
+{
+    int half = cells->count / 2;
+    for (int i = 0; i < cells->asked_count; i++) {
+        int     cell = cells->asked[i];
+        Sampler sampler = sampler_start(aim->seed + 1, cell, 0, (uint32_t)path);
+        Vec2    u = sampler_2d(&sampler);
+        Vec3    d = geodesic_sampler_draw(&cells->samplers[cell % half], u.x, u.y);
+        if (cell >= half) d.z = -d.z;
+        towards[i] = world_of_cells(d);
+    }
+}
+
+void probe_ask_cells(const ProbeAim *aim, const ProbeCells *cells, int first, int end,
+                     Vec3 *towards, float *sums, PathStatistics *statistics)
+{
+    CellSums to = {cells, sums};
+    PathFar  far = {towards, cells->asked_count, add_cell, add_escaped_cell, &to};
+    for (int path = first; path < end; path++) {
+        draw_cells(aim, cells, path, towards);
+        ask(aim, path, &far, statistics);
+    }
+}
+
+/* ---- by suns ----------------------------------------------------------------------------- */
+
+typedef struct SunSums {
+    const ProbeSuns *suns;
+    float           *sums;
+    float            per_sr; /* one over the disc's solid angle */
+} SunSums;
+
+static void add_sun(void *user, int i, int bounce, const float *share)
+{
+    const SunSums *to = user;
+    if (bounce == 0) add_lanes(to->sums + (size_t)i * SPECTRUM_LANES, 1, share);
+}
+
+/* By way of the first surface's mirror into each disc that the direction meets. */
+static void add_escaped_sun(void *user, Vec3 direction, int bounce, const float *share)
+{
+    const SunSums *to = user;
+    if (bounce != 1 || !to->suns->by_mirror) return;
+    for (int i = 0; i < to->suns->count; i++)
+        if (vec3_dot(direction, to->suns->towards[i]) >= to->suns->cos_radius)
+            add_lanes(to->sums + (size_t)i * SPECTRUM_LANES, to->per_sr, share);
+}
+
+/* A place in the disc, the same in all of them: uniform over its solid angle. */
+static void draw_suns(const ProbeAim *aim, const ProbeSuns *suns, int path, Vec3 *towards)
+{
+    Sampler sampler = sampler_start(aim->seed + 2, 0, 0, (uint32_t)path);
+    Vec2    u = sampler_2d(&sampler);
+    float   cosine = 1 - u.x * (1 - suns->cos_radius);
+    float   sine = sqrtf(fmaxf(1 - cosine * cosine, 0)), s, c;
+    sincos_turns(u.y, &s, &c);
+    for (int i = 0; i < suns->count; i++) {
+        Frame frame = frame_from_z(suns->towards[i]);
+        towards[i] = frame_to_world(&frame, vec3(sine * c, sine * s, cosine));
+    }
+}
+
+void probe_ask_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int end,
+                    Vec3 *towards, float *sums, PathStatistics *statistics)
+{
+    SunSums     to = {suns, sums, 1 / (2 * PI_F * (1 - suns->cos_radius))};
+    int         count = suns->by_mirror ? 0 : suns->count;
+    PathFar     far = {towards, count, add_sun, add_escaped_sun, &to};
+    PathContext once = *aim->context;
+    ProbeAim    direct = *aim;
+    once.max_bounces = 1;
+    direct.context = &once;
+    for (int path = first; path < end; path++) {
+        if (!suns->by_mirror) draw_suns(aim, suns, path, towards);
+        ask(&direct, path, &far, statistics);
+    }
+}

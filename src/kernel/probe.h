@@ -1,0 +1,68 @@
+/* probe.h -- what one eye sees of one surface, asked outside a frame: by the light that is there
+ * now, or as a response to light from any direction. A luxmeter may stand in the eye's place.
+ *
+ * Units    cd m^-2, or lx of a luxmeter; responses per lane of a path's wavelengths
+ *          (spectrum/wavelengths.h): of the radiance, W m^-2 sr^-1 nm^-1, that comes from there.
+ * Threads  const jobs; each call writes where its caller says.
+ */
+#pragma once
+#include "hemisphere/geodesic.h"
+#include "path/path.h"
+
+/* An eye and the points that it looks at, one path each; more paths than points begin again. */
+typedef struct ProbeAim {
+    const PathContext *context;
+    Vec3            eye;       /* m, world */
+    const Vec3     *targets;   /* of surfaces that the eye sees */
+    int             target_count;
+    const LitPoint *meter;     /* a luxmeter instead: eye and targets do not count; or NULL */
+    uint32_t        seed;
+} ProbeAim;
+
+/* What one path found: XYZ. */
+typedef struct ProbeLook {
+    float reflected[3]; /* all but what the first surface emits; of a luxmeter all */
+    float mirror[3];    /* of it, by way of a display's mirror */
+    bool  is_found;     /* the first surface is a display, or a luxmeter's; else all is 0 */
+} ProbeLook;
+
+/* HOT. Of paths [first, end): out[i - first]. */
+void probe_look(const ProbeAim *aim, int first, int end, ProbeLook *out,
+                PathStatistics *statistics);
+
+/* ---- responses --------------------------------------------------------------------------- */
+
+/* The sphere in triangles: those of the upper hemisphere (+Y up), then their mirror images. */
+typedef struct ProbeCells {
+    const Geodesic        *geodesic;
+    const GeodesicSampler *samplers; /* of the upper ones */
+    int        level;
+    int        count;      /* of the whole sphere */
+    const int *asked;      /* by every path of this call, */
+    const float *weight;   /* for so many calls each, */
+    int        asked_count;
+} ProbeCells;
+
+#define PROBE_ORDERS 2 /* light that the first vertex sends to the eye; all other */
+
+/* The direction, world, that stands for a cell; and the cell that holds a direction. */
+Vec3 probe_cell_center(const ProbeCells *cells, int cell);
+int  probe_cell_of(const ProbeCells *cells, Vec3 direction);
+
+/* HOT. Adds the sum over paths to sums[order][cell][lane]: what comes to the eye of a radiance of
+ * 1 from all of the cell. towards: room for asked_count directions. */
+void probe_ask_cells(const ProbeAim *aim, const ProbeCells *cells, int first, int end,
+                     Vec3 *towards, float *sums, PathStatistics *statistics);
+
+/* Discs of one size in the sky. */
+typedef struct ProbeSuns {
+    const Vec3 *towards; /* unit, world: their centres */
+    int   count;
+    float cos_radius;    /* below 1 */
+    bool  by_mirror;     /* what the first vertex's mirror sends is asked, else what scatters */
+} ProbeSuns;
+
+/* HOT. Adds the sum over paths to sums[sun][lane]: what the first vertex sends to the eye of an
+ * irradiance of 1 on a plane that faces the sun. towards: room for count directions. */
+void probe_ask_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int end,
+                    Vec3 *towards, float *sums, PathStatistics *statistics);

@@ -1,0 +1,61 @@
+#include "review/light_bands.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/units.h"
+
+#define OFFSETS 4 /* in a band */
+#define RINGS 8   /* of the disc, of equal area */
+
+static void add_bands(const Wavelengths *w, Spectrum radiance, double weight,
+                      float bands[LIGHT_BANDS])
+{
+    Spectrum luminance = radiance * w->xyz[1] * spectrum_all((float)weight);
+    for (int i = 0; i < LIGHT_BANDS; i++) bands[i] += luminance[i];
+}
+
+static Wavelengths wavelengths_of(int offset)
+{
+    Wavelengths w;
+    wavelengths_sample(((float)offset + 0.5f) / OFFSETS, &w);
+    return w;
+}
+
+void light_bands_sky(const Daylight *daylight, float elevation, float azimuth,
+                     float bands[LIGHT_BANDS])
+{
+    memset(bands, 0, LIGHT_BANDS * sizeof *bands);
+    for (int k = 0; k < OFFSETS; k++) {
+        Wavelengths w = wavelengths_of(k);
+        add_bands(&w, daylight_radiance(daylight, elevation, azimuth, &w), 1.0 / OFFSETS,
+                  bands);
+    }
+}
+
+void light_bands_sun(const Daylight *daylight, float bands[LIGHT_BANDS])
+{
+    memset(bands, 0, LIGHT_BANDS * sizeof *bands);
+    if (!daylight->has_sun) return;
+    double sine = sin(daylight->sun_radius), projected = PI * sine * sine;
+    for (int k = 0; k < OFFSETS; k++) {
+        Wavelengths w = wavelengths_of(k);
+        for (int ring = 0; ring < RINGS; ring++) {
+            float share = sqrtf(((float)ring + 0.5f) / RINGS);
+            add_bands(&w, daylight_sun(daylight, share, &w), projected / (OFFSETS * RINGS),
+                      bands);
+        }
+    }
+}
+
+void light_bands_white(float bands[LIGHT_BANDS])
+{
+    memset(bands, 0, LIGHT_BANDS * sizeof *bands);
+    for (int k = 0; k < OFFSETS; k++) {
+        Wavelengths w = wavelengths_of(k);
+        add_bands(&w, spectrum_all(1), 1.0 / OFFSETS, bands);
+    }
+    float sum = 0;
+    for (int i = 0; i < LIGHT_BANDS; i++) sum += bands[i];
+    for (int i = 0; i < LIGHT_BANDS; i++) bands[i] /= sum;
+}

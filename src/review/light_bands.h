@@ -1,0 +1,22 @@
+/* light_bands.h -- what each band of a path's wavelengths gives of a light's luminance.
+ *
+ * A path's lane i lies in band i of the spectrum, wherever its offset puts it
+ * (spectrum/wavelengths.h); the luminance of a light is the sum over lanes, and so over bands.
+ *
+ * Units    cd m^-2 of sky, lx of a sun on a plane that faces it.
+ * Threads  pure functions.
+ */
+#pragma once
+#include "sky/daylight.h"
+
+#define LIGHT_BANDS SPECTRUM_LANES
+
+/* Sky or floor; elevation and azimuth in radians, as daylight_radiance. */
+void light_bands_sky(const Daylight *daylight, float elevation, float azimuth,
+                     float bands[LIGHT_BANDS]);
+
+/* The sun's disc; all 0 where it is down. */
+void light_bands_sun(const Daylight *daylight, float bands[LIGHT_BANDS]);
+
+/* A white (equal-energy) light of 1 cd m^-2. */
+void light_bands_white(float bands[LIGHT_BANDS]);

@@ -1,0 +1,231 @@
+#include "review/response.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/parallel.h"
+#include "base/units.h"
+
+#define WAVE 16    /* chunks that are traced before they are added, in order */
+#define PILOT 4    /* chunks that ask every triangle */
+#define SELDOM 16  /* later ones ask what none of those found once in so many chunks */
+
+/* ---- which triangles are asked ----------------------------------------------------------- */
+
+static ProbeCells cells_of_level(int level, Arena *arena)
+{
+    int count = (int)geodesic_count(level), octant = count / 4;
+    const Geodesic  *geodesic = geodesic_create(level, arena);
+    GeodesicSampler *samplers = ARENA_NEW(arena, GeodesicSampler, count);
+    for (int i = 0; i < count; i++) {
+        GeodesicTriangle triangle = geodesic_triangle(level, (uint32_t)i);
+        samplers[i] = geodesic_sampler(&triangle, geodesic->areas[level][i % octant]);
+    }
+    return (ProbeCells){.geodesic = geodesic, .samplers = samplers, .level = level,
+                        .count = 2 * count};
+}
+
+/* Of a chunk: the open ones, and a few of the others for many. is_open: NULL: all. */
+static ProbeCells ask_for(const ProbeCells *cells, const bool *is_open, int chunk, Arena *arena)
+{
+    ProbeCells asks = *cells;
+    int   *asked = ARENA_NEW(arena, int, cells->count);
+    float *weight = ARENA_NEW(arena, float, cells->count);
+    asks.asked_count = 0;
+    for (int cell = 0; cell < cells->count; cell++) {
+        bool open = !is_open || is_open[cell];
+        if (!open && (cell + chunk) % SELDOM) continue;
+        asked[asks.asked_count] = cell;
+        weight[asks.asked_count++] = open ? 1 : SELDOM;
+    }
+    asks.asked = asked;
+    asks.weight = weight;
+    return asks;
+}
+
+/* Those that got something, and all that lie within a triangle's width of them. */
+static bool *open_cells(const ProbeCells *cells, const double *sums, Arena *arena)
+{
+    bool  *is_open = ARENA_NEW(arena, bool, cells->count);
+    Vec3  *centers = ARENA_NEW(arena, Vec3, cells->count);
+    size_t order = (size_t)cells->count * RESPONSE_BANDS;
+    float  near = cosf(2.2f * sqrtf(4 * PI_F / (float)cells->count));
+    for (int i = 0; i < cells->count; i++) centers[i] = probe_cell_center(cells, i);
+    for (int i = 0; i < cells->count; i++) {
+        double found = 0;
+        for (int b = 0; b < RESPONSE_BANDS; b++)
+            found += sums[(size_t)i * RESPONSE_BANDS + (size_t)b] +
+                     sums[order + (size_t)i * RESPONSE_BANDS + (size_t)b];
+        if (!(found > 0)) continue;
+        for (int k = 0; k < cells->count; k++)
+            is_open[k] |= vec3_dot(centers[i], centers[k]) >= near;
+    }
+    return is_open;
+}
+
+/* ---- tracing ----------------------------------------------------------------------------- */
+
+typedef struct Trace {
+    const ProbeAim        *aim;
+    const ResponseOptions *options;
+    ProbeCells  asks[WAVE];
+    int         first_chunk;
+    float      *tables[WAVE];    /* sums of a chunk */
+    Vec3       *towards[WAVE];
+    double     *sums;            /* of all chunks */
+    double      reading, squares; /* of chunks, under a uniform white sky */
+} Trace;
+
+static size_t table_size(const ProbeCells *cells)
+{
+    return (size_t)PROBE_ORDERS * (size_t)cells->count * RESPONSE_BANDS;
+}
+
+static void trace_chunk(void *user, int item, int worker)
+{
+    (void)worker;
+    Trace         *trace = user;
+    PathStatistics statistics = {0};
+    int            first = (trace->first_chunk + item) * RESPONSE_CHUNK;
+    memset(trace->tables[item], 0, table_size(&trace->asks[item]) * sizeof(float));
+    trace->options->kernel->ask_cells(trace->aim, &trace->asks[item], first,
+                                      first + RESPONSE_CHUNK, trace->towards[item],
+                                      trace->tables[item], &statistics);
+}
+
+static void add_wave(Trace *trace, int chunks)
+{
+    size_t size = table_size(&trace->asks[0]);
+    for (int k = 0; k < chunks; k++) {
+        double reading = 0;
+        for (size_t i = 0; i < size; i++) {
+            trace->sums[i] += (double)trace->tables[k][i];
+            reading += (double)trace->tables[k][i];
+        }
+        trace->reading += reading;
+        trace->squares += reading * reading;
+    }
+}
+
+static void trace_wave(Trace *trace, const ProbeCells *cells, const bool *is_open, int chunks,
+                       Arena scratch)
+{
+    for (int k = 0; k < chunks; k++)
+        trace->asks[k] = ask_for(cells, is_open, trace->first_chunk + k, &scratch);
+    parallel_for(trace->options->threads, chunks, trace_chunk, trace);
+    add_wave(trace, chunks);
+    trace->first_chunk += chunks;
+}
+
+static Trace trace_start(const ProbeAim *aim, const ResponseOptions *options,
+                         const ProbeCells *cells, Arena *arena)
+{
+    Trace trace = {.aim = aim, .options = options};
+    trace.sums = ARENA_NEW(arena, double, table_size(cells));
+    for (int k = 0; k < WAVE; k++) {
+        trace.tables[k] = ARENA_NEW(arena, float, table_size(cells));
+        trace.towards[k] = ARENA_NEW(arena, Vec3, cells->count);
+    }
+    return trace;
+}
+
+static double relative_error(const Trace *trace)
+{
+    double n = trace->first_chunk, mean = trace->reading / n;
+    double variance = fmax(trace->squares / n - mean * mean, 0) / (n - 1);
+    return mean > 0 ? sqrt(variance) / mean : 0;
+}
+
+void response_trace(const ProbeAim *aim, const ResponseOptions *options, Arena *arena,
+                    Response *out)
+{
+    int chunks = options->paths / RESPONSE_CHUNK;
+    out->cells = cells_of_level(options->level, arena);
+    float *shares = ARENA_NEW(arena, float, table_size(&out->cells));
+    Arena  scratch = *arena;
+    Trace  trace = trace_start(aim, options, &out->cells, &scratch);
+    int    pilot = chunks < PILOT ? chunks : PILOT;
+    trace_wave(&trace, &out->cells, NULL, pilot, scratch);
+    const bool *is_open = open_cells(&out->cells, trace.sums, &scratch);
+    while (trace.first_chunk < chunks) {
+        int left = chunks - trace.first_chunk;
+        trace_wave(&trace, &out->cells, is_open, left < WAVE ? left : WAVE, scratch);
+    }
+    out->paths = trace.first_chunk * RESPONSE_CHUNK;
+    for (size_t i = 0; i < table_size(&out->cells); i++)
+        shares[i] = (float)(trace.sums[i] / out->paths);
+    out->first = shares;
+    out->rest = shares + table_size(&out->cells) / PROBE_ORDERS;
+    out->relative_error = relative_error(&trace);
+}
+
+/* ---- reading ----------------------------------------------------------------------------- */
+
+double response_sun(const Response *response, Vec3 towards, const float bands[RESPONSE_BANDS])
+{
+    const ProbeCells *cells = &response->cells;
+    float  width = 2.0f * sqrtf(4 * PI_F / (float)cells->count), near = cosf(width);
+    double sum = 0, area = 0;
+    for (int cell = 0; cell < cells->count; cell++) {
+        float cosine = vec3_dot(towards, probe_cell_center(cells, cell));
+        if (cosine <= near) continue;
+        double weight = 1 - (double)(acosf(fminf(cosine, 1)) / width);
+        const float *share = response->rest + (size_t)cell * RESPONSE_BANDS;
+        for (int b = 0; b < RESPONSE_BANDS; b++)
+            sum += weight * (double)share[b] * (double)bands[b];
+        area += weight * (double)cells->samplers[cell % (cells->count / 2)].area;
+    }
+    return sum / area;
+}
+
+/* ---- suns -------------------------------------------------------------------------------- */
+
+#define SUN_CHUNK 4 /* paths of one piece of work: pieces are added in order */
+
+typedef struct SunTrace {
+    const ProbeAim        *aim;
+    const ResponseOptions *options;
+    const ProbeSuns       *suns;
+    float *tables;
+    Vec3  *towards;
+    int    first, paths; /* of the pieces in hand */
+} SunTrace;
+
+static void trace_suns(void *user, int item, int worker)
+{
+    (void)worker;
+    SunTrace      *trace = user;
+    PathStatistics statistics = {0};
+    size_t count = (size_t)trace->suns->count;
+    float *table = trace->tables + (size_t)item * count * RESPONSE_BANDS;
+    int    first = trace->first + item * SUN_CHUNK, end = first + SUN_CHUNK;
+    memset(table, 0, count * RESPONSE_BANDS * sizeof(float));
+    trace->options->kernel->ask_suns(trace->aim, trace->suns, first,
+                                     end < trace->paths ? end : trace->paths,
+                                     trace->towards + (size_t)item * count, table,
+                                     &statistics);
+}
+
+const float *response_suns(const ProbeAim *aim, const ResponseOptions *options,
+                           const ProbeSuns *suns, Arena *arena)
+{
+    size_t size = (size_t)suns->count * RESPONSE_BANDS;
+    float *shares = ARENA_NEW(arena, float, size);
+    Arena  scratch = *arena;
+    int    pieces = options->threads;
+    double *sums = ARENA_NEW(&scratch, double, size);
+    SunTrace trace = {aim, options, suns,
+                      ARENA_NEW(&scratch, float, size * (size_t)pieces),
+                      ARENA_NEW(&scratch, Vec3, (size_t)suns->count * (size_t)pieces), 0,
+                      options->paths};
+    for (; trace.first < options->paths; trace.first += pieces * SUN_CHUNK) {
+        int left = (options->paths - trace.first + SUN_CHUNK - 1) / SUN_CHUNK;
+        int now = left < pieces ? left : pieces;
+        parallel_for(options->threads, now, trace_suns, &trace);
+        for (int k = 0; k < now; k++)
+            for (size_t i = 0; i < size; i++)
+                sums[i] += (double)trace.tables[(size_t)k * size + i];
+    }
+    for (size_t i = 0; i < size; i++) shares[i] = (float)(sums[i] / options->paths);
+    return shares;
+}

@@ -1,0 +1,51 @@
+/* response.h -- what a probe would read for light from any direction outside.
+ *
+ * The light that an eye sees by way of a surface is linear in what shines from outside. Paths
+ * from the eye ask every triangle of a sphere (probe.h) once; a sky is then a sum over
+ * triangles, a sun what its direction gets, and no path is traced again. The first vertex's
+ * own answer to a sun is exact for any direction (response_suns); what comes by further
+ * vertices is a mean over the triangle and those about it, as wide as the triangles are.
+ *
+ * Approximate  glints by way of a further mirror are spread over that width.
+ * Spectrum     16 bands, those of the lanes of a path. Light is told by what each of its bands
+ *              gives of the luminance (light_bands.h), so that bands add up to it; a response
+ *              is the share of that, a mean over the band.
+ * Units        shares: cd m^-2 by cd m^-2 (of a luxmeter lx by cd m^-2); of a sun cd m^-2 by
+ *              lx on a plane that faces it.
+ * Memory       from the arena: 128 bytes a triangle; 16 times that while tracing.
+ * Threads      starts its own; the same numbers for any count.
+ */
+#pragma once
+#include "kernel/kernel.h"
+
+#define RESPONSE_LEVEL 5 /* triangles of 2.6 degrees */
+#define RESPONSE_BANDS SPECTRUM_LANES
+
+typedef struct ResponseOptions {
+    const Kernel *kernel;
+    int level;       /* of the triangles */
+    int paths;       /* at least RESPONSE_CHUNK: whole chunks are traced */
+    int threads;
+} ResponseOptions;
+
+#define RESPONSE_CHUNK 32
+
+typedef struct Response {
+    ProbeCells cells;   /* geometry; nothing is asked any more */
+    int        paths;
+    const float *first; /* [cell][band], of the whole triangle: by the first vertex */
+    const float *rest;  /* by all further ones */
+    double relative_error; /* standard error of the reading under a uniform white sky */
+} Response;
+
+void response_trace(const ProbeAim *aim, const ResponseOptions *options, Arena *arena,
+                    Response *out);
+
+/* Reading of the further vertices for a sun in direction `towards` (unit, world) whose
+ * irradiance has these band illuminances (light_bands.h), lx: cd m^-2, or lx. */
+double response_sun(const Response *response, Vec3 towards, const float bands[RESPONSE_BANDS]);
+
+/* Shares of the first vertex for suns, exact but for the mean over options' paths: [sun][band],
+ * from the arena. */
+const float *response_suns(const ProbeAim *aim, const ResponseOptions *options,
+                           const ProbeSuns *suns, Arena *arena);

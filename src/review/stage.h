@@ -1,0 +1,47 @@
+/* stage.h -- the scene as a condition has it: its files, contents, light and levels, ready for
+ * paths.
+ *
+ * Memory   scene and lights come from the arena; Embree's memory and the panels are gone after
+ *          stage_close.
+ * Threads  const once lit.
+ * Fails    as scene_load and lights_build do.
+ */
+#pragma once
+#include "base/problems.h"
+#include "review/reading.h"
+#include "review/request.h"
+
+#define STAGE_BOUNCES 64
+
+typedef struct Stage {
+    const ReviewRequest   *request;
+    const ReviewCondition *condition;
+    ReadingTools tools;
+    Scene       *scene;
+    Bvh         *bvh;
+    PathContext  context;
+    double       sensor_lux;   /* NaN: no level follows the light */
+    double       sensor_sigma;
+    double      *scene_levels; /* of the displays, before the condition's */
+} Stage;
+
+typedef struct StageOptions {
+    const ReviewRequest   *request;
+    const ReviewCondition *condition; /* NULL: the request's own files, no light but theirs */
+    const char            *root;      /* --root, or NULL */
+    int                    threads;
+    const char            *isa;       /* kernel.h's; NULL: the best */
+} StageOptions;
+
+/* The scene with the condition's files, contents and occupants, in the dark. Warnings go to
+ * *problems. */
+bool stage_open(const StageOptions *options, Arena *arena, Problems *problems, Stage *out,
+                Error *err);
+
+/* Lights it: the environment, then the levels, which may follow the light on a sensor. */
+bool stage_light(Stage *stage, const Environment *environment, Arena *arena, Error *err);
+
+void stage_close(Stage *stage);
+
+/* The level at which a display stands now. */
+double stage_level(const Stage *stage, int display_id);
