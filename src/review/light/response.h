@@ -32,6 +32,7 @@ typedef struct ResponseOptions {
 
 typedef struct Response {
     ProbeCells cells;   /* geometry; nothing is asked any more */
+    const Vec3 *centers; /* [cell] directions, unit, world */
     int        paths;
     const float *first; /* [cell][band], of the whole triangle: by the first vertex */
     const float *rest;  /* by all further ones */

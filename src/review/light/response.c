@@ -44,13 +44,12 @@ static ProbeCells ask_for(const ProbeCells *cells, const bool *is_open, int chun
 }
 
 /* Those that got something, and all that lie within a triangle's width of them. */
-static bool *open_cells(const ProbeCells *cells, const double *sums, Arena *arena)
+static bool *open_cells(const ProbeCells *cells, const Vec3 *centers, const double *sums,
+                        Arena *arena)
 {
     bool  *is_open = ARENA_NEW(arena, bool, cells->count);
-    Vec3  *centers = ARENA_NEW(arena, Vec3, cells->count);
     size_t order = (size_t)cells->count * RESPONSE_BANDS;
     float  near = cosf(2.2f * sqrtf(4 * PI_F / (float)cells->count));
-    for (int i = 0; i < cells->count; i++) centers[i] = probe_cell_center(cells, i);
     for (int i = 0; i < cells->count; i++) {
         double found = 0;
         for (int b = 0; b < RESPONSE_BANDS; b++)
@@ -142,15 +141,19 @@ void response_trace(const ProbeAim *aim, const ResponseOptions *options, Arena *
     int chunks = options->paths / RESPONSE_CHUNK;
     out->cells = cells_of_level(options->level, arena);
     float *shares = ARENA_NEW(arena, float, table_size(&out->cells));
+    Vec3  *centers = ARENA_NEW(arena, Vec3, out->cells.count);
+    for (int i = 0; i < out->cells.count; i++)
+        centers[i] = probe_cell_center(&out->cells, i);
     Arena  scratch = *arena;
     Trace  trace = trace_start(aim, options, &out->cells, &scratch);
     int    pilot = chunks < PILOT ? chunks : PILOT;
     trace_wave(&trace, &out->cells, NULL, pilot, scratch);
-    const bool *is_open = open_cells(&out->cells, trace.sums, &scratch);
+    const bool *is_open = open_cells(&out->cells, centers, trace.sums, &scratch);
     while (trace.first_chunk < chunks) {
         int left = chunks - trace.first_chunk;
         trace_wave(&trace, &out->cells, is_open, left < WAVE ? left : WAVE, scratch);
     }
+    out->centers = centers;
     out->paths = trace.first_chunk * RESPONSE_CHUNK;
     for (size_t i = 0; i < table_size(&out->cells); i++)
         shares[i] = (float)(trace.sums[i] / out->paths);
@@ -167,7 +170,7 @@ double response_sun(const Response *response, Vec3 towards, const float bands[RE
     float  width = 2.0f * sqrtf(4 * PI_F / (float)cells->count), near = cosf(width);
     double sum = 0, area = 0;
     for (int cell = 0; cell < cells->count; cell++) {
-        float cosine = vec3_dot(towards, probe_cell_center(cells, cell));
+        float cosine = vec3_dot(towards, response->centers[cell]);
         if (cosine <= near) continue;
         double weight = 1 - (double)(acosf(fminf(cosine, 1)) / width);
         const float *share = response->rest + (size_t)cell * RESPONSE_BANDS;

@@ -8,8 +8,9 @@
  */
 #pragma once
 #include "base/problems.h"
+#include "review/light/light_bands.h"
 #include "review/reading.h"
-#include "review/request.h"
+#include "review/request/request.h"
 
 #define STAGE_BOUNCES 64
 
@@ -42,6 +43,21 @@ bool stage_open(const StageOptions *options, Arena *arena, Problems *problems, S
 bool stage_light(Stage *stage, const Environment *environment, Arena *arena, Error *err);
 
 void stage_close(Stage *stage);
+
+/* Where the sun (or the moon in its place) stands, unit, world, and what its bands give, lx on a
+ * plane that faces it. False: the scene has none. */
+bool stage_sun(const Stage *stage, Vec3 *towards, float bands[LIGHT_BANDS]);
+
+/* Azimuth from north over east, or of the vehicle (0 ahead, 90 right) where the environment has
+ * no heading; elevation; degrees. */
+typedef struct SunAngles {
+    double azimuth_deg, elevation_deg;
+} SunAngles;
+
+SunAngles stage_angles(const Stage *stage, Vec3 towards);
+
+/* The other way round. */
+Vec3 stage_direction(const Stage *stage, SunAngles angles);
 
 /* The level at which a display stands now. */
 double stage_level(const Stage *stage, int display_id);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/units.h"
 #include "scene/load/scene_load.h"
 
 #define SENSOR_PRECISION 0.01
@@ -123,6 +124,67 @@ bool stage_light(Stage *stage, const Environment *environment, Arena *arena, Err
     if (level->is_curve) read_sensor(stage, level, *arena);
     set_levels(stage, level);
     return make_context(stage, arena, err);
+}
+
+/* ---- the sun ----------------------------------------------------------------------------- */
+
+#define SUN_DRAWS 16
+
+bool stage_sun(const Stage *stage, Vec3 *towards, float bands[LIGHT_BANDS])
+{
+    const Lights *lights = stage->context.lights;
+    Vec3 sum = vec3(0, 0, 0);
+    memset(bands, 0, LIGHT_BANDS * sizeof *bands);
+    if (!lights_has(lights, LIGHTS_SUN)) return false;
+    for (int i = 0; i < SUN_DRAWS; i++) {
+        const float u[3] = {((float)i + 0.5f) / SUN_DRAWS, (float)(i * 7 % SUN_DRAWS) / SUN_DRAWS,
+                            0.5f};
+        Wavelengths w;
+        LightSample sample;
+        wavelengths_sample(((float)(i * 5 % SUN_DRAWS) + 0.5f) / SUN_DRAWS, &w);
+        if (!lights_sample(lights, LIGHTS_SUN, (LitPoint){{0, 0, 0}, {0, 1, 0}, true}, u,
+                           &sample))
+            return false;
+        sum = vec3_add(sum, sample.wi);
+        Spectrum lux = lights_radiance(lights, &sample, &w) * w.xyz[1] *
+                       spectrum_all(1 / (sample.pdf * SUN_DRAWS));
+        for (int k = 0; k < LIGHT_BANDS; k++) bands[k] += lux[k];
+    }
+    *towards = vec3_normalize(sum);
+    return true;
+}
+
+/* Forward on the horizontal, and to its right. */
+static void axes(const Stage *stage, Vec3 *ahead, Vec3 *right)
+{
+    Vec3 forward = vec3_of(stage->request->forward);
+    *ahead = vec3_normalize(vec3(forward.x, 0, forward.z));
+    *right = vec3(-ahead->z, 0, ahead->x);
+}
+
+static double heading_deg(const Stage *stage)
+{
+    return degrees_from_radians((double)stage->scene->environment.heading);
+}
+
+SunAngles stage_angles(const Stage *stage, Vec3 d)
+{
+    Vec3 ahead, right;
+    axes(stage, &ahead, &right);
+    double azimuth = atan2((double)vec3_dot(d, right), (double)vec3_dot(d, ahead));
+    double degrees = fmod(degrees_from_radians(azimuth) + heading_deg(stage) + 720, 360);
+    return (SunAngles){degrees, degrees_from_radians(asin(fmin(fmax((double)d.y, -1), 1)))};
+}
+
+Vec3 stage_direction(const Stage *stage, SunAngles angles)
+{
+    Vec3 ahead, right;
+    axes(stage, &ahead, &right);
+    double azimuth = radians_from_degrees(angles.azimuth_deg - heading_deg(stage));
+    double elevation = radians_from_degrees(angles.elevation_deg), level = cos(elevation);
+    Vec3 along = vec3_add(vec3_scale(ahead, (float)(level * cos(azimuth))),
+                          vec3_scale(right, (float)(level * sin(azimuth))));
+    return vec3_normalize(vec3(along.x, (float)sin(elevation), along.z));
 }
 
 double stage_level(const Stage *stage, int display_id)

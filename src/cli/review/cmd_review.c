@@ -1,0 +1,149 @@
+/* parhelion review: from REVIEW.json to verdicts, with tables and a page for a meeting. */
+#include "cli/review/cmd_review.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/count.h"
+#include "cli/options/answer.h"
+#include "cli/options/cli.h"
+#include "cli/review/review_folder.h"
+#include "review/output/review_decide.h"
+#include "review/output/review_json.h"
+#include "review/request/request_init.h"
+#include "review/request/request_read.h"
+#include "review/run.h"
+
+typedef struct ReviewWords {
+    const char *folder, *profile, *root, *isa, *diff, *init;
+    bool        is_strict, dry_run;
+    Cli         cli;
+} ReviewWords;
+
+static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *err)
+{
+    const Option options[] = {
+        {"-o", OPTION_TEXT, "DIR", "where everything is written", &out->folder},
+        {"--init", OPTION_TEXT, "REVIEW.json", "writes a request to start from, for the scene",
+         &out->init},
+        {"--dry-run", OPTION_FLAG, NULL, "says what would be traced, and stops", &out->dry_run},
+        {"--profile", OPTION_TEXT, "NAME|FILE.json", "limits instead of the request's",
+         &out->profile},
+        {"--strict", OPTION_FLAG, NULL, "too close to call and not visible fail, too",
+         &out->is_strict},
+        {"--diff", OPTION_TEXT, "DIR", "an earlier review to hold this one against", &out->diff},
+        {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &out->root},
+        {"--isa", OPTION_TEXT, "NAME", "sse2, avx2, avx512 (default: the processor's best)",
+         &out->isa},
+    };
+    const CliCommand command = {
+        "review", "can displays be read, under every light? verdicts, causes, a page",
+        "REVIEW.json -o DIR | --init REVIEW.json SCENE.gltf ...",
+        "parhelion review scenes/car_dashboard.review.json -o review",
+        options, COUNT_OF(options), 1, -1};
+    if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
+    if (out->cli.help_shown || out->init) return true;
+    if (out->cli.argument_count > 1)
+        return error_set(err, ERROR_USAGE, "%s: one request at a time is reviewed",
+                         out->cli.arguments[1]);
+    return out->folder || out->dry_run ||
+           error_set(err, ERROR_USAGE, "-o DIR: nothing says where the review goes");
+}
+
+/* ---- what is said ------------------------------------------------------------------------ */
+
+static void print_case(const ReviewCase *c)
+{
+    printf("%-11s %s, %s, %s", verdict_names[c->verdict], c->condition, c->eye, c->symbol);
+    if (c->visible_share > 0)
+        printf(": contrast %.3g : 1 (%.3g to %.3g), reflected %.4g cd/m2", c->contrast_ratio,
+               c->contrast_low, c->contrast_high, c->luminance_cd_m2.reflected);
+    if (c->limit_id >= 0) printf(", wanted %.3g : 1", c->limits[c->limit_id].value);
+    putchar('\n');
+}
+
+static void print_sweep(const ReviewSweep *s)
+{
+    printf("%-11s %s, %s, %s: %.3g %% of %ld suns fail", verdict_names[s->worst.verdict],
+           s->condition, s->eye, s->symbol, 100 * s->failed_share, s->cases);
+    if (s->longest_failure_minutes > 0)
+        printf(", %.4g minutes at a stretch", s->longest_failure_minutes);
+    if (s->worst.has_sun)
+        printf("; worst at azimuth %.1f, elevation %.1f: contrast %.3g : 1",
+               s->worst.sun_azimuth_deg, s->worst.sun_elevation_deg, s->worst.contrast_ratio);
+    putchar('\n');
+}
+
+static void print_review(const Review *review)
+{
+    for (int i = 0; i < review->case_count; i++) print_case(&review->cases[i]);
+    for (int i = 0; i < review->sweep_count; i++) print_sweep(&review->sweeps[i]);
+    printf("%s\n", review->pass ? "pass" : "FAIL");
+}
+
+static bool answer(const Cli *cli, const Review *review, Error *err)
+{
+    if (cli->json) return cli_print_json(review_json(review), err);
+    print_review(review);
+    return true;
+}
+
+static bool print_plan(const Cli *cli, const ReviewRequest *r, Error *err)
+{
+    int moments = 0;
+    for (int i = 0; i < r->condition_count; i++)
+        moments += r->conditions[i].kind == CONDITION_MOMENT;
+    if (cli->json)
+        return cli_print_json(json_pack("{s:i, s:i, s:i, s:i}", "eyes", r->eye_count, "symbols",
+                                        r->symbol_count, "moments", moments, "sweeps",
+                                        r->condition_count - moments), err);
+    printf("eyes     %d\nsymbols  %d (a rectangle of text counts as one here)\n"
+           "moments  %d\nsweeps   %d\n", r->eye_count, r->symbol_count, moments,
+           r->condition_count - moments);
+    return true;
+}
+
+/* ---- the command ------------------------------------------------------------------------- */
+
+static bool review(const ReviewWords *words, Arena *arena, Error *err)
+{
+    const char    *file = words->cli.arguments[0];
+    Problems       problems = problems_start(arena);
+    ReviewRequest  request;
+    const Profile *profile;
+    ReviewOutcome  outcome;
+    ReviewFolder   folder = {.name = words->folder, .request = &request, .diff = words->diff};
+    if (!review_request_read(file, words->root, arena, &problems, &request, err)) return false;
+    if (!profile_load(words->profile ? words->profile : request.profile, arena, &profile, err))
+        return false;
+    if (words->dry_run) return print_plan(&words->cli, &request, err);
+    if (!review_folder_open(&folder, arena, err)) return false;
+    ReviewRun run = {.request = &request, .profile = profile, .root = words->root,
+                     .threads = words->cli.threads, .isa = words->isa,
+                     .progress = words->cli.progress, .folder = words->folder,
+                     .problems = &problems};
+    if (!review_run(&run, arena, &outcome, err)) return false;
+    cli_print_warnings(&problems);
+    outcome.review.is_strict = words->is_strict;
+    review_decide(&outcome.review);
+    if (!review_folder_write(&folder, &outcome, arena, err) ||
+        !answer(&words->cli, &outcome.review, err))
+        return false;
+    if (outcome.review.pass) return true;
+    *err = (Error){.code = ERROR_DIFFERENT};
+    return false;
+}
+
+static bool run(int argc, char **argv, Arena *arena, Error *err)
+{
+    ReviewWords words = {0};
+    if (!parse(argc, argv, arena, &words, err)) return false;
+    if (words.cli.help_shown) return true;
+    if (words.init)
+        return review_init(words.init, words.cli.arguments, words.cli.argument_count, words.root,
+                           arena, err);
+    return review(&words, arena, err);
+}
+
+const Command command_review = {
+    "review", "can displays be read, under every light? verdicts, causes, a page", run, NULL, 0};

@@ -1,0 +1,159 @@
+#include "cli/review/review_folder.h"
+
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/file.h"
+#include "base/machine.h"
+#include "base/progress.h"
+#include "cli/options/version.h"
+#include "render/render.h"
+#include "review/frames.h"
+#include "review/output/review_csv.h"
+#include "review/output/review_json.h"
+#include "review/output/review_json_read.h"
+#include "review/output/review_junit.h"
+
+#define MAP_STEP_DEG 5
+
+/* ---- folders ----------------------------------------------------------------------------- */
+
+static bool make_folder(const char *path, Error *err)
+{
+    struct stat there;
+    if (!stat(path, &there) && S_ISDIR(there.st_mode)) return true;
+    return !mkdir(path, 0777) || error_at(err, ERROR_OUTPUT, path, "", "%s", strerror(errno));
+}
+
+bool review_folder_open(ReviewFolder *folder, Arena *arena, Error *err)
+{
+    folder->begun_s = monotonic_seconds();
+    if (folder->diff) {
+        const char *file = arena_format(arena, "%s/review.json", folder->diff);
+        Review      before;
+        if (!review_json_read(file, arena, &before, err)) return false;
+    }
+    return make_folder(folder->name, err) &&
+           make_folder(arena_format(arena, "%s/sweeps", folder->name), err) &&
+           make_folder(arena_format(arena, "%s/frames", folder->name), err);
+}
+
+/* ---- sweeps ------------------------------------------------------------------------------ */
+
+static const ReviewCondition *condition_of(const ReviewRequest *request, const char *name)
+{
+    for (int i = 0; i < request->condition_count; i++)
+        if (!strcmp(request->conditions[i].name, name)) return &request->conditions[i];
+    return NULL;
+}
+
+static bool write_tables(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
+                         Error *err)
+{
+    for (int i = 0; i < outcome->table_count; i++) {
+        const SweepTable *table = &outcome->tables[i];
+        ReviewSweep      *sweep = &outcome->review.sweeps[table->sweep_id];
+        const char *name = file_name_of(
+            arena_format(arena, "%d-%s-%s-%s", table->sweep_id + 1, sweep->condition, sweep->eye,
+                         sweep->symbol), arena);
+        sweep->table = arena_format(arena, "sweeps/%s.csv", name);
+        const char *path = arena_format(arena, "%s/%s", folder->name, sweep->table);
+        if (!sweep_table_write(table, condition_of(folder->request, sweep->condition), path,
+                               err))
+            return false;
+    }
+    return true;
+}
+
+static void add_charts(const ReviewFolder *folder, const ReviewOutcome *outcome,
+                       ReviewPage *page, Arena *arena)
+{
+    ReviewMap      *maps = ARENA_NEW(arena, ReviewMap, outcome->table_count);
+    ReviewCalendar *calendars = ARENA_NEW(arena, ReviewCalendar, outcome->table_count);
+    for (int i = 0; i < outcome->table_count; i++) {
+        const SweepTable  *table = &outcome->tables[i];
+        const ReviewSweep *sweep = &outcome->review.sweeps[table->sweep_id];
+        const ReviewCondition *condition = condition_of(folder->request, sweep->condition);
+        maps[page->map_count++] = sweep_map(table, sweep, MAP_STEP_DEG, arena);
+        if (condition->kind == CONDITION_YEAR_SWEEP)
+            calendars[page->calendar_count++] = sweep_calendar(table, sweep, condition, arena);
+    }
+    page->maps = maps;
+    page->calendars = calendars;
+}
+
+/* ---- the page ---------------------------------------------------------------------------- */
+
+static void add_pictures(const ReviewFolder *folder, const Review *review, ReviewPage *page,
+                         Arena *arena)
+{
+    ReviewPicture *pictures =
+        ARENA_NEW(arena, ReviewPicture, review->case_count + review->sweep_count);
+    for (int i = 0; i < review->case_count + review->sweep_count; i++) {
+        const ReviewCase *c = i < review->case_count
+                                  ? &review->cases[i]
+                                  : &review->sweeps[i - review->case_count].worst;
+        if (!c->frame) continue;
+        pictures[page->picture_count++] = (ReviewPicture){
+            .of = c, .title = "Frame", .caption = "What the eye sees, exposed as a camera would",
+            .file = arena_format(arena, "%s/%s", folder->name, c->frame)};
+    }
+    page->pictures = pictures;
+}
+
+static void add_facts(const ReviewRequest *request, ReviewPage *page, Arena *arena)
+{
+    ReviewFact *facts = ARENA_NEW(arena, ReviewFact, request->input_count + 1);
+    facts[page->fact_count++] = (ReviewFact){
+        "program", arena_format(arena, "parhelion %s, sources %s", PARHELION_VERSION,
+                                SOURCES_HASH)};
+    for (int i = 0; i < request->input_count; i++)
+        facts[page->fact_count++] = (ReviewFact){
+            request->inputs[i].path,
+            arena_format(arena, "XXH3 %016llx", (unsigned long long)request->inputs[i].hash)};
+    page->facts = facts;
+}
+
+static bool write_page(const ReviewFolder *folder, const ReviewOutcome *outcome, Arena *arena,
+                       Error *err)
+{
+    const char *command = arena_format(arena, "parhelion review %s -o %s", folder->request->file,
+                                       folder->name);
+    ReviewPage page = {.review = &outcome->review, .commands = &command, .command_count = 1};
+    ReviewDiff diff;
+    Review     before;
+    add_charts(folder, outcome, &page, arena);
+    add_pictures(folder, &outcome->review, &page, arena);
+    add_facts(folder->request, &page, arena);
+    if (folder->diff) {
+        const char *file = arena_format(arena, "%s/review.json", folder->diff);
+        if (!review_json_read(file, arena, &before, err)) return false;
+        diff = review_diff(&before, &outcome->review, folder->diff, folder->name, arena);
+        page.diff = &diff;
+        if (!review_json_write(review_diff_json(&diff),
+                               arena_format(arena, "%s/diff.json", folder->name), err))
+            return false;
+    }
+    return review_page_write(&page, arena_format(arena, "%s/index.html", folder->name), err);
+}
+
+static bool write_run(const ReviewFolder *folder, Arena *arena, Error *err)
+{
+    json_t *run = json_pack("{s:f, s:f, s:s}", "seconds",
+                            monotonic_seconds() - folder->begun_s, "peak_memory_bytes",
+                            machine_peak_bytes(), "version", PARHELION_VERSION);
+    return review_json_write(run, arena_format(arena, "%s/run.json", folder->name), err);
+}
+
+bool review_folder_write(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
+                         Error *err)
+{
+    const Review *review = &outcome->review;
+    return write_tables(folder, outcome, arena, err) &&
+           review_csv_write(review, arena_format(arena, "%s/cases.csv", folder->name), err) &&
+           review_junit_write(review, arena_format(arena, "%s/junit.xml", folder->name), err) &&
+           review_json_write(review_json(review),
+                             arena_format(arena, "%s/review.json", folder->name), err) &&
+           write_page(folder, outcome, arena, err) && write_run(folder, arena, err);
+}

@@ -1,0 +1,25 @@
+/* review_folder.h -- the folder of a review: page, documents, tables, pictures.
+ *
+ * index.html, review.json, cases.csv, junit.xml; sweeps/NAME.csv; frames/NAME.exr and .png;
+ * run.json with what may differ from run to run; diff.json beside an earlier review.
+ *
+ * Memory   from the arena.
+ * Threads  one at a time.
+ * Fails    with the file or folder that cannot be written.
+ */
+#pragma once
+#include "review/sweep_output.h"
+
+typedef struct ReviewFolder {
+    const char          *name;
+    const ReviewRequest *request;
+    const char          *diff; /* folder of an earlier review; NULL: none */
+    double               begun_s;
+} ReviewFolder;
+
+/* Before the work: makes it and what is in it, and reads the earlier review's verdict. */
+bool review_folder_open(ReviewFolder *folder, Arena *arena, Error *err);
+
+/* Sets the tables' names in the sweeps. */
+bool review_folder_write(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
+                         Error *err);

@@ -1,0 +1,210 @@
+#include "review/cases.h"
+
+#include <math.h>
+
+#include "review/judge.h"
+#include "review/light/response.h"
+#include "review/light/veil.h"
+#include "review/output/review_decide.h"
+#include "review/request/request_check.h"
+#include "vision/grey_steps.h"
+
+#define SIGMAS 1.959964 /* of a 95 % interval */
+#define FACE_PRECISION 0.02
+#define FACE_PATHS 16384
+#define FACE_SEED 0x66616365u
+#define EYE_SEED 0x65796573u
+#define SUN_PATHS 16
+#define SUN_LEAST_SHARE 0.2 /* of the light on a display: direct sun decides */
+
+/* ---- eyes -------------------------------------------------------------------------------- */
+
+Vec3 *stage_eye_points(const Stage *stage, const ReviewEye *eye, int *count, Arena *arena,
+                       Error *err)
+{
+    *count = review_eye_count(eye);
+    Vec3 *points = ARENA_NEW(arena, Vec3, *count);
+    if (eye->kind == EYE_CAMERA) {
+        int id;
+        if (!review_camera_find(stage->scene, eye, &id, err)) return NULL;
+        points[0] = stage->scene->cameras[id].world_from_camera.t;
+        return points;
+    }
+    for (int i = 0; i < *count; i++) {
+        double p[3];
+        review_eye_point(eye, i, p);
+        points[i] = vec3((float)p[0], (float)p[1], (float)p[2]);
+    }
+    return points;
+}
+
+/* ---- the display's face ------------------------------------------------------------------ */
+
+/* How a symbol's middle is lit. */
+typedef struct Face {
+    double lux;
+    bool   sun_on_it;
+} Face;
+
+static Face face_of(const CaseTools *tools, const StageSymbol *symbol, Arena scratch)
+{
+    const Stage       *stage = tools->stage;
+    const SymbolPoint *point = &symbol->surface.points[symbol->surface.point_count / 2];
+    LitPoint    head = {vec3_along(point->position, point->ng, ray_offset_step(point->position)),
+                        point->ns, false};
+    ProbeAim    aim = {.context = &stage->context, .meter = &head, .seed = FACE_SEED};
+    ReadingGoal goal = {.precision = FACE_PRECISION, .most = FACE_PATHS};
+    Face        face = {reading_take(&aim, &goal, &stage->tools, scratch).reflected, false};
+    Vec3        towards;
+    float       bands[LIGHT_BANDS];
+    if (!stage_sun(stage, &towards, bands)) return face;
+    ProbeSuns       suns = {&towards, 1, 1, false};
+    ResponseOptions options = {stage->tools.kernel, 0, SUN_PATHS, stage->tools.threads};
+    suns.cos_radius = 0.99999f;
+    const float *shares = response_suns(&aim, &options, &suns, &scratch);
+    double       direct = 0;
+    for (int b = 0; b < LIGHT_BANDS; b++) direct += (double)shares[b] * (double)bands[b];
+    face.sun_on_it = direct > SUN_LEAST_SHARE * face.lux;
+    return face;
+}
+
+/* ---- one case ---------------------------------------------------------------------------- */
+
+static Vec3 *visible_points(const SymbolSurface *surface, const bool *is_visible, int *count,
+                            Arena *arena)
+{
+    Vec3 *points = ARENA_NEW(arena, Vec3, surface->point_count);
+    *count = 0;
+    for (int i = 0; i < surface->point_count; i++)
+        if (is_visible[i]) points[(*count)++] = surface->points[i].position;
+    return points;
+}
+
+static double contrast(double one, double other, double added)
+{
+    double brighter = fmax(one, other) + added, darker = fmin(one, other) + added;
+    return darker > 0 ? brighter / darker : brighter > 0 ? (double)INFINITY : 1;
+}
+
+static void set_contrasts(ReviewCase *c, double sigma)
+{
+    const CaseLuminances *l = &c->luminance_cd_m2;
+    double spread = SIGMAS * sigma, veil = isnan(l->veil) ? 0 : l->veil;
+    c->contrast_ratio = contrast(l->foreground, l->background, l->reflected);
+    c->contrast_low = contrast(l->foreground, l->background, l->reflected + spread);
+    c->contrast_high =
+        contrast(l->foreground, l->background, fmax(l->reflected - spread, 0));
+    c->contrast_with_veil = contrast(l->foreground, l->background, l->reflected + veil);
+    c->jnd = grey_steps_between(l->foreground + l->reflected + veil,
+                                l->background + l->reflected + veil);
+}
+
+static Reading read_symbol(const CaseTools *tools, const StageSymbol *symbol, Vec3 eye,
+                           const bool *is_visible, const CaseLuminances *shown, Arena scratch)
+{
+    ProbeAim aim = {.context = &tools->stage->context, .eye = eye, .seed = EYE_SEED};
+    ReadingGoal goal = {.brighter = fmax(shown->foreground, shown->background),
+                        .darker = fmin(shown->foreground, shown->background),
+                        .precision = tools->stage->request->precision_contrast,
+                        .most = CASE_PATHS_MOST};
+    aim.targets = visible_points(&symbol->surface, is_visible, &aim.target_count, &scratch);
+    return reading_take(&aim, &goal, &tools->stage->tools, scratch);
+}
+
+/* The panel's emission dimmed by what the eye looks through. */
+static void set_shown(CaseLuminances *l, const SymbolEmission *emission, double transmittance)
+{
+    l->foreground = emission->foreground_xyz[1] * transmittance;
+    l->background = emission->background_xyz[1] * transmittance;
+}
+
+/* What does not depend on the eye is set. */
+static void see_symbol(const CaseTools *tools, const StageSymbol *symbol, Vec3 eye,
+                       ReviewCase *c, Arena scratch)
+{
+    const Stage   *stage = tools->stage;
+    CaseLuminances *l = &c->luminance_cd_m2;
+    bool *is_visible = ARENA_NEW(&scratch, bool, symbol->surface.point_count);
+    SymbolVisibility seen =
+        symbol_visibility(&symbol->surface, &stage->context, eye, is_visible);
+    *l = (CaseLuminances){(double)NAN, (double)NAN, (double)NAN, (double)NAN, (double)NAN,
+                          (double)NAN};
+    c->visible_share = seen.visible_share;
+    c->height_arcmin = symbol_height_arcmin(&symbol->surface, symbol->split.box, eye);
+    c->contrast_ratio = c->contrast_low = c->contrast_high = c->contrast_with_veil = c->jnd =
+        (double)NAN;
+    if (!(seen.visible_share > 0)) return;
+    SymbolEmission emission =
+        symbol_emission(&symbol->surface, &symbol->split, c->level, eye, scratch);
+    set_shown(l, &emission, seen.transmittance);
+    Reading reading = read_symbol(tools, symbol, eye, is_visible, l, scratch);
+    l->reflected = reading.reflected;
+    l->mirror = reading.mirror;
+    l->scattered = reading.reflected - reading.mirror;
+    l->veil = veil_read(stage, eye, symbol->surface.points[SYMBOL_POINTS / 2].position, scratch);
+    set_contrasts(c, reading.sigma);
+}
+
+/* By how bad its verdict is, then by its margin. */
+static bool is_worse(const ReviewCase *a, const ReviewCase *b)
+{
+    int rank_a = verdict_rank(a->verdict), rank_b = verdict_rank(b->verdict);
+    return rank_a != rank_b ? rank_a > rank_b : a->margin < b->margin;
+}
+
+static ReviewCase start_case(const CaseTools *tools, const ReviewEye *eye,
+                             const StageSymbol *symbol)
+{
+    const Stage *stage = tools->stage;
+    Vec3         towards;
+    float        bands[LIGHT_BANDS];
+    ReviewCase   c = {.condition = stage->condition->name, .eye = eye->name,
+                      .symbol = symbol->name, .display = symbol->display_name, .limit_id = -1,
+                      .level = stage_level(stage, symbol->display.display_id)};
+    if (stage_sun(stage, &towards, bands)) {
+        SunAngles angles = stage_angles(stage, towards);
+        c.has_sun = true;
+        c.sun_azimuth_deg = angles.azimuth_deg;
+        c.sun_elevation_deg = angles.elevation_deg;
+    }
+    return c;
+}
+
+static bool case_of(const CaseTools *tools, const ReviewEye *eye, const StageSymbol *symbol,
+                    Face face, Arena *arena, ReviewCase *out, Error *err)
+{
+    int        count;
+    Vec3      *points = stage_eye_points(tools->stage, eye, &count, arena, err);
+    ReviewCase start = start_case(tools, eye, symbol);
+    if (!points) return false;
+    start.display_lux = face.lux;
+    judge_ambient(&start, tools->profile, face.sun_on_it);
+    for (int i = 0; i < count; i++) {
+        ReviewCase c = start;
+        see_symbol(tools, symbol, points[i], &c, *arena);
+        judge_case(&c, tools->profile, arena);
+        if (i == 0 || is_worse(&c, out)) *out = c;
+    }
+    return true;
+}
+
+bool stage_case(const CaseTools *tools, const StageSymbol *symbol, const ReviewEye *eye,
+                Arena *arena, ReviewCase *out, Error *err)
+{
+    return case_of(tools, eye, symbol, face_of(tools, symbol, *arena), arena, out, err) ||
+           error_in_file(err, tools->stage->request->file);
+}
+
+bool stage_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *err)
+{
+    const ReviewRequest *request = tools->stage->request;
+    Face *faces = ARENA_NEW(arena, Face, tools->symbol_count);
+    for (int s = 0; s < tools->symbol_count; s++)
+        faces[s] = face_of(tools, &tools->symbols[s], *arena);
+    for (int e = 0; e < request->eye_count; e++)
+        for (int s = 0; s < tools->symbol_count; s++)
+            if (!case_of(tools, &request->eyes[e], &tools->symbols[s], faces[s], arena, out++,
+                         err))
+                return error_in_file(err, request->file);
+    return true;
+}

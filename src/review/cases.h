@@ -1,0 +1,32 @@
+/* cases.h -- a stage that is lit becomes cases: each symbol as each eye sees it.
+ *
+ * An eye box is judged by its worst point.
+ *
+ * Units    verdict.h's.
+ * Memory   what cases point to lies in the arena.
+ * Threads  starts its own; the same figures for any count.
+ */
+#pragma once
+#include "review/profile.h"
+#include "review/symbols.h"
+
+typedef struct CaseTools {
+    const Stage       *stage;
+    const Profile     *profile;
+    const StageSymbol *symbols;
+    int                symbol_count;
+} CaseTools;
+
+/* Paths of one reading at most: a contrast that is not sure then has a wider interval. */
+#define CASE_PATHS_MOST 262144
+
+/* symbol_count * eye_count cases, symbols fastest. Fails where an eye's camera is missing. */
+bool stage_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *err);
+
+/* One of them. */
+bool stage_case(const CaseTools *tools, const StageSymbol *symbol, const ReviewEye *eye,
+                Arena *arena, ReviewCase *out, Error *err);
+
+/* How far the eyes of the request are told apart: the points of one, world. From the arena. */
+Vec3 *stage_eye_points(const Stage *stage, const ReviewEye *eye, int *count, Arena *arena,
+                       Error *err);

@@ -1,0 +1,28 @@
+/* frames.h -- pictures of a stage: what an eye sees under a condition.
+ *
+ * Frames go to FOLDER/frames: NAME.exr in cd m^-2 with the layers of displays, and NAME.png
+ * developed. A frame ends at the request's noise or at FRAMES_SAMPLES.
+ *
+ * Memory   scratch only; names live in the arena.
+ * Threads  starts its own; the same frames for any count.
+ * Fails    when a file cannot be written; nothing half-written is left.
+ */
+#pragma once
+#include "review/light/stage.h"
+
+#define FRAMES_SAMPLES 1024
+
+typedef struct FrameAsk {
+    const Stage     *stage;
+    const ReviewEye *eye;
+    Vec3             look_at; /* m, world: of an eye that is no camera */
+    const char      *folder;
+    const char      *name;    /* without an ending */
+    ProgressMode     progress;
+} FrameAsk;
+
+/* *out: the picture's name within the folder. */
+bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err);
+
+/* A file's name from texts of any kind: letters and digits stay, all else becomes '-'. */
+const char *file_name_of(const char *text, Arena *arena);

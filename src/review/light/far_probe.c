@@ -1,0 +1,203 @@
+#include "review/light/far_probe.h"
+
+#include <math.h>
+
+#include "base/count.h"
+#include "base/parallel.h"
+#include "base/units.h"
+
+#define SUN_RADIUS_DEG 0.26645
+
+/* ---- skies ------------------------------------------------------------------------------- */
+
+/* Close where the air mass changes fast. */
+static const double elevations[] = {-12, -9, -6, -4, -2, -1, 0,  0.5, 1,  2,  3,  4,
+                                    6,   8,  10, 13, 16, 20, 25, 30,  36, 42, 48, 54,
+                                    60,  66, 72, 78, 84, 90};
+
+/* Those from the last at or below `low` to the first at or above `high`. */
+static int elevations_within(double low, double high, int *first)
+{
+    int last = COUNT_OF(elevations) - 1;
+    *first = 0;
+    while (*first < last && elevations[*first + 1] <= low) (*first)++;
+    while (last > *first && elevations[last - 1] >= high) last--;
+    return last - *first + 1;
+}
+
+bool sky_table_build(const DaylightInput *like, double low_deg, double high_deg, Arena *arena,
+                     SkyTable *out, Error *err)
+{
+    int first, count = elevations_within(low_deg, high_deg, &first);
+    *out = (SkyTable){elevations + first, ARENA_NEW(arena, Daylight, count),
+                      arena_alloc(arena, sizeof(float[LIGHT_BANDS]), _Alignof(float),
+                                  (size_t)count), count};
+    for (int i = 0; i < count; i++) {
+        DaylightInput input = *like;
+        input.has_sun = true;
+        input.sun_azimuth = 0;
+        input.sun_elevation = radians_from_degrees(elevations[first + i]);
+        input.sun_lux = -1;
+        input.no_moon = true;
+        if (!daylight_build(&input, arena, &out->skies[i], err)) return false;
+        light_bands_sun(&out->skies[i], out->sun_bands[i]);
+    }
+    return true;
+}
+
+/* The table's row at or below an elevation, and how far it lies towards the next. */
+static int row_of(const SkyTable *table, double elevation_deg, double *share)
+{
+    int row = 0;
+    *share = 0;
+    if (table->count == 1) return 0;
+    while (row < table->count - 2 && table->elevation_deg[row + 1] <= elevation_deg) row++;
+    double low = table->elevation_deg[row], high = table->elevation_deg[row + 1];
+    *share = fmin(fmax((elevation_deg - low) / (high - low), 0), 1);
+    return row;
+}
+
+/* Light falls off by powers of the air mass: between two rows that both have some it is the
+ * logarithm that is linear. */
+void sky_table_sun(const SkyTable *table, double elevation_deg, float bands[LIGHT_BANDS])
+{
+    double share;
+    int    row = row_of(table, elevation_deg, &share), next = row + (share > 0);
+    for (int b = 0; b < LIGHT_BANDS; b++) {
+        double low = (double)table->sun_bands[row][b], high = (double)table->sun_bands[next][b];
+        bands[b] = low > 0 && high > 0 ? (float)(low * pow(high / low, share))
+                                       : (float)(low + share * (high - low));
+    }
+}
+
+/* ---- a sky over a response --------------------------------------------------------------- */
+
+typedef struct SkySum {
+    FarProbe       *probe;
+    const FarTools *tools;
+    const int      *cells; /* that send anything */
+    const SunAngles *at;   /* of each */
+    int             count;
+    int             row;
+} SkySum;
+
+static void sum_sky(void *user, int azimuth, int worker)
+{
+    (void)worker;
+    const SkySum   *sum = user;
+    const Response *response = &sum->probe->response;
+    const Daylight *sky = &sum->tools->table->skies[sum->row];
+    double          total = 0, turn = 360.0 * azimuth / SKY_AZIMUTHS;
+    for (int i = 0; i < sum->count; i++) {
+        float bands[LIGHT_BANDS];
+        size_t at = (size_t)sum->cells[i] * LIGHT_BANDS;
+        light_bands_sky(sky, (float)radians_from_degrees(sum->at[i].elevation_deg),
+                        (float)radians_from_degrees(sum->at[i].azimuth_deg - turn), bands);
+        for (int b = 0; b < LIGHT_BANDS; b++)
+            total += (double)(response->first[at + (size_t)b] + response->rest[at + (size_t)b]) *
+                     (double)bands[b];
+    }
+    sum->probe->sky[sum->row * SKY_AZIMUTHS + azimuth] = total;
+}
+
+static bool sends_anything(const Response *response, int cell)
+{
+    size_t at = (size_t)cell * LIGHT_BANDS;
+    for (int b = 0; b < LIGHT_BANDS; b++)
+        if (response->first[at + (size_t)b] + response->rest[at + (size_t)b] > 0) return true;
+    return false;
+}
+
+/* Of the vehicle, whatever its heading. */
+static SunAngles vehicle_angles(const Stage *stage, Vec3 direction)
+{
+    SunAngles angles = stage_angles(stage, direction);
+    angles.azimuth_deg -=
+        degrees_from_radians((double)stage->scene->environment.heading);
+    return angles;
+}
+
+static void sum_skies(FarProbe *probe, const FarTools *tools, Arena *arena)
+{
+    const Response *response = &probe->response;
+    int  rows = tools->table->count;
+    probe->sky = ARENA_NEW(arena, double, rows * SKY_AZIMUTHS);
+    Arena      scratch = *arena;
+    int       *cells = ARENA_NEW(&scratch, int, response->cells.count);
+    SunAngles *at = ARENA_NEW(&scratch, SunAngles, response->cells.count);
+    SkySum     sum = {probe, tools, cells, at, 0, 0};
+    for (int cell = 0; cell < response->cells.count; cell++) {
+        if (!sends_anything(response, cell)) continue;
+        cells[sum.count] = cell;
+        at[sum.count++] =
+            vehicle_angles(tools->stage, response->centers[cell]);
+    }
+    for (; sum.row < rows; sum.row++)
+        parallel_for(tools->stage->tools.threads, SKY_AZIMUTHS, sum_sky, &sum);
+}
+
+/* ---- probes ------------------------------------------------------------------------------ */
+
+static Vec3 *sun_directions(const FarTools *tools, Arena *arena)
+{
+    double heading = degrees_from_radians((double)tools->stage->scene->environment.heading);
+    Vec3  *towards = ARENA_NEW(arena, Vec3, tools->suns.count);
+    for (int i = 0; i < tools->suns.count; i++) {
+        SunAngles angles = tools->suns.angles[i];
+        angles.azimuth_deg += heading;
+        towards[i] = stage_direction(tools->stage, angles);
+    }
+    return towards;
+}
+
+void far_probe_trace(FarProbe *probe, const FarTools *tools, Arena *arena)
+{
+    const ReadingTools *with = &tools->stage->tools;
+    ResponseOptions options = {with->kernel, RESPONSE_LEVEL, tools->paths, with->threads};
+    ProbeSuns suns = {.towards = sun_directions(tools, arena), .count = tools->suns.count,
+                      .cos_radius = (float)cos(radians_from_degrees(SUN_RADIUS_DEG))};
+    response_trace(&probe->aim, &options, arena, &probe->response);
+    sum_skies(probe, tools, arena);
+    options.paths = tools->sun_paths;
+    probe->scattered = response_suns(&probe->aim, &options, &suns, arena);
+    suns.by_mirror = true;
+    options.paths = tools->mirror_paths;
+    probe->mirror =
+        tools->mirror_paths ? response_suns(&probe->aim, &options, &suns, arena) : NULL;
+}
+
+static double sky_reading(const FarProbe *probe, const SkyTable *table, SunAngles sun)
+{
+    double share, turns = sun.azimuth_deg / 360, places;
+    int    row = row_of(table, sun.elevation_deg, &share), next = row + (share > 0);
+    places = (turns - floor(turns)) * SKY_AZIMUTHS;
+    int    a = (int)places % SKY_AZIMUTHS, b = (a + 1) % SKY_AZIMUTHS;
+    double along = places - floor(places);
+    const double *low = probe->sky + row * SKY_AZIMUTHS, *high = probe->sky + next * SKY_AZIMUTHS;
+    return (1 - share) * (low[a] + along * (low[b] - low[a])) +
+           share * (high[a] + along * (high[b] - high[a]));
+}
+
+static double sum_bands(const float *shares, const float bands[LIGHT_BANDS])
+{
+    double sum = 0;
+    for (int b = 0; b < LIGHT_BANDS; b++) sum += (double)shares[b] * (double)bands[b];
+    return sum;
+}
+
+FarReading far_probe_read(const FarProbe *probe, const FarTools *tools, int sun)
+{
+    SunAngles  angles = tools->suns.angles[sun];
+    FarReading reading = {.sky = sky_reading(probe, tools->table, angles)};
+    float      bands[LIGHT_BANDS];
+    size_t     at = (size_t)sun * LIGHT_BANDS;
+    double     heading = degrees_from_radians((double)tools->stage->scene->environment.heading);
+    sky_table_sun(tools->table, angles.elevation_deg, bands);
+    angles.azimuth_deg += heading;
+    if (angles.elevation_deg < -SUN_RADIUS_DEG) return reading;
+    reading.mirror = probe->mirror ? sum_bands(probe->mirror + at, bands) : 0;
+    reading.sun_first = sum_bands(probe->scattered + at, bands) + reading.mirror;
+    reading.sun_rest =
+        response_sun(&probe->response, stage_direction(tools->stage, angles), bands);
+    return reading;
+}

@@ -1,0 +1,66 @@
+/* far_probe.h -- a probe's readings for many suns in clear skies, without a path for each.
+ *
+ * A response (response.h) is traced once. Skies of a table of the sun's elevations are summed
+ * over it for every azimuth of the sun; what lies between is interpolated. The first vertex's
+ * answer to the sun itself is asked for each of the suns.
+ *
+ * Frame    azimuths of the vehicle: 0 ahead, 90 right; elevations apparent; degrees.
+ * Units    cd m^-2 (a luxmeter: lx).
+ * Memory   from the arena: 5 KB a probe and elevation, 64 bytes a probe and sun.
+ * Threads  starts its own; the same numbers for any count.
+ */
+#pragma once
+#include "review/light/response.h"
+#include "review/light/stage.h"
+
+/* ---- skies ------------------------------------------------------------------------------- */
+
+#define SKY_AZIMUTHS 72 /* of the sun */
+
+/* Clear skies by the sun's elevation. */
+typedef struct SkyTable {
+    const double *elevation_deg; /* rising */
+    Daylight     *skies;         /* their suns at azimuth 0 */
+    float       (*sun_bands)[LIGHT_BANDS]; /* lx */
+    int           count;
+} SkyTable;
+
+/* Elevations that reach from `low` to `high`; `like` says air and ground. */
+bool sky_table_build(const DaylightInput *like, double low_deg, double high_deg, Arena *arena,
+                     SkyTable *out, Error *err);
+
+/* The sun's bands at an elevation within the table, lx. */
+void sky_table_sun(const SkyTable *table, double elevation_deg, float bands[LIGHT_BANDS]);
+
+/* ---- probes ------------------------------------------------------------------------------ */
+
+typedef struct FarProbe {
+    ProbeAim     aim;
+    Response     response;
+    const float *scattered, *mirror; /* of the first vertex: [sun][band], by lx */
+    double      *sky;                /* [elevation of the table][SKY_AZIMUTHS] */
+} FarProbe;
+
+typedef struct FarSuns {
+    const SunAngles *angles; /* of the vehicle */
+    int              count;
+} FarSuns;
+
+typedef struct FarTools {
+    const Stage    *stage;
+    const SkyTable *table;
+    FarSuns         suns;
+    int             paths;       /* of the response */
+    int             sun_paths;   /* of the first vertex; and of its mirror: */
+    int             mirror_paths; /* 0: it has none */
+} FarTools;
+
+/* probe->aim is set; all else is made. */
+void far_probe_trace(FarProbe *probe, const FarTools *tools, Arena *arena);
+
+typedef struct FarReading {
+    double sky, sun_first, sun_rest; /* they add up */
+    double mirror;                   /* of sun_first */
+} FarReading;
+
+FarReading far_probe_read(const FarProbe *probe, const FarTools *tools, int sun);

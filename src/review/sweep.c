@@ -1,0 +1,453 @@
+#include "review/sweep.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/units.h"
+#include "review/judge.h"
+#include "review/output/review_decide.h"
+
+#define RESPONSE_PATHS 2048
+#define METER_PATHS 1024
+#define SUN_PATHS 64     /* of the first vertex */
+#define MIRROR_PATHS 2048 /* of its mirror, which cost little */
+#define EYE_SEED 0x73776579u
+#define METER_SEED 0x73776d65u
+#define SUN_LEAST_SHARE 0.2 /* of the light on a display: direct sun decides */
+
+/* ---- probes ------------------------------------------------------------------------------ */
+
+/* What displays and lamps of the scene give, whatever the sky: linear in the displays' level. */
+typedef struct OwnLight {
+    double lamps, displays; /* at level 1 */
+} OwnLight;
+
+typedef struct Meter {
+    LitPoint head;
+    FarProbe probe;
+    OwnLight own;
+} Meter;
+
+typedef struct Sight {
+    const ReviewEye   *eye;
+    const StageSymbol *symbol;
+    Vec3               from;
+    SymbolVisibility   seen;
+    CaseLuminances     shown;   /* foreground and background at level 1 */
+    double             height_arcmin;
+    FarProbe           probe;
+    OwnLight           own;
+    double             own_mirror; /* share of own light that is the mirror's */
+    const Meter       *face;
+} Sight;
+
+typedef struct Sweep {
+    const ReviewRun   *run;
+    Stage             *stage;
+    SweepSuns          suns;
+    SkyTable           table;
+    StageSymbol       *symbols;
+    int                symbol_count;
+    Meter             *faces;   /* one a symbol */
+    Meter             *sensor;  /* of the level; NULL: it is fixed */
+    const ReviewLevel *level;   /* NULL: the scene's */
+    Sight             *sights;
+    int                sight_count;
+} Sweep;
+
+static void set_all_levels(Stage *stage, float level)
+{
+    for (int i = 0; i < stage->scene->display_count; i++)
+        stage->scene->displays[i].level = level;
+}
+
+/* The scene without sky and sun, its displays at one level. */
+static bool light_without_sky(Stage *stage, float level, Arena *arena, Error *err)
+{
+    Lights *lights;
+    stage->scene->environment.kind = ENVIRONMENT_NONE;
+    stage->scene->environment.has_sun = false;
+    stage->scene->environment.heading = 0;
+    set_all_levels(stage, level);
+    if (!lights_build(stage->scene, arena, &lights, err)) return false;
+    stage->context =
+        path_context_build(stage->scene, stage->bvh, lights, STAGE_BOUNCES, arena);
+    return true;
+}
+
+static bool gives_light(const Lights *lights)
+{
+    return lights_has(lights, LIGHTS_EMITTERS) || lights_has(lights, LIGHTS_PUNCTUAL);
+}
+
+static double own_reading(const Stage *stage, const ProbeAim *aim, Arena scratch)
+{
+    ReadingGoal goal = {.precision = 0.02, .most = 8192};
+    if (!gives_light(stage->context.lights)) return 0;
+    return reading_take(aim, &goal, &stage->tools, scratch).reflected;
+}
+
+/* ---- making them ------------------------------------------------------------------------- */
+
+static Meter meter_at(Vec3 position, Vec3 normal)
+{
+    return (Meter){.head = {position, normal, false}};
+}
+
+static void place_meters(Sweep *sweep, Arena *arena)
+{
+    sweep->faces = ARENA_NEW(arena, Meter, sweep->symbol_count);
+    for (int i = 0; i < sweep->symbol_count; i++) {
+        const SymbolSurface *surface = &sweep->symbols[i].surface;
+        const SymbolPoint   *p = &surface->points[surface->point_count / 2];
+        sweep->faces[i] =
+            meter_at(vec3_along(p->position, p->ng, ray_offset_step(p->position)), p->ns);
+    }
+    if (!sweep->level || !sweep->level->is_curve) return;
+    const double *at = sweep->level->position_m, *to = sweep->level->normal;
+    sweep->sensor = ARENA_NEW(arena, Meter, 1);
+    *sweep->sensor = meter_at(vec3((float)at[0], (float)at[1], (float)at[2]),
+                              vec3((float)to[0], (float)to[1], (float)to[2]));
+}
+
+static void aim_sight(Sweep *sweep, Sight *sight, Arena *arena)
+{
+    const Stage         *stage = sweep->stage;
+    const SymbolSurface *surface = &sight->symbol->surface;
+    bool *is_visible = ARENA_NEW(arena, bool, surface->point_count);
+    Vec3 *targets = ARENA_NEW(arena, Vec3, surface->point_count);
+    int   count = 0;
+    sight->seen = symbol_visibility(surface, &stage->context, sight->from, is_visible);
+    for (int i = 0; i < surface->point_count; i++)
+        if (is_visible[i]) targets[count++] = surface->points[i].position;
+    SymbolEmission shown =
+        symbol_emission(surface, &sight->symbol->split, 1, sight->from, *arena);
+    sight->shown.foreground = shown.foreground_xyz[1] * sight->seen.transmittance;
+    sight->shown.background = shown.background_xyz[1] * sight->seen.transmittance;
+    sight->height_arcmin = symbol_height_arcmin(surface, sight->symbol->split.box, sight->from);
+    sight->probe.aim = (ProbeAim){.context = &stage->context, .eye = sight->from,
+                                  .targets = targets, .target_count = count, .seed = EYE_SEED};
+}
+
+static bool place_sights(Sweep *sweep, Arena *arena, Error *err)
+{
+    const ReviewRequest *request = sweep->run->request;
+    sweep->sights = ARENA_NEW(arena, Sight, request->eye_count * sweep->symbol_count);
+    for (int e = 0; e < request->eye_count; e++) {
+        int   count;
+        Vec3 *points = stage_eye_points(sweep->stage, &request->eyes[e], &count, arena, err);
+        if (!points) return error_in_file(err, request->file);
+        for (int s = 0; s < sweep->symbol_count; s++) {
+            Sight *sight = &sweep->sights[sweep->sight_count++];
+            *sight = (Sight){.eye = &request->eyes[e], .symbol = &sweep->symbols[s],
+                             .from = points[count / 2], .face = &sweep->faces[s]};
+            aim_sight(sweep, sight, arena);
+        }
+    }
+    return true;
+}
+
+static void read_own(Sweep *sweep, bool displays, Arena scratch)
+{
+    const Stage *stage = sweep->stage;
+    for (int i = 0; i < sweep->sight_count; i++) {
+        Sight *sight = &sweep->sights[i];
+        if (!sight->probe.aim.target_count) continue;
+        double own = own_reading(stage, &sight->probe.aim, scratch);
+        if (displays) sight->own.displays = own - sight->own.lamps;
+        else sight->own.lamps = own;
+    }
+    for (int i = 0; i < sweep->symbol_count + (sweep->sensor != NULL); i++) {
+        Meter   *meter = i < sweep->symbol_count ? &sweep->faces[i] : sweep->sensor;
+        ProbeAim aim = {.context = &stage->context, .meter = &meter->head, .seed = METER_SEED};
+        double   own = own_reading(stage, &aim, scratch);
+        if (displays) meter->own.displays = own - meter->own.lamps;
+        else meter->own.lamps = own;
+    }
+}
+
+static void trace_meter(Meter *meter, FarTools tools, Arena *arena)
+{
+    tools.paths = METER_PATHS;
+    tools.mirror_paths = 0;
+    meter->probe.aim = (ProbeAim){.context = &tools.stage->context, .meter = &meter->head,
+                                  .seed = METER_SEED};
+    far_probe_trace(&meter->probe, &tools, arena);
+}
+
+static void trace_all(Sweep *sweep, const FarTools *tools, Progress *progress, Arena *arena)
+{
+    int done = 0;
+    for (int i = 0; i < sweep->symbol_count; i++) trace_meter(&sweep->faces[i], *tools, arena);
+    if (sweep->sensor) trace_meter(sweep->sensor, *tools, arena);
+    for (int i = 0; i < sweep->sight_count; i++) {
+        Sight *sight = &sweep->sights[i];
+        if (sight->probe.aim.target_count) far_probe_trace(&sight->probe, tools, arena);
+        progress_update(progress, ++done);
+    }
+}
+
+/* ---- reading them ------------------------------------------------------------------------ */
+
+static double total(const FarReading *reading)
+{
+    return reading->sky + reading->sun_first + reading->sun_rest;
+}
+
+static double contrast(const CaseLuminances *l, double reflected)
+{
+    double brighter = fmax(l->foreground, l->background) + reflected;
+    double darker = fmin(l->foreground, l->background) + reflected;
+    return darker > 0 ? brighter / darker : brighter > 0 ? (double)INFINITY : 1;
+}
+
+static double level_for(const Sweep *sweep, const Sight *sight, const FarTools *tools, int sun)
+{
+    double scene = sweep->stage->scene_levels[sight->symbol->display.display_id], lux = 0;
+    if (!sweep->level) return scene;
+    if (sweep->sensor) {
+        FarReading at = far_probe_read(&sweep->sensor->probe, tools, sun);
+        lux = total(&at) + sweep->sensor->own.lamps;
+    }
+    return review_level_at(sweep->level, sight->symbol->display_name, scene, lux);
+}
+
+/* The figures of a case under one sun; limits are judged by whoever asks. */
+static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const FarTools *tools, int sun)
+{
+    FarReading light = far_probe_read(&sight->probe, tools, sun);
+    FarReading face = far_probe_read(&sight->face->probe, tools, sun);
+    double     level = level_for(sweep, sight, tools, sun);
+    double     own = sight->own.lamps + level * sight->own.displays;
+    double     reflected = total(&light) + own, sigma = sight->probe.response.relative_error;
+    ReviewCase c = {.level = level, .limit_id = -1, .visible_share = sight->seen.visible_share,
+                    .height_arcmin = sight->height_arcmin};
+    double     spread = 1.96 * sigma * (light.sky + light.sun_rest);
+    c.display_lux = total(&face) + sight->face->own.lamps + level * sight->face->own.displays;
+    c.luminance_cd_m2 = (CaseLuminances){
+        level * sight->shown.foreground, level * sight->shown.background, reflected,
+        light.mirror, reflected - light.mirror, (double)NAN};
+    c.contrast_ratio = contrast(&c.luminance_cd_m2, reflected);
+    c.contrast_low = contrast(&c.luminance_cd_m2, reflected + spread);
+    c.contrast_high = contrast(&c.luminance_cd_m2, fmax(reflected - spread, 0));
+    c.contrast_with_veil = c.contrast_ratio;
+    judge_ambient(&c, sweep->run->profile,
+                  face.sun_first > SUN_LEAST_SHARE * c.display_lux);
+    return c;
+}
+
+/* ---- what is told of them ---------------------------------------------------------------- */
+
+typedef struct Told {
+    float *contrast, *margin, *reflected, *mirror, *level, *lux;
+    unsigned char *verdict;
+    int    worst; /* sun; -1: none */
+} Told;
+
+static Told told_start(int count, Arena *arena)
+{
+    float *numbers = ARENA_NEW(arena, float, 6 * (size_t)count);
+    return (Told){numbers, numbers + count, numbers + 2 * count, numbers + 3 * count,
+                  numbers + 4 * count, numbers + 5 * count,
+                  ARENA_NEW(arena, unsigned char, count), -1};
+}
+
+/* Worse: by its verdict, then by its margin, then by its contrast. */
+static bool is_worse(const Told *told, int sun, int than)
+{
+    if (than < 0) return true;
+    int rank = verdict_rank(told->verdict[sun]), other = verdict_rank(told->verdict[than]);
+    if (rank != other) return rank > other;
+    float margin = told->margin[sun], before = told->margin[than];
+    if (!isnan(margin) && !isnan(before) && margin != before) return margin < before;
+    return told->contrast[sun] < told->contrast[than];
+}
+
+static Told tell(const Sweep *sweep, const Sight *sight, const FarTools *tools, Arena *arena)
+{
+    Told told = told_start(sweep->suns.count, arena);
+    for (int i = 0; i < sweep->suns.count; i++) {
+        Arena      scratch = *arena;
+        ReviewCase c = case_at(sweep, sight, tools, i);
+        judge_case(&c, sweep->run->profile, &scratch);
+        told.contrast[i] = (float)c.contrast_ratio;
+        told.margin[i] = (float)c.margin;
+        told.reflected[i] = (float)c.luminance_cd_m2.reflected;
+        told.mirror[i] = (float)c.luminance_cd_m2.mirror;
+        told.level[i] = (float)c.level;
+        told.lux[i] = (float)c.display_lux;
+        told.verdict[i] = (unsigned char)c.verdict;
+        if (is_worse(&told, i, told.worst)) told.worst = i;
+    }
+    return told;
+}
+
+/* Time that failed over all time; without times every sun counts alike. */
+static double failed_share(const SweepSuns *suns, const Told *told)
+{
+    double failed = 0, all = 0;
+    for (int i = 0; i < suns->count; i++) {
+        double weight = suns->has_time ? suns->list[i].minutes : 1;
+        all += weight;
+        if (told->verdict[i] == VERDICT_FAIL) failed += weight;
+    }
+    return all > 0 ? failed / all : 0;
+}
+
+/* At a stretch, under one heading: steps that follow each other without a gap. */
+static double longest_failure(const SweepSuns *suns, const Told *told, Arena scratch)
+{
+    double longest = 0;
+    int    headings = 1;
+    if (!suns->has_time) return (double)NAN;
+    for (int i = 0; i < suns->count; i++)
+        if (suns->list[i].heading_id >= headings) headings = suns->list[i].heading_id + 1;
+    double *run = ARENA_NEW(&scratch, double, headings);
+    int    *last = ARENA_NEW(&scratch, int, headings);
+    for (int i = 0; i < suns->count; i++) {
+        const SweepSun *sun = &suns->list[i];
+        int h = sun->heading_id;
+        bool follows = last[h] == sun->step && run[h] > 0;
+        run[h] = told->verdict[i] != VERDICT_FAIL ? 0 : (follows ? run[h] : 0) + sun->minutes;
+        last[h] = sun->step + 1;
+        longest = fmax(longest, run[h]);
+    }
+    return longest;
+}
+
+/* ---- the worst, read again as a moment --------------------------------------------------- */
+
+static Environment environment_at(const Sweep *sweep, const SweepSun *sun)
+{
+    Environment environment = sweep->stage->condition->environment;
+    environment.kind = ENVIRONMENT_SKY;
+    environment.daylight.kind = DAYLIGHT_CLEAR;
+    environment.daylight.has_time = false;
+    environment.has_sun = true;
+    environment.sun_azimuth = (float)radians_from_degrees(sun->compass_deg);
+    environment.sun_elevation = (float)radians_from_degrees(sun->elevation_deg);
+    environment.sun_illuminance_lx = -1;
+    environment.sun_angular_radius = (float)radians_from_degrees(0.26645);
+    environment.heading = (float)radians_from_degrees(sun->heading_deg);
+    return environment;
+}
+
+/* What a sweep does with each of its sights. */
+typedef struct Telling {
+    const Sweep     *sweep;
+    const FarTools  *tools;
+    const SweepSuns *suns;   /* kept */
+    ReviewOutcome   *out;
+    Arena           *arena;  /* of what is kept */
+    Arena            scratch;
+} Telling;
+
+static bool read_worst(Telling *to, const Sight *sight, const SweepSun *sun, ReviewCase *out,
+                       Error *err)
+{
+    const Sweep *sweep = to->sweep;
+    Arena        scratch = to->scratch;
+    Stage        stage = *sweep->stage;
+    Environment  environment = environment_at(sweep, sun);
+    for (int i = 0; i < stage.scene->display_count; i++)
+        stage.scene->displays[i].level = (float)stage.scene_levels[i];
+    if (!stage_light(&stage, &environment, &scratch, err)) return false;
+    CaseTools tools = {&stage, sweep->run->profile, sight->symbol, 1};
+    return stage_case(&tools, sight->symbol, sight->eye, to->arena, out, err);
+}
+
+static ReviewSweep sweep_of(const Telling *to, const Sight *sight)
+{
+    const char *symbol = sight->symbol->name;
+    ReviewSweep sweep = {.condition = to->sweep->stage->condition->name,
+                         .eye = sight->eye->name, .cases = to->suns->count,
+                         .symbol = arena_string(to->arena, symbol, strlen(symbol)),
+                         .longest_failure_minutes = to->suns->has_time ? 0 : (double)NAN};
+    sweep.worst = (ReviewCase){.condition = sweep.condition, .eye = sweep.eye,
+                               .symbol = sweep.symbol, .limit_id = -1, .margin = (double)NAN,
+                               .display = sight->symbol->display_name,
+                               .verdict = VERDICT_NOT_VISIBLE};
+    return sweep;
+}
+
+static bool add_sweep(Telling *to, const Sight *sight, Error *err)
+{
+    Review     *review = &to->out->review;
+    ReviewSweep sweep = sweep_of(to, sight);
+    if (sight->probe.aim.target_count) {
+        Told told = tell(to->sweep, sight, to->tools, to->arena);
+        sweep.failed_share = failed_share(to->suns, &told);
+        sweep.longest_failure_minutes = longest_failure(to->suns, &told, to->scratch);
+        if (told.worst >= 0 &&
+            !read_worst(to, sight, &to->suns->list[told.worst], &sweep.worst, err))
+            return false;
+        sweep.worst.symbol = sweep.symbol;
+        to->out->tables[to->out->table_count++] =
+            (SweepTable){review->sweep_count, to->suns, told.contrast, told.margin,
+                         told.reflected, told.mirror, told.level, told.lux, told.verdict};
+    }
+    review->sweeps[review->sweep_count++] = sweep;
+    return true;
+}
+
+/* ---- all of it --------------------------------------------------------------------------- */
+
+static void tell_response(const Sweep *sweep, const Sight *sight, Arena *arena, Review *out)
+{
+    if (!sight->probe.aim.target_count) return;
+    const Response *response = &sight->probe.response;
+    out->responses[out->response_count++] = (ReviewResponse){
+        arena_format(arena, "%s, %s, %s", sweep->stage->condition->name, sight->eye->name,
+                     sight->symbol->name),
+        response->paths,
+        2 * (size_t)response->cells.count * LIGHT_BANDS * sizeof(float),
+        response->relative_error};
+}
+
+static bool prepare(Sweep *sweep, Arena *scratch, Error *err)
+{
+    Stage *stage = sweep->stage;
+    double low = 90, high = -90;
+    for (int i = 0; i < sweep->suns.count; i++) {
+        low = fmin(low, sweep->suns.list[i].elevation_deg);
+        high = fmax(high, sweep->suns.list[i].elevation_deg);
+    }
+    DaylightInput like = stage->condition->environment.daylight;
+    like.kind = DAYLIGHT_CLEAR;
+    like.has_time = false;
+    like.threads = stage->tools.threads;
+    if (stage->condition->kind == CONDITION_YEAR_SWEEP) like.where = stage->condition->where;
+    if (stage->condition->kind == CONDITION_ROUTE)
+        like.where = stage->condition->route.points[0].where;
+    return sky_table_build(&like, low, high, scratch, &sweep->table, err) &&
+           light_without_sky(stage, 0, scratch, err) &&
+           stage_symbols(stage, scratch, &sweep->symbols, &sweep->symbol_count, err);
+}
+
+bool run_sweep(const ReviewRun *run, Stage *stage, Arena *scratch, Arena *arena,
+               ReviewOutcome *out, Error *err)
+{
+    const ReviewCondition *condition = stage->condition;
+    Sweep sweep = {.run = run, .stage = stage, .suns = sweep_suns(condition, arena)};
+    if (condition->level_id != NO_ID) sweep.level = &run->request->levels[condition->level_id];
+    if (!prepare(&sweep, scratch, err)) return false;
+    place_meters(&sweep, scratch);
+    if (!place_sights(&sweep, scratch, err)) return false;
+    read_own(&sweep, false, *scratch);
+    if (!light_without_sky(stage, 1, scratch, err)) return false;
+    read_own(&sweep, true, *scratch);
+    FarTools tools = {stage, &sweep.table, {sweep.suns.angles, sweep.suns.count},
+                      RESPONSE_PATHS, SUN_PATHS, MIRROR_PATHS};
+    Progress progress = progress_start(run->progress, condition->name, "probes",
+                                       sweep.sight_count);
+    trace_all(&sweep, &tools, &progress, scratch);
+    progress_end(&progress, sweep.sight_count);
+    SweepSuns *suns = ARENA_NEW(arena, SweepSuns, 1);
+    *suns = sweep.suns;
+    Telling to = {&sweep, &tools, suns, out, arena, *scratch};
+    for (int i = 0; i < sweep.sight_count; i++) {
+        tell_response(&sweep, &sweep.sights[i], arena, &out->review);
+        if (!add_sweep(&to, &sweep.sights[i], err)) return false;
+    }
+    return true;
+}

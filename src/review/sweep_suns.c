@@ -1,0 +1,92 @@
+#include "review/sweep_suns.h"
+
+#include <math.h>
+
+#include "base/units.h"
+
+#define LOWEST_DEG (-12) /* what the table of skies reaches */
+
+typedef struct SunList {
+    SweepSun *list;
+    int       count;
+    bool      with_night;
+} SunList;
+
+/* Apparent, as the standard atmosphere at the place refracts. */
+static SunAngles sun_at(double julian_day, const SkyPlace *place)
+{
+    SunPosition sun = sun_position(julian_day, sky_delta_t_s(julian_day), place);
+    double      mbar, celsius;
+    standard_atmosphere(place->altitude_m, &mbar, &celsius);
+    return (SunAngles){sun.azimuth_deg,
+                       sun.elevation_deg + sun_refraction_deg(sun.elevation_deg, mbar, celsius)};
+}
+
+static void add_sun(SunList *to, SunAngles at, SweepSun sun)
+{
+    if (at.elevation_deg < (to->with_night ? LOWEST_DEG : 0)) return;
+    sun.compass_deg = at.azimuth_deg;
+    sun.elevation_deg = at.elevation_deg;
+    sun.azimuth_deg = fmod(at.azimuth_deg - sun.heading_deg + 720, 360);
+    to->list[to->count++] = sun;
+}
+
+static void year_suns(const ReviewCondition *c, SunList *to)
+{
+    SkyTime start = {.year = c->year, .month = 1, .day = 1};
+    double  first = sky_julian_day(&start);
+    start.year++;
+    int steps = (int)floor((sky_julian_day(&start) - first) * 1440 / c->step_minutes + 0.5);
+    for (int step = 0; step < steps; step++) {
+        SunAngles at = sun_at(first + (step + 0.5) * c->step_minutes / 1440, &c->where);
+        for (int h = 0; h < c->heading_count; h++)
+            add_sun(to, at, (SweepSun){.heading_deg = c->headings_deg[h], .heading_id = h,
+                                       .minutes = c->step_minutes, .step = step});
+    }
+}
+
+static void route_suns(const ReviewCondition *c, SunList *to)
+{
+    const Route *route = &c->route;
+    for (int i = 0; i < route->count; i++) {
+        const RoutePoint *p = &route->points[i];
+        double seconds = i + 1 < route->count ? route->points[i + 1].seconds - p->seconds : 0;
+        add_sun(to, sun_at(sky_julian_day(&p->when), &p->where),
+                (SweepSun){.heading_deg = p->heading_deg, .minutes = seconds / 60, .step = i});
+    }
+}
+
+static void grid_suns(const ReviewCondition *c, SunList *to)
+{
+    for (int e = 0; e < c->elevation_deg.count; e++)
+        for (int a = 0; a < c->azimuth_deg.count; a++)
+            to->list[to->count++] = (SweepSun){
+                .azimuth_deg = review_range_value(&c->azimuth_deg, a) -
+                               (c->has_heading ? c->heading_deg : 0),
+                .compass_deg = review_range_value(&c->azimuth_deg, a),
+                .heading_deg = c->has_heading ? c->heading_deg : 0,
+                .elevation_deg = review_range_value(&c->elevation_deg, e), .step = -1};
+}
+
+static int most_suns(const ReviewCondition *c)
+{
+    if (c->kind == CONDITION_ROUTE) return c->route.count;
+    if (c->kind == CONDITION_SUN_SWEEP) return c->azimuth_deg.count * c->elevation_deg.count;
+    return c->heading_count * (int)ceil(366 * 1440 / c->step_minutes + 1);
+}
+
+SweepSuns sweep_suns(const ReviewCondition *c, Arena *arena)
+{
+    SunList list = {ARENA_NEW(arena, SweepSun, most_suns(c)), 0, c->with_night};
+    if (c->kind == CONDITION_ROUTE) route_suns(c, &list);
+    else if (c->kind == CONDITION_SUN_SWEEP) grid_suns(c, &list);
+    else year_suns(c, &list);
+    SweepSuns suns = {.list = list.list, .count = list.count,
+                      .angles = ARENA_NEW(arena, SunAngles, list.count),
+                      .has_time = c->kind != CONDITION_SUN_SWEEP,
+                      .step_minutes = c->step_minutes, .azimuth_deg = c->azimuth_deg,
+                      .elevation_deg = c->elevation_deg};
+    for (int i = 0; i < list.count; i++)
+        suns.angles[i] = (SunAngles){list.list[i].azimuth_deg, list.list[i].elevation_deg};
+    return suns;
+}

@@ -1,0 +1,31 @@
+/* sweep_suns.h -- the suns of a sweep: where each stands, and how much of it counts.
+ *
+ * Units    degrees; minutes. Azimuths of the vehicle (0 ahead, 90 right) and of the compass.
+ * Memory   from the arena. Threads: const once made.
+ */
+#pragma once
+#include "review/light/far_probe.h"
+#include "review/request/request.h"
+
+typedef struct SweepSun {
+    double azimuth_deg, elevation_deg; /* of the vehicle; apparent */
+    double compass_deg;  /* azimuth from north; of a sun sweep that of the vehicle */
+    double heading_deg;
+    double minutes;      /* that it stands for; sun sweep: 0 */
+    int    step;         /* of time: year, route; -1 */
+    int    heading_id;   /* year; 0 */
+} SweepSun;
+
+typedef struct SweepSuns {
+    const SweepSun *list;
+    SunAngles      *angles;  /* the same places, for probes */
+    int             count;
+    bool            has_time; /* suns of one heading_id follow each other in time */
+    double          step_minutes; /* year */
+    ReviewRange     azimuth_deg, elevation_deg; /* sun sweep: azimuths of the first elevation,
+                                                   then of the next */
+} SweepSuns;
+
+/* Those that are up, and with `with_night` all. A route's places differ; the air is that of the
+ * first. */
+SweepSuns sweep_suns(const ReviewCondition *condition, Arena *arena);

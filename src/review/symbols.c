@@ -1,0 +1,99 @@
+#include "review/symbols.h"
+
+#include <string.h>
+
+#include "review/request/request_check.h"
+#include "review/symbol/text_find.h"
+
+/* One list that grows; its elements lie apart, since surfaces are pointed at. */
+typedef struct SymbolList {
+    const Stage *stage;
+    StageSymbol *list;
+    int          count, room;
+} SymbolList;
+
+static const Image *shown_content(const Scene *scene, const ReviewDisplay *display)
+{
+    int id = scene->displays[display->display_id].content.texture_id;
+    return id == NO_ID ? NULL : &scene->textures[id].image;
+}
+
+static ReviewPolarity polarity_of(const Stage *stage, int symbol_id)
+{
+    if (stage->condition) return stage->condition->polarity[symbol_id];
+    return stage->request->symbols[symbol_id].polarity;
+}
+
+static bool add_symbol(SymbolList *list, StageSymbol symbol, const SymbolQuestion *question,
+                       Arena *arena, Error *err)
+{
+    const Scene *scene = list->stage->scene;
+    if (!symbol_split(question, arena, &symbol.split, err)) return false;
+    StageSymbol *kept = &list->list[list->count];
+    *kept = symbol;
+    SymbolPlace place = {.scene = scene, .display = &kept->display,
+                         .point_count = SYMBOL_POINTS};
+    memcpy(place.uv, question->uv, sizeof place.uv);
+    if (!symbol_surface_build(&place, arena, &kept->surface, err)) return false;
+    list->count++;
+    return true;
+}
+
+static bool read_mask(const ReviewSymbol *asked, Image *mask, const Image **out, Arena *arena,
+                      Error *err)
+{
+    *out = NULL;
+    if (!asked->mask) return true;
+    *out = mask;
+    return image_read(asked->mask, arena, mask, err);
+}
+
+static bool add_found(SymbolList *list, const StageSymbol *symbol, SymbolQuestion *question,
+                      Arena *arena, Error *err)
+{
+    ContentLight  light;
+    TextProposal *found;
+    if (!content_light(question->panel, question->content, question->uv, arena, &light, err))
+        return false;
+    int count = text_find(&light, SYMBOLS_FOUND_MOST, arena, &found);
+    if (count == 0) return error_set(err, ERROR_INPUT, "no text was found there");
+    for (int i = 0; i < count; i++) {
+        StageSymbol one = *symbol;
+        one.name = arena_format(arena, "%s %d", symbol->name, i + 1);
+        memcpy(question->uv, found[i].uv, sizeof question->uv);
+        question->polarity =
+            found[i].is_light_on_dark ? POLARITY_LIGHT_ON_DARK : POLARITY_DARK_ON_LIGHT;
+        if (!add_symbol(list, one, question, arena, err)) return false;
+    }
+    return true;
+}
+
+static bool add_asked(SymbolList *list, int id, Arena *arena, Error *err)
+{
+    const ReviewSymbol *asked = &list->stage->request->symbols[id];
+    const Scene        *scene = list->stage->scene;
+    StageSymbol symbol = {.name = asked->name, .display_name = asked->display, .symbol_id = id};
+    Image       mask;
+    if (!review_display_find(scene, asked->display, arena, &symbol.display, err)) return false;
+    SymbolQuestion question = {.panel = scene->displays[symbol.display.display_id].panel,
+                               .content = shown_content(scene, &symbol.display),
+                               .uv = {0, 0, 1, 1}, .polarity = polarity_of(list->stage, id)};
+    if (asked->has_uv) memcpy(question.uv, asked->uv, sizeof question.uv);
+    if (!read_mask(asked, &mask, &question.mask, arena, err)) return false;
+    if (asked->find_text) return add_found(list, &symbol, &question, arena, err);
+    return add_symbol(list, symbol, &question, arena, err);
+}
+
+bool stage_symbols(const Stage *stage, Arena *arena, StageSymbol **out, int *count, Error *err)
+{
+    int        most = stage->request->symbol_count * SYMBOLS_FOUND_MOST;
+    SymbolList list = {stage, ARENA_NEW(arena, StageSymbol, most), 0, most};
+    for (int id = 0; id < stage->request->symbol_count; id++) {
+        if (add_asked(&list, id, arena, err)) continue;
+        error_prefix(err, "symbol '%s'", stage->request->symbols[id].name);
+        return error_in_file(err, stage->request->file);
+    }
+    *out = list.list;
+    *count = list.count;
+    return true;
+}

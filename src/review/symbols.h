@@ -1,0 +1,25 @@
+/* symbols.h -- the symbols of a request on the displays of a scene, ready to be looked at.
+ *
+ * A symbol that is to be found becomes one for every line of text in it, "NAME 1" with the
+ * tallest characters first.
+ *
+ * Memory   from the arena; the stage must outlive them.
+ * Threads  const once made.
+ */
+#pragma once
+#include "review/light/stage.h"
+#include "review/symbol/symbol_sight.h"
+
+#define SYMBOLS_FOUND_MOST 6 /* of one rectangle */
+#define SYMBOL_POINTS 256
+
+typedef struct StageSymbol {
+    const char   *name, *display_name;
+    int           symbol_id;  /* of the request */
+    ReviewDisplay display;
+    SymbolSurface surface;
+    SymbolSplit   split;
+} StageSymbol;
+
+/* Fails with the request's file and the symbol's place in it. */
+bool stage_symbols(const Stage *stage, Arena *arena, StageSymbol **out, int *count, Error *err);
