@@ -49,10 +49,12 @@ typedef struct Kernel {
     /* What an eye sees outside a frame (probe.h). */
     void (*look)(const ProbeAim *aim, int first, int end, ProbeLook *out,
                  PathStatistics *statistics);
+    void (*hear)(const ProbeAim *aim, int first, int end, const PathListener *listener,
+                 PathStatistics *statistics);
     void (*ask_cells)(const ProbeAim *aim, const ProbeCells *cells, int first, int end,
-                      Vec3 *towards, float *sums, PathStatistics *statistics);
+                      ProbeAnswers *out, PathStatistics *statistics);
     void (*ask_suns)(const ProbeAim *aim, const ProbeSuns *suns, int first, int end,
-                     Vec3 *towards, float *sums, PathStatistics *statistics);
+                     ProbeAnswers *out, PathStatistics *statistics);
 } Kernel;
 
 /* isa: a name from above, or NULL for the best that this processor and program have. Fails,

@@ -55,6 +55,17 @@ void probe_look(const ProbeAim *aim, int first, int end, ProbeLook *out,
         (aim->meter ? read_meter : look)(aim, path, &out[path - first], statistics);
 }
 
+void probe_hear(const ProbeAim *aim, int first, int end, const PathListener *listener,
+                PathStatistics *statistics)
+{
+    for (int path = first; path < end; path++) {
+        Wavelengths wavelengths;
+        Sampler     sampler = path_start(aim, path, &wavelengths);
+        path_trace_told(aim->context, aimed_ray(aim, path), &wavelengths, &sampler, listener,
+                        statistics);
+    }
+}
+
 /* ---- by light from anywhere -------------------------------------------------------------- */
 
 static void ask(const ProbeAim *aim, int path, const PathFar *far, PathStatistics *statistics)
@@ -140,12 +151,12 @@ static void draw_cells(const ProbeAim *aim, const ProbeCells *cells, int path, V
 }
 
 void probe_ask_cells(const ProbeAim *aim, const ProbeCells *cells, int first, int end,
-                     Vec3 *towards, float *sums, PathStatistics *statistics)
+                     ProbeAnswers *out, PathStatistics *statistics)
 {
-    CellSums to = {cells, sums};
-    PathFar  far = {towards, cells->asked_count, add_cell, add_escaped_cell, &to};
+    CellSums to = {cells, out->sums};
+    PathFar  far = {out->towards, cells->asked_count, add_cell, add_escaped_cell, &to};
     for (int path = first; path < end; path++) {
-        draw_cells(aim, cells, path, towards);
+        draw_cells(aim, cells, path, out->towards);
         ask(aim, path, &far, statistics);
     }
 }
@@ -189,17 +200,17 @@ static void draw_suns(const ProbeAim *aim, const ProbeSuns *suns, int path, Vec3
 }
 
 void probe_ask_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int end,
-                    Vec3 *towards, float *sums, PathStatistics *statistics)
+                    ProbeAnswers *out, PathStatistics *statistics)
 {
-    SunSums     to = {suns, sums, 1 / (2 * PI_F * (1 - suns->cos_radius))};
+    SunSums     to = {suns, out->sums, 1 / (2 * PI_F * (1 - suns->cos_radius))};
     int         count = suns->by_mirror ? 0 : suns->count;
-    PathFar     far = {towards, count, add_sun, add_escaped_sun, &to};
+    PathFar     far = {out->towards, count, add_sun, add_escaped_sun, &to};
     PathContext once = *aim->context;
     ProbeAim    direct = *aim;
     once.max_bounces = 1;
     direct.context = &once;
     for (int path = first; path < end; path++) {
-        if (!suns->by_mirror) draw_suns(aim, suns, path, towards);
+        if (!suns->by_mirror) draw_suns(aim, suns, path, out->towards);
         ask(&direct, path, &far, statistics);
     }
 }

@@ -1,8 +1,10 @@
-/* probe.h -- what one eye sees of one surface, asked outside a frame: by the light that is there
- * now, or as a response to light from any direction. A luxmeter may stand in the eye's place.
+/* probe.h -- what one eye sees of one surface, asked outside a frame: by the light that is
+ * there now, or as a response to light from any direction. A luxmeter may stand in the eye's
+ * place.
  *
  * Units    cd m^-2, or lx of a luxmeter; responses per lane of a path's wavelengths
- *          (spectrum/wavelengths.h): of the radiance, W m^-2 sr^-1 nm^-1, that comes from there.
+ *          (spectrum/wavelengths.h): of the radiance, W m^-2 sr^-1 nm^-1, that comes from
+ *          there.
  * Threads  const jobs; each call writes where its caller says.
  */
 #pragma once
@@ -32,6 +34,10 @@ typedef struct ProbeLook {
 void probe_look(const ProbeAim *aim, int first, int end, ProbeLook *out,
                 PathStatistics *statistics);
 
+/* HOT. Tells of paths [first, end) all light that they find. */
+void probe_hear(const ProbeAim *aim, int first, int end, const PathListener *listener,
+                PathStatistics *statistics);
+
 /* ---- responses --------------------------------------------------------------------------- */
 
 /* The sphere in triangles: those of the upper hemisphere (+Y up), then their mirror images. */
@@ -51,10 +57,16 @@ typedef struct ProbeCells {
 Vec3 probe_cell_center(const ProbeCells *cells, int cell);
 int  probe_cell_of(const ProbeCells *cells, Vec3 direction);
 
-/* HOT. Adds the sum over paths to sums[order][cell][lane]: what comes to the eye of a radiance of
- * 1 from all of the cell. towards: room for asked_count directions. */
+/* Where answers are added, and room for as many directions as are asked. */
+typedef struct ProbeAnswers {
+    float *sums;
+    Vec3  *towards;
+} ProbeAnswers;
+
+/* HOT. Adds the sum over paths to sums[order][cell][lane]: what comes to the eye of a radiance
+ * of 1 from all of the cell. */
 void probe_ask_cells(const ProbeAim *aim, const ProbeCells *cells, int first, int end,
-                     Vec3 *towards, float *sums, PathStatistics *statistics);
+                     ProbeAnswers *out, PathStatistics *statistics);
 
 /* Discs of one size in the sky. */
 typedef struct ProbeSuns {
@@ -65,6 +77,6 @@ typedef struct ProbeSuns {
 } ProbeSuns;
 
 /* HOT. Adds the sum over paths to sums[sun][lane]: what the first vertex sends to the eye of an
- * irradiance of 1 on a plane that faces the sun. towards: room for count directions. */
+ * irradiance of 1 on a plane that faces the sun. */
 void probe_ask_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int end,
-                    Vec3 *towards, float *sums, PathStatistics *statistics);
+                    ProbeAnswers *out, PathStatistics *statistics);

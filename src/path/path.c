@@ -59,6 +59,8 @@ typedef struct PathWalk {
     PathPlaces *places;  /* where it scatters is noted here; NULL: nobody asks */
     float   *arriving_sky; /* of a path to a point: the sky seen by it goes here; or NULL */
     const PathFar *far;   /* the path asks instead of being lit; or NULL */
+    const PathListener *listener; /* NULL: nobody is told */
+    PathTale *tale;       /* for it, of the path so far */
 } PathWalk;
 
 /* What a walk needs room for besides. */
@@ -72,6 +74,39 @@ static void numbers_for(PathWalk *walk, int purpose)
 {
     walk->sampler->dimension =
         (uint32_t)(NUMBERS_FIRST + walk->steps * NUMBERS_STEP + purpose);
+}
+
+/* ---- what a listener hears --------------------------------------------------------------- */
+
+static void tale_step(PathTale *tale, int part_id, PathEvent event)
+{
+    if (tale->count < PATH_STEPS_TOLD) tale->step[tale->count] = (PathStep){part_id, event};
+    tale->count++;
+}
+
+static void note_step(PathWalk *walk, const Surface *surface, PathEvent event)
+{
+    if (!walk->tale || surface->part_id == NO_ID) return;
+    tale_step(walk->tale, surface->part_id, event);
+    walk->tale->pane_id = NO_ID;
+}
+
+static void tell(const PathWalk *walk, const PathTale *tale, const PathLight *light)
+{
+    float xyz[3];
+    path_light_to_xyz(light, walk->wavelengths, xyz);
+    walk->listener->hear(walk->listener->user, tale, xyz);
+}
+
+/* Light is found: of a set, and where it began. */
+static void gather(PathWalk *walk, Spectrum radiance, LightSet set, int source_id)
+{
+    walk->gathered.radiance += radiance;
+    if (!walk->listener) return;
+    PathLight light = {.radiance = radiance};
+    walk->tale->source = set;
+    walk->tale->source_id = source_id;
+    tell(walk, walk->tale, &light);
 }
 
 /* ---- weights ---------------------------------------------------------------------------- */
@@ -138,7 +173,7 @@ static void add_distant(PathWalk *walk)
     if (walk->arriving_sky && walk->bounce == 1) tell_sky(walk, &radiance[LIGHTS_SKY]);
     for (int set = LIGHTS_SUN; set <= LIGHTS_SKY; set++) {
         float weight = emission_weight(walk, (LightSet)set, pdf[set]);
-        walk->gathered.radiance += walk->throughput * radiance[set] * spectrum_all(weight);
+        gather(walk, walk->throughput * radiance[set] * spectrum_all(weight), (LightSet)set, 0);
     }
 }
 
@@ -151,8 +186,13 @@ static void add_display_xyz(PathWalk *walk, const Surface *surface, uint32_t tri
     float        xyz[3];
     display_emission_xyz(scene, &scene->displays[display_id], triangle, &surface->point, wo,
                          xyz);
-    for (int i = 0; i < 3; i++)
-        walk->gathered.xyz[i] += walk->throughput[0] * weight * xyz[i];
+    PathLight light = {.radiance = spectrum_all(0)};
+    for (int i = 0; i < 3; i++) light.xyz[i] = walk->throughput[0] * weight * xyz[i];
+    path_light_add(&walk->gathered, &light);
+    if (!walk->listener) return;
+    walk->tale->source = LIGHTS_EMITTERS;
+    walk->tale->source_id = surface->part_id;
+    tell(walk, walk->tale, &light);
 }
 
 /* Of the light samples of the last vertex; nothing asks for it behind a mirror. */
@@ -175,9 +215,10 @@ static void add_emitted(PathWalk *walk, const Surface *surface, const Hit *hit, 
         add_display_xyz(walk, surface, hit->triangle, wo, weight);
         return;
     }
-    walk->gathered.radiance += walk->throughput * spectrum_all(weight) *
-                               triangle_emission(scene, hit->triangle, &surface->point, wo,
-                                                 walk->wavelengths);
+    gather(walk, walk->throughput * spectrum_all(weight) *
+                     triangle_emission(scene, hit->triangle, &surface->point, wo,
+                                       walk->wavelengths),
+           LIGHTS_EMITTERS, surface->part_id);
 }
 
 /* ---- light samples ---------------------------------------------------------------------- */
@@ -212,6 +253,9 @@ static bool passes(void *user, const Hit *hit)
     ShadowQuestion *question = user;
     const PathContext *context = question->walk->context;
     if (was_asked(question, hit)) return true;
+    if (question->walk->tale)
+        question->walk->tale->pane_id =
+            (int)context->scene->triangles[hit->triangle].part_id;
     question->passed *= surface_pass(context->scene, context->tables, hit, question->light->wi,
                                      question->walk->wavelengths);
     return !spectrum_is_zero(question->passed);
@@ -241,6 +285,7 @@ static Spectrum visibility(PathWalk *walk, const Surface *surface, const LightSa
     question.passed = spectrum_all(1);
     question.step = ray_offset_step(surface->position);
     question.hit_count = 0;
+    if (walk->tale) walk->tale->pane_id = NO_ID;
     walk->statistics->shadow_rays++;
     if (bvh_occluded(bvh, (Ray){origin, light->wi, 0, end}, passes, &question))
         return spectrum_all(0);
@@ -279,6 +324,27 @@ static bool mirror_was_asked(const PathWalk *walk, const Surface *surface, Vec3 
                                surface, wo);
 }
 
+static int source_of(const PathWalk *walk, const LightSample *light)
+{
+    const Scene *scene = walk->context->scene;
+    if (light->set == LIGHTS_EMITTERS) return (int)scene->triangles[light->triangle].part_id;
+    return light->set == LIGHTS_PUNCTUAL ? light->light_id : 0;
+}
+
+/* Of a light sample: the surface scatters it, and then the path is what it was. */
+static void gather_sample(PathWalk *walk, const Surface *surface, Spectrum radiance,
+                          const LightSample *light)
+{
+    if (!walk->listener) {
+        walk->gathered.radiance += radiance;
+        return;
+    }
+    PathTale before = *walk->tale;
+    if (surface->part_id != NO_ID) tale_step(walk->tale, surface->part_id, PATH_SCATTERS);
+    gather(walk, radiance, light->set, source_of(walk, light));
+    *walk->tale = before;
+}
+
 /* Most samples end in shadow: what the light sends and how the surface scatters it is asked
  * once the ray has arrived. */
 static void add_light_sample(PathWalk *walk, const Surface *surface, Vec3 wo, const Lead *lead,
@@ -310,7 +376,7 @@ static void add_light_sample(PathWalk *walk, const Surface *surface, Vec3 wo, co
     if (!light.is_delta && context->strategy == PATH_MIS)
         share *= spectrum_all(mis_weight(light.pdf * set_prob,
                                          lead_pdf(lead, light.wi, bsdf_pdf)));
-    walk->gathered.radiance += share * passed;
+    gather_sample(walk, surface, share * passed, &light);
 }
 
 /* ---- the sun by way of one mirror ------------------------------------------------------- */
@@ -322,6 +388,20 @@ typedef struct MirrorWalk {
     Vec3              wo;
     SunMirrorQuestion question;
 } MirrorWalk;
+
+static void gather_mirrored(PathWalk *walk, const Surface *surface, const Surface *mirror,
+                            Spectrum radiance)
+{
+    if (!walk->listener) {
+        walk->gathered.radiance += radiance;
+        return;
+    }
+    PathTale before = *walk->tale;
+    tale_step(walk->tale, surface->part_id, PATH_SCATTERS);
+    tale_step(walk->tale, mirror->part_id, PATH_REFLECTS);
+    gather(walk, radiance, LIGHTS_SUN, 0);
+    *walk->tale = before;
+}
 
 static void add_mirrored_sun(void *user, uint32_t triangle, const ReflectionPoint *point)
 {
@@ -341,7 +421,8 @@ static void add_mirrored_sun(void *user, uint32_t triangle, const ReflectionPoin
     if (spectrum_is_zero(share)) return;
     share *= visibility(walk, &mirror.surface, &asked->question.sun);
     if (spectrum_is_zero(share)) return;
-    walk->gathered.radiance += share * visibility(walk, surface, &mirror.light);
+    gather_mirrored(walk, surface, &mirror.surface,
+                    share * visibility(walk, surface, &mirror.light));
 }
 
 /* u: of the sun's disc. */
@@ -420,6 +501,7 @@ static void add_light_samples(PathWalk *walk, const Surface *surface, Vec3 wo,
  * it, from where an opaque surface in the same plane is still met. */
 static void go_on_behind(PathWalk *walk, const Surface *surface)
 {
+    if (walk->tale) walk->tale->pane_id = surface->part_id;
     Vec3  direction = walk->ray.direction, ng = surface->ng;
     float cosine = fabsf(vec3_dot(ng, direction));
     if (walk->stack->next < walk->stack->count) return;
@@ -484,6 +566,9 @@ static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSamp
     walk->sun_share = sun_share(walk, surface, wo, next);
     if (surface->bsdf.kind == BSDF_DIELECTRIC && next->wi.z * local_wo.z < 0)
         walk->medium_id = next->wi.z < 0 ? surface->material_id : NO_ID;
+    note_step(walk, surface,
+              !next->is_delta ? PATH_SCATTERS
+                              : next->wi.z * local_wo.z > 0 ? PATH_REFLECTS : PATH_TRANSMITS);
     walk->last = lit_point(walk, surface);
     walk->last_part_id = surface->part_id;
     walk->last_pdf = next->pdf;
@@ -593,6 +678,7 @@ static void add_sheet(PathWalk *walk, const Surface *surface, const Hit *hit, Ve
 {
     PathWalk   sheet = *walk;
     SheetStack rest;
+    PathTale   tale;
     if (walk->stack->count) rest = *walk->stack;
     else sheets_none(&rest);
     sheet.stack = &rest;
@@ -601,6 +687,10 @@ static void add_sheet(PathWalk *walk, const Surface *surface, const Hit *hit, Ve
     sheet.first = NULL;
     sheet.gathered = (PathLight){.radiance = spectrum_all(0)};
     sheet.throughput *= spectrum_all(surface->alpha / SHEET_SHARE);
+    if (walk->tale) {
+        tale = *walk->tale;
+        sheet.tale = &tale;
+    }
     Step step = surface->alpha < 1 ? shade(&sheet, surface, hit, wo)
                                    : reflect_window(&sheet, surface, wo);
     if (step != STEP_ENDED) walk_path(&sheet);
@@ -694,6 +784,19 @@ void path_trace(const PathContext *context, Ray ray, const Wavelengths *waveleng
     if (!walk.by_mirror) return;
     path_light_take(&walk.gathered, &walk.before_mirror);
     path_light_to_xyz(&walk.gathered, wavelengths, out->mirror);
+}
+
+void path_trace_told(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
+                     Sampler *sampler, const PathListener *listener,
+                     PathStatistics *statistics)
+{
+    WalkRoom room;
+    PathTale tale = {.pane_id = NO_ID};
+    PathWalk walk = walk_start(context, wavelengths, sampler, statistics, &room);
+    walk.ray = ray;
+    walk.listener = listener;
+    walk.tale = &tale;
+    walk_path(&walk);
 }
 
 void path_ask_far(const PathContext *context, Ray ray, const Wavelengths *wavelengths,

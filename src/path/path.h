@@ -12,6 +12,33 @@
 PathContext path_context_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
                                int max_bounces, Arena *arena);
 
+/* What a path's light did on its way, as the eye's ray meets it. */
+typedef enum PathEvent { PATH_SCATTERS, PATH_REFLECTS, PATH_TRANSMITS } PathEvent;
+
+typedef struct PathStep {
+    int       part_id; /* scene part */
+    PathEvent event;   /* reflects: as a mirror does */
+} PathStep;
+
+#define PATH_STEPS_TOLD 6
+
+/* One way by which light came, and where it began. */
+typedef struct PathTale {
+    PathStep step[PATH_STEPS_TOLD]; /* the first of them; panes that the eye looks straight
+                                       through count too */
+    int      count;                 /* all of them, also those that have no room */
+    LightSet source;
+    int      source_id;             /* emitters: scene part; punctual: scene light; else 0 */
+    int      pane_id;               /* part of the last pane that the light passed on its way to
+                                       the last step; NO_ID: none */
+} PathTale;
+
+/* Is told all light that a path finds, way by way: XYZ, cd m^-2; they add up to the result. */
+typedef struct PathListener {
+    void (*hear)(void *user, const PathTale *tale, const float xyz[3]);
+    void  *user;
+} PathListener;
+
 /* Counts of one thread; add them up. */
 typedef struct PathStatistics {
     uint64_t samples;
@@ -27,6 +54,11 @@ typedef struct PathResult {
     float    mirror[3]; /* of xyz: what came by way of that surface's mirror, if it is a
                            display; else 0 */
 } PathResult;
+
+/* As path_trace, for a listener. */
+void path_trace_told(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
+                     Sampler *sampler, const PathListener *listener,
+                     PathStatistics *statistics);
 
 /* Radiance along `ray` at the given wavelengths, as tristimulus values. */
 void path_trace(const PathContext *context, Ray ray, const Wavelengths *wavelengths,

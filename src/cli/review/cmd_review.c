@@ -10,9 +10,10 @@
 #include "cli/review/review_folder.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_json.h"
-#include "review/request/request_init.h"
+#include "review/request/request_start.h"
 #include "review/request/request_read.h"
-#include "review/run.h"
+#include "review/run/run.h"
+#include "scene/load/scene_load.h"
 
 typedef struct ReviewWords {
     const char *folder, *profile, *root, *isa, *diff, *init;
@@ -31,7 +32,8 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
          &out->profile},
         {"--strict", OPTION_FLAG, NULL, "too close to call and not visible fail, too",
          &out->is_strict},
-        {"--diff", OPTION_TEXT, "DIR", "an earlier review to hold this one against", &out->diff},
+        {"--diff", OPTION_TEXT, "DIR", "an earlier review to hold this one against",
+         &out->diff},
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &out->root},
         {"--isa", OPTION_TEXT, "NAME", "sse2, avx2, avx512 (default: the processor's best)",
          &out->isa},
@@ -103,6 +105,23 @@ static bool print_plan(const Cli *cli, const ReviewRequest *r, Error *err)
     return true;
 }
 
+/* ---- a request to start from --------------------------------------------------------------
+ * */
+
+static bool start(const ReviewWords *words, Arena *arena, Error *err)
+{
+    SceneOptions options = {.paths = words->cli.arguments,
+                            .path_count = words->cli.argument_count, .root = words->root};
+    ReviewStart  asked = {options.paths, options.path_count, words->init};
+    Problems     problems = problems_start(arena);
+    Scene       *scene;
+    if (!scene_load(&options, arena, &problems, &scene, err)) return false;
+    cli_print_warnings(&problems);
+    bool ok = review_request_start(&asked, scene, arena, err);
+    scene_close(scene);
+    return ok;
+}
+
 /* ---- the command ------------------------------------------------------------------------- */
 
 static bool review(const ReviewWords *words, Arena *arena, Error *err)
@@ -139,11 +158,9 @@ static bool run(int argc, char **argv, Arena *arena, Error *err)
     ReviewWords words = {0};
     if (!parse(argc, argv, arena, &words, err)) return false;
     if (words.cli.help_shown) return true;
-    if (words.init)
-        return review_init(words.init, words.cli.arguments, words.cli.argument_count, words.root,
-                           arena, err);
-    return review(&words, arena, err);
+    return words.init ? start(&words, arena, err) : review(&words, arena, err);
 }
 
 const Command command_review = {
-    "review", "can displays be read, under every light? verdicts, causes, a page", run, NULL, 0};
+    "review", "can displays be read, under every light? verdicts, causes, a page", run, NULL,
+    0};

@@ -9,7 +9,7 @@
 #include "base/progress.h"
 #include "cli/options/version.h"
 #include "render/render.h"
-#include "review/frames.h"
+#include "review/run/frames.h"
 #include "review/output/review_csv.h"
 #include "review/output/review_json.h"
 #include "review/output/review_json_read.h"
@@ -55,8 +55,8 @@ static bool write_tables(const ReviewFolder *folder, ReviewOutcome *outcome, Are
         const SweepTable *table = &outcome->tables[i];
         ReviewSweep      *sweep = &outcome->review.sweeps[table->sweep_id];
         const char *name = file_name_of(
-            arena_format(arena, "%d-%s-%s-%s", table->sweep_id + 1, sweep->condition, sweep->eye,
-                         sweep->symbol), arena);
+            arena_format(arena, "%d-%s-%s-%s", table->sweep_id + 1, sweep->condition,
+                         sweep->eye, sweep->symbol), arena);
         sweep->table = arena_format(arena, "sweeps/%s.csv", name);
         const char *path = arena_format(arena, "%s/%s", folder->name, sweep->table);
         if (!sweep_table_write(table, condition_of(folder->request, sweep->condition), path,
@@ -96,7 +96,8 @@ static void add_pictures(const ReviewFolder *folder, const Review *review, Revie
                                   : &review->sweeps[i - review->case_count].worst;
         if (!c->frame) continue;
         pictures[page->picture_count++] = (ReviewPicture){
-            .of = c, .title = "Frame", .caption = "What the eye sees, exposed as a camera would",
+            .of = c, .title = "Frame",
+            .caption = "What the eye sees, exposed as a camera would",
             .file = arena_format(arena, "%s/%s", folder->name, c->frame)};
     }
     page->pictures = pictures;
@@ -118,8 +119,8 @@ static void add_facts(const ReviewRequest *request, ReviewPage *page, Arena *are
 static bool write_page(const ReviewFolder *folder, const ReviewOutcome *outcome, Arena *arena,
                        Error *err)
 {
-    const char *command = arena_format(arena, "parhelion review %s -o %s", folder->request->file,
-                                       folder->name);
+    const char *command = arena_format(arena, "parhelion review %s -o %s",
+                                       folder->request->file, folder->name);
     ReviewPage page = {.review = &outcome->review, .commands = &command, .command_count = 1};
     ReviewDiff diff;
     Review     before;

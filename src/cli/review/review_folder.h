@@ -8,7 +8,7 @@
  * Fails    with the file or folder that cannot be written.
  */
 #pragma once
-#include "review/sweep_output.h"
+#include "review/run/sweep_output.h"
 
 typedef struct ReviewFolder {
     const char          *name;

@@ -94,8 +94,8 @@ static void sum_sky(void *user, int azimuth, int worker)
         light_bands_sky(sky, (float)radians_from_degrees(sum->at[i].elevation_deg),
                         (float)radians_from_degrees(sum->at[i].azimuth_deg - turn), bands);
         for (int b = 0; b < LIGHT_BANDS; b++)
-            total += (double)(response->first[at + (size_t)b] + response->rest[at + (size_t)b]) *
-                     (double)bands[b];
+            total += (double)(response->first[at + (size_t)b] +
+                              response->rest[at + (size_t)b]) * (double)bands[b];
     }
     sum->probe->sky[sum->row * SKY_AZIMUTHS + azimuth] = total;
 }
@@ -173,7 +173,8 @@ static double sky_reading(const FarProbe *probe, const SkyTable *table, SunAngle
     places = (turns - floor(turns)) * SKY_AZIMUTHS;
     int    a = (int)places % SKY_AZIMUTHS, b = (a + 1) % SKY_AZIMUTHS;
     double along = places - floor(places);
-    const double *low = probe->sky + row * SKY_AZIMUTHS, *high = probe->sky + next * SKY_AZIMUTHS;
+    const double *low = probe->sky + row * SKY_AZIMUTHS;
+    const double *high = probe->sky + next * SKY_AZIMUTHS;
     return (1 - share) * (low[a] + along * (low[b] - low[a])) +
            share * (high[a] + along * (high[b] - high[a]));
 }

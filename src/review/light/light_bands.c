@@ -1,4 +1,4 @@
-#include "review/light_bands.h"
+#include "review/light/light_bands.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "review/reading.h"
+#include "review/light/reading.h"
 
 #include <math.h>
 

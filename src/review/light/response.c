@@ -1,4 +1,4 @@
-#include "review/response.h"
+#include "review/light/response.h"
 
 #include <math.h>
 #include <string.h>
@@ -87,9 +87,9 @@ static void trace_chunk(void *user, int item, int worker)
     PathStatistics statistics = {0};
     int            first = (trace->first_chunk + item) * RESPONSE_CHUNK;
     memset(trace->tables[item], 0, table_size(&trace->asks[item]) * sizeof(float));
+    ProbeAnswers   answers = {trace->tables[item], trace->towards[item]};
     trace->options->kernel->ask_cells(trace->aim, &trace->asks[item], first,
-                                      first + RESPONSE_CHUNK, trace->towards[item],
-                                      trace->tables[item], &statistics);
+                                      first + RESPONSE_CHUNK, &answers, &statistics);
 }
 
 static void add_wave(Trace *trace, int chunks)
@@ -203,9 +203,9 @@ static void trace_suns(void *user, int item, int worker)
     float *table = trace->tables + (size_t)item * count * RESPONSE_BANDS;
     int    first = trace->first + item * SUN_CHUNK, end = first + SUN_CHUNK;
     memset(table, 0, count * RESPONSE_BANDS * sizeof(float));
+    ProbeAnswers answers = {table, trace->towards + (size_t)item * count};
     trace->options->kernel->ask_suns(trace->aim, trace->suns, first,
-                                     end < trace->paths ? end : trace->paths,
-                                     trace->towards + (size_t)item * count, table,
+                                     end < trace->paths ? end : trace->paths, &answers,
                                      &statistics);
 }
 

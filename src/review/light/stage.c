@@ -1,4 +1,4 @@
-#include "review/stage.h"
+#include "review/light/stage.h"
 
 #include <math.h>
 #include <string.h>
@@ -43,8 +43,10 @@ static SceneOverride *all_contents(const StageOptions *options, int *count, Aren
     for (int i = 0; i < request->symbol_count; i++) {
         const ReviewSymbol *symbol = &request->symbols[i];
         bool is_said = false;
-        for (int k = 0; k < own; k++) is_said |= !strcmp(c->contents[k].display, symbol->display);
-        for (int k = 0; k < *count; k++) is_said |= !strcmp(contents[k].material, symbol->display);
+        for (int k = 0; k < own; k++)
+            is_said |= !strcmp(c->contents[k].display, symbol->display);
+        for (int k = 0; k < *count; k++)
+            is_said |= !strcmp(contents[k].material, symbol->display);
         if (symbol->content && is_material(symbol->display) && !is_said)
             contents[(*count)++] = (SceneOverride){symbol->display, symbol->content};
     }
@@ -137,8 +139,8 @@ bool stage_sun(const Stage *stage, Vec3 *towards, float bands[LIGHT_BANDS])
     memset(bands, 0, LIGHT_BANDS * sizeof *bands);
     if (!lights_has(lights, LIGHTS_SUN)) return false;
     for (int i = 0; i < SUN_DRAWS; i++) {
-        const float u[3] = {((float)i + 0.5f) / SUN_DRAWS, (float)(i * 7 % SUN_DRAWS) / SUN_DRAWS,
-                            0.5f};
+        const float u[3] = {((float)i + 0.5f) / SUN_DRAWS,
+                            (float)(i * 7 % SUN_DRAWS) / SUN_DRAWS, 0.5f};
         Wavelengths w;
         LightSample sample;
         wavelengths_sample(((float)(i * 5 % SUN_DRAWS) + 0.5f) / SUN_DRAWS, &w);

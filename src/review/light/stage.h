@@ -9,7 +9,7 @@
 #pragma once
 #include "base/problems.h"
 #include "review/light/light_bands.h"
-#include "review/reading.h"
+#include "review/light/reading.h"
 #include "review/request/request.h"
 
 #define STAGE_BOUNCES 64
@@ -44,8 +44,8 @@ bool stage_light(Stage *stage, const Environment *environment, Arena *arena, Err
 
 void stage_close(Stage *stage);
 
-/* Where the sun (or the moon in its place) stands, unit, world, and what its bands give, lx on a
- * plane that faces it. False: the scene has none. */
+/* Where the sun (or the moon in its place) stands, unit, world, and what its bands give, lx on
+ * a plane that faces it. False: the scene has none. */
 bool stage_sun(const Stage *stage, Vec3 *towards, float bands[LIGHT_BANDS]);
 
 /* Azimuth from north over east, or of the vehicle (0 ahead, 90 right) where the environment has

@@ -40,8 +40,8 @@ static void aim_path(VeilPaths *paths, const Frame *gaze, HumanEye eye, int i)
     Vec3   local = vec3((float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)),
                         (float)cos(theta));
     paths->targets[i] = vec3_add(paths->aim.eye, frame_to_world(gaze, local));
-    paths->weights[i] = disability_glare(degrees, eye) * cos(theta) * sin(theta) * theta * range *
-                        2 * PI / PATHS;
+    double solid_angle = sin(theta) * theta * range * 2 * PI / PATHS;
+    paths->weights[i] = disability_glare(degrees, eye) * cos(theta) * solid_angle;
 }
 
 static void read_chunk(void *user, int item, int worker)

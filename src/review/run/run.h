@@ -17,6 +17,7 @@ typedef struct ReviewRun {
     int                  threads;
     const char          *isa;      /* kernel.h's; NULL: the best */
     ProgressMode         progress;
+    const char          *folder;   /* of the frames, which is there; NULL: none are made */
     Problems            *problems; /* warnings of scenes, once each */
 } ReviewRun;
 

@@ -1,4 +1,4 @@
-#include "review/symbols.h"
+#include "review/run/symbols.h"
 
 #include <string.h>
 

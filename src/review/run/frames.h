@@ -8,6 +8,7 @@
  * Fails    when a file cannot be written; nothing half-written is left.
  */
 #pragma once
+#include "base/progress.h"
 #include "review/light/stage.h"
 
 #define FRAMES_SAMPLES 1024

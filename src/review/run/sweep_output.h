@@ -5,14 +5,14 @@
  */
 #pragma once
 #include "review/output/review_page.h"
-#include "review/sweep.h"
+#include "review/run/sweep.h"
 
 /* CSV: a row a sun, azimuths of the compass and of the vehicle. */
 bool sweep_table_write(const SweepTable *table, const ReviewCondition *condition,
                        const char *path, Error *err);
 
-/* Contrast over the sun's place in the vehicle's frame: cells of `step_deg`, each with the worst
- * of its suns; of a sweep over the sun its own grid. */
+/* Contrast over the sun's place in the vehicle's frame: cells of `step_deg`, each with the
+ * worst of its suns; of a sweep over the sun its own grid. */
 ReviewMap sweep_map(const SweepTable *table, const ReviewSweep *sweep, double step_deg,
                     Arena *arena);
 

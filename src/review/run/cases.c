@@ -1,4 +1,4 @@
-#include "review/cases.h"
+#include "review/run/cases.h"
 
 #include <math.h>
 
@@ -7,6 +7,7 @@
 #include "review/light/veil.h"
 #include "review/output/review_decide.h"
 #include "review/request/request_check.h"
+#include "review/run/causes.h"
 #include "vision/grey_steps.h"
 
 #define SIGMAS 1.959964 /* of a 95 % interval */
@@ -27,7 +28,7 @@ Vec3 *stage_eye_points(const Stage *stage, const ReviewEye *eye, int *count, Are
     if (eye->kind == EYE_CAMERA) {
         int id;
         if (!review_camera_find(stage->scene, eye, &id, err)) return NULL;
-        points[0] = stage->scene->cameras[id].world_from_camera.t;
+        points[0] = stage->scene->cameras[id].world_from_camera.origin;
         return points;
     }
     for (int i = 0; i < *count; i++) {
@@ -50,8 +51,8 @@ static Face face_of(const CaseTools *tools, const StageSymbol *symbol, Arena scr
 {
     const Stage       *stage = tools->stage;
     const SymbolPoint *point = &symbol->surface.points[symbol->surface.point_count / 2];
-    LitPoint    head = {vec3_along(point->position, point->ng, ray_offset_step(point->position)),
-                        point->ns, false};
+    float       off = ray_offset_step(point->position);
+    LitPoint    head = {vec3_along(point->position, point->ng, off), point->ns, false};
     ProbeAim    aim = {.context = &stage->context, .meter = &head, .seed = FACE_SEED};
     ReadingGoal goal = {.precision = FACE_PRECISION, .most = FACE_PATHS};
     Face        face = {reading_take(&aim, &goal, &stage->tools, scratch).reflected, false};
@@ -99,16 +100,22 @@ static void set_contrasts(ReviewCase *c, double sigma)
                                 l->background + l->reflected + veil);
 }
 
-static Reading read_symbol(const CaseTools *tools, const StageSymbol *symbol, Vec3 eye,
-                           const bool *is_visible, const CaseLuminances *shown, Arena scratch)
+static ProbeAim aim_at(const Stage *stage, const StageSymbol *symbol, Vec3 eye,
+                       const bool *is_visible, Arena *arena)
 {
-    ProbeAim aim = {.context = &tools->stage->context, .eye = eye, .seed = EYE_SEED};
+    ProbeAim aim = {.context = &stage->context, .eye = eye, .seed = EYE_SEED};
+    aim.targets = visible_points(&symbol->surface, is_visible, &aim.target_count, arena);
+    return aim;
+}
+
+static Reading read_symbol(const CaseTools *tools, const ProbeAim *aim,
+                           const CaseLuminances *shown, Arena scratch)
+{
     ReadingGoal goal = {.brighter = fmax(shown->foreground, shown->background),
                         .darker = fmin(shown->foreground, shown->background),
                         .precision = tools->stage->request->precision_contrast,
                         .most = CASE_PATHS_MOST};
-    aim.targets = visible_points(&symbol->surface, is_visible, &aim.target_count, &scratch);
-    return reading_take(&aim, &goal, &tools->stage->tools, scratch);
+    return reading_take(aim, &goal, &tools->stage->tools, scratch);
 }
 
 /* The panel's emission dimmed by what the eye looks through. */
@@ -118,13 +125,13 @@ static void set_shown(CaseLuminances *l, const SymbolEmission *emission, double 
     l->background = emission->background_xyz[1] * transmittance;
 }
 
-/* What does not depend on the eye is set. */
-static void see_symbol(const CaseTools *tools, const StageSymbol *symbol, Vec3 eye,
-                       ReviewCase *c, Arena scratch)
+/* What does not depend on the eye is set. The aim has no targets where nothing is visible. */
+static ProbeAim see_symbol(const CaseTools *tools, const StageSymbol *symbol, Vec3 eye,
+                           ReviewCase *c, Arena *arena)
 {
     const Stage   *stage = tools->stage;
     CaseLuminances *l = &c->luminance_cd_m2;
-    bool *is_visible = ARENA_NEW(&scratch, bool, symbol->surface.point_count);
+    bool *is_visible = ARENA_NEW(arena, bool, symbol->surface.point_count);
     SymbolVisibility seen =
         symbol_visibility(&symbol->surface, &stage->context, eye, is_visible);
     *l = (CaseLuminances){(double)NAN, (double)NAN, (double)NAN, (double)NAN, (double)NAN,
@@ -133,16 +140,18 @@ static void see_symbol(const CaseTools *tools, const StageSymbol *symbol, Vec3 e
     c->height_arcmin = symbol_height_arcmin(&symbol->surface, symbol->split.box, eye);
     c->contrast_ratio = c->contrast_low = c->contrast_high = c->contrast_with_veil = c->jnd =
         (double)NAN;
-    if (!(seen.visible_share > 0)) return;
+    if (!(seen.visible_share > 0)) return (ProbeAim){.target_count = 0};
     SymbolEmission emission =
-        symbol_emission(&symbol->surface, &symbol->split, c->level, eye, scratch);
+        symbol_emission(&symbol->surface, &symbol->split, c->level, eye, *arena);
     set_shown(l, &emission, seen.transmittance);
-    Reading reading = read_symbol(tools, symbol, eye, is_visible, l, scratch);
+    ProbeAim aim = aim_at(stage, symbol, eye, is_visible, arena);
+    Reading  reading = read_symbol(tools, &aim, l, *arena);
     l->reflected = reading.reflected;
     l->mirror = reading.mirror;
     l->scattered = reading.reflected - reading.mirror;
-    l->veil = veil_read(stage, eye, symbol->surface.points[SYMBOL_POINTS / 2].position, scratch);
+    l->veil = veil_read(stage, eye, symbol->surface.points[SYMBOL_POINTS / 2].position, *arena);
     set_contrasts(c, reading.sigma);
+    return aim;
 }
 
 /* By how bad its verdict is, then by its margin. */
@@ -170,29 +179,41 @@ static ReviewCase start_case(const CaseTools *tools, const ReviewEye *eye,
     return c;
 }
 
-static bool case_of(const CaseTools *tools, const ReviewEye *eye, const StageSymbol *symbol,
-                    Face face, Arena *arena, ReviewCase *out, Error *err)
+/* What is asked of one symbol and one eye. */
+typedef struct CaseAsk {
+    const ReviewEye   *eye;
+    const StageSymbol *symbol;
+    Face               face;
+} CaseAsk;
+
+static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, ReviewCase *out,
+                    Error *err)
 {
     int        count;
-    Vec3      *points = stage_eye_points(tools->stage, eye, &count, arena, err);
-    ReviewCase start = start_case(tools, eye, symbol);
-    if (!points) return false;
-    start.display_lux = face.lux;
-    judge_ambient(&start, tools->profile, face.sun_on_it);
+    Vec3      *points = stage_eye_points(tools->stage, ask->eye, &count, arena, err);
+    ReviewCase start = start_case(tools, ask->eye, ask->symbol);
+    ProbeAim   worst = {.target_count = 0};
+    if (!points) return error_in_file(err, tools->stage->request->file);
+    start.display_lux = ask->face.lux;
+    judge_ambient(&start, tools->profile, ask->face.sun_on_it);
     for (int i = 0; i < count; i++) {
         ReviewCase c = start;
-        see_symbol(tools, symbol, points[i], &c, *arena);
+        ProbeAim   aim = see_symbol(tools, ask->symbol, points[i], &c, arena);
         judge_case(&c, tools->profile, arena);
-        if (i == 0 || is_worse(&c, out)) *out = c;
+        if (i && !is_worse(&c, out)) continue;
+        *out = c;
+        worst = aim;
     }
+    if (worst.target_count) case_causes(tools->stage, &worst, out, arena);
+    case_remedies(out, arena);
     return true;
 }
 
 bool stage_case(const CaseTools *tools, const StageSymbol *symbol, const ReviewEye *eye,
                 Arena *arena, ReviewCase *out, Error *err)
 {
-    return case_of(tools, eye, symbol, face_of(tools, symbol, *arena), arena, out, err) ||
-           error_in_file(err, tools->stage->request->file);
+    CaseAsk ask = {eye, symbol, face_of(tools, symbol, *arena)};
+    return case_of(tools, &ask, arena, out, err);
 }
 
 bool stage_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *err)
@@ -202,9 +223,9 @@ bool stage_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *e
     for (int s = 0; s < tools->symbol_count; s++)
         faces[s] = face_of(tools, &tools->symbols[s], *arena);
     for (int e = 0; e < request->eye_count; e++)
-        for (int s = 0; s < tools->symbol_count; s++)
-            if (!case_of(tools, &request->eyes[e], &tools->symbols[s], faces[s], arena, out++,
-                         err))
-                return error_in_file(err, request->file);
+        for (int s = 0; s < tools->symbol_count; s++) {
+            CaseAsk ask = {&request->eyes[e], &tools->symbols[s], faces[s]};
+            if (!case_of(tools, &ask, arena, out++, err)) return false;
+        }
     return true;
 }

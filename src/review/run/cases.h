@@ -8,7 +8,7 @@
  */
 #pragma once
 #include "review/profile.h"
-#include "review/symbols.h"
+#include "review/run/symbols.h"
 
 typedef struct CaseTools {
     const Stage       *stage;

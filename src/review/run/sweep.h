@@ -1,28 +1,33 @@
-/* sweep.h -- a condition that stands for many suns: all directions, the hours of a year, a route.
+/* sweep.h -- a condition that stands for many suns: all directions, the hours of a year, a
+ * route.
  *
  * Each symbol, as each eye sees it, is a probe whose response is traced once (far_probe.h); its
  * face and the sensor of the level are luxmeters. The worst case of each is read again as a
  * moment, with all paths, so that what is told of it is not the response's.
  *
- * Approximate  an eye box counts by its middle; glints by way of a mirror that is no display are
- *              spread over the width of a response's triangle; skies between two elevations of
- *              the table are interpolated.
+ * Approximate  an eye box counts by its middle; glints by way of a mirror that is no display
+ *              are spread over the width of a response's triangle; skies between two elevations
+ *              of the table are interpolated.
  * Memory       what is told lives in the arena.
  * Threads      starts its own; the same figures for any count.
  */
 #pragma once
-#include "review/cases.h"
-#include "review/run.h"
-#include "review/sweep_suns.h"
+#include "review/run/cases.h"
+#include "review/run/run.h"
+#include "review/run/sweep_suns.h"
 
 /* What a sweep found of each of its suns: one symbol, one eye. */
 typedef struct SweepTable SweepTable;
 struct SweepTable {
     int              sweep_id;  /* of the review */
+    int              worst;     /* sun; -1: none */
     const SweepSuns *suns;      /* shared by the sweep's tables */
     const float     *contrast, *margin, *reflected, *mirror, *level, *lux; /* [suns->count] */
     const unsigned char *verdict;
 };
+
+/* The clear sky of a sweep's condition under one of its suns. */
+Environment sweep_environment(const ReviewCondition *condition, const SweepSun *sun);
 
 bool run_sweep(const ReviewRun *run, Stage *stage, Arena *scratch, Arena *arena,
                ReviewOutcome *out, Error *err);

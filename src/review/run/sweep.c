@@ -1,4 +1,4 @@
-#include "review/sweep.h"
+#include "review/run/sweep.h"
 
 #include <math.h>
 #include <string.h>
@@ -17,7 +17,8 @@
 
 /* ---- probes ------------------------------------------------------------------------------ */
 
-/* What displays and lamps of the scene give, whatever the sky: linear in the displays' level. */
+/* What displays and lamps of the scene give, whatever the sky: linear in the displays' level.
+ * */
 typedef struct OwnLight {
     double lamps, displays; /* at level 1 */
 } OwnLight;
@@ -213,7 +214,8 @@ static double level_for(const Sweep *sweep, const Sight *sight, const FarTools *
 }
 
 /* The figures of a case under one sun; limits are judged by whoever asks. */
-static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const FarTools *tools, int sun)
+static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const FarTools *tools,
+                          int sun)
 {
     FarReading light = far_probe_read(&sight->probe, tools, sun);
     FarReading face = far_probe_read(&sight->face->probe, tools, sun);
@@ -317,9 +319,9 @@ static double longest_failure(const SweepSuns *suns, const Told *told, Arena scr
 
 /* ---- the worst, read again as a moment --------------------------------------------------- */
 
-static Environment environment_at(const Sweep *sweep, const SweepSun *sun)
+Environment sweep_environment(const ReviewCondition *condition, const SweepSun *sun)
 {
-    Environment environment = sweep->stage->condition->environment;
+    Environment environment = condition->environment;
     environment.kind = ENVIRONMENT_SKY;
     environment.daylight.kind = DAYLIGHT_CLEAR;
     environment.daylight.has_time = false;
@@ -348,7 +350,7 @@ static bool read_worst(Telling *to, const Sight *sight, const SweepSun *sun, Rev
     const Sweep *sweep = to->sweep;
     Arena        scratch = to->scratch;
     Stage        stage = *sweep->stage;
-    Environment  environment = environment_at(sweep, sun);
+    Environment  environment = sweep_environment(sweep->stage->condition, sun);
     for (int i = 0; i < stage.scene->display_count; i++)
         stage.scene->displays[i].level = (float)stage.scene_levels[i];
     if (!stage_light(&stage, &environment, &scratch, err)) return false;
@@ -383,7 +385,7 @@ static bool add_sweep(Telling *to, const Sight *sight, Error *err)
             return false;
         sweep.worst.symbol = sweep.symbol;
         to->out->tables[to->out->table_count++] =
-            (SweepTable){review->sweep_count, to->suns, told.contrast, told.margin,
+            (SweepTable){review->sweep_count, told.worst, to->suns, told.contrast, told.margin,
                          told.reflected, told.mirror, told.level, told.lux, told.verdict};
     }
     review->sweeps[review->sweep_count++] = sweep;

@@ -1,4 +1,4 @@
-#include "review/sweep_suns.h"
+#include "review/run/sweep_suns.h"
 
 #include <math.h>
 
@@ -18,8 +18,8 @@ static SunAngles sun_at(double julian_day, const SkyPlace *place)
     SunPosition sun = sun_position(julian_day, sky_delta_t_s(julian_day), place);
     double      mbar, celsius;
     standard_atmosphere(place->altitude_m, &mbar, &celsius);
-    return (SunAngles){sun.azimuth_deg,
-                       sun.elevation_deg + sun_refraction_deg(sun.elevation_deg, mbar, celsius)};
+    double lifted = sun_refraction_deg(sun.elevation_deg, mbar, celsius);
+    return (SunAngles){sun.azimuth_deg, sun.elevation_deg + lifted};
 }
 
 static void add_sun(SunList *to, SunAngles at, SweepSun sun)

@@ -1,4 +1,4 @@
-#include "review/sweep_output.h"
+#include "review/run/sweep_output.h"
 
 #include <math.h>
 
@@ -17,8 +17,8 @@ static void add_time(Text *text, const SweepTable *table, const ReviewCondition 
                  fmod(minutes, MINUTES_A_DAY) / 60);
     } else if (c->kind == CONDITION_ROUTE) {
         const SkyTime *when = &c->route.points[sun->step].when;
-        text_format(text, "%04d-%02d-%02dT%02d:%02d:%02.0f,", when->year, when->month, when->day,
-                 when->hour, when->minute, when->second);
+        text_format(text, "%04d-%02d-%02dT%02d:%02d:%02.0f,", when->year, when->month,
+                    when->day, when->hour, when->minute, when->second);
     }
 }
 
@@ -33,9 +33,9 @@ bool sweep_table_write(const SweepTable *table, const ReviewCondition *condition
 {
     Arena own = arena_reserve((size_t)1 << 32);
     Text  text = {.arena = &own};
-    text_format(&text, "%ssun_azimuth_deg,sun_elevation_deg,heading_deg,vehicle_azimuth_deg,minutes,"
-                    "level,display_lx,reflected_cd_m2,mirror_cd_m2,contrast_ratio,margin,"
-                    "verdict\n", head_of(condition));
+    text_format(&text, "%ssun_azimuth_deg,sun_elevation_deg,heading_deg,vehicle_azimuth_deg,"
+                       "minutes,level,display_lx,reflected_cd_m2,mirror_cd_m2,contrast_ratio,"
+                       "margin,verdict\n", head_of(condition));
     for (int i = 0; i < table->suns->count; i++) {
         const SweepSun *sun = &table->suns->list[i];
         add_time(&text, table, condition, sun);

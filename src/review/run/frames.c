@@ -1,4 +1,4 @@
-#include "review/frames.h"
+#include "review/run/frames.h"
 
 #include <string.h>
 
@@ -7,7 +7,7 @@
 #include "image/develop.h"
 #include "render/render.h"
 #include "render/train.h"
-#include "review/cases.h"
+#include "review/run/cases.h"
 #include "review/request/request_check.h"
 
 #define YFOV_DEG 35 /* of an eye that is no camera */

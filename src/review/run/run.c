@@ -1,0 +1,198 @@
+#include "review/run/run.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "review/run/cases.h"
+#include "review/run/frames.h"
+#include "review/output/review_decide.h"
+#include "review/request/request_check.h"
+#include "review/run/sweep.h"
+
+/* The most address space that a stage takes; what is not touched costs nothing. */
+#define STAGE_BYTES ((size_t)1 << 36)
+
+static int most_cases(const ReviewRequest *request)
+{
+    return request->condition_count * request->eye_count * request->symbol_count *
+           SYMBOLS_FOUND_MOST;
+}
+
+/* Names of symbols that were found live in the stage's memory. */
+static void keep_names(ReviewCase *cases, int count, Arena *arena)
+{
+    for (int i = 0; i < count; i++)
+        cases[i].symbol = arena_string(arena, cases[i].symbol, strlen(cases[i].symbol));
+}
+
+static bool run_moment(const ReviewRun *run, Stage *stage, Arena *scratch, Arena *arena,
+                       ReviewOutcome *out, Error *err)
+{
+    const ReviewCondition *condition = stage->condition;
+    Review   *review = &out->review;
+    CaseTools tools = {.stage = stage, .profile = run->profile};
+    StageSymbol *symbols;
+    const Environment *sky = condition->has_environment ? &condition->environment : NULL;
+    if (!stage_light(stage, sky, scratch, err) ||
+        !stage_symbols(stage, scratch, &symbols, &tools.symbol_count, err))
+        return false;
+    tools.symbols = symbols;
+    ReviewCase *cases = review->cases + review->case_count;
+    if (!stage_cases(&tools, arena, cases, err)) return false;
+    int count = tools.symbol_count * run->request->eye_count;
+    keep_names(cases, count, arena);
+    review->case_count += count;
+    return true;
+}
+
+static bool run_condition(const ReviewRun *run, const ReviewCondition *condition, Arena *arena,
+                          ReviewOutcome *out, Error *err)
+{
+    StageOptions options = {run->request, condition, run->root, run->threads, run->isa};
+    Arena scratch = arena_reserve(STAGE_BYTES);
+    Stage stage;
+    bool  ok = stage_open(&options, &scratch, run->problems, &stage, err);
+    if (ok) {
+        ok = review_request_check(run->request, stage.scene, run->problems, err) &&
+             (condition->kind == CONDITION_MOMENT
+                  ? run_moment(run, &stage, &scratch, arena, out, err)
+                  : run_sweep(run, &stage, &scratch, arena, out, err));
+        stage_close(&stage);
+    }
+    arena_release(&scratch);
+    return ok;
+}
+
+/* ---- frames of the worst ----------------------------------------------------------------- */
+
+/* A case that may be rendered: of a moment, or the worst of a sweep. */
+typedef struct Candidate {
+    ReviewCase       *of;
+    const SweepTable *table; /* NULL: a moment */
+} Candidate;
+
+static const ReviewCondition *condition_named(const ReviewRequest *request, const char *name)
+{
+    for (int i = 0; i < request->condition_count; i++)
+        if (!strcmp(request->conditions[i].name, name)) return &request->conditions[i];
+    return NULL;
+}
+
+static const ReviewEye *eye_named(const ReviewRequest *request, const char *name)
+{
+    for (int i = 0; i < request->eye_count; i++)
+        if (!strcmp(request->eyes[i].name, name)) return &request->eyes[i];
+    return NULL;
+}
+
+static int by_verdict(const void *a, const void *b)
+{
+    const ReviewCase *x = ((const Candidate *)a)->of, *y = ((const Candidate *)b)->of;
+    int rank = verdict_rank(y->verdict) - verdict_rank(x->verdict);
+    if (rank) return rank;
+    if (x->margin != y->margin && !isnan(x->margin) && !isnan(y->margin))
+        return x->margin < y->margin ? -1 : 1;
+    int condition = strcmp(x->condition, y->condition);
+    return condition ? condition : strcmp(x->symbol, y->symbol);
+}
+
+static Candidate *candidates(ReviewOutcome *outcome, int *count, Arena *arena)
+{
+    Review    *review = &outcome->review;
+    Candidate *list = ARENA_NEW(arena, Candidate, review->case_count + outcome->table_count);
+    *count = 0;
+    for (int i = 0; i < review->case_count; i++)
+        if (review->cases[i].visible_share > 0)
+            list[(*count)++] = (Candidate){&review->cases[i], NULL};
+    for (int i = 0; i < outcome->table_count; i++)
+        if (outcome->tables[i].worst >= 0)
+            list[(*count)++] = (Candidate){&review->sweeps[outcome->tables[i].sweep_id].worst,
+                                           &outcome->tables[i]};
+    qsort(list, (size_t)*count, sizeof *list, by_verdict);
+    return list;
+}
+
+/* What is in a frame: the same eye under the same light. */
+static bool is_one_view(const Candidate *a, const Candidate *b)
+{
+    return a->table == b->table && !strcmp(a->of->eye, b->of->eye) &&
+           !strcmp(a->of->condition, b->of->condition);
+}
+
+static Vec3 middle_of(const Stage *stage, const char *symbol, Arena scratch)
+{
+    StageSymbol *symbols;
+    int          count;
+    Error        err;
+    if (!stage_symbols(stage, &scratch, &symbols, &count, &err)) return vec3(0, 0, 0);
+    for (int i = 0; i < count; i++)
+        if (!strcmp(symbols[i].name, symbol))
+            return symbols[i].surface.points[SYMBOL_POINTS / 2].position;
+    return vec3(0, 0, 0);
+}
+
+static bool make_frame(const ReviewRun *run, const Candidate *of, int number, Arena *arena,
+                       Error *err)
+{
+    const ReviewCondition *c = condition_named(run->request, of->of->condition);
+    StageOptions options = {run->request, c, run->root, run->threads, run->isa};
+    Problems     told_before = problems_start(arena);
+    Environment  sky;
+    Arena scratch = arena_reserve(STAGE_BYTES);
+    Stage stage;
+    bool  ok = stage_open(&options, &scratch, &told_before, &stage, err);
+    if (ok) {
+        if (of->table) sky = sweep_environment(c, &of->table->suns->list[of->table->worst]);
+        else if (c->has_environment) sky = c->environment;
+        FrameAsk ask = {&stage, eye_named(run->request, of->of->eye),
+                        middle_of(&stage, of->of->symbol, scratch), run->folder,
+                        file_name_of(arena_format(arena, "%d-%s-%s", number, of->of->condition,
+                                                  of->of->eye), arena), run->progress};
+        ok = stage_light(&stage, of->table || c->has_environment ? &sky : NULL, &scratch, err) &&
+             frame_make(&ask, &scratch, &of->of->frame, err);
+        if (ok) of->of->frame = arena_string(arena, of->of->frame, strlen(of->of->frame));
+        stage_close(&stage);
+    }
+    arena_release(&scratch);
+    return ok;
+}
+
+static bool make_frames(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, Error *err)
+{
+    int        count, made = 0;
+    Candidate *list = candidates(outcome, &count, arena);
+    for (int i = 0; i < count; i++) {
+        int same = 0;
+        while (same < i && !(list[same].of->frame && is_one_view(&list[same], &list[i]))) same++;
+        if (same < i) list[i].of->frame = list[same].of->frame;
+        else if (made < run->request->frames.worst &&
+                 !make_frame(run, &list[i], ++made, arena, err))
+            return false;
+    }
+    return true;
+}
+
+/* ---- all of it --------------------------------------------------------------------------- */
+
+bool review_run(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *err)
+{
+    const ReviewRequest *request = run->request;
+    int      most = most_cases(request);
+    Progress progress = progress_start(run->progress, "review", "conditions",
+                                       request->condition_count);
+    *out = (ReviewOutcome){.tables = ARENA_NEW(arena, SweepTable, most)};
+    out->review = (Review){.title = request->title,
+                           .profile = arena_format(arena, "%s, %s", run->profile->title,
+                                                   run->profile->edition),
+                           .cases = ARENA_NEW(arena, ReviewCase, most),
+                           .sweeps = ARENA_NEW(arena, ReviewSweep, most),
+                           .responses = ARENA_NEW(arena, ReviewResponse, most)};
+    for (int i = 0; i < request->condition_count; i++) {
+        if (!run_condition(run, &request->conditions[i], arena, out, err)) return false;
+        progress_update(&progress, i + 1);
+    }
+    progress_end(&progress, request->condition_count);
+    review_decide(&out->review);
+    return !run->folder || make_frames(run, out, arena, err);
+}

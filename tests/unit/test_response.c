@@ -1,0 +1,249 @@
+/* Probes and their responses: light adds up, however it is asked. */
+#include "check.h"
+
+#include "base/units.h"
+#include "review/light/far_probe.h"
+#include "review/light/light_bands.h"
+#include "world_fixture.h"
+
+static const Kernel *kernel(void)
+{
+    const Kernel *chosen;
+    Error         err = {0};
+    assert_true(kernel_choose(NULL, &chosen, &err));
+    return chosen;
+}
+
+/* A display that looks along +z into a white niche, open to the sky above and on the right. */
+static World niche(void)
+{
+    World world = world_start();
+    Scene *scene = world.scene;
+    Error  err = {0};
+    Material wall = builder_material(0.5f), display = builder_material(0);
+    builder_part(scene, wall);
+    builder_quad(scene, vec3(0, -0.3f, 0.5f), vec3(0.6f, 0, 0), vec3(0, 0, -0.6f));
+    builder_quad(scene, vec3(-0.6f, 0, 0.5f), vec3(0, 0, -0.6f), vec3(0, 0.3f, 0));
+    builder_quad(scene, vec3(0, 0, 1.1f), vec3(-0.6f, 0, 0), vec3(0, 0.3f, 0));
+    display.display_id = 0;
+    display.is_emitter = true;
+    int material_id = builder_part(scene, display);
+    builder_quad(scene, vec3(0, 0, 0), vec3(0.2f, 0, 0), vec3(0, 0.1f, 0));
+    if (!panel_open(PROJECT_DIR "/assets/panels/ips_cluster.panel", &world.arena, &world.panel,
+                    &err))
+        fail_msg("%s", err.text);
+    scene->displays[scene->display_count++] =
+        (Display){.name = "display", .panel = world.panel, .material_id = material_id,
+                  .level = 0, .content = builder_no_texture()};
+    return world;
+}
+
+static const Vec3 eye = {0.1f, 0.1f, 0.7f};
+static const Vec3 targets[4] = {{-0.1f, -0.05f, 0}, {0.1f, 0.05f, 0}, {-0.1f, 0.05f, 0},
+                                {0.1f, -0.05f, 0}};
+
+static ProbeAim aim_of(const World *world)
+{
+    return (ProbeAim){.context = &world->context, .eye = eye, .targets = targets,
+                      .target_count = 4, .seed = 7};
+}
+
+static Reading read_all(const ProbeAim *aim, Arena scratch)
+{
+    ReadingGoal  goal = {.precision = 0.002, .most = 1 << 19};
+    ReadingTools tools = {kernel(), 2};
+    return reading_take(aim, &goal, &tools, scratch);
+}
+
+static Response respond(const ProbeAim *aim, int paths, int threads, Arena *arena)
+{
+    ResponseOptions options = {kernel(), 4, paths, threads};
+    Response        response;
+    response_trace(aim, &options, arena, &response);
+    return response;
+}
+
+/* D65, as a constant sky is: what bands give of 1 cd m^-2. */
+static void d65_bands(float bands[LIGHT_BANDS])
+{
+    for (int b = 0; b < LIGHT_BANDS; b++) bands[b] = 0;
+    for (int k = 0; k < 16; k++) {
+        Wavelengths w;
+        wavelengths_sample(((float)k + 0.5f) / 16, &w);
+        for (int b = 0; b < LIGHT_BANDS; b++) bands[b] += w.d65[b] * w.xyz[1][b] / 16;
+    }
+}
+
+static double uniform_reading(const Response *response, const float bands[LIGHT_BANDS])
+{
+    double sum = 0;
+    for (int i = 0; i < response->cells.count * LIGHT_BANDS; i++)
+        sum += (double)(response->first[i] + response->rest[i]) *
+               (double)bands[i % LIGHT_BANDS];
+    return sum;
+}
+
+TEST(bands_add_up_to_the_luminance)
+{
+    (void)state;
+    float  bands[LIGHT_BANDS];
+    double sum = 0;
+    d65_bands(bands);
+    for (int b = 0; b < LIGHT_BANDS; b++) sum += (double)bands[b];
+    assert_near(sum, 1, 2e-3);
+}
+
+TEST(a_luxmeter_in_the_open_responds_with_pi)
+{
+    (void)state;
+    World world = world_start();
+    builder_part(world.scene, builder_material(0));
+    builder_quad(world.scene, vec3(0, -100, 0), vec3(1, 0, 0), vec3(0, 0, -1));
+    world_ready(&world, 8);
+    LitPoint head = {{0, 0, 0}, {0, 1, 0}, false};
+    ProbeAim aim = {.context = &world.context, .meter = &head, .seed = 3};
+    float    bands[LIGHT_BANDS];
+    Response response = respond(&aim, 128, 2, &world.arena);
+    d65_bands(bands);
+    assert_near(uniform_reading(&response, bands), PI, 0.01);
+    Vec3 sun = vec3_normalize(vec3(1, 1, 0));
+    ProbeSuns suns = {&sun, 1, 0.99999f, false};
+    ResponseOptions options = {kernel(), 4, 16, 1};
+    const float *shares = response_suns(&aim, &options, &suns, &world.arena);
+    for (int b = 0; b < LIGHT_BANDS; b++) assert_near(shares[b], sqrt(0.5), 2e-3);
+    world_end(&world);
+}
+
+TEST(a_response_to_a_uniform_sky_is_what_paths_find_under_it)
+{
+    (void)state;
+    World world = niche();
+    Environment *sky = &world.scene->environment;
+    sky->kind = ENVIRONMENT_CONSTANT;
+    sky->luminance_cd_m2 = 1000;
+    for (int i = 0; i < 3; i++) sky->color[i] = 1;
+    world_ready(&world, 64);
+    ProbeAim aim = aim_of(&world);
+    float    bands[LIGHT_BANDS];
+    Reading  reading = read_all(&aim, world.arena);
+    Response response = respond(&aim, 8192, 2, &world.arena);
+    d65_bands(bands);
+    double found = 1000 * uniform_reading(&response, bands);
+    double sigma = hypot(reading.sigma, found * response.relative_error);
+    if (!(fabs(found - reading.reflected) < 3.5 * sigma + 2e-3 * found))
+        fail_msg("%g, paths %g +- %g", found, reading.reflected, sigma);
+    assert_true(reading.mirror > 0 && reading.mirror < reading.reflected);
+    world_end(&world);
+}
+
+/* Suns from all sides, one of them in the mirror direction of a target. */
+static int suns_about(Vec3 *suns)
+{
+    int count = 0;
+    for (int e = 15; e < 90; e += 25)
+        for (int a = 0; a < 360; a += 40) {
+            double elevation = radians_from_degrees(e), azimuth = radians_from_degrees(a);
+            suns[count++] = vec3((float)(cos(elevation) * cos(azimuth)), (float)sin(elevation),
+                                 (float)(cos(elevation) * sin(azimuth)));
+        }
+    return count;
+}
+
+TEST(a_response_to_a_sun_is_what_paths_find_under_it)
+{
+    (void)state;
+    World world = niche();
+    Vec3  suns[64];
+    int   count = suns_about(suns);
+    world_ready(&world, 64);
+    ProbeAim  aim = aim_of(&world);
+    Response  response = respond(&aim, 8192, 2, &world.arena);
+    ProbeSuns asked = {suns, count, 0.9999f, false};
+    ResponseOptions options = {kernel(), 4, 64, 2};
+    const float *scattered = response_suns(&aim, &options, &asked, &world.arena);
+    for (int i = 0; i < count; i++) {
+        Environment *sky = &world.scene->environment;
+        Lights      *lights;
+        Error        err = {0};
+        Vec3         towards;
+        float        bands[LIGHT_BANDS];
+        Stage        stage = {.scene = world.scene};
+        sky->has_sun = true;
+        sky->sun_azimuth = atan2f(suns[i].x, -suns[i].z);
+        sky->sun_elevation = asinf(suns[i].y);
+        sky->sun_illuminance_lx = 10000;
+        assert_true(lights_build(world.scene, &world.arena, &lights, &err));
+        world.context.lights = lights;
+        stage.context = world.context;
+        assert_true(stage_sun(&stage, &towards, bands));
+        assert_true(vec3_dot(towards, suns[i]) > 0.99999f);
+        Reading reading = read_all(&aim, world.arena);
+        double  first = 0;
+        for (int b = 0; b < LIGHT_BANDS; b++)
+            first += (double)scattered[i * LIGHT_BANDS + b] * (double)bands[b];
+        double found = first + response_sun(&response, suns[i], bands);
+        /* the means over a few degrees move what enters by edges */
+        if (!(fabs(found - reading.reflected) < 4 * reading.sigma + 0.06 * reading.reflected +
+                                                    0.02))
+            fail_msg("sun %d: %g, paths %g +- %g", i, found, reading.reflected, reading.sigma);
+    }
+    world_end(&world);
+}
+
+TEST(responses_are_the_same_for_any_threads)
+{
+    (void)state;
+    World world = niche();
+    world_ready(&world, 64);
+    ProbeAim  aim = aim_of(&world);
+    Response  one = respond(&aim, 512, 1, &world.arena);
+    Response  five = respond(&aim, 512, 5, &world.arena);
+    assert_memory_equal(one.first, five.first,
+                        (size_t)one.cells.count * LIGHT_BANDS * sizeof(float));
+    assert_memory_equal(one.rest, five.rest,
+                        (size_t)one.cells.count * LIGHT_BANDS * sizeof(float));
+    assert_true(one.relative_error == five.relative_error);
+    world_end(&world);
+}
+
+typedef struct Heard {
+    double y;
+    int    count;
+} Heard;
+
+static void hear(void *user, const PathTale *tale, const float xyz[3])
+{
+    Heard *heard = user;
+    assert_true(tale->count >= 0 && tale->source < LIGHT_SETS);
+    heard->y += (double)xyz[1];
+    heard->count++;
+}
+
+TEST(what_a_listener_hears_adds_up_to_the_light)
+{
+    (void)state;
+    World world = niche();
+    Environment *sky = &world.scene->environment;
+    sky->kind = ENVIRONMENT_CONSTANT;
+    sky->luminance_cd_m2 = 1000;
+    for (int i = 0; i < 3; i++) sky->color[i] = 1;
+    world.scene->displays[0].level = 1;
+    world_ready(&world, 64);
+    ProbeAim       aim = aim_of(&world);
+    Heard          heard = {0};
+    PathListener   listener = {hear, &heard};
+    PathStatistics statistics = {0};
+    ProbeLook      looks[256];
+    double         seen = 0;
+    kernel()->hear(&aim, 0, 256, &listener, &statistics);
+    kernel()->look(&aim, 0, 256, looks, &statistics);
+    for (int i = 0; i < 256; i++) seen += (double)looks[i].seen[1];
+    assert_close(heard.y, seen, 1e-5);
+    assert_true(heard.count > 256);
+    world_end(&world);
+}
+
+int main(void)
+{
+    return run_cases(NULL, NULL);
+}
