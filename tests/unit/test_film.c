@@ -359,7 +359,7 @@ TEST(a_frame_has_the_channels_asked_for_and_no_others)
     film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
     frame = film_to_frame(film, 0, &arena);
     assert_int_equal(frame.channel_count,
-                     3 + 3 + 1 + 3 + 3 + 3 + 2 + 2 + 3 + 3 + 1 + 4 * 3 + 2 + 1 + 3 + 1);
+                     3 + 3 + 1 + 3 + 3 + 3 + 2 + 2 + 3 + 3 + 1 + 6 * 3 + 2 + 1 + 3 + 1);
 }
 
 /* 80 samples in blocks of 16, the second and fourth of which are odd: 32 against 48. */
