@@ -1,4 +1,10 @@
 #include "review/verdict.h"
 
 const char *const verdict_names[4] = {"pass", "fail", "too close", "not visible"};
+int verdict_rank(Verdict verdict)
+{
+    static const int ranks[] = {0, 3, 1, 2};
+    return ranks[verdict];
+}
+
 const char *const ambient_names[4] = {"night", "twilight", "day", "sun"};

@@ -15,6 +15,9 @@ typedef enum Verdict {
 } Verdict;
 extern const char *const verdict_names[4]; /* "pass", "fail", "too close", "not visible" */
 
+/* How bad it is: pass 0, too close 1, not visible 2, fail 3. */
+int verdict_rank(Verdict verdict);
+
 typedef enum Ambient { AMBIENT_NIGHT, AMBIENT_TWILIGHT, AMBIENT_DAY, AMBIENT_SUN } Ambient;
 extern const char *const ambient_names[4]; /* "night", "twilight", "day", "sun" */
 

@@ -8,6 +8,7 @@
 
 #define WAVE 16    /* chunks that are traced before they are added, in order */
 #define PILOT 4    /* chunks that ask every triangle */
+#define NEAR 1.2f  /* widths of a triangle: what is asked for a sun; one lies within, or more */
 #define SELDOM 16  /* later ones ask what none of those found once in so many chunks */
 
 /* ---- which triangles are asked ----------------------------------------------------------- */
@@ -167,7 +168,7 @@ void response_trace(const ProbeAim *aim, const ResponseOptions *options, Arena *
 double response_sun(const Response *response, Vec3 towards, const float bands[RESPONSE_BANDS])
 {
     const ProbeCells *cells = &response->cells;
-    float  width = 2.0f * sqrtf(4 * PI_F / (float)cells->count), near = cosf(width);
+    float  width = NEAR * sqrtf(4 * PI_F / (float)cells->count), near = cosf(width);
     double sum = 0, area = 0;
     for (int cell = 0; cell < cells->count; cell++) {
         float cosine = vec3_dot(towards, response->centers[cell]);

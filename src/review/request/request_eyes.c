@@ -103,7 +103,7 @@ static bool read_forward(RequestReading *reading, Error *err)
 {
     double *forward = reading->request->forward;
     forward[0] = forward[1] = 0, forward[2] = -1;
-    if (!field_direction(&reading->root, "forward", forward, NULL, err)) return false;
+    if (!field_unit_vector(&reading->root, "forward", forward, NULL, err)) return false;
     return hypot(forward[0], forward[2]) > UPRIGHT ||
            field_fails(&reading->root, "forward", err,
                        "is vertical, wanted where the vehicle points");
@@ -159,7 +159,7 @@ static bool read_direction(const JsonView *view, ReviewGaze *gaze, Error *err)
     int  target = NO_ID;
     bool has_direction;
     if (!field_choice(view, "at", (FieldWords){targets, 1}, &target, err) ||
-        !field_direction(view, "direction", gaze->direction, &has_direction, err))
+        !field_unit_vector(view, "direction", gaze->direction, &has_direction, err))
         return false;
     gaze->at_symbols = target == 0;
     if (gaze->at_symbols == has_direction)

@@ -84,7 +84,7 @@ bool field_numbers(const JsonView *view, const char *key, JsonRange range, doubl
     return json_view_numbers(view, key, range, out, &length, err);
 }
 
-bool field_direction(const JsonView *view, const char *key, double out[3], bool *found,
+bool field_unit_vector(const JsonView *view, const char *key, double out[3], bool *found,
                      Error *err)
 {
     double vector[3];

@@ -40,7 +40,7 @@ bool field_numbers(const JsonView *view, const char *key, JsonRange range, doubl
                    bool *found, Error *err);
 
 /* Three numbers as a unit vector. */
-bool field_direction(const JsonView *view, const char *key, double out[3], bool *found,
+bool field_unit_vector(const JsonView *view, const char *key, double out[3], bool *found,
                      Error *err);
 
 /* A text with something in it; wanted. */

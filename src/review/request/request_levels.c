@@ -32,7 +32,7 @@ static bool read_sensor(const JsonView *view, ReviewLevel *level, Error *err)
            field_wanted(&sensor, "position_m", err) && field_wanted(&sensor, "normal", err) &&
            field_numbers(&sensor, "position_m", (JsonRange){-1e6, 1e6, 3},
                          level->position_m, NULL, err) &&
-           field_direction(&sensor, "normal", level->normal, NULL, err);
+           field_unit_vector(&sensor, "normal", level->normal, NULL, err);
 }
 
 /* Row i of the table, held against the one before. */

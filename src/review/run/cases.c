@@ -27,7 +27,7 @@ Vec3 *stage_eye_points(const Stage *stage, const ReviewEye *eye, int *count, Are
     Vec3 *points = ARENA_NEW(arena, Vec3, *count);
     if (eye->kind == EYE_CAMERA) {
         int id;
-        if (!review_camera_find(stage->scene, eye, &id, err)) return NULL;
+        if (!review_camera_find(stage->scene, eye, *arena, &id, err)) return NULL;
         points[0] = stage->scene->cameras[id].world_from_camera.origin;
         return points;
     }
@@ -142,7 +142,7 @@ static ProbeAim see_symbol(const CaseTools *tools, const StageSymbol *symbol, Ve
         (double)NAN;
     if (!(seen.visible_share > 0)) return (ProbeAim){.target_count = 0};
     SymbolEmission emission =
-        symbol_emission(&symbol->surface, &symbol->split, c->level, eye, *arena);
+        symbol_emission(&symbol->surface, &symbol->split, c->level, eye);
     set_shown(l, &emission, seen.transmittance);
     ProbeAim aim = aim_at(stage, symbol, eye, is_visible, arena);
     Reading  reading = read_symbol(tools, &aim, l, *arena);

@@ -28,7 +28,7 @@ static bool camera_of(const FrameAsk *ask, SceneCamera *out, Arena scratch, Erro
     const Scene *scene = ask->stage->scene;
     int          id, count;
     if (ask->eye->kind == EYE_CAMERA) {
-        if (!review_camera_find(scene, ask->eye, &id, err)) return false;
+        if (!review_camera_find(scene, ask->eye, scratch, &id, err)) return false;
         *out = scene->cameras[id];
         return true;
     }
@@ -46,7 +46,7 @@ static RenderOptions options_of(const FrameAsk *ask)
         .width = frames->width, .height = frames->height,
         .crop = {0, 0, frames->width, frames->height}, .end_sample = FRAMES_SAMPLES,
         .noise = frames->noise, .max_bounces = STAGE_BOUNCES,
-        .noise_area = {.display = FILM_ALL_PIXELS},
+        .noise_area = {{0, 0, frames->width, frames->height}, FILM_ALL_PIXELS},
         .layers = LAYER_VARIANCE | LAYER_ID | (LAYER_DISPLAYS & ~LAYER_DISPLAY_FINE),
         .threads = ask->stage->tools.threads, .progress = ask->progress};
 }

@@ -54,7 +54,8 @@ static bool run_condition(const ReviewRun *run, const ReviewCondition *condition
     Stage stage;
     bool  ok = stage_open(&options, &scratch, run->problems, &stage, err);
     if (ok) {
-        ok = review_request_check(run->request, stage.scene, run->problems, err) &&
+        ok = (review_request_check(run->request, stage.scene, run->problems) ||
+              problems_verdict(run->problems, err)) &&
              (condition->kind == CONDITION_MOMENT
                   ? run_moment(run, &stage, &scratch, arena, out, err)
                   : run_sweep(run, &stage, &scratch, arena, out, err));

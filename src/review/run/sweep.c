@@ -122,7 +122,7 @@ static void aim_sight(Sweep *sweep, Sight *sight, Arena *arena)
     for (int i = 0; i < surface->point_count; i++)
         if (is_visible[i]) targets[count++] = surface->points[i].position;
     SymbolEmission shown =
-        symbol_emission(surface, &sight->symbol->split, 1, sight->from, *arena);
+        symbol_emission(surface, &sight->symbol->split, 1, sight->from);
     sight->shown.foreground = shown.foreground_xyz[1] * sight->seen.transmittance;
     sight->shown.background = shown.background_xyz[1] * sight->seen.transmittance;
     sight->height_arcmin = symbol_height_arcmin(surface, sight->symbol->split.box, sight->from);
@@ -210,7 +210,10 @@ static double level_for(const Sweep *sweep, const Sight *sight, const FarTools *
         FarReading at = far_probe_read(&sweep->sensor->probe, tools, sun);
         lux = total(&at) + sweep->sensor->own.lamps;
     }
-    return review_level_at(sweep->level, sight->symbol->display_name, scene, lux);
+    const Display    *display =
+        &sweep->stage->scene->displays[sight->symbol->display.display_id];
+    ReviewDisplayName name = {sight->symbol->display_name, display->name};
+    return review_level_at(sweep->level, name, scene, lux);
 }
 
 /* The figures of a case under one sun; limits are judged by whoever asks. */
