@@ -8,6 +8,7 @@
 
 #include "base/file.h"
 #include "base/file_write.h"
+#include "image/plain_png.h"
 #include "review/output/review_bar.h"
 #include "review/output/review_words.h"
 #include "text/base64.h"
@@ -347,6 +348,66 @@ TEST(the_border_encloses_what_fails)
         arena_release(&more);
         if (!strstr(html.data, CASES[i].path)) fail_msg("%s", strstr(html.data, "border"));
     }
+}
+
+typedef struct Cells {
+    PlainPng             png;
+    const unsigned char *rows;
+} Cells;
+
+static Cells cells_of(const char *html)
+{
+    Error          err = {0};
+    Cells          out;
+    size_t         size = 0;
+    const char    *text = value_at(strstr(html, "base64,") + 7);
+    unsigned char *bytes = ARENA_NEW(&arena, unsigned char, strlen(text)), *rows;
+    assert_true(base64_decode(text, strlen(text), bytes, &size, &err));
+    assert_true(plain_png_open(bytes, size, &out.png));
+    rows = ARENA_NEW(&arena, unsigned char, out.png.row_bytes * (size_t)out.png.height);
+    assert_true(plain_png_read(&out.png, rows));
+    out.rows = rows;
+    return out;
+}
+
+/* What fails is red, all else is not. */
+static void assert_red_at(const Cells *cells, int column, int row)
+{
+    for (int y = 0; y < cells->png.height; y++)
+        for (int x = 0; x < cells->png.width; x++) {
+            const unsigned char *c = cells->rows + (size_t)y * cells->png.row_bytes +
+                                     (size_t)(x * cells->png.channels);
+            assert_int_equal(c[0] > c[2], x == column && y == row);
+        }
+}
+
+/* Azimuths run to the right and elevations upwards; days to the right and hours upwards. */
+TEST(cells_lie_where_their_axes_say)
+{
+    (void)state;
+    Error         err = {0};
+    float         ratio[12], share[12];
+    unsigned char verdict[12] = {0};
+    Text          html = {.arena = &arena}, more = {.arena = &arena};
+    Arena         scratch = arena_reserve((size_t)1 << 24);
+    for (int i = 0; i < 12; i++) ratio[i] = 1, share[i] = 0;
+    verdict[7] = VERDICT_FAIL; /* azimuth 3, elevation 1 of 4 x 3 */
+    share[7] = 1;              /* day 1, step 3 of 3 x 4 */
+    assert_true(review_map_add(&html, &(ReviewMap){.azimuth_deg = {0, 1, 4},
+                                                   .elevation_deg = {0, 1, 3},
+                                                   .contrast = ratio, .margin = ratio,
+                                                   .verdict = verdict}, &scratch, &err));
+    assert_true(review_map_add_calendar(&more, &(ReviewCalendar){.year = 2026, .days = 3,
+                                                                 .steps_a_day = 4,
+                                                                 .clock = "UTC", .headings = 1,
+                                                                 .failed_share = share},
+                                        &scratch, &err));
+    arena_release(&scratch);
+    Cells map = cells_of(html.data), calendar = cells_of(more.data);
+    assert_int_equal(map.png.width * 100 + map.png.height, 403);
+    assert_int_equal(calendar.png.width * 100 + calendar.png.height, 304);
+    assert_red_at(&map, 3, 1);
+    assert_red_at(&calendar, 1, 0);
 }
 
 /* The bytes of the first data-values behind `at`: 16 bits a cell, low byte first. */

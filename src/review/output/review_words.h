@@ -46,7 +46,7 @@ const char *words_ambient(Ambient ambient);
 /* "sun 32.0° high, in the south-east, azimuth 135.0°". */
 const char *words_sun(const ReviewCase *c, bool is_of_vehicle, Arena *arena);
 
-/* "in the north", "in the north-east", ...; of the vehicle "ahead", "ahead on the right", ... */
+/* Eight: "in the north", "in the north-east", ...; of the vehicle "ahead", ... */
 const char *const *words_directions(bool is_of_vehicle);
 
 /* "speed, seen by driver, noon" */
