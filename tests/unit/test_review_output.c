@@ -247,6 +247,50 @@ TEST(a_foreign_json_is_refused_in_one_line)
     assert_refused("\"pass\"", "pass", "line 2", "not valid JSON");
 }
 
+/* Takes each key of the object away, one at a time: the error names it. */
+static int assert_keys_are_wanted(json_t *root, json_t *object)
+{
+    Error       err = {0};
+    int         count = 0;
+    Review      out;
+    const char *path = fresh_name();
+    json_t     *copy = json_copy(object), *value;
+    const char *key;
+    assert_true(json_is_object(object));
+    json_object_foreach(copy, key, value) {
+        json_object_del(object, key);
+        assert_true(review_json_write(json_incref(root), path, &err));
+        assert_false(review_json_read(path, &arena, &out, &err));
+        if (!strstr(err.text, arena_format(&arena, "key '%s' is missing", key)))
+            fail_msg("without %s: %s %s", key, err.path, err.text);
+        json_object_set(object, key, value);
+        count++;
+    }
+    json_decref(copy);
+    remove(path);
+    return count;
+}
+
+TEST(every_key_is_wanted)
+{
+    (void)state;
+    Review  review = fixture_review(&arena);
+    json_t *root = review_json(&review);
+    json_t *c = json_array_get(json_object_get(root, "cases"), 2);
+    int     count = assert_keys_are_wanted(root, root) + assert_keys_are_wanted(root, c);
+    static const char *const OBJECTS[] = {"sun", "luminance_cd_m2"};
+    static const char *const LISTS[] = {"limits", "causes", "remedies"};
+    for (int i = 0; i < 2; i++)
+        count += assert_keys_are_wanted(root, json_object_get(c, OBJECTS[i]));
+    for (int i = 0; i < 3; i++)
+        count += assert_keys_are_wanted(root, json_array_get(json_object_get(c, LISTS[i]), 1));
+    json_t *sweep = json_array_get(json_object_get(root, "sweeps"), 1);
+    json_t *response = json_array_get(json_object_get(root, "responses"), 0);
+    count += assert_keys_are_wanted(root, sweep) + assert_keys_are_wanted(root, response);
+    assert_int_equal(count, 8 + 22 + 2 + 6 + 12 + 4 + 3 + 8 + 4);
+    json_decref(root);
+}
+
 /* ---- CSV -------------------------------------------------------------------------------- */
 
 enum { CSV_COLUMNS = 31 };

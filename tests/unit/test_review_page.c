@@ -391,8 +391,8 @@ TEST(cells_lie_where_their_axes_say)
     Text          html = {.arena = &arena}, more = {.arena = &arena};
     Arena         scratch = arena_reserve((size_t)1 << 24);
     for (int i = 0; i < 12; i++) ratio[i] = 1, share[i] = 0;
-    verdict[7] = VERDICT_FAIL; /* azimuth 3, elevation 1 of 4 x 3 */
-    share[7] = 1;              /* day 1, step 3 of 3 x 4 */
+    verdict[11] = VERDICT_FAIL; /* azimuth 3, elevation 2 of 4 x 3 */
+    share[7] = 1;               /* day 1, step 3 of 3 x 4 */
     assert_true(review_map_add(&html, &(ReviewMap){.azimuth_deg = {0, 1, 4},
                                                    .elevation_deg = {0, 1, 3},
                                                    .contrast = ratio, .margin = ratio,
@@ -406,7 +406,7 @@ TEST(cells_lie_where_their_axes_say)
     Cells map = cells_of(html.data), calendar = cells_of(more.data);
     assert_int_equal(map.png.width * 100 + map.png.height, 403);
     assert_int_equal(calendar.png.width * 100 + calendar.png.height, 304);
-    assert_red_at(&map, 3, 1);
+    assert_red_at(&map, 3, 0);
     assert_red_at(&calendar, 1, 0);
 }
 
@@ -486,10 +486,13 @@ TEST(the_sun_is_named_by_its_direction)
     for (int i = 0; i < 5; i++) {
         ReviewCase c = {.has_sun = true, .sun_azimuth_deg = SUNS[i].azimuth,
                         .sun_elevation_deg = 30};
-        assert_non_null(strstr(words_sun(&c, false, &arena), SUNS[i].world));
-        assert_non_null(strstr(words_sun(&c, true, &arena), SUNS[i].vehicle));
+        assert_non_null(strstr(words_sun(&c, words_directions(false), &arena), SUNS[i].world));
+        assert_non_null(strstr(words_sun(&c, words_directions(true), &arena), SUNS[i].vehicle));
     }
-    assert_string_equal(words_sun(&(ReviewCase){0}, false, &arena),
+    ReviewCase nobody_knows = {.has_sun = true, .sun_azimuth_deg = 90, .sun_elevation_deg = 30};
+    assert_string_equal(words_sun(&nobody_knows, NULL, &arena),
+                        "sun 30.0° high, azimuth 90.0°");
+    assert_string_equal(words_sun(&(ReviewCase){0}, NULL, &arena),
                         "no sun above the horizon");
 }
 

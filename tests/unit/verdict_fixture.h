@@ -197,7 +197,7 @@ static inline Review fixture_odd_review(Arena *arena)
                        .contrast_ratio = NAN, .contrast_low = NAN, .contrast_high = NAN,
                        .contrast_with_veil = NAN, .height_arcmin = NAN, .jnd = NAN,
                        .visible_share = NAN, .level = NAN, .display_lux = NAN,
-                       .limits = LIMITS, .limit_count = 2, .limit_id = 0, .margin = NAN,
+                       .limits = LIMITS, .limit_count = 2, .limit_id = 1, .margin = NAN,
                        .verdict = VERDICT_TOO_CLOSE, .causes = CAUSES, .cause_count = 2,
                        .remedies = REMEDIES, .remedy_count = 2, .frame = WILD_NAME};
     ReviewCase bare = {.condition = "", .eye = "", .symbol = "", .display = NULL,

@@ -45,7 +45,7 @@ static void add_light_facts(Text *html, const ReviewCard *card, Arena *arena)
                                          words_figure(c->display_lux, arena))
                           : words_ambient(c->ambient);
     add_fact(html, "Light", lux);
-    add_fact(html, "Sun", words_sun(c, card->is_of_vehicle, arena));
+    add_fact(html, "Sun", words_sun(c, card->directions, arena));
     add_fact(html, "Display", c->display ? c->display : "–");
     if (isfinite(c->level))
         add_fact(html, "Brightness", arena_format(arena, "%s of what was measured",

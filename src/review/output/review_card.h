@@ -21,8 +21,8 @@ typedef struct ReviewCard {
     const ReviewCase    *of;
     const char          *id;      /* review_card_id */
     bool                 is_open;
-    bool                 is_of_vehicle; /* its sun's azimuth is: 0 ahead, 90 right */
-    const ReviewPicture *pictures;      /* of the page: those of other cases are passed over */
+    const char *const   *directions; /* of its sun: words_directions, or NULL */
+    const ReviewPicture *pictures;   /* of the page: those of other cases are passed over */
     int                  picture_count;
 } ReviewCard;
 

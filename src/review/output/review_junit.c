@@ -53,7 +53,7 @@ static void add_case(Text *xml, const Review *review, const ReviewCase *c, const
     text_add(xml, "    <system-out>");
     escape_markup(xml, reason);
     text_add(xml, "\n");
-    escape_markup(xml, words_sun(c, false, &arena));
+    escape_markup(xml, words_sun(c, NULL, &arena));
     text_add(xml, "</system-out>\n  </testcase>\n");
     arena_release(&arena);
 }

@@ -18,23 +18,21 @@ extern const char REVIEW_STYLE[], REVIEW_SCRIPT[];
 
 /* ---- the line on top -------------------------------------------------------------------- */
 
-static const ReviewMap *map_of(const ReviewPage *page, const ReviewCase *c)
+/* A case's sun counts from north; a sweep's from where its map's does. */
+static const char *const *directions_of(const ReviewPage *page, const ReviewCase *c,
+                                        Arena *arena)
 {
+    if (review_card_id(page->review, c, arena)[0] == 'c') return words_directions(false);
     for (int i = 0; i < page->map_count; i++)
-        if (c == &page->maps[i].of->worst) return &page->maps[i];
+        if (c == &page->maps[i].of->worst)
+            return words_directions(page->maps[i].is_of_vehicle);
     return NULL;
-}
-
-static bool is_of_vehicle(const ReviewPage *page, const ReviewCase *c)
-{
-    const ReviewMap *map = map_of(page, c);
-    return map && map->is_of_vehicle;
 }
 
 /* Where the sun stands, and by which way most of the light comes. */
 static void add_why(Text *html, const ReviewPage *page, const ReviewCase *c, Arena *arena)
 {
-    const char *sun = words_sun(c, is_of_vehicle(page, c), arena);
+    const char *sun = words_sun(c, directions_of(page, c, arena), arena);
     text_add(html, " <span class=\"why\">");
     escape_markup(html, arena_format(arena, "Light: %s%s%s.", words_ambient(c->ambient),
                                      c->has_sun ? ", " : "", c->has_sun ? sun : ""));
@@ -143,7 +141,7 @@ static bool add_card(Text *html, const ReviewPage *page, const ReviewCase *c, bo
                      Arena *arena, Error *err)
 {
     ReviewCard card = {.of = c, .id = review_card_id(page->review, c, arena),
-                       .is_open = is_open, .is_of_vehicle = is_of_vehicle(page, c),
+                       .is_open = is_open, .directions = directions_of(page, c, arena),
                        .pictures = page->pictures, .picture_count = page->picture_count};
     return review_card_add(html, &card, arena, err);
 }

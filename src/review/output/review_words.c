@@ -121,13 +121,13 @@ const char *const *words_directions(bool is_of_vehicle)
     return WORDS[is_of_vehicle];
 }
 
-const char *words_sun(const ReviewCase *c, bool is_of_vehicle, Arena *arena)
+const char *words_sun(const ReviewCase *c, const char *const *directions, Arena *arena)
 {
     if (!c->has_sun) return "no sun above the horizon";
     if (!isfinite(c->sun_azimuth_deg) || !isfinite(c->sun_elevation_deg)) return "sun is up";
-    return arena_format(arena, "sun %.1f° high, %s, azimuth %.1f°", c->sun_elevation_deg,
-                        words_directions(is_of_vehicle)[eighth_of(c->sun_azimuth_deg)],
-                        c->sun_azimuth_deg);
+    const char *where = directions ? directions[eighth_of(c->sun_azimuth_deg)] : "";
+    return arena_format(arena, "sun %.1f° high, %s%sazimuth %.1f°", c->sun_elevation_deg, where,
+                        where[0] ? ", " : "", c->sun_azimuth_deg);
 }
 
 const char *words_case(const ReviewCase *c, Arena *arena)

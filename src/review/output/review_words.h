@@ -43,11 +43,12 @@ const char *words_class(Verdict verdict);
 /* "at night", "in direct sun", ... */
 const char *words_ambient(Ambient ambient);
 
-/* "sun 32.0° high, in the south-east, azimuth 135.0°". */
-const char *words_sun(const ReviewCase *c, bool is_of_vehicle, Arena *arena);
-
 /* Eight: "in the north", "in the north-east", ...; of the vehicle "ahead", ... */
 const char *const *words_directions(bool is_of_vehicle);
+
+/* "sun 32.0° high, in the south-east, azimuth 135.0°". directions: what azimuths count from;
+ * NULL: nobody knows, and no direction is named. */
+const char *words_sun(const ReviewCase *c, const char *const *directions, Arena *arena);
 
 /* "speed, seen by driver, noon" */
 const char *words_case(const ReviewCase *c, Arena *arena);
