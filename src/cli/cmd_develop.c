@@ -66,10 +66,10 @@ static bool print_json(const DevelopWords *typed, const LookReport *look, Error 
         json_object_set_new(answer, "view", json_text(r->view));
         json_object_set_new(answer, "exposure_ev", json_real(r->ev));
         json_object_set_new(answer, "middle_grey_cd_m2", json_real(r->grey_cd_m2));
-        look_options_json(look, answer);
     } else if (r->scale[0]) {
         json_object_set_new(answer, "scale", json_text(r->scale));
     }
+    look_options_json(look, answer);
     return cli_print_json(answer, err);
 }
 

@@ -60,7 +60,7 @@ UNKNOWN_NAMES = (
     (("develop", "named.exr", "-o", "x.png", "--layer", "depht"), 2, "depth", "xyz"),
     (("develop", "named.exr", "-o", "x.png", "--display", "crt"), 2, "sRGB", "Rec.1886"),
     (("develop", "named.exr", "-o", "x.png", "--view", "pretty"), 2, "photographic", "raw"),
-    (("develop", "named.exr", "-o", "x.png", "--eye", "old"), 2, "--eye", "AGE[,PIGMENT]"),
+    (("develop", "named.exr", "-o", "x.png", "--eye", "old"), 2, "--eye: old", "AGE,PIGMENT"),
     (("develop", "named.exr", "-o", "x.png", "--eye", "40,3"), 2, "40,3", "light blue"),
     (("develop", "named.exr", "-o", "x.png", "--fov", "40"), 2, "--fov", "--eye"),
     (("develop", "named.exr", "-o", "x.gif"), 2, ".png", ".jpg", ".tif"),

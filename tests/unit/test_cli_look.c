@@ -142,6 +142,15 @@ TEST(develop_sees_as_an_eye)
     assert_close(number(eye, "age_years"), 70, 0);
     assert_near(number(eye, "pigment"), 0, 0);
     json_decref(j);
+    o = run("develop f.exr -o b.png --eye 50 --fov 2 --false-colour luminance --json");
+    j = answer(&o);
+    assert_non_null(json_object_get(j, "scale"));
+    assert_close(number(json_object_get(j, "eye"), "age_years"), 50, 0);
+    json_decref(j);
+    o = run("develop f.exr -o b.png --json");
+    j = answer(&o);
+    assert_true(json_is_null(json_object_get(j, "eye")));
+    json_decref(j);
 }
 
 TEST(an_eye_needs_a_view)
