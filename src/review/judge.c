@@ -15,22 +15,22 @@ void judge_ambient(ReviewCase *review_case, const Profile *profile, bool sun_on_
 
 /* ---- figures ----------------------------------------------------------------------------- */
 
-/* A contrast ratio c = 1 + d/(k + r), d between the two luminances, k the darker and r what is
- * reflected, as it becomes below a veil v: 1 + d/(k + r + v), with k + r = d/(c - 1). Rising
- * with c, so that ends of an interval stay ends. */
-static double below_veil(const CaseLuminances *l, double ratio)
+/* A contrast ratio is 1 + d/(k + r): d between the two luminances, k the darker, r reflected; a
+ * veil v makes it 1 + d/(k + r + v). So 1/(ratio - 1) grows by v/d, and by as much at the ends
+ * of an interval as for the case's own ratio. Rising with the ratio, so that ends stay ends. */
+static double below_veil(const ReviewCase *c, double ratio)
 {
-    double difference = fabs(l->foreground - l->background);
-    if (!(ratio > 1)) return ratio;
-    return 1 + difference / (difference / (ratio - 1) + l->veil);
+    if (!(ratio > 1 && c->contrast_ratio > 1 && c->contrast_with_veil > 1)) return ratio;
+    double veil = 1 / (c->contrast_with_veil - 1) - 1 / (c->contrast_ratio - 1);
+    return 1 + 1 / (1 / (ratio - 1) + veil);
 }
 
 static Figure contrast_figure(const ReviewCase *c, const Profile *profile)
 {
     if (!profile->uses_veil)
         return (Figure){c->contrast_ratio, c->contrast_low, c->contrast_high};
-    return (Figure){c->contrast_with_veil, below_veil(&c->luminance_cd_m2, c->contrast_low),
-                    below_veil(&c->luminance_cd_m2, c->contrast_high)};
+    return (Figure){c->contrast_with_veil, below_veil(c, c->contrast_low),
+                    below_veil(c, c->contrast_high)};
 }
 
 /* A contrast ratio in the words of a kind of limit; rising with it. */

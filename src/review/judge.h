@@ -17,7 +17,7 @@
 /* Sets the case's ambient from its display_lux, where the condition itself names none. */
 void judge_ambient(ReviewCase *review_case, const Profile *profile, bool sun_on_display);
 
-/* From the case's ambient, luminances, contrasts and their interval, height and visible_share:
+/* From the case's ambient, contrasts and their interval, height and visible_share:
  * sets limits, limit_count, limit_id, margin and verdict. limit_id is, among the contrast
  * limits that count, the one that asks the greatest ratio; margin is its margin.
  *
