@@ -11,6 +11,7 @@
 #include "text/base64.h"
 #include "text/escape.h"
 
+#define FIRST_CAUSES 4
 #define PICTURE_BYTES_MAX ((size_t)64 << 20)
 
 /* ---- the line that opens it ------------------------------------------------------------- */
@@ -86,39 +87,47 @@ static void add_facts(Text *html, const ReviewCard *card, Arena *arena)
 
 /* ---- limits ----------------------------------------------------------------------------- */
 
-/* What the program has no figure of cannot fail. */
-static const char *limit_words(const LimitVerdict *l)
+static void add_limit(Text *html, const LimitVerdict *l, Arena *arena)
 {
-    if (isnan(l->found)) return "no figure";
-    if (l->is_advice) return l->verdict == VERDICT_PASS ? "kept" : "advice, not asked";
-    return words_verdict(l->verdict);
+    bool        passes = l->verdict == VERDICT_PASS;
+    const char *kind = l->is_advice ? "n" : arena_format(arena, "n %s",
+                                                         words_class(l->verdict));
+    page_row_begin(html, "");
+    page_cell(html, "", l->name);
+    page_cell(html, "n", words_amount(l, l->found, arena));
+    page_cell(html, "n", words_interval(l->low, l->high, arena));
+    page_cell(html, "n", words_wanted(l, arena));
+    page_cell(html, kind, words_margin(l->margin, arena));
+    text_add(html, "<td>");
+    review_bar_add_margin(html, l);
+    text_add(html, "</td>");
+    if (l->is_advice) page_cell(html, "sub", passes ? "kept" : "advice, not asked");
+    else page_cell(html, words_class(l->verdict), words_verdict(l->verdict));
+    page_row_end(html);
 }
 
+/* What the program has no figure of is named behind the table. */
 static void add_limits(Text *html, const ReviewCase *c, Arena *arena)
 {
     static const PageColumn COLUMNS[] = {
         {"Limit", false, NULL}, {"found", true, NULL}, {"95 % interval", true, NULL},
         {"wanted", true, NULL}, {"margin", true, NULL}, {"", false, NULL},
         {"", false, NULL}};
-    if (c->limit_count == 0) return;
-    page_table_begin(html, "", "limits", COLUMNS, 7);
+    Text missing = {.arena = arena};
+    int  found = 0;
     for (int i = 0; i < c->limit_count; i++) {
-        const LimitVerdict *l = &c->limits[i];
-        const char *kind = l->is_advice ? "n" : arena_format(arena, "n %s",
-                                                             words_class(l->verdict));
-        page_row_begin(html, "");
-        page_cell(html, "", l->name);
-        page_cell(html, "n", words_amount(l, l->found, arena));
-        page_cell(html, "n", words_interval(l->low, l->high, arena));
-        page_cell(html, "n", words_wanted(l, arena));
-        page_cell(html, kind, words_margin(l->margin, arena));
-        text_add(html, "<td>");
-        review_bar_add_margin(html, l);
-        text_add(html, "</td>");
-        page_cell(html, l->is_advice ? "sub" : words_class(l->verdict), limit_words(l));
-        page_row_end(html);
+        if (!isnan(c->limits[i].found)) found++;
+        else text_format(&missing, "%s%s", missing.size ? "; " : "", c->limits[i].name);
     }
-    page_table_end(html);
+    if (found > 0) page_table_begin(html, "", "limits", COLUMNS, 7);
+    for (int i = 0; i < c->limit_count; i++)
+        if (!isnan(c->limits[i].found)) add_limit(html, &c->limits[i], arena);
+    if (found > 0) page_table_end(html);
+    if (missing.size > 0) {
+        text_add(html, "<p class=\"sub missing\">No figure to hold against: ");
+        escape_markup(html, missing.data);
+        text_add(html, ".</p>\n");
+    }
 }
 
 /* ---- causes and remedies ---------------------------------------------------------------- */
@@ -144,13 +153,24 @@ static double share_left(const ReviewCase *c)
     return left;
 }
 
+static void add_cause_list(Text *html, const CaseCause *causes, int count, Arena *arena)
+{
+    text_add(html, "<ol class=\"causes\">\n");
+    for (int i = 0; i < count; i++) add_cause(html, &causes[i], arena);
+    text_add(html, "</ol>\n");
+}
+
 static void add_causes(Text *html, const ReviewCase *c, Arena *arena)
 {
+    int first = c->cause_count > FIRST_CAUSES + 1 ? FIRST_CAUSES : c->cause_count;
     if (c->cause_count == 0) return;
-    text_add(html, "<div><h4>Where the light that washes it out comes from</h4>\n"
-             "<ol class=\"causes\">\n");
-    for (int i = 0; i < c->cause_count; i++) add_cause(html, &c->causes[i], arena);
-    text_add(html, "</ol>\n");
+    text_add(html, "<div><h4>Where the light that washes it out comes from</h4>\n");
+    add_cause_list(html, c->causes, first, arena);
+    if (first < c->cause_count) {
+        page_more_begin(html, arena_format(arena, "%d more ways", c->cause_count - first));
+        add_cause_list(html, c->causes + first, c->cause_count - first, arena);
+        page_more_end(html);
+    }
     if (share_left(c) >= 0.001)
         page_element(html, "p class=\"sub\"",
                      arena_format(arena, "All other ways together: %s.",

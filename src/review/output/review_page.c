@@ -119,7 +119,7 @@ static void add_verdicts(Text *html, const ReviewPage *page, Arena *arena)
     text_add(html, "<p class=\"sub\">Contrast is how many times brighter the bright part of "
              "a symbol is than its dark part, with all reflections on both; the margin is how "
              "far it is above (+) or below (−) its limit. ✓ passes, ✗ fails, ≈ too close to "
-             "call, ∅ not visible.</p>\n");
+             "call, ∅ not visible; below it the 95 % interval and the limit.</p>\n");
     review_table_add_matrix(html, review, arena);
     text_format(html, "<details class=\"all\"%s><summary>%d verdict%s with intervals and "
                 "limits, worst first</summary>\n", rows <= OPEN_ROWS ? " open" : "", rows,
@@ -161,7 +161,9 @@ static bool add_cases(Text *html, const ReviewPage *page, Arena *arena, Error *e
         if (shown > 0 && shown == review->case_count - passing)
             page_more_begin(html, arena_format(arena, "%d that pass%s", passing,
                                                passing == 1 ? "es" : ""));
-        if (!add_card(html, page, c, shown++ < OPEN_CARDS, arena, err)) return false;
+        bool is_open = shown < (c->verdict == VERDICT_PASS ? 1 : OPEN_CARDS);
+        shown++;
+        if (!add_card(html, page, c, is_open, arena, err)) return false;
     }
     if (passing > 0 && passing < review->case_count) page_more_end(html);
     return true;

@@ -89,8 +89,10 @@ static const LimitVerdict *shown_limit(const ReviewCase *c)
 static void add_cell_limit(Text *html, const LimitVerdict *limit, Arena *arena)
 {
     review_bar_add_margin(html, limit);
-    page_element(html, "small", words_wanted(limit, arena));
-    page_element(html, "small", words_interval(limit->low, limit->high, arena));
+    page_element(html, "small", arena_format(arena, "%s · %s %s",
+                                             words_interval(limit->low, limit->high, arena),
+                                             limit->is_upper ? "≤" : "≥",
+                                             words_limit(limit, arena)));
 }
 
 static void add_matrix_cell(Text *html, const Matrix *m, const ReviewCase *c, Arena *arena)

@@ -79,10 +79,15 @@ const char *words_minutes(double minutes, Arena *arena)
                       : arena_format(arena, "%ld h", whole / 60);
 }
 
+const char *words_limit(const LimitVerdict *limit, Arena *arena)
+{
+    return with_unit(limit, words_number(limit->value, arena), arena);
+}
+
 const char *words_wanted(const LimitVerdict *limit, Arena *arena)
 {
     return arena_format(arena, "%s %s%s", limit->is_upper ? "at most" : "at least",
-                        with_unit(limit, words_number(limit->value, arena), arena),
+                        words_limit(limit, arena),
                         limit->is_advice ? " (advice)" : "");
 }
 

@@ -31,6 +31,9 @@ const char *words_amount(const LimitVerdict *limit, double value, Arena *arena);
 /* "3 min", "1 h 25 min"; "–" for NaN. */
 const char *words_minutes(double minutes, Arena *arena);
 
+/* "2 : 1": the limit itself. */
+const char *words_limit(const LimitVerdict *limit, Arena *arena);
+
 /* "at least 2 : 1", "at most ..."; "(advice)" behind what is preferred and not asked. */
 const char *words_wanted(const LimitVerdict *limit, Arena *arena);
 
