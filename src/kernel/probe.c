@@ -103,7 +103,7 @@ Vec3 probe_cell_center(const ProbeCells *cells, int cell)
     return world_of_cells(d);
 }
 
-int probe_cell_of(const ProbeCells *cells, Vec3 direction)
+static int cell_of(const ProbeCells *cells, Vec3 direction)
 {
     Vec3 d = cells_of_world(direction);
     int  first = d.z < 0 ? cells->count / 2 : 0;
@@ -134,7 +134,7 @@ static void add_cell(void *user, int i, int bounce, const float *share)
 static void add_escaped_cell(void *user, Vec3 direction, int bounce, const float *share)
 {
     const CellSums *to = user;
-    add_lanes(cell_sums(to, bounce > 1, probe_cell_of(to->cells, direction)), 1, share);
+    add_lanes(cell_sums(to, bounce > 1, cell_of(to->cells, direction)), 1, share);
 }
 
 static void draw_cells(const ProbeAim *aim, const ProbeCells *cells, int path, Vec3 *towards)

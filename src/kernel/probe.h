@@ -53,9 +53,8 @@ typedef struct ProbeCells {
 
 #define PROBE_ORDERS 2 /* light that the first vertex sends to the eye; all other */
 
-/* The direction, world, that stands for a cell; and the cell that holds a direction. */
+/* The direction, world, that stands for a cell. */
 Vec3 probe_cell_center(const ProbeCells *cells, int cell);
-int  probe_cell_of(const ProbeCells *cells, Vec3 direction);
 
 /* Where answers are added, and room for as many directions as are asked. */
 typedef struct ProbeAnswers {

@@ -29,9 +29,6 @@ typedef struct SkyTable {
 bool sky_table_build(const DaylightInput *like, double low_deg, double high_deg, Arena *arena,
                      SkyTable *out, Error *err);
 
-/* The sun's bands at an elevation within the table, lx. */
-void sky_table_sun(const SkyTable *table, double elevation_deg, float bands[LIGHT_BANDS]);
-
 /* ---- probes ------------------------------------------------------------------------------ */
 
 typedef struct FarProbe {

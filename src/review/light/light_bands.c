@@ -47,15 +47,3 @@ void light_bands_sun(const Daylight *daylight, float bands[LIGHT_BANDS])
         }
     }
 }
-
-void light_bands_white(float bands[LIGHT_BANDS])
-{
-    memset(bands, 0, LIGHT_BANDS * sizeof *bands);
-    for (int k = 0; k < OFFSETS; k++) {
-        Wavelengths w = wavelengths_of(k);
-        add_bands(&w, spectrum_all(1), 1.0 / OFFSETS, bands);
-    }
-    float sum = 0;
-    for (int i = 0; i < LIGHT_BANDS; i++) sum += bands[i];
-    for (int i = 0; i < LIGHT_BANDS; i++) bands[i] /= sum;
-}

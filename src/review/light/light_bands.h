@@ -17,6 +17,3 @@ void light_bands_sky(const Daylight *daylight, float elevation, float azimuth,
 
 /* The sun's disc; all 0 where it is down. */
 void light_bands_sun(const Daylight *daylight, float bands[LIGHT_BANDS]);
-
-/* A white (equal-energy) light of 1 cd m^-2. */
-void light_bands_white(float bands[LIGHT_BANDS]);

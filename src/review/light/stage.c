@@ -111,8 +111,9 @@ static void set_levels(Stage *stage, const ReviewLevel *level)
 {
     for (int i = 0; i < stage->scene->display_count; i++) {
         Display *display = &stage->scene->displays[i];
-        display->level = (float)review_level_at(level, (ReviewDisplayName){display->name, display->name},
-                                                stage->scene_levels[i], stage->sensor_lux);
+        ReviewDisplayName name = {display->name, display->name};
+        display->level = (float)review_level_at(level, name, stage->scene_levels[i],
+                                                stage->sensor_lux);
     }
 }
 

@@ -20,19 +20,19 @@ typedef struct WayKey {
     int      count, is_longer, pane_id, source, source_id;
 } WayKey;
 
-typedef struct Way {
+typedef struct CauseWay {
     WayKey key;
     double sum, squares; /* cd m^-2 over paths */
     bool   is_used;
-} Way;
+} CauseWay;
 
-typedef struct Ways {
+typedef struct CauseWays {
     const Scene *scene;
-    Way   *list;  /* [ROOM], a hash table */
+    CauseWay   *list;  /* [ROOM], a hash table */
     int    count;
-    Way    other; /* when the table is full */
+    CauseWay    other; /* when the table is full */
     double sum;
-} Ways;
+} CauseWays;
 
 /* Parts of one node and material count as one: the first of them stands for all. */
 static int first_alike(const Scene *scene, int part_id)
@@ -71,10 +71,10 @@ static uint32_t hash_key(const WayKey *key)
     return hash;
 }
 
-static Way *way_of(Ways *ways, const WayKey *key)
+static CauseWay *way_of(CauseWays *ways, const WayKey *key)
 {
     for (uint32_t i = hash_key(key), tries = 0; tries < ROOM; i++, tries++) {
-        Way *way = &ways->list[i & (ROOM - 1)];
+        CauseWay *way = &ways->list[i & (ROOM - 1)];
         if (way->is_used && !memcmp(&way->key, key, sizeof *key)) return way;
         if (way->is_used) continue;
         if (ways->count == ROOM / 2) return &ways->other;
@@ -88,10 +88,10 @@ static Way *way_of(Ways *ways, const WayKey *key)
 
 static void hear(void *user, const PathTale *tale, const float xyz[3])
 {
-    Ways *ways = user;
+    CauseWays *ways = user;
     if (tale->count == 0) return; /* the display's own light */
     WayKey key = key_of(ways->scene, tale);
-    Way   *way = way_of(ways, &key);
+    CauseWay   *way = way_of(ways, &key);
     double y = (double)xyz[1];
     way->sum += y;
     way->squares += y * y;
@@ -100,13 +100,13 @@ static void hear(void *user, const PathTale *tale, const float xyz[3])
 
 static int by_sum(const void *a, const void *b)
 {
-    double x = (*(Way *const *)a)->sum, y = (*(Way *const *)b)->sum;
+    double x = (*(CauseWay *const *)a)->sum, y = (*(CauseWay *const *)b)->sum;
     return (x < y) - (x > y);
 }
 
-static Way **greatest_first(const Ways *ways, Arena *arena)
+static CauseWay **greatest_first(const CauseWays *ways, Arena *arena)
 {
-    Way **list = ARENA_NEW(arena, Way *, ways->count);
+    CauseWay **list = ARENA_NEW(arena, CauseWay *, ways->count);
     int   count = 0;
     for (int i = 0; i < ROOM; i++)
         if (ways->list[i].is_used) list[count++] = &ways->list[i];
@@ -170,7 +170,7 @@ static CaseCause cause_of(double sum, double squares, double all)
                        .low = fmax(mean - SIGMAS * sigma, 0), .high = mean + SIGMAS * sigma};
 }
 
-static CaseCause all_other(const Ways *ways, Way *const *list, int from, Arena *arena)
+static CaseCause all_other(const CauseWays *ways, CauseWay *const *list, int from, Arena *arena)
 {
     double sum = ways->other.sum, squares = ways->other.squares;
     for (int i = from; i < ways->count; i++) {
@@ -189,11 +189,11 @@ void case_causes(const Stage *stage, const ProbeAim *aim, ReviewCase *c, Arena *
 {
     CaseCause *causes = ARENA_NEW(arena, CaseCause, CAUSES_MOST + 1);
     Arena      own = arena_reserve((size_t)1 << 24);
-    Ways       ways = {.scene = stage->scene, .list = ARENA_NEW(&own, Way, ROOM)};
+    CauseWays       ways = {.scene = stage->scene, .list = ARENA_NEW(&own, CauseWay, ROOM)};
     PathListener   listener = {hear, &ways};
     PathStatistics statistics = {0};
     stage->tools.kernel->hear(aim, 0, PATHS, &listener, &statistics);
-    Way **list = greatest_first(&ways, &own);
+    CauseWay **list = greatest_first(&ways, &own);
     int   count = ways.count < CAUSES_MOST ? ways.count : CAUSES_MOST;
     for (int i = 0; i < count; i++) {
         causes[i] = cause_of(list[i]->sum, list[i]->squares, ways.sum);

@@ -23,11 +23,11 @@ typedef struct OwnLight {
     double lamps, displays; /* at level 1 */
 } OwnLight;
 
-typedef struct Meter {
+typedef struct SweepMeter {
     LitPoint head;
     FarProbe probe;
     OwnLight own;
-} Meter;
+} SweepMeter;
 
 typedef struct Sight {
     const ReviewEye   *eye;
@@ -39,7 +39,7 @@ typedef struct Sight {
     FarProbe           probe;
     OwnLight           own;
     double             own_mirror; /* share of own light that is the mirror's */
-    const Meter       *face;
+    const SweepMeter       *face;
 } Sight;
 
 typedef struct Sweep {
@@ -49,8 +49,8 @@ typedef struct Sweep {
     SkyTable           table;
     StageSymbol       *symbols;
     int                symbol_count;
-    Meter             *faces;   /* one a symbol */
-    Meter             *sensor;  /* of the level; NULL: it is fixed */
+    SweepMeter             *faces;   /* one a symbol */
+    SweepMeter             *sensor;  /* of the level; NULL: it is fixed */
     const ReviewLevel *level;   /* NULL: the scene's */
     Sight             *sights;
     int                sight_count;
@@ -90,14 +90,14 @@ static double own_reading(const Stage *stage, const ProbeAim *aim, Arena scratch
 
 /* ---- making them ------------------------------------------------------------------------- */
 
-static Meter meter_at(Vec3 position, Vec3 normal)
+static SweepMeter meter_at(Vec3 position, Vec3 normal)
 {
-    return (Meter){.head = {position, normal, false}};
+    return (SweepMeter){.head = {position, normal, false}};
 }
 
 static void place_meters(Sweep *sweep, Arena *arena)
 {
-    sweep->faces = ARENA_NEW(arena, Meter, sweep->symbol_count);
+    sweep->faces = ARENA_NEW(arena, SweepMeter, sweep->symbol_count);
     for (int i = 0; i < sweep->symbol_count; i++) {
         const SymbolSurface *surface = &sweep->symbols[i].surface;
         const SymbolPoint   *p = &surface->points[surface->point_count / 2];
@@ -106,7 +106,7 @@ static void place_meters(Sweep *sweep, Arena *arena)
     }
     if (!sweep->level || !sweep->level->is_curve) return;
     const double *at = sweep->level->position_m, *to = sweep->level->normal;
-    sweep->sensor = ARENA_NEW(arena, Meter, 1);
+    sweep->sensor = ARENA_NEW(arena, SweepMeter, 1);
     *sweep->sensor = meter_at(vec3((float)at[0], (float)at[1], (float)at[2]),
                               vec3((float)to[0], (float)to[1], (float)to[2]));
 }
@@ -159,7 +159,7 @@ static void read_own(Sweep *sweep, bool displays, Arena scratch)
         else sight->own.lamps = own;
     }
     for (int i = 0; i < sweep->symbol_count + (sweep->sensor != NULL); i++) {
-        Meter   *meter = i < sweep->symbol_count ? &sweep->faces[i] : sweep->sensor;
+        SweepMeter   *meter = i < sweep->symbol_count ? &sweep->faces[i] : sweep->sensor;
         ProbeAim aim = {.context = &stage->context, .meter = &meter->head, .seed = METER_SEED};
         double   own = own_reading(stage, &aim, scratch);
         if (displays) meter->own.displays = own - meter->own.lamps;
@@ -167,7 +167,7 @@ static void read_own(Sweep *sweep, bool displays, Arena scratch)
     }
 }
 
-static void trace_meter(Meter *meter, FarTools tools, Arena *arena)
+static void trace_meter(SweepMeter *meter, FarTools tools, Arena *arena)
 {
     tools.paths = METER_PATHS;
     tools.mirror_paths = 0;

@@ -13,18 +13,7 @@
  */
 #pragma once
 #include "review/run/cases.h"
-#include "review/run/run.h"
-#include "review/run/sweep_suns.h"
-
-/* What a sweep found of each of its suns: one symbol, one eye. */
-typedef struct SweepTable SweepTable;
-struct SweepTable {
-    int              sweep_id;  /* of the review */
-    int              worst;     /* sun; -1: none */
-    const SweepSuns *suns;      /* shared by the sweep's tables */
-    const float     *contrast, *margin, *reflected, *mirror, *level, *lux; /* [suns->count] */
-    const unsigned char *verdict;
-};
+#include "review/run/job.h"
 
 /* The clear sky of a sweep's condition under one of its suns. */
 Environment sweep_environment(const ReviewCondition *condition, const SweepSun *sun);

@@ -5,7 +5,7 @@
  */
 #pragma once
 #include "review/output/review_page.h"
-#include "review/run/sweep.h"
+#include "review/run/job.h"
 
 /* CSV: a row a sun, azimuths of the compass and of the vehicle. */
 bool sweep_table_write(const SweepTable *table, const ReviewCondition *condition,

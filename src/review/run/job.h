@@ -1,0 +1,39 @@
+/* job.h -- what a review is made of and into: shared by the run and its sweeps.
+ *
+ * Memory   the review lives in the arena of whoever makes it.
+ * Threads  plain data.
+ */
+#pragma once
+#include "base/problems.h"
+#include "base/progress.h"
+#include "review/profile.h"
+#include "review/request/request.h"
+#include "review/run/sweep_suns.h"
+#include "review/verdict.h"
+
+typedef struct ReviewRun {
+    const ReviewRequest *request;
+    const Profile       *profile;
+    const char          *root;     /* --root, or NULL */
+    int                  threads;
+    const char          *isa;      /* kernel.h's; NULL: the best */
+    ProgressMode         progress;
+    const char          *folder;   /* of the frames, which is there; NULL: none are made */
+    Problems            *problems; /* warnings of scenes, once each */
+} ReviewRun;
+
+/* What a sweep found of each of its suns: one symbol, one eye. */
+typedef struct SweepTable {
+    int              sweep_id;  /* of the review */
+    int              worst;     /* sun; -1: none */
+    const SweepSuns *suns;      /* shared by the sweep's tables */
+    const float     *contrast, *margin, *reflected, *mirror, *level, *lux; /* [suns->count] */
+    const unsigned char *verdict;
+} SweepTable;
+
+/* The review, and what its sweeps found of every sun. */
+typedef struct ReviewOutcome {
+    Review      review;
+    SweepTable *tables;
+    int         table_count;
+} ReviewOutcome;
