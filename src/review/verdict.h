@@ -59,14 +59,19 @@ typedef struct CaseLuminances {
 typedef struct ReviewCase {
     const char *condition, *eye, *symbol, *display;
     Ambient ambient;
+    const char *when;            /* of a sweep's worst: date, time, heading; NULL: the condition
+                                    says it */
     bool    has_sun;             /* above the horizon */
-    double  sun_azimuth_deg, sun_elevation_deg;
+    double  sun_azimuth_deg, sun_elevation_deg; /* of a sweep's worst: of the vehicle */
     CaseLuminances luminance_cd_m2;
     double  contrast_ratio;      /* (brighter + reflected) / (darker + reflected) */
     double  contrast_low, contrast_high; /* 95 %: sampling, and the panel's stated error */
     double  contrast_with_veil;
     double  height_arcmin;       /* the foreground's extent along the content's v */
     double  jnd;                 /* steps of DICOM's GSDF between the two, veil included */
+    double  visibility;          /* Michelson contrast, veil included, by the least that an eye
+                                    sees of strokes that wide (Barten) */
+    double  dgp, ugr;            /* discomfort of this gaze: secondary figures */
     double  visible_share;       /* of the rectangle, 0..1 */
     double  level;               /* at which the display was set, 1: as measured */
     double  display_lux;         /* illuminance of the display's face */

@@ -195,7 +195,7 @@ TEST(json_has_the_promised_keys)
     static const char *const KEYS[] = {
         "condition", "eye", "symbol", "display", "ambient", "sun", "luminance_cd_m2",
         "contrast_ratio", "contrast_interval", "contrast_with_veil", "height_arcmin", "jnd",
-        "visible_share", "level", "limit", "limits", "margin", "verdict", "causes", "remedies"};
+        "visibility", "dgp", "ugr", "when", "visible_share", "level", "limit", "limits", "margin", "verdict", "causes", "remedies"};
     Review  review = fixture_review(&arena);
     json_t *json = review_json(&review), *value;
     json_t *first = json_array_get(json_object_get(json, "cases"), 0);
@@ -293,7 +293,7 @@ TEST(every_key_is_wanted)
 
 /* ---- CSV -------------------------------------------------------------------------------- */
 
-enum { CSV_COLUMNS = 31 };
+enum { CSV_COLUMNS = 34 };
 
 /* One record of RFC 4180 into cells; what follows it. */
 static const char *read_record(const char *at, const char *cell[CSV_COLUMNS], int *count)

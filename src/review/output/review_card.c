@@ -69,9 +69,12 @@ static void add_sight_facts(Text *html, const ReviewCase *c, Arena *arena)
                               words_ratio(c->contrast_ratio, arena),
                               words_figure(c->contrast_low, arena),
                               words_figure(c->contrast_high, arena)));
+    if (c->when) add_fact(html, "When", c->when);
     add_figure(html, "… with the eye's own veil", c->contrast_with_veil, ": 1", arena);
     add_figure(html, "Height", c->height_arcmin, "arc minutes", arena);
     add_figure(html, "Told apart by", c->jnd, "just noticeable steps", arena);
+    add_figure(html, "Above the eye's threshold", c->visibility, "times", arena);
+    add_figure(html, "Daylight glare probability", c->dgp, "(a figure for rooms)", arena);
     if (!isnan(c->visible_share))
         add_fact(html, "Can be seen", arena_format(arena, "%s of its area",
                                                    words_share(c->visible_share, arena)));

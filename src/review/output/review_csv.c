@@ -33,7 +33,7 @@ static const char HEADER[] =
     "condition,eye,symbol,display,ambient,sun_azimuth_deg,sun_elevation_deg,foreground_cd_m2,"
     "background_cd_m2,reflected_cd_m2,mirror_cd_m2,scattered_cd_m2,veil_cd_m2,contrast_ratio,"
     "contrast_low,contrast_high,contrast_with_veil,height_arcmin,jnd,visible_share,level,"
-    "display_lx,limit_name,limit_kind,limit_unit,limit_source,limit_value,margin,first_cause,"
+    "display_lx,visibility,dgp,ugr,limit_name,limit_kind,limit_unit,limit_source,limit_value,margin,first_cause,"
     "first_cause_share,verdict\r\n";
 
 static void add_limit(Text *csv, const ReviewCase *c)
@@ -75,7 +75,8 @@ static void add_case(Text *csv, const ReviewCase *c, Arena scratch)
                                 l->scattered, l->veil}, 6);
     add_numbers(csv, (double[]){c->contrast_ratio, c->contrast_low, c->contrast_high,
                                 c->contrast_with_veil, c->height_arcmin, c->jnd,
-                                c->visible_share, c->level, c->display_lux}, 9);
+                                c->visible_share, c->level, c->display_lux, c->visibility,
+                                c->dgp, c->ugr}, 12);
     add_limit(csv, c);
     add_cause(csv, c, scratch);
     text_format(csv, "%s\r\n", verdict_names[c->verdict]);

@@ -104,6 +104,9 @@ static json_t *case_json(const ReviewCase *c)
     set(out, "contrast_with_veil", number(c->contrast_with_veil));
     set(out, "height_arcmin", number(c->height_arcmin));
     set(out, "jnd", number(c->jnd));
+    set(out, "visibility", number(c->visibility));
+    set(out, "dgp", number(c->dgp));
+    set(out, "ugr", number(c->ugr));
     set(out, "visible_share", number(c->visible_share));
     set(out, "level", number(c->level));
     set(out, "display_lux", number(c->display_lux));
@@ -114,6 +117,7 @@ static json_t *case_json(const ReviewCase *c)
     set(out, "causes", causes_json(c));
     set(out, "remedies", remedies_json(c));
     set(out, "frame", text(c->frame));
+    set(out, "when", text(c->when));
     return out;
 }
 

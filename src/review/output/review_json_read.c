@@ -214,7 +214,7 @@ static bool read_names(const JsonView *view, ReviewCase *c, Error *err)
     if (!read_text(view, "condition", &c->condition, err) ||
         !read_text(view, "eye", &c->eye, err) || !read_text(view, "symbol", &c->symbol, err) ||
         !read_text(view, "display", &c->display, err) ||
-        !read_text(view, "frame", &c->frame, err) ||
+        !read_text(view, "frame", &c->frame, err) || !read_text(view, "when", &c->when, err) ||
         !read_word(view, "ambient", ambient_names, &ambient, err))
         return false;
     c->ambient = (Ambient)ambient;
@@ -228,6 +228,8 @@ static bool read_figures(const JsonView *view, ReviewCase *c, Error *err)
            read_number(view, "contrast_with_veil", &c->contrast_with_veil, err) &&
            read_number(view, "height_arcmin", &c->height_arcmin, err) &&
            read_number(view, "jnd", &c->jnd, err) &&
+           read_number(view, "visibility", &c->visibility, err) &&
+           read_number(view, "dgp", &c->dgp, err) && read_number(view, "ugr", &c->ugr, err) &&
            read_number(view, "visible_share", &c->visible_share, err) &&
            read_number(view, "level", &c->level, err) &&
            read_number(view, "display_lux", &c->display_lux, err) &&

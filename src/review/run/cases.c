@@ -4,10 +4,11 @@
 
 #include "review/judge.h"
 #include "review/light/response.h"
-#include "review/light/veil.h"
+#include "review/light/eye_reading.h"
 #include "review/output/review_decide.h"
 #include "review/request/request_check.h"
 #include "review/run/causes.h"
+#include "vision/contrast_sensitivity.h"
 #include "vision/grey_steps.h"
 
 #define SIGMAS 1.959964 /* of a 95 % interval */
@@ -15,8 +16,8 @@
 #define FACE_PATHS 16384
 #define FACE_SEED 0x66616365u
 #define EYE_SEED 0x65796573u
-#define SUN_PATHS 16
-#define SUN_LEAST_SHARE 0.2 /* of the light on a display: direct sun decides */
+#define SUN_PATHS SYMBOL_POINTS
+#define SUN_COSINE 0.9999892f /* of the disc's radius */
 
 /* ---- eyes -------------------------------------------------------------------------------- */
 
@@ -41,13 +42,8 @@ Vec3 *stage_eye_points(const Stage *stage, const ReviewEye *eye, int *count, Are
 
 /* ---- the display's face ------------------------------------------------------------------ */
 
-/* How a symbol's middle is lit. */
-typedef struct Face {
-    double lux;
-    bool   sun_on_it;
-} Face;
-
-static Face face_of(const CaseTools *tools, const StageSymbol *symbol, Arena scratch)
+/* Illuminance of a symbol's middle. */
+static double face_lux(const CaseTools *tools, const StageSymbol *symbol, Arena scratch)
 {
     const Stage       *stage = tools->stage;
     const SymbolPoint *point = &symbol->surface.points[symbol->surface.point_count / 2];
@@ -55,18 +51,26 @@ static Face face_of(const CaseTools *tools, const StageSymbol *symbol, Arena scr
     LitPoint    head = {vec3_along(point->position, point->ng, off), point->ns, false};
     ProbeAim    aim = {.context = &stage->context, .meter = &head, .seed = FACE_SEED};
     ReadingGoal goal = {.precision = FACE_PRECISION, .most = FACE_PATHS};
-    Face        face = {reading_take(&aim, &goal, &stage->tools, scratch).reflected, false};
-    Vec3        towards;
-    float       bands[LIGHT_BANDS];
-    if (!stage_sun(stage, &towards, bands)) return face;
-    ProbeSuns       suns = {&towards, 1, 1, false};
+    return reading_take(&aim, &goal, &stage->tools, scratch).reflected;
+}
+
+/* Does most of what the display reflects come straight from the sun? Then it stands in the sun,
+ * whichever part of it. */
+static bool is_in_sun(const Stage *stage, const ProbeAim *aim, double reflected, Arena scratch)
+{
+    Vec3   towards;
+    float  bands[LIGHT_BANDS];
+    double direct = 0;
+    if (!stage_sun(stage, &towards, bands)) return false;
+    ProbeSuns       suns = {&towards, 1, SUN_COSINE, false};
     ResponseOptions options = {stage->tools.kernel, 0, SUN_PATHS, stage->tools.threads};
-    suns.cos_radius = 0.99999f;
-    const float *shares = response_suns(&aim, &options, &suns, &scratch);
-    double       direct = 0;
-    for (int b = 0; b < LIGHT_BANDS; b++) direct += (double)shares[b] * (double)bands[b];
-    face.sun_on_it = direct > SUN_LEAST_SHARE * face.lux;
-    return face;
+    for (int by_mirror = 0; by_mirror < 2; by_mirror++) {
+        Arena room = scratch;
+        suns.by_mirror = by_mirror;
+        const float *shares = response_suns(aim, &options, &suns, &room);
+        for (int b = 0; b < LIGHT_BANDS; b++) direct += (double)shares[b] * (double)bands[b];
+    }
+    return direct > CASE_SUNLIT * reflected;
 }
 
 /* ---- one case ---------------------------------------------------------------------------- */
@@ -125,6 +129,28 @@ static void set_shown(CaseLuminances *l, const SymbolEmission *emission, double 
     l->background = emission->background_xyz[1] * transmittance;
 }
 
+static void see_stray_light(const Stage *stage, const StageSymbol *symbol, Vec3 eye,
+                            ReviewCase *c, Arena scratch)
+{
+    EyeReading stray =
+        eye_read(stage, eye, symbol->surface.points[SYMBOL_POINTS / 2].position, scratch);
+    c->luminance_cd_m2.veil = stray.veil;
+    c->dgp = stray.dgp;
+    c->ugr = stray.ugr;
+}
+
+/* A stroke and a gap as wide are one cycle. */
+static double visibility_of(const ReviewCase *c, const SymbolSplit *split)
+{
+    const CaseLuminances *l = &c->luminance_cd_m2;
+    double height_px = (split->box[3] - split->box[1]) * split->light.content_height;
+    double stroke_deg = c->height_arcmin / 60 * split->stroke_px / height_px;
+    double mean = 0.5 * (l->foreground + l->background) + l->reflected + l->veil;
+    double michelson = (c->contrast_with_veil - 1) / (c->contrast_with_veil + 1);
+    return michelson *
+           contrast_sensitivity(1 / (2 * stroke_deg), mean, c->height_arcmin / 60);
+}
+
 /* What does not depend on the eye is set. The aim has no targets where nothing is visible. */
 static ProbeAim see_symbol(const CaseTools *tools, const StageSymbol *symbol, Vec3 eye,
                            ReviewCase *c, Arena *arena)
@@ -139,7 +165,7 @@ static ProbeAim see_symbol(const CaseTools *tools, const StageSymbol *symbol, Ve
     c->visible_share = seen.visible_share;
     c->height_arcmin = symbol_height_arcmin(&symbol->surface, symbol->split.box, eye);
     c->contrast_ratio = c->contrast_low = c->contrast_high = c->contrast_with_veil = c->jnd =
-        (double)NAN;
+        c->visibility = c->dgp = c->ugr = (double)NAN;
     if (!(seen.visible_share > 0)) return (ProbeAim){.target_count = 0};
     SymbolEmission emission =
         symbol_emission(&symbol->surface, &symbol->split, c->level, eye);
@@ -149,8 +175,9 @@ static ProbeAim see_symbol(const CaseTools *tools, const StageSymbol *symbol, Ve
     l->reflected = reading.reflected;
     l->mirror = reading.mirror;
     l->scattered = reading.reflected - reading.mirror;
-    l->veil = veil_read(stage, eye, symbol->surface.points[SYMBOL_POINTS / 2].position, *arena);
+    see_stray_light(stage, symbol, eye, c, *arena);
     set_contrasts(c, reading.sigma);
+    c->visibility = visibility_of(c, &symbol->split);
     return aim;
 }
 
@@ -183,7 +210,7 @@ static ReviewCase start_case(const CaseTools *tools, const ReviewEye *eye,
 typedef struct CaseAsk {
     const ReviewEye   *eye;
     const StageSymbol *symbol;
-    Face               face;
+    double             face_lux;
 } CaseAsk;
 
 static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, ReviewCase *out,
@@ -194,11 +221,13 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
     ReviewCase start = start_case(tools, ask->eye, ask->symbol);
     ProbeAim   worst = {.target_count = 0};
     if (!points) return error_in_file(err, tools->stage->request->file);
-    start.display_lux = ask->face.lux;
-    judge_ambient(&start, tools->profile, ask->face.sun_on_it);
+    start.display_lux = ask->face_lux;
     for (int i = 0; i < count; i++) {
         ReviewCase c = start;
         ProbeAim   aim = see_symbol(tools, ask->symbol, points[i], &c, arena);
+        judge_ambient(&c, tools->profile,
+                      aim.target_count && is_in_sun(tools->stage, &aim,
+                                                    c.luminance_cd_m2.reflected, *arena));
         judge_case(&c, tools->profile, arena);
         if (i && !is_worse(&c, out)) continue;
         *out = c;
@@ -212,16 +241,16 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
 bool stage_case(const CaseTools *tools, const StageSymbol *symbol, const ReviewEye *eye,
                 Arena *arena, ReviewCase *out, Error *err)
 {
-    CaseAsk ask = {eye, symbol, face_of(tools, symbol, *arena)};
+    CaseAsk ask = {eye, symbol, face_lux(tools, symbol, *arena)};
     return case_of(tools, &ask, arena, out, err);
 }
 
 bool stage_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *err)
 {
     const ReviewRequest *request = tools->stage->request;
-    Face *faces = ARENA_NEW(arena, Face, tools->symbol_count);
+    double *faces = ARENA_NEW(arena, double, tools->symbol_count);
     for (int s = 0; s < tools->symbol_count; s++)
-        faces[s] = face_of(tools, &tools->symbols[s], *arena);
+        faces[s] = face_lux(tools, &tools->symbols[s], *arena);
     for (int e = 0; e < request->eye_count; e++)
         for (int s = 0; s < tools->symbol_count; s++) {
             CaseAsk ask = {&request->eyes[e], &tools->symbols[s], faces[s]};

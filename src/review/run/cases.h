@@ -20,6 +20,9 @@ typedef struct CaseTools {
 /* Paths of one reading at most: a contrast that is not sure then has a wider interval. */
 #define CASE_PATHS_MOST 262144
 
+/* Share of what a display reflects from which on its light is that of direct sun. */
+#define CASE_SUNLIT 0.5
+
 /* symbol_count * eye_count cases, symbols fastest. Fails where an eye's camera is missing. */
 bool stage_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *err);
 

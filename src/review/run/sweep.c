@@ -13,7 +13,6 @@
 #define MIRROR_PATHS 2048 /* of its mirror, which cost little */
 #define EYE_SEED 0x73776579u
 #define METER_SEED 0x73776d65u
-#define SUN_LEAST_SHARE 0.2 /* of the light on a display: direct sun decides */
 
 /* ---- probes ------------------------------------------------------------------------------ */
 
@@ -236,8 +235,7 @@ static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const FarTools
     c.contrast_low = contrast(&c.luminance_cd_m2, reflected + spread);
     c.contrast_high = contrast(&c.luminance_cd_m2, fmax(reflected - spread, 0));
     c.contrast_with_veil = c.contrast_ratio;
-    judge_ambient(&c, sweep->run->profile,
-                  face.sun_first > SUN_LEAST_SHARE * c.display_lux);
+    judge_ambient(&c, sweep->run->profile, light.sun_first > CASE_SUNLIT * reflected);
     return c;
 }
 
@@ -361,6 +359,38 @@ static bool read_worst(Telling *to, const Sight *sight, const SweepSun *sun, Rev
     return stage_case(&tools, sight->symbol, sight->eye, to->arena, out, err);
 }
 
+/* The n-th day of a year as month and day. */
+static void date_of(int year, int day, int *month, int *of_month)
+{
+    static const int lengths[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+    bool is_leap = (year % 4 == 0 && year % 100) || year % 400 == 0;
+    for (*month = 1; *month < 12; (*month)++) {
+        int length = lengths[*month - 1] + (*month == 2 && is_leap);
+        if (day < length) break;
+        day -= length;
+    }
+    *of_month = day + 1;
+}
+
+/* Azimuths of a sweep's worst are the vehicle's, as those of its map are. */
+static void tell_when(const Telling *to, const SweepSun *sun, ReviewCase *c)
+{
+    const ReviewCondition *condition = to->sweep->stage->condition;
+    c->sun_azimuth_deg = fmod(sun->azimuth_deg + 360, 360);
+    if (condition->kind == CONDITION_YEAR_SWEEP) {
+        int minutes = (int)((sun->step + 0.5) * condition->step_minutes), month, day;
+        date_of(condition->year, minutes / 1440, &month, &day);
+        c->when = arena_format(to->arena, "%d-%02d-%02d %02d:%02d UTC, heading %g degrees",
+                               condition->year, month, day, minutes / 60 % 24, minutes % 60,
+                               sun->heading_deg);
+    } else if (condition->kind == CONDITION_ROUTE) {
+        const SkyTime *when = &condition->route.points[sun->step].when;
+        c->when = arena_format(to->arena, "%d-%02d-%02d %02d:%02d, heading %.0f degrees",
+                               when->year, when->month, when->day, when->hour, when->minute,
+                               sun->heading_deg);
+    }
+}
+
 static ReviewSweep sweep_of(const Telling *to, const Sight *sight)
 {
     const char *symbol = sight->symbol->name;
@@ -387,6 +417,7 @@ static bool add_sweep(Telling *to, const Sight *sight, Error *err)
             !read_worst(to, sight, &to->suns->list[told.worst], &sweep.worst, err))
             return false;
         sweep.worst.symbol = sweep.symbol;
+        if (told.worst >= 0) tell_when(to, &to->suns->list[told.worst], &sweep.worst);
         to->out->tables[to->out->table_count++] =
             (SweepTable){review->sweep_count, told.worst, to->suns, told.contrast, told.margin,
                          told.reflected, told.mirror, told.level, told.lux, told.verdict};
