@@ -48,11 +48,6 @@ double eye_spread_integral(HumanEye eye)
     return 2 * PI * radians_from_degrees(sum * end / STEPS / 3);
 }
 
-double eye_spread(double angle_deg, HumanEye eye)
-{
-    return eye_spread_published(angle_deg, eye) / eye_spread_integral(eye);
-}
-
 double eye_spread_spencer(double angle_deg)
 {
     if (!is_angle(angle_deg)) return NAN;

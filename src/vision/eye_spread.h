@@ -21,9 +21,6 @@ double eye_spread_published(double angle_deg, HumanEye eye);
 /* Of the published function over the hemisphere, by quadrature (within 1e-6). */
 double eye_spread_integral(HumanEye eye);
 
-/* The published function over its integral. Whoever asks often divides himself. */
-double eye_spread(double angle_deg, HumanEye eye);
-
 /* Spencer's; its integral is 0.9996. At 10 degrees it is 1.6 to 1.8 times the CIE's for a young
  * eye. For comparison: what is judged here is judged by the CIE's. */
 double eye_spread_spencer(double angle_deg);

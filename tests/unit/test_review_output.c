@@ -195,7 +195,8 @@ TEST(json_has_the_promised_keys)
     static const char *const KEYS[] = {
         "condition", "eye", "symbol", "display", "ambient", "sun", "luminance_cd_m2",
         "contrast_ratio", "contrast_interval", "contrast_with_veil", "height_arcmin", "jnd",
-        "visibility", "dgp", "ugr", "when", "visible_share", "level", "limit", "limits", "margin", "verdict", "causes", "remedies"};
+        "visibility", "dgp", "ugr", "when", "visible_share", "level", "limit", "limits",
+        "margin", "verdict", "causes", "remedies"};
     Review  review = fixture_review(&arena);
     json_t *json = review_json(&review), *value;
     json_t *first = json_array_get(json_object_get(json, "cases"), 0);
@@ -287,7 +288,7 @@ TEST(every_key_is_wanted)
     json_t *sweep = json_array_get(json_object_get(root, "sweeps"), 1);
     json_t *response = json_array_get(json_object_get(root, "responses"), 0);
     count += assert_keys_are_wanted(root, sweep) + assert_keys_are_wanted(root, response);
-    assert_int_equal(count, 8 + 22 + 2 + 6 + 12 + 4 + 3 + 8 + 4);
+    assert_int_equal(count, 8 + 26 + 2 + 6 + 12 + 4 + 3 + 8 + 4);
     json_decref(root);
 }
 
@@ -334,7 +335,7 @@ static void assert_csv_says(const Review *review)
     assert_int_equal(count, CSV_COLUMNS);
     assert_string_equal(header[9], "reflected_cd_m2");
     assert_string_equal(header[13], "contrast_ratio");
-    assert_string_equal(header[27], "margin");
+    assert_string_equal(header[30], "margin");
     for (int i = 0; i < review->case_count; i++) {
         const ReviewCase *c = &review->cases[i];
         at = read_record(at, cell, &count);
@@ -343,8 +344,8 @@ static void assert_csv_says(const Review *review)
         assert_string_equal(cell[2], c->symbol);
         assert_same(c->luminance_cd_m2.reflected, number_of(cell[9]));
         assert_same(c->contrast_ratio, number_of(cell[13]));
-        assert_same(c->margin, number_of(cell[27]));
-        assert_string_equal(cell[30], verdict_names[c->verdict]);
+        assert_same(c->margin, number_of(cell[30]));
+        assert_string_equal(cell[33], verdict_names[c->verdict]);
     }
     assert_int_equal(*at, 0);
 }

@@ -54,6 +54,11 @@ static const GlareRow GLARE[] = {
     {{25, 1.2}, 90, 0.0050143, 0, 0},
 };
 
+static double eye_spread(double angle_deg, HumanEye eye)
+{
+    return eye_spread_published(angle_deg, eye) / eye_spread_integral(eye);
+}
+
 TEST(disability_glare_has_its_values)
 {
     (void)state;

@@ -1,11 +1,11 @@
-/* eye_reading.h -- what stray light does to an eye that looks at a point, from all that it sees,
- * also outside any frame.
+/* eye_reading.h -- what stray light does to an eye that looks at a point, from all that it
+ * sees, also outside any frame.
  *
- * The veil that it lays over the point: the integral of f(theta) L cos theta over the hemisphere
- * in front, from 0.1 degrees on (vision/disability_glare.h, the general equation). The sun, when
- * the eye sees it straight or through windows, counts by its illuminance at its own angle.
- * Discomfort (vision/discomfort.h): what is brighter than EYE_GLARE_CD_M2 is a source. Both
- * figures are secondary ones, fitted to rooms; nothing is decided by them.
+ * The veil that it lays over the point: the integral of f(theta) L cos theta over the
+ * hemisphere in front, from 0.1 degrees on (vision/disability_glare.h, the general equation).
+ * The sun, when the eye sees it straight or through windows, counts by its illuminance at its
+ * own angle. Discomfort (vision/discomfort.h): what is brighter than EYE_GLARE_CD_M2 is a
+ * source. Both figures are secondary ones, fitted to rooms; nothing is decided by them.
  *
  * Approximate  small lamps are met by chance: their part is noisy.
  * Units        cd m^-2, lx.

@@ -33,8 +33,8 @@ static const char HEADER[] =
     "condition,eye,symbol,display,ambient,sun_azimuth_deg,sun_elevation_deg,foreground_cd_m2,"
     "background_cd_m2,reflected_cd_m2,mirror_cd_m2,scattered_cd_m2,veil_cd_m2,contrast_ratio,"
     "contrast_low,contrast_high,contrast_with_veil,height_arcmin,jnd,visible_share,level,"
-    "display_lx,visibility,dgp,ugr,limit_name,limit_kind,limit_unit,limit_source,limit_value,margin,first_cause,"
-    "first_cause_share,verdict\r\n";
+    "display_lx,visibility,dgp,ugr,limit_name,limit_kind,limit_unit,limit_source,limit_value,"
+    "margin,first_cause,first_cause_share,verdict\r\n";
 
 static void add_limit(Text *csv, const ReviewCase *c)
 {

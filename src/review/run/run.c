@@ -150,7 +150,8 @@ static bool make_frame(const ReviewRun *run, const Candidate *of, int number, Ar
                         middle_of(&stage, of->of->symbol, scratch), run->folder,
                         file_name_of(arena_format(arena, "%d-%s-%s", number, of->of->condition,
                                                   of->of->eye), arena), run->progress};
-        ok = stage_light(&stage, of->table || c->has_environment ? &sky : NULL, &scratch, err) &&
+        bool has_sky = of->table || c->has_environment;
+        ok = stage_light(&stage, has_sky ? &sky : NULL, &scratch, err) &&
              frame_make(&ask, &scratch, &of->of->frame, err);
         if (ok) of->of->frame = arena_string(arena, of->of->frame, strlen(of->of->frame));
         stage_close(&stage);
@@ -165,7 +166,8 @@ static bool make_frames(const ReviewRun *run, ReviewOutcome *outcome, Arena *are
     Candidate *list = candidates(outcome, &count, arena);
     for (int i = 0; i < count; i++) {
         int same = 0;
-        while (same < i && !(list[same].of->frame && is_one_view(&list[same], &list[i]))) same++;
+        while (same < i && !(list[same].of->frame && is_one_view(&list[same], &list[i])))
+            same++;
         if (same < i) list[i].of->frame = list[same].of->frame;
         else if (made < run->request->frames.worst &&
                  !make_frame(run, &list[i], ++made, arena, err))
