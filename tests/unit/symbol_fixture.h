@@ -86,7 +86,7 @@ static inline Image easel_draw(Easel *easel, int width, int height, const double
 /* Upright rectangles that do not overlap: left, top, right, bottom, in pixels. */
 typedef struct Boxes {
     int    count;
-    double box[16][4];
+    double box[32][4];
 } Boxes;
 
 static inline double shared_length(double a0, double a1, double b0, double b1)

@@ -111,6 +111,32 @@ TEST(a_symbol_outside_its_display_is_refused)
     world_end(&world);
 }
 
+/* Its corners are on the display; between its halves there is nothing. */
+TEST(a_gap_in_the_display_is_refused)
+{
+    World world = world_start();
+    wear_display(&world, *state);
+    const float x[4] = {-0.2f, -0.01f, 0.01f, 0.2f};
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 2; k++)
+            builder_vertex(world.scene, vec3(x[i], k ? 0.1f : -0.1f, 0), vec3(0, 0, 1),
+                           0.5f + 2.5f * x[i], k ? 0.0f : 1.0f);
+    for (uint32_t i = 0; i < 8; i += 4) {
+        builder_triangle(world.scene, i, i + 2, i + 3);
+        builder_triangle(world.scene, i, i + 3, i + 1);
+    }
+    int           parts[1] = {0};
+    ReviewDisplay display = {0, parts, 1};
+    SymbolPlace   place = {world.scene, &display, {0.1, 0.1, 0.9, 0.9}, POINTS};
+    SymbolSurface surface;
+    Error         err = {0};
+    assert_false(symbol_surface_build(&place, &world.arena, &surface, &err));
+    assert_non_null(strstr(err.text, "the symbol lies outside its display"));
+    place.uv[2] = 0.475;
+    assert_true(symbol_surface_build(&place, &world.arena, &surface, &err));
+    world_end(&world);
+}
+
 /* Two nodes wear one material: each has the symbol in its own place. */
 TEST(the_parts_that_are_given_are_asked)
 {

@@ -106,6 +106,79 @@ TEST(a_rectangle_has_its_own_texts_alone)
     easel->arena = easel->fresh;
 }
 
+static void add_frame(Boxes *boxes, double left, double top, double right, double bottom)
+{
+    double bars[4][4] = {{left, top, right, top + 4}, {left, bottom - 4, right, bottom},
+                         {left, top + 4, left + 4, bottom - 4},
+                         {right - 4, top + 4, right, bottom - 4}};
+    memcpy(boxes->box[boxes->count], bars, sizeof bars);
+    boxes->count += 4;
+}
+
+/* Two buttons beside each other: their frames, and the grounds within, would be lines of two
+ * large letters. */
+TEST(words_win_over_the_frames_about_them)
+{
+    Easel *easel = *state;
+    Boxes  boxes = {0};
+    const double ink_ground[2] = {1, 0};
+    add_frame(&boxes, 40, 80, 190, 150);
+    add_frame(&boxes, 200, 80, 350, 150);
+    add_word(&boxes, 65, 100, 30, 4);
+    add_word(&boxes, 225, 100, 30, 4);
+    Image     image = easel_draw(easel, 400, 260, ink_ground, boxes_coverage, &boxes);
+    Proposals found = proposals_in(easel, &image, ALL, MOST);
+    assert_int_equal(found.count, 2);
+    for (int i = 0; i < 2; i++) {
+        double x = 65 + 160 * i;
+        const double word[2][4] = {{x, 100, x + 103, 130}, {x - 8, 92, x + 111, 138}};
+        assert_int_equal(place_of(&found, &image, word[0], word[1]), i);
+    }
+    easel->arena = easel->fresh;
+}
+
+TEST(a_point_belongs_to_its_number)
+{
+    Easel *easel = *state;
+    Boxes  boxes = {2, {{160, 134, 166, 140}, {250, 134, 256, 140}}}; /* near; far away */
+    const double ink_ground[2] = {1, 0};
+    add_word(&boxes, 80, 100, 40, 2);
+    Image     image = easel_draw(easel, 300, 200, ink_ground, boxes_coverage, &boxes);
+    Proposals found = proposals_in(easel, &image, ALL, MOST);
+    const double number[2][4] = {{80, 100, 166, 140}, {70, 90, 176, 150}};
+    assert_int_equal(found.count, 1);
+    assert_int_equal(found.list[0].characters, 2);
+    assert_int_equal(place_of(&found, &image, number[0], number[1]), 0);
+    easel->arena = easel->fresh;
+}
+
+/* Two zeros of 24 x 40 with strokes of 8, on a ground that is darkest inside them. */
+static double zeros(const void *drawing, int x, int y)
+{
+    (void)drawing;
+    int in_x = (x - 100) % 26, in_y = y - 80;
+    if (x < 100 || x >= 152 || in_x >= 24 || in_y < 0 || in_y >= 40) return 0.01;
+    return in_x >= 8 && in_x < 16 && in_y >= 8 && in_y < 32 ? 0 : 1;
+}
+
+TEST(the_holes_of_letters_are_no_text)
+{
+    Easel *easel = *state;
+    const double ink_ground[2] = {1, 0};
+    Image     image = easel_draw(easel, 300, 200, ink_ground, zeros, NULL);
+    Proposals found = proposals_in(easel, &image, ALL, MOST);
+    assert_int_equal(found.count, 1);
+    assert_true(found.list[0].is_light_on_dark);
+    assert_int_equal(found.list[0].height_px, 40);
+    easel->arena = easel->fresh;
+}
+
+/* A word of 2 % of the light of the brightest thing there. */
+static double faint(const void *drawing, int x, int y)
+{
+    return x > 280 && y > 180 ? 1 : 0.02 * boxes_coverage(drawing, x, y);
+}
+
 /* A slope has no edges, one colour no parts. */
 static double slope(const void *drawing, int x, int y)
 {
@@ -124,6 +197,10 @@ TEST(where_there_is_no_text_none_is_proposed)
     Easel *easel = *state;
     const double ink_ground[2] = {1, 0};
     Image image = easel_draw(easel, 300, 200, ink_ground, slope, NULL);
+    assert_int_equal(proposals_in(easel, &image, ALL, MOST).count, 0);
+    Boxes boxes = {0};
+    add_word(&boxes, 120, 100, 40, 3);
+    image = easel_draw(easel, 300, 200, ink_ground, faint, &boxes);
     assert_int_equal(proposals_in(easel, &image, ALL, MOST).count, 0);
     image = easel_draw(easel, 300, 200, ink_ground, nothing, NULL);
     assert_int_equal(proposals_in(easel, &image, ALL, MOST).count, 0);

@@ -8,7 +8,6 @@
 #define LIGHTNESS 0.15
 #define GAP 0.8          /* of the taller's height */
 #define DOT_GAP 0.5      /* of the line's height */
-#define ENCLOSED 0.4     /* of a frame's height: what it is drawn about is no smaller */
 
 typedef struct Grouping {
     const TextPart *parts;
@@ -49,19 +48,6 @@ static int leader_of(const Grouping *g, int i)
     return i;
 }
 
-/* What is drawn about a character is a frame. */
-static bool is_frame(const Grouping *g, int i)
-{
-    const TextPart *a = &g->parts[i];
-    for (int j = i + 1; j < g->count && g->parts[j].left <= a->right; j++) {
-        const TextPart *b = &g->parts[j];
-        if (b->is_character && b->right < a->right && b->left > a->left && b->top > a->top &&
-            b->bottom < a->bottom && height_of(b) >= ENCLOSED * height_of(a))
-            return true;
-    }
-    return false;
-}
-
 static void join(const Grouping *g, int widest_gap)
 {
     for (int i = 0; i < g->count; i++) {
@@ -94,7 +80,7 @@ static ProposedLine line_of(const Grouping *g, int leader, bool is_light)
         widen(&line, p);
         if (height_of(p) > line.height) line.height = height_of(p);
         line.characters++;
-        line.weight += p->step * p->step * height_of(p);
+        line.weight += p->step * p->step * sqrt(height_of(p));
     }
     return line;
 }
@@ -121,7 +107,7 @@ int text_lines(const TextPart *parts, int count, bool is_light, Arena *arena,
     ProposedLine *lines = ARENA_NEW(arena, ProposedLine, count);
     int       found = 0, tallest = 0;
     for (int i = 0; i < count; i++) {
-        g.leader[i] = parts[i].is_character && !is_frame(&g, i) ? i : -1;
+        g.leader[i] = parts[i].is_character ? i : -1;
         if (g.leader[i] == i && height_of(&parts[i]) > tallest) tallest = height_of(&parts[i]);
     }
     join(&g, (int)ceil(GAP * tallest));

@@ -9,7 +9,7 @@ typedef struct ProposedLine {
     int    left, top, right, bottom; /* of characters and their dots, first and last */
     int    height;      /* of its tallest character */
     int    characters;  /* at least 2 */
-    double weight;      /* sum of the characters' heights, each times its step squared */
+    double weight;      /* sum of the characters' steps squared, times the root of height */
     bool   is_light;
 } ProposedLine;
 
