@@ -262,7 +262,17 @@ TEST(a_plate_hides_the_share_that_it_covers)
     }
 }
 
-/* Half a share of points that stand for unlike areas: the left half is four times as large. */
+/* 0.05 mm over the display, 1 m from the eye. */
+TEST(a_bezel_that_lies_on_the_display_hides_it)
+{
+    World world = flat_world(*state);
+    builder_part(world.scene, builder_material(0.5f));
+    builder_quad(world.scene, vec3(-0.15f, 0, 5e-5f), vec3(0.05f, 0, 0), vec3(0, 0.2f, 0));
+    assert_near(seen_from(&world, EYE, NULL).visible_share, 0.75, 2e-3);
+    world_end(&world);
+}
+
+/* Points that stand for unlike areas: the content's left half is four times as large. */
 TEST(a_share_is_one_of_area)
 {
     World world = world_start();

@@ -77,7 +77,7 @@ static float passed_from(const SymbolPoint *point, const PathContext *context,
     SightQuestion question = {context, wavelengths, vec3_normalize(look), spectrum_all(1)};
     if (!(vec3_dot(look, point->ng) < 0)) return 0;
     float step = fmaxf(ray_offset_step(point->position), ray_offset_step(eye));
-    float end = fmaxf(distance * (1 - 1e-4f) - 4 * step, 0);
+    float end = fmaxf(distance - 2 * step, 0); /* a bezel may lie closely over the display */
     if (bvh_occluded(context->bvh, (Ray){eye, question.direction, 0, end}, passes, &question))
         return 0;
     return luminous(wavelengths, &question.passed);
