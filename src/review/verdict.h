@@ -73,6 +73,7 @@ typedef struct ReviewCase {
                                     sees of strokes that wide (Barten) */
     double  dgp, ugr;            /* discomfort of this gaze: secondary figures */
     double  visible_share;       /* of the rectangle, 0..1 */
+    double  eye_failed_share;    /* of an eye box's points: those that fail; NaN: one point */
     double  level;               /* at which the display was set, 1: as measured */
     double  display_lux;         /* illuminance of the display's face */
     const LimitVerdict *limits;  /* all that apply */

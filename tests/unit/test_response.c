@@ -198,6 +198,52 @@ TEST(a_response_to_a_sun_is_what_paths_find_under_it)
     world_end(&world);
 }
 
+static Environment clear_sky(double azimuth_deg, double elevation_deg, float lux)
+{
+    return (Environment){
+        .kind = ENVIRONMENT_SKY, .daylight = daylight_input_default(DAYLIGHT_CLEAR),
+        .has_sun = true, .sun_azimuth = (float)radians_from_degrees(azimuth_deg),
+        .sun_elevation = (float)radians_from_degrees(elevation_deg),
+        .sun_illuminance_lx = lux, .sun_angular_radius = 0.0046504f,
+        .forward = vec3(0, 0, -1)};
+}
+
+TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
+{
+    (void)state;
+    static const SunAngles suns[] = {{270, 50}, {180, 30}, {0, 30}, {90, 13}};
+    static const ReviewRequest request = {.forward = {0, 0, -1}};
+    World    world = niche();
+    SkyTable table;
+    Error    err = {0};
+    world_ready(&world, 64);
+    Stage stage = {.request = &request, .tools = {kernel(), 2}, .scene = world.scene,
+                   .context = world.context};
+    DaylightInput like = daylight_input_default(DAYLIGHT_CLEAR);
+    like.threads = 2;
+    assert_true(sky_table_build(&like, 10, 60, &world.arena, &table, &err));
+    FarTools tools = {&stage, &table, {suns, 4}, 8192, 64, 0};
+    FarProbe probe = {.aim = aim_of(&world)};
+    probe.aim.context = &stage.context;
+    far_probe_trace(&probe, &tools, &world.arena);
+    for (int i = 0; i < 4; i++) {
+        Lights *lights;
+        world.scene->environment = clear_sky(suns[i].azimuth_deg, suns[i].elevation_deg, 0);
+        assert_true(lights_build(world.scene, &world.arena, &lights, &err));
+        world.context =
+            path_context_build(world.scene, world.bvh, lights, 64, &world.arena);
+        ProbeAim aim = aim_of(&world);
+        Reading  reading = read_all(&aim, world.arena);
+        world.scene->environment = (Environment){.forward = vec3(0, 0, -1)};
+        double found = far_probe_read(&probe, &tools, i).sky;
+        double off = fabs(found - reading.reflected);
+        if (!(off < 3.5 * reading.sigma + 0.01 * reading.reflected))
+            fail_msg("sky %d: %g, paths %g +- %g", i, found, reading.reflected,
+                     reading.sigma);
+    }
+    world_end(&world);
+}
+
 TEST(responses_are_the_same_for_any_threads)
 {
     (void)state;

@@ -288,7 +288,7 @@ TEST(every_key_is_wanted)
     json_t *sweep = json_array_get(json_object_get(root, "sweeps"), 1);
     json_t *response = json_array_get(json_object_get(root, "responses"), 0);
     count += assert_keys_are_wanted(root, sweep) + assert_keys_are_wanted(root, response);
-    assert_int_equal(count, 8 + 26 + 2 + 6 + 12 + 4 + 3 + 8 + 4);
+    assert_int_equal(count, 8 + 27 + 2 + 6 + 12 + 4 + 3 + 8 + 4);
     json_decref(root);
 }
 

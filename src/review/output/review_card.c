@@ -70,6 +70,8 @@ static void add_sight_facts(Text *html, const ReviewCase *c, Arena *arena)
                               words_figure(c->contrast_low, arena),
                               words_figure(c->contrast_high, arena)));
     if (c->when) add_fact(html, "When", c->when);
+    if (!isnan(c->eye_failed_share))
+        add_fact(html, "Places of the eye that fail", words_share(c->eye_failed_share, arena));
     add_figure(html, "… with the eye's own veil", c->contrast_with_veil, ": 1", arena);
     add_figure(html, "Height", c->height_arcmin, "arc minutes", arena);
     add_figure(html, "Told apart by", c->jnd, "just noticeable steps", arena);

@@ -107,6 +107,7 @@ static json_t *case_json(const ReviewCase *c)
     set(out, "visibility", number(c->visibility));
     set(out, "dgp", number(c->dgp));
     set(out, "ugr", number(c->ugr));
+    set(out, "eye_failed_share", number(c->eye_failed_share));
     set(out, "visible_share", number(c->visible_share));
     set(out, "level", number(c->level));
     set(out, "display_lux", number(c->display_lux));

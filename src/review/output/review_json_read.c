@@ -231,6 +231,7 @@ static bool read_figures(const JsonView *view, ReviewCase *c, Error *err)
            read_number(view, "visibility", &c->visibility, err) &&
            read_number(view, "dgp", &c->dgp, err) && read_number(view, "ugr", &c->ugr, err) &&
            read_number(view, "visible_share", &c->visible_share, err) &&
+           read_number(view, "eye_failed_share", &c->eye_failed_share, err) &&
            read_number(view, "level", &c->level, err) &&
            read_number(view, "display_lux", &c->display_lux, err) &&
            read_number(view, "margin", &c->margin, err);

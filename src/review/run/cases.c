@@ -17,6 +17,8 @@
 #define FACE_SEED 0x66616365u
 #define EYE_SEED 0x65796573u
 #define SUN_PATHS SYMBOL_POINTS
+#define COARSE_PRECISION 0.05
+#define COARSE_PATHS 8192
 #define SUN_COSINE 0.9999892f /* of the disc's radius */
 
 /* ---- eyes -------------------------------------------------------------------------------- */
@@ -112,13 +114,21 @@ static ProbeAim aim_at(const Stage *stage, const StageSymbol *symbol, Vec3 eye,
     return aim;
 }
 
-static Reading read_symbol(const CaseTools *tools, const ProbeAim *aim,
+/* One point of an eye that looks at a symbol; coarse: to find the worst of many points. */
+typedef struct CaseLook {
+    const StageSymbol *symbol;
+    Vec3               eye;
+    bool               is_coarse;
+} CaseLook;
+
+static Reading read_symbol(const CaseTools *tools, const CaseLook *look, const ProbeAim *aim,
                            const CaseLuminances *shown, Arena scratch)
 {
+    double      wanted = tools->stage->request->precision_contrast;
     ReadingGoal goal = {.brighter = fmax(shown->foreground, shown->background),
                         .darker = fmin(shown->foreground, shown->background),
-                        .precision = tools->stage->request->precision_contrast,
-                        .most = CASE_PATHS_MOST};
+                        .precision = look->is_coarse ? COARSE_PRECISION : wanted,
+                        .most = look->is_coarse ? COARSE_PATHS : CASE_PATHS_MOST};
     return reading_take(aim, &goal, &tools->stage->tools, scratch);
 }
 
@@ -152,10 +162,12 @@ static double visibility_of(const ReviewCase *c, const SymbolSplit *split)
 }
 
 /* What does not depend on the eye is set. The aim has no targets where nothing is visible. */
-static ProbeAim see_symbol(const CaseTools *tools, const StageSymbol *symbol, Vec3 eye,
-                           ReviewCase *c, Arena *arena)
+static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
+                           Arena *arena)
 {
-    const Stage   *stage = tools->stage;
+    const Stage       *stage = tools->stage;
+    const StageSymbol *symbol = look->symbol;
+    Vec3           eye = look->eye;
     CaseLuminances *l = &c->luminance_cd_m2;
     bool *is_visible = ARENA_NEW(arena, bool, symbol->surface.point_count);
     SymbolVisibility seen =
@@ -171,11 +183,11 @@ static ProbeAim see_symbol(const CaseTools *tools, const StageSymbol *symbol, Ve
         symbol_emission(&symbol->surface, &symbol->split, c->level, eye);
     set_shown(l, &emission, seen.transmittance);
     ProbeAim aim = aim_at(stage, symbol, eye, is_visible, arena);
-    Reading  reading = read_symbol(tools, &aim, l, *arena);
+    Reading  reading = read_symbol(tools, look, &aim, l, *arena);
     l->reflected = reading.reflected;
     l->mirror = reading.mirror;
     l->scattered = reading.reflected - reading.mirror;
-    see_stray_light(stage, symbol, eye, c, *arena);
+    if (!look->is_coarse) see_stray_light(stage, symbol, eye, c, *arena);
     set_contrasts(c, reading.sigma);
     c->visibility = visibility_of(c, &symbol->split);
     return aim;
@@ -213,28 +225,53 @@ typedef struct CaseAsk {
     double             face_lux;
 } CaseAsk;
 
+static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
+                           Arena *arena)
+{
+    ProbeAim aim = see_symbol(tools, look, c, arena);
+    bool     in_sun = aim.target_count &&
+                  is_in_sun(tools->stage, &aim, c->luminance_cd_m2.reflected, *arena);
+    judge_ambient(c, tools->profile, in_sun);
+    judge_case(c, tools->profile, arena);
+    return aim;
+}
+
+/* Of the points of an eye; and how many of them fail. */
+static int worst_point(const CaseTools *tools, const CaseLook *look, const Vec3 *points,
+                       int count, ReviewCase *c, Arena scratch)
+{
+    ReviewCase start = *c, worst;
+    int        at = 0, failed = 0;
+    for (int i = 0; i < count; i++) {
+        Arena      room = scratch;
+        CaseLook   one = {look->symbol, points[i], true};
+        ReviewCase seen = start;
+        judge_look(tools, &one, &seen, &room);
+        failed += seen.verdict == VERDICT_FAIL || seen.verdict == VERDICT_NOT_VISIBLE;
+        if (i && !is_worse(&seen, &worst)) continue;
+        worst = seen;
+        at = i;
+    }
+    c->eye_failed_share = (double)failed / count;
+    return at;
+}
+
 static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, ReviewCase *out,
                     Error *err)
 {
     int        count;
     Vec3      *points = stage_eye_points(tools->stage, ask->eye, &count, arena, err);
-    ReviewCase start = start_case(tools, ask->eye, ask->symbol);
-    ProbeAim   worst = {.target_count = 0};
+    ReviewCase c = start_case(tools, ask->eye, ask->symbol);
+    CaseLook   look = {.symbol = ask->symbol};
     if (!points) return error_in_file(err, tools->stage->request->file);
-    start.display_lux = ask->face_lux;
-    for (int i = 0; i < count; i++) {
-        ReviewCase c = start;
-        ProbeAim   aim = see_symbol(tools, ask->symbol, points[i], &c, arena);
-        judge_ambient(&c, tools->profile,
-                      aim.target_count && is_in_sun(tools->stage, &aim,
-                                                    c.luminance_cd_m2.reflected, *arena));
-        judge_case(&c, tools->profile, arena);
-        if (i && !is_worse(&c, out)) continue;
-        *out = c;
-        worst = aim;
-    }
-    if (worst.target_count) case_causes(tools->stage, &worst, out, arena);
-    case_remedies(out, arena);
+    c.display_lux = ask->face_lux;
+    c.eye_failed_share = (double)NAN;
+    look.eye =
+        points[count > 1 ? worst_point(tools, &look, points, count, &c, *arena) : 0];
+    ProbeAim aim = judge_look(tools, &look, &c, arena);
+    if (aim.target_count) case_causes(tools->stage, &aim, &c, arena);
+    case_remedies(&c, arena);
+    *out = c;
     return true;
 }
 

@@ -61,6 +61,17 @@ static void set_all_levels(Stage *stage, float level)
         stage->scene->displays[i].level = level;
 }
 
+/* Air and ground: the condition's, or as usual. */
+static DaylightInput air_of(const ReviewCondition *condition)
+{
+    DaylightInput air = condition->has_environment ? condition->environment.daylight
+                                                   : daylight_input_default(DAYLIGHT_CLEAR);
+    air.kind = DAYLIGHT_CLEAR;
+    if (condition->kind == CONDITION_YEAR_SWEEP) air.where = condition->where;
+    if (condition->kind == CONDITION_ROUTE) air.where = condition->route.points[0].where;
+    return air;
+}
+
 /* The scene without sky and sun, its displays at one level. */
 static bool light_without_sky(Stage *stage, float level, Arena *arena, Error *err)
 {
@@ -320,11 +331,13 @@ static double longest_failure(const SweepSuns *suns, const Told *told, Arena scr
 
 /* ---- the worst, read again as a moment --------------------------------------------------- */
 
-Environment sweep_environment(const ReviewCondition *condition, const SweepSun *sun)
+Environment sweep_environment(const Stage *stage, const SweepSun *sun)
 {
-    Environment environment = condition->environment;
+    const double *forward = stage->request->forward;
+    Environment   environment = {
+        .forward = vec3((float)forward[0], (float)forward[1], (float)forward[2])};
     environment.kind = ENVIRONMENT_SKY;
-    environment.daylight.kind = DAYLIGHT_CLEAR;
+    environment.daylight = air_of(stage->condition);
     environment.daylight.has_time = false;
     environment.has_sun = true;
     environment.sun_azimuth = (float)radians_from_degrees(sun->compass_deg);
@@ -351,7 +364,7 @@ static bool read_worst(Telling *to, const Sight *sight, const SweepSun *sun, Rev
     const Sweep *sweep = to->sweep;
     Arena        scratch = to->scratch;
     Stage        stage = *sweep->stage;
-    Environment  environment = sweep_environment(sweep->stage->condition, sun);
+    Environment  environment = sweep_environment(sweep->stage, sun);
     for (int i = 0; i < stage.scene->display_count; i++)
         stage.scene->displays[i].level = (float)stage.scene_levels[i];
     if (!stage_light(&stage, &environment, &scratch, err)) return false;
@@ -448,13 +461,9 @@ static bool prepare(Sweep *sweep, Arena *scratch, Error *err)
         low = fmin(low, sweep->suns.list[i].elevation_deg);
         high = fmax(high, sweep->suns.list[i].elevation_deg);
     }
-    DaylightInput like = stage->condition->environment.daylight;
-    like.kind = DAYLIGHT_CLEAR;
+    DaylightInput like = air_of(stage->condition);
     like.has_time = false;
     like.threads = stage->tools.threads;
-    if (stage->condition->kind == CONDITION_YEAR_SWEEP) like.where = stage->condition->where;
-    if (stage->condition->kind == CONDITION_ROUTE)
-        like.where = stage->condition->route.points[0].where;
     return sky_table_build(&like, low, high, scratch, &sweep->table, err) &&
            light_without_sky(stage, 0, scratch, err) &&
            stage_symbols(stage, scratch, &sweep->symbols, &sweep->symbol_count, err);

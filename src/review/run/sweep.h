@@ -15,8 +15,8 @@
 #include "review/run/cases.h"
 #include "review/run/job.h"
 
-/* The clear sky of a sweep's condition under one of its suns. */
-Environment sweep_environment(const ReviewCondition *condition, const SweepSun *sun);
+/* The clear sky of the stage's sweep under one of its suns. */
+Environment sweep_environment(const Stage *stage, const SweepSun *sun);
 
 bool run_sweep(const ReviewRun *run, Stage *stage, Arena *scratch, Arena *arena,
                ReviewOutcome *out, Error *err);

@@ -1,0 +1,196 @@
+"""review.py PARHELION -- a glare review says what its scene is: its figures hang together and are
+those of a frame, a sweep's suns are those of moments, and nothing depends on the threads.
+"""
+import csv
+import json
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+from exr import Frame
+from gltf import Scene, png
+
+ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
+from report import Report  # noqa: E402
+
+PANEL = os.path.join(ROOT, "assets", "panels", "ips_cluster.panel")
+EYE = [0.1, 0.15, 0.8]
+
+
+def dashboard():
+    """A display in a niche of white walls, open above and to the right, under a uniform sky."""
+    scene = Scene()
+    bars = png(60, 30, [[255 if 20 <= x < 40 and 8 <= y < 22 else 0 for x in range(60)
+                         for _ in range(3)] for y in range(30)])
+    screen = scene.material("screen", extensions={"PARHELION_display": {
+        "panel": "ips.panel", "content": {"index": scene.image("image/png", bars)},
+        "level": 1}})
+    wall = scene.lambert(0.5)
+    scene.quad(screen, [-0.15, -0.075, 0], [0.3, 0, 0], [0, 0.15, 0])
+    scene.quad(wall, [-0.6, -0.3, 1.2], [1.2, 0, 0], [0, 0, -1.3])
+    scene.quad(wall, [-0.6, -0.3, 1.2], [0, 0, -1.3], [0, 0.8, 0])
+    direction = [-x for x in EYE]
+    scene.view("eye", EYE, direction, 8)
+    return scene
+
+
+def request(**members):
+    return {"title": "test", "scene": ["dash.gltf"], "eyes": {"eye": {"camera": "eye"}},
+            "symbols": {"bar": {"display": "screen", "uv": [0.1, 0.1, 0.9, 0.9]}},
+            "profile": "iso-15008", "precision": {"contrast": 0.004},
+            "frames": {"size": [64, 36], "noise": 0.5, "worst": 0}, **members}
+
+
+def moment(name, **environment):
+    return {"name": name, "environment": environment}
+
+
+class Reviewer:
+    def __init__(self, program, folder):
+        self.program, self.folder = os.path.abspath(program), folder
+
+    def write(self, name, document):
+        with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
+            json.dump(document, file)
+
+    def run(self, *line):
+        return subprocess.run([self.program, *line, "--quiet"], cwd=self.folder,
+                              capture_output=True, text=True, check=False)
+
+    def sun_lux(self, elevation):
+        return json.loads(self.run("sky", "--environment", "sky:clear", "--sun",
+                                   f"0,{elevation}", "--json").stdout)["direct_normal_lx"]
+
+    def review(self, document, out, *options):
+        """The status and what review.json says."""
+        self.write("r.json", document)
+        done = self.run("review", "r.json", "-o", out, *options)
+        assert done.returncode in (0, 1), done.stderr
+        with open(os.path.join(self.folder, out, "review.json"), encoding="utf-8") as file:
+            return done.returncode, json.load(file)
+
+
+def close(found, wanted, share):
+    return abs(found - wanted) <= share * abs(wanted)
+
+
+def check_figures(report, reviewer):
+    document = request(conditions=[moment("grey", type="constant", luminance=3000)])
+    status, review = reviewer.review(document, "grey", "--threads", "2")
+    case = review["cases"][0]
+    light = case["luminance_cd_m2"]
+    bright = max(light["foreground"], light["background"]) + light["reflected"]
+    dark = min(light["foreground"], light["background"]) + light["reflected"]
+    report.claim(close(case["contrast_ratio"], bright / dark, 1e-4), "contrast of its parts")
+    report.claim(close(light["mirror"] + light["scattered"], light["reflected"], 1e-4),
+                 "mirror and scattered do not add up")
+    report.claim(light["mirror"] > 0 and light["scattered"] > 0, "no mirror, or nothing else")
+    low, high = case["contrast_interval"]
+    report.claim(low < case["contrast_ratio"] < high, "contrast lies outside its interval")
+    report.claim(case["visible_share"] == 1, f"visible {case['visible_share']}")
+    report.claim(status == (0 if review["pass"] else 1), f"status {status}")
+    shares = [cause["share"] for cause in case["causes"]]
+    report.claim(close(sum(shares), 1, 1e-4), f"causes add up to {sum(shares)}")
+    report.claim(shares[:-1] == sorted(shares[:-1], reverse=True), "causes by their share")
+    return light["reflected"], (high - low) / 4 / case["contrast_ratio"]
+
+
+def check_frame(report, reviewer, reflected, sure):
+    """The frame's mean over the same rectangle."""
+    reviewer.run("render", "dash.gltf", "--environment", "constant:3000", "--size", "96x54",
+                 "--spp", "64", "--layers", "all", "-o", "frame.exr")
+    c = Frame(os.path.join(reviewer.folder, "frame.exr")).channels
+    seen = [i for i, display in enumerate(c["id.display"]) if display >= 0 and
+            c["display.coverage"][i] == 1 and 0.1 < c["uv.U"][i] < 0.9 and
+            0.1 < c["uv.V"][i] < 0.9]
+    def mean(name):
+        return sum(0.2126 * c[name + ".R"][i] + 0.7152 * c[name + ".G"][i] +
+                   0.0722 * c[name + ".B"][i] for i in seen) / len(seen)
+    report.claim(len(seen) > 300, f"{len(seen)} pixels of the display")
+    wanted = mean("display.reflected")
+    report.claim(abs(reflected / wanted - 1) < 0.01 + 3 * sure,
+                 f"reflected {reflected:.5g}, in the frame {wanted:.5g}")
+    report.claim(close(mean("display.mirror") + mean("display.scattered"), wanted, 1e-5),
+                 "the frame's mirror and scattered do not add up")
+
+
+def check_threads(report, reviewer):
+    document = request(precision={"contrast": 0.02}, conditions=[
+        moment("grey", type="constant", luminance=3000), {
+        "name": "suns", "sweep": {"sun": {"azimuth_deg": [0, 90, 45],
+                                          "elevation_deg": [10, 40, 30]}, "sky": "sky"}}])
+    texts = []
+    for threads in (1, 2, 5):
+        out = f"threads{threads}"
+        reviewer.review(document, out, "--threads", str(threads))
+        texts.append([open(os.path.join(reviewer.folder, out, name), "rb").read()
+                      for name in ("review.json", "cases.csv")])
+    report.claim(texts[0] == texts[1] == texts[2], "threads change the review")
+    with open(os.path.join(reviewer.folder, "threads1", "index.html"), encoding="utf-8") as file:
+        page = file.read()
+    report.claim(not re.search(r'(src|href)="(?!#|data:)', page), "the page loads something")
+    _, review = reviewer.review(document, "again", "--diff", "threads1")
+    with open(os.path.join(reviewer.folder, "again", "diff.json"), encoding="utf-8") as file:
+        diff = json.load(file)
+    report.claim(diff["count"]["same"] == len(review["cases"]) + len(review["sweeps"]),
+                 f"the same design differs: {diff['count']}")
+
+
+def check_suns(report, reviewer):
+    """Suns of a sweep as moments of their own."""
+    suns = random.Random(5).sample([(a, e) for a in range(0, 360, 30) for e in (10, 30, 50)], 5)
+    document = request(precision={"contrast": 0.01}, conditions=[{"name": "suns", "sweep": {
+        "sun": {"azimuth_deg": [0, 330, 30], "elevation_deg": [10, 50, 20]}, "sky": "sky"}}] + [
+        moment(f"{a} {e}", type="sky", sun={"azimuth_deg": a, "elevation_deg": e,
+                                            "illuminance_lx": reviewer.sun_lux(e)})
+        for a, e in suns])
+    _, review = reviewer.review(document, "suns")
+    with open(os.path.join(reviewer.folder, "suns", review["sweeps"][0]["table"]),
+              encoding="utf-8") as file:
+        rows = {(round(float(r["sun_azimuth_deg"])), round(float(r["sun_elevation_deg"]))): r
+                for r in csv.DictReader(file)}
+    report.claim(len(rows) == 36 == review["sweeps"][0]["cases"], f"{len(rows)} suns")
+    for sun, case in zip(suns, review["cases"]):
+        found = float(rows[sun]["reflected_cd_m2"])
+        wanted = case["luminance_cd_m2"]["reflected"]
+        report.claim(close(found, wanted, 0.06),
+                     f"sun {sun}: {found:.5g} in the sweep, {wanted:.5g} by itself")
+
+
+def check_refusals(report, reviewer):
+    for document, words in (
+            (request(conditions=[moment("x", type="constant", luminance=1)],
+                     symbols={"bar": {"display": "scren", "uv": [0, 0, 1, 1]}}), "scren"),
+            (request(conditions=[moment("x", type="constant", luminance=1)],
+                     profile="iso-1500"), "iso-1500"),
+            (request(conditions=[moment("x", type="constant", luminance=1)],
+                     symbols={"bar": {"display": "screen", "uv": [0.1, 0.1, 1.4, 1]}}), "1.4"),
+            (request(conditions=[moment("x", type="constant", luminance=1)],
+                     symbols={"bar": {"display": "screen", "uv": [0, 0, 0.2, 0.2]}}), "bar")):
+        reviewer.write("r.json", document)
+        done = reviewer.run("review", "r.json", "-o", "refused")
+        lines = done.stderr.strip().splitlines()
+        report.claim(done.returncode == 3 and words in done.stderr and len(lines) == 1,
+                     f"status {done.returncode}: {done.stderr}")
+
+
+def main(program):
+    report = Report()
+    with tempfile.TemporaryDirectory() as folder:
+        reviewer = Reviewer(program, folder)
+        shutil.copy(PANEL, os.path.join(folder, "ips.panel"))
+        dashboard().write(os.path.join(folder, "dash.gltf"))
+        check_frame(report, reviewer, *check_figures(report, reviewer))
+        check_threads(report, reviewer)
+        check_suns(report, reviewer)
+        check_refusals(report, reviewer)
+    return report.finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]))
