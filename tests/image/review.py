@@ -1,5 +1,5 @@
-"""review.py PARHELION -- a glare review says what its scene is: its figures hang together and are
-those of a frame, a sweep's suns are those of moments, and nothing depends on the threads.
+"""review.py PARHELION -- a glare review says what its scene is: its figures hang together and
+are those of a frame, a sweep's suns are those of moments, and nothing depends on the threads.
 """
 import csv
 import json
@@ -123,29 +123,34 @@ def check_threads(report, reviewer):
     document = request(precision={"contrast": 0.02}, conditions=[
         moment("grey", type="constant", luminance=3000), {
         "name": "suns", "sweep": {"sun": {"azimuth_deg": [0, 90, 45],
-                                          "elevation_deg": [10, 40, 30]}, "sky": "sky"}}])
+                                          "elevation_deg": [30, 30, 1]}, "sky": "sky"}}])
     texts = []
-    for threads in (1, 2, 5):
+    for threads in (1, 5):
         out = f"threads{threads}"
         reviewer.review(document, out, "--threads", str(threads))
         texts.append([open(os.path.join(reviewer.folder, out, name), "rb").read()
                       for name in ("review.json", "cases.csv")])
-    report.claim(texts[0] == texts[1] == texts[2], "threads change the review")
-    with open(os.path.join(reviewer.folder, "threads1", "index.html"), encoding="utf-8") as file:
+    report.claim(texts[0] == texts[1], "threads change the review")
+    index = os.path.join(reviewer.folder, "threads1", "index.html")
+    with open(index, encoding="utf-8") as file:
         page = file.read()
     report.claim(not re.search(r'(src|href)="(?!#|data:)', page), "the page loads something")
-    _, review = reviewer.review(document, "again", "--diff", "threads1")
+
+
+def check_diff(report, reviewer):
+    document = request(conditions=[moment("grey", type="constant", luminance=3000)])
+    _, review = reviewer.review(document, "again", "--diff", "grey")
     with open(os.path.join(reviewer.folder, "again", "diff.json"), encoding="utf-8") as file:
         diff = json.load(file)
-    report.claim(diff["count"]["same"] == len(review["cases"]) + len(review["sweeps"]),
+    report.claim(diff["count"]["same"] == len(review["cases"]) == 1,
                  f"the same design differs: {diff['count']}")
 
 
 def check_suns(report, reviewer):
     """Suns of a sweep as moments of their own."""
-    suns = random.Random(5).sample([(a, e) for a in range(0, 360, 30) for e in (10, 30, 50)], 5)
+    suns = random.Random(5).sample([(a, e) for a in range(0, 360, 30) for e in (30, 42)], 5)
     document = request(precision={"contrast": 0.01}, conditions=[{"name": "suns", "sweep": {
-        "sun": {"azimuth_deg": [0, 330, 30], "elevation_deg": [10, 50, 20]}, "sky": "sky"}}] + [
+        "sun": {"azimuth_deg": [0, 330, 30], "elevation_deg": [30, 42, 12]}, "sky": "sky"}}] + [
         moment(f"{a} {e}", type="sky", sun={"azimuth_deg": a, "elevation_deg": e,
                                             "illuminance_lx": reviewer.sun_lux(e)})
         for a, e in suns])
@@ -154,7 +159,7 @@ def check_suns(report, reviewer):
               encoding="utf-8") as file:
         rows = {(round(float(r["sun_azimuth_deg"])), round(float(r["sun_elevation_deg"]))): r
                 for r in csv.DictReader(file)}
-    report.claim(len(rows) == 36 == review["sweeps"][0]["cases"], f"{len(rows)} suns")
+    report.claim(len(rows) == 24 == review["sweeps"][0]["cases"], f"{len(rows)} suns")
     for sun, case in zip(suns, review["cases"]):
         found = float(rows[sun]["reflected_cd_m2"])
         wanted = case["luminance_cd_m2"]["reflected"]
@@ -187,6 +192,7 @@ def main(program):
         dashboard().write(os.path.join(folder, "dash.gltf"))
         check_frame(report, reviewer, *check_figures(report, reviewer))
         check_threads(report, reviewer)
+        check_diff(report, reviewer)
         check_suns(report, reviewer)
         check_refusals(report, reviewer)
     return report.finish()

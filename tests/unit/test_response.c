@@ -57,7 +57,7 @@ static Reading read_all(const ProbeAim *aim, Arena scratch)
 
 static Response respond(const ProbeAim *aim, int paths, int threads, Arena *arena)
 {
-    ResponseOptions options = {kernel(), RESPONSE_LEVEL, paths, threads};
+    ResponseOptions options = {kernel(), RESPONSE_LEVEL, paths, threads, 0};
     Response        response;
     response_trace(aim, &options, arena, &response);
     return response;
@@ -108,7 +108,7 @@ TEST(a_luxmeter_in_the_open_responds_with_pi)
     assert_near(uniform_reading(&response, bands), PI, 0.01);
     Vec3 sun = vec3_normalize(vec3(1, 1, 0));
     ProbeSuns suns = {&sun, 1, 0.99999f, false};
-    ResponseOptions options = {kernel(), 4, 16, 1};
+    ResponseOptions options = {kernel(), 4, 16, 1, 0};
     const float *shares = response_suns(&aim, &options, &suns, &world.arena);
     for (int b = 0; b < LIGHT_BANDS; b++) assert_near(shares[b], sqrt(0.5), 2e-3);
     world_end(&world);
@@ -159,7 +159,7 @@ TEST(a_response_to_a_sun_is_what_paths_find_under_it)
     ProbeAim  aim = aim_of(&world);
     Response  response = respond(&aim, 8192, 2, &world.arena);
     ProbeSuns asked = {suns, count, cosf(world.scene->environment.sun_angular_radius), false};
-    ResponseOptions options = {kernel(), 4, 64, 2};
+    ResponseOptions options = {kernel(), 4, 64, 2, 0};
     const float *scattered = response_suns(&aim, &options, &asked, &world.arena);
     double squares = 0;
     int    judged = 0;
@@ -222,7 +222,7 @@ TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
     DaylightInput like = daylight_input_default(DAYLIGHT_CLEAR);
     like.threads = 2;
     assert_true(sky_table_build(&like, 10, 60, &world.arena, &table, &err));
-    FarTools tools = {&stage, &table, {suns, 4}, 8192, 64, 0};
+    FarTools tools = {&stage, &table, {suns, 4}, 8192, 0, 64, 0};
     FarProbe probe = {.aim = aim_of(&world)};
     probe.aim.context = &stage.context;
     far_probe_trace(&probe, &tools, &world.arena);

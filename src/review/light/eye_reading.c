@@ -85,7 +85,7 @@ static double lux_of_sun(const EyePaths *paths, Arena scratch)
     LitPoint        pupil = {paths->aim.eye, paths->gaze, false};
     ProbeAim        aim = {.context = &stage->context, .meter = &pupil, .seed = SEED};
     ProbeSuns       suns = {&towards, 1, 0.99999f, false};
-    ResponseOptions options = {stage->tools.kernel, 0, SUN_PATHS, stage->tools.threads};
+    ResponseOptions options = {stage->tools.kernel, 0, SUN_PATHS, stage->tools.threads, 0};
     const float    *shares = response_suns(&aim, &options, &suns, &scratch);
     for (int b = 0; b < LIGHT_BANDS; b++) lux += (double)shares[b] * (double)bands[b];
     return lux;

@@ -153,7 +153,8 @@ static Vec3 *sun_directions(const FarTools *tools, Arena *arena)
 void far_probe_trace(FarProbe *probe, const FarTools *tools, Arena *arena)
 {
     const ReadingTools *with = &tools->stage->tools;
-    ResponseOptions options = {with->kernel, RESPONSE_LEVEL, tools->paths, with->threads};
+    ResponseOptions options = {with->kernel, RESPONSE_LEVEL, tools->paths, with->threads,
+                               tools->precision};
     ProbeSuns suns = {.towards = sun_directions(tools, arena), .count = tools->suns.count,
                       .cos_radius = (float)cos(radians_from_degrees(SUN_RADIUS_DEG))};
     response_trace(&probe->aim, &options, arena, &probe->response);

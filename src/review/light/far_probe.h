@@ -47,7 +47,8 @@ typedef struct FarTools {
     const Stage    *stage;
     const SkyTable *table;
     FarSuns         suns;
-    int             paths;       /* of the response */
+    int             paths;       /* of the response, at most, */
+    double          precision;   /* and when it ends before */
     int             sun_paths;   /* of the first vertex; and of its mirror: */
     int             mirror_paths; /* 0: it has none */
 } FarTools;

@@ -150,7 +150,8 @@ void response_trace(const ProbeAim *aim, const ResponseOptions *options, Arena *
     int    pilot = chunks < PILOT ? chunks : PILOT;
     trace_wave(&trace, &out->cells, NULL, pilot, scratch);
     const bool *is_open = open_cells(&out->cells, centers, trace.sums, &scratch);
-    while (trace.first_chunk < chunks) {
+    while (trace.first_chunk < chunks &&
+           (trace.first_chunk <= PILOT || relative_error(&trace) > options->precision)) {
         int left = chunks - trace.first_chunk;
         trace_wave(&trace, &out->cells, is_open, left < WAVE ? left : WAVE, scratch);
     }

@@ -24,8 +24,9 @@
 typedef struct ResponseOptions {
     const Kernel *kernel;
     int level;       /* of the triangles */
-    int paths;       /* at least RESPONSE_CHUNK: whole chunks are traced */
+    int paths;       /* at most; at least RESPONSE_CHUNK: whole chunks are traced */
     int threads;
+    double precision; /* response_trace ends when relative_error is no more; 0: never before */
 } ResponseOptions;
 
 #define RESPONSE_CHUNK 32

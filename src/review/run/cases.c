@@ -65,7 +65,7 @@ static bool is_in_sun(const Stage *stage, const ProbeAim *aim, double reflected,
     double direct = 0;
     if (!stage_sun(stage, &towards, bands)) return false;
     ProbeSuns       suns = {&towards, 1, SUN_COSINE, false};
-    ResponseOptions options = {stage->tools.kernel, 0, SUN_PATHS, stage->tools.threads};
+    ResponseOptions options = {stage->tools.kernel, 0, SUN_PATHS, stage->tools.threads, 0};
     for (int by_mirror = 0; by_mirror < 2; by_mirror++) {
         Arena room = scratch;
         suns.by_mirror = by_mirror;

@@ -144,7 +144,8 @@ static bool make_frame(const ReviewRun *run, const Candidate *of, int number, Ar
     Stage stage;
     bool  ok = stage_open(&options, &scratch, &told_before, &stage, err);
     if (ok) {
-        if (of->table) sky = sweep_environment(&stage, &of->table->suns->list[of->table->worst]);
+        const SweepTable *table = of->table;
+        if (table) sky = sweep_environment(&stage, &table->suns->list[table->worst]);
         else if (c->has_environment) sky = c->environment;
         FrameAsk ask = {&stage, eye_named(run->request, of->of->eye),
                         middle_of(&stage, of->of->symbol, scratch), run->folder,

@@ -7,7 +7,8 @@
 #include "review/judge.h"
 #include "review/output/review_decide.h"
 
-#define RESPONSE_PATHS 2048
+#define RESPONSE_PATHS 4096
+#define RESPONSE_PRECISION 0.02
 #define METER_PATHS 1024
 #define SUN_PATHS 64     /* of the first vertex */
 #define MIRROR_PATHS 2048 /* of its mirror, which cost little */
@@ -482,7 +483,7 @@ bool run_sweep(const ReviewRun *run, Stage *stage, Arena *scratch, Arena *arena,
     if (!light_without_sky(stage, 1, scratch, err)) return false;
     read_own(&sweep, true, *scratch);
     FarTools tools = {stage, &sweep.table, {sweep.suns.angles, sweep.suns.count},
-                      RESPONSE_PATHS, SUN_PATHS, MIRROR_PATHS};
+                      RESPONSE_PATHS, RESPONSE_PRECISION, SUN_PATHS, MIRROR_PATHS};
     Progress progress = progress_start(run->progress, condition->name, "probes",
                                        sweep.sight_count);
     trace_all(&sweep, &tools, &progress, scratch);
