@@ -65,6 +65,46 @@ static bool run_condition(const ReviewRun *run, const ReviewCondition *condition
     return ok;
 }
 
+/* ---- what a reader must know ------------------------------------------------------------- */
+
+static void add_note(Review *review, const char ***notes, const char *text)
+{
+    (*notes)[review->note_count++] = text;
+    review->notes = *notes;
+}
+
+static bool has_sweeps(const ReviewRequest *request)
+{
+    for (int i = 0; i < request->condition_count; i++)
+        if (request->conditions[i].kind != CONDITION_MOMENT) return true;
+    return false;
+}
+
+static bool has_boxes(const ReviewRequest *request)
+{
+    for (int i = 0; i < request->eye_count; i++)
+        if (request->eyes[i].kind == EYE_BOX) return true;
+    return false;
+}
+
+static void add_notes(const ReviewRequest *request, Review *review, Arena *arena)
+{
+    const char **notes = ARENA_NEW(arena, const char *, request->gaze_count + 4);
+    if (has_sweeps(request)) {
+        add_note(review, &notes,
+                 "Sweeps: skies are clear; light that comes by a second surface, glints by way "
+                 "of chrome or glass among it, is a mean over about 3 degrees of the sun's "
+                 "place. The worst case of each sweep is traced by itself.");
+        if (has_boxes(request))
+            add_note(review, &notes, "Sweeps: an eye box counts by its middle.");
+    }
+    for (int i = 0; i < request->gaze_count; i++)
+        if (!request->gazes[i].at_symbols)
+            add_note(review, &notes,
+                     arena_format(arena, "Gaze '%s': veils are read for eyes that look at the "
+                                         "symbols; this one was not.", request->gazes[i].name));
+}
+
 /* ---- frames of the worst ----------------------------------------------------------------- */
 
 /* A case that may be rendered: of a moment, or the worst of a sweep. */
@@ -197,6 +237,7 @@ bool review_run(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *e
         progress_update(&progress, i + 1);
     }
     progress_end(&progress, request->condition_count);
+    add_notes(request, &out->review, arena);
     review_decide(&out->review);
     return !run->folder || make_frames(run, out, arena, err);
 }

@@ -475,6 +475,11 @@ bool run_sweep(const ReviewRun *run, Stage *stage, Arena *scratch, Arena *arena,
 {
     const ReviewCondition *condition = stage->condition;
     Sweep sweep = {.run = run, .stage = stage, .suns = sweep_suns(condition, arena)};
+    if (condition->weather_id != NO_ID)
+        return error_at(err, ERROR_INPUT, run->request->file,
+                        arena_format(arena, "/conditions/%s", condition->name),
+                        "a sweep under the skies of a weather file is not supported: wanted "
+                        "\"weather\": \"clear\"");
     if (condition->level_id != NO_ID) sweep.level = &run->request->levels[condition->level_id];
     if (!prepare(&sweep, scratch, err)) return false;
     place_meters(&sweep, scratch);
