@@ -146,6 +146,16 @@ def check_diff(report, reviewer):
                  f"the same design differs: {diff['count']}")
 
 
+def check_start(report, reviewer):
+    done = reviewer.run("review", "--init", "start.json", "dash.gltf")
+    report.claim(done.returncode == 0, done.stderr)
+    done = reviewer.run("review", "start.json", "--dry-run", "--json")
+    plan = json.loads(done.stdout)
+    report.claim(plan["eyes"] == 1 and plan["symbols"] == 1 and plan["sweeps"] > 0, str(plan))
+    done = reviewer.run("review", "--init", "start.json", "dash.gltf")
+    report.claim(done.returncode == 4 and "start.json" in done.stderr, done.stderr)
+
+
 def check_suns(report, reviewer):
     """Suns of a sweep as moments of their own."""
     suns = random.Random(5).sample([(a, e) for a in range(0, 360, 30) for e in (30, 42)], 5)
@@ -193,6 +203,7 @@ def main(program):
         check_frame(report, reviewer, *check_figures(report, reviewer))
         check_threads(report, reviewer)
         check_diff(report, reviewer)
+        check_start(report, reviewer)
         check_suns(report, reviewer)
         check_refusals(report, reviewer)
     return report.finish()
