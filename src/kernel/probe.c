@@ -61,8 +61,12 @@ void probe_hear(const ProbeAim *aim, int first, int end, const PathListener *lis
     for (int path = first; path < end; path++) {
         Wavelengths wavelengths;
         Sampler     sampler = path_start(aim, path, &wavelengths);
-        path_trace_told(aim->context, aimed_ray(aim, path), &wavelengths, &sampler, listener,
-                        statistics);
+        if (aim->meter)
+            path_illuminance_told(aim->context, *aim->meter, &wavelengths, &sampler, listener,
+                                  statistics);
+        else
+            path_trace_told(aim->context, aimed_ray(aim, path), &wavelengths, &sampler,
+                            listener, statistics);
     }
 }
 

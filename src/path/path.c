@@ -341,6 +341,7 @@ static void gather_sample(PathWalk *walk, const Surface *surface, Spectrum radia
     }
     PathTale before = *walk->tale;
     if (surface->part_id != NO_ID) tale_step(walk->tale, surface->part_id, PATH_SCATTERS);
+    else walk->tale->towards = light->wi; /* a luxmeter's own sample */
     gather(walk, radiance, light->set, source_of(walk, light));
     *walk->tale = before;
 }
@@ -389,7 +390,7 @@ typedef struct MirrorWalk {
     SunMirrorQuestion question;
 } MirrorWalk;
 
-static void gather_mirrored(PathWalk *walk, const Surface *surface, const Surface *mirror,
+static void gather_mirrored(PathWalk *walk, const Surface *surface, const SunMirror *mirror,
                             Spectrum radiance)
 {
     if (!walk->listener) {
@@ -397,8 +398,9 @@ static void gather_mirrored(PathWalk *walk, const Surface *surface, const Surfac
         return;
     }
     PathTale before = *walk->tale;
-    tale_step(walk->tale, surface->part_id, PATH_SCATTERS);
-    tale_step(walk->tale, mirror->part_id, PATH_REFLECTS);
+    if (surface->part_id != NO_ID) tale_step(walk->tale, surface->part_id, PATH_SCATTERS);
+    else walk->tale->towards = mirror->light.wi;
+    tale_step(walk->tale, mirror->surface.part_id, PATH_REFLECTS);
     gather(walk, radiance, LIGHTS_SUN, 0);
     *walk->tale = before;
 }
@@ -421,7 +423,7 @@ static void add_mirrored_sun(void *user, uint32_t triangle, const ReflectionPoin
     if (spectrum_is_zero(share)) return;
     share *= visibility(walk, &mirror.surface, &asked->question.sun);
     if (spectrum_is_zero(share)) return;
-    gather_mirrored(walk, surface, &mirror.surface,
+    gather_mirrored(walk, surface, &mirror,
                     share * visibility(walk, surface, &mirror.light));
 }
 
@@ -791,7 +793,7 @@ void path_trace_told(const PathContext *context, Ray ray, const Wavelengths *wav
                      PathStatistics *statistics)
 {
     WalkRoom room;
-    PathTale tale = {.pane_id = NO_ID};
+    PathTale tale = {.towards = ray.direction, .pane_id = NO_ID};
     PathWalk walk = walk_start(context, wavelengths, sampler, statistics, &room);
     walk.ray = ray;
     walk.listener = listener;
@@ -847,7 +849,21 @@ static void walk_from_head(PathWalk *walk, LitPoint point)
     walk->throughput = spectrum_all(PI_F);
     lead_alone(walk->context, walk->spare);
     add_light_samples(walk, &head, point.ns, walk->spare);
-    if (scatter(walk, &head, point.ns) == STEP_SCATTERED) walk_path(walk);
+    if (scatter(walk, &head, point.ns) != STEP_SCATTERED) return;
+    if (walk->tale) walk->tale->towards = walk->ray.direction;
+    walk_path(walk);
+}
+
+void path_illuminance_told(const PathContext *context, LitPoint point,
+                           const Wavelengths *wavelengths, Sampler *sampler,
+                           const PathListener *listener, PathStatistics *statistics)
+{
+    WalkRoom room;
+    PathTale tale = {.pane_id = NO_ID};
+    PathWalk walk = walk_start(context, wavelengths, sampler, statistics, &room);
+    walk.listener = listener;
+    walk.tale = &tale;
+    walk_from_head(&walk, point);
 }
 
 void path_ask_far_at(const PathContext *context, LitPoint point, const Wavelengths *wavelengths,

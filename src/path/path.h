@@ -27,6 +27,7 @@ typedef struct PathTale {
     PathStep step[PATH_STEPS_TOLD]; /* the first of them; panes that the eye looks straight
                                        through count too */
     int      count;                 /* all of them, also those that have no room */
+    Vec3     towards; /* unit: from the eye, or the luxmeter, along the first stretch */
     LightSet source;
     int      source_id;             /* emitters: scene part; punctual: scene light; else 0 */
     int      pane_id;               /* part of the last pane that the light passed on its way to
@@ -59,6 +60,11 @@ typedef struct PathResult {
 void path_trace_told(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
                      Sampler *sampler, const PathListener *listener,
                      PathStatistics *statistics);
+
+/* As path_illuminance, for a listener: XYZ in lx. */
+void path_illuminance_told(const PathContext *context, LitPoint point,
+                           const Wavelengths *wavelengths, Sampler *sampler,
+                           const PathListener *listener, PathStatistics *statistics);
 
 /* Radiance along `ray` at the given wavelengths, as tristimulus values. */
 void path_trace(const PathContext *context, Ray ray, const Wavelengths *wavelengths,

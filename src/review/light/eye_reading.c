@@ -4,7 +4,6 @@
 
 #include "base/parallel.h"
 #include "base/units.h"
-#include "review/light/response.h"
 #include "vision/disability_glare.h"
 #include "vision/discomfort.h"
 #include "vision/position_index.h"
@@ -12,11 +11,9 @@
 #define PATHS 4096
 #define CHUNK 64
 #define SEED 0x7665696cu
-#define SUN_PATHS 16
 #define FROM_DEG DISABILITY_GLARE_MIN_DEG
 #define TO_DEG 89.9
 #define SUN_RADIUS_DEG 0.26645
-#define WITHIN_SUN_DEG 0.3 /* such a direction would meet the disc */
 
 /* Angles are drawn evenly in their logarithm, as f cos theta sin theta, about 1 / theta, asks;
  * Hammersley's points. */
@@ -27,9 +24,8 @@ typedef struct EyePaths {
     HumanEye     whose;
     Vec3        *targets;         /* one a path; the rest likewise: */
     double      *solid_angles;    /* sr that it stands for */
-    double      *luminances;      /* cd m^-2 that it found, without the sun's disc */
-    Vec3         sun;
-    bool         has_sun;
+    double      *seen;            /* cd m^-2 that it found, without the sun's disc; */
+    double      *apart;           /* of it, what light samples do not read */
 } EyePaths;
 
 static Vec3 local_direction(double theta, double phi)
@@ -58,37 +54,91 @@ static double degrees_between(Vec3 a, Vec3 b)
     return degrees_from_radians(acos(fmin(fmax((double)vec3_dot(a, b), -1), 1)));
 }
 
+/* What one path hears. The veil of lamps, displays and the sun that the eye sees by themselves
+ * is read by light samples, which find small ones too. */
+typedef struct EyePath {
+    double seen;  /* cd m^-2, without the sun's disc */
+    double apart; /* of it, what light samples do not read */
+} EyePath;
+
+static void hear_path(void *user, const PathTale *tale, const float xyz[3])
+{
+    EyePath *path = user;
+    bool     is_direct = tale->count == 0;
+    if (is_direct && tale->source == LIGHTS_SUN) return;
+    path->seen += (double)xyz[1];
+    if (!is_direct || tale->source == LIGHTS_SKY) path->apart += (double)xyz[1];
+}
+
 static void read_chunk(void *user, int item, int worker)
 {
     (void)worker;
     EyePaths      *paths = user;
     PathStatistics statistics = {0};
-    ProbeLook      looks[CHUNK];
-    int            first = item * CHUNK;
-    paths->stage->tools.kernel->look(&paths->aim, first, first + CHUNK, looks, &statistics);
-    for (int i = 0; i < CHUNK; i++) {
-        bool is_sun = paths->has_sun && looks[i].is_far &&
-                      degrees_between(direction_of(paths, first + i), paths->sun) <
-                          WITHIN_SUN_DEG;
-        paths->luminances[first + i] = is_sun ? 0 : (double)looks[i].seen[1];
+    for (int i = item * CHUNK; i < (item + 1) * CHUNK; i++) {
+        EyePath      path = {0, 0};
+        PathListener listener = {hear_path, &path};
+        paths->stage->tools.kernel->hear(&paths->aim, i, i + 1, &listener, &statistics);
+        paths->seen[i] = path.seen;
+        paths->apart[i] = path.apart;
     }
 }
 
-/* Illuminance of the pupil by the disc itself. */
-static double lux_of_sun(const EyePaths *paths, Arena scratch)
+/* ---- what is seen by itself -------------------------------------------------------------- */
+
+/* Sums over the pupil's light samples. */
+typedef struct PupilSums {
+    const EyePaths *paths;
+    double          veil, sun_lx;
+} PupilSums;
+
+static double veil_of(const EyePaths *paths, Vec3 towards, double lux)
 {
-    const Stage *stage = paths->stage;
-    Vec3  towards;
-    float bands[LIGHT_BANDS];
-    double lux = 0;
-    if (!stage_sun(stage, &towards, bands) || vec3_dot(towards, paths->gaze) <= 0) return 0;
-    LitPoint        pupil = {paths->aim.eye, paths->gaze, false};
-    ProbeAim        aim = {.context = &stage->context, .meter = &pupil, .seed = SEED};
-    ProbeSuns       suns = {&towards, 1, 0.99999f, false};
-    ResponseOptions options = {stage->tools.kernel, 0, SUN_PATHS, stage->tools.threads, 0};
-    const float    *shares = response_suns(&aim, &options, &suns, &scratch);
-    for (int b = 0; b < LIGHT_BANDS; b++) lux += (double)shares[b] * (double)bands[b];
-    return lux;
+    double degrees = degrees_between(towards, paths->gaze);
+    return degrees >= FROM_DEG ? lux * disability_glare(degrees, paths->whose) : 0;
+}
+
+static void hear_pupil(void *user, const PathTale *tale, const float xyz[3])
+{
+    PupilSums *sums = user;
+    if (tale->count || tale->source == LIGHTS_SKY) return;
+    sums->veil += veil_of(sums->paths, tale->towards, (double)xyz[1]);
+    if (tale->source == LIGHTS_SUN) sums->sun_lx += (double)xyz[1];
+}
+
+typedef struct PupilWork {
+    ProbeAim   aim;
+    const EyePaths *paths;
+    PupilSums *sums; /* one a chunk */
+} PupilWork;
+
+static void read_pupil_chunk(void *user, int item, int worker)
+{
+    (void)worker;
+    PupilWork     *work = user;
+    PathStatistics statistics = {0};
+    PathListener   listener = {hear_pupil, &work->sums[item]};
+    work->sums[item] = (PupilSums){.paths = work->paths};
+    work->paths->stage->tools.kernel->hear(&work->aim, item * CHUNK, (item + 1) * CHUNK,
+                                           &listener, &statistics);
+}
+
+/* Lamps, displays and the sun's disc: light samples alone find them here. */
+static PupilSums read_pupil(const EyePaths *paths, Arena scratch)
+{
+    LitPoint    pupil = {paths->aim.eye, paths->gaze, false};
+    PathContext lights_only = paths->stage->context;
+    PupilWork   work = {{.context = &lights_only, .meter = &pupil, .seed = SEED + 1}, paths,
+                        ARENA_NEW(&scratch, PupilSums, PATHS / CHUNK)};
+    PupilSums   all = {.paths = paths};
+    lights_only.strategy = PATH_LIGHTS_ONLY;
+    lights_only.max_bounces = 1;
+    parallel_for(paths->stage->tools.threads, PATHS / CHUNK, read_pupil_chunk, &work);
+    for (int i = 0; i < PATHS / CHUNK; i++) {
+        all.veil += work.sums[i].veil / PATHS;
+        all.sun_lx += work.sums[i].sun_lx / PATHS;
+    }
+    return all;
 }
 
 /* ---- figures ----------------------------------------------------------------------------- */
@@ -106,33 +156,39 @@ typedef struct EyeSums {
     double       source_lx;
 } EyeSums;
 
-static void add_light(const EyePaths *paths, Vec3 d, double luminance, double solid_angle,
-                      EyeSums *sums)
+static void add_source(const EyePaths *paths, Vec3 d, double luminance, double solid_angle,
+                       EyeSums *sums)
 {
-    double cosine = (double)vec3_dot(d, paths->gaze);
-    double lux = luminance * solid_angle * cosine;
-    double degrees = fmax(degrees_between(d, paths->gaze), FROM_DEG);
+    double lux = luminance * solid_angle * (double)vec3_dot(d, paths->gaze);
     sums->reading.vertical_lx += lux;
-    sums->reading.veil += lux * disability_glare(degrees, paths->whose);
     if (luminance <= EYE_GLARE_CD_M2) return;
     sums->source_lx += lux;
     sums->sources[sums->count++] =
         (GlareSource){luminance, solid_angle, position_of(paths, d), 0};
 }
 
-static EyeReading sum_up(const EyePaths *paths, double sun_lx, Arena scratch)
+static void add_path(const EyePaths *paths, int i, EyeSums *sums)
+{
+    Vec3   d = direction_of(paths, i);
+    double weight = paths->solid_angles[i] * (double)vec3_dot(d, paths->gaze);
+    add_source(paths, d, paths->seen[i], paths->solid_angles[i], sums);
+    sums->reading.veil += veil_of(paths, d, paths->apart[i] * weight);
+}
+
+static EyeReading sum_up(const EyePaths *paths, const PupilSums *pupil, Arena scratch)
 {
     EyeSums sums = {.sources = ARENA_NEW(&scratch, GlareSource, PATHS + 1)};
-    for (int i = 0; i < PATHS; i++)
-        add_light(paths, direction_of(paths, i), paths->luminances[i], paths->solid_angles[i],
-                  &sums);
-    if (sun_lx > 0) {
+    Vec3    towards;
+    float   bands[LIGHT_BANDS];
+    for (int i = 0; i < PATHS; i++) add_path(paths, i, &sums);
+    if (pupil->sun_lx > 0 && stage_sun(paths->stage, &towards, bands)) {
         double sine = sin(radians_from_degrees(SUN_RADIUS_DEG)), disc = PI * sine * sine;
-        double cosine = (double)vec3_dot(paths->sun, paths->gaze);
-        add_light(paths, paths->sun, sun_lx / (disc * cosine), disc, &sums);
+        double cosine = (double)vec3_dot(towards, paths->gaze);
+        add_source(paths, towards, pupil->sun_lx / (disc * cosine), disc, &sums);
     }
     EyeReading *r = &sums.reading;
     double      background = (r->vertical_lx - sums.source_lx) / PI;
+    r->veil += pupil->veil;
     r->dgp = discomfort_dgp(r->vertical_lx, sums.sources, sums.count) *
              discomfort_dgp_low_light(r->vertical_lx);
     r->ugr = sums.count ? discomfort_ugr(background, sums.sources, sums.count) : (double)NAN;
@@ -142,19 +198,19 @@ static EyeReading sum_up(const EyePaths *paths, double sun_lx, Arena scratch)
 EyeReading eye_read(const Stage *stage, Vec3 eye, Vec3 at, Arena scratch)
 {
     const ReviewObserver *observer = &stage->request->observer;
-    float    bands[LIGHT_BANDS];
     EyePaths paths = {.stage = stage, .gaze = vec3_normalize(vec3_sub(at, eye)),
                       .whose = {observer->age_years, observer->pigment},
                       .targets = ARENA_NEW(&scratch, Vec3, PATHS),
                       .solid_angles = ARENA_NEW(&scratch, double, PATHS),
-                      .luminances = ARENA_NEW(&scratch, double, PATHS)};
+                      .seen = ARENA_NEW(&scratch, double, PATHS),
+                      .apart = ARENA_NEW(&scratch, double, PATHS)};
     Frame    frame = frame_from_z(paths.gaze);
     paths.right = vec3_normalize(vec3_cross(paths.gaze, vec3(0, 1, 0)));
     paths.up = vec3_cross(paths.right, paths.gaze);
     paths.aim = (ProbeAim){.context = &stage->context, .eye = eye, .targets = paths.targets,
                            .target_count = PATHS, .seed = SEED};
-    paths.has_sun = stage_sun(stage, &paths.sun, bands);
     for (int i = 0; i < PATHS; i++) aim_path(&paths, &frame, i);
     parallel_for(stage->tools.threads, PATHS / CHUNK, read_chunk, &paths);
-    return sum_up(&paths, lux_of_sun(&paths, scratch), scratch);
+    PupilSums pupil = read_pupil(&paths, scratch);
+    return sum_up(&paths, &pupil, scratch);
 }

@@ -7,7 +7,9 @@
  * own angle. Discomfort (vision/discomfort.h): what is brighter than EYE_GLARE_CD_M2 is a
  * source. Both figures are secondary ones, fitted to rooms; nothing is decided by them.
  *
- * Approximate  small lamps are met by chance: their part is noisy.
+ * Lamps, displays and the sun that the eye sees by themselves are read by light samples, lamps
+ * without a body too; all else by paths that are drawn as the veil weighs them.
+ *
  * Units        cd m^-2, lx.
  * Memory       scratch only. Threads: starts its own; the same figures for any count.
  */

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/parallel.h"
 #include "base/units.h"
 #include "review/judge.h"
 #include "review/output/review_decide.h"
@@ -278,22 +279,51 @@ static bool is_worse(const Told *told, int sun, int than)
     return told->contrast[sun] < told->contrast[than];
 }
 
+#define TELL_CHUNK 256 /* suns of one piece of work */
+#define TELL_BYTES ((size_t)1 << 20) /* scratch of a worker */
+
+typedef struct TellWork {
+    const Sweep    *sweep;
+    const Sight    *sight;
+    const FarTools *tools;
+    Told           *told;
+    Arena          *scratch; /* one a worker */
+} TellWork;
+
+static void tell_sun(const TellWork *work, int sun, Arena scratch)
+{
+    Told      *told = work->told;
+    ReviewCase c = case_at(work->sweep, work->sight, work->tools, sun);
+    judge_case(&c, work->sweep->run->profile, &scratch);
+    told->contrast[sun] = (float)c.contrast_ratio;
+    told->margin[sun] = (float)c.margin;
+    told->reflected[sun] = (float)c.luminance_cd_m2.reflected;
+    told->mirror[sun] = (float)c.luminance_cd_m2.mirror;
+    told->level[sun] = (float)c.level;
+    told->lux[sun] = (float)c.display_lux;
+    told->verdict[sun] = (unsigned char)c.verdict;
+}
+
+static void tell_chunk(void *user, int item, int worker)
+{
+    const TellWork *work = user;
+    int first = item * TELL_CHUNK, end = first + TELL_CHUNK, count = work->sweep->suns.count;
+    for (int sun = first; sun < end && sun < count; sun++)
+        tell_sun(work, sun, work->scratch[worker]);
+}
+
 static Told tell(const Sweep *sweep, const Sight *sight, const FarTools *tools, Arena *arena)
 {
-    Told told = told_start(sweep->suns.count, arena);
-    for (int i = 0; i < sweep->suns.count; i++) {
-        Arena      scratch = *arena;
-        ReviewCase c = case_at(sweep, sight, tools, i);
-        judge_case(&c, sweep->run->profile, &scratch);
-        told.contrast[i] = (float)c.contrast_ratio;
-        told.margin[i] = (float)c.margin;
-        told.reflected[i] = (float)c.luminance_cd_m2.reflected;
-        told.mirror[i] = (float)c.luminance_cd_m2.mirror;
-        told.level[i] = (float)c.level;
-        told.lux[i] = (float)c.display_lux;
-        told.verdict[i] = (unsigned char)c.verdict;
-        if (is_worse(&told, i, told.worst)) told.worst = i;
-    }
+    int      count = sweep->suns.count, threads = sweep->run->threads;
+    Told     told = told_start(count, arena);
+    TellWork work = {sweep, sight, tools, &told, NULL};
+    Arena    room = *arena;
+    work.scratch = ARENA_NEW(&room, Arena, threads);
+    for (int i = 0; i < threads; i++) work.scratch[i] = arena_reserve(TELL_BYTES);
+    parallel_for(threads, (count + TELL_CHUNK - 1) / TELL_CHUNK, tell_chunk, &work);
+    for (int i = 0; i < threads; i++) arena_release(&work.scratch[i]);
+    for (int sun = 0; sun < count; sun++)
+        if (is_worse(&told, sun, told.worst)) told.worst = sun;
     return told;
 }
 

@@ -34,8 +34,8 @@ bool sweep_table_write(const SweepTable *table, const ReviewCondition *condition
     Arena own = arena_reserve((size_t)1 << 32);
     Text  text = {.arena = &own};
     text_format(&text, "%ssun_azimuth_deg,sun_elevation_deg,heading_deg,vehicle_azimuth_deg,"
-                       "minutes,level,display_lx,reflected_cd_m2,mirror_cd_m2,contrast_ratio,"
-                       "margin,verdict\n", head_of(condition));
+                       "minutes,level,display_lx,reflected_cd_m2,sun_by_mirror_cd_m2,"
+                       "contrast_ratio,margin,verdict\n", head_of(condition));
     for (int i = 0; i < table->suns->count; i++) {
         const SweepSun *sun = &table->suns->list[i];
         add_time(&text, table, condition, sun);
