@@ -150,16 +150,22 @@ static Vec3 *sun_directions(const FarTools *tools, Arena *arena)
     return towards;
 }
 
-void far_probe_trace(FarProbe *probe, const FarTools *tools, Arena *arena)
+void far_probe_respond(FarProbe *probe, const FarTools *tools, Arena *arena)
 {
     const ReadingTools *with = &tools->stage->tools;
-    ResponseOptions options = {with->kernel, RESPONSE_LEVEL, tools->paths, with->threads,
-                               tools->precision};
+    ResponseOptions     options = {with->kernel, RESPONSE_LEVEL, tools->paths, with->threads,
+                                   tools->precision};
+    response_trace(&probe->aim, &options, arena, &probe->response);
+}
+
+void far_probe_ask(FarProbe *probe, const FarTools *tools, Arena *arena)
+{
+    const ReadingTools *with = &tools->stage->tools;
+    ResponseOptions options = {with->kernel, RESPONSE_LEVEL, tools->sun_paths, with->threads,
+                               0};
     ProbeSuns suns = {.towards = sun_directions(tools, arena), .count = tools->suns.count,
                       .cos_radius = (float)cos(radians_from_degrees(SUN_RADIUS_DEG))};
-    response_trace(&probe->aim, &options, arena, &probe->response);
     sum_skies(probe, tools, arena);
-    options.paths = tools->sun_paths;
     probe->scattered = response_suns(&probe->aim, &options, &suns, arena);
     suns.by_mirror = true;
     options.paths = tools->mirror_paths;

@@ -53,8 +53,11 @@ typedef struct FarTools {
     int             mirror_paths; /* 0: it has none */
 } FarTools;
 
-/* probe->aim is set; all else is made. */
-void far_probe_trace(FarProbe *probe, const FarTools *tools, Arena *arena);
+/* probe->aim is set: its response is made, for any table and suns. */
+void far_probe_respond(FarProbe *probe, const FarTools *tools, Arena *arena);
+
+/* After that: the rest, for the tools' own. */
+void far_probe_ask(FarProbe *probe, const FarTools *tools, Arena *arena);
 
 typedef struct FarReading {
     double sky, sun_first, sun_rest; /* they add up */

@@ -11,7 +11,7 @@
 #include "base/progress.h"
 #include "review/light/stage.h"
 
-#define FRAMES_SAMPLES 1024
+#define FRAMES_SAMPLES 256
 
 typedef struct FrameAsk {
     const Stage     *stage;

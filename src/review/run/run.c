@@ -46,8 +46,42 @@ static bool run_moment(const ReviewRun *run, Stage *stage, Arena *scratch, Arena
     return true;
 }
 
-static bool run_condition(const ReviewRun *run, const ReviewCondition *condition, Arena *arena,
-                          ReviewOutcome *out, Error *err)
+/* Do two conditions have one scene? */
+static bool same_scene(const ReviewRequest *request, const ReviewCondition *a,
+                       const ReviewCondition *b)
+{
+    if (a->with_id != b->with_id || a->light_count != b->light_count ||
+        a->content_count != b->content_count ||
+        memcmp(a->polarity, b->polarity,
+               (size_t)request->symbol_count * sizeof *a->polarity) != 0)
+        return false;
+    for (int i = 0; i < a->light_count; i++)
+        if (strcmp(a->lights[i], b->lights[i]) != 0) return false;
+    for (int i = 0; i < a->content_count; i++)
+        if (strcmp(a->contents[i].display, b->contents[i].display) != 0 ||
+            strcmp(a->contents[i].path, b->contents[i].path) != 0)
+            return false;
+    return true;
+}
+
+/* A sweep with all later ones of its scene; they are done then. */
+static SweepGroup group_of(const ReviewRequest *request, int first, bool *is_done, Arena *arena)
+{
+    SweepGroup group = {ARENA_NEW(arena, const ReviewCondition *, request->condition_count), 0};
+    for (int i = first; i < request->condition_count; i++) {
+        const ReviewCondition *c = &request->conditions[i];
+        if (c->kind == CONDITION_MOMENT || is_done[i] ||
+            !same_scene(request, &request->conditions[first], c))
+            continue;
+        group.conditions[group.count++] = c;
+        is_done[i] = true;
+    }
+    return group;
+}
+
+/* group: of sweeps; NULL: a moment. */
+static bool run_condition(const ReviewRun *run, const ReviewCondition *condition,
+                          const SweepGroup *group, Arena *arena, ReviewOutcome *out, Error *err)
 {
     StageOptions options = {run->request, condition, run->root, run->threads, run->isa};
     Arena scratch = arena_reserve(STAGE_BYTES);
@@ -56,13 +90,32 @@ static bool run_condition(const ReviewRun *run, const ReviewCondition *condition
     if (ok) {
         ok = (review_request_check(run->request, stage.scene, run->problems) ||
               problems_verdict(run->problems, err)) &&
-             (condition->kind == CONDITION_MOMENT
-                  ? run_moment(run, &stage, &scratch, arena, out, err)
-                  : run_sweep(run, &stage, &scratch, arena, out, err));
+             (group ? run_sweeps(run, &stage, group, arena, out, err)
+                    : run_moment(run, &stage, &scratch, arena, out, err));
         stage_close(&stage);
     }
     arena_release(&scratch);
     return ok;
+}
+
+static bool run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *err)
+{
+    const ReviewRequest *request = run->request;
+    Progress progress = progress_start(run->progress, "review", "conditions",
+                                       request->condition_count);
+    bool    *is_done = ARENA_NEW(arena, bool, request->condition_count);
+    for (int i = 0; i < request->condition_count; i++) {
+        const ReviewCondition *condition = &request->conditions[i];
+        SweepGroup group = {NULL, 0};
+        if (is_done[i]) continue;
+        bool is_moment = condition->kind == CONDITION_MOMENT;
+        if (!is_moment) group = group_of(request, i, is_done, arena);
+        if (!run_condition(run, condition, is_moment ? NULL : &group, arena, out, err))
+            return false;
+        progress_update(&progress, i + 1);
+    }
+    progress_end(&progress, request->condition_count);
+    return true;
 }
 
 /* ---- what a reader must know ------------------------------------------------------------- */
@@ -222,9 +275,7 @@ static bool make_frames(const ReviewRun *run, ReviewOutcome *outcome, Arena *are
 bool review_run(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *err)
 {
     const ReviewRequest *request = run->request;
-    int      most = most_cases(request);
-    Progress progress = progress_start(run->progress, "review", "conditions",
-                                       request->condition_count);
+    int most = most_cases(request);
     *out = (ReviewOutcome){.tables = ARENA_NEW(arena, SweepTable, most)};
     out->review = (Review){.title = request->title,
                            .profile = arena_format(arena, "%s, %s", run->profile->title,
@@ -232,11 +283,7 @@ bool review_run(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *e
                            .cases = ARENA_NEW(arena, ReviewCase, most),
                            .sweeps = ARENA_NEW(arena, ReviewSweep, most),
                            .responses = ARENA_NEW(arena, ReviewResponse, most)};
-    for (int i = 0; i < request->condition_count; i++) {
-        if (!run_condition(run, &request->conditions[i], arena, out, err)) return false;
-        progress_update(&progress, i + 1);
-    }
-    progress_end(&progress, request->condition_count);
+    if (!run_conditions(run, arena, out, err)) return false;
     add_notes(request, &out->review, arena);
     review_decide(&out->review);
     return !run->folder || make_frames(run, out, arena, err);

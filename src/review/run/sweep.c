@@ -6,62 +6,9 @@
 #include "base/parallel.h"
 #include "base/units.h"
 #include "review/judge.h"
-#include "review/output/review_decide.h"
+#include "review/run/sweep_probes.h"
 
-#define RESPONSE_PATHS 4096
-#define RESPONSE_PRECISION 0.02
-#define METER_PATHS 1024
-#define SUN_PATHS 64     /* of the first vertex */
-#define MIRROR_PATHS 2048 /* of its mirror, which cost little */
-#define EYE_SEED 0x73776579u
-#define METER_SEED 0x73776d65u
-
-/* ---- probes ------------------------------------------------------------------------------ */
-
-/* What displays and lamps of the scene give, whatever the sky: linear in the displays' level.
- * */
-typedef struct OwnLight {
-    double lamps, displays; /* at level 1 */
-} OwnLight;
-
-typedef struct SweepMeter {
-    LitPoint head;
-    FarProbe probe;
-    OwnLight own;
-} SweepMeter;
-
-typedef struct Sight {
-    const ReviewEye   *eye;
-    const StageSymbol *symbol;
-    Vec3               from;
-    SymbolVisibility   seen;
-    CaseLuminances     shown;   /* foreground and background at level 1 */
-    double             height_arcmin;
-    FarProbe           probe;
-    OwnLight           own;
-    double             own_mirror; /* share of own light that is the mirror's */
-    const SweepMeter       *face;
-} Sight;
-
-typedef struct Sweep {
-    const ReviewRun   *run;
-    Stage             *stage;
-    SweepSuns          suns;
-    SkyTable           table;
-    StageSymbol       *symbols;
-    int                symbol_count;
-    SweepMeter             *faces;   /* one a symbol */
-    SweepMeter             *sensor;  /* of the level; NULL: it is fixed */
-    const ReviewLevel *level;   /* NULL: the scene's */
-    Sight             *sights;
-    int                sight_count;
-} Sweep;
-
-static void set_all_levels(Stage *stage, float level)
-{
-    for (int i = 0; i < stage->scene->display_count; i++)
-        stage->scene->displays[i].level = level;
-}
+#define SWEEP_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
 
 /* Air and ground: the condition's, or as usual. */
 static DaylightInput air_of(const ReviewCondition *condition)
@@ -72,132 +19,6 @@ static DaylightInput air_of(const ReviewCondition *condition)
     if (condition->kind == CONDITION_YEAR_SWEEP) air.where = condition->where;
     if (condition->kind == CONDITION_ROUTE) air.where = condition->route.points[0].where;
     return air;
-}
-
-/* The scene without sky and sun, its displays at one level. */
-static bool light_without_sky(Stage *stage, float level, Arena *arena, Error *err)
-{
-    Lights *lights;
-    stage->scene->environment.kind = ENVIRONMENT_NONE;
-    stage->scene->environment.has_sun = false;
-    stage->scene->environment.heading = 0;
-    set_all_levels(stage, level);
-    if (!lights_build(stage->scene, arena, &lights, err)) return false;
-    stage->context =
-        path_context_build(stage->scene, stage->bvh, lights, STAGE_BOUNCES, arena);
-    return true;
-}
-
-static bool gives_light(const Lights *lights)
-{
-    return lights_has(lights, LIGHTS_EMITTERS) || lights_has(lights, LIGHTS_PUNCTUAL);
-}
-
-static double own_reading(const Stage *stage, const ProbeAim *aim, Arena scratch)
-{
-    ReadingGoal goal = {.precision = 0.02, .most = 8192};
-    if (!gives_light(stage->context.lights)) return 0;
-    return reading_take(aim, &goal, &stage->tools, scratch).reflected;
-}
-
-/* ---- making them ------------------------------------------------------------------------- */
-
-static SweepMeter meter_at(Vec3 position, Vec3 normal)
-{
-    return (SweepMeter){.head = {position, normal, false}};
-}
-
-static void place_meters(Sweep *sweep, Arena *arena)
-{
-    sweep->faces = ARENA_NEW(arena, SweepMeter, sweep->symbol_count);
-    for (int i = 0; i < sweep->symbol_count; i++) {
-        const SymbolSurface *surface = &sweep->symbols[i].surface;
-        const SymbolPoint   *p = &surface->points[surface->point_count / 2];
-        sweep->faces[i] =
-            meter_at(vec3_along(p->position, p->ng, ray_offset_step(p->position)), p->ns);
-    }
-    if (!sweep->level || !sweep->level->is_curve) return;
-    const double *at = sweep->level->position_m, *to = sweep->level->normal;
-    sweep->sensor = ARENA_NEW(arena, SweepMeter, 1);
-    *sweep->sensor = meter_at(vec3((float)at[0], (float)at[1], (float)at[2]),
-                              vec3((float)to[0], (float)to[1], (float)to[2]));
-}
-
-static void aim_sight(Sweep *sweep, Sight *sight, Arena *arena)
-{
-    const Stage         *stage = sweep->stage;
-    const SymbolSurface *surface = &sight->symbol->surface;
-    bool *is_visible = ARENA_NEW(arena, bool, surface->point_count);
-    Vec3 *targets = ARENA_NEW(arena, Vec3, surface->point_count);
-    int   count = 0;
-    sight->seen = symbol_visibility(surface, &stage->context, sight->from, is_visible);
-    for (int i = 0; i < surface->point_count; i++)
-        if (is_visible[i]) targets[count++] = surface->points[i].position;
-    SymbolEmission shown =
-        symbol_emission(surface, &sight->symbol->split, 1, sight->from);
-    sight->shown.foreground = shown.foreground_xyz[1] * sight->seen.transmittance;
-    sight->shown.background = shown.background_xyz[1] * sight->seen.transmittance;
-    sight->height_arcmin = symbol_height_arcmin(surface, sight->symbol->split.box, sight->from);
-    sight->probe.aim = (ProbeAim){.context = &stage->context, .eye = sight->from,
-                                  .targets = targets, .target_count = count, .seed = EYE_SEED};
-}
-
-static bool place_sights(Sweep *sweep, Arena *arena, Error *err)
-{
-    const ReviewRequest *request = sweep->run->request;
-    sweep->sights = ARENA_NEW(arena, Sight, request->eye_count * sweep->symbol_count);
-    for (int e = 0; e < request->eye_count; e++) {
-        int   count;
-        Vec3 *points = stage_eye_points(sweep->stage, &request->eyes[e], &count, arena, err);
-        if (!points) return error_in_file(err, request->file);
-        for (int s = 0; s < sweep->symbol_count; s++) {
-            Sight *sight = &sweep->sights[sweep->sight_count++];
-            *sight = (Sight){.eye = &request->eyes[e], .symbol = &sweep->symbols[s],
-                             .from = points[count / 2], .face = &sweep->faces[s]};
-            aim_sight(sweep, sight, arena);
-        }
-    }
-    return true;
-}
-
-static void read_own(Sweep *sweep, bool displays, Arena scratch)
-{
-    const Stage *stage = sweep->stage;
-    for (int i = 0; i < sweep->sight_count; i++) {
-        Sight *sight = &sweep->sights[i];
-        if (!sight->probe.aim.target_count) continue;
-        double own = own_reading(stage, &sight->probe.aim, scratch);
-        if (displays) sight->own.displays = own - sight->own.lamps;
-        else sight->own.lamps = own;
-    }
-    for (int i = 0; i < sweep->symbol_count + (sweep->sensor != NULL); i++) {
-        SweepMeter   *meter = i < sweep->symbol_count ? &sweep->faces[i] : sweep->sensor;
-        ProbeAim aim = {.context = &stage->context, .meter = &meter->head, .seed = METER_SEED};
-        double   own = own_reading(stage, &aim, scratch);
-        if (displays) meter->own.displays = own - meter->own.lamps;
-        else meter->own.lamps = own;
-    }
-}
-
-static void trace_meter(SweepMeter *meter, FarTools tools, Arena *arena)
-{
-    tools.paths = METER_PATHS;
-    tools.mirror_paths = 0;
-    meter->probe.aim = (ProbeAim){.context = &tools.stage->context, .meter = &meter->head,
-                                  .seed = METER_SEED};
-    far_probe_trace(&meter->probe, &tools, arena);
-}
-
-static void trace_all(Sweep *sweep, const FarTools *tools, Progress *progress, Arena *arena)
-{
-    int done = 0;
-    for (int i = 0; i < sweep->symbol_count; i++) trace_meter(&sweep->faces[i], *tools, arena);
-    if (sweep->sensor) trace_meter(sweep->sensor, *tools, arena);
-    for (int i = 0; i < sweep->sight_count; i++) {
-        Sight *sight = &sweep->sights[i];
-        if (sight->probe.aim.target_count) far_probe_trace(&sight->probe, tools, arena);
-        progress_update(progress, ++done);
-    }
 }
 
 /* ---- reading them ------------------------------------------------------------------------ */
@@ -484,51 +305,75 @@ static void tell_response(const Sweep *sweep, const Sight *sight, Arena *arena, 
         response->relative_error};
 }
 
-static bool prepare(Sweep *sweep, Arena *scratch, Error *err)
+static bool make_skies(Sweep *sweep, Arena *scratch, Error *err)
 {
-    Stage *stage = sweep->stage;
     double low = 90, high = -90;
     for (int i = 0; i < sweep->suns.count; i++) {
         low = fmin(low, sweep->suns.list[i].elevation_deg);
         high = fmax(high, sweep->suns.list[i].elevation_deg);
     }
-    DaylightInput like = air_of(stage->condition);
+    DaylightInput like = air_of(sweep->stage->condition);
     like.has_time = false;
-    like.threads = stage->tools.threads;
-    return sky_table_build(&like, low, high, scratch, &sweep->table, err) &&
-           light_without_sky(stage, 0, scratch, err) &&
-           stage_symbols(stage, scratch, &sweep->symbols, &sweep->symbol_count, err);
+    like.threads = sweep->stage->tools.threads;
+    return sky_table_build(&like, low, high, scratch, &sweep->table, err);
 }
 
-bool run_sweep(const ReviewRun *run, Stage *stage, Arena *scratch, Arena *arena,
-               ReviewOutcome *out, Error *err)
+static bool check_sweep(const Sweep *sweep, Arena scratch, Error *err)
 {
-    const ReviewCondition *condition = stage->condition;
-    Sweep sweep = {.run = run, .stage = stage, .suns = sweep_suns(condition, arena)};
+    const ReviewCondition *condition = sweep->stage->condition;
+    const char *place = arena_format(&scratch, "/conditions/%s", condition->name);
     if (condition->weather_id != NO_ID)
-        return error_at(err, ERROR_INPUT, run->request->file,
-                        arena_format(arena, "/conditions/%s", condition->name),
+        return error_at(err, ERROR_INPUT, sweep->run->request->file, place,
                         "a sweep under the skies of a weather file is not supported: wanted "
                         "\"weather\": \"clear\"");
-    if (condition->level_id != NO_ID) sweep.level = &run->request->levels[condition->level_id];
-    if (!prepare(&sweep, scratch, err)) return false;
-    place_meters(&sweep, scratch);
-    if (!place_sights(&sweep, scratch, err)) return false;
-    read_own(&sweep, false, *scratch);
-    if (!light_without_sky(stage, 1, scratch, err)) return false;
-    read_own(&sweep, true, *scratch);
-    FarTools tools = {stage, &sweep.table, {sweep.suns.angles, sweep.suns.count},
-                      RESPONSE_PATHS, RESPONSE_PRECISION, SUN_PATHS, MIRROR_PATHS};
-    Progress progress = progress_start(run->progress, condition->name, "probes",
-                                       sweep.sight_count);
-    trace_all(&sweep, &tools, &progress, scratch);
-    progress_end(&progress, sweep.sight_count);
+    return sweep->suns.count > 0 ||
+           error_at(err, ERROR_INPUT, sweep->run->request->file, place,
+                    "the sun is never up: wanted a time or a place with some");
+}
+
+static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOutcome *out,
+                            Error *err)
+{
+    const ReviewRequest   *request = sweep->run->request;
+    const ReviewCondition *condition = sweep->stage->condition;
+    bool has_level = condition->level_id != NO_ID;
+    sweep->suns = sweep_suns(condition, arena);
+    sweep->level = has_level ? &request->levels[condition->level_id] : NULL;
+    sweep->sensor =
+        has_level && sweep->level->is_curve ? &sweep->sensors[condition->level_id] : NULL;
+    if (!check_sweep(sweep, scratch, err) || !make_skies(sweep, &scratch, err)) return false;
+    sweep_ask_probes(sweep, &scratch);
+    FarTools   tools = sweep_tools(sweep);
     SweepSuns *suns = ARENA_NEW(arena, SweepSuns, 1);
-    *suns = sweep.suns;
-    Telling to = {&sweep, &tools, suns, out, arena, *scratch};
-    for (int i = 0; i < sweep.sight_count; i++) {
-        tell_response(&sweep, &sweep.sights[i], arena, &out->review);
-        if (!add_sweep(&to, &sweep.sights[i], err)) return false;
+    *suns = sweep->suns;
+    Telling to = {sweep, &tools, suns, out, arena, scratch};
+    for (int i = 0; i < sweep->sight_count; i++) {
+        tell_response(sweep, &sweep->sights[i], arena, &out->review);
+        if (!add_sweep(&to, &sweep->sights[i], err)) return false;
     }
     return true;
+}
+
+static bool sweep_all(Sweep *sweep, const SweepGroup *group, Arena *scratch, Arena *arena,
+                      ReviewOutcome *out, Error *err)
+{
+    if (!sweep_make_probes(sweep, scratch, err)) return false;
+    for (int i = 0; i < group->count; i++) {
+        Arena room = *scratch;
+        sweep->stage->condition = group->conditions[i];
+        if (!sweep_light_dark(sweep->stage, 1, &room, err) ||
+            !sweep_condition(sweep, room, arena, out, err))
+            return false;
+    }
+    return true;
+}
+
+bool run_sweeps(const ReviewRun *run, Stage *stage, const SweepGroup *group, Arena *arena,
+                ReviewOutcome *out, Error *err)
+{
+    Arena scratch = arena_reserve(SWEEP_BYTES);
+    Sweep sweep = {.run = run, .stage = stage};
+    bool  ok = sweep_all(&sweep, group, &scratch, arena, out, err);
+    arena_release(&scratch);
+    return ok;
 }

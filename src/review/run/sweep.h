@@ -8,7 +8,7 @@
  * Approximate  an eye box counts by its middle; glints by way of a mirror that is no display
  *              are spread over the width of a response's triangle; skies between two elevations
  *              of the table are interpolated.
- * Memory       what is told lives in the arena.
+ * Memory       what is told lives in the arena; the rest is given back.
  * Threads      starts its own; the same figures for any count.
  */
 #pragma once
@@ -18,5 +18,11 @@
 /* The clear sky of the stage's sweep under one of its suns. */
 Environment sweep_environment(const Stage *stage, const SweepSun *sun);
 
-bool run_sweep(const ReviewRun *run, Stage *stage, Arena *scratch, Arena *arena,
-               ReviewOutcome *out, Error *err);
+/* Sweeps of one scene: the same files, contents and polarities, so that responses serve all. */
+typedef struct SweepGroup {
+    const ReviewCondition **conditions;
+    int                     count;
+} SweepGroup;
+
+bool run_sweeps(const ReviewRun *run, Stage *stage, const SweepGroup *group, Arena *arena,
+                ReviewOutcome *out, Error *err);

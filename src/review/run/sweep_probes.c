@@ -1,0 +1,198 @@
+#include "review/run/sweep_probes.h"
+
+#include "base/progress.h"
+
+#define RESPONSE_PATHS 4096
+#define RESPONSE_PRECISION 0.02
+#define METER_PATHS 1024
+#define SUN_PATHS 64      /* of the first vertex */
+#define MIRROR_PATHS 2048 /* of its mirror, which cost little */
+#define EYE_SEED 0x73776579u
+#define METER_SEED 0x73776d65u
+
+/* ---- the scene's own light --------------------------------------------------------------- */
+
+static void set_all_levels(Stage *stage, float level)
+{
+    for (int i = 0; i < stage->scene->display_count; i++)
+        stage->scene->displays[i].level = level;
+}
+
+bool sweep_light_dark(Stage *stage, float level, Arena *arena, Error *err)
+{
+    Lights *lights;
+    stage->scene->environment.kind = ENVIRONMENT_NONE;
+    stage->scene->environment.has_sun = false;
+    stage->scene->environment.heading = 0;
+    set_all_levels(stage, level);
+    if (!lights_build(stage->scene, arena, &lights, err)) return false;
+    stage->context =
+        path_context_build(stage->scene, stage->bvh, lights, STAGE_BOUNCES, arena);
+    return true;
+}
+
+static bool gives_light(const Lights *lights)
+{
+    return lights_has(lights, LIGHTS_EMITTERS) || lights_has(lights, LIGHTS_PUNCTUAL);
+}
+
+static double own_reading(const Stage *stage, const ProbeAim *aim, Arena scratch)
+{
+    ReadingGoal goal = {.precision = 0.02, .most = 8192};
+    if (!gives_light(stage->context.lights)) return 0;
+    return reading_take(aim, &goal, &stage->tools, scratch).reflected;
+}
+
+/* ---- making them ------------------------------------------------------------------------- */
+
+static SweepMeter meter_at(Vec3 position, Vec3 normal)
+{
+    return (SweepMeter){.head = {position, normal, false}};
+}
+
+static void place_meters(Sweep *sweep, Arena *arena)
+{
+    sweep->faces = ARENA_NEW(arena, SweepMeter, sweep->symbol_count);
+    for (int i = 0; i < sweep->symbol_count; i++) {
+        const SymbolSurface *surface = &sweep->symbols[i].surface;
+        const SymbolPoint   *p = &surface->points[surface->point_count / 2];
+        sweep->faces[i] =
+            meter_at(vec3_along(p->position, p->ng, ray_offset_step(p->position)), p->ns);
+    }
+    const ReviewRequest *request = sweep->run->request;
+    sweep->sensors = ARENA_NEW(arena, SweepMeter, request->level_count);
+    for (int i = 0; i < request->level_count; i++) {
+        const double *at = request->levels[i].position_m, *to = request->levels[i].normal;
+        if (request->levels[i].is_curve)
+            sweep->sensors[i] = meter_at(vec3((float)at[0], (float)at[1], (float)at[2]),
+                                         vec3((float)to[0], (float)to[1], (float)to[2]));
+    }
+}
+
+static void aim_sight(Sweep *sweep, Sight *sight, Arena *arena)
+{
+    const Stage         *stage = sweep->stage;
+    const SymbolSurface *surface = &sight->symbol->surface;
+    bool *is_visible = ARENA_NEW(arena, bool, surface->point_count);
+    Vec3 *targets = ARENA_NEW(arena, Vec3, surface->point_count);
+    int   count = 0;
+    sight->seen = symbol_visibility(surface, &stage->context, sight->from, is_visible);
+    for (int i = 0; i < surface->point_count; i++)
+        if (is_visible[i]) targets[count++] = surface->points[i].position;
+    SymbolEmission shown =
+        symbol_emission(surface, &sight->symbol->split, 1, sight->from);
+    sight->shown.foreground = shown.foreground_xyz[1] * sight->seen.transmittance;
+    sight->shown.background = shown.background_xyz[1] * sight->seen.transmittance;
+    sight->height_arcmin = symbol_height_arcmin(surface, sight->symbol->split.box, sight->from);
+    sight->probe.aim = (ProbeAim){.context = &stage->context, .eye = sight->from,
+                                  .targets = targets, .target_count = count, .seed = EYE_SEED};
+}
+
+static bool place_sights(Sweep *sweep, Arena *arena, Error *err)
+{
+    const ReviewRequest *request = sweep->run->request;
+    sweep->sights = ARENA_NEW(arena, Sight, request->eye_count * sweep->symbol_count);
+    for (int e = 0; e < request->eye_count; e++) {
+        int   count;
+        Vec3 *points = stage_eye_points(sweep->stage, &request->eyes[e], &count, arena, err);
+        if (!points) return error_in_file(err, request->file);
+        for (int s = 0; s < sweep->symbol_count; s++) {
+            Sight *sight = &sweep->sights[sweep->sight_count++];
+            *sight = (Sight){.eye = &request->eyes[e], .symbol = &sweep->symbols[s],
+                             .from = points[count / 2], .face = &sweep->faces[s]};
+            aim_sight(sweep, sight, arena);
+        }
+    }
+    return true;
+}
+
+static void read_own_lux(const Stage *stage, SweepMeter *meter, bool displays, Arena scratch)
+{
+    ProbeAim aim = {.context = &stage->context, .meter = &meter->head, .seed = METER_SEED};
+    double   own = own_reading(stage, &aim, scratch);
+    if (displays) meter->own.displays = own - meter->own.lamps;
+    else meter->own.lamps = own;
+}
+
+static void read_own(Sweep *sweep, bool displays, Arena scratch)
+{
+    const Stage *stage = sweep->stage;
+    for (int i = 0; i < sweep->sight_count; i++) {
+        Sight *sight = &sweep->sights[i];
+        if (!sight->probe.aim.target_count) continue;
+        double own = own_reading(stage, &sight->probe.aim, scratch);
+        if (displays) sight->own.displays = own - sight->own.lamps;
+        else sight->own.lamps = own;
+    }
+    for (int i = 0; i < sweep->symbol_count; i++)
+        read_own_lux(stage, &sweep->faces[i], displays, scratch);
+    for (int i = 0; i < sweep->run->request->level_count; i++)
+        if (sweep->run->request->levels[i].is_curve)
+            read_own_lux(stage, &sweep->sensors[i], displays, scratch);
+}
+
+/* ---- tracing them ------------------------------------------------------------------------ */
+
+static void respond_meter(SweepMeter *meter, FarTools tools, Arena *arena)
+{
+    tools.paths = METER_PATHS;
+    meter->probe.aim = (ProbeAim){.context = &tools.stage->context, .meter = &meter->head,
+                                  .seed = METER_SEED};
+    far_probe_respond(&meter->probe, &tools, arena);
+}
+
+/* Once, for all conditions. */
+static void respond_all(Sweep *sweep, Arena *arena)
+{
+    const ReviewRequest *request = sweep->run->request;
+    FarTools tools = {.stage = sweep->stage, .paths = RESPONSE_PATHS,
+                      .precision = RESPONSE_PRECISION};
+    Progress progress = progress_start(sweep->run->progress, "responses", "probes",
+                                       sweep->sight_count);
+    for (int i = 0; i < sweep->symbol_count; i++)
+        respond_meter(&sweep->faces[i], tools, arena);
+    for (int i = 0; i < request->level_count; i++)
+        if (request->levels[i].is_curve) respond_meter(&sweep->sensors[i], tools, arena);
+    for (int i = 0; i < sweep->sight_count; i++) {
+        Sight *sight = &sweep->sights[i];
+        if (sight->probe.aim.target_count) far_probe_respond(&sight->probe, &tools, arena);
+        progress_update(&progress, i + 1);
+    }
+    progress_end(&progress, sweep->sight_count);
+}
+
+FarTools sweep_tools(const Sweep *sweep)
+{
+    return (FarTools){.stage = sweep->stage, .table = &sweep->table,
+                      .suns = {sweep->suns.angles, sweep->suns.count},
+                      .sun_paths = SUN_PATHS, .mirror_paths = MIRROR_PATHS};
+}
+
+void sweep_ask_probes(Sweep *sweep, Arena *arena)
+{
+    FarTools tools = sweep_tools(sweep), of_meters = tools;
+    of_meters.mirror_paths = 0;
+    for (int i = 0; i < sweep->symbol_count; i++)
+        far_probe_ask(&sweep->faces[i].probe, &of_meters, arena);
+    if (sweep->sensor) far_probe_ask(&sweep->sensor->probe, &of_meters, arena);
+    for (int i = 0; i < sweep->sight_count; i++)
+        if (sweep->sights[i].probe.aim.target_count)
+            far_probe_ask(&sweep->sights[i].probe, &tools, arena);
+}
+
+/* ---- all of them ------------------------------------------------------------------------- */
+
+bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err)
+{
+    Stage *stage = sweep->stage;
+    if (!sweep_light_dark(stage, 0, arena, err) ||
+        !stage_symbols(stage, arena, &sweep->symbols, &sweep->symbol_count, err))
+        return false;
+    place_meters(sweep, arena);
+    if (!place_sights(sweep, arena, err)) return false;
+    read_own(sweep, false, *arena);
+    if (!sweep_light_dark(stage, 1, arena, err)) return false;
+    read_own(sweep, true, *arena);
+    respond_all(sweep, arena);
+    return true;
+}

@@ -1,0 +1,60 @@
+/* sweep_probes.h -- the probes of a scene's sweeps: each symbol as each eye sees it, its face,
+ * the sensors of the levels.
+ *
+ * Memory   from the arena that is passed in; the stage must outlive them.
+ * Threads  starts its own; the same figures for any count.
+ */
+#pragma once
+#include "review/run/cases.h"
+#include "review/run/job.h"
+
+/* What displays and lamps of the scene give, whatever the sky. */
+typedef struct OwnLight {
+    double lamps, displays; /* at level 1 */
+} OwnLight;
+
+typedef struct SweepMeter {
+    LitPoint head;
+    FarProbe probe;
+    OwnLight own;
+} SweepMeter;
+
+typedef struct Sight {
+    const ReviewEye   *eye;
+    const StageSymbol *symbol;
+    Vec3               from;
+    SymbolVisibility   seen;
+    CaseLuminances     shown;   /* foreground and background at level 1 */
+    double             height_arcmin;
+    FarProbe           probe;
+    OwnLight           own;
+    const SweepMeter  *face;
+} Sight;
+
+typedef struct Sweep {
+    const ReviewRun   *run;
+    Stage             *stage;
+    StageSymbol       *symbols;
+    int                symbol_count;
+    SweepMeter        *faces;   /* one a symbol */
+    SweepMeter        *sensors; /* one a level of the request; those of curves are used */
+    Sight             *sights;
+    int                sight_count;
+    /* of the condition in hand: */
+    SweepSuns          suns;
+    SkyTable           table;
+    const ReviewLevel *level;   /* NULL: the scene's */
+    SweepMeter        *sensor;  /* of the level; NULL: it is fixed */
+} Sweep;
+
+/* The scene without sky and sun, its displays at one level. */
+bool sweep_light_dark(Stage *stage, float level, Arena *arena, Error *err);
+
+/* Probes of the scene, in the dark but for its own light, and their responses. */
+bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err);
+
+/* For the suns of a condition. */
+void sweep_ask_probes(Sweep *sweep, Arena *arena);
+
+/* Of which they read these. */
+FarTools sweep_tools(const Sweep *sweep);
