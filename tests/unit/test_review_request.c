@@ -124,7 +124,7 @@ TEST(what_is_not_said_has_defaults)
     assert_true(r.observer.age_years == 50 && r.observer.pigment == 0.5);
     assert_true(r.gaze_count == 1 && r.gazes[0].at_symbols && r.gazes[0].for_eye[0]);
     assert_int_equal(r.symbols[0].polarity, POLARITY_AUTO);
-    assert_true(r.precision_contrast == 0.01 && r.frames.width == 1280 && r.frames.worst == 3);
+    assert_true(r.precision_contrast == 0.01 && r.frames.width == 960 && r.frames.worst == 2);
     const ReviewCondition *c = &r.conditions[0];
     assert_true(c->kind == CONDITION_MOMENT && !c->has_environment && !c->has_heading);
     assert_true(c->level_id == NO_ID && c->with_id == NO_ID && c->weather_id == NO_ID);

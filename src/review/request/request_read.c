@@ -54,7 +54,7 @@ static bool read_frames(RequestReading *reading, Error *err)
     static const char *const keys[] = {"size", "noise", "worst"};
     JsonView      view;
     ReviewFrames *frames = &reading->request->frames;
-    *frames = (ReviewFrames){1280, 720, 0.05, 3};
+    *frames = (ReviewFrames){960, 540, 0.1, 2};
     return json_view_child(&reading->root, "frames", false, &view, err) &&
            json_view_check_keys(&view, keys, COUNT_OF(keys), err) &&
            read_size(&view, frames, err) &&
