@@ -145,7 +145,11 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
     cli_print_warnings(&problems);
     outcome.review.is_strict = words->is_strict;
     review_decide(&outcome.review);
+    /* Frames take long: all else is safe before, and names them after. */
     if (!review_folder_write(&folder, &outcome, arena, err) ||
+        (request.frames.worst > 0 &&
+         (!review_frames(&run, &outcome, arena, err) ||
+          !review_folder_write(&folder, &outcome, arena, err))) ||
         !answer(&words->cli, &outcome.review, err))
         return false;
     if (outcome.review.pass) return true;

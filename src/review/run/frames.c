@@ -77,9 +77,11 @@ bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err)
     setup.camera = camera_from_scene(&camera, options.width, options.height);
     setup.context.guide =
         train_guide(&stage->context, &setup.camera, &train, &scratch, &setup.training);
-    if (!render_prepared(&setup, &options, &scratch, &result, err) ||
-        !write_frame(ask, result.film, png, scratch, err))
-        return false;
+    if (!render_prepared(&setup, &options, &scratch, &result, err)) return false;
+    if (result.stopped_by)
+        return error_set(err, (ErrorCode)(128 + result.stopped_by),
+                         "stopped while a frame was made; all but frames is written");
+    if (!write_frame(ask, result.film, png, scratch, err)) return false;
     *out = name;
     return true;
 }

@@ -18,7 +18,7 @@ typedef struct ReviewRun {
     int                  threads;
     const char          *isa;      /* kernel.h's; NULL: the best */
     ProgressMode         progress;
-    const char          *folder;   /* of the frames, which is there; NULL: none are made */
+    const char          *folder;   /* of the frames, which is there */
     Problems            *problems; /* warnings of scenes, once each */
 } ReviewRun;
 

@@ -2,9 +2,13 @@
  *
  * Memory   the review lives in the arena; stages use scratch of their own.
  * Threads  starts its own; the same review for any count.
- * Fails    as its parts do; nothing but frames is written here.
+ * Fails    as its parts do. review_run writes nothing.
  */
 #pragma once
 #include "review/run/job.h"
 
 bool review_run(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *err);
+
+/* Frames of the worst cases, as many as the request asks for, into the run's folder; the cases
+ * then name them. */
+bool review_frames(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, Error *err);
