@@ -64,8 +64,8 @@ TEST(a_route_gives_each_point_its_time)
     for (int i = 0; i < 3; i++)
         points[i] = (RoutePoint){.when = {2026, 6, 21, 12, 10 * i, 0, 1}, .seconds = 600 * i,
                                  .where = {50 + 0.1 * i, 8, 100}, .heading_deg = 30 * i};
-    SweepSuns suns = suns_of((ReviewCondition){.kind = CONDITION_ROUTE, .route = {"r", points, 3}},
-                             &arena);
+    ReviewCondition condition = {.kind = CONDITION_ROUTE, .route = {"r", points, 3}};
+    SweepSuns suns = suns_of(condition, &arena);
     assert_int_equal(suns.count, 3);
     assert_near(suns.list[0].minutes, 10, 1e-9);
     assert_near(suns.list[2].minutes, 0, 1e-9);
