@@ -117,7 +117,9 @@ ReviewCalendar sweep_calendar(const SweepTable *table, const ReviewSweep *sweep,
                               const ReviewCondition *condition, Arena *arena)
 {
     const SweepSuns *suns = table->suns;
-    int    steps = (int)floor(MINUTES_A_DAY / suns->step_minutes + 0.5), days = 366;
+    int    steps = (int)floor(MINUTES_A_DAY / suns->step_minutes + 0.5);
+    int    year = condition->year;
+    int    days = (year % 4 == 0 && year % 100) || year % 400 == 0 ? 366 : 365;
     float *share = ARENA_NEW(arena, float, (size_t)days * (size_t)steps);
     int   *asked = ARENA_NEW(arena, int, (size_t)days * (size_t)steps);
     for (int i = 0; i < suns->count; i++) {
@@ -128,6 +130,6 @@ ReviewCalendar sweep_calendar(const SweepTable *table, const ReviewSweep *sweep,
     }
     for (int i = 0; i < days * steps; i++)
         share[i] = asked[i] ? share[i] / (float)asked[i] : NAN;
-    return (ReviewCalendar){sweep, condition->year, 365, steps, "UTC", condition->heading_count,
+    return (ReviewCalendar){sweep, year, days, steps, "UTC", condition->heading_count,
                             share};
 }
