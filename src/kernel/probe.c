@@ -28,10 +28,9 @@ static void look(const ProbeAim *aim, int path, ProbeLook *out, PathStatistics *
     PathResult  result;
     float       emitted[3];
     path_trace(aim->context, aimed_ray(aim, path), &wavelengths, &sampler, &result, statistics);
-    *out = (ProbeLook){.is_found = result.hit && path_display_emission(aim->context, &result,
-                                                                       &wavelengths, emitted),
-                       .is_far = !result.hit};
-    for (int i = 0; i < 3; i++) out->seen[i] = result.xyz[i];
+    *out = (ProbeLook){.is_found = result.hit &&
+                                   path_display_emission(aim->context, &result,
+                                                         &wavelengths, emitted)};
     for (int i = 0; i < 3 && out->is_found; i++) {
         out->reflected[i] = result.xyz[i] - emitted[i];
         out->mirror[i] = result.mirror[i];

@@ -26,8 +26,6 @@ typedef struct ProbeLook {
     float reflected[3]; /* all but what the first surface emits; of a luxmeter all */
     float mirror[3];    /* of it, by way of a display's mirror */
     bool  is_found;     /* the first surface is a display, or a luxmeter's; else these are 0 */
-    float seen[3];      /* all that came along the ray; */
-    bool  is_far;       /* from infinitely far, with nothing but windows between */
 } ProbeLook;
 
 /* HOT. Of paths [first, end): out[i - first]. */

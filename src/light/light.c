@@ -37,6 +37,11 @@ bool lights_has(const Lights *lights, LightSet set)
     return false;
 }
 
+bool lights_sun_is_moon(const Lights *lights)
+{
+    return lights->sky.is_moon;
+}
+
 int lights_lamp_count(const Lights *lights)
 {
     return lights->punctual.count;

@@ -34,6 +34,9 @@ bool lights_build(const Scene *scene, Arena *arena, Lights **out, Error *err);
 /* Has this set anything that emits? */
 bool lights_has(const Lights *lights, LightSet set);
 
+/* LIGHTS_SUN is the moon, in its place. */
+bool lights_sun_is_moon(const Lights *lights);
+
 /* How many punctual lights give any light. */
 int lights_lamp_count(const Lights *lights);
 

@@ -21,6 +21,13 @@ int verdict_rank(Verdict verdict);
 typedef enum Ambient { AMBIENT_NIGHT, AMBIENT_TWILIGHT, AMBIENT_DAY, AMBIENT_SUN } Ambient;
 extern const char *const ambient_names[4]; /* "night", "twilight", "day", "sun" */
 
+/* Half a 95 % interval, in standard errors. */
+#define INTERVAL_SIGMAS 1.959964
+
+/* (brighter + added) / (darker + added) of two luminances, cd m^-2; infinite over 0, 1 of two
+ * zeros. */
+double luminance_contrast(double one, double other, double added);
+
 /* A limit of the profile, held against what was found. */
 typedef struct LimitVerdict {
     const char *name, *kind, *unit, *source;

@@ -161,6 +161,8 @@ typedef struct EnvironmentWeather {
     WeatherClock clock;
 } EnvironmentWeather;
 
+#define SUN_MEAN_RADIUS_DEG 0.26645 /* half the sun's mean angular diameter */
+
 /* PARHELION_environment. Angles in radians here. */
 typedef struct Environment {
     EnvironmentKind kind;
@@ -178,7 +180,7 @@ typedef struct Environment {
     float sun_azimuth;           /* from north over east */
     float sun_elevation;
     float sun_illuminance_lx;    /* direct normal */
-    float sun_angular_radius;    /* radians; default 0.26645 degrees */
+    float sun_angular_radius;    /* radians; default SUN_MEAN_RADIUS_DEG */
     float heading;               /* compass heading of `forward` */
     Vec3  forward;               /* scene vector, default (0,0,-1) */
 } Environment;

@@ -42,17 +42,32 @@ double sky_delta_t_s(double julian_day)
     return measured[i] + (at - i) * (measured[i + 1] - measured[i]);
 }
 
-static int days_of_month(int year, int month)
+int sky_days_of_month(int year, int month)
 {
     static const int days[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
     bool leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
     return days[month - 1] + (month == 2 && leap);
 }
 
+SkyTime sky_time_later(SkyTime when, double seconds)
+{
+    double second = when.hour * 3600 + when.minute * 60 + when.second + seconds;
+    double days = floor(second / 86400), rest = second - days * 86400;
+    when.hour = (int)(rest / 3600);
+    when.minute = (int)((rest - when.hour * 3600) / 60);
+    when.second = fmax(0, rest - when.hour * 3600 - when.minute * 60);
+    for (when.day += (int)days; when.day > sky_days_of_month(when.year, when.month);) {
+        when.day -= sky_days_of_month(when.year, when.month);
+        when.year += when.month == 12;
+        when.month = when.month % 12 + 1;
+    }
+    return when;
+}
+
 static bool time_in_range(const SkyTime *t)
 {
     return t->year >= -2000 && t->year <= 6000 && t->month >= 1 && t->month <= 12 &&
-           t->day >= 1 && t->day <= days_of_month(t->year, t->month) && t->hour >= 0 &&
+           t->day >= 1 && t->day <= sky_days_of_month(t->year, t->month) && t->hour >= 0 &&
            t->hour <= 23 && t->minute >= 0 && t->minute <= 59 && t->second >= 0 &&
            t->second < 60 && fabs(t->zone_h) <= 14;
 }

@@ -125,7 +125,7 @@ WeatherClock weather_clock_find(const Weather *weather, const double *given_h, A
 
 static bool is_leap(int year)
 {
-    return (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
+    return sky_days_of_month(year, 2) == 29;
 }
 
 /* Days since the year began. */

@@ -11,7 +11,6 @@
 #include "image/light_picture.h"
 
 #define HDRI_BYTES_MAX ((size_t)4 << 30)
-#define SUN_RADIUS_DEG 0.26645 /* half the Sun's mean angular diameter */
 #define CIE_DIFFUSE_LX 10000.0
 
 /* One command line's changes while they are made. */
@@ -310,7 +309,7 @@ static bool set_sun(Change *change, const char *text, Error *err)
     environment->sun_elevation = (float)radians_from_degrees(sun[1]);
     environment->sun_illuminance_lx = (float)sun[2];
     if (!(environment->sun_angular_radius > 0))
-        environment->sun_angular_radius = (float)radians_from_degrees(SUN_RADIUS_DEG);
+        environment->sun_angular_radius = (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG);
     return true;
 }
 

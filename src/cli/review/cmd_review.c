@@ -131,17 +131,23 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
     ReviewRequest  request;
     const Profile *profile;
     ReviewOutcome  outcome;
-    ReviewFolder   folder = {.name = words->folder, .request = &request, .diff = words->diff};
+    ReviewFolder   folder = {.name = words->folder, .request = &request, .diff = words->diff,
+                             .profile = words->profile, .root = words->root,
+                             .is_strict = words->is_strict};
     if (!review_request_read(file, words->root, arena, &problems, &request, err)) return false;
     if (!profile_load(words->profile ? words->profile : request.profile, arena, &profile, err))
         return false;
+    if (!review_check(&request, *arena, err)) return false;
     if (words->dry_run) return print_plan(&words->cli, &request, err);
     if (!review_folder_open(&folder, arena, err)) return false;
     ReviewRun run = {.request = &request, .profile = profile, .root = words->root,
                      .threads = words->cli.threads, .isa = words->isa,
                      .progress = words->cli.progress, .folder = words->folder,
                      .problems = &problems};
-    if (!review_run(&run, arena, &outcome, err)) return false;
+    if (!review_run(&run, arena, &outcome, err)) {
+        review_folder_discard(&folder);
+        return false;
+    }
     cli_print_warnings(&problems);
     outcome.review.is_strict = words->is_strict;
     review_decide(&outcome.review);

@@ -3,8 +3,9 @@
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
-#include "base/file.h"
+#include "base/file_write.h"
 #include "base/machine.h"
 #include "base/progress.h"
 #include "cli/options/version.h"
@@ -19,24 +20,40 @@
 
 /* ---- folders ----------------------------------------------------------------------------- */
 
-static bool make_folder(const char *path, Error *err)
+static bool make_folder(ReviewFolder *folder, const char *path, Error *err)
 {
     struct stat there;
     if (!stat(path, &there) && S_ISDIR(there.st_mode)) return true;
-    return !mkdir(path, 0777) || error_at(err, ERROR_OUTPUT, path, "", "%s", strerror(errno));
+    if (mkdir(path, 0777))
+        return error_at(err, ERROR_OUTPUT, path, "", "%s: wanted a folder", strerror(errno));
+    folder->made[folder->made_count++] = path;
+    return true;
+}
+
+void review_folder_discard(const ReviewFolder *folder)
+{
+    for (int i = folder->made_count - 1; i >= 0; i--) rmdir(folder->made[i]);
+}
+
+static bool check_earlier(const ReviewFolder *folder, Arena scratch, Error *err)
+{
+    Review before;
+    return !folder->diff ||
+           review_json_read(arena_format(&scratch, "%s/review.json", folder->diff), &scratch,
+                            &before, err);
 }
 
 bool review_folder_open(ReviewFolder *folder, Arena *arena, Error *err)
 {
     folder->begun_s = monotonic_seconds();
-    if (folder->diff) {
-        const char *file = arena_format(arena, "%s/review.json", folder->diff);
-        Review      before;
-        if (!review_json_read(file, arena, &before, err)) return false;
-    }
-    return make_folder(folder->name, err) &&
-           make_folder(arena_format(arena, "%s/sweeps", folder->name), err) &&
-           make_folder(arena_format(arena, "%s/frames", folder->name), err);
+    if (!check_earlier(folder, *arena, err)) return false;
+    if (make_folder(folder, folder->name, err) &&
+        make_folder(folder, arena_format(arena, "%s/sweeps", folder->name), err) &&
+        make_folder(folder, arena_format(arena, "%s/frames", folder->name), err) &&
+        file_check_writable(arena_format(arena, "%s/review.json", folder->name), err))
+        return true;
+    review_folder_discard(folder);
+    return false;
 }
 
 /* ---- sweeps ------------------------------------------------------------------------------ */
@@ -116,11 +133,21 @@ static void add_facts(const ReviewRequest *request, ReviewPage *page, Arena *are
     page->facts = facts;
 }
 
+static const char *command_of(const ReviewFolder *folder, Arena *arena)
+{
+    const char *profile =
+        folder->profile ? arena_format(arena, " --profile %s", folder->profile) : "";
+    const char *diff = folder->diff ? arena_format(arena, " --diff %s", folder->diff) : "";
+    const char *root = folder->root ? arena_format(arena, " --root %s", folder->root) : "";
+    return arena_format(arena, "parhelion review %s -o %s%s%s%s%s", folder->request->file,
+                        folder->name, profile, root, diff,
+                        folder->is_strict ? " --strict" : "");
+}
+
 static bool write_page(const ReviewFolder *folder, const ReviewOutcome *outcome, Arena *arena,
                        Error *err)
 {
-    const char *command = arena_format(arena, "parhelion review %s -o %s",
-                                       folder->request->file, folder->name);
+    const char *command = command_of(folder, arena);
     ReviewPage page = {.review = &outcome->review, .commands = &command, .command_count = 1};
     ReviewDiff diff;
     Review     before;

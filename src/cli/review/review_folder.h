@@ -14,11 +14,19 @@ typedef struct ReviewFolder {
     const char          *name;
     const ReviewRequest *request;
     const char          *diff; /* folder of an earlier review; NULL: none */
+    const char          *profile, *root; /* as on the command line; NULL: not given */
+    bool                 is_strict;
     double               begun_s;
+    const char          *made[3]; /* folders that were not there */
+    int                  made_count;
 } ReviewFolder;
 
-/* Before the work: makes it and what is in it, and reads the earlier review's verdict. */
+/* Before the work: makes it and what is in it, sees that it can be written, and reads the
+ * earlier review. What it made is gone again when it fails. */
 bool review_folder_open(ReviewFolder *folder, Arena *arena, Error *err);
+
+/* After a failure: the folders that were made, as far as they are empty. */
+void review_folder_discard(const ReviewFolder *folder);
 
 /* Sets the tables' names in the sweeps. */
 bool review_folder_write(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,

@@ -13,7 +13,6 @@
 #define SEED 0x7665696cu
 #define FROM_DEG DISABILITY_GLARE_MIN_DEG
 #define TO_DEG 89.9
-#define SUN_RADIUS_DEG 0.26645
 
 /* Angles are drawn evenly in their logarithm, as f cos theta sin theta, about 1 / theta, asks;
  * Hammersley's points. */
@@ -182,7 +181,7 @@ static EyeReading sum_up(const EyePaths *paths, const PupilSums *pupil, Arena sc
     float   bands[LIGHT_BANDS];
     for (int i = 0; i < PATHS; i++) add_path(paths, i, &sums);
     if (pupil->sun_lx > 0 && stage_sun(paths->stage, &towards, bands)) {
-        double sine = sin(radians_from_degrees(SUN_RADIUS_DEG)), disc = PI * sine * sine;
+        double sine = sin(radians_from_degrees(SUN_MEAN_RADIUS_DEG)), disc = PI * sine * sine;
         double cosine = (double)vec3_dot(towards, paths->gaze);
         add_source(paths, towards, pupil->sun_lx / (disc * cosine), disc, &sums);
     }

@@ -6,7 +6,6 @@
 #include "base/parallel.h"
 #include "base/units.h"
 
-#define SUN_RADIUS_DEG 0.26645
 
 /* ---- skies ------------------------------------------------------------------------------- */
 
@@ -164,7 +163,7 @@ void far_probe_ask(FarProbe *probe, const FarTools *tools, Arena *arena)
     ResponseOptions options = {with->kernel, RESPONSE_LEVEL, tools->sun_paths, with->threads,
                                0};
     ProbeSuns suns = {.towards = sun_directions(tools, arena), .count = tools->suns.count,
-                      .cos_radius = (float)cos(radians_from_degrees(SUN_RADIUS_DEG))};
+                      .cos_radius = (float)cos(radians_from_degrees(SUN_MEAN_RADIUS_DEG))};
     sum_skies(probe, tools, arena);
     probe->scattered = response_suns(&probe->aim, &options, &suns, arena);
     suns.by_mirror = true;
@@ -186,13 +185,6 @@ static double sky_reading(const FarProbe *probe, const SkyTable *table, SunAngle
            share * (high[a] + along * (high[b] - high[a]));
 }
 
-static double sum_bands(const float *shares, const float bands[LIGHT_BANDS])
-{
-    double sum = 0;
-    for (int b = 0; b < LIGHT_BANDS; b++) sum += (double)shares[b] * (double)bands[b];
-    return sum;
-}
-
 FarReading far_probe_read(const FarProbe *probe, const FarTools *tools, int sun)
 {
     SunAngles  angles = tools->suns.angles[sun];
@@ -202,9 +194,9 @@ FarReading far_probe_read(const FarProbe *probe, const FarTools *tools, int sun)
     double     heading = degrees_from_radians((double)tools->stage->scene->environment.heading);
     sky_table_sun(tools->table, angles.elevation_deg, bands);
     angles.azimuth_deg += heading;
-    if (angles.elevation_deg < -SUN_RADIUS_DEG) return reading;
-    reading.mirror = probe->mirror ? sum_bands(probe->mirror + at, bands) : 0;
-    reading.sun_first = sum_bands(probe->scattered + at, bands) + reading.mirror;
+    if (angles.elevation_deg < -SUN_MEAN_RADIUS_DEG) return reading;
+    reading.mirror = probe->mirror ? light_bands_sum(probe->mirror + at, bands) : 0;
+    reading.sun_first = light_bands_sum(probe->scattered + at, bands) + reading.mirror;
     reading.sun_rest =
         response_sun(&probe->response, stage_direction(tools->stage, angles), bands);
     return reading;

@@ -6,7 +6,8 @@
  *
  * Frame    azimuths of the vehicle: 0 ahead, 90 right; elevations apparent; degrees.
  * Units    cd m^-2 (a luxmeter: lx).
- * Memory   from the arena: 5 KB a probe and elevation, 64 bytes a probe and sun.
+ * Memory   from the arena: 0.6 KB a probe and elevation, 128 bytes a probe and sun, 1 MB a
+ *          response.
  * Threads  starts its own; the same numbers for any count.
  */
 #pragma once

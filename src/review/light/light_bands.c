@@ -47,3 +47,10 @@ void light_bands_sun(const Daylight *daylight, float bands[LIGHT_BANDS])
         }
     }
 }
+
+double light_bands_sum(const float shares[LIGHT_BANDS], const float bands[LIGHT_BANDS])
+{
+    double sum = 0;
+    for (int b = 0; b < LIGHT_BANDS; b++) sum += (double)shares[b] * (double)bands[b];
+    return sum;
+}

@@ -15,5 +15,8 @@
 void light_bands_sky(const Daylight *daylight, float elevation, float azimuth,
                      float bands[LIGHT_BANDS]);
 
+/* What a response's shares make of a light: their sum over bands. */
+double light_bands_sum(const float shares[LIGHT_BANDS], const float bands[LIGHT_BANDS]);
+
 /* The sun's disc; all 0 where it is down. */
 void light_bands_sun(const Daylight *daylight, float bands[LIGHT_BANDS]);

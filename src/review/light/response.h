@@ -12,13 +12,13 @@
  *              is the share of that, a mean over the band.
  * Units        shares: cd m^-2 by cd m^-2 (of a luxmeter lx by cd m^-2); of a sun cd m^-2 by
  *              lx on a plane that faces it.
- * Memory       from the arena: 128 bytes a triangle; 16 times that while tracing.
+ * Memory       from the arena: 128 bytes a triangle; some 20 times that while tracing.
  * Threads      starts its own; the same numbers for any count.
  */
 #pragma once
 #include "kernel/kernel.h"
 
-#define RESPONSE_LEVEL 5 /* triangles of 2.6 degrees */
+#define RESPONSE_LEVEL 5 /* 8,192 triangles over the sphere, edges of about 3.4 degrees */
 #define RESPONSE_BANDS SPECTRUM_LANES
 
 typedef struct ResponseOptions {

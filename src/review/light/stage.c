@@ -102,9 +102,7 @@ static void read_sensor(Stage *stage, const ReviewLevel *level, Arena scratch)
     LitPoint    head = {vec3_of(level->position_m), vec3_of(level->normal), false};
     ProbeAim    aim = {.context = &stage->context, .meter = &head, .seed = SENSOR_SEED};
     ReadingGoal goal = {.precision = SENSOR_PRECISION, .most = SENSOR_PATHS};
-    Reading     reading = reading_take(&aim, &goal, &stage->tools, scratch);
-    stage->sensor_lux = reading.reflected;
-    stage->sensor_sigma = reading.sigma;
+    stage->sensor_lux = reading_take(&aim, &goal, &stage->tools, scratch).reflected;
 }
 
 static void set_levels(Stage *stage, const ReviewLevel *level)
@@ -138,7 +136,7 @@ bool stage_sun(const Stage *stage, Vec3 *towards, float bands[LIGHT_BANDS])
     const Lights *lights = stage->context.lights;
     Vec3 sum = vec3(0, 0, 0);
     memset(bands, 0, LIGHT_BANDS * sizeof *bands);
-    if (!lights_has(lights, LIGHTS_SUN)) return false;
+    if (!lights_has(lights, LIGHTS_SUN) || lights_sun_is_moon(lights)) return false;
     for (int i = 0; i < SUN_DRAWS; i++) {
         const float u[3] = {((float)i + 0.5f) / SUN_DRAWS,
                             (float)(i * 7 % SUN_DRAWS) / SUN_DRAWS, 0.5f};

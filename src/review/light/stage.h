@@ -22,7 +22,6 @@ typedef struct Stage {
     Bvh         *bvh;
     PathContext  context;
     double       sensor_lux;   /* NaN: no level follows the light */
-    double       sensor_sigma;
     double      *scene_levels; /* of the displays, before the condition's */
 } Stage;
 
@@ -44,8 +43,8 @@ bool stage_light(Stage *stage, const Environment *environment, Arena *arena, Err
 
 void stage_close(Stage *stage);
 
-/* Where the sun (or the moon in its place) stands, unit, world, and what its bands give, lx on
- * a plane that faces it. False: the scene has none. */
+/* Where the sun stands, unit, world, and what its bands give, lx on a plane that faces it.
+ * False: the scene has none, or the moon in its place. */
 bool stage_sun(const Stage *stage, Vec3 *towards, float bands[LIGHT_BANDS]);
 
 /* Azimuth from north over east, or of the vehicle (0 ahead, 90 right) where the environment has

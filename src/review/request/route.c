@@ -96,31 +96,8 @@ bool route_read(const char *file, Arena *arena, Route *out, Error *err)
 
 /* ---- times ------------------------------------------------------------------------------- */
 
-static int days_of_month(int year, int month)
-{
-    static const int days[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
-    bool leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
-    return days[month - 1] + (month == 2 && leap);
-}
-
-/* The moment some seconds (not negative) later, in the same zone. */
-static SkyTime later(SkyTime when, double seconds)
-{
-    double second = when.hour * 3600 + when.minute * 60 + when.second + seconds;
-    double days = floor(second / 86400), rest = second - days * 86400;
-    when.hour = (int)(rest / 3600);
-    when.minute = (int)((rest - when.hour * 3600) / 60);
-    when.second = fmax(0, rest - when.hour * 3600 - when.minute * 60);
-    for (when.day += (int)days; when.day > days_of_month(when.year, when.month);) {
-        when.day -= days_of_month(when.year, when.month);
-        when.year += when.month == 12;
-        when.month = when.month % 12 + 1;
-    }
-    return when;
-}
-
 void route_start_at(Route *route, const SkyTime *when)
 {
     for (int i = 0; i < route->count; i++)
-        route->points[i].when = later(*when, route->points[i].seconds);
+        route->points[i].when = sky_time_later(*when, route->points[i].seconds);
 }

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/units.h"
 #include "review/judge.h"
 #include "review/light/response.h"
 #include "review/light/eye_reading.h"
@@ -11,7 +12,6 @@
 #include "vision/contrast_sensitivity.h"
 #include "vision/grey_steps.h"
 
-#define SIGMAS 1.959964 /* of a 95 % interval */
 #define FACE_PRECISION 0.02
 #define FACE_PATHS 16384
 #define FACE_SEED 0x66616365u
@@ -19,25 +19,38 @@
 #define SUN_PATHS SYMBOL_POINTS
 #define COARSE_PRECISION 0.05
 #define COARSE_PATHS 8192
-#define SUN_COSINE 0.9999892f /* of the disc's radius */
 
 /* ---- eyes -------------------------------------------------------------------------------- */
 
-Vec3 *stage_eye_points(const Stage *stage, const ReviewEye *eye, int *count, Arena *arena,
-                       Error *err)
+static Vec3 vec3_of(const double p[3])
+{
+    return vec3((float)p[0], (float)p[1], (float)p[2]);
+}
+
+bool stage_eye_middle(const Stage *stage, const ReviewEye *eye, Arena scratch, Vec3 *out,
+                      Error *err)
+{
+    int id;
+    *out = vec3_of(eye->position_m);
+    if (eye->kind != EYE_CAMERA) return true;
+    if (!review_camera_find(stage->scene, eye, scratch, &id, err))
+        return error_in_file(err, stage->request->file);
+    *out = stage->scene->cameras[id].world_from_camera.origin;
+    return true;
+}
+
+/* The points of an eye, world; NULL: its camera is missing. */
+static Vec3 *eye_points(const Stage *stage, const ReviewEye *eye, int *count, Arena *arena,
+                        Error *err)
 {
     *count = review_eye_count(eye);
     Vec3 *points = ARENA_NEW(arena, Vec3, *count);
-    if (eye->kind == EYE_CAMERA) {
-        int id;
-        if (!review_camera_find(stage->scene, eye, *arena, &id, err)) return NULL;
-        points[0] = stage->scene->cameras[id].world_from_camera.origin;
-        return points;
-    }
+    if (eye->kind != EYE_BOX)
+        return stage_eye_middle(stage, eye, *arena, points, err) ? points : NULL;
     for (int i = 0; i < *count; i++) {
         double p[3];
         review_eye_point(eye, i, p);
-        points[i] = vec3((float)p[0], (float)p[1], (float)p[2]);
+        points[i] = vec3_of(p);
     }
     return points;
 }
@@ -48,9 +61,9 @@ Vec3 *stage_eye_points(const Stage *stage, const ReviewEye *eye, int *count, Are
 static double face_lux(const CaseTools *tools, const StageSymbol *symbol, Arena scratch)
 {
     const Stage       *stage = tools->stage;
-    const SymbolPoint *point = &symbol->surface.points[symbol->surface.point_count / 2];
-    float       off = ray_offset_step(point->position);
-    LitPoint    head = {vec3_along(point->position, point->ng, off), point->ns, false};
+    SymbolPoint point = symbol_middle(symbol);
+    float       off = ray_offset_step(point.position);
+    LitPoint    head = {vec3_along(point.position, point.ng, off), point.ns, false};
     ProbeAim    aim = {.context = &stage->context, .meter = &head, .seed = FACE_SEED};
     ReadingGoal goal = {.precision = FACE_PRECISION, .most = FACE_PATHS};
     return reading_take(&aim, &goal, &stage->tools, scratch).reflected;
@@ -64,13 +77,14 @@ static bool is_in_sun(const Stage *stage, const ProbeAim *aim, double reflected,
     float  bands[LIGHT_BANDS];
     double direct = 0;
     if (!stage_sun(stage, &towards, bands)) return false;
-    ProbeSuns       suns = {&towards, 1, SUN_COSINE, false};
+    float           cosine = (float)cos(radians_from_degrees(SUN_MEAN_RADIUS_DEG));
+    ProbeSuns       suns = {&towards, 1, cosine, false};
     ResponseOptions options = {stage->tools.kernel, 0, SUN_PATHS, stage->tools.threads, 0};
     for (int by_mirror = 0; by_mirror < 2; by_mirror++) {
         Arena room = scratch;
         suns.by_mirror = by_mirror;
         const float *shares = response_suns(aim, &options, &suns, &room);
-        for (int b = 0; b < LIGHT_BANDS; b++) direct += (double)shares[b] * (double)bands[b];
+        direct += light_bands_sum(shares, bands);
     }
     return direct > CASE_SUNLIT * reflected;
 }
@@ -87,21 +101,16 @@ static Vec3 *visible_points(const SymbolSurface *surface, const bool *is_visible
     return points;
 }
 
-static double contrast(double one, double other, double added)
-{
-    double brighter = fmax(one, other) + added, darker = fmin(one, other) + added;
-    return darker > 0 ? brighter / darker : brighter > 0 ? (double)INFINITY : 1;
-}
-
 static void set_contrasts(ReviewCase *c, double sigma)
 {
     const CaseLuminances *l = &c->luminance_cd_m2;
-    double spread = SIGMAS * sigma, veil = isnan(l->veil) ? 0 : l->veil;
-    c->contrast_ratio = contrast(l->foreground, l->background, l->reflected);
-    c->contrast_low = contrast(l->foreground, l->background, l->reflected + spread);
+    double spread = INTERVAL_SIGMAS * sigma, veil = isnan(l->veil) ? 0 : l->veil;
+    c->contrast_ratio = luminance_contrast(l->foreground, l->background, l->reflected);
+    c->contrast_low = luminance_contrast(l->foreground, l->background, l->reflected + spread);
     c->contrast_high =
-        contrast(l->foreground, l->background, fmax(l->reflected - spread, 0));
-    c->contrast_with_veil = contrast(l->foreground, l->background, l->reflected + veil);
+        luminance_contrast(l->foreground, l->background, fmax(l->reflected - spread, 0));
+    c->contrast_with_veil =
+        luminance_contrast(l->foreground, l->background, l->reflected + veil);
     c->jnd = grey_steps_between(l->foreground + l->reflected + veil,
                                 l->background + l->reflected + veil);
 }
@@ -142,8 +151,7 @@ static void set_shown(CaseLuminances *l, const SymbolEmission *emission, double 
 static void see_stray_light(const Stage *stage, const StageSymbol *symbol, Vec3 eye,
                             ReviewCase *c, Arena scratch)
 {
-    EyeReading stray =
-        eye_read(stage, eye, symbol->surface.points[SYMBOL_POINTS / 2].position, scratch);
+    EyeReading stray = eye_read(stage, eye, symbol_middle(symbol).position, scratch);
     c->luminance_cd_m2.veil = stray.veil;
     c->dgp = stray.dgp;
     c->ugr = stray.ugr;
@@ -260,10 +268,10 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
                     Error *err)
 {
     int        count;
-    Vec3      *points = stage_eye_points(tools->stage, ask->eye, &count, arena, err);
+    Vec3      *points = eye_points(tools->stage, ask->eye, &count, arena, err);
     ReviewCase c = start_case(tools, ask->eye, ask->symbol);
     CaseLook   look = {.symbol = ask->symbol};
-    if (!points) return error_in_file(err, tools->stage->request->file);
+    if (!points) return false;
     c.display_lux = ask->face_lux;
     c.eye_failed_share = (double)NAN;
     look.eye =

@@ -8,7 +8,6 @@
 
 #define PATHS 8192
 #define ROOM 4096 /* ways that are told apart; a power of two */
-#define SIGMAS 1.959964
 #define COATED 0.25 /* of a mirror's light that a usual anti-reflection coating leaves */
 
 /* ---- ways -------------------------------------------------------------------------------- */
@@ -166,8 +165,9 @@ static CaseCause cause_of(double sum, double squares, double all)
 {
     double mean = sum / PATHS;
     double sigma = sqrt(fmax(squares / PATHS - mean * mean, 0) / PATHS);
+    double half = INTERVAL_SIGMAS * sigma;
     return (CaseCause){.share = all > 0 ? sum / all : 0, .cd_m2 = mean,
-                       .low = fmax(mean - SIGMAS * sigma, 0), .high = mean + SIGMAS * sigma};
+                       .low = fmax(mean - half, 0), .high = mean + half};
 }
 
 static CaseCause all_other(const CauseWays *ways, CauseWay *const *list, int from, Arena *arena)
@@ -213,9 +213,7 @@ void case_causes(const Stage *stage, const ProbeAim *aim, ReviewCase *c, Arena *
 
 static double contrast(const CaseLuminances *l, double brighter, double reflected)
 {
-    double high = brighter * fmax(l->foreground, l->background) + reflected;
-    double low = brighter * fmin(l->foreground, l->background) + reflected;
-    return low > 0 ? high / low : (double)INFINITY;
+    return luminance_contrast(brighter * l->foreground, brighter * l->background, reflected);
 }
 
 /* By how much the display must be brighter for a contrast, (H x + R) / (L x + R) = C; NaN: no

@@ -11,6 +11,7 @@
 #include "review/request/request_check.h"
 
 #define YFOV_DEG 35 /* of an eye that is no camera */
+#define WORDS 16    /* of a frame's metadata, at most */
 
 const char *file_name_of(const char *text, Arena *arena)
 {
@@ -26,15 +27,15 @@ const char *file_name_of(const char *text, Arena *arena)
 static bool camera_of(const FrameAsk *ask, SceneCamera *out, Arena scratch, Error *err)
 {
     const Scene *scene = ask->stage->scene;
-    int          id, count;
+    int          id;
+    Vec3         from;
     if (ask->eye->kind == EYE_CAMERA) {
         if (!review_camera_find(scene, ask->eye, scratch, &id, err)) return false;
         *out = scene->cameras[id];
         return true;
     }
-    Vec3 *points = stage_eye_points(ask->stage, ask->eye, &count, &scratch, err);
-    if (!points) return false;
-    *out = camera_look_at(points[count / 2], ask->look_at,
+    if (!stage_eye_middle(ask->stage, ask->eye, scratch, &from, err)) return false;
+    *out = camera_look_at(from, ask->look_at,
                           (float)radians_from_degrees(YFOV_DEG));
     return true;
 }
@@ -51,14 +52,40 @@ static RenderOptions options_of(const FrameAsk *ask)
         .threads = ask->stage->tools.threads, .progress = ask->progress};
 }
 
-static bool write_frame(const FrameAsk *ask, const Film *film, const char *png, Arena scratch,
-                        Error *err)
+/* As frames of a render say it, where it is known here. */
+static void set_words(FrameImage *frame, const FrameAsk *ask, const SceneCamera *camera,
+                      const RenderResult *result, Arena *arena)
+{
+    frame_set_string(frame, "software", "parhelion " PARHELION_VERSION, arena);
+    frame_set_string(frame, "parhelion:unit", "cd/m2", arena);
+    frame_set_string(frame, "parhelion:review", ask->stage->request->file, arena);
+    frame_set_string(frame, "parhelion:condition", ask->stage->condition->name, arena);
+    frame_set_string(frame, "parhelion:camera", ask->eye->name, arena);
+    if (camera->is_perspective)
+        frame_set_number(frame, "parhelion:yfov_deg",
+                         degrees_from_radians((double)camera->yfov), arena);
+    frame_set_string(frame, "parhelion:samples", arena_format(arena, "0:%u", result->samples),
+                     arena);
+    frame_set_number(frame, "parhelion:relativeError", result->error.frame, arena);
+    frame_set_whole(frame, "parhelion:complete", result->complete, arena);
+    frame_set_whole(frame, "parhelion:unbiased", 1, arena);
+}
+
+/* What is written of a frame. */
+typedef struct FrameMade {
+    const SceneCamera  *camera;
+    const RenderResult *result;
+    const char         *png;
+} FrameMade;
+
+static bool write_frame(const FrameAsk *ask, const FrameMade *made, Arena scratch, Error *err)
 {
     const char *exr = arena_format(&scratch, "%s/frames/%s.exr", ask->folder, ask->name);
-    FrameImage  frame = film_to_frame(film, 0, &scratch);
+    FrameImage  frame = film_to_frame(made->result->film, WORDS, &scratch);
+    set_words(&frame, ask, made->camera, made->result, &scratch);
     DevelopOptions look = {.own_config = true, .frame_name = exr};
     return frame_write(exr, &frame, err) &&
-           develop_frame(&frame, &look, png, scratch, NULL, err);
+           develop_frame(&frame, &look, made->png, scratch, NULL, err);
 }
 
 bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err)
@@ -81,7 +108,8 @@ bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err)
     if (result.stopped_by)
         return error_set(err, (ErrorCode)(128 + result.stopped_by),
                          "stopped while a frame was made; all but frames is written");
-    if (!write_frame(ask, result.film, png, scratch, err)) return false;
+    FrameMade made = {&camera, &result, png};
+    if (!write_frame(ask, &made, scratch, err)) return false;
     *out = name;
     return true;
 }

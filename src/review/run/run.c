@@ -79,6 +79,15 @@ static SweepGroup group_of(const ReviewRequest *request, int first, bool *is_don
     return group;
 }
 
+bool review_check(const ReviewRequest *request, Arena scratch, Error *err)
+{
+    for (int i = 0; i < request->condition_count; i++)
+        if (request->conditions[i].kind != CONDITION_MOMENT &&
+            !sweep_check(request, i, scratch, err))
+            return false;
+    return true;
+}
+
 /* group: of sweeps; NULL: a moment. */
 static bool run_condition(const ReviewRun *run, const ReviewCondition *condition,
                           const SweepGroup *group, Arena *arena, ReviewOutcome *out, Error *err)
@@ -214,16 +223,15 @@ static bool is_one_view(const Candidate *a, const Candidate *b)
            !strcmp(a->of->condition, b->of->condition);
 }
 
-static Vec3 middle_of(const Stage *stage, const char *symbol, Arena scratch)
+static bool find_middle(const Stage *stage, const char *symbol, Arena scratch, Vec3 *out,
+                        Error *err)
 {
     StageSymbol *symbols;
     int          count;
-    Error        err;
-    if (!stage_symbols(stage, &scratch, &symbols, &count, &err)) return vec3(0, 0, 0);
+    if (!stage_symbols(stage, &scratch, &symbols, &count, err)) return false;
     for (int i = 0; i < count; i++)
-        if (!strcmp(symbols[i].name, symbol))
-            return symbols[i].surface.points[SYMBOL_POINTS / 2].position;
-    return vec3(0, 0, 0);
+        if (!strcmp(symbols[i].name, symbol)) *out = symbol_middle(&symbols[i]).position;
+    return true;
 }
 
 static bool make_frame(const ReviewRun *run, const Candidate *of, int number, Arena *arena,
@@ -241,11 +249,12 @@ static bool make_frame(const ReviewRun *run, const Candidate *of, int number, Ar
         if (table) sky = sweep_environment(&stage, &table->suns->list[table->worst]);
         else if (c->has_environment) sky = c->environment;
         FrameAsk ask = {&stage, eye_named(run->request, of->of->eye),
-                        middle_of(&stage, of->of->symbol, scratch), run->folder,
+                        vec3(0, 0, 0), run->folder,
                         file_name_of(arena_format(arena, "%d-%s-%s", number, of->of->condition,
                                                   of->of->eye), arena), run->progress};
         bool has_sky = of->table || c->has_environment;
         ok = stage_light(&stage, has_sky ? &sky : NULL, &scratch, err) &&
+             find_middle(&stage, of->of->symbol, scratch, &ask.look_at, err) &&
              frame_make(&ask, &scratch, &of->of->frame, err);
         if (ok) of->of->frame = arena_string(arena, of->of->frame, strlen(of->of->frame));
         stage_close(&stage);

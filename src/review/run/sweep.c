@@ -28,13 +28,6 @@ static double total(const FarReading *reading)
     return reading->sky + reading->sun_first + reading->sun_rest;
 }
 
-static double contrast(const CaseLuminances *l, double reflected)
-{
-    double brighter = fmax(l->foreground, l->background) + reflected;
-    double darker = fmin(l->foreground, l->background) + reflected;
-    return darker > 0 ? brighter / darker : brighter > 0 ? (double)INFINITY : 1;
-}
-
 static double level_for(const Sweep *sweep, const Sight *sight, const FarTools *tools, int sun)
 {
     double scene = sweep->stage->scene_levels[sight->symbol->display.display_id], lux = 0;
@@ -49,6 +42,12 @@ static double level_for(const Sweep *sweep, const Sight *sight, const FarTools *
     return review_level_at(sweep->level, name, scene, lux);
 }
 
+static double shown_contrast(const ReviewCase *c, double reflected)
+{
+    return luminance_contrast(c->luminance_cd_m2.foreground, c->luminance_cd_m2.background,
+                              reflected);
+}
+
 /* The figures of a case under one sun; limits are judged by whoever asks. */
 static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const FarTools *tools,
                           int sun)
@@ -60,14 +59,14 @@ static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const FarTools
     double     reflected = total(&light) + own, sigma = sight->probe.response.relative_error;
     ReviewCase c = {.level = level, .limit_id = -1, .visible_share = sight->seen.visible_share,
                     .height_arcmin = sight->height_arcmin};
-    double     spread = 1.96 * sigma * (light.sky + light.sun_rest);
+    double     spread = INTERVAL_SIGMAS * sigma * (light.sky + light.sun_rest);
     c.display_lux = total(&face) + sight->face->own.lamps + level * sight->face->own.displays;
     c.luminance_cd_m2 = (CaseLuminances){
         level * sight->shown.foreground, level * sight->shown.background, reflected,
         light.mirror, reflected - light.mirror, (double)NAN};
-    c.contrast_ratio = contrast(&c.luminance_cd_m2, reflected);
-    c.contrast_low = contrast(&c.luminance_cd_m2, reflected + spread);
-    c.contrast_high = contrast(&c.luminance_cd_m2, fmax(reflected - spread, 0));
+    c.contrast_ratio = shown_contrast(&c, reflected);
+    c.contrast_low = shown_contrast(&c, reflected + spread);
+    c.contrast_high = shown_contrast(&c, fmax(reflected - spread, 0));
     c.contrast_with_veil = c.contrast_ratio;
     judge_ambient(&c, sweep->run->profile, light.sun_first > CASE_SUNLIT * reflected);
     return c;
@@ -195,7 +194,7 @@ Environment sweep_environment(const Stage *stage, const SweepSun *sun)
     environment.sun_azimuth = (float)radians_from_degrees(sun->compass_deg);
     environment.sun_elevation = (float)radians_from_degrees(sun->elevation_deg);
     environment.sun_illuminance_lx = -1;
-    environment.sun_angular_radius = (float)radians_from_degrees(0.26645);
+    environment.sun_angular_radius = (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG);
     environment.heading = (float)radians_from_degrees(sun->heading_deg);
     return environment;
 }
@@ -224,29 +223,17 @@ static bool read_worst(Telling *to, const Sight *sight, const SweepSun *sun, Rev
     return stage_case(&tools, sight->symbol, sight->eye, to->arena, out, err);
 }
 
-/* The n-th day of a year as month and day. */
-static void date_of(int year, int day, int *month, int *of_month)
-{
-    static const int lengths[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
-    bool is_leap = (year % 4 == 0 && year % 100) || year % 400 == 0;
-    for (*month = 1; *month < 12; (*month)++) {
-        int length = lengths[*month - 1] + (*month == 2 && is_leap);
-        if (day < length) break;
-        day -= length;
-    }
-    *of_month = day + 1;
-}
-
 /* Azimuths of a sweep's worst are the vehicle's, as those of its map are. */
 static void tell_when(const Telling *to, const SweepSun *sun, ReviewCase *c)
 {
     const ReviewCondition *condition = to->sweep->stage->condition;
     c->sun_azimuth_deg = fmod(sun->azimuth_deg + 360, 360);
     if (condition->kind == CONDITION_YEAR_SWEEP) {
-        int minutes = (int)((sun->step + 0.5) * condition->step_minutes), month, day;
-        date_of(condition->year, minutes / 1440, &month, &day);
+        SkyTime start = {.year = condition->year, .month = 1, .day = 1};
+        SkyTime when =
+            sky_time_later(start, (sun->step + 0.5) * condition->step_minutes * 60);
         c->when = arena_format(to->arena, "%d-%02d-%02d %02d:%02d UTC, heading %g degrees",
-                               condition->year, month, day, minutes / 60 % 24, minutes % 60,
+                               when.year, when.month, when.day, when.hour, when.minute,
                                sun->heading_deg);
     } else if (condition->kind == CONDITION_ROUTE) {
         const SkyTime *when = &condition->route.points[sun->step].when;
@@ -318,16 +305,16 @@ static bool make_skies(Sweep *sweep, Arena *scratch, Error *err)
     return sky_table_build(&like, low, high, scratch, &sweep->table, err);
 }
 
-static bool check_sweep(const Sweep *sweep, Arena scratch, Error *err)
+bool sweep_check(const ReviewRequest *request, int condition_id, Arena scratch, Error *err)
 {
-    const ReviewCondition *condition = sweep->stage->condition;
-    const char *place = arena_format(&scratch, "/conditions/%s", condition->name);
+    const ReviewCondition *condition = &request->conditions[condition_id];
+    const char *place = arena_format(&scratch, "/conditions/%d", condition_id);
     if (condition->weather_id != NO_ID)
-        return error_at(err, ERROR_INPUT, sweep->run->request->file, place,
+        return error_at(err, ERROR_INPUT, request->file, place,
                         "a sweep under the skies of a weather file is not supported: wanted "
                         "\"weather\": \"clear\"");
-    return sweep->suns.count > 0 ||
-           error_at(err, ERROR_INPUT, sweep->run->request->file, place,
+    return sweep_suns(condition, &scratch).count > 0 ||
+           error_at(err, ERROR_INPUT, request->file, place,
                     "the sun is never up: wanted a time or a place with some");
 }
 
@@ -341,7 +328,7 @@ static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOut
     sweep->level = has_level ? &request->levels[condition->level_id] : NULL;
     sweep->sensor =
         has_level && sweep->level->is_curve ? &sweep->sensors[condition->level_id] : NULL;
-    if (!check_sweep(sweep, scratch, err) || !make_skies(sweep, &scratch, err)) return false;
+    if (!make_skies(sweep, &scratch, err)) return false;
     sweep_ask_probes(sweep, &scratch);
     FarTools   tools = sweep_tools(sweep);
     SweepSuns *suns = ARENA_NEW(arena, SweepSuns, 1);

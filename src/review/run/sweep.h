@@ -15,6 +15,9 @@
 #include "review/run/cases.h"
 #include "review/run/job.h"
 
+/* Can the condition be swept? To be asked before long work; the error names its place. */
+bool sweep_check(const ReviewRequest *request, int condition_id, Arena scratch, Error *err);
+
 /* The clear sky of the stage's sweep under one of its suns. */
 Environment sweep_environment(const Stage *stage, const SweepSun *sun);
 

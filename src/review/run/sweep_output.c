@@ -119,7 +119,7 @@ ReviewCalendar sweep_calendar(const SweepTable *table, const ReviewSweep *sweep,
     const SweepSuns *suns = table->suns;
     int    steps = (int)floor(MINUTES_A_DAY / suns->step_minutes + 0.5);
     int    year = condition->year;
-    int    days = (year % 4 == 0 && year % 100) || year % 400 == 0 ? 366 : 365;
+    int    days = 337 + sky_days_of_month(year, 2);
     float *share = ARENA_NEW(arena, float, (size_t)days * (size_t)steps);
     int   *asked = ARENA_NEW(arena, int, (size_t)days * (size_t)steps);
     for (int i = 0; i < suns->count; i++) {

@@ -54,10 +54,9 @@ static void place_meters(Sweep *sweep, Arena *arena)
 {
     sweep->faces = ARENA_NEW(arena, SweepMeter, sweep->symbol_count);
     for (int i = 0; i < sweep->symbol_count; i++) {
-        const SymbolSurface *surface = &sweep->symbols[i].surface;
-        const SymbolPoint   *p = &surface->points[surface->point_count / 2];
+        SymbolPoint p = symbol_middle(&sweep->symbols[i]);
         sweep->faces[i] =
-            meter_at(vec3_along(p->position, p->ng, ray_offset_step(p->position)), p->ns);
+            meter_at(vec3_along(p.position, p.ng, ray_offset_step(p.position)), p.ns);
     }
     const ReviewRequest *request = sweep->run->request;
     sweep->sensors = ARENA_NEW(arena, SweepMeter, request->level_count);
@@ -93,13 +92,13 @@ static bool place_sights(Sweep *sweep, Arena *arena, Error *err)
     const ReviewRequest *request = sweep->run->request;
     sweep->sights = ARENA_NEW(arena, Sight, request->eye_count * sweep->symbol_count);
     for (int e = 0; e < request->eye_count; e++) {
-        int   count;
-        Vec3 *points = stage_eye_points(sweep->stage, &request->eyes[e], &count, arena, err);
-        if (!points) return error_in_file(err, request->file);
+        Vec3 from;
+        if (!stage_eye_middle(sweep->stage, &request->eyes[e], *arena, &from, err))
+            return false;
         for (int s = 0; s < sweep->symbol_count; s++) {
             Sight *sight = &sweep->sights[sweep->sight_count++];
             *sight = (Sight){.eye = &request->eyes[e], .symbol = &sweep->symbols[s],
-                             .from = points[count / 2], .face = &sweep->faces[s]};
+                             .from = from, .face = &sweep->faces[s]};
             aim_sight(sweep, sight, arena);
         }
     }

@@ -84,6 +84,15 @@ static bool add_asked(SymbolList *list, int id, Arena *arena, Error *err)
     return add_symbol(list, symbol, &question, arena, err);
 }
 
+SymbolPoint symbol_middle(const StageSymbol *symbol)
+{
+    const double *uv = symbol->surface.uv;
+    const double  middle[2] = {0.5 * (uv[0] + uv[2]), 0.5 * (uv[1] + uv[3])};
+    SymbolPoint   point;
+    bool          is_shown = symbol_surface_at(&symbol->surface, middle, &point);
+    return is_shown ? point : symbol->surface.points[0];
+}
+
 bool stage_symbols(const Stage *stage, Arena *arena, StageSymbol **out, int *count, Error *err)
 {
     int        most = stage->request->symbol_count * SYMBOLS_FOUND_MOST;

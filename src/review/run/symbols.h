@@ -21,5 +21,8 @@ typedef struct StageSymbol {
     SymbolSplit   split;
 } StageSymbol;
 
+/* The middle of its rectangle; where no triangle shows that, the surface's first point. */
+SymbolPoint symbol_middle(const StageSymbol *symbol);
+
 /* Fails with the request's file and the symbol's place in it. */
 bool stage_symbols(const Stage *stage, Arena *arena, StageSymbol **out, int *count, Error *err);

@@ -37,7 +37,7 @@ static void read_color(GltfFile *file, const GltfValue *extension, float out[3])
 
 static void read_sun(const GltfValue *sun, Environment *out)
 {
-    out->sun_angular_radius = (float)radians_from_degrees(0.26645);
+    out->sun_angular_radius = (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG);
     if (!sun) return;
     out->has_sun = true;
     out->sun_azimuth = radians(sun, "azimuth_deg");
