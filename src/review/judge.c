@@ -112,9 +112,7 @@ static bool counts(const ProfileLimit *limit)
 
 static Verdict worse(Verdict one, Verdict other)
 {
-    static const int BADNESS[] = {[VERDICT_PASS] = 0, [VERDICT_NOT_VISIBLE] = 1,
-                                  [VERDICT_TOO_CLOSE] = 2, [VERDICT_FAIL] = 3};
-    return BADNESS[one] >= BADNESS[other] ? one : other;
+    return verdict_rank(one) >= verdict_rank(other) ? one : other;
 }
 
 void judge_case(ReviewCase *review_case, const Profile *profile, Arena *arena)

@@ -191,6 +191,22 @@ static const char *usual_name(const ProfileLimit *limit, Arena *arena)
     return name;
 }
 
+/* A slope asks the least of the largest characters. */
+static bool check_value(const JsonView *view, const ProfileLimit *limit, Error *err)
+{
+    const LimitSlope *s = &limit->slope;
+    double least = limit->value;
+    if (s->has_slope) least += s->per_arcmin * (s->reference_arcmin - s->to_arcmin);
+    if (!(least > 0))
+        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "slope"),
+                        "leads to a limit of %g at %g arc minutes, wanted one above 0", least,
+                        s->to_arcmin);
+    if (limit->kind == LIMIT_MODULATION && limit->value >= 1)
+        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "value"),
+                        "is %g, wanted less than 1: no modulation is more", limit->value);
+    return true;
+}
+
 static bool read_limit(const JsonView *view, ProfileLimit *out, Error *err)
 {
     static const char *const KEYS[] = {"ambient", "kind", "value", "unit", "source",
@@ -206,7 +222,7 @@ static bool read_limit(const JsonView *view, ProfileLimit *out, Error *err)
         !json_view_text(view, "bound", &bound, err) ||
         !find_word(view, "bound", bound, BOUNDS, COUNT_OF(BOUNDS), err) ||
         !read_bool(view, "advice", false, &out->is_advice, err) ||
-        !read_slope(view, &out->slope, err))
+        !read_slope(view, &out->slope, err) || !check_value(view, out, err))
         return false;
     out->is_upper = !strcmp(bound, BOUNDS[1]);
     if (!out->name) out->name = usual_name(out, view->arena);

@@ -3,13 +3,14 @@
 #include <math.h>
 
 const char *const verdict_names[4] = {"pass", "fail", "too close", "not visible"};
+const char *const ambient_names[4] = {"night", "twilight", "day", "sun"};
+
 int verdict_rank(Verdict verdict)
 {
-    static const int ranks[] = {0, 3, 1, 2};
-    return ranks[verdict];
+    static const int RANKS[4] = {[VERDICT_PASS] = 0, [VERDICT_TOO_CLOSE] = 1,
+                                 [VERDICT_NOT_VISIBLE] = 2, [VERDICT_FAIL] = 3};
+    return RANKS[verdict];
 }
-
-const char *const ambient_names[4] = {"night", "twilight", "day", "sun"};
 
 double luminance_contrast(double one, double other, double added)
 {

@@ -9,7 +9,6 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-
 typedef enum Verdict {
     VERDICT_PASS, VERDICT_FAIL, VERDICT_TOO_CLOSE, VERDICT_NOT_VISIBLE
 } Verdict;

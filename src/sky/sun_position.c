@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/calendar.h"
 #include "base/mathd.h"
 #include "base/units.h"
 #include "sky/sky_degrees.h"
@@ -42,13 +43,6 @@ double sky_delta_t_s(double julian_day)
     return measured[i] + (at - i) * (measured[i + 1] - measured[i]);
 }
 
-int sky_days_of_month(int year, int month)
-{
-    static const int days[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
-    bool leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
-    return days[month - 1] + (month == 2 && leap);
-}
-
 SkyTime sky_time_later(SkyTime when, double seconds)
 {
     double second = when.hour * 3600 + when.minute * 60 + when.second + seconds;
@@ -56,8 +50,8 @@ SkyTime sky_time_later(SkyTime when, double seconds)
     when.hour = (int)(rest / 3600);
     when.minute = (int)((rest - when.hour * 3600) / 60);
     when.second = fmax(0, rest - when.hour * 3600 - when.minute * 60);
-    for (when.day += (int)days; when.day > sky_days_of_month(when.year, when.month);) {
-        when.day -= sky_days_of_month(when.year, when.month);
+    for (when.day += (int)days; when.day > calendar_days_of_month(when.year, when.month);) {
+        when.day -= calendar_days_of_month(when.year, when.month);
         when.year += when.month == 12;
         when.month = when.month % 12 + 1;
     }
@@ -67,9 +61,9 @@ SkyTime sky_time_later(SkyTime when, double seconds)
 static bool time_in_range(const SkyTime *t)
 {
     return t->year >= -2000 && t->year <= 6000 && t->month >= 1 && t->month <= 12 &&
-           t->day >= 1 && t->day <= sky_days_of_month(t->year, t->month) && t->hour >= 0 &&
-           t->hour <= 23 && t->minute >= 0 && t->minute <= 59 && t->second >= 0 &&
-           t->second < 60 && fabs(t->zone_h) <= 14;
+           t->day >= 1 && t->day <= calendar_days_of_month(t->year, t->month) &&
+           t->hour >= 0 && t->hour <= 23 && t->minute >= 0 && t->minute <= 59 &&
+           t->second >= 0 && t->second < 60 && fabs(t->zone_h) <= 14;
 }
 
 /* "Z", "+02:00" or "-0330" at `text`; false: anything else. */

@@ -21,9 +21,6 @@ typedef struct SkyTime {
  * time without one means nothing without a place's law. `place` names where the text stood. */
 bool sky_time_parse(const char *text, const char *place, SkyTime *out, Error *err);
 
-/* month: 1..12. */
-int sky_days_of_month(int year, int month);
-
 /* The moment some seconds (not negative) later, in the same zone. */
 SkyTime sky_time_later(SkyTime when, double seconds);
 

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/calendar.h"
 #include "base/mathd.h"
 #include "base/units.h"
 
@@ -123,16 +124,11 @@ WeatherClock weather_clock_find(const Weather *weather, const double *given_h, A
 
 /* ---- the row of a moment ----------------------------------------------------------------- */
 
-static bool is_leap(int year)
-{
-    return sky_days_of_month(year, 2) == 29;
-}
-
 /* Days since the year began. */
 static int day_of(int year, int month, int day)
 {
     static const int before[] = {0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334};
-    return before[month - 1] + (month > 2 && is_leap(year)) + day - 1;
+    return before[month - 1] + (month > 2 && calendar_is_leap(year)) + day - 1;
 }
 
 static bool has_leap_day(const Weather *weather)
@@ -155,12 +151,12 @@ const WeatherHour *weather_clock_row(const Weather *weather, const WeatherClock 
 {
     const WeatherHour *nearest = NULL;
     int    day = time->month == 2 && time->day == 29 && !has_leap_day(weather) ? 28 : time->day;
-    double year_min = 1440 * (365 + is_leap(time->year));
+    double year_min = 1440 * (365 + calendar_is_leap(time->year));
     double wanted = 1440 * day_of(time->year, time->month, day) + 60 * time->hour +
                     time->minute + time->second / 60 + 60 * (weather->zone_h - time->zone_h);
     for (int i = 0; i < weather->count; i++) {
         const WeatherHour *hour = &weather->hour[i];
-        if (hour->month == 2 && hour->day == 29 && !is_leap(time->year)) continue;
+        if (hour->month == 2 && hour->day == 29 && !calendar_is_leap(time->year)) continue;
         double apart = 1440 * day_of(time->year, hour->month, hour->day) +
                        60 * (hour->label_h + clock->offset_h) - wanted;
         apart -= year_min * floor(apart / year_min + 0.5);

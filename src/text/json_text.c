@@ -1,5 +1,6 @@
 #include "text/json_text.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,4 +21,9 @@ json_t *json_texts(const char *const *texts, int count)
     json_t *list = json_array();
     for (int i = 0; i < count; i++) json_array_append_new(list, json_text(texts[i]));
     return list;
+}
+
+json_t *json_figure(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
 }

@@ -1,4 +1,4 @@
-/* json_text.h -- a text of any bytes as a value of a JSON document.
+/* json_text.h -- a text of any bytes, a number of any kind as a value of a JSON document.
  *
  * Memory   the caller's reference (jansson). Threads: no shared state.
  */
@@ -11,3 +11,6 @@ json_t *json_text(const char *text);
 
 /* A list of them. */
 json_t *json_texts(const char *const *texts, int count);
+
+/* null where it is not finite: JSON has neither NaN nor infinity. */
+json_t *json_figure(double value);

@@ -119,7 +119,7 @@ static void do_light_row(void *context, int item, int worker)
     fourier_transform(c->row_forwards, in, row_of(c->light[pair], c->wide, y));
 }
 
-/* ColumnsAtWork at work: COLUMNS of them or what is left. */
+/* COLUMNS of them, or what is left. */
 typedef struct ColumnsAtWork {
     int     first, count;
     double *in, *kernel, *light; /* each for COLUMNS columns of `high` */
@@ -130,7 +130,7 @@ static ColumnsAtWork columns_of(const Convolution *c, int item, int worker)
     size_t  size = 2 * (size_t)COLUMNS * (size_t)c->high;
     double *scratch = c->scratch[worker];
     return (ColumnsAtWork){item * COLUMNS, smaller(COLUMNS, c->wide - item * COLUMNS), scratch,
-                     scratch + size, scratch + 2 * size};
+                           scratch + size, scratch + 2 * size};
 }
 
 /* Out of a plane of `rows` rows, one column behind the other. */
@@ -187,7 +187,7 @@ void convolution_add(Convolution *convolution, const ConvolutionTerm *term)
 
 /* ---- the end ----------------------------------------------------------------------------- */
 
-/* ColumnsAtWork back, of which only the picture's rows are kept, in the place of the light. */
+/* Columns back, of which only the picture's rows are kept, in the place of the light. */
 static void finish_columns(void *context, int item, int worker)
 {
     const Convolution *c = context;

@@ -181,6 +181,14 @@ static const Wrong WRONG[] = {
     {LIMIT("\"ambient\": \"day\", " CONTRAST "\"value\": 5, \"slope\": {\"per_arcmin\": -1, "
            "\"reference_arcmin\": 20, \"heights_arcmin\": [10, 17]}, " READ),
      "/limits/0/slope/per_arcmin", "is -1, wanted a number above 0"},
+    {LIMIT("\"ambient\": \"day\", " CONTRAST "\"value\": 5, \"slope\": {\"per_arcmin\": 1, "
+           "\"reference_arcmin\": 2, \"heights_arcmin\": [1, 9]}, " READ),
+     "/limits/0/slope", "leads to a limit of -2 at 9 arc minutes, wanted one above 0"},
+    {LIMIT("\"ambient\": \"day\", \"kind\": \"modulation\", \"unit\": \"1\", \"value\": 30, "
+           READ), "/limits/0/value", "is 30, wanted less than 1"},
+    {LIMIT("\"ambient\": \"day\", " CONTRAST "\"value\": 1e999, " READ), "line 1",
+     "not valid JSON"},
+    {"", "line 1", "not valid JSON"},
     {"{" HEAD ", \"limits\": [], \"facts\": [{\"name\": \"n\", \"value\": 3, " READ "}]}",
      "/facts/0", "wanted a value with its unit, a text, or all three"},
     {"{" HEAD ", \"limits\": [], \"facts\": [{\"text\": \"n\", " READ "}]}", "/facts/0",

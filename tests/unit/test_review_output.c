@@ -127,6 +127,7 @@ static void assert_same_case(const ReviewCase *a, const ReviewCase *b)
     assert_same_text(a->symbol, b->symbol);
     assert_same_text(a->display, b->display);
     assert_same_text(a->frame, b->frame);
+    assert_same_text(a->when, b->when);
     assert_int_equal(a->ambient, b->ambient);
     assert_int_equal(a->has_sun, b->has_sun);
     assert_same(a->has_sun ? a->sun_azimuth_deg : NAN, b->sun_azimuth_deg);
@@ -137,6 +138,10 @@ static void assert_same_case(const ReviewCase *a, const ReviewCase *b)
     assert_same(a->contrast_with_veil, b->contrast_with_veil);
     assert_same(a->height_arcmin, b->height_arcmin);
     assert_same(a->jnd, b->jnd);
+    assert_same(a->visibility, b->visibility);
+    assert_same(a->dgp, b->dgp);
+    assert_same(a->ugr, b->ugr);
+    assert_same(a->eye_failed_share, b->eye_failed_share);
     assert_same(a->visible_share, b->visible_share);
     assert_same(a->level, b->level);
     assert_same(a->display_lux, b->display_lux);
@@ -159,6 +164,8 @@ static void assert_same_review(const Review *a, const Review *b)
     for (int i = 0; i < a->case_count; i++) assert_same_case(&a->cases[i], &b->cases[i]);
     for (int i = 0; i < a->note_count; i++) assert_same_text(a->notes[i], b->notes[i]);
     for (int i = 0; i < a->sweep_count; i++) {
+        assert_same_text(a->sweeps[i].condition, b->sweeps[i].condition);
+        assert_same_text(a->sweeps[i].eye, b->sweeps[i].eye);
         assert_same_text(a->sweeps[i].symbol, b->sweeps[i].symbol);
         assert_same_text(a->sweeps[i].table, b->sweeps[i].table);
         assert_int_equal(a->sweeps[i].cases, b->sweeps[i].cases);
@@ -195,8 +202,8 @@ TEST(json_has_the_promised_keys)
     static const char *const KEYS[] = {
         "condition", "eye", "symbol", "display", "ambient", "sun", "luminance_cd_m2",
         "contrast_ratio", "contrast_interval", "contrast_with_veil", "height_arcmin", "jnd",
-        "visibility", "dgp", "ugr", "when", "visible_share", "level", "limit", "limits",
-        "margin", "verdict", "causes", "remedies"};
+        "visibility", "dgp", "ugr", "when", "visible_share", "eye_failed_share", "level",
+        "display_lux", "limit", "limits", "margin", "verdict", "causes", "remedies", "frame"};
     Review  review = fixture_review(&arena);
     json_t *json = review_json(&review), *value;
     json_t *first = json_array_get(json_object_get(json, "cases"), 0);
@@ -294,7 +301,7 @@ TEST(every_key_is_wanted)
 
 /* ---- CSV -------------------------------------------------------------------------------- */
 
-enum { CSV_COLUMNS = 34 };
+enum { CSV_COLUMNS = 35 };
 
 /* One record of RFC 4180 into cells; what follows it. */
 static const char *read_record(const char *at, const char *cell[CSV_COLUMNS], int *count)
@@ -335,7 +342,9 @@ static void assert_csv_says(const Review *review)
     assert_int_equal(count, CSV_COLUMNS);
     assert_string_equal(header[9], "reflected_cd_m2");
     assert_string_equal(header[13], "contrast_ratio");
-    assert_string_equal(header[30], "margin");
+    assert_string_equal(header[24], "ugr");
+    assert_string_equal(header[25], "eye_failed_share");
+    assert_string_equal(header[31], "margin");
     for (int i = 0; i < review->case_count; i++) {
         const ReviewCase *c = &review->cases[i];
         at = read_record(at, cell, &count);
@@ -344,8 +353,10 @@ static void assert_csv_says(const Review *review)
         assert_string_equal(cell[2], c->symbol);
         assert_same(c->luminance_cd_m2.reflected, number_of(cell[9]));
         assert_same(c->contrast_ratio, number_of(cell[13]));
-        assert_same(c->margin, number_of(cell[30]));
-        assert_string_equal(cell[33], verdict_names[c->verdict]);
+        assert_same(c->ugr, number_of(cell[24]));
+        assert_same(c->eye_failed_share, number_of(cell[25]));
+        assert_same(c->margin, number_of(cell[31]));
+        assert_string_equal(cell[34], verdict_names[c->verdict]);
     }
     assert_int_equal(*at, 0);
 }
@@ -448,6 +459,11 @@ TEST(the_worst_comes_first)
     const ReviewCase **ranked = review_rank(&review, &arena);
     for (int i = 0; i < 7; i++) assert_ptr_equal(ranked[i], &list[ORDER[i]]);
     assert_ptr_equal(review_worst(&review, arena), &list[5]);
+    /* A sweep of which a part fails stands with what fails, whatever its worst says. */
+    ReviewSweep sweep = {.worst = case_with(VERDICT_PASS, 0.5), .failed_share = 0.1};
+    review.sweeps = &sweep;
+    review.sweep_count = 1;
+    assert_ptr_equal(review_rank(&review, &arena)[3], &sweep.worst);
 }
 
 /* Advice and what is not measured may say worse than the case, and are not its reason. */

@@ -468,6 +468,9 @@ TEST(figures_are_said_in_words)
     assert_string_equal(words_share(0.62, &arena), "62 %");
     assert_string_equal(words_share(0.0001, &arena), "less than 0.1 %");
     assert_string_equal(words_share(0, &arena), "0 %");
+    assert_string_equal(words_share(0.996, &arena), "99.6 %");
+    assert_string_equal(words_share(0.9999, &arena), "more than 99.9 %");
+    assert_string_equal(words_share(1, &arena), "100 %");
     assert_string_equal(words_minutes(85, &arena), "1 h 25 min");
     assert_string_equal(words_minutes(120, &arena), "2 h");
     assert_string_equal(words_minutes(NAN, &arena), "–");

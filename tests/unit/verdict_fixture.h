@@ -115,7 +115,8 @@ static inline ReviewCase fixture_case(Arena *arena, const FixtureLight *light, c
         .luminance_cd_m2 = {bright, dark, reflected, light->mirror, light->scattered,
                             light->veil},
         .contrast_ratio = (bright + reflected) / (dark + reflected),
-        .height_arcmin = 11 + white_cd_m2 / 100, .jnd = 212, .visible_share = 1,
+        .height_arcmin = 11 + white_cd_m2 / 100, .jnd = 212, .visibility = 41.5,
+        .dgp = 0.21, .ugr = 17.25, .visible_share = 1, .eye_failed_share = 0.125,
         .level = light->level, .display_lux = light->lux, .limit_count = 3, .limit_id = 0,
         .cause_count = 3, .remedy_count = 2};
     double veiled = reflected + light->veil;
@@ -137,10 +138,11 @@ static inline ReviewSweep fixture_sweep(Arena *arena, const char *condition, dou
     FixtureLight light = FIXTURE_LIGHTS[3];
     light.name = condition;
     light.azimuth = 158;
+    ReviewCase worst = fixture_case(arena, &light, "driver", "speed", 440);
+    if (!isnan(minutes)) worst.when = "2026-02-20 16:00 UTC, heading 45°";
     return (ReviewSweep){.condition = condition, .eye = "driver", .symbol = "speed",
                          .cases = 35232, .failed_share = 0.037,
-                         .longest_failure_minutes = minutes,
-                         .worst = fixture_case(arena, &light, "driver", "speed", 440),
+                         .longest_failure_minutes = minutes, .worst = worst,
                          .table = "sweeps/any_sun_driver_speed.csv"};
 }
 
@@ -196,6 +198,8 @@ static inline Review fixture_odd_review(Arena *arena)
                        .luminance_cd_m2 = {NAN, 0, 1e-12, NAN, NAN, 1e9},
                        .contrast_ratio = NAN, .contrast_low = NAN, .contrast_high = NAN,
                        .contrast_with_veil = NAN, .height_arcmin = NAN, .jnd = NAN,
+                       .visibility = NAN, .dgp = NAN, .ugr = -INFINITY,
+                       .eye_failed_share = NAN, .when = WILD_NAME,
                        .visible_share = NAN, .level = NAN, .display_lux = NAN,
                        .limits = LIMITS, .limit_count = 2, .limit_id = 1, .margin = NAN,
                        .verdict = VERDICT_TOO_CLOSE, .causes = CAUSES, .cause_count = 2,

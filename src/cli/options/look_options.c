@@ -25,12 +25,12 @@ bool look_options_develop(const LookRequest *request, Arena scratch, LookReport 
     DevelopOptions look = *request->look;
     FrameImage     filtered = *request->frame;
     LookReport     made = {0};
-    if (!check_denoise(&look, err)) return false;
+    bool           has_eye = request->eye && request->eye->words;
+    if (!check_denoise(&look, err) || (has_eye && !check_eye(&look, err))) return false;
     if (look.is_denoised && !denoise_frame(request->frame, request->threads, &scratch,
                                            &filtered, &made.denoise, err))
         return error_in_file(err, look.frame_name);
-    if (request->eye && request->eye->words) {
-        if (!check_eye(&look, err)) return false;
+    if (has_eye) {
         if (!eye_option_apply(request->eye, &filtered, request->threads, &scratch, &filtered,
                               err))
             return error_in_file(err, look.frame_name);

@@ -137,11 +137,6 @@ static double per_second(double count, double seconds)
     return seconds > 0 ? count / seconds : 0;
 }
 
-static json_t *json_number_or_null(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
 static json_t *worst_pixels(const Film *film)
 {
     FilmWorst worst[WORST_PIXELS];
@@ -150,8 +145,8 @@ static json_t *worst_pixels(const Film *film)
     for (int i = 0; i < count; i++)
         json_array_append_new(
             list, json_pack("{s:i, s:i, s:o, s:o}", "x", worst[i].x, "y", worst[i].y,
-                            "luminance_cd_m2", json_number_or_null(worst[i].luminance),
-                            "relative_error", json_number_or_null(worst[i].error)));
+                            "luminance_cd_m2", json_figure(worst[i].luminance),
+                            "relative_error", json_figure(worst[i].error)));
     return list;
 }
 
@@ -178,8 +173,8 @@ static json_t *answer_document(const RenderRequest *request, const RenderResult 
         per_second(ray_count(counts), result->seconds), "peak_memory_bytes",
         (json_int_t)machine_peak_bytes(), "nonfinite_samples",
         (json_int_t)film_dropped(result->film).count, "relative_error",
-        json_number_or_null(result->error.frame), "relative_error_displays",
-        json_number_or_null(result->error.displays), "complete", result->complete, "warnings",
+        json_figure(result->error.frame), "relative_error_displays",
+        json_figure(result->error.displays), "complete", result->complete, "warnings",
         cli_json_problems(problems, SEVERITY_WARNING));
     json_object_set_new(answer, "build_peak_memory_bytes",
                         json_integer((json_int_t)result->build_peak_bytes));
@@ -241,9 +236,9 @@ static double value_of(const FrameImage *frame, const char *channel)
 
 static json_t *triple(const FrameImage *frame, const char *a, const char *b, const char *c)
 {
-    return json_pack("[o,o,o]", json_number_or_null(value_of(frame, a)),
-                     json_number_or_null(value_of(frame, b)),
-                     json_number_or_null(value_of(frame, c)));
+    return json_pack("[o,o,o]", json_figure(value_of(frame, a)),
+                     json_figure(value_of(frame, b)),
+                     json_figure(value_of(frame, c)));
 }
 
 static json_t *name_or_null(const char *name)
@@ -275,7 +270,7 @@ bool render_print_replay(const RenderRequest *request, const Scene *scene,
                       "y", options->crop.y0, "sample", (json_int_t)options->first_sample,
                       "finite", is_finite, "XYZ", triple(&frame, "xyz.X", "xyz.Y", "xyz.Z"),
                       "RGB", triple(&frame, "R", "G", "B"), "depth_m",
-                      json_number_or_null(value_of(&frame, "depth.Z")), "part",
+                      json_figure(value_of(&frame, "depth.Z")), "part",
                       name_or_null(part), "display", name_or_null(display)),
             err);
     printf("pixel %d,%d sample %u: ", options->crop.x0, options->crop.y0,

@@ -66,7 +66,7 @@ static void print_case(const ReviewCase *c)
 
 static void print_sweep(const ReviewSweep *s)
 {
-    printf("%-11s %s, %s, %s: %.3g %% of %ld suns fail", verdict_names[s->worst.verdict],
+    printf("%-11s %s, %s, %s: %.3g %% of %ld suns fail", verdict_names[sweep_verdict(s)],
            s->condition, s->eye, s->symbol, 100 * s->failed_share, s->cases);
     if (s->longest_failure_minutes > 0)
         printf(", %.4g minutes at a stretch", s->longest_failure_minutes);

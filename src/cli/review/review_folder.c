@@ -35,18 +35,17 @@ void review_folder_discard(const ReviewFolder *folder)
     for (int i = folder->made_count - 1; i >= 0; i--) rmdir(folder->made[i]);
 }
 
-static bool check_earlier(const ReviewFolder *folder, Arena scratch, Error *err)
+static bool read_earlier(ReviewFolder *folder, Arena *arena, Error *err)
 {
-    Review before;
     return !folder->diff ||
-           review_json_read(arena_format(&scratch, "%s/review.json", folder->diff), &scratch,
-                            &before, err);
+           review_json_read(arena_format(arena, "%s/review.json", folder->diff), arena,
+                            &folder->before, err);
 }
 
 bool review_folder_open(ReviewFolder *folder, Arena *arena, Error *err)
 {
     folder->begun_s = monotonic_seconds();
-    if (!check_earlier(folder, *arena, err)) return false;
+    if (!read_earlier(folder, arena, err)) return false;
     if (make_folder(folder, folder->name, err) &&
         make_folder(folder, arena_format(arena, "%s/sweeps", folder->name), err) &&
         make_folder(folder, arena_format(arena, "%s/frames", folder->name), err) &&
@@ -150,14 +149,12 @@ static bool write_page(const ReviewFolder *folder, const ReviewOutcome *outcome,
     const char *command = command_of(folder, arena);
     ReviewPage page = {.review = &outcome->review, .commands = &command, .command_count = 1};
     ReviewDiff diff;
-    Review     before;
     add_charts(folder, outcome, &page, arena);
     add_pictures(folder, &outcome->review, &page, arena);
     add_facts(folder->request, &page, arena);
     if (folder->diff) {
-        const char *file = arena_format(arena, "%s/review.json", folder->diff);
-        if (!review_json_read(file, arena, &before, err)) return false;
-        diff = review_diff(&before, &outcome->review, folder->diff, folder->name, arena);
+        diff = review_diff(&folder->before, &outcome->review, folder->diff, folder->name,
+                           arena);
         page.diff = &diff;
         if (!review_json_write(review_diff_json(&diff),
                                arena_format(arena, "%s/diff.json", folder->name), err))

@@ -16,13 +16,15 @@ typedef struct ReviewFolder {
     const char          *diff; /* folder of an earlier review; NULL: none */
     const char          *profile, *root; /* as on the command line; NULL: not given */
     bool                 is_strict;
+    Review               before; /* what stood there */
     double               begun_s;
     const char          *made[3]; /* folders that were not there */
     int                  made_count;
 } ReviewFolder;
 
 /* Before the work: makes it and what is in it, sees that it can be written, and reads the
- * earlier review. What it made is gone again when it fails. */
+ * earlier review, which may lie in the same folder. What it made is gone again when it fails.
+ */
 bool review_folder_open(ReviewFolder *folder, Arena *arena, Error *err);
 
 /* After a failure: the folders that were made, as far as they are empty. */

@@ -45,6 +45,7 @@ static void add_light_facts(Text *html, const ReviewCard *card, Arena *arena)
                                          words_ambient(c->ambient),
                                          words_figure(c->display_lux, arena))
                           : words_ambient(c->ambient);
+    if (c->when) add_fact(html, "When", c->when);
     add_fact(html, "Light", lux);
     add_fact(html, "Sun", words_sun(c, card->directions, arena));
     add_fact(html, "Display", c->display ? c->display : "–");
@@ -69,17 +70,18 @@ static void add_sight_facts(Text *html, const ReviewCase *c, Arena *arena)
                               words_ratio(c->contrast_ratio, arena),
                               words_figure(c->contrast_low, arena),
                               words_figure(c->contrast_high, arena)));
-    if (c->when) add_fact(html, "When", c->when);
-    if (!isnan(c->eye_failed_share))
-        add_fact(html, "Places of the eye that fail", words_share(c->eye_failed_share, arena));
     add_figure(html, "… with the eye's own veil", c->contrast_with_veil, ": 1", arena);
     add_figure(html, "Height", c->height_arcmin, "arc minutes", arena);
     add_figure(html, "Told apart by", c->jnd, "just noticeable steps", arena);
     add_figure(html, "Above the eye's threshold", c->visibility, "times", arena);
-    add_figure(html, "Daylight glare probability", c->dgp, "(a figure for rooms)", arena);
     if (!isnan(c->visible_share))
         add_fact(html, "Can be seen", arena_format(arena, "%s of its area",
                                                    words_share(c->visible_share, arena)));
+    if (!isnan(c->eye_failed_share))
+        add_fact(html, "Places of the eye that fail", words_share(c->eye_failed_share, arena));
+    add_figure(html, "Daylight glare probability", c->dgp, "(a figure for rooms)", arena);
+    if (isfinite(c->ugr))
+        add_figure(html, "Unified glare rating", c->ugr, "(a figure for rooms)", arena);
 }
 
 static void add_facts(Text *html, const ReviewCard *card, Arena *arena)

@@ -33,8 +33,8 @@ static const char HEADER[] =
     "condition,eye,symbol,display,ambient,sun_azimuth_deg,sun_elevation_deg,foreground_cd_m2,"
     "background_cd_m2,reflected_cd_m2,mirror_cd_m2,scattered_cd_m2,veil_cd_m2,contrast_ratio,"
     "contrast_low,contrast_high,contrast_with_veil,height_arcmin,jnd,visible_share,level,"
-    "display_lx,visibility,dgp,ugr,limit_name,limit_kind,limit_unit,limit_source,limit_value,"
-    "margin,first_cause,first_cause_share,verdict\r\n";
+    "display_lx,visibility,dgp,ugr,eye_failed_share,limit_name,limit_kind,limit_unit,"
+    "limit_source,limit_value,margin,first_cause,first_cause_share,verdict\r\n";
 
 static void add_limit(Text *csv, const ReviewCase *c)
 {
@@ -76,7 +76,7 @@ static void add_case(Text *csv, const ReviewCase *c, Arena scratch)
     add_numbers(csv, (double[]){c->contrast_ratio, c->contrast_low, c->contrast_high,
                                 c->contrast_with_veil, c->height_arcmin, c->jnd,
                                 c->visible_share, c->level, c->display_lux, c->visibility,
-                                c->dgp, c->ugr}, 12);
+                                c->dgp, c->ugr, c->eye_failed_share}, 13);
     add_limit(csv, c);
     add_cause(csv, c, scratch);
     text_format(csv, "%s\r\n", verdict_names[c->verdict]);

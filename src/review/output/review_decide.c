@@ -3,14 +3,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* What a reader is told first. */
-static int rank_of(Verdict verdict)
-{
-    static const int RANKS[4] = {[VERDICT_PASS] = 0, [VERDICT_TOO_CLOSE] = 1,
-                                 [VERDICT_NOT_VISIBLE] = 2, [VERDICT_FAIL] = 3};
-    return RANKS[verdict];
-}
-
 Verdict sweep_verdict(const ReviewSweep *sweep)
 {
     return sweep->failed_share > 0 ? VERDICT_FAIL : sweep->worst.verdict;
@@ -63,23 +55,34 @@ static double worst_margin(const ReviewCase *c)
     return limit ? limit->margin : c->margin;
 }
 
-static bool is_worse(const ReviewCase *a, const ReviewCase *b)
-{
-    int more = rank_of(a->verdict) - rank_of(b->verdict);
-    return more > 0 || (more == 0 && is_less(worst_margin(a), worst_margin(b)));
-}
-
 typedef struct Ranked {
     const ReviewCase *of;
-    int               place; /* in the review */
+    Verdict           verdict; /* that is counted: a sweep's own */
+    int               place;   /* in the review */
 } Ranked;
+
+static bool is_worse(const Ranked *a, const Ranked *b)
+{
+    int more = verdict_rank(a->verdict) - verdict_rank(b->verdict);
+    return more > 0 || (more == 0 && is_less(worst_margin(a->of), worst_margin(b->of)));
+}
 
 static int compare_ranked(const void *a, const void *b)
 {
     const Ranked *first = a, *second = b;
-    if (is_worse(first->of, second->of)) return -1;
-    if (is_worse(second->of, first->of)) return 1;
+    if (is_worse(first, second)) return -1;
+    if (is_worse(second, first)) return 1;
     return first->place - second->place;
+}
+
+static Ranked ranked_at(const Review *review, int place)
+{
+    if (place < review->case_count) {
+        const ReviewCase *c = &review->cases[place];
+        return (Ranked){c, c->verdict, place};
+    }
+    const ReviewSweep *sweep = &review->sweeps[place - review->case_count];
+    return (Ranked){&sweep->worst, sweep_verdict(sweep), place};
 }
 
 const ReviewCase **review_rank(const Review *review, Arena *arena)
@@ -87,10 +90,7 @@ const ReviewCase **review_rank(const Review *review, Arena *arena)
     int     count = review->case_count + review->sweep_count;
     Ranked *ranked = ARENA_NEW(arena, Ranked, count);
     const ReviewCase **out = ARENA_NEW(arena, const ReviewCase *, count);
-    for (int i = 0; i < count; i++)
-        ranked[i] = (Ranked){i < review->case_count
-                                 ? &review->cases[i]
-                                 : &review->sweeps[i - review->case_count].worst, i};
+    for (int i = 0; i < count; i++) ranked[i] = ranked_at(review, i);
     if (count > 0) qsort(ranked, (size_t)count, sizeof *ranked, compare_ranked);
     for (int i = 0; i < count; i++) out[i] = ranked[i].of;
     return out;

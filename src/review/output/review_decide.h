@@ -10,7 +10,7 @@
  * review is strict nothing is too close or not visible either. */
 bool review_decide(Review *review);
 
-/* Cases by their verdict; a sweep counts as one case, its worst. */
+/* Cases and sweeps by their verdict. */
 typedef struct ReviewCounts {
     int of[4]; /* by Verdict */
     int total;
@@ -25,9 +25,9 @@ Verdict sweep_verdict(const ReviewSweep *sweep);
  * margin; else that of the contrast. NULL: no limit counts. */
 const LimitVerdict *case_worst_limit(const ReviewCase *c);
 
-/* All cases and the sweeps' worst, the worst first: by verdict (fail, not visible, too close),
- * then by the margin of the worst limit, else in the review's order. case_count + sweep_count
- * pointers. */
+/* All cases and the sweeps' worst, the worst first: by verdict (fail, not visible, too close; a
+ * sweep by its own), then by the margin of the worst limit, else in the review's order.
+ * case_count + sweep_count pointers. */
 const ReviewCase **review_rank(const Review *review, Arena *arena);
 
 /* The first of them. NULL: there are none. */

@@ -2,20 +2,15 @@
 
 #include <math.h>
 #include <stddef.h>
-#include <string.h>
 
 #include "review/output/review_decide.h"
+#include "review/output/review_words.h"
 #include "text/json_text.h"
 
 const char *const diff_names[7] = {"broken", "mended", "worse", "better",
                                    "gone",   "new",    "same"};
 
 #define LEAST_SHARE 0.0005 /* of time: below it a sweep counts as the same */
-
-static bool is_same_text(const char *a, const char *b)
-{
-    return !strcmp(a ? a : "", b ? b : "");
-}
 
 /* ---- what changed ----------------------------------------------------------------------- */
 
@@ -61,8 +56,8 @@ static int find_case(const Review *review, const ReviewCase *like)
 {
     for (int i = 0; i < review->case_count; i++) {
         const ReviewCase *c = &review->cases[i];
-        if (is_same_text(c->condition, like->condition) && is_same_text(c->eye, like->eye) &&
-            is_same_text(c->symbol, like->symbol))
+        if (words_same(c->condition, like->condition) && words_same(c->eye, like->eye) &&
+            words_same(c->symbol, like->symbol))
             return i;
     }
     return -1;
@@ -72,8 +67,8 @@ static int find_sweep(const Review *review, const ReviewSweep *like)
 {
     for (int i = 0; i < review->sweep_count; i++) {
         const ReviewSweep *s = &review->sweeps[i];
-        if (is_same_text(s->condition, like->condition) && is_same_text(s->eye, like->eye) &&
-            is_same_text(s->symbol, like->symbol))
+        if (words_same(s->condition, like->condition) && words_same(s->eye, like->eye) &&
+            words_same(s->symbol, like->symbol))
             return i;
     }
     return -1;
@@ -140,23 +135,18 @@ ReviewDiff review_diff(const Review *before, const Review *after, const char *be
 
 /* ---- as JSON ---------------------------------------------------------------------------- */
 
-static json_t *number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
 /* Both sides' figure; null where a side has no case. */
 static json_t *figures(const CaseDiff *d, size_t offset)
 {
     double value[2] = {NAN, NAN};
     if (d->before) value[0] = *(const double *)((const char *)d->before + offset);
     if (d->after) value[1] = *(const double *)((const char *)d->after + offset);
-    return json_pack("[o,o]", number(value[0]), number(value[1]));
+    return json_pack("[o,o]", json_figure(value[0]), json_figure(value[1]));
 }
 
 static json_t *interval(const ReviewCase *c)
 {
-    return c ? json_pack("[o,o]", number(c->contrast_low), number(c->contrast_high))
+    return c ? json_pack("[o,o]", json_figure(c->contrast_low), json_figure(c->contrast_high))
              : json_null();
 }
 
@@ -189,11 +179,11 @@ static json_t *sweep_json(const SweepDiff *d)
     const ReviewSweep *b = d->before, *a = d->after, *either = a ? a : b;
     json_t *out = names_json(either->condition, either->eye, either->symbol, d->kind);
     json_object_set_new(out, "failed_share",
-                        json_pack("[o,o]", number(b ? b->failed_share : NAN),
-                                  number(a ? a->failed_share : NAN)));
+                        json_pack("[o,o]", json_figure(b ? b->failed_share : NAN),
+                                  json_figure(a ? a->failed_share : NAN)));
     json_object_set_new(out, "longest_failure_minutes",
-                        json_pack("[o,o]", number(b ? b->longest_failure_minutes : NAN),
-                                  number(a ? a->longest_failure_minutes : NAN)));
+                        json_pack("[o,o]", json_figure(b ? b->longest_failure_minutes : NAN),
+                                  json_figure(a ? a->longest_failure_minutes : NAN)));
     return out;
 }
 

@@ -1,6 +1,5 @@
 #include "review/output/review_json.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,15 +8,9 @@
 
 #define DIGITS 6
 
-/* JSON has neither NaN nor infinity. */
-static json_t *number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
 static json_t *pair(double low, double high)
 {
-    return json_pack("[o,o]", number(low), number(high));
+    return json_pack("[o,o]", json_figure(low), json_figure(high));
 }
 
 static json_t *text(const char *string)
@@ -30,11 +23,11 @@ static json_t *text(const char *string)
 static json_t *limit_json(const LimitVerdict *l)
 {
     return json_pack("{s:o, s:o, s:o, s:o, s:o, s:b, s:b, s:b, s:o, s:o, s:o, s:s}", "name",
-                     text(l->name), "kind", text(l->kind), "value", number(l->value), "unit",
-                     text(l->unit), "source", text(l->source), "read_in_the_standard",
+                     text(l->name), "kind", text(l->kind), "value", json_figure(l->value),
+                     "unit", text(l->unit), "source", text(l->source), "read_in_the_standard",
                      l->read_in_the_standard, "upper", l->is_upper, "advice", l->is_advice,
-                     "found", number(l->found), "interval", pair(l->low, l->high), "margin",
-                     number(l->margin), "verdict", verdict_names[l->verdict]);
+                     "found", json_figure(l->found), "interval", pair(l->low, l->high),
+                     "margin", json_figure(l->margin), "verdict", verdict_names[l->verdict]);
 }
 
 static json_t *limits_json(const ReviewCase *c)
@@ -53,8 +46,8 @@ static json_t *causes_json(const ReviewCase *c)
         json_array_append_new(
             list, json_pack("{s:o, s:o, s:o, s:o}", "chain",
                             json_texts(cause->chain, cause->links), "share",
-                            number(cause->share), "cd_m2", number(cause->cd_m2), "interval",
-                            pair(cause->low, cause->high)));
+                            json_figure(cause->share), "cd_m2", json_figure(cause->cd_m2),
+                            "interval", pair(cause->low, cause->high)));
     }
     return list;
 }
@@ -66,7 +59,8 @@ static json_t *remedies_json(const ReviewCase *c)
         const CaseRemedy *remedy = &c->remedies[i];
         json_array_append_new(
             list, json_pack("{s:o, s:o, s:o}", "what", text(remedy->what), "contrast_ratio",
-                            number(remedy->contrast_ratio), "level", number(remedy->level)));
+                            json_figure(remedy->contrast_ratio), "level",
+                            json_figure(remedy->level)));
     }
     return list;
 }
@@ -74,16 +68,16 @@ static json_t *remedies_json(const ReviewCase *c)
 static json_t *sun_json(const ReviewCase *c)
 {
     if (!c->has_sun) return json_null();
-    return json_pack("{s:o, s:o}", "azimuth_deg", number(c->sun_azimuth_deg), "elevation_deg",
-                     number(c->sun_elevation_deg));
+    return json_pack("{s:o, s:o}", "azimuth_deg", json_figure(c->sun_azimuth_deg),
+                     "elevation_deg", json_figure(c->sun_elevation_deg));
 }
 
 static json_t *luminance_json(CaseLuminances l)
 {
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "foreground", number(l.foreground),
-                     "background", number(l.background), "reflected", number(l.reflected),
-                     "mirror", number(l.mirror), "scattered", number(l.scattered), "veil",
-                     number(l.veil));
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "foreground",
+                     json_figure(l.foreground), "background", json_figure(l.background),
+                     "reflected", json_figure(l.reflected), "mirror", json_figure(l.mirror),
+                     "scattered", json_figure(l.scattered), "veil", json_figure(l.veil));
 }
 
 static void set(json_t *object, const char *key, json_t *value)
@@ -99,21 +93,21 @@ static json_t *case_json(const ReviewCase *c)
                             "display", text(c->display), "ambient", ambient_names[c->ambient],
                             "sun", sun_json(c), "luminance_cd_m2",
                             luminance_json(c->luminance_cd_m2));
-    set(out, "contrast_ratio", number(c->contrast_ratio));
+    set(out, "contrast_ratio", json_figure(c->contrast_ratio));
     set(out, "contrast_interval", pair(c->contrast_low, c->contrast_high));
-    set(out, "contrast_with_veil", number(c->contrast_with_veil));
-    set(out, "height_arcmin", number(c->height_arcmin));
-    set(out, "jnd", number(c->jnd));
-    set(out, "visibility", number(c->visibility));
-    set(out, "dgp", number(c->dgp));
-    set(out, "ugr", number(c->ugr));
-    set(out, "eye_failed_share", number(c->eye_failed_share));
-    set(out, "visible_share", number(c->visible_share));
-    set(out, "level", number(c->level));
-    set(out, "display_lux", number(c->display_lux));
+    set(out, "contrast_with_veil", json_figure(c->contrast_with_veil));
+    set(out, "height_arcmin", json_figure(c->height_arcmin));
+    set(out, "jnd", json_figure(c->jnd));
+    set(out, "visibility", json_figure(c->visibility));
+    set(out, "dgp", json_figure(c->dgp));
+    set(out, "ugr", json_figure(c->ugr));
+    set(out, "eye_failed_share", json_figure(c->eye_failed_share));
+    set(out, "visible_share", json_figure(c->visible_share));
+    set(out, "level", json_figure(c->level));
+    set(out, "display_lux", json_figure(c->display_lux));
     set(out, "limit", has_limit ? limit_json(&c->limits[c->limit_id]) : json_null());
     set(out, "limits", limits_json(c));
-    set(out, "margin", number(c->margin));
+    set(out, "margin", json_figure(c->margin));
     set(out, "verdict", json_string(verdict_names[c->verdict]));
     set(out, "causes", causes_json(c));
     set(out, "remedies", remedies_json(c));
@@ -133,8 +127,8 @@ static json_t *sweeps_json(const Review *review)
             list, json_pack("{s:o, s:o, s:o, s:I, s:o, s:o, s:o, s:o}", "condition",
                             text(s->condition), "eye", text(s->eye), "symbol", text(s->symbol),
                             "cases", (json_int_t)s->cases, "failed_share",
-                            number(s->failed_share), "longest_failure_minutes",
-                            number(s->longest_failure_minutes), "worst",
+                            json_figure(s->failed_share), "longest_failure_minutes",
+                            json_figure(s->longest_failure_minutes), "worst",
                             case_json(&s->worst), "table", text(s->table)));
     }
     return list;
@@ -148,7 +142,7 @@ static json_t *responses_json(const Review *review)
         json_array_append_new(
             list, json_pack("{s:o, s:I, s:I, s:o}", "probe", text(r->probe), "paths",
                             (json_int_t)r->paths, "bytes", (json_int_t)r->bytes,
-                            "relative_error", number(r->relative_error)));
+                            "relative_error", json_figure(r->relative_error)));
     }
     return list;
 }

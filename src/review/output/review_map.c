@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/calendar.h"
 #include "base/mathd.h"
 #include "image/picture.h"
 #include "page/page.h"
@@ -344,12 +345,10 @@ static void add_months(Text *html, const ReviewCalendar *calendar)
 {
     static const char *const NAMES[12] = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
                                           "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
-    static const int DAYS[12] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
-    int  year = calendar->year, day = 0;
-    bool is_leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    int day = 0;
     text_add(html, "<div class=\"x months\">");
     for (int month = 0; month < 12; month++) {
-        int length = DAYS[month] + (month == 1 && is_leap);
+        int length = calendar_days_of_month(calendar->year, month + 1);
         if (day + length / 2 < calendar->days)
             add_tick(html, "left", (day + length / 2.0) / calendar->days, NAMES[month]);
         day += length;

@@ -304,6 +304,8 @@ static void add_glossary(Text *html)
                  "grows with age."},
         {"arc minute", "a sixtieth of a degree: how large something looks. A coin of 2 cm is "
                        "14 arc minutes at 5 m."},
+        {"glare probability, glare rating", "how much light disturbs, by formulas that were "
+                                            "fitted to rooms; no verdict uses them."},
         {"just noticeable step", "the least difference in brightness that an average eye can "
                                  "tell (DICOM's scale)."}};
     page_more_begin(html, "The words on this page");

@@ -21,11 +21,6 @@ static const char *mark_of(Verdict verdict)
     return MARKS[verdict];
 }
 
-static bool is_same_text(const char *a, const char *b)
-{
-    return !strcmp(a ? a : "", b ? b : "");
-}
-
 /* <a href="#c3">text</a> */
 static void add_link(Text *html, const Review *review, const ReviewCase *c, const char *text,
                      Arena *arena)
@@ -45,7 +40,7 @@ typedef struct MatrixNames {
 static void add_name(MatrixNames *names, const char *name)
 {
     for (int i = 0; i < names->count; i++)
-        if (is_same_text(names->list[i], name)) return;
+        if (words_same(names->list[i], name)) return;
     names->list[names->count++] = name ? name : "";
 }
 
@@ -61,7 +56,7 @@ static Matrix make_matrix(const Review *review, const char *eye, Arena *arena)
     out.symbols.list = ARENA_NEW(arena, const char *, review->case_count);
     out.conditions.list = ARENA_NEW(arena, const char *, review->case_count);
     for (int i = 0; i < review->case_count; i++) {
-        if (!is_same_text(review->cases[i].eye, eye)) continue;
+        if (!words_same(review->cases[i].eye, eye)) continue;
         add_name(&out.symbols, review->cases[i].symbol);
         add_name(&out.conditions, review->cases[i].condition);
     }
@@ -72,8 +67,8 @@ static const ReviewCase *case_of(const Matrix *m, const char *symbol, const char
 {
     for (int i = 0; i < m->review->case_count; i++) {
         const ReviewCase *c = &m->review->cases[i];
-        if (is_same_text(c->eye, m->eye) && is_same_text(c->symbol, symbol) &&
-            is_same_text(c->condition, condition))
+        if (words_same(c->eye, m->eye) && words_same(c->symbol, symbol) &&
+            words_same(c->condition, condition))
             return c;
     }
     return NULL;
@@ -226,8 +221,8 @@ typedef struct LimitRows {
 
 static bool is_same_limit(const LimitVerdict *a, const LimitVerdict *b)
 {
-    return is_same_text(a->name, b->name) && is_same_text(a->kind, b->kind) &&
-           is_same_text(a->unit, b->unit) && is_same_text(a->source, b->source);
+    return words_same(a->name, b->name) && words_same(a->kind, b->kind) &&
+           words_same(a->unit, b->unit) && words_same(a->source, b->source);
 }
 
 static LimitRow *row_of(LimitRows *rows, const LimitVerdict *limit, Arena *arena)

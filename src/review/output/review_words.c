@@ -8,6 +8,11 @@
 #include "review/output/review_decide.h"
 #include "text/text.h"
 
+bool words_same(const char *a, const char *b)
+{
+    return !strcmp(a ? a : "", b ? b : "");
+}
+
 const char *words_figure(double value, Arena *arena)
 {
     char text[32];
@@ -35,7 +40,8 @@ const char *words_share(double share, Arena *arena)
     if (isnan(share)) return "–";
     if (percent > 0 && percent < 0.1) return "less than 0.1 %";
     if (percent > 99.9 && percent < 100) return "more than 99.9 %";
-    return arena_format(arena, "%.*f %%", percent > 0 && percent < 10 ? 1 : 0, percent);
+    bool is_near_an_end = (percent > 0 && percent < 10) || (percent > 99 && percent < 100);
+    return arena_format(arena, "%.*f %%", is_near_an_end ? 1 : 0, percent);
 }
 
 const char *words_margin(double margin, Arena *arena)

@@ -7,6 +7,9 @@
 #include "base/arena.h"
 #include "review/verdict.h"
 
+/* NULL is "". */
+bool words_same(const char *a, const char *b);
+
 /* Three significant digits; "–" for NaN, "∞". */
 const char *words_figure(double value, Arena *arena);
 
@@ -16,7 +19,7 @@ const char *words_ratio(double value, Arena *arena);
 /* "1.58 to 1.70"; "exact" where both are the same, "–" for NaN. */
 const char *words_interval(double low, double high, Arena *arena);
 
-/* "62 %", "0.4 %", "less than 0.1 %"; of a share 0..1. */
+/* "62 %", "0.4 %", "99.6 %", "less than 0.1 %"; of a share 0..1. */
 const char *words_share(double share, Arena *arena);
 
 /* "+12 %", "−18 %"; from ten times the limit on "12.5 ×"; "–" where there is no limit. */

@@ -1,7 +1,8 @@
 #include "review/request/level.h"
 
-#include <math.h>
 #include <string.h>
+
+#include "base/mathd.h"
 
 double review_level_of_lux(const ReviewLevel *level, double lux)
 {
@@ -13,7 +14,7 @@ double review_level_of_lux(const ReviewLevel *level, double lux)
     double level0 = level->level[i - 1], level1 = level->level[i];
     if (!(lux0 > 0) || !(level0 > 0))
         return level0 + (level1 - level0) * (lux - lux0) / (lux1 - lux0);
-    return level0 * pow(level1 / level0, log(lux / lux0) / log(lux1 / lux0));
+    return level0 * pow_d(level1 / level0, log_d(lux / lux0) / log_d(lux1 / lux0));
 }
 
 /* The level under one name, else `value`. */

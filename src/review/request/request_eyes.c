@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/mathd.h"
+
 #define EYES_MAX 256
 #define GRID_MAX 33
 #define METRES_MAX 1e6
@@ -104,7 +106,7 @@ static bool read_forward(RequestReading *reading, Error *err)
     double *forward = reading->request->forward;
     forward[0] = forward[1] = 0, forward[2] = -1;
     if (!field_unit_vector(&reading->root, "forward", forward, NULL, err)) return false;
-    return hypot(forward[0], forward[2]) > UPRIGHT ||
+    return hypot_d(forward[0], forward[2]) > UPRIGHT ||
            field_fails(&reading->root, "forward", err,
                        "is vertical, wanted where the vehicle points");
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/mathd.h"
 #include "text/nearest_word.h"
 #include "text/uri.h"
 
@@ -93,7 +94,7 @@ bool field_unit_vector(const JsonView *view, const char *key, double out[3], boo
         return false;
     if (found) *found = is_there;
     if (!is_there) return true;
-    double length = hypot(hypot(vector[0], vector[1]), vector[2]);
+    double length = hypot_d(hypot_d(vector[0], vector[1]), vector[2]);
     if (!(length > LENGTH_LEAST))
         return field_fails(view, key, err, "is the zero vector, wanted a direction");
     for (int i = 0; i < 3; i++) out[i] = vector[i] / length;

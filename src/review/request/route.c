@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/mathd.h"
 #include "base/units.h"
 #include "review/request/route_csv.h"
 #include "review/request/route_gpx.h"
@@ -21,7 +22,7 @@ double route_bearing_deg(const SkyPlace *from, const SkyPlace *to)
     double q = radians_from_degrees(to->latitude_deg);
     double l = radians_from_degrees(to->longitude_deg - from->longitude_deg);
     double bearing = degrees_from_radians(
-        atan2(sin(l) * cos(q), cos(p) * sin(q) - sin(p) * cos(q) * cos(l)));
+        atan2_d(sin_d(l) * cos_d(q), cos_d(p) * sin_d(q) - sin_d(p) * cos_d(q) * cos_d(l)));
     return fmod(bearing + 360, 360);
 }
 
@@ -31,8 +32,8 @@ static double distance_m(const SkyPlace *from, const SkyPlace *to)
     double p = radians_from_degrees(from->latitude_deg);
     double q = radians_from_degrees(to->latitude_deg);
     double l = radians_from_degrees(to->longitude_deg - from->longitude_deg);
-    double up = sin((q - p) / 2), along = sin(l / 2);
-    return 2 * EARTH_M * asin(fmin(1, sqrt(up * up + cos(p) * cos(q) * along * along)));
+    double up = sin_d((q - p) / 2), along = sin_d(l / 2);
+    return 2 * EARTH_M * asin_d(fmin(1, sqrt(up * up + cos_d(p) * cos_d(q) * along * along)));
 }
 
 /* Points [first, last) head so, unless the file says another heading of theirs. */

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/calendar.h"
 #include "text/text.h"
 
 #define MINUTES_A_DAY 1440
@@ -119,7 +120,7 @@ ReviewCalendar sweep_calendar(const SweepTable *table, const ReviewSweep *sweep,
     const SweepSuns *suns = table->suns;
     int    steps = (int)floor(MINUTES_A_DAY / suns->step_minutes + 0.5);
     int    year = condition->year;
-    int    days = 337 + sky_days_of_month(year, 2);
+    int    days = 365 + calendar_is_leap(year);
     float *share = ARENA_NEW(arena, float, (size_t)days * (size_t)steps);
     int   *asked = ARENA_NEW(arena, int, (size_t)days * (size_t)steps);
     for (int i = 0; i < suns->count; i++) {
