@@ -42,6 +42,8 @@ if run_one 'release build, warnings are errors' build-release build release all;
         python3 tests/image/marked.py .build/release/parhelion
     run 'displays under sun and sky' reflection \
         python3 tests/image/reflection.py .build/release/parhelion
+    run 'legibility in frames' legibility \
+        python3 tests/image/legibility.py .build/release/parhelion
     run 'daylight through a roof' roof python3 tests/image/roof.py .build/release/parhelion
     run 'a luxmeter under every light' luxmeter \
         python3 tests/image/luxmeter.py .build/release/parhelion

@@ -32,7 +32,8 @@ static bool parse(int argc, char **argv, Arena *arena, DevelopWords *out, Error 
          "ends of the scale of false colours, to compare frames (default: what fits)",
          .out = o->range, .count = 2},
         {"--layer", OPTION_TEXT, "NAME",
-         "another layer or channel: normal, depth.Z, display.emitted ...", .out = &o->layer},
+         "another layer or channel: normal, depth.Z, display.emitted; or what follows from "
+         "layers: display.contrast, display.weber ...", .out = &o->layer},
         {"--bits", OPTION_INTEGER, "8|16", "of a PNG or TIFF (default 8)", .out = &bits,
          .low = 8, .high = 16},
     };

@@ -104,6 +104,19 @@ static void print_content(const ContentContrast *c)
                "this\n");
 }
 
+static void print_display(const FrameMeasurement *m)
+{
+    print_figure("  Weber", m->weber, "");
+    print_figure("  Michelson", m->michelson, "");
+    printf("  white %.6g, black %.6g, reflected %.6g cd/m2", m->white, m->black, m->reflected);
+    if (!isnan(m->mirror)) printf(": %.6g by the mirror", m->mirror);
+    putchar('\n');
+    if (!m->has_errors) return;
+    printf("  shown %.6g cd/m2; what is seen is off by\n", m->shown);
+    print_figure("  luminance", m->luminance_error, " of what is shown");
+    print_figure("  colour", m->colour_error, " in u'v'");
+}
+
 static void print_text(const FrameMeasurement *m)
 {
     printf("%-12s %ld\n", "pixels", m->pixels);
@@ -116,8 +129,7 @@ static void print_text(const FrameMeasurement *m)
     print_figure("v'", m->v, "");
     if (m->has_contrast) {
         print_figure("contrast", m->contrast, " : 1");
-        printf("  white %.6g, black %.6g, reflected %.6g cd/m2\n", m->white, m->black,
-               m->reflected);
+        print_display(m);
     } else {
         printf("%-12s missing: no pixel of a display, or no layers of it (--layers display)\n",
                "contrast");
@@ -155,20 +167,30 @@ static json_t *missing(const FrameMeasurement *m)
     return list;
 }
 
-static json_t *json_contrast(const FrameMeasurement *m)
-{
-    if (!m->has_contrast) return json_null();
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:I}", "value", number(m->contrast.value),
-                     "interval", interval(m->contrast), "white_cd_m2", number(m->white),
-                     "black_cd_m2", number(m->black), "reflected_cd_m2", number(m->reflected),
-                     "pixels", (json_int_t)m->display_pixels);
-}
-
 static void set_figure(json_t *object, const char *key, const char *interval_key,
                        Measured figure)
 {
     json_object_set_new(object, key, number(figure.value));
     json_object_set_new(object, interval_key, interval(figure));
+}
+
+static json_t *json_contrast(const FrameMeasurement *m)
+{
+    if (!m->has_contrast) return json_null();
+    json_t *out = json_pack("{s:o, s:o, s:o, s:o, s:o, s:I}", "value",
+                            number(m->contrast.value), "interval", interval(m->contrast),
+                            "white_cd_m2", number(m->white), "black_cd_m2", number(m->black),
+                            "reflected_cd_m2", number(m->reflected), "pixels",
+                            (json_int_t)m->display_pixels);
+    json_object_set_new(out, "mirror_cd_m2", number(m->mirror));
+    json_object_set_new(out, "scattered_cd_m2", number(m->reflected - m->mirror));
+    set_figure(out, "weber", "weber_interval", m->weber);
+    set_figure(out, "michelson", "michelson_interval", m->michelson);
+    if (!m->has_errors) return out;
+    json_object_set_new(out, "shown_cd_m2", number(m->shown));
+    set_figure(out, "luminance_error", "luminance_error_interval", m->luminance_error);
+    set_figure(out, "colour_error_uv", "colour_error_uv_interval", m->colour_error);
+    return out;
 }
 
 static json_t *json_content(const ContentContrast *c)

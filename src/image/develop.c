@@ -10,6 +10,7 @@
 #include "image/exposure.h"
 #include "image/icc_profile.h"
 #include "image/layer_view.h"
+#include "image/srgb.h"
 #include "opencolorio/view_transform.h"
 
 /* assets/ocio/parhelion.ocio, embedded by the build. */
@@ -135,6 +136,31 @@ static bool check_adapt(const DevelopOptions *options, const LayerView *view, Er
                      options->layer);
 }
 
+#define GROUND_SHARE 0.45f /* of white, in sRGB codes: what is dim is no value */
+
+/* Where displays have a figure and the rest has none, the rest shows the frame, dim and grey,
+ * so that one sees whose figures these are. */
+static void draw_ground(const FrameImage *frame, const LayerView *figures, Arena scratch,
+                        Picture *picture)
+{
+    LayerView light;
+    double    grey;
+    Error     unused;
+    if (!layer_view_find(frame, NULL, &scratch, &light, &unused) ||
+        !find_exposure(&light, NULL, scratch, &grey, &unused))
+        return;
+    const float *luminance = layer_view_luminance(&light, &scratch);
+    for (int y = 0; y < light.height; y++)
+        for (int x = 0; x < light.width; x++) {
+            size_t i = (size_t)y * (size_t)light.width + (size_t)x;
+            if (!isnan(figures->planes[0][i]) || !(luminance[i] >= 0)) continue;
+            float bright = luminance[i] * (float)(MIDDLE_GREY / grey);
+            float code = isfinite(bright) ? srgb_from_linear(bright / (1 + bright)) : 1;
+            for (int c = 0; c < 3; c++)
+                picture_pixel(picture, x, y)[c] = GROUND_SHARE * code;
+        }
+}
+
 bool develop_picture(const FrameImage *frame, const DevelopOptions *options, Arena *arena,
                      Picture *out, DevelopReport *report, Error *err)
 {
@@ -151,13 +177,15 @@ bool develop_picture(const FrameImage *frame, const DevelopOptions *options, Are
                             "colours", options->layer);
         view = (LayerView){.show = SHOW_NUMBER, .width = view.width, .height = view.height,
                            .planes = {layer_view_luminance(&view, arena)}, .unit = "cd/m^2",
-                           .is_log = true};
+                           .is_log = true, .has_gaps = view.has_gaps};
     }
     if (!set_range(options, &view, err)) return false;
     if (view.show == SHOW_LIGHT) {
         if (!develop_light(&view, options, arena, &picture, &made, err)) return false;
     } else {
         picture = layer_view_picture(&view, arena, made.scale);
+        if (view.show == SHOW_NUMBER && view.has_gaps)
+            draw_ground(frame, &view, *arena, &picture);
     }
     if (options->eye) snprintf(made.eye, sizeof made.eye, "%s", options->eye);
     made.nonfinite_pixels -= pixels_outside_data(frame);

@@ -21,9 +21,11 @@
  *                                         mean over pixels (film.h)
  *   samples.N                             whole number
  *   light.NAME.{R,G,B}                    cd m^-2
- *   display.{emitted,reflected,white,black,fine}.{R,G,B}   cd m^-2, NaN off displays
+ *   display.{emitted,reflected,white,black,fine}.{R,G,B}   cd m^-2, NaN off displays;
+ *                                         what the panes before them let through
  *   display.theta  display.phi            degrees, NaN off displays
  *   display.contrast                      (white + reflected) / (black + reflected), NaN off
+ *   display.{weber,michelson,luminance_error,colour_error} follow from these: legibility.h
  *   display.coverage                      share of the pixel's samples that saw a display
  * Attributes that give the numbers of id.* their names (strings):
  *   "parhelion:part.N"     name of part N

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "image/layer_view.h"
+#include "image/legibility.h"
 #include "spectrum/photometry.h"
 
 #define SIGMAS_95 1.959964 /* of the normal distribution */
@@ -13,23 +14,31 @@
 typedef struct Sums {
     double rgb[3], variance[3]; /* of the channels */
     double luminance_variance;
-    double white, black, reflected, reflected_variance;
+    DisplayLight light; /* of displays */
+    double mirror, display_variance[3], reflected_variance;
     long   pixels, display_pixels, nonfinite;
     double least, greatest;
 } Sums;
 
 /* The planes that are looked at; has_... tells which the frame has. */
 typedef struct RegionPlanes {
-    LayerView    light, variance, white, black, reflected;
+    LayerView    light, variance, white, black, reflected, shown, mirror;
     const float *display_id; /* NULL: every pixel is wanted */
-    bool has_variance, has_display;
+    bool has_variance, has_display, has_shown, has_mirror;
 } RegionPlanes;
+
+static void xyz_at(const LayerView *view, size_t i, double xyz[3])
+{
+    float rgb[3] = {view->planes[0][i], view->planes[1][i], view->planes[2][i]}, out[3];
+    xyz_from_rgb(rgb, out);
+    for (int c = 0; c < 3; c++) xyz[c] = (double)out[c];
+}
 
 static double luminance_at(const LayerView *view, size_t i)
 {
-    float rgb[3] = {view->planes[0][i], view->planes[1][i], view->planes[2][i]}, xyz[3];
-    xyz_from_rgb(rgb, xyz);
-    return (double)xyz[1];
+    double xyz[3];
+    xyz_at(view, i, xyz);
+    return xyz[1];
 }
 
 /* ---- what the frame has -------------------------------------------------------------- */
@@ -75,6 +84,8 @@ static bool find_planes(const FrameImage *frame, Arena *arena, RegionPlanes *out
     out->has_display = raw_layer(frame, "display.white", arena, &out->white) &&
                        raw_layer(frame, "display.black", arena, &out->black) &&
                        raw_layer(frame, "display.reflected", arena, &out->reflected);
+    out->has_shown = raw_layer(frame, "display.emitted", arena, &out->shown);
+    out->has_mirror = raw_layer(frame, "display.mirror", arena, &out->mirror);
     return true;
 }
 
@@ -95,14 +106,29 @@ static double variance_at(const RegionPlanes *planes, size_t i)
     return luminance_variance(v);
 }
 
+static bool display_light(const RegionPlanes *planes, size_t i, DisplayLight *out)
+{
+    *out = (DisplayLight){luminance_at(&planes->white, i), luminance_at(&planes->black, i),
+                          {0, 0, 0}, {0, 0, 0}};
+    xyz_at(&planes->reflected, i, out->reflected);
+    if (planes->has_shown) xyz_at(&planes->shown, i, out->shown);
+    return isfinite(out->white) && isfinite(out->black) && isfinite(out->reflected[1]) &&
+           isfinite(out->shown[1]);
+}
+
 static void add_display(const RegionPlanes *planes, size_t i, double variance, Sums *sums)
 {
-    double white = luminance_at(&planes->white, i), black = luminance_at(&planes->black, i);
-    double reflected = luminance_at(&planes->reflected, i);
-    if (!isfinite(white) || !isfinite(black) || !isfinite(reflected)) return;
-    sums->white += white;
-    sums->black += black;
-    sums->reflected += reflected;
+    DisplayLight light;
+    if (!display_light(planes, i, &light)) return;
+    sums->light.white += light.white;
+    sums->light.black += light.black;
+    for (int c = 0; c < 3; c++) {
+        sums->light.shown[c] += light.shown[c];
+        sums->light.reflected[c] += light.reflected[c];
+        if (planes->has_variance)
+            sums->display_variance[c] += (double)planes->variance.planes[c][i];
+    }
+    if (planes->has_mirror) sums->mirror += luminance_at(&planes->mirror, i);
     sums->reflected_variance += variance;
     sums->display_pixels++;
 }
@@ -166,20 +192,67 @@ static void measure_colour(const double rgb[3], const double variance[3], FrameM
 }
 
 /* dC/dr = (black - white) / (black + r)^2: only the reflected light is noisy. */
-static void measure_contrast(const Sums *sums, FrameMeasurement *out)
+static void measure_ratios(const DisplayLight *light, double sigma, FrameMeasurement *out)
+{
+    double low = light->black + light->reflected[1];
+    double width = SIGMAS_95 * fabs((light->black - light->white) / (low * low)) * sigma;
+    double ratio = legibility_contrast(light);
+    out->contrast = (Measured){ratio, width};
+    out->weber = (Measured){legibility_weber(light), width};
+    out->michelson = (Measured){legibility_michelson(light),
+                                2 * width / ((ratio + 1) * (ratio + 1))};
+}
+
+/* By the slopes along the noisy channels; where there is no error, its own size. */
+static double colour_error_width(const DisplayLight *light, const double variance[3])
+{
+    double spread = 0, middle = legibility_colour_error(light);
+    for (int c = 0; c < 3; c++) {
+        float        rgb[3] = {0, 0, 0}, xyz[3];
+        DisplayLight moved = *light;
+        rgb[c] = (float)sqrt(variance[c]);
+        xyz_from_rgb(rgb, xyz);
+        for (int k = 0; k < 3; k++) moved.reflected[k] += (double)xyz[k];
+        double change = legibility_colour_error(&moved) - middle;
+        spread += change * change;
+    }
+    return SIGMAS_95 * sqrt(spread);
+}
+
+static void measure_errors(const DisplayLight *light, const Sums *sums, FrameMeasurement *out)
+{
+    double n = (double)sums->display_pixels, variance[3];
+    double sigma = sqrt(sums->reflected_variance) / n;
+    for (int c = 0; c < 3; c++) variance[c] = sums->display_variance[c] / (n * n);
+    out->shown = light->shown[1];
+    out->luminance_error = (Measured){legibility_luminance_error(light),
+                                      SIGMAS_95 * sigma / light->shown[1]};
+    out->colour_error = (Measured){legibility_colour_error(light),
+                                   colour_error_width(light, variance)};
+}
+
+static void measure_display(const RegionPlanes *planes, const Sums *sums,
+                            FrameMeasurement *out)
 {
     double n = (double)sums->display_pixels;
     out->display_pixels = sums->display_pixels;
     out->has_contrast = sums->display_pixels > 0;
     if (!out->has_contrast) return;
-    out->white = sums->white / n;
-    out->black = sums->black / n;
-    out->reflected = sums->reflected / n;
-    double low = out->black + out->reflected;
-    double slope = (out->black - out->white) / (low * low);
-    double sigma = sqrt(sums->reflected_variance) / n;
-    out->contrast.value = (out->white + out->reflected) / low;
-    out->contrast.half_width = out->has_variance ? SIGMAS_95 * fabs(slope) * sigma : NAN;
+    DisplayLight light = {sums->light.white / n, sums->light.black / n, {0}, {0}};
+    for (int c = 0; c < 3; c++) {
+        light.shown[c] = sums->light.shown[c] / n;
+        light.reflected[c] = sums->light.reflected[c] / n;
+    }
+    out->white = light.white;
+    out->black = light.black;
+    out->reflected = light.reflected[1];
+    out->mirror = planes->has_mirror ? sums->mirror / n : (double)NAN;
+    out->has_errors = planes->has_shown;
+    measure_ratios(&light, sqrt(sums->reflected_variance) / n, out);
+    if (out->has_errors) measure_errors(&light, sums, out);
+    if (out->has_variance) return;
+    out->contrast.half_width = out->weber.half_width = out->michelson.half_width = NAN;
+    out->luminance_error.half_width = out->colour_error.half_width = NAN;
 }
 
 /* The pixels that are measured, by themselves. */
@@ -203,8 +276,9 @@ static ContentContrast measure_content(const RegionPlanes *planes, const ExrWind
     return content_contrast(&part, scratch);
 }
 
-static FrameMeasurement figures_of(const Sums *sums, bool has_variance)
+static FrameMeasurement figures_of(const RegionPlanes *planes, const Sums *sums)
 {
+    bool        has_variance = planes->has_variance;
     double      n = (double)sums->pixels, rgb[3], variance[3];
     FrameMeasurement out = {.pixels = sums->pixels, .nonfinite = sums->nonfinite,
                             .has_variance = has_variance, .least = sums->least,
@@ -217,7 +291,7 @@ static FrameMeasurement figures_of(const Sums *sums, bool has_variance)
     out.luminance.value = out.xyz[1];
     out.luminance.half_width =
         has_variance ? SIGMAS_95 * sqrt(sums->luminance_variance) / n : NAN;
-    measure_contrast(sums, &out);
+    measure_display(planes, sums, &out);
     return out;
 }
 
@@ -262,7 +336,7 @@ bool measure_frame(const FrameImage *frame, const MeasureRequest *request, Arena
                         "no pixel to measure%s%s: %ld are not finite",
                         request->display ? " on display " : "",
                         request->display ? request->display : "", sums.nonfinite);
-    *out = figures_of(&sums, planes.has_variance);
+    *out = figures_of(&planes, &sums);
     out->has_content = request->has_region || request->display;
     size_t first = (size_t)(r.y0 - w.y0) * (size_t)planes.light.width + (size_t)(r.x0 - w.x0);
     if (out->has_content) out->content = measure_content(&planes, &r, id, first, scratch);

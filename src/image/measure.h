@@ -30,7 +30,11 @@ typedef struct FrameMeasurement {
     bool     has_contrast; /* some of the pixels show a display and the layers are there */
     long     display_pixels;
     double   white, black, reflected; /* means over the display's pixels, cd m^-2 */
-    Measured contrast; /* (white + reflected) / (black + reflected) */
+    double   mirror;   /* of the reflected, by way of the panel's mirror; NaN: not known */
+    Measured contrast, weber, michelson; /* of these means, as legibility.h defines them */
+    bool     has_errors; /* what the display shows is in the frame: */
+    double   shown;      /* cd m^-2 */
+    Measured luminance_error, colour_error; /* of what is seen against what is shown */
     bool     has_content; /* a region or a display was asked for */
     ContentContrast content; /* of what is shown there: characters on their ground */
 } FrameMeasurement;

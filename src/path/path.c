@@ -739,6 +739,7 @@ static void walk_path(PathWalk *walk)
             go_on_behind(walk, &surface);
             continue;
         }
+        if (walk->first) walk->first->through = walk->throughput;
         Step step = shade(walk, &surface, &hit, wo);
         if (step != STEP_PASSED) record_first(walk, &hit, distance, wo);
         if (step == STEP_ENDED) return;

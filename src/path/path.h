@@ -52,6 +52,7 @@ typedef struct PathResult {
     bool     hit;       /* the ray met a surface (windows passed and holes do not count): */
     Hit      first;     /* t counted from the ray's origin */
     Vec3     direction; /* of the ray there */
+    Spectrum through;   /* share per lane of what it sends that the panes before it let pass */
     float    mirror[3]; /* of xyz: what came by way of that surface's mirror, if it is a
                            display; else 0 */
 } PathResult;

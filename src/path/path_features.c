@@ -12,57 +12,93 @@ static void albedo_rgb(Spectrum albedo, const Wavelengths *wavelengths, float rg
     rgb_from_xyz(xyz, rgb);
 }
 
-static void scaled_emission(const Display *display, Vec3 direction, const float codes[3],
-                            float xyz[3])
+/* A display, as a path comes upon it. */
+typedef struct SeenDisplay {
+    const Display     *display;
+    Vec3               direction; /* to the eye, in the display's frame */
+    const PathResult  *path;
+    const Wavelengths *wavelengths;
+} SeenDisplay;
+
+static SeenDisplay view_of(const PathContext *context, const PathResult *path,
+                           const Surface *surface, const Wavelengths *wavelengths)
 {
-    panel_emission_xyz(display->panel, direction, codes, xyz);
-    for (int i = 0; i < 3; i++) xyz[i] *= display->level;
+    const Scene   *scene = context->scene;
+    const Display *display =
+        &scene->displays[scene->materials[surface->material_id].display_id];
+    Frame frame = display_frame(scene, display, path->first.triangle, &surface->point);
+    return (SeenDisplay){display, frame_to_local(&frame, vec3_neg(path->direction)), path,
+                         wavelengths};
 }
 
-static void display_features(const Scene *scene, const Display *display, uint32_t triangle,
-                             const Surface *surface, Vec3 wo, PathFeatures *out)
+/* What it sends to the eye for these codes: the very sum that the path adds. */
+static void emission_seen(const SeenDisplay *view, const float codes[3], float xyz[3])
+{
+    const Panel *panel = view->display->panel;
+    Spectrum     through = view->path->through;
+    if (spectrum_is_grey(through)) {
+        panel_emission_xyz(panel, view->direction, codes, xyz);
+        for (int i = 0; i < 3; i++) xyz[i] = through[0] * (xyz[i] * view->display->level);
+        return;
+    }
+    Spectrum sent = panel_emission_spectrum(panel, view->direction, codes, view->wavelengths) *
+                    spectrum_all(view->display->level);
+    for (int i = 0; i < 3; i++) xyz[i] = 0;
+    spectrum_add_xyz(view->wavelengths, through * sent, xyz);
+}
+
+static void content_seen(const PathContext *context, const SeenDisplay *view,
+                         const Surface *surface, float xyz[3])
+{
+    float codes[3];
+    display_codes(context->scene, view->display, &surface->point, codes);
+    emission_seen(view, codes, xyz);
+}
+
+static void display_features(const PathContext *context, const SeenDisplay *view,
+                             const Surface *surface, PathFeatures *out)
 {
     static const float white[3] = {255, 255, 255}, black[3] = {0, 0, 0};
-    Frame frame = display_frame(scene, display, triangle, &surface->point);
-    Vec3  local = frame_to_local(&frame, wo);
-    float phi = atan2_f(local.y, local.x);
-    display_emission_xyz(scene, display, triangle, &surface->point, wo, out->emitted);
-    scaled_emission(display, local, white, out->white);
-    scaled_emission(display, local, black, out->black);
-    out->theta = acos_f(local.z);
+    float phi = atan2_f(view->direction.y, view->direction.x);
+    content_seen(context, view, surface, out->emitted);
+    emission_seen(view, white, out->white);
+    emission_seen(view, black, out->black);
+    out->theta = acos_f(view->direction.z);
     out->phi = phi < 0 ? phi + 2 * PI_F : phi;
+}
+
+static bool is_display(const PathContext *context, const Surface *surface)
+{
+    return context->scene->materials[surface->material_id].display_id != NO_ID &&
+           surface->emits;
 }
 
 bool path_display_emission(const PathContext *context, const PathResult *result,
                            const Wavelengths *wavelengths, float xyz[3])
 {
-    const Scene *scene = context->scene;
     Surface surface;
     Vec3    wo = vec3_neg(result->direction);
-    surface_at(scene, context->tables, &result->first, wo, wavelengths, &surface);
-    int display_id = scene->materials[surface.material_id].display_id;
-    if (display_id == NO_ID || !surface.emits) return false;
-    display_emission_xyz(scene, &scene->displays[display_id], result->first.triangle,
-                         &surface.point, wo, xyz);
+    surface_at(context->scene, context->tables, &result->first, wo, wavelengths, &surface);
+    if (!is_display(context, &surface)) return false;
+    SeenDisplay view = view_of(context, result, &surface, wavelengths);
+    content_seen(context, &view, &surface, xyz);
     return true;
 }
 
 void path_features(const PathContext *context, const PathResult *result,
                    const Wavelengths *wavelengths, PathFeatures *out)
 {
-    const Scene *scene = context->scene;
     Surface surface;
     Vec3    wo = vec3_neg(result->direction);
-    surface_at(scene, context->tables, &result->first, wo, wavelengths, &surface);
+    surface_at(context->scene, context->tables, &result->first, wo, wavelengths, &surface);
     *out = (PathFeatures){.depth = result->first.t, .position = surface.position,
                           .normal = surface.frame.z, .part_id = surface.part_id,
                           .uv = {surface.point.uv[0].x, surface.point.uv[0].y},
                           .display_id = NO_ID};
     albedo_rgb(bsdf_albedo(&surface.bsdf, frame_to_local(&surface.frame, wo)), wavelengths,
                out->albedo);
-    int display_id = scene->materials[surface.material_id].display_id;
-    if (display_id == NO_ID || !surface.emits) return;
-    out->display_id = display_id;
-    display_features(scene, &scene->displays[display_id], result->first.triangle, &surface, wo,
-                     out);
+    if (!is_display(context, &surface)) return;
+    SeenDisplay view = view_of(context, result, &surface, wavelengths);
+    out->display_id = context->scene->materials[surface.material_id].display_id;
+    display_features(context, &view, &surface, out);
 }

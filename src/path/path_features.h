@@ -10,12 +10,13 @@ typedef struct PathFeatures {
     float uv[2];
     int   part_id;
     int   display_id;  /* NO_ID off displays; else: */
-    float emitted[3], white[3], black[3]; /* XYZ, cd m^-2: sent; for full white; for black */
+    float emitted[3], white[3], black[3]; /* XYZ, cd m^-2, of what the panes before it let pass:
+                                             sent; for full white; for black */
     float theta, phi;  /* radians, display frame, phi in [0, 2 pi) */
 } PathFeatures;
 
-/* What a display sends to the eye, XYZ, cd m^-2, of a path whose first surface is one; false:
- * it is none, or its back. */
+/* What a display sends to the eye through the panes before it, XYZ, cd m^-2, of a path whose
+ * first surface is one; false: it is none, or its back. */
 bool path_display_emission(const PathContext *context, const PathResult *result,
                            const Wavelengths *wavelengths, float xyz[3]);
 

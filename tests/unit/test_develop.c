@@ -422,6 +422,33 @@ TEST(an_unknown_layer_is_told_with_those_there_are)
     assert_error_has(&err, "is not light");
 }
 
+/* Where a display's layer has nothing the frame shows, grey and dim. */
+TEST(figures_of_displays_stand_over_the_frame)
+{
+    Arena      arena = test_arena(state);
+    FrameImage frame = frame_create(8, 8, (ExrWindow){0, 0, 8, 8}, 8, 0, &arena);
+    DevelopOptions options = {.layer = "display.contrast", .range = {1, 100}};
+    Picture    picture;
+    Error      err = {0};
+    float     *contrast, *light[3];
+    for (int c = 0; c < 3; c++)
+        light[c] = frame_add_channel(&frame, (char[]){"RGB"[c], 0}, false, &arena);
+    contrast = frame_add_channel(&frame, "display.contrast", false, &arena);
+    for (int i = 0; i < 64; i++) {
+        contrast[i] = i % 8 < 4 ? 10 : NAN;
+        for (int c = 0; c < 3; c++) light[c][i] = i < 32 ? 40 * (float)(c + 1) : 4000;
+    }
+    assert_true(develop_picture(&frame, &options, &arena, &picture, NULL, &err));
+    float want[3], *dim = picture_pixel(&picture, 6, 1);
+    float *bright = picture_pixel(&picture, 6, 6);
+    false_colour_of(0.5f, want);
+    for (int c = 0; c < 3; c++) {
+        assert_near(picture_pixel(&picture, 1, 1)[c], want[c], 2e-3);
+        assert_true(dim[c] == dim[0] && bright[c] == bright[0]);
+    }
+    assert_true(dim[0] > 0 && dim[0] < bright[0] && bright[0] < 0.46f);
+}
+
 int main(void)
 {
     unsetenv("OCIO");

@@ -90,6 +90,8 @@ TEST(a_display_has_its_contrast)
     add_layer(&frame, "display.white", 400, &arena);
     add_layer(&frame, "display.black", 0.4f, &arena);
     add_layer(&frame, "display.reflected", 20, &arena);
+    add_layer(&frame, "display.emitted", 80, &arena);
+    add_layer(&frame, "display.mirror", 5, &arena);
     float *id = frame_add_channel(&frame, "id.display", true, &arena);
     for (int i = 0; i < 100; i++) id[i] = i < 50 ? 1 : i < 60 ? 0 : -1;
     frame_set_string(&frame, "parhelion:display.0", "centre", &arena);
@@ -99,6 +101,18 @@ TEST(a_display_has_its_contrast)
     assert_true(m.has_contrast);
     assert_close(m.contrast.value, 420 / 20.4, 1e-5);
     assert_close(m.contrast.half_width, 1.959964 * 399.6 / (20.4 * 20.4) * 2 / sqrt(50), 1e-3);
+    assert_close(m.weber.value, 399.6 / 20.4, 1e-5);
+    assert_close(m.weber.half_width, m.contrast.half_width, 1e-9);
+    assert_close(m.michelson.value, 399.6 / 440.4, 1e-5);
+    assert_close(m.michelson.half_width, 1.959964 * 2 * 399.6 / (440.4 * 440.4) * 2 / sqrt(50),
+                 1e-3);
+    assert_close(m.mirror, 5, 1e-5);
+    assert_true(m.has_errors);
+    assert_close(m.shown, 80, 1e-5);
+    assert_close(m.luminance_error.value, 0.25, 1e-5);
+    assert_close(m.luminance_error.half_width, 1.959964 * 2 / sqrt(50) / 80, 1e-3);
+    assert_near(m.colour_error.value, 0, 1e-6); /* both are grey */
+    assert_true(m.colour_error.half_width > 0 && m.colour_error.half_width < 0.01);
     m = measure(&frame, (MeasureRequest){.display = "centre"}, arena);
     assert_int_equal(m.pixels, 10);
 }
